@@ -3,9 +3,10 @@
 
     bench/live.py            about two minutes, on a machine that does nothing else
     bench/live.py --before OTHER/build/src/kerrd      one session dragged, and eight, on both programs in turn; about three minutes
+    bench/live.py --presets gas-stars milky-way       those alone, while time runs and dragged; half a minute
 
 A server of its own, on all cores; this script is its client and takes some of the machine too. Writes
-bench/results/DATE-DEVICE-{live,sharing}.{json,md}.
+bench/results/DATE-DEVICE-{live,presets,sharing}.{json,md}.
 """
 import concurrent.futures
 import http.client
@@ -248,6 +249,40 @@ def together_row(row):
             f"{row['smallest']}, {row['largest']}", f"{100 * row['device_busy']:.0f} %", f"{row['cpu_ms_a_frame']:g}"]
 
 
+def preset_rows(server, names):
+    """Each while its time runs, as the page's first view does, and dragged."""
+    rows = {}
+    for name in names:
+        connection = http.client.HTTPConnection('127.0.0.1', server.port, timeout=60)
+        connection.request('GET', f'/v1/presets/{name}')
+        answer = connection.getresponse()
+        scene = json.loads(answer.read())
+        assert answer.status == 200, scene
+        scene['image'].update(SIZE)
+        for again in range(2):  # the first session makes the kernels
+            session = Session(server.port, scene)
+            rows[f'{name}: time runs'] = watch(session, 6 if again else 2)
+            at = scene['camera']['inclination_deg']
+            rows[f'{name}: inclination dragged'] = steer(session, [{'camera': {'inclination_deg': at - 0.1 * k}} for k in range(100 if again else 20)])
+            session.end()
+    return rows
+
+
+ROW_HEADS = ['what changes', 'frames/s', 'input to picture, ms: median / 95 %', 'at full size', 'last',
+             'passes, ms (median; of frames that trace, where many do)']
+
+
+def told(rows):
+    return [[name, str(row['fps']), f"{row['latency_ms']} / {row['latency_p95_ms']}", f"{100 * row['full_size']:.0f} %", row['last'],
+             ', '.join(f'{k} {v:g}' for k, v in row['passes_ms'].items() if v >= 0.05)] for name, row in rows.items()]
+
+
+def write_presets(arguments, device, load, rows):
+    h = measure.head(device, load)
+    text = measure.head_markdown('Presets live, %d × %d' % tuple(SIZE.values()), h) + measure.table(ROW_HEADS, told(rows))
+    measure.save(arguments.out, 'presets', h, rows, text)
+
+
 def write_compared(arguments, device, load, out):
     h = measure.head(device, load)
     rows = [[f'{n} at once', name, *together_row(row)] for n in ('1', '8') for i in range(len(out['before'][n])) for name in out
@@ -259,6 +294,7 @@ def write_compared(arguments, device, load, out):
 def main():
     parser = measure.parser(__doc__.splitlines()[0])
     parser.add_argument('--before', type=pathlib.Path, help='another kerrd, to compare with')
+    parser.add_argument('--presets', nargs='+', help='these presets alone')
     arguments, load = parser.parse_args(), os.getloadavg()[0]
     program = measure.binary(arguments.build, 'src/kerrd')
     if arguments.before:
@@ -268,6 +304,9 @@ def main():
     server = Server(program)
     try:
         device = device_of(server)
+        if arguments.presets:
+            write_presets(arguments, device, load, preset_rows(server, arguments.presets))
+            return
         make_kernels(server)
         rows = {}
         session = Session(server.port, {'image': SIZE, 'camera': {'inclination_deg': 61.37}})
@@ -297,12 +336,9 @@ def main():
 
 def write(arguments, device, load, result):
     h = measure.head(device, load)
-    rows = [[name, str(row['fps']), f"{row['latency_ms']} / {row['latency_p95_ms']}", f"{100 * row['full_size']:.0f} %", row['last'],
-             ', '.join(f'{k} {v:g}' for k, v in row['passes_ms'].items() if v >= 0.05)] for name, row in result['rows'].items()]
     v, i, m = result['viewers'], result['idle'], result['memory']
     text = measure.head_markdown('Live sessions, %d × %d' % tuple(SIZE.values()), h)
-    text += measure.table(['what changes', 'frames/s', 'input to picture, ms: median / 95 %', 'at full size', 'last',
-                           'passes, ms (median; of frames that trace, where many do)'], rows)
+    text += measure.table(ROW_HEADS, told(result['rows']))
     text += '\n' + measure.table(['dragged at once, with a sky', *TOGETHER], [['eight sessions', *together_row(result['together'])]])
     text += f"""
 - First picture of a session on a warm server: {result['first_picture_ms']} ms.

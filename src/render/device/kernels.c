@@ -55,6 +55,7 @@
 
 #include <pthread.h>
 #include <stdatomic.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -248,6 +249,13 @@ static void *make_wishes(void *user)
     return NULL;
 }
 
+/* The longest text takes longest: last, one thread would make it while the others have nothing to do. */
+static int longer_first(const void *a, const void *b)
+{
+    const size_t x = ((const struct kd_kernel_wish *)a)->source->spirv_bytes, y = ((const struct kd_kernel_wish *)b)->source->spirv_bytes;
+    return (x < y) - (x > y);
+}
+
 void kd_kernels_make(struct kd_kernels *kernels, struct kd_vk *vk)
 {
     struct makers m = { .kernels = kernels, .vk = vk };
@@ -255,6 +263,7 @@ void kd_kernels_make(struct kd_kernels *kernels, struct kd_vk *vk)
     const long processors = sysconf(_SC_NPROCESSORS_ONLN);
     size_t n = 0;
     kernels->noting = false;
+    qsort(kernels->wishes, kernels->n_wishes, sizeof *kernels->wishes, longer_first);
     while (n < MAKERS - 1 && n + 1 < (size_t)processors && n + 1 < kernels->n_wishes && !pthread_create(&threads[n], NULL, make_wishes, &m))
         n++;
     make_wishes(&m); /* alone, too, where no thread could be had */
