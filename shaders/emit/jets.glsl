@@ -15,7 +15,7 @@
     F(inner) F(outer)      /* M */                                                                             \
     F(cot)                 /* 1/tan of the opening angle */                                                    \
     F(tan_)                /* and its tangent */                                                               \
-    F(brightness)          /* light of a length, 1/M, at the inner edge of the spine, in units of the disk's brightest surface */ \
+    F(brightness)          /* log2 of the light of a length, 1/M, at the inner edge of the spine, in units of the disk's brightest surface */ \
     F(sheath)              /* share of the sheath, 0 to 1 */                                                   \
     F(falloff) F(power)    /* power: 2 + alpha */                                                              \
     F(gamma) F(gamma_beta)                                                                                     \
@@ -48,10 +48,10 @@ kd_medium kd_jets_along(kd_midst p)
     float in_cone = max(1.0 - x * x, 0.0), across = in_cone * in_cone * (1.0 - emission.jets.sheath + emission.jets.sheath * 6.75 * x * x);
     float up = clamp((r - inner) / (KD_JETS_RISE * inner), 0.0, 1.0), down = clamp((outer - r) / (KD_JETS_FADE * outer), 0.0, 1.0);
     float along = up * up * (3.0 - 2.0 * up) * down * down * (3.0 - 2.0 * down);
-    /* Both powers at once, within what a float holds whatever they are. */
-    float powers = exp2(clamp(-emission.jets.falloff * log2(r / inner) - emission.jets.power * log2(kd_jets_energy(p)), -100.0, 60.0));
+    /* Both powers and the brightness at once: g to the 12th is 2^92 and r/inner to the 10th 2^199, so that one by one they would be no number where all is one. */
+    float light = exp2(clamp(emission.jets.brightness - emission.jets.falloff * log2(r / inner) - emission.jets.power * log2(kd_jets_energy(p)), -126.0, 120.0));
     float side = p.u > 0.0 ? 1.0 : emission.jets.counter;
-    float light = emission.jets.brightness * side * across * along * powers;
+    light *= side * across * along;
     /* Outside, the way to the cone, and no shorter than what its edge, which is smooth, asks for. */
     float away = max(r * (s - c * emission.jets.tan_) * inversesqrt(1.0 + emission.jets.tan_ * emission.jets.tan_), 0.0);
     float grain = min(max(away, 0.25 * width), r);

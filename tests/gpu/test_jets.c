@@ -73,6 +73,8 @@ static void test_far_away(void **state)
         "{\"camera\":{\"inclination_deg\":80,\"field_m\":300000}," FAR_AWAY "\"lorentz\":3,\"opening_deg\":10,\"counterjet\":false}}",
         /* it comes at us: what is seen of it is g up to 200, of a difference of 1/20000 */
         "{\"camera\":{\"inclination_deg\":0.1,\"field_m\":40000}," FAR_AWAY "\"lorentz\":100,\"opening_deg\":8}}",
+        /* and so much brighter for it that g to the 12th is 2^70 */
+        "{\"camera\":{\"inclination_deg\":0.1,\"field_m\":40000}," FAR_AWAY "\"lorentz\":30,\"opening_deg\":8,\"spectral_index\":10}}",
     };
     double worst = 0;
     int lit = 0;

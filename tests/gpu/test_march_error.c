@@ -44,16 +44,19 @@ static struct errors compare(const struct kd_frame *a, const struct kd_frame *b)
 {
     static double off[PIXELS];
     double most = 0;
-    int n = 0;
+    int n = 0, left_out = 0;
     const int pixels = (int)(a->width * a->height);
     for (int i = 0; i < pixels; i++)
         most = fmax(most, isfinite(intensity(b)[i]) ? intensity(b)[i] : 0);
     for (int i = 0; i < pixels; i++) {
         const double x = intensity(a)[i], y = intensity(b)[i], own = fmax(x, y);
-        if (isfinite(x + y) && x != y) /* a driver that ends loops gives up some rays of the finer march */
+        assert_true(isfinite(x));
+        left_out += !isfinite(y);
+        if (isfinite(y) && x != y)
             off[n++] = fabs(x - y) / fmax(own, 1e-3 * most);
     }
-    assert_true(n > pixels / 20);
+    print_message("%d of %d rays left out\n", left_out, pixels);
+    assert_true(n > pixels / 20 && left_out < pixels / 40); /* lavapipe ends so long a march: 252 of 20 736 rays in turbulence */
     qsort(off, (size_t)n, sizeof *off, by_value);
     return (struct errors) { off[n * 8 / 10], off[n * 9 / 10], off[n * 96 / 100], off[n - 1] };
 }
@@ -162,6 +165,31 @@ static void test_stirred(void **state)
     kd_frame_finish(&fine);
 }
 
+/* The closer rays are the more octaves of the noise they see, and the closer they are followed: a picture of usual size holds what balanced aims at. */
+static void test_close_rays(void **state)
+{
+    (void)state;
+    struct kd_capacity c;
+    struct kd_plan plan;
+    struct kd_scene scene = scene_of("thick-disk", "{\"image\":{\"width\":320,\"height\":180}}");
+    kd_renderer_capacity(renderer, &c);
+    OK(kd_plan_make(&scene, &c, &plan, &error));
+    const uint32_t usual = plan.march.fine;
+    scene.image.width /= 2;
+    OK(kd_plan_make(&scene, &c, &plan, &error));
+    assert_int_equal(plan.march.fine, usual);
+    scene.image.samples = 4;
+    OK(kd_plan_make(&scene, &c, &plan, &error));
+    assert_true(plan.march.fine > usual);
+    scene.image.samples = 1;
+    scene.image.width = 640;
+    scene.image.height = 360;
+    struct kd_frame frame = rendered(&scene);
+    print_message("640 x 360: said %.2g of %u rays\n", frame.accuracy.volume_error, frame.accuracy.volume_sampled);
+    assert_true(frame.accuracy.volume_sampled > 200 && frame.accuracy.volume_error < ((double[])KD_MARCH_STIRRED_ERRORS)[KD_PROFILE_BALANCED]);
+    kd_frame_finish(&frame);
+}
+
 /* A tolerance that 32 bits cannot hold is refused, and what is held is told. */
 static void test_refused(void **state)
 {
@@ -189,6 +217,7 @@ int main(void)
         cmocka_unit_test(test_said),
         cmocka_unit_test(test_profiles),
         cmocka_unit_test(test_stirred),
+        cmocka_unit_test(test_close_rays),
         cmocka_unit_test(test_refused),
     };
     int code = open_renderer();

@@ -35,7 +35,7 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
         .outer = (float)j->outer,
         .cot = (float)(1 / slope),
         .tan_ = (float)slope,
-        .brightness = (float)j->brightness,
+        .brightness = (float)log2(fmax(j->brightness, 1e-300)),
         .sheath = (float)j->sheath,
         .falloff = (float)j->falloff,
         .power = (float)(2 + j->spectral_index),
