@@ -324,7 +324,7 @@ export const presets = {
     'Il buco e la camera di James et al. 2015: spin quasi massimo, da 74 M, un disco da 9,26 a 18,7 M di circa 4500 K; con il Doppler e il redshift che il film tralasciò',
   m87: 'Il buco di M87, con lo spin rivolto lontano da noi; un disco sottile sta per il flusso caldo',
   'm87-eht':
-    'Lo stesso come lo mostrò l’Event Horizon Telescope, il nord in alto: attraverso un fascio di 20 microsecondi d’arco, luminosità in falsi colori',
+    'Il buco di M87 come lo mostrò l’Event Horizon Telescope, il nord in alto: attraverso un fascio di 20 microsecondi d’arco, luminosità in falsi colori',
   sgra: 'Il buco al centro della nostra Galassia; un disco sottile sta per il flusso caldo',
   luminet1979: 'La prima immagine di un buco nero con un disco: senza spin, da 10 gradi sopra, luminosità bolometrica',
   'edge-on': 'Il disco visto lungo il suo piano: ciò che se ne vede è luce piegata',
@@ -334,7 +334,7 @@ export const presets = {
   'milky-way': 'Le stelle del catalogo Hipparcos e una Via Lattea piegate da un buco senza disco, davanti al centro della Galassia; dalla distanza di 40 M',
   smooth: 'Un disco senza turbolenza, con il flusso esatto di Page e Thorne, così com’è: nessuna lente, nulla in trasparenza',
   gas: 'La scena predefinita, un disco di gas turbolento, denso dov’è brillante e trasparente dov’è fioco; in una sessione gira',
-  'gas-stars': 'La stessa davanti alle stelle del catalogo Hipparcos, ogni immagine luminosa quanto la lente la fa; in una sessione gira',
+  'gas-stars': 'Gas turbolento attorno a un buco davanti alle stelle del catalogo Hipparcos, ogni immagine luminosa quanto la lente la fa; in una sessione gira',
   falling: 'Ciò che vede chi cade liberamente da lontano, a 6 M; camera.r continua oltre l’orizzonte',
   infall:
     'Una caduta libera da 20 M attraverso l’orizzonte, secondo l’orologio di chi cade, con la massa di Sagittarius A*; in una sessione prosegue',

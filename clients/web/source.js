@@ -58,6 +58,7 @@ export function openSource(scene, size, shown, failed) {
     timer = 0,
     pulling = false,
     striking = null,
+    dozes = 0,
     polls = new AbortController(),
     recent = [];
 
@@ -120,6 +121,7 @@ export function openSource(scene, size, shown, failed) {
     await seen('lensing');
     if (!session) scene.land();
     const document = wanted(),
+      naps = dozes,
       jumps = scene.jumps;
     try {
       const patch = session && difference(document);
@@ -132,7 +134,7 @@ export function openSource(scene, size, shown, failed) {
       });
       const { id, token, revision, scene: now, ...told } = await answer.json();
       session ??= { url: 'v1/sessions/' + id, token, frame: 0 };
-      Object.assign(session, { document, revision, jumps });
+      Object.assign(session, { document: dozes === naps ? document : asleep(document), revision, jumps });
       if (scene.jumps === jumps && patch?.motion) follow(document, now);
       scene.tellSeen(told);
       if (striking) await struck(document);
@@ -194,12 +196,14 @@ export function openSource(scene, size, shown, failed) {
     pulling = false;
   }
 
+  const asleep = document => ({ ...document, motion: { ...document.motion, azimuth_rate_deg: 0 } });
+
   // A camera that drifts stands where it was last seen while nobody looks.
   function doze() {
     if (!session || !scene.drift || (!document.hidden && document.body.dataset.view === 'lensing')) return;
-    const { motion, ...rest } = session.document,
-      patch = { motion: { azimuth_rate_deg: 0 }, camera: { azimuth_deg: scene.get('camera.azimuth_deg') } };
-    session.document = { ...rest, motion: { ...motion, azimuth_rate_deg: 0 } };
+    dozes++;
+    const patch = { motion: { azimuth_rate_deg: 0 }, camera: { azimuth_deg: scene.get('camera.azimuth_deg') } };
+    session.document = asleep(session.document);
     fetch(session.url, { method: 'PATCH', headers: headers(), body: JSON.stringify(patch), keepalive: true }).catch(() => {});
     put();
   }

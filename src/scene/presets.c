@@ -1,3 +1,4 @@
+#include "scene/label.h"
 #include "scene/presets.h"
 
 #include "base/slip.h"
@@ -11,40 +12,40 @@
     "{\"disk\":{\"emission_opacity\":0,\"peak_temperature_k\":5600,\"gas\":{\"amplitude\":0}},\"style\":{\"name\":\"none\",\"bloom\":0}}"
 
 const struct kd_preset kd_presets[] = {
-    { "smooth", "A disk without turbulence, of the exact Page-Thorne flux, as it is: no lens, nothing seen through",
+    { "smooth", "Smooth disk", "A disk without turbulence, of the exact Page-Thorne flux, as it is: no lens, nothing seen through",
       false, SMOOTH },
-    { "schwarzschild", "A hole that does not spin, its disk seen from 10 degrees above",
+    { "schwarzschild", "No spin", "A hole that does not spin, its disk seen from 10 degrees above",
       true,
       "{\"spacetime\":{\"spin\":0},"
       "\"camera\":{\"inclination_deg\":80},"
       "\"image\":{\"samples\":2}}" },
-    { "gargantua", "The hole and camera of James et al. 2015: nearly the largest spin, from 74 M, a disk from 9.26 to 18.7 M of "
+    { "gargantua", "Gargantua", "The hole and camera of James et al. 2015: nearly the largest spin, from 74 M, a disk from 9.26 to 18.7 M of "
                    "some 4500 K; with the Doppler shift and the redshift that the film left out",
       true,
       "{\"spacetime\":{\"spin\":0.999,\"mass_msun\":1e8},"
       "\"camera\":{\"r\":74.1,\"inclination_deg\":86.56,\"fov_deg\":38},"
       "\"disk\":{\"inner\":9.26,\"outer\":18.7,\"taper\":0.15,\"peak_temperature_k\":14000},"
       "\"image\":{\"samples\":2}}" },
-    { "m87", "The hole of M87 with its spin pointing away from us; a thin disk stands in for the hot flow",
+    { "m87", "M87*", "The hole of M87 with its spin pointing away from us; a thin disk stands in for the hot flow",
       true,
       "{\"spacetime\":{\"spin\":0.9,\"mass_msun\":6.5e9,\"distance_pc\":16.8e6},"
       "\"camera\":{\"inclination_deg\":163,\"field_m\":56},"
       "\"disk\":{\"outer\":15},"
       "\"image\":{\"samples\":2}}" },
-    { "m87-eht", "The same as the Event Horizon Telescope showed it, north up: through a beam of 20 microarcseconds, brightness in false colour",
+    { "m87-eht", "M87*, as the EHT saw it", "The hole of M87 as the Event Horizon Telescope showed it, north up: through a beam of 20 microarcseconds, brightness in false colour",
       true,
       "{\"spacetime\":{\"spin\":0.9,\"mass_msun\":6.5e9,\"distance_pc\":16.8e6},"
       "\"camera\":{\"inclination_deg\":163,\"field_m\":56,\"roll_deg\":108}," /* the approaching jet at a position angle of 288 degrees */
       "\"disk\":{\"outer\":15},"
       "\"style\":{\"name\":\"eht\"},"
       "\"image\":{\"samples\":2}}" },
-    { "sgra", "The hole in the middle of our Galaxy; a thin disk stands in for the hot flow",
+    { "sgra", "Sagittarius A*", "The hole in the middle of our Galaxy; a thin disk stands in for the hot flow",
       true,
       "{\"spacetime\":{\"spin\":0.9,\"mass_msun\":4.3e6,\"distance_pc\":8277},"
       "\"camera\":{\"inclination_deg\":30,\"field_m\":56},"
       "\"disk\":{\"outer\":15},"
       "\"image\":{\"samples\":2}}" },
-    { "luminet1979", "The first picture of a black hole with a disk: no spin, from 10 degrees above, bolometric brightness",
+    { "luminet1979", "The first picture, 1979", "The first picture of a black hole with a disk: no spin, from 10 degrees above, bolometric brightness",
       true,
       "{\"spacetime\":{\"spin\":0},"
       "\"camera\":{\"r\":\"infinity\",\"inclination_deg\":80,\"field_m\":46},"
@@ -52,29 +53,29 @@ const struct kd_preset kd_presets[] = {
       "\"band\":\"bolometric\",\"doppler\":true,\"redshift\":true},"
       "\"style\":{\"tone_map\":\"srgb\"},"
       "\"image\":{\"samples\":2}}" },
-    { "edge-on", "The disk seen along its plane: what is visible of it is bent light",
+    { "edge-on", "Edge on", "The disk seen along its plane: what is visible of it is bent light",
       true,
       "{\"camera\":{\"inclination_deg\":90},"
       "\"image\":{\"samples\":2}}" },
-    { "face-on", "The disk seen from its pole",
+    { "face-on", "Face on", "The disk seen from its pole",
       true,
       "{\"camera\":{\"inclination_deg\":0,\"field_m\":80},"
       "\"image\":{\"samples\":2}}" },
-    { "photon-rings", "Six photon rings, one above the other: across, the angle round the shadow's edge; upwards, the distance to "
+    { "photon-rings", "Six photon rings", "Six photon rings, one above the other: across, the angle round the shadow's edge; upwards, the distance to "
                       "that edge, nine and a half decades of it",
       true,
       "{\"spacetime\":{\"spin\":0.9},"
       "\"camera\":{\"projection\":\"ring\",\"inclination_deg\":60,\"roll_deg\":90,\"ring_decades_min\":-9.5},"
       "\"disk\":{\"inner\":4.3,\"outer\":20,\"taper\":0.8,\"opacity\":0.5,\"peak_temperature_k\":6500},"
       "\"accuracy\":{\"orders\":7}}" },
-    { "living-disk", "A disk of 300 000 particles on their orbits, lensed in every image order; in a live session they go round",
+    { "living-disk", "Living disk", "A disk of 300 000 particles on their orbits, lensed in every image order; in a live session they go round",
       true,
       "{\"spacetime\":{\"spin\":0.9},"
       "\"camera\":{\"inclination_deg\":76,\"field_m\":38},"
       "\"disk\":{\"model\":\"particles\",\"outer\":18,\"peak_temperature_k\":5000},"
       "\"style\":{\"exposure\":0.75},"
       "\"motion\":{\"time_rate\":8}}" },
-    { "hot-spot", "A flare as GRAVITY saw them round the hole of our Galaxy: a blob on a circular orbit of an hour, clockwise, seen "
+    { "hot-spot", "A flare", "A flare as GRAVITY saw them round the hole of our Galaxy: a blob on a circular orbit of an hour, clockwise, seen "
                   "25 degrees from its axis, over a faint disk; in a session its events give the light curve and the track",
       true,
       "{\"spacetime\":{\"spin\":0.5,\"mass_msun\":4.3e6,\"distance_pc\":8277},"
@@ -83,7 +84,7 @@ const struct kd_preset kd_presets[] = {
       "\"spots\":[{\"brightness\":4,\"r\":9,\"size\":1.2}],"
       "\"style\":{\"exposure\":-0.5},"
       "\"motion\":{\"time_rate\":10}}" },
-    { "milky-way", "The stars of the Hipparcos catalogue and a Milky Way, bent by a hole without a disk, before the middle of the Galaxy; from 40 M",
+    { "milky-way", "Milky Way", "The stars of the Hipparcos catalogue and a Milky Way, bent by a hole without a disk, before the middle of the Galaxy; from 40 M",
       true,
       "{\"spacetime\":{\"spin\":0.9},"
       "\"camera\":{\"r\":40,\"inclination_deg\":85,\"fov_deg\":70},"
@@ -91,18 +92,18 @@ const struct kd_preset kd_presets[] = {
       "\"sky\":{\"model\":\"catalogue\",\"orientation\":\"sgra\"},"
       "\"style\":{\"exposure\":0.3,\"bloom\":0.4},"
       "\"motion\":{\"azimuth_rate_deg\":1}}" },
-    { "gas", "The default scene, a disk of turbulent gas, dense where it is bright and seen through where it is faint; in a live session it turns",
+    { "gas", "Turbulent gas", "The default scene, a disk of turbulent gas, dense where it is bright and seen through where it is faint; in a live session it turns",
       false,
       "{\"motion\":{\"time_rate\":6}}" },
-    { "gas-stars", "The same before the stars of the Hipparcos catalogue, of which each image is as bright as the lens makes it; in a live session it turns",
+    { "gas-stars", "Gas before stars", "Turbulent gas round a hole before the stars of the Hipparcos catalogue, of which each image is as bright as the lens makes it; in a live session it turns",
       false,
       "{\"sky\":{\"model\":\"catalogue\",\"milky_way\":0},"
       "\"motion\":{\"time_rate\":6}}" },
-    { "thick-disk", "A disk of turbulent gas as high as a tenth of its distance from the axis, its light followed along each ray; in a live session it turns",
+    { "thick-disk", "Thick disk", "A disk of turbulent gas as high as a tenth of its distance from the axis, its light followed along each ray; in a live session it turns",
       false,
       "{\"disk\":{\"height\":0.1},\"image\":{\"critical_factor\":1},"
       "\"motion\":{\"time_rate\":6}}" },
-    { "star-behind", "A star that comes round from behind a hole, which makes a ring of its light, before other stars; in a live session it goes on",
+    { "star-behind", "A star from behind", "A star that comes round from behind a hole, which makes a ring of its light, before other stars; in a live session it goes on",
       true,
       "{\"spacetime\":{\"spin\":0.5},"
       "\"camera\":{\"inclination_deg\":90,\"field_m\":50},"
@@ -111,28 +112,28 @@ const struct kd_preset kd_presets[] = {
       "\"sky\":{\"model\":\"catalogue\",\"orientation\":\"sgra\",\"brightness\":0.02},"
       "\"style\":{\"exposure\":-0.5,\"bloom\":0.3},"
       "\"motion\":{\"time_rate\":4}}" },
-    { "companions", "Two stars that go round in a disk of gas, one with it and one against it; their images are bent as the disk's is", false,
+    { "companions", "Two companions", "Two stars that go round in a disk of gas, one with it and one against it; their images are bent as the disk's is", false,
       "{\"spacetime\":{\"spin\":0.9},"
       "\"camera\":{\"inclination_deg\":78,\"field_m\":52},"
       "\"bodies\":[{\"radius\":2,\"r\":17,\"phase_deg\":150,\"temperature_k\":4500},"
       "{\"radius\":1,\"r\":9,\"phase_deg\":-50,\"temperature_k\":9000,\"motion\":\"retrograde\"}],"
       "\"sky\":{\"model\":\"catalogue\",\"milky_way\":0},"
       "\"motion\":{\"time_rate\":6}}" },
-    { "falling", "What somebody sees who falls in freely from far away, at 6 M; camera.r goes on through the horizon", false,
+    { "falling", "Falling in, at 6 M", "What somebody sees who falls in freely from far away, at 6 M; camera.r goes on through the horizon", false,
       "{\"camera\":{\"r\":6,\"observer\":\"infall\",\"fov_deg\":120},"
       "\"sky\":{\"model\":\"catalogue\",\"brightness\":0.02}}" },
-    { "infall", "A free fall from 20 M through the horizon, by the clock of who falls, at the mass of Sagittarius A*; in a live session it goes on",
+    { "infall", "The fall", "A free fall from 20 M through the horizon, by the clock of who falls, at the mass of Sagittarius A*; in a live session it goes on",
       false,
       "{\"spacetime\":{\"mass_msun\":4.3e6},"
       "\"camera\":{\"r\":20,\"observer\":\"infall\",\"fov_deg\":120},"
       "\"sky\":{\"model\":\"catalogue\",\"brightness\":0.02},"
       "\"motion\":{\"proper_time_rate\":2}}" },
-    { "jet", "Two jets from a hole in turbulent gas, before stars: the one that comes towards us is the brighter one; stylised",
+    { "jet", "Jets", "Two jets from a hole in turbulent gas, before stars: the one that comes towards us is the brighter one; stylised",
       false,
       "{\"camera\":{\"inclination_deg\":66,\"field_m\":110,\"roll_deg\":-58},"
       "\"jets\":{\"brightness\":0.2,\"opening_deg\":6,\"lorentz\":1.6,\"outer\":90,\"falloff\":1.3},"
       "\"sky\":{\"model\":\"catalogue\"},\"motion\":{\"time_rate\":6}}" },
-    { "gargantua-gas", "Turbulent gas round the hole of James et al. 2015, with the Doppler shift and the redshift left out as the film did",
+    { "gargantua-gas", "Gargantua as in the film", "Turbulent gas round the hole of James et al. 2015, with the Doppler shift and the redshift left out as the film did",
       false,
       "{\"spacetime\":{\"spin\":0.999,\"mass_msun\":1e8},"
       "\"camera\":{\"r\":74.1,\"inclination_deg\":86.56,\"fov_deg\":34},"
@@ -189,6 +190,11 @@ size_t kd_scene_preset_count(void)
 const char *kd_scene_preset_name(size_t index)
 {
     return index < kd_preset_count ? kd_presets[index].name : NULL;
+}
+
+const char *kd_scene_preset_label(size_t index)
+{
+    return index < kd_preset_count ? kd_presets[index].label : NULL;
 }
 
 const char *kd_scene_preset_title(size_t index)

@@ -6,7 +6,7 @@
 #include <stddef.h>
 
 struct kd_preset {
-    const char *name, *title; /* title: one sentence without a full stop */
+    const char *name, *label, *title; /* label: a name for people; title: one sentence without a full stop */
     bool smooth;              /* merged over the preset "smooth"; else over the defaults */
     const char *json;
 };

@@ -142,7 +142,7 @@ enum kd_status kd_scene_reference(struct kd_buffer *out)
         write_styles(w);
     kd_write(w, "\n## Presets\n\n");
     for (size_t i = 0; i < kd_preset_count; i++)
-        kd_write(w, "- `%s`: %s.\n  `%s`%s\n", kd_presets[i].name, kd_presets[i].title, kd_presets[i].json, kd_presets[i].smooth ? " over `smooth`" : "");
+        kd_write(w, "- `%s` (%s): %s.\n  `%s`%s\n", kd_presets[i].name, kd_presets[i].label, kd_presets[i].title, kd_presets[i].json, kd_presets[i].smooth ? " over `smooth`" : "");
     kd_write(
         w,
         "\n## Canonical form\n\n"

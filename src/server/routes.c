@@ -16,6 +16,8 @@ const struct kd_route kd_routes[] = {
       "Measured speed and error of the engines on this device; made by `kerrd bench accuracy`" },
     { "/v1/presets", KD_GET, kd_handle_kept, JSON, "Names and titles of the presets", .status = { 200, 304 } },
     { "/v1/presets/{name}", KD_GET, kd_handle_kept, JSON, "The scene of a preset", .status = { 200, 304 } },
+    { "/v1/presets/{name}/thumbnail.png", KD_GET, kd_handle_thumbnail, "image/png",
+      "A small picture of a preset, 192 by 120 pixels, rendered when it is first asked for and then kept", .status = { 200, 304 } },
     { "/v1/schema", KD_GET, kd_handle_kept, "application/schema+json", "JSON Schema of a scene", .status = { 200, 304 } },
     { "/v1/plan", KD_POST, kd_handle_plan, JSON,
       "What a scene requires: passes, rays, bytes, estimated time, approximations; or, with axes, what all scenes of a sweep take together", KD_TAKES_PLAN },

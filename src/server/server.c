@@ -13,6 +13,7 @@
 #include "server/openapi/kept.h"
 #include "server/playground/plays.h"
 #include "server/render/queue.h"
+#include "server/render/thumbnails.h"
 #include "server/session/sessions.h"
 #include "server/dispatch.h"
 
@@ -197,6 +198,7 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
     KD_TRY(make_assets(server, params, error));
     KD_TRY(start_renders(server, params, tasks, error));
     set_etag_tail(server);
+    KD_TRY(kd_thumbnails_create(server, &server->thumbnails, error));
     KD_TRY(kd_turns_create(tasks, share_of(params, tasks), &server->rays, error));
     KD_TRY(kd_turns_create(tasks, share_of(params, tasks), &server->turns, error));
     KD_TRY(start_sessions(server, params, error));
@@ -287,6 +289,7 @@ void kd_server_destroy(struct kd_server *server)
     kd_turns_destroy(server->turns);
     kd_turns_destroy(server->rays);
     kd_render_queue_destroy(server->renders);
+    kd_thumbnails_destroy(server->thumbnails);
     kd_sessions_destroy(server->sessions); /* the queue's last frames were theirs */
     kd_jobs_destroy(server->jobs);
     kd_asset_store_close(server->assets);

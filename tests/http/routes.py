@@ -1,4 +1,5 @@
 """Every address, HEAD, and what is said of a wrong method or path."""
+import concurrent.futures
 import ctypes
 import gzip
 import json
@@ -15,7 +16,7 @@ GETS = {
     '/web/vendor/uplot/uPlot.iife.min.js': 'text/javascript; charset=utf-8', '/web/vendor/uplot/LICENSE': 'text/plain; charset=utf-8',
     '/web/style.css': 'text/css; charset=utf-8', '/web/icon.svg': 'image/svg+xml', '/healthz': 'application/json', '/readyz': 'application/json',
     '/metrics': 'text/plain; version=0.0.4; charset=utf-8', '/openapi.json': 'application/json', '/v1/device': 'application/json', '/v1/presets': 'application/json',
-    '/v1/presets/gargantua': 'application/json', '/v1/schema': 'application/schema+json',
+    '/v1/presets/gargantua': 'application/json', '/v1/presets/gargantua/thumbnail.png': 'image/png', '/v1/schema': 'application/schema+json',
     '/v1/render?' + daemon.SMALL: 'image/png',
 }
 
@@ -111,10 +112,28 @@ class Routes(daemon.Case):
     def test_presets_are_scenes(self):
         for preset in self.daemon.get('/v1/presets').json()['presets']:
             with self.subTest(preset['name']):
-                self.assertTrue(preset['title'])
+                self.assertTrue(preset['title'] and preset['label'])
                 scene = self.daemon.get('/v1/presets/' + preset['name'])
                 self.assertEqual(scene.status, 200)
                 self.assertEqual(self.daemon.post('/v1/plan', scene.body).status, 200)
+
+    def test_a_small_picture_of_a_preset(self):
+        """It is rendered once, however many ask for it at once, and then kept."""
+        before = self.settled()['kerrd_thumbnails_rendered_total']
+        with concurrent.futures.ThreadPoolExecutor(8) as many:
+            answers = list(many.map(lambda name: self.daemon.get(f'/v1/presets/{name}/thumbnail.png'), 2 * ('edge-on', 'jet', 'edge-on', 'm87')))
+        self.assertEqual([a.status for a in answers], [200] * 8)
+        self.assertEqual(len({a.body for a in answers}), len({a.header('ETag') for a in answers}))
+        self.assertEqual({struct.unpack('>II', a.body[16:24]) for a in answers}, {(192, 120)})
+        kept = answers[0]
+        self.assertEqual(kept.header('Cache-Control'), 'private, max-age=3600')
+        self.assertEqual((self.daemon.get('/v1/presets/edge-on/thumbnail.png').body, self.settled()['kerrd_thumbnails_rendered_total'] - before), (kept.body, 3))
+        same = self.daemon.request('GET', '/v1/presets/edge-on/thumbnail.png', headers={'If-None-Match': kept.header('ETag')})
+        self.assertEqual((same.status, same.body), (304, b''))
+        missing = self.daemon.get('/v1/presets/edgeon/thumbnail.png')
+        self.assertEqual(missing.status, 404)
+        self.assertIn('edge-on', missing.json()['detail'])
+        self.assertEqual(self.daemon.get('/v1/presets/edge-on/thumbnail.png?width=9').status, 422)
 
     def test_plan(self):
         plan = self.daemon.post('/v1/plan', '{"image":{"width":100,"height":50,"samples":2}}').json()

@@ -1,5 +1,6 @@
 /* What ties fields together, and the presets. */
 #include "scene_support.h"
+#include "scene/label.h"
 
 #include "physics/kerr.h"
 #include "render/emit/motion.h"
@@ -274,6 +275,7 @@ static void presets_are_valid(void **state)
         struct kd_error error;
         assert_string_equal(kd_scene_preset_name(i), names[i]);
         assert_true(strlen(kd_scene_preset_title(i)) > 10);
+        assert_in_range(strlen(kd_scene_preset_label(i)), 3, 26); /* it stands in one line beside a small picture */
         memset(&scene, 0xff, sizeof scene);
         if (kd_scene_preset(&scene, names[i], &error) || kd_scene_validate(&scene, &error))
             fail_msg("%s: %s %s", names[i], error.pointer, error.message);
@@ -282,6 +284,7 @@ static void presets_are_valid(void **state)
             assert_string_not_equal(hashes[i], hashes[j]);
     }
     assert_null(kd_scene_preset_name(kd_scene_preset_count()));
+    assert_null(kd_scene_preset_label(SIZE_MAX));
     assert_null(kd_scene_preset_title(SIZE_MAX));
 }
 

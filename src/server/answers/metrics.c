@@ -2,6 +2,7 @@
 #include "server/asset/store.h"
 #include "server/http/reply.h"
 #include "server/render/queue.h"
+#include "server/render/thumbnails.h"
 #include "server/job/jobs.h"
 #include "server/playground/plays.h"
 #include "server/session/sessions.h"
@@ -70,6 +71,7 @@ enum MHD_Result kd_handle_metrics(struct kd_request *request)
         { "turns_unfinished", "gauge", "Orbits, long quantities and checks of jobs under way.", kd_turns_unfinished(s->turns) },
         { "sessions", "gauge", "Live sessions.", now.sessions.sessions },
         { "session_viewers", "gauge", "Requests and streams that follow sessions.", now.sessions.viewers },
+        { "thumbnails_rendered_total", "counter", "Small pictures of presets rendered, each once.", kd_thumbnails_rendered(s->thumbnails) },
         { "session_frames_total", "counter", "Frames of sessions encoded.", (double)now.sessions.frames },
         { "session_bytes_total", "counter", "Bytes of these frames, however many took them.", (double)now.sessions.bytes },
         { "playgrounds", "gauge", "Live playgrounds.", now.plays.plays },

@@ -26,6 +26,8 @@ struct kd_request {
     size_t body_mark; /* bytes of it when its deadline was last set */
     const struct kd_format *format; /* that the picture asked for has; NULL: none is asked for, or it may have any */
     struct kd_render_job *job; /* a render under way; owned */
+    struct kd_request *also_waiting; /* for the same thumbnail; */
+    bool waited;                     /* it has waited for one */
     struct kd_orbits_job *orbits; /* orbits under way; held */
     struct kd_particles_job *particles; /* particles being listed; owned */
     struct kd_task *task;      /* what workers compute; owned */

@@ -71,6 +71,7 @@ enum MHD_Result kd_handle_kept(struct kd_request *request); /* what openapi/kept
 enum MHD_Result kd_handle_plan(struct kd_request *request);   /* answers/plan.c */
 enum MHD_Result kd_handle_render(struct kd_request *request); /* render/renders.c */
 enum MHD_Result kd_handle_pixel(struct kd_request *request);
+enum MHD_Result kd_handle_thumbnail(struct kd_request *request); /* render/thumbnails.c */
 enum MHD_Result kd_handle_rays(struct kd_request *request); /* answers/rays.c */
 enum MHD_Result kd_handle_orbits(struct kd_request *request); /* answers/orbits.c */
 enum MHD_Result kd_handle_accuracy(struct kd_request *request); /* answers/accuracy.c */

@@ -53,6 +53,7 @@ struct kd_kept;
 struct kd_plays;
 struct kd_render_queue;
 struct kd_sessions;
+struct kd_thumbnails;
 
 struct kd_server {
     struct MHD_Daemon *daemon, *health_daemon; /* by what connections begin with: front.h */
@@ -71,6 +72,7 @@ struct kd_server {
     struct kd_job_whole *cubes; /* being fetched (job/whole.c); of the HTTP thread alone */
     struct kd_asset_store *assets;
     struct kd_kept *kept;
+    struct kd_thumbnails *thumbnails;
     char etag_tail[20]; /* what besides the scene a picture depends on: version, device */
 
     _Atomic int phase;

@@ -4,6 +4,7 @@
 #include "base/json.h"
 #include "image/gzip.h"
 #include "quantity/quantity.h"
+#include "scene/label.h"
 #include "scene/scene.h"
 #include "server/openapi/openapi.h"
 
@@ -31,6 +32,7 @@ static enum kd_status presets_json(struct kd_buffer *out)
     for (size_t i = 0; i < kd_scene_preset_count(); i++) {
         kd_json_object(&json, NULL);
         kd_json_string(&json, "name", kd_scene_preset_name(i));
+        kd_json_string(&json, "label", kd_scene_preset_label(i));
         kd_json_string(&json, "title", kd_scene_preset_title(i));
         kd_json_end(&json);
     }
