@@ -126,7 +126,7 @@ class Orbits(daemon.Case):
 
     def test_the_queue_is_bounded(self):
         streams = [self.stream(LONG) for _ in range(4)]
-        self.assertTrue(daemon.eventually(lambda: self.post(GENERIC).status == 503, 3))
+        self.assertTrue(daemon.eventually(lambda: self.post(GENERIC).status == 503))
         for s in streams:
             s.close()
         self.assertTrue(daemon.eventually(lambda: self.post(GENERIC).status == 200))

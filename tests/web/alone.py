@@ -53,7 +53,7 @@ class Alone(Browser):
         page.mouse.move(300, 300)
         page.mouse.move(320, 300)
         self.assertTrue(daemon.eventually(shown))
-        self.assertTrue(daemon.eventually(lambda: not shown(), 10))
+        self.assertTrue(daemon.eventually(lambda: not shown()))
         page.keyboard.press('Tab')
         self.assertTrue(shown())
         page.keyboard.press('Tab') # over the one that asks what a light is

@@ -33,13 +33,13 @@ class First(Browser):
             linked = lambda: float((re.search(r'camera\.azimuth_deg=([-\d.]+)', page.evaluate('location.hash')) or [0, '0'])[1])
             self.assertTrue(daemon.eventually(lambda: linked() > 0.5), 'the camera drifts, and the link with it')
             page.click('#play') # the first touch
-            page.wait_for_selector(AT_REST, timeout=60000)
+            page.wait_for_selector(AT_REST)
             seen = page.evaluate("import('./web/link.js').then(({ get }) => Number(get('camera.azimuth_deg')))")
             self.assertEqual((float(self.field(page, 'camera.azimuth_deg')), page.is_disabled('#undo'), page.input_value('#preset')), (seen, True, 'gas-stars'))
             page.click('#nearer')
             page.click('#undo')
             self.assertEqual(float(self.field(page, 'camera.azimuth_deg')), seen, 'undo goes back to where it was touched')
-            page.wait_for_selector(AT_REST, timeout=60000)
+            page.wait_for_selector(AT_REST)
             self.shot(page, f'first-{lang}')
             bright, black, wide = page.evaluate('''() => {
                 const picture = document.getElementById('picture'), { naturalWidth: width, naturalHeight: height } = picture;
@@ -96,7 +96,7 @@ class First(Browser):
         self.assertEqual(page.inner_text('#play'), 'Play')
         page.goto('about:blank')
         page.goto(self.base + '#lang=en')
-        page.wait_for_selector(AT_REST, timeout=60000)
+        page.wait_for_selector(AT_REST)
         self.assertEqual((page.inner_text('#play'), page.locator('#welcome').is_visible(), float(self.field(page, 'camera.azimuth_deg'))), ('Play', True, 0))
 
 

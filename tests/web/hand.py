@@ -13,7 +13,7 @@ class Hand(Browser):
         """What the card says once an act has been answered."""
         page.evaluate('() => delete document.getElementById("pixel").dataset.asked')
         act()
-        page.wait_for_selector('#pixel[data-asked]', timeout=60000)
+        page.wait_for_selector('#pixel[data-asked]')
         return page.inner_text('#pixel .name')
 
     def fact(self, page, name):
@@ -110,7 +110,7 @@ class Hand(Browser):
         """Five views and five texts, and then all is as it was; the line that says what this is goes with the first touch."""
         page = self.page(self.context(viewport={'width': 900, 'height': 520}))
         page.goto(self.base + '#lang=en&pause=1')
-        page.wait_for_selector(AT_REST, timeout=60000)
+        page.wait_for_selector(AT_REST)
         self.assertIn('computed live', page.inner_text('#welcome'))
         page.click('#tour-begin')
         self.assertFalse(page.is_visible('#welcome'))
@@ -118,8 +118,8 @@ class Hand(Browser):
         for i in range(5):
             page.wait_for_selector(f'#tour .help:has-text("{i + 1} of 5")')
             page.wait_for_timeout(1500)
-            page.wait_for_selector(AT_REST, timeout=60000)
-            self.assertTrue(daemon.eventually(lambda: page.locator('#overlay path').count() == (1 if i in (0, 4) else 0), 20), i)
+            page.wait_for_selector(AT_REST)
+            self.assertTrue(daemon.eventually(lambda: page.locator('#overlay path').count() == (1 if i in (0, 4) else 0)), i)
             seen.append((page.inner_text('#tour h2'), self.pixels(page), page.input_value('[data-path="spacetime.spin"] input[type=number]')))
             self.shot(page, f'tour-{i + 1}')
             page.click('#tour button:nth-child(2)')

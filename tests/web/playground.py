@@ -175,12 +175,12 @@ class Playground(Browser):
         made = subprocess.run([KERRD, 'playground', '--preset', 'disruption', '--set', 'debris_per_body=2000', '--set', 'h_max=10000', '--set', 'budget=1000000',
                                '--time', '1e6', '-o', '-'], capture_output=True, timeout=120, check=True).stdout
         page = self.open_play('lang=en&play.preset=disruption&play.rate=3000')
-        page.wait_for_selector('[data-kind=disruption]', timeout=20000)
+        page.wait_for_selector('[data-kind=disruption]')
         self.assertIn('The tide has torn star apart', page.inner_text('#play-events'))
         page.wait_for_selector('#play-plane[data-debris]:not([data-debris="0"])')
         self.open_groups(page)
         page.set_input_files('#play-load', files=[{'name': 'torn.json', 'mimeType': 'application/json', 'buffer': made}])
-        page.wait_for_selector('#play-charts .plot:has-text("What falls back") canvas', timeout=20000)
+        page.wait_for_selector('#play-charts .plot:has-text("What falls back") canvas')
         self.assertGreater(self.drawn(page, '#play-charts .plot:has-text("What falls back") canvas')['coloured'], 100)
         self.shot(page, 'playground-disruption', full_page=True)
 
@@ -220,7 +220,7 @@ class Playground(Browser):
         self.assertIn('Heard as with a hole of', page.inner_text('#play-heard'))
         begin = float(page.get_attribute('#play-sound', 'data-hz'))
         self.assertTrue(90 < begin < 400, begin)  # it rises while a busy machine comes to say it
-        page.wait_for_function('hz => Number(document.getElementById("play-sound").dataset.hz) > 1.1 * hz', arg=begin, timeout=20000)
+        page.wait_for_function('hz => Number(document.getElementById("play-sound").dataset.hz) > 1.1 * hz', arg=begin)
         page.reload()
         page.wait_for_selector(THERE)
         page.wait_for_timeout(500)
@@ -251,7 +251,7 @@ class Playground(Browser):
 
     def test_as_light_shows_it(self):
         page = self.open_play('lang=en&play.preset=disruption&play.paused=1&play.show=both')
-        page.wait_for_selector('#play-lensed img[src]', timeout=60000)
+        page.wait_for_selector('#play-lensed img[src]')
         lit = page.evaluate('''() => {
             const image = document.querySelector('#play-lensed img'), { naturalWidth: w, naturalHeight: h } = image, c = new OffscreenCanvas(w, h).getContext('2d');
             c.drawImage(image, 0, 0);
@@ -287,7 +287,7 @@ class Playground(Browser):
         (begun,) = (r.response().json() for r in self.requests if r.method == 'POST' and r.url.endswith('/v1/playground'))
         self.assertEqual(self.daemon.request('DELETE', f'/v1/playground/{begun["id"]}?token={begun["token"]}').status, 204)
         page.click('nav [data-view=playground]')
-        page.wait_for_selector('#play-said >> text=goes on from where it was', timeout=20000)
+        page.wait_for_selector('#play-said >> text=goes on from where it was')
         self.assertTrue(daemon.eventually(lambda: self.address() != begun['id'] and len(self.bodies()) == 2 and self.state()['paused']))
 
     def test_a_server_that_is_started_anew(self):
@@ -296,9 +296,9 @@ class Playground(Browser):
         first, port = self.address(), self.daemon.port
         self.daemon.process.kill()
         self.daemon.process.wait()
-        page.wait_for_selector('#play-fault >> text=trying again', timeout=20000)
+        page.wait_for_selector('#play-fault >> text=trying again')
         type(self).daemon = daemon.Daemon('--port', port)
-        page.wait_for_selector('#play-said >> text=it begins again', timeout=20000)
+        page.wait_for_selector('#play-said >> text=it begins again')
         self.assertTrue(daemon.eventually(lambda: self.address() != first))
         self.assertTrue(daemon.eventually(lambda: page.get_attribute('#play-plane', 'data-bodies') == '1' and not page.inner_text('#play-fault')))
 

@@ -132,7 +132,7 @@ class Saving(Browser):
         page = self.open()
         self.choose(page, '3840x2160')
         page.click('#save')
-        self.assertTrue(daemon.eventually(lambda: page.evaluate('document.getElementById("save-bar").value') > 0, 20))
+        self.assertTrue(daemon.eventually(lambda: page.evaluate('document.getElementById("save-bar").value') > 0))
         self.assertIn('%', page.inner_text('#save-told'))
         self.shot(page, 'saving')
         job = self.jobs()[-1].response().json()
@@ -176,7 +176,7 @@ class Saving(Browser):
         page = self.open()
         self.choose(page, 'own', 2400, 1350)
         page.click('#save')
-        self.assertTrue(daemon.eventually(lambda: page.evaluate('document.getElementById("save-bar").value') > 0, 20))
+        self.assertTrue(daemon.eventually(lambda: page.evaluate('document.getElementById("save-bar").value') > 0))
         with page.expect_download(timeout=240000) as download:
             page.reload()
         self.assertEqual(download.value.suggested_filename, 'kerrd-2400x1350.png')

@@ -106,7 +106,7 @@ class Sessions(Browser):
         own = next(r.response().json() for r in self.requests if r.url.endswith('/v1/sessions'))
         self.assertEqual(self.daemon.get('/v1/sessions/' + own['id']).status, 200)
         page.close()
-        self.assertTrue(daemon.eventually(lambda: self.daemon.get('/v1/sessions/' + own['id']).status == 404, 5))
+        self.assertTrue(daemon.eventually(lambda: self.daemon.get('/v1/sessions/' + own['id']).status == 404, 30), 'sooner than by idling')
 
 
 if __name__ == '__main__':
