@@ -6,6 +6,21 @@
 #include <string.h>
 
 static const struct { const char *path; unsigned methods; const char *schema; } answers[] = {
+    { "/healthz", KD_GET, "{\"type\":\"object\",\"required\":[\"status\"],\"properties\":{\"status\":{\"const\":\"alive\"}}}" },
+    { "/readyz", KD_GET, "{\"type\":\"object\",\"required\":[\"status\"],\"properties\":{\"status\":{\"const\":\"ready\"}}}" },
+    { "/v1/device", KD_GET, KD_SCHEMA_REF("Device") },
+    { "/v1/accuracy", KD_GET, KD_SCHEMA_REF("AccuracyTable") },
+    { "/v1/presets", KD_GET, KD_SCHEMA_REF("Presets") },
+    { "/v1/presets/{name}", KD_GET, KD_SCHEMA_REF("Scene") },
+    { "/v1/physics", KD_GET, KD_SCHEMA_REF("Quantities") },
+    { "/v1/plan", KD_POST, "{\"oneOf\":[" KD_SCHEMA_REF("Plan") "," KD_SCHEMA_REF("SweepPlan") "]}" },
+    { "/v1/pixel", KD_GET | KD_POST, KD_SCHEMA_REF("Pixel") },
+    { "/v1/jobs", KD_POST, KD_SCHEMA_REF("Job") },
+    { "/v1/jobs/{id}", KD_GET, KD_SCHEMA_REF("Job") },
+    { "/v1/sessions", KD_POST, KD_SCHEMA_REF("Session") },
+    { "/v1/sessions/{id}", KD_GET | KD_PATCH, KD_SCHEMA_REF("Session") },
+    { "/v1/sessions/{id}/ringdown", KD_POST, KD_SCHEMA_REF("Session") },
+    { "/v1/sessions/{id}/path", KD_POST, KD_SCHEMA_REF("Session") },
     { "/v1/playground", KD_GET, KD_SCHEMA_REF("PlaygroundCatalogue") },
     { "/v1/playground", KD_POST, KD_SCHEMA_REF("PlaygroundStatus") },
     { "/v1/playground/{id}", KD_GET | KD_PATCH, KD_SCHEMA_REF("PlaygroundStatus") },

@@ -2,12 +2,13 @@
 
 #include "server/job/spec.h"
 #include "server/openapi/media.h"
+#include "server/openapi/strict.h"
 #include "server/openapi/timeline.h"
 
 #include <stdio.h>
 
 #define OBJECT KD_OPENAPI_OBJECT
-#define COUNT "{\"type\":\"integer\",\"minimum\":0}"
+#define COUNT KD_SCHEMA_COUNT
 
 /* What a job makes of its frames: a list of names. */
 #define OUTPUT "\"output\":{\"enum\":[%s]}"
@@ -27,12 +28,6 @@ static const char request[] =
     ",\"frames\":{\"type\":\"integer\",\"minimum\":1,\"maximum\":10000},"
     OUTPUT "}}," SWEEP "," OBJECT "\"required\":[\"scenes\"],\"properties\":{\"scenes\":{\"type\":\"array\","
     "\"minItems\":1,\"maxItems\":10000,\"items\":" KD_OPENAPI_SCENE "}," OUTPUT "}}]}";
-
-static const char answer[] =
-    "{\"type\":\"object\",\"properties\":{\"id\":{\"type\":\"string\"},\"token\":{\"type\":\"string\"},\"state\":{\"enum\":[\"waiting\",\"running\","
-    "\"done\",\"failed\",\"deleted\"]}," OUTPUT ",\"place\":" COUNT ",\"frames\":" COUNT ",\"finished\":" COUNT ",\"fraction\":{\"type\":\"number\"},"
-    "\"remaining_s\":{\"type\":[\"number\",\"null\"]},\"bytes\":" COUNT ",\"lens_maps_traced\":" COUNT ",\"axes\":{\"type\":\"object\",\"additionalProperties\":" COUNT "},\"created\":{\"type\":\"number\"},\"ended\":{\"type\":[\"number\","
-    "\"null\"]},\"delayed\":{\"type\":\"string\"},\"error\":{\"type\":\"string\"}}}";
 
 _Static_assert(KD_JOB_FRAMES_MAX == 10000 && KD_SWEEP_AXES == 8 && KD_SWEEP_MOST == 100000, "openapi.json says so");
 
@@ -59,10 +54,17 @@ void kd_openapi_plan_body(struct kd_json *json)
     kd_openapi_body(json, schema, (size_t)n, NULL);
 }
 
-void kd_openapi_jobs_answer(struct kd_json *json)
+void kd_openapi_job_schema(struct kd_json *json)
 {
-    char names[200], schema[sizeof answer + sizeof names];
+    char names[200], output[sizeof names + 20];
     list_series(names, sizeof names);
-    int n = snprintf(schema, sizeof schema, answer, names);
-    kd_openapi_media(json, "application/json", schema, (size_t)n);
+    snprintf(output, sizeof output, "{\"enum\":[%s]}", names);
+    const struct kd_openapi_member job[] = {
+        { "id", KD_SCHEMA_TEXT, false }, { "token", KD_SCHEMA_TEXT, true },
+        { "state", "{\"enum\":[\"waiting\",\"running\",\"done\",\"failed\",\"deleted\"]}", false }, { "output", output, false }, { "place", COUNT, false },
+        { "frames", COUNT, false }, { "finished", COUNT, false }, { "fraction", KD_SCHEMA_NUMBER, false }, { "remaining_s", KD_SCHEMA_NUMBER_OR_NULL, false },
+        { "bytes", COUNT, false }, { "lens_maps_traced", COUNT, false }, { "axes", "{\"type\":\"object\",\"additionalProperties\":" COUNT "}", true },
+        { "created", KD_SCHEMA_NUMBER, false }, { "ended", KD_SCHEMA_NUMBER_OR_NULL, false }, { "delayed", KD_SCHEMA_TEXT, true }, { "error", KD_SCHEMA_TEXT, true },
+    };
+    kd_openapi_strict(json, "Job", job, sizeof job / sizeof *job);
 }

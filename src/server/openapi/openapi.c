@@ -9,8 +9,10 @@
 #include "server/openapi/media.h"
 #include "server/openapi/orbits.h"
 #include "server/openapi/physics.h"
+#include "server/openapi/pixel.h"
 #include "server/openapi/playground.h"
 #include "server/openapi/rays.h"
+#include "server/openapi/reports.h"
 #include "server/openapi/sessions.h"
 #include "server/http/request.h"
 #include "scene/scene.h"
@@ -276,9 +278,12 @@ static void begin_response(struct kd_json *json, unsigned status, const char *de
 /* Writes those of routes whose media types stand in a table; each once. */
 static void add_formats(struct kd_json *json, enum kd_gives gives)
 {
+    static const char stars[] = "{\"$ref\":\"#/components/schemas/Stars\"}"; /* the one format that is JSON */
     struct kd_job_format format;
-    for (size_t i = 0; gives == KD_GIVES_PICTURE && i < kd_n_formats; i++)
-        kd_openapi_media(json, kd_formats[i]->media_type, "", 0);
+    for (size_t i = 0; gives == KD_GIVES_PICTURE && i < kd_n_formats; i++) {
+        const char *known = strstr(kd_formats[i]->media_type, "json") ? stars : "";
+        kd_openapi_media(json, kd_formats[i]->media_type, known, strlen(known));
+    }
     for (size_t i = 0; gives == KD_GIVES_RESULT && kd_job_format(i, &format); i++)
         kd_openapi_media(json, format.media_type, "", 0);
 }
@@ -297,7 +302,6 @@ static void add_typed(struct kd_json *json, const struct kd_route *route, unsign
     switch (route->takes) {
     case KD_TAKES_RAYS: kd_openapi_rays_answer(json); break;
     case KD_TAKES_ORBITS: kd_openapi_orbits_answer(json); break;
-    case KD_TAKES_JOB: kd_openapi_jobs_answer(json); break;
     case KD_TAKES_ASSET: kd_openapi_asset_answer(json, method); break;
     default: add_known(json, route, method, type);
     }
@@ -379,6 +383,10 @@ static void add_components(struct kd_json *json, const struct kd_buffer *schema)
     kd_openapi_orbits_schema(json);
     kd_openapi_playground_schemas(json);
     kd_openapi_asset_schema(json);
+    kd_openapi_report_schemas(json);
+    kd_openapi_pixel_schemas(json);
+    kd_openapi_session_schemas(json);
+    kd_openapi_job_schema(json);
     add_problem_schema(json);
     kd_json_end(json);
     kd_json_object(json, "responses");

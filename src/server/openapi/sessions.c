@@ -2,10 +2,35 @@
 
 #include "render/output/particle_list.h"
 #include "server/openapi/media.h"
+#include "server/openapi/strict.h"
 #include "server/openapi/timeline.h"
 #include "server/session/sessions.h"
 
 #include <string.h>
+
+/* Who has just made one is told its token, too. */
+void kd_openapi_session_schemas(struct kd_json *json)
+{
+    static const struct kd_openapi_member emitter[] = {
+        { "name", KD_SCHEMA_TEXT, false }, { "title", KD_SCHEMA_TEXT, false }, { "at", KD_SCHEMA_TEXT, false }, { "apart", KD_SCHEMA_TRUTH, false },
+        { "sentence", KD_SCHEMA_TEXT, true },
+    };
+    static const struct kd_openapi_member path[] = { { "at", KD_SCHEMA_NUMBER, false }, { "end", KD_SCHEMA_NUMBER, false } };
+    static const struct kd_openapi_member clock[] = {
+        { "proper_time_to_horizon", KD_SCHEMA_NUMBER_OR_NULL, false }, { "proper_time_to_end", KD_SCHEMA_NUMBER, false },
+        { "proper_time_to_horizon_s", KD_SCHEMA_NUMBER_OR_NULL, false }, { "proper_time_to_end_s", KD_SCHEMA_NUMBER, false },
+    };
+    static const struct kd_openapi_member session[] = {
+        { "id", KD_SCHEMA_TEXT, false }, { "token", KD_SCHEMA_TEXT, true }, { "revision", KD_SCHEMA_COUNT, false }, { "frame", KD_SCHEMA_COUNT, false },
+        { "viewers", KD_SCHEMA_COUNT, false }, { "scene", KD_SCHEMA_REF("Scene"), false },
+        { "varies", KD_SCHEMA_LIST("{\"enum\":[\"moves_with_time\",\"dims_with_time\",\"moves_with_azimuth\"]}"), false },
+        { "emitters", KD_SCHEMA_LIST(KD_SCHEMA_REF("EmitterTold")), false }, { "path", KD_SCHEMA_REF("SessionPath"), true }, { "clock", KD_SCHEMA_REF("FallClock"), true },
+    };
+    kd_openapi_strict(json, "EmitterTold", emitter, sizeof emitter / sizeof *emitter);
+    kd_openapi_strict(json, "SessionPath", path, sizeof path / sizeof *path);
+    kd_openapi_strict(json, "FallClock", clock, sizeof clock / sizeof *clock);
+    kd_openapi_strict(json, "Session", session, sizeof session / sizeof *session);
+}
 
 void kd_openapi_strike_body(struct kd_json *json)
 {

@@ -1,0 +1,129 @@
+#include "server/openapi/pixel.h"
+
+#include "server/openapi/strict.h"
+
+#define N(table) (sizeof(table) / sizeof *(table))
+#define NUMBER KD_SCHEMA_NUMBER
+#define OR_NULL KD_SCHEMA_NUMBER_OR_NULL
+#define COUNT KD_SCHEMA_COUNT
+#define TEXT KD_SCHEMA_TEXT
+#define TRUTH KD_SCHEMA_TRUTH
+#define LIST KD_SCHEMA_LIST
+#define REF KD_SCHEMA_REF
+#define PAIR "{\"type\":\"array\",\"minItems\":2,\"maxItems\":2,\"items\":{\"type\":\"number\"}}"
+#define ROWS LIST(LIST("{\"type\":[\"number\",\"null\",\"string\"]}"))
+#define FATE "{\"enum\":[\"captured\",\"escaped\",\"undecided\"]}"
+
+/* Which way the ray goes. */
+static void add_motion(struct kd_json *json)
+{
+    static const struct kd_openapi_member constants[] = {
+        { "alpha", NUMBER, false }, { "beta", NUMBER, false }, { "lambda", NUMBER, false }, { "eta", NUMBER, false }, { "E", NUMBER, false }, { "L", NUMBER, false },
+        { "Q", NUMBER, false }, { "outward", TRUTH, false },
+    };
+    static const struct kd_openapi_member radial[] = {
+        { "case", TEXT, false }, { "real_roots", COUNT, false }, { "roots", LIST(LIST(NUMBER)), false }, { "horizon_r", NUMBER, false }, { "turning_r", OR_NULL, false },
+    };
+    static const struct kd_openapi_member polar[] = { { "case", TEXT, false }, { "roots", LIST(NUMBER), false }, { "theta", LIST(NUMBER), false } };
+    kd_openapi_strict(json, "RayConstants", constants, N(constants));
+    kd_openapi_strict(json, "RayRadial", radial, N(radial));
+    kd_openapi_strict(json, "RayPolar", polar, N(polar));
+}
+
+/* What gives light there, or hides it. */
+static void add_crossings(struct kd_json *json)
+{
+    static const struct kd_openapi_member glow[] = {
+        { "name", TEXT, false }, { "light", KD_SCHEMA_VECTOR, false }, { "seen", KD_SCHEMA_VECTOR, false }, { "luminance", NUMBER, false }, { "luminance_seen", NUMBER, false },
+        { "opacity", NUMBER, true }, { "points", TRUTH, true },
+    };
+    static const struct kd_openapi_member pictured[] = { { "r", NUMBER, false }, { "g", NUMBER, false }, { "footprint", NUMBER, true } };
+    static const struct kd_openapi_member crossing[] = {
+        { "order", COUNT, false }, { "r", OR_NULL, false }, { "phi", OR_NULL, false }, { "azimuth", OR_NULL, false }, { "delay", OR_NULL, false }, { "g", OR_NULL, false },
+        { "seen", TRUTH, false }, { "temperature", NUMBER, true }, { "emission_angle", NUMBER, true }, { "picture", REF("PixelPictured"), true }, { "through", NUMBER, true },
+        { "emitters", LIST(REF("PixelGlow")), true }, { "optical_depth", OR_NULL, true },
+    };
+    kd_openapi_strict(json, "PixelGlow", glow, N(glow));
+    kd_openapi_strict(json, "PixelPictured", pictured, N(pictured));
+    kd_openapi_strict(json, "PixelCrossing", crossing, N(crossing));
+}
+
+static void add_along(struct kd_json *json)
+{
+    static const struct kd_openapi_member volume[] = { { "name", TEXT, false }, { "seen", KD_SCHEMA_VECTOR, false }, { "luminance_seen", NUMBER, false }, { "optical_depth", OR_NULL, false } };
+    static const struct kd_openapi_member stretch[] = {
+        { "order", COUNT, false }, { "from_r", OR_NULL, false }, { "from_theta", NUMBER, false }, { "to_r", OR_NULL, false }, { "to_theta", NUMBER, false },
+        { "seen", KD_SCHEMA_VECTOR, false }, { "through", NUMBER, false }, { "optical_depth", OR_NULL, false },
+    };
+    static const struct kd_openapi_member along[] = {
+        { "names", LIST(TEXT), false }, { "steps", COUNT, false }, { "samples", COUNT, false }, { "seen", KD_SCHEMA_VECTOR, false }, { "luminance_seen", NUMBER, false },
+        { "optical_depth", OR_NULL, false }, { "volumes", LIST(REF("PixelVolume")), false }, { "stretches", LIST(REF("PixelStretch")), true },
+    };
+    static const struct kd_openapi_member met[] = {
+        { "name", TEXT, false }, { "index", COUNT, false }, { "order", COUNT, false }, { "r", NUMBER, false }, { "theta", NUMBER, false }, { "phi", NUMBER, false },
+        { "azimuth", OR_NULL, false }, { "g", NUMBER, false }, { "emission_angle", NUMBER, false }, { "light", KD_SCHEMA_VECTOR, false }, { "seen", KD_SCHEMA_VECTOR, false },
+        { "luminance_seen", NUMBER, false }, { "through", NUMBER, false },
+    };
+    kd_openapi_strict(json, "PixelVolume", volume, N(volume));
+    kd_openapi_strict(json, "PixelStretch", stretch, N(stretch));
+    kd_openapi_strict(json, "PixelAlong", along, N(along));
+    kd_openapi_strict(json, "PixelMet", met, N(met));
+}
+
+static void add_ends(struct kd_json *json)
+{
+    static const struct kd_openapi_member end[] = {
+        { "fate", FATE, false }, { "why", TEXT, false }, { "through", NUMBER, false }, { "optical_depth", OR_NULL, false }, { "theta", OR_NULL, true }, { "phi", OR_NULL, true },
+        { "azimuth", OR_NULL, true }, { "g", NUMBER, true }, { "emitters", LIST(REF("PixelGlow")), false },
+    };
+    static const struct kd_openapi_member path[] = {
+        { "steps", COUNT, false }, { "least_r", NUMBER, false }, { "coordinates", "{\"enum\":[\"ingoing\",\"Boyer-Lindquist\"]}", false }, { "whole", TRUTH, false },
+        { "columns", LIST(TEXT), false }, { "points", LIST(LIST(OR_NULL)), false },
+    };
+    static const struct kd_openapi_member trace[] = {
+        { "none", TEXT, true }, { "engine", TEXT, true }, { "precision", TEXT, true }, { "steps_a_half_period", COUNT, true }, { "fate", FATE, true }, { "crossings", COUNT, true },
+        { "not_shown", COUNT, true }, { "same_without_trace", TRUTH, true }, { "columns", LIST(TEXT), true }, { "steps", ROWS, true },
+    };
+    static const struct kd_openapi_member accuracy[] = {
+        { "engine", TEXT, false }, { "precision", TEXT, false }, { "steps", COUNT, false }, { "closed_form", OR_NULL, false }, { "picture", OR_NULL, false },
+        { "path", OR_NULL, false }, { "first_integrals", OR_NULL, false }, { "sum", OR_NULL, false },
+    };
+    kd_openapi_strict(json, "PixelEnd", end, N(end));
+    kd_openapi_strict(json, "PixelPath", path, N(path));
+    kd_openapi_strict(json, "PixelTrace", trace, N(trace));
+    kd_openapi_strict(json, "PixelAccuracy", accuracy, N(accuracy));
+}
+
+/* These are the members of each ray that the pixel is the mean of. */
+#define RAY \
+    { "ray_at", PAIR, false }, { "weight", NUMBER, false }, { "constants", REF("RayConstants"), false }, { "radial", REF("RayRadial"), false }, \
+    { "polar", REF("RayPolar"), false }, { "crossings", LIST(REF("PixelCrossing")), false }, { "along", REF("PixelAlong"), true }, { "met", REF("PixelMet"), true }, \
+    { "end", REF("PixelEnd"), false }, { "lost", COUNT, false }
+
+void kd_openapi_pixel_schemas(struct kd_json *json)
+{
+    static const struct kd_openapi_member colour[] = { { "shown", KD_SCHEMA_VECTOR, false }, { "pixel", KD_SCHEMA_VECTOR, false }, { "ray", KD_SCHEMA_VECTOR, false }, { "exposure", NUMBER, false } };
+    static const struct kd_openapi_member ray[] = { RAY, { "light", KD_SCHEMA_VECTOR, false }, { "luminance", NUMBER, false }, { "closed_form", OR_NULL, false }, { "picture", OR_NULL, false } };
+    static const struct kd_openapi_member pixel[] = {
+        RAY, { "pixel", PAIR, false }, { "eye", TEXT, true }, { "rays", COUNT, false }, { "colour", REF("PixelColour"), false }, { "path", REF("PixelPath"), false },
+        { "trace", REF("PixelTrace"), true }, { "accuracy", REF("PixelAccuracy"), false }, { "each_ray", LIST(REF("PixelRay")), false },
+        { "approximations", LIST(TEXT), false },
+    };
+    static const struct kd_openapi_member image[] = {
+        { "name", TEXT, false }, { "designation", TEXT, false }, { "magnitude", NUMBER, false }, { "x", NUMBER, false }, { "y", NUMBER, false }, { "x_by_azimuth", NUMBER, false },
+        { "y_by_azimuth", NUMBER, false }, { "magnification", NUMBER, false }, { "g", NUMBER, false }, { "through", NUMBER, false }, { "seen_magnitude", OR_NULL, false },
+        { "mirrored", TRUTH, false },
+    };
+    static const struct kd_openapi_member stars[] = {
+        { "width", COUNT, false }, { "height", COUNT, false }, { "azimuth_deg", NUMBER, false }, { "found", COUNT, false }, { "images", LIST(REF("StarImage")), false },
+    };
+    add_motion(json);
+    add_crossings(json);
+    add_along(json);
+    add_ends(json);
+    kd_openapi_strict(json, "PixelColour", colour, N(colour));
+    kd_openapi_strict(json, "PixelRay", ray, N(ray));
+    kd_openapi_strict(json, "Pixel", pixel, N(pixel));
+    kd_openapi_strict(json, "StarImage", image, N(image));
+    kd_openapi_strict(json, "Stars", stars, N(stars));
+}

@@ -1,0 +1,9 @@
+/* This is what openapi.json says of what the service tells of itself: device, presets, quantities, plans, accuracy. */
+#ifndef KD_SERVER_OPENAPI_REPORTS_H
+#define KD_SERVER_OPENAPI_REPORTS_H
+
+#include "base/json.h"
+
+void kd_openapi_report_schemas(struct kd_json *json);
+
+#endif

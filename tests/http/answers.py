@@ -1,0 +1,109 @@
+"""What the service answers as JSON is what openapi.json says of it: every route, but for playgrounds, whose test is playground_schema.py."""
+import json
+import sys
+
+import daemon
+
+IMAGE = {'width': 64, 'height': 36}
+STARS = 'application/vnd.kerrd.stars+json'
+# These are described by their media type, or by documents of their own.
+ELSEWHERE = {('get', '/openapi.json'), ('get', '/v1/jobs/{id}/result')}
+
+
+class Answers(daemon.Case):
+    @classmethod
+    def setUpClass(cls):
+        cls.daemon = daemon.Daemon()
+
+    def setUp(self):
+        self.schemas = schemas.Schemas(self.daemon.get('/openapi.json').json())
+
+    def get(self, template, address=None):
+        answer = self.daemon.get(address or template)
+        self.assertEqual(answer.status, 200, answer.body)
+        return self.schemas.check('get', template, answer)
+
+    def send(self, method, template, address, document, **headers):
+        answer = self.daemon.request(method, address, json.dumps(document), {'Content-Type': 'application/json', **headers})
+        self.assertIn(answer.status, (200, 201, 202), answer.body)
+        return self.schemas.check(method.lower(), template, answer)
+
+    def test_no_answer_is_left_out(self):
+        bare = {(method, path) for path, operations in self.schemas.document['paths'].items() for method, operation in operations.items()
+                for answer in operation['responses'].values() for kind, content in answer.get('content', {}).items()
+                if kind == 'application/json' and content['schema'] == {'type': 'object'}}
+        self.assertEqual(bare, ELSEWHERE)
+
+    def test_of_the_service(self):
+        for path in ('/healthz', '/readyz', '/v1/device', '/v1/physics'):
+            self.get(path)
+        for preset in self.get('/v1/presets')['presets']:
+            self.get('/v1/presets/{name}', '/v1/presets/' + preset['name'])
+
+    def test_plans(self):
+        near = {'camera': {'r': 20, 'stereo': 'pair'}, 'sky': {'model': 'catalogue'}}
+        for document in ({}, near, {'volume': {'model': 'uniform'}}, {'accuracy': {'engine': 'mino-rkn6', 'precision': 'f64', 'tolerance': 1e-6}}):
+            plan = self.send('POST', '/v1/plan', '/v1/plan', document)
+            self.assertEqual(plan.get('eyes'), 2 if document is near else None)
+        axes = {'axes': {'spacetime.spin': [0, 0.5], 'time': '0:4:1'}, 'scene': {'image': IMAGE}}
+        for output in ('pictures', 'light-curve', 'npz'):
+            self.assertEqual(self.send('POST', '/v1/plan', '/v1/plan', {**axes, 'output': output})['scenes'], 10)
+
+    def test_pixels(self):
+        gas = {'image': {**IMAGE, 'samples': 4}, 'disk': {'emission_opacity': 2}}
+        stars = {'image': IMAGE, 'sky': {'model': 'catalogue'}, 'camera': {'r': 30}}
+        thick = {'image': IMAGE, 'disk': {'height': 0.1}}
+        body = {'image': IMAGE, 'camera': {'r': 40, 'inclination_deg': 90}, 'bodies': [{'radius': 5, 'r': 15, 'phase_deg': 0}]}
+        inside = {'image': IMAGE, 'sky': {'model': 'grid'}, 'camera': {'r': 1.2, 'observer': 'infall'}}
+        met = 0
+        for document in (gas, stars, thick, body, inside):
+            for at in ('32,18', '20,20', '3,2'):
+                told = self.send('POST', '/v1/pixel', f'/v1/pixel?at={at}&trace=steps', document)
+                met += 'met' in told
+        self.assertGreater(met, 0)
+        self.get('/v1/pixel', '/v1/pixel?at=3,2&image.width=64&image.height=36')
+
+    def test_stars(self):
+        document = {'image': IMAGE, 'sky': {'model': 'catalogue'}, 'camera': {'r': 30, 'fov_deg': 90}, 'disk': {'model': 'none'}}
+        answer = self.daemon.request('POST', '/v1/render', json.dumps(document), {'Content-Type': 'application/json', 'Accept': STARS})
+        self.assertEqual(answer.status, 200, answer.body)
+        self.assertGreater(answer.json()['found'], 0)
+        self.assertEqual(self.schemas.wrong(self.schemas.document['paths']['/v1/render']['post']['responses']['200']['content'][STARS]['schema'], answer.json()), [])
+
+    def test_a_session(self):
+        scene = {'image': IMAGE, 'disk': {'model': 'particles', 'particles': 1000}, 'motion': {'time_rate': 5}}
+        one = self.send('POST', '/v1/sessions', '/v1/sessions', scene)
+        owner = {'Authorization': 'Bearer ' + one['token']}
+        at = '/v1/sessions/' + one['id']
+        self.get('/v1/sessions/{id}', at)
+        self.send('PATCH', '/v1/sessions/{id}', at, {'camera': {'r': 15, 'observer': 'infall'}, 'style': {'ringdown': 0.2}}, **owner)
+        self.send('POST', '/v1/sessions/{id}/ringdown', at + '/ringdown', {'amplitude': 0.5}, **owner)
+        keys = [{'at': at, 'scene': {'camera': {'inclination_deg': degrees}}} for at, degrees in ((0, 80), (50, 60))]
+        path = self.send('POST', '/v1/sessions/{id}/path', at + '/path', {'keyframes': keys}, **owner)
+        self.assertLessEqual({'path', 'clock'}, path.keys())
+        self.assertEqual(self.daemon.request('DELETE', at, headers=owner).status, 204)
+
+    def test_a_job(self):
+        for document in ({'scene': {'image': IMAGE}}, {'scene': {'image': IMAGE}, 'axes': {'time': [0, 1]}, 'output': 'npz'}):
+            job = self.send('POST', '/v1/jobs', '/v1/jobs', document)
+            at = '/v1/jobs/' + job['id']
+            self.assertTrue(daemon.eventually(lambda: self.get('/v1/jobs/{id}', at)['state'] == 'done'))
+            self.assertEqual(self.daemon.request('DELETE', at, headers={'Authorization': 'Bearer ' + job['token']}).status, 204)
+
+    def test_schemas_can_refuse(self):
+        """A member more, a member less, another type."""
+        for path in '/v1/device', '/v1/presets', '/v1/physics':
+            schema, good = self.schemas.of('get', path), self.daemon.get(path).json()
+            self.assertTrue(self.schemas.wrong(schema, {**good, 'more': 1}), path)
+            for name in good:
+                self.assertTrue(self.schemas.wrong(schema, {k: v for k, v in good.items() if k != name}), name)
+                self.assertTrue(self.schemas.wrong(schema, {**good, name: {'what': 1}}), name)
+
+
+if __name__ == '__main__':
+    try:
+        import schemas
+    except ImportError as missing:
+        print(f'skipped: {missing}; scripts/setup --browser installs it')
+        sys.exit(77)
+    daemon.main()
