@@ -41,7 +41,7 @@ static enum kd_status plan_sweep(struct arguments *arguments, const struct kd_sc
     enum kd_status status;
     KD_TRY(kd_sweep_typed(arguments->axes, arguments->n_axes, scene, &assets, &sweep, error));
     KD_TRY(kd_asset_options_check(&arguments->scene.assets, error));
-    KD_TRY(kd_cost_sweep(&cost, kd_series_all[0], sweep, capacity, INFINITY, error));
+    KD_TRY(kd_cost_sweep(&cost, NULL, sweep, capacity, INFINITY, error));
     if (kd_cost_json(&cost, sweep, out) || kd_buffer_printf(out, "\n"))
         KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory for the plan"));
 done:

@@ -19,7 +19,7 @@ static double file_bytes(const struct kd_series *series, const struct kd_scene *
 {
     const struct kd_words *layers = &scene->image.layers;
     double numbers = 0;
-    for (int i = 0; i < layers->count && series->frame->carries & KD_CARRIES_LAYERS; i++)
+    for (int i = 0; i < layers->count && series && series->frame->carries & KD_CARRIES_LAYERS; i++)
         numbers += (layers->at[i].word == KD_LAYER_rgb ? 3. : 1.) * (plan->eyes ? plan->eyes : 1) * plan->width * plan->height;
     return 4 * numbers;
 }
@@ -29,7 +29,7 @@ enum kd_status kd_cost_add(struct kd_cost *cost, const struct kd_series *series,
 {
     const uint64_t host = plan->host_bytes + plan->making_bytes;
     uint64_t group;
-    if (series->swept && kd_cube_compare(&cost->shape, cost->frames, scene, plan, error))
+    if (series && series->swept && kd_cube_compare(&cost->shape, cost->frames, scene, plan, error))
         return error->status;
     cost->frames++;
     cost->file_bytes += file_bytes(series, scene, plan);
@@ -62,7 +62,8 @@ static enum kd_status plan_scene(struct kd_cost *cost, const struct kd_series *s
     struct kd_error inner = { 0 };
     enum kd_status status;
     KD_TRY(kd_sweep_scene(sweep, cost->frames, &scene, error));
-    if ((status = kd_format_plan(series->frame, &scene, capacity, &plan, &inner))) {
+    status = series ? kd_format_plan(series->frame, &scene, capacity, &plan, &inner) : kd_plan_make(&scene, capacity, &plan, &inner);
+    if (status) {
         kd_error_field(error, "/axes", "scene %u: %.440s", cost->frames, inner.message);
         return error->status = status;
     }

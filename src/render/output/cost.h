@@ -27,7 +27,7 @@ enum kd_status kd_cost_end(struct kd_cost *cost, struct kd_error *error);
 void kd_cost_finish(struct kd_cost *cost);
 
 /* Plans further scenes of a sweep until it is time (kd_clock_ms), one at least, and ends behind the last. Errors are those of the first scene that is
- * none, or that the device has no room for, by its number, at /axes. */
+ * none, or that the device has no room for, by its number, at /axes. series NULL: nobody has said what becomes of them. */
 enum kd_status kd_cost_sweep(struct kd_cost *cost, const struct kd_series *series, const struct kd_sweep *sweep, const struct kd_capacity *capacity,
                              double until_ms, struct kd_error *error);
 /* Writes the document of `kerrd plan --axis`, of all scenes. KD_ENOMEM. */
