@@ -159,7 +159,7 @@ class Requests(daemon.Case):
             self.assertProblem(daemon.read_answer(s), 413, 'body-too-large')
         with self.daemon.connect() as s:
             s.sendall(b'POST /v1/plan HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n'
-                      b'Content-Length: 1048577\r\n\r\n')
+                      b'Content-Length: 4194305\r\n\r\n')
             self.assertProblem(daemon.read_answer(s), 413, 'body-too-large')
         self.assertEqual(self.post('{"rays":[[1,2]],"accuracy":{"engine":"mino-rkn6"}' + ' ' * (2 << 20) + '}').status, 400)
 
