@@ -245,8 +245,6 @@ static void test_dark(void **state)
         assert_true(by_kelvin == by_brightness && layer_of(&frames[2], "intensity")[i] == before);
         assert_true(!is_body || by_kelvin == 0);
         hidden += is_body && before > 0;
-        for (int c = 0; c < 3; c++)
-            assert_true(isfinite(layer_of(&frames[1], "rgb")[3 * i + c]));
     }
     printf("a dark body hides the disk in %d pixels\n", hidden);
     assert_true(hidden >= 8);
