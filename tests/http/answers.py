@@ -1,9 +1,9 @@
 """What the service answers as JSON is what openapi.json says of it: every route, but for playgrounds, whose test is playground_schema.py."""
 import json
-import sys
 
 import daemon
 
+schemas = daemon.needed('schemas')
 IMAGE = {'width': 64, 'height': 36}
 STARS = 'application/vnd.kerrd.stars+json'
 # These are described by their media type, or by documents of their own.
@@ -101,9 +101,4 @@ class Answers(daemon.Case):
 
 
 if __name__ == '__main__':
-    try:
-        import schemas
-    except ImportError as missing:
-        print(f'skipped: {missing}; scripts/setup --browser installs it')
-        sys.exit(77)
     daemon.main()

@@ -1,5 +1,6 @@
 """A server process under test and ways to talk to it, down to single bytes."""
 import http.client
+import importlib
 import json
 import os
 import re
@@ -116,6 +117,15 @@ def vanish(s):
     """A client that is gone from one moment to the next, without a last word."""
     s.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack('ii', 1, 0))
     s.close()
+
+
+def needed(name):
+    """A module; where it is not installed the test is skipped."""
+    try:
+        return importlib.import_module(name)
+    except ImportError as missing:
+        print(f'skipped: {missing}; scripts/setup --browser installs it')
+        sys.exit(77)
 
 
 def eventually(condition, timeout=60):

@@ -10,6 +10,10 @@ import urllib.parse
 
 import daemon
 
+OpenAPIV31SpecValidator = daemon.needed('openapi_spec_validator').OpenAPIV31SpecValidator
+daemon.needed('openapi_python_client')
+jsonschema = daemon.needed('jsonschema')
+
 # What the generator does not know by itself.
 CONFIG = """post_hooks: []
 content_type_overrides:
@@ -140,11 +144,4 @@ class OpenApi(daemon.Case):
 
 
 if __name__ == '__main__':
-    try:
-        from openapi_spec_validator import OpenAPIV31SpecValidator
-        import openapi_python_client
-        import jsonschema
-    except ImportError as missing:
-        print(f'skipped: {missing}; scripts/setup --browser installs it')
-        sys.exit(77)
     daemon.main()

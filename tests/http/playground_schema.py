@@ -1,9 +1,9 @@
 """What playgrounds answer is what openapi.json says: every route that gives JSON, in as many states as there are kinds of members."""
 import json
-import sys
 
 import daemon
 
+schemas = daemon.needed('schemas')
 TEMPLATE = '/v1/playground/{id}'
 PAIR = [{'name': 'one', 'mass': 1e-3, 'radius': 2, 'temperature_k': 5000, 'position': [40, 0, 0], 'velocity': [0, 0.1, 0]},
         {'mass': 1e-3, 'radius': 2, 'position': [41, 0, 0]}]
@@ -97,9 +97,4 @@ class PlaygroundSchema(daemon.Owned):
 
 
 if __name__ == '__main__':
-    try:
-        import schemas
-    except ImportError as missing:
-        print(f'skipped: {missing}; scripts/setup --browser installs it')
-        sys.exit(77)
     daemon.main()

@@ -66,5 +66,5 @@ void kd_openapi_job_schema(struct kd_json *json)
         { "bytes", COUNT, false }, { "lens_maps_traced", COUNT, false }, { "axes", "{\"type\":\"object\",\"additionalProperties\":" COUNT "}", true },
         { "created", KD_SCHEMA_NUMBER, false }, { "ended", KD_SCHEMA_NUMBER_OR_NULL, false }, { "delayed", KD_SCHEMA_TEXT, true }, { "error", KD_SCHEMA_TEXT, true },
     };
-    kd_openapi_strict(json, "Job", job, sizeof job / sizeof *job);
+    KD_OPENAPI_STRICT(json, "Job", job);
 }

@@ -2,7 +2,6 @@
 
 #include "server/openapi/strict.h"
 
-#define N(table) (sizeof(table) / sizeof *(table))
 #define NUMBER KD_SCHEMA_NUMBER
 #define OR_NULL KD_SCHEMA_NUMBER_OR_NULL
 #define COUNT KD_SCHEMA_COUNT
@@ -25,9 +24,9 @@ static void add_motion(struct kd_json *json)
         { "case", TEXT, false }, { "real_roots", COUNT, false }, { "roots", LIST(LIST(NUMBER)), false }, { "horizon_r", NUMBER, false }, { "turning_r", OR_NULL, false },
     };
     static const struct kd_openapi_member polar[] = { { "case", TEXT, false }, { "roots", LIST(NUMBER), false }, { "theta", LIST(NUMBER), false } };
-    kd_openapi_strict(json, "RayConstants", constants, N(constants));
-    kd_openapi_strict(json, "RayRadial", radial, N(radial));
-    kd_openapi_strict(json, "RayPolar", polar, N(polar));
+    KD_OPENAPI_STRICT(json, "RayConstants", constants);
+    KD_OPENAPI_STRICT(json, "RayRadial", radial);
+    KD_OPENAPI_STRICT(json, "RayPolar", polar);
 }
 
 /* What gives light there, or hides it. */
@@ -43,9 +42,9 @@ static void add_crossings(struct kd_json *json)
         { "seen", TRUTH, false }, { "temperature", NUMBER, true }, { "emission_angle", NUMBER, true }, { "picture", REF("PixelPictured"), true }, { "through", NUMBER, true },
         { "emitters", LIST(REF("PixelGlow")), true }, { "optical_depth", OR_NULL, true },
     };
-    kd_openapi_strict(json, "PixelGlow", glow, N(glow));
-    kd_openapi_strict(json, "PixelPictured", pictured, N(pictured));
-    kd_openapi_strict(json, "PixelCrossing", crossing, N(crossing));
+    KD_OPENAPI_STRICT(json, "PixelGlow", glow);
+    KD_OPENAPI_STRICT(json, "PixelPictured", pictured);
+    KD_OPENAPI_STRICT(json, "PixelCrossing", crossing);
 }
 
 static void add_along(struct kd_json *json)
@@ -64,10 +63,10 @@ static void add_along(struct kd_json *json)
         { "azimuth", OR_NULL, false }, { "g", NUMBER, false }, { "emission_angle", NUMBER, false }, { "light", KD_SCHEMA_VECTOR, false }, { "seen", KD_SCHEMA_VECTOR, false },
         { "luminance_seen", NUMBER, false }, { "through", NUMBER, false },
     };
-    kd_openapi_strict(json, "PixelVolume", volume, N(volume));
-    kd_openapi_strict(json, "PixelStretch", stretch, N(stretch));
-    kd_openapi_strict(json, "PixelAlong", along, N(along));
-    kd_openapi_strict(json, "PixelMet", met, N(met));
+    KD_OPENAPI_STRICT(json, "PixelVolume", volume);
+    KD_OPENAPI_STRICT(json, "PixelStretch", stretch);
+    KD_OPENAPI_STRICT(json, "PixelAlong", along);
+    KD_OPENAPI_STRICT(json, "PixelMet", met);
 }
 
 static void add_ends(struct kd_json *json)
@@ -88,10 +87,10 @@ static void add_ends(struct kd_json *json)
         { "engine", TEXT, false }, { "precision", TEXT, false }, { "steps", COUNT, false }, { "closed_form", OR_NULL, false }, { "picture", OR_NULL, false },
         { "path", OR_NULL, false }, { "first_integrals", OR_NULL, false }, { "sum", OR_NULL, false },
     };
-    kd_openapi_strict(json, "PixelEnd", end, N(end));
-    kd_openapi_strict(json, "PixelPath", path, N(path));
-    kd_openapi_strict(json, "PixelTrace", trace, N(trace));
-    kd_openapi_strict(json, "PixelAccuracy", accuracy, N(accuracy));
+    KD_OPENAPI_STRICT(json, "PixelEnd", end);
+    KD_OPENAPI_STRICT(json, "PixelPath", path);
+    KD_OPENAPI_STRICT(json, "PixelTrace", trace);
+    KD_OPENAPI_STRICT(json, "PixelAccuracy", accuracy);
 }
 
 /* These are the members of each ray that the pixel is the mean of. */
@@ -121,9 +120,9 @@ void kd_openapi_pixel_schemas(struct kd_json *json)
     add_crossings(json);
     add_along(json);
     add_ends(json);
-    kd_openapi_strict(json, "PixelColour", colour, N(colour));
-    kd_openapi_strict(json, "PixelRay", ray, N(ray));
-    kd_openapi_strict(json, "Pixel", pixel, N(pixel));
-    kd_openapi_strict(json, "StarImage", image, N(image));
-    kd_openapi_strict(json, "Stars", stars, N(stars));
+    KD_OPENAPI_STRICT(json, "PixelColour", colour);
+    KD_OPENAPI_STRICT(json, "PixelRay", ray);
+    KD_OPENAPI_STRICT(json, "Pixel", pixel);
+    KD_OPENAPI_STRICT(json, "StarImage", image);
+    KD_OPENAPI_STRICT(json, "Stars", stars);
 }

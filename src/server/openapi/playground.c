@@ -114,7 +114,6 @@ static void add_document(struct kd_json *json, const char *name, bool patch)
     kd_json_end(json);
 }
 
-#define N(table) (sizeof(table) / sizeof *(table))
 static const char *const kinds[] = { [KD_SETTING_REAL] = KD_SCHEMA_NUMBER, [KD_SETTING_WHOLE] = KD_SCHEMA_COUNT, [KD_SETTING_TRUTH] = KD_SCHEMA_TRUTH, [KD_SETTING_WORD] = KD_SCHEMA_TEXT };
 
 /* Members by the rows of a table, after those that are there. */
@@ -167,11 +166,11 @@ static void add_state(struct kd_json *json)
         { "debris", KD_SCHEMA_REF("PlaygroundDebris"), false }, { "events", KD_SCHEMA_COUNT, false }, { "approximations", KD_SCHEMA_LIST(KD_SCHEMA_TEXT), false },
         { "scene", KD_SCHEMA_REF("Scene"), false },
     };
-    kd_openapi_strict(json, "PlaygroundTotals", totals, N(totals));
-    kd_openapi_strict(json, "PlaygroundSpent", spent, N(spent));
-    kd_openapi_strict(json, "PlaygroundSource", source, N(source));
-    kd_openapi_strict(json, "PlaygroundDebris", debris, N(debris));
-    kd_openapi_strict(json, "PlaygroundStatus", state, N(state));
+    KD_OPENAPI_STRICT(json, "PlaygroundTotals", totals);
+    KD_OPENAPI_STRICT(json, "PlaygroundSpent", spent);
+    KD_OPENAPI_STRICT(json, "PlaygroundSource", source);
+    KD_OPENAPI_STRICT(json, "PlaygroundDebris", debris);
+    KD_OPENAPI_STRICT(json, "PlaygroundStatus", state);
 }
 
 static void add_catalogue(struct kd_json *json)
@@ -189,9 +188,9 @@ static void add_catalogue(struct kd_json *json)
         { "presets", KD_SCHEMA_LIST(KD_SCHEMA_REF("PlaygroundPresetTold")), false }, { "settings", KD_SCHEMA_LIST(KD_SCHEMA_REF("PlaygroundRow")), false },
         { "pace", KD_SCHEMA_LIST(KD_SCHEMA_REF("PlaygroundRow")), false }, { "body", KD_SCHEMA_LIST(KD_SCHEMA_REF("PlaygroundRow")), false },
     };
-    kd_openapi_strict(json, "PlaygroundPresetTold", preset, N(preset));
-    kd_openapi_strict(json, "PlaygroundRow", row, N(row));
-    kd_openapi_strict(json, "PlaygroundCatalogue", catalogue, N(catalogue));
+    KD_OPENAPI_STRICT(json, "PlaygroundPresetTold", preset);
+    KD_OPENAPI_STRICT(json, "PlaygroundRow", row);
+    KD_OPENAPI_STRICT(json, "PlaygroundCatalogue", catalogue);
 }
 
 static void add_series(struct kd_json *json)
@@ -201,7 +200,7 @@ static void add_series(struct kd_json *json)
     for (int i = 0; i < KD_SERIES_N; i++)
         columns[i] = (struct kd_openapi_member) { kd_series_column(i), KD_SCHEMA_LIST(KD_SCHEMA_NUMBER_OR_NULL), false };
     kd_openapi_strict(json, "PlaygroundColumns", columns, KD_SERIES_N);
-    kd_openapi_strict(json, "PlaygroundSeries", series, N(series));
+    KD_OPENAPI_STRICT(json, "PlaygroundSeries", series);
 }
 
 /* Data of the stream of events, to which its media type gives no place for a schema. */
@@ -214,7 +213,7 @@ static void add_happened(struct kd_json *json)
         { "other_mass", KD_SCHEMA_NUMBER, true }, { "mass_left", KD_SCHEMA_NUMBER, true }, { "r", KD_SCHEMA_NUMBER, false }, { "energy", KD_SCHEMA_NUMBER_OR_NULL, false },
         { "tidal_radius", KD_SCHEMA_NUMBER, true }, { "energy_spread", KD_SCHEMA_NUMBER, true },
     };
-    kd_openapi_strict(json, "PlaygroundHappened", happened, N(happened));
+    KD_OPENAPI_STRICT(json, "PlaygroundHappened", happened);
 }
 
 static void add_tick(struct kd_json *json)

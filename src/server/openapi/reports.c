@@ -3,7 +3,6 @@
 #include "render/plan/pass.h"
 #include "server/openapi/strict.h"
 
-#define N(table) (sizeof(table) / sizeof *(table))
 #define TEXTS KD_SCHEMA_LIST(KD_SCHEMA_TEXT)
 
 static void add_device(struct kd_json *json)
@@ -25,10 +24,10 @@ static void add_device(struct kd_json *json)
     struct kd_openapi_member figures[1 + KD_FIGURE_COUNT] = { { "basis", "{\"enum\":[\"measured\",\"guess\"]}", false } };
     for (int i = 0; i < KD_FIGURE_COUNT; i++)
         figures[1 + i] = (struct kd_openapi_member) { kd_figures[i].word, KD_SCHEMA_NUMBER, false };
-    kd_openapi_strict(json, "DeviceSelftest", selftest, N(selftest));
-    kd_openapi_strict(json, "DeviceLimits", limits, N(limits));
-    kd_openapi_strict(json, "DeviceFigures", figures, N(figures));
-    kd_openapi_strict(json, "Device", device, N(device));
+    KD_OPENAPI_STRICT(json, "DeviceSelftest", selftest);
+    KD_OPENAPI_STRICT(json, "DeviceLimits", limits);
+    KD_OPENAPI_STRICT(json, "DeviceFigures", figures);
+    KD_OPENAPI_STRICT(json, "Device", device);
 }
 
 static void add_lists(struct kd_json *json)
@@ -45,12 +44,12 @@ static void add_lists(struct kd_json *json)
         { "outputs", KD_SCHEMA_LIST(KD_SCHEMA_REF("QuantityOutput")), false }, { "sources", TEXTS, false }, { "approximations", TEXTS, false },
     };
     static const struct kd_openapi_member quantities[] = { { "quantities", KD_SCHEMA_LIST(KD_SCHEMA_REF("QuantityTold")), false } };
-    kd_openapi_strict(json, "PresetTold", preset, N(preset));
-    kd_openapi_strict(json, "Presets", presets, N(presets));
-    kd_openapi_strict(json, "QuantityParameter", parameter, N(parameter));
-    kd_openapi_strict(json, "QuantityOutput", output, N(output));
-    kd_openapi_strict(json, "QuantityTold", quantity, N(quantity));
-    kd_openapi_strict(json, "Quantities", quantities, N(quantities));
+    KD_OPENAPI_STRICT(json, "PresetTold", preset);
+    KD_OPENAPI_STRICT(json, "Presets", presets);
+    KD_OPENAPI_STRICT(json, "QuantityParameter", parameter);
+    KD_OPENAPI_STRICT(json, "QuantityOutput", output);
+    KD_OPENAPI_STRICT(json, "QuantityTold", quantity);
+    KD_OPENAPI_STRICT(json, "Quantities", quantities);
 }
 
 static void add_plan(struct kd_json *json)
@@ -80,13 +79,13 @@ static void add_plan(struct kd_json *json)
         { "estimate_ms", KD_SCHEMA_NUMBER, false }, { "shared_ms", KD_SCHEMA_NUMBER, false }, { "estimate_basis", KD_SCHEMA_TEXT, false },
         { "axes", "{\"type\":\"object\",\"additionalProperties\":" KD_SCHEMA_LIST("{\"type\":[\"number\",\"string\",\"boolean\",\"array\"],\"items\":{\"type\":\"string\"}}") "}", false },
     };
-    kd_openapi_strict(json, "PlanPass", pass, N(pass));
-    kd_openapi_strict(json, "PlanConstants", constants, N(constants));
-    kd_openapi_strict(json, "PlanAccuracy", accuracy, N(accuracy));
-    kd_openapi_strict(json, "PlanBytes", bytes, N(bytes));
-    kd_openapi_strict(json, "Plan", plan, N(plan));
-    kd_openapi_strict(json, "SweepBytes", sweep_bytes, N(sweep_bytes));
-    kd_openapi_strict(json, "SweepPlan", sweep, N(sweep));
+    KD_OPENAPI_STRICT(json, "PlanPass", pass);
+    KD_OPENAPI_STRICT(json, "PlanConstants", constants);
+    KD_OPENAPI_STRICT(json, "PlanAccuracy", accuracy);
+    KD_OPENAPI_STRICT(json, "PlanBytes", bytes);
+    KD_OPENAPI_STRICT(json, "Plan", plan);
+    KD_OPENAPI_STRICT(json, "SweepBytes", sweep_bytes);
+    KD_OPENAPI_STRICT(json, "SweepPlan", sweep);
 }
 
 /* The errors of a set are by the names of the quantities that it has. */
@@ -106,10 +105,10 @@ static void add_accuracy(struct kd_json *json)
         { "orders", KD_SCHEMA_COUNT, false }, { "quantile", KD_SCHEMA_NUMBER, false }, { "sets", "{\"type\":\"object\",\"additionalProperties\":" KD_SCHEMA_TEXT "}", false },
         { "rows", KD_SCHEMA_LIST(KD_SCHEMA_REF("AccuracyRow")), false },
     };
-    kd_openapi_strict(json, "AccuracyErrors", errors, N(errors));
+    KD_OPENAPI_STRICT(json, "AccuracyErrors", errors);
     kd_json_raw(json, "AccuracyEntry", entry, sizeof entry - 1);
-    kd_openapi_strict(json, "AccuracyRow", row, N(row));
-    kd_openapi_strict(json, "AccuracyTable", table, N(table));
+    KD_OPENAPI_STRICT(json, "AccuracyRow", row);
+    KD_OPENAPI_STRICT(json, "AccuracyTable", table);
 }
 
 void kd_openapi_report_schemas(struct kd_json *json)

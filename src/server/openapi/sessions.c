@@ -26,10 +26,10 @@ void kd_openapi_session_schemas(struct kd_json *json)
         { "varies", KD_SCHEMA_LIST("{\"enum\":[\"moves_with_time\",\"dims_with_time\",\"moves_with_azimuth\"]}"), false },
         { "emitters", KD_SCHEMA_LIST(KD_SCHEMA_REF("EmitterTold")), false }, { "path", KD_SCHEMA_REF("SessionPath"), true }, { "clock", KD_SCHEMA_REF("FallClock"), true },
     };
-    kd_openapi_strict(json, "EmitterTold", emitter, sizeof emitter / sizeof *emitter);
-    kd_openapi_strict(json, "SessionPath", path, sizeof path / sizeof *path);
-    kd_openapi_strict(json, "FallClock", clock, sizeof clock / sizeof *clock);
-    kd_openapi_strict(json, "Session", session, sizeof session / sizeof *session);
+    KD_OPENAPI_STRICT(json, "EmitterTold", emitter);
+    KD_OPENAPI_STRICT(json, "SessionPath", path);
+    KD_OPENAPI_STRICT(json, "FallClock", clock);
+    KD_OPENAPI_STRICT(json, "Session", session);
 }
 
 void kd_openapi_strike_body(struct kd_json *json)

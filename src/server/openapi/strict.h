@@ -40,4 +40,7 @@ static inline void kd_openapi_strict(struct kd_json *json, const char *name, con
     kd_json_end(json);
 }
 
+/* The same of a table whose length the compiler knows. */
+#define KD_OPENAPI_STRICT(json, name, table) kd_openapi_strict(json, name, table, sizeof(table) / sizeof *(table))
+
 #endif
