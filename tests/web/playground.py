@@ -65,7 +65,7 @@ class Playground(Browser):
         circle = math.sqrt(r) / (r - 2)
         self.assertAlmostEqual(velocity[0], -10 / ARROW_PX * circle, delta=0.03 * circle)
         self.assertAlmostEqual(velocity[1], 90 / ARROW_PX * circle, delta=0.03 * circle)
-        self.assertIn('goes at', page.inner_text('#play-said'))
+        page.wait_for_selector('#play-said >> text=goes at')
 
         state = self.state()
         thrown = {'x': place, 'v': velocity, 'mass': 1e-6}
@@ -92,8 +92,7 @@ class Playground(Browser):
         return math.dist(p, [x + share * d for x, d in zip(a, along)])
 
     def test_a_body_is_thrown_anew_changed_and_removed(self):
-        page = self.open_play('lang=en&play.preset=emri')
-        self.pause(page)
+        page = self.open_play('lang=en&play.preset=emri&play.paused=1')  # what moves is elsewhere in the page than on the server
         ((only, body),) = self.bodies().items()
         x, y = self.stage(page)
         scale = page.evaluate('document.getElementById("play-stage").clientHeight') / 2 / (1.1 * 16)  # fitted: 16 M, and a tenth
@@ -101,7 +100,7 @@ class Playground(Browser):
         self.pull(page, at, (at[0] + 45, at[1]))
         page.mouse.up()
         self.assertTrue(daemon.eventually(lambda: self.bodies()[only][3] > 0.1 and abs(self.bodies()[only][4]) < 0.02))
-        self.assertEqual(page.input_value('#play-body'), str(only))
+        self.assertTrue(daemon.eventually(lambda: page.input_value('#play-body') == str(only)))  # the server has it first: its answer has a way to go
         page.fill('#play-body-mass', '0.002')
         page.press('#play-body-mass', 'Tab')
         self.assertTrue(daemon.eventually(lambda: abs(self.bodies()[only][6] - 0.002) < 1e-9))
@@ -176,7 +175,7 @@ class Playground(Browser):
                                '--time', '1e6', '-o', '-'], capture_output=True, timeout=120, check=True).stdout
         page = self.open_play('lang=en&play.preset=disruption&play.rate=3000')
         page.wait_for_selector('[data-kind=disruption]')
-        self.assertIn('The tide has torn star apart', page.inner_text('#play-events'))
+        page.wait_for_selector('#play-events >> text=The tide has torn star apart')
         page.wait_for_selector('#play-plane[data-debris]:not([data-debris="0"])')
         self.open_groups(page)
         page.set_input_files('#play-load', files=[{'name': 'torn.json', 'mimeType': 'application/json', 'buffer': made}])
