@@ -11,11 +11,9 @@ struct reading {
     struct kd_buffer json;
 };
 
-static void destroy(struct kd_task *task)
+static void finish(struct kd_task *task)
 {
-    struct reading *reading = (struct reading *)task;
-    kd_buffer_finish(&reading->json);
-    free(reading);
+    kd_buffer_finish(&((struct reading *)task)->json);
 }
 
 static enum kd_turn_end work(struct kd_task *task, double until_ms)
@@ -40,18 +38,10 @@ static enum MHD_Result deliver(struct kd_request *request)
 
 enum MHD_Result kd_handle_accuracy(struct kd_request *request)
 {
-    struct kd_turns *workers = request->server->turns;
+    static const struct kd_task_kind kind = { "readings of the accuracy table", sizeof(struct reading), work, finish };
     enum MHD_Result refused;
     if (request->task)
         return deliver(request);
-    if (!kd_task_admit(request, workers, "readings of the accuracy table", &refused))
-        return refused;
-    struct reading *reading = calloc(1, sizeof *reading);
-    if (!reading)
-        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
-    kd_task_init(&reading->task, request, workers);
-    reading->task.work = work;
-    reading->task.free = destroy;
-    request->task = &reading->task;
-    return kd_task_submit(&reading->task);
+    struct reading *reading = kd_task_begin(request, request->server->turns, &kind, &refused);
+    return reading ? kd_task_submit(&reading->task) : refused;
 }

@@ -37,7 +37,7 @@ struct putting {
     struct kd_asset_put put;
 };
 
-static void destroy(struct kd_task *task)
+static void finish(struct kd_task *task)
 {
     struct putting *p = (struct putting *)task;
     struct kd_asset_store *store = task->request->server->assets;
@@ -45,7 +45,6 @@ static void destroy(struct kd_task *task)
         kd_asset_store_remove(store, p->put.asset);
     if (p->put.asset)
         kd_asset_release(store, p->put.asset);
-    free(p);
 }
 
 static enum kd_turn_end work(struct kd_task *task, double until_ms)
@@ -93,21 +92,15 @@ static enum MHD_Result deliver(struct kd_request *request)
     return kd_reply_send(request, MHD_HTTP_CREATED, response);
 }
 
+static const struct kd_task_kind KIND = { "assets", sizeof(struct putting), work, finish };
+
 static enum MHD_Result put(struct kd_request *request)
 {
     enum MHD_Result refused;
     if (request->task)
         return deliver(request);
-    if (!kd_task_admit(request, request->server->turns, "assets", &refused))
-        return refused;
-    struct putting *p = calloc(1, sizeof *p);
-    if (!p)
-        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
-    kd_task_init(&p->task, request, request->server->turns);
-    p->task.work = work;
-    p->task.free = destroy;
-    request->task = &p->task;
-    return kd_task_submit(&p->task);
+    struct putting *p = kd_task_begin(request, request->server->turns, &KIND, &refused);
+    return p ? kd_task_submit(&p->task) : refused;
 }
 
 /* How much is kept, and what may be; no hashes: who knows one may have the bytes. */

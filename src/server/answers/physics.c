@@ -27,12 +27,11 @@ struct job {
     struct kd_buffer text;
 };
 
-static void destroy(struct kd_task *task)
+static void finish(struct kd_task *task)
 {
     struct job *job = (struct job *)task;
     kd_quantity_run_finish(&job->run);
     kd_buffer_finish(&job->text);
-    free(job);
 }
 
 static const char *offered(const struct kd_quantity *quantity)
@@ -155,22 +154,18 @@ static enum MHD_Result compute_here(struct kd_task *task)
     return deliver(task->request);
 }
 
+static const struct kd_task_kind KIND = { "long quantities", sizeof(struct job), work, finish };
+
 static enum MHD_Result begin(struct kd_request *request, const struct kd_quantity_request *asked, enum form form)
 {
     struct kd_turns *workers = request->server->turns;
     struct kd_error error = { 0 };
     enum MHD_Result refused;
     bool here = kd_quantity_cost_ms(asked) <= MOMENT_MS && form != FORM_WAV;
-    if (!here && !kd_task_admit(request, workers, "long quantities", &refused))
-        return refused;
-    struct job *job = calloc(1, sizeof *job);
+    struct job *job = here ? kd_task_create(request, workers, &KIND, &refused) : kd_task_begin(request, workers, &KIND, &refused);
     if (!job)
-        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
-    kd_task_init(&job->task, request, workers);
-    job->task.work = work;
-    job->task.free = destroy;
+        return refused;
     job->form = form;
-    request->task = &job->task;
     if (kd_quantity_run_begin(&job->run, asked, &error) || hold(job, asked, &error))
         return refuse(request, &error);
     return here ? compute_here(&job->task) : kd_task_submit(&job->task);

@@ -20,13 +20,12 @@ struct sweep {
     struct kd_buffer json;
 };
 
-static void destroy(struct kd_task *task)
+static void finish(struct kd_task *task)
 {
     struct sweep *s = (struct sweep *)task;
     kd_job_spec_finish(&s->spec);
     kd_cost_finish(&s->cost);
     kd_buffer_finish(&s->json);
-    free(s);
 }
 
 static enum kd_turn_end work(struct kd_task *task, double until_ms)
@@ -66,6 +65,8 @@ static enum MHD_Result deliver(struct kd_request *request)
     return s->task.status ? refuse(request, &s->task.error) : kd_reply_json(request, KD_OK, &s->json, request->route->answer);
 }
 
+static const struct kd_task_kind KIND = { "plans of sweeps", sizeof(struct sweep), work, finish };
+
 static enum MHD_Result plan_sweep(struct kd_request *request)
 {
     const char *preset = kd_target_value(&request->target, "preset");
@@ -75,16 +76,10 @@ static enum MHD_Result plan_sweep(struct kd_request *request)
         return deliver(request);
     if (kd_scene_query_check(&request->target, false, request->route->own, &error))
         return refuse(request, &error);
-    if (!kd_task_admit(request, request->server->turns, "plans of sweeps", &refused))
-        return refused;
-    struct sweep *s = calloc(1, sizeof *s);
+    struct sweep *s = kd_task_begin(request, request->server->turns, &KIND, &refused);
     if (!s)
-        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
-    kd_task_init(&s->task, request, request->server->turns);
-    s->task.work = work;
-    s->task.free = destroy;
+        return refused;
     snprintf(s->preset, sizeof s->preset, "%s", preset ? preset : "");
-    request->task = &s->task;
     return kd_task_submit(&s->task);
 }
 

@@ -163,13 +163,10 @@ enum MHD_Result kd_handle_rays(struct kd_request *request)
     kd_rays_request_init(&rays);
     if (read_query(&request->target, npy, &rays, &error))
         return refuse(request, &error, false, false);
-    if (!kd_task_admit(request, request->server->rays, "requests for rays", &refused))
-        return refused;
-    struct kd_rays_job *job = kd_rays_job_create(request);
+    struct kd_rays_job *job = kd_rays_job_begin(request, &refused);
     if (!job)
-        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
+        return refused;
     job->request = rays;
     job->npy = npy;
-    request->task = &job->task;
     return kd_task_submit(&job->task);
 }

@@ -132,23 +132,18 @@ static void last(struct kd_task *task)
         kd_task_fail(task, kd_rays_answer_summarise(&job->answer, &error), &error);
 }
 
-static void destroy(struct kd_task *task)
+static void finish(struct kd_task *task)
 {
     struct kd_rays_job *job = (struct kd_rays_job *)task;
     kd_rays_request_finish(&job->request);
     kd_rays_answer_finish(&job->answer);
-    free(job);
 }
 
-struct kd_rays_job *kd_rays_job_create(struct kd_request *request)
+struct kd_rays_job *kd_rays_job_begin(struct kd_request *request, enum MHD_Result *refused)
 {
-    struct kd_rays_job *job = calloc(1, sizeof *job);
-    if (!job)
-        return NULL;
-    kd_task_init(&job->task, request, request->server->rays);
-    job->task.work = work;
-    job->task.last = last;
-    job->task.free = destroy;
-    job->task.deadline_ms = INFINITY; /* their number is bounded */
+    static const struct kd_task_kind kind = { "requests for rays", sizeof(struct kd_rays_job), work, finish, .last = last };
+    struct kd_rays_job *job = kd_task_begin(request, request->server->rays, &kind, refused);
+    if (job)
+        job->task.deadline_ms = INFINITY; /* their number is bounded */
     return job;
 }

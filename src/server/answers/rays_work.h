@@ -25,7 +25,7 @@ struct kd_rays_job {
     size_t traced, turn; /* rays, on the device: so far, and those of the next turn */
 };
 
-/* To be submitted, and then filled in: `request`, `npy`. NULL: no memory. */
-struct kd_rays_job *kd_rays_job_create(struct kd_request *request);
+/* To be filled in, `request` and `npy`, and submitted. NULL: the client has been told why not, *refused. */
+struct kd_rays_job *kd_rays_job_begin(struct kd_request *request, enum MHD_Result *refused);
 
 #endif

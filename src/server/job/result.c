@@ -226,7 +226,7 @@ enum MHD_Result kd_handle_job_result(struct kd_request *request)
     enum MHD_Result refused;
     struct kd_job_status status;
     if (request->task)
-        return request->task->answer(request);
+        return request->task->kind->answer(request);
     if (!kd_reply_only(request, (const char *const[]) { "format", "frame", NULL }, &refused))
         return refused;
     struct kd_job *job = kd_job_of(request, &refused);

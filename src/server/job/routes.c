@@ -109,13 +109,12 @@ struct draft {
     struct kd_job *job; /* a reference */
 };
 
-static void destroy(struct kd_task *task)
+static void finish(struct kd_task *task)
 {
     struct draft *d = (struct draft *)task;
     kd_job_draft_finish(&d->draft);
     if (d->job)
         kd_job_release(d->job);
-    free(d);
 }
 
 static enum kd_turn_end work(struct kd_task *task, double until_ms)
@@ -154,7 +153,7 @@ static enum MHD_Result deliver(struct kd_request *request)
 
 enum MHD_Result kd_handle_jobs(struct kd_request *request)
 {
-    struct kd_turns *workers = request->server->turns;
+    static const struct kd_task_kind kind = { "jobs", sizeof(struct draft), work, finish };
     const char *preset = kd_target_value(&request->target, "preset");
     struct kd_error error = { 0 };
     enum MHD_Result refused;
@@ -162,16 +161,10 @@ enum MHD_Result kd_handle_jobs(struct kd_request *request)
         return deliver(request);
     if (kd_scene_query_check(&request->target, false, request->route->own, &error))
         return refuse(request, &error, false);
-    if (!kd_task_admit(request, workers, "jobs", &refused))
-        return refused;
-    struct draft *d = calloc(1, sizeof *d);
+    struct draft *d = kd_task_begin(request, request->server->turns, &kind, &refused);
     if (!d)
-        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
-    kd_task_init(&d->task, request, workers);
-    d->task.work = work;
-    d->task.free = destroy;
+        return refused;
     snprintf(d->draft.preset, sizeof d->draft.preset, "%s", preset ? preset : "");
-    request->task = &d->task;
     return kd_task_submit(&d->task);
 }
 

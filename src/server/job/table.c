@@ -20,13 +20,12 @@ struct table {
     struct kd_buffer text;
 };
 
-static void destroy(struct kd_task *task)
+static void finish(struct kd_task *task)
 {
     struct table *t = (struct table *)task;
     kd_job_release(t->job);
     kd_buffer_finish(&t->text);
     free(t->rows);
-    free(t);
 }
 
 static bool read_row(struct kd_job *job, unsigned frame, void *out, size_t row)
@@ -79,22 +78,16 @@ static enum MHD_Result answer(struct kd_request *request)
 static enum MHD_Result write_table(struct kd_request *request, struct kd_job *job, const struct kd_job_status *status,
                                    const struct kd_table_format *format)
 {
+    static const struct kd_task_kind kind = { "tables", sizeof(struct table), work, finish, .answer = answer };
     enum MHD_Result refused;
-    struct table *t = NULL;
-    if (kd_task_admit(request, request->server->turns, "tables", &refused) && !(t = calloc(1, sizeof *t)))
-        refused = kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
+    struct table *t = kd_task_begin(request, request->server->turns, &kind, &refused);
     if (!t) {
         kd_job_release(job);
         return refused;
     }
-    kd_task_init(&t->task, request, request->server->turns);
-    t->task.work = work;
-    t->task.free = destroy;
-    t->task.answer = answer;
     t->job = job;
     t->status = *status;
     t->format = format;
-    request->task = &t->task;
     if (!(t->rows = malloc(status->frames * status->series->row_bytes)))
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
     return kd_task_submit(&t->task);

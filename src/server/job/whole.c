@@ -131,12 +131,11 @@ struct looked {
     const struct kd_gather_format *format;
 };
 
-static void destroy(struct kd_task *task)
+static void finish(struct kd_task *task)
 {
     struct looked *l = (struct looked *)task;
     if (l->whole)
         release(l->whole);
-    free(l);
 }
 
 static enum kd_turn_end work(struct kd_task *task, double until_ms)
@@ -182,21 +181,15 @@ static enum MHD_Result answer(struct kd_request *request)
 /* Takes *w over. */
 static enum MHD_Result look_through(struct kd_request *request, struct kd_job_whole *w, const struct kd_gather_format *format)
 {
+    static const struct kd_task_kind kind = { "cubes", sizeof(struct looked), work, finish, .answer = answer };
     enum MHD_Result refused;
-    struct looked *l = NULL;
-    if (kd_task_admit(request, request->server->turns, "cubes", &refused) && !(l = calloc(1, sizeof *l)))
-        refused = kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
+    struct looked *l = kd_task_begin(request, request->server->turns, &kind, &refused);
     if (!l) {
         release(w);
         return refused;
     }
-    kd_task_init(&l->task, request, request->server->turns);
-    l->task.work = work;
-    l->task.free = destroy;
-    l->task.answer = answer;
     l->whole = w;
     l->format = format;
-    request->task = &l->task;
     return kd_task_submit(&l->task);
 }
 

@@ -42,7 +42,7 @@ enum MHD_Result kd_play_ended(struct kd_request *request)
     return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND, .detail = "the playground has ended" });
 }
 
-static void destroy(struct kd_task *task)
+static void finish(struct kd_task *task)
 {
     struct play_task *t = (struct play_task *)task;
     if (t->steps)
@@ -51,7 +51,6 @@ static void destroy(struct kd_task *task)
         kd_play_end(t->play, "failed");
     kd_play_release(t->play);
     kd_buffer_finish(&t->out);
-    free(t);
 }
 
 /* These run on a worker. */
@@ -268,19 +267,16 @@ static enum MHD_Result deliver(struct kd_request *request)
 /* play: a reference, which it takes over. */
 static enum MHD_Result begin(struct kd_request *request, struct kd_play *play, enum what what, const char *type)
 {
+    static const struct kd_task_kind kind = { "playgrounds", sizeof(struct play_task), work, finish };
     enum MHD_Result refused;
-    struct play_task *t = kd_task_admit(request, request->server->turns, "playgrounds", &refused) ? calloc(1, sizeof *t) : NULL;
+    struct play_task *t = kd_task_begin(request, request->server->turns, &kind, &refused);
     if (!t) {
         kd_play_release(play);
-        return request->status ? refused : kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
+        return refused;
     }
-    kd_task_init(&t->task, request, request->server->turns);
-    t->task.work = work;
-    t->task.free = destroy;
     t->play = play;
     t->what = what;
     t->type = type;
-    request->task = &t->task;
     return kd_task_submit(&t->task);
 }
 

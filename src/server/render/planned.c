@@ -10,11 +10,6 @@
 #define SMALL (64u << 10)     /* bytes that are read in a moment, 2 ms */
 #define FEW_PIXELS (4u << 20) /* whose plan is made in one: the critical curve is followed through the picture */
 
-static void destroy(struct kd_task *task)
-{
-    free(task);
-}
-
 /* What a problem says must outlive the call. */
 static bool fail(struct kd_planned *p, enum kd_status status, const struct kd_error *error, struct kd_problem problem)
 {
@@ -69,24 +64,18 @@ static struct kd_planned *outcome(struct kd_request *request, struct kd_planned 
 
 struct kd_planned *kd_planned_of(struct kd_request *request, enum MHD_Result *result)
 {
-    struct kd_turns *workers = request->server->turns;
+    static const struct kd_task_kind kind = { "large plans", sizeof(struct kd_planned), work };
     struct kd_planned *p = (struct kd_planned *)request->task;
     if (p)
         return outcome(request, p, result);
-    if (!(p = calloc(1, sizeof *p))) {
-        *result = kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
+    if (!(p = kd_task_create(request, request->server->turns, &kind, result)))
         return NULL;
-    }
-    kd_task_init(&p->task, request, workers);
-    p->task.work = work;
-    p->task.free = destroy;
-    request->task = &p->task;
     if (request->body.size <= SMALL) {
         /* Limits before anything is listed: what is too large needs no worker to be refused. */
         if (!read_scene(p) || !make_plan(p, !few_pixels(&p->scene)) || few_pixels(&p->scene))
             return outcome(request, p, result);
     }
-    if (kd_task_admit(request, workers, "large plans", result))
+    if (kd_task_admit(request, request->server->turns, kind.what, result))
         *result = kd_task_submit(&p->task);
     return NULL;
 }

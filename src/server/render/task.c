@@ -4,6 +4,7 @@
 #include "server/http/reply.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 
 #define TURN_MS 10.
 
@@ -36,24 +37,36 @@ static enum kd_turn_end take_turn(struct kd_turns_job *turns)
         task->begun_ms = now;
     bool gone = kd_socket_abandoned(kd_connection_socket(request->connection));
     kd_task_fail(task, kd_task_over(request->server, task->queue, gone, task->deadline_ms, &error), &error);
-    return task->status ? KD_TURN_LAST : task->work(task, now + TURN_MS);
+    return task->status ? KD_TURN_LAST : task->kind->work(task, now + TURN_MS);
 }
 
 static void done(struct kd_turns_job *turns)
 {
     struct kd_task *task = (struct kd_task *)turns;
-    if (task->last)
-        task->last(task);
+    if (task->kind->last)
+        task->kind->last(task);
     task->done_ms = kd_clock_ms();
     MHD_resume_connection(task->request->mhd);
 }
 
-void kd_task_init(struct kd_task *task, struct kd_request *request, struct kd_turns *queue)
+void *kd_task_create(struct kd_request *request, struct kd_turns *queue, const struct kd_task_kind *kind, enum MHD_Result *refused)
 {
-    *task = (struct kd_task) { .turns = { .turn = take_turn, .done = done }, .queue = queue, .request = request,
+    struct kd_task *task = calloc(1, kind->size);
+    if (!task) {
+        *refused = kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
+        return NULL;
+    }
+    *task = (struct kd_task) { .turns = { .turn = take_turn, .done = done }, .kind = kind, .queue = queue, .request = request,
                                .submitted_ms = kd_clock_ms() };
     snprintf(task->turns.client, sizeof task->turns.client, "%s", request->client);
     task->deadline_ms = task->submitted_ms + 1e3 * request->server->longest_s;
+    request->task = task;
+    return task;
+}
+
+void *kd_task_begin(struct kd_request *request, struct kd_turns *queue, const struct kd_task_kind *kind, enum MHD_Result *refused)
+{
+    return kd_task_admit(request, queue, kind->what, refused) ? kd_task_create(request, queue, kind, refused) : NULL;
 }
 
 void kd_task_destroy(struct kd_task *task)
@@ -61,7 +74,9 @@ void kd_task_destroy(struct kd_task *task)
     if (!task)
         return;
     kd_bytes_give(task->request->server->replies, task->turns.client, task->held);
-    task->free(task);
+    if (task->kind->finish)
+        task->kind->finish(task);
+    free(task);
 }
 
 bool kd_task_admit(struct kd_request *request, struct kd_turns *queue, const char *what, enum MHD_Result *refused)

@@ -1,23 +1,31 @@
 /* A task is a request that workers answer by turns (http/turns.h): it is suspended meanwhile, and given up when its client has left, the server
  * stops at once or its time is over. Owned by its request and freed with it; whoever makes one embeds it.
  *
- *     if (!kd_task_admit(request, queue, "quantities", &refused)) return refused;
- *     kd_task_init(&mine->task, request, queue); request->task = &mine->task; set work and free
- *     return kd_task_submit(&mine->task);
+ *     static const struct kd_task_kind KIND = { "quantities", sizeof(struct mine), work, destroy };
+ *     struct mine *mine = kd_task_begin(request, queue, &KIND, &refused);
+ *     return mine ? kd_task_submit(&mine->task) : refused;
  *     the handler is called again when `work` has returned KD_TURN_LAST */
 #ifndef KD_SERVER_RENDER_TASK_H
 #define KD_SERVER_RENDER_TASK_H
 
 #include "server/http/request.h"
 
+struct kd_task;
+
+struct kd_task_kind {
+    const char *what; /* in the plural: "the server ... takes no new <what>" */
+    size_t size;      /* of what embeds the task as its first member */
+    enum kd_turn_end (*work)(struct kd_task *task, double until_ms); /* a piece, on a worker */
+    void (*finish)(struct kd_task *task);                        /* frees what its members hold; may be NULL */
+    void (*last)(struct kd_task *task);                          /* may be NULL; on a worker, after the last piece */
+    enum MHD_Result (*answer)(struct kd_request *request);       /* for a handler that has tasks of several kinds: NULL without; on the HTTP thread */
+};
+
 struct kd_task {
     struct kd_turns_job turns; /* first */
+    const struct kd_task_kind *kind;
     struct kd_turns *queue;
     struct kd_request *request;
-    enum kd_turn_end (*work)(struct kd_task *task, double until_ms); /* a piece, on a worker */
-    void (*last)(struct kd_task *task);                          /* may be NULL; on a worker, after the last piece */
-    void (*free)(struct kd_task *task);                          /* with what it is embedded in */
-    enum MHD_Result (*answer)(struct kd_request *request);       /* for a handler that has tasks of several kinds: NULL without; on the HTTP thread */
     size_t held;                                                 /* of kd_task_hold, given back with the task */
     bool quota;                                                  /* KD_EBUSY because its client has its share */
     double submitted_ms, begun_ms, done_ms, deadline_ms;
@@ -25,16 +33,18 @@ struct kd_task {
     struct kd_error error;
 };
 
-/* The rest is zero. */
-void kd_task_init(struct kd_task *task, struct kd_request *request, struct kd_turns *queue);
+/* One that the queue admits; NULL: the client has been told why not, *refused. What follows the task is zero. HTTP thread. */
+void *kd_task_begin(struct kd_request *request, struct kd_turns *queue, const struct kd_task_kind *kind, enum MHD_Result *refused);
+/* One that need not be admitted, unless it turns out to be long: kd_task_admit. HTTP thread. */
+void *kd_task_create(struct kd_request *request, struct kd_turns *queue, const struct kd_task_kind *kind, enum MHD_Result *refused);
 void kd_task_destroy(struct kd_task *task); /* accepts NULL */
 
 /* The first one counts; status KD_OK does not. Any thread. */
 void kd_task_fail(struct kd_task *task, enum kd_status status, const struct kd_error *error);
 
-/* Whether one more may begin; else the client has been told why not. what: "the server ... takes no new <what>". HTTP thread. */
+/* Whether one more may begin; else the client has been told why not. what: as in kd_task_kind. HTTP thread. */
 bool kd_task_admit(struct kd_request *request, struct kd_turns *queue, const char *what, enum MHD_Result *refused);
-/* HTTP thread, after kd_task_admit. */
+/* HTTP thread, once it is admitted. */
 enum MHD_Result kd_task_submit(struct kd_task *task);
 
 /* Why one must end now whose client may have gone, and which may go on until then; KD_OK: it need not. Any thread. */

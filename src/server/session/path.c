@@ -23,11 +23,10 @@ struct path_task {
     int look; /* the next one */
 };
 
-static void destroy(struct kd_task *task)
+static void finish(struct kd_task *task)
 {
     struct path_task *p = (struct path_task *)task;
     kd_timeline_finish(&p->path);
-    free(p);
 }
 
 /* {"keyframes": [{"at": seconds, "scene", "proper_time", "ease", "look_at"}, ...], "interpolation", "distances", "angles", "ease", "look_at"}, from the scene as it is. */
@@ -120,20 +119,14 @@ static enum MHD_Result refuse(struct kd_request *request, const struct kd_error 
 
 static enum MHD_Result begin(struct kd_request *request, struct kd_session *session)
 {
-    struct kd_turns *workers = request->server->turns;
+    static const struct kd_task_kind kind = { "paths", sizeof(struct path_task), work, finish };
     struct kd_session_state state;
     enum MHD_Result refused;
-    if (!kd_task_admit(request, workers, "paths", &refused))
-        return refused;
-    struct path_task *p = calloc(1, sizeof *p);
+    struct path_task *p = kd_task_begin(request, request->server->turns, &kind, &refused);
     if (!p)
-        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
-    kd_task_init(&p->task, request, workers);
-    p->task.work = work;
-    p->task.free = destroy;
+        return refused;
     kd_session_state(session, &state);
     p->from = state.scene;
-    request->task = &p->task;
     return kd_task_submit(&p->task);
 }
 
