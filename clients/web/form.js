@@ -11,7 +11,7 @@ function slider(spec, input, tell) {
     input.value = Number((Math.round(s.from(node.valueAsNumber) / spec.step) * spec.step).toPrecision(12));
     tell();
   });
-  return { node, follow: () => (node.value = s.to(input.valueAsNumber)) };
+  return { node, follow: () => input.value !== '' && (node.value = s.to(input.valueAsNumber)) };
 }
 
 // specs: [{ name, label, unit, help, value, min, max, step, choices, words, auto }]; a label goes over what the name says; changed() is
@@ -32,7 +32,7 @@ export function buildForm(root, prefix, specs, changed) {
       : el('input', { type: 'number', id, min: spec.min, max: spec.max, step: spec.step ?? 'any', required: !spec.auto });
     input.value = link.get(key) ?? spec.value ?? '';
     input.chosen = !spec.auto || link.get(key) != null;
-    const slide = !spec.choices && spec.step && !spec.auto && slider(spec, input, tell);
+    const slide = !spec.choices && spec.step && slider(spec, input, tell);
     slide?.follow?.();
     function tell() {
       if (slide) slide.follow();
@@ -63,7 +63,7 @@ export function buildForm(root, prefix, specs, changed) {
     values: () => Object.fromEntries([...inputs].filter(([, { input }]) => input.chosen).map(([name, { input }]) => [name, input.value])),
     // What an auto field comes to, as long as nobody has chosen.
     suggest(name, value) {
-      if (!input(name).chosen) input(name).value = value;
+      if (!input(name).chosen) ((input(name).value = value), inputs.get(name).follow());
     },
   };
 }

@@ -87,16 +87,46 @@ class Physics(Browser):
         page = self.open('lang=en&view=scale', '#scale-rows tr')
         self.assertIn('42 µas', page.inner_text('#scale-rows'))
         self.assertEqual(page.locator('#scale math').count(), 3)
-        self.shot(page, 'scale')
         self.assertEqual(page.title(), 'Real scale: M87* – kerrd')
-        self.assertIn('the measured ring 42 µas across', page.get_attribute('#scale-picture', 'aria-label'))
+        for hole in ('m87', 'sgra'):
+            page.wait_for_selector(f'#sky-{hole} .beam:not([hidden])')
+        self.shot(page, 'scale')
+        self.assertIn('a ring 42 ± 3 µas across', page.get_attribute('#sky-m87 .sky-stack', 'aria-label'))
+        self.assertIn('a ring 51.8 ± 2.3 µas across', page.get_attribute('#sky-sgra .sky-stack', 'aria-label'))
+        # To scale: the ring's diameter and its error over the panel's width, and the same bar, in both.
+        drawn = page.evaluate('''() => ['m87', 'sgra'].map(hole => {
+            const of = name => document.querySelector(`#sky-${hole} ${name}`), wide = of('.sky-stack').clientWidth;
+            const ring = of('.sky-ring').getBoundingClientRect(), band = of('.sky-ring-width').getBBox();
+            return [(ring.width - 1.5) / wide, Number(of('.sky-ring-width').getAttribute('stroke-width')) / band.width, of('.bar').getBoundingClientRect().width / wide];
+        })''')
+        for (ring, error, bar), (wide, off) in zip(drawn, ((42, 3), (51.8, 2.3))):
+            self.assertAlmostEqual(ring, wide / 150, delta=0.012)
+            self.assertAlmostEqual(error, off / wide, places=3)
+            self.assertAlmostEqual(bar, 50 / 150, delta=0.012)
         page.select_option('#in-scale-hole', 'sgra')
         page.wait_for_selector('#scale-rows >> text=51.8 µas')
+        page.wait_for_selector('#sky-sgra[data-chosen]')
+        self.assertEqual(page.input_value('#in-scale-inclination_deg'), '30', 'that of the hole')
         page.select_option('#in-scale-hole', 'none')
         page.fill('#in-scale-mass_msun', '1e9')
         page.keyboard.press('Tab')
-        page.wait_for_timeout(500)
+        page.wait_for_selector('#sky-none .sharp:not([hidden])')
         self.assertNotIn('measured', page.inner_text('#scale-rows'))
+        self.assertTrue(page.is_hidden('#beside'))
+
+    def test_from_our_picture_to_the_measured_ring(self):
+        page = self.open('lang=en&view=scale', '#sky-sgra .beam:not([hidden])')
+        shown = lambda: page.evaluate('''() => ['.sharp', '.beam', '.sky-ring-width'].map(part => Number(getComputedStyle(document.querySelector('#sky-m87 ' + part)).opacity))''')
+        self.assertEqual(shown()[1:], [1, 0], 'as a telescope sees it, at first')
+        page.focus('#beside')
+        page.keyboard.press('Home')
+        self.assertEqual((shown(), page.get_attribute('#beside', 'aria-valuetext')), ([1, 0, 0], 'our picture'))
+        page.click('.beside button:has-text("ring")')
+        self.assertEqual(page.get_attribute('.beside button:has-text("ring")', 'aria-pressed'), 'true')
+        self.assertEqual([shown()[0], shown()[2]], [0, 1])
+        page.wait_for_function('() => location.hash.includes("scale.beside=2")')
+        asked = [r.url for r in self.requests if '/v1/render?' in r.url]
+        self.assertEqual((len(asked), sum('beam_uas=20' in url for url in asked)), (4, 2), 'the slider asks for nothing')
 
 
 if __name__ == '__main__':

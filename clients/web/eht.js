@@ -1,0 +1,152 @@
+// M87* and Sgr A* beside what the Event Horizon Telescope measured, at one scale on the sky: our picture, the same through the telescope's
+// beam, and the ring with its error. A slider goes from one to the next.
+import { byId, el, svg } from './dom.js';
+import { number, t } from './i18n.js';
+import * as link from './link.js';
+import { ask, drawn, physics } from './server.js';
+
+const across_uas = 150; // of each panel, so that one microarcsecond is as long in both
+const alone_m = 36; // of a hole that nobody has measured
+const beam_uas = 20; // of the telescope at 1.3 mm: EHT Collaboration 2019, ApJL 875, L1
+const most_px = 720;
+const key = 'scale.beside';
+
+// How each is seen: M87* with its jet at a position angle of 288 degrees and the spin away from us (ApJL 875, L5), north up. Of Sgr A* the inclination
+// is low (ApJL 930, L16), its direction on the sky is not known.
+export const seen = {
+  m87: { name: 'M87*', inclination: 163, roll: 108 },
+  sgra: { name: 'Sgr A*', inclination: 30, roll: 0 },
+  none: { name: '', inclination: 60, roll: 0 },
+};
+
+const stops = [
+  [0, t('our picture', 'la nostra immagine')],
+  [1, t(`through a beam of ${beam_uas} µas`, `attraverso un fascio di ${beam_uas} µas`)],
+  [2, t('the ring as measured', 'l’anello misurato')],
+];
+
+// One hole: two pictures that lie over each other, and lines over both.
+function panel(hole) {
+  const stack = el('div', { class: 'sky-stack', role: 'img', 'aria-label': seen[hole].name }),
+    pictures = ['sharp', 'beam'].map(kind => el('img', { class: kind, alt: '', draggable: false, hidden: true })),
+    lines = svg('svg', { class: 'sky-lines', 'aria-hidden': 'true' }),
+    words = el('p', { class: 'help' });
+  stack.append(...pictures, lines);
+  const node = el('figure', { class: 'plot sky', id: 'sky-' + hole }, el('figcaption', {}, seen[hole].name), stack, words);
+  let shown = []; // addresses of what the pictures are made of
+
+  function query(look, more) {
+    const size = Math.min(2 * Math.round((stack.clientWidth * Math.min(devicePixelRatio || 1, 2)) / 2), most_px) || 360;
+    return new URLSearchParams({
+      'spacetime.spin': look.spin, 'spacetime.mass_msun': look.mass, 'spacetime.distance_pc': look.distance,
+      'camera.inclination_deg': look.inclination, 'camera.roll_deg': look.roll, 'camera.field_m': look.field,
+      'disk.outer': 15, 'style.bloom': 0, 'style.tone_map': 'srgb', 'style.palette': 'heat',
+      'image.width': size, 'image.height': size, 'image.samples': 2, ...more,
+    });
+  }
+
+  // A picture that is there already stays until the next one can be shown whole.
+  async function picture(i, look, more) {
+    const address = 'v1/render?' + query(look, more);
+    if (shown[i] === address) return;
+    const next = URL.createObjectURL(await (await ask(address)).blob()),
+      old = pictures[i].src;
+    pictures[i].src = next;
+    await pictures[i].decode();
+    pictures[i].hidden = false;
+    shown[i] = address;
+    URL.revokeObjectURL(old);
+  }
+
+  // Lengths are microarcseconds, or M where they are too small to be told.
+  function draw(look, edge, v) {
+    const [c, s] = [Math.cos, Math.sin].map(of => of((look.roll * Math.PI) / 180)),
+      points = edge.alpha.map((a, i) => [(a * c - edge.beta[i] * s) * look.unit, -(a * s + edge.beta[i] * c) * look.unit]),
+      middle = [0, 1].map(i => (Math.min(...points.map(p => p[i])) + Math.max(...points.map(p => p[i]))) / 2),
+      half = look.width / 2,
+      bar = [1, 2, 5].flatMap(m => [-9, -6, -3, 0, 1, 2].map(d => m * 10 ** d)).filter(x => x < half * 0.75).sort((a, b) => a - b).at(-1),
+      ring = { cx: middle[0], cy: middle[1], r: v.ring_uas / 2 }, // where it lies was not measured
+      text = (12 * look.width) / (stack.clientWidth || 360); // 12 pixels
+    lines.setAttribute('viewBox', `${-half} ${-half} ${look.width} ${look.width}`);
+    lines.replaceChildren(
+      ...(v.ring_uas
+        ? [svg('circle', { class: 'sky-ring-width', ...ring, 'stroke-width': v.ring_error_uas }), svg('circle', { class: 'sky-ring', ...ring })]
+        : []),
+      svg('path', { class: 'sky-shadow', d: 'M' + points.map(p => p.map(x => x.toFixed(3)).join(' ')).join('L') + 'Z' }),
+      svg('path', { class: 'bar', d: `M${-half * 0.93} ${half * 0.93}h${bar}` }),
+      svg('text', { class: 'axis', 'font-size': text, x: -half * 0.93, y: half * 0.93 - text * 0.5 }, look.unit === 1 ? `${number(bar)} M` : `${number(bar)} µas`),
+      ...(v.ring_uas ? [svg('circle', { class: 'sky-beam', cx: half * 0.93 - beam_uas / 2, cy: half * 0.93 - beam_uas / 2, r: beam_uas / 2 })] : []),
+    );
+  }
+
+  function say(v, edge) {
+    const shadow = `${number(edge.width * v.m_uas, 3)} × ${number(edge.height * v.m_uas, 3)} µas`;
+    const ring = v.ring_uas
+      ? t(
+          ` Measured: a ring ${number(v.ring_uas)} ± ${number(v.ring_error_uas)} µas across; mean diameter of the shadow ${number(v.shadow_uas, 3)} µas.`,
+          ` Misurato: un anello di diametro ${number(v.ring_uas)} ± ${number(v.ring_error_uas)} µas; diametro medio dell’ombra ${number(v.shadow_uas, 3)} µas.`,
+        )
+      : '';
+    words.textContent = t(`Edge of the shadow: ${shadow}.${ring}`, `Bordo dell’ombra: ${shadow}.${ring}`);
+    stack.setAttribute('aria-label', `${seen[hole].name} ${words.textContent}`.trim());
+  }
+
+  return {
+    node,
+    // v: values of the quantity scale for it.
+    async show(spin, inclination, v) {
+      const edge = (await physics('shadow', { spin, inclination_deg: inclination, angle_deg: '0:358:180', ...drawn })).values,
+        measured = hole !== 'none',
+        look = { spin, inclination, roll: seen[hole].roll, mass: v.mass, distance: v.distance, field: measured ? across_uas / v.m_uas : alone_m,
+          unit: measured ? v.m_uas : 1, width: measured ? across_uas : alone_m };
+      draw(look, edge, v);
+      say(v, edge);
+      await picture(0, look, {});
+      if (measured) await picture(1, look, { 'style.beam_uas': beam_uas });
+      return edge;
+    },
+  };
+}
+
+// The slider: 0 our picture, 1 through the beam, 2 the ring.
+function slide(root) {
+  const slider = el('input', { type: 'range', id: 'beside', min: 0, max: 2, step: 0.01, value: link.get(key) ?? 1,
+      'aria-label': t('From our picture through the beam to the measured ring', 'Dalla nostra immagine attraverso il fascio all’anello misurato') }),
+    marks = stops.map(([at, text]) => el('button', { type: 'button', onclick: () => ((slider.value = at), follow()) }, text));
+  function follow() {
+    const at = slider.valueAsNumber,
+      beam = Math.min(at, 1),
+      ring = Math.max(at - 1, 0);
+    root.style.setProperty('--sharp', beam < 1 ? 1 : 0); // else it would shine through what is dimmed
+    root.style.setProperty('--beam', beam);
+    root.style.setProperty('--ring', ring);
+    const nearest = Math.round(at);
+    slider.setAttribute('aria-valuetext', stops[nearest][1]);
+    marks.forEach((mark, i) => mark.setAttribute('aria-pressed', Math.abs(at - i) < 0.05));
+    link.set(key, at === 1 ? null : slider.value);
+  }
+  slider.addEventListener('input', follow);
+  follow();
+  return el('div', { class: 'beside' }, slider, el('p', { class: 'row' }, marks));
+}
+
+// Returns show(hole, spin, inclination, values): the chosen hole and, beside it, the other measured one.
+export function beside(root) {
+  const panels = Object.fromEntries(Object.keys(seen).map(hole => [hole, panel(hole)])),
+    control = slide(root);
+  root.append(el('div', { class: 'sky-pair' }, Object.values(panels).map(({ node }) => node)), control);
+  return async (hole, spin, inclination, values) => {
+    for (const [name, { node }] of Object.entries(panels)) {
+      node.hidden = hole === 'none' ? name !== 'none' : name === 'none';
+      node.toggleAttribute('data-chosen', name === hole);
+    }
+    control.hidden = byId('scale-caption').hidden = hole === 'none';
+    const edge = await panels[hole].show(spin, inclination, values),
+      other = { m87: 'sgra', sgra: 'm87' }[hole];
+    if (other) {
+      const tilt = seen[other].inclination;
+      await panels[other].show(spin, tilt, (await physics('scale', { hole: other, spin, inclination_deg: tilt })).values);
+    }
+    return edge;
+  };
+}
