@@ -147,6 +147,7 @@ const choices = {
 };
 export const word = value => words?.values[value] ?? choices[value] ?? value;
 export const preset = (name, title) => words?.presets[name] ?? title;
+export const label = (name, text) => words?.labels[name] ?? text;
 
 const raised = text => [...text].map(c => (c === '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'[c])).join('');
 

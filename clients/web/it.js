@@ -318,6 +318,32 @@ export const fields = {
   hole: ['Buco nero'],
 };
 
+// Names of presets for people, by their names for programs.
+export const labels = {
+  smooth: 'Disco liscio',
+  schwarzschild: 'Senza spin',
+  gargantua: 'Gargantua',
+  m87: 'M87*',
+  'm87-eht': 'M87*, come la vide l’EHT',
+  sgra: 'Sagittarius A*',
+  luminet1979: 'La prima immagine, 1979',
+  'edge-on': 'Di taglio',
+  'face-on': 'Dal polo',
+  'photon-rings': 'Sei anelli di fotoni',
+  'living-disk': 'Disco vivo',
+  'hot-spot': 'Un brillamento',
+  'milky-way': 'Via Lattea',
+  gas: 'Gas turbolento',
+  'gas-stars': 'Gas davanti alle stelle',
+  'thick-disk': 'Disco spesso',
+  'star-behind': 'Una stella da dietro',
+  companions: 'Due compagne',
+  falling: 'In caduta, a 6 M',
+  infall: 'La caduta',
+  jet: 'Getti',
+  'gargantua-gas': 'Gargantua come nel film',
+};
+
 export const presets = {
   schwarzschild: 'Un buco che non ruota, il suo disco visto da 10 gradi sopra',
   gargantua:

@@ -1,6 +1,6 @@
 // The box of presets. It names the one that the scene is, at whatever time and from whichever side; a link remembers the name.
 import { byId, el } from './dom.js';
-import { preset, t } from './i18n.js';
+import { label, preset, t } from './i18n.js';
 import * as link from './link.js';
 import { valueAt } from './scene.js';
 import { getJson } from './server.js';
@@ -48,7 +48,7 @@ export async function buildPresets(scene) {
   const own = el('option', { value: 'own', disabled: true }, t('a scene of your own', 'una scena tua'));
   select.append(
     el('option', { value: '' }, t('default', 'predefinita')),
-    ...presets.map(({ name }) => el('option', { value: name }, name)),
+    ...presets.map(({ name, label: text }) => el('option', { value: name }, label(name, text))),
     own,
   );
 
@@ -73,4 +73,6 @@ export async function buildPresets(scene) {
   const names = [link.get('preset') ?? first_view, first_view].filter(name => presets.some(preset => preset.name === name));
   await Promise.all([...new Set(names)].map(learn));
   follow();
+  const { buildGallery } = await import('./gallery.js');
+  buildGallery(scene, select, presets);
 }

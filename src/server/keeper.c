@@ -5,6 +5,7 @@
 #include "server/job/jobs.h"
 #include "server/playground/plays.h"
 #include "server/render/queue.h"
+#include "server/render/thumbnails.h"
 #include "server/session/sessions.h"
 
 #include <poll.h>
@@ -59,13 +60,14 @@ static bool step_down(struct kd_server *server, double *since)
         kd_sessions_close(server->sessions);
         kd_plays_close(server->plays);
         kd_jobs_close(server->jobs);
+        kd_thumbnails_cancel(server->thumbnails);
         if (atomic_load(&server->abandon)) {
             kd_render_queue_cancel(server->renders);
             kd_turns_cancel(server->rays);
             kd_turns_cancel(server->turns);
         }
         if (kd_render_queue_unfinished(server->renders) || kd_turns_unfinished(server->rays) ||
-            kd_turns_unfinished(server->turns) || kd_plays_unfinished(server->plays))
+            kd_turns_unfinished(server->turns) || kd_plays_unfinished(server->plays) || kd_thumbnails_unfinished(server->thumbnails))
             return false;
         stop_listening(server);
         enter(server, KD_CLOSING, since);

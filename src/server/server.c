@@ -162,10 +162,16 @@ static enum kd_status make_assets(struct kd_server *server, const struct kd_serv
     return kd_asset_store_create(&limits, &server->assets, error);
 }
 
-static enum kd_status start_renders(struct kd_server *server, const struct kd_server_params *params, unsigned tasks, struct kd_error *error)
+static struct kd_renderer_params renderer_params(const struct kd_server *server, const struct kd_server_params *params)
 {
     struct kd_renderer_params renderer = params->renderer;
     renderer.assets = kd_asset_store_assets(server->assets);
+    return renderer;
+}
+
+static enum kd_status start_renders(struct kd_server *server, const struct kd_server_params *params, unsigned tasks, struct kd_error *error)
+{
+    const struct kd_renderer_params renderer = renderer_params(server, params);
     return kd_render_queue_create(&renderer, tasks, share_of(params, tasks), &server->renders, error);
 }
 
@@ -198,7 +204,8 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
     KD_TRY(make_assets(server, params, error));
     KD_TRY(start_renders(server, params, tasks, error));
     set_etag_tail(server);
-    KD_TRY(kd_thumbnails_create(server, &server->thumbnails, error));
+    const struct kd_renderer_params renderer = renderer_params(server, params);
+    KD_TRY(kd_thumbnails_create(server, &renderer, &server->thumbnails, error));
     KD_TRY(kd_turns_create(tasks, share_of(params, tasks), &server->rays, error));
     KD_TRY(kd_turns_create(tasks, share_of(params, tasks), &server->turns, error));
     KD_TRY(start_sessions(server, params, error));
@@ -288,8 +295,8 @@ void kd_server_destroy(struct kd_server *server)
     kd_plays_destroy(server->plays);
     kd_turns_destroy(server->turns);
     kd_turns_destroy(server->rays);
-    kd_render_queue_destroy(server->renders);
     kd_thumbnails_destroy(server->thumbnails);
+    kd_render_queue_destroy(server->renders);
     kd_sessions_destroy(server->sessions); /* the queue's last frames were theirs */
     kd_jobs_destroy(server->jobs);
     kd_asset_store_close(server->assets);

@@ -4,10 +4,13 @@ import ctypes
 import gzip
 import json
 import os
+import pathlib
 import re
 import struct
+import tempfile
 import time
 import unittest
+import unittest.mock
 
 import daemon
 
@@ -134,6 +137,52 @@ class Routes(daemon.Case):
         self.assertEqual(missing.status, 404)
         self.assertIn('edge-on', missing.json()['detail'])
         self.assertEqual(self.daemon.get('/v1/presets/edge-on/thumbnail.png?width=9').status, 422)
+
+    def test_small_pictures_are_kept_for_later_servers(self):
+        """In the folder of the device's own files; one that is damaged, or of something else, is painted anew."""
+        target = '/v1/presets/edge-on/thumbnail.png'
+
+        def ask():
+            own = daemon.Daemon()
+            got, painted = own.get(target), own.metrics()['kerrd_thumbnails_rendered_total']
+            self.assertEqual((own.stop(), got.status), (0, 200))
+            return got.body, painted
+
+        with tempfile.TemporaryDirectory() as folder, unittest.mock.patch.dict(os.environ, XDG_CACHE_HOME=folder):
+            first, painted = ask()
+            path = pathlib.Path(folder, 'fake.preset-edge-on.png')
+            kept = path.read_bytes()
+            self.assertEqual((painted, kept[-len(first):]), (1, first))
+            self.assertEqual(ask(), (first, 0))
+            for other in (kept[:-1] + b'?', kept[:100], b'', kept.replace(kept[24:40], b'"0000000000000ff')):
+                path.write_bytes(other)
+                self.assertEqual(ask(), (first, 1))
+            self.assertEqual(path.read_bytes(), kept)
+
+    def test_frames_go_on_while_a_small_picture_has_its_kernels_made(self):
+        own = daemon.Daemon('--device', 'compiles')
+        self.addCleanup(own.stop)
+        session = own.post('/v1/sessions', {'image': {'width': 64, 'height': 36}, 'sky': {'model': 'grid'}, 'motion': {'azimuth_rate_deg': 10}}).json()
+        with concurrent.futures.ThreadPoolExecutor(1) as one:
+            painting = one.submit(own.get, '/v1/presets/edge-on/thumbnail.png')
+            self.assertTrue(daemon.eventually(lambda: own.metrics()['kerrd_requests'] >= 2))
+            frames = after = 0
+            while not painting.done():
+                frame = own.get(f'/v1/sessions/{session["id"]}/frame.png?after={after}')
+                self.assertEqual(frame.status, 200)
+                after, frames = int(frame.header('Kerrd-Frame')), frames + 1
+        self.assertEqual(painting.result().status, 200)
+        self.assertGreater(frames, 3, 'it takes half a second, and a frame none')
+
+    def test_a_small_picture_that_is_waited_for_is_given_up_when_the_server_stops(self):
+        own = daemon.Daemon('--device', 'compiles')
+        names = [preset['name'] for preset in own.get('/v1/presets').json()['presets']]
+        with concurrent.futures.ThreadPoolExecutor(len(names)) as many:
+            answers = [many.submit(own.get, f'/v1/presets/{name}/thumbnail.png') for name in names]
+            self.assertTrue(daemon.eventually(lambda: own.metrics()['kerrd_requests'] > len(names)))
+            self.assertEqual(own.stop(), 0)
+        statuses = [answer.result().status for answer in answers]
+        self.assertEqual(set(statuses) - {200}, {503}, statuses)
 
     def test_plan(self):
         plan = self.daemon.post('/v1/plan', '{"image":{"width":100,"height":50,"samples":2}}').json()

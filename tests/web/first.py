@@ -66,6 +66,27 @@ class First(Browser):
         page.keyboard.press('Space')
         self.assertTrue(daemon.eventually(lambda: page.text_content('#play') == 'Play'))
 
+    def test_presets_are_a_strip_of_pictures(self):
+        page = self.open('lang=it&preset=smooth', viewport={'width': 390, 'height': 844}, gallery=True)
+        card = lambda name: page.locator(f'#gallery [data-preset="{name}"]')
+        came = lambda name: card(name).locator('img').evaluate('image => image.complete && image.naturalWidth')
+        self.assertTrue(daemon.eventually(lambda: card('smooth').count() and card('smooth').get_attribute('aria-pressed') == 'true'))
+        self.assertEqual((card('edge-on').locator('b').inner_text(), card('edge-on').get_attribute('title')), ('Di taglio', 'Il disco visto lungo il suo piano: ciò che se ne vede è luce piegata'))
+        self.assertEqual(page.locator('#gallery [tabindex="0"]').count(), 1, 'one stop of the tab key')
+        card('smooth').focus()
+        page.keyboard.press('ArrowLeft') # the one before it: smooth is the last
+        there = lambda: page.evaluate('document.activeElement.dataset.preset')
+        self.assertTrue(daemon.eventually(lambda: there() not in (None, 'smooth')))
+        name = there()
+        page.keyboard.press('Enter')
+        self.assertTrue(daemon.eventually(lambda: page.input_value('#preset') == name and card(name).get_attribute('aria-pressed') == 'true'))
+        self.assertTrue(daemon.eventually(lambda: came(name) == 192, 120))
+        self.assertFalse(card('m87').locator('img').get_attribute('src'), 'what is not in sight is not asked for')
+        words = page.evaluate('''async () => { const { presets } = await (await fetch('v1/presets')).json(), it = await import('./web/it.js');
+            return presets.filter(({ name }) => !it.labels[name] || !it.presets[name]).map(({ name }) => name); }''')
+        self.assertEqual(words, [], 'presets without Italian')
+        self.shot(page, 'gallery-it')
+
     def test_a_link_goes_before_it(self):
         for fragment, name, tilt in (('lang=en&camera.inclination_deg=60', 'own', '60'), ('lang=en&preset=edge-on', 'edge-on', '90'), ('lang=en&preset=default', '', '82')):
             page = self.opened('living-disk', fragment, AT_REST)

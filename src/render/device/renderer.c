@@ -151,6 +151,8 @@ void kd_renderer_capacity(struct kd_renderer *renderer, struct kd_capacity *out)
 
 const char *kd_renderer_device_name(const struct kd_renderer *renderer) { return renderer->name; }
 
+char *kd_renderer_cache_file(const struct kd_renderer *renderer, const char *suffix) { return kd_vk_cache_file(renderer->vk, suffix); }
+
 uint32_t kd_renderer_validation_messages(const struct kd_renderer *renderer)
 {
     return kd_vk_validation_messages(renderer->vk);

@@ -159,6 +159,8 @@ const char *kd_render_queue_device_name(const struct kd_render_queue *queue)
     return kd_renderer_device_name(queue->renderer);
 }
 
+char *kd_render_queue_cache_file(const struct kd_render_queue *queue, const char *suffix) { return kd_renderer_cache_file(queue->renderer, suffix); }
+
 enum kd_status kd_render_queue_device_json(struct kd_render_queue *queue, struct kd_buffer *out)
 {
     pthread_mutex_lock(&queue->lock);

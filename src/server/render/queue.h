@@ -81,6 +81,8 @@ void kd_render_queue_destroy(struct kd_render_queue *queue);
 /* Any thread. */
 void kd_render_queue_capacity(struct kd_render_queue *queue, struct kd_capacity *out);
 const char *kd_render_queue_device_name(const struct kd_render_queue *queue);
+/* As kd_renderer_cache_file. */
+char *kd_render_queue_cache_file(const struct kd_render_queue *queue, const char *suffix);
 /* As after the latest render. */
 enum kd_status kd_render_queue_device_json(struct kd_render_queue *queue, struct kd_buffer *out);
 /* As now on disk; errors as kd_renderer_accuracy_json. */

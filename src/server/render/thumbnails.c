@@ -1,10 +1,10 @@
 #include "server/render/thumbnails.h"
 
 #include "base/buffer.h"
-#include "render/output/format.h"
 #include "scene/scene.h"
 #include "server/http/negotiate.h"
 #include "server/http/reply.h"
+#include "server/render/painter.h"
 #include "server/render/queue.h"
 
 #include <stdio.h>
@@ -14,45 +14,44 @@
 #define SAMPLES 3 /* rays along each side of a pixel: so small a picture needs smooth edges */
 
 struct thumbnail {
+    struct kd_painting painting; /* first; its png is never changed again once it is there */
     char etag[120];
-    struct kd_scene scene;
-    struct kd_buffer png; /* empty: not yet; never changed again */
+    bool there, busy; /* busy: the painter has it */
     struct kd_request *waiting; /* suspended, the newest first */
-    struct kd_error error; /* of the latest try */
+    struct kd_thumbnails *of;
 };
 
 struct kd_thumbnails {
     struct kd_server *server;
+    struct kd_painter *painter;
     pthread_mutex_t lock;
-    bool busy; /* one is being rendered */
     unsigned rendered;
     size_t n;
     struct thumbnail *all; /* in the order of the presets */
 };
 
-/* The job of one, whose thumbnail it is. */
-struct work {
-    struct kd_render_job job; /* first */
-    struct kd_thumbnails *of;
-    size_t index;
-};
+static void done(struct kd_painting *painting);
 
 static enum kd_status make(const struct kd_server *server, struct thumbnail *t, size_t i)
 {
     char hash[65];
     struct kd_error error;
     enum kd_status status;
-    KD_TRY(kd_scene_preset(&t->scene, kd_scene_preset_name(i), &error));
-    t->scene.image.width = KD_THUMBNAIL_WIDTH;
-    t->scene.image.height = KD_THUMBNAIL_HEIGHT;
-    t->scene.image.samples = SAMPLES;
-    KD_TRY(kd_scene_hash(&t->scene, hash));
+    struct kd_scene *scene = &t->painting.scene;
+    KD_TRY(kd_scene_preset(scene, kd_scene_preset_name(i), &error));
+    scene->image.width = KD_THUMBNAIL_WIDTH;
+    scene->image.height = KD_THUMBNAIL_HEIGHT;
+    scene->image.samples = SAMPLES;
+    KD_TRY(kd_scene_hash(scene, hash));
     snprintf(t->etag, sizeof t->etag, "\"%s-%s\"", hash, server->etag_tail);
+    t->painting.name = kd_scene_preset_name(i);
+    t->painting.mark = t->etag;
+    t->painting.done = done;
 done:
     return status;
 }
 
-enum kd_status kd_thumbnails_create(struct kd_server *server, struct kd_thumbnails **out, struct kd_error *error)
+enum kd_status kd_thumbnails_create(struct kd_server *server, const struct kd_renderer_params *renderer, struct kd_thumbnails **out, struct kd_error *error)
 {
     struct kd_thumbnails *s = calloc(1, sizeof *s);
     enum kd_status status = s && (s->all = calloc(kd_scene_preset_count(), sizeof *s->all)) ? KD_OK : KD_ENOMEM;
@@ -60,20 +59,32 @@ enum kd_status kd_thumbnails_create(struct kd_server *server, struct kd_thumbnai
         s->server = server;
         pthread_mutex_init(&s->lock, NULL);
     }
-    for (; !status && s->n < kd_scene_preset_count(); s->n++)
+    for (; !status && s->n < kd_scene_preset_count(); s->n++) {
+        s->all[s->n].of = s;
         status = make(server, &s->all[s->n], s->n);
+    }
+    if (status)
+        kd_error_set(error, KD_ENOMEM, "out of memory for the small pictures of presets");
+    else
+        status = kd_painter_create(renderer, kd_render_queue_device_name(server->renders), kd_render_queue_cache_file(server->renders, ".preset-"),
+                                   &s->painter, error);
     if (!status)
         return *out = s, KD_OK;
     kd_thumbnails_destroy(s);
-    return kd_error_set(error, KD_ENOMEM, "out of memory for the small pictures of presets");
+    return status;
 }
+
+void kd_thumbnails_cancel(struct kd_thumbnails *s) { kd_painter_cancel(s->painter); }
+
+unsigned kd_thumbnails_unfinished(struct kd_thumbnails *s) { return kd_painter_unfinished(s->painter); }
 
 void kd_thumbnails_destroy(struct kd_thumbnails *s)
 {
     if (!s)
         return;
+    kd_painter_destroy(s->painter);
     for (size_t i = 0; i < s->n; i++)
-        kd_buffer_finish(&s->all[i].png);
+        kd_buffer_finish(&s->all[i].painting.png);
     pthread_mutex_destroy(&s->lock);
     free(s->all);
     free(s);
@@ -105,74 +116,18 @@ static void resume(struct kd_request *waiting)
     }
 }
 
-static void done(struct kd_render_job *job);
-
-static enum kd_status push(struct kd_thumbnails *s, size_t i, struct kd_error *error)
+/* On the painter's thread. */
+static void done(struct kd_painting *painting)
 {
-    struct thumbnail *t = &s->all[i];
-    struct kd_capacity capacity;
-    if (atomic_load(&s->server->phase) >= KD_REFUSING)
-        return kd_error_set(error, KD_ECANCELLED, "the server is stopping and takes no new renders");
-    struct work *work = calloc(1, sizeof *work);
-    if (!work)
-        return kd_error_set(error, KD_ENOMEM, "out of memory for a small picture of a preset");
-    work->of = s;
-    work->index = i;
-    work->job = (struct kd_render_job) { .claim.class = KD_CLASS_JOB, .scene = t->scene, .format = kd_formats[0], .effort = KD_EFFORT_KEEP,
-                                         .socket = -1, .done = done };
-    memcpy(work->job.claim.client, t->waiting->client, sizeof work->job.claim.client);
-    kd_render_queue_capacity(s->server->renders, &capacity);
-    enum kd_status status = kd_format_plan(kd_formats[0], &work->job.scene, &capacity, &work->job.plan, error);
-    if (status)
-        free(work);
-    else
-        kd_render_queue_push(s->server->renders, &work->job);
-    return status;
-}
-
-/* Begins with the next one that somebody waits for. Locked; what is returned could not be begun, and is to be resumed. */
-static struct kd_request *next(struct kd_thumbnails *s)
-{
-    struct kd_request *refused = NULL, **end = &refused;
-    for (size_t i = 0; i < s->n && !s->busy; i++) {
-        struct thumbnail *t = &s->all[i];
-        if (!t->waiting)
-            continue;
-        t->error = (struct kd_error) { 0 };
-        s->busy = !push(s, i, &t->error);
-        if (s->busy)
-            break;
-        *end = take(t);
-        while (*end)
-            end = &(*end)->also_waiting;
-    }
-    return refused;
-}
-
-/* On a thread of the queue. */
-static void done(struct kd_render_job *job)
-{
-    struct work *work = (struct work *)job;
-    struct kd_thumbnails *s = work->of;
-    struct thumbnail *t = &s->all[work->index];
+    struct thumbnail *t = (struct thumbnail *)painting;
+    struct kd_thumbnails *s = t->of;
     pthread_mutex_lock(&s->lock);
-    if (job->status) {
-        t->error = job->error;
-        t->error.status = job->status;
-    } else {
-        t->png = job->file;
-        job->file = (struct kd_buffer) { 0 };
-        s->rendered++;
-    }
+    t->there = !painting->status;
+    t->busy = false;
+    s->rendered += painting->painted;
     struct kd_request *waiting = take(t);
-    s->busy = false;
-    struct kd_request *refused = next(s);
     pthread_mutex_unlock(&s->lock);
     resume(waiting);
-    resume(refused);
-    kd_buffer_finish(&job->file);
-    kd_frame_finish(&job->frame);
-    free(work);
 }
 
 static struct thumbnail *find(struct kd_thumbnails *s, const char *name)
@@ -192,26 +147,36 @@ static enum MHD_Result answer(struct kd_request *request, const struct thumbnail
     return kd_reply_send(request, status, response);
 }
 
+static enum MHD_Result refuse(struct kd_request *request, const struct kd_error *error)
+{
+    if (error->status == KD_ECANCELLED || atomic_load(&request->server->phase) >= KD_REFUSING)
+        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_STOPPING, .retry_after = 1,
+                                                                .detail = "the server is stopping and paints no more small pictures" });
+    return kd_reply_error(request, error);
+}
+
 /* Waits for it, unless it is there, or has just been tried in vain. */
 static enum MHD_Result give(struct kd_request *request, struct kd_thumbnails *s, struct thumbnail *t)
 {
     pthread_mutex_lock(&s->lock);
-    const bool there = t->png.size, tried = request->waited;
-    struct kd_request *refused = NULL;
-    struct kd_error error = t->error;
-    if (!there && !tried) {
+    const bool there = t->there, waits = !there && !request->waited && atomic_load(&request->server->phase) < KD_REFUSING, begin = waits && !t->busy;
+    const struct kd_error error = t->painting.error;
+    if (waits) {
         request->waited = true;
         request->also_waiting = t->waiting;
         t->waiting = request;
         MHD_suspend_connection(request->mhd);
-        refused = next(s);
+    }
+    if (begin) {
+        t->busy = true;
+        t->painting.status = KD_OK;
+        t->painting.error = (struct kd_error) { 0 };
+        kd_painter_paint(s->painter, &t->painting);
     }
     pthread_mutex_unlock(&s->lock);
-    resume(refused);
-    if (there)
-        return answer(request, t, MHD_HTTP_OK, kd_reply_static(t->png.data, t->png.size, "image/png"));
-    return !tried ? MHD_YES : error.status == KD_ECANCELLED ? kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_STOPPING, .retry_after = 1, .detail = error.message })
-                                                            : kd_reply_error(request, &error);
+    if (waits)
+        return MHD_YES;
+    return there ? answer(request, t, MHD_HTTP_OK, kd_reply_static(t->painting.png.data, t->painting.png.size, "image/png")) : refuse(request, &error);
 }
 
 enum MHD_Result kd_handle_thumbnail(struct kd_request *request)

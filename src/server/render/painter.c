@@ -1,0 +1,240 @@
+#include "server/render/painter.h"
+
+#include "base/clock.h"
+#include "base/log.h"
+#include "base/read.h"
+#include "base/replace.h"
+#include "render/output/format.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <time.h>
+#include <unistd.h>
+
+#define NICE 10              /* a tenth of the weight of what is live */
+#define MEMORY_BYTES (768ull << 20)
+#define IDLE_S 10            /* after which its device is closed */
+#define FILE_MAX_BYTES ((size_t)1 << 20)
+
+struct kd_painter {
+    struct kd_renderer_params params;
+    const char *device_name;
+    char *kept_at;
+    pthread_t thread;
+    pthread_mutex_t lock;
+    pthread_cond_t changed;
+    struct kd_painting *first, **end; /* that wait */
+    bool ending;
+    _Atomic bool cancelled;
+    atomic_uint unfinished;
+    struct kd_renderer *renderer; /* the thread's own; NULL: not open */
+    bool lost;                    /* it cannot be torn down, nor opened again */
+};
+
+/* Stands before the picture in its file. */
+struct head { char magic[8]; uint64_t bytes, hash; char mark[128]; };
+static const char magic[8] = "kdsmall";
+
+/* FNV-1a, 64 bits: against damage, not against malice; the directory is the user's own. */
+static uint64_t hash_of(const uint8_t *data, size_t size)
+{
+    uint64_t hash = UINT64_C(0xcbf29ce484222325);
+    for (size_t i = 0; i < size; i++)
+        hash = (hash ^ data[i]) * UINT64_C(0x100000001b3);
+    return hash;
+}
+
+static struct head head_of(const struct kd_painting *work, const uint8_t *png, size_t bytes)
+{
+    struct head head = { .bytes = bytes, .hash = hash_of(png, bytes) };
+    memcpy(head.magic, magic, sizeof magic);
+    snprintf(head.mark, sizeof head.mark, "%s", work->mark);
+    return head;
+}
+
+static char *path_of(const struct kd_painter *painter, const struct kd_painting *work)
+{
+    char *path = NULL;
+    return painter->kept_at && asprintf(&path, "%s%s.png", painter->kept_at, work->name) >= 0 ? path : NULL;
+}
+
+static bool recall(const struct kd_painter *painter, struct kd_painting *work)
+{
+    char *path = path_of(painter, work);
+    struct kd_buffer file = { 0 };
+    bool good = path && kd_read_file(AT_FDCWD, path, 0, FILE_MAX_BYTES, &file) && file.size > sizeof(struct head);
+    if (good) {
+        const uint8_t *png = (const uint8_t *)file.data + sizeof(struct head);
+        const struct head head = head_of(work, png, file.size - sizeof head);
+        good = !memcmp(&head, file.data, sizeof head) && !kd_buffer_append(&work->png, png, head.bytes);
+    }
+    kd_buffer_finish(&file);
+    free(path);
+    return good;
+}
+
+static void keep(const struct kd_painter *painter, const struct kd_painting *work)
+{
+    char *path = path_of(painter, work);
+    struct kd_buffer file = { 0 };
+    const struct head head = head_of(work, work->png.data, work->png.size);
+    if (path && !kd_buffer_append(&file, &head, sizeof head) && !kd_buffer_append(&file, work->png.data, work->png.size) &&
+        !kd_replace_file(path, file.data, file.size))
+        kd_log(KD_LOG_DEBUG, "cannot write %s: %s", path, strerror(errno));
+    kd_buffer_finish(&file);
+    free(path);
+}
+
+static bool go_on(void *user, double fraction)
+{
+    struct kd_painter *painter = user;
+    (void)fraction;
+    return !atomic_load(&painter->cancelled);
+}
+
+static enum kd_status open_device(struct kd_painter *painter, struct kd_error *error)
+{
+    if (painter->renderer)
+        return KD_OK;
+    if (painter->lost)
+        return kd_error_set(error, KD_EDEVICE, "the device that paints small pictures is lost");
+    return kd_renderer_create(&painter->params, &painter->renderer, error);
+}
+
+static void close_device(struct kd_painter *painter)
+{
+    if (!painter->renderer)
+        return;
+    kd_renderer_sky_stop(painter->renderer);
+    if (!painter->lost)
+        kd_renderer_destroy(painter->renderer);
+    painter->renderer = NULL;
+}
+
+static enum kd_status paint(struct kd_painter *painter, struct kd_painting *work)
+{
+    struct kd_capacity capacity;
+    struct kd_plan plan;
+    struct kd_frame frame = { 0 };
+    struct kd_error *error = &work->error;
+    enum kd_status status;
+    KD_TRY(open_device(painter, error));
+    kd_renderer_capacity(painter->renderer, &capacity);
+    KD_TRY(kd_format_plan(kd_formats[0], &work->scene, &capacity, &plan, error));
+    KD_TRY(kd_render(painter->renderer, &work->scene, &plan, go_on, painter, &frame, error));
+    const struct kd_picture picture = { &frame, &work->scene, &plan, painter->device_name, 0 };
+    KD_TRY(kd_encode(kd_formats[0], &picture, KD_EFFORT_KEEP, NULL, &work->png, error));
+    work->painted = true;
+    keep(painter, work);
+done:
+    kd_frame_finish(&frame);
+    painter->lost |= status == KD_EDEVICE && painter->renderer;
+    return status;
+}
+
+static void serve(struct kd_painter *painter, struct kd_painting *work)
+{
+    if (atomic_load(&painter->cancelled))
+        work->status = kd_error_set(&work->error, KD_ECANCELLED, "the server is stopping and paints no more");
+    else if (!recall(painter, work))
+        work->status = paint(painter, work);
+    work->error.status = work->status;
+    work->done(work);
+    atomic_fetch_sub(&painter->unfinished, 1);
+}
+
+/* The next one; NULL: none came for a while, or the end. Locked. */
+static struct kd_painting *await(struct kd_painter *painter)
+{
+    struct timespec until;
+    clock_gettime(CLOCK_REALTIME, &until);
+    until.tv_sec += IDLE_S;
+    for (int late = 0; !painter->first && !painter->ending && !late;)
+        late = painter->renderer ? pthread_cond_timedwait(&painter->changed, &painter->lock, &until) : pthread_cond_wait(&painter->changed, &painter->lock);
+    struct kd_painting *work = painter->first;
+    if (work && !(painter->first = work->next))
+        painter->end = &painter->first;
+    return work;
+}
+
+static void *painter_main(void *user)
+{
+    struct kd_painter *painter = user;
+    const pid_t self = (pid_t)syscall(SYS_gettid);
+    setpriority(PRIO_PROCESS, (id_t)self, getpriority(PRIO_PROCESS, (id_t)self) + NICE); /* threads that it starts, the driver's, have it from it */
+    pthread_mutex_lock(&painter->lock);
+    for (;;) {
+        struct kd_painting *work = await(painter);
+        const bool over = !work && painter->ending;
+        pthread_mutex_unlock(&painter->lock);
+        if (work)
+            serve(painter, work);
+        else
+            close_device(painter);
+        if (over)
+            return NULL;
+        pthread_mutex_lock(&painter->lock);
+    }
+}
+
+enum kd_status kd_painter_create(const struct kd_renderer_params *params, const char *device_name, char *kept_at, struct kd_painter **out,
+                                 struct kd_error *error)
+{
+    struct kd_painter *painter = calloc(1, sizeof *painter);
+    if (!painter) {
+        free(kept_at);
+        return kd_error_set(error, KD_ENOMEM, "out of memory for the painter of small pictures");
+    }
+    *painter = (struct kd_painter) { .params = *params, .device_name = device_name, .kept_at = kept_at };
+    painter->params.prove = NULL; /* the device is known by then */
+    painter->params.sky_made = NULL;
+    painter->params.memory_bytes = MEMORY_BYTES;
+    painter->end = &painter->first;
+    pthread_mutex_init(&painter->lock, NULL);
+    pthread_cond_init(&painter->changed, NULL);
+    if (!pthread_create(&painter->thread, NULL, painter_main, painter))
+        return *out = painter, KD_OK;
+    pthread_cond_destroy(&painter->changed);
+    pthread_mutex_destroy(&painter->lock);
+    free(kept_at);
+    free(painter);
+    return kd_error_set(error, KD_ENOMEM, "the thread that paints small pictures could not be started");
+}
+
+void kd_painter_paint(struct kd_painter *painter, struct kd_painting *painting)
+{
+    painting->next = NULL;
+    atomic_fetch_add(&painter->unfinished, 1);
+    pthread_mutex_lock(&painter->lock);
+    *painter->end = painting;
+    painter->end = &painting->next;
+    pthread_cond_signal(&painter->changed);
+    pthread_mutex_unlock(&painter->lock);
+}
+
+void kd_painter_cancel(struct kd_painter *painter) { atomic_store(&painter->cancelled, true); }
+
+unsigned kd_painter_unfinished(const struct kd_painter *painter) { return atomic_load(&painter->unfinished); }
+
+void kd_painter_destroy(struct kd_painter *painter)
+{
+    if (!painter)
+        return;
+    kd_painter_cancel(painter);
+    pthread_mutex_lock(&painter->lock);
+    painter->ending = true;
+    pthread_cond_signal(&painter->changed);
+    pthread_mutex_unlock(&painter->lock);
+    pthread_join(painter->thread, NULL);
+    pthread_cond_destroy(&painter->changed);
+    pthread_mutex_destroy(&painter->lock);
+    free(painter->kept_at);
+    free(painter);
+}
