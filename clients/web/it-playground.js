@@ -3,6 +3,7 @@ export const values = { 'paczynski-wiita': 'Paczyński–Wiita', kerr: 'Kerr' };
 
 export const presets = {
   disruption: 'Stella strappata',
+  'white-dwarf': 'Nana bianca',
   system: 'Sistema',
   binary: 'Binaria',
   emri: 'EMRI, spirale con chirp',
@@ -39,6 +40,8 @@ export const sentences = {
   three: 'tre',
   other: 'altro',
   'A star on a pass so close that the tide tears it apart': 'Una stella passa così vicino che la marea la fa a pezzi',
+  'A white dwarf torn apart by a hole of a thousand suns: its debris comes back within a minute': 'Una nana bianca fatta a pezzi da un buco di mille soli: i suoi detriti tornano in meno di un minuto',
+  'white dwarf': 'nana bianca',
   'Five planets round the hole, and a moon': 'Cinque pianeti attorno al buco, e una luna',
   'Two bodies that spiral together, their loss to waves exaggerated a thousand times': 'Due corpi che si avvicinano a spirale, con la perdita in onde esagerata mille volte',
   'A light body that spirals into the hole, its loss to waves exaggerated twenty times': 'Un corpo leggero che scende a spirale nel buco, con la perdita in onde esagerata venti volte',

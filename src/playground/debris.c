@@ -1,8 +1,8 @@
 #include "playground/debris.h"
 
+#include "base/random.h"
 #include "image/npy.h"
 #include "playground/hole.h"
-#include "playground/random.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -97,8 +97,8 @@ static void directions(const double x[3], const double v[3], double e[3][3])
 static struct kd_debris_piece piece_of(const struct kd_debris_shed *shed, double e[3][3], double u, double energy)
 {
     struct kd_debris_piece piece = { .stage = KD_DEBRIS_LEAVES };
-    const double turn = 2 * M_PI * kd_playground_random(shed->seed, shed->random);
-    const double aside = shed->radius * sqrt((1 - u * u) * kd_playground_random(shed->seed, shed->random));
+    const double turn = 2 * M_PI * kd_random_drawn(shed->seed, shed->random);
+    const double aside = shed->radius * sqrt((1 - u * u) * kd_random_drawn(shed->seed, shed->random));
     const double at[3] = { u * shed->radius, aside * cos(turn), aside * sin(turn) };
     double x[3], speed2 = 0;
     for (int k = 0; k < 3; k++) {
@@ -123,7 +123,7 @@ void kd_debris_shed(struct kd_playground_debris *debris, struct kd_debris_source
     directions(shed->x, shed->v, e);
     const double energy = kd_playground_specific(shed->x, shed->v);
     for (uint32_t i = 0; i < shed->n; i++) {
-        const double u = 2 * (i + kd_playground_random(shed->seed, shed->random)) / shed->n - 1; /* even, and in its place at random */
+        const double u = 2 * (i + kd_random_drawn(shed->seed, shed->random)) / shed->n - 1; /* even, and in its place at random */
         source->pieces++;
         if (!debris->capacity) {
             source->lost++;

@@ -1,7 +1,7 @@
 #include "playground/preset.h"
 
+#include "base/random.h"
 #include "playground/hole.h"
-#include "playground/random.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -24,7 +24,15 @@ static struct kd_playground_body circling(double r, double phi, double inclinati
     };
 }
 
-/* The sun and a hole of a million suns, on a parabola whose pericentre is 1.2 times as deep as the tidal radius, 47 M. */
+/* On a parabola whose pericentre is 1.2 times as deep as the tidal radius, r away from the hole. */
+static struct kd_playground_body passing(double mass, double radius, double temperature_k, double r)
+{
+    const double pericentre = radius * cbrt(1 / mass) / 1.2, l = pericentre * sqrt(2 / (pericentre - 2)), across = l / r;
+    return (struct kd_playground_body) { .mass = mass, .radius = radius, .temperature_k = temperature_k, .x = { r, 0, 0 },
+                                         .v = { -sqrt(2 / (r - 2) - across * across), across, 0 } };
+}
+
+/* The sun and a hole of a million suns: the tidal radius is 47 M. */
 static void disruption_settings(struct kd_playground_params *s)
 {
     s->h_max = 5; /* at 100 M a second twenty pictures */
@@ -33,10 +41,20 @@ static void disruption_settings(struct kd_playground_params *s)
 
 static enum kd_status disruption(struct kd_playground *p, struct kd_error *error)
 {
-    const double mass = 1e-6, radius = 0.47, pericentre = radius * cbrt(1 / mass) / 1.2, r = 300;
-    const double l = pericentre * sqrt(2 / (pericentre - 2)), across = l / r;
-    return add(p, "star", (struct kd_playground_body) { .mass = mass, .radius = radius, .temperature_k = 5800, .x = { r, 0, 0 },
-                                                       .v = { -sqrt(2 / (r - 2) - across * across), across, 0 } }, error);
+    return add(p, "star", passing(1e-6, 0.47, 5800, 300), error);
+}
+
+/* A white dwarf of one sun, 5500 km large, and a hole of a thousand suns, on a parabola as deep as the star's above: the tidal radius is 37 M, and what is bound most tightly
+ * comes back after 16 000 M, 78 s there. */
+static void dwarf_settings(struct kd_playground_params *s)
+{
+    s->h_max = 5;
+    s->debris_per_body = 50000;
+}
+
+static enum kd_status dwarf(struct kd_playground *p, struct kd_error *error)
+{
+    return add(p, "white dwarf", passing(1e-3, 3.7, 20000, 150), error);
 }
 
 static void system_settings(struct kd_playground_params *s)
@@ -122,13 +140,15 @@ static enum kd_status swarm(struct kd_playground *p, struct kd_error *error)
     enum kd_status status = KD_OK;
     uint64_t *n = &p->random;
     for (int i = 0; !status && i < 400; i++) {
-        const double r = 20 * pow(5, kd_playground_random(p->params.seed, n)), phi = 2 * M_PI * kd_playground_random(p->params.seed, n);
-        struct kd_playground_body body = circling(r, phi, 0.3 * kd_playground_random(p->params.seed, n), 2 * M_PI * kd_playground_random(p->params.seed, n));
+        double drawn[5]; /* one after the other: arguments of a call have no order */
+        for (int k = 0; k < 5; k++)
+            drawn[k] = kd_random_drawn(p->params.seed, n);
+        struct kd_playground_body body = circling(20 * pow(5, drawn[0]), 2 * M_PI * drawn[1], 0.3 * drawn[2], 2 * M_PI * drawn[3]);
         char name[KD_PLAYGROUND_NAME];
         snprintf(name, sizeof name, "swarm %d", i + 1);
         body.mass = 1e-7;
         body.radius = 0.1;
-        body.temperature_k = 3000 + 9000 * kd_playground_random(p->params.seed, n);
+        body.temperature_k = 3000 + 9000 * drawn[4];
         status = add(p, name, body, error);
     }
     return status;
@@ -162,6 +182,8 @@ static enum kd_status eight(struct kd_playground *p, struct kd_error *error)
 const struct kd_playground_preset kd_playground_presets[] = {
     { "disruption", "A star on a pass so close that the tide tears it apart", 100, { 0 }, 330, disruption_settings, disruption,
       "{\"spacetime\":{\"spin\":0},\"camera\":{\"inclination_deg\":60,\"field_m\":180},\"disk\":{\"outer\":22}}" },
+    { "white-dwarf", "A white dwarf torn apart by a hole of a thousand suns: its debris comes back within a minute", 300, { 0 }, 330, dwarf_settings, dwarf,
+      "{\"spacetime\":{\"spin\":0},\"camera\":{\"inclination_deg\":30,\"field_m\":640,\"centre_beta\":-80},\"disk\":{\"outer\":20}}" },
     { "system", "Five planets round the hole, and a moon", 100, { 0 }, 120, system_settings, planets,
       "{\"spacetime\":{\"spin\":0},\"camera\":{\"inclination_deg\":75,\"field_m\":90},\"disk\":{\"outer\":11}}" },
     { "binary", "Two bodies that spiral together, their loss to waves exaggerated a thousand times", 200, { 1000 }, 6, binary_settings, binary,

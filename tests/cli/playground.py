@@ -26,7 +26,7 @@ class Playground(Case):
 
     def test_presets_begin_and_go_on(self):
         names = [line.split()[0] for line in self.good("playground", "--list").decode().splitlines()]
-        self.assertEqual(names, ["disruption", "system", "binary", "emri", "swarm", "figure-eight"])
+        self.assertEqual(names, ["disruption", "white-dwarf", "system", "binary", "emri", "swarm", "figure-eight"])
         for name in names:
             begun = json.loads(self.good("playground", "-p", name))
             later = json.loads(self.good("playground", "-p", name, "--time", "3"))

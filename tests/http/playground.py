@@ -70,7 +70,7 @@ class Playground(daemon.Owned):
 
     def test_what_may_be_asked(self):
         told = self.daemon.get('/v1/playground').json()
-        self.assertEqual([p['name'] for p in told['presets']], ['disruption', 'system', 'binary', 'emri', 'swarm', 'figure-eight'])
+        self.assertEqual([p['name'] for p in told['presets']], ['disruption', 'white-dwarf', 'system', 'binary', 'emri', 'swarm', 'figure-eight'])
         rows = {row['name']: row for row in told['settings'] + told['pace'] + told['body']}
         self.assertEqual((rows['gravity']['words'], rows['gravity']['fixed'], rows['waves']['default']), (['paczynski-wiita', 'kerr'], True, False))
         self.assertEqual((rows['rate']['most'], rows['mass']['most']), (1e9, 1e12))

@@ -4,7 +4,8 @@
  * G. Clayton & J. Mathis 1989, ApJ 345, 245). The band is as bright as that of the sky: some 21 magnitudes a square arcsecond where it is
  * brightest, a tenth of that at 30 degrees from it (C. Leinert et al. 1998, A&AS 127, 1, section 10). No place in it is a place in the sky. */
 #include "render/sky/panorama.h"
-#include "render/sky/random.h"
+
+#include "base/random.h"
 
 #include <math.h>
 #include <stdlib.h>

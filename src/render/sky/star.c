@@ -1,7 +1,7 @@
 #include "render/sky/star.h"
 
+#include "base/random.h"
 #include "render/sky/frame.h"
-#include "render/sky/random.h"
 
 #include <math.h>
 #include <stdlib.h>
