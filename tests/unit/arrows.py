@@ -39,7 +39,7 @@ FOREIGN = {
     "libdeflate.h": {"image"},
     "isa-l/": {"image"},
     "zlib.h": {"image"},
-    "nettle/": {"scene"},
+    "nettle/": {"scene", "playground"},
     "argp.h": {"cli"},
 }
 # Made from shaders/, which has no other way to be included.
