@@ -5,12 +5,16 @@
  *     golden --long DIR     these alone
  *     golden --update DIR   write them anew
  *
+ * and behind DIR a name, for this picture alone.
+ *
  * A reference holds the exposure it was made with in its scene. Auto exposure is quantised to an eighth of a
  * stop: a pixel at the edge of a bin may move it on another device, and every pixel with it. So the exposure
  * found is compared on its own, and the pixels at the exposure of the reference. */
 #include "studio.h"
 
 #include "image/png.h"
+#include "playground/json.h"
+#include "playground/show.h"
 #include "render/output/png.h"
 
 #include <math.h>
@@ -23,6 +27,8 @@
 
 static const struct shot {
     const char *name, *preset, *json;
+    const char *playground; /* NULL; else JSON of the playground that is shown, */
+    double after;           /* so long after its begin */
 } shots[] = {
     { "default", "gas", "{" SIZE "}" },
     { "smooth", "smooth", "{" SIZE "}" },
@@ -83,6 +89,8 @@ static const struct shot {
     { "deep", NULL,
       "{\"image\":{\"width\":160,\"height\":90,\"samples\":4,\"bit_depth\":16},"
       "\"style\":{\"tone_map\":\"srgb\"}}" },
+    { "torn-star", NULL,
+      "{\"camera\":{\"inclination_deg\":30,\"field_m\":300,\"centre_beta\":20},\"disk\":{\"outer\":20},\"spacetime\":{\"spin\":0},\"style\":{\"exposure\":1}," SIZE "}", "{\"preset\":\"white-dwarf\",\"debris_per_body\":20000}", 1800 },
 };
 #define SHOTS (sizeof shots / sizeof *shots)
 
@@ -108,7 +116,37 @@ static void sky_shot(size_t i, char name[64], char json[640], struct shot *out)
     snprintf(json, 640,
              "{\"spacetime\":{\"spin\":0.9},\"camera\":{\"r\":7,\"inclination_deg\":90,\"fov_deg\":120,\"pitch_deg\":10,%s},\"disk\":{\"model\":\"none\"},"
              "\"sky\":%s,\"style\":{\"exposure\":1},\"image\":{\"width\":144,\"height\":81,\"samples\":2}}", observers[i % OBSERVERS].json, skies[i / OBSERVERS].json);
-    *out = (struct shot) { name, NULL, json };
+    *out = (struct shot) { .name = name, .json = json };
+}
+
+static struct kd_crowd *crowd_of(const struct shot *shot)
+{
+    struct kd_playground_progress progress;
+    struct kd_playground *p = NULL;
+    struct kd_crowd *crowd = NULL;
+    struct kd_error error;
+    enum kd_status status = kd_playground_read(shot->playground, strlen(shot->playground), &p, &error);
+    if (!status)
+        kd_playground_advance(p, shot->after, &progress);
+    if (!status)
+        status = kd_playground_show(p, &crowd, &error);
+    kd_playground_destroy(p);
+    if (status) {
+        fprintf(stderr, "%s: %s\n", shot->name, error.message);
+        exit(1);
+    }
+    return crowd;
+}
+
+static struct kd_frame render(const struct shot *shot, const struct kd_scene *scene)
+{
+    struct kd_scene shown = *scene;
+    struct kd_crowd *crowd = shot->playground ? crowd_of(shot) : NULL;
+    if (crowd)
+        kd_scene_show(&shown, crowd);
+    struct kd_frame frame = studio_render(&shown);
+    kd_crowd_release(crowd);
+    return frame;
 }
 
 /* The last bits of sqrt, log2 and sin differ between devices: some 1e-6 of a crossing radius. With the rays'
@@ -195,7 +233,7 @@ static bool compare(const struct shot *shot, const char *path)
     }
     bool good = true;
     if (isinf(scene.style.exposure)) {
-        got = studio_render(&scene);
+        got = render(shot, &scene);
         if (!(fabs(got.exposure - want.exposure) < EXPOSURE_STEP)) {
             printf("%s: exposed by %g stops, not %g\n", shot->name, got.exposure, want.exposure);
             good = false;
@@ -203,7 +241,7 @@ static bool compare(const struct shot *shot, const char *path)
         kd_frame_finish(&got);
         scene.style.exposure = want.exposure;
     }
-    got = studio_render(&scene);
+    got = render(shot, &scene);
     good &= same_picture(shot->name, &got, &want);
     kd_frame_finish(&got);
     kd_frame_finish(&want);
@@ -213,7 +251,7 @@ static bool compare(const struct shot *shot, const char *path)
 static bool update(const struct shot *shot, const char *path)
 {
     struct kd_scene scene = studio_scene(shot->preset, shot->json);
-    struct kd_frame frame = studio_render(&scene);
+    struct kd_frame frame = render(shot, &scene);
     struct kd_buffer png = { 0 };
     struct kd_error error = { 0 };
     scene.style.exposure = frame.exposure;
@@ -241,8 +279,8 @@ int main(int argc, char **argv)
     const char *which = argc > 2 ? argv[1] : "";
     bool updating = !strcmp(which, "--update"), quick = !strcmp(which, "--quick"), slow = !strcmp(which, "--long");
     int options = updating || quick || slow;
-    if (argc != 2 + options) {
-        fprintf(stderr, "usage: golden [--update|--quick|--long] DIR\n");
+    if (argc != 2 + options && argc != 3 + options) {
+        fprintf(stderr, "usage: golden [--update|--quick|--long] DIR [NAME]\n");
         return 2;
     }
     int code = studio_open();
@@ -255,7 +293,8 @@ int main(int argc, char **argv)
             shot = shots[i];
         else
             sky_shot(i - SHOTS, name, json, &shot);
-        if ((quick || slow) && takes_long(&shot) != slow)
+        const char *only = argv[2 + options];
+        if (only ? strcmp(shot.name, only) != 0 : (quick || slow) && takes_long(&shot) != slow)
             continue;
         snprintf(path, sizeof path, "%s/%s.png", argv[1 + options], shot.name);
         if (!(updating ? update : compare)(&shot, path))
