@@ -46,7 +46,7 @@ export function showAccuracy(frame, scene) {
         `Radii are off by ${number(median, 2)} of themselves in the median, ${number(worst, 2)} at worst. Measured: ` +
           `${number(sampled)} of ${number(rays)} rays were traced again in double precision` +
           (differ ? `, and ${differ} had another fate.` : '.'),
-        `I raggi sul disco sono errati di ${number(median, 2)} (relativo, mediana) e di ${number(worst, 2)} nel caso peggiore. Misurato: ` +
+        `Le distanze r dei punti sul disco sono errate di ${number(median, 2)} (relativo, mediana) e di ${number(worst, 2)} nel caso peggiore. Misurato: ` +
           `${number(sampled)} raggi su ${number(rays)} sono stati ritracciati in doppia precisione` +
           (differ ? `, e ${differ} hanno avuto altra sorte.` : '.'),
       );

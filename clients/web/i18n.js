@@ -91,6 +91,7 @@ const labels = {
   mass2_msun: 'Second mass',
   star_mass_msun: 'Mass of the star',
   star_radius_rsun: 'Radius of the star',
+  b: 'b, impact parameter',
   p: 'p, semi-latus rectum',
   e: 'e, eccentricity',
   periods: 'Radial periods',
@@ -104,15 +105,21 @@ const labels = {
 
 const spell = name => (name[0].toUpperCase() + name.slice(1)).replace(/_(deg|k|uas|pc|msun|edd|s|hz|km)$/, '').replaceAll('_', ' ');
 
+function labelOf(path) {
+  const short = path.split('.').pop();
+  return (lang === 'it' ? (words.fields[path]?.[0] ?? words.fields[short]?.[0]) : (labels[path] ?? labels[short])) ?? spell(short);
+}
+
+// A help names other fields by their labels, not by their paths, and points to no file.
+const inside = /\b(?:spacetime|camera|disk|sky|image|style|accuracy|motion|spots|bodies|volume|jets)(?:\.[a-z_]+)+/g;
+const readable = help => help && help.replace(/ \(docs\/[^)]*\)/g, '').replace(/docs\/[\w./-]+\w/g, t('the documentation', 'la documentazione')).replace(inside, path => t(`“${labelOf(path)}”`, `«${labelOf(path)}»`));
+
 // Label and help of a field of the scene or of a parameter, from its path and the server's English.
 export function named(path, help) {
   path = path.replace(/\.\d+\./, '.'); // elements of a list have the same fields
-  const it = words?.fields[path];
-  const short = path.split('.').pop();
-  return {
-    label: (lang === 'it' ? (it?.[0] ?? words.fields[short]?.[0]) : (labels[path] ?? labels[short])) ?? spell(short),
-    ...(it?.[1] ? { help: it[1] } : helpOf(help)),
-  };
+  const own = words?.fields[path]?.[1],
+    told = own ? { help: own } : helpOf(help);
+  return { ...told, label: labelOf(path), help: readable(told.help) };
 }
 
 // A help text of the server as a sentence.

@@ -123,7 +123,7 @@ export const fields = {
   'camera.eye_distance': ['Distanza degli occhi', 'Distanza fra gli occhi, di traverso rispetto a dove guarda la camera (coppia)'],
   'camera.ring_decades_max': [
     'Decadi, massimo',
-    'log₁₀ della distanza dalla curva critica, in suoi raggi, ai bordi superiore e inferiore (anello)',
+    'log₁₀ della distanza dalla curva critica, rispetto alla distanza di questa dal suo centro, ai bordi superiore e inferiore (anello)',
   ],
   'camera.ring_decades_min': [
     'Decadi, minimo',
@@ -131,7 +131,7 @@ export const fields = {
   ],
   'disk.model': [
     'Modello',
-    'Flusso al variare del raggio: nessuno, l’integrale esatto di Page–Thorne, o il disco sottile newtoniano troncato all’ISCO',
+    'Flusso al variare di r: nessuno, l’integrale esatto di Page–Thorne, o il disco sottile newtoniano troncato all’ISCO',
   ],
   'disk.inner': ['Bordo interno', 'Mai dentro l’ISCO'],
   'disk.outer': ['Bordo esterno', 'Maggiore di quello interno'],
@@ -289,7 +289,7 @@ export const fields = {
   'accuracy.profile': ['Profilo', 'Con quanta cura si seguono i raggi, da grossolana a fine; riferimento è in doppia precisione'],
   'accuracy.tolerance': [
     'Tolleranza',
-    'Errore relativo dei raggi di attraversamento da garantire, secondo la tabella del dispositivo, invece del profilo',
+    'Errore relativo di r agli attraversamenti, da garantire, secondo la tabella del dispositivo, invece del profilo',
   ],
   'accuracy.engine': [
     'Motore',
@@ -311,6 +311,7 @@ export const fields = {
   star_mass_msun: ['Massa della stella'],
   star_radius_rsun: ['Raggio della stella'],
   orbit: ['Orbita'],
+  b: ['b, parametro d’impatto'],
   p: ['p, semilato retto'],
   e: ['e, eccentricità'],
   periods: ['Periodi radiali'],
@@ -464,7 +465,7 @@ const refusals = [
     '{} è {}, ammesso è {} salvo che camera.observer sia {} a un camera.r finito',
   ],
   ['{} is {} with {} {}; it needs a finite {}, at infinity use {}', '{} è {} con {} {}; vuole un {} finito, all’infinito usa {}'],
-  ['{} is {} with {} {}; parallel rays need {} {}, at a finite radius use {}', '{} è {} con {} {}; raggi paralleli vogliono {} {}, a un raggio finito usa {}'],
+  ['{} is {} with {} {}; parallel rays need {} {}, at a finite radius use {}', '{} è {} con {} {}; raggi paralleli vogliono {} {}, a distanza finita usa {}'],
   [
     '{} is {}, allowed is 0 with {} {}: beyond {} the modes of a hole crowd and none of them rings alone',
     '{} è {}, ammesso è 0 con {} {}: oltre {} i modi di un buco si affollano e nessuno risuona da solo',
@@ -641,12 +642,12 @@ export const sentences = {
   "gas: fast light: shown at one coordinate time, whatever the light's delay":
     'gas: luce veloce: mostrato a un solo tempo coordinato, qualunque sia il ritardo della luce',
   'gas: the optical depth of the disk is as its flux, a chosen number at the brightest radius, and grey; each crossing absorbs by its depth over the cosine of the angle of emission':
-    'gas: la profondità ottica del disco è come il suo flusso, un numero scelto al raggio più brillante, e grigia; ogni attraversamento assorbe secondo la profondità sul coseno dell’angolo di emissione',
+    'gas: la profondità ottica del disco è come il suo flusso, un numero scelto dove è più brillante, e grigia; ogni attraversamento assorbe secondo la profondità sul coseno dell’angolo di emissione',
   'disk: image orders beyond accuracy.orders are left out': 'disco: gli ordini d’immagine oltre accuracy.orders sono tralasciati',
   'particles: brightness is that of the smooth disk times their number over the mean; opacity stays as it is':
     'particelle: la luminosità è quella del disco liscio per il loro numero sulla media; l’opacità resta com’è',
   'particles: epicycles to first order about circular orbits, a chosen number a radius; no pressure, no collisions':
-    'particelle: epicicli al primo ordine attorno a orbite circolari, in numero scelto per raggio; niente pressione, niente urti',
+    'particelle: epicicli al primo ordine attorno a orbite circolari, in numero scelto secondo r; niente pressione, niente urti',
   "particles: fast light: the whole disk is shown at one coordinate time, whatever the light's delay":
     'particelle: luce veloce: tutto il disco è mostrato a un solo tempo coordinato, qualunque sia il ritardo della luce',
   'particles: over the delay of light they go round on their guiding circles':
@@ -733,7 +734,7 @@ export const sentences = {
   'arithmetic: 32-bit; rays closer than about 1e-5 to the critical curve may be given the wrong fate':
     'aritmetica: a 32 bit; ai raggi più vicini di circa 10⁻⁵ alla curva critica può toccare la sorte sbagliata',
   'arithmetic: 64-bit rays; the radii of their crossings are kept in 32 bits':
-    'aritmetica: raggi a 64 bit; i raggi dei loro attraversamenti sono conservati a 32 bit',
+    'aritmetica: raggi a 64 bit; le distanze r dei loro attraversamenti sono conservate a 32 bit',
   'rays: followed in Kerr-Schild coordinates for comparison; docs/accuracy.md says how much that costs':
     'raggi: seguiti in coordinate di Kerr–Schild per confronto; docs/accuracy.md dice quanto costa',
   'the server is stopping and takes no new sessions': 'il server si sta fermando e non apre nuove sessioni',

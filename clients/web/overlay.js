@@ -2,6 +2,7 @@
 // what is done with them here is to look through the camera at them.
 import { byId, el, latest, svg } from './dom.js';
 import { number, t, tell } from './i18n.js';
+import { nameLines } from './naming.js';
 import { drawn, physics } from './server.js';
 import * as link from './link.js';
 
@@ -83,6 +84,7 @@ async function shadow(scene, look) {
   const size = x => (far ? `${number(x)} M` : `${number(x / radians)}°`);
   return {
     lines: [path(points, true)],
+    tags: [t('edge of the shadow', 'bordo dell’ombra')],
     // There are no measures for an observer that moves in latitude.
     words:
       v.width === null
@@ -125,6 +127,7 @@ async function photons(scene, look) {
   if (Math.abs(one - other) > 1e-3) lines.push(await circle(scene, look, other));
   return {
     lines,
+    tags: lines.length > 1 ? [t('photons, with the turning', 'fotoni, nel verso'), t('photons, against', 'fotoni, contro')] : [t('photon orbit', 'orbita dei fotoni')],
     words: t(
       `r = ${number(one)} M with the disk’s turning, ${number(other)} M against it`,
       `r = ${number(one)} M nel verso del disco, ${number(other)} M nel verso opposto`,
@@ -133,7 +136,7 @@ async function photons(scene, look) {
 }
 
 async function isco(scene, look) {
-  return { lines: [await circle(scene, look, 'isco')], words: `r = ${number((await radii(scene)).isco)} M` };
+  return { lines: [await circle(scene, look, 'isco')], tags: ['ISCO'], words: `r = ${number((await radii(scene)).isco)} M` };
 }
 
 async function ergosphere(scene, look) {
@@ -141,6 +144,7 @@ async function ergosphere(scene, look) {
   if (!scene.get('spacetime.spin')) return { lines: [], words: t('none without spin', 'assente senza rotazione') };
   return {
     lines: [await circle(scene, look, edge)],
+    tags: [t('ergosphere', 'ergosfera')],
     words: t(
       `its edge in the equatorial plane, r = ${number(edge)} M; horizon ${number(horizon)} M`,
       `il suo bordo nel piano equatoriale, r = ${number(edge)} M; orizzonte ${number(horizon)} M`,
@@ -154,6 +158,7 @@ async function orders(scene, look) {
   for (const edge of edges) for (const order of [0, 1]) lines.push(await circle(scene, look, edge, order));
   return {
     lines,
+    tags: [t('inner edge, order 0', 'bordo interno, ordine 0'), t('inner edge, order 1', 'bordo interno, ordine 1'), t('outer edge, order 0', 'bordo esterno, ordine 0'), t('outer edge, order 1', 'bordo esterno, ordine 1')],
     words: t(
       'both edges of the disk, seen directly (order 0) and past the far side (order 1)',
       'i due bordi del disco, visti direttamente (ordine 0) e oltre il lato opposto (ordine 1)',
@@ -195,9 +200,10 @@ async function flamm(scene, look) {
   for (let k = 0; k < 72; k += 3) lines.push(path(radius.map((_, i) => place(i, around[k]))));
   return {
     lines,
+    tags: [t('curved space', 'spazio curvo')],
     words: t(
       `the equatorial plane embedded in flat space, its spokes dragged for ${dragged_for} M; straight lines of sight`,
-      `il piano equatoriale immerso nello spazio piatto, coi raggi trascinati per ${dragged_for} M; linee di vista diritte`,
+      `il piano equatoriale immerso nello spazio piatto, con le linee radiali trascinate per ${dragged_for} M; linee di vista diritte`,
     ),
   };
 }
@@ -238,22 +244,24 @@ export function buildOverlays(root, stage, scene) {
       if (!chosen.has(name)) continue;
       try {
         if (scene.get('camera.projection') === 'ring' || scene.get('camera.stereo') === 'pair') throw new Error(t('not in this projection', 'non in questa proiezione'));
-        const { lines, labels = [], words } = await make(scene, look);
-        groups.push(
-          svg(
+        const { lines, labels = [], tags = [], words } = await make(scene, look);
+        groups.push({
+          tags,
+          node: svg(
             'g',
             { class: 'over-' + name },
             lines.map(d => svg('path', { d })),
             labels.map(({ x, y, text }) => svg('text', { x: x + 7, y: y - 5 }, text)),
           ),
-        );
+        });
         notes.get(name).textContent = words;
       } catch (error) {
         tell(notes.get(name), refusals[error.pointer] ?? error.message);
       }
     }
     layer.setAttribute('viewBox', `0 0 ${width} ${height}`);
-    layer.replaceChildren(...groups);
+    layer.replaceChildren(...groups.map(({ node }) => node));
+    nameLines(groups, width, height);
     layer.classList.remove('late');
   });
 

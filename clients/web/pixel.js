@@ -101,7 +101,7 @@ export function buildPixel(stage, scene, size) {
       ? t('Also ', 'Anche ') + also.map(({ name, order, share }) => `${titled(name)}${order == null ? '' : ` (${t('order', 'ordine')} ${order})`} ${number(100 * share, 2)} %`).join(', ')
       : '';
     const { picture } = answer.accuracy;
-    error.textContent = picture > 0 ? t(`Its radii are within ${number(picture, 2)} of closed form.`, `I suoi raggi distano ${number(picture, 2)} dalla forma chiusa.`) : '';
+    error.textContent = picture > 0 ? t(`Its radii are within ${number(picture, 2)} of closed form.`, `Le sue distanze r differiscono di ${number(picture, 2)} dalla forma chiusa.`) : '';
     inset.show(answer, scene.get('spacetime.spin'));
   }
 

@@ -139,10 +139,10 @@ function drawMarks(u, marks) {
     else (ctx.moveTo(bbox.left, at), ctx.lineTo(bbox.left + bbox.width, at));
     ctx.stroke();
     ctx.fillStyle = colour('--ink');
-    ctx.textAlign = upright ? 'left' : 'right';
+    ctx.textAlign = upright && !mark.left ? 'left' : 'right';
     const above = at - bbox.top > 16 * ratio ? -4 : 14;
     const down = mark.low ? bbox.height - 8 * ratio : (12 + 14 * (i % 4)) * ratio;
-    const place = upright ? [at + 4 * ratio, bbox.top + down] : [bbox.left + bbox.width - 4 * ratio, at + above * ratio];
+    const place = upright ? [at + (mark.left ? -4 : 4) * ratio, bbox.top + down] : [bbox.left + bbox.width - 4 * ratio, at + above * ratio];
     ctx.fillText(mark.label ?? '', ...place);
   });
   ctx.restore();
@@ -171,7 +171,7 @@ function key(style) {
   return svg('svg', { viewBox: '0 0 26 8', class: 'key', 'aria-hidden': 'true' }, svg('path', { class: `line line-${style}`, d: 'M0 4H26' }));
 }
 
-// spec: { title, note, csv, live, x: { label, min, max, log }, y: likewise, series: [{ name, x, y, style }], marks: [{ x or y, label, low }] }.
+// spec: { title, note, csv, live, x: { label, min, max, log }, y: likewise, series: [{ name, x, y, style }], marks: [{ x or y, label, low, left }] }.
 // Returns the figure, with a method draw(spec) that puts other numbers into it.
 export function plot(first) {
   const id = 'plot-' + ++count,
@@ -220,7 +220,7 @@ export function plot(first) {
           axis(
             () => label('x'),
             ticks('x'),
-            { size: 28, space: 60 },
+            { size: 28, space: 60, ...(spec.x.whole ? { incrs: [1, 2, 5, 10] } : {}) },
           ),
           axis(
             () => label('y'),

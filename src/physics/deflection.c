@@ -71,6 +71,14 @@ double kd_deflection_closest(double a, double b)
     return q.turns ? q.roots.r4 : kd_kerr_photon_orbit(a);
 }
 
+double kd_deflection_farthest(double a, double b)
+{
+    if (!(b >= kd_deflection_critical(a)) || a * b > 2 * kd_kerr_horizon(a))
+        return NAN;
+    struct kd_null_radial q = radial_of(a, b);
+    return q.turns ? q.roots.r3 : kd_kerr_photon_orbit(a);
+}
+
 double kd_deflection_weak(double b) { return 4 / b; }
 
 double kd_deflection_weak_second(double a, double b) { return (4 + (15 * M_PI / 4 - 4 * a) / b) / b; }

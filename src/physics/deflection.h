@@ -20,6 +20,10 @@ double kd_deflection(double a, double b);
 /* The closest approach of that ray, in Boyer-Lindquist's r. */
 double kd_deflection_closest(double a, double b);
 
+/* How far light of the same b gets that is sent out from within the photon orbit, before it falls back: the other turning point. NaN
+ * also for b > 2 r+/a, a > 0: at the horizon all light has E >= L a/(2 r+), and none of it so little for its L. */
+double kd_deflection_farthest(double a, double b);
+
 /* 4/b, and with the next order 4/b + (15 pi/4 - 4a)/b^2. */
 double kd_deflection_weak(double b);
 double kd_deflection_weak_second(double a, double b);

@@ -16,6 +16,8 @@
     O(strong_retrograde, .unit = "radians", .help = "the same towards -phi")                                           \
     O(closest, .unit = "M", .help = "closest approach r of the light towards +phi; null if captured")                  \
     O(closest_retrograde, .unit = "M", .help = "the same towards -phi")                                                \
+    O(farthest, .unit = "M", .help = "how far light towards +phi gets that is sent out within the photon orbit, before it falls back; null if it leaves, or if no light there has so little energy for its L") \
+    O(farthest_retrograde, .unit = "M", .help = "the same towards -phi")                                               \
     O(b_critical, .unit = "M", .fixed = true, .help = "impact parameter of the circular photon orbit towards +phi")    \
     O(b_critical_retrograde, .unit = "M", .fixed = true, .help = "the same towards -phi")                              \
     O(strong_rate, .unit = "1", .fixed = true, .help = "rate of the strong limit, 1 at spin 0") \
@@ -60,6 +62,7 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     o->strong = strong(m->with, b, o->b_critical);
     o->strong_retrograde = strong(m->against, b, o->b_critical_retrograde);
     o->closest = kd_deflection_closest(a, b), o->closest_retrograde = kd_deflection_closest(-a, b);
+    o->farthest = kd_deflection_farthest(a, b), o->farthest_retrograde = kd_deflection_farthest(-a, b);
     return KD_OK;
 }
 

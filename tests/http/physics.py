@@ -247,7 +247,7 @@ class Physics(daemon.Case):
         for target, pointer in (('redshift?inclination_deg=90', '/inclination_deg'), ('redshift?r=1.2', '/r'),
                                 ('shadow?observer_r=1.9&inclination_deg=90', '/observer_r'), ('sky?observer_r=1.2&observer=zamo', '/observer_r'), ('sky?yaw_deg=400', '/yaw_deg'),
                                 ('ring-image?observer_r=1.7', '/observer_r'),
-                                ('ring-image?observer_r=1.2&observer=infall&r=1.3', '/r'), ('ring-image?inclination_deg=90', '/inclination_deg'), ('ring-image?order=2', '/order'), ('scale?hole=none', '/mass_msun'),
+                                ('ring-image?observer_r=1.2&observer=infall&r=1.3', '/r'), ('ring-image?inclination_deg=90', '/inclination_deg'), ('ring-image?order=2', '/order'), ('photon-rings?order=13', '/order'), ('photon-rings?inner=1.2', '/inner'), ('photon-rings?inner=9&outer=8', '/outer'), ('scale?hole=none', '/mass_msun'),
                                 ('scale?hole=none&mass_msun=1', '/distance_pc'), ('flamm?r=1.5', '/r'), ('potential?r=1', '/r'),
                                 ('frame-dragging?r=1', '/r'), ('qnm?m=3', '/m'), ('qnm?l=5', '/l'), ('qnm?n=0.5', '/n'),
                                 ('qnm?spin=0.99995', '/spin'), ('inspiral?eccentricity=1', '/eccentricity'),

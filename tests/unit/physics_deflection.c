@@ -2,6 +2,7 @@
  * its own limits. */
 #include "physics/deflection.h"
 #include "physics/kerr.h"
+#include "physics/potential.h"
 #include "physics/quadrature.h"
 
 #include "deflection_reference.h"
@@ -48,6 +49,29 @@ static void angles(void **state)
         close_to("angle", x->a, x->b, kd_deflection(x->a, x->b), x->angle, 1e-14 + digit / x->excess);
         close_to("closest", x->a, x->b, kd_deflection_closest(x->a, x->b), x->closest, 1e-15 + digit / sqrt(x->excess));
     }
+}
+
+/* Where light turns V = 1/b, by the effective potential of Bardeen, Press & Teukolsky, which knows no roots of R; and for a = 0 the
+ * middle root of r^3 - b^2 r + 2 b^2 = 0 by Vieta's formula. */
+static void farthest(void **state)
+{
+    (void)state;
+    for (double a = -0.96; a < 1; a += 0.24)
+        for (double x = 0.01; x < 1e4; x *= 7) {
+            double critical = kd_deflection_critical(a), b = critical * (1 + x), r = kd_deflection_farthest(a, b);
+            if (kd_potential(a, 1, 0, kd_kerr_horizon(a)) > 1 / b) { /* the hill begins above it */
+                assert_true(isnan(r));
+                continue;
+            }
+            if (!(r < kd_kerr_photon_orbit(a) && r >= kd_kerr_horizon(a)))
+                fail_msg("a = %g, b = %g: farthest %g", a, b, r);
+            close_to("1/V there", a, b, 1 / kd_potential(a, 1, 0, r), b, 1e-12 * (1 + x));
+        }
+    for (double b = 5.3; b < 1e3; b *= 3) {
+        double vieta = 2 * b / sqrt(3) * cos(acos(-sqrt(27) / b) / 3 - 2 * M_PI / 3);
+        close_to("farthest", 0, b, kd_deflection_farthest(0, b), vieta, 1e-15 * b * b);
+    }
+    assert_true(isnan(kd_deflection_farthest(0, 5)));
 }
 
 /* 1.75 seconds of arc at the limb of the sun (Einstein 1916; here from M/R = 1476.625 m / 6.957e8 m, b = R to 1e-5). */
@@ -145,7 +169,7 @@ static void quadrature(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(critical),   cmocka_unit_test(angles),       cmocka_unit_test(the_sun),
+        cmocka_unit_test(critical),   cmocka_unit_test(angles),       cmocka_unit_test(farthest),     cmocka_unit_test(the_sun),
         cmocka_unit_test(weak_field), cmocka_unit_test(strong_limit), cmocka_unit_test(smooth_and_monotone),
         cmocka_unit_test(quadrature), cmocka_unit_test(outside_the_domain),
     };

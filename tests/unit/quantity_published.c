@@ -66,6 +66,30 @@ static void figures(void **state)
     published("12.69 million km, Sgr A*'s horizon for its mass", ASK("scale", "horizon_km", "hole=sgra"), 1.269e7, 5e3);
 }
 
+/* The lensing ring and the photon ring of a hole without spin seen face on: S. E. Gralla, D. E. Holz & R. M. Wald 2019, section III: b from 5.02 to 6.17
+ * and from 5.19 to 5.23; each further one thinner by e^pi; M. D. Johnson et al. 2020: gamma is least where the light goes with the spin. */
+static void rings(void **state)
+{
+    (void)state;
+    const double rho = ASK("photon-rings", "rho", "spin=0", "inclination_deg=0");
+    published("critical curve", rho, sqrt(27), 1e-13);
+    published("lensing ring", rho * (1 + ASK("photon-rings", "inner_edge", "spin=0", "inclination_deg=0", "order=1")), 5.02, 5e-3);
+    published("lensing ring", rho * (1 + ASK("photon-rings", "outer_edge", "spin=0", "inclination_deg=0", "order=1")), 6.17, 5e-3);
+    published("photon ring", rho * (1 + ASK("photon-rings", "inner_edge", "spin=0", "inclination_deg=0", "order=2")), 5.19, 5e-3);
+    published("photon ring", rho * (1 + ASK("photon-rings", "outer_edge", "spin=0", "inclination_deg=0", "order=2")), 5.23, 5e-3);
+    published("gamma of a = 0", ASK("photon-rings", "gamma", "spin=0"), M_PI, 1e-14);
+    for (int k = 0; k < 4; k++) {
+        const char *const angles[] = { "angle_deg=0", "angle_deg=70", "angle_deg=160", "angle_deg=250" };
+        double fifth = ASK("photon-rings", "width", "order=5", angles[k]), sixth = ASK("photon-rings", "width", "order=6", angles[k]);
+        published("a ring over the one before", log(fifth / sixth), ASK("photon-rings", "gamma", angles[k]), 1e-3);
+        /* upside down from below */
+        const char *const mirrored[] = { "angle_deg=0", "angle_deg=-70", "angle_deg=-160", "angle_deg=-250" };
+        published("from below", ASK("photon-rings", "width", "order=3", "inclination_deg=120", mirrored[k]), ASK("photon-rings", "width", "order=3", angles[k]), 1e-16);
+    }
+    assert_true(ASK("photon-rings", "gamma", "angle_deg=180") < ASK("photon-rings", "gamma", "angle_deg=0"));
+    assert_true(isnan(ASK("photon-rings", "width", "inclination_deg=90")));
+}
+
 /* What constants.h calls exact follows from what defines the units, and its derived ones from each other. */
 static void constants(void **state)
 {
@@ -184,7 +208,7 @@ static void sky_of_rain(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(figures), cmocka_unit_test(constants),
-                                        cmocka_unit_test(energy_is_conserved), cmocka_unit_test(face_on), cmocka_unit_test(fall),
+                                        cmocka_unit_test(energy_is_conserved), cmocka_unit_test(face_on), cmocka_unit_test(rings), cmocka_unit_test(fall),
                                         cmocka_unit_test(sky_of_rain) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

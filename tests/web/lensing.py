@@ -289,6 +289,17 @@ class Lensing(Browser):
         self.assertIn('r = 2.321 M', page.inner_text('#over-isco-words'))
         self.shot(page, 'overlays')
 
+    def test_lines_carry_their_names(self):
+        page = self.open('lang=it&spacetime.spin=0.9&camera.inclination_deg=60&over=shadow,photons,isco,ergosphere,orders', '#overlay .over-orders .tag >> nth=3')
+        tags = page.locator('#overlay .tag')
+        self.assertEqual(tags.all_text_contents(), ['bordo dell’ombra', 'fotoni, nel verso', 'fotoni, contro', 'ISCO', 'ergosfera',
+                                                    'bordo interno, ordine 0', 'bordo interno, ordine 1', 'bordo esterno, ordine 0', 'bordo esterno, ordine 1'])
+        window = page.locator('#stage').bounding_box()
+        for i in range(tags.count()):
+            box = tags.nth(i).bounding_box()
+            self.assertTrue(window['x'] <= box['x'] and box['x'] + box['width'] <= window['x'] + window['width'] and box['y'] >= window['y'], box)
+        self.shot(page, 'named-lines')
+
     def test_the_shadow_line_lies_on_the_shadow(self):
         """With nothing but a sky behind, the picture is black inside the line and not outside."""
         page = self.open('lang=en&disk.model=none&style.bloom=0&sky.model=grid&sky.grid_deg=1&sky.brightness=1&style.exposure=3&spacetime.spin=0.95'

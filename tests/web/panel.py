@@ -1,4 +1,6 @@
 """The panel: controls in groups, what each of them changes: panel.py KERRD FOLDER (browser.py)."""
+import re
+
 from browser import AT_REST, Browser, main, rows
 
 
@@ -43,6 +45,15 @@ class Panel(Browser):
         page.wait_for_selector(AT_REST)
         self.assertEqual(page.locator('#panel details[open]').evaluate_all('all => all.map(n => n.id)'), ['group-gas', 'rest-disk'])
         self.assertEqual(page.url, address, 'a link is of the scene')
+
+    def test_help_names_no_paths(self):
+        """A help calls other fields by their labels, and points to no file of the source."""
+        for lang, quoted in (('en', '“'), ('it', '«')):
+            page = self.open('lang=' + lang)
+            helps = page.locator('#fields [data-path] > .help').all_text_contents()
+            self.assertGreater(len(helps), 80)
+            self.assertEqual([text for text in helps if re.search(r'docs/|\b(spacetime|camera|disk|sky|image|style|accuracy|motion|spots|bodies|volume|jets)\.[a-z]', text)], [])
+            self.assertGreater(sum(quoted in text for text in helps), 5)
 
     def test_each_control_says_what_it_changes(self):
         schema = self.schema()

@@ -1,0 +1,129 @@
+// The curves of matter and waves: each a few parameters, an equation, and what of the numbers of /v1/physics is drawn.
+import { axis, outside, radius, spin } from './axes.js';
+import { number, t } from './i18n.js';
+import { drawn, physics } from './server.js';
+import { ringing, soundRow } from './sound.js';
+
+// Buttons to hear it; the field of octaves shows those in force.
+function listen(v, { t: _, ...asked }, octaves, form) {
+  const ring = ringing(v, asked, octaves === undefined ? undefined : Number(octaves));
+  form.suggest('octaves', ring.octaves);
+  return soundRow(ring);
+}
+
+export const matter = [
+  {
+    name: 'potential',
+    title: t('Effective potential of matter', 'Potenziale efficace della materia'),
+    inputs: [spin(0), { name: 'l', value: 4, min: -12, max: 12, step: 0.05 }],
+    adjust: outside(26),
+    equation:
+      '<msup><mrow><mo>(</mo><mfrac><mrow><mi>d</mi><mi>r</mi></mrow><mrow><mi>d</mi><mi>τ</mi></mrow></mfrac><mo>)</mo></mrow><mn>2</mn></msup><mo>=</mo><msup><mi>E</mi><mn>2</mn></msup><mo>−</mo><msubsup><mi>V</mi><mi>eff</mi><mn>2</mn></msubsup><mtext>&nbsp; (a = 0)</mtext>',
+    also: async p => {
+      const { values } = await physics('kerr', { spin: p.spin });
+      return { isco: values.isco, ...(await physics('potential', { spin: p.spin, l: values.isco_momentum, r: p.r, ...drawn })).values };
+    },
+    show: (v, p, at_isco) => ({
+      note:
+        v.r_min_matter == null
+          ? t('No well: nothing with this L stays on an orbit.', 'Nessuna buca: nulla con questo L resta in orbita.')
+          : t(
+              `A stable circle at r = ${number(v.r_min_matter)} M, an unstable one at ${number(v.r_max_matter)} M. With the ISCO’s L the two have merged.`,
+              `Un cerchio stabile a r = ${number(v.r_min_matter)} M, uno instabile a ${number(v.r_max_matter)} M. Con l’L dell’ISCO i due si sono fusi.`,
+            ),
+      x: axis(radius, { min: 0 }),
+      y: axis(t('energy / mass', 'energia / massa'), {
+        min: 0.8,
+        max: Math.max(1.1, Math.min(1.6, (v.v_max_matter ?? 1) + 0.05)),
+      }),
+      series: [
+        { name: `L = ${number(p.l)} M`, y: v.v_matter },
+        { name: t('L of the ISCO', 'L dell’ISCO'), y: at_isco.v_matter },
+        { name: t('Newton, same L', 'Newton, stesso L'), y: v.newton, style: 'dim' },
+      ],
+      marks: [{ x: at_isco.isco, label: 'ISCO' }, { y: 1 }],
+      along: p.r,
+    }),
+  },
+  {
+    name: 'qnm',
+    title: t('Ringdown', 'Ringdown: il buco che risuona'),
+    inputs: [
+      { ...spin(0.7), min: -0.9999, max: 0.9999, step: 0.0001 },
+      { name: 'l', label: 'l', value: 2, min: 2, max: 4, step: 1 },
+      { name: 'm', label: 'm', value: 2, min: -4, max: 4, step: 1 },
+      { name: 'mass_msun', value: 60, min: 0.001, max: 1e12 },
+      { name: 'octaves', label: t('Octaves up or down', 'Ottave in su o in giù'), min: -40, max: 40, step: 1, auto: true },
+    ],
+    query: { t: '0:90:241' },
+    after: listen,
+    equation:
+      '<mi>h</mi><mo>=</mo><msup><mi>e</mi><mrow><msub><mi>ω</mi><mi>I</mi></msub><mi>t</mi></mrow></msup><mi>cos</mi><mo>(</mo><msub><mi>ω</mi><mi>R</mi></msub><mi>t</mi><mo>)</mo><mo>,</mo><mspace width="1em"/><mi>Q</mi><mo>=</mo><mfrac><msub><mi>ω</mi><mi>R</mi></msub><mrow><mo>−</mo><mn>2</mn><msub><mi>ω</mi><mi>I</mi></msub></mrow></mfrac>',
+    show: (v, p) => ({
+      note:
+        t(
+          `ω = ${number(v.omega_re)} ${v.omega_im < 0 ? '−' : '+'} ${number(Math.abs(v.omega_im))} i per M, by Leaver’s continued fractions. Q = ${number(v.quality)}. For this mass ${number(v.frequency_hz[0])} Hz, fading by e in ${number(v.damping_s[0])} s.`,
+          `ω = ${number(v.omega_re)} ${v.omega_im < 0 ? '−' : '+'} ${number(Math.abs(v.omega_im))} i per M, con le frazioni continue di Leaver. Q = ${number(v.quality)}. Per questa massa ${number(v.frequency_hz[0])} Hz; si smorza di un fattore e in ${number(v.damping_s[0])} s.`,
+        ) +
+        (v.quality_cubic_error == null
+          ? ''
+          : t(
+              ` The formula 2.1 + 11.3 a³ that circulates for Q is off by ${number(100 * v.quality_cubic_error, 2)} % here.`,
+              ` Per Q circola la formula 2,1 + 11,3 a³; errore, qui: ${number(100 * v.quality_cubic_error, 2)} %.`,
+            )),
+      x: axis(t('time t / M', 'tempo t / M')),
+      y: axis(t('amplitude', 'ampiezza'), { min: -1.05, max: 1.05 }),
+      series: [{ name: `l = ${p.l}, m = ${p.m}`, y: v.wave }],
+      marks: [{ y: 0 }],
+      along: p.t,
+    }),
+  },
+  {
+    name: 'inspiral',
+    title: t('Inspiral and chirp', 'Spirale e chirp'),
+    inputs: [
+      { name: 'mass1_msun', value: 36, min: 0.1, max: 1e9 },
+      { name: 'mass2_msun', value: 29, min: 0.1, max: 1e9 },
+    ],
+    query: { before_s: '0.5:0.005:100' },
+    equation:
+      '<mfrac><mrow><mi>d</mi><mi>a</mi></mrow><mrow><mi>d</mi><mi>t</mi></mrow></mfrac><mo>=</mo><mo>−</mo><mfrac><mn>64</mn><mn>5</mn></mfrac><mfrac><mrow><msub><mi>m</mi><mn>1</mn></msub><msub><mi>m</mi><mn>2</mn></msub><mo>(</mo><msub><mi>m</mi><mn>1</mn></msub><mo>+</mo><msub><mi>m</mi><mn>2</mn></msub><mo>)</mo></mrow><msup><mi>a</mi><mn>3</mn></msup></mfrac>',
+    show: (v, p) => ({
+      note: t(
+        `Chirp mass ${number(v.chirp_mass)} solar masses; cut where the orbit is at 6 M, ${number(v.isco_hz)} Hz. Leading order only.`,
+        `Massa di chirp ${number(v.chirp_mass)} masse solari; troncato dove l’orbita è a 6 M, ${number(v.isco_hz)} Hz. Solo primo ordine.`,
+      ),
+      x: axis(t('s from coalescence', 's dalla coalescenza')),
+      y: axis(t('wave frequency, Hz', 'frequenza dell’onda, Hz'), { min: 0 }),
+      series: [{ name: t('frequency', 'frequenza'), x: p.before_s.map(s => -s), y: v.chirp_hz }],
+      marks: [{ y: v.isco_hz, label: '6 M' }],
+      along: p.before_s,
+    }),
+  },
+  {
+    name: 'tidal',
+    title: t('A star torn apart', 'Una stella fatta a pezzi'),
+    inputs: [
+      { name: 'mass_msun', value: 1e6, min: 1e3, max: 1e9 },
+      { name: 'star_mass_msun', value: 1, min: 0.05, max: 100 },
+      { name: 'star_radius_rsun', value: 1, min: 0.01, max: 100 },
+    ],
+    query: { time_days: '20:1500:149' },
+    equation:
+      '<mover><mi>M</mi><mo>˙</mo></mover><mo>∝</mo><msup><mi>t</mi><mrow><mo>−</mo><mn>5</mn><mo>/</mo><mn>3</mn></mrow></msup>',
+    show: (v, p) => ({
+      note:
+        t(
+          `Torn at r = ${number(v.tidal_radius)} M; the first debris is back after ${number(v.fallback_days)} days.`,
+          `Strappata a r = ${number(v.tidal_radius)} M; i primi detriti tornano dopo ${number(v.fallback_days)} giorni.`,
+        ) +
+        (v.pericentre_over_capture < 1
+          ? t(' This hole would swallow the star whole.', ' Questo buco inghiottirebbe la stella intera.')
+          : ''),
+      x: axis(t('days after', 'giorni dopo'), { log: true }),
+      y: axis(t('solar masses a year', 'masse solari all’anno'), { log: true }),
+      series: [{ name: t('what falls back', 'ciò che ricade'), y: v.rate_msun_yr }],
+      along: p.time_days,
+    }),
+  },
+];
