@@ -6,7 +6,7 @@ const together_ms = 400; // changes that follow each other sooner are one, as th
 const most = 200;
 
 export function buildHistory(scene) {
-  // Of time, and of what the server moves, nothing is taken back.
+  // Undo takes back neither time nor what the server moves.
   function whole() {
     const { time, ...document } = scene.document({}, true);
     return JSON.stringify(document);

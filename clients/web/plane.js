@@ -88,7 +88,7 @@ export class Plane {
     return this.bodies ? [...Array(this.bodies.n).keys()].map(i => this.row(i)) : [];
   }
 
-  // Of all bodies, by their masses.
+  // This is the centre of mass of all bodies.
   #middle() {
     const all = this.all(),
       mass = all.reduce((sum, body) => sum + body.mass, 0);

@@ -4,7 +4,7 @@ import { el, svg } from './dom.js';
 import { number, t } from './i18n.js';
 
 document.head.append(el('link', { rel: 'stylesheet', href: new URL('vendor/uplot/uPlot.min.css', import.meta.url) }));
-// Of uPlot's builds the one that is half as long is a script, not a module: it leaves its name in the window.
+// The shorter of uPlot's two builds is a script, not a module: it leaves its name in the window.
 const uPlot = await new Promise((done, fail) =>
   document.head.append(
     el('script', { src: new URL('vendor/uplot/uPlot.iife.min.js', import.meta.url), onload: () => done(window.uPlot), onerror: () => fail(new Error('uPlot')) }),

@@ -34,7 +34,7 @@ static double given(const struct column *c, size_t key)
     return c->field ? kd_field_get(&k->scene, c->field, c->index) : k->proper_time;
 }
 
-/* Of a key beside the one it counts from, at most two behind it: that is as far as slopes look. */
+/* Slopes look as far as this: at a key beside the one that counts, at most two behind it. */
 static double value_at(const struct column *c, size_t key)
 {
     double value = given(c, c->turns ? c->from : key);

@@ -17,15 +17,10 @@
 #include "server/render/queue.h"
 #include "server/session/sessions.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define BODY_TOO_LARGE "a body may hold 1048576 bytes"
-#define RAYS_TOO_LARGE "a body of rays may hold 67108864 bytes"
-#define ORBITS_TOO_LARGE "a body of orbits may hold 4194304 bytes"
-#define ASSET_TOO_LARGE "an asset may hold 33554432 bytes"
-#define PLAYGROUND_TOO_LARGE "a playground's document may hold 67108864 bytes"
-#define JOB_TOO_LARGE "a body of a job may hold 4194304 bytes"
 #define BODIES_TOO_MANY "too many bodies are being received"
 #define BODIES_OF_CLIENT "as many bytes of your bodies are being received as one client may send at once"
 #define PACE ((size_t)960000) /* bytes of a body within the time for one that is small: 32 kB/s of the default */
@@ -154,30 +149,27 @@ void kd_request_close(void *cls, struct MHD_Connection *mhd, void **state,
     atomic_fetch_sub(&server->requests, 1);
 }
 
-static size_t body_max(const struct kd_request *request)
+/* What a request's body is, and how many bytes it may hold. */
+static struct most { const char *what; size_t bytes; } most_of(const struct kd_request *request)
 {
     switch (request->route->takes) {
-    case KD_TAKES_RAYS: return KD_RAYS_BODY_MAX;
-    case KD_TAKES_ORBITS: return KD_ORBIT_BODY_MAX;
+    case KD_TAKES_RAYS: return (struct most) { "a body of rays", KD_RAYS_BODY_MAX };
+    case KD_TAKES_ORBITS: return (struct most) { "a body of orbits", KD_ORBIT_BODY_MAX };
     case KD_TAKES_PLAN: /* that of a job, if it has axes */
-    case KD_TAKES_JOB: return KD_JOB_BODY_MAX;
-    case KD_TAKES_PLAYGROUND: return KD_PLAYGROUND_JSON_MAX;
-    case KD_TAKES_ASSET: return KD_ASSET_BYTES;
-    default: return KD_BODY_MAX;
+    case KD_TAKES_JOB: return (struct most) { "a body of a job", KD_JOB_BODY_MAX };
+    case KD_TAKES_PLAYGROUND: return (struct most) { "a playground's document", KD_PLAYGROUND_JSON_MAX };
+    case KD_TAKES_ASSET: return (struct most) { "an asset", KD_ASSET_BYTES };
+    default: return (struct most) { "a body", KD_BODY_MAX };
     }
 }
 
-static const char *too_large(const struct kd_request *request)
+#define TOO_LARGE 80
+
+static const char *too_large(const struct kd_request *request, char text[TOO_LARGE])
 {
-    switch (request->route->takes) {
-    case KD_TAKES_RAYS: return RAYS_TOO_LARGE;
-    case KD_TAKES_ORBITS: return ORBITS_TOO_LARGE;
-    case KD_TAKES_PLAN:
-    case KD_TAKES_JOB: return JOB_TOO_LARGE;
-    case KD_TAKES_PLAYGROUND: return PLAYGROUND_TOO_LARGE;
-    case KD_TAKES_ASSET: return ASSET_TOO_LARGE;
-    default: return BODY_TOO_LARGE;
-    }
+    const struct most most = most_of(request);
+    snprintf(text, TOO_LARGE, "%s may hold %zu bytes", most.what, most.bytes);
+    return text;
 }
 
 static bool media_type_fault(const struct kd_request *request, bool patch, struct kd_problem *problem)
@@ -197,7 +189,8 @@ static bool media_type_fault(const struct kd_request *request, bool patch, struc
     return (asset || !kd_media_type_is(type, "application/json")) && !kd_media_type_is(type, all[i].other);
 }
 
-static bool body_fault(const struct kd_request *request, struct kd_problem *problem)
+/* A sentence that has to be made is in text. */
+static bool body_fault(const struct kd_request *request, char text[TOO_LARGE], struct kd_problem *problem)
 {
     bool patch = !strcmp(request->method, "PATCH");
     if (!patch && strcmp(request->method, "POST") && strcmp(request->method, "PUT")) {
@@ -209,8 +202,8 @@ static bool body_fault(const struct kd_request *request, struct kd_problem *prob
         return false;
     if (media_type_fault(request, patch, problem))
         return true;
-    if (request->header.content_length > body_max(request)) {
-        *problem = (struct kd_problem) { .type = KD_PROBLEM_BODY_TOO_LARGE, .detail = too_large(request) };
+    if (request->header.content_length > most_of(request).bytes) {
+        *problem = (struct kd_problem) { .type = KD_PROBLEM_BODY_TOO_LARGE, .detail = too_large(request, text) };
         return true;
     }
     bool quota, refused = kd_bytes_take(request->server->bodies, request->client, 0, request->header.content_length, &quota);
@@ -237,6 +230,7 @@ static bool choose(struct kd_request *request, enum MHD_Result *result)
 {
     struct kd_problem problem;
     struct kd_error error;
+    char text[TOO_LARGE];
 
     if (kd_target_parse(&request->target, request->raw, &error))
         problem = (struct kd_problem) { .detail = error.message,
@@ -253,7 +247,7 @@ static bool choose(struct kd_request *request, enum MHD_Result *result)
         problem = (struct kd_problem) { .type = KD_PROBLEM_CROSS_SITE, .close = request->body_announced,
                                         .detail = "the browser says that a page of another site has asked for this (Sec-Fetch-Site: cross-site), "
                                                   "which this server takes with --allow-cross-site only" };
-    else if (!body_fault(request, &problem))
+    else if (!body_fault(request, text, &problem))
         return true;
     *result = kd_reply_problem(request, &problem);
     return false;
@@ -298,8 +292,10 @@ static enum MHD_Result receive(struct kd_request *request, const char *data, siz
 {
     struct kd_server *server = request->server;
 
-    if (*size > body_max(request) - request->body.size)
-        return cut_body(request, KD_PROBLEM_BODY_TOO_LARGE, too_large(request));
+    char text[TOO_LARGE];
+
+    if (*size > most_of(request).bytes - request->body.size)
+        return cut_body(request, KD_PROBLEM_BODY_TOO_LARGE, too_large(request, text));
     size_t all = request->body.size + *size;
     bool quota;
     if (kd_bytes_take(server->bodies, request->client, *size, all > request->header.content_length ? all : request->header.content_length, &quota))

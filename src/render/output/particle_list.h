@@ -6,7 +6,6 @@
  *     kd_particle_list_settle(&list, most_bytes, &error)
  *     for (size_t i = 0; i < list.n; i += n)
  *         kd_particle_list_fill(renderer, &list, i, n = ..., rows, &error);
- *     kd_particle_list_finish(&list);
  *
  * Boyer-Lindquist t, r, theta, phi; x = sqrt(r^2 + a^2) cos(latitude) cos(phi), y likewise with sin(phi), z = r sin(latitude), the
  * ellipsoidal coordinates that BL's become for M -> 0. Any thread but for _fill. */

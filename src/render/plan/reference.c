@@ -12,8 +12,7 @@ static const char introduction[] =
     "all of them. This page is generated from the emitters (`src/render/emit/emitter.h`) and `src/render/plan/plan.c`; do not edit it.\n"
     "The chapters on the [physics](physics/README.md) say what stands behind them.\n"
     "\n"
-    "Not modelled, and so not in the list of any picture: gas above the plane, scattering, polarisation, jets; the delay of light in pictures\n"
-    "but for particles and spots.\n";
+    "Not modelled, and so not in the list of any picture: the motion of gas by its own forces, magnetic fields, scattering, polarisation.\n";
 
 static const char present[] = "in each scene that has it", sometimes[] = "in some scenes";
 

@@ -1,6 +1,6 @@
 /* Jobs are pictures that take longer than anybody wants to hold a connection for, and sequences of them.
  *
- * The oldest unfinished job renders, a frame at a time and behind everything that somebody waits for; its frames go to files. Nothing
+ * The oldest unfinished job renders, a frame at a time and with the least share of the device; its frames go to files. Nothing
  * depends on who asked: jobs end when they are done, fail or are deleted, and go on after a restart if the server has a state folder.
  * Any thread; the functions on watchers belong to the HTTP thread. */
 #ifndef KD_SERVER_JOB_JOBS_H

@@ -74,7 +74,7 @@ static enum MHD_Result answer(struct kd_request *request)
     return kd_reply_json(request, KD_OK, &t->text, t->format->media_type);
 }
 
-/* Of a job that is done; takes the reference over. */
+/* The job is done; its reference is taken over. */
 static enum MHD_Result write_table(struct kd_request *request, struct kd_job *job, const struct kd_job_status *status,
                                    const struct kd_table_format *format)
 {

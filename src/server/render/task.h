@@ -1,7 +1,7 @@
 /* A task is a request that workers answer by turns (http/turns.h): it is suspended meanwhile, and given up when its client has left, the server
  * stops at once or its time is over. Owned by its request and freed with it; whoever makes one embeds it.
  *
- *     static const struct kd_task_kind KIND = { "quantities", sizeof(struct mine), work, destroy };
+ *     static const struct kd_task_kind KIND = { "quantities", sizeof(struct mine), work, finish };
  *     struct mine *mine = kd_task_begin(request, queue, &KIND, &refused);
  *     return mine ? kd_task_submit(&mine->task) : refused;
  *     the handler is called again when `work` has returned KD_TURN_LAST */
