@@ -135,12 +135,17 @@ async function watch(scene) {
     fall?.then(({ shown }) => shown(frame));
     stars?.then(named => named?.shown(frame));
     say(caption(frame), frame.final && !scene.goesOn());
-    if (frame.final && stage.dataset.final !== 'true') drawOverlays();
-    stage.dataset.final = frame.final;
     stage.dataset.samples = frame.samples;
     complain('', '');
     showAccuracy(frame, scene);
     followLight();
+  }
+
+  let resting = false;
+  async function rests(whether) {
+    resting = whether;
+    if (whether && stage.dataset.final !== 'true') (await parts).drawOverlays();
+    stage.dataset.final = resting; // the scene may have changed meanwhile
   }
 
   // The light that the server tells flux and centroid of, once there is any.
@@ -193,7 +198,7 @@ async function watch(scene) {
     if (error.again) status.append(t(' – trying again', ' – si riprova'));
   }
 
-  const source = openSource(scene, size, show, refuse);
+  const source = openSource(scene, size, show, refuse, rests);
   if (!byId('lensing').hidden) {
     source.refresh();
     await Promise.race([first, new Promise(resolve => setTimeout(resolve, patience_ms))]);
@@ -208,7 +213,6 @@ async function watch(scene) {
   for (const gone of ['visibilitychange', 'viewchange']) document.addEventListener(gone, followLight);
   nameStars();
   scene.addEventListener('change', () => {
-    stage.dataset.final = false;
     source.refresh();
     nameStars();
   });

@@ -47,6 +47,10 @@ export async function openPlayground() {
     events = eventList(part.events, say),
     picture = lensed(part.lensed, running);
   let chosen = null,
+    awaited = false, // the server has what is chosen, and no picture of the bodies has it yet
+    flying = null, // a throw that is on its way to the server
+    halts = null, // { paused } that is on its way
+    hurries = null, // a rate that is on its way
     given = null; // a snapshot that was loaded
 
   const wrong = error => tell(part.fault, error.message);
@@ -94,15 +98,24 @@ export async function openPlayground() {
     foretell();
   }
 
+  // Whoever aims makes new numbers; where a body is that is thrown anew changes by itself.
+  const same = (a, b) => a?.velocity === b.velocity && a.body === b.body && (b.body != null || a.from === b.from);
+
   async function release() {
-    const { from, velocity, body } = hand.aims;
+    const mine = { ...hand.aims },
+      { from, velocity, body } = mine;
+    if (same(flying, mine)) return; // once is enough, however long the answer takes
+    flying = mine;
     const fields = form.fields(),
       v = velocity.map(x => Number(x.toPrecision(9)));
     const state = await patch(body == null ? { add: [{ ...fields, position: from, velocity: v }] } : { change: [{ id: body, velocity: v }] });
+    if (flying === mine) flying = null;
     if (!state) return;
-    hand.aim({ armed: false, body: null });
     const id = body ?? state.added?.[0];
-    choose(id ?? null);
+    if (same(hand.aims, mine)) {
+      hand.aim({ armed: false, body: null });
+      choose(id ?? null);
+    } // else another one is aimed at by now
     const name = plane.names.get(id) ?? '';
     say(t(`${name} goes at ${number(Math.hypot(...v), 3)} c.`, `${name} va a ${number(Math.hypot(...v), 3)} c.`));
   }
@@ -110,20 +123,28 @@ export async function openPlayground() {
   function choose(id) {
     chosen = plane.chosen = id;
     const body = id == null ? null : plane.body(id);
+    awaited = id != null && !body;
     form.choose(body);
     if (body) hand.aim({ from: body.x, velocity: body.v, body: id, armed: false });
     plane.redraw();
   }
 
-  const remove = () => chosen != null && patch({ remove: [chosen] }).then(state => state && choose(null));
-  const pause = () => patch({ paused: !running.state?.paused });
-  let stepping = false; // a key that is held asks for more
-  async function step() {
-    if (!running.state?.paused || stepping) return;
-    stepping = true;
-    await act(() => running.step(Math.max(running.state.rate / 20, 1e-6)));
-    stepping = false;
+  async function remove() {
+    const id = chosen;
+    if (id != null && (await patch({ remove: [id] })) && chosen === id) choose(null);
   }
+  const paused = () => halts?.paused ?? running.state?.paused;
+  async function pause() {
+    const mine = (halts = { paused: !paused() });
+    await patch(mine);
+    if (halts === mine) halts = null;
+  }
+  // One at a time, and one more: a key that is held asks for many.
+  const step = latest(async () => {
+    if (!paused()) return;
+    const rate = part.rate.validity.valid ? part.rate.valueAsNumber : running.state.rate;
+    await act(() => running.step(Math.max(rate / 20, 1e-6)));
+  });
   function next(by) {
     const ids = plane.all().map(({ id }) => id);
     if (ids.length) choose(ids[(ids.indexOf(chosen) + by + (chosen == null && by < 0 ? 1 : 0) + ids.length) % ids.length]);
@@ -180,9 +201,11 @@ export async function openPlayground() {
     setRate = latest(async rate => {
       link.set('play.rate', rate);
       await patch({ rate });
-    });
-  part.pace.addEventListener('input', () => setRate((part.rate.value = pace.from(part.pace.valueAsNumber))));
-  part.rate.addEventListener('change', () => (part.rate.validity.valid ? setRate(part.rate.valueAsNumber) : part.rate.reportValidity()));
+      if (hurries === rate) hurries = null;
+    }),
+    hurry = rate => setRate((hurries = rate));
+  part.pace.addEventListener('input', () => hurry((part.rate.value = pace.from(part.pace.valueAsNumber))));
+  part.rate.addEventListener('change', () => (part.rate.validity.valid ? hurry(part.rate.valueAsNumber) : part.rate.reportValidity()));
   part.pause.addEventListener('click', pause);
   part.step.addEventListener('click', step);
   part.nearer.addEventListener('click', () => plane.zoom(1.25));
@@ -234,13 +257,14 @@ export async function openPlayground() {
     else plane.radii = { horizon: 2, photons: 3, bound: 4, isco: 6 };
   });
   running.addEventListener('state', ({ detail: state }) => {
-    showRules(state.settings);
+    const newest = !running.waits(); // an answer to what was asked before would take back for a moment what somebody has just set
+    if (newest) showRules(state.settings);
     part.views[0].parentNode.hidden = !state.scene; // there are no pictures where the server has no scene for it
     plane.names = new Map(state.bodies.map(({ id, name }) => [id, said(name).text]));
     form.bodies(state.bodies.map(({ id, name }) => ({ id, name: said(name).text })));
-    part.paused(state.paused);
-    if (document.activeElement !== part.rate) part.rate.value = state.rate;
-    part.pace.value = pace.to(state.rate);
+    if (newest) part.paused(state.paused);
+    if (hurries == null && document.activeElement !== part.rate) part.rate.value = state.rate;
+    if (hurries == null) part.pace.value = pace.to(state.rate);
     part.foretold.textContent =
       state.settings.gravity === 'kerr'
         ? t('The dashed path is the server’s: a geodesic.', 'Il percorso tratteggiato è del server: una geodetica.')
@@ -260,7 +284,9 @@ export async function openPlayground() {
     part.canvas.dataset.bodies = detail.n;
     if (chosen != null) {
       const body = plane.body(chosen);
-      body ? form.choose(body) : choose(null);
+      if (body && awaited && !hand.aims.armed) choose(chosen);
+      else if (body) form.choose(body);
+      else if (!awaited || !plane.names.has(chosen)) choose(null);
     }
     if (hand.aims.body != null && plane.body(hand.aims.body)) Object.assign(hand.aims, { from: plane.body(hand.aims.body).x });
     if (hand.aims.armed) showAim(hand.aims);

@@ -1,6 +1,6 @@
 // The box of presets. It names the one that the scene is, at whatever time and from whichever side; a link remembers the name.
 import { byId, el } from './dom.js';
-import { label, preset, t } from './i18n.js';
+import { label, preset, t, tell } from './i18n.js';
 import * as link from './link.js';
 import { valueAt } from './scene.js';
 import { getJson } from './server.js';
@@ -68,7 +68,18 @@ export async function buildPresets(scene) {
     help.textContent = chosen ? preset(chosen.name, chosen.title) : '';
   }
 
-  select.addEventListener('change', async () => scene.replace(select.value ? await learn(select.value) : {}));
+  let newest = 0; // of the choices: an answer may come after that to a later one
+  select.addEventListener('change', async () => {
+    const mine = ++newest;
+    try {
+      const document = select.value ? await learn(select.value) : {};
+      byId('preset-fault').replaceChildren();
+      if (mine === newest) scene.replace(document);
+    } catch (error) {
+      follow();
+      tell(byId('preset-fault'), error.message);
+    }
+  });
   scene.addEventListener('change', follow);
   const names = [link.get('preset') ?? first_view, first_view].filter(name => presets.some(preset => preset.name === name));
   await Promise.all([...new Set(names)].map(learn));

@@ -36,6 +36,7 @@ export class Running extends EventTarget {
   #last = 0; // number of the newest event that came
   #named = 0;
   #tries = 0;
+  #turn = Promise.resolve(); // of the newest change: each goes when the one before has been answered, or they might arrive the other way round
 
   state = null;
   tick = null;
@@ -89,7 +90,7 @@ export class Running extends EventTarget {
     this.#end();
     this.#document = given;
     this.#kept = null;
-    this.#session = { url: 'v1/playground/' + state.id, token };
+    this.#session = { url: 'v1/playground/' + state.id, token, waits: 0 };
     Object.assign(this, { bodies: null, debris: null, tick: null });
     this.#last = 0;
     this.#take(state);
@@ -117,24 +118,39 @@ export class Running extends EventTarget {
     if (session === this.#session) this.#take(await answer.json());
   }
 
-  async #send(url, method, body) {
-    const session = this.#session;
+  #inTurn(session, method, part, body) {
     if (!session) throw new Error(t('The playground has not begun yet', 'Il laboratorio non è ancora cominciato'));
+    session.waits++;
+    const answer = this.#turn.then(() => this.#send(session, method, part, body));
+    this.#turn = answer.catch(() => {});
+    return answer;
+  }
+
+  async #send(session, method, part, body) {
+    let state;
     try {
-      const state = await (await ask(url, { method, headers: this.#headers(), body: JSON.stringify(body) })).json();
-      return session === this.#session ? this.#take(state) : null;
+      if (session !== this.#session) return null;
+      state = await (await ask(session.url + part, { method, headers: this.#headers(), body: JSON.stringify(body) })).json();
     } catch (error) {
       if (error.status === 404 && session === this.#session) this.#anew();
       throw error;
+    } finally {
+      session.waits--;
     }
+    return session === this.#session ? this.#take(state) : null;
+  }
+
+  // How many changes have not been answered.
+  waits() {
+    return this.#session?.waits ?? 0;
   }
 
   change(patch) {
-    return this.#send(this.#session?.url, 'PATCH', patch);
+    return this.#inTurn(this.#session, 'PATCH', '', patch);
   }
 
   step(by) {
-    return this.#send(this.address('step'), 'POST', { by });
+    return this.#inTurn(this.#session, 'POST', '/step', { by });
   }
 
   // It is no more: on from where it was when the page was hidden, else the same document once again.

@@ -125,15 +125,16 @@ export function buildSave(scene, size, changed) {
     got.hidden = true;
     told.textContent = '';
     tell(fault, '');
-    job = {}; // so that one is not asked for twice
+    const asked = (job = {}); // so that one is not asked for twice
     show({ fraction: 0 });
     try {
       const { id, token } = await postJson('v1/jobs', { scene: scene.document(over) });
+      if (job !== asked) return void remove({ id, token }).catch(() => {}); // cancelled before the server had answered
       job = { id, token, name: `kerrd-${over['image.width']}x${over['image.height']}.png` };
       kept.write(job);
       follow();
     } catch (error) {
-      end(error.message, true);
+      if (job === asked) end(error.message, true);
     }
   }
 
@@ -142,8 +143,8 @@ export function buildSave(scene, size, changed) {
   });
   cancel.addEventListener('click', async () => {
     const given_up = job;
-    if (!given_up.id) return;
     end(t('Cancelled.', 'Annullata.'));
+    if (!given_up.id) return;
     await remove(given_up).catch(error => error.status === 404 || tell(fault, error.message));
   });
   for (const control of [sizes, byId('save-width'), byId('save-height')]) control.addEventListener('change', showSize);

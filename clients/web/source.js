@@ -49,16 +49,20 @@ export const samples = scene => (scene.get('image.samples') === 'auto' ? 'auto' 
 
 const pause = ms => new Promise(resolve => setTimeout(resolve, ms));
 
-// scene; size() → { width, height } of the window in device pixels; shown(frame) and failed(error) are told. Returns
+// scene; size() → { width, height } of the window in device pixels; told are shown(frame), failed(error), and rests(whether), which is true as soon as
+// the picture that is shown is the last one of the scene as it now is: until the server has answered a change, its pictures are of the scene before. Returns
 //   refresh()      to be called whenever the scene or the window has changed
 //   address()      of the session, or null
 //   strike(wrong)  the hole, once the server knows the scene as it is; wrong(sentence) is told of a refusal
-export function openSource(scene, size, shown, failed) {
+export function openSource(scene, size, shown, failed, rests) {
   let session = null,
     timer = 0,
     pulling = false,
     striking = null,
     dozes = 0,
+    asked = 0, // changes
+    told = 0, // the last of them that the server knows
+    last = null, // the picture that is shown
     polls = new AbortController(),
     recent = [];
 
@@ -98,6 +102,8 @@ export function openSource(scene, size, shown, failed) {
     scene.settle(moved);
   }
 
+  const settle = () => last && rests(asked === told && session != null && last.final && last.revision >= session.revision);
+
   const headers = () => ({ 'Content-Type': 'application/json', ...(session ? { Authorization: `Bearer ${session.token}` } : {}) });
 
   async function struck(document) {
@@ -108,12 +114,12 @@ export function openSource(scene, size, shown, failed) {
       wrong(error.message);
     });
     if (!answer) return;
-    const { revision, scene: now, ...told } = await answer.json();
+    const { revision, scene: now, ...seen_of_it } = await answer.json();
     session.revision = revision;
     const { ringdown, ringdown_time } = now.style;
     document.style = { ...document.style, ringdown, ringdown_time };
     scene.settle({ 'style.ringdown': ringdown, 'style.ringdown_time': ringdown_time });
-    scene.tellSeen(told);
+    scene.tellSeen(seen_of_it);
   }
 
   // A session that has ended is opened anew: it lives for a minute without anybody who watches. A window that is not seen has no size.
@@ -122,22 +128,30 @@ export function openSource(scene, size, shown, failed) {
     if (!session) scene.land();
     const document = wanted(),
       naps = dozes,
+      now_asked = asked,
       jumps = scene.jumps;
     try {
       const patch = session && difference(document);
       scene.jumped.clear();
-      if (patch && !Object.keys(patch).length) return striking && (await struck(session.document));
+      if (patch && !Object.keys(patch).length) {
+        if (striking) await struck(session.document);
+        told = now_asked;
+        return settle();
+      }
       const answer = await ask(session?.url ?? 'v1/sessions', {
         method: session ? 'PATCH' : 'POST',
         headers: headers(),
         body: JSON.stringify(patch ?? document),
       });
-      const { id, token, revision, scene: now, ...told } = await answer.json();
+      const { id, token, revision, scene: now, ...seen_of_it } = await answer.json();
+      if (!session) last &&= { final: false }; // its revisions are counted anew
       session ??= { url: 'v1/sessions/' + id, token, frame: 0 };
       Object.assign(session, { document: dozes === naps ? document : asleep(document), revision, jumps });
       if (scene.jumps === jumps && patch?.motion) follow(document, now);
-      scene.tellSeen(told);
+      scene.tellSeen(seen_of_it);
       if (striking) await struck(document);
+      told = now_asked;
+      settle();
       if (!pulling) pull();
     } catch (error) {
       if (error.status === 404 && session) return ((session = null), send());
@@ -177,6 +191,9 @@ export function openSource(scene, size, shown, failed) {
       clock,
       azimuth,
     });
+    if (session !== from) return;
+    last = { revision, final: quality.final === 1 };
+    settle();
   }
 
   async function pull() {
@@ -223,12 +240,16 @@ export function openSource(scene, size, shown, failed) {
 
   return {
     refresh() {
+      asked++;
+      last && rests(false);
       clearTimeout(timer);
       put();
     },
     address: () => session?.url ?? null,
     strike(wrong) {
       striking = wrong;
+      asked++;
+      last && rests(false);
       put();
     },
   };

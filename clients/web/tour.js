@@ -86,6 +86,7 @@ export function buildTour(stage, scene) {
       const x = still.matches ? 1 : Math.min((performance.now() - begun) / flight_ms, 1);
       scene.change(place(eased(x)));
       if (x < 1) setTimeout(step, least_ms);
+      else box.dataset.arrived = here + 1;
     }
     step();
   }

@@ -117,7 +117,7 @@ class Hand(Browser):
         seen = []
         for i in range(5):
             page.wait_for_selector(f'#tour .help:has-text("{i + 1} of 5")')
-            page.wait_for_timeout(1500)
+            page.wait_for_selector(f'#tour[data-arrived="{i + 1}"]')
             page.wait_for_selector(AT_REST)
             self.assertTrue(daemon.eventually(lambda: page.locator('#overlay path').count() == (1 if i in (0, 4) else 0)), i)
             seen.append((page.inner_text('#tour h2'), self.pixels(page), page.input_value('[data-path="spacetime.spin"] input[type=number]')))

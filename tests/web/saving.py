@@ -43,7 +43,7 @@ class Saving(Browser):
         self.assertEqual((name, struct.unpack('>II', png[16:24])), ('kerrd-333x217.png', (333, 217)))
         scene = scene_of(png)
         self.assertEqual((scene['spacetime']['spin'], scene['camera']['inclination_deg'], scene['spots'][1]['brightness'], scene['image']['samples']), (0.9, 70, 4, 2))
-        self.assertEqual(page.inner_text('#save-told'), 'Saved.')
+        self.there(page, 'Saved.', '#save-told')
         differ = page.evaluate("""async scene => {
             const pixels = async src => {
                 const image = new Image();
@@ -133,13 +133,23 @@ class Saving(Browser):
         self.choose(page, '3840x2160')
         page.click('#save')
         self.assertTrue(daemon.eventually(lambda: page.evaluate('document.getElementById("save-bar").value') > 0))
-        self.assertIn('%', page.inner_text('#save-told'))
+        self.there(page, '%', '#save-told')
         self.shot(page, 'saving')
         job = self.jobs()[-1].response().json()
         self.assertEqual(self.daemon.get('/v1/jobs/' + job['id']).status, 200)
         page.click('#save-cancel')
         self.assertEqual(page.inner_text('#save-told'), 'Cancelled.')
         self.assertTrue(daemon.eventually(lambda: self.daemon.get('/v1/jobs/' + job['id']).status == 404))
+        held = []
+        page.route('**/v1/jobs', lambda route: held.append(route))
+        page.click('#save')
+        page.click('#save-cancel')  # before the server has answered
+        self.assertEqual(page.inner_text('#save-told'), 'Cancelled.')
+        self.assertTrue(daemon.eventually(lambda: page.evaluate('0') or held))
+        held[0].continue_()
+        self.assertTrue(daemon.eventually(lambda: page.evaluate('0') or len(self.jobs()) > 1 and [r for r in self.requests if r.method == 'DELETE' and '/v1/jobs/' in r.url][1:]))
+        late = self.jobs()[-1].response().json()
+        self.assertTrue(daemon.eventually(lambda: self.daemon.get('/v1/jobs/' + late['id']).status == 404))
         self.assertFalse(page.is_visible('#save-bar') or page.is_visible('#save-got') or page.is_disabled('#save'))
 
     def test_what_cannot_be_saved_is_said(self):
@@ -163,10 +173,10 @@ class Saving(Browser):
         page.route('**/v1/jobs/*', lambda route: route.abort())
         page.click('#save')
         page.wait_for_selector('#save-fault >> text=The server does not answer – trying again')
-        page.unroute('**/v1/jobs/*')
         with page.expect_download():
-            pass
-        self.assertEqual((page.inner_text('#save-told'), page.inner_text('#save-fault')), ('Saved.', ''))
+            page.unroute('**/v1/jobs/*')
+        self.there(page, 'Saved.', '#save-told')
+        self.assertEqual(page.inner_text('#save-fault'), '')
         page.route('**/v1/jobs/*', lambda route: route.fulfill(json={'state': 'failed', 'error': 'what it says'}))
         page.click('#save')
         page.wait_for_selector('#save-fault >> text=what it says')
