@@ -2,6 +2,8 @@
 """What scripts/test asks about a build's tests; it speaks of nothing else.
 
     suite.py known BUILD [ARGUMENT...]    exit 2 and a sentence for a test or suite that `meson test ARGUMENT...` would not find
+    suite.py again BUILD SUITE [ARGUMENT...]  run each failed test of that suite once more, by itself, where no other has failed: exit 0 if all
+                                          of them pass now. Those are listed in BUILD/meson-logs/flaky.txt, and loudly
     suite.py report BUILD [--no-skip]     the seconds of the last run suite by suite, the slowest tests, and what was skipped and why;
                                           with --no-skip a skip is exit 1
 
@@ -64,7 +66,7 @@ def by_suite(tests):
 
 def report(build, *options):
     log = pathlib.Path(build, 'meson-logs/testlog.json')
-    tests = [json.loads(line) for line in log.read_text().splitlines()] if log.exists() else []
+    tests = read(log)
     slowest = sorted(tests, key=lambda test: -test['duration'])[:8]
     if len(tests) > len(slowest):
         print('suites:', ', '.join(f'{suite} {number} in {seconds:.0f} s' for suite, number, seconds in by_suite(tests)))
@@ -76,8 +78,38 @@ def report(build, *options):
     if skipped and '--no-skip' in options:
         print(f'scripts/test: {len(skipped)} skipped, where none may be', file=sys.stderr)
         return 1
+    flaky = pathlib.Path(build, 'meson-logs/flaky.txt')
+    if flaky.exists():
+        print(flaky.read_text(), end='')
     return 0
 
 
+MOST_AGAIN = 3  # more failures at once are no race
+
+
+def read(log):
+    return [json.loads(line) for line in log.read_text().splitlines()] if log.exists() else []
+
+
+def again(build, suite, *arguments):
+    logs = pathlib.Path(build, 'meson-logs')
+    failed = [test['name'].split(' / ') for test in read(logs / 'testlog.json') if test['result'] not in ('OK', 'SKIP', 'EXPECTEDFAIL')]
+    others = [name for suites, name in failed if suite not in suites.split(':')[-1].split('+')]
+    if not failed or others or len(failed) > MOST_AGAIN:
+        return 1
+    twice = []
+    for _, name in failed:
+        print(f'{name} has failed: once more, by itself', flush=True)
+        subprocess.run(['meson', 'test', '-C', build, '--no-rebuild', '--print-errorlogs', '--logbase', 'again', *arguments, name])
+        if [test['result'] for test in read(logs / 'again.json')] != ['OK']:
+            twice.append(name)
+            continue
+        with (logs / 'flaky.txt').open('a') as flaky:
+            print(f'FLAKY: {name} failed once, passed alone: there is a race in it, mend it', file=flaky)
+    for name in twice:
+        print(f'{name} has failed twice')
+    return 1 if twice else 0
+
+
 if __name__ == '__main__':
-    sys.exit({'known': lambda build, *arguments: check(build, arguments), 'report': report}[sys.argv[1]](*sys.argv[2:]))
+    sys.exit({'known': lambda build, *arguments: check(build, arguments), 'again': again, 'report': report}[sys.argv[1]](*sys.argv[2:]))
