@@ -44,7 +44,7 @@ class Daemon:
     def connect(self, timeout=60, source='127.0.0.1'):
         return socket.create_connection(('127.0.0.1', self.port), timeout, source_address=(source, 0))
 
-    def request(self, method, target, body=None, headers=None, timeout=60):
+    def request(self, method, target, body=None, headers=None, timeout=240):
         connection = http.client.HTTPConnection('127.0.0.1', self.port, timeout=timeout)
         try:
             connection.putrequest(method, target, skip_accept_encoding=True)
@@ -128,7 +128,7 @@ def needed(name):
         sys.exit(77)
 
 
-def eventually(condition, timeout=60):
+def eventually(condition, timeout=240):
     deadline = time.monotonic() + timeout
     while time.monotonic() < deadline:
         if condition():

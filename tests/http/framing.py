@@ -8,6 +8,7 @@ import unittest
 import daemon
 
 SCENE = b'POST /v1/render HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n'
+MOST_S = 8  # of the one or two that the server gives a client, on a busy machine
 POST = b'POST /v1/plan HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n'
 
 
@@ -214,24 +215,24 @@ class Deadlines(daemon.Case):
 
     def test_slow_request_line(self):
         seconds, _ = self.trickle(b'GET /', b'x')
-        self.assertLess(seconds, 2)
+        self.assertLess(seconds, MOST_S)
 
     def test_slow_header(self):
         seconds, got = self.trickle(b'GET /healthz HTTP/1.1\r\nHost: localhost\r\nX: ', b'x')
-        self.assertLess(seconds, 2)
+        self.assertLess(seconds, MOST_S)
         self.assertTrue(got.startswith(b'HTTP/1.1 408 '), got)
 
     def test_slow_body(self):
         seconds, got = self.trickle(POST + b'Content-Length: 1000\r\n\r\n', b' ')
         self.assertGreater(seconds, 0.6)
-        self.assertLess(seconds, 2)
+        self.assertLess(seconds, MOST_S)
         self.assertIn(b'HTTP/1.1 408 ', got)
 
     def test_silence(self):
         with self.daemon.connect() as s:
             begun = time.monotonic()
             self.assertEqual(s.recv(1), b'')
-            self.assertLess(time.monotonic() - begun, 2)
+            self.assertLess(time.monotonic() - begun, MOST_S)
 
     def test_a_render_may_take_longer_than_either(self):
         self.assertEqual(self.daemon.get('/v1/render?time=1500&' + daemon.SMALL).status, 200)

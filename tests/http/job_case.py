@@ -41,7 +41,7 @@ def scene_of(png):
 class Case(daemon.Owned):
     kind, made = '/v1/jobs', 202
 
-    def until(self, job, state, server=None, timeout=20):
+    def until(self, job, state, server=None, timeout=240):
         self.assertTrue(daemon.eventually(lambda: self.status(job, server)['state'] == state, timeout), self.status(job, server))
         return self.status(job, server)
 

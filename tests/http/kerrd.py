@@ -549,7 +549,7 @@ class Kerrd(unittest.TestCase):
         asked = {'scene': scene, 'axes': {'style.exposure': [0, 1], 'spacetime.spin': '0:0.9:0.1'}, 'output': 'cube'}
 
         def finished(server, at, least):
-            self.assertTrue(daemon.eventually(lambda: server.get(at).json()['finished'] >= least, 60))
+            self.assertTrue(daemon.eventually(lambda: server.get(at).json()['finished'] >= least))
             return server.get(at).json()
 
         with tempfile.TemporaryDirectory() as folder:
@@ -566,7 +566,7 @@ class Kerrd(unittest.TestCase):
             self.addCleanup(lambda: server.process.poll() is None and (server.process.kill(), server.wait()))
             again = server.get(killed).json()
             self.assertTrue(7 <= again['finished'] <= 20 and again['axes'] == {'style.exposure': 2, 'spacetime.spin': 10}, again)
-            self.assertTrue(daemon.eventually(lambda: server.get(killed).json()['state'] == 'done', 60))
+            self.assertTrue(daemon.eventually(lambda: server.get(killed).json()['state'] == 'done'))
             self.assertIn(server.get(killed).json()['lens_maps_traced'], range(6, 13))  # a killed server forgets those of its last half second
             for at in killed, whole:
                 for end, expected in files.items():

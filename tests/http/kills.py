@@ -59,7 +59,7 @@ class Kills(state.Case):
         server, plain = self.start('--jobs', 12), self.start('--jobs', 100, state=False)
         self.assertGreater(len(accepted), KILLS / 2)
         for n, job in sorted(accepted.items()):
-            self.assertTrue(daemon.eventually(lambda: self.status(job, server)['state'] == 'done', 60), self.status(job, server))
+            self.assertTrue(daemon.eventually(lambda: self.status(job, server)['state'] == 'done'), self.status(job, server))
             again = self.make(request(n), server=plain)
             self.until(again, 'done', plain)
             for i in range(len(request(n)['scenes'])):

@@ -82,14 +82,15 @@ class Playground(daemon.Owned):
             self.delete(play)
 
     def test_life(self):
+        begun = time.monotonic()
         play = self.open(rate=100)
         self.assertEqual((play['rate'], play['paused'], play['slowed'], play['resting'], play['events']), (100, False, False, False, 0))
         self.assertEqual([(b['id'], b['name'], b['mass'], b['position']) for b in play['bodies']], [(1, 'planet', 1e-6, [30, 0, 0])])
-        time.sleep(1.5)
+        self.assertTrue(daemon.eventually(lambda: self.status(play)['t'] > 100))
+        self.assertTrue(daemon.eventually(lambda: 80 < self.status(play)['rate_reached'] < 120))
         found = self.status(play)
         self.assertNotIn('token', found)
-        self.assertTrue(100 < found['t'] < 250, found['t'])
-        self.assertTrue(80 < found['rate_reached'] < 120, found['rate_reached'])
+        self.assertLess(found['t'], 100 * (time.monotonic() - begun) + 1)
         self.assertTrue(any('Paczynski' in sentence for sentence in found['approximations']))
         self.assertProblem(self.daemon.request('DELETE', self.at(play)), 403, 'forbidden')
         self.assertEqual(self.delete(play).status, 204)
@@ -376,11 +377,7 @@ class Playground(daemon.Owned):
     def test_polls_that_do_not_wait(self):
         play = self.open(rate=100)
         seen = set()
-        for _ in range(5):
-            answer = self.get(play, '/bodies?wait_ms=0')
-            seen.add(answer.header('Kerrd-Generation'))
-            time.sleep(0.1)
-        self.assertEqual(len(seen), 5)
+        self.assertTrue(daemon.eventually(lambda: seen.add(self.get(play, '/bodies?wait_ms=0').header('Kerrd-Generation')) or len(seen) == 5))
         self.patch(play, {'paused': True})
         now = self.status(play)['generation']
         self.assertEqual(self.daemon.get(self.at(play, f'/bodies?after={now}&wait_ms=0')).status, 204)
@@ -395,7 +392,7 @@ class Playground(daemon.Owned):
             began = time.monotonic()
             self.step(play, 100)
             self.assertGreater(len(unpack(waiting.result())[3]), 100)
-            self.assertLess(time.monotonic() - began, 5)
+            self.assertLess(time.monotonic() - began, 20, 'sooner than by waiting in vain')
 
     def test_lists_have_ends(self):
         play = self.open(paused=True)
@@ -456,14 +453,14 @@ class Playground(daemon.Owned):
         play = self.open(rate=100, scene={'image': {'width': 64, 'height': 36}})
         s = self.stream(play, '/frames', 'application/x-kerrd-frames')
         data, end = b'', time.monotonic() + 6.5
-        while time.monotonic() < end:
+        while time.monotonic() < end or data.count(b'\x89PNG') < 20:
             data += s.recv(65536)
+        self.assertTrue(daemon.eventually(lambda: self.status(play)['t'] > 550), 'it has gone on all the time')
         s.close()
-        self.assertGreater(data.count(b'\x89PNG'), 20)
-        self.assertGreater(self.status(play)['t'], 550, 'it has gone on all the time')
 
     def test_a_stream_of_pictures_ends_with_its_playground(self):
-        held = self.daemon.metrics()['kerrd_playground_bytes']
+        held = 0
+        self.assertTrue(daemon.eventually(lambda: self.daemon.metrics()['kerrd_playground_bytes'] == held), 'those of other tests have gone')
         play = self.open(rate=100, scene={'image': {'width': 64, 'height': 36}})
         without = self.daemon.metrics()['kerrd_playground_bytes']
         s = self.stream(play, '/frames', 'application/x-kerrd-frames')
@@ -556,7 +553,7 @@ class Limits(daemon.Owned):
         while (answer := self.daemon.get(self.at(play, f'/frame.png?after={number}&wait_ms=1000'))).status == 200:
             number = int(answer.header('Kerrd-Frame'))
         self.assertGreater(number, 0)
-        self.assertTrue(daemon.eventually(lambda: self.daemon.get(self.at(play, '/bodies')).status == 200 and self.daemon.metrics()['kerrd_sessions'] == 0, 30))
+        self.assertTrue(daemon.eventually(lambda: self.daemon.get(self.at(play, '/bodies')).status == 200 and self.daemon.metrics()['kerrd_sessions'] == 0))
         again = self.daemon.get(self.at(play, f'/frame.png?after={number}&wait_ms=20000'))
         self.assertEqual(again.status, 200)
         self.assertGreater(int(again.header('Kerrd-Frame')), number)
@@ -613,9 +610,8 @@ class Stopping(unittest.TestCase):
         streams = [server.connect() for _ in range(2)]
         for s, rest in zip(streams, ('events', 'bodies?after=99999999&wait_ms=60000')):
             s.sendall(f'GET /v1/playground/{play["id"]}/{rest} HTTP/1.1\r\nHost: localhost\r\n\r\n'.encode())
-        time.sleep(0.3)
+        text = streams[0].recv(65536)  # it is under way
         server.terminate()
-        text = b''
         while data := streams[0].recv(65536):
             text += data
         self.assertIn(b'event: end\ndata: {"why":"stopping"}', text)

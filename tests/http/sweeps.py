@@ -161,7 +161,7 @@ class Plans(Case):
         return s
 
     def tearDown(self):
-        self.assertTrue(daemon.eventually(lambda: self.unfinished() == 0, 60))
+        self.assertTrue(daemon.eventually(lambda: self.unfinished() == 0))
         super().tearDown()
 
     def unfinished(self):

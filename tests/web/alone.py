@@ -55,7 +55,7 @@ class Alone(Browser):
         self.assertTrue(daemon.eventually(shown))
         self.assertTrue(daemon.eventually(lambda: not shown()))
         page.keyboard.press('Tab')
-        self.assertTrue(shown())
+        self.assertTrue(daemon.eventually(shown))
         page.keyboard.press('Tab') # over the one that asks what a light is
         self.assertEqual(page.get_attribute('#full', 'aria-label'), 'Leave the picture (Esc)')
         page.keyboard.press('Enter')

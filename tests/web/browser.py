@@ -17,11 +17,14 @@ try:
 except ImportError:
     sync_playwright = None
 
+PATIENCE_MS = 240_000  # after which what is waited for is taken not to come; a busy machine is slow
 AT_REST = '#stage[data-final=true]'
 FINE = '#stage[data-final=true][data-samples="2"]'
 VIEWS = ('lensing', 'orbits', 'playground', 'physics', 'scale')
 READY = {'lensing': AT_REST, 'orbits': '#orbit-picture .front', 'playground': '#play-plane[data-bodies]', 'physics': '#curves .card:last-child canvas', 'scale': '#scale-rows tr'}
 KERRD, SHOTS = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv.pop(2)) / 'screenshots'
+# KERRD_SLOW="4 400": scripts of every page run at a quarter of their speed, and every answer comes 400 ms late (docs/web.md).
+SLOW, LATE_MS = map(float, os.environ.get('KERRD_SLOW', '1 0').split())
 CHROMIUM = shutil.which('chromium') or shutil.which('chromium-browser')
 # No GPU and no WebGL: the page must need neither.
 FLAGS = ['--no-sandbox', '--disable-gpu', '--disable-3d-apis', '--disable-quic', '--no-first-run', '--disable-background-networking',
@@ -65,7 +68,7 @@ class Browser(unittest.TestCase):
             raise AssertionError(f'kerrd exited with {code}')
 
     def setUp(self):
-        self.complaints, self.requests, self.contexts, self.expected = [], [], [], ''
+        self.complaints, self.requests, self.frames, self.contexts, self.expected = [], [], [], [], ''
 
     def tearDown(self):
         # Before the pages close: what a browser says of requests that a closing page drops is no complaint.
@@ -82,7 +85,7 @@ class Browser(unittest.TestCase):
     def open(self, fragment='lang=en', wait=AT_REST, **options):
         page = self.page(self.context(**options))
         page.goto(self.base + '#' + (fragment if 'preset=' in fragment else 'preset=default&' + fragment))  # whatever the first view is
-        page.wait_for_selector(wait, timeout=60000, state='attached')
+        page.wait_for_selector(wait, timeout=PATIENCE_MS, state='attached')
         return page
 
     def context(self, gallery=False, **options):
@@ -91,19 +94,24 @@ class Browser(unittest.TestCase):
         context = self.browser.new_context(**options)
         if not gallery:
             context.add_init_script('window.IntersectionObserver = class { observe() {} unobserve() {} disconnect() {} };')
-        context.set_default_timeout(90000)  # a busy machine is slow
+        context.set_default_timeout(PATIENCE_MS)
         self.contexts.append(context)
         return context
 
     def page(self, context):
         page = context.new_page()
+        if SLOW > 1 or LATE_MS:
+            devtools = context.new_cdp_session(page)
+            devtools.send('Emulation.setCPUThrottlingRate', {'rate': SLOW})
+            devtools.send('Network.emulateNetworkConditions', {'offline': False, 'latency': LATE_MS, 'downloadThroughput': -1, 'uploadThroughput': -1})
         page.on('console', lambda m: self.complaints.append(f'{m.type}: {m.text}') if m.type in ('error', 'warning') else None)
         page.on('pageerror', lambda e: self.complaints.append(str(e)))
         page.on('request', lambda r: self.requests.append(r))
+        page.on('response', lambda r: self.frames.append(r) if '/frame.png' in r.url and r.status == 200 else None)
         return page
 
     def shot(self, page, name, **options):
-        SHOTS.mkdir(exist_ok=True)
+        SHOTS.mkdir(parents=True, exist_ok=True)
         page.screenshot(path=SHOTS / f'{name}.png', **options)
 
     def pixels(self, page):
@@ -141,6 +149,22 @@ class Browser(unittest.TestCase):
             page.mouse.move(x + right * step / 8, y + down * step / 8)
         page.mouse.up()
         page.wait_for_selector(AT_REST)
+
+    def there(self, page, words, selector):
+        """Waits for words that come after what brings them."""
+        self.assertTrue(daemon.eventually(lambda: words in page.inner_text(selector)), f'{words!r} in {page.inner_text(selector)!r}')
+
+    def linked(self, page, *parts):
+        """The address follows a moment after what is done."""
+        self.assertTrue(daemon.eventually(lambda: page.evaluate('0') or all(part in page.url for part in parts)), page.url)
+
+    def quiet(self, page, ms=500):
+        """Waits until a page has asked for nothing for so long."""
+        def still():
+            before = len(self.requests)
+            page.wait_for_timeout(ms)
+            return len(self.requests) == before
+        self.assertTrue(daemon.eventually(still))
 
     def open_groups(self, page):
         page.evaluate('() => { for (const d of document.querySelectorAll("details")) d.open = true; }')

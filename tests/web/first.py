@@ -1,7 +1,7 @@
 """The first view: a preset, where a link says nothing of the scene: first.py KERRD FOLDER (browser.py)."""
 import re
 
-from browser import AT_REST, Browser, main
+from browser import AT_REST, PATIENCE_MS, Browser, main
 import daemon
 
 
@@ -18,7 +18,7 @@ class First(Browser):
 
         page.route('**/web/presets.js', answer)
         page.goto(self.base + '#' + fragment)
-        page.wait_for_selector(wait, timeout=60000, state='attached')
+        page.wait_for_selector(wait, timeout=PATIENCE_MS, state='attached')
         page.wait_for_selector('#preset option:nth-child(3)', state='attached')
         return page
 
@@ -27,7 +27,7 @@ class First(Browser):
         for lang, width, height in (('en', 1440, 900), ('it', 390, 844)):
             page = self.page(self.context(viewport={'width': width, 'height': height}))
             page.goto(self.base + f'#lang={lang}')
-            page.wait_for_selector('#stage[data-final]', timeout=60000, state='attached')
+            page.wait_for_selector('#stage[data-final]', timeout=PATIENCE_MS, state='attached')
             self.assertTrue(daemon.eventually(lambda: page.input_value('#preset') == 'gas-stars'))
             self.assertTrue(daemon.eventually(lambda: page.inner_text('#clock') and float(page.inner_text('#clock').split()[2].replace(',', '.')) > 1))
             linked = lambda: float((re.search(r'camera\.azimuth_deg=([-\d.]+)', page.evaluate('location.hash')) or [0, '0'])[1])

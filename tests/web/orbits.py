@@ -1,5 +1,6 @@
 """The view of orbits: orbits.py KERRD FOLDER (browser.py)."""
 from browser import Browser, main
+import daemon
 
 
 class Orbits(Browser):
@@ -11,9 +12,9 @@ class Orbits(Browser):
         self.assertEqual(page.locator('#orbits math').count(), 2)
         page.wait_for_selector('#orbit-plots canvas >> nth=1', state='attached')
         for plot in range(2):
-            self.assertGreater(self.drawn(page, f'#orbit-plots canvas >> nth={plot}')['coloured'], 300, plot)
-        self.assertIn('Advance of the periastron', page.inner_text('#orbit-facts'))
-        self.assertNotEqual(page.inner_text('#orbit-live'), '')
+            self.assertTrue(daemon.eventually(lambda: self.drawn(page, f'#orbit-plots canvas >> nth={plot}')['coloured'] > 300), plot)
+        self.there(page, 'Advance of the periastron', '#orbit-facts')
+        self.assertTrue(daemon.eventually(lambda: page.inner_text('#orbit-live')))
         self.shot(page, 'orbits', full_page=True)
         before = page.get_attribute('#orbit-picture .front', 'd')
         page.focus('#orbit-turn')

@@ -44,7 +44,7 @@ class Panel(Browser):
         page.reload()
         page.wait_for_selector(AT_REST)
         self.assertEqual(page.locator('#panel details[open]').evaluate_all('all => all.map(n => n.id)'), ['group-gas', 'rest-disk'])
-        self.assertEqual(page.url, address, 'a link is of the scene')
+        self.assertTrue(daemon.eventually(lambda: page.evaluate('0') or page.url == address), 'a link is of the scene')
 
     def test_help_names_no_paths(self):
         """A help calls other fields by their labels, and points to no file of the source."""
@@ -79,7 +79,7 @@ class Panel(Browser):
         self.expected = '422'
         page = self.open('lang=en&disk.inner=1', '#status[data-wrong]')
         page.wait_for_selector('[data-path="disk.inner"] .fault >> text=the ISCO')
-        self.assertEqual(page.locator('#group-gas[open] #rest-disk[open]').count(), 1)
+        page.wait_for_selector('#group-gas[open] #rest-disk[open]')
 
     def test_what_means_nothing_is_not_there(self):
         page = self.open()
@@ -126,8 +126,7 @@ class Panel(Browser):
         page = self.open('lang=it&pause=1&disk.gas.amplitude=1&style.bloom=0.3&spots.0.brightness=1')
         self.open_groups(page)
         shown = page.locator('#timings th').all_inner_texts()
-        frames = [r for r in self.requests if '/frame.png' in r.url][:-1]  # one is still awaited
-        passes = {entry.strip().split(';')[0] for r in frames for entry in r.response().headers['server-timing'].split(',')}
+        passes = {entry.strip().split(';')[0] for r in self.frames for entry in r.headers['server-timing'].split(',')}
         self.assertGreater(len(passes & {'trace', 'transfer', 'post', 'light', 'bloom', 'footprint'}), 4, passes)
         self.assertEqual(passes & set(shown), set())
 

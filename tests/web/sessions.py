@@ -76,10 +76,9 @@ class Sessions(Browser):
                 page.unroute(fails)
                 if view != 'physics':  # that one goes by itself
                     page.click(f'{told} button:has-text("Try again")')
-                    # A browser may remember that a module did not come (Chromium 150 does, 156 does not): the next try loads the page anew.
-                    page.wait_for_timeout(1000)
-                    if fails.endswith('.js') and page.locator(f'{told} button').is_visible():
-                        page.click(f'{told} button')
+                    # A browser may remember that a module did not come (Chromium 150 does, 156 does not): the next try by hand loads the page anew.
+                    again = lambda: page.evaluate('told => document.querySelector(told + " button")?.click()', told)
+                    self.assertTrue(daemon.eventually(lambda: page.locator(READY[view]).count() or fails.endswith('.js') and again()))
                 page.wait_for_selector(READY[view])
                 page.locator(f'{told} button').wait_for(state='detached')
                 context.close()
