@@ -13,9 +13,9 @@ import { apart, buildLiving } from './living.js';
 import { buildOverlays } from './overlay.js';
 import { buildPresets, openPreset, startAgain } from './presets.js';
 import { Scene } from './scene.js';
-import { physics } from './server.js';
 import { share } from './share.js';
 import { openSource } from './source.js';
+import { buildStruck } from './struck.js';
 import { handle } from './view.js';
 
 // What a view needs is loaded when it is opened. Some browsers remember for good that a module did not come: by hand there is another way.
@@ -216,27 +216,7 @@ async function watch(scene) {
     source.refresh();
     nameStars();
   });
-  // It is the hole that rings, about its own axis, whichever way the disk turns.
-  const hole = () => ({ spin: Number(Math.abs(scene.get('spacetime.spin')).toFixed(4)), mass_msun: scene.get('spacetime.mass_msun') });
-  byId('hear').addEventListener('click', async () => {
-    try {
-      const { play, ringing, told } = await import('./sound.js'),
-        ring = ringing((await physics('qnm', hole())).values, hole());
-      byId('heard').textContent = told(ring);
-      if (ring.audible) await play(ring.url(ring.stretch));
-    } catch (error) {
-      tell(byId('heard'), error.message);
-    }
-  });
-  byId('wave').addEventListener('click', async () => {
-    await goTo('physics');
-    byId('curve-qnm')?.scrollIntoView();
-    for (const [name, value] of Object.entries(hole())) {
-      const input = byId('in-qnm-' + name);
-      input.value = value;
-      input.dispatchEvent(new Event('change'));
-    }
-  });
+  buildStruck(scene, goTo);
   scene.addEventListener('drift', () => source.refresh());
   if (!byId('welcome').hidden) import('./drift.js').then(({ begin }) => begin(scene), () => {});
   buildFull(stage);

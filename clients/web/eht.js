@@ -1,6 +1,7 @@
 // M87* and Sgr A* beside what the Event Horizon Telescope measured, at one scale on the sky: our picture, the same through the telescope's
 // beam, and the ring with its error. A slider goes from one to the next.
 import { byId, el, svg } from './dom.js';
+import { persistent } from './again.js';
 import { number, t } from './i18n.js';
 import * as link from './link.js';
 import { ask, drawn, physics } from './server.js';
@@ -32,7 +33,7 @@ function panel(hole) {
     lines = svg('svg', { class: 'sky-lines', 'aria-hidden': 'true' }),
     words = el('p', { class: 'help' });
   stack.append(...pictures, lines);
-  const node = el('figure', { class: 'plot sky', id: 'sky-' + hole }, el('figcaption', {}, seen[hole].name), stack, words);
+  const node = el('figure', { class: 'plot sky', id: 'sky-' + hole }, seen[hole].name && el('figcaption', {}, seen[hole].name), stack, words);
   let shown = []; // addresses of what the pictures are made of
 
   function query(look, more) {
@@ -93,7 +94,7 @@ function panel(hole) {
 
   return {
     node,
-    // v: values of the quantity scale for it.
+    // v: values of the quantity scale for it. Draws the lines, and returns what the pictures then have to be: functions, the coarse one first.
     async show(spin, inclination, v) {
       const edge = (await physics('shadow', { spin, inclination_deg: inclination, angle_deg: '0:358:180', ...drawn })).values,
         measured = hole !== 'none',
@@ -101,9 +102,7 @@ function panel(hole) {
           unit: measured ? v.m_uas : 1, width: measured ? across_uas : alone_m };
       draw(look, edge, v);
       say(v, edge);
-      await picture(0, look, {});
-      if (measured) await picture(1, look, { 'style.beam_uas': beam_uas });
-      return edge;
+      return [() => picture(0, look, {}), measured && (() => picture(1, look, { 'style.beam_uas': beam_uas }))].filter(Boolean);
     },
   };
 }
@@ -133,20 +132,24 @@ function slide(root) {
 // Returns show(hole, spin, inclination, values): the chosen hole and, beside it, the other measured one.
 export function beside(root) {
   const panels = Object.fromEntries(Object.keys(seen).map(hole => [hole, panel(hole)])),
-    control = slide(root);
-  root.append(el('div', { class: 'sky-pair' }, Object.values(panels).map(({ node }) => node)), control);
+    control = slide(root),
+    fault = el('p', { class: 'fault', role: 'status' }),
+    paint = persistent(fault, 'scale', async pictures => {
+      for (const make of pictures) await make();
+    });
+  root.append(fault, el('div', { class: 'sky-pair' }, Object.values(panels).map(({ node }) => node)), control);
   return async (hole, spin, inclination, values) => {
     for (const [name, { node }] of Object.entries(panels)) {
       node.hidden = hole === 'none' ? name !== 'none' : name === 'none';
       node.toggleAttribute('data-chosen', name === hole);
     }
     control.hidden = byId('scale-caption').hidden = hole === 'none';
-    const edge = await panels[hole].show(spin, inclination, values),
+    const pictures = await panels[hole].show(spin, inclination, values),
       other = { m87: 'sgra', sgra: 'm87' }[hole];
     if (other) {
       const tilt = seen[other].inclination;
-      await panels[other].show(spin, tilt, (await physics('scale', { hole: other, spin, inclination_deg: tilt })).values);
+      pictures.push(...(await panels[other].show(spin, tilt, (await physics('scale', { hole: other, spin, inclination_deg: tilt })).values)));
     }
-    return edge;
+    paint(pictures); // while the numbers are there already
   };
 }

@@ -17,7 +17,7 @@ export const explained = {
     ],
   },
   'photon-rings': {
-    text: 'La luce che ha fatto n mezzi giri attorno al buco si vede come un anello di ordine n, e ogni anello contiene un’immagine intera di ciò che circonda il buco. Gli anelli non si fanno più fiochi, ma più sottili: ciascuno è largo e^−γ volte il precedente. γ è l’esponente di Lyapunov dell’orbita dei fotoni che si vede in quella direzione: di quel fattore cresce in mezzo giro un piccolo scarto. Senza rotazione vale π tutt’intorno, e ogni anello è 23 volte più sottile del precedente; con la rotazione dipende da dove, lungo il bordo, si guarda. La luce arriva anche più tardi, di mezzo giro per ogni ordine: un’eco che nessun telescopio ha ancora distinto.',
+    text: 'La luce che ha fatto n mezzi giri attorno al buco si vede come un anello di ordine n, e ogni anello contiene un’immagine intera di ciò che circonda il buco. Gli anelli non si fanno più fiochi, ma più sottili: ciascuno è largo e^−γ volte il precedente. γ è l’esponente di Lyapunov dell’orbita dei fotoni che si vede in quella direzione: di e^γ cresce in mezzo giro un piccolo scarto. Senza rotazione vale π tutt’intorno, e ogni anello è 23 volte più sottile del precedente; con la rotazione dipende da dove, lungo il bordo, si guarda. La luce arriva anche più tardi, di mezzo giro per ogni ordine: un’eco che nessun telescopio ha ancora distinto.',
     steps: [
       'Accanto a un’orbita r̃ dei fotoni il potenziale radiale è R ≈ ½R″(r̃)(r − r̃)²: nel tempo di Mino τ una distanza cresce come exp(τ√(½R″)).',
       'Da un attraversamento del piano equatoriale al successivo passa il semiperiodo τ½ del moto in latitudine: γ = τ½ √(½R″(r̃)).',
@@ -61,7 +61,7 @@ export const explained = {
     steps: [
       'L = g_tφ ṫ + g_φφ φ̇ si conserva. Per L = 0 la velocità angolare è dφ/dt = −g_tφ/g_φφ = ω.',
       'La luce gira con Ω± = ω ± √(ω² − g_tt/g_φφ). La più bassa è zero dove g_tt = 0: r = 2M nel piano equatoriale, per ogni spin.',
-      'Lontano ω → 2J/r³. Gravity Probe B ha misurato quello della Terra: 37 millesimi di secondo d’arco all’anno.',
+      'Lontano ω → 2J/r³. Gravity Probe B ha misurato che cosa quello della Terra fa a un giroscopio: lo gira di 37 millesimi di secondo d’arco all’anno.',
     ],
   },
   flamm: {

@@ -17,7 +17,7 @@ export const explained = {
     ],
   },
   'photon-rings': {
-    text: 'Light that has made n half turns round the hole is seen as a ring of order n, and each ring holds a whole picture of all that surrounds the hole. The rings do not get fainter per area but thinner: each is e^−γ times as wide as the one before. γ is the Lyapunov exponent of the photon orbit that is seen in that direction: by that factor a small departure grows in half a turn. Without spin it is π all round, and each ring 23 times thinner than the last; with spin it depends on where along the edge one looks. Light also arrives later by half a turn for each order, an echo that no telescope has resolved yet.',
+    text: 'Light that has made n half turns round the hole is seen as a ring of order n, and each ring holds a whole picture of all that surrounds the hole. The rings do not get fainter per area but thinner: each is e^−γ times as wide as the one before. γ is the Lyapunov exponent of the photon orbit that is seen in that direction: by e^γ a small departure grows in half a turn. Without spin it is π all round, and each ring 23 times thinner than the last; with spin it depends on where along the edge one looks. Light also arrives later by half a turn for each order, an echo that no telescope has resolved yet.',
     steps: [
       'Beside an orbit r̃ of the photon shell the radial potential is R ≈ ½R″(r̃)(r − r̃)², so in Mino time τ a distance grows as exp(τ√(½R″)).',
       'From one crossing of the equatorial plane to the next passes the half period τ½ of the motion in latitude: γ = τ½ √(½R″(r̃)).',
@@ -61,7 +61,7 @@ export const explained = {
     steps: [
       'L = g_tφ ṫ + g_φφ φ̇ is kept. For L = 0 the angular velocity is dφ/dt = −g_tφ/g_φφ = ω.',
       'Light moves round at Ω± = ω ± √(ω² − g_tt/g_φφ). The lower one is zero where g_tt = 0: r = 2M in the equatorial plane, for every spin.',
-      'Far away ω → 2J/r³. Gravity Probe B measured that of the Earth: 37 milliseconds of arc a year.',
+      'Far away ω → 2J/r³. Gravity Probe B measured what that of the Earth does to a gyroscope: it turns by 37 milliseconds of arc a year.',
     ],
   },
   flamm: {

@@ -65,7 +65,7 @@ export function buildLiving(stage, scene, source) {
     play.textContent = scene.goesOn() ? t('Pause', 'Pausa') : t('Play', 'Avvia');
     for (const showButton of buttons) showButton();
     seed.hidden = !seeds(scene).length;
-    strike.hidden = !canRing(scene);
+    strike.hidden = byId('mute').hidden = !canRing(scene);
     for (const id of ['hear', 'wave']) byId(id).hidden = !(canRing(scene) && scene.get('style.ringdown') > 0);
     if (byId('hear').hidden) byId('heard').textContent = '';
     fault.textContent = '';

@@ -2,130 +2,33 @@
 // its periastron advances.
 import { persistent } from './again.js';
 import { entitle } from './describe.js';
-import { byId, el, still, svg } from './dom.js';
+import { byId, el, still } from './dom.js';
 import { buildForm } from './form.js';
 import { number, t, tell, word } from './i18n.js';
+import { buildPicture, smooth } from './orbit-picture.js';
 import { plot } from './plot.js';
 import { drawn, physics, postJson } from './server.js';
 
 const own = 'shape';
+const thrown = 'thrown';
 const specs = [
   {
     name: 'orbit',
     value: own,
-    choices: [own, 'zoom-whirl', 'plunge', 'spherical', 'isco', 'mercury'],
-    words: { [own]: t('p, e, inclination', 'p, e, inclinazione'), isco: 'ISCO', mercury: t('Mercury', 'Mercurio') },
+    choices: [own, thrown, 'zoom-whirl', 'plunge', 'spherical', 'isco', 'mercury'],
+    words: { [own]: t('p, e, inclination', 'p, e, inclinazione'), [thrown]: t('thrown by hand', 'lanciata a mano'), isco: 'ISCO', mercury: t('Mercury', 'Mercurio') },
   },
   { name: 'spin', unit: 'M', value: 0.9, min: -0.998, max: 0.998, step: 0.002 },
   { name: 'p', unit: 'M', value: 6.5, min: 1, max: 200, step: 0.1 },
   { name: 'e', unit: '', value: 0.5, min: 0, max: 0.99, step: 0.01 },
   { name: 'inclination_deg', unit: 'degrees', value: 30, min: 0, max: 180, step: 1 },
+  { name: 'r', unit: 'M', value: 10, min: 1, max: 200, step: 0.01 },
+  { name: 'phi_deg', label: t('Azimuth', 'Azimut'), unit: 'degrees', value: 0, min: -180, max: 180, step: 0.1 },
+  { name: 'v_r', label: t('Velocity outwards', 'Velocità verso l’esterno'), unit: 'c', value: 0, min: -0.99, max: 0.99, step: 0.001 },
+  { name: 'v_phi', label: t('Velocity round', 'Velocità attorno'), unit: 'c', value: 0.36, min: -0.99, max: 0.99, step: 0.001 },
   { name: 'periods', unit: '', value: 12, min: 1, max: 200, step: 1 },
   { name: 'method', value: 'yoshida6', choices: ['yoshida6', 'rkn6', 'closed'] },
 ];
-
-// Through the sample before and after each stretch goes a cubic (E. Catmull & R. Rom 1974), as Bezier curves have it.
-const nudge = (from, to, at) => at.map((x, i) => x + (to[i] - from[i]) / 6);
-
-function smooth(points, k, share) {
-  const at = j => points[Math.min(Math.max(j, 0), points.length - 1)],
-    [a, d] = [at(k), at(k + 1)],
-    [b, c] = [nudge(at(k - 1), d, a), nudge(at(k + 2), a, d)],
-    mix = (one, other) => one.map((x, i) => x + (other[i] - x) * share);
-  return mix(mix(mix(a, b), mix(b, c)), mix(mix(b, c), mix(c, d)));
-}
-
-// The path as an outside eye far away sees it, by straight lines: turn about the axis, then tilt.
-function buildPicture(root) {
-  const turn = el('input', { type: 'range', id: 'orbit-turn', min: -180, max: 180, value: 30 });
-  const tilt = el('input', { type: 'range', id: 'orbit-tilt', min: 0, max: 180, value: 62 });
-  const picture = svg('svg', {
-    viewBox: '-100 -75 200 150',
-    class: 'rosette',
-    role: 'img',
-    'aria-label': t('The orbit in space', 'L’orbita nello spazio'),
-  });
-  const body = svg('circle', { class: 'body', r: 1.8 });
-  let path = null,
-    reach = 1,
-    hole = 1;
-
-  function project([x, y, z]) {
-    const a = (turn.valueAsNumber * Math.PI) / 180,
-      i = (tilt.valueAsNumber * Math.PI) / 180,
-      k = 70 / reach;
-    const towards = x * Math.cos(a) + y * Math.sin(a),
-      right = y * Math.cos(a) - x * Math.sin(a);
-    return { x: right * k, y: (towards * Math.cos(i) - z * Math.sin(i)) * k, depth: towards * Math.sin(i) + z * Math.cos(i) };
-  }
-
-  function draw() {
-    if (!path) return;
-    const parts = { back: '', front: '' },
-      places = path.map(project),
-      text = point => point.map(x => x.toFixed(2)).join(' ');
-    let last = '';
-    for (const [k, { x, y, depth }] of places.entries()) {
-      const at = j => places[Math.min(Math.max(j, 0), places.length - 1)],
-        flat = j => [at(j).x, at(j).y],
-        side = depth < 0 ? 'back' : 'front';
-      if (side !== last || !k) parts[side] += `M${text(flat(k - 1))}`;
-      parts[side] += `C${text(nudge(flat(k - 2), [x, y], flat(k - 1)))} ${text(nudge(flat(k + 1), flat(k - 1), [x, y]))} ${text([x, y])}`;
-      last = side;
-    }
-    const ring = [...Array(73).keys()].map(k =>
-      project([reach * Math.cos((k * Math.PI) / 36), reach * Math.sin((k * Math.PI) / 36), 0]),
-    );
-    picture.replaceChildren(
-      svg('path', { class: 'plane', d: 'M' + ring.map(p => `${p.x.toFixed(2)} ${p.y.toFixed(2)}`).join('L') }),
-      svg('path', { class: 'back', d: parts.back }),
-      svg('circle', { class: 'hole', r: Math.max((hole * 70) / reach, 0.6) }),
-      svg('path', { class: 'front', d: parts.front }),
-      body,
-    );
-  }
-
-  let from = null;
-  picture.addEventListener('pointerdown', event => {
-    from = { x: event.clientX, y: event.clientY, turn: turn.valueAsNumber, tilt: tilt.valueAsNumber };
-    picture.setPointerCapture(event.pointerId);
-  });
-  picture.addEventListener('pointermove', event => {
-    if (!from) return;
-    const a = from.turn - (event.clientX - from.x) * 0.5;
-    turn.value = a - 360 * Math.round(a / 360);
-    tilt.value = from.tilt - (event.clientY - from.y) * 0.5;
-    draw();
-  });
-  for (const end of ['pointerup', 'pointercancel'])
-    picture.addEventListener(end, () => {
-      from = null;
-    });
-  for (const input of [turn, tilt]) input.addEventListener('input', draw);
-  root.append(
-    picture,
-    el(
-      'div',
-      { class: 'inputs' },
-      el('div', { class: 'field' }, el('label', { for: turn.id }, t('Turn', 'Giro')), turn),
-      el('div', { class: 'field' }, el('label', { for: tilt.id }, t('Tilt', 'Inclinazione')), tilt),
-    ),
-  );
-  return {
-    show(points, horizon, words) {
-      picture.setAttribute('aria-label', words);
-      path = points;
-      hole = horizon;
-      reach = Math.max(...points.map(p => Math.hypot(...p)), horizon);
-      draw();
-    },
-    place(point) {
-      const at = project(point);
-      body.setAttribute('cx', at.x);
-      body.setAttribute('cy', at.y);
-    },
-  };
-}
 
 const rows = pairs =>
   pairs
@@ -178,13 +81,19 @@ function nameOf({ spin, shape }) {
 }
 
 export async function openOrbits() {
-  const picture = buildPicture(byId('orbit-picture')),
+  const picture = buildPicture(byId('orbit-picture'), { placed, thrown: throwIt }),
+    hint = byId('orbit-hand'),
     fault = byId('orbit-fault'),
     live = byId('orbit-live');
   const potential = plot(),
     drift = plot(),
     play = byId('orbit-play');
   byId('orbit-plots').replaceChildren(potential, drift);
+  const hints = t(
+    'Drag the body to place it, drag it again to throw it; drag beside it to turn the view.',
+    'Trascina il corpo per posarlo, trascinalo ancora per lanciarlo; trascina accanto per girare la vista.',
+  );
+  hint.textContent = hints;
   let samples = null,
     shown = '', // its name
     at = 0,
@@ -202,16 +111,23 @@ export async function openOrbits() {
       picture.place(smooth(point, k, (at - time[k]) / (time[k + 1] - time[k])));
       live.textContent = `t = ${number(time[k])} M, r = ${number(r[k])} M, ΔE/E = ${number(error[k], 2)}`;
     }
-    if (running) requestAnimationFrame(step);
+    if (running) begin();
+  }
+  let frame = 0; // one at a time, however often something new is shown
+  function begin() {
+    cancelAnimationFrame(frame);
+    frame = requestAnimationFrame(step);
   }
   function label() {
     play.textContent = running ? t('Pause', 'Pausa') : t('Play', 'Avvia');
   }
-  play.addEventListener('click', () => {
-    running = !running;
+  function run(yes) {
+    const began = yes && !running;
+    running = yes;
     label();
-    if (running) ((last = performance.now()), requestAnimationFrame(step));
-  });
+    if (began) ((last = performance.now()), begin());
+  }
+  play.addEventListener('click', () => run(!running));
   label();
 
   // Samples for a smooth path: each has 90 bytes on the wire. How often it goes round is known once there is one.
@@ -228,23 +144,80 @@ export async function openOrbits() {
 
   const load = persistent(fault, 'orbits', follows, keep);
 
+  // What somebody does with the body by hand goes through the fields, so that a link and a keyboard can do the same.
+  function set(values) {
+    for (const [name, value] of Object.entries(values)) {
+      form.input(name).value = value;
+      form.input(name).dispatchEvent(new Event('change'));
+    }
+  }
+  const azimuth = ([x, y]) => Math.atan2(y, x);
+  const digits = (x, n) => Number(x.toFixed(n));
+
+  // x and y are sqrt(r^2 + a^2) by the azimuth's cosine and sine.
+  function placed(at) {
+    const a = Number(form.input('spin').value);
+    run(false);
+    set({ orbit: thrown, r: digits(Math.sqrt(Math.max(at[0] ** 2 + at[1] ** 2 - a * a, 1)), 2), phi_deg: digits((azimuth(at) * 180) / Math.PI, 1) });
+    hint.textContent = t('Placed. Drag the body once more to throw it: the arrow is its velocity.', 'Posato. Trascina ancora il corpo per lanciarlo: la freccia è la sua velocità.');
+  }
+
+  function throwIt(at, [vx, vy]) {
+    const phi = azimuth(at);
+    set({ v_r: digits(vx * Math.cos(phi) + vy * Math.sin(phi), 3), v_phi: digits(vy * Math.cos(phi) - vx * Math.sin(phi), 3) });
+    hint.textContent = hints;
+    run(true);
+  }
+
+  const shapes = {
+    [own]: v => ({ p: Number(v.p), e: Number(v.e), inclination_deg: Number(v.inclination_deg) }),
+    [thrown]: v => ({ position: { r: Number(v.r), phi_deg: Number(v.phi_deg) }, velocity: { v_r: Number(v.v_r), v_theta: 0, v_phi: Number(v.v_phi) } }),
+  };
+  const fields = { [own]: ['spin', 'p', 'e', 'inclination_deg'], [thrown]: ['spin', 'r', 'phi_deg', 'v_r', 'v_phi'] };
+
   async function follows() {
     const v = form.values(),
-      shaped = v.orbit === own,
-      falls = v.orbit === 'plunge'; // to its end, in no periods
-    for (const name of ['spin', 'p', 'e', 'inclination_deg']) form.input(name).closest('.field').hidden = !shaped;
-    form.input('periods').closest('.field').hidden = falls;
-    const answer = await follow({
-      ...(shaped ? { spin: Number(v.spin) } : {}),
+      ends = v.orbit === 'plunge', // in no periods
+      shape = shapes[v.orbit];
+    for (const name of new Set(Object.values(fields).flat())) form.input(name).closest('.field').hidden = !fields[v.orbit]?.includes(name);
+    form.input('periods').closest('.field').hidden = ends;
+    const asked = {
+      ...(shape ? { spin: Number(v.spin) } : {}),
       samples: Math.min(Math.max(36 * Number(v.periods), 400), 3000),
       digits: 7, // a path is drawn over some thousand pixels
       method: v.method,
-      ...(falls ? {} : { duration: { periods: Number(v.periods) } }),
-      orbit: shaped ? { p: Number(v.p), e: Number(v.e), inclination_deg: Number(v.inclination_deg) } : { case: v.orbit },
+      ...(v.orbit === thrown ? { r_max: 400 } : {}),
+      ...(ends ? {} : { duration: { periods: Number(v.periods) } }),
+      orbit: shape ? shape(v) : { case: v.orbit },
+    };
+    let said = '';
+    const answer = await follow(asked).catch(async error => {
+      const { duration: _, ...whole } = asked;
+      if (error.pointer === '/duration/periods') return follow(whole); // it falls in or leaves: to its end
+      const edge = v.orbit === own && error.pointer === '/orbit/p' && Number(/above ([\d.]+), the separatrix/.exec(error.message)?.[1]);
+      if (!edge) throw error;
+      const share = Number(v.p) / edge;
+      said = t(
+        `Within the separatrix, p = ${number(edge)} M, nothing turns back: shown is the plunge of a body with the energy of the last orbit that does, and ${number(Math.sqrt(share), 3)} of its angular momentum.`,
+        `Dentro la separatrice, p = ${number(edge)} M, nulla torna indietro: si vede la caduta di un corpo con l’energia dell’ultima orbita che torna, e ${number(Math.sqrt(share), 3)} del suo momento angolare.`,
+      );
+      return plunge(asked, edge, share);
     });
+    if (v.orbit !== thrown) (picture.free(), (hint.textContent = hints));
     await show(answer);
     byId('orbits').dataset.kept = false;
-    byId('orbit-kept').textContent = '';
+    byId('orbit-kept').textContent = said;
+  }
+
+  // What the rosette turns into: L^2 and Q fall as p does.
+  async function plunge(asked, edge, share) {
+    const { constants } = await postJson('v1/orbits', { ...asked, samples: 0, method: 'closed', orbit: { ...asked.orbit, p: edge * (1 + 1e-7) } }),
+      { duration: _, ...whole } = asked;
+    return follow({
+      ...whole,
+      method: asked.method === 'closed' ? 'yoshida6' : asked.method,
+      orbit: { energy: constants.energy, angular_momentum: constants.angular_momentum * Math.sqrt(share), carter: constants.carter * share },
+    });
   }
 
   // Where there is no such orbit the one before stays, under its own name.
@@ -277,7 +250,7 @@ export async function openOrbits() {
     });
     await showPotential(answer);
     last = performance.now();
-    requestAnimationFrame(step);
+    begin();
   }
 
   async function showPotential({ spin, constants, turning_points: turn }) {

@@ -57,6 +57,8 @@ export function play(url, repeated) {
   });
 }
 
+export const hush = () => speaker.pause();
+
 // Buttons and words for a card.
 export function soundRow(ring) {
   const { audible, stretch, url } = ring,

@@ -3,7 +3,7 @@ import json
 import pathlib
 import time
 
-from browser import FINE, SMOOTH, Browser, main, value
+from browser import AT_REST, FINE, SMOOTH, Browser, main, value
 import daemon
 
 
@@ -185,9 +185,11 @@ class Living(Browser):
         self.assertEqual([r.method for r in self.requests if r.url.endswith('/ringdown')], ['POST'])
         self.there(page, 'ringdown: an illustration', '#approximations')
         self.assertTrue(daemon.eventually(lambda: 'style.ringdown=1' in page.evaluate('location.hash')))
-        with page.expect_response('**/v1/physics/qnm*format=wav') as answer:
+        sounds = lambda: [r.url for r in self.requests if 'format=wav' in r.url]
+        self.assertTrue(daemon.eventually(sounds), 'it is heard at once')
+        self.assertIn('spin=0.7&mass_msun=100000000', sounds()[0])
+        with page.expect_request('**/v1/physics/qnm*format=wav'):
             page.click('#hear')
-        self.assertIn('spin=0.7&mass_msun=100000000', answer.value.url)
         self.there(page, 'octaves higher', '#heard')
         self.assertRegex(page.inner_text('#heard'), r'fading stretched [\d,]+ times, .* 21 octaves higher, and faster, than the hole rings\.$')
         self.assertEqual(page.get_attribute('body', 'data-view'), 'lensing')
@@ -201,13 +203,31 @@ class Living(Browser):
         page.keyboard.press('Enter')
         self.assertFalse(page.is_visible('#strike'), 'without orders from 1 up there is nothing to ring')
 
+    def test_who_has_muted_it_hears_nothing(self):
+        context = self.context()
+        page = self.page(context)
+        page.goto(self.base + '#lang=en&preset=default&' + SMOOTH)
+        page.wait_for_selector(AT_REST)
+        page.click('#mute')
+        self.assertEqual((page.inner_text('#mute'), page.get_attribute('#mute', 'aria-pressed')), ('Sound off', 'false'))
+        page.reload()
+        page.wait_for_selector(AT_REST)
+        page.wait_for_selector('#mute >> text=Sound off')
+        page.click('#strike')
+        self.assertTrue(daemon.eventually(lambda: 'style.ringdown=1' in page.evaluate('location.hash')))
+        page.wait_for_selector('#hear')
+        self.assertEqual([r.url for r in self.requests if 'qnm' in r.url], [])
+        page.click('#mute')
+        with page.expect_request('**/v1/physics/qnm*format=wav'):
+            page.click('#strike')
+
     def test_when_the_rings_have_faded(self):
         page = self.open(SMOOTH + '&lang=en&motion.time_rate=60')
         page.click('#strike')
         self.assertTrue(daemon.eventually(lambda: 'at rest' in page.inner_text('#clock')))
         before, asked = self.clock(page), len(self.requests)
         self.assertTrue(daemon.eventually(lambda: self.clock(page) > before + 90))
-        self.assertEqual([r.url for r in self.requests[asked:] if '/v1/' in r.url], [])
+        self.assertEqual([r.url for r in self.requests[asked:] if '/v1/' in r.url and 'qnm' not in r.url], [])  # what is heard was asked for by the strike
         def later():
             link = dict(pair.split('=') for pair in page.evaluate('location.hash')[1:].split('&'))
             return float(link['time']) > float(link['style.ringdown_time']) + 60

@@ -39,19 +39,76 @@ class Orbits(Browser):
         self.assertGreater(page.get_attribute('#orbit-picture .front', 'd').count('C'), 12 * whirls * 10, 'half of it is in front')
         self.expected = '422'
         page.select_option('#in-orbit-orbit', 'shape')
-        page.fill('#in-orbit-p', '2')
+        page.wait_for_function('() => document.title.includes("p = 6.5 M")')
+        page.select_option('#in-orbit-orbit', 'thrown')
+        page.fill('#in-orbit-r', '1.2')
         page.keyboard.press('Tab')
-        page.wait_for_selector('#orbit-fault >> text=separatrix')
+        page.wait_for_selector('#orbit-fault >> text=horizon')
         kept = page.inner_text('#orbit-kept')
-        self.assertRegex(kept, r'^Still shown is the last one that there was: a = 0.9 M, p = 6.5 M, e = 0.5, inclination 30°')
+        self.assertRegex(kept, r'^Still shown is the last one that there was: a = 0.9 M')
         self.assertEqual((self.facts(page)['Fate'], page.locator('#orbit-picture .front').count()), ('bound', 1))
         self.assertTrue(page.is_visible('#orbit-plots'))
         self.shot(page, 'orbits-kept')
+        page.select_option('#in-orbit-orbit', 'shape')
         page.fill('#in-orbit-p', '8')
         page.keyboard.press('Tab')
-        page.wait_for_function('() => !document.getElementById("orbit-kept").textContent')
+        page.wait_for_function('() => document.title.includes("p = 8 M") && !document.getElementById("orbit-kept").textContent')
         self.assertEqual((page.inner_text('#orbit-fault'), page.title()), ('', 'Orbits: a = 0.9 M, p = 8 M, e = 0.5, inclination 30° – kerrd'))
         self.assertIn('p = 8 M', page.get_attribute('#orbit-picture svg', 'aria-label'))
+
+    def test_within_the_separatrix_the_rosette_becomes_a_plunge(self):
+        page = self.open('lang=en&view=orbits', '#orbit-picture .front')
+        self.expected = '422'  # which names the separatrix
+        for p, share in (('3.1', 0.994), ('2', 0.799)):
+            page.fill('#in-orbit-p', p)
+            page.keyboard.press('Tab')
+            page.wait_for_selector(f'#orbit-kept >> text=/p = 3.135 M, .* {share} of its angular momentum/')
+            page.wait_for_selector('#orbit-facts >> text=plunge')
+            facts = self.facts(page)
+            self.assertTrue(facts['Nearest, farthest'].startswith('horizon'), facts)
+            self.assertAlmostEqual(float(facts['E']), 0.9016575, delta=2e-5)
+            self.assertAlmostEqual(float(facts['L'].split()[0]), 2.1222897 * (float(p) / 3.13513773) ** 0.5, places=3)
+            self.assertEqual((page.inner_text('#orbit-fault'), page.get_attribute('#orbits', 'data-kept')), ('', 'false'))
+        page.fill('#in-orbit-p', '4')
+        page.keyboard.press('Tab')
+        page.wait_for_selector('#orbit-facts >> text=bound')
+        self.assertEqual(page.inner_text('#orbit-kept'), '')
+
+    def test_a_body_is_placed_and_thrown_by_hand(self):
+        page = self.open('lang=en&view=orbits&orbit.inclination_deg=0&orbit.spin=0&orbit.p=8', '#orbit-picture .body[cx]', reduced_motion='reduce')
+        self.expected = '422'  # how long what falls is followed is the server's to say
+        box = page.locator('#orbit-picture svg').bounding_box()
+        unit = box['width'] / 200
+
+        def drag(there):
+            body = page.locator('#orbit-picture .body').bounding_box()
+            page.mouse.move(body['x'] + body['width'] / 2, body['y'] + body['height'] / 2)
+            page.mouse.down()
+            page.mouse.move(*there, steps=4)
+
+        middle = (box['x'] + box['width'] / 2, box['y'] + box['height'] / 2)
+        drag((middle[0] + 40 * unit, middle[1]))
+        page.mouse.up()
+        page.wait_for_selector('#orbit-hand >> text=Placed')
+        page.wait_for_function('() => document.getElementById("in-orbit-orbit").value === "thrown" && location.hash.includes("orbit.orbit=thrown")')
+        # Farthest at first was 16 M, drawn 70 units from the middle.
+        self.assertAlmostEqual(float(page.input_value('#in-orbit-r')), 16 * 40 / 70, delta=0.4)
+        page.wait_for_selector('#orbit-facts >> text=bound')
+        page.wait_for_function('() => document.getElementById("orbit-live").textContent.startsWith("t = 0 M")')
+        body = page.locator('#orbit-picture .body').bounding_box()  # all of its new orbit is in the picture
+        drag((body['x'] + body['width'] / 2, body['y'] - 16 * unit))
+        page.wait_for_selector('#orbit-picture .throw[d]')
+        self.shot(page, 'orbits-throw')
+        page.mouse.up()
+        page.wait_for_selector('#orbit-hand >> text=/^Drag the body to place it/')
+        page.wait_for_function('() => location.hash.includes("orbit.v_")')
+        v = [float(page.input_value(f'#in-orbit-v_{name}')) for name in ('r', 'phi')]
+        self.assertGreater(abs(v[1]), 3 * abs(v[0]))
+        self.assertIn(round(abs(v[1]) * 100), range(30, 96))
+        page.fill('#in-orbit-v_phi', '0.02')
+        page.keyboard.press('Tab')
+        page.wait_for_selector('#orbit-facts >> text=plunge')
+        self.assertEqual(page.inner_text('#orbit-fault'), '')
 
     def test_p_goes_by_factors(self):
         page = self.open('lang=en&view=orbits', '#orbit-picture .front')

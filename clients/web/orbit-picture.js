@@ -1,0 +1,173 @@
+// The path of a body in space, which can be turned; the body can be put elsewhere by a drag, and thrown by another.
+import { el, svg } from './dom.js';
+import { number, t } from './i18n.js';
+
+// Through the sample before and after each stretch goes a cubic (E. Catmull & R. Rom 1974), as Bezier curves have it.
+const nudge = (from, to, at) => at.map((x, i) => x + (to[i] - from[i]) / 6);
+
+export function smooth(points, k, share) {
+  const at = j => points[Math.min(Math.max(j, 0), points.length - 1)],
+    [a, d] = [at(k), at(k + 1)],
+    [b, c] = [nudge(at(k - 1), d, a), nudge(at(k + 2), a, d)],
+    mix = (one, other) => one.map((x, i) => x + (other[i] - x) * share);
+  return mix(mix(mix(a, b), mix(b, c)), mix(mix(b, c), mix(c, d)));
+}
+
+const grip = 8; // as near to the body a drag takes hold of it, of 200 across
+const full = 60; // how long an arrow is for the speed of light
+
+// The path as an outside eye far away sees it, by straight lines: turn about the axis, then tilt.
+// hand: { placed([x, y]), thrown([x, y], [vx, vy]) } is told of places in the equatorial plane, M, and velocities in it, c.
+export function buildPicture(root, hand) {
+  const turn = el('input', { type: 'range', id: 'orbit-turn', min: -180, max: 180, value: 30 });
+  const tilt = el('input', { type: 'range', id: 'orbit-tilt', min: 0, max: 180, value: 62 });
+  const picture = svg('svg', {
+    viewBox: '-100 -75 200 150',
+    class: 'rosette',
+    role: 'img',
+    'aria-label': t('The orbit in space', 'L’orbita nello spazio'),
+  });
+  const body = svg('circle', { class: 'body', r: 1.8 });
+  let path = null,
+    reach = 1,
+    hole = 1;
+
+  function project([x, y, z]) {
+    const a = (turn.valueAsNumber * Math.PI) / 180,
+      i = (tilt.valueAsNumber * Math.PI) / 180,
+      k = 70 / reach;
+    const towards = x * Math.cos(a) + y * Math.sin(a),
+      right = y * Math.cos(a) - x * Math.sin(a);
+    return { x: right * k, y: (towards * Math.cos(i) - z * Math.sin(i)) * k, depth: towards * Math.sin(i) + z * Math.cos(i) };
+  }
+
+  function draw() {
+    if (!path) return;
+    const parts = { back: '', front: '' },
+      places = path.map(project),
+      text = point => point.map(x => x.toFixed(2)).join(' ');
+    let last = '';
+    for (const [k, { x, y, depth }] of places.entries()) {
+      const at = j => places[Math.min(Math.max(j, 0), places.length - 1)],
+        flat = j => [at(j).x, at(j).y],
+        side = depth < 0 ? 'back' : 'front';
+      if (side !== last || !k) parts[side] += `M${text(flat(k - 1))}`;
+      parts[side] += `C${text(nudge(flat(k - 2), [x, y], flat(k - 1)))} ${text(nudge(flat(k + 1), flat(k - 1), [x, y]))} ${text([x, y])}`;
+      last = side;
+    }
+    const ring = [...Array(73).keys()].map(k =>
+      project([reach * Math.cos((k * Math.PI) / 36), reach * Math.sin((k * Math.PI) / 36), 0]),
+    );
+    picture.replaceChildren(
+      svg('path', { class: 'plane', d: 'M' + ring.map(p => `${p.x.toFixed(2)} ${p.y.toFixed(2)}`).join('L') }),
+      svg('path', { class: 'back', d: parts.back }),
+      svg('circle', { class: 'hole', r: Math.max((hole * 70) / reach, 0.6) }),
+      svg('path', { class: 'front', d: parts.front }),
+      body,
+    );
+  }
+
+  // Where a point of the picture lies in the equatorial plane; seen along it, as far as it can be told.
+  function inPlane({ x, y }) {
+    const a = (turn.valueAsNumber * Math.PI) / 180,
+      c = Math.cos((tilt.valueAsNumber * Math.PI) / 180),
+      k = 70 / reach,
+      towards = y / k / (Math.abs(c) > 0.15 ? c : c < 0 ? -0.15 : 0.15),
+      right = x / k;
+    return [towards * Math.cos(a) - right * Math.sin(a), towards * Math.sin(a) + right * Math.cos(a)];
+  }
+  const pointer = event => new DOMPoint(event.clientX, event.clientY).matrixTransform(picture.getScreenCTM().inverse());
+  const onBody = at => Math.hypot(at.x - body.getAttribute('cx'), at.y - body.getAttribute('cy')) < grip;
+  const arrow = svg('path', { class: 'throw' }),
+    speed = svg('text', { class: 'axis' });
+  let held = null; // where the body is while somebody holds it: in the plane
+  let aimed = null; // the velocity that it will be thrown with
+  let put = false; // it has been placed: the next drag throws it
+
+  function drag(event) {
+    const at = pointer(event),
+      there = inPlane(at);
+    if (!put) {
+      if (Math.hypot(...there) < 1.05 * hole) return;
+      held = there;
+      return place([...held, 0]);
+    }
+    const way = there.map((x, i) => x - held[i]),
+      length = Math.hypot(...way),
+      fast = Math.min((length * 70) / reach / full, 0.95),
+      start = project([...held, 0]);
+    aimed = way.map(x => (length ? (x / length) * fast : 0));
+    arrow.setAttribute('d', `M${start.x} ${start.y}L${at.x} ${at.y}`);
+    speed.textContent = `${number(fast, 2)} c`;
+    speed.setAttribute('x', at.x + 3);
+    speed.setAttribute('y', at.y - 2);
+  }
+
+  function letGo(event) {
+    if (event.type === 'pointerup') {
+      if (!put) hand.placed(held);
+      else if (aimed) hand.thrown(held, aimed);
+      if (!put || aimed) put = !put;
+    }
+    held = put ? held : null;
+    aimed = null;
+    for (const node of [arrow, speed]) node.remove();
+    holding = false;
+  }
+
+  let holding = false;
+  function place(point) {
+    const at = project(point);
+    body.setAttribute('cx', at.x);
+    body.setAttribute('cy', at.y);
+  }
+
+  let from = null;
+  picture.addEventListener('pointerdown', event => {
+    if (onBody(pointer(event))) {
+      holding = true;
+      held = put ? held : inPlane(pointer(event));
+      picture.append(arrow, speed);
+      return picture.setPointerCapture(event.pointerId);
+    }
+    from = { x: event.clientX, y: event.clientY, turn: turn.valueAsNumber, tilt: tilt.valueAsNumber };
+    picture.setPointerCapture(event.pointerId);
+  });
+  picture.addEventListener('pointermove', event => {
+    if (holding) return drag(event);
+    if (!from) return;
+    const a = from.turn - (event.clientX - from.x) * 0.5;
+    turn.value = a - 360 * Math.round(a / 360);
+    tilt.value = from.tilt - (event.clientY - from.y) * 0.5;
+    draw();
+  });
+  for (const end of ['pointerup', 'pointercancel'])
+    picture.addEventListener(end, event => {
+      if (holding) letGo(event);
+      from = null;
+    });
+  for (const input of [turn, tilt]) input.addEventListener('input', draw);
+  root.append(
+    picture,
+    el(
+      'div',
+      { class: 'inputs' },
+      el('div', { class: 'field' }, el('label', { for: turn.id }, t('Turn', 'Giro')), turn),
+      el('div', { class: 'field' }, el('label', { for: tilt.id }, t('Tilt', 'Inclinazione')), tilt),
+    ),
+  );
+  return {
+    show(points, horizon, words) {
+      picture.setAttribute('aria-label', words);
+      path = points;
+      hole = horizon;
+      reach = Math.max(...points.map(p => Math.hypot(...p)), horizon);
+      draw();
+    },
+    // Not while somebody holds it.
+    place: point => holding || place(point),
+    // Whatever was placed is so no more.
+    free: () => (put = false),
+  };
+}
+

@@ -1,0 +1,61 @@
+// A struck hole is heard at once, unless somebody has muted it: its ringdown for ears (sound.js), and its curve in the view of physics.
+import { byId } from './dom.js';
+import { t, tell } from './i18n.js';
+import { physics } from './server.js';
+
+const key = 'kerrd.sound';
+
+// What a browser keeps; one that keeps nothing is not muted.
+function muted(to) {
+  try {
+    if (to !== undefined) localStorage.setItem(key, to ? 'off' : 'on');
+    return localStorage.getItem(key) === 'off';
+  } catch {
+    return Boolean(to);
+  }
+}
+
+export function buildStruck(scene, goTo) {
+  // It is the hole that rings, about its own axis, whichever way the disk turns.
+  const hole = () => ({ spin: Number(Math.abs(scene.get('spacetime.spin')).toFixed(4)), mass_msun: scene.get('spacetime.mass_msun') }),
+    mute = byId('mute'),
+    words = byId('heard');
+  let on = !muted();
+
+  function say() {
+    mute.textContent = on ? t('Sound on', 'Suono acceso') : t('Sound off', 'Suono spento');
+    mute.setAttribute('aria-pressed', on);
+  }
+
+  async function sound() {
+    try {
+      const { play, ringing, told } = await import('./sound.js'),
+        asked = hole(),
+        ring = ringing((await physics('qnm', asked)).values, asked);
+      words.textContent = told(ring);
+      if (ring.audible) await play(ring.url(ring.stretch));
+    } catch (error) {
+      tell(words, error.message);
+    }
+  }
+
+  mute.addEventListener('click', async () => {
+    on = !on;
+    muted(!on);
+    say();
+    if (!on) (await import('./sound.js')).hush();
+  });
+  byId('strike').addEventListener('click', () => on && sound());
+  byId('hear').addEventListener('click', sound);
+  byId('wave').addEventListener('click', async () => {
+    const asked = hole();
+    await goTo('physics');
+    byId('curve-qnm')?.scrollIntoView();
+    for (const [name, value] of Object.entries(asked)) {
+      const input = byId('in-qnm-' + name);
+      input.value = value;
+      input.dispatchEvent(new Event('change'));
+    }
+  });
+  say();
+}
