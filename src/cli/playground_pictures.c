@@ -3,9 +3,7 @@
 #include "cli/cli.h"
 #include "cli/file.h"
 #include "cli/progress.h"
-#include "playground/json.h"
 #include "playground/show.h"
-#include "scene/sha256.h"
 
 #include <ctype.h>
 #include <stdio.h>
@@ -77,19 +75,6 @@ static void name_of(const struct kd_pictures *p, char out[4096])
     snprintf(out, 4096, "%.*s%0*u%s", (int)(at - p->asked->path), p->asked->path, width, p->made, at + length);
 }
 
-/* Which state it is: a picture says so. */
-static enum kd_status name_state(struct kd_playground *p, struct kd_crowd *crowd, struct kd_error *error)
-{
-    struct kd_buffer text = { 0 };
-    enum kd_status status = kd_playground_write(p, true, &text);
-    if (status)
-        kd_error_set(error, status, "out of memory for a snapshot");
-    else
-        kd_sha256(text.data, text.size, crowd->snapshot);
-    kd_buffer_finish(&text);
-    return status;
-}
-
 static enum kd_status render(struct kd_pictures *p, struct kd_scene *scene, struct kd_buffer *file, struct kd_error *error)
 {
     struct kd_capacity capacity;
@@ -121,8 +106,7 @@ enum kd_status kd_pictures_take(struct kd_pictures *pictures, struct kd_playgrou
     struct kd_scene scene = pictures->scene;
     char path[4096];
     enum kd_status status;
-    KD_TRY(kd_playground_show(p, &crowd, error));
-    KD_TRY(name_state(p, crowd, error));
+    KD_TRY(kd_playground_show_named(p, &crowd, error));
     kd_scene_show(&scene, crowd);
     kd_scene_pass(&scene, p->t);
     KD_TRY(kd_scene_validate(&scene, error));

@@ -1,6 +1,8 @@
 #include "playground/show.h"
 
 #include "playground/hole.h"
+#include "playground/json.h"
+#include "scene/sha256.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -180,6 +182,24 @@ enum kd_status kd_playground_show(const struct kd_playground *p, struct kd_crowd
     *out = crowd;
 done:
     free(places);
+    return status;
+}
+
+enum kd_status kd_playground_show_named(struct kd_playground *p, struct kd_crowd **out, struct kd_error *error)
+{
+    struct kd_buffer text = { 0 };
+    enum kd_status status;
+    KD_TRY(kd_playground_show(p, out, error));
+    status = kd_playground_write(p, true, &text);
+    if (status) {
+        kd_error_set(error, status, "out of memory for a snapshot");
+        kd_crowd_release(*out);
+        *out = NULL;
+        goto done;
+    }
+    kd_sha256(text.data, text.size, (*out)->snapshot);
+done:
+    kd_buffer_finish(&text);
     return status;
 }
 

@@ -16,6 +16,9 @@
 /* The caller holds *out. */
 enum kd_status kd_playground_show(const struct kd_playground *p, struct kd_crowd **out, struct kd_error *error);
 
+/* Such a crowd that says of which state it was made, for files of pictures. */
+enum kd_status kd_playground_show_named(struct kd_playground *p, struct kd_crowd **out, struct kd_error *error);
+
 /* KD_EINVAL where the scene is not one to show it in: with gravity "kerr" the spins must be the same. */
 enum kd_status kd_playground_may_show(const struct kd_playground *p, const struct kd_scene *scene, struct kd_error *error);
 

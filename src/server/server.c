@@ -145,7 +145,7 @@ static enum kd_status start_jobs(struct kd_server *server, const struct kd_serve
 {
     const unsigned most = or_default(params->jobs, 16);
     const struct kd_jobs_params jobs = {
-        .renders = server->renders, .state = params->state, .limit = most, .kept = KD_JOBS_KEPT,
+        .renders = server->renders, .turns = server->turns, .state = params->state, .limit = most, .kept = KD_JOBS_KEPT,
         .client_limit = params->client_jobs ? params->client_jobs : share_of(params, most),
         .longest_s = server->longest_s, .longest_job_s = KD_JOB_LONGEST_S,
         .bytes = params->jobs_kib ? (uint64_t)params->jobs_kib << 10 : KD_JOB_BYTES, .keep_s = KD_JOB_KEEP_S,

@@ -128,6 +128,8 @@ static struct kd_crowd *crowd_of(const struct shot *shot)
     enum kd_status status = kd_playground_read(shot->playground, strlen(shot->playground), &p, &error);
     if (!status)
         kd_playground_advance(p, shot->after, &progress);
+    if (!status && progress.slowed)
+        status = kd_error_set(&error, KD_EINVAL, "the budget of sub-steps was spent after %g M", progress.done);
     if (!status)
         status = kd_playground_show(p, &crowd, &error);
     kd_playground_destroy(p);

@@ -80,7 +80,7 @@ class Documents(unittest.TestCase):
         self.run_all('docs/playground.md', 1, fenced=True)
 
     def test_jobs(self):
-        self.run_all('docs/jobs.md', 2)
+        self.run_all('docs/jobs.md', 3)
 
     def test_sweeps(self):
         self.run_all('docs/sweeps.md', 3)

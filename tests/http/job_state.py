@@ -59,6 +59,26 @@ class State(Case):
                 self.assertTrue(daemon.eventually(lambda: not self.folders()))
                 self.assertEqual(server.stop(), 0)
 
+    def test_a_film_goes_on(self):
+        """What its frames show depends on those before: after an end it is what it would have been."""
+        film = {'playground': {'preset': 'white-dwarf', 'debris_per_body': 500}, 'every': 20, 'frames': 8, 'scene': {'time': 100, 'image': SCENE['image']}}
+        told = []
+        for ends in (False, True):
+            server = self.start()
+            job = self.make(film, server=server)
+            if ends:
+                self.assertTrue(daemon.eventually(lambda: self.status(job, server)['finished'] >= 3))
+                server.process.send_signal(signal.SIGKILL)
+                server.wait()
+                server = self.start()
+            self.until(job, 'done', server, timeout=60)
+            with zipfile.ZipFile(io.BytesIO(server.get(self.at(job, '/result')).body)) as z:
+                told.append([scene_of(z.read(n))['playground'] for n in z.namelist()])
+            self.delete(job, server)
+            self.assertEqual(server.stop(), 0)
+        self.assertEqual(told[0], told[1])
+        self.assertEqual(len({frame['snapshot'] for frame in told[0]}), 8)
+
     def test_its_preset_outlives_the_server(self):
         server = self.start()
         job = self.make({'scenes': [{**SCENE, 'time': 200}] * 4}, '?preset=schwarzschild', server)

@@ -13,6 +13,8 @@ import time
 import unittest
 
 import daemon
+import job_case
+from job_case import scene_of
 
 PLANET = {'name': 'planet', 'mass': 1e-6, 'position': [30, 0, 0], 'velocity': [0, 30 ** .5 / 28, 0]}
 ROW = 40  # bytes of a body
@@ -616,6 +618,57 @@ class Stopping(unittest.TestCase):
             text += data
         self.assertIn(b'event: end\ndata: {"why":"stopping"}', text)
         self.assertEqual(server.wait(), 0)
+
+
+class Films(job_case.Case):
+    """Jobs whose frames show a playground as time goes by. In the fake renderer's scenes `time`, to which the playground's is added, is how many milliseconds a frame takes."""
+    STAR = {'preset': 'white-dwarf', 'debris_per_body': 500}
+    TURNED = {'camera': {'azimuth_deg': 90}}
+
+    def shown(self, job):
+        return [scene_of(png) for _, png in sorted(self.frames(job).items())]
+
+    def test_frames_are_what_the_command_line_comes_to(self):
+        kerrd = os.environ['KERRD']
+        with tempfile.TemporaryDirectory() as folder:
+            def after(document, time):
+                begin, end = pathlib.Path(folder, 'begin.json'), pathlib.Path(folder, 'end.json')
+                begin.write_text(json.dumps(document))
+                subprocess.run([kerrd, 'playground', begin, '--time', str(time), '-o', end], check=True, timeout=60)
+                return end.read_bytes()
+            torn = after(self.STAR, 1000)  # in the middle of it, far on in time: a snapshot
+            for document, more in ((self.STAR, {}), (json.loads(torn), {'scene': {'time': -1000}}), ({'gravity': 'kerr', 'spin': 0.7, 'bodies': [PLANET]}, {})):
+                with self.subTest(str(document)[:80]):
+                    scene = {'image': job_case.IMAGE, **more.get('scene', {})}
+                    job = self.make({'playground': document, 'every': 15, 'frames': 5, 'scene': scene, 'keyframes': [{'frame': 4, 'scene': self.TURNED}]})
+                    self.assertEqual(self.until(job, 'done', timeout=60)['frames'], 5)
+                    shown = self.shown(job)
+                    self.assertEqual([s['camera']['azimuth_deg'] for s in shown], [0, 22.5, 45, 67.5, 90])
+                    self.assertEqual([s['image']['width'] for s in shown], [32] * 5)
+                    self.assertEqual(shown[0]['camera']['field_m'], 640 if document is self.STAR else shown[0]['camera']['field_m'])
+                    for k in range(1, 5):
+                        self.assertAlmostEqual(shown[k]['time'], shown[k]['playground']['t'] + scene.get('time', 0), places=9)
+                    for k in (1, 4):
+                        there = after(document, 15 * k)
+                        self.assertEqual(shown[k]['playground']['snapshot'], hashlib.sha256(there).hexdigest(), k)
+                        self.assertEqual(shown[k]['playground']['t'], json.loads(there)['state']['t'])
+                    self.delete(job)
+
+    def test_light_curve(self):
+        job = self.make({'playground': {'bodies': [PLANET]}, 'every': 2.5, 'frames': 3, 'scene': {'image': job_case.IMAGE}, 'output': 'light-curve'})
+        self.until(job, 'done')
+        self.assertEqual(self.daemon.get(self.at(job, '/result?format=csv')).body.count(b'\n'), 4)
+
+    def test_deleted_while_its_bodies_move(self):
+        """For half an hour, and longer; pictures go on meanwhile, another film after it."""
+        job = self.make({'playground': {'preset': 'swarm', 'h_max': 1e-3, 'budget': 1000000}, 'every': 1e9, 'frames': 3, 'scene': {'image': job_case.IMAGE}})
+        self.assertTrue(daemon.eventually(lambda: self.status(job)['finished'] == 1))
+        film = self.make({'playground': self.STAR, 'every': 1, 'frames': 2, 'scene': {'image': job_case.IMAGE}})
+        self.until(self.make({'scene': job_case.SCENE}), 'done')
+        self.assertEqual((self.status(job)['state'], self.status(job)['finished']), ('running', 1))
+        self.assertEqual(self.status(film)['finished'], 0)
+        self.assertEqual(self.delete(job).status, 204)
+        self.until(film, 'done')
 
 
 if __name__ == '__main__':

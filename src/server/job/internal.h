@@ -4,6 +4,7 @@
 
 #include "server/job/jobs.h"
 #include "render/plan/sweep_order.h"
+#include "server/http/turns.h"
 
 #include <pthread.h>
 
@@ -19,12 +20,24 @@ struct kd_job_glance {
     double began_ms; /* when the last one was begun */
 };
 
+/* Where the playground of a film is (film.c). */
+struct kd_job_film {
+    struct kd_playground *p; /* NULL: it has still to be read. While it is moving this and the next three are a worker's */
+    unsigned at;             /* the frame that it is at, or on its way from */
+    double begin;            /* its time at frame 0 */
+    double spent_ms;         /* on moving it */
+    bool moving;
+    unsigned to;             /* the frame that it is on its way to, or has come to; */
+    struct kd_crowd *crowd;  /* what that shows, held; NULL: it is not there yet */
+};
+
 struct kd_job {
     struct kd_jobs *all;
     unsigned references;
     struct kd_job_record record;
     struct kd_job_spec spec; /* empty where this version cannot read the request */
     struct kd_sweep_order order;
+    struct kd_job_film film;
     bool unordered; /* it is still being made, after a restart (watch.c), before which no frame is begun */
     const struct kd_series *series;
     unsigned frames, next, finished; /* next: a place in the order, none before which has still to be begun */
@@ -57,6 +70,7 @@ struct kd_jobs {
     struct kd_job *first; /* oldest first */
     struct kd_job *gone;  /* whose files are to be removed */
     struct kd_job_render *rendering;
+    struct kd_job *filming; /* whose bodies are moved; NULL: no film's */
     unsigned behind;
     uint64_t bytes;
     uint64_t frames; /* finished here, of all */
@@ -91,6 +105,12 @@ void kd_jobs_pump(struct kd_jobs *all);
 /* Finds the job of a frame by what its render job hands to kd_job_glance; number may be NULL. Any thread. */
 struct kd_job *kd_job_of_frame(const void *render, unsigned *number);
 extern const struct kd_glance kd_job_glance;
+/* A frame, or what it shows, has failed: for good, or until there is memory and room on the disk again. */
+void kd_job_give_up(struct kd_job *job, const struct kd_error *error);
+/* film.c: what a frame of a film shows, the job's; NULL: it is on its way, or another film is, and kd_jobs_pump is called when it is there. KD_ENOMEM. */
+enum kd_status kd_job_film_at(struct kd_job *job, unsigned frame, struct kd_crowd **out, struct kd_error *error);
+/* Frees what is there of it, but for what a worker has, and lets another film be made. */
+void kd_job_film_drop(struct kd_job *job);
 /* Drops the frame of this job that is being rendered, if there is one; job NULL: of any job. */
 void kd_jobs_drop_frame(struct kd_jobs *all, const struct kd_job *job);
 

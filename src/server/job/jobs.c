@@ -40,6 +40,7 @@ void kd_job_end(struct kd_job *job, enum kd_job_state state, const char *why)
     job->record.ended = kd_job_now_s();
     job->ended_ms = kd_clock_ms();
     *job->delayed = 0;
+    kd_job_film_drop(job);
     snprintf(job->record.error, sizeof job->record.error, "%s", why);
     move_up(job->all);
     kd_job_write(job);
@@ -56,6 +57,7 @@ void kd_job_delay(struct kd_job *job, const char *why)
     job->due_ms = kd_clock_ms() + job->delay_ms;
     job->fraction = 0;
     job->revision++;
+    kd_job_film_drop(job);
     snprintf(job->delayed, sizeof job->delayed, "%.159s", why);
     kd_log(KD_LOG_WARN, "job %.4s... waits for %.0f s: %s", job->record.id, 1e-3 * job->delay_ms, why);
 }
@@ -63,6 +65,7 @@ void kd_job_delay(struct kd_job *job, const char *why)
 static void finish(struct kd_job *job)
 {
     kd_job_spec_finish(&job->spec);
+    kd_job_film_drop(job);
     kd_sweep_order_finish(&job->order);
     kd_buffer_finish(&job->glance.png);
     free(job->have);
@@ -115,6 +118,7 @@ void kd_job_unlist(struct kd_job *job)
     move_up(job->all);
     kd_job_store_forget(job->all->store, job->record.id);
     kd_jobs_drop_frame(job->all, job);
+    kd_job_film_drop(job);
     kd_job_wake(job, kd_clock_ms());
 }
 
@@ -132,6 +136,8 @@ struct kd_job *kd_job_make(struct kd_jobs *all, struct kd_job_spec *spec)
     job->all = all;
     job->references = 1; /* the list's */
     job->have = have;
+    kd_crowd_release(spec->first); /* whoever planned by it has done so */
+    spec->first = NULL;
     job->spec = *spec;
     job->frames = spec->frames;
     job->series = spec->series;

@@ -23,6 +23,7 @@ struct kd_job;
 
 struct kd_jobs_params {
     struct kd_render_queue *renders;
+    struct kd_turns *turns;     /* whose workers move the bodies of films */
     const char *state;          /* a folder, NULL: jobs end with the server */
     unsigned limit, kept;       /* unfinished jobs; those and finished ones */
     unsigned client_limit;      /* unfinished jobs of one address; 0: as many as any */

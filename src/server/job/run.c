@@ -13,6 +13,7 @@ struct kd_job_render {
     struct kd_render_job render; /* first: the queue's pointer is ours */
     struct kd_job *job;
     unsigned number, place; /* in the order */
+    struct kd_crowd *crowd; /* of a film: that its scene shows, held */
     bool rendered;
 };
 
@@ -20,7 +21,8 @@ static void rendered(struct kd_render_job *render);
 static void done(struct kd_render_job *render);
 static void progress(struct kd_render_job *render, double fraction);
 
-static enum kd_status plan_frame(const struct kd_jobs *all, const struct kd_job_spec *spec, unsigned number,
+/* crowd: what a frame of a film shows, as it was `late` M before; NULL: it is none. */
+static enum kd_status plan_frame(const struct kd_jobs *all, const struct kd_job_spec *spec, unsigned number, const struct kd_crowd *crowd, double late,
                                  const struct kd_capacity *capacity, struct kd_scene *scene, struct kd_plan *plan, struct kd_error *error)
 {
     struct kd_error inner = { 0 };
@@ -28,7 +30,13 @@ static enum kd_status plan_frame(const struct kd_jobs *all, const struct kd_job_
     enum kd_status status = kd_job_spec_scene(spec, number, scene, error);
     if (status)
         return status;
-    status = kd_format_plan(spec->series->frame, scene, capacity, plan, &inner);
+    if (crowd) {
+        kd_scene_show(scene, crowd);
+        kd_scene_pass(scene, crowd->time + late);
+        status = kd_scene_validate(scene, &inner);
+    }
+    if (!status)
+        status = kd_format_plan(spec->series->frame, scene, capacity, plan, &inner);
     if (!status && plan->estimate_ms > 1e3 * all->params.longest_s)
         status = kd_error_set(&inner, KD_ETOOBIG, "it would take about %.0f s, more than the %u s a frame may take",
                               plan->estimate_ms * 1e-3, all->params.longest_s);
@@ -44,8 +52,7 @@ static enum kd_status plan_frame(const struct kd_jobs *all, const struct kd_job_
     return error->status = status;
 }
 
-/* A frame has failed: for good, or until there is memory and room on the disk again. */
-static void give_up(struct kd_job *job, const struct kd_error *error)
+void kd_job_give_up(struct kd_job *job, const struct kd_error *error)
 {
     if (error->status == KD_ENOMEM || error->status == KD_EFULL)
         kd_job_delay(job, error->message);
@@ -66,12 +73,18 @@ static bool begin(struct kd_job *job)
     if (job->next == job->frames)
         return false;
     const unsigned number = at_place(job, job->next);
+    struct kd_crowd *crowd = NULL;
+    enum kd_status status = job->spec.every > 0 ? kd_job_film_at(job, number, &crowd, &error) : KD_OK;
+    if (status)
+        kd_job_give_up(job, &error);
+    if (status || (job->spec.every > 0 && !crowd))
+        return false;
     struct kd_job_render *frame = calloc(1, sizeof *frame);
     kd_render_queue_capacity(all->params.renders, &capacity);
-    enum kd_status status = frame ? plan_frame(all, &job->spec, number, &capacity, &frame->render.scene, &frame->render.plan, &error)
+    status = frame ? plan_frame(all, &job->spec, number, crowd, 0, &capacity, &frame->render.scene, &frame->render.plan, &error)
                                   : kd_error_set(&error, KD_ENOMEM, "out of memory for a frame");
     if (status) {
-        give_up(job, &error);
+        kd_job_give_up(job, &error);
         free(frame);
         return false;
     }
@@ -95,11 +108,15 @@ static bool begin(struct kd_job *job)
     frame->job = job;
     frame->number = number;
     frame->place = job->next++;
+    frame->crowd = crowd;
+    kd_crowd_keep(frame->crowd);
     job->references++;
     job->fraction = 0;
     job->revision++;
     all->rendering = frame;
     kd_render_queue_push(all->params.renders, &frame->render);
+    if (crowd && job->next < job->frames) /* meanwhile, and what fails is found out when it is wanted */
+        kd_job_film_at(job, at_place(job, job->next), &crowd, &error);
     return true;
 }
 
@@ -215,13 +232,14 @@ static void done(struct kd_render_job *render)
         finished(job, frame->number, render->file.size);
     else if (status != KD_ECANCELLED && status != KD_EDEVICE && kd_job_is_active(job)) { /* those two go on after a restart */
         job->next = frame->place < job->next ? frame->place : job->next;
-        give_up(job, &render->error);
+        kd_job_give_up(job, &render->error);
     }
     kd_jobs_pump(all);
     pthread_mutex_unlock(&all->lock);
     kd_job_release(job);
     kd_buffer_finish(&render->file);
     kd_frame_finish(&render->frame);
+    kd_crowd_release(frame->crowd);
     free(frame);
 }
 
@@ -257,7 +275,7 @@ enum kd_status kd_jobs_check(const struct kd_jobs *all, struct kd_job_draft *dra
     enum kd_status status;
     kd_render_queue_capacity(all->params.renders, &capacity);
     do {
-        KD_TRY(plan_frame(all, spec, cost->frames, &capacity, &scene, &plan, error));
+        KD_TRY(plan_frame(all, spec, cost->frames, spec->first, cost->frames * spec->every, &capacity, &scene, &plan, error));
         KD_TRY(kd_cost_add(cost, spec->series, spec->sweep, &scene, &plan, error));
         if (cost->frames < spec->frames)
             KD_TRY(afford(all, draft, error));

@@ -1,8 +1,12 @@
 #include "server/job/spec.h"
 
+#include "playground/json.h"
+#include "playground/show.h"
 #include "scene/members.h"
 #include "scene/tree.h"
+#include "server/playground/document.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -14,7 +18,7 @@ struct reader {
     struct kd_job_spec *spec;
     struct kd_scene base;
     const struct kd_assets *assets;
-    const cJSON *scene, *scenes, *frames, *axes, *output;
+    const cJSON *scene, *scenes, *frames, *axes, *output, *playground, *every;
     struct kd_timeline_items timeline;
     struct kd_error *error;
 };
@@ -101,6 +105,69 @@ done:
     return status;
 }
 
+/* Says what the frames of a film may be: each takes a state of its own, and a playground that they may show. */
+static enum kd_status look_through(struct reader *r, const struct kd_playground *p)
+{
+    const struct kd_timeline *timeline = &r->spec->timeline;
+    enum kd_status status = KD_OK;
+    for (size_t i = 0; i < timeline->n_keys && !status; i++)
+        status = kd_member_inside(kd_playground_may_show(p, &timeline->keys[i].scene, r->error), timeline->n_keys > 1 && i ? "/keyframes" : "/scene", r->error);
+    return status;
+}
+
+static enum kd_status read_every(struct reader *r)
+{
+    if (!r->every)
+        return kd_error_field(r->error, "/every", "every is missing: M from a frame of the playground to the next");
+    const double every = cJSON_IsNumber(r->every) ? r->every->valuedouble : 0;
+    if (!(every > 0) || every > KD_PLAYGROUND_TIME)
+        return kd_member_refuse(r->every, "/every", "a number above 0, M from a frame to the next", r->error);
+    r->spec->every = every;
+    return KD_OK;
+}
+
+/* A film of a playground: frames of a sequence. */
+static enum kd_status read_film(struct reader *r, bool preset)
+{
+    struct kd_job_spec *spec = r->spec;
+    struct kd_playground *p = NULL;
+    struct kd_scene first;
+    enum kd_status status;
+    if (r->scenes || r->axes)
+        return kd_error_field(r->error, "/playground", "a playground goes with scene, keyframes and frames; scenes and axes do not go with it");
+    if (!cJSON_IsObject(r->playground))
+        return kd_member_refuse(r->playground, "/playground", "an object: a document of a playground, or a snapshot", r->error);
+    KD_TRY(read_every(r));
+    KD_TRY(kd_member_inside(kd_playground_read_tree(r->playground, &p, r->error), "/playground", r->error));
+    if (!preset)
+        KD_TRY(kd_play_usual_scene(r->playground, p, &r->base, r->error));
+    first = r->base;
+    if (r->scene)
+        KD_TRY(read_scene(r, r->scene, "/scene", &first));
+    KD_TRY(kd_timeline_read(&r->timeline, &by_frame, r->assets, &first, &spec->timeline, r->error));
+    spec->frames = (unsigned)kd_timeline_end(&spec->timeline) + 1;
+    if (!r->frames && !r->timeline.keyframes)
+        KD_TRY(kd_error_field(r->error, "/frames", "frames is missing: how many pictures of the playground, or keyframes, of which the last is the last"));
+    if (r->frames)
+        KD_TRY(kd_member_whole(r->frames, "/frames", spec->frames, KD_JOB_FRAMES_MAX, &spec->frames, r->error));
+    KD_TRY(look_through(r, p));
+    KD_TRY(kd_playground_show(p, &spec->first, r->error));
+done:
+    kd_playground_destroy(p);
+    return status;
+}
+
+enum kd_status kd_job_spec_playground(const char *text, size_t length, struct kd_playground **out, struct kd_error *error)
+{
+    cJSON *root = NULL;
+    enum kd_status status;
+    KD_TRY(kd_tree_parse(text, length, KD_JOB_FILM_MAX, VALUES_MAX, &root, error));
+    KD_TRY(kd_playground_read_tree(cJSON_GetObjectItemCaseSensitive(root, "playground"), out, error));
+done:
+    cJSON_Delete(root);
+    return status;
+}
+
 static enum kd_status read_output(struct reader *r)
 {
     char known[200];
@@ -121,18 +188,22 @@ enum kd_status kd_job_spec_parse(const char *text, size_t length, const char *pr
     struct kd_job_spec spec = { .series = kd_series_all[0] };
     struct reader r = { .spec = &spec, .assets = assets, .error = error };
     const struct kd_member members[] = { { "scene", &r.scene }, { "scenes", &r.scenes }, { "frames", &r.frames },
-                                         { "axes", &r.axes }, { "output", &r.output }, KD_TIMELINE_MEMBERS(r.timeline) };
+                                         { "axes", &r.axes }, { "output", &r.output }, { "playground", &r.playground }, { "every", &r.every }, KD_TIMELINE_MEMBERS(r.timeline) };
     cJSON *root = NULL;
     kd_scene_defaults(&r.base);
     enum kd_status status;
     if (*preset)
         KD_TRY(kd_member_inside(kd_scene_preset(&r.base, preset, error), "/preset", error));
-    KD_TRY(kd_tree_parse(text, length, KD_JOB_BODY_MAX, VALUES_MAX, &root, error));
+    KD_TRY(kd_tree_parse(text, length, KD_JOB_FILM_MAX, VALUES_MAX, &root, error));
     if (!cJSON_IsObject(root))
         KD_TRY(kd_member_refuse(root, "", "an object", error));
     KD_TRY(kd_members_read(root, "", members, sizeof members / sizeof *members, error));
     KD_TRY(read_output(&r));
-    KD_TRY(r.scenes ? read_list(&r) : r.axes ? read_sweep(&r) : read_sequence(&r));
+    if (r.every && !r.playground)
+        KD_TRY(kd_error_field(error, "/every", "every is for a film of a playground: leave it out, or say which, as in \"playground\": {\"preset\": \"disruption\"}"));
+    if (!r.playground && length > KD_JOB_BODY_MAX)
+        KD_TRY(kd_error_set(error, KD_ETOOBIG, "a job without a playground may have %u bytes", KD_JOB_BODY_MAX));
+    KD_TRY(r.playground ? read_film(&r, *preset) : r.scenes ? read_list(&r) : r.axes ? read_sweep(&r) : read_sequence(&r));
 done:
     cJSON_Delete(root);
     if (status)
@@ -145,6 +216,7 @@ done:
 void kd_job_spec_finish(struct kd_job_spec *spec)
 {
     kd_timeline_finish(&spec->timeline);
+    kd_crowd_release(spec->first);
     kd_sweep_free(spec->sweep);
     *spec = (struct kd_job_spec) { 0 };
 }

@@ -4,18 +4,23 @@
  * {"scenes": [{...}, ...]}        a picture each
  * {"scene": {...}, "keyframes": [{"frame": 0, "scene": {patch}}, ...], "frames": 240, "interpolation": "smooth"}
  * {"scene": {...}, "axes": {"spacetime.spin": [0, 0.5, 0.9], "camera.inclination_deg": "10:80:15"}}
+ * {"playground": {...}, "every": 20, "frames": 150, "scene": {...}, "keyframes": [...]}
  *
- * Keyframes are those of scene/timeline.h; what holds at frame 0 without a keyframe there is "scene". Axes are those of scene/sweep.h.
+ * The last one is a film: frame k shows a playground, given as kerrd playground reads it, after k times `every`, as far as its budget of sub-steps leads from the
+ * frame before. "scene" is merged over the one that shows it well, and keyframes move the camera. Keyframes are those of scene/timeline.h; what holds at frame 0 without a keyframe there is "scene". Axes are those of scene/sweep.h.
  * With "output": "light-curve" each frame is measured instead of drawn (render/output/series.h). */
 #ifndef KD_SERVER_JOB_SPEC_H
 #define KD_SERVER_JOB_SPEC_H
 
+#include "playground/playground.h"
 #include "render/output/series.h"
 #include "scene/asset.h"
+#include "scene/crowd.h"
 #include "scene/sweep.h"
 #include "scene/timeline.h"
 
 #define KD_JOB_BODY_MAX (4u << 20)
+#define KD_JOB_FILM_MAX (16u << 20) /* of one with a playground: 200 000 pieces of debris */
 #define KD_JOB_FRAMES_MAX 10000 /* but for a sweep: KD_SWEEP_MOST */
 
 struct kd_job_spec {
@@ -23,6 +28,8 @@ struct kd_job_spec {
     struct kd_timeline timeline; /* listed: a key a frame; else the keyframes */
     bool listed;
     struct kd_sweep *sweep; /* NULL: it has no axes */
+    double every;           /* of a film, from a frame's time to the next; 0: it is none */
+    struct kd_crowd *first; /* of a film: what it begins with, to be planned by; NULL where that is over */
     const struct kd_series *series; /* "output": what it makes of its frames */
 };
 
@@ -32,7 +39,10 @@ enum kd_status kd_job_spec_parse(const char *text, size_t length, const char *pr
                                  struct kd_error *error);
 void kd_job_spec_finish(struct kd_job_spec *spec);
 
-/* The scene of a frame, valid; KD_EINVAL where what lies between two keyframes is not. */
+/* The playground of a film, as it begins, from the request that is known to be good. KD_EINVAL, KD_ENOMEM. */
+enum kd_status kd_job_spec_playground(const char *text, size_t length, struct kd_playground **out, struct kd_error *error);
+
+/* The scene of a frame, valid, of a film without its crowd; KD_EINVAL where what lies between two keyframes is not. */
 enum kd_status kd_job_spec_scene(const struct kd_job_spec *spec, unsigned frame, struct kd_scene *out, struct kd_error *error);
 
 #endif

@@ -283,7 +283,7 @@ static enum fate look(int folder, const char *id, struct found *out, const char 
     kd_buffer_finish(&text);
     if (!known)
         return ASIDE;
-    if (kd_read_file(folder, "request.json", O_NOFOLLOW, KD_JOB_BODY_MAX, &out->request))
+    if (kd_read_file(folder, "request.json", O_NOFOLLOW, KD_JOB_FILM_MAX, &out->request))
         return KEPT;
     int cause = errno;
     kd_buffer_finish(&out->request);
@@ -430,6 +430,16 @@ done:
         kd_job_folder_remove(store->folder, name, UINT_MAX);
         kd_job_folder_remove(store->folder, record->id, UINT_MAX);
     }
+    return status;
+}
+
+enum kd_status kd_job_store_request(const struct kd_job_store *store, const char *id, struct kd_buffer *out, struct kd_error *error)
+{
+    int folder = kd_job_folder_open(store->folder, id);
+    bool good = folder >= 0 && kd_read_file(folder, "request.json", O_NOFOLLOW, KD_JOB_FILM_MAX, out);
+    enum kd_status status = good ? KD_OK : failed(error, "the request of a job cannot be read");
+    if (folder >= 0)
+        close(folder);
     return status;
 }
 

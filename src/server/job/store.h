@@ -43,6 +43,8 @@ enum kd_status kd_job_store_load(struct kd_job_store *store,
 
 enum kd_status kd_job_store_create(struct kd_job_store *store, const struct kd_job_record *record, const void *request, size_t size,
                                    struct kd_error *error);
+/* Reads its request. KD_EIO, KD_ENOMEM. */
+enum kd_status kd_job_store_request(const struct kd_job_store *store, const char *id, struct kd_buffer *out, struct kd_error *error);
 enum kd_status kd_job_store_update(struct kd_job_store *store, const struct kd_job_record *record, struct kd_error *error);
 /* Makes a job unknown after a restart; kd_job_store_remove then removes its files, at most so many, and says whether all are
  * gone. */

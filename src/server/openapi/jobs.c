@@ -22,11 +22,17 @@
 
 static const char plan_request[] = "{\"oneOf\":[" KD_OPENAPI_SCENE "," SWEEP "]}";
 
+/* A film of a playground. */
+#define FILM OBJECT "\"required\":[\"playground\",\"every\"],\"properties\":{\"playground\":{\"type\":\"object\",\"description\":\"a document of a playground, or a " \
+    "snapshot, as POST /v1/playground takes them, without rate, paused and scene\"},\"every\":{\"type\":\"number\",\"exclusiveMinimum\":0,\"maximum\":1e12," \
+    "\"description\":\"M from a frame to the next\"},\"scene\":" KD_OPENAPI_SCENE "," \
+    KD_OPENAPI_TIMELINE("frame", "{\"type\":\"integer\",\"minimum\":0,\"maximum\":9999}") ",\"frames\":{\"type\":\"integer\",\"minimum\":1,\"maximum\":10000}," OUTPUT "}}"
+
 static const char request[] =
     "{\"oneOf\":[" OBJECT "\"required\":[\"scene\"],\"properties\":{\"scene\":" KD_OPENAPI_SCENE "," KD_OPENAPI_TIMELINE(
         "frame", "{\"type\":\"integer\",\"minimum\":0,\"maximum\":9999}")
     ",\"frames\":{\"type\":\"integer\",\"minimum\":1,\"maximum\":10000},"
-    OUTPUT "}}," SWEEP "," OBJECT "\"required\":[\"scenes\"],\"properties\":{\"scenes\":{\"type\":\"array\","
+    OUTPUT "}}," SWEEP "," FILM "," OBJECT "\"required\":[\"scenes\"],\"properties\":{\"scenes\":{\"type\":\"array\","
     "\"minItems\":1,\"maxItems\":10000,\"items\":" KD_OPENAPI_SCENE "}," OUTPUT "}}]}";
 
 _Static_assert(KD_JOB_FRAMES_MAX == 10000 && KD_SWEEP_AXES == 8 && KD_SWEEP_MOST == 100000, "openapi.json says so");
@@ -40,9 +46,9 @@ static void list_series(char *out, size_t size)
 
 void kd_openapi_jobs_body(struct kd_json *json)
 {
-    char names[200], schema[sizeof request + 3 * sizeof names];
+    char names[200], schema[sizeof request + 4 * sizeof names];
     list_series(names, sizeof names);
-    int n = snprintf(schema, sizeof schema, request, names, names, names);
+    int n = snprintf(schema, sizeof schema, request, names, names, names, names);
     kd_openapi_body(json, schema, (size_t)n, NULL);
 }
 

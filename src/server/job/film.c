@@ -1,0 +1,143 @@
+/* A film of a playground is made by turns: while one frame is drawn, the workers move the bodies on to the next.
+ *
+ * What a frame shows depends on those before it. So a frame that is to be drawn once more, and a film that goes on after a restart, begin anew from the request: the motion is the same
+ * to the bit. One film is made at a time: others wait until it is done, so that as little memory and as few turns are taken as one needs. */
+#include "server/job/internal.h"
+
+#include "base/clock.h"
+#include "playground/show.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define TURN_MS 10. /* as a playground that somebody watches has */
+
+/* Moves the playground of a film on to a frame. */
+struct stride {
+    struct kd_turns_job turns; /* first */
+    struct kd_job *job;        /* a reference */
+    unsigned to;
+    bool under_way; /* `run` has begun */
+    struct kd_playground_run run;
+};
+
+void kd_job_film_drop(struct kd_job *job)
+{
+    struct kd_job_film *film = &job->film;
+    kd_crowd_release(film->crowd);
+    film->crowd = NULL;
+    if (film->moving)
+        return; /* it is the worker's, who drops it */
+    kd_playground_destroy(film->p);
+    film->p = NULL;
+    if (job->all->filming == job)
+        job->all->filming = NULL;
+}
+
+static enum kd_status begin_anew(struct kd_job *job, struct kd_error *error)
+{
+    struct kd_job_film *film = &job->film;
+    struct kd_buffer request = { 0 };
+    enum kd_status status;
+    kd_playground_destroy(film->p);
+    film->p = NULL;
+    KD_TRY(kd_job_store_request(job->all->store, job->record.id, &request, error));
+    KD_TRY(kd_job_spec_playground((const char *)request.data, request.size, &film->p, error));
+    film->begin = film->p->t;
+    film->at = 0;
+    film->spent_ms = 0;
+done:
+    kd_buffer_finish(&request);
+    return status;
+}
+
+/* Goes on until it is time. False: there is more to do. */
+static bool go_on(struct stride *s, double until_ms)
+{
+    struct kd_job_film *film = &s->job->film;
+    struct kd_playground *p = film->p;
+    bool more = true;
+    while (film->at < s->to && kd_clock_ms() < until_ms) {
+        const double time = film->begin + (film->at + 1) * s->job->spec.every - p->t;
+        if (!s->under_way && time > 0)
+            kd_playground_begin(p, time, &s->run);
+        more = time > 0 || s->under_way;
+        while (more && kd_clock_ms() < until_ms)
+            more = kd_playground_go_on(p, &s->run, 1);
+        s->under_way = more;
+        film->at += !more;
+    }
+    return film->at == s->to;
+}
+
+/* The job is still to be done, by this server. Locked. */
+static bool wanted(const struct kd_job *job) { return kd_job_is_active(job) && !job->all->closed; }
+
+static enum kd_turn_end turn(struct kd_turns_job *turns)
+{
+    struct stride *s = (struct stride *)turns;
+    struct kd_job *job = s->job;
+    struct kd_jobs *all = job->all;
+    struct kd_job_film *film = &job->film;
+    struct kd_crowd *crowd = NULL;
+    struct kd_error error = { 0 };
+    enum kd_status status = KD_OK;
+    const double begun = kd_clock_ms();
+    pthread_mutex_lock(&all->lock);
+    const bool goes = wanted(job);
+    pthread_mutex_unlock(&all->lock);
+    if (goes && (!film->p || film->at > s->to))
+        status = begin_anew(job, &error);
+    const bool there = goes && !status && go_on(s, begun + TURN_MS);
+    if (there)
+        status = kd_playground_show_named(film->p, &crowd, &error);
+    film->spent_ms += kd_clock_ms() - begun;
+    if (goes && !status && !there && film->spent_ms > 1e3 * all->params.longest_job_s)
+        status = kd_error_set(&error, KD_ETOOBIG, "its bodies have moved for %.0f s, as long as a job may take, up to frame %u", all->params.longest_job_s, film->at);
+    if (goes && !status && !there)
+        return KD_TURN_MORE;
+    pthread_mutex_lock(&all->lock);
+    film->moving = false;
+    film->crowd = crowd;
+    if (!wanted(job))
+        kd_job_film_drop(job);
+    else if (status)
+        kd_job_give_up(job, &error);
+    kd_jobs_pump(all);
+    pthread_mutex_unlock(&all->lock);
+    return KD_TURN_LAST;
+}
+
+static void done(struct kd_turns_job *turns)
+{
+    struct stride *s = (struct stride *)turns;
+    kd_job_release(s->job);
+    free(s);
+}
+
+/* Sends the workers to a frame. */
+static enum kd_status move_on(struct kd_job *job, unsigned frame, struct kd_error *error)
+{
+    struct kd_turns *turns = job->all->params.turns;
+    struct stride *s = kd_turns_cancelled(turns) ? NULL : calloc(1, sizeof *s);
+    if (!s)
+        return kd_turns_cancelled(turns) ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for a film");
+    *s = (struct stride) { .turns = { .turn = turn, .done = done }, .job = job, .to = frame };
+    memcpy(s->turns.client, job->client, sizeof s->turns.client);
+    kd_crowd_release(job->film.crowd);
+    job->film.crowd = NULL;
+    job->film.to = frame;
+    job->film.moving = true;
+    job->references++;
+    kd_turns_push(turns, &s->turns);
+    return KD_OK;
+}
+
+enum kd_status kd_job_film_at(struct kd_job *job, unsigned frame, struct kd_crowd **out, struct kd_error *error)
+{
+    struct kd_job_film *film = &job->film;
+    if (!job->all->filming)
+        job->all->filming = job;
+    *out = film->crowd && film->to == frame ? film->crowd : NULL;
+    return *out || film->moving || job->all->filming != job ? KD_OK : move_on(job, frame, error);
+}
