@@ -26,6 +26,7 @@ export class Plane {
   #index = new Map(); // of ids, their rows
   #table = null;
   #colours;
+  #labels = []; // where names stand
 
   constructor(canvas) {
     this.#canvas = canvas;
@@ -160,6 +161,7 @@ export class Plane {
     c.fillRect(0, 0, w, h);
     c.font = '12px system-ui, sans-serif';
     circles(c, this, this.#colours);
+    this.#labels = [];
     const all = this.all(),
       behind = body => body.x[2] * Math.cos(this.tilt) - body.x[1] * Math.sin(this.tilt) < 0 && Math.hypot(...body.x) < 1e4;
     this.#drawTrails(c);
@@ -242,8 +244,14 @@ export class Plane {
       c.stroke();
     }
     if (this.bodies.n > 12 && body.id !== this.chosen) return;
+    const name = this.names.get(body.id) ?? '',
+      wide = c.measureText(name).width,
+      [left, low] = [x + size + 6, y + 4];
+    // A name that would lie on another one waits until there is room, but for the chosen body's.
+    if (body.id !== this.chosen && this.#labels.some(one => Math.abs(one.low - low) < 13 && left < one.left + one.wide && one.left < left + wide)) return;
+    this.#labels.push({ left, low, wide });
     c.fillStyle = this.#colours.ink;
     c.textAlign = 'left';
-    c.fillText(this.names.get(body.id) ?? '', x + size + 6, y + 4);
+    c.fillText(name, left, low);
   }
 }

@@ -19,7 +19,7 @@ class Living(Browser):
         self.assertTrue(daemon.eventually(lambda: page.inner_text('#clock') and self.clock(page) > 1))
         seen = set()
         self.assertTrue(daemon.eventually(lambda: seen.add(self.pixels(page)) or len(seen) > 3))
-        self.assertRegex(page.inner_text('#clock'), r'^t = [\d.,]+ M = [\d.]+ (minutes|hours)$')
+        self.assertRegex(page.inner_text('#clock'), r'^t = [\d.,]+ M = [\d.]+ (minutes|hours|days)$')
         self.assertEqual(page.get_attribute('#status', 'aria-live'), 'off', 'thirty captions a second are not for reading aloud')
         page.click('#play')
         page.wait_for_selector(FINE)
@@ -152,7 +152,7 @@ class Living(Browser):
         for _ in range(2):
             page.click('#light summary >> nth=0')
         page.wait_for_selector('#light tbody tr >> nth=5')
-        self.assertEqual(value(page.locator('#light tbody th').first.inner_text()), times[0], 'the curve goes on over a strike')
+        self.assertLess(value(page.locator('#light tbody th').first.inner_text()), struck, 'the curve goes on over a strike')  # of a long one the oldest points go
         with page.expect_download() as download:
             page.click('#light a >> nth=0')
         lines = pathlib.Path(download.value.path()).read_text().splitlines()

@@ -81,6 +81,15 @@ class Pages(Browser):
                 self.assertEqual(small, [])
                 self.shot(page, 'phone-' + view)
 
+    def test_colours_of_the_system(self):
+        """Where they are forced, what is chosen still looks other than what is not, and a chart keeps its ground."""
+        page = self.open('lang=en&view=playground&play.paused=1', READY['playground'], forced_colors='active')
+        ground = lambda of: page.locator(of).first.evaluate('node => getComputedStyle(node).backgroundColor')
+        for chosen, other in (('#play-show-plan', '#play-show-both'), ('nav [aria-current]', 'nav [data-view=scale]'), ('[data-lang=en]', '[data-lang=it]')):
+            self.assertNotEqual(ground(chosen), ground(other), chosen)
+        self.assertEqual(ground('#play-charts .chart'), 'rgb(20, 18, 16)')
+        self.shot(page, 'forced-playground')
+
     def test_narrow(self):
         for view in ('lensing', 'physics', 'orbits'):
             page = self.open(f'lang=it&view={view}', READY[view], viewport={'width': 320, 'height': 640})
