@@ -67,12 +67,13 @@ static bool step_down(struct kd_server *server, double *since)
             kd_turns_cancel(server->turns);
         }
         if (kd_render_queue_unfinished(server->renders) || kd_turns_unfinished(server->rays) ||
-            kd_turns_unfinished(server->turns) || kd_plays_unfinished(server->plays) || kd_thumbnails_unfinished(server->thumbnails))
+            kd_turns_unfinished(server->turns) || kd_plays_unfinished(server->plays))
             return false;
         stop_listening(server);
         enter(server, KD_CLOSING, since);
         return false;
     default:
+        kd_thumbnails_cancel(server->thumbnails); /* who came in between */
         kd_connections_cut_stalled(server->connections);
         return !atomic_load(&server->requests) || age >= LAST_ANSWERS_MS || atomic_load(&server->abandon);
     }

@@ -4,8 +4,8 @@
  * The scene's time chooses what happens: t >= 0 takes t milliseconds, in slices of 10; -1 loses the device,
  * -2 runs out of memory, -3 fails. The exposure that is "auto" is 1 stop and -1 by turns. Rays on the device cross once, at
  * 10 + |alpha| with the azimuth beta; with steps 8 there is no double precision, with steps 12 each takes a millisecond.
- * The picture of a sky of seed 4711 is under way until another picture is rendered. A device called "compiles" takes half a second for a small picture of a
- * preset, in which nobody can have it: as it would to make a kernel. */
+ * The picture of a sky of seed 4711 is under way until another picture is rendered. A device called "compiles" is busy with a small picture of a
+ * preset, as with a kernel, until five other pictures have been rendered meanwhile; it fails after a minute without them. */
 #include "render/device/accuracy_store.h"
 #include "render/rays/device.h"
 #include "render/frame/frame.h"
@@ -24,7 +24,8 @@ struct kd_renderer {
     struct kd_renderer_params params;
     _Atomic bool read; /* the picture of that sky */
 };
-enum { UNREAD = 4711 };
+enum { UNREAD = 4711, MEANWHILE = 5, PATIENCE_MS = 60000 };
+static _Atomic unsigned drawn; /* pictures, by whatever renderer */
 
 enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struct kd_renderer **out,
                                   struct kd_error *error)
@@ -121,6 +122,19 @@ static enum kd_status pass_time(double ms, kd_progress_fn progress, void *user, 
     return KD_OK;
 }
 
+static enum kd_status compile(kd_progress_fn progress, void *user, struct kd_error *error)
+{
+    const unsigned before = atomic_load(&drawn);
+    for (int ms = 0; ms < PATIENCE_MS; ms += 10) {
+        if (atomic_load(&drawn) - before >= MEANWHILE)
+            return KD_OK;
+        enum kd_status status = pass_time(10, progress, user, error);
+        if (status)
+            return status;
+    }
+    return kd_error_set(error, KD_EIO, "nothing else was rendered meanwhile");
+}
+
 static enum kd_status mishap(double time, struct kd_error *error)
 {
     if (time == -1)
@@ -164,7 +178,7 @@ enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *sc
     if (!status)
         status = pass_time(scene->top.time, progress, user, error);
     if (!status && renderer->compiles && plan->width == 192 && plan->height == 120)
-        status = pass_time(500, NULL, NULL, error);
+        status = compile(progress, user, error);
     if (status)
         return status;
     *out = (struct kd_frame) { .width = plan->width,
@@ -191,6 +205,7 @@ enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *sc
     if (!out->lens_reused)
         out->timings[out->n_timings++] = (struct kd_timing) { "trace", scene->top.time };
     out->timings[out->n_timings++] = (struct kd_timing) { "total", scene->top.time };
+    atomic_fetch_add(&drawn, 1);
     return KD_OK;
 }
 

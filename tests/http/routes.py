@@ -150,7 +150,7 @@ class Routes(daemon.Case):
 
         with tempfile.TemporaryDirectory() as folder, unittest.mock.patch.dict(os.environ, XDG_CACHE_HOME=folder):
             first, painted = ask()
-            path = pathlib.Path(folder, 'fake.preset-edge-on.png')
+            path = pathlib.Path(folder, 'fake.preset-edge-on')
             kept = path.read_bytes()
             self.assertEqual((painted, kept[-len(first):]), (1, first))
             self.assertEqual(ask(), (first, 0))
@@ -165,14 +165,12 @@ class Routes(daemon.Case):
         session = own.post('/v1/sessions', {'image': {'width': 64, 'height': 36}, 'sky': {'model': 'grid'}, 'motion': {'azimuth_rate_deg': 10}}).json()
         with concurrent.futures.ThreadPoolExecutor(1) as one:
             painting = one.submit(own.get, '/v1/presets/edge-on/thumbnail.png')
-            self.assertTrue(daemon.eventually(lambda: own.metrics()['kerrd_requests'] >= 2))
-            frames = after = 0
+            after = 0
             while not painting.done():
                 frame = own.get(f'/v1/sessions/{session["id"]}/frame.png?after={after}')
                 self.assertEqual(frame.status, 200)
-                after, frames = int(frame.header('Kerrd-Frame')), frames + 1
-        self.assertEqual(painting.result().status, 200)
-        self.assertGreater(frames, 3, 'it takes half a second, and a frame none')
+                after = int(frame.header('Kerrd-Frame'))
+        self.assertEqual(painting.result().status, 200, 'it ends when five frames have been rendered meanwhile, and fails without them')
 
     def test_a_small_picture_that_is_waited_for_is_given_up_when_the_server_stops(self):
         own = daemon.Daemon('--device', 'compiles')
@@ -182,7 +180,7 @@ class Routes(daemon.Case):
             self.assertTrue(daemon.eventually(lambda: own.metrics()['kerrd_requests'] > len(names)))
             self.assertEqual(own.stop(), 0)
         statuses = [answer.result().status for answer in answers]
-        self.assertEqual(set(statuses) - {200}, {503}, statuses)
+        self.assertEqual(set(statuses), {503}, statuses)
 
     def test_plan(self):
         plan = self.daemon.post('/v1/plan', '{"image":{"width":100,"height":50,"samples":2}}').json()

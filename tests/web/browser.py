@@ -93,7 +93,9 @@ class Browser(unittest.TestCase):
         options.setdefault('viewport', {'width': 1000, 'height': 640})
         context = self.browser.new_context(**options)
         if not gallery:
-            context.add_init_script('window.IntersectionObserver = class { observe() {} unobserve() {} disconnect() {} };')
+            context.add_init_script('''window.IntersectionObserver = class extends IntersectionObserver {
+                observe(node) { if (this.root?.id !== 'gallery') super.observe(node); }
+            };''')
         context.set_default_timeout(PATIENCE_MS)
         self.contexts.append(context)
         return context

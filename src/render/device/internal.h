@@ -32,6 +32,7 @@ struct kd_renderer {
     uint64_t asides_used;
     struct kd_vk_buffer *rays[2][3]; /* a list, its ends, and those on the host: rays/device.c's, kept for the next list */
     struct kd_rays_pace { enum kd_engine engine; enum kd_precision precision; uint32_t steps, orders, size; } rays_pace;
+    bool passing;               /* as kd_renderer_params */
     struct kd_emit_state *emit; /* numbers and tables of the emitters, as of the last frame */
     struct kd_panoramas panoramas;
     pthread_mutex_t lock; /* guards capacity and memory */

@@ -75,6 +75,7 @@ enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struc
         return kd_error_set(error, KD_ENOMEM, "out of memory for the renderer");
     }
     r->emit = emit;
+    r->passing = params->passing;
     pthread_mutex_init(&r->lock, NULL);
     kd_panoramas_init(&r->panoramas, params->assets, params->sky_made, params->sky_user);
     struct kd_vk_params vk = { .device = params->device, .cache_dir = params->cache_dir, .validate = params->validate };
@@ -110,7 +111,7 @@ void kd_renderer_destroy(struct kd_renderer *renderer)
     if (!renderer)
         return;
     if (renderer->vk) {
-        if (!kd_vk_wait(renderer->vk, 0, NULL))
+        if (!kd_vk_wait(renderer->vk, 0, NULL) && !renderer->passing)
             kd_verdict_keep(renderer);
         kd_kernels_finish(&renderer->kernels, renderer->vk);
         kd_store_finish(&renderer->store);

@@ -23,6 +23,7 @@ struct kd_renderer_params {
     const struct kd_assets *assets; /* what scenes name (scene/asset.h); NULL: none */
     void (*sky_made)(void *user);   /* by another thread: kd_renderer_sky_begin may say otherwise now; may be NULL */
     void *sky_user;
+    bool passing;           /* beside another one of the same device, with less of it: what it learns of the device's speed is not kept */
     uint64_t memory_bytes;  /* most memory for pictures, those rendered aside included; 0: as the device and the host have it */
 };
 enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struct kd_renderer **out,

@@ -19,7 +19,6 @@
 #include <unistd.h>
 
 #define NICE 10              /* a tenth of the weight of what is live */
-#define MEMORY_BYTES (768ull << 20)
 #define IDLE_S 10            /* after which its device is closed */
 #define FILE_MAX_BYTES ((size_t)1 << 20)
 
@@ -33,7 +32,6 @@ struct kd_painter {
     struct kd_painting *first, **end; /* that wait */
     bool ending;
     _Atomic bool cancelled;
-    atomic_uint unfinished;
     struct kd_renderer *renderer; /* the thread's own; NULL: not open */
     bool lost;                    /* it cannot be torn down, nor opened again */
 };
@@ -62,7 +60,7 @@ static struct head head_of(const struct kd_painting *work, const uint8_t *png, s
 static char *path_of(const struct kd_painter *painter, const struct kd_painting *work)
 {
     char *path = NULL;
-    return painter->kept_at && asprintf(&path, "%s%s.png", painter->kept_at, work->name) >= 0 ? path : NULL;
+    return painter->kept_at && asprintf(&path, "%s%s", painter->kept_at, work->name) >= 0 ? path : NULL;
 }
 
 static bool recall(const struct kd_painter *painter, struct kd_painting *work)
@@ -125,6 +123,7 @@ static enum kd_status paint(struct kd_painter *painter, struct kd_painting *work
     struct kd_frame frame = { 0 };
     struct kd_error *error = &work->error;
     enum kd_status status;
+    kd_buffer_finish(&work->png); /* what an earlier try has left */
     KD_TRY(open_device(painter, error));
     kd_renderer_capacity(painter->renderer, &capacity);
     KD_TRY(kd_format_plan(kd_formats[0], &work->scene, &capacity, &plan, error));
@@ -147,14 +146,13 @@ static void serve(struct kd_painter *painter, struct kd_painting *work)
         work->status = paint(painter, work);
     work->error.status = work->status;
     work->done(work);
-    atomic_fetch_sub(&painter->unfinished, 1);
 }
 
 /* The next one; NULL: none came for a while, or the end. Locked. */
 static struct kd_painting *await(struct kd_painter *painter)
 {
     struct timespec until;
-    clock_gettime(CLOCK_REALTIME, &until);
+    clock_gettime(CLOCK_MONOTONIC, &until);
     until.tv_sec += IDLE_S;
     for (int late = 0; !painter->first && !painter->ending && !late;)
         late = painter->renderer ? pthread_cond_timedwait(&painter->changed, &painter->lock, &until) : pthread_cond_wait(&painter->changed, &painter->lock);
@@ -195,10 +193,16 @@ enum kd_status kd_painter_create(const struct kd_renderer_params *params, const 
     *painter = (struct kd_painter) { .params = *params, .device_name = device_name, .kept_at = kept_at };
     painter->params.prove = NULL; /* the device is known by then */
     painter->params.sky_made = NULL;
-    painter->params.memory_bytes = MEMORY_BYTES;
+    painter->params.passing = true;
+    if (!params->memory_bytes || params->memory_bytes > KD_PAINTER_BYTES)
+        painter->params.memory_bytes = KD_PAINTER_BYTES;
     painter->end = &painter->first;
     pthread_mutex_init(&painter->lock, NULL);
-    pthread_cond_init(&painter->changed, NULL);
+    pthread_condattr_t steady;
+    pthread_condattr_init(&steady);
+    pthread_condattr_setclock(&steady, CLOCK_MONOTONIC);
+    pthread_cond_init(&painter->changed, &steady);
+    pthread_condattr_destroy(&steady);
     if (!pthread_create(&painter->thread, NULL, painter_main, painter))
         return *out = painter, KD_OK;
     pthread_cond_destroy(&painter->changed);
@@ -211,7 +215,6 @@ enum kd_status kd_painter_create(const struct kd_renderer_params *params, const 
 void kd_painter_paint(struct kd_painter *painter, struct kd_painting *painting)
 {
     painting->next = NULL;
-    atomic_fetch_add(&painter->unfinished, 1);
     pthread_mutex_lock(&painter->lock);
     *painter->end = painting;
     painter->end = &painting->next;
@@ -220,8 +223,6 @@ void kd_painter_paint(struct kd_painter *painter, struct kd_painting *painting)
 }
 
 void kd_painter_cancel(struct kd_painter *painter) { atomic_store(&painter->cancelled, true); }
-
-unsigned kd_painter_unfinished(const struct kd_painter *painter) { return atomic_load(&painter->unfinished); }
 
 void kd_painter_destroy(struct kd_painter *painter)
 {

@@ -15,6 +15,8 @@
 
 struct kd_painter;
 
+#define KD_PAINTER_BYTES (768ull << 20) /* of memory for its pictures, at most */
+
 /* One picture; the caller's, until done() is called. */
 struct kd_painting {
     struct kd_scene scene;
@@ -31,14 +33,13 @@ struct kd_painting {
 };
 
 /* params: of the device, which is opened later. device_name: as kd_renderer_device_name, as long as the painter. kept_at: where files are kept, a path without
- * the name and ".png"; NULL: nowhere. The painter frees it, also where this fails. */
+ * the name; NULL: nowhere. The painter frees it, also where this fails. */
 enum kd_status kd_painter_create(const struct kd_renderer_params *params, const char *device_name, char *kept_at, struct kd_painter **out,
                                  struct kd_error *error);
 /* Any thread. */
 void kd_painter_paint(struct kd_painter *painter, struct kd_painting *painting);
 /* From now on nothing is painted: whatever waits or comes is done with KD_ECANCELLED, what is under way as soon as it can be stopped. Any thread. */
 void kd_painter_cancel(struct kd_painter *painter);
-unsigned kd_painter_unfinished(const struct kd_painter *painter); /* whose done() has not returned. Any thread */
 /* Cancels first. Accepts NULL. */
 void kd_painter_destroy(struct kd_painter *painter);
 

@@ -16,7 +16,8 @@
 struct thumbnail {
     struct kd_painting painting; /* first; its png is never changed again once it is there */
     char etag[120];
-    bool there, busy; /* busy: the painter has it */
+    struct kd_error error; /* of the latest try */
+    bool there, busy; /* busy: the painter has it, and nobody else looks at it */
     struct kd_request *waiting; /* suspended, the newest first */
     struct kd_thumbnails *of;
 };
@@ -74,10 +75,6 @@ enum kd_status kd_thumbnails_create(struct kd_server *server, const struct kd_re
     return status;
 }
 
-void kd_thumbnails_cancel(struct kd_thumbnails *s) { kd_painter_cancel(s->painter); }
-
-unsigned kd_thumbnails_unfinished(struct kd_thumbnails *s) { return kd_painter_unfinished(s->painter); }
-
 void kd_thumbnails_destroy(struct kd_thumbnails *s)
 {
     if (!s)
@@ -116,6 +113,18 @@ static void resume(struct kd_request *waiting)
     }
 }
 
+/* What the painter has under way may have to end first, as a kernel does that is being made: nobody waits for that. */
+void kd_thumbnails_cancel(struct kd_thumbnails *s)
+{
+    kd_painter_cancel(s->painter);
+    for (size_t i = 0; i < s->n; i++) {
+        pthread_mutex_lock(&s->lock);
+        struct kd_request *waiting = take(&s->all[i]);
+        pthread_mutex_unlock(&s->lock);
+        resume(waiting);
+    }
+}
+
 /* On the painter's thread. */
 static void done(struct kd_painting *painting)
 {
@@ -123,6 +132,7 @@ static void done(struct kd_painting *painting)
     struct kd_thumbnails *s = t->of;
     pthread_mutex_lock(&s->lock);
     t->there = !painting->status;
+    t->error = painting->error;
     t->busy = false;
     s->rendered += painting->painted;
     struct kd_request *waiting = take(t);
@@ -160,7 +170,7 @@ static enum MHD_Result give(struct kd_request *request, struct kd_thumbnails *s,
 {
     pthread_mutex_lock(&s->lock);
     const bool there = t->there, waits = !there && !request->waited && atomic_load(&request->server->phase) < KD_REFUSING, begin = waits && !t->busy;
-    const struct kd_error error = t->painting.error;
+    const struct kd_error error = t->error;
     if (waits) {
         request->waited = true;
         request->also_waiting = t->waiting;
