@@ -671,8 +671,8 @@ export const sentences = {
     'cielo: sono tralasciate le immagini di stelle che illuminerebbero il loro pixel per meno di 0,03 di sky.brightness',
   'sky: images of stars are left out that are nearer to the critical curve than 3e-5 of its radius; in pixels so fine that Sirius would be seen there, those nearer than where it would be, or than 1e-7':
     'cielo: sono tralasciate le immagini di stelle più vicine alla curva critica di 3e-5 del suo raggio; in pixel così fini che Sirio vi si vedrebbe, quelle più vicine di dove si vedrebbe, o di 1e-7',
-  'sky: next to the critical curve of so fast a hole the rays on which stars are sought lead more than 0.3 rad apart: images there are less exact than elsewhere, and left out from 0.5 rad on':
-    'cielo: accanto alla curva critica di un buco così veloce i raggi su cui si cercano le stelle arrivano a più di 0,3 rad l’uno dall’altro: lì le immagini sono meno esatte che altrove, e tralasciate da 0,5 rad in su',
+  'sky: next to the critical curve of so fast a hole, in so fine a picture, more rays would be needed than are followed (524288): images of stars are left out where the sky is so small that only a few of the brightest would be seen':
+    'cielo: vicino alla curva critica di un buco così veloce, in un’immagine così fine, occorrerebbero più raggi di quanti ne vengono seguiti (524288): mancano le immagini di stelle dove il cielo è così piccolo che se ne vedrebbero solo poche fra le più luminose',
   'sky: images of stars next to the critical curve are left out, in pixels whose rays stand for more than 0.15 rad of the sky':
     'cielo: sono tralasciate le immagini di stelle accanto alla curva critica, in pixel i cui raggi stanno per più di 0,15 rad di cielo',
   'sky: images of stars are cut at the edges of the bands that a picture of this size is made in':

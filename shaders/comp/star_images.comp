@@ -40,7 +40,6 @@ struct kd_neighbour { vec2 f; bool there; };
 kd_neighbour neighbour(kd_chart c, uint at, uint x, uint y, int dx, int dy)
 {
     int px = int(x) + dx, py = int(y) + dy;
-    px += AT_RIM ? (px < 0 ? int(push.width) : px >= int(push.width) ? -int(push.width) : 0) : 0; /* it goes round */
     bool inside = px >= 0 && px < int(push.width) && py >= 0 && py < int(push.rows);
     uint there = inside ? uint(py) * push.width + uint(px) : at;
     vec3 n = kd_sky_from(there);
@@ -225,7 +224,7 @@ kd_star_pixel spot_at(uint x, uint y, vec2 p)
         kd_seen seen = kd_camera_seen(cell.d);
         o.place = seen.place;
         o.steps = cell.area * seen.steps;
-        o.share = kd_rim_share(cell.place);
+        o.share = kd_rim_share(cell.place) * kd_rim_part(vec2(x, y) + p, 0.0);
         o.energy = cam.e_t - (cam.e_r * cell.d.x + cam.e_theta * cell.d.y + cam.e_phi * cell.d.z) * inversesqrt(dot(cell.d, cell.d));
         return o;
     }

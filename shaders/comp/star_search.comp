@@ -36,8 +36,6 @@ vec3 slope(vec3 n, uint at, uint after_, uint before_, bool has_after, bool has_
 vec3 across(vec3 n, uint at, uint x)
 {
     bool first = x == 0u, last = x + 1u == push.width;
-    if (AT_RIM) /* it goes round */
-        return slope(n, at, last ? at + 1u - push.width : at + 1u, first ? at + push.width - 1u : at - 1u, true, true);
     return slope(n, at, last ? at : at + 1u, first ? at : at - 1u, !last, !first);
 }
 
@@ -47,8 +45,8 @@ vec3 down(vec3 n, uint at, uint y)
     return slope(n, at, last ? at : at + push.width, first ? at : at - push.width, !last, !first);
 }
 
-/* Whether the rim has all images there. */
-bool is_left_out(uint x, uint y) { return RIM == 1u && kd_rim_share(kd_rim_place(kd_camera_look(vec2(x, y + push.row0)))) >= 1.0; }
+/* Whether others have all images there: the rim, or another of its grids. */
+bool is_left_out(uint x, uint y) { return AT_RIM ? kd_rim_part(vec2(x, y), 0.7) <= 0.0 : RIM == 1u && kd_rim_share(kd_rim_place(kd_camera_look(vec2(x, y + push.row0)))) >= 1.0; }
 
 void search(uint at)
 {

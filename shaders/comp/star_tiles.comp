@@ -131,9 +131,11 @@ void list(uint first, uint x, uint y)
     }
 }
 
-/* Whether the rim has all images that a tile's rays have: it has those of its corners, and its edge is not hollow. */
+/* Whether others have all images that a tile's rays have: another of the rim's grids, or the rim: it has those of its corners, and its edge is not hollow. */
 bool is_left_out(uint x, uint y)
 {
+    if (AT_RIM)
+        return kd_rim_part(vec2(x, y) + 1.0, 1.8) <= 0.0;
     if (RIM != 1u)
         return false;
     float least = 1.0;

@@ -1,10 +1,10 @@
-/* The rim of the shadow, a grid of rays next to the critical curve (src/render/view/rim.h), where images of stars of all orders are found. Binding 7. Needs
+/* The rim of the shadow, rays next to the critical curve (src/render/view/rim.h), between which images of stars of all orders are found: some grids (rim_grid.h). Binding 7. Needs
  * sky_map.glsl and camera.glsl, and the specialisation constant RIM: 0: there is none; 1: the rays at hand are the picture's, and leave images next to the
- * curve to the rim; 2: they are the rim's. */
+ * curve to the rim; 2: they are those of one of its grids. */
 #ifndef KD_RIM_GLSL
 #define KD_RIM_GLSL
 
-layout(set = 0, binding = 7) readonly buffer Rim { float rim[]; }; /* from push.rim on: points of the curve, x and y; then how far it is from the middle, by the angle */
+layout(set = 0, binding = 7) readonly buffer Rim { float rim[]; }; /* how far the curve is from the middle, by the angle; from push.rim on the table of the grid at hand */
 
 const bool AT_RIM = RIM == 2u;
 
@@ -58,8 +58,8 @@ vec2 kd_rim_place(vec3 d)
 float kd_rim_share(vec2 place)
 {
     float angle = kd_atan2(place.y, place.x) * (float(KD_RIM_EDGES) / (2.0 * KD_PI)), low = floor(angle);
-    uint i = uint(int(low) + KD_RIM_EDGES) % KD_RIM_EDGES, edges = push.rim + 2u * KD_RIM_ANGLES;
-    float edge = mix(rim[edges + i], rim[edges + (i + 1u) % KD_RIM_EDGES], angle - low), off = length(place) / edge - 1.0;
+    uint i = uint(int(low) + KD_RIM_EDGES) % KD_RIM_EDGES;
+    float edge = mix(rim[i], rim[(i + 1u) % KD_RIM_EDGES], angle - low), off = length(place) / edge - 1.0;
     return clamp((push.none - off) / (push.none - push.full), 0.0, 1.0);
 }
 
@@ -72,22 +72,38 @@ kd_quartic kd_quartic_of(vec2 p2, vec2 p1, vec2 o, vec2 n1, vec2 n2)
     return kd_quartic((8.0 * near - far) * (1.0 / 12.0), (16.0 * (n1 + p1) - (n2 + p2) - 30.0 * o) * (1.0 / 24.0), (far - 2.0 * near) * (1.0 / 12.0));
 }
 
-/* A place p in the rim's cell (x, y): on the plane, as the direction, and the area of the plane that the cell has there. */
+/* A place p in the cell (x, y) of a grid: on the plane, as the direction, and the area of the plane that the cell has there. */
 struct kd_rim_cell { vec2 place; vec3 d; float area; };
 
-vec2 kd_rim_curve(uint k) { return vec2(rim[push.rim + 2u * k], rim[push.rim + 2u * k + 1u]); }
+/* Of a column: the curve's point, and how that goes by. */
+struct kd_rim_column { vec2 at, by; };
 
+kd_rim_column kd_rim_curve(uint k)
+{
+    uint i = push.rim + 6u + 4u * k;
+    return kd_rim_column(vec2(rim[i], rim[i + 1u]), vec2(rim[i + 2u], rim[i + 3u]));
+}
+
+/* Between columns the curve goes by as a parabola has it. */
 kd_rim_cell kd_rim_cell_at(uint x, uint y, vec2 p)
 {
-    vec2 own = kd_rim_curve(x), before = kd_rim_curve((x + KD_RIM_ANGLES - 1u) % KD_RIM_ANGLES), after = kd_rim_curve((x + 1u) % KD_RIM_ANGLES);
-    kd_quartic c = kd_quartic_of(kd_rim_curve((x + KD_RIM_ANGLES - 2u) % KD_RIM_ANGLES), before, own, after, kd_rim_curve((x + 2u) % KD_RIM_ANGLES));
-    vec2 at = own + p.x * (c.x + p.x * (c.xx + p.x * c.xxx)), along = c.x + p.x * (2.0 * c.xx + 3.0 * p.x * c.xxx);
+    kd_rim_column own = kd_rim_curve(x);
+    vec2 before = kd_rim_curve(x == 0u ? 0u : x - 1u).by, after = kd_rim_curve(min(x + 1u, push.width - 1u)).by, b = 0.5 * (after - before), c = 0.5 * (after + before) - own.by;
+    vec2 at = own.at + p.x * (own.by + p.x * (0.5 * b + p.x * (1.0 / 3.0) * c)), along = own.by + p.x * (b + p.x * c);
     float off = push.far * exp(-push.fall * (float(y) + p.y));
     kd_rim_cell o;
     o.place = (1.0 + off) * at;
     o.area = abs(along.x * at.y - along.y * at.x) * (1.0 + off) * push.fall * off;
     o.d = SIGHT == KD_SIGHT_PLANE ? kd_rim_ahead() + vec3(o.place, 0.0) : kd_rim_ahead() + o.place.x * kd_rim_right() + o.place.y * kd_rim_up();
     return o;
+}
+
+/* The share that the grid at hand has of an image at its column and row; of one within some of it, at most. */
+float kd_rim_part(vec2 at, float within)
+{
+    vec2 low = (at + within - vec2(rim[push.rim], rim[push.rim + 3u])), high = (vec2(rim[push.rim + 1u], rim[push.rim + 4u]) - at + within), by = vec2(rim[push.rim + 2u], rim[push.rim + 5u]);
+    vec2 share = clamp(low * by + 0.5, 0.0, 1.0) * clamp(high * by + 0.5, 0.0, 1.0);
+    return share.x * share.y;
 }
 
 /* The steps of the picture, squared, that a ray stands for: in the map at hand the one at (x, y). */

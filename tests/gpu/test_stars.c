@@ -299,9 +299,10 @@ static double patch_close(const struct kd_scene *scene, const struct close *c, d
 {
     const double ahead = c->angle + 1e-3, behind = c->angle - 1e-3, far = edge(scene, ahead), near = edge(scene, behind);
     const double tx = far * cos(ahead) - near * cos(behind), ty = far * sin(ahead) - near * sin(behind), length = hypot(tx, ty);
-    const double outwards = 0.01 * fmin(off, 0.1) * curve, along_ = 0.03 * sqrt(fmin(off, 0.1)) * curve;
+    const bool fast = fabs(scene->spacetime.spin) > 0.9; /* the sky goes by faster */
+    const double outwards = (fast ? 0.003 : 0.01) * fmin(off, 0.1) * curve, along_ = (fast ? 0.001 : 0.03) * sqrt(fmin(off, 0.1)) * curve;
     static const double weights[] = { 8.0 / 12, -1.0 / 12 };
-    const double pixel = 2 * tan(0.5 * CLOSE_FIELD * DEGREE) / CLOSE_WIDTH;
+    const double pixel = 2 * tan(0.5 * scene->camera.fov_deg * DEGREE) / CLOSE_WIDTH;
     const struct vec3 middle = towards(c, 0);
     struct vec3 i = { 0 }, j = { 0 };
     double g;
@@ -320,12 +321,12 @@ static double patch_close(const struct kd_scene *scene, const struct close *c, d
 }
 
 /* The camera looks there: right of inwards by yaw, up by pitch (docs/scene.md). */
-static void look_at(struct kd_scene *scene, const struct close *c)
+static void look_at(struct kd_scene *scene, const struct close *c, double field_deg)
 {
     const struct vec3 d = towards(c, 0);
     scene->camera.yaw_deg = atan2(d.x, d.z) / DEGREE;
     scene->camera.pitch_deg = atan2(d.y, hypot(d.x, d.z)) / DEGREE;
-    scene->camera.fov_deg = CLOSE_FIELD;
+    scene->camera.fov_deg = field_deg;
     scene->image.width = CLOSE_WIDTH;
     scene->image.height = CLOSE_HEIGHT;
     scene->image.critical_factor = 1;
@@ -347,7 +348,7 @@ static void next_to_the_curve(void **state)
         if (!aim(&scene, seen_by(&scene, towards(&at, 0), &g)))
             continue;
         tried++;
-        look_at(&scene, &at);
+        look_at(&scene, &at, CLOSE_FIELD);
         const double want = flux * g * g * g * g / patch_close(&scene, &at, off, curve);
         if (want < 0.031) /* it is left out */
             continue;
@@ -363,7 +364,46 @@ static void next_to_the_curve(void **state)
         kd_frame_finish(&frame);
     }
     printf("spin 0.9: %d images of %d places, down to %.3g: light within %.5f, places within %.4f pixels\n", n, tried, faintest, worst, off_most);
-    assert_true(n == 39 && tried == 41 && worst < 0.01 && off_most < 0.02);
+    assert_true(n == 39 && tried == 41 && worst < 0.005 && off_most < 0.02);
+}
+
+/* The same of fast holes, seen from beside them or not, on the side that comes towards the observer: there each image is but some hundredths nearer to the curve than the last, and
+ * the picture is so small that the one in the middle is `AWAY` pixels from the curve. */
+#define AWAY 100
+static void next_to_the_curve_of_fast_holes(void **state)
+{
+    (void)state;
+    static const struct { double spin, inclination; } holes[] = { { 0.95, 90 }, { 0.998, 85 }, { 0.9999, 90 }, { -0.9999, 100 } };
+    static const double offs[] = { 0.1, 0.03, 0.01 };
+    const double flux = kd_star_flux(kd_catalogue_star(0).magnitude);
+    for (size_t h = 0; h < sizeof holes / sizeof *holes; h++) {
+        double worst = 0, off_most = 0;
+        int n = 0;
+        for (int k = 0; k < 6; k++) {
+            struct kd_scene scene = scene_of(holes[h].spin, holes[h].inclination);
+            const double angle = (holes[h].spin > 0 ? M_PI : 0) + (k % 2 ? 0.3 : -0.9) + 0.05 * k, off = offs[k / 2], curve = edge(&scene, angle);
+            const struct close at = { curve * (1 + off), angle };
+            double g;
+            if (!aim(&scene, seen_by(&scene, towards(&at, 0), &g)))
+                continue;
+            look_at(&scene, &at, off * curve / AWAY * CLOSE_WIDTH / DEGREE);
+            const double want = flux * g * g * g * g / patch_close(&scene, &at, off, curve);
+            if (want < 0.031)
+                continue;
+            struct kd_frame frame = seen(&scene);
+            const double x = 0.5 * (CLOSE_WIDTH - 1), y = 0.5 * (CLOSE_HEIGHT - 1);
+            const struct blob b = blob_at(&frame, x, y, 1);
+            if (!(fabs(b.light / want - 1) < 0.005 && hypot(b.x - x, b.y - y) < 0.02))
+                printf("spin %g, inclination %g, %g from the curve at angle %.2f: light %.4g, off by %+.5f, place by %.4f\n", holes[h].spin, holes[h].inclination, off, angle, want, b.light / want - 1,
+                       hypot(b.x - x, b.y - y));
+            worst = fmax(worst, fabs(b.light / want - 1));
+            off_most = fmax(off_most, hypot(b.x - x, b.y - y));
+            n++;
+            kd_frame_finish(&frame);
+        }
+        printf("spin %g, inclination %g: %d images, light within %.5f, places within %.4f pixels\n", holes[h].spin, holes[h].inclination, n, worst, off_most);
+        assert_true(n >= 4 && worst < 0.005 && off_most < 0.03); /* most are within 0.002 pixels; one next to a caustic of 0.9999, in pixels of 1e-5 rad, is 0.02 off */
+    }
 }
 
 /* All stars: the picture is the same to the byte each time, and the same but for their edges in bands. */
@@ -526,12 +566,14 @@ static void points_behind_a_disk(void **state)
     }
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
+    if (argc > 1)
+        cmocka_set_test_filter(argv[1]);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(points_behind_a_disk),
         cmocka_unit_test(kept_and_made_anew), cmocka_unit_test(another_sky_meanwhile),
-        cmocka_unit_test(behind_the_hole), cmocka_unit_test(round_the_hole), cmocka_unit_test(next_to_the_curve), cmocka_unit_test(images_by_the_oracle), cmocka_unit_test(whole_skies),
+        cmocka_unit_test(behind_the_hole), cmocka_unit_test(round_the_hole), cmocka_unit_test(next_to_the_curve), cmocka_unit_test(next_to_the_curve_of_fast_holes), cmocka_unit_test(images_by_the_oracle), cmocka_unit_test(whole_skies),
     };
     int skip = open_renderer();
     if (skip)

@@ -48,7 +48,7 @@ static void forget_stars(struct kd_lens_map *map)
 {
     map->star_key.lens[0] = 0;
     map->rim_known = map->rim_traced = false;
-    map->rim.rows = 0;
+    map->rim.there = false;
 }
 
 static void map_finish(struct kd_lens_map *map, struct kd_vk *vk)

@@ -4,7 +4,7 @@
 #define KD_RENDER_DEVICE_STORE_H
 
 #include "render/view/critical_pixels.h"
-#include "render/view/rim.h"
+#include "render/view/rim_grid.h"
 #include "render/plan/plan.h"
 #include "render/device/renderer.h"
 #include "vk/vk.h"
@@ -34,7 +34,8 @@ struct kd_lens_map {
     struct kd_bands critical; /* the same of the pixels at the critical curve, part by part, each with their list behind it */
     struct kd_critical_pixels pixels;
     struct kd_bands star_light;  /* of the pixels of a band, KD_STAR_LIGHT words each, as the map shows points of light; none: no frame had any */
-    struct kd_rim rim;           /* where stars have images of high orders, of the map's camera; rows 0: there is none, or it was not asked for, */
+    struct kd_rim rim;           /* where stars have images of high orders, of the map's camera, if there is any, and it was asked for, */
+    struct kd_rim_grids rim_grids;
     bool rim_known;              /* if not */
     bool rim_traced;
     struct kd_vk_buffer *rim_lens; /* where its rays come from, and its tables (frame/rim.c); NULL: never was any */

@@ -7,7 +7,7 @@
 #include "render/sky/panorama.h"
 #include "scene/asset.h"
 #include "render/sky/star.h"
-#include "render/view/rim.h"
+#include "render/view/rim_grid.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -77,20 +77,25 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
     };
 }
 
-/* Neighbouring rays of the rim, at most so far apart in the sky; 0: there is none. */
-static double rim_apart(const struct kd_scene *scene)
+static bool has_rim(const struct kd_scene *scene)
 {
     struct kd_rim rim;
-    return kd_rim_of(scene, &rim) ? rim.apart : 0;
+    return kd_rim_of(scene, &rim);
+}
+
+static bool is_thinned(const struct kd_scene *scene)
+{
+    struct kd_rim rim;
+    return kd_rim_of(scene, &rim) && kd_rim_is_thinned(scene, &rim);
 }
 
 #define WHEN(name, condition)                                                                                  \
     static bool name(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, condition; }
 WHEN(drawn, is_grid(scene))
 WHEN(starry, has_stars(scene))
-WHEN(rimmed, has_stars(scene) && rim_apart(scene) > 0)
-WHEN(coarse, has_stars(scene) && rim_apart(scene) > 0.3)
-WHEN(rimless, has_stars(scene) && !(rim_apart(scene) > 0))
+WHEN(rimmed, has_stars(scene) && has_rim(scene))
+WHEN(thinned, has_stars(scene) && is_thinned(scene))
+WHEN(rimless, has_stars(scene) && !has_rim(scene))
 WHEN(made_up, scene->sky.model == KD_SKY_STARS)
 WHEN(listed, scene->sky.model == KD_SKY_CATALOGUE)
 WHEN(milky, is_spread(scene) && !is_picture(scene))
@@ -111,8 +116,8 @@ static const struct kd_sentence sentences[] = {
     { "sky: images of stars that would brighten their pixel by less than 0.03 of sky.brightness are left out", starry },
     { "sky: images of stars are left out that are nearer to the critical curve than 3e-5 of its radius; in pixels so fine that Sirius would be seen there, "
       "those nearer than where it would be, or than 1e-7", rimmed },
-    { "sky: next to the critical curve of so fast a hole the rays on which stars are sought lead more than 0.3 rad apart: images there are less exact than "
-      "elsewhere, and left out from 0.5 rad on", coarse },
+    { "sky: next to the critical curve of so fast a hole, in so fine a picture, more rays would be needed than are followed (524288): images of stars are left "
+      "out where the sky is so small that only a few of the brightest would be seen", thinned },
     { "sky: images of stars next to the critical curve are left out, in pixels whose rays stand for more than 0.15 rad of the sky", rimless },
     { "sky: the light between the stars is a Milky Way that is made up; no place in it is a place in the sky", milky },
     { "sky: sky.model is \"image\" and sky.image names none: the Milky Way that is made up stands in for it", stands_in },

@@ -1,19 +1,22 @@
 /* This pass finds points of light: from a band's lens map it makes light over its pixels, before they are lit. */
 #include "render/frame/job.h"
 
+#include "base/cores.h"
 #include "render/device/prepare.h"
 #include "render/view/camera.h"
 
+#include <math.h>
 #include <string.h>
 
-#define LIST_GROUPS 128 /* of kernels whose invocations share a list out */
+#define LIST_GROUPS 128   /* of kernels whose invocations share a list out, */
+#define LIST_GROUPS_CORE 4 /* and for each core where cores are the device: there a group that finds the list done costs 15 us all the same, and a rim has some grids */
 #define RIM_TILE 3      /* rays along a side of a small tile, and of those of the rim */
 #define SPILL 2u        /* rows of pixels that an image may reach into the next band */
 
-/* Stars are sought on this: rays of a lens map, a few rows of them. */
+/* Stars are sought on this: rays of a lens map, a few rows of them, or those of a grid of the rim. */
 struct part {
     struct kd_vk_buffer *lens;
-    bool rim; /* all of the rim, or rays of the picture */
+    const struct kd_rim_grid *rim; /* of the rim, if it is that and not rays of the picture */
     struct kd_stars_push push;
     struct kd_vk_buffer *light;
 };
@@ -21,7 +24,7 @@ struct part {
 /* What a kernel goes through: rays of a picture that has no rim, or of one that has, or the rim. */
 enum rays { NO_RIM, BESIDE_RIM, OF_RIM };
 
-static enum rays rays_of(const struct kd_frame_job *j, const struct part *part) { return part->rim ? OF_RIM : j->lens->rim.rows ? BESIDE_RIM : NO_RIM; }
+static enum rays rays_of(const struct kd_frame_job *j, const struct part *part) { return part->rim ? OF_RIM : j->lens->rim.there ? BESIDE_RIM : NO_RIM; }
 
 static enum kd_status kernel(struct kd_frame_job *j, enum rays rays, enum kd_kernel kernel, uint32_t tile, const struct kd_vk_pipeline **out)
 {
@@ -53,6 +56,12 @@ done:
     return status;
 }
 
+static uint32_t list_groups(const struct kd_frame_job *j)
+{
+    const uint32_t cores = LIST_GROUPS_CORE * kd_cores();
+    return kd_vk_info(j->r->vk)->type == KD_VK_CPU && cores < LIST_GROUPS ? cores : LIST_GROUPS;
+}
+
 static struct kd_vk_binding camera(const struct kd_frame_job *j)
 {
     return (struct kd_vk_binding) { j->store->cameras, (uint64_t)KD_CAMERA_GRID * KD_CAMERA_BYTES, KD_CAMERA_BYTES, false };
@@ -61,10 +70,16 @@ static struct kd_vk_binding camera(const struct kd_frame_job *j)
 /* Something must be bound where there is none. */
 static struct kd_vk_binding rim(const struct kd_frame_job *j)
 {
-    return (struct kd_vk_binding) { j->lens->rim.rows ? j->lens->rim_lens : j->store->transfer, 0, 0, false };
+    return (struct kd_vk_binding) { j->lens->rim.there ? j->lens->rim_lens : j->store->transfer, 0, 0, false };
 }
 
 static uint32_t along(uint32_t rays, uint32_t tile) { return (rays + tile - 1) / tile; }
+
+/* Where a part's rays come from. */
+static struct kd_vk_binding lens_of(const struct part *part)
+{
+    return (struct kd_vk_binding) { part->lens, part->rim ? 4ull * part->rim->first : 0, part->rim ? 12ull * kd_rim_grid_rays(part->rim) : 0, false };
+}
 
 /* Pairs of rays and stars: of large tiles, then of small ones and of rays that are listed; on the rim of small tiles and of rays. */
 static enum kd_status search(struct kd_frame_job *j, const struct part *part)
@@ -75,7 +90,7 @@ static enum kd_status search(struct kd_frame_job *j, const struct part *part)
     const enum kd_kernel tiles = texels ? KD_KERNEL_STAR_TILES_TEXELS : KD_KERNEL_STAR_TILES;
     struct kd_vk_dispatch d = {
         kd_passes[KD_PASS_STARS].name, NULL,
-        { { part->lens, 0, 0, false },
+        { lens_of(part),
           { s->transfer, 0, sizeof(struct kd_emission), false },
           { s->transfer, offsetof(struct kd_emit_data, tables), sizeof(struct kd_emit_tables), false },
           { s->star_pairs, 0, 0, true },
@@ -84,7 +99,7 @@ static enum kd_status search(struct kd_frame_job *j, const struct part *part)
           { s->star_rays, 0, 0, true },
           rim(j),
           camera(j) },
-        &part->push, { LIST_GROUPS },
+        &part->push, { list_groups(j) },
     };
     const uint32_t tile = part->rim ? RIM_TILE : KD_STAR_TILE;
     const enum rays rays = rays_of(j, part);
@@ -113,7 +128,7 @@ static enum kd_status stars_of(struct kd_frame_job *j, const struct part *part)
     const struct kd_sky_buffers *sky = j->prepared->own[KD_EMITTER_sky];
     struct kd_vk_dispatch images = {
         kd_passes[KD_PASS_STARS].name, NULL,
-        { { part->lens, 0, 0, false },
+        { lens_of(part),
           { s->transfer, 0, sizeof(struct kd_emission), false },
           { s->transfer, offsetof(struct kd_emit_data, tables), sizeof(struct kd_emit_tables), false },
           { s->star_pairs, 0, 0, false },
@@ -121,12 +136,19 @@ static enum kd_status stars_of(struct kd_frame_job *j, const struct part *part)
           camera(j),
           { part->light, 0, 0, true },
           rim(j) },
-        &part->push, { LIST_GROUPS },
+        &part->push, { list_groups(j) },
     };
     enum kd_status status;
     KD_TRY(search(j, part));
     KD_TRY(kernel(j, rays_of(j, part), KD_KERNEL_STAR_IMAGES, 0, &images.pipeline));
     KD_TRY(kd_vk_dispatch(j->r->vk, &images, j->error));
+done:
+    return status;
+}
+
+static enum kd_status submit(struct kd_frame_job *j)
+{
+    enum kd_status status;
     KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error));
     KD_TRY(kd_frame_report(j, 0));
 done:
@@ -140,8 +162,7 @@ static struct kd_stars_push push_of(const struct kd_frame_job *j)
     const struct kd_sky_buffers *sky = j->prepared->own[KD_EMITTER_sky];
     return (struct kd_stars_push) {
         .room = KD_PLAN_PAIRS, .tiles = kd_plan_star_tiles(j->plan), .stars = sky->n,
-        .rim = (uint32_t)kd_rim_tables(kd_rim_rays(r)),
-        .far = (float)r->far, .fall = (float)r->fall, .none = (float)r->none, .full = (float)r->full,
+        .none = (float)r->none, .full = (float)r->full,
         .ahead_x = (float)r->ahead[0], .ahead_y = (float)r->ahead[1], .ahead_z = (float)r->ahead[2],
         .right_x = (float)r->right[0], .right_y = (float)r->right[1], .right_z = (float)r->right[2],
         .up_x = (float)r->up[0], .up_y = (float)r->up[1], .up_z = (float)r->up[2],
@@ -166,23 +187,43 @@ static enum kd_status rows_of(struct kd_frame_job *j, uint32_t from, uint32_t fi
     for (uint32_t row = first * p->side; row < end * p->side && !status; row += step) {
         part.push.first = row;
         part.push.end = end * p->side - row < step ? end * p->side : row + step;
-        status = stars_of(j, &part);
+        KD_TRY(stars_of(j, &part));
+        KD_TRY(submit(j));
     }
+done:
     return status;
+}
+
+static enum kd_status grid_of(struct kd_frame_job *j, const struct kd_rim_grid *grid, uint32_t to)
+{
+    struct part part = { .lens = j->lens->rim_lens, .rim = grid, .push = push_of(j), .light = j->lens->star_light.buffers[to] };
+    part.push.width = grid->columns;
+    part.push.rows = part.push.end = grid->rows;
+    part.push.stride = kd_rim_grid_rays(grid);
+    part.push.rim = grid->table;
+    part.push.far = (float)exp(grid->l);
+    part.push.fall = (float)grid->dl;
+    part.push.pixels_y = kd_frame_band_rows(j, to);
+    part.push.up = 0u - kd_frame_band_first(j, to);
+    return stars_of(j, &part);
 }
 
 /* Images next to the critical curve, to the light of a band. */
 static enum kd_status rim_of(struct kd_frame_job *j, uint32_t to)
 {
-    struct part part = { .lens = j->lens->rim_lens, .rim = true, .push = push_of(j), .light = j->lens->star_light.buffers[to] };
-    if (!j->lens->rim.rows)
-        return KD_OK;
-    part.push.width = KD_RIM_ANGLES;
-    part.push.rows = part.push.end = j->lens->rim.rows;
-    part.push.stride = kd_rim_rays(&j->lens->rim);
-    part.push.pixels_y = kd_frame_band_rows(j, to);
-    part.push.up = 0u - kd_frame_band_first(j, to);
-    return stars_of(j, &part);
+    const struct kd_rim_grids *grids = &j->lens->rim_grids;
+    uint32_t rays = 0; /* that were not submitted yet */
+    enum kd_status status = KD_OK;
+    for (uint32_t i = 0; j->lens->rim.there && i < grids->n; i++) {
+        KD_TRY(grid_of(j, &grids->of[i], to));
+        rays += kd_rim_grid_rays(&grids->of[i]);
+        if (rays < KD_PLAN_STAR_RAYS / 4 && i + 1 < grids->n)
+            continue;
+        KD_TRY(submit(j));
+        rays = 0;
+    }
+done:
+    return status;
 }
 
 static enum kd_status spread_over(struct kd_frame_job *j, uint32_t band)

@@ -154,7 +154,7 @@ static bool is_rims(const struct picture_map *m, uint32_t x, uint32_t y)
 {
     double look[3];
     kd_camera_look(&m->rays->camera, x, y, look);
-    return m->rim->rows && kd_rim_off(m->rim, look, isinf(m->rays->at.r)) < INNER * m->rim->full;
+    return m->rim->there && kd_rim_off(m->rim, look) < INNER * m->rim->full;
 }
 
 static void row_of(const void *of, uint32_t y, struct kd_vec *out)

@@ -6,10 +6,17 @@
 #include <math.h>
 #include <stdlib.h>
 
+#define SLACK 0.05 /* in rays: so far beyond the part of a grid images are looked at, */
+#define BESIDE 4.0 /* in pixels: and so far beyond the edges of the picture */
+
+/* Rays of one grid of the rim that its part has, and those next to it: from a column and a row on. */
 struct rim_map {
     const struct kd_rim *rim;
+    const struct kd_rim_grid *grid;
     struct kd_sky_rays rays;
     const float *sky; /* of rim_sky.h */
+    double width, height; /* of the picture, in rays of its camera */
+    uint32_t column, row, columns, rows;
     enum kd_status (*found)(void *user, const struct kd_star_image *image);
     void *user;
 };
@@ -17,17 +24,21 @@ struct rim_map {
 static void row_of(const void *of, uint32_t y, struct kd_vec *out)
 {
     const struct rim_map *m = of;
-    const size_t rays = kd_rim_rays(m->rim);
-    const float *at = m->sky + (size_t)y * KD_RIM_ANGLES;
-    for (size_t k = 0; k < KD_RIM_ANGLES; k++)
+    const size_t rays = kd_rim_grid_rays(m->grid);
+    const float *at = m->sky + m->grid->first + (size_t)(m->row + y) * m->grid->columns + m->column;
+    for (size_t k = 0; k < m->columns; k++)
         out[k] = (struct kd_vec) { at[k], at[rays + k], at[2 * rays + k] };
 }
+
+/* A place among a map's rays by its turn and its logarithm. */
+static double turn_at(const struct rim_map *m, double column) { return m->grid->u + (m->column + column) * m->grid->du; }
+static double log_at(const struct rim_map *m, double row) { return m->grid->l - (m->row + row) * m->grid->dl; }
 
 static void look_at(const struct rim_map *m, double column, double row, double look[3])
 {
     double place[2];
-    kd_rim_between(m->rim, column, row, place);
-    kd_rim_look(m->rim, place[0], place[1], look);
+    kd_rim_place(m->rim, turn_at(m, column), exp(log_at(m, row)), place);
+    kd_rim_look(m->rim, place, look);
 }
 
 static bool exact(const void *of, double column, double row, struct kd_vec *out)
@@ -61,10 +72,77 @@ static bool change_at(const struct rim_map *m, double column, double row, struct
     return true;
 }
 
+/* The same by the points of the curve that the grid's table has: a fifth of the time, and as good as a guess must be. */
 static double pixels(const void *of, double column, double row)
 {
-    struct change o;
-    return change_at(of, column, row, &o) ? fabs(o.xc * o.yr - o.yc * o.xr) : 0;
+    const struct rim_map *m = of;
+    const uint32_t k = m->column + (uint32_t)column;
+    const double part = column - floor(column), off = exp(log_at(m, row)), h = 1e-2;
+    const float *at = m->sky + m->grid->table + KD_RIM_TABLE + 4 * k;
+    double x[3], y[3];
+    for (int i = 0; i < 3; i++) {
+        const double along = part + (i == 1 ? h : 0), out = 1 + off * (i == 2 ? 1 - h * m->grid->dl : 1), place[] = { out * (at[0] + along * at[2]), out * (at[1] + along * at[3]) };
+        double look[3];
+        kd_rim_look(m->rim, place, look);
+        if (!kd_camera_seen(&m->rays.camera, look, &x[i], &y[i]))
+            return 0;
+    }
+    return fabs((x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0])) / (h * h);
+}
+
+/* The cubic through four values at -1, 0, 1 and 2: what each counts at t, and how that goes by with it. */
+static void cubic(double t, double w[4], double by[4])
+{
+    const double a = t + 1, b = t, c = t - 1, d = t - 2;
+    w[0] = b * c * d / -6, w[1] = a * c * d / 2, w[2] = a * b * d / -2, w[3] = a * b * c / 6;
+    by[0] = (b * c + b * d + c * d) / -6, by[1] = (a * c + a * d + c * d) / 2, by[2] = (a * b + a * d + b * d) / -2, by[3] = (a * b + a * c + b * c) / 6;
+}
+
+/* The ray before a place, with one before it and two after it on the grid. False: there is no such. */
+static bool cell_of(double place, uint32_t all, uint32_t *first, double *part)
+{
+    const double low = floor(place);
+    *part = place - low;
+    *first = (uint32_t)(low - 1);
+    return low >= 1 && low + 3 <= all;
+}
+
+/* By bicubic interpolation: rays are KD_RIM_STEP apart, so that it is good to 1e-5 rad. */
+static bool between(const void *of, double column, double row, struct kd_sky_tangent *out)
+{
+    const struct rim_map *m = of;
+    const size_t rays = kd_rim_grid_rays(m->grid);
+    double p[2], w[2][4], by[2][4], sum[3][3] = { { 0 } };
+    uint32_t x, y;
+    if (!cell_of(m->column + column, m->grid->columns, &x, &p[0]) || !cell_of(m->row + row, m->grid->rows, &y, &p[1]))
+        return false;
+    cubic(p[0], w[0], by[0]);
+    cubic(p[1], w[1], by[1]);
+    for (int q = 0; q < 3; q++)
+        for (uint32_t j = 0; j < 4; j++) {
+            const float *at = m->sky + m->grid->first + q * rays + (size_t)(y + j) * m->grid->columns + x;
+            const double n = w[0][0] * at[0] + w[0][1] * at[1] + w[0][2] * at[2] + w[0][3] * at[3];
+            sum[0][q] += w[1][j] * n;
+            sum[1][q] += w[1][j] * (by[0][0] * at[0] + by[0][1] * at[1] + by[0][2] * at[2] + by[0][3] * at[3]);
+            sum[2][q] += by[1][j] * n;
+        }
+    out->n = (struct kd_vec) { sum[0][0], sum[0][1], sum[0][2] };
+    out->across = (struct kd_vec) { sum[1][0], sum[1][1], sum[1][2] };
+    out->down = (struct kd_vec) { sum[2][0], sum[2][1], sum[2][2] };
+    return true;
+}
+
+/* Whether a place lies on a border or beyond it; on both sides of it Newton's method ends within less than this. */
+static bool is_from(double place, double border) { return place > border - 1e-8; }
+
+/* In the grid's own part, and in the picture or not far from it. */
+static bool wanted(const void *of, double column, double row)
+{
+    const struct rim_map *m = of;
+    const double u = turn_at(m, column), l = log_at(m, row), du = SLACK * m->grid->du, dl = SLACK * m->grid->dl;
+    double x, y;
+    return u > m->grid->low_u - du && u < m->grid->high_u + du && l > m->grid->low_l - dl && l < m->grid->high_l + dl && seen(m, column, row, &x, &y) &&
+           x > -BESIDE && y > -BESIDE && x < m->width + BESIDE && y < m->height + BESIDE;
 }
 
 /* From the rim's columns and rows to the picture's. */
@@ -73,6 +151,9 @@ static enum kd_status hand_on(void *user, const struct kd_star_image *image)
     const struct rim_map *m = user;
     struct kd_star_image o = *image;
     struct change by;
+    const double u = turn_at(m, image->x), l = log_at(m, image->y);
+    if (!is_from(u, m->grid->low_u) || is_from(u, m->grid->high_u) || !is_from(l, m->grid->low_l) || is_from(l, m->grid->high_l))
+        return KD_OK; /* another grid has it */
     if (!seen(m, image->x, image->y, &o.x, &o.y) || !change_at(m, image->x, image->y, &by))
         return KD_OK;
     const double area = by.xc * by.yr - by.yc * by.xr;
@@ -83,22 +164,42 @@ static enum kd_status hand_on(void *user, const struct kd_star_image *image)
     return m->found(m->user, &o);
 }
 
+static uint32_t rays_before(double at, double from, double by) { return isfinite(at) ? (uint32_t)((at - from) / by) - 1 : KD_RIM_HALO - 1; }
+static uint32_t rays_until(double at, double from, double by, uint32_t all) { return isfinite(at) ? (uint32_t)ceil((at - from) / by) + 2 : all - KD_RIM_HALO + 1; }
+
+static enum kd_status in_grid(struct rim_map *m, const struct kd_vec *stars, const double *most, size_t n)
+{
+    const struct kd_rim_grid *g = m->grid;
+    m->column = rays_before(g->low_u, g->u, g->du);
+    m->columns = rays_until(g->high_u, g->u, g->du, g->columns) - m->column;
+    m->row = rays_before(g->high_l, g->l, -g->dl);
+    m->rows = rays_until(g->low_l, g->l, -g->dl, g->rows) - m->row;
+    const struct kd_sky_map map = {
+        .width = m->columns, .height = m->rows, .coarse = KD_RIM_COARSE, .most = most, .pixels = pixels, .of = m, .row = row_of, .exact = exact, .between = between, .wanted = wanted,
+    };
+    return kd_star_images(&map, stars, n, hand_on, m);
+}
+
 enum kd_status kd_rim_images(const struct kd_scene *scene, const struct kd_rim *rim, const struct kd_vec *stars, const double *most, size_t n,
                              enum kd_status (*found)(void *user, const struct kd_star_image *image), void *user, struct kd_error *error)
 {
-    float *sky = malloc((3 * kd_rim_rays(rim) + 1) * sizeof *sky);
-    struct rim_map m = { rim, kd_sky_rays_of(scene), sky, found, user };
+    struct kd_rim_grids *grids = malloc(sizeof *grids);
+    float *sky = NULL;
     enum kd_status status = KD_OK;
-    if (!rim->rows)
-        goto done;
+    if (!grids)
+        KD_TRY(KD_ENOMEM);
+    kd_rim_grids_of(scene, rim, grids);
+    sky = malloc(grids->numbers * sizeof *sky);
     if (!sky)
         KD_TRY(KD_ENOMEM);
-    KD_TRY(kd_rim_sky(scene, rim, sky, error));
-    const struct kd_sky_map map = {
-        .width = KD_RIM_ANGLES, .height = rim->rows, .round = true, .coarse = KD_RIM_COARSE, .most = most, .pixels = pixels, .of = &m, .row = row_of, .exact = exact,
-    };
-    status = kd_star_images(&map, stars, n, hand_on, &m);
+    struct rim_map m = { .rim = rim, .rays = kd_sky_rays_of(scene), .sky = sky, .width = kd_scene_side(scene) * scene->image.width, .height = kd_scene_side(scene) * scene->image.height, .found = found, .user = user };
+    KD_TRY(kd_rim_sky(scene, rim, grids, sky, error));
+    for (uint32_t i = 0; i < grids->n; i++) {
+        m.grid = &grids->of[i];
+        KD_TRY(in_grid(&m, stars, most, n));
+    }
 done:
     free(sky);
+    free(grids);
     return status;
 }

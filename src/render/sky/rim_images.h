@@ -3,11 +3,11 @@
 #define KD_RENDER_SKY_RIM_IMAGES_H
 
 #include "render/sky/star_images.h"
-#include "render/view/rim.h"
+#include "render/view/rim_grid.h"
 
 #define KD_RIM_COARSE 1.0 /* rad: sides of its triangles, at most */
 
-/* Tells each image in the rim of a scene, if it has rows, by its place among the pixels' rays (one a pixel), and what the map does to the square of four of those. stars: unit vectors in the frame
+/* Tells each image in the rim of a scene, if there is one, by its place among the pixels' rays (one a pixel), and what the map does to the square of four of those. stars: unit vectors in the frame
  * of the lens map; most: as of kd_sky_map. KD_ENOMEM; a status of `found` ends it. */
 enum kd_status kd_rim_images(const struct kd_scene *scene, const struct kd_rim *rim, const struct kd_vec *stars, const double *most, size_t n,
                              enum kd_status (*found)(void *user, const struct kd_star_image *image), void *user, struct kd_error *error);

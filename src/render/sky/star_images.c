@@ -1,19 +1,15 @@
 #include "render/sky/star_images.h"
 
+#include "render/sky/star_root.h"
+
 #include <math.h>
 #include <stdlib.h>
 
 #define SAME 1e-3    /* in rays: two roots of one star nearer than this are one, unless only one is mirrored */
-#define NEAR 1.5     /* in rays: no further from where triangles have it is an image */
 #define FOLDED 0.2   /* rad: cells no larger than this are looked through for folds */
 #define REACH 0.5    /* of a cell's size: stars so near to a corner or the middle of one where the map folds are looked for */
 #define BESIDE 0.35  /* in rays: so far from where the map folds, on both sides, they are looked for */
 #define MARGIN 3.0   /* an image may be so much brighter than triangles tell, but for folds */
-#define NUDGE 1e-3   /* in rays: of differences for the derivative */
-#define EXACT 1e-7   /* in rays: the next step would be 1e-10 */
-
-/* The map about a place: n + dx * across + dy * down. */
-struct tangent { struct kd_vec n, across, down; double area; };
 
 struct listed { struct kd_vec n; size_t star; };
 struct told { double x, y; bool mirrored; size_t before; /* of this star, 1 more; 0: none */ };
@@ -22,6 +18,7 @@ struct search {
     const struct kd_sky_map *map;
     struct listed *stars; /* by z, upwards */
     size_t n;
+    size_t *near, n_near; /* of these, those that may be in the cell at hand, and bright enough */
     size_t *last;      /* that was told of each star, 1 more */
     struct told *told;
     size_t n_told, room;
@@ -34,15 +31,6 @@ static int by_z(const void *a, const void *b)
     double p = ((const struct listed *)a)->n.z, q = ((const struct listed *)b)->n.z;
     return (p > q) - (p < q);
 }
-
-static double dot(struct kd_vec a, struct kd_vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-static struct kd_vec less(struct kd_vec a, struct kd_vec b) { return (struct kd_vec) { a.x - b.x, a.y - b.y, a.z - b.z }; }
-static struct kd_vec times(double by, struct kd_vec a) { return (struct kd_vec) { by * a.x, by * a.y, by * a.z }; }
-static double volume(struct kd_vec a, struct kd_vec b, struct kd_vec c)
-{
-    return a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x);
-}
-static double apart(struct kd_vec a, struct kd_vec b) { return sqrt(dot(less(a, b), less(a, b))); }
 
 /* The first star whose z is at least so much. */
 static size_t first_from(const struct search *s, double z)
@@ -58,58 +46,13 @@ static size_t first_from(const struct search *s, double z)
     return low;
 }
 
-/* A direction v is n + dx across + dy down, times some number (Cramer's rule). */
-static void steps_to(const struct tangent *t, struct kd_vec v, double *dx, double *dy)
-{
-    *dx = volume(t->n, v, t->down) / t->area;
-    *dy = volume(t->n, t->across, v) / t->area;
-}
-
-/* As the ray at a place itself has it: by differences to one side, and to both where `both`. */
-static bool tangent_at(const struct kd_sky_map *map, double x, double y, bool both, struct tangent *out)
-{
-    struct kd_vec across, down, left, up;
-    if (!map->exact || !map->exact(map->of, x, y, &out->n) || !map->exact(map->of, x + NUDGE, y, &across) || !map->exact(map->of, x, y + NUDGE, &down))
-        return false;
-    left = up = out->n;
-    if (both && (!map->exact(map->of, x - NUDGE, y, &left) || !map->exact(map->of, x, y - NUDGE, &up)))
-        return false;
-    out->across = times((both ? 0.5 : 1) / NUDGE, less(across, left));
-    out->down = times((both ? 0.5 : 1) / NUDGE, less(down, up));
-    out->area = volume(out->n, out->across, out->down);
-    return true;
-}
-
-enum root { NONE, FOUND, UNKNOWN };
-
-/* Newton's method, by steps of half a ray at most, and no further than NEAR. UNKNOWN: the first ray cannot be followed. */
-static enum root root_from(const struct kd_sky_map *map, struct kd_vec star, double *x, double *y, struct tangent *at)
-{
-    const double x0 = *x, y0 = *y;
-    for (int k = 0; k < 30 && hypot(*x - x0, *y - y0) < NEAR; k++) {
-        double dx, dy;
-        if (!tangent_at(map, *x, *y, false, at))
-            return k ? NONE : UNKNOWN;
-        steps_to(at, star, &dx, &dy);
-        const double far = hypot(dx, dy), by = far > 0.5 ? 0.5 / far : 1;
-        if (!isfinite(far))
-            return NONE;
-        *x += by * dx, *y += by * dy;
-        if (far < EXACT)
-            return dot(star, at->n) > 0 && tangent_at(map, *x, *y, true, at) ? FOUND : NONE;
-    }
-    return NONE;
-}
-
 /* Tells an image, but for one that was told before. */
-static enum kd_status tell(struct search *s, const struct listed *star, double x, double y, const struct tangent *t)
+static enum kd_status tell(struct search *s, const struct listed *star, double x, double y, const struct kd_sky_tangent *t)
 {
-    const double width = s->map->width;
-    struct kd_star_image image = { .star = star->star, .x = s->map->round ? x - width * floor(x / width) : x, .y = y, .solid_angle = fabs(t->area), .mirrored = t->area < 0 };
+    struct kd_star_image image = { .star = star->star, .x = x, .y = y, .solid_angle = fabs(t->area), .mirrored = t->area < 0 };
     for (size_t i = s->last[image.star]; i; i = s->told[i - 1].before) {
         const struct told *o = &s->told[i - 1];
-        const double off = fabs(o->x - image.x), across = s->map->round ? fmin(off, width - off) : off;
-        if (o->mirrored == image.mirrored && across < SAME && fabs(o->y - y) < SAME)
+        if (o->mirrored == image.mirrored && fabs(o->x - x) < SAME && fabs(o->y - y) < SAME)
             return KD_OK;
     }
     if (s->n_told == s->room) {
@@ -120,9 +63,9 @@ static enum kd_status tell(struct search *s, const struct listed *star, double x
         s->told = more;
         s->room = room;
     }
-    s->told[s->n_told++] = (struct told) { image.x, y, image.mirrored, s->last[image.star] };
+    s->told[s->n_told++] = (struct told) { x, y, image.mirrored, s->last[image.star] };
     s->last[image.star] = s->n_told;
-    steps_to(t, (struct kd_vec) { star->n.y, -star->n.x, 0 }, &image.x_by_azimuth, &image.y_by_azimuth); /* the sky goes the other way */
+    kd_sky_steps_to(t, (struct kd_vec) { star->n.y, -star->n.x, 0 }, &image.x_by_azimuth, &image.y_by_azimuth); /* the sky goes the other way */
     return s->found(s->user, &image);
 }
 
@@ -131,15 +74,15 @@ static enum kd_status tell(struct search *s, const struct listed *star, double x
  * the solid angle of one: the volume of a, b, c. */
 struct corner { double x, y; struct kd_vec n; };
 
-static struct tangent tangent_of(const struct corner *a, const struct corner *b, const struct corner *c)
+static struct kd_sky_tangent tangent_of(const struct corner *a, const struct corner *b, const struct corner *c)
 {
-    struct tangent t = { a->n, times(b->x - a->x, less(b->n, a->n)), times(c->y - a->y, less(c->n, a->n)), 0 };
-    t.area = volume(t.n, t.across, t.down);
+    struct kd_sky_tangent t = { a->n, kd_vec_times(b->x - a->x, kd_vec_less(b->n, a->n)), kd_vec_times(c->y - a->y, kd_vec_less(c->n, a->n)), 0 };
+    t.area = kd_vec_volume(t.n, t.across, t.down);
     return t;
 }
 
 /* Four rays, in turn clockwise; the stars that may be in it; whether the map folds there. */
-struct cell { struct corner c[4]; double side[4], across, size, pixels; size_t first, end; bool folds; double area, beside[2][2]; /* if it does: how large it is where it is largest, and places on both sides */ };
+struct cell { struct corner c[4]; double side[4], across, size, pixels; bool folds; double area, beside[2][2]; /* if it does: how large it is where it is largest, and places on both sides */ };
 
 /* Whether a star may be bright enough where the map takes a cell to so much of the sky. */
 static bool is_seen(const struct search *s, const struct cell *cell, const struct listed *star, double area)
@@ -151,26 +94,27 @@ static enum kd_status triangle(struct search *s, const struct cell *cell, int fi
 {
     const struct corner *a = &cell->c[first], *b = &cell->c[second], *c = &cell->c[third];
     const struct kd_vec p = a->n, q = b->n, r = c->n;
-    const double all = volume(p, q, r), size = cell->side[first] + cell->side[third] + cell->across; /* a NAN: a ray does not escape */
+    const double all = kd_vec_volume(p, q, r), size = cell->side[first] + cell->side[third] + cell->across; /* a NAN: a ray does not escape */
     enum kd_status status = KD_OK;
     if (!isfinite(size) || fmax(cell->across, fmax(cell->side[first], cell->side[third])) > s->map->coarse || all == 0)
         return KD_OK;
-    for (size_t i = cell->first; i < cell->end; i++) {
-        const struct kd_vec n = s->stars[i].n;
-        const double w0 = volume(n, q, r) / all, w1 = volume(p, n, r) / all, w2 = volume(p, q, n) / all, sum = w0 + w1 + w2;
-        if (w0 < 0 || w1 < 0 || w2 < 0 || dot(n, p) <= 0)
+    for (size_t k = 0; k < s->n_near; k++) {
+        const struct listed *star = &s->stars[s->near[k]];
+        const struct kd_vec n = star->n;
+        const double w0 = kd_vec_volume(n, q, r) / all, w1 = kd_vec_volume(p, n, r) / all, w2 = kd_vec_volume(p, q, n) / all, sum = w0 + w1 + w2;
+        if (w0 < 0 || w1 < 0 || w2 < 0 || kd_vec_dot(n, p) <= 0)
             continue;
-        if (!is_seen(s, cell, &s->stars[i], all))
+        if (!is_seen(s, cell, star, all))
             continue;
         const double fx = (w0 * a->x + w1 * b->x + w2 * c->x) / sum, fy = (w0 * a->y + w1 * b->y + w2 * c->y) / sum;
         double x = fx, y = fy;
-        struct tangent t = { 0 };
-        const enum root root = root_from(s->map, n, &x, &y, &t);
-        if (root == FOUND) {
-            KD_TRY(tell(s, &s->stars[i], x, y, &t));
-        } else if (root == UNKNOWN || !cell->folds) {
+        struct kd_sky_tangent t = { 0 };
+        const enum kd_star_root root = kd_star_root(s->map, n, &x, &y, &t);
+        if (root == KD_STAR_ROOT_FOUND) {
+            KD_TRY(tell(s, star, x, y, &t));
+        } else if (root == KD_STAR_ROOT_UNKNOWN || (root == KD_STAR_ROOT_NONE && !cell->folds)) {
             t = tangent_of(a, b, c);
-            KD_TRY(tell(s, &s->stars[i], fx, fy, &t));
+            KD_TRY(tell(s, star, fx, fy, &t));
         }
     }
 done:
@@ -180,9 +124,9 @@ done:
 static bool is_near(const struct cell *cell, struct kd_vec star)
 {
     const struct kd_vec a = cell->c[0].n, b = cell->c[2].n;
-    double nearest = apart(star, (struct kd_vec) { 0.5 * (a.x + b.x), 0.5 * (a.y + b.y), 0.5 * (a.z + b.z) });
+    double nearest = kd_vec_apart(star, (struct kd_vec) { 0.5 * (a.x + b.x), 0.5 * (a.y + b.y), 0.5 * (a.z + b.z) });
     for (int i = 0; i < 4; i++)
-        nearest = fmin(nearest, apart(star, cell->c[i].n));
+        nearest = fmin(nearest, kd_vec_apart(star, cell->c[i].n));
     return nearest < REACH * cell->size;
 }
 
@@ -190,13 +134,15 @@ static bool is_near(const struct cell *cell, struct kd_vec star)
 static enum kd_status fold(struct search *s, const struct cell *cell)
 {
     enum kd_status status = KD_OK;
-    for (size_t i = cell->first; i < cell->end; i++)
-        for (int k = 0; k < 2 && is_near(cell, s->stars[i].n) && is_seen(s, cell, &s->stars[i], cell->area); k++) {
+    for (size_t i = 0; i < s->n_near; i++) {
+        const struct listed *star = &s->stars[s->near[i]];
+        for (int k = 0; k < 2 && is_near(cell, star->n) && is_seen(s, cell, star, cell->area); k++) {
             double x = cell->beside[k][0], y = cell->beside[k][1];
-            struct tangent t;
-            if (root_from(s->map, s->stars[i].n, &x, &y, &t) == FOUND)
-                KD_TRY(tell(s, &s->stars[i], x, y, &t));
+            struct kd_sky_tangent t;
+            if (kd_star_root(s->map, star->n, &x, &y, &t) == KD_STAR_ROOT_FOUND)
+                KD_TRY(tell(s, star, x, y, &t));
         }
+    }
 done:
     return status;
 }
@@ -208,8 +154,8 @@ struct rows { const struct kd_vec *of[4]; };
 static struct kd_vec difference(struct kd_vec middle, const struct kd_vec *before, const struct kd_vec *after)
 {
     const bool has_before = before && isfinite(before->x), has_after = after && isfinite(after->x);
-    const struct kd_vec d = less(has_after ? *after : middle, has_before ? *before : middle);
-    return has_before && has_after ? d : times(2, d);
+    const struct kd_vec d = kd_vec_less(has_after ? *after : middle, has_before ? *before : middle);
+    return has_before && has_after ? d : kd_vec_times(2, d);
 }
 
 /* This is the area of the sky about a ray, times four; it is below 0 where the sky is mirrored. */
@@ -217,17 +163,17 @@ static double area_at(const struct kd_sky_map *map, const struct rows *rows, int
 {
     const uint32_t width = map->width;
     const struct kd_vec *line = rows->of[row], *above = rows->of[row - 1], *below = rows->of[row + 1];
-    const struct kd_vec *before = x || map->round ? &line[(x + width - 1) % width] : NULL, *after = x + 1 < width || map->round ? &line[(x + 1) % width] : NULL;
-    return volume(line[x], difference(line[x], before, after), difference(line[x], above ? above + x : NULL, below ? below + x : NULL));
+    const struct kd_vec *before = x ? &line[x - 1] : NULL, *after = x + 1 < width ? &line[x + 1] : NULL;
+    return kd_vec_volume(line[x], difference(line[x], before, after), difference(line[x], above ? above + x : NULL, below ? below + x : NULL));
 }
 
 /* Where the map folds, the area goes through 0: by the areas about the corners, as a plane through them has it, within a cell or next to it. */
 static void find_fold(const struct kd_sky_map *map, const struct rows *rows, uint32_t x, struct cell *cell)
 {
-    const uint32_t next = (x + 1) % map->width;
+    const uint32_t next = x + 1;
     const double a = area_at(map, rows, 1, x), b = area_at(map, rows, 1, next), c = area_at(map, rows, 2, x), d = area_at(map, rows, 2, next);
     const double mean = 0.25 * (a + b + c + d), gx = 0.5 * (b + d - a - c), gy = 0.5 * (c + d - a - b), slope = hypot(gx, gy), off = -mean / slope;
-    cell->folds = fabs(off) < NEAR; /* not if any of it is a NAN */
+    cell->folds = fabs(off) < KD_STAR_ROOT_NEAR; /* not if any of it is a NAN */
     cell->area = 0.25 * fmax(fmax(fabs(a), fabs(b)), fmax(fabs(c), fabs(d)));
     for (int k = 0; k < 2; k++) {
         const double by = (off + (k ? BESIDE : -BESIDE)) / slope;
@@ -236,37 +182,57 @@ static void find_fold(const struct kd_sky_map *map, const struct rows *rows, uin
     }
 }
 
+/* Stars that may be in a cell, or near to one of its corners, and bright enough in the smaller one of its triangles. A ray that does not escape leaves one triangle. */
+static void find_near(struct search *s, struct cell *cell, size_t first, double high)
+{
+    const struct kd_vec *a = &cell->c[0].n, *b = &cell->c[1].n, *c = &cell->c[2].n, *d = &cell->c[3].n;
+    const struct kd_vec *end = isfinite(a->x) && isfinite(c->x) ? c : d, *start = end == c ? a : b, middle = { 0.5 * (start->x + end->x), 0.5 * (start->y + end->y), 0.5 * (start->z + end->z) };
+    const double area = fmin(fabs(kd_vec_volume(*a, *b, *d)), fabs(kd_vec_volume(*c, *d, *b)));
+    double far = 0;
+    for (int i = 0; i < 4; i++)
+        far = fmax(far, kd_vec_apart(middle, cell->c[i].n));
+    far += REACH * fmin(cell->size, s->map->coarse);
+    cell->pixels = NAN;
+    for (size_t i = first; i < s->n && s->stars[i].n.z <= high; i++) {
+        const struct kd_vec off = kd_vec_less(s->stars[i].n, middle);
+        if (!(kd_vec_dot(off, off) <= far * far))
+            continue;
+        if (isnan(cell->pixels))
+            cell->pixels = s->map->pixels ? s->map->pixels(s->map->of, cell->c[0].x + 0.5, cell->c[0].y + 0.5) : 1;
+        if (is_seen(s, cell, &s->stars[i], area))
+            s->near[s->n_near++] = i;
+    }
+}
+
 /* Sets what a cell is, but for its corners. False: no star is near. */
-static bool measure(const struct search *s, const struct rows *rows, uint32_t x, struct cell *cell)
+static bool measure(struct search *s, const struct rows *rows, uint32_t x, struct cell *cell)
 {
     double low = INFINITY, high = -INFINITY;
     cell->size = 0;
     for (int i = 0; i < 4; i++) {
         const struct kd_vec n = cell->c[i].n;
-        cell->side[i] = apart(n, cell->c[(i + 1) % 4].n);
+        cell->side[i] = kd_vec_apart(n, cell->c[(i + 1) % 4].n);
         cell->size = fmax(cell->size, cell->side[i]);
         low = fmin(low, n.z), high = fmax(high, n.z);
     }
-    cell->across = apart(cell->c[1].n, cell->c[3].n);
+    cell->across = kd_vec_apart(cell->c[1].n, cell->c[3].n);
     cell->size = fmax(cell->size, cell->across);
     const double size = REACH * fmin(cell->size, s->map->coarse);
-    cell->first = cell->end = first_from(s, low - size);
-    while (cell->end < s->n && s->stars[cell->end].n.z <= high + size)
-        cell->end++;
-    if (cell->end == cell->first)
-        return false;
-    cell->pixels = s->map->pixels ? s->map->pixels(s->map->of, cell->c[0].x + 0.5, cell->c[0].y + 0.5) : 1;
-    find_fold(s->map, rows, x, cell);
-    return true;
+    const size_t first = first_from(s, low - size);
+    s->n_near = 0;
+    if (first < s->n && s->stars[first].n.z <= high + size)
+        find_near(s, cell, first, high + size);
+    if (s->n_near)
+        find_fold(s->map, rows, x, cell);
+    return s->n_near;
 }
 
 static enum kd_status between(struct search *s, uint32_t y, const struct rows *rows)
 {
     const struct kd_vec *upper = rows->of[1], *lower = rows->of[2];
-    const uint32_t width = s->map->width, cells = s->map->round ? width : width - 1;
     enum kd_status status = KD_OK;
-    for (uint32_t x = 0; x < cells; x++) {
-        const uint32_t next = (x + 1) % width;
+    for (uint32_t x = 0; x + 1 < s->map->width; x++) {
+        const uint32_t next = x + 1;
         struct cell cell = { .c = { { x, y, upper[x] }, { x + 1.0, y, upper[next] }, { x + 1.0, y + 1.0, lower[next] }, { x, y + 1.0, lower[x] } } };
         if (!measure(s, rows, x, &cell))
             continue;
@@ -285,8 +251,8 @@ enum kd_status kd_star_images(const struct kd_sky_map *map, const struct kd_vec 
     enum { ROWS = 4 };
     const size_t width = map->width;
     struct kd_vec *rays = malloc(ROWS * (width + 1) * sizeof *rays);
-    struct search s = { .map = map, .stars = malloc((n + 1) * sizeof *s.stars), .n = n, .last = calloc(n + 1, sizeof *s.last), .found = found, .user = user };
-    enum kd_status status = s.stars && s.last && rays ? KD_OK : KD_ENOMEM;
+    struct search s = { .map = map, .stars = malloc((n + 1) * sizeof *s.stars), .n = n, .near = malloc((n + 1) * sizeof *s.near), .last = calloc(n + 1, sizeof *s.last), .found = found, .user = user };
+    enum kd_status status = s.stars && s.near && s.last && rays ? KD_OK : KD_ENOMEM;
     if (!status) {
         for (size_t i = 0; i < n; i++)
             s.stars[i] = (struct listed) { stars[i], i };
@@ -304,6 +270,7 @@ enum kd_status kd_star_images(const struct kd_sky_map *map, const struct kd_vec 
     }
     free(s.told);
     free(s.last);
+    free(s.near);
     free(s.stars);
     free(rays);
     return status;

@@ -1,7 +1,7 @@
 /* Where a map of rays puts stars: for each star the places among rays that end at it. Pure; any thread.
  *
  * Neighbouring rays make triangles, of which the map takes each to one of the sky; a star within that has an image within this, at the same
- * barycentric coordinates. From there Newton's method goes to where the ray itself, if the map can follow one, ends at the star. Where the map folds between four
+ * barycentric coordinates. From there Newton's method goes to where the ray itself, if the map can follow one, ends at the star (star_root.h). Where the map folds between four
  * rays, two images of a star meet, and triangles lose both or tell one that is none: there each star that is near is looked for from both sides. A triangle with a side of
  * more than `coarse` has no images. */
 #ifndef KD_RENDER_SKY_STAR_IMAGES_H
@@ -14,16 +14,21 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* The map about a place: n + dx * across + dy * down; area: the volume of the three. */
+struct kd_sky_tangent { struct kd_vec n, across, down; double area; };
+
 /* Rays on a grid, and the places between them: ray 0, 0 is at 0, 0. */
 struct kd_sky_map {
     uint32_t width, height;
-    bool round;    /* the first column follows the last one */
     double coarse; /* rad */
     const double *most; /* of each star: an image where a pixel is more of the sky, sr, need not be told; NULL: all are */
     double (*pixels)(const void *of, double x, double y); /* the pixels that the square of four rays is in; NULL: 1 */
     const void *of;
     void (*row)(const void *of, uint32_t y, struct kd_vec *out);                 /* where rays come from, unit vectors; NAN: one that does not escape */
     bool (*exact)(const void *of, double x, double y, struct kd_vec *out);       /* the same of any ray; false: it is not known. NULL: of none */
+    /* The map between its rays, but for `area`, to 1e-3 of a ray: what is no image there is not followed exactly. False: not known. NULL: of no place. */
+    bool (*between)(const void *of, double x, double y, struct kd_sky_tangent *out);
+    bool (*wanted)(const void *of, double x, double y); /* whether an image about there need be told, to 0.01 rays; NULL: all */
 };
 
 struct kd_star_image {

@@ -1,9 +1,7 @@
 #include "render/view/rim.h"
 
-#include "physics/critical.h"
 #include "physics/kerr.h"
-#include "render/view/camera.h"
-#include "render/view/rim_sky.h"
+#include "render/view/sky_ray.h"
 
 #include <math.h>
 #include <string.h>
@@ -16,23 +14,36 @@ static void scale(double a[3], double by)
         a[i] *= by;
 }
 
-/* Directions of the curve's points in the observer's frame, or alpha and beta. They go round once, without a gap: the place of an orbit goes as a
- * cosine. */
-static void directions(const struct kd_critical *curve, double out[KD_RIM_ANGLES][3])
+#define ENDS 3e-4   /* of half the curve: so near to its ends, where digits of `up` are lost, it is a parabola; */
+#define MIDST 1e-9  /* over that: no nearer is a point, for there light stays in an observer's plane, which null_bend.h does not follow */
+
+/* A point of the upper half, from 0 to 1; at both ends all components are even functions of how far it is from there, but up and beta, which are odd. */
+static struct kd_critical_point upper(const struct kd_critical *curve, double along)
 {
-    const bool flat = isinf(curve->observer.radius);
-    for (int k = 0; k < KD_RIM_ANGLES; k++) {
-        const double turn = 2.0 * k / KD_RIM_ANGLES, half = turn <= 1 ? 1 : -1;
-        struct kd_critical_point p = kd_critical_round(curve, turn <= 1 ? 1 - turn : turn - 1);
-        p.up *= half;
-        kd_critical_see(curve, &p);
-        const double d[] = { -p.inwards, -p.up, p.right }, plane[] = { p.alpha, half * p.beta, 0 };
-        memcpy(out[k], flat ? plane : d, sizeof d);
-    }
+    const double end = along < 0.5 ? 0 : 1, t = fmax(fabs(along - end) / ENDS, MIDST);
+    if (t >= 1)
+        return kd_critical_round(curve, along);
+    struct kd_critical_point p = kd_critical_round(curve, fabs(end - ENDS));
+    const struct kd_critical_point last = kd_critical_round(curve, end);
+    p.right = last.right + t * t * (p.right - last.right), p.inwards = last.inwards + t * t * (p.inwards - last.inwards), p.alpha = last.alpha + t * t * (p.alpha - last.alpha);
+    p.up *= t, p.beta *= t;
+    return p;
+}
+
+/* The direction of a point of the curve in the observer's frame, or alpha and beta. They go round once, without a gap: the place of an orbit goes as a
+ * cosine. */
+static void direction(const struct kd_critical *curve, double u, double out[3])
+{
+    const double whole = u / KD_RIM_ANGLES, turn = 2 * (whole - floor(whole)), half = turn <= 1 ? 1 : -1;
+    struct kd_critical_point p = upper(curve, turn <= 1 ? 1 - turn : turn - 1);
+    p.up *= half;
+    kd_critical_see(curve, &p);
+    const double d[] = { -p.inwards, -p.up, p.right }, plane[] = { p.alpha, half * p.beta, 0 };
+    memcpy(out, isinf(curve->observer.radius) ? plane : d, sizeof d);
 }
 
 /* The plane about the mean of the directions along the curve. */
-static void set_legs(struct kd_rim *o, bool flat, double d[KD_RIM_ANGLES][3])
+static void set_legs(struct kd_rim *o, double d[KD_RIM_ANGLES][3])
 {
     double all = 0;
     for (int k = 0; k < KD_RIM_ANGLES; k++) {
@@ -43,7 +54,7 @@ static void set_legs(struct kd_rim *o, bool flat, double d[KD_RIM_ANGLES][3])
             o->ahead[i] += length * d[k][i];
     }
     scale(o->ahead, 1 / all);
-    if (flat) {
+    if (o->flat) {
         o->right[0] = o->up[1] = 1;
         return;
     }
@@ -56,30 +67,24 @@ static void set_legs(struct kd_rim *o, bool flat, double d[KD_RIM_ANGLES][3])
     memcpy(o->up, up, sizeof up);
 }
 
-/* False: some of the curve is too far off the middle. */
-static bool set_curve(struct kd_rim *o, bool flat, double d[KD_RIM_ANGLES][3])
+/* Where the plane has a direction; false: more than 80 degrees from the middle. */
+static bool on_plane(const struct kd_rim *o, const double d[3], double place[2])
 {
-    const double widest = cos(80 * (M_PI / 180));
-    for (int k = 0; k < KD_RIM_ANGLES; k++) {
-        const double from[] = { d[k][0] - o->ahead[0], d[k][1] - o->ahead[1], d[k][2] }, depth = flat ? 1 : dot(d[k], o->ahead);
-        if (!(depth > widest))
-            return false;
-        o->x[k] = dot(flat ? from : d[k], o->right) / depth;
-        o->y[k] = dot(flat ? from : d[k], o->up) / depth;
-    }
-    return true;
+    const double from[] = { d[0] - o->ahead[0], d[1] - o->ahead[1], 0 }, depth = o->flat ? 1 : dot(d, o->ahead);
+    place[0] = dot(o->flat ? from : d, o->right) / depth;
+    place[1] = dot(o->flat ? from : d, o->up) / depth;
+    return depth > cos(80 * (M_PI / 180));
 }
 
 /* From one point of the curve to the next: where rays from the middle meet the straight line between them. False: it does not go round the middle. */
-static bool set_edges_between(struct kd_rim *o, int k, double turning)
+static bool set_edges_between(struct kd_rim *o, const double p[2], const double q[2], double turning)
 {
-    const int next = (k + 1) % KD_RIM_ANGLES;
-    const double unit = KD_RIM_EDGES / (2 * M_PI), cross = o->x[k] * o->y[next] - o->y[k] * o->x[next];
-    const double from = atan2(o->y[k], o->x[k]), by = atan2(cross, o->x[k] * o->x[next] + o->y[k] * o->y[next]);
+    const double unit = KD_RIM_EDGES / (2 * M_PI), cross = p[0] * q[1] - p[1] * q[0];
+    const double from = atan2(p[1], p[0]), by = atan2(cross, p[0] * q[0] + p[1] * q[1]);
     if (!(by * turning > 0))
         return false;
     const double low = (by > 0 ? from : from + by) * unit, high = (by > 0 ? from + by : from) * unit;
-    const double dx = o->x[next] - o->x[k], dy = o->y[next] - o->y[k];
+    const double dx = q[0] - p[0], dy = q[1] - p[1];
     for (double i = ceil(low); i <= high; i++) {
         const double c = cos(i / unit), s = sin(i / unit);
         o->edge[((int)i + 2 * KD_RIM_EDGES) % KD_RIM_EDGES] = (float)(cross / (c * dy - s * dx));
@@ -87,52 +92,51 @@ static bool set_edges_between(struct kd_rim *o, int k, double turning)
     return true;
 }
 
-static bool set_edges(struct kd_rim *o)
+/* False: it is no curve about the middle, or some of it is too far off. *least: its least distance from the middle. */
+static bool set_edges(struct kd_rim *o, double d[KD_RIM_ANGLES][3], double *least)
 {
-    const double turning = o->x[0] * o->y[KD_RIM_ANGLES / 4] - o->y[0] * o->x[KD_RIM_ANGLES / 4];
+    double p[KD_RIM_ANGLES][2];
+    *least = INFINITY;
+    for (int k = 0; k < KD_RIM_ANGLES; k++) {
+        if (!on_plane(o, d[k], p[k]))
+            return false;
+        *least = fmin(*least, hypot(p[k][0], p[k][1]));
+    }
+    const double *quarter = p[KD_RIM_ANGLES / 4], turning = p[0][0] * quarter[1] - p[0][1] * quarter[0];
     for (int k = 0; k < KD_RIM_ANGLES; k++)
-        if (!set_edges_between(o, k, turning))
+        if (!set_edges_between(o, p[k], p[(k + 1) % KD_RIM_ANGLES], turning))
             return false;
     return true;
 }
 
-/* How far the sky goes by while a ray comes e times nearer to the curve: the more, the slower light leaves its orbit (photon_shell.h). *apart: how much less or more that
- * is at the next column. */
-static double pace(const struct kd_critical *curve, double *apart)
+/* How much less or more the sky goes by, while a ray comes e times nearer to the curve, at the next point of it: that is the more, the slower light leaves its orbit
+ * (photon_shell.h). */
+static double winding(const struct kd_critical *curve)
 {
     enum { PLACES = 32 };
-    double most = 1, turn = 0, drag = 0;
-    *apart = 0;
+    double turn = 0, drag = 0, apart = 0;
     for (int i = 0; i <= PLACES; i++) {
         const struct kd_critical_point p = kd_critical_round(curve, (double)i / PLACES);
         const struct kd_shell_exponents e = kd_shell_exponents(&p.orbit);
         const double turned = M_PI / e.gamma, dragged = (e.delta - copysign(M_PI, e.delta)) / e.gamma; /* the latter without the jump of delta */
         if (i)
-            *apart = fmax(*apart, (fabs(turned - turn) + fabs(dragged - drag)) * (2.0 * PLACES / KD_RIM_ANGLES));
-        most = fmax(most, fmax(fabs(e.delta), M_PI) / e.gamma);
+            apart = fmax(apart, (fabs(turned - turn) + fabs(dragged - drag)) * (2.0 * PLACES / KD_RIM_ANGLES));
         turn = turned, drag = dragged;
     }
-    return most;
+    return apart;
 }
 
-/* From row to row the sky goes by KD_RIM_STEP, if so many rows are enough for that. */
-static void set_rows(struct kd_rim *o, const struct kd_scene *scene, const struct kd_critical *curve)
+static void set_widths(struct kd_rim *o, const struct kd_scene *scene, double radius)
 {
-    double radius = INFINITY;
-    for (int k = 0; k < KD_RIM_ANGLES; k++)
-        radius = fmin(radius, hypot(o->x[k], o->y[k]));
     const struct kd_camera_exact camera = kd_camera_exact(scene);
-    const double turn = fmin(camera.turn_x, camera.turn_y), pixel = turn > 0 ? 0.5 * M_PI * turn * kd_scene_side(scene) : kd_camera_pixel(scene);
-    o->none = fmin(fmax(KD_RIM_PIXELS * pixel / radius, KD_RIM_NOISE * radius / pixel), KD_RIM_MOST);
+    const double turn = fmin(camera.turn_x, camera.turn_y);
+    o->pixel = turn > 0 ? 0.5 * M_PI * turn * kd_scene_side(scene) : kd_camera_pixel(scene);
+    o->none = fmin(fmax(KD_RIM_PIXELS * o->pixel / radius, KD_RIM_NOISE * radius / o->pixel), KD_RIM_MOST);
     o->full = 0.8 * o->none;
-    double apart;
-    const double by_e = pace(curve, &apart), seen = KD_RIM_SEEN * KD_STAR_LEAST * pixel * pixel / (KD_RIM_BRIGHTEST * radius * radius);
-    o->fall = KD_RIM_STEP / by_e;
-    o->far = o->none * exp(2.5 * o->fall); /* two rows and a half further, for differences */
-    const double all = log(o->far / fmin(fmax(seen, KD_RIM_NEAREST), KD_RIM_LEAST));
-    o->fall = fmax(o->fall, all / (KD_RIM_ROWS - 1));
-    o->apart = fmax(o->fall * by_e, all * apart);
-    o->rows = all > 2 * o->fall ? (uint32_t)ceil(all / o->fall) : 0;
+    const double seen = KD_RIM_SEEN * KD_STAR_LEAST * o->pixel * o->pixel / (KD_RIM_BRIGHTEST * radius * radius);
+    o->last = fmin(fmax(seen, KD_RIM_NEAREST), KD_RIM_LEAST);
+    o->winds = winding(&o->curve) * log(o->none / o->last);
+    o->there = o->none > 2 * o->last;
 }
 
 bool kd_rim_may_be(const struct kd_scene *scene)
@@ -140,13 +144,32 @@ bool kd_rim_may_be(const struct kd_scene *scene)
     return scene->camera.projection != KD_PROJECTION_RING && scene->camera.r >= 1.05 * kd_kerr_photon_orbit(-fabs(scene->spacetime.spin));
 }
 
-/* Rays of the first row and of the last, all round, end in the sky. */
+void kd_rim_place(const struct kd_rim *rim, double u, double off, double place[2])
+{
+    double d[3];
+    direction(&rim->curve, u, d);
+    on_plane(rim, d, place);
+    place[0] *= 1 + off;
+    place[1] *= 1 + off;
+}
+
+void kd_rim_look(const struct kd_rim *rim, const double place[2], double look[3])
+{
+    for (int i = 0; i < 3; i++)
+        look[i] = rim->ahead[i] + place[0] * rim->right[i] + place[1] * rim->up[i];
+}
+
+/* The first rays and the last ones, all round, end in the sky. */
 static bool escapes(const struct kd_scene *scene, const struct kd_rim *o)
 {
-    double where[3];
+    const struct kd_sky_rays rays = kd_sky_rays_of(scene);
     bool all = true;
-    for (uint32_t k = 0; k < KD_RIM_ANGLES && all; k += KD_RIM_ANGLES / 16)
-        all = kd_rim_sky_at(scene, o, k, o->far, where) && kd_rim_sky_at(scene, o, k, o->far * exp(-(o->rows - 1.0) * o->fall), where);
+    for (int k = 0; k < 32 && all; k++) {
+        double place[2], look[3], where[3];
+        kd_rim_place(o, k / 2 * (KD_RIM_ANGLES / 16), k % 2 ? o->last : o->none, place);
+        kd_rim_look(o, place, look);
+        all = kd_sky_ray(&rays, look, where);
+    }
     return all;
 }
 
@@ -156,58 +179,30 @@ bool kd_rim_of(const struct kd_scene *scene, struct kd_rim *out)
     const struct kd_critical_observer observer = {
         .spin = scene->spacetime.spin, .radius = scene->camera.r, .cos_theta = at.u, .sin_theta = at.s, .motion = kd_scene_observer(scene),
     };
-    double d[KD_RIM_ANGLES][3];
-    struct kd_rim rim = { 0 };
-    *out = rim;
+    double d[KD_RIM_ANGLES][3], radius;
+    *out = (struct kd_rim) { .flat = isinf(scene->camera.r) };
     if (!kd_rim_may_be(scene))
         return false;
-    const struct kd_critical curve = kd_critical_of(&observer);
-    if (curve.status)
+    out->curve = kd_critical_of(&observer);
+    if (out->curve.status)
         return false;
-    directions(&curve, d);
-    set_legs(&rim, isinf(scene->camera.r), d);
-    if (!set_curve(&rim, isinf(scene->camera.r), d) || !set_edges(&rim))
+    for (int k = 0; k < KD_RIM_ANGLES; k++)
+        direction(&out->curve, k, d[k]);
+    set_legs(out, d);
+    if (!set_edges(out, d, &radius))
         return false;
-    set_rows(&rim, scene, &curve);
-    if (!rim.rows || !escapes(scene, &rim))
-        return false;
-    *out = rim;
-    return true;
+    set_widths(out, scene, radius);
+    out->there = out->there && escapes(scene, out);
+    return out->there;
 }
 
-void kd_rim_look(const struct kd_rim *rim, double x, double y, double look[3])
+double kd_rim_off(const struct kd_rim *rim, const double look[3])
 {
-    for (int i = 0; i < 3; i++)
-        look[i] = rim->ahead[i] + x * rim->right[i] + y * rim->up[i];
-}
-
-double kd_rim_off(const struct kd_rim *rim, const double look[3], bool flat)
-{
-    const double from[] = { look[0] - rim->ahead[0], look[1] - rim->ahead[1], 0 }, depth = flat ? 1 : dot(look, rim->ahead);
-    const double x = dot(flat ? from : look, rim->right), y = dot(flat ? from : look, rim->up), angle = atan2(y, x) * (KD_RIM_EDGES / (2 * M_PI));
+    double place[2];
+    const bool ahead = rim->flat || dot(look, rim->ahead) > 0;
+    on_plane(rim, look, place);
+    const double angle = atan2(place[1], place[0]) * (KD_RIM_EDGES / (2 * M_PI));
     const int i = (int)floor(angle) + KD_RIM_EDGES;
     const double part = angle - floor(angle), edge = (1 - part) * rim->edge[i % KD_RIM_EDGES] + part * rim->edge[(i + 1) % KD_RIM_EDGES];
-    return depth > 0 ? hypot(x, y) / (depth * edge) - 1 : INFINITY;
-}
-
-/* By Lagrange's form, from places -2 ... 2. */
-static double quartic(const double *values, int middle, double x)
-{
-    static const double over[] = { 24, -6, 4, -6, 24 };
-    double sum = 0;
-    for (int i = -2; i <= 2; i++) {
-        double w = values[(middle + i + KD_RIM_ANGLES) % KD_RIM_ANGLES] / over[i + 2];
-        for (int j = -2; j <= 2; j++)
-            w *= j == i ? 1 : x - j;
-        sum += w;
-    }
-    return sum;
-}
-
-void kd_rim_between(const struct kd_rim *rim, double column, double row, double place[2])
-{
-    const double nearest = nearbyint(column), out = 1 + rim->far * exp(-row * rim->fall);
-    const int middle = (int)(nearest - KD_RIM_ANGLES * floor(nearest / KD_RIM_ANGLES));
-    place[0] = out * quartic(rim->x, middle, column - nearest);
-    place[1] = out * quartic(rim->y, middle, column - nearest);
+    return ahead ? hypot(place[0], place[1]) / edge - 1 : INFINITY;
 }
