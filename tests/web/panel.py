@@ -2,6 +2,7 @@
 import re
 
 from browser import AT_REST, Browser, main, rows
+import daemon
 
 
 GROUPS = ('look', 'gas', 'hole', 'camera', 'more')
