@@ -704,6 +704,8 @@ export const sentences = {
     'getti: stilizzati, coni di luce otticamente sottile lungo l’asse di rotazione che va verso l’esterno lungo il raggio a una sola velocità, rispetto a osservatori senza momento angolare; nessun campo magnetico, nessuno spettro di sincrotrone: la luminosità va come g^(2 + indice), il colore è quello di una temperatura scelta e non è spostato',
   "volume: the frequency shift of its matter is switched off, and lengths are those of the observer's affine parameter":
     'volume: lo spostamento di frequenza della sua materia è disattivato, e le lunghezze sono quelle del parametro affine dell’osservatore',
+  'volumes: a sketch while the view changes: light to some 5 %, as measured in it, and turbulence without the octaves of which a pixel leaves less than a seventh of the first: another 7 %, which is not':
+    'volumi: uno schizzo mentre la vista cambia: luce entro il 5 % circa, come vi è misurato, e turbolenza senza le ottave di cui un pixel lascia meno di un settimo della prima: un altro 7 %, che non lo è',
   'volumes: light in 32 bits by three places a stretch, as many stretches as grain, depth and the ray ask for; what accuracy asks for is a target: some 5e-5 are left in any case; what is left is measured on a sample of rays, followed twice as closely':
     'volumi: luce a 32 bit da tre punti per tratto, con quanti tratti chiedono grana, profondità e raggio; ciò che accuracy chiede è un obiettivo: circa 5e-5 restano comunque; quel che resta è misurato su un campione di raggi, seguiti due volte più da vicino',
   'image: few rays for the pixels that the critical curve passes; a photon ring thinner than they are shows as dots':

@@ -13,7 +13,6 @@
 #define KD_THICK_AMID 0.399624938 /* of the density, over the column: of height 1: its integral is 1 */
 #define KD_THICK_NOISE 5.237147522273636 /* 1 over the standard deviation of gradient noise by gradients of a cube */
 #define KD_THICK_FAINT 0.15    /* octaves fainter than this part of the first are sampled as the others ask for */
-#define KD_THICK_UNSEEN 0.05   /* those whose part is less than this one of the first, by what gas there is, are left out, and fade to that from three times as much */
 #define KD_THICK_LAYERS 3.0    /* cells in height for each in the plane: streaks are as much narrower than they are long */
 #define KD_BLOCK_thick(F, U, A)                                                                                 \
     F(height) F(flare)     /* H/R at 10 M, and the power of R/10 that it grows as */                           \
@@ -92,7 +91,7 @@ kd_thick_stir kd_thick_excess(kd_midst p, float axis, float z, float counts)
     mat2 next = KD_GAS_FINER * mat2(cos(KD_GAS_TURN), sin(KD_GAS_TURN), -sin(KD_GAS_TURN), cos(KD_GAS_TURN));
     for (uint octave = 0u; octave < KD_THICK_TAKEN; octave++) {
         float left = kd_gas_left(steps), part = loud * left;
-        float seen = part * counts / (KD_THICK_UNSEEN * emission.gas.loudness) - 1.0;
+        float seen = part * counts / (slice.unseen * emission.gas.loudness) - 1.0; /* by what gas there is; they fade from three times as much */
         if (!(seen > 0.0))
             break;
         seen = min(0.5 * seen, 1.0);

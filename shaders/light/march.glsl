@@ -207,10 +207,10 @@ void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, k
         float next = from + length_;
         length_ = next - from; /* as rounded */
         kd_beam trial = kd_beam(vec3(0.0), 0.0, beam.through);
-        KD_TELL_TRY
+        KD_TELL_TRY(length_ > 0.0 ? 3.0 : 1.0)
         float far = min(inversesqrt(beam.through), KD_MARCH_BEHIND);
         vec4 one = vec4(0.0), two = vec4(0.0), three = vec4(0.0); /* light and depth of the three */
-        for (int k = 0; k < 3; k++) {
+        for (int k = 0; k < (length_ > 0.0 ? 3 : 1); k++) { /* one place tells how long the first may be */
             float weight = k == 1 ? 4.0 / 9.0 : 5.0 / 18.0, x = k == 0 ? 0.1127016654 : k == 1 ? 0.5 : 0.8872983346;
             kd_midst p = kd_midst_of(m, ray, s, spread, order, from + x * length_);
             kd_medium medium = kd_medium_at(p);

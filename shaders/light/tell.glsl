@@ -74,8 +74,8 @@ float kd_told_steps = 0.0, kd_told_places = 0.0;
 KD_TELL_VOLUMES_(KD_TELL_VOLUME_)
 #define KD_TELL_MEDIUM(name, one) kd_place_##name = vec4(one.light, one.depth);
 #define KD_TELL_TRY_(number, name) kd_tried_##name = vec4(0.0);
-#define KD_TELL_TRY                                                                                            \
-    kd_told_places += 3.0;                                                                                     \
+#define KD_TELL_TRY(places)                                                                                    \
+    kd_told_places += places;                                                                                  \
     KD_TELL_VOLUMES_(KD_TELL_TRY_)
 #define KD_TELL_ON_(number, name) kd_tried_##name += vec4(tells * min(told_way * kd_place_##name.rgb, 1e30), told_way * kd_place_##name.a);
 #define KD_TELL_ON(comes, way)                                                                                 \
@@ -99,7 +99,7 @@ KD_TELL_VOLUMES_(KD_TELL_VOLUME_)
     KD_TELL_VOLUMES_(KD_TELL_OF_)
 #else
 #define KD_TELL_MEDIUM(name, one)
-#define KD_TELL_TRY
+#define KD_TELL_TRY(places)
 #define KD_TELL_ON(comes, way)
 #define KD_TELL_TAKE(before, tried, rest)
 #define KD_TELL_MARCHED(steps)

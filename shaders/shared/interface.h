@@ -43,6 +43,7 @@
     U(list)                 /* of listed pixels, where it begins in the lens map */                            \
     U(steps) U(fine)        /* of the march (light/march.glsl): steps a half period; quarters of a stretch a grain; */ \
     F(opaque)               /* what of the light behind need not come through for the ray to go on */          \
+    F(unseen)               /* octaves of noise whose part is less than this one of the first are left out */    \
     U(columns) U(first)     /* pixels a row of a sample, 0: all pixels are lit; the first column, row0 being the first row; */ \
     U(every_x) U(every_y)   /* how far they are apart; and */                                                  \
     U(to)                   /* the number, in the order of rows, from which on their light lies one behind the other */ \

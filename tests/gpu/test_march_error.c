@@ -190,6 +190,39 @@ static void test_close_rays(void **state)
     kd_frame_finish(&frame);
 }
 
+/* The sketch of a view that changes is said to be one, is as close as it says, and measures that; it leaves fine octaves out, and the lens map as it is. */
+static void test_sketch(void **state)
+{
+    (void)state;
+    struct kd_capacity c;
+    struct kd_plan plan, usual;
+    struct kd_frame frame;
+    struct kd_scene scene = scene_of("thick-disk", "{\"image\":{\"width\":160,\"height\":90},\"accuracy\":{\"profile\":\"draft\"}}");
+    struct kd_needs needs = kd_needs_of(&scene);
+    kd_renderer_capacity(renderer, &c);
+    OK(kd_plan_make(&scene, &c, &usual, &error));
+    needs.sketch = true;
+    OK(kd_plan_make_for(&scene, &needs, &c, &plan, &error));
+    bool said = false;
+    for (size_t i = 0; i < plan.n_approximations; i++)
+        said |= !strncmp(plan.approximations[i], "volumes: a sketch", 17);
+    assert_true(said && plan.march.sketched && !usual.march.sketched && plan.n_approximations == usual.n_approximations + 1);
+    assert_true(plan.march.fine < usual.march.fine && plan.march.weight < 0.8 * usual.march.weight);
+    assert_string_equal(plan.lens_key, usual.lens_key);
+    OK(kd_render(renderer, &scene, &plan, NULL, NULL, &frame, &error));
+    plan.march.fine *= 8;
+    struct kd_frame fine;
+    OK(kd_render(renderer, &scene, &plan, NULL, NULL, &fine, &error));
+    struct kd_frame all = by_plan(&scene, 8, 1);
+    const struct errors is = compare(&frame, &fine), left = compare(&frame, &all);
+    print_message("sketch: %.2g, worst %.2g; said %.2g of %u; with the octaves left out %.2g\n", is.nine, is.worst, frame.accuracy.volume_error, frame.accuracy.volume_sampled, left.nine);
+    assert_true(is.nine < KD_MARCH_SKETCHED && frame.accuracy.volume_sampled > 10 && frame.accuracy.volume_error < KD_MARCH_SKETCHED);
+    assert_true(left.nine < 0.15 && left.nine > is.nine);
+    kd_frame_finish(&frame);
+    kd_frame_finish(&fine);
+    kd_frame_finish(&all);
+}
+
 /* A tolerance that 32 bits cannot hold is refused, and what is held is told. */
 static void test_refused(void **state)
 {
@@ -218,6 +251,7 @@ int main(void)
         cmocka_unit_test(test_profiles),
         cmocka_unit_test(test_stirred),
         cmocka_unit_test(test_close_rays),
+        cmocka_unit_test(test_sketch),
         cmocka_unit_test(test_refused),
     };
     int code = open_renderer();

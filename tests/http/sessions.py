@@ -39,7 +39,7 @@ class Sessions(daemon.Owned):
         self.assertEqual(struct.unpack('>II', first.body[16:24]), (64, 36))
         self.assertEqual((first.header('Kerrd-Frame'), first.header('Kerrd-Revision'), first.header('Kerrd-Time')), ('1', '1', '5'))
         self.assertEqual(first.header('Kerrd-Azimuth'), '0')
-        self.assertRegex(first.header('Kerrd-Quality'), r'^width=64 height=36 samples=1 orders=3 engine=closed precision=f32 steps=0 final=1$')
+        self.assertRegex(first.header('Kerrd-Quality'), r'^width=64 height=36 samples=1 orders=3 engine=closed precision=f32 steps=0 sketch=0 final=1$')
         self.assertRegex(first.header('Kerrd-Accuracy'), '^rays=2304 ')
         self.assertIn('encode;dur=', first.header('Server-Timing'))
         found = self.status(session)
@@ -192,7 +192,7 @@ class Sessions(daemon.Owned):
             ends = struck['scene']['style']['ringdown_time'] + math.log(3.072) / 0.08137  # where a 1024th is left
             self.assertLess(frames[-2]['time'], ends)
             self.assertTrue(ends - 0.005 < frames[-1]['time'] < ends + 2, (ends, frames[-1]))
-            self.assertTrue(frames[-1]['quality']['final'])
+            self.assertTrue(frames[-1]['quality']['final'] and frames[-1]['quality']['sketch'] is False)
 
     def test_particles_refused(self):
         session = self.open({**SCENE, 'disk': {'model': 'particles', 'particles': 5000}})

@@ -33,6 +33,7 @@ static void some_scene(struct kd_scene *scene)
     scene->accuracy.steps = uniform() < 0.2 ? 8 : 0;
     scene->accuracy.precision = uniform() < 0.2 ? 2 : 0;
     scene->accuracy.engine = uniform() < 0.2 ? 3 : 0;
+    scene->volume.model = scene->image.height % 2 ? KD_VOLUME_UNIFORM : KD_VOLUME_NONE;
     if (!scene->accuracy.steps && uniform() < 0.2)
         scene->accuracy.tolerance = 1e-5;
 }
@@ -54,7 +55,7 @@ static void assert_order(const struct kd_quality *before, const struct kd_qualit
 {
     bool scale = after->scale < before->scale, samples = rank(after->samples) < rank(before->samples);
     bool orders = after->orders < before->orders, profile = after->profile != before->profile;
-    assert_int_equal(scale + samples + orders + profile, 1);
+    assert_int_equal(scale + samples + orders + profile + after->sketch, 1);
     assert_true(after->scale <= before->scale && rank(after->samples) <= rank(before->samples) && after->orders <= before->orders);
 }
 
@@ -79,6 +80,7 @@ static void check_ladder(const struct kd_scene *asked, const struct kd_ladder_bo
         assert_true(q->samples >= bounds->samples || q->samples == asked->image.samples || !asked->image.samples);
         assert_true(q->orders >= bounds->orders || q->orders == asked->accuracy.orders);
         assert_true(q->profile < 0 || q->profile >= bounds->profile);
+        assert_int_equal(q->sketch, i + 1 == ladder.n_rungs && asked->volume.model != KD_VOLUME_NONE);
         assert_int_equal(scene.accuracy.engine, asked->accuracy.engine);
         if (q->profile >= 0)
             assert_true(isinf(scene.accuracy.tolerance) && !scene.accuracy.steps && !scene.accuracy.precision);
@@ -93,7 +95,7 @@ static void check_ladder(const struct kd_scene *asked, const struct kd_ladder_bo
     assert_same_scene(&scene, asked);
     for (size_t i = 0; i < ladder.n_steps; i++) {
         assert_int_equal(ladder.steps[i].quality.final, i + 1 == ladder.n_steps);
-        assert_true(ladder.steps[i].quality.scale == 1);
+        assert_true(ladder.steps[i].quality.scale == 1 && !ladder.steps[i].quality.sketch);
         assert_int_equal(ladder.steps[i].quality.orders, asked->accuracy.orders);
         assert_true(i == 0 || ladder.steps[i].rays > ladder.steps[i - 1].rays);
     }
@@ -132,6 +134,11 @@ static void ladders_go_down_in_order_and_up_to_what_is_asked(void **state)
     }
     assert_int_equal(ladder.rungs[4].quality.width, 640);
     assert_int_equal(ladder.rungs[4].quality.height, 360);
+    const size_t without = ladder.n_rungs;
+    asked.volume.model = KD_VOLUME_UNIFORM;
+    kd_ladder_make(&asked, &bounds, &ladder);
+    assert_int_equal(ladder.n_rungs, without + 1);
+    assert_true(ladder.rungs[without].quality.sketch && ladder.rungs[without].quality.profile == KD_PROFILE_DRAFT);
 }
 
 /* A view whose pixels have as many rays as they need moves with one each where that is too slow, and comes to rest on all; a small scale

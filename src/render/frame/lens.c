@@ -119,7 +119,7 @@ static enum kd_status record(struct kd_frame_job *j, const struct slice *s, stru
     struct kd_slice push = {
         .row0 = s->first * p->side, .rows = s->count * p->side, .band0 = kd_frame_band_first(j, s->band) * p->side,
         .stride = p->width * p->side * p->band_rows * p->side,
-        .steps = p->march.steps, .fine = p->march.fine, .opaque = (float)p->march.opaque,
+        .steps = p->march.steps, .fine = p->march.fine, .opaque = (float)p->march.opaque, .unseen = (float)p->march.unseen,
     };
     d->push = &push;
     d->groups[0] = kd_frame_groups(rays ? (uint64_t)p->width * p->side : p->width);

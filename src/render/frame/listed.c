@@ -18,6 +18,7 @@ struct kd_frame_part kd_frame_part_of(const struct kd_frame_job *j, const struct
     part.push.steps = j->plan->march.steps;
     part.push.fine = j->plan->march.fine;
     part.push.opaque = (float)j->plan->march.opaque;
+    part.push.unseen = (float)j->plan->march.unseen;
     return part;
 }
 

@@ -23,7 +23,7 @@ static enum kd_status sample(struct kd_frame_job *j, uint32_t band, const struct
     const uint32_t first = kd_frame_band_first(j, band), from = above(s, first), rows = above(s, first + kd_frame_band_rows(j, band)) - from;
     const struct kd_slice push = {
         .row0 = (s->first[1] + from * s->every[1]) * p->side, .band0 = first * p->side, .stride = p->width * p->side * p->band_rows * p->side,
-        .steps = march->steps, .fine = march->fine, .opaque = (float)march->opaque,
+        .steps = march->steps, .fine = march->fine, .opaque = (float)march->opaque, .unseen = (float)march->unseen,
         .first = s->first[0], .every_x = s->every[0], .every_y = s->every[1], .columns = s->columns, .to = to + from * s->columns,
     };
     const struct kd_vk_pipeline *pipeline;

@@ -180,7 +180,7 @@ enum kd_status kd_frame_tell(struct kd_frame_job *j, uint32_t band)
     struct source s = {
         .lattice = &on_grid, .lens = kd_frame_band_lens(j, band), .band = band, .camera = KD_CAMERA_GRID,
         .push = { .band0 = first * p->side, .stride = p->width * p->side * p->band_rows * p->side, .steps = p->march.steps, .fine = p->march.fine,
-                  .opaque = (float)p->march.opaque },
+                  .opaque = (float)p->march.opaque, .unseen = (float)p->march.unseen },
     };
     enum kd_status status = KD_OK;
     if (!j->frame->told && !(j->frame->told = calloc(1, sizeof *j->frame->told)))

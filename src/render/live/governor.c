@@ -1,5 +1,5 @@
 #include "render/live/governor.h"
-#include "render/emit/motion.h"
+#include "render/emit/emitter.h"
 
 #include <math.h>
 #include <string.h>
@@ -291,7 +291,7 @@ static bool same_ladder(const struct kd_scene *a, const struct kd_scene *b)
     const struct kd_accuracy *p = &a->accuracy, *q = &b->accuracy;
     return i->width == j->width && i->height == j->height && i->samples == j->samples && p->profile == q->profile &&
            p->tolerance == q->tolerance && p->engine == q->engine && p->precision == q->precision && p->steps == q->steps &&
-           p->orders == q->orders;
+           p->orders == q->orders && kd_emit_along(a) == kd_emit_along(b);
 }
 
 /* Says whether frames of both scenes cost about the same but for their size. */

@@ -1,5 +1,7 @@
 #include "render/live/quality.h"
 
+#include "render/emit/emitter.h"
+
 #include <math.h>
 
 void kd_quality_apply(const struct kd_quality *quality, const struct kd_scene *asked, struct kd_scene *out)
@@ -46,6 +48,17 @@ static struct kd_rung make_rung(const struct kd_scene *asked, double scale, int3
     return r;
 }
 
+#define SKETCHED 0.6 /* of the time of the march at the coarsest profile, about: 66 ms of 100 at 160 x 90 */
+
+/* The same with its volumes sketched. */
+static struct kd_rung sketched(struct kd_rung r)
+{
+    r.quality.sketch = true;
+    r.quality.final = false;
+    r.rays *= SKETCHED;
+    return r;
+}
+
 /* A rung is kept only if it is less work than the one before. */
 static bool add_rung(struct kd_ladder *ladder, struct kd_rung rung)
 {
@@ -79,6 +92,8 @@ static void make_rungs(const struct kd_scene *asked, const struct kd_ladder_boun
     int32_t profile = by_profile(&asked->accuracy) ? asked->accuracy.profile : KD_PROFILE_BALANCED;
     while (--profile >= bounds->profile)
         add_rung(out, make_rung(asked, scale, samples, orders, profile));
+    if (kd_emit_along(asked))
+        add_rung(out, sketched(out->rungs[out->n_rungs - 1]));
 }
 
 static void make_steps(const struct kd_scene *asked, struct kd_ladder *out)

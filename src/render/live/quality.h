@@ -15,6 +15,7 @@ struct kd_quality {
     int32_t samples;        /* rays along each side of a pixel */
     int32_t orders;         /* crossings kept a ray */
     int32_t profile;        /* enum kd_profile in place of all of accuracy.* but engine; -1: accuracy.* as asked */
+    bool sketch;            /* volumes are followed more coarsely than any profile has them: render/plan/march.h */
     bool final;             /* everything is as asked */
 };
 
@@ -39,7 +40,8 @@ enum { KD_LADDER_RUNGS = 20, KD_LADDER_STEPS = 8 };
 
 struct kd_ladder {
     /* Makes the ladder downwards from what is asked. It gives up samples first, for what moves needs its pixels more than smooth
-     * edges, then resolution, then orders, then the steps along a ray. Each is less work than the one before. */
+     * edges, then resolution, then orders, then the steps along a ray, and last, where there are volumes, the
+     * steps through them. Each is less work than the one before. */
     struct kd_rung rungs[KD_LADDER_RUNGS];
     size_t n_rungs;
     /* Makes the ladder upwards, for a scene that rests: full resolution with one ray a pixel, then more, all by at most the profile

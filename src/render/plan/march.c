@@ -7,7 +7,10 @@
 
 #define BODIES 0.5 /* what it takes to look for them, over a ray of a smooth volume */
 
-enum { LEAST = 2, BALANCED = 4, MOST = 64 };
+enum { LEAST = 2, BALANCED = 4, MOST = 64, SKETCH = 2 };
+
+#define UNSEEN 0.05        /* octaves: what is less than this has no part in light to 1e-4 */
+#define SKETCH_UNSEEN 0.15 /* and those of which a ray's footprint leaves little anyway */
 
 static bool is_stirred(const struct kd_scene *scene) { return kd_emit_along(scene) && scene->disk.height > 0 && scene->gas.amplitude > 0; }
 
@@ -79,8 +82,24 @@ struct kd_march kd_march_of(const struct kd_scene *scene, const struct kd_settin
     const double error = error_of(scene);
     const uint32_t steps = steps_of(error, rays), fine = fine_of(error, scene);
     return (struct kd_march) {
-        .steps = steps, .weight = weight_of(scene, steps, fine), .fine = fine, .opaque = 0.1 * error, .sample = kd_emit_along(scene) ? sample_of(scene->image.width, scene->image.height) : (struct kd_march_sample) { 0 },
+        .steps = steps, .weight = weight_of(scene, steps, fine), .fine = fine, .opaque = 0.1 * error, .unseen = UNSEEN, .sample = kd_emit_along(scene) ? sample_of(scene->image.width, scene->image.height) : (struct kd_march_sample) { 0 },
     };
+}
+
+struct kd_march kd_march_sketch(struct kd_march march, const struct kd_scene *scene)
+{
+    march.sketched = true;
+    march.steps = 8;
+    march.fine = SKETCH;
+    march.opaque = 0.1 * KD_MARCH_SKETCHED;
+    march.unseen = SKETCH_UNSEEN;
+    march.weight = weight_of(scene, march.steps, march.fine);
+    for (int i = 0; i < 2; i++) {
+        uint32_t *n = i ? &march.sample.rows : &march.sample.columns;
+        march.sample.every[i] *= *n > 1 ? 2 : 1;
+        *n = (*n + 1) / 2;
+    }
+    return march;
 }
 
 struct kd_march kd_march_finer(struct kd_march march)

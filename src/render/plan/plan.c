@@ -20,6 +20,7 @@ _Static_assert(KD_PLAN_EMITTERS >= KD_EMITTER_COUNT, "all of them");
 #define WHEN(name, condition) static bool name(const struct kd_plan *plan, const struct kd_scene *scene) { return (void)plan, (void)scene, condition; }
 WHEN(crossings, kd_emit_at_crossings(scene))
 WHEN(volumes, kd_emit_along(scene))
+WHEN(sketched, plan->march.sketched)
 WHEN(few_rays, plan->orders > 1 && !plan->ring && !plan->critical && plan->side < 4)
 WHEN(adapted, plan->adaptive)
 WHEN(not_adapted, kd_scene_adapts(scene) && !plan->adaptive)
@@ -46,6 +47,7 @@ static const struct sentence {
     { "disk: image orders beyond accuracy.orders are left out", crossings },
     { "volumes: light in 32 bits by three places a stretch, as many stretches as grain, depth and the ray ask for; what accuracy asks for is a target: some 5e-5 are left in any case; "
       "what is left is measured on a sample of rays, followed twice as closely", volumes },
+    { "volumes: a sketch while the view changes: light to some 5 %, as measured in it, and turbulence without the octaves of which a pixel leaves less than a seventh of the first: another 7 %, which is not", sketched },
     { "colour: black bodies outside the sRGB gamut are moved to its edge at equal luminance", crossings },
     { "image: few rays for the pixels that the critical curve passes; a photon ring thinner than they are shows as dots", few_rays },
     { "image: 16 rays for pixels that differ from the middle of their neighbours by twice image.pixel_error, one for the others; where the lens map is smooth they are interpolated in it; what is left is measured on a sample", adapted },
@@ -272,6 +274,8 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
     plan.meets = kd_emit_met(scene);
     if (kd_emit_along(scene) || plan.meets)
         plan.march = kd_march_of(scene, &plan.setting);
+    if (needs->sketch && kd_emit_along(scene))
+        plan.march = kd_march_sketch(plan.march, scene);
     plan.planes = kd_lens_planes(plan.quantities, plan.orders);
     kd_plan_adapt(&plan, scene, capacity);
     plan.measured = capacity->measured;

@@ -207,6 +207,7 @@ struct kd_needs {
     bool light;          /* and that flux and centroid be measured, as they are whenever some light is kept apart */
     bool unseen;         /* and that nobody sees the picture: it has no pixels, and no layers, whatever image.layers says */
     bool radiance;       /* and that linear light be among the layers, where the picture is asked for */
+    bool sketch;         /* and that volumes be followed as coarsely as kd_march_sketch has it */
 };
 struct kd_needs kd_needs_of(const struct kd_scene *scene);
 enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_needs *needs,

@@ -14,9 +14,9 @@
 static void describe_quality(struct kd_live_frame *frame, const struct kd_render_job *job, const struct kd_live_note *note)
 {
     const struct kd_plan *p = &job->plan;
-    snprintf(frame->quality, sizeof frame->quality, "width=%u height=%u samples=%u orders=%u engine=%s precision=%s steps=%u final=%d",
+    snprintf(frame->quality, sizeof frame->quality, "width=%u height=%u samples=%u orders=%u engine=%s precision=%s steps=%u sketch=%d final=%d",
              p->width, p->height, p->side, p->orders, kd_engine_name(p->setting.engine), kd_precision_name(p->setting.precision),
-             p->setting.steps, note->final);
+             p->setting.steps, p->march.sketched, note->final);
 }
 
 static void describe_timing(struct kd_live_frame *frame, const struct kd_render_job *job)
@@ -41,6 +41,7 @@ static void add_quality(struct kd_json *json, const struct kd_render_job *job, c
     kd_json_string(json, "engine", kd_engine_name(p->setting.engine));
     kd_json_string(json, "precision", kd_precision_name(p->setting.precision));
     kd_json_number(json, "steps", p->setting.steps);
+    kd_json_bool(json, "sketch", p->march.sketched);
     kd_json_bool(json, "final", note->final);
     kd_json_end(json);
 }

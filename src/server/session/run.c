@@ -68,7 +68,9 @@ static struct kd_session_frame *make_frame(struct kd_session *s, const struct kd
     }
     live->job.scene.image.bit_depth = 8;
     kd_render_queue_capacity(s->all->params.renders, &capacity);
-    if (kd_plan_make(&live->job.scene, &capacity, &live->job.plan, error)) {
+    struct kd_needs needs = kd_needs_of(&live->job.scene);
+    needs.sketch = turn->quality.sketch;
+    if (kd_plan_make_for(&live->job.scene, &needs, &capacity, &live->job.plan, error)) {
         free(live);
         return NULL;
     }
