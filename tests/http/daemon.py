@@ -92,7 +92,7 @@ class Daemon:
     def terminate(self):
         self.process.send_signal(signal.SIGTERM)
 
-    def wait(self, timeout=60):
+    def wait(self, timeout=240):
         code = self.process.wait(timeout)
         self.process.stdout.close()
         return code
