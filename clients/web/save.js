@@ -101,8 +101,8 @@ export function buildSave(scene, size, changed) {
   }
 
   async function follow() {
-    while (job) {
-      const now = job;
+    const now = job;
+    while (job === now) {
       try {
         const status = await getJson('v1/jobs/' + now.id);
         if (job !== now) return;

@@ -199,7 +199,7 @@ class Lensing(Browser):
         self.assertEqual((sent()['style']['tone_map'], sent()['style']['bloom'], sent()['disk']['doppler']), ('srgb', 0, True))
         page.locator('[data-path="style.tone_map"] select').select_option('aces')
         page.wait_for_selector(AT_REST)
-        page.wait_for_function('location.hash.includes("style.tone_map=aces")')
+        page.wait_for_function('() => location.hash.includes("style.tone_map=aces")')
         page.reload()
         page.wait_for_selector(AT_REST)
         self.open_groups(page)

@@ -289,7 +289,7 @@ class Playground(Browser):
             };
         }''')
         page.click('nav [data-view=scale]')
-        page.wait_for_function('window.kept')
+        page.wait_for_function('() => window.kept')
         (begun,) = (r.response().json() for r in self.requests if r.method == 'POST' and r.url.endswith('/v1/playground'))
         self.assertEqual(self.daemon.request('DELETE', f'/v1/playground/{begun["id"]}?token={begun["token"]}').status, 204)
         page.click('nav [data-view=playground]')
