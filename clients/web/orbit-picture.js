@@ -170,4 +170,3 @@ export function buildPicture(root, hand) {
     free: () => (put = false),
   };
 }
-
