@@ -2,7 +2,7 @@
 """What scripts/test asks about a build's tests; it speaks of nothing else.
 
     suite.py known BUILD [ARGUMENT...]    exit 2 and a sentence for a test or suite that `meson test ARGUMENT...` would not find
-    suite.py again BUILD SUITE [ARGUMENT...]  run each failed test of that suite once more, by itself, where no other has failed: exit 0 if all
+    suite.py again BUILD SUITE[,SUITE...] [ARGUMENT...]  run each failed test of these suites once more, by itself, where no other has failed: exit 0 if all
                                           of them pass now. Those are listed in BUILD/meson-logs/flaky.txt, and loudly
     suite.py report BUILD [--no-skip]     the seconds of the last run suite by suite, the slowest tests, and what was skipped and why;
                                           with --no-skip a skip is exit 1
@@ -91,10 +91,10 @@ def read(log):
     return [json.loads(line) for line in log.read_text().splitlines()] if log.exists() else []
 
 
-def again(build, suite, *arguments):
+def again(build, suites, *arguments):
     logs = pathlib.Path(build, 'meson-logs')
     failed = [test['name'].split(' / ') for test in read(logs / 'testlog.json') if test['result'] not in ('OK', 'SKIP', 'EXPECTEDFAIL')]
-    others = [name for suites, name in failed if suite not in suites.split(':')[-1].split('+')]
+    others = [name for of, name in failed if not set(suites.split(',')) & set(of.split(':')[-1].split('+'))]
     if not failed or others or len(failed) > MOST_AGAIN:
         return 1
     twice = []
