@@ -1,5 +1,6 @@
 #include "server/server.h"
 
+#include "base/hash.h"
 #include "base/log.h"
 #include "server/asset/store.h"
 #include "server/http/descriptors.h"
@@ -60,17 +61,11 @@ static enum kd_status collect_hosts(struct kd_server *server, const char *listen
     return good && server->hosts ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory");
 }
 
-/* FNV-1a over what decides a picture besides its scene. */
+/* What decides a picture besides its scene. */
 static void set_etag_tail(struct kd_server *server)
 {
-    uint64_t hash = 0xcbf29ce484222325u;
-    const char *parts[] = { KD_VERSION, kd_render_queue_device_name(server->renders) };
-    for (size_t i = 0; i < 2; i++)
-        for (const char *p = parts[i];; p++) {
-            hash = (hash ^ (unsigned char)*p) * 0x100000001b3u;
-            if (!*p)
-                break;
-        }
+    const char *device = kd_render_queue_device_name(server->renders);
+    const uint64_t hash = kd_hash(kd_hash(KD_HASH_BEGIN, KD_VERSION, sizeof KD_VERSION), device, strlen(device) + 1);
     snprintf(server->etag_tail, sizeof server->etag_tail, "%016llx", (unsigned long long)hash);
 }
 

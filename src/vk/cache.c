@@ -1,6 +1,7 @@
 #include "vk/cache.h"
 
 #include "base/buffer.h"
+#include "base/hash.h"
 #include "base/log.h"
 #include "base/read.h"
 #include "base/replace.h"
@@ -20,15 +21,6 @@ struct envelope {
 static const char magic[8] = "kdpipe1";
 #define SUFFIX ".pipelines"
 #define FILE_MAX ((size_t)256 << 20) /* drivers keep some MiB; what is larger is not ours */
-
-/* FNV-1a, 64 bits: against damage, not against malice; the directory is the user's own. */
-static uint64_t hash_of(const uint8_t *data, size_t size)
-{
-    uint64_t hash = UINT64_C(0xcbf29ce484222325);
-    for (size_t i = 0; i < size; i++)
-        hash = (hash ^ data[i]) * UINT64_C(0x100000001b3);
-    return hash;
-}
 
 /* Is this the data of this very device and driver? The layout is Vulkan's VkPipelineCacheHeaderVersionOne. */
 static bool header_fits(const struct kd_vk *vk, const uint8_t *data, size_t size)
@@ -79,7 +71,7 @@ static const uint8_t *open_envelope(const struct kd_vk *vk, const struct kd_buff
     const uint8_t *data = file->data + sizeof envelope;
     *size = file->size - sizeof envelope;
     if (memcmp(envelope.magic, magic, sizeof magic) || envelope.bytes != *size ||
-        envelope.hash != hash_of(data, *size) || !header_fits(vk, data, *size))
+        envelope.hash != kd_hash(KD_HASH_BEGIN, data, *size) || !header_fits(vk, data, *size))
         return NULL;
     return data;
 }
@@ -95,7 +87,7 @@ enum kd_status kd_vk_cache_init(struct kd_vk *vk, const char *dir, struct kd_err
     if (cache->path && kd_read_file(AT_FDCWD, cache->path, 0, FILE_MAX, &file)) {
         info.pInitialData = open_envelope(vk, &file, &info.initialDataSize);
         if (info.pInitialData)
-            cache->hash = hash_of(info.pInitialData, info.initialDataSize);
+            cache->hash = kd_hash(KD_HASH_BEGIN, info.pInitialData, info.initialDataSize);
         else
             kd_log(KD_LOG_DEBUG, "%s is foreign or damaged: starting afresh", cache->path);
     }
@@ -116,7 +108,7 @@ static void save(struct kd_vk *vk)
         return;
     uint8_t *file = malloc(sizeof(struct envelope) + size);
     if (file && vk->fn.GetPipelineCacheData(vk->device, cache->handle, &size, file + sizeof(struct envelope)) == VK_SUCCESS) {
-        struct envelope envelope = { .bytes = size, .hash = hash_of(file + sizeof envelope, size) };
+        struct envelope envelope = { .bytes = size, .hash = kd_hash(KD_HASH_BEGIN, file + sizeof envelope, size) };
         memcpy(envelope.magic, magic, sizeof magic);
         memcpy(file, &envelope, sizeof envelope);
         if (envelope.hash != cache->hash && !kd_replace_file(cache->path, file, sizeof envelope + size))

@@ -1,6 +1,7 @@
 #include "server/openapi/kept.h"
 
 #include "base/buffer.h"
+#include "base/hash.h"
 #include "base/json.h"
 #include "image/gzip.h"
 #include "quantity/quantity.h"
@@ -49,13 +50,10 @@ static const struct { const char *path, *type; enum kd_status (*make)(struct kd_
 };
 #define N_MAKERS (sizeof makers / sizeof *makers)
 
-/* FNV-1a: two versions of a document must differ, nobody forges one. */
+/* Two versions of a document must differ, nobody forges one. */
 static void tag(const struct kd_buffer *bytes, char out[24])
 {
-    uint64_t hash = 0xcbf29ce484222325u;
-    for (size_t i = 0; i < bytes->size; i++)
-        hash = (hash ^ bytes->data[i]) * 0x100000001b3u;
-    snprintf(out, 24, "\"%016llx\"", (unsigned long long)hash);
+    snprintf(out, 24, "\"%016llx\"", (unsigned long long)kd_hash(KD_HASH_BEGIN, bytes->data, bytes->size));
 }
 
 static enum kd_status finish(struct document *d, const char *type)

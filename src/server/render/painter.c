@@ -1,6 +1,7 @@
 #include "server/render/painter.h"
 
 #include "base/clock.h"
+#include "base/hash.h"
 #include "base/log.h"
 #include "base/read.h"
 #include "base/replace.h"
@@ -40,18 +41,9 @@ struct kd_painter {
 struct head { char magic[8]; uint64_t bytes, hash; char mark[128]; };
 static const char magic[8] = "kdsmall";
 
-/* FNV-1a, 64 bits: against damage, not against malice; the directory is the user's own. */
-static uint64_t hash_of(const uint8_t *data, size_t size)
-{
-    uint64_t hash = UINT64_C(0xcbf29ce484222325);
-    for (size_t i = 0; i < size; i++)
-        hash = (hash ^ data[i]) * UINT64_C(0x100000001b3);
-    return hash;
-}
-
 static struct head head_of(const struct kd_painting *work, const uint8_t *png, size_t bytes)
 {
-    struct head head = { .bytes = bytes, .hash = hash_of(png, bytes) };
+    struct head head = { .bytes = bytes, .hash = kd_hash(KD_HASH_BEGIN, png, bytes) };
     memcpy(head.magic, magic, sizeof magic);
     snprintf(head.mark, sizeof head.mark, "%s", work->mark);
     return head;
