@@ -42,6 +42,7 @@ struct kd_renderer {
     struct kd_accuracy_table *accuracy; /* of this device, as on disk when the renderer was made; NULL: none */
     struct kd_verdict verdict;
     struct kd_capacity kept; /* as it is in the file */
+    uint32_t frames;         /* so far, as learn.c counts them */
     bool probing;            /* of what frames cost the least counts, not a mean */
     char name[800];
 };

@@ -175,10 +175,11 @@ enum kd_status kd_frame_run(struct kd_frame_job *job, struct kd_frame *out)
 {
     double start = kd_clock_ms();
     kd_vk_times_reset(job->r->vk);
+    kd_frame_learn_begin(job);
     enum kd_status status = render(job, out);
     if (status)
         return status;
     kd_frame_collect_timings(job, out, kd_clock_ms() - start - job->away_ms);
-    kd_frame_learn(job->r, job->plan, out);
+    kd_frame_learn(job, out);
     return KD_OK;
 }

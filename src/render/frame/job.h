@@ -2,6 +2,7 @@
 #ifndef KD_RENDER_FRAME_JOB_H
 #define KD_RENDER_FRAME_JOB_H
 
+#include "base/waiting.h"
 #include "render/device/internal.h"
 #include "render/frame/frame.h"
 #include "render/view/critical_pixels.h"
@@ -30,12 +31,15 @@ struct kd_frame_job {
     uint32_t lit;        /* rows of pixels from the top whose light is there */
     bool looking;        /* they are being looked at */
     uint8_t *kinds;      /* of each pixel, KD_REFINED_...; NULL unless image.samples is "auto" */
+    bool teaches;               /* what passes cost, */
+    struct kd_waiting waiting;  /* but for the time that its threads waited for a core */
     struct kd_frame *frame;
     struct kd_error *error;
 };
 
-/* Learn from the device times of a frame: nanoseconds an item, smoothed. */
-void kd_frame_learn(struct kd_renderer *renderer, const struct kd_plan *plan, const struct kd_frame *frame);
+/* Learn from the device times of a frame: nanoseconds an item as they are when nothing else wants the cores, smoothed. */
+void kd_frame_learn_begin(struct kd_frame_job *job);
+void kd_frame_learn(struct kd_frame_job *job, const struct kd_frame *frame);
 
 /* So many rows more are done. Cancelled: KD_ECANCELLED. */
 enum kd_status kd_frame_report(struct kd_frame_job *job, double rows);

@@ -1,0 +1,44 @@
+#include "base/waiting.h"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <unistd.h>
+
+static void add(struct kd_waiting *sum, int tasks, const char *task)
+{
+    char path[64], text[128];
+    double ran, waited;
+    if (*task == '.' || snprintf(path, sizeof path, "%s/schedstat", task) >= (int)sizeof path)
+        return;
+    int file = openat(tasks, path, O_RDONLY | O_CLOEXEC);
+    ssize_t n = file < 0 ? -1 : read(file, text, sizeof text - 1);
+    if (file >= 0)
+        close(file);
+    if (n <= 0)
+        return; /* the thread has ended since */
+    text[n] = 0;
+    if (sscanf(text, "%lf %lf", &ran, &waited) == 2) {
+        sum->ran_ns += ran;
+        sum->waited_ns += waited;
+    }
+}
+
+struct kd_waiting kd_waiting_now(void)
+{
+    struct kd_waiting sum = { 0 };
+    DIR *tasks = opendir("/proc/self/task");
+    if (!tasks)
+        return sum;
+    for (const struct dirent *task = readdir(tasks); task; task = readdir(tasks)) /* a stream of this call's own */
+        add(&sum, dirfd(tasks), task->d_name);
+    closedir(tasks);
+    return sum;
+}
+
+double kd_waiting_share(const struct kd_waiting *since)
+{
+    struct kd_waiting now = kd_waiting_now();
+    double ran = now.ran_ns - since->ran_ns, waited = now.waited_ns - since->waited_ns;
+    return ran > 0 && waited > 0 ? ran / (ran + waited) : 1; /* less than before: threads ended */
+}

@@ -1,0 +1,63 @@
+/* Two threads that never sleep, on one core, wait half of the time each: what the kernel says of that is what passes' costs are
+ * freed of. */
+#include "base/waiting.h"
+
+#include <pthread.h>
+#include <sched.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <time.h>
+
+#include <cmocka.h>
+
+static void *spin(void *user)
+{
+    struct timespec t = { 0 };
+    while (t.tv_nsec < 100000000 && !t.tv_sec) /* 0.1 s of its own processor time */
+        clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    pthread_barrier_wait(user); /* a thread that has ended is not counted any more */
+    pthread_barrier_wait(user);
+    return NULL;
+}
+
+static void shared_core(void **state)
+{
+    cpu_set_t all, one;
+    pthread_t threads[2];
+    pthread_barrier_t done;
+    assert_int_equal(sched_getaffinity(0, sizeof all, &all), 0);
+    CPU_ZERO(&one);
+    for (int i = 0; i < CPU_SETSIZE && !CPU_COUNT(&one); i++)
+        if (CPU_ISSET(i, &all))
+            CPU_SET(i, &one);
+    assert_int_equal(sched_setaffinity(0, sizeof one, &one), 0);
+    pthread_barrier_init(&done, NULL, 3);
+    struct kd_waiting before = kd_waiting_now();
+    for (int i = 0; i < 2; i++)
+        assert_int_equal(pthread_create(&threads[i], NULL, spin, &done), 0);
+    pthread_barrier_wait(&done);
+    double share = kd_waiting_share(&before);
+    struct kd_waiting after = kd_waiting_now();
+    pthread_barrier_wait(&done);
+    for (int i = 0; i < 2; i++)
+        pthread_join(threads[i], NULL);
+    pthread_barrier_destroy(&done);
+    assert_true(after.ran_ns - before.ran_ns > 1.9e8);
+    assert_true(share > 0 && share < 0.7);
+    (void)state;
+}
+
+static void nothing_known(void **state)
+{
+    struct kd_waiting future = { 1e30, 1e30 }; /* as when threads have ended */
+    assert_true(kd_waiting_share(&future) == 1);
+    (void)state;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = { cmocka_unit_test(shared_core), cmocka_unit_test(nothing_known) };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
