@@ -1,7 +1,8 @@
 /* render/render.h without a device, for tests of what stands in front of it. Plans and pictures are the real
  * ones.
  *
- * The scene's time chooses what happens: t >= 0 takes t milliseconds, in slices of 10; -1 loses the device,
+ * The scene's time chooses what happens: t >= 0 takes t milliseconds, in slices of 10, and 30 times as long with several rays a
+ * pixel; -1 loses the device,
  * -2 runs out of memory, -3 fails. The exposure that is "auto" is 1 stop and -1 by turns. Rays on the device cross once, at
  * 10 + |alpha| with the azimuth beta; with steps 8 there is no double precision, with steps 12 each takes a millisecond.
  * The picture of a sky of seed 4711 is under way until another picture is rendered. A device called "compiles" is busy with a small picture of a
@@ -176,7 +177,7 @@ enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *sc
     if (!atomic_exchange(&renderer->read, true) && renderer->params.sky_made)
         renderer->params.sky_made(renderer->params.sky_user);
     if (!status)
-        status = pass_time(scene->top.time, progress, user, error);
+        status = pass_time(scene->top.time * (plan->side > 1 ? 30 : 1), progress, user, error);
     if (!status && renderer->compiles && plan->width == 192 && plan->height == 120)
         status = compile(progress, user, error);
     if (status)

@@ -717,9 +717,11 @@ class Sessions(daemon.Owned):
         self.assertIn('more than the 600 s', problem['detail'])
         self.assertEqual(self.status(session)['scene']['image']['width'], 64)
 
-    # Frames as asked would take half a second, or two, by the plan, so that coarser ones come first; all take as long as `time` says.
-    COARSE = {'image': {'width': 400, 'height': 300, 'samples': 2, 'critical_factor': 1}, 'time': 1800}
-    LONG = {'image': {'width': 800, 'height': 600, 'samples': 2, 'critical_factor': 1}, 'time': 1200}
+    # Frames as asked would take half a second, or two, by the plan, so that coarser ones come first, with a ray a pixel. These take as
+    # long as `time` says, the last step 30 times as long: what must not wait for it has a part of that, however busy the machine.
+    COARSE = {'image': {'width': 400, 'height': 300, 'samples': 2, 'critical_factor': 1}, 'time': 1000}
+    LONG = {'image': {'width': 800, 'height': 600, 'samples': 2, 'critical_factor': 1}, 'time': 100}
+    SOON = 20  # s
 
     def refining(self, scene, samples=2):
         """A session in the middle of its step to so many samples, and the connection that waits for it."""
@@ -731,7 +733,7 @@ class Sessions(daemon.Owned):
                 break
         waiting = self.stream(session, f'/frame.png?after={number}')
         self.assertTrue(daemon.eventually(lambda: self.status(session)['viewers'] == 1))
-        time.sleep(0.2)
+        self.assertTrue(daemon.eventually(lambda: self.daemon.metrics()['kerrd_renders_unfinished']))
         return session, number, waiting
 
     def first_frame_s(self):
@@ -743,12 +745,12 @@ class Sessions(daemon.Owned):
         session, _, waiting = self.refining(self.COARSE)
         with waiting:
             self.delete(session)
-            self.assertLess(self.first_frame_s(), 0.8)
+            self.assertLess(self.first_frame_s(), self.SOON)
 
     def test_a_viewer_that_goes_away_frees_the_device(self):
-        session, number, waiting = self.refining({**self.COARSE, 'time': 3000})
+        session, number, waiting = self.refining(self.COARSE)
         waiting.close()
-        self.assertTrue(daemon.eventually(lambda: self.daemon.metrics()['kerrd_renders_unfinished'] == 0, 2.3))
+        self.assertTrue(daemon.eventually(lambda: self.daemon.metrics()['kerrd_renders_unfinished'] == 0, self.SOON))
         self.assertEqual(self.status(session)['frame'], number)
 
     def test_a_long_refinement_makes_way(self):
@@ -757,16 +759,12 @@ class Sessions(daemon.Owned):
             session, number, waiting = self.refining(self.LONG)
             with waiting:
                 self.assertEqual(self.status(session)['frame'], number)
-                begun, passed, longest = time.monotonic(), int(self.frame(other).header('Kerrd-Frame')), 0
-                for i in range(20):
-                    asked = time.monotonic()
+                passed = int(self.frame(other).header('Kerrd-Frame'))
+                for i in range(8):
                     self.patch(other, {'camera': {'inclination_deg': 20 + i}})
                     passed = int(self.frame(other, passed).header('Kerrd-Frame'))
-                    longest = max(longest, time.monotonic() - asked)
-                self.assertLess(longest, 0.6)
                 self.assertEqual(self.status(session)['frame'], number, 'these came in between')
                 self.assertRegex(self.frame(session, number).header('Kerrd-Quality'), 'samples=2 .*final=1')
-                self.assertLess(time.monotonic() - begun, 10)
 
     def test_a_long_refinement_makes_way_beside_a_job(self):
         job = self.daemon.post('/v1/jobs', {'scene': {**SCENE, 'time': 60000}}).json()
@@ -774,18 +772,18 @@ class Sessions(daemon.Owned):
         self.assertTrue(daemon.eventually(lambda: self.daemon.get('/v1/jobs/' + job['id']).json()['fraction'] > 0))
         other = self.open()
         with self.stream(other, '/events'):
-            session, number, waiting = self.refining({**self.LONG, 'time': 2000})
+            session, number, waiting = self.refining(self.LONG)
             with waiting:
-                time.sleep(0.3)  # it has begun by now
                 for _ in range(2):
-                    self.assertLess(self.first_frame_s(), 0.6)
-                self.assertEqual(self.status(session)['frame'], number)
+                    self.first_frame_s()
+                self.assertEqual(self.status(session)['frame'], number, 'these came in between')
                 self.assertRegex(self.frame(session, number).header('Kerrd-Quality'), 'samples=2 .*final=1')
 
     def test_a_long_refinement_that_was_alone_makes_way(self):
-        session, number, waiting = self.refining({**self.LONG, 'time': 1800})
+        session, number, waiting = self.refining(self.LONG)
         with waiting:
-            self.assertLess(self.first_frame_s(), 0.8)
+            self.first_frame_s()
+            self.assertEqual(self.status(session)['frame'], number, 'this came in between')
             answer = self.frame(session, number)
             self.assertRegex(answer.header('Kerrd-Quality'), 'samples=2 .*final=1')
             self.assertEqual(int(answer.header('Kerrd-Frame')), number + 1)
@@ -793,15 +791,14 @@ class Sessions(daemon.Owned):
     def test_a_patch_ends_a_refinement_that_waits_its_turn(self):
         """Behind the one of another session."""
         with self.stream(self.open(), '/events'):
-            _, _, first = self.refining({**self.LONG, 'time': 3000})
+            _, _, first = self.refining({**self.LONG, 'time': 1000})
             with first:
                 session, number, waiting = self.refining({**self.LONG, 'time': 50})
                 with waiting:
-                    time.sleep(0.3)
                     begun = time.monotonic()
                     self.patch(session, {'camera': {'inclination_deg': 10}})
                     self.assertEqual(self.frame(session, number).header('Kerrd-Revision'), '2')
-                    self.assertLess(time.monotonic() - begun, 0.7)
+                    self.assertLess(time.monotonic() - begun, self.SOON)
 
     def test_end_wakes_those_who_wait(self):
         session = self.open()
