@@ -60,6 +60,10 @@ class Routes(daemon.Case):
         policy = self.daemon.get('/').header('Content-Security-Policy')
         self.assertTrue(policy.startswith("default-src 'self';"), policy)
         self.assertNotIn('unsafe', policy)
+        for name in ('icon.svg', 'vendor/uplot/LICENSE'):
+            self.assertEqual(self.daemon.get('/web/' + name).header('Content-Security-Policy'), policy, name)
+        for name in ('app.js', 'style.css'):  # where a policy binds nothing: they take no bytes of it
+            self.assertIsNone(self.daemon.get('/web/' + name).header('Content-Security-Policy'), name)
 
     def test_page_compressed_and_kept(self):
         plain = self.daemon.get('/web/app.js')
@@ -107,7 +111,7 @@ class Routes(daemon.Case):
             seen.add(name)
             text = self.daemon.get('/' + name)
             self.assertEqual(text.status, 200, name)
-            others = {'web/' + other for other in re.findall(r"(?:from |import\(|new URL\()'(?:\./)?([^']+)'", text.body.decode())}
+            others = {'web/' + other for other in re.findall(r'''(?:from ?|import\(|new URL\()['"](?:\./)?([^'"]+)['"]''', text.body.decode())}
             loaded.extend(other for other in others if '.' in other and other not in seen)
         self.assertIn('web/vendor/uplot/uPlot.iife.min.js', seen)
         self.assertIn('web/vendor/uplot/uPlot.min.css', seen)

@@ -12,6 +12,13 @@ static const struct kd_served *find(const char *name)
     return NULL;
 }
 
+/* A policy binds what a browser shows as a document by itself: HTML, SVG. Of a script or a style it binds nothing, and with all those of
+ * the page it would weigh as much as the largest of them. */
+static bool document(const struct kd_served *file)
+{
+    return strncmp(file->type, "text/javascript", strlen("text/javascript")) && strncmp(file->type, "text/css", strlen("text/css"));
+}
+
 /* "/" and what lies below "/web/". A page is small and may change with the next version of the program: it is asked for again each time, and
  * 304 says that it has not. */
 enum MHD_Result kd_handle_page(struct kd_request *request)
@@ -23,10 +30,12 @@ enum MHD_Result kd_handle_page(struct kd_request *request)
     struct MHD_Response *response = kd_reply_served(request, file, &same);
     if (!response)
         return kd_reply_no_memory(request);
-    /* blob: is how a picture whose headers were read gets into an <img>. */
-    MHD_add_response_header(response, "Content-Security-Policy",
-                            "default-src 'self'; img-src 'self' blob:; base-uri 'none'; form-action 'self'; "
-                            "frame-ancestors 'none'");
-    MHD_add_response_header(response, "Referrer-Policy", "no-referrer");
+    if (document(file)) {
+        /* blob: is how a picture whose headers were read gets into an <img>. */
+        MHD_add_response_header(response, "Content-Security-Policy",
+                                "default-src 'self'; img-src 'self' blob:; base-uri 'none'; form-action 'self'; "
+                                "frame-ancestors 'none'");
+        MHD_add_response_header(response, "Referrer-Policy", "no-referrer");
+    }
     return kd_reply_send(request, same ? MHD_HTTP_NOT_MODIFIED : MHD_HTTP_OK, response);
 }
