@@ -260,7 +260,7 @@ int main(int argc, char **argv)
 
     struct kd_error error = { 0 };
     struct kd_renderer *renderer;
-    enum kd_status status = kd_renderer_create(&(struct kd_renderer_params) { .device = o.device }, &renderer, &error);
+    enum kd_status status = kd_renderer_create(&(struct kd_renderer_params) { .device = o.device, .passing = true }, &renderer, &error);
     cJSON *root = cJSON_CreateObject(), *pictures = cJSON_AddArrayToObject(root, "pictures");
     if (!status)
         cJSON_AddStringToObject(root, "device", kd_renderer_device_name(renderer));

@@ -94,7 +94,7 @@ int main(int argc, char **argv)
 
     struct kd_error error = { 0 };
     struct kd_renderer *renderer;
-    if (kd_renderer_create(&(struct kd_renderer_params) { .device = o.device }, &renderer, &error)) {
+    if (kd_renderer_create(&(struct kd_renderer_params) { .device = o.device, .passing = true }, &renderer, &error)) {
         fprintf(stderr, "kd_bench_particles: %s\n", error.message);
         return 1;
     }

@@ -332,7 +332,7 @@ static void test_asides(void **state)
     struct kd_plan plan;
     struct kd_frame beside, alone;
     scene.camera.inclination_deg = 51;
-    OK(kd_renderer_create(&(struct kd_renderer_params) { .device = "auto", .validate = true }, &o.r, &error));
+    OK(kd_renderer_create(&(struct kd_renderer_params) { .device = "auto", .validate = true, .passing = true }, &o.r, &error));
     o.r->kernels.kept = KEPT; /* all of the picture's make room for those that come between */
     OK(kd_plan_make(&scene, &c, &plan, &error));
     plan.trace_ns = 40e6 / 160 / 7; /* seven rows a slice */
@@ -351,7 +351,7 @@ static void test_asides(void **state)
     assert_true(alone.lens_reused); /* it is found wherever it was made */
     kd_frame_finish(&alone);
     struct kd_renderer *fresh;
-    OK(kd_renderer_create(&(struct kd_renderer_params) { .device = "auto" }, &fresh, &error));
+    OK(kd_renderer_create(&(struct kd_renderer_params) { .device = "auto", .passing = true }, &fresh, &error));
     OK(kd_render(fresh, &scene, &plan, NULL, NULL, &alone, &error));
     assert_same(&alone, &beside);
     for (int i = 0; i < 2; i++) {
