@@ -79,6 +79,26 @@ class State(Case):
         self.assertEqual(told[0], told[1])
         self.assertEqual(len({frame['snapshot'] for frame in told[0]}), 8)
 
+    def test_a_film_whose_bodies_end_the_server_makes_way(self):
+        """Also where no frame is under way: for half an hour its bodies move."""
+        server = self.start()
+        film = {'playground': {'preset': 'swarm', 'h_max': 1e-3, 'budget': 1000000}, 'every': 1e9, 'frames': 3, 'scene': {'image': SCENE['image']}}
+        job = self.make(film, server=server)
+        self.assertTrue(daemon.eventually(lambda: self.status(job, server)['finished'] == 1))
+
+        def attempts():
+            with open(os.path.join(self.folder, 'jobs', job['id'], 'job.json'), encoding='utf-8') as file:
+                return json.load(file)['attempts']
+        for count in range(4):  # the first server had made a frame, which says nothing against the job
+            self.assertTrue(daemon.eventually(lambda: attempts() == count), attempts())
+            server.process.send_signal(signal.SIGKILL)
+            server.wait()
+            server = self.start()
+        waiting = self.status(job, server)
+        self.assertEqual((waiting['state'], waiting['finished']), ('waiting', 1), waiting)
+        self.assertIn('ended 3 times', waiting['delayed'])
+        self.assertEqual(server.stop(), 0)
+
     def test_its_preset_outlives_the_server(self):
         server = self.start()
         job = self.make({'scenes': [{**SCENE, 'time': 200}] * 4}, '?preset=schwarzschild', server)

@@ -128,6 +128,7 @@ static enum kd_status move_on(struct kd_job *job, unsigned frame, struct kd_erro
     job->film.crowd = NULL;
     job->film.to = frame;
     job->film.moving = true;
+    kd_job_strike(job); /* bodies may end a server as a frame may */
     job->references++;
     kd_turns_push(turns, &s->turns);
     return KD_OK;

@@ -22,10 +22,12 @@ struct kd_job_glance {
 
 /* Where the playground of a film is (film.c). */
 struct kd_job_film {
-    struct kd_playground *p; /* NULL: it has still to be read. While it is moving this and the next three are a worker's */
+    /* While `moving`: the worker's, who takes no lock for them; else the lock's. */
+    struct kd_playground *p; /* NULL: it has still to be read */
     unsigned at;             /* the frame that it is at, or on its way from */
     double begin;            /* its time at frame 0 */
     double spent_ms;         /* on moving it */
+    /* The lock's, always. */
     bool moving;
     unsigned to;             /* the frame that it is on its way to, or has come to; */
     struct kd_crowd *crowd;  /* what that shows, held; NULL: it is not there yet */
@@ -50,7 +52,8 @@ struct kd_job {
     double counted_ms;               /* when lens maps were last written to its record */
     double ended_ms;                 /* on kd_clock_ms, whatever happens to the clock on the wall */
     char delayed[160];               /* why it waits until due_ms */
-    bool struck;                     /* by this server: one attempt of the record is for it */
+    bool begun_here;                 /* this server has begun a frame of it, or moved its bodies, */
+    bool struck;                     /* and one attempt of the record is for that */
     unsigned finished_here;
     unsigned encoding; /* frames that are drawn, and not yet in their files */
     uint64_t bytes;
@@ -84,6 +87,7 @@ double kd_job_now_s(void); /* since 1970 */
 /* Whether a job is being rendered, or waits for it. */
 static inline bool kd_job_is_active(const struct kd_job *job) { return job->listed && job->record.state == KD_JOB_ACTIVE; }
 void kd_job_write(struct kd_job *job); /* its record, to disk */
+void kd_job_strike(struct kd_job *job); /* counts, once a server, that work on it may be what ends the server */
 void kd_job_end(struct kd_job *job, enum kd_job_state state, const char *why);
 /* Makes a job wait, each time for longer, because something has run out that may be there again later. */
 void kd_job_delay(struct kd_job *job, const char *why);

@@ -62,6 +62,15 @@ void kd_job_give_up(struct kd_job *job, const struct kd_error *error)
 
 static unsigned at_place(const struct kd_job *job, unsigned place) { return job->order.frames ? job->order.frames[place] : place; }
 
+void kd_job_strike(struct kd_job *job)
+{
+    if (job->begun_here)
+        return;
+    job->begun_here = job->struck = true;
+    job->record.attempts++;
+    kd_job_write(job);
+}
+
 /* Hands over the next frame of a job. False: there was none. */
 static bool begin(struct kd_job *job)
 {
@@ -89,12 +98,9 @@ static bool begin(struct kd_job *job)
         return false;
     }
     *job->delayed = 0;
-    if (!(job->began_ms > 0)) {
+    if (!(job->began_ms > 0))
         job->began_ms = kd_clock_ms();
-        job->record.attempts++;
-        job->struck = true;
-        kd_job_write(job);
-    }
+    kd_job_strike(job);
     frame->render.claim.class = KD_CLASS_JOB;
     memcpy(frame->render.claim.client, job->client, sizeof job->client);
     frame->render.format = job->series->frame;
