@@ -86,6 +86,14 @@ function fallen({ r, proper_time_to_horizon: left }) {
   return `r = ${number(r, 3)} M, ${horizon}; `;
 }
 
+// Why a picture has fewer pixels than the window asks for.
+function lessened({ narrow, part }) {
+  if (narrow) return t(' (a wider one would take over 0.1 s)', ' (una più larga richiederebbe oltre 0,1 s)');
+  if (part < 1)
+    return t(` (1/${1 / part} of the window: this server takes no picture of all of it, which would be too much work)`, ` (1/${1 / part} della finestra: un’immagine di tutta questo server non la accetta, sarebbe troppo lavoro)`);
+  return '';
+}
+
 export function caption(frame) {
   const worst =
     frame.accuracy.sampled > 0
@@ -95,5 +103,5 @@ export function caption(frame) {
   const pace = frame.pace
     ? t(`, ${number(frame.pace, 2)} pictures a second`, `, ${number(frame.pace, 2)} immagini al secondo`)
     : '';
-  return `${frame.clock && frame.pace ? fallen(frame.clock) : ''}${frame.width} × ${frame.height}${rays}, ${Math.round(frame.passes.find(pass => pass.name === 'total')?.ms ?? 0)} ms${pace}${worst}`;
+  return `${frame.clock && frame.pace ? fallen(frame.clock) : ''}${frame.width} × ${frame.height}${lessened(frame)}${rays}, ${Math.round(frame.passes.find(pass => pass.name === 'total')?.ms ?? 0)} ms${pace}${worst}`;
 }

@@ -3,6 +3,7 @@
 import { byId, el } from './dom.js';
 import { caption, showAccuracy } from './accuracy.js';
 import { persistent } from './again.js';
+import { buildCarry } from './carry.js';
 import { buildControls } from './controls.js';
 import { describe, entitle, followScene } from './describe.js';
 import { buildFull } from './full.js';
@@ -11,6 +12,7 @@ import { lang, t, tell, translatePage } from './i18n.js';
 import * as link from './link.js';
 import { apart, buildLiving } from './living.js';
 import { buildOverlays } from './overlay.js';
+import { buildPace, windowSize } from './pace.js';
 import { buildPresets, openPreset, startAgain } from './presets.js';
 import { Scene } from './scene.js';
 import { share } from './share.js';
@@ -97,13 +99,6 @@ function buildKeys() {
   });
 }
 
-// Device pixels of the window, no more than what small machines draw in a moment.
-function windowSize(stage) {
-  const ratio = Math.min(devicePixelRatio || 1, 1600 / stage.clientWidth, 2);
-  const even = x => Math.max(2, 2 * Math.round((x * ratio) / 2));
-  return { width: even(stage.clientWidth), height: even(stage.clientHeight) };
-}
-
 const patience_ms = 1000;
 
 // The picture first: what else there is takes a tenth of a second to build, and would keep it from being shown.
@@ -113,6 +108,7 @@ async function watch(scene) {
       const { width, height } = windowSize(stage);
       return { width: scene.get('camera.stereo') === 'pair' ? width / 2 : width, height }; // of a pair each eye has half of the window
     };
+  const carry = buildCarry(stage, scene);
   let old = '',
     picture = byId('picture'),
     built,
@@ -126,7 +122,7 @@ async function watch(scene) {
     next.src = url;
     next.alt = describe(scene);
     await next.decode();
-    picture.replaceWith(next);
+    carry(picture, next, frame);
     if (!old) requestAnimationFrame(() => (performance.mark('first-picture'), setTimeout(seen)));
     picture = next;
     URL.revokeObjectURL(old);
@@ -219,6 +215,7 @@ async function watch(scene) {
   buildStruck(scene, goTo);
   scene.addEventListener('drift', () => source.refresh());
   if (!byId('welcome').hidden) import('./drift.js').then(({ begin }) => begin(scene), () => {});
+  buildPace(source.refresh);
   buildFull(stage);
   buildHistory(scene);
   buildKeys();

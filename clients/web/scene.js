@@ -8,7 +8,7 @@ import * as link from './link.js';
 const tick_ms = 100;
 const patience_ms = 1000;
 const link_ms = 1000;
-const known = ['view', 'lang', 'over', 'preset', 'pause', 'full', 'look']; // what a link has without a dot
+const known = ['view', 'lang', 'over', 'preset', 'pause', 'full', 'look', 'pace']; // what a link has without a dot
 
 // Elements of a list have paths of their own: spots.0.r.
 function* flatten(schema, prefix = '') {

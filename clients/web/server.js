@@ -6,8 +6,11 @@ export class Problem extends Error {
     super(document.detail ?? document.title ?? `HTTP ${status}`);
     this.pointer = document.pointer ?? '';
     this.status = status;
+    this.type = document.type ?? '';
   }
 }
+
+export const too_large = 'urn:kerrd:problem:too-large';
 
 // Whether another try may go better: nobody answered, or the server had trouble of its own.
 export const passes = error => !(error instanceof Problem) || error.status >= 500 || error.status === 429;

@@ -4,7 +4,8 @@
 // and several rays for each.
 import { again_ms } from './again.js';
 import { latest, seen } from './dom.js';
-import { ask, passes as may_pass, Problem } from './server.js';
+import { kept } from './pace.js';
+import { ask, passes as may_pass, Problem, too_large } from './server.js';
 
 // "width=640 height=360 ..." as numbers.
 const figures = header =>
@@ -43,11 +44,21 @@ function mergePatch(before, after) {
 }
 
 const least_samples = 2;
+const least_part = 1 / 8; // of the window’s width, of a picture at rest
+
+// What decides how long a pixel takes, and the window.
+const load = ({ camera, time, motion, ...rest }) => JSON.stringify(rest);
 
 // A picture at rest has so many; what is saved has as many.
 export const samples = scene => (scene.get('image.samples') === 'auto' ? 'auto' : Math.max(scene.get('image.samples'), least_samples));
 
 const pause = ms => new Promise(resolve => setTimeout(resolve, ms));
+
+// What is said of a picture’s size: all: it has all pixels that one at rest will have; narrow: fewer than were to be kept while something moves.
+function fits(quality, { width }, { keeps, part }) {
+  const all = Math.round(width * part);
+  return { all: quality.width === all, narrow: quality.width < 0.98 * all * Number(new URLSearchParams(keeps).get('least')) };
+}
 
 // scene; size() → { width, height } of the window in device pixels; told are shown(frame), failed(error), and rests(whether), which is true as soon as
 // the picture that is shown is the last one of the scene as it now is: until the server has answered a change, its pictures are of the scene before. Returns
@@ -63,14 +74,16 @@ export function openSource(scene, size, shown, failed, rests) {
     asked = 0, // changes
     told = 0, // the last of them that the server knows
     last = null, // the picture that is shown
+    part = 1, // of the window’s size that the server takes a picture of
+    laden = '', // with this
     polls = new AbortController(),
     recent = [];
 
   function wanted() {
     const { width, height } = size();
     const over = {
-      'image.width': width,
-      'image.height': height,
+      'image.width': Math.round(width * part),
+      'image.height': Math.round(height * part),
       'image.samples': samples(scene),
       ...(scene.drift ? { 'motion.azimuth_rate_deg': scene.drift } : {}),
       ...(scene.held ? { 'motion.time_rate': 0, 'motion.azimuth_rate_deg': 0, 'motion.proper_time_rate': 0 } : {}),
@@ -126,27 +139,36 @@ export function openSource(scene, size, shown, failed, rests) {
   async function send() {
     await seen('lensing');
     if (!session) scene.land();
-    const document = wanted(),
+    const keeps = kept(),
+      same = session?.keeps === keeps,
       naps = dozes,
       now_asked = asked,
-      jumps = scene.jumps;
+      { jumps } = scene;
+    let document = wanted(),
+      jumped = [];
+    if (part < 1 && load(document) !== laden) {
+      part = 1;
+      document = wanted();
+    }
     try {
       const patch = session && difference(document);
+      jumped = [...scene.jumped];
       scene.jumped.clear();
-      if (patch && !Object.keys(patch).length) {
+      if (patch && same && !Object.keys(patch).length) {
         if (striking) await struck(session.document);
         told = now_asked;
         return settle();
       }
-      const answer = await ask(session?.url ?? 'v1/sessions', {
+      const answer = await ask((session?.url ?? 'v1/sessions') + (same ? '' : '?' + keeps), {
         method: session ? 'PATCH' : 'POST',
         headers: headers(),
         body: JSON.stringify(patch ?? document),
       });
       const { id, token, revision, scene: now, ...seen_of_it } = await answer.json();
       if (!session) last &&= { final: false }; // its revisions are counted anew
-      session ??= { url: 'v1/sessions/' + id, token, frame: 0 };
-      Object.assign(session, { document: dozes === naps ? document : asleep(document), revision, jumps });
+      session ??= { url: 'v1/sessions/' + id, token, frame: 0, cameras: new Map() };
+      session.cameras.set(revision, document.camera ?? {});
+      Object.assign(session, { document: dozes === naps ? document : asleep(document), revision, jumps, keeps, part });
       if (scene.jumps === jumps && patch?.motion) follow(document, now);
       scene.tellSeen(seen_of_it);
       if (striking) await struck(document);
@@ -155,6 +177,12 @@ export function openSource(scene, size, shown, failed, rests) {
       if (!pulling) pull();
     } catch (error) {
       if (error.status === 404 && session) return ((session = null), send());
+      if (error.type === too_large && part > least_part) {
+        part /= 2;
+        laden = load(wanted());
+        for (const name of jumped) scene.jumped.add(name);
+        return send();
+      }
       error.again = may_pass(error);
       failed(error);
       if (error.again) timer = setTimeout(put, again_ms);
@@ -176,6 +204,7 @@ export function openSource(scene, size, shown, failed, rests) {
     const moved = falls ? { 'camera.r': clock.r, 'camera.azimuth_deg': clock.azimuth_deg } : scene.turns() ? { 'camera.azimuth_deg': Number(azimuth.toFixed(3)) } : {};
     if (scene.goesOn()) scene.tick(Number(get('Kerrd-Time')), final, current ? moved : {});
     from.frame = Number(get('Kerrd-Frame'));
+    for (const old of from.cameras.keys()) if (old < revision) from.cameras.delete(old);
     const now = performance.now();
     recent = scene.goesOn() ? [...recent.filter((time, i) => time > now - 2000 || i >= recent.length - 2), now] : []; // a slow server's last three, too
     await shown({
@@ -183,6 +212,9 @@ export function openSource(scene, size, shown, failed, rests) {
       ...quality,
       final,
       revision,
+      part: from.part,
+      ...fits(quality, size(), from),
+      camera: falls ? null : from.cameras.get(revision),
       shows: current ? from.document : null, // as far as is known
       pace: recent.length > 2 && (1e3 * (recent.length - 1)) / (now - recent[0]),
       accuracy: figures(get('Kerrd-Accuracy')),

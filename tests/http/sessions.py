@@ -1,6 +1,7 @@
 """Live sessions: the pull of frames, streams with readers of every kind, patches, tokens, limits and ends. In the fake renderer's
 scenes `time` is how many milliseconds a frame takes."""
 import http.client
+import itertools
 import json
 import math
 import re
@@ -30,6 +31,46 @@ class Sessions(daemon.Owned):
 
     def frame(self, session, after=0, wait_ms=20000):
         return self.daemon.get(self.at(session, f'/frame.png?after={after}&wait_ms={wait_ms}'))
+
+    def test_frames_are_no_narrower_than_was_asked(self):
+        body = json.dumps({**SCENE, 'image': {'width': 640, 'height': 360}, 'time': 60})  # milliseconds, of 33 that it should take
+        for query, pointer in (('least=0.2', 'least'), ('least=1.01', 'least'), ('least=nan', 'least'), ('least=half', 'least'), ('least=', 'least'),
+                               ('least=0.5&patience_ms=9', 'patience_ms'), ('patience_ms=100', 'patience_ms')):
+            answer = self.daemon.post('/v1/sessions?' + query, body)
+            self.assertEqual((answer.status, answer.json().get('pointer')), (422, '/' + pointer), answer.body)
+        for query, narrowest in (('?least=1', 640), ('?least=0.5', 320), ('?least=0.5&patience_ms=1000', 320), ('', 160), ('?least=0.5&patience_ms=20', 160)):
+            session = self.daemon.post('/v1/sessions' + query, body).json()
+            owner, at = {'Authorization': 'Bearer ' + session['token'], 'Content-Type': 'application/json'}, f'/v1/sessions/{session["id"]}'
+            self.addCleanup(self.daemon.request, 'DELETE', at, headers=owner)
+            tilts, widths, after = itertools.count(20), set(), 0
+
+            def goes_below(wide):
+                """Moves once more."""
+                nonlocal after
+                tilt = {'camera': {'inclination_deg': next(tilts) % 80 + 5}}
+                self.assertEqual(self.daemon.request('PATCH', at, json.dumps(tilt), owner).status, 200)
+                frame = self.daemon.get(f'{at}/frame.png?after={after}')
+                after = int(frame.header('Kerrd-Frame'))
+                widths.add(struct.unpack('>I', frame.body[16:20])[0])
+                return min(widths) < wide
+            for _ in range(8):
+                goes_below(0)
+            if narrowest < 640:
+                self.assertTrue(daemon.eventually(lambda: goes_below(640)), 'it does become narrower')
+            if narrowest < 320:
+                self.assertTrue(daemon.eventually(lambda: goes_below(320)))
+            self.assertGreaterEqual(min(widths), narrowest)
+        self.assertEqual(self.daemon.request('PATCH', at + '?least=2', '{}', owner).status, 422)
+        self.assertEqual(self.daemon.request('PATCH', at + '?least=1', json.dumps({'camera': {'inclination_deg': 5}}), owner).status, 200)
+        widths.clear()
+
+        def wide():
+            widths.clear()
+            goes_below(0)
+            return widths == {640}
+        self.assertTrue(daemon.eventually(wide), 'a change of it holds for what goes on')
+        for method in ('GET', 'DELETE'):
+            self.assertEqual(self.daemon.request(method, at + '?least=1', None, owner).status, 422, 'where it would do nothing')
 
     def test_life(self):
         session = self.open()

@@ -881,6 +881,76 @@ static struct kd_frame_cost replay(const struct simulation *s, const struct kd_s
                                     .total_ms = recorded[recorded_scene][!reused][i][frame].total };
 }
 
+/* Whatever a machine takes, no frame is narrower than was asked for; and what is taken back is used again. */
+static void no_frame_is_less_than_the_least(void **state)
+{
+    (void)state;
+    static const double least[] = { 1, 0.5, 0.3, 0.25 }, narrowest[] = { 1, 0.5, 0.375, 0.25 };
+    struct kd_scene scene;
+    kd_scene_smooth(&scene);
+    scene.image.width = 1600;
+    scene.image.height = 900;
+    scene.image.samples = 2;
+    struct kd_governor governor;
+    kd_governor_init(&governor, kd_governor_params(.target_ms = 33));
+    double now = 0;
+    for (size_t i = 0; i < 2 * sizeof least / sizeof *least; i++) {
+        const size_t k = i % 4;
+        double seen = 1;
+        kd_governor_least(&governor, least[k], INFINITY);
+        for (int frame = 0; frame < 60; frame++) { /* far over the target, at any size */
+            kd_governor_changed(&governor, now, &scene, true);
+            const struct kd_turn turn = kd_governor_turn(&governor, now);
+            assert_true(turn.quality.scale >= least[k]);
+            assert_int_equal(turn.quality.width, (int)round(1600 * turn.quality.scale));
+            seen = fmin(seen, turn.quality.scale);
+            const double rays_ms = 400 * turn.quality.scale * turn.quality.scale;
+            now += 1 + rays_ms;
+            kd_governor_frame(&governor, now, &turn, &(struct kd_frame_cost) { .rays_ms = rays_ms, .total_ms = 1 + rays_ms });
+        }
+        assert_true(seen == narrowest[k]);
+    }
+}
+
+/* Frames whose rays take `full_ms` at full size. Returns the width of the last one, as a part of what is asked. */
+static double after_frames(struct kd_governor *governor, const struct kd_scene *scene, double *now, double full_ms, int frames)
+{
+    double scale = 1;
+    for (int frame = 0; frame < frames; frame++) {
+        kd_governor_changed(governor, *now, scene, true);
+        const struct kd_turn turn = kd_governor_turn(governor, *now);
+        scale = turn.quality.scale;
+        const double rays_ms = full_ms * scale * scale;
+        *now += 1 + rays_ms;
+        kd_governor_frame(governor, *now, &turn, &(struct kd_frame_cost) { .rays_ms = rays_ms, .total_ms = 1 + rays_ms });
+    }
+    return scale;
+}
+
+/* Half the width is kept as long as such a frame takes no longer than the patience; it is kept again when it would not any more, and when the scene is another. */
+static void wide_frames_give_way_to_slowness(void **state)
+{
+    (void)state;
+    struct kd_scene scene;
+    kd_scene_smooth(&scene);
+    scene.image.width = 1600;
+    scene.image.height = 900;
+    struct kd_governor governor;
+    kd_governor_init(&governor, kd_governor_params(.target_ms = 33));
+    kd_governor_least(&governor, 0.5, 100);
+    double now = 0;
+    assert_true(after_frames(&governor, &scene, &now, 360, 300) == 0.5); /* 90 ms */
+    assert_true(after_frames(&governor, &scene, &now, 800, 300) == 0.25);
+    assert_true(after_frames(&governor, &scene, &now, 360, 300) == 0.25); /* too near the patience */
+    assert_true(after_frames(&governor, &scene, &now, 200, 300) == 0.5);
+    assert_true(after_frames(&governor, &scene, &now, 800, 300) == 0.25);
+    scene.sky.model = KD_SKY_GRID;
+    assert_true(after_frames(&governor, &scene, &now, 800, 1) == 0.5);
+    assert_true(after_frames(&governor, &scene, &now, 800, 300) == 0.25);
+    kd_governor_least(&governor, 0.5, INFINITY);
+    assert_true(after_frames(&governor, &scene, &now, 800, 300) == 0.5);
+}
+
 static void recorded_frames_settle(void **state)
 {
     (void)state;
@@ -933,7 +1003,7 @@ int main(void)
         cmocka_unit_test(what_measures_nothing_is_not_counted),
         cmocka_unit_test(whatever_happens_the_answer_is_sound),
         cmocka_unit_test(what_stays_at_any_size_is_learned), cmocka_unit_test(who_began_low_finds_out),
-        cmocka_unit_test(recorded_frames_settle),
+        cmocka_unit_test(no_frame_is_less_than_the_least), cmocka_unit_test(wide_frames_give_way_to_slowness), cmocka_unit_test(recorded_frames_settle),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -84,7 +84,7 @@ class Browser(unittest.TestCase):
 
     def open(self, fragment='lang=en', wait=AT_REST, **options):
         page = self.page(self.context(**options))
-        page.goto(self.base + '#' + (fragment if 'preset=' in fragment else 'preset=default&' + fragment))  # whatever the first view is
+        page.goto(self.base + '#' + ('' if 'pace=' in fragment else 'pace=fast&') + (fragment if 'preset=' in fragment else 'preset=default&' + fragment))  # whatever the first view is
         page.wait_for_selector(wait, timeout=PATIENCE_MS, state='attached')
         return page
 

@@ -87,7 +87,7 @@ class Falling(Browser):
 
     def test_a_fall_that_the_server_goes_on_with(self):
         """It stands and goes on by the button; what is said, linked and saved is of the place that is seen."""
-        page = self.open('lang=en&preset=infall', '#stage[data-final]', viewport={'width': 400, 'height': 400})
+        page = self.open('lang=en&preset=infall&motion.proper_time_rate=0.7', '#stage[data-final]', viewport={'width': 400, 'height': 400})
         page.wait_for_selector('#play:has-text("Pause")')
         self.assertTrue(daemon.eventually(lambda: self.camera_r(page) < 19))
         self.assertTrue(daemon.eventually(lambda: 'to the horizon' in page.inner_text('#status')))

@@ -128,6 +128,89 @@ class Hand(Browser):
         self.assertTrue(daemon.eventually(lambda: page.input_value('#preset') == 'gas-stars'))
         self.assertEqual((page.text_content('#play'), page.locator('#overlay path').count()), ('Play', 0), 'as it stood before')
 
+    def test_the_shown_picture_goes_along_until_the_next_comes(self):
+        """Pictures are held back in the page, those that are on their way as well: what lies under the pointer comes along all the same, and what comes nearer
+        grows."""
+        HOLD = """(() => { const real = window.fetch; window.hold = false;
+            window.fetch = async (...asked) => { const answer = await real(...asked);
+                while (window.hold && String(asked[0]).includes('/frame')) await new Promise(done => setTimeout(done, 20));
+                return answer; }; })()"""
+        for fragment, act, expected in (
+                ('preset=falling', lambda page: self.hold(page, 90, 40), (1, 90, 40)),
+                ('preset=default&camera.r=8&camera.fov_deg=90&camera.roll_deg=30', lambda page: self.hold(page, -60, 50), (1, -60, 50)),
+                ('preset=default', lambda page: page.click('#nearer'), (1.25, 0, 0)),
+                ('preset=default', lambda page: self.hold(page, 90, 40), None)):  # it goes round the hole: another picture
+            with self.subTest(fragment):
+                context = self.context()
+                context.add_init_script(HOLD)
+                page = self.page(context)
+                page.goto(self.base + '#pace=fast&lang=en&pause=1&' + fragment)
+                page.wait_for_selector(AT_REST)
+                moved = lambda: page.evaluate("""() => { const { transform } = document.getElementById('picture').style;
+                    return transform && ((m = new DOMMatrix(transform)) => [m.a, m.e, m.f])(); }""")
+                azimuth = self.field(page, 'camera.azimuth_deg')
+                page.evaluate('() => { window.hold = true; }')
+                act(page)
+                if expected:
+                    near = lambda got: got and all(abs(one - wanted) < off for one, wanted, off in zip(got, expected, (0.01, 8, 8)))
+                    self.assertTrue(daemon.eventually(lambda: near(moved())), moved())
+                else:
+                    self.assertTrue(daemon.eventually(lambda: self.field(page, 'camera.azimuth_deg') != azimuth))
+                    self.assertFalse(moved())
+                page.evaluate('() => { window.hold = false; }')
+                page.mouse.up()
+                page.wait_for_selector(AT_REST)
+                self.assertTrue(daemon.eventually(lambda: not moved()))
+
+    def hold(self, page, right, down):
+        box = page.locator('#stage').bounding_box()
+        x, y = box['x'] + box['width'] / 2, box['y'] + box['height'] / 2
+        page.mouse.move(x, y)
+        page.mouse.down()
+        page.mouse.move(x + right, y + down, steps=4)
+
+    def test_a_picture_at_rest_comes_slowly_over_a_coarse_one(self):
+        page = self.open()
+        fades = """async ([from, to, all]) => {
+            const { buildCarry } = await import('./web/carry.js'), stage = document.createElement('div');
+            const make = async width => {
+                const canvas = new OffscreenCanvas(width, 1), image = new Image();
+                canvas.getContext('2d');
+                image.src = URL.createObjectURL(await canvas.convertToBlob());
+                await image.decode();
+                return image;
+            };
+            const [old, next] = [await make(from), await make(to)];
+            stage.append(old);
+            document.body.append(stage);
+            buildCarry(stage, { addEventListener() {} })(old, next, { camera: null, width: to, all: to === all });
+            const begun = [...stage.children].map(image => image.className);
+            await Promise.all(old.getAnimations().map(({ finished }) => finished));
+            await new Promise(requestAnimationFrame);
+            const [left] = [stage.children.length, stage.remove()];
+            return [begun, left];
+        }"""
+        self.assertEqual(page.evaluate(fades, [4, 8, 8]), [['', 'leaving'], 1])
+        for one in ([8, 8, 8], [2, 4, 8], [8, 4, 8]):
+            self.assertEqual(page.evaluate(fades, one), [[''], 1])
+        page.emulate_media(reduced_motion='reduce')
+        self.assertEqual(page.evaluate(fades, [4, 8, 8]), [[''], 1])
+
+    def test_how_sharp_it_is_while_it_moves_is_chosen(self):
+        page = self.open('pace=auto&lang=it')
+        asked = lambda: [r.url.partition('least=')[2].partition('&')[0] for r in self.requests if 'least=' in r.url]
+        self.assertEqual((asked(), page.input_value('#pace')), (['0.5'], 'auto'))
+        page.evaluate('document.getElementById("group-more").open = true')
+        for pace, least in (('sharp', '1'), ('fast', '0.25'), ('auto', '0.5')):
+            page.select_option('#pace', pace)
+            self.assertTrue(daemon.eventually(lambda: page.evaluate('0') or asked()[-1] == least))
+            self.assertTrue(daemon.eventually(lambda: ('pace=' + pace in page.evaluate('location.hash')) == (pace != 'auto')))
+        page.keyboard.press('Tab')
+        page.focus('#stage')
+        page.keyboard.press('Shift+ArrowUp')
+        page.wait_for_selector(AT_REST)
+        self.assertEqual(len(asked()), 4, 'it is said once')
+
 
 if __name__ == '__main__':
     main()

@@ -32,7 +32,7 @@ class Lensing(Browser):
         self.assertEqual(page.evaluate('() => document.createElement("canvas").getContext("webgl")'), None, 'the flag took WebGL away')
 
         first = page.evaluate('''() => {
-            const opened = performance.getEntriesByType('resource').find(e => e.name.endsWith('/v1/sessions')).startTime;
+            const opened = performance.getEntriesByType('resource').find(e => e.name.includes('/v1/sessions?')).startTime;
             const shown = performance.getEntriesByName('first-picture')[0].startTime;
             return [shown, shown - opened].map(Math.round);
         }''')

@@ -80,6 +80,9 @@ class Pages(Browser):
                     .filter(n => n.offsetParent && Math.min(n.offsetWidth, n.offsetHeight) < 24).map(n => n.outerHTML.slice(0, 80))''')
                 self.assertEqual(small, [])
                 self.shot(page, 'phone-' + view)
+                if view == 'lensing':
+                    whole = '() => document.getElementById("picture").naturalWidth === 2 * document.getElementById("stage").clientWidth'
+                    self.assertTrue(daemon.eventually(lambda: page.evaluate(whole)), 'a picture at rest has all pixels of the device')
 
     def test_colours_of_the_system(self):
         """Where they are forced, what is chosen still looks other than what is not, and a chart keeps its ground."""

@@ -13,11 +13,11 @@ class Sessions(Browser):
             context = self.browser.new_context(viewport={'width': 1000, 'height': 640})
             self.contexts.append(context)
             page = context.new_page()
-            page.route('**/v1/sessions', answer)
+            page.route('**/v1/sessions?*', answer)
             page.goto(self.base + '#preset=default&lang=' + lang)
             page.wait_for_selector('#status[data-wrong]')
             self.assertEqual(page.inner_text('#status'), told)
-            page.unroute('**/v1/sessions')
+            page.unroute('**/v1/sessions?*')
             page.wait_for_selector(AT_REST)
             self.assertIsNone(page.get_attribute('#status', 'data-wrong'))
 
@@ -35,7 +35,7 @@ class Sessions(Browser):
         page.route('**/frame.png*', answer)
         page.focus('#stage')
         page.keyboard.press('Shift+ArrowUp')
-        opened = lambda: page.evaluate('0') or [r for r in self.requests if r.url.endswith('/v1/sessions')]
+        opened = lambda: page.evaluate('0') or [r for r in self.requests if '/v1/sessions?' in r.url]
         self.assertTrue(daemon.eventually(lambda: len(opened()) == 2))
         page.wait_for_selector(AT_REST)
         before = self.pixels(page)
@@ -47,7 +47,7 @@ class Sessions(Browser):
         """It is opened anew when somebody does, of the size that the window then has."""
         page = self.open()
         self.expected = '404'
-        own = next(r.response().json() for r in self.requests if r.url.endswith('/v1/sessions'))
+        own = next(r.response().json() for r in self.requests if '/v1/sessions?' in r.url)
         page.click('nav [data-view=physics]')
         page.wait_for_selector(READY['physics'])
         self.daemon.request('DELETE', '/v1/sessions/' + own['id'], headers={'Authorization': 'Bearer ' + own['token']})
@@ -58,7 +58,7 @@ class Sessions(Browser):
         page.focus('#stage')
         page.keyboard.press('Shift+ArrowUp')
         page.wait_for_selector(FINE)
-        sizes = [json.loads(r.post_data)['image'] for r in self.requests if r.url.endswith('/v1/sessions')]
+        sizes = [json.loads(r.post_data)['image'] for r in self.requests if '/v1/sessions?' in r.url]
         self.assertEqual(len(sizes), 2)
         self.assertEqual(sizes[1]['width'], sizes[0]['width'])
         self.assertGreater(page.evaluate('document.getElementById("picture").naturalWidth'), 500)
@@ -100,9 +100,36 @@ class Sessions(Browser):
             back()
             self.assertTrue(daemon.eventually(lambda: pictures() > before + 5))
 
+    def test_a_picture_that_is_too_much_work_comes_smaller_and_says_so(self):
+        """Of a scene that the server takes no picture of the size of this window of, the page asks for half of it; of another scene for all of it again."""
+        sizes, scene, refused = [], {}, json.dumps({'type': 'urn:kerrd:problem:too-large', 'title': 'x', 'status': 422, 'detail': 'too much'})
+
+        def answer(route):
+            body = json.loads(route.request.post_data)
+            wide, outer = body.get('image', {}).get('width', scene.get('wide')), body.get('disk', {}).get('outer', scene.get('outer'))
+            sizes.append(wide)
+            heavy = outer == 30 and wide > 350
+            if not heavy:
+                scene.update(wide=wide, outer=outer)
+            route.fulfill(status=422, content_type='application/problem+json', body=refused) if heavy else route.continue_()
+        page = self.page(self.context())
+        page.route(lambda url: '/v1/sessions' in url and '/frame' not in url, answer)
+        self.expected = '422'
+        page.goto(self.base + '#preset=default&lang=en&disk.outer=30')
+        page.wait_for_selector(AT_REST)
+        self.there(page, '(1/', '#status')
+        self.assertEqual({scene['wide'], *sizes}, {sizes[0], round(sizes[0] / 2)})
+        self.open_groups(page)
+        field = page.locator('[data-path="disk.outer"] input[type=number]')
+        field.fill('20')
+        field.press('Enter')
+        self.assertTrue(daemon.eventually(lambda: page.evaluate('0') or sizes[-1] == sizes[0]))
+        page.wait_for_selector(AT_REST)
+        self.assertTrue(daemon.eventually(lambda: '(1/' not in page.inner_text('#status')))
+
     def test_a_page_that_is_closed_ends_its_session(self):
         page = self.open()
-        own = next(r.response().json() for r in self.requests if r.url.endswith('/v1/sessions'))
+        own = next(r.response().json() for r in self.requests if '/v1/sessions?' in r.url)
         self.assertEqual(self.daemon.get('/v1/sessions/' + own['id']).status, 200)
         page.close()
         self.assertTrue(daemon.eventually(lambda: self.daemon.get('/v1/sessions/' + own['id']).status == 404, 30), 'sooner than by idling')

@@ -13,6 +13,8 @@ static const double COOLDOWN_MS = 1000;                /* before a climb */
 static const double RETRY_MS = 3000;                   /* before one to what was too slow; doubled */
 static const double HOLD_MS = 400, HOLD_MAX_MS = 2000; /* a hand that pauses in a drag; two drags */
 static const double BLIND_MS = 2000;                   /* a guess; doubled */
+static const double NARROWEST = 0.25;                  /* of the asked width, whatever was asked to be kept of it */
+static const double PATIENT_AGAIN = 0.6;               /* of the patience: frames as wide as was asked for are tried again */
 enum {
     FEW = 4,    /* spikes in a row are load */
     ENOUGH = 8, /* two spikes among them are outside the middle half */
@@ -29,6 +31,8 @@ void kd_governor_init(struct kd_governor *governor, const struct kd_governor_par
 {
     *governor = (struct kd_governor) { .params = *params, .share = 1, .hold_ms = HOLD_MS, .blind_ms = BLIND_MS };
     governor->changed_at = governor->lens_at = governor->blind_until = -INFINITY;
+    governor->least = params->bounds.scale;
+    governor->patience_ms = INFINITY;
     for (int i = 0; i < 2; i++)
         begin_anew(&governor->paces[i]);
 }
@@ -254,6 +258,46 @@ static void spare_a_stall(struct kd_governor *g, double now)
         move(g, pace, NULL, to, false, now);
 }
 
+/* Ladders */
+
+static void change_ladder(struct kd_governor *g, const struct kd_scene *asked)
+{
+    struct kd_ladder old = g->ladder;
+    kd_ladder_make(asked, &g->params.bounds, &g->ladder);
+    for (int i = 0; i < 2 && g->ladders; i++) {
+        struct kd_pace *pace = &g->paces[i];
+        struct kd_frame_cost cost = mean_of_middle(pace);
+        pace->rung = pace->count ? first_that_fits(g, pace, &cost, &old.rungs[pace->rung], 0)
+                                 : at_most(pace->rung, (uint32_t)g->ladder.n_rungs - 1);
+        pace->ceiling = pace->count = 0;
+        pace->held_target = 0;
+        pace->other.rays = pace->stays = 0;
+        pace->tried = false;
+        pace->climbed = false;
+    }
+    g->ladders++;
+}
+
+/* Frames keep to the narrowest width that was asked for, or do not any more since those of this pace are too slow. */
+static void give_way(struct kd_governor *g, const struct kd_pace *pace, bool whether)
+{
+    g->gave_way = whether;
+    g->slow = pace == &g->paces[1];
+    g->params.bounds.scale = whether ? fmin(NARROWEST, g->least) : g->least;
+    if (g->ladders)
+        change_ladder(g, &g->asked);
+}
+
+/* Says whether frames as wide as was asked for would be well within the patience by now, by what one takes on a narrower rung. */
+static bool is_quick_as_asked(const struct kd_governor *g, const struct kd_frame_cost *cost, const struct kd_rung *here)
+{
+    struct kd_ladder_bounds bounds = g->params.bounds;
+    struct kd_ladder ladder;
+    bounds.scale = g->least;
+    kd_ladder_make(&g->asked, &bounds, &ladder);
+    return cost->fixed_ms + predict(cost, here, &ladder.rungs[ladder.n_rungs - 1], false) <= PATIENT_AGAIN * g->share * g->patience_ms;
+}
+
 static void decide(struct kd_governor *g, struct kd_pace *pace, double now)
 {
     const struct kd_rung *here = &g->ladder.rungs[pace->rung];
@@ -270,6 +314,12 @@ static void decide(struct kd_governor *g, struct kd_pace *pace, double now)
     if (far || varying(&cost) > OVER * room(g, &cost)) {
         if (pace->rung < last_rung(g, pace))
             move(g, pace, &cost, first_that_fits(g, pace, &cost, here, pace->rung + 1), false, now);
+        else if (!g->gave_way && g->least > NARROWEST && cost.total_ms > g->share * g->patience_ms)
+            give_way(g, pace, true);
+        return;
+    }
+    if (g->gave_way && pace == &g->paces[g->slow] && is_quick_as_asked(g, &cost, here)) {
+        give_way(g, pace, false);
         return;
     }
     if (now - pace->changed_at >= COOLDOWN_MS)
@@ -302,22 +352,13 @@ static bool same_work(const struct kd_scene *a, const struct kd_scene *b)
            a->camera.projection == b->camera.projection && isinf(a->camera.r) == isinf(b->camera.r);
 }
 
-static void change_ladder(struct kd_governor *g, const struct kd_scene *asked)
+void kd_governor_least(struct kd_governor *g, double scale, double patience_ms)
 {
-    struct kd_ladder old = g->ladder;
-    kd_ladder_make(asked, &g->params.bounds, &g->ladder);
-    for (int i = 0; i < 2 && g->ladders; i++) {
-        struct kd_pace *pace = &g->paces[i];
-        struct kd_frame_cost cost = mean_of_middle(pace);
-        pace->rung = pace->count ? first_that_fits(g, pace, &cost, &old.rungs[pace->rung], 0)
-                                 : at_most(pace->rung, (uint32_t)g->ladder.n_rungs - 1);
-        pace->ceiling = pace->count = 0;
-        pace->held_target = 0;
-        pace->other.rays = pace->stays = 0;
-        pace->tried = false;
-        pace->climbed = false;
-    }
-    g->ladders++;
+    if (g->least == scale && g->patience_ms == patience_ms)
+        return;
+    g->least = scale;
+    g->patience_ms = patience_ms;
+    give_way(g, &g->paces[1], false);
 }
 
 /* Says whether the scenes differ in their motion alone, of which a single picture knows nothing. */
@@ -333,6 +374,8 @@ void kd_governor_changed(struct kd_governor *g, double now, const struct kd_scen
     /* The picture that is shown is right already if only the motion of a scene that does not move was changed: it is then told once
      * more. */
     bool told_again = g->ladders && !lens && g->shown_revision == g->revision && motion_alone(&g->asked, asked) && !kd_emit_moves(asked);
+    if (g->gave_way && !(same_ladder(&g->asked, asked) && same_work(&g->asked, asked)))
+        give_way(g, &g->paces[1], false); /* another kind of scene has its own try */
     if (!g->ladders || !same_ladder(&g->asked, asked))
         change_ladder(g, asked);
     for (int i = 0; i < 2 && !same_work(&g->asked, asked); i++)

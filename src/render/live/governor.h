@@ -122,6 +122,8 @@ struct kd_governor {
     double blind_until, blind_ms;        /* lens maps are not kept, whatever the changes are */
     uint32_t missed;                     /* frames in a row that traced though the lens was the same */
     bool rings;                          /* nothing moves, light alone changes */
+    double least, patience_ms;           /* kd_governor_least; */
+    bool gave_way, slow;                 /* frames may be narrower than that; index of the pace that took too long */
     struct kd_quality shown;
     uint32_t shown_revision; /* 0: none */
     double shown_at;         /* the newest frame that was no step of refinement */
@@ -133,6 +135,11 @@ void kd_governor_init(struct kd_governor *governor, const struct kd_governor_par
 /* The part of the device's time that this session may count on, over 0 and at most 1, which is what it begins with. Others that stop
  * or begin change it: tell it before what is expected and before each frame that is reported. */
 void kd_governor_share(struct kd_governor *governor, double share);
+
+/* While the scene changes a frame has at least this part of the asked width, 1/4 to 1, instead of bounds.scale: a smaller target gives up what else there is,
+ * and then time, up to patience_ms from frame to frame (INFINITY: however long they take). Where the narrowest frames were measured to take longer than that,
+ * frames become narrower all the same, to a quarter, until the scene is of another kind or what they take says that wide ones would be well within it. */
+void kd_governor_least(struct kd_governor *governor, double scale, double patience_ms);
 
 /* The scene is now *asked, valid. lens: its lens map is another, as it is when the plans of both, as asked, differ in lens_key;
  * the first of a session is. A change of image.* or accuracy.* makes a new ladder and starts on the rung that old averages

@@ -103,10 +103,19 @@ static void add_path_parameter(struct kd_json *json, const char *path)
 }
 
 #define WHOLE "{\"type\":\"integer\",\"minimum\":0}"
+#define PART "{\"type\":\"number\",\"minimum\":0.25,\"maximum\":1}"
+#define PACE_MS "{\"type\":\"number\",\"minimum\":10,\"maximum\":60000}"
+#define LEAST "least", PART, "the least part of image.width that a frame has while the scene changes; 0.25 without it"
+#define PATIENCE "patience_ms", PACE_MS, "frames are narrower than that all the same where they were measured to take longer than this"
 #define MOMENT "{\"type\":\"integer\",\"minimum\":0,\"maximum\":60000}"
 
 /* Parameters that the query may hold besides fields of a scene; schema NULL: one of the formats of jobs. */
-static const struct { const char *path, *name, *schema, *help; } queries[] = {
+static const struct {
+    const char *path, *name, *schema, *help;
+    unsigned methods; /* that take it; 0: all of the route's */
+} queries[] = {
+    { "/v1/sessions", LEAST }, { "/v1/sessions", PATIENCE },
+    { "/v1/sessions/{id}", LEAST, KD_PATCH }, { "/v1/sessions/{id}", PATIENCE, KD_PATCH },
     { "/v1/sessions/{id}/frame.png", "after", WHOLE, "number of the last frame that the client has; 0 without it" },
     { "/v1/sessions/{id}/frame.png", "wait_ms", MOMENT, "how long to wait for a newer one" },
     { "/v1/playground/{id}/frame.png", "after", WHOLE, "number of the last frame that the client has; 0 without it" },
@@ -144,10 +153,10 @@ static void add_format_schema(struct kd_json *json)
     kd_json_end(json);
 }
 
-static void add_query(struct kd_json *json, const struct kd_route *route)
+static void add_query(struct kd_json *json, const struct kd_route *route, unsigned method)
 {
     for (size_t i = 0; i < sizeof queries / sizeof *queries; i++) {
-        if (strcmp(queries[i].path, route->path))
+        if (strcmp(queries[i].path, route->path) || (queries[i].methods && !(queries[i].methods & method)))
             continue;
         begin_parameter(json, "query", queries[i].name);
         kd_json_string(json, "description", queries[i].help);
@@ -206,15 +215,15 @@ static bool has_parameters(const struct kd_route *route)
            route->takes == KD_TAKES_PLAN || route->takes == KD_TAKES_RAYS || route->takes == KD_TAKES_PARTICLES || has_query(route);
 }
 
-static void add_parameters(struct kd_json *json, const struct kd_route *route, bool post, const cJSON *schema)
+static void add_parameters(struct kd_json *json, const struct kd_route *route, unsigned method, const cJSON *schema)
 {
     kd_json_array(json, "parameters");
     if (strchr(route->path, '{'))
         add_path_parameter(json, route->path);
-    add_query(json, route);
+    add_query(json, route, method);
     if (route->takes == KD_TAKES_SCENE && !(route->methods & KD_PATCH)) {
         add_preset_parameter(json);
-        if (!post)
+        if (method != KD_POST)
             add_fields(json, schema, "");
     }
     if (route->takes == KD_TAKES_JOB || route->takes == KD_TAKES_PLAN)
@@ -343,7 +352,6 @@ static void add_responses(struct kd_json *json, const struct kd_route *route, un
 
 static void add_operation(struct kd_json *json, const char *name, const struct kd_route *route, unsigned method, const cJSON *schema)
 {
-    bool body = method == KD_POST || method == KD_PATCH;
     char id[80];
     kd_openapi_operation_id(id, sizeof id, name, route->path);
     kd_json_object(json, name);
@@ -352,7 +360,7 @@ static void add_operation(struct kd_json *json, const char *name, const struct k
     if (method == KD_PATCH || method == KD_DELETE || route->takes == KD_TAKES_STRIKE || route->takes == KD_TAKES_PATH || route->takes == KD_TAKES_STEP)
         kd_json_raw(json, "security", "[{\"token\":[]}]", strlen("[{\"token\":[]}]"));
     if (has_parameters(route))
-        add_parameters(json, route, body, schema);
+        add_parameters(json, route, method, schema);
     add_body(json, route, method);
     add_responses(json, route, method);
     kd_json_end(json);

@@ -81,7 +81,7 @@ static enum kd_status open_picture(struct kd_play *play, bool *quota, struct kd_
     kd_play_scene(play, &scene);
     kd_render_queue_capacity(play->all->params.renders, &capacity);
     KD_TRY(kd_plan_make(&scene, &capacity, &plan, error));
-    KD_TRY(kd_sessions_open(play->all->params.sessions, &scene, &plan, play->turns.client, true, quota, out, error));
+    KD_TRY(kd_sessions_open(play->all->params.sessions, &scene, &plan, play->turns.client, true, NULL, quota, out, error));
 done:
     return status;
 }

@@ -12,6 +12,7 @@
 #include "server/session/sessions.h"
 
 #include <cjson/cJSON.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -104,6 +105,36 @@ static enum MHD_Result answer_created(struct kd_request *request, const struct k
     return kd_reply_send(request, MHD_HTTP_CREATED, response);
 }
 
+/* A number of the query in these bounds; *value stays where the query does not say it. */
+static enum kd_status read_number(const struct kd_request *request, const char *name, double low, double high, double *value, struct kd_error *error)
+{
+    const char *text = kd_target_value(&request->target, name);
+    const size_t n = text ? strlen(text) : 0;
+    const double number = n && kd_number_span(text, n) == n ? kd_number_parse(text) : NAN;
+    char pointer[40];
+    if (!text)
+        return KD_OK;
+    snprintf(pointer, sizeof pointer, "/%s", name);
+    if (!(number >= low && number <= high))
+        return kd_error_field(error, pointer, "%s is %.20s, allowed are %g to %g", name, text, low, high);
+    *value = number;
+    return KD_OK;
+}
+
+/* The query may say how much of the asked width a frame has at least while the scene changes, and how long one may take for that. *said: it does. */
+static enum kd_status read_pace(const struct kd_request *request, struct kd_session_pace *pace, bool *said, struct kd_error *error)
+{
+    enum kd_status status;
+    *said = kd_target_value(&request->target, "least");
+    *pace = (struct kd_session_pace)KD_SESSION_PACE_DEFAULT;
+    KD_TRY(read_number(request, "least", 0.25, 1, &pace->least, error));
+    KD_TRY(read_number(request, "patience_ms", 10, 60000, &pace->patience_ms, error));
+    if (!*said && isfinite(pace->patience_ms))
+        KD_TRY(kd_error_field(error, "/patience_ms", "patience_ms stands without least, whose width it is the patience for"));
+done:
+    return status;
+}
+
 enum MHD_Result kd_handle_sessions(struct kd_request *request)
 {
     struct kd_server *server = request->server;
@@ -113,6 +144,10 @@ enum MHD_Result kd_handle_sessions(struct kd_request *request)
     struct kd_problem problem;
     struct kd_error error = { 0 };
     enum MHD_Result result;
+    struct kd_session_pace pace;
+    bool said;
+    if (read_pace(request, &pace, &said, &error))
+        return kd_reply_error(request, &error);
     const struct kd_planned *planned = kd_planned_of(request, &result);
     if (!planned)
         return result;
@@ -121,7 +156,7 @@ enum MHD_Result kd_handle_sessions(struct kd_request *request)
     if (atomic_load(&server->phase) >= KD_REFUSING)
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_STOPPING, .retry_after = 1,
                                                                 .detail = "the server is stopping and takes no new sessions" });
-    if (kd_sessions_open(server->sessions, &planned->scene, &planned->plan, request->client, false, &quota, &session, &error)) {
+    if (kd_sessions_open(server->sessions, &planned->scene, &planned->plan, request->client, false, &pace, &quota, &session, &error)) {
         problem = kd_problem_from(&error);
         if (quota)
             problem.type = KD_PROBLEM_QUOTA;
@@ -140,8 +175,13 @@ static enum MHD_Result patch(struct kd_request *request, struct kd_session *sess
 {
     struct kd_session_state state;
     struct kd_error error = { 0 };
-    if (!kd_session_patch(session, text, length, &state, &error))
+    struct kd_session_pace pace;
+    bool said;
+    if (!read_pace(request, &pace, &said, &error) && !kd_session_patch(session, text, length, &state, &error)) {
+        if (said)
+            kd_session_keep(session, &pace);
         return kd_session_answer(request, session, &state);
+    }
     struct kd_problem problem = kd_problem_from(&error);
     if (error.status == KD_EINVAL && !*error.pointer)
         problem.type = KD_PROBLEM_MALFORMED_JSON;
@@ -168,6 +208,8 @@ enum MHD_Result kd_handle_session(struct kd_request *request)
 {
     enum MHD_Result result;
     struct kd_session_state state;
+    if (strcmp(request->method, "PATCH") && !kd_reply_only(request, (const char *const[]) { "token", NULL }, &result))
+        return result;
     struct kd_session *session = kd_session_of(request, &result);
     if (!session)
         return result;

@@ -96,7 +96,7 @@ static enum kd_status make_plan(struct kd_sessions *all, const struct kd_scene *
 }
 
 enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *scene, const struct kd_plan *plan, const char *client,
-                                bool crowded, bool *quota, struct kd_session **out, struct kd_error *error)
+                                bool crowded, const struct kd_session_pace *pace, bool *quota, struct kd_session **out, struct kd_error *error)
 {
     *quota = false;
     struct kd_session *s = calloc(1, sizeof *s);
@@ -113,6 +113,8 @@ enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *
     s->since_ms = s->used_ms = kd_clock_ms();
     memcpy(s->lens_key, plan->lens_key, sizeof s->lens_key);
     kd_governor_init(&s->governor, kd_governor_params(.target_ms = TARGET_MS));
+    if (pace)
+        kd_governor_least(&s->governor, pace->least, pace->patience_ms);
     kd_governor_changed(&s->governor, s->since_ms, scene, true);
     pthread_mutex_lock(&all->lock);
     unsigned own = 0;
@@ -229,6 +231,13 @@ enum kd_status kd_session_patch(struct kd_session *s, const char *text, size_t l
     pthread_mutex_unlock(&s->all->lock);
 done:
     return status;
+}
+
+void kd_session_keep(struct kd_session *s, const struct kd_session_pace *pace)
+{
+    pthread_mutex_lock(&s->all->lock);
+    kd_governor_least(&s->governor, pace->least, pace->patience_ms);
+    pthread_mutex_unlock(&s->all->lock);
 }
 
 enum kd_status kd_session_put(struct kd_session *s, const struct kd_scene *scene, struct kd_error *error)

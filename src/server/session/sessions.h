@@ -32,13 +32,21 @@ void kd_sessions_destroy(struct kd_sessions *all);
 /* Fails with KD_ETOOBIG where a frame of the plan would take too long. */
 enum kd_status kd_sessions_takes(const struct kd_sessions *all, const struct kd_plan *plan, struct kd_error *error);
 
+/* While it moves, frames of a session keep this part of the asked width, unless they take longer than patience_ms: kd_governor_least. */
+struct kd_session_pace {
+    double least, patience_ms;
+};
+#define KD_SESSION_PACE_DEFAULT { 0.25, INFINITY }
+
 /* Opens a session of a valid scene with its plan; its frames are counted in the client's share. The caller holds a reference. crowded: it shows a crowd
- * besides its scene, and nothing before kd_session_show.
+ * besides its scene, and nothing before kd_session_show. pace: as kd_session_keep; NULL: the default.
  * KD_EBUSY: there are as many sessions as may be, or with *quota as many of this client. */
 enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *scene, const struct kd_plan *plan, const char *client,
-                                bool crowded, bool *quota, struct kd_session **out, struct kd_error *error);
+                                bool crowded, const struct kd_session_pace *pace, bool *quota, struct kd_session **out, struct kd_error *error);
 /* Shows this crowd from now on, at its time after the scene's; takes over the reference. The revision stays what it is. */
 void kd_session_show(struct kd_session *session, struct kd_crowd *crowd);
+/* Its frames keep to this from now on. */
+void kd_session_keep(struct kd_session *session, const struct kd_session_pace *pace);
 /* Puts a scene in the place of the present one, resolved and valid. */
 enum kd_status kd_session_put(struct kd_session *session, const struct kd_scene *scene, struct kd_error *error);
 bool kd_session_watched(struct kd_session *session); /* somebody waits, or reads a stream */
