@@ -24,6 +24,7 @@ static void *spin(void *user)
 
 static void shared_core(void **state)
 {
+    (void)state;
     cpu_set_t all, one;
     pthread_t threads[2];
     pthread_barrier_t done;
@@ -39,21 +40,25 @@ static void shared_core(void **state)
         assert_int_equal(pthread_create(&threads[i], NULL, spin, &done), 0);
     pthread_barrier_wait(&done);
     double share = kd_waiting_share(&before);
-    struct kd_waiting after = kd_waiting_now();
+    const struct kd_waiting after = kd_waiting_now();
     pthread_barrier_wait(&done);
     for (int i = 0; i < 2; i++)
         pthread_join(threads[i], NULL);
     pthread_barrier_destroy(&done);
+    if (!(after.ran_ns > 0)) {
+        print_message("this kernel does not say how long threads wait\n");
+        assert_true(share == 1);
+        return;
+    }
     assert_true(after.ran_ns - before.ran_ns > 1.9e8);
     assert_true(share > 0 && share < 0.7);
-    (void)state;
 }
 
 static void nothing_known(void **state)
 {
+    (void)state;
     struct kd_waiting future = { 1e30, 1e30 }; /* as when threads have ended */
     assert_true(kd_waiting_share(&future) == 1);
-    (void)state;
 }
 
 int main(void)
