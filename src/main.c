@@ -16,7 +16,7 @@ static const struct command {
 } commands[] = {
     { "render", kd_cli_render },   { "light-curve", kd_cli_light_curve }, { "sweep", kd_cli_sweep }, { "particles", kd_cli_particles },
     { "rays", kd_cli_rays },       { "pixel", kd_cli_pixel },    { "orbit", kd_cli_orbit },
-    { "playground", kd_cli_playground },
+    { "line", kd_cli_line }, { "playground", kd_cli_playground },
     { "physics", kd_cli_physics }, { "plan", kd_cli_plan },
     { "scene", kd_cli_scene },     { "presets", kd_cli_presets }, { "serve", kd_cli_serve }, { "doctor", kd_cli_doctor },
     { "bench", kd_cli_bench },
@@ -85,6 +85,7 @@ static const struct argp argp = {
            "  rays         end points of listed rays: crossings, redshift, delay\n"
            "  pixel        what one pixel of a picture shows: its ray, each emitter on it, why it ends\n"
            "  orbit        path of a body round the hole, its constants and frequencies\n"
+           "  line         the profile of a line from a thin disk: photons by energy\n"
            "  playground   bodies round the hole that pull one another, merge, and are torn apart\n"
            "  physics      numbers of a hole, an orbit, a disk: one point or a curve\n"
            "  plan         what a scene costs on this device\n"

@@ -19,6 +19,7 @@ int kd_cli_particles(int argc, char **argv);
 int kd_cli_rays(int argc, char **argv);
 int kd_cli_pixel(int argc, char **argv);
 int kd_cli_orbit(int argc, char **argv);
+int kd_cli_line(int argc, char **argv);
 int kd_cli_playground(int argc, char **argv);
 int kd_cli_physics(int argc, char **argv);
 int kd_cli_plan(int argc, char **argv);

@@ -100,6 +100,20 @@ struct kd_null_polar kd_null_polar_of(const struct kd_null_motion *m)
     return p;
 }
 
+double kd_null_polar_first(const struct kd_null_motion *m)
+{
+    double disc, gap, weight, u = fabs(m->c), side = m->c < 0 || (m->c == 0 && m->beta < 0) ? -1 : 1;
+    if (!(m->eta > 0))
+        return INFINITY;
+    kd_null_polar_gap(m, &disc, &gap, &weight);
+    double z = u * u + gap, n = m->eta / z;
+    bool toward = u > 0 && (m->beta * side < 0 || (m->beta == 0 && weight > 0)); /* as in set_start */
+    if (toward)
+        return u * kd_carlson_rf(z * weight, n * gap, m->eta);
+    double start = gap > 0 ? sqrt(gap / z) * kd_carlson_rf(u * u / z, weight / disc, 1) : 0;
+    return (kd_carlson_rf(0, n / disc, 1) + start) / sqrt(disc);
+}
+
 struct kd_null_polar_sum kd_null_polar_crossing(const struct kd_null_polar *p, int n)
 {
     return (struct kd_null_polar_sum) {

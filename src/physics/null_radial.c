@@ -184,8 +184,8 @@ static void jacobi_two(struct kd_null_radial *q)
     q->d0 = sqrt(q->k1 + q->k * q->c0 * q->c0);
 }
 
-struct kd_null_radial kd_null_radial_of(const struct kd_null_motion *m, const struct kd_null_roots *roots,
-                                        bool inner)
+/* Jacobi's functions, and whether the ray turns. */
+static struct kd_null_radial without_times(const struct kd_null_motion *m, const struct kd_null_roots *roots, bool inner)
 {
     struct kd_null_radial q = { .motion = *m, .roots = *roots, .inner = inner };
     q.r_plus = kd_kerr_horizon(m->a);
@@ -195,15 +195,36 @@ struct kd_null_radial kd_null_radial_of(const struct kd_null_motion *m, const st
     else
         jacobi_two(&q);
     q.turns = roots->kind == KD_NULL_FOUR_REAL && (inner || roots->r4 > q.r_plus);
+    return q;
+}
+
+static struct kd_null_radius at_turn(const struct kd_null_roots *roots)
+{
+    double r41 = roots->r4 - roots->r1, r42 = roots->r4 - roots->r2, r43 = 2 * sqrt(roots->pair);
+    return (struct kd_null_radius) { roots->r4, r41, r42, 0, sqrt(r43), -r43, 0 };
+}
+
+struct kd_null_radial kd_null_radial_of(const struct kd_null_motion *m, const struct kd_null_roots *roots,
+                                        bool inner)
+{
+    struct kd_null_radial q = without_times(m, roots, inner);
     if (q.turns && !inner) {
-        double r41 = roots->r4 - roots->r1, r42 = roots->r4 - roots->r2, r43 = 2 * sqrt(roots->pair);
-        struct kd_null_radius at = { roots->r4, r41, r42, 0, sqrt(r43), -r43, 0 };
+        struct kd_null_radius at = at_turn(roots);
         q.turn = kd_null_radial_integrals(&q, &at, true);
         return q;
     }
     struct kd_null_radius at = kd_null_radius_of(&q, q.r_plus);
     q.tau_horizon = 2 * kd_carlson_rf_arg(inner ? span_inner(&q, &at).arg : span_outer(&q, &at).arg);
     return q;
+}
+
+/* U12, U13 + U14 and U13 U14 of span_outer, alone. */
+static double time_from_infinity(const struct kd_null_radius *at)
+{
+    double y1 = sqrt(at->d1), y2 = sqrt(at->d2), p = at->pair;
+    struct kd_carlson_arg arg = { y1 * y2 + p, (y1 + y2) * at->both,
+                                  p * (at->d1 + at->d2) + y1 * y2 * (at->both * at->both - 2 * p) };
+    return 2 * kd_carlson_rf_arg(arg);
 }
 
 static struct kd_null_radius four_outer(const struct kd_null_radial *q, double tau)
@@ -268,6 +289,23 @@ struct kd_null_radius kd_null_radius_at(const struct kd_null_radial *q, double t
     if (q->inner)
         return four_inner(q, tau);
     return four_outer(q, q->turns && tau > q->turn.tau ? 2 * q->turn.tau - tau : tau);
+}
+
+double kd_null_radius_after(const struct kd_null_motion *m, const struct kd_null_roots *roots, double tau)
+{
+    struct kd_null_radial q = without_times(m, roots, false);
+    if (q.turns) {
+        struct kd_null_radius at = at_turn(roots);
+        q.turn.tau = time_from_infinity(&at);
+        if (!(tau < 2 * q.turn.tau))
+            return INFINITY;
+    } else {
+        struct kd_null_radius at = kd_null_radius_of(&q, q.r_plus);
+        if (!(tau < time_from_infinity(&at)))
+            return 0;
+    }
+    double r = kd_null_radius_at(&q, tau).r;
+    return r > q.r_plus ? r : 0;
 }
 
 /* DLMF 19.29 with a complex root singled out: the one of the left pair above the real axis. R_C's first

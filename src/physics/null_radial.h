@@ -55,6 +55,10 @@ struct kd_null_radius kd_null_radius_of(const struct kd_null_radial *q, double r
  * horizon; INNER: any sign, up to the horizon. */
 struct kd_null_radius kd_null_radius_at(const struct kd_null_radial *q, double tau);
 
+/* The radius alone, at Mino time tau from infinity: 0 if the ray is at the horizon before, INFINITY if it has left. OUTER; not for roots of kind
+ * KD_NULL_NO_REAL. A fifth of the time of kd_null_radial_of and kd_null_radius_at, whose azimuths and times it leaves out. */
+double kd_null_radius_after(const struct kd_null_motion *m, const struct kd_null_roots *roots, double tau);
+
 /* What the integrals grow by in Mino time at r: tau is 1, phi' and t' as above. */
 struct kd_null_radial_sum kd_null_radial_rates(const struct kd_null_motion *m, double r);
 

@@ -1,6 +1,7 @@
 #include "server/dispatch.h"
 
 #include "base/log.h"
+#include "integral/request.h"
 #include "orbit/request.h"
 #include "playground/json.h"
 #include "render/rays/request.h"
@@ -155,6 +156,7 @@ static struct most { const char *what; size_t bytes; } most_of(const struct kd_r
     switch (request->route->takes) {
     case KD_TAKES_RAYS: return (struct most) { "a body of rays", KD_RAYS_BODY_MAX };
     case KD_TAKES_ORBITS: return (struct most) { "a body of orbits", KD_ORBIT_BODY_MAX };
+    case KD_TAKES_INTEGRAL: return (struct most) { "a body of an integral", KD_INTEGRAL_BODY_MAX };
     case KD_TAKES_PLAN: return (struct most) { "a body of a job", KD_JOB_BODY_MAX }; /* that of a job, if it has axes */
     case KD_TAKES_JOB: return (struct most) { "a body of a job with a playground", KD_JOB_FILM_MAX };
     case KD_TAKES_PLAYGROUND: return (struct most) { "a playground's document", KD_PLAYGROUND_JSON_MAX };

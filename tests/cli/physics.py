@@ -76,5 +76,24 @@ class Physics(Case):
         self.assertEqual(self.read("a.json"), b"old")
 
 
+class Integrals(Case):
+    def test_options_are_the_document(self):
+        self.write("ask.json", json.dumps({"spin": 0.5, "inclination_deg": 70, "emissivity": "broken", "outer_index": 2.5, "edges": [0.5, 0.9, 1.3]}))
+        told = self.good("line", self.path("ask.json"))
+        self.assertEqual(self.good("line", "--spin", "0.5", "--inclination-deg", "70", "--emissivity", "broken", "--outer-index", "2.5", "--edges", "0.5,0.9,1.3"), told)
+        self.assertEqual(len(json.loads(told)["columns"]["share"]), 2)
+        self.good("line", "--bins", "7", "-o", self.path("line.csv"))
+        rows = list(csv.DictReader(io.StringIO(self.read("line.csv").decode())))
+        self.assertEqual((len(rows), list(rows[0])), (7, ["energy_low", "energy_high", "share", "cumulative"]))
+        self.assertTrue(self.good("line", "--bins", "7", "-f", "npy").startswith(b"\x93NUMPY"))
+
+    def test_refused(self):
+        for args, words in ((["--spin", "1"], "(at /spin)"), (["--edges", "1,2,x"], "(at /edges/2)"), (["--bins", "0"], "(at /bins)"), (["--height", "9"], "belongs to emissivity lamppost"),
+                            (["absent.json"], "No such file"), (["a.json", "b.json"], "one file at a time"), (["-f", "png"], "json, csv or npy")):
+            self.bad(2, words, "line", *args)
+        self.bad(2, "standard input: ", "line", "-", stdin=b"{")
+        self.bad(2, "(at /inner)", "line", "--inner", "2", "-o", self.path("a.json"))
+
+
 if __name__ == "__main__":
     main()

@@ -63,6 +63,10 @@ class Answers(daemon.Case):
         self.assertGreater(met, 0)
         self.get('/v1/pixel', '/v1/pixel?at=3,2&image.width=64&image.height=36')
 
+    def test_integrals(self):
+        for name, document in (('line', {'bins': 3}), ('line', {'edges': [0.2, 1.4], 'emissivity': 'lamppost', 'limb': 'haardt'})):
+            self.send('POST', '/v1/' + name, '/v1/' + name, document)
+
     def test_stars(self):
         document = {'image': IMAGE, 'sky': {'model': 'catalogue'}, 'camera': {'r': 30, 'fov_deg': 90}, 'disk': {'model': 'none'}}
         answer = self.daemon.request('POST', '/v1/render', json.dumps(document), {'Content-Type': 'application/json', 'Accept': STARS})

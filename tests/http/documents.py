@@ -70,6 +70,9 @@ class Documents(unittest.TestCase):
     def test_rays(self):
         self.run_all('docs/rays.md', 2)
 
+    def test_integrals(self):
+        self.run_all('docs/physics/integrals.md', 2)
+
     def test_quantities(self):
         self.run_all('docs/physics-quantities.md', 1)
 

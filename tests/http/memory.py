@@ -142,6 +142,9 @@ class Memory(unittest.TestCase):
         self.sweep(self.post('/v1/rays', RING), 200)
         self.sweep(self.post('/v1/orbits', {'spin': 0.5, 'orbit': {'p': 10, 'e': 0.2}, 'samples': 5}), 200)
 
+    def test_integrals(self):
+        self.sweep(self.post('/v1/line', {'bins': 4}), 200)
+
     def test_jobs(self):
         self.sweep(self.owned('/v1/jobs'), 202)
 

@@ -82,6 +82,8 @@ class OpenApi(daemon.Case):
                 ('orbits', {'orbit': {**constants, 'energy': 2e6}}, {'orbit': {**constants, 'angular_momentum': 2e20}},
                  {'orbit': {**constants, 'carter': -1}}, {'orbit': {**constants, 'carter': 2e30}},
                  {'orbit': {**constants, 'r': 1}, 'spin': 0.999999}, {'orbit': constants}),
+                ('line', {'spin': 1}, {'inner': 0.5}, {'inner': 'horizon'}, {'edges': []}, {'edges': ['a', 1]}, {'emissivity': 'gauss'}, {'bins': 0}, {'bins': 2.5}, {'q': 1},
+                 {'inclination_deg': 181}, {'spin': 0.5, 'inner': 'isco', 'edges': [0.5, 1, 1.5], 'emissivity': 'broken', 'break_r': 12}),
                 ('rays', {'rays': [[9, 0]], 'spin': 0.999999, 'observer': {'r': 1}}, {'rays': []},
                  {'rays': [[9, 0]], 'spin': 0.999999, 'observer': {'r': 1.01}}),
                 ('sessions', {'spots': [{}] * 17}, {'spots': [{'r': 0}]}, {'spots': [{'q': 1}]}, {'spots': 1}, {'spot1': {'r': 0}},

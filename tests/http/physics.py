@@ -340,5 +340,70 @@ class Limits(daemon.Case):
         self.assertIn('1 s', problem['detail'])
 
 
+class Integrals(daemon.Case):
+    """POST /v1/line and its like."""
+
+    def post(self, name, document, **headers):
+        return self.daemon.post('/v1/' + name, document, **headers)
+
+    def test_forms_say_the_same(self):
+        document = {'spin': 0.7, 'inclination_deg': 40, 'bins': 50}
+        told = self.post('line', document)
+        self.assertEqual(told.status, 200, told.body)
+        told = strict(told.body)
+        self.assertEqual((told['integral'], told['parameters']['spin'], told['parameters']['emissivity']), ('line', 0.7, 'power'))
+        self.assertAlmostEqual(told['values']['inside'], 1, delta=1e-12)
+        self.assertAlmostEqual(told['parameters']['inner'], told['values']['isco'])
+        answer = self.post('line', document, Accept='text/csv')
+        self.assertEqual(answer.header('Content-Disposition'), 'attachment; filename="line.csv"')
+        rows = list(csv.DictReader(io.StringIO(answer.body.decode())))
+        self.assertEqual({name: [float(row[name]) for row in rows] for name in rows[0]}, told['columns'])
+        packed = self.post('line', document, Accept='application/x-npy').body
+        start = 10 + struct.unpack('<H', packed[8:10])[0]
+        self.assertIn(b"'shape': (50,)", packed[:start])
+        self.assertEqual([list(row) for row in struct.iter_unpack('<4d', packed[start:])], [list(row) for row in zip(*told['columns'].values())])
+
+    def test_an_image_that_is_kept_changes_nothing(self):
+        document = {'spin': 0.31, 'inclination_deg': 33, 'bins': 20}
+        first = self.post('line', document).body
+        for spin in range(9):
+            self.assertEqual(self.post('line', {'spin': spin / 10, 'bins': 1}).status, 200)
+        self.assertEqual(self.post('line', document).body, first)
+        self.assertEqual(self.post('line', {**document, 'inclination_deg': 147}).json()['columns'], json.loads(first)['columns'])
+
+    def test_energies(self):
+        """In any unit, and by edges of one's own."""
+        plain = self.post('line', {'bins': 10, 'energy_max': 2}).json()['columns']
+        kev = self.post('line', {'edges': [1.28 * k for k in range(11)], 'rest_energy': 6.4}).json()['columns']
+        for a, b in zip(plain['share'], kev['share']):
+            self.assertAlmostEqual(a, b, delta=1e-12)
+        line = self.post('line', {'bins': 100, 'counts': 'energy'}).json()['columns']
+        photons = self.post('line', {'bins': 100}).json()['columns']
+        mean = [(low + high) / 2 for low, high in zip(photons['energy_low'], photons['energy_high'])]
+        total = sum(m * n for m, n in zip(mean, photons['share']))
+        for m, n, e in zip(mean, photons['share'], line['share']):
+            self.assertAlmostEqual(m * n / total, e, delta=3e-4)  # g varies over a bin by 1.7 %
+
+    def test_refused(self):
+        for document, pointer, words in (
+                ({'spin': 1}, '/spin', 'spin is 1, allowed are numbers above -1 and below 1'), ({'inclination_deg': 90}, '/inclination_deg', 'edge on'),
+                ({'inner': 3}, '/inner', 'within the ISCO'), ({'inner': 'horizon'}, '/inner', '"isco"'), ({'outer': 2}, '/outer', 'larger radii'),
+                ({'emissivity': 'lamppost', 'height': 2}, '/height', 'horizon'), ({'height': 9}, '/height', 'belongs to emissivity lamppost'),
+                ({'edges': [1]}, '/edges', 'one number'), ({'edges': [1, 2, 2]}, '/edges/2', 'grow'), ({'edges': [1, 2], 'bins': 3}, '/edges', 'beside bins'),
+                ({'edges': [1, 'x']}, '/edges/1', 'a number is wanted'), ({'edges': 3}, '/edges', 'an array'), ({'edges': []}, '/edges', '0 numbers'),
+                ({'energy_min': 2}, '/energy_max', 'larger'), ({'bins': 20001}, '/bins', '1 to 20000'), ({'indx': 3}, '/indx', 'did you mean index'),
+                ({'limb': 'dark'}, '/limb', 'isotropic')):
+            with self.subTest(document):
+                answer = self.post('line', document)
+                problem = answer.json()
+                self.assertEqual((answer.status, problem.get('pointer')), (422, pointer), problem)
+                self.assertIn(words, problem['detail'])
+        self.assertEqual(self.daemon.request('POST', '/v1/line', b'{', {'Content-Type': 'application/json'}).status, 400)
+        self.assertEqual(self.daemon.request('POST', '/v1/line', b'{"spin":0,"spin":0.5}', {'Content-Type': 'application/json'}).status, 422)
+        self.assertEqual(self.daemon.request('POST', '/v1/line', b'[]', {'Content-Type': 'application/json'}).status, 400)
+        self.assertEqual(self.daemon.request('POST', '/v1/line?spin=0', b'{}', {'Content-Type': 'application/json'}).status, 422)
+        self.assertEqual(self.post('line', {}, Accept='image/png').status, 406)
+
+
 if __name__ == '__main__':
     daemon.main()

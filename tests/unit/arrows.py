@@ -16,11 +16,12 @@ MODULES = {
     "quantity": {"base", "physics", "scene"},  # of scene: how numbers and names are read and written
     "image": {"base"},
     "orbit": {"base", "physics", "scene", "image"},  # of scene: as quantity
+    "integral": {"base", "physics", "scene", "image"},  # of scene: as quantity
     "playground": {"base", "physics", "scene", "image"},  # of scene: as quantity
     "vk": {"base"},
     "render": {"base", "physics", "scene", "image", "vk"},
-    "server": {"base", "physics", "scene", "quantity", "orbit", "playground", "image", "render"},
-    "cli": {"base", "physics", "scene", "quantity", "orbit", "playground", "image", "vk", "render", "server"},
+    "server": {"base", "physics", "scene", "quantity", "orbit", "integral", "playground", "image", "render"},
+    "cli": {"base", "physics", "scene", "quantity", "orbit", "integral", "playground", "image", "vk", "render", "server"},
     "main.c": {"base", "cli"},
 }
 # Inside the large modules a folder may know those before it; what lies in none of them, the top, knows all.
@@ -31,7 +32,7 @@ FOLDERS = {
 # Headers of other projects, and who may include them.
 FOREIGN = {
     "vulkan/": {"vk"},
-    "cjson/": {"scene", "orbit", "playground", "render", "server", "cli"},
+    "cjson/": {"scene", "orbit", "integral", "playground", "render", "server", "cli"},
     "microhttpd.h": {"server"},
     "archive": {"image", "server"},
     "png.h": {"image"},

@@ -18,6 +18,7 @@ enum kd_takes {
     KD_TAKES_PLAN,  /* a scene, or one with axes, in the body */
     KD_TAKES_RAYS,  /* in the body, JSON or NPY */
     KD_TAKES_ORBITS,
+    KD_TAKES_INTEGRAL, /* what the path names */
     KD_TAKES_JOB,
     KD_TAKES_ASSET,
     KD_TAKES_STRIKE,    /* in the body, or none */
@@ -74,6 +75,7 @@ enum MHD_Result kd_handle_pixel(struct kd_request *request);
 enum MHD_Result kd_handle_thumbnail(struct kd_request *request); /* render/thumbnails.c */
 enum MHD_Result kd_handle_rays(struct kd_request *request); /* answers/rays.c */
 enum MHD_Result kd_handle_orbits(struct kd_request *request); /* answers/orbits.c */
+enum MHD_Result kd_handle_integral(struct kd_request *request); /* answers/integrals.c */
 enum MHD_Result kd_handle_accuracy(struct kd_request *request); /* answers/accuracy.c */
 enum MHD_Result kd_handle_assets(struct kd_request *request); /* answers/assets.c */
 enum MHD_Result kd_handle_asset(struct kd_request *request);

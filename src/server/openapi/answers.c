@@ -15,6 +15,7 @@ static const struct { const char *path; unsigned methods; const char *schema; } 
     { "/v1/physics", KD_GET, KD_SCHEMA_REF("Quantities") },
     { "/v1/plan", KD_POST, "{\"oneOf\":[" KD_SCHEMA_REF("Plan") "," KD_SCHEMA_REF("SweepPlan") "]}" },
     { "/v1/pixel", KD_GET | KD_POST, KD_SCHEMA_REF("Pixel") },
+    { "/v1/line", KD_POST, KD_SCHEMA_REF("LineProfile") },
     { "/v1/jobs", KD_POST, KD_SCHEMA_REF("Job") },
     { "/v1/jobs/{id}", KD_GET, KD_SCHEMA_REF("Job") },
     { "/v1/sessions", KD_POST, KD_SCHEMA_REF("Session") },

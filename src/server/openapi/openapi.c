@@ -5,6 +5,7 @@
 #include "server/job/formats.h"
 #include "server/openapi/answers.h"
 #include "server/openapi/assets.h"
+#include "server/openapi/integrals.h"
 #include "server/openapi/jobs.h"
 #include "server/openapi/media.h"
 #include "server/openapi/orbits.h"
@@ -256,6 +257,7 @@ static void add_body(struct kd_json *json, const struct kd_route *route, unsigne
         break;
     case KD_TAKES_RAYS: kd_openapi_rays_body(json); break;
     case KD_TAKES_ORBITS: kd_openapi_orbits_body(json); break;
+    case KD_TAKES_INTEGRAL: kd_openapi_integral_body(json, route->path); break;
     case KD_TAKES_JOB: kd_openapi_jobs_body(json); break;
     case KD_TAKES_PLAN: kd_openapi_plan_body(json); break;
     case KD_TAKES_STRIKE: kd_openapi_strike_body(json); break;
@@ -389,6 +391,7 @@ static void add_components(struct kd_json *json, const struct kd_buffer *schema)
     kd_json_object(json, "schemas");
     kd_json_raw(json, "Scene", (const char *)schema->data, schema->size);
     kd_openapi_orbits_schema(json);
+    kd_openapi_integral_schemas(json);
     kd_openapi_playground_schemas(json);
     kd_openapi_asset_schema(json);
     kd_openapi_report_schemas(json);

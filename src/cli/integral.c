@@ -1,0 +1,131 @@
+/* kerrd line and its like compute integrals over a thin disk. */
+#include "cli/cli.h"
+#include "cli/file.h"
+#include "integral/answer.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { KEY_FIRST = 256, FIELDS_MAX = 64 };
+
+struct arguments {
+    enum kd_integral what;
+    const char *input, *output, *format;
+    const char *given[FIELDS_MAX]; /* as the table of fields */
+};
+
+static error_t parse(int key, char *text, struct argp_state *state)
+{
+    struct arguments *arguments = state->input;
+    if (key >= KEY_FIRST && key < KEY_FIRST + FIELDS_MAX) {
+        arguments->given[key - KEY_FIRST] = text;
+        return 0;
+    }
+    switch (key) {
+    case 'o': arguments->output = text; return 0;
+    case 'f':
+        if (strcmp(text, "json") && strcmp(text, "csv") && strcmp(text, "npy"))
+            argp_error(state, "--format %s: json, csv or npy", text);
+        arguments->format = text;
+        return 0;
+    case ARGP_KEY_ARG:
+        if (arguments->input)
+            argp_error(state, "%s: one file at a time, and %s was given already", text, arguments->input);
+        arguments->input = text;
+        return 0;
+    }
+    return ARGP_ERR_UNKNOWN;
+}
+
+static enum kd_integral_format format_of(const struct arguments *arguments)
+{
+    const char *dot = arguments->output ? strrchr(arguments->output, '.') : NULL;
+    const char *format = arguments->format ? arguments->format : dot ? dot + 1 : "";
+    return !strcmp(format, "npy") ? KD_INTEGRAL_NPY : !strcmp(format, "csv") ? KD_INTEGRAL_CSV : KD_INTEGRAL_JSON;
+}
+
+static enum kd_status load(const struct arguments *arguments, struct kd_integral_request *request, struct kd_error *error)
+{
+    struct kd_buffer file = { 0 };
+    enum kd_status status = KD_OK;
+    if (arguments->input) {
+        KD_TRY(kd_file_read(arguments->input, KD_INTEGRAL_BODY_MAX, &file, error));
+        if ((status = kd_integral_request_read(request, file.data ? (const char *)file.data : "", file.size, error)))
+            kd_cli_prefix(error, strcmp(arguments->input, "-") ? arguments->input : "standard input");
+    }
+    for (size_t i = 0; !status && i < kd_n_integral_fields; i++)
+        if (arguments->given[i])
+            status = kd_integral_request_set(request, kd_integral_fields[i].name, arguments->given[i], error);
+    if (!status)
+        status = kd_integral_request_check(request, error);
+done:
+    kd_buffer_finish(&file);
+    return status;
+}
+
+static enum kd_status answer_text(const struct arguments *arguments, struct kd_buffer *out, struct kd_error *error)
+{
+    struct kd_integral_request request;
+    struct kd_integral_answer answer = { 0 };
+    enum kd_status status;
+    kd_integral_request_init(&request, arguments->what);
+    KD_TRY(load(arguments, &request, error));
+    KD_TRY(kd_integral_compute(&request, &answer, error));
+    if ((status = kd_integral_write(&answer, format_of(arguments), out)))
+        kd_error_set(error, status, "out of memory for %zu rows", answer.rows);
+done:
+    kd_integral_answer_finish(&answer);
+    kd_integral_request_finish(&request);
+    return status;
+}
+
+/* --inclination-deg for inclination_deg. */
+static void set_options(enum kd_integral what, struct argp_option *options, char names[FIELDS_MAX][32], char helps[FIELDS_MAX][240])
+{
+    size_t n = 0;
+    options[n++] = (struct argp_option) { "output", 'o', "FILE", 0, "where to write; .csv and .npy choose those formats", 2 };
+    options[n++] = (struct argp_option) { "format", 'f', "FORMAT", 0, "json, csv or npy, whatever the name of the output", 2 };
+    for (size_t i = 0; i < kd_n_integral_fields; i++) {
+        const struct kd_integral_field *f = &kd_integral_fields[i];
+        if (!(f->of & 1u << what))
+            continue;
+        snprintf(names[i], sizeof names[i], "%s", f->name);
+        for (char *c = names[i]; (c = strchr(c, '_'));)
+            *c = '-';
+        const bool word = f->kind == KD_INTEGRAL_REAL && f->words;
+        snprintf(helps[i], sizeof helps[i], "%s%s%s%s%s%s", f->help, *f->unit ? " [" : "", f->unit, *f->unit ? "]" : "", word ? "; a number or " : "", word ? f->words : "");
+        const char *value = f->kind == KD_INTEGRAL_WORD ? f->words : f->kind == KD_INTEGRAL_NUMBERS ? "X,Y,..." : "X";
+        options[n++] = (struct argp_option) { names[i], KEY_FIRST + (int)i, value, 0, helps[i], 1 };
+    }
+}
+
+static int run(enum kd_integral what, int argc, char **argv)
+{
+    static const struct argp_child children[] = { { &kd_cli_log_argp, 0, NULL, 3 }, { 0 } };
+    static char names[FIELDS_MAX][32], helps[FIELDS_MAX][240];
+    struct argp_option options[FIELDS_MAX + 3] = { 0 };
+    char doc[400];
+    const char *title = kd_integral_kind_of(what)->title;
+    struct arguments arguments = { .what = what };
+    struct kd_buffer out = { 0 };
+    struct kd_error error = { 0 };
+
+    set_options(what, options, names, helps);
+    snprintf(doc, sizeof doc,
+             "%c%s.\vFILE is what POST /v1/%s takes; options change what it says, or say it all. docs/physics/integrals.md tells the formulas. No device is needed.",
+             title[0] - 'a' + 'A', title + 1, kd_integral_name(what));
+    const struct argp argp = { .options = options, .parser = parse, .args_doc = "[FILE.json|-]", .doc = doc, .children = children };
+    argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+    bool print = !arguments.output || !strcmp(arguments.output, "-");
+    enum kd_status status = !print || format_of(&arguments) == KD_INTEGRAL_NPY ? kd_file_check(print ? "-" : arguments.output, &error) : KD_OK;
+    if (!status)
+        status = answer_text(&arguments, &out, &error);
+    if (!status && !print)
+        status = kd_file_write(arguments.output, &out, &error);
+    int code = status ? kd_cli_fail(&error) : print ? kd_cli_print(out.data, out.size) : KD_EXIT_OK;
+    kd_buffer_finish(&out);
+    return code;
+}
+
+int kd_cli_line(int argc, char **argv) { return run(KD_INTEGRAL_LINE, argc, argv); }

@@ -1,0 +1,39 @@
+/* An integral over a thin disk is computed and written: a few numbers, and columns of them. Any thread. */
+#ifndef KD_INTEGRAL_ANSWER_H
+#define KD_INTEGRAL_ANSWER_H
+
+#include "base/buffer.h"
+#include "integral/request.h"
+
+enum { KD_INTEGRAL_COLUMNS = 10, KD_INTEGRAL_VALUES = 8 };
+
+/* What an integral's answer holds besides its parameters. */
+struct kd_integral_column {
+    const char *name, *unit, *help;
+};
+struct kd_integral_kind_of {
+    const char *title;
+    struct kd_integral_column values[KD_INTEGRAL_VALUES], columns[KD_INTEGRAL_COLUMNS]; /* up to one without a name */
+    const char *const *sources, *const *approximations; /* sentences, up to a NULL */
+};
+const struct kd_integral_kind_of *kd_integral_kind_of(enum kd_integral what);
+
+struct kd_integral_answer {
+    const struct kd_integral_request *request;
+    double values[KD_INTEGRAL_VALUES];
+    size_t rows;
+    double *columns[KD_INTEGRAL_COLUMNS]; /* rows of each; one allocation, that of the first */
+};
+
+/* The request has been checked. One that fails leaves nothing to finish. Some 10 to 100 ms; of a spin and an inclination that were asked for lately, less. */
+enum kd_status kd_integral_compute(const struct kd_integral_request *request, struct kd_integral_answer *answer, struct kd_error *error);
+void kd_integral_answer_finish(struct kd_integral_answer *answer);
+
+/* JSON: {"integral", "parameters", "values", "columns", "units", "sources", "approximations"}; CSV: a line of names, then the rows; NPY: a record for each row. */
+enum kd_integral_format { KD_INTEGRAL_JSON, KD_INTEGRAL_CSV, KD_INTEGRAL_NPY };
+enum kd_status kd_integral_write(const struct kd_integral_answer *answer, enum kd_integral_format format, struct kd_buffer *out);
+
+/* The strict schema of such an answer as JSON, as the member `name`. */
+void kd_integral_answer_schema(struct kd_json *json, const char *name, enum kd_integral what);
+
+#endif

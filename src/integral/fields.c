@@ -1,0 +1,161 @@
+/* Requests have these fields, a row each; their schema follows from them. */
+#include "integral/request.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define AT(member) offsetof(struct kd_integral_request, member)
+#define LINE (1u << KD_INTEGRAL_LINE)
+#define ALL LINE
+#define REAL(name, unit, least, most, of, help) { #name, unit, help, KD_INTEGRAL_REAL, AT(name), least, most, false, NULL, of }
+#define OR_WORD(name, unit, least, most, word, of, help) { #name, unit, help, KD_INTEGRAL_REAL, AT(name), least, most, false, word, of }
+#define WORD(name, member, words, of, help) { #name, "", help, KD_INTEGRAL_WORD, AT(member), 0, 0, false, words, of }
+#define WHOLE(name, least, most, of, help) { #name, "", help, KD_INTEGRAL_WHOLE, AT(name), least, most, false, NULL, of }
+#define NUMBERS(name, unit, least, most, of, help) { #name, unit, help, KD_INTEGRAL_NUMBERS, AT(name), least, most, false, NULL, of }
+
+const struct kd_integral_field kd_integral_fields[] = {
+    { "spin", "M", "spin of the hole, below 0 for a disk that turns against it", KD_INTEGRAL_REAL, AT(spin), -1, 1, true, NULL, ALL },
+    REAL(inclination_deg, "deg", 0, 180, ALL, "of the observer, who is at infinity, off the axis; not 87 to 93"),
+    OR_WORD(inner, "M", 1, 1e6, "isco", ALL, "inner edge of the disk, the ISCO or beyond"),
+    REAL(outer, "M", 1, 1e6, ALL, "outer edge of the disk"),
+    WORD(emissivity, emissivity, "power|broken|lamppost", LINE, "how the line's light falls off with radius"),
+    REAL(index, "", -10, 20, LINE, "power and broken: the light per area across it goes as r^-index"),
+    REAL(outer_index, "", -10, 20, LINE, "broken: the index beyond break_r"),
+    REAL(break_r, "M", 1, 1e6, LINE, "broken: where the index changes"),
+    REAL(height, "M", 1, 1e4, LINE, "lamppost: height of the source on the axis"),
+    REAL(photon_index, "", 0, 10, LINE, "lamppost: photon index of the source's power law"),
+    WORD(limb, limb, "isotropic|laor|haardt", LINE, "light by the angle off the disk's normal: even, 1 + 2.06 mu, or ln(1 + 1/mu)"),
+    WORD(counts, energy, "photons|energy", LINE, "what a bin counts"),
+    REAL(rest_energy, "", 1e-9, 1e9, LINE, "energy of the line where the gas is at rest, in any unit: edges are in the same"),
+    REAL(energy_min, "", 0, 1e9, LINE, "first edge of bins of equal width"),
+    OR_WORD(energy_max, "", 0, 1e9, "auto", LINE, "last edge; auto: 1.7 times rest_energy"),
+    WHOLE(bins, 1, KD_INTEGRAL_ROWS, LINE, "number of bins of equal width"),
+    NUMBERS(edges, "", 0, 1e9, LINE, "edges of the bins, instead of energy_min, energy_max and bins; each above the one before"),
+};
+const size_t kd_n_integral_fields = sizeof kd_integral_fields / sizeof *kd_integral_fields;
+
+const char *kd_integral_name(enum kd_integral what)
+{
+    static const char *const names[KD_INTEGRALS] = { "line" };
+    return names[what];
+}
+
+enum kd_integral kd_integral_of_route(const char *path)
+{
+    int i = KD_INTEGRALS - 1;
+    while (i > 0 && strcmp(path + strlen("/v1/"), kd_integral_name((enum kd_integral)i)))
+        i--;
+    return (enum kd_integral)i;
+}
+
+void kd_integral_request_init(struct kd_integral_request *request, enum kd_integral what)
+{
+    *request = (struct kd_integral_request) {
+        .what = what, .inclination_deg = 30, .inner = NAN, .outer = 400, .index = 3, .outer_index = 3, .break_r = 10, .height = 10, .photon_index = 2,
+        .rest_energy = 1, .energy_max = NAN, .bins = 500,
+    };
+}
+
+/* The i-th of "a|b|c", its length in *n; NULL behind the last. */
+static const char *word_at(const char *words, int i, size_t *n)
+{
+    for (; *words; words += *n + (words[*n] == '|')) {
+        *n = strcspn(words, "|");
+        if (i-- == 0)
+            return words;
+    }
+    return NULL;
+}
+
+static void write_word(struct kd_json *json, const char *name, const char *words, int i)
+{
+    size_t n = 0;
+    char text[40];
+    const char *word = word_at(words, i, &n);
+    snprintf(text, sizeof text, "%.*s", (int)n, word ? word : "");
+    kd_json_string(json, name, text);
+}
+
+void kd_integral_field_write(struct kd_json *json, const struct kd_integral_request *request, const struct kd_integral_field *field)
+{
+    const char *at = (const char *)request + field->offset;
+    int word;
+    switch (field->kind) {
+    case KD_INTEGRAL_REAL: kd_json_number(json, field->name, *(const double *)(const void *)at); break;
+    case KD_INTEGRAL_WHOLE: kd_json_number(json, field->name, *(const uint32_t *)(const void *)at); break;
+    case KD_INTEGRAL_WORD:
+        memcpy(&word, at, sizeof word);
+        write_word(json, field->name, field->words, word);
+        break;
+    case KD_INTEGRAL_NUMBERS: break;
+    }
+}
+
+static void add_range(struct kd_json *json, const struct kd_integral_field *f)
+{
+    kd_json_string(json, "type", f->kind == KD_INTEGRAL_WHOLE ? "integer" : "number");
+    kd_json_number(json, f->open ? "exclusiveMinimum" : "minimum", f->least);
+    kd_json_number(json, f->open ? "exclusiveMaximum" : "maximum", f->most);
+}
+
+static void add_words(struct kd_json *json, const char *words)
+{
+    size_t n;
+    kd_json_array(json, "enum");
+    for (int i = 0; word_at(words, i, &n); i++)
+        write_word(json, NULL, words, i);
+    kd_json_end(json);
+}
+
+static void add_number_or_word(struct kd_json *json, const struct kd_integral_field *f)
+{
+    kd_json_array(json, "anyOf");
+    kd_json_object(json, NULL);
+    kd_json_string(json, "const", f->words);
+    kd_json_end(json);
+    kd_json_object(json, NULL);
+    add_range(json, f);
+    kd_json_end(json);
+    kd_json_end(json);
+}
+
+static void add_list(struct kd_json *json, const struct kd_integral_field *f)
+{
+    kd_json_string(json, "type", "array");
+    kd_json_number(json, "minItems", 1);
+    kd_json_number(json, "maxItems", KD_INTEGRAL_LIST);
+    kd_json_object(json, "items");
+    add_range(json, f);
+    kd_json_end(json);
+}
+
+static void add_field(struct kd_json *json, const struct kd_integral_field *f)
+{
+    char help[240];
+    snprintf(help, sizeof help, "%s%s%s%s", f->help, *f->unit ? " [" : "", f->unit, *f->unit ? "]" : "");
+    kd_json_object(json, f->name);
+    kd_json_string(json, "description", help);
+    if (f->kind == KD_INTEGRAL_WORD)
+        add_words(json, f->words);
+    else if (f->kind == KD_INTEGRAL_NUMBERS)
+        add_list(json, f);
+    else if (f->words)
+        add_number_or_word(json, f);
+    else
+        add_range(json, f);
+    kd_json_end(json);
+}
+
+void kd_integral_request_schema(struct kd_json *json, const char *name, enum kd_integral what)
+{
+    kd_json_object(json, name);
+    kd_json_string(json, "type", "object");
+    kd_json_bool(json, "additionalProperties", false);
+    kd_json_object(json, "properties");
+    for (size_t i = 0; i < kd_n_integral_fields; i++)
+        if (kd_integral_fields[i].of & 1u << what)
+            add_field(json, &kd_integral_fields[i]);
+    kd_json_end(json);
+    kd_json_end(json);
+}

@@ -1,0 +1,61 @@
+#include "integral/kept.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { KEPT = 8 }; /* 150 kB each */
+
+static struct entry {
+    double spin, inclination_deg;
+    unsigned long used; /* 0: empty */
+    struct kd_disk_image image;
+} entries[KEPT];
+static unsigned long uses;
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+
+static bool look_up(double spin, double inclination_deg, struct kd_disk_image *out)
+{
+    bool found = false;
+    pthread_mutex_lock(&lock);
+    for (int i = 0; i < KEPT && !found; i++) {
+        struct entry *e = &entries[i];
+        found = e->used && e->spin == spin && e->inclination_deg == inclination_deg;
+        if (found) {
+            e->used = ++uses;
+            *out = e->image;
+        }
+    }
+    pthread_mutex_unlock(&lock);
+    return found;
+}
+
+static void keep(double spin, double inclination_deg, const struct kd_disk_image *image)
+{
+    pthread_mutex_lock(&lock);
+    struct entry *oldest = entries;
+    for (int i = 1; i < KEPT; i++)
+        if (entries[i].used < oldest->used)
+            oldest = &entries[i];
+    oldest->spin = spin, oldest->inclination_deg = inclination_deg, oldest->used = ++uses;
+    oldest->image = *image;
+    pthread_mutex_unlock(&lock);
+}
+
+enum kd_status kd_kept_image(double spin, double inclination_deg, struct kd_disk_image **out, struct kd_error *error)
+{
+    inclination_deg = inclination_deg > 90 ? 180 - inclination_deg : inclination_deg; /* from below as from above */
+    struct kd_disk_image *image = *out = malloc(sizeof *image);
+    if (!image)
+        return kd_error_set(error, KD_ENOMEM, "out of memory for the disk's image");
+    if (look_up(spin, inclination_deg, image))
+        return KD_OK;
+    if (!kd_disk_image_init(image, spin, inclination_deg * (M_PI / 180))) {
+        free(image);
+        *out = NULL;
+        return kd_error_field(error, "/spin", "spin is %.17g: double precision does not follow the disk's image at inclination_deg %.9g so near an extremal hole", spin, inclination_deg);
+    }
+    keep(spin, inclination_deg, image);
+    return KD_OK;
+}

@@ -1,0 +1,11 @@
+/* Disk images that were made lately are kept for the next request, as fits ask for the same spin and inclination again. Any thread. */
+#ifndef KD_INTEGRAL_KEPT_H
+#define KD_INTEGRAL_KEPT_H
+
+#include "base/error.h"
+#include "physics/disk_image.h"
+
+/* A copy of the image, made if it is not kept; the caller frees it. */
+enum kd_status kd_kept_image(double spin, double inclination_deg, struct kd_disk_image **out, struct kd_error *error);
+
+#endif

@@ -1,0 +1,81 @@
+/* This reads what is asked of the integrals over a thin disk: a JSON document, or fields by name. The table of fields (fields.c) is the source of the reader, the options of the
+ * command line and the schemas of openapi.json. Any thread.
+ *
+ *     {"spin": 0.9, "inclination_deg": 60, "emissivity": "power", "index": 3, "energy_min": 0.1, "energy_max": 1.5, "bins": 500}
+ */
+#ifndef KD_INTEGRAL_REQUEST_H
+#define KD_INTEGRAL_REQUEST_H
+
+#include "base/error.h"
+#include "base/json.h"
+#include "physics/line_profile.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#define KD_INTEGRAL_BODY_MAX ((size_t)1 << 20) /* bytes of a document */
+#define KD_INTEGRAL_ROWS 20000u                /* of an answer */
+#define KD_INTEGRAL_LIST 20001u                /* numbers of a list */
+
+enum kd_integral { KD_INTEGRAL_LINE, KD_INTEGRALS };
+
+struct kd_integral_list {
+    double *at; /* malloc'd */
+    size_t n;
+};
+
+struct kd_integral_request {
+    enum kd_integral what;
+    double spin, inclination_deg, inner, outer; /* inner: NaN: the ISCO */
+    enum kd_line_emissivity emissivity;
+    double index, outer_index, break_r, height, photon_index;
+    enum kd_line_limb limb;
+    int energy;                                      /* 0: photons, 1: energy */
+    double rest_energy, energy_min, energy_max;      /* energy_max: NaN: 1.7 rest_energy */
+    uint32_t bins;
+    struct kd_integral_list edges;
+    uint64_t seen; /* which fields were given, a bit each */
+};
+
+void kd_integral_request_init(struct kd_integral_request *request, enum kd_integral what);
+void kd_integral_request_finish(struct kd_integral_request *request);
+
+/* What a document says, over what is there. KD_EINVAL without a pointer: this is no JSON document. */
+enum kd_status kd_integral_request_read(struct kd_integral_request *request, const char *text, size_t length, struct kd_error *error);
+/* The same, and kd_integral_request_check. */
+enum kd_status kd_integral_request_json(struct kd_integral_request *request, const char *text, size_t length, struct kd_error *error);
+
+/* One field by its name; lists as numbers with commas between them. */
+enum kd_status kd_integral_request_set(struct kd_integral_request *request, const char *name, const char *text, struct kd_error *error);
+/* After the last of them: fills in what follows from others, and checks what ties them together. */
+enum kd_status kd_integral_request_check(struct kd_integral_request *request, struct kd_error *error);
+
+/* Fields for whoever lists them. */
+enum kd_integral_kind { KD_INTEGRAL_REAL, KD_INTEGRAL_WHOLE, KD_INTEGRAL_WORD, KD_INTEGRAL_NUMBERS };
+struct kd_integral_field {
+    const char *name, *unit, *help;
+    enum kd_integral_kind kind;
+    size_t offset;
+    double least, most;
+    bool open;         /* neither end is allowed */
+    const char *words; /* "a|b": WORD; REAL: a word that stands for NaN */
+    unsigned of;       /* a bit for each integral that has it */
+};
+extern const struct kd_integral_field kd_integral_fields[];
+extern const size_t kd_n_integral_fields;
+
+/* The name as in /v1/NAME, and what such a path stands for. */
+const char *kd_integral_name(enum kd_integral what);
+enum kd_integral kd_integral_of_route(const char *path);
+
+/* Rows of the answer to a request that has been checked. */
+size_t kd_integral_rows(const struct kd_integral_request *request);
+
+/* Writes the value of a field that is no list. */
+void kd_integral_field_write(struct kd_json *json, const struct kd_integral_request *request, const struct kd_integral_field *field);
+
+/* The schema of a request's document, as the member `name`. */
+void kd_integral_request_schema(struct kd_json *json, const char *name, enum kd_integral what);
+
+#endif

@@ -1,0 +1,179 @@
+/* This writes answers as JSON, CSV and NPY, and the schema of the first. */
+#include "image/npy.h"
+#include "integral/answer.h"
+#include "scene/number.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static size_t count(const struct kd_integral_column *list, size_t most)
+{
+    size_t n = 0;
+    while (n < most && list[n].name)
+        n++;
+    return n;
+}
+
+static void write_sentences(struct kd_json *json, const char *name, const char *const *sentences)
+{
+    kd_json_array(json, name);
+    for (; *sentences; sentences++)
+        kd_json_string(json, NULL, *sentences);
+    kd_json_end(json);
+}
+
+/* Parameters that are lists stand in the columns. */
+static void write_parameters(struct kd_json *json, const struct kd_integral_request *request)
+{
+    kd_json_object(json, "parameters");
+    for (size_t i = 0; i < kd_n_integral_fields; i++)
+        if (kd_integral_fields[i].of & 1u << request->what && kd_integral_fields[i].kind != KD_INTEGRAL_NUMBERS)
+            kd_integral_field_write(json, request, &kd_integral_fields[i]);
+    kd_json_end(json);
+}
+
+static void write_units(struct kd_json *json, const struct kd_integral_kind_of *kind)
+{
+    kd_json_object(json, "units");
+    for (size_t i = 0; i < count(kind->values, KD_INTEGRAL_VALUES); i++)
+        kd_json_string(json, kind->values[i].name, kind->values[i].unit);
+    for (size_t i = 0; i < count(kind->columns, KD_INTEGRAL_COLUMNS); i++)
+        kd_json_string(json, kind->columns[i].name, kind->columns[i].unit);
+    kd_json_end(json);
+}
+
+static enum kd_status write_json(const struct kd_integral_answer *answer, struct kd_buffer *out)
+{
+    const struct kd_integral_kind_of *kind = kd_integral_kind_of(answer->request->what);
+    struct kd_json json = kd_json_begin(out);
+    kd_json_object(&json, NULL);
+    kd_json_string(&json, "integral", kd_integral_name(answer->request->what));
+    write_parameters(&json, answer->request);
+    kd_json_object(&json, "values");
+    for (size_t i = 0; i < count(kind->values, KD_INTEGRAL_VALUES); i++)
+        kd_json_number(&json, kind->values[i].name, answer->values[i]);
+    kd_json_end(&json);
+    kd_json_object(&json, "columns");
+    for (size_t i = 0; i < count(kind->columns, KD_INTEGRAL_COLUMNS); i++) {
+        kd_json_array(&json, kind->columns[i].name);
+        for (size_t row = 0; row < answer->rows; row++)
+            kd_json_number(&json, NULL, answer->columns[i][row]);
+        kd_json_end(&json);
+    }
+    kd_json_end(&json);
+    write_units(&json, kind);
+    write_sentences(&json, "sources", kind->sources);
+    write_sentences(&json, "approximations", kind->approximations);
+    kd_json_end(&json);
+    return kd_json_finish_line(&json);
+}
+
+static enum kd_status write_csv(const struct kd_integral_answer *answer, struct kd_buffer *out)
+{
+    const struct kd_integral_kind_of *kind = kd_integral_kind_of(answer->request->what);
+    size_t n = count(kind->columns, KD_INTEGRAL_COLUMNS);
+    enum kd_status status = KD_OK;
+    for (size_t i = 0; i < n; i++)
+        KD_TRY(kd_buffer_printf(out, "%s%s", i ? "," : "", kind->columns[i].name));
+    for (size_t row = 0; row < answer->rows; row++)
+        for (size_t i = 0; i < n; i++) {
+            char number[KD_NUMBER_SIZE] = "";
+            if (isfinite(answer->columns[i][row]))
+                kd_number_format(number, answer->columns[i][row]);
+            KD_TRY(kd_buffer_printf(out, "%s%s", i ? "," : "\n", number));
+        }
+    KD_TRY(kd_buffer_printf(out, "\n"));
+done:
+    return status;
+}
+
+static enum kd_status write_npy(const struct kd_integral_answer *answer, struct kd_buffer *out)
+{
+    const struct kd_integral_kind_of *kind = kd_integral_kind_of(answer->request->what);
+    struct kd_npy array = { .n_fields = count(kind->columns, KD_INTEGRAL_COLUMNS), .shape = { answer->rows }, .n_dimensions = 1 };
+    enum kd_status status;
+    for (size_t i = 0; i < array.n_fields; i++)
+        snprintf(array.fields[i].name, sizeof array.fields[i].name, "%s", kind->columns[i].name);
+    KD_TRY(kd_npy_write_header(&array, out));
+    for (size_t row = 0; row < answer->rows; row++)
+        for (size_t i = 0; i < array.n_fields; i++)
+            KD_TRY(kd_buffer_append(out, &answer->columns[i][row], sizeof(double)));
+done:
+    return status;
+}
+
+enum kd_status kd_integral_write(const struct kd_integral_answer *answer, enum kd_integral_format format, struct kd_buffer *out)
+{
+    return format == KD_INTEGRAL_CSV ? write_csv(answer, out) : format == KD_INTEGRAL_NPY ? write_npy(answer, out) : write_json(answer, out);
+}
+
+#define STRINGS "{\"type\":\"array\",\"items\":{\"type\":\"string\"}}"
+
+static void raw(struct kd_json *json, const char *name, const char *text) { kd_json_raw(json, name, text, strlen(text)); }
+
+static void begin_strict(struct kd_json *json, const char *name)
+{
+    kd_json_object(json, name);
+    kd_json_string(json, "type", "object");
+    kd_json_bool(json, "additionalProperties", false);
+    kd_json_object(json, "properties");
+}
+
+static void end_strict(struct kd_json *json, const char *const *names, size_t n)
+{
+    kd_json_end(json);
+    kd_json_array(json, "required");
+    for (size_t i = 0; i < n; i++)
+        kd_json_string(json, NULL, names[i]);
+    kd_json_end(json);
+    kd_json_end(json);
+}
+
+/* An object with a member for each of the list, of this schema. */
+static void add_listed(struct kd_json *json, const char *name, const struct kd_integral_column *list, size_t n, const char *type)
+{
+    const char *names[KD_INTEGRAL_COLUMNS];
+    begin_strict(json, name);
+    for (size_t i = 0; i < n; i++) {
+        kd_json_object(json, names[i] = list[i].name);
+        kd_json_string(json, "description", list[i].help);
+        raw(json, "type", type);
+        if (!strcmp(type, "\"array\""))
+            raw(json, "items", "{\"type\":[\"number\",\"null\"]}");
+        kd_json_end(json);
+    }
+    end_strict(json, names, n);
+}
+
+static void add_parameters(struct kd_json *json, enum kd_integral what)
+{
+    const char *names[64];
+    size_t n = 0;
+    begin_strict(json, "parameters");
+    for (size_t i = 0; i < kd_n_integral_fields && n < 64; i++) {
+        const struct kd_integral_field *f = &kd_integral_fields[i];
+        if (!(f->of & 1u << what) || f->kind == KD_INTEGRAL_NUMBERS)
+            continue;
+        raw(json, names[n++] = f->name, f->kind == KD_INTEGRAL_WORD ? "{\"type\":\"string\"}" : "{\"type\":\"number\"}");
+    }
+    end_strict(json, names, n);
+}
+
+void kd_integral_answer_schema(struct kd_json *json, const char *name, enum kd_integral what)
+{
+    static const char *const members[] = { "integral", "parameters", "values", "columns", "units", "sources", "approximations" };
+    const struct kd_integral_kind_of *kind = kd_integral_kind_of(what);
+    size_t values = count(kind->values, KD_INTEGRAL_VALUES), columns = count(kind->columns, KD_INTEGRAL_COLUMNS);
+    begin_strict(json, name);
+    kd_json_object(json, "integral");
+    kd_json_string(json, "const", kd_integral_name(what));
+    kd_json_end(json);
+    add_parameters(json, what);
+    add_listed(json, "values", kind->values, values, "[\"number\",\"null\"]");
+    add_listed(json, "columns", kind->columns, columns, "\"array\"");
+    raw(json, "units", "{\"type\":\"object\",\"additionalProperties\":{\"type\":\"string\"}}");
+    raw(json, "sources", STRINGS);
+    raw(json, "approximations", STRINGS);
+    end_strict(json, members, sizeof members / sizeof *members);
+}

@@ -1,0 +1,170 @@
+#include "physics/disk_image.h"
+
+#include "physics/kerr.h"
+#include "physics/null_polar.h"
+#include "physics/null_quartic.h"
+#include "physics/null_radial.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { POINTS = 6 }; /* of an interpolation */
+#define EXACT 1e-8  /* of ln r, at the nodes */
+
+struct ellipse {
+    double x0, y0, a, b;
+};
+
+/* About where the ring is seen: the near side as in flat space, the far side as a thin lens lifts it, b (b - r cos i) = 4 r, with sin(i)^4 so that face on nothing is lifted. */
+static struct ellipse around(const struct kd_disk_image *image, double r)
+{
+    double flat = r * image->cos_i, s2 = image->sin_i * image->sin_i;
+    double up = 1 + 0.5 * (flat + sqrt(flat * flat + 16 * r * s2 * s2)), down = 1 + flat;
+    return (struct ellipse) { image->spin * image->sin_i, 0.5 * (up - down), r + 1, 0.5 * (up + down) };
+}
+
+static double radius_of_node(const struct kd_disk_image *image, int k)
+{
+    double u = (double)k / KD_DISK_IMAGE_RINGS, u2 = u * u;
+    return image->horizon + (image->isco - image->horizon) / (u2 * u2);
+}
+
+static double node_of_radius(const struct kd_disk_image *image, double r)
+{
+    return KD_DISK_IMAGE_RINGS * sqrt(sqrt((image->isco - image->horizon) / (r - image->horizon)));
+}
+
+double kd_disk_image_radius(const struct kd_disk_image *image, double alpha, double beta)
+{
+    struct kd_null_motion m = kd_null_motion_of(image->spin, image->cos_i, image->sin_i, alpha, beta);
+    if (!(m.eta > 0))
+        return m.k > 27 ? INFINITY : 0; /* vortical: it never meets the plane */
+    struct kd_null_roots roots = kd_null_roots_of(&m);
+    return kd_null_radius_after(&m, &roots, kd_null_polar_first(&m));
+}
+
+static double mismatch(const struct kd_disk_image *image, const struct ellipse *e, double x, double y, double log_stretch, double r)
+{
+    double stretch = exp(log_stretch), found = kd_disk_image_radius(image, e->x0 + stretch * x, e->y0 + stretch * y);
+    return found > 0 ? log(found / r) : -INFINITY;
+}
+
+/* The root of ln(r_0/r) in ln R from a guess: secants, whose first slope is that of flat space, kept within what brackets the root. */
+static bool find(const struct kd_disk_image *image, const struct ellipse *e, int angle, double r, double *log_stretch)
+{
+    double cosine = e->a * image->cosine[angle], sine = e->b * image->sine[angle];
+    double x = *log_stretch, low = -INFINITY, high = INFINITY, before = NAN, f_before = NAN, reach = 0.02;
+    for (int i = 0; i < 100; i++) {
+        double f = mismatch(image, e, cosine, sine, x, r);
+        if (fabs(f) < EXACT || (high - low < 1e-13)) {
+            *log_stretch = x;
+            return fabs(f) < 1e-6;
+        }
+        *(f < 0 ? &low : &high) = x;
+        double slope = isfinite(f) && isfinite(f_before) ? (f - f_before) / (x - before) : 1, next = x - f / slope;
+        before = x, f_before = f;
+        if (!(next > low && next < high) || !isfinite(next)) {
+            bool both = isfinite(low) && isfinite(high);
+            next = both ? 0.5 * (low + high) : isfinite(high) ? high - reach : low + reach;
+            reach *= 2;
+        }
+        x = next;
+    }
+    return false;
+}
+
+/* From the ring before, and the two before that, at this angle. */
+static double guess(const struct kd_disk_image *image, int k, int j)
+{
+    double a = image->stretch[k - 1][j];
+    if (k < 3)
+        return a;
+    double b = image->stretch[k - 2][j], c = image->stretch[k - 3][j];
+    return 3 * (a - b) + c;
+}
+
+bool kd_disk_image_init(struct kd_disk_image *image, double spin, double inclination)
+{
+    double c = fabs(cos(inclination));
+    memset(image, 0, sizeof *image);
+    image->spin = spin, image->cos_i = c, image->sin_i = sin(inclination);
+    image->isco = kd_kerr_isco(spin), image->horizon = kd_kerr_horizon(spin);
+    image->angles = c > 0.3 ? 64 : c > 0.15 ? 128 : c > 0.08 ? 256 : KD_DISK_IMAGE_ANGLES;
+    if (!(c > sin(KD_DISK_IMAGE_EDGE_ON * M_PI / 180)))
+        return false;
+    for (int j = 0; j < KD_DISK_IMAGE_ANGLES; j++) {
+        image->cosine[j] = cos(2 * M_PI * j / KD_DISK_IMAGE_ANGLES), image->sine[j] = sin(2 * M_PI * j / KD_DISK_IMAGE_ANGLES);
+        image->stretch[0][j] = 1;
+    }
+    for (int k = 1; k <= KD_DISK_IMAGE_RINGS; k++) {
+        double r = radius_of_node(image, k);
+        struct ellipse e = around(image, r);
+        for (int j = 0; j < image->angles; j++) {
+            double log_stretch = log(fmax(guess(image, k, j), 0.1));
+            if (!find(image, &e, j * (KD_DISK_IMAGE_ANGLES / image->angles), r, &log_stretch))
+                return false;
+            image->stretch[k][j] = exp(log_stretch);
+        }
+    }
+    return true;
+}
+
+/* Lagrange's weights of the nodes 0 ... POINTS - 1 at x. */
+static void weigh(double x, double weight[POINTS])
+{
+    for (int i = 0; i < POINTS; i++) {
+        weight[i] = 1;
+        for (int j = 0; j < POINTS; j++)
+            if (j != i)
+                weight[i] *= (x - j) / (i - j);
+    }
+}
+
+/* The ring's R at its angles' nodes. */
+static void between_rings(const struct kd_disk_image *image, double r, int skip, double *row)
+{
+    double at = node_of_radius(image, r) / skip, weight[POINTS];
+    int last = KD_DISK_IMAGE_RINGS / skip, first = (int)fmin(fmax(floor(at) - POINTS / 2 + 1, 0), last - POINTS + 1);
+    weigh(at - first, weight);
+    for (int j = 0; j < image->angles; j++)
+        row[j] = 0;
+    for (int i = 0; i < POINTS; i++) {
+        const double *from = image->stretch[(first + i) * skip];
+        for (int j = 0; j < image->angles; j++)
+            row[j] += weight[i] * from[j];
+    }
+}
+
+void kd_disk_image_ring(const struct kd_disk_image *image, double r, int skip, int n, double *alpha, double *beta)
+{
+    double row[KD_DISK_IMAGE_ANGLES], round[KD_DISK_IMAGE_ANGLES + POINTS];
+    int nodes = image->angles / skip, finer = n / nodes, apart = KD_DISK_IMAGE_ANGLES / n;
+    struct ellipse e = around(image, r);
+    between_rings(image, r, skip, row);
+    for (int j = 0; j < nodes + POINTS; j++)
+        round[j] = row[(j - POINTS / 2 + 1 + nodes) % nodes * skip];
+    for (int part = 0; part < finer; part++) {
+        double weight[POINTS];
+        weigh(POINTS / 2 - 1 + (double)part / finer, weight);
+        for (int j = 0; j < nodes; j++) {
+            double stretch = 0;
+            int at = j * finer + part;
+            for (int i = 0; i < POINTS; i++)
+                stretch += weight[i] * round[j + i];
+            alpha[at] = e.x0 + stretch * e.a * image->cosine[at * apart];
+            beta[at] = e.y0 + stretch * e.b * image->sine[at * apart];
+        }
+    }
+}
+
+struct kd_disk_ring kd_disk_image_gas(const struct kd_disk_image *image, double r)
+{
+    return (struct kd_disk_ring) { r, kd_kerr_ut(image->spin, r), kd_kerr_omega(image->spin, r) };
+}
+
+struct kd_disk_light kd_disk_image_light(const struct kd_disk_image *image, const struct kd_disk_ring *gas, double alpha, double beta)
+{
+    double a = image->spin, c = image->cos_i, eta = (alpha - a) * (alpha + a) * c * c + beta * beta;
+    double g = 1 / (gas->ut * (1 + gas->omega * alpha * image->sin_i)); /* lambda = -alpha sin i */
+    return (struct kd_disk_light) { g, fmin(1, g * sqrt(fmax(eta, 0)) / gas->r) };
+}

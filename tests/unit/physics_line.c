@@ -1,0 +1,245 @@
+/* Line profiles against a sum over a grid of the image plane, lamps against rays of a lamp in flat space and against Schwarzschild's, and the image of the disk against rays integrated
+ * in Kerr-Schild coordinates (tests/oracle/kerr_schild.h). */
+#include "physics/disk.h"
+#include "physics/disk_image.h"
+#include "physics/kerr.h"
+#include "physics/lamppost.h"
+#include "physics/line_profile.h"
+#include "physics/null_geodesic.h"
+
+#include "kerr_schild.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define COUNT(x) (sizeof(x) / sizeof *(x))
+#define RADIAN (M_PI / 180)
+
+static struct kd_disk_image image;
+
+static void within(const char *what, double a, double i, double got, double want, double bound)
+{
+    if (!(fabs(got - want) <= bound))
+        fail_msg("%s at a = %g, i = %g: %.12g, not %.12g: off by %.2g, allowed %.2g", what, a, i, got, want, fabs(got - want), bound);
+}
+
+/* Light of a ring reaches the image plane where a ray that is integrated there starts in the ring, with that redshift and off the normal by that angle: |p_z| of the oracle over the
+ * energy for the gas. Interpolation leaves 1e-4 of r at 75 degrees and a = 0.998, and next to nothing elsewhere; mu = g sqrt(eta)/r has that error of r and, where light grazes the disk,
+ * twice that of beta. g knows the place by alpha alone, which the oracle gets too: rounding is left. */
+static void test_rings_are_where_rays_lead(void **state)
+{
+    static const double spins[] = { 0, 0.9, 0.998, -0.7 }, inclinations[] = { 10, 60, 75 }, radii[] = { 1.02, 2.5, 30 };
+    double alpha[KD_DISK_IMAGE_ANGLES], beta[KD_DISK_IMAGE_ANGLES];
+    (void)state;
+    for (size_t s = 0; s < COUNT(spins); s++)
+        for (size_t k = 0; k < COUNT(inclinations); k++) {
+            double a = spins[s], i = inclinations[k];
+            assert_true(kd_disk_image_init(&image, a, i * RADIAN));
+            for (size_t n = 0; n < COUNT(radii); n++) {
+                double r = radii[n] * image.isco;
+                struct kd_disk_ring gas = kd_disk_image_gas(&image, r);
+                kd_disk_image_ring(&image, r, 1, KD_DISK_IMAGE_ANGLES, alpha, beta);
+                for (int j = 7; j < KD_DISK_IMAGE_ANGLES; j += 101) {
+                    struct ks_path path = ks_trace(ks_from_infinity(a, cos(i * RADIAN), alpha[j], beta[j]), 1);
+                    struct kd_disk_light light = kd_disk_image_light(&image, &gas, alpha[j], beta[j]);
+                    assert_int_equal(path.crossings, 1);
+                    within("radius", a, i, path.r[0] / r, 1, 2e-4);
+                    double g = kd_disk_redshift(a, r, path.momentum[0]);
+                    within("redshift", a, i, light.g, g, 1e-6);
+                    within("angle", a, i, light.mu, g * path.p_z[0], 1e-3);
+                }
+            }
+        }
+}
+
+/* From below as from above; nothing next to edge on. */
+static void test_inclinations(void **state)
+{
+    static struct kd_disk_image other;
+    (void)state;
+    assert_true(kd_disk_image_init(&image, 0.5, 50 * RADIAN));
+    assert_true(kd_disk_image_init(&other, 0.5, 130 * RADIAN));
+    for (int k = 0; k <= KD_DISK_IMAGE_RINGS; k++)
+        for (int j = 0; j < image.angles; j++)
+            within("stretch", 0.5, 130, other.stretch[k][j], image.stretch[k][j], 1e-8);
+    assert_false(kd_disk_image_init(&image, 0.5, 90 * RADIAN));
+    assert_false(kd_disk_image_init(&image, 0.5, 87.5 * RADIAN));
+}
+
+enum { EDGES = 60 };
+
+/* The sum over rays, each followed by itself: polar, even in ln rho, squeezed as the disk is. */
+static void sum_over_rays(double a, double i, double outer, const double *edges, double *in)
+{
+    const int across = 500, around = 400;
+    double squeeze = cos(i) + 0.15, isco = kd_kerr_isco(a), first = log(0.9), last = log(1.25 * outer), step = (last - first) / across, all = 0;
+    memset(in, 0, EDGES * sizeof *in);
+    for (int k = 0; k < across; k++)
+        for (int j = 0; j < around; j++) {
+            /* Each direction begins elsewhere, so that no edge of the disk runs along the grid. */
+            double rho = exp(first + (k + fmod(0.6180339887498949 * j, 1)) * step), chi = 2 * M_PI * (j + 0.5) / around;
+            struct kd_null_ray ray = { .spin = a, .radius = INFINITY, .cos_theta = cos(i), .sin_theta = sin(i), .orders = 1 };
+            ray.alpha = rho * cos(chi), ray.beta = squeeze * rho * sin(chi);
+            struct kd_null_path path = kd_null_trace_fast(&ray);
+            if (!path.crossings || path.crossing[0].r < isco || path.crossing[0].r > outer)
+                continue;
+            double r = path.crossing[0].r, g = kd_disk_redshift(a, r, -ray.alpha * sin(i)), light = g * g * g / (r * r * r) * rho * rho;
+            all += light;
+            for (int e = 0; e < EDGES; e++)
+                in[e] += g < edges[e] ? light : 0;
+        }
+    for (int e = 0; e < EDGES; e++)
+        in[e] /= all;
+}
+
+/* 200 000 rays: the sum itself is off by up to 5e-4, which 36 times as many rays bring to 1e-4. The profile's estimate of its error has to hold, and be below the 0.3 % that is asked for. */
+static void test_cumulative_share(void **state)
+{
+    static const struct {
+        double a, i;
+    } cases[] = { { 0, 30 }, { 0.5, 60 }, { 0.998, 30 }, { 0.998, 80 } };
+    double edges[EDGES + 1] = { 0 }, in[EDGES], share[EDGES];
+    const double outer = 100;
+    (void)state;
+    for (int e = 0; e < EDGES; e++)
+        edges[e + 1] = 1.6 * (e + 1) / EDGES;
+    for (size_t k = 0; k < COUNT(cases); k++) {
+        double a = cases[k].a, i = cases[k].i, sum = 0, worst = 0;
+        assert_true(kd_disk_image_init(&image, a, i * RADIAN));
+        const struct kd_line_params params = { .inner = image.isco, .outer = outer, .index = 3 };
+        struct kd_line_profile profile;
+        struct kd_error error;
+        assert_int_equal(kd_line_profile(&image, &params, edges, EDGES, share, &profile, &error), KD_OK);
+        sum_over_rays(a, i * RADIAN, outer, edges + 1, in);
+        for (int e = 0; e < EDGES; e++) {
+            sum += share[e];
+            worst = fmax(worst, fabs(sum - in[e]));
+            within("cumulative share", a, edges[e + 1], sum, in[e], profile.error + 6e-4);
+        }
+        within("all", a, i, sum, 1, 1e-12);
+        if (!(profile.error < 1.5e-3 && profile.error > 1e-6))
+            fail_msg("a = %g, i = %g: the error is estimated at %g", a, i, profile.error);
+        print_message("a = %g, i = %g: off by %.1e at most, estimated %.1e\n", a, i, worst, profile.error);
+    }
+}
+
+/* Bins that are cut in two, and edges beyond the line, change nothing. */
+static void test_bins_add_up(void **state)
+{
+    double coarse[41], fine[81], few[40], many[80];
+    struct kd_line_profile profile;
+    struct kd_error error;
+    (void)state;
+    assert_true(kd_disk_image_init(&image, 0.9, 40 * RADIAN));
+    const struct kd_line_params params = { .inner = 3, .outer = 50, .emissivity = KD_LINE_BROKEN, .index = 5, .outer_index = 2, .break_r = 8, .limb = KD_LIMB_LAOR };
+    for (int e = 0; e <= 80; e++)
+        fine[e] = 0.4 + 0.8 * e / 80, coarse[e / 2] = fine[e & ~1];
+    assert_int_equal(kd_line_profile(&image, &params, coarse, 40, few, &profile, &error), KD_OK);
+    assert_int_equal(kd_line_profile(&image, &params, fine, 80, many, &profile, &error), KD_OK);
+    for (int e = 0; e < 40; e++)
+        within("bin", 0.9, fine[2 * e], many[2 * e] + many[2 * e + 1], few[e], 1e-12);
+}
+
+/* The laws of limb darkening and emissivity, and energies for photons, face on, where all that a ring sends has one energy. */
+static void test_face_on(void **state)
+{
+    double edges[] = { 0.1, 0.6, 0.7, 0.8, 0.9, 0.99 }, share[5];
+    (void)state;
+    assert_true(kd_disk_image_init(&image, 0, 0));
+    for (int energy = 0; energy < 2; energy++) {
+        struct kd_line_params params = { .inner = 6, .outer = 200, .index = 2.5, .energy = energy };
+        struct kd_line_profile profile;
+        struct kd_error error;
+        assert_int_equal(kd_line_profile(&image, &params, edges, 5, share, &profile, &error), KD_OK);
+        /* g = sqrt(1 - 3/r), b of the ring by its ray: rings of equal width in r, of area pi d(b^2) */
+        double in[5] = { 0 }, all = 0, b2 = 0;
+        for (int k = 0; k <= 4000; k++) {
+            double r = 6 * pow(200. / 6, k / 4000.), low = 0, high = 2 * r;
+            for (int n = 0; n < 60; n++) {
+                double middle = 0.5 * (low + high), at = kd_disk_image_radius(&image, middle, 0);
+                *(at < r ? &low : &high) = middle;
+            }
+            double mid = r * pow(200. / 6, -0.5 / 4000), g = sqrt(1 - 3 / mid), light = pow(mid, -2.5) * pow(g, energy ? 4 : 3) * (low * low - b2);
+            b2 = low * low;
+            for (int e = 0; e < 5 && k; e++)
+                in[e] += g >= edges[e] && g < edges[e + 1] ? light : 0;
+            all += k ? light : 0;
+        }
+        for (int e = 0; e < 5; e++)
+            within("share", energy, edges[e], share[e], in[e] / all, profile.error + 5e-4);
+        within("total", 0, energy, profile.total / (M_PI * all), 1, 1e-3);
+    }
+    within("Laor", 0, 0, kd_line_limb(KD_LIMB_LAOR, 0.5), 2.03, 1e-15);
+    within("Haardt", 0, 0, kd_line_limb(KD_LIMB_HAARDT, 0.5), log(3), 1e-15);
+    within("even", 0, 0, kd_line_limb(KD_LIMB_ISOTROPIC, 0.5), 1, 0);
+}
+
+/* A ray of Schwarzschild from r = h on the axis at delta, integrated in its plane: u'' + u = 3u^2, u = 1/r, over a quarter turn by Runge and Kutta. */
+static double quarter_turn(double h, double delta)
+{
+    enum { STEPS = 4000 };
+    double u = 1 / h, v = u * sqrt(1 - 2 / h) / tan(delta), s = M_PI / 2 / STEPS;
+    for (int k = 0; k < STEPS && u > 0 && u < 0.5; k++) {
+        double k1 = 3 * u * u - u, u2 = u + 0.5 * s * v, v2 = v + 0.5 * s * k1, k2 = 3 * u2 * u2 - u2;
+        double u3 = u + 0.5 * s * v2, v3 = v + 0.5 * s * k2, k3 = 3 * u3 * u3 - u3, u4 = u + s * v3, v4 = v + s * k3, k4 = 3 * u4 * u4 - u4;
+        u += s * (v + 2 * v2 + 2 * v3 + v4) / 6, v += s * (k1 + 2 * k2 + 2 * k3 + k4) / 6;
+    }
+    return 1 / u;
+}
+
+static void test_lamp(void **state)
+{
+    struct kd_lamppost lamp;
+    (void)state;
+    /* Flat: far above a far ring. The deflection of light, some 4/b, is what is left. */
+    assert_true(kd_lamppost_init(&lamp, 0, 2000, 2, 1000, 10000));
+    for (double r = 1200; r < 9000; r *= 1.7)
+        within("flat", 0, r, kd_lamppost_at(&lamp, r) / (2000 / (4 * M_PI * pow(r * r + 4e6, 1.5))), 1, 0.01);
+    /* Schwarzschild: the slope of r by differences, and the sum over rings of what they get is what was sent there. */
+    for (double h = 3; h < 50; h *= 2.3) {
+        assert_true(kd_lamppost_init(&lamp, 0, h, 1.7, 6, 1000));
+        for (double delta = 0.7; delta < 1.5; delta += 0.2) {
+            double r = quarter_turn(h, delta), slope = (quarter_turn(h, delta + 1e-4) - quarter_turn(h, delta - 1e-4)) / 2e-4;
+            if (r < 6 || r > 900)
+                continue;
+            within("reach", h, delta, kd_lamppost_reach(0, h, delta) / r, 1, 1e-7);
+            double ut = 1 / sqrt(1 - 3 / r), g = ut * sqrt(1 - 2 / h), want = sin(delta) / slope * pow(g, 1.7) / (4 * M_PI * r * ut);
+            within("lamp", h, delta, kd_lamppost_at(&lamp, r) / want, 1, 1e-4);
+        }
+    }
+    /* Kerr: photons of all rings, by the hole's time, are those of the angles between the rings at the ends. */
+    static const double spins[] = { 0.9, 0.998, -0.5 };
+    for (size_t s = 0; s < COUNT(spins); s++) {
+        double a = spins[s], h = 4, isco = kd_kerr_isco(a), sum = 0, low = 0, high = M_PI, outer = 500;
+        assert_true(kd_lamppost_init(&lamp, a, h, 0, isco, outer)); /* photon index 0: no g */
+        for (int k = 0; k < 4000; k++) {
+            double r = isco * pow(outer / isco, (k + 0.5) / 4000);
+            sum += kd_lamppost_at(&lamp, r) * 4 * M_PI * r * kd_kerr_ut(a, r) * r * log(outer / isco) / 4000;
+        }
+        double ends[2];
+        for (int end = 0; end < 2; end++) {
+            low = 0, high = M_PI;
+            for (int n = 0; n < 60; n++) {
+                double middle = 0.5 * (low + high);
+                *(kd_lamppost_reach(a, h, middle) < (end ? outer : isco) ? &low : &high) = middle;
+            }
+            ends[end] = cos(low);
+        }
+        within("photons", a, h, sum, ends[0] - ends[1], 1e-5);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_rings_are_where_rays_lead), cmocka_unit_test(test_inclinations), cmocka_unit_test(test_cumulative_share),
+        cmocka_unit_test(test_bins_add_up), cmocka_unit_test(test_face_on), cmocka_unit_test(test_lamp),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
