@@ -16,6 +16,7 @@ import { buildPace, windowSize } from './pace.js';
 import { buildPresets, openPreset, startAgain } from './presets.js';
 import { Scene } from './scene.js';
 import { share } from './share.js';
+import { sheet } from './sheet.js';
 import { openSource } from './source.js';
 import { buildStruck } from './struck.js';
 import { handle } from './view.js';
@@ -247,6 +248,7 @@ async function start() {
   translatePage();
   welcome();
   buildLanguages();
+  document.querySelectorAll('.sheet').forEach(sheet);
   for (const button of document.querySelectorAll('nav [data-view]'))
     button.addEventListener('click', () => goTo(button.dataset.view));
   turnTo(link.get('view'));

@@ -3,6 +3,7 @@
 import { byId, el, seen } from './dom.js';
 import { label, preset } from './i18n.js';
 import { first_view } from './presets.js';
+import { swipe } from './swipe.js';
 
 const calm_ms = 1500; // after the first picture
 const again_ms = 10000;
@@ -27,6 +28,15 @@ export function buildGallery(scene, select, presets) {
     select.value = name;
     select.dispatchEvent(new Event('change'));
   }
+
+  // The one beside it; beyond the last there is none.
+  function turn(by) {
+    const card = cards[cards.findIndex(card => card.dataset.preset === select.value) + by];
+    if (!card) return;
+    choose(card.dataset.preset);
+    card.scrollIntoView({ inline: 'center', block: 'nearest' });
+  }
+  for (const node of document.querySelectorAll('.caption, #panel > .handle')) swipe(node, turn);
 
   function reach(card) {
     for (const other of cards) other.tabIndex = other === card ? 0 : -1;

@@ -15,6 +15,7 @@ import { ask_kerr, heavy, predict, reference } from './predict.js';
 import { rules } from './rules.js';
 import { Running } from './running.js';
 import { ask, getJson, physics } from './server.js';
+import { sheet } from './sheet.js';
 import { scale } from './slider.js';
 import { thrown } from './thrown.js';
 
@@ -39,7 +40,7 @@ export async function openPlayground() {
   );
   const root = byId('playground'),
     part = parts(root, known),
-    plane = new Plane(part.canvas),
+    plane = (sheet(byId('play-panel')), new Plane(part.canvas)),
     running = new Running(),
     sound = chirp(part.sound, part.heard),
     charts = course(part.charts),

@@ -72,6 +72,66 @@ class Hand(Browser):
         self.shot(page, 'pixel-telephone', full_page=True)
         self.assertEqual(page.evaluate('document.documentElement.scrollWidth'), 390)
 
+    def test_a_sheet_on_a_telephone(self):
+        """Three heights by key, tap and drag; the picture stays in sight. A finger that goes sideways below the picture turns over to the next preset."""
+        page = self.open('lang=en&preset=gas-stars', '#stage[data-final]', viewport={'width': 390, 'height': 844}, has_touch=True, is_mobile=True)
+        finger = page.context.new_cdp_session(page)
+        sheet, handle = page.locator('#panel'), page.locator('#panel > .handle')
+
+        def touch(*at):
+            for kind, points in [('touchStart', at[0]), *(('touchMove', p) for p in at[1:]), ('touchEnd', None)]:
+                finger.send('Input.dispatchTouchEvent', {'type': kind, 'touchPoints': [{'x': points[0], 'y': points[1]}] if points else []})
+
+        def stands(name, words):
+            page.wait_for_function('name => document.getElementById("panel").dataset.height === name', arg=name)
+            self.assertEqual(handle.get_attribute('aria-valuetext'), words)
+            page.wait_for_function('() => !document.getElementById("panel").getAnimations().length')
+            return sheet.bounding_box()['height'], page.locator('#stage').bounding_box()
+
+        low, stage = stands('low', 'out of the way')
+        self.assertGreater(stage['height'], 390)
+        handle.press('Enter')
+        half, stage = stands('half', 'half of the window')
+        self.assertLessEqual(stage['y'] + stage['height'], 844 - half + 1, 'all of the picture is above the sheet')
+        self.assertGreater(stage['height'], 250)
+        handle.press('ArrowUp')
+        whole, _ = stands('whole', 'all of the window')
+        self.assertLess(low, 100)
+        self.assertAlmostEqual(half, 422, delta=1)
+        self.assertGreater(whole, 750)
+        page.locator('#fields').scroll_into_view_if_needed()
+        self.assertEqual(page.evaluate('scrollY'), 0, 'the sheet scrolls, the page does not')
+        handle.press('Home')
+        stands('low', 'out of the way')
+        box = handle.bounding_box()
+        touch((195, box['y'] + 10), (195, 600), (195, 450), (195, 430))
+        page.wait_for_function('() => document.getElementById("panel").dataset.height !== "low"')
+        page.locator('#panel > .handle').press('Home')
+        stands('low', 'out of the way')
+        page.wait_for_selector('#gallery [data-preset=gas-stars][aria-pressed=true]')
+        after = page.locator('#gallery [aria-pressed=true] + button').get_attribute('data-preset')
+        line, grip = (page.locator(where).bounding_box() for where in ('.caption', '#panel > .handle'))
+        for box, chosen, way in ((line, after, -1), (line, 'gas-stars', 1), (grip, after, -1), (grip, 'gas-stars', 1)):
+            y = box['y'] + 12
+            touch((195, y), (195 + way * 40, y), (195 + way * 110, y + 4))
+            page.wait_for_selector(f'#gallery [data-preset={chosen}][aria-pressed=true]')
+        stands('low', 'out of the way')  # that was no tap on its handle
+        touch((195, line['y'] + 12), (170, line['y'] + 12))
+        touch((195, line['y'] + 12), (130, line['y'] - 60))
+        tilt = self.field(page, 'camera.inclination_deg')
+        _, stage = stands('low', 'out of the way')
+        middle = stage['y'] + stage['height'] / 2
+        touch((380, middle), (300, middle - 40), (200, middle - 80))
+        self.assertTrue(daemon.eventually(lambda: self.field(page, 'camera.inclination_deg') != tilt), 'from the edge of the picture the camera moves')
+        page.wait_for_function('() => document.getElementById("preset").value === "own"')
+        self.assertEqual(page.locator('#gallery [aria-pressed=true]').count(), 0)
+        for view, picture in (('orbits', '#orbit-picture'), ('playground', '#play-pictures'), ('scale', '#scale-pictures')):
+            page.click(f'nav [data-view={view}]')
+            handle = page.locator(f'#{view} .handle')
+            handle.wait_for()
+            handle.press('ArrowUp')
+            self.assertTrue(daemon.eventually(lambda: 0 <= page.locator(picture).bounding_box()['y'] < 60), view)
+
     def test_undo_and_redo(self):
         page = self.open('lang=en&camera.inclination_deg=70')
         page.focus('#stage')

@@ -108,7 +108,10 @@ class Pages(Browser):
         page = self.open('lang=it', viewport={'width': 844, 'height': 390}, has_touch=True)
         self.assertLess(page.locator('header').bounding_box()['height'], 60)
         box = page.locator('#stage').bounding_box()
-        self.assertLess(box['y'] + box['height'], 320, 'there is room beside the picture to scroll by')
+        panel = page.locator('#panel').bounding_box()
+        self.assertLessEqual(box['x'] + box['width'], panel['x'], 'the controls stand beside the picture')
+        self.assertLessEqual(panel['y'] + panel['height'], 390)
+        self.assertGreater(box['width'], 400)
 
     def test_back_goes_from_view_to_view(self):
         page = self.open()

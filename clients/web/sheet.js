@@ -1,0 +1,81 @@
+// The controls of a view lie in a sheet over the lower edge of a narrow, upright window, while its picture stays where it is. A handle has three
+// heights: by a drag, a tap, or arrow keys. In any other window the controls stand beside the picture, and there is no handle (style.css).
+import { el } from './dom.js';
+import { t } from './i18n.js';
+
+const heights = [
+  ['low', t('out of the way', 'da parte')],
+  ['half', t('half of the window', 'metà finestra')],
+  ['whole', t('all of the window', 'tutta la finestra')],
+];
+const tap_px = 6;
+const flick_px_ms = 0.5; // faster than this a sheet goes on to the next height
+
+const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
+
+// What is steered comes into sight where the sheet leaves room for it.
+const pinned = { 'orbit-panel': '#orbit-picture', 'scale-panel': '#scale-pictures', 'play-panel': '#play-pictures' };
+
+export function sheet(node) {
+  const handle = el('div', { class: 'handle', role: 'slider', tabindex: 0, 'aria-orientation': 'vertical', 'aria-valuemin': 0, 'aria-valuemax': heights.length - 1,
+    'aria-controls': node.id, 'aria-label': t('Controls: height of the sheet', 'Comandi: altezza del foglio') }, t('Controls', 'Comandi'));
+  let at = 0,
+    drag = null;
+
+  function rest(wanted) {
+    at = clamp(wanted, 0, heights.length - 1);
+    const [name, words] = heights[at];
+    node.dataset.height = name;
+    node.style.removeProperty('height');
+    if (!at) node.scrollTop = 0;
+    else if (handle.offsetParent && pinned[node.id]) document.querySelector(pinned[node.id]).scrollIntoView();
+    handle.setAttribute('aria-valuenow', at);
+    handle.setAttribute('aria-valuetext', words);
+  }
+
+  // What height of the three is nearest to where it was let go.
+  function nearest(height, speed) {
+    const sizes = [handle.offsetHeight, innerHeight / 2, innerHeight],
+      near = sizes.reduce((best, size, i) => (Math.abs(size - height) < Math.abs(sizes[best] - height) ? i : best), 0);
+    return Math.abs(speed) > flick_px_ms ? at + Math.sign(speed) : near;
+  }
+
+  const turn = () => rest(at === 1 ? 0 : 1);
+
+  handle.addEventListener('pointerdown', event => {
+    if (event.button) return;
+    handle.setPointerCapture(event.pointerId);
+    drag = { x: event.clientX, y: event.clientY, height: node.offsetHeight, moved: false, time: event.timeStamp, last: event.clientY, speed: 0 };
+  });
+  handle.addEventListener('pointermove', event => {
+    if (!drag) return;
+    const up = drag.y - event.clientY,
+      took = event.timeStamp - drag.time;
+    drag.moved ||= Math.hypot(up, event.clientX - drag.x) > tap_px; // sideways it is no tap, but another preset (swipe.js)
+    if (took > 0) drag.speed = (drag.last - event.clientY) / took;
+    Object.assign(drag, { time: event.timeStamp, last: event.clientY });
+    if (drag.moved) node.style.height = `${clamp(drag.height + up, handle.offsetHeight, innerHeight)}px`;
+  });
+  handle.addEventListener('pointerup', () => {
+    if (!drag) return;
+    const { moved, speed } = drag;
+    drag = null;
+    moved ? rest(nearest(node.offsetHeight, speed)) : turn();
+  });
+  handle.addEventListener('pointercancel', () => ((drag = null), rest(at)));
+
+  const keys = { ArrowUp: () => at + 1, ArrowRight: () => at + 1, PageUp: () => at + 1, ArrowDown: () => at - 1, ArrowLeft: () => at - 1, PageDown: () => at - 1, Home: () => 0, End: () => heights.length - 1 };
+  handle.addEventListener('keydown', event => {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    if (event.key === 'Enter' || event.key === ' ') turn();
+    else if (keys[event.key]) rest(keys[event.key]());
+    else return;
+    event.preventDefault();
+    event.stopPropagation(); // a space is not the clock's
+  });
+  // Who goes by the keyboard sees what has the focus.
+  node.addEventListener('focusin', event => event.target !== handle && at === 0 && event.target.matches(':focus-visible') && rest(1));
+  node.classList.add('sheet');
+  node.prepend(handle);
+  rest(0);
+}
