@@ -1,5 +1,6 @@
 /* kerrd serve runs the HTTP service until a signal ends it. */
 #include "cli/cli.h"
+#include "cli/code.h"
 #include "render/selftest/first_start.h"
 #include "server/server.h"
 
@@ -8,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 struct arguments {
     const char *device, *listen;
@@ -83,12 +85,28 @@ static void set_signals(void (*handler)(int))
         sigaction(SIGHUP, &action, NULL);
 }
 
+/* Whoever sits before the terminal may hold a telephone to it; a log file needs no code. */
+static void show_code(const char *address, uint16_t port, const char *const *own)
+{
+    const char *const listened[] = { address, NULL };
+    const char *name = kd_cli_code_of(own ? own : listened);
+    char text[300];
+    if (!name || !isatty(STDOUT_FILENO))
+        return;
+    bool six = strchr(name, ':') && *name != '[';
+    snprintf(text, sizeof text, "http://%s%s%s:%u/", six ? "[" : "", name, six ? "]" : "", port);
+    printf("kerrd: for a telephone on this network, %s\n", text);
+    if (kd_cli_code(stdout, text))
+        fprintf(stderr, "kerrd: no memory for the code of %s\n", text);
+}
+
 static void announce(const char *address, uint16_t port, const char *const *own)
 {
     bool six = strchr(address, ':'); /* an IPv6 address needs brackets in a URL */
     printf("kerrd: listening on http://%s%s%s:%u/\n", six ? "[" : "", address, six ? "]" : "", port);
     for (const char *const *name = own; name && *name; name++)
         printf("kerrd: reached at http://%s:%u/\n", *name, port);
+    show_code(address, port, own);
     /* Whoever started us may be waiting for this line in a pipe. A service goes on without one. */
     if (fflush(stdout) || ferror(stdout))
         fprintf(stderr, "kerrd: cannot write to standard output: %s\n", strerror(errno));

@@ -4,7 +4,9 @@ import concurrent.futures
 import io
 import json
 import math
+import os
 import pathlib
+import pty
 import random
 import re
 import signal
@@ -60,6 +62,62 @@ class Hangup(unittest.TestCase):
                     self.assertEqual(server.get('/readyz').status, 200)
                     server.terminate()
                 self.assertEqual(server.wait(), 0)
+
+
+MASKS = (lambda x, y: (x + y) % 2, lambda x, y: y % 2, lambda x, y: x % 3, lambda x, y: (x + y) % 3, lambda x, y: (y // 2 + x // 3) % 2,
+         lambda x, y: x * y % 2 + x * y % 3, lambda x, y: (x * y % 2 + x * y % 3) % 2, lambda x, y: ((x + y) % 2 + x * y % 3) % 2)
+
+
+def qr_text(lines):
+    """The text of a code drawn in half blocks, of versions 1 to 3 with one block of bytes (ISO/IEC 18004): read as it is, nothing corrected."""
+    modules = [[c in shown for c in line] for line in lines for shown in ('▀█', '▄█')]
+    modules = [row[2:-2] for row in modules[2:]][:len(modules[0]) - 4]
+    n = len(modules)
+    around = [(0, 8), (1, 8), (2, 8), (3, 8), (4, 8), (5, 8), (7, 8), (8, 8), (8, 7), (8, 5), (8, 4), (8, 3), (8, 2), (8, 1), (8, 0)]
+    told = int(''.join(str(int(modules[y][x])) for x, y in around), 2) ^ 0x5412
+    mask = MASKS[told >> 10 & 7]
+
+    def fixed(x, y):
+        return (x < 9 and y < 9) or (x < 9 and y >= n - 8) or (x >= n - 8 and y < 9) or 6 in (x, y) or (n > 21 and abs(x - n + 7) <= 2 and abs(y - n + 7) <= 2)
+
+    bits, up = '', True
+    for right in [*range(n - 1, 6, -2), 5, 3, 1]:
+        for y in range(n - 1, -1, -1) if up else range(n):
+            bits += ''.join(str(int(modules[y][x] ^ (mask(x, y) == 0))) for x in (right, right - 1) if not fixed(x, y))
+        up = not up
+    assert bits[:4] == '0100', 'bytes'
+    size = int(bits[4:12], 2)
+    return bytes(int(bits[12 + 8 * i:20 + 8 * i], 2) for i in range(size)).decode()
+
+
+class Telephone(unittest.TestCase):
+    def test_a_terminal_shows_the_address_as_a_code(self):
+        """Where it listens for others, and where there is a terminal; the code is read by what knows the standard alone."""
+        for address in ('0.0.0.0', '127.0.0.1'):
+            ours, theirs = pty.openpty()
+            server = subprocess.Popen([*daemon.COMMAND, '--port', '0', '--listen', address], stdout=theirs)
+            self.addCleanup(server.kill)
+            os.close(theirs)
+            terminal = open(ours, 'rb', buffering=0)
+            told = b''
+            while b'listening on' not in told or b'\n' not in told:
+                told += os.read(ours, 4096)
+            server.terminate()
+            try:
+                while more := os.read(ours, 4096):
+                    told += more
+            except OSError:  # nobody holds the other end any more
+                pass
+            self.assertEqual(server.wait(60), 0)
+            terminal.close()
+            lines = told.decode().replace('\r', '').splitlines()
+            reached = [line.split()[-1] for line in lines if 'reached at' in line]
+            code = [line.removeprefix('\033[30;107m').removesuffix('\033[0m') for line in lines if line.startswith('\033[30;107m')]
+            named = [line.split()[-1] for line in lines if 'telephone' in line]
+            others = [url for url in reached if '//127.' not in url]
+            self.assertEqual(len(named), bool(others) and address == '0.0.0.0', lines)
+            self.assertEqual([qr_text(code)] if code else [], named)
+            self.assertLessEqual(set(named), set(others))
 
 
 class Kerrd(unittest.TestCase):
