@@ -1,4 +1,4 @@
-/* The address of the server as a QR code in a terminal, for a telephone on the same network. */
+/* A terminal shows the address of the server as a QR code, for a telephone on the same network. */
 #ifndef KD_CLI_CODE_H
 #define KD_CLI_CODE_H
 
