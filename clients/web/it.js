@@ -47,6 +47,11 @@ export const values = {
   particles: 'particelle',
   'novikov-thorne': 'Novikov–Thorne',
   'shakura-sunyaev': 'Shakura–Sunyaev',
+  synchrotron: 'sincrotrone',
+  scattering: 'diffusione da elettroni',
+  toroidal: 'toroidale',
+  radial: 'radiale',
+  vertical: 'verticale',
   aces: 'ACES',
   srgb: 'sRGB',
   profile: 'quella del profilo',
@@ -208,6 +213,11 @@ export const fields = {
   'volume.opacity': ['Opacità', 'Profondità ottica di una lunghezza M nel proprio riferimento'],
   'volume.temperature_k': ['Temperatura', 'Colore: quello di un corpo nero di questa temperatura, spostato da g'],
   'volume.redshift': ['Redshift', 'Spostamento di frequenza della materia'],
+  polarization: ['Polarizzazione'],
+  'polarization.model': ['Modello', 'Della luce dal piano del disco: nessuna; sincrotrone, trasversale al campo e alla luce nel riferimento del gas; o diffusione di un’atmosfera profonda di elettroni liberi, trasversale alla normale e alla luce'],
+  'polarization.field': ['Campo magnetico', 'Direzione nel piano: attorno all’asse, verso l’esterno o lungo la normale'],
+  'polarization.electron_index': ['Indice degli elettroni', 'Elettroni di energia E come E elevata a meno p: la luce di un campo ordinato è polarizzata per (p + 1)/(p + 7/3)'],
+  'polarization.order': ['Ordine', 'Parte di quella polarizzazione che il disordine dentro un pixel lascia'],
   jets: ['Getti'],
   'jets.brightness': ['Luminosità', 'Luce di una lunghezza M nel proprio riferimento, riportata al bordo interno, dove comincia gradualmente, in unità della massima del disco; 0: non ce ne sono'],
   'jets.opening_deg': ['Apertura', 'Metà dell’angolo del cono'],
@@ -343,6 +353,7 @@ export const labels = {
   infall: 'La caduta',
   jet: 'Getti',
   'gargantua-gas': 'Gargantua come nel film',
+  'polarised-ring': 'Anello polarizzato',
 };
 
 export const presets = {
@@ -369,6 +380,7 @@ export const presets = {
   companions: 'Due stelle che girano in un disco di gas, una nel suo verso e una contro; le loro immagini sono piegate come quella del disco',
   'thick-disk': 'Un disco di gas turbolento alto un decimo della distanza dall’asse, con la luce seguita lungo ogni raggio; in una sessione gira',
   'gargantua-gas': 'Gas turbolento attorno al buco di James et al. 2015, senza Doppler né redshift, come nel film',
+  'polarised-ring': 'Un anello attorno a 6 M, visto come M87* a 17 gradi, la cui luce di sincrotrone un campo verticale polarizza in una spirale; le sovrapposizioni la mostrano con trattini',
   jet: 'Due getti da un buco in gas turbolento, davanti alle stelle: quello che viene verso di noi è il più luminoso; stilizzati',
   'hot-spot':
     'Un brillamento come li ha visti GRAVITY attorno al buco della nostra Galassia: una macchia su un’orbita circolare di un’ora, in senso orario, vista a 25 gradi dal suo asse, su un disco tenue; in una sessione gli eventi danno la curva di luce e il percorso',
@@ -555,6 +567,7 @@ export const sentences = {
   jets: 'getti',
   bodies: 'corpi',
   debris: 'detriti',
+  polarisation: 'polarizzazione',
   'Disk of particles': 'Disco di particelle',
   'Hot spot': 'Macchia calda',
   Body: 'Corpo',
@@ -660,6 +673,13 @@ export const sentences = {
     'oscillazione smorzata: un’illustrazione: di un buco percosso oscilla la metrica; qui solo la luce degli ordini da 1 in su, tutta al tempo dell’immagine',
   'ringdown: light of volumes has the order of the crossing of the plane that is nearest on its ray, from where cos(theta) turns before it to where it turns behind it':
     'oscillazione smorzata: la luce dei volumi ha l’ordine dell’attraversamento del piano più vicino sul suo raggio, da dove cos(theta) inverte prima a dove inverte dopo',
+  'polarization: of all light from the plane alike, by the field in the frame of the gas; nothing on its way changes it: no Faraday rotation':
+    'polarizzazione: uguale per tutta la luce dal piano, secondo il campo nel riferimento del gas; nulla per via la cambia: niente rotazione di Faraday',
+  'polarization: synchrotron: direction and fraction alone are those of the field; brightness and colour are the disk\'s, whatever the angle to the field':
+    'polarizzazione: sincrotrone: del campo sono solo direzione e frazione; luminosità e colore sono quelli del disco, qualunque sia l’angolo col campo',
+  'polarization: scattering: the fraction is that of a deep, plane atmosphere of electrons (Chandrasekhar 1960); its limb darkening, and light that returns to the disk, are left out':
+    'polarizzazione: diffusione: la frazione è quella di un’atmosfera piana e profonda di elettroni (Chandrasekhar 1960); il suo oscuramento al bordo, e la luce che torna al disco, sono tralasciati',
+  'polarization: light of volumes, bodies and the sky is unpolarised': 'polarizzazione: la luce di volumi, corpi e cielo non è polarizzata',
   'sky: a drawn celestial grid; its lensing is exact, its brightness carries no redshift':
     'cielo: un reticolo celeste disegnato; la sua lente è esatta, la sua luminosità non porta redshift',
   'sky: stars are made up, as many of each magnitude as there are in truth': 'cielo: le stelle sono inventate, tante di ogni magnitudine quante ce ne sono davvero',

@@ -20,12 +20,14 @@ layout(set = 0, binding = 3) KD_LAYER_ACCESS buffer Layer { uint layer[]; };
 #define KD_INFINITE_BITS 0x7f800000u
 #define KD_NOTHING uintBitsToFloat(KD_NOTHING_BITS)
 
-#define NOT_LIGHT_(number, name, needs)
+#define NOT_LIGHT_(number, name, needs, value)
 #define NOT_(number, name, needs, value, met)
 #define NOT_END_(number, name, needs, value)
-#define IS_LIGHT_(number, name, needs) || LAYER == number
+#define IS_LIGHT_(number, name, needs, value) || LAYER == number
 #define IS_(number, name, needs, value, met) || LAYER == number
 const bool OF_LIGHT = false KD_LAYERS(IS_LIGHT_, NOT_, NOT_END_);
+#define IS_POLARIZED_(number, name, needs, value) || LAYER == (((needs) & KD_LENS_SLOPE) != 0u ? number : 0)
+const bool POLARIZED = false KD_LAYERS(IS_POLARIZED_, NOT_, NOT_END_);
 const bool OF_CROSSING = false KD_LAYERS(NOT_LIGHT_, IS_, NOT_END_);
 
 /* That of what shines there, along the ray: -ln of the part of the light from behind that it lets through. */
@@ -49,15 +51,28 @@ kd_sample sample_at(uint n, float w, uint at, kd_ray ray)
     return kd_sample(w, quantity(KD_LENS_PHI, plane), ago, slope, ray.e, momentum, q, quantity(KD_LENS_FOOTPRINT, plane), quantity(KD_LENS_SHAPE, plane), n);
 }
 
+const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);
+
+/* Stokes Q and U of a ray: all that shines at a crossing is polarised alike. */
+vec2 polarized = vec2(0.0);
+void at_crossing(inout kd_beam beam, kd_sample s, uvec2 place, kd_ray ray)
+{
+    float before = dot(beam.light, LUMINANCE);
+    kd_beam_at(beam, s);
+    if (POLARIZED && KD_HAS(polarization))
+        polarized += (dot(beam.light, LUMINANCE) - before) * kd_polarization_at(s, kd_polarization_right(place), ray.p);
+}
+
 #ifdef KD_MARCH
 bool lost = false; /* the ray was given up on its way to a crossing */
 void meet(inout kd_beam beam, float w, uint n, uvec2 place, uint at)
 {
     lost = lost || w < 0.0;
+    kd_ray ray = kd_camera_ray(place.x, place.y);
     if (w < 0.0)
         beam.through = 0.0;
     else
-        kd_beam_at(beam, sample_at(n, w, at, kd_camera_ray(place.x, place.y)));
+        at_crossing(beam, sample_at(n, w, at, ray), place, ray);
 }
 #define KD_MARCH_MEET(beam, w, n, place, at) meet(beam, w, n, place, at)
 #define KD_MARCH_GIVEN_UP(beam) lost = true
@@ -65,12 +80,13 @@ void meet(inout kd_beam beam, float w, uint n, uvec2 place, uint at)
 #include "light/meet.glsl"
 #endif
 
-/* This is the luminance of a ray: of all that it sees, or of one order, as it arrives. */
-float light(uvec2 place, uint at, uint pixel)
+/* This is the luminance of a ray, Stokes I, and Q and U: of all that it sees, or of one order, as it arrives. */
+vec3 light(uvec2 place, uint at, uint pixel)
 {
     kd_beam beam = kd_beam(vec3(0.0), 0.0, 1.0);
     kd_ray ray = kd_camera_ray(place.x, place.y);
     bool given_up = false;
+    polarized = vec2(0.0);
 #ifdef KD_MARCH
     lost = false;
     kd_follow(beam, place, at); /* no orders: plans refuse them */
@@ -79,11 +95,11 @@ float light(uvec2 place, uint at, uint pixel)
     for (uint n = 0; KD_GLOWS && n < (ORDER == KD_NO_ORDER ? ORDERS : ORDER + 1u); n++) {
         float w = lens[at + n * slice.stride];
         if (ORDER != KD_NO_ORDER)
-            beam.light = vec3(0.0);
+            beam.light = vec3(0.0), polarized = vec2(0.0);
         given_up = given_up || w < 0.0;
         if (w <= 0.0)
             break;
-        kd_beam_at(beam, sample_at(n, w, at, ray));
+        at_crossing(beam, sample_at(n, w, at, ray), place, ray);
     }
 #endif
     if (ORDER == KD_NO_ORDER && KD_ENDS && (QUANTITIES & KD_LENS_FATE) != 0u) {
@@ -93,7 +109,21 @@ float light(uvec2 place, uint at, uint pixel)
             kd_beam_end(beam, kd_end(quantity(KD_LENS_SKY_U, at), quantity(KD_LENS_SKY_PHI, at), quantity(KD_LENS_SKY_FOOTPRINT, at), ray.e));
         kd_beam_points(beam, pixel);
     }
-    return given_up ? KD_NOTHING : dot(beam.light, vec3(0.2126, 0.7152, 0.0722));
+    return given_up ? vec3(KD_NOTHING) : vec3(dot(beam.light, LUMINANCE), polarized);
+}
+
+/* The angle of the electric field, from north to east, in (-pi/2, pi/2]; and the part of the light that is polarised. */
+float kd_layer_evpa(vec3 light) { return light.y == 0.0 && light.z == 0.0 ? KD_NOTHING : 0.5 * kd_atan2(light.z, light.y); }
+float kd_layer_polarized(vec3 light) { return light.x > 0.0 ? length(light.yz) / light.x : KD_NOTHING; }
+
+/* The layer's number of the mean light of a pixel. */
+float value_of_light(vec3 light)
+{
+#define LIGHT_VALUE_(number, name, needs, value)                                                                \
+    if (LAYER == number)                                                                                       \
+        return value;
+    KD_LAYERS(LIGHT_VALUE_, NOT_, NOT_END_)
+    return KD_NOTHING;
 }
 
 /* The number of a crossing, which must lie on the disk. */
@@ -157,6 +187,23 @@ float of_end(uint at)
     return KD_NOTHING;
 }
 
+#ifdef KD_MARCH
+/* Until the last ray of a pixel there are the sums of those before it: of a polarised layer three, a band of pixels apart. */
+vec3 sum_so_far(uint o)
+{
+    const uint pixels = emission.frame.band_pixels;
+    return vec3(uintBitsToFloat(layer[o]), POLARIZED ? uintBitsToFloat(layer[o + pixels]) : 0.0, POLARIZED ? uintBitsToFloat(layer[o + 2u * pixels]) : 0.0);
+}
+void keep_sum(uint o, vec3 sum)
+{
+    layer[o] = kd_is_finite(sum.x) ? floatBitsToUint(sum.x) : KD_NOTHING_BITS;
+    if (POLARIZED) {
+        layer[o + emission.frame.band_pixels] = floatBitsToUint(sum.y);
+        layer[o + 2u * emission.frame.band_pixels] = floatBitsToUint(sum.z);
+    }
+}
+#endif
+
 void main()
 {
     kd_camera_read();
@@ -179,15 +226,21 @@ void main()
 #else
         const uint from = 0u, end = rays;
 #endif
+        vec3 sum = vec3(0.0);
         for (uint i = from; i < end; i++) {
             uvec2 place = CRITICAL > 0 ? kd_critical_place(uvec2(px, py), i) : uvec2(px, py) * SIDE + uvec2(i % SIDE, i / SIDE);
-            value += light(place, CRITICAL > 0 ? listed * CRITICAL + i : (place.y - slice.band0) * cam.width + place.x, o);
+            sum += light(place, CRITICAL > 0 ? listed * CRITICAL + i : (place.y - slice.band0) * cam.width + place.x, o);
         }
-        value *= 1.0 / float(rays);
+        sum *= 1.0 / float(rays);
 #ifdef KD_MARCH
-        if (rays > 1u && slice.ray > 0u) /* a ray that was given up leaves no number, whatever comes behind it */
-            value = layer[o] == KD_NOTHING_BITS ? KD_NOTHING : value + uintBitsToFloat(layer[o]);
+        if (slice.ray > 0u) /* a ray that was given up leaves no number, whatever comes behind it */
+            sum = layer[o] == KD_NOTHING_BITS ? vec3(KD_NOTHING) : sum + sum_so_far(o);
+        if (slice.ray + 1u < rays) {
+            keep_sum(o, sum);
+            return;
+        }
 #endif
+        value = kd_is_finite(sum.x) ? value_of_light(sum) : KD_NOTHING;
     } else {
         uvec2 place = uvec2(px, py) * SIDE + (SIDE - 1u) / 2u; /* of the grid: the middle one, or the one before it */
         uint at = (place.y - slice.band0) * cam.width + place.x;

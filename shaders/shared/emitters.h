@@ -39,7 +39,8 @@
     ALONG(8, jets)                                                                                             \
     ALONG(9, thick)                                                                                            \
     MET(10, bodies)                                                                                            \
-    AT_CROSSING(11, debris)
+    AT_CROSSING(11, debris)                                                                                    \
+    PART(12, polarization)
 
 /* All that has numbers. */
 #define KD_EMIT_BLOCKS(B) B(-1, frame) KD_EMITTERS(B, B, B, B, B, B)

@@ -178,6 +178,16 @@
     REAL(jets, temperature_k, LOOK, REST, 14000.0, 300.0, 1e9, "K", "colour: that of a black body of this temperature, not shifted") \
     BOOL(jets, counterjet, MODEL, REST, true, "the jet below the disk, too")
 
+#define KD_POLARIZATION_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                             \
+    ENUM(polarization, model, MODEL, REST, KD_POLARIZATION_NONE,                                                     \
+         "of light from the disk's plane: none; synchrotron, across polarization.field and the light, in the gas's frame; or scattering, of a deep atmosphere of free " \
+         "electrons, across the normal and the light", "none|synchrotron|scattering")                               \
+    ENUM(polarization, field, MODEL, REST, KD_FIELD_TOROIDAL,                                                        \
+         "direction of the magnetic field in the plane: round the axis, outwards, or along the normal (model: synchrotron)", "toroidal|radial|vertical") \
+    REAL(polarization, electron_index, MODEL, REST, 3.0, 1.0, 10.0, "1",                                             \
+         "electrons have energies E as E to minus this power p, and the light of a field in order is polarised by (p + 1)/(p + 7/3) (model: synchrotron)") \
+    REAL(polarization, order, MODEL, REST, 1.0, 0.0, 1.0, "1", "part of that polarisation which disorder within a pixel leaves")
+
 #define KD_SKY_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                     \
     ENUM(sky, model, MODEL, FRONT, KD_SKY_NONE,                                                                      \
          "what lies at infinity: nothing; a celestial grid that shows the lensing; stars and a Milky Way that are made up; the stars of the " \
@@ -214,7 +224,7 @@
     WORDS(image, layers, LOOK, REST,                                                                                 \
           "what the file holds: the picture, or maps of the rays (docs/layers.md); of the first crossing on the disk, or behind _N of " \
           "image order N; a PNG shows one in false colour, FITS, EXR, NPZ and NPY hold several as numbers",         \
-          "rgb|intensity_N|g_N|temperature_N|r_N|phi_N|delay_N|emission_angle_N|order|sky_theta|sky_phi|fate|footprint_N|sky_footprint|optical_depth_N")       \
+          "rgb|intensity_N|g_N|temperature_N|r_N|phi_N|delay_N|emission_angle_N|order|sky_theta|sky_phi|fate|footprint_N|sky_footprint|optical_depth_N|stokes_q_N|stokes_u_N|evpa_N|polarization_fraction_N")       \
     WORD(image, layer_min, LOOK, REST, INFINITY, -1e12, 1e12, "1",                                                   \
          "number at the lower end of the colours of a layer; auto: what docs/layers.md says of each", "auto")        \
     WORD(image, layer_max, LOOK, REST, INFINITY, -1e12, 1e12, "1", "the same at their upper end", "auto")            \
@@ -281,6 +291,7 @@
     LIST(bodies, body, KD_BODIES_FIELDS, GAS, KD_SCENE_BODIES, "bodies: spheres that shine, before the hole, behind it and in the disk") \
     SECTION(volume, KD_VOLUME_FIELDS, GAS, "matter all along the rays")                                              \
     SECTION(jets, KD_JETS_FIELDS, GAS, "stylised jets along the spin axis")                                          \
+    SECTION(polarization, KD_POLARIZATION_FIELDS, GAS, "how light from the disk's plane is polarised: what layers and ticks show of it, and no picture")     \
     SECTION(sky, KD_SKY_FIELDS, LOOK, "what lies at infinity")                                                       \
     SECTION(image, KD_IMAGE_FIELDS, MORE, "the size of the picture")                                                 \
     SECTION(style, KD_STYLE_FIELDS, LOOK, "from brightness to the colours of the file")                              \
@@ -360,6 +371,10 @@
     WITH("volume.redshift", "model", KD_VOLUME_UNIFORM)                                                              \
     SWITCH("jets.brightness") SPAN("jets.brightness", 0.001, 10) BUTTON("jets.brightness", 0.1, "Jets")              \
     SPAN("jets.lorentz", 1, 10) SPAN("jets.outer", 5, 500) SPAN("jets.inner", 1, 50)                                 \
+    SWITCH("polarization.model")                                                                                     \
+    WITH("polarization.field", "model", KD_POLARIZATION_SYNCHROTRON) WITH("polarization.electron_index", "model", KD_POLARIZATION_SYNCHROTRON) \
+    SPAN("polarization.electron_index", 1, 5)                                                                        \
+    WITH("polarization.order", "model", KD_POLARIZATION_SYNCHROTRON) WITH("polarization.order", "model", KD_POLARIZATION_SCATTERING) \
     SWITCH("sky.model")                                                                                              \
     SPAN("sky.brightness", 1e-4, 1) FIRST("sky.brightness", 0.01)                                                    \
     WITH("sky.grid_deg", "model", KD_SKY_GRID)                                                                       \
@@ -387,6 +402,8 @@ enum kd_projection { KD_PROJECTION_AUTO, KD_PROJECTION_PLANE, KD_PROJECTION_PINH
 enum kd_stereo { KD_STEREO_NONE, KD_STEREO_PAIR };
 enum kd_disk_model { KD_DISK_NONE, KD_DISK_NOVIKOV_THORNE, KD_DISK_SHAKURA_SUNYAEV, KD_DISK_PARTICLES };
 enum kd_volume_model { KD_VOLUME_NONE, KD_VOLUME_UNIFORM };
+enum kd_polarization_model { KD_POLARIZATION_NONE, KD_POLARIZATION_SYNCHROTRON, KD_POLARIZATION_SCATTERING };
+enum kd_polarization_field { KD_FIELD_TOROIDAL, KD_FIELD_RADIAL, KD_FIELD_VERTICAL };
 enum kd_colour { KD_COLOUR_PEAK, KD_COLOUR_ACCRETION };
 enum kd_band { KD_BAND_BOLOMETRIC, KD_BAND_VISIBLE };
 enum kd_sky_model { KD_SKY_NONE, KD_SKY_GRID, KD_SKY_STARS, KD_SKY_CATALOGUE, KD_SKY_IMAGE };

@@ -456,6 +456,7 @@ static void test_each_is_a_picture(void **state)
             uint8_t *with = NULL;
             for (int legend = 1; legend >= 0; legend--) {
                 struct kd_scene scene = scene_of(turns ? 0.9 : 0, 75, INFINITY, kd_layer_kinds[kind].name);
+                scene.polarization.model = turns ? KD_POLARIZATION_SCATTERING : KD_POLARIZATION_SYNCHROTRON;
                 scene.image.width = 200;
                 scene.image.height = 120;
                 scene.image.legend = legend;

@@ -101,7 +101,7 @@ static void other_words_are_refused(void **state)
             if (status != KD_EINVAL)
                 fail_msg("%s is taken", way ? bad[i].text : bad[i].json);
             assert_string_equal(error.pointer, "/image/layers");
-            assert_non_null(strstr(error.message, "1 to 15 of rgb, "));
+            assert_non_null(strstr(error.message, "1 to 16 of rgb, "));
             assert_memory_equal(&scene, &before, sizeof scene);
         }
 }

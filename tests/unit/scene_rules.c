@@ -267,7 +267,8 @@ static void presets_are_valid(void **state)
     static const char *const names[] = { "smooth",        "schwarzschild", "gargantua", "m87",     "m87-eht", "sgra",
                                          "luminet1979",   "edge-on",   "face-on", "photon-rings", "living-disk",
                                          "hot-spot",      "milky-way", "gas",       "gas-stars", "thick-disk",
-                                         "star-behind",   "companions",    "falling",       "infall",    "jet",       "gargantua-gas" };
+                                         "star-behind",   "companions",    "falling",       "infall",    "jet",       "gargantua-gas",
+                                         "polarised-ring" };
     char hashes[sizeof names / sizeof *names][65];
     assert_int_equal(kd_scene_preset_count(), sizeof names / sizeof *names);
     for (size_t i = 0; i < kd_scene_preset_count(); i++) {

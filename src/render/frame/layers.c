@@ -63,16 +63,17 @@ static struct kd_map_scale extent_of(const float *values, size_t n, bool logarit
     return extent.low <= extent.high ? extent : (struct kd_map_scale) { logarithmic, logarithmic ? 10 : 1, false };
 }
 
-/* What the field table has says, else the kind, else the picture. A diverging map has its middle at 1 where it is logarithmic, so that
- * its ends are as far from there. */
+/* What the field table has says, else the kind, else the picture. A diverging map has its middle at 1 where it is logarithmic, else at 0,
+ * so that its ends are as far from there. */
 static struct kd_map_scale scale_of(const struct kd_scene *scene, const struct kd_layer_kind *kind, const float *values, size_t n)
 {
     const struct kd_map_scale extent = extent_of(values, n, kind->scale.logarithmic);
     struct kd_map_scale scale = kind->scale;
     double most = fmax(extent.high, 1 / fmax(extent.low, 1e-3));
-    bool about_one = kind->map == KD_MAP_DIVERGING && scale.logarithmic;
-    scale.low = !isnan(scale.low) ? scale.low : about_one ? 1 / fmax(most, 1.01) : extent.low;
-    scale.high = !isnan(scale.high) ? scale.high : about_one ? fmax(most, 1.01) : extent.high;
+    bool about_one = kind->map == KD_MAP_DIVERGING && scale.logarithmic, about_zero = kind->map == KD_MAP_DIVERGING && !scale.logarithmic;
+    double far = fmax(fmax(extent.high, -extent.low), 1e-30);
+    scale.low = !isnan(scale.low) ? scale.low : about_one ? 1 / fmax(most, 1.01) : about_zero ? -far : extent.low;
+    scale.high = !isnan(scale.high) ? scale.high : about_one ? fmax(most, 1.01) : about_zero ? far : extent.high;
     scale.low = isfinite(scene->image.layer_min) ? scene->image.layer_min : scale.low;
     scale.high = isfinite(scene->image.layer_max) ? scene->image.layer_max : scale.high;
     /* One end that was set may lie beyond all numbers: then they are all at that end of the colours, which do not turn round. */

@@ -6,11 +6,12 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 static const char *const fates[] = { "sky", "hole", "?" };
 
 #define PI 3.14159265358979323846
-#define LIGHT_(number, called, what) [number] = { .name = #called, .of = KD_OF_LIGHT, .needs = what, SHOWN_##called },
+#define LIGHT_(number, called, what, value) [number] = { .name = #called, .of = KD_OF_LIGHT, .needs = what, SHOWN_##called },
 #define CROSSING_(number, called, what, value, met) [number] = { .name = #called, .of = KD_OF_CROSSING, .needs = KD_LENS_W | (what), SHOWN_##called },
 #define RAY_(number, called, what, value) [number] = { .name = #called, .of = KD_OF_RAY, .needs = what, SHOWN_##called },
 
@@ -27,6 +28,10 @@ static const char *const fates[] = { "sky", "hole", "?" };
 #define SHOWN_sky_phi .unit = "rad", .map = KD_MAP_CYCLIC, .scale = { -PI, PI, false }
 #define SHOWN_fate .unit = "", .map = KD_MAP_CATEGORICAL, .scale = { 0, 1, false }, .classes = fates, .n_classes = 3
 #define SHOWN_optical_depth .unit = "", .map = KD_MAP_SEQUENTIAL, .scale = { 0, NAN, false }
+#define SHOWN_stokes_q .unit = "", .map = KD_MAP_DIVERGING, .scale = { NAN, NAN, false }
+#define SHOWN_stokes_u .unit = "", .map = KD_MAP_DIVERGING, .scale = { NAN, NAN, false }
+#define SHOWN_evpa .unit = "rad", .map = KD_MAP_CYCLIC, .scale = { -PI / 2, PI / 2, false }
+#define SHOWN_polarization_fraction .unit = "", .map = KD_MAP_SEQUENTIAL, .scale = { 0, NAN, false }
 #define SHOWN_footprint .unit = "M", .map = KD_MAP_SEQUENTIAL, .scale = { NAN, NAN, true }
 #define SHOWN_sky_footprint .unit = "rad", .map = KD_MAP_SEQUENTIAL, .scale = { NAN, NAN, true }
 
@@ -67,8 +72,12 @@ static enum kd_status check_one(const struct kd_scene *scene, struct kd_plan_lay
         return kd_error_field(error, "/image/layers", "image.layers holds %s, allowed are image orders below accuracy.orders, %d", name,
                               scene->accuracy.orders);
     if ((kd_emit_along(scene) || kd_emit_met(scene)) && kd_layer_kinds[layer.kind].of == KD_OF_LIGHT && layer.order >= 0)
-        return kd_error_field(error, "/image/layers", "image.layers holds %s, allowed where there are volumes or bodies is intensity: their light is between the crossings",
-                              name);
+        return kd_error_field(error, "/image/layers", "image.layers holds %s, allowed where there are volumes or bodies is %.*s: their light is between the crossings",
+                              name, (int)strlen(kd_layer_kinds[layer.kind].name), name);
+    if (kd_layer_is_polarized(layer.kind) && scene->polarization.model == KD_POLARIZATION_NONE)
+        return kd_error_field(error, "/image/layers", "image.layers holds %s with polarization.model \"none\", where no light is polarised: allowed are the other words of it", name);
+    if (kd_layer_is_polarized(layer.kind) && scene->camera.projection == KD_PROJECTION_RING)
+        return kd_error_field(error, "/image/layers", "image.layers holds %s with camera.projection \"ring\", where a picture has no up: allowed are the others", name);
     if (scene->disk.height > 0 && scene->disk.model != KD_DISK_NONE && kd_layer_kinds[layer.kind].of == KD_OF_CROSSING)
         return kd_error_field(error, "/image/layers", "image.layers holds %s, which is of the place where a thin disk is crossed, with disk.height %.9g: allowed is 0", name,
                               scene->disk.height);

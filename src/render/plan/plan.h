@@ -77,6 +77,7 @@ struct kd_plan {
     bool ingoing;                   /* the observer falls, in coordinates that know no outer horizon */
     struct kd_plan_layer layers[KD_WORDS_MOST]; /* maps of numbers beside the picture */
     size_t n_layers;
+    uint32_t layer_words;           /* numbers a pixel of each on the device: 3 where the march adds up Stokes I, Q and U for one of them */
     bool picture;                   /* the picture is among image.layers */
     bool radiance;                  /* and linear light is brought to the host too */
     uint32_t quantities;            /* of the lens map, KD_LENS_... */
@@ -187,7 +188,7 @@ static inline uint32_t kd_plan_star_tiles(const struct kd_plan *plan)
 static inline uint64_t kd_plan_star_ray_bytes(const struct kd_plan *plan) { return 4ull * (2 + kd_plan_star_tiles(plan) + kd_plan_star_slice(plan)); }
 
 /* Counts the bytes of one layer, a band of pixels: a multiple of what a binding may begin at. */
-static inline uint64_t kd_plan_layer_bytes(const struct kd_plan *plan) { return (4ull * plan->width * plan->band_rows + 255) / 256 * 256; }
+static inline uint64_t kd_plan_layer_bytes(const struct kd_plan *plan) { return (4ull * plan->layer_words * plan->width * plan->band_rows + 255) / 256 * 256; }
 
 /* Counts the bytes that layers need to come to the host a band at a time. */
 static inline uint64_t kd_plan_readback_bytes(const struct kd_plan *plan)

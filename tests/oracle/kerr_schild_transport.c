@@ -1,0 +1,307 @@
+#include "kerr_schild_transport.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { VECTORS = 3 }; /* k, right, up */
+struct state { double x[4], v[VECTORS][4]; };
+
+static double radius(double a, const double *x)
+{
+    double rho2 = x[1] * x[1] + x[2] * x[2] + x[3] * x[3] - a * a;
+    return sqrt(0.5 * (rho2 + hypot(rho2, 2 * a * x[3])));
+}
+
+static void metric(double a, const double *x, double g[4][4])
+{
+    double r = radius(a, x), q = r * r + a * a, f = 2 * r * r * r / (r * r * r * r + a * a * x[3] * x[3]);
+    double l[4] = { 1, (r * x[1] + a * x[2]) / q, (r * x[2] - a * x[1]) / q, x[3] / r };
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++)
+            g[i][j] = (i == j ? (i ? 1 : -1) : 0) + f * l[i] * l[j];
+}
+
+static double product(double g[4][4], const double *p, const double *q)
+{
+    double sum = 0;
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++)
+            sum += g[i][j] * p[i] * q[j];
+    return sum;
+}
+
+/* By Gauss and Jordan's elimination: g w = v. */
+static void solve(double g[4][4], const double *v, double *w)
+{
+    double m[4][5];
+    for (int i = 0; i < 4; i++) {
+        memcpy(m[i], g[i], sizeof g[i]);
+        m[i][4] = v[i];
+    }
+    for (int i = 0; i < 4; i++) {
+        int pivot = i;
+        for (int k = i + 1; k < 4; k++)
+            if (fabs(m[k][i]) > fabs(m[pivot][i]))
+                pivot = k;
+        for (int j = 0; j < 5; j++) {
+            double t = m[i][j];
+            m[i][j] = m[pivot][j];
+            m[pivot][j] = t;
+        }
+        for (int k = 0; k < 4; k++)
+            for (int j = 4; k != i && j >= i; j--)
+                m[k][j] -= m[k][i] / m[i][i] * m[i][j];
+    }
+    for (int i = 0; i < 4; i++)
+        w[i] = m[i][4] / m[i][i];
+}
+
+/* Back in time: dx = -k, dv^m = +Gamma^m_ab k^a v^b. */
+static void derivative(double a, const struct state *s, struct state *d)
+{
+    double g[4][4], dg[4][4][4] = { { { 0 } } }, h = 1e-4 * radius(a, s->x);
+    metric(a, s->x, g);
+    for (int c = 1; c < 4; c++) {
+        double x[4], at[4][4][4];
+        for (int i = 0; i < 4; i++) {
+            memcpy(x, s->x, sizeof x);
+            x[c] += (double[]) { -2, -1, 1, 2 }[i] * h;
+            metric(a, x, at[i]);
+        }
+        for (int i = 0; i < 4; i++)
+            for (int j = 0; j < 4; j++)
+                dg[c][i][j] = (at[0][i][j] - 8 * at[1][i][j] + 8 * at[2][i][j] - at[3][i][j]) / (12 * h);
+    }
+    const double *k = s->v[0];
+    for (int n = 0; n < VECTORS; n++) {
+        const double *v = s->v[n];
+        double low[4] = { 0 };
+        for (int m = 0; m < 4; m++)
+            for (int i = 0; i < 4; i++)
+                for (int j = 0; j < 4; j++)
+                    low[m] += 0.5 * (dg[i][m][j] + dg[j][i][m] - dg[m][i][j]) * k[i] * v[j];
+        solve(g, low, d->v[n]);
+    }
+    for (int i = 0; i < 4; i++)
+        d->x[i] = -k[i];
+}
+
+static void add(struct state *s, const struct state *d, double h)
+{
+    for (int i = 0; i < 4; i++) {
+        s->x[i] += h * d->x[i];
+        for (int n = 0; n < VECTORS; n++)
+            s->v[n][i] += h * d->v[n][i];
+    }
+}
+
+static void step(double a, struct state *s, double h)
+{
+    struct state d[4], at;
+    derivative(a, s, &d[0]);
+    for (int i = 1; i < 4; i++) {
+        at = *s;
+        add(&at, &d[i - 1], i == 3 ? h : 0.5 * h);
+        derivative(a, &at, &d[i]);
+    }
+    for (int i = 0; i < 4; i++)
+        add(s, &d[i], h * (i == 0 || i == 3 ? 1. / 6 : 1. / 3));
+}
+
+/* The vector of light from `from` that has the spatial components n: g kk = 0, with k^t > 0. */
+static void light_like(double a, const double *x, const double n[3], double k[4])
+{
+    double g[4][4], half = 0, rest = 0;
+    metric(a, x, g);
+    for (int i = 0; i < 3; i++) {
+        k[i + 1] = n[i];
+        half += g[0][i + 1] * n[i];
+        for (int j = 0; j < 3; j++)
+            rest += g[i + 1][j + 1] * n[i] * n[j];
+    }
+    k[0] = -(half + sqrt(half * half - g[0][0] * rest)) / g[0][0];
+}
+
+struct ks_screen ks_screen_far(double a, double theta, double alpha, double beta)
+{
+    const double far = 1e6, s = sin(theta), c = cos(theta), n[3] = { s, 0, c };
+    struct ks_screen o = { .a = a, .x = { 0, far * s - beta * c, alpha, far * c + beta * s }, .right = { 0, 0, 1, 0 }, .up = { 0, -c, 0, s } };
+    light_like(a, o.x, n, o.k);
+    return o;
+}
+
+/* A covector of (t, r, theta, phi) as a vector of (t, x, y, z), at azimuth 0 of the spherical coordinates: x + i y = (r + i a) sin(theta). */
+static void to_cartesian(const struct ks_place *at, const double *x, const double p[4], double out[4])
+{
+    const double s = sin(at->theta), c = cos(at->theta), a = at->a, r = at->r;
+    double dx[4][4] = { { 1, 0, 0, 0 }, { 0, s, 0, c }, { 0, r * c, a * c, -r * s }, { 0, -a * s, r * s, 0 } }; /* d(x)/d(spherical) */
+    double low[4], g[4][4];
+    solve(dx, p, low);
+    metric(a, x, g);
+    solve(g, low, out);
+}
+
+struct ks_screen ks_screen_near(const struct ks_place *at, const struct ks_frame *f, const double look[3], const double up[3])
+{
+    const double s = sin(at->theta);
+    struct ks_screen o = { .a = at->a, .x = { 0, at->r * s, at->a * s, at->r * cos(at->theta) } };
+    double along = 0, size = 0, across[3], side[3], p[4];
+    for (int i = 0; i < 3; i++)
+        along += look[i] * up[i];
+    for (int i = 0; i < 3; i++) {
+        across[i] = up[i] - along * look[i];
+        size += across[i] * across[i];
+    }
+    for (int i = 0; i < 3; i++)
+        across[i] /= sqrt(size);
+    for (int i = 0; i < 3; i++) /* look x up */
+        side[i] = look[(i + 1) % 3] * across[(i + 2) % 3] - look[(i + 2) % 3] * across[(i + 1) % 3];
+    ks_seen(f, look, p);
+    to_cartesian(at, o.x, p, o.k);
+    for (int n = 0; n < 2; n++) {
+        const double *of = n ? across : side;
+        for (int i = 0; i < 4; i++)
+            p[i] = of[0] * f->e[1][i] + of[1] * f->e[2][i] + of[2] * f->e[3][i];
+        to_cartesian(at, o.x, p, n ? o.up : o.right);
+    }
+    return o;
+}
+
+/* Takes from v its parts along the vectors before it, which are orthogonal to one another. */
+static void across(double g[4][4], double v[4], double (*before)[4], int n)
+{
+    for (int k = 0; k < n; k++) {
+        double part = product(g, v, before[k]) / product(g, before[k], before[k]);
+        for (int i = 0; i < 4; i++)
+            v[i] -= part * before[k][i];
+    }
+}
+
+/* The squared length of a step d/dt + omega d/dphi, on the circle of the plane with this radius. */
+static double line(double a, double r, double omega)
+{
+    double g[4][4], x[4] = { 0, sqrt(r * r + a * a), 0, 0 }, v[4] = { 1, 0, omega * x[1], 0 };
+    metric(a, x, g);
+    return product(g, v, v);
+}
+
+/* Where it pulls neither in nor out. */
+static double omega_of(double a, double r)
+{
+    double low = 0, high = 1 / r, h = 1e-3 * r;
+    for (int i = 0; i < 60; i++) {
+        double w = 0.5 * (low + high), pull = 8 * (line(a, r + h, w) - line(a, r - h, w)) - line(a, r + 2 * h, w) + line(a, r - 2 * h, w);
+        *(pull < 0 ? &low : &high) = w;
+    }
+    return 0.5 * (low + high);
+}
+
+/* The velocity of the gas at x: on the circle; within the ISCO with its E and L there, inwards. */
+static void gas(double a, const double *x, double r_isco, double u[4])
+{
+    double r = radius(a, x), turn[4] = { 0, -x[2], x[1], 0 }, g[4][4], t[4] = { 1, 0, 0, 0 };
+    const bool falls = r < r_isco;
+    const double at = falls ? r_isco : r, omega = omega_of(a, at), norm = 1 / sqrt(-line(a, at, omega));
+    metric(a, x, g);
+    if (!falls) {
+        for (int i = 0; i < 4; i++)
+            u[i] = norm * (t[i] + omega * turn[i]);
+        return;
+    }
+    double there[4][4], y[4] = { 0, sqrt(at * at + a * a), 0, 0 }, v[4] = { norm, 0, norm * omega * y[1], 0 }, round[4] = { 0, 0, y[1], 0 };
+    metric(a, y, there);
+    const double want[2] = { product(there, v, t), product(there, v, round) };
+    /* u = c t + d turn + e out, whose products with t and turn are those; e by the length. */
+    double out[4] = { 0, x[1], x[2], 0 }, basis[2][4], c[2] = { 0 };
+    memcpy(basis[0], t, sizeof t);
+    memcpy(basis[1], turn, sizeof turn);
+    const double m00 = product(g, t, t), m01 = product(g, t, turn), m11 = product(g, turn, turn), det = m00 * m11 - m01 * m01;
+    for (int i = 0; i < 2; i++)
+        c[i] = i ? (m00 * want[1] - m01 * want[0]) / det : (m11 * want[0] - m01 * want[1]) / det;
+    double o0 = product(g, out, t), o1 = product(g, out, turn), d0 = (m11 * o0 - m01 * o1) / det, d1 = (m00 * o1 - m01 * o0) / det;
+    for (int i = 0; i < 4; i++)
+        out[i] -= d0 * t[i] + d1 * turn[i];
+    for (int i = 0; i < 4; i++)
+        u[i] = c[0] * t[i] + c[1] * turn[i];
+    double e = sqrt(fmax(0, (-1 - product(g, u, u)) / product(g, out, out)));
+    for (int i = 0; i < 4; i++)
+        u[i] -= e * out[i];
+}
+
+static void judge(const struct state *s, double a, enum ks_field field, double r_isco, struct ks_polarized *o)
+{
+    double g[4][4], before[3][4], f[4] = { 0 }, b[4] = { 0 };
+    const double *k = s->v[0];
+    metric(a, s->x, g);
+    o->r = radius(a, s->x);
+    o->falls = o->r < r_isco;
+    gas(a, s->x, r_isco, before[0]);
+    const double seen = -product(g, k, before[0]);
+    for (int i = 0; i < 4; i++)
+        before[1][i] = k[i] / seen - before[0][i];
+    const double t[4] = { 1, 0, 0, 0 }, turn[4] = { 0, -s->x[2], s->x[1], 0 }, normal[4] = { 0, 0, 0, 1 };
+    if (field == KS_VERTICAL)
+        memcpy(b, normal, sizeof b);
+    else if (field == KS_TOROIDAL)
+        memcpy(b, turn, sizeof b);
+    else { /* outwards, orthogonal to both motions that change nothing */
+        double both[2][4], out[4] = { 0, s->x[1], s->x[2], 0 };
+        memcpy(both[0], t, sizeof t);
+        memcpy(both[1], turn, sizeof turn);
+        across(g, both[1], both, 1);
+        across(g, out, both, 2);
+        memcpy(b, out, sizeof b);
+    }
+    memcpy(before[2], b, sizeof b);
+    across(g, before[2], before, 2);
+    /* What is left of any vector that is not in their span; of four the longest. */
+    double most = 0;
+    for (int n = 0; n < 4; n++) {
+        double v[4] = { 0 };
+        v[n] = 1;
+        across(g, v, before, 3);
+        double size = product(g, v, v);
+        if (size > most) {
+            most = size;
+            memcpy(f, v, sizeof f);
+        }
+    }
+    double x = product(g, f, s->v[1]), y = product(g, f, s->v[2]);
+    o->angle = atan2(-x, y);
+    o->angle -= M_PI * ceil((o->angle - 0.5 * M_PI) / M_PI);
+    o->cosine = fabs(product(g, k, normal) / sqrt(product(g, normal, normal))) / seen;
+    o->g = seen;
+}
+
+struct ks_polarized ks_polarization(const struct ks_screen *screen, int order, enum ks_field field, double r_isco)
+{
+    struct ks_polarized o = { 0 };
+    struct state s, last;
+    double a = screen->a, horizon = 1 + sqrt(1 - a * a), start = radius(a, screen->x);
+    memcpy(s.x, screen->x, sizeof s.x);
+    memcpy(s.v[0], screen->k, sizeof s.v[0]);
+    memcpy(s.v[1], screen->right, sizeof s.v[1]);
+    memcpy(s.v[2], screen->up, sizeof s.v[2]);
+    for (int n = 0, crossed = 0; n < 20000; n++) {
+        double r = radius(a, s.x), speed = sqrt(s.v[0][1] * s.v[0][1] + s.v[0][2] * s.v[0][2] + s.v[0][3] * s.v[0][3]);
+        double h = 0.01 * fmin(r, 8 * (r - horizon)) / speed;
+        if (r < horizon * 1.0001 || r > 1.2 * start + 100)
+            return o;
+        last = s;
+        step(a, &s, h);
+        if ((last.x[3] > 0) == (s.x[3] > 0) || n == 0)
+            continue;
+        if (crossed++ < order)
+            continue;
+        for (int i = 0; i < 50; i++) { /* lands on the plane */
+            double part = last.x[3] / last.v[0][3];
+            if (fabs(last.x[3]) < 1e-13)
+                break;
+            step(a, &last, part);
+        }
+        o.there = true;
+        judge(&last, a, field, r_isco, &o);
+        return o;
+    }
+    return o;
+}
