@@ -179,7 +179,7 @@
     BOOL(jets, counterjet, MODEL, REST, true, "the jet below the disk, too")
 
 #define KD_POLARIZATION_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                             \
-    ENUM(polarization, model, MODEL, REST, KD_POLARIZATION_NONE,                                                     \
+    ENUM(polarization, model, MODEL, FRONT, KD_POLARIZATION_NONE,                                                     \
          "of light from the disk's plane: none; synchrotron, across polarization.field and the light, in the gas's frame; or scattering, of a deep atmosphere of free " \
          "electrons, across the normal and the light", "none|synchrotron|scattering")                               \
     ENUM(polarization, field, MODEL, REST, KD_FIELD_TOROIDAL,                                                        \
@@ -291,7 +291,7 @@
     LIST(bodies, body, KD_BODIES_FIELDS, GAS, KD_SCENE_BODIES, "bodies: spheres that shine, before the hole, behind it and in the disk") \
     SECTION(volume, KD_VOLUME_FIELDS, GAS, "matter all along the rays")                                              \
     SECTION(jets, KD_JETS_FIELDS, GAS, "stylised jets along the spin axis")                                          \
-    SECTION(polarization, KD_POLARIZATION_FIELDS, GAS, "how light from the disk's plane is polarised: what layers and ticks show of it, and no picture")     \
+    SECTION(polarization, KD_POLARIZATION_FIELDS, MORE, "how light from the disk's plane is polarised: what layers and ticks show of it, and no picture")     \
     SECTION(sky, KD_SKY_FIELDS, LOOK, "what lies at infinity")                                                       \
     SECTION(image, KD_IMAGE_FIELDS, MORE, "the size of the picture")                                                 \
     SECTION(style, KD_STYLE_FIELDS, LOOK, "from brightness to the colours of the file")                              \

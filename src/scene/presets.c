@@ -142,10 +142,10 @@ const struct kd_preset kd_presets[] = {
       "\"style\":{\"name\":\"dngr\"},"
       "\"image\":{\"samples\":2},"
       "\"motion\":{\"time_rate\":6}}" },
-    { "polarised-ring", "Polarised ring", "A ring about 6 M, seen like M87* at 17 degrees, whose synchrotron light a field along the axis polarises in a spiral; the overlays show it by ticks",
+    { "polarised-ring", "Polarised ring", "A ring about 6 M, seen like M87* at 17 degrees, whose synchrotron light a field along the axis polarises in a spiral: image.layers has it as numbers",
       false,
       "{\"spacetime\":{\"spin\":0.5,\"mass_msun\":6.5e9,\"distance_pc\":16.8e6},"
-      "\"camera\":{\"inclination_deg\":163,\"field_m\":28,\"roll_deg\":108},"
+      "\"camera\":{\"inclination_deg\":163,\"field_m\":36,\"roll_deg\":108},"
       "\"disk\":{\"inner\":5,\"outer\":8,\"taper\":0.3,\"opacity\":0.3,\"emission_opacity\":0,\"gas\":{\"amplitude\":0}},"
       "\"polarization\":{\"model\":\"synchrotron\",\"field\":\"vertical\"},"
       "\"style\":{\"palette\":\"heat\",\"tone_map\":\"srgb\",\"bloom\":0},"
