@@ -16,7 +16,8 @@ static const struct command {
 } commands[] = {
     { "render", kd_cli_render },   { "light-curve", kd_cli_light_curve }, { "sweep", kd_cli_sweep }, { "particles", kd_cli_particles },
     { "rays", kd_cli_rays },       { "pixel", kd_cli_pixel },    { "orbit", kd_cli_orbit },
-    { "line", kd_cli_line }, { "playground", kd_cli_playground },
+    { "line", kd_cli_line }, { "transfer-function", kd_cli_transfer_function }, { "spectrum", kd_cli_spectrum },
+    { "playground", kd_cli_playground },
     { "physics", kd_cli_physics }, { "plan", kd_cli_plan },
     { "scene", kd_cli_scene },     { "presets", kd_cli_presets }, { "serve", kd_cli_serve }, { "doctor", kd_cli_doctor },
     { "bench", kd_cli_bench },
@@ -30,7 +31,7 @@ struct choice {
 
 static const struct command *find(const char *name, struct argp_state *state)
 {
-    char known[200] = "";
+    char known[300] = "";
     struct kd_slip_best meant = { 0 };
     for (size_t i = 0; i < sizeof commands / sizeof *commands; i++) {
         size_t used = strlen(known);
@@ -86,6 +87,8 @@ static const struct argp argp = {
            "  pixel        what one pixel of a picture shows: its ray, each emitter on it, why it ends\n"
            "  orbit        path of a body round the hole, its constants and frequencies\n"
            "  line         the profile of a line from a thin disk: photons by energy\n"
+           "  transfer-function  how rings of a thin disk are seen, by redshift\n"
+           "  spectrum     what a thin disk of black bodies sends, by frequency\n"
            "  playground   bodies round the hole that pull one another, merge, and are torn apart\n"
            "  physics      numbers of a hole, an orbit, a disk: one point or a curve\n"
            "  plan         what a scene costs on this device\n"

@@ -20,6 +20,8 @@ int kd_cli_rays(int argc, char **argv);
 int kd_cli_pixel(int argc, char **argv);
 int kd_cli_orbit(int argc, char **argv);
 int kd_cli_line(int argc, char **argv);
+int kd_cli_transfer_function(int argc, char **argv);
+int kd_cli_spectrum(int argc, char **argv);
 int kd_cli_playground(int argc, char **argv);
 int kd_cli_physics(int argc, char **argv);
 int kd_cli_plan(int argc, char **argv);

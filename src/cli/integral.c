@@ -129,3 +129,5 @@ static int run(enum kd_integral what, int argc, char **argv)
 }
 
 int kd_cli_line(int argc, char **argv) { return run(KD_INTEGRAL_LINE, argc, argv); }
+int kd_cli_transfer_function(int argc, char **argv) { return run(KD_INTEGRAL_TRANSFER, argc, argv); }
+int kd_cli_spectrum(int argc, char **argv) { return run(KD_INTEGRAL_SPECTRUM, argc, argv); }

@@ -1,8 +1,14 @@
 /* Each integral fills the columns that its kind lists. */
 #include "integral/answer.h"
 #include "integral/kept.h"
+#include "physics/constants.h"
+#include "physics/disk.h"
+#include "physics/disk_spectrum.h"
+#include "physics/kerr.h"
+#include "physics/transfer_function.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 static const char *const line_sources[] = {
@@ -10,6 +16,25 @@ static const char *const line_sources[] = {
     "S. E. Gralla & A. Lupsasca 2020, Phys. Rev. D 101, 044032 (rays in closed form)",
     "T. Dauser et al. 2013, MNRAS 430, 1694 (lamppost)",
     "A. Laor 1991, ApJ 376, 90; F. Haardt 1993, ApJ 413, 680 (limb)",
+    NULL,
+};
+static const char *const transfer_sources[] = {
+    "C. T. Cunningham 1975, ApJ 202, 788",
+    "R. Speith, H. Riffert & H. Ruder 1995, Comput. Phys. Commun. 88, 109, eq. 1",
+    "S. E. Gralla & A. Lupsasca 2020, Phys. Rev. D 101, 044032 (rays in closed form)",
+    NULL,
+};
+static const char *const spectrum_sources[] = {
+    "D. N. Page & K. S. Thorne 1974, ApJ 191, 499 (flux)",
+    "L.-X. Li et al. 2005, ApJS 157, 335, eq. 6 (spectrum)",
+    "T. Shimura & F. Takahara 1995, ApJ 445, 780 (colour correction)",
+    "S. E. Gralla & A. Lupsasca 2020, Phys. Rev. D 101, 044032 (rays in closed form)",
+    NULL,
+};
+static const char *const spectrum_approximations[] = {
+    "a thin opaque disk in the equatorial plane, gas on circular orbits, no torque at the ISCO, nothing within it",
+    "each ring shines as a black body of its colour temperature, dimmed so that its energy is kept",
+    "the direct image alone: light that goes round the hole, or falls back onto the disk, is left out",
     NULL,
 };
 static const char *const disk_approximations[] = {
@@ -30,6 +55,30 @@ static const struct kd_integral_kind_of kinds[KD_INTEGRALS] = {
                              { "cumulative", "1", "share up to energy_high from the first edge" } },
                            line_sources,
                            disk_approximations },
+    [KD_INTEGRAL_TRANSFER] = { "Cunningham's transfer function of a thin disk",
+                               { { "isco", "M", "innermost stable circular orbit" } },
+                               { { "r", "M", "radius of the ring" },
+                                 { "g_star", "1", "(g - g_min)/(g_max - g_min)" },
+                                 { "g", "1", "energy at infinity over that for the gas" },
+                                 { "f_near", "1", "f of the side that is nearer to the observer" },
+                                 { "f_far", "1", "f of the far side" },
+                                 { "mu_near", "1", "cosine off the disk's normal at which the light leaves the gas there" },
+                                 { "mu_far", "1", "the same of the far side" },
+                                 { "g_min", "1", "of the ring" },
+                                 { "g_max", "1", "of the ring" } },
+                               transfer_sources,
+                               disk_approximations },
+    [KD_INTEGRAL_SPECTRUM] = { "spectrum of a thin disk of black bodies",
+                               { { "isco", "M", "innermost stable circular orbit" },
+                                 { "t_max_k", "K", "effective temperature of the hottest ring" },
+                                 { "luminosity_w", "W", "efficiency times Mdot c^2" },
+                                 { "error", "1", "estimated, relative, of the flux where it is above a millionth of its maximum" } },
+                               { { "frequency_hz", "Hz", "at the observer" },
+                                 { "flux_w_m2_hz", "W/m^2/Hz", "F_nu" },
+                                 { "flux_jy", "Jy", "F_nu" },
+                                 { "nu_l_nu_w", "W", "4 pi D^2 nu F_nu, as if it shone evenly" } },
+                               spectrum_sources,
+                               spectrum_approximations },
 };
 
 const struct kd_integral_kind_of *kd_integral_kind_of(enum kd_integral what) { return &kinds[what]; }
@@ -70,10 +119,58 @@ done:
     return status;
 }
 
+static enum kd_status one_ring(const struct kd_integral_request *r, const struct kd_disk_image *image, size_t at, struct kd_integral_answer *answer, struct kd_error *error)
+{
+    struct kd_transfer_ring ring;
+    char pointer[40];
+    snprintf(pointer, sizeof pointer, "/radii/%zu", at);
+    if (!kd_transfer_ring_of(image, r->radii.at[at], &ring))
+        return kd_error_field(error, pointer, "a radius is %.9g, whose ring shows an energy more than twice: no transfer function has it", r->radii.at[at]);
+    for (size_t k = 0; k < r->g_stars; k++) {
+        double g_star = r->g_star.at[k];
+        struct kd_transfer near, far;
+        if (!kd_transfer_at(image, &ring, g_star, false, &near) || !kd_transfer_at(image, &ring, g_star, true, &far))
+            return kd_error_field(error, pointer, "a radius is %.9g, whose place of g* %.9g was not found", ring.r, g_star);
+        const double row[] = { ring.r, g_star, ring.g_min + g_star * (ring.g_max - ring.g_min), near.f, far.f, near.mu, far.mu, ring.g_min, ring.g_max };
+        for (size_t i = 0; i < sizeof row / sizeof *row; i++)
+            answer->columns[i][at * r->g_stars + k] = row[i];
+    }
+    return KD_OK;
+}
+
+static enum kd_status compute_transfer(const struct kd_integral_request *r, const struct kd_disk_image *image, struct kd_integral_answer *answer, struct kd_error *error)
+{
+    enum kd_status status = make_columns(answer, kd_integral_rows(r), error);
+    for (size_t i = 0; !status && i < r->rings; i++)
+        status = one_ring(r, image, i, answer, error);
+    answer->values[0] = image->isco;
+    return status;
+}
+
+static enum kd_status compute_spectrum(const struct kd_integral_request *r, const struct kd_disk_image *image, struct kd_integral_answer *answer, struct kd_error *error)
+{
+    const struct kd_disk_spectrum_params params = { r->inner, r->outer, r->mass_msun, r->distance_pc, r->mdot_edd, r->colour_correction, r->limb };
+    double hottest = fmax(r->inner, kd_disk_peak_page_thorne(r->spin)), distance = r->distance_pc * KD_PARSEC_M;
+    enum kd_status status;
+    KD_TRY(make_columns(answer, r->frequencies, error));
+    double *const *c = answer->columns;
+    KD_TRY(kd_disk_spectrum(image, &params, r->frequencies_hz.at, (int)r->frequencies, c[1], &answer->values[3], error));
+    for (size_t i = 0; i < r->frequencies; i++) {
+        c[0][i] = r->frequencies_hz.at[i];
+        c[2][i] = c[1][i] * 1e26;
+        c[3][i] = 4 * M_PI * distance * distance * c[0][i] * c[1][i];
+    }
+    answer->values[0] = image->isco;
+    answer->values[1] = kd_disk_temperature(kd_disk_flux_page_thorne(r->spin, hottest), r->spin, r->mass_msun, r->mdot_edd);
+    answer->values[2] = kd_kerr_efficiency(r->spin) * kd_disk_rate(r->spin, r->mass_msun, r->mdot_edd) * KD_C_M_S * KD_C_M_S;
+done:
+    return status;
+}
+
 enum kd_status kd_integral_compute(const struct kd_integral_request *request, struct kd_integral_answer *answer, struct kd_error *error)
 {
     static enum kd_status (*const compute[KD_INTEGRALS])(const struct kd_integral_request *, const struct kd_disk_image *, struct kd_integral_answer *,
-                                                         struct kd_error *) = { compute_line };
+                                                         struct kd_error *) = { compute_line, compute_transfer, compute_spectrum };
     struct kd_disk_image *image = NULL;
     enum kd_status status;
     *answer = (struct kd_integral_answer) { .request = request };

@@ -7,7 +7,9 @@
 
 #define AT(member) offsetof(struct kd_integral_request, member)
 #define LINE (1u << KD_INTEGRAL_LINE)
-#define ALL LINE
+#define TRANSFER (1u << KD_INTEGRAL_TRANSFER)
+#define SPECTRUM (1u << KD_INTEGRAL_SPECTRUM)
+#define ALL (LINE | TRANSFER | SPECTRUM)
 #define REAL(name, unit, least, most, of, help) { #name, unit, help, KD_INTEGRAL_REAL, AT(name), least, most, false, NULL, of }
 #define OR_WORD(name, unit, least, most, word, of, help) { #name, unit, help, KD_INTEGRAL_REAL, AT(name), least, most, false, word, of }
 #define WORD(name, member, words, of, help) { #name, "", help, KD_INTEGRAL_WORD, AT(member), 0, 0, false, words, of }
@@ -25,19 +27,31 @@ const struct kd_integral_field kd_integral_fields[] = {
     REAL(break_r, "M", 1, 1e6, LINE, "broken: where the index changes"),
     REAL(height, "M", 1, 1e4, LINE, "lamppost: height of the source on the axis"),
     REAL(photon_index, "", 0, 10, LINE, "lamppost: photon index of the source's power law"),
-    WORD(limb, limb, "isotropic|laor|haardt", LINE, "light by the angle off the disk's normal: even, 1 + 2.06 mu, or ln(1 + 1/mu)"),
+    WORD(limb, limb, "isotropic|laor|haardt", LINE | SPECTRUM, "light by the angle off the disk's normal: even, 1 + 2.06 mu, or ln(1 + 1/mu)"),
     WORD(counts, energy, "photons|energy", LINE, "what a bin counts"),
     REAL(rest_energy, "", 1e-9, 1e9, LINE, "energy of the line where the gas is at rest, in any unit: edges are in the same"),
     REAL(energy_min, "", 0, 1e9, LINE, "first edge of bins of equal width"),
     OR_WORD(energy_max, "", 0, 1e9, "auto", LINE, "last edge; auto: 1.7 times rest_energy"),
     WHOLE(bins, 1, KD_INTEGRAL_ROWS, LINE, "number of bins of equal width"),
     NUMBERS(edges, "", 0, 1e9, LINE, "edges of the bins, instead of energy_min, energy_max and bins; each above the one before"),
+    WHOLE(rings, 1, 1000, TRANSFER, "number of radii, from inner to outer at equal ratios"),
+    NUMBERS(radii, "M", 1, 1e6, TRANSFER, "radii, instead of rings; between inner and outer"),
+    WHOLE(g_stars, 1, 1000, TRANSFER, "number of g* at each radius, the middles of as many equal parts of 0 to 1"),
+    { "g_star", "", "numbers between 0, the reddest light of the ring, and 1, the bluest, instead of g_stars", KD_INTEGRAL_NUMBERS, AT(g_star), 0, 1, true, NULL, TRANSFER },
+    REAL(mass_msun, "solar masses", 1e-5, 1e12, SPECTRUM, "mass of the hole"),
+    REAL(distance_pc, "pc", 1e-3, 1e12, SPECTRUM, "how far away it is"),
+    REAL(mdot_edd, "Eddington rates", 1e-12, 1e3, SPECTRUM, "accretion rate: luminosity over the Eddington luminosity, with the efficiency of this spin"),
+    REAL(colour_correction, "", 1, 10, SPECTRUM, "colour temperature over effective temperature"),
+    OR_WORD(frequency_min_hz, "Hz", 1e-3, 1e25, "auto", SPECTRUM, "first frequency; auto: 0.001 k/h times the hottest ring's colour temperature"),
+    OR_WORD(frequency_max_hz, "Hz", 1e-3, 1e25, "auto", SPECTRUM, "last frequency; auto: 30 k/h times the same"),
+    WHOLE(frequencies, 2, KD_INTEGRAL_FREQUENCIES, SPECTRUM, "number of frequencies, at equal ratios"),
+    NUMBERS(frequencies_hz, "Hz", 1e-3, 1e25, SPECTRUM, "frequencies, instead of the three before"),
 };
 const size_t kd_n_integral_fields = sizeof kd_integral_fields / sizeof *kd_integral_fields;
 
 const char *kd_integral_name(enum kd_integral what)
 {
-    static const char *const names[KD_INTEGRALS] = { "line" };
+    static const char *const names[KD_INTEGRALS] = { "line", "transfer-function", "spectrum" };
     return names[what];
 }
 
@@ -54,6 +68,8 @@ void kd_integral_request_init(struct kd_integral_request *request, enum kd_integ
     *request = (struct kd_integral_request) {
         .what = what, .inclination_deg = 30, .inner = NAN, .outer = 400, .index = 3, .outer_index = 3, .break_r = 10, .height = 10, .photon_index = 2,
         .rest_energy = 1, .energy_max = NAN, .bins = 500,
+        .rings = 10, .g_stars = 20, .mass_msun = 10, .distance_pc = 1e4, .mdot_edd = 0.1, .colour_correction = 1.7, .frequency_min_hz = NAN, .frequency_max_hz = NAN,
+        .frequencies = 200,
     };
 }
 

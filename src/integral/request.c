@@ -1,6 +1,8 @@
 #include "integral/request.h"
 
 #include "base/slip.h"
+#include "physics/constants.h"
+#include "physics/disk.h"
 #include "physics/kerr.h"
 #include "scene/number.h"
 #include "scene/text.h"
@@ -13,16 +15,21 @@
 
 void kd_integral_request_finish(struct kd_integral_request *request)
 {
-    free(request->edges.at);
-    request->edges = (struct kd_integral_list) { 0 };
+    struct kd_integral_list *const lists[] = { &request->edges, &request->radii, &request->g_star, &request->frequencies_hz };
+    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
+        free(lists[i]->at);
+        *lists[i] = (struct kd_integral_list) { 0 };
+    }
 }
 
 static bool has(const struct kd_integral_request *request, const struct kd_integral_field *field) { return field->of & 1u << request->what; }
 
 static enum kd_status unknown(const struct kd_integral_request *request, const char *name, const char *pointer, struct kd_error *error)
 {
-    char shown[60], known[400] = "";
+    char shown[60], known[400] = ""; /* kd_error_field clips what is longer */
     struct kd_slip_best meant = { 0 };
+    if (request->what == KD_INTEGRAL_SPECTRUM && (!strcmp(name, "volume") || !strcmp(name, "scene")))
+        return kd_error_field(error, pointer, "%s is given, and spectra of volumes are not computed yet for any model: this is that of the thin disk", name);
     kd_text_clip(shown, sizeof shown, name);
     for (size_t i = 0; i < kd_n_integral_fields; i++) {
         const struct kd_integral_field *f = &kd_integral_fields[i];
@@ -311,7 +318,87 @@ static enum kd_status check_edges(struct kd_integral_request *r, struct kd_error
     return check_growth(&r->edges, "edges", error);
 }
 
-size_t kd_integral_rows(const struct kd_integral_request *r) { return r->bins; }
+/* n numbers at equal ratios, or at the middles of n parts of 0 to 1. */
+static enum kd_status fill_list(struct kd_integral_request *r, const char *name, uint32_t n, double first, double last, struct kd_error *error)
+{
+    struct kd_integral_list *list;
+    enum kd_status status = make_room(r, find(r, name), n, "", &list, error);
+    for (size_t i = 0; !status && i < n; i++)
+        list->at[i] = !(first > 0) ? ((double)i + 0.5) / n : n == 1 ? first : i + 1 == n ? last : first * pow(last / first, (double)i / (n - 1));
+    return status;
+}
+
+/* A list is refused beside what would have made it. */
+static enum kd_status check_beside(const struct kd_integral_request *r, const char *list, const char *const *others, size_t n, struct kd_error *error)
+{
+    char pointer[40];
+    snprintf(pointer, sizeof pointer, "/%s", list);
+    for (size_t i = 0; i < n; i++)
+        if (given(r, others[i]))
+            return kd_error_field(error, pointer, "%s is given beside %s: allowed is one of the two", list, others[i]);
+    return KD_OK;
+}
+
+static enum kd_status check_transfer(struct kd_integral_request *r, struct kd_error *error)
+{
+    enum kd_status status = KD_OK;
+    const double tilt = 90 - fabs(r->inclination_deg - 90);
+    if (tilt < 0.1)
+        return kd_error_field(error, "/inclination_deg", "inclination_deg is %.9g: seen face on each ring has one redshift and no transfer function; allowed are 0.1 to 87 and 93 to 179.9",
+                              r->inclination_deg);
+    if (r->radii.n) {
+        KD_TRY(check_beside(r, "radii", (const char *const[]) { "rings" }, 1, error));
+        r->rings = (uint32_t)r->radii.n;
+    } else {
+        KD_TRY(fill_list(r, "radii", r->rings, r->inner, r->outer, error));
+    }
+    if (r->g_star.n) {
+        KD_TRY(check_beside(r, "g_star", (const char *const[]) { "g_stars" }, 1, error));
+        r->g_stars = (uint32_t)r->g_star.n;
+    } else {
+        KD_TRY(fill_list(r, "g_star", r->g_stars, 0, 0, error));
+    }
+    for (size_t i = 0; i < r->radii.n; i++)
+        if (r->radii.at[i] < r->inner * (1 - 1e-12) || r->radii.at[i] > r->outer) {
+            char pointer[60];
+            snprintf(pointer, sizeof pointer, "/radii/%zu", i);
+            return kd_error_field(error, pointer, "a radius is %.9g, allowed are %.9g to %.9g, from inner to outer", r->radii.at[i], r->inner, r->outer);
+        }
+    if (r->radii.n * r->g_star.n > KD_INTEGRAL_TRANSFERS)
+        return kd_error_field(error, r->radii.n > r->g_star.n ? "/radii" : "/g_star", "%zu radii with %zu g* are more than %u places", r->radii.n, r->g_star.n, KD_INTEGRAL_TRANSFERS);
+done:
+    return status;
+}
+
+static enum kd_status check_frequencies(struct kd_integral_request *r, struct kd_error *error)
+{
+    static const char *const even[] = { "frequency_min_hz", "frequency_max_hz", "frequencies" };
+    enum kd_status status = KD_OK;
+    if (r->frequencies_hz.n) {
+        KD_TRY(check_beside(r, "frequencies_hz", even, 3, error));
+        if (r->frequencies_hz.n > KD_INTEGRAL_FREQUENCIES)
+            return kd_error_field(error, "/frequencies_hz", "frequencies_hz has %zu numbers, allowed are 1 to %u", r->frequencies_hz.n, KD_INTEGRAL_FREQUENCIES);
+        r->frequencies = (uint32_t)r->frequencies_hz.n, r->frequency_min_hz = r->frequencies_hz.at[0], r->frequency_max_hz = r->frequencies_hz.at[r->frequencies - 1];
+        return check_growth(&r->frequencies_hz, "frequencies_hz", error);
+    }
+    double hottest = fmax(r->inner, kd_disk_peak_page_thorne(r->spin));
+    double t = r->colour_correction * kd_disk_temperature(kd_disk_flux_page_thorne(r->spin, hottest), r->spin, r->mass_msun, r->mdot_edd);
+    if (isnan(r->frequency_min_hz))
+        r->frequency_min_hz = 1e-3 * t * KD_K_J_K / KD_H_J_S;
+    if (isnan(r->frequency_max_hz))
+        r->frequency_max_hz = 30 * t * KD_K_J_K / KD_H_J_S;
+    if (!(r->frequency_max_hz > r->frequency_min_hz))
+        return kd_error_field(error, "/frequency_max_hz", "frequency_max_hz is %.9g and frequency_min_hz %.9g; allowed are larger values than that", r->frequency_max_hz,
+                              r->frequency_min_hz);
+    KD_TRY(fill_list(r, "frequencies_hz", r->frequencies, r->frequency_min_hz, r->frequency_max_hz, error));
+done:
+    return status;
+}
+
+size_t kd_integral_rows(const struct kd_integral_request *r)
+{
+    return r->what == KD_INTEGRAL_LINE ? r->bins : r->what == KD_INTEGRAL_SPECTRUM ? r->frequencies : (size_t)r->rings * r->g_stars;
+}
 
 enum kd_status kd_integral_request_check(struct kd_integral_request *r, struct kd_error *error)
 {
@@ -321,6 +408,10 @@ enum kd_status kd_integral_request_check(struct kd_integral_request *r, struct k
         KD_TRY(check_emissivity(r, error));
         KD_TRY(check_edges(r, error));
     }
+    if (r->what == KD_INTEGRAL_TRANSFER)
+        KD_TRY(check_transfer(r, error));
+    if (r->what == KD_INTEGRAL_SPECTRUM)
+        KD_TRY(check_frequencies(r, error));
 done:
     return status;
 }

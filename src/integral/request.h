@@ -17,8 +17,10 @@
 #define KD_INTEGRAL_BODY_MAX ((size_t)1 << 20) /* bytes of a document */
 #define KD_INTEGRAL_ROWS 20000u                /* of an answer */
 #define KD_INTEGRAL_LIST 20001u                /* numbers of a list */
+#define KD_INTEGRAL_TRANSFERS 5000u            /* rows of a transfer function: 0.1 ms each */
+#define KD_INTEGRAL_FREQUENCIES 1000u
 
-enum kd_integral { KD_INTEGRAL_LINE, KD_INTEGRALS };
+enum kd_integral { KD_INTEGRAL_LINE, KD_INTEGRAL_TRANSFER, KD_INTEGRAL_SPECTRUM, KD_INTEGRALS };
 
 struct kd_integral_list {
     double *at; /* malloc'd */
@@ -35,6 +37,12 @@ struct kd_integral_request {
     double rest_energy, energy_min, energy_max;      /* energy_max: NaN: 1.7 rest_energy */
     uint32_t bins;
     struct kd_integral_list edges;
+    struct kd_integral_list radii, g_star; /* of a transfer function */
+    uint32_t rings, g_stars;
+    double mass_msun, distance_pc, mdot_edd, colour_correction; /* of a spectrum */
+    double frequency_min_hz, frequency_max_hz;                  /* NaN: by the hottest ring */
+    uint32_t frequencies;
+    struct kd_integral_list frequencies_hz;
     uint64_t seen; /* which fields were given, a bit each */
 };
 

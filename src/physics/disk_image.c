@@ -9,7 +9,8 @@
 #include <string.h>
 
 enum { POINTS = 6 }; /* of an interpolation */
-#define EXACT 1e-8  /* of ln r, at the nodes */
+#define NODES 1e-8  /* of ln r, at the nodes */
+#define PLACE 1e-12 /* at a place that is asked for by itself */
 
 struct ellipse {
     double x0, y0, a, b;
@@ -50,13 +51,13 @@ static double mismatch(const struct kd_disk_image *image, const struct ellipse *
 }
 
 /* The root of ln(r_0/r) in ln R from a guess: secants, whose first slope is that of flat space, kept within what brackets the root. */
-static bool find(const struct kd_disk_image *image, const struct ellipse *e, int angle, double r, double *log_stretch)
+static bool find(const struct kd_disk_image *image, const struct ellipse *e, const double direction[2], double r, double exact, double *log_stretch)
 {
-    double cosine = e->a * image->cosine[angle], sine = e->b * image->sine[angle];
+    double cosine = e->a * direction[0], sine = e->b * direction[1];
     double x = *log_stretch, low = -INFINITY, high = INFINITY, before = NAN, f_before = NAN, reach = 0.02;
     for (int i = 0; i < 100; i++) {
         double f = mismatch(image, e, cosine, sine, x, r);
-        if (fabs(f) < EXACT || (high - low < 1e-13)) {
+        if (fabs(f) < exact || (high - low < 1e-13)) {
             *log_stretch = x;
             return fabs(f) < 1e-6;
         }
@@ -101,7 +102,9 @@ bool kd_disk_image_init(struct kd_disk_image *image, double spin, double inclina
         struct ellipse e = around(image, r);
         for (int j = 0; j < image->angles; j++) {
             double log_stretch = log(fmax(guess(image, k, j), 0.1));
-            if (!find(image, &e, j * (KD_DISK_IMAGE_ANGLES / image->angles), r, &log_stretch))
+            int at = j * (KD_DISK_IMAGE_ANGLES / image->angles);
+            const double direction[2] = { image->cosine[at], image->sine[at] };
+            if (!find(image, &e, direction, r, NODES, &log_stretch))
                 return false;
             image->stretch[k][j] = exp(log_stretch);
         }
@@ -133,6 +136,24 @@ static void between_rings(const struct kd_disk_image *image, double r, int skip,
         for (int j = 0; j < image->angles; j++)
             row[j] += weight[i] * from[j];
     }
+}
+
+bool kd_disk_image_place(const struct kd_disk_image *image, double r, double chi, double *alpha, double *beta)
+{
+    double row[KD_DISK_IMAGE_ANGLES], weight[POINTS], stretch = 0, turns = chi / (2 * M_PI), at = (turns - floor(turns)) * image->angles;
+    int n = image->angles, first = (int)floor(at) - POINTS / 2 + 1;
+    const double direction[2] = { cos(chi), sin(chi) };
+    struct ellipse e = around(image, r);
+    between_rings(image, r, 1, row);
+    weigh(at - first, weight);
+    for (int i = 0; i < POINTS; i++)
+        stretch += weight[i] * row[(first + i + n) % n];
+    double log_stretch = log(fmax(stretch, 0.1));
+    if (!find(image, &e, direction, r, PLACE, &log_stretch))
+        return false;
+    *alpha = e.x0 + exp(log_stretch) * e.a * direction[0];
+    *beta = e.y0 + exp(log_stretch) * e.b * direction[1];
+    return true;
 }
 
 void kd_disk_image_ring(const struct kd_disk_image *image, double r, int skip, int n, double *alpha, double *beta)

@@ -35,6 +35,9 @@ bool kd_disk_image_init(struct kd_disk_image *image, double spin, double inclina
  * much that differs tells the error of the table. r >= ISCO. */
 void kd_disk_image_ring(const struct kd_disk_image *image, double r, int skip, int n, double *alpha, double *beta);
 
+/* The place of a ring at one angle, by a ray that leads there to 1e-12 of r instead of by interpolation; also a little within the ISCO. False where it is not found. */
+bool kd_disk_image_place(const struct kd_disk_image *image, double r, double chi, double *alpha, double *beta);
+
 /* The radius at which the ray seen at (alpha, beta) meets the plane first; 0: it is captured before; INFINITY: it leaves. Closed form, a microsecond. */
 double kd_disk_image_radius(const struct kd_disk_image *image, double alpha, double beta);
 

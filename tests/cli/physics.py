@@ -87,6 +87,12 @@ class Integrals(Case):
         self.assertEqual((len(rows), list(rows[0])), (7, ["energy_low", "energy_high", "share", "cumulative"]))
         self.assertTrue(self.good("line", "--bins", "7", "-f", "npy").startswith(b"\x93NUMPY"))
 
+    def test_other_integrals(self):
+        rows = list(csv.DictReader(io.StringIO(self.good("transfer-function", "--radii", "6,12", "--g-star", "0.5", "-f", "csv").decode())))
+        self.assertEqual([float(row["r"]) for row in rows], [6, 12])
+        told = json.loads(self.good("spectrum", "--frequencies", "3", "--mass-msun", "1e6"))
+        self.assertEqual(told["parameters"]["mass_msun"], 1e6)
+
     def test_refused(self):
         for args, words in ((["--spin", "1"], "(at /spin)"), (["--edges", "1,2,x"], "(at /edges/2)"), (["--bins", "0"], "(at /bins)"), (["--height", "9"], "belongs to emissivity lamppost"),
                             (["absent.json"], "No such file"), (["a.json", "b.json"], "one file at a time"), (["-f", "png"], "json, csv or npy")):

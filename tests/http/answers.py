@@ -64,7 +64,8 @@ class Answers(daemon.Case):
         self.get('/v1/pixel', '/v1/pixel?at=3,2&image.width=64&image.height=36')
 
     def test_integrals(self):
-        for name, document in (('line', {'bins': 3}), ('line', {'edges': [0.2, 1.4], 'emissivity': 'lamppost', 'limb': 'haardt'})):
+        for name, document in (('line', {'bins': 3}), ('line', {'edges': [0.2, 1.4], 'emissivity': 'lamppost', 'limb': 'haardt'}),
+                               ('transfer-function', {'rings': 2, 'g_stars': 2}), ('spectrum', {'frequencies_hz': [1e16, 1e17]})):
             self.send('POST', '/v1/' + name, '/v1/' + name, document)
 
     def test_stars(self):

@@ -144,6 +144,8 @@ class Memory(unittest.TestCase):
 
     def test_integrals(self):
         self.sweep(self.post('/v1/line', {'bins': 4}), 200)
+        self.sweep(self.post('/v1/transfer-function', {'rings': 1, 'g_stars': 1}), 200)
+        self.sweep(self.post('/v1/spectrum', {'frequencies': 2}), 200)
 
     def test_jobs(self):
         self.sweep(self.owned('/v1/jobs'), 202)

@@ -84,6 +84,8 @@ class OpenApi(daemon.Case):
                  {'orbit': {**constants, 'r': 1}, 'spin': 0.999999}, {'orbit': constants}),
                 ('line', {'spin': 1}, {'inner': 0.5}, {'inner': 'horizon'}, {'edges': []}, {'edges': ['a', 1]}, {'emissivity': 'gauss'}, {'bins': 0}, {'bins': 2.5}, {'q': 1},
                  {'inclination_deg': 181}, {'spin': 0.5, 'inner': 'isco', 'edges': [0.5, 1, 1.5], 'emissivity': 'broken', 'break_r': 12}),
+                ('transfer-function', {'g_star': [0]}, {'g_star': [1]}, {'rings': 0}, {'bins': 3}, {'radii': [8, 20], 'g_star': [0.5]}),
+                ('spectrum', {'mass_msun': 0}, {'frequencies': 1}, {'colour_correction': 0.9}, {'frequency_min_hz': 'low'}, {'frequencies_hz': [1e17], 'limb': 'laor'}),
                 ('rays', {'rays': [[9, 0]], 'spin': 0.999999, 'observer': {'r': 1}}, {'rays': []},
                  {'rays': [[9, 0]], 'spin': 0.999999, 'observer': {'r': 1.01}}),
                 ('sessions', {'spots': [{}] * 17}, {'spots': [{'r': 0}]}, {'spots': [{'q': 1}]}, {'spots': 1}, {'spot1': {'r': 0}},

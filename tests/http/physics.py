@@ -363,6 +363,36 @@ class Integrals(daemon.Case):
         self.assertIn(b"'shape': (50,)", packed[:start])
         self.assertEqual([list(row) for row in struct.iter_unpack('<4d', packed[start:])], [list(row) for row in zip(*told['columns'].values())])
 
+    def test_transfer_functions_are_lines(self):
+        """A narrow ring's line is the sum over its near and far side: F = pi r f g^2/(g sqrt(g* (1 - g*))) dg* dr, with g* = (1 - cos x)/2."""
+        n, r, width = 400, 9, 1e-3
+        stars = [(1 - math.cos(math.pi * (k + 0.5) / n)) / 2 for k in range(n)]
+        told = self.post('transfer-function', {'spin': 0.6, 'inclination_deg': 55, 'radii': [r], 'g_star': stars}).json()['columns']
+        parts = [math.pi * r * g * (near + far) * math.pi / n * r ** -3 * g for g, near, far in zip(told['g'], told['f_near'], told['f_far'])]
+        line = self.post('line', {'spin': 0.6, 'inclination_deg': 55, 'inner': r - width / 2, 'outer': r + width / 2, 'edges': [0.01, 0.8, 1, 2]}).json()
+        self.assertAlmostEqual(sum(parts) * width / line['values']['total'], 1, delta=1e-3)
+        blue = sum(part for g, part in zip(told['g'], parts) if g > 1) / sum(parts)
+        self.assertAlmostEqual(blue, line['columns']['share'][2], delta=5e-3)
+
+    def test_a_disk_shines_what_it_radiates(self):
+        """Far out and nearly face on, where nothing is shifted much: the flux over all frequencies is cos(i)/(pi D^2) of what a face radiates, whatever its colours."""
+        document = {'inner': 1e5, 'outer': 1e6, 'inclination_deg': 10, 'frequencies': 1000, 'distance_pc': 1000}
+        totals = []
+        for more in ({}, {'colour_correction': 1}, {'limb': 'laor'}):
+            columns = self.post('spectrum', {**document, **more}).json()['columns']
+            f, flux = columns['frequency_hz'], columns['flux_w_m2_hz']
+            totals.append(sum((a + b) / 2 * (y - x) for x, y, a, b in zip(f, f[1:], flux, flux[1:])))
+            for w, jy, power, x in zip(flux, columns['flux_jy'], columns['nu_l_nu_w'], f):
+                self.assertAlmostEqual(jy, w * 1e26, delta=1e-12 * jy)
+                self.assertAlmostEqual(power, 4 * math.pi * (1000 * 3.0856775814913673e16) ** 2 * x * w, delta=1e-9 * power)
+        # far out Page & Thorne's flux is Newton's, 3/(8 pi r^3), to sqrt(6/r)
+        mdot = 0.1 * 1.2570651798467908e31 * 10 / (1 - (8 / 9) ** 0.5)
+        face = mdot * 3 / 4 * (1e-5 - 1e-6)
+        want = math.cos(math.radians(10)) * face / (math.pi * (1000 * 3.0856775814913673e16) ** 2)
+        self.assertAlmostEqual(totals[0] / want, 1, delta=0.01)
+        self.assertAlmostEqual(totals[1] / totals[0], 1, delta=1e-3)
+        self.assertGreater(totals[2] / totals[0], 1.2)
+
     def test_an_image_that_is_kept_changes_nothing(self):
         document = {'spin': 0.31, 'inclination_deg': 33, 'bins': 20}
         first = self.post('line', document).body
@@ -395,6 +425,17 @@ class Integrals(daemon.Case):
                 ({'limb': 'dark'}, '/limb', 'isotropic')):
             with self.subTest(document):
                 answer = self.post('line', document)
+                problem = answer.json()
+                self.assertEqual((answer.status, problem.get('pointer')), (422, pointer), problem)
+                self.assertIn(words, problem['detail'])
+        for name, document, pointer, words in (
+                ('transfer-function', {'inclination_deg': 0}, '/inclination_deg', 'face on'), ('transfer-function', {'radii': [3]}, '/radii/0', 'from inner to outer'),
+                ('transfer-function', {'radii': [9], 'rings': 3}, '/radii', 'beside rings'), ('transfer-function', {'g_star': [1]}, '/g_star/0', 'above 0 and below 1'),
+                ('transfer-function', {'rings': 1000}, '/radii', '5000 places'), ('transfer-function', {'index': 3}, '/index', 'no field index'),
+                ('spectrum', {'volume': {'model': 'gold'}}, '/volume', 'not computed yet'), ('spectrum', {'frequencies_hz': [2, 1]}, '/frequencies_hz/1', 'grow'),
+                ('spectrum', {'frequency_min_hz': 1e18, 'frequency_max_hz': 1e17}, '/frequency_max_hz', 'larger')):
+            with self.subTest(document):
+                answer = self.post(name, document)
                 problem = answer.json()
                 self.assertEqual((answer.status, problem.get('pointer')), (422, pointer), problem)
                 self.assertIn(words, problem['detail'])

@@ -1,11 +1,13 @@
-/* Line profiles against a sum over a grid of the image plane, lamps against rays of a lamp in flat space and against Schwarzschild's, and the image of the disk against rays integrated
+/* Line profiles and spectra of disks against sums over rays of the image plane, transfer functions against rays integrated in Kerr-Schild coordinates, lamps against rays of a lamp in flat space and against Schwarzschild's, and the image of the disk against rays integrated
  * in Kerr-Schild coordinates (tests/oracle/kerr_schild.h). */
 #include "physics/disk.h"
 #include "physics/disk_image.h"
+#include "physics/disk_spectrum.h"
 #include "physics/kerr.h"
 #include "physics/lamppost.h"
 #include "physics/line_profile.h"
 #include "physics/null_geodesic.h"
+#include "physics/transfer_function.h"
 
 #include "kerr_schild.h"
 
@@ -235,11 +237,126 @@ static void test_lamp(void **state)
     }
 }
 
+/* Where a ray of the oracle starts in the plane, and with which redshift. */
+struct start {
+    double r, g;
+};
+
+static struct start start_of(double a, double u, double alpha, double beta)
+{
+    struct ks_path path = ks_trace(ks_from_infinity(a, u, alpha, beta), 1);
+    assert_int_equal(path.crossings, 1);
+    return (struct start) { path.r[0], kd_disk_redshift(a, path.r[0], path.momentum[0]) };
+}
+
+/* d(g, r)/d(alpha, beta) by the oracle's rays; its 1e-11 over the step is 1e-8, and the step's square leaves 1e-6. */
+static double slopes_of(double a, double u, double alpha, double beta)
+{
+    const double h = 2e-3;
+    struct start l = start_of(a, u, alpha - h, beta), r = start_of(a, u, alpha + h, beta), d = start_of(a, u, alpha, beta - h), t = start_of(a, u, alpha, beta + h);
+    return ((r.g - l.g) * (t.r - d.r) - (t.g - d.g) * (r.r - l.r)) / (4 * h * h);
+}
+
+static void test_transfer_function(void **state)
+{
+    static const struct {
+        double a, i, r;
+    } cases[] = { { 0, 30, 8 }, { 0.998, 30, 1.3 }, { 0.998, 75, 4 }, { 0.7, 60, 20 }, { -0.9, 80, 12 } };
+    static const double g_stars[] = { 0.1, 0.5, 0.93 };
+    (void)state;
+    for (size_t k = 0; k < COUNT(cases); k++) {
+        double a = cases[k].a, i = cases[k].i, r = cases[k].r, u = cos(i * RADIAN), alpha, beta;
+        struct kd_transfer_ring ring;
+        assert_true(kd_disk_image_init(&image, a, i * RADIAN));
+        assert_true(kd_transfer_ring_of(&image, r, &ring));
+        /* At its ends g does not change along the ring, so that its slope is that of r, but for a factor; the ends are those of the oracle's rays. */
+        for (int end = 0; end < 2; end++) {
+            assert_true(kd_disk_image_place(&image, r, end ? ring.chi_max : ring.chi_min, &alpha, &beta));
+            within("end", a, i, start_of(a, u, alpha, beta).g, end ? ring.g_max : ring.g_min, 1e-8);
+            within("slope at an end", a, i, slopes_of(a, u, alpha, beta) / (ring.g_max - ring.g_min), 0, 3e-4);
+        }
+        for (size_t n = 0; n < COUNT(g_stars); n++)
+            for (int far_side = 0; far_side < 2; far_side++) {
+                struct kd_transfer at;
+                double s = g_stars[n];
+                assert_true(kd_transfer_at(&image, &ring, s, far_side, &at));
+                struct start start = start_of(a, u, at.alpha, at.beta);
+                within("radius", a, i, start.r / r, 1, 1e-8);
+                within("g*", a, i, (start.g - ring.g_min) / (ring.g_max - ring.g_min), s, 1e-7);
+                double f = start.g * sqrt(s * (1 - s)) * (ring.g_max - ring.g_min) / (M_PI * r * fabs(slopes_of(a, u, at.alpha, at.beta)));
+                within("f", a, i, at.f / f, 1, 1e-4);
+            }
+    }
+    struct kd_transfer_ring ring;
+    assert_true(kd_disk_image_init(&image, 0.5, 0));
+    assert_false(kd_transfer_ring_of(&image, 10, &ring));
+}
+
+/* Page & Thorne's eq. 12 by itself: -Omega'/(4 pi r (E - Omega L)^2) Int (E - Omega L) L' dr from the ISCO, with E, L and Omega of Bardeen, Press & Teukolsky, by trapezia. */
+enum { TABLE = 40000 };
+static double table_r[TABLE + 1], table_flux[TABLE + 1];
+
+static void fill_table(double a, double inner, double outer)
+{
+    double sum = 0, before = 0, l_before = 0;
+    for (int k = 0; k <= TABLE; k++) {
+        double r = inner * pow(outer / inner, (double)k / TABLE), root = sqrt(r), d = sqrt(r * r - 3 * r + 2 * a * root), omega = 1 / (r * root + a);
+        double e = (r - 2 + a / root) / d, l = root * (r - 2 * a / root + a * a / r) / d, here = e - omega * l;
+        sum += k ? 0.5 * (here + before) * (l - l_before) : 0;
+        before = here, l_before = l;
+        table_r[k] = r, table_flux[k] = 1.5 * root * omega * omega * sum / (4 * M_PI * r * here * here);
+    }
+}
+
+static void test_spectrum(void **state)
+{
+    static const struct {
+        double a, i;
+    } cases[] = { { 0, 30 }, { 0.9, 60 }, { 0.998, 75 } };
+    enum { FREQUENCIES = 6, ACROSS = 500, AROUND = 400 };
+    const double outer = 200, mass = 12, distance = 3e3, rate = 0.2, hardening = 1.6;
+    (void)state;
+    for (size_t k = 0; k < COUNT(cases); k++) {
+        double a = cases[k].a, i = cases[k].i, c = cos(i * RADIAN), s = sin(i * RADIAN), isco = kd_kerr_isco(a), squeeze = c + 0.15, sum[FREQUENCIES] = { 0 }, flux[FREQUENCIES];
+        double frequencies[FREQUENCIES], off, step = log(1.25 * outer / 0.9) / ACROSS;
+        /* M and Mdot in SI: L = mdot 4 pi G M m_p c/sigma_T, and Mdot c^2 is that over 1 - E at the ISCO */
+        double m = 1476.625 * mass, root = sqrt(isco), efficiency = 1 - (isco - 2 + a / root) / sqrt(isco * isco - 3 * isco + 2 * a * root);
+        double power = rate * 1.2571e31 * mass / efficiency;
+        fill_table(a, isco, outer);
+        for (int f = 0; f < FREQUENCIES; f++)
+            frequencies[f] = 1e16 * pow(300, f / (FREQUENCIES - 1.));
+        for (int n = 0; n < ACROSS * AROUND; n++) {
+            double rho = 0.9 * exp((n / AROUND + fmod(0.6180339887498949 * (n % AROUND), 1)) * step), chi = 2 * M_PI * (n % AROUND + 0.5) / AROUND;
+            struct kd_null_ray ray = { .spin = a, .radius = INFINITY, .cos_theta = c, .sin_theta = s, .orders = 1, .alpha = rho * cos(chi), .beta = squeeze * rho * sin(chi) };
+            struct kd_null_path path = kd_null_trace_fast(&ray);
+            if (!path.crossings || path.crossing[0].r < isco || path.crossing[0].r > outer)
+                continue;
+            double r = path.crossing[0].r, at = TABLE * log(r / isco) / log(outer / isco);
+            int low = (int)fmin(at, TABLE - 1);
+            double flat = table_flux[low] + (table_flux[low + 1] - table_flux[low]) * (r - table_r[low]) / (table_r[low + 1] - table_r[low]);
+            double t = hardening * pow(flat * power / (m * m) / 5.670374419e-8, 0.25), g = kd_disk_redshift(a, r, -ray.alpha * s);
+            double area = rho * rho * squeeze * step * 2 * M_PI / AROUND * m * m / pow(distance * 3.0856775815e16 * hardening * hardening, 2);
+            for (int f = 0; f < FREQUENCIES && t > 0; f++) {
+                double there = frequencies[f] / g;
+                sum[f] += g * g * g * area * 2 * 6.62607015e-34 * pow(there, 3) / 8.987551787368e16 / expm1(6.62607015e-34 * there / (1.380649e-23 * t));
+            }
+        }
+        const struct kd_disk_spectrum_params params = { isco, outer, mass, distance, rate, hardening, KD_LIMB_ISOTROPIC };
+        struct kd_error error;
+        assert_true(kd_disk_image_init(&image, a, i * RADIAN));
+        assert_int_equal(kd_disk_spectrum(&image, &params, frequencies, FREQUENCIES, flux, &off, &error), KD_OK);
+        assert_true(off > 1e-8 && off < 5e-4);
+        for (int f = 0; f < FREQUENCIES; f++)
+            within("flux", a, frequencies[f], flux[f] / sum[f], 1, 1e-3);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_rings_are_where_rays_lead), cmocka_unit_test(test_inclinations), cmocka_unit_test(test_cumulative_share),
         cmocka_unit_test(test_bins_add_up), cmocka_unit_test(test_face_on), cmocka_unit_test(test_lamp),
+        cmocka_unit_test(test_transfer_function), cmocka_unit_test(test_spectrum),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

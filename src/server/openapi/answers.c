@@ -16,6 +16,8 @@ static const struct { const char *path; unsigned methods; const char *schema; } 
     { "/v1/plan", KD_POST, "{\"oneOf\":[" KD_SCHEMA_REF("Plan") "," KD_SCHEMA_REF("SweepPlan") "]}" },
     { "/v1/pixel", KD_GET | KD_POST, KD_SCHEMA_REF("Pixel") },
     { "/v1/line", KD_POST, KD_SCHEMA_REF("LineProfile") },
+    { "/v1/transfer-function", KD_POST, KD_SCHEMA_REF("TransferFunction") },
+    { "/v1/spectrum", KD_POST, KD_SCHEMA_REF("DiskSpectrum") },
     { "/v1/jobs", KD_POST, KD_SCHEMA_REF("Job") },
     { "/v1/jobs/{id}", KD_GET, KD_SCHEMA_REF("Job") },
     { "/v1/sessions", KD_POST, KD_SCHEMA_REF("Session") },
