@@ -20,7 +20,7 @@ import time
 
 import measure
 
-PRESETS = ['milky-way', 'gas-stars', 'gas', 'm87-eht', 'thick-disk']
+PRESETS = ['milky-way', 'gas-stars', 'gas', 'm87', 'thick-disk']
 SIZE = {'width': 1280, 'height': 720}
 
 

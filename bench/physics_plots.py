@@ -245,7 +245,7 @@ PANELS = {
 # Options of `kerrd render` for a chapter whose figure is a picture.
 PICTURES = {
     "particles": ("--preset=living-disk", "--set=disk.plunging=0.05", "--size=348x196"),
-    "picture": ("--preset=m87-eht", "--set=image.samples=2", "--size=480x360"),
+    "picture": ("--preset=m87", "--set=image.samples=2", "--size=480x360"),
     "photon-rings": ("--preset=photon-rings", "--size=400x240"),
 }
 

@@ -143,6 +143,7 @@ async function watch(scene) {
     resting = whether;
     if (whether && stage.dataset.final !== 'true') (await parts).drawOverlays();
     stage.dataset.final = resting; // the scene may have changed meanwhile
+    if (resting) followMeasured();
   }
 
   // The light that the server tells flux and centroid of, once there is any.
@@ -172,6 +173,14 @@ async function watch(scene) {
   let stars = null;
   function nameStars() {
     if (scene.get('sky.model') === 'catalogue') stars ??= import('./stars.js').then(({ buildStars }) => buildStars(stage, scene)).catch(() => (stars = null));
+  }
+
+  // A slider to the measured ring, once there is a telescope's beam.
+  let measured = null;
+  async function followMeasured() {
+    const { drawOverlays } = await parts;
+    if (scene.get('style.beam_uas') > 0) measured ??= import('./measured.js').then(({ buildMeasured }) => buildMeasured(stage, scene, size, yes => drawOverlays.choose('ring', yes))).catch(() => (measured = null));
+    (await measured)?.();
   }
 
   // What a pixel shows, once somebody asks.
@@ -212,6 +221,7 @@ async function watch(scene) {
   scene.addEventListener('change', () => {
     source.refresh();
     nameStars();
+    followMeasured();
   });
   buildStruck(scene, goTo);
   scene.addEventListener('drift', () => source.refresh());

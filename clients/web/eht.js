@@ -20,7 +20,7 @@ export const seen = {
   none: { name: '', inclination: 60, roll: 0 },
 };
 
-const stops = [
+export const stops = [
   [0, t('our picture', 'la nostra immagine')],
   [1, t(`through a beam of ${beam_uas} µas`, `attraverso un fascio di ${beam_uas} µas`)],
   [2, t('the ring as measured', 'l’anello misurato')],

@@ -335,7 +335,6 @@ export const labels = {
   schwarzschild: 'Senza spin',
   gargantua: 'Gargantua',
   m87: 'M87*',
-  'm87-eht': 'M87*, come la vide l’EHT',
   sgra: 'Sagittarius A*',
   luminet1979: 'La prima immagine, 1979',
   'edge-on': 'Di taglio',
@@ -360,10 +359,8 @@ export const presets = {
   schwarzschild: 'Un buco che non ruota, il suo disco visto da 10 gradi sopra',
   gargantua:
     'Il buco e la camera di James et al. 2015: spin quasi massimo, da 74 M, un disco da 9,26 a 18,7 M di circa 4500 K; con il Doppler e il redshift che il film tralasciò',
-  m87: 'Il buco di M87, con lo spin rivolto lontano da noi; un disco sottile sta per il flusso caldo',
-  'm87-eht':
-    'Il buco di M87 come lo mostrò l’Event Horizon Telescope, il nord in alto: attraverso un fascio di 20 microsecondi d’arco, luminosità in falsi colori',
-  sgra: 'Il buco al centro della nostra Galassia; un disco sottile sta per il flusso caldo',
+  m87: 'Il buco di M87 attraverso un fascio di 20 microsecondi d’arco, il nord in alto, luminosità in falsi colori: come lo mostrò l’Event Horizon Telescope; un disco sottile sta per il flusso caldo',
+  sgra: 'Il buco al centro della nostra Galassia attraverso un fascio di 20 microsecondi d’arco, luminosità in falsi colori: come lo mostrò l’Event Horizon Telescope; un disco sottile sta per il flusso caldo',
   luminet1979: 'La prima immagine di un buco nero con un disco: senza spin, da 10 gradi sopra, luminosità bolometrica',
   'edge-on': 'Il disco visto lungo il suo piano: ciò che se ne vede è luce piegata',
   'face-on': 'Il disco visto dal suo polo',

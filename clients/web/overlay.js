@@ -219,6 +219,8 @@ async function names(scene) {
   };
 }
 
+const measured = async (scene, look) => (await import('./measured.js')).ring(scene, look, path);
+
 const overlays = [
   ['shadow', shadow, 'Edge of the shadow', 'Bordo dell’ombra'],
   ['photons', photons, 'Circular photon orbits', 'Orbite circolari dei fotoni'],
@@ -226,6 +228,7 @@ const overlays = [
   ['ergosphere', ergosphere, 'Ergosphere', 'Ergosfera'],
   ['orders', orders, 'Image orders 0 and 1', 'Ordini d’immagine 0 e 1'],
   ['names', names, 'Names of the brightest stars', 'Nomi delle stelle più brillanti'],
+  ['ring', measured, 'Ring as the EHT measured it', 'Anello misurato dall’EHT'],
   ['flamm', flamm, 'Curved space (Flamm) and its twist', 'Spazio curvo (Flamm) e sua torsione'],
 ];
 
@@ -265,6 +268,17 @@ export function buildOverlays(root, stage, scene) {
     layer.classList.remove('late');
   });
 
+  // What a slider over the picture chooses; who then chooses otherwise has it so.
+  const boxes = new Map(),
+    asked = new Map();
+  function choose(name, yes) {
+    if (asked.get(name) === yes) return;
+    asked.set(name, yes);
+    boxes.get(name).checked = yes;
+    yes ? chosen.add(name) : chosen.delete(name);
+    draw();
+  }
+
   for (const [name, , en, it] of overlays) {
     const box = el('input', {
       type: 'checkbox',
@@ -277,6 +291,7 @@ export function buildOverlays(root, stage, scene) {
       },
     });
     box.checked = chosen.has(name);
+    boxes.set(name, box);
     const note = el('p', { class: 'help', id: `over-${name}-words` });
     notes.set(name, note);
     root.append(
@@ -290,5 +305,5 @@ export function buildOverlays(root, stage, scene) {
   }
   scene.addEventListener('change', () => layer.classList.add('late')); // until the picture has come to rest
   scene.addEventListener('tick', () => scene.get('motion.proper_time_rate') && layer.replaceChildren()); // of another place
-  return draw;
+  return Object.assign(draw, { choose });
 }

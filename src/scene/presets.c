@@ -26,24 +26,22 @@ const struct kd_preset kd_presets[] = {
       "\"camera\":{\"r\":74.1,\"inclination_deg\":86.56,\"fov_deg\":38},"
       "\"disk\":{\"inner\":9.26,\"outer\":18.7,\"taper\":0.15,\"peak_temperature_k\":14000},"
       "\"image\":{\"samples\":2}}" },
-    { "m87", "M87*", "The hole of M87 with its spin pointing away from us; a thin disk stands in for the hot flow",
-      true,
-      "{\"spacetime\":{\"spin\":0.9,\"mass_msun\":6.5e9,\"distance_pc\":16.8e6},"
-      "\"camera\":{\"inclination_deg\":163,\"field_m\":56},"
-      "\"disk\":{\"outer\":15},"
-      "\"image\":{\"samples\":2}}" },
-    { "m87-eht", "M87*, as the EHT saw it", "The hole of M87 as the Event Horizon Telescope showed it, north up: through a beam of 20 microarcseconds, brightness in false colour",
+    /* These two are seen at one scale, 214 microarcseconds across. */
+    { "m87", "M87*", "The hole of M87 through a beam of 20 microarcseconds, north up, brightness in false colour: as the Event Horizon Telescope "
+             "showed it; a thin disk stands in for the hot flow",
       true,
       "{\"spacetime\":{\"spin\":0.9,\"mass_msun\":6.5e9,\"distance_pc\":16.8e6},"
       "\"camera\":{\"inclination_deg\":163,\"field_m\":56,\"roll_deg\":108}," /* the approaching jet at a position angle of 288 degrees */
       "\"disk\":{\"outer\":15},"
       "\"style\":{\"name\":\"eht\"},"
       "\"image\":{\"samples\":2}}" },
-    { "sgra", "Sagittarius A*", "The hole in the middle of our Galaxy; a thin disk stands in for the hot flow",
+    { "sgra", "Sagittarius A*", "The hole in the middle of our Galaxy through a beam of 20 microarcseconds, brightness in false colour: as the Event "
+                                "Horizon Telescope showed it; a thin disk stands in for the hot flow",
       true,
-      "{\"spacetime\":{\"spin\":0.9,\"mass_msun\":4.3e6,\"distance_pc\":8277},"
-      "\"camera\":{\"inclination_deg\":30,\"field_m\":56},"
+      "{\"spacetime\":{\"spin\":0.9,\"mass_msun\":4.297e6,\"distance_pc\":8277},"
+      "\"camera\":{\"inclination_deg\":30,\"field_m\":41.7},"
       "\"disk\":{\"outer\":15},"
+      "\"style\":{\"name\":\"eht\"},"
       "\"image\":{\"samples\":2}}" },
     { "luminet1979", "The first picture, 1979", "The first picture of a black hole with a disk: no spin, from 10 degrees above, bolometric brightness",
       true,

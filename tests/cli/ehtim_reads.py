@@ -40,8 +40,8 @@ class Ehtim(support.Case):
 
     def test_the_hole_of_m87(self):
         """Through a beam; as many microarcseconds across as mass, distance and field say."""
-        found = self.read_by_ehtim("-p", "m87-eht", "--size", "128x128")
-        field = json.loads(self.good("scene", "-p", "m87-eht"))["camera"]["field_m"]
+        found = self.read_by_ehtim("-p", "m87", "--size", "128x128")
+        field = json.loads(self.good("scene", "-p", "m87"))["camera"]["field_m"]
         self.assertEqual(found["size"], [128, 128])
         self.assertAlmostEqual(128 * found["pixel_uas"] / (field * M_UAS), 1, delta=1e-4)
 

@@ -34,9 +34,8 @@ static const struct shot {
     { "smooth", "smooth", "{" SIZE "}" },
     { "schwarzschild", "schwarzschild", "{" SIZE "}" },
     { "gargantua", "gargantua", "{" SIZE "}" },
-    { "m87", "m87", "{" SIZE "}" },
-    { "m87-eht", "m87-eht", "{\"image\":{\"width\":400,\"height\":225}}" }, /* with room for its scales */
-    { "sgra", "sgra", "{" SIZE "}" },
+    { "m87", "m87", "{\"image\":{\"width\":400,\"height\":225}}" }, /* with room for its scales */
+    { "sgra", "sgra", "{\"image\":{\"width\":400,\"height\":225}}" },
     { "luminet1979", "luminet1979", "{" SIZE "}" },
     { "edge-on", "edge-on", "{" SIZE "}" },
     { "face-on", "face-on", "{" SIZE "}" },

@@ -264,7 +264,7 @@ static void what_moves(void **state)
 static void presets_are_valid(void **state)
 {
     (void)state;
-    static const char *const names[] = { "smooth",        "schwarzschild", "gargantua", "m87",     "m87-eht", "sgra",
+    static const char *const names[] = { "smooth",        "schwarzschild", "gargantua", "m87",     "sgra",
                                          "luminet1979",   "edge-on",   "face-on", "photon-rings", "living-disk",
                                          "hot-spot",      "milky-way", "gas",       "gas-stars", "thick-disk",
                                          "star-behind",   "companions",    "falling",       "infall",    "jet",       "gargantua-gas",

@@ -206,10 +206,37 @@ class Lensing(Browser):
         self.assertEqual(shown(), ['raw', 'aces', 0, True, True])
         self.assertEqual(sent()['style']['tone_map'], 'aces')
 
+    def test_a_measured_ring_lies_over_the_picture(self):
+        """M87* and Sgr A* open as the telescope showed them, and the ring with its error is there to scale; a slider takes ring and beam away."""
+        for name, spread, error in (('m87', 42, 3), ('sgra', 51.8, 2.3)):
+            page = self.open(f'lang=en&preset={name}')
+            page.wait_for_selector('#overlay .over-ring path >> nth=2', state='attached')
+            self.assertTrue(daemon.eventually(lambda: page.locator('#overlay .over-ring .tag').all_text_contents() == [f'measured: {spread} ± {error} µas']))
+            wide = page.evaluate('() => [...document.querySelectorAll("#overlay .over-ring path")].map(line => line.getBBox().width)')
+            m_uas, across = self.physics('scale', hole=name)['m_uas'], float(self.field(page, 'camera.field_m'))
+            self.assertAlmostEqual(m_uas * across, 213.8, delta=0.3, msg='one scale for both')
+            stage = page.locator('#stage').bounding_box()['width']
+            for pixels, uas in zip(wide, (spread, spread - error, spread + error)):
+                self.assertAlmostEqual(pixels / stage * m_uas * across, uas, delta=0.3)
+            blurred = self.pixels(page)
+            slide = lambda at: page.locator('#measured').evaluate('(slider, at) => { slider.value = at; slider.dispatchEvent(new Event("input")); }', at)
+            slide(0)
+            page.wait_for_selector('#sharp:not([hidden])')
+            page.wait_for_selector('#overlay .over-ring', state='detached')
+            self.assertEqual((page.inner_text('#measured-row output'), page.locator('#sharp').evaluate('image => image.style.opacity')), ('our picture', '1'))
+            self.assertEqual(self.pixels(page), blurred, 'the scene is the same')
+            slide(2)
+            page.wait_for_selector('#overlay .over-ring path >> nth=2', state='attached')
+            self.assertFalse(page.is_visible('#sharp'))
+            self.shot(page, f'measured-{name}')
+        page.select_option('#preset', 'edge-on')
+        page.wait_for_selector('#measured-row', state='hidden')
+        page.wait_for_selector('#overlay .over-ring', state='detached')
+
     def test_the_style_of_a_radio_telescope(self):
         """Its fields are there with it; what makes no sense without false colours hides, and is told of where it is in the way."""
         self.expected = '422'  # of the bar without its colours
-        page = self.open('lang=en&preset=m87')
+        page = self.open('lang=en&preset=edge-on')
         self.open_groups(page)
         field = lambda path: page.locator(f'[data-path="{path}"]')
         shown = lambda path: field(path).evaluate('node => !node.hidden')
