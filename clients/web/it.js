@@ -377,7 +377,7 @@ export const presets = {
   companions: 'Due stelle che girano in un disco di gas, una nel suo verso e una contro; le loro immagini sono piegate come quella del disco',
   'thick-disk': 'Un disco di gas turbolento alto un decimo della distanza dall’asse, con la luce seguita lungo ogni raggio; in una sessione gira',
   'gargantua-gas': 'Gas turbolento attorno al buco di James et al. 2015, senza Doppler né redshift, come nel film',
-  'polarised-ring': 'Un anello attorno a 6 M, visto come M87* a 17 gradi, la cui luce di sincrotrone un campo verticale polarizza in una spirale: image.layers la dà in numeri',
+  'polarised-ring': 'Un anello attorno a 6 M, visto come M87* a 17 gradi, la cui luce di sincrotrone un campo verticale polarizza in una spirale; dei trattini la mostrano sull’immagine',
   jet: 'Due getti da un buco in gas turbolento, davanti alle stelle: quello che viene verso di noi è il più luminoso; stilizzati',
   'hot-spot':
     'Un brillamento come li ha visti GRAVITY attorno al buco della nostra Galassia: una macchia su un’orbita circolare di un’ora, in senso orario, vista a 25 gradi dal suo asse, su un disco tenue; in una sessione gli eventi danno la curva di luce e il percorso',

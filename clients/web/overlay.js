@@ -220,6 +220,9 @@ async function names(scene) {
 }
 
 const measured = async (scene, look) => (await import('./measured.js')).ring(scene, look, path);
+async function polarization(scene, look, stage) {
+  return (await import('./ticks.js')).ticks(scene, stage.clientWidth, stage.clientHeight);
+}
 
 const overlays = [
   ['shadow', shadow, 'Edge of the shadow', 'Bordo dell’ombra'],
@@ -227,6 +230,7 @@ const overlays = [
   ['isco', isco, 'ISCO, innermost stable orbit', 'ISCO, ultima orbita stabile'],
   ['ergosphere', ergosphere, 'Ergosphere', 'Ergosfera'],
   ['orders', orders, 'Image orders 0 and 1', 'Ordini d’immagine 0 e 1'],
+  ['polarization', polarization, 'Polarisation, by ticks', 'Polarizzazione, con trattini'],
   ['names', names, 'Names of the brightest stars', 'Nomi delle stelle più brillanti'],
   ['ring', measured, 'Ring as the EHT measured it', 'Anello misurato dall’EHT'],
   ['flamm', flamm, 'Curved space (Flamm) and its twist', 'Spazio curvo (Flamm) e sua torsione'],
@@ -247,7 +251,7 @@ export function buildOverlays(root, stage, scene) {
       if (!chosen.has(name)) continue;
       try {
         if (scene.get('camera.projection') === 'ring' || scene.get('camera.stereo') === 'pair') throw new Error(t('not in this projection', 'non in questa proiezione'));
-        const { lines, labels = [], tags = [], words } = await make(scene, look);
+        const { lines, labels = [], tags = [], words } = await make(scene, look, stage);
         groups.push({
           tags,
           node: svg(

@@ -140,7 +140,7 @@ const struct kd_preset kd_presets[] = {
       "\"style\":{\"name\":\"dngr\"},"
       "\"image\":{\"samples\":2},"
       "\"motion\":{\"time_rate\":6}}" },
-    { "polarised-ring", "Polarised ring", "A ring about 6 M, seen like M87* at 17 degrees, whose synchrotron light a field along the axis polarises in a spiral: image.layers has it as numbers",
+    { "polarised-ring", "Polarised ring", "A ring about 6 M, seen like M87* at 17 degrees, whose synchrotron light a field along the axis polarises in a spiral; ticks show it over the picture",
       false,
       "{\"spacetime\":{\"spin\":0.5,\"mass_msun\":6.5e9,\"distance_pc\":16.8e6},"
       "\"camera\":{\"inclination_deg\":163,\"field_m\":36,\"roll_deg\":108},"

@@ -1,5 +1,6 @@
 """The picture, its controls, the lines over it and what can be taken away: lensing.py KERRD FOLDER (browser.py)."""
 import json
+import math
 import pathlib
 import re
 import subprocess
@@ -303,6 +304,26 @@ class Lensing(Browser):
             page.click('#save')
         saved = pathlib.Path(download.value.path()).read_bytes()
         self.assertEqual((saved[:4], saved[16:24]), (b'\x89PNG', (1280).to_bytes(4, 'big') + (720).to_bytes(4, 'big')))
+
+    def test_ticks_are_along_the_electric_field(self):
+        """A toroidal field face on, far from a hole that does not turn, polarises along the radius."""
+        view = 'lang=en&spacetime.spin=0&camera.inclination_deg=0&camera.field_m=60&disk.outer=20&disk.taper=0&over=polarization'
+        page = self.open(view)
+        self.open_groups(page)
+        self.there(page, 'no light is polarised', '#over-polarization-words')
+        page = self.open(view + '&polarization.model=synchrotron')
+        self.open_groups(page)
+        self.there(page, 'of all light', '#over-polarization-words')
+        self.assertTrue(daemon.eventually(lambda: page.locator('#overlay .over-polarization path').count() == 1))
+        line = page.get_attribute('#overlay .over-polarization path', 'd')
+        width, height = (float(x) for x in page.get_attribute('#overlay', 'viewBox').split()[2:])
+        ticks = [[float(x) for x in re.findall(r'[-\d.]+', part)] for part in line.split('M')[1:]]
+        self.assertGreater(len(ticks), 100)
+        for x0, y0, x1, y1 in ticks:
+            x, y = (x0 + x1) / 2 - width / 2, (y0 + y1) / 2 - height / 2
+            if math.hypot(x, y) > 8 * width / 60:
+                self.assertGreater(abs((x1 - x0) * x + (y1 - y0) * y) / math.hypot(x1 - x0, y1 - y0) / math.hypot(x, y), 0.97)
+        self.shot(page, 'ticks')
 
     def test_overlays_are_the_numbers_of_the_server(self):
         page = self.open('lang=en&spacetime.spin=0.9&camera.inclination_deg=60&camera.field_m=30&over=shadow,photons,isco,ergosphere,orders,flamm')
