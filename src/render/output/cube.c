@@ -48,8 +48,9 @@ enum kd_status kd_cube_compare(struct kd_cube_shape *shape, unsigned number, con
     return same ? KD_OK : kd_error_field(error, "/axes", "scene %u has other layers than scene 0, and no cube has pictures of several kinds", number);
 }
 
-size_t kd_cube_bytes(const struct kd_sweep *sweep)
+size_t kd_cube_holds(const struct kd_gather_source *source)
 {
+    const struct kd_sweep *sweep = source->sweep;
     return sweep->scenes * (KD_CUBE_ROW + sizeof *(struct kd_cube) { 0 }.places * (size_t)sweep->base.image.layers.count);
 }
 

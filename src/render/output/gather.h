@@ -20,6 +20,7 @@ struct kd_gather_source {
     const struct kd_sweep *sweep;  /* whose scenes they are; NULL: of none, for a ZIP alone */
     const struct kd_format *frame; /* what they are */
     unsigned n;
+    unsigned rate;                 /* frames a second, of a film */
     bool (*size)(void *user, unsigned frame, uint64_t *out);
     bool (*read)(void *user, unsigned frame, uint64_t at, void *to, size_t size); /* all of these bytes, or false */
 };
@@ -28,6 +29,8 @@ struct kd_gather_source {
 struct kd_gather_format {
     const char *name, *media_type;
     const struct kd_format *of; /* of frames of this format; NULL: of any */
+    size_t (*holds)(const struct kd_gather_source *source); /* bytes held while it is made, much of which is done before its first piece; NULL: it is made as it is taken */
+    bool waits;                 /* where it gives nothing it waits for another program: to be asked again some milliseconds later */
     enum kd_status (*open)(const struct kd_gather_source *source, void **state, struct kd_error *error);
     enum kd_status (*next)(void *state, struct kd_buffer *out, bool *over, struct kd_error *error);
     void (*close)(void *state);
@@ -37,6 +40,10 @@ struct kd_gather_format {
 extern const struct kd_gather_format kd_gather_zip;
 /* Cubes: an array of each layer, of all scenes of a sweep, with an array of the values of each axis (cube.h). */
 extern const struct kd_gather_format kd_gather_fits, kd_gather_npz;
+/* Films of frames that are PNG, all of one size, encoded by the program ffmpeg, with the scene of frame 0 as `comment`. KD_EABSENT where there is no ffmpeg. */
+extern const struct kd_gather_format kd_gather_mp4, kd_gather_webm;
+#define KD_FILM_RATE 24u      /* frames a second where nobody says otherwise */
+#define KD_FILM_RATE_MAX 120u
 
 /* Whether the scenes of a sweep make a cube: all of them are of the same size and have the same layers. KD_EINVAL at the axis that makes them differ. */
 enum kd_status kd_cube_check(const struct kd_sweep *sweep, struct kd_error *error);
@@ -47,8 +54,7 @@ struct kd_cube_shape {
     struct kd_words layers;
 };
 enum kd_status kd_cube_compare(struct kd_cube_shape *shape, unsigned number, const struct kd_scene *scene, const struct kd_plan *plan, struct kd_error *error);
-/* Bytes that a cube of these scenes holds while it is made. */
-size_t kd_cube_bytes(const struct kd_sweep *sweep);
+size_t kd_cube_holds(const struct kd_gather_source *source); /* of a cube */
 
 struct kd_gather {
     const struct kd_gather_format *format;

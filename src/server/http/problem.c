@@ -39,6 +39,7 @@ struct kd_problem kd_problem_from(const struct kd_error *error)
     case KD_EFULL: problem.type = KD_PROBLEM_DISK_FULL, problem.retry_after = 60; break;
     case KD_EBUSY: problem.type = KD_PROBLEM_QUEUE_FULL, problem.retry_after = 1; break;
     case KD_ECANCELLED: problem.type = KD_PROBLEM_STOPPING, problem.retry_after = 1; break;
+    case KD_EABSENT: problem.type = KD_PROBLEM_ABSENT; break;
     case KD_EDEVICE: problem.type = KD_PROBLEM_DEVICE_LOST; break;
     case KD_OK:
     case KD_EIO: problem.type = KD_PROBLEM_INTERNAL; break;

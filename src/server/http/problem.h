@@ -36,6 +36,7 @@
     X(HEADER_TOO_LARGE, 431, "header-too-large", "The header is too large")                                  \
     X(INTERNAL, 500, "internal", "The server failed")                                                        \
     X(DEVICE_LOST, 500, "device-lost", "The device failed")                                                  \
+    X(ABSENT, 501, "not-installed", "This server lacks a program that this takes")                          \
     X(NO_MEMORY, 503, "out-of-memory", "Memory ran out")                                                     \
     X(QUEUE_FULL, 503, "queue-full", "Too many requests are waiting")                                         \
     X(CROWDED, 503, "too-many-connections", "Too many connections are open")                                 \

@@ -206,16 +206,18 @@ static enum MHD_Result files_of(struct kd_request *request, struct kd_job *job, 
 {
     const struct kd_series *series = status->series;
     const bool one_of_them = kd_target_value(&request->target, "frame");
-    uint64_t frame;
+    uint64_t frame, rate;
     if (!format)
         format = status->frames > 1 || status->sweep ? series->wholes[0]->name : series->frame->name;
     const struct kd_gather_format *whole = one_of_them ? NULL : whole_named(series, format);
     if (!kd_target_whole(&request->target, "frame", 0, status->frames ? status->frames - 1 : 0, &frame))
         return kd_job_bad(request, job, "frame is the number of a frame of this job, from 0 on");
+    if (!kd_target_whole(&request->target, "rate", KD_FILM_RATE, KD_FILM_RATE_MAX, &rate) || !rate || (kd_target_value(&request->target, "rate") && !(whole && whole->waits)))
+        return kd_job_bad(request, job, "rate is a whole number of frames a second, from 1 to 120, of format=mp4 or webm");
     if (whole && status->state != KD_JOB_DONE)
         return kd_job_not_ready(request, job, status);
     if (whole)
-        return kd_job_send_whole(request, job, status, whole);
+        return kd_job_send_whole(request, job, status, whole, (unsigned)rate);
     if (!strcmp(format, series->frame->name))
         return send_frame(request, job, (unsigned)frame, status);
     return strcmp(format, kd_job_as_stream.name) ? unknown_format(request, job, series) : send_frames(request, job, (unsigned)frame);
@@ -227,7 +229,7 @@ enum MHD_Result kd_handle_job_result(struct kd_request *request)
     struct kd_job_status status;
     if (request->task)
         return request->task->kind->answer(request);
-    if (!kd_reply_only(request, (const char *const[]) { "format", "frame", NULL }, &refused))
+    if (!kd_reply_only(request, (const char *const[]) { "format", "frame", "rate", NULL }, &refused))
         return refused;
     struct kd_job *job = kd_job_of(request, &refused);
     if (!job)

@@ -10,8 +10,8 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Cubes that may be under way at once: workers look through each first, and it holds some 400 bytes a scene meanwhile, which count as bytes
- * that are kept for answers. */
+/* Cubes and films that may be under way at once: workers make much of each first, and what it holds meanwhile, of a cube some 400 bytes a scene, counts
+ * as bytes that are kept for answers. */
 enum { CUBES = 8, CUBES_OF_ONE = 3 };
 
 struct kd_job_whole {
@@ -60,7 +60,7 @@ static bool admit(struct kd_request *request, size_t held, enum MHD_Result *refu
     if (all < CUBES && !quota && !kd_bytes_take(request->server->replies, request->client, held, held, &quota))
         return true;
     const struct kd_problem problem = { .type = quota ? KD_PROBLEM_QUOTA : KD_PROBLEM_QUEUE_FULL, .retry_after = 2,
-                                        .detail = quota ? "as many of your cubes are being fetched as one client may have" : "as many cubes are being fetched as may" };
+                                        .detail = quota ? "as many of your cubes and films are being fetched as one client may have" : "as many cubes and films are being fetched as may" };
     *refused = kd_reply_problem(request, &problem);
     return false;
 }
@@ -138,17 +138,22 @@ static void finish(struct kd_task *task)
         release(l->whole);
 }
 
+#define LATER_MS 10.0 /* until another program, which makes it, is looked after again */
+
 static enum kd_turn_end work(struct kd_task *task, double until_ms)
 {
     struct kd_job_whole *w = ((struct looked *)task)->whole;
     struct kd_error error = { 0 };
     enum kd_status status;
+    if (w->gather.format->waits && atomic_load(&w->server->phase) >= KD_REFUSING)
+        KD_TRY(kd_error_set(&error, KD_ECANCELLED, "the server stops: a film can be asked for again when it is back"));
     do {
         KD_TRY(kd_gather_next(&w->gather, &w->out, &w->over, &error));
         if (w->out.size || w->over)
             return KD_TURN_LAST;
-    } while (kd_clock_ms() < until_ms);
-    return KD_TURN_MORE;
+    } while (!w->gather.format->waits && kd_clock_ms() < until_ms);
+    task->turns.due_ms = kd_clock_ms() + LATER_MS;
+    return w->gather.format->waits ? KD_TURN_PARK : KD_TURN_MORE;
 done:
     kd_task_fail(task, status, &error);
     return KD_TURN_LAST;
@@ -193,11 +198,12 @@ static enum MHD_Result look_through(struct kd_request *request, struct kd_job_wh
     return kd_task_submit(&l->task);
 }
 
-enum MHD_Result kd_job_send_whole(struct kd_request *request, struct kd_job *job, const struct kd_job_status *status, const struct kd_gather_format *format)
+enum MHD_Result kd_job_send_whole(struct kd_request *request, struct kd_job *job, const struct kd_job_status *status, const struct kd_gather_format *format, unsigned rate)
 {
     struct kd_error error = { 0 };
     enum MHD_Result refused;
-    const size_t held = format->of && !request->head ? kd_cube_bytes(status->sweep) : 0;
+    struct kd_gather_source source = { .sweep = status->sweep, .frame = status->series->frame, .n = status->frames, .rate = rate, .size = size_of, .read = read_frame };
+    const size_t held = format->holds && !request->head ? format->holds(&source) : 0;
     if (held && !admit(request, held, &refused)) {
         kd_job_release(job);
         return refused;
@@ -211,13 +217,13 @@ enum MHD_Result kd_job_send_whole(struct kd_request *request, struct kd_job *job
         return request->head ? kd_reply_send(request, MHD_HTTP_OK, kd_reply_empty(format->media_type))
                              : kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
     }
-    *w = (struct kd_job_whole) { .job = job, .server = request->server, .fd = -1,
-                                 .source = { .user = w, .sweep = status->sweep, .frame = status->series->frame, .n = status->frames, .size = size_of, .read = read_frame } };
+    source.user = w;
+    *w = (struct kd_job_whole) { .job = job, .server = request->server, .fd = -1, .source = source };
     memcpy(w->client, request->client, sizeof w->client);
     if (held)
         enter(w, held);
     if (!kd_gather_open(format, &w->source, &w->gather, &error))
-        return format->of ? look_through(request, w, format) : stream(request, w, format);
+        return format->holds ? look_through(request, w, format) : stream(request, w, format);
     release(w);
     return kd_reply_error(request, &error);
 }

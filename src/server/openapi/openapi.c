@@ -130,8 +130,9 @@ static const struct {
     { "/v1/pixel", "at", "{\"type\":\"string\",\"pattern\":\"^[0-9.]+([eE][-+]?[0-9]+)?,[0-9.]+([eE][-+]?[0-9]+)?$\"}", "the pixel: a place X,Y in the picture, in pixels from its upper left corner; required" },
     { "/v1/pixel", "trace", "{\"const\":\"steps\"}", "tells the engine's own steps along the middle ray, too" },
     { "/v1/jobs/{id}/result", "format", NULL,
-      "json and csv are those of a light curve; fits and npz without a frame the cube of a sweep; the others of pictures, and of files of numbers" },
+      "json and csv are those of a light curve; fits and npz without a frame the cube of a sweep; the others of pictures, and of files of numbers; mp4 and webm of pictures alone, by the program ffmpeg" },
     { "/v1/jobs/{id}/result", "frame", WHOLE, "which, by itself: with format=png, fits, npz, npy or exr; with format=stream from which on" },
+    { "/v1/jobs/{id}/result", "rate", "{\"type\":\"integer\",\"minimum\":1,\"maximum\":120}", "frames a second, with format=mp4 or webm; 24 without it" },
 };
 
 static bool has_query(const struct kd_route *route)

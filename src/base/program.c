@@ -1,0 +1,148 @@
+#include "base/program.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#define PIPE_BYTES (1 << 20) /* what fits is what is written between two looks */
+#define NICE 10              /* pictures that somebody waits for come first */
+
+extern char **environ;
+
+static void shut(int *fd)
+{
+    if (*fd >= 0)
+        close(*fd);
+    *fd = -1;
+}
+
+/* A pipe, of which neither end goes to another program, and ours never waits. */
+static bool make_pipe(int *ours, int *its, bool we_write)
+{
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC))
+        return false;
+    *ours = ends[we_write];
+    *its = ends[!we_write];
+    return fcntl(*ours, F_SETFL, O_NONBLOCK) == 0;
+}
+
+/* Descriptors may be numbered 0 to 3 already where ours were closed at the start: each goes out of the way first. */
+static int spawn(const char *const argv[], int in, int told, int out, pid_t *pid)
+{
+    posix_spawn_file_actions_t files;
+    posix_spawnattr_t how;
+    sigset_t none, usual;
+    int code = posix_spawn_file_actions_init(&files);
+    if (code)
+        return code;
+    if ((code = posix_spawnattr_init(&how))) {
+        posix_spawn_file_actions_destroy(&files);
+        return code;
+    }
+    sigemptyset(&none);
+    sigemptyset(&usual);
+    sigaddset(&usual, SIGPIPE);
+    posix_spawnattr_setsigmask(&how, &none);
+    posix_spawnattr_setsigdefault(&how, &usual);
+    posix_spawnattr_setflags(&how, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP); /* Ctrl-C is for us, who then end it */
+    if (!(code = posix_spawn_file_actions_adddup2(&files, in, 0)) && !(code = posix_spawn_file_actions_adddup2(&files, told, 2)) &&
+        !(code = posix_spawn_file_actions_adddup2(&files, out, 3)) && !(code = posix_spawn_file_actions_addopen(&files, 1, "/dev/null", O_WRONLY, 0)) &&
+        !(code = posix_spawn_file_actions_addclosefrom_np(&files, 4)))
+        code = posix_spawnp(pid, argv[0], &files, &how, (char *const *)argv, environ);
+    posix_spawnattr_destroy(&how);
+    posix_spawn_file_actions_destroy(&files);
+    return code;
+}
+
+/* A copy above those that the program has. */
+static bool lift(int *fd)
+{
+    int high = fcntl(*fd, F_DUPFD_CLOEXEC, 4);
+    if (high < 0)
+        return false;
+    close(*fd);
+    *fd = high;
+    return true;
+}
+
+enum kd_status kd_program_start(const char *const argv[], int out, uint64_t most, struct kd_program *program, struct kd_error *error)
+{
+    int in = -1, told = -1, to = fcntl(out, F_DUPFD_CLOEXEC, 4);
+    *program = (struct kd_program)KD_PROGRAM_NONE;
+    int code = to >= 0 && make_pipe(&program->in, &in, true) && make_pipe(&program->told, &told, false) && lift(&in) && lift(&told) ? 0 : errno;
+    if (!code) {
+        (void)fcntl(program->in, F_SETPIPE_SZ, PIPE_BYTES); /* refused, it is 64 KiB */
+        code = spawn(argv, in, told, to, &program->pid);
+    }
+    shut(&in);
+    shut(&told);
+    shut(&to);
+    if (!code) {
+        (void)setpriority(PRIO_PROCESS, (id_t)program->pid, NICE);
+        (void)prlimit(program->pid, RLIMIT_FSIZE, &(struct rlimit) { most, most }, NULL);
+        return KD_OK;
+    }
+    program->pid = 0;
+    kd_program_end(program);
+    return code == ENOENT ? kd_error_set(error, KD_EABSENT, "there is no %.40s on the PATH of this machine", argv[0])
+                          : kd_error_set(error, KD_EIO, "%.40s cannot be started: %s", argv[0], strerror(code));
+}
+
+size_t kd_program_write(struct kd_program *program, const void *data, size_t size)
+{
+    size_t taken = 0;
+    for (ssize_t n = 1; program->in >= 0 && taken < size && n > 0; taken += n > 0 ? (size_t)n : 0)
+        n = write(program->in, (const char *)data + taken, size - taken);
+    return taken;
+}
+
+void kd_program_hang_up(struct kd_program *program) { shut(&program->in); }
+
+/* The end of what it says is kept: there is the reason. True: it has closed its standard error, as it does when it ends. */
+static bool listen_to(struct kd_program *p)
+{
+    char part[256];
+    ssize_t n;
+    while ((n = read(p->told, part, sizeof part)) > 0) {
+        size_t room = sizeof p->said - 1, keep = (size_t)n < room ? (size_t)n : room, old = p->n_said < room - keep ? p->n_said : room - keep;
+        memmove(p->said, p->said + p->n_said - old, old);
+        memcpy(p->said + old, part + (size_t)n - keep, keep);
+        p->n_said = old + keep;
+        p->said[p->n_said] = 0;
+    }
+    return n == 0;
+}
+
+bool kd_program_over(struct kd_program *p, int *code)
+{
+    int status;
+    if (p->told >= 0 && listen_to(p))
+        shut(&p->told);
+    if (p->told >= 0)
+        return false;
+    pid_t done = waitpid(p->pid, &status, WNOHANG);
+    if (!done)
+        return false;
+    *code = done == p->pid && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    p->pid = 0;
+    shut(&p->in);
+    return true;
+}
+
+void kd_program_end(struct kd_program *p)
+{
+    shut(&p->in);
+    shut(&p->told);
+    if (p->pid > 0) {
+        kill(p->pid, SIGKILL);
+        while (waitpid(p->pid, NULL, 0) < 0 && errno == EINTR)
+            ;
+    }
+    p->pid = 0;
+}

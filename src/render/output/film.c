@@ -1,0 +1,223 @@
+/* The program ffmpeg encodes the pictures of all frames as a film: H.264 in an MP4 file, or VP9 in a WebM file. It writes a file without a name, since the index of
+ * an MP4 belongs before its pictures, and what is in it is given when it is done. */
+#include "base/program.h"
+#include "image/png.h"
+#include "render/output/gather.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define PICTURE_MAX (32u << 20)  /* bytes of one frame's file: of 4K twice over */
+#define MORE (1u << 20)          /* bytes that a film may have beyond those of its pictures: its head */
+#define SCENE_MAX 100000         /* bytes of its text: an argument of a program may be 128 KiB */
+#define HEAD 24                  /* bytes of a PNG file until its width and height have been told */
+
+struct film {
+    const struct kd_gather_source *source;
+    const char *const *codec; /* its options, NULL at the end */
+    const char *container;
+    struct kd_program program;
+    int fd;                   /* of what it writes, -1: it has not begun */
+    bool done;
+    struct kd_buffer picture; /* of frame `next`, from `at` on to be handed over; at == size: none is */
+    size_t at;
+    unsigned next;
+    uint8_t size[8];          /* of frame 0: width and height as a PNG file has them */
+    uint64_t given;           /* bytes of the film */
+};
+
+/* Quality that is not told from the pictures by eye: a black sky shows bands before anything else. */
+static const char *const h264[] = { "-c:v", "libx264", "-preset", "medium", "-crf", "17", "-movflags", "+faststart", NULL };
+static const char *const vp9[] = { "-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-row-mt", "1", "-deadline", "good", "-cpu-used", "4", NULL };
+
+static enum kd_status open_film(const struct kd_gather_source *source, const char *const *codec, const char *container, void **state, struct kd_error *error)
+{
+    struct film *f = calloc(1, sizeof *f);
+    *state = f;
+    if (!f)
+        return kd_error_set(error, KD_ENOMEM, "out of memory for a film");
+    *f = (struct film) { .source = source, .codec = codec, .container = container, .program = KD_PROGRAM_NONE, .fd = -1 };
+    return KD_OK;
+}
+
+static enum kd_status open_mp4(const struct kd_gather_source *source, void **state, struct kd_error *error)
+{
+    return open_film(source, h264, "mp4", state, error);
+}
+
+static enum kd_status open_webm(const struct kd_gather_source *source, void **state, struct kd_error *error)
+{
+    return open_film(source, vp9, "webm", state, error);
+}
+
+static uint32_t be32(const uint8_t *at) { return (uint32_t)at[0] << 24 | (uint32_t)at[1] << 16 | (uint32_t)at[2] << 8 | at[3]; }
+
+/* The next frame's file, whole: a picture is some hundred kilobytes. */
+static enum kd_status load(struct film *f, struct kd_error *error)
+{
+    const struct kd_gather_source *source = f->source;
+    static const uint8_t zeros[4096];
+    uint64_t size;
+    enum kd_status status = KD_OK;
+    f->picture.size = f->at = 0;
+    if (!source->size(source->user, f->next, &size) || size < HEAD)
+        return kd_error_set(error, KD_EIO, "the file of frame %u cannot be read", f->next);
+    if (size > PICTURE_MAX)
+        return kd_error_set(error, KD_ETOOBIG, "the picture of frame %u has %.0f MB, more than the %u that a film takes", f->next, 1e-6 * (double)size, PICTURE_MAX >> 20);
+    for (uint64_t left = size; left && !status; left -= left < sizeof zeros ? left : sizeof zeros)
+        status = kd_buffer_append(&f->picture, zeros, left < sizeof zeros ? (size_t)left : sizeof zeros);
+    if (status)
+        return kd_error_set(error, KD_ENOMEM, "out of memory for a film");
+    if (!source->read(source->user, f->next, 0, f->picture.data, f->picture.size))
+        return kd_error_set(error, KD_EIO, "the file of frame %u cannot be read", f->next);
+    const uint8_t *here = (const uint8_t *)f->picture.data + HEAD - sizeof f->size;
+    if (!f->next)
+        memcpy(f->size, here, sizeof f->size);
+    if (memcmp(f->size, here, sizeof f->size))
+        return kd_error_field(error, "/format", "frame %u is %u x %u pixels and frame 0 %u x %u: a film has one size, a zip holds any", f->next, be32(here), be32(here + 4),
+                              be32(f->size), be32(f->size + 4));
+    return KD_OK;
+}
+
+/* A file that goes with its descriptor. */
+static int nameless(void)
+{
+    const char *folder = getenv("TMPDIR");
+    char path[4096];
+    folder = folder && *folder ? folder : "/tmp";
+    int fd = open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+    if (fd >= 0 || (errno != EOPNOTSUPP && errno != EISDIR && errno != EINVAL))
+        return fd;
+    snprintf(path, sizeof path, "%.4000s/kerrd-film-XXXXXX", folder);
+    if ((fd = mkostemp(path, O_CLOEXEC)) >= 0)
+        unlink(path);
+    return fd;
+}
+
+static uint64_t bytes_of(const struct kd_gather_source *source)
+{
+    uint64_t all = 0, size;
+    for (unsigned i = 0; i < source->n; i++)
+        all += source->size(source->user, i, &size) ? size : 0;
+    return all;
+}
+
+/* The scene of frame 0, as the picture has it, goes into the film. Colours: of the picture sRGB, which players show alike where BT.709 is named; the
+ * conversion to Y'CbCr is BT.709's, in the range of video. Two pixels share a colour, so odd sides are filled up. */
+static enum kd_status begin(struct film *f, struct kd_error *error)
+{
+    static const char filter[] = "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int+full_chroma_inp,format=yuv420p";
+    struct kd_buffer comment = { 0 };
+    struct kd_png shown = { 0 };
+    char rate[16], titled[80];
+    const char *argv[48] = { "ffmpeg", "-nostdin", "-hide_banner", "-loglevel", "error", "-f", "image2pipe", "-c:v", "png", "-framerate", rate, "-i", "pipe:0", "-vf", filter };
+    size_t n = 15;
+    enum kd_status status;
+    KD_TRY(load(f, error));
+    KD_TRY(kd_png_decode(f->picture.data, f->picture.size, &shown, error));
+    const char *scene = kd_png_text_find(&shown, "kerrd:scene");
+    if (!scene || strlen(scene) > SCENE_MAX) {
+        status = !scene ? kd_error_set(error, KD_EIO, "the picture of frame 0 holds no scene")
+                        : kd_error_set(error, KD_ETOOBIG, "the scene is a text of %zu bytes, and the head of a film holds %d: a zip keeps it in each picture", strlen(scene), SCENE_MAX);
+        goto done;
+    }
+    KD_TRY(kd_buffer_printf(&comment, "comment=%s", scene));
+    snprintf(rate, sizeof rate, "%u", f->source->rate);
+    snprintf(titled, sizeof titled, "title=kerrd %s, %u frames", KD_VERSION, f->source->n);
+    for (const char *const *option = f->codec; *option; option++)
+        argv[n++] = *option;
+    const char *const rest[] = { "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709", "-color_range", "tv", "-metadata", (const char *)comment.data,
+                                 "-metadata", titled, "-f", f->container, "-y", "/dev/fd/3", NULL };
+    memcpy(argv + n, rest, sizeof rest);
+    if ((f->fd = nameless()) < 0)
+        status = kd_error_set(error, errno == ENOSPC ? KD_EFULL : KD_EIO, "there is no room for a film: %s", strerror(errno));
+    else
+        status = kd_program_start(argv, f->fd, bytes_of(f->source) + MORE, &f->program, error);
+    if (status == KD_EABSENT)
+        kd_error_set(error, KD_EABSENT, "films are encoded by the program ffmpeg, which this server does not find; a zip holds the numbered pictures");
+done:
+    if (status == KD_ENOMEM)
+        kd_error_set(error, KD_ENOMEM, "out of memory for a film");
+    kd_png_finish(&shown);
+    kd_buffer_finish(&comment);
+    return status;
+}
+
+/* Hands over as much as ffmpeg takes now, and finds out whether it has ended. */
+static enum kd_status feed(struct film *f, struct kd_error *error)
+{
+    enum kd_status status = KD_OK;
+    int code;
+    while (f->next < f->source->n && !status) {
+        size_t left = f->picture.size - f->at, taken = kd_program_write(&f->program, (const char *)f->picture.data + f->at, left);
+        f->at += taken;
+        if (taken < left)
+            break;
+        if (++f->next < f->source->n)
+            status = load(f, error);
+        else
+            kd_program_hang_up(&f->program);
+    }
+    if (status || !kd_program_over(&f->program, &code))
+        return status;
+    f->done = true;
+    if (!code && f->next == f->source->n)
+        return KD_OK;
+    size_t end = f->program.n_said;
+    while (end && strchr("\n\r ", f->program.said[end - 1]))
+        f->program.said[--end] = 0;
+    const char *line = strrchr(f->program.said, '\n');
+    return kd_error_set(error, strstr(f->program.said, "No space left") ? KD_EFULL : KD_EIO, "ffmpeg failed at frame %u: %.300s", f->next,
+                        !*f->program.said ? "it did not say why" : line ? line + 1 : f->program.said);
+}
+
+static enum kd_status give(struct film *f, struct kd_buffer *out, bool *over, struct kd_error *error)
+{
+    char piece[65536];
+    ssize_t n = pread(f->fd, piece, sizeof piece, (off_t)f->given);
+    *over = n == 0;
+    if (n < 0 || (*over && !f->given))
+        return kd_error_set(error, KD_EIO, "the film cannot be read: %s", n < 0 ? strerror(errno) : "ffmpeg wrote nothing");
+    f->given += (uint64_t)n;
+    return kd_buffer_append(out, piece, (size_t)n) ? kd_error_set(error, KD_ENOMEM, "out of memory for a film") : KD_OK;
+}
+
+static enum kd_status next_piece(void *state, struct kd_buffer *out, bool *over, struct kd_error *error)
+{
+    struct film *f = state;
+    enum kd_status status;
+    if (f->fd < 0)
+        KD_TRY(begin(f, error));
+    if (!f->done)
+        KD_TRY(feed(f, error));
+    status = f->done ? give(f, out, over, error) : KD_OK;
+done:
+    return status;
+}
+
+static void close_film(void *state)
+{
+    struct film *f = state;
+    kd_program_end(&f->program);
+    if (f->fd >= 0)
+        close(f->fd);
+    kd_buffer_finish(&f->picture);
+    free(f);
+}
+
+static size_t holds(const struct kd_gather_source *source)
+{
+    (void)source;
+    return 2 * PICTURE_MAX; /* a picture's file, and once its pixels */
+}
+
+const struct kd_gather_format kd_gather_mp4 = {
+    .name = "mp4", .media_type = "video/mp4", .of = &kd_format_png, .holds = holds, .waits = true, .open = open_mp4, .next = next_piece, .close = close_film,
+};
+const struct kd_gather_format kd_gather_webm = {
+    .name = "webm", .media_type = "video/webm", .of = &kd_format_png, .holds = holds, .waits = true, .open = open_webm, .next = next_piece, .close = close_film,
+};
