@@ -77,6 +77,7 @@ export function parts(root, known) {
     [button('play-snapshot', t('Snapshot, JSON', 'Istantanea, JSON')), 'snapshot', 'playground.json'],
   ];
   const load = el('input', { type: 'file', id: 'play-load', accept: 'application/json,.json' }),
+    record = el('div', { id: 'play-record' }),
     events = el('section', { class: 'card', id: 'play-events', 'aria-label': t('Events', 'Eventi') }),
     charts = el('div', { class: 'grid', id: 'play-charts' });
   const panel = el(
@@ -90,7 +91,7 @@ export function parts(root, known) {
     group(t('Throw', 'Lancia'), true, body, foretold),
     group(t('What acts', 'Che cosa agisce'), true, rules, waves),
     group(t('View', 'Vista'), false, field('play-tilt', t('Tilt', 'Inclinazione'), tilt), field('play-middle', t('Its middle', 'Il suo centro'), middle)),
-    group(t('Take and bring', 'Scarica e carica'), false, el('p', { class: 'row' }, takes.map(([node]) => node)), field('play-load', t('Load a snapshot', 'Carica un’istantanea'), load)),
+    group(t('Take and bring', 'Scarica e carica'), false, el('p', { class: 'row' }, takes.map(([node]) => node)), field('play-load', t('Load a snapshot', 'Carica un’istantanea'), load), record),
     group(t('What is modelled, not computed', 'Ciò che è modello, non calcolo'), false, approximations),
   );
   root.replaceChildren(
@@ -100,7 +101,7 @@ export function parts(root, known) {
   );
   return {
     canvas, stage, lensed, pictures, views, nearer, farther, fit, tilt, middle, preset, help, again, pause, step, pace, rate, sound, heard, rules, waves, body, foretold,
-    approximations, takes, load, events, charts, said, fault,
+    approximations, takes, load, record, events, charts, said, fault,
     clock: clock(told),
     paused(yes) {
       pause.textContent = yes ? t('Go on', 'Riprendi') : t('Pause', 'Pausa');

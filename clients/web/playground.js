@@ -8,6 +8,7 @@ import { hands } from './hands.js';
 import { eventList } from './happened.js';
 import { lang, learn, number, preset as titled, said, t, tell } from './i18n.js';
 import { lensed } from './lensed.js';
+import { remembered } from './job.js';
 import * as link from './link.js';
 import { Plane } from './plane.js';
 import { parts } from './playground-parts.js';
@@ -223,6 +224,16 @@ export async function openPlayground() {
   });
   part.again.addEventListener('click', () => begin());
   for (const [button, what, name, type] of part.takes) button.addEventListener('click', () => act(() => take(running.address(what), name, type)));
+  // Films, once somebody looks.
+  let films = null;
+  const filmed = part.record.closest('details');
+  const record = () =>
+    filmed.open &&
+    (films ??= import('./record.js')
+      .then(({ recordPlay }) => recordPlay(part.record, running, () => ({ width: part.pictures.clientWidth, height: part.pictures.clientHeight })))
+      .catch(() => (films = null)));
+  filmed.addEventListener('toggle', record);
+  if (remembered('play-film')) filmed.open = true;
   part.load.addEventListener('change', async () => {
     const [file] = part.load.files;
     if (!file) return;

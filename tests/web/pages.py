@@ -7,6 +7,20 @@ from browser import AT_REST, FINE, READY, VIEWS, Browser, main, rows
 import daemon
 
 
+# Controls that stick out of the page, and buttons that lie over one another.
+CROWDED = '''() => {
+    const shown = [...document.querySelectorAll('button, a.button, select, summary, label, input')].filter(n => n.checkVisibility() && !n.closest('[aria-hidden=true]'));
+    const box = n => n.getBoundingClientRect(), text = n => n.outerHTML.slice(0, 80);
+    const wide = shown.filter(n => box(n).width && (box(n).right > innerWidth + 1 || box(n).left < -1) && !n.closest('[role=toolbar], nav, .scroll')).map(text);
+    const apart = shown.filter(n => n.matches('button, a.button, select, summary') && !n.closest('[role=toolbar]'));
+    for (const [i, a] of apart.entries()) for (const b of apart.slice(i + 1)) {
+        const p = box(a), q = box(b), across = Math.min(p.right, q.right) - Math.max(p.left, q.left), down = Math.min(p.bottom, q.bottom) - Math.max(p.top, q.top);
+        if (across > 2 && down > 2 && a.closest('#panel, header, .scene, section.page, #playground') === b.closest('#panel, header, .scene, section.page, #playground')) wide.push(text(a) + ' over ' + text(b));
+    }
+    return wide;
+}'''
+
+
 class Pages(Browser):
     def test_both_languages(self):
         english, italian = self.open(), self.open('lang=it')
@@ -69,7 +83,7 @@ class Pages(Browser):
         left = page.evaluate('async all => { const { sentences } = await import("./web/it.js"); return all.filter(text => !sentences[text]); }', sentences)
         self.assertEqual(left, [])
 
-    def test_phone(self):
+    def test_phone_and_twice_the_size(self):
         phone = {'viewport': {'width': 390, 'height': 844}, 'device_scale_factor': 2, 'has_touch': True, 'is_mobile': True}
         for view in VIEWS:
             with self.subTest(view):
@@ -80,6 +94,10 @@ class Pages(Browser):
                     .filter(n => n.offsetParent && Math.min(n.offsetWidth, n.offsetHeight) < 24).map(n => n.outerHTML.slice(0, 80))''')
                 self.assertEqual(small, [])
                 self.shot(page, 'phone-' + view)
+                page.set_viewport_size({'width': 720, 'height': 450})  # a window of 1440 x 900 where everything is shown at 200 %
+                self.assertTrue(daemon.eventually(lambda: page.evaluate('() => document.documentElement.scrollWidth') <= 720))
+                self.assertTrue(daemon.eventually(lambda: not page.evaluate(CROWDED)), page.evaluate(CROWDED))
+                self.shot(page, 'twice-' + view)
                 if view == 'lensing':
                     whole = '() => document.getElementById("picture").naturalWidth === 2 * document.getElementById("stage").clientWidth'
                     self.assertTrue(daemon.eventually(lambda: page.evaluate(whole)), 'a picture at rest has all pixels of the device')

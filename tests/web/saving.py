@@ -2,8 +2,9 @@
 import json
 import pathlib
 import struct
+import zipfile
 
-from browser import AT_REST, FINE, Browser, main
+from browser import AT_REST, FINE, SMOOTH, Browser, main
 import daemon
 
 
@@ -192,6 +193,65 @@ class Saving(Browser):
             page.reload()
         self.assertEqual(download.value.suggested_filename, 'kerrd-2400x1350.png')
         self.assertEqual(len(self.jobs()), 1)
+
+    def film(self, page):
+        """Of the real size and length a film takes a minute: what is asked for is made smaller on its way."""
+        page.evaluate('() => { document.getElementById("take").open = true; }')
+        page.wait_for_selector('#film-spin-takes:text-matches("^(about|some) ")')
+
+        def smaller(route):
+            asked = json.loads(route.request.post_data)
+            self.asked = json.loads(route.request.post_data)
+            asked['scene']['image'].update(width=96, height=54, samples=1)
+            asked['keyframes'][0]['frame'] = 3
+            route.continue_(post_data=json.dumps(asked))
+        page.route('**/v1/jobs', smaller)
+
+    def made(self, page, button):
+        """The keyframes that were asked for, and the pictures' scenes."""
+        with page.expect_download() as download:
+            page.click(button)
+        self.assertEqual(download.value.suggested_filename, f'kerrd-{button.removeprefix("#film-")}-1280x720.zip')
+        with zipfile.ZipFile(download.value.path()) as film:
+            return self.asked['keyframes'], [scene_of(film.read(name)) for name in sorted(film.namelist())]
+
+    def test_three_films(self):
+        page = self.open('lang=en&spacetime.spin=0.5&camera.azimuth_deg=40&motion.time_rate=10&pause=1')
+        self.film(page)
+        page.select_option('#film-size', '1280x720')
+        page.select_option('#film-frames', '60')
+        page.select_option('#film-form', 'zip')
+        keys, scenes = self.made(page, '#film-orbit')
+        self.assertEqual((keys, len(scenes)), ([{'frame': 59, 'scene': {'camera': {'azimuth_deg': 34}}}], 4))  # one step from where it began
+        self.assertEqual([round(s['camera']['azimuth_deg'], 9) % 360 for s in scenes], [40, 158, 276, 34])
+        page.wait_for_selector('#film-preview:visible')
+        self.there(page, 'Saved.', '#film-told')
+        keys, scenes = self.made(page, '#film-time')
+        self.assertAlmostEqual(keys[0]['scene']['time'], 50 * 59 / 60)
+        self.assertEqual([round(s['time'], 3) for s in scenes], [0, 16.389, 32.778, 49.167])
+        keys, scenes = self.made(page, '#film-spin')
+        self.assertEqual([round(s['spacetime']['spin'], 6) for s in scenes], [0, 0.332667, 0.665333, 0.998])
+        jobs = [r.response().json()['id'] for r in self.requests if r.url.endswith('/v1/jobs') and r.method == 'POST']
+        self.assertTrue(daemon.eventually(lambda: all(self.daemon.get('/v1/jobs/' + id).status == 404 for id in jobs)), 'the server keeps them no longer')
+
+    def test_where_there_is_no_ffmpeg(self):
+        self.expected = '501'
+        page = self.open('lang=it&pause=1')
+        page.route('**/result?format=mp4*', lambda route: route.fulfill(status=501, json={'detail': 'none', 'status': 501}))
+        page.evaluate('() => { document.getElementById("take").open = true; }')
+        page.route('**/v1/jobs', lambda route: route.continue_(post_data=json.dumps({'scenes': [{'image': {'width': 32, 'height': 18}}] * 2})))
+        page.wait_for_selector('#film-time')
+        with page.expect_download() as download:
+            page.click('#film-time')
+        self.assertTrue(download.value.suggested_filename.endswith('.zip'))
+        self.there(page, 'non ha ffmpeg', '#film-told')
+
+    def test_what_would_show_nothing_is_not_offered(self):
+        page = self.open(f'lang=en&{SMOOTH}')
+        page.evaluate('() => { document.getElementById("take").open = true; }')
+        self.there(page, 'the same from all sides', '#film-orbit-takes')
+        self.there(page, 'nothing moves in it', '#film-time-takes')
+        self.assertEqual([page.is_disabled(f'#film-{name}') for name in ('orbit', 'time', 'spin')], [True, True, False])
 
 
 if __name__ == '__main__':

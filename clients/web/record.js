@@ -1,0 +1,218 @@
+// Films of five seconds, made by a job on the server while the page goes on: the pictures come first, and what they look like is shown as they come; then the server
+// has them encoded, or gives them as they are, numbered.
+import { el, latest } from './dom.js';
+import { duration, t, tell } from './i18n.js';
+import { jobOf, offer } from './job.js';
+import { ask, getJson, postJson } from './server.js';
+import { samples } from './source.js';
+
+export const seconds = 5;
+const plan_ms = 600; // after the last change until what it would take is asked for
+const even = x => Math.max(2, 2 * Math.round(x / 2));
+
+const choose = (id, label, options) => el('div', {}, el('label', { for: id }, label), el('select', { id }, options.map(([value, text]) => el('option', { value }, text))));
+const button = (id, text, attributes) => el('button', { type: 'button', id, ...attributes }, text);
+
+// kinds: [{ name, text, lacks(): why it would show nothing, request(n, width, height): a document of a job, plan(n, width, height): one of /v1/plan }]; size(): of what is
+// seen, in pixels; key: of the tab's memory, and of ids. Returns renew(), to be called when what would be filmed has changed.
+export function buildFilms(box, { key, kinds, size }) {
+  const starts = kinds.map(({ name, text }) => button(`${key}-${name}`, text, { 'aria-describedby': `${key}-${name}-takes` })),
+    takes = kinds.map(({ name }) => el('span', { id: `${key}-${name}-takes`, class: 'help' }));
+  const sizes = choose(`${key}-size`, t('Size', 'Dimensioni'), [
+      ['640', t('as seen, 640 wide', 'come si vede, larghe 640')],
+      ['1280', t('as seen, 1280 wide', 'come si vede, larghe 1280')],
+      ['1280x720', '1280 × 720'],
+      ['1920x1080', '1920 × 1080'],
+      ['3840x2160', '3840 × 2160 (4K)'],
+    ]),
+    counts = choose(
+      `${key}-frames`,
+      t('Pictures', 'Immagini'),
+      [12, 24, 60].map(rate => [rate * seconds, t(`${rate * seconds}: ${rate} a second`, `${rate * seconds}: ${rate} al secondo`)]),
+    ),
+    forms = choose(`${key}-form`, t('File', 'File'), [
+      ['mp4', 'MP4 (H.264)'],
+      ['webm', 'WebM (VP9)'],
+      ['zip', t('numbered PNGs, ZIP', 'PNG numerati, ZIP')],
+    ]);
+  const [wide, many, form] = [sizes, counts, forms].map(node => node.lastChild);
+  many.value = 24 * seconds;
+  const cancel = button(`${key}-cancel`, t('Cancel', 'Annulla'), { hidden: true }),
+    got = el('a', { class: 'button', id: `${key}-got`, href: '', hidden: true }, t('Download it again', 'Scaricalo di nuovo')),
+    bar = el('progress', { id: `${key}-bar`, max: 1, value: 0, hidden: true, 'aria-label': t('How much of the film is drawn', 'Quanto del film è disegnato') }),
+    preview = el('img', { id: `${key}-preview`, class: 'preview', hidden: true, alt: t('The film’s newest picture', 'L’immagine più recente del film') }),
+    told = el('p', { id: `${key}-told`, class: 'help', role: 'status' }),
+    fault = el('p', { id: `${key}-fault`, class: 'fault', role: 'status' });
+  box.replaceChildren(
+    el('h2', {}, t('A film of five seconds', 'Un film di cinque secondi')),
+    el('div', { class: 'films' }, starts.map((start, i) => el('p', { class: 'row' }, start, ' ', takes[i]))),
+    el('div', { class: 'choices' }, sizes, counts, forms),
+    el('p', { class: 'row' }, cancel, ' ', got),
+    bar,
+    preview,
+    told,
+    fault,
+  );
+
+  let looks = null, // at a picture that is on its way
+    shown = -1;
+  async function show(id) {
+    const answer = await ask(`v1/jobs/${id}/preview.png`).catch(() => null);
+    looks = null;
+    if (!answer) return;
+    URL.revokeObjectURL(preview.src);
+    preview.src = URL.createObjectURL(await answer.blob());
+    preview.hidden = false;
+  }
+
+  // The newest picture, if another one has come.
+  function look({ finished }, { id }) {
+    if (finished && finished !== shown && !looks) ((shown = finished), (looks = show(id)));
+    return looks;
+  }
+
+  // Where there is no ffmpeg the pictures are given as they are, and that is said.
+  async function fetchFilm({ id, form: as, rate }) {
+    const at = `v1/jobs/${id}/result?format=`;
+    if (as === 'zip') return { film: await ask(at + 'zip'), as };
+    try {
+      return { film: await ask(`${at}${as}&rate=${rate}`), as };
+    } catch (error) {
+      if (error.status !== 501) throw error;
+      return { film: await ask(at + 'zip'), as: 'zip', instead: t('This server has no ffmpeg, which encodes films: these are the numbered pictures.', 'Questo server non ha ffmpeg, che codifica i film: ecco le immagini numerate.') };
+    }
+  }
+
+  const blank = kinds.map(kind => kind.lacks());
+  const job = jobOf({
+    key,
+    starts,
+    cancel,
+    bar,
+    told,
+    fault,
+    words: {
+      done: t('Saved.', 'Salvato.'),
+      cancelled: t('Cancelled.', 'Annullato.'),
+      written: t('drawn, being encoded', 'disegnato, lo si codifica'),
+      before: n => t(`${n} before it`, `${n} prima di questo`),
+    },
+    free: start => !blank[starts.indexOf(start)],
+    seen: look,
+    async take(done, wanted) {
+      const { film, as, instead } = await fetchFilm(done),
+        blob = await film.blob();
+      if (wanted()) offer(got, blob, `${done.name}.${as}`);
+      return instead;
+    },
+  });
+
+  function picked() {
+    const here = size(),
+      [width, height] = wide.value.split('x').map(Number);
+    return [Number(many.value), width, height || even((width * here.height) / here.width)];
+  }
+
+  starts.forEach((start, i) =>
+    start.addEventListener('click', () => {
+      const [n, width, height] = picked();
+      got.hidden = preview.hidden = true;
+      shown = -1;
+      job.begin(() => kinds[i].request(n, width, height), { name: `kerrd-${kinds[i].name}-${width}x${height}`, form: form.value, rate: n / seconds });
+    }),
+  );
+
+  // What each would take, and why one would show nothing.
+  const estimate = latest(async () => {
+    for (const [i, kind] of kinds.entries()) {
+      if (blank[i]) tell(takes[i], blank[i]);
+      else if (kind.plan)
+        await postJson('v1/plan', kind.plan(...picked())).then(
+          ({ estimate_ms, estimate_basis }) => {
+            const time = duration(Number((estimate_ms / 1000).toPrecision(2)));
+            tell(takes[i], estimate_basis === 'guess' ? t(`some ${time}, by a guess`, `circa ${time}, a occhio`) : t(`about ${time}`, `circa ${time}`));
+          },
+          error => tell(takes[i], error.message),
+        );
+    }
+  });
+  let timer = 0;
+  function renew() {
+    kinds.forEach((kind, i) => (blank[i] = kind.lacks()));
+    job.show();
+    clearTimeout(timer);
+    timer = setTimeout(() => box.offsetParent && !document.hidden && estimate(), plan_ms);
+  }
+  for (const control of [wide, many]) control.addEventListener('change', renew);
+  job.resume();
+  renew();
+  return renew;
+}
+
+const steps = (from, to, n) => Array.from({ length: n }, (_, k) => from + ((to - from) * k) / (n - 1));
+
+// One field goes from a value to another one.
+function glide(scene, path, range) {
+  const over = (width, height) => ({ 'image.width': width, 'image.height': height, 'image.samples': samples(scene) });
+  const at = value => path.split('.').reduceRight((inner, name) => ({ [name]: inner }), value);
+  return {
+    request(n, width, height) {
+      const [from, to] = range(n);
+      return { scene: scene.document({ ...over(width, height), [path]: from }), keyframes: [{ frame: n - 1, scene: at(to) }] };
+    },
+    plan: (n, width, height) => ({ scene: scene.document(over(width, height)), axes: { [path]: steps(...range(n), n) } }),
+  };
+}
+
+// Films of the scene.
+export function recordScene(box, scene, size) {
+  const still = words => !scene.varies.some(word => words.includes(word)),
+    rate = () => scene.get('motion.time_rate') || 20,
+    falls = () => scene.get('motion.proper_time_rate') > 0,
+    now = () => scene.get('time');
+  // The way round begins where the camera is, in numbers that the field takes.
+  const round = n => {
+    const from = ((scene.get('camera.azimuth_deg') % 360) + 360) % 360;
+    return [from - 360, from - 360 / n];
+  };
+  const time = glide(scene, 'time', n => [now(), now() + (rate() * seconds * (n - 1)) / n]);
+  const kinds = [
+    {
+      name: 'orbit',
+      text: t('Orbit once', 'Un giro attorno'),
+      lacks: () => still('moves_with_azimuth') && t('it looks the same from all sides', 'è uguale da ogni lato'),
+      ...glide(scene, 'camera.azimuth_deg', round),
+    },
+    {
+      name: 'time',
+      text: t('Five seconds of time', 'Cinque secondi di tempo'),
+      lacks: () => !falls() && still('moves_with_time dims_with_time') && t('nothing moves in it', 'non vi si muove nulla'),
+      ...time,
+      request(n, width, height) {
+        const document = time.request(n, width, height);
+        if (falls()) document.keyframes = [{ frame: n - 1, proper_time: (scene.get('motion.proper_time_rate') * seconds * (n - 1)) / n }];
+        return document;
+      },
+    },
+    { name: 'spin', text: t('Spin 0 → 0.998', 'Rotazione 0 → 0,998'), lacks: () => null, ...glide(scene, 'spacetime.spin', () => [0, 0.998]) },
+  ];
+  const renew = buildFilms(box, { key: 'film', kinds, size });
+  for (const event of ['change', 'settle']) scene.addEventListener(event, renew);
+  box.closest('details').addEventListener('toggle', renew);
+}
+
+// Films of a playground, from where it is now on, at its pace.
+export function recordPlay(box, running, size) {
+  const kind = {
+    name: 'play',
+    text: t('Five seconds from now on', 'Cinque secondi da adesso'),
+    lacks: () => !running.state?.scene && t('the server has no scene of it', 'il server non ne ha una scena'),
+    async request(n, width, height) {
+      const { rate, scene } = running.state,
+        { rate: pace, paused, scene: view, ...playground } = await getJson(running.address('snapshot'));
+      return { playground, every: (rate * seconds) / n, frames: n, scene: { ...scene, image: { ...scene.image, width, height } } };
+    },
+  };
+  const renew = buildFilms(box, { key: 'play-film', kinds: [kind], size });
+  running.addEventListener('state', renew);
+}
