@@ -266,6 +266,10 @@ export function buildOverlays(root, stage, scene) {
         tell(notes.get(name), refusals[error.pointer] ?? error.message);
       }
     }
+    if (scene.get('camera.projection') === 'ring') {
+      const { lines, nodes } = await (await import('./rings.js')).ringAxes(scene, width, height);
+      groups.push({ tags: [], node: svg('g', { class: 'over-axes' }, lines.map(d => svg('path', { d })), nodes) });
+    }
     layer.setAttribute('viewBox', `0 0 ${width} ${height}`);
     layer.replaceChildren(...groups.map(({ node }) => node));
     nameLines(groups, width, height);
@@ -277,6 +281,7 @@ export function buildOverlays(root, stage, scene) {
     asked = new Map();
   function choose(name, yes) {
     if (asked.get(name) === yes) return;
+    if (!yes && !asked.has(name)) return;
     asked.set(name, yes);
     boxes.get(name).checked = yes;
     yes ? chosen.add(name) : chosen.delete(name);
@@ -290,7 +295,8 @@ export function buildOverlays(root, stage, scene) {
       'aria-describedby': `over-${name}-words`,
       onchange: () => {
         box.checked ? chosen.add(name) : chosen.delete(name);
-        link.set('over', [...chosen].join(','));
+        asked.set(name, null); // it is the user's choice now
+        link.set('over', [...chosen].filter(one => !asked.get(one)).join(','));
         draw();
       },
     });
@@ -309,5 +315,9 @@ export function buildOverlays(root, stage, scene) {
   }
   scene.addEventListener('change', () => layer.classList.add('late')); // until the picture has come to rest
   scene.addEventListener('tick', () => scene.get('motion.proper_time_rate') && layer.replaceChildren()); // of another place
+  // Axes belong to a coarse picture, too.
+  const axes = () => scene.get('camera.projection') === 'ring' && draw();
+  scene.addEventListener('change', axes);
+  axes();
   return Object.assign(draw, { choose });
 }

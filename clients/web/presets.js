@@ -9,7 +9,8 @@ import { getJson } from './server.js';
 export const first_view = 'gas-stars';
 const plain = 'default'; // what a link then calls the default scene
 
-const document_of = name => getJson('v1/presets/' + encodeURIComponent(name));
+const renamed = { 'm87-eht': 'm87' }; // in links from before
+const document_of = name => getJson('v1/presets/' + encodeURIComponent(renamed[name] ?? name));
 
 // All as it was at first.
 export async function startAgain(scene) {

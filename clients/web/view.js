@@ -59,6 +59,7 @@ export function handle(stage, scene) {
   // What wheel and fingers change: at infinity and where one looks around the field narrows, elsewhere the camera comes nearer; it stops outside every
   // static limit (r = 2), unless it is within already.
   function reach() {
+    if (get('projection') === 'ring') return { name: 'ring_decades_min', low: -13, high: Math.min(get('ring_decades_max') - 0.5, -1) };
     if (far()) return { name: 'field_m', low: 0.5, high: 1e4 };
     if (narrows()) return { name: 'fov_deg', low: 2, high: 150 };
     return { name: 'r', low: Math.min(2.1, get('r')), high: 1e5 };

@@ -315,6 +315,9 @@ static void presets_show_what_they_say(void **state)
     assert_true(scene.spacetime.spin == 0.999 && scene.disk.doppler && scene.disk.redshift);
     assert_int_equal(kd_scene_preset(&scene, "m87", NULL), KD_OK);
     assert_true(scene.camera.inclination_deg == 163 && scene.spacetime.mass_msun == 6.5e9);
+    struct kd_scene old;
+    assert_int_equal(kd_scene_preset(&old, "m87-eht", NULL), KD_OK); /* its name from before */
+    assert_memory_equal(&old, &scene, sizeof old);
     assert_int_equal(kd_scene_preset(&scene, "edge-on", NULL), KD_OK);
     assert_true(scene.camera.inclination_deg == 90);
     assert_int_equal(kd_scene_preset(&scene, "face-on", NULL), KD_OK);

@@ -213,6 +213,8 @@ class Lensing(Browser):
             page = self.open(f'lang=en&preset={name}')
             page.wait_for_selector('#overlay .over-ring path >> nth=2', state='attached')
             self.assertTrue(daemon.eventually(lambda: page.locator('#overlay .over-ring .tag').all_text_contents() == [f'measured: {spread} ± {error} µas']))
+            page.wait_for_function('() => document.querySelectorAll("#overlay:not(.late) .over-ring path").length === 3')
+            self.quiet(page)
             wide = page.evaluate('() => [...document.querySelectorAll("#overlay .over-ring path")].map(line => line.getBBox().width)')
             m_uas, across = self.physics('scale', hole=name)['m_uas'], float(self.field(page, 'camera.field_m'))
             self.assertAlmostEqual(m_uas * across, 213.8, delta=0.3, msg='one scale for both')
@@ -233,6 +235,23 @@ class Lensing(Browser):
         page.select_option('#preset', 'edge-on')
         page.wait_for_selector('#measured-row', state='hidden')
         page.wait_for_selector('#overlay .over-ring', state='detached')
+
+    def test_photon_rings_have_axes(self):
+        """Orders stand where their light is: of a small disk at 20 M and its like each e^-gamma nearer to the curve; a wheel takes fewer decades."""
+        page = self.open('lang=en&preset=photon-rings', '#stage[data-final]')
+        page.wait_for_selector('#overlay .order >> nth=5', state='attached')
+        names, places, high = page.evaluate('''() => [[...document.querySelectorAll('#overlay .order')].map(n => n.textContent),
+            [...document.querySelectorAll('#overlay .order')].map(n => Number(n.getAttribute('y')) - 4), document.getElementById('overlay').viewBox.baseVal.height]''')
+        self.assertEqual(names, [f'n = {i}' for i in range(1, 7)])
+        most, least = (float(self.field(page, f'camera.ring_decades_{name}')) for name in ('max', 'min'))
+        logs = [least + (1 - 2 * y / high) * (most - least) for y in places]
+        gamma = self.physics('photon-rings', spin=0.9, inclination_deg=60, angle_deg=30)['gamma']
+        for nearer, farther in zip(logs[3:], logs[2:]):
+            self.assertAlmostEqual((farther - nearer) * math.log(10) / gamma, 1, delta=0.02)
+        self.shot(page, 'photon-rings')
+        page.hover('#stage')
+        page.mouse.wheel(0, -400)
+        self.assertTrue(daemon.eventually(lambda: float(self.field(page, 'camera.ring_decades_min')) > least))
 
     def test_the_style_of_a_radio_telescope(self):
         """Its fields are there with it; what makes no sense without false colours hides, and is told of where it is in the way."""
