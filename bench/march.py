@@ -23,6 +23,9 @@ SCENES = {  # arguments of `kerrd scene`
     "smooth thick disk": [*THICK, "--set", "disk.gas.amplitude=0"],
     "turbulent thick disk": THICK,
     "turbulent thick disk, draft": [*THICK, "--set", "accuracy.profile=draft"],
+    "radio, the model of Gold et al. 2020, test 1": ["-p", "gold-1", "--set", "image.critical_factor=1"],
+    "radio, test 5, a thin layer": ["-p", "gold-5", "--set", "image.critical_factor=1"],
+    "radio, a hot flow": ["-p", "riaf", "--set", "image.critical_factor=1"],
     "jets": ["-p", "jet", "--set", "image.critical_factor=1"],
     "a body before the smooth disk": ["-p", "smooth", "--set", "image.critical_factor=1", "--set", "bodies.0.radius=1.5"],
 }

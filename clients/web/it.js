@@ -206,13 +206,32 @@ export const fields = {
   'bodies.brightness': ['Luminosità', 'Luce della superficie rispetto a quella del corpo nero, sulla scala delle temperature del disco; 0: scuro'],
   'bodies.limb_darkening': ['Oscuramento al bordo', 'Di tanto la luce del bordo è minore che al centro, linearmente nel coseno dell’angolo; 0: nessuno'],
   volume: ['Volume'],
-  'volume.model': ['Modello', 'Materia lungo tutto il raggio: nessuna, o uniforme, un guscio ovunque uguale e fermo: quanto fanno luce e opacità lungo raggi curvi'],
-  'volume.inner': ['Bordo interno', 'Orizzonte: un centesimo al di fuori, quanto il bordo è almeno'],
+  'volume.model': ['Modello', 'Materia lungo tutto il raggio: nessuna; uniforme, un guscio ovunque uguale e fermo: quanto fanno luce e opacità lungo raggi curvi; a una sola frequenza radio gold, il modello analitico di Gold et al. 2020, e riaf, un flusso caldo e sottile con densità, temperatura e campo magnetico in potenze di r'],
+  'volume.inner': ['Bordo interno', 'Orizzonte: il più vicino possibile, un centesimo al di fuori, o un duemillesimo per ciò che si vede a una frequenza radio'],
   'volume.outer': ['Bordo esterno', 'Maggiore di quello interno'],
-  'volume.emissivity': ['Emissività', 'Luce di una lunghezza M nel proprio riferimento, in unità della massima del disco'],
-  'volume.opacity': ['Opacità', 'Profondità ottica di una lunghezza M nel proprio riferimento'],
-  'volume.temperature_k': ['Temperatura', 'Colore: quello di un corpo nero di questa temperatura, spostato da g'],
-  'volume.redshift': ['Redshift', 'Spostamento di frequenza della materia'],
+  'volume.emissivity': ['Emissività', 'Luce di una lunghezza M nel proprio riferimento, in unità della massima del disco (modello: uniforme)'],
+  'volume.opacity': ['Opacità', 'Profondità ottica di una lunghezza M nel proprio riferimento (modello: uniforme)'],
+  'volume.temperature_k': ['Temperatura', 'Colore: quello di un corpo nero di questa temperatura, spostato da g (modello: uniforme)'],
+  'volume.redshift': ['Redshift', 'Spostamento di frequenza della materia (modello: uniforme)'],
+  'volume.frequency_ghz': ['Frequenza', 'Frequenza osservata (modelli: gold, riaf)'],
+  'volume.gold_emission': ['Emissività C n0', 'Emissività a 230 GHz dove la densità è massima (modello: gold)'],
+  'volume.gold_index': ['Indice α', 'L’emissività va come ν^−α, l’assorbimento come ν^−(2,5 + α) (modello: gold)'],
+  'volume.gold_flattening': ['Schiacciamento h', 'La densità va come exp(−(h cos θ)²/2); 0: tondo (modello: gold)'],
+  'volume.gold_momentum': ['Momento angolare l0', 'Per un’energia di 1: l0 R^(3/2)/(1 + R), R = r sin θ; 0: momento angolare nullo (modello: gold)'],
+  'volume.gold_absorption': ['Assorbimento A', 'Assorbimento in 1/cm sull’emissività in erg/(s cm³ Hz sr), a 230 GHz (modello: gold)'],
+  'volume.density_cm3': ['Densità', 'Elettroni a 1 M nel piano, secondo la loro legge di potenza (modello: riaf)'],
+  'volume.density_index': ['Calo della densità', 'La densità va come r^−p, p essendo questo numero (modello: riaf)'],
+  'volume.electron_temperature_k': ['Temperatura degli elettroni', 'A 1 M (modello: riaf)'],
+  'volume.temperature_index': ['Calo della temperatura', 'La temperatura va come r^−p, p essendo questo numero (modello: riaf)'],
+  'volume.height': ['Altezza', 'Altezza sulla distanza dall’asse a cui la densità è scesa a exp(−1/2); 0: uguale a ogni altezza (modello: riaf)'],
+  'volume.magnetisation': ['Magnetizzazione', 'Pressione magnetica sull’energia a riposo di un protone per elettrone, a 1 M (modello: riaf)'],
+  'volume.magnetisation_index': ['Calo della magnetizzazione', 'La magnetizzazione va come r^−p, p essendo questo numero (modello: riaf)'],
+  'volume.field': ['Campo magnetico', 'Attorno all’asse, lungo l’asse o lungo il raggio, reso perpendicolare al moto (modello: riaf)'],
+  'volume.flow': ['Moto', 'Con la velocità angolare dell’orbita circolare a ogni r, e in caduta dall’ISCO; o fermo per osservatori senza momento angolare (modello: riaf)'],
+  'volume.electrons': ['Elettroni', 'Energie degli elettroni (modello: riaf)'],
+  'volume.electrons_index': ['Indice p', 'Gli elettroni di energia γ vanno come γ alla meno questo (elettroni: legge di potenza)'],
+  'volume.gamma_min': ['γ minimo', 'Energia minima degli elettroni su quella a riposo (elettroni: legge di potenza)'],
+  'volume.gamma_max': ['γ massimo', 'Energia massima degli elettroni, più della minima (elettroni: legge di potenza)'],
   polarization: ['Polarizzazione'],
   'polarization.model': ['Modello', 'Della luce dal piano del disco: nessuna; sincrotrone, trasversale al campo e alla luce nel riferimento del gas; o diffusione di un’atmosfera profonda di elettroni liberi, trasversale alla normale e alla luce'],
   'polarization.field': ['Campo magnetico', 'Direzione nel piano: attorno all’asse, verso l’esterno o lungo la normale'],
@@ -353,6 +372,12 @@ export const labels = {
   jet: 'Getti',
   'gargantua-gas': 'Gargantua come nel film',
   'polarised-ring': 'Anello polarizzato',
+  'gold-1': 'Gold et al. 2020, prova 1',
+  'gold-2': 'Gold et al. 2020, prova 2',
+  'gold-3': 'Gold et al. 2020, prova 3',
+  'gold-4': 'Gold et al. 2020, prova 4',
+  'gold-5': 'Gold et al. 2020, prova 5',
+  riaf: 'Un flusso caldo a 223 GHz',
 };
 
 export const presets = {
@@ -381,6 +406,12 @@ export const presets = {
   jet: 'Due getti da un buco in gas turbolento, davanti alle stelle: quello che viene verso di noi è il più luminoso; stilizzati',
   'hot-spot':
     'Un brillamento come li ha visti GRAVITY attorno al buco della nostra Galassia: una macchia su un’orbita circolare di un’ora, in senso orario, vista a 25 gradi dal suo asse, su un disco tenue; in una sessione gli eventi danno la curva di luce e il percorso',
+  'gold-1': 'La prova 1 di quelle con cui si confrontano i programmi per la radiazione dei buchi neri: senza assorbimento, emissività come il cubo della frequenza, sferico, senza momento angolare; 230 GHz',
+  'gold-2': 'La prova 2 di quelle con cui si confrontano i programmi per la radiazione dei buchi neri: senza spin né assorbimento, sferico, in orbita (l0 = 1); 230 GHz',
+  'gold-3': 'La prova 3 di quelle con cui si confrontano i programmi per la radiazione dei buchi neri: senza assorbimento, schiacciato (h = 10/3), in orbita; 230 GHz',
+  'gold-4': 'La prova 4 di quelle con cui si confrontano i programmi per la radiazione dei buchi neri: schiacciato, in orbita, otticamente spesso (A = 1e5); 230 GHz',
+  'gold-5': 'La prova 5 di quelle con cui si confrontano i programmi per la radiazione dei buchi neri: uno strato sottile (h = 100/3), in orbita, otticamente spesso (A = 1e6); 230 GHz',
+  riaf: 'Un flusso caldo e sottile con massa e distanza di Sagittarius A*: la sua luce di sincrotrone a 223 GHz, come la calcola il programma ipole',
   'photon-rings':
     'Sei anelli di fotoni, uno sopra l’altro: in orizzontale l’angolo attorno al bordo dell’ombra, in verticale la distanza da quel bordo, per nove decadi e mezza',
 };
@@ -561,6 +592,7 @@ export const sentences = {
   sky: 'cielo',
   gas: 'gas',
   volume: 'volume',
+  'radio volume': 'volume radio',
   jets: 'getti',
   bodies: 'corpi',
   debris: 'detriti',
@@ -719,6 +751,16 @@ export const sentences = {
     'volume: inventato, uguale ovunque fra i suoi bordi, fermo per osservatori senza momento angolare; finisce un centesimo fuori dall’orizzonte; grigio, con il colore di una temperatura scelta, e luce bolometrica qualunque sia disk.band',
   'jets: stylised, cones of optically thin light along the spin axis that flies outwards along the radius at one speed, past observers of zero angular momentum; no magnetic field, no synchrotron spectrum: brightness goes as g^(2 + index), colour is that of a chosen temperature and is not shifted':
     'getti: stilizzati, coni di luce otticamente sottile lungo l’asse di rotazione che va verso l’esterno lungo il raggio a una sola velocità, rispetto a osservatori senza momento angolare; nessun campo magnetico, nessuno spettro di sincrotrone: la luminosità va come g^(2 + indice), il colore è quello di una temperatura scelta e non è spostato',
+  'volume: light of one frequency, without scattering and without polarisation; brightness 1 is a brightness temperature of 1e10 K':
+    'volume: luce di una sola frequenza, senza diffusione e senza polarizzazione; luminosità 1 è una temperatura di brillanza di 1e10 K',
+  'volume: the analytic model of Gold et al. 2020, made up to compare programs; it ends at its edges':
+    'volume: il modello analitico di Gold et al. 2020, inventato per confrontare programmi; finisce ai suoi bordi',
+  'volume: electrons and magnetic field by power laws of r that solve no equation of motion; they end at their edges, and 7 scale heights from the plane':
+    'volume: elettroni e campo magnetico in leggi di potenza di r che non risolvono alcuna equazione del moto; finiscono ai bordi, e a 7 altezze dal piano',
+  'volume: synchrotron light by the fits of Pandya et al. 2016, good to a few percent where they hold; electrons move in all directions alike':
+    'volume: luce di sincrotrone secondo le formule di Pandya et al. 2016, buone a qualche percento dove valgono; gli elettroni vanno ugualmente in ogni direzione',
+  'volume: light at a radio frequency beside light of other kinds, whose brightness 1 is another one; the picture has no flux':
+    'volume: luce a una frequenza radio accanto a luce di altro tipo, la cui luminosità 1 è un’altra; l’immagine non ha flusso',
   "volume: the frequency shift of its matter is switched off, and lengths are those of the observer's affine parameter":
     'volume: lo spostamento di frequenza della sua materia è disattivato, e le lunghezze sono quelle del parametro affine dell’osservatore',
   'volumes: a sketch while the view changes: light to some 5 %, as measured in it, and turbulence without the octaves of which a pixel leaves less than a seventh of the first: another 7 %, which is not':

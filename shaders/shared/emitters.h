@@ -40,7 +40,8 @@
     ALONG(9, thick)                                                                                            \
     MET(10, bodies)                                                                                            \
     AT_CROSSING(11, debris)                                                                                    \
-    PART(12, polarization)
+    PART(12, polarization)                                                                              \
+    ALONG(13, plasma)
 
 /* All that has numbers. */
 #define KD_EMIT_BLOCKS(B) B(-1, frame) KD_EMITTERS(B, B, B, B, B, B)

@@ -4,6 +4,7 @@
 #include "render/output/notes.h"
 #include "scene/writer.h"
 
+#include <math.h>
 #include <string.h>
 
 static void add_field(struct kd_json *json, const struct kd_field *field, const struct kd_scene *scene)
@@ -72,6 +73,8 @@ enum kd_status kd_stats_json(const struct kd_stats *stats, struct kd_buffer *out
     kd_json_number(json, "critical_rays", (double)(kd_plan_rays(stats->plan) - stats->plan->rays));
     kd_json_number(json, "exposure", stats->frame->exposure);
     kd_json_number(json, "bytes", (double)stats->bytes);
+    if (!isnan(kd_flux_jy(stats->scene, stats->frame)))
+        kd_json_number(json, "flux_jy", kd_flux_jy(stats->scene, stats->frame));
     add_times(json, stats);
     add_accuracy(json, stats);
     kd_json_array(json, "approximations");

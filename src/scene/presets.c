@@ -11,6 +11,15 @@
 #define SMOOTH                                                                                                   \
     "{\"disk\":{\"emission_opacity\":0,\"peak_temperature_k\":5600,\"gas\":{\"amplitude\":0}},\"style\":{\"name\":\"none\",\"bloom\":0}}"
 
+/* R. Gold et al. 2020 (ApJ 897, 148), 3.2: the picture is 30 M wide and high. */
+#define GOLD(spin, rest)                                                                                         \
+    "{\"spacetime\":{\"spin\":" spin ",\"mass_msun\":4.063e6,\"distance_pc\":7778},"                             \
+    "\"camera\":{\"inclination_deg\":60,\"field_m\":30},"                                                        \
+    "\"disk\":{\"model\":\"none\"},"                                                                             \
+    "\"volume\":{\"model\":\"gold\",\"outer\":80," rest "},"                                                     \
+    "\"style\":{\"name\":\"raw\",\"palette\":\"heat\"},"                                                       \
+    "\"image\":{\"width\":512,\"height\":512}}"
+
 const struct kd_preset kd_presets[] = {
     { "smooth", "Smooth disk", "A disk without turbulence, of the exact Page-Thorne flux, as it is: no lens, nothing seen through",
       false, SMOOTH },
@@ -148,12 +157,25 @@ const struct kd_preset kd_presets[] = {
       "\"polarization\":{\"model\":\"synchrotron\",\"field\":\"vertical\"},"
       "\"style\":{\"palette\":\"heat\",\"tone_map\":\"srgb\",\"bloom\":0},"
       "\"image\":{\"samples\":2}}" },
+    { "gold-1", "Gold et al. 2020, test 1", "Test 1 of those by which programs for the radiation of holes are compared: no absorption, emissivity as the cube of the frequency, spherical, of zero angular momentum; 230 GHz", true, GOLD("0.9", "\"gold_index\":-3") },
+    { "gold-2", "Gold et al. 2020, test 2", "Test 2 of those by which programs for the radiation of holes are compared: no spin, no absorption, spherical, orbiting (l0 = 1); 230 GHz", true, GOLD("0", "\"gold_index\":-2,\"gold_momentum\":1") },
+    { "gold-3", "Gold et al. 2020, test 3", "Test 3 of those by which programs for the radiation of holes are compared: no absorption, flattened (h = 10/3), orbiting; 230 GHz", true, GOLD("0.9", "\"gold_flattening\":3.3333333333333335,\"gold_momentum\":1") },
+    { "gold-4", "Gold et al. 2020, test 4", "Test 4 of those by which programs for the radiation of holes are compared: flattened, orbiting, optically thick (A = 1e5); 230 GHz", true, GOLD("0.9", "\"gold_flattening\":3.3333333333333335,\"gold_momentum\":1,\"gold_absorption\":1e5") },
+    { "gold-5", "Gold et al. 2020, test 5", "Test 5 of those by which programs for the radiation of holes are compared: a thin layer (h = 100/3), orbiting, optically thick (A = 1e6); 230 GHz", true, GOLD("0.9", "\"gold_flattening\":33.333333333333336,\"gold_momentum\":1,\"gold_absorption\":1e6") },
+    /* 200 microarcseconds wide, as ipole's model/riaf has it. */
+    { "riaf", "A hot flow at 223 GHz", "A hot, thin flow with the mass and the distance of Sagittarius A*: its synchrotron light at 223 GHz, as the program ipole has it", true,
+      "{\"spacetime\":{\"spin\":0.9375,\"mass_msun\":4.3e6,\"distance_pc\":8300},"
+      "\"camera\":{\"inclination_deg\":60,\"field_m\":39.11063},"
+      "\"disk\":{\"model\":\"none\"},"
+      "\"volume\":{\"model\":\"riaf\",\"inner\":1.4479853,\"outer\":100,\"frequency_ghz\":223.005},"
+      "\"style\":{\"name\":\"raw\",\"palette\":\"heat\"},"
+      "\"image\":{\"width\":512,\"height\":512}}" },
 };
 const size_t kd_preset_count = sizeof kd_presets / sizeof *kd_presets;
 
 static enum kd_status unknown(const char *name, struct kd_error *error)
 {
-    char known[240] = "", shown[48];
+    char known[480] = "", shown[48];
     struct kd_slip_best meant = { 0 };
     kd_text_clip(shown, sizeof shown, name);
     for (size_t i = 0, used = 0; i < kd_preset_count && used < sizeof known; i++) {

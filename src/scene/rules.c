@@ -258,7 +258,9 @@ static enum kd_status height(const struct kd_scene *scene, struct kd_error *erro
 static enum kd_status volume(const struct kd_scene *scene, struct kd_error *error)
 {
     const struct kd_volume *v = &scene->volume;
-    double least = fmax(isinf(v->inner) ? 0 : v->inner, 1.01 * kd_kerr_horizon(scene->spacetime.spin));
+    const double least = kd_scene_volume_inner(scene);
+    if (v->model == KD_VOLUME_RIAF && v->electrons == KD_VOLUME_POWER_LAW && !(v->gamma_max > v->gamma_min))
+        return kd_error_field(error, "/volume/gamma_max", "volume.gamma_max is %s, allowed is more than volume.gamma_min, %s", show(v->gamma_max).text, show_bound(v->gamma_min).text);
     if (v->model == KD_VOLUME_NONE || v->outer > least)
         return KD_OK;
     return kd_error_field(error, "/volume/outer", "volume.outer is %s M, allowed is more than the inner edge, %s M", show(v->outer).text,
@@ -416,7 +418,8 @@ const struct kd_rule kd_rules[] = {
     { "`disk.inner` is not inside the ISCO of the spin, unless there is no disk.", inner_edge },
     { "`disk.outer` is larger than the inner edge, unless there is no disk.", outer_edge },
     { "`disk.height` is 0, or at least 1e-5; it is 0 for a disk of particles.", height },
-    { "`volume.outer` is larger than the inner edge, which is at least a hundredth outside the horizon, unless there is no volume.", volume },
+    { "`volume.outer` is larger than the inner edge, which is at least a hundredth outside the horizon, or a two-thousandth for what is seen at a radio frequency, unless there is no volume; "
+      "`volume.gamma_max` is larger than `volume.gamma_min` where electrons go by a power law.", volume },
     { "`jets.outer` is larger than the inner edge, which is at least a twentieth outside the horizon, unless `jets.brightness` is 0; by a `jets.falloff` below 0 light grows "
       "at most 2^60 times in between.", jets },
     { "`spots.N.r` is not inside the ISCO of the spin, unless the spot's brightness is 0.", spots },

@@ -139,6 +139,12 @@ double kd_scene_sky_brightness(const struct kd_scene *scene);
  * beside what shines more: then that ratio is what is wanted. */
 double kd_scene_exposure_most(const struct kd_scene *scene);
 
+/* Gives the inner edge of the scene's volume, M; and says whether that is seen at one radio frequency, volume.frequency_ghz, in units of physics. */
+double kd_scene_volume_inner(const struct kd_scene *scene);
+bool kd_scene_is_radio(const struct kd_scene *scene);
+/* The same, and nothing else is to be seen: then its flux has a meaning. */
+bool kd_scene_is_radio_alone(const struct kd_scene *scene);
+
 /* Finds the spots that are on, and the bodies that have a size, in order. */
 size_t kd_scene_spots(const struct kd_scene *scene, const struct kd_spot *on[KD_SPOTS]);
 size_t kd_scene_bodies(const struct kd_scene *scene, const struct kd_body *on[KD_SCENE_BODIES]);

@@ -168,6 +168,19 @@ class Kerrd(unittest.TestCase):
             with self.subTest(preset['name']):
                 self.assertEqual(self.daemon.get(f'{TARGET}&preset={preset["name"]}').status, 200)
 
+    def test_a_flux_in_jansky(self):
+        n, field, metres, parsecs = 32, 39.11063, 4.3e6 * 1476.6250385, 8300 * 3.0856775814913673e16
+        target = f'/v1/render?preset=riaf&image.width={n}&image.height={n}'
+        answer = self.daemon.get(target)
+        flux = answer.header('Kerrd-Flux')
+        self.assertIn((b'tEXt', b'kerrd:flux\0' + flux.encode()), list(chunks(answer.body)))
+        told = dict(part.split('=') for part in flux.split())
+        self.assertEqual((float(told['ghz']), float(told['kelvin'])), (223.005, 1e10))
+        numbers = self.daemon.get(target + '&image.layers=specific_intensity', Accept='application/x-npy').body
+        janskys = sum(struct.unpack(f'<{n * n}f', numbers[-4 * n * n:])) * (field / n * metres / parsecs) ** 2
+        self.assertAlmostEqual(float(told['jy']) / janskys, 1, delta=1e-3)  # the pixels of the critical curve have more rays in both
+        self.assertIsNone(self.daemon.get(TARGET).header('Kerrd-Flux'))
+
     def test_a_picture_of_the_sky(self):
         """By a render, and by a job as by the command line; its author is in each file."""
         chunk = lambda kind, data: struct.pack('>I', len(data)) + kind + data + struct.pack('>I', zlib.crc32(kind + data))

@@ -291,8 +291,15 @@ static void medium_at(const struct along *w, const double *from, double t, doubl
 {
     state y;
     extrapolate(&w->system, from, t, y);
-    double r = radius(w->system.a, y);
-    w->medium(w->user, w->photon, r, y[2] / r, out);
+    const double a = w->system.a, r = radius(a, y), u = y[2] / r, s = sqrt((1 - u) * (1 + u)), q = r * r + a * a, delta = r * r - 2 * r + a * a;
+    /* Traced back it is mirrored; t and phi of ingoing Kerr-Schild coordinates grow with r by 2r/Delta and a/Delta. */
+    const double p_r = ((r * y[0] + a * y[1]) * y[3] + (r * y[1] - a * y[0]) * y[4]) / q + u * y[5];
+    struct ks_photon at = *w->photon;
+    at.r = r;
+    at.u = u;
+    at.p_r = (2 * r * at.energy - a * at.momentum) / delta - p_r;
+    at.p_theta = r * s * y[5] - u / s * (y[0] * y[3] + y[1] * y[4]);
+    w->medium(w->user, &at, r, u, out);
 }
 
 /* From t0 to t1 after a state, by Simpson's rule. */

@@ -268,7 +268,7 @@ static void presets_are_valid(void **state)
                                          "luminet1979",   "edge-on",   "face-on", "photon-rings", "living-disk",
                                          "hot-spot",      "milky-way", "gas",       "gas-stars", "thick-disk",
                                          "star-behind",   "companions",    "falling",       "infall",    "jet",       "gargantua-gas",
-                                         "polarised-ring" };
+                                         "polarised-ring", "gold-1",       "gold-2",        "gold-3",    "gold-4",  "gold-5",  "riaf" };
     char hashes[sizeof names / sizeof *names][65];
     assert_int_equal(kd_scene_preset_count(), sizeof names / sizeof *names);
     for (size_t i = 0; i < kd_scene_preset_count(); i++) {

@@ -1,13 +1,7 @@
 /* This is a shell of matter that is the same everywhere, as an emitter: shaders/emit/volume.glsl. */
 #include "render/emit/emitter.h"
 
-#include "physics/kerr.h"
-
-#include <math.h>
 #include <stdio.h>
-
-/* So far outside the horizon it ends: what is at rest there is no longer seen, and a length to there is finite. */
-#define CLEAR 1.01
 
 static bool present(const struct kd_scene *scene)
 {
@@ -17,27 +11,22 @@ static bool present(const struct kd_scene *scene)
 
 static uint32_t traits(const struct kd_scene *scene) { return scene->volume.redshift ? KD_TRAIT_REDSHIFT : 0; }
 
-static double inner(const struct kd_scene *scene)
-{
-    return fmax(isinf(scene->volume.inner) ? 0 : scene->volume.inner, CLEAR * kd_kerr_horizon(scene->spacetime.spin));
-}
-
 static void reach(const struct kd_scene *scene, double radii[2])
 {
-    radii[0] = inner(scene);
+    radii[0] = kd_scene_volume_inner(scene);
     radii[1] = scene->volume.outer;
 }
 
 static void tell(const struct kd_scene *scene, char out[KD_EMIT_TOLD])
 {
-    snprintf(out, KD_EMIT_TOLD, "Matter all round from %.6g M to %.6g M.", inner(scene), scene->volume.outer);
+    snprintf(out, KD_EMIT_TOLD, "Matter all round from %.6g M to %.6g M.", kd_scene_volume_inner(scene), scene->volume.outer);
 }
 
 static void fill(struct kd_emission *out, const struct kd_scene *scene)
 {
     const struct kd_volume *v = &scene->volume;
     out->volume = (struct kd_volume_block) {
-        .inner = (float)inner(scene),
+        .inner = (float)kd_scene_volume_inner(scene),
         .outer = (float)v->outer,
         .emissivity = (float)v->emissivity,
         .opacity = (float)v->opacity,

@@ -55,6 +55,8 @@ static enum kd_status encode(const struct kd_picture *picture, enum kd_effort ef
         texts[n_texts++] = (struct kd_exr_text) { "owner", picture->frame->credit };
     if (*notes.clock)
         texts[n_texts++] = (struct kd_exr_text) { "kerrd:clock", notes.clock };
+    if (*notes.flux)
+        texts[n_texts++] = (struct kd_exr_text) { "kerrd:flux", notes.flux };
     const struct kd_exr image = {
         .width = picture->frame->width, .height = picture->frame->height, .channels = channels, .n_channels = channels_of(&numbers, channels),
         .texts = texts, .n_texts = n_texts,

@@ -75,6 +75,7 @@ enum kd_status kd_notes_of(const struct kd_picture *picture, struct kd_notes *ou
     *out = (struct kd_notes) { 0 };
     kd_accuracy_text(&picture->frame->accuracy, picture->plan, out->accuracy);
     kd_fall_clock_text(picture->scene, out->clock);
+    kd_flux_text(picture->scene, picture->frame, out->flux);
     enum kd_status status;
     KD_TRY(put_scene(picture->scene, &out->scene));
     KD_TRY(kd_scene_hash(picture->scene, out->hash));

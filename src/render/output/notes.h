@@ -4,6 +4,7 @@
 
 #include "base/json.h"
 #include "render/output/clock.h"
+#include "render/output/flux.h"
 #include "render/output/format.h"
 
 /* One line: "rays=921600 engine=mino-rkn6 precision=f32 steps=8 undecided=0 sampled=768 crossings=927 differ=0 median=1.6e-07
@@ -19,6 +20,7 @@ struct kd_notes {
     struct kd_buffer approximations; /* one a line */
     char accuracy[KD_ACCURACY_TEXT];
     char clock[KD_CLOCK_TEXT]; /* of one who falls, else "" */
+    char flux[KD_FLUX_TEXT];   /* at a radio frequency, else "" */
 };
 /* KD_ENOMEM. Finish it in any case. */
 enum kd_status kd_notes_of(const struct kd_picture *picture, struct kd_notes *out, struct kd_error *error);

@@ -52,6 +52,8 @@ static enum kd_status put_notes(struct kd_zip *zip, const struct kd_picture *pic
         kd_json_string(&json, "credit", picture->frame->credit);
     if (*notes->clock)
         kd_json_string(&json, "clock", notes->clock);
+    if (*notes->flux)
+        kd_json_string(&json, "flux", notes->flux);
     kd_json_end(&json);
     enum kd_status status = kd_json_finish(&json);
     if (!status)

@@ -17,6 +17,8 @@ static const char *const fates[] = { "sky", "hole", "?" };
 
 /* Unit, and how a PNG shows it. */
 #define SHOWN_intensity .unit = "", .map = KD_MAP_HEAT, .scale = { 0, NAN, false }
+#define SHOWN_brightness_temperature .unit = "K", .map = KD_MAP_HEAT, .scale = { 0, NAN, false }
+#define SHOWN_specific_intensity .unit = "Jy/sr", .map = KD_MAP_HEAT, .scale = { 0, NAN, false }
 #define SHOWN_g .unit = "", .map = KD_MAP_DIVERGING, .scale = { NAN, NAN, true }
 #define SHOWN_temperature .unit = "K", .map = KD_MAP_HEAT, .scale = { 0, NAN, false }
 #define SHOWN_r .unit = "M", .map = KD_MAP_SEQUENTIAL, .scale = { NAN, NAN, false }
@@ -78,6 +80,9 @@ static enum kd_status check_one(const struct kd_scene *scene, struct kd_plan_lay
         return kd_error_field(error, "/image/layers", "image.layers holds %s with polarization.model \"none\", where no light is polarised: allowed are the other words of it", name);
     if (kd_layer_is_polarized(layer.kind) && scene->camera.projection == KD_PROJECTION_RING)
         return kd_error_field(error, "/image/layers", "image.layers holds %s with camera.projection \"ring\", where a picture has no up: allowed are the others", name);
+    if ((layer.kind == KD_LAYER_brightness_temperature || layer.kind == KD_LAYER_specific_intensity) && !kd_scene_is_radio_alone(scene))
+        return kd_error_field(error, "/image/layers", "image.layers holds %s, allowed where nothing but a volume at a radio frequency shines: volume.model \"gold\" or \"riaf\", "
+                              "disk.model and sky.model \"none\", no jets, spots or bodies", name);
     if (scene->disk.height > 0 && scene->disk.model != KD_DISK_NONE && kd_layer_kinds[layer.kind].of == KD_OF_CROSSING)
         return kd_error_field(error, "/image/layers", "image.layers holds %s, which is of the place where a thin disk is crossed, with disk.height %.9g: allowed is 0", name,
                               scene->disk.height);

@@ -29,7 +29,7 @@ WHEN(neutral, scene->style.tone_map == KD_TONE_NEUTRAL && !plan->numbers && !kd_
 WHEN(bloom, plan->bloom.levels && !plan->numbers && !kd_plan_is_map(plan))
 WHEN(beam, plan->beam.cell && !plan->numbers)
 WHEN(near_beam, plan->beam.cell && !plan->numbers && isfinite(scene->camera.r))
-WHEN(heat, scene->style.palette == KD_PALETTE_HEAT && !plan->numbers && !kd_plan_is_map(plan))
+WHEN(heat, scene->style.palette == KD_PALETTE_HEAT && !kd_scene_is_radio_alone(scene) && !plan->numbers && !kd_plan_is_map(plan))
 WHEN(maps, plan->n_layers > 0)
 WHEN(cut, plan->points && plan->bands > 1 && !plan->cacheable)
 WHEN(coloured, kd_plan_is_map(plan) && !plan->numbers)
@@ -354,7 +354,7 @@ struct kd_needs kd_needs_of(const struct kd_scene *scene)
 {
     return (struct kd_needs) {
         .quantities = kd_emit_needs(scene) | kd_layers_needs(scene),
-        .light = kd_emit_apart(scene) && kd_scene_is_flat(scene),
+        .light = (kd_emit_apart(scene) || kd_scene_is_radio_alone(scene)) && kd_scene_is_flat(scene),
     };
 }
 

@@ -152,8 +152,10 @@ static enum kd_status describe_event(struct kd_live_frame *frame, const struct k
     add_simulation(json, &job->scene);
     add_isco(json, &job->scene);
     add_orbits(json, &job->scene);
-    if (job->frame.light.measured)
+    if (job->frame.light.measured && job->plan.apart)
         add_lights(json, &job->frame.light);
+    if (!isnan(kd_flux_jy(&job->scene, &job->frame)))
+        kd_json_number(json, "flux_jy", kd_flux_jy(&job->scene, &job->frame));
     kd_json_end(json);
     return kd_json_finish(json);
 }
@@ -173,6 +175,7 @@ struct kd_live_frame *kd_live_frame_make(struct kd_render_job *job, const struct
     job->file = (struct kd_buffer) { 0 };
     kd_accuracy_text(&job->frame.accuracy, &job->plan, frame->accuracy);
     kd_fall_clock_text(&job->scene, frame->clock);
+    kd_flux_text(&job->scene, &job->frame, frame->flux);
     describe_quality(frame, job, note);
     describe_timing(frame, job);
     enum kd_status status;

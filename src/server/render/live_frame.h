@@ -19,7 +19,7 @@ struct kd_live_frame {
     struct kd_buffer file;           /* of it */
     struct kd_buffer approximations; /* as the header has them */
     struct kd_buffer event;          /* the data of its event: JSON in one line */
-    char accuracy[KD_ACCURACY_TEXT], timing[400], quality[160], clock[KD_CLOCK_TEXT];
+    char accuracy[KD_ACCURACY_TEXT], timing[400], quality[160], clock[KD_CLOCK_TEXT], flux[KD_FLUX_TEXT];
 };
 
 /* What the frame was asked with, for its description. */

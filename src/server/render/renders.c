@@ -79,9 +79,12 @@ static struct MHD_Response *describe(struct kd_request *request, struct MHD_Resp
 
 static void add_accuracy(struct MHD_Response *response, const struct kd_render_job *job)
 {
-    char text[KD_ACCURACY_TEXT];
+    char text[KD_ACCURACY_TEXT], flux[KD_FLUX_TEXT];
     kd_accuracy_text(&job->frame.accuracy, &job->plan, text);
     MHD_add_response_header(response, "Kerrd-Accuracy", text);
+    kd_flux_text(&job->scene, &job->frame, flux);
+    if (*flux)
+        MHD_add_response_header(response, "Kerrd-Flux", flux);
 }
 
 static void add_timings(struct MHD_Response *response, const struct kd_render_job *job)

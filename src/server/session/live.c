@@ -37,6 +37,8 @@ static void describe(struct MHD_Response *response, const struct kd_live_frame *
     MHD_add_response_header(response, "Kerrd-Accuracy", frame->accuracy);
     if (*frame->clock)
         MHD_add_response_header(response, "Kerrd-Clock", frame->clock);
+    if (*frame->flux)
+        MHD_add_response_header(response, "Kerrd-Flux", frame->flux);
     MHD_add_response_header(response, "Server-Timing", frame->timing);
     if (frame->approximations.size)
         MHD_add_response_header(response, "Kerrd-Approximations", (const char *)frame->approximations.data);

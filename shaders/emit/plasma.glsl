@@ -1,0 +1,184 @@
+/* Matter that is seen at one radio frequency: the analytic model of R. Gold et al. 2020 (ApJ 897, 148), and hot electrons in a magnetic field by power laws, as
+ * A. E. Broderick, H.-Y. Pu and others have them. What is where is one struct, kd_plasma, of which light and, by whoever asks, polarisation are made.
+ *
+ * Observed at nu, light grows by (nu_obs/nu)^2 j_nu and depth by (nu/nu_obs) alpha_nu of a unit of the affine parameter by the observer's energy: I/nu^3 is
+ * invariant, j/nu^2 and alpha nu are, too (Rybicki & Lightman 1979, 4.9), and nu/nu_obs = -k.u. */
+#ifndef KD_BLOCK_plasma
+#define KD_BLOCK_plasma(F, U, A)                                                                                \
+    F(inner) F(outer)      /* M */                                                                             \
+    F(frequency)           /* log2 of what is observed, GHz */                                                 \
+    F(light) F(depth)      /* log2 of the units of kd_gives by M of length: of light, and of 1 */               \
+    F(kelvin) F(jansky)    /* of light 1: brightness temperature, K, and Jy a steradian */                      \
+    F(gold_light) F(gold_depth) /* log2 of the light and the depth of a length M where the density is 1, at 230 GHz */ \
+    F(gold_index) F(gold_flat) F(gold_momentum)                                                                \
+    F(density) F(density_index) /* log2 of that at r = 1 M, cm^-3, and what it falls as */                      \
+    F(heat) F(heat_index)  /* log2 of Theta there, and what it falls as */                                     \
+    F(steep)               /* 1 over the scale height over the distance from the axis; 0: there is no height */ \
+    F(field) F(field_index) /* log2 of B^2/n at r = 1 M, gauss^2 cm^3, and what it falls as */                  \
+    F(power_index) F(power_light) F(power_depth) /* of a power law of electrons */
+#define KD_TABLES_plasma(T)
+#define KD_TRAIT_PLASMA_GOLD 2u
+#define KD_TRAIT_PLASMA_VERTICAL 4u /* the field is along the axis, */
+#define KD_TRAIT_PLASMA_RADIAL 8u   /* or along the radius, else round the axis */
+#define KD_TRAIT_PLASMA_REST 16u    /* it is at rest for observers of zero angular momentum, else it goes round and falls in */
+#define KD_TRAIT_PLASMA_POWER 64u   /* a power law of electrons */
+#define KD_TRAITS_plasma(T) T(PLASMA_GOLD) T(PLASMA_VERTICAL) T(PLASMA_RADIAL) T(PLASMA_REST) T(PLASMA_POWER)
+#define KD_BUFFERS_plasma(B)
+#define KD_PASS_plasma(P)
+#define KD_PLASMA_SEEN 7.0 /* scale heights, beyond which there is 2e-11 of the plane's density, and none is looked for */
+#endif
+
+#ifdef KD_EMIT_CODE
+#include "emit/synchrotron.glsl"
+
+/* This is the metric at a place, past observers of zero angular momentum: their lapse^2 and their angular velocity, g_phiphi, g_rr and Sigma/r^2
+ * (Bardeen, Press & Teukolsky 1972). */
+struct kd_around { float lapse2, omega, round_, radial, sigma; };
+kd_around kd_around_at(float w, float u)
+{
+    float a = cam.spin, aw2 = a * a * w * w, b = 1.0 + aw2, delta = max(kd_delta(w, cam.root), 1e-30), s2 = max(1.0 - u * u, 1e-12);
+    float area = b * b - aw2 * delta * s2, sigma = 1.0 + aw2 * u * u;
+    return kd_around(sigma * delta / area, 2.0 * a * w * w * w / area, area * s2 / (sigma * w * w), sigma / delta, sigma);
+}
+
+/* This is how matter moves: u^t and u_phi, u^phi - omega u^t being u_phi/g_phiphi, and u^r; u^theta is 0. */
+struct kd_flow { float time, round_, out_; };
+
+/* Its -k.u, by the photon's E, L and p_r. */
+float kd_flow_energy(kd_flow v, kd_around g, kd_midst p)
+{
+    return max(v.time * (p.energy - g.omega * p.momentum) - v.round_ * p.momentum / g.round_ - v.out_ * p.dw * g.radial / g.sigma, 1e-12);
+}
+
+/* Gold et al.: u_mu = u_t (1, 0, 0, -l), l = l0 R^(3/2)/(1 + R), R = r sin(theta). */
+kd_flow kd_flow_gold(kd_around g, kd_midst p)
+{
+    float axis = sqrt(max(1.0 - p.u * p.u, 0.0)) / p.w, l = emission.plasma.gold_momentum * axis * sqrt(axis) / (1.0 + axis), seen = 1.0 - g.omega * l;
+    float scale = inversesqrt(max(seen * seen / g.lapse2 - l * l / g.round_, 1e-30));
+    return kd_flow(scale * seen / g.lapse2, scale * l, 0.0);
+}
+
+/* On the circular orbit's angular velocity at its r, at whatever latitude. */
+kd_flow kd_flow_round(kd_around g, float r)
+{
+    float past = 1.0 / (r * sqrt(r) + cam.spin) - g.omega, time = inversesqrt(max(g.lapse2 - g.round_ * past * past, 1e-12));
+    return kd_flow(time, g.round_ * past * time, 0.0);
+}
+
+/* Inside the ISCO it keeps the e and l that it has there at its latitude (H.-Y. Pu, K. Akiyama & K. Asada 2016, ApJ 831, 4), and does not change that. With
+ * them Sigma^2 (u^r)^2 = A e^2 - 4 a r e l - (Sigma - 2r) l^2/sin^2 - Sigma Delta is a quartic that vanishes at the ISCO: divided by r - r_isco, it has no
+ * difference of what is nearly the same. Where it is below 0, off the plane, the matter goes round with the angular velocity of e and l. */
+kd_flow kd_flow_plunge(kd_around g, kd_midst p)
+{
+    float r = 1.0 / p.w, edge = emission.frame.r_isco, a2 = cam.spin * cam.spin, u2 = p.u * p.u, s2 = max(1.0 - u2, 1e-12);
+    kd_around there = kd_around_at(1.0 / edge, p.u);
+    kd_flow v = kd_flow_round(there, edge);
+    float l = v.round_, e = there.lapse2 * v.time + there.omega * l, l2 = l * l / s2;
+    float c3 = 2.0, c4 = e * e - 1.0, c2 = a2 * (1.0 + u2) * c4 - l2, c1 = 2.0 * (a2 * (s2 * e * e + u2) + l2 - 2.0 * cam.spin * e * l);
+    float b2 = c3 + edge * c4, b1 = c2 + edge * b2, b0 = c1 + edge * b1;
+    float out2 = (r - edge) * (b0 + r * (b1 + r * (b2 + r * c4))) * p.w * p.w * p.w * p.w / (g.sigma * g.sigma);
+    float seen = e - g.omega * l, rest = out2 < 0.0 ? inversesqrt(max(seen * seen / g.lapse2 - l * l / g.round_, 1e-12)) : 1.0;
+    return kd_flow(rest * seen / g.lapse2, rest * l, -sqrt(max(out2, 0.0)));
+}
+
+/* All that is known of the matter at a place. energy: -k.u, the frequency there over the observed one; frequency: its log2, GHz; field: the unit vector along B,
+ * b.u = 0, contravariant components t, r, theta, phi of Boyer and Lindquist, of a photon that arrives. */
+struct kd_plasma { kd_electrons electrons; kd_flow flow; kd_around around; float energy, frequency; vec4 field; };
+
+/* A direction is made perpendicular to u: b = e + (e.u) u, k.b = k.e - energy e.u. e has the components r, theta times 1/sin(theta), phi. */
+void kd_plasma_field(inout kd_plasma m, kd_midst p)
+{
+    float s = sqrt(max(1.0 - p.u * p.u, 1e-12)), r2 = 1.0 / (p.w * p.w), out_ = 0.0, down = 0.0, round_ = 0.0;
+    if ((TRAITS_plasma & KD_TRAIT_PLASMA_VERTICAL) != 0u) {
+        out_ = p.u;
+        down = -p.w; /* times sin(theta) */
+    } else if ((TRAITS_plasma & KD_TRAIT_PLASMA_RADIAL) != 0u)
+        out_ = 1.0;
+    else
+        round_ = 1.0;
+    float in_u = out_ * m.around.radial * m.flow.out_ + round_ * m.flow.round_;
+    float length_ = inversesqrt(max(out_ * out_ * m.around.radial + down * down * s * s * m.around.sigma * r2 + round_ * round_ * m.around.round_ + in_u * in_u, 1e-30));
+    float k = out_ * p.dw * m.around.radial / m.around.sigma + down * p.du + round_ * p.momentum;
+    m.electrons.cosine = clamp((k / m.energy - in_u) * length_, -1.0, 1.0);
+    m.electrons.sine2 = max((1.0 - m.electrons.cosine) * (1.0 + m.electrons.cosine), 0.0);
+    float turn = m.around.omega * m.flow.time + m.flow.round_ / m.around.round_;
+    m.field = length_ * vec4(in_u * m.flow.time, out_ + in_u * m.flow.out_, down * s, round_ + in_u * turn);
+}
+
+/* Electrons by power laws of r, in a layer about the plane. */
+kd_plasma kd_plasma_at(kd_midst p)
+{
+    kd_plasma m;
+    float log2_r = -log2(p.w), x2 = p.u * p.u / max(1.0 - p.u * p.u, 1e-12) * emission.plasma.steep * emission.plasma.steep;
+    m.around = kd_around_at(p.w, p.u);
+    if ((TRAITS_plasma & KD_TRAIT_PLASMA_REST) != 0u)
+        m.flow = kd_flow(inversesqrt(m.around.lapse2), 0.0, 0.0);
+    else if (p.w * emission.frame.r_isco <= 1.0)
+        m.flow = kd_flow_round(m.around, 1.0 / p.w);
+    else
+        m.flow = kd_flow_plunge(m.around, p);
+    m.energy = kd_flow_energy(m.flow, m.around, p);
+    m.frequency = emission.plasma.frequency + log2(m.energy);
+    m.electrons.density = emission.plasma.density - emission.plasma.density_index * log2_r - 0.5 * KD_LOG2_E * min(x2, 1e6);
+    m.electrons.heat = emission.plasma.heat - emission.plasma.heat_index * log2_r;
+    m.electrons.field = 0.5 * (m.electrons.density + emission.plasma.field - emission.plasma.field_index * log2_r);
+    kd_plasma_field(m, p);
+    return m;
+}
+
+kd_gives kd_plasma_gives(kd_plasma m)
+{
+    if ((TRAITS_plasma & KD_TRAIT_PLASMA_POWER) != 0u)
+        return kd_synchrotron_power(m.electrons, m.frequency, emission.plasma.power_index, emission.plasma.power_light, emission.plasma.power_depth);
+    return kd_synchrotron_thermal(m.electrons, m.frequency);
+}
+
+/* From logarithms. What is deeper than 2^40 a length shows its own light alone, and so both are made less by the same factor. */
+kd_medium kd_plasma_medium(float light, float depth, float grain)
+{
+    float over = max(depth - 40.0, 0.0);
+    light -= over;
+    depth -= over;
+    return kd_medium(vec3(light > -126.0 ? exp2(min(light, 99.0)) : 0.0), depth > -126.0 ? exp2(depth) : 0.0, grain);
+}
+
+/* M along the ray over which a layer exp(-x^2/2), x = steep u/sin(theta), and with it the field: in it by its height and where it is, beyond it the way to where there is something. sharp: kd_gives's steep. */
+float kd_plasma_grain(kd_midst p, float steep, float sharp)
+{
+    float r = 1.0 / p.w, per = 1.0 / p.speed, s2 = max(1.0 - p.u * p.u, 1e-6), turn = abs(p.du) * per * r, along = abs(p.dw) * r * r * per;
+    float near_ = 0.6 * max(r - 1.0 / cam.horizon, 1e-4 * r), x = steep * abs(p.u) * inversesqrt(s2);
+    float up = steep * turn / s2 * max(1.0, 0.5 * min(x, KD_PLASMA_SEEN) * (1.0 + 0.5 * sharp));
+    return 1.0 / ((0.6 + 0.3 * sharp * along) * p.w + along * max(0.4 / near_ - 0.67 * p.w, 0.0) + 0.65 * up * p.w);
+}
+
+kd_medium kd_plasma_gold(kd_midst p)
+{
+    float r = 1.0 / p.w, x = emission.plasma.gold_flat * p.u, grain = kd_plasma_grain(p, emission.plasma.gold_flat, 0.0);
+    kd_around g = kd_around_at(p.w, p.u);
+    float up = log2(kd_flow_energy(kd_flow_gold(g, p), g, p)), n = -0.5 * KD_LOG2_E * min(0.01 * r * r + x * x, 1e6), index = emission.plasma.gold_index;
+    grain = 1.0 / (1.0 / grain + 0.4 * abs(p.dw) * r * r / p.speed * min(0.01 * r, 1.0));
+    return kd_plasma_medium(emission.plasma.gold_light + n - (2.0 + index) * up, emission.plasma.gold_depth + n - (1.5 + index) * up, grain);
+}
+
+kd_medium kd_plasma_along(kd_midst p)
+{
+    float r = 1.0 / p.w;
+    kd_medium medium;
+    if ((TRAITS_plasma & KD_TRAIT_PLASMA_GOLD) != 0u)
+        medium = kd_plasma_gold(p);
+    else {
+        kd_plasma m = kd_plasma_at(p);
+        kd_gives gives = kd_plasma_gives(m);
+        float up = m.frequency - emission.plasma.frequency;
+        medium = kd_plasma_medium(gives.light + emission.plasma.light - 2.0 * up, gives.depth + emission.plasma.depth + up, kd_plasma_grain(p, emission.plasma.steep, gives.steep));
+    }
+    if (r < emission.plasma.inner || r > emission.plasma.outer)
+        return kd_medium(vec3(0.0), 0.0, max(max(emission.plasma.inner - r, r - emission.plasma.outer), 0.1 * r));
+    /* Off the plane the fall begins as the square root of the way from the ISCO: stretches are the shorter the nearer they are to it. */
+    if ((TRAITS_plasma & (KD_TRAIT_PLASMA_GOLD | KD_TRAIT_PLASMA_REST)) == 0u && r < emission.frame.r_isco)
+        medium.grain = min(medium.grain, max(0.8 * (emission.frame.r_isco - r), 2e-3 * r));
+    float edge = min(abs(r - emission.plasma.inner), abs(r - emission.plasma.outer)); /* within the bounds of other volumes */
+    medium.grain = KD_VOLUMES > 1 ? min(medium.grain, max(edge, 2.5e-4 * r)) : medium.grain;
+    return medium;
+}
+#endif

@@ -1,0 +1,133 @@
+/* This is matter that is seen at one radio frequency as an emitter: shaders/emit/plasma.glsl. */
+#include "render/emit/emitter.h"
+
+#include "physics/constants.h"
+#include "physics/kerr.h"
+#include "physics/synchrotron.h"
+#include "render/emit/radio.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#define NEVER -1e6       /* log2 of nothing */
+#define GHZ 1e9
+#define GOLD_GHZ 230     /* the frequency that the analytic model's numbers are of */
+#define ERG_CM3 0.1      /* W m^-3 of an erg/(s cm^3) */
+#define PER_CM 100       /* 1/m of a 1/cm */
+#define CM3 1e6
+#define GAUSS 1e-4       /* tesla */
+#define EPSILON_0 KD_EPSILON_0
+
+static bool present(const struct kd_scene *scene) { return kd_scene_is_radio(scene); }
+
+static uint32_t traits(const struct kd_scene *scene)
+{
+    const struct kd_volume *v = &scene->volume;
+    if (v->model == KD_VOLUME_GOLD)
+        return KD_TRAIT_PLASMA_GOLD;
+    return (v->field == KD_VOLUME_VERTICAL ? KD_TRAIT_PLASMA_VERTICAL : v->field == KD_VOLUME_RADIAL ? KD_TRAIT_PLASMA_RADIAL : 0) |
+           (v->flow == KD_VOLUME_REST ? KD_TRAIT_PLASMA_REST : 0) | (v->electrons == KD_VOLUME_POWER_LAW ? KD_TRAIT_PLASMA_POWER : 0);
+}
+
+static void reach(const struct kd_scene *scene, double radii[2])
+{
+    radii[0] = kd_scene_volume_inner(scene);
+    radii[1] = scene->volume.outer;
+}
+
+/* Where a layer has thinned out, cos(theta): x = steep u, or steep u/sin(theta), is KD_PLASMA_SEEN. */
+static double height(const struct kd_scene *scene)
+{
+    const struct kd_volume *v = &scene->volume;
+    if (v->model == KD_VOLUME_GOLD)
+        return KD_PLASMA_SEEN / fmax(v->gold_flattening, KD_PLASMA_SEEN);
+    return v->height > 0 ? KD_PLASMA_SEEN * v->height / hypot(1, KD_PLASMA_SEEN * v->height) : 1;
+}
+
+/* Where the fall begins. */
+static double knot(const struct kd_scene *scene)
+{
+    const double isco = kd_kerr_isco(scene->spacetime.spin);
+    const bool falls = scene->volume.model == KD_VOLUME_RIAF && scene->volume.flow == KD_VOLUME_ORBITS;
+    return falls && kd_scene_volume_inner(scene) < isco && isco < scene->volume.outer ? isco : 0;
+}
+
+static void tell(const struct kd_scene *scene, char out[KD_EMIT_TOLD])
+{
+    snprintf(out, KD_EMIT_TOLD, "%s from %.6g M to %.6g M, at %.6g GHz.", scene->volume.model == KD_VOLUME_GOLD ? "The matter of Gold et al. 2020" : "Hot electrons in a magnetic field",
+             kd_scene_volume_inner(scene), scene->volume.outer, scene->volume.frequency_ghz);
+}
+
+static double log2_of(double x) { return x > 0 ? fmax(log2(x), NEVER) : NEVER; }
+
+static void fill_gold(struct kd_plasma_block *out, const struct kd_volume *v, double metre, double unit)
+{
+    const double up = log2(v->frequency_ghz / GOLD_GHZ);
+    out->gold_light = (float)(log2_of(v->gold_emission) + log2(ERG_CM3 * metre / unit) - v->gold_index * up);
+    out->gold_depth = (float)(log2_of(v->gold_emission) + log2_of(v->gold_absorption) + log2(PER_CM * metre) - (2.5 + v->gold_index) * up);
+    out->gold_index = (float)v->gold_index;
+    out->gold_flat = (float)v->gold_flattening;
+    out->gold_momentum = (float)v->gold_momentum;
+}
+
+/* B^2 = 2 mu0 (magnetisation) n m_p c^2, in gauss^2 and cm^-3; mu0 = 1/(epsilon0 c^2). */
+static void fill_electrons(struct kd_plasma_block *out, const struct kd_volume *v)
+{
+    const double theta = KD_K_J_K / (KD_ELECTRON_KG * KD_C_M_S * KD_C_M_S);
+    const struct kd_synchrotron_power power = kd_synchrotron_power(v->electrons_index, v->gamma_min, fmax(v->gamma_max, 1.001 * v->gamma_min));
+    out->density = (float)log2_of(v->density_cm3);
+    out->density_index = (float)v->density_index;
+    out->heat = (float)log2(theta * v->electron_temperature_k);
+    out->heat_index = (float)v->temperature_index;
+    out->steep = v->height > 0 ? (float)(1 / v->height) : 0;
+    out->field = (float)(log2_of(v->magnetisation) + log2(2 * CM3 * KD_PROTON_KG / (EPSILON_0 * GAUSS * GAUSS)));
+    out->field_index = (float)v->magnetisation_index;
+    out->power_index = (float)v->electrons_index;
+    out->power_light = (float)power.log2_light;
+    out->power_depth = (float)power.log2_depth;
+}
+
+static void fill(struct kd_emission *out, const struct kd_scene *scene)
+{
+    const double metre = scene->spacetime.mass_msun * KD_M_SUN_M, unit = kd_radio_unit(scene);
+    struct kd_plasma_block *to = &out->plasma;
+    *to = (struct kd_plasma_block) {
+        .inner = (float)kd_scene_volume_inner(scene),
+        .outer = (float)scene->volume.outer,
+        .frequency = (float)log2(scene->volume.frequency_ghz),
+        .light = (float)log2(kd_synchrotron_light_unit() * metre / unit),
+        .depth = (float)log2(kd_synchrotron_depth_unit() * metre),
+        .kelvin = (float)KD_RADIO_KELVIN,
+        .jansky = (float)(unit / KD_JANSKY_SI),
+    };
+    fill_gold(to, &scene->volume, metre, unit);
+    fill_electrons(to, &scene->volume);
+}
+
+static bool is_gold(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, scene->volume.model == KD_VOLUME_GOLD; }
+static bool is_hot(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, scene->volume.model != KD_VOLUME_GOLD; }
+static bool is_powers(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, scene->volume.model == KD_VOLUME_RIAF; }
+static bool is_beside(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, !kd_scene_is_radio_alone(scene); }
+
+static const struct kd_sentence sentences[] = {
+    { "volume: light of one frequency, without scattering and without polarisation; brightness 1 is a brightness temperature of 1e10 K", NULL },
+    { "volume: the analytic model of Gold et al. 2020, made up to compare programs; it ends at its edges", is_gold },
+    { "volume: electrons and magnetic field by power laws of r that solve no equation of motion; they end at their edges, and 7 scale heights from the plane", is_powers },
+    { "volume: synchrotron light by the fits of Pandya et al. 2016, good to a few percent where they hold; electrons move in all directions alike", is_hot },
+    { "volume: light at a radio frequency beside light of other kinds, whose brightness 1 is another one; the picture has no flux", is_beside },
+};
+
+const struct kd_emitter kd_emit_plasma = {
+    .name = "plasma",
+    .title = "radio volume",
+    .tell = tell,
+    .present = present,
+    .traits = traits,
+    .reach = reach,
+    .height = height,
+    .knot = knot,
+    .fill = fill,
+    .depends = { KD_SCENE_PART(spacetime), KD_SCENE_PART(volume) },
+    .sentences = sentences,
+    .n_sentences = sizeof sentences / sizeof *sentences,
+};

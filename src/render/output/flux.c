@@ -1,0 +1,19 @@
+#include "render/output/flux.h"
+
+#include "render/emit/radio.h"
+
+#include <math.h>
+#include <stdio.h>
+
+double kd_flux_jy(const struct kd_scene *scene, const struct kd_frame *frame)
+{
+    return frame->light.measured && kd_scene_is_radio_alone(scene) ? kd_radio_jansky(scene, frame->light.all.flux) : NAN;
+}
+
+void kd_flux_text(const struct kd_scene *scene, const struct kd_frame *frame, char out[KD_FLUX_TEXT])
+{
+    const double jy = kd_flux_jy(scene, frame);
+    *out = 0;
+    if (!isnan(jy))
+        snprintf(out, KD_FLUX_TEXT, "jy=%.6g ghz=%.9g kelvin=%.6g", jy, scene->volume.frequency_ghz, KD_RADIO_KELVIN);
+}

@@ -1,0 +1,14 @@
+/* The flux of a picture at a radio frequency, as answers tell it. Any thread. */
+#ifndef KD_RENDER_OUTPUT_FLUX_H
+#define KD_RENDER_OUTPUT_FLUX_H
+
+#include "render/frame/frame.h"
+
+/* Gives the flux of the whole picture in Jy, for spacetime.mass_msun and spacetime.distance_pc; NAN where it has none: kd_scene_is_radio_alone. */
+double kd_flux_jy(const struct kd_scene *scene, const struct kd_frame *frame);
+
+/* One line: "jy=2.0412 ghz=230 kelvin=1e+10"; "" where there is no flux. kelvin: brightness temperature of light 1. */
+#define KD_FLUX_TEXT 96
+void kd_flux_text(const struct kd_scene *scene, const struct kd_frame *frame, char out[KD_FLUX_TEXT]);
+
+#endif

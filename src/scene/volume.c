@@ -1,0 +1,25 @@
+#include "scene/scene.h"
+
+#include "physics/kerr.h"
+
+#include <math.h>
+
+/* So far outside the horizon matter ends: what is at rest there is no longer seen, and a length to there is finite. */
+#define CLEAR 1.01
+#define CLEAR_RADIO 1.0005 /* of what goes as the energy of the light, which grows as one over the square root of the way to there */
+
+bool kd_scene_is_radio(const struct kd_scene *scene) { return scene->volume.model > KD_VOLUME_UNIFORM; }
+
+double kd_scene_volume_inner(const struct kd_scene *scene)
+{
+    const double horizon = kd_kerr_horizon(scene->spacetime.spin), least = (kd_scene_is_radio(scene) ? CLEAR_RADIO : CLEAR) * horizon;
+    return isinf(scene->volume.inner) ? least : fmax(scene->volume.inner, least);
+}
+
+bool kd_scene_is_radio_alone(const struct kd_scene *scene)
+{
+    const struct kd_spot *on[KD_SPOTS];
+    const struct kd_body *bodies[KD_SCENE_BODIES];
+    return kd_scene_is_radio(scene) && scene->disk.model == KD_DISK_NONE && scene->jets.brightness == 0 && scene->sky.model == KD_SKY_NONE &&
+           !kd_scene_spots(scene, on) && !kd_scene_bodies(scene, bodies) && !scene->crowd.at;
+}
