@@ -101,6 +101,7 @@ function buildKeys() {
 }
 
 const patience_ms = 1000;
+const telling_ms = 250; // words and numbers beside the picture follow no faster while it moves; at rest they are those of the picture
 
 // The picture first: what else there is takes a tenth of a second to build, and would keep it from being shown.
 async function watch(scene) {
@@ -112,6 +113,7 @@ async function watch(scene) {
   const carry = buildCarry(stage, scene);
   let old = '',
     picture = byId('picture'),
+    told_ms = -Infinity,
     built,
     seen;
   const parts = new Promise(resolve => (built = resolve)),
@@ -121,7 +123,12 @@ async function watch(scene) {
     const url = URL.createObjectURL(frame.picture);
     const next = picture.cloneNode(); // the old one stays until the new one can be shown whole
     next.src = url;
-    next.alt = describe(scene);
+    const now = performance.now(),
+      tells = frame.final || now - told_ms > telling_ms; // what stands beside pictures that follow each other
+    if (tells) {
+      told_ms = now;
+      next.alt = describe(scene);
+    }
     await next.decode();
     carry(picture, next, frame);
     if (!old) requestAnimationFrame(() => (performance.mark('first-picture'), setTimeout(seen)));
@@ -131,10 +138,12 @@ async function watch(scene) {
     const { complain, drawOverlays } = await parts;
     fall?.then(({ shown }) => shown(frame));
     stars?.then(named => named?.shown(frame));
-    say(caption(frame), frame.final && !scene.goesOn());
     stage.dataset.samples = frame.samples;
     complain('', '');
-    showAccuracy(frame, scene);
+    if (tells || status.dataset.wrong) {
+      say(caption(frame), frame.final && !scene.goesOn());
+      showAccuracy(frame, scene);
+    }
     followLight();
   }
 

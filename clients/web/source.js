@@ -44,6 +44,9 @@ function mergePatch(before, after) {
 }
 
 const least_samples = 2;
+const most_polls = 3; // and one more now and then: a browser opens six connections to one server
+const frame_ms = 60; // from picture to picture over a long line, about
+const still_ms = 600; // without a change and a picture that is not the last, after which one request is enough
 const least_part = 1 / 8; // of the window’s width, of a picture at rest
 
 // What decides how long a pixel takes, and the window.
@@ -74,6 +77,9 @@ export function openSource(scene, size, shown, failed, rests) {
     asked = 0, // changes
     told = 0, // the last of them that the server knows
     last = null, // the picture that is shown
+    stirred_ms = -Infinity, // the latest change, or picture that is not the last
+    read_ms = 0, // what the bytes of the latest picture took
+    trip_ms = 0, // what the server takes to answer, at least: of late
     part = 1, // of the window’s size that the server takes a picture of
     laden = '', // with this
     polls = new AbortController(),
@@ -159,14 +165,16 @@ export function openSource(scene, size, shown, failed, rests) {
         told = now_asked;
         return settle();
       }
-      const answer = await ask((session?.url ?? 'v1/sessions') + (same ? '' : '?' + keeps), {
-        method: session ? 'PATCH' : 'POST',
-        headers: headers(),
-        body: JSON.stringify(patch ?? document),
-      });
+      const begun = performance.now(),
+        answer = await ask((session?.url ?? 'v1/sessions') + (same ? '' : '?' + keeps), {
+          method: session ? 'PATCH' : 'POST',
+          headers: headers(),
+          body: JSON.stringify(patch ?? document),
+        });
+      trip_ms = Math.min(trip_ms ? 1.2 * trip_ms : Infinity, performance.now() - begun);
       const { id, token, revision, scene: now, ...seen_of_it } = await answer.json();
       if (!session) last &&= { final: false }; // its revisions are counted anew
-      session ??= { url: 'v1/sessions/' + id, token, frame: 0, cameras: new Map() };
+      session ??= { url: 'v1/sessions/' + id, token, frame: 0, flight: [], cameras: new Map() };
       session.cameras.set(revision, document.camera ?? {});
       Object.assign(session, { document: dozes === naps ? document : asleep(document), revision, jumps, keeps, part });
       if (scene.jumps === jumps && patch?.motion) follow(document, now);
@@ -190,9 +198,36 @@ export function openSource(scene, size, shown, failed, rests) {
   }
   const put = latest(send);
 
+  // Several requests are on their way while something moves, each for the frame after that of the one before: while one picture is read and drawn the server makes
+  // the next, and over a long line more of them. As many as there are wait to be asked for again, so that what is late holds all back. At rest there is one.
+  const moving = () => performance.now() - stirred_ms < still_ms;
+  // Where it is the bytes that take long, more requests would only make each picture older.
+  const depth = () => (!moving() ? 1 : read_ms > frame_ms ? 2 : Math.min(Math.max(1 + Math.ceil(trip_ms / frame_ms), 2), most_polls));
+
+  function poll(from, after) {
+    const lasting = after === from.frame,
+      one = { after };
+    one.answer = ask(`${from.url}/frame.png?after=${after}${lasting ? '' : `&wait_ms=${still_ms}`}`, { signal: polls.signal }).then(
+      answer => ({ one, answer }),
+      error => ({ one, error }),
+    );
+    from.flight.push(one);
+  }
+
+  async function newest(from) {
+    if (!from.flight.some(({ after }) => after === from.frame)) poll(from, from.frame);
+    while (from.flight.length < depth()) poll(from, Math.max(...from.flight.map(({ after }) => after)) + 1);
+    const { one, answer, error } = await Promise.race(from.flight.map(({ answer }) => answer));
+    from.flight.splice(from.flight.indexOf(one), 1);
+    if (error) throw error;
+    if (answer.status !== 204 && Number(answer.headers.get('Kerrd-Frame')) > from.frame) return answer;
+    answer.body?.cancel(); // it came by another request already
+    return null;
+  }
+
   async function next(from) {
-    const answer = await ask(`${from.url}/frame.png?after=${from.frame}`, { signal: polls.signal });
-    if (answer.status === 204) return;
+    const answer = await newest(from);
+    if (!answer) return;
     const get = name => answer.headers.get(name),
       quality = figures(get('Kerrd-Quality'));
     const revision = Number(get('Kerrd-Revision')),
@@ -206,9 +241,12 @@ export function openSource(scene, size, shown, failed, rests) {
     from.frame = Number(get('Kerrd-Frame'));
     for (const old of from.cameras.keys()) if (old < revision) from.cameras.delete(old);
     const now = performance.now();
+    if (quality.final !== 1) stirred_ms = now;
     recent = scene.goesOn() ? [...recent.filter((time, i) => time > now - 2000 || i >= recent.length - 2), now] : []; // a slow server's last three, too
+    const picture = await answer.blob();
+    read_ms = performance.now() - now;
     await shown({
-      picture: await answer.blob(),
+      picture,
       ...quality,
       final,
       revision,
@@ -236,6 +274,7 @@ export function openSource(scene, size, shown, failed, rests) {
       try {
         await next(from);
       } catch (error) {
+        from.flight.length = 0; // the others have failed as well, or come too late
         if (session !== from) continue; // nobody asks for that one any more
         if (error.status !== 404) failed(Object.assign(error, { again: true }));
         else ((session = null), put());
@@ -273,6 +312,7 @@ export function openSource(scene, size, shown, failed, rests) {
   return {
     refresh() {
       asked++;
+      stirred_ms = performance.now();
       last && rests(false);
       clearTimeout(timer);
       put();
@@ -281,6 +321,7 @@ export function openSource(scene, size, shown, failed, rests) {
     strike(wrong) {
       striking = wrong;
       asked++;
+      stirred_ms = performance.now();
       last && rests(false);
       put();
     },

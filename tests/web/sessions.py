@@ -127,6 +127,24 @@ class Sessions(Browser):
         page.wait_for_selector(AT_REST)
         self.assertTrue(daemon.eventually(lambda: '(1/' not in page.inner_text('#status')))
 
+    def test_more_pictures_than_one_are_on_their_way_while_it_moves(self):
+        page, under_way, most = self.page(self.context()), set(), []
+
+        def begun(request):
+            if '/frame.png' in request.url:
+                under_way.add(request)
+                most.append(len(under_way))
+        page.on('request', begun)
+        for over in ('requestfinished', 'requestfailed'):
+            page.on(over, lambda request: under_way.discard(request))
+        page.goto(self.base + '#pace=fast&preset=living-disk&lang=en')
+        page.wait_for_selector('#stage[data-final]')
+        self.assertTrue(daemon.eventually(lambda: page.evaluate('0') or most.count(2) > 3))
+        self.assertLessEqual(max(most), 6, 'of the six connections that a browser opens')
+        page.click('#play')
+        page.wait_for_selector(AT_REST)
+        self.assertTrue(daemon.eventually(lambda: page.evaluate('0') or len(under_way) == 1), 'at rest one is enough')
+
     def test_a_page_that_is_closed_ends_its_session(self):
         page = self.open()
         own = next(r.response().json() for r in self.requests if '/v1/sessions?' in r.url)
