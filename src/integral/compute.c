@@ -125,7 +125,7 @@ static enum kd_status one_ring(const struct kd_integral_request *r, const struct
     char pointer[40];
     snprintf(pointer, sizeof pointer, "/radii/%zu", at);
     if (!kd_transfer_ring_of(image, r->radii.at[at], &ring))
-        return kd_error_field(error, pointer, "a radius is %.9g, whose ring shows an energy more than twice: no transfer function has it", r->radii.at[at]);
+        return kd_error_field(error, pointer, "a radius is %.9g, whose ring was not resolved at this inclination: allowed are inclinations further from edge on", r->radii.at[at]);
     for (size_t k = 0; k < r->g_stars; k++) {
         double g_star = r->g_star.at[k];
         struct kd_transfer near, far;

@@ -9,6 +9,7 @@
 #include <string.h>
 
 enum { POINTS = 6 }; /* of an interpolation */
+#define NEAREST 0.1 /* M between the ISCO and the origin of u: above a = 0.9995 all nodes would lie at the horizon else, where the image no longer changes */
 #define NODES 1e-8  /* of ln r, at the nodes */
 #define PLACE 1e-12 /* at a place that is asked for by itself */
 
@@ -27,12 +28,12 @@ static struct ellipse around(const struct kd_disk_image *image, double r)
 static double radius_of_node(const struct kd_disk_image *image, int k)
 {
     double u = (double)k / KD_DISK_IMAGE_RINGS, u2 = u * u;
-    return image->horizon + (image->isco - image->horizon) / (u2 * u2);
+    return image->origin + (image->isco - image->origin) / (u2 * u2);
 }
 
 static double node_of_radius(const struct kd_disk_image *image, double r)
 {
-    return KD_DISK_IMAGE_RINGS * sqrt(sqrt((image->isco - image->horizon) / (r - image->horizon)));
+    return KD_DISK_IMAGE_RINGS * sqrt(sqrt((image->isco - image->origin) / (r - image->origin)));
 }
 
 double kd_disk_image_radius(const struct kd_disk_image *image, double alpha, double beta)
@@ -55,7 +56,7 @@ static bool find(const struct kd_disk_image *image, const struct ellipse *e, con
 {
     double cosine = e->a * direction[0], sine = e->b * direction[1];
     double x = *log_stretch, low = -INFINITY, high = INFINITY, before = NAN, f_before = NAN, reach = 0.02;
-    for (int i = 0; i < 100; i++) {
+    for (int i = 0; i < 60; i++) {
         double f = mismatch(image, e, cosine, sine, x, r);
         if (fabs(f) < exact || (high - low < 1e-13)) {
             *log_stretch = x;
@@ -71,7 +72,8 @@ static bool find(const struct kd_disk_image *image, const struct ellipse *e, con
         }
         x = next;
     }
-    return false;
+    *log_stretch = before; /* rounding keeps it from coming nearer: next to an extremal hole */
+    return fabs(f_before) < 1e-6;
 }
 
 /* From the ring before, and the two before that, at this angle. */
@@ -90,6 +92,7 @@ bool kd_disk_image_init(struct kd_disk_image *image, double spin, double inclina
     memset(image, 0, sizeof *image);
     image->spin = spin, image->cos_i = c, image->sin_i = sin(inclination);
     image->isco = kd_kerr_isco(spin), image->horizon = kd_kerr_horizon(spin);
+    image->origin = fmin(image->horizon, image->isco - NEAREST);
     image->angles = c > 0.3 ? 64 : c > 0.15 ? 128 : c > 0.08 ? 256 : KD_DISK_IMAGE_ANGLES;
     if (!(c > sin(KD_DISK_IMAGE_EDGE_ON * M_PI / 180)))
         return false;
@@ -137,6 +140,8 @@ static void between_rings(const struct kd_disk_image *image, double r, int skip,
             row[j] += weight[i] * from[j];
     }
 }
+
+double kd_disk_image_step(const struct kd_disk_image *image, double r, double share) { return share * (r - image->horizon) / r; }
 
 bool kd_disk_image_place(const struct kd_disk_image *image, double r, double chi, double *alpha, double *beta)
 {

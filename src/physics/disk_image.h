@@ -6,7 +6,7 @@
  *
  *   (alpha, beta) = (x0, y0(r)) + R(r, chi) (A(r) cos chi, B(r) sin chi)
  *
- * R is smooth and near 1, and is found at nodes in chi and in u = ((r_isco - r+)/(r - r+))^(1/4), by a root in r of the ray that is followed in closed form
+ * R is smooth and near 1, and is found at nodes in chi and in u = ((r_isco - r')/(r - r'))^(1/4), r' the horizon but for holes next to extremal ones, by a root in r of the ray that is followed in closed form
  * (null_radial.h, docs/decisions/0001); between nodes it is interpolated. The disk is opaque and infinitely thin: image order 0 alone. */
 #ifndef KD_PHYSICS_DISK_IMAGE_H
 #define KD_PHYSICS_DISK_IMAGE_H
@@ -22,7 +22,7 @@ enum {
 
 struct kd_disk_image {
     double spin, cos_i, sin_i; /* cos_i > 0: from below the disk looks as from above */
-    double isco, horizon;
+    double isco, horizon, origin;
     int angles; /* 64 to 512: more towards edge on */
     double cosine[KD_DISK_IMAGE_ANGLES], sine[KD_DISK_IMAGE_ANGLES]; /* of directions */
     double stretch[KD_DISK_IMAGE_RINGS + 1][KD_DISK_IMAGE_ANGLES]; /* R; row 0: infinity; the last row: the ISCO */
@@ -34,6 +34,9 @@ bool kd_disk_image_init(struct kd_disk_image *image, double spin, double inclina
 /* A ring seen in `n` directions, evenly spaced in chi; n is a power of 2, at least image->angles/skip, and at most KD_DISK_IMAGE_ANGLES. `skip` 1 uses every node of the table and 2 every second one: by how
  * much that differs tells the error of the table. r >= ISCO. */
 void kd_disk_image_ring(const struct kd_disk_image *image, double r, int skip, int n, double *alpha, double *beta);
+
+/* A step of ln r for differences at a ring: `share` of the way to the horizon, so that one inwards from the ISCO stays outside it, whatever the spin. */
+double kd_disk_image_step(const struct kd_disk_image *image, double r, double share);
 
 /* The place of a ring at one angle, by a ray that leads there to 1e-12 of r instead of by interpolation; also a little within the ISCO. False where it is not found. */
 bool kd_disk_image_place(const struct kd_disk_image *image, double r, double chi, double *alpha, double *beta);

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 
 enum { PANELS = 32, GAUSS = 3 };
-#define APART 1e-3 /* of ln r, for the image's slope */
+#define APART 1e-3 /* of the way to the horizon, for the image's slope */
 
 /* A ring of the integral: J = |d(alpha, beta)/d(ln r, chi)| at each angle. */
 struct ring {
@@ -21,9 +21,9 @@ static double along(const double *x, int j, int n)
     return (8 * near - far) / (12 * 2 * M_PI / n);
 }
 
-static double stretch_of(const struct ring *ring, int j, int n)
+static double stretch_of(const struct ring *ring, double apart, int j, int n)
 {
-    double a_r = (ring->above[0][j] - ring->below[0][j]) / (2 * APART), b_r = (ring->above[1][j] - ring->below[1][j]) / (2 * APART);
+    double a_r = (ring->above[0][j] - ring->below[0][j]) / (2 * apart), b_r = (ring->above[1][j] - ring->below[1][j]) / (2 * apart);
     return fabs(a_r * along(ring->beta, j, n) - b_r * along(ring->alpha, j, n));
 }
 
@@ -42,11 +42,12 @@ static void add_ring(const struct kd_disk_image *image, const struct kd_disk_spe
     if (!(t > 0))
         return;
     kd_disk_image_ring(image, r, 1, n, ring->alpha, ring->beta);
-    kd_disk_image_ring(image, r * exp(-APART), 1, n, ring->below[0], ring->below[1]);
-    kd_disk_image_ring(image, r * exp(APART), 1, n, ring->above[0], ring->above[1]);
+    double apart = kd_disk_image_step(image, r, APART);
+    kd_disk_image_ring(image, r * exp(-apart), 1, n, ring->below[0], ring->below[1]);
+    kd_disk_image_ring(image, r * exp(apart), 1, n, ring->above[0], ring->above[1]);
     for (int j = 0; j < n; j++) {
         struct kd_disk_light light = kd_disk_image_light(image, &gas, ring->alpha[j], ring->beta[j]);
-        double part = weight * stretch_of(ring, j, n) * (2 * M_PI / n) * kd_line_limb(p->limb, light.mu) * limb_scale(p->limb);
+        double part = weight * stretch_of(ring, apart, j, n) * (2 * M_PI / n) * kd_line_limb(p->limb, light.mu) * limb_scale(p->limb);
         double x = KD_H_J_S / (KD_K_J_K * t * light.g);
         for (int i = 0; i < n_f; i++) /* g^3 B_nu(nu/g) is B_nu(nu) of g T: Planck's law, but for 2 h nu^3/c^2 */
             sum[i] += part / expm1(x * frequencies[i]);
@@ -83,6 +84,8 @@ enum kd_status kd_disk_spectrum(const struct kd_disk_image *image, const struct 
         double planck = 2 * KD_H_J_S * frequencies[i] * frequencies[i] * frequencies[i] / (KD_C_M_S * KD_C_M_S) * scale;
         flux[i] *= planck, other[i] *= planck;
         largest = fmax(largest, flux[i]);
+        if (!isfinite(flux[i]) || !isfinite(other[i]))
+            status = kd_error_field(error, "/spin", "spin is %.17g: the sum is no number at %.9g Hz, so near an extremal hole", image->spin, frequencies[i]);
     }
     *error_out = 0;
     for (int i = 0; !status && i < n; i++)

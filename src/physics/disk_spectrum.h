@@ -17,7 +17,7 @@ struct kd_disk_spectrum_params {
     enum kd_line_limb limb; /* normalised so that a face radiates F: Int limb mu dmu = 1/2 */
 };
 
-/* W m^-2 Hz^-1 at each frequency, in Hz. *error: relative, the largest, estimated by half as many points, where the flux is above 1e-6 of its maximum. KD_ENOMEM. */
+/* W m^-2 Hz^-1 at each frequency, in Hz. *error: relative, the largest, estimated by half as many points, where the flux is above 1e-6 of its maximum. KD_ENOMEM; KD_EINVAL: what came out is no number. */
 enum kd_status kd_disk_spectrum(const struct kd_disk_image *image, const struct kd_disk_spectrum_params *params, const double *frequencies, int n, double *flux,
                                 double *error_out, struct kd_error *error);
 

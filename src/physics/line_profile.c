@@ -175,6 +175,8 @@ enum kd_status kd_line_profile(const struct kd_disk_image *image, const struct k
         sums[i] = (struct sum) { .edges = edges, .bins = bins, .in = in + (size_t)i * (size_t)bins };
         integrate(image, params, &lamp, looks[i], rings, &sums[i]);
     }
+    if (!status && !(sums[0].total > 0 && isfinite(sums[0].total)))
+        status = kd_error_field(error, "/spin", "spin is %.17g: the sum is no number, so near an extremal hole", image->spin);
     if (!status)
         settle(sums, share, profile);
     free(rings);

@@ -33,7 +33,7 @@ struct kd_line_profile {
     double error; /* estimated, of the cumulative share at any edge, the largest: from what half as many rings, angles and nodes of the table change */
 };
 
-/* share[i]: of the total, between edges[i] and edges[i + 1], i < bins; edges grow, in units of E0. KD_ENOMEM; KD_EINVAL: the lamp lights no such ring. */
+/* share[i]: of the total, between edges[i] and edges[i + 1], i < bins; edges grow, in units of E0. KD_ENOMEM; KD_EINVAL: the lamp lights no such ring, or what came out is no number. */
 enum kd_status kd_line_profile(const struct kd_disk_image *image, const struct kd_line_params *params, const double *edges, int bins, double *share,
                                struct kd_line_profile *profile, struct kd_error *error);
 

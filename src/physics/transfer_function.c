@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#define APART 1e-3 /* of chi and of ln r: central differences leave its square, rays of 1e-12 their 1e-9 */
+#define APART 1e-3 /* of chi, and of the way to the horizon: central differences leave its square, rays of 1e-12 their 1e-9 */
 
 struct seek {
     const struct kd_disk_image *image;
@@ -62,10 +62,10 @@ bool kd_transfer_ring_of(const struct kd_disk_image *image, double r, struct kd_
 /* |d(alpha, beta)/d(ln r, chi)|. */
 static double stretch_of(const struct kd_disk_image *image, double r, double chi)
 {
-    double a[4], b[4];
+    double a[4], b[4], apart = kd_disk_image_step(image, r, APART);
     bool found = kd_disk_image_place(image, r, chi - APART, &a[0], &b[0]) && kd_disk_image_place(image, r, chi + APART, &a[1], &b[1]) &&
-                 kd_disk_image_place(image, r * exp(-APART), chi, &a[2], &b[2]) && kd_disk_image_place(image, r * exp(APART), chi, &a[3], &b[3]);
-    return found ? fabs((a[1] - a[0]) * (b[3] - b[2]) - (b[1] - b[0]) * (a[3] - a[2])) / (4 * APART * APART) : NAN;
+                 kd_disk_image_place(image, r * exp(-apart), chi, &a[2], &b[2]) && kd_disk_image_place(image, r * exp(apart), chi, &a[3], &b[3]);
+    return found ? fabs((a[1] - a[0]) * (b[3] - b[2]) - (b[1] - b[0]) * (a[3] - a[2])) / (4 * APART * apart) : NAN;
 }
 
 bool kd_transfer_at(const struct kd_disk_image *image, const struct kd_transfer_ring *ring, double g_star, bool far_side, struct kd_transfer *out)

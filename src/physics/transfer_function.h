@@ -3,7 +3,7 @@
  *   f(g*, r) = g sqrt(g* (1 - g*)) |d(alpha, beta)/d(g*, r)|/(pi r)      g* = (g - g_min)/(g_max - g_min)
  *
  * Cunningham 1975, ApJ 202, 788; Speith, Riffert & Ruder 1995, Comput. Phys. Commun. 88, 109, eq. 1. A ring shows each g between the ends twice, on the near and on the far side of
- * the hole, and a line is F(g) dg = sum over both of pi r f g^2 epsilon/(g sqrt(g* (1 - g*))) dg* dr (photons: line_profile.h). Here places are found by rays that lead there
+ * the hole, and a line is F(g) dg = sum over both of pi r f g^2 epsilon/sqrt(g* (1 - g*)) dg* dr (photons: line_profile.h). Here places are found by rays that lead there
  * (kd_disk_image_place), and slopes by their differences. */
 #ifndef KD_PHYSICS_TRANSFER_FUNCTION_H
 #define KD_PHYSICS_TRANSFER_FUNCTION_H

@@ -364,7 +364,7 @@ class Integrals(daemon.Case):
         self.assertEqual([list(row) for row in struct.iter_unpack('<4d', packed[start:])], [list(row) for row in zip(*told['columns'].values())])
 
     def test_transfer_functions_are_lines(self):
-        """A narrow ring's line is the sum over its near and far side: F = pi r f g^2/(g sqrt(g* (1 - g*))) dg* dr, with g* = (1 - cos x)/2."""
+        """A narrow ring's line is the sum over its near and far side: F = pi r f g^2/sqrt(g* (1 - g*)) dg* dr, with g* = (1 - cos x)/2."""
         n, r, width = 400, 9, 1e-3
         stars = [(1 - math.cos(math.pi * (k + 0.5) / n)) / 2 for k in range(n)]
         told = self.post('transfer-function', {'spin': 0.6, 'inclination_deg': 55, 'radii': [r], 'g_star': stars}).json()['columns']
@@ -439,6 +439,11 @@ class Integrals(daemon.Case):
                 problem = answer.json()
                 self.assertEqual((answer.status, problem.get('pointer')), (422, pointer), problem)
                 self.assertIn(words, problem['detail'])
+        for spin in (0.9999999999, 1 - 1e-12, -1 + 1e-12):
+            for name, document in (('line', {'bins': 3}), ('spectrum', {'frequencies': 3}), ('transfer-function', {'rings': 2, 'g_stars': 2})):
+                answer = self.post(name, {**document, 'spin': spin, 'inclination_deg': 60})
+                self.assertEqual(answer.status, 200, answer.body)
+                self.assertTrue(all(math.isfinite(x) for column in strict(answer.body)['columns'].values() for x in column), answer.body)
         self.assertEqual(self.daemon.request('POST', '/v1/line', b'{', {'Content-Type': 'application/json'}).status, 400)
         self.assertEqual(self.daemon.request('POST', '/v1/line', b'{"spin":0,"spin":0.5}', {'Content-Type': 'application/json'}).status, 422)
         self.assertEqual(self.daemon.request('POST', '/v1/line', b'[]', {'Content-Type': 'application/json'}).status, 400)
