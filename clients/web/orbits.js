@@ -5,30 +5,11 @@ import { entitle } from './describe.js';
 import { byId, el, still } from './dom.js';
 import { buildForm } from './form.js';
 import { number, t, tell, word } from './i18n.js';
+import * as link from './link.js';
+import { integrals, own, specs, thrown } from './orbit-fields.js';
 import { buildPicture, smooth } from './orbit-picture.js';
 import { plot } from './plot.js';
 import { drawn, physics, postJson } from './server.js';
-
-const own = 'shape';
-const thrown = 'thrown';
-const specs = [
-  {
-    name: 'orbit',
-    value: own,
-    choices: [own, thrown, 'zoom-whirl', 'plunge', 'spherical', 'isco', 'mercury'],
-    words: { [own]: t('p, e, inclination', 'p, e, inclinazione'), [thrown]: t('thrown by hand', 'lanciata a mano'), isco: 'ISCO', mercury: t('Mercury', 'Mercurio') },
-  },
-  { name: 'spin', unit: 'M', value: 0.9, min: -0.998, max: 0.998, step: 0.002 },
-  { name: 'p', unit: 'M', value: 6.5, min: 1, max: 200, step: 0.1 },
-  { name: 'e', unit: '', value: 0.5, min: 0, max: 0.99, step: 0.01 },
-  { name: 'inclination_deg', unit: 'degrees', value: 30, min: 0, max: 180, step: 1 },
-  { name: 'r', unit: 'M', value: 10, min: 1, max: 200, step: 0.01 },
-  { name: 'phi_deg', label: t('Azimuth', 'Azimut'), unit: 'degrees', value: 0, min: -180, max: 180, step: 0.1 },
-  { name: 'v_r', label: t('Velocity outwards', 'Velocità verso l’esterno'), unit: 'c', value: 0, min: -0.99, max: 0.99, step: 0.001 },
-  { name: 'v_phi', label: t('Velocity round', 'Velocità attorno'), unit: 'c', value: 0.36, min: -0.99, max: 0.99, step: 0.001 },
-  { name: 'periods', unit: '', value: 12, min: 1, max: 200, step: 1 },
-  { name: 'method', value: 'yoshida6', choices: ['yoshida6', 'rkn6', 'closed'] },
-];
 
 const rows = pairs =>
   pairs
@@ -171,12 +152,28 @@ export async function openOrbits() {
 
   const shapes = {
     [own]: v => ({ p: Number(v.p), e: Number(v.e), inclination_deg: Number(v.inclination_deg) }),
+    [integrals]: v => ({ energy: Number(v.energy), angular_momentum: Number(v.angular_momentum), carter: Number(v.carter) }),
     [thrown]: v => ({ position: { r: Number(v.r), phi_deg: Number(v.phi_deg) }, velocity: { v_r: Number(v.v_r), v_theta: 0, v_phi: Number(v.v_phi) } }),
   };
-  const fields = { [own]: ['spin', 'p', 'e', 'inclination_deg'], [thrown]: ['spin', 'r', 'phi_deg', 'v_r', 'v_phi'] };
+  const fields = { [own]: ['spin', 'p', 'e', 'inclination_deg'], [integrals]: ['spin', 'energy', 'angular_momentum', 'carter'], [thrown]: ['spin', 'r', 'phi_deg', 'v_r', 'v_phi'] };
+
+  // Who turns to the integrals of motion begins with those of the orbit that is shown.
+  let constants = null,
+    chosen = null;
+  function take({ orbit }) {
+    const turned = chosen && chosen !== integrals && orbit === integrals;
+    chosen = orbit;
+    if (!turned || !constants) return form.values();
+    for (const [name, value] of [['energy', constants.energy], ['angular_momentum', constants.angular_momentum], ['carter', constants.carter]]) {
+      form.input(name).value = Math.max(digits(value, 6), form.input(name).min);
+      link.set('orbit.' + name, form.input(name).value);
+    }
+    form.input('spin').value = digits(constants.spin, 3);
+    return form.values();
+  }
 
   async function follows() {
-    const v = form.values(),
+    const v = take(form.values()),
       ends = v.orbit === 'plunge', // in no periods
       shape = shapes[v.orbit];
     for (const name of new Set(Object.values(fields).flat())) form.input(name).closest('.field').hidden = !fields[v.orbit]?.includes(name);
@@ -186,7 +183,7 @@ export async function openOrbits() {
       samples: Math.min(Math.max(36 * Number(v.periods), 400), 3000),
       digits: 7, // a path is drawn over some thousand pixels
       method: v.method,
-      ...(v.orbit === thrown ? { r_max: 400 } : {}),
+      ...(v.orbit === thrown || v.orbit === integrals ? { r_max: 400 } : {}),
       ...(ends ? {} : { duration: { periods: Number(v.periods) } }),
       orbit: shape ? shape(v) : { case: v.orbit },
     };
@@ -231,6 +228,7 @@ export async function openOrbits() {
     const { column } = answer;
     const [x, y, z] = ['x', 'y', 'z'].map(column),
       { horizon } = (await physics('kerr', { spin: answer.spin })).values;
+    constants = { spin: answer.spin, ...answer.constants };
     samples = { t: column('t'), r: column('r'), error: column('energy_error'), point: x.map((_, i) => [x[i], y[i], z[i]]) };
     at = 0;
     shown = nameOf(answer);

@@ -1,5 +1,5 @@
 """The view of orbits: orbits.py KERRD FOLDER (browser.py)."""
-from browser import Browser, main
+from browser import Browser, main, value
 import daemon
 
 
@@ -24,6 +24,25 @@ class Orbits(Browser):
         page.wait_for_selector('#orbit-facts >> text=/10⁻⁵°/')
         self.assertEqual(page.inner_text('#orbit-fault'), '')
         self.assertIn('42.98″', page.inner_text('#orbit-facts'))
+
+    def test_less_angular_momentum_turns_it_into_a_plunge(self):
+        """The integrals of motion begin as those of the orbit that is shown; L then goes through the separatrix without a blank."""
+        page = self.open('lang=en&view=orbits', '#orbit-picture .front')
+        page.wait_for_selector('#orbit-facts >> text=bound')
+        before = self.facts(page)
+        page.select_option('#in-orbit-orbit', 'integrals')
+        self.assertTrue(daemon.eventually(lambda: page.input_value('#in-orbit-angular_momentum') not in ('', '2.5')))
+        for name, fact in (('energy', 'E'), ('angular_momentum', 'L'), ('carter', 'Q (Carter)')):
+            self.assertAlmostEqual(float(page.input_value(f'#in-orbit-{name}')), value(before[fact].split()[0]), delta=1e-6)
+        self.assertTrue(daemon.eventually(lambda: value(self.facts(page)['L'].split()[0]) == float(page.input_value('#in-orbit-angular_momentum'))))
+        self.assertTrue(daemon.eventually(lambda: self.facts(page)['Fate'] == 'bound'))
+        path = page.get_attribute('#orbit-picture .front', 'd')
+        self.expected = '422'  # of how many periods a plunge goes on
+        page.fill('#in-orbit-angular_momentum', '1.5')
+        page.keyboard.press('Tab')
+        page.wait_for_selector('#orbit-facts >> text=plunge')
+        self.assertEqual(page.inner_text('#orbit-fault'), '')
+        self.assertTrue(daemon.eventually(lambda: page.get_attribute('#orbit-picture .front', 'd') not in ('', path)))
 
     def test_orbits_that_end_and_that_there_are_not(self):
         page = self.open('lang=en&view=orbits&orbit.orbit=plunge', '#orbit-picture .front')
