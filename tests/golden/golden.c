@@ -48,6 +48,7 @@ static const struct shot {
     { "thick-disk", "thick-disk", "{\"time\":1000,\"image\":{\"width\":160,\"height\":90}}" },
     { "gargantua-gas", "gargantua-gas", "{" SIZE "}" },
     { "living-disk", "living-disk", "{\"time\":1000," SIZE "}" },
+    { "polarised-ring", "polarised-ring", "{" SIZE "}" },
     { "gold-1", "gold-1", "{\"image\":{\"width\":96,\"height\":96}}" },
     { "gold-2", "gold-2", "{\"image\":{\"width\":96,\"height\":96}}" },
     { "gold-3", "gold-3", "{\"image\":{\"width\":96,\"height\":96}}" },
