@@ -7,7 +7,6 @@ import { drawn, physics } from './server.js';
 import * as link from './link.js';
 
 const radians = Math.PI / 180;
-const dragged_for = 10; // M, time for which the lines of the Flamm grid are dragged
 
 // From numbers to pixels of a window of the given size, by the camera of src/render/camera.c: `plane` takes alpha and beta,
 // `direction` components towards -r, +phi and -theta.
@@ -166,48 +165,6 @@ async function orders(scene, look) {
   };
 }
 
-// The grid in space, looked at along straight lines from where the camera is.
-async function flamm(scene, look) {
-  const spin = scene.get('spacetime.spin'),
-    { horizon } = await radii(scene),
-    within = !at_infinity(scene) && scene.get('camera.r') <= horizon;
-  if (within) throw new Error(t('there is none within the horizon, where r is no direction in space', 'non esiste dentro l’orizzonte, dove r non è una direzione nello spazio'));
-  const outer = Math.max(scene.get('disk.outer'), 12);
-  const range = `${horizon}:${outer}:129`;
-  const [surface, dragging] = await Promise.all([
-    physics('flamm', { spin, r: range, ...drawn }),
-    physics('frame-dragging', { spin, r: range, ...drawn }),
-  ]);
-  const { radius, z } = surface.values,
-    depth = z.at(-1),
-    turn = dragging.values.omega.map(omega => omega * dragged_for);
-  const tilt = scene.get('camera.inclination_deg') * radians,
-    azimuth = scene.get('camera.azimuth_deg') * radians;
-  const [c, s] = [Math.cos(tilt), Math.sin(tilt)],
-    far = at_infinity(scene),
-    distance = far ? 0 : scene.get('camera.r');
-  const place = (i, phi) => {
-    const p = phi + turn[i] - azimuth,
-      x = radius[i] * Math.cos(p),
-      right = radius[i] * Math.sin(p),
-      height = z[i] - depth;
-    const up = height * s - x * c;
-    return far ? look.plane(right, up) : look.direction(distance - x * s - height * c, right, up);
-  };
-  const around = [...Array(73).keys()].map(k => k * 5 * radians),
-    lines = [];
-  for (let i = 0; i < radius.length; i += i < 16 ? 8 : 16) lines.push(path(around.map(phi => place(i, phi))));
-  for (let k = 0; k < 72; k += 3) lines.push(path(radius.map((_, i) => place(i, around[k]))));
-  return {
-    lines,
-    tags: [t('curved space', 'spazio curvo')],
-    words: t(
-      `the equatorial plane embedded in flat space, its spokes dragged for ${dragged_for} M; straight lines of sight`,
-      `il piano equatoriale immerso nello spazio piatto, con le linee radiali trascinate per ${dragged_for} M; linee di vista diritte`,
-    ),
-  };
-}
-
 async function names(scene) {
   const { brightest, hasNames, nameOf } = await import('./stars.js');
   if (!hasNames(scene)) throw new Error(t('of the stars of Hipparcos alone: choose them as the sky', 'solo delle stelle di Hipparcos: sceglile come cielo'));
@@ -220,6 +177,7 @@ async function names(scene) {
 }
 
 const measured = async (scene, look) => (await import('./measured.js')).ring(scene, look, path);
+const curved = async (scene, look) => (await import('./flamm.js')).flamm(scene, look, path);
 async function polarization(scene, look, stage) {
   return (await import('./ticks.js')).ticks(scene, stage.clientWidth, stage.clientHeight);
 }
@@ -233,7 +191,7 @@ const overlays = [
   ['polarization', polarization, 'Polarisation, by ticks', 'Polarizzazione, con trattini'],
   ['names', names, 'Names of the brightest stars', 'Nomi delle stelle più brillanti'],
   ['ring', measured, 'Ring as the EHT measured it', 'Anello misurato dall’EHT'],
-  ['flamm', flamm, 'Curved space (Flamm) and its twist', 'Spazio curvo (Flamm) e sua torsione'],
+  ['flamm', curved, 'Curved space (Flamm) and its twist', 'Spazio curvo (Flamm) e sua torsione'],
 ];
 
 export function buildOverlays(root, stage, scene) {
