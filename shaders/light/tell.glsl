@@ -11,6 +11,7 @@
  *   KD_TELL_OF_VOLUME a volume, of the whole ray: its number, light as it arrives, optical depth
  *   KD_TELL_MET       a surface that hides all behind it: number of its emitter, light, which of them, crossings before it, cosine of the angle of
  *                     emission, what comes through in front; and KD_TELL_MET_AT behind it: w, u, azimuth, g
+ *   KD_TELL_POLARIZED of the place before it: Stokes Q and U of its light over I
  *   KD_TELL_LOST      the ray was given up
  *   KD_TELL_FRONT, KD_TELL_WHOLE        the sum before the end and with it: light, what comes through, and the steps and places of the march */
 #ifndef KD_TELL_GLSL
@@ -52,6 +53,9 @@ void kd_tell_place(kd_sample s, float through)
 }
 #define KD_TELL_PLACE(s, through) kd_tell_place(s, through);
 #define KD_TELL_GLOW(number, seen, glow) kd_tell(KD_TELL_OF_PLACE, vec4(number, glow.light), vec4(glow.alpha, seen, 0.0, 0.0), vec2(0.0));
+#define KD_TELL_POLARIZED_AT(s, place, up)                                                                     \
+    if (KD_HAS(polarization))                                                                                  \
+        kd_tell(KD_TELL_POLARIZED, vec4(kd_polarization_at(s, kd_polarization_right(place), up), 0.0, 0.0), vec4(0.0), vec2(0.0));
 /* Stretches without length are none. */
 #define KD_TELL_BEFORE(beam) kd_beam before = beam;
 #define KD_TELL_STRETCH(s, from, to, beam)                                                                     \
@@ -106,6 +110,7 @@ KD_TELL_VOLUMES_(KD_TELL_VOLUME_)
 #define KD_TELL_MET_(number, name, met, light, through)
 #define KD_TELL_PLACE(s, through)
 #define KD_TELL_GLOW(number, seen, glow)
+#define KD_TELL_POLARIZED_AT(s, place, up)
 #define KD_TELL_BEFORE(beam)
 #define KD_TELL_STRETCH(s, from, to, beam)
 #define KD_TELL_END(end)

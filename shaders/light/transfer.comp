@@ -25,11 +25,13 @@ void meet(inout kd_beam beam, float w, uint n, uvec2 place, uint at)
     float ago = SLOW ? quantity(KD_LENS_DELAY, plane) - emission.frame.delay : 0.0, slope = quantity(KD_LENS_SLOPE, plane);
     float carter = (QUANTITIES & KD_LENS_ALPHA) != 0u ? kd_carter_of_slope(ray.e, momentum, w, slope)
                                                       : ray.p * ray.p + cam.u * cam.u * (ray.l * ray.l - cam.spin * cam.spin * ray.e * ray.e);
-    if (w < 0.0)
+    if (w < 0.0) {
         kd_beam_given_up(beam);
-    else
-        kd_beam_at(beam, kd_sample(w, quantity(KD_LENS_PHI, plane), ago, slope, ray.e, momentum, carter,
-                                   quantity(KD_LENS_FOOTPRINT, plane), quantity(KD_LENS_SHAPE, plane), n));
+        return;
+    }
+    kd_sample s = kd_sample(w, quantity(KD_LENS_PHI, plane), ago, slope, ray.e, momentum, carter, quantity(KD_LENS_FOOTPRINT, plane), quantity(KD_LENS_SHAPE, plane), n);
+    kd_beam_at(beam, s);
+    KD_TELL_POLARIZED_AT(s, place, ray.p)
 }
 
 /* A map may hold where rays end for the sake of layers alone: then the picture is what it is without them. */

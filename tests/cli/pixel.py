@@ -1,6 +1,8 @@
 """kerrd pixel: tables and JSON say the same, and bad places are refused."""
 import json
 import math
+import re
+import struct
 
 from support import Case, SMALL, main
 
@@ -25,6 +27,30 @@ class Pixel(Case):
             for text, number in zip(ray[1:], found["colour"]["ray"]):
                 self.assertAlmostEqual(float(text), number, delta=1e-4 * number)
         self.assertEqual(fates, {"captured", "escaped"})
+
+    def test_polarisation_is_that_of_the_layers(self):
+        scene = ["--preset", "polarised-ring", *SMALL]
+        names = ["intensity", "stokes_q", "stokes_u", "evpa", "polarization_fraction"]
+        self.good("render", *scene, "--set", "image.layers=" + ",".join(names), "-o", self.path("stokes.npy"))
+        data = self.read("stokes.npy")
+        width, height = (int(n) for n in re.search(rb"'shape': \((\d+), (\d+)\)", data).groups()[::-1])
+        numbers = data[10 + struct.unpack_from("<H", data, 8)[0]:]
+        seen = 0
+        for x, y in (20, 12), (44, 20), (31, 28), (2, 2):
+            found = json.loads(self.good("pixel", *scene, "--at", f"{x},{y}", "--format", "json"))
+            layers = struct.unpack_from("<5f", numbers, 20 * (width * y + x))
+            self.assertLess((x, y), (width, height))
+            told = found.get("pixel_polarization")  # where nothing is crossed there is none
+            if not told or told["evpa"] is None:
+                self.assertEqual(layers[1:3], (0, 0))
+                continue
+            for number, layer in zip((*told["stokes"], told["evpa"], told["polarization_fraction"]), layers):
+                self.assertAlmostEqual(number, layer, delta=2e-5)
+            seen += 1
+            text = self.good("pixel", *scene, "--at", f"{x},{y}").decode()
+            ray = found["polarization"]
+            self.assertIn(f"of the ray: EVPA {math.degrees(ray['evpa']):.4f} deg, fraction {ray['polarization_fraction']:.5f}", text)
+        self.assertGreaterEqual(seen, 3)
 
     def test_to_a_file(self):
         self.assertEqual(self.good(*PIXEL, "--at", "20,20", "-o", self.path("a.json")), b"")

@@ -109,6 +109,44 @@ static void put_place(struct kd_json *json, const struct kd_explained *x, const 
     (void)x;
 }
 
+static void put_evpa(struct kd_json *json, const double stokes[3])
+{
+    kd_json_number(json, "evpa", kd_explained_evpa(stokes));
+    kd_json_number(json, "polarization_fraction", kd_explained_polarized(stokes));
+}
+
+static void put_polarization(struct kd_json *json, const char *name, const double stokes[3])
+{
+    kd_json_object(json, name);
+    kd_json_array(json, "stokes");
+    for (int i = 0; i < 3; i++)
+        kd_json_number(json, NULL, stokes[i]);
+    kd_json_end(json);
+    put_evpa(json, stokes);
+    kd_json_end(json);
+}
+
+static void put_polarized_ray(struct kd_json *json, const struct kd_told_ray *ray)
+{
+    double stokes[3];
+    if (kd_explained_stokes(ray, stokes))
+        put_polarization(json, "polarization", stokes);
+}
+
+/* The mean of the pixel's rays. */
+static void put_polarized_pixel(struct kd_json *json, const struct kd_told *pixel)
+{
+    double stokes[3], sum[3] = { 0 };
+    bool polarized = false;
+    for (uint32_t i = 0; i < pixel->rays; i++) {
+        polarized |= kd_explained_stokes(&pixel->each[i], stokes);
+        for (int k = 0; k < 3; k++)
+            sum[k] += stokes[k] / pixel->rays;
+    }
+    if (polarized)
+        put_polarization(json, "pixel_polarization", sum);
+}
+
 static void put_crossing(struct kd_json *json, const struct kd_explained *x, uint32_t n)
 {
     const bool has = n < x->end.n_crossings;
@@ -126,6 +164,8 @@ static void put_crossing(struct kd_json *json, const struct kd_explained *x, uin
         kd_json_number(json, "temperature", p->temperature);
         kd_json_number(json, "emission_angle", p->angle);
     }
+    if (p && p->polarized)
+        put_evpa(json, (double[]) { 1, (double)p->stokes[0], (double)p->stokes[1] });
     if (p)
         put_place(json, x, p);
     kd_json_end(json);
@@ -276,6 +316,7 @@ static void put_ray(struct kd_json *json, const struct kd_picture *picture, cons
     put_along(json, x, false);
     put_met(json, x);
     put_end(json, x);
+    put_polarized_ray(json, x->told);
     kd_json_number(json, "closed_form", x->end.error);
     kd_json_number(json, "picture", x->picture_error);
     kd_json_number(json, "lost", (double)x->told->lost);
@@ -322,6 +363,8 @@ static enum kd_status write(const struct kd_picture *picture, const struct kd_ex
     put_along(&json, x, true);
     put_met(&json, x);
     put_end(&json, x);
+    put_polarized_ray(&json, x->told);
+    put_polarized_pixel(&json, x->pixel);
     kd_ray_path_json(&json, &x->path);
     put_trace(&json, picture, x->pixel);
     put_accuracy(&json, picture, x);

@@ -163,6 +163,25 @@ double kd_explained_sum_error(const struct kd_told *pixel)
     return off > 0 ? off / size : 0;
 }
 
+static double luminance(const float light[3]) { return 0.2126 * (double)light[0] + 0.7152 * (double)light[1] + 0.0722 * (double)light[2]; }
+
+bool kd_explained_stokes(const struct kd_told_ray *ray, double out[3])
+{
+    bool polarized = false;
+    out[0] = luminance(ray->light), out[1] = out[2] = 0;
+    for (size_t i = 0; i < ray->n_places; i++) {
+        const struct kd_told_place *p = &ray->places[i];
+        polarized |= p->polarized;
+        for (size_t k = 0; k < p->n_glows; k++)
+            for (int c = 0; c < 2; c++)
+                out[1 + c] += (double)p->glows[k].through * luminance(p->glows[k].light) * (double)p->stokes[c];
+    }
+    return polarized;
+}
+
+double kd_explained_evpa(const double s[3]) { return s[1] != 0 || s[2] != 0 ? 0.5 * atan2(s[2], s[1]) : NAN; }
+double kd_explained_polarized(const double s[3]) { return s[0] > 0 ? hypot(s[1], s[2]) / s[0] : NAN; }
+
 void kd_explained_finish(struct kd_explained *x)
 {
     kd_ray_path_finish(&x->path);

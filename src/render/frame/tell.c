@@ -84,6 +84,8 @@ static void take(struct kd_told_ray *told, const struct record *r)
         told->places[told->n_places++] = place_of(r);
     else if (r->of == (float)KD_TELL_OF_PLACE && last)
         add_glow(last->glows, &last->n_glows, KD_PLAN_EMITTERS, r, r->b[0], r->b[1]);
+    else if (r->of == (float)KD_TELL_POLARIZED && last)
+        last->polarized = true, last->stokes[0] = r->a[0], last->stokes[1] = r->a[1];
     else if (r->of == (float)KD_TELL_ALONG)
         take_stretch(told, stretch_of(r, last ? last->order + 1 : 0));
     else if (r->of == (float)KD_TELL_AT)

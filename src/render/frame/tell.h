@@ -27,6 +27,8 @@ struct kd_told_place {
     float w, phi, slope, footprint; /* of the lens map; 0 for what it does not hold */
     float g, temperature, angle;    /* of gas there, whether any is; K; between light and normal in the frame of the gas, radians */
     float through;      /* what all in front lets pass */
+    bool polarized;     /* its light is, by this: Stokes Q and U over I */
+    float stokes[2];
     struct kd_told_glow glows[KD_PLAN_EMITTERS];
     size_t n_glows;
 };

@@ -39,7 +39,7 @@ static void add_crossings(struct kd_json *json)
     static const struct kd_openapi_member pictured[] = { { "r", NUMBER, false }, { "g", NUMBER, false }, { "footprint", NUMBER, true } };
     static const struct kd_openapi_member crossing[] = {
         { "order", COUNT, false }, { "r", OR_NULL, false }, { "phi", OR_NULL, false }, { "azimuth", OR_NULL, false }, { "delay", OR_NULL, false }, { "g", OR_NULL, false },
-        { "seen", TRUTH, false }, { "temperature", NUMBER, true }, { "emission_angle", NUMBER, true }, { "picture", REF("PixelPictured"), true }, { "through", NUMBER, true },
+        { "seen", TRUTH, false }, { "temperature", NUMBER, true }, { "emission_angle", NUMBER, true }, { "evpa", OR_NULL, true }, { "polarization_fraction", OR_NULL, true }, { "picture", REF("PixelPictured"), true }, { "through", NUMBER, true },
         { "emitters", LIST(REF("PixelGlow")), true }, { "optical_depth", OR_NULL, true },
     };
     KD_OPENAPI_STRICT(json, "PixelGlow", glow);
@@ -87,6 +87,8 @@ static void add_ends(struct kd_json *json)
         { "engine", TEXT, false }, { "precision", TEXT, false }, { "steps", COUNT, false }, { "closed_form", OR_NULL, false }, { "picture", OR_NULL, false },
         { "path", OR_NULL, false }, { "first_integrals", OR_NULL, false }, { "sum", OR_NULL, false },
     };
+    static const struct kd_openapi_member polarization[] = { { "stokes", KD_SCHEMA_VECTOR, false }, { "evpa", OR_NULL, false }, { "polarization_fraction", OR_NULL, false } };
+    KD_OPENAPI_STRICT(json, "PixelPolarization", polarization);
     KD_OPENAPI_STRICT(json, "PixelEnd", end);
     KD_OPENAPI_STRICT(json, "PixelPath", path);
     KD_OPENAPI_STRICT(json, "PixelTrace", trace);
@@ -97,7 +99,7 @@ static void add_ends(struct kd_json *json)
 #define RAY \
     { "ray_at", PAIR, false }, { "weight", NUMBER, false }, { "constants", REF("RayConstants"), false }, { "radial", REF("RayRadial"), false }, \
     { "polar", REF("RayPolar"), false }, { "crossings", LIST(REF("PixelCrossing")), false }, { "along", REF("PixelAlong"), true }, { "met", REF("PixelMet"), true }, \
-    { "end", REF("PixelEnd"), false }, { "lost", COUNT, false }
+    { "end", REF("PixelEnd"), false }, { "polarization", REF("PixelPolarization"), true }, { "lost", COUNT, false }
 
 void kd_openapi_pixel_schemas(struct kd_json *json)
 {
@@ -105,7 +107,7 @@ void kd_openapi_pixel_schemas(struct kd_json *json)
     static const struct kd_openapi_member ray[] = { RAY, { "light", KD_SCHEMA_VECTOR, false }, { "luminance", NUMBER, false }, { "closed_form", OR_NULL, false }, { "picture", OR_NULL, false } };
     static const struct kd_openapi_member pixel[] = {
         RAY, { "pixel", PAIR, false }, { "eye", TEXT, true }, { "rays", COUNT, false }, { "colour", REF("PixelColour"), false }, { "path", REF("PixelPath"), false },
-        { "trace", REF("PixelTrace"), true }, { "accuracy", REF("PixelAccuracy"), false }, { "each_ray", LIST(REF("PixelRay")), false },
+        { "pixel_polarization", REF("PixelPolarization"), true }, { "trace", REF("PixelTrace"), true }, { "accuracy", REF("PixelAccuracy"), false }, { "each_ray", LIST(REF("PixelRay")), false },
         { "approximations", LIST(TEXT), false },
     };
     static const struct kd_openapi_member image[] = {
