@@ -7,7 +7,7 @@
 #define KD_BLOCK_plasma(F, U, A)                                                                                \
     F(inner) F(outer)      /* M */                                                                             \
     F(frequency)           /* log2 of what is observed, GHz */                                                 \
-    F(light) F(depth)      /* log2 of the units of kd_gives by M of length: of light, and of 1 */               \
+    F(light) F(depth)      /* log2 of the units of kd_radiates by M of length: of light, and of 1 */               \
     F(kelvin) F(jansky)    /* of light 1: brightness temperature, K, and Jy a steradian */                      \
     F(gold_light) F(gold_depth) /* log2 of the light and the depth of a length M where the density is 1, at 230 GHz */ \
     F(gold_index) F(gold_flat) F(gold_momentum)                                                                \
@@ -33,25 +33,25 @@
 
 /* This is the metric at a place, past observers of zero angular momentum: their lapse^2 and their angular velocity, g_phiphi, g_rr and Sigma/r^2
  * (Bardeen, Press & Teukolsky 1972). */
-struct kd_around { float lapse2, omega, round_, radial, sigma; };
-kd_around kd_around_at(float w, float u)
+struct kd_metric { float lapse2, omega, round_, radial, sigma; };
+kd_metric kd_metric_at(float w, float u)
 {
     float a = cam.spin, aw2 = a * a * w * w, b = 1.0 + aw2, delta = max(kd_delta(w, cam.root), 1e-30), s2 = max(1.0 - u * u, 1e-12);
     float area = b * b - aw2 * delta * s2, sigma = 1.0 + aw2 * u * u;
-    return kd_around(sigma * delta / area, 2.0 * a * w * w * w / area, area * s2 / (sigma * w * w), sigma / delta, sigma);
+    return kd_metric(sigma * delta / area, 2.0 * a * w * w * w / area, area * s2 / (sigma * w * w), sigma / delta, sigma);
 }
 
 /* This is how matter moves: u^t and u_phi, u^phi - omega u^t being u_phi/g_phiphi, and u^r; u^theta is 0. */
 struct kd_flow { float time, round_, out_; };
 
 /* Its -k.u, by the photon's E, L and p_r. */
-float kd_flow_energy(kd_flow v, kd_around g, kd_midst p)
+float kd_flow_energy(kd_flow v, kd_metric g, kd_midst p)
 {
     return max(v.time * (p.energy - g.omega * p.momentum) - v.round_ * p.momentum / g.round_ - v.out_ * p.dw * g.radial / g.sigma, 1e-12);
 }
 
 /* Gold et al.: u_mu = u_t (1, 0, 0, -l), l = l0 R^(3/2)/(1 + R), R = r sin(theta). */
-kd_flow kd_flow_gold(kd_around g, kd_midst p)
+kd_flow kd_flow_gold(kd_metric g, kd_midst p)
 {
     float axis = sqrt(max(1.0 - p.u * p.u, 0.0)) / p.w, l = emission.plasma.gold_momentum * axis * sqrt(axis) / (1.0 + axis), seen = 1.0 - g.omega * l;
     float scale = inversesqrt(max(seen * seen / g.lapse2 - l * l / g.round_, 1e-30));
@@ -59,7 +59,7 @@ kd_flow kd_flow_gold(kd_around g, kd_midst p)
 }
 
 /* On the circular orbit's angular velocity at its r, at whatever latitude. */
-kd_flow kd_flow_round(kd_around g, float r)
+kd_flow kd_flow_round(kd_metric g, float r)
 {
     float past = 1.0 / (r * sqrt(r) + cam.spin) - g.omega, time = inversesqrt(max(g.lapse2 - g.round_ * past * past, 1e-12));
     return kd_flow(time, g.round_ * past * time, 0.0);
@@ -68,10 +68,10 @@ kd_flow kd_flow_round(kd_around g, float r)
 /* Inside the ISCO it keeps the e and l that it has there at its latitude (H.-Y. Pu, K. Akiyama & K. Asada 2016, ApJ 831, 4), and does not change that. With
  * them Sigma^2 (u^r)^2 = A e^2 - 4 a r e l - (Sigma - 2r) l^2/sin^2 - Sigma Delta is a quartic that vanishes at the ISCO: divided by r - r_isco, it has no
  * difference of what is nearly the same. Where it is below 0, off the plane, the matter goes round with the angular velocity of e and l. */
-kd_flow kd_flow_plunge(kd_around g, kd_midst p)
+kd_flow kd_flow_plunge(kd_metric g, kd_midst p)
 {
     float r = 1.0 / p.w, edge = emission.frame.r_isco, a2 = cam.spin * cam.spin, u2 = p.u * p.u, s2 = max(1.0 - u2, 1e-12);
-    kd_around there = kd_around_at(1.0 / edge, p.u);
+    kd_metric there = kd_metric_at(1.0 / edge, p.u);
     kd_flow v = kd_flow_round(there, edge);
     float l = v.round_, e = there.lapse2 * v.time + there.omega * l, l2 = l * l / s2;
     float c3 = 2.0, c4 = e * e - 1.0, c2 = a2 * (1.0 + u2) * c4 - l2, c1 = 2.0 * (a2 * (s2 * e * e + u2) + l2 - 2.0 * cam.spin * e * l);
@@ -83,7 +83,7 @@ kd_flow kd_flow_plunge(kd_around g, kd_midst p)
 
 /* All that is known of the matter at a place. energy: -k.u, the frequency there over the observed one; frequency: its log2, GHz; field: the unit vector along B,
  * b.u = 0, contravariant components t, r, theta, phi of Boyer and Lindquist, of a photon that arrives. */
-struct kd_plasma { kd_electrons electrons; kd_flow flow; kd_around around; float energy, frequency; vec4 field; };
+struct kd_plasma { kd_electrons electrons; kd_flow flow; kd_metric around; float energy, frequency; vec4 field; };
 
 /* A direction is made perpendicular to u: b = e + (e.u) u, k.b = k.e - energy e.u. e has the components r, theta times 1/sin(theta), phi. */
 void kd_plasma_field(inout kd_plasma m, kd_midst p)
@@ -110,7 +110,7 @@ kd_plasma kd_plasma_at(kd_midst p)
 {
     kd_plasma m;
     float log2_r = -log2(p.w), x2 = p.u * p.u / max(1.0 - p.u * p.u, 1e-12) * emission.plasma.steep * emission.plasma.steep;
-    m.around = kd_around_at(p.w, p.u);
+    m.around = kd_metric_at(p.w, p.u);
     if ((TRAITS_plasma & KD_TRAIT_PLASMA_REST) != 0u)
         m.flow = kd_flow(inversesqrt(m.around.lapse2), 0.0, 0.0);
     else if (p.w * emission.frame.r_isco <= 1.0)
@@ -126,10 +126,10 @@ kd_plasma kd_plasma_at(kd_midst p)
     return m;
 }
 
-kd_gives kd_plasma_gives(kd_plasma m)
+kd_radiates kd_plasma_gives(kd_plasma m)
 {
     if ((TRAITS_plasma & KD_TRAIT_PLASMA_POWER) != 0u)
-        return kd_synchrotron_power(m.electrons, m.frequency, emission.plasma.power_index, emission.plasma.power_light, emission.plasma.power_depth);
+        return kd_synchrotron_by_power(m.electrons, m.frequency, emission.plasma.power_index, emission.plasma.power_light, emission.plasma.power_depth);
     return kd_synchrotron_thermal(m.electrons, m.frequency);
 }
 
@@ -142,7 +142,7 @@ kd_medium kd_plasma_medium(float light, float depth, float grain)
     return kd_medium(vec3(light > -126.0 ? exp2(min(light, 99.0)) : 0.0), depth > -126.0 ? exp2(depth) : 0.0, grain);
 }
 
-/* M along the ray over which a layer exp(-x^2/2), x = steep u/sin(theta), and with it the field: in it by its height and where it is, beyond it the way to where there is something. sharp: kd_gives's steep. */
+/* M along the ray over which a layer exp(-x^2/2), x = steep u/sin(theta), and with it the field: in it by its height and where it is, beyond it the way to where there is something. sharp: kd_radiates's steep. */
 float kd_plasma_grain(kd_midst p, float steep, float sharp)
 {
     float r = 1.0 / p.w, per = 1.0 / p.speed, s2 = max(1.0 - p.u * p.u, 1e-6), turn = abs(p.du) * per * r, along = abs(p.dw) * r * r * per;
@@ -154,7 +154,7 @@ float kd_plasma_grain(kd_midst p, float steep, float sharp)
 kd_medium kd_plasma_gold(kd_midst p)
 {
     float r = 1.0 / p.w, x = emission.plasma.gold_flat * p.u, grain = kd_plasma_grain(p, emission.plasma.gold_flat, 0.0);
-    kd_around g = kd_around_at(p.w, p.u);
+    kd_metric g = kd_metric_at(p.w, p.u);
     float up = log2(kd_flow_energy(kd_flow_gold(g, p), g, p)), n = -0.5 * KD_LOG2_E * min(0.01 * r * r + x * x, 1e6), index = emission.plasma.gold_index;
     grain = 1.0 / (1.0 / grain + 0.4 * abs(p.dw) * r * r / p.speed * min(0.01 * r, 1.0));
     return kd_plasma_medium(emission.plasma.gold_light + n - (2.0 + index) * up, emission.plasma.gold_depth + n - (1.5 + index) * up, grain);
@@ -168,7 +168,7 @@ kd_medium kd_plasma_along(kd_midst p)
         medium = kd_plasma_gold(p);
     else {
         kd_plasma m = kd_plasma_at(p);
-        kd_gives gives = kd_plasma_gives(m);
+        kd_radiates gives = kd_plasma_gives(m);
         float up = m.frequency - emission.plasma.frequency;
         medium = kd_plasma_medium(gives.light + emission.plasma.light - 2.0 * up, gives.depth + emission.plasma.depth + up, kd_plasma_grain(p, emission.plasma.steep, gives.steep));
     }

@@ -16,7 +16,7 @@
 struct kd_electrons { float density, heat, field, cosine, sine2; };
 /* Log2 of the emissivity in units of e^2/c cm^-3 GHz (e in Gaussian units), 7.69558e-22 W m^-3 Hz^-1 sr^-1, and of the absorptivity in units of that over
  * 2h GHz^3/c^2, 52.191 m^-1. steep: by how many of its own sizes light changes where the field does by one. */
-struct kd_gives { float light, depth, steep; };
+struct kd_radiates { float light, depth, steep; };
 
 #define KD_LOG2_E 1.44269504
 #define KD_LOG2_GYRO -8.48074447   /* e/(2 pi m_e c) is 2.79924899e-3 GHz a gauss */
@@ -34,18 +34,18 @@ float kd_log2_expm1(float log2_x)
 /* This is log2 of B_nu in units of 2h GHz^3/c^2, of log2 of the frequency in GHz and of Theta. */
 float kd_log2_planck(float frequency, float heat) { return 3.0 * frequency - kd_log2_expm1(frequency - heat + KD_LOG2_QUANTUM); }
 
-kd_gives kd_synchrotron_thermal(kd_electrons e, float frequency)
+kd_radiates kd_synchrotron_thermal(kd_electrons e, float frequency)
 {
     float turn = e.field + KD_LOG2_GYRO, slant = 0.5 * log2(max(e.sine2, 1e-30));
     float x = clamp(frequency - turn - 2.0 * e.heat - slant + 2.169925, -300.0, 60.0), third = exp2(x * (1.0 / 3.0));
     float shape = x * (1.0 / 3.0) + 2.0 * log2(exp2(x * (1.0 / 3.0)) + 1.887748625) - KD_LOG2_E * third;
     float light = e.density + turn + slant + KD_LOG2_THERMAL + shape;
-    return kd_gives(light, light - kd_log2_planck(frequency, e.heat), min(third, 40.0) * (1.0 / 3.0));
+    return kd_radiates(light, light - kd_log2_planck(frequency, e.heat), min(third, 40.0) * (1.0 / 3.0));
 }
 
-kd_gives kd_synchrotron_power(kd_electrons e, float frequency, float index, float light, float depth)
+kd_radiates kd_synchrotron_by_power(kd_electrons e, float frequency, float index, float light, float depth)
 {
     float turn = e.field + KD_LOG2_GYRO, slant = 0.5 * log2(max(e.sine2, 1e-30)), x = frequency - turn - slant;
-    return kd_gives(e.density + turn + slant + light - 0.5 * (index - 1.0) * x, e.density - frequency + depth - 0.5 * (index + 2.0) * x, 0.5 * (index + 1.0));
+    return kd_radiates(e.density + turn + slant + light - 0.5 * (index - 1.0) * x, e.density - frequency + depth - 0.5 * (index + 2.0) * x, 0.5 * (index + 1.0));
 }
 #endif

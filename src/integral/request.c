@@ -43,15 +43,26 @@ static enum kd_status unknown(const struct kd_integral_request *request, const c
                           known);
 }
 
+/* The text up to a mark, cut where there is no room for it. */
+static const char *part(const char *text, const char *mark, char out[64])
+{
+    size_t length = strcspn(text, mark);
+    length = length < 63 ? length : 63;
+    memcpy(out, text, length);
+    out[length] = 0;
+    return out;
+}
+
 static void describe_allowed(const struct kd_integral_field *f, char out[KD_ALLOWED_SIZE])
 {
     char low[KD_NUMBER_SIZE], high[KD_NUMBER_SIZE];
     kd_number_format(low, f->least);
     kd_number_format(high, f->most);
     if (f->kind == KD_INTEGRAL_WORD) {
+        char one[64];
         size_t used = 0;
         for (const char *word = f->words; *word; word += word[strcspn(word, "|")] ? strcspn(word, "|") + 1 : strlen(word))
-            used += (size_t)snprintf(out + used, KD_ALLOWED_SIZE - used, "%s\"%.*s\"", used ? ", " : "", (int)strcspn(word, "|"), word);
+            used += (size_t)snprintf(out + used, KD_ALLOWED_SIZE - used, "%s\"%s\"", used ? ", " : "", part(word, "|", one));
         return;
     }
     snprintf(out, KD_ALLOWED_SIZE, f->open ? "%snumbers above %s and below %s%s%s%s" : "%s%s to %s%s%s%s", f->kind == KD_INTEGRAL_WHOLE ? "whole numbers from " : "", low,
@@ -165,8 +176,7 @@ static enum kd_status read_typed(struct kd_integral_request *request, const stru
     KD_TRY(make_room(request, f, n, pointer, &list, error));
     for (const char *c = text; i < n; i++, c += strcspn(c, ",") + 1) {
         char one[64];
-        snprintf(one, sizeof one, "%.*s", (int)strcspn(c, ","), c);
-        struct kd_value value = kd_value_typed(one);
+        struct kd_value value = kd_value_typed(part(c, ",", one));
         KD_TRY(put_number(list, i, f, &value, pointer, error));
     }
 done:

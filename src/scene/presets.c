@@ -194,15 +194,14 @@ void kd_scene_smooth(struct kd_scene *scene)
     kd_scene_from_json(scene, SMOOTH, sizeof SMOOTH - 1, NULL); /* of a text that never changes: a test reads it */
 }
 
-/* Scripts from before call it so. */
-static const char *name_now(const char *name)
+const char *kd_scene_preset_name_now(const char *name)
 {
     return strcmp(name, "m87-eht") ? name : "m87";
 }
 
 enum kd_status kd_scene_preset(struct kd_scene *scene, const char *name, struct kd_error *error)
 {
-    name = name_now(name);
+    name = kd_scene_preset_name_now(name);
     for (size_t i = 0; i < kd_preset_count; i++) {
         if (strcmp(kd_presets[i].name, name))
             continue;

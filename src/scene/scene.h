@@ -57,6 +57,9 @@ void kd_scene_defaults(struct kd_scene *scene);
 
 /* Finds a preset by name; KD_EINVAL names the known ones otherwise. */
 enum kd_status kd_scene_preset(struct kd_scene *scene, const char *name, struct kd_error *error);
+
+/* What a preset is called now that scripts may know by an older name; any other name as it is. */
+const char *kd_scene_preset_name_now(const char *name);
 /* Sets the preset "smooth": the defaults without gas and without what a lens does, for what measures a disk rather than showing it; and what
  * older versions, which had neither, meant by the fields that they did not know. */
 void kd_scene_smooth(struct kd_scene *scene);

@@ -123,6 +123,8 @@ class Routes(daemon.Case):
                 scene = self.daemon.get('/v1/presets/' + preset['name'])
                 self.assertEqual(scene.status, 200)
                 self.assertEqual(self.daemon.post('/v1/plan', scene.body).status, 200)
+        self.assertEqual(self.daemon.get('/v1/presets/m87-eht').json(), self.daemon.get('/v1/presets/m87').json())  # its name from before
+        self.assertEqual(self.daemon.get('/v1/presets/m87-EHT').status, 404)
 
     def test_a_small_picture_of_a_preset(self):
         """It is rendered once, however many ask for it at once, and then kept."""

@@ -5,6 +5,8 @@
 #include "server/render/queue.h"
 #include "scene/scene.h"
 
+#include <stdio.h>
+
 enum MHD_Result kd_handle_health(struct kd_request *request)
 {
     static const char alive[] = "{\"status\":\"alive\"}\n";
@@ -38,6 +40,9 @@ enum MHD_Result kd_handle_device(struct kd_request *request)
 enum MHD_Result kd_handle_kept(struct kd_request *request)
 {
     const struct kd_served *document = kd_kept_find(request->server->kept, request->target.path);
+    char preset[128];
+    if (!document && request->rest && snprintf(preset, sizeof preset, "/v1/presets/%s", kd_scene_preset_name_now(request->rest)) < (int)sizeof preset)
+        document = kd_kept_find(request->server->kept, preset);
     struct kd_scene scene;
     struct kd_error error = { 0 };
     bool same;

@@ -142,8 +142,9 @@ static void done(struct kd_painting *painting)
 
 static struct thumbnail *find(struct kd_thumbnails *s, const char *name)
 {
+    const char *now = kd_scene_preset_name_now(name);
     for (size_t i = 0; i < s->n; i++)
-        if (!strcmp(kd_scene_preset_name(i), name))
+        if (!strcmp(kd_scene_preset_name(i), now))
             return &s->all[i];
     return NULL;
 }
