@@ -1,4 +1,4 @@
-/* Numbers of synchrotron light that are the same everywhere in a picture: the kernels have the rest (shaders/emit/synchrotron.glsl). Pure, any thread. */
+/* These numbers of synchrotron light are the same everywhere in a picture: the kernels have the rest (shaders/emit/synchrotron.glsl). Pure, any thread. */
 #ifndef KD_PHYSICS_SYNCHROTRON_H
 #define KD_PHYSICS_SYNCHROTRON_H
 

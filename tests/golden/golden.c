@@ -279,7 +279,7 @@ static bool takes_long(const struct shot *shot)
 {
     struct kd_scene scene = studio_scene(shot->preset, shot->json);
     const struct kd_body *bodies[KD_SCENE_BODIES];
-    return scene.sky.model == KD_SKY_STARS || scene.sky.model == KD_SKY_CATALOGUE || scene.jets.brightness > 0 || kd_scene_bodies(&scene, bodies);
+    return scene.sky.model == KD_SKY_STARS || scene.sky.model == KD_SKY_CATALOGUE || scene.jets.brightness > 0 || !strncmp(shot->name, "gold-", 5) || !strcmp(shot->name, "riaf") || kd_scene_bodies(&scene, bodies);
 }
 
 int main(int argc, char **argv)

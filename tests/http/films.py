@@ -3,6 +3,7 @@
 import json
 import os
 import pathlib
+import re
 import shutil
 import stat
 import subprocess
@@ -116,11 +117,14 @@ class Given(Films):
 
     def test_who_leaves_ends_it(self):
         server, client, number = self.hanging()
-        self.assertEqual(os.getpriority(os.PRIO_PROCESS, number), 10)
+        self.assertTrue(daemon.eventually(lambda: os.getpriority(os.PRIO_PROCESS, number) == 10))  # set once it runs
         self.assertEqual(len(os.listdir(f'/proc/{number}/fd')), 4, 'it has no descriptor of the server')
         self.assertEqual(server.get('/healthz').status, 200)
-        with open(f'/proc/{number}/limits') as limits:
-            self.assertRegex(limits.read(), r'Max file size +10[0-9]{5} ', 'as large as its pictures, and a little')
+
+        def limits():
+            with open(f'/proc/{number}/limits', encoding='utf-8') as file:
+                return file.read()
+        self.assertTrue(daemon.eventually(lambda: re.search(r'Max file size +10[0-9]{5} ', limits())), 'as large as its pictures, and a little')
         daemon.vanish(client)
         self.gone(number)
         self.ended(server)

@@ -1,4 +1,4 @@
-/* Units of light at a radio frequency: the picture's 1 is KD_RADIO_KELVIN of brightness temperature. Pure functions of valid scenes, any thread. */
+/* Light at a radio frequency has these units: the picture's 1 is KD_RADIO_KELVIN of brightness temperature. Pure functions of valid scenes, any thread. */
 #ifndef KD_RENDER_EMIT_RADIO_H
 #define KD_RENDER_EMIT_RADIO_H
 

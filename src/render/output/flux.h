@@ -1,4 +1,4 @@
-/* The flux of a picture at a radio frequency, as answers tell it. Any thread. */
+/* Answers tell the flux of a picture at a radio frequency by this. Any thread. */
 #ifndef KD_RENDER_OUTPUT_FLUX_H
 #define KD_RENDER_OUTPUT_FLUX_H
 
