@@ -80,6 +80,9 @@ void meet(inout kd_beam beam, float w, uint n, uvec2 place, uint at)
 #include "light/meet.glsl"
 #endif
 
+/* A ray of the pixel was given up: that leaves no number. It is no NaN that says so, which a device need not carry through sums. */
+bool untold = false;
+
 /* This is the luminance of a ray, Stokes I, and Q and U: of all that it sees, or of one order, as it arrives. */
 vec3 light(uvec2 place, uint at, uint pixel)
 {
@@ -109,7 +112,8 @@ vec3 light(uvec2 place, uint at, uint pixel)
             kd_beam_end(beam, kd_end(quantity(KD_LENS_SKY_U, at), quantity(KD_LENS_SKY_PHI, at), quantity(KD_LENS_SKY_FOOTPRINT, at), ray.e));
         kd_beam_points(beam, pixel);
     }
-    return given_up ? vec3(KD_NOTHING) : vec3(dot(beam.light, LUMINANCE), polarized);
+    untold = untold || given_up;
+    return vec3(dot(beam.light, LUMINANCE), polarized);
 }
 
 /* The angle of the electric field, from north to east, in (-pi/2, pi/2]; and the part of the light that is polarised. */
@@ -196,7 +200,7 @@ vec3 sum_so_far(uint o)
 }
 void keep_sum(uint o, vec3 sum)
 {
-    layer[o] = kd_is_finite(sum.x) ? floatBitsToUint(sum.x) : KD_NOTHING_BITS;
+    layer[o] = untold ? KD_NOTHING_BITS : floatBitsToUint(sum.x);
     if (POLARIZED) {
         layer[o + emission.frame.band_pixels] = floatBitsToUint(sum.y);
         layer[o + 2u * emission.frame.band_pixels] = floatBitsToUint(sum.z);
@@ -219,6 +223,7 @@ void main()
     }
     uint o = (py - (CRITICAL > 0 ? slice.band0 : slice.band0 / SIDE)) * emission.frame.pixels_x + px;
     float value = 0.0;
+    bool until_last = false; /* there are sums alone so far */
     if (OF_LIGHT) {
         const uint rays = CRITICAL > 0 ? CRITICAL : SIDE * SIDE;
 #ifdef KD_MARCH
@@ -233,19 +238,21 @@ void main()
         }
         sum *= 1.0 / float(rays);
 #ifdef KD_MARCH
-        if (slice.ray > 0u) /* a ray that was given up leaves no number, whatever comes behind it */
-            sum = layer[o] == KD_NOTHING_BITS ? vec3(KD_NOTHING) : sum + sum_so_far(o);
-        if (slice.ray + 1u < rays) {
-            keep_sum(o, sum);
-            return;
+        if (slice.ray > 0u) { /* whatever comes behind it */
+            untold = untold || layer[o] == KD_NOTHING_BITS;
+            sum += sum_so_far(o);
         }
+        until_last = slice.ray + 1u < rays;
+        if (until_last)
+            keep_sum(o, sum);
 #endif
-        value = kd_is_finite(sum.x) ? value_of_light(sum) : KD_NOTHING;
+        value = value_of_light(sum);
     } else {
         uvec2 place = uvec2(px, py) * SIDE + (SIDE - 1u) / 2u; /* of the grid: the middle one, or the one before it */
         uint at = (place.y - slice.band0) * cam.width + place.x;
         value = OF_CROSSING ? of_crossing(place, at) : of_end(at);
     }
     uint bits = floatBitsToUint(value);
-    layer[o] = kd_is_finite(value) || bits == KD_INFINITE_BITS ? bits : KD_NOTHING_BITS;
+    if (!until_last)
+        layer[o] = !untold && (kd_is_finite(value) || bits == KD_INFINITE_BITS) ? bits : KD_NOTHING_BITS;
 }

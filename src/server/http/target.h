@@ -8,7 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define KD_TARGET_PAIRS 256 /* more than the fields of a scene, those of all elements of its lists included */
+#define KD_TARGET_PAIRS 384 /* more than the fields of a scene, those of all elements of its lists included */
 
 struct kd_target {
     char *text; /* owns what the pointers below point into */
