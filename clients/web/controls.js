@@ -103,10 +103,14 @@ function row(field, scene) {
   control.label?.setAttribute('aria-label', mark ? `${label} (${mark})` : label);
   const fault = el('p', { class: 'fault', hidden: true }),
     about = el('p', { class: 'help', id: id + '-help', lang: helpLang }, help);
-  // The help of a choice tells what is chosen.
+  // The help of a choice tells what is chosen. What shows its value already stays as it is, but for what somebody has typed into.
+  let shown;
   function show() {
+    const value = scene.get(field.path);
+    if (value === shown && !node.contains(document.activeElement)) return;
+    shown = value;
     control.show();
-    const told = hint(field.path, scene.get(field.path));
+    const told = hint(field.path, value);
     if (told) ((about.textContent = told), about.removeAttribute('lang'));
   }
   const node = el(
@@ -182,14 +186,17 @@ export function buildControls(scene, living_root) {
 
   // A list shows the elements that there are and the next one.
   function grow({ name, most, groups, node }) {
-    const wanted = Math.min(most, scene.count(name) + 1);
+    const wanted = Math.min(most, scene.count(name) + 1),
+      grew = groups.length < wanted;
     for (let i = groups.length; i < wanted; i++) {
       const title = element(name, i);
       groups.push(el('details', { class: 'element', id: `element-${name}-${i}` }, el('summary', {}, title), parts(`${name}.${i}`, title)));
       remember(groups[i], false);
       node.append(groups[i]);
     }
+    const before = groups.filter(g => !g.hidden).length;
     groups.forEach((g, i) => (g.hidden = i >= wanted));
+    return grew || before !== wanted;
   }
 
   // What has no field that means anything here is not there either.
@@ -198,9 +205,14 @@ export function buildControls(scene, living_root) {
   }
 
   function show() {
-    lists.forEach(grow);
-    for (const r of rows) ((r.node.hidden = !meansSomething(scene, r.path)), r.show());
-    showParts();
+    const grown = lists.map(grow).some(yes => yes);
+    let others = false; // fields than those that stood here
+    for (const r of rows) {
+      const hidden = !meansSomething(scene, r.path);
+      if (r.node.hidden !== hidden) ((r.node.hidden = hidden), (others = true));
+      r.show();
+    }
+    if (others || grown) showParts();
   }
   for (const event of ['change', 'settle']) scene.addEventListener(event, show);
   const moved = rows.filter(r => ['time', 'camera.r', 'camera.azimuth_deg'].includes(r.path));

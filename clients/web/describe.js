@@ -14,7 +14,8 @@ const seen = {}; // what a view shows, by its name
 // The title says it while the view is the one that is looked at.
 export function entitle(view, what) {
   if (what != null) seen[view] = what;
-  if (document.body.dataset.view === view) document.title = `${views[view]}${seen[view] ? `: ${seen[view]}` : ''} – kerrd`;
+  const title = `${views[view]}${seen[view] ? `: ${seen[view]}` : ''} – kerrd`;
+  if (document.body.dataset.view === view && document.title !== title) document.title = title;
 }
 
 export function nameOf(scene) {
@@ -44,6 +45,8 @@ export function describe(scene) {
   return [hole, ...told].join(' ');
 }
 
+const pace_ms = 250; // while a hand drags; what follows nothing is said at once
+
 // Keeps title, picture and stage at what the scene is.
 export function followScene(scene) {
   function follow() {
@@ -51,6 +54,13 @@ export function followScene(scene) {
     byId('picture').alt = describe(scene);
     byId('stage').setAttribute('aria-label', t(`Camera on the hole: ${nameOf(scene)}`, `Camera sul buco: ${nameOf(scene)}`));
   }
-  for (const event of ['change', 'settle']) scene.addEventListener(event, follow);
+  let timer = 0,
+    late = false;
+  function paced() {
+    if (timer) return (late = true);
+    follow();
+    timer = setTimeout(() => ((timer = 0), late && ((late = false), paced())), pace_ms);
+  }
+  for (const event of ['change', 'settle']) scene.addEventListener(event, paced);
   follow();
 }

@@ -163,18 +163,25 @@ export const label = (name, text) => words?.labels[name] ?? text;
 
 const raised = text => [...text].map(c => (c === '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'[c])).join('');
 
+// A format is made once for what it is asked with: that takes a hundred times as long as to use it.
+const formats = new Map();
+function shown(v, most, grouped) {
+  const key = `${most} ${grouped}`;
+  if (!formats.has(key)) formats.set(key, new Intl.NumberFormat(lang, { maximumSignificantDigits: most, useGrouping: grouped }));
+  return formats.get(key).format(v).replace('-', '−');
+}
+
 // 0.0123, 12 300, 1.6 × 10⁻⁷.
 export function number(x, digits = 4) {
   if (x == null || Number.isNaN(x)) return '–';
   if (!Number.isFinite(x)) return x > 0 ? '∞' : '−∞';
-  const size = Math.abs(x),
-    show = (v, options) => v.toLocaleString(lang, options).replace('-', '−');
+  const size = Math.abs(x);
   if (size && (size < 1e-3 || size >= 1e6)) {
     const [mantissa, power] = x.toExponential(digits - 1).split('e');
-    const front = show(Number(mantissa), { maximumSignificantDigits: digits });
+    const front = shown(Number(mantissa), digits, 'auto');
     return (front === '1' ? '' : `${front} × `) + '10' + raised(String(Number(power)));
   }
-  return show(x, { maximumSignificantDigits: Math.max(digits, Math.floor(Math.log10(size || 1)) + 1), useGrouping: size >= 1e4 });
+  return shown(x, Math.max(digits, Math.floor(Math.log10(size || 1)) + 1), size >= 1e4);
 }
 
 const spans = [

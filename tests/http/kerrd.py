@@ -21,6 +21,7 @@ import zipfile
 import zlib
 
 import daemon
+import jpeg
 
 TARGET = '/v1/render?image.width=320&image.height=180'
 
@@ -304,6 +305,33 @@ class Kerrd(unittest.TestCase):
             pictures.append(answer.body)
         self.assertEqual(pictures[0][24], 8)
         self.assertEqual(pictures[0], pictures[1])
+
+    def test_moving_frames_may_be_lossy_and_say_how(self):
+        """JPEG beside PNG of the same frame: by a decoder that shares nothing with the encoder, and no further off than is documented."""
+        session = self.open({'image': {'width': 96, 'height': 64}, 'motion': {'time_rate': 1}})
+        at, number = f'/v1/sessions/{session["id"]}/frame', 0
+        for quality, least_db in ((30, 24), (75, 29), (95, 36)):
+            for _ in range(20):  # until both are of the same frame
+                lossy = self.daemon.get(f'{at}?lossy={quality}&after={number}')
+                number = int(lossy.header('Kerrd-Frame'))
+                exact = self.daemon.get(f'{at}?after={number - 1}')
+                if exact.header('Kerrd-Frame') == lossy.header('Kerrd-Frame'):
+                    break
+            self.assertEqual(exact.header('Kerrd-Frame'), lossy.header('Kerrd-Frame'))
+            self.assertTrue(lossy.header('Kerrd-Quality').endswith(f' final=0 lossy={quality}'), lossy.header('Kerrd-Quality'))
+            width, height, rgb, _ = jpeg.decode(lossy.body)
+            rows, before = pixels(exact.body), []
+            self.assertEqual(len(rows), (3 * width + 1) * height)
+            for y in range(height):  # the filter Sub, which live frames have
+                row = rows[(3 * width + 1) * y:][:3 * width + 1]
+                self.assertEqual(row[0], 1)
+                line = bytearray(row[1:])
+                for i in range(3, len(line)):
+                    line[i] = (line[i] + line[i - 3]) & 255
+                before += line
+            error = sum((a - b) ** 2 for a, b in zip(rgb, before)) / len(before)
+            self.assertGreater(error, 0)
+            self.assertGreater(10 * math.log10(255 ** 2 / error), least_db, quality)
 
     def test_pixels_have_as_many_rays_as_they_need(self):
         scene = {'image': {'width': 320, 'height': 180, 'samples': 'auto'}, 'disk': {'gas': {'amplitude': 0.8}}}

@@ -15,6 +15,7 @@ struct kd_picture {
     const struct kd_plan *plan;
     const char *device; /* as kd_renderer_device_name */
     unsigned number;    /* in a series, from 0 on */
+    unsigned lossy;     /* the quality of a format that loses some, 1 to 100 */
 };
 
 enum kd_effort {
@@ -48,6 +49,9 @@ struct kd_format {
 #define KD_FORMAT_DECLARE(name) extern const struct kd_format kd_format_##name;
 KD_FORMATS(KD_FORMAT_DECLARE)
 #undef KD_FORMAT_DECLARE
+
+/* Moving frames of those who take them, of the quality that the picture says; in no table. jpeg.c */
+extern const struct kd_format kd_format_jpeg;
 
 /* The first is what is made where nobody says otherwise. formats.c */
 extern const struct kd_format *const kd_formats[];

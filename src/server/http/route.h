@@ -85,6 +85,7 @@ enum MHD_Result kd_handle_session_ringdown(struct kd_request *request);
 enum MHD_Result kd_handle_session_path(struct kd_request *request);
 enum MHD_Result kd_handle_session_particles(struct kd_request *request); /* session/particles.c */
 enum MHD_Result kd_handle_session_frame(struct kd_request *request); /* session/live.c */
+enum MHD_Result kd_handle_session_picture(struct kd_request *request);
 enum MHD_Result kd_handle_session_frames(struct kd_request *request);
 enum MHD_Result kd_handle_session_events(struct kd_request *request);
 enum MHD_Result kd_handle_plays(struct kd_request *request); /* playground/routes.c */

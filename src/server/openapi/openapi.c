@@ -106,6 +106,8 @@ static void add_path_parameter(struct kd_json *json, const char *path)
 #define WHOLE "{\"type\":\"integer\",\"minimum\":0}"
 #define PART "{\"type\":\"number\",\"minimum\":0.25,\"maximum\":1}"
 #define PACE_MS "{\"type\":\"number\",\"minimum\":10,\"maximum\":60000}"
+#define ORDER "order", "{\"type\":\"integer\",\"minimum\":1,\"maximum\":9007199254740992}", \
+    "of patches that are under way at once the one with the highest number counts: one that comes after a higher one changes nothing"
 #define LEAST "least", PART, "the least part of image.width that a frame has while the scene changes; 0.25 without it"
 #define PATIENCE "patience_ms", PACE_MS, "frames are narrower than that all the same where they were measured to take longer than this"
 #define MOMENT "{\"type\":\"integer\",\"minimum\":0,\"maximum\":60000}"
@@ -119,6 +121,11 @@ static const struct {
     { "/v1/sessions/{id}", LEAST, KD_PATCH }, { "/v1/sessions/{id}", PATIENCE, KD_PATCH },
     { "/v1/sessions/{id}/frame.png", "after", WHOLE, "number of the last frame that the client has; 0 without it" },
     { "/v1/sessions/{id}/frame.png", "wait_ms", MOMENT, "how long to wait for a newer one" },
+    { "/v1/sessions/{id}", ORDER, KD_PATCH }, { "/v1/sessions/{id}/frame", ORDER, KD_PATCH },
+    { "/v1/sessions/{id}/frame", "after", WHOLE, "number of the last frame that the client has; 0 without it" },
+    { "/v1/sessions/{id}/frame", "wait_ms", MOMENT, "how long to wait for a newer one" },
+    { "/v1/sessions/{id}/frame", "lossy", "{\"type\":\"integer\",\"minimum\":1,\"maximum\":100}",
+      "takes frames that are not the last as JPEG of this quality; without it all are PNG" },
     { "/v1/playground/{id}/frame.png", "after", WHOLE, "number of the last frame that the client has; 0 without it" },
     { "/v1/playground/{id}/frame.png", "wait_ms", MOMENT, "how long to wait for a newer one" },
     { "/v1/playground/{id}/bodies", "after", WHOLE, "generation that the client has; without it the answer comes at once" },

@@ -382,5 +382,5 @@ static struct kd_session *picture_of(struct kd_request *request, enum MHD_Result
     return picture;
 }
 
-enum MHD_Result kd_handle_play_frame(struct kd_request *request) { return kd_live_newest(request, picture_of); }
+enum MHD_Result kd_handle_play_frame(struct kd_request *request) { return kd_live_newest(request, picture_of, false); }
 enum MHD_Result kd_handle_play_frames(struct kd_request *request) { return kd_live_frames(request, picture_of); }

@@ -27,10 +27,11 @@ static struct kd_render_job *take_next(struct kd_render_queue *queue)
 static void encode(struct kd_render_queue *queue, struct kd_render_job *job, struct kd_encoder *encoder)
 {
     double start = kd_clock_ms();
-    const struct kd_picture picture = { &job->frame, &job->scene, &job->plan, kd_render_queue_device_name(queue), job->number };
+    const struct kd_picture picture = { &job->frame, &job->scene, &job->plan, kd_render_queue_device_name(queue), job->number, job->lossy };
     job->status = kd_encode(job->format, &picture, job->effort, encoder, &job->file, &job->error);
     job->encode_ms = kd_clock_ms() - start;
-    kd_frame_drop_layers(&job->frame);
+    if (!job->keeps)
+        kd_frame_drop_layers(&job->frame);
 }
 
 void *kd_render_encode_main(void *user)

@@ -11,12 +11,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void describe_quality(struct kd_live_frame *frame, const struct kd_render_job *job, const struct kd_live_note *note)
+static void describe_quality(struct kd_live_frame *frame, const struct kd_render_job *job)
 {
     const struct kd_plan *p = &job->plan;
-    snprintf(frame->quality, sizeof frame->quality, "width=%u height=%u samples=%u orders=%u engine=%s precision=%s steps=%u sketch=%d final=%d",
+    snprintf(frame->quality, sizeof frame->quality, "width=%u height=%u samples=%u orders=%u engine=%s precision=%s steps=%u sketch=%d",
              p->width, p->height, p->side, p->orders, kd_engine_name(p->setting.engine), kd_precision_name(p->setting.precision),
-             p->setting.steps, p->march.sketched, note->final);
+             p->setting.steps, p->march.sketched);
 }
 
 static void describe_timing(struct kd_live_frame *frame, const struct kd_render_job *job)
@@ -26,8 +26,6 @@ static void describe_timing(struct kd_live_frame *frame, const struct kd_render_
     for (size_t i = 0; i < job->frame.n_timings && n < sizeof frame->timing; i++)
         n += (size_t)snprintf(frame->timing + n, sizeof frame->timing - n, ", %s;dur=%.3f", job->frame.timings[i].name,
                               job->frame.timings[i].ms);
-    if (n < sizeof frame->timing)
-        snprintf(frame->timing + n, sizeof frame->timing - n, ", encode;dur=%.3f", job->encode_ms);
 }
 
 static void add_quality(struct kd_json *json, const struct kd_render_job *job, const struct kd_live_note *note)
@@ -144,7 +142,7 @@ static enum kd_status describe_event(struct kd_live_frame *frame, const struct k
         kd_fall_clock_json(&clock, json, "clock");
     kd_json_number(json, "exposure", job->frame.exposure);
     kd_json_number(json, "fps", note->fps);
-    kd_json_number(json, "bytes", (double)frame->file.size);
+    kd_json_number(json, "bytes", (double)frame->files[0].bytes.size);
     add_quality(json, job, note);
     add_passes(json, job);
     kd_json_bool(json, "lens_map_reused", job->frame.lens_reused);
@@ -170,19 +168,24 @@ struct kd_live_frame *kd_live_frame_make(struct kd_render_job *job, const struct
     frame->revision = note->revision;
     frame->time = job->scene.top.time;
     frame->azimuth_deg = job->scene.camera.azimuth_deg;
-    frame->format = job->format;
-    frame->file = job->file;
+    frame->final = note->final;
+    frame->last = note->last;
+    frame->files[frame->n_files++] = (struct kd_live_file) { job->format, job->lossy, job->file, job->encode_ms };
     job->file = (struct kd_buffer) { 0 };
     kd_accuracy_text(&job->frame.accuracy, &job->plan, frame->accuracy);
     kd_fall_clock_text(&job->scene, frame->clock);
     kd_flux_text(&job->scene, &job->frame, frame->flux);
-    describe_quality(frame, job, note);
+    describe_quality(frame, job);
     describe_timing(frame, job);
     enum kd_status status;
     KD_TRY(describe_event(frame, job, note));
     for (size_t i = 0; i < job->plan.n_approximations; i++)
         KD_TRY(kd_reply_quote(&frame->approximations, job->plan.approximations[i]));
 done:
+    if (!status && job->keeps) {
+        frame->picture = job->frame;
+        job->frame = (struct kd_frame) { 0 };
+    }
     if (!status)
         return frame;
     kd_live_frame_release(frame);
@@ -199,7 +202,9 @@ void kd_live_frame_release(struct kd_live_frame *frame)
 {
     if (!frame || atomic_fetch_sub(&frame->references, 1) > 1)
         return;
-    kd_buffer_finish(&frame->file);
+    for (unsigned i = 0; i < frame->n_files; i++)
+        kd_buffer_finish(&frame->files[i].bytes);
+    kd_frame_finish(&frame->picture);
     kd_buffer_finish(&frame->approximations);
     kd_buffer_finish(&frame->event);
     free(frame);

@@ -1,4 +1,5 @@
-/* A live frame is one encoded frame of a session and what is said of it; all who watch share it, and the last frees it. Constant once made. */
+/* A live frame is one frame of a session, encoded, and what is said of it; all who watch share it, and the last frees it. It is constant once made, but for
+ * its files: one that is not the last of its scene may be asked for in other kinds, and has its pixels for that. */
 #ifndef KD_SERVER_RENDER_LIVE_FRAME_H
 #define KD_SERVER_RENDER_LIVE_FRAME_H
 
@@ -9,14 +10,26 @@
 #include <stdatomic.h>
 #include <stdint.h>
 
+/* A frame in one kind: exact, or of a lossy format at a quality. */
+struct kd_live_file {
+    const struct kd_format *format;
+    unsigned lossy; /* its quality, 1 to 100; 0: none is lost */
+    struct kd_buffer bytes;
+    double encode_ms;
+};
+#define KD_LIVE_FILES 6 /* one that is exact, and others */
+
 struct kd_live_frame {
     _Atomic unsigned references;
     uint64_t number;   /* of the session's frames, growing, not without gaps */
     unsigned revision; /* of the scene that it shows */
     double time;       /* of the scene as it shows it, M */
     double azimuth_deg; /* likewise of its camera */
-    const struct kd_format *format;
-    struct kd_buffer file;           /* of it */
+    bool final;         /* nothing finer will follow for this revision; */
+    bool last;          /* nor any other: it is exact, and nothing else */
+    struct kd_live_file files[KD_LIVE_FILES]; /* those that are there stay as they are; */
+    unsigned n_files;        /* more may come, under the lock of the sessions */
+    struct kd_frame picture; /* of one that is not the last: its pixels */
     struct kd_buffer approximations; /* as the header has them */
     struct kd_buffer event;          /* the data of its event: JSON in one line */
     char accuracy[KD_ACCURACY_TEXT], timing[400], quality[160], clock[KD_CLOCK_TEXT], flux[KD_FLUX_TEXT];
@@ -26,11 +39,11 @@ struct kd_live_frame {
 struct kd_live_note {
     uint64_t number;
     unsigned revision;
-    bool final; /* nothing finer will follow for this revision */
+    bool final, last; /* nothing finer will follow for this revision; nor any other */
     double fps; /* of late */
 };
 
-/* Takes the job's file over. NULL: out of memory. One reference. */
+/* Takes the job's file over, and its picture where that keeps its layers. NULL: out of memory. One reference. */
 struct kd_live_frame *kd_live_frame_make(struct kd_render_job *job, const struct kd_live_note *note);
 struct kd_live_frame *kd_live_frame_share(struct kd_live_frame *frame);
 void kd_live_frame_release(struct kd_live_frame *frame); /* accepts NULL */

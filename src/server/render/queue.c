@@ -251,6 +251,16 @@ void kd_render_queue_push(struct kd_render_queue *queue, struct kd_render_job *j
     pthread_mutex_unlock(&queue->lock);
 }
 
+void kd_render_queue_encode(struct kd_render_queue *queue, struct kd_render_job *job)
+{
+    job->queue = queue;
+    job->submitted_ms = kd_clock_ms();
+    pthread_mutex_lock(&queue->lock);
+    queue->unfinished++;
+    kd_render_encode(queue, job);
+    pthread_mutex_unlock(&queue->lock);
+}
+
 void kd_render_queue_sky_ahead(struct kd_render_queue *queue, const char *hash, uint32_t width, uint32_t height)
 {
     struct kd_capacity c;

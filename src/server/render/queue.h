@@ -45,7 +45,8 @@ struct kd_render_job {
     struct kd_plan plan;
     const struct kd_format *format; /* of the file that the picture becomes, */
     enum kd_effort effort;
-    unsigned number; /* as in struct kd_picture */
+    unsigned number, lossy; /* as in struct kd_picture */
+    bool keeps;      /* the frame's layers, once it has been encoded */
     /* NULL: a picture is rendered and encoded. Else this is called instead, with the device; if it sets `more` it is called again at
      * the next turn, and so on. */
     enum kd_status (*run)(struct kd_render_job *job, struct kd_renderer *renderer, kd_progress_fn progress,
@@ -62,7 +63,7 @@ struct kd_render_job {
     enum kd_status status;
     struct kd_error error;
     struct kd_buffer file;
-    struct kd_frame frame; /* without its layers */
+    struct kd_frame frame; /* without its layers, unless it keeps them */
     double queue_ms, encode_ms; /* queue_ms: in which others had the device, before it began and between its slices */
     /* the queue's own */
     struct kd_render_job *next;
@@ -99,6 +100,8 @@ double kd_render_queue_backlog_ms(struct kd_render_queue *queue);
  * submitting thread. */
 enum kd_status kd_render_queue_admit(struct kd_render_queue *queue, const char *client, bool *quota, struct kd_error *error);
 void kd_render_queue_push(struct kd_render_queue *queue, struct kd_render_job *job);
+/* Has a frame encoded that is there already: job->frame, in one more format. Any thread. */
+void kd_render_queue_encode(struct kd_render_queue *queue, struct kd_render_job *job);
 
 /* Drop jobs whose clients have gone. Any thread. */
 void kd_render_queue_sweep(struct kd_render_queue *queue);

@@ -25,12 +25,14 @@ struct kd_session {
     struct kd_governor governor;
     struct kd_budget_entry demand; /* entered while it is listed */
     unsigned revision; /* of the scene */
+    uint64_t order;    /* of the latest patch that had one */
     uint64_t begun; /* frames */
     bool moved;     /* the scene of the latest one went on by itself, */
     bool flew;      /* and so did its camera */
     bool listed;
     struct kd_session_frame *rendering; /* before it is encoded */
     unsigned encoding;
+    bool adding; /* a file to a frame that is there */
     struct kd_live_frame *latest;
     double exposed_ms, exposure;  /* when the latest was rendered, and the stops that it got; */
     unsigned exposed_revision;    /* 0: none */
@@ -71,5 +73,11 @@ void kd_session_drop(struct kd_session *session); /* whatever it is */
 /* Says whether somebody waits. The first frame is made before anybody asks. watch.c */
 bool kd_session_awaited(const struct kd_session *session);
 void kd_session_wake(struct kd_session *session); /* those for whom there is something */
+
+/* The kinds in which a frame is asked for. kinds.c */
+void kd_session_choose_kind(const struct kd_session *session, bool last, struct kd_render_job *job); /* the first, by who waits */
+/* What the viewer takes of the frame: NULL where that is still to be made. */
+const struct kd_live_file *kd_session_file(const struct kd_viewer *viewer, const struct kd_live_frame *frame);
+void kd_session_add_kinds(struct kd_session *session); /* begins to make what is missing of the latest frame for those who wait */
 
 #endif

@@ -33,30 +33,48 @@ static void describe(struct MHD_Response *response, const struct kd_live_frame *
     MHD_add_response_header(response, "Kerrd-Time", number);
     snprintf(number, sizeof number, "%.15g", frame->azimuth_deg);
     MHD_add_response_header(response, "Kerrd-Azimuth", number);
-    MHD_add_response_header(response, "Kerrd-Quality", frame->quality);
     MHD_add_response_header(response, "Kerrd-Accuracy", frame->accuracy);
     if (*frame->clock)
         MHD_add_response_header(response, "Kerrd-Clock", frame->clock);
     if (*frame->flux)
         MHD_add_response_header(response, "Kerrd-Flux", frame->flux);
-    MHD_add_response_header(response, "Server-Timing", frame->timing);
     if (frame->approximations.size)
         MHD_add_response_header(response, "Kerrd-Approximations", (const char *)frame->approximations.data);
 }
 
+/* What is said of the frame in this kind. */
+static void describe_file(struct MHD_Response *response, const struct kd_live_frame *frame, const struct kd_live_file *file)
+{
+    char text[sizeof frame->timing + 40];
+    snprintf(text, sizeof text, file->lossy ? "%s final=%d lossy=%u" : "%s final=%d", frame->quality, frame->final && !file->lossy, file->lossy);
+    MHD_add_response_header(response, "Kerrd-Quality", text);
+    snprintf(text, sizeof text, "%s, encode;dur=%.3f", frame->timing, file->encode_ms);
+    MHD_add_response_header(response, "Server-Timing", text);
+    MHD_add_response_header(response, "Content-Type", file->format->media_type);
+}
+
+static void tell_patched(struct MHD_Response *response, const struct kd_viewer *viewer)
+{
+    char number[24];
+    snprintf(number, sizeof number, "%u", viewer->patched);
+    if (response && viewer->patched)
+        MHD_add_response_header(response, "Kerrd-Patched", number);
+}
+
 static void release_frame(void *cls) { kd_live_frame_release(cls); }
 
-static enum MHD_Result send_frame(struct kd_request *request, struct kd_live_frame *frame)
+static enum MHD_Result send_frame(struct kd_request *request, const struct kd_viewer *viewer, struct kd_live_frame *frame)
 {
-    struct MHD_Response *response =
-        MHD_create_response_from_buffer_with_free_callback_cls(frame->file.size, frame->file.data, release_frame, frame);
+    const struct kd_live_file *file = viewer->file;
+    struct MHD_Response *response = MHD_create_response_from_buffer_with_free_callback_cls(file->bytes.size, file->bytes.data, release_frame, frame);
     if (!response) {
         kd_live_frame_release(frame);
         return kd_reply_no_memory(request);
     }
-    MHD_add_response_header(response, "Content-Type", frame->format->media_type);
     describe(response, frame);
-    request->reply_bytes = frame->file.size;
+    describe_file(response, frame, file);
+    tell_patched(response, viewer);
+    request->reply_bytes = file->bytes.size;
     return kd_reply_send(request, MHD_HTTP_OK, response);
 }
 
@@ -68,11 +86,16 @@ static enum MHD_Result look(struct kd_request *request)
     enum kd_viewer_news what = kd_viewer_next(request->viewer, &frame, &error);
     if (what == KD_VIEWER_LATER)
         return MHD_YES;
+    const struct kd_viewer viewer = *request->viewer;
     kd_live_abandon(request);
+    struct MHD_Response *nothing;
     switch (what) {
-    case KD_VIEWER_FRAME: return send_frame(request, frame);
+    case KD_VIEWER_FRAME: return send_frame(request, &viewer, frame);
     case KD_VIEWER_OVER: return error.status ? kd_reply_error(request, &error) : ended(request);
-    case KD_VIEWER_LATE: return kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, kd_format_live()->media_type));
+    case KD_VIEWER_LATE:
+        nothing = kd_reply_static("", 0, kd_format_live()->media_type);
+        tell_patched(nothing, &viewer);
+        return kd_reply_send(request, MHD_HTTP_NO_CONTENT, nothing);
     default: return MHD_NO;
     }
 }
@@ -82,14 +105,17 @@ static enum MHD_Result bad_number(struct kd_request *request, const char *detail
     return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_INVALID_PARAMETERS, .detail = detail });
 }
 
-enum MHD_Result kd_live_newest(struct kd_request *request, kd_session_find_fn *find)
+enum MHD_Result kd_live_newest(struct kd_request *request, kd_session_find_fn *find, bool kinds)
 {
-    uint64_t after, wait;
+    uint64_t after, wait, lossy = 0;
     enum MHD_Result refused;
+    const bool patches = kinds && !strcmp(request->method, "PATCH");
     if (request->viewer)
         return look(request);
-    if (!kd_reply_only(request, (const char *const[]) { "after", "wait_ms", NULL }, &refused))
+    if (!kd_reply_only(request, (const char *const[]) { "after", "wait_ms", kinds ? "lossy" : NULL, patches ? "order" : NULL, NULL }, &refused))
         return refused;
+    if (kinds && kd_target_value(&request->target, "lossy") && (!kd_target_whole(&request->target, "lossy", 0, 100, &lossy) || !lossy))
+        return bad_number(request, "lossy is a whole number, 1 to 100: the quality of frames that are not the last; without it they are exact");
     if (!kd_target_whole(&request->target, "after", 0, UINT64_MAX, &after))
         return bad_number(request, "after is the number of a frame, Kerrd-Frame of one that you have");
     if (!kd_target_whole(&request->target, "wait_ms", WAIT_MS, 60000, &wait))
@@ -97,13 +123,18 @@ enum MHD_Result kd_live_newest(struct kd_request *request, kd_session_find_fn *f
     struct kd_session *session = find(request, &refused);
     if (!session)
         return refused;
+    struct kd_session_state state = { 0 };
+    if (patches && !kd_session_change(request, session, &state, &refused)) {
+        kd_session_release(session);
+        return refused;
+    }
     struct kd_viewer *viewer = request->connection ? calloc(1, sizeof *viewer) : NULL;
     if (!viewer) {
         kd_session_release(session);
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
     }
     *viewer = (struct kd_viewer) { .session = session, .mhd = request->mhd, .socket = kd_connection_socket(request->connection),
-                                   .seen = after, .deadline_ms = kd_clock_ms() + (double)wait, .late = !wait };
+                                   .seen = after, .deadline_ms = kd_clock_ms() + (double)wait, .late = !wait, .lossy = (unsigned)lossy, .patched = state.revision };
     request->viewer = viewer;
     kd_viewer_attach(viewer);
     return look(request);
@@ -143,16 +174,16 @@ static void frame_parts(struct stream *s, struct kd_live_frame *frame)
     memset(s->parts, 0, sizeof s->parts);
     switch (s->form) {
     case MULTIPART:
-        set_part(s, 1, frame->file.data, frame->file.size);
+        set_part(s, 1, s->viewer.file->bytes.data, s->viewer.file->bytes.size);
         set_part(s, 2, s->next, strlen(s->next));
         return;
     case BINARY:
-        put_le32(s->before, (uint32_t)frame->file.size);
+        put_le32(s->before, (uint32_t)s->viewer.file->bytes.size);
         put_le32(s->before + 4, (uint32_t)frame->number);
         put_le32(s->before + 8, frame->revision);
         put_le32(s->before + 12, 0);
         set_part(s, 0, s->before, 16);
-        set_part(s, 1, frame->file.data, frame->file.size);
+        set_part(s, 1, s->viewer.file->bytes.data, s->viewer.file->bytes.size);
         return;
     case EVENTS:
         set_part(s, 0, s->before,
@@ -257,7 +288,7 @@ static enum MHD_Result open_stream(struct kd_request *request, kd_session_find_f
     }
     s->form = form;
     s->viewer = (struct kd_viewer) { .session = session, .mhd = request->mhd, .socket = kd_connection_socket(request->connection),
-                                     .seen = form == EVENTS ? last_event(request, session) : 0,
+                                     .any = form == EVENTS, .seen = form == EVENTS ? last_event(request, session) : 0,
                                      .deadline_ms = form == EVENTS ? kd_clock_ms() + HEARTBEAT_MS : INFINITY };
     s->part = form == MULTIPART ? 0 : 3;
     /* A browser shows a part when the head of the next one has come. So that head follows each frame at once, and the first head
@@ -277,6 +308,7 @@ enum MHD_Result kd_live_frames(struct kd_request *request, kd_session_find_fn *f
     return binary ? open_stream(request, find, BINARY, BINARY_TYPE) : open_stream(request, find, MULTIPART, "multipart/x-mixed-replace; boundary=kerrd");
 }
 
-enum MHD_Result kd_handle_session_frame(struct kd_request *request) { return kd_live_newest(request, kd_session_of); }
+enum MHD_Result kd_handle_session_frame(struct kd_request *request) { return kd_live_newest(request, kd_session_of, false); }
+enum MHD_Result kd_handle_session_picture(struct kd_request *request) { return kd_live_newest(request, kd_session_of, true); }
 enum MHD_Result kd_handle_session_frames(struct kd_request *request) { return kd_live_frames(request, kd_session_of); }
 enum MHD_Result kd_handle_session_events(struct kd_request *request) { return open_stream(request, kd_session_of, EVENTS, "text/event-stream"); }

@@ -19,6 +19,7 @@
 #include <strings.h>
 
 #define JSON_TYPE "application/json"
+#define ORDER_MAX (1ull << 53) /* a whole number in any client */
 #define STRIKE_VALUES 16 /* in the body of one: more would be wrong */
 
 struct kd_session *kd_session_of(struct kd_request *request, enum MHD_Result *refused)
@@ -48,7 +49,7 @@ done:
     return status;
 }
 
-/* {"id", "revision", "frame", "viewers", "scene", "varies", "emitters"}, on a path "path", of one who falls "clock", and for who has just made it the
+/* {"id", "revision", "frame", "viewers", ["order",] "scene", "varies", "emitters"}, on a path "path", of one who falls "clock", and for who has just made it the
  * token. */
 static enum kd_status to_json(const struct kd_session *session, const struct kd_session_state *state, bool token, struct kd_buffer *out)
 {
@@ -57,8 +58,11 @@ static enum kd_status to_json(const struct kd_session *session, const struct kd_
     KD_TRY(kd_buffer_printf(out, "{\"id\":\"%s\",", kd_session_id(session)));
     if (token)
         KD_TRY(kd_buffer_printf(out, "\"token\":\"%s\",", kd_session_token(session)));
-    KD_TRY(kd_buffer_printf(out, "\"revision\":%u,\"frame\":%llu,\"viewers\":%u,\"scene\":", state->revision,
+    KD_TRY(kd_buffer_printf(out, "\"revision\":%u,\"frame\":%llu,\"viewers\":%u,", state->revision,
                             (unsigned long long)state->frame, state->viewers));
+    if (state->order)
+        KD_TRY(kd_buffer_printf(out, "\"order\":%llu,", (unsigned long long)state->order));
+    KD_TRY(kd_buffer_printf(out, "\"scene\":"));
     KD_TRY(kd_scene_to_json(&state->scene, out));
     KD_TRY(add_varies(&state->scene, out));
     KD_TRY(kd_buffer_printf(out, ",\"emitters\":"));
@@ -171,21 +175,75 @@ enum MHD_Result kd_handle_sessions(struct kd_request *request)
     return result;
 }
 
+static enum MHD_Result refuse_patch(struct kd_request *request, const struct kd_error *error)
+{
+    struct kd_problem problem = kd_problem_from(error);
+    if (error->status == KD_EINVAL && !*error->pointer)
+        problem.type = KD_PROBLEM_MALFORMED_JSON;
+    return kd_reply_problem(request, &problem);
+}
+
+/* The place of a patch among those that are under way at once. */
+static enum kd_status read_order(const struct kd_request *request, uint64_t *order, struct kd_error *error)
+{
+    const char *text = kd_target_value(&request->target, "order");
+    *order = 0;
+    if (text && (!kd_target_whole(&request->target, "order", 0, ORDER_MAX, order) || !*order))
+        return kd_error_field(error, "/order", "order is %.20s, allowed is a whole number from 1 to 2^53, higher with each patch", text);
+    return KD_OK;
+}
+
+/* RFC 7240: whoever prefers return=minimal has the scene already. */
+static bool prefers_little(struct kd_request *request)
+{
+    struct kd_buffer prefer = kd_reply_header_list(request, "Prefer");
+    const bool little = prefer.data && strcasestr((const char *)prefer.data, "return=minimal");
+    kd_buffer_finish(&prefer);
+    return little;
+}
+
+static enum MHD_Result answer_little(struct kd_request *request, const struct kd_session_state *state)
+{
+    struct kd_buffer json = { 0 };
+    struct MHD_Response *response = NULL;
+    enum kd_status status = kd_buffer_printf(&json, "{\"revision\":%u", state->revision);
+    if (!status && state->order)
+        status = kd_buffer_printf(&json, ",\"order\":%llu", (unsigned long long)state->order);
+    if (!status && !kd_buffer_printf(&json, "}\n"))
+        response = kd_reply_take(&json, JSON_TYPE);
+    kd_buffer_finish(&json);
+    if (response)
+        MHD_add_response_header(response, "Preference-Applied", "return=minimal");
+    return kd_reply_send(request, MHD_HTTP_OK, response);
+}
+
 static enum MHD_Result patch(struct kd_request *request, struct kd_session *session, const char *text, size_t length)
 {
     struct kd_session_state state;
     struct kd_error error = { 0 };
     struct kd_session_pace pace;
+    uint64_t order;
     bool said;
-    if (!read_pace(request, &pace, &said, &error) && !kd_session_patch(session, text, length, &state, &error)) {
-        if (said)
-            kd_session_keep(session, &pace);
-        return kd_session_answer(request, session, &state);
+    if (read_pace(request, &pace, &said, &error) || read_order(request, &order, &error) || kd_session_patch(session, text, length, order, &state, &error))
+        return refuse_patch(request, &error);
+    if (said)
+        kd_session_keep(session, &pace);
+    return prefers_little(request) ? answer_little(request, &state) : kd_session_answer(request, session, &state);
+}
+
+bool kd_session_change(struct kd_request *request, struct kd_session *session, struct kd_session_state *state, enum MHD_Result *refused)
+{
+    struct kd_error error = { 0 };
+    uint64_t order;
+    if (!kd_session_owned(session, kd_token_of(request))) {
+        *refused = kd_session_forbid(request);
+        return false;
     }
-    struct kd_problem problem = kd_problem_from(&error);
-    if (error.status == KD_EINVAL && !*error.pointer)
-        problem.type = KD_PROBLEM_MALFORMED_JSON;
-    return kd_reply_problem(request, &problem);
+    const char *text = request->body.data ? (const char *)request->body.data : "";
+    if (!read_order(request, &order, &error) && !kd_session_patch(session, text, request->body.size, order, state, &error))
+        return true;
+    *refused = refuse_patch(request, &error);
+    return false;
 }
 
 enum MHD_Result kd_session_forbid(struct kd_request *request)

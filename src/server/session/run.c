@@ -20,7 +20,7 @@ struct kd_session_frame {
     double begun_ms;
     struct kd_turn turn;
     struct kd_crowd *crowd; /* that its scene shows: held */
-    bool rendered;
+    bool rendered, last; /* last: nothing finer follows, nor any other */
 };
 
 /* These functions run with the lock where nothing else is said. */
@@ -107,6 +107,8 @@ void kd_session_pump(struct kd_session *s)
         return;
     }
     live->number = ++s->begun;
+    live->last = turn.quality.final && !moves;
+    live->job.keeps = !live->last && !s->crowded;
     live->crowd = s->crowd;
     kd_crowd_keep(live->crowd);
     s->crowd_moved = false;
@@ -180,6 +182,7 @@ static void rendered(struct kd_render_job *job)
     struct kd_sessions *all = s->all;
     pthread_mutex_lock(&all->lock);
     live->rendered = true;
+    kd_session_choose_kind(s, live->last, job);
     s->rendering = NULL;
     s->encoding++;
     s->exposed_ms = live->begun_ms;
@@ -205,15 +208,16 @@ static void publish(struct kd_session *s, struct kd_session_frame *live)
     else
         s->interval_ms = 0;
     s->shown_ms = now;
-    const struct kd_live_note note = { live->number, live->revision, live->turn.quality.final, s->interval_ms > 0 ? 1e3 / s->interval_ms : 0 };
+    const struct kd_live_note note = { live->number, live->revision, live->turn.quality.final, live->last, s->interval_ms > 0 ? 1e3 / s->interval_ms : 0 };
     struct kd_live_frame *frame = kd_live_frame_make(&live->job, &note);
     if (!frame)
         return; /* the next one may have more luck */
     kd_live_frame_release(s->latest);
     s->latest = frame;
     s->all->frames++;
-    s->all->bytes += frame->file.size;
+    s->all->bytes += frame->files[0].bytes.size;
     kd_session_wake(s);
+    kd_session_add_kinds(s);
 }
 
 /* A thread of the queue calls this, without the lock. */

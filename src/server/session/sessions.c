@@ -187,7 +187,7 @@ static void state(const struct kd_session *s, struct kd_session_state *out) /* l
 {
     const double now = kd_clock_ms(), end = kd_timeline_end(&s->path);
     *out = (struct kd_session_state) { .scene = scene_now(s, now), .revision = s->revision, .viewers = viewers_of(s),
-                                       .frame = s->latest ? s->latest->number : 0, .path_at = fmin(seconds_of(s, now), end), .path_end = end };
+                                       .frame = s->latest ? s->latest->number : 0, .order = s->order, .path_at = fmin(seconds_of(s, now), end), .path_end = end };
 }
 
 void kd_session_state(struct kd_session *s, struct kd_session_state *out)
@@ -211,11 +211,15 @@ static void change(struct kd_session *s, double now, const struct kd_scene *scen
     kd_session_pump(s);
 }
 
-enum kd_status kd_session_patch(struct kd_session *s, const char *text, size_t length, struct kd_session_state *out,
+enum kd_status kd_session_patch(struct kd_session *s, const char *text, size_t length, uint64_t order, struct kd_session_state *out,
                                 struct kd_error *error)
 {
     struct kd_plan plan;
     double now = kd_clock_ms();
+    if (order && order <= s->order) { /* only the HTTP thread writes it */
+        kd_session_state(s, out);
+        return KD_OK;
+    }
     pthread_mutex_lock(&s->all->lock);
     struct kd_scene scene = scene_now(s, now);
     pthread_mutex_unlock(&s->all->lock); /* only the HTTP thread patches, so that it stays what it is */
@@ -226,6 +230,8 @@ enum kd_status kd_session_patch(struct kd_session *s, const char *text, size_t l
     KD_TRY(make_plan(s->all, &scene, &plan, error));
     pthread_mutex_lock(&s->all->lock);
     kd_timeline_finish(&s->path);
+    if (order)
+        s->order = order;
     change(s, now, &scene, &plan);
     state(s, out);
     pthread_mutex_unlock(&s->all->lock);

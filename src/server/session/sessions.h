@@ -69,11 +69,13 @@ struct kd_session_state {
     struct kd_scene scene;
     unsigned revision, viewers;
     uint64_t frame; /* the newest one's number, 0: none yet */
+    uint64_t order; /* of the latest patch that had one, 0: none had */
     double path_at, path_end; /* seconds along its path; both 0: it has none */
 };
 void kd_session_state(struct kd_session *session, struct kd_session_state *out);
-/* Merges a patch (RFC 7396) into the scene. On failure nothing changes. */
-enum kd_status kd_session_patch(struct kd_session *session, const char *text, size_t length, struct kd_session_state *out,
+/* Merges a patch (RFC 7396) into the scene. On failure nothing changes. order: of patches that are under way at once the one with the highest number counts;
+ * one with a lower number than a patch before it had comes too late, changes nothing, and is no failure. 0: it has none, and counts. */
+enum kd_status kd_session_patch(struct kd_session *session, const char *text, size_t length, uint64_t order, struct kd_session_state *out,
                                 struct kd_error *error);
 #define KD_SESSION_PATH_S 3600 /* a path may take so long */
 /* Lets the session go along a path from now on, which somebody has looked along (path.c), and takes it over. A patch ends it where it is then, and so does
@@ -89,6 +91,10 @@ struct kd_viewer {
     struct MHD_Connection *mhd;
     int socket;
     uint64_t seen;       /* number of the newest frame taken */
+    bool any;            /* it reads what is said of frames: their files are nothing to it */
+    unsigned lossy;      /* the quality at which it takes frames that are not the last, 1 to 100; 0: it takes what is exact alone */
+    const struct kd_live_file *file; /* of the frame taken, as it is for this viewer; the frame's */
+    unsigned patched;    /* the revision that the request itself made; 0: none */
     double deadline_ms;  /* on kd_clock_ms, of waiting; INFINITY: none */
     bool waiting;        /* suspended */
     bool late, gone;     /* woken because the deadline has passed; because the client has hung up */
@@ -98,7 +104,7 @@ struct kd_viewer {
 void kd_viewer_attach(struct kd_viewer *viewer);
 void kd_viewer_detach(struct kd_viewer *viewer);
 enum kd_viewer_news {
-    KD_VIEWER_FRAME, /* *frame, a reference: the newest, newer than viewer->seen */
+    KD_VIEWER_FRAME, /* *frame, a reference: the newest, newer than viewer->seen, and viewer->file */
     KD_VIEWER_OVER,  /* none will come: the session has ended, or *error says why */
     KD_VIEWER_GONE,  /* the client has hung up */
     KD_VIEWER_LATE,  /* the deadline has passed, which the caller may set anew */
@@ -124,9 +130,12 @@ enum MHD_Result kd_session_answer(struct kd_request *request, const struct kd_se
 enum MHD_Result kd_session_forbid(struct kd_request *request);
 void kd_particles_job_destroy(struct kd_particles_job *job); /* particles.c; accepts NULL */
 void kd_live_abandon(struct kd_request *request);            /* live.c: nobody waits for a frame any more */
-/* Answer with the newest frame, and with all of them, of the session that `find` gives, as kd_session_of does. */
+/* Answer with the newest frame, and with all of them, of the session that `find` gives, as kd_session_of does. kinds: it may be asked for in a kind that is not
+ * exact, and the request may be a patch: routes.c. */
 typedef struct kd_session *kd_session_find_fn(struct kd_request *request, enum MHD_Result *refused);
-enum MHD_Result kd_live_newest(struct kd_request *request, kd_session_find_fn *find);
+enum MHD_Result kd_live_newest(struct kd_request *request, kd_session_find_fn *find, bool kinds);
+/* Patches the session as the request says; false: *refused is the answer. routes.c */
+bool kd_session_change(struct kd_request *request, struct kd_session *session, struct kd_session_state *state, enum MHD_Result *refused);
 enum MHD_Result kd_live_frames(struct kd_request *request, kd_session_find_fn *find);
 
 #endif

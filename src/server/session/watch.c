@@ -21,7 +21,7 @@ static void wake(struct kd_viewer *viewer)
 void kd_session_wake(struct kd_session *s)
 {
     for (struct kd_viewer *v = s->viewers; v; v = v->next)
-        if (!s->listed || s->failed || (s->latest && s->latest->number > v->seen))
+        if (!s->listed || s->failed || (s->latest && s->latest->number > v->seen && (v->any || kd_session_file(v, s->latest))))
             wake(v);
 }
 
@@ -72,7 +72,9 @@ static enum kd_viewer_news news(struct kd_viewer *viewer, struct kd_live_frame *
         return KD_VIEWER_OVER;
     if (viewer->gone)
         return KD_VIEWER_GONE;
-    if (s->latest && s->latest->number > viewer->seen) {
+    const bool newer = s->latest && s->latest->number > viewer->seen;
+    viewer->file = newer && !viewer->any ? kd_session_file(viewer, s->latest) : NULL;
+    if (viewer->file || (newer && viewer->any)) {
         *frame = kd_live_frame_share(s->latest);
         viewer->seen = s->latest->number;
         return KD_VIEWER_FRAME;
@@ -83,6 +85,7 @@ static enum kd_viewer_news news(struct kd_viewer *viewer, struct kd_live_frame *
     }
     viewer->waiting = true;
     MHD_suspend_connection(viewer->mhd); /* before anybody can wake it: that takes the lock */
+    kd_session_add_kinds(s);
     kd_session_pump(s);
     return KD_VIEWER_LATER;
 }

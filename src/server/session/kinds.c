@@ -1,0 +1,103 @@
+/* A frame is encoded in the kinds that are asked for and in no other: the first by the renderer's own encoder, others when somebody waits for them. */
+#include "server/session/internal.h"
+
+#include <stdlib.h>
+
+struct added {
+    struct kd_render_job job; /* first: the queue's pointer is ours */
+    struct kd_session *session;
+    struct kd_live_frame *frame;
+};
+
+/* These functions run with the lock, but for done. */
+
+static unsigned kind_of(const struct kd_viewer *viewer, bool last) { return last ? 0 : viewer->lossy; }
+
+static void set_kind(struct kd_render_job *job, unsigned lossy)
+{
+    job->format = lossy ? &kd_format_jpeg : kd_format_live();
+    job->lossy = lossy;
+}
+
+void kd_session_choose_kind(const struct kd_session *s, bool last, struct kd_render_job *job)
+{
+    const struct kd_viewer *first = NULL;
+    for (const struct kd_viewer *v = s->viewers; v; v = v->next)
+        if (v->waiting && !v->any && (!first || !kind_of(v, last)))
+            first = v;
+    set_kind(job, first ? kind_of(first, last) : 0);
+}
+
+static const struct kd_live_file *file_of(const struct kd_live_frame *frame, unsigned lossy)
+{
+    const struct kd_live_file *near = NULL;
+    for (unsigned i = 0; i < frame->n_files; i++) {
+        const struct kd_live_file *file = &frame->files[i];
+        if (file->lossy == lossy)
+            return file;
+        if (lossy && file->lossy && (!near || abs((int)(file->lossy - lossy)) < abs((int)(near->lossy - lossy))))
+            near = file;
+    }
+    /* The last place is for what is exact; where all others are taken the nearest quality has to do, which the answer names. */
+    unsigned lossy_ones = 0;
+    for (unsigned i = 0; i < frame->n_files; i++)
+        lossy_ones += frame->files[i].lossy > 0;
+    return lossy_ones == KD_LIVE_FILES - 1 ? near : NULL;
+}
+
+const struct kd_live_file *kd_session_file(const struct kd_viewer *viewer, const struct kd_live_frame *frame)
+{
+    return file_of(frame, kind_of(viewer, frame->last));
+}
+
+static void done(struct kd_render_job *job)
+{
+    struct added *added = (struct added *)job;
+    struct kd_session *s = added->session;
+    struct kd_sessions *all = s->all;
+    struct kd_live_frame *frame = added->frame;
+    pthread_mutex_lock(&all->lock);
+    s->adding = false;
+    if (!job->status) {
+        frame->files[frame->n_files++] = (struct kd_live_file) { job->format, job->lossy, job->file, job->encode_ms };
+        all->bytes += job->file.size;
+        job->file = (struct kd_buffer) { 0 };
+    } else {
+        s->failed = job->status;
+        s->error = job->error;
+    }
+    kd_session_wake(s);
+    kd_session_add_kinds(s);
+    kd_live_frame_release(frame);
+    kd_session_let_go(s);
+    pthread_mutex_unlock(&all->lock);
+    kd_buffer_finish(&job->file);
+    free(added);
+}
+
+static void add(struct kd_session *s, unsigned lossy)
+{
+    struct added *added = calloc(1, sizeof *added);
+    if (!added)
+        return; /* the next frame may have more luck */
+    added->session = s;
+    added->frame = kd_live_frame_share(s->latest);
+    added->job = (struct kd_render_job) { .claim.class = KD_CLASS_LIVE, .socket = -1, .effort = KD_EFFORT_LIVE, .keeps = true, .done = done };
+    added->job.frame = s->latest->picture; /* whose pixels stay the frame's */
+    added->job.plan.host_bytes = (uint64_t)3 * added->job.frame.width * added->job.frame.height;
+    set_kind(&added->job, lossy);
+    s->adding = true;
+    s->references++;
+    kd_render_queue_encode(s->all->params.renders, &added->job);
+}
+
+void kd_session_add_kinds(struct kd_session *s)
+{
+    if (!s->latest || s->latest->last || s->adding || s->failed || !s->listed)
+        return;
+    for (const struct kd_viewer *v = s->viewers; v; v = v->next)
+        if (v->waiting && !v->any && s->latest->number > v->seen && !kd_session_file(v, s->latest)) {
+            add(s, v->lossy);
+            return; /* what others lack comes after it */
+        }
+}
