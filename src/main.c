@@ -16,7 +16,7 @@ static const struct command {
 } commands[] = {
     { "render", kd_cli_render },   { "light-curve", kd_cli_light_curve }, { "sweep", kd_cli_sweep }, { "particles", kd_cli_particles },
     { "rays", kd_cli_rays },       { "pixel", kd_cli_pixel },    { "orbit", kd_cli_orbit },
-    { "line", kd_cli_line }, { "transfer-function", kd_cli_transfer_function }, { "spectrum", kd_cli_spectrum },
+    { "line", kd_cli_line }, { "transfer-function", kd_cli_transfer_function }, { "spectrum", kd_cli_spectrum }, { "visibility", kd_cli_visibility },
     { "playground", kd_cli_playground },
     { "physics", kd_cli_physics }, { "plan", kd_cli_plan },
     { "scene", kd_cli_scene },     { "presets", kd_cli_presets }, { "serve", kd_cli_serve }, { "doctor", kd_cli_doctor },
@@ -88,7 +88,8 @@ static const struct argp argp = {
            "  orbit        path of a body round the hole, its constants and frequencies\n"
            "  line         the profile of a line from a thin disk: photons by energy\n"
            "  transfer-function  how rings of a thin disk are seen, by redshift\n"
-           "  spectrum     what a thin disk of black bodies sends, by frequency\n"
+           "  spectrum     what a thin disk of black bodies, or a volume, sends, by frequency\n"
+           "  visibility   what an interferometer measures of a scene, by baseline\n"
            "  playground   bodies round the hole that pull one another, merge, and are torn apart\n"
            "  physics      numbers of a hole, an orbit, a disk: one point or a curve\n"
            "  plan         what a scene costs on this device\n"

@@ -21,6 +21,7 @@ int kd_cli_pixel(int argc, char **argv);
 int kd_cli_orbit(int argc, char **argv);
 int kd_cli_line(int argc, char **argv);
 int kd_cli_transfer_function(int argc, char **argv);
+int kd_cli_visibility(int argc, char **argv);
 int kd_cli_spectrum(int argc, char **argv);
 int kd_cli_playground(int argc, char **argv);
 int kd_cli_physics(int argc, char **argv);

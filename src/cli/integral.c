@@ -1,8 +1,11 @@
-/* kerrd line and its like compute integrals over a thin disk. */
+/* kerrd line and its like compute integrals over a thin disk, or over pictures of a scene. */
 #include "cli/cli.h"
 #include "cli/file.h"
-#include "integral/answer.h"
+#include "cli/progress.h"
+#include "cli/scene_options.h"
+#include "integral/run.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,7 +16,12 @@ struct arguments {
     enum kd_integral what;
     const char *input, *output, *format;
     const char *given[FIELDS_MAX]; /* as the table of fields */
+    struct kd_scene_options scene; /* of those that may have one */
+    const char *device;
 };
+
+/* Those that may be made of pictures. */
+static bool may_have_scene(enum kd_integral what) { return what == KD_INTEGRAL_SPECTRUM || kd_integral_is_pictured(what); }
 
 static error_t parse(int key, char *text, struct argp_state *state)
 {
@@ -23,6 +31,10 @@ static error_t parse(int key, char *text, struct argp_state *state)
         return 0;
     }
     switch (key) {
+    case ARGP_KEY_INIT:
+        if (may_have_scene(arguments->what))
+            state->child_inputs[0] = &arguments->scene, state->child_inputs[1] = &arguments->device;
+        return 0;
     case 'o': arguments->output = text; return 0;
     case 'f':
         if (strcmp(text, "json") && strcmp(text, "csv") && strcmp(text, "npy"))
@@ -45,37 +57,114 @@ static enum kd_integral_format format_of(const struct arguments *arguments)
     return !strcmp(format, "npy") ? KD_INTEGRAL_NPY : !strcmp(format, "csv") ? KD_INTEGRAL_CSV : KD_INTEGRAL_JSON;
 }
 
-static enum kd_status load(const struct arguments *arguments, struct kd_integral_request *request, struct kd_error *error)
+static enum kd_status read_file(const struct arguments *arguments, struct kd_integral_request *request, struct kd_error *error)
 {
     struct kd_buffer file = { 0 };
-    enum kd_status status = KD_OK;
-    if (arguments->input) {
-        KD_TRY(kd_file_read(arguments->input, KD_INTEGRAL_BODY_MAX, &file, error));
-        if ((status = kd_integral_request_read(request, file.data ? (const char *)file.data : "", file.size, error)))
-            kd_cli_prefix(error, strcmp(arguments->input, "-") ? arguments->input : "standard input");
-    }
-    for (size_t i = 0; !status && i < kd_n_integral_fields; i++)
-        if (arguments->given[i])
-            status = kd_integral_request_set(request, kd_integral_fields[i].name, arguments->given[i], error);
-    if (!status)
-        status = kd_integral_request_check(request, error);
-done:
+    enum kd_status status = kd_file_read(arguments->input, KD_INTEGRAL_BODY_MAX, &file, error);
+    if (!status && (status = kd_integral_request_read(request, file.data ? (const char *)file.data : "", file.size, error)))
+        kd_cli_prefix(error, strcmp(arguments->input, "-") ? arguments->input : "standard input");
     kd_buffer_finish(&file);
     return status;
 }
 
-static enum kd_status answer_text(const struct arguments *arguments, struct kd_buffer *out, struct kd_error *error)
+/* The scene of the file, or of --preset or --from, and what --set changes. */
+static enum kd_status load_scene(struct arguments *arguments, struct kd_integral_request *request, struct kd_error *error)
+{
+    struct kd_scene_options *options = &arguments->scene;
+    enum kd_status status = KD_OK;
+    const bool chosen = options->preset || options->from;
+    if (chosen && request->scene)
+        return kd_error_set(error, KD_EINVAL, "--%s beside a file that has a scene: allowed is one of the two", options->preset ? "preset" : "from");
+    if (!request->scene && !chosen && !options->n_set && !kd_integral_is_pictured(request->what))
+        return KD_OK;
+    if (!request->scene)
+        KD_TRY(kd_integral_make_scene(request, error));
+    if (options->preset)
+        KD_TRY(kd_scene_preset(request->scene, options->preset, error));
+    KD_TRY(kd_scene_options_merge(options, request->scene, error));
+done:
+    return status;
+}
+
+static enum kd_status load(struct arguments *arguments, struct kd_integral_request *request, struct kd_error *error)
+{
+    enum kd_status status = KD_OK;
+    if (arguments->input)
+        KD_TRY(read_file(arguments, request, error));
+    if (may_have_scene(request->what))
+        KD_TRY(load_scene(arguments, request, error));
+    for (size_t i = 0; i < kd_n_integral_fields; i++)
+        if (arguments->given[i])
+            KD_TRY(kd_integral_request_set(request, kd_integral_fields[i].name, arguments->given[i], error));
+    KD_TRY(kd_integral_request_check(request, error));
+done:
+    return status;
+}
+
+struct work {
+    struct kd_integral_run run;
+    struct kd_renderer *renderer;
+    struct kd_progress progress;
+};
+
+static bool progress(void *user, double fraction)
+{
+    struct work *w = user;
+    return kd_progress_update(&w->progress, (w->run.picture + fraction) / w->run.pictures);
+}
+
+static enum kd_status make_picture(struct work *w, const struct kd_integral_request *request, struct kd_error *error)
+{
+    const struct kd_format *format = kd_integral_picture_format(request->what);
+    struct kd_scene scene = kd_integral_scene(request, w->run.picture);
+    struct kd_capacity capacity;
+    struct kd_plan plan;
+    struct kd_frame frame = { 0 };
+    struct kd_buffer file = { 0 };
+    enum kd_status status;
+    kd_renderer_capacity(w->renderer, &capacity);
+    KD_TRY(kd_format_plan(format, &scene, &capacity, &plan, error));
+    KD_TRY(kd_render(w->renderer, &scene, &plan, progress, w, &frame, error));
+    KD_TRY(kd_encode(format, &(struct kd_picture) { &frame, &scene, &plan, kd_renderer_device_name(w->renderer), 0 }, KD_EFFORT_QUICK, NULL, &file, error));
+    KD_TRY(kd_integral_run_take(&w->run, &file, &scene, &plan, error));
+    kd_integral_run_step(&w->run, INFINITY);
+done:
+    kd_frame_finish(&frame);
+    kd_buffer_finish(&file);
+    return status;
+}
+
+static enum kd_status make_pictures(struct work *w, struct arguments *arguments, const struct kd_integral_request *request, struct kd_error *error)
+{
+    const struct kd_assets assets = kd_asset_options_assets(&arguments->scene.assets);
+    enum kd_status status = kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device, .assets = &assets }, &w->renderer, error);
+    if (status)
+        return status;
+    kd_progress_init(&w->progress);
+    kd_progress_catch_signals();
+    while (!status && w->run.picture < w->run.pictures)
+        status = make_picture(w, request, error);
+    kd_progress_finish(&w->progress);
+    if (status == KD_EDEVICE)
+        kd_cli_device_lost(error);
+    kd_renderer_destroy(w->renderer);
+    return status;
+}
+
+static enum kd_status answer_text(struct arguments *arguments, struct kd_buffer *out, struct kd_error *error)
 {
     struct kd_integral_request request;
-    struct kd_integral_answer answer = { 0 };
+    struct work work = { 0 };
     enum kd_status status;
     kd_integral_request_init(&request, arguments->what);
     KD_TRY(load(arguments, &request, error));
-    KD_TRY(kd_integral_compute(&request, &answer, error));
-    if ((status = kd_integral_write(&answer, format_of(arguments), out)))
-        kd_error_set(error, status, "out of memory for %zu rows", answer.rows);
+    KD_TRY(kd_integral_run_begin(&work.run, &request, error));
+    if (work.run.pictures)
+        KD_TRY(make_pictures(&work, arguments, &request, error));
+    if ((status = kd_integral_write(&work.run.answer, format_of(arguments), out)))
+        kd_error_set(error, status, "out of memory for %zu rows", work.run.answer.rows);
 done:
-    kd_integral_answer_finish(&answer);
+    kd_integral_run_finish(&work.run);
     kd_integral_request_finish(&request);
     return status;
 }
@@ -88,7 +177,7 @@ static void set_options(enum kd_integral what, struct argp_option *options, char
     options[n++] = (struct argp_option) { "format", 'f', "FORMAT", 0, "json, csv or npy, whatever the name of the output", 2 };
     for (size_t i = 0; i < kd_n_integral_fields; i++) {
         const struct kd_integral_field *f = &kd_integral_fields[i];
-        if (!(f->of & 1u << what))
+        if (!(f->of & (1u << what | (what == KD_INTEGRAL_SPECTRUM ? 1u << KD_INTEGRAL_VOLUME : 0))))
             continue;
         snprintf(names[i], sizeof names[i], "%s", f->name);
         for (char *c = names[i]; (c = strchr(c, '_'));)
@@ -113,9 +202,13 @@ static int run(enum kd_integral what, int argc, char **argv)
 
     set_options(what, options, names, helps);
     snprintf(doc, sizeof doc,
-             "%c%s.\vFILE is what POST /v1/%s takes; options change what it says, or say it all. docs/physics/integrals.md tells the formulas. No device is needed.",
-             title[0] - 'a' + 'A', title + 1, kd_integral_name(what));
-    const struct argp argp = { .options = options, .parser = parse, .args_doc = "[FILE.json|-]", .doc = doc, .children = children };
+             "%c%s.\vFILE is what POST /v1/%s takes; options change what it says, or say it all. docs/physics/integrals.md tells the formulas. %s",
+             title[0] - 'a' + 'A', title + 1, kd_integral_name(what),
+             what == KD_INTEGRAL_SPECTRUM ? "With a scene the spectrum is that of its volume; else no device is needed."
+             : may_have_scene(what)       ? "The scene is the default one, or what FILE, --preset, --from and --set say."
+                                          : "No device is needed.");
+    const struct argp argp = { .options = options, .parser = parse, .args_doc = "[FILE.json|-]", .doc = doc,
+                               .children = may_have_scene(what) ? kd_scene_device_children : children };
     argp_parse(&argp, argc, argv, 0, NULL, &arguments);
     bool print = !arguments.output || !strcmp(arguments.output, "-");
     enum kd_status status = !print || format_of(&arguments) == KD_INTEGRAL_NPY ? kd_file_check(print ? "-" : arguments.output, &error) : KD_OK;
@@ -123,11 +216,13 @@ static int run(enum kd_integral what, int argc, char **argv)
         status = answer_text(&arguments, &out, &error);
     if (!status && !print)
         status = kd_file_write(arguments.output, &out, &error);
-    int code = status ? kd_cli_fail(&error) : print ? kd_cli_print(out.data, out.size) : KD_EXIT_OK;
+    int code = status ? kd_progress_exit(status, &error) : print ? kd_cli_print(out.data, out.size) : KD_EXIT_OK;
     kd_buffer_finish(&out);
+    kd_scene_options_finish(&arguments.scene);
     return code;
 }
 
 int kd_cli_line(int argc, char **argv) { return run(KD_INTEGRAL_LINE, argc, argv); }
 int kd_cli_transfer_function(int argc, char **argv) { return run(KD_INTEGRAL_TRANSFER, argc, argv); }
+int kd_cli_visibility(int argc, char **argv) { return run(KD_INTEGRAL_VISIBILITY, argc, argv); }
 int kd_cli_spectrum(int argc, char **argv) { return run(KD_INTEGRAL_SPECTRUM, argc, argv); }

@@ -43,6 +43,26 @@ static const char *const disk_approximations[] = {
     NULL,
 };
 
+static const char *const visibility_sources[] = {
+    "A. R. Thompson, J. M. Moran & G. W. Swenson 2017, Interferometry and Synthesis in Radio Astronomy, 3rd ed., eq. 3.7",
+    "M. D. Johnson et al. 2020, Sci. Adv. 6, eaaz1310 (rings at long baselines)",
+    NULL,
+};
+static const char *const visibility_approximations[] = {
+    "nothing lies beyond the map's border: edge_share tells how bright it is there",
+    "each pixel is a point in its middle: baselines beyond nyquist_gl are told as shorter ones",
+    "no telescope: no beam, no noise, no gaps, and no averaging over time or bandwidth",
+    NULL,
+};
+static const char *const volume_sources[] = {
+    "G. B. Rybicki & A. P. Lightman 1979, Radiative Processes in Astrophysics, 1.3, 4.9 (flux, and I/nu^3)",
+    NULL,
+};
+static const char *const volume_approximations[] = {
+    "nothing lies beyond the border of the picture: its flux alone is counted",
+    NULL,
+};
+
 static const struct kd_integral_kind_of kinds[KD_INTEGRALS] = {
     [KD_INTEGRAL_LINE] = { "relativistic line profile of a thin disk",
                            { { "isco", "M", "innermost stable circular orbit" },
@@ -79,11 +99,42 @@ static const struct kd_integral_kind_of kinds[KD_INTEGRALS] = {
                                  { "nu_l_nu_w", "W", "4 pi D^2 nu F_nu, as if it shone evenly" } },
                                spectrum_sources,
                                spectrum_approximations },
+    [KD_INTEGRAL_VOLUME] = { "spectrum of a scene's volume, a picture a frequency",
+                             { { "width", "pixels", "of each picture" },
+                               { "height", "pixels", "of each picture" },
+                               { "error", "1", "largest of the column error" } },
+                             { { "frequency_hz", "Hz", "at the observer" },
+                               { "flux_w_m2_hz", "W/m^2/Hz", "F_nu" },
+                               { "flux_jy", "Jy", "F_nu" },
+                               { "nu_l_nu_w", "W", "4 pi D^2 nu F_nu, as if it shone evenly" },
+                               { "error", "1", "estimated, relative, of the flux: by that of a picture 1.5 times as fine" } },
+                             volume_sources,
+                             volume_approximations },
+    [KD_INTEGRAL_VISIBILITY] = { "visibilities of a scene's picture",
+                                 { { "flux_jy", "Jy", "of the whole map; null where its light is of no frequency" },
+                                   { "pixel_uas", "uas", "from a pixel to the next" },
+                                   { "width_uas", "uas", "of the map" },
+                                   { "height_uas", "uas", "of the map" },
+                                   { "nyquist_gl", "Gl", "longest baseline that pixels so wide tell" },
+                                   { "edge_share", "1", "what a sky as bright as the map's border would send over all of the map, of what the map sends" },
+                                   { "undefined", "pixels", "whose light was no number, and counts as none" },
+                                   { "error", NULL, "largest of the column error" } },
+                                 { { "u_gl", "Gl", "baseline to the east, in units of 1e9 wavelengths" },
+                                   { "v_gl", "Gl", "to the north" },
+                                   { "length_gl", "Gl", "of the baseline" },
+                                   { "order", "1", "-1: all light; n: light of image order n alone" },
+                                   { "re", NULL, "real part" },
+                                   { "im", NULL, "imaginary part" },
+                                   { "amplitude", NULL, "of all light in Jy, or as a share of its flux" },
+                                   { "phase_deg", "deg", "about where the hole is, from -180 to 180" },
+                                   { "error", NULL, "estimated, of re and im: by a map 1.5 times as fine" } },
+                                 visibility_sources,
+                                 visibility_approximations },
 };
 
 const struct kd_integral_kind_of *kd_integral_kind_of(enum kd_integral what) { return &kinds[what]; }
 
-static enum kd_status make_columns(struct kd_integral_answer *answer, size_t rows, struct kd_error *error)
+enum kd_status kd_integral_make_columns(struct kd_integral_answer *answer, size_t rows, struct kd_error *error)
 {
     const struct kd_integral_kind_of *kind = &kinds[answer->request->what];
     size_t n = 0;
@@ -104,7 +155,7 @@ static enum kd_status compute_line(const struct kd_integral_request *r, const st
     struct kd_line_profile profile;
     double sum = 0;
     enum kd_status status;
-    KD_TRY(make_columns(answer, r->bins, error));
+    KD_TRY(kd_integral_make_columns(answer, r->bins, error));
     double *const *c = answer->columns, *edges = malloc((r->bins + 1) * sizeof *edges);
     for (size_t i = 0; edges && i <= r->bins; i++)
         edges[i] = r->edges.at[i] / r->rest_energy;
@@ -140,7 +191,7 @@ static enum kd_status one_ring(const struct kd_integral_request *r, const struct
 
 static enum kd_status compute_transfer(const struct kd_integral_request *r, const struct kd_disk_image *image, struct kd_integral_answer *answer, struct kd_error *error)
 {
-    enum kd_status status = make_columns(answer, kd_integral_rows(r), error);
+    enum kd_status status = kd_integral_make_columns(answer, kd_integral_rows(r), error);
     for (size_t i = 0; !status && i < r->rings; i++)
         status = one_ring(r, image, i, answer, error);
     answer->values[0] = image->isco;
@@ -152,7 +203,7 @@ static enum kd_status compute_spectrum(const struct kd_integral_request *r, cons
     const struct kd_disk_spectrum_params params = { r->inner, r->outer, r->mass_msun, r->distance_pc, r->mdot_edd, r->colour_correction, r->limb };
     double hottest = fmax(r->inner, kd_disk_peak_page_thorne(r->spin)), distance = r->distance_pc * KD_PARSEC_M;
     enum kd_status status;
-    KD_TRY(make_columns(answer, r->frequencies, error));
+    KD_TRY(kd_integral_make_columns(answer, r->frequencies, error));
     double *const *c = answer->columns;
     KD_TRY(kd_disk_spectrum(image, &params, r->frequencies_hz.at, (int)r->frequencies, c[1], &answer->values[3], error));
     for (size_t i = 0; i < r->frequencies; i++) {
@@ -169,7 +220,7 @@ done:
 
 enum kd_status kd_integral_compute(const struct kd_integral_request *request, struct kd_integral_answer *answer, struct kd_error *error)
 {
-    static enum kd_status (*const compute[KD_INTEGRALS])(const struct kd_integral_request *, const struct kd_disk_image *, struct kd_integral_answer *,
+    static enum kd_status (*const compute[KD_INTEGRAL_VOLUME])(const struct kd_integral_request *, const struct kd_disk_image *, struct kd_integral_answer *,
                                                          struct kd_error *) = { compute_line, compute_transfer, compute_spectrum };
     struct kd_disk_image *image = NULL;
     enum kd_status status;

@@ -9,6 +9,8 @@
 #define LINE (1u << KD_INTEGRAL_LINE)
 #define TRANSFER (1u << KD_INTEGRAL_TRANSFER)
 #define SPECTRUM (1u << KD_INTEGRAL_SPECTRUM)
+#define VOLUME (1u << KD_INTEGRAL_VOLUME)
+#define VISIBILITY (1u << KD_INTEGRAL_VISIBILITY)
 #define ALL (LINE | TRANSFER | SPECTRUM)
 #define REAL(name, unit, least, most, of, help) { #name, unit, help, KD_INTEGRAL_REAL, AT(name), least, most, false, NULL, of }
 #define OR_WORD(name, unit, least, most, word, of, help) { #name, unit, help, KD_INTEGRAL_REAL, AT(name), least, most, false, word, of }
@@ -42,24 +44,33 @@ const struct kd_integral_field kd_integral_fields[] = {
     REAL(distance_pc, "pc", 1e-3, 1e12, SPECTRUM, "how far away it is"),
     REAL(mdot_edd, "Eddington rates", 1e-12, 1e3, SPECTRUM, "accretion rate: luminosity over the Eddington luminosity, with the efficiency of this spin"),
     REAL(colour_correction, "", 1, 10, SPECTRUM, "colour temperature over effective temperature"),
-    OR_WORD(frequency_min_hz, "Hz", 1e-3, 1e25, "auto", SPECTRUM, "first frequency; auto: 0.001 k/h times the hottest ring's colour temperature"),
-    OR_WORD(frequency_max_hz, "Hz", 1e-3, 1e25, "auto", SPECTRUM, "last frequency; auto: 30 k/h times the same"),
-    WHOLE(frequencies, 2, KD_INTEGRAL_FREQUENCIES, SPECTRUM, "number of frequencies, at equal ratios"),
-    NUMBERS(frequencies_hz, "Hz", 1e-3, 1e25, SPECTRUM, "frequencies, instead of the three before"),
+    OR_WORD(frequency_min_hz, "Hz", 1e-3, 1e25, "auto", SPECTRUM | VOLUME, "first frequency; auto: 0.001 k/h times the hottest ring's colour temperature; of a volume a thirtieth of volume.frequency_ghz"),
+    OR_WORD(frequency_max_hz, "Hz", 1e-3, 1e25, "auto", SPECTRUM | VOLUME, "last frequency; auto: 30 k/h times the same; of a volume 30 times volume.frequency_ghz"),
+    WHOLE(frequencies, 2, KD_INTEGRAL_FREQUENCIES, SPECTRUM | VOLUME, "number of frequencies, at equal ratios: 200; of a volume 13, and 200 at most"),
+    NUMBERS(frequencies_hz, "Hz", 1e-3, 1e25, SPECTRUM | VOLUME, "frequencies, instead of the three before"),
+    { "u", "Gl", "baselines to the east, in units of 1e9 wavelengths; as many as v", KD_INTEGRAL_NUMBERS, AT(u), -1e15, 1e15, false, NULL, VISIBILITY },
+    { "v", "Gl", "baselines to the north", KD_INTEGRAL_NUMBERS, AT(v), -1e15, 1e15, false, NULL, VISIBILITY },
+    NUMBERS(lengths, "Gl", 0, 1e15, VISIBILITY, "lengths of baselines, instead of u and v; each with each of angles_deg"),
+    OR_WORD(length_max, "Gl", 1e-9, 1e15, "auto", VISIBILITY, "baselines from 0 to this length, instead of lengths; auto: half of the longest that the map's pixels tell"),
+    WHOLE(baselines, 2, KD_INTEGRAL_ROWS, VISIBILITY, "number of lengths from 0 to length_max"),
+    { "angles_deg", "deg", "position angles of baselines with lengths, from the north to the east; 0 and 90", KD_INTEGRAL_NUMBERS, AT(angles_deg), -360, 360, false, NULL, VISIBILITY },
+    WHOLE(orders, 0, KD_INTEGRAL_ORDERS, VISIBILITY, "number of image orders, from 0 on, whose light is told apart too"),
+    WHOLE(pixels, 16, 2048, VOLUME | VISIBILITY, "pixels along the longer side of a picture: 128 of a spectrum, 256 of a visibility"),
+    WORD(check, unchecked, "finer|none", VOLUME | VISIBILITY, "what tells the error: the same picture with half as many pixels more along each side, or nothing"),
 };
 const size_t kd_n_integral_fields = sizeof kd_integral_fields / sizeof *kd_integral_fields;
 
 const char *kd_integral_name(enum kd_integral what)
 {
-    static const char *const names[KD_INTEGRALS] = { "line", "transfer-function", "spectrum" };
+    static const char *const names[KD_INTEGRALS] = { "line", "transfer-function", "spectrum", "spectrum", "visibility" };
     return names[what];
 }
 
 enum kd_integral kd_integral_of_route(const char *path)
 {
-    int i = KD_INTEGRALS - 1;
-    while (i > 0 && strcmp(path + strlen("/v1/"), kd_integral_name((enum kd_integral)i)))
-        i--;
+    int i = 0;
+    while (i + 1 < KD_INTEGRALS && strcmp(path + strlen("/v1/"), kd_integral_name((enum kd_integral)i)))
+        i++;
     return (enum kd_integral)i;
 }
 
@@ -69,7 +80,7 @@ void kd_integral_request_init(struct kd_integral_request *request, enum kd_integ
         .what = what, .inclination_deg = 30, .inner = NAN, .outer = 400, .index = 3, .outer_index = 3, .break_r = 10, .height = 10, .photon_index = 2,
         .rest_energy = 1, .energy_max = NAN, .bins = 500,
         .rings = 10, .g_stars = 20, .mass_msun = 10, .distance_pc = 1e4, .mdot_edd = 0.1, .colour_correction = 1.7, .frequency_min_hz = NAN, .frequency_max_hz = NAN,
-        .frequencies = 200,
+        .frequencies = what == KD_INTEGRAL_VOLUME ? 13 : 200, .length_max = NAN, .baselines = 200,
     };
 }
 
@@ -163,14 +174,21 @@ static void add_field(struct kd_json *json, const struct kd_integral_field *f)
     kd_json_end(json);
 }
 
+/* The schema of a spectrum is that of both: of a disk, or of a scene. */
 void kd_integral_request_schema(struct kd_json *json, const char *name, enum kd_integral what)
 {
+    const unsigned of = what == KD_INTEGRAL_SPECTRUM ? SPECTRUM | VOLUME : 1u << what;
+    static const char preset[] = "{\"type\":\"string\",\"description\":\"preset that the scene begins with\"}", scene[] = "{\"$ref\":\"#/components/schemas/Scene\"}";
     kd_json_object(json, name);
     kd_json_string(json, "type", "object");
     kd_json_bool(json, "additionalProperties", false);
     kd_json_object(json, "properties");
+    if (of & (VOLUME | VISIBILITY)) {
+        kd_json_raw(json, "preset", preset, sizeof preset - 1);
+        kd_json_raw(json, "scene", scene, sizeof scene - 1);
+    }
     for (size_t i = 0; i < kd_n_integral_fields; i++)
-        if (kd_integral_fields[i].of & 1u << what)
+        if (kd_integral_fields[i].of & of)
             add_field(json, &kd_integral_fields[i]);
     kd_json_end(json);
     kd_json_end(json);

@@ -1,4 +1,4 @@
-/* This reads what is asked of the integrals over a thin disk: a JSON document, or fields by name. The table of fields (fields.c) is the source of the reader, the options of the
+/* This reads what is asked of the integrals over a thin disk, or over pictures of a scene: a JSON document, or fields by name. The table of fields (fields.c) is the source of the reader, the options of the
  * command line and the schemas of openapi.json. Any thread.
  *
  *     {"spin": 0.9, "inclination_deg": 60, "emissivity": "power", "index": 3, "energy_min": 0.1, "energy_max": 1.5, "bins": 500}
@@ -9,6 +9,8 @@
 #include "base/error.h"
 #include "base/json.h"
 #include "physics/line_profile.h"
+#include "scene/asset.h"
+#include "scene/scene.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -19,8 +21,11 @@
 #define KD_INTEGRAL_LIST 20001u                /* numbers of a list */
 #define KD_INTEGRAL_TRANSFERS 5000u            /* rows of a transfer function: 0.1 ms each */
 #define KD_INTEGRAL_FREQUENCIES 1000u
+#define KD_INTEGRAL_PICTURES 200u   /* frequencies of a spectrum that is made of pictures */
+#define KD_INTEGRAL_ORDERS 8u       /* image orders that are told apart */
 
-enum kd_integral { KD_INTEGRAL_LINE, KD_INTEGRAL_TRANSFER, KD_INTEGRAL_SPECTRUM, KD_INTEGRALS };
+/* VOLUME is what SPECTRUM becomes when a scene is given. These last two are made of pictures (integral/run.h). */
+enum kd_integral { KD_INTEGRAL_LINE, KD_INTEGRAL_TRANSFER, KD_INTEGRAL_SPECTRUM, KD_INTEGRAL_VOLUME, KD_INTEGRAL_VISIBILITY, KD_INTEGRALS };
 
 struct kd_integral_list {
     double *at; /* malloc'd */
@@ -43,8 +48,18 @@ struct kd_integral_request {
     double frequency_min_hz, frequency_max_hz;                  /* NaN: by the hottest ring */
     uint32_t frequencies;
     struct kd_integral_list frequencies_hz;
+    struct kd_scene *scene;         /* malloc'd; NULL: none is given */
+    const struct kd_assets *assets; /* by which its names of assets are resolved as it is read; NULL: whoever reads it resolves and validates it */
+    uint32_t pixels;                /* of the longer side of a picture; 0: as many as are usual */
+    int unchecked;                  /* 0: finer pictures tell the error */
+    struct kd_integral_list u, v, lengths, angles_deg; /* of a visibility, Gl: a list of baselines, or lengths by angles, which become one */
+    double length_max;                                 /* NaN: half of what the pixels resolve */
+    uint32_t baselines, orders;
     uint64_t seen; /* which fields were given, a bit each */
 };
+
+/* Whether it is made of pictures. */
+static inline bool kd_integral_is_pictured(enum kd_integral what) { return what >= KD_INTEGRAL_VOLUME; }
 
 void kd_integral_request_init(struct kd_integral_request *request, enum kd_integral what);
 void kd_integral_request_finish(struct kd_integral_request *request);

@@ -15,12 +15,25 @@ static size_t count(const struct kd_integral_column *list, size_t most)
     return n;
 }
 
-static void write_sentences(struct kd_json *json, const char *name, const char *const *sentences)
+/* Those of a list that ends with a NULL, and n more. */
+static void write_sentences(struct kd_json *json, const char *name, const char *const *sentences, const char *const *more, size_t n)
 {
     kd_json_array(json, name);
     for (; *sentences; sentences++)
         kd_json_string(json, NULL, *sentences);
+    for (size_t i = 0; i < n; i++)
+        kd_json_string(json, NULL, more[i]);
     kd_json_end(json);
+}
+
+static enum kd_status write_scene(struct kd_json *json, const struct kd_scene *scene)
+{
+    struct kd_buffer text = { 0 };
+    enum kd_status status = kd_scene_to_json(scene, &text);
+    if (!status)
+        kd_json_raw(json, "scene", (const char *)text.data, text.size);
+    kd_buffer_finish(&text);
+    return status;
 }
 
 /* Parameters that are lists stand in the columns. */
@@ -33,13 +46,13 @@ static void write_parameters(struct kd_json *json, const struct kd_integral_requ
     kd_json_end(json);
 }
 
-static void write_units(struct kd_json *json, const struct kd_integral_kind_of *kind)
+static void write_units(struct kd_json *json, const struct kd_integral_kind_of *kind, const char *light)
 {
     kd_json_object(json, "units");
     for (size_t i = 0; i < count(kind->values, KD_INTEGRAL_VALUES); i++)
-        kd_json_string(json, kind->values[i].name, kind->values[i].unit);
+        kd_json_string(json, kind->values[i].name, kind->values[i].unit ? kind->values[i].unit : light);
     for (size_t i = 0; i < count(kind->columns, KD_INTEGRAL_COLUMNS); i++)
-        kd_json_string(json, kind->columns[i].name, kind->columns[i].unit);
+        kd_json_string(json, kind->columns[i].name, kind->columns[i].unit ? kind->columns[i].unit : light);
     kd_json_end(json);
 }
 
@@ -49,6 +62,7 @@ static enum kd_status write_json(const struct kd_integral_answer *answer, struct
     struct kd_json json = kd_json_begin(out);
     kd_json_object(&json, NULL);
     kd_json_string(&json, "integral", kd_integral_name(answer->request->what));
+    enum kd_status status = answer->request->scene ? write_scene(&json, answer->request->scene) : KD_OK;
     write_parameters(&json, answer->request);
     kd_json_object(&json, "values");
     for (size_t i = 0; i < count(kind->values, KD_INTEGRAL_VALUES); i++)
@@ -62,11 +76,12 @@ static enum kd_status write_json(const struct kd_integral_answer *answer, struct
         kd_json_end(&json);
     }
     kd_json_end(&json);
-    write_units(&json, kind);
-    write_sentences(&json, "sources", kind->sources);
-    write_sentences(&json, "approximations", kind->approximations);
+    write_units(&json, kind, answer->light);
+    write_sentences(&json, "sources", kind->sources, NULL, 0);
+    write_sentences(&json, "approximations", kind->approximations, answer->told, answer->n_told);
     kd_json_end(&json);
-    return kd_json_finish_line(&json);
+    enum kd_status written = kd_json_finish_line(&json);
+    return status ? status : written;
 }
 
 static enum kd_status write_csv(const struct kd_integral_answer *answer, struct kd_buffer *out)
@@ -155,14 +170,14 @@ static void add_parameters(struct kd_json *json, enum kd_integral what)
         const struct kd_integral_field *f = &kd_integral_fields[i];
         if (!(f->of & 1u << what) || f->kind == KD_INTEGRAL_NUMBERS)
             continue;
-        raw(json, names[n++] = f->name, f->kind == KD_INTEGRAL_WORD ? "{\"type\":\"string\"}" : "{\"type\":\"number\"}");
+        raw(json, names[n++] = f->name, f->kind == KD_INTEGRAL_WORD ? "{\"type\":\"string\"}" : "{\"type\":[\"number\",\"null\"]}");
     }
     end_strict(json, names, n);
 }
 
 void kd_integral_answer_schema(struct kd_json *json, const char *name, enum kd_integral what)
 {
-    static const char *const members[] = { "integral", "parameters", "values", "columns", "units", "sources", "approximations" };
+    static const char *const members[] = { "integral", "parameters", "values", "columns", "units", "sources", "approximations", "scene" };
     const struct kd_integral_kind_of *kind = kd_integral_kind_of(what);
     size_t values = count(kind->values, KD_INTEGRAL_VALUES), columns = count(kind->columns, KD_INTEGRAL_COLUMNS);
     begin_strict(json, name);
@@ -175,5 +190,7 @@ void kd_integral_answer_schema(struct kd_json *json, const char *name, enum kd_i
     raw(json, "units", "{\"type\":\"object\",\"additionalProperties\":{\"type\":\"string\"}}");
     raw(json, "sources", STRINGS);
     raw(json, "approximations", STRINGS);
-    end_strict(json, members, sizeof members / sizeof *members);
+    if (kd_integral_is_pictured(what))
+        raw(json, "scene", "{\"$ref\":\"#/components/schemas/Scene\"}");
+    end_strict(json, members, sizeof members / sizeof *members - !kd_integral_is_pictured(what));
 }

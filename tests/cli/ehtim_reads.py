@@ -45,6 +45,29 @@ class Ehtim(support.Case):
         self.assertEqual(found["size"], [128, 128])
         self.assertAlmostEqual(128 * found["pixel_uas"] / (field * M_UAS), 1, delta=1e-4)
 
+    def test_visibilities(self):
+        """Those of kerrd visibility beside ehtim's direct transform of the file, whose phase centre is the middle of the picture too."""
+        code = """
+import json, sys
+import ehtim, numpy
+image = ehtim.image.load_fits(sys.argv[1])
+uv = numpy.array(json.loads(sys.argv[2])) * 1e9
+turns = ehtim.observing.obs_helpers.ftmatrix(image.psize, image.xdim, image.ydim, uv, pulse=ehtim.observing.pulses.deltaPulse2D)
+v = turns @ image.imvec / image.imvec.sum()
+print(json.dumps([[z.real, z.imag] for z in v]))
+"""
+        for scene in (("-p", "m87"), ("-p", "riaf", "--set", "camera.roll_deg=20")):
+            layer = "intensity" if "m87" in scene else "specific_intensity"
+            self.good("render", *scene, "--size", "128x128", "--set", "image.layers=" + layer, "--set", "style.beam_uas=0", "-o", self.path("a.fits"))
+            uv = [[0, 0], [3.5, 1.25], [-7, 2], [0.5, -11], [20, 13]]
+            options = [*scene, "--set", "image.width=512", "--set", "image.height=512", "--pixels", "128", "--check", "none"]
+            columns = json.loads(self.good("visibility", *options, "--u", ",".join(str(u) for u, v in uv), "--v", ",".join(str(v) for u, v in uv)))["columns"]
+            done = subprocess.run([PYTHON, "-I", "-c", code, self.path("a.fits"), json.dumps(uv)], capture_output=True, text=True, timeout=200)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            for (theirs_re, theirs_im), re, im in zip(json.loads(done.stdout.splitlines()[-1]), columns["re"], columns["im"]):
+                self.assertAlmostEqual(re / columns["re"][0], theirs_re, delta=1e-5)
+                self.assertAlmostEqual(im / columns["re"][0], theirs_im, delta=1e-5)
+
     def test_light_along_rays(self):
         self.read_by_ehtim("-p", "thick-disk", "--size", "64x64", "--set", "spacetime.mass_msun=6.5e9", "--set", "spacetime.distance_pc=16.8e6")
 

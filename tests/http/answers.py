@@ -65,8 +65,13 @@ class Answers(daemon.Case):
 
     def test_integrals(self):
         for name, document in (('line', {'bins': 3}), ('line', {'edges': [0.2, 1.4], 'emissivity': 'lamppost', 'limb': 'haardt'}),
-                               ('transfer-function', {'rings': 2, 'g_stars': 2}), ('spectrum', {'frequencies_hz': [1e16, 1e17]})):
+                               ('transfer-function', {'rings': 2, 'g_stars': 2}), ('spectrum', {'frequencies_hz': [1e16, 1e17]}),
+                               ('spectrum', {'preset': 'riaf', 'frequencies_hz': [2e11], 'pixels': 32}), ('visibility', {'preset': 'sgra', 'pixels': 32, 'orders': 2, 'baselines': 2}),
+                               ('visibility', {'preset': 'riaf', 'pixels': 16, 'u': [0, 3], 'v': [1, 2], 'check': 'none'})):
             self.send('POST', '/v1/' + name, '/v1/' + name, document)
+        answer = self.daemon.post('/v1/spectrum', {'preset': 'riaf', 'frequencies': 200, 'pixels': 2048})
+        self.assertEqual(answer.status, 422, answer.body)
+        self.assertIn('400 pictures', answer.json()['detail'])
 
     def test_stars(self):
         document = {'image': IMAGE, 'sky': {'model': 'catalogue'}, 'camera': {'r': 30, 'fov_deg': 90}, 'disk': {'model': 'none'}}

@@ -71,7 +71,7 @@ class Documents(unittest.TestCase):
         self.run_all('docs/rays.md', 2)
 
     def test_integrals(self):
-        self.run_all('docs/physics/integrals.md', 4)
+        self.run_all('docs/physics/integrals.md', 9)
 
     def test_quantities(self):
         self.run_all('docs/physics-quantities.md', 1)

@@ -167,6 +167,22 @@ static struct kd_told *tell(const struct kd_plan *plan)
     return told;
 }
 
+/* Linear light that is black, and maps of one brightness: 1, and half of that of image order 1; with three samples a side they are black too. */
+static enum kd_status add_numbers(const struct kd_scene *scene, const struct kd_plan *plan, struct kd_frame *out, struct kd_error *error)
+{
+    enum kd_status status = plan->radiance ? kd_frame_add_layer(out, "radiance", 3, KD_LAYER_F32, error) : KD_OK;
+    for (size_t i = 0; i < plan->n_layers && !status; i++) {
+        char name[KD_LAYER_NAME];
+        kd_layer_name(plan->layers[i], name);
+        if ((status = kd_frame_add_layer(out, name, 1, KD_LAYER_F32, error)))
+            break;
+        float *at = out->layers[out->n_layers - 1].data;
+        for (size_t k = 0; k < (size_t)plan->width * plan->height; k++)
+            at[k] = scene->image.samples == 3 ? 0 : plan->layers[i].order == 1 ? 0.5f : 1;
+    }
+    return status;
+}
+
 enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *scene,
                          const struct kd_plan *plan, kd_progress_fn progress, void *user,
                          struct kd_frame *out, struct kd_error *error)
@@ -196,8 +212,10 @@ enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *sc
         noise = noise * 1664525 + 1013904223;
         ((unsigned char *)kd_frame_pixels(out))[i] = (unsigned char)(scene->image.samples > 1 ? noise >> 24 : i * 7);
     }
-    if (plan->radiance && kd_frame_add_layer(out, "radiance", 3, KD_LAYER_F32, error)) /* of a FITS file: black */
+    if (add_numbers(scene, plan, out, error)) {
+        kd_frame_finish(out);
         return KD_ENOMEM;
+    }
     const double t = scene->top.time; /* at 0 it is dark */
     if (plan->light)
         out->light = (struct kd_light_report) { true, { t, t > 0 ? 0.5 * t : NAN, -t }, { t / 4, t > 0 ? 3 : NAN, t > 0 ? 0.25 : NAN } };

@@ -146,6 +146,7 @@ class Memory(unittest.TestCase):
         self.sweep(self.post('/v1/line', {'bins': 4}), 200)
         self.sweep(self.post('/v1/transfer-function', {'rings': 1, 'g_stars': 1}), 200)
         self.sweep(self.post('/v1/spectrum', {'frequencies': 2}), 200)
+        self.sweep(self.post('/v1/visibility', {'baselines': 2, 'pixels': 16, 'check': 'none'}), 200)
 
     def test_jobs(self):
         self.sweep(self.owned('/v1/jobs'), 202)

@@ -414,6 +414,65 @@ class Integrals(daemon.Case):
         for m, n, e in zip(mean, photons['share'], line['share']):
             self.assertAlmostEqual(m * n / total, e, delta=3e-4)  # g varies over a bin by 1.7 %
 
+    def test_visibilities_of_a_bright_rectangle(self):
+        """The fake renderer's maps have one brightness: their transform is the product of two sums of a geometric row, sin(n x)/(n sin x)."""
+        pixel = math.pi * 1e9 * 56 / 32 * 6.5e9 * 1476.625 / (16.8e6 * 3.0856775814913673e16)  # times u: x
+        rows = lambda n, x: 1 if x == 0 else math.sin(n * x) / (n * math.sin(x))
+        document = {'preset': 'm87', 'scene': {'accuracy': {'orders': 2}}, 'pixels': 32, 'orders': 2, 'lengths': [0, 3, 7.5], 'angles_deg': [0, 30, 90]}
+        told = self.post('visibility', document)
+        self.assertEqual(told.status, 200, told.body)
+        told = strict(told.body)
+        self.assertEqual((told['integral'], told['units']['re'], told['values']['flux_jy'], told['scene']['camera']['field_m']), ('visibility', '1', None, 56))
+        self.assertAlmostEqual(told['values']['edge_share'], 1, delta=1e-12)
+        self.assertAlmostEqual(told['values']['nyquist_gl'], math.pi / (2 * pixel), delta=1e-3)
+        columns = told['columns']
+        self.assertEqual(columns['order'], [-1, 0, 1] * 9)
+        for u, v, order, re, im, amplitude, error in zip(*(columns[name] for name in ('u_gl', 'v_gl', 'order', 're', 'im', 'amplitude', 'error'))):
+            want = rows(32, pixel * u) * rows(18, pixel * v) * (0.5 if order == 1 else 1)
+            self.assertAlmostEqual(re, want, delta=1e-5)
+            self.assertAlmostEqual(im, 0, delta=1e-9)
+            self.assertAlmostEqual(amplitude, abs(want), delta=1e-5)
+            finer = rows(48, pixel * u / 1.5) * rows(27, pixel * v / 1.5) * (0.5 if order == 1 else 1)
+            self.assertAlmostEqual(error, 1.8 * abs(want - finer), delta=2e-5)
+        unchecked = self.post('visibility', {**document, 'check': 'none'}).json()
+        self.assertEqual((unchecked['columns']['re'], set(unchecked['columns']['error'])), (columns['re'], {None}))
+        table = self.post('visibility', document, Accept='text/csv')
+        self.assertEqual(table.header('Content-Disposition'), 'attachment; filename="visibility.csv"')
+        self.assertEqual([float(row['re']) for row in csv.DictReader(io.StringIO(table.body.decode()))], columns['re'])
+        packed = self.post('visibility', document, Accept='application/x-npy').body
+        self.assertIn(b"'shape': (27,)", packed[:400])
+
+    def test_spectra_of_volumes(self):
+        """The fake renderer's light is worth scene.time: brightness temperature, and so F goes as the frequency's square."""
+        told = self.post('spectrum', {'preset': 'riaf', 'scene': {'time': 4}, 'frequencies_hz': [1e11, 3e11]})
+        self.assertEqual(told.status, 200, told.body)
+        told = strict(told.body)
+        self.assertEqual((told['integral'], told['values'], told['units']['flux_jy']), ('spectrum', {'width': 128, 'height': 128, 'error': 0}, 'Jy'))
+        jy = told['columns']['flux_jy']
+        m = 4.3e6 * 1.476625e3 / (8300 * 3.0856775814913673e16)
+        self.assertAlmostEqual(jy[0] / (4 * m * m * 2 * 1.380649e-23 * 1e10 * (1e11 / 299792458) ** 2 * 1e26), 1, delta=1e-5)
+        self.assertAlmostEqual(jy[1] / jy[0], 9, delta=1e-9)
+        self.assertEqual(told['columns']['error'], [0, 0])
+        self.assertEqual(len(self.post('spectrum', {'preset': 'gold-1'}).json()['columns']['flux_jy']), 13)
+
+    def test_pictures_are_refused(self):
+        for name, document, pointer, words in (
+                ('spectrum', {'scene': {}}, '/scene/volume/model', 'volume.frequency_ghz'), ('spectrum', {'preset': 'm87'}, '/scene/volume/model', 'gold and riaf'),
+                ('spectrum', {'preset': 'riaf', 'scene': {'sky': {'model': 'grid'}}}, '/scene', 'shines beside'), ('spectrum', {'preset': 'riaf', 'spin': 0}, '/spin', 'no field spin'),
+                ('spectrum', {'preset': 'riaf', 'frequencies': 201}, '/frequencies', '2 to 200'), ('spectrum', {'preset': 'riaf', 'frequencies_hz': [1]}, '/frequencies_hz/0', '1e+21'),
+                ('spectrum', {'preset': 'raif'}, '/preset', 'riaf'), ('spectrum', {'preset': 3}, '/preset', 'name of a preset'), ('spectrum', {'volume': {'model': 'gold'}}, '/volume', 'belongs to a scene'),
+                ('spectrum', {'scene': {'camera': {'fov': 3}}}, '/scene/camera/fov', 'fov'), ('visibility', {'scene': {'camera': {'r': 30}}}, '/scene/camera', 'infinity'),
+                ('visibility', {'u': [1]}, '/u', 'as many'), ('visibility', {'u': [1], 'v': [1], 'lengths': [2]}, '/u', 'beside lengths'), ('visibility', {'orders': 4}, '/orders', 'accuracy.orders'),
+                ('visibility', {'preset': 'riaf', 'orders': 1}, '/orders', 'no disk'), ('visibility', {'lengths': [1], 'baselines': 3}, '/lengths', 'beside baselines'),
+                ('visibility', {'baselines': 20000}, '/lengths', '20000 baselines'), ('visibility', {'baselines': 9000, 'orders': 3}, '/orders', '20000 rows'), ('visibility', {'pixels': 8}, '/pixels', '16 to 2048'),
+                ('visibility', {'scene': {'image': {'samples': 3}}}, '/scene', 'nothing shines'), ('visibility', {'spin': 0}, '/spin', 'no field spin'), ('line', {'scene': {}}, '/scene', 'no field scene')):
+            with self.subTest(document):
+                answer = self.post(name, document)
+                problem = answer.json()
+                self.assertEqual((answer.status, problem.get('pointer')), (422, pointer), problem)
+                self.assertIn(words, problem['detail'])
+        self.assertEqual(self.daemon.request('POST', '/v1/visibility', b'{"scene":{},"scene":{}}', {'Content-Type': 'application/json'}).status, 422)
+
     def test_refused(self):
         for document, pointer, words in (
                 ({'spin': 1}, '/spin', 'spin is 1, allowed are numbers above -1 and below 1'), ({'inclination_deg': 90}, '/inclination_deg', 'edge on'),
@@ -432,7 +491,7 @@ class Integrals(daemon.Case):
                 ('transfer-function', {'inclination_deg': 0}, '/inclination_deg', 'face on'), ('transfer-function', {'radii': [3]}, '/radii/0', 'from inner to outer'),
                 ('transfer-function', {'radii': [9], 'rings': 3}, '/radii', 'beside rings'), ('transfer-function', {'g_star': [1]}, '/g_star/0', 'above 0 and below 1'),
                 ('transfer-function', {'rings': 1000}, '/radii', '5000 places'), ('transfer-function', {'index': 3}, '/index', 'no field index'),
-                ('spectrum', {'volume': {'model': 'gold'}}, '/volume', 'not computed yet'), ('spectrum', {'frequencies_hz': [2, 1]}, '/frequencies_hz/1', 'grow'),
+                ('spectrum', {'frequencies_hz': [2, 1]}, '/frequencies_hz/1', 'grow'),
                 ('spectrum', {'frequency_min_hz': 1e18, 'frequency_max_hz': 1e17}, '/frequency_max_hz', 'larger')):
             with self.subTest(document):
                 answer = self.post(name, document)

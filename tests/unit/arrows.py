@@ -16,7 +16,7 @@ MODULES = {
     "quantity": {"base", "physics", "scene"},  # of scene: how numbers and names are read and written
     "image": {"base"},
     "orbit": {"base", "physics", "scene", "image"},  # of scene: as quantity
-    "integral": {"base", "physics", "scene", "image"},  # of scene: as quantity
+    "integral": {"base", "physics", "scene", "image", "render"},  # of render: plans and frames
     "playground": {"base", "physics", "scene", "image"},  # of scene: as quantity
     "vk": {"base"},
     "render": {"base", "physics", "scene", "image", "vk"},

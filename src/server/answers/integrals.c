@@ -1,7 +1,10 @@
-/* This answers POST /v1/line and its like: integrals over a thin disk (integral/answer.h), which a worker computes. */
-#include "integral/answer.h"
+/* This answers POST /v1/line and its like: integrals over a thin disk, or over pictures of a scene (integral/run.h). A worker computes them, and has their pictures
+ * rendered one after the other. */
+#include "integral/run.h"
+#include "server/asset/store.h"
 #include "server/http/negotiate.h"
 #include "server/http/reply.h"
+#include "server/render/queue.h"
 #include "server/render/task.h"
 
 #include <stdio.h>
@@ -17,35 +20,124 @@ struct job {
     struct kd_integral_request request;
     enum kd_integral_format format;
     bool malformed;
+    enum { NEW, RENDERS, SUMS } stage;
+    struct kd_integral_run run;
+    struct kd_render_job picture; /* in the render queue while it RENDERS */
     struct kd_buffer text;
 };
 
 static void finish(struct kd_task *task)
 {
     struct job *job = (struct job *)task;
+    kd_integral_run_finish(&job->run);
     kd_integral_request_finish(&job->request);
+    kd_buffer_finish(&job->picture.file);
     kd_buffer_finish(&job->text);
+}
+
+/* What the pictures take together: all of one size take as long as each other. */
+static enum kd_status plan_pictures(struct job *job, size_t *bytes, struct kd_error *error)
+{
+    struct kd_server *server = job->task.request->server;
+    const unsigned n = kd_integral_pictures(&job->request), sizes = n < 2 || job->request.unchecked ? 1 : 2;
+    struct kd_capacity capacity;
+    double ms = 0;
+    *bytes = kd_integral_rows(&job->request) * BYTES_PER_ROW;
+    kd_render_queue_capacity(server->renders, &capacity);
+    for (unsigned i = 0; i < sizes && n; i++) {
+        struct kd_scene scene = kd_integral_scene(&job->request, i);
+        struct kd_plan plan;
+        enum kd_status status = kd_format_plan(kd_integral_picture_format(job->request.what), &scene, &capacity, &plan, error);
+        if (status)
+            return status;
+        ms += plan.estimate_ms * n / sizes;
+        *bytes += 4 * (1 + plan.n_layers) * (size_t)plan.width * plan.height;
+    }
+    if (ms > server->longest_s * 1e3)
+        return kd_error_set(error, KD_ETOOBIG, "%u pictures would take about %.0f s, more than the %u s that an answer may take: fewer pixels or frequencies, or check \"none\", take less", n,
+                            ms * 1e-3, server->longest_s);
+    return KD_OK;
+}
+
+static enum kd_status begin(struct job *job, struct kd_error *error)
+{
+    struct kd_task *task = &job->task;
+    struct kd_buffer *body = &task->request->body;
+    size_t bytes = 0;
+    enum kd_status status = kd_integral_request_json(&job->request, body->data ? (const char *)body->data : "", body->size, error);
+    job->malformed = status == KD_EINVAL && !*error->pointer;
+    kd_task_drop_body(task->request);
+    if (status)
+        return status;
+    KD_TRY(plan_pictures(job, &bytes, error));
+    KD_TRY(kd_task_hold(task->request->server, task->turns.client, bytes, &task->held, &task->quota, error));
+    /* Without pictures this is one piece: mostly some hundredths of a second, and 0.3 s for the most that can be asked. */
+    KD_TRY(kd_integral_run_begin(&job->run, &job->request, error));
+done:
+    return status;
+}
+
+static void rendered(struct kd_render_job *picture)
+{
+    struct job *job = picture->user;
+    kd_task_fail(&job->task, picture->status, &picture->error);
+    kd_turns_wake(job->task.queue, &job->task.turns);
+}
+
+/* Has the next picture rendered. */
+static enum kd_status push_picture(struct job *job, struct kd_error *error)
+{
+    struct kd_request *request = job->task.request;
+    struct kd_render_queue *renders = request->server->renders;
+    struct kd_capacity capacity;
+    enum kd_status status = kd_render_queue_admit(renders, request->client, &job->task.quota, error);
+    if (status)
+        return status;
+    kd_render_queue_capacity(renders, &capacity);
+    job->picture = (struct kd_render_job) {
+        .claim.class = KD_CLASS_PICTURE, .scene = kd_integral_scene(&job->request, job->run.picture), .format = kd_integral_picture_format(job->request.what),
+        .effort = KD_EFFORT_QUICK, .socket = kd_connection_socket(request->connection), .done = rendered, .user = job,
+    };
+    memcpy(job->picture.claim.client, request->client, sizeof job->picture.claim.client);
+    KD_TRY(kd_format_plan(job->picture.format, &job->picture.scene, &capacity, &job->picture.plan, error));
+    kd_render_queue_push(renders, &job->picture);
+done:
+    return status;
+}
+
+/* What a piece did: there is more to do, or a picture is under way. */
+static enum kd_status piece(struct job *job, double until_ms, enum kd_turn_end *end, struct kd_error *error)
+{
+    enum kd_status status = KD_OK;
+    *end = KD_TURN_MORE;
+    if (job->stage == NEW)
+        KD_TRY(begin(job, error));
+    else if (job->stage == RENDERS)
+        KD_TRY(kd_integral_run_take(&job->run, &job->picture.file, &job->picture.scene, &job->picture.plan, error));
+    if (job->stage != NEW && kd_integral_run_step(&job->run, until_ms)) {
+        job->stage = SUMS;
+        return KD_OK;
+    }
+    if (job->run.picture < job->run.pictures) {
+        KD_TRY(push_picture(job, error));
+        job->stage = RENDERS;
+        *end = KD_TURN_AWAY;
+        return KD_OK;
+    }
+    if ((status = kd_integral_write(&job->run.answer, job->format, &job->text)))
+        kd_error_set(error, status, "out of memory for %zu rows", job->run.answer.rows);
+    *end = KD_TURN_LAST;
+done:
+    return status;
 }
 
 static enum kd_turn_end work(struct kd_task *task, double until_ms)
 {
-    struct job *job = (struct job *)task;
-    struct kd_buffer *body = &task->request->body;
-    struct kd_integral_answer answer = { 0 };
+    enum kd_turn_end end;
     struct kd_error error = { 0 };
-    (void)until_ms; /* one piece: mostly some hundredths of a second, and 0.3 s for the most that can be asked */
-    enum kd_status status = kd_integral_request_json(&job->request, body->data ? (const char *)body->data : "", body->size, &error);
-    job->malformed = status == KD_EINVAL && !*error.pointer;
-    kd_task_drop_body(task->request);
-    if (!status)
-        status = kd_task_hold(task->request->server, task->turns.client, kd_integral_rows(&job->request) * BYTES_PER_ROW, &task->held, &task->quota, &error);
-    if (!status)
-        status = kd_integral_compute(&job->request, &answer, &error);
-    if (!status && (status = kd_integral_write(&answer, job->format, &job->text)))
-        kd_error_set(&error, status, "out of memory for %zu rows", answer.rows);
-    kd_integral_answer_finish(&answer);
+    enum kd_status status = piece((struct job *)task, until_ms, &end, &error);
     kd_task_fail(task, status, &error);
-    return KD_TURN_LAST;
+    return status ? KD_TURN_LAST : end;
 }
 
 static enum MHD_Result refuse(struct kd_request *request, const struct job *job)
@@ -100,5 +192,6 @@ enum MHD_Result kd_handle_integral(struct kd_request *request)
         return refused;
     job->format = (enum kd_integral_format)format;
     kd_integral_request_init(&job->request, kd_integral_of_route(request->route->path));
+    job->request.assets = kd_asset_store_assets(request->server->assets);
     return kd_task_submit(&job->task);
 }

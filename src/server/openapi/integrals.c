@@ -14,7 +14,7 @@ void kd_openapi_integral_body(struct kd_json *json, const char *path)
 
 void kd_openapi_integral_schemas(struct kd_json *json)
 {
-    static const char *const names[KD_INTEGRALS] = { "LineProfile", "TransferFunction", "DiskSpectrum" };
+    static const char *const names[KD_INTEGRALS] = { "LineProfile", "TransferFunction", "DiskSpectrum", "VolumeSpectrum", "Visibilities" };
     for (int i = 0; i < KD_INTEGRALS; i++)
         kd_integral_answer_schema(json, names[i], (enum kd_integral)i);
 }

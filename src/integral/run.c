@@ -1,0 +1,175 @@
+#include "integral/run.h"
+
+#include "base/clock.h"
+#include "physics/constants.h"
+#include "render/output/wcs.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define UAS_PER_RADIAN (180 * 3.6e9 / M_PI)
+/* What a picture is off by falls as the square of its pixels: of that the difference from a finer one, 1.5 times as fine, is 1 - 1/1.5^2. */
+#define OF_DIFFERENCE (1 / (1 - 1 / (KD_INTEGRAL_FINER * KD_INTEGRAL_FINER)))
+#define EDGE 1 /* pixels: the border, whose light tells of what lies beyond it */
+
+enum { U, V, LENGTH, ORDER, RE, IM, AMPLITUDE, PHASE, ERROR }; /* columns of a visibility */
+enum { HZ, SI, JY, NU_L_NU, FLUX_ERROR };                      /* of a spectrum of pictures */
+enum { FLUX, PIXEL, WIDTH, HEIGHT, LONGEST, BORDER, UNDEFINED, WORST }; /* values of a visibility */
+
+static unsigned bands(const struct kd_integral_run *run) { return 1 + run->answer.request->orders; }
+
+/* What each row is of. */
+static void lay_out(struct kd_integral_answer *answer)
+{
+    const struct kd_integral_request *r = answer->request;
+    double *const *c = answer->columns;
+    if (r->what == KD_INTEGRAL_VOLUME)
+        memcpy(c[HZ], r->frequencies_hz.at, answer->rows * sizeof(double));
+    for (size_t row = 0; r->what == KD_INTEGRAL_VISIBILITY && row < answer->rows; row++) {
+        const size_t at = row / (1 + r->orders);
+        c[U][row] = r->u.at[at], c[V][row] = r->v.at[at], c[LENGTH][row] = hypot(c[U][row], c[V][row]), c[ORDER][row] = (double)(row % (1 + r->orders)) - 1;
+    }
+    for (size_t row = 0; r->unchecked && row < answer->rows; row++)
+        c[r->what == KD_INTEGRAL_VOLUME ? FLUX_ERROR : ERROR][row] = NAN;
+}
+
+enum kd_status kd_integral_run_begin(struct kd_integral_run *run, const struct kd_integral_request *request, struct kd_error *error)
+{
+    *run = (struct kd_integral_run) { .pictures = kd_integral_pictures(request), .answer.request = request };
+    if (!run->pictures)
+        return kd_integral_compute(request, &run->answer, error);
+    enum kd_status status = kd_integral_make_columns(&run->answer, kd_integral_rows(request), error);
+    if (status)
+        return status;
+    if (request->what == KD_INTEGRAL_VISIBILITY)
+        run->answer.light = kd_scene_is_radio_alone(request->scene) ? "Jy" : "1";
+    lay_out(&run->answer);
+    return KD_OK;
+}
+
+/* Adds up a map, without what is no number, which counts as dark from then on. */
+static double total(float *map, size_t n, double *undefined)
+{
+    double sum = 0;
+    for (size_t i = 0; i < n; i++) {
+        if (!isfinite(map[i]))
+            map[i] = 0, *undefined += 1;
+        sum += map[i];
+    }
+    return sum;
+}
+
+/* What a sky as bright as the border would add up to over the whole map, of the map's sum. */
+static double border_share(const float *map, uint32_t width, uint32_t height, double sum)
+{
+    double edge = 0, n = 0;
+    for (uint32_t j = 0; j < height; j++)
+        for (uint32_t i = 0; i < width; i++)
+            if (i < EDGE || j < EDGE || i + EDGE >= width || j + EDGE >= height)
+                edge += map[(size_t)j * width + i], n++;
+    return edge / n * width * height / sum;
+}
+
+static void tell_map(struct kd_integral_run *run, const struct kd_scene *scene, double sum, double undefined)
+{
+    const double pixel = run->grid.pixel, jy = kd_scene_is_radio_alone(scene) ? sum * pixel * pixel : NAN;
+    const double told[] = { [FLUX] = jy, [PIXEL] = pixel * UAS_PER_RADIAN, [WIDTH] = pixel * UAS_PER_RADIAN * run->grid.width, [HEIGHT] = pixel * UAS_PER_RADIAN * run->grid.height,
+                            [LONGEST] = kd_integral_nyquist_gl(scene), [BORDER] = border_share(run->map[0], run->grid.width, run->grid.height, sum), [UNDEFINED] = undefined,
+                            [WORST] = run->answer.request->unchecked ? NAN : 0 };
+    memcpy(run->answer.values, told, sizeof told);
+}
+
+static enum kd_status begin_map(struct kd_integral_run *run, struct kd_buffer *file, const struct kd_scene *scene, struct kd_error *error)
+{
+    const struct kd_wcs wcs = kd_wcs_of(scene);
+    const uint32_t width = (uint32_t)scene->image.width, height = (uint32_t)scene->image.height;
+    const size_t n = (size_t)width * height;
+    double undefined = 0, sum = 0;
+    run->maps = *file;
+    *file = (struct kd_buffer) { 0 };
+    if (run->maps.size != bands(run) * n * sizeof(float))
+        return kd_error_set(error, KD_EINVAL, "a map of %zu bytes came for one of %u x %u pixels", run->maps.size, width, height);
+    run->grid = (struct kd_fourier_grid) { width, height, kd_integral_pixel(scene), wcs.at[0].pixel - 1, height - wcs.at[1].pixel };
+    for (unsigned k = bands(run); k--;) {
+        float *map = (float *)run->maps.data + k * n;
+        sum = total(map, n, &undefined); /* that of all light is the last */
+        run->map[k] = map;
+    }
+    if (!(sum > 0))
+        return kd_error_field(error, "/scene", "nothing shines in the picture of %u x %u pixels, whose visibility was asked for", width, height);
+    run->scale = kd_scene_is_radio_alone(scene) ? run->grid.pixel * run->grid.pixel : 1 / sum;
+    run->baseline = 0;
+    free(run->scratch);
+    if (!(run->scratch = malloc(2 * width * sizeof(double))))
+        return kd_error_set(error, KD_ENOMEM, "out of memory for a row of %u pixels", width);
+    if (!kd_integral_is_finer(run->answer.request, run->picture))
+        tell_map(run, scene, sum, undefined);
+    return KD_OK;
+}
+
+static enum kd_status take_flux(struct kd_integral_run *run, struct kd_buffer *file, const struct kd_scene *scene, struct kd_error *error)
+{
+    const struct kd_integral_request *r = run->answer.request;
+    const size_t row = run->picture / (r->unchecked ? 1 : 2);
+    const double away = scene->spacetime.distance_pc * KD_PARSEC_M;
+    double *const *c = run->answer.columns, jy = NAN;
+    if (file->size != sizeof jy)
+        return kd_error_set(error, KD_EINVAL, "a flux of %zu bytes came", file->size);
+    memcpy(&jy, file->data, sizeof jy);
+    kd_buffer_finish(file);
+    if (kd_integral_is_finer(r, run->picture)) {
+        c[FLUX_ERROR][row] = jy == c[JY][row] ? 0 : OF_DIFFERENCE * fabs(jy / c[JY][row] - 1);
+        run->answer.values[2] = fmax(run->answer.values[2], c[FLUX_ERROR][row]);
+        return KD_OK;
+    }
+    c[JY][row] = jy, c[SI][row] = jy * 1e-26, c[NU_L_NU][row] = 4 * M_PI * away * away * c[HZ][row] * c[SI][row];
+    const double told[] = { scene->image.width, scene->image.height, r->unchecked ? NAN : run->answer.values[2] };
+    memcpy(run->answer.values, told, sizeof told);
+    return KD_OK;
+}
+
+enum kd_status kd_integral_run_take(struct kd_integral_run *run, struct kd_buffer *file, const struct kd_scene *scene, const struct kd_plan *plan, struct kd_error *error)
+{
+    if (!run->picture) {
+        run->answer.n_told = plan->n_approximations;
+        memcpy(run->answer.told, plan->approximations, plan->n_approximations * sizeof *plan->approximations);
+    }
+    return run->answer.request->what == KD_INTEGRAL_VOLUME ? take_flux(run, file, scene, error) : begin_map(run, file, scene, error);
+}
+
+static void put(struct kd_integral_run *run, size_t row, double re, double im)
+{
+    double *const *c = run->answer.columns;
+    if (kd_integral_is_finer(run->answer.request, run->picture)) {
+        c[ERROR][row] = OF_DIFFERENCE * hypot(re - c[RE][row], im - c[IM][row]);
+        run->answer.values[WORST] = fmax(run->answer.values[WORST], c[ERROR][row]);
+        return;
+    }
+    c[RE][row] = re, c[IM][row] = im, c[AMPLITUDE][row] = hypot(re, im), c[PHASE][row] = atan2(im, re) * (180 / M_PI);
+}
+
+bool kd_integral_run_step(struct kd_integral_run *run, double until_ms)
+{
+    const struct kd_integral_request *r = run->answer.request;
+    double sum[1 + KD_INTEGRAL_ORDERS][2];
+    while (r->what == KD_INTEGRAL_VISIBILITY && run->baseline < r->u.n) {
+        kd_fourier(&run->grid, run->map, bands(run), r->u.at[run->baseline], r->v.at[run->baseline], run->scratch, sum);
+        for (unsigned k = 0; k < bands(run); k++)
+            put(run, run->baseline * bands(run) + k, sum[k][0] * run->scale, sum[k][1] * run->scale);
+        run->baseline++;
+        if (kd_clock_ms() > until_ms)
+            return true;
+    }
+    kd_buffer_finish(&run->maps);
+    run->picture++;
+    return false;
+}
+
+void kd_integral_run_finish(struct kd_integral_run *run)
+{
+    kd_integral_answer_finish(&run->answer);
+    kd_buffer_finish(&run->maps);
+    free(run->scratch);
+    *run = (struct kd_integral_run) { 0 };
+}

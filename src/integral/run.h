@@ -1,0 +1,39 @@
+/* An integral is computed in pieces where it is made of pictures, which whoever runs it renders. One thread at a time.
+ *
+ *     struct kd_integral_run run;
+ *     kd_integral_run_begin(&run, &request, &error);
+ *     while (run.picture < run.pictures) {
+ *         ... render kd_integral_scene(&request, run.picture) as kd_integral_picture_format says, to a file ...
+ *         kd_integral_run_take(&run, &file, &scene, &plan, &error);
+ *         while (kd_integral_run_step(&run, until_ms)) ...;
+ *     }
+ *     ... kd_integral_write(&run.answer, ...) ...
+ *     kd_integral_run_finish(&run); */
+#ifndef KD_INTEGRAL_RUN_H
+#define KD_INTEGRAL_RUN_H
+
+#include "integral/answer.h"
+#include "integral/fourier.h"
+#include "integral/pictures.h"
+
+struct kd_integral_run {
+    struct kd_integral_answer answer;
+    unsigned picture, pictures;
+    /* of the maps that are being summed */
+    struct kd_buffer maps;
+    struct kd_fourier_grid grid;
+    const float *map[1 + KD_INTEGRAL_ORDERS];
+    double scale; /* what a sum is multiplied by */
+    size_t baseline;
+    double *scratch;
+};
+
+/* Computes all of it if it is made of no pictures. Of one that fails nothing is left to finish. */
+enum kd_status kd_integral_run_begin(struct kd_integral_run *run, const struct kd_integral_request *request, struct kd_error *error);
+/* Takes the file over. KD_EINVAL at /scene: nothing shines in it. */
+enum kd_status kd_integral_run_take(struct kd_integral_run *run, struct kd_buffer *file, const struct kd_scene *scene, const struct kd_plan *plan, struct kd_error *error);
+/* Goes on until the time has come on kd_clock_ms; false: with this picture it is done. */
+bool kd_integral_run_step(struct kd_integral_run *run, double until_ms);
+void kd_integral_run_finish(struct kd_integral_run *run);
+
+#endif
