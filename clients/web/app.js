@@ -6,6 +6,7 @@ import { persistent } from './again.js';
 import { buildCarry } from './carry.js';
 import { buildControls } from './controls.js';
 import { describe, entitle, followScene } from './describe.js';
+import { buildFit } from './fit.js';
 import { buildFull } from './full.js';
 import { buildHistory } from './history.js';
 import { lang, t, tell, translatePage } from './i18n.js';
@@ -278,6 +279,7 @@ async function start() {
       'lensing',
       async () => {
         const loaded = await Scene.load();
+        buildFit(loaded);
         await openPreset(loaded);
         resolve(loaded);
       },

@@ -52,6 +52,7 @@ export function followScene(scene) {
   function follow() {
     entitle('lensing', nameOf(scene));
     byId('picture').alt = describe(scene);
+    byId('stage').parentNode.toggleAttribute('data-bar', scene.get('style.colour_bar'));
     byId('stage').setAttribute('aria-label', t(`Camera on the hole: ${nameOf(scene)}`, `Camera sul buco: ${nameOf(scene)}`));
   }
   let timer = 0,

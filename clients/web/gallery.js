@@ -1,7 +1,8 @@
 // The presets are a strip of small pictures, each with a name and a sentence. Pictures are the server's, asked for one at a time once a card is
 // seen: one that the server has not painted yet takes it seconds.
 import { byId, el, seen } from './dom.js';
-import { label, preset } from './i18n.js';
+import captions from './captions.js';
+import { label, t } from './i18n.js';
 import { first_view } from './presets.js';
 import { swipe } from './swipe.js';
 
@@ -9,6 +10,9 @@ const calm_ms = 1500; // after the first picture
 const again_ms = 10000;
 const tries = 3;
 const pause = ms => new Promise(resolve => setTimeout(resolve, ms));
+
+// One that has no caption here has its title.
+export const caption = (name, title) => (captions[name] ? t(...captions[name]) : title);
 
 const order = name => (name === first_view ? -1 : name === 'smooth' ? 1 : 0);
 
@@ -18,7 +22,7 @@ export function buildGallery(scene, select, presets) {
     cards = [...presets]
       .sort((a, b) => order(a.name) - order(b.name))
       .map(({ name, label: text, title }) => {
-        const sentence = preset(name, title);
+        const sentence = caption(name, title);
         return el('button', { type: 'button', tabindex: -1, 'data-preset': name, title: sentence, onclick: () => choose(name) },
           el('img', { width: 192, height: 120, alt: '' }), el('b', {}, label(name, text)), el('span', {}, sentence));
       });

@@ -158,7 +158,7 @@ const choices = {
   fulldome: 'fulldome (180°)',
 };
 export const word = value => words?.values[value] ?? choices[value] ?? value;
-export const preset = (name, title) => words?.presets[name] ?? title;
+export const preset = (name, title) => words?.presets[name] ?? title; // of the playground; of scenes: captions.js
 export const label = (name, text) => words?.labels[name] ?? text;
 
 const raised = text => [...text].map(c => (c === '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'[c])).join('');

@@ -1,8 +1,9 @@
 // The box of presets. It names the one that the scene is, at whatever time and from whichever side; a link remembers the name.
 import { byId, el } from './dom.js';
-import { label, preset, t, tell } from './i18n.js';
+import { label, t, tell } from './i18n.js';
 import * as link from './link.js';
-import { valueAt } from './scene.js';
+import { left_out } from './known.js';
+import { told, valueAt } from './scene.js';
 import { getJson } from './server.js';
 
 // The preset that is shown where a link says nothing of the scene; '' is the default scene.
@@ -14,38 +15,51 @@ const document_of = name => getJson('v1/presets/' + encodeURIComponent(renamed[n
 
 // All as it was at first.
 export async function startAgain(scene) {
-  scene.replace(first_view ? await document_of(first_view) : {});
+  scene.replace(first_view ? await document_of(first_view) : {}, {}, scene.fits);
 }
 
-// A link may name a preset and nothing else, or nothing at all.
+// What a link says of the scene goes over the preset that it names, and without one over the default scene. One that says nothing is of the first view.
 export async function openPreset(scene) {
-  const name = link.get('preset') ?? first_view,
-    held = scene.held;
-  if (!name || name === plain || essence(scene, scene.document(), true) !== '{}') return;
-  const document = await document_of(name).catch(error => {
+  const chosen = link.get('preset') ?? (scene.linked.some(path => !['image', 'time'].includes(path.split('.')[0])) ? plain : first_view),
+    held = scene.held,
+    linked = Object.fromEntries(scene.linked.map(path => [path, scene.get(path)]));
+  const document = !chosen || chosen === plain ? {} : await document_of(chosen).catch(error => {
     if (error.status !== 404) throw error;
     scene.unknown.push('preset');
   });
-  if (document) scene.replace(document);
+  // The width that the preset has anyhow nobody has chosen.
+  const given = Object.fromEntries(Object.entries(linked).filter(([path, value]) => value !== valueAt(document ?? {}, path)));
+  scene.replace(document ?? {}, linked, values => scene.fits(values, given));
   if (held) scene.hold(true);
 }
 
-// What makes a scene another one, in the order of the fields; exact: it is another from another side, too.
-function essence(scene, document, exact = false) {
+// It is the same scene with other values of these: a picture of it at another time or from another side.
+const besides = path => ['image', 'time'].includes(path.split('.')[0]) || path === 'camera.azimuth_deg';
+
+// What makes a scene another one, in the order of the fields; fitted: whose width is the window's.
+function essence(scene, document, fitted = null) {
   const own = {};
   for (const [path, { default: usual }] of scene.fields) {
-    const [section] = path.split('.'),
-      value = valueAt(document, path);
-    if (value != null && value !== usual && section !== 'image' && section !== 'time' && (exact || path !== 'camera.azimuth_deg')) own[path] = value;
+    const value = fitted?.path === path ? fitted.base : valueAt(document, path);
+    if (value != null && value !== usual && !besides(path)) own[path] = value;
   }
   return JSON.stringify(own);
 }
 
+// A link with a preset says what differs from it, so the default too, where the preset has another value. The width that the window asks for is not said.
+function linkBeside(scene, document, fitted) {
+  for (const [path, { default: usual }] of scene.fields) {
+    const theirs = told(valueAt(document, path)) ?? usual;
+    if (fitted?.path === path) link.set(path, theirs === usual ? null : theirs);
+    else if (besides(path) && !left_out.includes(path) && theirs !== usual && scene.get(path) === usual) link.set(path, usual);
+  }
+}
+
 export async function buildPresets(scene) {
-  const { presets } = await getJson('v1/presets'),
+  const [{ presets }, { buildGallery, caption }] = await Promise.all([getJson('v1/presets'), import('./gallery.js')]),
     select = byId('preset'),
     help = byId('preset-help'),
-    known = new Map([['', '{}']]); // essences by name
+    known = new Map([['', { text: '{}', document: {} }]]); // essences by name
   const own = el('option', { value: 'own', disabled: true }, t('a scene of your own', 'una scena tua'));
   select.append(
     el('option', { value: '' }, t('default', 'predefinita')),
@@ -55,18 +69,20 @@ export async function buildPresets(scene) {
 
   async function learn(name) {
     const document = await document_of(name);
-    known.set(name, essence(scene, document));
+    known.set(name, { text: essence(scene, document), document });
     return document;
   }
 
   function follow() {
-    const now = essence(scene, scene.document({}, true)),
-      name = [...known].find(([, text]) => text === now)?.[0];
+    const fitted = scene.fitted(),
+      now = essence(scene, scene.document({}, true), fitted),
+      [name, { document } = {}] = [...known].find(([, { text }]) => text === now) ?? [];
     own.hidden = name != null;
     select.value = name ?? 'own';
     link.set('preset', name || (name === '' && first_view ? plain : null));
+    if (document) linkBeside(scene, document, fitted);
     const chosen = presets.find(p => p.name === name);
-    help.textContent = chosen ? preset(chosen.name, chosen.title) : '';
+    help.textContent = chosen ? caption(chosen.name, chosen.title) : '';
   }
 
   let newest = 0; // of the choices: an answer may come after that to a later one
@@ -75,16 +91,15 @@ export async function buildPresets(scene) {
     try {
       const document = select.value ? await learn(select.value) : {};
       byId('preset-fault').replaceChildren();
-      if (mine === newest) scene.replace(document);
+      if (mine === newest) scene.replace(document, {}, scene.fits);
     } catch (error) {
       follow();
       tell(byId('preset-fault'), error.message);
     }
   });
-  scene.addEventListener('change', follow);
+  for (const event of ['change', 'settle']) scene.addEventListener(event, follow);
   const names = [link.get('preset') ?? first_view, first_view].filter(name => presets.some(preset => preset.name === name));
   await Promise.all([...new Set(names)].map(learn));
   follow();
-  const { buildGallery } = await import('./gallery.js');
   buildGallery(scene, select, presets);
 }

@@ -37,7 +37,7 @@ function sections([path, spec]) {
 export const valueAt = (document, path) => path.split('.').reduce((inside, name) => inside?.[name], document);
 
 // Words are a list in a document and a text elsewhere, as in a link.
-const told = value => (Array.isArray(value) ? value.join(',') : value);
+export const told = value => (Array.isArray(value) ? value.join(',') : value);
 
 // { type: 'number' | 'integer' | 'choice' | 'switch' | 'words' | 'asset', minimum, maximum, word, choices }
 function kind(spec) {
@@ -70,6 +70,7 @@ export class Scene extends EventTarget {
   varies = []; // what another time or azimuth would show, as the server says of the scene (docs/live.md)
   emitters = []; // what shines in it, likewise
   unknown = []; // what of the link means nothing here
+  linked = []; // paths of what the link says of the scene
   jumps = 0; // how often somebody set the time
   jumped = new Set(); // paths of what was moved, and has been set by somebody since
   drift = 0; // degrees a second that the camera goes round until somebody touches anything (drift.js)
@@ -90,6 +91,7 @@ export class Scene extends EventTarget {
       const value = link.get(path) == null ? (style[path] ?? null) : parse(field, link.get(path));
       if (Number.isNaN(value)) scene.unknown.push(path);
       else if (value != null) scene.#put(path, value);
+      if (!Number.isNaN(value) && link.get(path) != null) scene.linked.push(path);
     }
     const names = scene.sections.map(({ name }) => name);
     for (const [key] of link.entries(''))
@@ -240,12 +242,13 @@ export class Scene extends EventTarget {
     this.dispatchEvent(new Event('tick'));
   }
 
-  // All of a document, whatever was there before; the picture's size is the page's affair.
-  replace(document) {
+  // All of a document, whatever was there before; the picture's size is the page's affair. over: values by path that go over it, a style's among them
+  // before its fields; fitted: what of it the window changes (fit.js).
+  replace(document, over = {}, fitted = values => values) {
     this.held = still.matches;
     link.set('pause', null);
     const values = Object.fromEntries([...this.fields.keys()].map(path => [path, valueAt(document, path) ?? null]));
-    this.change({ ...values, 'image.width': null, 'image.height': null });
+    this.change(fitted({ ...values, 'image.width': null, 'image.height': null, ...this.#styles[over['style.name']], ...over }));
   }
 
   #with(other, moved) {

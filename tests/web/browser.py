@@ -47,6 +47,16 @@ def rows(schema, before='', group=None):
         elif 'items' in spec:
             yield from rows(spec['items'], f'{before}{name}.0.', spec['x-group'])
 
+
+def paths(document, before=''):
+    """(path, value) of each value of a scene."""
+    for name, value in document.items():
+        if isinstance(value, dict):
+            yield from paths(value, before + name + '.')
+        else:
+            yield before + name, value
+
+
 SMOOTH = 'disk.gas.amplitude=0&disk.emission_opacity=0&style.bloom=0'  # in a link: a disk that rests, and light that stays where it is
 
 

@@ -5,7 +5,7 @@ import pathlib
 import re
 import subprocess
 
-from browser import AT_REST, FINE, READY, SMOOTH, VIEWS, Browser, main, rows, value
+from browser import AT_REST, FINE, KERRD, READY, SMOOTH, VIEWS, Browser, main, paths, rows, value
 import daemon
 
 BUDGET = 300_000  # bytes of all that a visit to every view loads, as sent, without pictures and what a playground tells as it goes
@@ -285,7 +285,7 @@ class Lensing(Browser):
         self.assertTrue(daemon.eventually(lambda: self.field(page, 'camera.r') == '74.1'))
         page.wait_for_selector(AT_REST)
         self.assertEqual((self.field(page, 'spacetime.spin'), self.field(page, 'camera.r')), ('0.999', '74.1'))
-        self.there(page, 'James', '#preset-help')
+        self.there(page, 'The film’s hole', '#preset-help')
         self.assertNotEqual(self.pixels(page), before)
         self.expected = '422'
         page.fill('[data-path="camera.r"] input[type=number]', '1.5')
@@ -308,6 +308,44 @@ class Lensing(Browser):
         self.assertTrue(daemon.eventually(lambda: 'preset=' not in again.evaluate('location.hash')))
         again.select_option('#preset', '')
         self.assertTrue(daemon.eventually(lambda: self.field(again, 'camera.r') == '' and again.input_value('#preset') == ''))
+
+    def test_a_link_is_a_preset_with_fields_over_it(self):
+        """As ?preset=gargantua&camera.r=30 is for the server, which says here what that is."""
+        over = 'spacetime.spin=0.5&style.name=eht&disk.doppler=false&camera.azimuth_deg=0'
+        told = subprocess.run([KERRD, 'scene', '--preset', 'gargantua', *(part for field in over.split('&') for part in ('--set', field))], capture_output=True, check=True, timeout=60)
+        want = dict(paths(json.loads(told.stdout)))
+        page = self.open('lang=en&preset=gargantua&' + over)
+        page.wait_for_selector('#preset option:nth-child(3)', state='attached')
+        self.assertTrue(daemon.eventually(lambda: page.input_value('#preset') == 'own'))
+        given = dict(paths(json.loads(page.input_value('#scene-text'))))
+        self.assertGreater(len(given), 8)
+        self.assertEqual({path: value for path, value in given.items() if want[path] != value and not path.startswith('image.')}, {})
+        usual = dict(paths(json.loads(subprocess.run([KERRD, 'scene'], capture_output=True, check=True, timeout=60).stdout)))
+        self.assertEqual([path for path, value in want.items() if value != usual[path] and path not in given and not path.startswith('image.')], [], 'nor is anything of it left out')
+        self.assertTrue(daemon.eventually(lambda: 'preset=' not in page.evaluate('location.hash')), 'it is no preset now, and the link says all of it')
+        again = self.open(page.evaluate('location.hash').lstrip('#'))
+        self.assertEqual(json.loads(again.input_value('#scene-text')), json.loads(page.input_value('#scene-text')))
+
+    def test_a_low_window_holds_the_whole_hole(self):
+        """As much is seen upwards as in a window of 16:9; who chooses a width has it, and a link without one says none."""
+        shape = lambda page: page.evaluate('() => document.getElementById("stage").clientWidth / document.getElementById("stage").clientHeight')
+        page = self.open('lang=en&preset=smooth', viewport={'width': 1440, 'height': 400})
+        page.wait_for_selector('#preset option:nth-child(3)', state='attached')
+        self.open_groups(page)
+        wide = lambda: float(self.field(page, 'camera.field_m'))
+        usual = paths(json.loads(subprocess.run([KERRD, 'scene', '--preset', 'smooth'], capture_output=True, check=True, timeout=60).stdout))
+        field = dict(usual)['camera.field_m']
+        self.assertTrue(daemon.eventually(lambda: abs(wide() / (field * shape(page) * 9 / 16) - 1) < 0.001))
+        self.assertGreater(wide(), 1.5 * field)
+        self.assertTrue(daemon.eventually(lambda: page.input_value('#preset') == 'smooth'))
+        self.assertNotIn('field_m', page.evaluate('location.hash').replace(f'camera.field_m={field:g}', ''))
+        page.set_viewport_size({'width': 1000, 'height': 700})
+        self.assertTrue(daemon.eventually(lambda: wide() == field), 'it follows the window')
+        page.fill('[data-path="camera.field_m"] input[type=number]', '33')
+        page.keyboard.press('Enter')
+        page.set_viewport_size({'width': 1440, 'height': 400})
+        page.wait_for_selector(AT_REST)
+        self.assertEqual(wide(), 33)
 
     def test_the_scene_can_be_taken_away(self):
         page = self.open('lang=en&spacetime.spin=-0.5')

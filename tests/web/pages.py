@@ -115,6 +115,8 @@ class Pages(Browser):
         for view in ('lensing', 'physics', 'orbits'):
             page = self.open(f'lang=it&view={view}', READY[view], viewport={'width': 320, 'height': 640})
             self.assertLessEqual(page.evaluate('() => document.documentElement.scrollWidth'), 320, view)
+            self.assertEqual(page.evaluate('() => new Set([...document.querySelectorAll("nav button")].map(({ offsetTop }) => offsetTop)).size'), 1, 'one row of views')
+            self.assertLessEqual(*page.evaluate('() => [document.querySelector("nav").scrollWidth, document.querySelector("nav").clientWidth]'), 'and all of it is seen')
 
     def test_low(self):
         page = self.open(viewport={'width': 1100, 'height': 420})
