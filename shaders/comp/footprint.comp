@@ -29,6 +29,13 @@ struct kd_footprint { KD_FOOTPRINT_FIELDS_(F, U) };
 layout(push_constant) uniform Push { kd_footprint push_; };
 kd_footprint push; /* read before the first branch: behind one lavapipe reads it anew for each lane and each use */
 layout(set = 0, binding = 0) buffer LensMap { float lens[]; };
+/* A word of the map that was traced. */
+#ifdef KD_TEXELS
+layout(set = 0, binding = 1) uniform textureBuffer traced;
+float map_at(uint at) { return texelFetch(traced, int(at)).r; }
+#else
+float map_at(uint at) { return lens[at]; }
+#endif
 
 const bool SHAPED = (QUANTITIES & KD_LENS_SHAPE) != 0u;
 
@@ -39,12 +46,12 @@ struct kd_spot { vec3 at; bool there; };
 kd_spot spot(uint n, uint at, bool there)
 {
     if (n < ORDERS) {
-        float w = lens[at + n * push.stride];
-        return kd_spot(vec3(w, lens[at + (kd_plane(KD_LENS_PHI) + n) * push.stride], 0.0), there && w > 0.0);
+        float w = map_at(at + n * push.stride);
+        return kd_spot(vec3(w, map_at(at + (kd_plane(KD_LENS_PHI) + n) * push.stride), 0.0), there && w > 0.0);
     }
-    float u = lens[at + kd_plane(KD_LENS_SKY_U) * push.stride], s = sqrt(max(1.0 - u * u, 0.0));
-    kd_phasor phi = kd_cos_sin(lens[at + kd_plane(KD_LENS_SKY_PHI) * push.stride]);
-    bool escapes = lens[at + kd_plane(KD_LENS_FATE) * push.stride] == KD_FATE_ESCAPED;
+    float u = map_at(at + kd_plane(KD_LENS_SKY_U) * push.stride), s = sqrt(max(1.0 - u * u, 0.0));
+    kd_phasor phi = kd_cos_sin(map_at(at + kd_plane(KD_LENS_SKY_PHI) * push.stride));
+    bool escapes = map_at(at + kd_plane(KD_LENS_FATE) * push.stride) == KD_FATE_ESCAPED;
     return kd_spot(vec3(s * phi.c, s * phi.s, u), there && escapes);
 }
 
@@ -127,7 +134,7 @@ struct kd_fit { float xx, xy, yy; vec3 dx, dy; float dd, count, lacks; };
 /* Which pixels beside this one are listed too: they are next to it in the list. */
 struct kd_beside { bool left, right; };
 
-vec2 listed(uint pixel) { return vec2(lens[push.list + 2 * pixel], lens[push.list + 2 * pixel + 1]); }
+vec2 listed(uint pixel) { return vec2(map_at(push.list + 2 * pixel), map_at(push.list + 2 * pixel + 1)); }
 
 kd_beside beside(uint pixel)
 {
@@ -200,7 +207,7 @@ void main()
     if ((QUANTITIES & KD_LENS_FOOTPRINT) != 0u) {
         uint plane = at + kd_plane(KD_LENS_FOOTPRINT) * push.stride, n = 0;
         for (; n < ORDERS; n++) { /* crossings come without gaps */
-            if (lens[at + n * push.stride] <= 0.0)
+            if (map_at(at + n * push.stride) <= 0.0)
                 break;
             kd_oval o = footprint(n, at, grid);
             lens[plane + n * push.stride] = o.size;
@@ -211,7 +218,7 @@ void main()
             lens[plane + n * push.stride] = 0.0;
     }
     if ((QUANTITIES & KD_LENS_SKY_FOOTPRINT) != 0u) {
-        bool escapes = lens[at + kd_plane(KD_LENS_FATE) * push.stride] == KD_FATE_ESCAPED;
+        bool escapes = map_at(at + kd_plane(KD_LENS_FATE) * push.stride) == KD_FATE_ESCAPED;
         lens[at + kd_plane(KD_LENS_SKY_FOOTPRINT) * push.stride] = escapes ? footprint(ORDERS, at, grid).size : 0.0;
     }
 }

@@ -14,7 +14,12 @@ layout(local_size_x = KD_GROUP_SIZE) in;
 #define A(type, name, count) type name[count];
 #define BLOCK(number, name) struct kd_##name##_block { KD_BLOCK_##name(F, U, A) };
 #define MEMBER(number, name) kd_##name##_block name;
+#ifdef KD_TEXELS
+layout(set = 0, binding = 0) uniform textureBuffer lens_texels;
+#define KD_MAP_AT(at) texelFetch(lens_texels, int(at)).r
+#else
 layout(set = 0, binding = 0) readonly buffer LensMap { float lens[]; };
+#endif
 struct kd_spot_block { KD_BLOCK_spot(F, U) };
 KD_EMIT_BLOCKS(BLOCK)
 layout(set = 0, binding = 1, std140) uniform Emission { KD_EMIT_BLOCKS(MEMBER) } emission_;
@@ -31,7 +36,7 @@ KD_EMIT_BUFFERS
 
 const bool SLOW = (QUANTITIES & KD_LENS_DELAY) != 0u;
 
-float quantity(uint which, uint at) { return (QUANTITIES & which) != 0u ? lens[at + kd_plane(which) * slice.stride] : 0.0; }
+float quantity(uint which, uint at) { return (QUANTITIES & which) != 0u ? KD_MAP_AT(at + kd_plane(which) * slice.stride) : 0.0; }
 
 /* This is Q by w'^2 = R(w) of kerr_ray.glsl, of a ray whose place in the picture does not tell it. */
 float kd_carter_of_slope(float energy, float momentum, float w, float slope)

@@ -75,7 +75,7 @@ kd_beam follow(uvec2 place, uint at, uint pixel)
 {
     kd_beam beam = kd_beam(vec3(0.0), 0.0, 1.0);
     for (uint n = 0; KD_GLOWS && n < ORDERS; n++) {
-        float w = lens[at + n * slice.stride];
+        float w = KD_MAP_AT(at + n * slice.stride);
         if (w == 0.0)
             break;
         meet(beam, w, n, place, at);
@@ -154,7 +154,7 @@ void light_column(uint x, uint y, uint end)
             at = (y - slice.band0) * cam.width + x;
             w = 0.0;
             if (y < end)
-                w = lens[at + n * slice.stride];
+                w = KD_MAP_AT(at + n * slice.stride);
             if (y >= end || w < 0.0 || (w >= emission.frame.w_least && w <= emission.frame.w_most))
                 break;
             bool more = w > 0.0 && n + 1 < ORDERS;

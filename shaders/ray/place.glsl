@@ -6,11 +6,16 @@
 #ifndef KD_PLACE_GLSL
 #define KD_PLACE_GLSL
 
+/* A word of the lens map. */
+#ifndef KD_MAP_AT
+#define KD_MAP_AT(at) lens[at]
+#endif
+
 /* The pixel of this number in the list. */
 uvec2 kd_listed_pixel(uint pixel)
 {
     uint at = slice.list + 2 * pixel;
-    return uvec2(lens[at], lens[at + 1]);
+    return uvec2(KD_MAP_AT(at), KD_MAP_AT(at + 1));
 }
 
 /* The ray of this number on a pixel, in steps of the camera, of which there are CRITICAL to a pixel; on a square grid, SHIFT. */

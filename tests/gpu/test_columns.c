@@ -1,5 +1,6 @@
 /* Two ways of the transfer kernel through the same rays give the same light: pixels of one ray in columns, which pass over crossings that
  * no emitter reaches, and pixels of several rays, which look at each crossing. */
+#include "render/device/internal.h"
 #include "render/render.h"
 
 #include "render_support.h"
@@ -75,6 +76,38 @@ static void test_nothing_but_sky(void **state)
     assert_same_light(scene_of("{\"disk\":{\"model\":\"none\"},\"sky\":{\"model\":\"grid\",\"brightness\":5}}"));
 }
 
+/* Footprints and light are the same to the byte where the lens map is read as texels and as storage: on the grid and on the pixels at the critical
+ * curve, of crossings and of the sky. */
+static void test_readers(void **state)
+{
+    (void)state;
+    struct kd_vk_info *info = (struct kd_vk_info *)kd_vk_info(renderer->vk);
+    const uint64_t texels = info->max_texels;
+    struct kd_scene scene, other = { 0 };
+    kd_scene_defaults(&scene);
+    scene.sky.model = KD_SKY_GRID;
+    scene.image.width = 161;
+    scene.image.height = 90;
+    scene.image.bit_depth = 16;
+    if (!kd_kernels_map_as_texels(renderer->vk))
+        skip();
+    struct kd_frame of_texels = rendered(&scene);
+    other = scene;
+    for (int i = 0; i < 4; i++) { /* as many lens maps as are kept */
+        other.camera.inclination_deg += 1;
+        struct kd_frame between = rendered(&other);
+        kd_frame_finish(&between);
+    }
+    info->max_texels = 1u << 17; /* as many as the tables of the emitters need, and fewer than a binding holds */
+    assert_false(kd_kernels_map_as_texels(renderer->vk));
+    struct kd_frame of_storage = rendered(&scene);
+    info->max_texels = texels;
+    assert_false(of_storage.lens_reused);
+    assert_memory_equal(kd_frame_pixels(&of_texels), kd_frame_pixels(&of_storage), 6ull * 161 * 90);
+    kd_frame_finish(&of_texels);
+    kd_frame_finish(&of_storage);
+}
+
 int main(void)
 {
     int status = open_renderer();
@@ -82,6 +115,7 @@ int main(void)
         return status;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_disk), cmocka_unit_test(test_spots), cmocka_unit_test(test_plunging), cmocka_unit_test(test_nothing_but_sky),
+        cmocka_unit_test(test_readers),
     };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

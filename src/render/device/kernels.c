@@ -22,6 +22,7 @@
 #include "bloom_up_texels.spv.h"
 #include "expose.spv.h"
 #include "footprint.spv.h"
+#include "footprint_texels.spv.h"
 #include "layers.spv.h"
 #include "layers_march.spv.h"
 #include "lens_closed.spv.h"
@@ -52,6 +53,7 @@
 #include "transfer_march.spv.h"
 #include "transfer_march_tell.spv.h"
 #include "transfer_tell.spv.h"
+#include "transfer_texels.spv.h"
 
 #include <pthread.h>
 #include <stdatomic.h>
@@ -68,6 +70,7 @@ static const struct kd_vk_pipeline_params sources[] = {
     [KD_KERNEL_LENS_CLOSED] = { "lens_closed", kd_spv_lens_closed, sizeof kd_spv_lens_closed, 3, sizeof(struct kd_slice), { [2] = KD_VK_UNIFORM } },
     [KD_KERNEL_LENS_MAP] = { "lens_map", kd_spv_lens_map, sizeof kd_spv_lens_map, 3, sizeof(struct kd_slice), { [2] = KD_VK_UNIFORM } },
     [KD_KERNEL_FOOTPRINT] = { "footprint", kd_spv_footprint, sizeof kd_spv_footprint, 1, sizeof(struct kd_footprint_push) },
+    [KD_KERNEL_FOOTPRINT_TEXELS] = { "footprint, texels", kd_spv_footprint_texels, sizeof kd_spv_footprint_texels, 2, sizeof(struct kd_footprint_push), { [1] = KD_VK_TEXELS_R } },
     [KD_KERNEL_BETWEEN] = { "between", kd_spv_between, sizeof kd_spv_between, 2, sizeof(struct kd_between_push) },
     [KD_KERNEL_RAYS_F32] = { "rays", kd_spv_rays, sizeof kd_spv_rays, 2, 8 },
     [KD_KERNEL_RAYS_F64] = { "rays f64", kd_spv_rays_f64, sizeof kd_spv_rays_f64, 2, 8 },
@@ -91,6 +94,8 @@ static const struct kd_vk_pipeline_params sources[] = {
                                 { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [5] = KD_VK_UNIFORM } },
     [KD_KERNEL_TRANSFER] = { "transfer", kd_spv_transfer, sizeof kd_spv_transfer, KD_OWN_BINDING + KD_OWN_COUNT, sizeof(struct kd_slice),
                              { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM } },
+    [KD_KERNEL_TRANSFER_TEXELS] = { "transfer, texels", kd_spv_transfer_texels, sizeof kd_spv_transfer_texels, KD_OWN_BINDING + KD_OWN_COUNT, sizeof(struct kd_slice),
+                             { KD_VK_TEXELS_R, [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM } },
     [KD_KERNEL_TRANSFER_TELL] = { "transfer, told", kd_spv_transfer_tell, sizeof kd_spv_transfer_tell, KD_OWN_BINDING + KD_OWN_COUNT, sizeof(struct kd_slice),
                                   { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM } },
     [KD_KERNEL_MARCH_TELL] = { "march, told", kd_spv_transfer_march_tell, sizeof kd_spv_transfer_march_tell, KD_OWN_BINDING + KD_OWN_COUNT,
@@ -279,6 +284,8 @@ void kd_kernels_make(struct kd_kernels *kernels, struct kd_vk *vk)
 bool kd_kernels_texels_of(const struct kd_vk *vk, uint64_t bytes) { return bytes <= 16 * kd_vk_info(vk)->max_texels; }
 
 bool kd_kernels_texels(const struct kd_vk *vk, uint64_t pixels) { return kd_kernels_texels_of(vk, kd_post_radiance_bytes(pixels)); }
+
+bool kd_kernels_map_as_texels(const struct kd_vk *vk) { return kd_vk_info(vk)->max_binding_bytes <= 4 * kd_vk_info(vk)->max_texels; }
 
 bool kd_kernels_cells_as_texels(const struct kd_vk *vk, const struct kd_bloom *bloom)
 {

@@ -9,6 +9,7 @@ enum kd_kernel {
     KD_KERNEL_LENS_CLOSED,
     KD_KERNEL_LENS_MAP,
     KD_KERNEL_FOOTPRINT,
+    KD_KERNEL_FOOTPRINT_TEXELS, /* the same, reading the lens map as texels */
     KD_KERNEL_BETWEEN,
     KD_KERNEL_RAYS_F32,
     KD_KERNEL_RAYS_F64,
@@ -24,6 +25,7 @@ enum kd_kernel {
     KD_KERNEL_STAR_SEARCH_TEXELS,
     KD_KERNEL_STAR_IMAGES,
     KD_KERNEL_TRANSFER,
+    KD_KERNEL_TRANSFER_TEXELS, /* likewise */
     KD_KERNEL_TRANSFER_TELL, /* of one ray, emitter by emitter; and in volumes */
     KD_KERNEL_MARCH_TELL,
     KD_KERNEL_LAYERS,
@@ -100,6 +102,7 @@ void kd_kernels_make(struct kd_kernels *kernels, struct kd_vk *vk);
  * many it binds differs. The kernel that post takes there. */
 bool kd_kernels_texels(const struct kd_vk *vk, uint64_t pixels);
 bool kd_kernels_texels_of(const struct kd_vk *vk, uint64_t bytes); /* and of so many bytes of anything */
+bool kd_kernels_map_as_texels(const struct kd_vk *vk); /* and of any lens map, a texel a number: software reads those in less than half the time */
 bool kd_kernels_cells_as_texels(const struct kd_vk *vk, const struct kd_bloom *bloom);
 static inline enum kd_kernel kd_kernel_post(bool texels, bool bloom, bool heat)
 {
