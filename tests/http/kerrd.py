@@ -439,30 +439,40 @@ class Kerrd(unittest.TestCase):
                         return json.loads(line[5:].decode())
 
     def drag(self, session, until):
-        """Patch and pull, until that is so of how many rays were traced again."""
+        """Patch and pull, until that is so of how many rays were traced again, and of the quality in force."""
         at, number = '/v1/sessions/' + session['id'], 0
         owner = {'Authorization': 'Bearer ' + session['token'], 'Content-Type': 'application/merge-patch+json'}
         for k in range(1000):
             self.daemon.request('PATCH', at, json.dumps({'camera': {'inclination_deg': 30 + 0.02 * k + float(int(session['id'], 16) % 997) / 1e5}}), headers=owner)
             answer = self.daemon.get(f'{at}/frame.png?after={number}')
             number = int(answer.header('Kerrd-Frame'))
-            if until(int(re.search(r'sampled=(\d+)', answer.header('Kerrd-Accuracy'))[1])):
+            if until(int(re.search(r'sampled=(\d+)', answer.header('Kerrd-Accuracy'))[1]), answer.header('Kerrd-Quality')):
                 return True
         return False
 
     def test_fewer_rays_are_traced_again_where_sessions_share_the_device(self):
         one, other = (self.open({'image': {'width': 160, 'height': 90}}) for _ in range(2))
         frames = []
-        self.assertTrue(self.drag(one, lambda sampled: frames.append(sampled) or len(frames) == 12))
-        self.assertEqual(set(frames), {768})
+        self.assertTrue(self.drag(one, lambda *frame: frames.append(frame) or len(frames) == 12))
+        for sampled, quality in frames:  # all of them where the frame is as good as it gets
+            self.assertEqual(sampled, 768 if 'final=1' in quality else 192)
         over = threading.Event()
-        thread = threading.Thread(target=self.drag, args=(other, lambda _: over.is_set()))
+        thread = threading.Thread(target=self.drag, args=(other, lambda *_: over.is_set()))
         thread.start()
         try:
-            self.assertTrue(self.drag(one, lambda sampled: sampled == 192))
+            self.assertTrue(self.drag(one, lambda sampled, quality: sampled == 192 and 'final=1' in quality))
         finally:
             over.set()
             thread.join()
+
+    def test_a_frame_of_a_drag_has_fewer_rays_at_the_critical_curve_and_says_so(self):
+        """Of a picture that no machine has in 33 ms, and of a small one."""
+        session = self.open({'image': {'width': 800, 'height': 450, 'samples': 8}})
+        self.assertTrue(self.drag(session, lambda sampled, quality: sampled == 192 and 'critical=2' in quality and 'final=0' in quality))
+        small, frames = self.open({'image': {'width': 64, 'height': 36}}), []
+        self.assertTrue(self.drag(small, lambda *frame: frames.append(frame) or len(frames) == 4))
+        for _, quality in frames:
+            self.assertEqual('critical=4' in quality, 'final=1' in quality, quality)
 
     def test_a_light_curve_is_that_of_events_and_of_the_command_line(self):
         scene = {'image': {'width': 160, 'height': 90}, 'spot1': {'brightness': 2}, 'disk': {'model': 'particles', 'opacity': 0.3}, 'time': 100}

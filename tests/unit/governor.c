@@ -741,6 +741,29 @@ static void a_change_breaks_into_refinement(void **state)
     assert_true(isinf(kd_governor_turn(&s.governor, s.now).wait_ms));
 }
 
+/* The rays next to the critical curve are fewer in a drag, on any rung but the first, and all are there while time goes on and at rest. */
+static void a_drag_has_fewer_rays_at_the_curve(void **state)
+{
+    (void)state;
+    static const enum pattern patterns[] = { DRAG, PLAY };
+    static const int32_t asked[] = { 1, 2, 4, 16 };
+    for (int k = 0; k < 16; k++) {
+        struct simulation s;
+        struct kd_scene scene;
+        int frames;
+        begin(&s, kd_governor_params(), 1280, 720, (struct truth) { .traced = k & 1 ? 200 : 5, .reused = k & 1 ? 200 : 5, .pixels = 5 });
+        s.asked.image.critical_factor = asked[k / 4];
+        run(&s, patterns[k / 2 % 2], 5e3);
+        const bool fewer = patterns[k / 2 % 2] == DRAG && (k & 1) && asked[k / 4] > 2;
+        assert_int_equal(s.last.final, !(k & 1));
+        kd_quality_apply(&s.last, &s.asked, &scene);
+        assert_int_equal(scene.image.critical_factor, fewer ? 2 : asked[k / 4]);
+        refine_to_rest(&s, &frames);
+        kd_quality_apply(&s.last, &s.asked, &scene);
+        assert_int_equal(scene.image.critical_factor, asked[k / 4]);
+    }
+}
+
 /* Frames of a rung or a ladder that was left, and times that are none. */
 static void what_measures_nothing_is_not_counted(void **state)
 {
@@ -1000,6 +1023,7 @@ int main(void)
         cmocka_unit_test(lens_maps_that_are_never_kept),
         cmocka_unit_test(rest_refines_to_what_is_asked_and_then_costs_nothing),
         cmocka_unit_test(a_change_breaks_into_refinement),
+        cmocka_unit_test(a_drag_has_fewer_rays_at_the_curve),
         cmocka_unit_test(what_measures_nothing_is_not_counted),
         cmocka_unit_test(whatever_happens_the_answer_is_sound),
         cmocka_unit_test(what_stays_at_any_size_is_learned), cmocka_unit_test(who_began_low_finds_out),

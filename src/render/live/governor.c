@@ -16,6 +16,7 @@ static const double BLIND_MS = 2000;                   /* a guess; doubled */
 static const double NARROWEST = 0.25;                  /* of the asked width, whatever was asked to be kept of it */
 static const double PATIENT_AGAIN = 0.6;               /* of the patience: frames as wide as was asked for are tried again */
 enum {
+    DRAGGED_CRITICAL = 2, /* image.critical_factor of a picture that is gone when the eye has found it: 4 rays of 16 */
     FEW = 4,    /* spikes in a row are load */
     ENOUGH = 8, /* two spikes among them are outside the middle half */
     MISSES = 3, /* a lens map may be missed once, when the rung changes */
@@ -437,6 +438,7 @@ struct kd_turn kd_governor_turn(const struct kd_governor *g, double now)
     bool traced = now - g->lens_at < g->hold_ms || now < g->blind_until;
     struct kd_turn turn = { .traced = traced, .ladder = g->ladders, .rung = g->paces[traced].rung, .revision = g->revision };
     turn.quality = g->ladder.rungs[turn.rung].quality;
+    turn.quality.critical = traced && turn.rung ? DRAGGED_CRITICAL : 0;
     turn.rays = g->ladder.rungs[turn.rung].rays;
     if (g->shown_revision != g->revision)
         return turn;

@@ -40,6 +40,9 @@
  * - Frames that reuse a lens map get none that would take longer than stall_ms to trace: that is seen when a drag ends and time goes
  *   on.
  *
+ * Frames that trace, on any rung but the first, have image.critical_factor 2 at most: the rays next to the critical curve are fewer, and its list is as long
+ * as the picture is wide, so that what is left goes nearly with the picture's size.
+ *
  * Where other sessions move too, kd_governor_share says which part of the device's time this one may count on. Its target then is that
  * part of the time from one frame to the next, which grows by the root of what the part shrinks, to sparse_ms at most: pace and picture
  * give way alike, and from there on the picture alone does. One that is alone has 33 ms; of two each has 23 every 47, and of eight

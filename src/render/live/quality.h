@@ -14,6 +14,7 @@ struct kd_quality {
     double scale;           /* of the asked width and height: 1, 3/4, 5/8, 1/2, 3/8 or 1/4 */
     int32_t samples;        /* rays along each side of a pixel */
     int32_t orders;         /* crossings kept a ray */
+    int32_t critical;       /* image.critical_factor at most; 0: as asked */
     int32_t profile;        /* enum kd_profile in place of all of accuracy.* but engine; -1: accuracy.* as asked */
     bool sketch;            /* volumes are followed more coarsely than any profile has them: render/plan/march.h */
     bool final;             /* everything is as asked */

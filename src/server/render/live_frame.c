@@ -11,11 +11,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* How many times as many rays as others the pixels at the critical curve have along each side. */
+static unsigned critical_side(const struct kd_plan *plan) { return plan->critical ? (unsigned)lround(sqrt(plan->critical)) / plan->side : 1; }
+
 static void describe_quality(struct kd_live_frame *frame, const struct kd_render_job *job)
 {
     const struct kd_plan *p = &job->plan;
-    snprintf(frame->quality, sizeof frame->quality, "width=%u height=%u samples=%u orders=%u engine=%s precision=%s steps=%u sketch=%d",
-             p->width, p->height, p->side, p->orders, kd_engine_name(p->setting.engine), kd_precision_name(p->setting.precision),
+    snprintf(frame->quality, sizeof frame->quality, "width=%u height=%u samples=%u critical=%u orders=%u engine=%s precision=%s steps=%u sketch=%d",
+             p->width, p->height, p->side, critical_side(p), p->orders, kd_engine_name(p->setting.engine), kd_precision_name(p->setting.precision),
              p->setting.steps, p->march.sketched);
 }
 
@@ -35,6 +38,7 @@ static void add_quality(struct kd_json *json, const struct kd_render_job *job, c
     kd_json_number(json, "width", p->width);
     kd_json_number(json, "height", p->height);
     kd_json_number(json, "samples", p->side);
+    kd_json_number(json, "critical", critical_side(p));
     kd_json_number(json, "orders", p->orders);
     kd_json_string(json, "engine", kd_engine_name(p->setting.engine));
     kd_json_string(json, "precision", kd_precision_name(p->setting.precision));
