@@ -168,7 +168,7 @@ export class Running extends EventTarget {
       try {
         await seen(view);
         if (!this.#session) await this.begin(kept ?? this.#document);
-        return;
+        return this.#tell('fault', null);
       } catch (error) {
         this.#tell('fault', error);
         if (!passes(error)) return;

@@ -1,12 +1,15 @@
 """The page in Firefox or in WebKit: others.py KERRD firefox|webkit, from scripts/matrix. One flow for both: what it needs of a browser is in the two classes below. Firefox is
-spoken to by Marionette, WebKitGTK by its WebDriver; what a driver cannot do (a slow line; forced colours in WebKit) is said and left out."""
+spoken to by Marionette, WebKitGTK by its WebDriver; what a driver cannot do (forced colours in WebKit) is said and left out."""
+import asyncio
 import atexit
+import contextlib
 import os
 import pathlib
 import shutil
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import unittest
 
@@ -99,6 +102,62 @@ class WebKit:
         return self.driver.get_screenshot_as_png()
 
 
+class SlowLine(threading.Thread):
+    """A line to a port of this machine: 150 ms each way, and so many bytes a second for all connections together."""
+    late_s, bytes_s = 0.15, 1e6 / 8
+
+    def __init__(self, to):
+        super().__init__(daemon=True)
+        self.to, self.port, self.free, self.ready = to, 0, 0.0, threading.Event()
+        self.start()
+        self.ready.wait()
+
+    def run(self):
+        asyncio.run(self.serve())
+
+    async def serve(self):
+        server = await asyncio.start_server(self.connect, '127.0.0.1', 0)
+        self.port = server.sockets[0].getsockname()[1]
+        self.ready.set()
+        await server.serve_forever()
+
+    async def connect(self, reader, writer):
+        try:
+            far_reader, far_writer = await asyncio.open_connection('127.0.0.1', self.to)
+        except OSError:
+            return writer.close()
+        await asyncio.gather(self.carry(reader, far_writer), self.carry(far_reader, writer), return_exceptions=True)
+
+    async def carry(self, reader, writer):
+        """Bytes leave in the order in which they came, each piece once the line is free and its way is done; what is on its way holds up nothing that follows."""
+        way = asyncio.Queue(64)
+
+        async def arrive():
+            while True:
+                due, piece = await way.get()
+                await asyncio.sleep(due - time.monotonic())
+                if not piece:
+                    return writer.close()
+                with contextlib.suppress(OSError):
+                    writer.write(piece)
+                    await writer.drain()
+
+        arrives = asyncio.ensure_future(arrive())
+        try:
+            while True:
+                try:
+                    piece = await reader.read(4096)
+                except OSError:  # the browser has dropped it
+                    piece = b''
+                self.free = max(self.free, time.monotonic()) + len(piece) / self.bytes_s
+                await way.put((self.free + self.late_s, piece))
+                if not piece:
+                    break
+                await asyncio.sleep(self.free - time.monotonic())
+        finally:
+            await arrives
+
+
 class Others(unittest.TestCase):
     kind = None
 
@@ -111,8 +170,8 @@ class Others(unittest.TestCase):
         self.browser = self.kind(size, **options)
         self.addCleanup(self.browser.close)
 
-    def open(self, fragment, ready=AT_REST):
-        self.browser.go(f'http://127.0.0.1:{self.daemon.port}/#{fragment}')
+    def open(self, fragment, ready=AT_REST, port=None):
+        self.browser.go(f'http://127.0.0.1:{port or self.daemon.port}/#{fragment}')
         self.wait(f"return !!document.querySelector('{ready}')")
 
     def wait(self, script):
@@ -136,6 +195,19 @@ class Others(unittest.TestCase):
     def test_drag_and_keyboard(self):
         self.start()
         self.open('lang=en&pause=1')
+        self.drag_and_press()
+
+    def test_a_slow_line(self):
+        line = SlowLine(self.daemon.port)
+        self.start((1024, 700))
+        begun = time.monotonic()
+        self.open('lang=en&pause=1', port=line.port)
+        self.assertGreater(time.monotonic() - begun, 4 * line.late_s, 'the line is slow')
+        self.drag_and_press()
+        for view in ('orbits', 'playground'):
+            self.open(f'lang=en&view={view}', READY[view], port=line.port)
+
+    def drag_and_press(self):
         middle = self.browser.js("const r = document.getElementById('stage').getBoundingClientRect(); return [r.x + r.width / 2, r.y + r.height / 2].map(Math.round)")
         self.browser.mouse([middle] + [[middle[0] + 20 * k, middle[1] + 5 * k] for k in range(1, 6)])
         self.wait("return location.hash.includes('camera.azimuth_deg')")
