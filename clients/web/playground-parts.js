@@ -2,6 +2,17 @@
 import { el } from './dom.js';
 import { number, preset as titled, t } from './i18n.js';
 
+// Names of the presets in English; it-playground.js has them in Italian.
+const english = {
+  disruption: 'Torn star',
+  'white-dwarf': 'White dwarf',
+  system: 'Planets',
+  binary: 'Binary',
+  emri: 'EMRI, a spiral with its chirp',
+  swarm: 'Swarm',
+  'figure-eight': 'Figure of eight',
+};
+
 const button = (id, text, more = {}) => el('button', { type: 'button', id, ...more }, text);
 const field = (id, text, ...nodes) => el('div', { class: 'field' }, el('label', { for: id }, text), ...nodes);
 const group = (title, open, ...nodes) => el('details', { class: 'group', open }, el('summary', {}, title), ...nodes);
@@ -56,7 +67,7 @@ export function parts(root, known) {
     fault = el('p', { id: 'play-fault', class: 'fault', role: 'status' });
   const tilt = el('input', { type: 'range', id: 'play-tilt', min: 0, max: 80, value: 0 }),
     middle = el('select', { id: 'play-middle' }, [['', t('stays', 'resta ferma')], ['all', t('goes with all bodies', 'segue tutti i corpi')], ['chosen', t('goes with the chosen body', 'segue il corpo scelto')]].map(([value, text]) => el('option', { value }, text)));
-  const preset = el('select', { id: 'play-preset' }, el('option', { value: '', hidden: true }, t('a snapshot', 'un’istantanea')), known.presets.map(({ name, title }) => el('option', { value: name, title }, titled(name, name)))),
+  const preset = el('select', { id: 'play-preset' }, el('option', { value: '', hidden: true }, t('a snapshot', 'un’istantanea')), known.presets.map(({ name, title }) => el('option', { value: name, title }, titled(name, english[name] ?? name)))),
     help = el('p', { class: 'help', id: 'play-preset-help' }),
     again = button('play-again', t('Begin again', 'Ricomincia')),
     pause = button('play-pause', ''),
