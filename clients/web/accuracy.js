@@ -103,5 +103,7 @@ export function caption(frame) {
   const pace = frame.pace
     ? t(`, ${number(frame.pace, 2)} pictures a second`, `, ${number(frame.pace, 2)} immagini al secondo`)
     : '';
-  return `${frame.clock && frame.pace ? fallen(frame.clock) : ''}${frame.width} × ${frame.height}${lessened(frame)}${rays}, ${Math.round(frame.passes.find(pass => pass.name === 'total')?.ms ?? 0)} ms${pace}${worst}`;
+  const { jy, ghz } = frame.flux,
+    flux = jy == null ? '' : `${number(jy)} Jy, ${number(ghz)} GHz; `;
+  return `${frame.clock && frame.pace ? fallen(frame.clock) : ''}${flux}${frame.width} × ${frame.height}${lessened(frame)}${rays}, ${Math.round(frame.passes.find(pass => pass.name === 'total')?.ms ?? 0)} ms${pace}${worst}`;
 }

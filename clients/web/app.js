@@ -193,6 +193,13 @@ async function watch(scene) {
     (await measured)?.();
   }
 
+  // What the scene adds up to, once somebody chooses.
+  let integrals = null;
+  byId('integral').addEventListener('change', ({ target }) => {
+    integrals ??= load(import('./integrals.js')).then(({ buildIntegrals }) => buildIntegrals(byId('integral-plot'), scene));
+    integrals.then(choose => choose(target.value)).catch(error => ((integrals = null), sayWrong(error.message)));
+  });
+
   // What a pixel shows, once somebody asks.
   let pixel = null;
   function askPixel(what) {

@@ -256,6 +256,7 @@ export function openSource(scene, size, shown, failed, rests) {
       shows: current ? from.document : null, // as far as is known
       pace: recent.length > 2 && (1e3 * (recent.length - 1)) / (now - recent[0]),
       accuracy: figures(get('Kerrd-Accuracy')),
+      flux: figures(get('Kerrd-Flux')), // of a radio frequency
       approximations: sentences(get('Kerrd-Approximations')),
       passes: passes(get('Server-Timing')),
       clock,

@@ -12,14 +12,14 @@
 #define VOLUME (1u << KD_INTEGRAL_VOLUME)
 #define VISIBILITY (1u << KD_INTEGRAL_VISIBILITY)
 #define ALL (LINE | TRANSFER | SPECTRUM)
-#define REAL(name, unit, least, most, of, help) { #name, unit, help, KD_INTEGRAL_REAL, AT(name), least, most, false, NULL, of }
-#define OR_WORD(name, unit, least, most, word, of, help) { #name, unit, help, KD_INTEGRAL_REAL, AT(name), least, most, false, word, of }
-#define WORD(name, member, words, of, help) { #name, "", help, KD_INTEGRAL_WORD, AT(member), 0, 0, false, words, of }
-#define WHOLE(name, least, most, of, help) { #name, "", help, KD_INTEGRAL_WHOLE, AT(name), least, most, false, NULL, of }
-#define NUMBERS(name, unit, least, most, of, help) { #name, unit, help, KD_INTEGRAL_NUMBERS, AT(name), least, most, false, NULL, of }
+#define REAL(name, unit, least, most, of, help) { #name, unit, help, KD_INTEGRAL_REAL, AT(name), least, most, false, NULL, of, false }
+#define OR_WORD(name, unit, least, most, word, of, help) { #name, unit, help, KD_INTEGRAL_REAL, AT(name), least, most, false, word, of, false }
+#define WORD(name, member, words, of, help) { #name, "", help, KD_INTEGRAL_WORD, AT(member), 0, 0, false, words, of, false }
+#define WHOLE(name, least, most, of, help) { #name, "", help, KD_INTEGRAL_WHOLE, AT(name), least, most, false, NULL, of, false }
+#define NUMBERS(name, unit, least, most, of, help) { #name, unit, help, KD_INTEGRAL_NUMBERS, AT(name), least, most, false, NULL, of, false }
 
 const struct kd_integral_field kd_integral_fields[] = {
-    { "spin", "M", "spin of the hole, below 0 for a disk that turns against it", KD_INTEGRAL_REAL, AT(spin), -1, 1, true, NULL, ALL },
+    { "spin", "M", "spin of the hole, below 0 for a disk that turns against it", KD_INTEGRAL_REAL, AT(spin), -1, 1, true, NULL, ALL, false },
     REAL(inclination_deg, "deg", 0, 180, ALL, "of the observer, who is at infinity, off the axis; not 87 to 93"),
     OR_WORD(inner, "M", 1, 1e6, "isco", ALL, "inner edge of the disk, the ISCO or beyond"),
     REAL(outer, "M", 1, 1e6, ALL, "outer edge of the disk"),
@@ -39,7 +39,7 @@ const struct kd_integral_field kd_integral_fields[] = {
     WHOLE(rings, 1, 1000, TRANSFER, "number of radii, from inner to outer at equal ratios"),
     NUMBERS(radii, "M", 1, 1e6, TRANSFER, "radii, instead of rings; between inner and outer"),
     WHOLE(g_stars, 1, 1000, TRANSFER, "number of g* at each radius, the middles of as many equal parts of 0 to 1"),
-    { "g_star", "", "numbers between 0, the reddest light of the ring, and 1, the bluest, instead of g_stars", KD_INTEGRAL_NUMBERS, AT(g_star), 0, 1, true, NULL, TRANSFER },
+    { "g_star", "", "numbers between 0, the reddest light of the ring, and 1, the bluest, instead of g_stars", KD_INTEGRAL_NUMBERS, AT(g_star), 0, 1, true, NULL, TRANSFER, false },
     REAL(mass_msun, "solar masses", 1e-5, 1e12, SPECTRUM, "mass of the hole"),
     REAL(distance_pc, "pc", 1e-3, 1e12, SPECTRUM, "how far away it is"),
     REAL(mdot_edd, "Eddington rates", 1e-12, 1e3, SPECTRUM, "accretion rate: luminosity over the Eddington luminosity, with the efficiency of this spin"),
@@ -48,12 +48,13 @@ const struct kd_integral_field kd_integral_fields[] = {
     OR_WORD(frequency_max_hz, "Hz", 1e-3, 1e25, "auto", SPECTRUM | VOLUME, "last frequency; auto: 30 k/h times the same; of a volume 30 times volume.frequency_ghz"),
     WHOLE(frequencies, 2, KD_INTEGRAL_FREQUENCIES, SPECTRUM | VOLUME, "number of frequencies, at equal ratios: 200; of a volume 13, and 200 at most"),
     NUMBERS(frequencies_hz, "Hz", 1e-3, 1e25, SPECTRUM | VOLUME, "frequencies, instead of the three before"),
-    { "u", "Gl", "baselines to the east, in units of 1e9 wavelengths; as many as v", KD_INTEGRAL_NUMBERS, AT(u), -1e15, 1e15, false, NULL, VISIBILITY },
-    { "v", "Gl", "baselines to the north", KD_INTEGRAL_NUMBERS, AT(v), -1e15, 1e15, false, NULL, VISIBILITY },
+    { "u", "Gl", "baselines to the east, in units of 1e9 wavelengths; as many as v", KD_INTEGRAL_NUMBERS, AT(u), -1e15, 1e15, false, NULL, VISIBILITY, false },
+    { "v", "Gl", "baselines to the north", KD_INTEGRAL_NUMBERS, AT(v), -1e15, 1e15, false, NULL, VISIBILITY, false },
     NUMBERS(lengths, "Gl", 0, 1e15, VISIBILITY, "lengths of baselines, instead of u and v; each with each of angles_deg"),
-    OR_WORD(length_max, "Gl", 1e-9, 1e15, "auto", VISIBILITY, "baselines from 0 to this length, instead of lengths; auto: half of the longest that the map's pixels tell"),
+    { "length_max", "Gl", "baselines from 0 to this length, instead of lengths; auto: half of the longest that the map's pixels tell", KD_INTEGRAL_REAL, AT(length_max), 1e-9, 1e15,
+      false, "auto", VISIBILITY, true },
     WHOLE(baselines, 2, KD_INTEGRAL_ROWS, VISIBILITY, "number of lengths from 0 to length_max"),
-    { "angles_deg", "deg", "position angles of baselines with lengths, from the north to the east; 0 and 90", KD_INTEGRAL_NUMBERS, AT(angles_deg), -360, 360, false, NULL, VISIBILITY },
+    { "angles_deg", "deg", "position angles of baselines with lengths, from the north to the east; 0 and 90", KD_INTEGRAL_NUMBERS, AT(angles_deg), -360, 360, false, NULL, VISIBILITY, false },
     WHOLE(orders, 0, KD_INTEGRAL_ORDERS, VISIBILITY, "number of image orders, from 0 on, whose light is told apart too"),
     WHOLE(pixels, 16, 2048, VOLUME | VISIBILITY, "pixels along the longer side of a picture: 128 of a spectrum, 256 of a visibility"),
     WORD(check, unchecked, "finer|none", VOLUME | VISIBILITY, "what tells the error: the same picture with half as many pixels more along each side, or nothing"),

@@ -84,6 +84,7 @@ struct kd_integral_field {
     bool open;         /* neither end is allowed */
     const char *words; /* "a|b": WORD; REAL: a word that stands for NaN */
     unsigned of;       /* a bit for each integral that has it */
+    bool lacks;        /* a request that has been checked may have no number for it */
 };
 extern const struct kd_integral_field kd_integral_fields[];
 extern const size_t kd_n_integral_fields;

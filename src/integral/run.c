@@ -119,7 +119,7 @@ static enum kd_status take_flux(struct kd_integral_run *run, struct kd_buffer *f
     memcpy(&jy, file->data, sizeof jy);
     kd_buffer_finish(file);
     if (kd_integral_is_finer(r, run->picture)) {
-        c[FLUX_ERROR][row] = jy == c[JY][row] ? 0 : OF_DIFFERENCE * fabs(jy / c[JY][row] - 1);
+        c[FLUX_ERROR][row] = jy == c[JY][row] ? 0 : fmin(OF_DIFFERENCE * fabs(jy / c[JY][row] - 1), 1); /* 1: the coarser one saw none of it */
         run->answer.values[2] = fmax(run->answer.values[2], c[FLUX_ERROR][row]);
         return KD_OK;
     }

@@ -170,7 +170,7 @@ static void add_parameters(struct kd_json *json, enum kd_integral what)
         const struct kd_integral_field *f = &kd_integral_fields[i];
         if (!(f->of & 1u << what) || f->kind == KD_INTEGRAL_NUMBERS)
             continue;
-        raw(json, names[n++] = f->name, f->kind == KD_INTEGRAL_WORD ? "{\"type\":\"string\"}" : "{\"type\":[\"number\",\"null\"]}");
+        raw(json, names[n++] = f->name, f->kind == KD_INTEGRAL_WORD ? "{\"type\":\"string\"}" : f->lacks ? "{\"type\":[\"number\",\"null\"]}" : "{\"type\":\"number\"}");
     }
     end_strict(json, names, n);
 }

@@ -2,7 +2,7 @@
 import pathlib
 import re
 
-from browser import READY, Browser, main
+from browser import READY, SMOOTH, Browser, main
 import daemon
 
 
@@ -26,6 +26,76 @@ class Physics(Browser):
         page.keyboard.press('Tab')
         self.assertTrue(daemon.eventually(lambda: self.drawn(page, '#curve-qnm canvas')['hash'] != before['hash']))
         self.linked(page, 'qnm.spin=0.95')
+
+    def test_what_a_scene_adds_up_to(self):
+        """Line, spectrum and visibilities of the scene that is shown: asked for when one is chosen, again when the scene has changed, and kept as CSV."""
+        page = self.open(SMOOTH + '&lang=en&spacetime.spin=0.5&camera.inclination_deg=40')
+        page.click('#integrals > summary')
+        figure = '#integral-plot figure'
+
+        def choose(kind, words):
+            page.select_option('#integral', kind)
+            page.wait_for_selector(f'#integral-plot[data-state={kind}]')
+            page.wait_for_selector(f'{figure} figcaption:has-text("{words}")')
+            self.assertTrue(daemon.eventually(lambda: self.drawn(page, f'{figure} canvas')['coloured'] > 100), kind)
+
+        def numbers():
+            with page.expect_download() as download:
+                page.click(f'{figure} a[download]')
+            return [[float(cell) for cell in line.split(',')] for line in pathlib.Path(download.value.path()).read_text().splitlines()[1:]]
+
+        self.assertEqual(page.locator('#integral-plot *').count(), 0, 'nothing is asked for before')
+        choose('line', 'Line profile')
+        page.click(f'{figure} summary')
+        rows = numbers()
+        self.assertEqual(len(rows), 300)
+        self.assertAlmostEqual(sum(y for _, y in rows) * 8 / 300, 1, delta=0.01)  # the share between 2 and 10 keV
+        self.there(page, 'Estimated error', figure)
+        with page.expect_request('**/v1/line') as asked:
+            page.fill('#in-line-index', '2')
+            page.keyboard.press('Tab')
+        self.assertEqual(asked.value.post_data_json, {'spin': 0.5, 'inclination_deg': 40, 'outer': 22, 'index': 2, 'rest_energy': 6.4, 'energy_min': 2, 'energy_max': 10, 'bins': 300})
+        with page.expect_request('**/v1/line') as asked:
+            page.evaluate('() => { for (const name of ["hole", "camera"]) document.getElementById("group-" + name).open = true; }')
+            page.fill('[data-path="spacetime.spin"] input[type=number]', '0.7')
+            page.keyboard.press('Tab')
+        self.assertEqual(asked.value.post_data_json['spin'], 0.7)
+        choose('visibility', 'Visibility by baseline')
+        self.there(page, 'share of all light', figure)
+        self.assertTrue(daemon.eventually(lambda: [round(y, 6) for y in numbers()[0][1:3]] == [1, 1]), 'without a baseline it is all light')
+        self.shot(page, 'integrals-visibility', full_page=True)
+        choose('spectrum', 'Spectrum')
+        self.there(page, 'thin disk of black bodies', figure)
+        self.axe(page)
+        self.expected = '422'
+        page.fill('[data-path="camera.inclination_deg"] input[type=number]', '90')
+        page.keyboard.press('Tab')
+        page.wait_for_selector('#integral-plot .fault:has-text("edge on")')
+        page.wait_for_selector(figure, state='hidden')
+        page.select_option('#integral', '')
+        page.wait_for_selector('#integral-plot .fault', state='hidden')
+
+    def test_flux_of_a_volume(self):
+        """In the caption of the picture, and as a spectrum of small pictures."""
+        page = self.open('lang=it&preset=riaf&pace=fast&accuracy.profile=draft', '#stage[data-final]', viewport={'width': 400, 'height': 420})
+        self.there(page, 'Jy, 223', '#status')
+        page.click('#integrals > summary')
+        page.select_option('#integral', 'spectrum')
+        page.wait_for_selector('#integral-plot[data-state=spectrum] figcaption:has-text("Spettro")')
+        self.there(page, 'Del volume della scena, 48 pixel', '#integral-plot figure')
+        page.select_option('#integral', 'visibility')
+        page.wait_for_selector('#integral-plot[data-state=visibility] figcaption:has-text("Visibilità per base")')
+        self.there(page, 'Flusso dell’immagine: ', '#integral-plot figure')
+        self.axe(page)
+        self.shot(page, 'integrals-riaf', full_page=True)
+
+    def axe(self, page):
+        try:
+            from axe_playwright_python.sync_playwright import Axe
+        except ImportError:
+            return
+        results = Axe().run(page, options={'runOnly': ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice']})
+        self.assertEqual([f'{v["id"]}: {v["help"]}: {[n["html"][:120] for n in v["nodes"]][:3]}' for v in results.response['violations']], [])
 
     def test_a_ringdown_is_heard(self):
         page = self.open('lang=en&view=physics&qnm.mass_msun=4e6', '#curve-qnm a[href*=wav]')

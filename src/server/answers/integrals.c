@@ -11,6 +11,7 @@
 #include <string.h>
 
 #define OFFERED "application/json, text/csv, " KD_NPY_TYPE
+#define NS_A_PRODUCT 1.2 /* of a pixel, or of one image order of it, by a baseline: one core */
 #define BYTES_PER_ROW (KD_INTEGRAL_COLUMNS * (sizeof(double) + 26)) /* with its text */
 
 static const char *const types[] = { [KD_INTEGRAL_JSON] = "application/json", [KD_INTEGRAL_CSV] = "text/csv", [KD_INTEGRAL_NPY] = KD_NPY_TYPE };
@@ -50,11 +51,11 @@ static enum kd_status plan_pictures(struct job *job, size_t *bytes, struct kd_er
         enum kd_status status = kd_format_plan(kd_integral_picture_format(job->request.what), &scene, &capacity, &plan, error);
         if (status)
             return status;
-        ms += plan.estimate_ms * n / sizes;
+        ms += plan.estimate_ms * n / sizes + (double)plan.n_layers * plan.width * plan.height * (double)job->request.u.n * NS_A_PRODUCT * 1e-6;
         *bytes += 4 * (1 + plan.n_layers) * (size_t)plan.width * plan.height;
     }
     if (ms > server->longest_s * 1e3)
-        return kd_error_set(error, KD_ETOOBIG, "%u pictures would take about %.0f s, more than the %u s that an answer may take: fewer pixels or frequencies, or check \"none\", take less", n,
+        return kd_error_set(error, KD_ETOOBIG, "%u pictures and what is made of them would take about %.0f s, more than the %u s that an answer may take: fewer pixels, frequencies or baselines, or check \"none\", take less", n,
                             ms * 1e-3, server->longest_s);
     return KD_OK;
 }
@@ -90,7 +91,8 @@ static enum kd_status push_picture(struct job *job, struct kd_error *error)
     struct kd_request *request = job->task.request;
     struct kd_render_queue *renders = request->server->renders;
     struct kd_capacity capacity;
-    enum kd_status status = kd_render_queue_admit(renders, request->client, &job->task.quota, error);
+    /* The first asks for a place; the others take its place, so that what is half done is not refused. */
+    enum kd_status status = job->run.picture ? KD_OK : kd_render_queue_admit(renders, request->client, &job->task.quota, error);
     if (status)
         return status;
     kd_render_queue_capacity(renders, &capacity);
