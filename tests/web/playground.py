@@ -308,6 +308,16 @@ class Playground(Browser):
         self.assertTrue(daemon.eventually(lambda: self.address() != first))
         self.assertTrue(daemon.eventually(lambda: page.get_attribute('#play-plane', 'data-bodies') == '1' and not page.inner_text('#play-fault')))
 
+    def test_a_playground_that_ends_and_does_not_begin_at_once(self):
+        self.expected = 'Failed to load resource'
+        page = self.open_play('lang=en&play.preset=emri')
+        own = next(r.response().json() for r in self.requests if r.method == 'POST' and r.url.endswith('/v1/playground'))
+        page.route('**/v1/playground', lambda route: route.abort())
+        self.daemon.request('DELETE', '/v1/playground/' + own['id'], headers={'Authorization': 'Bearer ' + own['token']})
+        page.wait_for_selector('#play-fault >> text=trying again')
+        page.unroute('**/v1/playground')
+        self.assertTrue(daemon.eventually(lambda: not page.inner_text('#play-fault') and sum(r.method == 'POST' and r.url.endswith('/v1/playground') and not r.failure for r in self.requests) > 1))
+
 
 if __name__ == '__main__':
     main()
