@@ -33,8 +33,10 @@ WATCH = '''() => {
         }
         return answer;
     };
-    new MutationObserver(() => { const one = window.seen.findLast(one => one.came); if (one && !one.shown) one.shown = performance.now(); })
-        .observe(document.getElementById('stage'), { childList: true });
+    const shows = () => { const one = window.seen.findLast(one => one.came); if (one && !one.shown) one.shown = performance.now(); };
+    new MutationObserver(shows).observe(document.getElementById("stage"), { childList: true });
+    const put = ImageBitmapRenderingContext.prototype.transferFromImageBitmap;
+    ImageBitmapRenderingContext.prototype.transferFromImageBitmap = function (bitmap) { put.call(this, bitmap); shows(); };
 }'''
 
 

@@ -21,7 +21,7 @@ const pass_names = {
   post: ['tone and colour', 'toni e colore'],
   readback: ['read back', 'rilettura'],
   audit: ['error measured', 'misura dell’errore'],
-  encode: ['PNG', 'PNG'],
+  encode: ['PNG or JPEG', 'PNG o JPEG'],
   total: ['together', 'in tutto'],
 };
 
@@ -100,10 +100,11 @@ export function caption(frame) {
       ? t(`, error ≤ ${number(frame.accuracy.worst, 2)}`, `, errore ≤ ${number(frame.accuracy.worst, 2)}`)
       : '';
   const rays = frame.samples > 1 ? t(`, ${frame.samples ** 2} rays a pixel`, `, ${frame.samples ** 2} raggi per pixel`) : '';
+  const lossy = frame.lossy ? t(`, colours lossy while it moves (JPEG ${frame.lossy})`, `, colori con perdita mentre si muove (JPEG ${frame.lossy})`) : '';
   const pace = frame.pace
     ? t(`, ${number(frame.pace, 2)} pictures a second`, `, ${number(frame.pace, 2)} immagini al secondo`)
     : '';
   const { jy, ghz } = frame.flux,
     flux = jy == null ? '' : `${number(jy)} Jy, ${number(ghz)} GHz; `;
-  return `${frame.clock && frame.pace ? fallen(frame.clock) : ''}${flux}${frame.width} × ${frame.height}${lessened(frame)}${rays}, ${Math.round(frame.passes.find(pass => pass.name === 'total')?.ms ?? 0)} ms${pace}${worst}`;
+  return `${frame.clock && frame.pace ? fallen(frame.clock) : ''}${flux}${frame.width} × ${frame.height}${lessened(frame)}${rays}, ${Math.round(frame.passes.find(pass => pass.name === 'total')?.ms ?? 0)} ms${pace}${worst}${lossy}`;
 }

@@ -112,30 +112,20 @@ async function watch(scene) {
       return { width: scene.get('camera.stereo') === 'pair' ? width / 2 : width, height }; // of a pair each eye has half of the window
     };
   const carry = buildCarry(stage, scene);
-  let old = '',
-    picture = byId('picture'),
-    told_ms = -Infinity,
+  let told_ms = -Infinity,
+    any = false, // picture has been shown
     built,
     seen;
   const parts = new Promise(resolve => (built = resolve)),
     first = new Promise(resolve => (seen = resolve));
 
   async function show(frame) {
-    const url = URL.createObjectURL(frame.picture);
-    const next = picture.cloneNode(); // the old one stays until the new one can be shown whole
-    next.src = url;
     const now = performance.now(),
       tells = frame.final || now - told_ms > telling_ms; // what stands beside pictures that follow each other
-    if (tells) {
-      told_ms = now;
-      next.alt = describe(scene);
-    }
-    await next.decode();
-    carry(picture, next, frame);
-    if (!old) requestAnimationFrame(() => (performance.mark('first-picture'), setTimeout(seen)));
-    picture = next;
-    URL.revokeObjectURL(old);
-    old = url;
+    if (tells) told_ms = now;
+    await carry(frame.picture, frame, tells ? describe(scene) : null);
+    if (!any) requestAnimationFrame(() => (performance.mark('first-picture'), setTimeout(seen)));
+    any = true;
     const { complain, drawOverlays } = await parts;
     fall?.then(({ shown }) => shown(frame));
     stars?.then(named => named?.shown(frame));

@@ -1,7 +1,8 @@
 // Until the next picture comes the one that is shown goes along with the camera: it is moved and scaled as what is far away would be. That is exact where the
 // field of view changes, nearly right where the camera is turned, and a guess where it comes nearer. What comes next is computed. The picture at rest is faded
 // in over the coarse one before it.
-import { still } from './dom.js';
+import { el, still } from './dom.js';
+import { sizeOf } from './pace.js';
 
 const names = ['r', 'field_m', 'fov_deg', 'yaw_deg', 'pitch_deg', 'roll_deg', 'projection', 'observer', 'stereo'];
 const radians = Math.PI / 180;
@@ -25,30 +26,81 @@ export function carried(then, now, height) {
   return Math.hypot(right, down / height) < 1 ? { scale, right, down } : null;
 }
 
-// Shows pictures in the stage, each of which says what camera saw it; one with all pixels that it will have is faded in over one with fewer.
+// Shows pictures in the stage, each of which says what camera saw it. The last one of a scene is an <img>, exact, and may be saved as any other. Those that others
+// follow are drawn on a canvas over it, which takes half of what a new <img> takes each time; below it the last full one goes along by itself. One with all pixels
+// that it will have is faded in over one with fewer.
 export function buildCarry(stage, scene) {
-  const camera = document => Object.fromEntries(names.map(name => [name, document?.[name] ?? scene.fields.get('camera.' + name).default]));
-  let seen = null;
+  const camera = document => Object.fromEntries(names.map(name => [name, document?.[name] ?? scene.fields.get('camera.' + name).default])),
+    canvas = el('canvas', { id: 'moving', 'aria-hidden': 'true', hidden: true }),
+    context = canvas.getContext('bitmaprenderer', { alpha: false }),
+    seen = new Map(); // by what each was seen
+  let picture = stage.querySelector('#picture'),
+    url = '',
+    begun = 0;
+  picture.after(canvas);
 
-  function go(picture) {
-    const { clientWidth: width, clientHeight: height } = stage,
-      way = seen && carried(seen, Object.fromEntries(names.map(name => [name, scene.get('camera.' + name)])), height / width);
-    const moved = way && (Math.abs(way.scale - 1) > 1e-4 || Math.hypot(way.right, way.down) > 1e-4);
-    picture.style.transform = moved ? `translate(${width * way.right}px, ${width * way.down}px) scale(${way.scale})` : '';
+  function go(node) {
+    const by = seen.get(node),
+      { width, height } = sizeOf(stage),
+      way = by && carried(by, Object.fromEntries(names.map(name => [name, scene.get('camera.' + name)])), height / width);
+    const moved = way && (Math.abs(way.scale - 1) > 1e-4 || Math.hypot(way.right, way.down) > 1e-4),
+      transform = moved ? `translate(${width * way.right}px, ${width * way.down}px) scale(${way.scale})` : '';
+    if (node.style.transform !== transform) node.style.transform = transform;
   }
 
-  scene.addEventListener('change', () => go(stage.querySelector('#picture')));
+  scene.addEventListener('change', () => [picture, canvas].forEach(go));
 
-  return function show(old, next, { camera: by, width, all }) {
-    seen = by && camera(by);
-    const fades = all && old.naturalWidth && old.naturalWidth < width && !still.matches;
+  function saw(node, by) {
+    seen.set(node, by && camera(by));
+    go(node);
+  }
+
+  function leave(node, gone) {
+    node.classList.add('leaving');
+    node.addEventListener('animationend', () => node.classList.contains('leaving') && gone(), { once: true });
+  }
+  const away = () => ((canvas.hidden = true), canvas.classList.remove('leaving'));
+
+  async function move(blob, { camera: by }) {
+    const mine = ++begun,
+      bitmap = await createImageBitmap(blob);
+    if (mine !== begun) return bitmap.close();
+    if (canvas.width !== bitmap.width || canvas.height !== bitmap.height) Object.assign(canvas, { width: bitmap.width, height: bitmap.height });
+    context.transferFromImageBitmap(bitmap);
+    canvas.classList.remove('leaving');
+    canvas.hidden = false;
+    saw(canvas, by);
+  }
+
+  async function rest(blob, { camera: by, width, all }, alt) {
+    const mine = ++begun,
+      old = picture,
+      before = url,
+      next = old.cloneNode(); // the old one stays until the new one can be shown whole
+    next.src = URL.createObjectURL(blob);
+    if (alt != null) next.alt = alt;
+    await next.decode();
+    if (mine !== begun) return URL.revokeObjectURL(next.src);
+    [picture, url] = [next, next.src];
     next.style.transform = '';
     old.replaceWith(next);
-    go(next);
-    if (!fades) return;
-    old.removeAttribute('id');
-    Object.assign(old, { className: 'leaving', alt: '' });
-    old.addEventListener('animationend', () => old.remove());
-    next.after(old);
+    seen.delete(old);
+    saw(next, by);
+    const over = canvas.hidden ? old : canvas,
+      fades = all && (canvas.hidden ? old.naturalWidth : canvas.width) < width && (over === canvas || old.naturalWidth) && !still.matches;
+    if (over === old && fades) {
+      old.removeAttribute('id');
+      old.alt = '';
+      next.after(old);
+      leave(old, () => old.remove());
+    } else if (over === canvas) fades ? leave(canvas, away) : away();
+    URL.revokeObjectURL(before);
+  }
+
+  // alt: what is said of it, null: what was said of the one before.
+  return async function show(blob, frame, alt) {
+    if (frame.final || !url || !context || !globalThis.createImageBitmap) return rest(blob, frame, alt);
+    await move(blob, frame);
+    if (alt != null && picture.alt !== alt) picture.alt = alt;
   };
 }

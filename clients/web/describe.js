@@ -1,5 +1,5 @@
 // This tells what is seen, in words: for titles, and for those who have a picture read to them.
-import { byId } from './dom.js';
+import { byId, paced } from './dom.js';
 import { number, said, t } from './i18n.js';
 
 const views = {
@@ -45,8 +45,6 @@ export function describe(scene) {
   return [hole, ...told].join(' ');
 }
 
-const pace_ms = 250; // while a hand drags; what follows nothing is said at once
-
 // Keeps title, picture and stage at what the scene is.
 export function followScene(scene) {
   function follow() {
@@ -55,13 +53,7 @@ export function followScene(scene) {
     byId('stage').parentNode.toggleAttribute('data-bar', scene.get('style.colour_bar'));
     byId('stage').setAttribute('aria-label', t(`Camera on the hole: ${nameOf(scene)}`, `Camera sul buco: ${nameOf(scene)}`));
   }
-  let timer = 0,
-    late = false;
-  function paced() {
-    if (timer) return (late = true);
-    follow();
-    timer = setTimeout(() => ((timer = 0), late && ((late = false), paced())), pace_ms);
-  }
-  for (const event of ['change', 'settle']) scene.addEventListener(event, paced);
+  const soon = paced(follow);
+  for (const event of ['change', 'settle']) scene.addEventListener(event, soon);
   follow();
 }

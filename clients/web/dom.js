@@ -47,3 +47,16 @@ export function latest(task) {
     }
   };
 }
+
+const pace_ms = 250;
+
+// What follows each change of something: at once the first of them, and while they go on four times a second.
+export function paced(task) {
+  let timer = 0,
+    late = false;
+  return function run() {
+    if (timer) return void (late = true);
+    task();
+    timer = setTimeout(() => ((timer = 0), late && ((late = false), run())), pace_ms);
+  };
+}

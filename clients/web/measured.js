@@ -47,7 +47,7 @@ export function buildMeasured(stage, scene, size, choose) {
     words = el('output', { for: 'measured' }),
     root = el('div', { id: 'measured-row' }, slider, words),
     sharp = el('img', { id: 'sharp', alt: '', draggable: false, hidden: true });
-  byId('picture').after(sharp);
+  byId('moving').after(sharp);
   stage.parentNode.append(root);
   let key = '', // of the scene that the sharp picture is of
     old = '',

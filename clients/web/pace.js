@@ -15,13 +15,22 @@ const words = {
   fast: t('Pictures become as small as a quarter of the window’s width, so that more come a second.', 'Le immagini si riducono fino a un quarto della larghezza della finestra, perché ne arrivino di più al secondo.'),
 };
 
+// To ask an element for its size lays the page out, as often as something in it has changed: what has a size tells when that changes.
+const sizes = new WeakMap();
+const told = globalThis.ResizeObserver && new ResizeObserver(entries => entries.forEach(({ target }) => sizes.set(target, { width: target.clientWidth, height: target.clientHeight })));
+export function sizeOf(node) {
+  if (!sizes.has(node)) (sizes.set(node, { width: 0, height: 0 }), told?.observe(node));
+  return sizes.get(node).width ? sizes.get(node) : { width: node.clientWidth, height: node.clientHeight };
+}
+
 // Device pixels for each of the window's.
-const ratio = ({ clientWidth: width, clientHeight: height }) =>
+const ratio = ({ width, height }) =>
   Math.min(devicePixelRatio || 1, most.width / width, most.width / height, Math.sqrt((most.width * most.height) / (width * height)));
 
 export function windowSize(stage) {
-  const even = x => Math.max(2, 2 * Math.round((x * ratio(stage)) / 2));
-  return { width: even(stage.clientWidth), height: even(stage.clientHeight) };
+  const { width, height } = sizeOf(stage),
+    even = x => Math.max(2, 2 * Math.round((x * ratio({ width, height })) / 2));
+  return { width: even(width), height: even(height) };
 }
 
 const chosen = () => (Object.hasOwn(parts, link.get('pace') ?? '') ? link.get('pace') : 'auto');
@@ -29,9 +38,9 @@ const chosen = () => (Object.hasOwn(parts, link.get('pace') ?? '') ? link.get('p
 // What the session is asked to keep of a picture's width at rest while something moves, as its query. Auto gives that up where frames take too long.
 export function kept() {
   const pace = chosen(),
-    wide = byId('stage').clientWidth;
+    here = sizeOf(byId('stage'));
   if (parts[pace] == null) return 'least=1';
-  const least = Number(Math.min(Math.max((parts[pace] * Math.min(1, drag_px / wide)) / ratio(byId('stage')), least_part), 1).toFixed(3));
+  const least = Number(Math.min(Math.max((parts[pace] * Math.min(1, drag_px / here.width)) / ratio(here), least_part), 1).toFixed(3));
   return `least=${least}` + (pace === 'auto' && least > least_part ? `&patience_ms=${patience_ms}` : '');
 }
 

@@ -1,5 +1,5 @@
 // What can be taken away: the link, the picture as a file, the scene as JSON and as a command.
-import { byId } from './dom.js';
+import { byId, paced } from './dom.js';
 import { t } from './i18n.js';
 import * as link from './link.js';
 import { buildSave, picked } from './save.js';
@@ -38,7 +38,8 @@ export function share(scene, size) {
     copy(location.href);
   });
   form.addEventListener('change', show);
-  for (const event of ['change', 'settle']) scene.addEventListener(event, show);
+  scene.addEventListener('change', paced(show));
+  scene.addEventListener('settle', show);
   buildSave(scene, size, show);
   return show;
 }

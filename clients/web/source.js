@@ -4,49 +4,14 @@
 // and several rays for each.
 import { again_ms } from './again.js';
 import { latest, seen } from './dom.js';
+import { figures, fits, passes, sentences } from './frame.js';
+import { buildFlight, still_ms } from './flight.js';
+import { buildLine } from './line.js';
+import { mergePatch, moves } from './merge.js';
 import { kept } from './pace.js';
 import { ask, passes as may_pass, Problem, too_large } from './server.js';
 
-// "width=640 height=360 ..." as numbers.
-const figures = header =>
-  Object.fromEntries(
-    (header ?? '')
-      .split(' ')
-      .filter(Boolean)
-      .map(pair => {
-        const [name, value] = pair.split('=');
-        return [name, Number(value)];
-      }),
-  );
-
-const sentences = header => [...(header ?? '').matchAll(/"([^"]*)"/g)].map(m => decodeURIComponent(m[1]));
-
-const passes = header =>
-  (header ?? '')
-    .split(',')
-    .filter(Boolean)
-    .map(entry => ({
-      name: entry.trim().split(';')[0],
-      reused: /desc="?reused/.test(entry),
-      ms: Number(/dur=([\d.]+)/.exec(entry)?.[1] ?? 0),
-    }));
-
-// RFC 7396, from one document to another: a list that changes is sent whole.
-const plain = value => value && typeof value === 'object' && !Array.isArray(value);
-function mergePatch(before, after) {
-  const patch = {};
-  for (const key of new Set([...Object.keys(before), ...Object.keys(after)])) {
-    const [old, now] = [before[key], after[key]];
-    const inner = plain(old) && plain(now) ? mergePatch(old, now) : (now ?? null);
-    if (plain(inner) ? Object.keys(inner).length : JSON.stringify(old) !== JSON.stringify(now)) patch[key] = inner;
-  }
-  return patch;
-}
-
 const least_samples = 2;
-const most_polls = 3; // and one more now and then: a browser opens six connections to one server
-const frame_ms = 60; // from picture to picture over a long line, about
-const still_ms = 600; // without a change and a picture that is not the last, after which one request is enough
 const least_part = 1 / 8; // of the window’s width, of a picture at rest
 
 // What decides how long a pixel takes, and the window.
@@ -56,12 +21,6 @@ const load = ({ camera, time, motion, ...rest }) => JSON.stringify(rest);
 export const samples = scene => (scene.get('image.samples') === 'auto' ? 'auto' : Math.max(scene.get('image.samples'), least_samples));
 
 const pause = ms => new Promise(resolve => setTimeout(resolve, ms));
-
-// What is said of a picture’s size: all: it has all pixels that one at rest will have; narrow: fewer than were to be kept while something moves.
-function fits(quality, { width }, { keeps, part }) {
-  const all = Math.round(width * part);
-  return { all: quality.width === all, narrow: quality.width < 0.98 * all * Number(new URLSearchParams(keeps).get('least')) };
-}
 
 // scene; size() → { width, height } of the window in device pixels; told are shown(frame), failed(error), and rests(whether), which is true as soon as
 // the picture that is shown is the last one of the scene as it now is: until the server has answered a change, its pictures are of the scene before. Returns
@@ -78,8 +37,7 @@ export function openSource(scene, size, shown, failed, rests) {
     told = 0, // the last of them that the server knows
     last = null, // the picture that is shown
     stirred_ms = -Infinity, // the latest change, or picture that is not the last
-    read_ms = 0, // what the bytes of the latest picture took
-    trip_ms = 0, // what the server takes to answer, at least: of late
+    line = buildLine(),
     part = 1, // of the window’s size that the server takes a picture of
     laden = '', // with this
     polls = new AbortController(),
@@ -103,7 +61,8 @@ export function openSource(scene, size, shown, failed, rests) {
       { time, ...after } = document;
     const patch = mergePatch(before, after);
     if (session.jumps !== scene.jumps) patch.time = time ?? null;
-    for (const name of ['r', 'azimuth_deg']) if (scene.jumped.has('camera.' + name)) (patch.camera ??= {})[name] = document.camera?.[name] ?? null;
+    const set = ['r', 'azimuth_deg'].filter(name => scene.jumped.has('camera.' + name));
+    for (const name of [...set, ...session.touched]) (patch.camera ??= {})[name] = document.camera?.[name] ?? null;
     return patch;
   }
 
@@ -165,20 +124,26 @@ export function openSource(scene, size, shown, failed, rests) {
         told = now_asked;
         return settle();
       }
+      const little = patch && same && moves(patch) && !striking;
+      if (little && pulling && line.far() && !session.plain) return carry(patch, document, now_asked, jumps);
+      if (session) session.pending = null; // what it holds is in this one as well, and none goes before this one is answered
       const begun = performance.now(),
-        answer = await ask((session?.url ?? 'v1/sessions') + (same ? '' : '?' + keeps), {
-          method: session ? 'PATCH' : 'POST',
-          headers: headers(),
-          body: JSON.stringify(patch ?? document),
-        });
-      trip_ms = Math.min(trip_ms ? 1.2 * trip_ms : Infinity, performance.now() - begun);
-      const { id, token, revision, scene: now, ...seen_of_it } = await answer.json();
+        order = session ? ++session.order : 0,
+        query = [...(same ? [] : [keeps]), ...(order ? ['order=' + order] : [])].join('&');
+      const answer = await ask((session?.url ?? 'v1/sessions') + (query && '?' + query), {
+        method: session ? 'PATCH' : 'POST',
+        headers: { ...headers(), ...(little ? { Prefer: 'return=minimal' } : {}) },
+        body: JSON.stringify(patch ?? document),
+      });
+      line.answered(performance.now() - begun);
+      const { id, token, revision, scene: now, order: known, ...seen_of_it } = await answer.json();
       if (!session) last &&= { final: false }; // its revisions are counted anew
-      session ??= { url: 'v1/sessions/' + id, token, frame: 0, flight: [], cameras: new Map() };
+      session ??= { url: 'v1/sessions/' + id, token, frame: 0, flight: [], cameras: new Map(), order: 0, known: 0, touched: new Set(), pending: null, plain: false };
       session.cameras.set(revision, document.camera ?? {});
-      Object.assign(session, { document: dozes === naps ? document : asleep(document), revision, jumps, keeps, part });
+      Object.assign(session, { document: dozes === naps ? document : asleep(document), revision, jumps, keeps, part, known: known ?? 0, plain: false });
+      session.touched.clear();
       if (scene.jumps === jumps && patch?.motion) follow(document, now);
-      scene.tellSeen(seen_of_it);
+      if (!little) scene.tellSeen(seen_of_it);
       if (striking) await struck(document);
       told = now_asked;
       settle();
@@ -198,35 +163,38 @@ export function openSource(scene, size, shown, failed, rests) {
   }
   const put = latest(send);
 
-  // Several requests are on their way while something moves, each for the frame after that of the one before: while one picture is read and drawn the server makes
-  // the next, and over a long line more of them. As many as there are wait to be asked for again, so that what is late holds all back. At rest there is one.
-  const moving = () => performance.now() - stirred_ms < still_ms;
-  // Where it is the bytes that take long, more requests would only make each picture older.
-  const depth = () => (!moving() ? 1 : read_ms > frame_ms ? 2 : Math.min(Math.max(1 + Math.ceil(trip_ms / frame_ms), 2), most_polls));
-
-  function poll(from, after) {
-    const lasting = after === from.frame,
-      one = { after };
-    one.answer = ask(`${from.url}/frame.png?after=${after}${lasting ? '' : `&wait_ms=${still_ms}`}`, { signal: polls.signal }).then(
-      answer => ({ one, answer }),
-      error => ({ one, error }),
-    );
-    from.flight.push(one);
+  // Over a long line a change of the camera goes with a request for a picture, of which several are under way: it costs no round trip of its own. Each holds all that has
+  // changed since the latest one that was answered, for one that is overtaken does not count.
+  function carry(patch, document, asked, jumps) {
+    for (const name of Object.keys(patch.camera)) session.touched.add(name);
+    Object.assign(session, { jumps, pending: { patch, document, asked } });
+    flight.kick();
   }
 
-  async function newest(from) {
-    if (!from.flight.some(({ after }) => after === from.frame)) poll(from, from.frame);
-    while (from.flight.length < depth()) poll(from, Math.max(...from.flight.map(({ after }) => after)) + 1);
-    const { one, answer, error } = await Promise.race(from.flight.map(({ answer }) => answer));
-    from.flight.splice(from.flight.indexOf(one), 1);
-    if (error) throw error;
-    if (answer.status !== 204 && Number(answer.headers.get('Kerrd-Frame')) > from.frame) return answer;
-    answer.body?.cancel(); // it came by another request already
-    return null;
+  function arrived(from, { order, carries }, answer) {
+    if (order < from.known) return; // a later one counts
+    const revision = Number(answer.headers.get('Kerrd-Patched'));
+    Object.assign(from, { known: order, document: carries.document, revision: Math.max(from.revision, revision) });
+    from.cameras.set(revision, carries.document.camera ?? {});
+    told = Math.max(told, carries.asked);
+    if (!from.pending && !from.flight.some(({ carries }) => carries)) from.touched.clear();
+    settle();
   }
+
+  const flight = buildFlight(line, {
+    moving: () => performance.now() - stirred_ms < still_ms,
+    goesOn: () => scene.goesOn(),
+    options: change => ({ ...(change && { method: 'PATCH', headers: headers(), body: JSON.stringify(change) }), signal: polls.signal }),
+    arrived,
+    // The server knows what is wrong with it, and says so of the same change by itself.
+    refused(from) {
+      from.plain = true;
+      if (session === from) put();
+    },
+  });
 
   async function next(from) {
-    const answer = await newest(from);
+    const answer = await flight.newest(from);
     if (!answer) return;
     const get = name => answer.headers.get(name),
       quality = figures(get('Kerrd-Quality'));
@@ -244,7 +212,7 @@ export function openSource(scene, size, shown, failed, rests) {
     if (quality.final !== 1) stirred_ms = now;
     recent = scene.goesOn() ? [...recent.filter((time, i) => time > now - 2000 || i >= recent.length - 2), now] : []; // a slow server's last three, too
     const picture = await answer.blob();
-    read_ms = performance.now() - now;
+    line.read(quality.lossy, performance.now() - now);
     await shown({
       picture,
       ...quality,

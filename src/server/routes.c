@@ -41,7 +41,7 @@ const struct kd_route kd_routes[] = {
     { "/v1/sessions", KD_POST, kd_handle_sessions, JSON, "A live session of a scene: its id, and the token that changes it",
       KD_TAKES_SCENE, .status = { 201 }, .own = { "least", "patience_ms" } },
     { "/v1/sessions/{id}", KD_GET | KD_PATCH | KD_DELETE, kd_handle_session, JSON,
-      "A session's scene; a merge patch of it (RFC 7396); its end", KD_TAKES_SCENE },
+      "A session's scene; a merge patch of it (RFC 7396), with Prefer: return=minimal answered by its revision alone; its end", KD_TAKES_SCENE },
     { "/v1/sessions/{id}/ringdown", KD_POST, kd_handle_session_ringdown, JSON,
       "Strikes the hole: style.ringdown, from now on the session's clock; the session's scene", KD_TAKES_STRIKE },
     { "/v1/sessions/{id}/path", KD_POST | KD_DELETE, kd_handle_session_path, JSON,

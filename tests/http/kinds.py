@@ -1,8 +1,10 @@
 """Frames of a session in the kinds that are asked for, patches that are under way at once, and answers that are short. In the fake renderer's scenes
 `time` is how many milliseconds a frame takes."""
+import itertools
 import json
 import struct
 import threading
+import time
 
 import daemon
 import jpeg
@@ -25,6 +27,7 @@ class Kinds(daemon.Owned):
             self.assertEqual((frame.status, frame.header('Content-Type')), (200, 'image/jpeg'))
             self.assertRegex(frame.header('Kerrd-Quality'), rf' final=0 lossy={quality}$')
             self.assertIn('encode;dur=', frame.header('Server-Timing'))
+            self.assertGreaterEqual(float(frame.header('Kerrd-Waited')), 0)
             width, height, _, shared = jpeg.decode(frame.body)
             self.assertEqual((f'width={width} height={height} ' in frame.header('Kerrd-Quality'), shared), (True, shares), frame.header('Kerrd-Quality'))
         exact = self.get(session, 'after=0')
@@ -43,15 +46,57 @@ class Kinds(daemon.Owned):
 
     def test_one_frame_in_several_kinds(self):
         """Of a frame that is there another kind is made when it is asked for; who asks for the same one has the same bytes."""
+        session, queries = self.make(MOVING), ('', 'lossy=20', 'lossy=60', 'lossy=95', 'lossy=60', '')
+
+        def of_one_frame():
+            self.get(session, 'lossy=60&after=%d' % self.status(session)['frame'])
+            frames = [self.get(session, query) for query in queries]
+            return len({frame.header('Kerrd-Frame') for frame in frames}) == 1 and [frame.body for frame in frames]
+        bodies = []
+        self.assertTrue(daemon.eventually(lambda: bodies.append(of_one_frame()) or bodies[-1]), 'nobody waits, so that no other frame comes')
+        exact, low, middle, high, again, last = bodies[-1]
+        self.assertEqual((middle, exact), (again, last))
+        self.assertEqual(len({exact, low, middle, high}), 4)
+
+    def test_who_does_not_wait_gets_its_kind_beside_others(self):
         session = self.make(MOVING)
-        first = self.get(session, 'lossy=60')
-        kinds = {}
-        for query in ('', 'lossy=20', 'lossy=60', 'lossy=95', 'lossy=60', ''):
-            frame = self.get(session, query)
-            if frame.header('Kerrd-Frame') != first.header('Kerrd-Frame'):
-                continue  # one more had been begun
-            self.assertEqual(kinds.setdefault(query, frame.body), frame.body)
-        self.assertEqual(len(set(kinds.values())), len(kinds))
+        for query, kind in (('frame.png?', 'image/png'), ('frame?lossy=33&', 'image/jpeg')):
+            self.get(session, 'lossy=60&after=%d' % self.status(session)['frame'])
+            self.assertTrue(daemon.eventually(lambda: self.daemon.get(self.at(session, f'/{query}after=0&wait_ms=0')).status == 200))
+            self.assertEqual(self.daemon.get(self.at(session, f'/{query}after=0&wait_ms=0')).header('Content-Type'), kind)
+
+    def test_pixels_are_not_kept_for_long(self):
+        """Another kind of a frame that has stood for a while is of the next one."""
+        session = self.make(MOVING)
+        first = self.get(session, 'lossy=60&after=%d' % self.status(session)['frame'])
+        qualities = itertools.count(20)
+
+        def another():
+            other = self.get(session, f'lossy={next(qualities) % 40 + 1}')
+            self.assertEqual((other.status, other.header('Content-Type')), (200, 'image/jpeg'))
+            return int(other.header('Kerrd-Frame')) > int(first.header('Kerrd-Frame')) or time.sleep(0.5)
+        self.assertTrue(daemon.eventually(another))
+
+    def test_qualities_that_take_longer_than_a_frame(self):
+        """Each viewer has frames in its kind, however fast others follow."""
+        session = self.make({**MOVING, 'image': {'width': 1600, 'height': 1200}, 'time': 1})
+        counts, over = [0, 0, 0], threading.Event()
+
+        def watch(i, query):
+            number = 0
+            while not over.is_set():
+                answer = self.get(session, f'{query}after={number}')
+                number = int(answer.header('Kerrd-Frame'))
+                counts[i] += 1
+        threads = [threading.Thread(target=watch, args=each) for each in enumerate(('lossy=90&', 'lossy=40&', ''))]
+        for thread in threads:
+            thread.start()
+        try:
+            self.assertTrue(daemon.eventually(lambda: min(counts) > 4), counts)
+        finally:
+            over.set()
+            for thread in threads:
+                thread.join()
 
     def test_more_qualities_than_a_frame_is_kept_in(self):
         session = self.make(MOVING)
@@ -135,7 +180,7 @@ class Kinds(daemon.Owned):
         still = self.make(RESTING)
         last = self.daemon.get(self.at(still, '/frame.png'))
         gone = self.patch(still, {'camera': {'inclination_deg': 82}}, f'/frame?after={int(last.header("Kerrd-Frame")) + 99}&wait_ms=1')
-        self.assertEqual((gone.status, gone.header('Kerrd-Patched')), (204, '2'))
+        self.assertEqual((gone.status, gone.header('Kerrd-Patched'), float(gone.header('Kerrd-Waited')) >= 1), (204, '2', True))
 
 
 if __name__ == '__main__':

@@ -119,7 +119,7 @@ class Browser(unittest.TestCase):
         page.on('console', lambda m: self.complaints.append(f'{m.type}: {m.text}') if m.type in ('error', 'warning') else None)
         page.on('pageerror', lambda e: self.complaints.append(str(e)))
         page.on('request', lambda r: self.requests.append(r))
-        page.on('response', lambda r: self.frames.append(r) if '/frame.png' in r.url and r.status == 200 else None)
+        page.on('response', lambda r: self.frames.append(r) if '/frame' in r.url and r.status == 200 else None)
         return page
 
     def shot(self, page, name, **options):
@@ -128,7 +128,9 @@ class Browser(unittest.TestCase):
 
     def pixels(self, page):
         return page.evaluate('''async () => {
-            const picture = document.getElementById('picture'), { naturalWidth: width, naturalHeight: height } = picture;
+            const moving = document.getElementById('moving'), shown = moving && !moving.hidden && !moving.classList.contains('leaving');
+            const picture = shown ? moving : document.getElementById('picture');
+            const [width, height] = shown ? [moving.width, moving.height] : [picture.naturalWidth, picture.naturalHeight];
             const context = new OffscreenCanvas(width, height).getContext('2d');
             context.drawImage(picture, 0, 0);
             const hash = await crypto.subtle.digest('SHA-256', context.getImageData(0, 0, width, height).data);

@@ -231,30 +231,31 @@ class Hand(Browser):
 
     def test_a_picture_at_rest_comes_slowly_over_a_coarse_one(self):
         page = self.open()
-        fades = """async ([from, to, all]) => {
-            const { buildCarry } = await import('./web/carry.js'), stage = document.createElement('div');
-            const make = async width => {
-                const canvas = new OffscreenCanvas(width, 1), image = new Image();
-                canvas.getContext('2d');
-                image.src = URL.createObjectURL(await canvas.convertToBlob());
-                await image.decode();
-                return image;
-            };
-            const [old, next] = [await make(from), await make(to)];
-            stage.append(old);
+        fades = """async pictures => {
+            const { buildCarry } = await import('./web/carry.js'), stage = document.createElement('div'), image = new Image();
+            const make = width => { const canvas = new OffscreenCanvas(width, 1); canvas.getContext('2d'); return canvas.convertToBlob(); };
+            image.id = 'picture';
+            stage.append(image);
             document.body.append(stage);
-            buildCarry(stage, { addEventListener() {} })(old, next, { camera: null, width: to, all: to === all });
-            const begun = [...stage.children].map(image => image.className);
-            await Promise.all(old.getAnimations().map(({ finished }) => finished));
-            await new Promise(requestAnimationFrame);
-            const [left] = [stage.children.length, stage.remove()];
+            const show = buildCarry(stage, { addEventListener() {} }), seen = () => [...stage.children].filter(node => !node.hidden);
+            for (const [width, final, all] of pictures) await show(await make(width), { camera: null, width, final, all }, null);
+            const begun = seen().map(node => node.className);
+            await Promise.all(seen().flatMap(node => node.getAnimations()).map(({ finished }) => finished));
+            for (let i = 0; i < 2; i++) await new Promise(requestAnimationFrame);
+            const left = seen().map(node => node.localName).join(' ');
+            stage.remove();
             return [begun, left];
         }"""
-        self.assertEqual(page.evaluate(fades, [4, 8, 8]), [['', 'leaving'], 1])
-        for one in ([8, 8, 8], [2, 4, 8], [8, 4, 8]):
-            self.assertEqual(page.evaluate(fades, one), [[''], 1])
+        first, coarse, fine = [8, True, True], [4, False, False], [8, True, True]
+        self.assertEqual(page.evaluate(fades, [[4, True, False], fine]), [['', 'leaving'], 'img'])
+        self.assertEqual(page.evaluate(fades, [first, coarse, fine]), [['', 'leaving'], 'img'], 'what moved was on a canvas')
+        self.assertEqual(page.evaluate(fades, [first, coarse]), [['', ''], 'img canvas'])
+        self.assertEqual(page.evaluate(fades, [first, coarse, fine, coarse]), [['', ''], 'img canvas'], 'it moves again before it has gone')
+        for pictures in ([first, fine], [[2, True, False], [4, True, False]], [first, [4, True, False]], [first, [8, False, False], fine]):
+            self.assertEqual(page.evaluate(fades, pictures), [[''], 'img'])
         page.emulate_media(reduced_motion='reduce')
-        self.assertEqual(page.evaluate(fades, [4, 8, 8]), [[''], 1])
+        for pictures in ([[4, True, False], fine], [first, coarse, fine]):
+            self.assertEqual(page.evaluate(fades, pictures), [[''], 'img'])
 
     def test_how_sharp_it_is_while_it_moves_is_chosen(self):
         page = self.open('pace=auto&lang=it')

@@ -39,7 +39,7 @@ class Lensing(Browser):
         }''')
         print(f'first picture {first[0]} ms after navigation, {first[1]} ms after the session was asked for')
         at_first = sum(r.sizes()['responseBodySize'] + r.sizes()['responseHeadersSize'] for r in self.requests
-                       if r.url.startswith(self.base) and '/frame.png' not in r.url and r.response())
+                       if r.url.startswith(self.base) and '/frame' not in r.url and r.response())
         print(f'{at_first} bytes for the first view')
         for view in VIEWS[1:]:
             page.click(f'nav [data-view={view}]')
@@ -47,7 +47,7 @@ class Lensing(Browser):
             page.wait_for_timeout(500)  # what comes after that is a few answers
         sizes = {}
         for request in self.requests:
-            goes_on = '/frame.png' in request.url or '/v1/render?' in request.url or '/v1/playground/' in request.url
+            goes_on = '/frame' in request.url or '/v1/render?' in request.url or '/v1/playground/' in request.url
             if request.url.startswith(self.base) and not goes_on and request.response():
                 sizes[request.url] = request.sizes()['responseBodySize'] + request.sizes()['responseHeadersSize']
         own = sum(n for url, n in sizes.items() if '/v1/' not in url)

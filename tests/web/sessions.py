@@ -1,5 +1,7 @@
 """Sessions and servers that come and go: sessions.py KERRD FOLDER (browser.py)."""
+import itertools
 import json
+import re
 
 from browser import AT_REST, FINE, READY, Browser, main
 import daemon
@@ -32,7 +34,7 @@ class Sessions(Browser):
             gone.append(route.request.url)
             route.fulfill(status=404, content_type='application/problem+json', body='{"status":404,"detail":"the session has ended"}')
 
-        page.route('**/frame.png*', answer)
+        page.route('**/frame?*', answer)
         page.focus('#stage')
         page.keyboard.press('Shift+ArrowUp')
         opened = lambda: page.evaluate('0') or [r for r in self.requests if '/v1/sessions?' in r.url]
@@ -85,7 +87,7 @@ class Sessions(Browser):
 
     def test_what_is_not_seen_is_not_asked_for(self):
         page = self.open('lang=en&preset=living-disk', '#stage[data-final]')
-        pictures = lambda: page.evaluate('0') or len([r for r in self.requests if '/frame.png' in r.url])
+        pictures = lambda: page.evaluate('0') or len([r for r in self.requests if '/frame?' in r.url])
         hide = '''hidden => {
             Object.defineProperty(document, 'hidden', { configurable: true, get: () => hidden });
             document.dispatchEvent(new Event('visibilitychange'));
@@ -127,11 +129,38 @@ class Sessions(Browser):
         page.wait_for_selector(AT_REST)
         self.assertTrue(daemon.eventually(lambda: '(1/' not in page.inner_text('#status')))
 
+    def test_a_drag_over_a_long_line(self):
+        """Changes go with requests for pictures, several of which are under way; what the server then has is what the page shows, and the last picture is exact."""
+        page = self.open('lang=en&preset=default&pause=1')
+        own = next(r.response().json() for r in self.requests if '/v1/sessions?' in r.url)
+        page.context.new_cdp_session(page).send('Network.emulateNetworkConditions', {'offline': False, 'latency': 300, 'downloadThroughput': -1, 'uploadThroughput': -1})
+        page.focus('#stage')
+        carried = lambda: page.evaluate('0') or [r for r in self.requests if r.method == 'PATCH' and '/frame?' in r.url]
+        for _ in range(3):  # by the answer to the first the page learns how long the line is
+            page.keyboard.press('ArrowUp')
+            page.wait_for_timeout(700)
+
+        keys = itertools.cycle(9 * ['ArrowUp'] + 7 * ['ArrowDown'])
+
+        def pressed():
+            page.keyboard.press(next(keys))
+            page.wait_for_timeout(30)
+            return len(carried()) > 5
+        self.assertTrue(daemon.eventually(pressed))
+        orders = [int(re.search(r'order=(\d+)', r.url)[1]) for r in carried()]
+        self.assertEqual(orders, sorted(set(orders)))
+        page.wait_for_selector(FINE)
+        tilt = lambda: float(self.field(page, 'camera.inclination_deg'))
+        there = lambda: self.daemon.get('/v1/sessions/' + own['id']).json()['scene']['camera']['inclination_deg']
+        self.assertTrue(daemon.eventually(lambda: tilt() == there()), (tilt(), there()))
+        self.assertNotEqual(tilt(), 82)
+        self.assertTrue(daemon.eventually(lambda: page.is_hidden('#moving') and 'JPEG' not in page.inner_text('#status')))
+
     def test_more_pictures_than_one_are_on_their_way_while_it_moves(self):
         page, under_way, most = self.page(self.context()), set(), []
 
         def begun(request):
-            if '/frame.png' in request.url:
+            if '/frame?' in request.url:
                 under_way.add(request)
                 most.append(len(under_way))
         page.on('request', begun)
@@ -140,9 +169,13 @@ class Sessions(Browser):
         page.goto(self.base + '#pace=fast&preset=living-disk&lang=en')
         page.wait_for_selector('#stage[data-final]')
         self.assertTrue(daemon.eventually(lambda: page.evaluate('0') or most.count(2) > 3))
+        self.assertTrue(daemon.eventually(lambda: page.evaluate('0') or any(f.headers.get('content-type') == 'image/jpeg' for f in self.frames)))
+        self.there(page, 'JPEG', '#status')
         self.assertLessEqual(max(most), 6, 'of the six connections that a browser opens')
         page.click('#play')
         page.wait_for_selector(AT_REST)
+        self.assertTrue(daemon.eventually(lambda: 'JPEG' not in page.inner_text('#status')))
+        self.assertTrue(daemon.eventually(lambda: page.is_hidden('#moving')), 'what rests is an image, and exact')
         self.assertTrue(daemon.eventually(lambda: page.evaluate('0') or len(under_way) == 1), 'at rest one is enough')
 
     def test_a_page_that_is_closed_ends_its_session(self):

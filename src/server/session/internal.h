@@ -78,6 +78,7 @@ void kd_session_wake(struct kd_session *session); /* those for whom there is som
 void kd_session_choose_kind(const struct kd_session *session, bool last, struct kd_render_job *job); /* the first, by who waits */
 /* What the viewer takes of the frame: NULL where that is still to be made. */
 const struct kd_live_file *kd_session_file(const struct kd_viewer *viewer, const struct kd_live_frame *frame);
+void kd_session_forget_pixels(struct kd_session *session, double now); /* of a frame that nobody has asked for in another kind */
 void kd_session_add_kinds(struct kd_session *session); /* begins to make what is missing of the latest frame for those who wait */
 
 #endif

@@ -3,6 +3,8 @@
 
 #include <stdlib.h>
 
+#define PIXELS_MS 1000.0 /* after which those of the latest frame go: whoever then wants it in another kind gets the next one */
+
 struct added {
     struct kd_render_job job; /* first: the queue's pointer is ours */
     struct kd_session *session;
@@ -50,6 +52,20 @@ const struct kd_live_file *kd_session_file(const struct kd_viewer *viewer, const
     return file_of(frame, kind_of(viewer, frame->last));
 }
 
+void kd_session_forget_pixels(struct kd_session *s, double now)
+{
+    if (s->latest && !s->adding && now - s->shown_ms > PIXELS_MS)
+        kd_frame_finish(&s->latest->picture);
+}
+
+/* A newer frame has come meanwhile. Who waited for this one in this kind has it all the same: where that takes longer than a frame nobody would ever have one. */
+static void hand_out(struct kd_session *s, struct kd_live_frame *frame, unsigned lossy)
+{
+    for (struct kd_viewer *v = s->viewers; v; v = v->next)
+        if (v->waiting && !v->any && v->lossy == lossy && v->seen < frame->number && !v->owed)
+            v->owed = kd_live_frame_share(frame);
+}
+
 static void done(struct kd_render_job *job)
 {
     struct added *added = (struct added *)job;
@@ -62,6 +78,8 @@ static void done(struct kd_render_job *job)
         frame->files[frame->n_files++] = (struct kd_live_file) { job->format, job->lossy, job->file, job->encode_ms };
         all->bytes += job->file.size;
         job->file = (struct kd_buffer) { 0 };
+        if (frame != s->latest)
+            hand_out(s, frame, job->lossy);
     } else {
         s->failed = job->status;
         s->error = job->error;
@@ -78,8 +96,11 @@ static void done(struct kd_render_job *job)
 static void add(struct kd_session *s, unsigned lossy)
 {
     struct added *added = calloc(1, sizeof *added);
-    if (!added)
-        return; /* the next frame may have more luck */
+    if (!added) {
+        s->failed = kd_error_set(&s->error, KD_ENOMEM, "out of memory for a frame");
+        kd_session_wake(s);
+        return;
+    }
     added->session = s;
     added->frame = kd_live_frame_share(s->latest);
     added->job = (struct kd_render_job) { .claim.class = KD_CLASS_LIVE, .socket = -1, .effort = KD_EFFORT_LIVE, .keeps = true, .done = done };
@@ -93,7 +114,7 @@ static void add(struct kd_session *s, unsigned lossy)
 
 void kd_session_add_kinds(struct kd_session *s)
 {
-    if (!s->latest || s->latest->last || s->adding || s->failed || !s->listed)
+    if (!s->latest || !s->latest->picture.n_layers || s->adding || s->failed || !s->listed)
         return;
     for (const struct kd_viewer *v = s->viewers; v; v = v->next)
         if (v->waiting && !v->any && s->latest->number > v->seen && !kd_session_file(v, s->latest)) {

@@ -53,11 +53,16 @@ static void describe_file(struct MHD_Response *response, const struct kd_live_fr
     MHD_add_response_header(response, "Content-Type", file->format->media_type);
 }
 
-static void tell_patched(struct MHD_Response *response, const struct kd_viewer *viewer)
+/* What has become of the request: how long it waited here, so that who asked knows how long its way is; and what it changed. */
+static void tell_request(struct MHD_Response *response, const struct kd_viewer *viewer)
 {
     char number[24];
+    if (!response)
+        return;
+    snprintf(number, sizeof number, "%.1f", kd_clock_ms() - viewer->begun_ms);
+    MHD_add_response_header(response, "Kerrd-Waited", number);
     snprintf(number, sizeof number, "%u", viewer->patched);
-    if (response && viewer->patched)
+    if (viewer->patched)
         MHD_add_response_header(response, "Kerrd-Patched", number);
 }
 
@@ -73,7 +78,7 @@ static enum MHD_Result send_frame(struct kd_request *request, const struct kd_vi
     }
     describe(response, frame);
     describe_file(response, frame, file);
-    tell_patched(response, viewer);
+    tell_request(response, viewer);
     request->reply_bytes = file->bytes.size;
     return kd_reply_send(request, MHD_HTTP_OK, response);
 }
@@ -94,7 +99,7 @@ static enum MHD_Result look(struct kd_request *request)
     case KD_VIEWER_OVER: return error.status ? kd_reply_error(request, &error) : ended(request);
     case KD_VIEWER_LATE:
         nothing = kd_reply_static("", 0, kd_format_live()->media_type);
-        tell_patched(nothing, &viewer);
+        tell_request(nothing, &viewer);
         return kd_reply_send(request, MHD_HTTP_NO_CONTENT, nothing);
     default: return MHD_NO;
     }
@@ -133,8 +138,9 @@ enum MHD_Result kd_live_newest(struct kd_request *request, kd_session_find_fn *f
         kd_session_release(session);
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
     }
+    const double now = kd_clock_ms();
     *viewer = (struct kd_viewer) { .session = session, .mhd = request->mhd, .socket = kd_connection_socket(request->connection),
-                                   .seen = after, .deadline_ms = kd_clock_ms() + (double)wait, .late = !wait, .lossy = (unsigned)lossy, .patched = state.revision };
+                                   .seen = after, .begun_ms = now, .deadline_ms = now + (double)wait, .late = !wait, .lossy = (unsigned)lossy, .patched = state.revision };
     request->viewer = viewer;
     kd_viewer_attach(viewer);
     return look(request);

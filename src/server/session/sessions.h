@@ -94,8 +94,9 @@ struct kd_viewer {
     bool any;            /* it reads what is said of frames: their files are nothing to it */
     unsigned lossy;      /* the quality at which it takes frames that are not the last, 1 to 100; 0: it takes what is exact alone */
     const struct kd_live_file *file; /* of the frame taken, as it is for this viewer; the frame's */
+    struct kd_live_frame *owed; /* one that was ready in its kind when it was the latest no more; held */
     unsigned patched;    /* the revision that the request itself made; 0: none */
-    double deadline_ms;  /* on kd_clock_ms, of waiting; INFINITY: none */
+    double begun_ms, deadline_ms; /* on kd_clock_ms: when it came; of waiting, INFINITY: none */
     bool waiting;        /* suspended */
     bool late, gone;     /* woken because the deadline has passed; because the client has hung up */
     struct kd_viewer *previous, *next;

@@ -21,7 +21,7 @@ static void wake(struct kd_viewer *viewer)
 void kd_session_wake(struct kd_session *s)
 {
     for (struct kd_viewer *v = s->viewers; v; v = v->next)
-        if (!s->listed || s->failed || (s->latest && s->latest->number > v->seen && (v->any || kd_session_file(v, s->latest))))
+        if (!s->listed || s->failed || v->owed || (s->latest && s->latest->number > v->seen && (v->any || kd_session_file(v, s->latest))))
             wake(v);
 }
 
@@ -56,10 +56,22 @@ void kd_viewer_detach(struct kd_viewer *viewer)
         s->viewers = viewer->next;
     if (viewer->next)
         viewer->next->previous = viewer->previous;
+    kd_live_frame_release(viewer->owed);
+    viewer->owed = NULL;
     s->used_ms = kd_clock_ms();
     kd_session_let_go(s);
     pthread_mutex_unlock(&all->lock);
     viewer->session = NULL;
+}
+
+/* Hands over a reference. */
+static void give(struct kd_viewer *viewer, struct kd_live_frame *frame, struct kd_live_frame **out)
+{
+    kd_live_frame_release(viewer->owed);
+    viewer->owed = NULL;
+    viewer->file = viewer->any ? NULL : kd_session_file(viewer, frame);
+    viewer->seen = frame->number;
+    *out = frame;
 }
 
 /* With the lock. */
@@ -73,13 +85,17 @@ static enum kd_viewer_news news(struct kd_viewer *viewer, struct kd_live_frame *
     if (viewer->gone)
         return KD_VIEWER_GONE;
     const bool newer = s->latest && s->latest->number > viewer->seen;
-    viewer->file = newer && !viewer->any ? kd_session_file(viewer, s->latest) : NULL;
-    if (viewer->file || (newer && viewer->any)) {
-        *frame = kd_live_frame_share(s->latest);
-        viewer->seen = s->latest->number;
+    if (newer && (viewer->any || kd_session_file(viewer, s->latest))) {
+        give(viewer, kd_live_frame_share(s->latest), frame);
         return KD_VIEWER_FRAME;
     }
-    if (viewer->late) {
+    if (viewer->owed) {
+        struct kd_live_frame *owed = viewer->owed;
+        viewer->owed = NULL;
+        give(viewer, owed, frame);
+        return KD_VIEWER_FRAME;
+    }
+    if (viewer->late && !newer) { /* else it comes as soon as it has been encoded as the viewer takes it */
         viewer->late = false;
         return KD_VIEWER_LATE;
     }
@@ -147,6 +163,7 @@ void kd_sessions_sweep(struct kd_sessions *all)
             s->used_ms = now;
         else if (now - s->used_ms > LOOK_MS)
             kd_session_drop_refinement(s);
+        kd_session_forget_pixels(s, now);
         kd_session_pump(s);
         if (now - s->used_ms > all->params.idle_ms) {
             kd_log(KD_LOG_INFO, "session %.4s... ends: nobody watches", s->id);

@@ -1,0 +1,50 @@
+// How pictures that move are asked for: as good as the line lets them be. Those of the highest quality differ from what is exact by less than eyes tell while
+// it moves; where their bytes take long the quality falls until they do not, and rises again where they come at once.
+const qualities = [90, 75, 60, 45, 30];
+const long_ms = 45; // that the bytes of a picture take for each that is under way at once, over which it is of a lower quality next time
+const short_ms = 12; // below which one of a higher quality would be in time
+const calm = 12; // pictures in a row that took no longer, before a higher one is tried
+const near_ms = 15; // to the server and back, within which it is not the line that takes long
+const far_ms = 60; // to the server and back, from which on it counts
+const frame_ms = 75; // from picture to picture over a long line, about
+const most = 5; // requests for pictures: a browser opens six connections to one server
+const choked_ms = 800; // that bytes take at the lowest quality: more requests would only make each picture older
+const most_calm = 400; // where trying it was in vain, time after time
+
+export function buildLine() {
+  let at = 0,
+    quick = 0,
+    patience = calm,
+    climbed = -Infinity,
+    trip_ms = 0, // to the server and back, at least: of late
+    read_ms = 0;
+  const depth = () => (at + 1 === qualities.length && read_ms > choked_ms ? 3 : Math.min(Math.max(1 + Math.ceil(trip_ms / frame_ms), 2), most));
+  return {
+    most,
+    pace_ms: frame_ms,
+    // The server took so long to answer, without what it waited for.
+    answered(ms) {
+      trip_ms = Math.min(trip_ms ? 1.1 * trip_ms : Infinity, Math.max(ms, 1));
+    },
+    far: () => trip_ms > far_ms,
+    // How many requests for pictures are under way while something moves.
+    depth,
+    // moving: others follow soon.
+    quality: moving => qualities[moving ? at : 0],
+    // A picture of that quality, undefined: an exact one, was read in so many milliseconds.
+    read(quality, ms) {
+      read_ms = ms;
+      if (quality !== qualities[at]) return; // it was asked for before
+      if (ms > long_ms * depth() && trip_ms > near_ms && at + 1 < qualities.length) {
+        patience = performance.now() - climbed < 3000 ? Math.min(2 * patience, most_calm) : calm;
+        at++;
+        quick = 0;
+      } else if (ms > short_ms * depth()) quick = 0;
+      else if (++quick > patience && at) {
+        at--;
+        quick = 0;
+        climbed = performance.now();
+      }
+    },
+  };
+}
