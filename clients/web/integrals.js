@@ -19,6 +19,12 @@ function disk(scene) {
   return { spin: scene.get('spacetime.spin'), inclination_deg: scene.get('camera.inclination_deg'), outer: scene.get('disk.outer'), ...(typeof inner === 'number' ? { inner } : {}) };
 }
 
+// What a plot of a thin disk is, where the picture shows something else.
+const elsewhere = scene =>
+  (scene.get('disk.model') === 'none' ? t(' The scene has no disk: this is of one that would lie there.', ' La scena non ha un disco: questo è di uno che vi giacesse.') : '') +
+  (scene.get('camera.r') === 'infinity' ? '' : t(' Seen from far away, not from where the camera is.', ' Visto da lontano, non da dove sta la camera.'));
+const unjudged = t(' Its error is not estimated here.', ' L’errore qui non è stimato.');
+
 const limits = (y, log) => (log ? { min: Math.max(...y) * floor, log } : { min: 0 });
 
 const kinds = {
@@ -31,14 +37,14 @@ const kinds = {
       { name: 'energy_max', label: t('To', 'A'), unit: 'keV', value: 10, min: 0.01, max: 1000 },
     ],
     ask: (scene, given) => ({ ...disk(scene), ...given, bins: 300 }),
-    show: ({ values, columns }) => {
+    show: ({ values, columns }, scene) => {
       const y = columns.share.map((share, i) => share / (columns.energy_high[i] - columns.energy_low[i]));
       return {
         title: t('Line profile', 'Profilo di riga'),
         note: t(
           `Of a thin disk’s gas, photons by energy, from an observer far away; ${number(100 * values.inside, 3)} % of them lie in this range. Estimated error of the share up to any energy: ${number(values.error, 2)}.`,
           `Del gas di un disco sottile: fotoni per energia, per un osservatore lontano; il ${number(100 * values.inside, 3)} % sta in questo intervallo. Errore stimato della quota fino a ogni energia: ${number(values.error, 2)}.`,
-        ),
+        ) + elsewhere(scene),
         x: { label: t('energy, keV', 'energia, keV') },
         y: { label: t('share of photons a keV', 'quota di fotoni per keV'), ...limits(y) },
         series: [{ name: t('photons', 'fotoni'), x: columns.energy_low.map((low, i) => (low + columns.energy_high[i]) / 2), y }],
@@ -64,8 +70,8 @@ const kinds = {
         note:
           t(`Largest at ${number(at)} Hz: ${number(most)} Jy. `, `Massimo a ${number(at)} Hz: ${number(most)} Jy. `) +
           (radio
-            ? t(`Of the scene’s volume, ${parameters.pixels} pixels across.`, `Del volume della scena, ${parameters.pixels} pixel di larghezza.`)
-            : t('Of a thin disk of black bodies with the mass, distance and accretion rate of the scene.', 'Di un disco sottile di corpi neri con massa, distanza e accrescimento della scena.')),
+            ? t(`Of the scene’s volume, ${parameters.pixels} pixels across.`, `Del volume della scena, ${parameters.pixels} pixel di larghezza.`) + unjudged
+            : t('Of a thin disk of black bodies with the mass, distance and accretion rate of the scene.', 'Di un disco sottile di corpi neri con massa, distanza e accrescimento della scena.') + elsewhere(scene)),
         x: { label: t('frequency, Hz', 'frequenza, Hz'), log: true },
         y: { label: 'Jy', ...limits(columns.flux_jy, true) },
         series: [{ name: 'F_ν', x: columns.frequency_hz, y: columns.flux_jy }],
@@ -86,7 +92,7 @@ const kinds = {
         title: t('Visibility by baseline', 'Visibilità per base'),
         note:
           (values.flux_jy == null ? t('As a share of all light. ', 'Come quota di tutta la luce. ') : t(`The picture’s flux: ${number(values.flux_jy)} Jy. `, `Flusso dell’immagine: ${number(values.flux_jy)} Jy. `)) +
-          t(`North is the top of the picture; its pixels, ${number(values.pixel_uas, 3)} µas wide, tell baselines to ${number(values.nyquist_gl, 3)} Gλ.`, `Il nord è in alto; i pixel, larghi ${number(values.pixel_uas, 3)} µas, distinguono basi fino a ${number(values.nyquist_gl, 3)} Gλ.`),
+          t(`North is the top of the picture; its pixels, ${number(values.pixel_uas, 3)} µas wide, tell baselines to ${number(values.nyquist_gl, 3)} Gλ.`, `Il nord è in alto; i pixel, larghi ${number(values.pixel_uas, 3)} µas, distinguono basi fino a ${number(values.nyquist_gl, 3)} Gλ.`) + unjudged,
         x: { label: t('length of the baseline, Gλ', 'lunghezza della base, Gλ'), min: 0 },
         y: { label: units.amplitude === 'Jy' ? t('amplitude, Jy', 'ampiezza, Jy') : t('amplitude', 'ampiezza'), ...limits(columns.amplitude, true) },
         series: [
@@ -104,8 +110,10 @@ export function buildIntegrals(root, scene) {
   const inputs = el('form', { class: 'inputs' }),
     fault = el('p', { class: 'fault', role: 'status' }),
     figure = plot();
+  const folded = root.closest('details');
   let kind = '',
     form = null,
+    late = false, // the scene has changed while nobody looked
     timer = 0;
   inputs.addEventListener('submit', event => event.preventDefault());
   figure.hidden = true;
@@ -125,7 +133,12 @@ export function buildIntegrals(root, scene) {
 
   scene.addEventListener('change', () => {
     clearTimeout(timer);
-    if (kind && root.closest('details').open) timer = setTimeout(draw, rest_ms);
+    late = !folded.open;
+    if (kind && !late) timer = setTimeout(draw, rest_ms);
+  });
+  folded.addEventListener('toggle', () => {
+    if (folded.open && late && kind) draw();
+    late &&= !folded.open;
   });
   return function choose(next) {
     kind = next;

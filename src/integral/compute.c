@@ -107,7 +107,7 @@ static const struct kd_integral_kind_of kinds[KD_INTEGRALS] = {
                                { "flux_w_m2_hz", "W/m^2/Hz", "F_nu" },
                                { "flux_jy", "Jy", "F_nu" },
                                { "nu_l_nu_w", "W", "4 pi D^2 nu F_nu, as if it shone evenly" },
-                               { "error", "1", "estimated, relative, of the flux: by that of a picture 1.5 times as fine" } },
+                               { "error", "1", "estimated, relative, of the flux: by that of a picture 1.5 times as fine; 1: of its own size or more" } },
                              volume_sources,
                              volume_approximations },
     [KD_INTEGRAL_VISIBILITY] = { "visibilities of a scene's picture",

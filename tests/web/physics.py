@@ -2,7 +2,7 @@
 import pathlib
 import re
 
-from browser import READY, SMOOTH, Browser, main
+from browser import AT_REST, READY, SMOOTH, Browser, main
 import daemon
 
 
@@ -67,6 +67,13 @@ class Physics(Browser):
         choose('spectrum', 'Spectrum')
         self.there(page, 'thin disk of black bodies', figure)
         self.axe(page)
+        page.click('#integrals > summary')
+        page.fill('[data-path="spacetime.spin"] input[type=number]', '0.6')
+        page.keyboard.press('Tab')
+        page.wait_for_selector(AT_REST)
+        with page.expect_request('**/v1/spectrum') as asked:
+            page.click('#integrals > summary')
+        self.assertEqual(asked.value.post_data_json['spin'], 0.6, 'what has changed while it was folded')
         self.expected = '422'
         page.fill('[data-path="camera.inclination_deg"] input[type=number]', '90')
         page.keyboard.press('Tab')
