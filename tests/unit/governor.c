@@ -935,19 +935,46 @@ static void no_frame_is_less_than_the_least(void **state)
     }
 }
 
-/* Frames whose rays take `full_ms` at full size. Returns the width of the last one, as a part of what is asked. */
-static double after_frames(struct kd_governor *governor, const struct kd_scene *scene, double *now, double full_ms, int frames)
+/* Frames whose rays take `stays_ms` at any size, and `full_ms` more at full size. Returns the width of the last one, as a part of what is asked. */
+static double after_frames_of(struct kd_governor *governor, const struct kd_scene *scene, double *now, double stays_ms, double full_ms, int frames)
 {
     double scale = 1;
     for (int frame = 0; frame < frames; frame++) {
         kd_governor_changed(governor, *now, scene, true);
         const struct kd_turn turn = kd_governor_turn(governor, *now);
         scale = turn.quality.scale;
-        const double rays_ms = full_ms * scale * scale;
+        const double rays_ms = stays_ms + full_ms * scale * scale;
         *now += 1 + rays_ms;
         kd_governor_frame(governor, *now, &turn, &(struct kd_frame_cost) { .rays_ms = rays_ms, .total_ms = 1 + rays_ms });
     }
     return scale;
+}
+
+static double after_frames(struct kd_governor *governor, const struct kd_scene *scene, double *now, double full_ms, int frames)
+{
+    return after_frames_of(governor, scene, now, 0, full_ms, frames);
+}
+
+/* Where much of a frame takes its time at any size, half the width is had again as soon as the machine has time for it, and not before. */
+static void wide_frames_come_back_where_much_stays(void **state)
+{
+    (void)state;
+    struct kd_scene scene;
+    kd_scene_smooth(&scene);
+    scene.image.width = 1600;
+    scene.image.height = 900;
+    scene.accuracy.orders = 2;
+    scene.accuracy.profile = KD_PROFILE_DRAFT; /* only width is left to give up */
+    struct kd_governor governor;
+    kd_governor_init(&governor, kd_governor_params(.target_ms = 33));
+    kd_governor_least(&governor, 0.5, 100);
+    double now = 0;
+    assert_true(after_frames_of(&governor, &scene, &now, 20, 140, 300) == 0.5); /* 56 ms */
+    assert_true(after_frames_of(&governor, &scene, &now, 40, 280, 50) == 0.25); /* 111 ms, on a quarter 59 */
+    for (int i = 0; i < 300; i++)
+        assert_true(after_frames_of(&governor, &scene, &now, 40, 280, 1) < 0.5);
+    assert_true(after_frames_of(&governor, &scene, &now, 20, 140, 60) == 0.5);
+    assert_true(after_frames_of(&governor, &scene, &now, 20, 140, 300) == 0.5);
 }
 
 /* Half the width is kept as long as such a frame takes no longer than the patience; it is kept again when it would not any more, and when the scene is another. */
@@ -1027,7 +1054,8 @@ int main(void)
         cmocka_unit_test(what_measures_nothing_is_not_counted),
         cmocka_unit_test(whatever_happens_the_answer_is_sound),
         cmocka_unit_test(what_stays_at_any_size_is_learned), cmocka_unit_test(who_began_low_finds_out),
-        cmocka_unit_test(no_frame_is_less_than_the_least), cmocka_unit_test(wide_frames_give_way_to_slowness), cmocka_unit_test(recorded_frames_settle),
+        cmocka_unit_test(no_frame_is_less_than_the_least), cmocka_unit_test(wide_frames_give_way_to_slowness),
+        cmocka_unit_test(wide_frames_come_back_where_much_stays), cmocka_unit_test(recorded_frames_settle),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

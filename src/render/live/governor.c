@@ -283,10 +283,38 @@ static void change_ladder(struct kd_governor *g, const struct kd_scene *asked)
 static void give_way(struct kd_governor *g, const struct kd_pace *pace, bool whether)
 {
     g->gave_way = whether;
+    g->wide_ms = g->stays_of = 0;
     g->slow = pace == &g->paces[1];
     g->params.bounds.scale = whether ? fmin(NARROWEST, g->least) : g->least;
     if (g->ladders)
         change_ladder(g, &g->asked);
+}
+
+/* Frames of this pace are too slow as wide as was asked for: what they take is kept, to be compared with that of the narrower ones that come now. */
+static void give_up_width(struct kd_governor *g, const struct kd_pace *pace, const struct kd_frame_cost *cost)
+{
+    const struct kd_rung wide = g->ladder.rungs[pace->rung];
+    give_way(g, pace, true);
+    g->wide_ms = varying(cost);
+    g->wide = wide;
+}
+
+/* Finds which part of what narrow frames take is the same at any size, once, by the first of them: the machine does then what it did just before. */
+static void compare_with_wide(struct kd_governor *g, const struct kd_frame_cost *cost, const struct kd_rung *here)
+{
+    if (!(g->wide_ms > 0) || !(varying(cost) > 0) || here->rays >= g->wide.rays)
+        return;
+    const double more = g->wide.rays / here->rays, dearer = g->wide_ms / varying(cost);
+    g->stays = fmin((more - dearer) / (more - 1), 1); /* below 0 where rays cost more than their rung tells */
+    g->stays_of = here->rays;
+    g->wide_ms = 0;
+}
+
+/* Predicts what frames vary by on a rung of the wide ladder. */
+static double predict_wide(const struct kd_governor *g, const struct kd_frame_cost *cost, const struct kd_rung *here, const struct kd_rung *wide)
+{
+    const double stays = g->stays * g->stays_of, shrinks = 1 - g->stays, now = stays + shrinks * here->rays;
+    return g->stays_of > 0 && now > 0 ? varying(cost) * (stays + shrinks * wide->rays) / now : predict(cost, here, wide, false);
 }
 
 /* Says whether frames as wide as was asked for would be well within the patience by now, by what one takes on a narrower rung. */
@@ -296,7 +324,7 @@ static bool is_quick_as_asked(const struct kd_governor *g, const struct kd_frame
     struct kd_ladder ladder;
     bounds.scale = g->least;
     kd_ladder_make(&g->asked, &bounds, &ladder);
-    return cost->fixed_ms + predict(cost, here, &ladder.rungs[ladder.n_rungs - 1], false) <= PATIENT_AGAIN * g->share * g->patience_ms;
+    return cost->fixed_ms + predict_wide(g, cost, here, &ladder.rungs[ladder.n_rungs - 1]) <= PATIENT_AGAIN * g->share * g->patience_ms;
 }
 
 static void decide(struct kd_governor *g, struct kd_pace *pace, double now)
@@ -307,6 +335,8 @@ static void decide(struct kd_governor *g, struct kd_pace *pace, double now)
         return;
     struct kd_frame_cost cost = far ? cheapest_of_latest(pace, at_most(pace->count, FEW)) : mean_of_middle(pace);
     learn(g, pace, &cost);
+    if (g->gave_way && pace == &g->paces[g->slow])
+        compare_with_wide(g, &cost, here);
     if (pace == &g->paces[1]) {
         g->traced = cost;
         g->traced_on = *here;
@@ -316,7 +346,7 @@ static void decide(struct kd_governor *g, struct kd_pace *pace, double now)
         if (pace->rung < last_rung(g, pace))
             move(g, pace, &cost, first_that_fits(g, pace, &cost, here, pace->rung + 1), false, now);
         else if (!g->gave_way && g->least > NARROWEST && cost.total_ms > g->share * g->patience_ms)
-            give_way(g, pace, true);
+            give_up_width(g, pace, &cost);
         return;
     }
     if (g->gave_way && pace == &g->paces[g->slow] && is_quick_as_asked(g, &cost, here)) {

@@ -126,7 +126,10 @@ struct kd_governor {
     uint32_t missed;                     /* frames in a row that traced though the lens was the same */
     bool rings;                          /* nothing moves, light alone changes */
     double least, patience_ms;           /* kd_governor_least; */
-    bool gave_way, slow;                 /* frames may be narrower than that; index of the pace that took too long */
+    bool gave_way, slow;                 /* frames may be narrower than that; index of the pace that took too long, */
+    double wide_ms;                      /* what it varied by on its rung, 0: nobody knows any more; */
+    struct kd_rung wide;                 /* that rung; */
+    double stays, stays_of;              /* and the part of what narrow frames take that is the same at any size, on a rung of so many rays; 0: not known yet */
     struct kd_quality shown;
     uint32_t shown_revision; /* 0: none */
     double shown_at;         /* the newest frame that was no step of refinement */
@@ -141,7 +144,8 @@ void kd_governor_share(struct kd_governor *governor, double share);
 
 /* While the scene changes a frame has at least this part of the asked width, 1/4 to 1, instead of bounds.scale: a smaller target gives up what else there is,
  * and then time, up to patience_ms from frame to frame (INFINITY: however long they take). Where the narrowest frames were measured to take longer than that,
- * frames become narrower all the same, to a quarter, until the scene is of another kind or what they take says that wide ones would be well within it. */
+ * frames become narrower all the same, to a quarter, until the scene is of another kind or what they take says that wide ones would be well within it: by the line
+ * through what wide ones took when they were given up and the first narrow ones right after, since a part of what a frame takes is the same at any size. */
 void kd_governor_least(struct kd_governor *governor, double scale, double patience_ms);
 
 /* The scene is now *asked, valid. lens: its lens map is another, as it is when the plans of both, as asked, differ in lens_key;
