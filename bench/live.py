@@ -4,9 +4,10 @@
     bench/live.py            about two minutes, on a machine that does nothing else
     bench/live.py --before OTHER/build/src/kerrd      one session dragged, and eight, on both programs in turn; about three minutes
     bench/live.py --presets gas-stars milky-way       those alone, while time runs and dragged; half a minute
+    bench/live.py --sized 536x400 268x200 --presets gas gas-stars --before OTHER/build/src/kerrd   frames of these sizes, however long they take, on both
 
 A server of its own, on all cores; this script is its client and takes some of the machine too. Writes
-bench/results/DATE-DEVICE-{live,presets,sharing}.{json,md}.
+bench/results/DATE-DEVICE-{live,presets,sharing,sized}.{json,md}.
 """
 import concurrent.futures
 import http.client
@@ -43,10 +44,10 @@ class Server:
 
 
 class Session:
-    def __init__(self, port, scene):
+    def __init__(self, port, scene, query=''):
         self.connection = http.client.HTTPConnection('127.0.0.1', port, timeout=60)
         self.begun = time.monotonic()
-        made = json.loads(self.ask('POST', '/v1/sessions', scene)[1])
+        made = json.loads(self.ask('POST', '/v1/sessions' + query, scene)[1])
         self.at, self.token, self.frame = '/v1/sessions/' + made['id'], made['token'], 0
         self.first, _ = self.next()
         self.first_ms = 1e3 * (time.monotonic() - self.begun)
@@ -253,11 +254,7 @@ def preset_rows(server, names):
     """Each while its time runs, as the page's first view does, and dragged."""
     rows = {}
     for name in names:
-        connection = http.client.HTTPConnection('127.0.0.1', server.port, timeout=60)
-        connection.request('GET', f'/v1/presets/{name}')
-        answer = connection.getresponse()
-        scene = json.loads(answer.read())
-        assert answer.status == 200, scene
+        scene = preset(server.port, name)
         scene['image'].update(SIZE)
         for again in range(2):  # the first session makes the kernels
             session = Session(server.port, scene)
@@ -266,6 +263,57 @@ def preset_rows(server, names):
             rows[f'{name}: inclination dragged'] = steer(session, [{'camera': {'inclination_deg': at - 0.1 * k}} for k in range(100 if again else 20)])
             session.end()
     return rows
+
+
+def preset(port, name):
+    connection = http.client.HTTPConnection('127.0.0.1', port, timeout=60)
+    connection.request('GET', f'/v1/presets/{name}')
+    answer = connection.getresponse()
+    scene = json.loads(answer.read())
+    assert answer.status == 200, scene
+    return scene
+
+
+def sized_rows(server, names, sizes):
+    """Frames of these sizes and no others, of a picture of one ray a pixel: dragged either way, and while time runs."""
+    rows = {}
+    for name in names:
+        for size in sizes:
+            width, height = map(int, size.split('x'))
+            scene = preset(server.port, name)
+            scene['image'].update(width=width, height=height, samples=1)
+            at, round_it = scene['camera']['inclination_deg'], scene['camera']['azimuth_deg']
+            scene['motion'].update(time_rate=0, azimuth_rate_deg=0)
+            session = Session(server.port, scene, '?least=1')
+            for again in (10, 40):  # the first ones make the kernels, and let it find its pace
+                rows[f'{name}, {size}: inclination'] = steer(session, [{'camera': {'inclination_deg': at - 0.1 * (again + k)}} for k in range(again)])
+            rows[f'{name}, {size}: azimuth'] = steer(session, [{'camera': {'azimuth_deg': round_it + 0.4 * k}} for k in range(40)])
+            session.patch({'motion': {'time_rate': 4}})
+            rows[f'{name}, {size}: time'] = watch(session, 2)
+            session.end()
+    return rows
+
+
+def write_sized(arguments, programs, device, load, rounds=3):
+    """In turn; of each row the round with the median total."""
+    seen = {}
+    for _ in range(rounds):
+        for title, path in programs.items():
+            server = Server(path)
+            try:
+                device = device or device_of(server)
+                for name, row in sized_rows(server, arguments.presets, arguments.sized).items():
+                    seen.setdefault((name, title), []).append(row)
+            finally:
+                server.process.terminate()
+                server.process.wait()
+    rows = {f'{name}; {title}': sorted(of, key=lambda row: row['passes_ms']['total'])[len(of) // 2] for (name, title), of in sorted(seen.items())}
+    h = measure.head(device, load)
+    text = measure.head_markdown('Frames of one size while something moves', h) + measure.table(
+        ['what changes', 'frames/s', 'frame, ms', 'of it, ms'],
+        [[name, str(row['fps']), f"{row['passes_ms']['total']:g}", ', '.join(f'{k} {v:g}' for k, v in row['passes_ms'].items() if v >= 0.05 and k != 'total')]
+         for name, row in rows.items()])
+    measure.save(arguments.out, 'sized', h, rows, text)
 
 
 ROW_HEADS = ['what changes', 'frames/s', 'input to picture, ms: median / 95 %', 'at full size', 'last',
@@ -295,8 +343,12 @@ def main():
     parser = measure.parser(__doc__.splitlines()[0])
     parser.add_argument('--before', type=pathlib.Path, help='another kerrd, to compare with')
     parser.add_argument('--presets', nargs='+', help='these presets alone')
+    parser.add_argument('--sized', nargs='+', help='the presets in frames of these sizes, as 536x400')
     arguments, load = parser.parse_args(), os.getloadavg()[0]
     program = measure.binary(arguments.build, 'src/kerrd')
+    if arguments.sized:
+        write_sized(arguments, ({'before': str(arguments.before)} if arguments.before else {}) | {'after': program}, None, load)
+        return
     if arguments.before:
         device, compared = compare({'before': str(arguments.before), 'after': program})
         write_compared(arguments, device, load, compared)

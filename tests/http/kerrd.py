@@ -460,19 +460,17 @@ class Kerrd(unittest.TestCase):
         thread = threading.Thread(target=self.drag, args=(other, lambda *_: over.is_set()))
         thread.start()
         try:
-            self.assertTrue(self.drag(one, lambda sampled, quality: sampled == 192 and 'final=1' in quality))
+            self.assertTrue(self.drag(one, lambda sampled, _: sampled == 192))
         finally:
             over.set()
             thread.join()
 
-    def test_a_frame_of_a_drag_has_fewer_rays_at_the_critical_curve_and_says_so(self):
-        """Of a picture that no machine has in 33 ms, and of a small one."""
-        session = self.open({'image': {'width': 800, 'height': 450, 'samples': 8}})
-        self.assertTrue(self.drag(session, lambda sampled, quality: sampled == 192 and 'critical=2' in quality and 'final=0' in quality))
+    def test_a_frame_of_a_drag_says_how_many_rays_it_has_at_the_critical_curve(self):
+        """As good as it gets on a machine that is fast, and less on another; which of them is for tests/unit/governor.c to judge."""
         small, frames = self.open({'image': {'width': 64, 'height': 36}}), []
         self.assertTrue(self.drag(small, lambda *frame: frames.append(frame) or len(frames) == 4))
         for _, quality in frames:
-            self.assertEqual('critical=4' in quality, 'final=1' in quality, quality)
+            self.assertRegex(quality, r' critical=4 .* final=1$' if 'final=1' in quality else r' critical=[24] ')
 
     def test_a_light_curve_is_that_of_events_and_of_the_command_line(self):
         scene = {'image': {'width': 160, 'height': 90}, 'spot1': {'brightness': 2}, 'disk': {'model': 'particles', 'opacity': 0.3}, 'time': 100}

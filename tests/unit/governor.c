@@ -758,9 +758,16 @@ static void a_drag_has_fewer_rays_at_the_curve(void **state)
         assert_int_equal(s.last.final, !(k & 1));
         kd_quality_apply(&s.last, &s.asked, &scene);
         assert_int_equal(scene.image.critical_factor, fewer ? 2 : asked[k / 4]);
+        change(&s, true);
+        assert_int_equal(kd_governor_turn(&s.governor, s.now).audit, k & 1 ? 4 : 1);
+        kd_governor_share(&s.governor, 0.5);
+        assert_int_equal(kd_governor_turn(&s.governor, s.now).audit, 4);
+        kd_governor_share(&s.governor, 1);
+        frame(&s);
         refine_to_rest(&s, &frames);
         kd_quality_apply(&s.last, &s.asked, &scene);
         assert_int_equal(scene.image.critical_factor, asked[k / 4]);
+        assert_int_equal(frames > 0, k & 1);
     }
 }
 

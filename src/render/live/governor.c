@@ -16,6 +16,7 @@ static const double BLIND_MS = 2000;                   /* a guess; doubled */
 static const double NARROWEST = 0.25;                  /* of the asked width, whatever was asked to be kept of it */
 static const double PATIENT_AGAIN = 0.6;               /* of the patience: frames as wide as was asked for are tried again */
 enum {
+    MOVING_AUDIT = 4,     /* of frames that are not the last word */
     DRAGGED_CRITICAL = 2, /* image.critical_factor of a picture that is gone when the eye has found it: 4 rays of 16 */
     FEW = 4,    /* spikes in a row are load */
     ENOUGH = 8, /* two spikes among them are outside the middle half */
@@ -460,6 +461,7 @@ static struct kd_turn next_step(const struct kd_governor *g, struct kd_turn turn
     turn.quality = g->ladder.steps[i].quality;
     turn.rays = g->ladder.steps[i].rays;
     turn.refining = true;
+    turn.audit = 1;
     return turn;
 }
 
@@ -470,6 +472,7 @@ struct kd_turn kd_governor_turn(const struct kd_governor *g, double now)
     turn.quality = g->ladder.rungs[turn.rung].quality;
     turn.quality.critical = traced && turn.rung ? DRAGGED_CRITICAL : 0;
     turn.rays = g->ladder.rungs[turn.rung].rays;
+    turn.audit = turn.quality.final && g->share >= 1 ? 1 : MOVING_AUDIT;
     if (g->shown_revision != g->revision)
         return turn;
     double since = g->share < 1 ? fmax(g->changed_at, g->shown_at) : g->changed_at, left = g->params.rest_ms - (now - since);

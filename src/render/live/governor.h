@@ -88,6 +88,7 @@ struct kd_turn {
     struct kd_quality quality; /* in force: of the frame to render now; if there is none, of what is shown */
     double wait_ms;            /* 0: render it. Else there is nothing to render for so long; INFINITY: the session rests */
     bool refining;             /* the scene rests, and this is a step upwards */
+    uint32_t audit;            /* one of so many of the rays that measure the accuracy is enough: 1 or 4. That is done on one core, and takes a third of a small frame */
     bool traced;               /* the rung for frames that trace is in force; what follows is for kd_governor_frame alone */
     uint32_t ladder, rung, revision;
     double rays;

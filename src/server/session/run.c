@@ -9,7 +9,6 @@
 #include <string.h>
 
 #define EXPOSURE_MS 2000.0  /* in which 63 % of a change of brightness is followed */
-#define MOVING_AUDIT 4      /* a part of the rays that are traced again to measure the error */
 #define ENCODING_MAX 2      /* frames of a session behind the renderer: one is traced while one is encoded */
 
 struct kd_session_frame {
@@ -74,9 +73,7 @@ static struct kd_session_frame *make_frame(struct kd_session *s, const struct kd
         free(live);
         return NULL;
     }
-    /* The audit is done on one core, and takes a third of the time of a small frame: fewer rays say how wrong a frame is that is not the last word. */
-    if (!turn->refining && (!turn->quality.final || s->governor.share < 1))
-        live->job.plan.audit /= MOVING_AUDIT;
+    live->job.plan.audit /= turn->audit;
     if (!turn->refining && s->exposed_revision == s->revision && (kd_emit_moves(scene) || s->crowd || kd_session_on_its_way(s, now)))
         follow_exposure(s, now, &live->job.plan);
     return live;
