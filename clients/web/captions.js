@@ -28,5 +28,6 @@ const captions = {
   'gold-4': ['The same: flattened, and it absorbs', 'Lo stesso: schiacciato, e assorbe'],
   'gold-5': ['The same: a thin layer that absorbs', 'Lo stesso: uno strato sottile che assorbe'],
   riaf: ['A thin hot flow with the mass of Sgr A*', 'Un flusso caldo e rado con la massa di Sgr A*'],
+  torus: ['A thick torus of hot gas in equilibrium', 'Un toro spesso di gas caldo in equilibrio'],
 };
 export default captions;

@@ -15,16 +15,25 @@
     F(heat) F(heat_index)  /* log2 of Theta there, and what it falls as */                                     \
     F(steep)               /* 1 over the scale height over the distance from the axis; 0: there is no height */ \
     F(field) F(field_index) /* log2 of B^2/n at r = 1 M, gauss^2 cm^3, and what it falls as */                  \
-    F(power_index) F(power_light) F(power_depth) /* of a power law of electrons */
-#define KD_TABLES_plasma(T)
+    F(power_index) F(power_light) F(power_depth) /* of a power law of electrons */                             \
+    F(torus_momentum) F(torus_edge) F(torus_index) /* l; what ln h has too much; density as h - 1 to this */   \
+    F(kappa) F(kappa_width) /* of a kappa distribution, log2(kappa - 3), */                                   \
+    F(kappa_light_low) F(kappa_light_high) F(kappa_light_sharp) F(kappa_depth_low) F(kappa_depth_high) F(kappa_depth_sharp) /* and physics/synchrotron.h */
+#define KD_KAPPA_FIRST -10.0 /* log2(z) of the table's first row, */
+#define KD_KAPPA_OCTAVE 16   /* rows for each octave */
+#define KD_KAPPA_ROWS 640
+#define KD_TABLES_plasma(T) T(kappa, KD_KAPPA_ROWS) /* log2 of F(z), and what it grows by */
 #define KD_TRAIT_PLASMA_GOLD 2u
 #define KD_TRAIT_PLASMA_VERTICAL 4u /* the field is along the axis, */
 #define KD_TRAIT_PLASMA_RADIAL 8u   /* or along the radius, else round the axis */
 #define KD_TRAIT_PLASMA_REST 16u    /* it is at rest for observers of zero angular momentum, else it goes round and falls in */
 #define KD_TRAIT_PLASMA_POWER 64u   /* a power law of electrons */
-#define KD_TRAITS_plasma(T) T(PLASMA_GOLD) T(PLASMA_VERTICAL) T(PLASMA_RADIAL) T(PLASMA_REST) T(PLASMA_POWER)
+#define KD_TRAIT_PLASMA_TORUS 128u
+#define KD_TRAIT_PLASMA_KAPPA 256u  /* a kappa distribution of electrons */
+#define KD_TRAITS_plasma(T) T(PLASMA_GOLD) T(PLASMA_VERTICAL) T(PLASMA_RADIAL) T(PLASMA_REST) T(PLASMA_POWER) T(PLASMA_TORUS) T(PLASMA_KAPPA)
 #define KD_BUFFERS_plasma(B)
 #define KD_PASS_plasma(P)
+#define KD_TORUS_COLD -24.0 /* log2(h - 1) */
 #define KD_PLASMA_SEEN 7.0 /* scale heights, beyond which there is 2e-11 of the plane's density, and none is looked for */
 #endif
 
@@ -81,6 +90,25 @@ kd_flow kd_flow_plunge(kd_metric g, kd_midst p)
     return kd_flow(rest * seen / g.lapse2, rest * l, -sqrt(max(out2, 0.0)));
 }
 
+/* This is -ln(1 - z), for z from 0 to 1: GLSL's logarithm is good to 5e-7 only beside 1. By 2 artanh(y), whose next term is below 1e-8 of it. */
+float kd_less_ln(float z)
+{
+    float y = z / (2.0 - z), y2 = y * y;
+    return y2 < 0.04 ? y * (2.0 + y2 * (2.0 / 3.0 + y2 * (2.0 / 5.0 + y2 * (2.0 / 7.0 + y2 * (2.0 / 9.0))))) : -log(1.0 - z);
+}
+
+/* The torus of L. G. Fishbone & V. Moncrief 1976 (ApJ 207, 962): u^t u_phi = l everywhere. With u_phi^2 = g_phiphi U^2 and u^t = sqrt(1 + U^2)/lapse,
+ * U^2 (1 + U^2) = l^2 lapse^2/g_phiphi = q/4; and ln h = ln((1 + sqrt(1 + q))/lapse^2)/2 - sqrt(1 + q)/2 - omega l, equation 3.6. It is a hundredth, the
+ * difference of numbers near 1: U^2 = (sqrt(1 + q) - 1)/2 has ln(1 + U^2)/2 - U^2 of it, and 1 - lapse^2 = 2 r (r^2 + a^2)/A. */
+struct kd_equilibrium { kd_flow flow; float enthalpy; }; /* ln h */
+kd_equilibrium kd_torus_at(kd_metric g, kd_midst p)
+{
+    float l = emission.plasma.torus_momentum, q = 4.0 * l * l * g.lapse2 / g.round_, u2 = 0.5 * q / (1.0 + sqrt(1.0 + q)), b = 1.0 + cam.spin * cam.spin * p.w * p.w;
+    float area = g.round_ * g.sigma * p.w * p.w / max(1.0 - p.u * p.u, 1e-12), lapsed = min(2.0 * p.w * b / area, 1.0);
+    precise float ln_h = 0.5 * (kd_less_ln(lapsed) + kd_less_ln(u2 / (1.0 + u2))) - u2 - g.omega * l - emission.plasma.torus_edge;
+    return kd_equilibrium(kd_flow(sqrt((1.0 + u2) / g.lapse2), sqrt(g.round_ * u2) * sign(l), 0.0), ln_h);
+}
+
 /* All that is known of the matter at a place. energy: -k.u, the frequency there over the observed one; frequency: its log2, GHz; field: the unit vector along B,
  * b.u = 0, contravariant components t, r, theta, phi of Boyer and Lindquist, of a photon that arrives. */
 struct kd_plasma { kd_electrons electrons; kd_flow flow; kd_metric around; float energy, frequency; vec4 field; };
@@ -105,13 +133,18 @@ void kd_plasma_field(inout kd_plasma m, kd_midst p)
     m.field = length_ * vec4(in_u * m.flow.time, out_ + in_u * m.flow.out_, down * s, round_ + in_u * turn);
 }
 
-/* Electrons by power laws of r, in a layer about the plane. */
+/* Electrons by power laws of r, in a layer about the plane; or those of a torus. */
 kd_plasma kd_plasma_at(kd_midst p)
 {
     kd_plasma m;
     float log2_r = -log2(p.w), x2 = p.u * p.u / max(1.0 - p.u * p.u, 1e-12) * emission.plasma.steep * emission.plasma.steep;
     m.around = kd_metric_at(p.w, p.u);
-    if ((TRAITS_plasma & KD_TRAIT_PLASMA_REST) != 0u)
+    float more = 0.0; /* log2(h - 1) */
+    if ((TRAITS_plasma & KD_TRAIT_PLASMA_TORUS) != 0u) {
+        kd_equilibrium torus = kd_torus_at(m.around, p);
+        m.flow = torus.flow;
+        more = torus.enthalpy > 0.0 ? kd_log2_expm1(log2(torus.enthalpy)) : KD_LOG2_LEAST;
+    } else if ((TRAITS_plasma & KD_TRAIT_PLASMA_REST) != 0u)
         m.flow = kd_flow(inversesqrt(m.around.lapse2), 0.0, 0.0);
     else if (p.w * emission.frame.r_isco <= 1.0)
         m.flow = kd_flow_round(m.around, 1.0 / p.w);
@@ -121,15 +154,37 @@ kd_plasma kd_plasma_at(kd_midst p)
     m.frequency = emission.plasma.frequency + log2(m.energy);
     m.electrons.density = emission.plasma.density - emission.plasma.density_index * log2_r - 0.5 * KD_LOG2_E * min(x2, 1e6);
     m.electrons.heat = emission.plasma.heat - emission.plasma.heat_index * log2_r;
-    m.electrons.field = 0.5 * (m.electrons.density + emission.plasma.field - emission.plasma.field_index * log2_r);
+    if ((TRAITS_plasma & KD_TRAIT_PLASMA_TORUS) != 0u) {
+        m.electrons.density = emission.plasma.density + emission.plasma.torus_index * more;
+        m.electrons.heat = emission.plasma.heat + max(more, KD_TORUS_COLD); /* no fit holds at no temperature, but there is nothing */
+        m.electrons.field = 0.5 * (m.electrons.density + emission.plasma.field + more);
+    } else
+        m.electrons.field = 0.5 * (m.electrons.density + emission.plasma.field - emission.plasma.field_index * log2_r);
     kd_plasma_field(m, p);
     return m;
+}
+
+/* log2((2^-sa + 2^-sb)^(-1/s)): the lesser, less smoothly the larger s is. */
+float kd_log2_joined(float a, float b, float s) { return min(a, b) - log2(1.0 + exp2(-min(s * abs(a - b), 120.0))) / s; }
+
+/* A kappa distribution (physics/synchrotron.h). */
+kd_radiates kd_plasma_kappa(kd_electrons e, float frequency)
+{
+    float turn = e.field + KD_LOG2_GYRO, slant = 0.5 * log2(max(e.sine2, 1e-30)), z = e.heat + emission.plasma.kappa_width, k = emission.plasma.kappa;
+    float x = clamp(frequency - turn - slant - 2.0 * z, -600.0, 600.0), place = clamp((z - KD_KAPPA_FIRST) * float(KD_KAPPA_OCTAVE), 0.0, float(KD_KAPPA_ROWS - 1)), row = floor(place);
+    vec4 f = kd_table_row(kappa, uint(row));
+    float below = min(z - KD_KAPPA_FIRST, 0.0) * (k - 1.0 / 3.0), size = f.x + (place - row) * f.y + below; /* z^a where z is small */
+    float light = kd_log2_joined(emission.plasma.kappa_light_low + x * (1.0 / 3.0), emission.plasma.kappa_light_high - 0.5 * (k - 2.0) * x, emission.plasma.kappa_light_sharp);
+    float depth = kd_log2_joined(emission.plasma.kappa_depth_low + size - x * (2.0 / 3.0), emission.plasma.kappa_depth_high - 0.5 * (k + 1.0) * x, emission.plasma.kappa_depth_sharp);
+    return kd_radiates(e.density + turn + slant + light, e.density - frequency + depth - 3.0 * z, 0.5 * k);
 }
 
 kd_radiates kd_plasma_gives(kd_plasma m)
 {
     if ((TRAITS_plasma & KD_TRAIT_PLASMA_POWER) != 0u)
         return kd_synchrotron_by_power(m.electrons, m.frequency, emission.plasma.power_index, emission.plasma.power_light, emission.plasma.power_depth);
+    if ((TRAITS_plasma & KD_TRAIT_PLASMA_KAPPA) != 0u)
+        return kd_plasma_kappa(m.electrons, m.frequency);
     return kd_synchrotron_thermal(m.electrons, m.frequency);
 }
 
@@ -148,6 +203,8 @@ float kd_plasma_grain(kd_midst p, float steep, float sharp)
     float r = 1.0 / p.w, per = 1.0 / p.speed, s2 = max(1.0 - p.u * p.u, 1e-6), turn = abs(p.du) * per * r, along = abs(p.dw) * r * r * per;
     float near_ = 0.6 * max(r - 1.0 / cam.horizon, 1e-4 * r), x = steep * abs(p.u) * inversesqrt(s2);
     float up = steep * turn / s2 * max(1.0, 0.5 * min(x, KD_PLASMA_SEEN) * (1.0 + 0.5 * sharp));
+    if ((TRAITS_plasma & KD_TRAIT_PLASMA_TORUS) != 0u)
+        return r / (4.0 + sharp);
     return 1.0 / ((0.6 + 0.3 * sharp * along) * p.w + along * max(0.4 / near_ - 0.67 * p.w, 0.0) + 0.65 * up * p.w);
 }
 
@@ -175,7 +232,7 @@ kd_medium kd_plasma_along(kd_midst p)
     if (r < emission.plasma.inner || r > emission.plasma.outer)
         return kd_medium(vec3(0.0), 0.0, max(max(emission.plasma.inner - r, r - emission.plasma.outer), 0.1 * r));
     /* Off the plane the fall begins as the square root of the way from the ISCO: stretches are the shorter the nearer they are to it. */
-    if ((TRAITS_plasma & (KD_TRAIT_PLASMA_GOLD | KD_TRAIT_PLASMA_REST)) == 0u && r < emission.frame.r_isco)
+    if ((TRAITS_plasma & (KD_TRAIT_PLASMA_GOLD | KD_TRAIT_PLASMA_REST | KD_TRAIT_PLASMA_TORUS)) == 0u && r < emission.frame.r_isco)
         medium.grain = min(medium.grain, max(0.8 * (emission.frame.r_isco - r), 2e-3 * r));
     float edge = min(abs(r - emission.plasma.inner), abs(r - emission.plasma.outer)); /* within the bounds of other volumes */
     medium.grain = KD_VOLUMES > 1 ? min(medium.grain, max(edge, 2.5e-4 * r)) : medium.grain;

@@ -12,4 +12,16 @@ double kd_synchrotron_depth_unit(void);
 struct kd_synchrotron_power { double log2_light, log2_depth; };
 struct kd_synchrotron_power kd_synchrotron_power(double p, double gamma_min, double gamma_max);
 
+/* Electrons of a kappa distribution whose width is w = Theta (kappa - 3)/kappa, for kappa above 3 (equations 35 to 44, which hold for kappa up to 7.5): with
+ * z = kappa w and X = nu/(nu_c z^2 sin(theta)), in the same units, by the least of a law for low and one for high frequencies,
+ *
+ *   j: nu_c sin(theta) light (X^(1/3) | X^(-(kappa - 2)/2)),   alpha: depth/(nu z^3) (F(z) X^(-2/3) | X^(-(kappa + 1)/2)),
+ *
+ * joined as (low^-s + high^-s)^(-1/s). All but s are log2. */
+struct kd_synchrotron_kappa { double light_low, light_high, light_sharp, depth_low, depth_high, depth_sharp; };
+struct kd_synchrotron_kappa kd_synchrotron_kappa(double kappa);
+
+/* Gives log2 of F(z) = z^a 2F1(a, kappa + 1; a + 1; -z), a = kappa - 1/3, at n places log2(z) = first + i step, from below -8. */
+void kd_synchrotron_kappa_table(double kappa, double first, double step, int n, double *out);
+
 #endif

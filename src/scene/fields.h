@@ -158,31 +158,36 @@
 #define KD_VOLUME_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                  \
     ENUM(volume, model, MODEL, FRONT, KD_VOLUME_NONE,                                                                \
          "matter all along the rays: none; uniform, a shell that is the same everywhere and does not move: what light and opacity along bent rays come to; " \
-         "at one radio frequency gold, the analytic model of Gold et al. 2020, and riaf, a hot, thin flow whose density, temperature and magnetic field are powers of r", \
-         "none|uniform|gold|riaf")                                                                                   \
-    WORD(volume, inner, MODEL, REST, INFINITY, 1.0, 3e4, "M", "inner edge; horizon: as near to it as it may be, a hundredth outside it, or a two-thousandth for what is seen at a radio frequency", "horizon") \
+         "at one radio frequency gold, the analytic model of Gold et al. 2020, riaf, a hot, thin flow whose density, temperature and magnetic field are powers of r, and torus, a thick one in equilibrium", \
+         "none|uniform|gold|riaf|torus")                                                                                   \
+    WORD(volume, inner, MODEL, REST, INFINITY, 1.0, 3e4, "M", "inner edge; horizon: as near to it as it may be, a hundredth outside it, or a two-thousandth for what is seen at a radio frequency; of a torus half of torus_radius", "horizon") \
     REAL(volume, outer, MODEL, FRONT, 20.0, 1.0, 3e4, "M", "outer edge; larger than the inner one")                  \
     REAL(volume, emissivity, MODEL, FRONT, 0.02, 0.0, 1e30, "1/M", "light of a length of M, in its own frame, in units of the disk's brightest (model: uniform)") \
     REAL(volume, opacity, MODEL, FRONT, 0.02, 0.0, 1e30, "1/M", "optical depth of a length of M, in its own frame (model: uniform)")  \
     REAL(volume, temperature_k, MODEL, REST, 6500.0, 300.0, 1e9, "K", "colour: that of a black body of this temperature, shifted by g (model: uniform)") \
     BOOL(volume, redshift, PHYSICS, REST, true, "the frequency shift of the matter (model: uniform)")                \
-    REAL(volume, frequency_ghz, PHYSICS, FRONT, 230.0, 1e-6, 1e12, "GHz", "frequency that is observed (models: gold, riaf)") \
+    REAL(volume, frequency_ghz, PHYSICS, FRONT, 230.0, 1e-6, 1e12, "GHz", "frequency that is observed (models: gold, riaf, torus)") \
     REAL(volume, gold_emission, MODEL, REST, 3e-18, 0.0, 1e30, "erg/(s cm^3 Hz sr)", "C n0: emissivity at 230 GHz where the density is largest (model: gold)") \
     REAL(volume, gold_index, MODEL, REST, 0.0, -10.0, 10.0, "1", "alpha: emissivity goes as nu^-alpha, absorptivity as nu^-(2.5 + alpha) (model: gold)") \
     REAL(volume, gold_flattening, MODEL, FRONT, 0.0, 0.0, 1e4, "1", "h: density goes as exp(-(h cos(theta))^2/2); 0: round (model: gold)") \
     REAL(volume, gold_momentum, MODEL, REST, 0.0, -1.0, 1.0, "1", "l0: angular momentum, l0 R^(3/2)/(1 + R) an energy of 1, R = r sin(theta); 0: zero angular momentum (model: gold)") \
     REAL(volume, gold_absorption, MODEL, REST, 0.0, 0.0, 1e30, "1", "A: absorptivity in 1/cm over emissivity in erg/(s cm^3 Hz sr), at 230 GHz (model: gold)") \
-    REAL(volume, density_cm3, MODEL, FRONT, 3e7, 0.0, 1e30, "1/cm^3", "electrons at 1 M in the plane, as their power law has it (model: riaf)") \
+    REAL(volume, density_cm3, MODEL, FRONT, 3e7, 0.0, 1e30, "1/cm^3", "electrons at 1 M in the plane, as their power law has it (model: riaf), or where there are most of them (model: torus)") \
     REAL(volume, density_index, MODEL, REST, 1.1, -10.0, 10.0, "1", "density goes as r^-p, p being this number (model: riaf)") \
     REAL(volume, electron_temperature_k, MODEL, FRONT, 3e11, 1.0, 1e30, "K", "temperature of the electrons at 1 M (model: riaf)") \
     REAL(volume, temperature_index, MODEL, REST, 0.84, -10.0, 10.0, "1", "temperature goes as r^-p, p being this number (model: riaf)") \
     REAL(volume, height, MODEL, REST, 0.1, 0.0, 10.0, "1", "height over the distance from the axis at which the density has fallen to exp(-1/2); 0: it is the same at all heights (model: riaf)") \
     REAL(volume, magnetisation, MODEL, REST, 0.016666666666666666, 0.0, 1e12, "1", "magnetic pressure over the rest energy of a proton for each electron, at 1 M (model: riaf)") \
     REAL(volume, magnetisation_index, MODEL, REST, 1.0, -10.0, 10.0, "1", "magnetisation goes as r^-p, p being this number (model: riaf)") \
-    ENUM(volume, field, MODEL, REST, KD_VOLUME_TOROIDAL, "magnetic field: round the axis, along it, or along the radius, made perpendicular to the motion (model: riaf)", "toroidal|vertical|radial") \
+    ENUM(volume, field, MODEL, REST, KD_VOLUME_TOROIDAL, "magnetic field: round the axis, along it, or along the radius, made perpendicular to the motion (models: riaf, torus)", "toroidal|vertical|radial") \
     ENUM(volume, flow, MODEL, REST, KD_VOLUME_ORBITS, "motion: with the circular orbit's angular velocity at each r, and falling in from the ISCO; or at rest for observers of zero angular momentum (model: riaf)", "orbits|rest") \
-    ENUM(volume, electrons, MODEL, REST, KD_VOLUME_THERMAL, "energies of the electrons (model: riaf)", "thermal|power-law") \
+    ENUM(volume, electrons, MODEL, REST, KD_VOLUME_THERMAL, "energies of the electrons (models: riaf, torus); kappa: thermal ones with a tail of a power law", "thermal|power-law|kappa") \
     REAL(volume, electrons_index, MODEL, REST, 3.5, 1.1, 10.0, "1", "p: electrons of energy gamma go as gamma to minus this (electrons: power-law)") \
+    REAL(volume, kappa, MODEL, REST, 4.0, 3.1, 7.5, "1", "kappa: electrons of high energy gamma go as gamma to 1 minus this (electrons: kappa)") \
+    REAL(volume, torus_radius, MODEL, FRONT, 12.0, 1.0, 1e3, "M", "where the pressure is largest; the inner edge is volume.inner (model: torus)") \
+    REAL(volume, adiabatic_index, MODEL, REST, 1.4444444444444444, 1.1, 2.0, "1", "of the gas (model: torus)") \
+    REAL(volume, temperature_ratio, MODEL, REST, 3.0, 0.0, 1e6, "1", "temperature of the ions over that of the electrons (model: torus)") \
+    REAL(volume, beta, MODEL, REST, 10.0, 1e-6, 1e12, "1", "pressure of the gas over that of the magnetic field (model: torus)") \
     REAL(volume, gamma_min, MODEL, REST, 30.0, 1.0, 1e9, "1", "least energy of the electrons over that at rest (electrons: power-law)") \
     REAL(volume, gamma_max, MODEL, REST, 1e5, 1.0, 1e12, "1", "largest energy of the electrons, more than the least (electrons: power-law)")
 
@@ -388,22 +393,27 @@
     WITH("volume.opacity", "model", KD_VOLUME_UNIFORM) SPAN("volume.opacity", 1e-4, 10)                              \
     WITH("volume.temperature_k", "model", KD_VOLUME_UNIFORM) SPAN("volume.temperature_k", 1000, 1e5)                  \
     WITH("volume.redshift", "model", KD_VOLUME_UNIFORM)                                                              \
-    WITH("volume.frequency_ghz", "model", KD_VOLUME_GOLD) WITH("volume.frequency_ghz", "model", KD_VOLUME_RIAF) SPAN("volume.frequency_ghz", 10, 1e4) \
+    WITH("volume.frequency_ghz", "model", KD_VOLUME_GOLD) WITH("volume.frequency_ghz", "model", KD_VOLUME_RIAF) WITH("volume.frequency_ghz", "model", KD_VOLUME_TORUS) SPAN("volume.frequency_ghz", 10, 1e4) \
     WITH("volume.gold_emission", "model", KD_VOLUME_GOLD) SPAN("volume.gold_emission", 1e-20, 1e-15)                 \
     WITH("volume.gold_index", "model", KD_VOLUME_GOLD) SPAN("volume.gold_index", -4, 4)                              \
     WITH("volume.gold_flattening", "model", KD_VOLUME_GOLD) SPAN("volume.gold_flattening", 0, 40)                    \
     WITH("volume.gold_momentum", "model", KD_VOLUME_GOLD)                                                            \
     WITH("volume.gold_absorption", "model", KD_VOLUME_GOLD) SPAN("volume.gold_absorption", 0, 1e6)                   \
-    WITH("volume.density_cm3", "model", KD_VOLUME_RIAF) SPAN("volume.density_cm3", 10000, 1e+10) \
+    WITH("volume.density_cm3", "model", KD_VOLUME_RIAF) WITH("volume.density_cm3", "model", KD_VOLUME_TORUS) SPAN("volume.density_cm3", 10000, 1e+10) \
     WITH("volume.density_index", "model", KD_VOLUME_RIAF) SPAN("volume.density_index", 0, 3) \
     WITH("volume.electron_temperature_k", "model", KD_VOLUME_RIAF) SPAN("volume.electron_temperature_k", 1e+09, 1e+13) \
     WITH("volume.temperature_index", "model", KD_VOLUME_RIAF) SPAN("volume.temperature_index", 0, 2) \
     WITH("volume.height", "model", KD_VOLUME_RIAF) SPAN("volume.height", 0, 1) \
     WITH("volume.magnetisation", "model", KD_VOLUME_RIAF) SPAN("volume.magnetisation", 0.0001, 1) \
     WITH("volume.magnetisation_index", "model", KD_VOLUME_RIAF) SPAN("volume.magnetisation_index", 0, 3) \
-    WITH("volume.field", "model", KD_VOLUME_RIAF) \
+    WITH("volume.field", "model", KD_VOLUME_RIAF) WITH("volume.field", "model", KD_VOLUME_TORUS) \
     WITH("volume.flow", "model", KD_VOLUME_RIAF) \
-    WITH("volume.electrons", "model", KD_VOLUME_RIAF) \
+    WITH("volume.electrons", "model", KD_VOLUME_RIAF) WITH("volume.electrons", "model", KD_VOLUME_TORUS) \
+    WITH("volume.kappa", "electrons", KD_VOLUME_KAPPA) \
+    WITH("volume.torus_radius", "model", KD_VOLUME_TORUS) SPAN("volume.torus_radius", 5, 50) \
+    WITH("volume.adiabatic_index", "model", KD_VOLUME_TORUS) \
+    WITH("volume.temperature_ratio", "model", KD_VOLUME_TORUS) SPAN("volume.temperature_ratio", 1, 100) \
+    WITH("volume.beta", "model", KD_VOLUME_TORUS) SPAN("volume.beta", 0.1, 1000) \
     WITH("volume.electrons_index", "electrons", KD_VOLUME_POWER_LAW) SPAN("volume.electrons_index", 2, 6) \
     WITH("volume.gamma_min", "electrons", KD_VOLUME_POWER_LAW) SPAN("volume.gamma_min", 1, 1000) \
     WITH("volume.gamma_max", "electrons", KD_VOLUME_POWER_LAW) SPAN("volume.gamma_max", 1000, 1e+07) \
@@ -439,12 +449,12 @@ enum kd_projection { KD_PROJECTION_AUTO, KD_PROJECTION_PLANE, KD_PROJECTION_PINH
                      KD_PROJECTION_EQUIRECTANGULAR, KD_PROJECTION_FULLDOME };
 enum kd_stereo { KD_STEREO_NONE, KD_STEREO_PAIR };
 enum kd_disk_model { KD_DISK_NONE, KD_DISK_NOVIKOV_THORNE, KD_DISK_SHAKURA_SUNYAEV, KD_DISK_PARTICLES };
-enum kd_volume_model { KD_VOLUME_NONE, KD_VOLUME_UNIFORM, KD_VOLUME_GOLD, KD_VOLUME_RIAF };
+enum kd_volume_model { KD_VOLUME_NONE, KD_VOLUME_UNIFORM, KD_VOLUME_GOLD, KD_VOLUME_RIAF, KD_VOLUME_TORUS };
 enum kd_polarization_model { KD_POLARIZATION_NONE, KD_POLARIZATION_SYNCHROTRON, KD_POLARIZATION_SCATTERING };
 enum kd_polarization_field { KD_FIELD_TOROIDAL, KD_FIELD_RADIAL, KD_FIELD_VERTICAL };
 enum kd_volume_field { KD_VOLUME_TOROIDAL, KD_VOLUME_VERTICAL, KD_VOLUME_RADIAL };
 enum kd_volume_flow { KD_VOLUME_ORBITS, KD_VOLUME_REST };
-enum kd_volume_electrons { KD_VOLUME_THERMAL, KD_VOLUME_POWER_LAW };
+enum kd_volume_electrons { KD_VOLUME_THERMAL, KD_VOLUME_POWER_LAW, KD_VOLUME_KAPPA };
 enum kd_colour { KD_COLOUR_PEAK, KD_COLOUR_ACCRETION };
 enum kd_band { KD_BAND_BOLOMETRIC, KD_BAND_VISIBLE };
 enum kd_sky_model { KD_SKY_NONE, KD_SKY_GRID, KD_SKY_STARS, KD_SKY_CATALOGUE, KD_SKY_IMAGE };

@@ -170,6 +170,14 @@ const struct kd_preset kd_presets[] = {
       "\"volume\":{\"model\":\"riaf\",\"inner\":1.4479853,\"outer\":100,\"frequency_ghz\":223.005},"
       "\"style\":{\"name\":\"raw\",\"palette\":\"heat\"},"
       "\"image\":{\"width\":512,\"height\":512}}" },
+    /* The torus that GRMHD simulations commonly start from; so dense that it has the 2.4 Jy of Sagittarius A*. */
+    { "torus", "A torus at 230 GHz", "The torus of Fishbone and Moncrief 1976, in equilibrium, with the mass and the distance of Sagittarius A*: its synchrotron light at 230 GHz", true,
+      "{\"spacetime\":{\"spin\":0.9375,\"mass_msun\":4.3e6,\"distance_pc\":8300},"
+      "\"camera\":{\"inclination_deg\":60,\"field_m\":44},"
+      "\"disk\":{\"model\":\"none\"},"
+      "\"volume\":{\"model\":\"torus\",\"inner\":6,\"outer\":100,\"density_cm3\":1.776e7,\"temperature_ratio\":1},"
+      "\"style\":{\"name\":\"raw\",\"palette\":\"heat\"},"
+      "\"image\":{\"width\":512,\"height\":512}}" },
 };
 const size_t kd_preset_count = sizeof kd_presets / sizeof *kd_presets;
 

@@ -1,6 +1,7 @@
 #include "scene/rules.h"
 
 #include "physics/kerr.h"
+#include "physics/torus.h"
 #include "physics/qnm.h"
 #include "physics/worldline.h"
 #include "scene/number.h"
@@ -259,7 +260,20 @@ static enum kd_status volume(const struct kd_scene *scene, struct kd_error *erro
 {
     const struct kd_volume *v = &scene->volume;
     const double least = kd_scene_volume_inner(scene);
-    if (v->model == KD_VOLUME_RIAF && v->electrons == KD_VOLUME_POWER_LAW && !(v->gamma_max > v->gamma_min))
+    if (v->model == KD_VOLUME_TORUS) {
+        const double isco = kd_kerr_isco(scene->spacetime.spin);
+        if (!(v->torus_radius > isco))
+            return kd_error_field(error, "/volume/torus_radius", "volume.torus_radius is %s M, allowed is more than the ISCO, %s M", show(v->torus_radius).text, show_bound(isco).text);
+        const double light = kd_kerr_photon_orbit(scene->spacetime.spin);
+        if (!(least < v->torus_radius) || !(least > light))
+            return kd_error_field(error, "/volume/inner", "volume.inner is %s%s M, allowed for a torus is less than volume.torus_radius, %s M, and more than the orbit of light, %s M", isinf(v->inner) ? "\"horizon\", for a torus " : "",
+                                  show(least).text, show_bound(v->torus_radius).text, show_bound(light).text);
+        const struct kd_torus torus = kd_torus_of(scene->spacetime.spin, least, v->torus_radius);
+        if (!isfinite(torus.outer) || !(torus.log_most > 0))
+            return kd_error_field(error, "/volume/torus_radius", "volume.torus_radius is %s M with the inner edge at %s M: gas that goes round like that has no outer edge; allowed is less, or an inner edge further out",
+                                  show(v->torus_radius).text, show(least).text);
+    }
+    if (v->model >= KD_VOLUME_RIAF && v->electrons == KD_VOLUME_POWER_LAW && !(v->gamma_max > v->gamma_min))
         return kd_error_field(error, "/volume/gamma_max", "volume.gamma_max is %s, allowed is more than volume.gamma_min, %s", show(v->gamma_max).text, show_bound(v->gamma_min).text);
     if (v->model == KD_VOLUME_NONE || v->outer > least)
         return KD_OK;
@@ -419,7 +433,7 @@ const struct kd_rule kd_rules[] = {
     { "`disk.outer` is larger than the inner edge, unless there is no disk.", outer_edge },
     { "`disk.height` is 0, or at least 1e-5; it is 0 for a disk of particles.", height },
     { "`volume.outer` is larger than the inner edge, which is at least a hundredth outside the horizon, or a two-thousandth for what is seen at a radio frequency, unless there is no volume; "
-      "`volume.gamma_max` is larger than `volume.gamma_min` where electrons go by a power law.", volume },
+      "a torus has its inner edge between the orbit of light and `volume.torus_radius`, which is outside the ISCO, and an outer edge; `volume.gamma_max` is larger than `volume.gamma_min` where electrons go by a power law.", volume },
     { "`jets.outer` is larger than the inner edge, which is at least a twentieth outside the horizon, unless `jets.brightness` is 0; by a `jets.falloff` below 0 light grows "
       "at most 2^60 times in between.", jets },
     { "`spots.N.r` is not inside the ISCO of the spin, unless the spot's brightness is 0.", spots },

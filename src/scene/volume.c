@@ -8,11 +8,15 @@
 #define CLEAR 1.01
 #define CLEAR_RADIO 1.0005 /* of what goes as the energy of the light, which grows as one over the square root of the way to there */
 
+#define TORUS 0.5 /* of where its pressure is largest, as simulations commonly begin */
+
 bool kd_scene_is_radio(const struct kd_scene *scene) { return scene->volume.model > KD_VOLUME_UNIFORM; }
 
 double kd_scene_volume_inner(const struct kd_scene *scene)
 {
     const double horizon = kd_kerr_horizon(scene->spacetime.spin), least = (kd_scene_is_radio(scene) ? CLEAR_RADIO : CLEAR) * horizon;
+    if (isinf(scene->volume.inner) && scene->volume.model == KD_VOLUME_TORUS)
+        return fmax(TORUS * scene->volume.torus_radius, least);
     return isinf(scene->volume.inner) ? least : fmax(scene->volume.inner, least);
 }
 

@@ -55,6 +55,7 @@ static const struct shot {
     { "gold-4", "gold-4", "{\"image\":{\"width\":96,\"height\":96}}" },
     { "gold-5", "gold-5", "{\"image\":{\"width\":96,\"height\":96}}" },
     { "riaf", "riaf", "{\"image\":{\"width\":96,\"height\":96}}" },
+    { "torus", "torus", "{\"image\":{\"width\":96,\"height\":96}}" },
     { "jet", "jet", "{\"image\":{\"width\":160,\"height\":90}}" },
     { "star-behind", "star-behind", "{\"image\":{\"width\":160,\"height\":90}}" },
     { "companions", "companions", "{\"image\":{\"width\":160,\"height\":90}}" },
@@ -279,7 +280,7 @@ static bool takes_long(const struct shot *shot)
 {
     struct kd_scene scene = studio_scene(shot->preset, shot->json);
     const struct kd_body *bodies[KD_SCENE_BODIES];
-    return scene.sky.model == KD_SKY_STARS || scene.sky.model == KD_SKY_CATALOGUE || scene.jets.brightness > 0 || !strncmp(shot->name, "gold-", 5) || !strcmp(shot->name, "riaf") || kd_scene_bodies(&scene, bodies);
+    return scene.sky.model == KD_SKY_STARS || scene.sky.model == KD_SKY_CATALOGUE || scene.jets.brightness > 0 || !strncmp(shot->name, "gold-", 5) || !strcmp(shot->name, "riaf") || !strcmp(shot->name, "torus") || kd_scene_bodies(&scene, bodies);
 }
 
 int main(int argc, char **argv)

@@ -153,6 +153,12 @@ static const struct rule rules[] = {
     { "{\"spacetime\":{\"spin\":0},\"spot1\":{\"brightness\":1,\"r\":6}}", NULL, NULL },
     { "{\"spacetime\":{\"spin\":0},\"spot1\":{\"brightness\":0,\"r\":2}}", NULL, NULL },
     { "{\"spacetime\":{\"spin\":0},\"spots\":[{\"r\":2},{\"brightness\":1,\"r\":5}]}", "/spots/1/r", "spots.1.r is 5 M" },
+    { "{\"volume\":{\"model\":\"torus\"}}", NULL, NULL },
+    { "{\"spacetime\":{\"spin\":0},\"volume\":{\"model\":\"torus\",\"torus_radius\":6}}", "/volume/torus_radius", "volume.torus_radius is 6 M, allowed is more than the ISCO, 6 M" },
+    { "{\"volume\":{\"model\":\"torus\",\"inner\":12}}", "/volume/inner", "volume.inner is 12 M, allowed for a torus is less than volume.torus_radius, 12 M, and more than the orbit of light" },
+    { "{\"spacetime\":{\"spin\":-0.9},\"volume\":{\"model\":\"torus\",\"inner\":3}}", "/volume/inner", "orbit of light, 3.91" },
+    { "{\"spacetime\":{\"spin\":0.9},\"volume\":{\"model\":\"torus\",\"inner\":6,\"torus_radius\":40}}", "/volume/torus_radius", "volume.torus_radius is 40 M with the inner edge at 6 M: gas that goes round like that has no outer edge" },
+    { "{\"volume\":{\"model\":\"torus\",\"electrons\":\"power-law\",\"gamma_max\":2}}", "/volume/gamma_max", "more than volume.gamma_min" },
 };
 
 static void fields_fit_each_other(void **state)
@@ -268,7 +274,7 @@ static void presets_are_valid(void **state)
                                          "luminet1979",   "edge-on",   "face-on", "photon-rings", "living-disk",
                                          "hot-spot",      "milky-way", "gas",       "gas-stars", "thick-disk",
                                          "star-behind",   "companions",    "falling",       "infall",    "jet",       "gargantua-gas",
-                                         "polarised-ring", "gold-1",       "gold-2",        "gold-3",    "gold-4",  "gold-5",  "riaf" };
+                                         "polarised-ring", "gold-1",       "gold-2",        "gold-3",    "gold-4",  "gold-5",  "riaf", "torus" };
     char hashes[sizeof names / sizeof *names][65];
     assert_int_equal(kd_scene_preset_count(), sizeof names / sizeof *names);
     for (size_t i = 0; i < kd_scene_preset_count(); i++) {

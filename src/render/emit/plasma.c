@@ -4,6 +4,7 @@
 #include "physics/constants.h"
 #include "physics/kerr.h"
 #include "physics/synchrotron.h"
+#include "physics/torus.h"
 #include "render/emit/radio.h"
 
 #include <math.h>
@@ -25,14 +26,17 @@ static uint32_t traits(const struct kd_scene *scene)
     const struct kd_volume *v = &scene->volume;
     if (v->model == KD_VOLUME_GOLD)
         return KD_TRAIT_PLASMA_GOLD;
-    return (v->field == KD_VOLUME_VERTICAL ? KD_TRAIT_PLASMA_VERTICAL : v->field == KD_VOLUME_RADIAL ? KD_TRAIT_PLASMA_RADIAL : 0) |
-           (v->flow == KD_VOLUME_REST ? KD_TRAIT_PLASMA_REST : 0) | (v->electrons == KD_VOLUME_POWER_LAW ? KD_TRAIT_PLASMA_POWER : 0);
+    return (v->model == KD_VOLUME_TORUS ? KD_TRAIT_PLASMA_TORUS : 0) | (v->electrons == KD_VOLUME_KAPPA ? KD_TRAIT_PLASMA_KAPPA : 0) |
+           (v->field == KD_VOLUME_VERTICAL ? KD_TRAIT_PLASMA_VERTICAL : v->field == KD_VOLUME_RADIAL ? KD_TRAIT_PLASMA_RADIAL : 0) |
+           (v->flow == KD_VOLUME_REST && v->model == KD_VOLUME_RIAF ? KD_TRAIT_PLASMA_REST : 0) | (v->electrons == KD_VOLUME_POWER_LAW ? KD_TRAIT_PLASMA_POWER : 0);
 }
 
 static void reach(const struct kd_scene *scene, double radii[2])
 {
     radii[0] = kd_scene_volume_inner(scene);
     radii[1] = scene->volume.outer;
+    if (scene->volume.model == KD_VOLUME_TORUS)
+        radii[1] = fmin(radii[1], kd_torus_of(scene->spacetime.spin, radii[0], scene->volume.torus_radius).outer);
 }
 
 /* Where a layer has thinned out, cos(theta): x = steep u, or steep u/sin(theta), is KD_PLASMA_SEEN. */
@@ -41,6 +45,8 @@ static double height(const struct kd_scene *scene)
     const struct kd_volume *v = &scene->volume;
     if (v->model == KD_VOLUME_GOLD)
         return KD_PLASMA_SEEN / fmax(v->gold_flattening, KD_PLASMA_SEEN);
+    if (v->model == KD_VOLUME_TORUS)
+        return fmin(1.01 * kd_torus_of(scene->spacetime.spin, kd_scene_volume_inner(scene), v->torus_radius).height + 1e-3, 1);
     return v->height > 0 ? KD_PLASMA_SEEN * v->height / hypot(1, KD_PLASMA_SEEN * v->height) : 1;
 }
 
@@ -54,7 +60,7 @@ static double knot(const struct kd_scene *scene)
 
 static void tell(const struct kd_scene *scene, char out[KD_EMIT_TOLD])
 {
-    snprintf(out, KD_EMIT_TOLD, "%s from %.6g M to %.6g M, at %.6g GHz.", scene->volume.model == KD_VOLUME_GOLD ? "The matter of Gold et al. 2020" : "Hot electrons in a magnetic field",
+    snprintf(out, KD_EMIT_TOLD, "%s from %.6g M to %.6g M, at %.6g GHz.", scene->volume.model == KD_VOLUME_GOLD ? "The matter of Gold et al. 2020" : scene->volume.model == KD_VOLUME_TORUS ? "A torus of hot gas" : "Hot electrons in a magnetic field",
              kd_scene_volume_inner(scene), scene->volume.outer, scene->volume.frequency_ghz);
 }
 
@@ -87,6 +93,46 @@ static void fill_electrons(struct kd_plasma_block *out, const struct kd_volume *
     out->power_depth = (float)power.log2_depth;
 }
 
+/* P = n m_p c^2 (Gamma - 1)/Gamma (h - 1) = n k T_e (1 + ratio). */
+static void fill_torus(struct kd_plasma_block *out, const struct kd_scene *scene)
+{
+    const struct kd_volume *v = &scene->volume;
+    const struct kd_torus t = kd_torus_of(scene->spacetime.spin, kd_scene_volume_inner(scene), v->torus_radius);
+    const double share = (v->adiabatic_index - 1) / v->adiabatic_index;
+    out->torus_momentum = (float)t.l;
+    out->torus_edge = (float)t.edge;
+    out->torus_index = (float)(1 / (v->adiabatic_index - 1));
+    out->density = (float)(log2_of(v->density_cm3) - log2(expm1(t.log_most)) / (v->adiabatic_index - 1));
+    out->heat = (float)log2(KD_PROTON_KG / KD_ELECTRON_KG * share / (1 + v->temperature_ratio));
+    out->field = (float)log2(2 * CM3 * KD_PROTON_KG / (EPSILON_0 * GAUSS * GAUSS) * share / v->beta);
+    out->outer = (float)fmin(v->outer, t.outer);
+}
+
+static void fill_kappa(struct kd_plasma_block *out, const struct kd_volume *v)
+{
+    const struct kd_synchrotron_kappa k = kd_synchrotron_kappa(v->kappa);
+    out->kappa = (float)v->kappa;
+    out->kappa_width = (float)log2(v->kappa - 3);
+    out->kappa_light_low = (float)k.light_low;
+    out->kappa_light_high = (float)k.light_high;
+    out->kappa_light_sharp = (float)k.light_sharp;
+    out->kappa_depth_low = (float)k.depth_low;
+    out->kappa_depth_high = (float)k.depth_high;
+    out->kappa_depth_sharp = (float)k.depth_sharp;
+}
+
+static void tables(struct kd_emit_tables *out, const struct kd_scene *scene)
+{
+    double f[KD_KAPPA_ROWS + 1];
+    if (scene->volume.electrons != KD_VOLUME_KAPPA)
+        return;
+    kd_synchrotron_kappa_table(scene->volume.kappa, KD_KAPPA_FIRST, 1.0 / KD_KAPPA_OCTAVE, KD_KAPPA_ROWS + 1, f);
+    for (int i = 0; i < KD_KAPPA_ROWS; i++) {
+        out->kappa[i][0] = (float)f[i];
+        out->kappa[i][1] = (float)(f[i + 1] - f[i]);
+    }
+}
+
 static void fill(struct kd_emission *out, const struct kd_scene *scene)
 {
     const double metre = scene->spacetime.mass_msun * KD_M_SUN_M, unit = kd_radio_unit(scene);
@@ -102,17 +148,22 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
     };
     fill_gold(to, &scene->volume, metre, unit);
     fill_electrons(to, &scene->volume);
+    fill_kappa(to, &scene->volume);
+    if (scene->volume.model == KD_VOLUME_TORUS)
+        fill_torus(to, scene);
 }
 
 static bool is_gold(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, scene->volume.model == KD_VOLUME_GOLD; }
 static bool is_hot(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, scene->volume.model != KD_VOLUME_GOLD; }
 static bool is_powers(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, scene->volume.model == KD_VOLUME_RIAF; }
+static bool is_torus(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, scene->volume.model == KD_VOLUME_TORUS; }
 static bool is_beside(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, !kd_scene_is_radio_alone(scene); }
 
 static const struct kd_sentence sentences[] = {
     { "volume: light of one frequency, without scattering and without polarisation; brightness 1 is a brightness temperature of 1e10 K", NULL },
     { "volume: the analytic model of Gold et al. 2020, made up to compare programs; it ends at its edges", is_gold },
     { "volume: electrons and magnetic field by power laws of r that solve no equation of motion; they end at their edges, and 7 scale heights from the plane", is_powers },
+    { "volume: the torus of Fishbone & Moncrief 1976, in equilibrium without its magnetic field, which is put in by its pressure alone; ions and electrons have temperatures of one ratio", is_torus },
     { "volume: synchrotron light by the fits of Pandya et al. 2016, good to a few percent where they hold; electrons move in all directions alike", is_hot },
     { "volume: light at a radio frequency beside light of other kinds, whose brightness 1 is another one; the picture has no flux", is_beside },
 };
@@ -127,6 +178,7 @@ const struct kd_emitter kd_emit_plasma = {
     .height = height,
     .knot = knot,
     .fill = fill,
+    .tables = tables,
     .depends = { KD_SCENE_PART(spacetime), KD_SCENE_PART(volume) },
     .sentences = sentences,
     .n_sentences = sizeof sentences / sizeof *sentences,

@@ -81,7 +81,7 @@ static enum kd_status check_one(const struct kd_scene *scene, struct kd_plan_lay
     if (kd_layer_is_polarized(layer.kind) && scene->camera.projection == KD_PROJECTION_RING)
         return kd_error_field(error, "/image/layers", "image.layers holds %s with camera.projection \"ring\", where a picture has no up: allowed are the others", name);
     if ((layer.kind == KD_LAYER_brightness_temperature || layer.kind == KD_LAYER_specific_intensity) && !kd_scene_is_radio_alone(scene))
-        return kd_error_field(error, "/image/layers", "image.layers holds %s, allowed where nothing but a volume at a radio frequency shines: volume.model \"gold\" or \"riaf\", "
+        return kd_error_field(error, "/image/layers", "image.layers holds %s, allowed where nothing but a volume at a radio frequency shines: volume.model \"gold\", \"riaf\" or \"torus\", "
                               "disk.model and sky.model \"none\", no jets, spots or bodies", name);
     if (scene->disk.height > 0 && scene->disk.model != KD_DISK_NONE && kd_layer_kinds[layer.kind].of == KD_OF_CROSSING)
         return kd_error_field(error, "/image/layers", "image.layers holds %s, which is of the place where a thin disk is crossed, with disk.height %.9g: allowed is 0", name,

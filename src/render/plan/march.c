@@ -52,10 +52,11 @@ static uint32_t steps_of(double error, const struct kd_setting *rays)
 }
 
 /* A ray through matter at a radio frequency takes so many times as long as one through a volume that is the same everywhere: seconds of a core for pictures
- * of two sizes by lavapipe, test 3 of Gold et al. and ipole's flow. */
+ * of two sizes by lavapipe, test 3 of Gold et al., ipole's flow, and the torus. */
 static double of_matter(const struct kd_scene *scene)
 {
-    return scene->volume.model == KD_VOLUME_GOLD ? 1.7 : scene->volume.model == KD_VOLUME_RIAF ? 3.7 : 1;
+    static const double of[] = { [KD_VOLUME_NONE] = 1, [KD_VOLUME_UNIFORM] = 1, [KD_VOLUME_GOLD] = 1.7, [KD_VOLUME_RIAF] = 3.7, [KD_VOLUME_TORUS] = 1.8 };
+    return of[scene->volume.model];
 }
 
 /* By lavapipe: an octave of noise in three dimensions takes a quarter of what all else of a place does. */
