@@ -238,9 +238,10 @@ export const fields = {
   'volume.gamma_min': ['γ minimo', 'Energia minima degli elettroni su quella a riposo (elettroni: legge di potenza)'],
   'volume.gamma_max': ['γ massimo', 'Energia massima degli elettroni, più della minima (elettroni: legge di potenza)'],
   polarization: ['Polarizzazione'],
-  'polarization.model': ['Modello', 'Della luce dal piano del disco: nessuna; sincrotrone, trasversale al campo e alla luce nel riferimento del gas; o diffusione di un’atmosfera profonda di elettroni liberi, trasversale alla normale e alla luce'],
+  'polarization.model': ['Modello', 'Della luce dal piano del disco: nessuna; sincrotrone, trasversale al campo e alla luce nel riferimento del gas; o diffusione di un’atmosfera profonda di elettroni liberi, trasversale alla normale e alla luce; trasporto: di un volume a una frequenza radio, Stokes I, Q, U e V lungo tutti i raggi'],
   'polarization.field': ['Campo magnetico', 'Direzione nel piano: attorno all’asse, verso l’esterno o lungo la normale'],
   'polarization.electron_index': ['Indice degli elettroni', 'Elettroni di energia E come E elevata a meno p: la luce di un campo ordinato è polarizzata per (p + 1)/(p + 7/3)'],
+  'polarization.faraday': ['Faraday', 'Gli elettroni ruotano la direzione della luce che passa (rotazione di Faraday), e fanno circolare della lineare e viceversa'],
   'polarization.order': ['Ordine', 'Parte di quella polarizzazione che il disordine dentro un pixel lascia'],
   jets: ['Getti'],
   'jets.brightness': ['Luminosità', 'Luce di una lunghezza M nel proprio riferimento, riportata al bordo interno, dove comincia gradualmente, in unità della massima del disco; 0: non ce ne sono'],
@@ -680,6 +681,17 @@ export const sentences = {
     'polarizzazione: sincrotrone: del campo sono solo direzione e frazione; luminosità e colore sono quelli del disco, qualunque sia l’angolo col campo',
   'polarization: scattering: the fraction is that of a deep, plane atmosphere of electrons (Chandrasekhar 1960); its limb darkening, and light that returns to the disk, are left out':
     'polarizzazione: diffusione: la frazione è quella di un’atmosfera piana e profonda di elettroni (Chandrasekhar 1960); il suo oscuramento al bordo, e la luce che torna al disco, sono tralasciati',
+  'polarization: Stokes I, Q, U and V of the volume together, in coefficients that are the same over each short stretch; I is not that of unpolarised transfer':
+    'polarizzazione: Stokes I, Q, U e V del volume insieme, con coefficienti uguali su ogni breve tratto; I non è quello del trasporto senza polarizzazione',
+  'polarization: thermal synchrotron light by the fits of Pandya et al. 2016 and Dexter 2016 (V); where the field lies along the ray, and where electrons are not hot, V is held to what leaves 99 % of I polarised':
+    'polarizzazione: luce di sincrotrone termica secondo Pandya et al. 2016 e Dexter 2016 (V); dove il campo è lungo il raggio, e dove gli elettroni non sono caldi, V è limitato in modo che sia polarizzato il 99 % di I',
+  'polarization: synchrotron light of a power law by the fits of Pandya et al. 2016, held to 99 % of I':
+    'polarizzazione: luce di sincrotrone di una legge di potenza secondo Pandya et al. 2016, limitata al 99 % di I',
+  'polarization: Faraday rotation and conversion of those electrons alone (Shcherbakov 2008, Dexter 2016; Jones & O\'Dell 1977): none is cold':
+    'polarizzazione: rotazione e conversione di Faraday di quei soli elettroni (Shcherbakov 2008, Dexter 2016; Jones & O’Dell 1977): nessuno è freddo',
+  'polarization: Faraday rotation and conversion are left out': 'polarizzazione: rotazione e conversione di Faraday sono tralasciate',
+  'polarization: disorder of the field makes linear polarisation less where it is made, where it is absorbed and where it is converted; Faraday rotation is that of a field in order':
+    'polarizzazione: il disordine del campo riduce la polarizzazione lineare dove nasce, dove è assorbita e dove è convertita; la rotazione di Faraday è quella di un campo ordinato',
   'polarization: light of volumes, bodies and the sky is unpolarised': 'polarizzazione: la luce di volumi, corpi e cielo non è polarizzata',
   'sky: a drawn celestial grid; its lensing is exact, its brightness carries no redshift':
     'cielo: un reticolo celeste disegnato; la sua lente è esatta, la sua luminosità non porta redshift',
@@ -723,8 +735,9 @@ export const sentences = {
     'volume: inventato, uguale ovunque fra i suoi bordi, fermo per osservatori senza momento angolare; finisce un centesimo fuori dall’orizzonte; grigio, con il colore di una temperatura scelta, e luce bolometrica qualunque sia disk.band',
   'jets: stylised, cones of optically thin light along the spin axis that flies outwards along the radius at one speed, past observers of zero angular momentum; no magnetic field, no synchrotron spectrum: brightness goes as g^(2 + index), colour is that of a chosen temperature and is not shifted':
     'getti: stilizzati, coni di luce otticamente sottile lungo l’asse di rotazione che va verso l’esterno lungo il raggio a una sola velocità, rispetto a osservatori senza momento angolare; nessun campo magnetico, nessuno spettro di sincrotrone: la luminosità va come g^(2 + indice), il colore è quello di una temperatura scelta e non è spostato',
-  'volume: light of one frequency, without scattering and without polarisation; brightness 1 is a brightness temperature of 1e10 K':
-    'volume: luce di una sola frequenza, senza diffusione e senza polarizzazione; luminosità 1 è una temperatura di brillanza di 1e10 K',
+  'volume: all polarisations of light are absorbed alike: none is told': 'volume: tutte le polarizzazioni della luce sono assorbite allo stesso modo: nessuna è data',
+  'volume: light of one frequency, without scattering; brightness 1 is a brightness temperature of 1e10 K':
+    'volume: luce di una sola frequenza, senza diffusione; luminosità 1 è una temperatura di brillanza di 1e10 K',
   'volume: the analytic model of Gold et al. 2020, made up to compare programs; it ends at its edges':
     'volume: il modello analitico di Gold et al. 2020, inventato per confrontare programmi; finisce ai suoi bordi',
   'volume: electrons and magnetic field by power laws of r that solve no equation of motion; they end at their edges, and 7 scale heights from the plane':

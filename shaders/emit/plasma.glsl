@@ -133,6 +133,10 @@ void kd_plasma_field(inout kd_plasma m, kd_midst p)
     m.field = length_ * vec4(in_u * m.flow.time, out_ + in_u * m.flow.out_, down * s, round_ + in_u * turn);
 }
 
+#ifdef KD_MARCH
+void kd_stokes_at(kd_plasma m, kd_midst p, float light, float depth, float depth_log2); /* emit/stokes.glsl */
+#endif
+
 /* Electrons by power laws of r, in a layer about the plane; or those of a torus. */
 kd_plasma kd_plasma_at(kd_midst p)
 {
@@ -228,6 +232,10 @@ kd_medium kd_plasma_along(kd_midst p)
         kd_radiates gives = kd_plasma_gives(m);
         float up = m.frequency - emission.plasma.frequency;
         medium = kd_plasma_medium(gives.light + emission.plasma.light - 2.0 * up, gives.depth + emission.plasma.depth + up, kd_plasma_grain(p, emission.plasma.steep, gives.steep));
+#ifdef KD_MARCH
+        if (KD_HAS(stokes) && r >= emission.plasma.inner && r <= emission.plasma.outer)
+            kd_stokes_at(m, p, medium.light.x, medium.depth, gives.depth + emission.plasma.depth + up);
+#endif
     }
     if (r < emission.plasma.inner || r > emission.plasma.outer)
         return kd_medium(vec3(0.0), 0.0, max(max(emission.plasma.inner - r, r - emission.plasma.outer), 0.1 * r));

@@ -41,6 +41,8 @@ KD_EMITTERS(KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_S
 #define KD_PRESENT_(number, name) + ((TRAITS_##name & KD_TRAIT_PRESENT) != 0u ? 1 : 0)
 const int KD_VOLUMES = 0 KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_PRESENT_, KD_NO_EMITTER_);
 
+#define KD_BEAM_MOST 1e30 /* light that one place adds: more is no number when it is added up */
+
 #define KD_EMIT_CODE
 #define KD_EMIT_END_CODE
 #include "shared/emitters.h"
@@ -79,8 +81,6 @@ void kd_beam_at(inout kd_beam beam, kd_sample s)
 }
 
 #ifdef KD_MARCH
-#define KD_BEAM_MOST 1e30 /* light that one place adds: more is no number when it is added up */
-
 /* All emitters of a place are in it together. */
 kd_medium kd_medium_at(kd_midst p)
 {

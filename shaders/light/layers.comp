@@ -83,8 +83,8 @@ void meet(inout kd_beam beam, float w, uint n, uvec2 place, uint at)
 /* A ray of the pixel was given up: that leaves no number. It is no NaN that says so, which a device need not carry through sums. */
 bool untold = false;
 
-/* This is the luminance of a ray, Stokes I, and Q and U: of all that it sees, or of one order, as it arrives. */
-vec3 light(uvec2 place, uint at, uint pixel)
+/* This is the luminance of a ray, Stokes I, and Q, U and V: of all that it sees, or of one order, as it arrives. */
+vec4 light(uvec2 place, uint at, uint pixel)
 {
     kd_beam beam = kd_beam(vec3(0.0), 0.0, 1.0);
     kd_ray ray = kd_camera_ray(place.x, place.y);
@@ -94,7 +94,11 @@ vec3 light(uvec2 place, uint at, uint pixel)
     lost = false;
     kd_follow(beam, place, at); /* no orders: plans refuse them */
     given_up = lost;
+    float circular = KD_HAS(stokes) ? kd_stokes_seen.z : 0.0;
+    if (KD_HAS(stokes))
+        polarized += kd_stokes_seen.xy;
 #else
+    float circular = 0.0;
     for (uint n = 0; KD_GLOWS && n < (ORDER == KD_NO_ORDER ? ORDERS : ORDER + 1u); n++) {
         float w = lens[at + n * slice.stride];
         if (ORDER != KD_NO_ORDER)
@@ -113,15 +117,15 @@ vec3 light(uvec2 place, uint at, uint pixel)
         kd_beam_points(beam, pixel);
     }
     untold = untold || given_up;
-    return vec3(dot(beam.light, LUMINANCE), polarized);
+    return vec4(dot(beam.light, LUMINANCE), polarized, circular);
 }
 
 /* The angle of the electric field, from north to east, in (-pi/2, pi/2]; and the part of the light that is polarised. */
-float kd_layer_evpa(vec3 light) { return light.y == 0.0 && light.z == 0.0 ? KD_NOTHING : 0.5 * kd_atan2(light.z, light.y); }
-float kd_layer_polarized(vec3 light) { return light.x > 0.0 ? length(light.yz) / light.x : KD_NOTHING; }
+float kd_layer_evpa(vec4 light) { return light.y == 0.0 && light.z == 0.0 ? KD_NOTHING : 0.5 * kd_atan2(light.z, light.y); }
+float kd_layer_polarized(vec4 light) { return light.x > 0.0 ? length(light.yz) / light.x : KD_NOTHING; }
 
 /* The layer's number of the mean light of a pixel. */
-float value_of_light(vec3 light)
+float value_of_light(vec4 light)
 {
 #define LIGHT_VALUE_(number, name, needs, value)                                                                \
     if (LAYER == number)                                                                                       \
@@ -192,18 +196,20 @@ float of_end(uint at)
 }
 
 #ifdef KD_MARCH
-/* Until the last ray of a pixel there are the sums of those before it: of a polarised layer three, a band of pixels apart. */
-vec3 sum_so_far(uint o)
+/* Until the last ray of a pixel there are the sums of those before it: of a polarised layer four, a band of pixels apart. */
+vec4 sum_so_far(uint o)
 {
     const uint pixels = emission.frame.band_pixels;
-    return vec3(uintBitsToFloat(layer[o]), POLARIZED ? uintBitsToFloat(layer[o + pixels]) : 0.0, POLARIZED ? uintBitsToFloat(layer[o + 2u * pixels]) : 0.0);
+    return vec4(uintBitsToFloat(layer[o]), POLARIZED ? uintBitsToFloat(layer[o + pixels]) : 0.0, POLARIZED ? uintBitsToFloat(layer[o + 2u * pixels]) : 0.0,
+                POLARIZED ? uintBitsToFloat(layer[o + 3u * pixels]) : 0.0);
 }
-void keep_sum(uint o, vec3 sum)
+void keep_sum(uint o, vec4 sum)
 {
     layer[o] = untold ? KD_NOTHING_BITS : floatBitsToUint(sum.x);
     if (POLARIZED) {
         layer[o + emission.frame.band_pixels] = floatBitsToUint(sum.y);
         layer[o + 2u * emission.frame.band_pixels] = floatBitsToUint(sum.z);
+        layer[o + 3u * emission.frame.band_pixels] = floatBitsToUint(sum.w);
     }
 }
 #endif
@@ -231,7 +237,7 @@ void main()
 #else
         const uint from = 0u, end = rays;
 #endif
-        vec3 sum = vec3(0.0);
+        vec4 sum = vec4(0.0);
         for (uint i = from; i < end; i++) {
             uvec2 place = CRITICAL > 0 ? kd_critical_place(uvec2(px, py), i) : uvec2(px, py) * SIDE + uvec2(i % SIDE, i / SIDE);
             sum += light(place, CRITICAL > 0 ? listed * CRITICAL + i : (place.y - slice.band0) * cam.width + place.x, o);

@@ -22,6 +22,8 @@
 #define KD_MARCH_LEAST 0.05   /* or, where that is shorter, of the longest that the way allows */
 #define KD_MARCH_WAY 0.5      /* longest stretch, of r: over it three places find the integral of r^2 to 4e-5 */
 #define KD_MARCH_DEPTH 1.0    /* and in optical depth */
+#define KD_MARCH_TURN 1.0      /* and in radians of Faraday rotation and conversion, */
+#define KD_MARCH_TURNED 0.125  /* but this part of a grain: what turns further is mixed, and little is left of it */
 #define KD_MARCH_TOO_LONG 1.5 /* one that is by so much longer than its places allow is gone through anew */
 #define KD_MARCH_BEHIND 1.5   /* grain of what little is seen of, at most, over that of what is in front */
 #define KD_MARCH_LOOPS 65536u /* more than there are: lavapipe ends loops before their condition does, and what that leaves undone is to be found out */
@@ -200,40 +202,53 @@ void kd_march_add(inout vec3 sum, inout vec3 off, vec3 more)
 void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, kd_spread spread, uint order, float from, float to, inout float stretch, inout bool lost)
 {
     float coarse = 4.0 / float(FINE), front = beam.through, depth = 0.0, depth_off = 0.0;
-    vec3 light = vec3(0.0), light_off = vec3(0.0);
+    vec3 light = vec3(0.0), light_off = vec3(0.0), seen = vec3(0.0), seen_off = vec3(0.0);
     float wish = stretch / s.h; /* how long the next stretch may be; 0: not known, and what is found on one of no length tells */
     for (uint n = 0u; n < KD_MARCH_LOOPS && from < to && beam.through > KD_MARCH_OPAQUE; n++) {
         float left = to - from, length_ = wish > 0.0 ? left / ceil(min(left / wish, 16777216.0)) : 0.0, most = 1.0, least = KD_MARCH_SHORTEST;
         float next = from + length_;
         length_ = next - from; /* as rounded */
         kd_beam trial = kd_beam(vec3(0.0), 0.0, beam.through);
+        kd_stokes_trial polarised = kd_stokes_begin();
         KD_TELL_TRY(length_ > 0.0 ? 3.0 : 1.0)
         float far = min(inversesqrt(beam.through), KD_MARCH_BEHIND);
         vec4 one = vec4(0.0), two = vec4(0.0), three = vec4(0.0); /* light and depth of the three */
         for (int k = 0; k < (length_ > 0.0 ? 3 : 1); k++) { /* one place tells how long the first may be */
             float weight = k == 1 ? 4.0 / 9.0 : 5.0 / 18.0, x = k == 0 ? 0.1127016654 : k == 1 ? 0.5 : 0.8872983346;
             kd_midst p = kd_midst_of(m, ray, s, spread, order, from + x * length_);
+            kd_stokes_here = kd_stokes(vec4(0.0), 0.0, vec3(0.0), vec3(0.0));
             kd_medium medium = kd_medium_at(p);
             float r = 1.0 / p.w, au = cam.spin * p.u, way = (r * r + au * au) * s.h;
             kd_beam_along(trial, medium, weight * length_ * way);
+            if (KD_HAS(stokes))
+                kd_stokes_along(polarised, weight * length_ * way);
             one = two;
             two = three;
             three = vec4(min(weight * length_ * way * medium.light, KD_BEAM_MOST), min(weight * length_ * way * medium.depth, KD_MARCH_DEEP));
             float allowed = min(min(medium.grain * far, KD_MARCH_WAY * r) / (p.speed * s.h), KD_MARCH_DEPTH / max(medium.depth * way, 1e-30));
+            if (KD_HAS(stokes))
+                allowed = min(allowed, max(KD_MARCH_TURN / max(length(kd_stokes_here.turns) * way, 1e-30), KD_MARCH_TURNED * allowed));
             most = min(most, coarse * allowed);
             least = min(least, KD_MARCH_LEAST * coarse * KD_MARCH_WAY * r / (p.speed * s.h));
         }
         wish = max(most, least);
         if (length_ > 0.0 && length_ <= KD_MARCH_TOO_LONG * wish) {
             vec3 rest = beam.through * kd_march_rest(one, two, three);
+            if (KD_HAS(stokes)) {
+                vec4 all = kd_stokes_take(polarised);
+                rest = vec3(all.x) - trial.light;
+                kd_march_add(seen, seen_off, all.yzw);
+            }
             KD_TELL_TAKE(vec3(0.0), trial.light, rest)
             kd_march_add(light, light_off, min(trial.light + rest, KD_BEAM_MOST));
             kd_march_add(depth, depth_off, one.w + two.w + three.w);
-            beam.through = front * exp(-depth);
+            beam.through = KD_HAS(stokes) ? kd_jones_through(kd_stokes_front) : front * exp(-depth);
             from = length_ < left ? next : to;
         }
     }
     beam.light = min(beam.light + light, KD_BEAM_MOST);
+    if (KD_HAS(stokes))
+        kd_stokes_seen = kd_stokes_sound(vec4(beam.light.x, kd_stokes_seen + seen)).yzw;
     stretch = wish * s.h;
     lost = lost || (from < to && beam.through > KD_MARCH_OPAQUE);
     beam.through = beam.through > KD_MARCH_OPAQUE ? beam.through : 0.0;
@@ -377,6 +392,11 @@ void kd_march_follow(inout kd_beam beam, uvec2 place, uint at, float time, uint 
 {
     kd_ray ray = kd_camera_ray(place.x, place.y);
     kd_march_way y = kd_march_begin(ray, time);
+    if (KD_HAS(stokes)) {
+        kd_stokes_right = kd_polarization_right(place);
+        kd_stokes_seen = vec3(0.0);
+        kd_stokes_front = kd_jones_one();
+    }
     for (uint n = 0u; n < KD_MARCH_LOOPS && y.goes && beam.through > 0.0; n++) {
         kd_march_advance(y, ray);
         if (y.goes) {

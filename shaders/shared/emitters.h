@@ -41,7 +41,8 @@
     MET(10, bodies)                                                                                            \
     AT_CROSSING(11, debris)                                                                                    \
     PART(12, polarization)                                                                              \
-    ALONG(13, plasma)
+    ALONG(13, plasma)                                                                                          \
+    PART(14, stokes)
 
 /* All that has numbers. */
 #define KD_EMIT_BLOCKS(B) B(-1, frame) KD_EMITTERS(B, B, B, B, B, B)

@@ -1,7 +1,7 @@
 /* A frame has these layers besides "rgb": maps of numbers, one a pixel. A line each; the number is the place of its name among the words of
  * image.layers (src/scene/fields.h), where "rgb" is 0. What it is called, its unit and its colours: src/render/plan/layer_kinds.c, by the name.
  *
- *   LIGHT(number, name, needs, value)      of the light of all rays of a pixel, their mean (light/layers.comp): GLSL of its Stokes I, Q and U, the vec3 `light`
+ *   LIGHT(number, name, needs, value)      of the light of all rays of a pixel, their mean (light/layers.comp): GLSL of its Stokes I, Q, U and V, the vec4 `light`
  *   CROSSING(number, name, needs, value, met)  of one place on the pixel's middle ray, where that crosses the disk: GLSL of the sample s and
  *                                          its delay; or, of kd_met met, where it meets a body before that
  *   RAY(number, name, needs, value)        of the end of that ray: GLSL of its fate and of kd_end end
@@ -30,6 +30,7 @@
     LIGHT(17, evpa, KD_LENS_SLOPE, kd_layer_evpa(light))                                                                            \
     LIGHT(18, polarization_fraction, KD_LENS_SLOPE, kd_layer_polarized(light))                                                   \
     LIGHT(19, brightness_temperature, 0u, light.x * emission.plasma.kelvin)                                                         \
-    LIGHT(20, specific_intensity, 0u, light.x * emission.plasma.jansky)
+    LIGHT(20, specific_intensity, 0u, light.x * emission.plasma.jansky)                                        \
+    LIGHT(21, stokes_v, KD_LENS_SLOPE, light.w)
 
 #endif

@@ -206,12 +206,13 @@
 #define KD_POLARIZATION_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                             \
     ENUM(polarization, model, MODEL, FRONT, KD_POLARIZATION_NONE,                                                     \
          "of light from the disk's plane: none; synchrotron, across polarization.field and the light, in the gas's frame; or scattering, of a deep atmosphere of free " \
-         "electrons, across the normal and the light", "none|synchrotron|scattering")                               \
+         "electrons, across the normal and the light; transfer: of a volume at a radio frequency, Stokes I, Q, U and V all along the rays", "none|synchrotron|scattering|transfer") \
     ENUM(polarization, field, MODEL, REST, KD_FIELD_TOROIDAL,                                                        \
          "direction of the magnetic field in the plane: round the axis, outwards, or along the normal (model: synchrotron)", "toroidal|radial|vertical") \
     REAL(polarization, electron_index, MODEL, REST, 3.0, 1.0, 10.0, "1",                                             \
          "electrons have energies E as E to minus this power p, and the light of a field in order is polarised by (p + 1)/(p + 7/3) (model: synchrotron)") \
-    REAL(polarization, order, MODEL, REST, 1.0, 0.0, 1.0, "1", "part of that polarisation which disorder within a pixel leaves")
+    REAL(polarization, order, MODEL, REST, 1.0, 0.0, 1.0, "1", "part of that polarisation which disorder within a pixel leaves") \
+    BOOL(polarization, faraday, PHYSICS, REST, true, "electrons turn the direction of light that passes (Faraday rotation), and make linear of circular polarisation and back (model: transfer)")
 
 #define KD_SKY_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                     \
     ENUM(sky, model, MODEL, FRONT, KD_SKY_NONE,                                                                      \
@@ -249,7 +250,7 @@
     WORDS(image, layers, LOOK, REST,                                                                                 \
           "what the file holds: the picture, or maps of the rays (docs/layers.md); of the first crossing on the disk, or behind _N of " \
           "image order N; a PNG shows one in false colour, FITS, EXR, NPZ and NPY hold several as numbers",         \
-          "rgb|intensity_N|g_N|temperature_N|r_N|phi_N|delay_N|emission_angle_N|order|sky_theta|sky_phi|fate|footprint_N|sky_footprint|optical_depth_N|stokes_q_N|stokes_u_N|evpa_N|polarization_fraction_N|brightness_temperature|specific_intensity")       \
+          "rgb|intensity_N|g_N|temperature_N|r_N|phi_N|delay_N|emission_angle_N|order|sky_theta|sky_phi|fate|footprint_N|sky_footprint|optical_depth_N|stokes_q_N|stokes_u_N|evpa_N|polarization_fraction_N|brightness_temperature|specific_intensity|stokes_v")       \
     WORD(image, layer_min, LOOK, REST, INFINITY, -1e12, 1e12, "1",                                                   \
          "number at the lower end of the colours of a layer; auto: what docs/layers.md says of each", "auto")        \
     WORD(image, layer_max, LOOK, REST, INFINITY, -1e12, 1e12, "1", "the same at their upper end", "auto")            \
@@ -316,7 +317,7 @@
     LIST(bodies, body, KD_BODIES_FIELDS, GAS, KD_SCENE_BODIES, "bodies: spheres that shine, before the hole, behind it and in the disk") \
     SECTION(volume, KD_VOLUME_FIELDS, GAS, "matter all along the rays")                                              \
     SECTION(jets, KD_JETS_FIELDS, GAS, "stylised jets along the spin axis")                                          \
-    SECTION(polarization, KD_POLARIZATION_FIELDS, MORE, "how light from the disk's plane is polarised: what layers and ticks show of it, and no picture")     \
+    SECTION(polarization, KD_POLARIZATION_FIELDS, MORE, "how light is polarised: what layers and ticks show of it; of light from the disk's plane no picture does")     \
     SECTION(sky, KD_SKY_FIELDS, LOOK, "what lies at infinity")                                                       \
     SECTION(image, KD_IMAGE_FIELDS, MORE, "the size of the picture")                                                 \
     SECTION(style, KD_STYLE_FIELDS, LOOK, "from brightness to the colours of the file")                              \
@@ -423,6 +424,7 @@
     WITH("polarization.field", "model", KD_POLARIZATION_SYNCHROTRON) WITH("polarization.electron_index", "model", KD_POLARIZATION_SYNCHROTRON) \
     SPAN("polarization.electron_index", 1, 5)                                                                        \
     WITH("polarization.order", "model", KD_POLARIZATION_SYNCHROTRON) WITH("polarization.order", "model", KD_POLARIZATION_SCATTERING) \
+    WITH("polarization.order", "model", KD_POLARIZATION_TRANSFER) WITH("polarization.faraday", "model", KD_POLARIZATION_TRANSFER) \
     SWITCH("sky.model")                                                                                              \
     SPAN("sky.brightness", 1e-4, 1) FIRST("sky.brightness", 0.01)                                                    \
     WITH("sky.grid_deg", "model", KD_SKY_GRID)                                                                       \
@@ -450,7 +452,7 @@ enum kd_projection { KD_PROJECTION_AUTO, KD_PROJECTION_PLANE, KD_PROJECTION_PINH
 enum kd_stereo { KD_STEREO_NONE, KD_STEREO_PAIR };
 enum kd_disk_model { KD_DISK_NONE, KD_DISK_NOVIKOV_THORNE, KD_DISK_SHAKURA_SUNYAEV, KD_DISK_PARTICLES };
 enum kd_volume_model { KD_VOLUME_NONE, KD_VOLUME_UNIFORM, KD_VOLUME_GOLD, KD_VOLUME_RIAF, KD_VOLUME_TORUS };
-enum kd_polarization_model { KD_POLARIZATION_NONE, KD_POLARIZATION_SYNCHROTRON, KD_POLARIZATION_SCATTERING };
+enum kd_polarization_model { KD_POLARIZATION_NONE, KD_POLARIZATION_SYNCHROTRON, KD_POLARIZATION_SCATTERING, KD_POLARIZATION_TRANSFER };
 enum kd_polarization_field { KD_FIELD_TOROIDAL, KD_FIELD_RADIAL, KD_FIELD_VERTICAL };
 enum kd_volume_field { KD_VOLUME_TOROIDAL, KD_VOLUME_VERTICAL, KD_VOLUME_RADIAL };
 enum kd_volume_flow { KD_VOLUME_ORBITS, KD_VOLUME_REST };

@@ -145,6 +145,8 @@ double kd_scene_exposure_most(const struct kd_scene *scene);
 /* Gives the inner edge of the scene's volume, M; and says whether that is seen at one radio frequency, volume.frequency_ghz, in units of physics. */
 double kd_scene_volume_inner(const struct kd_scene *scene);
 bool kd_scene_is_radio(const struct kd_scene *scene);
+/* Says whether that has electrons in a magnetic field, of which its light is. */
+bool kd_scene_is_magnetic(const struct kd_scene *scene);
 /* The same, and nothing else is to be seen: then its flux has a meaning. */
 bool kd_scene_is_radio_alone(const struct kd_scene *scene);
 

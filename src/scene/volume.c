@@ -12,6 +12,8 @@
 
 bool kd_scene_is_radio(const struct kd_scene *scene) { return scene->volume.model > KD_VOLUME_UNIFORM; }
 
+bool kd_scene_is_magnetic(const struct kd_scene *scene) { return scene->volume.model == KD_VOLUME_RIAF; }
+
 double kd_scene_volume_inner(const struct kd_scene *scene)
 {
     const double horizon = kd_kerr_horizon(scene->spacetime.spin), least = (kd_scene_is_radio(scene) ? CLEAR_RADIO : CLEAR) * horizon;

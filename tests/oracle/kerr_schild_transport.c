@@ -305,3 +305,90 @@ struct ks_polarized ks_polarization(const struct ks_screen *screen, int order, e
     }
     return o;
 }
+
+double ks_carried_product(const struct ks_carried *at, const double p[4], const double q[4])
+{
+    double sum = 0;
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++)
+            sum += at->g[i][j] * p[i] * q[j];
+    return sum;
+}
+
+/* Ingoing: t + 2 r/Delta dr, phi + a/Delta dr; and x + i y = (r + i a) sin(theta) exp(i phi). */
+void ks_carried_vector(const struct ks_carried *at, const double v[4], double out[4])
+{
+    const double a = at->a, r = at->r, delta = r * r - 2 * r + a * a, c = at->x[3] / r, s = sqrt(1 - c * c), turn = v[3] + a / delta * v[1];
+    const double azimuth = atan2(at->x[2], at->x[1]) - atan2(a, r), ca = cos(azimuth), sa = sin(azimuth);
+    const double x = s * v[1] + r * c * v[2] - a * s * turn, y = a * c * v[2] + r * s * turn;
+    out[0] = v[0] + 2 * r / delta * v[1];
+    out[1] = ca * x - sa * y;
+    out[2] = sa * x + ca * y;
+    out[3] = c * v[1] - r * s * v[2];
+}
+
+static void tell(const struct state *s, double a, double h, ks_told *told, void *user)
+{
+    struct ks_carried at = { .a = a, .r = radius(a, s->x), .step = h };
+    memcpy(at.x, s->x, sizeof at.x);
+    memcpy(at.k, s->v[0], sizeof at.k);
+    memcpy(at.right, s->v[1], sizeof at.right);
+    memcpy(at.up, s->v[2], sizeof at.up);
+    metric(a, s->x, at.g);
+    told(user, &at);
+}
+
+/* The part of a pair of steps after which the ray is at this radius, which it passes in between. */
+static double landing(const struct state *s, double a, double h, double r)
+{
+    const bool inwards = radius(a, s->x) > r;
+    double low = 0, high = 1;
+    for (int i = 0; i < 50; i++) {
+        const double t = 0.5 * (low + high);
+        struct state at = *s;
+        step(a, &at, t * h);
+        step(a, &at, t * h);
+        *((radius(a, at.x) > r) == inwards ? &low : &high) = t;
+    }
+    return high;
+}
+
+void ks_carry(const struct ks_screen *screen, double inner, double outer, double fine, ks_told *told, void *user)
+{
+    const double a = screen->a, horizon = 1 + sqrt(1 - a * a);
+    struct state s;
+    memcpy(s.x, screen->x, sizeof s.x);
+    memcpy(s.v[0], screen->k, sizeof s.v[0]);
+    memcpy(s.v[1], screen->right, sizeof s.v[1]);
+    memcpy(s.v[2], screen->up, sizeof s.v[2]);
+    bool within = false;
+    for (int n = 0; n < 200000; n++) {
+        const double r = radius(a, s.x), speed = sqrt(s.v[0][1] * s.v[0][1] + s.v[0][2] * s.v[0][2] + s.v[0][3] * s.v[0][3]);
+        double h = (within ? fine : 0.01) * fmin(r, 8 * (r - horizon)) / speed;
+        struct state next = s;
+        step(a, &next, h);
+        step(a, &next, h);
+        const double then = radius(a, next.x);
+        bool enters = !within && then < outer, leaves = within && (then > outer || then < inner);
+        if (!within && then > 1.2 * r)
+            return;
+        if (enters || leaves) {
+            h *= landing(&s, a, h, then < inner ? inner : outer);
+            next = s;
+            step(a, &next, h);
+            step(a, &next, h);
+        }
+        if (within) {
+            struct state half = s;
+            tell(&s, a, h, told, user);
+            step(a, &half, h);
+            tell(&half, a, h, told, user);
+        }
+        s = next;
+        if (leaves) {
+            tell(&s, a, 0, told, user);
+            return;
+        }
+        within |= enters;
+    }
+}

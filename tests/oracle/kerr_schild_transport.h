@@ -25,4 +25,15 @@ struct ks_polarized { bool there, falls; double r, angle, cosine, g; };
 /* At the crossing of the order `order`, going back in time. */
 struct ks_polarized ks_polarization(const struct ks_screen *screen, int order, enum ks_field field, double r_isco);
 
+/* A place of a ray that goes back in time from the screen, by the Cartesian coordinates; k: of the light, affine, by the energy that the screen measures; right and up as carried there.
+ * step: of the affine parameter to the next one that is told, 0 at the last. */
+struct ks_carried { double a, r, x[4], k[4], right[4], up[4], g[4][4], step; };
+typedef void ks_told(void *user, const struct ks_carried *at);
+
+/* Tells the places of the ray from where it comes within outer to where it leaves the shell inner < r < outer; pairs of steps are of one length. fine: steps as parts of r. */
+void ks_carry(const struct ks_screen *screen, double inner, double outer, double fine, ks_told *told, void *user);
+/* Gives a vector of Boyer and Lindquist's coordinates (t, r, theta, phi), whose components do not depend on phi, at that place. */
+void ks_carried_vector(const struct ks_carried *at, const double v[4], double out[4]);
+double ks_carried_product(const struct ks_carried *at, const double p[4], const double q[4]);
+
 #endif

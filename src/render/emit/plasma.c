@@ -157,10 +157,12 @@ static bool is_gold(const struct kd_scene *scene, const struct kd_setting *rays)
 static bool is_hot(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, scene->volume.model != KD_VOLUME_GOLD; }
 static bool is_powers(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, scene->volume.model == KD_VOLUME_RIAF; }
 static bool is_torus(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, scene->volume.model == KD_VOLUME_TORUS; }
+static bool is_unpolarised(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, scene->polarization.model != KD_POLARIZATION_TRANSFER; }
 static bool is_beside(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, !kd_scene_is_radio_alone(scene); }
 
 static const struct kd_sentence sentences[] = {
-    { "volume: light of one frequency, without scattering and without polarisation; brightness 1 is a brightness temperature of 1e10 K", NULL },
+    { "volume: light of one frequency, without scattering; brightness 1 is a brightness temperature of 1e10 K", NULL },
+    { "volume: all polarisations of light are absorbed alike: none is told", is_unpolarised },
     { "volume: the analytic model of Gold et al. 2020, made up to compare programs; it ends at its edges", is_gold },
     { "volume: electrons and magnetic field by power laws of r that solve no equation of motion; they end at their edges, and 7 scale heights from the plane", is_powers },
     { "volume: the torus of Fishbone & Moncrief 1976, in equilibrium without its magnetic field, which is put in by its pressure alone; ions and electrons have temperatures of one ratio", is_torus },

@@ -5,7 +5,7 @@
 
 static bool present(const struct kd_scene *scene)
 {
-    return scene->polarization.model != KD_POLARIZATION_NONE && kd_emit_at_crossings(scene);
+    return scene->polarization.model != KD_POLARIZATION_NONE && scene->polarization.model != KD_POLARIZATION_TRANSFER && kd_emit_at_crossings(scene);
 }
 
 static bool scatters(const struct kd_scene *scene) { return scene->polarization.model == KD_POLARIZATION_SCATTERING; }

@@ -32,6 +32,7 @@ static const char *const fates[] = { "sky", "hole", "?" };
 #define SHOWN_optical_depth .unit = "", .map = KD_MAP_SEQUENTIAL, .scale = { 0, NAN, false }
 #define SHOWN_stokes_q .unit = "", .map = KD_MAP_DIVERGING, .scale = { NAN, NAN, false }
 #define SHOWN_stokes_u .unit = "", .map = KD_MAP_DIVERGING, .scale = { NAN, NAN, false }
+#define SHOWN_stokes_v .unit = "", .map = KD_MAP_DIVERGING, .scale = { NAN, NAN, false }
 #define SHOWN_evpa .unit = "rad", .map = KD_MAP_CYCLIC, .scale = { -PI / 2, PI / 2, false }
 #define SHOWN_polarization_fraction .unit = "", .map = KD_MAP_SEQUENTIAL, .scale = { 0, NAN, false }
 #define SHOWN_footprint .unit = "M", .map = KD_MAP_SEQUENTIAL, .scale = { NAN, NAN, true }
@@ -78,6 +79,8 @@ static enum kd_status check_one(const struct kd_scene *scene, struct kd_plan_lay
                               name, (int)strlen(kd_layer_kinds[layer.kind].name), name);
     if (kd_layer_is_polarized(layer.kind) && scene->polarization.model == KD_POLARIZATION_NONE)
         return kd_error_field(error, "/image/layers", "image.layers holds %s with polarization.model \"none\", where no light is polarised: allowed are the other words of it", name);
+    if (layer.kind == KD_LAYER_stokes_v && scene->polarization.model != KD_POLARIZATION_TRANSFER)
+        return kd_error_field(error, "/image/layers", "image.layers holds stokes_v, allowed with polarization.model \"transfer\": other light is not polarised circularly");
     if (kd_layer_is_polarized(layer.kind) && scene->camera.projection == KD_PROJECTION_RING)
         return kd_error_field(error, "/image/layers", "image.layers holds %s with camera.projection \"ring\", where a picture has no up: allowed are the others", name);
     if ((layer.kind == KD_LAYER_brightness_temperature || layer.kind == KD_LAYER_specific_intensity) && !kd_scene_is_radio_alone(scene))

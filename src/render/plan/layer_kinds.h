@@ -33,7 +33,7 @@ extern const struct kd_layer_kind kd_layer_kinds[KD_LAYER_COUNT];
 /* Says whether it is of the polarisation of light. */
 static inline bool kd_layer_is_polarized(int kind)
 {
-    return kind == KD_LAYER_stokes_q || kind == KD_LAYER_stokes_u || kind == KD_LAYER_evpa || kind == KD_LAYER_polarization_fraction;
+    return kind == KD_LAYER_stokes_q || kind == KD_LAYER_stokes_u || kind == KD_LAYER_evpa || kind == KD_LAYER_polarization_fraction || kind == KD_LAYER_stokes_v;
 }
 
 /* One that a plan has. order: its image order, -1: that of the first crossing on the disk. */

@@ -276,7 +276,7 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
         plan.march = kd_march_of(scene, &plan.setting);
     plan.layer_words = 1;
     for (size_t i = 0; i < plan.n_layers && plan.march.steps; i++)
-        plan.layer_words = kd_layer_is_polarized(plan.layers[i].kind) ? 3 : plan.layer_words;
+        plan.layer_words = kd_layer_is_polarized(plan.layers[i].kind) ? 4 : plan.layer_words;
     if (needs->sketch && kd_emit_along(scene))
         plan.march = kd_march_sketch(plan.march, scene);
     plan.planes = kd_lens_planes(plan.quantities, plan.orders);
