@@ -49,6 +49,7 @@ export const values = {
   'shakura-sunyaev': 'Shakura–Sunyaev',
   synchrotron: 'sincrotrone',
   scattering: 'diffusione da elettroni',
+  transfer: 'trasporto con Stokes',
   toroidal: 'toroidale',
   radial: 'radiale',
   vertical: 'verticale',
