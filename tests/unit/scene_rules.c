@@ -15,6 +15,14 @@ struct rule {
  * a = 0. */
 static const struct rule rules[] = {
     { "{\"image\":{\"bit_depth\":8}}", NULL, NULL },
+    { "{\"polarization\":{\"model\":\"transfer\"}}", "/polarization/model", "allowed where volume.model has electrons in a magnetic field" },
+    { "{\"disk\":{\"model\":\"none\"},\"volume\":{\"model\":\"riaf\"},\"polarization\":{\"model\":\"transfer\"}}", NULL, NULL },
+    { "{\"disk\":{\"model\":\"none\"},\"volume\":{\"model\":\"gold\"},\"polarization\":{\"model\":\"transfer\"}}", "/polarization/model", "\"riaf\"" },
+    { "{\"disk\":{\"model\":\"none\"},\"volume\":{\"model\":\"riaf\",\"electrons\":\"kappa\"},\"polarization\":{\"model\":\"transfer\"}}", "/polarization/model",
+      "\"thermal\" or \"power-law\"" },
+    { "{\"volume\":{\"model\":\"riaf\"},\"polarization\":{\"model\":\"transfer\"}}", "/polarization/model", "nothing but the volume shines" },
+    { "{\"disk\":{\"model\":\"none\"},\"volume\":{\"model\":\"riaf\"},\"polarization\":{\"model\":\"transfer\"},\"camera\":{\"projection\":\"ring\"}}", "/polarization/model",
+      "where a picture has no up" },
     { "{\"image\":{\"bit_depth\":16}}", NULL, NULL },
     { "{\"image\":{\"bit_depth\":12}}", "/image/bit_depth",
       "image.bit_depth is 12, allowed are 8 and 16 bits" },
