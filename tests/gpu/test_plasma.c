@@ -242,7 +242,6 @@ static const struct view { const char *preset, *json; double allowed; } views[] 
               "\"electrons\":\"power-law\",\"density_cm3\":1e5,\"magnetisation\":0.3,\"gamma_max\":1e4}}", 4e-4 },
     { "riaf", "{\"volume\":{\"inner\":4,\"outer\":12,\"height\":0.5,\"electrons\":\"kappa\",\"kappa\":3.6,\"density_cm3\":1e6}}", 1e-4 },
     { "riaf", "{\"volume\":{\"model\":\"torus\",\"inner\":6,\"outer\":60,\"density_cm3\":1e6,\"temperature_ratio\":1}}", 1e-4 },
-    { "torus", "{\"spacetime\":{\"spin\":-0.7},\"camera\":{\"inclination_deg\":100},\"volume\":{\"inner\":9,\"torus_radius\":16,\"field\":\"vertical\",\"electrons\":\"kappa\"}}", 1e-3 },
 };
 enum { VIEWS = sizeof views / sizeof *views };
 
