@@ -392,6 +392,8 @@ export const presets = {}; // of the playground (it-playground.js); of scenes: c
 
 // What is refused, and seen, by the shape of the sentence; {} stands for a value with its unit, {…} for a list.
 const refusals = [
+  ['{} is {}, allowed are radii outside the horizon, r = {}', '{} è {}, ammessi sono raggi fuori dall’orizzonte, r = {}'],
+  ['{} is {}, where there is no observer {}; allowed there are {…}', '{} è {}, dove non c’è un osservatore {}; ammessi lì sono {…}'],
   ['{} is {}, allowed is 0 but in the plane and pinhole projections: in the others pixels are not of one angle', '{} è {}, ammesso è 0 tranne che nelle proiezioni piana e stenopeica: nelle altre i pixel non hanno tutti lo stesso angolo'],
   [
     '{} is {}, allowed are up to {}, {} times the width of the picture at this spacetime.mass_msun and spacetime.distance_pc',
@@ -787,6 +789,8 @@ export const sentences = {
   'rays: followed in Kerr-Schild coordinates for comparison; docs/accuracy.md says how much that costs':
     'raggi: seguiti in coordinate di Kerr–Schild per confronto; docs/accuracy.md dice quanto costa',
   'the server is stopping and takes no new sessions': 'il server si sta fermando e non apre nuove sessioni',
+  'the direct image of the path alone: those that have gone round the hole are not told':
+    'la sola immagine diretta del percorso: quelle che hanno girato attorno al buco non ci sono',
   'a test particle: it has no mass of its own, radiates nothing and is not torn':
     'una particella di prova: non ha massa propria, non irradia e non si spezza',
 };

@@ -25,3 +25,24 @@ export const specs = [
   { name: 'periods', unit: '', value: 12, min: 1, max: 200, step: 1 },
   { name: 'method', value: 'yoshida6', choices: ['yoshida6', 'rkn6', 'closed'] },
 ];
+
+const shapes = {
+  [own]: v => ({ p: Number(v.p), e: Number(v.e), inclination_deg: Number(v.inclination_deg) }),
+  [integrals]: v => ({ energy: Number(v.energy), angular_momentum: Number(v.angular_momentum), carter: Number(v.carter) }),
+  [thrown]: v => ({ position: { r: Number(v.r), phi_deg: Number(v.phi_deg) }, velocity: { v_r: Number(v.v_r), v_theta: 0, v_phi: Number(v.v_phi) } }),
+};
+
+// What goes into no periods.
+export const ends = v => v.orbit === 'plunge';
+
+// The document that the server is asked for, by the values of the fields.
+export function requested(v) {
+  const shape = shapes[v.orbit];
+  return {
+    ...(shape ? { spin: Number(v.spin) } : {}),
+    method: v.method,
+    ...(v.orbit === thrown || v.orbit === integrals ? { r_max: 400 } : {}),
+    ...(ends(v) ? {} : { duration: { periods: Number(v.periods) } }),
+    orbit: shape ? shape(v) : { case: v.orbit },
+  };
+}

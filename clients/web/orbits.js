@@ -6,7 +6,7 @@ import { byId, el, still } from './dom.js';
 import { buildForm } from './form.js';
 import { number, t, tell, word } from './i18n.js';
 import * as link from './link.js';
-import { integrals, own, specs, thrown } from './orbit-fields.js';
+import { ends, integrals, own, requested, specs, thrown } from './orbit-fields.js';
 import { buildPicture, smooth } from './orbit-picture.js';
 import { plot } from './plot.js';
 import { drawn, physics, postJson } from './server.js';
@@ -109,6 +109,11 @@ export async function openOrbits() {
     if (began) ((last = performance.now()), begin());
   }
   play.addEventListener('click', () => run(!running));
+  // The lines over the picture of the Lensing view follow what the fields say (orbit-lensed.js); its hole spins as this one does.
+  byId('orbit-show').addEventListener('click', () => {
+    document.querySelector('nav [data-view=lensing]').click();
+    document.dispatchEvent(new CustomEvent('showorbit', { detail: constants?.spin }));
+  });
   label();
 
   // Samples for a smooth path: each has 90 bytes on the wire. How often it goes round is known once there is one.
@@ -150,11 +155,6 @@ export async function openOrbits() {
     run(true);
   }
 
-  const shapes = {
-    [own]: v => ({ p: Number(v.p), e: Number(v.e), inclination_deg: Number(v.inclination_deg) }),
-    [integrals]: v => ({ energy: Number(v.energy), angular_momentum: Number(v.angular_momentum), carter: Number(v.carter) }),
-    [thrown]: v => ({ position: { r: Number(v.r), phi_deg: Number(v.phi_deg) }, velocity: { v_r: Number(v.v_r), v_theta: 0, v_phi: Number(v.v_phi) } }),
-  };
   const fields = { [own]: ['spin', 'p', 'e', 'inclination_deg'], [integrals]: ['spin', 'energy', 'angular_momentum', 'carter'], [thrown]: ['spin', 'r', 'phi_deg', 'v_r', 'v_phi'] };
 
   // Who turns to the integrals of motion begins with those of the orbit that is shown.
@@ -173,19 +173,13 @@ export async function openOrbits() {
   }
 
   async function follows() {
-    const v = take(form.values()),
-      ends = v.orbit === 'plunge', // in no periods
-      shape = shapes[v.orbit];
+    const v = take(form.values());
     for (const name of new Set(Object.values(fields).flat())) form.input(name).closest('.field').hidden = !fields[v.orbit]?.includes(name);
-    form.input('periods').closest('.field').hidden = ends;
+    form.input('periods').closest('.field').hidden = ends(v);
     const asked = {
-      ...(shape ? { spin: Number(v.spin) } : {}),
+      ...requested(v),
       samples: Math.min(Math.max(36 * Number(v.periods), 400), 3000),
       digits: 7, // a path is drawn over some thousand pixels
-      method: v.method,
-      ...(v.orbit === thrown || v.orbit === integrals ? { r_max: 400 } : {}),
-      ...(ends ? {} : { duration: { periods: Number(v.periods) } }),
-      orbit: shape ? shape(v) : { case: v.orbit },
     };
     let said = '';
     const answer = await follow(asked).catch(async error => {

@@ -177,6 +177,7 @@ async function names(scene) {
 }
 
 const measured = async (scene, look) => (await import('./measured.js')).ring(scene, look, path);
+const orbit = async (scene, look, stage) => (await import('./orbit-lensed.js')).orbit(scene, look, path, stage.clientWidth);
 const curved = async (scene, look) => (await import('./flamm.js')).flamm(scene, look, path);
 async function polarization(scene, look, stage) {
   return (await import('./ticks.js')).ticks(scene, stage.clientWidth, stage.clientHeight);
@@ -191,6 +192,7 @@ const overlays = [
   ['polarization', polarization, 'Polarisation, by ticks', 'Polarizzazione, con trattini'],
   ['names', names, 'Names of the brightest stars', 'Nomi delle stelle più brillanti'],
   ['ring', measured, 'Ring as the EHT measured it', 'Anello misurato dall’EHT'],
+  ['orbit', orbit, 'Orbit of the Orbits view, lensed', 'Orbita della vista Orbite, deviata dalla lente'],
   ['flamm', curved, 'Curved space (Flamm) and its twist', 'Spazio curvo (Flamm) e sua torsione'],
 ];
 
@@ -271,6 +273,12 @@ export function buildOverlays(root, stage, scene) {
       ),
     );
   }
+  document.addEventListener('showorbit', ({ detail: spin }) => {
+    const box = boxes.get('orbit');
+    box.checked = true;
+    box.dispatchEvent(new Event('change'));
+    if (spin != null && spin !== scene.get('spacetime.spin')) scene.change({ 'spacetime.spin': spin });
+  });
   scene.addEventListener('change', () => layer.classList.add('late')); // until the picture has come to rest
   scene.addEventListener('tick', () => scene.get('motion.proper_time_rate') && layer.replaceChildren()); // of another place
   // Axes belong to a coarse picture, too.

@@ -40,6 +40,10 @@ static const struct {
     { "steps", "N", "per radial period, instead of a tolerance" },
     { "tolerance", "X", "relative error after a period that chooses the step (1e-12)" },
     { "r_max", "R", "where what escapes is let go (100)" },
+    { "observer_inclination_deg", "I", "where each sample is seen, by whom: inclination," },
+    { "observer_r", "R", "radius (infinity)," },
+    { "observer_azimuth_deg", "F", "azimuth (0)" },
+    { "observer", "NAME", "and state of motion: static (the default), zamo, keplerian, retrograde or infall" },
     { "mass_msun", "M", "mass of the hole: frequencies in Hz, advance per century" },
 };
 #define N_FIELDS (sizeof fields / sizeof *fields)

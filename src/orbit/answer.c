@@ -10,14 +10,18 @@
 #define SUN_S 4.925490947e-6 /* GM/c^3 of the Sun, IAU 2015 nominal */
 #define CENTURY_S (36525 * 86400.)
 
-enum { COLUMNS = 10, SUMMARY = 15 };
+enum { PLAIN = 10, COLUMNS = 17, SUMMARY = 15 }; /* columns of an orbit that nobody looks at, and of one that is seen */
 
-static const char *const columns[COLUMNS] = { "mino", "tau_proper", "t", "r", "theta", "phi", "x", "y", "z", "energy_error" };
+static const char *const columns[COLUMNS] = { "mino", "tau_proper", "t", "r", "theta", "phi", "x", "y", "z", "energy_error",
+                                            "alpha", "beta", "right", "up", "inwards", "delay", "off" };
+
+static int count_of(const struct kd_orbit_params *params) { return kd_orbit_is_seen(params) ? COLUMNS : PLAIN; }
 
 static void columns_of(const struct kd_orbit_sample *s, double to[COLUMNS])
 {
     const double all[COLUMNS] = { s->place.mino, s->place.proper, s->place.t, s->place.r, s->place.theta, s->place.phi, s->x, s->y,
-                                  s->z,          s->energy_error };
+                                  s->z,          s->energy_error,
+                                  s->image.alpha, s->image.beta, s->image.look.right, s->image.look.up, s->image.look.inwards, s->image.delay, s->image.off };
     memcpy(to, all, sizeof all);
 }
 
@@ -70,6 +74,7 @@ const char *kd_orbit_approximation(const struct kd_orbit_run *run, size_t index)
         "a test particle: it has no mass of its own, radiates nothing and is not torn",
         run->orbit.fate == KD_ORBIT_PLUNGE ? "Boyer-Lindquist t and phi grow without bound towards the horizon, where a path ends"
                                            : NULL,
+        kd_orbit_is_seen(run->params) ? "the direct image of the path alone: those that have gone round the hole are not told" : NULL,
     };
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         if (all[i] && !index--)
@@ -223,10 +228,10 @@ static void result(struct text *t, const struct kd_orbit_run *run)
     put(t, "]");
 }
 
-static void column_names(struct text *t)
+static void column_names(struct text *t, int n)
 {
     put(t, "\"columns\":[");
-    for (int i = 0; i < COLUMNS; i++) {
+    for (int i = 0; i < n; i++) {
         put(t, i ? ",\"" : "\"");
         put(t, columns[i]);
         put(t, "\"");
@@ -234,12 +239,12 @@ static void column_names(struct text *t)
     put(t, "]");
 }
 
-static void json_row(struct text *t, const struct kd_orbit_sample *sample, bool first)
+static void json_row(struct text *t, const struct kd_orbit_sample *sample, int n, bool first)
 {
     double values[COLUMNS];
     columns_of(sample, values);
     put(t, first ? "[" : ",[");
-    for (int i = 0; i < COLUMNS; i++) {
+    for (int i = 0; i < n; i++) {
         put(t, i ? "," : "");
         number(t, values[i], "null");
     }
@@ -297,7 +302,7 @@ enum kd_status kd_orbit_answer_begin(const struct kd_orbit_run *run, enum kd_orb
         head(&t, run);
         if (run->samples) {
             put(&t, ",\"series\":{");
-            column_names(&t);
+            column_names(&t, count_of(run->params));
             put(&t, ",\"rows\":[");
         }
         break;
@@ -305,11 +310,11 @@ enum kd_status kd_orbit_answer_begin(const struct kd_orbit_run *run, enum kd_orb
         put(&t, "{\"head\":{");
         head(&t, run);
         put(&t, "}}\n{");
-        column_names(&t);
+        column_names(&t, count_of(run->params));
         put(&t, "}\n");
         break;
-    case KD_ORBIT_CSV: csv_names(&t, columns, COLUMNS); break;
-    case KD_ORBIT_NPY: npy_head(&t, columns, COLUMNS, run->samples, 0); break;
+    case KD_ORBIT_CSV: csv_names(&t, columns, count_of(run->params)); break;
+    case KD_ORBIT_NPY: npy_head(&t, columns, count_of(run->params), run->samples, 0); break;
     }
     return t.status;
 }
@@ -324,10 +329,10 @@ enum kd_status kd_orbit_answer_samples(const struct kd_orbit_params *params, enu
     for (size_t i = 0; i < n && !t.status; i++) {
         columns_of(&samples[i], values);
         switch (format) {
-        case KD_ORBIT_JSON: json_row(&t, &samples[i], !(first + i)); break;
-        case KD_ORBIT_NDJSON: json_row(&t, &samples[i], !i); break;
-        case KD_ORBIT_CSV: csv_row(&t, values, COLUMNS); break;
-        case KD_ORBIT_NPY: bytes(&t, values, COLUMNS); break;
+        case KD_ORBIT_JSON: json_row(&t, &samples[i], count_of(params), !(first + i)); break;
+        case KD_ORBIT_NDJSON: json_row(&t, &samples[i], count_of(params), !i); break;
+        case KD_ORBIT_CSV: csv_row(&t, values, count_of(params)); break;
+        case KD_ORBIT_NPY: bytes(&t, values, count_of(params)); break;
         }
     }
     if (format == KD_ORBIT_NDJSON)
@@ -410,7 +415,7 @@ enum kd_status kd_orbit_answer_many(const struct kd_orbit_run *runs, size_t n, c
         return t.status;
     }
     const char *const *names = samples ? columns : summary_names;
-    int count = samples ? COLUMNS : SUMMARY;
+    int count = samples ? PLAIN : SUMMARY; /* nobody looks at many */
     if (format == KD_ORBIT_NPY)
         npy_head(&t, names, count, n, samples ? runs->samples : 0);
     else

@@ -25,7 +25,8 @@ static const char *const form_texts[KD_ORBIT_FORMS] = {
 void kd_orbit_request_init(struct kd_orbit_request *request)
 {
     *request = (struct kd_orbit_request) {
-        .params = { .spin = NAN, .periods = NAN, .time = NAN, .r_max = 100, .tolerance = 1e-12, .mass_msun = NAN, .samples = 1000, .digits = KD_DECIMAL_DIGITS }
+        .params = { .spin = NAN, .periods = NAN, .time = NAN, .r_max = 100, .tolerance = 1e-12, .mass_msun = NAN, .samples = 1000, .digits = KD_DECIMAL_DIGITS,
+                    .seen = { INFINITY, NAN, 0, KD_OBSERVER_STATIC } }
     };
 }
 
@@ -295,6 +296,12 @@ enum kd_status kd_orbit_request_check(const struct kd_orbit_request *request, st
     }
     if (!isnan(p->periods) && !isnan(p->time))
         return kd_error_field(error, "/duration", "duration is given as periods and as time: allowed is one of them");
+    if (!kd_orbit_is_seen(p) && (isfinite(p->seen.r) || p->seen.azimuth_deg != 0 || p->seen.motion != KD_OBSERVER_STATIC))
+        return kd_error_field(error, "/seen/observer_inclination_deg", "observer_inclination_deg is missing: whence the orbit is seen");
+    if (kd_orbit_is_seen(p) && request->many)
+        return kd_error_field(error, "/seen", "seen belongs to one orbit, and there is a list of %zu", request->n);
+    if (kd_orbit_is_seen(p) && p->samples > KD_ORBIT_SEEN_MAX)
+        return kd_error_field(error, "/samples", "samples is %u, allowed are up to %u of an orbit that is seen", p->samples, KD_ORBIT_SEEN_MAX);
     if (p->samples == 1)
         return kd_error_field(error, "/samples",
                               "samples is 1, allowed are 0 for none and 2 or more: both ends of the path are samples");

@@ -1,7 +1,7 @@
 /* This reads from outside what is asked of the orbit integrator: a JSON document, or fields by name. Any thread.
  *
  *     {"spin": 0.9, "orbit": {"p": 6, "e": 0.5, "inclination_deg": 30}, "duration": {"periods": 10}, "samples": 1000,
- *      "method": "yoshida6", "tolerance": 1e-12}
+ *      "method": "yoshida6", "tolerance": 1e-12, "seen": {"observer_r": 30, "observer_inclination_deg": 60}}
  *
  * An orbit is one of
  *
@@ -25,6 +25,7 @@
 #define KD_ORBITS_MAX 10000u
 #define KD_ORBIT_BODY_MAX ((size_t)4 << 20) /* bytes of a document */
 #define KD_ORBIT_SAMPLES_MAX 200000u        /* of one orbit; of all together where there are many */
+#define KD_ORBIT_SEEN_MAX 3000u             /* samples of one that is seen: each takes some milliseconds */
 #define KD_ORBIT_ROUNDING_MAX 1e-3
 #define KD_ORBIT_STEPS_MAX 1000000000.      /* of one orbit: five minutes */
 
@@ -58,7 +59,12 @@ struct kd_orbit_params {
     uint32_t digits;      /* significant, of the series' numbers as text */
     enum kd_orbit_way way;
     bool series; /* of many orbits */
+    struct kd_orbit_observer {
+        double r, inclination_deg, azimuth_deg; /* inclination_deg: NAN: nobody looks */
+        enum kd_observer motion;
+    } seen; /* by whom */
 };
+static inline bool kd_orbit_is_seen(const struct kd_orbit_params *params) { return params->seen.inclination_deg == params->seen.inclination_deg; }
 
 struct kd_orbit_request {
     struct kd_orbit_params params;

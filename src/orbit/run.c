@@ -2,6 +2,7 @@
 
 #include "orbit/cases.h"
 #include "orbit/step.h"
+#include "physics/angle.h"
 #include "physics/kerr.h"
 
 #include <math.h>
@@ -13,6 +14,23 @@ const char *kd_orbit_end_name(enum kd_orbit_end end)
 {
     static const char *const names[] = { "duration", "horizon", "r_max" };
     return names[end];
+}
+
+/* Who looks must be somewhere. */
+static enum kd_status look(struct kd_orbit_run *run, struct kd_error *error)
+{
+    const struct kd_orbit_observer *o = &run->params->seen;
+    const struct kd_vantage at = { run->orbit.a, o->r, kd_cos_deg(o->inclination_deg), kd_sin_deg(o->inclination_deg) };
+    const struct kd_observer_motion motion = kd_observer_motion_of(o->motion);
+    char others[KD_OBSERVER_TEXT];
+    run->image = (struct kd_place_image) { .off = NAN };
+    if (isfinite(o->r) && !(o->r > kd_kerr_horizon(run->orbit.a)))
+        return kd_error_field(error, "/seen/observer_r", "observer_r is %.9g, allowed are radii outside the horizon, r = %.9g", o->r, kd_kerr_horizon(run->orbit.a));
+    if (isfinite(o->r) && !kd_observer_exists(o->motion, &at))
+        return kd_error_field(error, "/seen/observer_r", "observer_r is %.9g, where there is no observer %s; allowed there are %s", o->r, kd_observers[o->motion].word,
+                              kd_observer_others(&at, others));
+    run->view = kd_place_view_of(&motion, &at);
+    return KD_OK;
 }
 
 enum kd_status kd_orbit_run_init(struct kd_orbit_run *run, const struct kd_orbit_request *request, size_t index,
@@ -30,6 +48,8 @@ enum kd_status kd_orbit_run_init(struct kd_orbit_run *run, const struct kd_orbit
     run->samples = request->many && !request->params.series ? 0 : request->params.samples;
     run->closed = run->orbit.fate == KD_ORBIT_BOUND;
     run->period = NAN;
+    if (kd_orbit_is_seen(run->params) && (status = look(run, error)))
+        return status;
     if (run->closed) {
         run->bound = kd_orbit_bound_of(&run->orbit, &run->start);
         run->frequencies = kd_orbit_frequencies_of(&run->bound);
@@ -231,15 +251,20 @@ enum kd_status kd_orbit_run_prepare(struct kd_orbit_run *const *runs, size_t n, 
     return status;
 }
 
-static struct kd_orbit_sample sample_of(const struct kd_orbit_run *run, struct kd_orbit_place place, double energy_error)
+static struct kd_orbit_sample sample_of(struct kd_orbit_run *run, struct kd_orbit_place place, double energy_error)
 {
     double a = run->orbit.a, across = sqrt(place.r * place.r + a * a) * sin(place.theta);
     place.phi += run->phi;
+    if (kd_orbit_is_seen(run->params)) {
+        const struct kd_place_image before = run->image;
+        kd_place_image_seen(&run->view, place.r, cos(place.theta), place.phi - run->params->seen.azimuth_deg * (M_PI / 180), &before, &run->image);
+    }
     return (struct kd_orbit_sample) { .place = place,
                                       .x = across * cos(place.phi),
                                       .y = across * sin(place.phi),
                                       .z = place.r * cos(place.theta),
-                                      .energy_error = energy_error };
+                                      .energy_error = energy_error,
+                                      .image = run->image };
 }
 
 static void take_worst(struct kd_orbit_drift *worst, struct kd_orbit_drift now)

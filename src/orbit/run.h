@@ -4,11 +4,13 @@
 
 #include "orbit/request.h"
 #include "physics/orbit_lanes.h"
+#include "physics/place_image.h"
 
 struct kd_orbit_sample {
     struct kd_orbit_place place; /* t and phi NAN at the horizon */
     double x, y, z;              /* sqrt(r^2 + a^2) sin theta (cos phi, sin phi), r cos theta */
     double energy_error;         /* relative; NAN in closed form */
+    struct kd_place_image image; /* as it is seen; NAN where there is none, or nobody looks */
 };
 
 enum kd_orbit_end { KD_END_DURATION, KD_END_HORIZON, KD_END_FAR };
@@ -39,6 +41,8 @@ struct kd_orbit_run {
     struct kd_orbit_drift worst; /* absolute values */
     uint64_t periastra;
     double first_phi, last_phi; /* azimuth at periastra */
+    struct kd_place_view view;    /* of who looks */
+    struct kd_place_image image;  /* of the latest sample */
 };
 
 /* params must outlive the run. KD_EINVAL as kd_orbit_request_solve. */

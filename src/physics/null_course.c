@@ -25,6 +25,7 @@ struct course {
     double edge;         /* what was taken out of the time, at the start */
     double first;        /* 1/r from where on there are places */
     struct state now;
+    double mino;
     int order;
     struct kd_null_place *out;
     size_t most;
@@ -134,7 +135,7 @@ static bool put(struct course *c, const struct state *s, int crossing)
     if (c->to->n == c->most)
         return false;
     c->out[c->to->n++] = (struct kd_null_place) {
-        .r = 1 / s->y[W], .u = fmax(-1, fmin(1, s->y[NZ])), .phi = 0 - (c->psi + s->y[CHI]), .delay = s->y[T] + edge(c, s) - c->edge,
+        .mino = c->mino, .r = 1 / s->y[W], .u = fmax(-1, fmin(1, s->y[NZ])), .phi = 0 - (c->psi + s->y[CHI]), .delay = s->y[T] + edge(c, s) - c->edge,
         .order = c->order, .crossing = crossing,
     };
     return true;
@@ -202,8 +203,11 @@ static bool go(struct course *c, double h)
         h = POLE * left / speed;
     struct state next = step(c, &c->now, h);
     const bool crosses = y[NZ] != 0 && (next.y[NZ] == 0 || (next.y[NZ] < 0) != (y[NZ] < 0));
-    if (crosses)
-        next = step(c, &c->now, part_of(c, &c->now, h, NZ, 0));
+    if (crosses) {
+        h = part_of(c, &c->now, h, NZ, 0);
+        next = step(c, &c->now, h);
+    }
+    c->mino += h;
     take_way(c, &next);
     c->now = next;
     turn(c, &next);
@@ -233,7 +237,7 @@ static void run(struct course *c, double near)
     bool room = begun > 0 ? put(c, &c->now, -1) : true;
     for (size_t i = 1; room; i++) {
         const struct state before = c->now;
-        const double way = c->way, h = length_of(c);
+        const double way = c->way, h = length_of(c), begun_at = c->mino;
         room = go(c, h);
         to->steps = i;
         const double w = c->now.y[W], dw = c->now.y[DW];
@@ -245,7 +249,9 @@ static void run(struct course *c, double near)
             to->end = KD_COURSE_ESCAPED;
             if (before.y[W] > c->first && room) {
                 c->way = way;
-                c->now = step(c, &before, part_of(c, &before, h, W, c->first));
+                const double part = part_of(c, &before, h, W, c->first);
+                c->now = step(c, &before, part);
+                c->mino = begun_at + part;
                 turn(c, &c->now);
                 put(c, &c->now, -1);
             }

@@ -24,9 +24,9 @@
 
 #include <stddef.h>
 
-/* phi and delay as in null_geodesic.h; order: how many crossings lie between it and the observer; crossing: of the plane, and which one, or -1. */
+/* mino: Mino time since the observer; phi and delay as in null_geodesic.h; order: how many crossings lie between it and the observer; crossing: of the plane, and which one, or -1. */
 struct kd_null_place {
-    double r, u, phi, delay;
+    double mino, r, u, phi, delay;
     int order, crossing;
 };
 

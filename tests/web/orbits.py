@@ -1,5 +1,5 @@
 """The view of orbits: orbits.py KERRD FOLDER (browser.py)."""
-from browser import Browser, main, value
+from browser import READY, SMOOTH, Browser, main, value
 import daemon
 
 
@@ -128,6 +128,42 @@ class Orbits(Browser):
         page.keyboard.press('Tab')
         page.wait_for_selector('#orbit-facts >> text=plunge')
         self.assertEqual(page.inner_text('#orbit-fault'), '')
+
+    def test_it_is_shown_in_the_picture(self):
+        """A circle in the plane of the disk is where the overlay of the disk's own circles has it; it follows the camera, and can be switched off."""
+        view = f'lang=en&{SMOOTH}&spacetime.spin=0.5&disk.inner=9&orbit.spin=0.5&orbit.p=9&orbit.e=0&orbit.inclination_deg=0'
+        page = self.open(view + '&view=orbits', READY['orbits'])
+        page.wait_for_selector('#over-orbit', state='attached')
+        page.click('#orbit-show')
+        page.wait_for_selector('#lensing:not([hidden]) #overlay .over-orbit path', state='attached')
+        page.wait_for_selector('#overlay .over-orbit .tag', state='attached')
+        self.linked(page, 'over=orbit')
+        self.assertRegex(page.text_content('#over-orbit-words'), r'p = 9 M.*within .* M of its ray')
+        page.evaluate('() => document.getElementById("over-orders").click()')
+        page.wait_for_selector('#overlay .over-orders path', state='attached')
+        self.assertLess(self.apart(page), 0.5)
+        self.shot(page, 'orbit-lensed')
+        before = page.get_attribute('#overlay .over-orbit path', 'd')
+        page.focus('#stage')
+        page.keyboard.press('Shift+ArrowUp')
+        self.assertTrue(daemon.eventually(lambda: page.locator('#overlay .over-orbit path').count() and page.get_attribute('#overlay .over-orbit path', 'd') != before))
+        page.wait_for_selector('#overlay:not(.late) .over-orders path', state='attached')
+        self.assertLess(self.apart(page), 0.5)
+        page.evaluate('() => document.getElementById("over-orbit").click()')
+        self.assertTrue(daemon.eventually(lambda: not page.locator('#overlay .over-orbit').count()))
+        page = self.open('lang=it&over=orbit&orbit.inclination_deg=40&camera.r=30&camera.fov_deg=60')
+        page.wait_for_selector('#overlay .over-orbit path', state='attached')
+        self.assertTrue(daemon.eventually(lambda: 'immagine diretta' in page.text_content('#over-orbit-words')))
+        self.shot(page, 'orbit-lensed-inclined')
+
+    def apart(self, page):
+        """How far the points of the orbit are from the first line of the orders, in pixels, at worst."""
+        return page.evaluate('''() => {
+            const points = node => [...node.getAttribute('d').matchAll(/[ML]([-\\d.]+) ([-\\d.]+)/g)].map(([, x, y]) => [Number(x), Number(y)]),
+                orbit = points(document.querySelector('#overlay .over-orbit path')), line = points(document.querySelector('#overlay .over-orders path'));
+            const to = ([x, y], [a, b], [c, d]) => { const l = (c - a) ** 2 + (d - b) ** 2, s = l ? Math.min(Math.max(((x - a) * (c - a) + (y - b) * (d - b)) / l, 0), 1) : 0; return Math.hypot(x - a - s * (c - a), y - b - s * (d - b)); };
+            return orbit.length > 100 ? Math.max(...orbit.map(p => Math.min(...line.slice(1).map((q, i) => to(p, line[i], q))))) : NaN;
+        }''')
 
     def test_p_goes_by_factors(self):
         page = self.open('lang=en&view=orbits', '#orbit-picture .front')
