@@ -47,7 +47,7 @@ export async function orbit(scene, look, path, width) {
   const points = alpha.map((_, i) => (off[i] == null ? null : far ? look.plane(alpha[i], beta[i]) : look.direction(inwards[i], right[i], up[i]))),
     whole = points.flatMap((point, i) => (i && point && points[i - 1] && Math.hypot(point[0] - points[i - 1][0], point[1] - points[i - 1][1]) > torn * width ? [null, point] : [point])),
     lost = off.filter(miss => miss == null).length,
-    worst = Math.max(...off.map(miss => miss ?? 0)),
+    worst = Math.max(0, ...off.map(miss => miss ?? 0)),
     name = shape ? `p = ${number(shape.p)} M, e = ${number(shape.e)}, ${number(shape.inclination_deg)}°, a = ${number(spin)} M` : `a = ${number(spin)} M`;
   return {
     lines: [path(whole)],

@@ -8,6 +8,8 @@
 #include <math.h>
 
 #define DEFAULT_PERIODS 10
+#define SEARCHES 3      /* samples in a row without an image, after which one is searched for */
+#define SEARCH_EVERY 64 /* samples only */
 #define HALVINGS 6 /* of the step in search of an end: each gains a factor of 64, from some 1e-10 to rounding */
 
 const char *kd_orbit_end_name(enum kd_orbit_end end)
@@ -253,18 +255,23 @@ enum kd_status kd_orbit_run_prepare(struct kd_orbit_run *const *runs, size_t n, 
 
 static struct kd_orbit_sample sample_of(struct kd_orbit_run *run, struct kd_orbit_place place, double energy_error)
 {
+    struct kd_place_image image = { NAN, NAN, false, { NAN, NAN, NAN, NAN }, NAN, NAN, { NAN, NAN } };
     double a = run->orbit.a, across = sqrt(place.r * place.r + a * a) * sin(place.theta);
     place.phi += run->phi;
     if (kd_orbit_is_seen(run->params)) {
-        const struct kd_place_image before = run->image;
-        kd_place_image_seen(&run->view, place.r, cos(place.theta), place.phi - run->params->seen.azimuth_deg * (M_PI / 180), &before, &run->image);
+        const double from = run->params->seen.azimuth_deg * (M_PI / 180);
+        const bool searches = run->missed < SEARCHES || run->missed % SEARCH_EVERY == 0;
+        const bool found = kd_place_image_seen(&run->view, place.r, cos(place.theta), place.phi - from, &run->image, searches, &image);
+        run->missed = found ? 0 : run->missed + 1;
+        if (found)
+            run->image = image;
     }
     return (struct kd_orbit_sample) { .place = place,
                                       .x = across * cos(place.phi),
                                       .y = across * sin(place.phi),
                                       .z = place.r * cos(place.theta),
                                       .energy_error = energy_error,
-                                      .image = run->image };
+                                      .image = image };
 }
 
 static void take_worst(struct kd_orbit_drift *worst, struct kd_orbit_drift now)

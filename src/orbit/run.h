@@ -42,7 +42,8 @@ struct kd_orbit_run {
     uint64_t periastra;
     double first_phi, last_phi; /* azimuth at periastra */
     struct kd_place_view view;    /* of who looks */
-    struct kd_place_image image;  /* of the latest sample */
+    struct kd_place_image image;  /* the latest that was found */
+    unsigned missed;              /* samples since then */
 };
 
 /* params must outlive the run. KD_EINVAL as kd_orbit_request_solve. */

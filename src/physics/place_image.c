@@ -284,7 +284,8 @@ struct kd_place_view kd_place_view_of(const struct kd_observer_motion *motion, c
     return (struct kd_place_view) { kd_observer_tetrad(motion, at) };
 }
 
-bool kd_place_image_seen(const struct kd_place_view *view, double r, double u, double phi, const struct kd_place_image *near, struct kd_place_image *out)
+bool kd_place_image_seen(const struct kd_place_view *view, double r, double u, double phi, const struct kd_place_image *near, bool searches,
+                         struct kd_place_image *out)
 {
     struct kd_null_place places[PLACES];
     const double off_axis = r * sqrt(fmax(0, (1 - u) * (1 + u)));
@@ -293,14 +294,14 @@ bool kd_place_image_seen(const struct kd_place_view *view, double r, double u, d
     struct miss m = { .size = INFINITY };
     double at[2] = { 0, 0 };
     *out = (struct kd_place_image) { NAN, NAN, false, { NAN, NAN, NAN, NAN }, NAN, NAN, { NAN, NAN } };
-    if (!(r > kd_kerr_horizon(view->frame.at.spin)) || !isfinite(u) || !isfinite(phi))
+    if (!(r > KD_PLACE_LEAST * kd_kerr_horizon(view->frame.at.spin)) || !isfinite(u) || !isfinite(phi))
         return false;
     bool found = false;
     if (near && isfinite(near->off)) {
         at[0] = near->chart[0], at[1] = near->chart[1];
         found = solve(&s, at, &m) && m.swept < MOST;
     }
-    if (!found && !search(&s, at, &m))
+    if (!found && !(searches && search(&s, at, &m)))
         return false;
     if (!ray_of(view, at, &ray, &out->look))
         return false;

@@ -24,8 +24,11 @@ struct kd_place_image {
     double delay, off, chart[2];
 };
 
-/* The place: radius, cos(theta), azimuth less the observer's. near: the image of a place next to it, or NULL. False: it is not found to 1e-5 of
- * its radius, as of places inside the horizon or next to it, and everything is NAN. Some 5 ms; with `near` a fifth of that. */
-bool kd_place_image_seen(const struct kd_place_view *view, double r, double u, double phi, const struct kd_place_image *near, struct kd_place_image *out);
+/* The place: radius, cos(theta), azimuth less the observer's. near: the image of a place next to it, or NULL; searches: whether to begin
+ * anew where that leads nowhere. False: it is not found to 1e-5 of its radius, and everything is NAN; it is not looked for within KD_PLACE_LEAST horizons,
+ * where light lingers. Some 20 ms, 2 ms from a neighbour, up to 0.3 s where nothing is found. */
+#define KD_PLACE_LEAST 1.2
+bool kd_place_image_seen(const struct kd_place_view *view, double r, double u, double phi, const struct kd_place_image *near, bool searches,
+                         struct kd_place_image *out);
 
 #endif

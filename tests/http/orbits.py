@@ -39,6 +39,24 @@ class Orbits(daemon.Case):
                   b'Content-Length: %d\r\n\r\n' % len(body) + body)
         return s
 
+    def test_seen(self):
+        """In every form the same; a circle seen from its axis is a circle; of a fall the end next to the horizon has no image."""
+        circle = {'orbit': {'p': 10, 'e': 0}, 'duration': {'periods': 1}, 'samples': 9, 'seen': {'observer_inclination_deg': 0}}
+        series = strict(self.good(circle).body)['series']
+        rows = [dict(zip(series['columns'], row)) for row in series['rows']]
+        self.assertEqual(list(rows[0])[-7:], ['alpha', 'beta', 'right', 'up', 'inwards', 'delay', 'off'])
+        sizes = [math.hypot(row['alpha'], row['beta']) for row in rows]
+        self.assertLess(max(sizes) - min(sizes), 1e-5)
+        self.assertTrue(10.5 < sizes[0] < 11.5, sizes[0])  # r + 1 M, and some, as light is bent
+        self.assertIsNone(rows[0]['right'])
+        text = self.good(circle, Accept='text/csv').body.decode().splitlines()
+        self.assertEqual([float(row['alpha']) for row in csv.DictReader(text)], [row['alpha'] for row in rows])
+        self.assertIn(b"'off'", self.good(circle, Accept='application/x-npy').body[:900])
+        fall = strict(self.good({'orbit': {'case': 'plunge'}, 'samples': 60, 'seen': {'observer_inclination_deg': 60, 'observer_r': 25, 'observer': 'zamo'}}).body)
+        off = [row[-1] for row in fall['series']['rows']]
+        self.assertTrue(off[0] < 1e-4 and off[-1] is None)
+        self.assertTrue(any('direct image' in sentence for sentence in fall['result']['approximations']))
+
     def test_not_json(self):
         for body in '', '{', '{"orbit":{"p":8,"e":0}}x', '{"orbit":{"p":NaN,"e":0}}', b'{"\xff":1}':
             self.assertProblem(self.post(body), 400, 'malformed-json')
@@ -52,6 +70,13 @@ class Orbits(daemon.Case):
                 ({**GENERIC, 'samples': 200001}, '/samples'), ({**GENERIC, 'colour': 'red'}, '/colour'),
                 ({**GENERIC, 'duration': {'periods': 1e9}}, '/duration')]:
             problem = self.assertProblem(self.post(document), 400 if document == [] else 422)
+            self.assertEqual(problem.get('pointer', ''), pointer, problem)
+        from_above = {'observer_inclination_deg': 20}
+        for seen, document, pointer in [
+                ({'observer_r': 30}, GENERIC, '/seen/observer_inclination_deg'), ({**from_above, 'observer_r': 1.2}, GENERIC, '/seen/observer_r'),
+                ({'observer_inclination_deg': 90, 'observer_r': 1.9}, GENERIC, '/seen/observer_r'), ({**from_above, 'observer': 'me'}, GENERIC, '/seen/observer'),
+                (from_above, {'orbits': [{'case': 'isco'}]}, '/seen'), (from_above, {**GENERIC, 'samples': 1001}, '/samples')]:
+            problem = self.assertProblem(self.post({**document, 'seen': seen}), 422)
             self.assertEqual(problem.get('pointer', ''), pointer, problem)
         self.assertProblem(self.daemon.post(ORBITS + '?spin=0', GENERIC), 422, 'invalid-orbit')
         self.assertProblem(self.post(GENERIC, Accept='image/png'), 406, 'not-acceptable')

@@ -53,7 +53,7 @@ static void test_the_plane_of_a_hole_that_spins(void **state)
         struct kd_place_image direct;
         for (int j = 0; j < 5; j++) {
             const double phi = (20 + 72 * j) * RADIAN;
-            if (!kd_place_image_seen(&view, r, 0, phi, NULL, &direct))
+            if (!kd_place_image_seen(&view, r, 0, phi, NULL, true, &direct))
                 fail_msg("a = %g, from %g: r = %g, phi = %g has no image", spins[k % 3], from[k / 3 % 2], r, phi);
             assert_int_equal(crosses(&view, &direct, r, phi), 0);
         }
@@ -70,7 +70,7 @@ static void test_off_the_plane_without_spin(void **state)
         const double theta = (25 + 11 * j) * RADIAN, phi = (35 * j + 10) * RADIAN, r = 5 + j;
         const double n[3] = { sin(theta) * cos(phi), sin(theta) * sin(phi), cos(theta) };
         struct kd_place_image here, there;
-        assert_true(kd_place_image_seen(&view, r, cos(theta), phi, NULL, &here));
+        assert_true(kd_place_image_seen(&view, r, cos(theta), phi, NULL, true, &here));
         /* The place in a plane that is tilted by 60 degrees, which is this observer's equator: psi is kept, the ray's b too. */
         const double psi = acos(n[0]), b = hypot(here.alpha, here.beta);
         const double side = atan2(n[2], n[1]);
@@ -79,7 +79,7 @@ static void test_off_the_plane_without_spin(void **state)
         const double c = cos(psi) / sin(60 * RADIAN);
         if (fabs(c) > 1)
             continue;
-        assert_true(kd_place_image_seen(&same, r, 0, acos(c), NULL, &there));
+        assert_true(kd_place_image_seen(&same, r, 0, acos(c), NULL, true, &there));
         crosses(&same, &there, r, acos(c));
         if (!(fabs(hypot(there.alpha, there.beta) - b) < 1e-6 * b))
             fail_msg("psi = %g, r = %g: b is %.12g, not %.12g", psi, r, b, hypot(there.alpha, there.beta));
@@ -91,16 +91,17 @@ static void test_a_neighbour_leads_to_the_same(void **state)
 {
     (void)state;
     const struct kd_place_view view = view_of(0.9, 40, 65);
-    struct kd_place_image alone, before = { .off = NAN }, next;
+    struct kd_place_image alone, before, next;
+    assert_true(kd_place_image_seen(&view, 10, 0, 0, NULL, true, &before));
     for (int j = 0; j < 40; j++) {
         const double phi = 9 * j * RADIAN, u = 0.4 * sin(2 * phi), r = 8 + 2 * cos(phi);
-        assert_true(kd_place_image_seen(&view, r, u, phi, &before, &next));
-        assert_true(kd_place_image_seen(&view, r, u, phi, NULL, &alone));
+        assert_true(kd_place_image_seen(&view, r, u, phi, &before, false, &next));
+        assert_true(kd_place_image_seen(&view, r, u, phi, NULL, true, &alone));
         if (!(hypot(alone.alpha - next.alpha, alone.beta - next.beta) < 1e-5))
             fail_msg("at phi = %g: (%.9g, %.9g) alone, (%.9g, %.9g) from its neighbour", phi, alone.alpha, alone.beta, next.alpha, next.beta);
         before = next;
     }
-    assert_false(kd_place_image_seen(&view, 1.2, 0, 0, NULL, &next)); /* within the horizon */
+    assert_false(kd_place_image_seen(&view, 1.2, 0, 0, NULL, true, &next)); /* within the horizon */
     assert_true(isnan(next.alpha) && isnan(next.off));
 }
 
