@@ -181,7 +181,7 @@ static enum kd_status take_field(struct reader *r)
     uint64_t count;
     size_t n;
     if (array->n_fields == KD_NPY_FIELDS)
-        return fail(r, "it has more than 16 fields");
+        return fail(r, "it has more than 20 fields");
     struct kd_npy_field *field = &array->fields[array->n_fields++];
     *field = (struct kd_npy_field) { 0 };
     if (!take(r, '(') || !take_string(r, field->name, sizeof field->name) || !take(r, ',') ||

@@ -12,7 +12,7 @@
 #include <stdint.h>
 
 enum {
-    KD_NPY_FIELDS = 16,
+    KD_NPY_FIELDS = 20,
     KD_NPY_DIMENSIONS = 16,
     KD_NPY_DIMENSIONS_READ = 4,
     KD_NPY_NAME = 32,
