@@ -789,8 +789,8 @@ export const sentences = {
   'rays: followed in Kerr-Schild coordinates for comparison; docs/accuracy.md says how much that costs':
     'raggi: seguiti in coordinate di Kerr–Schild per confronto; docs/accuracy.md dice quanto costa',
   'the server is stopping and takes no new sessions': 'il server si sta fermando e non apre nuove sessioni',
-  'the direct image of the path alone: those that have gone round the hole are not told, nor is any from within 1.2 horizons; of those that a caustic behind a hole that spins adds, one':
-    'la sola immagine diretta del percorso: mancano quelle che hanno girato attorno al buco e ogni immagine da entro 1,2 orizzonti; di quelle che una caustica dietro a un buco in rotazione aggiunge ce n’è una',
+  'one image of each point, followed from that of the point before: the direct one, but next to a hole that spins and is seen nearly edge on it may pass onto one that has gone round it; none is told from within 1.2 horizons':
+    'una sola immagine di ogni punto, seguita da quella del punto prima: la diretta, ma accanto a un buco in rotazione visto quasi di taglio può passare a una che gli ha girato attorno; nessuna da entro 1,2 orizzonti',
   'a test particle: it has no mass of its own, radiates nothing and is not torn':
     'una particella di prova: non ha massa propria, non irradia e non si spezza',
 };

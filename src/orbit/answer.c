@@ -75,7 +75,9 @@ const char *kd_orbit_approximation(const struct kd_orbit_run *run, size_t index)
         "a test particle: it has no mass of its own, radiates nothing and is not torn",
         run->orbit.fate == KD_ORBIT_PLUNGE ? "Boyer-Lindquist t and phi grow without bound towards the horizon, where a path ends"
                                            : NULL,
-        kd_orbit_is_seen(run->params) ? "the direct image of the path alone: those that have gone round the hole are not told, nor is any from within 1.2 horizons; of those that a caustic behind a hole that spins adds, one" : NULL,
+        kd_orbit_is_seen(run->params) ? "one image of each point, followed from that of the point before: the direct one, but next to a hole that spins and is seen nearly edge on it may pass "
+                                        "onto one that has gone round it; none is told from within 1.2 horizons"
+                                      : NULL,
     };
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         if (all[i] && !index--)

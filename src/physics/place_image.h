@@ -3,7 +3,9 @@
  *
  * The ray is searched for by Newton's method in two angles: what is to vanish is the part of (nearest place of the ray - the place) across the ray.
  * Rays are those of null_course.h, between whose places a cubic in Mino time goes. The first guesses are on the side of the hole on which the place
- * is, or the image of a neighbour. It is the direct image, of order 0, that is found; of those that a caustic adds behind a hole that spins, one. */
+ * is, or the image of a neighbour. It is the direct image, of order 0, that is found from
+ * nothing; of those that a caustic adds behind a hole that spins, one, and from a neighbour whichever image that one was of: next to such a hole, seen nearly edge on, it may have gone
+ * round it. */
 #ifndef KD_PHYSICS_PLACE_IMAGE_H
 #define KD_PHYSICS_PLACE_IMAGE_H
 

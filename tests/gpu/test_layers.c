@@ -457,10 +457,10 @@ static void test_each_is_a_picture(void **state)
             for (int legend = 1; legend >= 0; legend--) {
                 struct kd_scene scene = scene_of(turns ? 0.9 : 0, 75, INFINITY, kd_layer_kinds[kind].name);
                 scene.polarization.model = turns ? KD_POLARIZATION_SCATTERING : KD_POLARIZATION_SYNCHROTRON;
-                if (kind == KD_LAYER_brightness_temperature || kind == KD_LAYER_specific_intensity) { /* of matter at a radio frequency, alone */
+                if (kind == KD_LAYER_brightness_temperature || kind == KD_LAYER_specific_intensity || kind == KD_LAYER_stokes_v) { /* of matter at a radio frequency, alone */
                     scene.disk.model = KD_DISK_NONE;
                     scene.volume.model = KD_VOLUME_RIAF;
-                    scene.polarization.model = KD_POLARIZATION_NONE;
+                    scene.polarization.model = kind == KD_LAYER_stokes_v ? KD_POLARIZATION_TRANSFER : KD_POLARIZATION_NONE;
                 }
                 scene.image.width = 200;
                 scene.image.height = 120;
