@@ -65,18 +65,6 @@ class Kinds(daemon.Owned):
             self.assertTrue(daemon.eventually(lambda: self.daemon.get(self.at(session, f'/{query}after=0&wait_ms=0')).status == 200))
             self.assertEqual(self.daemon.get(self.at(session, f'/{query}after=0&wait_ms=0')).header('Content-Type'), kind)
 
-    def test_pixels_are_not_kept_for_long(self):
-        """Another kind of a frame that has stood for a while is of the next one."""
-        session = self.make(MOVING)
-        first = self.get(session, 'lossy=60&after=%d' % self.status(session)['frame'])
-        qualities = itertools.count(20)
-
-        def another():
-            other = self.get(session, f'lossy={next(qualities) % 40 + 1}')
-            self.assertEqual((other.status, other.header('Content-Type')), (200, 'image/jpeg'))
-            return int(other.header('Kerrd-Frame')) > int(first.header('Kerrd-Frame')) or time.sleep(0.5)
-        self.assertTrue(daemon.eventually(another))
-
     def test_qualities_that_take_longer_than_a_frame(self):
         """Each viewer has frames in its kind, however fast others follow."""
         session = self.make({**MOVING, 'image': {'width': 1600, 'height': 1200}, 'time': 1})
