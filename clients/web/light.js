@@ -2,7 +2,8 @@
 import { byId, el, svg } from './dom.js';
 import { number, said, t } from './i18n.js';
 import { apart } from './living.js';
-import { numbers, plot } from './plot.js';
+import { numbers } from './numbers.js';
+import { plot } from './plot.js';
 
 const kept = 1500; // points, at 20 to 45 a second
 const pace_ms = 200; // between two drawings

@@ -61,6 +61,22 @@ export class Plane {
     this.redraw();
   }
 
+  // What is to be seen of a preset, or else of a snapshot's bodies about the first of them: its middle, and how far it reaches. Bodies far from the hole are followed.
+  around(preset) {
+    const all = this.all(),
+      middle = preset?.centre ?? (!preset && all.length ? all[0].x : [0, 0, 0]);
+    this.follows = Math.hypot(...middle) > 0 ? 'all' : null;
+    const farthest = Math.max(...all.map(({ x }) => Math.hypot(...x.map((q, k) => q - middle[k]))), all.length ? 20 : 400);
+    return { middle, wide: preset?.reach ?? farthest };
+  }
+
+  // The path of what is aimed at.
+  foresee({ points, captured }) {
+    Object.assign(this.aim, { path: points, captured });
+    this.#canvas.dataset.path = points.length;
+    this.redraw();
+  }
+
   zoom(factor, px = this.size[0] / 2, py = this.size[1] / 2) {
     const at = this.place(px, py);
     this.scale = Math.min(Math.max(this.scale * factor, 1e-5), 2000);

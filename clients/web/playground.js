@@ -4,6 +4,7 @@ import { chirp } from './chirp.js';
 import { course } from './course.js';
 import { entitle } from './describe.js';
 import { byId, el, latest } from './dom.js';
+import { foretold } from './foretold.js';
 import { hands } from './hands.js';
 import { eventList } from './happened.js';
 import { lang, learn, number, preset as titled, said, t, tell } from './i18n.js';
@@ -12,25 +13,16 @@ import { remembered } from './job.js';
 import * as link from './link.js';
 import { Plane } from './plane.js';
 import { parts } from './playground-parts.js';
-import { ask_kerr, heavy, predict, reference } from './predict.js';
 import { rules } from './rules.js';
 import { Running } from './running.js';
-import { ask, getJson, physics } from './server.js';
+import { getJson, physics, take } from './server.js';
 import { sheet } from './sheet.js';
 import { scale } from './slider.js';
 import { thrown } from './thrown.js';
 
 const paces = { minimum: 0.1, maximum: 1e6, unit: 'M per second', default: 100 };
 const arrow_px = 90; // of the reference speed, as in hands.js
-const beyond = 8; // times what is seen: farther out a predicted path ends
 const first = 'disruption';
-
-async function take(address, name, type) {
-  const blob = await (await ask(address, type ? { headers: { Accept: type } } : {})).blob(),
-    url = URL.createObjectURL(blob);
-  el('a', { href: url, download: name }).click();
-  setTimeout(() => URL.revokeObjectURL(url), 10000);
-}
 
 export async function openPlayground() {
   if (lang === 'it') learn(await import('./it-playground.js'));
@@ -55,6 +47,7 @@ export async function openPlayground() {
     hurries = null, // a rate that is on its way
     given = null; // a snapshot that was loaded
 
+  const preset = () => known.presets.find(({ name }) => name === part.preset.value);
   const wrong = error => tell(part.fault, error.message);
   const act = async task => {
     try {
@@ -68,22 +61,7 @@ export async function openPlayground() {
   const patch = change => act(() => running.change(change));
 
   // What is aimed at, drawn and foretold.
-  const soften = () => running.state?.settings.softening ?? 0.05;
-  const speed = place => reference(place, heavy(plane.all()), soften());
-  const foretell = latest(async () => {
-    const { settings } = running.state ?? {},
-      { from, velocity, body, armed } = hand.aims;
-    if (!armed || !settings || !plane.aim) return;
-    const mass = body == null ? form.fields().mass : plane.body(body)?.mass,
-      what = { x: from, v: velocity, mass: mass ?? 0 },
-      far = (beyond * Math.max(...plane.size)) / plane.scale + Math.hypot(...from);
-    const others = settings.gravity === 'kerr' ? [] : plane.all().filter(({ id }) => id !== body);
-    const path = settings.gravity === 'kerr' ? await ask_kerr(what, settings.spin, far).catch(() => ({ points: [] })) : predict(what, others, settings, far);
-    if (!plane.aim || hand.aims.from !== from || hand.aims.velocity !== velocity) return;
-    Object.assign(plane.aim, { path: path.points, captured: path.captured });
-    part.canvas.dataset.path = path.points.length;
-    plane.redraw();
-  });
+  const { speed, foretell } = foretold(running, plane, () => hand.aims, () => form.fields().mass);
   function showAim(aims) {
     const ref = speed(aims.from),
       v = Math.hypot(...aims.velocity),
@@ -153,12 +131,8 @@ export async function openPlayground() {
     if (chosen != null) say(plane.names.get(chosen) ?? '');
   }
   function fit() {
-    const { centre = [0, 0, 0], reach } = known.presets.find(one => !given && one.name === part.preset.value) ?? {},
-      all = plane.all(),
-      middle = given && all.length ? all[0].x : centre;
-    plane.follows = Math.hypot(...middle) > 0 ? 'all' : null;
+    const { middle, wide } = plane.around(given ? null : preset());
     part.middle.value = plane.follows ?? '';
-    const wide = reach ?? Math.max(...all.map(({ x }) => Math.hypot(...x.map((q, k) => q - middle[k]))), all.length ? 20 : 400);
     plane.fit(middle, 1.1 * wide);
     if (!hand.aims.armed) hand.aim({ from: [middle[0] + 0.6 * wide, middle[1], 0], body: null });
   }
@@ -238,8 +212,7 @@ export async function openPlayground() {
     const [file] = part.load.files;
     if (!file) return;
     await act(async () => {
-      const document = JSON.parse(await file.text());
-      const whole = { rate: running.state?.rate, ...document },
+      const whole = { rate: running.state?.rate, ...JSON.parse(await file.text()) },
         before = [given, part.preset.value];
       [given, part.preset.value] = [whole, ''];
       await running.begin(whole).catch(error => {
@@ -258,9 +231,8 @@ export async function openPlayground() {
     hand.aim({ armed: false, body: null });
     choose(null);
     fit();
-    entitle('playground', given ? t('a snapshot', 'un’istantanea') : titled(part.preset.value, known.presets.find(one => one.name === part.preset.value)?.title));
-    part.help.textContent = '';
-    if (!given) tell(part.help, known.presets.find(one => one.name === part.preset.value)?.title ?? '');
+    entitle('playground', given ? t('a snapshot', 'un’istantanea') : titled(part.preset.value, preset()?.title));
+    tell(part.help, given ? '' : (preset()?.title ?? ''));
     if (state.settings.gravity === 'kerr')
       physics('kerr', { spin: state.settings.spin }).then(({ values: v }) => {
         plane.radii = { horizon: v.horizon, photons: v.photon_prograde, bound: v.marginally_bound, isco: v.isco };
@@ -314,17 +286,14 @@ export async function openPlayground() {
     sound.follow(tick);
     part.clock(tick);
   });
-  running.addEventListener('happened', ({ detail }) => events.happened(detail));
-  running.addEventListener('lost', ({ detail }) => events.lost(detail));
+  for (const name of ['happened', 'lost']) running.addEventListener(name, ({ detail }) => events[name](detail));
   running.addEventListener('ended', ({ detail }) => say(detail));
   running.addEventListener('fault', ({ detail: error }) => {
     if (!error) return (part.fault.textContent = '');
-    wrong(error);
-    part.fault.append(t(' – trying again', ' – si riprova'));
+    tell(part.fault, error.message).append(t(' – trying again', ' – si riprova'));
   });
 
-  const wanted = link.get('play.preset');
-  part.preset.value = known.presets.some(({ name }) => name === wanted) ? wanted : first;
+  part.preset.value = known.presets.find(({ name }) => name === link.get('play.preset'))?.name ?? first;
   show(link.get('play.show') ?? 'plan');
   await begin();
 }

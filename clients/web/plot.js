@@ -2,6 +2,7 @@
 // values, reading by keyboard, and the numbers as a table beside each.
 import { el, svg } from './dom.js';
 import { number, t } from './i18n.js';
+import { numbers, shared } from './numbers.js';
 
 document.head.append(el('link', { rel: 'stylesheet', href: new URL('vendor/uplot/uPlot.min.css', import.meta.url) }));
 // The shorter of uPlot's two builds is a script, not a module: it leaves its name in the window.
@@ -18,7 +19,6 @@ const strokes = [
   ['--green', [2, 3]],
   ['--rose', [9, 3, 2, 3]],
 ];
-const live_ms = 1000; // between two tables
 let count = 0;
 
 const colour = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
@@ -41,7 +41,6 @@ function power([low, high], log) {
 }
 
 const shown = (value, given) => (finite(value) && !(given.log && value <= 0) ? value : null);
-const shared = spec => spec.series.every(s => s.x === spec.series[0].x);
 
 // One column of x and one of y for each curve, as uPlot takes them.
 function columns(spec) {
@@ -50,74 +49,6 @@ function columns(spec) {
     return [rows.map(row => row[0]), rows.map(row => row[1])];
   });
   return shared(spec) ? [tables[0][0], ...tables.map(table => table[1])] : uPlot.join(tables);
-}
-
-function table(spec) {
-  const n = spec.series[0]?.x.length ?? 0,
-    every = Math.max(1, Math.ceil(n / 24));
-  const list = shared(spec) ? [spec.series] : spec.series.map(s => [s]);
-  return list.map(group =>
-    el(
-      'table',
-      {},
-      el(
-        'thead',
-        {},
-        el(
-          'tr',
-          {},
-          [spec.x.label, ...group.map(s => s.name)].map(text => el('th', { scope: 'col' }, text)),
-        ),
-      ),
-      el(
-        'tbody',
-        {},
-        group[0].x.map((x, i) =>
-          i % every
-            ? null
-            : el(
-                'tr',
-                {},
-                el('th', { scope: 'row' }, number(x)),
-                group.map(s => el('td', {}, number(s.y[i]))),
-              ),
-        ),
-      ),
-    ),
-  );
-}
-
-const cell = text => `"${String(text ?? '').replaceAll('"', '""')}"`;
-
-// No address gives this again.
-function sheet(spec) {
-  const [{ x }] = spec.series,
-    rows = [[spec.x.label, ...spec.series.map(s => s.name)].map(cell), ...x.map((at, i) => [at, ...spec.series.map(s => s.y[i])])];
-  return URL.createObjectURL(new Blob([rows.map(row => row.join(',') + '\n').join('')], { type: 'text/csv' }));
-}
-
-// The numbers of a spec under a heading, made when they are opened; of what is live anew after a while.
-export function numbers(id) {
-  const box = el('div', { class: 'scroll', tabindex: 0, role: 'region', 'aria-labelledby': id }),
-    links = el('p', {});
-  const details = el('details', {}, el('summary', {}, t('The numbers', 'I numeri')), box, links);
-  let spec = null,
-    filled = 0;
-  function fill() {
-    if (!details.open || !spec) return;
-    filled = performance.now();
-    box.replaceChildren(...table(spec));
-  }
-  details.addEventListener('toggle', fill);
-  details.show = next => {
-    spec = next;
-    if (!spec.live || performance.now() > filled + live_ms) fill();
-    if (links.firstChild && spec.live) return;
-    const link = (spec.csv || spec.live) && el('a', { href: spec.live ? '#' : spec.csv + '&format=csv', download: spec.live ? 'kerrd.csv' : '' }, t('All of them as CSV', 'Tutti, in CSV'));
-    if (spec.live) link.addEventListener('click', () => (URL.revokeObjectURL(link.href), (link.href = sheet(spec))));
-    links.replaceChildren(...(link ? [link] : []));
-  };
-  return details;
 }
 
 function drawMarks(u, marks) {

@@ -23,6 +23,13 @@ export async function ask(url, options) {
   return answer;
 }
 
+// What is there goes into a file.
+export async function take(address, name, type) {
+  const url = URL.createObjectURL(await (await ask(address, type ? { headers: { Accept: type } } : {})).blob());
+  Object.assign(document.createElement('a'), { href: url, download: name }).click();
+  setTimeout(() => URL.revokeObjectURL(url), 10000);
+}
+
 export const getJson = async url => (await ask(url)).json();
 
 export const postJson = async (url, body) =>

@@ -119,7 +119,7 @@ class Browser(unittest.TestCase):
         page.on('console', lambda m: self.complaints.append(f'{m.type}: {m.text}') if m.type in ('error', 'warning') else None)
         page.on('pageerror', lambda e: self.complaints.append(str(e)))
         page.on('request', lambda r: self.requests.append(r))
-        page.on('response', lambda r: self.frames.append(r) if '/frame' in r.url and r.status == 200 else None)
+        page.on('response', lambda r: self.frames.append(r) if '/frame' in r.url and r.status == 200 and 'kerrd-frame' in r.headers else None)
         return page
 
     def shot(self, page, name, **options):

@@ -1,0 +1,166 @@
+// These are in Italian the sentences with which the server refuses something, or says what is seen.
+// What is refused, and seen, by the shape of the sentence; {} stands for a value with its unit, {…} for a list.
+const refusals = [
+  ['{} is {}, allowed are radii outside the horizon, r = {}', '{} è {}, ammessi sono valori fuori dall’orizzonte, r = {}'],
+  ['{} is {}, where there is no observer {}; allowed there are {…}', '{} è {}, dove non c’è un osservatore {}; ammessi lì sono {…}'],
+  ['{} is {}, allowed is 0 but in the plane and pinhole projections: in the others pixels are not of one angle', '{} è {}, ammesso è 0 tranne che nelle proiezioni piana e stenopeica: nelle altre i pixel non hanno tutti lo stesso angolo'],
+  [
+    '{} is {}, allowed are up to {}, {} times the width of the picture at this spacetime.mass_msun and spacetime.distance_pc',
+    '{} è {}, ammessi sono fino a {}, {} volte la larghezza dell’immagine per questi spacetime.mass_msun e spacetime.distance_pc',
+  ],
+  [
+    '{} is {}, allowed is false unless style.palette is {} and style.tone_map {}: else brightness has no one colour, or no even scale',
+    '{} è {}, ammesso è false a meno che style.palette sia {} e style.tone_map {}: altrimenti la luminosità non ha un solo colore, o non ha scala uniforme',
+  ],
+  ['{} is {}{?}, allowed are whole numbers from {} to {}', '{} è {}{?}, ammessi sono gli interi da {} a {}'],
+  ['{} is {}, allowed are multiples of 4 up to {}, and 0', '{} è {}, ammessi sono i multipli di 4 fino a {}, e 0'],
+  ['{} is {}{?}, allowed are {} to {}, or a range first:last:count of {} to {} of these', '{} è {}{?}, ammessi sono da {} a {}, o un intervallo primo:ultimo:quanti, da {} a {}'],
+  [
+    '{} is {}{?}, allowed are above {} and below {}, or a range first:last:count of {} to {} of these',
+    '{} è {}{?}, ammessi sono sopra {} e sotto {}, o un intervallo primo:ultimo:quanti, da {} a {}',
+  ],
+  ['{} is {}{?}, allowed are numbers above {} and below {}', '{} è {}{?}, ammessi sono i numeri sopra {} e sotto {}'],
+  ['{} is {}{?}, allowed are {} up to, not including, {}', '{} è {}{?}, ammessi sono da {} fino a {} escluso'],
+  ['{} is {}{?}, allowed are {} to {}, and {}', '{} è {}{?}, ammessi sono da {} a {}, e {}'],
+  ['{} is {}{?}, allowed are {} to {}', '{} è {}{?}, ammessi sono da {} a {}'],
+  [
+    'frame {}: the picture needs {} of {} memory, {} are allowed (by {…}): lower image.width, image.height or image.samples',
+    'fotogramma {}: l’immagine vuole {} di memoria ({}), ammessi sono {} ({…}): riduci image.width, image.height o image.samples',
+  ],
+  ['frame {}: it would take about {}, more than the {} a frame may take', 'fotogramma {}: ci vorrebbero circa {}, più dei {} ammessi per un fotogramma'],
+  ['{} is {}, allowed are {…} and {}', '{} è {}, ammessi sono {…} e {}'],
+  ['{} is {}, allowed is at least {}, the ISCO of {} {}, or {}', '{} è {}, ammesso è almeno {}, l’ISCO per {} {}, o {}'],
+  ['{} is {}, allowed is at least {}, the ISCO of {} {}', '{} è {}, ammesso è almeno {}, l’ISCO per {} {}'],
+  ['{} is {}, allowed is more than {}, the horizon of {} {}', '{} è {}, ammesso è più di {}, l’orizzonte per {} {}'],
+  ['{} is {}, allowed is more than the inner edge, {}, which is the ISCO', '{} è {}, ammesso è più del bordo interno, {}, che è l’ISCO'],
+  ['{} is {}, allowed is more than the inner edge, {}', '{} è {}, ammesso è più del bordo interno, {}'],
+  ['{} is {}, allowed is less than {}, {}', '{} è {}, ammesso è meno di {}, {}'],
+  ['{} is {} with {} {}, allowed is {}', '{} è {} con {} {}, ammesso è {}'],
+  [
+    '{} is {}, allowed for camera.observer {} at this inclination is more than {}, the ergosphere; camera.observer {…} can be inside',
+    '{} è {}, ammesso per camera.observer {} a questa inclinazione è più di {}, l’ergosfera; camera.observer {} può stare dentro',
+  ],
+  [
+    '{} is {}, allowed for camera.observer {} at this inclination is more than {}, the orbit of light; camera.observer {…} can be inside',
+    '{} è {}, ammesso per camera.observer {} a questa inclinazione è più di {}, l’orbita della luce; camera.observer {} può stare dentro',
+  ],
+  [
+    '{} is {}, allowed is a velocity of at most 0.999 together with the other two components',
+    '{} è {}, ammesso è una velocità di al più 0,999 insieme alle altre due componenti',
+  ],
+  [
+    'camera.velocity_r, velocity_theta and velocity_phi make a speed of {}, allowed is less than 1, that of light',
+    'camera.velocity_r, velocity_theta e velocity_phi fanno una velocità di {}, ammesso è meno di 1, quella della luce',
+  ],
+  [
+    '{} is {}, allowed for camera.observer {} is more than {}, the inner horizon, where the model ends',
+    '{} è {}, ammesso per camera.observer {} è più di {}, l’orizzonte interno, dove il modello finisce',
+  ],
+  ['{} is {}, allowed is at least camera.r, {}', '{} è {}, ammesso è almeno camera.r, {}'],
+  [
+    '{} is {}, allowed at camera.r {} with this angular momentum is at least {}',
+    '{} è {}, ammesso a camera.r {} con questo momento angolare è almeno {}',
+  ],
+  [
+    '{} is {}, with which the observer turns outside camera.r {}; allowed are those nearer to 0',
+    '{} è {}, con cui l’osservatore torna indietro fuori da camera.r {}; ammessi sono quelli più vicini a 0',
+  ],
+  [
+    '{} is {}, allowed is {} with motion.proper_time_rate {} of one who falls: the way leads into the ergosphere, where there is none',
+    '{} è {}, ammesso è {} con motion.proper_time_rate {} di chi cade: il cammino porta nell’ergosfera, dove non c’è',
+  ],
+  [
+    '{} is {}, allowed is {} but from a finite camera.r in pinhole projection',
+    '{} è {}, ammesso è {} salvo da un camera.r finito nella proiezione stenopeica',
+  ],
+  [
+    '{} is {}, with which an eye would be where camera.observer cannot be; allowed are smaller ones',
+    '{} è {}, con cui un occhio starebbe dove camera.observer non può stare; ammessi sono valori minori',
+  ],
+  [
+    '{} is {}, allowed is 0 unless camera.observer stays, goes round in the equatorial plane or falls without leaving its latitude, from a finite camera.r',
+    '{} è {}, ammesso è 0 salvo che camera.observer stia fermo, giri nel piano equatoriale o cada senza lasciare la sua latitudine, da un camera.r finito',
+  ],
+  [
+    "{} is {}, allowed is 0 with motion.proper_time_rate {}: time and azimuth go on as they do on the observer's way",
+    '{} è {}, ammesso è 0 con motion.proper_time_rate {}: tempo e azimut vanno avanti come sul cammino dell’osservatore',
+  ],
+  [
+    '{} is {}, allowed is {} unless camera.observer is {} at a finite camera.r',
+    '{} è {}, ammesso è {} salvo che camera.observer sia {} a un camera.r finito',
+  ],
+  ['{} is {} with {} {}; it needs a finite {}, at infinity use {}', '{} è {} con {} {}; vuole un {} finito, all’infinito usa {}'],
+  ['{} is {} with {} {}; parallel rays need {} {}, at a finite radius use {}', '{} è {} con {} {}; raggi paralleli vogliono {} {}, a distanza finita usa {}'],
+  [
+    '{} is {}, allowed is 0 with {} {}: beyond {} the modes of a hole crowd and none of them rings alone',
+    '{} è {}, ammesso è 0 con {} {}: oltre {} i modi di un buco si affollano e nessuno risuona da solo',
+  ],
+  [
+    '{} is {}; with this spin, e and inclination_deg an orbit has its turning points there only above {}, the separatrix',
+    '{} è {}; con questi spin, e e inclination_deg un’orbita ha lì i suoi punti d’inversione solo sopra {}, la separatrice',
+  ],
+  ['{} is {}, inside the horizon at {}; allowed is outside', '{} è {}, dentro l’orizzonte, a {}; ammesso è fuori'],
+  ['{} is {}, not outside the horizon at {}', '{} è {}, non fuori dall’orizzonte, a {}'],
+  ['{} is {}, and l is {}; allowed is {} to {}', '{} è {}, e l è {}; ammessi sono da {} a {}'],
+  ['there is no {}: the list has {} elements, and the next free index is {}', 'non c’è {}: la lista ha {} elementi, e il prossimo indice libero è {}'],
+  ['there is no {}: the list has {} element, and the next free index is {}', 'non c’è {}: la lista ha {} elemento, e il prossimo indice libero è {}'],
+  ['{} sessions are open, as many as may', 'sono aperte {} sessioni, quante se ne possono aprire'],
+  ['{} is {}, which follows bound orbits only, and this one is to plunge', '{} è {}, che segue solo orbite legate, e questa deve cadere'],
+  // what is seen of emitters
+  ['A thin disk from the ISCO to {}.', 'Un disco sottile dall’ISCO a {}.'],
+  ['A thin disk from {} to {}.', 'Un disco sottile da {} a {}.'],
+  ['A thick disk of turbulent gas from the ISCO to {}.', 'Un disco spesso di gas turbolento dall’ISCO a {}.'],
+  ['A thick disk of turbulent gas from {} to {}.', 'Un disco spesso di gas turbolento da {} a {}.'],
+  ['A thick disk from the ISCO to {}.', 'Un disco spesso dall’ISCO a {}.'],
+  ['A thick disk from {} to {}.', 'Un disco spesso da {} a {}.'],
+  ['Matter all round from {} to {}.', 'Materia tutt’intorno da {} a {}.'],
+  ['A thin disk of turbulent gas from the ISCO to {}.', 'Un disco sottile di gas turbolento dall’ISCO a {}.'],
+  ['A thin disk of turbulent gas from {} to {}.', 'Un disco sottile di gas turbolento da {} a {}.'],
+  ['A disk of {} particles from the ISCO to {}.', 'Un disco di {} particelle dall’ISCO a {}.'],
+  ['A disk of {} particles from {} to {}.', 'Un disco di {} particelle da {} a {}.'],
+  ['Hot spots going round at {…}.', 'Macchie calde in orbita a {…}.'],
+  ['A body at {…}.', 'Un corpo a {…}.'],
+  ['Bodies at {…}.', 'Corpi a {…}.'],
+  ['{…} bodies of a playground at {…} M of its time.', '{…} corpi di un laboratorio, a {…} M del suo tempo.'],
+  ['{…} body of a playground at {…} M of its time.', '{…} corpo di un laboratorio, a {…} M del suo tempo.'],
+  ['Not shown, as they have no radius or are at the horizon: {…}.', 'Non si vedono, perché non hanno raggio o sono all’orizzonte: {…}.'],
+  ['{…} pieces of debris, from {…} M to {…} M.', '{…} pezzi di detriti, da {…} M a {…} M.'],
+].map(shape);
+
+function shape([english, italian]) {
+  const escaped = english.replace(/[.*+()]/g, '\\$&');
+  const value = '("[^"]*"|[^ ,;:]+(?: (?:M|[A-Z]?[a-z]+ rates|solar masses|solar radii|pixels|degrees(?: per second)?|decades|bits|stops|days|pc|microarcseconds|GiB|s))?)';
+  return [
+    new RegExp(`^${escaped.replaceAll('{}', value).replace('{…}', '(.+)').replace('{?}', '(, a string where a number is wanted| where a number is wanted|)')}$`),
+    italian.replace('{?}', '{}').replace('{…}', '{}'),
+  ];
+}
+
+export const learn = more => refusals.push(...more.map(shape));
+
+const amounts = {
+  ', a string where a number is wanted': ', un testo dove ci vuole un numero',
+  ' where a number is wanted': ' dove ci vuole un numero',
+  'solar masses': 'masse solari',
+  'solar radii': 'raggi solari',
+  'Eddington rates': 'tassi di Eddington',
+  'what the host has left': 'quanto resta al computer',
+  'the device': 'il dispositivo',
+  device: 'dispositivo',
+  host: 'computer',
+  microarcseconds: 'microsecondi d’arco',
+  pixels: 'pixel',
+  'degrees per second': 'gradi al secondo',
+  degrees: 'gradi',
+  decades: 'decadi',
+  bits: 'bit',
+  stops: 'stop',
+  days: 'giorni',
+};
+
+export function refusal(text) {
+  for (const [shape, italian] of refusals) {
+    const parts = shape.exec(text)?.slice(1);
+    if (parts) return italian.replaceAll('{}', () => Object.entries(amounts).reduce((part, [en, it]) => part.replace(en, it), parts.shift()));
+  }
+}
