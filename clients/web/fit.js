@@ -38,7 +38,7 @@ export function buildFit(scene) {
 
   new ResizeObserver(() => {
     const now = scene.fitted();
-    if (!now || byId('lensing').hidden) return;
+    if (!now || byId('lensing').hidden || widthOf(path => scene.get(path)) !== now.path) return; // one who falls meanwhile has another width
     const value = wide(now.path, now.base);
     if (value === now.value) return;
     now.value = value;
