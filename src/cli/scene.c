@@ -84,7 +84,12 @@ int kd_cli_presets(int argc, char **argv)
         .children = children,
     };
     argp_parse(&argp, argc, argv, 0, NULL, NULL);
-    for (size_t i = 0; i < kd_scene_preset_count(); i++)
-        printf("%-16s %s\n", kd_scene_preset_name(i), kd_scene_preset_title(i));
-    return kd_cli_print("", 0);
+    struct kd_buffer out = { 0 }; /* whole, so that what goes wrong in writing it is told as it is */
+    enum kd_status status = KD_OK;
+    for (size_t i = 0; i < kd_scene_preset_count() && !status; i++)
+        status = kd_buffer_printf(&out, "%-16s %s\n", kd_scene_preset_name(i), kd_scene_preset_title(i));
+    struct kd_error error = { .status = status, .message = "out of memory" };
+    const int code = status ? kd_cli_fail(&error) : kd_cli_print(out.data, out.size);
+    kd_buffer_finish(&out);
+    return code;
 }
