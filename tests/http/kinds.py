@@ -1,10 +1,8 @@
 """Frames of a session in the kinds that are asked for, patches that are under way at once, and answers that are short. In the fake renderer's scenes
 `time` is how many milliseconds a frame takes."""
-import itertools
 import json
 import struct
 import threading
-import time
 
 import daemon
 import jpeg

@@ -77,7 +77,7 @@ struct kd_plan {
     bool ingoing;                   /* the observer falls, in coordinates that know no outer horizon */
     struct kd_plan_layer layers[KD_WORDS_MOST]; /* maps of numbers beside the picture */
     size_t n_layers;
-    uint32_t layer_words;           /* numbers a pixel of each on the device: 3 where the march adds up Stokes I, Q and U for one of them */
+    uint32_t layer_words;           /* numbers a pixel of each on the device: 4 where the march adds up Stokes I, Q, U and V for one of them */
     bool picture;                   /* the picture is among image.layers */
     bool radiance;                  /* and linear light is brought to the host too */
     uint32_t quantities;            /* of the lens map, KD_LENS_... */
