@@ -151,7 +151,7 @@ enum kd_status kd_integral_make_columns(struct kd_integral_answer *answer, size_
 static enum kd_status compute_line(const struct kd_integral_request *r, const struct kd_disk_image *image, struct kd_integral_answer *answer, struct kd_error *error)
 {
     const struct kd_line_params params = { .inner = r->inner, .outer = r->outer, .emissivity = r->emissivity, .index = r->index, .outer_index = r->outer_index,
-                                           .break_r = r->break_r, .height = r->height, .photon_index = r->photon_index, .limb = r->limb, .energy = r->energy };
+                                           .break_r = r->break_r, .height = r->height, .photon_index = r->photon_index, .tolerance = r->tolerance, .limb = r->limb, .energy = r->energy };
     struct kd_line_profile profile;
     double sum = 0;
     enum kd_status status;

@@ -30,6 +30,7 @@ const struct kd_integral_field kd_integral_fields[] = {
     REAL(height, "M", 1, 1e4, LINE, "lamppost: height of the source on the axis"),
     REAL(photon_index, "", 0, 10, LINE, "lamppost: photon index of the source's power law"),
     WORD(limb, limb, "isotropic|laor|haardt", LINE | SPECTRUM, "light by the angle off the disk's normal: even, 1 + 2.06 mu, or ln(1 + 1/mu)"),
+    REAL(tolerance, "", 0, 0.1, LINE, "error of the cumulative share that will do: sums are made closer until it is reached, or as close as there is; 0: as close as there is"),
     WORD(counts, energy, "photons|energy", LINE, "what a bin counts"),
     REAL(rest_energy, "", 1e-9, 1e9, LINE, "energy of the line where the gas is at rest, in any unit: edges are in the same"),
     REAL(energy_min, "", 0, 1e9, LINE, "first edge of bins of equal width"),
@@ -78,7 +79,7 @@ enum kd_integral kd_integral_of_route(const char *path)
 void kd_integral_request_init(struct kd_integral_request *request, enum kd_integral what)
 {
     *request = (struct kd_integral_request) {
-        .what = what, .inclination_deg = 30, .inner = NAN, .outer = 400, .index = 3, .outer_index = 3, .break_r = 10, .height = 10, .photon_index = 2,
+        .what = what, .inclination_deg = 30, .inner = NAN, .outer = 400, .index = 3, .outer_index = 3, .break_r = 10, .height = 10, .photon_index = 2, .tolerance = 1e-3,
         .rest_energy = 1, .energy_max = NAN, .bins = 500,
         .rings = 10, .g_stars = 20, .mass_msun = 10, .distance_pc = 1e4, .mdot_edd = 0.1, .colour_correction = 1.7, .frequency_min_hz = NAN, .frequency_max_hz = NAN,
         .frequencies = what == KD_INTEGRAL_VOLUME ? 13 : 200, .length_max = NAN, .baselines = 200,

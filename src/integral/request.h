@@ -36,7 +36,7 @@ struct kd_integral_request {
     enum kd_integral what;
     double spin, inclination_deg, inner, outer; /* inner: NaN: the ISCO */
     enum kd_line_emissivity emissivity;
-    double index, outer_index, break_r, height, photon_index;
+    double index, outer_index, break_r, height, photon_index, tolerance;
     enum kd_line_limb limb;
     int energy;                                      /* 0: photons, 1: energy */
     double rest_energy, energy_min, energy_max;      /* energy_max: NaN: 1.7 rest_energy */

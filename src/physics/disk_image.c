@@ -10,7 +10,9 @@
 
 enum { POINTS = 6 }; /* of an interpolation */
 #define NEAREST 0.1 /* M between the ISCO and the origin of u: above a = 0.9995 all nodes would lie at the horizon else, where the image no longer changes */
-#define NODES 1e-8  /* of ln r, at the nodes */
+#define NODES 1e-7  /* of ln r, at the nodes */
+#define BENDS 10.   /* by how much of itself a slope changes for a change of ln r, at most */
+#define DRIFTS 0.2  /* and from one ring of nodes to the next */
 #define PLACE 1e-12 /* at a place that is asked for by itself */
 
 struct ellipse {
@@ -51,8 +53,9 @@ static double mismatch(const struct kd_disk_image *image, const struct ellipse *
     return found > 0 ? log(found / r) : -INFINITY;
 }
 
-/* The root of ln(r_0/r) in ln R from a guess: secants, whose first slope is that of flat space, kept within what brackets the root. */
-static bool find(const struct kd_disk_image *image, const struct ellipse *e, const double direction[2], double r, double exact, double *log_stretch)
+/* The root of ln(r_0/r) in ln R from a guess: secants, whose first slope is the one given, kept within what brackets the root. A last step is not looked at where what is left after it, by how
+ * the slope changes on the way, is below `exact`. `slope`: 1 in flat space; left as the last one met. */
+static bool find(const struct kd_disk_image *image, const struct ellipse *e, const double direction[2], double r, double exact, double *log_stretch, double *slope)
 {
     double cosine = e->a * direction[0], sine = e->b * direction[1];
     double x = *log_stretch, low = -INFINITY, high = INFINITY, before = NAN, f_before = NAN, reach = 0.02;
@@ -63,7 +66,15 @@ static bool find(const struct kd_disk_image *image, const struct ellipse *e, con
             return fabs(f) < 1e-6;
         }
         *(f < 0 ? &low : &high) = x;
-        double slope = isfinite(f) && isfinite(f_before) ? (f - f_before) / (x - before) : 1, next = x - f / slope;
+        bool met = isfinite(f) && isfinite(f_before);
+        if (met)
+            *slope = (f - f_before) / (x - before);
+        double next = x - f / (met || !i ? *slope : 1);
+        double left = met ? fabs(f * f_before) * BENDS : i ? INFINITY : fabs(f) * DRIFTS;
+        if (next > low && next < high && left < exact) {
+            *log_stretch = next;
+            return true;
+        }
         before = x, f_before = f;
         if (!(next > low && next < high) || !isfinite(next)) {
             bool both = isfinite(low) && isfinite(high);
@@ -76,14 +87,19 @@ static bool find(const struct kd_disk_image *image, const struct ellipse *e, con
     return fabs(f_before) < 1e-6;
 }
 
-/* From the ring before, and the two before that, at this angle. */
+/* From up to five rings before at this angle, by the polynomial through them. */
 static double guess(const struct kd_disk_image *image, int k, int j)
 {
     double a = image->stretch[k - 1][j];
     if (k < 3)
         return a;
     double b = image->stretch[k - 2][j], c = image->stretch[k - 3][j];
-    return 3 * (a - b) + c;
+    if (k < 4)
+        return 3 * (a - b) + c;
+    double d = image->stretch[k - 4][j];
+    if (k < 5)
+        return 4 * (a + c) - 6 * b - d;
+    return 5 * (a - d) - 10 * (b - c) + image->stretch[k - 5][j];
 }
 
 bool kd_disk_image_init(struct kd_disk_image *image, double spin, double inclination)
@@ -100,16 +116,21 @@ bool kd_disk_image_init(struct kd_disk_image *image, double spin, double inclina
         image->cosine[j] = cos(2 * M_PI * j / KD_DISK_IMAGE_ANGLES), image->sine[j] = sin(2 * M_PI * j / KD_DISK_IMAGE_ANGLES);
         image->stretch[0][j] = 1;
     }
+    double slope[KD_DISK_IMAGE_ANGLES];
+    for (int j = 0; j < image->angles; j++)
+        slope[j] = 1;
     for (int k = 1; k <= KD_DISK_IMAGE_RINGS; k++) {
         double r = radius_of_node(image, k);
         struct ellipse e = around(image, r);
+        double off[2] = { 0, 0 }; /* by how much the guess was off at the last two angles */
         for (int j = 0; j < image->angles; j++) {
-            double log_stretch = log(fmax(guess(image, k, j), 0.1));
+            double guessed = guess(image, k, j), log_stretch = log(fmax(guessed + 2 * off[0] - off[1], 0.1));
             int at = j * (KD_DISK_IMAGE_ANGLES / image->angles);
             const double direction[2] = { image->cosine[at], image->sine[at] };
-            if (!find(image, &e, direction, r, NODES, &log_stretch))
+            if (!find(image, &e, direction, r, NODES, &log_stretch, &slope[j]))
                 return false;
             image->stretch[k][j] = exp(log_stretch);
+            off[1] = off[0], off[0] = image->stretch[k][j] - guessed;
         }
     }
     return true;
@@ -153,8 +174,8 @@ bool kd_disk_image_place(const struct kd_disk_image *image, double r, double chi
     weigh(at - first, weight);
     for (int i = 0; i < POINTS; i++)
         stretch += weight[i] * row[(first + i + n) % n];
-    double log_stretch = log(fmax(stretch, 0.1));
-    if (!find(image, &e, direction, r, PLACE, &log_stretch))
+    double log_stretch = log(fmax(stretch, 0.1)), slope = 1;
+    if (!find(image, &e, direction, r, PLACE, &log_stretch, &slope))
         return false;
     *alpha = e.x0 + exp(log_stretch) * e.a * direction[0];
     *beta = e.y0 + exp(log_stretch) * e.b * direction[1];
@@ -164,11 +185,11 @@ bool kd_disk_image_place(const struct kd_disk_image *image, double r, double chi
 void kd_disk_image_ring(const struct kd_disk_image *image, double r, int skip, int n, double *alpha, double *beta)
 {
     double row[KD_DISK_IMAGE_ANGLES], round[KD_DISK_IMAGE_ANGLES + POINTS];
-    int nodes = image->angles / skip, finer = n / nodes, apart = KD_DISK_IMAGE_ANGLES / n;
+    int nodes = image->angles / skip < n ? image->angles / skip : n, every = image->angles / nodes, finer = n / nodes, apart = KD_DISK_IMAGE_ANGLES / n;
     struct ellipse e = around(image, r);
     between_rings(image, r, skip, row);
     for (int j = 0; j < nodes + POINTS; j++)
-        round[j] = row[(j - POINTS / 2 + 1 + nodes) % nodes * skip];
+        round[j] = row[(j - POINTS / 2 + 1 + nodes) % nodes * every];
     for (int part = 0; part < finer; part++) {
         double weight[POINTS];
         weigh(POINTS / 2 - 1 + (double)part / finer, weight);

@@ -14,7 +14,7 @@
 #include <stdbool.h>
 
 enum {
-    KD_DISK_IMAGE_RINGS = 32,   /* between infinity and the ISCO */
+    KD_DISK_IMAGE_RINGS = 24,   /* between infinity and the ISCO */
     KD_DISK_IMAGE_ANGLES = 512, /* nodes round a ring, at most */
 };
 
@@ -28,10 +28,10 @@ struct kd_disk_image {
     double stretch[KD_DISK_IMAGE_RINGS + 1][KD_DISK_IMAGE_ANGLES]; /* R; row 0: infinity; the last row: the ISCO */
 };
 
-/* inclination in radians, 0 to pi; false next to edge on, and where a ring is not found, which has not been seen. Some 10 000 rays. */
+/* inclination in radians, 0 to pi; false next to edge on, and where a ring is not found, which has not been seen. 3 000 to 20 000 rays. */
 bool kd_disk_image_init(struct kd_disk_image *image, double spin, double inclination);
 
-/* A ring seen in `n` directions, evenly spaced in chi; n is a power of 2, at least image->angles/skip, and at most KD_DISK_IMAGE_ANGLES. `skip` 1 uses every node of the table and 2 every second one: by how
+/* A ring seen in `n` directions, evenly spaced in chi; n is a power of 2, 64 at least and KD_DISK_IMAGE_ANGLES at most. `skip` 1 uses every node of the table and 2 every second one: by how
  * much that differs tells the error of the table. r >= ISCO. */
 void kd_disk_image_ring(const struct kd_disk_image *image, double r, int skip, int n, double *alpha, double *beta);
 

@@ -147,38 +147,55 @@ static void integrate(const struct kd_disk_image *image, const struct kd_line_pa
     }
 }
 
-/* Triangles err with the square of their size, so that halving it shows three times what is left, of which half is counted; the table with the sixth power of its step, which would be 63
- * times: an eighth is counted. */
-static void settle(const struct sum s[3], double *share, struct kd_line_profile *profile)
+/* How far two sums differ in the cumulative share, at the edge where they do most. */
+static double apart(const struct sum *x, const struct sum *y)
 {
-    double fine = 0, coarse = 0, sparse = 0;
-    *profile = (struct kd_line_profile) { .total = s[0].total };
-    for (int i = 0; i < s[0].bins; i++) {
-        share[i] = s[0].in[i] / s[0].total;
-        fine += share[i], coarse += s[1].in[i] / s[1].total, sparse += s[2].in[i] / s[2].total;
-        profile->error = fmax(profile->error, 0.5 * fabs(fine - coarse) + 0.125 * fabs(coarse - sparse));
+    double a = 0, b = 0, most = 0;
+    for (int i = 0; i < x->bins; i++) {
+        a += x->in[i] / x->total, b += y->in[i] / y->total;
+        most = fmax(most, fabs(a - b));
     }
+    return most;
+}
+
+enum { LEVELS = 3 }; /* looks: 4, 2 and 1 times fewer rings and angles */
+
+/* Sums ever closer until the error is as small as it may be: at least two, of which the later one is the answer, in sums[*n]. Triangles err with the square of their size, so that halving it shows three
+ * times what is left, of which half is counted; the table with the sixth power of its step, which would be 63 times: an eighth is counted. */
+static double approach(const struct kd_disk_image *image, const struct kd_line_params *p, const struct kd_lamppost *lamp, struct ring rings[2], struct sum sums[LEVELS + 1], int *n)
+{
+    integrate(image, p, lamp, (struct looks) { 4, 2 }, rings, &sums[LEVELS]);
+    integrate(image, p, lamp, (struct looks) { 4, 1 }, rings, &sums[0]);
+    double table = 0.125 * apart(&sums[0], &sums[LEVELS]), error = INFINITY;
+    for (*n = 0; *n < LEVELS - 1 && !(error <= p->tolerance);) {
+        ++*n;
+        integrate(image, p, lamp, (struct looks) { 4 >> *n, 1 }, rings, &sums[*n]);
+        error = 0.5 * apart(&sums[*n], &sums[*n - 1]) + table;
+    }
+    return error;
 }
 
 enum kd_status kd_line_profile(const struct kd_disk_image *image, const struct kd_line_params *params, const double *edges, int bins, double *share,
                                struct kd_line_profile *profile, struct kd_error *error)
 {
-    static const struct looks looks[3] = { { 1, 1 }, { 2, 1 }, { 2, 2 } };
     struct kd_lamppost lamp;
-    struct sum sums[3];
+    struct sum sums[LEVELS + 1];
     if (params->emissivity == KD_LINE_LAMPPOST && !kd_lamppost_init(&lamp, image->spin, params->height, params->photon_index, params->inner, params->outer))
         return kd_error_field(error, "/height", "height is %.9g: its light is not found on the whole disk", params->height);
     struct ring *rings = malloc(2 * sizeof *rings);
-    double *in = calloc((size_t)bins * 3, sizeof *in);
+    double *in = calloc((size_t)bins * (LEVELS + 1), sizeof *in);
     enum kd_status status = rings && in ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for %d bins", bins);
-    for (int i = 0; !status && i < 3; i++) {
-        sums[i] = (struct sum) { .edges = edges, .bins = bins, .in = in + (size_t)i * (size_t)bins };
-        integrate(image, params, &lamp, looks[i], rings, &sums[i]);
+    if (!status) {
+        int n;
+        for (int i = 0; i <= LEVELS; i++)
+            sums[i] = (struct sum) { .edges = edges, .bins = bins, .in = in + (size_t)i * (size_t)bins };
+        double left = approach(image, params, &lamp, rings, sums, &n);
+        *profile = (struct kd_line_profile) { .total = sums[n].total + (sums[n].total - sums[n - 1].total) / 3, .error = left };
+        for (int i = 0; i < bins; i++)
+            share[i] = sums[n].in[i] / sums[n].total;
+        if (!(sums[n].total > 0 && isfinite(profile->total)))
+            status = kd_error_field(error, "/spin", "spin is %.17g: the sum is no number, so near an extremal hole", image->spin);
     }
-    if (!status && !(sums[0].total > 0 && isfinite(sums[0].total)))
-        status = kd_error_field(error, "/spin", "spin is %.17g: the sum is no number, so near an extremal hole", image->spin);
-    if (!status)
-        settle(sums, share, profile);
     free(rings);
     free(in);
     return status;

@@ -26,11 +26,12 @@ struct kd_line_params {
     double height, photon_index; /* LAMPPOST: epsilon is taken to be proportional to what the disk receives */
     enum kd_line_limb limb;
     bool energy; /* energies, not photon numbers */
+    double tolerance; /* of the cumulative share: the sum is not made finer than this takes, by what is estimated; 0: as fine as there is */
 };
 
 struct kd_line_profile {
-    double total; /* in units of epsilon M^2, all energies */
-    double error; /* estimated, of the cumulative share at any edge, the largest: from what half as many rings, angles and nodes of the table change */
+    double total; /* in units of epsilon M^2, all energies: what the last two sums, each twice as close as the one before, tend to */
+    double error; /* estimated, of the cumulative share at any edge, the largest: from what half as many rings and angles, and nodes of the table, change */
 };
 
 /* share[i]: of the total, between edges[i] and edges[i + 1], i < bins; edges grow, in units of E0. KD_ENOMEM; KD_EINVAL: the lamp lights no such ring, or what came out is no number. */

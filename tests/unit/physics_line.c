@@ -32,7 +32,7 @@ static void within(const char *what, double a, double i, double got, double want
 }
 
 /* Light of a ring reaches the image plane where a ray that is integrated there starts in the ring, with that redshift and off the normal by that angle: |p_z| of the oracle over the
- * energy for the gas. Interpolation leaves 1e-4 of r at 75 degrees and a = 0.998, and next to nothing elsewhere; mu = g sqrt(eta)/r has that error of r and, where light grazes the disk,
+ * energy for the gas. Interpolation leaves 3e-4 of r at 75 degrees and a = 0.998, and next to nothing elsewhere; mu = g sqrt(eta)/r has that error of r and, where light grazes the disk,
  * twice that of beta. g knows the place by alpha alone, which the oracle gets too: rounding is left. */
 static void test_rings_are_where_rays_lead(void **state)
 {
@@ -51,7 +51,7 @@ static void test_rings_are_where_rays_lead(void **state)
                     struct ks_path path = ks_trace(ks_from_infinity(a, cos(i * RADIAN), alpha[j], beta[j]), 1);
                     struct kd_disk_light light = kd_disk_image_light(&image, &gas, alpha[j], beta[j]);
                     assert_int_equal(path.crossings, 1);
-                    within("radius", a, i, path.r[0] / r, 1, 2e-4);
+                    within("radius", a, i, path.r[0] / r, 1, 4e-4);
                     double g = kd_disk_redshift(a, r, path.momentum[0]);
                     within("redshift", a, i, light.g, g, 1e-6);
                     within("angle", a, i, light.mu, g * path.p_z[0], 1e-3);
@@ -100,6 +100,24 @@ static void sum_over_rays(double a, double i, double outer, const double *edges,
         in[e] /= all;
 }
 
+/* A sum that may err as much as is asked for, and not many times less: within that of the rays' sum, its total within a fifth of a part in a thousand of the closest one's. */
+static void tolerated(double a, double i, const struct kd_line_params *closest, const double *edges, const double *in, double total)
+{
+    struct kd_line_params params = *closest;
+    struct kd_line_profile profile;
+    struct kd_error error;
+    double share[EDGES], sum = 0;
+    params.tolerance = 0.01;
+    assert_int_equal(kd_line_profile(&image, &params, edges, EDGES, share, &profile, &error), KD_OK);
+    if (!(profile.error <= 0.01 && profile.error > 2e-4))
+        fail_msg("a = %g, i = %g: the error of a rough sum is estimated at %g", a, i, profile.error);
+    for (int e = 0; e < EDGES; e++) {
+        sum += share[e];
+        within("rough cumulative share", a, edges[e + 1], sum, in[e], profile.error + 6e-4);
+    }
+    within("total", a, i, profile.total / total, 1, 2e-4);
+}
+
 /* 200 000 rays: the sum itself is off by up to 5e-4, which 36 times as many rays bring to 1e-4. The profile's estimate of its error has to hold, and be below the 0.3 % that is asked for. */
 static void test_cumulative_share(void **state)
 {
@@ -127,6 +145,7 @@ static void test_cumulative_share(void **state)
         within("all", a, i, sum, 1, 1e-12);
         if (!(profile.error < 1.5e-3 && profile.error > 1e-6))
             fail_msg("a = %g, i = %g: the error is estimated at %g", a, i, profile.error);
+        tolerated(a, i, &params, edges, in, profile.total);
         print_message("a = %g, i = %g: off by %.1e at most, estimated %.1e\n", a, i, worst, profile.error);
     }
 }
