@@ -133,6 +133,10 @@ export const sentences = {
     'polarizzazione: luce di sincrotrone termica secondo Pandya et al. 2016 e Dexter 2016 (V); dove il campo è lungo il raggio, e dove gli elettroni non sono caldi, V è limitato in modo che sia polarizzato il 99 % di I',
   'polarization: synchrotron light of a power law by the fits of Pandya et al. 2016, held to 99 % of I':
     'polarizzazione: luce di sincrotrone di una legge di potenza secondo Pandya et al. 2016, limitata al 99 % di I',
+  'polarization: synchrotron light of a kappa distribution by the fits of Pandya et al. 2016, V for electrons that are hot; held to 99 % of I':
+    'polarizzazione: luce di sincrotrone di una distribuzione kappa secondo Pandya et al. 2016, V per elettroni caldi; limitata al 99 % di I',
+  'polarization: Faraday rotation and conversion of a kappa distribution alone by the fits of Marszewski et al. 2021, made for frequencies above 100 gyrofrequencies and a tenth of (kappa w)^2 of them times sin(theta); in between kappa 3.5, 4, 4.5 and 5, by the way to each':
+    'polarizzazione: rotazione e conversione di Faraday della sola distribuzione kappa secondo Marszewski et al. 2021, per frequenze sopra 100 girofrequenze e sopra un decimo di (kappa w)^2 di esse per sin(theta); fra kappa 3,5, 4, 4,5 e 5 in proporzione',
   'polarization: Faraday rotation and conversion of those electrons alone (Shcherbakov 2008, Dexter 2016; Jones & O\'Dell 1977): none is cold':
     'polarizzazione: rotazione e conversione di Faraday di quei soli elettroni (Shcherbakov 2008, Dexter 2016; Jones & O’Dell 1977): nessuno è freddo',
   'polarization: Faraday rotation and conversion are left out': 'polarizzazione: rotazione e conversione di Faraday sono tralasciate',

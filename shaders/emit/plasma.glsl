@@ -171,16 +171,23 @@ kd_plasma kd_plasma_at(kd_midst p)
 /* log2((2^-sa + 2^-sb)^(-1/s)): the lesser, less smoothly the larger s is. */
 float kd_log2_joined(float a, float b, float s) { return min(a, b) - log2(1.0 + exp2(-min(s * abs(a - b), 120.0))) / s; }
 
-/* A kappa distribution (physics/synchrotron.h). */
-kd_radiates kd_plasma_kappa(kd_electrons e, float frequency)
+/* A kappa distribution (physics/synchrotron.h): log2 of z and X, and of the four laws for low and high frequencies. */
+struct kd_kappa_laws { float z, x, light_low, light_high, depth_low, depth_high; };
+kd_kappa_laws kd_kappa_of(kd_electrons e, float frequency)
 {
     float turn = e.field + KD_LOG2_GYRO, slant = 0.5 * log2(max(e.sine2, 1e-30)), z = e.heat + emission.plasma.kappa_width, k = emission.plasma.kappa;
     float x = clamp(frequency - turn - slant - 2.0 * z, -600.0, 600.0), place = clamp((z - KD_KAPPA_FIRST) * float(KD_KAPPA_OCTAVE), 0.0, float(KD_KAPPA_ROWS - 1)), row = floor(place);
     vec4 f = kd_table_row(kappa, uint(row));
     float below = min(z - KD_KAPPA_FIRST, 0.0) * (k - 1.0 / 3.0), size = f.x + (place - row) * f.y + below; /* z^a where z is small */
-    float light = kd_log2_joined(emission.plasma.kappa_light_low + x * (1.0 / 3.0), emission.plasma.kappa_light_high - 0.5 * (k - 2.0) * x, emission.plasma.kappa_light_sharp);
-    float depth = kd_log2_joined(emission.plasma.kappa_depth_low + size - x * (2.0 / 3.0), emission.plasma.kappa_depth_high - 0.5 * (k + 1.0) * x, emission.plasma.kappa_depth_sharp);
-    return kd_radiates(e.density + turn + slant + light, e.density - frequency + depth - 3.0 * z, 0.5 * k);
+    return kd_kappa_laws(z, x, emission.plasma.kappa_light_low + x * (1.0 / 3.0), emission.plasma.kappa_light_high - 0.5 * (k - 2.0) * x, emission.plasma.kappa_depth_low + size - x * (2.0 / 3.0),
+                         emission.plasma.kappa_depth_high - 0.5 * (k + 1.0) * x);
+}
+
+kd_radiates kd_plasma_kappa(kd_electrons e, float frequency)
+{
+    kd_kappa_laws of = kd_kappa_of(e, frequency);
+    float light = kd_log2_joined(of.light_low, of.light_high, emission.plasma.kappa_light_sharp), depth = kd_log2_joined(of.depth_low, of.depth_high, emission.plasma.kappa_depth_sharp);
+    return kd_radiates(e.density + e.field + KD_LOG2_GYRO + 0.5 * log2(max(e.sine2, 1e-30)) + light, e.density - frequency + depth - 3.0 * of.z, 0.5 * emission.plasma.kappa);
 }
 
 kd_radiates kd_plasma_gives(kd_plasma m)

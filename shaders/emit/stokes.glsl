@@ -3,6 +3,8 @@
  *
  *   thermal     j_I and j_Q are those of A. Pandya et al. 2016 (ApJ 822, 34, equation 31); j_V/j_I and rho_Q those of J. Dexter 2016 (MNRAS 462, 115, A1 to A3, B4 to B13); rho_V of
  *               R. V. Shcherbakov 2008 (ApJ 688, 695, equation 33), with Bessel functions by M. Abramowitz & I. A. Stegun 1964, 9.8.1 to 9.8.8; absorption by Kirchhoff's law
+ *   kappa       Pandya et al. 2016, equations 35 to 44; rho_Q and rho_V of A. Marszewski, B. S. Prather, A. V. Joshi, A. Pandya & C. F. Gammie 2021 (ApJ 921, 17), which are for kappa
+ *               3.5, 4, 4.5 and 5: between them, the mean of its neighbours by the way to each
  *   power law   Pandya et al. 2016, equations 33 and 34; rho_Q and rho_V of T. W. Jones & S. L. O'Dell 1977 (ApJ 214, 522), as Dexter 2016 has them (B1 to B3), rho_Q with
  *               the sign of thermal electrons of the same mean energy: both are 2 <gamma> times the same numbers where frequencies are high
  *
@@ -13,6 +15,9 @@
 #define KD_BLOCK_stokes(F, U, A)                                                                               \
     F(turn) F(convert) /* log2 of what a power law of electrons has to do with rho_V and rho_Q */                       \
     F(gamma2)          /* log2 of the square of its least energy */                                                \
+    F(kappa_light_q) F(kappa_light_q_sharp) F(kappa_light_v_low) F(kappa_light_v_high) /* of a kappa distribution: physics/synchrotron.h */ \
+    F(kappa_depth_q) F(kappa_depth_q_sharp) F(kappa_depth_v_low) F(kappa_depth_v_high) F(kappa_depth_v_sharp) \
+    U(kappa_node) F(kappa_past) /* which of Marszewski's kappas is below, and the part of the way to the next */ \
     F(whole)           /* part of linear polarisation that disorder of the field leaves */
 #define KD_TABLES_stokes(T)
 #define KD_TRAIT_STOKES_FARADAY 2u
@@ -94,6 +99,46 @@ kd_polarises kd_stokes_by_power(kd_electrons e, float frequency, float index)
     return p;
 }
 
+/* Marszewski et al. 2021 for kappa 3.5 + node/2, w = exp2(log2_w) and X: what rho_Q has of n e^2 nu_c^2 sin^2(theta)/(m_e c nu^3), and rho_V of 2 n e^2 nu_c cos(theta)/(m_e c nu^2) times K0/K2. */
+vec2 kd_stokes_marszewski(uint node, float log2_w, float log2_x)
+{
+    const vec3 widths[4] = vec3[](vec3(17.0, 3.0, 7.0), vec3(46.0 / 3.0, 5.0 / 3.0, 17.0 / 3.0), vec3(14.0, 1.625, 4.5), vec3(12.5, 1.0, 5.0));
+    const vec4 shapes[4] = vec4[](vec4(1.0 / 30.0, 0.1, 1.5, 0.471), vec4(1.0 / 18.0, 1.0 / 6.0, 1.75, 0.5), vec4(1.0 / 12.0, 0.25, 2.0, 0.525), vec4(0.125, 0.375, 2.25, 0.541));
+    const vec4 ratios[4] = vec4[](vec4(2.0, 1.0, 3.125, 4.0), vec4(54.0, 50.0, 30.0 / 11.0, 134.0), vec4(43.0, 38.0, 7.0 / 3.0, 92.5), vec4(13.0 / 14.0, 0.0, 2.0, 13.0 / 14.0)); /* the last over w */
+    const float slows[4] = float[](0.447, 0.391, 0.348, 0.313);
+    vec3 width = widths[node];
+    vec4 shape = shapes[node], ratio = ratios[node];
+    float w = exp2(clamp(log2_w, -40.0, 40.0)), root = sqrt(w), x = exp2(clamp(log2_x, -40.0, 40.0));
+    float bend = exp(-shape.z * pow(x, shape.w)) * kd_cos_sin(shape.y * min(x, 1e3)).s; /* beyond, there is nothing of it */
+    float q = (1.0 - exp(-shape.x * pow(x, 0.84)) - bend) * (width.x * w - width.y * root + width.z * root * exp(-5.0 * w));
+    float v = max(1.0 - 0.17 * log(1.0 + slows[node] * inversesqrt(x)), 0.0) * (w + ratio.x + ratio.y / w) / (ratio.z * w + ratio.w + ratio.y / w);
+    return vec2(q, v);
+}
+
+kd_polarises kd_stokes_by_kappa(kd_electrons e, float frequency)
+{
+    float turn = e.field + KD_LOG2_GYRO, slant = 0.5 * log2(max(e.sine2, 1e-30)), way = sign(e.cosine), log2_w = 0.0;
+    kd_kappa_laws of = kd_kappa_of(e, frequency);
+    log2_w = of.z - log2(emission.plasma.kappa);
+    /* log2 of sin^-n - 1 for the four powers of V's fits */
+    vec4 open_ = log2(max(exp2(min(-slant * vec4(2.4, 2.5, 2.28, 2.05), vec4(100.0))) - 1.0, vec4(1e-30)));
+    float light = kd_log2_joined(of.light_low, of.light_high, emission.plasma.kappa_light_sharp), depth = kd_log2_joined(of.depth_low, of.depth_high, emission.plasma.kappa_depth_sharp);
+    float light_q = kd_log2_joined(of.light_low - 1.0, of.light_high + emission.stokes.kappa_light_q, emission.stokes.kappa_light_q_sharp);
+    float light_v = kd_log2_joined(of.light_low + emission.stokes.kappa_light_v_low - log2_w + 0.48 * open_.x - 0.35 * of.x,
+                                   of.light_high + emission.stokes.kappa_light_v_high - log2_w + 0.44 * open_.y - 0.5 * of.x, emission.plasma.kappa_light_sharp);
+    float depth_q = kd_log2_joined(of.depth_low - 0.9411063, of.depth_high + emission.stokes.kappa_depth_q, emission.stokes.kappa_depth_q_sharp);
+    float depth_v = kd_log2_joined(of.depth_low + emission.stokes.kappa_depth_v_low - log2_w + 0.446 * open_.z - 0.35 * of.x,
+                                   of.depth_high + emission.stokes.kappa_depth_v_high - 0.928 * log2_w + 0.5 * open_.w - 0.5 * of.x, emission.stokes.kappa_depth_v_sharp);
+    kd_polarises p;
+    p.light = kd_stokes_held(exp2(min(vec2(light_q, light_v) - light, vec2(40.0))) * vec2(1.0, way));
+    p.depth = kd_stokes_held(exp2(min(vec2(depth_q, depth_v) - depth, vec2(40.0))) * vec2(1.0, way));
+    vec2 turns = mix(kd_stokes_marszewski(emission.stokes.kappa_node, log2_w, of.x), kd_stokes_marszewski(min(emission.stokes.kappa_node + 1u, 3u), log2_w, of.x), emission.stokes.kappa_past);
+    p.turns = vec2(2.0 * turn - 3.0 * frequency + 2.0 * slant + log2(max(abs(turns.x), 1e-37)),
+                   1.0 + turn - 2.0 * frequency + log2(max(kd_stokes_bessel(log2_w).x * turns.y * abs(e.cosine), 1e-37)));
+    p.signs = vec2(sign(turns.x), way);
+    return p;
+}
+
 /* Walker & Penrose's constant of k ^ f, up to a factor above 0; f: contravariant components t, r, theta, phi of Boyer and Lindquist. */
 vec2 kd_stokes_kappa(kd_midst p, kd_metric g, vec4 f)
 {
@@ -122,6 +167,8 @@ void kd_stokes_at(kd_plasma m, kd_midst p, float light, float depth, float depth
     kd_polarises of;
     if ((TRAITS_plasma & KD_TRAIT_PLASMA_POWER) != 0u)
         of = kd_stokes_by_power(m.electrons, m.frequency, emission.plasma.power_index);
+    else if ((TRAITS_plasma & KD_TRAIT_PLASMA_KAPPA) != 0u)
+        of = kd_stokes_by_kappa(m.electrons, m.frequency);
     else
         of = kd_stokes_thermal(m.electrons, m.frequency);
     vec2 c = kd_stokes_direction(m, p);

@@ -38,6 +38,22 @@ struct kd_synchrotron_kappa kd_synchrotron_kappa(double kappa)
     };
 }
 
+struct kd_synchrotron_kappa_polarised kd_synchrotron_kappa_polarised(double kappa)
+{
+    const double deep = pow(3 / kappa, 4.75) + 0.6; /* I's */
+    return (struct kd_synchrotron_kappa_polarised) {
+        .light_q_high = log2(0.64 + kappa / 50),
+        .light_q_sharp = 3.7 * pow(kappa, -1.6),
+        .light_v_low = log2(9.0 / 16 * pow(kappa, -66.0 / 125)),
+        .light_v_high = log2(49.0 / 64 * pow(kappa, -11.0 / 25)),
+        .depth_q_high = log2((441 * pow(kappa, -144.0 / 25) + 0.55) / deep),
+        .depth_q_sharp = 1.4 * pow(kappa, -1.15),
+        .depth_v_low = log2(0.77 * pow(kappa, -0.7)),
+        .depth_v_high = log2(14.3 * (169 * pow(kappa, -8) + 13 * kappa / 2500 - 263.0 / 5000 + 47 / (200 * kappa)) / deep),
+        .depth_v_sharp = 1.22 * pow(kappa, -142.0 / 125) + 0.007,
+    };
+}
+
 /* As c = a + 1, Euler's integral is z^a 2F1 = a times that of s^(a - 1) (1 + s)^-b from 0 to z: in ln s, by Simpson's rule. */
 void kd_synchrotron_kappa_table(double kappa, double first, double step, int n, double *out)
 {

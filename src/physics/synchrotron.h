@@ -21,6 +21,12 @@ struct kd_synchrotron_power kd_synchrotron_power(double p, double gamma_min, dou
 struct kd_synchrotron_kappa { double light_low, light_high, light_sharp, depth_low, depth_high, depth_sharp; };
 struct kd_synchrotron_kappa kd_synchrotron_kappa(double kappa);
 
+/* Q and V of the same (equations 35 to 44), over I's law for low or for high frequencies, log2 but for s: Q has 1/2 of j's for low ones and 25/48 of alpha's; V has over w those numbers times
+ * (sin^-n - 1)^m, n and m being 12/5 and 12/25, 5/2 and 11/25 for j and 57/25 and 223/500, 41/20 and 1/2 for alpha, times X^(-7/20) for low and X^(-1/2) for high frequencies; alpha's for
+ * high ones is over w^(116/125). V of j is joined as I is. */
+struct kd_synchrotron_kappa_polarised { double light_q_high, light_q_sharp, light_v_low, light_v_high, depth_q_high, depth_q_sharp, depth_v_low, depth_v_high, depth_v_sharp; };
+struct kd_synchrotron_kappa_polarised kd_synchrotron_kappa_polarised(double kappa);
+
 /* Gives log2 of F(z) = z^a 2F1(a, kappa + 1; a + 1; -z), a = kappa - 1/3, at n places log2(z) = first + i step, from below -8. */
 void kd_synchrotron_kappa_table(double kappa, double first, double step, int n, double *out);
 

@@ -12,7 +12,7 @@
 
 bool kd_scene_is_radio(const struct kd_scene *scene) { return scene->volume.model > KD_VOLUME_UNIFORM; }
 
-bool kd_scene_is_magnetic(const struct kd_scene *scene) { return scene->volume.model == KD_VOLUME_RIAF; }
+bool kd_scene_is_magnetic(const struct kd_scene *scene) { return scene->volume.model == KD_VOLUME_RIAF || scene->volume.model == KD_VOLUME_TORUS; }
 
 double kd_scene_volume_inner(const struct kd_scene *scene)
 {

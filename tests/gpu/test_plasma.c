@@ -5,6 +5,7 @@
 #include "kerr_schild.h"
 #include "physics/kerr.h"
 #include "render/output/flux.h"
+#include "torus_turns.h"
 
 #include <math.h>
 
@@ -153,22 +154,6 @@ static void kappa_law(double kappa, double n, double theta, double turn, double 
     out[1] = n * E2 / (nu * ME * C) * pow(pow(low, -s) + pow(high, -s), -1 / s);
 }
 
-/* Goes round with that angular velocity, and has that u^t, at which u^t u_phi = l, by bisection; and ln h = ln u^t - l Omega but for a constant. */
-static double torus_turns(const struct metric *m, double l, double out[4])
-{
-    const double omega = -m->g[0][3] / m->g[3][3], reach = sqrt(m->g[0][3] * m->g[0][3] - m->g[0][0] * m->g[3][3]) / m->g[3][3];
-    double low = omega - reach, high = omega + reach, w = omega, t2 = 1;
-    for (int i = 0; i < 100; i++) {
-        w = 0.5 * (low + high);
-        t2 = -1 / (m->g[0][0] + 2 * w * m->g[0][3] + w * w * m->g[3][3]);
-        *(t2 > 0 && t2 * (m->g[0][3] + w * m->g[3][3]) < l ? &low : &high) = w;
-    }
-    out[0] = sqrt(t2);
-    out[1] = out[2] = 0;
-    out[3] = w * out[0];
-    return log(out[0]) - l * w;
-}
-
 static void medium(void *user, const struct ks_photon *p, double r, double u, double out[2])
 {
     const struct kd_scene *scene = user;
@@ -192,9 +177,9 @@ static void medium(void *user, const struct ks_photon *p, double r, double u, do
         double orbit[4], low[4];
         circle(a, v->torus_radius, &mid, orbit);
         raise(mid.g, orbit, low);
-        const double l = orbit[0] * low[3], edge = torus_turns(&inner, l, flow);
-        most = expm1(torus_turns(&mid, l, flow) - edge);
-        enthalpy = expm1(torus_turns(&m, l, flow) - edge);
+        const double l = orbit[0] * low[3], edge = torus_turns(inner.g[0][0], inner.g[0][3], inner.g[3][3], l, flow);
+        most = expm1(torus_turns(mid.g[0][0], mid.g[0][3], mid.g[3][3], l, flow) - edge);
+        enthalpy = expm1(torus_turns(m.g[0][0], m.g[0][3], m.g[3][3], l, flow) - edge);
         out[0] = out[1] = 0;
         if (!(enthalpy > 0))
             return;
