@@ -13,11 +13,12 @@ import { lang, t, tell, translatePage } from './i18n.js';
 import * as link from './link.js';
 import { apart, buildLiving } from './living.js';
 import { buildOverlays } from './overlay.js';
-import { buildPace, windowSize } from './pace.js';
+import { buildPace } from './pace.js';
 import { buildPresets, openPreset, startAgain } from './presets.js';
 import { Scene } from './scene.js';
 import { share } from './share.js';
 import { sheet } from './sheet.js';
+import { windowSize } from './sizes.js';
 import { openSource } from './source.js';
 import { buildStruck } from './struck.js';
 import { handle } from './view.js';
@@ -124,7 +125,7 @@ async function watch(scene) {
       tells = frame.final || now - told_ms > telling_ms; // what stands beside pictures that follow each other
     if (tells) told_ms = now;
     await carry(frame.picture, frame, tells ? describe(scene) : null);
-    if (!any) requestAnimationFrame(() => (performance.mark('first-picture'), setTimeout(seen)));
+    if (!any) requestAnimationFrame(() => (performance.getEntriesByName('first-picture').length || performance.mark('first-picture'), setTimeout(seen)));
     any = true;
     const { complain, drawOverlays } = await parts;
     fall?.then(({ shown }) => shown(frame));

@@ -2,7 +2,7 @@
 // field of view changes, nearly right where the camera is turned, and a guess where it comes nearer. What comes next is computed. The picture at rest is faded
 // in over the coarse one before it.
 import { el, still } from './dom.js';
-import { sizeOf } from './pace.js';
+import { sizeOf } from './sizes.js';
 
 const names = ['r', 'field_m', 'fov_deg', 'yaw_deg', 'pitch_deg', 'roll_deg', 'projection', 'observer', 'stereo'];
 const radians = Math.PI / 180;
@@ -35,7 +35,6 @@ export function buildCarry(stage, scene) {
     context = canvas.getContext('bitmaprenderer', { alpha: false }),
     seen = new Map(); // by what each was seen
   let picture = stage.querySelector('#picture'),
-    url = '',
     begun = 0;
   picture.after(canvas);
 
@@ -75,13 +74,13 @@ export function buildCarry(stage, scene) {
   async function rest(blob, { camera: by, width, all }, alt) {
     const mine = ++begun,
       old = picture,
-      before = url,
+      before = picture.getAttribute('src'), // ahead.js may have been there
       next = old.cloneNode(); // the old one stays until the new one can be shown whole
     next.src = URL.createObjectURL(blob);
     if (alt != null) next.alt = alt;
     await next.decode();
     if (mine !== begun) return URL.revokeObjectURL(next.src);
-    [picture, url] = [next, next.src];
+    picture = next;
     next.style.transform = '';
     old.replaceWith(next);
     seen.delete(old);
@@ -94,12 +93,12 @@ export function buildCarry(stage, scene) {
       next.after(old);
       leave(old, () => old.remove());
     } else if (over === canvas) fades ? leave(canvas, away) : away();
-    URL.revokeObjectURL(before);
+    if (before) URL.revokeObjectURL(before);
   }
 
   // alt: what is said of it, null: what was said of the one before.
   return async function show(blob, frame, alt) {
-    if (frame.final || !url || !context || !globalThis.createImageBitmap) return rest(blob, frame, alt);
+    if (frame.final || !picture.getAttribute('src') || !context || !globalThis.createImageBitmap) return rest(blob, frame, alt);
     await move(blob, frame);
     if (alt != null && picture.alt !== alt) picture.alt = alt;
   };

@@ -21,6 +21,9 @@ function wide(path, base) {
   return by > 1 ? Math.max(base, Math.min(Number(value.toPrecision(4)), most[path])) : base;
 }
 
+// Whether a window is so high that the width of a preset is its own.
+export const fits = ({ clientWidth: width, clientHeight: height }) => width > 0 && width <= widest * height;
+
 export function buildFit(scene) {
   let held = null; // { path, base, value }
 

@@ -1,9 +1,9 @@
 // The presets are a strip of small pictures, each with a name and a sentence. Pictures are the server's, asked for one at a time once a card is
 // seen: one that the server has not painted yet takes it seconds.
+import { first_view } from './ahead.js';
 import { byId, el, seen } from './dom.js';
 import captions from './captions.js';
 import { label, t } from './i18n.js';
-import { first_view } from './presets.js';
 import { swipe } from './swipe.js';
 
 const calm_ms = 1500; // after the first picture

@@ -10,6 +10,7 @@ const frame_ms = 75; // from picture to picture over a long line, about
 const most = 5; // requests for pictures: a browser opens six connections to one server
 const choked_ms = 800; // that bytes take at the lowest quality: more requests would only make each picture older
 const most_calm = 400; // where trying it was in vain, time after time
+const of_late = 4; // answers: the quickest of them tells how long the way is
 
 export function buildLine() {
   let at = 0,
@@ -17,6 +18,7 @@ export function buildLine() {
     patience = calm,
     climbed = -Infinity,
     trip_ms = 0, // to the server and back, at least: of late
+    trips = [],
     read_ms = 0;
   const depth = () => (at + 1 === qualities.length && read_ms > choked_ms ? 3 : Math.min(Math.max(1 + Math.ceil(trip_ms / frame_ms), 2), most));
   return {
@@ -24,7 +26,8 @@ export function buildLine() {
     pace_ms: frame_ms,
     // The server took so long to answer, without what it waited for.
     answered(ms) {
-      trip_ms = Math.min(trip_ms ? 1.1 * trip_ms : Infinity, Math.max(ms, 1));
+      trips = [...trips.slice(1 - of_late), Math.max(ms, 1)];
+      trip_ms = Math.min(...trips);
     },
     far: () => trip_ms > far_ms,
     // How many requests for pictures are under way while something moves.

@@ -1,4 +1,5 @@
 // The box of presets. It names the one that the scene is, at whatever time and from whichever side; a link remembers the name.
+import { firstDocument, first_view } from './ahead.js';
 import { byId, el } from './dom.js';
 import { label, t, tell } from './i18n.js';
 import * as link from './link.js';
@@ -6,8 +7,6 @@ import { left_out } from './known.js';
 import { told, valueAt } from './scene.js';
 import { getJson } from './server.js';
 
-// The preset that is shown where a link says nothing of the scene; '' is the default scene.
-export const first_view = 'gas-stars';
 const plain = 'default'; // what a link then calls the default scene
 
 const renamed = { 'm87-eht': 'm87' }; // in links from before
@@ -23,7 +22,7 @@ export async function openPreset(scene) {
   const chosen = link.get('preset') ?? (scene.linked.some(path => !['image', 'time'].includes(path.split('.')[0])) ? plain : first_view),
     held = scene.held,
     linked = Object.fromEntries(scene.linked.map(path => [path, scene.get(path)]));
-  const document = !chosen || chosen === plain ? {} : await document_of(chosen).catch(error => {
+  const document = !chosen || chosen === plain ? {} : (await firstDocument()) ?? await document_of(chosen).catch(error => {
     if (error.status !== 404) throw error;
     scene.unknown.push('preset');
   });

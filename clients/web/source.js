@@ -8,14 +8,12 @@ import { figures, fits, passes, sentences } from './frame.js';
 import { buildFlight, still_ms } from './flight.js';
 import { buildLine } from './line.js';
 import { mergePatch, moves } from './merge.js';
-import { kept } from './pace.js';
 import { ask, passes as may_pass, Problem, too_large } from './server.js';
+import { adopter, asleep, fresh, load } from './session.js';
+import { kept } from './sizes.js';
 
 const least_samples = 2;
 const least_part = 1 / 8; // of the window’s width, of a picture at rest
-
-// What decides how long a pixel takes, and the window.
-const load = ({ camera, time, motion, ...rest }) => JSON.stringify(rest);
 
 // A picture at rest has so many; what is saved has as many.
 export const samples = scene => (scene.get('image.samples') === 'auto' ? 'auto' : Math.max(scene.get('image.samples'), least_samples));
@@ -42,6 +40,8 @@ export function openSource(scene, size, shown, failed, rests) {
     laden = '', // with this
     polls = new AbortController(),
     recent = [];
+
+  let adopt = adopter(scene);
 
   function wanted() {
     const { width, height } = size();
@@ -104,6 +104,8 @@ export function openSource(scene, size, shown, failed, rests) {
   async function send() {
     await seen('lensing');
     if (!session) scene.land();
+    session ??= (await adopt?.()) ?? null;
+    adopt = null;
     const keeps = kept(),
       same = session?.keeps === keeps,
       naps = dozes,
@@ -122,7 +124,8 @@ export function openSource(scene, size, shown, failed, rests) {
       if (patch && same && !Object.keys(patch).length) {
         if (striking) await struck(session.document);
         told = now_asked;
-        return settle();
+        settle();
+        return void (pulling || pull());
       }
       const little = patch && same && moves(patch) && !striking;
       if (little && pulling && line.far() && !session.plain) return carry(patch, document, now_asked, jumps);
@@ -138,7 +141,7 @@ export function openSource(scene, size, shown, failed, rests) {
       line.answered(performance.now() - begun);
       const { id, token, revision, scene: now, order: known, ...seen_of_it } = await answer.json();
       if (!session) last &&= { final: false }; // its revisions are counted anew
-      session ??= { url: 'v1/sessions/' + id, token, frame: 0, flight: [], cameras: new Map(), order: 0, known: 0, touched: new Set(), pending: null, plain: false };
+      session ??= fresh({ id, token });
       session.cameras.set(revision, document.camera ?? {});
       Object.assign(session, { document: dozes === naps ? document : asleep(document), revision, jumps, keeps, part, known: known ?? 0, plain: false });
       session.touched.clear();
@@ -252,8 +255,6 @@ export function openSource(scene, size, shown, failed, rests) {
     }
     pulling = false;
   }
-
-  const asleep = document => ({ ...document, motion: { ...document.motion, azimuth_rate_deg: 0 } });
 
   // A camera that drifts stands where it was last seen while nobody looks.
   function doze() {

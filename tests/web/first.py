@@ -1,4 +1,5 @@
 """The first view: a preset, where a link says nothing of the scene: first.py KERRD FOLDER (browser.py)."""
+import json
 import re
 
 from browser import AT_REST, PATIENCE_MS, Browser, main
@@ -16,7 +17,7 @@ class First(Browser):
             self.assertEqual(n, 1)
             route.fulfill(body=changed, content_type='text/javascript')
 
-        page.route('**/web/presets.js', answer)
+        page.route('**/web/ahead.js', answer)
         page.goto(self.base + '#' + fragment)
         page.wait_for_selector(wait, timeout=PATIENCE_MS, state='attached')
         page.wait_for_selector('#preset option:nth-child(3)', state='attached')
@@ -57,6 +58,31 @@ class First(Browser):
             self.assertEqual(wide, page.evaluate('document.getElementById("stage").clientWidth'))
             self.assertGreater(bright, 0.05)
             self.assertGreater(black, 80)
+
+    def test_its_picture_is_ahead_of_the_page(self):
+        """Its session is opened, and its picture shown, before the rest of the page is there, which then goes on with both; in a window that widens it not."""
+        context = self.context(viewport={'width': 800, 'height': 600})
+        page, opened, held = self.page(context), [], []
+        page.on('request', lambda r: '/v1/sessions' in r.url and r.method != 'GET' and opened.append((r.method, r.url, r.post_data)))
+        page.route('**/web/app.js', lambda route: held.append(route))
+        page.goto(self.base + '#lang=en', wait_until='commit')
+        page.wait_for_function('() => document.getElementById("picture")?.naturalWidth > 0', timeout=PATIENCE_MS)
+        self.assertTrue(daemon.eventually(lambda: page.evaluate('0') or held))
+        held.pop().continue_()
+        page.wait_for_selector('#stage[data-final]', timeout=PATIENCE_MS, state='attached')
+        self.assertIn('preset=gas-stars', opened[0][1])
+        self.assertEqual([method for method, _, _ in opened].count('POST'), 1, 'source.js goes on with it')
+        self.assertTrue(daemon.eventually(lambda: page.input_value('#preset') == 'gas-stars'))
+        page.set_viewport_size({'width': 1600, 'height': 400})
+        opened.clear()
+        page.unroute('**/web/app.js')
+        page.reload()
+        page.wait_for_selector('#stage[data-final]', timeout=PATIENCE_MS, state='attached')
+        posts = [(url, json.loads(body)) for method, url, body in opened if method == 'POST']
+        self.assertEqual(len(posts), 1)
+        self.assertNotIn('preset=', posts[0][0])
+        usual = self.daemon.get('/v1/presets/gas-stars').json()['camera']['field_m']
+        self.assertGreater(posts[0][1]['camera']['field_m'], usual)
 
     def test_it_is_a_preset_that_moves(self):
         page = self.opened('living-disk', 'lang=en')
