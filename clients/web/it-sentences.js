@@ -200,6 +200,8 @@ export const sentences = {
     'volume: luce a una frequenza radio accanto a luce di altro tipo, la cui luminosità 1 è un’altra; l’immagine non ha flusso',
   "volume: the frequency shift of its matter is switched off, and lengths are those of the observer's affine parameter":
     'volume: lo spostamento di frequenza della sua materia è disattivato, e le lunghezze sono quelle del parametro affine dell’osservatore',
+  'sky: while the view changes images of stars that would brighten their pixel by less than sky.brightness are left out, and those next to the critical curve, in pixels whose rays stand for more than 0.15 rad of the sky; the others are up to a fifth of a ray off':
+    'cielo: mentre la vista cambia sono omesse le immagini di stelle che illuminerebbero il loro pixel meno di sky.brightness, e quelle accanto alla curva critica, nei pixel i cui raggi coprono più di 0,15 rad di cielo; le altre distano fino a un quinto di raggio dal loro posto',
   'volumes: a sketch while the view changes: light to some 5 %, as measured in it, and turbulence without the octaves of which a pixel leaves less than a seventh of the first: another 7 %, which is not':
     'volumi: uno schizzo mentre la vista cambia: luce entro il 5 % circa, come vi è misurato, e turbolenza senza le ottave di cui un pixel lascia meno di un settimo della prima: un altro 7 %, che non lo è',
   'volumes: light in 32 bits by three places a stretch, as many stretches as grain, depth and the ray ask for; what accuracy asks for is a target: some 5e-5 are left in any case; what is left is measured on a sample of rays, followed twice as closely':

@@ -8,11 +8,10 @@
  *
  * A star's flux F in an image is F dOmega/dOmega_s: with the solid angle of a pixel, its mean radiance there is F over the solid angle of
  * the sky that the map takes a pixel to at the star's place, |det J|/cos(angle to the ray), and the picture's own drops out. It is spread
- * as a quadratic B-spline, of standard deviation half a pixel, over 3 x 3: the weights add up to 1, and their centre is the place.
+ * as ray/star_light.glsl has it.
  *
  * Rays of the rim (ray/rim.glsl) are taken likewise, with steps of its own, and what those are in the picture.
- *
- * Light is added up in 64-bit fixed point, so that the sum does not depend on the order. */
+ */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
@@ -26,7 +25,8 @@ layout(set = 0, binding = 4) readonly buffer Stars { float stars[]; };
 #define KD_CAMERA_ONLY
 #include "ray/camera.glsl"
 #include "ray/rim.glsl"
-layout(set = 0, binding = 6) buffer PointLight { uint point_light[]; };
+#define KD_STAR_LIGHT_BINDING 6
+#include "ray/star_light.glsl"
 
 #define KD_STAR_THIN 0.02 /* the area of a patch over the square of its size */
 
@@ -177,37 +177,6 @@ bool is_plain(kd_patch m)
     return 1.2 * (all.x + all.y) * (abs(j[0].x) + abs(j[0].y) + abs(j[1].x) + abs(j[1].y)) < 0.7 * abs(det);
 }
 
-void add(uint o, float light)
-{
-    float whole = floor(light * (KD_STAR_UNIT / 4294967296.0));
-    uint low = uint(light * KD_STAR_UNIT - whole * 4294967296.0), high = uint(whole);
-    uint was = atomicAdd(point_light[o], low);
-    high += was + low < was ? 1u : 0u;
-    if (high > 0u)
-        atomicAdd(point_light[o + 1u], high);
-}
-
-/* Those of the pixel before, at and after a place that is d from the middle one. */
-vec3 weights(float d) { return vec3(0.5 * (0.5 - d) * (0.5 - d), 0.75 - d * d, 0.5 * (0.5 + d) * (0.5 + d)); }
-
-/* In pixels of the band. */
-void spread(vec2 place, vec3 light)
-{
-    vec2 middle = floor(place + 0.5);
-    vec3 wx = weights(place.x - middle.x), wy = weights(place.y - middle.y);
-    int pixels_x = int(emission.frame.pixels_x), pixels_y = int(push.pixels_y);
-    for (int k = 0; k < 9; k++) {
-        int r = k / 3, c = k - 3 * r, px = int(middle.x) + c - 1, py = int(middle.y) + r - 1 + int(push.up);
-        if (px >= 0 && px < pixels_x && py >= 0 && py < pixels_y) {
-            uint o = KD_STAR_LIGHT * uint(py * pixels_x + px);
-            vec3 part = min((r == 0 ? wy.x : r == 1 ? wy.y : wy.z) * (c == 0 ? wx.x : c == 1 ? wx.y : wx.z) * light, vec3(1e9));
-            add(o, part.r);
-            add(o + 2u, part.g);
-            add(o + 4u, part.b);
-        }
-    }
-}
-
 /* Where two cells meet each has a share of the light, which goes from 0 to 1 over a fifth of a step: their maps put an image at slightly different
  * places, and none is lost or counted twice. */
 float share(float x) { return clamp(3.0 - 5.0 * abs(x), 0.0, 1.0); }
@@ -261,10 +230,10 @@ void images(uint at, uint k)
         float det = max(abs(determinant_of(derivative(m, p))), 1e-6 * size);
         kd_star_pixel spot = spot_at(x, y, p);
         float magnified = stars[4u * k + 3u] * cosine * spot.steps / (det * float(SIDE * SIDE));
-        if (magnified < KD_STAR_LEAST)
+        if (magnified < push.least)
             continue;
         vec3 colour = kd_sky_shifted(stars[4u * push.stars + k], FINITE ? 1.0 / spot.energy : 1.0, VISIBLE ? KD_TRAIT_VISIBLE : 0u);
-        spread((spot.place + 0.5) / float(SIDE) - 0.5, emission.sky.brightness * magnified * share(p.x) * share(p.y) * spot.share * colour);
+        kd_star_spread((spot.place + 0.5) / float(SIDE) - 0.5, emission.sky.brightness * magnified * share(p.x) * share(p.y) * spot.share * colour);
     }
 }
 

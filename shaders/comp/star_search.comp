@@ -3,7 +3,7 @@
  * parallelogram about that patch, by its first derivatives. star_images.comp finds their places.
  *
  * Stars are sorted into square cells on the six faces of a cube about the sphere, the brightest of a cell first (shared/faces.h). A star whose light,
- * by twice the mean magnification of a ray's patch, would brighten the pixel by less than KD_STAR_LEAST of the unit of sky.brightness ends the
+ * by twice the mean magnification of a ray's patch, would brighten the pixel by less than push.least of the unit of sky.brightness ends the
  * search of its cell. A patch of more than KD_STAR_PATCH radians, next to the critical curve, is left out.
  *
  * The parallelogram: with J the map's derivative, |x_i| <= KD_STAR_ROOM for x = (J^T J + e tr(J^T J))^-1 J^T p. e makes room for what the
@@ -56,7 +56,7 @@ void search(uint at)
     float aa = dot(a, a), bb = dot(b, b), ab = dot(a, b), more = KD_STAR_MARGIN * (aa + bb);
     float det = (aa + more) * (bb + more) - ab * ab, unit = 1.0 / max(det, 1e-30);
     float size = AT_RIM ? sqrt(aa + bb) : kd_sky_number(KD_LENS_SKY_FOOTPRINT, at), steps = kd_steps_of(x, y);
-    float patch_ = sqrt(max(aa * bb - ab * ab, 0.0)), least = 0.5 * KD_STAR_LEAST * float(SIDE * SIDE) * patch_ / max(steps, 1e-30);
+    float patch_ = sqrt(max(aa * bb - ab * ab, 0.0)), least = 0.5 * push.least * float(SIDE * SIDE) * patch_ / max(steps, 1e-30);
     float reach = 0.75 * size;
     bool looks = kd_sky_escapes(at) && size < (RIM != 0u ? KD_STAR_PATCH_RIM : KD_STAR_PATCH) && aa > 0.0 && bb > 0.0 && !is_left_out(x, y);
     /* What x is made of; so that a star is tested by two products. */

@@ -8,7 +8,9 @@
  * rays, for star_search.comp.
  *
  * Stars are sorted as faces.h says, the brightest of a cell first; a cell's search ends with the star that would brighten a pixel by less than
- * KD_STAR_LEAST. */
+ * push.least.
+ *
+ * BRIGHT: the light of stars in simple tiles is spread here and now, at the places and as much magnified as the tile's map of second order has it. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -22,6 +24,9 @@ KD_SPEC_STARS(KD_SPEC_U_, KD_SPEC_B_)
 #define KD_CAMERA_ONLY
 #include "ray/camera.glsl"
 #include "ray/rim.glsl"
+layout(set = 0, binding = 10) readonly buffer Stars_ { float star_numbers[]; };
+#define KD_STAR_LIGHT_BINDING 9
+#include "ray/star_light.glsl"
 
 #define KD_STAR_TILE_BENT 0.7
 #define KD_STAR_TILE_OFF 0.2
@@ -101,6 +106,19 @@ float area(kd_tile t, vec2 p)
     return abs((du.x * dv.y - du.y * dv.x) * t.det) * (1.0 / float(HALF * HALF));
 }
 
+/* The light of star k, whose place is that many rays from the middle one of a tile, which is the ray (x, y); magnified: its flux, over the sky that a pixel is mapped to. Where
+ * two tiles meet each has a share of it, which goes from 0 to 1 over a fifth of a step, as that of two rays (star_images.comp): their maps differ a little there. */
+void shine(uint x, uint y, vec2 place, uint k, float magnified, bool bright)
+{
+    vec2 share = clamp(0.5 + 5.0 * (float(HALF) + 0.5 - abs(place)), 0.0, 1.0);
+    if (!bright || share.x * share.y <= 0.0)
+        return;
+    ivec2 near = ivec2(floor(place + 0.5));
+    float energy = FINITE ? kd_camera_ray(uint(int(x) + near.x), uint(int(y) + near.y) + push.row0).e : 1.0;
+    vec3 colour = kd_sky_shifted(star_numbers[4u * push.stars + k], 1.0 / energy, VISIBLE ? KD_TRAIT_VISIBLE : 0u);
+    kd_star_spread((vec2(x, y) + place + 0.5) / float(SIDE) - 0.5, emission.sky.brightness * magnified * share.x * share.y * colour);
+}
+
 /* The pairs of star k, whose place is that many rays from the middle one; none, if it is too faint. */
 void note(uint at, vec2 place, uint k, bool bright)
 {
@@ -156,7 +174,7 @@ void seek(uint x, uint y)
     /* u and v of a star are these products; of one in a cell of the tile, by the linear map, at most so large. */
     vec3 to_u = (t.b.y * t.e1 - t.b.x * t.e2) / t.det, to_v = (t.a.x * t.e2 - t.a.y * t.e1) / t.det;
     float most_ = (1.0 + NEAR / float(HALF)) * (1.0 + 0.5 * t.bent) + 0.05;
-    float unit = KD_STAR_LEAST * float(SIDE * SIDE) / (AT_RIM ? 1.2 * kd_steps_of(x + 1u, y + 1u) : 1.0); /* of the rim's rays the last stand for a little less */
+    float unit = push.least * float(SIDE * SIDE) / (AT_RIM ? 1.2 * kd_steps_of(x + 1u, y + 1u) : 1.0); /* of the rim's rays the last stand for a little less */
     float sharp = 1.0 - t.bent, least = sharp * sharp * unit * abs(t.det) * (1.0 / float(HALF * HALF)); /* where it is brightest */
     bool left_out = is_left_out(x, y);
     kd_star_walk walk = kd_star_walk_from(t.cells, t.simple && !left_out);
@@ -178,7 +196,11 @@ void seek(uint x, uint y)
         if (walk.done)
             break;
         place = place_of(t, place);
-        note(at, place * float(HALF), walk.k - 1u, star.w > 0.8 * unit * area(t, place));
+        float patch_ = area(t, place);
+        if (BRIGHT)
+            shine(x + uint(HALF), y + uint(HALF), place * float(HALF), walk.k - 1u, star.w * dot(star.xyz, t.n) / (patch_ * float(SIDE * SIDE)), star.w > unit * patch_);
+        else
+            note(at, place * float(HALF), walk.k - 1u, star.w > 0.8 * unit * patch_);
     }
     if (!t.simple && !left_out)
         list(first, x, y);

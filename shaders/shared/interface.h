@@ -73,11 +73,13 @@
     U(rim)                  /* of the rim, where the table of the grid at hand begins (render/view/rim_grid.h) */ \
                             /* how far its first row is from the curve, and by how much that falls from row to row; numbers of rim.h */ \
     F(far) F(fall) F(none) F(full)                                                                             \
-    F(ahead_x) F(ahead_y) F(ahead_z) F(right_x) F(right_y) F(right_z) F(up_x) F(up_y) F(up_z)
+    F(ahead_x) F(ahead_y) F(ahead_z) F(right_x) F(right_y) F(right_z) F(up_x) F(up_y) F(up_z)                  \
+    F(least)                /* images that brighten their pixel by less of the unit of sky.brightness are left out */
 #define KD_RIM_ANGLES 256
 #define KD_RIM_EDGES 512
 #define KD_STAR_TILE 9      /* rays along the sides of a large tile of star_tiles.comp, a multiple of 3, and odd */
 #define KD_STAR_LEAST 0.03  /* of sky.brightness: images that brighten their pixel by less are left out */
+#define KD_STAR_LEAST_BRIGHT 1.0 /* where only bright ones are wanted */
 #define KD_STAR_PATCH 0.15  /* radians that a ray may stand for where images of stars are sought, */
 #define KD_STAR_PATCH_RIM 0.8 /* and where a rim has those next to the critical curve */
 

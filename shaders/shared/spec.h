@@ -43,7 +43,7 @@
 
 /* star_tiles.comp, star_search.comp and star_images.comp have these. VISIBLE: brightness as the eye weighs it; TILE: rays along the
  * sides of a tile; RIM: ray/rim.glsl. */
-#define KD_SPEC_STARS(U, B) U(0, QUANTITIES, 1) U(1, ORDERS, 3) U(2, SIDE, 1) U(3, SIGHT, 0) B(4, VISIBLE, false) U(5, TILE, 9) U(6, RIM, 0)
+#define KD_SPEC_STARS(U, B) U(0, QUANTITIES, 1) U(1, ORDERS, 3) U(2, SIDE, 1) U(3, SIGHT, 0) B(4, VISIBLE, false) U(5, TILE, 9) U(6, RIM, 0) B(7, BRIGHT, false)
 
 /* BLOCK_X, BLOCK_Y: pixels along the sides of a block, 1, 2 or a multiple of 4; BEGUN: the first row of blocks has rows in the bands before. TAPS_X, TAPS_Y: blocks along
  * an axis that two cells may see; RAGGED: the last one is narrower than the others. */

@@ -80,7 +80,7 @@ class Sessions(daemon.Owned):
         self.assertEqual(struct.unpack('>II', first.body[16:24]), (64, 36))
         self.assertEqual((first.header('Kerrd-Frame'), first.header('Kerrd-Revision'), first.header('Kerrd-Time')), ('1', '1', '5'))
         self.assertEqual(first.header('Kerrd-Azimuth'), '0')
-        self.assertRegex(first.header('Kerrd-Quality'), r'^width=64 height=36 samples=1 critical=4 orders=3 engine=closed precision=f32 steps=0 sketch=0 final=1$')
+        self.assertRegex(first.header('Kerrd-Quality'), r'^width=64 height=36 samples=1 critical=4 orders=3 engine=closed precision=f32 steps=0 sketch=0 bright=0 final=1$')
         self.assertRegex(first.header('Kerrd-Accuracy'), '^rays=2304 ')
         self.assertIn('encode;dur=', first.header('Server-Timing'))
         found = self.status(session)

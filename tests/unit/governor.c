@@ -741,7 +741,7 @@ static void a_change_breaks_into_refinement(void **state)
     assert_true(isinf(kd_governor_turn(&s.governor, s.now).wait_ms));
 }
 
-/* The rays next to the critical curve are fewer in a drag, on any rung but the first, and all are there while time goes on and at rest. */
+/* The rays next to the critical curve and the stars are fewer in a drag, on any rung but the first, and all are there while time goes on and at rest. */
 static void a_drag_has_fewer_rays_at_the_curve(void **state)
 {
     (void)state;
@@ -756,6 +756,7 @@ static void a_drag_has_fewer_rays_at_the_curve(void **state)
         run(&s, patterns[k / 2 % 2], 5e3);
         const bool fewer = patterns[k / 2 % 2] == DRAG && (k & 1) && asked[k / 4] > 2;
         assert_int_equal(s.last.final, !(k & 1));
+        assert_int_equal(s.last.bright, patterns[k / 2 % 2] == DRAG && (k & 1));
         kd_quality_apply(&s.last, &s.asked, &scene);
         assert_int_equal(scene.image.critical_factor, fewer ? 2 : asked[k / 4]);
         change(&s, true);
@@ -765,6 +766,7 @@ static void a_drag_has_fewer_rays_at_the_curve(void **state)
         kd_governor_share(&s.governor, 1);
         frame(&s);
         refine_to_rest(&s, &frames);
+        assert_false(s.last.bright);
         kd_quality_apply(&s.last, &s.asked, &scene);
         assert_int_equal(scene.image.critical_factor, asked[k / 4]);
         assert_int_equal(frames > 0, k & 1);

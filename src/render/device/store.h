@@ -24,6 +24,7 @@ struct kd_bands {
 struct kd_star_key {
     char lens[65];
     bool visible; /* brightness as the eye weighs it */
+    bool bright;  /* as in a plan */
     struct kd_sky sky;
     struct kd_sky_block block;
 };

@@ -22,7 +22,8 @@ static enum kd_status make_ready(struct kd_frame_job *j, const struct kd_capacit
     KD_TRY(kd_store_send(j->store, &r->emit->data, j->error));
     if (j->plan->points) {
         kd_frame_begin_stars(j);
-        kd_frame_find_rim(j);
+        if (!j->plan->bright)
+            kd_frame_find_rim(j);
     }
     KD_TRY(kd_frame_send_cameras(j));
 done:

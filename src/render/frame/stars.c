@@ -24,14 +24,17 @@ struct part {
 /* What a kernel goes through: rays of a picture that has no rim, or of one that has, or the rim. */
 enum rays { NO_RIM, BESIDE_RIM, OF_RIM };
 
-static enum rays rays_of(const struct kd_frame_job *j, const struct part *part) { return part->rim ? OF_RIM : j->lens->rim.there ? BESIDE_RIM : NO_RIM; }
+/* Bright images are sought without. */
+static bool has_rim(const struct kd_frame_job *j) { return j->lens->rim.there && !j->plan->bright; }
+
+static enum rays rays_of(const struct kd_frame_job *j, const struct part *part) { return part->rim ? OF_RIM : has_rim(j) ? BESIDE_RIM : NO_RIM; }
 
 static enum kd_status kernel(struct kd_frame_job *j, enum rays rays, enum kd_kernel kernel, uint32_t tile, const struct kd_vk_pipeline **out)
 {
     const struct kd_plan *p = j->plan;
     const struct kd_spec_stars spec = {
         .QUANTITIES = p->quantities, .ORDERS = p->orders, .SIDE = p->side,
-        .SIGHT = kd_camera_sight(j->scene), .VISIBLE = j->scene->disk.band == KD_BAND_VISIBLE, .TILE = tile, .RIM = rays,
+        .SIGHT = kd_camera_sight(j->scene), .VISIBLE = j->scene->disk.band == KD_BAND_VISIBLE, .TILE = tile, .RIM = rays, .BRIGHT = p->bright && (kernel == KD_KERNEL_STAR_TILES || kernel == KD_KERNEL_STAR_TILES_TEXELS),
     };
     return kd_kernels_get(&j->r->kernels, j->r->vk, kernel, &spec.QUANTITIES, sizeof spec / 4, out, j->error);
 }
@@ -39,7 +42,7 @@ static enum kd_status kernel(struct kd_frame_job *j, enum rays rays, enum kd_ker
 /* How many stars there are is not known yet: as many as the catalogue has, or fewer. */
 enum kd_status kd_frame_star_kernels(struct kd_frame_job *j)
 {
-    const bool rim = kd_rim_may_be(j->scene), texels = 1u << 17 <= kd_vk_info(j->r->vk)->max_texels;
+    const bool rim = kd_rim_may_be(j->scene) && !j->plan->bright, texels = 1u << 17 <= kd_vk_info(j->r->vk)->max_texels;
     const enum kd_kernel tiles = texels ? KD_KERNEL_STAR_TILES_TEXELS : KD_KERNEL_STAR_TILES, find = texels ? KD_KERNEL_STAR_SEARCH_TEXELS : KD_KERNEL_STAR_SEARCH;
     const enum rays picture = rim ? BESIDE_RIM : NO_RIM;
     const struct kd_vk_pipeline *later;
@@ -70,7 +73,7 @@ static struct kd_vk_binding camera(const struct kd_frame_job *j)
 /* Something must be bound where there is none. */
 static struct kd_vk_binding rim(const struct kd_frame_job *j)
 {
-    return (struct kd_vk_binding) { j->lens->rim.there ? j->lens->rim_lens : j->store->transfer, 0, 0, false };
+    return (struct kd_vk_binding) { has_rim(j) ? j->lens->rim_lens : j->store->transfer, 0, 0, false };
 }
 
 static uint32_t along(uint32_t rays, uint32_t tile) { return (rays + tile - 1) / tile; }
@@ -98,7 +101,9 @@ static enum kd_status search(struct kd_frame_job *j, const struct part *part)
           { sky->cells, 0, 0, false },
           { s->star_rays, 0, 0, true },
           rim(j),
-          camera(j) },
+          camera(j),
+          { part->light, 0, 0, true },
+          { sky->stars, 0, 0, false } },
         &part->push, { list_groups(j) },
     };
     const uint32_t tile = part->rim ? RIM_TILE : KD_STAR_TILE;
@@ -162,6 +167,7 @@ static struct kd_stars_push push_of(const struct kd_frame_job *j)
     const struct kd_sky_buffers *sky = j->prepared->own[KD_EMITTER_sky];
     return (struct kd_stars_push) {
         .room = KD_PLAN_PAIRS, .tiles = kd_plan_star_tiles(j->plan), .stars = sky->n,
+        .least = j->plan->bright ? (float)KD_STAR_LEAST_BRIGHT : (float)KD_STAR_LEAST,
         .none = (float)r->none, .full = (float)r->full,
         .ahead_x = (float)r->ahead[0], .ahead_y = (float)r->ahead[1], .ahead_z = (float)r->ahead[2],
         .right_x = (float)r->right[0], .right_y = (float)r->right[1], .right_z = (float)r->right[2],
@@ -214,7 +220,7 @@ static enum kd_status rim_of(struct kd_frame_job *j, uint32_t to)
     const struct kd_rim_grids *grids = &j->lens->rim_grids;
     uint32_t rays = 0; /* that were not submitted yet */
     enum kd_status status = KD_OK;
-    for (uint32_t i = 0; j->lens->rim.there && i < grids->n; i++) {
+    for (uint32_t i = 0; has_rim(j) && i < grids->n; i++) {
         KD_TRY(grid_of(j, &grids->of[i], to));
         rays += kd_rim_grid_rays(&grids->of[i]);
         if (rays < KD_PLAN_STAR_RAYS / 4 && i + 1 < grids->n)
@@ -232,7 +238,8 @@ static enum kd_status spread_over(struct kd_frame_job *j, uint32_t band)
     const uint32_t rows = kd_frame_band_rows(j, band);
     enum kd_status status;
     KD_TRY(kd_vk_fill(j->r->vk, kd_passes[KD_PASS_STARS].name, j->lens->star_light.buffers[band], 0, 24ull * p->width * rows, 0, j->error));
-    KD_TRY(kd_frame_trace_rim(j));
+    if (has_rim(j))
+        KD_TRY(kd_frame_trace_rim(j));
     KD_TRY(rim_of(j, band));
     KD_TRY(rows_of(j, band, 0, rows, band));
     if (p->cacheable && band > 0)
@@ -249,6 +256,7 @@ static struct kd_star_key key_of(const struct kd_frame_job *j)
     struct kd_star_key key;
     memset(&key, 0, sizeof key); /* it is compared byte by byte */
     memcpy(key.lens, j->plan->lens_key, sizeof key.lens);
+    key.bright = j->plan->bright;
     key.visible = j->scene->disk.band == KD_BAND_VISIBLE;
     key.sky = j->scene->sky;
     key.block = j->r->emit->data.emission.sky; /* which way it is turned */

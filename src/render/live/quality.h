@@ -17,6 +17,7 @@ struct kd_quality {
     int32_t critical;       /* image.critical_factor at most; 0: as asked */
     int32_t profile;        /* enum kd_profile in place of all of accuracy.* but engine; -1: accuracy.* as asked */
     bool sketch;            /* volumes are followed more coarsely than any profile has them: render/plan/march.h */
+    bool bright;            /* of stars only bright images: plan.bright of render/plan/plan.h */
     bool final;             /* everything is as asked */
 };
 

@@ -21,6 +21,7 @@ _Static_assert(KD_PLAN_EMITTERS >= KD_EMITTER_COUNT, "all of them");
 WHEN(crossings, kd_emit_at_crossings(scene))
 WHEN(volumes, kd_emit_along(scene))
 WHEN(sketched, plan->march.sketched)
+WHEN(bright, plan->bright)
 WHEN(few_rays, plan->orders > 1 && !plan->ring && !plan->critical && plan->side < 4)
 WHEN(adapted, plan->adaptive)
 WHEN(not_adapted, kd_scene_adapts(scene) && !plan->adaptive)
@@ -48,6 +49,8 @@ static const struct sentence {
     { "volumes: light in 32 bits by three places a stretch, as many stretches as grain, depth and the ray ask for; what accuracy asks for is a target: some 5e-5 are left in any case; "
       "what is left is measured on a sample of rays, followed twice as closely", volumes },
     { "volumes: a sketch while the view changes: light to some 5 %, as measured in it, and turbulence without the octaves of which a pixel leaves less than a seventh of the first: another 7 %, which is not", sketched },
+    { "sky: while the view changes images of stars that would brighten their pixel by less than sky.brightness are left out, "
+      "and those next to the critical curve, in pixels whose rays stand for more than 0.15 rad of the sky; the others are up to a fifth of a ray off", bright },
     { "colour: black bodies outside the sRGB gamut are moved to its edge at equal luminance", crossings },
     { "image: few rays for the pixels that the critical curve passes; a photon ring thinner than they are shows as dots", few_rays },
     { "image: 16 rays for pixels that differ from the middle of their neighbours by twice image.pixel_error, one for the others; where the lens map is smooth they are interpolated in it; what is left is measured on a sample", adapted },
@@ -244,6 +247,7 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
     kd_emit_traits(scene, plan.traits);
     plan.apart = kd_emit_apart(scene);
     plan.points = kd_emit_points(scene);
+    plan.bright = plan.points && needs->bright;
     plan.quantities = needs->quantities;
     plan.quantities |= plan.quantities & KD_LENS_SHAPE ? KD_LENS_FOOTPRINT : 0;
     plan.quantities |= plan.quantities & KD_LENS_FOOTPRINT ? KD_LENS_PHI : 0; /* differences of which */

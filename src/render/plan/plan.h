@@ -63,7 +63,8 @@ struct kd_plan {
     } path;
     struct kd_setting setting;      /* engine, precision and steps of a half period (0: closed form) */
     uint32_t traits[KD_PLAN_EMITTERS]; /* of the emitters, 0 for those that the scene has not */
-    bool points;                    /* some emitter has points of light */
+    bool points;                    /* some emitter has points of light, */
+    bool bright;                    /* of which only images that are bright are made, and none next to the critical curve */
     bool apart;                     /* the luminance of some is kept beside the radiance */
     bool ends;                      /* some shine where rays end, and the lens map says where */
     struct kd_march march;          /* of volumes and bodies; all 0: the scene has none, and light is made of the lens map alone */
@@ -171,6 +172,7 @@ static inline uint64_t kd_plan_pixel_bytes(const struct kd_plan *plan) { return 
 /* Where points of light are spread: fixed-point numbers of a band of pixels; and pairs of a ray and a point, and rays, of one slice of so many
  * rays, or a row (frame/stars.c): some 20 ms, and few enough that their pairs have room. */
 #define KD_PLAN_PAIRS (1u << 18)
+#define KD_PLAN_BRIGHT 8 /* bright images take so much less of the time that all do, about */
 #define KD_PLAN_STAR_RAYS (1u << 17)
 static inline uint64_t kd_plan_star_bytes(const struct kd_plan *plan) { return 24ull * plan->width * plan->band_rows; }
 static inline uint64_t kd_plan_pair_bytes(void) { return 8ull * (KD_PLAN_PAIRS + 1); }
@@ -208,7 +210,8 @@ struct kd_needs {
     bool light;          /* and that flux and centroid be measured, as they are whenever some light is kept apart */
     bool unseen;         /* and that nobody sees the picture: it has no pixels, and no layers, whatever image.layers says */
     bool radiance;       /* and that linear light be among the layers, where the picture is asked for */
-    bool sketch;         /* and that volumes be followed as coarsely as kd_march_sketch has it */
+    bool sketch;         /* and that volumes be followed as coarsely as kd_march_sketch has it, */
+    bool bright;         /* and that points of light be sought as plan.bright says */
 };
 struct kd_needs kd_needs_of(const struct kd_scene *scene);
 enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_needs *needs,

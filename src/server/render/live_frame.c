@@ -17,9 +17,9 @@ static unsigned critical_side(const struct kd_plan *plan) { return plan->critica
 static void describe_quality(struct kd_live_frame *frame, const struct kd_render_job *job)
 {
     const struct kd_plan *p = &job->plan;
-    snprintf(frame->quality, sizeof frame->quality, "width=%u height=%u samples=%u critical=%u orders=%u engine=%s precision=%s steps=%u sketch=%d",
+    snprintf(frame->quality, sizeof frame->quality, "width=%u height=%u samples=%u critical=%u orders=%u engine=%s precision=%s steps=%u sketch=%d bright=%d",
              p->width, p->height, p->side, critical_side(p), p->orders, kd_engine_name(p->setting.engine), kd_precision_name(p->setting.precision),
-             p->setting.steps, p->march.sketched);
+             p->setting.steps, p->march.sketched, p->bright);
 }
 
 static void describe_timing(struct kd_live_frame *frame, const struct kd_render_job *job)
@@ -44,6 +44,7 @@ static void add_quality(struct kd_json *json, const struct kd_render_job *job, c
     kd_json_string(json, "precision", kd_precision_name(p->setting.precision));
     kd_json_number(json, "steps", p->setting.steps);
     kd_json_bool(json, "sketch", p->march.sketched);
+    kd_json_bool(json, "bright", p->bright);
     kd_json_bool(json, "final", note->final);
     kd_json_end(json);
 }

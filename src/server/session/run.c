@@ -69,6 +69,7 @@ static struct kd_session_frame *make_frame(struct kd_session *s, const struct kd
     kd_render_queue_capacity(s->all->params.renders, &capacity);
     struct kd_needs needs = kd_needs_of(&live->job.scene);
     needs.sketch = turn->quality.sketch;
+    needs.bright = turn->quality.bright;
     if (kd_plan_make_for(&live->job.scene, &needs, &capacity, &live->job.plan, error)) {
         free(live);
         return NULL;

@@ -1,0 +1,39 @@
+/* The light of a star's image is spread over the pixels next to it as a quadratic B-spline, of standard deviation half a pixel, over 3 x 3: the weights add up to 1, and their
+ * centre is the place. It is added up in 64-bit fixed point, so that the sum does not depend on the order. Binding KD_STAR_LIGHT_BINDING. */
+#ifndef KD_STAR_LIGHT_GLSL
+#define KD_STAR_LIGHT_GLSL
+
+layout(set = 0, binding = KD_STAR_LIGHT_BINDING) buffer PointLight { uint point_light[]; };
+
+void kd_star_add(uint o, float light)
+{
+    float whole = floor(light * (KD_STAR_UNIT / 4294967296.0));
+    uint low = uint(light * KD_STAR_UNIT - whole * 4294967296.0), high = uint(whole);
+    uint was = atomicAdd(point_light[o], low);
+    high += was + low < was ? 1u : 0u;
+    if (high > 0u)
+        atomicAdd(point_light[o + 1u], high);
+}
+
+/* Those of the pixel before, at and after a place that is d from the middle one. */
+vec3 kd_star_weights(float d) { return vec3(0.5 * (0.5 - d) * (0.5 - d), 0.75 - d * d, 0.5 * (0.5 + d) * (0.5 + d)); }
+
+/* In pixels of the band. */
+void kd_star_spread(vec2 place, vec3 light)
+{
+    vec2 middle = floor(place + 0.5);
+    vec3 wx = kd_star_weights(place.x - middle.x), wy = kd_star_weights(place.y - middle.y);
+    int pixels_x = int(emission.frame.pixels_x), pixels_y = int(push.pixels_y);
+    for (int k = 0; k < 9; k++) {
+        int r = k / 3, c = k - 3 * r, px = int(middle.x) + c - 1, py = int(middle.y) + r - 1 + int(push.up);
+        if (px >= 0 && px < pixels_x && py >= 0 && py < pixels_y) {
+            uint o = KD_STAR_LIGHT * uint(py * pixels_x + px);
+            vec3 part = min((r == 0 ? wy.x : r == 1 ? wy.y : wy.z) * (c == 0 ? wx.x : c == 1 ? wx.y : wx.z) * light, vec3(1e9));
+            kd_star_add(o, part.r);
+            kd_star_add(o + 2u, part.g);
+            kd_star_add(o + 4u, part.b);
+        }
+    }
+}
+
+#endif
