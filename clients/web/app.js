@@ -232,7 +232,7 @@ async function watch(scene) {
     followMeasured();
   });
   buildStruck(scene, goTo);
-  scene.addEventListener('drift', () => source.refresh());
+  for (const event of ['drift', 'move']) scene.addEventListener(event, () => source.refresh());
   if (!byId('welcome').hidden) import('./drift.js').then(({ begin }) => begin(scene), () => {});
   buildPace(source.refresh);
   buildFull(stage);

@@ -47,7 +47,7 @@ export function buildCarry(stage, scene) {
     if (node.style.transform !== transform) node.style.transform = transform;
   }
 
-  scene.addEventListener('change', () => [picture, canvas].forEach(go));
+  for (const event of ['change', 'move']) scene.addEventListener(event, () => [picture, canvas].forEach(go));
 
   function saw(node, by) {
     seen.set(node, by && camera(by));

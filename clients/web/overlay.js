@@ -279,7 +279,7 @@ export function buildOverlays(root, stage, scene) {
     box.dispatchEvent(new Event('change'));
     if (spin != null && spin !== scene.get('spacetime.spin')) scene.change({ 'spacetime.spin': spin });
   });
-  scene.addEventListener('change', () => layer.classList.add('late')); // until the picture has come to rest
+  for (const event of ['change', 'move']) scene.addEventListener(event, () => layer.classList.add('late')); // until the picture has come to rest
   scene.addEventListener('tick', () => scene.get('motion.proper_time_rate') && layer.replaceChildren()); // of another place
   // Axes belong to a coarse picture, too.
   const axes = () => scene.get('camera.projection') === 'ring' && draw();

@@ -1,6 +1,6 @@
 // The scene of the page is what differs from the defaults of the server's schema, by dotted path. While time goes on the
 // server knows how late it is; what it says of that is told as 'tick', what else it changes as 'settle', what anybody here
-// changes as 'change'.
+// changes as 'change', and while a hand moves the camera as 'move'.
 import { still } from './dom.js';
 import { getJson } from './server.js';
 import * as link from './link.js';
@@ -8,6 +8,7 @@ import * as link from './link.js';
 const tick_ms = 100;
 const patience_ms = 1000;
 const link_ms = 1000;
+const hand_ms = 200; // without a move, after which a hand rests
 const known = ['view', 'lang', 'over', 'preset', 'pause', 'full', 'look', 'pace']; // what a link has without a dot
 
 // Elements of a list have paths of their own: spots.0.r.
@@ -64,6 +65,7 @@ export class Scene extends EventTarget {
   #now = null; // of the newest picture while time goes on
   #moved = new Map(); // likewise, by path, what else the server moves: the place of an observer that falls
   #timer = 0;
+  #hand = 0; // until it rests
   #clock = null; // that goes without pictures
   #linked = 0; // when the address last kept up
   held = link.get('pause') === '1' || still.matches; // nothing moves until somebody says so
@@ -139,9 +141,7 @@ export class Scene extends EventTarget {
   }
 
   // Where the server began to move it from.
-  begun(path) {
-    return this.#values.get(path) ?? this.fields.get(path).default;
-  }
+  begun = path => this.#values.get(path) ?? this.fields.get(path).default;
 
   // What was moved stays where it is seen.
   land() {
@@ -168,16 +168,33 @@ export class Scene extends EventTarget {
 
   // The changes: { 'camera.r': 30 }; null is the default. A style sets its fields, but for those that are among the changes.
   change(values) {
+    this.#set(values);
+    this.#changed();
+  }
+
+  // What a hand moves is a 'move' each time, and a 'change' only where it rests: what stands beside the picture follows then.
+  move(values) {
+    this.#set(values);
+    this.#stop();
+    clearTimeout(this.#hand);
+    this.#hand = setTimeout(this.rest, hand_ms);
+    this.dispatchEvent(new Event('move'));
+  }
+
+  rest = () => this.#hand && this.#changed();
+
+  #set(values) {
     this.drifts(0);
     if ('time' in values) (this.jumps++, (this.#now = null));
     const all = { ...this.#styles[values['style.name']], ...values };
     for (const path of this.#moved.keys()) if (path in all) (this.#moved.delete(path), this.jumped.add(path));
     for (const [path, value] of this.#styleFirst(Object.entries(all))) this.#put(path, value);
-    this.#changed();
   }
 
   #changed() {
     this.#stop();
+    clearTimeout(this.#hand);
+    this.#hand = 0;
     this.dispatchEvent(new Event('change'));
   }
 
@@ -188,9 +205,7 @@ export class Scene extends EventTarget {
   }
 
   // Time goes on, but nothing that is seen moves with it: there are no pictures to tell the time by.
-  resting() {
-    return this.#clock != null;
-  }
+  resting = () => this.#clock != null;
 
   // Whether what moves by itself moves.
   hold(held) {

@@ -98,10 +98,11 @@ export function buildStars(stage, scene) {
   });
 
   function point(event) {
+    if (event.buttons && !pointer) return;
     const box = stage.getBoundingClientRect();
-    pointer = event.target.closest('button, a, input') ? null : { x: event.clientX - box.left, y: event.clientY - box.top };
+    pointer = event.buttons || event.target.closest('button, a, input') ? null : { x: event.clientX - box.left, y: event.clientY - box.top };
     clearTimeout(timer);
-    if (!pointer || event.buttons) return clear();
+    if (!pointer) return clear();
     timer = setTimeout(look, turns() ? rest_ms : kept.key === sceneOf(scene, stage) ? 0 : rest_ms);
   }
   stage.addEventListener('pointermove', point);

@@ -2,12 +2,14 @@
 import { byId } from './dom.js';
 import { t } from './i18n.js';
 import * as link from './link.js';
+import { sizeOf } from './sizes.js';
 
 const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
 const turn = x => x - 360 * Math.round(x / 360);
 const round = (x, digits) => Number(x.toFixed(digits));
 const radians = Math.PI / 180;
 const tap_px = 4; // a tap may move by so much
+const pace_ms = 30; // from one place of a hand that the scene is told of to the next: pictures follow no faster
 const near_r = 10; // M, within which a camera looks around unless somebody chose
 
 // Whether a drag turns the camera instead of the place from which it looks. What was chosen by hand is in the address.
@@ -50,9 +52,13 @@ export function handle(stage, scene) {
   const pointers = new Map(),
     { looks, toggle } = looker(scene);
   let begin = null,
-    tapped = null; // where the one finger that is down came down, while it has not moved
+    tapped = null, // where the one finger that is down came down, while it has not moved
+    since = -Infinity, // when they were last followed
+    timer = 0;
 
-  const get = name => scene.get('camera.' + name);
+  const get = name => scene.get('camera.' + name),
+    change = values => scene.change(values),
+    move = values => scene.move(values);
   const far = () => get('r') === 'infinity';
   const narrows = () => looks() && !['equirectangular', 'fulldome'].includes(get('projection'));
 
@@ -67,18 +73,18 @@ export function handle(stage, scene) {
 
   function zoom(factor, from) {
     const { name, low, high } = reach();
-    scene.change({ ['camera.' + name]: round(clamp((from ?? get(name)) * factor, low, high), 3) });
+    (from == null ? change : move)({ ['camera.' + name]: round(clamp((from ?? get(name)) * factor, low, high), 3) });
   }
 
-  function go(right_deg, up_deg, from = { azimuth: get('azimuth_deg'), tilt: get('inclination_deg') }) {
-    scene.change({
+  function go(right_deg, up_deg, put = change, from = { azimuth: get('azimuth_deg'), tilt: get('inclination_deg') }) {
+    put({
       'camera.azimuth_deg': round(turn(from.azimuth + right_deg), 2),
       'camera.inclination_deg': round(clamp(from.tilt - up_deg, 0, 180), 2),
     });
   }
 
-  function look(right_deg, up_deg, from = { yaw: get('yaw_deg'), pitch: get('pitch_deg') }) {
-    scene.change({
+  function look(right_deg, up_deg, put = change, from = { yaw: get('yaw_deg'), pitch: get('pitch_deg') }) {
+    put({
       'camera.yaw_deg': round(turn(from.yaw + right_deg), 2),
       'camera.pitch_deg': round(clamp(from.pitch + up_deg, -90, 90), 2),
     });
@@ -86,7 +92,7 @@ export function handle(stage, scene) {
 
   // Degrees that a pixel in the middle of the picture is wide.
   function pixel() {
-    const { clientWidth: width, clientHeight: height } = stage;
+    const { width, height } = sizeOf(stage);
     if (get('projection') === 'equirectangular') return 360 / width;
     if (get('projection') === 'fulldome') return 180 / Math.min(width, height);
     return (2 * Math.tan((get('fov_deg') / 2) * radians)) / (get('stereo') === 'pair' ? width / 2 : width) / radians;
@@ -94,11 +100,12 @@ export function handle(stage, scene) {
 
   // What lies under the pointer comes along.
   function drag(right, down) {
-    if (!looks()) return go((-right * 180) / stage.clientWidth, (down * 180) / stage.clientHeight, begin);
+    const { width, height } = sizeOf(stage);
+    if (!looks()) return go((-right * 180) / width, (down * 180) / height, move, begin);
     const roll = get('roll_deg') * radians,
       side = right * Math.cos(roll) - down * Math.sin(roll),
       up = -right * Math.sin(roll) - down * Math.cos(roll);
-    look((-side * pixel()) / Math.max(Math.cos(begin.pitch * radians), 0.2), -up * pixel(), begin);
+    look((-side * pixel()) / Math.max(Math.cos(begin.pitch * radians), 0.2), -up * pixel(), move, begin);
   }
 
   function note() {
@@ -127,14 +134,27 @@ export function handle(stage, scene) {
   stage.addEventListener('pointermove', event => {
     if (!pointers.has(event.pointerId)) return;
     pointers.set(event.pointerId, { x: event.clientX, y: event.clientY });
-    const [one, two] = [...pointers.values()];
+    const [one] = pointers.values();
     if (tapped && Math.hypot(one.x - tapped.x, one.y - tapped.y) > tap_px) tapped = null;
+    timer ||= setTimeout(follow, since + pace_ms - performance.now());
+  });
+
+  // Where the fingers are now.
+  function follow() {
+    clearTimeout(timer);
+    timer = 0;
+    since = performance.now();
+    const [one, two] = [...pointers.values()];
     if (two && begin.gap) zoom(begin.gap / Math.max(Math.hypot(one.x - two.x, one.y - two.y), 1), begin.reach);
     else drag(one.x - begin.x, one.y - begin.y);
-  });
+  }
   for (const end of ['pointerup', 'pointercancel'])
     stage.addEventListener(end, event => {
-      if (pointers.delete(event.pointerId)) note();
+      if (!pointers.has(event.pointerId)) return;
+      if (timer) follow();
+      pointers.delete(event.pointerId);
+      if (!pointers.size) scene.rest();
+      note();
     });
   // A finger or a button that goes down and up at one place.
   stage.addEventListener('pointerup', event => {
@@ -153,12 +173,12 @@ export function handle(stage, scene) {
     { passive: false },
   );
 
-  const move = (right, up) => (looks() ? look(right, up) : go(right, up));
+  const step = (right, up) => (looks() ? look(right, up) : go(right, up));
   const keys = {
-    ArrowUp: step => move(0, step),
-    ArrowDown: step => move(0, -step),
-    ArrowLeft: step => move(-step, 0),
-    ArrowRight: step => move(step, 0),
+    ArrowUp: by => step(0, by),
+    ArrowDown: by => step(0, -by),
+    ArrowLeft: by => step(-by, 0),
+    ArrowRight: by => step(by, 0),
     '+': () => zoom(1 / 1.1),
     '=': () => zoom(1 / 1.1),
     '-': () => zoom(1.1),
