@@ -30,8 +30,8 @@ function poll(url) {
   const one = { after: 0, carries: null, begun: performance.now() };
   one.answer = fetch(`${url}/frame?after=0&lossy=90`).then(
     answer => {
-      if (answer.status !== 200) return { one, error: Object.assign(new Error(), { status: answer.status }) };
-      shown = show(answer.clone()); // who goes on with the session shows it as well
+      if (answer.status !== 200 && answer.status !== 204) return { one, error: Object.assign(new Error(), { status: answer.status }) };
+      if (answer.status === 200) shown = show(answer.clone()); // who goes on with the session shows it as well
       return { one, answer, took: performance.now() - one.begun };
     },
     error => ({ one, error }),
@@ -58,7 +58,7 @@ Promise.race([(async () => (await opened, await left?.flight[0].answer, shown))(
   .then(() => document.head.append(byId('rest').content));
 const read = plain ? fetch('v1/presets/' + first_view).then(answer => (answer.ok ? answer.json() : null), () => null) : null;
 
-// The first view as a document, once; null: it has to be asked for.
+// The first view as a document; null: it has to be asked for.
 export const firstDocument = async () => read;
 
 // The session, once.
