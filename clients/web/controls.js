@@ -1,4 +1,5 @@
 // The controls of a scene are made from the schema: a row a field, in the groups of the page.
+import { badge, know } from './badge.js';
 import { assetRow } from './asset.js';
 import { hint } from './choices.js';
 import { byId, el } from './dom.js';
@@ -81,16 +82,10 @@ function switchRow(field, scene, id, hint) {
   };
 }
 
-// What kind of a field it is, in a word; the legend says what the words mean, and so does a pointer that rests on one.
-function badge(name, help, id) {
-  const { word, text, lang } = nature(name, help);
-  return el('span', { class: `badge nature-${name}`, id, title: text, lang }, word);
-}
-
 function legend(natures) {
   return Object.entries(natures).map(([name, help]) => {
     const { text, lang } = nature(name, help);
-    return el('div', {}, el('dt', {}, badge(name, help)), el('dd', { lang }, text));
+    return el('div', {}, el('dt', {}, badge(name)), el('dd', { lang }, text));
   });
 }
 
@@ -120,7 +115,7 @@ function row(field, scene) {
       'div',
       { class: 'head' },
       el('label', { for: id, class: control.inside && 'switch' }, control.inside, label, mark && el('span', { class: 'unit' }, mark)),
-      badge(field.nature, scene.natures[field.nature], `${id}-nature`),
+      badge(field.nature, `${id}-nature`),
     ),
     control.nodes,
     about,
@@ -152,6 +147,7 @@ function remember(details, usual) {
 const in_front = 'hole'; // the group that is open at first
 
 export function buildControls(scene, living_root) {
+  know(scene.natures);
   const rows = [],
     lists = [];
   for (const details of document.querySelectorAll('#panel > details, #fields > details')) remember(details, details.id === 'group-' + in_front);

@@ -53,7 +53,7 @@ export const matter = [
       { name: 'l', label: 'l', value: 2, min: 2, max: 4, step: 1 },
       { name: 'm', label: 'm', value: 2, min: -4, max: 4, step: 1 },
       { name: 'mass_msun', value: 60, min: 0.001, max: 1e12 },
-      { name: 'octaves', label: t('Octaves up or down', 'Ottave in su o in giù'), min: -40, max: 40, step: 1, auto: true },
+      { name: 'octaves', label: t('Octaves up or down', 'Ottave in su o in giù'), min: -40, max: 40, step: 1, auto: true, nature: 'look', about: t('For the ear alone: a whole octave doubles each frequency', 'Solo per l’orecchio: un’ottava raddoppia ogni frequenza') },
     ],
     query: { t: '0:90:241' },
     after: listen,

@@ -1,4 +1,5 @@
 // Small forms of numbers whose values live in the page's address: labels, units and help are the server's.
+import { badge } from './badge.js';
 import { el } from './dom.js';
 import { named, unit, word } from './i18n.js';
 import * as link from './link.js';
@@ -14,7 +15,7 @@ function slider(spec, input, tell) {
   return { node, follow: () => input.value !== '' && (node.value = s.to(input.valueAsNumber)) };
 }
 
-// specs: [{ name, label, unit, help, value, min, max, step, choices, words, auto }]; a label goes over what the name says; changed() is
+// specs: [{ name, label, unit, help, value, min, max, step, choices, words, auto, nature, about }]; a label goes over what the name says, about over the server's help; without a nature it is physics; changed() is
 // told. What is auto has no value until somebody gives it one, and is emptied to have none again. Returns values() by name.
 export function buildForm(root, prefix, specs, changed) {
   const inputs = new Map();
@@ -23,13 +24,14 @@ export function buildForm(root, prefix, specs, changed) {
       id = 'in-' + key.replaceAll('.', '-');
     const text = named(spec.name, spec.help),
       mark = unit(spec.unit);
+    const described = { id, 'aria-describedby': `${id}-help ${id}-nature` };
     const input = spec.choices
       ? el(
           'select',
-          { id },
+          described,
           spec.choices.map(choice => el('option', { value: choice }, spec.words?.[choice] ?? word(choice))),
         )
-      : el('input', { type: 'number', id, min: spec.min, max: spec.max, step: spec.step ?? 'any', required: !spec.auto });
+      : el('input', { type: 'number', ...described, min: spec.min, max: spec.max, step: spec.step ?? 'any', required: !spec.auto });
     input.value = link.get(key) ?? spec.value ?? '';
     input.chosen = !spec.auto || link.get(key) != null;
     const slide = !spec.choices && spec.step && slider(spec, input, tell);
@@ -51,9 +53,10 @@ export function buildForm(root, prefix, specs, changed) {
     root.append(
       el(
         'div',
-        { class: 'field', title: text.help },
-        el('label', { for: id }, spec.label ?? text.label, mark && el('span', { class: 'unit' }, mark)),
+        { class: 'field' },
+        el('div', { class: 'head' }, el('label', { for: id }, spec.label ?? text.label, mark && el('span', { class: 'unit' }, mark)), badge(spec.nature ?? 'physics', `${id}-nature`)),
         el('div', { class: slide ? 'pair' : '' }, slide ? slide.node : null, input),
+        el('p', { class: 'help', id: `${id}-help`, lang: spec.about ? null : text.helpLang }, spec.about ?? text.help),
       ),
     );
   }

@@ -31,10 +31,10 @@ const kinds = {
   line: {
     path: 'line',
     inputs: () => [
-      { name: 'index', label: t('Light falls off as r to minus', 'La luce cala come r alla meno'), value: 3, min: 0, max: 10, step: 0.1 },
-      { name: 'rest_energy', label: t('Line at rest', 'Riga a riposo'), unit: 'keV', value: 6.4, min: 0.01, max: 1000 },
-      { name: 'energy_min', label: t('From', 'Da'), unit: 'keV', value: 2, min: 0, max: 1000 },
-      { name: 'energy_max', label: t('To', 'A'), unit: 'keV', value: 10, min: 0.01, max: 1000 },
+      { name: 'index', label: t('Light falls off as r to minus', 'La luce cala come r alla meno'), value: 3, min: 0, max: 10, step: 0.1, nature: 'model', about: t('3: as far from a lamp or from a disk that heats itself', '3: come lontano da una lampada o da un disco che si scalda da sé') },
+      { name: 'rest_energy', label: t('Line at rest', 'Riga a riposo'), unit: 'keV', value: 6.4, min: 0.01, max: 1000, nature: 'model', about: t('6.4 keV: fluorescence of iron', '6,4 keV: fluorescenza del ferro') },
+      { name: 'energy_min', label: t('From', 'Da'), unit: 'keV', value: 2, min: 0, max: 1000, nature: 'look', about: t('First energy of the plot', 'Prima energia del grafico') },
+      { name: 'energy_max', label: t('To', 'A'), unit: 'keV', value: 10, min: 0.01, max: 1000, nature: 'look', about: t('Last energy of the plot', 'Ultima energia del grafico') },
     ],
     ask: (scene, given) => ({ ...disk(scene), ...given, bins: 300 }),
     show: ({ values, columns }, scene) => {
@@ -54,8 +54,8 @@ const kinds = {
   spectrum: {
     path: 'spectrum',
     inputs: () => [
-      { name: 'frequency_min_hz', label: t('From', 'Da'), unit: 'Hz', min: 1e3, max: 1e21, auto: true },
-      { name: 'frequency_max_hz', label: t('To', 'A'), unit: 'Hz', min: 1e3, max: 1e21, auto: true },
+      { name: 'frequency_min_hz', label: t('From', 'Da'), unit: 'Hz', min: 1e3, max: 1e21, auto: true, nature: 'look', about: t('First frequency; empty: where the spectrum begins', 'Prima frequenza; vuoto: dove lo spettro comincia') },
+      { name: 'frequency_max_hz', label: t('To', 'A'), unit: 'Hz', min: 1e3, max: 1e21, auto: true, nature: 'look', about: t('Last frequency; empty: where the spectrum ends', 'Ultima frequenza; vuoto: dove lo spettro finisce') },
     ],
     ask: (scene, given) =>
       isRadio(scene)
@@ -81,7 +81,7 @@ const kinds = {
   },
   visibility: {
     path: 'visibility',
-    inputs: () => [{ name: 'length_max', label: t('Longest baseline', 'Base più lunga'), unit: 'Gλ', min: 1e-6, max: 1e12, auto: true }],
+    inputs: () => [{ name: 'length_max', label: t('Longest baseline', 'Base più lunga'), unit: 'Gλ', min: 1e-6, max: 1e12, auto: true, nature: 'look', about: t('Empty: half of the longest that the picture’s pixels tell', 'Vuoto: metà della più lunga che i pixel distinguono') }],
     ask: (scene, given) => ({ scene: scene.document(), baselines: 121, pixels: 96, check: 'none', orders: scene.get('disk.model') === 'none' ? 0 : Math.min(2, scene.get('accuracy.orders')), ...given }),
     show: ({ values, columns, units }) => {
       const turned = Math.round(columns.length_gl.length / 2), // those of the second angle

@@ -1,4 +1,4 @@
-// This is in Italian what is approximated in a picture, and the names of what shines.
+// This is in Italian what is approximated in a picture, the names of what shines, and what the numbers of a curve are.
 export const sentences = {
   'camera: each eye of a pair is an observer of its own, of the same kind, beside the middle by the first order of camera.eye_distance in the local frame, at the same time; their axes are parallel as in flat space':
     'camera: ogni occhio di una coppia è un osservatore a sé, dello stesso tipo, accanto al mezzo secondo il primo ordine di camera.eye_distance nel riferimento locale, allo stesso tempo; i loro assi sono paralleli come nello spazio piatto',
@@ -242,4 +242,23 @@ export const sentences = {
     'una sola immagine di ogni punto, seguita da quella del punto prima: la diretta, ma accanto a un buco in rotazione visto quasi di taglio può passare a una che gli ha girato attorno; nessuna da entro 1,2 orizzonti',
   'a test particle: it has no mass of its own, radiates nothing and is not torn':
     'una particella di prova: non ha massa propria, non irradia e non si spezza',
+  'spin parameter a; a < 0: the orbit or the disk turns against its hole': 'parametro di spin a; a < 0: l’orbita o il disco gira contro il buco',
+  "spin parameter a; a < 0: the star comes in against the hole's spin": 'parametro di spin a; a < 0: la stella arriva contro la rotazione del buco',
+  'spin parameter a; nearer to 1 damped and undamped modes crowd and l, n stop being names for them': 'parametro di spin a; più vicino a 1 modi smorzati e non si affollano, e l, n non bastano più a nominarli',
+  'spin parameter a': 'parametro di spin a',
+  'impact parameter of light in the equatorial plane, |L|/E': 'parametro d’impatto della luce nel piano equatoriale, |L|/E',
+  'polar angle of the observer, who is at infinity; at 90 the plane is a line': 'angolo polare di chi osserva, all’infinito; a 90 il piano è una linea',
+  'polar angle of the observer, at infinity; not within 0.1 of 90': 'angolo polare di chi osserva, all’infinito; non a meno di 0,1 da 90',
+  'where on the critical curve: about its centre, from the right over the top': 'dove sulla curva critica: attorno al centro, da destra passando in alto',
+  'angular momentum, positive towards +phi: a unit of mass of matter; of the photon that V_light is for': 'momento angolare, positivo verso +φ: per unità di massa della materia; del fotone a cui V_luce si riferisce',
+  'radius of the ring': 'raggio dell’anello',
+  'mass of the hole': 'massa del buco',
+  'accretion rate: luminosity over the Eddington luminosity, with the efficiency of this spin': 'accrescimento: luminosità su quella di Eddington, con l’efficienza di questo spin',
+  multipole: 'multipolo',
+  'azimuthal number, -l to l; m > 0 turns with a hole of positive spin': 'numero azimutale, da −l a l; m > 0 gira con un buco di spin positivo',
+  'mass of the hole, with any redshift: m (1 + z)': 'massa del buco, con l’eventuale redshift: m (1 + z)',
+  'one mass': 'una massa',
+  'the other': 'l’altra massa',
+  'mass of the star': 'massa della stella',
+  'its radius': 'il raggio della stella',
 };

@@ -1,4 +1,5 @@
 // The settings of a playground: a control for each that the server lists. Those that everybody turns stand in front.
+import { badge } from './badge.js';
 import { el } from './dom.js';
 import { helpOf, t, word } from './i18n.js';
 import { stepByArrows } from './slider.js';
@@ -25,14 +26,18 @@ const names = {
   seed: t('Seed', 'Seme'),
 };
 
+// All are numbers of a model but these.
+const natures = { spin: 'physics', h_max: 'physics', safety: 'physics', budget: 'physics' };
+
 function control(row, id, changed) {
+  const mark = badge(natures[row.name] ?? 'model', `${id}-nature`);
   const hint = `${id}-help`,
     about = helpOf(row.help),
     help = el('p', { class: 'help', id: hint, lang: about.helpLang }, about.help);
-  const common = { id, 'aria-describedby': hint };
+  const common = { id, 'aria-describedby': `${hint} ${id}-nature` };
   if (row.type === 'boolean') {
     const input = el('input', { type: 'checkbox', ...common, onchange: () => changed(row.name, input.checked) });
-    return { node: el('div', { class: 'field', 'data-setting': row.name }, el('label', { class: 'switch', for: id }, input, names[row.name] ?? row.name), help), show: value => (input.checked = value) };
+    return { node: el('div', { class: 'field', 'data-setting': row.name }, el('div', { class: 'head' }, el('label', { class: 'switch', for: id }, input, names[row.name] ?? row.name), mark), help), show: value => (input.checked = value) };
   }
   const input = row.words
     ? el('select', common, row.words.map(choice => el('option', { value: choice }, word(choice))))
@@ -45,7 +50,7 @@ function control(row, id, changed) {
       tell();
     });
   return {
-    node: el('div', { class: 'field', 'data-setting': row.name }, el('label', { for: id }, names[row.name] ?? row.name), input, help),
+    node: el('div', { class: 'field', 'data-setting': row.name }, el('div', { class: 'head' }, el('label', { for: id }, names[row.name] ?? row.name), mark), input, help),
     show: value => document.activeElement !== input && (input.value = value),
   };
 }

@@ -1,4 +1,5 @@
 // The numbers of a body: of one that is to be thrown, or of one that is there. What a drag does these fields do too.
+import { badge } from './badge.js';
 import { el } from './dom.js';
 import { helpOf, number, t } from './i18n.js';
 import { stepByArrows } from './slider.js';
@@ -41,7 +42,7 @@ export function thrown(root, rows, told) {
     go = el('button', { type: 'button', id: 'play-throw', onclick: told.release }, ''),
     remove = el('button', { type: 'button', id: 'play-remove', onclick: told.remove, hidden: true }, t('Remove', 'Togli'));
   root.append(
-    el('div', { class: 'field' }, el('label', { for: which.id }, t('Body', 'Corpo')), which),
+    el('div', { class: 'field' }, el('div', { class: 'head' }, el('label', { for: which.id }, t('Body', 'Corpo')), badge('model', 'play-body-nature')), which),
     where,
     el('div', { class: 'three' }, own.map(({ node }) => node)),
     el('div', { class: 'three' }, place.map(({ node }) => node)),

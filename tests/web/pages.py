@@ -171,6 +171,21 @@ class Pages(Browser):
                     self.assertGreater(len(results.response['passes']), 15)
                     found = [f'{v["id"]}: {v["help"]}: {[n["html"][:120] for n in v["nodes"]][:3]}' for v in results.response['violations']]
                     self.assertEqual(found, [])
+                    if view in ('orbits', 'physics', 'scale', 'playground'):
+                        self.every_field_speaks(page, view)
+
+    def every_field_speaks(self, page, view):
+        page.wait_for_function('view => [...document.querySelectorAll(`#${view} .badge`)].every(badge => badge.title)', arg=view)
+        count, bare = page.evaluate(r'''view => {
+            const fields = [...document.querySelectorAll(`#${view} :is(.inputs .field:has(.head), [data-setting])`)];
+            const wrong = field => {
+                const control = field.querySelector('input:not([tabindex]), select'), told = control.getAttribute('aria-describedby').split(' ').map(id => document.getElementById(id));
+                return told.length !== 2 || !told.every(Boolean) || told[0].textContent.length < 8 || told[0].lang === 'en' || !told[1].matches('.badge');
+            };
+            return [fields.length, fields.filter(wrong).map(field => field.textContent)];
+        }''', view)
+        self.assertGreater(count, 4)
+        self.assertEqual(bare, [])
 
 
 if __name__ == '__main__':
