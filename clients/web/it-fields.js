@@ -161,6 +161,8 @@ export const fields = {
   'volume.beta': ['β', 'Pressione del gas su quella del campo magnetico (modello: torus)'],
   'volume.gamma_min': ['γ minimo', 'Energia minima degli elettroni su quella a riposo (elettroni: legge di potenza)'],
   'volume.gamma_max': ['γ massimo', 'Energia massima degli elettroni, più della minima (elettroni: legge di potenza)'],
+  'volume.normalise_to_jy': ['Flusso voluto', 'Flusso dell’immagine, per cui density_cm3, o gold_emission, è moltiplicata per quanto serve: kerrd lo cerca con immagini piccole, e le risposte lo dicono; 0: resta com’è (modelli: gold, riaf, torus)'],
+  'volume.normalise_ghz': ['Frequenza del flusso', 'Frequenza a cui l’immagine ha il flusso normalise_to_jy; osservata: frequency_ghz, di ogni scena la sua'],
   polarization: ['Polarizzazione'],
   'polarization.model': ['Modello', 'Della luce dal piano del disco: nessuna; sincrotrone, trasversale al campo e alla luce nel riferimento del gas; o diffusione di un’atmosfera profonda di elettroni liberi, trasversale alla normale e alla luce; trasporto: di un volume a una frequenza radio, Stokes I, Q, U e V lungo tutti i raggi'],
   'polarization.field': ['Campo magnetico', 'Direzione nel piano: attorno all’asse, verso l’esterno o lungo la normale'],

@@ -196,6 +196,10 @@ export const sentences = {
     'volume: il toro di Fishbone e Moncrief 1976, in equilibrio senza il suo campo magnetico, messo solo per la sua pressione; le temperature di ioni ed elettroni sono in un solo rapporto',
   'volume: synchrotron light by the fits of Pandya et al. 2016, good to a few percent where they hold; electrons move in all directions alike':
     'volume: luce di sincrotrone secondo le formule di Pandya et al. 2016, buone a qualche percento dove valgono; gli elettroni vanno ugualmente in ogni direzione',
+  'volume: the density is that at which a picture of 128 pixels has the flux volume.normalise_to_jy, found by smaller pictures that the estimated time leaves out; answers tell the factor as density_scale':
+    'volume: la densità è quella a cui un’immagine di 128 pixel ha il flusso volume.normalise_to_jy, trovata con immagini più piccole che il tempo stimato non conta; le risposte dicono il fattore come density_scale',
+  'volume: while the view is dragged the density is the last that was found for this matter, from whichever side, and the flux is not volume.normalise_to_jy; it is when the view rests':
+    'volume: mentre si trascina la vista la densità è l’ultima trovata per questa materia, vista da qualunque lato, e il flusso non è volume.normalise_to_jy; lo è quando la vista è ferma',
   'volume: light at a radio frequency beside light of other kinds, whose brightness 1 is another one; the picture has no flux':
     'volume: luce a una frequenza radio accanto a luce di altro tipo, la cui luminosità 1 è un’altra; l’immagine non ha flusso',
   "volume: the frequency shift of its matter is switched off, and lengths are those of the observer's affine parameter":

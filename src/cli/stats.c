@@ -75,6 +75,8 @@ enum kd_status kd_stats_json(const struct kd_stats *stats, struct kd_buffer *out
     kd_json_number(json, "bytes", (double)stats->bytes);
     if (!isnan(kd_flux_jy(stats->scene, stats->frame)))
         kd_json_number(json, "flux_jy", kd_flux_jy(stats->scene, stats->frame));
+    if (stats->scene->volume.normalise_to_jy > 0)
+        kd_json_number(json, "density_scale", stats->frame->density_scale);
     add_times(json, stats);
     add_accuracy(json, stats);
     kd_json_array(json, "approximations");

@@ -30,10 +30,12 @@ struct kd_scene kd_integral_scene(const struct kd_integral_request *r, unsigned 
     scene.image.width = (int32_t)fmax(1, rint(w * size)), scene.image.height = (int32_t)fmax(1, rint(h * size));
     scene.style.beam_uas = 0; /* no telescope */
     scene.style.bloom = 0;
-    if (r->what == KD_INTEGRAL_VISIBILITY)
+    if (r->what == KD_INTEGRAL_VISIBILITY) {
         scene.image.layers = layers_of(r);
-    else
+    } else { /* matter of a given flux is the same at all frequencies: it has that flux at the scene's own */
+        scene.volume.normalise_ghz = isfinite(scene.volume.normalise_ghz) ? scene.volume.normalise_ghz : r->scene->volume.frequency_ghz;
         scene.volume.frequency_ghz = r->frequencies_hz.at[picture / (r->unchecked ? 1 : 2)] * 1e-9;
+    }
     return scene;
 }
 

@@ -189,7 +189,9 @@
     REAL(volume, temperature_ratio, MODEL, REST, 3.0, 0.0, 1e6, "1", "temperature of the ions over that of the electrons (model: torus)") \
     REAL(volume, beta, MODEL, REST, 10.0, 1e-6, 1e12, "1", "pressure of the gas over that of the magnetic field (model: torus)") \
     REAL(volume, gamma_min, MODEL, REST, 30.0, 1.0, 1e9, "1", "least energy of the electrons over that at rest (electrons: power-law)") \
-    REAL(volume, gamma_max, MODEL, REST, 1e5, 1.0, 1e12, "1", "largest energy of the electrons, more than the least (electrons: power-law)")
+    REAL(volume, gamma_max, MODEL, REST, 1e5, 1.0, 1e12, "1", "largest energy of the electrons, more than the least (electrons: power-law)") \
+    REAL(volume, normalise_to_jy, MODEL, REST, 0.0, 0.0, 1e12, "Jy", "flux of the picture, for which density_cm3, or gold_emission, is multiplied by what it takes: kerrd looks for that by small pictures, and answers tell it; 0: left as it is (models: gold, riaf, torus)") \
+    WORD(volume, normalise_ghz, MODEL, REST, INFINITY, 1e-6, 1e12, "GHz", "frequency at which the picture has the flux normalise_to_jy; observed: frequency_ghz, of each scene its own", "observed")
 
 #define KD_JETS_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                    \
     REAL(jets, brightness, MODEL, FRONT, 0.0, 0.0, 1e9, "1/M", "light of a length of M in its own frame, carried back to the inner edge, where it begins smoothly, in units of the disk's brightest; 0: there are none") \
@@ -418,6 +420,10 @@
     WITH("volume.electrons_index", "electrons", KD_VOLUME_POWER_LAW) SPAN("volume.electrons_index", 2, 6) \
     WITH("volume.gamma_min", "electrons", KD_VOLUME_POWER_LAW) SPAN("volume.gamma_min", 1, 1000) \
     WITH("volume.gamma_max", "electrons", KD_VOLUME_POWER_LAW) SPAN("volume.gamma_max", 1000, 1e+07) \
+    WITH("volume.normalise_to_jy", "model", KD_VOLUME_GOLD) WITH("volume.normalise_to_jy", "model", KD_VOLUME_RIAF) WITH("volume.normalise_to_jy", "model", KD_VOLUME_TORUS) \
+    SPAN("volume.normalise_to_jy", 0, 10) \
+    WITH("volume.normalise_ghz", "model", KD_VOLUME_GOLD) WITH("volume.normalise_ghz", "model", KD_VOLUME_RIAF) WITH("volume.normalise_ghz", "model", KD_VOLUME_TORUS) \
+    SPAN("volume.normalise_ghz", 10, 1e4) FIRST("volume.normalise_ghz", 230) \
     SWITCH("jets.brightness") SPAN("jets.brightness", 0.001, 10) BUTTON("jets.brightness", 0.1, "Jets")              \
     SPAN("jets.lorentz", 1, 10) SPAN("jets.outer", 5, 500) SPAN("jets.inner", 1, 50)                                 \
     SWITCH("polarization.model")                                                                                     \

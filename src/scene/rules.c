@@ -275,6 +275,10 @@ static enum kd_status volume(const struct kd_scene *scene, struct kd_error *erro
     }
     if (v->model >= KD_VOLUME_RIAF && v->electrons == KD_VOLUME_POWER_LAW && !(v->gamma_max > v->gamma_min))
         return kd_error_field(error, "/volume/gamma_max", "volume.gamma_max is %s, allowed is more than volume.gamma_min, %s", show(v->gamma_max).text, show_bound(v->gamma_min).text);
+    if (v->normalise_to_jy > 0 && !(kd_scene_is_radio_alone(scene) && kd_scene_is_flat(scene)))
+        return kd_error_field(error, "/volume/normalise_to_jy", "volume.normalise_to_jy is %s Jy, allowed is 0 but where a volume at a radio frequency shines alone, in the plane and pinhole projections", show(v->normalise_to_jy).text);
+    if (v->normalise_to_jy > 0 && scene->camera.stereo != KD_STEREO_NONE)
+        return kd_error_field(error, "/volume/normalise_to_jy", "volume.normalise_to_jy is %s Jy, allowed for a pair of eyes is 0: each would see another density", show(v->normalise_to_jy).text);
     if (v->model == KD_VOLUME_NONE || v->outer > least)
         return KD_OK;
     return kd_error_field(error, "/volume/outer", "volume.outer is %s M, allowed is more than the inner edge, %s M", show(v->outer).text,
@@ -451,7 +455,7 @@ const struct kd_rule kd_rules[] = {
     { "`disk.outer` is larger than the inner edge, unless there is no disk.", outer_edge },
     { "`disk.height` is 0, or at least 1e-5; it is 0 for a disk of particles.", height },
     { "`volume.outer` is larger than the inner edge, which is at least a hundredth outside the horizon, or a two-thousandth for what is seen at a radio frequency, unless there is no volume; "
-      "a torus has its inner edge between the orbit of light and `volume.torus_radius`, which is outside the ISCO, and an outer edge; `volume.gamma_max` is larger than `volume.gamma_min` where electrons go by a power law.", volume },
+      "a torus has its inner edge between the orbit of light and `volume.torus_radius`, which is outside the ISCO, and an outer edge; `volume.gamma_max` is larger than `volume.gamma_min` where electrons go by a power law; `volume.normalise_to_jy` is 0 but where a volume at a radio frequency shines alone, in the plane and pinhole projections, without stereo.", volume },
     { "`jets.outer` is larger than the inner edge, which is at least a twentieth outside the horizon, unless `jets.brightness` is 0; by a `jets.falloff` below 0 light grows "
       "at most 2^60 times in between.", jets },
     { "`spots.N.r` is not inside the ISCO of the spin, unless the spot's brightness is 0.", spots },

@@ -81,6 +81,20 @@ class Visibility(Case):
         for hz, jy in zip(told["columns"]["frequency_hz"], told["columns"]["flux_jy"]):
             self.assertAlmostEqual(jy / self.thin_sphere(radius, n, field, hz), 1, delta=0.01)
 
+    def test_a_spectrum_of_a_given_flux(self):
+        """The density that gives 2 Jy at the scene's own 223 GHz is the matter at all frequencies: the spectrum is that of a scene which has it."""
+        settings = ("--set", "camera.inclination_deg=45", "--set", "volume.normalise_to_jy=2")
+        told = json.loads(run("render", "-p", "riaf", "--size", "48x48", *settings, "--stats", "-o", self.path("n.png")).stderr)
+        self.assertAlmostEqual(told["flux_jy"], 2, delta=0.05)
+        asked = ("--pixels", "48", "--frequencies-hz", "1e11,223.005e9", "--check", "none")
+        rows = json.loads(self.good("spectrum", "-p", "riaf", *settings, *asked))["columns"]["flux_jy"]
+        self.assertAlmostEqual(rows[1] / told["flux_jy"], 1, delta=1e-5)
+        density = json.loads(self.good("scene", "-p", "riaf"))["volume"]["density_cm3"] * told["density_scale"]
+        there = json.loads(self.good("spectrum", "-p", "riaf", "--set", "camera.inclination_deg=45", "--set", f"volume.density_cm3={density!r}", *asked))["columns"]["flux_jy"]
+        for mine, its in zip(rows, there):
+            self.assertAlmostEqual(mine / its, 1, delta=1e-6)
+        self.assertGreater(abs(rows[0] / rows[1] - 1), 0.05)
+
     @staticmethod
     def thin_sphere(radius, n, field, hz):
         """Pandya et al. 2016, table 4: j = n e^2 nu_c/c exp(-X^(1/3)) sqrt(2) pi/27 sin (X^(1/2) + 2^(11/12) X^(1/6))^2, X = nu/nu_s, nu_s = 2/9 nu_c Theta^2 sin, at a right angle to the field. Jy at 8300 pc."""

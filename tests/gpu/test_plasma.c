@@ -375,10 +375,95 @@ static void test_alone(void **state)
     kd_frame_finish(&frame);
 }
 
+static double flux_of(const struct kd_scene *scene, double *scale)
+{
+    struct kd_frame frame = rendered(scene);
+    const double jy = kd_flux_jy(scene, &frame);
+    *scale = frame.density_scale;
+    kd_frame_finish(&frame);
+    return jy;
+}
+
+/* A density that was looked for gives the flux that was asked for, and is what is told: a scene that has it by itself is the same. */
+static void test_normalised(void **state)
+{
+    (void)state;
+    static const struct { const char *preset; double jy, ghz; } wanted[] = { { "riaf", 2.4, INFINITY }, { "gold-4", 0.35, INFINITY }, { "torus", 1, 86 } };
+    for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++) {
+        struct kd_scene scene;
+        double scale, again, none;
+        OK(kd_scene_preset(&scene, wanted[i].preset, &error));
+        scene.image.width = scene.image.height = 128;
+        scene.image.critical_factor = 1;
+        scene.volume.normalise_to_jy = wanted[i].jy;
+        scene.volume.normalise_ghz = wanted[i].ghz;
+        const double jy = flux_of(&scene, &scale);
+        assert_true(flux_of(&scene, &again) == jy && again == scale);
+        scene.volume.normalise_to_jy = 0;
+        *(scene.volume.model == KD_VOLUME_GOLD ? &scene.volume.gold_emission : &scene.volume.density_cm3) *= scale;
+        assert_true(flux_of(&scene, &none) == jy && none == 1);
+        scene.volume.frequency_ghz = isfinite(wanted[i].ghz) ? wanted[i].ghz : scene.volume.frequency_ghz;
+        const double there = flux_of(&scene, &none);
+        printf("%s: %.6g Jy, asked for %g; the density times %.6g\n", wanted[i].preset, there, wanted[i].jy, scale);
+        if (!(fabs(there / wanted[i].jy - 1) < 1e-4))
+            fail_msg("%s: %.6g Jy, asked for %g, by a factor of %.6g", wanted[i].preset, there, wanted[i].jy, scale);
+    }
+}
+
+/* While a view is dragged the density is that of the same matter from where it was seen before, and at rest its own. */
+static void test_held(void **state)
+{
+    (void)state;
+    double first, turned, exact;
+    struct kd_scene scene = scene_of("riaf", "{\"volume\":{\"normalise_to_jy\":1.7},\"image\":{\"width\":32,\"height\":32}}");
+    struct kd_needs needs = kd_needs_of(&scene);
+    needs.held = true;
+    double *const told[] = { &first, &turned, &exact };
+    for (int i = 0; i < 3; i++) {
+        struct kd_capacity capacity;
+        struct kd_plan plan;
+        struct kd_frame frame;
+        scene.camera.inclination_deg = i ? 20 : 60;
+        needs.held = i < 2;
+        kd_renderer_capacity(renderer, &capacity);
+        OK(kd_plan_make_for(&scene, &needs, &capacity, &plan, &error));
+        assert_int_equal(plan.held, i < 2);
+        OK(kd_render(renderer, &scene, &plan, NULL, NULL, &frame, &error));
+        *told[i] = frame.density_scale;
+        kd_frame_finish(&frame);
+    }
+    assert_true(first == turned);
+    assert_true(fabs(exact / first - 1) > 0.01);
+}
+
+/* Where there is none it is said so: no matter, and matter that hides itself. */
+static void test_not_normalised(void **state)
+{
+    (void)state;
+    static const struct { const char *preset, *json, *says; } refused[] = {
+        { "gold-1", "{\"volume\":{\"gold_emission\":0,\"normalise_to_jy\":1}}", "volume.normalise_to_jy is 1 Jy, at which no density was found: there is no matter" },
+        { "gold-5", "{\"volume\":{\"normalise_to_jy\":1e6}}", "as dense as may be it has" },
+        { "riaf", "{\"volume\":{\"magnetisation\":0,\"normalise_to_jy\":1}}", "as dense as may be it has 0 Jy" },
+    };
+    for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
+        const struct kd_scene scene = scene_of(refused[i].preset, refused[i].json);
+        struct kd_capacity capacity;
+        struct kd_plan plan;
+        struct kd_frame frame;
+        struct kd_error refusal = { 0 };
+        kd_renderer_capacity(renderer, &capacity);
+        OK(kd_plan_make(&scene, &capacity, &plan, &error));
+        assert_int_equal(kd_render(renderer, &scene, &plan, NULL, NULL, &frame, &refusal), KD_EINVAL);
+        assert_string_equal(refusal.pointer, "/volume/normalise_to_jy");
+        if (!strstr(refusal.message, refused[i].says))
+            fail_msg("%s: %s", refused[i].json, refusal.message);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_rays), cmocka_unit_test(test_adversarial), cmocka_unit_test(test_deep), cmocka_unit_test(test_sphere), cmocka_unit_test(test_published), cmocka_unit_test(test_alone),
+        cmocka_unit_test(test_rays), cmocka_unit_test(test_adversarial), cmocka_unit_test(test_deep), cmocka_unit_test(test_sphere), cmocka_unit_test(test_published), cmocka_unit_test(test_alone), cmocka_unit_test(test_normalised), cmocka_unit_test(test_held), cmocka_unit_test(test_not_normalised),
     };
     int skip = open_renderer();
     return skip ? skip : close_renderer(cmocka_run_group_tests(tests, NULL, NULL));

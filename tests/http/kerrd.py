@@ -181,6 +181,12 @@ class Kerrd(unittest.TestCase):
         janskys = sum(struct.unpack(f'<{n * n}f', numbers[-4 * n * n:])) * (field / n * metres / parsecs) ** 2
         self.assertAlmostEqual(float(told['jy']) / janskys, 1, delta=1e-3)  # the pixels of the critical curve have more rays in both
         self.assertIsNone(self.daemon.get(TARGET).header('Kerrd-Flux'))
+        looked_for = '/v1/render?preset=riaf&image.width=128&image.height=128&image.critical_factor=1&volume.normalise_to_jy=1'  # the pictures that the density is that of
+        told = dict(part.split('=') for part in self.daemon.get(looked_for).header('Kerrd-Flux').split())
+        self.assertAlmostEqual(float(told['jy']), 1, delta=1e-4)
+        self.assertTrue(0.1 < float(told['density_scale']) < 1, told)
+        problem = self.daemon.get(target + '&volume.normalise_to_jy=1&volume.magnetisation=0')
+        self.assertEqual((problem.status, problem.json()['pointer']), (422, '/volume/normalise_to_jy'))
 
     def test_a_picture_of_the_sky(self):
         """By a render, and by a job as by the command line; its author is in each file."""

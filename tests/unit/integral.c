@@ -155,6 +155,13 @@ static void test_baselines(void **state)
     assert_int_equal(kd_integral_pictures(&r), 6);
     near(kd_integral_scene(&r, 3).volume.frequency_ghz, 200, 1e-9);
     kd_integral_request_finish(&r);
+    /* Matter of a given flux has it at the scene's frequency, and is the same matter at all others. */
+    ask(&r, KD_INTEGRAL_SPECTRUM, "{\"frequencies_hz\":[1e11,2e11],\"preset\":\"riaf\",\"scene\":{\"volume\":{\"normalise_to_jy\":2,\"frequency_ghz\":230}}}");
+    near(kd_integral_scene(&r, 3).volume.normalise_ghz, 230, 1e-9);
+    kd_integral_request_finish(&r);
+    ask(&r, KD_INTEGRAL_SPECTRUM, "{\"frequencies_hz\":[1e11,2e11],\"preset\":\"riaf\",\"scene\":{\"volume\":{\"normalise_to_jy\":2,\"normalise_ghz\":86}}}");
+    near(kd_integral_scene(&r, 3).volume.normalise_ghz, 86, 1e-9);
+    kd_integral_request_finish(&r);
     ask(&r, KD_INTEGRAL_SPECTRUM, "{\"frequencies\":7}");
     assert_true(r.what == KD_INTEGRAL_SPECTRUM && !kd_integral_pictures(&r));
     kd_integral_request_finish(&r);

@@ -163,6 +163,8 @@ static const struct rule rules[] = {
     { "{\"spacetime\":{\"spin\":0},\"spot1\":{\"brightness\":0,\"r\":2}}", NULL, NULL },
     { "{\"spacetime\":{\"spin\":0},\"spots\":[{\"r\":2},{\"brightness\":1,\"r\":5}]}", "/spots/1/r", "spots.1.r is 5 M" },
     { "{\"volume\":{\"model\":\"torus\"}}", NULL, NULL },
+    { "{\"volume\":{\"model\":\"riaf\",\"normalise_to_jy\":2.4}}", "/volume/normalise_to_jy", "volume.normalise_to_jy is 2.4 Jy, allowed is 0 but where a volume at a radio frequency shines alone" },
+    { "{\"disk\":{\"model\":\"none\"},\"sky\":{\"model\":\"none\"},\"volume\":{\"model\":\"riaf\",\"normalise_to_jy\":2.4}}", NULL, NULL },
     { "{\"spacetime\":{\"spin\":0},\"volume\":{\"model\":\"torus\",\"torus_radius\":6}}", "/volume/torus_radius", "volume.torus_radius is 6 M, allowed is more than the ISCO, 6 M" },
     { "{\"volume\":{\"model\":\"torus\",\"inner\":12}}", "/volume/inner", "volume.inner is 12 M, allowed for a torus is less than volume.torus_radius, 12 M, and more than the orbit of light" },
     { "{\"spacetime\":{\"spin\":-0.9},\"volume\":{\"model\":\"torus\",\"inner\":3}}", "/volume/inner", "orbit of light, 3.91" },

@@ -11,6 +11,7 @@
 #include "render/device/skies.h"
 #include "render/device/store.h"
 #include "render/emit/emitter.h"
+#include "render/device/normalised.h"
 
 #include <pthread.h>
 #include <stdatomic.h>
@@ -35,6 +36,7 @@ struct kd_renderer {
     bool passing;               /* as kd_renderer_params */
     struct kd_emit_state *emit; /* numbers and tables of the emitters, as of the last frame */
     struct kd_panoramas panoramas;
+    struct kd_normalised normalised;
     pthread_mutex_t lock; /* guards capacity and memory */
     struct kd_capacity capacity; /* but for what the host leaves, which kd_renderer_capacity sees to */
     struct kd_memory_watch memory;

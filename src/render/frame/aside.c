@@ -1,5 +1,6 @@
 /* This finds where a frame is rendered: in the renderer's own buffers, or aside, in some that it shares with no other. */
 #include "render/frame/job.h"
+#include "render/frame/normalise.h"
 #include "render/frame/pair.h"
 
 /* An aside that nobody is in and that has the plan's lens map; NULL: none. */
@@ -16,13 +17,21 @@ enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *sc
 {
     if (plan->eyes == 2)
         return kd_frame_pair(&(struct kd_pair) { renderer, scene, plan, false, progress, user }, out, error);
+    struct kd_scene scaled = *scene;
+    double scale = 1;
+    enum kd_status status = kd_frame_normalise(renderer, &scaled, plan->held, progress, user, &scale, error);
+    if (status)
+        return status;
     struct kd_aside *found = kd_store_has(&renderer->store, plan) ? NULL : aside_with(renderer, plan);
     struct kd_frame_job job = {
         .r = renderer, .store = found ? &found->store : &renderer->store,
-        .prepared = found ? &found->prepared : &renderer->prepared, .scene = scene, .plan = plan,
+        .prepared = found ? &found->prepared : &renderer->prepared, .scene = &scaled, .plan = plan,
         .progress = progress, .user = user, .error = error,
     };
-    return kd_frame_run(&job, out);
+    status = kd_frame_run(&job, out);
+    if (!status)
+        out->density_scale = scale;
+    return status;
 }
 
 /* What idle ones hold is given up, the oldest first, until so much fits beside what is in use. */
@@ -68,14 +77,21 @@ enum kd_status kd_render_aside(struct kd_renderer *renderer, const struct kd_sce
 {
     if (plan->eyes == 2)
         return kd_frame_pair(&(struct kd_pair) { renderer, scene, plan, true, progress, user }, out, error);
+    struct kd_scene scaled = *scene;
+    double scale = 1;
+    const enum kd_status found = kd_frame_normalise(renderer, &scaled, plan->held, progress, user, &scale, error);
+    if (found)
+        return found;
     struct kd_aside *a = enter_aside(renderer, plan);
     if (!a)
         return kd_error_set(error, KD_EBUSY, "%u pictures are being rendered beside others, as many as can be", KD_ASIDES);
     struct kd_frame_job job = {
-        .r = renderer, .store = &a->store, .prepared = &a->prepared, .aside = true, .scene = scene, .plan = plan,
+        .r = renderer, .store = &a->store, .prepared = &a->prepared, .aside = true, .scene = &scaled, .plan = plan,
         .progress = progress, .glance = glance, .user = user, .error = error,
     };
     enum kd_status status = kd_frame_run(&job, out);
     a->busy = false;
+    if (!status)
+        out->density_scale = scale;
     return status;
 }

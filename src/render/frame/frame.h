@@ -21,6 +21,7 @@ struct kd_frame {
     bool lens_reused;         /* the trace pass was skipped: the lens map was in the cache */
     struct kd_accuracy_report accuracy;
     struct kd_light_report light;
+    double density_scale;     /* what the density was multiplied by (volume.normalise_to_jy); 1: by nothing */
     struct kd_told *told;     /* of the pixel that the plan names (frame/tell.h); NULL: of none */
     struct kd_timing timings[KD_FRAME_MAX_TIMINGS]; /* by the names of plan/pass.h, "upload", "fill", those that ran; "total" */
     size_t n_timings;

@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 double kd_flux_jy(const struct kd_scene *scene, const struct kd_frame *frame)
 {
@@ -16,4 +17,6 @@ void kd_flux_text(const struct kd_scene *scene, const struct kd_frame *frame, ch
     *out = 0;
     if (!isnan(jy))
         snprintf(out, KD_FLUX_TEXT, "jy=%.6g ghz=%.9g kelvin=%.6g", jy, scene->volume.frequency_ghz, KD_RADIO_KELVIN);
+    if (*out && scene->volume.normalise_to_jy > 0)
+        snprintf(out + strlen(out), KD_FLUX_TEXT - strlen(out), " density_scale=%.9g", frame->density_scale);
 }

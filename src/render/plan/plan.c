@@ -31,6 +31,8 @@ WHEN(bloom, plan->bloom.levels && !plan->numbers && !kd_plan_is_map(plan))
 WHEN(beam, plan->beam.cell && !plan->numbers)
 WHEN(near_beam, plan->beam.cell && !plan->numbers && isfinite(scene->camera.r))
 WHEN(heat, scene->style.palette == KD_PALETTE_HEAT && !kd_scene_is_radio_alone(scene) && !plan->numbers && !kd_plan_is_map(plan))
+WHEN(normalised, scene->volume.normalise_to_jy > 0 && !plan->held)
+WHEN(held, plan->held)
 WHEN(maps, plan->n_layers > 0)
 WHEN(cut, plan->points && plan->bands > 1 && !plan->cacheable)
 WHEN(coloured, kd_plan_is_map(plan) && !plan->numbers)
@@ -63,6 +65,8 @@ static const struct sentence {
     { "post: a near observer's beam has the width at the hole's distance that it has from spacetime.distance_pc", near_beam },
     { "post: false colours; brightness is of the model's band and no brightness temperature at a radio frequency", heat },
     { "sky: images of stars are cut at the edges of the bands that a picture of this size is made in", cut },
+    { "volume: the density is that at which a picture of 128 pixels has the flux volume.normalise_to_jy, found by smaller pictures that the estimated time leaves out; answers tell the factor as density_scale", normalised },
+    { "volume: while the view is dragged the density is the last that was found for this matter, from whichever side, and the flux is not volume.normalise_to_jy; it is when the view rests", held },
     { "layers: maps of places and angles are those of one ray a pixel, and no means over it", maps },
     { "layers: a picture of a map has false colours; FITS, EXR, NPZ and NPY have its numbers", coloured },
     { "projection: distances to the critical curve on a logarithmic scale; no eye sees it so, and areas are not to scale", projected },
@@ -243,6 +247,7 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
     plan.light = needs->light;
     plan.unseen = needs->unseen;
     plan.numbers = needs->radiance;
+    plan.held = needs->held && scene->volume.normalise_to_jy > 0;
     plan.ring = scene->camera.projection == KD_PROJECTION_RING;
     kd_emit_traits(scene, plan.traits);
     plan.apart = kd_emit_apart(scene);

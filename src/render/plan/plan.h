@@ -72,6 +72,7 @@ struct kd_plan {
     struct kd_beam_grid beam;       /* of a telescope, that light is convolved with */
     struct kd_bloom bloom;          /* what a lens spreads */
     bool light;                     /* flux and centroid are measured */
+    bool held;                      /* the density of matter of a given flux may be one that was found from another side (frame/normalise.h) */
     bool unseen;                    /* no pixels are made of the radiance */
     bool numbers;                   /* the frame is for a file of numbers: what is done to a picture behind its light does not count there */
     bool ring;                      /* rays are listed, round the critical curve */
@@ -211,7 +212,8 @@ struct kd_needs {
     bool unseen;         /* and that nobody sees the picture: it has no pixels, and no layers, whatever image.layers says */
     bool radiance;       /* and that linear light be among the layers, where the picture is asked for */
     bool sketch;         /* and that volumes be followed as coarsely as kd_march_sketch has it, */
-    bool bright;         /* and that points of light be sought as plan.bright says */
+    bool bright;         /* and that points of light be sought as plan.bright says, */
+    bool held;           /* and that volume.normalise_to_jy has the density that was found for the same matter before, from wherever it was seen */
 };
 struct kd_needs kd_needs_of(const struct kd_scene *scene);
 enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_needs *needs,

@@ -159,6 +159,8 @@ static enum kd_status describe_event(struct kd_live_frame *frame, const struct k
         add_lights(json, &job->frame.light);
     if (!isnan(kd_flux_jy(&job->scene, &job->frame)))
         kd_json_number(json, "flux_jy", kd_flux_jy(&job->scene, &job->frame));
+    if (job->scene.volume.normalise_to_jy > 0)
+        kd_json_number(json, "density_scale", job->frame.density_scale);
     kd_json_end(json);
     return kd_json_finish(json);
 }

@@ -70,6 +70,7 @@ static struct kd_session_frame *make_frame(struct kd_session *s, const struct kd
     struct kd_needs needs = kd_needs_of(&live->job.scene);
     needs.sketch = turn->quality.sketch;
     needs.bright = turn->quality.bright;
+    needs.held = !turn->refining && !turn->quality.final;
     if (kd_plan_make_for(&live->job.scene, &needs, &capacity, &live->job.plan, error)) {
         free(live);
         return NULL;

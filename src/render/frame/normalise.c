@@ -1,0 +1,181 @@
+#include "render/frame/normalise.h"
+
+#include "render/device/internal.h"
+#include "render/emit/radio.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { FIRST = 48, CLOSE = 128, MOST = 60 }; /* pixels of a side, pictures */
+#define NEAR 1e-3     /* of the flux: what pictures of 48 pixels are closer to those of 128 than */
+#define HELD 5e-5     /* and what is left; a flux is a sum of floats, good to 1e-6 */
+#define THIN 2.0      /* light goes as the density times the field, which goes as its root or more */
+#define LONGEST 6.9   /* a factor of a thousand at once */
+#define MARGIN 0.05   /* of a bracket: a guess nearer to its ends is none */
+#define DENSEST 1e30  /* as the fields' range */
+
+struct search {
+    struct kd_renderer *r;
+    struct kd_scene scene; /* what is rendered, but for its density and its size */
+    double target, most;   /* Jy; ln of the largest scale */
+    double slope;          /* of ln flux by ln scale, as it was last */
+    kd_progress_fn progress;
+    void *user;
+    struct kd_error *error;
+};
+
+static double *density_of(struct kd_scene *scene) { return scene->volume.model == KD_VOLUME_GOLD ? &scene->volume.gold_emission : &scene->volume.density_cm3; }
+
+static enum kd_status flux_at(struct search *s, int side, double log_scale, double *jy)
+{
+    struct kd_scene scene = s->scene;
+    const double w = scene.image.width, h = scene.image.height;
+    struct kd_capacity c;
+    struct kd_plan plan;
+    struct kd_frame frame = { 0 };
+    enum kd_status status;
+    *density_of(&scene) *= exp(log_scale);
+    scene.image.width = (int32_t)fmax(rint(side * w / fmax(w, h)), 1);
+    scene.image.height = (int32_t)fmax(rint(side * h / fmax(w, h)), 1);
+    if (s->progress && !s->progress(s->user, 0))
+        return kd_error_set(s->error, KD_ECANCELLED, "cancelled");
+    kd_renderer_capacity(s->r, &c);
+    KD_TRY(kd_plan_make(&scene, &c, &plan, s->error));
+    KD_TRY(kd_render(s->r, &scene, &plan, NULL, NULL, &frame, s->error));
+    *jy = kd_radio_jansky(&scene, frame.light.all.flux);
+done:
+    kd_frame_finish(&frame);
+    return status;
+}
+
+static enum kd_status refuse(const struct search *s, const char *why, double jy)
+{
+    return kd_error_field(s->error, "/volume/normalise_to_jy", "volume.normalise_to_jy is %.9g Jy, at which no density was found: %s %.4g Jy; allowed are 0, and what this matter shines with at some density", s->target, why, jy);
+}
+
+/* The next guess: by the line through the ends of a bracket, or by the slope; in the middle where that is next to an end. */
+static double guess(const struct search *s, double x, double y, const double at[2], const double off[2])
+{
+    if (!isfinite(at[0]) || !isfinite(at[1]))
+        return fmin(x - fmin(fmax(y / s->slope, -LONGEST), LONGEST), s->most);
+    const double part = off[0] / (off[0] - off[1]);
+    return at[0] + (part > MARGIN && part < 1 - MARGIN ? part : 0.5) * (at[1] - at[0]);
+}
+
+/* Finds *x, ln of the scale, from where it is. Regula falsi in ln flux by ln scale, the end that stays being believed half as much each time (Dowell & Jarratt 1971, BIT 11, 168). */
+static enum kd_status find(struct search *s, int side, double within, double *x)
+{
+    double at[2] = { -INFINITY, INFINITY }, off[2] = { 0 }, last = NAN, before = NAN, jy = 0;
+    int stays = -1;
+    enum kd_status status;
+    for (int n = 0; n < MOST; n++) {
+        KD_TRY(flux_at(s, side, *x, &jy));
+        const double y = jy > 0 ? log(jy / s->target) : -LONGEST * s->slope;
+        const int end = y > 0;
+        if (jy > 0 && fabs(y) < within)
+            return KD_OK;
+        if (!isfinite(jy) || (y < 0 && *x >= s->most))
+            return refuse(s, "as dense as may be it has", jy);
+        if (isfinite(last) && jy > 0 && *x != before)
+            s->slope = fmin(fmax((y - last) / (*x - before), 0.2), 8);
+        before = *x;
+        last = jy > 0 ? y : NAN;
+        at[end] = *x;
+        off[end] = y;
+        if (stays == end)
+            off[!end] *= 0.5;
+        stays = end;
+        *x = guess(s, *x, y, at, off);
+    }
+    status = refuse(s, "after 60 pictures the nearest has", jy);
+done:
+    return status;
+}
+
+static enum kd_status search(struct search *s, double *scale)
+{
+    double x = 0;
+    enum kd_status status;
+    KD_TRY(find(s, FIRST, NEAR, &x));
+    KD_TRY(find(s, CLOSE, HELD, &x));
+    *scale = exp(x);
+done:
+    return status;
+}
+
+/* All that the flux depends on, and nothing else. */
+static struct kd_scene bare(const struct kd_scene *scene)
+{
+    struct kd_scene bare = *scene, plain;
+    kd_scene_defaults(&plain);
+    bare.image = plain.image;
+    bare.image.width = scene->image.width, bare.image.height = scene->image.height;
+    bare.image.samples = bare.image.critical_factor = 1;
+    bare.style = plain.style;
+    bare.style.bloom = bare.style.beam_uas = 0;
+    bare.motion = plain.motion;
+    bare.camera.stereo = KD_STEREO_NONE;
+    bare.volume.normalise_to_jy = 0;
+    bare.volume.normalise_ghz = INFINITY;
+    bare.volume.frequency_ghz = isfinite(scene->volume.normalise_ghz) ? scene->volume.normalise_ghz : scene->volume.frequency_ghz;
+    bare.top.time = isfinite(scene->camera.r) ? scene->top.time : 0;
+    return bare;
+}
+
+/* By all of it, by the shape of the picture and by the flux. */
+static enum kd_status keys_of(const struct search *s, struct kd_normal *out)
+{
+    struct kd_scene key = s->scene, plain;
+    const double w = key.image.width, h = key.image.height;
+    enum kd_status status;
+    kd_scene_defaults(&plain);
+    key.image.width = (int32_t)fmax(rint(4096 * w / fmax(w, h)), 1);
+    key.image.height = (int32_t)fmax(rint(4096 * h / fmax(w, h)), 1);
+    key.volume.normalise_to_jy = s->target;
+    KD_TRY(kd_scene_hash(&key, out->hash));
+    key.image = plain.image;
+    key.camera = plain.camera;
+    key.top.time = 0;
+    KD_TRY(kd_scene_hash(&key, out->matter));
+done:
+    return status ? kd_error_set(s->error, status, "out of memory while hashing the scene") : KD_OK;
+}
+
+/* The latest that was found for this scene, or where it is held for this matter; 0: there is none. */
+static double known(const struct kd_normalised *kept, const struct kd_normal *wanted, bool held)
+{
+    const uint32_t n = kept->n < KD_NORMALISED ? kept->n : KD_NORMALISED;
+    double of_matter = 0;
+    for (uint32_t i = 1; i <= n; i++) {
+        const struct kd_normal *at = &kept->kept[(kept->n - i) % KD_NORMALISED];
+        if (!strcmp(at->hash, wanted->hash))
+            return at->scale;
+        if (held && !(of_matter > 0) && !strcmp(at->matter, wanted->matter))
+            of_matter = at->scale;
+    }
+    return of_matter;
+}
+
+enum kd_status kd_frame_normalise(struct kd_renderer *renderer, struct kd_scene *scene, bool held, kd_progress_fn progress, void *user, double *scale, struct kd_error *error)
+{
+    struct kd_normalised *kept = &renderer->normalised;
+    struct kd_normal found;
+    *scale = 1;
+    if (!(scene->volume.normalise_to_jy > 0))
+        return KD_OK;
+    struct search s = { .r = renderer, .scene = bare(scene), .target = scene->volume.normalise_to_jy, .slope = THIN, .progress = progress, .user = user, .error = error };
+    enum kd_status status;
+    if (!(*density_of(scene) > 0))
+        return refuse(&s, "there is no matter, which has", 0);
+    KD_TRY(keys_of(&s, &found));
+    found.scale = known(kept, &found, held);
+    if (!(found.scale > 0)) {
+        s.most = log(DENSEST / *density_of(scene));
+        KD_TRY(search(&s, &found.scale));
+        kept->kept[kept->n++ % KD_NORMALISED] = found;
+    }
+    *scale = found.scale;
+    *density_of(scene) *= found.scale;
+done:
+    return status;
+}
