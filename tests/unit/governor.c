@@ -694,13 +694,13 @@ static void rest_refines_to_what_is_asked_and_then_costs_nothing(void **state)
         change(&s, i % 3);
         double changed = s.now;
         assert_true(frame(&s)); /* at once, by the rung in force */
-        bool final = s.last.final, slow = s.now > changed + 150;
+        const bool final = s.last.final, slow = s.now > changed + 150;
         struct kd_turn turn = kd_governor_turn(&s.governor, s.now);
         if (!slow) { /* what is shown is in force */
             assert_int_equal(turn.quality.width, s.last.width);
             assert_int_equal(turn.quality.samples, s.last.samples);
-            assert_true(final ? isinf(turn.wait_ms) : fabs(turn.wait_ms - (changed + 150 - s.now)) < 1e-9);
         }
+        assert_true(final ? isinf(turn.wait_ms) : fabs(turn.wait_ms - fmax(changed + 150 - s.now, 50)) < 1e-9); /* who has waited for a slow frame has time for a change */
         refine_to_rest(&s, &frames);
         assert_true(final ? frames == 0 : frames >= 1 && frames <= KD_LADDER_STEPS);
         assert_true(s.last.final);

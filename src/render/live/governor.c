@@ -11,6 +11,7 @@ static const double MORE = 1.1; /* a target so much larger or smaller is another
 static const double LEAST_ROOM = 0.5, LEAST_SHARE = 0.25; /* of the target, of what is fixed */
 static const double COOLDOWN_MS = 1000;                /* before a climb */
 static const double RETRY_MS = 3000;                   /* before one to what was too slow; doubled */
+static const double SETTLE_MS = 50;                     /* from a frame to the next change of a hand that saw it */
 static const double HOLD_MS = 400, HOLD_MAX_MS = 2000; /* a hand that pauses in a drag; two drags */
 static const double BLIND_MS = 2000;                   /* a guess; doubled */
 static const double NARROWEST = 0.25;                  /* of the asked width, whatever was asked to be kept of it */
@@ -476,7 +477,7 @@ struct kd_turn kd_governor_turn(const struct kd_governor *g, double now)
     turn.audit = turn.quality.final && g->share >= 1 ? 1 : MOVING_AUDIT;
     if (g->shown_revision != g->revision)
         return turn;
-    double since = g->share < 1 ? fmax(g->changed_at, g->shown_at) : g->changed_at, left = g->params.rest_ms - (now - since);
+    double since = g->share < 1 ? fmax(g->changed_at, g->shown_at) : g->changed_at, left = fmax(g->params.rest_ms - (now - since), SETTLE_MS - (now - g->shown_at));
     if (!g->shown.final && left < 1e-3) /* rounded sums of waits end a little early */
         return next_step(g, turn);
     turn.quality = g->shown;

@@ -55,7 +55,7 @@
  *
  * When nothing changed for rest_ms: the steps of the ladder, one frame each, those that are less than what is shown left out. Then
  * nothing, until the next change. Where the device is shared a frame may wait for rest_ms itself, so that the rest counts from when it
- * was shown. A scene that is stepped in time at each frame does not rest. */
+ * was shown; and who has waited for a frame longer than that has 50 ms for the next change. A scene that is stepped in time at each frame does not rest. */
 #ifndef KD_RENDER_LIVE_GOVERNOR_H
 #define KD_RENDER_LIVE_GOVERNOR_H
 
