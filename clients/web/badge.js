@@ -3,7 +3,7 @@ import { el } from './dom.js';
 import { nature } from './i18n.js';
 
 let means = {};
-const waiting = new Set();
+let waiting = []; // [node, name]
 
 function explain(node, name) {
   const { text, lang } = nature(name, means[name]);
@@ -13,7 +13,7 @@ function explain(node, name) {
 
 export function badge(name, id) {
   const node = el('span', { class: `badge nature-${name}`, id }, nature(name).word);
-  means[name] ? explain(node, name) : waiting.add([node, name]);
+  means[name] ? explain(node, name) : waiting.push([node, name]);
   return node;
 }
 
@@ -21,5 +21,5 @@ export function badge(name, id) {
 export function know(natures) {
   means = natures;
   for (const [node, name] of waiting) explain(node, name);
-  waiting.clear();
+  waiting = [];
 }

@@ -15,7 +15,8 @@ function slider(spec, input, tell) {
   return { node, follow: () => input.value !== '' && (node.value = s.to(input.valueAsNumber)) };
 }
 
-// specs: [{ name, label, unit, help, value, min, max, step, choices, words, auto, nature, about }]; a label goes over what the name says, about over the server's help; without a nature it is physics; changed() is
+// specs: [{ name, label, unit, help, value, min, max, step, choices, words, auto, nature, about }]; a label goes over what the
+// name says, about over the server's help; without a nature it is physics; changed() is
 // told. What is auto has no value until somebody gives it one, and is emptied to have none again. Returns values() by name.
 export function buildForm(root, prefix, specs, changed) {
   const inputs = new Map();

@@ -22,7 +22,7 @@ export async function openPreset(scene) {
   const chosen = link.get('preset') ?? (scene.linked.some(path => !['image', 'time'].includes(path.split('.')[0])) ? plain : first_view),
     held = scene.held,
     linked = Object.fromEntries(scene.linked.map(path => [path, scene.get(path)]));
-  const document = !chosen || chosen === plain ? {} : ((chosen === first_view && (await firstDocument())) || null) ?? await document_of(chosen).catch(error => {
+  const document = !chosen || chosen === plain ? {} : (chosen === first_view && (await firstDocument())) || await document_of(chosen).catch(error => {
     if (error.status !== 404) throw error;
     scene.unknown.push('preset');
   });

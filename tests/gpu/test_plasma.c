@@ -2,6 +2,7 @@
  * velocities from the metric's components and its emissivities in CGS; fluxes in Jy; and numbers that no float holds. */
 #include "render_support.h"
 
+#include "cgs.h"
 #include "kerr_schild.h"
 #include "physics/kerr.h"
 #include "render/output/flux.h"
@@ -30,15 +31,6 @@ static const float *kelvin_of(const struct kd_frame *frame)
     assert_non_null(layer);
     return layer->data;
 }
-
-/* In CGS. */
-#define C 2.99792458e10
-#define E2 (4.80320471e-10 * 4.80320471e-10)
-#define ME 9.1093837015e-28
-#define MP 1.67262192369e-24
-#define H 6.62607015e-27
-#define K 1.380649e-16
-#define GM_SUN 1.3271244e26
 
 struct metric { double g[4][4], i[4][4]; };
 

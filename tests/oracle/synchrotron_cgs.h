@@ -3,16 +3,9 @@
 #ifndef KD_TEST_SYNCHROTRON_CGS_H
 #define KD_TEST_SYNCHROTRON_CGS_H
 
-#include <math.h>
+#include "cgs.h"
 
-/* In CGS. */
-#define C 2.99792458e10
-#define E2 (4.80320471e-10 * 4.80320471e-10)
-#define ME 9.1093837015e-28
-#define MP 1.67262192369e-24
-#define H 6.62607015e-27
-#define K 1.380649e-16
-#define GM_SUN 1.3271244e26
+#include <math.h>
 
 /* K_n(x) exp(x), by the trapezium rule, which is exact for what falls as quickly. */
 static inline double bessel(double n, double x)

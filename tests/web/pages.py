@@ -184,7 +184,7 @@ class Pages(Browser):
             };
             return [fields.length, fields.filter(wrong).map(field => field.textContent)];
         }''', view)
-        self.assertGreater(count, 4)
+        self.assertGreater(count, 4)  # real scale has five
         self.assertEqual(bare, [])
 
 

@@ -1,0 +1,13 @@
+/* Constants in CGS (CODATA 2018): the speed of light, the square of the electron's charge, masses of electron and proton, Planck's and Boltzmann's constants, and GM of the sun (IAU 2015). */
+#ifndef KD_TEST_CGS_H
+#define KD_TEST_CGS_H
+
+#define C 2.99792458e10
+#define E2 (4.80320471e-10 * 4.80320471e-10)
+#define ME 9.1093837015e-28
+#define MP 1.67262192369e-24
+#define H 6.62607015e-27
+#define K 1.380649e-16
+#define GM_SUN 1.3271244e26
+
+#endif
