@@ -19,8 +19,11 @@ const pinned = { 'orbit-panel': '#orbit-picture', 'scale-panel': '#scale-picture
 export function sheet(node) {
   const handle = el('div', { class: 'handle', role: 'slider', tabindex: 0, 'aria-orientation': 'vertical', 'aria-valuemin': 0, 'aria-valuemax': heights.length - 1,
     'aria-controls': node.id, 'aria-label': t('Controls: height of the sheet', 'Comandi: altezza del foglio') }, t('Controls', 'Comandi'));
+  const picture = pinned[node.id] && document.querySelector(pinned[node.id]);
   let at = 0,
     drag = null;
+
+  const show = () => at && handle.offsetParent && picture?.scrollIntoView();
 
   function rest(wanted) {
     at = clamp(wanted, 0, heights.length - 1);
@@ -28,7 +31,7 @@ export function sheet(node) {
     node.dataset.height = name;
     node.style.removeProperty('height');
     if (!at) node.scrollTop = 0;
-    else if (handle.offsetParent && pinned[node.id]) document.querySelector(pinned[node.id]).scrollIntoView();
+    show();
     handle.setAttribute('aria-valuenow', at);
     handle.setAttribute('aria-valuetext', words);
   }
@@ -78,4 +81,13 @@ export function sheet(node) {
   node.classList.add('sheet');
   node.prepend(handle);
   rest(0);
+  if (picture) {
+    // A sheet that came up before its picture did makes room when there is something to see.
+    let seen = false;
+    new ResizeObserver(() => {
+      const there = picture.offsetHeight > 0;
+      if (there && !seen) show();
+      seen = there;
+    }).observe(picture);
+  }
 }
