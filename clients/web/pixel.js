@@ -77,15 +77,17 @@ export function buildPixel(stage, scene, size) {
     inset = buildInset(),
     close_button = el('button', { type: 'button', class: 'close', 'aria-label': t('Close (Esc)', 'Chiudi (Esc)'), title: 'Esc', onclick: () => (close(), stage.focus()) }, '×');
   card.replaceChildren(close_button, head, facts, others, inset.node, error, fault);
-  let at = null, // places in the stage; null: closed
+  let at = null, // { u, v }: shares of the picture, which stay what they are where the window turns or shrinks; null: closed
     pinned = false,
     timer = 0;
+
+  const placed = () => ({ x: at.u * stage.clientWidth, y: at.v * stage.clientHeight });
 
   // The name of a star, where the sky has them and one is there.
   async function starAt() {
     if (!hasNames(scene)) return null;
     const { images } = await starsIn(scene, stage).catch(() => ({ images: [] }));
-    return at && images.find(image => Math.hypot(image.x - at.x, image.y - at.y) < star_px);
+    return at && images.find(image => Math.hypot(image.x - placed().x, image.y - placed().y) < star_px);
   }
 
   function show(answer, star) {
@@ -108,8 +110,8 @@ export function buildPixel(stage, scene, size) {
   const find = latest(async () => {
     if (!at) return;
     const { width, height } = size(),
-      x = Math.min((at.x * width) / stage.clientWidth, width - 0.01),
-      y = Math.min((at.y * height) / stage.clientHeight, height - 0.01);
+      x = Math.min(at.u * width, width - 0.01),
+      y = Math.min(at.v * height, height - 0.01);
     try {
       const body = JSON.stringify(scene.document({ 'image.width': width, 'image.height': height, 'image.samples': 1 })),
         [answer, star] = await Promise.all([ask(`v1/pixel?at=${x.toFixed(2)},${y.toFixed(2)}`, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body }).then(reply => reply.json()), starAt()]);
@@ -122,14 +124,16 @@ export function buildPixel(stage, scene, size) {
   });
 
   function place() {
-    cross.style.left = `${at.x}px`;
-    cross.style.top = `${at.y}px`;
-    card.dataset.side = at.x < stage.clientWidth / 2 ? 'right' : 'left'; // it hides nothing that is looked at
+    cross.style.left = `${100 * at.u}%`;
+    cross.style.top = `${100 * at.v}%`;
+    // The card hides nothing that is looked at: beside it in a wide window, above or below it on a telephone.
+    card.dataset.side = at.u < 0.5 ? 'right' : 'left';
+    card.dataset.edge = at.v < 0.5 ? 'bottom' : 'top';
   }
 
   function look(where, pin) {
     if (!at) head.textContent = t('Following this light back …', 'Si segue questa luce all’indietro …');
-    at = where;
+    at = { u: where.x / stage.clientWidth, v: where.y / stage.clientHeight };
     pinned = pin;
     card.hidden = cross.hidden = false;
     place();
@@ -158,8 +162,9 @@ export function buildPixel(stage, scene, size) {
       event.preventDefault();
       event.stopImmediatePropagation();
       const by = event.shiftKey ? 20 : 2,
+        { x, y } = placed(),
         within = (value, most) => Math.min(Math.max(value, 0), most - 1);
-      look({ x: within(at.x + by * step[0], stage.clientWidth), y: within(at.y + by * step[1], stage.clientHeight) }, true);
+      look({ x: within(x + by * step[0], stage.clientWidth), y: within(y + by * step[1], stage.clientHeight) }, true);
     },
     { capture: true },
   );

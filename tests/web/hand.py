@@ -67,8 +67,18 @@ class Hand(Browser):
     def test_in_italian_on_a_telephone(self):
         page = self.open(FACE_ON.replace('lang=en', 'lang=it'), viewport={'width': 390, 'height': 844}, has_touch=True, is_mobile=True)
         box = page.locator('#stage').bounding_box()
-        name = self.card(page, lambda: page.touchscreen.tap(box['x'] + 0.8 * box['width'], box['y'] + box['height'] / 2))
-        self.assertTrue(name.startswith('Disco sottile, a r = '), name)
+        asked = []
+        page.on('request', lambda request: 'v1/pixel' in request.url and asked.append(request))
+        for u, v in ((0.8, 0.45), (0.8, 0.55)):
+            x, y = box['x'] + u * box['width'], box['y'] + v * box['height']
+            name = self.card(page, lambda: page.touchscreen.tap(x, y))
+            self.assertTrue(name.startswith('Disco sottile, a r = '), name)
+            self.assertEqual(page.locator('#stage').bounding_box(), box, 'the picture stays where it was touched')
+            size = asked[-1].post_data_json['image']
+            across, down = (float(part) for part in asked[-1].url.partition('at=')[2].replace('%2C', ',').split(','))
+            self.assertAlmostEqual(across / size['width'], u, delta=0.005)
+            self.assertAlmostEqual(down / size['height'], v, delta=0.005)
+            self.assertTrue(page.evaluate('([x, y]) => Boolean(document.elementFromPoint(x, y).closest("#stage"))', [x, y]), 'the card does not lie over it')
         self.shot(page, 'pixel-telephone', full_page=True)
         self.assertEqual(page.evaluate('document.documentElement.scrollWidth'), 390)
 
