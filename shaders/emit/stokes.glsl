@@ -219,8 +219,9 @@ kd_jones kd_stokes_order(kd_stokes_trial t)
     vec3 a1 = t.one.takes, a2 = t.two.takes, a3 = t.three.takes, r1 = t.one.turns, r2 = t.two.turns, r3 = t.three.turns;
     vec3 re = near * (cross(a1, r2) + cross(r1, a2) + cross(a2, r3) + cross(r2, a3)) - far * (cross(a1, r3) + cross(r1, a3));
     vec3 im = near * (cross(r1, r2) - cross(a1, a2) + cross(r2, r3) - cross(a2, a3)) - far * (cross(r1, r3) - cross(a1, a3));
-    float size = dot(re, re) + dot(im, im);
-    return size < 0.25 ? kd_jones(vec2(1.0, 0.0), -0.5 * re, -0.5 * im) : kd_jones_one();
+    float size = dot(re, re) + dot(im, im), turn = length(r1 + r2 + r3);
+    /* The series is one in the turns of the stretch, and the factor does not keep a length: over many stretches of many radians each it would make light grow. */
+    return size < 0.25 && turn < 2.0 ? kd_jones(vec2(1.0, 0.0), -0.5 * re, -0.5 * im) : kd_jones_one();
 }
 
 /* The stretch is taken: its light as it arrives. */

@@ -232,6 +232,9 @@ static void test_adversarial(void **state)
         "{\"volume\":{\"electrons\":\"kappa\",\"electron_temperature_k\":5930}}", "{\"volume\":{\"electrons\":\"kappa\",\"kappa\":3.5,\"electron_temperature_k\":5.93e15}}",
         "{\"volume\":{\"electrons\":\"kappa\",\"magnetisation\":0}}", "{\"volume\":{\"electrons\":\"kappa\",\"density_cm3\":1e30,\"frequency_ghz\":1e-6}}",
         "{\"volume\":{\"electrons\":\"kappa\",\"density_cm3\":1e12,\"electron_temperature_k\":6e9,\"magnetisation\":3}}", "{\"volume\":{\"electrons\":\"kappa\",\"frequency_ghz\":1e12}}",
+        "{\"accuracy\":{\"profile\":\"high\"},\"volume\":{\"electron_temperature_k\":1e10,\"density_cm3\":1e12}}",
+        "{\"accuracy\":{\"profile\":\"reference\"},\"volume\":{\"electron_temperature_k\":1e10,\"density_cm3\":1e12}}",
+        "{\"accuracy\":{\"profile\":\"high\"},\"volume\":{\"model\":\"torus\",\"inner\":6,\"outer\":100,\"density_cm3\":1e12,\"temperature_ratio\":1e4}}",
         "{\"volume\":{\"electrons\":\"power-law\",\"electrons_index\":10,\"gamma_min\":1e9,\"gamma_max\":1e12,\"density_cm3\":1e30}}",
     };
     for (size_t i = 0; i < sizeof extremes / sizeof *extremes; i++) {
@@ -244,6 +247,37 @@ static void test_adversarial(void **state)
         }
         kd_frame_finish(&frame);
     }
+}
+
+/* Plasma so dense and cold that light turns by up to 1e6 radians in it: what is polarised there is mixed, and I is what light without polarisation has, whatever the profile. */
+static void test_mixed(void **state)
+{
+    (void)state;
+    static const char *const mixing[] = {
+        "{\"volume\":{\"electron_temperature_k\":1e10,\"density_cm3\":1e10}}",
+        "{\"volume\":{\"electron_temperature_k\":1e10,\"density_cm3\":1e12}}",
+        "{\"volume\":{\"electron_temperature_k\":1e10,\"density_cm3\":1e14}}",
+        "{\"camera\":{\"field_m\":30},\"volume\":{\"model\":\"torus\",\"inner\":6,\"outer\":40,\"density_cm3\":1e12}}",
+    };
+    static const char *const profiles[] = { "balanced", "reference" };
+    for (size_t i = 0; i < sizeof mixing / sizeof *mixing; i++)
+        for (size_t k = 0; k < 2; k++) {
+            double sums[2] = { 0 };
+            for (int polarised = 0; polarised < 2; polarised++) {
+                struct kd_scene scene = scene_of(mixing[i], 16, 16);
+                OK(kd_scene_set(&scene, "accuracy.profile", profiles[k], &error));
+                if (!polarised)
+                    OK(kd_scene_set(&scene, "polarization.model", "none", &error));
+                OK(kd_scene_set(&scene, "image.layers", "intensity", &error));
+                struct kd_frame frame = rendered(&scene);
+                for (int p = 0; p < 16 * 16; p++)
+                    sums[polarised] += layer_of(&frame, "intensity")[p];
+                kd_frame_finish(&frame);
+            }
+            printf("%s, %s: I is %+.3f %% of what it is unpolarised (%g)\n", mixing[i], profiles[k], 100 * (sums[1] / sums[0] - 1), sums[0]);
+            if (!(fabs(sums[1] / sums[0] - 1) <= 0.01))
+                fail_msg("%s, %s: I is %g, unpolarised %g", mixing[i], profiles[k], sums[1], sums[0]);
+        }
 }
 
 /* The energies of a kappa distribution, n(gamma), but for a factor; and what one electron's light of I and Q (K. C. Westfold 1959) and of V (M. P. C. Legg & K. C. Westfold 1968) is by its energy. */
@@ -343,7 +377,7 @@ static void test_published(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(test_kappa_fits), cmocka_unit_test(test_rays), cmocka_unit_test(test_adversarial), cmocka_unit_test(test_published) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_kappa_fits), cmocka_unit_test(test_rays), cmocka_unit_test(test_adversarial), cmocka_unit_test(test_mixed), cmocka_unit_test(test_published) };
     int skip = open_renderer();
     return skip ? skip : close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }
