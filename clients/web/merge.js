@@ -1,12 +1,19 @@
-// RFC 7396, from one document to another: a list that changes is sent whole.
 const plain = value => value && typeof value === 'object' && !Array.isArray(value);
-export function mergePatch(before, after) {
+function differences(before, after) {
   const patch = {};
   for (const key of new Set([...Object.keys(before), ...Object.keys(after)])) {
     const [old, now] = [before[key], after[key]];
-    const inner = plain(old) && plain(now) ? mergePatch(old, now) : (now ?? null);
+    const inner = plain(old) && plain(now) ? differences(old, now) : (now ?? null);
     if (plain(inner) ? Object.keys(inner).length : JSON.stringify(old) !== JSON.stringify(now)) patch[key] = inner;
   }
+  return patch;
+}
+
+// RFC 7396, from one document to another: a list that changes is sent whole. A style that is named gives its own colours to all that a patch does not say, so
+// with another name all of the new style is said.
+export function mergePatch(before, after) {
+  const patch = differences(before, after);
+  if (patch.style?.name !== undefined) patch.style = { ...patch.style, ...after.style };
   return patch;
 }
 

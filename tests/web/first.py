@@ -92,6 +92,20 @@ class First(Browser):
         page.keyboard.press('Space')
         self.assertTrue(daemon.eventually(lambda: page.text_content('#play') == 'Play'))
 
+    def test_a_preset_after_another_has_its_own_colours(self):
+        """A style that is named sets its colours anew at the server: those that both scenes have are said again."""
+        page = self.open()
+        names = [preset['name'] for preset in self.daemon.get('/v1/presets').json()['presets']]
+        scenes = {name: self.daemon.get('/v1/presets/' + name).json() for name in names}
+        left_out = page.evaluate('''async scenes => {
+            const { mergePatch } = await import('./web/merge.js'), all = Object.entries(scenes);
+            return all.flatMap(([from, before]) => all.filter(([, after]) => {
+                const { style } = mergePatch(before, after);
+                return style?.name !== undefined && Object.entries(after.style).some(([key, value]) => JSON.stringify(style[key]) !== JSON.stringify(value));
+            }).map(([to]) => [from, to])); }''', scenes)
+        self.assertEqual(left_out, [])
+        self.assertEqual(page.evaluate('async ([before, after]) => (await import("./web/merge.js")).mergePatch(before, after).style.palette', [scenes['polarised-ring'], scenes['riaf']]), 'heat')
+
     def test_presets_are_a_strip_of_pictures(self):
         page = self.open('lang=it&preset=smooth', viewport={'width': 390, 'height': 844}, gallery=True)
         card = lambda name: page.locator(f'#gallery [data-preset="{name}"]')
