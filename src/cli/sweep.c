@@ -4,11 +4,13 @@
 #include "cli/progress.h"
 #include "cli/scene_options.h"
 #include "render/output/curve.h"
+#include "render/output/flux.h"
 #include "render/output/gather.h"
 #include "render/plan/sweep_order.h"
 
 #include <errno.h>
 #include <fcntl.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,7 +28,7 @@ static const struct argp_option table[] = {
     { "axis", 'x', "FIELD=VALUES", 0, "an axis: VALUE,VALUE,... or START:STOP:STEP or START:STOP/HOW MANY; again for each more, the last one fastest", 0 },
     { "output", 'o', "FILE", 0, "the file to write: .fits or .npz, one array a layer; .zip, pictures; .csv or .json, their light (required)", 0 },
     KD_CLI_MEMORY,
-    { "stats", 't', NULL, 0, "print scenes, lens maps and seconds as one line of JSON on standard error", 0 },
+    { "stats", 't', NULL, 0, "print scenes, lens maps, fluxes in Jy and seconds as one line of JSON on standard error", 0 },
     { 0 },
 };
 
@@ -84,6 +86,7 @@ struct work {
     struct kd_progress progress;
     int store;
     uint64_t *places, *sizes, end;
+    double *fluxes; /* Jy; NAN: the picture has none */
     unsigned done, traced;
 };
 
@@ -98,7 +101,8 @@ static enum kd_status open_store(struct work *w, struct kd_error *error)
     unlink(path);
     w->places = calloc(w->sweep->scenes, sizeof *w->places);
     w->sizes = calloc(w->sweep->scenes, sizeof *w->sizes);
-    return w->places && w->sizes ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for %u scenes", w->sweep->scenes);
+    w->fluxes = calloc(w->sweep->scenes, sizeof *w->fluxes);
+    return w->places && w->sizes && w->fluxes ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for %u scenes", w->sweep->scenes);
 }
 
 static enum kd_status keep(struct work *w, unsigned scene, const struct kd_buffer *file, struct kd_error *error)
@@ -186,6 +190,7 @@ static enum kd_status render(struct work *w, unsigned number, struct kd_error *e
     KD_TRY(plan_of(w, number, &scene, &plan, error));
     KD_TRY(kd_render(w->renderer, &scene, &plan, progress, w, &frame, error));
     w->traced += !frame.lens_reused && plan.planes;
+    w->fluxes[number] = kd_flux_jy(&scene, &frame);
     const struct kd_picture picture = { &frame, &scene, &plan, kd_renderer_device_name(w->renderer), number };
     KD_TRY(kd_encode(w->kind->frame, &picture, KD_EFFORT_KEEP, &w->encoder, &file, error));
     KD_TRY(keep(w, number, &file, error));
@@ -269,6 +274,40 @@ static enum kd_status save_table(struct work *w, const char *path, struct kd_err
     return status;
 }
 
+/* The fluxes, in the order of the scenes, are there where a scene has one; null is that of one that has none. */
+static void write_fluxes(const struct work *w, struct kd_json *json)
+{
+    bool any = false;
+    for (unsigned i = 0; i < w->sweep->scenes; i++)
+        any = any || !isnan(w->fluxes[i]);
+    if (!any)
+        return;
+    kd_json_array(json, "flux_jy");
+    for (unsigned i = 0; i < w->sweep->scenes; i++)
+        kd_json_number(json, NULL, w->fluxes[i]);
+    kd_json_end(json);
+}
+
+static enum kd_status print_stats(const struct work *w, double render_s, double write_s, struct kd_error *error)
+{
+    struct kd_buffer line = { 0 };
+    struct kd_json json = kd_json_begin(&line);
+    kd_json_object(&json, NULL);
+    kd_json_number(&json, "scenes", w->sweep->scenes);
+    kd_json_number(&json, "lens_maps_traced", w->traced);
+    write_fluxes(w, &json);
+    kd_json_number(&json, "render_s", render_s);
+    kd_json_number(&json, "write_s", write_s);
+    kd_json_end(&json);
+    enum kd_status status = kd_json_finish(&json);
+    if (status)
+        kd_error_set(error, status, "out of memory for what --stats prints");
+    else
+        fprintf(stderr, "%s\n", (const char *)line.data);
+    kd_buffer_finish(&line);
+    return status;
+}
+
 static enum kd_status run(struct arguments *arguments, struct kd_error *error)
 {
     struct kd_scene scene;
@@ -293,8 +332,7 @@ static enum kd_status run(struct arguments *arguments, struct kd_error *error)
     const double rendered = kd_progress_clock();
     KD_TRY((work.kind->whole ? save_whole : save_table)(&work, arguments->output, error));
     if (arguments->stats)
-        fprintf(stderr, "{\"scenes\":%u,\"lens_maps_traced\":%u,\"render_s\":%.3f,\"write_s\":%.3f}\n", sweep->scenes, work.traced, rendered - began,
-                kd_progress_clock() - rendered);
+        KD_TRY(print_stats(&work, rendered - began, kd_progress_clock() - rendered, error));
 done:
     if (work.store >= 0)
         close(work.store);
@@ -304,6 +342,7 @@ done:
     kd_sweep_free(sweep);
     free(work.places);
     free(work.sizes);
+    free(work.fluxes);
     return status;
 }
 

@@ -233,19 +233,31 @@ size_t kd_fits_head_size(const void *data, size_t size)
     return 0;
 }
 
+/* What stands behind the "= " of a card; "": there is no such card. */
+static void value_of(const void *head, size_t size, const char *key, char out[KD_FITS_CARD - VALUE + 1])
+{
+    char wanted[12];
+    snprintf(wanted, sizeof wanted, "%-8.8s= ", key);
+    *out = 0;
+    for (size_t at = 0; at + KD_FITS_CARD <= size && !*out; at += KD_FITS_CARD)
+        if (!strncmp((const char *)head + at, wanted, VALUE))
+            snprintf(out, KD_FITS_CARD - VALUE + 1, "%.*s", KD_FITS_CARD - VALUE, (const char *)head + at + VALUE);
+}
+
 bool kd_fits_number(const void *head, size_t size, const char *key, long long *out)
 {
-    char wanted[12], value[KD_FITS_CARD - VALUE + 1];
-    snprintf(wanted, sizeof wanted, "%-8.8s= ", key);
-    for (size_t at = 0; at + KD_FITS_CARD <= size; at += KD_FITS_CARD) {
-        if (strncmp((const char *)head + at, wanted, VALUE))
-            continue;
-        snprintf(value, sizeof value, "%.*s", KD_FITS_CARD - VALUE, (const char *)head + at + VALUE);
-        char *end;
-        *out = strtoll(value, &end, 10);
-        return end > value;
-    }
-    return false;
+    char value[KD_FITS_CARD - VALUE + 1], *end;
+    value_of(head, size, key, value);
+    *out = strtoll(value, &end, 10);
+    return end > value;
+}
+
+double kd_fits_find_real(const void *head, size_t size, const char *key)
+{
+    char value[KD_FITS_CARD - VALUE + 1], *end;
+    value_of(head, size, key, value);
+    const double number = strtod(value, &end);
+    return end > value ? number : NAN;
 }
 
 /* Appends what stands between the quotes of a card; whether a piece follows. */

@@ -51,6 +51,8 @@ static inline size_t kd_fits_padding(uint64_t size) { return (size_t)((KD_FITS_B
 size_t kd_fits_head_size(const void *data, size_t size);
 /* A card of a header that is a whole number; false: there is none. */
 bool kd_fits_number(const void *head, size_t size, const char *key, long long *out);
+/* A card of a header that is a number; NAN: there is none. */
+double kd_fits_find_real(const void *head, size_t size, const char *key);
 
 /* Appends the text of a card of the primary header, its continuations joined, to *out. KD_EINVAL: it is not there, or no FITS file. */
 enum kd_status kd_fits_find(const void *data, size_t size, const char *key, struct kd_buffer *out);

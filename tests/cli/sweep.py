@@ -125,6 +125,62 @@ class Sweep(support.Case):
         self.assertEqual((header.get("CTYPE1"), header["CTYPE3"]), (None, "camera.field_m"))
         self.assertIn("differ from scene to scene", str(header["COMMENT"]))
 
+    def radio(self, name, *more, layers="brightness_temperature"):
+        done = support.run("sweep", "-p", "riaf", "--size", "12x12", "--set", "image.layers=" + layers, *more, "-t", "-o", self.path(name))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return json.loads(done.stderr)
+
+    def test_frequencies(self):
+        """Maps at a list of frequencies: each plane is the picture at its frequency, astropy finds the frequency of each, and each has its flux."""
+        layers, given = ["rgb", "brightness_temperature", "specific_intensity"], [345, 86, 230]
+        axes = ["-x", "camera.inclination_deg=30,60", "-x", "volume.frequency_ghz=" + ",".join(map(str, given))]
+        stats = self.radio("a.fits", *axes, layers=",".join(layers))
+        self.radio("a.npz", *axes, layers=",".join(layers))
+        units, arrays = self.opened("a.fits"), numpy.load(self.path("a.npz"))
+        fluxes = units["SCENES"].data["flux_jy"].reshape(2, 3)
+        self.assertEqual(units["SCENES"].columns["flux_jy"].unit, "Jy")
+        self.assertEqual([*fluxes.ravel()], stats["flux_jy"])
+        self.assertTrue(numpy.array_equal(fluxes, arrays["scene_flux_jy"]))
+        self.assertNotIn("FREQ", units[0].header)
+        for at, (i, j) in enumerate(itertools.product(range(2), range(3))):
+            scene = ["-p", "riaf", "--size", "12x12", "--set", "image.layers=" + ",".join(layers), "--set", f"camera.inclination_deg={30 + 30 * i}", "--set", f"volume.frequency_ghz={given[j]}"]
+            self.good("render", *scene, "-o", self.path("b.fits"))
+            alone = self.opened("b.fits")
+            self.assertEqual((alone[0].header["FREQ"], alone[0].header["FLUX_JY"]), (given[j] * 1e9, fluxes[i, j]))
+            for name in layers:
+                self.assertTrue(numpy.array_equal(bits(alone[name].data), bits(units[name].data[i, j])), (name, at))
+        # the mean of I_nu times the solid angle is the flux: by the plane's own frequency, and nothing else
+        pixel = units["specific_intensity"].header["CDELT2"] * numpy.pi / 180
+        self.assertTrue(numpy.allclose(numpy.nansum(units["specific_intensity"].data.astype(float), axis=(2, 3)) * pixel ** 2, fluxes, rtol=1e-5))
+        for name in layers:
+            world = WCS(units[name].header, fobj=units, key="F")
+            axis = 3 if name == "rgb" else 2
+            pixels = [[0] * axis + [j] + [0] for j in range(3)]
+            self.assertEqual((world.wcs.ctype[axis], str(world.wcs.cunit[axis])), ("FREQ-TAB", "Hz"))
+            self.assertEqual([*world.all_pix2world(pixels, 0)[:, axis]], [f * 1e9 for f in given])
+            first = WCS(units[name].header)  # which needs no file
+            self.assertEqual([*first.all_pix2world(pixels, 0)[:, axis]], [1, 2, 3])
+            self.assertEqual([*first.celestial.wcs.ctype], [*world.celestial.wcs.ctype])
+            self.assertEqual([*first.celestial.wcs.cdelt], [*world.celestial.wcs.cdelt])
+
+    def test_frequencies_that_are_even(self):
+        """They are an axis FREQ in Hz of the usual world coordinates; a sweep of other pictures has no flux."""
+        for text, expected in (("86:230:72", [86e9, 158e9, 230e9]), ("230", [230e9]), ("0.1:0.3/3", [0.1e9, 0.2e9, 0.3e9]), ("345:115/2", [345e9, 115e9])):
+            self.radio("a.fits", "-x", "volume.frequency_ghz=" + text)
+            units = self.opened("a.fits")
+            header = units[0].header
+            self.assertEqual((header["CTYPE3"], header["CUNIT3"], header["CNAME3"]), ("FREQ", "Hz", "volume.frequency_ghz"))
+            self.assertTrue(numpy.allclose(WCS(header).spectral.all_pix2world(numpy.arange(len(expected)), 0)[0], expected, rtol=1e-14, atol=0))
+            self.assertEqual([unit.header["EXTNAME"] for unit in units], ["brightness_temperature", "volume.frequency_ghz", "SCENES"])
+            self.assertEqual(units["volume.frequency_ghz"].columns["value"].unit, "GHz")
+        self.assertNotIn("flux_jy", self.opened("cube.fits")["SCENES"].columns.names)
+        self.assertNotIn("scene_flux_jy", numpy.load(self.path("cube.npz")))
+        self.assertNotIn("flux_jy", self.stats)
+        self.radio("a.fits", "-x", "volume.model=riaf,none", layers="intensity")
+        units = self.opened("a.fits")
+        self.assertEqual([*numpy.isnan(units["SCENES"].data["flux_jy"])], [False, True])
+        self.assertNotIn("FREQ", units[0].header)
+
     def test_every_credit_is_told(self):
         """Of two photographs of the sky, each by somebody else; one name is long."""
         names = ["Ada " + "of Somewhere " * 12, "Bo"]
@@ -150,6 +206,10 @@ class Sweep(support.Case):
             self.swept("a.fits", layers=layers)
             done = subprocess.run(["fitsverify", self.path("a.fits")], capture_output=True, text=True, timeout=60)
             self.assertEqual(done.returncode, 0, done.stdout)
+            self.assertIn("0 warning(s) and 0 error(s)", done.stdout)
+        for text in "86,230,345", "86,230":
+            self.radio("a.fits", "-x", "volume.frequency_ghz=" + text, layers="rgb,specific_intensity")
+            done = subprocess.run(["fitsverify", self.path("a.fits")], capture_output=True, text=True, timeout=60)
             self.assertIn("0 warning(s) and 0 error(s)", done.stdout)
 
     def test_style_and_disk_take_one_lens_map(self):

@@ -1,8 +1,10 @@
 #include "render/output/cube.h"
 
 #include "image/fits.h"
+#include "render/output/fits_cards.h"
 #include "render/output/notes.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -213,11 +215,15 @@ static enum kd_status look_at_notes(struct kd_cube *cube, unsigned scene, const 
         snprintf(key, sizeof key, "KDAPPR%u", i);
         KD_TRY(keep_text(&cube->sentences, head, size, key, &there, error));
     }
+    const double flux = kd_fits_find_real(head->data, size, KD_FITS_FLUX);
     text_of(head, size, "KDHASH", hash, sizeof hash);
     text_of(head, size, "KDACCUR", accuracy, sizeof accuracy);
     memcpy(row, hash, strlen(hash)); /* NULs are behind */
     memcpy(row + KD_CUBE_HASH, accuracy, strlen(accuracy));
-    cube->rows_sum = kd_fits_sum(cube->rows_sum, row, KD_CUBE_ROW);
+    kd_cube_put_double((uint8_t *)row + KD_CUBE_TEXT, flux);
+    cube->flux = cube->flux || !isnan(flux);
+    cube->texts_sum = kd_fits_sum(cube->texts_sum, row, KD_CUBE_TEXT);
+    cube->fluxes_sum = kd_fits_sum(cube->fluxes_sum, row + KD_CUBE_TEXT, KD_CUBE_FLUX);
 done:
     return status;
 }
@@ -274,6 +280,24 @@ enum kd_status kd_cube_read(struct kd_cube *cube, unsigned scene, size_t layer, 
 {
     const struct kd_gather_source *s = cube->source;
     return s->read(s->user, scene, cube->places[scene * cube->n_layers + layer] + at, to, size) ? KD_OK : unreadable(scene, error);
+}
+
+void kd_cube_put_double(uint8_t to[8], double value)
+{
+    uint64_t bits;
+    memcpy(&bits, &value, 8);
+    for (int i = 0; i < 8; i++)
+        to[i] = (uint8_t)(bits >> (56 - 8 * i));
+}
+
+double kd_cube_get_double(const uint8_t from[8])
+{
+    uint64_t bits = 0;
+    double value;
+    for (int i = 0; i < 8; i++)
+        bits = bits << 8 | from[i];
+    memcpy(&value, &bits, 8);
+    return value;
 }
 
 size_t kd_cube_longest(const struct kd_sweep_axis *axis)

@@ -12,7 +12,8 @@
 #include "scene/sweep.h"
 
 #define KD_CUBE_TEXTS 128
-enum { KD_CUBE_HASH = 64, KD_CUBE_ACCURACY = 384, KD_CUBE_ROW = KD_CUBE_HASH + KD_CUBE_ACCURACY }; /* bytes told of each scene; NULs behind each */
+/* Bytes told of each scene: hash and accuracy, with NULs behind each, and the flux, a double with its first byte first; NAN: the picture has none. */
+enum { KD_CUBE_HASH = 64, KD_CUBE_ACCURACY = 384, KD_CUBE_TEXT = KD_CUBE_HASH + KD_CUBE_ACCURACY, KD_CUBE_FLUX = 8, KD_CUBE_ROW = KD_CUBE_TEXT + KD_CUBE_FLUX };
 
 struct kd_cube_layer {
     char name[KD_LAYER_NAME], unit[24];
@@ -32,7 +33,8 @@ struct kd_cube {
     struct kd_cube_texts { char *at[KD_CUBE_TEXTS]; size_t n; } sentences, credits, devices; /* approximations that are in force in some scene, whose work is in
                                                                                                 * some, and what made them: each once */
     char *rows;            /* of all scenes: KD_CUBE_ROW each */
-    uint32_t rows_sum;     /* kd_fits_sum of them */
+    uint32_t texts_sum, fluxes_sum; /* kd_fits_sum of their hashes and accuracies, and of their fluxes */
+    bool flux;             /* some scene has one: then files have them */
     uint8_t *piece;        /* KD_GATHER_PIECE bytes and more: a row of numbers fits */
     size_t piece_bytes;
 };
@@ -41,7 +43,7 @@ enum kd_status kd_cube_open(const struct kd_gather_source *source, struct kd_cub
 void kd_cube_finish(struct kd_cube *cube);
 /* Looks through some more scenes. *over: through all. */
 enum kd_status kd_cube_look(struct kd_cube *cube, bool *over, struct kd_error *error);
-/* What is told of a scene: its hash, and what its picture's accuracy is. */
+/* What is told of a scene: its hash, its picture's accuracy, and its flux. */
 static inline const char *kd_cube_row(const struct kd_cube *cube, unsigned scene) { return cube->rows + (size_t)scene * KD_CUBE_ROW; }
 /* All of these, one after the other: "a; b". */
 enum kd_status kd_cube_join(const struct kd_cube_texts *texts, struct kd_buffer *out);
@@ -51,6 +53,9 @@ static inline uint64_t kd_cube_slice(const struct kd_cube *cube, size_t layer)
     return 4ull * cube->layers[layer].channels * cube->width * cube->height;
 }
 enum kd_status kd_cube_read(struct kd_cube *cube, unsigned scene, size_t layer, uint64_t at, void *to, size_t size, struct kd_error *error);
+/* Writes a double as FITS has it, its first byte first; and reads one. */
+void kd_cube_put_double(uint8_t to[8], double value);
+double kd_cube_get_double(const uint8_t from[8]);
 /* The longest text of an axis' values, in bytes; at least 1. */
 size_t kd_cube_longest(const struct kd_sweep_axis *axis);
 

@@ -1,12 +1,12 @@
 /* This writes a cube as FITS: kd_gather_fits. An image a layer, named as it is, the first one with what is told of all; a table for each axis, named by its field, with
- * its values in the column "value"; and the table SCENES with the hash and the accuracy of each scene, in their order. An axis of evenly spaced numbers is
- * one of world coordinates too; others are counted from 1. */
+ * its values in the column "value"; and the table SCENES with the hash, the accuracy and, where pictures have one, the flux of each scene, in their order. An axis
+ * is one of world coordinates too (cube_axes.h). */
 #include "render/output/cube.h"
 
 #include "image/fits.h"
+#include "render/output/cube_axes.h"
 #include "render/output/fits_cards.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -33,45 +33,6 @@ static void close_cube(void *state)
     struct writer *w = state;
     kd_cube_finish(&w->cube);
     free(w);
-}
-
-/* As the standard spells it (section 4.3); M = G m/c^2 and stops are none that it knows. */
-static const char *unit_of(const struct kd_sweep_axis *axis)
-{
-    return !strcmp(axis->unit, "degrees") ? "deg" : !strcmp(axis->unit, "solar masses") ? "solMass" : strcmp(axis->unit, "1") ? axis->unit : "";
-}
-
-static enum kd_status put_line(struct kd_buffer *cards, unsigned number, double first, double step)
-{
-    char key[16];
-    enum kd_status status;
-    snprintf(key, sizeof key, "CRPIX%u", number);
-    KD_TRY(kd_fits_real(cards, key, 1, NULL));
-    snprintf(key, sizeof key, "CRVAL%u", number);
-    KD_TRY(kd_fits_real(cards, key, first, NULL));
-    snprintf(key, sizeof key, "CDELT%u", number);
-    KD_TRY(kd_fits_real(cards, key, step, NULL));
-done:
-    return status;
-}
-
-/* number: the axis' in the file. */
-static enum kd_status put_axis(struct kd_buffer *cards, const struct kd_sweep_axis *axis, unsigned number)
-{
-    const double first = axis->even ? axis->values[0].number : 1;
-    const double step = axis->even && axis->n > 1 ? (axis->values[axis->n - 1].number - first) / (double)(axis->n - 1) : 1;
-    char key[16];
-    enum kd_status status;
-    snprintf(key, sizeof key, "CTYPE%u", number);
-    KD_TRY(kd_fits_text(cards, key, axis->even ? axis->path : "INDEX", axis->even ? NULL : "of the values in the table of that name"));
-    snprintf(key, sizeof key, "CNAME%u", number);
-    KD_TRY(kd_fits_text(cards, key, axis->path, NULL));
-    KD_TRY(put_line(cards, number, first, step));
-    snprintf(key, sizeof key, "CUNIT%u", number);
-    if (axis->even && !strcmp(unit_of(axis), "deg"))
-        KD_TRY(kd_fits_text(cards, key, "deg", NULL));
-done:
-    return status;
 }
 
 static enum kd_status put_json(struct kd_buffer *cards, const struct kd_sweep *sweep)
@@ -121,17 +82,18 @@ static enum kd_status begin_layer(struct writer *w, struct kd_buffer *out)
     const struct kd_cube *cube = &w->cube;
     const struct kd_cube_layer *layer = &cube->layers[w->unit];
     const struct kd_sweep *sweep = cube->source->sweep;
+    const struct kd_wcs *wcs = cube->wcs_differ ? NULL : &cube->wcs;
     struct kd_fits_shape shape = { .primary = w->unit == 0, .n_axes = 2, .axes = { cube->width, cube->height } };
     struct kd_buffer cards = { 0 };
     enum kd_status status;
     if (layer->channels > 1)
         shape.axes[shape.n_axes++] = layer->channels;
-    KD_TRY(kd_fits_put_layer(&cards, layer->name, layer->unit, layer->channels > 1, cube->wcs_differ ? NULL : &cube->wcs));
+    KD_TRY(kd_fits_put_layer(&cards, layer->name, layer->unit, layer->channels > 1, wcs));
     if (layer->channels > 1)
-        KD_TRY(put_line(&cards, 3, 1, 1));
+        KD_TRY(kd_cube_put_line(&cards, 3, "", 1, 1));
     for (size_t i = sweep->n_axes; i-- > 0;) {
         shape.axes[shape.n_axes++] = sweep->axes[i].n;
-        KD_TRY(put_axis(&cards, &sweep->axes[i], shape.n_axes));
+        KD_TRY(kd_cube_put_axis(&cards, &sweep->axes[i], shape.n_axes, wcs));
     }
     if (shape.primary)
         KD_TRY(put_notes(&cards, cube));
@@ -171,69 +133,35 @@ static enum kd_status go_on_with_layer(struct writer *w, struct kd_buffer *out, 
     return KD_OK;
 }
 
-static void put_double(uint8_t to[8], double value)
-{
-    uint64_t bits;
-    memcpy(&bits, &value, 8);
-    for (int i = 0; i < 8; i++)
-        to[i] = (uint8_t)(bits >> (56 - 8 * i));
-}
+/* Bytes of a scene's row: the flux is left out where none has one. */
+static size_t row_bytes(const struct kd_cube *cube) { return cube->flux ? KD_CUBE_ROW : KD_CUBE_TEXT; }
 
-/* The values of an axis as rows of its table; their sum is of whole words, which zeros behind do not change. */
-static enum kd_status put_values(const struct kd_sweep_axis *axis, size_t row, struct kd_buffer *out)
+static enum kd_status put_column(struct kd_buffer *cards, unsigned number, const char *name, unsigned count, char letter)
 {
-    enum kd_status status = KD_OK;
-    uint8_t number[8];
-    char *text = calloc(1, row + 1);
-    for (size_t i = 0; i < axis->n && !status; i++) {
-        put_double(number, axis->values[i].number);
-        if (text && !axis->numeric)
-            strncpy(text, axis->values[i].text, row + 1);
-        status = !text ? KD_ENOMEM : kd_buffer_append(out, axis->numeric ? (void *)number : text, row);
-    }
-    free(text);
-    return status;
-}
-
-static enum kd_status put_axis_table(const struct kd_sweep_axis *axis, struct kd_buffer *out)
-{
-    static const uint8_t zeros[KD_FITS_BLOCK];
-    const size_t row = axis->numeric ? 8 : kd_cube_longest(axis);
-    const struct kd_fits_shape shape = { .table = true, .columns = 1, .n_axes = 2, .axes = { row, axis->n } };
-    struct kd_buffer cards = { 0 }, values = { 0 };
-    char form[24] = "1D";
+    char key[16], form[24];
     enum kd_status status;
-    if (!axis->numeric)
-        snprintf(form, sizeof form, "%zuA", row);
-    KD_TRY(kd_fits_text(&cards, "EXTNAME", axis->path, "field of the scene"));
-    KD_TRY(kd_fits_text(&cards, "TTYPE1", "value", NULL));
-    KD_TRY(kd_fits_text(&cards, "TFORM1", form, NULL));
-    if (axis->numeric && *unit_of(axis))
-        KD_TRY(kd_fits_text(&cards, "TUNIT1", unit_of(axis), NULL));
-    KD_TRY(put_values(axis, row, &values));
-    KD_TRY(kd_buffer_append(&values, zeros, kd_fits_padding(values.size)));
-    KD_TRY(kd_fits_head(out, &shape, &cards, kd_fits_sum(0, values.data, values.size)));
-    KD_TRY(kd_buffer_append(out, values.data, values.size));
+    snprintf(key, sizeof key, "TTYPE%u", number);
+    KD_TRY(kd_fits_text(cards, key, name, NULL));
+    snprintf(key, sizeof key, "TFORM%u", number);
+    snprintf(form, sizeof form, "%u%c", count, letter);
+    KD_TRY(kd_fits_text(cards, key, form, NULL));
 done:
-    kd_buffer_finish(&cards);
-    kd_buffer_finish(&values);
     return status;
 }
 
 static enum kd_status begin_scenes(const struct kd_cube *cube, struct kd_buffer *out)
 {
-    const struct kd_fits_shape shape = { .table = true, .columns = 2, .n_axes = 2, .axes = { KD_CUBE_ROW, cube->source->n } };
+    const struct kd_fits_shape shape = { .table = true, .columns = cube->flux ? 3 : 2, .n_axes = 2, .axes = { row_bytes(cube), cube->source->n } };
     struct kd_buffer cards = { 0 };
-    char form[24];
     enum kd_status status;
     KD_TRY(kd_fits_text(&cards, "EXTNAME", "SCENES", "in the order of the cube"));
-    KD_TRY(kd_fits_text(&cards, "TTYPE1", "hash", NULL));
-    snprintf(form, sizeof form, "%dA", KD_CUBE_HASH);
-    KD_TRY(kd_fits_text(&cards, "TFORM1", form, NULL));
-    KD_TRY(kd_fits_text(&cards, "TTYPE2", "accuracy", NULL));
-    snprintf(form, sizeof form, "%dA", KD_CUBE_ACCURACY);
-    KD_TRY(kd_fits_text(&cards, "TFORM2", form, NULL));
-    KD_TRY(kd_fits_head(out, &shape, &cards, cube->rows_sum));
+    KD_TRY(put_column(&cards, 1, "hash", KD_CUBE_HASH, 'A'));
+    KD_TRY(put_column(&cards, 2, "accuracy", KD_CUBE_ACCURACY, 'A'));
+    if (cube->flux) {
+        KD_TRY(put_column(&cards, 3, "flux_jy", 1, 'D'));
+        KD_TRY(kd_fits_text(&cards, "TUNIT3", "Jy", NULL));
+    }
+    KD_TRY(kd_fits_head(out, &shape, &cards, cube->flux ? kd_fits_add_sums(cube->texts_sum, cube->fluxes_sum) : cube->texts_sum));
 done:
     kd_buffer_finish(&cards);
     return status;
@@ -242,10 +170,19 @@ done:
 static enum kd_status put_scenes(struct writer *w, struct kd_buffer *out)
 {
     const unsigned left = w->cube.source->n - w->scene, fit = KD_GATHER_PIECE / KD_CUBE_ROW, n = left < fit ? left : fit;
-    enum kd_status status = kd_buffer_append(out, kd_cube_row(&w->cube, w->scene), (size_t)n * KD_CUBE_ROW);
-    w->written += (uint64_t)n * KD_CUBE_ROW;
+    const size_t row = row_bytes(&w->cube);
+    enum kd_status status = KD_OK;
+    for (unsigned i = 0; i < n && !status; i++)
+        status = kd_buffer_append(out, kd_cube_row(&w->cube, w->scene + i), row);
+    w->written += n * row;
     w->scene += n;
     return status || w->scene < w->cube.source->n ? status : end_unit(w, out);
+}
+
+static enum kd_status put_axis(const struct kd_sweep_axis *axis, struct kd_buffer *out)
+{
+    const enum kd_status status = kd_cube_put_values(axis, out);
+    return status || !kd_cube_has_frequencies(axis) ? status : kd_cube_put_frequencies(axis, out);
 }
 
 static enum kd_status next_piece(void *state, struct kd_buffer *out, bool *over, struct kd_error *error)
@@ -258,7 +195,7 @@ static enum kd_status next_piece(void *state, struct kd_buffer *out, bool *over,
         return status;
     const bool layer = w->unit < w->cube.n_layers, axis = !layer && w->unit < w->cube.n_layers + sweep->n_axes;
     if (axis)
-        return put_axis_table(&sweep->axes[w->unit++ - w->cube.n_layers], out) ? no_memory(error) : KD_OK;
+        return put_axis(&sweep->axes[w->unit++ - w->cube.n_layers], out) ? no_memory(error) : KD_OK;
     *over = w->unit > w->cube.n_layers + sweep->n_axes;
     if (*over)
         return KD_OK;

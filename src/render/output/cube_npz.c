@@ -1,5 +1,6 @@
 /* This writes a cube as numpy.savez does: kd_gather_npz. An array for each axis of the sweep, by the name of its field, float64 or text; an array of each layer,
- * float32, of the shape (axes..., height, width[, 3]); scene_hash and scene_accuracy, of the shape (axes...); and notes.json. */
+ * float32, of the shape (axes..., height, width[, 3]); scene_hash, scene_accuracy and, where pictures have a flux, scene_flux_jy, of the shape (axes...); and
+ * notes.json. */
 #include "render/output/cube.h"
 
 #include "image/npy.h"
@@ -13,7 +14,7 @@ struct writer {
     struct kd_cube cube;
     struct kd_zip *zip;     /* NULL: not begun */
     struct kd_buffer bytes; /* that it has made */
-    size_t member;          /* axes, layers, scene_hash, scene_accuracy, notes.json: one after the other */
+    size_t member;          /* axes, layers, scene_hash, scene_accuracy, scene_flux_jy, notes.json: one after the other */
     bool begun;
     unsigned scene, row;    /* what comes next of it; rows from the top */
     float *rows;            /* as many as fit a piece */
@@ -139,13 +140,21 @@ static enum kd_status go_on_with_layer(struct writer *w, size_t layer, struct kd
     return status;
 }
 
-/* Some of what is told of each scene. */
+static enum kd_status put_flux(struct writer *w, const char *row)
+{
+    const double flux = kd_cube_get_double((const uint8_t *)row + KD_CUBE_TEXT);
+    return kd_zip_append(w->zip, &flux, sizeof flux);
+}
+
+/* Some of what is told of each scene. size: of a text; 0: the flux. */
 static enum kd_status put_scenes(struct writer *w, const char *name, size_t from, uint32_t size)
 {
-    const struct kd_npy array = array_of(w, KD_NPY_BYTES, size);
+    const struct kd_npy array = array_of(w, size ? KD_NPY_BYTES : KD_NPY_F8, size);
     enum kd_status status = w->begun ? KD_OK : begin_array(w, name, &array);
-    for (unsigned i = 0; i < KD_GATHER_PIECE / KD_CUBE_ROW && w->scene < w->cube.source->n && !status; i++)
-        status = kd_zip_append(w->zip, kd_cube_row(&w->cube, w->scene++) + from, size);
+    for (unsigned i = 0; i < KD_GATHER_PIECE / KD_CUBE_ROW && w->scene < w->cube.source->n && !status; i++) {
+        const char *row = kd_cube_row(&w->cube, w->scene++);
+        status = size ? kd_zip_append(w->zip, row + from, size) : put_flux(w, row);
+    }
     if (w->scene == w->cube.source->n)
         end_member(w);
     return status;
@@ -192,7 +201,7 @@ done:
 static enum kd_status advance(struct writer *w, bool *over, struct kd_error *error)
 {
     const struct kd_sweep *sweep = w->cube.source->sweep;
-    const size_t axes = sweep->n_axes, layers = axes + w->cube.n_layers;
+    const size_t axes = sweep->n_axes, layers = axes + w->cube.n_layers, notes = layers + 2 + w->cube.flux;
     if (!w->zip) {
         w->rows = malloc(w->cube.piece_bytes);
         return !w->rows || kd_zip_create(&w->bytes, false, &w->zip) ? no_memory(error) : KD_OK;
@@ -205,7 +214,9 @@ static enum kd_status advance(struct writer *w, bool *over, struct kd_error *err
         return put_scenes(w, "scene_hash", 0, KD_CUBE_HASH) ? no_memory(error) : KD_OK;
     if (w->member == layers + 1)
         return put_scenes(w, "scene_accuracy", KD_CUBE_HASH, KD_CUBE_ACCURACY) ? no_memory(error) : KD_OK;
-    if (w->member == layers + 2)
+    if (w->member < notes)
+        return put_scenes(w, "scene_flux_jy", 0, 0) ? no_memory(error) : KD_OK;
+    if (w->member == notes)
         return put_notes(w) ? no_memory(error) : KD_OK;
     *over = true;
     return kd_zip_close(w->zip) ? no_memory(error) : KD_OK;

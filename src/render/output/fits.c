@@ -29,8 +29,10 @@ static enum kd_status put_notes(struct kd_buffer *cards, const struct kd_picture
         KD_TRY(kd_fits_text(cards, "KDCREDIT", picture->frame->credit, NULL));
     if (*notes->clock)
         KD_TRY(kd_fits_text(cards, "KDCLOCK", notes->clock, NULL));
-    if (*notes->flux)
+    if (*notes->flux) {
+        KD_TRY(kd_fits_real(cards, KD_FITS_FLUX, kd_flux_jy(picture->scene, picture->frame), "Jy; of the whole picture"));
         KD_TRY(kd_fits_text(cards, "KDFLUX", notes->flux, NULL));
+    }
     KD_TRY(kd_fits_text(cards, "KDSCENE", (const char *)notes->scene.data, NULL));
 done:
     return status;

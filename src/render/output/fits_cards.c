@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static enum kd_status put_axes(struct kd_buffer *cards, const struct kd_wcs *wcs, const struct kd_wcs_axis axes[2], const char *alternate)
+enum kd_status kd_fits_put_world_axes(struct kd_buffer *cards, const struct kd_wcs *wcs, const struct kd_wcs_axis axes[2], const char *alternate)
 {
     static const char *const names[] = { "CTYPE", "CRPIX", "CRVAL", "CDELT", "CUNIT" };
     enum kd_status status;
@@ -44,12 +44,12 @@ static enum kd_status put_world(struct kd_buffer *cards, const struct kd_wcs *wc
         return kd_fits_comment(cards, "world coordinates of the pictures: they differ from scene to scene");
     if (!wcs->known)
         return kd_fits_comment(cards, "no world coordinates: a ring, or two pictures side by side");
-    KD_TRY(put_axes(cards, wcs, wcs->at, ""));
+    KD_TRY(kd_fits_put_world_axes(cards, wcs, wcs->at, ""));
     if (!wcs->far) {
         KD_TRY(kd_fits_text(cards, "WCSNAME", "camera", "to the right of its axis, and above it"));
         return KD_OK;
     }
-    KD_TRY(put_axes(cards, wcs, wcs->impact, "A"));
+    KD_TRY(kd_fits_put_world_axes(cards, wcs, wcs->impact, "A"));
     KD_TRY(kd_fits_text(cards, "WCSNAMEA", "impact parameters", "M"));
 done:
     return status;
@@ -104,6 +104,8 @@ enum kd_status kd_fits_put_scene(struct kd_buffer *cards, const struct kd_scene 
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
         if (!varies(sweep, numbers[i].of[0]) && !(numbers[i].of[1] && varies(sweep, numbers[i].of[1])))
             KD_TRY(put_number(cards, numbers[i].key, numbers[i].value, numbers[i].comment));
+    if (kd_scene_is_radio(s) && !varies(sweep, "volume.frequency_ghz") && !varies(sweep, "volume.model"))
+        KD_TRY(kd_fits_real(cards, "FREQ", s->volume.frequency_ghz * 1e9, "Hz; that is observed"));
     if (s->crowd.at) {
         KD_TRY(kd_fits_real(cards, "PLAY_T", s->crowd.at->time, "M; time of the playground that is shown"));
         KD_TRY(kd_fits_real(cards, "PLAY_N", (double)s->crowd.at->n, "its bodies"));
