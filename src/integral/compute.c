@@ -176,13 +176,13 @@ static enum kd_status one_ring(const struct kd_integral_request *r, const struct
     char pointer[40];
     snprintf(pointer, sizeof pointer, "/radii/%zu", at);
     if (!kd_transfer_ring_of(image, r->radii.at[at], &ring))
-        return kd_error_field(error, pointer, "a radius is %.9g, whose ring was not resolved at this inclination: allowed are inclinations further from edge on", r->radii.at[at]);
+        return kd_error_field(error, pointer, "a radius is %.9g, whose ends of g were not found at this inclination; allowed are inclinations further from face on and edge on", r->radii.at[at]);
     for (size_t k = 0; k < r->g_stars; k++) {
         double g_star = r->g_star.at[k];
-        struct kd_transfer near, far;
-        if (!kd_transfer_at(image, &ring, g_star, false, &near) || !kd_transfer_at(image, &ring, g_star, true, &far))
+        struct kd_transfer side[2];
+        if (!kd_transfer_at(image, &ring, g_star, side))
             return kd_error_field(error, pointer, "a radius is %.9g, whose place of g* %.9g was not found", ring.r, g_star);
-        const double row[] = { ring.r, g_star, ring.g_min + g_star * (ring.g_max - ring.g_min), near.f, far.f, near.mu, far.mu, ring.g_min, ring.g_max };
+        const double row[] = { ring.r, g_star, ring.g_min + g_star * (ring.g_max - ring.g_min), side[0].f, side[1].f, side[0].mu, side[1].mu, ring.g_min, ring.g_max };
         for (size_t i = 0; i < sizeof row / sizeof *row; i++)
             answer->columns[i][at * r->g_stars + k] = row[i];
     }

@@ -4,85 +4,89 @@
 
 #include <math.h>
 
-#define APART 1e-3 /* of chi, and of the way to the horizon: central differences leave its square, rays of 1e-12 their 1e-9 */
+/* g = 1/(u^t (1 + Omega alpha sin i)), so that a ring's energy tells alpha, and along a line of one alpha the radius r(beta) that is seen falls from the near side to its
+ * least and grows again on the far side. A ring is seen at alpha twice if that least is below r, and its ends are where it is r. This holds next to edge on as well, where the
+ * image of the far side stands steeply over that of the near one. */
 
-struct seek {
+#define SHORTER 0.61803398874989485 /* of a golden section: (sqrt(5) - 1)/2 */
+#define LEAST_WIDTH 1e-8            /* of the line, at the least radius, whose own error is the square of that */
+#define APART 1e-4                  /* of the way between both places, for the slope of r: central differences leave its square */
+
+struct line {
     const struct kd_disk_image *image;
-    double r, g;
+    double r, alpha;
+    int side; /* of the ends: 1: alpha > 0, red */
 };
 
-static double alpha_at(const struct kd_disk_image *image, double r, double chi)
+/* The radius at beta beside that of the ring; infinite light is far out. */
+static double off(const void *user, double beta)
 {
-    double alpha, beta;
-    return kd_disk_image_place(image, r, chi, &alpha, &beta) ? alpha : NAN;
+    const struct line *s = user;
+    const double r = kd_disk_image_radius(s->image, s->alpha, beta);
+    return (isfinite(r) ? r : 1e300) - s->r;
 }
 
-/* g = 1/(u^t (1 + Omega alpha sin i)) has its ends where alpha has. */
-static double alpha_slope(const void *user, double chi)
+/* As far as the line goes upwards and downwards: there r is larger than the ring's. */
+static double reach(const struct line *s) { return 2 * s->r + 20; }
+
+/* The beta of the least radius; any where it is below the ring's, if that is enough. */
+static double least(const struct line *s, bool below_is_enough)
 {
-    const struct seek *s = user;
-    return alpha_at(s->image, s->r, chi + APART) - alpha_at(s->image, s->r, chi - APART);
+    double low = -reach(s), high = reach(s), a = high - SHORTER * (high - low), b = low + SHORTER * (high - low), at_a = off(s, a), at_b = off(s, b);
+    while (high - low > LEAST_WIDTH * s->r && !(below_is_enough && fmin(at_a, at_b) < 0)) {
+        if (at_a < at_b) {
+            high = b, b = a, at_b = at_a;
+            at_a = off(s, a = high - SHORTER * (high - low));
+        } else {
+            low = a, a = b, at_a = at_b;
+            at_b = off(s, b = low + SHORTER * (high - low));
+        }
+    }
+    return at_a < at_b ? a : b;
 }
 
-static double redshift_off(const void *user, double chi)
+static double least_off(const void *user, double alpha)
 {
-    const struct seek *s = user;
-    struct kd_disk_ring ring = kd_disk_image_gas(s->image, s->r);
-    return kd_disk_image_light(s->image, &ring, alpha_at(s->image, s->r, chi), 0).g - s->g;
+    struct line s = *(const struct line *)user;
+    s.alpha = s.side * alpha;
+    return off(&s, least(&s, false));
 }
 
 bool kd_transfer_ring_of(const struct kd_disk_image *image, double r, struct kd_transfer_ring *out)
 {
-    enum { N = KD_DISK_IMAGE_ANGLES };
-    double alpha[N], beta[N], ends[2];
-    const struct seek seek = { image, r, 0 };
-    int turns[2], n = 0;
-    kd_disk_image_ring(image, r, 1, N, alpha, beta);
-    for (int j = 0; j < N; j++) {
-        double before = alpha[j] - alpha[(j + N - 1) % N], after = alpha[(j + 1) % N] - alpha[j];
-        if ((before > 0) != (after > 0) && n++ < 2)
-            turns[n - 1] = j;
-    }
-    if (n != 2 || image->sin_i < 1e-4)
+    const struct kd_disk_ring gas = kd_disk_image_gas(image, r);
+    struct kd_transfer_ring ring = { .r = r };
+    if (image->sin_i < 1e-4)
         return false;
     for (int k = 0; k < 2; k++) {
-        double chi = 2 * M_PI * turns[k] / N, near = 2 * M_PI / N;
-        ends[k] = kd_root(alpha_slope, &seek, chi - 1.5 * near, chi + 1.5 * near);
-        if (isnan(ends[k]))
+        struct line s = { image, r, 0, k ? -1 : 1 };
+        s.alpha = s.side * kd_root(least_off, &s, 0, reach(&s));
+        if (isnan(s.alpha))
+            return false;
+        ring.alpha[k] = s.alpha;
+        ring.beta[k] = least(&s, false);
+    }
+    ring.g_min = kd_disk_image_light(image, &gas, ring.alpha[0], 0).g;
+    ring.g_max = kd_disk_image_light(image, &gas, ring.alpha[1], 0).g;
+    *out = ring;
+    return ring.g_max > ring.g_min;
+}
+
+bool kd_transfer_at(const struct kd_disk_image *image, const struct kd_transfer_ring *ring, double g_star, struct kd_transfer out[2])
+{
+    const struct kd_disk_ring gas = kd_disk_image_gas(image, ring->r);
+    const double span = ring->g_max - ring->g_min, g = ring->g_min + g_star * span;
+    /* 1/g is linear in alpha. */
+    const double part = (1 / g - 1 / ring->g_min) / (1 / ring->g_max - 1 / ring->g_min);
+    const struct line s = { image, ring->r, ring->alpha[0] + part * (ring->alpha[1] - ring->alpha[0]), 0 };
+    const double middle = least(&s, true), slope = g * g * gas.ut * fabs(gas.omega) * image->sin_i; /* |dg/d alpha| at one r */
+    const double beta[2] = { kd_root(off, &s, -reach(&s), middle), kd_root(off, &s, middle, reach(&s)) }, apart = APART * (beta[1] - beta[0]);
+    for (int k = 0; k < 2; k++) {
+        const double steep = fabs(off(&s, beta[k] + apart) - off(&s, beta[k] - apart)) / (2 * apart); /* |dr/d beta| at one alpha */
+        out[k] = (struct kd_transfer) { g * sqrt(g_star * (1 - g_star)) * span / (M_PI * ring->r * slope * steep), kd_disk_image_light(image, &gas, s.alpha, beta[k]).mu,
+                                        s.alpha, beta[k] };
+        if (!isfinite(out[k].f) || !(fabs(off(&s, beta[k])) < 1e-6 * ring->r))
             return false;
     }
-    bool first_is_red = alpha_at(image, r, ends[0]) > alpha_at(image, r, ends[1]);
-    struct kd_disk_ring gas = kd_disk_image_gas(image, r);
-    *out = (struct kd_transfer_ring) { .r = r, .chi_min = ends[!first_is_red], .chi_max = ends[first_is_red] };
-    out->g_min = kd_disk_image_light(image, &gas, alpha_at(image, r, out->chi_min), 0).g;
-    out->g_max = kd_disk_image_light(image, &gas, alpha_at(image, r, out->chi_max), 0).g;
-    return out->g_max > out->g_min;
-}
-
-/* |d(alpha, beta)/d(ln r, chi)|. */
-static double stretch_of(const struct kd_disk_image *image, double r, double chi)
-{
-    double a[4], b[4], apart = kd_disk_image_step(image, r, APART);
-    bool found = kd_disk_image_place(image, r, chi - APART, &a[0], &b[0]) && kd_disk_image_place(image, r, chi + APART, &a[1], &b[1]) &&
-                 kd_disk_image_place(image, r * exp(-apart), chi, &a[2], &b[2]) && kd_disk_image_place(image, r * exp(apart), chi, &a[3], &b[3]);
-    return found ? fabs((a[1] - a[0]) * (b[3] - b[2]) - (b[1] - b[0]) * (a[3] - a[2])) / (4 * APART * apart) : NAN;
-}
-
-bool kd_transfer_at(const struct kd_disk_image *image, const struct kd_transfer_ring *ring, double g_star, bool far_side, struct kd_transfer *out)
-{
-    double span = ring->g_max - ring->g_min, red = ring->chi_min, blue = ring->chi_max;
-    /* From the red end up over pi/2 to the blue one, or down over -pi/2. */
-    while (far_side && blue < red)
-        blue += 2 * M_PI;
-    while (!far_side && blue > red)
-        blue -= 2 * M_PI;
-    const struct seek seek = { image, ring->r, ring->g_min + g_star * span };
-    double chi = kd_root(redshift_off, &seek, red, blue);
-    if (!kd_disk_image_place(image, ring->r, chi, &out->alpha, &out->beta))
-        return false;
-    double slope = (redshift_off(&seek, chi + APART) - redshift_off(&seek, chi - APART)) / (2 * APART * span); /* of g*, in chi at one r */
-    struct kd_disk_ring gas = kd_disk_image_gas(image, ring->r);
-    out->mu = kd_disk_image_light(image, &gas, out->alpha, out->beta).mu;
-    out->f = seek.g * sqrt(g_star * (1 - g_star)) * stretch_of(image, ring->r, chi) / (M_PI * ring->r * ring->r * fabs(slope));
-    return isfinite(out->f);
+    return true;
 }

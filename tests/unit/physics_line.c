@@ -280,7 +280,7 @@ static void test_transfer_function(void **state)
 {
     static const struct {
         double a, i, r;
-    } cases[] = { { 0, 30, 8 }, { 0.998, 30, 1.3 }, { 0.998, 75, 4 }, { 0.7, 60, 20 }, { -0.9, 80, 12 } };
+    } cases[] = { { 0, 30, 8 }, { 0.998, 30, 1.3 }, { 0.998, 75, 4 }, { 0.7, 60, 20 }, { -0.9, 80, 12 }, { 0.998, 87, 60 }, { -0.998, 87, 31.9 }, { 0, 2, 10 } };
     static const double g_stars[] = { 0.1, 0.5, 0.93 };
     (void)state;
     for (size_t k = 0; k < COUNT(cases); k++) {
@@ -290,21 +290,24 @@ static void test_transfer_function(void **state)
         assert_true(kd_transfer_ring_of(&image, r, &ring));
         /* At its ends g does not change along the ring, so that its slope is that of r, but for a factor; the ends are those of the oracle's rays. */
         for (int end = 0; end < 2; end++) {
-            assert_true(kd_disk_image_place(&image, r, end ? ring.chi_max : ring.chi_min, &alpha, &beta));
+            alpha = ring.alpha[end], beta = ring.beta[end];
             within("end", a, i, start_of(a, u, alpha, beta).g, end ? ring.g_max : ring.g_min, 1e-8);
             within("slope at an end", a, i, slopes_of(a, u, alpha, beta) / (ring.g_max - ring.g_min), 0, 3e-4);
         }
-        for (size_t n = 0; n < COUNT(g_stars); n++)
+        for (size_t n = 0; n < COUNT(g_stars); n++) {
+            double s = g_stars[n];
+            struct kd_transfer sides[2];
+            assert_true(kd_transfer_at(&image, &ring, s, sides));
+            assert_true(sides[1].beta > sides[0].beta);
             for (int far_side = 0; far_side < 2; far_side++) {
-                struct kd_transfer at;
-                double s = g_stars[n];
-                assert_true(kd_transfer_at(&image, &ring, s, far_side, &at));
+                struct kd_transfer at = sides[far_side];
                 struct start start = start_of(a, u, at.alpha, at.beta);
                 within("radius", a, i, start.r / r, 1, 1e-8);
                 within("g*", a, i, (start.g - ring.g_min) / (ring.g_max - ring.g_min), s, 1e-7);
                 double f = start.g * sqrt(s * (1 - s)) * (ring.g_max - ring.g_min) / (M_PI * r * fabs(slopes_of(a, u, at.alpha, at.beta)));
                 within("f", a, i, at.f / f, 1, 1e-4);
             }
+        }
     }
     struct kd_transfer_ring ring;
     assert_true(kd_disk_image_init(&image, 0.5, 0));
