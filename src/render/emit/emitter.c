@@ -233,7 +233,7 @@ void kd_emit_update(struct kd_emit_state *state, const struct kd_scene *scene, u
         .azimuth = (float)(scene->camera.azimuth_deg * (M_PI / 180)),
         .delay = (float)kd_particle_delay(scene),
         /* Wider than a float is rough: the edge itself is the emitter's. */
-        .w_least = (float)((1 - 1e-6) / reach[1]),
+        .w_least = (float)fmax((1 - 1e-6) / reach[1], 1e-30), /* 0 is no crossing */
         .w_most = (float)fmin((1 + 1e-6) / reach[0], 1e30),
         .along_least = (float)(1 / along[1]),
         .along_most = (float)fmin(1 / along[0], 1e30),

@@ -3,6 +3,8 @@
 
 #include "physics/scattering.h"
 
+#include <math.h>
+
 static bool present(const struct kd_scene *scene)
 {
     return scene->polarization.model != KD_POLARIZATION_NONE && scene->polarization.model != KD_POLARIZATION_TRANSFER && kd_emit_at_crossings(scene);
@@ -18,6 +20,9 @@ static uint32_t traits(const struct kd_scene *scene)
 }
 
 static uint32_t needs(const struct kd_scene *scene) { return (void)scene, KD_LENS_W | KD_LENS_SLOPE; }
+
+/* Nowhere. */
+static void reach(const struct kd_scene *scene, double radii[2]) { (void)scene, radii[0] = INFINITY, radii[1] = 0; }
 
 static void fill(struct kd_emission *out, const struct kd_scene *scene)
 {
@@ -59,6 +64,7 @@ const struct kd_emitter kd_emit_polarization = {
     .present = present,
     .traits = traits,
     .needs = needs,
+    .reach = reach,
     .fill = fill,
     .tables = tables,
     .depends = { KD_SCENE_PART(polarization) },

@@ -30,6 +30,9 @@ static void fill_kappa(struct kd_stokes_block *out, double kappa)
 }
 
 /* Jones & O'Dell 1977: of electrons gamma^-p, by the share (p - 1)/(gamma_min^(1 - p) - gamma_max^(1 - p)) of them at gamma = 1. */
+/* Nowhere. */
+static void reach(const struct kd_scene *scene, double radii[2]) { (void)scene, radii[0] = INFINITY, radii[1] = 0; }
+
 static void fill(struct kd_emission *out, const struct kd_scene *scene)
 {
     const struct kd_volume *v = &scene->volume;
@@ -67,6 +70,7 @@ const struct kd_emitter kd_emit_stokes = {
     .title = "Stokes transfer",
     .present = present,
     .traits = traits,
+    .reach = reach,
     .fill = fill,
     .depends = { KD_SCENE_PART(polarization), KD_SCENE_PART(volume) },
     .sentences = sentences,
