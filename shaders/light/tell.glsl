@@ -13,7 +13,8 @@
  *                     emission, what comes through in front; and KD_TELL_MET_AT behind it: w, u, azimuth, g
  *   KD_TELL_POLARIZED of the place before it: Stokes Q and U of its light over I
  *   KD_TELL_LOST      the ray was given up
- *   KD_TELL_FRONT, KD_TELL_WHOLE        the sum before the end and with it: light, what comes through, and the steps and places of the march */
+ *   KD_TELL_FRONT, KD_TELL_WHOLE        the sum before the end and with it: light, what comes through, the steps and places of the march, and Stokes Q, U and V
+ *                     of a volume, and whether there are any */
 #ifndef KD_TELL_GLSL
 #define KD_TELL_GLSL
 
@@ -68,7 +69,12 @@ void kd_tell_place(kd_sample s, float through)
     kd_tell(KD_TELL_MET, vec4(number, light), vec4(kd_##name##_which(met), met.crossed, met.cosine, through), vec2(0.0));    \
     kd_tell(KD_TELL_MET_AT, vec4(met.w, met.u, met.phi, 1.0 / kd_##name##_shift(met)), vec4(0.0), vec2(0.0));
 #define KD_TELL_GIVEN_UP kd_tell(KD_TELL_LOST, vec4(0.0), vec4(0.0), vec2(0.0));
-#define KD_TELL_SUM(of, beam) kd_tell_at(of == KD_TELL_FRONT ? 0u : 1u, of, vec4(beam.light, beam.through), vec4(kd_told_steps, kd_told_places, 0.0, 0.0), vec2(0.0));
+#define KD_TELL_SUM(of, beam) kd_tell_at(of == KD_TELL_FRONT ? 0u : 1u, of, vec4(beam.light, beam.through), vec4(kd_told_steps, kd_told_places, KD_TOLD_STOKES.xy), KD_TOLD_STOKES.zw);
+#ifdef KD_MARCH
+#define KD_TOLD_STOKES (KD_HAS(stokes) ? vec4(kd_stokes_seen, 1.0) : vec4(0.0))
+#else
+#define KD_TOLD_STOKES vec4(0.0)
+#endif
 
 /* Light and depth of each volume: of a place a unit of the affine parameter, of the stretch that is tried, and of all that were taken. */
 float kd_told_steps = 0.0, kd_told_places = 0.0;

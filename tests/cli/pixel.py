@@ -52,6 +52,19 @@ class Pixel(Case):
             self.assertIn(f"of the ray: EVPA {math.degrees(ray['evpa']):.4f} deg, fraction {ray['polarization_fraction']:.5f}", text)
         self.assertGreaterEqual(seen, 3)
 
+    def test_circular_polarisation_of_a_volume(self):
+        scene = ["--preset", "riaf", "--set", "polarization.model=transfer", "--size", "40x30"]
+        self.good("render", *scene, "--set", "image.layers=intensity,stokes_q,stokes_u,stokes_v", "-o", self.path("stokes.npy"))
+        data = self.read("stokes.npy")
+        numbers = data[10 + struct.unpack_from("<H", data, 8)[0]:]
+        found = json.loads(self.good("pixel", *scene, "--at", "14,16", "--format", "json"))
+        layers = struct.unpack_from("<4f", numbers, 16 * (40 * 16 + 14))
+        self.assertGreater(abs(layers[3]), 1e-4 * layers[0])
+        for number, layer in zip(found["pixel_polarization"]["stokes"], layers, strict=True):
+            self.assertAlmostEqual(number, layer, delta=1e-5 * layers[0])
+        told = "Stokes I {:.6g}, Q {:.6g}, U {:.6g}, V {:.6g}".format(*found["polarization"]["stokes"])
+        self.assertIn(told, self.good("pixel", *scene, "--at", "14,16").decode())
+
     def test_to_a_file(self):
         self.assertEqual(self.good(*PIXEL, "--at", "20,20", "-o", self.path("a.json")), b"")
         self.assertEqual(json.loads(self.read("a.json"))["pixel"], [20, 20])

@@ -115,11 +115,11 @@ static void put_evpa(struct kd_json *json, const double stokes[3])
     kd_json_number(json, "polarization_fraction", kd_explained_polarized(stokes));
 }
 
-static void put_polarization(struct kd_json *json, const char *name, const double stokes[3])
+static void put_polarization(struct kd_json *json, const char *name, const double *stokes, int n)
 {
     kd_json_object(json, name);
     kd_json_array(json, "stokes");
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < n; i++)
         kd_json_number(json, NULL, stokes[i]);
     kd_json_end(json);
     put_evpa(json, stokes);
@@ -128,23 +128,25 @@ static void put_polarization(struct kd_json *json, const char *name, const doubl
 
 static void put_polarized_ray(struct kd_json *json, const struct kd_told_ray *ray)
 {
-    double stokes[3];
-    if (kd_explained_stokes(ray, stokes))
-        put_polarization(json, "polarization", stokes);
+    double stokes[KD_EXPLAINED_STOKES];
+    const int n = kd_explained_stokes(ray, stokes);
+    if (n)
+        put_polarization(json, "polarization", stokes, n);
 }
 
 /* The mean of the pixel's rays. */
 static void put_polarized_pixel(struct kd_json *json, const struct kd_told *pixel)
 {
-    double stokes[3], sum[3] = { 0 };
-    bool polarized = false;
+    double stokes[KD_EXPLAINED_STOKES], sum[KD_EXPLAINED_STOKES] = { 0 };
+    int n = 0;
     for (uint32_t i = 0; i < pixel->rays; i++) {
-        polarized |= kd_explained_stokes(&pixel->each[i], stokes);
-        for (int k = 0; k < 3; k++)
+        const int known = kd_explained_stokes(&pixel->each[i], stokes);
+        n = known > n ? known : n;
+        for (int k = 0; k < KD_EXPLAINED_STOKES; k++)
             sum[k] += stokes[k] / pixel->rays;
     }
-    if (polarized)
-        put_polarization(json, "pixel_polarization", sum);
+    if (n)
+        put_polarization(json, "pixel_polarization", sum, n);
 }
 
 static void put_crossing(struct kd_json *json, const struct kd_explained *x, uint32_t n)

@@ -165,10 +165,12 @@ double kd_explained_sum_error(const struct kd_told *pixel)
 
 static double luminance(const float light[3]) { return 0.2126 * (double)light[0] + 0.7152 * (double)light[1] + 0.0722 * (double)light[2]; }
 
-bool kd_explained_stokes(const struct kd_told_ray *ray, double out[3])
+int kd_explained_stokes(const struct kd_told_ray *ray, double out[KD_EXPLAINED_STOKES])
 {
     bool polarized = false;
-    out[0] = luminance(ray->light), out[1] = out[2] = 0;
+    out[0] = luminance(ray->light);
+    for (int c = 0; c < 3; c++)
+        out[1 + c] = (double)ray->stokes[c];
     for (size_t i = 0; i < ray->n_places; i++) {
         const struct kd_told_place *p = &ray->places[i];
         polarized |= p->polarized;
@@ -176,7 +178,7 @@ bool kd_explained_stokes(const struct kd_told_ray *ray, double out[3])
             for (int c = 0; c < 2; c++)
                 out[1 + c] += (double)p->glows[k].through * luminance(p->glows[k].light) * (double)p->stokes[c];
     }
-    return polarized;
+    return ray->transfers ? 4 : polarized ? 3 : 0;
 }
 
 double kd_explained_evpa(const double s[3]) { return s[1] != 0 || s[2] != 0 ? 0.5 * atan2(s[2], s[1]) : NAN; }

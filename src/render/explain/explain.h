@@ -36,8 +36,9 @@ enum kd_status kd_explain_each(const struct kd_picture *picture, uint32_t number
 void kd_explained_ray_at(const struct kd_picture *picture, const struct kd_explained *explained, double out[2]);
 /* How far the mean of the rays' light is off the pixel's, relative to that. */
 double kd_explained_sum_error(const struct kd_told *pixel);
-/* Stokes I, Q and U of a ray as it arrives, I the luminance of all its light; false: no light is polarised in the scene. */
-bool kd_explained_stokes(const struct kd_told_ray *ray, double out[3]);
+/* Stokes I, Q, U and V of a ray as it arrives, I the luminance of all its light; how many of them are known, without V where only light of the plane is polarised; 0: none is in the scene. */
+enum { KD_EXPLAINED_STOKES = 4 };
+int kd_explained_stokes(const struct kd_told_ray *ray, double out[KD_EXPLAINED_STOKES]);
 /* The angle of the electric field, and the part of the light that is polarised; NAN where there is none. */
 double kd_explained_evpa(const double stokes[3]);
 double kd_explained_polarized(const double stokes[3]);

@@ -42,15 +42,18 @@ static enum kd_status put_crossings(const struct kd_explained *x, struct kd_buff
                                        : kd_buffer_printf(out, " %9s %9s", "-", "-"));
         KD_TRY(p ? kd_buffer_printf(out, " %9.5f\n", (double)p->through) : kd_buffer_printf(out, " %9s\n", x->told->n_places ? "hidden" : "-"));
     }
-    double stokes[3];
+    double stokes[KD_EXPLAINED_STOKES];
     for (size_t i = 0; i < x->told->n_places; i++) {
         const struct kd_told_place *p = &x->told->places[i];
         const double own[3] = { 1, (double)p->stokes[0], (double)p->stokes[1] };
         if (p->polarized)
             KD_TRY(kd_buffer_printf(out, "order %u is polarised: EVPA %.4f deg, fraction %.5f\n", p->order, DEGREES * kd_explained_evpa(own), kd_explained_polarized(own)));
     }
-    if (kd_explained_stokes(x->told, stokes))
+    const int known = kd_explained_stokes(x->told, stokes);
+    if (known)
         KD_TRY(kd_buffer_printf(out, "of the ray: EVPA %.4f deg, fraction %.5f\n", DEGREES * kd_explained_evpa(stokes), kd_explained_polarized(stokes)));
+    if (known == 4)
+        KD_TRY(kd_buffer_printf(out, "of the ray: Stokes I %.6g, Q %.6g, U %.6g, V %.6g\n", stokes[0], stokes[1], stokes[2], stokes[3]));
     if (x->end.fate == KD_RAY_ESCAPED)
         KD_TRY(kd_buffer_printf(out, "sky: theta %.4f deg, phi %.4f deg, g %.5f\n", DEGREES * x->end.theta, DEGREES * x->end.phi, 1 / x->label.energy));
 done:

@@ -77,6 +77,17 @@ static void take_met(struct kd_told_met *met, const struct record *r)
         met->w = r->a[0], met->u = r->a[1], met->phi = r->a[2], met->g = r->a[3];
 }
 
+static void take_front(struct kd_told_ray *told, const struct record *r)
+{
+    told->through = r->a[3];
+    told->steps = (uint32_t)r->b[0];
+    told->samples = (uint32_t)r->b[1];
+    told->transfers = r->c[1] > 0;
+    told->stokes[0] = r->b[2];
+    told->stokes[1] = r->b[3];
+    told->stokes[2] = r->c[0];
+}
+
 static void take(struct kd_told_ray *told, const struct record *r)
 {
     struct kd_told_place *last = told->n_places ? &told->places[told->n_places - 1] : NULL;
@@ -101,7 +112,7 @@ static void take(struct kd_told_ray *told, const struct record *r)
     else if (r->of == (float)KD_TELL_LOST)
         told->given_up = true;
     else if (r->of == (float)KD_TELL_FRONT)
-        told->through = r->a[3], told->steps = (uint32_t)r->b[0], told->samples = (uint32_t)r->b[1];
+        take_front(told, r);
     else if (r->of == (float)KD_TELL_WHOLE)
         memcpy(told->light, r->a, sizeof told->light);
 }

@@ -67,6 +67,8 @@ struct kd_told_ray {
     uint32_t steps, samples; /* of the march: of its integrator, and places that it looked at */
     struct kd_told_met met;
     size_t n_places, n_stretches, n_volumes, lost; /* lost: records that were not kept because there was no room */
+    bool transfers;     /* light of volumes is polarised on its way, by this: Stokes Q, U and V as they arrive */
+    float stokes[3];
     bool given_up;      /* the engine gave the ray up, and the picture shows magenta */
     bool ended;         /* something may shine where it ends: */
     float end_u, end_phi, end_footprint;

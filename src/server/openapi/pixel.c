@@ -10,6 +10,8 @@
 #define LIST KD_SCHEMA_LIST
 #define REF KD_SCHEMA_REF
 #define PAIR "{\"type\":\"array\",\"minItems\":2,\"maxItems\":2,\"items\":{\"type\":\"number\"}}"
+/* I, Q and U; and V of volumes. */
+#define STOKES "{\"type\":\"array\",\"minItems\":3,\"maxItems\":4,\"items\":{\"type\":\"number\"}}"
 #define ROWS LIST(LIST("{\"type\":[\"number\",\"null\",\"string\"]}"))
 #define FATE "{\"enum\":[\"captured\",\"escaped\",\"undecided\"]}"
 
@@ -87,7 +89,7 @@ static void add_ends(struct kd_json *json)
         { "engine", TEXT, false }, { "precision", TEXT, false }, { "steps", COUNT, false }, { "closed_form", OR_NULL, false }, { "picture", OR_NULL, false },
         { "path", OR_NULL, false }, { "first_integrals", OR_NULL, false }, { "sum", OR_NULL, false },
     };
-    static const struct kd_openapi_member polarization[] = { { "stokes", KD_SCHEMA_VECTOR, false }, { "evpa", OR_NULL, false }, { "polarization_fraction", OR_NULL, false } };
+    static const struct kd_openapi_member polarization[] = { { "stokes", STOKES, false }, { "evpa", OR_NULL, false }, { "polarization_fraction", OR_NULL, false } };
     KD_OPENAPI_STRICT(json, "PixelPolarization", polarization);
     KD_OPENAPI_STRICT(json, "PixelEnd", end);
     KD_OPENAPI_STRICT(json, "PixelPath", path);
