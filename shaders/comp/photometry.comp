@@ -1,7 +1,7 @@
 /* This kernel adds up the light of a picture, for its sum and its centre. Over pixels at x and y steps from the middle, of luminance Y, and with
  * f = 1/|(1, x step, y step)| (1 in the image plane),
  *   sum of Y f^3, of Y f^4, of Y f^4 x, of Y f^4 y,
- * of the whole picture and of the hot spots' own light. f^3 is the solid angle of a pixel over that of the middle one, f times
+ * of the whole picture and of the hot spots' own light; and of Stokes Q, U and V and of the spots' Q and U, where they are kept, that of each by f^3. f^3 is the solid angle of a pixel over that of the middle one, f times
  * (1, x step, y step) the unit vector towards it. An invocation adds up KD_LIGHT_PIXELS pixels and compensates (W. Kahan 1965, CACM
  * 8, 40); the host adds its sums in double. Always in the same order. */
 #version 450
@@ -33,7 +33,7 @@ void main()
     /* Neighbouring invocations read neighbouring pixels. */
     uint o = gl_WorkGroupID.x * (KD_GROUP_SIZE * KD_LIGHT_PIXELS) + gl_LocalInvocationID.x;
     uint px = o % push.pixels_x, row = o / push.pixels_x;
-    sum4 all = sum4(vec4(0.0), vec4(0.0)), spots = all;
+    sum4 all = sum4(vec4(0.0), vec4(0.0)), spots = all, stokes = all, stokes_spots = all;
     for (uint k = 0; k < KD_LIGHT_PIXELS && o < push.pixels; k++) {
         float x = float(px) - push.middle_x, y = push.middle_y - float(push.row0 + row);
         float f = FINITE ? 1.0 / sqrt(1.0 + push.step_ * push.step_ * (x * x + y * y)) : 1.0;
@@ -42,10 +42,22 @@ void main()
         all = add(all, light * term);
         if (APART)
             spots = add(spots, radiance[push.spots + o] * term);
+        if (STOKES) {
+            uint at = push.stokes + o;
+            vec3 s = vec3(radiance[at], radiance[at + push.plane], radiance[at + 2 * push.plane]);
+            stokes = add(stokes, vec4(s.xy, s.z > KD_STOKES_LEAST_UNTOLD ? 0.0 : s.z, 0.0) * term.x);
+            if (STOKES_APART)
+                stokes_spots = add(stokes_spots, vec4(radiance[at + 3 * push.plane], radiance[at + 4 * push.plane], 0.0, 0.0) * term.x);
+        }
         o += KD_GROUP_SIZE;
         for (px += KD_GROUP_SIZE; px >= push.pixels_x; px -= push.pixels_x)
             row++;
     }
-    sums[2 * gl_GlobalInvocationID.x] = all.value;
-    sums[2 * gl_GlobalInvocationID.x + 1] = spots.value;
+    uint to = (STOKES ? 4 : 2) * gl_GlobalInvocationID.x;
+    sums[to] = all.value;
+    sums[to + 1] = spots.value;
+    if (STOKES) {
+        sums[to + 2] = stokes.value;
+        sums[to + 3] = stokes_spots.value;
+    }
 }

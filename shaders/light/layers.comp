@@ -1,5 +1,5 @@
 /* This kernel makes one layer of a frame (shared/layers.h), from the lens map: an invocation writes a pixel's number, NaN where there is none. LAYER says
- * which, ORDER of which crossing. */
+ * which, ORDER of which crossing. KD_MARCH: for scenes with volumes or bodies, where light is that which transfer.comp has left, Stokes Q, U and V behind it. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
@@ -8,12 +8,7 @@ KD_SPEC_TRANSFER(KD_SPEC_U_, KD_SPEC_B_)
 #include "shared/layers.h"
 #include "light/inputs.glsl"
 #include "light/numbers.glsl"
-#ifdef KD_MARCH
-#define KD_LAYER_ACCESS
-#else
-#define KD_LAYER_ACCESS writeonly
-#endif
-layout(set = 0, binding = 3) KD_LAYER_ACCESS buffer Layer { uint layer[]; };
+layout(set = 0, binding = 3) writeonly buffer Layer { uint layer[]; };
 
 /* A device need not keep NaN in arithmetic: it is told from numbers, and written, by its bits. */
 #define KD_NOTHING_BITS 0x7fc00000u
@@ -53,6 +48,28 @@ kd_sample sample_at(uint n, float w, uint at, kd_ray ray)
 
 const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);
 
+/* A ray of the pixel was given up: that leaves no number. It is no NaN that says so, which a device need not carry through sums. */
+bool untold = false;
+
+#ifdef KD_MARCH
+#define KD_MARCH_MEET(beam, w, n, place, at)
+#define KD_MARCH_GIVEN_UP(beam)
+#include "light/march.glsl"
+#include "light/meet.glsl"
+#undef KD_B
+#define KD_B(number, type, member) +1
+layout(set = 0, binding = KD_OWN_BINDING + (0 KD_EMIT_BUFFERS)) readonly buffer Radiance { float radiance[]; };
+#undef KD_B
+
+/* This is the luminance of a pixel, Stokes I, and Q, U and V. */
+vec4 light_of_pixel(uint o)
+{
+    const uint pixels = emission.frame.band_pixels, at = (KD_APART ? 4u : 3u) * pixels + o;
+    vec3 stokes = vec3(radiance[at], radiance[at + pixels], radiance[at + 2u * pixels]);
+    untold = stokes.z > KD_STOKES_LEAST_UNTOLD;
+    return vec4(dot(vec3(radiance[3u * o], radiance[3u * o + 1u], radiance[3u * o + 2u]), LUMINANCE), stokes);
+}
+#else
 /* Stokes Q and U of a ray: all that shines at a crossing is polarised alike. */
 vec2 polarized = vec2(0.0);
 void at_crossing(inout kd_beam beam, kd_sample s, uvec2 place, kd_ray ray)
@@ -63,26 +80,6 @@ void at_crossing(inout kd_beam beam, kd_sample s, uvec2 place, kd_ray ray)
         polarized += (dot(beam.light, LUMINANCE) - before) * kd_polarization_at(s, kd_polarization_right(place), ray.p);
 }
 
-#ifdef KD_MARCH
-bool lost = false; /* the ray was given up on its way to a crossing */
-void meet(inout kd_beam beam, float w, uint n, uvec2 place, uint at)
-{
-    lost = lost || w < 0.0;
-    kd_ray ray = kd_camera_ray(place.x, place.y);
-    if (w < 0.0)
-        beam.through = 0.0;
-    else
-        at_crossing(beam, sample_at(n, w, at, ray), place, ray);
-}
-#define KD_MARCH_MEET(beam, w, n, place, at) meet(beam, w, n, place, at)
-#define KD_MARCH_GIVEN_UP(beam) lost = true
-#include "light/march.glsl"
-#include "light/meet.glsl"
-#endif
-
-/* A ray of the pixel was given up: that leaves no number. It is no NaN that says so, which a device need not carry through sums. */
-bool untold = false;
-
 /* This is the luminance of a ray, Stokes I, and Q, U and V: of all that it sees, or of one order, as it arrives. */
 vec4 light(uvec2 place, uint at, uint pixel)
 {
@@ -90,15 +87,6 @@ vec4 light(uvec2 place, uint at, uint pixel)
     kd_ray ray = kd_camera_ray(place.x, place.y);
     bool given_up = false;
     polarized = vec2(0.0);
-#ifdef KD_MARCH
-    lost = false;
-    kd_follow(beam, place, at); /* no orders: plans refuse them */
-    given_up = lost;
-    float circular = KD_HAS(stokes) ? kd_stokes_seen.z : 0.0;
-    if (KD_HAS(stokes))
-        polarized += kd_stokes_seen.xy;
-#else
-    float circular = 0.0;
     for (uint n = 0; KD_GLOWS && n < (ORDER == KD_NO_ORDER ? ORDERS : ORDER + 1u); n++) {
         float w = lens[at + n * slice.stride];
         if (ORDER != KD_NO_ORDER)
@@ -108,7 +96,6 @@ vec4 light(uvec2 place, uint at, uint pixel)
             break;
         at_crossing(beam, sample_at(n, w, at, ray), place, ray);
     }
-#endif
     if (ORDER == KD_NO_ORDER && KD_ENDS && (QUANTITIES & KD_LENS_FATE) != 0u) {
         float fate = quantity(KD_LENS_FATE, at);
         given_up = given_up || fate == KD_FATE_UNDECIDED;
@@ -117,8 +104,9 @@ vec4 light(uvec2 place, uint at, uint pixel)
         kd_beam_points(beam, pixel);
     }
     untold = untold || given_up;
-    return vec4(dot(beam.light, LUMINANCE), polarized, circular);
+    return vec4(dot(beam.light, LUMINANCE), polarized, 0.0);
 }
+#endif
 
 /* The angle of the electric field, from north to east, in (-pi/2, pi/2]; and the part of the light that is polarised. */
 float kd_layer_evpa(vec4 light) { return light.y == 0.0 && light.z == 0.0 ? KD_NOTHING : 0.5 * kd_atan2(light.z, light.y); }
@@ -195,25 +183,6 @@ float of_end(uint at)
     return KD_NOTHING;
 }
 
-#ifdef KD_MARCH
-/* Until the last ray of a pixel there are the sums of those before it: of a polarised layer four, a band of pixels apart. */
-vec4 sum_so_far(uint o)
-{
-    const uint pixels = emission.frame.band_pixels;
-    return vec4(uintBitsToFloat(layer[o]), POLARIZED ? uintBitsToFloat(layer[o + pixels]) : 0.0, POLARIZED ? uintBitsToFloat(layer[o + 2u * pixels]) : 0.0,
-                POLARIZED ? uintBitsToFloat(layer[o + 3u * pixels]) : 0.0);
-}
-void keep_sum(uint o, vec4 sum)
-{
-    layer[o] = untold ? KD_NOTHING_BITS : floatBitsToUint(sum.x);
-    if (POLARIZED) {
-        layer[o + emission.frame.band_pixels] = floatBitsToUint(sum.y);
-        layer[o + 2u * emission.frame.band_pixels] = floatBitsToUint(sum.z);
-        layer[o + 3u * emission.frame.band_pixels] = floatBitsToUint(sum.w);
-    }
-}
-#endif
-
 void main()
 {
     kd_camera_read();
@@ -229,28 +198,17 @@ void main()
     }
     uint o = (py - (CRITICAL > 0 ? slice.band0 : slice.band0 / SIDE)) * emission.frame.pixels_x + px;
     float value = 0.0;
-    bool until_last = false; /* there are sums alone so far */
     if (OF_LIGHT) {
-        const uint rays = CRITICAL > 0 ? CRITICAL : SIDE * SIDE;
 #ifdef KD_MARCH
-        const uint from = slice.ray, end = slice.ray + 1u; /* one ray an invocation, as in transfer.comp */
+        vec4 sum = light_of_pixel(o);
 #else
-        const uint from = 0u, end = rays;
-#endif
+        const uint rays = CRITICAL > 0 ? CRITICAL : SIDE * SIDE;
         vec4 sum = vec4(0.0);
-        for (uint i = from; i < end; i++) {
+        for (uint i = 0u; i < rays; i++) {
             uvec2 place = CRITICAL > 0 ? kd_critical_place(uvec2(px, py), i) : uvec2(px, py) * SIDE + uvec2(i % SIDE, i / SIDE);
             sum += light(place, CRITICAL > 0 ? listed * CRITICAL + i : (place.y - slice.band0) * cam.width + place.x, o);
         }
         sum *= 1.0 / float(rays);
-#ifdef KD_MARCH
-        if (slice.ray > 0u) { /* whatever comes behind it */
-            untold = untold || layer[o] == KD_NOTHING_BITS;
-            sum += sum_so_far(o);
-        }
-        until_last = slice.ray + 1u < rays;
-        if (until_last)
-            keep_sum(o, sum);
 #endif
         value = value_of_light(sum);
     } else {
@@ -259,6 +217,5 @@ void main()
         value = OF_CROSSING ? of_crossing(place, at) : of_end(at);
     }
     uint bits = floatBitsToUint(value);
-    if (!until_last)
-        layer[o] = !untold && (kd_is_finite(value) || bits == KD_INFINITE_BITS) ? bits : KD_NOTHING_BITS;
+    layer[o] = !untold && (kd_is_finite(value) || bits == KD_INFINITE_BITS) ? bits : KD_NOTHING_BITS;
 }

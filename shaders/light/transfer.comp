@@ -15,6 +15,20 @@ KD_SPEC_TRANSFER(KD_SPEC_U_, KD_SPEC_B_)
 layout(set = 0, binding = 3) KD_RADIANCE_ACCESS buffer Radiance { float radiance[]; };
 #endif
 
+const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);
+
+/* Where STOKES says so these are kept of a ray: Stokes Q, U and V of all its light, Q and U of that which is kept apart, and whether it was given up. */
+vec3 stokes = vec3(0.0);
+vec2 stokes_apart = vec2(0.0);
+bool untold = false;
+
+void forget_stokes()
+{
+    stokes = vec3(0.0);
+    stokes_apart = vec2(0.0);
+    untold = false;
+}
+
 /* A crossing of order n, w = 1/r (below 0: the ray was given up on its way there), of the ray at this place of the camera and `at` in
  * the lens map. */
 void meet(inout kd_beam beam, float w, uint n, uvec2 place, uint at)
@@ -27,11 +41,18 @@ void meet(inout kd_beam beam, float w, uint n, uvec2 place, uint at)
                                                       : ray.p * ray.p + cam.u * cam.u * (ray.l * ray.l - cam.spin * cam.spin * ray.e * ray.e);
     if (w < 0.0) {
         kd_beam_given_up(beam);
+        untold = true;
         return;
     }
     kd_sample s = kd_sample(w, quantity(KD_LENS_PHI, plane), ago, slope, ray.e, momentum, carter, quantity(KD_LENS_FOOTPRINT, plane), quantity(KD_LENS_SHAPE, plane), n);
+    float before = dot(beam.light, LUMINANCE), before_apart = beam.apart;
     kd_beam_at(beam, s);
     KD_TELL_POLARIZED_AT(s, place, ray.p)
+    if (STOKES && KD_HAS(polarization)) { /* all that shines at a crossing is polarised alike */
+        vec2 part = kd_polarization_at(s, kd_polarization_right(place), ray.p);
+        stokes.xy += (dot(beam.light, LUMINANCE) - before) * part;
+        stokes_apart += (beam.apart - before_apart) * part;
+    }
 }
 
 /* A map may hold where rays end for the sake of layers alone: then the picture is what it is without them. */
@@ -42,8 +63,10 @@ vec3 background(uvec2 place, uint at, uint pixel)
 {
     kd_beam beam = kd_beam(vec3(0.0), 0.0, 1.0);
     float fate = ENDS ? quantity(KD_LENS_FATE, at) : KD_FATE_CAPTURED;
-    if (fate == KD_FATE_UNDECIDED)
+    if (fate == KD_FATE_UNDECIDED) {
         kd_beam_given_up(beam);
+        untold = true;
+    }
     if (fate == KD_FATE_ESCAPED)
         kd_beam_end(beam, kd_end(quantity(KD_LENS_SKY_U, at), quantity(KD_LENS_SKY_PHI, at), quantity(KD_LENS_SKY_FOOTPRINT, at), kd_camera_ray(place.x, place.y).e));
     if (ENDS && fate != KD_FATE_UNDECIDED)
@@ -54,7 +77,7 @@ vec3 background(uvec2 place, uint at, uint pixel)
 #ifdef KD_MARCH
 #define KD_MARCH_MEET(beam, w, n, place, at) meet(beam, w, n, place, at)
 bool lost = false; /* the ray at hand */
-#define KD_MARCH_GIVEN_UP(beam) (kd_beam_given_up(beam), lost = true)
+#define KD_MARCH_GIVEN_UP(beam) (kd_beam_given_up(beam), lost = true, untold = true)
 #include "light/march.glsl"
 #include "light/meet.glsl"
 
@@ -63,6 +86,8 @@ kd_beam follow(uvec2 place, uint at, uint pixel)
 {
     kd_beam beam = kd_beam(vec3(0.0), 0.0, 1.0);
     kd_follow(beam, place, at);
+    if (STOKES && KD_HAS(stokes))
+        stokes += kd_stokes_seen;
     KD_TELL_SUM(KD_TELL_FRONT, beam)
     if (ENDS)
         beam.light += beam.through * background(place, at, pixel);
@@ -74,6 +99,7 @@ kd_beam follow(uvec2 place, uint at, uint pixel)
 kd_beam follow(uvec2 place, uint at, uint pixel)
 {
     kd_beam beam = kd_beam(vec3(0.0), 0.0, 1.0);
+    forget_stokes();
     for (uint n = 0; KD_GLOWS && n < ORDERS; n++) {
         float w = KD_MAP_AT(at + n * slice.stride);
         if (w == 0.0)
@@ -116,11 +142,23 @@ void store_light(uint at, vec3 light)
     radiance[3 * at + 2] = light.b;
 }
 
-void store(uint at, vec3 light, float apart)
+/* Behind the band's pixels stand the luminance that is kept apart, and Stokes Q, U and V of all light, and Q and U of that, a band of pixels each. */
+const uint STOKES_AT = KD_APART ? 4u : 3u;
+void store(uint at, vec3 light, float apart, vec3 all, vec2 spots)
 {
+    uint pixels = emission.frame.band_pixels, to = STOKES_AT * pixels + at;
     store_light(at, light);
-    if (KD_APART) /* behind the band's pixels */
-        radiance[3 * emission.frame.band_pixels + at] = apart;
+    if (KD_APART)
+        radiance[3 * pixels + at] = apart;
+    if (STOKES) {
+        radiance[to] = all.x;
+        radiance[to + pixels] = all.y;
+        radiance[to + 2 * pixels] = all.z;
+    }
+    if (STOKES && KD_APART && KD_HAS(polarization)) {
+        radiance[to + 3 * pixels] = spots.x;
+        radiance[to + 4 * pixels] = spots.y;
+    }
 }
 
 /* Lights KD_TRANSFER_ROWS pixels below one another, of one ray each, behind which no light is spread. Those where nothing shines are left as they
@@ -140,7 +178,7 @@ const bool COLUMNS = SIDE == 1 && CRITICAL == 0 && (KD_END_TRAITS / KD_TRAIT_SPR
 void point_column(uint x, uint y, uint end)
 {
     for (; y < end; y++)
-        store(light_at(x, y), background(uvec2(x, y), (y - slice.band0) * cam.width + x, light_at(x, y)), 0.0);
+        store(light_at(x, y), background(uvec2(x, y), (y - slice.band0) * cam.width + x, light_at(x, y)), 0.0, vec3(0.0), vec2(0.0));
 }
 
 void light_column(uint x, uint y, uint end)
@@ -163,12 +201,14 @@ void light_column(uint x, uint y, uint end)
         }
         if (y >= end)
             break;
-        if (y != of)
+        if (y != of) {
             beam = kd_beam(vec3(0.0), 0.0, 1.0);
+            forget_stokes();
+        }
         of = y;
         meet(beam, w, n, uvec2(x, y), at);
         vec3 behind = ENDS ? beam.through * background(uvec2(x, y), at, light_at(x, y)) : vec3(0.0);
-        store(light_at(x, y), beam.light + behind, beam.apart);
+        store(light_at(x, y), beam.light + behind, beam.apart, stokes, stokes_apart);
         bool more = beam.through > 0.0 && n + 1 < ORDERS;
         y += more ? 0 : 1;
         n = more ? n + 1 : 0;
@@ -221,20 +261,32 @@ void main()
     }
     vec3 sum = share * beam.light;
     float apart = share * beam.apart;
+    vec3 all = share * stokes;
+    vec2 spots = share * stokes_apart;
     if (rays > 1u && slice.ray > 0u) {
+        const uint pixels = emission.frame.band_pixels, from = STOKES_AT * pixels + to;
         sum += vec3(radiance[3 * to], radiance[3 * to + 1], radiance[3 * to + 2]);
-        apart += KD_APART ? radiance[3 * emission.frame.band_pixels + to] : 0.0;
+        apart += KD_APART ? radiance[3 * pixels + to] : 0.0;
+        if (STOKES)
+            all += vec3(radiance[from], radiance[from + pixels], radiance[from + 2 * pixels]);
+        if (STOKES && KD_APART && KD_HAS(polarization))
+            spots += vec2(radiance[from + 3 * pixels], radiance[from + 4 * pixels]);
     }
-    store(to, sum, apart);
+    if (untold || all.z > KD_STOKES_LEAST_UNTOLD) /* whatever other rays of the pixel have */
+        all.z = KD_STOKES_UNTOLD;
+    store(to, sum, apart, all, spots);
 #else
-    vec3 sum = vec3(0.0);
+    vec3 sum = vec3(0.0), all = vec3(0.0);
     float apart = 0.0;
+    vec2 spots = vec2(0.0);
     for (uint i = 0; i < rays; i++) {
         kd_beam beam = follow_one(uvec2(px, py), listed, i, to);
         sum += beam.light;
         apart += beam.apart;
+        all += stokes;
+        spots += stokes_apart;
     }
-    store(to, share * sum, share * apart);
+    store(to, share * sum, share * apart, share * all, share * spots);
 #endif
 }
 #endif

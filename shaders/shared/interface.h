@@ -167,15 +167,22 @@
     F(narrow)                /* 1/(2 sigma^2) */                                                               \
     F(weight)                /* of the whole sum */
 
-/* photometry.comp takes these, each of whose invocations adds up so many pixels of a band to twice four sums. */
+/* A pixel one of whose rays was given up has this for Stokes V: no light is as bright. */
+#define KD_STOKES_UNTOLD 3e38
+#define KD_STOKES_LEAST_UNTOLD 1e38
+
+/* photometry.comp takes these, each of whose invocations adds up so many pixels of a band to twice four sums, and where there is Stokes Q, U and V twice four more. */
 #define KD_LIGHT_FIELDS_(F, U)                                                                                 \
     U(pixels_x) U(pixels)     /* a row, and of the band */                                                     \
     U(row0)                   /* of the band in the picture */                                                 \
-    U(spots)                  /* where the spots' own luminance begins */                                      \
+    U(spots)                  /* where the spots' own luminance begins, */                                     \
+    U(stokes)                 /* and Stokes Q, U, V, and the spots' Q and U, */                                \
+    U(plane)                  /* each so many pixels long */                                                   \
     F(middle_x) F(middle_y)   /* pixel coordinates of the middle of the picture */                             \
     F(step_)                  /* from pixel to pixel, over the distance of the picture */
 #define KD_LIGHT_PIXELS 64
 #define KD_LIGHT_SUMS 8
+#define KD_LIGHT_SUMS_STOKES 16
 
 /* The histogram of luminance for auto exposure has eight bins a stop: a bin is the exponent and the first three bits of the
  * fraction of the float. Bin 0 is black; bin FIRST stands for 2^-40. */

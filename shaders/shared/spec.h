@@ -23,13 +23,13 @@
 #define KD_SPEC_BETWEEN(U, B) U(0, QUANTITIES, 1) U(1, ORDERS, 3) U(2, SIDE, 4) B(3, MARK, false)
 
 /* SIDE: rays along each side of a pixel; LAYER, ORDER: of layers.comp, which layer (layers.h), and of which image order, KD_NO_ORDER: of the
- * first crossing that lies on the disk. INGOING is the lens map's, for the march (light/march.glsl). Behind these comes the word of each emitter
- * (emitters.h), from KD_SPEC_TRAITS on. */
+ * first crossing that lies on the disk. INGOING is the lens map's, for the march (light/march.glsl). STOKES: of transfer.comp, whether Stokes Q, U and V
+ * are kept behind the radiance. Behind these comes the word of each emitter (emitters.h), from KD_SPEC_TRAITS on. */
 #define KD_SPEC_TRANSFER(U, B)                                                                                 \
     U(0, QUANTITIES, 1) U(1, ORDERS, 3) U(2, SIDE, 1) U(3, SIGHT, 0)                                           \
     U(4, CRITICAL, 0) U(5, GENERATOR, 1) U(6, SHIFT, 0) U(7, LAYER, 0) U(8, ORDER, KD_NO_ORDER)                             \
-    B(9, INGOING, false)
-#define KD_SPEC_TRAITS 10
+    B(9, INGOING, false) B(10, STOKES, false)
+#define KD_SPEC_TRAITS 11
 #define KD_NO_ORDER 0xffffffffu
 
 /* In rays.comp and rays_kerr_schild.comp METHOD is a Nystroem order, or one of Kerr-Schild's. */
@@ -38,8 +38,9 @@
 /* SWING: there are epicycles; LIST: places instead of a deposit; PLUNGE: those at hand fall, of a list those with low numbers. */
 #define KD_SPEC_PARTICLES(U, B) B(0, SWING, true) B(1, LIST, false) B(2, PLUNGE, false)
 
-/* APART: the luminance of some emitter is kept apart as well; FINITE: solid angles from a near observer. */
-#define KD_SPEC_PHOTOMETRY(U, B) B(0, APART, false) B(1, FINITE, false)
+/* APART: the luminance of some emitter is kept apart as well; FINITE: solid angles from a near observer; STOKES: Stokes Q, U and V stand behind the
+ * radiance, STOKES_APART: and Q and U of what is kept apart. */
+#define KD_SPEC_PHOTOMETRY(U, B) B(0, APART, false) B(1, FINITE, false) B(2, STOKES, false) B(3, STOKES_APART, false)
 
 /* star_tiles.comp, star_search.comp and star_images.comp have these. VISIBLE: brightness as the eye weighs it; TILE: rays along the
  * sides of a tile; RIM: ray/rim.glsl. */

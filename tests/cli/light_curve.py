@@ -44,6 +44,22 @@ class LightCurve(Case):
         self.assertEqual((rows[0]["spots_flux"], rows[0]["spots_centroid_x"], rows[0]["flux"]), ("0", "", rows[1]["flux"]))
         self.assertGreater(float(rows[0]["flux"]), 1)
 
+    def test_of_polarised_light(self):
+        options = ["--preset", "hot-spot", "--set", "polarization.field=vertical", "-n", "3"]
+        plain, rows = self.rows(*options), self.rows(*options, "--set", "polarization.model=synchrotron")
+        names = ["stokes_q", "stokes_u", "polarization_fraction", "evpa", *("spots_" + name for name in ("stokes_q", "stokes_u", "polarization_fraction", "evpa"))]
+        self.assertEqual(list(rows[0]), [*plain[0], *names])
+        for row, other in zip(rows, plain):
+            self.assertAlmostEqual(float(row["flux"]), float(other["flux"]), delta=1e-5 * float(other["flux"]))
+            for of in "", "spots_":
+                flux, q, u, fraction, angle = (float(row[of + name]) for name in ("flux", "stokes_q", "stokes_u", "polarization_fraction", "evpa"))
+                self.assertAlmostEqual(fraction, math.hypot(q, u) / flux, delta=1e-9)
+                self.assertAlmostEqual(math.cos(2 * angle) * fraction * flux, q, delta=1e-6)
+                self.assertTrue(0.02 < fraction < 0.75)
+        volume = self.rows("-p", "riaf", "--set", "polarization.model=transfer", "--end", "1", "-n", "2")[0]
+        self.assertEqual(list(volume), [*plain[0], *names[:4], "stokes_v"])
+        self.assertNotEqual(float(volume["stokes_v"]), 0)
+
     def test_refused(self):
         self.bad(2, "--end is missing", "light-curve", "-n", "3")
         self.bad(2, '--start: time is "x"', "light-curve", "--preset", "hot-spot", "--start", "x")

@@ -218,7 +218,9 @@ enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *sc
     }
     const double t = scene->top.time; /* at 0 it is dark */
     if (plan->light)
-        out->light = (struct kd_light_report) { true, { t, t > 0 ? 0.5 * t : NAN, -t }, { t / 4, t > 0 ? 3 : NAN, t > 0 ? 0.25 : NAN } };
+        out->light = (struct kd_light_report) {
+            .measured = true, .all = { t, t > 0 ? 0.5 * t : NAN, -t, 0, 0, 0 }, .spots = { t / 4, t > 0 ? 3 : NAN, t > 0 ? 0.25 : NAN, 0, 0, 0 },
+        };
     out->lens_reused = !strcmp(renderer->lens_key, plan->lens_key);
     memcpy(renderer->lens_key, plan->lens_key, sizeof renderer->lens_key);
     if (!out->lens_reused)

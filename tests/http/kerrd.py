@@ -479,7 +479,8 @@ class Kerrd(unittest.TestCase):
             self.assertRegex(quality, r' critical=4 .* final=1$' if 'final=1' in quality else r' critical=[24] ')
 
     def test_a_light_curve_is_that_of_events_and_of_the_command_line(self):
-        scene = {'image': {'width': 160, 'height': 90}, 'spot1': {'brightness': 2}, 'disk': {'model': 'particles', 'opacity': 0.3}, 'time': 100}
+        scene = {'image': {'width': 160, 'height': 90}, 'spot1': {'brightness': 2}, 'disk': {'model': 'particles', 'opacity': 0.3}, 'time': 100,
+                 'polarization': {'model': 'synchrotron', 'field': 'vertical'}}
         job = self.daemon.post('/v1/jobs', {'scene': scene, 'keyframes': [{'frame': 6, 'scene': {'time': 130}}], 'output': 'light-curve'}).json()
         alone = subprocess.run([daemon.COMMAND[0], 'light-curve', '-', '--end', '130', '-n', '7', '-f', 'csv'], input=json.dumps(scene).encode(),
                                capture_output=True, timeout=60, check=True).stdout
@@ -495,6 +496,10 @@ class Kerrd(unittest.TestCase):
         for figure, name in zip([light['flux'], *light['centroid'], light['spots']['flux'], *light['spots']['centroid']],
                                 ('flux', 'centroid_x', 'centroid_y', 'spots_flux', 'spots_centroid_x', 'spots_centroid_y')):
             self.assertAlmostEqual(figure / row[name], 1, delta=1e-14)
+        for of, part in ('', light), ('spots_', light['spots']):
+            told = [*part['stokes'], part['polarization_fraction'], part['evpa']]
+            for figure, name in zip(told, ('flux', 'stokes_q', 'stokes_u', 'polarization_fraction', 'evpa'), strict=True):
+                self.assertAlmostEqual(figure / row[of + name], 1, delta=1e-14)
         patch = {'Authorization': 'Bearer ' + session['token'], 'Content-Type': 'application/merge-patch+json'}
         self.assertEqual(self.daemon.request('PATCH', '/v1/sessions/' + session['id'], json.dumps({'spot1': None}), headers=patch).status, 200)
         self.assertNotIn('light', self.event(session, b'"revision":2'))

@@ -112,6 +112,8 @@ void kd_frame_begin_stars(struct kd_frame_job *job);
 /* Where the rim of the job's lens map is, if it has one (view/rim.h); and its rays, if they were not followed before. */
 void kd_frame_find_rim(struct kd_frame_job *job);
 enum kd_status kd_frame_trace_rim(struct kd_frame_job *job);
+/* Layers of light that the march has brought, of what it left in the radiance (kd_plan_gathers): as far as there is light. Recorded, not submitted. */
+enum kd_status kd_frame_gather(struct kd_frame_job *job);
 /* Rays of the whole map that were given up. */
 enum kd_status kd_frame_undecided(struct kd_frame_job *job, uint64_t *out);
 

@@ -122,6 +122,8 @@ static enum kd_status show(struct kd_frame_job *j)
 
 enum kd_status kd_frame_layers(struct kd_frame_job *j)
 {
-    enum kd_status status = j->plan->n_layers || j->plan->radiance ? read_all(j) : KD_OK;
+    enum kd_status status = kd_frame_gather(j);
+    if (!status && (j->plan->n_layers || j->plan->radiance))
+        status = read_all(j);
     return !status && kd_plan_is_map(j->plan) ? show(j) : status;
 }

@@ -55,7 +55,7 @@ static bool marches(const struct kd_plan *p, int makes)
 
 uint32_t kd_frame_turns(const struct kd_plan *plan, uint32_t rays, int makes)
 {
-    return marches(plan, makes) && !is_layer_of(plan, makes, KD_OF_CROSSING) ? rays : 1; /* those are of one ray */
+    return makes < 0 && marches(plan, makes) ? rays : 1; /* of layers one ray, or none, is followed */
 }
 
 enum kd_status kd_frame_light_kernel(struct kd_frame_job *j, const struct kd_critical_lattice *l, int makes, const struct kd_vk_pipeline **out)
@@ -73,6 +73,8 @@ enum kd_status kd_frame_light_kernel(struct kd_frame_job *j, const struct kd_cri
     };
     if (march)
         spec.INGOING = p->ingoing;
+    if (makes == KD_MAKES_PICTURE)
+        spec.STOKES = p->stokes_words > 0;
     if (makes >= 0)
         spec.LAYER = (uint32_t)p->layers[makes].kind;
     if (makes >= 0 && p->layers[makes].order >= 0)
@@ -195,6 +197,8 @@ struct kd_vk_dispatch kd_frame_transfer(const struct kd_frame_job *j, const stru
         d.bindings[3].buffer = j->store->layers.buffers[band];
         d.bindings[3].offset = (uint64_t)makes * kd_plan_layer_bytes(j->plan);
         d.bindings[3].size = kd_plan_layer_bytes(j->plan);
+        if (marches(j->plan, makes))
+            d.bindings[KD_LIGHT_BINDING] = (struct kd_vk_binding) { j->store->radiance.buffers[band], 0, 0, false };
     }
     return d;
 }
@@ -244,6 +248,8 @@ static enum kd_status darken(struct kd_frame_job *j, const struct slice *s)
     KD_TRY(kd_vk_fill(j->r->vk, "transfer", radiance, 12 * first, 12 * n, 0, j->error));
     if (p->apart)
         KD_TRY(kd_vk_fill(j->r->vk, "transfer", radiance, 12ull * p->width * p->band_rows + 4 * first, 4 * n, 0, j->error));
+    for (uint32_t i = 0; i < p->stokes_words; i++)
+        KD_TRY(kd_vk_fill(j->r->vk, "transfer", radiance, 4ull * ((p->apart ? 4 : 3) + i) * p->width * p->band_rows + 4 * first, 4 * n, 0, j->error));
 done:
     return status;
 }
@@ -254,6 +260,8 @@ static enum kd_status light_slice(struct kd_frame_job *j, const struct slice *s)
     const struct kd_vk_pipeline *transfer;
     enum kd_status status = darken(j, s);
     for (int makes = KD_MAKES_PICTURE; s->count && makes < (int)j->plan->n_layers && !status; makes++) {
+        if (makes >= 0 && kd_plan_gathers(j->plan, j->plan->layers[makes].kind))
+            continue;
         status = kd_frame_light_kernel(j, &on_grid, makes, &transfer);
         if (status)
             break;
@@ -261,6 +269,25 @@ static enum kd_status light_slice(struct kd_frame_job *j, const struct slice *s)
         status = record(j, s, &d, makes);
     }
     return status ? status : kd_vk_submit(j->r->vk, NULL, j->error);
+}
+
+enum kd_status kd_frame_gather(struct kd_frame_job *j)
+{
+    const struct kd_vk_pipeline *pipeline;
+    const struct kd_plan *p = j->plan;
+    enum kd_status status = KD_OK;
+    for (int makes = 0; makes < (int)p->n_layers; makes++) {
+        if (!kd_plan_gathers(p, p->layers[makes].kind))
+            continue;
+        KD_TRY(kd_frame_light_kernel(j, &on_grid, makes, &pipeline));
+        for (uint32_t band = 0; band < p->bands && kd_frame_band_lit(j, band); band++) {
+            const struct slice s = { band, kd_frame_band_first(j, band), kd_frame_band_lit(j, band) };
+            struct kd_vk_dispatch d = kd_frame_transfer(j, pipeline, kd_frame_band_lens(j, band), band, KD_CAMERA_GRID, makes);
+            KD_TRY(record(j, &s, &d, makes));
+        }
+    }
+done:
+    return status;
 }
 
 /* Lights a band slice by slice, so that what is done of a long picture can be looked at. ns: of a ray. */

@@ -12,7 +12,7 @@ enum kd_status kd_frame_add_light(struct kd_frame_job *j)
     const struct kd_vk_pipeline *light;
     bool finite = !isinf(j->scene->camera.r);
     const uint64_t sums = kd_light_bytes(p) / p->bands; /* bound band by band: all together may be more than a binding holds */
-    const struct kd_spec_photometry spec = { .APART = p->apart, .FINITE = finite };
+    const struct kd_spec_photometry spec = { .APART = p->apart, .FINITE = finite, .STOKES = p->stokes_words > 0, .STOKES_APART = kd_plan_stokes_apart(p) };
     const uint32_t per_band = kd_light_groups(p->width * p->band_rows);
     enum kd_status status;
     KD_TRY(kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_PHOTOMETRY, &spec.APART, sizeof spec / 4, &light, j->error));
@@ -22,6 +22,8 @@ enum kd_status kd_frame_add_light(struct kd_frame_job *j)
             .pixels = p->width * kd_frame_band_rows(j, band),
             .row0 = kd_frame_band_first(j, band),
             .spots = 3 * p->width * p->band_rows,
+            .stokes = (p->apart ? 4 : 3) * p->width * p->band_rows,
+            .plane = p->width * p->band_rows,
             .middle_x = (float)(0.5 * (p->width - 1)),
             .middle_y = (float)(0.5 * (p->height - 1)),
             .step_ = (float)(finite ? kd_camera_pixel(j->scene) : 0),
@@ -43,6 +45,6 @@ enum kd_status kd_frame_read_light(struct kd_frame_job *j)
     enum kd_status status = kd_vk_wait(j->r->vk, 0, j->error);
     if (status)
         return status;
-    j->frame->light = kd_light_of(j->scene, kd_vk_buffer_map(j->store->light_host), kd_light_bytes(j->plan) / (4 * KD_LIGHT_SUMS));
+    j->frame->light = kd_light_of(j->scene, j->plan, kd_vk_buffer_map(j->store->light_host));
     return KD_OK;
 }

@@ -7,17 +7,37 @@
 struct kd_curve_row kd_curve_row_of(unsigned number, const struct kd_scene *scene, const struct kd_frame *frame)
 {
     const struct kd_light *all = &frame->light.all, *spots = &frame->light.spots;
+    const bool linear = frame->light.polarized, circular = frame->light.circular, apart = linear && !circular; /* nothing but a volume shines there */
     return (struct kd_curve_row) {
         .frame = number, .t = scene->top.time, .flux = all->flux, .centroid_x = all->x, .centroid_y = all->y,
         .spots_flux = spots->flux, .spots_centroid_x = spots->x, .spots_centroid_y = spots->y,
         .width = frame->width, .height = frame->height,
+        .stokes_q = linear ? all->q : NAN, .stokes_u = linear ? all->u : NAN, .stokes_v = circular ? all->v : NAN,
+        .polarization_fraction = linear ? kd_light_fraction(all) : NAN, .evpa = linear ? kd_light_evpa(all) : NAN,
+        .spots_stokes_q = apart ? spots->q : NAN, .spots_stokes_u = apart ? spots->u : NAN,
+        .spots_polarization_fraction = apart ? kd_light_fraction(spots) : NAN, .spots_evpa = apart ? kd_light_evpa(spots) : NAN,
     };
 }
 
 #define NAME(name) #name,
-static const char *const names[] = { KD_CURVE_COLUMNS_(NAME) };
-enum { COLUMNS = sizeof names / sizeof *names };
+#define ONE(name) +1
+static const char *const names[] = { KD_CURVE_COLUMNS_(NAME) KD_CURVE_STOKES_(NAME) KD_CURVE_CIRCULAR_(NAME) KD_CURVE_SPOTS_(NAME) };
+enum { ALWAYS = KD_CURVE_COLUMNS_(ONE), CIRCULAR = ALWAYS KD_CURVE_STOKES_(ONE), OF_SPOTS = CIRCULAR KD_CURVE_CIRCULAR_(ONE), COLUMNS = sizeof names / sizeof *names };
 _Static_assert(sizeof(struct kd_curve_row) == COLUMNS * sizeof(double), "a row is its columns");
+
+/* Which columns a table has: those of polarised light by the first of their group, which is a number in each row that has the group. */
+struct columns { bool has[COLUMNS]; };
+static struct columns columns_of(const double *rows, size_t n)
+{
+    struct columns out = { { false } };
+    for (int i = 0; i < COLUMNS; i++) {
+        const int first = i < ALWAYS ? 0 : i < CIRCULAR ? ALWAYS : i < OF_SPOTS ? CIRCULAR : OF_SPOTS;
+        out.has[i] = !first;
+        for (size_t k = 0; k < n && !out.has[i]; k++)
+            out.has[i] = !isnan(rows[k * COLUMNS + first]);
+    }
+    return out;
+}
 
 /* A field of CSV (RFC 4180). */
 static enum kd_status put_field(const char *text, struct kd_buffer *out)
@@ -49,10 +69,12 @@ done:
     return status;
 }
 
-static enum kd_status write_row(const double *values, const struct kd_sweep *sweep, bool csv, bool last, struct kd_buffer *out)
+static enum kd_status write_row(const double *values, const struct columns *columns, const struct kd_sweep *sweep, bool csv, bool last, struct kd_buffer *out)
 {
     enum kd_status status = KD_OK;
     for (int i = 0; i < COLUMNS; i++) {
+        if (!columns->has[i])
+            continue;
         char number[KD_NUMBER_SIZE] = "";
         if (!isnan(values[i]))
             kd_number_format(number, values[i] == 0 ? 0 : values[i]); /* no -0 */
@@ -68,25 +90,29 @@ done:
 
 static enum kd_status write_csv(const void *rows, size_t n, const struct kd_sweep *sweep, struct kd_buffer *out)
 {
+    const struct columns columns = columns_of(rows, n);
     enum kd_status status = KD_OK;
     for (int i = 0; i < COLUMNS; i++) {
+        if (!columns.has[i])
+            continue;
         KD_TRY(kd_buffer_printf(out, "%s%s", i ? "," : "", names[i]));
         for (size_t k = 0; !i && sweep && k < sweep->n_axes; k++)
             KD_TRY(kd_buffer_printf(out, ",%s", sweep->axes[k].path));
     }
     KD_TRY(kd_buffer_printf(out, "\n"));
     for (size_t i = 0; i < n; i++)
-        KD_TRY(write_row((const double *)rows + i * COLUMNS, sweep, true, i + 1 == n, out));
+        KD_TRY(write_row((const double *)rows + i * COLUMNS, &columns, sweep, true, i + 1 == n, out));
 done:
     return status;
 }
 
 static enum kd_status write_json(const void *rows, size_t n, const struct kd_sweep *sweep, struct kd_buffer *out)
 {
+    const struct columns columns = columns_of(rows, n);
     enum kd_status status;
     KD_TRY(kd_buffer_printf(out, "{\"frames\":[\n"));
     for (size_t i = 0; i < n; i++)
-        KD_TRY(write_row((const double *)rows + i * COLUMNS, sweep, false, i + 1 == n, out));
+        KD_TRY(write_row((const double *)rows + i * COLUMNS, &columns, sweep, false, i + 1 == n, out));
     KD_TRY(kd_buffer_printf(out, "]}\n"));
 done:
     return status;

@@ -233,6 +233,16 @@ static enum kd_status choose(struct kd_plan *plan, const struct kd_scene *scene,
     return map ? KD_OK : may_list(scene, by, error);
 }
 
+/* Counts what is kept of polarised light behind the radiance of a pixel. */
+static uint32_t stokes_words(const struct kd_plan *plan)
+{
+    const bool plane = plan->traits[KD_EMITTER_polarization] & KD_TRAIT_PRESENT, volume = plan->traits[KD_EMITTER_stokes] & KD_TRAIT_PRESENT;
+    bool kept = plan->light && (plane || volume);
+    for (size_t i = 0; i < plan->n_layers; i++)
+        kept |= kd_plan_gathers(plan, plan->layers[i].kind);
+    return kept ? KD_PLAN_STOKES + (plan->apart && plane ? 2 : 0) : 0;
+}
+
 /* Plans all but what depends on the pixels at the critical curve. */
 static enum kd_status outline(const struct kd_scene *scene, const struct kd_needs *needs, const struct kd_capacity *capacity,
                               struct kd_plan *out, struct kd_error *error)
@@ -283,9 +293,7 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
     plan.meets = kd_emit_met(scene);
     if (kd_emit_along(scene) || plan.meets)
         plan.march = kd_march_of(scene, &plan.setting);
-    plan.layer_words = 1;
-    for (size_t i = 0; i < plan.n_layers && plan.march.steps; i++)
-        plan.layer_words = kd_layer_is_polarized(plan.layers[i].kind) ? 4 : plan.layer_words;
+    plan.stokes_words = stokes_words(&plan);
     if (needs->sketch && kd_emit_along(scene))
         plan.march = kd_march_sketch(plan.march, scene);
     plan.planes = kd_lens_planes(plan.quantities, plan.orders);

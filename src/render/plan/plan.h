@@ -66,6 +66,8 @@ struct kd_plan {
     bool points;                    /* some emitter has points of light, */
     bool bright;                    /* of which only images that are bright are made, and none next to the critical curve */
     bool apart;                     /* the luminance of some is kept beside the radiance */
+    uint32_t stokes_words;          /* numbers a pixel behind the radiance: Stokes Q, U and V, where light is measured that is polarised, or layers are of light
+                                     * that is marched; and Q and U of what is kept apart. 0: none */
     bool ends;                      /* some shine where rays end, and the lens map says where */
     struct kd_march march;          /* of volumes and bodies; all 0: the scene has none, and light is made of the lens map alone */
     bool meets;                     /* there are bodies */
@@ -79,7 +81,6 @@ struct kd_plan {
     bool ingoing;                   /* the observer falls, in coordinates that know no outer horizon */
     struct kd_plan_layer layers[KD_WORDS_MOST]; /* maps of numbers beside the picture */
     size_t n_layers;
-    uint32_t layer_words;           /* numbers a pixel of each on the device: 4 where the march adds up Stokes I, Q, U and V for one of them */
     bool picture;                   /* the picture is among image.layers */
     bool radiance;                  /* and linear light is brought to the host too */
     uint32_t quantities;            /* of the lens map, KD_LENS_... */
@@ -167,8 +168,12 @@ static inline double kd_plan_light_ns(const struct kd_plan *plan, const struct k
     return plan->march.steps ? plan->march.weight * c->ns[KD_NS_RAY_MARCH] : c->ns[KD_NS_SAMPLE_TRANSFER];
 }
 
-/* Linear light takes so many bytes a pixel. */
-static inline uint64_t kd_plan_pixel_bytes(const struct kd_plan *plan) { return plan->apart ? 16 : 12; }
+/* Linear light takes so many bytes a pixel, all that is kept behind it included. */
+#define KD_PLAN_STOKES 3
+static inline uint64_t kd_plan_pixel_bytes(const struct kd_plan *plan) { return 4ull * ((plan->apart ? 4 : 3) + plan->stokes_words); }
+
+/* Says whether Q and U are kept of the light that is kept apart. */
+static inline bool kd_plan_stokes_apart(const struct kd_plan *plan) { return plan->stokes_words > KD_PLAN_STOKES; }
 
 /* Where points of light are spread: fixed-point numbers of a band of pixels; and pairs of a ray and a point, and rays, of one slice of so many
  * rays, or a row (frame/stars.c): some 20 ms, and few enough that their pairs have room. */
@@ -191,13 +196,16 @@ static inline uint32_t kd_plan_star_tiles(const struct kd_plan *plan)
 static inline uint64_t kd_plan_star_ray_bytes(const struct kd_plan *plan) { return 4ull * (2 + kd_plan_star_tiles(plan) + kd_plan_star_slice(plan)); }
 
 /* Counts the bytes of one layer, a band of pixels: a multiple of what a binding may begin at. */
-static inline uint64_t kd_plan_layer_bytes(const struct kd_plan *plan) { return (4ull * plan->layer_words * plan->width * plan->band_rows + 255) / 256 * 256; }
+static inline uint64_t kd_plan_layer_bytes(const struct kd_plan *plan) { return (4ull * plan->width * plan->band_rows + 255) / 256 * 256; }
 
 /* Counts the bytes that layers need to come to the host a band at a time. */
 static inline uint64_t kd_plan_readback_bytes(const struct kd_plan *plan)
 {
     return (plan->radiance ? 12ull : plan->n_layers ? 4ull : 0) * plan->width * plan->band_rows;
 }
+
+/* Says whether a layer is made of what the march has left of the picture's own light, rather than followed along rays of its own. */
+static inline bool kd_plan_gathers(const struct kd_plan *plan, int kind) { return plan->march.steps && kd_layer_kinds[kind].of == KD_OF_LIGHT; }
 
 /* Says whether the one layer that is asked for is a map: then the picture is that in false colour. */
 static inline bool kd_plan_is_map(const struct kd_plan *plan) { return plan->n_layers == 1 && !plan->picture; }

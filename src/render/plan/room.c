@@ -72,7 +72,7 @@ enum kd_status kd_plan_bands(struct kd_plan *plan, const struct kd_scene *scene,
     uint64_t row_lens = 4ull * plan->planes * plan->width * plan->side * plan->side;
     uint64_t row_light = kd_plan_pixel_bytes(plan) * plan->width, row_out = plan->unseen ? 0 : (scene->image.bit_depth == 16 ? 6ull : 3ull) * plan->width;
     uint64_t row_shown = plan->adaptive ? 6ull * plan->width : row_out; /* pixels are chosen by 16 bits */
-    uint64_t row_layers = 4ull * plan->layer_words * plan->n_layers * plan->width;
+    uint64_t row_layers = 4ull * plan->n_layers * plan->width;
     uint64_t widest = row_lens > row_light ? row_lens : row_light;
     widest = row_layers > widest ? row_layers : widest;
     uint64_t row_points = plan->points ? 24ull * plan->width : 0;

@@ -68,9 +68,24 @@ static void add_accuracy(struct kd_json *json, const struct kd_accuracy_report *
     kd_json_end(json);
 }
 
-static void add_light(struct kd_json *json, const struct kd_light *light)
+static void add_stokes(struct kd_json *json, const struct kd_light *light, bool circular)
+{
+    kd_json_array(json, "stokes");
+    kd_json_number(json, NULL, light->flux);
+    kd_json_number(json, NULL, light->q);
+    kd_json_number(json, NULL, light->u);
+    if (circular)
+        kd_json_number(json, NULL, light->v);
+    kd_json_end(json);
+    kd_json_number(json, "polarization_fraction", kd_light_fraction(light));
+    kd_json_number(json, "evpa", kd_light_evpa(light));
+}
+
+static void add_light(struct kd_json *json, const struct kd_light_report *report, const struct kd_light *light)
 {
     kd_json_number(json, "flux", light->flux);
+    if (report->polarized)
+        add_stokes(json, light, report->circular);
     if (isnan(light->x)) {
         kd_json_null(json, "centroid");
         return;
@@ -84,9 +99,9 @@ static void add_light(struct kd_json *json, const struct kd_light *light)
 static void add_lights(struct kd_json *json, const struct kd_light_report *report)
 {
     kd_json_object(json, "light");
-    add_light(json, &report->all);
+    add_light(json, report, &report->all);
     kd_json_object(json, "spots");
-    add_light(json, &report->spots);
+    add_light(json, report, &report->spots);
     kd_json_end(json);
     kd_json_end(json);
 }
