@@ -1,4 +1,4 @@
-// The session's events tell, frame by frame, the light of a picture and that part of it which is kept apart: its curve, and where its middle goes.
+// The session's events tell, frame by frame, the light of a picture and that part of it which is kept apart: its curve, where its middle goes, and how it is polarised.
 import { byId, el, svg } from './dom.js';
 import { number, said, t } from './i18n.js';
 import { apart } from './living.js';
@@ -10,9 +10,9 @@ const pace_ms = 200; // between two drawings
 
 const far = scene => scene.get('camera.r') === 'infinity';
 
-// Draws the track to scale, the hole's place in its middle, with a bar.
-function drawTrack(picture, points, unit) {
-  const track = points.map(p => p.middle).filter(([x, y]) => x != null && y != null);
+// Draws places in a plane to scale, that of 0 in its middle, with a bar; names: of its axes, where they are to be told.
+function drawTrack(picture, points, unit, names = []) {
+  const track = points.filter(([x, y]) => x != null && y != null);
   const reach = 1.25 * Math.max(...track.flat().map(Math.abs), 1e-6),
     k = 100 / reach,
     bar = 10 ** Math.floor(Math.log10(reach)),
@@ -23,23 +23,30 @@ function drawTrack(picture, points, unit) {
     ...track.slice(-1).map(([x, y]) => svg('circle', { class: 'body', r: 2.5, cx: x * k, cy: -y * k })),
     svg('path', { class: 'bar', d: `M${(-bar * k) / 2} 88H${(bar * k) / 2}` }),
     svg('text', { class: 'axis', x: 0, y: 97, 'text-anchor': 'middle' }, `${number(bar)} ${unit}`),
+    ...names.map((name, i) => svg('text', { class: 'axis', x: i ? 0 : 94, y: i ? -90 : 3, 'text-anchor': 'middle' }, name)),
   );
+}
+
+// A figure of such a drawing, with what there is to be said of it and its numbers.
+function drawing(id, note) {
+  const picture = svg('svg', { class: 'rosette', viewBox: '-100 -100 200 200', role: 'img', 'aria-labelledby': id }),
+    list = numbers(id);
+  return { picture, list, figure: el('figure', { class: 'plot' }, el('figcaption', { id }), picture, el('p', { class: 'help' }, note), list) };
 }
 
 export function buildLight(root, scene) {
   const curve = plot(),
-    picture = svg('svg', { class: 'rosette', viewBox: '-100 -100 200 200', role: 'img', 'aria-labelledby': 'track-caption' });
-  const list = numbers('track-caption'),
-    track = el(
-      'figure',
-      { class: 'plot' },
-      el('figcaption', { id: 'track-caption' }),
-      picture,
-      el('p', { class: 'help' }, t('The cross is the hole’s place.', 'La croce è il posto del buco.')),
-      list,
+    { picture, list, figure: track } = drawing('track-caption', t('The cross is the hole’s place.', 'La croce è il posto del buco.')),
+    loop = drawing(
+      'loop-caption',
+      t(
+        'Stokes Q to the right, U upwards, in the unit of the flux; the cross is unpolarised light. Q > 0: the electric field lies up and down in the picture; U > 0: from the lower right to the upper left.',
+        'Q di Stokes verso destra, U in alto, nell’unità del flusso; la croce è luce non polarizzata. Q > 0: il campo elettrico sta in verticale nell’immagine; U > 0: da in basso a destra a in alto a sinistra.',
+      ),
     );
+  loop.figure.hidden = true;
   const none = el('p', { class: 'help', hidden: true }, t('This projection has no light curve.', 'Questa proiezione non ha curva di luce.'));
-  root.append(curve, track, none);
+  root.append(curve, track, loop.figure, none);
   let stream = null,
     address = '',
     points = [],
@@ -69,7 +76,8 @@ export function buildLight(root, scene) {
         { name, x, y: sorted.map(p => p.spots) },
       ],
     });
-    drawTrack(picture, points, unit);
+    drawTrack(picture, points.map(p => p.middle), unit);
+    drawLoop(name, sorted, x, area);
     list.show({
       live: true,
       x: { label: t('time t / M', 'tempo t / M') },
@@ -77,9 +85,25 @@ export function buildLight(root, scene) {
     });
   }
 
+  function drawLoop(name, sorted, x, area) {
+    const polarised = points.some(p => p.stokes);
+    loop.figure.hidden = !polarised;
+    if (!polarised) return;
+    byId('loop-caption').textContent = t(`How this light is polarised: ${name}`, `Come è polarizzata questa luce: ${name}`);
+    drawTrack(loop.picture, points.map(p => p.stokes ?? [null, null]), area, ['Q', 'U']);
+    const columns = [
+      ['Q', p => p.stokes?.[0]],
+      ['U', p => p.stokes?.[1]],
+      [t('Q, all', 'Q, tutta'), p => p.whole?.[0]],
+      [t('U, all', 'U, tutta'), p => p.whole?.[1]],
+    ];
+    loop.list.show({ live: true, x: { label: t('time t / M', 'tempo t / M') }, series: columns.map(([name, of]) => ({ name, x, y: sorted.map(p => of(p) ?? null) })) });
+  }
+
   function take({ data }) {
     const { time, light } = JSON.parse(data);
     for (const node of [curve, track]) node.hidden = !light;
+    loop.figure.hidden ||= !light?.stokes;
     none.hidden = Boolean(light);
     if (!light) return;
     const now = JSON.stringify({ ...scene.document(), time: 0, motion: 0, style: 0 }); // a struck hole is the same one
@@ -87,7 +111,8 @@ export function buildLight(root, scene) {
     if (now !== kind || against) points = []; // another scene, or another time
     kind = now;
     if (time === points.at(-1)?.time) points.pop(); // the same, seen finer
-    points = [...points.slice(1 - kept), { time, all: light.flux, spots: light.spots.flux, middle: light.spots.centroid ?? [null, null] }];
+    const { flux, spots, stokes } = light;
+    points = [...points.slice(1 - kept), { time, all: flux, spots: spots.flux, middle: spots.centroid ?? [null, null], stokes: spots.stokes?.slice(1, 3), whole: stokes?.slice(1, 3) }];
     timer ||= setTimeout(draw, pace_ms);
   }
 

@@ -1,5 +1,6 @@
 """Time that goes on: particles, spots, a struck hole: living.py KERRD FOLDER (browser.py)."""
 import json
+import math
 import pathlib
 import time
 
@@ -166,6 +167,19 @@ class Living(Browser):
         page.wait_for_selector('#light', state='hidden')
         page.wait_for_selector(FINE)
         self.quiet(page, 800)
+
+    def test_the_loop_of_a_polarised_spot(self):
+        page = self.open('lang=en&preset=hot-spot&polarization.model=synchrotron&polarization.field=vertical&motion.time_rate=40', '#light canvas')
+        loop = page.locator('#light figure', has=page.locator('#loop-caption'))
+        loop.locator('.track').wait_for(state='attached')
+        self.assertTrue(daemon.eventually(lambda: len(loop.locator('.track').get_attribute('d')) > 100))
+        self.assertEqual((loop.locator('figcaption').inner_text(), loop.locator('svg .axis').all_text_contents()[1:]), ('How this light is polarised: spots', ['Q', 'U']))
+        loop.locator('summary').click()
+        loop.locator('tbody tr >> nth=3').wait_for()
+        rows = [[value(cell) for cell in row.split('\t')[1:]] for row in loop.locator('tbody tr').all_inner_texts()]
+        self.assertTrue(any(math.hypot(q, u) > 1 for q, u, *_ in rows), rows)
+        page.click('#play')
+        self.shot(page, 'polarised-spot')
 
     def test_no_light_curve_of_a_ring(self):
         page = self.open('lang=en&preset=photon-rings', '#stage[data-final]')
