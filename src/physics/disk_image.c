@@ -11,9 +11,12 @@
 enum { POINTS = 6 }; /* of an interpolation */
 #define NEAREST 0.1 /* M between the ISCO and the origin of u: above a = 0.9995 all nodes would lie at the horizon else, where the image no longer changes */
 #define NODES 1e-7  /* of ln r, at the nodes */
-#define BENDS 10.   /* by how much of itself a slope changes for a change of ln r, at most */
-#define DRIFTS 0.2  /* and from one ring of nodes to the next */
 #define PLACE 1e-12 /* at a place that is asked for by itself */
+#define BENDS 10.   /* by how much of itself a slope changes for a change of ln r, at most */
+#define DRIFTS 0.2  /* what a slope is off by where only that of flat space is known; elsewhere by so much of what the rings before did not tell of the place */
+#define FLATTEST 0.1 /* slopes that are met lie between this and its inverse */
+#define MOVED 0.3   /* by how much of R the angles before may move a guess */
+enum { HISTORY = 5 }; /* rings of nodes that a slope is made from, besides the last */
 
 struct ellipse {
     double x0, y0, a, b;
@@ -53,9 +56,14 @@ static double mismatch(const struct kd_disk_image *image, const struct ellipse *
     return found > 0 ? log(found / r) : -INFINITY;
 }
 
+/* d ln r/d ln R where it is looked for, and by how much of itself that may be off: by `drift`, and `bend` times the error of ln r that the place has. */
+struct slope {
+    double value, drift, bend;
+};
+
 /* The root of ln(r_0/r) in ln R from a guess: secants, whose first slope is the one given, kept within what brackets the root. A last step is not looked at where what is left after it, by how
- * the slope changes on the way, is below `exact`. `slope`: 1 in flat space; left as the last one met. */
-static bool find(const struct kd_disk_image *image, const struct ellipse *e, const double direction[2], double r, double exact, double *log_stretch, double *slope)
+ * the slope changes on the way, is below `exact`. `slope`: 1 in flat space; its value is left as the last one met. */
+static bool find(const struct kd_disk_image *image, const struct ellipse *e, const double direction[2], double r, double exact, double *log_stretch, struct slope *slope)
 {
     double cosine = e->a * direction[0], sine = e->b * direction[1];
     double x = *log_stretch, low = -INFINITY, high = INFINITY, before = NAN, f_before = NAN, reach = 0.02;
@@ -68,9 +76,9 @@ static bool find(const struct kd_disk_image *image, const struct ellipse *e, con
         *(f < 0 ? &low : &high) = x;
         bool met = isfinite(f) && isfinite(f_before);
         if (met)
-            *slope = (f - f_before) / (x - before);
-        double next = x - f / (met || !i ? *slope : 1);
-        double left = met ? fabs(f * f_before) * BENDS : i ? INFINITY : fabs(f) * DRIFTS;
+            slope->value = (f - f_before) / (x - before);
+        double next = x - f / (met || !i ? slope->value : 1);
+        double left = met ? fabs(f * f_before) * BENDS : i ? INFINITY : fabs(f) * (slope->drift + slope->bend * fabs(f));
         if (next > low && next < high && left < exact) {
             *log_stretch = next;
             return true;
@@ -102,6 +110,77 @@ static double guess(const struct kd_disk_image *image, int k, int j)
     return 5 * (a - d) - 10 * (b - c) + image->stretch[k - 5][j];
 }
 
+/* How an ellipse grows with ln r: its half axes by so much of themselves, its centre by so many M. */
+static struct ellipse growth_of(const struct kd_disk_image *image, double r)
+{
+    const double step = 1e-4;
+    struct ellipse in = around(image, r * (1 - step)), out = around(image, r * (1 + step));
+    return (struct ellipse) { 0, (out.y0 - in.y0) / (2 * step), (out.a - in.a) / (step * (out.a + in.a)), (out.b - in.b) / (step * (out.b + in.b)) };
+}
+
+/* d ln r/d ln R at a fixed direction from the centre of ring k's ellipse, where the ring and its neighbours are about known. A place moves with ln r by p_L and with chi by p_chi, along which R changes by the
+ * shares `swells` and `turns` of itself: the slope is d x p_chi/(p_L x p_chi), d = R (A cos chi, B sin chi). */
+static double slope_at(const struct ellipse *e, const struct ellipse *growth, const double direction[2], double stretch, double swells, double turns)
+{
+    double c = direction[0], s = direction[1];
+    double across = (swells + growth->a) * c * (turns * s + c) - (growth->y0 / (e->b * stretch) + (swells + growth->b) * s) * (turns * c - s);
+    return 1 / across;
+}
+
+/* The ring of nodes k, from the rings of nodes before. */
+struct making {
+    int k;
+    double r, rate; /* dk/d ln r */
+    struct ellipse e, growth;
+    double guessed[KD_DISK_IMAGE_ANGLES];
+};
+
+/* Slopes at the last of some nodes by backward differences, the last first: sums of nabla^m/m, m = 1 ... so many. */
+static const double backward[HISTORY][HISTORY + 1] = {
+    { 1, -1 }, { 1.5, -2, 0.5 }, { 11. / 6, -3, 1.5, -1. / 3 }, { 25. / 12, -4, 3, -4. / 3, 0.25 }, { 137. / 60, -5, 5, -10. / 3, 1.25, -0.2 },
+};
+
+/* By how much guesses from the rings before were off: at the angle at hand, as far as the last three angles tell, and at these. */
+struct miss {
+    double next, last[3];
+};
+
+static struct slope slope_of(const struct kd_disk_image *image, const struct making *m, int j, const double direction[2], double stretch, const struct miss *off)
+{
+    int n = image->angles, back = m->k < HISTORY ? m->k : HISTORY;
+    const double *weight = backward[back - 1], *g = m->guessed, per_radian = n / (2 * M_PI);
+    double swells = weight[0] * stretch;
+    for (int i = 1; i <= back; i++)
+        swells += weight[i] * image->stretch[m->k - i][j];
+    double turns = (8 * (g[(j + 1) % n] - g[(j + n - 1) % n]) - g[(j + 2) % n] + g[(j + n - 2) % n]) / 12 + backward[1][0] * off->next + backward[1][1] * off->last[0] + backward[1][2] * off->last[1];
+    double value = slope_at(&m->e, &m->growth, direction, stretch, swells * m->rate / stretch, turns * per_radian / stretch);
+    if (!(value > FLATTEST && value < 1 / FLATTEST)) /* rings guessed so badly tell nothing */
+        return (struct slope) { 1, INFINITY, 0 };
+    double drift = fabs(m->rate * off->next) + per_radian * fabs(off->next - 2 * off->last[0] + off->last[1]);
+    return (struct slope) { value, DRIFTS * drift, BENDS + weight[0] * fabs(m->rate) };
+}
+
+static bool make_ring(struct kd_disk_image *image, int k)
+{
+    struct making m = { .k = k, .r = radius_of_node(image, k) };
+    m.e = around(image, m.r), m.growth = growth_of(image, m.r), m.rate = -0.25 * k * m.r / (m.r - image->origin);
+    for (int j = 0; j < image->angles; j++)
+        m.guessed[j] = guess(image, k, j);
+    struct miss off = { 0 };
+    for (int j = 0; j < image->angles; j++) {
+        off.next = fmin(fmax(3 * (off.last[0] - off.last[1]) + off.last[2], -MOVED), MOVED);
+        double stretch = fmax(m.guessed[j] + off.next, 0.1), log_stretch = log(stretch);
+        int at = j * (KD_DISK_IMAGE_ANGLES / image->angles);
+        const double direction[2] = { image->cosine[at], image->sine[at] };
+        struct slope slope = slope_of(image, &m, j, direction, stretch, &off);
+        if (!find(image, &m.e, direction, m.r, NODES, &log_stretch, &slope))
+            return false;
+        image->stretch[k][j] = exp(log_stretch);
+        off.last[2] = off.last[1], off.last[1] = off.last[0], off.last[0] = image->stretch[k][j] - m.guessed[j];
+    }
+    return true;
+}
+
 bool kd_disk_image_init(struct kd_disk_image *image, double spin, double inclination)
 {
     double c = fabs(cos(inclination));
@@ -116,23 +195,9 @@ bool kd_disk_image_init(struct kd_disk_image *image, double spin, double inclina
         image->cosine[j] = cos(2 * M_PI * j / KD_DISK_IMAGE_ANGLES), image->sine[j] = sin(2 * M_PI * j / KD_DISK_IMAGE_ANGLES);
         image->stretch[0][j] = 1;
     }
-    double slope[KD_DISK_IMAGE_ANGLES];
-    for (int j = 0; j < image->angles; j++)
-        slope[j] = 1;
-    for (int k = 1; k <= KD_DISK_IMAGE_RINGS; k++) {
-        double r = radius_of_node(image, k);
-        struct ellipse e = around(image, r);
-        double off[2] = { 0, 0 }; /* by how much the guess was off at the last two angles */
-        for (int j = 0; j < image->angles; j++) {
-            double guessed = guess(image, k, j), log_stretch = log(fmax(guessed + 2 * off[0] - off[1], 0.1));
-            int at = j * (KD_DISK_IMAGE_ANGLES / image->angles);
-            const double direction[2] = { image->cosine[at], image->sine[at] };
-            if (!find(image, &e, direction, r, NODES, &log_stretch, &slope[j]))
-                return false;
-            image->stretch[k][j] = exp(log_stretch);
-            off[1] = off[0], off[0] = image->stretch[k][j] - guessed;
-        }
-    }
+    for (int k = 1; k <= KD_DISK_IMAGE_RINGS; k++)
+        if (!make_ring(image, k))
+            return false;
     return true;
 }
 
@@ -174,7 +239,8 @@ bool kd_disk_image_place(const struct kd_disk_image *image, double r, double chi
     weigh(at - first, weight);
     for (int i = 0; i < POINTS; i++)
         stretch += weight[i] * row[(first + i + n) % n];
-    double log_stretch = log(fmax(stretch, 0.1)), slope = 1;
+    double log_stretch = log(fmax(stretch, 0.1));
+    struct slope slope = { 1, DRIFTS, 0 };
     if (!find(image, &e, direction, r, PLACE, &log_stretch, &slope))
         return false;
     *alpha = e.x0 + exp(log_stretch) * e.a * direction[0];

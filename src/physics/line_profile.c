@@ -6,8 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define STEP 0.03 /* of ln r between rings */
-enum { FEWEST = 64, MOST = 512 }; /* rings */
+#define STEP 0.03    /* of ln r between rings, in the mean */
+#define BRIGHT 0.5   /* of that at the edge of the disk that shines more, and so much more than it at the other edge */
+enum { FEWEST = 64, MOST = 512, COARSEST = 8 }; /* rings; how many times fewer of them, and of angles, the roughest sum looks at */
 
 double kd_line_limb(enum kd_line_limb limb, double mu)
 {
@@ -29,9 +30,14 @@ static double emissivity(const struct kd_line_params *p, const struct kd_lamppos
     return kd_lamppost_at(lamp, r);
 }
 
-/* A ring as it is seen: places, energies, and how bright. */
+/* A ring as it is seen: places, energies, and how bright; the first direction once more at the end. */
 struct ring {
-    double alpha[KD_DISK_IMAGE_ANGLES], beta[KD_DISK_IMAGE_ANGLES], g[KD_DISK_IMAGE_ANGLES], light[KD_DISK_IMAGE_ANGLES];
+    double alpha[KD_DISK_IMAGE_ANGLES + 1], beta[KD_DISK_IMAGE_ANGLES + 1], g[KD_DISK_IMAGE_ANGLES + 1], light[KD_DISK_IMAGE_ANGLES + 1];
+};
+
+/* What the cells between two rings send: the light of each, and its energies, which are those of a parallelogram over which g is linear: centre -+ (narrow +- wide)/2. */
+struct strip {
+    double light[KD_DISK_IMAGE_ANGLES], centre[KD_DISK_IMAGE_ANGLES], narrow[KD_DISK_IMAGE_ANGLES], wide[KD_DISK_IMAGE_ANGLES];
 };
 
 struct sum {
@@ -51,52 +57,52 @@ static int bin_of(struct sum *s, double g)
     return s->last = at;
 }
 
-struct corner {
-    double g, light;
+/* The energies of a cell, g linear over a parallelogram: the share of it below an energy is square in that at both ends and straight between. */
+struct spread {
+    double low, narrow, all, slope, steep; /* all: narrow + wide; slope: 1/wide; steep: 1/(2 narrow wide) */
 };
 
-static void order(struct corner *x, struct corner *y)
+static double share_below(const struct spread *s, double g)
 {
-    if (x->g > y->g) {
-        struct corner t = *x;
-        *x = *y, *y = t;
-    }
-}
-
-/* A triangle over which g is linear, with these values at its corners in order: the share of it below an energy is square in that. */
-struct slope {
-    double low, middle, high, rise, fall; /* 1/((high - low)(middle - low)), 1/((high - low)(high - middle)) */
-};
-
-static double share_below(const struct slope *t, double g)
-{
-    if (g <= t->low)
+    double above = g - s->low, left = s->all - above;
+    if (above <= 0)
         return 0;
-    if (g >= t->high)
+    if (left <= 0)
         return 1;
-    return g < t->middle ? (g - t->low) * (g - t->low) * t->rise : 1 - (t->high - g) * (t->high - g) * t->fall;
+    if (above < s->narrow)
+        return above * above * s->steep;
+    return left < s->narrow ? 1 - left * left * s->steep : (above - 0.5 * s->narrow) * s->slope;
 }
 
-static void add_triangle(struct sum *s, struct corner a, struct corner b, struct corner c, double area)
+static void add_cell(struct sum *s, double light, double centre, double narrow, double wide)
 {
-    double light = area * (a.light + b.light + c.light) / 3;
-    order(&a, &b);
-    order(&b, &c);
-    order(&a, &b);
+    double half = 0.5 * (narrow + wide), low = centre - half, high = centre + half;
+    int i = bin_of(s, low);
     s->total += light;
-    int i = bin_of(s, a.g);
-    if (a.g >= s->edges[i] && c.g <= s->edges[i + 1]) {
+    if (low >= s->edges[i] && high <= s->edges[i + 1]) {
         s->in[i] += light;
         return;
     }
-    double span = c.g - a.g;
-    struct slope t = { a.g, b.g, c.g, 1 / (span * (b.g - a.g)), 1 / (span * (c.g - b.g)) };
-    double before = share_below(&t, s->edges[i]);
-    for (; i < s->bins && s->edges[i] < c.g; i++) {
-        double share = share_below(&t, s->edges[i + 1]);
+    struct spread spread = { low, narrow, narrow + wide, 1 / wide, 0.5 / (narrow * wide) };
+    double before = share_below(&spread, s->edges[i]);
+    for (; i < s->bins && s->edges[i] < high; i++) {
+        double share = share_below(&spread, s->edges[i + 1]);
         s->in[i] += light * (share - before);
         before = share;
     }
+}
+
+/* A chord between nodes h apart lies off the curve by -h^2 f''/12 in the mean. Nodes that are moved by a twelfth of their second difference leave the fourth power of h; next to the horns of a profile, where g is
+ * stationary along a ring, that is worth four times as many directions. No node is moved by more than half of itself where it must not change its sign. */
+static void straighten(double *f, int n, bool positive)
+{
+    double before = f[n - 1], first = f[0];
+    for (int j = 0; j < n; j++) {
+        double here = f[j], next = j + 1 < n ? f[j + 1] : first, moved = here - (1. / 12) * (before - 2 * here + next);
+        f[j] = positive && moved < 0.5 * here ? 0.5 * here : moved;
+        before = here;
+    }
+    f[n] = f[0];
 }
 
 static void fill_ring(const struct kd_disk_image *image, const struct kd_line_params *p, const struct kd_lamppost *lamp, double r, int skip, int n, struct ring *ring)
@@ -110,40 +116,62 @@ static void fill_ring(const struct kd_disk_image *image, const struct kd_line_pa
         ring->g[j] = at.g;
         ring->light[j] = bright * (p->energy ? g3 * at.g : g3) * (p->limb == KD_LIMB_ISOTROPIC ? 1 : kd_line_limb(p->limb, at.mu));
     }
+    straighten(ring->alpha, n, false);
+    straighten(ring->beta, n, false);
+    straighten(ring->g, n, true);
+    straighten(ring->light, n, true);
 }
 
-static double area(const struct ring *x, int i, const struct ring *y, int j, const struct ring *z, int k)
-{
-    double a1 = y->alpha[j] - x->alpha[i], b1 = y->beta[j] - x->beta[i], a2 = z->alpha[k] - x->alpha[i], b2 = z->beta[k] - x->beta[i];
-    return 0.5 * fabs(a1 * b2 - a2 * b1);
-}
-
-static struct corner corner_of(const struct ring *x, int i) { return (struct corner) { x->g[i], x->light[i] }; }
-
-static void add_rings(struct sum *s, const struct ring *x, const struct ring *y, int n)
+/* The cells between ring x and ring y, ln r of which differs by `apart`. Across a cell light falls as a power of r, and area grows with the edges and with the width, which is about as r itself: their
+ * product by Simpson's rule, between the ends the geometric mean of light. The mean of g, weighed by that, is off its middle by a twelfth of the products of its steps and those of light. */
+static void fill_strip(const struct ring *x, const struct ring *y, double apart, int n, struct strip *strip)
 {
     for (int j = 0; j < n; j++) {
-        int k = j + 1 < n ? j + 1 : 0;
-        add_triangle(s, corner_of(x, j), corner_of(y, j), corner_of(y, k), area(x, j, y, j, y, k));
-        add_triangle(s, corner_of(x, j), corner_of(x, k), corner_of(y, k), area(x, j, x, k, y, k));
+        int k = j + 1;
+        double wa = 0.5 * (y->alpha[j] + y->alpha[k] - x->alpha[j] - x->alpha[k]), wb = 0.5 * (y->beta[j] + y->beta[k] - x->beta[j] - x->beta[k]);
+        double here = fabs(wa * (x->beta[k] - x->beta[j]) - wb * (x->alpha[k] - x->alpha[j])), there = fabs(wa * (y->beta[k] - y->beta[j]) - wb * (y->alpha[k] - y->alpha[j]));
+        double area = 0.5 * (here + there), grown = 0.5 * area * apart, in = 0.5 * (x->light[j] + x->light[k]), out = 0.5 * (y->light[j] + y->light[k]);
+        double first = in * (here - grown), last = out * (there + grown), light = (first + 4 * sqrt(in * out) * area + last) * (1. / 6);
+        double along = (x->light[k] + y->light[k] - x->light[j] - y->light[j]) / (in + out);
+        double g = 0.25 * (x->g[j] + x->g[k] + y->g[j] + y->g[k]), g_across = 0.5 * (y->g[j] + y->g[k] - x->g[j] - x->g[k]), g_along = 0.5 * (x->g[k] + y->g[k] - x->g[j] - y->g[j]);
+        strip->light[j] = light;
+        strip->centre[j] = g + (g_along * along + g_across * (last - first) / light) * (1. / 12);
+        double one = fabs(g_across), other = fabs(g_along);
+        strip->narrow[j] = one < other ? one : other, strip->wide[j] = one < other ? other : one;
     }
 }
+
+static void add_strip(struct sum *s, const struct ring *x, const struct ring *y, double apart, int n, struct strip *strip)
+{
+    fill_strip(x, y, apart, n, strip);
+    for (int j = 0; j < n; j++)
+        add_cell(s, strip->light[j], strip->centre[j], strip->narrow[j], strip->wide[j]);
+}
+
+struct work {
+    struct ring rings[2];
+    struct strip strip;
+};
 
 /* How closely an integral looks: rings and angles `coarse` times fewer, and every `skip`th node of the table. */
 struct looks {
     int coarse, skip;
 };
 
-static void integrate(const struct kd_disk_image *image, const struct kd_line_params *p, const struct kd_lamppost *lamp, struct looks looks, struct ring rings[2],
-                      struct sum *s)
+static void integrate(const struct kd_disk_image *image, const struct kd_line_params *p, const struct kd_lamppost *lamp, struct looks looks, struct work *work, struct sum *s)
 {
     int around = image->angles > 64 || image->cos_i < 0.6 ? KD_DISK_IMAGE_ANGLES : KD_DISK_IMAGE_ANGLES / 2;
-    int n = around / looks.coarse, m = (int)fmin(fmax(ceil(log(p->outer / p->inner) / STEP), FEWEST), MOST) / looks.coarse;
+    double rings_of_coarsest = ceil(log(p->outer / p->inner) / (STEP * COARSEST));
+    int n = around / looks.coarse, m = (int)fmin(fmax(rings_of_coarsest, FEWEST / COARSEST), MOST / COARSEST) * (COARSEST / looks.coarse);
+    struct ring *rings = work->rings;
+    bool outwards = emissivity(p, lamp, p->outer) * p->outer * p->outer > emissivity(p, lamp, p->inner) * p->inner * p->inner; /* by ring of equal ln r */
+    double before = 0, first = outwards ? 2 - BRIGHT : BRIGHT;
     for (int i = 0; i <= m; i++) {
-        double r = i == m ? p->outer : p->inner * pow(p->outer / p->inner, (double)i / m);
+        double part = (double)i / m, r = i == m ? p->outer : p->inner * pow(p->outer / p->inner, part * (first + (1 - first) * part));
         fill_ring(image, p, lamp, r, looks.skip, n, &rings[i & 1]);
         if (i)
-            add_rings(s, &rings[!(i & 1)], &rings[i & 1], n);
+            add_strip(s, &rings[!(i & 1)], &rings[i & 1], log(r / before), n, &work->strip);
+        before = r;
     }
 }
 
@@ -158,19 +186,19 @@ static double apart(const struct sum *x, const struct sum *y)
     return most;
 }
 
-enum { LEVELS = 3 }; /* looks: 4, 2 and 1 times fewer rings and angles */
+enum { LEVELS = 4 }; /* looks: 8, 4, 2 and 1 times fewer rings and angles */
 
-/* Sums ever closer until the error is as small as it may be: at least two, of which the later one is the answer, in sums[*n]. Triangles err with the square of their size, so that halving it shows three
- * times what is left, of which half is counted; the table with the sixth power of its step, which would be 63 times: an eighth is counted. */
-static double approach(const struct kd_disk_image *image, const struct kd_line_params *p, const struct kd_lamppost *lamp, struct ring rings[2], struct sum sums[LEVELS + 1], int *n)
+/* Sums ever closer until the error is as small as it may be: at least two, of which the later one is the answer, in sums[*n]. Cells err with the square of their size, so that halving it shows three
+ * times what is left: of the difference three quarters are counted, since in some profiles two sums come nearer by chance. The table errs with the sixth power of its step, so that twice the step shows 63 times what is left: an eighth is counted. */
+static double approach(const struct kd_disk_image *image, const struct kd_line_params *p, const struct kd_lamppost *lamp, struct work *work, struct sum sums[LEVELS + 1], int *n)
 {
-    integrate(image, p, lamp, (struct looks) { 4, 2 }, rings, &sums[LEVELS]);
-    integrate(image, p, lamp, (struct looks) { 4, 1 }, rings, &sums[0]);
+    integrate(image, p, lamp, (struct looks) { COARSEST, 2 }, work, &sums[LEVELS]);
+    integrate(image, p, lamp, (struct looks) { COARSEST, 1 }, work, &sums[0]);
     double table = 0.125 * apart(&sums[0], &sums[LEVELS]), error = INFINITY;
     for (*n = 0; *n < LEVELS - 1 && !(error <= p->tolerance);) {
         ++*n;
-        integrate(image, p, lamp, (struct looks) { 4 >> *n, 1 }, rings, &sums[*n]);
-        error = 0.5 * apart(&sums[*n], &sums[*n - 1]) + table;
+        integrate(image, p, lamp, (struct looks) { COARSEST >> *n, 1 }, work, &sums[*n]);
+        error = 0.75 * apart(&sums[*n], &sums[*n - 1]) + table;
     }
     return error;
 }
@@ -182,21 +210,21 @@ enum kd_status kd_line_profile(const struct kd_disk_image *image, const struct k
     struct sum sums[LEVELS + 1];
     if (params->emissivity == KD_LINE_LAMPPOST && !kd_lamppost_init(&lamp, image->spin, params->height, params->photon_index, params->inner, params->outer))
         return kd_error_field(error, "/height", "height is %.9g: its light is not found on the whole disk", params->height);
-    struct ring *rings = malloc(2 * sizeof *rings);
+    struct work *work = malloc(sizeof *work);
     double *in = calloc((size_t)bins * (LEVELS + 1), sizeof *in);
-    enum kd_status status = rings && in ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for %d bins", bins);
+    enum kd_status status = work && in ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for %d bins", bins);
     if (!status) {
         int n;
         for (int i = 0; i <= LEVELS; i++)
             sums[i] = (struct sum) { .edges = edges, .bins = bins, .in = in + (size_t)i * (size_t)bins };
-        double left = approach(image, params, &lamp, rings, sums, &n);
+        double left = approach(image, params, &lamp, work, sums, &n);
         *profile = (struct kd_line_profile) { .total = sums[n].total + (sums[n].total - sums[n - 1].total) / 3, .error = left };
         for (int i = 0; i < bins; i++)
             share[i] = sums[n].in[i] / sums[n].total;
         if (!(sums[n].total > 0 && isfinite(profile->total)))
             status = kd_error_field(error, "/spin", "spin is %.17g: the sum is no number, so near an extremal hole", image->spin);
     }
-    free(rings);
+    free(work);
     free(in);
     return status;
 }

@@ -6,8 +6,8 @@
  *
  *   dN = g^3 epsilon(r) f(mu) dalpha dbeta        at E = g E0
  *
- * photons, and g times as much energy. The disk's image (disk_image.h) is cut into triangles, over each of which g is linear and the light even: the share of a triangle below an
- * energy is then a square, and a bin has it exactly, however narrow. */
+ * photons, and g times as much energy. The disk's image (disk_image.h) is cut into cells between two rings and two directions, over each of which g is linear, of the mean and the steps that it has there, weighed by
+ * light: the share of a cell below an energy is then made of two squares and a straight line, and a bin has it exactly, however narrow. */
 #ifndef KD_PHYSICS_LINE_PROFILE_H
 #define KD_PHYSICS_LINE_PROFILE_H
 
