@@ -278,6 +278,6 @@ struct kd_disk_ring kd_disk_image_gas(const struct kd_disk_image *image, double 
 struct kd_disk_light kd_disk_image_light(const struct kd_disk_image *image, const struct kd_disk_ring *gas, double alpha, double beta)
 {
     double a = image->spin, c = image->cos_i, eta = (alpha - a) * (alpha + a) * c * c + beta * beta;
-    double g = 1 / (gas->ut * (1 + gas->omega * alpha * image->sin_i)); /* lambda = -alpha sin i */
+    double g = kd_disk_image_redshift(image, gas, alpha);
     return (struct kd_disk_light) { g, fmin(1, g * sqrt(fmax(eta, 0)) / gas->r) };
 }

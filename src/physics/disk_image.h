@@ -51,6 +51,10 @@ struct kd_disk_ring {
     double r, ut, omega;
 };
 struct kd_disk_ring kd_disk_image_gas(const struct kd_disk_image *image, double r);
+static inline double kd_disk_image_redshift(const struct kd_disk_image *image, const struct kd_disk_ring *gas, double alpha)
+{
+    return 1 / (gas->ut * (1 + gas->omega * alpha * image->sin_i)); /* lambda = -alpha sin i */
+}
 struct kd_disk_light {
     double g, mu;
 };

@@ -111,11 +111,11 @@ static void fill_ring(const struct kd_disk_image *image, const struct kd_line_pa
     kd_disk_image_ring(image, r, skip, n, ring->alpha, ring->beta);
     struct kd_disk_ring gas = kd_disk_image_gas(image, r);
     for (int j = 0; j < n; j++) {
-        struct kd_disk_light at = kd_disk_image_light(image, &gas, ring->alpha[j], ring->beta[j]);
-        double g3 = at.g * at.g * at.g;
-        ring->g[j] = at.g;
-        ring->light[j] = bright * (p->energy ? g3 * at.g : g3) * (p->limb == KD_LIMB_ISOTROPIC ? 1 : kd_line_limb(p->limb, at.mu));
+        double g = ring->g[j] = kd_disk_image_redshift(image, &gas, ring->alpha[j]);
+        ring->light[j] = bright * (p->energy ? g * g * g * g : g * g * g);
     }
+    for (int j = 0; j < n && p->limb != KD_LIMB_ISOTROPIC; j++)
+        ring->light[j] *= kd_line_limb(p->limb, kd_disk_image_light(image, &gas, ring->alpha[j], ring->beta[j]).mu);
     straighten(ring->alpha, n, false);
     straighten(ring->beta, n, false);
     straighten(ring->g, n, true);

@@ -218,13 +218,15 @@ struct kd_null_radial kd_null_radial_of(const struct kd_null_motion *m, const st
     return q;
 }
 
-/* U12, U13 + U14 and U13 U14 of span_outer, alone. */
-static double time_from_infinity(const struct kd_null_radius *at)
+/* The time from infinity, by U12, U13 + U14 and U13 U14 of span_outer alone; where it is more than `tau`, which most often is known without an integral, at least something between them. R_F is never less than at three arguments of
+ * the same mean: a function that is convex in all of them together, and symmetric (DLMF 19.16.1). */
+static double time_from_infinity(const struct kd_null_radius *at, double tau)
 {
     double y1 = sqrt(at->d1), y2 = sqrt(at->d2), p = at->pair;
     struct kd_carlson_arg arg = { y1 * y2 + p, (y1 + y2) * at->both,
                                   p * (at->d1 + at->d2) + y1 * y2 * (at->both * at->both - 2 * p) };
-    return 2 * kd_carlson_rf_arg(arg);
+    double least = 2 / sqrt((arg.first * arg.first + arg.sum * arg.sum - 2 * arg.root) / 3);
+    return tau < least ? least : 2 * kd_carlson_rf_arg(arg);
 }
 
 static struct kd_null_radius four_outer(const struct kd_null_radial *q, double tau)
@@ -296,12 +298,12 @@ double kd_null_radius_after(const struct kd_null_motion *m, const struct kd_null
     struct kd_null_radial q = without_times(m, roots, false);
     if (q.turns) {
         struct kd_null_radius at = at_turn(roots);
-        q.turn.tau = time_from_infinity(&at);
+        q.turn.tau = time_from_infinity(&at, tau);
         if (!(tau < 2 * q.turn.tau))
             return INFINITY;
     } else {
         struct kd_null_radius at = kd_null_radius_of(&q, q.r_plus);
-        if (!(tau < time_from_infinity(&at)))
+        if (!(tau < time_from_infinity(&at, tau)))
             return 0;
     }
     double r = kd_null_radius_at(&q, tau).r;
