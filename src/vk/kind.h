@@ -7,7 +7,7 @@
 
 struct kd_vk_kind_info {
     VkDescriptorType descriptor;
-    VkFormat format;      /* of its texels; every device reads both formats as uniform texels (Vulkan 1.2, table 61) */
+    VkFormat format;      /* of its texels; every device reads these formats as uniform texels (Vulkan 1.2, table 61) */
     uint32_t texel_bytes; /* 0: it has none */
 };
 

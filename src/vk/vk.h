@@ -83,6 +83,8 @@ enum kd_vk_kind {
     KD_VK_UNIFORM,     /* uniform { }, std140 or std430; max_uniform_bytes */
     KD_VK_TEXELS_R,    /* uniform textureBuffer of R32_SFLOAT, a texel a float; max_texels */
     KD_VK_TEXELS_RGBA, /* and of R32G32B32A32_SFLOAT, a texel four floats */
+    KD_VK_TEXELS_WORD, /* uniform utextureBuffer of R32_UINT, a texel a word, */
+    KD_VK_TEXELS_PAIR, /* and of R32G32_UINT, a texel two words */
 };
 #define KD_VK_MAX_BINDINGS 12
 #define KD_VK_MAX_STORAGE 8 /* of them, those of storage: what a device must have to be used */

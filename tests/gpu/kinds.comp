@@ -7,6 +7,8 @@ layout(set = 0, binding = 0, std430) uniform Block { uint n; float scale; float 
 layout(set = 0, binding = 1) uniform textureBuffer singles;
 layout(set = 0, binding = 2) uniform textureBuffer fours;
 layout(set = 0, binding = 3) buffer Y { float y[]; };
+layout(set = 0, binding = 4) uniform utextureBuffer words;
+layout(set = 0, binding = 5) uniform utextureBuffer pairs;
 
 void main()
 {
@@ -15,4 +17,6 @@ void main()
         return;
     vec4 four = texelFetch(fours, int(i));
     y[i] = y[i] * scale + table[i % 6] + 10 * texelFetch(singles, int(i)).x + four.x + 2 * four.y + 3 * four.z + 4 * four.w;
+    uvec2 pair = texelFetch(pairs, int(i)).rg;
+    y[i] += float(texelFetch(words, int(i)).r) + 2 * float(pair.x) + 3 * float(pair.y);
 }

@@ -112,7 +112,7 @@ static inline void mix(struct kd_vk *vk, const struct kd_vk_pipeline *pipeline, 
         &error));
 }
 
-/* kinds.comp: a uniform block, texels of one float, texels of four, storage. */
+/* kinds.comp: a uniform block, texels of one float, texels of four, storage, texels of one word, texels of two. */
 struct kinds_block {
     uint32_t n;
     float scale, table[6];
@@ -121,8 +121,8 @@ struct kinds_block {
     { .name = "kinds",                                                                                       \
       .spirv = kinds_spv,                                                                                    \
       .spirv_bytes = sizeof kinds_spv,                                                                       \
-      .n_buffers = 4,                                                                                        \
-      .kinds = { KD_VK_UNIFORM, KD_VK_TEXELS_R, KD_VK_TEXELS_RGBA, KD_VK_STORAGE } }
+      .n_buffers = 6,                                                                                        \
+      .kinds = { KD_VK_UNIFORM, KD_VK_TEXELS_R, KD_VK_TEXELS_RGBA, KD_VK_STORAGE, KD_VK_TEXELS_WORD, KD_VK_TEXELS_PAIR } }
 
 static inline struct kd_vk_pipeline *make_kinds(struct kd_vk *vk)
 {

@@ -1,4 +1,4 @@
-/* Bindings that are not storage: a uniform block, texels of one float and of four; what of them is refused, and how long the views
+/* Bindings that are not storage: a uniform block, texels of one float and of four, of one word and of two; what of them is refused, and how long the views
  * that they need live. */
 #include "support.h"
 
@@ -9,24 +9,29 @@ enum { MOST = 3000 };
 
 /* The buffers of one dispatch of kinds.comp, contents by a rule, whole numbers so that sums are exact. */
 struct set {
-    struct kd_vk_buffer *block, *singles, *fours, *y;
+    struct kd_vk_buffer *block, *singles, *fours, *y, *single_words, *pairs;
 };
 
 static float single_of(uint32_t i) { return (float)(i * 7 % 1013); }
 static float four_of(uint32_t i) { return (float)(i * 5 % 811); } /* i: float by float */
 static float table_of(uint32_t k) { return (float)(100000 * (k + 1)); }
+/* Small numbers, which as floats would be denormal. */
+static uint32_t word_of(uint32_t i) { return i * 3 % 97; }
+static uint32_t pair_of(uint32_t i) { return i * 11 % 89; } /* i: word by word */
 static float expected(uint32_t i, float y, float scale)
 {
     float sum = y * scale + table_of(i % 6) + 10 * single_of(i);
     for (uint32_t k = 0; k < 4; k++)
         sum += (float)(k + 1) * four_of(4 * i + k);
+    sum += (float)(word_of(i) + 2 * pair_of(2 * i) + 3 * pair_of(2 * i + 1));
     return sum;
 }
 
 static struct set make_set(struct kd_vk *vk, uint32_t n, float scale)
 {
     struct set set = { make_buffer(vk, 8, KD_VK_UPLOAD, "block"), make_buffer(vk, n, KD_VK_UPLOAD, "singles"),
-                       make_buffer(vk, 4 * n, KD_VK_UPLOAD, "fours"), make_buffer(vk, n, KD_VK_READBACK, "y") };
+                       make_buffer(vk, 4 * n, KD_VK_UPLOAD, "fours"), make_buffer(vk, n, KD_VK_READBACK, "y"),
+                       make_buffer(vk, n, KD_VK_UPLOAD, "words"), make_buffer(vk, 2 * n, KD_VK_UPLOAD, "pairs") };
     struct kinds_block *block = kd_vk_buffer_map(set.block);
     float *singles = kd_vk_buffer_map(set.singles), *fours = kd_vk_buffer_map(set.fours);
     *block = (struct kinds_block) { .n = n, .scale = scale };
@@ -36,6 +41,10 @@ static struct set make_set(struct kd_vk *vk, uint32_t n, float scale)
         singles[i] = single_of(i);
     for (uint32_t i = 0; i < 4 * n; i++)
         fours[i] = four_of(i);
+    for (uint32_t i = 0; i < n; i++)
+        words(set.single_words)[i] = word_of(i);
+    for (uint32_t i = 0; i < 2 * n; i++)
+        words(set.pairs)[i] = pair_of(i);
     return set;
 }
 
@@ -45,6 +54,8 @@ static void drop(struct kd_vk *vk, struct set *set)
     kd_vk_buffer_destroy(vk, set->singles);
     kd_vk_buffer_destroy(vk, set->fours);
     kd_vk_buffer_destroy(vk, set->y);
+    kd_vk_buffer_destroy(vk, set->single_words);
+    kd_vk_buffer_destroy(vk, set->pairs);
 }
 
 static struct kd_vk_dispatch dispatch_of(const struct kd_vk_pipeline *pipeline, const struct set *set, uint32_t n)
@@ -54,7 +65,9 @@ static struct kd_vk_dispatch dispatch_of(const struct kd_vk_pipeline *pipeline, 
                                      .bindings = { { .buffer = set->block },
                                                    { .buffer = set->singles },
                                                    { .buffer = set->fours },
-                                                   { .buffer = set->y, .write = true } },
+                                                   { .buffer = set->y, .write = true },
+                                                   { .buffer = set->single_words },
+                                                   { .buffer = set->pairs } },
                                      .groups = { (n + 63) / 64 } };
 }
 
@@ -164,6 +177,8 @@ static void refused(void **state)
     }
     bad = good, bad.bindings[1].size = 7;
     FAILS(KD_EINVAL, "whole texels of 4 bytes", kd_vk_dispatch(vk, &bad, &error));
+    bad = good, bad.bindings[5].size = 12;
+    FAILS(KD_EINVAL, "whole texels of 8 bytes", kd_vk_dispatch(vk, &bad, &error));
     bad = good, bad.bindings[2].size = 40;
     FAILS(KD_EINVAL, "whole texels of 16 bytes", kd_vk_dispatch(vk, &bad, &error));
     bad = good, bad.bindings[2].offset = 16;
@@ -172,8 +187,8 @@ static void refused(void **state)
     bad = good, bad.bindings[2].buffer = crumb;
     FAILS(KD_EINVAL, "whole texels of 16 bytes", kd_vk_dispatch(vk, &bad, &error)); /* there is not one */
     struct kd_vk_pipeline_params params = KINDS_PARAMS;
-    params.kinds[1] = (enum kd_vk_kind)4;
-    FAILS(KD_EINVAL, "binding 1 is of kind 4", kd_vk_pipeline_create(vk, &params, &none, &error));
+    params.kinds[1] = (enum kd_vk_kind)6;
+    FAILS(KD_EINVAL, "binding 1 is of kind 6", kd_vk_pipeline_create(vk, &params, &none, &error));
     kd_vk_buffer_destroy(vk, crumb);
     drop(vk, &set);
     kd_vk_pipeline_destroy(vk, pipeline);
@@ -256,6 +271,8 @@ static void views(void **state)
     assert_null(vk->retired);
     kd_vk_buffer_destroy(vk, set.block);
     kd_vk_buffer_destroy(vk, set.y);
+    kd_vk_buffer_destroy(vk, set.single_words);
+    kd_vk_buffer_destroy(vk, set.pairs);
     kd_vk_pipeline_destroy(vk, pipeline);
     assert_int_equal(kd_vk_allocated(vk), 0);
 }

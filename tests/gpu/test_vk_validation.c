@@ -35,7 +35,7 @@ static uint32_t fill_then_add(bool barriers)
     return messages;
 }
 
-/* Messages from a fill of what a kernel then reads through binding k: a uniform block, texels of one float, of four. */
+/* Messages from a fill of what a kernel then reads through binding k: a uniform block, texels of one float, of four; of one word, of two. */
 static uint32_t fill_then_read(int k, bool barriers)
 {
     struct kd_vk *vk = open_device(true);
@@ -47,7 +47,7 @@ static uint32_t fill_then_read(int k, bool barriers)
         vk->fn.CmdPipelineBarrier = no_barrier;
     struct kd_vk_dispatch d = { .pipeline = pipeline,
                                 .bindings = { { .buffer = still }, { .buffer = still }, { .buffer = still },
-                                              { .buffer = y, .write = true } } };
+                                              { .buffer = y, .write = true }, { .buffer = still }, { .buffer = still } } };
     d.bindings[k].buffer = x;
     OK(kd_vk_fill(vk, "fill", x, 0, 1024, 0, &error));
     OK(kd_vk_dispatch(vk, &d, &error));
@@ -66,7 +66,9 @@ static void synchronisation(void **state)
     (void)state;
     assert_int_equal(fill_then_add(true), 0);
     assert_true(fill_then_add(false) > 0);
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < 6; k++) {
+        if (k == 3) /* is written */
+            continue;
         assert_int_equal(fill_then_read(k, true), 0);
         assert_true(fill_then_read(k, false) > 0);
     }
