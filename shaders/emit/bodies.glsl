@@ -24,7 +24,7 @@
  * and the light of the disk that it throws back (src/render/emit/bodies_lit.c): its sum and its sum along r, theta and phi; that along rr, thetatheta and phiphi, and its
  * temperature over the disk's largest; that along rtheta, rphi and thetaphi. */
 #define KD_BODY_WORDS 40
-#define KD_BUFFERS_bodies(B) B(3, float, bodies)
+#define KD_BUFFERS_bodies(B) B(3, stored, bodies)
 #define KD_PASS_bodies(P)
 #endif
 

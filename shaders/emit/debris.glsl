@@ -13,7 +13,7 @@
     F(temperature)              /* over the disk's largest */
 #define KD_TABLES_debris(T)
 #define KD_TRAITS_debris(T) T(VISIBLE)
-#define KD_BUFFERS_debris(B) B(4, float, debris) /* of each node three numbers: bodies' worth, and that times v_r and v_phi */
+#define KD_BUFFERS_debris(B) B(4, floats, debris) /* of each node three numbers: bodies' worth, and that times v_r and v_phi */
 #define KD_PASS_debris(P)
 #endif
 
@@ -21,7 +21,7 @@
 vec3 kd_debris_node(uint row, uint column)
 {
     uint at = 3u * (row * emission.debris.columns + (column == emission.debris.columns ? 0u : column));
-    return vec3(debris[at], debris[at + 1u], debris[at + 2u]);
+    return vec3(KD_OWN_FLOAT(debris, at), KD_OWN_FLOAT(debris, at + 1u), KD_OWN_FLOAT(debris, at + 2u));
 }
 
 /* What nodes hold there, bilinear between them; nothing off the grid. */

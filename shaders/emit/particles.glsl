@@ -5,7 +5,7 @@
     F(rows_octave)         /* rows that r doubles in */
 #define KD_TABLES_particles(T)
 #define KD_TRAITS_particles(T) KD_TRAITS_disk(T) T(SLOW)
-#define KD_BUFFERS_particles(B) B(0, float, density) /* on the grid, then on that of plunge.glsl */
+#define KD_BUFFERS_particles(B) B(0, floats, density) /* on the grid, then on that of plunge.glsl */
 #define KD_PASS_particles(P) P(particles, PARTICLE, "particle", 40)
 #endif
 
@@ -38,7 +38,7 @@ float kd_density_of_row(kd_place at, uint row, float turn)
 {
     float column = (turn - floor(turn)) * float(at.columns);
     uint j = uint(column), first = at.first + row * at.columns;
-    return mix(density[first + (j & (at.columns - 1))], density[first + ((j + 1) & (at.columns - 1))], column - float(j));
+    return mix(KD_OWN_FLOAT(density, first + (j & (at.columns - 1))), KD_OWN_FLOAT(density, first + ((j + 1) & (at.columns - 1))), column - float(j));
 }
 
 /* This is the number of particles over the one expected, bilinear between the nodes. */

@@ -26,7 +26,7 @@
 #define KD_STAR_UNIT 268435456.0 /* 2^28: of 1 in these words */
 #define KD_TABLES_sky(T)
 #define KD_TRAITS_sky(T) T(VISIBLE) T(SKY_GRID) T(SKY_SPREAD) T(POINTS) T(SPREAD)
-#define KD_BUFFERS_sky(B) B(1, uint, panorama) B(2, uint, point_light)
+#define KD_BUFFERS_sky(B) B(1, words, panorama) B(2, pairs, point_light)
 #define KD_PASS_sky(P)
 #endif
 
@@ -73,7 +73,7 @@ vec3 kd_sky_level(vec2 at, uint level)
     int last = int(rows) - 1;
     for (int k = 0; k < 3; k++) {
         uint line = first + columns * uint(clamp(int(row) + k - 1, 0, last));
-        sum += b[k] * (a.x * kd_sky_texel(panorama[line + i0]) + a.y * kd_sky_texel(panorama[line + i1]) + a.z * kd_sky_texel(panorama[line + i2]));
+        sum += b[k] * (a.x * kd_sky_texel(KD_OWN_WORD(panorama, line + i0)) + a.y * kd_sky_texel(KD_OWN_WORD(panorama, line + i1)) + a.z * kd_sky_texel(KD_OWN_WORD(panorama, line + i2)));
     }
     return sum;
 }
@@ -89,9 +89,9 @@ vec3 kd_sky_spread(vec3 n, float footprint)
 
 vec3 kd_sky_points(uint pixel)
 {
-    uint o = KD_STAR_LIGHT * pixel;
-    return vec3(point_light[o], point_light[o + 2u], point_light[o + 4u]) * (1.0 / KD_STAR_UNIT) +
-           vec3(point_light[o + 1u], point_light[o + 3u], point_light[o + 5u]) * (4294967296.0 / KD_STAR_UNIT);
+    uint o = (KD_STAR_LIGHT / 2u) * pixel;
+    uvec2 r = KD_OWN_PAIR(point_light, o), g = KD_OWN_PAIR(point_light, o + 1u), b = KD_OWN_PAIR(point_light, o + 2u);
+    return vec3(r.x, g.x, b.x) * (1.0 / KD_STAR_UNIT) + vec3(r.y, g.y, b.y) * (4294967296.0 / KD_STAR_UNIT);
 }
 
 vec3 kd_sky_grid(float u, float phi)

@@ -27,7 +27,24 @@ layout(set = 0, binding = 1, std140) uniform Emission { KD_EMIT_BLOCKS(MEMBER) }
 struct kd_emission { KD_EMIT_BLOCKS(MEMBER) } emission;
 #define READ(number, name) emission.name = emission_.name;
 #include "light/tables.glsl"
-#define KD_B(number, type, member) layout(set = 0, binding = KD_OWN_BINDING + number) readonly buffer Own_##member { type member[]; };
+/* The emitters' own buffers: as texels where the map is. lavapipe reads storage lane by lane, at ten times the price. */
+#define KD_OWN_stored(number, member) layout(set = 0, binding = KD_OWN_BINDING + number) readonly buffer Own_##member { float member[]; };
+#ifdef KD_TEXELS
+#define KD_OWN_words(number, member) layout(set = 0, binding = KD_OWN_BINDING + number) uniform utextureBuffer member;
+#define KD_OWN_pairs(number, member) KD_OWN_words(number, member)
+#define KD_OWN_floats(number, member) layout(set = 0, binding = KD_OWN_BINDING + number) uniform textureBuffer member;
+#define KD_OWN_WORD(member, at) texelFetch(member, int(at)).r
+#define KD_OWN_PAIR(member, at) texelFetch(member, int(at)).rg
+#define KD_OWN_FLOAT(member, at) texelFetch(member, int(at)).r
+#else
+#define KD_OWN_words(number, member) layout(set = 0, binding = KD_OWN_BINDING + number) readonly buffer Own_##member { uint member[]; };
+#define KD_OWN_pairs(number, member) layout(set = 0, binding = KD_OWN_BINDING + number) readonly buffer Own_##member { uvec2 member[]; };
+#define KD_OWN_floats(number, member) KD_OWN_stored(number, member)
+#define KD_OWN_WORD(member, at) member[at]
+#define KD_OWN_PAIR(member, at) member[at]
+#define KD_OWN_FLOAT(member, at) member[at]
+#endif
+#define KD_B(number, type, member) KD_OWN_##type(number, member)
 KD_EMIT_BUFFERS
 #define KD_CAMERA_BINDING 4
 #include "ray/camera.glsl"

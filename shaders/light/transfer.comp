@@ -177,8 +177,18 @@ const bool COLUMNS = SIDE == 1 && CRITICAL == 0 && (KD_END_TRAITS / KD_TRAIT_SPR
 /* Where a sky is of points alone, each pixel has those first; where there is a crossing, they are lit anew behind it. */
 void point_column(uint x, uint y, uint end)
 {
-    for (; y < end; y++)
-        store(light_at(x, y), background(uvec2(x, y), (y - slice.band0) * cam.width + x, light_at(x, y)), 0.0, vec3(0.0), vec2(0.0));
+    for (;;) {
+        vec3 light = vec3(0.0);
+        for (; y < end; y++) { /* most have none */
+            light = background(uvec2(x, y), (y - slice.band0) * cam.width + x, light_at(x, y));
+            if (light != vec3(0.0))
+                break;
+        }
+        if (y >= end)
+            break;
+        store(light_at(x, y), light, 0.0, vec3(0.0), vec2(0.0));
+        y++;
+    }
 }
 
 void light_column(uint x, uint y, uint end)

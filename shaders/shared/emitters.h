@@ -17,7 +17,8 @@
  *   KD_BLOCK_name(F, U, A)  which numbers it needs: F float, U uint, A(type, member, count) an array of structs
  *   KD_TABLES_name(T)       which tables: T(table, rows), rows of four floats
  *   KD_TRAITS_name(T)       which variants it has: T(trait), bits KD_TRAIT_trait of its word, some of which it may share with others
- *   KD_BUFFERS_name(B)      which buffers it fills on the device before light is: B(number, type, member), numbered from 0 among all emitters'
+ *   KD_BUFFERS_name(B)      which buffers it fills on the device before light is: B(number, type, member), numbered from 0 among all emitters', of
+ *                           words, pairs of words or floats, which are read by KD_OWN_WORD(member, at) and the like, or stored floats, member[at] (light/inputs.glsl)
  *   KD_PASS_name(P)         the pass of its own that fills them, if it has one: P(name, ID, word, guess). It is timed and named in plans by the
  *                           emitter's name, its kernel is comp/name.comp; what an invocation costs is learned from frames as the figure KD_NS_ID,
  *                           which GET /v1/device calls by the word, and lavapipe's guess is the nanoseconds until then

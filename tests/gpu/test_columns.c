@@ -76,21 +76,14 @@ static void test_nothing_but_sky(void **state)
     assert_same_light(scene_of("{\"disk\":{\"model\":\"none\"},\"sky\":{\"model\":\"grid\",\"brightness\":5}}"));
 }
 
-/* Footprints and light are the same to the byte where the lens map is read as texels and as storage: on the grid and on the pixels at the critical
- * curve, of crossings and of the sky. */
-static void test_readers(void **state)
+static void assert_same_readers(struct kd_scene scene)
 {
-    (void)state;
     struct kd_vk_info *info = (struct kd_vk_info *)kd_vk_info(renderer->vk);
     const uint64_t texels = info->max_texels;
-    struct kd_scene scene, other = { 0 };
-    kd_scene_defaults(&scene);
-    scene.sky.model = KD_SKY_GRID;
+    struct kd_scene other;
     scene.image.width = 161;
     scene.image.height = 90;
     scene.image.bit_depth = 16;
-    if (!kd_kernels_map_as_texels(renderer->vk))
-        skip();
     struct kd_frame of_texels = rendered(&scene);
     other = scene;
     for (int i = 0; i < 4; i++) { /* as many lens maps as are kept */
@@ -106,6 +99,27 @@ static void test_readers(void **state)
     assert_memory_equal(kd_frame_pixels(&of_texels), kd_frame_pixels(&of_storage), 6ull * 161 * 90);
     kd_frame_finish(&of_texels);
     kd_frame_finish(&of_storage);
+}
+
+/* Footprints and light are the same to the byte where the lens map, and what emitters have on the device, are read as texels and as storage: on the grid
+ * and on the pixels at the critical curve; of crossings, of the sky, of stars before others and alone, and of particles. */
+static void test_readers(void **state)
+{
+    (void)state;
+    struct kd_scene scene;
+    if (!kd_kernels_map_as_texels(renderer->vk))
+        skip();
+    kd_scene_defaults(&scene);
+    scene.sky.model = KD_SKY_GRID;
+    assert_same_readers(scene);
+    scene.sky.model = KD_SKY_STARS;
+    scene.sky.milky_way = 0;
+    scene.sky.limit_mag = 7;
+    assert_same_readers(scene);
+    scene.sky.milky_way = 1;
+    scene.disk.model = KD_DISK_PARTICLES;
+    scene.disk.particles = 20000;
+    assert_same_readers(scene);
 }
 
 int main(void)

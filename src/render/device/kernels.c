@@ -66,6 +66,13 @@ enum { MAKERS = 4 }; /* threads that make kernels at once, at most */
 _Static_assert(KD_OWN_BINDING + KD_OWN_COUNT <= KD_VK_MAX_BINDINGS && 2 + KD_OWN_COUNT <= KD_VK_MAX_STORAGE,
                "the kernels of light bind all buffers of the emitters, the lens map and what they write");
 
+/* Of the emitters' own buffers, by what they hold, where kernels read them as texels (shaders/light/inputs.glsl). */
+#define KD_KIND_words KD_VK_TEXELS_WORD
+#define KD_KIND_pairs KD_VK_TEXELS_PAIR
+#define KD_KIND_floats KD_VK_TEXELS_R
+#define KD_KIND_stored KD_VK_STORAGE
+#define KD_B(number, type, member) [KD_OWN_BINDING + (number)] = KD_KIND_##type,
+
 static const struct kd_vk_pipeline_params sources[] = {
     [KD_KERNEL_LENS_CLOSED] = { "lens_closed", kd_spv_lens_closed, sizeof kd_spv_lens_closed, 3, sizeof(struct kd_slice), { [2] = KD_VK_UNIFORM } },
     [KD_KERNEL_LENS_MAP] = { "lens_map", kd_spv_lens_map, sizeof kd_spv_lens_map, 3, sizeof(struct kd_slice), { [2] = KD_VK_UNIFORM } },
@@ -95,7 +102,7 @@ static const struct kd_vk_pipeline_params sources[] = {
     [KD_KERNEL_TRANSFER] = { "transfer", kd_spv_transfer, sizeof kd_spv_transfer, KD_OWN_BINDING + KD_OWN_COUNT, sizeof(struct kd_slice),
                              { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM } },
     [KD_KERNEL_TRANSFER_TEXELS] = { "transfer, texels", kd_spv_transfer_texels, sizeof kd_spv_transfer_texels, KD_OWN_BINDING + KD_OWN_COUNT, sizeof(struct kd_slice),
-                             { KD_VK_TEXELS_R, [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM } },
+                             { KD_VK_TEXELS_R, [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM, KD_EMIT_BUFFERS } },
     [KD_KERNEL_TRANSFER_TELL] = { "transfer, told", kd_spv_transfer_tell, sizeof kd_spv_transfer_tell, KD_OWN_BINDING + KD_OWN_COUNT, sizeof(struct kd_slice),
                                   { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM } },
     [KD_KERNEL_MARCH_TELL] = { "march, told", kd_spv_transfer_march_tell, sizeof kd_spv_transfer_march_tell, KD_OWN_BINDING + KD_OWN_COUNT,
