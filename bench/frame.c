@@ -1,5 +1,6 @@
 /* What a whole frame costs, pass by pass: the scene of a file, which stays the same when the default grows richer, with a cold lens map, and again with the map
- * reused, as when only the exposure or the palette changes; asked for, a third time from another azimuth, before which a sky turns. Prints one line of JSON: every run, in ms.
+ * reused, as when only the exposure or the palette changes; asked for, a third time from another azimuth, before which a sky turns. --live: cold frames are those of
+ * a drag, and reused ones those of a session whose time goes on. Prints one line of JSON: every run, in ms.
  * frame.py runs it with one and two lavapipe threads and takes medians. */
 #include "render/output/png.h"
 #include "render/render.h"
@@ -13,7 +14,7 @@
 struct options {
     const char *device, *scene;
     int width, height, repeat;
-    bool sky, particles, turn;
+    bool sky, particles, turn, live;
 };
 
 static double now_ms(void)
@@ -36,16 +37,24 @@ static enum kd_status encode(struct kd_renderer *renderer, const struct kd_scene
     return status;
 }
 
-static enum kd_status one_frame(struct kd_renderer *renderer, const struct kd_scene *scene, cJSON *runs,
+/* dragged: as a frame of a drag that is not as asked (render/live/governor.h). */
+static enum kd_status one_frame(struct kd_renderer *renderer, const struct kd_scene *asked, bool dragged, cJSON *runs,
                                 struct kd_error *error)
 {
     struct kd_capacity capacity;
     struct kd_plan plan;
     struct kd_frame frame;
+    struct kd_scene shown = *asked;
+    const struct kd_scene *scene = &shown;
+    shown.image.critical_factor = dragged ? 2 : shown.image.critical_factor;
     kd_renderer_capacity(renderer, &capacity);
-    enum kd_status status = kd_plan_make(scene, &capacity, &plan, error);
-    if (!status)
-        status = kd_render(renderer, scene, &plan, NULL, NULL, &frame, error);
+    struct kd_needs needs = kd_needs_of(scene);
+    needs.bright = dragged;
+    enum kd_status status = kd_plan_make_for(scene, &needs, &capacity, &plan, error);
+    if (status)
+        return status;
+    plan.audit /= dragged ? 4 : 1;
+    status = kd_render(renderer, scene, &plan, NULL, NULL, &frame, error);
     if (status)
         return status;
     cJSON *run = cJSON_CreateObject();
@@ -81,15 +90,19 @@ static enum kd_status measure(const struct options *o, struct kd_renderer *rende
     scene.disk.model = o->particles ? KD_DISK_PARTICLES : scene.disk.model;
     cJSON *first = cJSON_AddArrayToObject(root, "first"), *cold = cJSON_AddArrayToObject(root, "cold");
     cJSON *reused = cJSON_AddArrayToObject(root, "reused"), *turned = o->turn ? cJSON_AddArrayToObject(root, "turned") : NULL;
-    enum kd_status status = one_frame(renderer, &scene, first, error); /* compiles the kernels */
+    enum kd_status status = one_frame(renderer, &scene, o->live, first, error); /* compiles the kernels */
     for (int k = 0; k < o->repeat && !status; k++) {
         scene.camera.inclination_deg += 1e-3; /* another lens map of the same work */
-        status = one_frame(renderer, &scene, cold, error);
-        if (!status)
-            status = one_frame(renderer, &scene, reused, error);
+        status = one_frame(renderer, &scene, o->live, cold, error);
+        if (!status && !o->live)
+            status = one_frame(renderer, &scene, false, reused, error);
         scene.camera.azimuth_deg += 0.5;
         if (!status && o->turn)
-            status = one_frame(renderer, &scene, turned, error);
+            status = one_frame(renderer, &scene, o->live, turned, error);
+    }
+    for (int k = -1; o->live && k < o->repeat && !status; k++) {
+        status = one_frame(renderer, &scene, false, k < 0 ? first : reused, error);
+        kd_scene_pass(&scene, 0.2);
     }
     return status;
 }
@@ -106,6 +119,7 @@ static error_t option(int key, char *text, struct argp_state *state)
     case 'k': o->sky = true; return 0;
     case 'p': o->particles = true; return 0;
     case 't': o->turn = true; return 0;
+    case 'l': o->live = true; return 0;
     default: return ARGP_ERR_UNKNOWN;
     }
 }
@@ -121,9 +135,10 @@ int main(int argc, char **argv)
         { "sky", 'k', NULL, 0, "with a sky, which needs the integrator", 0 },
         { "particles", 'p', NULL, 0, "with a disk of particles", 0 },
         { "turn", 't', NULL, 0, "and with the observer half a degree further round the hole", 0 },
+        { "live", 'l', NULL, 0, "cold frames are those of a drag, and reused ones those of a scene whose time goes on", 0 },
         { 0 },
     };
-    struct options o = { "auto", "bench/scenes/frame.json", 1280, 720, 9, false, false, false };
+    struct options o = { "auto", "bench/scenes/frame.json", 1280, 720, 9, false, false, false, false };
     struct argp parser = { table, option, NULL, "What a whole frame costs, pass by pass.", NULL, NULL, NULL };
     argp_parse(&parser, argc, argv, 0, NULL, &o);
 
