@@ -14,6 +14,7 @@ export function buildFlight(line, { moving, goesOn, options, arrived, refused })
     const one = { after, carries: from.pending, begun: performance.now() },
       query = [`after=${after}`, `lossy=${line.quality(moving())}`];
     from.pending = null;
+    if (from.told) query.push(`sentences=${from.told}`);
     if (one.carries || after !== from.frame) query.push(`wait_ms=${still_ms}`);
     if (one.carries) query.push(`order=${(one.order = ++from.order)}`);
     one.answer = ask(`${from.url}/frame?${query.join('&')}`, options(one.carries?.patch)).then(

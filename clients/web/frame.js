@@ -12,7 +12,14 @@ export const figures = header =>
       }),
   );
 
-export const sentences = header => [...(header ?? '').matchAll(/"([^"]*)"/g)].map(m => decodeURIComponent(m[1]));
+const sentences = header => [...(header ?? '').matchAll(/"([^"]*)"/g)].map(m => decodeURIComponent(m[1]));
+
+// What a picture leaves out. The server sends it where it is not what the request said is known: the session keeps it by its number.
+export function approximations(session, get) {
+  session.told = get('Kerrd-Sentences');
+  if (!session.sentences.has(session.told)) session.sentences.set(session.told, sentences(get('Kerrd-Approximations')));
+  return session.sentences.get(session.told);
+}
 
 export const passes = header =>
   (header ?? '')

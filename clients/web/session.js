@@ -1,7 +1,7 @@
 // A session as the page knows it, and scenes as it has them.
 import { take } from './ahead.js';
 
-export const fresh = ({ id, token, flight = [] }) => ({ url: 'v1/sessions/' + id, token, frame: 0, flight, cameras: new Map(), order: 0, known: 0, touched: new Set(), pending: null, plain: false });
+export const fresh = ({ id, token, flight = [] }) => ({ url: 'v1/sessions/' + id, token, frame: 0, flight, cameras: new Map(), sentences: new Map(), told: null, order: 0, known: 0, touched: new Set(), pending: null, plain: false });
 
 // What decides how long a pixel takes, and the window.
 export const load = ({ camera, time, motion, ...rest }) => JSON.stringify(rest);

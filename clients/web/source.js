@@ -4,7 +4,7 @@
 // and several rays for each.
 import { again_ms } from './again.js';
 import { latest, seen } from './dom.js';
-import { figures, fits, passes, sentences } from './frame.js';
+import { approximations, figures, fits, passes } from './frame.js';
 import { buildFlight, still_ms } from './flight.js';
 import { buildLine } from './line.js';
 import { mergePatch, moves } from './merge.js';
@@ -228,7 +228,7 @@ export function openSource(scene, size, shown, failed, rests) {
       pace: recent.length > 2 && (1e3 * (recent.length - 1)) / (now - recent[0]),
       accuracy: figures(get('Kerrd-Accuracy')),
       flux: figures(get('Kerrd-Flux')), // of a radio frequency
-      approximations: sentences(get('Kerrd-Approximations')),
+      approximations: approximations(from, get),
       passes: passes(get('Server-Timing')),
       clock,
       azimuth,

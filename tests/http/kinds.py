@@ -56,6 +56,25 @@ class Kinds(daemon.Owned):
         self.assertEqual((middle, exact), (again, last))
         self.assertEqual(len({exact, low, middle, high}), 4)
 
+    def test_sentences_that_are_known_are_not_sent_again(self):
+        session = self.make(MOVING)
+        first = self.get(session, 'lossy=75')
+        number = first.header('Kerrd-Sentences')
+        self.assertIn('celestial grid', first.header('Kerrd-Approximations'))
+        again, exact = (self.get(session, f'{kind}sentences={number}') for kind in ('lossy=75&', ''))
+        for frame in (again, exact):
+            self.assertEqual((frame.header('Kerrd-Approximations'), frame.header('Kerrd-Sentences')), (None, number))
+        self.assertEqual(self.get(session, f'sentences={int(number) ^ 1}').header('Kerrd-Approximations'), first.header('Kerrd-Approximations'))
+        self.patch(session, {'sky': {'model': 'none'}})
+        other = again
+        while other.header('Kerrd-Revision') != '2':
+            other = self.get(session, f'lossy=75&sentences={number}&after={other.header("Kerrd-Frame")}')
+        self.assertNotEqual(other.header('Kerrd-Sentences'), number)
+        self.assertNotIn('celestial grid', other.header('Kerrd-Approximations'))
+        for wrong in ('', '-1', 'x', '4294967296'):
+            self.assertEqual(self.get(session, 'sentences=' + wrong).status, 422, wrong)
+        self.assertEqual(self.daemon.get(self.at(session, f'/frame.png?sentences={number}')).status, 422)
+
     def test_who_does_not_wait_gets_its_kind_beside_others(self):
         session = self.make(MOVING)
         for query, kind in (('frame.png?', 'image/png'), ('frame?lossy=33&', 'image/jpeg')):

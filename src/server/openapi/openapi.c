@@ -126,6 +126,8 @@ static const struct {
     { "/v1/sessions/{id}/frame", "wait_ms", MOMENT, "how long to wait for a newer one" },
     { "/v1/sessions/{id}/frame", "lossy", "{\"type\":\"integer\",\"minimum\":1,\"maximum\":100}",
       "takes frames that are not the last as JPEG of this quality; without it all are PNG" },
+    { "/v1/sessions/{id}/frame", "sentences", "{\"type\":\"integer\",\"minimum\":0,\"maximum\":4294967295}",
+      "Kerrd-Sentences of a frame that the client has: where the newer one has the same approximations, they are left out" },
     { "/v1/playground/{id}/frame.png", "after", WHOLE, "number of the last frame that the client has; 0 without it" },
     { "/v1/playground/{id}/frame.png", "wait_ms", MOMENT, "how long to wait for a newer one" },
     { "/v1/playground/{id}/bodies", "after", WHOLE, "generation that the client has; without it the answer comes at once" },

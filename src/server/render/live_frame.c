@@ -1,5 +1,6 @@
 #include "server/render/live_frame.h"
 
+#include "base/hash.h"
 #include "base/json.h"
 #include "physics/kerr.h"
 #include "render/output/clock.h"
@@ -203,6 +204,7 @@ struct kd_live_frame *kd_live_frame_make(struct kd_render_job *job, const struct
     KD_TRY(describe_event(frame, job, note));
     for (size_t i = 0; i < job->plan.n_approximations; i++)
         KD_TRY(kd_reply_quote(&frame->approximations, job->plan.approximations[i]));
+    frame->sentences = (uint32_t)kd_hash(KD_HASH_BEGIN, frame->approximations.data, frame->approximations.size);
 done:
     if (!status && job->keeps) {
         frame->picture = job->frame;

@@ -30,7 +30,8 @@ struct kd_live_frame {
     struct kd_live_file files[KD_LIVE_FILES]; /* those that are there stay as they are; */
     unsigned n_files;        /* more may come, under the lock of the sessions */
     struct kd_frame picture; /* of one that is not the last: its pixels */
-    struct kd_buffer approximations; /* as the header has them */
+    struct kd_buffer approximations; /* as the header has them, */
+    uint32_t sentences;              /* and their hash: who knows them is not told again */
     struct kd_buffer event;          /* the data of its event: JSON in one line */
     char accuracy[KD_ACCURACY_TEXT], timing[400], quality[160], clock[KD_CLOCK_TEXT], flux[KD_FLUX_TEXT];
 };

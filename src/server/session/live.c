@@ -22,7 +22,9 @@ static enum MHD_Result ended(struct kd_request *request)
     return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND, .detail = "the session has ended" });
 }
 
-static void describe(struct MHD_Response *response, const struct kd_live_frame *frame)
+#define NO_SENTENCES UINT64_MAX
+
+static void describe(struct MHD_Response *response, const struct kd_live_frame *frame, uint64_t known)
 {
     char number[24];
     snprintf(number, sizeof number, "%llu", (unsigned long long)frame->number);
@@ -38,7 +40,9 @@ static void describe(struct MHD_Response *response, const struct kd_live_frame *
         MHD_add_response_header(response, "Kerrd-Clock", frame->clock);
     if (*frame->flux)
         MHD_add_response_header(response, "Kerrd-Flux", frame->flux);
-    if (frame->approximations.size)
+    snprintf(number, sizeof number, "%u", frame->sentences);
+    MHD_add_response_header(response, "Kerrd-Sentences", number);
+    if (frame->approximations.size && known != frame->sentences)
         MHD_add_response_header(response, "Kerrd-Approximations", (const char *)frame->approximations.data);
 }
 
@@ -76,7 +80,7 @@ static enum MHD_Result send_frame(struct kd_request *request, const struct kd_vi
         kd_live_frame_release(frame);
         return kd_reply_no_memory(request);
     }
-    describe(response, frame);
+    describe(response, frame, viewer->sentences);
     describe_file(response, frame, file);
     tell_request(response, viewer);
     request->reply_bytes = file->bytes.size;
@@ -112,15 +116,17 @@ static enum MHD_Result bad_number(struct kd_request *request, const char *detail
 
 enum MHD_Result kd_live_newest(struct kd_request *request, kd_session_find_fn *find, bool kinds)
 {
-    uint64_t after, wait, lossy = 0;
+    uint64_t after, wait, lossy = 0, sentences;
     enum MHD_Result refused;
     const bool patches = kinds && !strcmp(request->method, "PATCH");
     if (request->viewer)
         return look(request);
-    if (!kd_reply_only(request, (const char *const[]) { "after", "wait_ms", kinds ? "lossy" : NULL, patches ? "order" : NULL, NULL }, &refused))
+    if (!kd_reply_only(request, (const char *const[]) { "after", "wait_ms", kinds ? "lossy" : NULL, kinds ? "sentences" : NULL, patches ? "order" : NULL, NULL }, &refused))
         return refused;
     if (kinds && kd_target_value(&request->target, "lossy") && (!kd_target_whole(&request->target, "lossy", 0, 100, &lossy) || !lossy))
         return bad_number(request, "lossy is a whole number, 1 to 100: the quality of frames that are not the last; without it they are exact");
+    if (!kd_target_whole(&request->target, "sentences", NO_SENTENCES, UINT32_MAX, &sentences))
+        return bad_number(request, "sentences is Kerrd-Sentences of a frame that you have: one with the same approximations is sent without them");
     if (!kd_target_whole(&request->target, "after", 0, UINT64_MAX, &after))
         return bad_number(request, "after is the number of a frame, Kerrd-Frame of one that you have");
     if (!kd_target_whole(&request->target, "wait_ms", WAIT_MS, 60000, &wait))
@@ -140,7 +146,7 @@ enum MHD_Result kd_live_newest(struct kd_request *request, kd_session_find_fn *f
     }
     const double now = kd_clock_ms();
     *viewer = (struct kd_viewer) { .session = session, .mhd = request->mhd, .socket = kd_connection_socket(request->connection),
-                                   .seen = after, .begun_ms = now, .deadline_ms = now + (double)wait, .late = !wait, .lossy = (unsigned)lossy, .patched = state.revision };
+                                   .seen = after, .begun_ms = now, .deadline_ms = now + (double)wait, .late = !wait, .lossy = (unsigned)lossy, .sentences = sentences, .patched = state.revision };
     request->viewer = viewer;
     kd_viewer_attach(viewer);
     return look(request);

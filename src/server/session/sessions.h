@@ -96,6 +96,7 @@ struct kd_viewer {
     const struct kd_live_file *file; /* of the frame taken, as it is for this viewer; the frame's */
     struct kd_live_frame *owed; /* one that was ready in its kind when it was the latest no more; held */
     unsigned patched;    /* the revision that the request itself made; 0: none */
+    uint64_t sentences;  /* the hash of the approximations that it has, so that a frame with the same ones does without; more than 32 bits: none */
     double begun_ms, deadline_ms; /* on kd_clock_ms: when it came; of waiting, INFINITY: none */
     bool waiting;        /* suspended */
     bool late, gone;     /* woken because the deadline has passed; because the client has hung up */
