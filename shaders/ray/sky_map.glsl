@@ -17,7 +17,13 @@ struct kd_spot_block { KD_BLOCK_spot(F, U) };
 KD_EMIT_BLOCKS(BLOCK)
 struct kd_star_push { KD_STARS_FIELDS_(F, U) };
 layout(push_constant) uniform Push { kd_star_push push_; };
+#ifdef KD_TEXELS
+layout(set = 0, binding = 0) uniform textureBuffer lens_texels;
+float map_at(uint at) { return texelFetch(lens_texels, int(at)).r; }
+#else
 layout(set = 0, binding = 0) readonly buffer LensMap { float lens[]; };
+float map_at(uint at) { return lens[at]; }
+#endif
 layout(set = 0, binding = 1, std140) uniform Emission { KD_EMIT_BLOCKS(MEMBER) } emission_;
 #include "light/tables.glsl"
 
@@ -35,14 +41,14 @@ void kd_sky_map_read()
 #include "emit/colour.glsl"
 #include "emit/sky.glsl"
 
-float kd_sky_number(uint quantity, uint at) { return lens[at + kd_plane(quantity) * push.stride]; }
+float kd_sky_number(uint quantity, uint at) { return map_at(at + kd_plane(quantity) * push.stride); }
 bool kd_sky_escapes(uint at) { return RIM == 2u || kd_sky_number(KD_LENS_FATE, at) == KD_FATE_ESCAPED; }
 
 /* Where a ray comes from, in the hole's frame. */
 vec3 kd_sky_from(uint at)
 {
     if (RIM == 2u)
-        return vec3(lens[at], lens[at + push.stride], lens[at + 2u * push.stride]);
+        return vec3(map_at(at), map_at(at + push.stride), map_at(at + 2u * push.stride));
     float u = kd_sky_number(KD_LENS_SKY_U, at), s = sqrt(max(1.0 - u * u, 0.0));
     kd_phasor phi = kd_cos_sin(kd_sky_number(KD_LENS_SKY_PHI, at));
     return vec3(s * phi.c, s * phi.s, u);

@@ -8,11 +8,14 @@ layout(set = 0, binding = 3) buffer Pairs { uint pairs[]; }; /* how many; then, 
 #ifdef KD_TEXELS
 layout(set = 0, binding = 4) uniform textureBuffer stars;
 vec4 star_row(uint k) { return texelFetch(stars, int(k)); }
+layout(set = 0, binding = 5) uniform utextureBuffer cells; /* the table of the fine ones, then that of the coarse ones */
+uint cell_at(uint of) { return texelFetch(cells, int(of)).r; }
 #else
 layout(set = 0, binding = 4) readonly buffer Stars { vec4 stars[]; };
 vec4 star_row(uint k) { return stars[k]; }
+layout(set = 0, binding = 5) readonly buffer Cells { uint cells[]; };
+uint cell_at(uint of) { return cells[of]; }
 #endif
-layout(set = 0, binding = 5) readonly buffer Cells { uint cells[]; }; /* the table of the fine ones, then that of the coarse ones */
 layout(set = 0, binding = 6) buffer Listed { uint listed[]; };        /* how many tiles, and rays; then so many tiles, for push.tiles of which there is room; and rays */
 
 /* The cells of a face in a rectangle. */
@@ -38,8 +41,8 @@ void kd_star_next_cell(kd_cells c, inout kd_star_walk walk)
         walk.done = walk.done || (row && walk.cell.y >= c.high.y);
         walk.cell = ivec2(row ? c.low.x : walk.cell.x + 1, row ? walk.cell.y + 1 : walk.cell.y);
         uint of = uint(c.first + min(walk.cell.y, c.side - 1) * c.side + walk.cell.x);
-        walk.k = cells[of];
-        walk.end = cells[of + 1u];
+        walk.k = cell_at(of);
+        walk.end = cell_at(of + 1u);
     }
 }
 

@@ -39,10 +39,13 @@ static enum kd_status kernel(struct kd_frame_job *j, enum rays rays, enum kd_ker
     return kd_kernels_get(&j->r->kernels, j->r->vk, kernel, &spec.QUANTITIES, sizeof spec / 4, out, j->error);
 }
 
+/* In software that takes a third of the time. */
+static bool reads_texels(const struct kd_frame_job *j, uint64_t stars) { return stars <= kd_vk_info(j->r->vk)->max_texels && kd_kernels_map_as_texels(j->r->vk); }
+
 /* How many stars there are is not known yet: as many as the catalogue has, or fewer. */
 enum kd_status kd_frame_star_kernels(struct kd_frame_job *j)
 {
-    const bool rim = kd_rim_may_be(j->scene) && !j->plan->bright, texels = 1u << 17 <= kd_vk_info(j->r->vk)->max_texels;
+    const bool rim = kd_rim_may_be(j->scene) && !j->plan->bright, texels = reads_texels(j, 1u << 17);
     const enum kd_kernel tiles = texels ? KD_KERNEL_STAR_TILES_TEXELS : KD_KERNEL_STAR_TILES, find = texels ? KD_KERNEL_STAR_SEARCH_TEXELS : KD_KERNEL_STAR_SEARCH;
     const enum rays picture = rim ? BESIDE_RIM : NO_RIM;
     const struct kd_vk_pipeline *later;
@@ -89,7 +92,7 @@ static enum kd_status search(struct kd_frame_job *j, const struct part *part)
 {
     struct kd_store *s = j->store;
     const struct kd_sky_buffers *sky = j->prepared->own[KD_EMITTER_sky];
-    const bool texels = sky->n + 1 <= kd_vk_info(j->r->vk)->max_texels; /* a third of the time in software */
+    const bool texels = reads_texels(j, sky->n + 1);
     const enum kd_kernel tiles = texels ? KD_KERNEL_STAR_TILES_TEXELS : KD_KERNEL_STAR_TILES;
     struct kd_vk_dispatch d = {
         kd_passes[KD_PASS_STARS].name, NULL,
