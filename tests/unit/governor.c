@@ -134,6 +134,16 @@ static void ladders_go_down_in_order_and_up_to_what_is_asked(void **state)
     }
     assert_int_equal(ladder.rungs[4].quality.width, 640);
     assert_int_equal(ladder.rungs[4].quality.height, 360);
+    asked.camera.projection = KD_PROJECTION_RING; /* photon rings, one above the other: as many of them as are asked for */
+    asked.accuracy.orders = 7;
+    kd_ladder_make(&asked, &bounds, &ladder);
+    for (size_t i = 0; i < ladder.n_rungs; i++)
+        assert_int_equal(ladder.rungs[i].quality.orders, 7);
+    asked.camera.projection = KD_PROJECTION_AUTO;
+    kd_ladder_make(&asked, &bounds, &ladder);
+    assert_int_equal(ladder.rungs[ladder.n_rungs - 1].quality.orders, 2);
+    asked.accuracy.orders = 3;
+    kd_ladder_make(&asked, &bounds, &ladder);
     const size_t without = ladder.n_rungs;
     asked.volume.model = KD_VOLUME_UNIFORM;
     kd_ladder_make(&asked, &bounds, &ladder);

@@ -87,8 +87,10 @@ static void make_rungs(const struct kd_scene *asked, const struct kd_ladder_boun
         if (scales[i] >= bounds->scale && asked->image.width * scales[i] >= bounds->width &&
             add_rung(out, make_rung(asked, scales[i], samples, orders, -1)))
             scale = scales[i];
-    while (orders > bounds->orders) {
-        orders = (orders + 1) / 2 > bounds->orders ? (orders + 1) / 2 : bounds->orders;
+    /* Of photon rings, one above the other, higher orders are what is looked at. */
+    const int32_t least = asked->camera.projection == KD_PROJECTION_RING ? orders : bounds->orders;
+    while (orders > least) {
+        orders = (orders + 1) / 2 > least ? (orders + 1) / 2 : least;
         add_rung(out, make_rung(asked, scale, samples, orders, -1));
     }
     int32_t profile = by_profile(&asked->accuracy) ? asked->accuracy.profile : KD_PROFILE_BALANCED;

@@ -42,7 +42,7 @@ enum { KD_LADDER_RUNGS = 20, KD_LADDER_STEPS = 8 };
 
 struct kd_ladder {
     /* Makes the ladder downwards from what is asked. It gives up samples first, for what moves needs its pixels more than smooth
-     * edges, then resolution, then orders, then the steps along a ray, and last, where there are volumes, the
+     * edges, then resolution, then orders (of the projection "ring" none), then the steps along a ray, and last, where there are volumes, the
      * steps through them. Each is less work than the one before. */
     struct kd_rung rungs[KD_LADDER_RUNGS];
     size_t n_rungs;
