@@ -312,6 +312,33 @@ class Sessions(daemon.Owned):
         self.assertLess(len(revisions), 5)
         self.assertEqual(self.frame(session, number, 100).status, 204)
 
+    def test_how_far_a_finer_picture_is(self):
+        """While it is made, and not before or after: the part that is done grows, and what is left is told in seconds."""
+        session = self.open({**SCENE, 'image': {'width': 64, 'height': 36, 'samples': 2}, 'time': 60})  # 1.8 s with four rays a pixel
+        told, number, revision = [], 0, 0
+        for inclination in 30, 31, 32, 33:  # as long as something changes pictures are coarser
+            wanted = self.patch(session, {'camera': {'inclination_deg': inclination}}).json()['revision']
+            while revision < wanted:
+                answer = self.frame(session, number)
+                number, revision = (int(answer.header(name)) for name in ('Kerrd-Frame', 'Kerrd-Revision'))
+
+        def wait_for_the_last(number):
+            while (answer := self.frame(session, number)).status == 200 and 'final=1' not in answer.header('Kerrd-Quality'):
+                number = int(answer.header('Kerrd-Frame'))
+
+        thread = threading.Thread(target=wait_for_the_last, args=[number])
+        thread.start()
+        while thread.is_alive():
+            told.append(self.status(session).get('refining'))
+            time.sleep(0.05)
+        thread.join()
+        parts = [one['fraction'] for one in told if one]
+        self.assertGreater(len(parts), 3)
+        self.assertTrue(parts == sorted(parts) and 0 <= parts[0] < 0.5 < parts[-1] <= 1, parts)
+        left = [one['remaining_s'] for one in told if one and one['remaining_s'] is not None]
+        self.assertTrue(left and left[-1] < 1, left)
+        self.assertNotIn('refining', self.status(session))
+
     def test_what_is_overtaken_is_not_shown(self):
         for _ in range(5):
             session = self.open({'image': {'width': 4000, 'height': 3000}, 'time': 60})  # its first frame takes long to be encoded,

@@ -52,7 +52,7 @@ struct kd_render_job {
     enum kd_status (*run)(struct kd_render_job *job, struct kd_renderer *renderer, kd_progress_fn progress,
                           void *progress_user);
     bool more;
-    void (*progress)(struct kd_render_job *job, double fraction); /* may be NULL; of a picture in slices, with the device */
+    void (*progress)(struct kd_render_job *job, double fraction); /* may be NULL; with the device */
     const struct kd_glance *glance; /* of a picture in slices; may be NULL; user: the job. With the device */
     _Atomic bool drop;                           /* set by whoever wants it no more: KD_ECANCELLED */
     int socket;                                  /* of the client; once it hangs up the job is dropped; -1: none */

@@ -139,6 +139,8 @@ static bool go_on(void *user, double fraction)
     pthread_mutex_lock(&job->queue->lock);
     job->claim.left_ms = job->plan.estimate_ms * (1 - fraction);
     pthread_mutex_unlock(&job->queue->lock);
+    if (job->progress)
+        job->progress(job, fraction);
     return !kd_render_unwanted(job->queue, job);
 }
 

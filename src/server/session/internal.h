@@ -10,6 +10,8 @@
 #include <pthread.h>
 
 struct kd_session_frame; /* one on its way through the render queue */
+/* How far one is that refines, and how many seconds are left: NAN where there is none, or too little is known. run.c */
+void kd_session_refined(const struct kd_session *session, double now, double *fraction, double *left_s);
 
 struct kd_session {
     struct kd_sessions *all;

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #define EXPOSURE_MS 2000.0  /* in which 63 % of a change of brightness is followed */
+#define SURE 0.02           /* of a picture, from which on it is said how long the rest takes */
 #define ENCODING_MAX 2      /* frames of a session behind the renderer: one is traced while one is encoded */
 
 struct kd_session_frame {
@@ -19,11 +20,13 @@ struct kd_session_frame {
     double begun_ms;
     struct kd_turn turn;
     struct kd_crowd *crowd; /* that its scene shows: held */
+    double fraction; /* that is done */
     bool rendered, last; /* last: nothing finer follows, nor any other */
 };
 
 /* These functions run with the lock where nothing else is said. */
 
+static void progress(struct kd_render_job *job, double fraction);
 static void rendered(struct kd_render_job *job);
 static void done(struct kd_render_job *job);
 
@@ -57,7 +60,7 @@ static struct kd_session_frame *make_frame(struct kd_session *s, const struct kd
     live->begun_ms = now;
     live->job = (struct kd_render_job) {
         .claim.class = turn->refining ? KD_CLASS_REFINEMENT : KD_CLASS_LIVE, .socket = -1,
-        .format = kd_format_live(), .effort = KD_EFFORT_LIVE, .rendered = rendered, .done = done,
+        .format = kd_format_live(), .effort = KD_EFFORT_LIVE, .progress = turn->refining ? progress : NULL, .rendered = rendered, .done = done,
     };
     memcpy(live->job.claim.client, s->demand.client, sizeof s->demand.client);
     kd_quality_apply(&turn->quality, scene, &live->job.scene);
@@ -170,6 +173,23 @@ void kd_session_expect(struct kd_session *s, const struct kd_plan *plan)
     }
     kd_governor_expect(&s->governor, &traced);
     kd_governor_expect(&s->governor, &reused);
+}
+
+/* The render thread calls this without the lock. */
+static void progress(struct kd_render_job *job, double fraction)
+{
+    struct kd_session_frame *live = (struct kd_session_frame *)job;
+    pthread_mutex_lock(&live->session->all->lock);
+    live->fraction = fraction;
+    pthread_mutex_unlock(&live->session->all->lock);
+}
+
+/* What is left takes as long as what is done has taken, waiting for others included. */
+void kd_session_refined(const struct kd_session *s, double now, double *fraction, double *left_s)
+{
+    const struct kd_session_frame *live = s->rendering;
+    *fraction = live && live->turn.refining ? live->fraction : NAN;
+    *left_s = *fraction > SURE ? 1e-3 * (now - live->begun_ms) * (1 - *fraction) / *fraction : NAN;
 }
 
 /* The render thread calls this without the lock: the next frame may be traced while this one is encoded. */
