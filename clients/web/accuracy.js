@@ -1,6 +1,6 @@
 // This tells how wrong the picture is, where its time went, and what of it is modelled.
 import { byId, el } from './dom.js';
-import { number, said, t, tell, word } from './i18n.js';
+import { number, readable, said, t, tell, word } from './i18n.js';
 
 // A pass of an emitter's own has the emitter's name, and its title.
 const pass_names = {
@@ -77,7 +77,11 @@ export function showAccuracy(frame, scene) {
       ),
     ),
   );
-  byId('approximations').replaceChildren(...frame.approximations.map(sentence => tell(el('li'), sentence)));
+  byId('approximations').replaceChildren(...frame.approximations.map(sentence => {
+      const item = tell(el('li'), sentence);
+      item.textContent = readable(item.textContent);
+      return item;
+    }));
 }
 
 // What is said of an observer that falls by itself.
@@ -97,7 +101,7 @@ function lessened({ narrow, part }) {
 export function caption(frame) {
   const worst =
     frame.accuracy.sampled > 0
-      ? t(`, error ≤ ${number(frame.accuracy.worst, 2)}`, `, errore ≤ ${number(frame.accuracy.worst, 2)}`)
+      ? t(`error ≤ ${number(frame.accuracy.worst, 2)}, `, `errore ≤ ${number(frame.accuracy.worst, 2)}, `)
       : '';
   const rays = frame.samples > 1 ? t(`, ${frame.samples ** 2} rays a pixel`, `, ${frame.samples ** 2} raggi per pixel`) : '';
   const lossy = frame.lossy ? t(`, colours lossy while it moves (JPEG ${frame.lossy})`, `, colori con perdita mentre si muove (JPEG ${frame.lossy})`) : '';
@@ -106,5 +110,5 @@ export function caption(frame) {
     : '';
   const { jy, ghz } = frame.flux,
     flux = jy == null ? '' : `${number(jy)} Jy, ${number(ghz)} GHz; `;
-  return `${frame.clock && frame.pace ? fallen(frame.clock) : ''}${flux}${frame.width} × ${frame.height}${lessened(frame)}${rays}, ${Math.round(frame.passes.find(pass => pass.name === 'total')?.ms ?? 0)} ms${pace}${worst}${lossy}`;
+  return `${frame.clock && frame.pace ? fallen(frame.clock) : ''}${flux}${worst}${frame.width} × ${frame.height}${lessened(frame)}${rays}, ${Math.round(frame.passes.find(pass => pass.name === 'total')?.ms ?? 0)} ms${pace}${lossy}`;
 }

@@ -15,6 +15,7 @@ import { apart, buildLiving } from './living.js';
 import { buildOverlays } from './overlay.js';
 import { buildPace } from './pace.js';
 import { buildPresets, openPreset, startAgain } from './presets.js';
+import { buildRefining } from './refining.js';
 import { Scene } from './scene.js';
 import { share } from './share.js';
 import { sheet } from './sheet.js';
@@ -131,6 +132,7 @@ async function watch(scene) {
     fall?.then(({ shown }) => shown(frame));
     stars?.then(named => named?.shown(frame));
     stage.dataset.samples = frame.samples;
+    followFiner(!frame.final && !scene.goesOn());
     complain('', '');
     if (tells || status.dataset.wrong) {
       say(caption(frame), frame.final && !scene.goesOn());
@@ -205,6 +207,7 @@ async function watch(scene) {
 
   async function refuse(error) {
     seen();
+    followFiner(false);
     const { complain } = await parts;
     fall?.then(({ halt }) => halt());
     complain(error.pointer, error.message);
@@ -213,6 +216,7 @@ async function watch(scene) {
   }
 
   const source = openSource(scene, size, show, refuse, rests);
+  const followFiner = buildRefining(source.address, words => status.dataset.wrong || (status.textContent = words));
   if (!byId('lensing').hidden) {
     source.refresh();
     await Promise.race([first, new Promise(resolve => setTimeout(resolve, patience_ms))]);

@@ -13,7 +13,7 @@ const captions = {
   'hot-spot': ['A bright spot that goes round Sgr A* in an hour', 'Una macchia che gira attorno a Sgr A* in un’ora'],
   'milky-way': ['The stars and the Milky Way, bent by a bare hole', 'Le stelle e la Via Lattea, deviate da un buco nudo'],
   gas: ['A disk that boils, dense where it is bright', 'Un disco che ribolle, denso dov’è brillante'],
-  'gas-stars': ['A disk that boils before the stars of Hipparcos', 'Un disco che ribolle davanti alle stelle di Hipparcos'],
+  'gas-stars': ['A boiling disk, and the real stars of the sky behind it', 'Un disco che ribolle, e dietro le vere stelle del cielo'],
   'thick-disk': ['Gas as high as a tenth of its distance', 'Gas alto un decimo della distanza dall’asse'],
   'star-behind': ['A star passes behind the hole and becomes a ring', 'Una stella passa dietro il buco e diventa un anello'],
   companions: ['Two stars in the disk, one with it and one against', 'Due stelle nel disco, una con esso e una contro'],

@@ -4,7 +4,8 @@
 import { el, still } from './dom.js';
 import { sizeOf } from './sizes.js';
 
-const names = ['r', 'field_m', 'fov_deg', 'yaw_deg', 'pitch_deg', 'roll_deg', 'projection', 'observer', 'stereo'];
+const sides = { inclination_deg: 3, azimuth_deg: 10 }; // by how much two pictures may differ that are shown one round the other
+const names = ['r', 'field_m', 'fov_deg', 'yaw_deg', 'pitch_deg', 'roll_deg', 'projection', 'observer', 'stereo', ...Object.keys(sides)];
 const radians = Math.PI / 180;
 const most = 4; // times larger or smaller: beyond that too little of it would be seen, or too much is missing
 const half = fov_deg => Math.tan((fov_deg / 2) * radians);
@@ -47,7 +48,14 @@ export function buildCarry(stage, scene) {
     if (node.style.transform !== transform) node.style.transform = transform;
   }
 
-  for (const event of ['change', 'move']) scene.addEventListener(event, () => [picture, canvas].forEach(go));
+  // Where the coarse picture shrinks, what was at rest comes out round it: not where that was seen from another side.
+  function cover() {
+    const [below, over] = [picture, canvas].map(node => seen.get(node)),
+      other = below && over && Object.entries(sides).some(([name, most]) => !(Math.abs(below[name] - over[name]) <= most));
+    picture.style.opacity = !canvas.hidden && canvas.style.transform && other ? 0 : '';
+  }
+
+  for (const event of ['change', 'move']) scene.addEventListener(event, () => ([picture, canvas].forEach(go), cover()));
 
   function saw(node, by) {
     seen.set(node, by && camera(by));
@@ -69,6 +77,7 @@ export function buildCarry(stage, scene) {
     canvas.classList.remove('leaving');
     canvas.hidden = false;
     saw(canvas, by);
+    cover();
   }
 
   async function rest(blob, { camera: by, width, all }, alt) {
@@ -81,7 +90,7 @@ export function buildCarry(stage, scene) {
     await next.decode();
     if (mine !== begun) return URL.revokeObjectURL(next.src);
     picture = next;
-    next.style.transform = '';
+    next.style.transform = next.style.opacity = '';
     old.replaceWith(next);
     seen.delete(old);
     saw(next, by);

@@ -46,9 +46,13 @@ export function buildGallery(scene, select, presets) {
     for (const other of cards) other.tabIndex = other === card ? 0 : -1;
   }
 
+  let shown = null; // the name of the card that was brought into sight
   function follow() {
+    const now = cards.find(card => card.dataset.preset === select.value);
+    if (now && shown !== select.value && !strip.matches(':hover')) strip.scrollTo({ left: now.offsetLeft - strip.offsetLeft - (strip.clientWidth - now.offsetWidth) / 2 });
+    shown = select.value;
     for (const card of cards) card.setAttribute('aria-pressed', card.dataset.preset === select.value);
-    if (!strip.contains(document.activeElement)) reach(cards.find(card => card.dataset.preset === select.value) ?? cards[0]);
+    if (!strip.contains(document.activeElement)) reach(now ?? cards[0]);
   }
 
   const ways = { ArrowRight: at => at + 1, ArrowLeft: at => at - 1, Home: () => 0, End: () => cards.length - 1 };

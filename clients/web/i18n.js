@@ -117,7 +117,7 @@ function labelOf(path) {
 
 // A help names other fields by their labels, not by their paths, and points to no file.
 const inside = /\b(?:spacetime|camera|disk|sky|image|style|accuracy|motion|spots|bodies|volume|jets)(?:\.[a-z_]+)+/g;
-const readable = help => help && help.replace(/ \(docs\/[^)]*\)/g, '').replace(/docs\/[\w./-]+\w/g, t('the documentation', 'la documentazione')).replace(inside, path => t(`“${labelOf(path)}”`, `«${labelOf(path)}»`));
+export const readable = help => help && help.replace(/ \(docs\/[^)]*\)/g, '').replace(/docs\/[\w./-]+\w/g, t('the documentation', 'la documentazione')).replace(inside, path => t(`“${labelOf(path)}”`, `«${labelOf(path)}»`));
 
 // Label and help of a field of the scene or of a parameter, from its path and the server's English.
 export function named(path, help) {
@@ -152,6 +152,13 @@ const choices = {
   stars: 'made-up stars',
   catalogue: 'stars of Hipparcos',
   image: 'picture of the sky',
+  film: 'as on film',
+  raw: 'measured light',
+  eht: 'radio telescope (EHT)',
+  dngr: 'Interstellar (DNGR)',
+  neutral: 'neutral',
+  heat: 'false colours of brightness',
+  colour: 'colours of the light',
   sgra: 'towards Sgr A*',
   m87: 'towards M87',
   equirectangular: 'equirectangular (360°)',

@@ -3,6 +3,16 @@
 export const left_out = ['image.width', 'image.height']; // the window's
 export const beside_time = ['time', 'motion.time_rate']; // stand beside what starts and stops it
 
+// Fields that change nothing without what another section or number brings.
+const has_disk = scene => scene.get('disk.model') !== 'none',
+  is_map = scene => scene.get('image.layers') !== 'rgb';
+const only_with = {
+  'disk.flare': scene => has_disk(scene) && scene.get('disk.height') > 0,
+  'style.ringdown_time': scene => scene.get('style.ringdown') > 0,
+  ...Object.fromEntries(['outer', 'taper', 'opacity', 'emission_opacity', 'height', 'mdot_edd', 'gas.amplitude', 'gas.octaves', 'gas.scale', 'gas.shear', 'gas.seed'].map(name => ['disk.' + name, has_disk])),
+  ...Object.fromEntries(['layer_min', 'layer_max', 'legend'].map(name => ['image.' + name, is_map])),
+};
+
 const far = scene => scene.get('camera.r') === 'infinity';
 
 // Fields of the camera that mean something with some choices alone: what is chosen, and whose fields are whose.
@@ -38,6 +48,7 @@ export function meansSomething(scene, path) {
     dot = path.lastIndexOf('.'),
     home = path.slice(0, Math.max(0, dot)),
     key = scene.switches.get(home);
+  if (only_with[path] && !only_with[path](scene)) return false;
   if (field.varies) return field.varies.some(word => scene.varies.includes(word));
   if (key && key !== path && scene.get(key) === off(scene.fields.get(key))) return false;
   if (!Object.entries(field.with ?? {}).every(([other, values]) => [values].flat().includes(scene.get(`${home}.${other}`)))) return false;

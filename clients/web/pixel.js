@@ -27,11 +27,14 @@ function sources({ crossings, met, along, end }) {
   return all.map(source => ({ ...source, share: source.seen / whole })).sort((a, b) => b.seen - a.seen);
 }
 
-// An observer at infinity has no moment at which light left, but differences of them.
-const ago = (delay, far) => (far ? [t('Delay', 'Ritardo'), length(delay)] : [t('It left', 'È partita'), t(`${length(delay)} ago`, `${length(delay)} fa`)]);
+// An observer at infinity has no moment at which light left, but differences of them: from the hole it would take r + 2 ln r.
+const ago = (delay, far) =>
+  far
+    ? [t('Its way here', 'La sua via'), length(Math.abs(delay)) + (delay < 0 ? t(' shorter than from the hole', ' più breve che dal buco') : t(' longer than from the hole', ' più lunga che dal buco'))]
+    : [t('It left', 'È partita'), t(`${length(delay)} ago`, `${length(delay)} fa`)];
 
 const images = [t('direct image', 'immagine diretta'), t('lensed far side', 'lato lontano, deviato'), t('photon ring', 'anello di fotoni')];
-const orderOf = order => t(`image order ${order}: ${images[Math.min(order, 2)]}`, `ordine d’immagine ${order}: ${images[Math.min(order, 2)]}`);
+const orderOf = order => `${images[Math.min(order, 2)]} (${t('order', 'ordine')} ${order})`;
 
 // A sentence for each of them, and facts.
 function wording(source, { title, far, star }) {
@@ -44,7 +47,7 @@ function wording(source, { title, far, star }) {
       [t('Image', 'Immagine'), orderOf(source.order)],
       ['φ', angle(source.azimuth)],
       ...(source.delay != null ? [ago(source.delay, far)] : []),
-      ...(source.g != null ? [[t('Redshift factor g', 'Fattore di redshift g'), `${number(source.g, 3)} (${source.g > 1 ? t('to the blue', 'verso il blu') : t('to the red', 'verso il rosso')})`]] : []),
+      ...(source.g != null ? [[t('Frequency ratio g', 'Rapporto di frequenze g'), `${number(source.g, 3)}, ${source.g > 1 ? t('bluer', 'più blu') : t('redder', 'più rossa')}`]] : []),
       ...(source.temperature != null ? [[t('Temperature there', 'Temperatura là'), number(source.temperature, 3) + ' K']] : []),
       ...(source.emission_angle != null ? [[t('Angle to its normal', 'Angolo con la normale'), angle(source.emission_angle)]] : []),
     ],
@@ -55,7 +58,7 @@ function skyFacts({ theta, azimuth, g }, star) {
   return [
     ...(star?.magnification != null ? [[t('Magnified', 'Ingrandita'), '× ' + number(star.magnification, 3)]] : []),
     [t('From the direction', 'Dalla direzione'), `θ ${angle(theta)}, φ ${angle(azimuth)}`],
-    [t('Redshift factor g', 'Fattore di redshift g'), number(g, 3)],
+    [t('Frequency ratio g', 'Rapporto di frequenze g'), number(g, 3)],
   ];
 }
 

@@ -374,8 +374,8 @@
     BUTTON("disk.model", KD_DISK_PARTICLES, "Disk of particles")                                                     \
     SPAN("disk.inner", 1, 50) FIRST("disk.inner", 6)                                                                 \
     SPAN("disk.outer", 3, 200)                                                                                       \
-    SPAN("disk.peak_temperature_k", 1000, 1e5)                                                                       \
-    SPAN("disk.mdot_edd", 1e-3, 10)                                                                                  \
+    WITH("disk.peak_temperature_k", "colour", KD_COLOUR_PEAK) SPAN("disk.peak_temperature_k", 1000, 1e5)             \
+    WITH("disk.mdot_edd", "colour", KD_COLOUR_ACCRETION) SPAN("disk.mdot_edd", 1e-3, 10)                             \
     VARIES("disk.slow_light", "moves_with_time")                                                                     \
     WITH("disk.particles", "model", KD_DISK_PARTICLES)                                                               \
     WITH("disk.seed", "model", KD_DISK_PARTICLES) SPAN("disk.seed", 0, 1000)                                         \

@@ -4,7 +4,7 @@
 
 #include <stddef.h>
 
-/* "Gas before stars" of the preset at that place in the list; NULL: there is none. */
+/* "Gas and stars" of the preset at that place in the list; NULL: there is none. */
 const char *kd_scene_preset_label(size_t index);
 
 #endif

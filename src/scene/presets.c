@@ -102,7 +102,7 @@ const struct kd_preset kd_presets[] = {
     { "gas", "Turbulent gas", "The default scene, a disk of turbulent gas, dense where it is bright and seen through where it is faint; in a live session it turns",
       false,
       "{\"motion\":{\"time_rate\":6}}" },
-    { "gas-stars", "Gas before stars", "Turbulent gas round a hole before the stars of the Hipparcos catalogue, of which each image is as bright as the lens makes it; in a live session it turns",
+    { "gas-stars", "Gas and stars", "Turbulent gas round a hole before the stars of the Hipparcos catalogue, of which each image is as bright as the lens makes it; in a live session it turns",
       false,
       "{\"sky\":{\"model\":\"catalogue\",\"milky_way\":0},"
       "\"motion\":{\"time_rate\":6}}" },

@@ -32,8 +32,9 @@ class Hand(Browser):
         r, b = value(name.split()[-2]), 40 * 0.3
         self.assertTrue(name.startswith('Thin disk, at r = '), name)
         self.assertAlmostEqual(r / (math.sqrt(1 + b * b) - 1), 1, delta=0.015)
-        self.assertAlmostEqual(float(self.fact(page, 'Redshift factor').split()[0]), math.sqrt(1 - 3 / r), delta=0.002)
-        self.assertEqual(self.fact(page, 'Image'), 'image order 0: direct image')
+        self.assertAlmostEqual(float(self.fact(page, 'Frequency ratio').split(',')[0]), math.sqrt(1 - 3 / r), delta=0.002)
+        self.assertEqual(self.fact(page, 'Image'), 'direct image (order 0)')
+        self.assertIn('than from the hole', self.fact(page, 'Its way here'))
         self.assertIn('within', page.inner_text('#pixel'))
         before = self.drawn(page, '#pixel canvas')
         self.assertGreater(before['coloured'], 20, 'the ray is drawn')

@@ -23,6 +23,16 @@ class Sessions(Browser):
             page.wait_for_selector(AT_REST)
             self.assertIsNone(page.get_attribute('#status', 'data-wrong'))
 
+    def test_what_a_finer_picture_lacks_is_told(self):
+        """Where it takes the server long: below the picture in words, in both languages, and as a bar at its edge."""
+        for lang, words in (('en', 'finer picture: 40 %, 8 s to go'), ('it', 'immagine più fine: 40 %, mancano 8 s')):
+            page = self.page(self.context())
+            page.route('**/frame?*', lambda route: route.continue_() if 'after=0' in route.request.url else None)  # the next one does not come
+            page.route(re.compile(r'/v1/sessions/[^/?]+$'), lambda route: route.fulfill(json={'refining': {'fraction': 0.4, 'remaining_s': 7.2}}) if route.request.method == 'GET' else route.continue_())
+            page.goto(self.base + f'#lang={lang}&preset=default&pace=fast')
+            self.there(page, words, '#status')
+            self.assertEqual((page.is_visible('#refined'), page.is_visible('#first'), page.locator('#refined').evaluate('bar => bar.value')), (True, False, 0.4))
+
     def test_a_session_that_has_ended_is_opened_anew(self):
         page = self.open()
         self.expected = '404'
