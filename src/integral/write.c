@@ -1,7 +1,7 @@
 /* This writes answers as JSON, CSV and NPY, and the schema of the first. */
+#include "base/decimal.h"
 #include "image/npy.h"
 #include "integral/answer.h"
-#include "scene/number.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -93,10 +93,9 @@ static enum kd_status write_csv(const struct kd_integral_answer *answer, struct 
         KD_TRY(kd_buffer_printf(out, "%s%s", i ? "," : "", kind->columns[i].name));
     for (size_t row = 0; row < answer->rows; row++)
         for (size_t i = 0; i < n; i++) {
-            char number[KD_NUMBER_SIZE] = "";
-            if (isfinite(answer->columns[i][row]))
-                kd_number_format(number, answer->columns[i][row]);
-            KD_TRY(kd_buffer_printf(out, "%s%s", i ? "," : "\n", number));
+            char number[1 + KD_DECIMAL_SIZE] = { i ? ',' : '\n' };
+            double value = answer->columns[i][row];
+            KD_TRY(kd_buffer_append(out, number, 1 + (isfinite(value) ? kd_decimal_print(number + 1, value) : 0)));
         }
     KD_TRY(kd_buffer_printf(out, "\n"));
 done:
