@@ -93,7 +93,7 @@ static void add_cell(struct sum *s, double light, double centre, double narrow, 
 }
 
 /* A chord between nodes h apart lies off the curve by -h^2 f''/12 in the mean. Nodes that are moved by a twelfth of their second difference leave the fourth power of h; next to the horns of a profile, where g is
- * stationary along a ring, that is worth four times as many directions. No node is moved by more than half of itself where it must not change its sign. */
+ * stationary along a ring, that is worth twice as many directions. No node is moved by more than half of itself where it must not change its sign. */
 static void straighten(double *f, int n, bool positive)
 {
     double before = f[n - 1], first = f[0];
