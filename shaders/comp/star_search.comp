@@ -55,7 +55,7 @@ void search(uint at)
     vec3 n = kd_sky_galactic(own), a = kd_sky_galactic(i), b = kd_sky_galactic(j);
     float aa = dot(a, a), bb = dot(b, b), ab = dot(a, b), more = KD_STAR_MARGIN * (aa + bb);
     float det = (aa + more) * (bb + more) - ab * ab, unit = 1.0 / max(det, 1e-30);
-    float size = AT_RIM ? sqrt(aa + bb) : kd_sky_number(KD_LENS_SKY_FOOTPRINT, at), steps = kd_steps_of(x, y);
+    float size = AT_RIM ? sqrt(aa + bb) : kd_sky_size(at, aa, bb, ab), steps = kd_steps_of(x, y);
     float patch_ = sqrt(max(aa * bb - ab * ab, 0.0)), least = 0.5 * push.least * float(SIDE * SIDE) * patch_ / max(steps, 1e-30);
     float reach = 0.75 * size;
     bool looks = kd_sky_escapes(at) && size < (RIM != 0u ? KD_STAR_PATCH_RIM : KD_STAR_PATCH) && aa > 0.0 && bb > 0.0 && !is_left_out(x, y);

@@ -81,7 +81,8 @@ kd_tile tile_about(uint at, bool whole)
     t.cells = kd_cells_of(face, low - room, high + room);
     escape = escape && most(low - room) < KD_FACE_EDGE && most(high + room) < KD_FACE_EDGE;
     t.bent = 2.0 * (most(t.aa) + most(t.ab) + most(t.bb));
-    bool fine = AT_RIM || kd_sky_number(KD_LENS_SKY_FOOTPRINT, at) < (RIM == 1u ? KD_STAR_PATCH_RIM : KD_STAR_PATCH);
+    float unit = 1.0 / float(HALF * HALF);
+    bool fine = AT_RIM || kd_sky_size(at, unit * dot(t.a, t.a), unit * dot(t.b, t.b), unit * dot(t.a, t.b)) < (RIM == 1u ? KD_STAR_PATCH_RIM : KD_STAR_PATCH);
     float off = (most(solve(t, corners)) + most(solve(t, sides))) * float(HALF);
     t.simple = escape && kd_is_finite(t.bent) && t.bent < KD_STAR_TILE_BENT && off < KD_STAR_TILE_OFF && fine;
     return t;

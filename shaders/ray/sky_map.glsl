@@ -42,6 +42,12 @@ void kd_sky_map_read()
 #include "emit/sky.glsl"
 
 float kd_sky_number(uint quantity, uint at) { return map_at(at + kd_plane(quantity) * push.stride); }
+/* How much of the sky a ray stands for, radians: as the map has it or, without that, by the derivatives along the picture's axes, whose products these are. */
+float kd_sky_size(uint at, float aa, float bb, float ab)
+{
+    float half_ = 0.5 * (aa - bb);
+    return (QUANTITIES & KD_LENS_SKY_FOOTPRINT) != 0u ? kd_sky_number(KD_LENS_SKY_FOOTPRINT, at) : sqrt(0.5 * (aa + bb) + sqrt(half_ * half_ + ab * ab));
+}
 bool kd_sky_escapes(uint at) { return RIM == 2u || kd_sky_number(KD_LENS_FATE, at) == KD_FATE_ESCAPED; }
 
 /* Where a ray comes from, in the hole's frame. */

@@ -530,8 +530,8 @@ static void kept_and_made_anew(void **state)
     }
 }
 
-/* Bright images alone: those that are bright enough by half are there, with their light, at their places to a fifth of a ray; many are not; the plan says so; and light of one kind
- * is not taken for that of the other. */
+/* Bright images alone: those that are bright enough by half are there, with their light, at their places to a fifth of a ray; many are not; the plan says so; and the map
+ * is one without footprints. */
 static void bright_images(void **state)
 {
     (void)state;
@@ -547,11 +547,12 @@ static void bright_images(void **state)
     needs.radiance = needs.bright = true;
     OK(kd_plan_make_for(&scene, &needs, &c, &plan, &error));
     const struct kd_plan whole = plan_of(&scene, &c);
+    assert_true(!(plan.quantities & KD_LENS_SKY_FOOTPRINT) && (whole.quantities & KD_LENS_SKY_FOOTPRINT));
     assert_true(plan.bright && !whole.bright && plan.n_approximations == whole.n_approximations + 1);
     struct kd_frame all = seen(&scene);
     OK(kd_render(renderer, &scene, &plan, NULL, NULL, &bright, &error));
     struct kd_frame again = seen(&scene);
-    assert_true(was_run(&bright, "stars") && bright.lens_reused && was_run(&again, "stars") && again.lens_reused);
+    assert_true(was_run(&bright, "stars") && !bright.lens_reused && !was_run(&again, "stars") && again.lens_reused); /* each has a map of its own */
     assert_memory_equal(again.layers[1].data, all.layers[1].data, 12ull * WIDTH * HEIGHT);
     const double radius = 0.5 * WIDTH * tan(asin(sqrt(27) / RADIUS)) / tan(0.5 * scene.camera.fov_deg * DEGREE); /* of the curve, about */
     int images = 0, faint = 0, lost = 0, off = 0; /* light of faint ones within a pixel is missing too */
@@ -574,6 +575,31 @@ static void bright_images(void **state)
         }
     printf("%d bright images, %d of other light, %d off their places; %d pixels of faint ones are dark\n", images, lost, off, faint);
     assert_true(images > 30 && lost <= images / 30 && off <= images / 60 && faint > 500);
+    kd_frame_finish(&all);
+    kd_frame_finish(&bright);
+    kd_frame_finish(&again);
+}
+
+/* Where light is spread over the sky as well, bright images alone are sought in the same lens map, which then has footprints: light of one kind is not taken for
+ * that of the other. */
+static void bright_images_before_spread_light(void **state)
+{
+    (void)state;
+    struct kd_scene scene = scene_of(0.9, 75);
+    struct kd_capacity c;
+    scene.sky.limit_mag = 7;
+    scene.sky.milky_way = 0.01;
+    kd_renderer_capacity(renderer, &c);
+    struct kd_needs needs = kd_needs_of(&scene);
+    struct kd_plan plan;
+    struct kd_frame bright, all = seen(&scene);
+    needs.bright = true;
+    OK(kd_plan_make_for(&scene, &needs, &c, &plan, &error));
+    OK(kd_render(renderer, &scene, &plan, NULL, NULL, &bright, &error));
+    struct kd_frame again = seen(&scene);
+    assert_true(plan.quantities & KD_LENS_SKY_FOOTPRINT);
+    assert_true(was_run(&bright, "stars") && bright.lens_reused && was_run(&again, "stars") && again.lens_reused);
+    assert_memory_equal(again.layers[1].data, all.layers[1].data, 12ull * WIDTH * HEIGHT);
     kd_frame_finish(&all);
     kd_frame_finish(&bright);
     kd_frame_finish(&again);
@@ -620,7 +646,7 @@ int main(int argc, char **argv)
     if (argc > 1)
         cmocka_set_test_filter(argv[1]);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bright_images), cmocka_unit_test(points_behind_a_disk),
+        cmocka_unit_test(bright_images), cmocka_unit_test(bright_images_before_spread_light), cmocka_unit_test(points_behind_a_disk),
         cmocka_unit_test(kept_and_made_anew), cmocka_unit_test(another_sky_meanwhile),
         cmocka_unit_test(behind_the_hole), cmocka_unit_test(round_the_hole), cmocka_unit_test(next_to_the_curve), cmocka_unit_test(next_to_the_curve_of_fast_holes), cmocka_unit_test(images_by_the_oracle), cmocka_unit_test(whole_skies),
     };

@@ -89,10 +89,7 @@ struct slice { uint32_t band, first, count; };
 /* Says whether the transfer kernel goes through columns of pixels, and leaves those without light as they are. */
 static bool in_columns(const struct kd_plan *p)
 {
-    bool spread = false;
-    for (size_t i = 0; i < sizeof p->traits / sizeof *p->traits; i++)
-        spread |= (p->traits[i] & KD_TRAIT_SPREAD) != 0;
-    return p->side == 1 && !(p->ends && spread) && !p->march.steps;
+    return p->side == 1 && !(p->ends && kd_plan_is_spread(p)) && !p->march.steps;
 }
 
 enum kd_status kd_frame_send_cameras(struct kd_frame_job *j)

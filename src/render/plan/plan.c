@@ -243,6 +243,14 @@ static uint32_t stokes_words(const struct kd_plan *plan)
     return kept ? KD_PLAN_STOKES + (plan->apart && plane ? 2 : 0) : 0;
 }
 
+bool kd_plan_is_spread(const struct kd_plan *plan)
+{
+    uint32_t all = 0;
+    for (size_t i = 0; i < sizeof plan->traits / sizeof *plan->traits; i++)
+        all |= plan->traits[i];
+    return all & KD_TRAIT_SPREAD;
+}
+
 /* Plans all but what depends on the pixels at the critical curve. */
 static enum kd_status outline(const struct kd_scene *scene, const struct kd_needs *needs, const struct kd_capacity *capacity,
                               struct kd_plan *out, struct kd_error *error)
@@ -272,6 +280,8 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
     plan.ends = kd_emit_at_ends(scene) && kd_plan_holds(&plan, KD_LENS_SKY);
     plan.n_layers = kd_layers_of(scene, plan.layers, &plan.picture);
     plan.n_layers = needs->unseen ? 0 : plan.n_layers;
+    if (plan.bright && !plan.n_layers && !kd_plan_is_spread(&plan)) /* bright images do with the differences that they are sought by */
+        plan.quantities &= ~(uint32_t)KD_LENS_SKY_FOOTPRINT;
     plan.radiance = needs->radiance && plan.picture && !needs->unseen;
     if (!needs->unseen && !kd_plan_is_map(&plan))
         plan.beam = kd_beam_of(scene);

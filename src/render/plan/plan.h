@@ -140,6 +140,9 @@ static inline uint64_t kd_plan_listed_most(const struct kd_plan *plan, uint32_t 
 
 static inline bool kd_plan_holds(const struct kd_plan *plan, uint32_t quantities) { return (plan->quantities & quantities) == quantities; }
 
+/* Says whether something shines wherever a ray ends. */
+bool kd_plan_is_spread(const struct kd_plan *plan);
+
 static inline bool kd_plan_has_footprints(const struct kd_plan *plan)
 {
     return plan->quantities & (KD_LENS_FOOTPRINT | KD_LENS_SKY_FOOTPRINT);
