@@ -207,7 +207,6 @@ async function watch(scene) {
 
   async function refuse(error) {
     seen();
-    followFiner(false);
     const { complain } = await parts;
     fall?.then(({ halt }) => halt());
     complain(error.pointer, error.message);

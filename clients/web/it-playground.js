@@ -8,7 +8,7 @@ export const presets = {
   binary: 'Binaria',
   emri: 'EMRI, spirale con chirp',
   swarm: 'Sciame',
-  'figure-eight': 'Otto',
+  'figure-eight': 'Figura a otto',
 };
 
 export const refusals = [

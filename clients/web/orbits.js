@@ -32,7 +32,7 @@ function facts(answer) {
     ['Q (Carter)', `${number(c.carter, 8)} M²`],
     [
       t('Nearest, farthest', 'Minima e massima distanza'),
-      `${result.end === 'horizon' ? t('horizon', 'orizzonte') : number(turn.r_min)} – ${number(turn.r_max)} M`,
+      `${result.end === 'horizon' || turn.r_min == null ? t('horizon', 'orizzonte') : number(turn.r_min)} – ${turn.r_max == null ? '∞' : number(turn.r_max) + ' M'}`,
     ],
     // A circle has no periastron, an orbit in the equatorial plane no node.
     advance && [t('Advance of the periastron, exact', 'Avanzamento del periastro, esatto'), answer.circular ? '–' : degrees(advance.periastron)],
