@@ -109,8 +109,12 @@ vec4 light(uvec2 place, uint at, uint pixel)
 #endif
 
 /* The angle of the electric field, from north to east, in (-pi/2, pi/2]; and the part of the light that is polarised. */
-float kd_layer_evpa(vec4 light) { return light.y == 0.0 && light.z == 0.0 ? KD_NOTHING : 0.5 * kd_atan2(light.z, light.y); }
-float kd_layer_polarized(vec4 light) { return light.x > 0.0 ? length(light.yz) / light.x : KD_NOTHING; }
+float kd_layer_evpa(vec4 light)
+{
+    float by = kd_squarable(max(abs(light.y), abs(light.z)));
+    return light.y == 0.0 && light.z == 0.0 ? KD_NOTHING : 0.5 * kd_atan2(light.z * by, light.y * by);
+}
+float kd_layer_polarized(vec4 light) { return light.x > 0.0 ? kd_part_of(vec3(light.yz, 0.0), light.x) : KD_NOTHING; }
 
 /* The layer's number of the mean light of a pixel. */
 float value_of_light(vec4 light)

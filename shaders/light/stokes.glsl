@@ -52,8 +52,8 @@ float kd_jones_through(kd_jones a) { return dot(a.s, a.s) + dot(a.re, a.re) + do
 /* Nothing is polarised by more than all of it, whatever was rounded. */
 vec4 kd_stokes_sound(vec4 s)
 {
-    float i = max(s.x, 0.0), size = length(s.yzw);
-    return vec4(i, s.yzw * (size > i ? i / size : 1.0));
+    float i = max(s.x, 0.0), part = i > 0.0 ? kd_part_of(s.yzw, i) : 0.0;
+    return vec4(i, i > 0.0 ? s.yzw * (part > 1.0 ? 1.0 / part : 1.0) : vec3(0.0));
 }
 
 /* The mean of exp(-y s) for s from 0 to 1, of a number and of a complex one with exp(-y) at hand. */

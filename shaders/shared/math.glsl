@@ -44,6 +44,16 @@ float kd_angle_upper(float x, float y)
 
 float kd_atan2(float y, float x) { return y < 0.0 ? -kd_angle_upper(x, -y) : kd_angle_upper(x, y); }
 
+/* The power of ten that brings a number > 0 to where squares of it are numbers of 32 bits: those of less than 1e-19 and of more than 1e19 are none. */
+float kd_squarable(float x) { return x < 1e-10 ? 1e25 : x > 1e10 ? 1e-20 : 1.0; }
+
+/* The length of v in parts of a number > 0, however small or large both are. */
+float kd_part_of(vec3 v, float whole)
+{
+    float by = kd_squarable(whole);
+    return length(v * by) / (whole * by);
+}
+
 /* Cosine and sine of so many quarter turns, to 1e-7: Taylor's series within half of one. */
 vec2 kd_quarter_turns(float turns)
 {
