@@ -99,6 +99,10 @@ const refusals = [
     '{} is {}; with this spin, e and inclination_deg an orbit has its turning points there only above {}, the separatrix',
     '{} è {}; con questi spin, e e inclination_deg un’orbita ha lì i suoi punti d’inversione solo sopra {}, la separatrice',
   ],
+  [
+    '{} is {}, allowed within the horizon, {} {}, is {}: no far clock tells when light of the gas arrives there',
+    '{} è {}, ammesso dentro l’orizzonte, {} {}, è {}: nessun orologio lontano dice quando vi arriva la luce del gas',
+  ],
   ['{} is {}, inside the horizon at {}; allowed is outside', '{} è {}, dentro l’orizzonte, a {}; ammesso è fuori'],
   ['{} is {}, not outside the horizon at {}', '{} è {}, non fuori dall’orizzonte, a {}'],
   ['{} is {}, and l is {}; allowed is {} to {}', '{} è {}, e l è {}; ammessi sono da {} a {}'],

@@ -179,8 +179,6 @@ export const sentences = {
     'disco spesso: somma di emissione e assorbimento lungo ogni raggio, senza diffusione; emette come un corpo nero della temperatura del disco sottile, da cima a fondo',
   'thick disk: light through its turbulence is found to 2e-2, 1e-2, 1e-3, 1e-4 or 5e-5 by accuracy.profile, from draft to reference: coarser than through smooth volumes':
     'disco spesso: la luce attraverso la turbolenza è trovata entro 2e-2, 1e-2, 1e-3, 1e-4 o 5e-5 secondo accuracy.profile, da draft a reference: meno finemente che attraverso volumi lisci',
-  'thick disk: shown at one coordinate time, whatever disk.slow_light says':
-    'disco spesso: mostrato a un solo tempo coordinato, qualunque cosa dica disk.slow_light',
   'volume: made up, the same everywhere between its edges, at rest for observers of zero angular momentum; it ends a hundredth outside the horizon; grey, its colour that of a chosen temperature, and its light bolometric, whatever disk.band says':
     'volume: inventato, uguale ovunque fra i suoi bordi, fermo per osservatori senza momento angolare; finisce un centesimo fuori dall’orizzonte; grigio, con il colore di una temperatura scelta, e luce bolometrica qualunque sia disk.band',
   'jets: stylised, cones of optically thin light along the spin axis that flies outwards along the radius at one speed, past observers of zero angular momentum; no magnetic field, no synchrotron spectrum: brightness goes as g^(2 + index), colour is that of a chosen temperature and is not shifted':

@@ -19,7 +19,7 @@ const length = r => number(r, 4) + ' M';
 function sources({ crossings, met, along, end }) {
   const all = [
     ...crossings.flatMap(crossing => (crossing.emitters ?? []).map(({ name, luminance_seen: seen }) => ({ ...crossing, kind: 'crossing', name, seen }))),
-    ...(along?.volumes ?? []).map(({ name, luminance_seen: seen, optical_depth }) => ({ kind: 'along', name, seen, optical_depth })),
+    ...(along?.volumes ?? []).map(({ name, luminance_seen: seen, optical_depth }) => ({ kind: 'along', name, seen, optical_depth, delay: along.delay })),
     ...(met ? [{ ...met, kind: 'met', seen: met.luminance_seen }] : []),
     ...(end.emitters ?? []).map(({ name, luminance_seen: seen, points }) => ({ ...end, kind: 'end', name, seen, points })),
   ].filter(({ seen }) => seen > 0);
@@ -40,7 +40,8 @@ const orderOf = order => `${images[Math.min(order, 2)]} (${t('order', 'ordine')}
 function wording(source, { title, far, star }) {
   const { kind, points } = source;
   if (kind === 'end') return { head: star ? nameOf(star) : points ? t('Starlight', 'Luce di stelle') : t('The sky', 'Il cielo'), facts: skyFacts(source, star) };
-  if (kind === 'along') return { head: title, facts: [[t('Optical depth', 'Profondità ottica'), number(source.optical_depth, 3)]] };
+  if (kind === 'along')
+    return { head: title, facts: [[t('Optical depth', 'Profondità ottica'), number(source.optical_depth, 3)], ...(source.delay != null ? [ago(source.delay, far)] : [])] };
   return {
     head: t(`${title}, at r = ${length(source.r)}`, `${title}, a r = ${length(source.r)}`),
     facts: [

@@ -42,7 +42,7 @@
 
 #ifdef KD_EMIT_CODE
 const uint KD_GAS_TAKEN = TRAITS_gas >> KD_TRAIT_GAS_SHIFT;
-const bool KD_GAS_SLOW = (TRAITS_gas & KD_TRAIT_SLOW) != 0u;
+const bool KD_GAS_SLOW = ((TRAITS_gas | TRAITS_thick) & KD_TRAIT_SLOW) != 0u; /* of a scene's gas, thin or thick */
 
 /* There is a gradient for each point of a lattice that repeats after 65536 cells, times 32768. */
 vec2 kd_gas_gradient(uint point)

@@ -6,7 +6,6 @@
 #define KD_BLOCK_orbit(F, U, A)
 #define KD_TRAIT_DOPPLER 2u  /* of emitters that move on orbits: the factor 1 / (E - Omega L) */
 #define KD_TRAIT_REDSHIFT 4u /* and 1 / u^t */
-#define KD_TRAIT_SLOW 16u    /* what moves is shown as it was when its light left it */
 #endif
 
 #ifdef KD_EMIT_CODE

@@ -26,7 +26,7 @@
 #define KD_TRAIT_PLASMA_GOLD 2u
 #define KD_TRAIT_PLASMA_VERTICAL 4u /* the field is along the axis, */
 #define KD_TRAIT_PLASMA_RADIAL 8u   /* or along the radius, else round the axis */
-#define KD_TRAIT_PLASMA_REST 16u    /* it is at rest for observers of zero angular momentum, else it goes round and falls in */
+#define KD_TRAIT_PLASMA_REST 512u   /* it is at rest for observers of zero angular momentum, else it goes round and falls in */
 #define KD_TRAIT_PLASMA_POWER 64u   /* a power law of electrons */
 #define KD_TRAIT_PLASMA_TORUS 128u
 #define KD_TRAIT_PLASMA_KAPPA 256u  /* a kappa distribution of electrons */

@@ -13,12 +13,13 @@
 #define KD_THICK_AMID 0.399624938 /* of the density, over the column: of height 1: its integral is 1 */
 #define KD_THICK_NOISE 5.237147522273636 /* 1 over the standard deviation of gradient noise by gradients of a cube */
 #define KD_THICK_FAINT 0.15    /* octaves fainter than this part of the first are sampled as the others ask for */
+#define KD_THICK_HASTE 4.0     /* of slow light: M of time for one along the ray, at most, that a grain is made shorter by: beyond, next to the horizon, little is seen of it */
 #define KD_THICK_LAYERS 3.0    /* cells in height for each in the plane: streaks are as much narrower than they are long */
 #define KD_BLOCK_thick(F, U, A)                                                                                 \
     F(height) F(flare)     /* H/R at 10 M, and the power of R/10 that it grows as */                           \
     F(inner) F(outer)      /* M */
 #define KD_TABLES_thick(T)
-#define KD_TRAITS_thick(T) KD_TRAITS_disk(T) T(GAS_DEEP) T(GAS_OCTAVES) T(AZIMUTH)
+#define KD_TRAITS_thick(T) KD_TRAITS_disk(T) T(SLOW) T(GAS_DEEP) T(GAS_OCTAVES) T(AZIMUTH)
 #define KD_BUFFERS_thick(B)
 #define KD_PASS_thick(P)
 #endif
@@ -36,6 +37,13 @@ kd_thick_orbit kd_thick_orbit_of(kd_midst p, float r, float axis)
     float turn = 1.0 - a * omega * s2;
     float rest = 1.0 - (r * r + a * a) * s2 * omega * omega - 2.0 * r / sigma * turn * turn;
     return kd_thick_orbit(inversesqrt(max(rest, 1e-6)), omega);
+}
+
+/* This is how much earlier light was there, a unit of Mino time along the ray back: t'. */
+float kd_thick_time(kd_midst p, float s2)
+{
+    float a = cam.spin, w2 = p.w * p.w, all = p.energy + a * (a * p.energy - p.momentum) * w2;
+    return (1.0 + a * a * w2) * all / (w2 * max(kd_delta(p.w, cam.root), 1e-30)) + a * (p.momentum - a * p.energy * s2);
 }
 
 /* There is a gradient for each point of a lattice, times 2^31. */
@@ -78,10 +86,16 @@ kd_thick_stir kd_thick_excess(kd_midst p, float axis, float z, float counts)
     float w1 = sqrt(max(1.0 - share, 0.0)), w2 = sqrt(share);
     uint k = min(uint(j), KD_GAS_RINGS - 2u);
     vec4 ring = kd_table_row(gas, k * (KD_GAS_OCTAVES + 1u));
-    kd_phasor psi = kd_cos_sin(p.phi - ring.x + emission.gas.shear * (x * KD_GAS_RING));
+    kd_phasor psi = kd_cos_sin(p.phi - ring.x + (KD_GAS_SLOW ? ring.y * p.ago : 0.0) + emission.gas.shear * (x * KD_GAS_RING));
     vec2 in_one = emission.gas.cells * exp(x * KD_GAS_RING) * vec2(psi.c, psi.s);
-    kd_gas_ring one = kd_gas_ring(in_one, k * (KD_GAS_OCTAVES + 1u), 0.0);
+    kd_gas_ring one = kd_gas_ring(in_one, k * (KD_GAS_OCTAVES + 1u), KD_GAS_SLOW ? ring.y * p.ago : 0.0);
     kd_gas_ring two = kd_gas_ring(vec2(ring.z * in_one.x - ring.w * in_one.y, ring.w * in_one.x + ring.z * in_one.y), (k + 1u) * (KD_GAS_OCTAVES + 1u), 0.0);
+    if (KD_GAS_SLOW) { /* by then the rings had another angle between them */
+        vec4 next_ring = kd_table_row(gas, two.row);
+        two.ahead = next_ring.y * p.ago;
+        psi = kd_cos_sin(p.phi - next_ring.x + two.ahead + emission.gas.shear * ((x - 1.0) * KD_GAS_RING));
+        two.p = emission.gas.cells * exp((x - 1.0) * KD_GAS_RING) * vec2(psi.c, psi.s);
+    }
     float up = KD_THICK_LAYERS * emission.gas.cells * z / axis, sum = 0.0, loud = emission.gas.loudness, finest = 1.0;
     float shear = emission.gas.shear, per = emission.gas.cells / axis;
     /* In cells (dr, dphi + shear dr, layers dz) an ellipse has the trace of its matrix for the sum of squares, and that of its minors for the product. */
@@ -140,6 +154,8 @@ kd_medium kd_thick_along(kd_midst p)
     float edge = x * x * (1.0 / (KD_THICK_REACH * KD_THICK_REACH)), ends = max(1.0 - edge * edge * edge * edge, 0.0);
     depth *= KD_THICK_AMID / height * exp(-0.5 * x * x) * ends * ends * ends * seen;
     if (KD_THICK_TAKEN > 0u) {
+        if (KD_GAS_SLOW) /* the pattern comes along while the ray goes back in time */
+            round_ += orbit.omega * axis * min(per * kd_thick_time(p, s2), KD_THICK_HASTE);
         float across = out_ * out_ + (round_ + emission.gas.shear * out_) * (round_ + emission.gas.shear * out_) + KD_THICK_LAYERS * KD_THICK_LAYERS * dz * dz;
 
         grain = 1.0 / (1.0 / grain + 0.5 * sqrt(across) * emission.gas.cells * stir.finest / axis);

@@ -17,8 +17,8 @@ struct kd_spread { vec3 plane, rise; };
  * light: the arriving photon has p_r = dw/kd_delta(w), p_theta = du/sin(theta) and the E, L and Q of `energy`, `momentum`, `q`, by the energy that
  * the observer measures. speed: M of length in (r, r n) a unit of Mino time, n being the direction from the hole, as if space were flat: what a
  * grain is counted in. phi: azimuth, source minus observer; spread: what the ray stands for: both 0 but for KD_TRAIT_AZIMUTH. order: of the crossing of the plane
- * that is nearest on the ray, as it has one up to where its cos(theta) turns: 0 where nothing asks for it. */
-struct kd_midst { float w, u, dw, du, energy, momentum, q, speed, phi; kd_spread spread; uint order; };
+ * that is nearest on the ray, as it has one up to where its cos(theta) turns: 0 where nothing asks for it. ago: as in kd_sample: 0 but for KD_TRAIT_SLOW. */
+struct kd_midst { float w, u, dw, du, energy, momentum, q, speed, phi; kd_spread spread; uint order; float ago; };
 /* That is what is there. light: what is added to the light, and depth: optical depth, of a unit of the affine parameter by the observer's energy:
  * along a ray, d lambda = (r^2 + a^2 u^2) d tau, matter of velocity U sees the way -k.U d lambda, so that of its emissivity j and opacity alpha, by
  * its own length, depth = alpha (-k.U), and bolometric light = j (-k.U)^-3, 1/(-k.U) being g. grain: M along the ray over which it changes by about

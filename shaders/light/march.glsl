@@ -27,6 +27,7 @@
 #define KD_MARCH_TOO_LONG 1.5 /* one that is by so much longer than its places allow is gone through anew */
 #define KD_MARCH_BEHIND 1.5   /* grain of what little is seen of, at most, over that of what is in front */
 #define KD_MARCH_LOOPS 65536u /* more than there are: lavapipe ends loops before their condition does, and what that leaves undone is to be found out */
+#define KD_MARCH_CLOSE 1e-8    /* Delta w^4 where a ray that turns is as close to the horizon as 32 bits tell: its time there has no digits, and stays finite */
 #define KD_MARCH_DEEP 1e3      /* optical depth that is as good as any above */
 #define KD_MARCH_OPAQUE slice.opaque /* a ray ends where less than this of the light behind comes through */
 
@@ -76,12 +77,50 @@ void kd_quintic_clip(kd_quintic q, float value, float sign_, inout float from, i
 
 const bool KD_MARCH_TURNS = ((KD_ALONG_TRAITS | KD_MET_TRAITS) & KD_TRAIT_AZIMUTH) != 0u;
 
-/* The azimuth by which the hole drags the ray, in the coordinates of ray/radial_step.glsl: chi up to the beginning of a step, without what those leave
- * out; and which they are: way, and what was left out before. */
-struct kd_march_drag { float chi, way, fallen; bool returns; };
+/* Whether it is to be known when light left a place. */
+#ifdef KD_TELL
+const bool KD_MARCH_DELAYS = true;
+#else
+const bool KD_MARCH_DELAYS = (KD_ALONG_TRAITS & KD_TRAIT_SLOW) != 0u;
+#endif
 
-/* A step of the ray. chi grows by a cubic in it. */
-struct kd_stride { kd_quintic w, u, x, y; float h, c0, c1, c2, c3, way; };
+/* The azimuth by which the hole drags the ray, in the coordinates of ray/radial_step.glsl: chi up to the beginning of a step, without what those leave
+ * out; and which they are: way, and what was left out before. ago: how long before the light that shows the scene's time that at the beginning of a step left. */
+struct kd_march_drag { float chi, way, fallen; bool returns; float ago; };
+
+/* A step of the ray. chi grows by a cubic in it; ago by a quintic, and by what kd_march_edge has where the ray goes one way: inwards, along = 1, or outwards, -1. */
+struct kd_stride { kd_quintic w, u, x, y; float h, c0, c1, c2, c3, way; kd_quintic ago; float along; };
+
+/* Boyer and Lindquist's time grows by t' = (1 + a^2 w^2) W/(w^2 D) + a (L - a E (1 - u^2)) along the ray back, D = 1 - 2w + a^2 w^2 and W = E + a (a E - L) w^2. With
+ * w'^2 = W^2 - D K w^2 the first part is (1 + a^2 w^2) (w'/(w^2 D) + K/(W + w')) where the ray goes inwards, and the same with -w' where it goes outwards: of that
+ * the first is d/dtau of -1/w + ln(w^2/D) + 2 kd_fall, which has all that grows without bound towards infinity and at the horizon, and less r_o + 2 ln r_o
+ * vanishes for an observer at infinity. The rest is smooth. In the step in which the ray turns t' is so itself. */
+float kd_march_edge(float w)
+{
+    return w > 0.0 ? 2.0 * kd_fall(w, cam.root) - 1.0 / w + kd_log(w * w / kd_horizons(w, cam.root)) : 0.0;
+}
+
+float kd_march_later(kd_geodesic m, kd_ray ray, kd_stride s, float t)
+{
+    float a = cam.spin, w = kd_quintic_at(s.w, t), u = kd_quintic_at(s.u, t), w2 = w * w, b = 1.0 + a * a * w2;
+    kd_state y;
+    y.w = w;
+    y.dw = kd_quintic_slope(s.w, t) / s.h;
+    float all = ray.e + a * (a * ray.e - m.momentum) * w2;
+    float out_ = s.along != 0.0 ? b * m.k / kd_one_way(m, y, ray.e, a, s.along) : b * all / max(w2 * kd_horizons(w, cam.root), KD_MARCH_CLOSE);
+    return s.h * (out_ + a * (m.momentum - a * ray.e * (1.0 - u * u)));
+}
+
+/* By the polynomial through five places of the step (Newton's forward differences), integrated: at its end that is Boole's rule. */
+kd_quintic kd_march_later_along(kd_geodesic m, kd_ray ray, kd_stride s, float begin)
+{
+    float f0 = kd_march_later(m, ray, s, 0.0), f1 = kd_march_later(m, ray, s, 0.25), f2 = kd_march_later(m, ray, s, 0.5);
+    float f3 = kd_march_later(m, ray, s, 0.75), f4 = kd_march_later(m, ray, s, 1.0);
+    float d1 = f1 - f0, d2 = f2 - 2.0 * f1 + f0, d3 = f3 - f0 + 3.0 * (f1 - f2), d4 = f4 + f0 - 4.0 * (f1 + f3) + 6.0 * f2;
+    return kd_quintic(begin, f0, 2.0 * d1 - d2 + (2.0 / 3.0) * d3 - 0.5 * d4, (8.0 / 3.0) * (d2 - d3) + (22.0 / 9.0) * d4, (8.0 / 3.0) * d3 - 4.0 * d4, (32.0 / 15.0) * d4);
+}
+
+float kd_march_ago(kd_stride s, float t) { return kd_quintic_at(s.ago, t) + s.along * kd_march_edge(kd_quintic_at(s.w, t)); }
 
 float kd_march_rate(kd_geodesic m, kd_ray ray, float w, float dw, float way)
 {
@@ -114,12 +153,17 @@ kd_stride kd_stride_of(kd_geodesic m, kd_ray ray, kd_path p, kd_path q, float h,
         s.c3 = (2.0 / 3.0) * (r0 - 2.0 * r1 + r2);
         drag.chi += s.c1 + s.c2 + s.c3 + (INGOING ? 0.0 : s.way * (kd_drag_fall(q.y.w, cam.spin, cam.root) - kd_drag_fall(p.y.w, cam.spin, cam.root)));
     }
+    if (KD_MARCH_DELAYS) {
+        s.along = p.v.w > 0.0 && q.v.w > 0.0 ? 1.0 : p.v.w < 0.0 && q.v.w < 0.0 ? -1.0 : 0.0;
+        s.ago = kd_march_later_along(m, ray, s, drag.ago - s.along * kd_march_edge(p.y.w));
+        drag.ago = kd_march_ago(s, 1.0);
+    }
     return s;
 }
 
 kd_march_drag kd_march_drag_of(kd_geodesic m, kd_ray ray)
 {
-    kd_march_drag drag = kd_march_drag(INGOING ? 0.0 : -cam.twist, -1.0, 0.0, false);
+    kd_march_drag drag = kd_march_drag(INGOING ? 0.0 : -cam.twist, -1.0, 0.0, false, -emission.frame.delay);
     if (INGOING) {
         kd_state y;
         y.w = ray.w;
@@ -168,7 +212,7 @@ kd_midst kd_midst_of(kd_geodesic m, kd_ray ray, kd_stride s, kd_spread spread, u
     float phi = 0.0;
     if (KD_MARCH_TURNS)
         phi = -(kd_atan2(kd_quintic_at(s.y, t), kd_quintic_at(s.x, t)) + s.c0 + t * (s.c1 + t * (s.c2 + t * s.c3)) + s.way * kd_drag_fall(w, cam.spin, cam.root));
-    return kd_midst(w, u, dw, du, ray.e, m.momentum, m.q, r * sqrt(fall * fall + turn), phi, spread, order);
+    return kd_midst(w, u, dw, du, ray.e, m.momentum, m.q, r * sqrt(fall * fall + turn), phi, spread, order, KD_MARCH_DELAYS ? kd_march_ago(s, t) : 0.0);
 }
 
 /* A place's light was dimmed by half its own depth and all of those before it. By Gauss's method of three stages (Hairer, Norsett & Wanner 1993,

@@ -7,7 +7,8 @@
  *   KD_TELL_OF_PLACE  an emitter there: its number, light, opacity, what of its light comes through
  *   KD_TELL_ENDS      where it ends: cosine of the polar angle, azimuth, footprint
  *   KD_TELL_OF_END, KD_TELL_OF_POINTS   an emitter there: its number, light
- *   KD_TELL_ALONG     a stretch through volumes: w and u at both ends, light that it adds, what comes through before and behind it
+ *   KD_TELL_ALONG     a stretch through volumes: w and u at both ends, light that it adds, what comes through before and behind it; and KD_TELL_ALONG_AT behind
+ *                     it: the delay of light from both ends
  *   KD_TELL_OF_VOLUME a volume, of the whole ray: its number, light as it arrives, optical depth
  *   KD_TELL_MET       a surface that hides all behind it: number of its emitter, light, which of them, crossings before it, cosine of the angle of
  *                     emission, what comes through in front; and KD_TELL_MET_AT behind it: w, u, azimuth, g
@@ -60,9 +61,11 @@ void kd_tell_place(kd_sample s, float through)
 /* Stretches without length are none. */
 #define KD_TELL_BEFORE(beam) kd_beam before = beam;
 #define KD_TELL_STRETCH(s, from, to, beam)                                                                     \
-    if (from < to)                                                                                             \
+    if (from < to) {                                                                                           \
         kd_tell(KD_TELL_ALONG, vec4(kd_quintic_at(s.w, from), kd_quintic_at(s.w, to), kd_quintic_at(s.u, from), kd_quintic_at(s.u, to)), \
-                vec4(beam.light - before.light, before.through), vec2(beam.through, 0.0));
+                vec4(beam.light - before.light, before.through), vec2(beam.through, 0.0));                     \
+        kd_tell(KD_TELL_ALONG_AT, vec4(vec2(kd_march_ago(s, from), kd_march_ago(s, to)) + emission.frame.delay, 0.0, 0.0), vec4(0.0), vec2(0.0)); \
+    }
 #define KD_TELL_END(end) kd_tell(KD_TELL_ENDS, vec4(end.u, end.phi, end.footprint, 0.0), vec4(0.0), vec2(0.0));
 #define KD_TELL_LIGHT(of, number, light) kd_tell(of, vec4(number, light), vec4(0.0), vec2(0.0));
 #define KD_TELL_MET_(number, name, met, light, through)                                                        \

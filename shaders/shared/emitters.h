@@ -62,6 +62,7 @@
  * themselves. There is room for that of one. */
 #define KD_TRAIT_PRESENT 1u
 #define KD_TRAIT_APART 32u
+#define KD_TRAIT_SLOW 16u            /* what moves is shown as it was when its light left it; volumes are told how long ago that was */
 #define KD_TRAIT_AZIMUTH 0x20000000u /* of volumes: it needs to know the azimuth of a place, and what of it a ray stands for */
 #define KD_TRAIT_POINTS 0x80000000u /* it has points of light, which a pass of their own spreads over pixels (comp/star_images.comp) */
 #define KD_TRAIT_SPREAD 0x40000000u /* it has light wherever a ray ends */

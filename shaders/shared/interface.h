@@ -217,6 +217,7 @@
 #define KD_TELL_MET 10.0
 #define KD_TELL_MET_AT 11.0
 #define KD_TELL_POLARIZED 12.0
+#define KD_TELL_ALONG_AT 13.0
 #define KD_TELL_SUMS 2u /* records in front of the others: KD_TELL_FRONT and KD_TELL_WHOLE */
 
 #endif

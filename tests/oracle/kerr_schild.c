@@ -441,3 +441,90 @@ int ks_passes(struct ks_photon photon, double r, double u, double phi, double wi
     }
     return n;
 }
+
+/* Where a path is, by distances from the axis and the plane; and its nearest part to each place so far. */
+struct meridian { double x, z; };
+struct nearest { state from; double low, high, off; };
+
+static struct meridian meridian_after(const struct system *s, const double *from, double t)
+{
+    state y;
+    extrapolate(s, from, t, y);
+    const double r = radius(s->a, y), u = y[2] / r;
+    return (struct meridian) { r * sqrt((1 - u) * (1 + u)), y[2] };
+}
+
+/* The part of a straight way from a to b at which it is nearest to c, and how near. */
+static double part_of(struct meridian a, struct meridian b, struct meridian c, double *off)
+{
+    const double dx = b.x - a.x, dz = b.z - a.z, long2 = dx * dx + dz * dz;
+    const double t = long2 > 0 ? fmin(fmax(((c.x - a.x) * dx + (c.z - a.z) * dz) / long2, 0), 1) : 0;
+    *off = hypot(a.x + t * dx - c.x, a.z + t * dz - c.z);
+    return t;
+}
+
+/* Takes the part of it from `low` to `high` after a state that is nearest to the place, if it is nearer than what was found. */
+static void look(const struct system *s, const double *from, double low, double high, struct meridian place, struct nearest *best)
+{
+    enum { PARTS = 8 };
+    struct meridian a = meridian_after(s, from, low);
+    for (int k = 0; k < PARTS; k++) {
+        const double t0 = low + k * (high - low) / PARTS, t1 = low + (k + 1) * (high - low) / PARTS;
+        const struct meridian b = meridian_after(s, from, t1);
+        double off;
+        part_of(a, b, place, &off);
+        if (off < best->off) {
+            memcpy(best->from, from, sizeof best->from);
+            best->low = t0, best->high = t1, best->off = off;
+        }
+        a = b;
+    }
+}
+
+static double delay_at(const struct system *s, struct nearest *best, struct meridian place)
+{
+    for (int i = 0; i < 4; i++) {
+        const struct nearest was = *best;
+        best->off = INFINITY;
+        look(s, was.from, was.low, was.high, place, best);
+    }
+    const double t = part_of(meridian_after(s, best->from, best->low), meridian_after(s, best->from, best->high), place, &best->off);
+    state y;
+    extrapolate(s, best->from, best->low + t * (best->high - best->low), y);
+    return y[6] - slow(s->a, radius(s->a, y));
+}
+
+void ks_delays(struct ks_photon photon, const double (*places)[2], int n, double *delay, double *off)
+{
+    static struct nearest best[KS_MOST_PLACES];
+    static struct meridian at[KS_MOST_PLACES];
+    const struct system s = { photon.a, photon.energy };
+    const double horizon = 1 + sqrt((1 - photon.a) * (1 + photon.a));
+    state y, next;
+    start(&photon, y);
+    for (int i = 0; i < n; i++) {
+        best[i].off = INFINITY;
+        at[i] = (struct meridian) { places[i][0] * sqrt(fmax((1 - places[i][1]) * (1 + places[i][1]), 0)), places[i][0] * places[i][1] };
+    }
+    double h = 0.05 * radius(photon.a, y);
+    for (int step = 0; step < 20000; step++) {
+        const double r = radius(photon.a, y), v = sqrt(y[3] * y[3] + y[4] * y[4] + y[5] * y[5]) + 2 * fabs(photon.energy) / r;
+        if (r < horizon * (1 + 1e-9) || (r > 200 && y[0] * y[3] + y[1] * y[4] + y[2] * y[5] > 0))
+            break;
+        h = fmin(h, 0.1 * r / v);
+        const double error = extrapolate(&s, y, h, next);
+        if (!(error < 1e-12) && h > 1e-9) {
+            h *= 0.5;
+            continue;
+        }
+        for (int i = 0; i < n; i++)
+            if (fabs(r / places[i][0] - 1) < 0.5)
+                look(&s, y, 0, h, at[i], &best[i]);
+        memcpy(y, next, sizeof next);
+        h *= error < 1e-14 ? 2 : 1;
+    }
+    for (int i = 0; i < n; i++) {
+        delay[i] = isfinite(best[i].off) ? delay_at(&s, &best[i], at[i]) : NAN;
+        off[i] = best[i].off;
+    }
+}

@@ -54,6 +54,10 @@ struct ks_light ks_along(struct ks_photon photon, double inner, double outer, bo
 struct ks_near { double b, delay; };
 int ks_passes(struct ks_photon photon, double r, double u, double phi, double within, int most, struct ks_near *out);
 
+/* The delays of light from places (r, cos(theta)) of the path back in time: of the place of the path that is nearest to each in those two, and how far it passes, M. */
+#define KS_MOST_PLACES 512
+void ks_delays(struct ks_photon photon, const double (*places)[2], int n, double *delay, double *off);
+
 /* The path back in time of the photon p, a covector of ingoing Kerr-Schild coordinates (kerr_schild_frame.h), from a place that may lie within the
  * horizon; light that comes from outside left it there through the outer horizon, where all is regular. Azimuths are Boyer-Lindquist, of
  * the source less the place's own in these coordinates, which is the same at infinity. A ray from the horizon in the past

@@ -195,6 +195,14 @@ static void gas_replaces_the_disk(void **state)
     assert_true(says(&scene, "gas: turbulence") && says(&scene, "gas: fast light") && kd_emit_moves(&scene));
     scene.disk.slow_light = true;
     assert_int_equal(kd_emit_needs(&scene), KD_LENS_W | KD_LENS_PHI | KD_LENS_SHAPE | KD_LENS_DELAY);
+    assert_true(!says(&scene, "gas: fast light") && !kd_emit_slow_along(&scene));
+    scene.disk.height = 0.1; /* the march knows delays by itself */
+    assert_int_equal(kd_emit_needs(&scene), KD_LENS_W | KD_LENS_PHI | KD_LENS_SHAPE);
+    assert_true(!says(&scene, "gas: fast light") && kd_emit_slow_along(&scene));
+    scene.gas.amplitude = 0; /* nothing moves */
+    assert_false(kd_emit_slow_along(&scene));
+    scene.gas.amplitude = 0.5;
+    scene.disk.height = 0;
     scene.disk.model = KD_DISK_PARTICLES;
     kd_emit_traits(&scene, traits);
     assert_true(!traits[KD_EMITTER_gas] && traits[KD_EMITTER_particles]);

@@ -66,6 +66,15 @@ bool kd_emit_along(const struct kd_scene *scene)
     return any(scene, ALONG);
 }
 
+bool kd_emit_slow_along(const struct kd_scene *scene)
+{
+    uint32_t traits[KD_EMITTER_COUNT], all = 0;
+    kd_emit_traits(scene, traits);
+    for (int i = 0; i < KD_EMITTER_COUNT; i++)
+        all |= kinds[i] == ALONG ? traits[i] : 0;
+    return all & KD_TRAIT_SLOW;
+}
+
 bool kd_emit_met(const struct kd_scene *scene)
 {
     return any(scene, MET);

@@ -79,6 +79,7 @@ void kd_emit_traits(const struct kd_scene *scene, uint32_t out[KD_EMITTER_COUNT]
 uint32_t kd_emit_needs(const struct kd_scene *scene);
 bool kd_emit_at_crossings(const struct kd_scene *scene);
 bool kd_emit_along(const struct kd_scene *scene); /* whether there are volumes */
+bool kd_emit_slow_along(const struct kd_scene *scene); /* and one is shown as it was when its light left it */
 bool kd_emit_met(const struct kd_scene *scene);   /* whether there are surfaces that rays meet off the plane */
 bool kd_emit_at_ends(const struct kd_scene *scene);
 bool kd_emit_apart(const struct kd_scene *scene);

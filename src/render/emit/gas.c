@@ -122,7 +122,7 @@ static void tables(struct kd_emit_tables *out, const struct kd_scene *scene)
     static bool name(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, condition; }
 WHEN(turbulent, stirs(scene))
 WHEN(deep, scene->disk.emission_opacity > 0 && scene->disk.height == 0)
-WHEN(fast, stirs(scene) && (!scene->disk.slow_light || scene->disk.height > 0))
+WHEN(fast, stirs(scene) && !scene->disk.slow_light)
 
 static const struct kd_sentence sentences[] = {
     { "gas: turbulence is procedural noise, no solution of magnetohydrodynamics; it multiplies the flux, and with it temperature and "

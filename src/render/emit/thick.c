@@ -16,7 +16,7 @@ static bool stirs(const struct kd_scene *scene) { return scene->gas.amplitude > 
 static uint32_t traits(const struct kd_scene *scene)
 {
     return kd_disk_traits(scene) | (scene->disk.emission_opacity > 0 ? KD_TRAIT_GAS_DEEP : 0) |
-           (stirs(scene) ? KD_TRAIT_AZIMUTH | (uint32_t)scene->gas.octaves << KD_TRAIT_GAS_SHIFT : 0);
+           (stirs(scene) ? KD_TRAIT_AZIMUTH | (scene->disk.slow_light ? KD_TRAIT_SLOW : 0) | (uint32_t)scene->gas.octaves << KD_TRAIT_GAS_SHIFT : 0);
 }
 
 /* Crossings are looked for even of a smooth one: where they are thin, at the critical curve, so is its light. */
@@ -59,8 +59,6 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
     };
 }
 
-static bool is_slow(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, scene->disk.slow_light; }
-
 static bool by_profile(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, stirs(scene) && !isfinite(scene->accuracy.tolerance); }
 
 static const struct kd_sentence sentences[] = {
@@ -69,7 +67,6 @@ static const struct kd_sentence sentences[] = {
     { "thick disk: its gas goes round with the angular velocity of the circular orbit in the plane at its distance from the axis, at whatever height", NULL },
     { "thick disk: the sum of emission and absorption along each ray, without scattering; what it emits is that of a black body of the thin disk's temperature, from top to "
       "bottom", NULL },
-    { "thick disk: shown at one coordinate time, whatever disk.slow_light says", is_slow },
     { "thick disk: light through its turbulence is found to 2e-2, 1e-2, 1e-3, 1e-4 or 5e-5 by accuracy.profile, from draft to reference: coarser than through smooth volumes", by_profile },
 };
 

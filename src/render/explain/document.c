@@ -194,13 +194,14 @@ static void put_volume(struct kd_json *json, const struct kd_told_volume *v)
     kd_json_end(json);
 }
 
-static void put_stretch(struct kd_json *json, const struct kd_told_stretch *s)
+static void put_stretch(struct kd_json *json, const struct kd_explained *x, const struct kd_told_stretch *s)
 {
     kd_json_object(json, NULL);
     kd_json_number(json, "order", s->order);
     for (int end = 0; end < 2; end++) {
         kd_json_number(json, end ? "to_r" : "from_r", 1 / (double)s->w[end]);
         kd_json_number(json, end ? "to_theta" : "from_theta", acos(fmax(-1, fmin(1, (double)s->u[end]))));
+        kd_json_number(json, end ? "to_delay" : "from_delay", x->motion.within ? NAN : (double)s->delay[end]);
     }
     put_rgb(json, "seen", s->light, 1);
     kd_json_number(json, "through", s->through[0]);
@@ -231,6 +232,7 @@ static void put_along(struct kd_json *json, const struct kd_explained *x, bool s
     put_rgb(json, "seen", sum, 1);
     kd_json_number(json, "luminance_seen", luminance(sum));
     put_depth(json, passes);
+    kd_json_number(json, "delay", kd_explained_along_delay(x));
     kd_json_array(json, "volumes");
     for (size_t i = 0; i < t->n_volumes; i++)
         put_volume(json, &t->volumes[i]);
@@ -238,7 +240,7 @@ static void put_along(struct kd_json *json, const struct kd_explained *x, bool s
     if (stretches) {
         kd_json_array(json, "stretches");
         for (size_t i = 0; i < t->n_stretches; i++)
-            put_stretch(json, &t->stretches[i]);
+            put_stretch(json, x, &t->stretches[i]);
         kd_json_end(json);
     }
     kd_json_end(json);

@@ -184,6 +184,18 @@ int kd_explained_stokes(const struct kd_told_ray *ray, double out[KD_EXPLAINED_S
 double kd_explained_evpa(const double s[3]) { return s[1] != 0 || s[2] != 0 ? 0.5 * atan2(s[2], s[1]) : NAN; }
 double kd_explained_polarized(const double s[3]) { return s[0] > 0 ? hypot(s[1], s[2]) / s[0] : NAN; }
 
+double kd_explained_along_delay(const struct kd_explained *x)
+{
+    double sum = 0, light = 0;
+    for (size_t i = 0; i < x->told->n_stretches; i++) {
+        const struct kd_told_stretch *s = &x->told->stretches[i];
+        const double seen = luminance(s->light);
+        sum += seen > 0 ? 0.5 * seen * ((double)s->delay[0] + (double)s->delay[1]) : 0;
+        light += seen;
+    }
+    return light > 0 && !x->motion.within ? sum / light : NAN;
+}
+
 void kd_explained_finish(struct kd_explained *x)
 {
     kd_ray_path_finish(&x->path);

@@ -42,6 +42,9 @@ int kd_explained_stokes(const struct kd_told_ray *ray, double out[KD_EXPLAINED_S
 /* The angle of the electric field, and the part of the light that is polarised; NAN where there is none. */
 double kd_explained_evpa(const double stokes[3]);
 double kd_explained_polarized(const double stokes[3]);
+/* The delay of light from volumes, their mean over what arrives; NAN: there is no light of any, or the observer is within the horizon, where a far clock tells
+ * no time. */
+double kd_explained_along_delay(const struct kd_explained *explained);
 void kd_explained_finish(struct kd_explained *explained);
 
 /* A place of the crossing of that order in what is told, NULL: its light did not come through, or nothing shines. */

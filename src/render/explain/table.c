@@ -76,6 +76,8 @@ static enum kd_status put_light(const struct kd_explained *x, struct kd_buffer *
         KD_TRY(kd_buffer_printf(out, "%-8s %-10s %35s   %11.4e %11.4e %11.4e   depth %.5g\n", "along", kd_emitters[v->emitter]->name, "", (double)v->light[0],
                                 (double)v->light[1], (double)v->light[2], (double)v->depth));
     }
+    if (!isnan(kd_explained_along_delay(x)))
+        KD_TRY(kd_buffer_printf(out, "%-19s delay %.5g M, the mean over its light\n", "along", kd_explained_along_delay(x)));
     if (t->met.met) {
         const struct kd_told_met *m = &t->met;
         const struct kd_told_glow glow = { .emitter = m->emitter, .light = { m->light[0], m->light[1], m->light[2] }, .opacity = 1, .through = m->through };

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { RECORDS = 8192 }; /* some 360 kB: a march makes one for each part of each step, 3072 at most, and emitters theirs */
+enum { RECORDS = 8192 }; /* some 360 kB: a march makes two for each part of each step, 6144 at most, and emitters theirs */
 struct record { float of, a[4], b[4], c[2]; };
 #define SIZE (sizeof(float) + (KD_TELL_SUMS + RECORDS) * sizeof(struct record))
 _Static_assert(sizeof(struct record) == KD_TELL_RECORD * sizeof(float), "the record of interface.h");
@@ -35,6 +35,7 @@ static struct kd_told_stretch stretch_of(const struct record *r, uint32_t behind
 {
     return (struct kd_told_stretch) {
         .order = behind, .w = { r->a[0], r->a[1] }, .u = { r->a[2], r->a[3] }, .light = { r->b[0], r->b[1], r->b[2] }, .through = { r->b[3], r->c[0] },
+        .delay = { NAN, NAN },
     };
 }
 
@@ -47,7 +48,7 @@ static void join(struct kd_told_ray *told)
         s[n] = s[i];
         if (i + 1 < told->n_stretches && s[i + 1].order == s[i].order) {
             const struct kd_told_stretch *next = &s[++i];
-            s[n].w[1] = next->w[1], s[n].u[1] = next->u[1], s[n].through[1] = next->through[1];
+            s[n].w[1] = next->w[1], s[n].u[1] = next->u[1], s[n].delay[1] = next->delay[1], s[n].through[1] = next->through[1];
             for (int c = 0; c < 3; c++)
                 s[n].light[c] += next->light[c];
         }
@@ -99,6 +100,8 @@ static void take(struct kd_told_ray *told, const struct record *r)
         last->polarized = true, last->stokes[0] = r->a[0], last->stokes[1] = r->a[1];
     else if (r->of == (float)KD_TELL_ALONG)
         take_stretch(told, stretch_of(r, last ? last->order + 1 : 0));
+    else if (r->of == (float)KD_TELL_ALONG_AT && told->n_stretches && isnan(told->stretches[told->n_stretches - 1].delay[0]))
+        memcpy(told->stretches[told->n_stretches - 1].delay, r->a, sizeof told->stretches[0].delay);
     else if (r->of == (float)KD_TELL_AT)
         told->lost++;
     else if (r->of == (float)KD_TELL_ENDS)

@@ -37,6 +37,7 @@ struct kd_told_place {
 struct kd_told_stretch {
     uint32_t order;     /* of the next crossing, if it comes to one */
     float w[2], u[2];   /* 1/r and cos(theta) at its ends */
+    float delay[2];     /* of light from there, as that of a crossing; of an observer within the horizon it means nothing */
     float light[3];     /* that it adds to what arrives */
     float through[2];   /* what all in front lets pass, and that with it */
 };

@@ -176,6 +176,9 @@ static bool within_horizon(const struct kd_scene *scene) { return scene->camera.
 static enum kd_status from_within(struct kd_plan *plan, const struct kd_scene *scene, const struct kd_wish *wish, struct kd_error *error)
 {
     struct kd_setting *by = &plan->setting;
+    if (kd_emit_slow_along(scene))
+        return kd_error_field(error, "/disk/slow_light", "disk.slow_light is true, allowed within the horizon, camera.r %.9g, is false: no far clock tells when light "
+                              "of the gas arrives there", scene->camera.r);
     if (plan->path != KD_LENS_MAP)
         return kd_error_field(error, "/accuracy/engine", "accuracy.engine is \"%s\" in %s, allowed within the horizon, camera.r %.9g, are the Mino engines in "
                               "f32, and no delay of light", kd_engine_name(by->engine), kd_precision_name(by->precision), scene->camera.r);

@@ -53,12 +53,13 @@ static void add_along(struct kd_json *json)
 {
     static const struct kd_openapi_member volume[] = { { "name", TEXT, false }, { "seen", KD_SCHEMA_VECTOR, false }, { "luminance_seen", NUMBER, false }, { "optical_depth", OR_NULL, false } };
     static const struct kd_openapi_member stretch[] = {
-        { "order", COUNT, false }, { "from_r", OR_NULL, false }, { "from_theta", NUMBER, false }, { "to_r", OR_NULL, false }, { "to_theta", NUMBER, false },
+        { "order", COUNT, false }, { "from_r", OR_NULL, false }, { "from_theta", NUMBER, false }, { "from_delay", OR_NULL, false }, { "to_r", OR_NULL, false },
+        { "to_theta", NUMBER, false }, { "to_delay", OR_NULL, false },
         { "seen", KD_SCHEMA_VECTOR, false }, { "through", NUMBER, false }, { "optical_depth", OR_NULL, false },
     };
     static const struct kd_openapi_member along[] = {
         { "names", LIST(TEXT), false }, { "steps", COUNT, false }, { "samples", COUNT, false }, { "seen", KD_SCHEMA_VECTOR, false }, { "luminance_seen", NUMBER, false },
-        { "optical_depth", OR_NULL, false }, { "volumes", LIST(REF("PixelVolume")), false }, { "stretches", LIST(REF("PixelStretch")), true },
+        { "optical_depth", OR_NULL, false }, { "delay", OR_NULL, false }, { "volumes", LIST(REF("PixelVolume")), false }, { "stretches", LIST(REF("PixelStretch")), true },
     };
     static const struct kd_openapi_member met[] = {
         { "name", TEXT, false }, { "index", COUNT, false }, { "order", COUNT, false }, { "r", NUMBER, false }, { "theta", NUMBER, false }, { "phi", NUMBER, false },
