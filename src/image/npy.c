@@ -2,6 +2,7 @@
 
 #include <stdbool.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define MAGIC "\x93NUMPY"
@@ -69,6 +70,7 @@ struct reader {
     const char *at; /* NUL at the end of the header */
     struct kd_npy *array;
     struct kd_error *error;
+    bool text; /* is taken, too */
 };
 
 static enum kd_status fail(struct reader *r, const char *what)
@@ -148,11 +150,27 @@ static enum kd_status take_shape(struct reader *r, uint64_t *shape, size_t most,
     return *n == 1 && !comma ? fail(r, "the shape is no tuple") : KD_OK;
 }
 
+/* "<U12", "|S12" */
+static bool is_text(const char *code, struct kd_npy_field *out)
+{
+    for (size_t i = KD_NPY_TEXT; i <= KD_NPY_BYTES; i++) {
+        const char *digits = code + strlen(types[i].code);
+        if (strncmp(code, types[i].code, strlen(types[i].code)) || !*digits || strlen(digits) > 6 || digits[strspn(digits, "0123456789")])
+            continue;
+        out->type = (enum kd_npy_type)i;
+        out->count = (uint32_t)strtoul(digits, NULL, 10);
+        return out->count > 0;
+    }
+    return false;
+}
+
 static enum kd_status take_type(struct reader *r, enum kd_npy_type *out)
 {
     char code[16], what[80];
     if (!take_string(r, code, sizeof code))
         return fail(r, "an element type is no plain string");
+    if (r->text && is_text(code, &r->array->fields[0]))
+        return KD_OK;
     for (size_t i = 0; i < TYPES_READ; i++)
         if (!strcmp(code, types[i].code)) {
             *out = (enum kd_npy_type)i;
@@ -269,10 +287,10 @@ static size_t find_header(const uint8_t *p, size_t size, size_t *length)
     return p[6] == 1 ? 10 : 12;
 }
 
-enum kd_status kd_npy_read(const void *data, size_t size, struct kd_npy *out, struct kd_error *error)
+static enum kd_status read_all(const void *data, size_t size, bool text, struct kd_npy *out, struct kd_error *error)
 {
     char header[KD_NPY_HEADER_MAX + 1];
-    struct reader r = { .at = header, .array = out, .error = error };
+    struct reader r = { .at = header, .array = out, .error = error, .text = text };
     size_t length = 0, start = find_header(data, size, &length);
     *out = (struct kd_npy) { 0 };
     if (!start)
@@ -300,4 +318,47 @@ enum kd_status kd_npy_read(const void *data, size_t size, struct kd_npy *out, st
         return kd_error_set(error, KD_EINVAL, "not a usable NPY array: %zu bytes follow its header, its shape has %llu",
                             size - out->header_size, (unsigned long long)bytes);
     return KD_OK;
+}
+
+enum kd_status kd_npy_read(const void *data, size_t size, struct kd_npy *out, struct kd_error *error) { return read_all(data, size, false, out, error); }
+
+/* A character of UTF-32 in UTF-8; 0 bytes: it is none. */
+static size_t to_utf8(uint32_t c, char out[4])
+{
+    static const uint32_t least[] = { 0, 0x80, 0x800, 0x10000, 0x110000 };
+    size_t n = 1;
+    while (n < 5 && c >= least[n])
+        n++;
+    if (n > 4 || (c >= 0xd800 && c < 0xe000))
+        return 0;
+    out[0] = (char)(n == 1 ? c : (0xf00u >> n & 0xf0) | c >> 6 * (n - 1));
+    for (size_t i = 1; i < n; i++)
+        out[i] = (char)(0x80 | (c >> 6 * (n - 1 - i) & 0x3f));
+    return n;
+}
+
+enum kd_status kd_npy_read_text(const void *data, size_t size, struct kd_buffer *out, struct kd_error *error)
+{
+    struct kd_npy array;
+    struct reader r = { .error = error };
+    enum kd_status status = read_all(data, size, true, &array, error);
+    const enum kd_npy_type type = array.fields[0].type;
+    const uint8_t *p = (const uint8_t *)data + array.header_size;
+    if (status)
+        return status;
+    if (array.n_fields != 1 || array.fields[0].name[0] || !(type == KD_NPY_U1 ? array.n_dimensions == 1 : type >= KD_NPY_TEXT && array.n_dimensions == 0))
+        return fail(&r, "it is no text: neither one str nor a list of bytes");
+    const size_t n = type == KD_NPY_U1 ? array.items : array.fields[0].count;
+    for (size_t i = 0; i < n && !status; i++) {
+        char c[4] = { 0 };
+        const uint8_t *at = p + types[type].size * i;
+        size_t bytes = type == KD_NPY_TEXT ? to_utf8(at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24, c) : 1;
+        if (!bytes)
+            return fail(&r, "its text holds what is no character");
+        if (type != KD_NPY_TEXT)
+            c[0] = (char)at[0];
+        if (c[0]) /* NULs fill it up */
+            status = kd_buffer_append(out, c, bytes);
+    }
+    return status ? kd_error_set(error, status, "out of memory for a text") : KD_OK;
 }

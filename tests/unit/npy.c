@@ -211,11 +211,45 @@ static void written(void **state)
     kd_buffer_finish(&out);
 }
 
+/* Texts as numpy.array("...") and numpy.frombuffer write them. */
+static void texts(void **state)
+{
+    (void)state;
+    static const struct { const char *type, *shape; const void *bytes; size_t size; const char *wanted; } table[] = {
+        { "<U3", "()", "a\0\0\0\xe9\0\0\0\0\0\0\0", 12, "a\xc3\xa9" },  { "<U1", "()", "\x00\xf6\x01\0", 4, "\xf0\x9f\x98\x80" },
+        { "<U1", "()", "\xac\x20\0\0", 4, "\xe2\x82\xac" },          { "|S4", "()", "{}\0\0", 4, "{}" },
+        { "|u1", "(3,)", "abc", 3, "abc" },                         { "<U1", "()", "\0\xd8\0\0", 4, NULL },
+        { "<U1", "()", "\0\0\x11\0", 4, NULL },                     { "<f8", "(1,)", "12345678", 8, NULL },
+        { "<U0", "()", "", 0, NULL },                               { "<U2", "(1,)", "a\0\0\0b\0\0\0", 8, NULL },
+        { "<U2", "()", "a\0\0\0", 4, NULL },
+    };
+    for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
+        char header[100];
+        struct kd_buffer out = { 0 };
+        struct kd_error error = { 0 };
+        struct kd_npy array;
+        snprintf(header, sizeof header, "{'descr': '%s', 'fortran_order': False, 'shape': %s, }\n", table[i].type, table[i].shape);
+        struct file file = file_of(1, header, table[i].size);
+        memcpy(file.data + file.size - table[i].size, table[i].bytes, table[i].size);
+        enum kd_status status = kd_npy_read_text(file.data, file.size, &out, &error);
+        assert_int_equal(status, table[i].wanted ? KD_OK : KD_EINVAL);
+        if (table[i].wanted) {
+            assert_int_equal(out.size, strlen(table[i].wanted));
+            assert_memory_equal(out.data, table[i].wanted, out.size);
+        } else
+            assert_true(*error.message);
+        if (table[i].type[1] == 'U')
+            assert_int_equal(kd_npy_read(file.data, file.size, &array, &error), KD_EINVAL); /* numbers alone */
+        kd_buffer_finish(&out);
+        free(file.data);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(plain_arrays), cmocka_unit_test(records), cmocka_unit_test(refused),
-        cmocka_unit_test(damaged),      cmocka_unit_test(written),
+        cmocka_unit_test(damaged),      cmocka_unit_test(written), cmocka_unit_test(texts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
