@@ -83,6 +83,8 @@ const labels = {
   'volume.gold_flattening': 'Flattening h',
   'volume.gold_momentum': 'Angular momentum l0',
   'volume.gold_absorption': 'Absorption A',
+  'volume.grid': 'Grid of matter',
+  'volume.grid_scale': 'Density of the grid',
   'sky.grid_deg': 'Grid spacing',
   'sky.milky_way': 'Milky Way',
   'sky.image': 'Picture of the sky',

@@ -17,6 +17,10 @@
     F(field) F(field_index) /* log2 of B^2/n at r = 1 M, gauss^2 cm^3, and what it falls as */                  \
     F(power_index) F(power_light) F(power_depth) /* of a power law of electrons */                             \
     F(torus_momentum) F(torus_edge) F(torus_index) /* l; what ln h has too much; density as h - 1 to this */   \
+    U(grid_rows) U(grid_columns) U(grid_layers) /* nodes in r, theta and phi; 1 layer: the same all round */ \
+    F(grid_r) F(grid_per_r) F(grid_theta) F(grid_per_theta) F(grid_phi) F(grid_per_phi) /* the first of each, log2 of it for r, and how many there are in 1 */ \
+    F(grid_fall)           /* a, where phi is that of ingoing coordinates; else 0 */                            \
+    F(grid_field)          /* log2 of the unit of its field, gauss */                                           \
     F(kappa) F(kappa_width) /* of a kappa distribution, log2(kappa - 3), */                                   \
     F(kappa_light_low) F(kappa_light_high) F(kappa_light_sharp) F(kappa_depth_low) F(kappa_depth_high) F(kappa_depth_sharp) /* and physics/synchrotron.h */
 #define KD_KAPPA_FIRST -10.0 /* log2(z) of the table's first row, */
@@ -30,8 +34,10 @@
 #define KD_TRAIT_PLASMA_POWER 64u   /* a power law of electrons */
 #define KD_TRAIT_PLASMA_TORUS 128u
 #define KD_TRAIT_PLASMA_KAPPA 256u  /* a kappa distribution of electrons */
-#define KD_TRAITS_plasma(T) T(PLASMA_GOLD) T(PLASMA_VERTICAL) T(PLASMA_RADIAL) T(PLASMA_REST) T(PLASMA_POWER) T(PLASMA_TORUS) T(PLASMA_KAPPA)
-#define KD_BUFFERS_plasma(B)
+#define KD_TRAIT_PLASMA_GRID 512u   /* all of it is in a buffer: src/render/emit/matter_grid.h */
+#define KD_TRAITS_plasma(T) T(PLASMA_GOLD) T(PLASMA_VERTICAL) T(PLASMA_RADIAL) T(PLASMA_REST) T(PLASMA_POWER) T(PLASMA_TORUS) T(PLASMA_KAPPA) T(PLASMA_GRID) T(AZIMUTH)
+#define KD_BUFFERS_plasma(B) B(5, vec4, plasma_grid)
+#define KD_GRID_CELLS 2.0 /* of the grid, that a grain goes through at most */
 #define KD_PASS_plasma(P)
 #define KD_TORUS_COLD -24.0 /* log2(h - 1) */
 #define KD_PLASMA_SEEN 7.0 /* scale heights, beyond which there is 2e-11 of the plane's density, and none is looked for */
@@ -50,13 +56,17 @@ kd_metric kd_metric_at(float w, float u)
     return kd_metric(sigma * delta / area, 2.0 * a * w * w * w / area, area * s2 / (sigma * w * w), sigma / delta, sigma);
 }
 
-/* This is how matter moves: u^t and u_phi, u^phi - omega u^t being u_phi/g_phiphi, and u^r; u^theta is 0. */
-struct kd_flow { float time, round_, out_; };
+/* This is how matter moves: u^t and u_phi, u^phi - omega u^t being u_phi/g_phiphi, u^r and u^theta, which is 0 but on a grid. */
+struct kd_flow { float time, round_, out_, down; };
+const bool KD_PLASMA_GRID = (TRAITS_plasma & KD_TRAIT_PLASMA_GRID) != 0u;
 
 /* Its -k.u, by the photon's E, L and p_r. */
 float kd_flow_energy(kd_flow v, kd_metric g, kd_midst p)
 {
-    return max(v.time * (p.energy - g.omega * p.momentum) - v.round_ * p.momentum / g.round_ - v.out_ * p.dw * g.radial / g.sigma, 1e-12);
+    float energy = v.time * (p.energy - g.omega * p.momentum) - v.round_ * p.momentum / g.round_ - v.out_ * p.dw * g.radial / g.sigma;
+    if (KD_PLASMA_GRID)
+        energy -= v.down * p.du * inversesqrt(max(1.0 - p.u * p.u, 1e-12));
+    return max(energy, 1e-12);
 }
 
 /* Gold et al.: u_mu = u_t (1, 0, 0, -l), l = l0 R^(3/2)/(1 + R), R = r sin(theta). */
@@ -64,14 +74,14 @@ kd_flow kd_flow_gold(kd_metric g, kd_midst p)
 {
     float axis = sqrt(max(1.0 - p.u * p.u, 0.0)) / p.w, l = emission.plasma.gold_momentum * axis * sqrt(axis) / (1.0 + axis), seen = 1.0 - g.omega * l;
     float scale = inversesqrt(max(seen * seen / g.lapse2 - l * l / g.round_, 1e-30));
-    return kd_flow(scale * seen / g.lapse2, scale * l, 0.0);
+    return kd_flow(scale * seen / g.lapse2, scale * l, 0.0, 0.0);
 }
 
 /* On the circular orbit's angular velocity at its r, at whatever latitude. */
 kd_flow kd_flow_round(kd_metric g, float r)
 {
     float past = 1.0 / (r * sqrt(r) + cam.spin) - g.omega, time = inversesqrt(max(g.lapse2 - g.round_ * past * past, 1e-12));
-    return kd_flow(time, g.round_ * past * time, 0.0);
+    return kd_flow(time, g.round_ * past * time, 0.0, 0.0);
 }
 
 /* Inside the ISCO it keeps the e and l that it has there at its latitude (H.-Y. Pu, K. Akiyama & K. Asada 2016, ApJ 831, 4), and does not change that. With
@@ -87,7 +97,7 @@ kd_flow kd_flow_plunge(kd_metric g, kd_midst p)
     float b2 = c3 + edge * c4, b1 = c2 + edge * b2, b0 = c1 + edge * b1;
     float out2 = (r - edge) * (b0 + r * (b1 + r * (b2 + r * c4))) * p.w * p.w * p.w * p.w / (g.sigma * g.sigma);
     float seen = e - g.omega * l, rest = out2 < 0.0 ? inversesqrt(max(seen * seen / g.lapse2 - l * l / g.round_, 1e-12)) : 1.0;
-    return kd_flow(rest * seen / g.lapse2, rest * l, -sqrt(max(out2, 0.0)));
+    return kd_flow(rest * seen / g.lapse2, rest * l, -sqrt(max(out2, 0.0)), 0.0);
 }
 
 /* This is -ln(1 - z), for z from 0 to 1: GLSL's logarithm is good to 5e-7 only beside 1. By 2 artanh(y), whose next term is below 1e-8 of it. */
@@ -106,7 +116,7 @@ kd_equilibrium kd_torus_at(kd_metric g, kd_midst p)
     float l = emission.plasma.torus_momentum, q = 4.0 * l * l * g.lapse2 / g.round_, u2 = 0.5 * q / (1.0 + sqrt(1.0 + q)), b = 1.0 + cam.spin * cam.spin * p.w * p.w;
     float area = g.round_ * g.sigma * p.w * p.w / max(1.0 - p.u * p.u, 1e-12), lapsed = min(2.0 * p.w * b / area, 1.0);
     precise float ln_h = 0.5 * (kd_less_ln(lapsed) + kd_less_ln(u2 / (1.0 + u2))) - u2 - g.omega * l - emission.plasma.torus_edge;
-    return kd_equilibrium(kd_flow(sqrt((1.0 + u2) / g.lapse2), sqrt(g.round_ * u2) * sign(l), 0.0), ln_h);
+    return kd_equilibrium(kd_flow(sqrt((1.0 + u2) / g.lapse2), sqrt(g.round_ * u2) * sign(l), 0.0, 0.0), ln_h);
 }
 
 /* All that is known of the matter at a place. energy: -k.u, the frequency there over the observed one; frequency: its log2, GHz; field: the unit vector along B,
@@ -133,6 +143,76 @@ void kd_plasma_field(inout kd_plasma m, kd_midst p)
     m.field = length_ * vec4(in_u * m.flow.time, out_ + in_u * m.flow.out_, down * s, round_ + in_u * turn);
 }
 
+/* What lies between the nodes of a grid: linear in log r, theta and phi. matter: log2 of density and Theta, u^r, r u^theta; rest: u_phi/(r sin^2 theta), and b^r, r b^theta and
+ * b_phi/(r sin^2 theta) in the grid's unit. */
+struct kd_grid_node { vec4 matter, rest; };
+
+kd_grid_node kd_grid_line(uint at, uint next, float part)
+{
+    return kd_grid_node(mix(plasma_grid[at], plasma_grid[next], part), mix(plasma_grid[at + 1u], plasma_grid[next + 1u], part));
+}
+
+/* phi of Kerr and Schild's ingoing coordinates is phi + int a/Delta dr, a/(r+ - r-) ln((r - r+)/(r - r-)) = -a/(r - 1) artanh(x)/x, x = (r+ - 1)/(r - 1). */
+float kd_grid_fallen(float r)
+{
+    float x = min(cam.root / max(r - 1.0, 1e-6), 0.999999), x2 = x * x;
+    return -emission.plasma.grid_fall / max(r - 1.0, 1e-6) * (x2 < 0.01 ? 1.0 + x2 * (1.0 / 3.0 + 0.2 * x2) : atanh(x) / x);
+}
+
+kd_grid_node kd_grid_at(kd_midst p, float log2_r)
+{
+    uvec2 most = uvec2(emission.plasma.grid_rows, emission.plasma.grid_columns) - 1u;
+    float theta = kd_atan2(sqrt(max(1.0 - p.u * p.u, 0.0)), p.u);
+    vec2 x = clamp(vec2((log2_r - emission.plasma.grid_r) * emission.plasma.grid_per_r, (theta - emission.plasma.grid_theta) * emission.plasma.grid_per_theta), vec2(0.0), vec2(most));
+    vec2 cell = min(floor(x), vec2(most) - 1.0), part = x - cell;
+    uint layers = emission.plasma.grid_layers, node = 2u * layers, row = node * (most.y + 1u), at = uint(cell.x) * row + uint(cell.y) * node;
+    float turned = (p.phi + emission.frame.azimuth + kd_grid_fallen(1.0 / p.w) - emission.plasma.grid_phi) * emission.plasma.grid_per_phi, layer = floor(turned), past = turned - layer;
+    uint first = uint(clamp(layer - floor(layer / float(layers)) * float(layers), 0.0, float(layers - 1u)));
+    kd_grid_node sum = kd_grid_node(vec4(0.0), vec4(0.0));
+    for (uint n = 0u; n < min(layers, 2u); n++) { /* lavapipe skips what a loop does not do, and nothing else */
+        uint k = first + n, from = at + 2u * (k < layers ? k : 0u);
+        kd_grid_node low = kd_grid_line(from, from + row, part.x), high = kd_grid_line(from + node, from + node + row, part.x);
+        float weight = layers == 1u ? 1.0 : n == 0u ? 1.0 - past : past;
+        sum.matter += weight * mix(low.matter, high.matter, part.y);
+        sum.rest += weight * mix(low.rest, high.rest, part.y);
+    }
+    return sum;
+}
+
+/* Any u^r, u^theta and u_phi are of a unit vector that is timelike: -lapse^2 (u^t)^2 = -1 - U^2, with U the components for the observer of zero angular momentum. So B is that
+ * of b, b.u = 0 gives lapse b^t = B.U/sqrt(1 + U^2), and b^2 = (B^2 + (B x U)^2)/(1 + U^2), no difference of large numbers by the horizon. */
+kd_plasma kd_plasma_of_grid(kd_midst p, float log2_r)
+{
+    kd_plasma m;
+    kd_grid_node n = kd_grid_at(p, log2_r);
+    m.around = kd_metric_at(p.w, p.u);
+    float s = sqrt(max(1.0 - p.u * p.u, 1e-12)), r = 1.0 / p.w;
+    n.rest *= vec4(s * s, 1.0, 1.0, s * s);
+    vec3 size = vec3(sqrt(m.around.radial), sqrt(m.around.sigma), r * inversesqrt(m.around.round_));
+    vec3 flow = size * vec3(n.matter.zw, n.rest.x), field = size * n.rest.yzw, across = cross(field, flow);
+    float all = 1.0 + dot(flow, flow), root = sqrt(all), lapse = sqrt(m.around.lapse2), b2 = max((dot(field, field) + dot(across, across)) / all, 1e-36), one = inversesqrt(b2);
+    m.flow = kd_flow(root / lapse, r * n.rest.x, n.matter.z, p.w * n.matter.w);
+    m.energy = kd_flow_energy(m.flow, m.around, p);
+    m.frequency = emission.plasma.frequency + log2(m.energy);
+    m.electrons.density = emission.plasma.density + n.matter.x;
+    m.electrons.heat = n.matter.y;
+    m.electrons.field = emission.plasma.grid_field + 0.5 * (emission.plasma.density + log2(b2));
+    float time = dot(field, flow) / (root * lapse), around = r * n.rest.w;
+    float k = n.rest.y * p.dw * m.around.radial / m.around.sigma + p.w * n.rest.z * p.du / s + around * p.momentum / m.around.round_ - time * (p.energy - m.around.omega * p.momentum);
+    m.electrons.cosine = clamp(one * k / m.energy, -1.0, 1.0);
+    m.electrons.sine2 = max((1.0 - m.electrons.cosine) * (1.0 + m.electrons.cosine), 0.0);
+    m.field = one * vec4(time, n.rest.y, p.w * n.rest.z, m.around.omega * time + around / m.around.round_);
+    return m;
+}
+
+/* A cell's edges are seen in the light: a grain goes through so many. */
+float kd_grid_grain(kd_midst p, float sharp)
+{
+    float r = 1.0 / p.w, s2 = max(1.0 - p.u * p.u, 1e-4);
+    float cells = KD_LOG2_E * abs(p.dw) * r * emission.plasma.grid_per_r + abs(p.du) * inversesqrt(s2) * emission.plasma.grid_per_theta + abs(p.momentum) / s2 * emission.plasma.grid_per_phi;
+    return min(r / (4.0 + sharp), KD_GRID_CELLS * p.speed / max(cells, 1e-12));
+}
+
 #ifdef KD_MARCH
 void kd_stokes_at(kd_plasma m, kd_midst p, float light, float depth, float depth_log2); /* emit/stokes.glsl */
 #endif
@@ -140,6 +220,8 @@ void kd_stokes_at(kd_plasma m, kd_midst p, float light, float depth, float depth
 /* Electrons by power laws of r, in a layer about the plane; or those of a torus. */
 kd_plasma kd_plasma_at(kd_midst p)
 {
+    if (KD_PLASMA_GRID)
+        return kd_plasma_of_grid(p, -log2(p.w));
     kd_plasma m;
     float log2_r = -log2(p.w), x2 = p.u * p.u / max(1.0 - p.u * p.u, 1e-12) * emission.plasma.steep * emission.plasma.steep;
     m.around = kd_metric_at(p.w, p.u);
@@ -149,7 +231,7 @@ kd_plasma kd_plasma_at(kd_midst p)
         m.flow = torus.flow;
         more = torus.enthalpy > 0.0 ? kd_log2_expm1(log2(torus.enthalpy)) : KD_LOG2_LEAST;
     } else if ((TRAITS_plasma & KD_TRAIT_PLASMA_REST) != 0u)
-        m.flow = kd_flow(inversesqrt(m.around.lapse2), 0.0, 0.0);
+        m.flow = kd_flow(inversesqrt(m.around.lapse2), 0.0, 0.0, 0.0);
     else if (p.w * emission.frame.r_isco <= 1.0)
         m.flow = kd_flow_round(m.around, 1.0 / p.w);
     else
@@ -214,6 +296,8 @@ float kd_plasma_grain(kd_midst p, float steep, float sharp)
     float r = 1.0 / p.w, per = 1.0 / p.speed, s2 = max(1.0 - p.u * p.u, 1e-6), turn = abs(p.du) * per * r, along = abs(p.dw) * r * r * per;
     float near_ = 0.6 * max(r - 1.0 / cam.horizon, 1e-4 * r), x = steep * abs(p.u) * inversesqrt(s2);
     float up = steep * turn / s2 * max(1.0, 0.5 * min(x, KD_PLASMA_SEEN) * (1.0 + 0.5 * sharp));
+    if (KD_PLASMA_GRID)
+        return kd_grid_grain(p, sharp);
     if ((TRAITS_plasma & KD_TRAIT_PLASMA_TORUS) != 0u)
         return r / (4.0 + sharp);
     return 1.0 / ((0.6 + 0.3 * sharp * along) * p.w + along * max(0.4 / near_ - 0.67 * p.w, 0.0) + 0.65 * up * p.w);
@@ -247,7 +331,7 @@ kd_medium kd_plasma_along(kd_midst p)
     if (r < emission.plasma.inner || r > emission.plasma.outer)
         return kd_medium(vec3(0.0), 0.0, max(max(emission.plasma.inner - r, r - emission.plasma.outer), 0.1 * r));
     /* Off the plane the fall begins as the square root of the way from the ISCO: stretches are the shorter the nearer they are to it. */
-    if ((TRAITS_plasma & (KD_TRAIT_PLASMA_GOLD | KD_TRAIT_PLASMA_REST | KD_TRAIT_PLASMA_TORUS)) == 0u && r < emission.frame.r_isco)
+    if ((TRAITS_plasma & (KD_TRAIT_PLASMA_GOLD | KD_TRAIT_PLASMA_REST | KD_TRAIT_PLASMA_TORUS | KD_TRAIT_PLASMA_GRID)) == 0u && r < emission.frame.r_isco)
         medium.grain = min(medium.grain, max(0.8 * (emission.frame.r_isco - r), 2e-3 * r));
     float edge = min(abs(r - emission.plasma.inner), abs(r - emission.plasma.outer)); /* within the bounds of other volumes */
     medium.grain = KD_VOLUMES > 1 ? min(medium.grain, max(edge, 2.5e-4 * r)) : medium.grain;

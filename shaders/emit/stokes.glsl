@@ -153,7 +153,7 @@ vec2 kd_stokes_kappa(kd_midst p, kd_metric g, vec4 f)
 /* exp(2 i EVPA) on the sky of light whose electric field is across the magnetic one. */
 vec2 kd_stokes_direction(kd_plasma m, kd_midst p)
 {
-    vec4 u = vec4(m.flow.time, m.flow.out_, 0.0, m.around.omega * m.flow.time + m.flow.round_ / m.around.round_);
+    vec4 u = vec4(m.flow.time, m.flow.out_, m.flow.down, m.around.omega * m.flow.time + m.flow.round_ / m.around.round_);
     vec2 kappa = kd_stokes_kappa(p, m.around, m.field + m.electrons.cosine * u), right = kd_stokes_right;
     vec2 z = vec2(kappa.x * right.x + kappa.y * right.y, kappa.y * right.x - kappa.x * right.y);
     float size = max(abs(z.x), abs(z.y));

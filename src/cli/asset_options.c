@@ -3,6 +3,7 @@
 #include "cli/cli.h"
 #include "cli/file.h"
 #include "image/png.h"
+#include "render/emit/matter_grid.h"
 #include "scene/asset.h"
 #include "scene/sha256.h"
 
@@ -31,18 +32,28 @@ enum kd_status kd_asset_options_add(struct kd_asset_options *options, const char
     return KD_OK;
 }
 
+/* What the bytes are: a grid of matter, or a picture. */
+static enum kd_status look(const void *data, size_t size, struct kd_asset_found *out, struct kd_error *error)
+{
+    struct kd_png_about about;
+    if (kd_matter_grid_is(data, size))
+        return kd_matter_grid_look(data, size, out->nodes, &out->spin, error);
+    enum kd_status status = kd_png_look(data, size, &about, error);
+    if (!status) {
+        out->width = about.width;
+        out->height = about.height;
+    }
+    return status;
+}
+
 static enum kd_status read_asset(struct kd_named_asset *asset, struct kd_error *error)
 {
     struct kd_buffer bytes = { 0 };
-    struct kd_png_about about;
     enum kd_status status = kd_file_read(asset->path, ASSET_MAX, &bytes, error);
-    if (!status && (status = kd_png_look(bytes.data ? bytes.data : (const uint8_t *)"", bytes.size, &about, error)))
+    if (!status && (status = look(bytes.data ? bytes.data : (const uint8_t *)"", bytes.size, &asset->found, error)))
         kd_cli_prefix(error, asset->path);
-    if (!status) {
+    if (!status)
         kd_sha256(bytes.data, bytes.size, asset->found.hash);
-        asset->found.width = about.width;
-        asset->found.height = about.height;
-    }
     kd_buffer_finish(&bytes);
     return status;
 }

@@ -13,10 +13,12 @@ bool kd_asset_is_hash(const char *text);
 /* A name is a letter, and up to 62 letters, digits, dots, dashes and underscores. */
 bool kd_asset_is_name(const char *text);
 
-/* What is known of an asset: pictures, so far. */
+/* What is known of an asset, a picture or a grid of matter (render/emit/matter_grid.h). */
 struct kd_asset_found {
     char hash[KD_ASSET_NAME];
-    uint32_t width, height;
+    uint32_t width, height; /* of a picture; 0: it is none */
+    uint32_t nodes[3];      /* of a grid, in r, theta and phi; 0: it is none */
+    double spin;            /* that a grid is made for */
 };
 /* Bytes that are held, and stay as they are, until they are given back. */
 struct kd_asset_bytes {
@@ -34,12 +36,15 @@ struct kd_assets {
 };
 
 /* Puts the hash in the place of each name; hashes are looked up too. KD_EINVAL with the field's pointer, and *scene unchanged, where an asset is
- * not here, or is not what the field takes: sky.image is twice as wide as high, of KD_PANORAMA_LEAST to KD_PANORAMA_MOST rows. */
+ * not here, or is not what the field takes: sky.image is a picture twice as wide as high, of KD_PANORAMA_LEAST to KD_PANORAMA_MOST rows, volume.grid a grid of matter
+ * round a hole of the scene's spin. */
 enum { KD_PANORAMA_LEAST = 16, KD_PANORAMA_MOST = 4096 };
 static inline bool kd_asset_is_panorama(uint32_t width, uint32_t height)
 {
     return width == 2 * (uint64_t)height && height >= KD_PANORAMA_LEAST && height <= KD_PANORAMA_MOST;
 }
+/* KD_EINVAL at /volume/grid: a grid that is made for this spin is none for the scene's. */
+enum kd_status kd_asset_check_grid(double spin, const struct kd_scene *scene, struct kd_error *error);
 enum kd_status kd_scene_resolve(struct kd_scene *scene, const struct kd_assets *assets, struct kd_error *error);
 
 #endif

@@ -158,15 +158,17 @@
 #define KD_VOLUME_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                  \
     ENUM(volume, model, MODEL, FRONT, KD_VOLUME_NONE,                                                                \
          "matter all along the rays: none; uniform, a shell that is the same everywhere and does not move: what light and opacity along bent rays come to; " \
-         "at one radio frequency gold, the analytic model of Gold et al. 2020, riaf, a hot, thin flow whose density, temperature and magnetic field are powers of r, and torus, a thick one in equilibrium", \
-         "none|uniform|gold|riaf|torus")                                                                                   \
+         "at one radio frequency gold, the analytic model of Gold et al. 2020, riaf, a hot, thin flow whose density, temperature and magnetic field are powers of r, torus, a thick one in equilibrium, and grid, numbers from a file", \
+         "none|uniform|gold|riaf|torus|grid")                                                                                   \
     WORD(volume, inner, MODEL, REST, INFINITY, 1.0, 3e4, "M", "inner edge; horizon: as near to it as it may be, a hundredth outside it, or a two-thousandth for what is seen at a radio frequency; of a torus half of torus_radius", "horizon") \
     REAL(volume, outer, MODEL, FRONT, 20.0, 1.0, 3e4, "M", "outer edge; larger than the inner one")                  \
     REAL(volume, emissivity, MODEL, FRONT, 0.02, 0.0, 1e30, "1/M", "light of a length of M, in its own frame, in units of the disk's brightest (model: uniform)") \
     REAL(volume, opacity, MODEL, FRONT, 0.02, 0.0, 1e30, "1/M", "optical depth of a length of M, in its own frame (model: uniform)")  \
     REAL(volume, temperature_k, MODEL, REST, 6500.0, 300.0, 1e9, "K", "colour: that of a black body of this temperature, shifted by g (model: uniform)") \
     BOOL(volume, redshift, PHYSICS, REST, true, "the frequency shift of the matter (model: uniform)")                \
-    REAL(volume, frequency_ghz, PHYSICS, FRONT, 230.0, 1e-6, 1e12, "GHz", "frequency that is observed (models: gold, riaf, torus)") \
+    REAL(volume, frequency_ghz, PHYSICS, FRONT, 230.0, 1e-6, 1e12, "GHz", "frequency that is observed (models: gold, riaf, torus, grid)") \
+    ASSET(volume, grid, MODEL, FRONT, "density, temperature, velocity and magnetic field of electrons on a grid of r, theta and phi, an NPZ file (model: grid): docs/physics/volume.md says what is in it, and docs/examples/torus_grid.py makes one") \
+    REAL(volume, grid_scale, MODEL, FRONT, 1.0, 0.0, 1e30, "1", "density over that of the file; the field is its root times that of the file (model: grid)") \
     REAL(volume, gold_emission, MODEL, REST, 3e-18, 0.0, 1e30, "erg/(s cm^3 Hz sr)", "C n0: emissivity at 230 GHz where the density is largest (model: gold)") \
     REAL(volume, gold_index, MODEL, REST, 0.0, -10.0, 10.0, "1", "alpha: emissivity goes as nu^-alpha, absorptivity as nu^-(2.5 + alpha) (model: gold)") \
     REAL(volume, gold_flattening, MODEL, FRONT, 0.0, 0.0, 1e4, "1", "h: density goes as exp(-(h cos(theta))^2/2); 0: round (model: gold)") \
@@ -181,7 +183,7 @@
     REAL(volume, magnetisation_index, MODEL, REST, 1.0, -10.0, 10.0, "1", "magnetisation goes as r^-p, p being this number (model: riaf)") \
     ENUM(volume, field, MODEL, REST, KD_VOLUME_TOROIDAL, "magnetic field: round the axis, along it, or along the radius, made perpendicular to the motion (models: riaf, torus)", "toroidal|vertical|radial") \
     ENUM(volume, flow, MODEL, REST, KD_VOLUME_ORBITS, "motion: with the circular orbit's angular velocity at each r, and falling in from the ISCO; or at rest for observers of zero angular momentum (model: riaf)", "orbits|rest") \
-    ENUM(volume, electrons, MODEL, REST, KD_VOLUME_THERMAL, "energies of the electrons (models: riaf, torus); kappa: thermal ones with a tail of a power law", "thermal|power-law|kappa") \
+    ENUM(volume, electrons, MODEL, REST, KD_VOLUME_THERMAL, "energies of the electrons (models: riaf, torus, grid); kappa: thermal ones with a tail of a power law", "thermal|power-law|kappa") \
     REAL(volume, electrons_index, MODEL, REST, 3.5, 1.1, 10.0, "1", "p: electrons of energy gamma go as gamma to minus this (electrons: power-law)") \
     REAL(volume, kappa, MODEL, REST, 4.0, 3.1, 7.5, "1", "kappa: electrons of high energy gamma go as gamma to 1 minus this (electrons: kappa)") \
     REAL(volume, torus_radius, MODEL, FRONT, 12.0, 1.0, 1e3, "M", "where the pressure is largest; the inner edge is volume.inner (model: torus)") \
@@ -190,7 +192,7 @@
     REAL(volume, beta, MODEL, REST, 10.0, 1e-6, 1e12, "1", "pressure of the gas over that of the magnetic field (model: torus)") \
     REAL(volume, gamma_min, MODEL, REST, 30.0, 1.0, 1e9, "1", "least energy of the electrons over that at rest (electrons: power-law)") \
     REAL(volume, gamma_max, MODEL, REST, 1e5, 1.0, 1e12, "1", "largest energy of the electrons, more than the least (electrons: power-law)") \
-    REAL(volume, normalise_to_jy, MODEL, REST, 0.0, 0.0, 1e12, "Jy", "flux of the picture, for which density_cm3, or gold_emission, is multiplied by what it takes: kerrd looks for that by small pictures, and answers tell it; 0: left as it is (models: gold, riaf, torus)") \
+    REAL(volume, normalise_to_jy, MODEL, REST, 0.0, 0.0, 1e12, "Jy", "flux of the picture, for which density_cm3, gold_emission or grid_scale is multiplied by what it takes: kerrd looks for that by small pictures, and answers tell it; 0: left as it is (models: gold, riaf, torus, grid)") \
     WORD(volume, normalise_ghz, MODEL, REST, INFINITY, 1e-6, 1e12, "GHz", "frequency at which the picture has the flux normalise_to_jy; observed: frequency_ghz, of each scene its own", "observed")
 
 #define KD_JETS_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                    \
@@ -396,7 +398,8 @@
     WITH("volume.opacity", "model", KD_VOLUME_UNIFORM) SPAN("volume.opacity", 1e-4, 10)                              \
     WITH("volume.temperature_k", "model", KD_VOLUME_UNIFORM) SPAN("volume.temperature_k", 1000, 1e5)                  \
     WITH("volume.redshift", "model", KD_VOLUME_UNIFORM)                                                              \
-    WITH("volume.frequency_ghz", "model", KD_VOLUME_GOLD) WITH("volume.frequency_ghz", "model", KD_VOLUME_RIAF) WITH("volume.frequency_ghz", "model", KD_VOLUME_TORUS) SPAN("volume.frequency_ghz", 10, 1e4) \
+    WITH("volume.frequency_ghz", "model", KD_VOLUME_GOLD) WITH("volume.frequency_ghz", "model", KD_VOLUME_RIAF) WITH("volume.frequency_ghz", "model", KD_VOLUME_TORUS) WITH("volume.frequency_ghz", "model", KD_VOLUME_GRID) SPAN("volume.frequency_ghz", 10, 1e4) \
+    WITH("volume.grid", "model", KD_VOLUME_GRID) WITH("volume.grid_scale", "model", KD_VOLUME_GRID) SPAN("volume.grid_scale", 1e-4, 1e4) \
     WITH("volume.gold_emission", "model", KD_VOLUME_GOLD) SPAN("volume.gold_emission", 1e-20, 1e-15)                 \
     WITH("volume.gold_index", "model", KD_VOLUME_GOLD) SPAN("volume.gold_index", -4, 4)                              \
     WITH("volume.gold_flattening", "model", KD_VOLUME_GOLD) SPAN("volume.gold_flattening", 0, 40)                    \
@@ -411,7 +414,7 @@
     WITH("volume.magnetisation_index", "model", KD_VOLUME_RIAF) SPAN("volume.magnetisation_index", 0, 3) \
     WITH("volume.field", "model", KD_VOLUME_RIAF) WITH("volume.field", "model", KD_VOLUME_TORUS) \
     WITH("volume.flow", "model", KD_VOLUME_RIAF) \
-    WITH("volume.electrons", "model", KD_VOLUME_RIAF) WITH("volume.electrons", "model", KD_VOLUME_TORUS) \
+    WITH("volume.electrons", "model", KD_VOLUME_RIAF) WITH("volume.electrons", "model", KD_VOLUME_TORUS) WITH("volume.electrons", "model", KD_VOLUME_GRID) \
     WITH("volume.kappa", "electrons", KD_VOLUME_KAPPA) \
     WITH("volume.torus_radius", "model", KD_VOLUME_TORUS) SPAN("volume.torus_radius", 5, 50) \
     WITH("volume.adiabatic_index", "model", KD_VOLUME_TORUS) \
@@ -420,9 +423,9 @@
     WITH("volume.electrons_index", "electrons", KD_VOLUME_POWER_LAW) SPAN("volume.electrons_index", 2, 6) \
     WITH("volume.gamma_min", "electrons", KD_VOLUME_POWER_LAW) SPAN("volume.gamma_min", 1, 1000) \
     WITH("volume.gamma_max", "electrons", KD_VOLUME_POWER_LAW) SPAN("volume.gamma_max", 1000, 1e+07) \
-    WITH("volume.normalise_to_jy", "model", KD_VOLUME_GOLD) WITH("volume.normalise_to_jy", "model", KD_VOLUME_RIAF) WITH("volume.normalise_to_jy", "model", KD_VOLUME_TORUS) \
+    WITH("volume.normalise_to_jy", "model", KD_VOLUME_GOLD) WITH("volume.normalise_to_jy", "model", KD_VOLUME_RIAF) WITH("volume.normalise_to_jy", "model", KD_VOLUME_TORUS) WITH("volume.normalise_to_jy", "model", KD_VOLUME_GRID) \
     SPAN("volume.normalise_to_jy", 0, 10) \
-    WITH("volume.normalise_ghz", "model", KD_VOLUME_GOLD) WITH("volume.normalise_ghz", "model", KD_VOLUME_RIAF) WITH("volume.normalise_ghz", "model", KD_VOLUME_TORUS) \
+    WITH("volume.normalise_ghz", "model", KD_VOLUME_GOLD) WITH("volume.normalise_ghz", "model", KD_VOLUME_RIAF) WITH("volume.normalise_ghz", "model", KD_VOLUME_TORUS) WITH("volume.normalise_ghz", "model", KD_VOLUME_GRID) \
     SPAN("volume.normalise_ghz", 10, 1e4) FIRST("volume.normalise_ghz", 230) \
     SWITCH("jets.brightness") SPAN("jets.brightness", 0.001, 10) BUTTON("jets.brightness", 0.1, "Jets")              \
     SPAN("jets.lorentz", 1, 10) SPAN("jets.outer", 5, 500) SPAN("jets.inner", 1, 50)                                 \
@@ -457,7 +460,7 @@ enum kd_projection { KD_PROJECTION_AUTO, KD_PROJECTION_PLANE, KD_PROJECTION_PINH
                      KD_PROJECTION_EQUIRECTANGULAR, KD_PROJECTION_FULLDOME };
 enum kd_stereo { KD_STEREO_NONE, KD_STEREO_PAIR };
 enum kd_disk_model { KD_DISK_NONE, KD_DISK_NOVIKOV_THORNE, KD_DISK_SHAKURA_SUNYAEV, KD_DISK_PARTICLES };
-enum kd_volume_model { KD_VOLUME_NONE, KD_VOLUME_UNIFORM, KD_VOLUME_GOLD, KD_VOLUME_RIAF, KD_VOLUME_TORUS };
+enum kd_volume_model { KD_VOLUME_NONE, KD_VOLUME_UNIFORM, KD_VOLUME_GOLD, KD_VOLUME_RIAF, KD_VOLUME_TORUS, KD_VOLUME_GRID };
 enum kd_polarization_model { KD_POLARIZATION_NONE, KD_POLARIZATION_SYNCHROTRON, KD_POLARIZATION_SCATTERING, KD_POLARIZATION_TRANSFER };
 enum kd_polarization_field { KD_FIELD_TOROIDAL, KD_FIELD_RADIAL, KD_FIELD_VERTICAL };
 enum kd_volume_field { KD_VOLUME_TOROIDAL, KD_VOLUME_VERTICAL, KD_VOLUME_RADIAL };

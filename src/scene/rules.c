@@ -416,7 +416,7 @@ static enum kd_status transfer(const struct kd_scene *scene, struct kd_error *er
     if (scene->polarization.model != KD_POLARIZATION_TRANSFER)
         return KD_OK;
     if (!kd_scene_is_magnetic(scene))
-        return kd_error_field(error, "/polarization/model", "polarization.model is \"transfer\", allowed where volume.model has electrons in a magnetic field: \"riaf\", \"torus\"");
+        return kd_error_field(error, "/polarization/model", "polarization.model is \"transfer\", allowed where volume.model has electrons in a magnetic field: \"riaf\", \"torus\", \"grid\"");
     if (scene->volume.electrons == KD_VOLUME_KAPPA && !(scene->volume.kappa >= 3.5 && scene->volume.kappa <= 5))
         return kd_error_field(error, "/volume/kappa", "volume.kappa is %s, allowed with polarization.model \"transfer\" is 3.5 to 5, for which Faraday rotation is known",
                               show(scene->volume.kappa).text);
@@ -461,7 +461,7 @@ const struct kd_rule kd_rules[] = {
     { "`spots.N.r` is not inside the ISCO of the spin, unless the spot's brightness is 0.", spots },
     { "`bodies.N.r` is at least a twentieth outside the horizon, and where `bodies.N.motion` exists; keplerian and retrograde orbits have `bodies.N.inclination_deg` 90; "
       "`bodies.N.velocity_*` are a speed of at most 0.999, and 0 unless the motion is \"velocity\"; unless the body's radius is 0.", bodies },
-    { "`polarization.model` \"transfer\" needs a volume whose electrons are in a magnetic field (`volume.model` \"riaf\" or \"torus\"), of a kappa distribution with `volume.kappa` from 3.5 to 5, beside which nothing shines, and no ring projection.", transfer },
+    { "`polarization.model` \"transfer\" needs a volume whose electrons are in a magnetic field (`volume.model` \"riaf\", \"torus\" or \"grid\"), of a kappa distribution with `volume.kappa` from 3.5 to 5, beside which nothing shines, and no ring projection.", transfer },
     { "`style.ringdown` is 0 where the spin is beyond 0.9999 or -0.9999.", ringdown },
     { "`style.beam_uas` is at most a thousand times the width of the picture in the plane and pinhole projections, and 0 in the others.", beam },
     { "`style.colour_bar` needs `style.palette` \"heat\" and `style.tone_map` \"srgb\".", colour_bar },

@@ -1,6 +1,8 @@
 #include "scene/scene.h"
 
 #include "physics/kerr.h"
+#include "scene/asset.h"
+#include "scene/number.h"
 
 #include <math.h>
 
@@ -12,7 +14,7 @@
 
 bool kd_scene_is_radio(const struct kd_scene *scene) { return scene->volume.model > KD_VOLUME_UNIFORM; }
 
-bool kd_scene_is_magnetic(const struct kd_scene *scene) { return scene->volume.model == KD_VOLUME_RIAF || scene->volume.model == KD_VOLUME_TORUS; }
+bool kd_scene_is_magnetic(const struct kd_scene *scene) { return scene->volume.model >= KD_VOLUME_RIAF; }
 
 double kd_scene_volume_inner(const struct kd_scene *scene)
 {
@@ -28,4 +30,16 @@ bool kd_scene_is_radio_alone(const struct kd_scene *scene)
     const struct kd_body *bodies[KD_SCENE_BODIES];
     return kd_scene_is_radio(scene) && scene->disk.model == KD_DISK_NONE && scene->jets.brightness == 0 && scene->sky.model == KD_SKY_NONE &&
            !kd_scene_spots(scene, on) && !kd_scene_bodies(scene, bodies) && !scene->crowd.at;
+}
+
+#define SAME_SPIN 1e-6
+
+enum kd_status kd_asset_check_grid(double spin, const struct kd_scene *scene, struct kd_error *error)
+{
+    char made[KD_NUMBER_SIZE], here[KD_NUMBER_SIZE];
+    if (scene->volume.model != KD_VOLUME_GRID || fabs(spin - scene->spacetime.spin) <= SAME_SPIN)
+        return KD_OK;
+    kd_number_format(made, spin);
+    kd_number_format(here, scene->spacetime.spin);
+    return kd_error_field(error, "/volume/grid", "volume.grid is matter round a hole of the spin %s, and spacetime.spin is %s; allowed is the same", made, here);
 }

@@ -180,7 +180,7 @@ static bool media_type_fault(const struct kd_request *request, bool patch, struc
 #define OR(other) { other, "application/json, " other, SAY " or " other }
     static const struct { const char *other, *offered, *detail; } all[] = {
         { "application/json", "application/json", SAY }, OR(KD_NPY_TYPE), OR(KD_PATCH_TYPE),
-        { KD_ASSET_TYPE, KD_ASSET_TYPE, "an asset must say Content-Type: " KD_ASSET_TYPE },
+        { KD_ASSET_TYPE, KD_ASSET_TYPE ", " KD_ASSET_GRID_TYPE, "an asset must say Content-Type: " KD_ASSET_TYPE " or " KD_ASSET_GRID_TYPE },
     };
 #undef OR
 #undef SAY
@@ -188,7 +188,7 @@ static bool media_type_fault(const struct kd_request *request, bool patch, struc
     size_t i = asset ? 3 : patch ? 2 : request->route->takes == KD_TAKES_RAYS;
     const char *type = request->header.content_type;
     *problem = (struct kd_problem) { .type = KD_PROBLEM_MEDIA_TYPE, .offered = all[i].offered, .detail = all[i].detail };
-    return (asset || !kd_media_type_is(type, "application/json")) && !kd_media_type_is(type, all[i].other);
+    return !kd_media_type_is(type, asset ? KD_ASSET_GRID_TYPE : "application/json") && !kd_media_type_is(type, all[i].other);
 }
 
 /* A sentence that has to be made is in text. */

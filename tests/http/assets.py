@@ -1,5 +1,6 @@
 """Assets: what is taken, by whom it is deleted, limits and shares, and what a restart finds. Pictures are made here, by zlib alone."""
 import hashlib
+import io
 import json
 import os
 import shutil
@@ -8,6 +9,7 @@ import tempfile
 import threading
 import time
 import unittest
+import zipfile
 import zlib
 
 import daemon
@@ -27,6 +29,25 @@ def png(width=8, height=4, seed=0, depth=8, colour=2, pixels=None, before=b''):
     palette = chunk(b'PLTE', bytes(range(256)) * 3) if colour == 3 else b''
     return (b'\x89PNG\r\n\x1a\n' + chunk(b'IHDR', struct.pack('>IIBBBBB', width, height, depth, colour, 0, 0, 0)) + before + palette +
             chunk(b'IDAT', zlib.compress(rows, 1)) + chunk(b'IEND', b''))
+
+
+def npy(kind, shape, data):
+    head = f"{{'descr': '{kind}', 'fortran_order': False, 'shape': {shape}, }}".encode()
+    head += b' ' * (-(len(head) + 11) % 64) + b'\n'
+    return b'\x93NUMPY\1\0' + struct.pack('<H', len(head)) + head + data
+
+
+def grid(spin):
+    """A grid of matter of three rows and two columns."""
+    units = dict(r='M', theta='rad', density='cm^-3', temperature='K', u_con_r='c', u_con_theta='c/M', u_cov_phi='c M', b_con_r='G', b_con_theta='G/M', b_cov_phi='G M')
+    header = json.dumps(dict(format='kerrd-grid', version=1, spin=spin, azimuth='boyer-lindquist', units=units))
+    members = {'header': npy(f'<U{len(header)}', (), header.encode('utf-32-le')), 'r': npy('<f8', (3,), struct.pack('<3d', 2, 4, 8)), 'theta': npy('<f8', (2,), struct.pack('<2d', 0.785, 2.356))}
+    members |= {name: npy('<f4', (3, 2), struct.pack('<6f', *[1] * 6)) for name in units if name not in members}
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, 'w') as archive:
+        for name, data in members.items():
+            archive.writestr(zipfile.ZipInfo(name + '.npy'), data)
+    return out.getvalue()
 
 
 class Case(daemon.Case):
@@ -81,7 +102,7 @@ class Assets(Case):
     def test_what_there_is(self):
         told = lambda: self.daemon.get(ASSETS).json()
         before = told()
-        self.assertEqual(before['types'], ['image/png'])
+        self.assertEqual(before['types'], ['image/png', 'application/x-npz'])
         self.assertEqual(before['limits'], {'assets': 64, 'bytes': 256 << 20, 'asset_bytes': 32 << 20, 'asset_pixels': 1 << 28})
         asset = self.made(png(seed=5))
         after = told()
@@ -113,9 +134,31 @@ class Assets(Case):
         # as large a picture as deflate can hold in few bytes, of more pixels than are taken
         flat = png(30000, 9000, colour=0, pixels=bytes(9000 * 30000))
         self.assertIn('30000 x 9000', self.assertProblem(self.put(flat), 422, 'invalid-asset')['detail'])
-        for kind in ('application/json', 'image/jpeg', 'application/octet-stream', 'image/pngx', None):
+        for kind in ('application/json', 'image/jpeg', 'application/octet-stream', 'image/pngx', 'application/zip', None):
             self.assertIn('image/png', self.assertProblem(self.put(good, kind), 415, 'unsupported-media-type')['offered'])
         self.assertEqual(self.daemon.get(ASSETS).json()['assets'], 0)
+
+    def test_a_grid_of_matter(self):
+        data = grid(0.5)
+        answer = self.put(data, 'application/x-npz')
+        self.assertEqual(answer.status, 201, answer.body)
+        asset = answer.json()
+        self.assertEqual({k: asset[k] for k in asset if k not in ('token', 'created')}, {'sha256': hashlib.sha256(data).hexdigest(), 'type': 'application/x-npz', 'nodes': [3, 2, 1], 'spin': 0.5, 'bytes': len(data)})
+        got = self.daemon.get(self.at(asset))
+        self.assertEqual((got.status, got.body, got.header('Content-Type')), (200, data, 'application/x-npz'))
+        self.assertIn('.npz', got.header('Content-Disposition'))
+        scene = {'spacetime': {'spin': 0.5}, 'volume': {'model': 'grid', 'grid': asset['sha256']}}
+        self.assertEqual(self.daemon.post('/v1/plan', scene).status, 200)
+        scene['spacetime']['spin'] = 0.6
+        self.assertIn('of the spin 0.5, and spacetime.spin is 0.6', self.assertProblem(self.daemon.post('/v1/plan', scene), 422, pointer='/volume/grid')['detail'])
+        self.assertIn('allowed is a picture of the whole sky', self.assertProblem(self.daemon.post('/v1/plan', {'sky': {'model': 'image', 'image': asset['sha256']}}), 422, pointer='/sky/image')['detail'])
+        picture = self.made(png(64, 32))
+        scene['volume']['grid'] = picture['sha256']
+        self.assertIn('allowed is a grid of matter', self.assertProblem(self.daemon.post('/v1/plan', scene), 422, pointer='/volume/grid')['detail'])
+        self.delete(picture)
+        self.assertIn('header.spin is no number', self.assertProblem(self.put(grid(2), 'application/x-npz'), 422, 'invalid-asset')['detail'])
+        self.assertIn('the file ends before its directory does', self.assertProblem(self.put(data[:-40], 'application/x-npz'), 422, 'invalid-asset')['detail'])
+        self.assertEqual(self.delete(asset).status, 204)
 
     def test_too_long(self):
         big = (32 << 20) + 1

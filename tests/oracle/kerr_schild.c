@@ -297,6 +297,7 @@ static void medium_at(const struct along *w, const double *from, double t, doubl
     struct ks_photon at = *w->photon;
     at.r = r;
     at.u = u;
+    at.phi = -azimuth(a, y);
     at.p_r = (2 * r * at.energy - a * at.momentum) / delta - p_r;
     at.p_theta = r * s * y[5] - u / s * (y[0] * y[3] + y[1] * y[4]);
     w->medium(w->user, &at, r, u, out);

@@ -40,7 +40,7 @@ struct ks_photon ks_from_camera(double a, double r, double theta, bool zamo, con
 struct ks_path ks_trace(struct ks_photon photon, int max_crossings);
 
 /* What a photon meets at a place: per unit of its affine parameter, light that is added and optical depth. `photon` is the one that arrives, there: its r, u,
- * p_r and p_theta are those of the place. */
+ * p_r and p_theta are those of the place, and so is phi, its azimuth less the observer's. */
 typedef void ks_medium(void *user, const struct ks_photon *photon, double r, double u, double light_and_depth[2]);
 
 /* Light that is emitted and absorbed along the path back in time, between two radii, until it ends or first crosses the equatorial plane. The

@@ -4,6 +4,7 @@
 
 #include "render/device/verdict.h"
 #include "render/device/kernels.h"
+#include "render/device/grids.h"
 #include "render/device/memory_share.h"
 #include "render/device/panoramas.h"
 #include "render/device/prepare.h"
@@ -36,6 +37,7 @@ struct kd_renderer {
     bool passing;               /* as kd_renderer_params */
     struct kd_emit_state *emit; /* numbers and tables of the emitters, as of the last frame */
     struct kd_panoramas panoramas;
+    struct kd_grids grids;
     struct kd_normalised normalised;
     pthread_mutex_t lock; /* guards capacity and memory */
     struct kd_capacity capacity; /* but for what the host leaves, which kd_renderer_capacity sees to */

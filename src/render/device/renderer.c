@@ -128,6 +128,7 @@ void kd_renderer_destroy(struct kd_renderer *renderer)
     free(renderer->accuracy);
     free(renderer->emit);
     kd_panoramas_finish(&renderer->panoramas);
+    kd_grids_finish(&renderer->grids);
     free(renderer);
 }
 

@@ -44,7 +44,7 @@ enum kd_status kd_own_at_least(const struct kd_own_work *work, struct kd_vk_buff
 enum kd_status kd_own_kernel(const struct kd_own_work *work, const struct kd_vk_pipeline_params *kernel, const uint32_t *constants, size_t n,
                              const struct kd_vk_pipeline **out, struct kd_error *error);
 
-/* The sky's is device/skies.c: it keeps panoramas for all pictures of a renderer. */
-extern const struct kd_own kd_own_sky;
+/* The sky's is device/skies.c: it keeps panoramas for all pictures of a renderer. That of matter at a radio frequency is device/grids.c, which reads volume.grid. */
+extern const struct kd_own kd_own_sky, kd_own_plasma;
 
 #endif

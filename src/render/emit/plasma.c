@@ -5,6 +5,7 @@
 #include "physics/kerr.h"
 #include "physics/synchrotron.h"
 #include "physics/torus.h"
+#include "render/emit/matter_grid.h"
 #include "render/emit/radio.h"
 
 #include <math.h>
@@ -26,7 +27,8 @@ static uint32_t traits(const struct kd_scene *scene)
     const struct kd_volume *v = &scene->volume;
     if (v->model == KD_VOLUME_GOLD)
         return KD_TRAIT_PLASMA_GOLD;
-    return (v->model == KD_VOLUME_TORUS ? KD_TRAIT_PLASMA_TORUS : 0) | (v->electrons == KD_VOLUME_KAPPA ? KD_TRAIT_PLASMA_KAPPA : 0) |
+    const uint32_t kind = v->model == KD_VOLUME_TORUS ? KD_TRAIT_PLASMA_TORUS : v->model == KD_VOLUME_GRID ? KD_TRAIT_PLASMA_GRID | KD_TRAIT_AZIMUTH : 0;
+    return kind | (v->electrons == KD_VOLUME_KAPPA ? KD_TRAIT_PLASMA_KAPPA : 0) |
            (v->field == KD_VOLUME_VERTICAL ? KD_TRAIT_PLASMA_VERTICAL : v->field == KD_VOLUME_RADIAL ? KD_TRAIT_PLASMA_RADIAL : 0) |
            (v->flow == KD_VOLUME_REST && v->model == KD_VOLUME_RIAF ? KD_TRAIT_PLASMA_REST : 0) | (v->electrons == KD_VOLUME_POWER_LAW ? KD_TRAIT_PLASMA_POWER : 0);
 }
@@ -45,6 +47,8 @@ static double height(const struct kd_scene *scene)
     const struct kd_volume *v = &scene->volume;
     if (v->model == KD_VOLUME_GOLD)
         return KD_PLASMA_SEEN / fmax(v->gold_flattening, KD_PLASMA_SEEN);
+    if (v->model == KD_VOLUME_GRID)
+        return 1;
     if (v->model == KD_VOLUME_TORUS)
         return fmin(1.01 * kd_torus_of(scene->spacetime.spin, kd_scene_volume_inner(scene), v->torus_radius).height + 1e-3, 1);
     return v->height > 0 ? KD_PLASMA_SEEN * v->height / hypot(1, KD_PLASMA_SEEN * v->height) : 1;
@@ -58,10 +62,27 @@ static double knot(const struct kd_scene *scene)
     return falls && kd_scene_volume_inner(scene) < isco && isco < scene->volume.outer ? isco : 0;
 }
 
+static bool is_grid(const struct kd_scene *scene) { return scene->volume.model == KD_VOLUME_GRID; }
+static bool has_no_grid(const struct kd_scene *scene) { return is_grid(scene) && !*scene->volume.grid; }
+
+/* The scene does not say how large its grid is: as large as may be. On the host there are its file and its arrays besides. */
+static uint64_t device_bytes(const struct kd_scene *scene)
+{
+    return has_no_grid(scene) ? 4 * KD_MATTER_FLOATS * sizeof(float) : is_grid(scene) ? (uint64_t)KD_MATTER_NODES * KD_MATTER_FLOATS * sizeof(float) : 0;
+}
+static uint64_t making_bytes(const struct kd_scene *scene) { return is_grid(scene) && *scene->volume.grid ? (uint64_t)KD_MATTER_NODES * (KD_MATTER_FLOATS * sizeof(float) + 3 * sizeof(double)) : 0; }
+
+/* A picture from another azimuth is another one, unless the grid is the same all round, which the scene does not say. */
+static unsigned varies(const struct kd_scene *scene) { return is_grid(scene) && *scene->volume.grid ? KD_MOVES_WITH_AZIMUTH : 0; }
+
 static void tell(const struct kd_scene *scene, char out[KD_EMIT_TOLD])
 {
-    snprintf(out, KD_EMIT_TOLD, "%s from %.6g M to %.6g M, at %.6g GHz.", scene->volume.model == KD_VOLUME_GOLD ? "The matter of Gold et al. 2020" : scene->volume.model == KD_VOLUME_TORUS ? "A torus of hot gas" : "Hot electrons in a magnetic field",
-             kd_scene_volume_inner(scene), scene->volume.outer, scene->volume.frequency_ghz);
+    static const char *const names[] = { [KD_VOLUME_GOLD] = "The matter of Gold et al. 2020", [KD_VOLUME_RIAF] = "Hot electrons in a magnetic field", [KD_VOLUME_TORUS] = "A torus of hot gas",
+                                         [KD_VOLUME_GRID] = "Matter from a grid of numbers" };
+    if (has_no_grid(scene))
+        snprintf(out, KD_EMIT_TOLD, "No matter: volume.grid names none.");
+    else
+        snprintf(out, KD_EMIT_TOLD, "%s from %.6g M to %.6g M, at %.6g GHz.", names[scene->volume.model], kd_scene_volume_inner(scene), scene->volume.outer, scene->volume.frequency_ghz);
 }
 
 static double log2_of(double x) { return x > 0 ? fmax(log2(x), NEVER) : NEVER; }
@@ -151,12 +172,16 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
     fill_kappa(to, &scene->volume);
     if (scene->volume.model == KD_VOLUME_TORUS)
         fill_torus(to, scene);
+    if (is_grid(scene))
+        to->density = (float)log2_of(scene->volume.grid_scale); /* the rest is device/grids.c's */
 }
 
 static bool is_gold(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, scene->volume.model == KD_VOLUME_GOLD; }
 static bool is_hot(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, scene->volume.model != KD_VOLUME_GOLD; }
 static bool is_powers(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, scene->volume.model == KD_VOLUME_RIAF; }
 static bool is_torus(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, scene->volume.model == KD_VOLUME_TORUS; }
+static bool is_from_grid(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, is_grid(scene) && *scene->volume.grid; }
+static bool is_missing(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, has_no_grid(scene); }
 static bool is_unpolarised(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, scene->polarization.model != KD_POLARIZATION_TRANSFER; }
 static bool is_beside(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, !kd_scene_is_radio_alone(scene); }
 
@@ -166,6 +191,8 @@ static const struct kd_sentence sentences[] = {
     { "volume: the analytic model of Gold et al. 2020, made up to compare programs; it ends at its edges", is_gold },
     { "volume: electrons and magnetic field by power laws of r that solve no equation of motion; they end at their edges, and 7 scale heights from the plane", is_powers },
     { "volume: the torus of Fishbone & Moncrief 1976, in equilibrium without its magnetic field, which is put in by its pressure alone; ions and electrons have temperatures of one ratio", is_torus },
+    { "volume: matter between the nodes of a grid by way of its neighbours, density and temperature by their logarithms; it stands still, as it was at one time, while light passes", is_from_grid },
+    { "volume: volume.model is \"grid\" and volume.grid names none: there is no matter", is_missing },
     { "volume: synchrotron light by the fits of Pandya et al. 2016, good to a few percent where they hold; electrons move in all directions alike", is_hot },
     { "volume: light at a radio frequency beside light of other kinds, whose brightness 1 is another one; the picture has no flux", is_beside },
 };
@@ -176,6 +203,10 @@ const struct kd_emitter kd_emit_plasma = {
     .tell = tell,
     .present = present,
     .traits = traits,
+    .varies = varies,
+    .own = &kd_own_plasma,
+    .device_bytes = device_bytes,
+    .making_bytes = making_bytes,
     .reach = reach,
     .height = height,
     .knot = knot,

@@ -24,7 +24,11 @@ struct search {
     struct kd_error *error;
 };
 
-static double *density_of(struct kd_scene *scene) { return scene->volume.model == KD_VOLUME_GOLD ? &scene->volume.gold_emission : &scene->volume.density_cm3; }
+static double *density_of(struct kd_scene *scene)
+{
+    struct kd_volume *v = &scene->volume;
+    return v->model == KD_VOLUME_GOLD ? &v->gold_emission : v->model == KD_VOLUME_GRID ? &v->grid_scale : &v->density_cm3;
+}
 
 static enum kd_status flux_at(struct search *s, int side, double log_scale, double *jy)
 {

@@ -20,7 +20,7 @@
 
 #define KD_PLAN_EMITTERS 16 /* at least those of shaders/shared/emitters.h, which those who include this need not see */
 #define KD_AUDIT_RAYS 768 /* at most, on a grid of 16 x 48 */
-#define KD_PLAN_MAX_APPROXIMATIONS 112 /* a test compares it with all there are */
+#define KD_PLAN_MAX_APPROXIMATIONS 116 /* a test compares it with all there are */
 
 /* The capacity says what the device allows and how fast it has been measured to be. */
 struct kd_capacity {

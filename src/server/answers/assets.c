@@ -12,7 +12,27 @@
 
 #define JSON_TYPE "application/json"
 
-/* {"sha256", "type", "width", "height", "bit_depth", "channels", "bytes", "created"}, and for who has just put it here the token. */
+static const char *type_of(const struct kd_asset_about *about) { return about->nodes[0] ? KD_ASSET_GRID_TYPE : KD_ASSET_TYPE; }
+
+static void write_grid(struct kd_json *json, const struct kd_asset_about *about)
+{
+    kd_json_array(json, "nodes");
+    for (int i = 0; i < 3; i++)
+        kd_json_number(json, NULL, about->nodes[i]);
+    kd_json_end(json);
+    kd_json_number(json, "spin", about->spin);
+}
+
+static void write_picture(struct kd_json *json, const struct kd_asset_about *about)
+{
+    kd_json_number(json, "width", about->width);
+    kd_json_number(json, "height", about->height);
+    kd_json_number(json, "bit_depth", about->bit_depth);
+    kd_json_number(json, "channels", about->channels);
+}
+
+/* {"sha256", "type", of a picture "width", "height", "bit_depth" and "channels", of a grid "nodes" and "spin", "bytes", "created"}, and for who has just put it here the
+ * token. */
 static enum kd_status to_json(const struct kd_asset_about *about, bool token, struct kd_buffer *out)
 {
     struct kd_json json = kd_json_begin(out);
@@ -20,11 +40,8 @@ static enum kd_status to_json(const struct kd_asset_about *about, bool token, st
     kd_json_string(&json, "sha256", about->hash);
     if (token)
         kd_json_string(&json, "token", about->token);
-    kd_json_string(&json, "type", KD_ASSET_TYPE);
-    kd_json_number(&json, "width", about->width);
-    kd_json_number(&json, "height", about->height);
-    kd_json_number(&json, "bit_depth", about->bit_depth);
-    kd_json_number(&json, "channels", about->channels);
+    kd_json_string(&json, "type", type_of(about));
+    (about->nodes[0] ? write_grid : write_picture)(&json, about);
     kd_json_number(&json, "bytes", (double)about->size);
     kd_json_number(&json, "created", about->created);
     kd_json_end(&json);
@@ -128,6 +145,7 @@ enum MHD_Result kd_handle_assets(struct kd_request *request)
     kd_json_end(&json);
     kd_json_array(&json, "types");
     kd_json_string(&json, NULL, KD_ASSET_TYPE);
+    kd_json_string(&json, NULL, KD_ASSET_GRID_TYPE);
     kd_json_end(&json);
     kd_json_end(&json);
     return kd_reply_json(request, kd_json_finish_line(&json), &text, JSON_TYPE);
@@ -172,13 +190,13 @@ static enum MHD_Result send_bytes(struct kd_request *request, struct kd_asset *a
     }
     *s = (struct sending) { request->server->assets, asset };
     request->reply_bytes = about->size;
-    kd_reply_file(request, KD_INLINE, "kerrd-asset-%.8s.png", about->hash);
+    kd_reply_file(request, KD_INLINE, "kerrd-asset-%.8s.%s", about->hash, about->nodes[0] ? "npz" : "png");
     struct MHD_Response *response = MHD_create_response_from_callback(about->size, 256 << 10, produce, s, release);
     if (!response) {
         release(s);
         return kd_reply_no_memory(request);
     }
-    MHD_add_response_header(response, "Content-Type", KD_ASSET_TYPE);
+    MHD_add_response_header(response, "Content-Type", type_of(about));
     MHD_add_response_header(response, "ETag", request->etag);
     MHD_add_response_header(response, "Cache-Control", "private, max-age=31536000, immutable");
     return kd_reply_send(request, same ? MHD_HTTP_NOT_MODIFIED : MHD_HTTP_OK, response);

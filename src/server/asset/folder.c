@@ -5,6 +5,7 @@
 #include "base/read.h"
 #include "base/replace.h"
 #include "image/png.h"
+#include "render/emit/matter_grid.h"
 #include "scene/asset.h"
 #include "scene/sha256.h"
 
@@ -25,6 +26,8 @@ enum kd_status kd_asset_look(const void *data, size_t size, struct kd_asset_abou
     struct kd_png_about png;
     if (size > KD_ASSET_BYTES)
         return kd_error_set(error, KD_EINVAL, "an asset may have %zu bytes, this one has %zu", KD_ASSET_BYTES, size);
+    if (kd_matter_grid_is(data, size))
+        return kd_matter_grid_look(data, size, out->nodes, &out->spin, error);
     enum kd_status status = kd_png_look(data, size, &png, error);
     if (status)
         return status;
@@ -78,12 +81,22 @@ static bool read_record(int folder, const char *hash, struct kd_asset_about *out
     return good;
 }
 
+/* Ends of the names of files that hold bytes. */
+static const char *const ends[] = { "png", "npz" };
+enum { ENDS = sizeof ends / sizeof *ends };
+
+static const char *end_of(const struct kd_asset_about *about) { return ends[about->nodes[0] > 0]; }
+
 /* Reads the bytes of an asset, and checks them. Returns why they are not taken, or NULL. */
 static const char *read_bytes(int folder, struct kd_asset_about *about, struct kd_buffer *bytes)
 {
     char name[FILE_NAME], hash[KD_ASSET_NAME];
-    name_of(about->hash, "png", name);
-    if (!kd_read_file(folder, name, O_NOFOLLOW, KD_ASSET_BYTES, bytes))
+    bool read = false;
+    for (size_t i = 0; i < ENDS && !read; i++) {
+        name_of(about->hash, ends[i], name);
+        read = kd_read_file(folder, name, O_NOFOLLOW, KD_ASSET_BYTES, bytes);
+    }
+    if (!read)
         return "its bytes cannot be read";
     kd_sha256(bytes->data, bytes->size, hash);
     if (strcmp(hash, about->hash) || kd_asset_look(bytes->data, bytes->size, about, NULL))
@@ -104,12 +117,13 @@ static bool has_record(int folder, const char *hash)
 /* Says whether a server that was killed left the file behind: bytes without their record, or the beginning of a file. */
 static bool is_left_over(int folder, const char *name)
 {
-    static const char *const kinds[] = { "png", "json" };
+    static const char *const kinds[] = { "png", "npz", "json" };
     char hash[KD_ASSET_NAME], whole[FILE_NAME];
-    if (hash_of(name, "png", hash) && !has_record(folder, hash))
-        return true;
+    for (size_t i = 0; i < ENDS; i++)
+        if (hash_of(name, ends[i], hash) && !has_record(folder, hash))
+            return true;
     snprintf(hash, sizeof hash, "%.64s", name);
-    for (size_t i = 0; kd_asset_is_hash(hash) && i < 2; i++) {
+    for (size_t i = 0; kd_asset_is_hash(hash) && i < sizeof kinds / sizeof *kinds; i++) {
         name_of(hash, kinds[i], whole);
         if (kd_replace_is_temporary(name, whole))
             return true;
@@ -162,7 +176,7 @@ enum kd_status kd_asset_folder_write(int folder, const struct kd_asset_about *ab
 {
     char bytes[FILE_NAME], record[FILE_NAME];
     struct kd_buffer text = { 0 };
-    name_of(about->hash, "png", bytes);
+    name_of(about->hash, end_of(about), bytes);
     name_of(about->hash, "json", record);
     enum kd_status status = write_record(about, &text);
     if (status)
@@ -182,7 +196,9 @@ void kd_asset_folder_remove(int folder, const char *hash)
     char name[FILE_NAME];
     name_of(hash, "json", name);
     unlinkat(folder, name, 0);
-    name_of(hash, "png", name);
-    unlinkat(folder, name, 0);
+    for (size_t i = 0; i < ENDS; i++) {
+        name_of(hash, ends[i], name);
+        unlinkat(folder, name, 0);
+    }
     fsync(folder);
 }

@@ -109,6 +109,8 @@ static bool find_for_scene(void *user, const char *name, struct kd_asset_found *
     memcpy(out->hash, asset->about.hash, sizeof out->hash);
     out->width = asset->about.width;
     out->height = asset->about.height;
+    memcpy(out->nodes, asset->about.nodes, sizeof out->nodes);
+    out->spin = asset->about.spin;
     kd_asset_release(user, asset);
     return true;
 }

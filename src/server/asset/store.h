@@ -1,5 +1,5 @@
 /* Assets are bytes that clients put here, for scenes to name by their SHA-256. They are kept in memory, and in a folder too if the server has one:
- * DIRECTORY/assets/HASH.png with HASH.json beside it, each written as a whole, the latter last. Any thread.
+ * DIRECTORY/assets/HASH.png, or .npz, with HASH.json beside it, each written as a whole, the latter last. Any thread.
  *
  * Errors name no path: clients see them. */
 #ifndef KD_SERVER_ASSET_STORE_H
@@ -14,7 +14,8 @@
 struct kd_asset_store;
 struct kd_asset;
 
-#define KD_ASSET_TYPE "image/png" /* all that is taken so far */
+#define KD_ASSET_TYPE "image/png"          /* pictures, */
+#define KD_ASSET_GRID_TYPE "application/x-npz" /* and grids of matter (render/emit/matter_grid.h) */
 #define KD_ASSET_BYTES ((size_t)32 << 20) /* of one */
 #define KD_ASSET_PIXELS ((uint64_t)1 << 28) /* of one */
 
@@ -34,7 +35,7 @@ const struct kd_assets *kd_asset_store_assets(const struct kd_asset_store *store
 void kd_asset_store_close(struct kd_asset_store *store);
 const struct kd_asset_limits *kd_asset_store_limits(const struct kd_asset_store *store);
 
-/* Keeps a copy of the bytes; put->asset: a reference, put->created: they were not here before. KD_EINVAL: they are no picture that is
+/* Keeps a copy of the bytes; put->asset: a reference, put->created: they were not here before. KD_EINVAL: they are nothing that is
  * taken; KD_EBUSY: somebody else is writing them, or with put->quota the client has its share; KD_EFULL: the disk is full, or with put->full
  * as many are kept as may. It may write for long. */
 struct kd_asset_put {
@@ -54,8 +55,10 @@ void kd_asset_store_count(const struct kd_asset_store *store, unsigned *assets, 
 /* What is known of an asset stays the same as long as it is held. */
 struct kd_asset_about {
     char hash[KD_ASSET_NAME], token[KD_SECRET_TOKEN];
-    uint32_t width, height;
+    uint32_t width, height; /* of a picture */
     int bit_depth, channels;
+    uint32_t nodes[3]; /* of a grid, in r, theta and phi; 0: it is none, but a picture */
+    double spin;
     double created; /* seconds since 1970 */
     size_t size;
     const uint8_t *data;

@@ -1,0 +1,123 @@
+#include "render/device/grids.h"
+
+#include "render/device/internal.h"
+#include "scene/asset.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct own {
+    struct kd_vk_buffer *nodes;
+    char of[KD_ASSET_NAME]; /* whose they are, */
+    bool there;             /* if any are */
+};
+
+static bool is_grid(const struct kd_scene *scene) { return scene->volume.model == KD_VOLUME_GRID; }
+
+static enum kd_status read_asset(const struct kd_assets *assets, const char *hash, struct kd_matter_grid *out, struct kd_error *error)
+{
+    struct kd_asset_bytes bytes;
+    struct kd_error why = { 0 };
+    if (!assets || !assets->take(assets->user, hash, &bytes))
+        return kd_error_field(error, "/volume/grid", "volume.grid is \"%s\", and the bytes of this asset are not here; allowed are %s", hash, assets ? assets->allowed : "none where there are no assets");
+    enum kd_status status = kd_matter_grid_read(bytes.data, bytes.size, out, &why);
+    assets->give_back(assets->user, &bytes);
+    if (status == KD_EINVAL)
+        return kd_error_field(error, "/volume/grid", "volume.grid: %.400s", why.message);
+    return status ? kd_error_set(error, status, "%s", why.message) : KD_OK;
+}
+
+/* Finds the scene's grid, with its nodes where they are asked for: reads it unless it is there. */
+static enum kd_status grid_of(struct kd_renderer *r, const struct kd_scene *scene, bool nodes, struct kd_matter_grid **out, struct kd_error *error)
+{
+    struct kd_grids *all = &r->grids;
+    const char *hash = *scene->volume.grid ? scene->volume.grid : "none";
+    enum kd_status status = KD_OK;
+    if (strcmp(all->of, hash) || (nodes && !all->grid.nodes)) {
+        kd_matter_grid_finish(&all->grid);
+        *all->of = 0;
+        KD_TRY(*scene->volume.grid ? read_asset(r->panoramas.assets, hash, &all->grid, error) : kd_matter_grid_none(scene->spacetime.spin, &all->grid, error));
+        snprintf(all->of, sizeof all->of, "%s", hash);
+    }
+    *out = &all->grid;
+    if (*scene->volume.grid)
+        KD_TRY(kd_asset_check_grid(all->grid.spin, scene, error));
+done:
+    return status;
+}
+
+static enum kd_status prepare(const struct kd_own_work *work, const struct kd_scene *scene, struct kd_error *error)
+{
+    struct own *own = work->own;
+    struct kd_vk_buffer *staging = NULL;
+    struct kd_matter_grid *grid;
+    enum kd_status status = KD_OK;
+    if (!is_grid(scene) || (own->there && !strcmp(own->of, scene->volume.grid)))
+        return KD_OK;
+    own->there = false;
+    KD_TRY(grid_of(work->renderer, scene, true, &grid, error));
+    const uint64_t bytes = (uint64_t)grid->rows * grid->columns * grid->layers * KD_MATTER_FLOATS * sizeof *grid->nodes;
+    KD_TRY(kd_own_at_least(work, &own->nodes, bytes, KD_VK_DEVICE, "matter on a grid", error));
+    KD_TRY(kd_vk_buffer_create(work->vk, bytes, KD_VK_UPLOAD, "matter on a grid on the host", &staging, error));
+    memcpy(kd_vk_buffer_map(staging), grid->nodes, bytes);
+    KD_TRY(kd_vk_copy(work->vk, "upload", own->nodes, 0, staging, 0, bytes, error));
+    KD_TRY(kd_vk_submit(work->vk, NULL, error));
+    memcpy(own->of, scene->volume.grid, sizeof own->of);
+    own->there = true;
+    kd_matter_grid_finish(grid);
+done:
+    kd_vk_buffer_destroy(work->vk, staging);
+    return status;
+}
+
+/* Where its nodes are, and between which radii: those of the scene, and of the grid. */
+static enum kd_status tell(struct kd_renderer *r, const struct kd_scene *scene, struct kd_emission *out, char *credit, size_t size, struct kd_error *error)
+{
+    struct kd_matter_grid *g;
+    struct kd_plasma_block *to = &out->plasma;
+    (void)credit, (void)size;
+    if (!is_grid(scene))
+        return KD_OK;
+    enum kd_status status = grid_of(r, scene, false, &g, error);
+    if (status)
+        return status;
+    const double inner = fmax(kd_scene_volume_inner(scene), g->r[0]), outer = fmin(scene->volume.outer, g->r[1]);
+    to->grid_rows = g->rows;
+    to->grid_columns = g->columns;
+    to->grid_layers = g->layers;
+    to->grid_r = (float)log2(g->r[0]);
+    to->grid_per_r = (float)((g->rows - 1) / log2(g->r[1] / g->r[0]));
+    to->grid_theta = (float)g->theta[0];
+    to->grid_per_theta = (float)((g->columns - 1) / (g->theta[1] - g->theta[0]));
+    to->grid_phi = (float)g->phi;
+    to->grid_per_phi = g->layers > 1 ? (float)(g->layers / g->turn) : 0;
+    to->grid_fall = g->ingoing ? (float)scene->spacetime.spin : 0;
+    to->grid_field = (float)log2(g->field);
+    to->inner = (float)fmin(inner, outer);
+    to->outer = (float)outer;
+    if (kd_scene_is_radio_alone(scene)) { /* the march finds the edges of the only volume */
+        out->frame.along_least = (float)(1 / outer);
+        out->frame.along_most = (float)fmin(1 / fmin(inner, outer), 1e30);
+    }
+    return KD_OK;
+}
+
+static void buffers(const void *own, struct kd_vk_buffer *out[KD_OWN_COUNT]) { out[KD_OWN_plasma_grid] = ((const struct own *)own)->nodes; }
+
+static void forget(void *own) { ((struct own *)own)->there = false; }
+
+static void finish(void *own, struct kd_vk *vk)
+{
+    kd_vk_buffer_destroy(vk, ((struct own *)own)->nodes);
+    *(struct own *)own = (struct own) { 0 };
+}
+
+void kd_grids_finish(struct kd_grids *grids)
+{
+    kd_matter_grid_finish(&grids->grid);
+    *grids->of = 0;
+}
+
+const struct kd_own kd_own_plasma = { sizeof(struct own), prepare, buffers, forget, finish, NULL, tell };

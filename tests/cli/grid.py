@@ -1,0 +1,140 @@
+"""volume.model "grid": the torus that docs/examples/torus_grid.py samples beside the torus itself, polarised as well; a flow with a vertical field; and files that are refused."""
+import json
+import os
+import pathlib
+import subprocess
+import sys
+
+from support import Case, main, run
+
+try:
+    import numpy
+except ImportError as missing:
+    print(f"left out: {missing}; scripts/setup --browser installs it")
+    sys.exit(77)
+
+EXAMPLE = pathlib.Path(__file__).resolve().parents[2] / "docs/examples/torus_grid.py"
+SMALL = ["-p", "torus", "--size", "24x24", "--set", "image.critical_factor=1"]
+UNITS = dict(r="M", theta="rad", density="cm^-3", temperature="K", u_con_r="c", u_con_theta="c/M", u_cov_phi="c M", b_con_r="G", b_con_theta="G/M", b_cov_phi="G M")
+HEADER = dict(format="kerrd-grid", version=1, spin=0.5, azimuth="boyer-lindquist", units=UNITS)
+GRID = ["--set", "volume.model=grid", "--set", "volume.grid=g"]
+
+
+class Grid(Case):
+    def sampled(self, *shape):
+        path = self.path("torus-%s.npz" % "-".join(map(str, shape)))
+        subprocess.run([sys.executable, EXAMPLE, path, *map(str, shape)], check=True, env=os.environ)
+        return ["--asset", "g=" + path, *GRID]
+
+    def maps(self, *args):
+        self.good("render", *SMALL, "-o", self.path("maps.npz"), "--set", "image.layers=" + self.layers, *args)
+        with numpy.load(self.path("maps.npz")) as file:
+            return {name: file[name].astype(float) for name in self.layers.split(",")}
+
+    def test_it_becomes_the_torus(self):
+        """Twice as many nodes each way, a quarter of what is off: in the flux, and in each pixel."""
+        self.layers = "brightness_temperature"
+        want, off = self.maps()[self.layers], []
+        for shape in ((48, 24), (96, 48), (192, 96)):
+            got = self.maps(*self.sampled(*shape))[self.layers]
+            off.append((abs(got.sum() / want.sum() - 1), abs(got - want).max() / want.max()))
+        print("flux and worst pixel of 48, 96 and 192 rows:", *(f"{flux:.2e} {pixel:.2e}" for flux, pixel in off))
+        self.assertLess(off[2][0], 0.01)
+        self.assertLess(off[2][1], 0.01)
+        for coarse, fine in zip(off, off[1:]):
+            for before, now in zip(coarse, fine):
+                self.assertTrue(3 < before / now < 5.5, off)
+        turned = self.maps(*self.sampled(48, 24, 6), "--set", "camera.azimuth_deg=77")[self.layers]
+        self.assertAlmostEqual(turned.sum() / want.sum() - 1, -off[0][0], delta=1e-4, msg="layers that are all the same")
+
+    def test_polarised(self):
+        self.layers = "intensity,stokes_q,stokes_u,stokes_v"
+        transfer = ["--set", "polarization.model=transfer"]
+        want, off = self.maps(*transfer), []
+        for shape in ((48, 24), (96, 48)):
+            got = self.maps(*self.sampled(*shape), *transfer)
+            off.append([abs(got[name] - want[name]).max() / want["intensity"].max() for name in self.layers.split(",")])
+        print("I, Q, U, V of 48 and 96 rows:", *(f"{x:.2e}" for row in off for x in row))
+        self.assertLess(max(off[1]), 0.03)
+        self.assertTrue(all(3 < coarse / fine < 5.5 for coarse, fine in zip(*off)), off)
+
+    def test_a_vertical_field(self):
+        """Beside the model riaf outside the ISCO: components of the field in r and theta, and what the motion makes of them."""
+        self.layers = "intensity,stokes_q,stokes_u,stokes_v"
+        a, k, mp, me, c, kb = 0.5, 6.0, 1.67262192369e-24, 9.1093837015e-28, 2.99792458e10, 1.380649e-16
+        r, theta = numpy.geomspace(5, 25, 128)[:, None], ((numpy.arange(96) + 0.5) * numpy.pi / 96)[None, :]
+        s2, sigma, delta = numpy.sin(theta) ** 2, r**2 + a**2 * numpy.cos(theta) ** 2, r**2 - 2 * r + a**2
+        g = [-(1 - 2 * r / sigma), -2 * a * r * s2 / sigma, (r**2 + a**2 + 2 * a**2 * r * s2 / sigma) * s2]
+        omega = 1 / (r**1.5 + a)
+        time = 1 / numpy.sqrt(-(g[0] + 2 * omega * g[1] + omega**2 * g[2]))
+        density = 3e5 * r**-1.1 * numpy.exp(-0.5 * (numpy.cos(theta) / numpy.sin(theta) / 0.5) ** 2)
+        size = numpy.sqrt(numpy.cos(theta) ** 2 * sigma / delta + s2 / r**2 * sigma)
+        field = numpy.sqrt(8 * numpy.pi * 0.1 / r * density * mp * c**2) / size
+        full = numpy.zeros_like(density)
+        arrays = dict(density=density, temperature=full + 3e11 * r**-0.84, u_con_r=full, u_con_theta=full, u_cov_phi=time * (g[1] + omega * g[2]), b_con_r=field * numpy.cos(theta),
+                      b_con_theta=-field * numpy.sin(theta) / r, b_cov_phi=full, u_con_t=time)
+        path = self.path("flow.npz")
+        numpy.savez(path, header=json.dumps(HEADER), r=r[:, 0], theta=theta[0], **arrays)
+        flow = ["-p", "riaf", *SMALL[2:], "--set", "spacetime.spin=0.5", "--set", "volume.inner=5", "--set", "volume.outer=25", "--set", "polarization.model=transfer", "--set", "volume.field=vertical",
+                "--set", "volume.magnetisation=0.1", "--set", "volume.height=0.5", "--set", "volume.density_cm3=3e5", "--set", "camera.field_m=50"]
+        want, got = self.maps(*flow), self.maps(*flow, "--asset", "g=" + path, *GRID)
+        for name in self.layers.split(","):
+            off = abs(got[name] - want[name]).max() / want["intensity"].max()
+            print(name, f"{off:.2e}, of it there is {abs(want[name]).max() / want['intensity'].max():.2e}")
+            self.assertLess(off, 0.01)
+
+    def test_what_uses_it(self):
+        """A density by its flux, a spectrum and a pixel."""
+        asset = self.sampled(48, 24)
+        told = json.loads(run("render", *SMALL, *asset, "--set", "volume.normalise_to_jy=1.5", "--stats", "-o", self.path("a.png")).stderr)
+        self.assertAlmostEqual(told["flux_jy"], 1.5, delta=0.01)
+        scaled = json.loads(run("render", *SMALL, *asset, "--set", f"volume.grid_scale={told['density_scale']!r}", "--stats", "-o", self.path("a.png")).stderr)
+        self.assertAlmostEqual(scaled["flux_jy"] / told["flux_jy"], 1, delta=1e-6)
+        spectrum = json.loads(self.good("spectrum", "-p", "torus", *asset, "--frequencies-hz", "86e9,230e9", "--pixels", "40", "--check", "none"))["columns"]["flux_jy"]
+        self.assertTrue(all(0.1 < flux < 10 for flux in spectrum), spectrum)
+        self.assertIn("plasma", self.good("pixel", *SMALL, *asset, "--at", "12,20").decode())
+        told = json.loads(run("render", "-p", "torus", "--size", "8x8", "--set", "volume.model=grid", "--stats", "-o", self.path("a.png")).stderr)
+        self.assertIn('volume: volume.model is "grid" and volume.grid names none: there is no matter', told["approximations"])
+        self.assertEqual(told["flux_jy"], 0)
+
+    def test_what_is_refused(self):
+        r, theta = numpy.geomspace(2, 20, 6), (numpy.arange(4) + 0.5) * numpy.pi / 4
+        good = dict(header=json.dumps(HEADER), r=r, theta=theta, **{name: numpy.ones((6, 4)) for name in UNITS if name not in ("r", "theta")})
+
+        def header(**changes):
+            return {"header": json.dumps({**HEADER, **changes})}
+
+        def array(value, name="density"):
+            of = numpy.ones((6, 4))
+            of[2, 1] = value
+            return {name: of}
+        round_ = {name: numpy.ones((6, 4, 4)) for name in UNITS if name not in ("r", "theta")}
+        files = (
+            ({"header": None}, "header is missing"), ({"header": "x"}, "header is no JSON object"), ({"header": 1.0}, "it is no text"), (header(format="other"), "has not the format \"kerrd-grid\""),
+            (header(spin=None), "header.spin is no number from -1 to 1"), (header(azimuth="?"), "header.azimuth is neither"), (header(units={**UNITS, "density": "g/cm^3"}), 'header.units.density is "g/cm^3", allowed is "cm^-3"'),
+            (header(units={k: v for k, v in UNITS.items() if k != "b_con_r"}), 'header.units.b_con_r is missing, allowed is "G"'), ({"r": numpy.linspace(2, 20, 6)}, "in even steps of their logarithm, here"),
+            ({"r": r[::-1]}, "r 0 is 20"), ({"r": numpy.full(6, numpy.nan)}, "r 0 is"), ({"theta": theta * 0.5}, "theta does not go from pole to pole"), ({"theta": theta[:1]}, "theta is no list of 2 numbers or more"),
+            ({"density": None}, "density is missing"), ({"density": numpy.ones((4, 6))}, "allowed is the shape (6, 4) of r, theta"), ({"density": numpy.ones((6, 4), ">f8")}, "the element type is >f8"),
+            ({"density": numpy.asfortranarray(numpy.ones((6, 4)))}, "Fortran order"), (array(-1), "density[2, 1] is -1, allowed are 0 to 1e+30 cm^-3"), (array(numpy.nan, "temperature"), "temperature[2, 1] is"),
+            (array(numpy.inf, "b_con_r"), "b_con_r[2, 1] is inf"), (array(-1e9, "u_con_theta"), "u_con_theta[2, 1] is -1e+09, allowed are -1e+06 to 1e+06 c/M over r"),
+            ({"u_con_t": numpy.ones((6, 4))}, "the velocity's u.u at u_con_t"), ({"phi": numpy.linspace(0, 6.28, 4), **round_}, "phi does not go round once"),
+            ({"phi": numpy.arange(4) * numpy.pi / 2}, "allowed is the shape (6, 4, 4) of r, theta and phi"),
+            ({"r": numpy.geomspace(2, 20, 4096), "theta": (numpy.arange(1024) + 0.5) * numpy.pi / 1024}, "is 4096 x 1024 x 1 nodes, allowed are 2097152 in all"),
+        )
+        for i, (changes, words) in enumerate(files):
+            path = self.path(f"{i}.npz")
+            numpy.savez(path, **{name: of for name, of in {**good, **changes}.items() if of is not None})
+            with self.subTest(words):
+                self.bad(2, words, "scene", "--set", "spacetime.spin=0.5", "--asset", "g=" + path, *GRID)
+        path = self.path("good.npz")
+        numpy.savez(path, **{**good, "phi": numpy.arange(4) * numpy.pi / 4, **round_})  # half a turn, twice
+        self.assertRegex(json.loads(self.good("scene", "--set", "spacetime.spin=0.5", "--asset", "g=" + path, *GRID))["volume"]["grid"], "^[0-9a-f]{64}$")
+        self.bad(2, "volume.grid is matter round a hole of the spin 0.5, and spacetime.spin is 0.6; allowed is the same (at /volume/grid)", "scene", "--set", "spacetime.spin=0.6", "--asset", "g=" + path, *GRID)
+        self.bad(2, "sky.image is a grid of matter of 6 x 4 x 4 nodes, allowed is a picture of the whole sky", "scene", "--asset", "g=" + path, "--set", "sky.image=g")
+        for cut in (4, 100, len(self.read("good.npz")) - 30):
+            self.write("cut.npz", self.read("good.npz")[:cut])
+            self.assertEqual(run("scene", "--set", "spacetime.spin=0.5", "--asset", "g=" + self.path("cut.npz"), *GRID).returncode, 2, cut)
+
+
+if __name__ == "__main__":
+    main(needs_device=True)

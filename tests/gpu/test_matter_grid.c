@@ -1,0 +1,256 @@
+/* Matter on a grid: each ray against the integral of emission and absorption along the path that the Kerr-Schild oracle follows, through numbers that are interpolated here
+ * anew, with velocities and fields by the metric's components and emissivities in CGS; and numbers that no float holds. */
+#include "image/npy.h"
+#include "image/zip.h"
+#include "render/emit/matter_grid.h"
+#include "scene/asset.h"
+
+#include "render_support.h"
+
+#include "cgs.h"
+#include "kerr_schild.h"
+
+#include <math.h>
+
+enum { SIDE = 4, PIXELS = SIDE * SIDE, MOST = 24 * 16 * 8 };
+static const char *const names[] = { "density", "temperature", "u_con_r", "u_con_theta", "u_cov_phi", "b_con_r", "b_con_theta", "b_cov_phi" };
+enum { ARRAYS = 8 };
+
+/* A grid as its file has it. */
+struct numbers { uint32_t rows, columns, layers; double a, r[2]; bool ingoing; double phi; double of[ARRAYS][MOST]; };
+
+static struct keeper { char hash[KD_ASSET_NAME]; struct kd_buffer file; } keeper;
+
+static bool take(void *user, const char *hash, struct kd_asset_bytes *out)
+{
+    struct keeper *k = user;
+    *out = (struct kd_asset_bytes) { k->file.data, k->file.size, k };
+    return !strcmp(hash, k->hash);
+}
+static void give_back(void *user, struct kd_asset_bytes *bytes) { assert_ptr_equal(bytes->held, user); }
+static const struct kd_assets assets = { NULL, take, give_back, "those of this test", &keeper };
+
+static void add(struct kd_zip *zip, const char *name, const struct kd_npy *array, const void *data)
+{
+    struct kd_buffer bytes = { 0 };
+    char file[40];
+    size_t n = kd_npy_item_size(array);
+    for (size_t i = 0; i < array->n_dimensions; i++)
+        n *= array->shape[i];
+    snprintf(file, sizeof file, "%s.npy", name);
+    OK(kd_npy_write_header(array, &bytes));
+    OK(kd_buffer_append(&bytes, data, n));
+    OK(kd_zip_add(zip, file, bytes.data, bytes.size));
+    kd_buffer_finish(&bytes);
+}
+
+static void add_line(struct kd_zip *zip, const char *name, const double *at, size_t n)
+{
+    add(zip, name, &(struct kd_npy) { .fields = { { "", KD_NPY_F8, 0 } }, .n_fields = 1, .shape = { n }, .n_dimensions = 1 }, at);
+}
+
+/* Puts the file of a grid in the place of the one before, under another hash. */
+static void keep(const struct numbers *g)
+{
+    static int n;
+    struct kd_zip *zip;
+    char header[700];
+    double line[64];
+    kd_buffer_finish(&keeper.file);
+    snprintf(keeper.hash, sizeof keeper.hash, "%064x", ++n);
+    OK(kd_zip_create(&keeper.file, true, &zip));
+    snprintf(header, sizeof header, "{\"format\":\"kerrd-grid\",\"version\":1,\"spin\":%.17g,\"azimuth\":\"%s\",\"units\":{\"r\":\"M\",\"theta\":\"rad\",\"density\":\"cm^-3\",\"temperature\":\"K\",\"u_con_r\":\"c\","
+             "\"u_con_theta\":\"c/M\",\"u_cov_phi\":\"c M\",\"b_con_r\":\"G\",\"b_con_theta\":\"G/M\",\"b_cov_phi\":\"G M\"}}", g->a, g->ingoing ? "kerr-schild" : "boyer-lindquist");
+    add(zip, "header", &(struct kd_npy) { .fields = { { "", KD_NPY_U1, 0 } }, .n_fields = 1, .shape = { strlen(header) }, .n_dimensions = 1 }, header);
+    for (uint32_t i = 0; i < g->rows; i++)
+        line[i] = g->r[0] * pow(g->r[1] / g->r[0], i / (g->rows - 1.0));
+    add_line(zip, "r", line, g->rows);
+    for (uint32_t i = 0; i < g->columns; i++)
+        line[i] = (i + 0.5) * M_PI / g->columns;
+    add_line(zip, "theta", line, g->columns);
+    for (uint32_t i = 0; i < g->layers; i++)
+        line[i] = g->phi + i * 2 * M_PI / g->layers;
+    if (g->layers > 1)
+        add_line(zip, "phi", line, g->layers);
+    for (int i = 0; i < ARRAYS; i++)
+        add(zip, names[i], &(struct kd_npy) { .fields = { { "", KD_NPY_F8, 0 } }, .n_fields = 1, .shape = { g->rows, g->columns, g->layers }, .n_dimensions = g->layers > 1 ? 3 : 2 }, g->of[i]);
+    OK(kd_zip_close(zip));
+    kd_zip_destroy(zip);
+}
+
+static struct kd_scene scene_of(double spin, const char *json)
+{
+    struct kd_scene scene;
+    OK(kd_scene_preset(&scene, "torus", &error));
+    scene.spacetime.spin = spin;
+    scene.volume.model = KD_VOLUME_GRID;
+    scene.volume.inner = INFINITY;
+    snprintf(scene.volume.grid, sizeof scene.volume.grid, "%s", keeper.hash);
+    scene.image.width = scene.image.height = SIDE;
+    scene.image.critical_factor = 1;
+    scene.camera.field_m = 24;
+    OK(kd_scene_from_json(&scene, json, strlen(json), &error));
+    OK(kd_scene_set(&scene, "image.layers", "rgb,brightness_temperature", &error));
+    return scene;
+}
+
+static const float *kelvin_of(const struct kd_frame *frame) { return kd_frame_layer(frame, "brightness_temperature")->data; }
+
+static double random_of(uint32_t *seed) { return (double)((*seed = *seed * 1664525u + 1013904223u) >> 8) / 16777216; }
+
+/* Each node has numbers of its own, about a flow that falls in and goes round. */
+static void fill(struct numbers *g, uint32_t seed, double rough)
+{
+    for (uint32_t i = 0; i < g->rows * g->columns * g->layers; i++) {
+        const double r = g->r[0] * pow(g->r[1] / g->r[0], i / g->layers / g->columns / (g->rows - 1.0)), theta = (i / g->layers % g->columns + 0.5) * M_PI / g->columns, s = sin(theta);
+        double x[ARRAYS];
+        for (int k = 0; k < ARRAYS; k++)
+            x[k] = rough * (2 * random_of(&seed) - 1);
+        g->of[0][i] = 2e6 / r * exp(2 * x[0] - 2 * cos(theta) * cos(theta));
+        g->of[1][i] = 2e11 / r * exp(x[1]);
+        g->of[2][i] = (-0.4 + 0.3 * x[2]) / sqrt(r);
+        g->of[3][i] = 0.3 * x[3] / pow(r, 1.5);
+        g->of[4][i] = (0.7 + 0.3 * x[4]) * sqrt(r) * s * s;
+        g->of[5][i] = 30 * (x[5] + cos(theta)) / r;
+        g->of[6][i] = -30 * (x[6] + s) / (r * r);
+        g->of[7][i] = 40 * (1 + x[7]) * s;
+    }
+}
+
+/* Trilinear: what each of the eight nodes about a place has of it. Components are taken by what they are for a length of M: those of theta times r, those of phi over r sin^2 theta. */
+static double between(const struct numbers *g, int which, double r, double theta, double phi)
+{
+    const double x = log(r / g->r[0]) / log(g->r[1] / g->r[0]) * (g->rows - 1), y = fmin(fmax(theta / M_PI * g->columns - 0.5, 0), g->columns - 1.0), z = (phi - g->phi) / (2 * M_PI) * g->layers;
+    const double power = which == 3 || which == 6 ? 1 : which == 4 || which == 7 ? -1 : 0;
+    double sum = 0;
+    const bool turns = which == 4 || which == 7;
+    for (int corner = 0; corner < 8; corner++) {
+        const double i = fmin(floor(x), g->rows - 2.0) + corner % 2, j = fmin(floor(y), g->columns - 2.0) + corner / 2 % 2, k = floor(z) + corner / 4;
+        const double part = (1 - fabs(x - i)) * (1 - fabs(y - j)) * (g->layers > 1 ? 1 - fabs(z - k) : 0.5), layer = k - floor(k / g->layers) * g->layers;
+        const double value = g->of[which][((uint32_t)i * g->columns + (uint32_t)j) * g->layers + (uint32_t)layer], here = g->r[0] * pow(g->r[1] / g->r[0], i / (g->rows - 1.0));
+        sum += part * (which < 2 ? log(value) : value * pow(here, power) / (turns ? pow(sin((j + 0.5) * M_PI / g->columns), 2) : 1));
+    }
+    return which < 2 ? exp(sum) : sum * pow(r, -power) * (turns ? pow(sin(theta), 2) : 1);
+}
+
+struct view { const struct kd_scene *scene; const struct numbers *g; };
+
+/* Of a metric with g_tphi alone off the diagonal. */
+static double product(const double g[5], const double x[4], const double y[4])
+{
+    return g[0] * x[0] * y[0] + g[1] * x[1] * y[1] + g[2] * x[2] * y[2] + g[3] * x[3] * y[3] + g[4] * (x[0] * y[3] + x[3] * y[0]);
+}
+
+/* u^t is the root of u.u = -1, u^phi follows from u_phi; b^t is that of b.u = 0. */
+static void medium(void *user, const struct ks_photon *p, double r, double u, double out[2])
+{
+    const struct view *view = user;
+    const struct numbers *n = view->g;
+    const double a = p->a, s2 = 1 - u * u, sigma = r * r + a * a * u * u, delta = r * r - 2 * r + a * a, root = sqrt(1 - a * a), cm = GM_SUN * view->scene->spacetime.mass_msun / (C * C);
+    const double g[5] = { -(1 - 2 * r / sigma), sigma / delta, sigma, (r * r + a * a + 2 * a * a * r * s2 / sigma) * s2, -2 * a * r * s2 / sigma };
+    double theta = acos(u), phi = p->phi + view->scene->camera.azimuth_deg * M_PI / 180, at[ARRAYS];
+    phi += n->ingoing ? a / (2 * root) * log((r - 1 - root) / (r - 1 + root)) : 0;
+    for (int i = 0; i < ARRAYS; i++)
+        at[i] = between(n, i, r, theta, phi);
+    /* With u^phi = (u_phi - g_tphi u^t)/g_phiphi the norm is a quadratic in u^t without a linear term. */
+    const double rest = 1 + g[1] * at[2] * at[2] + g[2] * at[3] * at[3] + at[4] * at[4] / g[3], lapse2 = g[4] * g[4] / g[3] - g[0], time = sqrt(rest / lapse2);
+    const double flow[4] = { time, at[2], at[3], (at[4] - g[4] * time) / g[3] };
+    double field[4] = { 0, at[5], at[6], at[7] / g[3] }, axis[4] = { 1, 0, 0, -g[4] / g[3] };
+    assert_true(fabs(product(g, flow, flow) + 1) < 1e-9);
+    const double more = -product(g, field, flow) / product(g, axis, flow); /* along the normal, whose phi component covariant is 0 */
+    for (int i = 0; i < 4; i++)
+        field[i] += more * axis[i];
+    assert_true(fabs(product(g, field, flow)) < 1e-6);
+    const double b = sqrt(product(g, field, field)) * sqrt(view->scene->volume.grid_scale), k[4] = { -p->energy, p->p_r, p->p_theta, p->momentum };
+    double seen = 0, along = 0;
+    for (int i = 0; i < 4; i++) {
+        seen -= flow[i] * k[i];
+        along += field[i] * k[i] / sqrt(product(g, field, field));
+    }
+    const double density = at[0] * view->scene->volume.grid_scale, heat = K * at[1] / (ME * C * C), sine = sqrt(1 - along * along / (seen * seen));
+    const double turn = sqrt(E2) * b / (2 * M_PI * ME * C), nu = view->scene->volume.frequency_ghz * 1e9 * seen, x = nu / (2.0 / 9 * turn * heat * heat * sine);
+    const double shape = sqrt(x) + pow(2, 11.0 / 12) * pow(x, 1.0 / 6), j = density * E2 * turn / C * sqrt(2) * M_PI / 27 * sine * shape * shape * exp(-cbrt(x));
+    out[0] = cm / (seen * seen) * j;
+    out[1] = cm * seen * j * expm1(H * nu / (heat * ME * C * C)) * C * C / (2 * H * nu * nu * nu);
+}
+
+static void compare(const struct numbers *g, const char *json, double allowed)
+{
+    keep(g);
+    const struct kd_scene scene = scene_of(g->a, json);
+    struct kd_frame frame = rendered(&scene);
+    struct view view = { &scene, g };
+    double worst = 0, most = 0, nu = scene.volume.frequency_ghz * 1e9, step = scene.camera.field_m / SIDE;
+    for (int i = 0; i < PIXELS; i++)
+        most = fmax(most, kelvin_of(&frame)[i]);
+    assert_true(most > 1e8);
+    for (int i = 0; i < PIXELS; i++) {
+        const struct ks_photon photon = ks_from_infinity(g->a, cos(scene.camera.inclination_deg * M_PI / 180), step * (i % SIDE - 0.5 * (SIDE - 1)), -step * (i / SIDE - 0.5 * (SIDE - 1)));
+        const double inner = fmax(g->r[0], isinf(scene.volume.inner) ? 0 : scene.volume.inner), want = ks_along(photon, inner, fmin(g->r[1], scene.volume.outer), false, medium, &view).light * C * C / (2 * K * nu * nu);
+        const double off = fabs(kelvin_of(&frame)[i] - want) / fmax(want, 1e-3 * most);
+        worst = fmax(worst, off);
+        if (!(off <= allowed))
+            fail_msg("%s, pixel %d: %.7g K, the oracle has %.7g, off by %.2g, allowed %.2g", json, i, (double)kelvin_of(&frame)[i], want, off, allowed);
+    }
+    printf("%u x %u x %u: worst %.2g, brightest %.3g K\n", g->rows, g->columns, g->layers, worst, most);
+    kd_frame_finish(&frame);
+}
+
+#define HIGH "\"accuracy\":{\"profile\":\"high\"}"
+
+/* Off by the oracle's own steps, which do not end at the cells' edges either, and by floats. */
+static void test_rays(void **state)
+{
+    (void)state;
+    static struct numbers flat = { .rows = 16, .columns = 12, .layers = 1, .a = 0.9, .r = { 2, 20 } }, round = { .rows = 12, .columns = 8, .layers = 6, .a = -0.6, .r = { 2.5, 18 }, .phi = -0.3 },
+                          ingoing = { .rows = 12, .columns = 8, .layers = 5, .a = 0.8, .r = { 2, 15 }, .phi = 0.7, .ingoing = true };
+    fill(&flat, 1, 0.3);
+    fill(&round, 2, 0.5);
+    fill(&ingoing, 3, 0.5);
+    compare(&flat, "{" HIGH ",\"volume\":{\"grid_scale\":3}}", 2e-3);
+    compare(&round, "{" HIGH ",\"camera\":{\"inclination_deg\":105,\"azimuth_deg\":40},\"volume\":{\"inner\":3,\"outer\":15}}", 2e-3);
+    compare(&ingoing, "{" HIGH ",\"camera\":{\"inclination_deg\":50,\"azimuth_deg\":-70}}", 2e-3);
+}
+
+/* Numbers far from any that are meant: light is a number, 0 or more, polarised or not. */
+static void test_adversarial(void **state)
+{
+    (void)state;
+    static const struct { int of; double by; const char *json; } extremes[] = {
+        { 5, 0, "{}" }, { 0, 0, "{}" }, { 1, 1e-9, "{}" }, { 1, 1e6, "{}" }, { 0, 1e23, "{}" }, { 0, 1e-20, "{}" }, { 5, 1e10, "{}" }, { 5, 1e-25, "{}" }, { 2, 1e4, "{}" },
+        { 4, 0, "{\"volume\":{\"grid_scale\":0}}" }, { 2, 0, "{\"volume\":{\"frequency_ghz\":1e12}}" }, { 2, 0, "{\"volume\":{\"electrons\":\"kappa\"}}" }, { 1, 0, "{\"volume\":{\"electrons\":\"power-law\"}}" },
+        { 1, 0, "{\"volume\":{\"grid_scale\":1e30}}" },
+    };
+    for (size_t i = 0; i < 2 * sizeof extremes / sizeof *extremes; i++) {
+        const int of = extremes[i / 2].of, last = of == 5 ? 8 : of == 2 ? 5 : of + 1;
+        static struct numbers g = { .rows = 6, .columns = 5, .layers = 4, .a = 0.9 };
+        g.r[0] = 1, g.r[1] = 30; /* the first rows within the horizon */
+        fill(&g, 7, 0.4);
+        for (int k = of; k < last; k++)
+            for (uint32_t n = 0; n < g.rows * g.columns * g.layers; n++)
+                g.of[k][n] *= n % 3 ? extremes[i / 2].by : extremes[i / 2].by > 0 ? 1 : 0;
+        keep(&g);
+        struct kd_scene scene = scene_of(0.9, extremes[i / 2].json);
+        scene.polarization.model = i % 2 ? KD_POLARIZATION_TRANSFER : KD_POLARIZATION_NONE;
+        struct kd_frame frame = rendered(&scene);
+        for (int p = 0; p < PIXELS; p++)
+            if (!isfinite(kelvin_of(&frame)[p]) || kelvin_of(&frame)[p] < 0)
+                fail_msg("array %d by %g, %s, %s, pixel %d: %g K", of, extremes[i / 2].by, extremes[i / 2].json, i % 2 ? "polarised" : "not polarised", p, (double)kelvin_of(&frame)[p]);
+        if (extremes[i / 2].by == 0 && of == 0)
+            for (int p = 0; p < PIXELS; p++)
+                assert_true(kelvin_of(&frame)[p] == 0);
+        kd_frame_finish(&frame);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_rays), cmocka_unit_test(test_adversarial) };
+    renderer_assets = &assets;
+    int skip = open_renderer();
+    if (skip)
+        return skip;
+    int failed = close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
+    kd_buffer_finish(&keeper.file);
+    return failed;
+}
