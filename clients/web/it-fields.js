@@ -138,7 +138,7 @@ export const fields = {
   'volume.temperature_k': ['Temperatura', 'Colore: quello di un corpo nero di questa temperatura, spostato da g (modello: uniforme)'],
   'volume.redshift': ['Redshift', 'Spostamento di frequenza della materia (modello: uniforme)'],
   'volume.frequency_ghz': ['Frequenza', 'Frequenza osservata (modelli: gold, riaf, torus, grid)'],
-  'volume.grid': ['Griglia di materia', 'Densità, temperatura, velocità e campo magnetico degli elettroni su una griglia di r, θ e φ, un file NPZ (modello: grid): docs/physics/volume.md dice che cosa contiene, e docs/examples/torus_grid.py ne fa uno'],
+  'volume.grid': ['Griglia di materia', 'Densità, temperatura, velocità e campo magnetico degli elettroni su una griglia di r, θ e φ, un file NPZ (modello: grid); senza, non c’è materia'],
   'volume.grid_scale': ['Densità della griglia', 'Densità rispetto a quella del file; il campo è quello del file per la sua radice (modello: grid)'],
   'volume.gold_emission': ['Emissività C n0', 'Emissività a 230 GHz dove la densità è massima'],
   'volume.gold_index': ['Indice α', 'L’emissività va come ν^−α, l’assorbimento come ν^−(2,5 + α)'],

@@ -167,7 +167,7 @@
     REAL(volume, temperature_k, MODEL, REST, 6500.0, 300.0, 1e9, "K", "colour: that of a black body of this temperature, shifted by g (model: uniform)") \
     BOOL(volume, redshift, PHYSICS, REST, true, "the frequency shift of the matter (model: uniform)")                \
     REAL(volume, frequency_ghz, PHYSICS, FRONT, 230.0, 1e-6, 1e12, "GHz", "frequency that is observed (models: gold, riaf, torus, grid)") \
-    ASSET(volume, grid, MODEL, FRONT, "density, temperature, velocity and magnetic field of electrons on a grid of r, theta and phi, an NPZ file (model: grid): docs/physics/volume.md says what is in it, and docs/examples/torus_grid.py makes one") \
+    ASSET(volume, grid, MODEL, FRONT, "density, temperature, velocity and magnetic field of electrons on a grid of r, theta and phi, an NPZ file (model: grid); without one there is no matter") \
     REAL(volume, grid_scale, MODEL, FRONT, 1.0, 0.0, 1e30, "1", "density over that of the file; the field is its root times that of the file (model: grid)") \
     REAL(volume, gold_emission, MODEL, REST, 3e-18, 0.0, 1e30, "erg/(s cm^3 Hz sr)", "C n0: emissivity at 230 GHz where the density is largest (model: gold)") \
     REAL(volume, gold_index, MODEL, REST, 0.0, -10.0, 10.0, "1", "alpha: emissivity goes as nu^-alpha, absorptivity as nu^-(2.5 + alpha) (model: gold)") \
