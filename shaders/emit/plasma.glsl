@@ -34,9 +34,9 @@
 #define KD_TRAIT_PLASMA_POWER 64u   /* a power law of electrons */
 #define KD_TRAIT_PLASMA_TORUS 128u
 #define KD_TRAIT_PLASMA_KAPPA 256u  /* a kappa distribution of electrons */
-#define KD_TRAIT_PLASMA_GRID 512u   /* all of it is in a buffer: src/render/emit/matter_grid.h */
+#define KD_TRAIT_PLASMA_GRID 1024u  /* all of it is in a buffer: src/render/emit/matter_grid.h */
 #define KD_TRAITS_plasma(T) T(PLASMA_GOLD) T(PLASMA_VERTICAL) T(PLASMA_RADIAL) T(PLASMA_REST) T(PLASMA_POWER) T(PLASMA_TORUS) T(PLASMA_KAPPA) T(PLASMA_GRID) T(AZIMUTH)
-#define KD_BUFFERS_plasma(B) B(5, vec4, plasma_grid)
+#define KD_BUFFERS_plasma(B) B(5, quads, plasma_grid)
 #define KD_GRID_CELLS 2.0 /* of the grid, that a grain goes through at most */
 #define KD_PASS_plasma(P)
 #define KD_TORUS_COLD -24.0 /* log2(h - 1) */

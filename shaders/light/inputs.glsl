@@ -29,6 +29,7 @@ struct kd_emission { KD_EMIT_BLOCKS(MEMBER) } emission;
 #include "light/tables.glsl"
 /* The emitters' own buffers: as texels where the map is. lavapipe reads storage lane by lane, at ten times the price. */
 #define KD_OWN_stored(number, member) layout(set = 0, binding = KD_OWN_BINDING + number) readonly buffer Own_##member { float member[]; };
+#define KD_OWN_quads(number, member) layout(set = 0, binding = KD_OWN_BINDING + number) readonly buffer Own_##member { vec4 member[]; };
 #ifdef KD_TEXELS
 #define KD_OWN_words(number, member) layout(set = 0, binding = KD_OWN_BINDING + number) uniform utextureBuffer member;
 #define KD_OWN_pairs(number, member) KD_OWN_words(number, member)

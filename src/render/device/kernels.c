@@ -71,6 +71,7 @@ _Static_assert(KD_OWN_BINDING + KD_OWN_COUNT <= KD_VK_MAX_BINDINGS && 2 + KD_OWN
 #define KD_KIND_pairs KD_VK_TEXELS_PAIR
 #define KD_KIND_floats KD_VK_TEXELS_R
 #define KD_KIND_stored KD_VK_STORAGE
+#define KD_KIND_quads KD_VK_STORAGE
 #define KD_B(number, type, member) [KD_OWN_BINDING + (number)] = KD_KIND_##type,
 
 static const struct kd_vk_pipeline_params sources[] = {
