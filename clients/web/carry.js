@@ -51,7 +51,7 @@ export function buildCarry(stage, scene) {
   // Where the coarse picture shrinks, what was at rest comes out round it: not where that was seen from another side.
   function cover() {
     const [below, over] = [picture, canvas].map(node => seen.get(node)),
-      other = below && over && Object.entries(sides).some(([name, most]) => !(Math.abs(below[name] - over[name]) <= most));
+      other = below && over && Object.entries(sides).some(([name, most]) => !(Math.abs(((below[name] - over[name] + 1260) % 360) - 180) <= most));
     picture.style.opacity = !canvas.hidden && canvas.style.transform && other ? 0 : '';
   }
 

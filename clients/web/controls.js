@@ -46,7 +46,7 @@ function numberRow(field, scene, id, hint) {
     slider.value = short ? value : s.to(value);
     slider.setAttribute('aria-valuetext', `${number(value)} ${unit(field.unit)}`);
   }
-  const special_row = check && el('label', { class: 'special' }, check, word(special));
+  const special_row = check && el('label', { class: 'special' }, check, word(special, field.path));
   return { label: box, nodes: [el('div', { class: 'pair' }, slider, box), special_row], show };
 }
 
@@ -54,14 +54,14 @@ function choiceRow(field, scene, id, hint) {
   const select = el(
     'select',
     { id, 'aria-describedby': hint, onchange: () => scene.change({ [field.path]: select.value }) },
-    field.choices.map(choice => el('option', { value: choice }, word(choice))),
+    field.choices.map(choice => el('option', { value: choice }, word(choice, field.path))),
   );
   return {
     nodes: [select],
     show: () => {
       const value = scene.get(field.path);
       select.value = value;
-      if (select.value !== value) select.add(new Option(word(value), value, false, true)); // several words, or one with a number
+      if (select.value !== value) select.add(new Option(word(value, field.path), value, false, true)); // several words, or one with a number
     },
   };
 }

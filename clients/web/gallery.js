@@ -50,7 +50,7 @@ export function buildGallery(scene, select, presets) {
   function follow() {
     const now = cards.find(card => card.dataset.preset === select.value);
     if (now && shown !== select.value && !strip.matches(':hover')) strip.scrollTo({ left: now.offsetLeft - strip.offsetLeft - (strip.clientWidth - now.offsetWidth) / 2 });
-    shown = select.value;
+    if (strip.clientWidth) shown = select.value;
     for (const card of cards) card.setAttribute('aria-pressed', card.dataset.preset === select.value);
     if (!strip.contains(document.activeElement)) reach(now ?? cards[0]);
   }

@@ -118,7 +118,7 @@ function labelOf(path) {
 }
 
 // A help names other fields by their labels, not by their paths, and points to no file.
-const inside = /\b(?:spacetime|camera|disk|sky|image|style|accuracy|motion|spots|bodies|volume|jets)(?:\.[a-z_]+)+/g;
+const inside = /\b(?:spacetime|camera|disk|sky|image|style|accuracy|motion|spots|bodies|volume|jets|polarization)(?:\.[a-z_]+)+/g;
 export const readable = help => help && help.replace(/ \(docs\/[^)]*\)/g, '').replace(/docs\/[\w./-]+\w/g, t('the documentation', 'la documentazione')).replace(inside, path => t(`“${labelOf(path)}”`, `«${labelOf(path)}»`));
 
 // Label and help of a field of the scene or of a parameter, from its path and the server's English.
@@ -165,8 +165,16 @@ const choices = {
   m87: 'towards M87',
   equirectangular: 'equirectangular (360°)',
   fulldome: 'fulldome (180°)',
+  starless: 'without stars',
+  rgb: 'the picture',
+  'volume.model grid': 'numbers from a file',
+  'volume.model gold': 'Gold et al. 2020',
+  'volume.model riaf': 'hot flow (RIAF)',
+  'volume.model torus': 'torus in equilibrium',
+  'volume.model uniform': 'uniform shell',
 };
-export const word = value => words?.values[value] ?? choices[value] ?? value;
+// Some are called something else for a certain field: path.
+export const word = (value, path) => words?.values[`${path} ${value}`] ?? choices[`${path} ${value}`] ?? words?.values[value] ?? choices[value] ?? value;
 export const preset = (name, title) => words?.presets[name] ?? title; // of the playground; of scenes: captions.js
 export const label = (name, text) => words?.labels[name] ?? text;
 

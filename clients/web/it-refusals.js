@@ -119,7 +119,7 @@ const refusals = [
   ['a grid of matter is an NPZ file of arrays: {…}', 'una griglia di materia è un file NPZ di array (in inglese): {}'],
   // what is seen of emitters
   ['Matter from a grid of numbers from {} to {}, at {} GHz.', 'Materia da una griglia di numeri, da {} a {}, a {} GHz.'],
-  ['No matter: volume.grid names none.', 'Nessuna materia: volume.grid non ne nomina.'],
+  ['No matter: no file is chosen.', 'Nessuna materia: nessun file è scelto.'],
   ['A thin disk from the ISCO to {}.', 'Un disco sottile dall’ISCO a {}.'],
   ['A thin disk from {} to {}.', 'Un disco sottile da {} a {}.'],
   ['A thick disk of turbulent gas from the ISCO to {}.', 'Un disco spesso di gas turbolento dall’ISCO a {}.'],

@@ -194,7 +194,7 @@ export const sentences = {
     'volume: il toro di Fishbone e Moncrief 1976, in equilibrio senza il suo campo magnetico, messo solo per la sua pressione; le temperature di ioni ed elettroni sono in un solo rapporto',
   'volume: matter between the nodes of a grid by way of its neighbours, density and temperature by their logarithms; it stands still, as it was at one time, while light passes':
     'volume: la materia fra i nodi di una griglia è presa dai nodi vicini, densità e temperatura dai loro logaritmi; sta ferma, com’era a un istante, mentre la luce passa',
-  'volume: volume.model is "grid" and volume.grid names none: there is no matter': 'volume: volume.model è "grid" e volume.grid non ne nomina alcuna: non c’è materia',
+  'volume: no file of a grid is named: there is no matter': 'volume: nessun file di griglia è indicato: non c’è materia',
   'volume: synchrotron light by the fits of Pandya et al. 2016, good to a few percent where they hold; electrons move in all directions alike':
     'volume: luce di sincrotrone secondo le formule di Pandya et al. 2016, buone a qualche percento dove valgono; gli elettroni vanno ugualmente in ogni direzione',
   'volume: the density is that at which a picture of 128 pixels has the flux volume.normalise_to_jy, found by smaller pictures that the estimated time leaves out; answers tell the factor as density_scale':

@@ -9,7 +9,8 @@ const has_disk = scene => scene.get('disk.model') !== 'none',
 const only_with = {
   'disk.flare': scene => has_disk(scene) && scene.get('disk.height') > 0,
   'style.ringdown_time': scene => scene.get('style.ringdown') > 0,
-  ...Object.fromEntries(['outer', 'taper', 'opacity', 'emission_opacity', 'height', 'mdot_edd', 'gas.amplitude', 'gas.octaves', 'gas.scale', 'gas.shear', 'gas.seed'].map(name => ['disk.' + name, has_disk])),
+  'disk.outer': scene => has_disk(scene) || is_map(scene) || scene.get('camera.projection') === 'ring', // maps and rings are of crossings within it
+  ...Object.fromEntries(['taper', 'opacity', 'emission_opacity', 'height', 'gas.amplitude', 'gas.octaves', 'gas.scale', 'gas.shear', 'gas.seed'].map(name => ['disk.' + name, has_disk])),
   ...Object.fromEntries(['layer_min', 'layer_max', 'legend'].map(name => ['image.' + name, is_map])),
 };
 

@@ -86,7 +86,7 @@ export function buildLight(root, scene) {
   }
 
   function drawLoop(name, sorted, x, area) {
-    const polarised = points.some(p => p.stokes);
+    const polarised = Boolean(points.at(-1)?.stokes);
     loop.figure.hidden = !polarised;
     if (!polarised) return;
     byId('loop-caption').textContent = t(`How this light is polarised: ${name}`, `Come è polarizzata questa luce: ${name}`);

@@ -19,7 +19,7 @@ const length = r => number(r, 4) + ' M';
 function sources({ crossings, met, along, end }) {
   const all = [
     ...crossings.flatMap(crossing => (crossing.emitters ?? []).map(({ name, luminance_seen: seen }) => ({ ...crossing, kind: 'crossing', name, seen }))),
-    ...(along?.volumes ?? []).map(({ name, luminance_seen: seen, optical_depth }) => ({ kind: 'along', name, seen, optical_depth, delay: along.delay })),
+    ...(along?.volumes ?? []).map(({ name, luminance_seen: seen, optical_depth }) => ({ kind: 'along', name, seen, optical_depth, delay: along.volumes.length === 1 ? along.delay : null })),
     ...(met ? [{ ...met, kind: 'met', seen: met.luminance_seen }] : []),
     ...(end.emitters ?? []).map(({ name, luminance_seen: seen, points }) => ({ ...end, kind: 'end', name, seen, points })),
   ].filter(({ seen }) => seen > 0);
@@ -30,7 +30,7 @@ function sources({ crossings, met, along, end }) {
 // An observer at infinity has no moment at which light left, but differences of them: from the hole it would take r + 2 ln r.
 const ago = (delay, far) =>
   far
-    ? [t('Its way here', 'La sua via'), length(Math.abs(delay)) + (delay < 0 ? t(' shorter than from the hole', ' più breve che dal buco') : t(' longer than from the hole', ' più lunga che dal buco'))]
+    ? [t('Travel time', 'Tempo di viaggio'), length(Math.abs(delay)) + (delay < 0 ? t(' less than from the hole’s place', ' in meno che dal posto del buco') : t(' more than from the hole’s place', ' in più che dal posto del buco'))]
     : [t('It left', 'È partita'), t(`${length(delay)} ago`, `${length(delay)} fa`)];
 
 const images = [t('direct image', 'immagine diretta'), t('lensed far side', 'lato lontano, deviato'), t('photon ring', 'anello di fotoni')];

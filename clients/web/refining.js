@@ -1,7 +1,7 @@
 // A finer picture that takes the server long: how much of it is done, and how many seconds are left, below the picture and as a bar at its edge.
 import { byId } from './dom.js';
 import { number, t } from './i18n.js';
-import { getJson } from './server.js';
+import { getJson, seen } from './server.js';
 
 const patience_ms = 1500; // after the picture that is shown, before anything is said
 const every_ms = 700;
@@ -12,8 +12,10 @@ export function buildRefining(address, say) {
   let timer = 0;
 
   async function look() {
-    const mine = timer,
-      { refining } = (address() && (await getJson(address()).catch(() => null))) || {};
+    const mine = timer;
+    await seen('lensing');
+    if (mine !== timer) return;
+    const { refining } = (address() && (await getJson(address()).catch(() => null))) || {};
     if (mine !== timer) return; // it has come, or another one is made
     bar.hidden = !refining;
     if (refining) {

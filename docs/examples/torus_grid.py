@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Samples the torus of Fishbone & Moncrief 1976 onto a grid for volume.model "grid": torus_grid.py OUT.npz [ROWS COLUMNS [LAYERS]]. A converter of a dump is lines 1 to 3 and the last two."""
+"""Samples the torus of Fishbone & Moncrief 1976 onto a grid for volume.model "grid": torus_grid.py OUT.npz [ROWS COLUMNS [LAYERS]]. A converter of a simulation's dump is dump_grid.py."""
 import json
 import sys
 import numpy as np

@@ -205,12 +205,12 @@ kd_plasma kd_plasma_of_grid(kd_midst p, float log2_r)
     return m;
 }
 
-/* A cell's edges are seen in the light: a grain goes through so many. */
+/* A cell's edges are seen in the light: a grain goes through so many. It is no shorter than half of one of the finest rows that a grid may have, which columns and layers next to the axis would ask for. */
 float kd_grid_grain(kd_midst p, float sharp)
 {
     float r = 1.0 / p.w, s2 = max(1.0 - p.u * p.u, 1e-4);
     float cells = KD_LOG2_E * abs(p.dw) * r * emission.plasma.grid_per_r + abs(p.du) * inversesqrt(s2) * emission.plasma.grid_per_theta + abs(p.momentum) / s2 * emission.plasma.grid_per_phi;
-    return min(r / (4.0 + sharp), KD_GRID_CELLS * p.speed / max(cells, 1e-12));
+    return max(min(r / (4.0 + sharp), KD_GRID_CELLS * p.speed / max(cells, 1e-12)), r / 2048.0);
 }
 
 #ifdef KD_MARCH

@@ -56,10 +56,7 @@ bool untold = false;
 #define KD_MARCH_GIVEN_UP(beam)
 #include "light/march.glsl"
 #include "light/meet.glsl"
-#undef KD_B
-#define KD_B(number, type, member) +1
-layout(set = 0, binding = KD_OWN_BINDING + (0 KD_EMIT_BUFFERS)) readonly buffer Radiance { float radiance[]; };
-#undef KD_B
+layout(set = 0, binding = KD_LIGHT_BINDING) readonly buffer Radiance { float radiance[]; };
 
 /* This is the luminance of a pixel, Stokes I, and Q, U and V. */
 vec4 light_of_pixel(uint o)

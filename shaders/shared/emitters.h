@@ -54,6 +54,8 @@
 #define KD_BUFFERS_OF_(number, name) KD_BUFFERS_##name(KD_B)
 #define KD_EMIT_BUFFERS KD_EMITTERS(KD_BUFFERS_OF_, KD_BUFFERS_OF_, KD_BUFFERS_OF_, KD_BUFFERS_OF_, KD_BUFFERS_OF_, KD_BUFFERS_OF_)
 #define KD_OWN_BINDING 5
+/* layers.comp reads the light that the march has left here, in the place of the points of light, which are in it: a device may have no more than 8 storage buffers for a kernel. */
+#define KD_LIGHT_BINDING (KD_OWN_BINDING + 2)
 /* All passes of their own, by the KD_P(name, ID, word, guess) that is defined there (render/plan/pass.h). */
 #define KD_PASS_OF_(number, name) KD_PASS_##name(KD_P)
 #define KD_EMIT_PASSES KD_EMITTERS(KD_PASS_OF_, KD_PASS_OF_, KD_PASS_OF_, KD_PASS_OF_, KD_PASS_OF_, KD_PASS_OF_)

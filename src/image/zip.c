@@ -77,12 +77,11 @@ void kd_zip_destroy(struct kd_zip *zip)
     free(zip);
 }
 
-static enum kd_status take(struct archive *archive, const struct archive_entry *entry, size_t most, struct kd_buffer *out)
+static enum kd_status take(struct archive *archive, size_t most, struct kd_buffer *out)
 {
     char part[4096];
     la_ssize_t n;
     size_t all = 0;
-    (void)entry;
     while ((n = archive_read_data(archive, part, sizeof part)) > 0) {
         all += (size_t)n;
         if (all > most)
@@ -93,19 +92,40 @@ static enum kd_status take(struct archive *archive, const struct archive_entry *
     return n < 0 ? KD_EINVAL : KD_OK;
 }
 
-enum kd_status kd_zip_find(const void *data, size_t size, const char *name, size_t most, struct kd_buffer *out)
+/* Members are found by the directory at the end alone: libarchive's reader of streams inflates whatever it passes over, which may be a thousand times as long as the file. NULL: no memory. */
+static struct archive *open_directory(const void *data, size_t size)
 {
     struct archive *archive = archive_read_new();
+    if (archive && archive_read_support_format_zip_seekable(archive) == ARCHIVE_OK)
+        archive_read_open_memory(archive, data, size); /* what is no ZIP file has no members */
+    return archive;
+}
+
+/* Goes to the member of this name, if it is among the first MEMBERS. */
+static bool go_to(struct archive *archive, const char *name)
+{
+    enum { MEMBERS = 1024 };
     struct archive_entry *entry;
-    enum kd_status status = archive ? KD_EINVAL : KD_ENOMEM;
-    if (archive && archive_read_support_format_zip(archive) == ARCHIVE_OK && archive_read_open_memory(archive, data, size) == ARCHIVE_OK)
-        while (archive_read_next_header(archive, &entry) == ARCHIVE_OK) {
-            const char *path = archive_entry_pathname(entry);
-            if (!path || strcmp(path, name))
-                continue;
-            status = take(archive, entry, most, out);
-            break;
-        }
+    for (int n = 0; n < MEMBERS && archive_read_next_header(archive, &entry) == ARCHIVE_OK; n++) {
+        const char *path = archive_entry_pathname(entry);
+        if (path && !strcmp(path, name))
+            return true;
+    }
+    return false;
+}
+
+enum kd_status kd_zip_find(const void *data, size_t size, const char *name, size_t most, struct kd_buffer *out)
+{
+    struct archive *archive = open_directory(data, size);
+    enum kd_status status = !archive ? KD_ENOMEM : go_to(archive, name) ? take(archive, most, out) : KD_EINVAL;
     archive_read_free(archive);
     return status;
+}
+
+bool kd_zip_has(const void *data, size_t size, const char *name)
+{
+    struct archive *archive = open_directory(data, size);
+    const bool there = archive && go_to(archive, name);
+    archive_read_free(archive);
+    return there;
 }

@@ -20,7 +20,9 @@ enum kd_status kd_zip_add(struct kd_zip *zip, const char *name, const void *data
 enum kd_status kd_zip_close(struct kd_zip *zip); /* the last bytes; KD_ENOMEM */
 void kd_zip_destroy(struct kd_zip *zip);
 
-/* Appends a member of a ZIP file to *out, of at most `most` bytes. KD_EINVAL: no such member, too long, or not a whole ZIP file. */
+/* Appends a member of a ZIP file to *out, of at most `most` bytes; it must be among the first 1024. KD_EINVAL: no such member, too long, damaged, or not a whole ZIP file. */
 enum kd_status kd_zip_find(const void *data, size_t size, const char *name, size_t most, struct kd_buffer *out);
+/* Says whether there is one of this name, whole or damaged. */
+bool kd_zip_has(const void *data, size_t size, const char *name);
 
 #endif

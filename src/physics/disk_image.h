@@ -32,7 +32,7 @@ struct kd_disk_image {
  * where they are and how r changes there. */
 bool kd_disk_image_init(struct kd_disk_image *image, double spin, double inclination);
 
-/* A ring seen in `n` directions, evenly spaced in chi; n is a power of 2, 64 at least and KD_DISK_IMAGE_ANGLES at most. `skip` 1 uses every node of the table and 2 every second one: by how
+/* A ring seen in `n` directions, evenly spaced in chi; n is a power of 2, 32 at least and KD_DISK_IMAGE_ANGLES at most. `skip` 1 uses every node of the table and 2 every second one: by how
  * much that differs tells the error of the table. r >= ISCO. */
 void kd_disk_image_ring(const struct kd_disk_image *image, double r, int skip, int n, double *alpha, double *beta);
 

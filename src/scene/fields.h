@@ -160,7 +160,7 @@
          "matter all along the rays: none; uniform, a shell that is the same everywhere and does not move: what light and opacity along bent rays come to; " \
          "at one radio frequency gold, the analytic model of Gold et al. 2020, riaf, a hot, thin flow whose density, temperature and magnetic field are powers of r, torus, a thick one in equilibrium, and grid, numbers from a file", \
          "none|uniform|gold|riaf|torus|grid")                                                                                   \
-    WORD(volume, inner, MODEL, REST, INFINITY, 1.0, 3e4, "M", "inner edge; horizon: as near to it as it may be, a hundredth outside it, or a two-thousandth for what is seen at a radio frequency; of a torus half of torus_radius", "horizon") \
+    WORD(volume, inner, MODEL, REST, INFINITY, 1.0, 3e4, "M", "inner edge; horizon: as near to it as it may be, a hundredth outside it, or a two-thousandth for what is seen at a radio frequency; of a torus half of the radius of its largest pressure", "horizon") \
     REAL(volume, outer, MODEL, FRONT, 20.0, 1.0, 3e4, "M", "outer edge; larger than the inner one")                  \
     REAL(volume, emissivity, MODEL, FRONT, 0.02, 0.0, 1e30, "1/M", "light of a length of M, in its own frame, in units of the disk's brightest (model: uniform)") \
     REAL(volume, opacity, MODEL, FRONT, 0.02, 0.0, 1e30, "1/M", "optical depth of a length of M, in its own frame (model: uniform)")  \
@@ -168,7 +168,7 @@
     BOOL(volume, redshift, PHYSICS, REST, true, "the frequency shift of the matter (model: uniform)")                \
     REAL(volume, frequency_ghz, PHYSICS, FRONT, 230.0, 1e-6, 1e12, "GHz", "frequency that is observed (models: gold, riaf, torus, grid)") \
     ASSET(volume, grid, MODEL, FRONT, "density, temperature, velocity and magnetic field of electrons on a grid of r, theta and phi, an NPZ file (model: grid); without one there is no matter") \
-    REAL(volume, grid_scale, MODEL, FRONT, 1.0, 0.0, 1e30, "1", "density over that of the file; the field is its root times that of the file (model: grid)") \
+    REAL(volume, grid_scale, MODEL, FRONT, 1.0, 0.0, 1e30, "1", "factor on the density of the file; its magnetic field is multiplied by the square root of this (model: grid)") \
     REAL(volume, gold_emission, MODEL, REST, 3e-18, 0.0, 1e30, "erg/(s cm^3 Hz sr)", "C n0: emissivity at 230 GHz where the density is largest (model: gold)") \
     REAL(volume, gold_index, MODEL, REST, 0.0, -10.0, 10.0, "1", "alpha: emissivity goes as nu^-alpha, absorptivity as nu^-(2.5 + alpha) (model: gold)") \
     REAL(volume, gold_flattening, MODEL, FRONT, 0.0, 0.0, 1e4, "1", "h: density goes as exp(-(h cos(theta))^2/2); 0: round (model: gold)") \
@@ -192,8 +192,8 @@
     REAL(volume, beta, MODEL, REST, 10.0, 1e-6, 1e12, "1", "pressure of the gas over that of the magnetic field (model: torus)") \
     REAL(volume, gamma_min, MODEL, REST, 30.0, 1.0, 1e9, "1", "least energy of the electrons over that at rest (electrons: power-law)") \
     REAL(volume, gamma_max, MODEL, REST, 1e5, 1.0, 1e12, "1", "largest energy of the electrons, more than the least (electrons: power-law)") \
-    REAL(volume, normalise_to_jy, MODEL, REST, 0.0, 0.0, 1e12, "Jy", "flux of the picture, for which density_cm3, gold_emission or grid_scale is multiplied by what it takes: kerrd looks for that by small pictures, and answers tell it; 0: left as it is (models: gold, riaf, torus, grid)") \
-    WORD(volume, normalise_ghz, MODEL, REST, INFINITY, 1e-6, 1e12, "GHz", "frequency at which the picture has the flux normalise_to_jy; observed: frequency_ghz, of each scene its own", "observed")
+    REAL(volume, normalise_to_jy, MODEL, REST, 0.0, 0.0, 1e12, "Jy", "flux that the picture shall have: the density (of gold the emissivity, of a grid its factor) is multiplied by what it takes, which kerrd finds by small pictures and answers tell; 0: left as it is (models: gold, riaf, torus, grid)") \
+    WORD(volume, normalise_ghz, MODEL, REST, INFINITY, 1e-6, 1e12, "GHz", "frequency of that flux; observed: the one that the picture shows", "observed")
 
 #define KD_JETS_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                    \
     REAL(jets, brightness, MODEL, FRONT, 0.0, 0.0, 1e9, "1/M", "light of a length of M in its own frame, carried back to the inner edge, where it begins smoothly, in units of the disk's brightest; 0: there are none") \

@@ -43,7 +43,7 @@ struct kd_vk_params {
     const char *device;    /* "auto", an index, or part of a name (case-insensitive)    */
     const char *cache_dir; /* pipeline cache directory, NULL: $XDG_CACHE_HOME/kerrd, "": none */
     bool validate;         /* Khronos layer with synchronisation validation; also KERRD_VALIDATE=1 */
-    uint32_t deadline_ms;  /* of one submission, then KD_EDEVICE; 0: 60000. A software device that hardly has the processor has more */
+    uint32_t deadline_ms;  /* of one submission, then KD_EDEVICE; 0: 60000. A software device that hardly has the processor has up to 8 times as long */
 };
 
 /* Every device of this machine, whether usable or not, in the order of their indices. *out is malloc'd.

@@ -151,7 +151,7 @@ static enum kd_status life(struct kd_error *error)
                                 &(struct kd_vk_dispatch) { .pass = "kinds",
                                                            .pipeline = kinds,
                                                            .bindings = { { .buffer = x }, { .buffer = x }, { .buffer = x },
-                                                                         { .buffer = y, .write = true } } },
+                                                                         { .buffer = y, .write = true }, { .buffer = x }, { .buffer = x } } },
                                 error);
     for (int i = 0; i < 7 && !status; i++) { /* more than may be in flight */
         status = kd_vk_dispatch(

@@ -34,7 +34,7 @@ class Hand(Browser):
         self.assertAlmostEqual(r / (math.sqrt(1 + b * b) - 1), 1, delta=0.015)
         self.assertAlmostEqual(float(self.fact(page, 'Frequency ratio').split(',')[0]), math.sqrt(1 - 3 / r), delta=0.002)
         self.assertEqual(self.fact(page, 'Image'), 'direct image (order 0)')
-        self.assertIn('than from the hole', self.fact(page, 'Its way here'))
+        self.assertIn('than from the hole', self.fact(page, 'Travel time'))
         self.assertIn('within', page.inner_text('#pixel'))
         before = self.drawn(page, '#pixel canvas')
         self.assertGreater(before['coloured'], 20, 'the ray is drawn')

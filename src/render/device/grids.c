@@ -29,21 +29,32 @@ static enum kd_status read_asset(const struct kd_assets *assets, const char *has
     return status ? kd_error_set(error, status, "%s", why.message) : KD_OK;
 }
 
+static const char *hash_of(const struct kd_scene *scene) { return *scene->volume.grid ? scene->volume.grid : "none"; }
+
+static struct kd_kept_grid *kept_of(struct kd_grids *all, const char *hash)
+{
+    for (int i = 0; i < KD_GRIDS; i++)
+        if (!strcmp(all->kept[i].of, hash))
+            return &all->kept[i];
+    return NULL;
+}
+
 /* Finds the scene's grid, with its nodes where they are asked for: reads it unless it is there. */
 static enum kd_status grid_of(struct kd_renderer *r, const struct kd_scene *scene, bool nodes, struct kd_matter_grid **out, struct kd_error *error)
 {
-    struct kd_grids *all = &r->grids;
-    const char *hash = *scene->volume.grid ? scene->volume.grid : "none";
+    struct kd_kept_grid *at = kept_of(&r->grids, hash_of(scene));
     enum kd_status status = KD_OK;
-    if (strcmp(all->of, hash) || (nodes && !all->grid.nodes)) {
-        kd_matter_grid_finish(&all->grid);
-        *all->of = 0;
-        KD_TRY(*scene->volume.grid ? read_asset(r->panoramas.assets, hash, &all->grid, error) : kd_matter_grid_none(scene->spacetime.spin, &all->grid, error));
-        snprintf(all->of, sizeof all->of, "%s", hash);
+    if (!at || (nodes && !at->grid.nodes)) {
+        if (!at)
+            at = &r->grids.kept[r->grids.n++ % KD_GRIDS];
+        kd_matter_grid_finish(&at->grid);
+        *at->of = 0;
+        KD_TRY(*scene->volume.grid ? read_asset(r->panoramas.assets, scene->volume.grid, &at->grid, error) : kd_matter_grid_none(scene->spacetime.spin, &at->grid, error));
+        snprintf(at->of, sizeof at->of, "%s", hash_of(scene));
     }
-    *out = &all->grid;
+    *out = &at->grid;
     if (*scene->volume.grid)
-        KD_TRY(kd_asset_check_grid(all->grid.spin, scene, error));
+        KD_TRY(kd_asset_check_grid(at->grid.spin, scene, error));
 done:
     return status;
 }
@@ -54,8 +65,14 @@ static enum kd_status prepare(const struct kd_own_work *work, const struct kd_sc
     struct kd_vk_buffer *staging = NULL;
     struct kd_matter_grid *grid;
     enum kd_status status = KD_OK;
-    if (!is_grid(scene) || (own->there && !strcmp(own->of, scene->volume.grid)))
+    if (!is_grid(scene))
         return KD_OK;
+    if (own->there && !strcmp(own->of, scene->volume.grid)) {
+        struct kd_kept_grid *at = kept_of(&work->renderer->grids, hash_of(scene));
+        if (at) /* it was read for what tell says of it */
+            kd_matter_grid_finish(&at->grid);
+        return KD_OK;
+    }
     own->there = false;
     KD_TRY(grid_of(work->renderer, scene, true, &grid, error));
     const uint64_t bytes = (uint64_t)grid->rows * grid->columns * grid->layers * KD_MATTER_FLOATS * sizeof *grid->nodes;
@@ -116,8 +133,9 @@ static void finish(void *own, struct kd_vk *vk)
 
 void kd_grids_finish(struct kd_grids *grids)
 {
-    kd_matter_grid_finish(&grids->grid);
-    *grids->of = 0;
+    for (int i = 0; i < KD_GRIDS; i++)
+        kd_matter_grid_finish(&grids->kept[i].grid);
+    *grids = (struct kd_grids) { 0 };
 }
 
 const struct kd_own kd_own_plasma = { sizeof(struct own), prepare, buffers, forget, finish, NULL, tell };

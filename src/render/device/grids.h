@@ -1,14 +1,18 @@
 /* Matter on a grid as the device has it: volume.grid is read, and its numbers are sent, when the asset is another than the one before (kd_own_plasma of
- * render/emit/own.h). What is known of the last one but its numbers stays with the renderer. Render thread only. */
+ * render/emit/own.h). What is known of the last ones but their numbers stays with the renderer. Render thread only. */
 #ifndef KD_RENDER_DEVICE_GRIDS_H
 #define KD_RENDER_DEVICE_GRIDS_H
 
 #include "render/emit/matter_grid.h"
 #include "scene/scene.h"
 
+enum { KD_GRIDS = 8 };
 struct kd_grids {
-    char of[KD_ASSET_NAME];     /* the asset's hash; "": there was none yet */
-    struct kd_matter_grid grid; /* nodes: until they are sent, up to 64 MiB; else NULL */
+    struct kd_kept_grid {
+        char of[KD_ASSET_NAME];     /* the asset's hash; "": there is none */
+        struct kd_matter_grid grid; /* nodes: until they are sent, up to 64 MiB; else NULL */
+    } kept[KD_GRIDS];
+    uint32_t n; /* so far: the next one stands in the place of the oldest */
 };
 void kd_grids_finish(struct kd_grids *grids);
 

@@ -112,7 +112,7 @@ static const struct kd_vk_pipeline_params sources[] = {
                            { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM } },
     [KD_KERNEL_MARCH] = { "march", kd_spv_transfer_march, sizeof kd_spv_transfer_march, KD_OWN_BINDING + KD_OWN_COUNT, sizeof(struct kd_slice),
                           { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM } },
-    [KD_KERNEL_LAYERS_MARCH] = { "layers, march", kd_spv_layers_march, sizeof kd_spv_layers_march, KD_LIGHT_BINDING + 1, sizeof(struct kd_slice),
+    [KD_KERNEL_LAYERS_MARCH] = { "layers, march", kd_spv_layers_march, sizeof kd_spv_layers_march, KD_OWN_BINDING + KD_OWN_COUNT, sizeof(struct kd_slice),
                                  { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM } },
     [KD_KERNEL_PHOTOMETRY] = { "photometry", kd_spv_photometry, sizeof kd_spv_photometry, 2, sizeof(struct kd_light_push) },
     [KD_KERNEL_EXPOSE] = { "expose", kd_spv_expose, sizeof kd_spv_expose, 2, 8 },

@@ -49,7 +49,7 @@ enum { KD_EMIT_BUFFERS };
 #define KD_B(number, type, member) +1
 enum { KD_OWN_COUNT = 0 KD_EMIT_BUFFERS };
 #undef KD_B
-enum { KD_LIGHT_BINDING = KD_OWN_BINDING + KD_OWN_COUNT }; /* of layers.comp, which reads light that the march has left */
+_Static_assert(KD_LIGHT_BINDING == KD_OWN_BINDING + KD_OWN_point_light, "as shaders/shared/emitters.h says");
 #define KD_B(number, type, member) +(1 << number)
 _Static_assert((0 KD_EMIT_BUFFERS) == (1 << KD_OWN_COUNT) - 1, "each has a number of its own, from 0 on");
 #undef KD_B

@@ -18,6 +18,8 @@
 #define EVEN 1e-3        /* of a step: so far from their places rows may be */
 #define AXIS 1e-9        /* sin^2(theta), below which no azimuth is known */
 #define UNIT 1e-2        /* of 1: so far from it u.u may be */
+#define FINEST 1024      /* rows where r grows by a factor of e: a stretch of the march is two cells */
+#define PARTS 64         /* of a turn, one of which a grid may be */
 #define HEADER_MOST 65536
 
 /* Arrays by their places in a node; `scale`: times r to this power. */
@@ -61,14 +63,11 @@ static enum kd_status member(struct reader *r, const char *name, size_t most, st
     return status == KD_ENOMEM ? no_memory(r) : status ? refuse(r, name, what) : KD_OK;
 }
 
-static bool has(const struct reader *r, const char *name, size_t most)
+static bool has(const struct reader *r, const char *name)
 {
     char file[40];
-    struct kd_buffer bytes = { 0 };
     snprintf(file, sizeof file, "%s.npy", name);
-    bool there = !kd_zip_find(r->data, r->size, file, most, &bytes) || bytes.size;
-    kd_buffer_finish(&bytes);
-    return there;
+    return kd_zip_has(r->data, r->size, file);
 }
 
 /* Takes an array of at most so many numbers. */
@@ -170,7 +169,7 @@ static enum kd_status check_even(struct reader *r, const char *name, const struc
         snprintf(what, sizeof what, "%zu is %.9g, allowed are numbers from %.4g to %.4g in even steps%s, here %.9g", i, a->at[i], least, most, logarithmic ? " of their logarithm" : "", logarithmic ? exp(want) : want);
         return refuse(r, name, what);
     }
-    return KD_OK;
+    return step > 0 ? KD_OK : refuse(r, name, "does not grow");
 }
 
 static enum kd_status take_round(struct reader *r)
@@ -180,13 +179,13 @@ static enum kd_status take_round(struct reader *r)
     enum kd_status status;
     g->layers = 1;
     g->turn = 2 * M_PI;
-    if (!has(r, "phi", 8 * KD_MATTER_SIDE + KD_NPY_HEADER_MAX))
+    if (!has(r, "phi"))
         return KD_OK;
     KD_TRY(take(r, "phi", KD_MATTER_SIDE, &a));
     KD_TRY(check_even(r, "phi", &a, false, -4 * M_PI, 4 * M_PI));
     const double turn = (a.at[a.n - 1] - a.at[0]) / (double)(a.n - 1) * (double)a.n, parts = rint(2 * M_PI / turn);
-    if (!(fabs(turn * parts / (2 * M_PI) - 1) < EVEN))
-        KD_TRY(refuse(r, "phi", "does not go round once, nor a whole part of that: its last is a step before the first again"));
+    if (!(parts >= 1 && parts <= PARTS && fabs(turn * parts / (2 * M_PI) - 1) < EVEN))
+        KD_TRY(refuse(r, "phi", "does not go round once, nor a whole part of that, down to a 64th: its last is a step before the first again"));
     g->layers = (uint32_t)a.n;
     g->phi = a.at[0];
     g->turn = 2 * M_PI / parts;
@@ -217,6 +216,10 @@ static enum kd_status take_places(struct reader *r)
         snprintf(what, sizeof what, "x theta x phi is %u x %u x %u nodes, allowed are %d in all", g->rows, g->columns, g->layers, KD_MATTER_NODES);
         KD_TRY(refuse(r, "r", what));
     }
+    if ((g->rows - 1) / log(g->r[1] / g->r[0]) > FINEST)
+        KD_TRY(refuse(r, "r", "has more than 1024 rows where r grows by a factor of e"));
+    if (g->columns < 3)
+        KD_TRY(refuse(r, "theta", "has fewer than 3 numbers: there must be one off the axis"));
 done:
     r->r = radii.at;
     r->theta = angles.at;
@@ -279,7 +282,7 @@ static enum kd_status check_velocity(struct reader *r)
     const double a = g->spin, edge = 1.001 * kd_kerr_horizon(a);
     struct array t = { 0 };
     enum kd_status status = KD_OK;
-    if (!has(r, "u_con_t", 8 * KD_MATTER_NODES + KD_NPY_HEADER_MAX))
+    if (!has(r, "u_con_t"))
         return KD_OK;
     KD_TRY(take(r, "u_con_t", KD_MATTER_NODES, &t));
     KD_TRY(check_shape(r, "u_con_t", &t));

@@ -70,7 +70,7 @@ static uint64_t device_bytes(const struct kd_scene *scene)
 {
     return has_no_grid(scene) ? 4 * KD_MATTER_FLOATS * sizeof(float) : is_grid(scene) ? (uint64_t)KD_MATTER_NODES * KD_MATTER_FLOATS * sizeof(float) : 0;
 }
-static uint64_t making_bytes(const struct kd_scene *scene) { return is_grid(scene) && *scene->volume.grid ? (uint64_t)KD_MATTER_NODES * (KD_MATTER_FLOATS * sizeof(float) + 3 * sizeof(double)) : 0; }
+static uint64_t making_bytes(const struct kd_scene *scene) { return is_grid(scene) && *scene->volume.grid ? (uint64_t)KD_MATTER_NODES * (2 * KD_MATTER_FLOATS * sizeof(float) + 3 * sizeof(double)) : 0; } /* its numbers as they are read, and as they are sent */
 
 /* A picture from another azimuth is another one, unless the grid is the same all round, which the scene does not say. */
 static unsigned varies(const struct kd_scene *scene) { return is_grid(scene) && *scene->volume.grid ? KD_MOVES_WITH_AZIMUTH : 0; }
@@ -80,7 +80,7 @@ static void tell(const struct kd_scene *scene, char out[KD_EMIT_TOLD])
     static const char *const names[] = { [KD_VOLUME_GOLD] = "The matter of Gold et al. 2020", [KD_VOLUME_RIAF] = "Hot electrons in a magnetic field", [KD_VOLUME_TORUS] = "A torus of hot gas",
                                          [KD_VOLUME_GRID] = "Matter from a grid of numbers" };
     if (has_no_grid(scene))
-        snprintf(out, KD_EMIT_TOLD, "No matter: volume.grid names none.");
+        snprintf(out, KD_EMIT_TOLD, "No matter: no file is chosen.");
     else
         snprintf(out, KD_EMIT_TOLD, "%s from %.6g M to %.6g M, at %.6g GHz.", names[scene->volume.model], kd_scene_volume_inner(scene), scene->volume.outer, scene->volume.frequency_ghz);
 }
@@ -192,7 +192,7 @@ static const struct kd_sentence sentences[] = {
     { "volume: electrons and magnetic field by power laws of r that solve no equation of motion; they end at their edges, and 7 scale heights from the plane", is_powers },
     { "volume: the torus of Fishbone & Moncrief 1976, in equilibrium without its magnetic field, which is put in by its pressure alone; ions and electrons have temperatures of one ratio", is_torus },
     { "volume: matter between the nodes of a grid by way of its neighbours, density and temperature by their logarithms; it stands still, as it was at one time, while light passes", is_from_grid },
-    { "volume: volume.model is \"grid\" and volume.grid names none: there is no matter", is_missing },
+    { "volume: no file of a grid is named: there is no matter", is_missing },
     { "volume: synchrotron light by the fits of Pandya et al. 2016, good to a few percent where they hold; electrons move in all directions alike", is_hot },
     { "volume: light at a radio frequency beside light of other kinds, whose brightness 1 is another one; the picture has no flux", is_beside },
 };

@@ -29,10 +29,10 @@ static void fill_kappa(struct kd_stokes_block *out, double kappa)
     out->kappa_past = (float)(place - node);
 }
 
-/* Jones & O'Dell 1977: of electrons gamma^-p, by the share (p - 1)/(gamma_min^(1 - p) - gamma_max^(1 - p)) of them at gamma = 1. */
 /* Nowhere. */
 static void reach(const struct kd_scene *scene, double radii[2]) { (void)scene, radii[0] = INFINITY, radii[1] = 0; }
 
+/* Jones & O'Dell 1977: of electrons gamma^-p, by the share (p - 1)/(gamma_min^(1 - p) - gamma_max^(1 - p)) of them at gamma = 1. */
 static void fill(struct kd_emission *out, const struct kd_scene *scene)
 {
     const struct kd_volume *v = &scene->volume;

@@ -43,7 +43,7 @@ void kd_frame_learn(struct kd_frame_job *job, const struct kd_frame *frame)
     pthread_mutex_lock(&renderer->lock);
     for (size_t i = 0; i < plan->n_passes; i++) {
         const struct kd_plan_pass *pass = &plan->passes[i];
-        if (pass->figure != KD_NS_NONE)
+        if (pass->figure != KD_NS_NONE && !(pass->figure == KD_NS_RAY_MARCH && job->scene->volume.model == KD_VOLUME_GRID)) /* takes what its cells ask for */
             smooth(&c->ns[pass->figure], renderer->probing, share * timing(frame, pass->name), pass->invocations);
     }
     c->measured = c->measured || (uint64_t)plan->width * plan->height >= 4096;

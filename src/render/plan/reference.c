@@ -12,7 +12,7 @@ static const char introduction[] =
     "all of them. This page is generated from the emitters (`src/render/emit/emitter.h`) and `src/render/plan/plan.c`; do not edit it.\n"
     "The chapters on the [physics](physics/README.md) say what stands behind them.\n"
     "\n"
-    "Not modelled, and so not in the list of any picture: the motion of gas by its own forces, magnetic fields that gas moves with it, light that is scattered on its way.\n";
+    "Not modelled, and so not in the list of any picture: the motion of gas by its own forces, magnetic fields that are carried along by gas, light that is scattered on its way.\n";
 
 static const char present[] = "in each scene that has it", sometimes[] = "in some scenes";
 
