@@ -38,11 +38,11 @@ def npy(kind, shape, data):
 
 
 def grid(spin):
-    """A grid of matter of three rows and two columns."""
+    """A grid of matter of three rows and columns."""
     units = dict(r='M', theta='rad', density='cm^-3', temperature='K', u_con_r='c', u_con_theta='c/M', u_cov_phi='c M', b_con_r='G', b_con_theta='G/M', b_cov_phi='G M')
     header = json.dumps(dict(format='kerrd-grid', version=1, spin=spin, azimuth='boyer-lindquist', units=units))
-    members = {'header': npy(f'<U{len(header)}', (), header.encode('utf-32-le')), 'r': npy('<f8', (3,), struct.pack('<3d', 2, 4, 8)), 'theta': npy('<f8', (2,), struct.pack('<2d', 0.785, 2.356))}
-    members |= {name: npy('<f4', (3, 2), struct.pack('<6f', *[1] * 6)) for name in units if name not in members}
+    members = {'header': npy(f'<U{len(header)}', (), header.encode('utf-32-le')), 'r': npy('<f8', (3,), struct.pack('<3d', 2, 4, 8)), 'theta': npy('<f8', (3,), struct.pack('<3d', 0.5236, 1.5708, 2.618))}
+    members |= {name: npy('<f4', (3, 3), struct.pack('<9f', *[1] * 9)) for name in units if name not in members}
     out = io.BytesIO()
     with zipfile.ZipFile(out, 'w') as archive:
         for name, data in members.items():
@@ -143,7 +143,7 @@ class Assets(Case):
         answer = self.put(data, 'application/x-npz')
         self.assertEqual(answer.status, 201, answer.body)
         asset = answer.json()
-        self.assertEqual({k: asset[k] for k in asset if k not in ('token', 'created')}, {'sha256': hashlib.sha256(data).hexdigest(), 'type': 'application/x-npz', 'nodes': [3, 2, 1], 'spin': 0.5, 'bytes': len(data)})
+        self.assertEqual({k: asset[k] for k in asset if k not in ('token', 'created')}, {'sha256': hashlib.sha256(data).hexdigest(), 'type': 'application/x-npz', 'nodes': [3, 3, 1], 'spin': 0.5, 'bytes': len(data)})
         got = self.daemon.get(self.at(asset))
         self.assertEqual((got.status, got.body, got.header('Content-Type')), (200, data, 'application/x-npz'))
         self.assertIn('.npz', got.header('Content-Disposition'))
@@ -158,6 +158,8 @@ class Assets(Case):
         self.delete(picture)
         self.assertIn('header.spin is no number', self.assertProblem(self.put(grid(2), 'application/x-npz'), 422, 'invalid-asset')['detail'])
         self.assertIn('the file ends before its directory does', self.assertProblem(self.put(data[:-40], 'application/x-npz'), 422, 'invalid-asset')['detail'])
+        elsewhere = data[:-18] + b'\1\0' + data[-16:]  # a directory on another disk: members would be sought from the front, inflating what is passed over
+        self.assertIn('header is missing', self.assertProblem(self.put(elsewhere, 'application/x-npz'), 422, 'invalid-asset')['detail'])
         self.assertEqual(self.delete(asset).status, 204)
 
     def test_too_long(self):
