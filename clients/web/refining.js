@@ -1,7 +1,7 @@
 // A finer picture that takes the server long: how much of it is done, and how many seconds are left, below the picture and as a bar at its edge.
-import { byId } from './dom.js';
+import { byId, seen } from './dom.js';
 import { number, t } from './i18n.js';
-import { getJson, seen } from './server.js';
+import { getJson } from './server.js';
 
 const patience_ms = 1500; // after the picture that is shown, before anything is said
 const every_ms = 700;
