@@ -2,6 +2,9 @@
 // it moves; where their bytes take long the quality falls until they do not, and rises again where they come at once.
 const qualities = [90, 75, 60, 45, 30];
 const long_ms = 45; // that the bytes of a picture take for each that is under way at once, over which it is of a lower quality next time
+const slow_ms = 105; // from picture to picture, over which a line that is busy for most of it makes the next one of a lower quality
+const far_off = 3; // times as long: two steps at once
+const busy = 0.7; // of the time from picture to picture
 const short_ms = 12; // below which one of a higher quality would be in time
 const calm = 12; // pictures in a row that took no longer, before a higher one is tried
 const near_ms = 15; // to the server and back, within which it is not the line that takes long
@@ -19,7 +22,8 @@ export function buildLine() {
     climbed = -Infinity,
     trip_ms = 0, // to the server and back, at least: of late
     trips = [],
-    read_ms = 0;
+    read_ms = 0,
+    came_ms = -Infinity;
   const depth = () => (at + 1 === qualities.length && read_ms > choked_ms ? 3 : Math.min(Math.max(1 + Math.ceil(trip_ms / frame_ms), 2), most));
   return {
     most,
@@ -36,17 +40,21 @@ export function buildLine() {
     quality: moving => qualities[moving ? at : 0],
     // A picture of that quality, undefined: an exact one, was read in so many milliseconds.
     read(quality, ms) {
+      const now = performance.now(),
+        since = now - came_ms,
+        holds_up = since > slow_ms && since < choked_ms && ms > busy * since; // the line, and nothing else
+      came_ms = now;
       read_ms = ms;
       if (quality !== qualities[at]) return; // it was asked for before
-      if (ms > long_ms * depth() && trip_ms > near_ms && at + 1 < qualities.length) {
-        patience = performance.now() - climbed < 3000 ? Math.min(2 * patience, most_calm) : calm;
-        at++;
+      if ((ms > long_ms * depth() || holds_up) && trip_ms > near_ms && at + 1 < qualities.length) {
+        patience = now - climbed < 3000 ? Math.min(2 * patience, most_calm) : calm;
+        at = Math.min(at + (ms > far_off * slow_ms ? 2 : 1), qualities.length - 1);
         quick = 0;
       } else if (ms > short_ms * depth()) quick = 0;
       else if (++quick > patience && at) {
         at--;
         quick = 0;
-        climbed = performance.now();
+        climbed = now;
       }
     },
   };

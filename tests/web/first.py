@@ -106,6 +106,36 @@ class First(Browser):
         self.assertEqual(left_out, [])
         self.assertEqual(page.evaluate('async ([before, after]) => (await import("./web/merge.js")).mergePatch(before, after).style.palette', [scenes['polarised-ring'], scenes['riaf']]), 'heat')
 
+    def test_the_quality_of_pictures_follows_the_line(self):
+        """A simulated line of so many bytes a second, on which one picture follows the other, of sizes that were measured of the default at 670 x 500."""
+        page = self.open()
+        paces = page.evaluate('''async lines => {
+            const { buildLine } = await import('./web/line.js'), kB = { 90: 58, 75: 26, 60: 18, 45: 15, 30: 12 }, real = performance.now, paces = [];
+            let clock = 0;
+            performance.now = () => clock;
+            try {
+                for (const { trip, rate, server } of lines) {
+                    const line = buildLine(), shown = [];
+                    for (let i = 0; i < 200; i++) {
+                        line.answered(trip + server);
+                        const quality = line.quality(true), ms = kB[quality] / rate;
+                        clock += Math.max(ms, server);
+                        line.read(quality, ms);
+                        shown.push([clock, quality]);
+                    }
+                    paces.push({ quality: shown.at(-1)[1], fps: 1e5 / (clock - shown.at(-101)[0]), settled: shown.find(([, q]) => q === shown.at(-1)[1])[0] - shown[0][0] });
+                }
+            } finally { performance.now = real; }
+            return paces;
+        }''', [{'trip': trip, 'rate': rate, 'server': server} for trip, rate, server in ((300, 0.125, 26), (300, 10, 26), (1, 10, 26), (300, 0.16, 400), (300, 0.25, 26))])
+        slow, far, near, busy, half = paces
+        self.assertEqual(slow['quality'], 30)
+        self.assertGreater(slow['fps'], 9)
+        self.assertLess(slow['settled'], 2000)
+        self.assertEqual((far['quality'], near['quality']), (90, 90))
+        self.assertEqual(busy['quality'], 60, 'where it is the server that takes long')
+        self.assertGreaterEqual(half['fps'], 8)
+
     def test_presets_are_a_strip_of_pictures(self):
         page = self.open('lang=it&preset=smooth', viewport={'width': 390, 'height': 844}, gallery=True)
         card = lambda name: page.locator(f'#gallery [data-preset="{name}"]')
