@@ -376,7 +376,7 @@ enum kd_status kd_frame_light(struct kd_frame_job *j, bool reused)
         KD_TRY(forget_undecided(j));
     KD_TRY(light_bands(j, needed, kd_plan_light_ns(p, &c)));
     if (p->critical)
-        KD_TRY(light_at_curve(j, needed));
+        KD_TRY(light_at_curve(j, !reused));
 done:
     return status;
 }

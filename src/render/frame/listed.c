@@ -115,8 +115,10 @@ done:
 static enum kd_status trace_part(struct kd_frame_job *j, const struct kd_frame_part *part)
 {
     enum kd_status status = kd_frame_upload_pixels(j, part);
-    if (status || part->list->between)
-        return status ? status : kd_frame_between(j, part);
+    if (status || !j->plan->planes) /* light that is marched alone follows its rays itself */
+        return status;
+    if (part->list->between)
+        return kd_frame_between(j, part);
     if (j->plan->path == KD_LENS_LISTED)
         return list_part(j, part);
     struct kd_vk_dispatch d = kd_frame_trace(j, NULL, part->lens, part->list->camera);

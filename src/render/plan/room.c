@@ -104,7 +104,7 @@ enum kd_status kd_plan_critical(struct kd_plan *plan, const struct kd_scene *sce
     struct kd_critical_pixels list;
     const uint64_t side = least(plan->side * (uint64_t)scene->image.critical_factor, KD_CRITICAL_SIDE);
     const uint64_t dense = least(KD_PLAN_ADAPTIVE_SIDE * (uint64_t)scene->image.critical_factor, KD_CRITICAL_SIDE);
-    if (plan->ring || side <= plan->side || !(plan->orders > 1 || plan->ends)) /* the direct image is nowhere thin */
+    if (plan->ring || side <= plan->side || !(plan->orders > 1 || plan->ends || plan->march.steps)) /* the direct image is nowhere thin */
         return KD_OK;
     enum kd_status status = kd_critical_kept(scene, &list, error);
     uint64_t n = list.n, most = (buffer_bytes(c) - 64) / (4 * (plan->planes * side * side + 2));
