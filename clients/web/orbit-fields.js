@@ -43,7 +43,7 @@ export function requested(v) {
     ...(shape ? { spin: Number(v.spin) } : {}),
     method: v.method,
     ...(v.orbit === thrown || v.orbit === integrals ? { r_max: 400 } : {}),
-    ...(ends(v) ? {} : { duration: { periods: Number(v.periods) } }),
+    ...(ends(v) ? {} : { duration: { periods: Number(v.periods), or_end: true } }),
     orbit: shape ? shape(v) : { case: v.orbit },
   };
 }

@@ -132,10 +132,8 @@ export async function openOrbits() {
 
   // What somebody does with the body by hand goes through the fields, so that a link and a keyboard can do the same.
   function set(values) {
-    for (const [name, value] of Object.entries(values)) {
-      form.input(name).value = value;
-      form.input(name).dispatchEvent(new Event('change'));
-    }
+    for (const [name, value] of Object.entries(values)) form.input(name).value = value; // all of them before any is told: between two there may be no orbit
+    for (const name of Object.keys(values)) form.input(name).dispatchEvent(new Event('change'));
   }
   const azimuth = ([x, y]) => Math.atan2(y, x);
   const digits = (x, n) => Number(x.toFixed(n));
@@ -182,18 +180,14 @@ export async function openOrbits() {
       digits: 7, // a path is drawn over some thousand pixels
     };
     let said = '';
-    const answer = await follow(asked).catch(async error => {
-      const { duration: _, ...whole } = asked;
-      if (error.pointer === '/duration/periods') return follow(whole); // it falls in or leaves: to its end
-      const edge = v.orbit === own && error.pointer === '/orbit/p' && Number(/above ([\d.]+), the separatrix/.exec(error.message)?.[1]);
-      if (!edge) throw error;
-      const share = Number(v.p) / edge;
+    const edge = v.orbit === own ? (await physics('separatrix', { spin: v.spin, e: v.e, inclination_deg: v.inclination_deg })).values.p : 0,
+      share = Number(v.p) / edge;
+    if (share <= 1)
       said = t(
         `Within the separatrix, p = ${number(edge)} M, nothing turns back: shown is the plunge of a body with the energy of the last orbit that does, and ${number(Math.sqrt(share), 3)} of its angular momentum.`,
         `Dentro la separatrice, p = ${number(edge)} M, nulla torna indietro: si vede la caduta di un corpo con l’energia dell’ultima orbita che torna, e ${number(Math.sqrt(share), 3)} del suo momento angolare.`,
       );
-      return plunge(asked, edge, share);
-    });
+    const answer = await (share <= 1 ? plunge(asked, edge, share) : follow(asked));
     if (v.orbit !== thrown) (picture.free(), (hint.textContent = hints));
     await show(answer);
     byId('orbits').dataset.kept = false;

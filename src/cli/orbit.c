@@ -33,6 +33,7 @@ static const struct {
     { "r", "R", "the radius there; or of a place on the way of an orbit by its constants" },
     { "outward", "true|false", "whether such an orbit moves outwards there" },
     { "periods", "N", "how long: radial periods (10), turns where r is constant" },
+    { "or_end", "true|false", "whether what plunges or escapes, and has no periods, is followed to its end instead (false)" },
     { "time", "T", "or coordinate time, in M" },
     { "samples", "N", "of the path, both ends counted (1000); 0 for none" },
     { "digits", "N", "significant digits of the series as text (17: all)" },

@@ -28,6 +28,7 @@ const struct kd_orbit_field kd_orbit_settings[] = {
     { "", "series", TRUTH, AT(series), 0, 1, 0, ANY, 0 },
     { "duration", "periods", REAL, AT(periods), 0, 1e9, 0, ANY, 0 },
     { "duration", "time", REAL, AT(time), 0, 1e30, 0, ANY, 0 },
+    { "duration", "or_end", TRUTH, AT(or_end), 0, 1, 0, ANY, 0 },
     { "seen", "observer_r", REAL, AT(seen.r), 0, 1e7, 0, ANY, 0, .bound = KD_BOUND_RADIUS },
     { "seen", "observer_inclination_deg", REAL, AT(seen.inclination_deg), 0, 180, 0, ANY, 0 },
     { "seen", "observer_azimuth_deg", REAL, AT(seen.azimuth_deg), -1e6, 1e6, 0, ANY, 0 },

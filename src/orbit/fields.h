@@ -24,7 +24,7 @@ struct kd_orbit_field {
     enum kd_orbit_implied bound;
 };
 
-enum { KD_ORBIT_N_SETTINGS = 15, KD_ORBIT_N_FIELDS = 17 };
+enum { KD_ORBIT_N_SETTINGS = 16, KD_ORBIT_N_FIELDS = 17 };
 extern const struct kd_orbit_field kd_orbit_settings[KD_ORBIT_N_SETTINGS]; /* of struct kd_orbit_params */
 extern const struct kd_orbit_field kd_orbit_fields[KD_ORBIT_N_FIELDS];     /* of struct kd_orbit_spec */
 

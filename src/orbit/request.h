@@ -51,6 +51,7 @@ struct kd_orbit_spec {
 struct kd_orbit_params {
     double spin;          /* NAN if not given: 0, or the case's own */
     double periods, time; /* the duration: radial periods (turns, if r is constant), or t in M; NAN but for at most one */
+    bool or_end;          /* what has no periods, for it plunges or escapes, is followed to its end instead of being refused */
     double r_max;         /* where what escapes is let go, 100 */
     double tolerance;     /* relative error of a radial period, 1e-12; chooses the step where `steps` is 0 */
     double mass_msun;     /* for times in seconds; NAN: none */

@@ -147,9 +147,9 @@ static enum kd_status set_end(struct kd_orbit_run *run, struct kd_error *error)
         run->mino_end = isnan(p->time) ? (isnan(p->periods) ? DEFAULT_PERIODS : p->periods) * run->period : mino_at(run, p->time);
         return KD_OK;
     }
-    if (!isnan(p->periods) && !run->orbit.circular)
+    if (!isnan(p->periods) && !p->or_end && !run->orbit.circular)
         return kd_error_field(error, "/duration/periods",
-                              "periods belong to a bound orbit, and this one is to %s: leave the duration out to "
+                              "periods belong to a bound orbit, and this one is to %s: leave the duration out, or give or_end beside it, to "
                               "follow it to its end, or give a time",
                               kd_orbit_fate_name(run->orbit.fate));
     double h = 2 * M_PI / kd_orbit_pace(&run->orbit) / 128, before = NAN;

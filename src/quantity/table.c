@@ -8,7 +8,7 @@
 
 /* In the order in which they are listed. */
 #define QUANTITIES(X) X(kerr) X(shadow) X(deflection) X(potential) X(redshift) X(ring_image) X(photon_rings) X(disk_flux) X(blackbody) X(qnm) X(flamm) X(frame_dragging) \
-    X(infall) X(sky) X(scale) X(inspiral) X(tidal)
+    X(infall) X(sky) X(scale) X(inspiral) X(tidal) X(separatrix)
 
 #define DECLARE(symbol) extern const struct kd_quantity kd_quantity_##symbol;
 QUANTITIES(DECLARE)

@@ -152,6 +152,36 @@ static void pieces_change_nothing(void **state)
     }
 }
 
+/* Periods of what has none: to its end, as without a duration; of what is bound they are periods all the same. */
+static void to_its_end_instead(void **state)
+{
+    (void)state;
+    static const char *const bodies[] = { "{\"samples\":20,\"orbit\":{\"case\":\"plunge\"}%s}",
+                                          "{\"samples\":20,\"orbit\":{\"position\":{\"r\":10},\"velocity\":{\"v_r\":0.9}}%s}" };
+    for (size_t i = 0; i < COUNT(bodies); i++) {
+        struct kd_orbit_request request[2];
+        struct kd_orbit_run run[2];
+        struct kd_orbit_sample *samples[2];
+        for (int k = 0; k < 2; k++) {
+            char text[200];
+            snprintf(text, sizeof text, bodies[i], k ? ",\"duration\":{\"periods\":3,\"or_end\":true}" : "");
+            samples[k] = follow(text, UINT64_MAX, &request[k], &run[k]);
+        }
+        assert_memory_equal(samples[0], samples[1], 20 * sizeof **samples);
+        for (int k = 0; k < 2; k++) {
+            kd_orbit_request_finish(&request[k]);
+            free(samples[k]);
+        }
+    }
+    struct kd_orbit_request request;
+    struct kd_orbit_run run;
+    struct kd_orbit_sample *samples = follow("{\"samples\":3,\"orbit\":{\"p\":8,\"e\":0.5},\"duration\":{\"periods\":2,\"or_end\":true}}", UINT64_MAX, &request, &run);
+    assert_float_equal(samples[0].place.r, 16. / 3, 1e-6); /* the periapsis */
+    assert_float_equal(samples[1].place.r, samples[2].place.r, 1e-6); /* a period, and another */
+    kd_orbit_request_finish(&request);
+    free(samples);
+}
+
 /* The tolerance is that of a period: ten of them, and t beside r, within a hundred. */
 static void methods_agree(void **state)
 {
@@ -259,7 +289,7 @@ static void a_stone_falls(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(refusals),      cmocka_unit_test(every_cut), cmocka_unit_test(pieces_change_nothing),
+        cmocka_unit_test(refusals),      cmocka_unit_test(every_cut), cmocka_unit_test(pieces_change_nothing), cmocka_unit_test(to_its_end_instead),
         cmocka_unit_test(methods_agree), cmocka_unit_test(ends),      cmocka_unit_test(a_stone_falls),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -226,6 +226,33 @@ static void json_of_a_curve(void **state)
     kd_quantity_answer_finish(&answer);
 }
 
+/* Of a hole that does not turn it is 6 + 2e whatever the inclination, of a turning one the ISCO where e vanishes. */
+static void separatrix_by_known_ones(void **state)
+{
+    (void)state;
+    struct kd_quantity_answer still = ASK("separatrix", "spin", "0", "inclination_deg", "0:180:3", "e", "0:0.9:4"), turns = ASK("separatrix", "spin", "0.9");
+    struct kd_buffer text = { 0 };
+    double spin, inclination, e, p, r_min, r_max;
+    assert_int_equal(kd_quantity_csv(&still, &text), KD_OK);
+    char *rest, *line = strtok_r((char *)text.data, "\n", &rest);
+    for (int i = 0; i < 12; i++) {
+        line = strtok_r(NULL, "\n", &rest);
+        assert_int_equal(sscanf(line, "%lf,%lf,%lf,%lf,%lf,%lf", &spin, &inclination, &e, &p, &r_min, &r_max), 6);
+        assert_float_equal(p, 6 + 2 * e, 1e-12);
+        assert_float_equal(r_min * (1 + e), p, 1e-12);
+        assert_float_equal(r_max * (1 - e), p, 1e-12);
+    }
+    kd_buffer_finish(&text);
+    assert_int_equal(kd_quantity_csv(&turns, &text), KD_OK);
+    line = strtok_r((char *)text.data, "\n", &rest);
+    line = strtok_r(NULL, "\n", &rest);
+    assert_int_equal(sscanf(line, "%lf,%lf,%lf,%lf", &spin, &inclination, &e, &p), 4);
+    assert_float_equal(p, 2.3208830417618866, 1e-12);
+    kd_buffer_finish(&text);
+    kd_quantity_answer_finish(&still);
+    kd_quantity_answer_finish(&turns);
+}
+
 static void csv_has_a_line_a_point(void **state)
 {
     (void)state;
@@ -315,7 +342,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tables_are_sound), cmocka_unit_test(defaults_answer), cmocka_unit_test(points_stand_alone),
         cmocka_unit_test(bad_requests), cmocka_unit_test(outside_the_domain), cmocka_unit_test(ranges_nest),
-        cmocka_unit_test(json_of_a_curve), cmocka_unit_test(csv_has_a_line_a_point), cmocka_unit_test(digits_of_lists), cmocka_unit_test(words_are_kept),
+        cmocka_unit_test(json_of_a_curve), cmocka_unit_test(csv_has_a_line_a_point), cmocka_unit_test(separatrix_by_known_ones), cmocka_unit_test(digits_of_lists), cmocka_unit_test(words_are_kept),
         cmocka_unit_test(the_list_parses), cmocka_unit_test(the_page_is_up_to_date),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

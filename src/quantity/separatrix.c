@@ -1,0 +1,35 @@
+#include "quantity/define.h"
+
+#include "physics/angle.h"
+#include "physics/orbit.h"
+
+#define PARAMETERS(P)                                                                                                  \
+    KD_PARAMETER_SPIN(P)                                                                                               \
+    P(inclination_deg, .unit = "degrees", .initial = "0", .minimum = 0, .maximum = 180,                                \
+      .help = "inclination of the orbit to the equator, as of /v1/orbits; more than 90 is retrograde")                 \
+    P(e, .unit = "1", .initial = "0", .minimum = 0, .maximum = 0.999999, .along = true, .help = "eccentricity")
+#define OUTPUTS(O)                                                                                                     \
+    O(p, .unit = "M", .help = "least semi-latus rectum of a stable bound orbit")                                       \
+    O(r_min, .unit = "M", .help = "where a body on the separatrix whirls: its periapsis p/(1 + e)")                    \
+    O(r_max, .unit = "M", .help = "its apoapsis p/(1 - e)")
+KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
+
+static const char *const sources[] = {
+    "L. C. Stein & N. Warburton 2020, Phys. Rev. D 101, 064007 (what the separatrix is: two radial turning points coincide)",
+    "W. Schmidt 2002, Class. Quantum Grav. 19, 2743 (constants of motion from p, e, inclination)",
+    NULL,
+};
+static const char *const approximations[] = { NULL };
+
+static enum kd_status evaluate(const double *in, double *out, void *memory, bool fresh, struct kd_error *error)
+{
+    const struct parameters *p = KD_QUANTITY_IN(in);
+    struct outputs *o = KD_QUANTITY_OUT(out);
+    (void)memory, (void)fresh, (void)error;
+    o->p = kd_orbit_separatrix(p->spin, p->e, kd_cos_deg(p->inclination_deg));
+    o->r_min = o->p / (1 + p->e);
+    o->r_max = o->p / (1 - p->e);
+    return KD_OK;
+}
+
+KD_QUANTITY(separatrix, "separatrix", "where bound orbits end: the least p of a stable one, by eccentricity and inclination", .point_us = 30)
