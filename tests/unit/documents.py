@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What the documents name exists: links, their headings, and the files and folders that stand in backquotes.
+"""What the documents name exists: links, their headings, and the files and folders that stand in backquotes; and docs/web.md names each module of the page.
 
     documents.py ROOT     exit 1 naming each document and what it names in vain
 
@@ -75,6 +75,13 @@ def wrong(root):
                 yield f"{document}: there is no file {name}"
 
 
+def untold(root):
+    """Modules of the page that its document does not name."""
+    folder, document = root / "clients/web", root / "docs/web.md"
+    told = set(re.findall(r"[\w-]+\.js", document.read_text(encoding="utf-8"))) if document.exists() else set()
+    yield from (f"docs/web.md does not name clients/web/{module.name}" for module in sorted(folder.glob("*.js")) if module.name not in told)
+
+
 def self_test():
     """Each kind of vain name is found, a true one is not."""
     files = {
@@ -87,7 +94,11 @@ def self_test():
             (pathlib.Path(folder) / name).parent.mkdir(parents=True, exist_ok=True)
             (pathlib.Path(folder) / name).write_text(text)
         found = list(wrong(pathlib.Path(folder)))
-    if len(found) != 5 or not all(line.startswith("docs/wrong.md") for line in found):
+        for name, text in (("clients/web/a.js", ""), ("clients/web/b-c.js", ""), ("docs/web.md", "| a.js | a |")):
+            (pathlib.Path(folder) / name).parent.mkdir(parents=True, exist_ok=True)
+            (pathlib.Path(folder) / name).write_text(text)
+        missed = list(untold(pathlib.Path(folder)))
+    if len(found) != 5 or not all(line.startswith("docs/wrong.md") for line in found) or missed != ["docs/web.md does not name clients/web/b-c.js"]:
         print("its own example is judged wrongly:", *found, sep="\n  ")
         return True
     return False
@@ -97,7 +108,7 @@ def main():
     if self_test():
         return True
     root = pathlib.Path(sys.argv[1])
-    found = list(wrong(root))
+    found = [*wrong(root), *untold(root)]
     for line in found:
         print(line)
     return bool(found) or not (root / "docs").is_dir()
