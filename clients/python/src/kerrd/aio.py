@@ -1,0 +1,234 @@
+"""The client for asyncio; client.py, which blocks, is made of it by generate.py."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import AsyncIterator, Mapping, Sequence
+from time import monotonic
+from types import TracebackType
+from typing import Any, TypeVar
+
+import httpx
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import calls
+from .calls import Answer, Call
+from .document import SceneLike, scene_of
+from .errors import Problem
+from .frame import Frame
+from .result import Sweep
+
+T = TypeVar("T")
+FRAME_WAIT_MS = 25_000
+
+
+class AsyncClient:
+    """A server by its address, such as "http://127.0.0.1:8080/", spoken to by one event loop.
+
+    patience: seconds for which a busy server (429, 503, 507) is asked again, as often as it says, before the refusal is raised. timeout: seconds
+    without a byte. Requests that are refused raise Problem.
+    """
+
+    def __init__(self, url: str, *, timeout: float = 600, patience: float = 60, headers: Mapping[str, str] | None = None) -> None:
+        self.url = url.rstrip("/") + "/"
+        self.patience = patience
+        self._http = httpx.AsyncClient(base_url=self.url.rstrip("/"), timeout=httpx.Timeout(timeout, connect=10), headers=dict(headers or {}))
+
+    async def __aenter__(self) -> AsyncClient:
+        return self
+
+    async def __aexit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+        await self.close()
+
+    async def close(self) -> None:
+        await self._http.aclose()
+
+    async def _run(self, call: Call[T]) -> T:
+        until = monotonic() + self.patience
+        while True:
+            got = await self._http.request(call.method, call.path, params=dict(call.params), headers=dict(call.headers), content=call.body)
+            answer = Answer(got.status_code, got.headers, got.content)
+            wait = calls.retry_after(answer)
+            if wait is None or monotonic() + wait > until:
+                return call.read(calls.checked(answer))
+            await asyncio.sleep(wait)
+
+    async def render(self, scene: SceneLike = None, *, preset: str | None = None, layers: Sequence[str] = (), **changes: Any) -> Frame:
+        """A picture; layers: the numbers that come with it, by a second request for which the lens map is kept."""
+        document = scene_of(scene, changes)
+        frame = await self._run(calls.render(document, preset))
+        if layers:
+            frame.layers.update(await self._run(calls.layers(document, preset, layers)))
+        return frame
+
+    async def layers(self, scene: SceneLike = None, names: Sequence[str] = ("rgb",), *, preset: str | None = None, **changes: Any) -> dict[str, NDArray[np.float32]]:
+        """Numbers alone: float32 of shape (height, width), "rgb" (height, width, 3) as linear light."""
+        return await self._run(calls.layers(scene_of(scene, changes), preset, names))
+
+    async def plan(self, scene: SceneLike = None, *, preset: str | None = None, **changes: Any) -> dict[str, Any]:
+        """What it would take: passes, rays, bytes, estimate_ms, approximations; nothing is rendered."""
+        return await self._run(calls.plan(scene_of(scene, changes), preset))
+
+    async def pixel(self, x: float, y: float, scene: SceneLike = None, *, preset: str | None = None, **changes: Any) -> dict[str, Any]:
+        """Where the light of a pixel comes from; x to the right, y downwards, from 0."""
+        return await self._run(calls.pixel(scene_of(scene, changes), preset, x, y))
+
+    async def rays(self, pairs: ArrayLike, **settings: Any) -> NDArray[Any]:
+        """End points of rays, pairs of alpha and beta in M of shape (n, 2); settings: spin, r, inclination_deg, orders, profile, tolerance, engine.
+
+        A record each: fate (0 captured, 1 escaped, 2 undecided), n_crossings, error (relative), sky_theta, sky_phi, and r, phi, delay, g of shape (orders,).
+        """
+        return await self._run(calls.rays(pairs, settings))
+
+    async def orbits(self, orbit: Mapping[str, Any] | None = None, **settings: Any) -> dict[str, Any]:
+        """The path of a body: orbit={"p": 6, "e": 0.5}, spin=0.9, samples=1000; `series` holds its columns as arrays."""
+        return await self._run(calls.orbits({**({"orbit": dict(orbit)} if orbit is not None else {}), **settings}))
+
+    async def physics(self, name: str, **parameters: Any) -> dict[str, Any]:
+        """A quantity: physics("kerr", spin="0:0.998:100"); values of ranges are arrays in the shape of the ranges."""
+        return await self._run(calls.physics(name, parameters))
+
+    async def line(self, **settings: Any) -> dict[str, Any]:
+        """The profile of a line from a thin disk; `columns` are arrays."""
+        return await self._run(calls.integral("line", settings))
+
+    async def transfer_function(self, **settings: Any) -> dict[str, Any]:
+        return await self._run(calls.integral("transfer-function", settings))
+
+    async def spectrum(self, **settings: Any) -> dict[str, Any]:
+        return await self._run(calls.integral("spectrum", settings))
+
+    async def visibility(self, **settings: Any) -> dict[str, Any]:
+        return await self._run(calls.integral("visibility", settings))
+
+    async def presets(self) -> list[dict[str, Any]]:
+        """name, label and title of each."""
+        told: list[dict[str, Any]] = (await self._run(calls.get("/v1/presets")))["presets"]
+        return told
+
+    async def preset(self, name: str) -> dict[str, Any]:
+        """A preset's whole scene."""
+        told: dict[str, Any] = await self._run(calls.get(f"/v1/presets/{name}"))
+        return told
+
+    async def device(self) -> dict[str, Any]:
+        told: dict[str, Any] = await self._run(calls.get("/v1/device"))
+        return told
+
+    async def schema(self) -> dict[str, Any]:
+        told: dict[str, Any] = await self._run(calls.get("/v1/schema"))
+        return told
+
+    async def put_asset(self, data: bytes, kind: str = "image/png") -> str:
+        """Keeps a picture, or a grid of matter (kind "application/x-npz"), at the server; returns the hash that scenes name."""
+        return str((await self._run(calls.put_asset(data, kind)))["sha256"])
+
+    async def session(self, scene: SceneLike = None, *, preset: str | None = None, least: float | None = None, quality: int | None = None, **changes: Any) -> AsyncSession:
+        """A live view: iterate over its frames. quality: of JPEG while something moves, 1 to 100; None: PNG always. least: see docs/live.md."""
+        return AsyncSession(self, await self._run(calls.open_session(scene_of(scene, changes), preset, least)), quality)
+
+    async def job(self, document: Mapping[str, Any], *, preset: str | None = None) -> AsyncJob:
+        """A job by its document (docs/jobs.md): {"scene": …, "keyframes": …}, {"scenes": […]}, {"scene": …, "axes": …}."""
+        return AsyncJob(self, await self._run(calls.open_job(scene_of(document, {}), preset)))
+
+    async def light_curve(self, scene: SceneLike = None, *, times: tuple[float, float], frames: int, preset: str | None = None, progress: bool = False, **changes: Any) -> dict[str, NDArray[np.float64]]:
+        """Flux and centroid from times[0] to times[1] M at so many moments: columns as arrays, `t` and `flux` among them."""
+        document = {"output": "light-curve", "scene": scene_of(scene, {**changes, "time": times[0]}), "keyframes": [{"frame": frames - 1, "scene": {"time": times[1]}}]}
+        async with await self.job(document, preset=preset) as job:
+            return calls.read_curve(await (await job.wait(progress=progress)).result())
+
+    async def sweep(self, scene: SceneLike = None, axes: Mapping[str, Any] | None = None, *, layers: Sequence[str] = ("rgb",), preset: str | None = None, progress: bool = False, **changes: Any) -> Sweep:
+        """A scene of every combination of the values of some fields: axes={"spacetime.spin": [0, 0.9], "camera.inclination_deg": "10:80:15"}."""
+        document = scene_of(scene, changes)
+        document["image"] = {**document.get("image", {}), "layers": list(layers)}
+        values = {path: value if isinstance(value, str) else np.asarray(value).tolist() for path, value in (axes or {}).items()}
+        async with await self.job({"output": "cube", "scene": document, "axes": values}, preset=preset) as job:
+            return Sweep.of(calls.read_cube(await (await job.wait(progress=progress)).result("npz")), list(values))
+
+
+class AsyncSession:
+    """A live view at the server, until close(), the end of `with`, or a minute without anybody who asks."""
+
+    def __init__(self, client: AsyncClient, opened: Mapping[str, Any], quality: int | None) -> None:
+        self.client = client
+        self.id: str = opened["id"]
+        self.token: str = opened["token"]
+        self.scene: dict[str, Any] = opened["scene"]
+        self.revision: int = opened["revision"]
+        self.quality = quality
+        self._seen = 0
+
+    async def __aenter__(self) -> AsyncSession:
+        return self
+
+    async def __aexit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+        await self.close()
+
+    async def close(self) -> None:
+        try:
+            await self.client._run(calls.close("sessions", self.id, self.token))
+        except Problem as problem:
+            if problem.status != 404:  # it is gone already
+                raise
+
+    async def patch(self, change: SceneLike = None, **changes: Any) -> int:
+        """Changes the scene; returns its revision, which frames of it carry."""
+        told = await self.client._run(calls.patch(self.id, self.token, scene_of(change, changes)))
+        self.scene = told["scene"]
+        self.revision = told["revision"]
+        return self.revision
+
+    async def frame(self, wait: float = FRAME_WAIT_MS / 1000) -> Frame | None:
+        """The next frame that has not been seen; None if there is none within so many seconds, as when the scene rests."""
+        frame = await self.client._run(calls.next_frame(self.id, self._seen, self.quality, int(1000 * wait)))
+        if frame is not None:
+            self._seen = frame.number
+        return frame
+
+    async def __aiter__(self) -> AsyncIterator[Frame]:
+        """Frames as they come, the finest one of a scene that rests last; goes on while time does."""
+        while True:
+            frame = await self.frame()
+            if frame is not None:
+                yield frame
+                if frame.final and frame.revision >= self.revision and not self._moves():
+                    return
+
+    def _moves(self) -> bool:
+        return any(self.scene.get("motion", {}).values())
+
+
+class AsyncJob:
+    """A job at the server; it is removed there by close() or the end of `with`."""
+
+    def __init__(self, client: AsyncClient, opened: Mapping[str, Any]) -> None:
+        self.client = client
+        self.id: str = opened["id"]
+        self.token: str = opened["token"]
+
+    async def __aenter__(self) -> AsyncJob:
+        return self
+
+    async def __aexit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+        await self.close()
+
+    async def close(self) -> None:
+        await self.client._run(calls.close("jobs", self.id, self.token))
+
+    async def status(self) -> dict[str, Any]:
+        return await self.client._run(calls.job(self.id))
+
+    async def wait(self, *, progress: bool = False, every: float = 0.1) -> AsyncJob:
+        """Until it is done; JobFailed if it fails. progress: a bar of tqdm, if that is installed."""
+        with calls.bar(progress) as told:
+            while True:
+                status = await self.status()
+                told(status)
+                if calls.finished(status):
+                    return self
+                await asyncio.sleep(every)
+
+    async def result(self, kind: str | None = None, frame: int | None = None) -> bytes:
+        """The file: a PNG, a ZIP, a film ("mp4", "webm"), a cube ("npz", "fits"), a table; of one frame with `frame`."""
+        return await self.client._run(calls.result(self.id, kind, frame))

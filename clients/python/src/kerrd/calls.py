@@ -1,0 +1,257 @@
+"""What is asked of a server, and how its answers are read; no connection is made here. Client and AsyncClient send these."""
+
+from __future__ import annotations
+
+import io
+import json
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from typing import Any, Generic, TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .document import Document
+from .errors import JobFailed, Problem
+from .frame import Frame
+
+T = TypeVar("T")
+T_co = TypeVar("T_co", covariant=True)
+JSON = "application/json"
+NPY = "application/x-npy"
+NPZ = "application/x-npz"
+
+
+@dataclass(frozen=True)
+class Answer:
+    """headers: names in lower case."""
+
+    status: int
+    headers: Mapping[str, str]
+    body: bytes
+
+
+@dataclass(frozen=True)
+class Call(Generic[T_co]):
+    """A request, and what reads its answer."""
+
+    method: str
+    path: str
+    read: Callable[[Answer], T_co]
+    params: Mapping[str, str] = field(default_factory=dict)
+    headers: Mapping[str, str] = field(default_factory=dict)
+    body: bytes | None = None
+
+
+def retry_after(answer: Answer) -> float | None:
+    """Seconds to wait before a busy server is asked again; None: it is not busy, or does not say."""
+    said = answer.headers.get("retry-after", "")
+    return float(said) if answer.status in (429, 503, 507) and said.replace(".", "", 1).isdigit() else None
+
+
+def checked(answer: Answer) -> Answer:
+    """The answer, or its problem document as an exception."""
+    if answer.status < 400:
+        return answer
+    try:
+        document = json.loads(answer.body)
+    except ValueError:
+        document = {"title": "No problem document", "detail": answer.body[:200].decode(errors="replace")}
+    raise Problem(answer.status, document if isinstance(document, dict) else {}, retry_after(answer))
+
+
+def _json(answer: Answer) -> Any:
+    return json.loads(answer.body)
+
+
+def _nothing(answer: Answer) -> None:
+    return None
+
+
+def _arrays(node: Any) -> Any:
+    """Lists of numbers as float64 arrays, null as NaN; all else as it is."""
+    if isinstance(node, dict):
+        return {name: _arrays(part) for name, part in node.items()}
+    if isinstance(node, list) and node and all(part is None or (isinstance(part, (int, float)) and not isinstance(part, bool)) for part in node):
+        return np.array([np.nan if part is None else part for part in node], dtype=np.float64)
+    if isinstance(node, list):
+        return [_arrays(part) for part in node]
+    return node
+
+
+def _table(answer: Answer) -> dict[str, Any]:
+    out: dict[str, Any] = _arrays(_json(answer))
+    return out
+
+
+def _quantity(answer: Answer) -> dict[str, Any]:
+    """Values of several ranges in their shape."""
+    told = _table(answer)
+    shape = told.get("shape")
+    if shape is not None:
+        told["shape"] = tuple(int(n) for n in shape)
+        told["values"] = {name: value.reshape(told["shape"]) if isinstance(value, np.ndarray) else value for name, value in told["values"].items()}
+    return told
+
+
+def _orbit(answer: Answer) -> dict[str, Any]:
+    """`series` as columns by name."""
+    told: dict[str, Any] = _json(answer)
+    for one in told.get("orbits", [told]):
+        series = one.get("series")
+        if isinstance(series, dict) and "rows" in series:
+            rows = np.array([[np.nan if x is None else x for x in row] for row in series["rows"]], dtype=np.float64).reshape(-1, len(series["columns"]))
+            one["series"] = {name: rows[:, k] for k, name in enumerate(series["columns"])}
+    return told
+
+
+def _frame(answer: Answer) -> Frame:
+    return Frame(answer.body, answer.headers.get("content-type", ""), answer.headers)
+
+
+def _frame_or_none(answer: Answer) -> Frame | None:
+    return _frame(answer) if answer.status == 200 else None
+
+
+def _npz(answer: Answer) -> dict[str, NDArray[np.float32]]:
+    with np.load(io.BytesIO(answer.body), allow_pickle=False) as file:
+        return {name: file[name] for name in file.files if not name.endswith(".json")}
+
+
+def _npy(answer: Answer) -> NDArray[Any]:
+    out: NDArray[Any] = np.load(io.BytesIO(answer.body), allow_pickle=False)
+    return out
+
+
+def post(path: str, document: Any, read: Callable[[Answer], T], *, accept: str | None = None, params: Mapping[str, str] | None = None, token: str | None = None,
+         method: str = "POST") -> Call[T]:
+    headers = {"Content-Type": JSON, **({"Accept": accept} if accept else {}), **bearer(token)}
+    return Call(method, path, read, params or {}, headers, json.dumps(document, allow_nan=False).encode())
+
+
+def bearer(token: str | None) -> dict[str, str]:
+    return {"Authorization": f"Bearer {token}"} if token else {}
+
+
+def over(preset: str | None) -> dict[str, str]:
+    return {"preset": preset} if preset else {}
+
+
+def render(scene: Document, preset: str | None) -> Call[Frame]:
+    return post("/v1/render", scene, _frame, accept="image/png", params=over(preset))
+
+
+def layers(scene: Document, preset: str | None, names: Sequence[str]) -> Call[dict[str, NDArray[np.float32]]]:
+    document = {**scene, "image": {**scene.get("image", {}), "layers": list(names)}}
+    return post("/v1/render", document, _npz, accept=NPZ, params=over(preset))
+
+
+def plan(document: Document, preset: str | None) -> Call[dict[str, Any]]:
+    return post("/v1/plan", document, _json, params=over(preset))
+
+
+def pixel(scene: Document, preset: str | None, x: float, y: float) -> Call[dict[str, Any]]:
+    return post("/v1/pixel", scene, _json, params={**over(preset), "at": f"{x!r},{y!r}"})
+
+
+def rays(pairs: ArrayLike, settings: Mapping[str, Any]) -> Call[NDArray[Any]]:
+    body = io.BytesIO()
+    np.save(body, np.ascontiguousarray(pairs, dtype="<f8").reshape(-1, 2), allow_pickle=False)
+    params = {name: str(value) for name, value in settings.items() if value is not None}
+    return Call("POST", "/v1/rays", _npy, params, {"Content-Type": NPY, "Accept": NPY}, body.getvalue())
+
+
+def orbits(document: Document) -> Call[dict[str, Any]]:
+    return post("/v1/orbits", document, _orbit, accept=JSON)
+
+
+def integral(name: str, document: Document) -> Call[dict[str, Any]]:
+    return post(f"/v1/{name}", document, _table, accept=JSON)
+
+
+def physics(name: str, parameters: Mapping[str, Any]) -> Call[dict[str, Any]]:
+    return Call("GET", f"/v1/physics/{name}", _quantity, {key: str(value) for key, value in parameters.items() if value is not None}, {"Accept": JSON})
+
+
+def get(path: str) -> Call[Any]:
+    return Call("GET", path, _json)
+
+
+def put_asset(data: bytes, kind: str) -> Call[dict[str, Any]]:
+    return Call("PUT", "/v1/assets", _json, {}, {"Content-Type": kind}, data)
+
+
+def open_session(scene: Document, preset: str | None, least: float | None) -> Call[dict[str, Any]]:
+    return post("/v1/sessions", scene, _json, params={**over(preset), **({"least": str(least)} if least is not None else {})})
+
+
+def patch(session: str, token: str, change: Document) -> Call[dict[str, Any]]:
+    return post(f"/v1/sessions/{session}", change, _json, token=token, method="PATCH")
+
+
+def next_frame(session: str, after: int, quality: int | None, wait_ms: int) -> Call[Frame | None]:
+    params = {"after": str(after), "wait_ms": str(wait_ms), **({"lossy": str(quality)} if quality is not None else {})}
+    return Call("GET", f"/v1/sessions/{session}/frame", _frame_or_none, params)
+
+
+def close(kind: str, name: str, token: str) -> Call[None]:
+    return Call("DELETE", f"/v1/{kind}/{name}", _nothing, {}, bearer(token))
+
+
+def open_job(document: Document, preset: str | None) -> Call[dict[str, Any]]:
+    return post("/v1/jobs", document, _json, params=over(preset))
+
+
+def job(name: str) -> Call[dict[str, Any]]:
+    return Call("GET", f"/v1/jobs/{name}", _json)
+
+
+def result(name: str, kind: str | None, frame: int | None = None) -> Call[bytes]:
+    params = {**({"format": kind} if kind else {}), **({"frame": str(frame)} if frame is not None else {})}
+    return Call("GET", f"/v1/jobs/{name}/result", lambda answer: answer.body, params)
+
+
+def read_curve(body: bytes) -> dict[str, NDArray[np.float64]]:
+    """A light curve's columns by name, NaN where a row has none."""
+    rows = json.loads(body)["frames"]
+    names = list(dict.fromkeys(name for row in rows for name, value in row.items() if isinstance(value, (int, float)) or value is None))
+    return {name: np.array([np.nan if row.get(name) is None else row[name] for row in rows], dtype=np.float64) for name in names}
+
+
+def read_cube(body: bytes) -> dict[str, NDArray[Any]]:
+    """The arrays of a sweep's NPZ file by name, its axes among them."""
+    with np.load(io.BytesIO(body), allow_pickle=False) as file:
+        return {name: file[name] for name in file.files if not name.endswith(".json")}
+
+
+def finished(status: Mapping[str, Any]) -> bool:
+    """Whether a job is done; one that has failed is an exception."""
+    if status["state"] == "failed":
+        raise JobFailed(dict(status))
+    return bool(status["state"] == "done")
+
+
+@contextmanager
+def bar(wanted: bool) -> Iterator[Callable[[Mapping[str, Any]], None]]:
+    """What tells a job's status as a bar of tqdm, which need not be installed."""
+    shown = None
+    if wanted:
+        try:
+            from tqdm.auto import tqdm
+
+            shown = tqdm(unit="frame")
+        except ImportError:
+            pass
+
+    def tell(status: Mapping[str, Any]) -> None:
+        if shown is not None:
+            shown.total = status["frames"]
+            shown.n = status["finished"]
+            shown.refresh()
+
+    try:
+        yield tell
+    finally:
+        if shown is not None:
+            shown.close()

@@ -1,0 +1,68 @@
+"""Scenes as documents: merged from dataclasses, mappings and changes by path."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+from typing import Any, TypeAlias
+
+from .scene import Scene
+
+Document: TypeAlias = dict[str, Any]
+SceneLike: TypeAlias = Scene | Mapping[str, Any] | None
+
+
+def _plain(value: Any) -> Any:
+    """Dataclasses, tuples and numpy scalars as what JSON has; what is None of a dataclass is left to the server."""
+    if dataclasses.is_dataclass(value) and not isinstance(value, type):
+        fields = {field.name: getattr(value, field.name) for field in dataclasses.fields(value)}
+        return {name: _plain(part) for name, part in fields.items() if part is not None}
+    if isinstance(value, Mapping):
+        return {str(name): _plain(part) for name, part in value.items()}
+    if isinstance(value, Sequence) and not isinstance(value, str):
+        return [_plain(part) for part in value]
+    return value.item() if hasattr(value, "item") and not isinstance(value, (int, float)) else value
+
+
+def _merge(document: Document, change: Mapping[str, Any]) -> Document:
+    """RFC 7396, but null stays: it takes a field to its default at the server."""
+    for name, value in change.items():
+        if isinstance(value, Mapping) and isinstance(document.get(name), Mapping):
+            _merge(document[name], value)
+        else:
+            document[name] = value
+    return document
+
+
+def _at(document: Document, path: str, value: Any) -> None:
+    """Sets what a dotted path names; numbers are places in a list that is there already."""
+    *folders, last = path.split(".")
+    here: Any = document
+    try:
+        for k, name in enumerate(folders):
+            if isinstance(here, list):
+                here = here[int(name)]
+            else:
+                here = here.setdefault(name, [] if (folders + [last])[k + 1].isdigit() else {})
+        if isinstance(here, list):
+            here[int(last)] = value
+        else:
+            here[last] = value
+    except IndexError:
+        raise KeyError(f"{path}: the list has {len(here)} elements") from None
+
+
+def scene_of(scene: SceneLike, changes: Mapping[str, Any]) -> Document:
+    """The document of a scene with changes over it: camera={"inclination_deg": 60}, camera__inclination_deg=60, or
+    **{"camera.inclination_deg": 60}; size=(640, 360) is image.width and image.height."""
+    document: Document = _plain(scene) if scene is not None else {}
+    for name, value in changes.items():
+        plain = _plain(value)
+        if name == "size":
+            width, height = plain
+            _merge(document, {"image": {**document.get("image", {}), "width": width, "height": height}})
+        elif "__" in name or "." in name:
+            _at(document, name.replace("__", "."), plain)
+        else:
+            _merge(document, {name: plain})
+    return document

@@ -1,0 +1,87 @@
+"""A server of one's own on this machine."""
+
+from __future__ import annotations
+
+import atexit
+import os
+import re
+import shutil
+import subprocess
+from collections.abc import Sequence
+from pathlib import Path
+from types import TracebackType
+
+from .client import Client
+from .errors import KerrdError, NoBinary
+
+
+def _checkout() -> Path | None:
+    """The source tree that this file lies in, if it does."""
+    for folder in Path(__file__).resolve().parents:
+        if (folder / "scripts/setup").is_file() and (folder / "src/main.c").is_file():
+            return folder
+    return None
+
+
+def find_binary(binary: str | os.PathLike[str] | None = None, *, build: bool = True) -> str:
+    """The program: as given, $KERRD, the PATH, or the source tree that this package was installed from with -e, where it is built if it is not yet."""
+    for said in (binary, os.environ.get("KERRD")):
+        if said:
+            found = shutil.which(os.fspath(said))
+            if found is None:
+                raise NoBinary(f"{os.fspath(said)} is no program")
+            return found
+    on_path = shutil.which("kerrd")
+    if on_path:
+        return on_path
+    tree = _checkout()
+    if tree is None:
+        raise NoBinary("there is no kerrd: give binary=, set $KERRD, put it on the PATH, or install this package from its source tree with pip install -e")
+    made = tree / "build/kerrd"
+    if not made.exists() and build:
+        subprocess.run([tree / "scripts/setup", "--program"], check=True, stdout=subprocess.DEVNULL)
+    if not made.exists():
+        raise NoBinary(f"there is no {made}: scripts/setup --program makes it")
+    return str(made)
+
+
+class local(Client):
+    """A client of a server that it starts, on a port of the loopback that is free, and stops: with kerrd.local() as hole.
+
+    binary: the program (find_binary). device: auto, an index of `kerrd doctor`, or part of a name. args: further options of `kerrd serve`. env: over the environment.
+    """
+
+    def __init__(self, *, binary: str | os.PathLike[str] | None = None, device: str | None = None, args: Sequence[str] = (), env: dict[str, str] | None = None,
+                 timeout: float = 600, patience: float = 60) -> None:
+        command = [find_binary(binary), "serve", "--port", "0", *(["--device", device] if device else []), *args]
+        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, env={**os.environ, **(env or {})}, text=True)
+        assert self.process.stdout is not None
+        line = self.process.stdout.readline()
+        found = re.search(r"listening on (http://\S+)", line)
+        if found is None:
+            self._stop()
+            raise KerrdError(f"{' '.join(command)} did not start (exit code {self.process.returncode}): {line.strip() or 'what is wrong stands on its standard error'}")
+        atexit.register(self._stop)
+        super().__init__(found[1], timeout=timeout, patience=patience)
+
+    def __enter__(self) -> local:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+        self.close()
+
+    def close(self) -> None:
+        super().close()
+        atexit.unregister(self._stop)
+        self._stop()
+
+    def _stop(self) -> None:
+        if self.process.poll() is None:
+            self.process.terminate()
+            try:
+                self.process.wait(20)
+            except subprocess.TimeoutExpired:
+                self.process.kill()
+                self.process.wait()
+        if self.process.stdout is not None:
+            self.process.stdout.close()
