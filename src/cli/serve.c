@@ -5,6 +5,7 @@
 #include "server/server.h"
 
 #include <errno.h>
+#include <pthread.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,7 +17,7 @@ struct arguments {
     const char *state;
     uint64_t memory;
     unsigned port, queue, sessions, jobs, client_jobs, client_share;
-    bool cross_site;
+    bool cross_site, until_eof;
     const char **hosts; /* NULL-terminated once there is one */
     size_t n_hosts;
 };
@@ -31,6 +32,7 @@ static const struct argp_option table[] = {
     { "jobs-per-client", 'J', "N", 0, "unfinished jobs of one client (default: by --client-share)", 0 },
     { "allow-cross-site", 'X', NULL, 0, "take requests that pages of other sites make, as by an <img>", 0 },
     { "state", 'S', "DIR", 0, "keep jobs and their frames, and assets, there, so that they survive a restart", 0 },
+    { "until-eof", 'E', NULL, 0, "stop when standard input ends, as it does when the program that holds its other end is gone", 0 },
     KD_CLI_MEMORY,
     { "host", 'H', "NAME", 0, "answer requests for this host name too; may be repeated", 0 },
     { 0 },
@@ -58,6 +60,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case 'j': arguments->jobs = kd_cli_number(state, "--jobs", text, 1, 1000); return 0;
     case 'J': arguments->client_jobs = kd_cli_number(state, "--jobs-per-client", text, 1, 1000); return 0;
     case 'C': arguments->client_share = kd_cli_number(state, "--client-share", text, 1, 100); return 0;
+    case 'E': arguments->until_eof = true; return 0;
     case 'X': arguments->cross_site = true; return 0;
     case 'S': arguments->state = text; return 0;
     case 'M': arguments->memory = kd_cli_bytes(state, "--memory", text); return 0;
@@ -113,6 +116,28 @@ static void announce(const char *address, uint16_t port, const char *const *own)
     clearerr(stdout);
 }
 
+/* Whoever has started this server holds the other end of its standard input, and lets go of it even where it is killed. */
+static void *await_eof(void *unused)
+{
+    char bytes[64];
+    ssize_t n;
+    do
+        n = read(STDIN_FILENO, bytes, sizeof bytes);
+    while (n > 0 || (n < 0 && errno == EINTR));
+    kill(getpid(), SIGTERM);
+    return unused;
+}
+
+static enum kd_status stop_at_eof(struct kd_error *error)
+{
+    pthread_t thread;
+    int code = pthread_create(&thread, NULL, await_eof, NULL);
+    if (code)
+        return kd_error_set(error, KD_EIO, "no thread that waits for standard input to end: %s", strerror(code));
+    pthread_detach(thread); /* it ends with the process */
+    return KD_OK;
+}
+
 static enum kd_status serve(const struct arguments *arguments, struct kd_error *error)
 {
     const struct kd_server_params params = {
@@ -133,6 +158,12 @@ static enum kd_status serve(const struct arguments *arguments, struct kd_error *
     if (status)
         return status;
     set_signals(on_signal);
+    if (arguments->until_eof)
+        status = stop_at_eof(error);
+    if (status) {
+        kd_server_destroy(running);
+        return status;
+    }
     announce(arguments->listen, kd_server_port(running), kd_server_own_names(running));
     status = kd_server_wait(running, error);
     if (status == KD_EDEVICE)

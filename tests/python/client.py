@@ -6,10 +6,12 @@ import io
 import json
 import os
 import pathlib
+import pickle
 import signal
 import subprocess
 import sys
 import threading
+import time
 import unittest
 import zipfile
 
@@ -91,6 +93,8 @@ class Blocking(Case):
         self.assertEqual((problem.status, problem.pointer), (422, '/image/width'))
         self.assertEqual(problem.allowed, 'whole numbers from 1 to 32768 pixels')
         self.assertIn('-4', str(problem))
+        again = pickle.loads(pickle.dumps(problem))
+        self.assertEqual((again.status, again.pointer, str(again)), (422, '/image/width', str(problem)))
         with self.assertRaises(kerrd.Problem) as caught:
             self.hole.preset('no-such')
         self.assertEqual(caught.exception.status, 404)
@@ -229,6 +233,17 @@ class Local(unittest.TestCase):
         code = f'import sys; sys.path.insert(0, {str(FOLDER / "src")!r}); import kerrd; print(kerrd.local(binary={KERRD!r}).process.pid)'
         done = subprocess.run([sys.executable, '-c', code], capture_output=True, text=True, timeout=60, check=True)
         self.assertTrue(self.gone(int(done.stdout)))
+
+    def test_it_ends_with_an_interpreter_that_is_killed(self):
+        code = f'import sys; sys.path.insert(0, {str(FOLDER / "src")!r}); import kerrd; print(kerrd.local(binary={KERRD!r}).process.pid, flush=True); sys.stdin.read()'
+        with subprocess.Popen([sys.executable, '-c', code], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as python:
+            pid = int(python.stdout.readline())
+            self.assertFalse(self.gone(pid))
+            python.kill()
+        until = time.monotonic() + 30
+        while not self.gone(pid) and time.monotonic() < until:
+            time.sleep(0.05)
+        self.assertTrue(self.gone(pid))
 
     def test_what_does_not_start(self):
         with self.assertRaisesRegex(kerrd.KerrdError, 'did not start'):

@@ -32,7 +32,11 @@ class Problem(KerrdError):
         found = re.search(r"allowed (?:is|are) (.+)$", self.detail, re.S)
         self.allowed: str | None = found[1] if found else None
         self.retry_after = retry_after
+        self._made_of = (status, document, retry_after)
         super().__init__(f"{status} {self.title}: {self.detail}" + (f" ({self.pointer})" if self.pointer else ""))
+
+    def __reduce__(self) -> tuple[type[Problem], tuple[int, dict[str, Any], float | None]]:
+        return Problem, self._made_of  # between processes
 
 
 class JobFailed(KerrdError):

@@ -53,8 +53,8 @@ class local(Client):
 
     def __init__(self, *, binary: str | os.PathLike[str] | None = None, device: str | None = None, args: Sequence[str] = (), env: dict[str, str] | None = None,
                  timeout: float = 600, patience: float = 60) -> None:
-        command = [find_binary(binary), "serve", "--port", "0", *(["--device", device] if device else []), *args]
-        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, env={**os.environ, **(env or {})}, text=True)
+        command = [find_binary(binary), "serve", "--port", "0", "--until-eof", *(["--device", device] if device else []), *args]
+        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, env={**os.environ, **(env or {})}, text=True)
         assert self.process.stdout is not None
         line = self.process.stdout.readline()
         found = re.search(r"listening on (http://\S+)", line)
@@ -83,5 +83,6 @@ class local(Client):
             except subprocess.TimeoutExpired:
                 self.process.kill()
                 self.process.wait()
-        if self.process.stdout is not None:
-            self.process.stdout.close()
+        for end in (self.process.stdin, self.process.stdout):
+            if end is not None:
+                end.close()

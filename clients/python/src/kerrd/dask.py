@@ -1,0 +1,144 @@
+"""Scenes rendered by the workers of a Dask cluster, each of which has a server of its own.
+
+Who does what: Dask's scheduler hands out scenes, gives those of a worker that died to the others, and shows how far it is on its dashboard; a worker plugin starts a
+server beside each worker, and again where it has died. Needs the package distributed (pip install kerrd[dask]).
+"""
+
+from __future__ import annotations
+
+import hashlib
+import itertools
+import os
+import threading
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, cast
+
+import httpx
+import numpy as np
+from distributed import Client as Cluster
+from distributed import Worker, get_client, get_worker
+from distributed.diagnostics.plugin import WorkerPlugin
+from numpy.typing import NDArray
+
+from .document import Document, SceneLike, scene_of
+from .local import local
+
+
+
+class Servers(WorkerPlugin):
+    """A server for each worker, started with the first scene that it gets: binary, device, args and env as for kerrd.local. A cluster has one plugin for the same options."""
+
+    idempotent = True
+
+    def __init__(self, **options: Any) -> None:
+        self.options = options
+        self.name = f"kerrd-{hashlib.sha256(repr(sorted(options.items())).encode()).hexdigest()[:12]}"
+
+    def setup(self, worker: Worker) -> None:
+        self._lock = threading.Lock()
+        self._hole: local | None = None
+
+    def teardown(self, worker: Worker) -> None:
+        with self._lock:
+            if self._hole is not None:
+                self._hole.close()
+            self._hole = None
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {"options": self.options, "name": self.name}
+
+    def hole(self) -> local:
+        """The worker's server; a new one where the last has died."""
+        with self._lock:
+            if self._hole is not None and self._hole.process.poll() is not None:
+                self._hole.close()
+                self._hole = None
+            if self._hole is None:
+                self._hole = local(**self.options)
+            return self._hole
+
+
+def _render(plugin_name: str, document: Document, preset: str | None, layers: Sequence[str], to: str | None) -> Any:
+    """On a worker: a picture's bytes or the numbers of its layers; with `to` they go into that file, whose name is returned. A server that dies meanwhile is started anew, once."""
+    plugin = cast(Servers, get_worker().plugins[plugin_name])
+    try:
+        got = _ask(plugin.hole(), document, preset, layers)
+    except httpx.TransportError:
+        got = _ask(plugin.hole(), document, preset, layers)
+    if to is None:
+        return got
+    part = f"{to}.{os.getpid()}.{threading.get_ident()}.part"  # whole under its name, or not there
+    with open(part, "wb") as file:
+        if isinstance(got, bytes):
+            file.write(got)
+        else:
+            np.savez(file, allow_pickle=False, **got)
+    os.replace(part, to)
+    return to
+
+
+def _ask(hole: local, document: Document, preset: str | None, layers: Sequence[str]) -> bytes | dict[str, NDArray[np.float32]]:
+    return hole.layers(document, layers, preset=preset) if layers else hole.render(document, preset=preset).png
+
+
+def _gather(cluster: Cluster, futures: Any) -> Any:
+    return cluster.gather(futures)  # type: ignore[no-untyped-call]
+
+
+def scenes_of(scene: SceneLike, axes: Mapping[str, Iterable[Any]]) -> list[Document]:
+    """A scene of every combination of values of fields, by their dotted paths; the last axis is the fastest."""
+    return [scene_of(scene, dict(zip(axes, values))) for values in itertools.product(*axes.values())]
+
+
+def sweep(scenes: Iterable[SceneLike], client: Cluster | None = None, *, preset: str | None = None, layers: Sequence[str] = (), folder: str | os.PathLike[str] | None = None,
+          zarr: str | os.PathLike[str] | None = None, retries: int = 3, **options: Any) -> Any:
+    """Renders scenes on a cluster, in order of their places in the list.
+
+    Returns PNG bytes for each; with `layers` a dict of float32 arrays for each. folder: the files 000000.png (or .npz) … there instead, a folder that all workers share; returns their
+    paths, and one that is there already is kept, so that a sweep that broke off goes on. zarr: a store that all workers share instead, an array (scenes, height, width[, 3]) a layer; returns its group; needs the
+    package zarr, and scenes of one size. client: a distributed.Client, else the current one. options: of the workers' servers (Servers). A scene that is refused raises kerrd.Problem; what a worker that died
+    had not finished is done by others, and by the same one again at most `retries` times.
+    """
+    cluster = client if client is not None else get_client()
+    servers = Servers(**options)
+    cluster.register_plugin(servers)
+    documents = [scene_of(scene, {}) for scene in scenes]
+    if zarr is not None:
+        return _into_zarr(cluster, servers.name, documents, preset, layers or ("rgb",), zarr, retries)
+    paths: list[str | None] = [None] * len(documents)
+    if folder is not None:
+        Path(folder).mkdir(parents=True, exist_ok=True)
+        paths = [str(Path(folder).resolve() / f"{k:06}.{'npz' if layers else 'png'}") for k in range(len(documents))]
+    missing = [k for k, path in enumerate(paths) if path is None or not os.path.exists(path)]
+    futures = cluster.map(_render, [servers.name] * len(missing), [documents[k] for k in missing], [preset] * len(missing), [tuple(layers)] * len(missing), [paths[k] for k in missing], retries=retries, pure=False)
+    got = _gather(cluster, futures)
+    if folder is None:
+        return got
+    for left in Path(folder).glob("*.part"):  # by workers that died
+        left.unlink(missing_ok=True)
+    return paths
+
+
+def _place(plugin_name: str, k: int, document: Document, preset: str | None, layers: Sequence[str], store: str) -> int:
+    """On a worker: the numbers of scene k into its place of the store."""
+    import zarr
+
+    group = zarr.open_group(store, mode="r+")
+    for name, array in _render(plugin_name, document, preset, layers, None).items():
+        cast(Any, group[name])[k] = array
+    return k
+
+
+def _into_zarr(cluster: Cluster, plugin_name: str, documents: list[Document], preset: str | None, layers: Sequence[str], store: str | os.PathLike[str], retries: int) -> Any:
+    import zarr
+
+    path = str(Path(store).resolve())
+    first = cluster.submit(_render, plugin_name, documents[0], preset, tuple(layers), None, retries=retries, pure=False).result()
+    group = zarr.open_group(path, mode="w-")
+    for name, array in first.items():
+        group.create_array(name, shape=(len(documents), *array.shape), chunks=(1, *array.shape), dtype=array.dtype, fill_value=np.nan)
+        cast(Any, group[name])[0] = array
+    n = len(documents) - 1
+    _gather(cluster, cluster.map(_place, [plugin_name] * n, range(1, n + 1), documents[1:], [preset] * n, [tuple(layers)] * n, [path] * n, retries=retries, pure=False))
+    return zarr.open_group(path, mode="r")
