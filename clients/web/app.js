@@ -8,8 +8,9 @@ import { buildControls } from './controls.js';
 import { describe, entitle, followScene } from './describe.js';
 import { buildFit } from './fit.js';
 import { buildFull } from './full.js';
+import { buildKeys, buildLanguages, welcome } from './header.js';
 import { buildHistory } from './history.js';
-import { lang, t, tell, translatePage } from './i18n.js';
+import { t, tell, translatePage } from './i18n.js';
 import * as link from './link.js';
 import { apart, buildLiving } from './living.js';
 import { buildOverlays } from './overlay.js';
@@ -82,27 +83,6 @@ function goTo(view) {
   return turnTo(view);
 }
 
-function buildLanguages() {
-  for (const button of document.querySelectorAll('[data-lang]')) {
-    if (button.dataset.lang === lang) button.setAttribute('aria-pressed', 'true');
-    button.addEventListener('click', () => {
-      link.set('lang', button.dataset.lang);
-      link.flush();
-      location.reload();
-    });
-  }
-}
-
-// Which keys there are: ? asks for them.
-function buildKeys() {
-  const keys = byId('keys'),
-    show = () => keys.open || keys.showModal();
-  byId('show-keys').addEventListener('click', show);
-  document.addEventListener('keydown', event => {
-    if (event.key === '?' && !event.ctrlKey && !event.metaKey && !event.target.closest('textarea, input, select')) show();
-  });
-}
-
 const patience_ms = 1000;
 const telling_ms = 250; // words and numbers beside the picture follow no faster while it moves; at rest they are those of the picture
 
@@ -146,7 +126,8 @@ async function watch(scene) {
     resting = whether;
     if (whether && stage.dataset.final !== 'true') (await parts).drawOverlays();
     stage.dataset.final = resting; // the scene may have changed meanwhile
-    if (resting) followMeasured();
+    if (resting) (followFiner(false), followMeasured());
+    else if (!scene.goesOn()) followFiner(true);
   }
 
   // The light that the server tells flux and centroid of, once there is any.
@@ -207,6 +188,7 @@ async function watch(scene) {
 
   async function refuse(error) {
     seen();
+    followFiner(false);
     const { complain } = await parts;
     fall?.then(({ halt }) => halt());
     complain(error.pointer, error.message);
@@ -218,6 +200,7 @@ async function watch(scene) {
   const followFiner = buildRefining(source.address, words => status.dataset.wrong || (status.textContent = words));
   if (!byId('lensing').hidden) {
     source.refresh();
+    followFiner(true);
     await Promise.race([first, new Promise(resolve => setTimeout(resolve, patience_ms))]);
   }
   followScene(scene);
@@ -256,13 +239,6 @@ async function watch(scene) {
     showShare();
     source.refresh();
   }).observe(stage);
-}
-
-// A line says what this is until somebody does something; who follows a link to a scene knows.
-function welcome() {
-  const line = byId('welcome');
-  line.hidden = link.entries('').some(([key]) => !['lang', 'pause', 'view'].includes(key));
-  for (const event of ['pointerdown', 'keydown', 'wheel']) document.addEventListener(event, () => (line.hidden = true), { once: true, passive: true });
 }
 
 async function start() {

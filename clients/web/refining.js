@@ -1,28 +1,42 @@
-// A finer picture that takes the server long: how much of it is done, and how many seconds are left, below the picture and as a bar at its edge.
+// A picture that takes the server long, the first one or a finer one: how much of it is done, and how many seconds are left, in words and as a bar at the picture’s edge.
 import { byId, seen } from './dom.js';
 import { number, t } from './i18n.js';
 import { getJson } from './server.js';
 
-const patience_ms = 1500; // after the picture that is shown, before anything is said
+const patience_ms = 1500; // after the picture that is shown, or the change that asks for another one, before anything is said
 const every_ms = 700;
 
-// address(): of the session; say(words): of what is on its way. Returns follow(waits): a finer picture than the one that is shown is to come.
+const names = {
+  first: () => t('The server computes the first picture', 'Il server calcola la prima immagine'),
+  rendering: () => t('next picture', 'prossima immagine'),
+  refining: () => t('finer picture', 'immagine più fine'),
+};
+
+function sentence(name, { fraction, remaining_s: left }) {
+  const done = `${names[name]()}: ${number(Math.round(100 * fraction))} %`;
+  return left == null ? done : done + t(`, ${number(Math.ceil(left))} s to go`, `, mancano ${number(Math.ceil(left))} s`).replace('mancano 1 s', 'manca 1 s');
+}
+
+// address(): of the session; say(words): of what is on its way. Returns follow(waits): a picture other than the one that is shown is to come.
 export function buildRefining(address, say) {
-  const bar = byId('refined');
+  const bar = byId('refined'),
+    first = byId('first');
   let timer = 0;
 
   async function look() {
     const mine = timer;
     await seen('lensing');
     if (mine !== timer) return;
-    const { refining } = (address() && (await getJson(address()).catch(() => null))) || {};
+    const { frame, rendering, refining } = (address() && (await getJson(address()).catch(() => null))) || {};
     if (mine !== timer) return; // it has come, or another one is made
-    bar.hidden = !refining;
-    if (refining) {
-      const { fraction, remaining_s: left } = refining,
-        done = `${number(Math.round(100 * fraction))} %`;
-      bar.value = fraction;
-      say(t(`finer picture: ${done}`, `immagine più fine: ${done}`) + (left == null ? '' : t(`, ${number(Math.ceil(left))} s to go`, `, mancano ${number(Math.ceil(left))} s`)));
+    const made = rendering ?? refining;
+    bar.hidden = !made;
+    if (made) {
+      const none = first.checkVisibility?.() && !frame,
+        words = sentence(none ? 'first' : rendering ? 'rendering' : 'refining', made);
+      bar.value = made.fraction;
+      if (none) first.textContent = words;
+      else say(words);
     }
     timer = setTimeout(look, every_ms);
   }

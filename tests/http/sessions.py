@@ -339,6 +339,24 @@ class Sessions(daemon.Owned):
         self.assertTrue(left and left[-1] < 1, left)
         self.assertNotIn('refining', self.status(session))
 
+    def test_how_far_the_first_picture_is(self):
+        """Before there is any: the part that is done grows, and what is left is told in seconds; once it is there nothing is."""
+        session, told = self.open({**SCENE, 'image': {'width': 64, 'height': 36, 'samples': 1}, 'time': 1500}), []
+        thread = threading.Thread(target=lambda: self.frame(session, 0))
+        thread.start()
+        while thread.is_alive():
+            told.append(self.status(session))
+            time.sleep(0.05)
+        thread.join()
+        first = [one['rendering'] for one in told if one['frame'] == 0 and 'rendering' in one]
+        self.assertGreater(len(first), 3, told[:3])
+        self.assertEqual([one for one in told if one['frame'] == 0 and 'refining' in one], [])
+        parts = [one['fraction'] for one in first]
+        self.assertTrue(parts == sorted(parts) and parts[0] < 0.5 < parts[-1] <= 1, parts)
+        left = [one['remaining_s'] for one in first if one['remaining_s'] is not None]
+        self.assertTrue(left and left[-1] < 1, left)
+        self.assertTrue(daemon.eventually(lambda: 'rendering' not in self.status(session)))
+
     def test_what_is_overtaken_is_not_shown(self):
         for _ in range(5):
             session = self.open({'image': {'width': 4000, 'height': 3000}, 'time': 60})  # its first frame takes long to be encoded,

@@ -33,6 +33,26 @@ class Sessions(Browser):
             self.there(page, words, '#status')
             self.assertEqual((page.is_visible('#refined'), page.is_visible('#first'), page.locator('#refined').evaluate('bar => bar.value')), (True, False, 0.4))
 
+    def test_what_the_first_picture_lacks_is_told(self):
+        """Where it will stand, in both languages, with a bar; of one that follows another, below that."""
+        told = lambda frame: lambda route: route.fulfill(json={'frame': frame, 'rendering': {'fraction': 0.25, 'remaining_s': 3.2}}) if route.request.method == 'GET' else route.continue_()
+        for lang, words, others in (('en', 'The server computes the first picture: 25 %, 4 s to go', 'next picture: 25 %, 4 s to go'),
+                                    ('it', 'Il server calcola la prima immagine: 25 %, mancano 4 s', 'prossima immagine: 25 %, mancano 4 s')):
+            page = self.page(self.context())
+            page.route('**/frame?*', lambda route: None)  # it does not come
+            page.route(re.compile(r'/v1/sessions/[^/?]+$'), told(0))
+            page.goto(self.base + f'#lang={lang}&preset=default&pace=fast')
+            self.there(page, words, '#first')
+            self.assertEqual((page.is_visible('#refined'), page.locator('#refined').evaluate('bar => bar.value')), (True, 0.25))
+            page = self.open(f'lang={lang}')
+            self.assertFalse(page.is_visible('#refined'))
+            page.route('**/frame?*', lambda route: None)
+            page.route(re.compile(r'/v1/sessions/[^/?]+$'), told(7))
+            page.focus('#stage')
+            page.keyboard.press('Shift+ArrowUp')
+            self.there(page, others, '#status')
+            self.assertTrue(page.is_visible('#refined'))
+
     def test_a_session_that_has_ended_is_opened_anew(self):
         page = self.open()
         self.expected = '404'

@@ -16,7 +16,7 @@ void kd_openapi_session_schemas(struct kd_json *json)
         { "sentence", KD_SCHEMA_TEXT, true },
     };
     static const struct kd_openapi_member path[] = { { "at", KD_SCHEMA_NUMBER, false }, { "end", KD_SCHEMA_NUMBER, false } };
-    static const struct kd_openapi_member refining[] = { { "fraction", KD_SCHEMA_NUMBER, false }, { "remaining_s", KD_SCHEMA_NUMBER_OR_NULL, false } };
+    static const struct kd_openapi_member progress[] = { { "fraction", KD_SCHEMA_NUMBER, false }, { "remaining_s", KD_SCHEMA_NUMBER_OR_NULL, false } };
     static const struct kd_openapi_member clock[] = {
         { "proper_time_to_horizon", KD_SCHEMA_NUMBER_OR_NULL, false }, { "proper_time_to_end", KD_SCHEMA_NUMBER, false },
         { "proper_time_to_horizon_s", KD_SCHEMA_NUMBER_OR_NULL, false }, { "proper_time_to_end_s", KD_SCHEMA_NUMBER, false },
@@ -26,12 +26,13 @@ void kd_openapi_session_schemas(struct kd_json *json)
         { "viewers", KD_SCHEMA_COUNT, false }, { "scene", KD_SCHEMA_REF("Scene"), false },
         { "varies", KD_SCHEMA_LIST("{\"enum\":[\"moves_with_time\",\"dims_with_time\",\"moves_with_azimuth\"]}"), false },
         { "emitters", KD_SCHEMA_LIST(KD_SCHEMA_REF("EmitterTold")), false }, { "path", KD_SCHEMA_REF("SessionPath"), true },
-        { "refining", KD_SCHEMA_REF("SessionRefining"), true }, { "clock", KD_SCHEMA_REF("FallClock"), true }, { "order", KD_SCHEMA_COUNT, true },
+        { "rendering", KD_SCHEMA_REF("SessionRendering"), true }, { "refining", KD_SCHEMA_REF("SessionRefining"), true }, { "clock", KD_SCHEMA_REF("FallClock"), true }, { "order", KD_SCHEMA_COUNT, true },
     };
     static const struct kd_openapi_member patched[] = { { "revision", KD_SCHEMA_COUNT, false }, { "order", KD_SCHEMA_COUNT, true } };
     KD_OPENAPI_STRICT(json, "EmitterTold", emitter);
     KD_OPENAPI_STRICT(json, "SessionPath", path);
-    KD_OPENAPI_STRICT(json, "SessionRefining", refining);
+    KD_OPENAPI_STRICT(json, "SessionRendering", progress);
+    KD_OPENAPI_STRICT(json, "SessionRefining", progress);
     KD_OPENAPI_STRICT(json, "FallClock", clock);
     KD_OPENAPI_STRICT(json, "Session", session);
     KD_OPENAPI_STRICT(json, "SessionPatched", patched); /* who prefers return=minimal */

@@ -10,8 +10,8 @@
 #include <pthread.h>
 
 struct kd_session_frame; /* one on its way through the render queue */
-/* How far one is that refines, and how many seconds are left: NAN where there is none, or too little is known. run.c */
-void kd_session_refined(const struct kd_session *session, double now, double *fraction, double *left_s);
+/* How far the one is that is being made. run.c */
+struct kd_session_progress kd_session_progress_of(const struct kd_session *session, double now);
 
 struct kd_session {
     struct kd_sessions *all;

@@ -49,7 +49,7 @@ done:
     return status;
 }
 
-/* {"id", "revision", "frame", "viewers", ["order",] "scene", "varies", "emitters"}, on a path "path", while a finer picture is made "refining", of one who falls "clock", and for who has just made it the
+/* {"id", "revision", "frame", "viewers", ["order",] "scene", "varies", "emitters"}, on a path "path", while a picture is made "rendering", or "refining" for a finer one, of one who falls "clock", and for who has just made it the
  * token. */
 static enum kd_status to_json(const struct kd_session *session, const struct kd_session_state *state, bool token, struct kd_buffer *out)
 {
@@ -69,12 +69,12 @@ static enum kd_status to_json(const struct kd_session *session, const struct kd_
     KD_TRY(kd_emit_to_json(&state->scene, out));
     if (state->path_end > 0)
         KD_TRY(kd_buffer_printf(out, ",\"path\":{\"at\":%.9g,\"end\":%.9g}", state->path_at, state->path_end));
-    if (!isnan(state->refined)) {
-        KD_TRY(kd_buffer_printf(out, ",\"refining\":"));
+    if (!isnan(state->progress.fraction)) {
+        KD_TRY(kd_buffer_printf(out, ",\"%s\":", state->progress.refines ? "refining" : "rendering"));
         struct kd_json json = kd_json_begin(out);
         kd_json_object(&json, NULL);
-        kd_json_number(&json, "fraction", state->refined);
-        kd_json_number(&json, "remaining_s", state->refined_in_s); /* NAN: null */
+        kd_json_number(&json, "fraction", state->progress.fraction);
+        kd_json_number(&json, "remaining_s", state->progress.left_s); /* NAN: null */
         kd_json_end(&json);
         KD_TRY(kd_json_finish(&json));
     }

@@ -60,7 +60,7 @@ static struct kd_session_frame *make_frame(struct kd_session *s, const struct kd
     live->begun_ms = now;
     live->job = (struct kd_render_job) {
         .claim.class = turn->refining ? KD_CLASS_REFINEMENT : KD_CLASS_LIVE, .socket = -1,
-        .format = kd_format_live(), .effort = KD_EFFORT_LIVE, .progress = turn->refining ? progress : NULL, .rendered = rendered, .done = done,
+        .format = kd_format_live(), .effort = KD_EFFORT_LIVE, .progress = progress, .rendered = rendered, .done = done,
     };
     memcpy(live->job.claim.client, s->demand.client, sizeof s->demand.client);
     kd_quality_apply(&turn->quality, scene, &live->job.scene);
@@ -185,11 +185,15 @@ static void progress(struct kd_render_job *job, double fraction)
 }
 
 /* What is left takes as long as what is done has taken, waiting for others included. */
-void kd_session_refined(const struct kd_session *s, double now, double *fraction, double *left_s)
+struct kd_session_progress kd_session_progress_of(const struct kd_session *s, double now)
 {
     const struct kd_session_frame *live = s->rendering;
-    *fraction = live && live->turn.refining ? live->fraction : NAN;
-    *left_s = *fraction > SURE ? 1e-3 * (now - live->begun_ms) * (1 - *fraction) / *fraction : NAN;
+    if (!live)
+        return (struct kd_session_progress) { .fraction = NAN, .left_s = NAN };
+    return (struct kd_session_progress) {
+        .refines = live->turn.refining, .fraction = live->fraction,
+        .left_s = live->fraction > SURE ? 1e-3 * (now - live->begun_ms) * (1 - live->fraction) / live->fraction : NAN,
+    };
 }
 
 /* The render thread calls this without the lock: the next frame may be traced while this one is encoded. */

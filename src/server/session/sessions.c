@@ -188,7 +188,7 @@ static void state(const struct kd_session *s, struct kd_session_state *out) /* l
     const double now = kd_clock_ms(), end = kd_timeline_end(&s->path);
     *out = (struct kd_session_state) { .scene = scene_now(s, now), .revision = s->revision, .viewers = viewers_of(s),
                                        .frame = s->latest ? s->latest->number : 0, .order = s->order, .path_at = fmin(seconds_of(s, now), end), .path_end = end };
-    kd_session_refined(s, now, &out->refined, &out->refined_in_s);
+    out->progress = kd_session_progress_of(s, now);
 }
 
 void kd_session_state(struct kd_session *s, struct kd_session_state *out)

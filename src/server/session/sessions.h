@@ -71,8 +71,10 @@ struct kd_session_state {
     uint64_t frame; /* the newest one's number, 0: none yet */
     uint64_t order; /* of the latest patch that had one, 0: none had */
     double path_at, path_end; /* seconds along its path; both 0: it has none */
-    double refined, refined_in_s; /* of the finer picture that is being made, the part that is done, and how long the rest takes, estimated; NAN: none is
-                                     being made, or not known yet */
+    struct kd_session_progress {
+        bool refines;            /* the picture that is being made is a finer one of what rests, else the first one of the scene as it is */
+        double fraction, left_s; /* the part of it that is done, and how long the rest takes, estimated; NAN: none is being made, or not known yet */
+    } progress;
 };
 void kd_session_state(struct kd_session *session, struct kd_session_state *out);
 /* Merges a patch (RFC 7396) into the scene. On failure nothing changes. order: of patches that are under way at once the one with the highest number counts;

@@ -1,0 +1,32 @@
+// Above the picture: the languages, the list of keys, and the line that says what this is.
+import { byId } from './dom.js';
+import { lang } from './i18n.js';
+import * as link from './link.js';
+
+export function buildLanguages() {
+  for (const button of document.querySelectorAll('[data-lang]')) {
+    if (button.dataset.lang === lang) button.setAttribute('aria-pressed', 'true');
+    button.addEventListener('click', () => {
+      link.set('lang', button.dataset.lang);
+      link.flush();
+      location.reload();
+    });
+  }
+}
+
+// Which keys there are: ? asks for them.
+export function buildKeys() {
+  const keys = byId('keys'),
+    show = () => keys.open || keys.showModal();
+  byId('show-keys').addEventListener('click', show);
+  document.addEventListener('keydown', event => {
+    if (event.key === '?' && !event.ctrlKey && !event.metaKey && !event.target.closest('textarea, input, select')) show();
+  });
+}
+
+// A line says what this is until somebody does something; who follows a link to a scene knows.
+export function welcome() {
+  const line = byId('welcome');
+  line.hidden = link.entries('').some(([key]) => !['lang', 'pause', 'view'].includes(key));
+  for (const event of ['pointerdown', 'keydown', 'wheel']) document.addEventListener(event, () => (line.hidden = true), { once: true, passive: true });
+}
