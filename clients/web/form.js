@@ -17,7 +17,7 @@ function slider(spec, input, tell) {
 
 // specs: [{ name, label, unit, help, value, min, max, step, choices, words, auto, nature, about }]; a label goes over what the
 // name says, about over the server's help; without a nature it is physics; changed() is
-// told. What is auto has no value until somebody gives it one, and is emptied to have none again. Returns values() by name.
+// told. What is auto has no value until somebody gives it one, and is emptied to have none again. Returns values() by name, and put({ name: value }).
 export function buildForm(root, prefix, specs, changed) {
   const inputs = new Map();
   for (const spec of specs) {
@@ -50,7 +50,7 @@ export function buildForm(root, prefix, specs, changed) {
         input.value = value;
         tell();
       });
-    inputs.set(spec.name, { input, follow: () => slide?.follow?.() });
+    inputs.set(spec.name, { input, spec, key, follow: () => slide?.follow?.() });
     root.append(
       el(
         'div',
@@ -65,6 +65,16 @@ export function buildForm(root, prefix, specs, changed) {
   return {
     input,
     values: () => Object.fromEntries([...inputs].filter(([, { input }]) => input.chosen).map(([name, { input }]) => [name, input.value])),
+    // Several at once, as one change: who calls says so.
+    put(values) {
+      for (const [name, value] of Object.entries(values)) {
+        const { input, spec, key, follow } = inputs.get(name);
+        input.value = value;
+        input.chosen = true;
+        follow();
+        link.set(key, input.value === String(spec.value) ? null : input.value);
+      }
+    },
     // What an auto field comes to, as long as nobody has chosen.
     suggest(name, value) {
       if (!input(name).chosen) ((input(name).value = value), inputs.get(name).follow());

@@ -1,6 +1,7 @@
 // The orbit of the Orbits view, as the camera of the scene sees it: its direct image, of which the server finds each point by the ray that leads there.
 import { number, t } from './i18n.js';
 import * as link from './link.js';
+import { settled } from './orbit-ask.js';
 import { requested, specs } from './orbit-fields.js';
 import { postJson } from './server.js';
 
@@ -29,11 +30,7 @@ async function seen(scene) {
     asked = { ...requested({ ...chosen, periods: Math.min(chosen.periods, periods) }), spin, samples, digits: 8, seen: observer(scene) },
     key = JSON.stringify(asked);
   if (key === last.key) return last.answer;
-  const answer = await postJson('v1/orbits', asked).catch(error => {
-    const { duration: _, ...whole } = asked;
-    if (error.pointer === '/duration/periods') return postJson('v1/orbits', whole); // it falls in or leaves: to its end
-    throw error;
-  });
+  const answer = await postJson('v1/orbits', (await settled(asked)).asked);
   last = { key, answer };
   return answer;
 }

@@ -30,7 +30,8 @@ export function buildPicture(root, hand) {
   const body = svg('circle', { class: 'body', r: 1.8 });
   let path = null,
     reach = 1,
-    hole = 1;
+    hole = 1,
+    spin = 0;
 
   function project([x, y, z]) {
     const a = (turn.valueAsNumber * Math.PI) / 180,
@@ -76,6 +77,12 @@ export function buildPicture(root, hand) {
       right = x / k;
     return [towards * Math.cos(a) - right * Math.sin(a), towards * Math.sin(a) + right * Math.cos(a)];
   }
+  // Nobody puts a body into the hole: it stays beside the horizon, sqrt(r^2 + a^2) from the middle.
+  function outside(at) {
+    const least = 1.02 * Math.hypot(hole, spin),
+      far = Math.hypot(...at);
+    return far >= least ? at : far > 0 ? at.map(x => (x * least) / far) : [least, 0];
+  }
   const pointer = event => new DOMPoint(event.clientX, event.clientY).matrixTransform(picture.getScreenCTM().inverse());
   const onBody = at => Math.hypot(at.x - body.getAttribute('cx'), at.y - body.getAttribute('cy')) < grip;
   const arrow = svg('path', { class: 'throw' }),
@@ -88,8 +95,7 @@ export function buildPicture(root, hand) {
     const at = pointer(event),
       there = inPlane(at);
     if (!put) {
-      if (Math.hypot(...there) < 1.05 * hole) return;
-      held = there;
+      held = outside(there);
       return place([...held, 0]);
     }
     const way = there.map((x, i) => x - held[i]),
@@ -126,7 +132,7 @@ export function buildPicture(root, hand) {
   picture.addEventListener('pointerdown', event => {
     if (onBody(pointer(event))) {
       holding = true;
-      held = put ? held : inPlane(pointer(event));
+      held = put ? held : outside(inPlane(pointer(event)));
       picture.append(arrow, speed);
       return picture.setPointerCapture(event.pointerId);
     }
@@ -157,10 +163,11 @@ export function buildPicture(root, hand) {
     ),
   );
   return {
-    show(points, horizon, words) {
+    show(points, horizon, a, words) {
       picture.setAttribute('aria-label', words);
       path = points;
       hole = horizon;
+      spin = a;
       reach = Math.max(...points.map(p => Math.hypot(...p)), horizon);
       draw();
     },

@@ -5,11 +5,11 @@ import { entitle } from './describe.js';
 import { byId, el, still } from './dom.js';
 import { buildForm } from './form.js';
 import { number, t, tell, word } from './i18n.js';
-import * as link from './link.js';
+import { follow, settled } from './orbit-ask.js';
 import { ends, integrals, own, requested, specs, thrown } from './orbit-fields.js';
 import { buildPicture, smooth } from './orbit-picture.js';
 import { plot } from './plot.js';
-import { drawn, physics, postJson } from './server.js';
+import { drawn, physics } from './server.js';
 
 const rows = pairs =>
   pairs
@@ -116,25 +116,10 @@ export async function openOrbits() {
   });
   label();
 
-  // Samples for a smooth path: each has 90 bytes on the wire. How often it goes round is known once there is one.
-  async function follow(orbit) {
-    const { series, ...answer } = await postJson('v1/orbits', orbit),
-      phi = series.columns.indexOf('phi'),
-      t_end = series.columns.indexOf('t'),
-      rows = series.rows.filter(row => row[t_end] != null), // all but the horizon
-      turns = Math.abs(rows.at(-1)[phi] - rows[0][phi]) / (2 * Math.PI),
-      samples = Math.min(Math.round(24 * turns), 3000);
-    if (samples > 1.2 * orbit.samples) return follow({ ...orbit, samples });
-    return { ...answer, column: name => rows.map(row => row[series.columns.indexOf(name)]) };
-  }
-
   const load = persistent(fault, 'orbits', follows, keep);
 
-  // What somebody does with the body by hand goes through the fields, so that a link and a keyboard can do the same.
-  function set(values) {
-    for (const [name, value] of Object.entries(values)) form.input(name).value = value; // all of them before any is told: between two there may be no orbit
-    for (const name of Object.keys(values)) form.input(name).dispatchEvent(new Event('change'));
-  }
+  // What somebody does with the body by hand goes through the fields, so that a link and a keyboard can do the same; all of it is one change.
+  const set = values => (form.put(values), load());
   const azimuth = ([x, y]) => Math.atan2(y, x);
   const digits = (x, n) => Number(x.toFixed(n));
 
@@ -142,7 +127,8 @@ export async function openOrbits() {
   function placed(at) {
     const a = Number(form.input('spin').value);
     run(false);
-    set({ orbit: thrown, r: digits(Math.sqrt(Math.max(at[0] ** 2 + at[1] ** 2 - a * a, 1)), 2), phi_deg: digits((azimuth(at) * 180) / Math.PI, 1) });
+    const r = Math.min(Math.sqrt(Math.max(at[0] ** 2 + at[1] ** 2 - a * a, 1)), form.input('r').max);
+    set({ orbit: thrown, r: digits(r, 2), phi_deg: digits((azimuth(at) * 180) / Math.PI, 1) });
     hint.textContent = t('Placed. Drag the body once more to throw it: the arrow is its velocity.', 'Posato. Trascina ancora il corpo per lanciarlo: la freccia è la sua velocità.');
   }
 
@@ -162,11 +148,8 @@ export async function openOrbits() {
     const turned = chosen && chosen !== integrals && orbit === integrals;
     chosen = orbit;
     if (!turned || !constants) return form.values();
-    for (const [name, value] of [['energy', constants.energy], ['angular_momentum', constants.angular_momentum], ['carter', constants.carter]]) {
-      form.input(name).value = Math.max(digits(value, 6), form.input(name).min);
-      link.set('orbit.' + name, form.input(name).value);
-    }
-    form.input('spin').value = digits(constants.spin, 3);
+    form.put(Object.fromEntries(['energy', 'angular_momentum', 'carter'].map(name => [name, Math.max(digits(constants[name], 6), form.input(name).min)])));
+    form.put({ spin: digits(constants.spin, 3) });
     return form.values();
   }
 
@@ -180,29 +163,17 @@ export async function openOrbits() {
       digits: 7, // a path is drawn over some thousand pixels
     };
     let said = '';
-    const edge = v.orbit === own ? (await physics('separatrix', { spin: v.spin, e: v.e, inclination_deg: v.inclination_deg })).values.p : 0,
-      share = Number(v.p) / edge;
-    if (share <= 1)
+    const { asked: whole, edge, share } = await settled(asked);
+    if (edge)
       said = t(
         `Within the separatrix, p = ${number(edge)} M, nothing turns back: shown is the plunge of a body with the energy of the last orbit that does, and ${number(Math.sqrt(share), 3)} of its angular momentum.`,
         `Dentro la separatrice, p = ${number(edge)} M, nulla torna indietro: si vede la caduta di un corpo con l’energia dell’ultima orbita che torna, e ${number(Math.sqrt(share), 3)} del suo momento angolare.`,
       );
-    const answer = await (share <= 1 ? plunge(asked, edge, share) : follow(asked));
+    const answer = await follow(whole);
     if (v.orbit !== thrown) (picture.free(), (hint.textContent = hints));
     await show(answer);
     byId('orbits').dataset.kept = false;
     byId('orbit-kept').textContent = said;
-  }
-
-  // What the rosette turns into: L^2 and Q fall as p does.
-  async function plunge(asked, edge, share) {
-    const { constants } = await postJson('v1/orbits', { ...asked, samples: 0, method: 'closed', orbit: { ...asked.orbit, p: edge * (1 + 1e-7) } }),
-      { duration: _, ...whole } = asked;
-    return follow({
-      ...whole,
-      method: asked.method === 'closed' ? 'yoshida6' : asked.method,
-      orbit: { energy: constants.energy, angular_momentum: constants.angular_momentum * Math.sqrt(share), carter: constants.carter * share },
-    });
   }
 
   // Where there is no such orbit the one before stays, under its own name.
@@ -220,7 +191,7 @@ export async function openOrbits() {
     samples = { t: column('t'), r: column('r'), error: column('energy_error'), point: x.map((_, i) => [x[i], y[i], z[i]]) };
     at = 0;
     shown = nameOf(answer);
-    picture.show(samples.point, horizon, t(`The orbit in space: ${shown}; ${word(answer.fate)}`, `L’orbita nello spazio: ${shown}; ${word(answer.fate)}`));
+    picture.show(samples.point, horizon, answer.spin, t(`The orbit in space: ${shown}; ${word(answer.fate)}`, `L’orbita nello spazio: ${shown}; ${word(answer.fate)}`));
     entitle('orbits', shown);
     byId('orbit-facts').replaceChildren(...facts(answer));
     byId('orbit-approximations').replaceChildren(...(answer.result.approximations ?? []).map(text => tell(el('li'), text)));
