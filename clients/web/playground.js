@@ -22,7 +22,7 @@ import { thrown } from './thrown.js';
 
 const paces = { minimum: 0.1, maximum: 1e6, unit: 'M per second', default: 100 };
 const arrow_px = 90; // of the reference speed, as in hands.js
-const first = 'swarm';
+const first = 'system';
 
 export async function openPlayground() {
   if (lang === 'it') learn(await import('./it-playground.js'));
