@@ -63,6 +63,7 @@ export function parts(root, known) {
     pictures = el('div', { id: 'play-pictures' }, stage, lensed),
     views = [['plan', t('From above', 'Dall’alto')], ['lensed', t('As light shows it', 'Come lo mostra la luce')], ['both', t('Both', 'Tutt’e due')]].map(([value, text]) => button('play-show-' + value, text, { value }));
   const told = el('p', { id: 'play-clock' }),
+    words = el('p', { id: 'play-words' }),
     said = el('p', { id: 'play-said', class: 'help', role: 'status' }),
     fault = el('p', { id: 'play-fault', class: 'fault', role: 'status' });
   const tilt = el('input', { type: 'range', id: 'play-tilt', min: 0, max: 80, value: 0 }),
@@ -108,11 +109,11 @@ export function parts(root, known) {
   root.replaceChildren(
     el('p', { class: 'lead' }, t('Throw bodies round the hole. The server moves them, tears stars apart and lets pairs spiral together.', 'Lancia corpi attorno al buco. Il server li muove, fa a pezzi le stelle e fa avvicinare le coppie a spirale.')),
     fault,
-    el('div', { class: 'play' }, el('div', { class: 'seen' }, el('div', { class: 'row views', role: 'group', 'aria-label': t('Show', 'Mostra') }, views), pictures, told, said, el('p', { class: 'help', id: 'play-how' }, keys())), panel, el('div', { class: 'told' }, events, charts)),
+    el('div', { class: 'play' }, el('div', { class: 'seen' }, el('div', { class: 'row views', role: 'group', 'aria-label': t('Show', 'Mostra') }, views), pictures, told, words, said, el('p', { class: 'help', id: 'play-how' }, keys())), panel, el('div', { class: 'told' }, events, charts)),
   );
   return {
     canvas, stage, lensed, pictures, views, nearer, farther, fit, tilt, middle, preset, help, again, pause, step, pace, rate, sound, heard, rules, waves, body, foretold,
-    approximations, takes, load, record, events, charts, said, fault,
+    approximations, takes, load, record, events, charts, words, said, fault,
     clock: clock(told),
     paused(yes) {
       pause.textContent = yes ? t('Go on', 'Riprendi') : t('Pause', 'Pausa');

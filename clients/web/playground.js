@@ -9,13 +9,14 @@ import { hands } from './hands.js';
 import { eventList } from './happened.js';
 import { lang, learn, number, preset as titled, said, t, tell } from './i18n.js';
 import { lensed } from './lensed.js';
-import { remembered } from './job.js';
 import * as link from './link.js';
 import { Plane } from './plane.js';
+import { seenOf } from './play-seen.js';
+import { buildTakes } from './play-takes.js';
 import { parts } from './playground-parts.js';
 import { rules } from './rules.js';
 import { Running } from './running.js';
-import { getJson, physics, take } from './server.js';
+import { getJson, physics } from './server.js';
 import { sheet } from './sheet.js';
 import { scale } from './slider.js';
 import { thrown } from './thrown.js';
@@ -23,6 +24,7 @@ import { thrown } from './thrown.js';
 const paces = { minimum: 0.1, maximum: 1e6, unit: 'M per second', default: 100 };
 const arrow_px = 90; // of the reference speed, as in hands.js
 const first = 'system';
+const roomy = matchMedia('(min-width: 64rem)'); // room for both pictures
 
 export async function openPlayground() {
   if (lang === 'it') learn(await import('./it-playground.js'));
@@ -159,6 +161,8 @@ export async function openPlayground() {
   );
 
   // What is shown.
+  // Whoever comes by no link sees the bodies from above and, where there is room, as light shows them.
+  const usual = () => (part.preset.value === first && roomy.matches ? 'both' : 'plan');
   const views = { plan: [true, false], lensed: [false, true], both: [true, true] };
   function show(name) {
     const [plan, light] = views[name] ?? views.plan;
@@ -166,7 +170,7 @@ export async function openPlayground() {
     part.stage.hidden = !plan;
     part.lensed.hidden = !light;
     part.pictures.dataset.both = plan && light;
-    link.set('play.show', name === 'plan' ? null : name);
+    link.set('play.show', name === usual() ? null : name);
     picture.show(light);
     plane.redraw();
   }
@@ -197,30 +201,13 @@ export async function openPlayground() {
     begin();
   });
   part.again.addEventListener('click', () => begin());
-  for (const [button, what, name, type] of part.takes) button.addEventListener('click', () => act(() => take(running.address(what), name, type)));
-  // Films, once somebody looks.
-  let films = null;
-  const filmed = part.record.closest('details');
-  const record = () =>
-    filmed.open &&
-    (films ??= import('./record.js')
-      .then(({ recordPlay }) => recordPlay(part.record, running, () => ({ width: part.pictures.clientWidth, height: part.pictures.clientHeight })))
-      .catch(() => (films = null)));
-  filmed.addEventListener('toggle', record);
-  if (remembered('play-film')) filmed.open = true;
-  part.load.addEventListener('change', async () => {
-    const [file] = part.load.files;
-    if (!file) return;
-    await act(async () => {
-      const whole = { rate: running.state?.rate, ...JSON.parse(await file.text()) },
-        before = [given, part.preset.value];
-      [given, part.preset.value] = [whole, ''];
-      await running.begin(whole).catch(error => {
-        [given, part.preset.value] = before;
-        throw error;
-      });
+  buildTakes(part, running, act, async whole => {
+    const before = [given, part.preset.value];
+    [given, part.preset.value] = [whole, ''];
+    await running.begin(whole).catch(error => {
+      [given, part.preset.value] = before;
+      throw error;
     });
-    part.load.value = ''; // the same file may be chosen once more
   });
 
   running.addEventListener('begun', ({ detail: state }) => {
@@ -233,6 +220,7 @@ export async function openPlayground() {
     fit();
     entitle('playground', given ? t('a snapshot', 'un’istantanea') : titled(part.preset.value, preset()?.title));
     tell(part.help, given ? '' : (preset()?.title ?? ''));
+    part.words.textContent = given ? '' : seenOf(part.preset.value);
     if (state.settings.gravity === 'kerr')
       physics('kerr', { spin: state.settings.spin }).then(({ values: v }) => {
         plane.radii = { horizon: v.horizon, photons: v.photon_prograde, bound: v.marginally_bound, isco: v.isco };
@@ -294,6 +282,6 @@ export async function openPlayground() {
   });
 
   part.preset.value = known.presets.find(({ name }) => name === link.get('play.preset'))?.name ?? first;
-  show(link.get('play.show') ?? 'plan');
+  show(link.get('play.show') ?? usual());
   await begin();
 }
