@@ -1,38 +1,14 @@
 // The session's events tell, frame by frame, the light of a picture and that part of it which is kept apart: its curve, where its middle goes, and how it is polarised.
-import { byId, el, svg } from './dom.js';
-import { number, said, t } from './i18n.js';
+import { byId, el } from './dom.js';
+import { said, t } from './i18n.js';
 import { apart } from './living.js';
-import { numbers } from './numbers.js';
 import { plot } from './plot.js';
+import { drawing, drawTrack } from './track.js';
 
 const kept = 1500; // points, at 20 to 45 a second
 const pace_ms = 200; // between two drawings
 
 const far = scene => scene.get('camera.r') === 'infinity';
-
-// Draws places in a plane to scale, that of 0 in its middle, with a bar; names: of its axes, where they are to be told.
-function drawTrack(picture, points, unit, names = []) {
-  const track = points.filter(([x, y]) => x != null && y != null);
-  const reach = 1.25 * Math.max(...track.flat().map(Math.abs), 1e-6),
-    k = 100 / reach,
-    bar = 10 ** Math.floor(Math.log10(reach)),
-    at = ([x, y]) => `${(x * k).toFixed(2)} ${(-y * k).toFixed(2)}`;
-  picture.replaceChildren(
-    svg('path', { class: 'cross', d: 'M-4 0H4M0 -4V4' }),
-    svg('path', { class: 'track', d: track.length > 1 ? 'M' + track.map(at).join('L') : '' }),
-    ...track.slice(-1).map(([x, y]) => svg('circle', { class: 'body', r: 2.5, cx: x * k, cy: -y * k })),
-    svg('path', { class: 'bar', d: `M${(-bar * k) / 2} 88H${(bar * k) / 2}` }),
-    svg('text', { class: 'axis', x: 0, y: 97, 'text-anchor': 'middle' }, `${number(bar)} ${unit}`),
-    ...names.map((name, i) => svg('text', { class: 'axis', x: i ? 0 : 94, y: i ? -90 : 3, 'text-anchor': 'middle' }, name)),
-  );
-}
-
-// A figure of such a drawing, with what there is to be said of it and its numbers.
-function drawing(id, note) {
-  const picture = svg('svg', { class: 'rosette', viewBox: '-100 -100 200 200', role: 'img', 'aria-labelledby': id }),
-    list = numbers(id);
-  return { picture, list, figure: el('figure', { class: 'plot' }, el('figcaption', { id }), picture, el('p', { class: 'help' }, note), list) };
-}
 
 export function buildLight(root, scene) {
   const curve = plot(),
@@ -40,8 +16,8 @@ export function buildLight(root, scene) {
     loop = drawing(
       'loop-caption',
       t(
-        'Stokes Q to the right, U upwards, in the unit of the flux; the cross is unpolarised light. Q > 0: the electric field lies up and down in the picture; U > 0: from the lower right to the upper left.',
-        'Q di Stokes verso destra, U in alto, nell’unità del flusso; la croce è luce non polarizzata. Q > 0: il campo elettrico sta in verticale nell’immagine; U > 0: da in basso a destra a in alto a sinistra.',
+        'Stokes Q to the right, U upwards, in the unit of the flux; the cross is unpolarised light. The line through the dot lies as the electric field does in the picture: up and down for Q > 0, from the lower right to the upper left for U > 0.',
+        'Q di Stokes verso destra, U in alto, nell’unità del flusso; la croce è luce non polarizzata. La linea attraverso il punto sta come il campo elettrico nell’immagine: in verticale per Q > 0, da in basso a destra a in alto a sinistra per U > 0.',
       ),
     );
   loop.figure.hidden = true;
@@ -90,7 +66,8 @@ export function buildLight(root, scene) {
     loop.figure.hidden = !polarised;
     if (!polarised) return;
     byId('loop-caption').textContent = t(`How this light is polarised: ${name}`, `Come è polarizzata questa luce: ${name}`);
-    drawTrack(loop.picture, points.map(p => p.stokes ?? [null, null]), area, ['Q', 'U']);
+    const [q, u] = points.at(-1).stokes;
+    drawTrack(loop.picture, points.map(p => p.stokes ?? [null, null]), area, ['Q', 'U'], 0.5 * Math.atan2(u, q));
     const columns = [
       ['Q', p => p.stokes?.[0]],
       ['U', p => p.stokes?.[1]],

@@ -24,7 +24,7 @@ import { thrown } from './thrown.js';
 const paces = { minimum: 0.1, maximum: 1e6, unit: 'M per second', default: 100 };
 const arrow_px = 90; // of the reference speed, as in hands.js
 const first = 'system';
-const roomy = matchMedia('(min-width: 64rem)'); // room for both pictures
+const roomy = matchMedia('(min-width: 75rem)'); // room for both pictures
 
 export async function openPlayground() {
   if (lang === 'it') learn(await import('./it-playground.js'));

@@ -171,14 +171,20 @@ class Living(Browser):
     def test_the_loop_of_a_polarised_spot(self):
         page = self.open('lang=en&preset=hot-spot&polarization.model=synchrotron&polarization.field=vertical&motion.time_rate=40', '#light canvas')
         loop = page.locator('#light figure', has=page.locator('#loop-caption'))
-        loop.locator('.track').wait_for(state='attached')
-        self.assertTrue(daemon.eventually(lambda: len(loop.locator('.track').get_attribute('d')) > 100))
+        loop.locator('.track').last.wait_for(state='attached')
+        self.assertTrue(daemon.eventually(lambda: len(''.join(loop.locator('.track').evaluate_all('all => all.map(node => node.getAttribute("d"))'))) > 500))
         self.assertEqual((loop.locator('figcaption').inner_text(), loop.locator('svg .axis').all_text_contents()[1:]), ('How this light is polarised: spots', ['Q', 'U']))
         loop.locator('summary').click()
         loop.locator('tbody tr >> nth=3').wait_for()
         rows = [[value(cell) for cell in row.split('\t')[1:]] for row in loop.locator('tbody tr').all_inner_texts()]
         self.assertTrue(any(math.hypot(q, u) > 1 for q, u, *_ in rows), rows)
         page.click('#play')
+        page.wait_for_timeout(500)  # the last frame is drawn
+        # The line through the dot: half the angle that the dot is seen under, from upwards to the left (docs/physics/polarization.md).
+        line, x, y = loop.evaluate("""node => [node.querySelector('.field').getAttribute('d').match(/[-\\d.e]+/g).map(Number), ...['cx', 'cy'].map(name => Number(node.querySelector('.body').getAttribute(name)))]""")
+        lean = math.degrees(math.atan2(line[0] - line[2], line[1] - line[3]))
+        off = (lean - math.degrees(math.atan2(-y, x)) / 2) % 180
+        self.assertLess(min(off, 180 - off), 0.1, (line, x, y))
         self.shot(page, 'polarised-spot')
 
     def test_no_light_curve_of_a_ring(self):
