@@ -23,7 +23,7 @@ import { thrown } from './thrown.js';
 
 const paces = { minimum: 0.1, maximum: 1e6, unit: 'M per second', default: 100 };
 const arrow_px = 90; // of the reference speed, as in hands.js
-const first = 'system';
+const first = 'system'; // the swarm's answer alone has 33 kB
 const roomy = matchMedia('(min-width: 75rem)'); // room for both pictures
 
 export async function openPlayground() {

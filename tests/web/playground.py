@@ -248,6 +248,18 @@ class Playground(Browser):
         self.assertEqual(left, [])
         self.assertGreater(len(texts), 30)
 
+    def test_what_one_sees_is_said(self):
+        """Of each preset, in both languages; without a link both pictures are shown where there is room, and time goes on at once."""
+        for lang in ('en', 'it'):
+            page = self.open('view=playground&lang=' + lang, '#play-plane[data-bodies]', viewport={'width': 1440, 'height': 900})
+            page.wait_for_selector('#play-lensed img[src]')
+            self.assertEqual(page.get_attribute('#play-show-both', 'aria-pressed'), 'true')
+            self.assertTrue(daemon.eventually(lambda: float(page.get_attribute('#play-clock', 'data-t') or 0) > 0))
+            names = page.locator('#play-preset option:not([hidden])').evaluate_all('all => all.map(o => o.value)')
+            told = page.evaluate('async names => { const { seenOf } = await import("./web/play-seen.js"); return names.map(seenOf); }', names)
+            self.assertEqual([name for name, text in zip(names, told) if len(text) < 60], [])
+            self.assertIn(page.inner_text('#play-words'), told)
+
     def test_as_light_shows_it(self):
         page = self.open_play('lang=en&play.preset=disruption&play.paused=1&play.show=both')
         page.wait_for_selector('#play-lensed img[src]')
