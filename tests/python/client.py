@@ -146,6 +146,7 @@ class Blocking(Case):
             self.assertTrue(all(a.number < b.number for a, b in zip(frames + after, (frames + after)[1:])))
             self.assertTrue(np.array_equal(after[-1].array, self.hole.render(live.scene).array))
             self.assertIsNone(live.frame(wait=0.1))
+            self.assertEqual(list(live), [], 'there is nothing more to come')
             name = live.id
         self.assertEqual(raw(self.hole.url, 'GET', f'/v1/sessions/{name}')[0], 404)
 

@@ -158,6 +158,7 @@ class AsyncSession:
         self.revision: int = opened["revision"]
         self.quality = quality
         self._seen = 0
+        self._final = 0  # the revision whose finest frame has been seen
 
     async def __aenter__(self) -> AsyncSession:
         return self
@@ -184,16 +185,16 @@ class AsyncSession:
         frame = await self.client._run(calls.next_frame(self.id, self._seen, self.quality, int(1000 * wait)))
         if frame is not None:
             self._seen = frame.number
+            if frame.final:
+                self._final = frame.revision
         return frame
 
     async def __aiter__(self) -> AsyncIterator[Frame]:
-        """Frames as they come, the finest one of a scene that rests last; goes on while time does."""
-        while True:
+        """Frames as they come, up to the finest one of a scene that rests, if that has not been seen yet; where time goes on, without end."""
+        while self._moves() or self._final < self.revision:
             frame = await self.frame()
             if frame is not None:
                 yield frame
-                if frame.final and frame.revision >= self.revision and not self._moves():
-                    return
 
     def _moves(self) -> bool:
         return any(self.scene.get("motion", {}).values())
