@@ -86,7 +86,10 @@ class Cluster(unittest.TestCase):
         scenes = kerrd.dask.scenes_of(SCENE, {'spacetime.spin': [0, 0.9], 'camera.inclination_deg': [30, 60]})
         got = kerrd.sweep(scenes, self.dask, layers=['r', 'rgb'], binary=KERRD)
         with tempfile.TemporaryDirectory() as folder, kerrd.local(binary=KERRD) as hole:
-            store = kerrd.sweep(scenes, self.dask, layers=['r', 'rgb'], zarr=pathlib.Path(folder) / 'sweep.zarr', binary=KERRD)
+            store = kerrd.sweep(scenes, self.dask, layers=['r', 'rgb'], zarr=pathlib.Path(folder) / 'sweep.zarr', batch=2, binary=KERRD)
+            for batch in (2, 3, 100):
+                some = kerrd.sweep(scenes, self.dask, layers=['r', 'rgb'], batch=batch, binary=KERRD)
+                self.assertTrue(all(np.array_equal(a['r'], b['r'], equal_nan=True) for a, b in zip(got, some, strict=True)), batch)
             cube = hole.sweep(SCENE, {'spacetime.spin': [0, 0.9], 'camera.inclination_deg': [30, 60]}, layers=['r', 'rgb'])
             for name in ('r', 'rgb'):
                 whole = cube[name].reshape(4, *cube[name].shape[2:])

@@ -59,6 +59,11 @@ class Servers(WorkerPlugin):
             return self._hole
 
 
+def _render_all(plugin_name: str, documents: Sequence[Document], preset: str | None, layers: Sequence[str], paths: Sequence[str | None]) -> list[Any]:
+    """A task: some scenes one after the other."""
+    return [_render(plugin_name, document, preset, layers, path) for document, path in zip(documents, paths)]
+
+
 def _render(plugin_name: str, document: Document, preset: str | None, layers: Sequence[str], to: str | None) -> Any:
     """On a worker: a picture's bytes or the numbers of its layers; with `to` they go into that file, whose name is returned. A server that dies meanwhile is started anew, once."""
     plugin = cast(Servers, get_worker().plugins[plugin_name])
@@ -92,12 +97,12 @@ def scenes_of(scene: SceneLike, axes: Mapping[str, Iterable[Any]]) -> list[Docum
 
 
 def sweep(scenes: Iterable[SceneLike], client: Cluster | None = None, *, preset: str | None = None, layers: Sequence[str] = (), folder: str | os.PathLike[str] | None = None,
-          zarr: str | os.PathLike[str] | None = None, retries: int = 3, **options: Any) -> Any:
+          zarr: str | os.PathLike[str] | None = None, retries: int = 3, batch: int | None = None, **options: Any) -> Any:
     """Renders scenes on a cluster, in order of their places in the list.
 
     Returns PNG bytes for each; with `layers` a dict of float32 arrays for each. folder: the files 000000.png (or .npz) … there instead, a folder that all workers share; returns their
     paths, and one that is there already is kept, so that a sweep that broke off goes on. zarr: a store that all workers share instead, an array (scenes, height, width[, 3]) a layer; returns its group; needs the
-    package zarr, and scenes of one size. client: a distributed.Client, else the current one. options: of the workers' servers (Servers). A scene that is refused raises kerrd.Problem; what a worker that died
+    package zarr, and scenes of one size. batch: scenes a task, which Dask hands out; None: some thirty tasks a thread, of at most 16 scenes. client: a distributed.Client, else the current one. options: of the workers' servers (Servers). A scene that is refused raises kerrd.Problem; what a worker that died
     had not finished is done by others, and by the same one again at most `retries` times.
     """
     cluster = client if client is not None else get_client()
@@ -105,14 +110,17 @@ def sweep(scenes: Iterable[SceneLike], client: Cluster | None = None, *, preset:
     cluster.register_plugin(servers)
     documents = [scene_of(scene, {}) for scene in scenes]
     if zarr is not None:
-        return _into_zarr(cluster, servers.name, documents, preset, layers or ("rgb",), zarr, retries)
+        return _into_zarr(cluster, servers.name, documents, preset, layers or ("rgb",), zarr, retries, batch)
     paths: list[str | None] = [None] * len(documents)
     if folder is not None:
         Path(folder).mkdir(parents=True, exist_ok=True)
         paths = [str(Path(folder).resolve() / f"{k:06}.{'npz' if layers else 'png'}") for k in range(len(documents))]
     missing = [k for k, path in enumerate(paths) if path is None or not os.path.exists(path)]
-    futures = cluster.map(_render, [servers.name] * len(missing), [documents[k] for k in missing], [preset] * len(missing), [tuple(layers)] * len(missing), [paths[k] for k in missing], retries=retries, pure=False)
-    got = _gather(cluster, futures)
+    parts = _parts(cluster, missing, batch)
+    n = len(parts)
+    futures = cluster.map(_render_all, [servers.name] * n, [[documents[k] for k in part] for part in parts], [preset] * n, [tuple(layers)] * n, [[paths[k] for k in part] for part in parts],
+                          retries=retries, pure=False)
+    got = list(itertools.chain.from_iterable(_gather(cluster, futures)))
     if folder is None:
         return got
     for left in Path(folder).glob("*.part"):  # by workers that died
@@ -120,17 +128,25 @@ def sweep(scenes: Iterable[SceneLike], client: Cluster | None = None, *, preset:
     return paths
 
 
-def _place(plugin_name: str, k: int, document: Document, preset: str | None, layers: Sequence[str], store: str) -> int:
-    """On a worker: the numbers of scene k into its place of the store."""
+def _parts(cluster: Cluster, places: Sequence[int], batch: int | None) -> list[Sequence[int]]:
+    """Places of scenes, a task each."""
+    threads = max(sum(cluster.nthreads().values()), 1)  # type: ignore[no-untyped-call]
+    size = batch if batch is not None else min(max(len(places) // (32 * threads), 1), 16)
+    return [places[k : k + size] for k in range(0, len(places), size)]
+
+
+def _place(plugin_name: str, places: Sequence[int], documents: Sequence[Document], preset: str | None, layers: Sequence[str], store: str) -> None:
+    """A task: the numbers of some scenes into their places of the store."""
     import zarr
 
     group = zarr.open_group(store, mode="r+")
-    for name, array in _render(plugin_name, document, preset, layers, None).items():
-        cast(Any, group[name])[k] = array
-    return k
+    for k, document in zip(places, documents):
+        for name, array in _render(plugin_name, document, preset, layers, None).items():
+            cast(Any, group[name])[k] = array
 
 
-def _into_zarr(cluster: Cluster, plugin_name: str, documents: list[Document], preset: str | None, layers: Sequence[str], store: str | os.PathLike[str], retries: int) -> Any:
+def _into_zarr(cluster: Cluster, plugin_name: str, documents: list[Document], preset: str | None, layers: Sequence[str], store: str | os.PathLike[str], retries: int,
+               batch: int | None) -> Any:
     import zarr
 
     path = str(Path(store).resolve())
@@ -139,6 +155,7 @@ def _into_zarr(cluster: Cluster, plugin_name: str, documents: list[Document], pr
     for name, array in first.items():
         group.create_array(name, shape=(len(documents), *array.shape), chunks=(1, *array.shape), dtype=array.dtype, fill_value=np.nan)
         cast(Any, group[name])[0] = array
-    n = len(documents) - 1
-    _gather(cluster, cluster.map(_place, [plugin_name] * n, range(1, n + 1), documents[1:], [preset] * n, [tuple(layers)] * n, [path] * n, retries=retries, pure=False))
+    parts = _parts(cluster, range(1, len(documents)), batch)
+    n = len(parts)
+    _gather(cluster, cluster.map(_place, [plugin_name] * n, parts, [[documents[k] for k in part] for part in parts], [preset] * n, [tuple(layers)] * n, [path] * n, retries=retries, pure=False))
     return zarr.open_group(path, mode="r")
