@@ -172,7 +172,7 @@ class Pages(Browser):
             from axe_playwright_python.sync_playwright import Axe
         except ImportError:
             self.skipTest('axe-playwright-python is not installed')
-        scenes = [(view, f'view={view}&over=shadow&play.paused=1', READY[view]) for view in VIEWS] + [('spot', 'preset=hot-spot&pause=1', '#light .track')]
+        scenes = [(view, f'view={view}&over=shadow&play.paused=1', READY[view]) for view in VIEWS] + [('spot', 'preset=hot-spot&pause=1', '#light .body')]
         for view, fragment, there in scenes:
             for lang in ('en', 'it'):
                 with self.subTest(view=view, lang=lang):

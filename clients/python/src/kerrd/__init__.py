@@ -21,4 +21,3 @@ def sweep(scenes: Any, client: Any = None, **more: Any) -> Any:
     from .dask import sweep as on_cluster
 
     return on_cluster(scenes, client, **more)
-
