@@ -87,9 +87,9 @@ class Memory(unittest.TestCase):
 
     @staticmethod
     def plain(answer):
-        """Without what a job says of its frame, which may have had no memory, or be done already."""
+        """Without what a job or a session says of its frame, which may have had no memory, or be done already."""
         document = answer.json()
-        return {k: v for k, v in document.items() if k not in ('remaining_s', 'delayed', 'ended')} if isinstance(document, dict) else document
+        return {k: v for k, v in document.items() if k not in ('remaining_s', 'delayed', 'ended', 'rendering')} if isinstance(document, dict) else document
 
     def sweep(self, ask, status):
         for _ in range(3):
