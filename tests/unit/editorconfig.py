@@ -20,7 +20,7 @@ def texts(root):
         if where in LEFT_OUT or "build.ninja" in names or "pyvenv.cfg" in names:
             folders.clear()
             continue
-        folders[:] = sorted(name for name in folders if name == ".ci" or not name.startswith((".", "__")))
+        folders[:] = sorted(name for name in folders if name == ".ci" or not name.startswith((".", "__")) and not name.endswith(".egg-info"))
         for name in sorted(names):
             path = pathlib.Path(folder) / name
             if path.suffix in SUFFIXES and (not name.startswith(".") or name in {".editorconfig", ".gitignore"}) and not path.is_symlink():
