@@ -156,17 +156,16 @@ static void pieces_change_nothing(void **state)
 static void to_its_end_instead(void **state)
 {
     (void)state;
-    static const char *const bodies[] = { "{\"samples\":20,\"orbit\":{\"case\":\"plunge\"}%s}",
-                                          "{\"samples\":20,\"orbit\":{\"position\":{\"r\":10},\"velocity\":{\"v_r\":0.9}}%s}" };
+#define PLUNGE "{\"samples\":20,\"orbit\":{\"case\":\"plunge\"}"
+#define ESCAPE "{\"samples\":20,\"orbit\":{\"position\":{\"r\":10},\"velocity\":{\"v_r\":0.9}}"
+#define PERIODS ",\"duration\":{\"periods\":3,\"or_end\":true}}"
+    static const char *const bodies[][2] = { { PLUNGE "}", PLUNGE PERIODS }, { ESCAPE "}", ESCAPE PERIODS } };
     for (size_t i = 0; i < COUNT(bodies); i++) {
         struct kd_orbit_request request[2];
         struct kd_orbit_run run[2];
         struct kd_orbit_sample *samples[2];
-        for (int k = 0; k < 2; k++) {
-            char text[200];
-            snprintf(text, sizeof text, bodies[i], k ? ",\"duration\":{\"periods\":3,\"or_end\":true}" : "");
-            samples[k] = follow(text, UINT64_MAX, &request[k], &run[k]);
-        }
+        for (int k = 0; k < 2; k++)
+            samples[k] = follow(bodies[i][k], UINT64_MAX, &request[k], &run[k]);
         assert_memory_equal(samples[0], samples[1], 20 * sizeof **samples);
         for (int k = 0; k < 2; k++) {
             kd_orbit_request_finish(&request[k]);
