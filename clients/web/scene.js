@@ -9,12 +9,13 @@ const tick_ms = 100;
 const patience_ms = 1000;
 const link_ms = 1000;
 const hand_ms = 200; // without a move, after which a hand rests
+const aside = ['tile']; // sections that the page has no use for: it shows whole pictures
 const known = ['view', 'lang', 'over', 'preset', 'pause', 'full', 'look', 'pace']; // what a link has without a dot
 
 // Elements of a list have paths of their own: spots.0.r.
 function* flatten(schema, prefix = '') {
   for (const [name, spec] of Object.entries(schema.properties)) {
-    if (spec.deprecated) continue;
+    if (spec.deprecated || aside.includes(name)) continue;
     if (spec.items?.properties) for (let i = 0; i < spec.maxItems; i++) yield* flatten(spec.items, `${prefix}${name}.${i}.`);
     else if (spec.properties) yield* flatten(spec, `${prefix}${name}.`);
     else if (!('const' in spec))

@@ -118,7 +118,7 @@ place next(place at)
 }
 
 /* A threshold in [0, 1) that depends on the place alone: interleaved gradient noise (J. Jimenez 2014). */
-float threshold(place at) { return fract(52.9829189 * fract(0.06711056 * at.x + 0.00583715 * at.y)); }
+float threshold(place at) { return fract(52.9829189 * fract(0.06711056 * (at.x + push.left) + 0.00583715 * (at.y + push.top))); }
 
 /* A lens spreads this to the four pixels of an invocation. */
 struct spread { vec3 a, b, c, d; };

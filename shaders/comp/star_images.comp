@@ -187,7 +187,8 @@ struct kd_star_pixel { vec2 place; float steps, share, energy; };
 
 kd_star_pixel spot_at(uint x, uint y, vec2 p)
 {
-    kd_star_pixel o = kd_star_pixel(vec2(x, y) + p, 1.0, 1.0, 1.0);
+    const uint px = x + push.column0, py = y + push.row0;
+    kd_star_pixel o = kd_star_pixel(vec2(px, py) + p, 1.0, 1.0, 1.0);
     if (AT_RIM) {
         kd_rim_cell cell = kd_rim_cell_at(x, y, p);
         kd_seen seen = kd_camera_seen(cell.d);
@@ -197,9 +198,9 @@ kd_star_pixel spot_at(uint x, uint y, vec2 p)
         o.energy = cam.e_t - (cam.e_r * cell.d.x + cam.e_theta * cell.d.y + cam.e_phi * cell.d.z) * inversesqrt(dot(cell.d, cell.d));
         return o;
     }
-    o.energy = kd_camera_ray(x, y + push.row0).e;
+    o.energy = kd_camera_ray(px, py).e;
     if (RIM == 1u)
-        o.share = 1.0 - kd_rim_share(kd_rim_place(kd_camera_look(vec2(x, y + push.row0) + p)));
+        o.share = 1.0 - kd_rim_share(kd_rim_place(kd_camera_look(vec2(px, py) + p)));
     return o;
 }
 

@@ -46,7 +46,7 @@ vec3 down(vec3 n, uint at, uint y)
 }
 
 /* Whether others have all images there: the rim, or another of its grids. */
-bool is_left_out(uint x, uint y) { return AT_RIM ? kd_rim_part(vec2(x, y), 0.7) <= 0.0 : RIM == 1u && kd_rim_share(kd_rim_place(kd_camera_look(vec2(x, y + push.row0)))) >= 1.0; }
+bool is_left_out(uint x, uint y) { return AT_RIM ? kd_rim_part(vec2(x, y), 0.7) <= 0.0 : RIM == 1u && kd_rim_share(kd_rim_place(kd_camera_look(vec2(x + push.column0, y + push.row0)))) >= 1.0; }
 
 void search(uint at)
 {

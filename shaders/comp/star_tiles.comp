@@ -107,7 +107,7 @@ float area(kd_tile t, vec2 p)
     return abs((du.x * dv.y - du.y * dv.x) * t.det) * (1.0 / float(HALF * HALF));
 }
 
-/* The light of star k, whose place is that many rays from the middle one of a tile, which is the ray (x, y); magnified: its flux, over the sky that a pixel is mapped to. Where
+/* The light of star k, whose place is that many rays from the middle one of a tile, which is the ray (x, y) of the picture; magnified: its flux, over the sky that a pixel is mapped to. Where
  * two tiles meet each has a share of it, which goes from 0 to 1 over a fifth of a step, as that of two rays (star_images.comp): their maps differ a little there. */
 void shine(uint x, uint y, vec2 place, uint k, float magnified, bool bright)
 {
@@ -115,7 +115,7 @@ void shine(uint x, uint y, vec2 place, uint k, float magnified, bool bright)
     if (!bright || share.x * share.y <= 0.0)
         return;
     ivec2 near = ivec2(floor(place + 0.5));
-    float energy = FINITE ? kd_camera_ray(uint(int(x) + near.x), uint(int(y) + near.y) + push.row0).e : 1.0;
+    float energy = FINITE ? kd_camera_ray(uint(int(x) + near.x), uint(int(y) + near.y)).e : 1.0;
     vec3 colour = kd_sky_shifted(star_numbers[4u * push.stars + k], 1.0 / energy, VISIBLE ? KD_TRAIT_VISIBLE : 0u);
     kd_star_spread((vec2(x, y) + place + 0.5) / float(SIDE) - 0.5, emission.sky.brightness * magnified * share.x * share.y * colour);
 }
@@ -159,7 +159,7 @@ bool is_left_out(uint x, uint y)
         return false;
     float least = 1.0;
     for (int k = 0; k < 4; k++) {
-        vec2 corner = vec2(x, y + push.row0) - 0.6 + (float(TILE) + 0.2) * vec2(k & 1, k >> 1);
+        vec2 corner = vec2(x + push.column0, y + push.row0) - 0.6 + (float(TILE) + 0.2) * vec2(k & 1, k >> 1);
         least = min(least, kd_rim_share(kd_rim_place(kd_camera_look(corner))));
     }
     return least >= 1.0;
@@ -199,7 +199,7 @@ void seek(uint x, uint y)
         place = place_of(t, place);
         float patch_ = area(t, place);
         if (BRIGHT)
-            shine(x + uint(HALF), y + uint(HALF), place * float(HALF), walk.k - 1u, star.w * dot(star.xyz, t.n) / (patch_ * float(SIDE * SIDE)), star.w > unit * patch_);
+            shine(x + push.column0 + uint(HALF), y + push.row0 + uint(HALF), place * float(HALF), walk.k - 1u, star.w * dot(star.xyz, t.n) / (patch_ * float(SIDE * SIDE)), star.w > unit * patch_);
         else
             note(at, place * float(HALF), walk.k - 1u, star.w > 0.8 * unit * patch_);
     }

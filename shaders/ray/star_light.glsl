@@ -18,14 +18,14 @@ void kd_star_add(uint o, float light)
 /* Those of the pixel before, at and after a place that is d from the middle one. */
 vec3 kd_star_weights(float d) { return vec3(0.5 * (0.5 - d) * (0.5 - d), 0.75 - d * d, 0.5 * (0.5 + d) * (0.5 + d)); }
 
-/* In pixels of the band. */
+/* In pixels of the picture. */
 void kd_star_spread(vec2 place, vec3 light)
 {
     vec2 middle = floor(place + 0.5);
     vec3 wx = kd_star_weights(place.x - middle.x), wy = kd_star_weights(place.y - middle.y);
     int pixels_x = int(emission.frame.pixels_x), pixels_y = int(push.pixels_y);
     for (int k = 0; k < 9; k++) {
-        int r = k / 3, c = k - 3 * r, px = int(middle.x) + c - 1, py = int(middle.y) + r - 1 + int(push.up);
+        int r = k / 3, c = k - 3 * r, px = int(middle.x) + c - 1 + int(push.aside), py = int(middle.y) + r - 1 + int(push.up);
         if (px >= 0 && px < pixels_x && py >= 0 && py < pixels_y) {
             uint o = KD_STAR_LIGHT * uint(py * pixels_x + px);
             vec3 part = min((r == 0 ? wy.x : r == 1 ? wy.y : wy.z) * (c == 0 ? wx.x : c == 1 ? wx.y : wx.z) * light, vec3(1e9));

@@ -64,12 +64,12 @@
     U(rows)                 /* all of them */                                                                  \
     U(first) U(end)         /* those that are wanted */                                                        \
     U(stride)               /* rays from plane to plane */                                                     \
-    U(row0)                 /* row of the picture's rays that the first of the buffer is */                    \
+    U(row0) U(column0)      /* row and column of the picture's rays that the first of the buffer is */         \
     U(room)                 /* pairs of a ray and a star that there is room for, */                            \
     U(tiles)                /* and small tiles */                                                              \
     U(stars)                /* places in their list: their temperatures lie behind directions and fluxes */ \
     U(pixels_y)             /* rows of pixels that light is written to */                                      \
-    U(up)                   /* added to rows of pixels of the buffer, as a 32-bit integer of either sign: those of the light */ \
+    U(up) U(aside)          /* added to rows and columns of pixels of the picture, as 32-bit integers of either sign: those of the light */ \
     U(rim)                  /* of the rim, where the table of the grid at hand begins (render/view/rim_grid.h) */ \
                             /* how far its first row is from the curve, and by how much that falls from row to row; numbers of rim.h */ \
     F(far) F(fall) F(none) F(full)                                                                             \
@@ -119,6 +119,7 @@
     U(pixels)                /* of the band */                                                                 \
     U(first)                 /* index of the band's first pixel in the picture */                              \
     U(pixels_x)                                                                                                \
+    F(left) F(top)           /* of a tile, its first pixel in the picture */                                   \
     F(bloom)                 /* share of light over white that is spread; this and what follows with bloom only */ \
     F(scale_x) F(scale_y)    /* cells a pixel */                                                               \
     U(cells_x) U(cells_y)

@@ -11,12 +11,13 @@
 
 #define PICTURE_MAX ((size_t)1 << 30)
 
-enum { KEY_PRESET = 'p', KEY_SET = 's', KEY_FROM = 'f', KEY_SIZE = 0x2000, KEY_ASSET };
+enum { KEY_PRESET = 'p', KEY_SET = 's', KEY_FROM = 'f', KEY_SIZE = 0x2000, KEY_ASSET, KEY_TILE };
 
 static const struct argp_option options_table[] = {
     { "preset", KEY_PRESET, "NAME", 0, "start from a preset (`kerrd presets` lists them)", 0 },
     { "set", KEY_SET, "PATH=VALUE", 0, "set one field, as in camera.inclination_deg=60; may be repeated", 0 },
     { "size", KEY_SIZE, "WIDTHxHEIGHT", 0, "of the picture, as in 1920x1080: --set image.width and image.height in one", 0 },
+    { "tile", KEY_TILE, "WIDTHxHEIGHT+LEFT+TOP", 0, "a part of it, as in 512x512+1024+0: --set image.tile.width and three more in one", 0 },
     { "asset", KEY_ASSET, "NAME=FILE", 0, "a PNG, or an NPZ of matter, that a field of the scene names so, as in sky.image=NAME or volume.grid=NAME; may be repeated", 0 },
     { "from", KEY_FROM, "PICTURE.png", 0, "take the scene from inside a picture that kerrd made", 0 },
     { 0 },
@@ -55,6 +56,32 @@ static void add_size(struct kd_scene_options *options, const char *text, struct 
         argp_error(state, "--size %s: it takes WIDTHxHEIGHT in pixels, as in 1920x1080", text);
 }
 
+/* "512x512+1024+0", likewise as the four fields that it means. */
+bool kd_scene_options_add_tile(struct kd_scene_options *options, const char *text)
+{
+    static const char *const names[] = { "width", "height", "left", "top" };
+    static const char *const before[] = { "", "xX", "+", "+" };
+    for (int i = 0; i < 4; i++) {
+        if (i && (!*text || !strchr(before[i], *text++)))
+            return false;
+        const size_t digits = strspn(text, "0123456789");
+        if (!digits || digits > 9)
+            return false;
+        snprintf(options->tile[i], sizeof options->tile[i], "image.tile.%s=%.*s", names[i], (int)digits, text);
+        text += digits;
+    }
+    bool added = !*text;
+    for (int i = 0; i < 4 && added; i++)
+        added = kd_scene_options_add_set(options, options->tile[i]);
+    return added;
+}
+
+static void add_tile(struct kd_scene_options *options, const char *text, struct argp_state *state)
+{
+    if (!kd_scene_options_add_tile(options, text))
+        argp_error(state, "--tile %s: it takes WIDTHxHEIGHT+LEFT+TOP in pixels, as in 512x512+1024+0", text);
+}
+
 static void add_asset(struct kd_scene_options *options, const char *text, struct argp_state *state)
 {
     struct kd_error error;
@@ -76,6 +103,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case KEY_PRESET: options->preset = text; return 0;
     case KEY_FROM: options->from = text; return 0;
     case KEY_SIZE: add_size(options, text, state); return 0;
+    case KEY_TILE: add_tile(options, text, state); return 0;
     case KEY_ASSET: add_asset(options, text, state); return 0;
     case KEY_SET:
         if (!strchr(text, '=') || text[0] == '=')

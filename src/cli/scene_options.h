@@ -17,7 +17,8 @@ struct kd_scene_options {
     const char **set; /* "path=value" */
     size_t n_set;
     struct kd_asset_options assets;
-    char width[32], height[32]; /* what --size is in that list */
+    char width[32], height[32]; /* what --size is in that list, */
+    char tile[4][40];           /* and --tile */
 };
 
 #define KD_SCENE_ARGS_DOC "[SCENE.json|-]"
@@ -35,6 +36,7 @@ enum kd_status kd_scene_options_merge(struct kd_scene_options *options, struct k
 /* Append one "path=value", and a size "1920x1080" as the two that it is; false: no memory, or no size. */
 bool kd_scene_options_add_set(struct kd_scene_options *options, const char *text);
 bool kd_scene_options_add_size(struct kd_scene_options *options, const char *text);
+bool kd_scene_options_add_tile(struct kd_scene_options *options, const char *text);
 void kd_scene_options_finish(struct kd_scene_options *options);
 
 #endif

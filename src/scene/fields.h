@@ -260,6 +260,12 @@
     WORD(image, layer_max, LOOK, REST, INFINITY, -1e12, 1e12, "1", "the same at their upper end", "auto")            \
     BOOL(image, legend, LOOK, REST, true, "a colour bar in the lower left corner of a layer in false colour")
 
+#define KD_TILE_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                    \
+    INT(tile, left, LOOK, REST, 0, 0, 32767, "pixels", "columns of the picture to its left")                          \
+    INT(tile, top, LOOK, REST, 0, 0, 32767, "pixels", "rows of the picture above it")                                 \
+    INT(tile, width, LOOK, REST, 0, 0, 32768, "pixels", "its width; 0: the whole picture is made, and no tile")       \
+    INT(tile, height, LOOK, REST, 0, 0, 32768, "pixels", "its height, likewise")
+
 #define KD_STYLE_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                   \
     ENUM(style, name, LOOK, FRONT, KD_STYLE_FILM,                                                                    \
          "a preset of what makes the look, which a document sets by naming it, but for the fields that it sets itself; none: nothing", \
@@ -324,13 +330,14 @@
     SECTION(polarization, KD_POLARIZATION_FIELDS, MORE, "how light is polarised: what layers and ticks show of it; of light from the disk's plane no picture does")     \
     SECTION(sky, KD_SKY_FIELDS, LOOK, "what lies at infinity")                                                       \
     SECTION(image, KD_IMAGE_FIELDS, MORE, "the size of the picture")                                                 \
+    SECTION(tile, KD_TILE_FIELDS, MORE, "a part of the picture, made by itself, the same to the byte as there")      \
     SECTION(style, KD_STYLE_FIELDS, LOOK, "from brightness to the colours of the file")                              \
     SECTION(motion, KD_MOTION_FIELDS, CAMERA, "what goes on by itself in a live session; a still picture knows none of it") \
     SECTION(accuracy, KD_ACCURACY_FIELDS, MORE, "how closely the rays are followed")                                 \
     SECTION(top, KD_TOP_FIELDS, CAMERA, "members of the document itself")
 
 /* Sections that stand in another one, whose member they are in documents: PART(s, name, section); s is handed through. */
-#define KD_SCENE_PARTS(PART, s) PART(s, gas, disk)
+#define KD_SCENE_PARTS(PART, s) PART(s, gas, disk) PART(s, tile, image)
 
 /* Styles: a document that names one in style.name sets these fields, but for those that it sets itself (scene/style.h). A column for each
  * word of style.name but "none": ROW(section, name, values as kd_field_put takes them), of fields in sections that are no lists.

@@ -410,6 +410,25 @@ static enum kd_status steps(const struct kd_scene *scene, struct kd_error *error
                           scene->accuracy.steps);
 }
 
+/* A tile lies in its picture. What is made of the whole picture, no tile can have: it is refused where a plan is made (render/plan/tile.h). */
+static enum kd_status tile(const struct kd_scene *scene, struct kd_error *error)
+{
+    const struct kd_tile *t = &scene->tile;
+    if ((t->width > 0) != (t->height > 0))
+        return kd_error_field(error, t->width ? "/image/tile/height" : "/image/tile/width", "image.tile.width is %d and image.tile.height %d pixels, allowed are both above 0, or both 0: the whole picture",
+                              t->width, t->height);
+    if (!t->width && (t->left || t->top))
+        return kd_error_field(error, t->left ? "/image/tile/left" : "/image/tile/top", "image.tile.left is %d and image.tile.top %d pixels, allowed are 0 without image.tile.width and image.tile.height",
+                              t->left, t->top);
+    if (t->left + t->width > scene->image.width)
+        return kd_error_field(error, "/image/tile/width", "image.tile.width is %d pixels from column %d on, allowed are up to %d in a picture of image.width %d", t->width, t->left,
+                              scene->image.width > t->left ? scene->image.width - t->left : 0, scene->image.width);
+    if (t->top + t->height > scene->image.height)
+        return kd_error_field(error, "/image/tile/height", "image.tile.height is %d pixels from row %d on, allowed are up to %d in a picture of image.height %d", t->height, t->top,
+                              scene->image.height > t->top ? scene->image.height - t->top : 0, scene->image.height);
+    return KD_OK;
+}
+
 /* There must be a field for light to be polarised by, and nothing whose light has no polarisation at hand. */
 static enum kd_status transfer(const struct kd_scene *scene, struct kd_error *error)
 {
@@ -465,6 +484,7 @@ const struct kd_rule kd_rules[] = {
     { "`style.ringdown` is 0 where the spin is beyond 0.9999 or -0.9999.", ringdown },
     { "`style.beam_uas` is at most a thousand times the width of the picture in the plane and pinhole projections, and 0 in the others.", beam },
     { "`style.colour_bar` needs `style.palette` \"heat\" and `style.tone_map` \"srgb\".", colour_bar },
+    { "`image.tile` lies within the picture; its width and height are both above 0, or all of it is 0.", tile },
     { "`accuracy.steps` is a multiple of 4.", steps, "accuracy", "steps", STEPS },
 };
 const size_t kd_rule_count = sizeof kd_rules / sizeof *kd_rules;

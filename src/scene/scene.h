@@ -121,6 +121,14 @@ bool kd_scene_is_flat(const struct kd_scene *scene);
  * at the same time. camera.stereo is "none" in it. */
 struct kd_scene kd_scene_eye(const struct kd_scene *scene, int side);
 
+/* The pixels that are made: image.tile of the picture, or all of it. */
+struct kd_window { uint32_t left, top, width, height; };
+bool kd_scene_has_tile(const struct kd_scene *scene);
+struct kd_window kd_scene_window(const struct kd_scene *scene);
+/* The scene whose tile is that window, and that without one. */
+struct kd_scene kd_scene_tile(const struct kd_scene *scene, struct kd_window window);
+struct kd_scene kd_scene_whole(const struct kd_scene *scene);
+
 /* Say where the observer is, and how it moves. */
 struct kd_vantage kd_scene_vantage(const struct kd_scene *scene);
 struct kd_observer_motion kd_scene_observer(const struct kd_scene *scene);

@@ -46,6 +46,13 @@ class Usage(Case):
             self.bad(2, "as in 1920x1080", "scene", "--size", size)
         self.bad(2, "image.width", "scene", "--size", "0x1080")
 
+    def test_tile(self):
+        image = json.loads(self.good("scene", "--tile", "64x32+10+7"))["image"]
+        self.assertEqual(image["tile"], {"left": 10, "top": 7, "width": 64, "height": 32})
+        for tile in "64", "64x32", "64x32+1", "64x32+1+", "64x32+1+2+3", "64x32-1+2", "64x32+1+2 ", "x32+1+2":
+            self.bad(2, "as in 512x512+1024+0", "scene", "--tile", tile)
+        self.bad(2, "allowed are up to 1279", "scene", "--tile", "1280x720+1+0")
+
     def test_assets(self):
         """Those that nothing names; tests/cli/render.py has one that is shown."""
         picture = self.path("a.png")

@@ -237,7 +237,7 @@ void kd_emit_update(struct kd_emit_state *state, const struct kd_scene *scene, u
         state->luminous = true;
     }
     numbers->frame = (struct kd_frame_block) {
-        .pixels_x = (uint32_t)scene->image.width,
+        .pixels_x = kd_scene_window(scene).width,
         .band_pixels = band_pixels,
         .azimuth = (float)(scene->camera.azimuth_deg * (M_PI / 180)),
         .delay = (float)kd_particle_delay(scene),

@@ -33,7 +33,8 @@ bool kd_sky_is_noise(const struct kd_scene *scene, enum kd_precision precision)
     /* Who falls sees the sky as large as from further out. */
     if (!(r < KD_SKY_NEAR * kd_kerr_horizon(scene->spacetime.spin)) || scene->camera.observer == KD_OBSERVER_INFALL)
         return false;
-    const struct kd_camera_exact camera = kd_camera_exact(scene);
+    const struct kd_scene whole = kd_scene_whole(scene);
+    const struct kd_camera_exact camera = kd_camera_exact(&whole);
     uint32_t width = (uint32_t)(scene->image.width * kd_scene_side(scene)), height = (uint32_t)(scene->image.height * kd_scene_side(scene));
     unsigned seen = 0, lost = 0;
     for (uint32_t k = 0; k < COLUMNS * ROWS; k++) {

@@ -395,10 +395,11 @@ static enum kd_status encode(const struct kd_picture *picture, enum kd_effort ef
     return status;
 }
 
-/* Wants the picture alone. */
+/* Wants the picture alone, and all of it: a place is one in the whole picture. */
 static enum kd_status draws(struct kd_scene *scene, struct kd_error *error)
 {
     (void)error;
+    *scene = kd_scene_whole(scene);
     if (scene->image.layers.count > 1)
         scene->image.layers = (struct kd_words) { 1, { { KD_LAYER_rgb, -1 } } };
     return KD_OK;

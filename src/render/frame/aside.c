@@ -1,7 +1,7 @@
 /* This finds where a frame is rendered: in the renderer's own buffers, or aside, in some that it shares with no other. */
 #include "render/frame/job.h"
 #include "render/frame/normalise.h"
-#include "render/frame/pair.h"
+#include "render/frame/parts.h"
 
 /* An aside that nobody is in and that has the plan's lens map; NULL: none. */
 static struct kd_aside *aside_with(struct kd_renderer *r, const struct kd_plan *plan)
@@ -15,8 +15,8 @@ static struct kd_aside *aside_with(struct kd_renderer *r, const struct kd_plan *
 enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
                          kd_progress_fn progress, void *user, struct kd_frame *out, struct kd_error *error)
 {
-    if (plan->eyes == 2)
-        return kd_frame_pair(&(struct kd_pair) { renderer, scene, plan, false, progress, user }, out, error);
+    if (kd_plan_is_parted(plan))
+        return kd_frame_parted(&(struct kd_parted) { renderer, scene, plan, false, progress, user }, out, error);
     struct kd_scene scaled = *scene;
     double scale = 1;
     enum kd_status status = kd_frame_normalise(renderer, &scaled, plan->held, progress, user, &scale, error);
@@ -75,8 +75,8 @@ enum kd_status kd_render_aside(struct kd_renderer *renderer, const struct kd_sce
                                kd_progress_fn progress, const struct kd_glance *glance, void *user, struct kd_frame *out,
                                struct kd_error *error)
 {
-    if (plan->eyes == 2)
-        return kd_frame_pair(&(struct kd_pair) { renderer, scene, plan, true, progress, user }, out, error);
+    if (kd_plan_is_parted(plan))
+        return kd_frame_parted(&(struct kd_parted) { renderer, scene, plan, true, progress, user }, out, error);
     struct kd_scene scaled = *scene;
     double scale = 1;
     const enum kd_status found = kd_frame_normalise(renderer, &scaled, plan->held, progress, user, &scale, error);

@@ -97,10 +97,11 @@ enum kd_status kd_frame_send_cameras(struct kd_frame_job *j)
     const struct kd_scene critical = kd_critical_camera(j->scene, j->plan->critical ? j->plan->critical : 1);
     const struct kd_scene dense = kd_critical_camera(j->scene, KD_PLAN_ADAPTIVE_SIDE), truth = kd_critical_camera(j->scene, KD_PLAN_TRUTH_SIDE);
     const struct kd_scene dense_critical = kd_critical_camera(j->scene, j->plan->critical_dense ? j->plan->critical_dense : 1);
+    const struct kd_scene whole = kd_scene_whole(j->scene);
     const struct kd_camera_block cameras[] = {
         [KD_CAMERA_GRID] = kd_camera_block(j->scene), [KD_CAMERA_CRITICAL] = kd_camera_block(&critical),
         [KD_CAMERA_DENSE] = kd_camera_block(&dense), [KD_CAMERA_DENSE_CRITICAL] = kd_camera_block(&dense_critical),
-        [KD_CAMERA_TRUTH] = kd_camera_block(&truth),
+        [KD_CAMERA_TRUTH] = kd_camera_block(&truth), [KD_CAMERA_WHOLE] = kd_camera_block(&whole),
     };
     return kd_store_send_cameras(j->store, cameras, j->error);
 }

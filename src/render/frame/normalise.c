@@ -110,7 +110,7 @@ done:
 /* All that the flux depends on, and nothing else. */
 static struct kd_scene bare(const struct kd_scene *scene)
 {
-    struct kd_scene bare = *scene, plain;
+    struct kd_scene bare = kd_scene_whole(scene), plain;
     kd_scene_defaults(&plain);
     bare.image = plain.image;
     bare.image.width = scene->image.width, bare.image.height = scene->image.height;

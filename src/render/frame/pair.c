@@ -1,5 +1,5 @@
 /* This renders a pair of pictures, one for each eye, side by side. */
-#include "render/frame/pair.h"
+#include "render/frame/parts.h"
 
 #include <math.h>
 #include <string.h>
@@ -17,7 +17,7 @@ static bool go_on(void *user, double fraction)
 }
 
 /* The right eye has the exposure of the left one. */
-static enum kd_status render_eye(const struct kd_pair *pair, int side, double exposure, struct kd_frame *out, struct kd_error *error)
+static enum kd_status render_eye(const struct kd_parted *pair, int side, double exposure, struct kd_frame *out, struct kd_error *error)
 {
     struct kd_scene eye = kd_scene_eye(pair->scene, side);
     struct kd_needs needs = kd_needs_of(&eye);
@@ -39,34 +39,9 @@ static enum kd_status render_eye(const struct kd_pair *pair, int side, double ex
         plan.told = pair->plan->told;
         plan.told.x -= side < 0 ? 0 : plan.width;
     }
-    status = pair->aside ? kd_render_aside(pair->renderer, &eye, &plan, go_on, NULL, &half, out, error)
-                         : kd_render(pair->renderer, &eye, &plan, go_on, &half, out, error);
+    status = kd_frame_render_part(pair, &eye, &plan, go_on, &half, out, error);
 done:
     return status;
-}
-
-static void add_timings(struct kd_frame *to, const struct kd_frame *from)
-{
-    for (size_t i = 0; i < from->n_timings; i++) {
-        size_t k = 0;
-        while (k < to->n_timings && strcmp(to->timings[k].name, from->timings[i].name))
-            k++;
-        if (k < to->n_timings)
-            to->timings[k].ms += from->timings[i].ms;
-        else if (k < KD_FRAME_MAX_TIMINGS)
-            to->timings[to->n_timings++] = from->timings[i];
-    }
-}
-
-/* Counts of both, and of errors the larger one. */
-static struct kd_accuracy_report both(const struct kd_accuracy_report *l, const struct kd_accuracy_report *r)
-{
-    return (struct kd_accuracy_report) {
-        l->undecided + r->undecided, l->sampled + r->sampled, l->crossings + r->crossings, l->differ + r->differ, fmax(l->median, r->median),
-        fmax(l->worst, r->worst), l->followed + r->followed, l->refined + r->refined, l->between + r->between, l->pixel_sampled + r->pixel_sampled,
-        fmax(l->pixel_error, r->pixel_error), fmax(l->pixel_error_worst, r->pixel_error_worst),
-        l->volume_sampled + r->volume_sampled, fmax(l->volume_error, r->volume_error), fmax(l->volume_error_worst, r->volume_error_worst),
-    };
 }
 
 static void copy_rows(const struct kd_layer *from, const struct kd_frame *of, size_t side, struct kd_layer *to)
@@ -83,11 +58,9 @@ static enum kd_status join(const struct kd_frame eyes[2], struct kd_frame *out, 
     frame.width = 2 * eyes[0].width;
     frame.n_layers = 0;
     memset(frame.layers, 0, sizeof frame.layers);
-    frame.lens_reused = eyes[0].lens_reused && eyes[1].lens_reused;
-    frame.accuracy = both(&eyes[0].accuracy, &eyes[1].accuracy);
     frame.light = (struct kd_light_report) { 0 }; /* it would be that of neither */
     frame.told = NULL;
-    add_timings(&frame, &eyes[1]);
+    kd_frame_tell_both(&frame, &eyes[1]);
     for (size_t i = 0; i < eyes[0].n_layers; i++) {
         const struct kd_layer *l = &eyes[0].layers[i];
         KD_TRY(kd_frame_add_layer(&frame, l->name, l->channels, l->type, error));
@@ -112,7 +85,7 @@ static void hand_over_told(struct kd_frame eyes[2], struct kd_frame *to)
         }
 }
 
-enum kd_status kd_frame_pair(const struct kd_pair *pair, struct kd_frame *out, struct kd_error *error)
+enum kd_status kd_frame_pair(const struct kd_parted *pair, struct kd_frame *out, struct kd_error *error)
 {
     struct kd_frame eyes[2] = { 0 };
     enum kd_status status;

@@ -50,6 +50,7 @@ static enum kd_status post_as(struct kd_frame_job *j, const struct look *look)
     struct kd_vk *vk = j->r->vk;
     struct kd_store *s = j->store;
     const struct kd_scene *scene = j->scene;
+    const struct kd_window window = kd_scene_window(scene);
     const struct kd_vk_pipeline *post;
     const size_t pixel_bytes = look->wide ? 6 : 3;
     const struct kd_bloom *bloom = look->bloom;
@@ -74,6 +75,8 @@ static enum kd_status post_as(struct kd_frame_job *j, const struct look *look)
             .pixels = pixels,
             .first = first,
             .pixels_x = frame->width,
+            .left = (float)window.left,
+            .top = (float)window.top,
             .bloom = (float)bloom->strength,
             .scale_x = (float)bloom->columns / (float)frame->width,
             .scale_y = (float)bloom->rows / (float)frame->height,

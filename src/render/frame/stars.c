@@ -70,7 +70,7 @@ static uint32_t list_groups(const struct kd_frame_job *j)
 
 static struct kd_vk_binding camera(const struct kd_frame_job *j)
 {
-    return (struct kd_vk_binding) { j->store->cameras, (uint64_t)KD_CAMERA_GRID * KD_CAMERA_BYTES, KD_CAMERA_BYTES, false };
+    return (struct kd_vk_binding) { j->store->cameras, (uint64_t)KD_CAMERA_WHOLE * KD_CAMERA_BYTES, KD_CAMERA_BYTES, false };
 }
 
 /* Something must be bound where there is none. */
@@ -178,18 +178,28 @@ static struct kd_stars_push push_of(const struct kd_frame_job *j)
     };
 }
 
+/* Images have places in the picture, whatever tile of it this is, so that they come out the same: this leads from there to the light of a band. */
+static void set_light(struct kd_stars_push *push, const struct kd_frame_job *j, uint32_t band)
+{
+    const struct kd_window window = kd_scene_window(j->scene);
+    push->pixels_y = kd_frame_band_rows(j, band);
+    push->up = 0u - window.top - kd_frame_band_first(j, band);
+    push->aside = 0u - window.left;
+}
+
 /* Rows of pixels of a band, first to end of it, to the light of another or of the same. */
 static enum kd_status rows_of(struct kd_frame_job *j, uint32_t from, uint32_t first, uint32_t end, uint32_t to)
 {
     const struct kd_plan *p = j->plan;
     const uint32_t width = p->width * p->side;
+    const struct kd_window window = kd_scene_window(j->scene);
     struct part part = { .lens = kd_frame_band_lens(j, from), .push = push_of(j), .light = j->lens->star_light.buffers[to] };
     part.push.width = width;
     part.push.rows = kd_frame_band_rows(j, from) * p->side;
     part.push.stride = width * p->band_rows * p->side;
-    part.push.row0 = kd_frame_band_first(j, from) * p->side;
-    part.push.pixels_y = kd_frame_band_rows(j, to);
-    part.push.up = kd_frame_band_first(j, from) - kd_frame_band_first(j, to);
+    part.push.row0 = (window.top + kd_frame_band_first(j, from)) * p->side;
+    part.push.column0 = window.left * p->side;
+    set_light(&part.push, j, to);
     uint32_t step = KD_PLAN_STAR_RAYS / width;
     step = step > KD_STAR_TILE ? step / KD_STAR_TILE * KD_STAR_TILE : step ? step : 1; /* in whole tiles */
     enum kd_status status = KD_OK;
@@ -212,8 +222,7 @@ static enum kd_status grid_of(struct kd_frame_job *j, const struct kd_rim_grid *
     part.push.rim = grid->table;
     part.push.far = (float)exp(grid->l);
     part.push.fall = (float)grid->dl;
-    part.push.pixels_y = kd_frame_band_rows(j, to);
-    part.push.up = 0u - kd_frame_band_first(j, to);
+    set_light(&part.push, j, to);
     return stars_of(j, &part);
 }
 

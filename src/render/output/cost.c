@@ -20,7 +20,7 @@ static double file_bytes(const struct kd_series *series, const struct kd_scene *
     const struct kd_words *layers = &scene->image.layers;
     double numbers = 0;
     for (int i = 0; i < layers->count && series && series->frame->carries & KD_CARRIES_LAYERS; i++)
-        numbers += (layers->at[i].word == KD_LAYER_rgb ? 3. : 1.) * (plan->eyes ? plan->eyes : 1) * plan->width * plan->height;
+        numbers += (layers->at[i].word == KD_LAYER_rgb ? 3. : 1.) * kd_plan_shown_width(plan) * kd_plan_shown_height(plan);
     return 4 * numbers;
 }
 

@@ -23,7 +23,7 @@ static enum kd_status no_memory(struct kd_error *error) { return kd_error_set(er
 
 enum kd_status kd_cube_check(const struct kd_sweep *sweep, struct kd_error *error)
 {
-    static const char *const shapes[] = { "image.width", "image.height", "image.layers", "camera.stereo" };
+    static const char *const shapes[] = { "image.width", "image.height", "image.tile.width", "image.tile.height", "image.layers", "camera.stereo" };
     char pointer[100];
     for (size_t i = 0; i < sweep->n_axes; i++)
         for (size_t k = 0; k < sizeof shapes / sizeof *shapes; k++)
@@ -38,11 +38,11 @@ enum kd_status kd_cube_check(const struct kd_sweep *sweep, struct kd_error *erro
 enum kd_status kd_cube_compare(struct kd_cube_shape *shape, unsigned number, const struct kd_scene *scene, const struct kd_plan *plan, struct kd_error *error)
 {
     const struct kd_words *layers = &scene->image.layers;
-    const unsigned width = plan->width * (plan->eyes ? plan->eyes : 1);
+    const unsigned width = kd_plan_shown_width(plan), height = kd_plan_shown_height(plan);
     if (!number)
-        *shape = (struct kd_cube_shape) { width, plan->height, *layers };
-    if (shape->width != width || shape->height != plan->height)
-        return kd_error_field(error, "/axes", "scene %u is %u x %u pixels and scene 0 is %u x %u, and no cube has pictures of several sizes", number, width, plan->height,
+        *shape = (struct kd_cube_shape) { width, height, *layers };
+    if (shape->width != width || shape->height != height)
+        return kd_error_field(error, "/axes", "scene %u is %u x %u pixels and scene 0 is %u x %u, and no cube has pictures of several sizes", number, width, height,
                               shape->width, shape->height);
     bool same = layers->count == shape->layers.count;
     for (int i = 0; i < layers->count && same; i++)

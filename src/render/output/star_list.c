@@ -42,6 +42,8 @@ static enum kd_status draws(struct kd_scene *scene, struct kd_error *error)
         return kd_error_field(error, "/sky/model", "sky.model is not \"catalogue\": the stars of no other sky have names");
     if (scene->camera.projection == KD_PROJECTION_RING)
         return kd_error_field(error, "/camera/projection", "camera.projection is \"ring\", which has no stars to name: allowed are the others");
+    if (kd_scene_has_tile(scene))
+        return kd_error_field(error, "/image/tile/width", "image.tile.width is %d, allowed is 0 where stars are named: places are those of the whole picture", scene->tile.width);
     if (scene->camera.stereo == KD_STEREO_PAIR)
         return kd_error_field(error, "/camera/stereo", "camera.stereo is \"pair\", allowed is \"none\" where stars are named: places in a picture are those of one eye");
     if (scene->camera.stereo != KD_STEREO_NONE)

@@ -26,6 +26,16 @@ static struct kd_wcs plane(const struct kd_scene *scene)
     };
 }
 
+/* Of a tile pixels are counted from its own corner, rows from below. */
+static struct kd_wcs in_tile(struct kd_wcs wcs, const struct kd_scene *scene)
+{
+    const struct kd_window tile = kd_scene_window(scene);
+    const double left = tile.left, below = (double)scene->image.height - tile.top - tile.height;
+    wcs.at[0].pixel -= left, wcs.at[1].pixel -= below;
+    wcs.impact[0].pixel -= left, wcs.impact[1].pixel -= below;
+    return wcs;
+}
+
 struct kd_wcs kd_wcs_of(const struct kd_scene *scene)
 {
     static const char *const types[][2] = { [KD_SIGHT_PINHOLE] = { "CLON-TAN", "CLAT-TAN" }, [KD_SIGHT_SPHERE] = { "CLON-CAR", "CLAT-CAR" },
@@ -35,11 +45,12 @@ struct kd_wcs kd_wcs_of(const struct kd_scene *scene)
     if (scene->camera.projection == KD_PROJECTION_RING || scene->camera.stereo == KD_STEREO_PAIR) /* two pictures have two */
         return (struct kd_wcs) { 0 };
     if (sight == KD_SIGHT_PLANE)
-        return plane(scene);
+        return in_tile(plane(scene), scene);
     double step = sight == KD_SIGHT_SPHERE ? 360 / width : sight == KD_SIGHT_DOME ? 180 / fmin(width, height) : kd_camera_pixel(scene) / DEGREE;
-    return (struct kd_wcs) {
+    const struct kd_wcs whole = {
         .known = true, .turn = { { 1, 0 }, { 0, 1 } },
         .at = { { types[sight][0], "deg", 0.5 * (width + 1), 0, step },
                 { types[sight][1], "deg", 0.5 * (height + 1), 0, sight == KD_SIGHT_SPHERE ? 180 / height : step } },
     };
+    return in_tile(whole, scene);
 }

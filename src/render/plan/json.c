@@ -62,10 +62,12 @@ enum kd_status kd_plan_to_json(const struct kd_plan *plan, struct kd_buffer *out
     kd_json_number(json, "rays", (double)plan->rays);
     kd_json_number(json, "critical_pixels", (double)plan->critical_pixels);
     kd_json_number(json, "critical_rays", (double)(kd_plan_rays(plan) - plan->rays));
-    kd_json_number(json, "width", plan->width);
+    kd_json_number(json, "width", plan->cut.width ? plan->cut.width : plan->width);
     if (plan->eyes)
         kd_json_number(json, "eyes", plan->eyes);
-    kd_json_number(json, "height", plan->height);
+    kd_json_number(json, "height", kd_plan_shown_height(plan));
+    if (plan->strips)
+        kd_json_number(json, "strips", plan->strips);
     add_passes(json, plan);
     add_constants(json, plan);
     add_accuracy(json, plan);

@@ -6,13 +6,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Writes what a camera sees of a hole, as far as the lens map depends on it: all of the camera but its azimuth, which adds a constant to all azimuths and
+/* Writes what a camera sees of a hole, as far as the lens map depends on it: the tile, and all of the camera but its azimuth, which adds a constant to all azimuths and
  * is added where light is made. */
 static enum kd_status write_view(const struct kd_scene *scene, struct kd_buffer *text)
 {
     const struct kd_section *camera = kd_section_find("camera");
     enum kd_status status;
-    KD_TRY(kd_buffer_printf(text, "a %a", scene->spacetime.spin));
+    const struct kd_window window = kd_scene_window(scene);
+    KD_TRY(kd_buffer_printf(text, "%u x %u at %u %u, a %a", window.width, window.height, window.left, window.top, scene->spacetime.spin));
     for (size_t i = camera->first; i < camera->first + camera->count; i++)
         if (strcmp(kd_fields[i].name, "azimuth_deg"))
             KD_TRY(kd_buffer_printf(text, ", %s %a", kd_fields[i].name, kd_field_get(scene, &kd_fields[i], 0)));

@@ -89,8 +89,9 @@ struct kd_march kd_march_of(const struct kd_scene *scene, const struct kd_settin
 {
     const double error = error_of(scene);
     const uint32_t steps = steps_of(error, rays), fine = fine_of(error, scene);
+    const struct kd_window window = kd_scene_window(scene);
     return (struct kd_march) {
-        .steps = steps, .weight = weight_of(scene, steps, fine), .fine = fine, .opaque = 0.1 * error, .unseen = UNSEEN, .sample = kd_emit_along(scene) ? sample_of(scene->image.width, scene->image.height) : (struct kd_march_sample) { 0 },
+        .steps = steps, .weight = weight_of(scene, steps, fine), .fine = fine, .opaque = 0.1 * error, .unseen = UNSEEN, .sample = kd_emit_along(scene) ? sample_of((int32_t)window.width, (int32_t)window.height) : (struct kd_march_sample) { 0 },
     };
 }
 

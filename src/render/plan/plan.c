@@ -9,6 +9,7 @@
 #include "render/accuracy/table.h"
 #include "render/view/layout.h"
 #include "render/plan/lens_key.h"
+#include "render/plan/parts.h"
 #include "render/plan/room.h"
 
 #include <math.h>
@@ -88,8 +89,9 @@ static void say(void *user, const char *sentence)
         plan->approximations[plan->n_approximations++] = sentence;
 }
 
-static void approximations(struct kd_plan *plan, const struct kd_scene *scene)
+void kd_plan_say(struct kd_plan *plan, const struct kd_scene *scene)
 {
+    plan->n_approximations = 0;
     kd_emit_sentences(scene, &plan->setting, say, plan);
     for (int i = 0; i < SENTENCES; i++)
         if (sentences[i].in_force(plan, scene))
@@ -259,8 +261,8 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
                               struct kd_plan *out, struct kd_error *error)
 {
     struct kd_plan plan = { 0 };
-    plan.width = (uint32_t)scene->image.width;
-    plan.height = (uint32_t)scene->image.height;
+    plan.width = kd_scene_window(scene).width;
+    plan.height = kd_scene_window(scene).height;
     plan.side = (uint32_t)kd_scene_side(scene);
     plan.rays = (uint64_t)plan.width * plan.height * plan.side * plan.side;
     if (!needs->unseen)
@@ -319,60 +321,17 @@ done:
     return status;
 }
 
-/* Adds what another picture takes that is made after this one. */
-static void add(struct kd_plan *plan, const struct kd_plan *next)
-{
-    for (size_t i = 0; i < next->n_passes; i++) {
-        const struct kd_plan_pass *pass = &next->passes[i];
-        size_t k = 0;
-        while (k < plan->n_passes && strcmp(plan->passes[k].name, pass->name))
-            k++;
-        if (k == plan->n_passes)
-            plan->passes[plan->n_passes++] = (struct kd_plan_pass) { pass->name, pass->kernel, 0, 0, pass->figure };
-        plan->passes[k].invocations += pass->invocations;
-        plan->passes[k].estimate_ms += pass->estimate_ms;
-    }
-    plan->estimate_ms += next->estimate_ms;
-    plan->host_bytes = 2 * (plan->host_bytes + next->host_bytes); /* of each, and of both together */
-    plan->device_bytes = plan->device_bytes > next->device_bytes ? plan->device_bytes : next->device_bytes;
-    plan->cacheable = plan->cacheable && next->cacheable;
-}
-
-static enum kd_status make_pair(const struct kd_scene *scene, const struct kd_needs *needs, const struct kd_capacity *capacity, struct kd_plan *out,
-                                struct kd_error *error)
-{
-    const struct kd_scene left = kd_scene_eye(scene, -1), right = kd_scene_eye(scene, 1);
-    struct kd_plan plan, next;
-    enum kd_status status;
-    if (needs->light && needs->unseen)
-        KD_TRY(kd_error_field(error, "/camera/stereo", "camera.stereo is \"pair\", allowed is \"none\" where light is measured: there is one flux for each eye"));
-    KD_TRY(kd_plan_make_for(&left, needs, capacity, &plan, error));
-    KD_TRY(kd_plan_make_for(&right, needs, capacity, &next, error));
-    add(&plan, &next);
-    plan.eyes = 2;
-    plan.n_approximations = 0;
-    approximations(&plan, scene);
-    if (kd_plan_lens_key(&plan, scene))
-        KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory while hashing the scene"));
-    *out = plan;
-done:
-    return status;
-}
-
-enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_needs *needs,
-                                const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error)
+enum kd_status kd_plan_one(const struct kd_scene *scene, const struct kd_needs *needs, const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error)
 {
     struct kd_plan plan;
     enum kd_status status;
-    if (scene->camera.stereo == KD_STEREO_PAIR)
-        return make_pair(scene, needs, capacity, out, error);
     KD_TRY(outline(scene, needs, capacity, &plan, error)); /* limits first: a list of what is too large takes long */
     KD_TRY(kd_plan_critical(&plan, scene, capacity, error));
     if (plan.critical)
         KD_TRY(kd_plan_bands(&plan, scene, capacity, error));
     plan.audit = plan.cacheable && plan.orders && !within_horizon(scene) ? KD_AUDIT_RAYS : 0; /* which the closed form judges by, outside */
     passes(&plan, scene, capacity);
-    approximations(&plan, scene);
+    kd_plan_say(&plan, scene);
     if (kd_plan_lens_key(&plan, scene))
         KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory while hashing the scene"));
     *out = plan;
@@ -395,10 +354,8 @@ enum kd_status kd_plan_make(const struct kd_scene *scene, const struct kd_capaci
     return kd_plan_make_for(scene, &needs, capacity, out, error);
 }
 
-enum kd_status kd_plan_check(const struct kd_scene *scene, const struct kd_capacity *capacity, struct kd_error *error)
+enum kd_status kd_plan_one_fits(const struct kd_scene *scene, const struct kd_needs *needs, const struct kd_capacity *capacity, struct kd_error *error)
 {
     struct kd_plan plan;
-    const struct kd_needs needs = kd_needs_of(scene);
-    const struct kd_scene first = scene->camera.stereo == KD_STEREO_PAIR ? kd_scene_eye(scene, -1) : *scene;
-    return outline(&first, &needs, capacity, &plan, error);
+    return outline(scene, needs, capacity, &plan, error);
 }

@@ -47,6 +47,9 @@ struct kd_plan_pass {
 
 struct kd_plan {
     uint32_t width, height, side;   /* pixels; rays along each side of a pixel */
+    struct kd_window cut;           /* of a tile: where it lies in these, which have its margin too (tile.h); of width 0: this is no tile */
+    uint32_t strips;                /* that a picture which does not fit in one is made of, each a tile with a margin; passes, times and host_bytes are of all, device_bytes
+                                     * of the largest. 0: it is made in one */
     uint64_t rays;                  /* of the grid */
     uint32_t eyes;                  /* 2: there is such a picture for each eye, side by side; passes, times and host_bytes are of both then, device_bytes of
                                      * the larger one, and all else is the left one's. 0: one */
@@ -142,6 +145,10 @@ static inline bool kd_plan_holds(const struct kd_plan *plan, uint32_t quantities
 
 /* Says whether something shines wherever a ray ends. */
 bool kd_plan_is_spread(const struct kd_plan *plan);
+
+/* Count the pixels along the sides of what is handed over: of a tile without its margin, of a pair of both eyes' pictures. */
+static inline uint32_t kd_plan_shown_width(const struct kd_plan *plan) { return plan->cut.width ? plan->cut.width : plan->width * (plan->eyes ? plan->eyes : 1); }
+static inline uint32_t kd_plan_shown_height(const struct kd_plan *plan) { return plan->cut.width ? plan->cut.height : plan->height; }
 
 static inline bool kd_plan_has_footprints(const struct kd_plan *plan)
 {

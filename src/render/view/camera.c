@@ -105,13 +105,15 @@ struct kd_camera_exact kd_camera_exact(const struct kd_scene *scene)
 {
     struct kd_camera_exact o = { 0 };
     const struct kd_camera *c = &scene->camera;
+    const struct kd_window window = kd_scene_window(scene);
     double width = (double)scene->image.width * kd_scene_side(scene);
     double height = (double)scene->image.height * kd_scene_side(scene);
     const struct kd_vantage at = kd_scene_vantage(scene);
 
-    o.middle_x = 0.5 * width - 0.5;
-    o.middle_y = 0.5 * height - 0.5;
-    o.width = (uint32_t)width;
+    /* The middle is that of the whole picture, counted from the first ray of the tile: halves, which floats hold. */
+    o.middle_x = 0.5 * width - 0.5 - (double)window.left * kd_scene_side(scene);
+    o.middle_y = 0.5 * height - 0.5 - (double)window.top * kd_scene_side(scene);
+    o.width = window.width * (uint32_t)kd_scene_side(scene);
     o.sight = kd_camera_sight(scene);
     turns(&o, width, height);
     o.spin = scene->spacetime.spin;

@@ -9,6 +9,7 @@ struct key {
     struct kd_spacetime spacetime;
     struct kd_camera camera;
     int32_t width, height;
+    struct kd_window window;
 };
 
 static struct kept {
@@ -28,6 +29,7 @@ static struct key key_of(const struct kd_scene *scene)
     key.camera.azimuth_deg = 0;
     key.width = scene->image.width;
     key.height = scene->image.height;
+    key.window = kd_scene_window(scene);
     return key;
 }
 

@@ -16,7 +16,8 @@ struct tile { uint64_t rows[TILE]; }; /* a bit a pixel, the least at the left */
 struct work {
     struct kd_critical curve;
     struct kd_camera_exact camera;
-    uint32_t width, height, across, down; /* in pixels; in tiles */
+    uint32_t width, height, across, down; /* of what is made, in pixels; in tiles */
+    uint32_t whole;                       /* columns of the picture */
     struct tile **tiles;                  /* row by row; NULL: nothing is marked there */
     size_t n;                             /* pixels that are marked */
     bool no_memory;
@@ -114,7 +115,7 @@ static void draw(struct work *w, double half, double from, struct spot a, double
     double middle = 0.5 * (from + to);
     struct spot m = project(w, middle, half);
     bool whole = a.seen && m.seen && b.seen;
-    if (depth == DEEPEST && whole && hypot(b.x - a.x, b.y - a.y) > 0.5 * w->width)
+    if (depth == DEEPEST && whole && hypot(b.x - a.x, b.y - a.y) > 0.5 * w->whole)
         return; /* from one edge of a sphere to the other, or past what lies behind a dome */
     if (whole && (depth == DEEPEST || (fabs(m.x - 0.5 * (a.x + b.x)) < straight && fabs(m.y - 0.5 * (a.y + b.y)) < straight &&
                                        hypot(b.x - a.x, b.y - a.y) < 24))) {
@@ -182,8 +183,9 @@ uint64_t kd_critical_pixels_made(void) { return atomic_load(&made); }
 enum kd_status kd_critical_pixels_of(const struct kd_scene *scene, struct kd_critical_pixels *out, struct kd_error *error)
 {
     const struct kd_scene camera = kd_critical_camera(scene, 1);
+    const struct kd_window window = kd_scene_window(scene);
     struct work w = {
-        .camera = kd_camera_exact(&camera), .width = (uint32_t)scene->image.width, .height = (uint32_t)scene->image.height,
+        .camera = kd_camera_exact(&camera), .width = window.width, .height = window.height, .whole = (uint32_t)scene->image.width,
     };
     const struct kd_critical_observer observer = {
         .spin = scene->spacetime.spin, .radius = scene->camera.r, .cos_theta = w.camera.u, .sin_theta = w.camera.s,

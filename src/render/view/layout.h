@@ -53,8 +53,8 @@ _Static_assert(sizeof(struct kd_slice) <= 128 && sizeof(struct kd_footprint_push
                sizeof(struct kd_post_push) <= 128, "the push constants that every device has");
 
 /* The cameras of a frame lie in one buffer, each where a binding may begin: of the rays of the grid, of those at the critical curve,
- * of those of pixels that need more, on the grid and there, and of those that tell what is left. */
-enum { KD_CAMERA_GRID, KD_CAMERA_CRITICAL, KD_CAMERA_DENSE, KD_CAMERA_DENSE_CRITICAL, KD_CAMERA_TRUTH, KD_CAMERAS, KD_CAMERA_BYTES = 256 };
+ * of those of pixels that need more, on the grid and there, of those that tell what is left, and of the picture that this may be a tile of. */
+enum { KD_CAMERA_GRID, KD_CAMERA_CRITICAL, KD_CAMERA_DENSE, KD_CAMERA_DENSE_CRITICAL, KD_CAMERA_TRUTH, KD_CAMERA_WHOLE, KD_CAMERAS, KD_CAMERA_BYTES = 256 };
 _Static_assert(sizeof(struct kd_camera_block) <= KD_CAMERA_BYTES, "the next camera begins behind this one");
 
 /* Specialisation constants: a member each, at four times its id. */

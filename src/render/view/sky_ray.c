@@ -4,7 +4,8 @@
 
 struct kd_sky_rays kd_sky_rays_of(const struct kd_scene *scene)
 {
-    return (struct kd_sky_rays) { kd_camera_exact(scene), kd_scene_vantage(scene) };
+    const struct kd_scene whole = kd_scene_whole(scene);
+    return (struct kd_sky_rays) { kd_camera_exact(&whole), kd_scene_vantage(scene) };
 }
 
 bool kd_sky_ray_bend(const struct kd_sky_rays *rays, const double look[3], struct kd_null_bend *out)

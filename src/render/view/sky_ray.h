@@ -7,6 +7,7 @@
 
 struct kd_sky_rays { struct kd_camera_exact camera; struct kd_vantage at; };
 
+/* Places are those of the whole picture, whatever tile is made of it. */
 struct kd_sky_rays kd_sky_rays_of(const struct kd_scene *scene);
 
 /* look: along e_r, e_theta, e_phi, of any length; of an observer at infinity alpha and beta. False: the ray does not escape, or is one that null_bend.h does not

@@ -51,7 +51,8 @@ static enum kd_turn_end work(struct kd_task *task, double until_ms)
 
 static bool few_pixels(const struct kd_scene *scene)
 {
-    return (uint64_t)scene->image.width * (uint64_t)scene->image.height <= FEW_PIXELS;
+    const struct kd_window window = kd_scene_window(scene);
+    return (uint64_t)window.width * window.height <= FEW_PIXELS;
 }
 
 static struct kd_planned *outcome(struct kd_request *request, struct kd_planned *p, enum MHD_Result *result)

@@ -418,6 +418,22 @@ class Sky:
 
 
 @dataclass
+class Tile:
+    """A part of the picture, made by itself, the same to the byte as there.
+
+    left: columns of the picture to its left; in pixels; 0 to 32767; default 0.
+    top: rows of the picture above it; in pixels; 0 to 32767; default 0.
+    width: its width; 0: the whole picture is made, and no tile; in pixels; 0 to 32768; default 0.
+    height: its height, likewise; in pixels; 0 to 32768; default 0.
+    """
+
+    left: int | None = None
+    top: int | None = None
+    width: int | None = None
+    height: int | None = None
+
+
+@dataclass
 class Image:
     """The size of the picture.
 
@@ -436,6 +452,7 @@ class Image:
         "auto".
     layer_max: the same at their upper end; -1e+12 to 1e+12; default "auto".
     legend: a colour bar in the lower left corner of a layer in false colour; default true.
+    tile: a part of the picture, made by itself, the same to the byte as there.
     """
 
     width: int | None = None
@@ -448,6 +465,7 @@ class Image:
     layer_min: Literal['auto'] | float | None = None
     layer_max: Literal['auto'] | float | None = None
     legend: bool | None = None
+    tile: Tile | None = None
 
 
 @dataclass

@@ -1,0 +1,154 @@
+/* Plans of pictures that are made of parts: of a pair of eyes, of a tile, and of strips where all of a picture does not fit. */
+#include "render/plan/parts.h"
+
+#include "render/plan/lens_key.h"
+#include "render/plan/tile.h"
+
+#include <string.h>
+
+#define STRIPS_MOST 1024u
+
+/* Adds what another picture takes that is made after this one. */
+static void add(struct kd_plan *plan, const struct kd_plan *next)
+{
+    for (size_t i = 0; i < next->n_passes; i++) {
+        const struct kd_plan_pass *pass = &next->passes[i];
+        size_t k = 0;
+        while (k < plan->n_passes && strcmp(plan->passes[k].name, pass->name))
+            k++;
+        if (k == plan->n_passes)
+            plan->passes[plan->n_passes++] = (struct kd_plan_pass) { pass->name, pass->kernel, 0, 0, pass->figure };
+        plan->passes[k].invocations += pass->invocations;
+        plan->passes[k].estimate_ms += pass->estimate_ms;
+    }
+    plan->estimate_ms += next->estimate_ms;
+    plan->device_bytes = plan->device_bytes > next->device_bytes ? plan->device_bytes : next->device_bytes;
+    plan->cacheable = plan->cacheable && next->cacheable;
+}
+
+static enum kd_status name_lens(struct kd_plan *plan, const struct kd_scene *scene, struct kd_error *error)
+{
+    return kd_plan_lens_key(plan, scene) ? kd_error_set(error, KD_ENOMEM, "out of memory while hashing the scene") : KD_OK;
+}
+
+static enum kd_status make_pair(const struct kd_scene *scene, const struct kd_needs *needs, const struct kd_capacity *capacity, struct kd_plan *out,
+                                struct kd_error *error)
+{
+    const struct kd_scene left = kd_scene_eye(scene, -1), right = kd_scene_eye(scene, 1);
+    struct kd_plan plan, next;
+    enum kd_status status;
+    if (needs->light && needs->unseen)
+        KD_TRY(kd_error_field(error, "/camera/stereo", "camera.stereo is \"pair\", allowed is \"none\" where light is measured: there is one flux for each eye"));
+    KD_TRY(kd_plan_make_for(&left, needs, capacity, &plan, error));
+    KD_TRY(kd_plan_make_for(&right, needs, capacity, &next, error));
+    add(&plan, &next);
+    plan.host_bytes = 2 * (plan.host_bytes + next.host_bytes); /* of each, and of both together */
+    plan.eyes = 2;
+    kd_plan_say(&plan, scene);
+    KD_TRY(name_lens(&plan, scene, error));
+    *out = plan;
+done:
+    return status;
+}
+
+/* Flux and centroid would be those of the margin too, and are left out. */
+static struct kd_needs of_tile(const struct kd_needs *needs)
+{
+    struct kd_needs own = *needs;
+    own.light = false;
+    return own;
+}
+
+static enum kd_status make_tile(const struct kd_scene *scene, const struct kd_needs *needs, const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error)
+{
+    struct kd_window cut;
+    const struct kd_scene wide = kd_tile_with_margin(scene, &cut);
+    const struct kd_needs own = of_tile(needs);
+    const enum kd_status status = kd_plan_one(&wide, &own, capacity, out, error);
+    if (!status)
+        out->cut = cut;
+    return status;
+}
+
+/* What of the memory is not for the whole picture on the host, which is there twice: as pixels and as the file that they become. False: there is none. */
+static bool rest_of(const struct kd_capacity *c, uint64_t host_bytes, struct kd_capacity *rest)
+{
+    const uint64_t whole = 2 * host_bytes;
+    *rest = *c;
+    if (!c->host_memory && c->host_bytes)
+        rest->host_bytes = c->host_bytes > whole ? c->host_bytes - whole : 0;
+    else if (c->host_memory)
+        rest->memory_bytes = c->memory_bytes > whole ? c->memory_bytes - whole : 0;
+    return (c->host_memory ? rest->memory_bytes : !c->host_bytes || rest->host_bytes) > 0;
+}
+
+/* All of n strips, the last of which may be lower. */
+static enum kd_status plan_strips(const struct kd_scene *scene, const struct kd_needs *needs, const struct kd_capacity *c, uint32_t n, struct kd_plan *out, struct kd_error *error)
+{
+    struct kd_plan sum, next;
+    struct kd_capacity rest;
+    enum kd_status status;
+    struct kd_scene strip = kd_tile_strip(scene, n, 0);
+    KD_TRY(make_tile(&strip, needs, c, &sum, error));
+    const uint64_t host = sum.host_bytes / sum.height * kd_scene_window(scene).height;
+    if (!rest_of(c, host, &rest))
+        KD_TRY(kd_error_set(error, KD_ETOOBIG, "the whole picture does not fit on the host"));
+    KD_TRY(make_tile(&strip, needs, &rest, &sum, error));
+    for (uint32_t i = 1; i < kd_tile_strips(scene, n); i++) {
+        strip = kd_tile_strip(scene, n, i);
+        KD_TRY(make_tile(&strip, needs, &rest, &next, error));
+        add(&sum, &next);
+        sum.rays += next.rays;
+        sum.critical_pixels += next.critical_pixels;
+    }
+    const struct kd_window window = kd_scene_window(scene);
+    sum.strips = n;
+    sum.width = window.width;
+    sum.height = window.height;
+    sum.cut = (struct kd_window) { 0 };
+    sum.host_bytes += host;
+    sum.cacheable = false;
+    sum.audit = 0;
+    *out = sum;
+done:
+    return status;
+}
+
+/* As few strips as fit. What no tile can have is too large, then: `error` stays as it is. */
+static enum kd_status make_strips(const struct kd_scene *scene, const struct kd_needs *needs, const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error)
+{
+    const struct kd_scene strip = kd_tile_strip(scene, 2, 0);
+    const struct kd_needs own = of_tile(needs);
+    struct kd_error inner = { 0 }, whole = *error;
+    if (kd_tile_check(&strip, &own, &inner))
+        return kd_error_set(error, KD_ETOOBIG, "%.250s; in strips it may fit, but %.230s", whole.message, inner.message);
+    for (uint32_t n = 2; n <= STRIPS_MOST; n *= 2)
+        if (!plan_strips(scene, needs, capacity, n, out, &inner))
+            return name_lens(out, scene, error);
+    return KD_ETOOBIG;
+}
+
+enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_needs *needs,
+                                const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error)
+{
+    enum kd_status status = kd_scene_has_tile(scene) ? kd_tile_check(scene, needs, error) : KD_OK;
+    if (status)
+        return status;
+    if (scene->camera.stereo == KD_STEREO_PAIR)
+        return make_pair(scene, needs, capacity, out, error);
+    status = (kd_scene_has_tile(scene) ? make_tile : kd_plan_one)(scene, needs, capacity, out, error);
+    return status == KD_ETOOBIG ? make_strips(scene, needs, capacity, out, error) : status;
+}
+
+enum kd_status kd_plan_check(const struct kd_scene *scene, const struct kd_capacity *capacity, struct kd_error *error)
+{
+    const struct kd_needs needs = kd_needs_of(scene), own = of_tile(&needs);
+    const struct kd_scene first = scene->camera.stereo == KD_STEREO_PAIR ? kd_scene_eye(scene, -1) : *scene;
+    struct kd_plan plan;
+    enum kd_status status = kd_scene_has_tile(scene) ? kd_tile_check(scene, &needs, error) : KD_OK;
+    if (status)
+        return status;
+    const struct kd_scene wide = kd_tile_with_margin(&first, NULL);
+    status = kd_scene_has_tile(scene) ? kd_plan_one_fits(&wide, &own, capacity, error) : kd_plan_one_fits(&first, &needs, capacity, error);
+    return status == KD_ETOOBIG ? make_strips(&first, &needs, capacity, &plan, error) : status;
+}
