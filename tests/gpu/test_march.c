@@ -1,5 +1,6 @@
 /* Light along rays through volumes: against closed forms along paths whose length the Kerr-Schild oracle measures, which knows no Mino time and no
  * Nystroem method; against integrals of emission and absorption along them; in its order with crossings of the plane; and against itself. */
+#include "render/device/store.h"
 #include "render_support.h"
 
 #include "kerr_schild.h"
@@ -357,6 +358,36 @@ static void test_adversarial(void **state)
     }
 }
 
+static struct kd_frame picture_of(int32_t width, enum kd_volume_model model)
+{
+    struct kd_scene scene;
+    kd_scene_smooth(&scene);
+    scene.style.exposure = 0;
+    scene.image.width = width;
+    scene.image.height = 60;
+    scene.disk.model = KD_DISK_NONE;
+    scene.volume.model = model;
+    scene.volume.opacity = 0.3;
+    scene.volume.emissivity = 0.3;
+    return rendered(&scene);
+}
+
+/* A picture is the same whatever was rendered before it: one without a volume needs the same map of rays, and has no pixels at the critical curve. */
+static void test_order_of_pictures(void **state)
+{
+    (void)state;
+    struct kd_frame first = picture_of(90, KD_VOLUME_UNIFORM);
+    for (int32_t k = 0; k <= KD_LENS_MAPS_KEPT; k++) { /* which leave no map of the first */
+        struct kd_frame other = picture_of(40 + k, KD_VOLUME_UNIFORM);
+        kd_frame_finish(&other);
+    }
+    struct kd_frame dark = picture_of(90, KD_VOLUME_NONE), again = picture_of(90, KD_VOLUME_UNIFORM);
+    assert_memory_equal(kd_frame_pixels(&first), kd_frame_pixels(&again), 3 * 90 * 60);
+    kd_frame_finish(&first);
+    kd_frame_finish(&dark);
+    kd_frame_finish(&again);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -368,6 +399,7 @@ int main(void)
         cmocka_unit_test(test_in_the_plane),
         cmocka_unit_test(test_plan),
         cmocka_unit_test(test_adversarial),
+        cmocka_unit_test(test_order_of_pictures),
     };
     int code = open_renderer();
     return code ? code : close_renderer(cmocka_run_group_tests(tests, NULL, NULL));

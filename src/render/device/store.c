@@ -92,7 +92,7 @@ static uint64_t lens_band_bytes(const struct kd_plan *plan)
 static bool is_of(const struct kd_lens_map *map, const struct kd_plan *plan)
 {
     return plan->cacheable && !strcmp(map->key, plan->lens_key) && map->bands.count == plan->bands &&
-           map->bands.band_bytes == lens_band_bytes(plan);
+           map->bands.band_bytes == lens_band_bytes(plan) && map->critical.count == kd_plan_critical_parts(plan);
 }
 
 bool kd_store_has(const struct kd_store *store, const struct kd_plan *plan)
@@ -133,6 +133,7 @@ enum kd_status kd_store_lens_map(struct kd_store *store, const struct kd_plan *p
     }
     make_room(store, plan, oldest);
     oldest->key[0] = 0;
+    kd_critical_pixels_finish(&oldest->pixels);
     forget_stars(oldest);
     oldest->used = ++store->clock;
     *out = oldest;

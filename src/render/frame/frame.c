@@ -47,7 +47,7 @@ static enum kd_status make_kernels(struct kd_frame_job *j)
 {
     const struct kd_critical_lattice lattices[] = { { 0 }, kd_critical_lattice(j->plan->critical ? j->plan->critical : 1) };
     const struct kd_vk_pipeline *later;
-    const bool traces = !kd_store_has(j->store, j->plan);
+    const bool traces = j->plan->planes && !kd_store_has(j->store, j->plan);
     enum kd_status status = KD_OK;
     kd_kernels_note(&j->r->kernels);
     for (int i = 0; i < (j->plan->critical ? 2 : 1); i++) {

@@ -1,5 +1,6 @@
 #include "render/plan/lens_key.h"
 
+#include "render/emit/emitter.h"
 #include "scene/sha256.h"
 #include "scene/table.h"
 
@@ -27,8 +28,8 @@ enum kd_status kd_plan_lens_key(struct kd_plan *plan, const struct kd_scene *sce
     struct kd_buffer text = { 0 };
     const struct kd_setting *by = &plan->setting;
     enum kd_status status;
-    KD_TRY(kd_buffer_printf(&text, "lens %u %u, rays %d x %d x %d, %d at the curve, by %d %d %u %d, ", plan->quantities, plan->orders,
-                            scene->image.width, scene->image.height, (int)plan->side, scene->image.critical_factor, (int)by->engine,
+    KD_TRY(kd_buffer_printf(&text, "lens %u %u, rays %d x %d x %d, %u at the curve, by %d %d %u %d, ", plan->quantities, plan->orders,
+                            scene->image.width, scene->image.height, (int)plan->side, plan->critical, (int)by->engine,
                             (int)by->precision, by->steps, (int)plan->path));
     KD_TRY(write_view(scene, &text));
     kd_sha256(text.data, text.size, plan->lens_key);
@@ -43,8 +44,9 @@ enum kd_status kd_plan_lens_group(const struct kd_scene *scene, uint64_t *out)
     const struct kd_section *accuracy = kd_section_find("accuracy");
     char hash[65];
     enum kd_status status;
-    KD_TRY(kd_buffer_printf(&text, "%u, %d x %d x %d, %d, ", kd_needs_of(scene).quantities, scene->image.width, scene->image.height, (int)kd_scene_side(scene),
-                            scene->image.critical_factor));
+    const bool marches = kd_emit_along(scene) || kd_emit_met(scene); /* of which pixels at the curve have rays, whatever the map holds */
+    KD_TRY(kd_buffer_printf(&text, "%u, %d x %d x %d, %d %d, ", kd_needs_of(scene).quantities, scene->image.width, scene->image.height, (int)kd_scene_side(scene),
+                            scene->image.critical_factor, marches));
     for (size_t i = accuracy->first; i < accuracy->first + accuracy->count; i++)
         KD_TRY(kd_buffer_printf(&text, "%a ", kd_field_get(scene, &kd_fields[i], 0)));
     KD_TRY(write_view(scene, &text));
