@@ -11,12 +11,17 @@ async function plunge(asked, edge) {
   return { asked: { ...whole, method: asked.method === 'closed' ? 'yoshida6' : asked.method, orbit }, edge, share };
 }
 
-// { asked }: the document that the server follows; of a rosette within the separatrix { edge, share } too: its p there, and the share of it that p is.
+// What is thrown may fall in or fly away, which no closed form follows.
+const anyWay = asked => (asked.method === 'closed' && asked.orbit.p == null ? { ...asked, method: 'yoshida6' } : asked);
+
+// { asked }: the document that the server follows; of a rosette within the separatrix { edge, share } too: its p there, and the share of it that p is. Circles there
+// are down to the orbit of light, unstable ones, which the closed form does not follow either.
 export async function settled(asked) {
   const { p, e, inclination_deg } = asked.orbit;
-  if (p == null) return { asked };
+  if (p == null) return { asked: anyWay(asked) };
   const { values } = await physics('separatrix', { spin: asked.spin, e, inclination_deg });
-  return p <= values.p ? plunge(asked, values.p) : { asked };
+  if (p > values.p) return { asked };
+  return e === 0 && p > values.circle ? { asked: { ...asked, method: asked.method === 'closed' ? 'yoshida6' : asked.method } } : plunge(asked, values.p);
 }
 
 // Followed with samples enough for a smooth path: each has 90 bytes on the wire. How often it goes round is known once there is one.

@@ -296,6 +296,8 @@ enum kd_status kd_orbit_request_check(const struct kd_orbit_request *request, st
     }
     if (!isnan(p->periods) && !isnan(p->time))
         return kd_error_field(error, "/duration", "duration is given as periods and as time: allowed is one of them");
+    if (p->or_end && isnan(p->periods))
+        return kd_error_field(error, "/duration/or_end", "or_end is true without periods, allowed is false: what has none is followed to its end in any case, unless a time is given");
     if (!kd_orbit_is_seen(p) && (isfinite(p->seen.r) || p->seen.azimuth_deg != 0 || p->seen.motion != KD_OBSERVER_STATIC))
         return kd_error_field(error, "/seen/observer_inclination_deg", "observer_inclination_deg is missing: whence the orbit is seen");
     if (kd_orbit_is_seen(p) && request->many)

@@ -7,6 +7,7 @@
 
 #include <math.h>
 
+#define LONGEST_TURNS 1000 /* of what is followed to its end: a whirl next to an unstable circle */
 #define DEFAULT_PERIODS 10
 #define SEARCHES 3      /* samples in a row without an image, after which one is searched for */
 #define SEARCH_EVERY 64 /* samples only */
@@ -98,7 +99,7 @@ static bool find_end(struct kd_orbit_run *run, double h)
     const struct kd_orbit *o = &run->orbit;
     struct kd_orbit_path path, before;
     double horizon = 1 / kd_kerr_horizon(o->a), far = 1 / run->params->r_max;
-    double time = run->params->time, turns = isnan(run->params->periods) ? 1000 : run->params->periods;
+    double time = run->params->time, turns = isnan(run->params->periods) || !o->circular ? LONGEST_TURNS : run->params->periods;
     double longest = turns * 2 * M_PI / kd_orbit_pace(o);
     if (run->start.w <= far)
         far = run->start.w_rate > 0 ? run->start.w : 0.5 * run->start.w;

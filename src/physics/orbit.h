@@ -44,6 +44,8 @@ enum kd_status kd_orbit_from_shape(double a, double p, double e, double x, struc
 
 /* The least p of a stable orbit with this e and x: the separatrix; for e = 0 the innermost stable circular or spherical orbit. */
 double kd_orbit_separatrix(double a, double e, double x);
+/* The radius of the orbit of light with this x, above which circular and spherical orbits of bodies exist, stable or not. */
+double kd_orbit_least_circle(double a, double x);
 
 /* Q >= 0. r: a place on the orbit, or NAN for the outermost range that the constants leave. KD_EINVAL, with pointer
  * "/energy", "/carter" or "/r", if there is no such motion outside the horizon. */

@@ -121,6 +121,21 @@ double kd_orbit_separatrix(double a, double e, double x)
     return high;
 }
 
+static bool exists(const struct kd_orbit *o) { return o->energy > 0 && isfinite(o->energy) && isfinite(o->momentum); }
+
+double kd_orbit_least_circle(double a, double x)
+{
+    double low = kd_kerr_horizon(a), high = kd_orbit_separatrix(a, 0, x);
+    while (high - low > 2e-16 * high) {
+        const double r = 0.5 * (low + high);
+        if (r <= low || r >= high)
+            break;
+        const struct kd_orbit o = of_shape(a, r, 0, x);
+        *(exists(&o) ? &high : &low) = r;
+    }
+    return high;
+}
+
 enum kd_status kd_orbit_from_shape(double a, double p, double e, double x, struct kd_orbit *o, struct kd_error *error)
 {
     enum kd_status status = kd_orbit_check_spin(a, error);
@@ -132,8 +147,7 @@ enum kd_status kd_orbit_from_shape(double a, double p, double e, double x, struc
         return kd_error_field(error, "/p", "p is %.16g, allowed is above the horizon at %.9g", p, kd_kerr_horizon(a));
     *o = of_shape(a, p, e, x);
     double least = p < 12.5 ? kd_orbit_separatrix(a, e, x) : 0;
-    bool exists = o->energy > 0 && isfinite(o->energy) && isfinite(o->momentum);
-    if (p < least && (e > 0 || !exists))
+    if (p < least && (e > 0 || !exists(o)))
         return kd_error_field(error, "/p",
                               "p is %.16g; with this spin, e and inclination_deg an orbit has its turning points "
                               "there only above %.9g, the separatrix",

@@ -11,7 +11,8 @@
 #define OUTPUTS(O)                                                                                                     \
     O(p, .unit = "M", .help = "least semi-latus rectum of a stable bound orbit")                                       \
     O(r_min, .unit = "M", .help = "where a body on the separatrix whirls: its periapsis p/(1 + e)")                    \
-    O(r_max, .unit = "M", .help = "its apoapsis p/(1 - e)")
+    O(r_max, .unit = "M", .help = "its apoapsis p/(1 - e)")                                                            \
+    O(circle, .unit = "M", .help = "radius of the orbit of light of this inclination: above it there are circles, below the separatrix unstable ones")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 
 static const char *const sources[] = {
@@ -29,7 +30,8 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     o->p = kd_orbit_separatrix(p->spin, p->e, kd_cos_deg(p->inclination_deg));
     o->r_min = o->p / (1 + p->e);
     o->r_max = o->p / (1 - p->e);
+    o->circle = kd_orbit_least_circle(p->spin, kd_cos_deg(p->inclination_deg));
     return KD_OK;
 }
 
-KD_QUANTITY(separatrix, "separatrix", "where bound orbits end: the least p of a stable one, by eccentricity and inclination", .point_us = 30)
+KD_QUANTITY(separatrix, "separatrix", "where bound orbits end: the least p of a stable one, by eccentricity and inclination", .point_us = 60)

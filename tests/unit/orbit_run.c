@@ -158,8 +158,9 @@ static void to_its_end_instead(void **state)
     (void)state;
 #define PLUNGE "{\"samples\":20,\"orbit\":{\"case\":\"plunge\"}"
 #define ESCAPE "{\"samples\":20,\"orbit\":{\"position\":{\"r\":10},\"velocity\":{\"v_r\":0.9}}"
-#define PERIODS ",\"duration\":{\"periods\":3,\"or_end\":true}}"
-    static const char *const bodies[][2] = { { PLUNGE "}", PLUNGE PERIODS }, { ESCAPE "}", ESCAPE PERIODS } };
+#define WHIRL "{\"samples\":20,\"method\":\"rkn6\",\"orbit\":{\"energy\":1,\"angular_momentum\":3.9999999}" /* it goes round twice and more: L = 4 does so for ever */
+#define PERIODS ",\"duration\":{\"periods\":1,\"or_end\":true}}"
+    static const char *const bodies[][2] = { { PLUNGE "}", PLUNGE PERIODS }, { ESCAPE "}", ESCAPE PERIODS }, { WHIRL "}", WHIRL PERIODS } };
     for (size_t i = 0; i < COUNT(bodies); i++) {
         struct kd_orbit_request request[2];
         struct kd_orbit_run run[2];

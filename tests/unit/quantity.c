@@ -253,6 +253,32 @@ static void separatrix_by_known_ones(void **state)
     kd_quantity_answer_finish(&turns);
 }
 
+/* Against closed forms for spin 0.9: of the retrograde ISCO; of a parabola, whose p is twice the marginally bound radius 2 - a + 2 sqrt(1 - a) (Bardeen, Press & Teukolsky
+ * 1972), a < 0 for the retrograde one; of the orbits of light in the equator (there) and over the poles (Teo 2003, Gen. Rel. Grav. 35, 1909). */
+static void separatrix_of_a_spinning_hole(void **state)
+{
+    (void)state;
+    const double a = 0.9, pole = 1 + 2 * sqrt(1 - a * a / 3) * cos(acos((1 - a * a) / pow(1 - a * a / 3, 1.5)) / 3);
+    const struct { const char *inclination, *e; double p, circle, off; } all[] = {
+        { "180", "0", 8.717352279606489, 2 * (1 + cos(2. / 3 * acos(a))), 1e-12 },
+        { "0", "0.999999", 2 * (2 - a + 2 * sqrt(1 - a)), 2 * (1 + cos(2. / 3 * acos(-a))), 1e-5 },
+        { "180", "0.999999", 2 * (2 + a + 2 * sqrt(1 + a)), 2 * (1 + cos(2. / 3 * acos(a))), 1e-5 },
+        { "90", "0", NAN, pole, NAN },
+    };
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        struct kd_quantity_answer answer = ASK("separatrix", "spin", "0.9", "inclination_deg", all[i].inclination, "e", all[i].e);
+        struct kd_buffer text = { 0 };
+        double in[3], p, r_min, r_max, circle;
+        assert_int_equal(kd_quantity_csv(&answer, &text), KD_OK);
+        assert_int_equal(sscanf(strchr((char *)text.data, '\n') + 1, "%lf,%lf,%lf,%lf,%lf,%lf,%lf", &in[0], &in[1], &in[2], &p, &r_min, &r_max, &circle), 7);
+        if (!isnan(all[i].p))
+            assert_float_equal(p, all[i].p, all[i].off);
+        assert_float_equal(circle, all[i].circle, 1e-9);
+        kd_buffer_finish(&text);
+        kd_quantity_answer_finish(&answer);
+    }
+}
+
 static void csv_has_a_line_a_point(void **state)
 {
     (void)state;
@@ -342,7 +368,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tables_are_sound), cmocka_unit_test(defaults_answer), cmocka_unit_test(points_stand_alone),
         cmocka_unit_test(bad_requests), cmocka_unit_test(outside_the_domain), cmocka_unit_test(ranges_nest),
-        cmocka_unit_test(json_of_a_curve), cmocka_unit_test(csv_has_a_line_a_point), cmocka_unit_test(separatrix_by_known_ones), cmocka_unit_test(digits_of_lists), cmocka_unit_test(words_are_kept),
+        cmocka_unit_test(json_of_a_curve), cmocka_unit_test(csv_has_a_line_a_point), cmocka_unit_test(separatrix_by_known_ones), cmocka_unit_test(separatrix_of_a_spinning_hole), cmocka_unit_test(digits_of_lists), cmocka_unit_test(words_are_kept),
         cmocka_unit_test(the_list_parses), cmocka_unit_test(the_page_is_up_to_date),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
