@@ -8,6 +8,7 @@ src/kerrd/client.py of src/kerrd/aio.py, by unasync.
 import json
 import keyword
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -83,9 +84,10 @@ def scene(kerrd):
         server.stdout.close()
     out = []
     write("Scene", schema, out)
+    names = sorted(re.search(r"class (\w+)", text)[1] for text in out)
     return ('"""The scene as dataclasses, written by generate.py from the schema; None leaves a field to the server."""\n\n'
             "# This file is generated: change src/scene/fields.h, then run clients/python/generate.py.\n\nfrom __future__ import annotations\n\n"
-            "from collections.abc import Sequence\nfrom dataclasses import dataclass\nfrom typing import Literal\n\n\n" + "\n\n".join(out))
+            "from collections.abc import Sequence\nfrom dataclasses import dataclass\nfrom typing import Literal\n\n" + f"__all__ = {json.dumps(names)}\n\n\n" + "\n\n".join(out))
 
 
 BLOCKING = {"AsyncClient": "Client", "AsyncSession": "Session", "AsyncJob": "Job", "aclose": "close", "asyncio": "time"}

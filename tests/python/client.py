@@ -55,6 +55,47 @@ class Case(unittest.TestCase):
         return headers, body
 
 
+class Said(Case):
+    """Values of numpy and dataclasses wherever a document may have them, and words for what is wrong before anything is sent."""
+
+    def test_numbers_of_numpy(self):
+        at = self.hole.pixel(np.int64(3), np.float32(4), {'image': SIZE})
+        self.assertEqual(at['pixel'], [3, 4])
+        self.assertEqual(len(self.hole.orbits({'p': np.float64(8), 'e': 0.5}, samples=np.int64(9))['series']['t']), 9)
+        with self.hole.job({'scene': kerrd.Scene(image=kerrd.Image(**SIZE)), 'axes': {'spacetime.spin': np.linspace(0, 0.9, 3)}}) as job:
+            self.assertEqual(job.status()['frames'], 3)
+        self.assertEqual(self.hole.render(kerrd.Scene(image=kerrd.Image(**SIZE), accuracy=kerrd.Accuracy(profile='high'))).scene['accuracy']['profile'], 'high')
+
+    def test_what_is_wrong_is_named(self):
+        for words, wrong, call in (
+                (r'shape \(2, 8\)', ValueError, lambda: self.hole.rays(np.zeros((2, 8)))),
+                ('frames is 1', ValueError, lambda: self.hole.light_curve(times=(0, 1), frames=1)),
+                ("layers is 'rgb'", TypeError, lambda: self.hole.layers(None, 'rgb')),
+                ("layers is 'rgb'", TypeError, lambda: self.hole.sweep(None, {'spacetime.spin': [0]}, layers='rgb')),
+                ('spots.x.r: x is no place in a list of 0', KeyError, lambda: self.hole.render({'spots': []}, **{'spots.x.r': 1})),
+                ('spots.1.r: 1 is no place in a list of 1, allowed are 0 to 0', KeyError, lambda: self.hole.render({'spots': [{}]}, **{'spots.1.r': 1})),
+                ('image.width.x: width is 3', KeyError, lambda: self.hole.render({'image': {'width': 3}}, **{'image.width.x': 1})),
+                ('tile is 0', ValueError, lambda: self.hole.stitched({'image': SIZE}, tile=0))):
+            with self.assertRaisesRegex(wrong, words):
+                call()
+
+    def test_a_proxy_of_the_environment_is_not_asked_for_the_own_machine(self):
+        code = 'import kerrd, sys\nwith kerrd.local(binary=sys.argv[1]) as hole: print(hole.device()["name"] != "")'
+        env = {**os.environ, 'http_proxy': 'http://127.0.0.1:9', 'PYTHONPATH': os.pathsep.join([str(FOLDER / 'src'), os.environ.get('PYTHONPATH', '')])}
+        env.pop('no_proxy', None)
+        done = subprocess.run([sys.executable, '-c', code, KERRD], env=env, capture_output=True, text=True, timeout=60)
+        self.assertEqual((done.stdout, done.stderr), ('True\n', ''))
+
+    def test_a_view_that_nothing_moves_in_ends(self):
+        with self.hole.session({'disk': {'model': 'none'}, 'sky': {'model': 'grid'}, 'image': SIZE, 'motion': {'time_rate': 10}}) as session:
+            session.frame_wait = 1
+            self.assertTrue([frame.final for frame in session][-1])
+
+    def test_a_job_that_is_gone_is_closed(self):
+        with self.hole.job({'scene': {'image': SIZE}}) as job:
+            raw(self.hole.url, 'DELETE', f'/v1/jobs/{job.id}?token={job.token}')
+
+
 class Blocking(Case):
     def test_a_picture_and_its_numbers(self):
         frame = self.hole.render({'image': SIZE}, camera__inclination_deg=60, layers=['g', 'rgb'])

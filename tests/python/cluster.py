@@ -63,12 +63,12 @@ class Cluster(unittest.TestCase):
                 killed.extend((pid, self.dask.run(server_of, plugin=PLUGIN, workers=[worker])[worker], len(list(pathlib.Path(folder).glob('*.png')))))
                 os.kill(pid, signal.SIGKILL)
             killed = []
-            killer = threading.Thread(target=kill)
+            killer = threading.Thread(target=kill, daemon=True)
             killer.start()
             paths = kerrd.sweep(scenes, self.dask, folder=folder, binary=KERRD)
             killer.join()
             self.assertLess(killed[2], len(scenes), 'it died before the end')
-            self.assertEqual(sorted(os.listdir(folder)), [f'{k:06}.png' for k in range(len(scenes))])
+            self.assertEqual(sorted(os.listdir(folder)), [*(f'{k:06}.png' for k in range(len(scenes))), 'sweep.json'])
             self.assertEqual([pathlib.Path(path).name for path in paths], [f'{k:06}.png' for k in range(len(scenes))])
             with kerrd.local(binary=KERRD) as hole:
                 for scene, path in zip(scenes, paths):
@@ -81,6 +81,8 @@ class Cluster(unittest.TestCase):
             os.remove(paths[5])
             kerrd.sweep(scenes, self.dask, folder=folder, binary=KERRD)
             self.assertEqual([path for path in paths if os.stat(path).st_mtime_ns != before[path]], [paths[5]], 'what is there is kept')
+            with self.assertRaisesRegex(kerrd.KerrdError, '000003.png shows another scene'):
+                kerrd.sweep([*scenes[:3], SCENE, *scenes[4:]], self.dask, folder=folder, binary=KERRD)
 
     def test_2_arrays_and_stores(self):
         scenes = kerrd.dask.scenes_of(SCENE, {'spacetime.spin': [0, 0.9], 'camera.inclination_deg': [30, 60]})
@@ -109,6 +111,26 @@ class Cluster(unittest.TestCase):
         with self.assertRaises(kerrd.Problem) as caught:
             kerrd.sweep([SCENE, {'image': {'width': -4}}], self.dask, retries=0, binary=KERRD)
         self.assertEqual((caught.exception.status, caught.exception.pointer), (422, '/image/width'))
+
+    def test_5_one_picture_by_all(self):
+        scene = {'image': {'width': 90, 'height': 61}, 'style': {'exposure': 0, 'bloom': 0}}
+        with kerrd.local(binary=KERRD) as hole:
+            whole = hole.render(scene, layers=['g', 'rgb'])
+            self.assertTrue(np.array_equal(kerrd.dask.stitched(scene, self.dask, tile=40, binary=KERRD), whole.array))
+            self.assertTrue(np.array_equal(hole.stitched(scene, tile=40), whole.array))
+            for parts in kerrd.dask.stitched(scene, self.dask, tile=40, layers=['g', 'rgb'], binary=KERRD), hole.stitched_layers(scene, ['g', 'rgb'], tile=33):
+                for name in 'g', 'rgb':
+                    self.assertTrue(np.array_equal(parts[name], whole.layers[name], equal_nan=True), name)
+            with self.assertRaises(kerrd.Problem) as caught:
+                hole.stitched({'image': {'width': 90, 'height': 61}})
+            self.assertEqual((caught.exception.pointer, caught.exception.allowed is None), ('/style/exposure', False))
+
+    def test_6_bad_arguments(self):
+        for words, wrong in (('batch is 0', {'batch': 0}), ('layers is', {'layers': 'rgb'}), ('binry is no option', {'binry': KERRD})):
+            with self.assertRaisesRegex((ValueError, TypeError), words):
+                kerrd.sweep([SCENE], self.dask, **wrong)
+        with self.assertRaisesRegex(ValueError, 'no scenes'):
+            kerrd.sweep([], self.dask)
 
 
 if __name__ == '__main__':

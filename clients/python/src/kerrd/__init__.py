@@ -8,12 +8,11 @@ from .errors import JobFailed, KerrdError, NoBinary, Problem
 from .frame import Frame
 from .local import local
 from .result import Sweep
-from .scene import Body, Camera, Disk, Gas, Image, Jets, Motion, Polarization, Scene, Sky, Spacetime, Spot, Style, Volume
+from . import scene
+from .scene import *
 
-__all__ = [
-    "AsyncClient", "AsyncJob", "AsyncSession", "Body", "Camera", "Client", "Disk", "Frame", "Gas", "Image", "Jets", "Job", "JobFailed", "KerrdError", "Motion", "NoBinary",
-    "Polarization", "Problem", "Scene", "Session", "Sky", "Spacetime", "Spot", "Style", "Sweep", "Volume", "local", "sweep",
-]
+__all__ = ["AsyncClient", "AsyncJob", "AsyncSession", "Client", "Frame", "Job", "JobFailed", "KerrdError", "NoBinary", "Problem", "Session", "Sweep", "local", "sweep"]
+__all__ += scene.__all__
 
 
 def sweep(scenes: Any, client: Any = None, **more: Any) -> Any:

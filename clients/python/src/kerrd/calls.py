@@ -12,7 +12,7 @@ from typing import Any, Generic, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .document import Document
+from .document import Document, plain
 from .errors import JobFailed, Problem
 from .frame import Frame
 
@@ -52,7 +52,7 @@ def retry_after(answer: Answer) -> float | None:
 
 def checked(answer: Answer) -> Answer:
     """The answer, or its problem document as an exception."""
-    if answer.status < 400:
+    if 200 <= answer.status < 300:
         return answer
     try:
         document = json.loads(answer.body)
@@ -127,7 +127,7 @@ def _npy(answer: Answer) -> NDArray[Any]:
 def post(path: str, document: Any, read: Callable[[Answer], T], *, accept: str | None = None, params: Mapping[str, str] | None = None, token: str | None = None,
          method: str = "POST") -> Call[T]:
     headers = {"Content-Type": JSON, **({"Accept": accept} if accept else {}), **bearer(token)}
-    return Call(method, path, read, params or {}, headers, json.dumps(document, allow_nan=False).encode())
+    return Call(method, path, read, params or {}, headers, json.dumps(plain(document), allow_nan=False).encode())
 
 
 def bearer(token: str | None) -> dict[str, str]:
@@ -143,6 +143,8 @@ def render(scene: Document, preset: str | None) -> Call[Frame]:
 
 
 def layers(scene: Document, preset: str | None, names: Sequence[str]) -> Call[dict[str, NDArray[np.float32]]]:
+    if isinstance(names, str):
+        raise TypeError(f"layers is {names!r}, allowed is a list, as in [{names!r}]")
     document = {**scene, "image": {**scene.get("image", {}), "layers": list(names)}}
     return post("/v1/render", document, _npz, accept=NPZ, params=over(preset))
 
@@ -152,12 +154,15 @@ def plan(document: Document, preset: str | None) -> Call[dict[str, Any]]:
 
 
 def pixel(scene: Document, preset: str | None, x: float, y: float) -> Call[dict[str, Any]]:
-    return post("/v1/pixel", scene, _json, params={**over(preset), "at": f"{x!r},{y!r}"})
+    return post("/v1/pixel", scene, _json, params={**over(preset), "at": f"{float(x)!r},{float(y)!r}"})
 
 
 def rays(pairs: ArrayLike, settings: Mapping[str, Any]) -> Call[NDArray[Any]]:
+    listed = np.ascontiguousarray(pairs, dtype="<f8")
+    if listed.ndim != 2 or listed.shape[1] != 2:
+        raise ValueError(f"pairs has the shape {listed.shape}, allowed is (n, 2): alpha and beta of each ray")
     body = io.BytesIO()
-    np.save(body, np.ascontiguousarray(pairs, dtype="<f8").reshape(-1, 2), allow_pickle=False)
+    np.save(body, listed, allow_pickle=False)
     params = {name: str(value) for name, value in settings.items() if value is not None}
     return Call("POST", "/v1/rays", _npy, params, {"Content-Type": NPY, "Accept": NPY}, body.getvalue())
 

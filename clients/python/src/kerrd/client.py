@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import calls
 from .calls import Answer, Call
-from .document import SceneLike, scene_of
+from .document import SceneLike, scene_of, tile_of, windows
 from .errors import Problem
 from .frame import Frame
 from .result import Sweep
@@ -27,13 +27,13 @@ class Client:
     """A server by its address, such as "http://127.0.0.1:8080/".
 
     patience: seconds for which a busy server (429, 503, 507) is asked again, as often as it says, before the refusal is raised. timeout: seconds
-    without a byte. Requests that are refused raise Problem.
+    without a byte. trust_env: whether proxies and certificates are those that the environment names. Requests that are refused raise Problem.
     """
 
-    def __init__(self, url: str, *, timeout: float = 600, patience: float = 60, headers: Mapping[str, str] | None = None) -> None:
+    def __init__(self, url: str, *, timeout: float = 600, patience: float = 60, headers: Mapping[str, str] | None = None, trust_env: bool = True) -> None:
         self.url = url.rstrip("/") + "/"
         self.patience = patience
-        self._http = httpx.Client(base_url=self.url.rstrip("/"), timeout=httpx.Timeout(timeout, connect=10), headers=dict(headers or {}))
+        self._http = httpx.Client(base_url=self.url.rstrip("/"), timeout=httpx.Timeout(timeout, connect=10), headers=dict(headers or {}), trust_env=trust_env)
 
     def __enter__(self) -> Client:
         return self
@@ -65,6 +65,34 @@ class Client:
     def layers(self, scene: SceneLike = None, names: Sequence[str] = ("rgb",), *, preset: str | None = None, **changes: Any) -> dict[str, NDArray[np.float32]]:
         """Numbers alone: float32 of shape (height, width), "rgb" (height, width, 3) as linear light."""
         return self._run(calls.layers(scene_of(scene, changes), preset, names))
+
+    def stitched(self, scene: SceneLike = None, *, tile: int = 2048, preset: str | None = None, **changes: Any) -> NDArray[np.uint8]:
+        """A picture of any size as it is shown, uint8 of shape (height, width, 3), of tiles of tile x tile pixels: the same as in one, without a seam.
+
+        A tile cannot have exposure "auto", samples "auto", bloom or a beam: docs/scene.md. On many machines: kerrd.dask.stitched.
+        """
+        document = scene_of(scene, changes)
+        width, height = self._size(document, preset)
+        whole = np.empty((height, width, 3), np.uint8)
+        for left, top, across, down in windows(width, height, tile):
+            whole[top : top + down, left : left + across] = (self._run(calls.render(tile_of(document, (left, top, across, down)), preset))).array
+        return whole
+
+    def stitched_layers(self, scene: SceneLike = None, names: Sequence[str] = ("rgb",), *, tile: int = 2048, preset: str | None = None, **changes: Any) -> dict[str, NDArray[np.float32]]:
+        """The numbers of a picture of any size, as layers() has them, of tiles."""
+        document = scene_of(scene, changes)
+        width, height = self._size(document, preset)
+        whole: dict[str, NDArray[np.float32]] = {}
+        for left, top, across, down in windows(width, height, tile):
+            for name, part in (self._run(calls.layers(tile_of(document, (left, top, across, down)), preset, names))).items():
+                whole.setdefault(name, np.empty((height, width, *part.shape[2:]), np.float32))[top : top + down, left : left + across] = part
+        return whole
+
+    def _size(self, document: Mapping[str, Any], preset: str | None) -> tuple[int, int]:
+        image = document.get("image") or {}
+        if not ("width" in image and "height" in image):
+            image = self._run(calls.plan(dict(document), preset))
+        return int(image["width"]), int(image["height"])
 
     def plan(self, scene: SceneLike = None, *, preset: str | None = None, **changes: Any) -> dict[str, Any]:
         """What it would take: passes, rays, bytes, estimate_ms, approximations; nothing is rendered."""
@@ -134,6 +162,8 @@ class Client:
 
     def light_curve(self, scene: SceneLike = None, *, times: tuple[float, float], frames: int, preset: str | None = None, progress: bool = False, **changes: Any) -> dict[str, NDArray[np.float64]]:
         """Flux and centroid from times[0] to times[1] M at so many moments: columns as arrays, `t` and `flux` among them."""
+        if frames < 2:
+            raise ValueError(f"frames is {frames}, allowed is 2 and above: the first and the last moment")
         document = {"output": "light-curve", "scene": scene_of(scene, {**changes, "time": times[0]}), "keyframes": [{"frame": frames - 1, "scene": {"time": times[1]}}]}
         with self.job(document, preset=preset) as job:
             return calls.read_curve((job.wait(progress=progress)).result())
@@ -141,10 +171,20 @@ class Client:
     def sweep(self, scene: SceneLike = None, axes: Mapping[str, Any] | None = None, *, layers: Sequence[str] = ("rgb",), preset: str | None = None, progress: bool = False, **changes: Any) -> Sweep:
         """A scene of every combination of the values of some fields: axes={"spacetime.spin": [0, 0.9], "camera.inclination_deg": "10:80:15"}."""
         document = scene_of(scene, changes)
-        document["image"] = {**document.get("image", {}), "layers": list(layers)}
+        if isinstance(layers, str):
+            raise TypeError(f"layers is {layers!r}, allowed is a list, as in [{layers!r}]")
+        document["image"] = {**(document.get("image") or {}), "layers": list(layers)}
         values = {path: value if isinstance(value, str) else np.asarray(value).tolist() for path, value in (axes or {}).items()}
         with self.job({"output": "cube", "scene": document, "axes": values}, preset=preset) as job:
             return Sweep.of(calls.read_cube((job.wait(progress=progress)).result("npz")), list(values))
+
+
+def _close(client: Client, kind: str, name: str, token: str) -> None:
+    try:
+        client._run(calls.close(kind, name, token))
+    except Problem as problem:
+        if problem.status != 404:  # it is gone already
+            raise
 
 
 class Session:
@@ -157,6 +197,7 @@ class Session:
         self.scene: dict[str, Any] = opened["scene"]
         self.revision: int = opened["revision"]
         self.quality = quality
+        self.frame_wait = FRAME_WAIT_MS / 1000  # seconds that an iteration waits for a frame before it asks again
         self._seen = 0
         self._final = 0  # the revision whose finest frame has been seen
 
@@ -167,11 +208,7 @@ class Session:
         self.close()
 
     def close(self) -> None:
-        try:
-            self.client._run(calls.close("sessions", self.id, self.token))
-        except Problem as problem:
-            if problem.status != 404:  # it is gone already
-                raise
+        _close(self.client, "sessions", self.id, self.token)
 
     def patch(self, change: SceneLike = None, **changes: Any) -> int:
         """Changes the scene; returns its revision, which frames of it carry."""
@@ -190,11 +227,13 @@ class Session:
         return frame
 
     def __iter__(self) -> Iterator[Frame]:
-        """Frames as they come, up to the finest one of a scene that rests, if that has not been seen yet; where time goes on, without end."""
+        """Frames as they come, up to the finest one of a scene that rests, if that has not been seen yet; where something moves, without end."""
         while self._moves() or self._final < self.revision:
-            frame = self.frame()
+            frame = self.frame(self.frame_wait)
             if frame is not None:
                 yield frame
+            elif self._final == self.revision:
+                return  # what goes on changes nothing that is seen
 
     def _moves(self) -> bool:
         return any(self.scene.get("motion", {}).values())
@@ -215,7 +254,7 @@ class Job:
         self.close()
 
     def close(self) -> None:
-        self.client._run(calls.close("jobs", self.id, self.token))
+        _close(self.client, "jobs", self.id, self.token)
 
     def status(self) -> dict[str, Any]:
         return self.client._run(calls.job(self.id))

@@ -7,8 +7,12 @@ server beside each worker, and again where it has died. Needs the package distri
 from __future__ import annotations
 
 import hashlib
+import inspect
+import io
 import itertools
+import json
 import os
+import subprocess
 import threading
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
@@ -20,11 +24,11 @@ from distributed import Client as Cluster
 from distributed import Worker, get_client, get_worker
 from distributed.diagnostics.plugin import WorkerPlugin
 from numpy.typing import NDArray
+from PIL import Image
 
-from .document import Document, SceneLike, scene_of
+from .document import Document, SceneLike, scene_of, tile_of, windows
+from .errors import KerrdError, Problem
 from .local import local
-
-
 
 class Servers(WorkerPlugin):
     """A server for each worker, started with the first scene that it gets: binary, device, args and env as for kerrd.local. A cluster has one plugin for the same options."""
@@ -32,6 +36,10 @@ class Servers(WorkerPlugin):
     idempotent = True
 
     def __init__(self, **options: Any) -> None:
+        known = [name for name in inspect.signature(local).parameters]
+        unknown = [name for name in options if name not in known]
+        if unknown:
+            raise TypeError(f"{unknown[0]} is no option of a server, allowed are {', '.join(known)}")
         self.options = options
         self.name = f"kerrd-{hashlib.sha256(repr(sorted(options.items())).encode()).hexdigest()[:12]}"
 
@@ -48,9 +56,14 @@ class Servers(WorkerPlugin):
     def __getstate__(self) -> dict[str, Any]:
         return {"options": self.options, "name": self.name}
 
-    def hole(self) -> local:
-        """The worker's server; a new one where the last has died."""
+    def hole(self, *, other_than: local | None = None) -> local:
+        """The worker's server; a new one where the last has died. other_than: one whose connection broke, which is about to be dead or is not."""
         with self._lock:
+            if self._hole is not None and self._hole is other_than:
+                try:
+                    self._hole.process.wait(1)
+                except subprocess.TimeoutExpired:
+                    pass
             if self._hole is not None and self._hole.process.poll() is not None:
                 self._hole.close()
                 self._hole = None
@@ -60,17 +73,26 @@ class Servers(WorkerPlugin):
 
 
 def _render_all(plugin_name: str, documents: Sequence[Document], preset: str | None, layers: Sequence[str], paths: Sequence[str | None]) -> list[Any]:
-    """A task: some scenes one after the other."""
-    return [_render(plugin_name, document, preset, layers, path) for document, path in zip(documents, paths)]
+    """A task: some scenes one after the other. A refusal ends it, and is its last element: no other worker would do better."""
+    got: list[Any] = []
+    try:
+        for document, path in zip(documents, paths):
+            got.append(_render(plugin_name, document, preset, layers, path))
+    except Problem as problem:
+        got.append(problem)
+    return got
 
 
 def _render(plugin_name: str, document: Document, preset: str | None, layers: Sequence[str], to: str | None) -> Any:
     """On a worker: a picture's bytes or the numbers of its layers; with `to` they go into that file, whose name is returned. A server that dies meanwhile is started anew, once."""
+    if to is not None and os.path.exists(to):  # by the worker that died with this task
+        return to
     plugin = cast(Servers, get_worker().plugins[plugin_name])
+    hole = plugin.hole()
     try:
-        got = _ask(plugin.hole(), document, preset, layers)
-    except httpx.TransportError:
-        got = _ask(plugin.hole(), document, preset, layers)
+        got = _ask(hole, document, preset, layers)
+    except (httpx.ConnectError, httpx.ReadError, httpx.WriteError, httpx.RemoteProtocolError):
+        got = _ask(plugin.hole(other_than=hole), document, preset, layers)
     if to is None:
         return got
     part = f"{to}.{os.getpid()}.{threading.get_ident()}.part"  # whole under its name, or not there
@@ -100,32 +122,63 @@ def sweep(scenes: Iterable[SceneLike], client: Cluster | None = None, *, preset:
           zarr: str | os.PathLike[str] | None = None, retries: int = 3, batch: int | None = None, **options: Any) -> Any:
     """Renders scenes on a cluster, in order of their places in the list.
 
-    Returns PNG bytes for each; with `layers` a dict of float32 arrays for each. folder: the files 000000.png (or .npz) … there instead, a folder that all workers share; returns their
-    paths, and one that is there already is kept, so that a sweep that broke off goes on. zarr: a store that all workers share instead, an array (scenes, height, width[, 3]) a layer; returns its group; needs the
-    package zarr, and scenes of one size. batch: scenes a task, which Dask hands out; None: some thirty tasks a thread, of at most 16 scenes. client: a distributed.Client, else the current one. options: of the workers' servers (Servers). A scene that is refused raises kerrd.Problem; what a worker that died
-    had not finished is done by others, and by the same one again at most `retries` times.
+    Returns PNG bytes for each; with `layers` a dict of float32 arrays for each. folder: the files 000000.png (or .npz) … there instead, a folder that all workers share; returns
+    their paths. What is there already is kept, so that a sweep that broke off goes on; of what scene it is stands in sweep.json there, and a file of another scene is an error.
+    zarr: a store that all workers share instead, an array (scenes, height, width[, 3]) a layer; returns its group; needs the package zarr, and scenes of one size. batch: scenes a
+    task, which Dask hands out; None: some thirty tasks a thread, of at most 16 scenes each. client: a distributed.Client, else the current one. options: of the workers' servers
+    (Servers). A scene that is refused raises kerrd.Problem; what a worker that died had not finished is done by others, and by the same one again at most `retries` times.
     """
+    if isinstance(layers, str):
+        raise TypeError(f"layers is {layers!r}, allowed is a list, as in [{layers!r}]")
+    if batch is not None and batch < 1:
+        raise ValueError(f"batch is {batch}, allowed is 1 scene and above, or None")
     cluster = client if client is not None else get_client()
     servers = Servers(**options)
-    cluster.register_plugin(servers)
     documents = [scene_of(scene, {}) for scene in scenes]
+    if not documents:
+        raise ValueError("there are no scenes, allowed is one and above")
+    cluster.register_plugin(servers)
     if zarr is not None:
         return _into_zarr(cluster, servers.name, documents, preset, layers or ("rgb",), zarr, retries, batch)
     paths: list[str | None] = [None] * len(documents)
     if folder is not None:
-        Path(folder).mkdir(parents=True, exist_ok=True)
-        paths = [str(Path(folder).resolve() / f"{k:06}.{'npz' if layers else 'png'}") for k in range(len(documents))]
+        paths = _files(Path(folder), documents, preset, layers)
     missing = [k for k, path in enumerate(paths) if path is None or not os.path.exists(path)]
     parts = _parts(cluster, missing, batch)
     n = len(parts)
     futures = cluster.map(_render_all, [servers.name] * n, [[documents[k] for k in part] for part in parts], [preset] * n, [tuple(layers)] * n, [[paths[k] for k in part] for part in parts],
                           retries=retries, pure=False)
-    got = list(itertools.chain.from_iterable(_gather(cluster, futures)))
+    got = _refused(_gather(cluster, futures))
     if folder is None:
         return got
     for left in Path(folder).glob("*.part"):  # by workers that died
         left.unlink(missing_ok=True)
     return paths
+
+
+def _refused(tasks: Iterable[list[Any]]) -> list[Any]:
+    """What all tasks made, one behind the other; the first refusal is raised."""
+    got = list(itertools.chain.from_iterable(tasks))
+    for one in got:
+        if isinstance(one, Problem):
+            raise one
+    return got
+
+
+def _files(folder: Path, documents: Sequence[Document], preset: str | None, layers: Sequence[str]) -> list[str | None]:
+    """Their names, after a look at what is there: sweep.json has the hash of what each file shows."""
+    folder.mkdir(parents=True, exist_ok=True)
+    names = [f"{k:06}.{'npz' if layers else 'png'}" for k in range(len(documents))]
+    wanted = {name: hashlib.sha256(json.dumps([document, preset, list(layers)], sort_keys=True).encode()).hexdigest() for name, document in zip(names, documents)}
+    record = folder / "sweep.json"
+    known = json.loads(record.read_text()) if record.exists() else {}
+    for name, of in wanted.items():
+        if (folder / name).exists() and known.get(name) != of:
+            raise KerrdError(f"{folder / name} shows another scene than this sweep's, or nobody knows which: give an empty folder, or remove it")
+    part = folder / f"sweep.json.{os.getpid()}.part"
+    part.write_text(json.dumps({**known, **wanted}, indent=0))
+    os.replace(part, record)
+    return [str(folder.resolve() / name) for name in names]
 
 
 def _parts(cluster: Cluster, places: Sequence[int], batch: int | None) -> list[Sequence[int]]:
@@ -135,27 +188,52 @@ def _parts(cluster: Cluster, places: Sequence[int], batch: int | None) -> list[S
     return [places[k : k + size] for k in range(0, len(places), size)]
 
 
-def _place(plugin_name: str, places: Sequence[int], documents: Sequence[Document], preset: str | None, layers: Sequence[str], store: str) -> None:
-    """A task: the numbers of some scenes into their places of the store."""
+def stitched(scene: SceneLike, client: Cluster | None = None, *, tile: int = 2048, preset: str | None = None, layers: Sequence[str] = (), retries: int = 3, **options: Any) -> Any:
+    """One picture of any size by all workers, of tiles of tile x tile pixels: uint8 of shape (height, width, 3), or with `layers` a dict of float32 arrays.
+
+    scene: with image.width and image.height; docs/scene.md says what a tile cannot have. The other arguments are those of sweep().
+    """
+    document = scene_of(scene, {})
+    image = document.get("image") or {}
+    if not ("width" in image and "height" in image):
+        raise ValueError("image.width and image.height are missing: a picture of tiles says its size")
+    width, height = int(image["width"]), int(image["height"])
+    places = windows(width, height, tile)
+    parts = sweep([tile_of(document, window) for window in places], client, preset=preset, layers=layers, retries=retries, batch=1, **options)
+    whole: dict[str, NDArray[Any]] = {}
+    for (left, top, across, down), part in zip(places, parts):
+        named = part if layers else {"picture": np.asarray(Image.open(io.BytesIO(part)).convert("RGB"), dtype=np.uint8)}
+        for name, array in named.items():
+            whole.setdefault(name, np.empty((height, width, *array.shape[2:]), array.dtype))[top : top + down, left : left + across] = array
+    return whole if layers else whole["picture"]
+
+
+def _place(plugin_name: str, places: Sequence[int], documents: Sequence[Document], preset: str | None, layers: Sequence[str], store: str) -> list[Problem]:
+    """A task: the numbers of some scenes into their places of the store. A refusal ends it."""
     import zarr
 
     group = zarr.open_group(store, mode="r+")
-    for k, document in zip(places, documents):
-        for name, array in _render(plugin_name, document, preset, layers, None).items():
-            cast(Any, group[name])[k] = array
+    try:
+        for k, document in zip(places, documents):
+            for name, array in _render(plugin_name, document, preset, layers, None).items():
+                cast(Any, group[name])[k] = array
+    except Problem as problem:
+        return [problem]
+    return []
 
 
 def _into_zarr(cluster: Cluster, plugin_name: str, documents: list[Document], preset: str | None, layers: Sequence[str], store: str | os.PathLike[str], retries: int,
                batch: int | None) -> Any:
     import zarr
 
-    path = str(Path(store).resolve())
-    first = cluster.submit(_render, plugin_name, documents[0], preset, tuple(layers), None, retries=retries, pure=False).result()
+    path = os.fspath(store) if "://" in os.fspath(store) else str(Path(store).resolve())
+    [first] = _refused([cluster.submit(_render_all, plugin_name, documents[:1], preset, tuple(layers), [None], retries=retries, pure=False).result()])
     group = zarr.open_group(path, mode="w-")
     for name, array in first.items():
         group.create_array(name, shape=(len(documents), *array.shape), chunks=(1, *array.shape), dtype=array.dtype, fill_value=np.nan)
         cast(Any, group[name])[0] = array
     parts = _parts(cluster, range(1, len(documents)), batch)
     n = len(parts)
-    _gather(cluster, cluster.map(_place, [plugin_name] * n, parts, [[documents[k] for k in part] for part in parts], [preset] * n, [tuple(layers)] * n, [path] * n, retries=retries, pure=False))
+    _refused(_gather(cluster, cluster.map(_place, [plugin_name] * n, parts, [[documents[k] for k in part] for part in parts], [preset] * n, [tuple(layers)] * n, [path] * n,
+                                          retries=retries, pure=False)))
     return zarr.open_group(path, mode="r")

@@ -6,22 +6,24 @@ import dataclasses
 from collections.abc import Mapping, Sequence
 from typing import Any, TypeAlias
 
+import numpy as np
+
 from .scene import Scene
 
 Document: TypeAlias = dict[str, Any]
 SceneLike: TypeAlias = Scene | Mapping[str, Any] | None
 
 
-def _plain(value: Any) -> Any:
-    """Dataclasses, tuples and numpy scalars as what JSON has; what is None of a dataclass is left to the server."""
+def plain(value: Any) -> Any:
+    """Dataclasses, tuples and numpy's arrays and scalars as what JSON has; what is None of a dataclass is left to the server."""
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
         fields = {field.name: getattr(value, field.name) for field in dataclasses.fields(value)}
-        return {name: _plain(part) for name, part in fields.items() if part is not None}
+        return {name: plain(part) for name, part in fields.items() if part is not None}
     if isinstance(value, Mapping):
-        return {str(name): _plain(part) for name, part in value.items()}
+        return {str(name): plain(part) for name, part in value.items()}
     if isinstance(value, Sequence) and not isinstance(value, str):
-        return [_plain(part) for part in value]
-    return value.item() if hasattr(value, "item") and not isinstance(value, (int, float)) else value
+        return [plain(part) for part in value]
+    return value.tolist() if isinstance(value, (np.ndarray, np.generic)) else value
 
 
 def _merge(document: Document, change: Mapping[str, Any]) -> Document:
@@ -38,31 +40,50 @@ def _at(document: Document, path: str, value: Any) -> None:
     """Sets what a dotted path names; numbers are places in a list that is there already."""
     *folders, last = path.split(".")
     here: Any = document
-    try:
-        for k, name in enumerate(folders):
-            if isinstance(here, list):
-                here = here[int(name)]
-            else:
-                here = here.setdefault(name, [] if (folders + [last])[k + 1].isdigit() else {})
-        if isinstance(here, list):
-            here[int(last)] = value
-        else:
-            here[last] = value
-    except IndexError:
-        raise KeyError(f"{path}: the list has {len(here)} elements") from None
+    for k, name in enumerate(folders):
+        following = (folders + [last])[k + 1]
+        if not isinstance(here, list) and here.get(name) is None:
+            here[name] = [] if following.isdigit() else {}
+        here = here[_place(here, name, path)]
+        if not isinstance(here, (dict, list)):
+            raise KeyError(f"{path}: {name} is {here!r}, which has no {following}")
+    here[_place(here, last, path)] = value
+
+
+def _place(here: Any, name: str, path: str) -> Any:
+    if not isinstance(here, list):
+        return name
+    if not name.isdigit() or int(name) >= len(here):
+        raise KeyError(f"{path}: {name} is no place in a list of {len(here)}, allowed are " + (f"0 to {len(here) - 1}" if here else "none"))
+    return int(name)
+
+
+Window: TypeAlias = tuple[int, int, int, int]
+
+
+def windows(width: int, height: int, side: int) -> list[Window]:
+    """Left, top, width and height of tiles of at most side x side pixels that cover a picture, row by row."""
+    if side < 1:
+        raise ValueError(f"tile is {side}, allowed is 1 pixel and above")
+    return [(left, top, min(side, width - left), min(side, height - top)) for top in range(0, height, side) for left in range(0, width, side)]
+
+
+def tile_of(document: Document, window: Window) -> Document:
+    """The scene of which that part of the picture is made."""
+    return {**document, "image": {**document.get("image", {}), "tile": dict(zip(("left", "top", "width", "height"), window))}}
 
 
 def scene_of(scene: SceneLike, changes: Mapping[str, Any]) -> Document:
     """The document of a scene with changes over it: camera={"inclination_deg": 60}, camera__inclination_deg=60, or
     **{"camera.inclination_deg": 60}; size=(640, 360) is image.width and image.height."""
-    document: Document = _plain(scene) if scene is not None else {}
+    document: Document = plain(scene) if scene is not None else {}
     for name, value in changes.items():
-        plain = _plain(value)
+        new = plain(value)
         if name == "size":
-            width, height = plain
-            _merge(document, {"image": {**document.get("image", {}), "width": width, "height": height}})
+            width, height = new
+            document["image"] = {**(document.get("image") or {}), "width": width, "height": height}
         elif "__" in name or "." in name:
-            _at(document, name.replace("__", "."), plain)
+            _at(document, name.replace("__", "."), new)
         else:
-            _merge(document, {name: plain})
+            _merge(document, {name: new})
     return document

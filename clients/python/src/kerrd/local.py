@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import atexit
+import fcntl
 import os
 import re
 import shutil
 import subprocess
+import sys
 from collections.abc import Sequence
 from pathlib import Path
 from types import TracebackType
@@ -23,8 +25,17 @@ def _checkout() -> Path | None:
     return None
 
 
-def find_binary(binary: str | os.PathLike[str] | None = None, *, build: bool = True) -> str:
-    """The program: as given, $KERRD, the PATH, or the source tree that this package was installed from with -e, where it is built if it is not yet."""
+def _build(tree: Path) -> None:
+    """One process at a time; what it says goes on to standard error, for it takes minutes."""
+    with open(tree / "scripts/setup", "rb") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not (tree / "build/kerrd").exists() and subprocess.run([tree / "scripts/setup", "--program"], stdout=sys.stderr).returncode:
+            raise NoBinary(f"{tree}/scripts/setup --program failed; what is wrong stands on standard error")
+
+
+def find_binary(binary: str | os.PathLike[str] | None = None, *, build: bool = False) -> str:
+    """The program: as given, $KERRD, the PATH, or the build in the source tree that this package was installed from with -e. build: whether that is made if it is not there yet, by
+    scripts/setup, which may install packages."""
     for said in (binary, os.environ.get("KERRD")):
         if said:
             found = shutil.which(os.fspath(said))
@@ -39,21 +50,21 @@ def find_binary(binary: str | os.PathLike[str] | None = None, *, build: bool = T
         raise NoBinary("there is no kerrd: give binary=, set $KERRD, put it on the PATH, or install this package from its source tree with pip install -e")
     made = tree / "build/kerrd"
     if not made.exists() and build:
-        subprocess.run([tree / "scripts/setup", "--program"], check=True, stdout=subprocess.DEVNULL)
+        _build(tree)
     if not made.exists():
-        raise NoBinary(f"there is no {made}: scripts/setup --program makes it")
+        raise NoBinary(f"there is no {made}: scripts/setup --program makes it, and so does kerrd.local(build=True)")
     return str(made)
 
 
 class local(Client):
     """A client of a server that it starts, on a port of the loopback that is free, and stops: with kerrd.local() as hole.
 
-    binary: the program (find_binary). device: auto, an index of `kerrd doctor`, or part of a name. args: further options of `kerrd serve`. env: over the environment.
+    binary, build: the program (find_binary). device: auto, an index of `kerrd doctor`, or part of a name. args: further options of `kerrd serve`. env: over the environment.
     """
 
-    def __init__(self, *, binary: str | os.PathLike[str] | None = None, device: str | None = None, args: Sequence[str] = (), env: dict[str, str] | None = None,
+    def __init__(self, *, binary: str | os.PathLike[str] | None = None, build: bool = False, device: str | None = None, args: Sequence[str] = (), env: dict[str, str] | None = None,
                  timeout: float = 600, patience: float = 60) -> None:
-        command = [find_binary(binary), "serve", "--port", "0", "--until-eof", *(["--device", device] if device else []), *args]
+        command = [find_binary(binary, build=build), "serve", "--port", "0", "--until-eof", *(["--device", device] if device else []), *args]
         self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, env={**os.environ, **(env or {})}, text=True)
         assert self.process.stdout is not None
         line = self.process.stdout.readline()
@@ -62,7 +73,7 @@ class local(Client):
             self._stop()
             raise KerrdError(f"{' '.join(command)} did not start (exit code {self.process.returncode}): {line.strip() or 'what is wrong stands on its standard error'}")
         atexit.register(self._stop)
-        super().__init__(found[1], timeout=timeout, patience=patience)
+        super().__init__(found[1], timeout=timeout, patience=patience, trust_env=False)
 
     def __enter__(self) -> local:
         return self

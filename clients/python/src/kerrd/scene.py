@@ -8,6 +8,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
+__all__ = ["Accuracy", "Body", "Camera", "Disk", "Gas", "Image", "Jets", "Motion", "Polarization", "Scene", "Sky", "Spacetime", "Spot", "Style", "Tile", "Volume"]
+
 
 @dataclass
 class Spacetime:
