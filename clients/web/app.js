@@ -198,9 +198,9 @@ async function watch(scene) {
 
   const source = openSource(scene, size, show, refuse, rests);
   const followFiner = buildRefining(source.address, words => status.dataset.wrong || (status.textContent = words));
+  followFiner(true); // as soon as that view is seen
   if (!byId('lensing').hidden) {
     source.refresh();
-    followFiner(true);
     await Promise.race([first, new Promise(resolve => setTimeout(resolve, patience_ms))]);
   }
   followScene(scene);

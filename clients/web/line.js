@@ -3,7 +3,8 @@
 const qualities = [90, 75, 60, 45, 30];
 const long_ms = 45; // that the bytes of a picture take for each that is under way at once, over which it is of a lower quality next time
 const slow_ms = 105; // from picture to picture, over which a line that is busy for most of it makes the next one of a lower quality
-const far_off = 3; // times as long: two steps at once
+const steep = 3; // times slow_ms: bytes that take longer than this lower the quality by two steps at once
+const soon_ms = 3000; // after a higher quality was tried: one that must be given up again sooner is tried less often
 const busy = 0.7; // of the time from picture to picture
 const short_ms = 12; // below which one of a higher quality would be in time
 const calm = 12; // pictures in a row that took no longer, before a higher one is tried
@@ -42,13 +43,13 @@ export function buildLine() {
     read(quality, ms) {
       const now = performance.now(),
         since = now - came_ms,
-        holds_up = since > slow_ms && since < choked_ms && ms > busy * since; // the line, and nothing else
+        holds_up = since > slow_ms && since < choked_ms && ms > busy * since; // the line takes that long, and not the server
       came_ms = now;
       read_ms = ms;
       if (quality !== qualities[at]) return; // it was asked for before
       if ((ms > long_ms * depth() || holds_up) && trip_ms > near_ms && at + 1 < qualities.length) {
-        patience = now - climbed < 3000 ? Math.min(2 * patience, most_calm) : calm;
-        at = Math.min(at + (ms > far_off * slow_ms ? 2 : 1), qualities.length - 1);
+        patience = now - climbed < soon_ms ? Math.min(2 * patience, most_calm) : calm;
+        at = Math.min(at + (ms > steep * slow_ms ? 2 : 1), qualities.length - 1);
         quick = 0;
       } else if (ms > short_ms * depth()) quick = 0;
       else if (++quick > patience && at) {

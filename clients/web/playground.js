@@ -23,7 +23,7 @@ import { thrown } from './thrown.js';
 
 const paces = { minimum: 0.1, maximum: 1e6, unit: 'M per second', default: 100 };
 const arrow_px = 90; // of the reference speed, as in hands.js
-const first = 'system'; // the swarm's answer alone has 33 kB
+const first = 'system'; // planets: they fill both pictures and go round for ever, and their answer is short
 const roomy = matchMedia('(min-width: 75rem)'); // room for both pictures
 
 export async function openPlayground() {
@@ -198,6 +198,7 @@ export async function openPlayground() {
     hole = {};
     link.set('play.rate', null);
     link.set('play.preset', part.preset.value === first ? null : part.preset.value);
+    show([...part.views].find(button => button.getAttribute('aria-pressed') === 'true')?.value ?? usual()); // what is usual is another thing now
     begin();
   });
   part.again.addEventListener('click', () => begin());

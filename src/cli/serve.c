@@ -5,6 +5,7 @@
 #include "server/server.h"
 
 #include <errno.h>
+#include <poll.h>
 #include <pthread.h>
 #include <signal.h>
 #include <stdio.h>
@@ -121,9 +122,14 @@ static void *await_eof(void *unused)
 {
     char bytes[64];
     ssize_t n;
-    do
-        n = read(STDIN_FILENO, bytes, sizeof bytes);
-    while (n > 0 || (n < 0 && errno == EINTR));
+    while ((n = read(STDIN_FILENO, bytes, sizeof bytes)) != 0) {
+        if (n < 0 && errno == EAGAIN)
+            poll(&(struct pollfd) { .fd = STDIN_FILENO, .events = POLLIN }, 1, -1);
+        else if (n < 0 && errno != EINTR)
+            break;
+    }
+    if (n < 0)
+        fprintf(stderr, "kerrd: standard input cannot be read (%s), and the server stops\n", strerror(errno));
     kill(getpid(), SIGTERM);
     return unused;
 }
