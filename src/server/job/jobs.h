@@ -7,7 +7,7 @@
 #define KD_SERVER_JOB_JOBS_H
 
 #include "render/output/cost.h"
-#include "server/job/spec.h"
+#include "job/spec.h"
 #include "server/job/store.h"
 #include "server/render/queue.h"
 #include "server/http/counts.h"

@@ -127,7 +127,7 @@ static enum kd_turn_end work(struct kd_task *task, double until_ms)
     struct kd_error error = { 0 };
     enum kd_status status;
     if (!d->read)
-        KD_TRY(kd_job_spec_parse(text, body->size, d->draft.preset, assets, &d->draft.spec, &error));
+        KD_TRY(kd_job_spec_parse(text, body->size, &(struct kd_job_base) { .preset = d->draft.preset }, assets, &d->draft.spec, &error));
     d->read = true;
     KD_TRY(kd_jobs_check(jobs, &d->draft, until_ms, &error));
     if (d->draft.cost.frames < d->draft.spec.frames)

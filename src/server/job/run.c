@@ -1,8 +1,9 @@
 /* The frames of jobs go through the render queue. */
 #include "server/job/internal.h"
 
-#include "render/output/series.h"
 #include "base/clock.h"
+#include "job/frame.h"
+#include "render/output/series.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,37 +21,6 @@ struct kd_job_render {
 static void rendered(struct kd_render_job *render);
 static void done(struct kd_render_job *render);
 static void progress(struct kd_render_job *render, double fraction);
-
-/* crowd: what a frame of a film shows, as it was `late` M before; NULL: it is none. */
-static enum kd_status plan_frame(const struct kd_jobs *all, const struct kd_job_spec *spec, unsigned number, const struct kd_crowd *crowd, double late,
-                                 const struct kd_capacity *capacity, struct kd_scene *scene, struct kd_plan *plan, struct kd_error *error)
-{
-    struct kd_error inner = { 0 };
-    char pointer[sizeof inner.pointer];
-    enum kd_status status = kd_job_spec_scene(spec, number, scene, error);
-    if (status)
-        return status;
-    if (crowd) {
-        kd_scene_show(scene, crowd);
-        kd_scene_pass(scene, crowd->time + late);
-        status = kd_scene_validate(scene, &inner);
-    }
-    if (!status)
-        status = kd_format_plan(spec->series->frame, scene, capacity, plan, &inner);
-    if (!status && plan->estimate_ms > 1e3 * all->params.longest_s)
-        status = kd_error_set(&inner, KD_ETOOBIG, "it would take about %.0f s, more than the %u s a frame may take",
-                              plan->estimate_ms * 1e-3, all->params.longest_s);
-    if (!status)
-        return KD_OK;
-    if (spec->sweep)
-        snprintf(pointer, sizeof pointer, "/axes");
-    else if (spec->listed)
-        snprintf(pointer, sizeof pointer, "/scenes/%u%.100s", number, inner.pointer);
-    else
-        snprintf(pointer, sizeof pointer, "%s%.100s", spec->timeline.n_keys > 1 ? "/keyframes" : "/scene", spec->timeline.n_keys > 1 ? "" : inner.pointer);
-    kd_error_field(error, pointer, "frame %u: %.440s", number, inner.message);
-    return error->status = status;
-}
 
 void kd_job_give_up(struct kd_job *job, const struct kd_error *error)
 {
@@ -90,7 +60,7 @@ static bool begin(struct kd_job *job)
         return false;
     struct kd_job_render *frame = calloc(1, sizeof *frame);
     kd_render_queue_capacity(all->params.renders, &capacity);
-    status = frame ? plan_frame(all, &job->spec, number, crowd, 0, &capacity, &frame->render.scene, &frame->render.plan, &error)
+    status = frame ? kd_job_frame_plan(&job->spec, number, crowd, 0, all->params.longest_s, &capacity, &frame->render.scene, &frame->render.plan, &error)
                                   : kd_error_set(&error, KD_ENOMEM, "out of memory for a frame");
     if (status) {
         kd_job_give_up(job, &error);
@@ -281,7 +251,7 @@ enum kd_status kd_jobs_check(const struct kd_jobs *all, struct kd_job_draft *dra
     enum kd_status status;
     kd_render_queue_capacity(all->params.renders, &capacity);
     do {
-        KD_TRY(plan_frame(all, spec, cost->frames, spec->first, cost->frames * spec->every, &capacity, &scene, &plan, error));
+        KD_TRY(kd_job_frame_plan(spec, cost->frames, spec->first, cost->frames * spec->every, all->params.longest_s, &capacity, &scene, &plan, error));
         KD_TRY(kd_cost_add(cost, spec->series, spec->sweep, &scene, &plan, error));
         if (cost->frames < spec->frames)
             KD_TRY(afford(all, draft, error));

@@ -5,7 +5,7 @@
 #include "base/read.h"
 #include "base/replace.h"
 #include "server/job/folder.h"
-#include "server/job/spec.h"
+#include "job/spec.h"
 
 #include <cjson/cJSON.h>
 #include <dirent.h>

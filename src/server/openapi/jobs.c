@@ -1,6 +1,6 @@
 #include "server/openapi/jobs.h"
 
-#include "server/job/spec.h"
+#include "job/spec.h"
 #include "server/openapi/media.h"
 #include "server/openapi/strict.h"
 #include "server/openapi/timeline.h"
