@@ -192,6 +192,22 @@ static bool progress(void *user, double fraction)
 
 static bool go_on(void *user) { return progress(user, 0); }
 
+static enum kd_status measure(struct work *w, unsigned number, double *stops, struct kd_error *error)
+{
+    struct kd_capacity capacity;
+    struct kd_scene scene;
+    struct kd_plan plan;
+    struct kd_frame frame = { 0 };
+    enum kd_status status;
+    kd_renderer_capacity(w->renderer, &capacity);
+    KD_TRY(kd_job_exposure_plan(&w->spec, number, &capacity, &scene, &plan, error));
+    KD_TRY(kd_render(w->renderer, &scene, &plan, progress, w, &frame, error));
+    *stops = frame.exposure;
+done:
+    kd_frame_finish(&frame);
+    return status;
+}
+
 /* The one exposure of frames that have one, unless the folder knows it; and into the folder of which film its frames are. */
 static enum kd_status expose(struct work *w, struct kd_error *error)
 {
@@ -200,7 +216,7 @@ static enum kd_status expose(struct work *w, struct kd_error *error)
     enum kd_status status = KD_OK;
     const unsigned n = kd_job_exposure_frames(&w->spec, frames);
     for (; w->measured < n; w->measured++)
-        KD_TRY(kd_job_exposure_measure(&w->spec, frames[w->measured], w->renderer, progress, w, &stops[w->measured], error));
+        KD_TRY(measure(w, frames[w->measured], &stops[w->measured], error));
     if (n)
         w->spec.exposure = w->state.exposure = kd_job_exposure_of(stops, n);
     if (w->frames.folder >= 0)

@@ -1,22 +1,32 @@
 #include "job/exposure.h"
 
 #include "render/output/format.h"
+#include "render/plan/layer_kinds.h"
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
+
+/* A map of numbers in false colour has no exposure. */
+static bool takes_one(const struct kd_scene *scene)
+{
+    const struct kd_words *layers = &scene->image.layers;
+    bool picture = !layers->count;
+    for (int i = 0; i < layers->count; i++)
+        picture = picture || layers->at[i].word == KD_LAYER_rgb;
+    return picture && isinf(scene->style.exposure);
+}
 
 static bool is_auto(const struct kd_job_spec *spec, unsigned frame)
 {
     struct kd_scene scene;
-    return !kd_job_spec_scene(spec, frame, &scene, NULL) && isinf(scene.style.exposure);
+    return !kd_job_spec_scene(spec, frame, &scene, NULL) && takes_one(&scene);
 }
 
 /* Between keyframes a word stays what it is: a frame is "auto" only if a keyframe is. */
 static bool any_auto(const struct kd_job_spec *spec)
 {
     for (size_t i = 0; i < spec->timeline.n_keys; i++)
-        if (isinf(spec->timeline.keys[i].scene.style.exposure))
+        if (takes_one(&spec->timeline.keys[i].scene))
             return true;
     return false;
 }
@@ -50,23 +60,14 @@ static void make_small(struct kd_scene *scene)
     scene->image.bit_depth = 8;
 }
 
-enum kd_status kd_job_exposure_measure(const struct kd_job_spec *spec, unsigned frame, struct kd_renderer *renderer, kd_progress_fn progress, void *user, double *stops,
-                                       struct kd_error *error)
+enum kd_status kd_job_exposure_plan(const struct kd_job_spec *spec, unsigned frame, const struct kd_capacity *capacity, struct kd_scene *scene, struct kd_plan *plan,
+                                    struct kd_error *error)
 {
-    struct kd_scene scene;
-    struct kd_plan plan;
-    struct kd_capacity capacity;
-    struct kd_frame picture = { 0 };
-    enum kd_status status;
-    kd_renderer_capacity(renderer, &capacity);
-    KD_TRY(kd_job_spec_scene(spec, frame, &scene, error));
-    make_small(&scene);
-    KD_TRY(kd_format_plan(&kd_format_png, &scene, &capacity, &plan, error));
-    KD_TRY(kd_render(renderer, &scene, &plan, progress, user, &picture, error));
-    *stops = picture.exposure;
-done:
-    kd_frame_finish(&picture);
-    return status;
+    enum kd_status status = kd_job_spec_scene(spec, frame, scene, error);
+    if (status)
+        return status;
+    make_small(scene);
+    return kd_format_plan(&kd_format_png, scene, capacity, plan, error);
 }
 
 static int by_size(const void *a, const void *b)

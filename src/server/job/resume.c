@@ -67,6 +67,9 @@ void kd_job_resume(void *user, const struct kd_job_record *known, struct kd_buff
         job->record.series = job->series;
     }
     find_frames(job);
+    job->spec.exposure = known->exposure;
+    if (!isnan(known->exposure) || job->finished) /* frames without one that was measured are of a version that gave each its own */
+        job->exposure.n = 0;
     job->unordered = job->record.state == KD_JOB_ACTIVE && job->spec.sweep;
     kd_job_append(all, job);
     if (job->record.state != KD_JOB_ACTIVE) {

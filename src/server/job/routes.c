@@ -58,6 +58,8 @@ static enum kd_status to_json(struct kd_job *job, const struct kd_job_status *s,
     kd_json_number(&json, "remaining_s", s->remaining_s); /* NAN: null */
     kd_json_number(&json, "bytes", (double)s->bytes);
     kd_json_number(&json, "lens_maps_traced", s->traced);
+    if (!isnan(s->exposure))
+        kd_json_number(&json, "exposure", s->exposure);
     if (s->sweep)
         write_axes(&json, s->sweep);
     kd_json_number(&json, "created", s->created);

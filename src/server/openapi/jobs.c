@@ -13,12 +13,16 @@
 /* What a job makes of its frames: a list of names. */
 #define OUTPUT "\"output\":{\"enum\":[%s]}"
 
+/* Whether pictures whose exposure is "auto" have the same one. */
+#define EXPOSURE(words) "\"exposure\":{\"enum\":[" words "]}"
+#define ANY_EXPOSURE EXPOSURE("\"one\",\"each\"")
+
 /* Fields with their values; a field has its own schema in Scene. */
 #define AXES "{\"type\":\"object\",\"minProperties\":1,\"maxProperties\":8,\"additionalProperties\":{\"anyOf\":[{\"type\":\"array\",\"minItems\":1," \
     "\"maxItems\":100000,\"items\":{\"anyOf\":[{\"type\":\"number\"},{\"type\":\"string\"},{\"type\":\"boolean\"},{\"type\":\"array\",\"items\":{\"type\":\"string\"}}]}},{\"type\":\"string\",\"description\":\"START:STOP:STEP or START:STOP/HOW MANY\"}]}}"
 
 /* A scene with axes. */
-#define SWEEP OBJECT "\"required\":[\"axes\"],\"properties\":{\"scene\":" KD_OPENAPI_SCENE ",\"axes\":" AXES "," OUTPUT "}}"
+#define SWEEP OBJECT "\"required\":[\"axes\"],\"properties\":{\"scene\":" KD_OPENAPI_SCENE ",\"axes\":" AXES "," EXPOSURE("\"each\"") "," OUTPUT "}}"
 
 static const char plan_request[] = "{\"oneOf\":[" KD_OPENAPI_SCENE "," SWEEP "]}";
 
@@ -26,14 +30,14 @@ static const char plan_request[] = "{\"oneOf\":[" KD_OPENAPI_SCENE "," SWEEP "]}
 #define FILM OBJECT "\"required\":[\"playground\",\"every\"],\"properties\":{\"playground\":{\"type\":\"object\",\"description\":\"a document of a playground, or a " \
     "snapshot, as POST /v1/playground takes them, without rate, paused and scene\"},\"every\":{\"type\":\"number\",\"exclusiveMinimum\":0,\"maximum\":1e12," \
     "\"description\":\"M from a frame to the next\"},\"scene\":" KD_OPENAPI_SCENE "," \
-    KD_OPENAPI_TIMELINE("frame", "{\"type\":\"integer\",\"minimum\":0,\"maximum\":9999}") ",\"frames\":{\"type\":\"integer\",\"minimum\":1,\"maximum\":10000}," OUTPUT "}}"
+    KD_OPENAPI_TIMELINE("frame", "{\"type\":\"integer\",\"minimum\":0,\"maximum\":9999}") ",\"frames\":{\"type\":\"integer\",\"minimum\":1,\"maximum\":10000}," EXPOSURE("\"each\"") "," OUTPUT "}}"
 
 static const char request[] =
     "{\"oneOf\":[" OBJECT "\"required\":[\"scene\"],\"properties\":{\"scene\":" KD_OPENAPI_SCENE "," KD_OPENAPI_TIMELINE(
         "frame", "{\"type\":\"integer\",\"minimum\":0,\"maximum\":9999}")
     ",\"frames\":{\"type\":\"integer\",\"minimum\":1,\"maximum\":10000},"
-    OUTPUT "}}," SWEEP "," FILM "," OBJECT "\"required\":[\"scenes\"],\"properties\":{\"scenes\":{\"type\":\"array\","
-    "\"minItems\":1,\"maxItems\":10000,\"items\":" KD_OPENAPI_SCENE "}," OUTPUT "}}]}";
+    ANY_EXPOSURE "," OUTPUT "}}," SWEEP "," FILM "," OBJECT "\"required\":[\"scenes\"],\"properties\":{\"scenes\":{\"type\":\"array\","
+    "\"minItems\":1,\"maxItems\":10000,\"items\":" KD_OPENAPI_SCENE "}," ANY_EXPOSURE "," OUTPUT "}}]}";
 
 _Static_assert(KD_JOB_FRAMES_MAX == 10000 && KD_SWEEP_AXES == 8 && KD_SWEEP_MOST == 100000, "openapi.json says so");
 
@@ -69,7 +73,7 @@ void kd_openapi_job_schema(struct kd_json *json)
         { "id", KD_SCHEMA_TEXT, false }, { "token", KD_SCHEMA_TEXT, true },
         { "state", "{\"enum\":[\"waiting\",\"running\",\"done\",\"failed\",\"deleted\"]}", false }, { "output", output, false }, { "place", COUNT, false },
         { "frames", COUNT, false }, { "finished", COUNT, false }, { "fraction", KD_SCHEMA_NUMBER, false }, { "remaining_s", KD_SCHEMA_NUMBER_OR_NULL, false },
-        { "bytes", COUNT, false }, { "lens_maps_traced", COUNT, false }, { "axes", "{\"type\":\"object\",\"additionalProperties\":" COUNT "}", true },
+        { "bytes", COUNT, false }, { "lens_maps_traced", COUNT, false }, { "exposure", KD_SCHEMA_NUMBER, true }, { "axes", "{\"type\":\"object\",\"additionalProperties\":" COUNT "}", true },
         { "created", KD_SCHEMA_NUMBER, false }, { "ended", KD_SCHEMA_NUMBER_OR_NULL, false }, { "delayed", KD_SCHEMA_TEXT, true }, { "error", KD_SCHEMA_TEXT, true },
     };
     KD_OPENAPI_STRICT(json, "Job", job);
