@@ -16,12 +16,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { KEY_RATE = 256, KEY_STATE };
+enum { KEY_RATE = 256, KEY_STATE, KEY_SAMPLES, KEY_SHUTTER };
 
 struct arguments {
     struct kd_scene_options scene; /* its document: that of the film */
     const char *device, *output, *state;
-    unsigned rate;
+    unsigned rate, samples;
+    double shutter;
     uint64_t memory;
     bool stats;
 };
@@ -29,6 +30,8 @@ struct arguments {
 static const struct argp_option table[] = {
     { "output", 'o', "FILE", 0, "the film to write: .mp4 (H.264) or .webm (VP9), which take the program ffmpeg; .zip, numbered pictures (required)", 0 },
     { "rate", KEY_RATE, "N", 0, "frames a second, 1 to 120 (default: 24)", 0 },
+    { "samples", KEY_SAMPLES, "N", 0, "motion blur: a frame's light is the mean of that of N pictures, 1 to 64 (default: as the document's motion_blur says, or none)", 0 },
+    { "shutter", KEY_SHUTTER, "PART", 0, "the part of a frame's time, up to 1, in which they are (default: as motion_blur says, or 0.5)", 0 },
     { "state", KEY_STATE, "DIR", 0, "keep finished frames there, and go on with those that are there already, whatever ended the run before", 0 },
     KD_CLI_MEMORY,
     { "stats", 't', NULL, 0, "print frames, their exposure and seconds as one line of JSON on standard error", 0 },
@@ -49,6 +52,7 @@ static const struct kd_gather_format *kind_of(const char *path)
 static error_t parse(int key, char *text, struct argp_state *state)
 {
     struct arguments *arguments = state->input;
+    char *end;
     switch (key) {
     case ARGP_KEY_INIT:
         state->child_inputs[0] = &arguments->scene;
@@ -58,6 +62,12 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case 't': arguments->stats = true; return 0;
     case 'M': arguments->memory = kd_cli_bytes(state, "--memory", text); return 0;
     case KEY_RATE: arguments->rate = kd_cli_number(state, "--rate", text, 1, KD_FILM_RATE_MAX); return 0;
+    case KEY_SAMPLES: arguments->samples = kd_cli_number(state, "--samples", text, 1, KD_BLUR_SAMPLES); return 0;
+    case KEY_SHUTTER:
+        arguments->shutter = strtod(text, &end);
+        if (*end || end == text || !(arguments->shutter > 0) || arguments->shutter > 1)
+            argp_error(state, "--shutter is %s, allowed are numbers above 0, at most 1", text);
+        return 0;
     case KEY_STATE: arguments->state = text; return 0;
     case ARGP_KEY_END:
         if (!arguments->output)
@@ -102,7 +112,7 @@ static enum kd_status read_request(struct work *w, struct kd_error *error)
     KD_TRY(kd_file_read(options->document, KD_JOB_FILM_MAX, &w->text, error));
     KD_TRY(kd_scene_options_load(&beneath, &scene, error));
     w->assets = kd_asset_options_assets(&options->assets);
-    const struct kd_job_base base = { .scene = options->preset || options->from ? &scene : NULL, .change = change, .user = options };
+    const struct kd_job_base base = { .scene = options->preset || options->from ? &scene : NULL, .samples = w->arguments->samples, .shutter = w->arguments->shutter, .change = change, .user = options };
     status = kd_job_spec_parse(w->text.data ? (const char *)w->text.data : "", w->text.size, &base, &w->assets, &w->spec, error);
     KD_TRY(status ? kd_cli_prefix(error, strcmp(options->document, "-") ? options->document : "standard input") : KD_OK);
     KD_TRY(kd_asset_options_check(&options->assets, error));
@@ -124,7 +134,7 @@ static enum kd_status identify(struct work *w, struct kd_error *error)
     beneath.n_set = 0;
     KD_TRY(kd_scene_options_load(&beneath, &scene, error));
     KD_TRY(kd_scene_to_json(&scene, &all));
-    KD_TRY(kd_buffer_printf(&all, "\n%d", options->preset || options->from));
+    KD_TRY(kd_buffer_printf(&all, "\n%d %u %.17g", options->preset || options->from, w->spec.blur.samples, w->spec.blur.shutter));
     for (size_t i = 0; i < options->n_set; i++)
         KD_TRY(kd_buffer_printf(&all, "\n%s", options->set[i]));
     for (size_t i = 0; i < options->assets.n; i++)
@@ -243,6 +253,7 @@ static enum kd_status move(struct work *w, unsigned number, double begin, struct
 
 static enum kd_status render(struct work *w, unsigned number, const struct kd_crowd *crowd, struct kd_error *error)
 {
+    const struct kd_blur blur = kd_job_frame_blur(&w->spec, number);
     struct kd_capacity capacity;
     struct kd_scene scene;
     struct kd_plan plan;
@@ -251,7 +262,8 @@ static enum kd_status render(struct work *w, unsigned number, const struct kd_cr
     enum kd_status status;
     kd_renderer_capacity(w->renderer, &capacity);
     KD_TRY(kd_job_frame_plan(&w->spec, number, crowd, 0, INFINITY, &capacity, &scene, &plan, error));
-    KD_TRY(kd_render(w->renderer, &scene, &plan, progress, w, &frame, error));
+    KD_TRY(blur.samples ? kd_render_blurred(&(struct kd_blurred) { w->renderer, &blur, &scene, &plan, .progress = progress, .user = w }, &frame, error)
+                        : kd_render(w->renderer, &scene, &plan, progress, w, &frame, error));
     w->traced += !frame.lens_reused && plan.planes;
     const struct kd_picture picture = { &frame, &scene, &plan, kd_renderer_device_name(w->renderer), number };
     KD_TRY(kd_encode(w->frames.format, &picture, KD_EFFORT_KEEP, &w->encoder, &file, error));

@@ -17,6 +17,8 @@ enum kd_status kd_job_frame_plan(const struct kd_job_spec *spec, unsigned frame,
     }
     if (!status)
         status = kd_format_plan(spec->series->frame, scene, capacity, plan, &inner);
+    if (!status && spec->blur.samples)
+        status = kd_blur_plan(spec->blur.samples, spec->blur.shutter, capacity, plan, &inner);
     if (!status && plan->estimate_ms > 1e3 * most_s)
         status = kd_error_set(&inner, KD_ETOOBIG, "it would take about %.0f s, more than the %.0f s a frame may take", plan->estimate_ms * 1e-3, most_s);
     if (!status)
@@ -29,4 +31,14 @@ enum kd_status kd_job_frame_plan(const struct kd_job_spec *spec, unsigned frame,
         snprintf(pointer, sizeof pointer, "%s%.100s", spec->timeline.n_keys > 1 ? "/keyframes" : "/scene", spec->timeline.n_keys > 1 ? "" : inner.pointer);
     kd_error_field(error, pointer, "frame %u: %.440s", frame, inner.message);
     return error->status = status;
+}
+
+static enum kd_status sample_of(const struct kd_blur *blur, unsigned sample, struct kd_scene *out, struct kd_error *error)
+{
+    return kd_job_spec_sample(blur->user, blur->frame, sample, out, error);
+}
+
+struct kd_blur kd_job_frame_blur(const struct kd_job_spec *spec, unsigned frame)
+{
+    return (struct kd_blur) { .samples = spec->blur.samples, .user = spec, .frame = frame, .scene = sample_of };
 }

@@ -10,6 +10,9 @@
  * frame before. "scene" is merged over the one that shows it well, and keyframes move the camera. Keyframes are those of scene/timeline.h; what holds at frame 0 without a keyframe there is "scene". Axes are those of scene/sweep.h.
  * With "output": "light-curve" each frame is measured instead of drawn (render/output/series.h).
  *
+ * "motion_blur": {"samples": N, "shutter": S}: the light of frame k is the mean of that of N pictures, at k, k + S/N, ..., k + S (N - 1)/N. S: 0.5 where it is not given. Of frames of
+ * keyframes alone, as pictures.
+ *
  * "exposure": "one" or "each" says of pictures whose style.exposure is "auto" whether all have the same, which is measured before the first of them is drawn (job/exposure.h), or
  * each has its own. Frames of keyframes have one unless it says otherwise; those of a list, of axes and of a playground have each their own. */
 #ifndef KD_JOB_SPEC_H
@@ -35,6 +38,7 @@ struct kd_job_spec {
     struct kd_crowd *first; /* of a film: what it begins with, to be planned by; NULL where that is over */
     const struct kd_series *series; /* "output": what it makes of its frames */
     bool one_exposure;      /* frames whose exposure is "auto" have the same one, */
+    struct { unsigned samples; double shutter; } blur; /* samples 0: none */
     double exposure;        /* this; NAN: each has its own, or it has still to be measured (job/exposure.h) */
 };
 
@@ -42,6 +46,8 @@ struct kd_job_spec {
 struct kd_job_base {
     const char *preset;           /* a preset of scenes; NULL or "": none */
     const struct kd_scene *scene; /* or this one; NULL: the defaults, or what shows the playground well */
+    unsigned samples; /* of motion blur, and */
+    double shutter;   /* its part of a frame's time; 0: as the request says */
     /* Changes the scene of a sequence, and each of a list, before keyframes are merged over it; NULL: nothing is changed. */
     enum kd_status (*change)(void *user, struct kd_scene *scene, struct kd_error *error);
     void *user;
@@ -58,5 +64,7 @@ enum kd_status kd_job_spec_playground(const char *text, size_t length, struct kd
 
 /* The scene of a frame, valid, of a film without its crowd; KD_EINVAL where what lies between two keyframes is not. */
 enum kd_status kd_job_spec_scene(const struct kd_job_spec *spec, unsigned frame, struct kd_scene *out, struct kd_error *error);
+/* The same of a sample of a frame with motion blur, from 0 on, which is the frame's own scene. */
+enum kd_status kd_job_spec_sample(const struct kd_job_spec *spec, unsigned frame, unsigned sample, struct kd_scene *out, struct kd_error *error);
 
 #endif

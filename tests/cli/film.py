@@ -5,10 +5,12 @@ import os
 import pathlib
 import shutil
 import signal
+import struct
 import subprocess
 import sys
 import time
 import zipfile
+import zlib
 
 import support
 
@@ -22,6 +24,39 @@ PSNR = 46  # dB; measured 50: what 4:2:0 leaves of colours at edges, and H.264 a
 REAL = os.environ.get("FFMPEG") == "real"
 SIZE = {"width": 96, "height": 54}
 TURN = {"scene": {"image": SIZE, "disk": {"gas": {"amplitude": 0}}}, "keyframes": [{"frame": 11, "scene": {"camera": {"inclination_deg": 20}}}]}
+
+
+def wide_pixels(png):
+    """Those of a PNG of 16 bits and three channels, from its filtered rows (PNG 1.2, section 6)."""
+    width, height, depth, colour = struct.unpack(">IIBB", png[16:26])
+    assert (depth, colour) == (16, 2)
+    data, at = b"", 8
+    while at < len(png):
+        n, kind = struct.unpack(">I4s", png[at:at + 8])
+        data += png[at + 8:at + 8 + n] if kind == b"IDAT" else b""
+        at += 12 + n
+    rows = numpy.frombuffer(zlib.decompress(data), numpy.uint8).reshape(height, 1 + 6 * width)
+    out = numpy.zeros((height + 1, 6 * width + 6), int)
+    for y in range(height):
+        kind, line = rows[y, 0], rows[y, 1:].astype(int)
+        for x in range(6 * width):
+            a, b, c = out[y + 1, x], out[y, x + 6], out[y, x]
+            p = a + b - c
+            paeth = a if abs(p - a) <= abs(p - b) and abs(p - a) <= abs(p - c) else b if abs(p - b) <= abs(p - c) else c
+            out[y + 1, x + 6] = line[x] + (0, a, b, (a + b) // 2, paeth)[kind] & 255
+    found = out[1:, 6:].reshape(height, width, 3, 2)
+    return 256 * found[..., 0] + found[..., 1]
+
+
+def text_of(png, name):
+    start = png.index(b"tEXt" + name + b"\0")
+    return png[start + 5 + len(name):start + 4 + struct.unpack(">I", png[start - 4:start])[0]].decode()
+
+
+def as_shown(light):
+    """Of linear light, at 16 bits: sRGB."""
+    light = numpy.clip(light, 0, 1)
+    return 65535 * numpy.where(light <= 0.0031308, 12.92 * light, 1.055 * light ** (1 / 2.4) - 0.055)
 
 
 class Case(support.Case):
@@ -92,6 +127,70 @@ class Pictures(Case):
         self.assertEqual(stats["exposure_frames"], 0)
         stats = self.film("d.zip", {"scenes": [TURN["scene"]] * 2, "exposure": "one"})
         self.assertEqual(stats["exposure_frames"], 2)
+
+    BLURRED = {"scene": {"image": {**SIZE, "bit_depth": 16}, "style": {"exposure": 0.5, "tone_map": "srgb", "dither": False, "bloom": 0}, "camera": {"inclination_deg": 80}},
+               "keyframes": [{"frame": 4, "scene": {"camera": {"inclination_deg": 48}, "time": 40}}], "motion_blur": {"samples": 5, "shutter": 0.8}}
+
+    def light_at(self, place):
+        """Linear light of one picture, at a place between the keyframes of BLURRED."""
+        scene = {**self.BLURRED["scene"], "image": {**SIZE, "layers": ["rgb"]}, "camera": {"inclination_deg": 80 - 8 * place}, "time": 10 * place}
+        self.good("render", self.write("scene.json", json.dumps(scene)), "-o", self.path("light.npz"))
+        return numpy.load(self.path("light.npz"))["rgb"].astype(float)
+
+    def test_motion_blur(self):
+        """A frame is the mean of the light of five pictures, made here of five files of light; not of pictures as they are shown."""
+        self.film("a.zip", self.BLURRED)
+        frame = self.frames("a.zip")[1]
+        lights = [self.light_at(1 + 0.8 * i / 5) for i in range(5)]
+        self.assertEqual(text_of(frame, b"kerrd:motion_blur"), "samples=5 shutter=0.8")
+        self.assertEqual((self.scene_of(frame)["camera"]["inclination_deg"], self.scene_of(frame)["time"]), (72, 10))
+        shown = wide_pixels(frame)
+        off = numpy.abs(shown - as_shown(2 ** 0.5 * numpy.mean(lights, 0)))
+        self.assertLess(off.max(), 2, "half a step of rounding, and the device's sRGB in single precision")
+        for other in (numpy.mean([as_shown(2 ** 0.5 * light) for light in lights], 0), as_shown(2 ** 0.5 * lights[0]), as_shown(2 ** 0.5 * numpy.mean(lights[:4], 0))):
+            self.assertGreater(numpy.abs(shown - other).max(), 1000)
+
+    def test_motion_blur_by_options(self):
+        """Samples and shutter of the command line; one sample is the picture itself."""
+        plain = {k: v for k, v in self.BLURRED.items() if k != "motion_blur"}
+        self.film("a.zip", plain)
+        self.film("b.zip", self.BLURRED, "--samples", "1")
+        self.film("c.zip", plain, "--samples", "5", "--shutter", "0.8")
+        self.film("d.zip", self.BLURRED)
+        self.assertEqual(text_of(self.frames("b.zip")[2], b"kerrd:motion_blur"), "samples=1 shutter=0.8")
+        self.assertTrue(numpy.array_equal(wide_pixels(self.frames("a.zip")[2]), wide_pixels(self.frames("b.zip")[2])))
+        self.assertEqual(self.read("c.zip"), self.read("d.zip"))
+        self.assertFalse(numpy.array_equal(wide_pixels(self.frames("a.zip")[2]), wide_pixels(self.frames("d.zip")[2])))
+        self.assertNotIn(b"kerrd:motion_blur", self.frames("a.zip")[2])
+        self.film("e.zip", plain, "--samples", "2")
+        self.assertEqual(text_of(self.frames("e.zip")[0], b"kerrd:motion_blur"), "samples=2 shutter=0.5")
+
+    def test_motion_blur_of_what_is_refined(self):
+        """Where pixels get more rays by how they are shown, and the exposure is each frame's own: with glare and a beam the mean is the same light."""
+        request = {"scene": {"image": {**SIZE, "samples": "auto"}, "camera": {"inclination_deg": 80}, "spots": [{"brightness": 3}]},
+                   "keyframes": [{"frame": 2, "scene": {"time": 30}}], "motion_blur": {"samples": 3}, "exposure": "each"}
+        self.film("a.zip", request, "--state", self.path("kept"))
+        os.unlink(self.path("kept/000001.png"))
+        self.film("b.zip", request, "--state", self.path("kept"))
+        self.assertEqual(self.read("a.zip"), self.read("b.zip"))
+        self.assertNotIn("pixel_sampled", text_of(self.frames("a.zip")[1], b"kerrd:accuracy"))
+
+    def test_no_motion_blur(self):
+        keys = TURN["keyframes"]
+        for request, options, words in (
+                ({**TURN, "motion_blur": {"samples": 65}}, [], "from 1 to 64 (at /motion_blur/samples)"), ({**TURN, "motion_blur": {"shutter": 0.5}}, [], "(at /motion_blur/samples)"),
+                ({**TURN, "motion_blur": {"samples": 2, "shutter": 0}}, [], "(at /motion_blur/shutter)"), ({**TURN, "motion_blur": {"samples": 2, "shutter": 1.1}}, [], "(at /motion_blur/shutter)"),
+                ({**TURN, "motion_blur": 4}, [], "(at /motion_blur)"), ({**TURN, "motion_blur": {"samples": 2, "angle": 180}}, [], "(at /motion_blur/angle)"),
+                ({"scene": {}}, ["--samples", "2"], "without keyframes"), ({"scenes": [{}, {}], "motion_blur": {"samples": 2}}, [], "with scenes"),
+                ({"scene": {}, "axes": {"time": [0, 1]}, "motion_blur": {"samples": 2}}, [], "with axes"),
+                ({"playground": {"preset": "system"}, "every": 1, "frames": 2, "motion_blur": {"samples": 2}}, [], "with a playground"),
+                ({**TURN, "output": "light-curve", "motion_blur": {"samples": 2}}, [], "with an output of numbers"), (TURN, ["--shutter", "0.5"], "takes samples"),
+                ({"scene": {"image": {**SIZE, "layers": ["g"]}}, "keyframes": keys, "motion_blur": {"samples": 2}}, [], "image.layers"),
+                ({"scene": {"camera": {"r": 20, "projection": "pinhole", "stereo": "pair"}}, "keyframes": keys, "motion_blur": {"samples": 2}}, [], "camera.stereo"),
+                (TURN, ["--samples", "0"], "--samples"), (TURN, ["--samples", "2", "--shutter", "2"], "--shutter")):
+            done = support.run("film", "-", "-o", self.path("a.zip"), *options, stdin=json.dumps(request).encode())
+            self.assertEqual(done.returncode, 2, (request, options, done.stderr))
+            self.assertIn(words, done.stderr.decode(), (request, options))
 
     def test_options_of_scenes(self):
         self.film("a.zip", {"scene": {"image": SIZE}, "keyframes": [{"frame": 1, "scene": {"time": 4}}]}, "--preset", "face-on", "--size", "48x32", "--set", "style.exposure=2")

@@ -87,6 +87,8 @@ static bool begin(struct kd_job *job)
     frame->job = job;
     frame->number = number;
     frame->measures = measures;
+    if (!measures)
+        frame->render.blur = kd_job_frame_blur(&job->spec, number);
     frame->place = job->next;
     job->next += !measures;
     frame->crowd = crowd;

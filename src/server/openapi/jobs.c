@@ -1,6 +1,7 @@
 #include "server/openapi/jobs.h"
 
 #include "job/spec.h"
+#include "render/frame/blur.h"
 #include "server/openapi/media.h"
 #include "server/openapi/strict.h"
 #include "server/openapi/timeline.h"
@@ -32,14 +33,17 @@ static const char plan_request[] = "{\"oneOf\":[" KD_OPENAPI_SCENE "," SWEEP "]}
     "\"description\":\"M from a frame to the next\"},\"scene\":" KD_OPENAPI_SCENE "," \
     KD_OPENAPI_TIMELINE("frame", "{\"type\":\"integer\",\"minimum\":0,\"maximum\":9999}") ",\"frames\":{\"type\":\"integer\",\"minimum\":1,\"maximum\":10000}," EXPOSURE("\"each\"") "," OUTPUT "}}"
 
+static const char blur[] = "\"motion_blur\":" OBJECT "\"required\":[\"samples\"],\"properties\":{\"samples\":{\"type\":\"integer\",\"minimum\":1,\"maximum\":64},\"shutter\":"
+    "{\"type\":\"number\",\"exclusiveMinimum\":0,\"maximum\":1,\"default\":0.5,\"description\":\"the part of a frame's time in which the shutter is open\"}}}";
+
 static const char request[] =
     "{\"oneOf\":[" OBJECT "\"required\":[\"scene\"],\"properties\":{\"scene\":" KD_OPENAPI_SCENE "," KD_OPENAPI_TIMELINE(
         "frame", "{\"type\":\"integer\",\"minimum\":0,\"maximum\":9999}")
     ",\"frames\":{\"type\":\"integer\",\"minimum\":1,\"maximum\":10000},"
-    ANY_EXPOSURE "," OUTPUT "}}," SWEEP "," FILM "," OBJECT "\"required\":[\"scenes\"],\"properties\":{\"scenes\":{\"type\":\"array\","
+    "%s," ANY_EXPOSURE "," OUTPUT "}}," SWEEP "," FILM "," OBJECT "\"required\":[\"scenes\"],\"properties\":{\"scenes\":{\"type\":\"array\","
     "\"minItems\":1,\"maxItems\":10000,\"items\":" KD_OPENAPI_SCENE "}," ANY_EXPOSURE "," OUTPUT "}}]}";
 
-_Static_assert(KD_JOB_FRAMES_MAX == 10000 && KD_SWEEP_AXES == 8 && KD_SWEEP_MOST == 100000, "openapi.json says so");
+_Static_assert(KD_JOB_FRAMES_MAX == 10000 && KD_SWEEP_AXES == 8 && KD_SWEEP_MOST == 100000 && KD_BLUR_SAMPLES == 64, "openapi.json says so");
 
 /* "pictures","light-curve" */
 static void list_series(char *out, size_t size)
@@ -50,9 +54,9 @@ static void list_series(char *out, size_t size)
 
 void kd_openapi_jobs_body(struct kd_json *json)
 {
-    char names[200], schema[sizeof request + 4 * sizeof names];
+    char names[200], schema[sizeof request + sizeof blur + 4 * sizeof names];
     list_series(names, sizeof names);
-    int n = snprintf(schema, sizeof schema, request, names, names, names, names);
+    int n = snprintf(schema, sizeof schema, request, blur, names, names, names, names);
     kd_openapi_body(json, schema, (size_t)n, NULL);
 }
 
