@@ -201,7 +201,7 @@ class Pictures(Case):
 
     def test_a_playground(self):
         """As `kerrd playground --every` makes it, also where some of its frames are there already."""
-        document = {"preset": "white-dwarf", "debris_per_body": 200}
+        document = {"preset": "white-dwarf", "debris_per_body": 200, "budget": 40}  # so few sub-steps that they end before a frame's time has gone by
         request = {"playground": document, "every": 200, "frames": 4, "scene": {"image": SIZE}}
         self.film("a.zip", request, "--state", self.path("kept"))
         whole = self.read("a.zip")
@@ -330,13 +330,14 @@ class Films(Case):
         os.chmod(script, 0o755)
         self.write("request.json", json.dumps(TURN))
         process = subprocess.Popen([support.KERRD, "film", self.path("request.json"), "-o", self.path("a.mp4")], env={**os.environ, "PATH": self.path("bin")}, stderr=subprocess.PIPE)
+        self.addCleanup(process.kill)
         until = time.monotonic() + 60
         while not os.path.exists(self.path("pid")) or not self.read("pid"):
             self.assertLess(time.monotonic(), until)
             time.sleep(0.01)
         process.send_signal(signal.SIGINT)
-        process.communicate(timeout=30)
-        self.assertEqual(process.returncode, -signal.SIGINT)
+        self.assertEqual(process.wait(30), -signal.SIGINT)
+        process.stderr.close()
         self.assertFalse(os.path.exists(f"/proc/{self.read('pid').decode()}"))
         self.assertEqual([n for n in os.listdir(self.folder) if n.startswith(("a.mp4", ".kerrd"))], [])
 

@@ -76,7 +76,6 @@ class Jobs(Case):
                                    ({**keys, 'scene': {'image': IMAGE, 'style': {'exposure': 2}}}, None, 2),
                                    ({**keys, 'scene': {'image': {**IMAGE, 'layers': ['r']}}}, None, 'auto')):
             job = self.make(asked)
-            self.assertNotIn('exposure', job, 'it is still to be measured')
             done = self.until(job, 'done')
             frames = self.frames(job)
             with self.subTest(str(asked)):
@@ -84,6 +83,14 @@ class Jobs(Case):
                     self.assertIn(done['exposure'], told)
                 self.assertEqual({scene_of(png)['style']['exposure'] for png in frames.values()}, {done.get('exposure', shown)})
                 self.assertEqual(done['finished'], len(frames))
+
+    def test_motion_blur(self):
+        """Pictures say of how many others their light is the mean, and take so many times as long."""
+        asked = {'scene': {**SCENE, 'style': {'exposure': 1}}, 'keyframes': [{'frame': 3, 'scene': {'time': 8}}]}
+        plain, blurred = self.make(asked), self.make({**asked, 'motion_blur': {'samples': 8, 'shutter': 0.25}})
+        self.assertGreater(blurred['remaining_s'] or 8, 2 * (plain['remaining_s'] or 0))
+        self.assertEqual([text_of(png, 'kerrd:motion_blur') for png in self.frames(blurred).values()], ['samples=8 shutter=0.25'] * 4)
+        self.assertFalse(any(b'kerrd:motion_blur' in png for png in self.frames(plain).values()))
 
     def test_keyframes_of_a_list(self):
         """An element that one of two keyframes lacks is at its defaults there; all of this by its index, whole, or by an old name."""
@@ -372,6 +379,8 @@ class Jobs(Case):
                 ({'scene': {}, 'keyframes': [key], 'distances': 'far'}, 422, '/distances'), ({'scene': {}, 'distances': 'linear'}, 422, '/distances'),
                 ({'scenes': [{}], 'distances': 'linear'}, 422, '/scenes'),
                 ({'scene': {}, 'keyframes': [{'frame': 1, 'proper_time': 1}]}, 422, '/keyframes/0/proper_time'),
+                ({'scene': {}, 'keyframes': [key], 'motion_blur': {'samples': 65}}, 422, '/motion_blur/samples'), ({'scene': {}, 'motion_blur': {'samples': 2}}, 422, '/motion_blur'),
+                ({'scene': {'image': {'layers': ['g']}}, 'keyframes': [key], 'motion_blur': {'samples': 2}}, 422, '/keyframes'),
                 ({'scene': {}, 'keyframes': [key], 'exposure': 'two'}, 422, '/exposure'), ({'scene': {}, 'exposure': 1}, 422, '/exposure'),
                 ({'scene': {}, 'axes': {'time': [0]}, 'exposure': 'one'}, 422, '/exposure'), ({'playground': {}, 'every': 1, 'frames': 2, 'exposure': 'one'}, 422, '/exposure'),
                 ({'scene': {}, 'keyframes': [key], 'output': 'fits', 'exposure': 'each'}, 422, '/exposure'),
