@@ -14,7 +14,7 @@ static const struct command {
     const char *name;
     int (*run)(int argc, char **argv);
 } commands[] = {
-    { "render", kd_cli_render },   { "light-curve", kd_cli_light_curve }, { "sweep", kd_cli_sweep }, { "particles", kd_cli_particles },
+    { "render", kd_cli_render },   { "light-curve", kd_cli_light_curve }, { "sweep", kd_cli_sweep }, { "film", kd_cli_film }, { "particles", kd_cli_particles },
     { "rays", kd_cli_rays },       { "pixel", kd_cli_pixel },    { "orbit", kd_cli_orbit },
     { "line", kd_cli_line }, { "transfer-function", kd_cli_transfer_function }, { "spectrum", kd_cli_spectrum }, { "visibility", kd_cli_visibility },
     { "playground", kd_cli_playground },
@@ -82,6 +82,7 @@ static const struct argp argp = {
            "  render       a scene to a PNG file\n"
            "  light-curve  flux and centroid of a scene as its time goes on\n"
            "  sweep        a scene for all values of some fields, as one array or many pictures\n"
+           "  film         a scene that keyframes change, or a playground, as a film or numbered pictures\n"
            "  particles    where the particles of a scene are, as an array\n"
            "  rays         end points of listed rays: crossings, redshift, delay\n"
            "  pixel        what one pixel of a picture shows: its ray, each emitter on it, why it ends\n"

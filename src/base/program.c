@@ -4,8 +4,11 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -69,6 +72,20 @@ static bool lift(int *fd)
     close(*fd);
     *fd = high;
     return true;
+}
+
+bool kd_program_known(const char *name)
+{
+    const char *path = getenv("PATH");
+    char file[4096];
+    struct stat about;
+    for (const char *at = path ? path : "/bin:/usr/bin", *end; at; at = *end ? end + 1 : NULL) {
+        end = strchrnul(at, ':');
+        snprintf(file, sizeof file, "%.*s/%s", end > at ? (int)(end - at) : 1, end > at ? at : ".", name);
+        if (!access(file, X_OK) && !stat(file, &about) && S_ISREG(about.st_mode))
+            return true;
+    }
+    return false;
 }
 
 enum kd_status kd_program_start(const char *const argv[], int out, uint64_t most, struct kd_program *program, struct kd_error *error)

@@ -23,6 +23,8 @@ struct kd_program {
 };
 #define KD_PROGRAM_NONE { .in = -1, .told = -1 }
 
+/* Whether there is a program of this name on the PATH that we may run. */
+bool kd_program_known(const char *name);
 /* argv[0] is looked for on the PATH. out: becomes descriptor 3; it stays ours; a file of
  * more than `most` bytes ends the program. The program is nice to others, has none of our other descriptors, and
  * what it prints goes nowhere. KD_EABSENT: there is no such program here. KD_EIO. */

@@ -15,6 +15,7 @@ enum { KD_EXIT_OK = 0, KD_EXIT_FAILURE = 1, KD_EXIT_USAGE = 2 };
 int kd_cli_render(int argc, char **argv);
 int kd_cli_light_curve(int argc, char **argv);
 int kd_cli_sweep(int argc, char **argv);
+int kd_cli_film(int argc, char **argv);
 int kd_cli_particles(int argc, char **argv);
 int kd_cli_rays(int argc, char **argv);
 int kd_cli_pixel(int argc, char **argv);

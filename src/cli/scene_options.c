@@ -168,6 +168,14 @@ static enum kd_status apply_set(const char *text, struct kd_scene *scene, struct
     return status;
 }
 
+enum kd_status kd_scene_options_set(const struct kd_scene_options *options, struct kd_scene *scene, struct kd_error *error)
+{
+    enum kd_status status = KD_OK;
+    for (size_t i = 0; i < options->n_set && !status; i++)
+        status = apply_set(options->set[i], scene, error);
+    return status;
+}
+
 enum kd_status kd_scene_options_merge(struct kd_scene_options *options, struct kd_scene *scene, struct kd_error *error)
 {
     enum kd_status status;
@@ -175,8 +183,7 @@ enum kd_status kd_scene_options_merge(struct kd_scene_options *options, struct k
         KD_TRY(merge_document(options->document, scene, error));
     if (options->from)
         KD_TRY(take_picture(options->from, scene, error));
-    for (size_t i = 0; i < options->n_set; i++)
-        KD_TRY(apply_set(options->set[i], scene, error));
+    KD_TRY(kd_scene_options_set(options, scene, error));
     KD_TRY(kd_asset_options_resolve(&options->assets, scene, error));
     KD_TRY(kd_scene_validate(scene, error));
 done:

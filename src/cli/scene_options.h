@@ -33,6 +33,8 @@ enum kd_status kd_scene_options_load(struct kd_scene_options *options, struct kd
                                      struct kd_error *error);
 /* The same of options without --preset and --from, over what *scene is. */
 enum kd_status kd_scene_options_merge(struct kd_scene_options *options, struct kd_scene *scene, struct kd_error *error);
+/* Every --set and --size, in what *scene is; it need not be valid afterwards. */
+enum kd_status kd_scene_options_set(const struct kd_scene_options *options, struct kd_scene *scene, struct kd_error *error);
 /* Append one "path=value", and a size "1920x1080" as the two that it is; false: no memory, or no size. */
 bool kd_scene_options_add_set(struct kd_scene_options *options, const char *text);
 bool kd_scene_options_add_size(struct kd_scene_options *options, const char *text);

@@ -1,6 +1,7 @@
 /* kerrd sweep renders a scene for all values of some fields, into one file. */
 #include "cli/cli.h"
 #include "cli/file.h"
+#include "cli/frames.h"
 #include "cli/progress.h"
 #include "cli/scene_options.h"
 #include "render/output/curve.h"
@@ -8,13 +9,10 @@
 #include "render/output/gather.h"
 #include "render/plan/sweep_order.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 struct arguments {
     struct kd_scene_options scene;
@@ -76,7 +74,6 @@ static error_t parse(int key, char *text, struct argp_state *state)
     return ARGP_ERR_UNKNOWN;
 }
 
-/* The scenes' files lie one behind the other in a file that nobody else sees. */
 struct work {
     const struct kd_sweep *sweep;
     const struct kind *kind;
@@ -84,60 +81,10 @@ struct work {
     struct kd_sweep_order order;
     struct kd_encoder encoder;
     struct kd_progress progress;
-    int store;
-    uint64_t *places, *sizes, end;
+    struct kd_frames frames;
     double *fluxes; /* Jy; NAN: the picture has none */
     unsigned done, traced;
 };
-
-static enum kd_status open_store(struct work *w, struct kd_error *error)
-{
-    const char *parent = getenv("TMPDIR");
-    char path[4096];
-    snprintf(path, sizeof path, "%s/kerrd-sweep-XXXXXX", parent && *parent ? parent : "/tmp");
-    w->store = mkstemp(path);
-    if (w->store < 0)
-        return kd_error_set(error, KD_EIO, "no file for the scenes can be made in TMPDIR: %s", strerror(errno));
-    unlink(path);
-    w->places = calloc(w->sweep->scenes, sizeof *w->places);
-    w->sizes = calloc(w->sweep->scenes, sizeof *w->sizes);
-    w->fluxes = calloc(w->sweep->scenes, sizeof *w->fluxes);
-    return w->places && w->sizes && w->fluxes ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for %u scenes", w->sweep->scenes);
-}
-
-static enum kd_status keep(struct work *w, unsigned scene, const struct kd_buffer *file, struct kd_error *error)
-{
-    w->places[scene] = w->end;
-    w->sizes[scene] = file->size;
-    for (size_t done = 0; done < file->size;) {
-        ssize_t n = pwrite(w->store, file->data + done, file->size - done, (off_t)(w->end + done));
-        if (n <= 0)
-            return kd_error_set(error, KD_EIO, "scene %u cannot be kept in TMPDIR: %s", scene, strerror(errno));
-        done += (size_t)n;
-    }
-    w->end += file->size;
-    return KD_OK;
-}
-
-static bool size_of(void *user, unsigned scene, uint64_t *out)
-{
-    *out = ((struct work *)user)->sizes[scene];
-    return true;
-}
-
-static bool read_scene(void *user, unsigned scene, uint64_t at, void *to, size_t size)
-{
-    const struct work *w = user;
-    if (at + size > w->sizes[scene])
-        return false;
-    for (size_t done = 0; done < size;) {
-        ssize_t n = pread(w->store, (char *)to + done, size - done, (off_t)(w->places[scene] + at + done));
-        if (n <= 0)
-            return false;
-        done += (size_t)n;
-    }
-    return true;
-}
 
 /* The plan of a scene; its error says which. */
 static enum kd_status plan_of(struct work *w, unsigned number, struct kd_scene *scene, struct kd_plan *plan, struct kd_error *error)
@@ -193,7 +140,7 @@ static enum kd_status render(struct work *w, unsigned number, struct kd_error *e
     w->fluxes[number] = kd_flux_jy(&scene, &frame);
     const struct kd_picture picture = { &frame, &scene, &plan, kd_renderer_device_name(w->renderer), number };
     KD_TRY(kd_encode(w->kind->frame, &picture, KD_EFFORT_KEEP, &w->encoder, &file, error));
-    KD_TRY(keep(w, number, &file, error));
+    KD_TRY(kd_frames_put(&w->frames, number, &file, error));
 done:
     kd_buffer_finish(&file);
     kd_frame_finish(&frame);
@@ -213,48 +160,9 @@ static enum kd_status render_all(struct work *w, struct kd_error *error)
     return status;
 }
 
-/* What is made of the store while it is written. */
-struct pour {
-    struct kd_gather gather;
-    struct kd_buffer out;
-    size_t at;
-    bool over;
-    enum kd_status status;
-    struct kd_error *error;
-};
-
-static size_t pour(void *user, void *to, size_t size)
-{
-    struct pour *p = user;
-    while (p->at == p->out.size && !p->over) {
-        p->out.size = p->at = 0;
-        p->status = kd_gather_next(&p->gather, &p->out, &p->over, p->error);
-        if (p->status)
-            return KD_FILE_STOP;
-    }
-    size_t left = p->out.size - p->at, n = left < size ? left : size;
-    if (n)
-        memcpy(to, p->out.data + p->at, n);
-    p->at += n;
-    return n;
-}
-
 static enum kd_status save_whole(struct work *w, const char *path, struct kd_error *error)
 {
-    const struct kd_gather_source source = { .user = w, .sweep = w->sweep, .frame = w->kind->frame, .n = w->sweep->scenes, .size = size_of, .read = read_scene };
-    struct kd_error made = { 0 };
-    struct pour p = { .error = &made };
-    enum kd_status status;
-    KD_TRY(kd_gather_open(w->kind->whole, &source, &p.gather, error));
-    status = kd_file_stream(path, pour, &p, error);
-    if (p.status) {
-        *error = made;
-        status = p.status;
-    }
-done:
-    kd_gather_close(&p.gather);
-    kd_buffer_finish(&p.out);
-    return status;
+    return kd_frames_save(&w->frames, &(struct kd_frames_whole) { .format = w->kind->whole, .sweep = w->sweep }, path, error);
 }
 
 static enum kd_status save_table(struct work *w, const char *path, struct kd_error *error)
@@ -265,7 +173,7 @@ static enum kd_status save_table(struct work *w, const char *path, struct kd_err
     struct kd_buffer text = { 0 };
     bool read = rows;
     for (unsigned i = 0; i < w->sweep->scenes && read; i++)
-        read = read_scene(w, i, 0, rows + i * row, row);
+        read = kd_frames_read(&w->frames, i, 0, rows + i * row, row);
     enum kd_status status = !rows ? KD_ENOMEM : read ? format->write(rows, w->sweep->scenes, w->sweep, &text) : KD_EIO;
     status = status ? kd_error_set(error, status, status == KD_EIO ? "the scenes cannot be read again from TMPDIR" : "out of memory for %u rows", w->sweep->scenes)
                     : kd_file_write(path, &text, error);
@@ -312,7 +220,7 @@ static enum kd_status run(struct arguments *arguments, struct kd_error *error)
 {
     struct kd_scene scene;
     struct kd_sweep *sweep = NULL;
-    struct work work = { .kind = kind_of(arguments->output), .store = -1 };
+    struct work work = { .kind = kind_of(arguments->output), .frames = KD_FRAMES_NONE };
     enum kd_status status;
     arguments->scene.assets.later = true;
     KD_TRY(kd_scene_options_load(&arguments->scene, &scene, error));
@@ -326,7 +234,13 @@ static enum kd_status run(struct arguments *arguments, struct kd_error *error)
     KD_TRY(kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device, .memory_bytes = arguments->memory, .assets = &assets },
                               &work.renderer, error));
     KD_TRY(check(&work, error));
-    KD_TRY(open_store(&work, error));
+    work.frames.n = sweep->scenes;
+    work.frames.noun = "scene";
+    work.frames.format = work.kind->frame;
+    KD_TRY(kd_frames_open(&work.frames, error));
+    work.fluxes = calloc(sweep->scenes, sizeof *work.fluxes);
+    if (!work.fluxes)
+        KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory for the fluxes of %u scenes", sweep->scenes));
     const double began = kd_progress_clock();
     KD_TRY(render_all(&work, error));
     const double rendered = kd_progress_clock();
@@ -334,14 +248,11 @@ static enum kd_status run(struct arguments *arguments, struct kd_error *error)
     if (arguments->stats)
         KD_TRY(print_stats(&work, rendered - began, kd_progress_clock() - rendered, error));
 done:
-    if (work.store >= 0)
-        close(work.store);
+    kd_frames_finish(&work.frames);
     kd_encoder_finish(&work.encoder);
     kd_sweep_order_finish(&work.order);
     kd_renderer_destroy(work.renderer);
     kd_sweep_free(sweep);
-    free(work.places);
-    free(work.sizes);
     free(work.fluxes);
     return status;
 }

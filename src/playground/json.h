@@ -12,6 +12,7 @@
 #define KD_PLAYGROUND_JSON_H
 
 #include "playground/playground.h"
+#include "playground/preset.h"
 
 #include <cjson/cJSON.h>
 
@@ -26,6 +27,8 @@ enum kd_status kd_playground_patch(struct kd_playground **p, const char *text, s
 enum kd_status kd_playground_parse(const char *text, size_t length, cJSON **tree, struct kd_error *error);
 enum kd_status kd_playground_read_tree(const cJSON *tree, struct kd_playground **out, struct kd_error *error);
 enum kd_status kd_playground_patch_tree(struct kd_playground **p, const cJSON *tree, struct kd_error *error);
+/* The preset that a document names; NULL: it names none that there is. */
+const struct kd_playground_preset *kd_playground_preset_in(const cJSON *tree);
 /* A setting by its name from text, as on a command line. */
 enum kd_status kd_playground_params_set(struct kd_playground_params *params, const char *name, const char *text, struct kd_error *error);
 

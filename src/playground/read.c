@@ -155,11 +155,17 @@ enum kd_status kd_playground_parse(const char *text, size_t length, cJSON **tree
     return !status && !cJSON_IsObject(*tree) ? kd_error_set(error, KD_EINVAL, "the document is no JSON object") : status;
 }
 
+const struct kd_playground_preset *kd_playground_preset_in(const cJSON *tree)
+{
+    const cJSON *name = cJSON_GetObjectItemCaseSensitive(tree, "preset");
+    return cJSON_IsString(name) ? kd_playground_preset_of(name->valuestring) : NULL;
+}
+
 static enum kd_status read_preset(const cJSON *tree, const struct kd_playground_preset **preset, struct kd_error *error)
 {
     const cJSON *name = cJSON_GetObjectItemCaseSensitive(tree, "preset");
     char clipped[60] = "no string";
-    *preset = cJSON_IsString(name) ? kd_playground_preset_of(name->valuestring) : NULL;
+    *preset = kd_playground_preset_in(tree);
     if (!name || *preset)
         return KD_OK;
     if (cJSON_IsString(name))

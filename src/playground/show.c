@@ -240,3 +240,19 @@ enum kd_status kd_playground_widen(const struct kd_playground *p, struct kd_scen
     snprintf(text, sizeof text, "%.9g", fmin(fmax(2.4 * farthest, scene->camera.field_m), 1e6));
     return kd_scene_set(scene, "camera.field_m", text, error);
 }
+
+enum kd_status kd_playground_usual_scene(const struct kd_playground_preset *preset, const struct kd_playground *p, struct kd_scene *out, struct kd_error *error)
+{
+    static const char size[] = "{\"image\":{\"width\":640,\"height\":360}}";
+    enum kd_status status;
+    kd_scene_defaults(out);
+    KD_TRY(kd_scene_patch(out, size, sizeof size - 1, error));
+    if (preset)
+        KD_TRY(kd_scene_patch(out, preset->scene, strlen(preset->scene), error));
+    out->spacetime.spin = p->params.spin;
+    if (!preset)
+        KD_TRY(kd_playground_widen(p, out, error));
+    KD_TRY(kd_scene_validate(out, error));
+done:
+    return status;
+}

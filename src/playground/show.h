@@ -10,6 +10,7 @@
 #define KD_PLAYGROUND_SHOW_H
 
 #include "playground/playground.h"
+#include "playground/preset.h"
 #include "scene/crowd.h"
 #include "scene/scene.h"
 
@@ -24,6 +25,9 @@ enum kd_status kd_playground_may_show(const struct kd_playground *p, const struc
 
 /* Makes a scene at infinity as wide as shows all bodies and nine pieces of debris in ten, and no narrower than it is. */
 enum kd_status kd_playground_widen(const struct kd_playground *p, struct kd_scene *scene, struct kd_error *error);
+
+/* Makes the scene that shows it well, at 640 x 360: that of its preset, or, where that is NULL, one as wide as its bodies are far out. */
+enum kd_status kd_playground_usual_scene(const struct kd_playground_preset *preset, const struct kd_playground *p, struct kd_scene *out, struct kd_error *error);
 
 /* Private to src/playground, and for tests. Where pieces are in (ln r, azimuth), which grid has them, at most KD_SHOW_NODES, and what each of its nodes has; worth: of a
  * piece of each source. */

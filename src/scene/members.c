@@ -18,7 +18,7 @@ enum kd_status kd_member_refuse(const cJSON *item, const char *pointer, const ch
 static enum kd_status refuse_name(const cJSON *item, const char *pointer, const struct kd_member *members, size_t n, bool twice,
                                   struct kd_error *error)
 {
-    char at[sizeof error->pointer], name[60], known[120] = "";
+    char at[sizeof error->pointer], name[60], known[240] = "";
     snprintf(at, sizeof at, "%s", pointer);
     kd_text_pointer(at, sizeof at, item->string);
     kd_text_clip(name, sizeof name, item->string);
@@ -51,6 +51,22 @@ enum kd_status kd_member_whole(const cJSON *item, const char *pointer, unsigned 
         return kd_member_refuse(item, pointer, allowed, error);
     *out = (unsigned)value;
     return KD_OK;
+}
+
+enum kd_status kd_member_word(const cJSON *item, const char *pointer, const char *const *words, size_t n, unsigned *out, struct kd_error *error)
+{
+    char allowed[100];
+    size_t length = 0;
+    if (!item)
+        return KD_OK;
+    for (size_t i = 0; i < n; i++) {
+        if (cJSON_IsString(item) && !strcmp(item->valuestring, words[i])) {
+            *out = (unsigned)i;
+            return KD_OK;
+        }
+        length += (size_t)snprintf(allowed + length, sizeof allowed - length, "%s\"%s\"", !i ? "" : i + 1 < n ? ", " : " or ", words[i]);
+    }
+    return kd_member_refuse(item, pointer, allowed, error);
 }
 
 enum kd_status kd_member_inside(enum kd_status status, const char *pointer, struct kd_error *error)

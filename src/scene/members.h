@@ -21,6 +21,9 @@ enum kd_status kd_member_refuse(const cJSON *item, const char *pointer, const ch
 /* A whole number. */
 enum kd_status kd_member_whole(const cJSON *item, const char *pointer, unsigned least, unsigned most, unsigned *out, struct kd_error *error);
 
+/* One of some words, by its number; where it is not there *out stays as it is. */
+enum kd_status kd_member_word(const cJSON *item, const char *pointer, const char *const *words, size_t n, unsigned *out, struct kd_error *error);
+
 /* Puts the pointer of a part before that of an error in it; gives the status back. */
 enum kd_status kd_member_inside(enum kd_status status, const char *pointer, struct kd_error *error);
 

@@ -81,25 +81,9 @@ static enum kd_status read_scene(struct reader *r, const cJSON *item, const char
     return kd_member_inside(status, pointer, r->error);
 }
 
-/* One of some words; the first without one. */
-static enum kd_status read_word(struct reader *r, const cJSON *item, const char *pointer, const char *const *words, size_t n, unsigned *out)
-{
-    char allowed[100];
-    size_t length = 0;
-    *out = 0;
-    for (size_t i = 0; i < n; i++) {
-        if (item ? cJSON_IsString(item) && !strcmp(item->valuestring, words[i]) : i == 0) {
-            *out = (unsigned)i;
-            return KD_OK;
-        }
-        length += (size_t)snprintf(allowed + length, sizeof allowed - length, "%s\"%s\"", !i ? "" : i + 1 < n ? ", " : " or ", words[i]);
-    }
-    return kd_member_refuse(item, pointer, allowed, r->error);
-}
-
 static const char *const interpolations[] = { KD_INTERPOLATIONS }, *const eases[] = { KD_EASES }, *const distances[] = { "linear", "geometric" },
                                     *const angles[] = { "as-given", "shorter" };
-#define READ_WORD(r, item, pointer, words, out) read_word(r, item, pointer, words, sizeof words / sizeof *words, out)
+#define READ_WORD(r, item, pointer, words, out) kd_member_word(item, pointer, words, sizeof words / sizeof *words, out, (r)->error)
 
 /* A number of a place to look at; it is there, or `usual` is. */
 static enum kd_status read_number(struct reader *r, const cJSON *item, const char *pointer, const char *name, double usual, double least, double most, double *out)

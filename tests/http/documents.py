@@ -85,6 +85,11 @@ class Documents(unittest.TestCase):
     def test_jobs(self):
         self.run_all('docs/jobs.md', 3)
 
+    def test_films(self):
+        self.run_all('docs/films.md', 1)
+        for name in 'turn.zip', 'blurred.zip', 'frames/000011.png':
+            self.assertTrue(pathlib.Path(self.folder.name, name).stat().st_size, name)
+
     def test_sweeps(self):
         self.run_all('docs/sweeps.md', 3)
         folder = pathlib.Path(self.folder.name)

@@ -263,6 +263,14 @@ enum kd_status kd_render_aside(struct kd_renderer *renderer, const struct kd_sce
     return kd_render(renderer, scene, plan, go_on, &aside, out, error);
 }
 
+/* Nothing is made of the light of the others: it is black, as the picture's own. */
+enum kd_status kd_render_mean(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan, const struct kd_light_sum *others, bool aside,
+                              kd_progress_fn progress, const struct kd_glance *glance, void *user, struct kd_frame *out, struct kd_error *error)
+{
+    (void)others;
+    return aside ? kd_render_aside(renderer, scene, plan, progress, glance, user, out, error) : kd_render(renderer, scene, plan, progress, user, out, error);
+}
+
 enum kd_status kd_rays_device(struct kd_renderer *renderer, const struct kd_rays_params *params,
                               const struct kd_ray_labels *rays, struct kd_ray_crossing *crossings,
                               struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_error *error)

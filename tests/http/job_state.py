@@ -99,6 +99,38 @@ class State(Case):
         self.assertIn('ended 3 times', waiting['delayed'])
         self.assertEqual(server.stop(), 0)
 
+    def test_its_exposure_outlives_the_server(self):
+        """It is measured once: the next server would find another, as the fake renderer begins with a stop more."""
+        asked = {'scene': {**SCENE, 'time': 200}, 'keyframes': [{'frame': 2, 'scene': {'camera': {'azimuth_deg': 9}}}]}
+        server = self.start()
+        self.until(self.make({'scene': SCENE}, server=server), 'done', server)
+        job = self.make(asked, server=server)
+        self.assertTrue(daemon.eventually(lambda: self.status(job, server)['finished'] >= 1))
+        server.process.send_signal(signal.SIGKILL)
+        server.wait()
+        server = self.start()
+        self.assertEqual(self.status(job, server)['exposure'], -1)
+        self.until(job, 'done', server)
+        other = self.make(asked, server=server)
+        self.until(other, 'done', server)
+
+        def found(job):
+            with zipfile.ZipFile(io.BytesIO(server.get(self.at(job, '/result')).body)) as z:
+                return {scene_of(z.read(n))['style']['exposure'] for n in z.namelist()}
+        self.assertEqual(found(job), {-1})
+        # frames of a version that gave each its own: the rest has its own, too
+        path = os.path.join(self.folder, 'jobs', other['id'])
+        self.assertEqual(server.stop(), 0)
+        with open(os.path.join(path, 'job.json'), encoding='utf-8') as file:
+            record = json.load(file)
+        del record['exposure']
+        with open(os.path.join(path, 'job.json'), 'w', encoding='utf-8') as file:
+            json.dump({**record, 'state': 'active'}, file)
+        os.unlink(os.path.join(path, '000002.png'))
+        server = self.start()
+        self.assertNotIn('exposure', self.until(other, 'done', server))
+        self.assertIn('auto', found(other))
+
     def test_its_preset_outlives_the_server(self):
         server = self.start()
         job = self.make({'scenes': [{**SCENE, 'time': 200}] * 4}, '?preset=schwarzschild', server)

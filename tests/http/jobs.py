@@ -64,7 +64,33 @@ class Jobs(Case):
         self.assertEqual(all_of('disk', 'outer'), [20, 20, 20, 20, 20, 21, 22, 22, 22])
         self.assertEqual(all_of('image', 'width'), [32] * 4 + [36] * 5)
         self.assertEqual([s['sky']['model'] for s in scenes], ['none'] * 4 + ['grid'] * 5)
-        self.assertEqual([s['style']['exposure'] for s in scenes], ['auto'] * 4 + [1] * 5)  # a word steps, too
+        self.assertEqual([s['style']['exposure'] for s in scenes], [0] * 4 + [1] * 5)  # a word steps, too; and 0 is the middle of 1 and -1 by turns
+
+    def test_exposure(self):
+        """Frames of keyframes have one, the median of nine, which their scenes name and the job tells; each its own where it says so, and those of lists and axes unless they say otherwise."""
+        keys = {'scene': {'image': IMAGE}, 'keyframes': [{'frame': 29, 'scene': {'camera': {'azimuth_deg': 29}}}]}
+        pair = [{'image': IMAGE}] * 2
+        for asked, told, shown in ((keys, (1, -1), None), ({**keys, 'exposure': 'one'}, (1, -1), None), ({**keys, 'exposure': 'each'}, None, 'auto'), ({'scene': {'image': IMAGE}}, None, 'auto'),
+                                   ({'scenes': pair}, None, 'auto'), ({'scenes': pair, 'exposure': 'one'}, (0,), None),
+                                   ({'scene': {'image': IMAGE}, 'axes': {'time': [1, 2]}}, None, 'auto'),
+                                   ({**keys, 'scene': {'image': IMAGE, 'style': {'exposure': 2}}}, None, 2),
+                                   ({**keys, 'scene': {'image': {**IMAGE, 'layers': ['r']}}}, None, 'auto')):
+            job = self.make(asked)
+            done = self.until(job, 'done')
+            frames = self.frames(job)
+            with self.subTest(str(asked)):
+                if told:
+                    self.assertIn(done['exposure'], told)
+                self.assertEqual({scene_of(png)['style']['exposure'] for png in frames.values()}, {done.get('exposure', shown)})
+                self.assertEqual(done['finished'], len(frames))
+
+    def test_motion_blur(self):
+        """Pictures say of how many others their light is the mean, and take so many times as long."""
+        asked = {'scene': {**SCENE, 'style': {'exposure': 1}}, 'keyframes': [{'frame': 3, 'scene': {'time': 8}}]}
+        plain, blurred = self.make(asked), self.make({**asked, 'motion_blur': {'samples': 8, 'shutter': 0.25}})
+        self.assertGreater(blurred['remaining_s'] or 8, 2 * (plain['remaining_s'] or 0))
+        self.assertEqual([text_of(png, 'kerrd:motion_blur') for png in self.frames(blurred).values()], ['samples=8 shutter=0.25'] * 4)
+        self.assertFalse(any(b'kerrd:motion_blur' in png for png in self.frames(plain).values()))
 
     def test_keyframes_of_a_list(self):
         """An element that one of two keyframes lacks is at its defaults there; all of this by its index, whole, or by an old name."""
@@ -353,6 +379,11 @@ class Jobs(Case):
                 ({'scene': {}, 'keyframes': [key], 'distances': 'far'}, 422, '/distances'), ({'scene': {}, 'distances': 'linear'}, 422, '/distances'),
                 ({'scenes': [{}], 'distances': 'linear'}, 422, '/scenes'),
                 ({'scene': {}, 'keyframes': [{'frame': 1, 'proper_time': 1}]}, 422, '/keyframes/0/proper_time'),
+                ({'scene': {}, 'keyframes': [key], 'motion_blur': {'samples': 65}}, 422, '/motion_blur/samples'), ({'scene': {}, 'motion_blur': {'samples': 2}}, 422, '/motion_blur'),
+                ({'scene': {'image': {'layers': ['g']}}, 'keyframes': [key], 'motion_blur': {'samples': 2}}, 422, '/keyframes'),
+                ({'scene': {}, 'keyframes': [key], 'exposure': 'two'}, 422, '/exposure'), ({'scene': {}, 'exposure': 1}, 422, '/exposure'),
+                ({'scene': {}, 'axes': {'time': [0]}, 'exposure': 'one'}, 422, '/exposure'), ({'playground': {}, 'every': 1, 'frames': 2, 'exposure': 'one'}, 422, '/exposure'),
+                ({'scene': {}, 'keyframes': [key], 'output': 'fits', 'exposure': 'each'}, 422, '/exposure'),
                 ({'scene': {}, 'axes': {}}, 422, '/axes'), ({'scene': {}, 'axes': {'spacetime.spin': [0, 2]}}, 422, '/axes/spacetime.spin/1'),
                 ({'scene': {}, 'axes': {'a/b~': [0]}}, 422, '/axes/a~1b~0'), ({'scene': {}, 'axes': {'time': [0]}, 'frames': 2}, 422, '/axes'),
                 ({'playground': {}}, 422, '/every'), ({'playground': {}, 'every': 0, 'frames': 2}, 422, '/every'), ({'playground': {}, 'every': '1', 'frames': 2}, 422, '/every'),

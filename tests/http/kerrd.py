@@ -592,6 +592,23 @@ class Kerrd(unittest.TestCase):
                 for rest in ('/preview.png', '/result?format=png', '/result?format=csv'):
                     self.assertEqual(self.daemon.get(at + rest).status, 422, rest)
 
+    def test_a_film_of_a_job_is_that_of_the_command_line(self):
+        """One exposure, motion blur in a lane beside others, a playground: the ZIP is the same to the byte."""
+        scene = {'image': {'width': 96, 'height': 54}, 'spots': [{'brightness': 3}]}
+        for asked in ({'scene': scene, 'keyframes': [{'frame': 4, 'scene': {'camera': {'inclination_deg': 30}, 'time': 40}}], 'motion_blur': {'samples': 3, 'shutter': 0.9}},
+                      {'scene': scene, 'keyframes': [{'frame': 4, 'scene': {'time': 40}}], 'exposure': 'each'},
+                      {'playground': {'preset': 'swarm'}, 'every': 20, 'frames': 3, 'scene': {'image': scene['image']}}):
+            job = self.daemon.post('/v1/jobs', asked).json()
+            with tempfile.TemporaryDirectory() as folder:
+                done = subprocess.run([daemon.COMMAND[0], 'film', '-', '-t', '-o', folder + '/a.zip'], input=json.dumps(asked).encode(), capture_output=True, timeout=120, check=True)
+                with open(folder + '/a.zip', 'rb') as file:
+                    alone = file.read()
+            while (status := self.daemon.get('/v1/jobs/' + job['id']).json())['state'] in ('waiting', 'running'):
+                time.sleep(0.05)
+            self.assertEqual(status['state'], 'done', status)
+            self.assertEqual(status.get('exposure'), json.loads(done.stderr)['exposure'])
+            self.assertEqual(self.daemon.get('/v1/jobs/' + job['id'] + '/result').body, alone, asked)
+
     def test_a_pixel_is_explained(self):
         """Its crossings are those of POST /v1/rays, its light adds up, and its path goes through the crossings."""
         scene = {'spacetime': {'spin': 0.9}, 'camera': {'inclination_deg': 75}, 'image': {'width': 160, 'height': 90, 'critical_factor': 1},

@@ -21,6 +21,8 @@ content_type_overrides:
     'image/png', 'audio/wav', 'application/x-npy', 'application/x-npz', 'application/fits', 'image/x-exr', 'application/zip', 'application/x-kerrd-frames', 'multipart/x-mixed-replace',
     '"*/*"')) + ''.join(f'  {kind}: text/html\n' for kind in ('text/event-stream', 'application/x-ndjson'))
 
+KEYS = {'scene': {'image': {'width': 32, 'height': 18}}, 'keyframes': [{'frame': 1, 'scene': {'time': 1}}]}
+
 
 class OpenApi(daemon.Case):
     @classmethod
@@ -97,6 +99,8 @@ class OpenApi(daemon.Case):
                 ('plan', {'image': {'bit_depth': 12}}, {'image': {'bit_depth': 4}}, {'image': {'bit_depth': 16}}),
                 ('plan', {'accuracy': {'engine': 'mino-rkn6', 'steps': 6}}, {'accuracy': {'steps': -4}},
                  {'accuracy': {'engine': 'mino-rkn6', 'steps': 8}}),
+                ('jobs', {**KEYS, 'exposure': 'two'}, {**KEYS, 'motion_blur': {}}, {**KEYS, 'motion_blur': {'samples': 65}}, {**KEYS, 'motion_blur': {'samples': 2, 'shutter': 0}},
+                 {'scene': {}, 'axes': {'time': [0]}, 'exposure': 'one'}, {'scenes': [{}], 'motion_blur': {'samples': 2}}, {**KEYS, 'motion_blur': {'samples': 2, 'shutter': 1}, 'exposure': 'one'}),
                 ('jobs', {'scenes': []}, {'scene': {}, 'keyframes': []}, {'scene': {'image': {'width': 32, 'height': 18}}})):
             body = self.document['paths']['/v1/' + path]['post']['requestBody']['content']['application/json']['schema']
             judge = jsonschema.Draft202012Validator({**body, 'components': self.document['components']})

@@ -20,8 +20,9 @@ MODULES = {
     "playground": {"base", "physics", "scene", "image"},  # of scene: as quantity
     "vk": {"base"},
     "render": {"base", "physics", "scene", "image", "vk"},
-    "server": {"base", "physics", "scene", "quantity", "orbit", "integral", "playground", "image", "render"},
-    "cli": {"base", "physics", "scene", "quantity", "orbit", "integral", "playground", "image", "vk", "render", "server"},
+    "job": {"base", "scene", "playground", "render"},  # of render: what frames become
+    "server": {"base", "physics", "scene", "quantity", "orbit", "integral", "playground", "image", "render", "job"},
+    "cli": {"base", "physics", "scene", "quantity", "orbit", "integral", "playground", "image", "vk", "render", "job", "server"},
     "main.c": {"base", "cli"},
 }
 # Inside the large modules a folder may know those before it; what lies in none of them, the top, knows all.
@@ -32,7 +33,7 @@ FOLDERS = {
 # Headers of other projects, and who may include them.
 FOREIGN = {
     "vulkan/": {"vk"},
-    "cjson/": {"scene", "orbit", "integral", "playground", "render", "server", "cli"},
+    "cjson/": {"scene", "orbit", "integral", "playground", "render", "job", "server", "cli"},
     "microhttpd.h": {"server"},
     "archive": {"image", "server"},
     "png.h": {"image"},

@@ -119,6 +119,8 @@ static enum kd_status run(struct kd_frame_job *j)
     if (j->plan->adaptive)
         KD_TRY(refine(j));
     KD_TRY(kd_frame_tell_pixel(j));
+    if (j->others)
+        KD_TRY(kd_frame_mean(j));
     if (j->plan->light)
         KD_TRY(kd_frame_add_light(j));
     if (!j->plan->unseen)
@@ -130,7 +132,7 @@ static enum kd_status run(struct kd_frame_job *j)
     if (!reused)
         KD_TRY(judge_map(j));
     report_accuracy(j);
-    if (j->plan->adaptive)
+    if (j->plan->adaptive && !j->others)
         KD_TRY(kd_frame_residual(j));
 done:
     return status;

@@ -53,6 +53,16 @@ enum kd_status kd_render_aside(struct kd_renderer *renderer, const struct kd_sce
                                kd_progress_fn progress, const struct kd_glance *glance, void *user, struct kd_frame *out,
                                struct kd_error *error);
 
+/* Linear light of other pictures of the same size, added up: red, green and blue of each pixel, rows from the top, of n pictures. */
+struct kd_light_sum {
+    double *sum;
+    unsigned n;
+};
+/* As kd_render, or with `aside` kd_render_aside, of a picture whose light is the mean with that of others; frame/blur.h is how it is asked for. plan->radiance is true, and
+ * plan->eyes 1. How far off pixels are that were refined is not measured. */
+enum kd_status kd_render_mean(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan, const struct kd_light_sum *others, bool aside,
+                              kd_progress_fn progress, const struct kd_glance *glance, void *user, struct kd_frame *out, struct kd_error *error);
+
 /* The lens map alone: plan->planes planes of plan->rays floats each, rows from the top, in the order that
  * shaders/comp/lens_map.comp describes. planes: room for planes * rays floats. *trace_ms (may be NULL): device time. */
 enum kd_status kd_render_lens(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,

@@ -18,6 +18,7 @@ struct kd_frame_job {
     double away_ms; /* and what its progress took */
     const struct kd_scene *scene;
     const struct kd_plan *plan;
+    const struct kd_light_sum *others; /* whose mean with the picture's light is shown; NULL: none's */
     struct kd_vk_buffer *marched; /* light of a sample, as the picture has it and more closely followed; NULL: none */
     struct kd_lens_map *lens;
     struct kd_star_key star_key; /* what the light of stars is made of in this frame, */
@@ -129,6 +130,8 @@ enum kd_status kd_frame_march_error(struct kd_frame_job *job);
 /* Adds up the light of all bands, and sends the sums to the host; waits for them, and makes the frame's flux and centroid of them. */
 enum kd_status kd_frame_add_light(struct kd_frame_job *job);
 enum kd_status kd_frame_read_light(struct kd_frame_job *job);
+/* The light of all bands becomes the mean with j->others; waits for the device. */
+enum kd_status kd_frame_mean(struct kd_frame_job *job);
 /* Light as a telescope's beam sees what is lit, which the passes behind it take for light; nothing where the plan has no beam. */
 enum kd_status kd_frame_beam(struct kd_frame_job *job);
 /* The exposure of what is lit; waits for the device where it is "auto". */

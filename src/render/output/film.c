@@ -138,7 +138,7 @@ static enum kd_status begin(struct film *f, struct kd_error *error)
     else
         status = kd_program_start(argv, f->fd, bytes_of(f->source) + MORE, &f->program, error);
     if (status == KD_EABSENT)
-        kd_error_set(error, KD_EABSENT, "films are encoded by the program ffmpeg, which this server does not find; a zip holds the numbered pictures");
+        kd_error_set(error, KD_EABSENT, "films are encoded by the program ffmpeg, which is not found on the PATH; a zip holds the numbered pictures");
 done:
     if (status == KD_ENOMEM)
         kd_error_set(error, KD_ENOMEM, "out of memory for a film");

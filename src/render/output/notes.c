@@ -76,6 +76,8 @@ enum kd_status kd_notes_of(const struct kd_picture *picture, struct kd_notes *ou
     kd_accuracy_text(&picture->frame->accuracy, picture->plan, out->accuracy);
     kd_fall_clock_text(picture->scene, out->clock);
     kd_flux_text(picture->scene, picture->frame, out->flux);
+    if (picture->plan->blur.samples)
+        snprintf(out->blur, sizeof out->blur, "samples=%u shutter=%.9g", picture->plan->blur.samples, picture->plan->blur.shutter);
     enum kd_status status;
     KD_TRY(put_scene(picture->scene, &out->scene));
     KD_TRY(kd_scene_hash(picture->scene, out->hash));

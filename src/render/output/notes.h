@@ -14,6 +14,9 @@ void kd_accuracy_text(const struct kd_accuracy_report *report, const struct kd_p
 /* Writes the same as members of an object, but for the rays and what traced them. The names of the two errors of radii are the caller's. */
 void kd_accuracy_members(struct kd_json *json, const struct kd_accuracy_report *report, const char *median, const char *worst);
 
+/* "samples=16 shutter=0.5": the light is the mean of 16 pictures, at equal steps of time within half of a frame's (render/frame/blur.h). */
+#define KD_BLUR_TEXT 48
+
 struct kd_notes {
     struct kd_buffer scene;          /* canonical JSON */
     char hash[65];
@@ -21,6 +24,7 @@ struct kd_notes {
     char accuracy[KD_ACCURACY_TEXT];
     char clock[KD_CLOCK_TEXT]; /* of one who falls, else "" */
     char flux[KD_FLUX_TEXT];   /* at a radio frequency, else "" */
+    char blur[KD_BLUR_TEXT];   /* of a mean of pictures, else "" */
 };
 /* KD_ENOMEM. Finish it in any case. */
 enum kd_status kd_notes_of(const struct kd_picture *picture, struct kd_notes *out, struct kd_error *error);

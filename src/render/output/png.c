@@ -11,7 +11,7 @@ enum kd_status kd_png_of_picture(const struct kd_picture *picture, int compressi
     const struct kd_frame *frame = picture->frame;
     struct kd_notes notes;
     enum kd_status status = kd_notes_of(picture, &notes, error);
-    struct kd_png_text text[10] = {
+    struct kd_png_text text[11] = {
         { "kerrd:scene", (const char *)notes.scene.data },
         { "kerrd:hash", notes.hash },
         { "kerrd:version", KD_VERSION },
@@ -27,6 +27,8 @@ enum kd_status kd_png_of_picture(const struct kd_picture *picture, int compressi
         text[n_text++] = (struct kd_png_text) { "kerrd:clock", notes.clock };
     if (*notes.flux)
         text[n_text++] = (struct kd_png_text) { "kerrd:flux", notes.flux };
+    if (*notes.blur)
+        text[n_text++] = (struct kd_png_text) { "kerrd:motion_blur", notes.blur };
     const struct kd_png_params params = {
         .width = frame->width,
         .height = frame->height,

@@ -101,6 +101,7 @@ struct kd_plan {
      * from there to what the picture alone would have. 0, as kd_plan_make leaves it: all of it. */
     double exposure_from, exposure_share;
     struct { bool on, steps; uint32_t x, y; } told; /* nor is this: the light of the middle ray of that pixel is told (frame/tell.h), and with `steps` the engine's own */
+    struct { unsigned samples; double shutter; } blur; /* nor this: its light is the mean of so many pictures (frame/blur.h), within that part of a frame's time; 0: it is its own */
     bool measured, accuracy_measured; /* as in the capacity */
     const char *approximations[KD_PLAN_MAX_APPROXIMATIONS]; /* sentences, static strings */
     size_t n_approximations;

@@ -4,7 +4,7 @@
 #include "scene/scan.h"
 #include "server/asset/store.h"
 #include "server/http/reply.h"
-#include "server/job/spec.h"
+#include "job/spec.h"
 #include "server/render/planned.h"
 #include "server/render/queue.h"
 #include "server/render/scene_source.h"
@@ -37,7 +37,7 @@ static enum kd_turn_end work(struct kd_task *task, double until_ms)
     struct kd_error error = { 0 };
     enum kd_status status;
     if (!s->spec.sweep)
-        KD_TRY(kd_job_spec_parse((const char *)body->data, body->size, s->preset, kd_asset_store_assets(server->assets), &s->spec, &error));
+        KD_TRY(kd_job_spec_parse((const char *)body->data, body->size, &(struct kd_job_base) { .preset = s->preset }, kd_asset_store_assets(server->assets), &s->spec, &error));
     kd_render_queue_capacity(server->renders, &capacity);
     KD_TRY(kd_cost_sweep(&s->cost, s->spec.series, s->spec.sweep, &capacity, until_ms, &error));
     if (s->cost.frames < s->spec.frames)

@@ -3,6 +3,7 @@
 #define KD_SERVER_JOB_INTERNAL_H
 
 #include "server/job/jobs.h"
+#include "job/exposure.h"
 #include "render/plan/sweep_order.h"
 #include "server/http/turns.h"
 
@@ -33,6 +34,13 @@ struct kd_job_film {
     struct kd_crowd *crowd;  /* what that shows, held; NULL: it is not there yet */
 };
 
+/* The one exposure of frames that have one, as it is measured before the first of them (job/exposure.h). */
+struct kd_job_exposure {
+    unsigned n, done; /* pictures that it takes; n 0: it takes none */
+    unsigned frames[KD_JOB_EXPOSURE_FRAMES];
+    double stops[KD_JOB_EXPOSURE_FRAMES];
+};
+
 struct kd_job {
     struct kd_jobs *all;
     unsigned references;
@@ -40,6 +48,7 @@ struct kd_job {
     struct kd_job_spec spec; /* empty where this version cannot read the request */
     struct kd_sweep_order order;
     struct kd_job_film film;
+    struct kd_job_exposure exposure;
     bool unordered; /* it is still being made, after a restart (watch.c), before which no frame is begun */
     const struct kd_series *series;
     unsigned frames, next, finished; /* next: a place in the order, none before which has still to be begun */

@@ -141,6 +141,8 @@ struct kd_job *kd_job_make(struct kd_jobs *all, struct kd_job_spec *spec)
     job->spec = *spec;
     job->frames = spec->frames;
     job->series = spec->series;
+    job->record.exposure = NAN;
+    job->exposure.n = kd_job_exposure_frames(&job->spec, job->exposure.frames);
     *spec = (struct kd_job_spec) { 0 };
     return job;
 }
@@ -347,7 +349,7 @@ void kd_job_status(struct kd_job *job, struct kd_job_status *out)
     pthread_mutex_lock(&all->lock);
     *out = (struct kd_job_status) { .state = job->record.state, .deleted = !job->listed, .series = job->series, .frames = job->frames,
                                     .finished = job->finished, .created = job->record.created, .ended = job->record.ended,
-                                    .bytes = job->bytes, .remaining_s = remaining_s(job), .traced = job->record.traced, .sweep = job->spec.sweep };
+                                    .bytes = job->bytes, .remaining_s = remaining_s(job), .traced = job->record.traced, .sweep = job->spec.sweep, .exposure = job->record.exposure };
     out->fraction = !job->frames ? 0 : (kd_job_is_active(job) ? drawn(job) : job->finished) / job->frames;
     for (const struct kd_job *other = all->first; other && other != job && kd_job_is_active(job); other = other->link)
         out->place += kd_job_is_active(other);

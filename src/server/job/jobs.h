@@ -7,7 +7,7 @@
 #define KD_SERVER_JOB_JOBS_H
 
 #include "render/output/cost.h"
-#include "server/job/spec.h"
+#include "job/spec.h"
 #include "server/job/store.h"
 #include "server/render/queue.h"
 #include "server/http/counts.h"
@@ -69,6 +69,7 @@ struct kd_job_status {
     double remaining_s;               /* NAN: it waits for others, or is over */
     double created, ended;            /* seconds since 1970 */
     unsigned traced;                  /* lens maps */
+    double exposure;                  /* of all frames, in stops, as it was measured; NAN: it was not, or not yet */
     const struct kd_sweep *sweep;     /* as long as the job; NULL: none */
     uint64_t bytes;
     char error[480];

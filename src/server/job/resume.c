@@ -43,7 +43,7 @@ void kd_job_resume(void *user, const struct kd_job_record *known, struct kd_buff
     struct kd_job_spec spec = { 0 };
     struct kd_error error = { 0 };
     char why[sizeof error.message] = "";
-    enum kd_status status = kd_job_spec_parse((const char *)request->data, request->size, known->preset, NULL, &spec, &error);
+    enum kd_status status = kd_job_spec_parse((const char *)request->data, request->size, &(struct kd_job_base) { .preset = known->preset }, NULL, &spec, &error);
     kd_buffer_finish(request);
     if (status == KD_ENOMEM) {
         kd_log(KD_LOG_ERROR, "no memory for job %.4s..., which waits for the next start", known->id);
@@ -67,6 +67,9 @@ void kd_job_resume(void *user, const struct kd_job_record *known, struct kd_buff
         job->record.series = job->series;
     }
     find_frames(job);
+    job->spec.exposure = known->exposure;
+    if (!isnan(known->exposure) || job->finished) /* frames without one that was measured are of a version that gave each its own */
+        job->exposure.n = 0;
     job->unordered = job->record.state == KD_JOB_ACTIVE && job->spec.sweep;
     kd_job_append(all, job);
     if (job->record.state != KD_JOB_ACTIVE) {

@@ -58,6 +58,8 @@ static enum kd_status to_json(struct kd_job *job, const struct kd_job_status *s,
     kd_json_number(&json, "remaining_s", s->remaining_s); /* NAN: null */
     kd_json_number(&json, "bytes", (double)s->bytes);
     kd_json_number(&json, "lens_maps_traced", s->traced);
+    if (!isnan(s->exposure))
+        kd_json_number(&json, "exposure", s->exposure);
     if (s->sweep)
         write_axes(&json, s->sweep);
     kd_json_number(&json, "created", s->created);
@@ -127,7 +129,7 @@ static enum kd_turn_end work(struct kd_task *task, double until_ms)
     struct kd_error error = { 0 };
     enum kd_status status;
     if (!d->read)
-        KD_TRY(kd_job_spec_parse(text, body->size, d->draft.preset, assets, &d->draft.spec, &error));
+        KD_TRY(kd_job_spec_parse(text, body->size, &(struct kd_job_base) { .preset = d->draft.preset }, assets, &d->draft.spec, &error));
     d->read = true;
     KD_TRY(kd_jobs_check(jobs, &d->draft, until_ms, &error));
     if (d->draft.cost.frames < d->draft.spec.frames)

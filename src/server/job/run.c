@@ -1,8 +1,9 @@
 /* The frames of jobs go through the render queue. */
 #include "server/job/internal.h"
 
-#include "render/output/series.h"
 #include "base/clock.h"
+#include "job/frame.h"
+#include "render/output/series.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,42 +16,12 @@ struct kd_job_render {
     unsigned number, place; /* in the order */
     struct kd_crowd *crowd; /* of a film: that its scene shows, held */
     bool rendered;
+    bool measures; /* the exposure of all: a small picture, of which no file is kept */
 };
 
 static void rendered(struct kd_render_job *render);
 static void done(struct kd_render_job *render);
 static void progress(struct kd_render_job *render, double fraction);
-
-/* crowd: what a frame of a film shows, as it was `late` M before; NULL: it is none. */
-static enum kd_status plan_frame(const struct kd_jobs *all, const struct kd_job_spec *spec, unsigned number, const struct kd_crowd *crowd, double late,
-                                 const struct kd_capacity *capacity, struct kd_scene *scene, struct kd_plan *plan, struct kd_error *error)
-{
-    struct kd_error inner = { 0 };
-    char pointer[sizeof inner.pointer];
-    enum kd_status status = kd_job_spec_scene(spec, number, scene, error);
-    if (status)
-        return status;
-    if (crowd) {
-        kd_scene_show(scene, crowd);
-        kd_scene_pass(scene, crowd->time + late);
-        status = kd_scene_validate(scene, &inner);
-    }
-    if (!status)
-        status = kd_format_plan(spec->series->frame, scene, capacity, plan, &inner);
-    if (!status && plan->estimate_ms > 1e3 * all->params.longest_s)
-        status = kd_error_set(&inner, KD_ETOOBIG, "it would take about %.0f s, more than the %u s a frame may take",
-                              plan->estimate_ms * 1e-3, all->params.longest_s);
-    if (!status)
-        return KD_OK;
-    if (spec->sweep)
-        snprintf(pointer, sizeof pointer, "/axes");
-    else if (spec->listed)
-        snprintf(pointer, sizeof pointer, "/scenes/%u%.100s", number, inner.pointer);
-    else
-        snprintf(pointer, sizeof pointer, "%s%.100s", spec->timeline.n_keys > 1 ? "/keyframes" : "/scene", spec->timeline.n_keys > 1 ? "" : inner.pointer);
-    kd_error_field(error, pointer, "frame %u: %.440s", number, inner.message);
-    return error->status = status;
-}
 
 void kd_job_give_up(struct kd_job *job, const struct kd_error *error)
 {
@@ -77,11 +48,12 @@ static bool begin(struct kd_job *job)
     struct kd_jobs *all = job->all;
     struct kd_capacity capacity;
     struct kd_error error = { 0 };
+    const bool measures = job->exposure.done < job->exposure.n;
     while (job->next < job->frames && job->have[at_place(job, job->next)])
         job->next++;
     if (job->next == job->frames)
         return false;
-    const unsigned number = at_place(job, job->next);
+    const unsigned number = measures ? job->exposure.frames[job->exposure.done] : at_place(job, job->next);
     struct kd_crowd *crowd = NULL;
     enum kd_status status = job->spec.every > 0 ? kd_job_film_at(job, number, &crowd, &error) : KD_OK;
     if (status)
@@ -90,8 +62,9 @@ static bool begin(struct kd_job *job)
         return false;
     struct kd_job_render *frame = calloc(1, sizeof *frame);
     kd_render_queue_capacity(all->params.renders, &capacity);
-    status = frame ? plan_frame(all, &job->spec, number, crowd, 0, &capacity, &frame->render.scene, &frame->render.plan, &error)
-                                  : kd_error_set(&error, KD_ENOMEM, "out of memory for a frame");
+    status = !frame ? kd_error_set(&error, KD_ENOMEM, "out of memory for a frame")
+             : measures ? kd_job_exposure_plan(&job->spec, number, &capacity, &frame->render.scene, &frame->render.plan, &error)
+                        : kd_job_frame_plan(&job->spec, number, crowd, 0, all->params.longest_s, &capacity, &frame->render.scene, &frame->render.plan, &error);
     if (status) {
         kd_job_give_up(job, &error);
         free(frame);
@@ -107,13 +80,17 @@ static bool begin(struct kd_job *job)
     frame->render.effort = KD_EFFORT_KEEP;
     frame->render.number = number;
     frame->render.socket = -1;
-    frame->render.progress = progress;
-    frame->render.glance = job->series->frame->carries & KD_CARRIES_PICTURE ? &kd_job_glance : NULL;
+    frame->render.progress = measures ? NULL : progress;
+    frame->render.glance = !measures && job->series->frame->carries & KD_CARRIES_PICTURE ? &kd_job_glance : NULL;
     frame->render.rendered = rendered;
     frame->render.done = done;
     frame->job = job;
     frame->number = number;
-    frame->place = job->next++;
+    frame->measures = measures;
+    if (!measures)
+        frame->render.blur = kd_job_frame_blur(&job->spec, number);
+    frame->place = job->next;
+    job->next += !measures;
     frame->crowd = crowd;
     kd_crowd_keep(frame->crowd);
     job->references++;
@@ -202,6 +179,18 @@ static void progress(struct kd_render_job *render, double fraction)
     pthread_mutex_unlock(&frame->job->all->lock);
 }
 
+/* What the small picture says; after the last of them all frames have their exposure. Locked. */
+static void measured(struct kd_job *job, double stops)
+{
+    struct kd_job_exposure *exposure = &job->exposure;
+    exposure->stops[exposure->done++] = stops;
+    if (exposure->done < exposure->n)
+        return;
+    job->spec.exposure = job->record.exposure = kd_job_exposure_of(exposure->stops, exposure->n);
+    job->revision++;
+    kd_job_write(job);
+}
+
 static void rendered(struct kd_render_job *render)
 {
     struct kd_job_render *frame = (struct kd_job_render *)render;
@@ -210,7 +199,9 @@ static void rendered(struct kd_render_job *render)
     frame->rendered = true;
     all->rendering = NULL;
     all->behind++;
-    frame->job->encoding++;
+    frame->job->encoding += !frame->measures;
+    if (frame->measures)
+        measured(frame->job, render->frame.exposure);
     frame->job->fraction = 0; /* of the next */
     kd_jobs_pump(all);
     pthread_mutex_unlock(&all->lock);
@@ -222,21 +213,24 @@ static void done(struct kd_render_job *render)
     struct kd_job *job = frame->job;
     struct kd_jobs *all = job->all;
     enum kd_status status = render->status;
-    bool stored = !status;
+    bool stored = !status && !frame->measures;
     if (stored)
         status = kd_job_store_put(all->store, job->record.id, frame->number, &render->file, &render->error);
     if (stored && status)
         render->error.status = KD_EFULL; /* whatever it is: the frame can be rendered again when it is over */
     pthread_mutex_lock(&all->lock);
-    count_map(job, render);
     if (frame->rendered) {
         all->behind--;
-        job->encoding--;
+        job->encoding -= !frame->measures;
     } else
         all->rendering = NULL;
-    if (!status)
+    if (frame->measures && frame->rendered)
+        status = KD_OK; /* it has been taken, whatever became of its file */
+    else
+        count_map(job, render);
+    if (!status && !frame->measures)
         finished(job, frame->number, render->file.size);
-    else if (status != KD_ECANCELLED && status != KD_EDEVICE && kd_job_is_active(job)) { /* those two go on after a restart */
+    else if (status && status != KD_ECANCELLED && status != KD_EDEVICE && kd_job_is_active(job)) { /* those two go on after a restart */
         job->next = frame->place < job->next ? frame->place : job->next;
         kd_job_give_up(job, &render->error);
     }
@@ -281,7 +275,7 @@ enum kd_status kd_jobs_check(const struct kd_jobs *all, struct kd_job_draft *dra
     enum kd_status status;
     kd_render_queue_capacity(all->params.renders, &capacity);
     do {
-        KD_TRY(plan_frame(all, spec, cost->frames, spec->first, cost->frames * spec->every, &capacity, &scene, &plan, error));
+        KD_TRY(kd_job_frame_plan(spec, cost->frames, spec->first, cost->frames * spec->every, all->params.longest_s, &capacity, &scene, &plan, error));
         KD_TRY(kd_cost_add(cost, spec->series, spec->sweep, &scene, &plan, error));
         if (cost->frames < spec->frames)
             KD_TRY(afford(all, draft, error));

@@ -5,13 +5,14 @@
 #include "base/read.h"
 #include "base/replace.h"
 #include "server/job/folder.h"
-#include "server/job/spec.h"
+#include "job/spec.h"
 
 #include <cjson/cJSON.h>
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -235,7 +236,8 @@ static const struct kd_series *series_of(const cJSON *o)
 
 static bool read_record(const cJSON *o, const char *id, struct kd_job_record *out)
 {
-    *out = (struct kd_job_record) { .created = number(o, "created"), .ended = number(o, "ended") };
+    *out = (struct kd_job_record) { .created = number(o, "created"), .ended = number(o, "ended"),
+                                     .exposure = cJSON_HasObjectItem(o, "exposure") ? number(o, "exposure") : NAN };
     if (number(o, "format") != 1 || !copy_text(o, "id", out->id, sizeof out->id) || strcmp(out->id, id) ||
         !copy_text(o, "token", out->token, sizeof out->token) || strlen(out->token) != KD_SECRET_TOKEN - 1 ||
         !copy_text(o, "error", out->error, sizeof out->error) || !read_state(o, &out->state))
@@ -381,6 +383,8 @@ static enum kd_status record_json(const struct kd_job_record *record, struct kd_
     kd_json_number(&json, "attempts", record->attempts);
     kd_json_number(&json, "frames", record->frames);
     kd_json_number(&json, "lens_maps_traced", record->traced);
+    if (!isnan(record->exposure))
+        kd_json_number(&json, "exposure", record->exposure);
     kd_json_string(&json, "output", record->series->name);
     kd_json_string(&json, "preset", record->preset);
     kd_json_string(&json, "error", record->error);

@@ -20,6 +20,7 @@ struct kd_job_record {
     enum kd_job_state state;
     double created, ended; /* seconds since 1970; ended: 0 until then */
     unsigned attempts;     /* times a server has gone on with it since its latest frame and ended otherwise than by being told to */
+    double exposure;       /* of all frames, as it was measured; NAN: it was not, or not yet */
     unsigned traced;       /* lens maps, so far */
     unsigned frames;       /* that the request asks for; 0 in records of versions that did not say */
     const struct kd_series *series; /* that they make */

@@ -35,29 +35,6 @@ enum kd_status kd_play_read_pace(cJSON *tree, struct kd_play_pace *pace, struct 
     return status;
 }
 
-static const struct kd_playground_preset *preset_of(const cJSON *tree)
-{
-    const cJSON *name = cJSON_GetObjectItemCaseSensitive(tree, "preset");
-    return cJSON_IsString(name) ? kd_playground_preset_of(name->valuestring) : NULL;
-}
-
-enum kd_status kd_play_usual_scene(const cJSON *tree, const struct kd_playground *p, struct kd_scene *out, struct kd_error *error)
-{
-    static const char size[] = "{\"image\":{\"width\":640,\"height\":360}}";
-    const struct kd_playground_preset *preset = preset_of(tree);
-    enum kd_status status;
-    kd_scene_defaults(out);
-    KD_TRY(kd_scene_patch(out, size, sizeof size - 1, error));
-    if (preset)
-        KD_TRY(kd_scene_patch(out, preset->scene, strlen(preset->scene), error));
-    out->spacetime.spin = p->params.spin;
-    if (!preset)
-        KD_TRY(kd_playground_widen(p, out, error));
-    KD_TRY(kd_scene_validate(out, error));
-done:
-    return status;
-}
-
 enum kd_status kd_play_read_scene(const cJSON *item, const struct kd_playground *p, const struct kd_assets *assets, struct kd_scene *scene, struct kd_error *error)
 {
     char pointer[sizeof error->pointer];
@@ -80,7 +57,7 @@ done:
 
 double kd_play_usual_rate(const cJSON *tree)
 {
-    const struct kd_playground_preset *preset = preset_of(tree);
+    const struct kd_playground_preset *preset = kd_playground_preset_in(tree);
     return preset ? preset->rate : USUAL_RATE;
 }
 

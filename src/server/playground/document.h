@@ -9,8 +9,6 @@
 
 /* Takes "rate" and "paused" out of the tree; what is not given stays. KD_EINVAL with a pointer. */
 enum kd_status kd_play_read_pace(cJSON *tree, struct kd_play_pace *pace, struct kd_error *error);
-/* The scene that shows it well: that of the preset which the tree names, or one as wide as the bodies are far out. */
-enum kd_status kd_play_usual_scene(const cJSON *tree, const struct kd_playground *p, struct kd_scene *out, struct kd_error *error);
 /* Merges "scene" over *scene, if it is there (NULL: it is not), and looks whether the playground may be shown in it. KD_EINVAL with a pointer. */
 enum kd_status kd_play_read_scene(const cJSON *item, const struct kd_playground *p, const struct kd_assets *assets, struct kd_scene *scene, struct kd_error *error);
 /* The rate of the preset that the tree names, or what is usual. */

@@ -2,6 +2,7 @@
 #include "server/playground/routes.h"
 
 #include "base/clock.h"
+#include "playground/show.h"
 #include "server/asset/store.h"
 #include "server/http/negotiate.h"
 #include "server/http/reply.h"
@@ -80,7 +81,7 @@ static enum kd_status open_play(struct play_task *t, struct kd_error *error)
     KD_TRY(kd_play_read_pace(tree, &pace, error));
     look = cJSON_DetachItemFromObjectCaseSensitive(tree, "scene");
     KD_TRY(kd_playground_read_tree(tree, &p, error));
-    KD_TRY(kd_play_usual_scene(tree, p, &scene, error));
+    KD_TRY(kd_playground_usual_scene(kd_playground_preset_in(tree), p, &scene, error));
     KD_TRY(kd_play_read_scene(look, p, kd_asset_store_assets(server->assets), &scene, error));
     if (look)
         KD_TRY(kd_plays_takes(server->plays, &scene, error));

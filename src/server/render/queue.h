@@ -18,6 +18,7 @@
 #define KD_SERVER_RENDER_QUEUE_H
 
 #include "base/buffer.h"
+#include "render/frame/blur.h"
 #include "render/output/format.h"
 #include "render/render.h"
 #include "server/http/shares.h"
@@ -45,6 +46,7 @@ struct kd_render_job {
     struct kd_plan plan;
     const struct kd_format *format; /* of the file that the picture becomes, */
     enum kd_effort effort;
+    struct kd_blur blur;    /* samples 0, as it begins: there is none */
     unsigned number, lossy; /* as in struct kd_picture */
     bool keeps;      /* the frame's layers, once it has been encoded */
     /* NULL: a picture is rendered and encoded. Else this is called instead, with the device; if it sets `more` it is called again at

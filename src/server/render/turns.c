@@ -170,9 +170,12 @@ static void render(struct kd_render_queue *queue, struct kd_render_job *job)
         job->status = kd_error_set(&job->error, KD_ECANCELLED, "the render was dropped before it began");
     if (job->status)
         return;
+    const bool aside = job->stage == KD_RENDER_WORKS_IN_LANE;
     if (job->run)
         job->status = job->run(job, queue->renderer, go_on, job);
-    else if (job->stage == KD_RENDER_WORKS_IN_LANE)
+    else if (job->blur.samples)
+        job->status = kd_render_blurred(&(struct kd_blurred) { queue->renderer, &job->blur, &job->scene, &job->plan, aside, aside ? between_slices : go_on, job->glance, job }, &job->frame, &job->error);
+    else if (aside)
         job->status = kd_render_aside(queue->renderer, &job->scene, &job->plan, between_slices, job->glance, job, &job->frame, &job->error);
     else
         job->status = kd_render(queue->renderer, &job->scene, &job->plan, go_on, job, &job->frame, &job->error);

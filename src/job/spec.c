@@ -1,10 +1,10 @@
-#include "server/job/spec.h"
+#include "job/spec.h"
 
 #include "playground/json.h"
 #include "playground/show.h"
+#include "render/frame/blur.h"
 #include "scene/members.h"
 #include "scene/tree.h"
-#include "server/playground/document.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -12,22 +12,28 @@
 
 #define VALUES_MAX 400000 /* some 40 fields a scene */
 
+enum { ONE, EACH };
+static const char *const exposures[] = { [ONE] = "one", [EACH] = "each" };
+
 static const struct kd_timeline_form by_frame = { "frame", KD_JOB_FRAMES_MAX - 1, true };
 
 struct reader {
     struct kd_job_spec *spec;
     struct kd_scene base;
+    const struct kd_job_base *asked;
     const struct kd_assets *assets;
-    const cJSON *scene, *scenes, *frames, *axes, *output, *playground, *every;
+    const cJSON *scene, *scenes, *frames, *axes, *output, *playground, *every, *exposure, *blur;
     struct kd_timeline_items timeline;
     struct kd_error *error;
 };
 
 static enum kd_status read_scene(struct reader *r, const cJSON *item, const char *pointer, struct kd_scene *scene)
 {
-    enum kd_status status = kd_scene_from_tree(scene, item, false, r->error);
+    enum kd_status status = item ? kd_scene_from_tree(scene, item, false, r->error) : KD_OK;
     if (!status && r->assets)
         status = kd_scene_resolve(scene, r->assets, r->error);
+    if (!status && r->asked->change && (status = r->asked->change(r->asked->user, scene, r->error)))
+        return status;
     if (!status)
         status = kd_scene_validate(scene, r->error);
     return kd_member_inside(status, pointer, r->error);
@@ -95,8 +101,7 @@ static enum kd_status read_sweep(struct reader *r)
     enum kd_status status;
     if (r->timeline.keyframes || r->frames || kd_timeline_manner(&r->timeline))
         return kd_error_field(r->error, "/axes", "axes stand alone with their scene: keyframes, frames, interpolation, distances, angles, ease and look_at do not go with them");
-    if (r->scene)
-        KD_TRY(read_scene(r, r->scene, "/scene", &base));
+    KD_TRY(read_scene(r, r->scene, "/scene", &base));
     KD_TRY(kd_sweep_read(r->axes, &base, r->assets, &spec->sweep, r->error));
     spec->frames = spec->sweep->scenes;
     if (spec->series->swept)
@@ -126,8 +131,10 @@ static enum kd_status read_every(struct reader *r)
     return KD_OK;
 }
 
+static const char *named(const struct kd_job_base *base) { return base->preset && *base->preset ? base->preset : NULL; }
+
 /* A film of a playground: frames of a sequence. */
-static enum kd_status read_film(struct reader *r, bool preset)
+static enum kd_status read_film(struct reader *r)
 {
     struct kd_job_spec *spec = r->spec;
     struct kd_playground *p = NULL;
@@ -139,11 +146,10 @@ static enum kd_status read_film(struct reader *r, bool preset)
         return kd_member_refuse(r->playground, "/playground", "an object: a document of a playground, or a snapshot", r->error);
     KD_TRY(read_every(r));
     KD_TRY(kd_member_inside(kd_playground_read_tree(r->playground, &p, r->error), "/playground", r->error));
-    if (!preset)
-        KD_TRY(kd_play_usual_scene(r->playground, p, &r->base, r->error));
+    if (!r->asked->scene && !named(r->asked))
+        KD_TRY(kd_playground_usual_scene(kd_playground_preset_in(r->playground), p, &r->base, r->error));
     first = r->base;
-    if (r->scene)
-        KD_TRY(read_scene(r, r->scene, "/scene", &first));
+    KD_TRY(read_scene(r, r->scene, "/scene", &first));
     KD_TRY(kd_timeline_read(&r->timeline, &by_frame, r->assets, &first, &spec->timeline, r->error));
     spec->frames = (unsigned)kd_timeline_end(&spec->timeline) + 1;
     if (!r->frames && !r->timeline.keyframes)
@@ -182,18 +188,83 @@ static enum kd_status read_output(struct reader *r)
     return kd_member_refuse(r->output, "/output", known, r->error);
 }
 
-enum kd_status kd_job_spec_parse(const char *text, size_t length, const char *preset, const struct kd_assets *assets, struct kd_job_spec *out,
+static bool makes_pictures(const struct kd_job_spec *spec) { return spec->series->frame->carries & KD_CARRIES_PICTURE; }
+
+/* Says whether frames have one exposure. What a playground's show is not known before it has moved, and those of axes stand for themselves. */
+static enum kd_status read_exposure(struct reader *r)
+{
+    struct kd_job_spec *spec = r->spec;
+    const bool pictures = makes_pictures(spec);
+    unsigned word = !spec->listed && !spec->sweep && !r->playground && spec->frames > 1 && pictures ? ONE : EACH;
+    enum kd_status status = kd_member_word(r->exposure, "/exposure", exposures, sizeof exposures / sizeof *exposures, &word, r->error);
+    if (status)
+        return status;
+    if (r->exposure && !pictures)
+        return kd_error_field(r->error, "/exposure", "exposure is of pictures: it does not go with \"output\": \"%s\"", spec->series->name);
+    if (word == ONE && (spec->sweep || r->playground))
+        return kd_error_field(r->error, "/exposure", "exposure is \"one\", allowed with %s is \"each\": give style.exposure of the scene a number, which all frames then have",
+                              spec->sweep ? "axes" : "a playground");
+    spec->one_exposure = word == ONE;
+    return KD_OK;
+}
+
+/* What cannot be blurred, in words; NULL: it can. */
+static const char *unblurred(const struct reader *r)
+{
+    return r->playground                ? "a playground, whose bodies move from frame to frame"
+           : r->spec->sweep             ? "axes, between whose scenes nothing moves"
+           : r->spec->listed            ? "scenes, between which nothing moves"
+           : !r->timeline.keyframes     ? "a scene without keyframes, in which nothing moves"
+           : !makes_pictures(r->spec)   ? "an output of numbers: only light has a mean that can be seen"
+                                        : NULL;
+}
+
+static enum kd_status read_blur(struct reader *r)
+{
+    const cJSON *samples = NULL, *shutter = NULL;
+    const struct kd_member members[] = { { "samples", &samples }, { "shutter", &shutter } };
+    const struct kd_job_base *asked = r->asked;
+    struct kd_job_spec *spec = r->spec;
+    double part = 0.5;
+    enum kd_status status = KD_OK;
+    if (!r->blur && !asked->samples)
+        return asked->shutter > 0 ? kd_error_field(r->error, "/motion_blur", "a shutter takes samples: how many pictures is the light of a frame the mean of?") : KD_OK;
+    if (unblurred(r))
+        return kd_error_field(r->error, "/motion_blur", "motion_blur is of frames of keyframes, as pictures; it does not go with %s", unblurred(r));
+    if (r->blur && !cJSON_IsObject(r->blur))
+        return kd_member_refuse(r->blur, "/motion_blur", "an object with samples and shutter, as in {\"samples\": 16, \"shutter\": 0.5}", r->error);
+    if (r->blur)
+        KD_TRY(kd_members_read(r->blur, "/motion_blur", members, sizeof members / sizeof *members, r->error));
+    if (!samples && !asked->samples)
+        KD_TRY(kd_error_field(r->error, "/motion_blur/samples", "samples is missing: how many pictures is the light of a frame the mean of, from 1 to %d?", KD_BLUR_SAMPLES));
+    if (samples)
+        KD_TRY(kd_member_whole(samples, "/motion_blur/samples", 1, KD_BLUR_SAMPLES, &spec->blur.samples, r->error));
+    if (shutter) {
+        part = cJSON_IsNumber(shutter) ? shutter->valuedouble : 0;
+        if (!(part > 0) || part > 1)
+            KD_TRY(kd_member_refuse(shutter, "/motion_blur/shutter", "a number above 0, at most 1: the part of a frame's time in which the shutter is open", r->error));
+    }
+    spec->blur.samples = asked->samples ? asked->samples : spec->blur.samples;
+    spec->blur.shutter = asked->shutter > 0 ? asked->shutter : part;
+done:
+    return status;
+}
+
+enum kd_status kd_job_spec_parse(const char *text, size_t length, const struct kd_job_base *base, const struct kd_assets *assets, struct kd_job_spec *out,
                                  struct kd_error *error)
 {
-    struct kd_job_spec spec = { .series = kd_series_all[0] };
-    struct reader r = { .spec = &spec, .assets = assets, .error = error };
-    const struct kd_member members[] = { { "scene", &r.scene }, { "scenes", &r.scenes }, { "frames", &r.frames },
-                                         { "axes", &r.axes }, { "output", &r.output }, { "playground", &r.playground }, { "every", &r.every }, KD_TIMELINE_MEMBERS(r.timeline) };
+    struct kd_job_spec spec = { .series = kd_series_all[0], .exposure = NAN };
+    struct reader r = { .spec = &spec, .asked = base, .assets = assets, .error = error };
+    const struct kd_member members[] = { { "scene", &r.scene }, { "scenes", &r.scenes }, { "frames", &r.frames }, { "axes", &r.axes }, { "output", &r.output },
+                                         { "playground", &r.playground }, { "every", &r.every }, { "exposure", &r.exposure },
+                                         { "motion_blur", &r.blur }, KD_TIMELINE_MEMBERS(r.timeline) };
     cJSON *root = NULL;
     kd_scene_defaults(&r.base);
+    if (base->scene)
+        r.base = *base->scene;
     enum kd_status status;
-    if (*preset)
-        KD_TRY(kd_member_inside(kd_scene_preset(&r.base, preset, error), "/preset", error));
+    if (named(base))
+        KD_TRY(kd_member_inside(kd_scene_preset(&r.base, base->preset, error), "/preset", error));
     KD_TRY(kd_tree_parse(text, length, KD_JOB_FILM_MAX, VALUES_MAX, &root, error));
     if (!cJSON_IsObject(root))
         KD_TRY(kd_member_refuse(root, "", "an object", error));
@@ -203,7 +274,9 @@ enum kd_status kd_job_spec_parse(const char *text, size_t length, const char *pr
         KD_TRY(kd_error_field(error, "/every", "every is for a film of a playground: leave it out, or say which, as in \"playground\": {\"preset\": \"disruption\"}"));
     if (!r.playground && length > KD_JOB_BODY_MAX)
         KD_TRY(kd_error_set(error, KD_ETOOBIG, "a job without a playground may have %u bytes", KD_JOB_BODY_MAX));
-    KD_TRY(r.playground ? read_film(&r, *preset) : r.scenes ? read_list(&r) : r.axes ? read_sweep(&r) : read_sequence(&r));
+    KD_TRY(r.playground ? read_film(&r) : r.scenes ? read_list(&r) : r.axes ? read_sweep(&r) : read_sequence(&r));
+    KD_TRY(read_exposure(&r));
+    KD_TRY(read_blur(&r));
 done:
     cJSON_Delete(root);
     if (status)
@@ -221,12 +294,22 @@ void kd_job_spec_finish(struct kd_job_spec *spec)
     *spec = (struct kd_job_spec) { 0 };
 }
 
-enum kd_status kd_job_spec_scene(const struct kd_job_spec *spec, unsigned frame, struct kd_scene *out, struct kd_error *error)
+static enum kd_status scene_at(const struct kd_job_spec *spec, double at, struct kd_scene *out, struct kd_error *error)
 {
     struct kd_error inner = { 0 };
-    if (spec->sweep)
-        return kd_sweep_scene(spec->sweep, frame, out, error);
-    if (!kd_timeline_scene(&spec->timeline, frame, out, &inner))
-        return KD_OK;
-    return kd_error_field(error, inner.pointer, "between keyframes, frame %u is no valid scene: %.380s", frame, inner.message);
+    if (kd_timeline_scene(&spec->timeline, at, out, &inner))
+        return kd_error_field(error, inner.pointer, "between keyframes, frame %.9g is no valid scene: %.380s", at, inner.message);
+    if (isinf(out->style.exposure) && !isnan(spec->exposure))
+        out->style.exposure = spec->exposure;
+    return KD_OK;
+}
+
+enum kd_status kd_job_spec_scene(const struct kd_job_spec *spec, unsigned frame, struct kd_scene *out, struct kd_error *error)
+{
+    return spec->sweep ? kd_sweep_scene(spec->sweep, frame, out, error) : scene_at(spec, frame, out, error);
+}
+
+enum kd_status kd_job_spec_sample(const struct kd_job_spec *spec, unsigned frame, unsigned sample, struct kd_scene *out, struct kd_error *error)
+{
+    return scene_at(spec, frame + spec->blur.shutter * sample / spec->blur.samples, out, error);
 }

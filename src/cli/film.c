@@ -1,0 +1,374 @@
+/* kerrd film renders all frames of a job's request, and makes a film of them. */
+#include "base/program.h"
+#include "cli/cli.h"
+#include "cli/file.h"
+#include "cli/film_state.h"
+#include "cli/frames.h"
+#include "cli/progress.h"
+#include "cli/scene_options.h"
+#include "job/exposure.h"
+#include "job/frame.h"
+#include "playground/show.h"
+#include "scene/sha256.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { KEY_RATE = 256, KEY_STATE, KEY_SAMPLES, KEY_SHUTTER };
+
+struct arguments {
+    struct kd_scene_options scene; /* its document: that of the film */
+    const char *device, *output, *state;
+    unsigned rate, samples;
+    double shutter;
+    uint64_t memory;
+    bool stats;
+};
+
+static const struct argp_option table[] = {
+    { "output", 'o', "FILE", 0, "the film to write: .mp4 (H.264) or .webm (VP9), which take the program ffmpeg; .zip, numbered pictures (required)", 0 },
+    { "rate", KEY_RATE, "N", 0, "frames a second, 1 to 120 (default: 24)", 0 },
+    { "samples", KEY_SAMPLES, "N", 0, "motion blur: a frame's light is the mean of that of N pictures, 1 to 64 (default: as the document's motion_blur says, or none)", 0 },
+    { "shutter", KEY_SHUTTER, "PART", 0, "the part of a frame's time, up to 1, in which they are (default: as motion_blur says, or 0.5)", 0 },
+    { "state", KEY_STATE, "DIR", 0, "keep finished frames there, and go on with those that are there already, whatever ended the run before", 0 },
+    KD_CLI_MEMORY,
+    { "stats", 't', NULL, 0, "print frames, their exposure and seconds as one line of JSON on standard error", 0 },
+    { 0 },
+};
+
+static const struct kd_gather_format *const kinds[] = { &kd_gather_mp4, &kd_gather_webm, &kd_gather_zip };
+
+static const struct kd_gather_format *kind_of(const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    for (size_t i = 0; dot && i < sizeof kinds / sizeof *kinds; i++)
+        if (!strcmp(kinds[i]->name, dot + 1))
+            return kinds[i];
+    return NULL;
+}
+
+static error_t parse(int key, char *text, struct argp_state *state)
+{
+    struct arguments *arguments = state->input;
+    char *end;
+    switch (key) {
+    case ARGP_KEY_INIT:
+        state->child_inputs[0] = &arguments->scene;
+        state->child_inputs[1] = &arguments->device;
+        return 0;
+    case 'o': arguments->output = text; return 0;
+    case 't': arguments->stats = true; return 0;
+    case 'M': arguments->memory = kd_cli_bytes(state, "--memory", text); return 0;
+    case KEY_RATE: arguments->rate = kd_cli_number(state, "--rate", text, 1, KD_FILM_RATE_MAX); return 0;
+    case KEY_SAMPLES: arguments->samples = kd_cli_number(state, "--samples", text, 1, KD_BLUR_SAMPLES); return 0;
+    case KEY_SHUTTER:
+        arguments->shutter = strtod(text, &end);
+        if (*end || end == text || !(arguments->shutter > 0) || arguments->shutter > 1)
+            argp_error(state, "--shutter is %s, allowed are numbers above 0, at most 1", text);
+        return 0;
+    case KEY_STATE: arguments->state = text; return 0;
+    case ARGP_KEY_END:
+        if (!arguments->output)
+            argp_error(state, "-o FILE is missing: where should the film go?");
+        else if (!kind_of(arguments->output))
+            argp_error(state, "output is \"%s\", allowed is a name that ends in .mp4, .webm or .zip", arguments->output);
+        else if (!arguments->scene.document)
+            argp_error(state, "KEYFRAMES.json is missing: which frames? As in {\"scene\": {}, \"keyframes\": [{\"frame\": 47, \"scene\": {\"camera\": {\"azimuth_deg\": 90}}}]}");
+        else if (arguments->rate && !kind_of(arguments->output)->waits)
+            argp_error(state, "--rate is of .mp4 and .webm: pictures in a .zip have none");
+        return 0;
+    }
+    return ARGP_ERR_UNKNOWN;
+}
+
+struct work {
+    struct arguments *arguments;
+    const struct kd_gather_format *kind;
+    struct kd_assets assets;
+    struct kd_buffer text; /* the request */
+    struct kd_job_spec spec;
+    struct kd_renderer *renderer;
+    struct kd_frames frames;
+    struct kd_film_state state;
+    struct kd_playground *bodies; /* as they are at the frame that is next, of a film of a playground */
+    struct kd_encoder encoder;
+    struct kd_progress progress;
+    unsigned kept, done, measured, traced; /* kept: frames that were there */
+};
+
+static enum kd_status change(void *user, struct kd_scene *scene, struct kd_error *error) { return kd_scene_options_set(user, scene, error); }
+
+/* Reads the request. --preset and --from take the place of the scene that others are merged over; --set and --size come last. */
+static enum kd_status read_request(struct work *w, struct kd_error *error)
+{
+    struct kd_scene_options *options = &w->arguments->scene, beneath = *options;
+    struct kd_scene scene;
+    enum kd_status status;
+    options->assets.later = beneath.assets.later = true;
+    beneath.document = NULL;
+    beneath.n_set = 0;
+    KD_TRY(kd_file_read(options->document, KD_JOB_FILM_MAX, &w->text, error));
+    KD_TRY(kd_scene_options_load(&beneath, &scene, error));
+    w->assets = kd_asset_options_assets(&options->assets);
+    const struct kd_job_base base = { .scene = options->preset || options->from ? &scene : NULL, .samples = w->arguments->samples, .shutter = w->arguments->shutter, .change = change, .user = options };
+    status = kd_job_spec_parse(w->text.data ? (const char *)w->text.data : "", w->text.size, &base, &w->assets, &w->spec, error);
+    KD_TRY(status ? kd_cli_prefix(error, strcmp(options->document, "-") ? options->document : "standard input") : KD_OK);
+    KD_TRY(kd_asset_options_check(&options->assets, error));
+    if (w->spec.series->frame != &kd_format_png)
+        KD_TRY(kd_error_field(error, "/output", "output is \"%s\", allowed is \"pictures\": of them a film is made", w->spec.series->name));
+done:
+    return status;
+}
+
+/* All that frames depend on, in a request and beside it: bytes of the one, texts of the options, and what files are named. */
+static enum kd_status identify(struct work *w, struct kd_error *error)
+{
+    const struct kd_scene_options *options = &w->arguments->scene;
+    struct kd_buffer all = { 0 };
+    struct kd_scene scene;
+    struct kd_scene_options beneath = *options;
+    enum kd_status status;
+    beneath.document = NULL;
+    beneath.n_set = 0;
+    KD_TRY(kd_scene_options_load(&beneath, &scene, error));
+    KD_TRY(kd_scene_to_json(&scene, &all));
+    KD_TRY(kd_buffer_printf(&all, "\n%d %u %.17g", options->preset || options->from, w->spec.blur.samples, w->spec.blur.shutter));
+    for (size_t i = 0; i < options->n_set; i++)
+        KD_TRY(kd_buffer_printf(&all, "\n%s", options->set[i]));
+    for (size_t i = 0; i < options->assets.n; i++)
+        KD_TRY(kd_buffer_printf(&all, "\n%s=%s", options->assets.list[i].name, options->assets.list[i].found.hash));
+    KD_TRY(kd_buffer_printf(&all, "\n"));
+    KD_TRY(kd_buffer_append(&all, w->text.data, w->text.size));
+    kd_sha256(all.data, all.size, w->state.request);
+    w->state.frames = w->spec.frames;
+    w->state.device = kd_renderer_device_name(w->renderer);
+    w->state.exposure = NAN;
+done:
+    if (status == KD_ENOMEM)
+        kd_error_set(error, status, "out of memory for the request");
+    kd_buffer_finish(&all);
+    return status;
+}
+
+/* All frames are looked at before the first is rendered. */
+static enum kd_status check(const struct work *w, struct kd_error *error)
+{
+    struct kd_capacity capacity;
+    struct kd_scene scene;
+    struct kd_plan plan;
+    int32_t width = 0, height = 0;
+    enum kd_status status = KD_OK;
+    kd_renderer_capacity(w->renderer, &capacity);
+    for (unsigned i = 0; i < w->spec.frames && !status; i++) {
+        status = kd_job_frame_plan(&w->spec, i, w->spec.first, i * w->spec.every, INFINITY, &capacity, &scene, &plan, error);
+        if (!i) {
+            width = scene.image.width;
+            height = scene.image.height;
+        }
+        if (!status && w->kind->waits && (scene.image.width != width || scene.image.height != height))
+            status = kd_error_set(error, KD_EINVAL, "frame %u is %d x %d pixels and frame 0 %d x %d: a film has one size, a .zip holds any", i, scene.image.width, scene.image.height, width,
+                                  height);
+    }
+    return status;
+}
+
+static enum kd_status open_frames(struct work *w, struct kd_error *error)
+{
+    const char *path = w->arguments->state;
+    bool there;
+    enum kd_status status;
+    w->frames.n = w->spec.frames;
+    w->frames.noun = "frame";
+    w->frames.format = w->spec.series->frame;
+    if (!path)
+        return kd_frames_open(&w->frames, error);
+    KD_TRY(kd_frames_open_folder(&w->frames, path, error));
+    KD_TRY(kd_film_state_read(w->frames.folder, path, &w->state, &there, error));
+    KD_TRY(kd_frames_find(&w->frames, &w->kept, error));
+    if (w->kept && !there)
+        KD_TRY(kd_error_set(error, KD_EINVAL, "%.200s holds pictures, such as frames have, and says not of which film: name another folder by --state", path));
+    w->spec.exposure = there ? w->state.exposure : NAN;
+done:
+    return status;
+}
+
+static bool progress(void *user, double fraction)
+{
+    struct work *w = user;
+    return kd_progress_update(&w->progress, (w->done + fraction) / w->spec.frames);
+}
+
+static bool go_on(void *user) { return progress(user, 0); }
+
+static enum kd_status measure(struct work *w, unsigned number, double *stops, struct kd_error *error)
+{
+    struct kd_capacity capacity;
+    struct kd_scene scene;
+    struct kd_plan plan;
+    struct kd_frame frame = { 0 };
+    enum kd_status status;
+    kd_renderer_capacity(w->renderer, &capacity);
+    KD_TRY(kd_job_exposure_plan(&w->spec, number, &capacity, &scene, &plan, error));
+    KD_TRY(kd_render(w->renderer, &scene, &plan, progress, w, &frame, error));
+    *stops = frame.exposure;
+done:
+    kd_frame_finish(&frame);
+    return status;
+}
+
+/* The one exposure of frames that have one, unless the folder knows it; and into the folder of which film its frames are. */
+static enum kd_status expose(struct work *w, struct kd_error *error)
+{
+    unsigned frames[KD_JOB_EXPOSURE_FRAMES];
+    double stops[KD_JOB_EXPOSURE_FRAMES];
+    enum kd_status status = KD_OK;
+    const unsigned n = kd_job_exposure_frames(&w->spec, frames);
+    for (; w->measured < n; w->measured++)
+        KD_TRY(measure(w, frames[w->measured], &stops[w->measured], error));
+    if (n)
+        w->spec.exposure = w->state.exposure = kd_job_exposure_of(stops, n);
+    if (w->frames.folder >= 0)
+        KD_TRY(kd_film_state_write(w->frames.folder, &w->state, error));
+done:
+    return status;
+}
+
+/* Moves the bodies of a playground on to the frame, from the one before, and says what it shows; as a job of the server does. */
+static enum kd_status move(struct work *w, unsigned number, double begin, struct kd_crowd **out, struct kd_error *error)
+{
+    struct kd_playground_run run;
+    const double time = begin + number * w->spec.every - w->bodies->t;
+    bool more = number && time > 0;
+    if (more)
+        kd_playground_begin(w->bodies, time, &run);
+    while (more) {
+        more = kd_playground_go_on(w->bodies, &run, 1);
+        if (!go_on(w))
+            return kd_error_set(error, KD_ECANCELLED, "stopped while the bodies of frame %u moved", number);
+    }
+    return kd_frames_has(&w->frames, number) ? KD_OK : kd_playground_show_named(w->bodies, out, error);
+}
+
+static enum kd_status render(struct work *w, unsigned number, const struct kd_crowd *crowd, struct kd_error *error)
+{
+    const struct kd_blur blur = kd_job_frame_blur(&w->spec, number);
+    struct kd_capacity capacity;
+    struct kd_scene scene;
+    struct kd_plan plan;
+    struct kd_frame frame = { 0 };
+    struct kd_buffer file = { 0 };
+    enum kd_status status;
+    kd_renderer_capacity(w->renderer, &capacity);
+    KD_TRY(kd_job_frame_plan(&w->spec, number, crowd, 0, INFINITY, &capacity, &scene, &plan, error));
+    KD_TRY(blur.samples ? kd_render_blurred(&(struct kd_blurred) { w->renderer, &blur, &scene, &plan, .progress = progress, .user = w }, &frame, error)
+                        : kd_render(w->renderer, &scene, &plan, progress, w, &frame, error));
+    w->traced += !frame.lens_reused && plan.planes;
+    const struct kd_picture picture = { &frame, &scene, &plan, kd_renderer_device_name(w->renderer), number };
+    KD_TRY(kd_encode(w->frames.format, &picture, KD_EFFORT_KEEP, &w->encoder, &file, error));
+    KD_TRY(kd_frames_put(&w->frames, number, &file, error));
+done:
+    kd_buffer_finish(&file);
+    kd_frame_finish(&frame);
+    return status;
+}
+
+static enum kd_status render_all(struct work *w, struct kd_error *error)
+{
+    struct kd_crowd *crowd = NULL;
+    enum kd_status status;
+    kd_progress_init(&w->progress);
+    kd_progress_catch_signals();
+    KD_TRY(expose(w, error));
+    if (w->spec.every > 0 && w->kept < w->spec.frames)
+        KD_TRY(kd_job_spec_playground((const char *)w->text.data, w->text.size, &w->bodies, error));
+    const double begin = w->bodies ? w->bodies->t : 0;
+    for (; w->done < w->spec.frames; w->done++) {
+        if (w->bodies)
+            KD_TRY(move(w, w->done, begin, &crowd, error));
+        if (!kd_frames_has(&w->frames, w->done))
+            KD_TRY(render(w, w->done, crowd, error));
+        kd_crowd_release(crowd);
+        crowd = NULL;
+    }
+done:
+    kd_crowd_release(crowd);
+    kd_progress_finish(&w->progress);
+    if (status == KD_EDEVICE)
+        kd_cli_device_lost(error);
+    return status;
+}
+
+static enum kd_status print_stats(const struct work *w, double render_s, double write_s, struct kd_error *error)
+{
+    struct kd_buffer line = { 0 };
+    struct kd_json json = kd_json_begin(&line);
+    kd_json_object(&json, NULL);
+    kd_json_number(&json, "frames", w->spec.frames);
+    kd_json_number(&json, "frames_kept", w->kept);
+    kd_json_number(&json, "lens_maps_traced", w->traced);
+    kd_json_number(&json, "exposure", w->spec.exposure);
+    kd_json_number(&json, "exposure_frames", w->measured);
+    kd_json_number(&json, "render_s", render_s);
+    kd_json_number(&json, "write_s", write_s);
+    kd_json_end(&json);
+    enum kd_status status = kd_json_finish(&json);
+    if (status)
+        kd_error_set(error, status, "out of memory for what --stats prints");
+    else
+        fprintf(stderr, "%s\n", (const char *)line.data);
+    kd_buffer_finish(&line);
+    return status;
+}
+
+static enum kd_status run(struct work *w, struct kd_error *error)
+{
+    const struct arguments *arguments = w->arguments;
+    enum kd_status status;
+    KD_TRY(read_request(w, error));
+    KD_TRY(kd_file_check(arguments->output, error));
+    if (w->kind->waits && !kd_program_known("ffmpeg"))
+        KD_TRY(kd_error_set(error, KD_EABSENT, "films are encoded by the program ffmpeg, which is not found on the PATH: install it, or have the numbered pictures by -o FILE.zip"));
+    KD_TRY(kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device, .memory_bytes = arguments->memory, .assets = &w->assets }, &w->renderer, error));
+    KD_TRY(check(w, error));
+    KD_TRY(identify(w, error));
+    KD_TRY(open_frames(w, error));
+    const double began = kd_progress_clock();
+    KD_TRY(render_all(w, error));
+    const double rendered = kd_progress_clock();
+    const struct kd_frames_whole whole = { .format = w->kind, .sweep = w->spec.sweep, .rate = arguments->rate ? arguments->rate : KD_FILM_RATE, .go_on = go_on, .user = w };
+    KD_TRY(kd_frames_save(&w->frames, &whole, arguments->output, error));
+    if (arguments->stats)
+        KD_TRY(print_stats(w, rendered - began, kd_progress_clock() - rendered, error));
+done:
+    return status;
+}
+
+int kd_cli_film(int argc, char **argv)
+{
+    static const struct argp argp = {
+        .options = table,
+        .parser = parse,
+        .args_doc = "KEYFRAMES.json|-",
+        .doc = "Make a film: of a scene that keyframes change, of a list of scenes, or of a playground. The document is the body of a job (docs/jobs.md), as in "
+               "{\"scene\": {}, \"keyframes\": [{\"frame\": 47, \"scene\": {\"camera\": {\"azimuth_deg\": 90}}}]}.\v"
+               "With --preset or --from the document's scenes are merged over that scene; --set and --size change the scene that keyframes are merged over. A job of a server makes "
+               "the same frames.",
+        .children = kd_scene_device_children,
+    };
+    struct arguments arguments = { 0 };
+    struct work work = { .arguments = &arguments, .frames = KD_FRAMES_NONE };
+    struct kd_error error = { 0 };
+    argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+    work.kind = kind_of(arguments.output);
+    const enum kd_status status = run(&work, &error);
+    kd_encoder_finish(&work.encoder);
+    kd_playground_destroy(work.bodies);
+    kd_frames_finish(&work.frames);
+    kd_renderer_destroy(work.renderer);
+    kd_job_spec_finish(&work.spec);
+    kd_buffer_finish(&work.text);
+    kd_scene_options_finish(&arguments.scene);
+    return kd_progress_exit(status, &error);
+}

@@ -1,0 +1,44 @@
+#include "job/frame.h"
+
+#include <stdio.h>
+
+enum kd_status kd_job_frame_plan(const struct kd_job_spec *spec, unsigned frame, const struct kd_crowd *crowd, double late, double most_s, const struct kd_capacity *capacity,
+                                 struct kd_scene *scene, struct kd_plan *plan, struct kd_error *error)
+{
+    struct kd_error inner = { 0 };
+    char pointer[sizeof inner.pointer];
+    enum kd_status status = kd_job_spec_scene(spec, frame, scene, error);
+    if (status)
+        return status;
+    if (crowd) {
+        kd_scene_show(scene, crowd);
+        kd_scene_pass(scene, crowd->time + late);
+        status = kd_scene_validate(scene, &inner);
+    }
+    if (!status)
+        status = kd_format_plan(spec->series->frame, scene, capacity, plan, &inner);
+    if (!status && spec->blur.samples)
+        status = kd_blur_plan(spec->blur.samples, spec->blur.shutter, capacity, plan, &inner);
+    if (!status && plan->estimate_ms > 1e3 * most_s)
+        status = kd_error_set(&inner, KD_ETOOBIG, "it would take about %.0f s, more than the %.0f s a frame may take", plan->estimate_ms * 1e-3, most_s);
+    if (!status)
+        return KD_OK;
+    if (spec->sweep)
+        snprintf(pointer, sizeof pointer, "/axes");
+    else if (spec->listed)
+        snprintf(pointer, sizeof pointer, "/scenes/%u%.100s", frame, inner.pointer);
+    else
+        snprintf(pointer, sizeof pointer, "%s%.100s", spec->timeline.n_keys > 1 ? "/keyframes" : "/scene", spec->timeline.n_keys > 1 ? "" : inner.pointer);
+    kd_error_field(error, pointer, "frame %u: %.440s", frame, inner.message);
+    return error->status = status;
+}
+
+static enum kd_status sample_of(const struct kd_blur *blur, unsigned sample, struct kd_scene *out, struct kd_error *error)
+{
+    return kd_job_spec_sample(blur->user, blur->frame, sample, out, error);
+}
+
+struct kd_blur kd_job_frame_blur(const struct kd_job_spec *spec, unsigned frame)
+{
+    return (struct kd_blur) { .samples = spec->blur.samples, .user = spec, .frame = frame, .scene = sample_of };
+}
