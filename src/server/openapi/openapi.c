@@ -434,7 +434,7 @@ static void add_path(struct kd_json *json, const struct kd_route *route, const c
     kd_json_end(json);
 }
 
-static enum kd_status document(const cJSON *schema, const struct kd_buffer *schema_text, struct kd_buffer *out)
+static enum kd_status document(const char *base_path, const cJSON *schema, const struct kd_buffer *schema_text, struct kd_buffer *out)
 {
     struct kd_json json = kd_json_begin(out);
     kd_json_object(&json, NULL);
@@ -442,6 +442,11 @@ static enum kd_status document(const cJSON *schema, const struct kd_buffer *sche
     kd_json_object(&json, "info");
     kd_json_string(&json, "title", "kerrd");
     kd_json_string(&json, "version", KD_VERSION);
+    kd_json_end(&json);
+    kd_json_array(&json, "servers");
+    kd_json_object(&json, NULL);
+    kd_json_string(&json, "url", *base_path ? base_path : ".");
+    kd_json_end(&json);
     kd_json_end(&json);
     kd_json_object(&json, "paths");
     for (size_t i = 0; i < kd_n_routes; i++)
@@ -455,13 +460,13 @@ static enum kd_status document(const cJSON *schema, const struct kd_buffer *sche
     return kd_json_finish_line(&json);
 }
 
-enum kd_status kd_openapi_json(struct kd_buffer *out)
+enum kd_status kd_openapi_json(const char *base_path, struct kd_buffer *out)
 {
     struct kd_buffer text = { 0 };
     enum kd_status status = kd_scene_schema(&text);
     cJSON *schema = status ? NULL : cJSON_ParseWithLength((const char *)text.data, text.size);
     if (!status)
-        status = schema ? document(schema, &text, out) : KD_ENOMEM;
+        status = schema ? document(base_path, schema, &text, out) : KD_ENOMEM;
     cJSON_Delete(schema);
     kd_buffer_finish(&text);
     return status;

@@ -110,11 +110,8 @@ static enum MHD_Result answer_created(struct kd_request *request, const struct k
     enum kd_status status = to_json(session, state, true, &json);
     if (status)
         return kd_reply_json(request, status, &json, JSON_TYPE);
-    char location[60];
-    snprintf(location, sizeof location, "/v1/sessions/%s", kd_session_id(session));
     struct MHD_Response *response = kd_reply_take(&json, JSON_TYPE);
-    if (response)
-        MHD_add_response_header(response, "Location", location);
+    kd_reply_location(request, response, kd_session_id(session));
     return kd_reply_send(request, MHD_HTTP_CREATED, response);
 }
 
