@@ -100,12 +100,13 @@ class Health(unittest.TestCase):
             self.assertEqual(server.get(base + '/v1/device').status, 503)
             for target in ('/healthz', base + '/healthz', base + '/metrics?x', base + '/readyz'):
                 with self.subTest(target[-12:]), server.connect(10) as slow:
-                    text = f'GET {target} HTTP/1.0\r\n\r\n'.encode()
-                    for cut in (3, 9, len(text) - 14, len(text)):  # its first bytes do not say it yet
+                    text = f'GET {target} HTTP/1.1\r\nHost: localhost\r\n\r\n'.encode()
+                    for cut in (3, 9, len(text) - 33, len(text)):  # its first bytes do not say it yet
                         slow.sendall(text[:cut])
                         text = text[cut:]
                         time.sleep(0.05)
-                    self.assertEqual(daemon.read_answer(slow).status, 200)
+                    answer = daemon.read_answer(slow)
+                    self.assertEqual((answer.status, answer.header('Connection')), (200, 'close'), 'by the thread of the health routes, which takes one request')
         finally:
             for one in held:
                 one.close()
