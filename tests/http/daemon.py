@@ -133,6 +133,12 @@ def needed(name):
         sys.exit(77)
 
 
+def free_port():
+    with socket.socket() as one:
+        one.bind(('127.0.0.1', 0))
+        return one.getsockname()[1]
+
+
 def eventually(condition, timeout=240):
     deadline = time.monotonic() + timeout
     while time.monotonic() < deadline:
