@@ -1,4 +1,4 @@
-/* This writes the JSON Schema of requests for orbits, from the table of their fields. Any thread. */
+/* This writes the JSON Schema of requests for orbits, from the table of their fields, and of their answers. Any thread. */
 #ifndef KD_ORBIT_SCHEMA_H
 #define KD_ORBIT_SCHEMA_H
 
@@ -8,5 +8,8 @@
 void kd_orbit_schema(struct kd_json *json, const char *name);
 /* The whole document; orbit: JSON that stands for the schema of one orbit, as {"$ref": ...}. */
 void kd_orbit_request_schema(struct kd_json *json, const char *name, const char *orbit);
+
+/* The components of an answer as JSON (orbit/answer.h): OrbitPath of one orbit, OrbitPaths of many. */
+void kd_orbit_answer_schemas(struct kd_json *json);
 
 #endif

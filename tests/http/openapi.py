@@ -91,6 +91,14 @@ class OpenApi(daemon.Case):
                  {'scene': {'image': {'width': 32, 'height': 18}}, 'baselines': 2, 'pixels': 16, 'length_max': 'auto', 'angles_deg': [-90]}),
                 ('rays', {'rays': [[9, 0]], 'spin': 0.999999, 'observer': {'r': 1}}, {'rays': []},
                  {'rays': [[9, 0]], 'spin': 0.999999, 'observer': {'r': 1.01}}),
+                ('rays', *({'rays': [[9, 0]], **more} for more in (
+                    {'spin': 1}, {'spin': -1}, {'observer': {'inclination_deg': 181}}, {'observer': {'r': 1e8}}, {'observer': {'r': 'far'}}, {'orders': 0}, {'orders': 17}, {'orders': 1.5}, {'q': 1},
+                    {'accuracy': {'profile': 'best'}}, {'accuracy': {'tolerance': 1}}, {'accuracy': {'tolerance': 0}}, {'accuracy': {'engine': 'euler'}}, {'accuracy': {'precision': 'f16'}},
+                    {'accuracy': {'engine': 'mino-rkn6', 'steps': 6}}, {'accuracy': {'engine': 'mino-rkn6', 'steps': 2052}}, {'rays': [[1e8, 0]]}, {'rays': [[9]]},
+                    {'spin': -0.9, 'orders': 16, 'observer': {'r': 'infinity', 'inclination_deg': 180}, 'accuracy': {'tolerance': 'profile', 'engine': 'auto', 'precision': 'auto', 'steps': 0}}))),
+                ('jobs', *({'scene': {'image': {'width': 32, 'height': 18}}, 'keyframes': [{'frame': 1, 'scene': {}}], **more} for more in (
+                    {'interpolation': 'cubic'}, {'distances': 'equal'}, {'angles': 'longer'}, {'ease': 'slow'}, {'look_at': 'up'}, {'look_at': {'r': -1}}, {'keyframes': [{'frame': 1}]},
+                    {'interpolation': 'catmull-rom', 'distances': 'geometric', 'angles': 'shorter', 'ease': 'in-out', 'look_at': {'theta_deg': 80}}))),
                 ('sessions', {'spots': [{}] * 17}, {'spots': [{'r': 0}]}, {'spots': [{'q': 1}]}, {'spots': 1}, {'spot1': {'r': 0}},
                  {'spot1': {'r': 10}, 'image': {'width': 32, 'height': 18}}),
                 ('sessions', {'spots': [{'r': 10}] * 17}, {'spots': [{'r': 10}] * 16, 'image': {'width': 32, 'height': 18}}),

@@ -1,6 +1,7 @@
 /* The service describes itself here: OpenAPI 3.1 from the route table, the scene's schema and the problem table. */
 #include "server/openapi/openapi.h"
 #include "render/output/format.h"
+#include "render/rays/schema.h"
 #include "server/http/served.h"
 #include "server/job/formats.h"
 #include "server/openapi/answers.h"
@@ -15,6 +16,7 @@
 #include "server/openapi/rays.h"
 #include "server/openapi/reports.h"
 #include "server/openapi/sessions.h"
+#include "server/openapi/strict.h"
 #include "server/http/request.h"
 #include "scene/scene.h"
 
@@ -34,13 +36,6 @@ static void add_content(struct kd_json *json, const char *type, const char *to)
 {
     kd_json_object(json, type);
     add_reference(json, "schema", to);
-    kd_json_end(json);
-}
-
-static void add_string_type(struct kd_json *json, const char *name)
-{
-    kd_json_object(json, name);
-    kd_json_string(json, "type", "string");
     kd_json_end(json);
 }
 
@@ -380,17 +375,12 @@ static void add_operation(struct kd_json *json, const char *name, const struct k
 
 static void add_problem_schema(struct kd_json *json)
 {
-    static const char *const texts[] = { "type", "title", "detail", "pointer", "offered" };
-    kd_json_object(json, "Problem");
-    kd_json_string(json, "type", "object");
-    kd_json_object(json, "properties");
-    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
-        add_string_type(json, texts[i]);
-    kd_json_object(json, "status");
-    kd_json_string(json, "type", "integer");
-    kd_json_end(json);
-    kd_json_end(json);
-    kd_json_end(json);
+    static const struct kd_openapi_member problem[] = {
+        { "type", NULL, false, kd_problem_uri }, { "title", KD_SCHEMA_TEXT }, { "status", "{\"type\":\"integer\",\"minimum\":400,\"maximum\":599}" }, { "detail", KD_SCHEMA_TEXT },
+        { "pointer", "{\"type\":\"string\",\"description\":\"into the request (RFC 6901)\"}", true },
+        { "offered", "{\"type\":\"string\",\"description\":\"media types that would do\"}", true },
+    };
+    KD_OPENAPI_STRICT(json, "Problem", problem);
 }
 
 static void add_components(struct kd_json *json, const struct kd_buffer *schema)
@@ -400,6 +390,7 @@ static void add_components(struct kd_json *json, const struct kd_buffer *schema)
     kd_json_raw(json, "securitySchemes", token, sizeof token - 1);
     kd_json_object(json, "schemas");
     kd_json_raw(json, "Scene", (const char *)schema->data, schema->size);
+    kd_rays_answer_schemas(json);
     kd_openapi_orbits_schema(json);
     kd_openapi_integral_schemas(json);
     kd_openapi_playground_schemas(json);
