@@ -98,7 +98,7 @@ class OpenApi(daemon.Case):
                     {'spin': -0.9, 'orders': 16, 'observer': {'r': 'infinity', 'inclination_deg': 180}, 'accuracy': {'tolerance': 'profile', 'engine': 'auto', 'precision': 'auto', 'steps': 0}}))),
                 ('jobs', *({'scene': {'image': {'width': 32, 'height': 18}}, 'keyframes': [{'frame': 1, 'scene': {}}], **more} for more in (
                     {'interpolation': 'cubic'}, {'distances': 'equal'}, {'angles': 'longer'}, {'ease': 'slow'}, {'look_at': 'up'}, {'look_at': {'r': -1}}, {'keyframes': [{'frame': 1}]},
-                    {'interpolation': 'catmull-rom', 'distances': 'geometric', 'angles': 'shorter', 'ease': 'in-out', 'look_at': {'theta_deg': 80}}))),
+                    {'interpolation': 'catmull-rom', 'distances': 'geometric', 'angles': 'shorter', 'ease': 'in-out', 'look_at': 'hole', 'scene': {'image': {'width': 32, 'height': 18}, 'camera': {'r': 30}}}))),
                 ('sessions', {'spots': [{}] * 17}, {'spots': [{'r': 0}]}, {'spots': [{'q': 1}]}, {'spots': 1}, {'spot1': {'r': 0}},
                  {'spot1': {'r': 10}, 'image': {'width': 32, 'height': 18}}),
                 ('sessions', {'spots': [{'r': 10}] * 17}, {'spots': [{'r': 10}] * 16, 'image': {'width': 32, 'height': 18}}),
