@@ -40,6 +40,17 @@ static inline void kd_schema_enum(struct kd_json *json, const char *name, kd_sch
     kd_json_end(json);
 }
 
+/* Writes the schema of one word. It is an enumeration of one and no const: generated clients take the const of a union for all that there is. */
+static inline void kd_schema_word(struct kd_json *json, const char *name, const char *word)
+{
+    kd_json_object(json, name);
+    kd_json_string(json, "type", "string");
+    kd_json_array(json, "enum");
+    kd_json_string(json, NULL, word);
+    kd_json_end(json);
+    kd_json_end(json);
+}
+
 /* Writes the object `name`. */
 static inline void kd_schema_strict(struct kd_json *json, const char *name, const struct kd_schema_member *members, size_t n)
 {

@@ -7,6 +7,7 @@ import sys
 import tempfile
 import unittest
 import urllib.parse
+import warnings
 
 import daemon
 
@@ -136,6 +137,10 @@ class OpenApi(daemon.Case):
                                   capture_output=True, text=True, timeout=100)
             self.assertEqual(made.returncode, 0, made.stdout + made.stderr)
             self.assertNotIn('WARNING', made.stdout + made.stderr)
+            with warnings.catch_warnings():
+                warnings.simplefilter('error', SyntaxWarning)  # each file is Python without a doubt
+                for file in folder.rglob('*.py'):
+                    compile(file.read_text(), file, 'exec')
             sys.path.insert(0, str(folder))
             try:
                 self.use_client()
@@ -145,17 +150,54 @@ class OpenApi(daemon.Case):
     def use_client(self):
         package = importlib.import_module('kerrd_generated')
         models = importlib.import_module('kerrd_generated.models')
+        scene_class = models.KerrdSceneVersion1
 
-        def call(name):
-            return importlib.import_module('kerrd_generated.api.default.' + name).sync
-        scene_class = getattr(models, 'KerrdSceneVersion1')
-        with package.Client(base_url=f'http://127.0.0.1:{self.daemon.port}') as client:
-            picture = call('post_render')(client=client, body=scene_class.from_dict({'image': {'width': 64, 'height': 36}}))
+        def call(name, *arguments, **named):
+            return importlib.import_module('kerrd_generated.api.default.' + name).sync(*arguments, client=client, **named)
+        base = f'http://127.0.0.1:{self.daemon.port}{self.document["servers"][0]["url"].removeprefix(".")}'
+        with package.Client(base_url=base) as client:
+            small = {'image': {'width': 64, 'height': 36}}
+            picture = call('post_render', body=scene_class.from_dict(small))
             self.assertTrue(picture.payload.read().startswith(b'\x89PNG'))
-            answer = call('get_physics_kerr')(client=client, spin=0.5, r='isco')
-            self.assertAlmostEqual(answer.to_dict()['values']['isco'], 4.233002529530073, places=9)  # Bardeen, Press & Teukolsky 1972
-            problem = call('get_jobs_id')(client=client, id='0123456789abcdef')
+            answer = call('get_physics_kerr', spin=0.5, r='isco')
+            self.assertAlmostEqual(answer.values.isco, 4.233002529530073, places=9)  # Bardeen, Press & Teukolsky 1972
+            self.assertEqual((answer.units.isco, answer.parameters.spin), ('M', 0.5))
+            problem = call('get_jobs_id', id='0123456789abcdef')
             self.assertEqual((problem.status, problem.type_), (404, 'urn:kerrd:problem:not-found'))
+            self.use_rays_and_orbits(call, models)
+            self.use_what_is_kept(package, base, call, models, small)
+
+    def use_rays_and_orbits(self, call, models):
+        answer = call('post_rays', body=models.RaysRequest(rays=[[-5, 0], [2.5, 0.001]], spin=0.9, observer=models.RaysRequestObserver(inclination_deg=60)))
+        self.assertEqual(([ray.fate for ray in answer.rays], answer.observer.r, answer.accuracy.engine), (['escaped', 'captured'], 'infinity', 'closed'))
+        self.assertGreater(answer.rays[0].crossings[0].r, 1)
+        circle = models.OrbitsRequest(orbit=models.OrbitByShape(p=10, e=0), duration=models.OrbitsRequestDuration(periods=1), samples=3)
+        path = call('post_orbits', body=circle)
+        self.assertEqual((path.fate, path.result.end, len(path.series.rows)), ('bound', 'duration', 3))
+        self.assertAlmostEqual(path.frequencies.coordinate.phi, 10 ** -1.5, places=12)  # Kepler's third law, exact of circles round a hole that does not spin
+        many = call('post_orbits', body=models.OrbitsRequest(orbits=[models.OrbitByShape(p=10, e=0.1), models.OrbitByCase(case=models.OrbitByCaseCase.ISCO)], duration=models.OrbitsRequestDuration(periods=1)))
+        self.assertEqual([one.circular for one in many.orbits], [False, True])
+
+    def use_what_is_kept(self, package, base, call, models, small):
+        """A session and a job are made, changed or waited for, and deleted: by the token that came with them."""
+        session = call('post_sessions', body=models.KerrdSceneVersion1.from_dict(small))
+        job = call('post_jobs', body=models.PostJobsBodyType0(scene=models.KerrdSceneVersion1.from_dict(small)))
+
+        def owner(one):
+            return package.AuthenticatedClient(base_url=base, token=one.token)
+
+        def own(one, name, **named):
+            with owner(one) as client:
+                return importlib.import_module('kerrd_generated.api.default.' + name).sync_detailed(one.id, client=client, **named)
+        patch = models.KerrdSceneVersion1.from_dict({'camera': {'azimuth_deg': 40}})
+        changed = own(session, 'patch_sessions_id', body=patch).parsed
+        self.assertEqual((changed.scene.camera.azimuth_deg, changed.revision), (40, 2))
+        self.assertTrue(daemon.eventually(lambda: call('get_jobs_id', job.id).state == 'done'))
+        self.assertTrue(call('get_jobs_id_result', job.id, format_=models.GetJobsIdResultFormat.PNG, frame=0).payload.read().startswith(b'\x89PNG'))
+        for one, kind in ((session, 'sessions'), (job, 'jobs')):
+            self.assertEqual(call(f'get_{kind}_id', one.id).id, one.id)
+            self.assertEqual(own(one, f'delete_{kind}_id').status_code, 204)
+            self.assertEqual(call(f'get_{kind}_id', one.id).status, 404)
 
 
 if __name__ == '__main__':

@@ -36,9 +36,7 @@ static void add_field(struct kd_json *json, const char *name, const struct kd_ra
         add_range(json, f);
     } else {
         kd_json_array(json, "anyOf");
-        kd_json_object(json, NULL);
-        kd_json_string(json, "const", f->word);
-        kd_json_end(json);
+        kd_schema_word(json, NULL, f->word);
         kd_json_object(json, NULL);
         add_range(json, f);
         kd_json_end(json);

@@ -1,7 +1,6 @@
 /* The service describes itself here: OpenAPI 3.1 from the route table, the scene's schema and the problem table. */
 #include "server/openapi/openapi.h"
 #include "render/output/format.h"
-#include "render/rays/schema.h"
 #include "server/http/served.h"
 #include "server/job/formats.h"
 #include "server/openapi/answers.h"
@@ -390,7 +389,7 @@ static void add_components(struct kd_json *json, const struct kd_buffer *schema)
     kd_json_raw(json, "securitySchemes", token, sizeof token - 1);
     kd_json_object(json, "schemas");
     kd_json_raw(json, "Scene", (const char *)schema->data, schema->size);
-    kd_rays_answer_schemas(json);
+    kd_openapi_rays_schemas(json);
     kd_openapi_orbits_schema(json);
     kd_openapi_integral_schemas(json);
     kd_openapi_playground_schemas(json);

@@ -6,16 +6,14 @@
 
 void kd_openapi_orbits_body(struct kd_json *json)
 {
-    kd_openapi_body_begin(json);
-    kd_json_object(json, "application/json");
-    kd_orbit_request_schema(json, "schema", KD_SCHEMA_REF("Orbit"));
-    kd_json_end(json);
-    kd_openapi_body_end(json);
+    static const char request[] = KD_SCHEMA_REF("OrbitsRequest");
+    kd_openapi_body(json, request, sizeof request - 1, NULL);
 }
 
 void kd_openapi_orbits_schema(struct kd_json *json)
 {
-    kd_orbit_schema(json, "Orbit");
+    kd_orbit_schemas(json);
+    kd_orbit_request_schema(json, "OrbitsRequest");
     kd_orbit_answer_schemas(json);
 }
 

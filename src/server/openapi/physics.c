@@ -43,12 +43,8 @@ static void add_schema(struct kd_json *json, const struct kd_parameter *p)
         add_words(json, p->words);
     } else {
         kd_json_array(json, "anyOf");
-        if (p->word) { /* first: generators of clients take the first type that a default fits, and "infinity" reads as a number */
-            kd_json_object(json, NULL);
-            kd_json_string(json, "type", "string");
-            kd_json_string(json, "const", p->word);
-            kd_json_end(json);
-        }
+        if (p->word) /* first: generators of clients take the first type that a default fits, and "infinity" reads as a number */
+            kd_schema_word(json, NULL, p->word);
         add_number(json, p);
         kd_json_object(json, NULL);
         kd_json_string(json, "type", "string");
@@ -127,11 +123,8 @@ static void add_asked(struct kd_json *json, const struct kd_quantity *quantity)
             add_words(json, p->words);
         } else {
             kd_json_array(json, "anyOf");
-            if (p->word) {
-                kd_json_object(json, NULL);
-                kd_json_string(json, "const", p->word);
-                kd_json_end(json);
-            }
+            if (p->word)
+                kd_schema_word(json, NULL, p->word);
             kd_schema_text(json, NULL, KD_SCHEMA_NUMBER);
             kd_schema_text(json, NULL, KD_SCHEMA_LIST(KD_SCHEMA_NUMBER));
             kd_json_end(json);

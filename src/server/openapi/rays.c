@@ -22,12 +22,14 @@ void kd_openapi_rays_parameters(struct kd_json *json)
 
 void kd_openapi_rays_body(struct kd_json *json)
 {
-    kd_openapi_body_begin(json);
-    kd_json_object(json, "application/json");
-    kd_rays_request_schema(json, "schema");
-    kd_json_end(json);
-    kd_openapi_media(json, "application/x-npy", "", 0);
-    kd_openapi_body_end(json);
+    static const char request[] = KD_SCHEMA_REF("RaysRequest");
+    kd_openapi_body(json, request, sizeof request - 1, "application/x-npy");
+}
+
+void kd_openapi_rays_schemas(struct kd_json *json)
+{
+    kd_rays_request_schema(json, "RaysRequest");
+    kd_rays_answer_schemas(json);
 }
 
 void kd_openapi_rays_answer(struct kd_json *json)
