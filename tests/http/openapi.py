@@ -47,6 +47,46 @@ class OpenApi(daemon.Case):
                         bodies += 1
         self.assertGreater(bodies, 50)
 
+    def schemas(self):
+        """Each schema of the document, with where it stands."""
+        def below(at, schema):
+            yield at, schema
+            parts = [*schema.get('properties', {}).items(), *((f'{k}{i}', part) for k in ('anyOf', 'oneOf') for i, part in enumerate(schema.get(k, []))), *((k, schema[k]) for k in ('items', 'additionalProperties') if isinstance(schema.get(k), dict))]
+            for name, part in parts:
+                yield from below(f'{at}/{name}', part)
+        for name, schema in self.document['components']['schemas'].items():
+            yield from below(name, schema)
+        for path, operations in self.document['paths'].items():
+            for method, operation in operations.items():
+                for one in operation.get('parameters', []):
+                    yield from below(f'{method} {path}?{one["name"]}', one['schema'])
+                for body in (operation.get('requestBody', {}), *operation['responses'].values()):
+                    for kind, media in body.get('content', {}).items():
+                        yield from below(f'{method} {path} {kind}', media['schema'])
+
+    def test_nothing_is_left_open(self):
+        """Each schema says what it is, each list of what, each object of which members, and that these are all."""
+        # Documents of their own; what is to be given back as it came; what the type of a job's output decides.
+        free = {'get /openapi.json application/json', 'get /v1/schema application/schema+json', 'Playground/state', 'get /v1/jobs/{id}/result application/json', 'post /v1/jobs application/json/oneOf2/playground'}
+        found = set()
+        for at, schema in self.schemas():
+            if set(schema) == {'required'}:
+                continue  # one of several ways to be whole
+            known = schema.keys() & {'type', '$ref', 'anyOf', 'oneOf', 'enum', 'const'}
+            if not known or (schema.get('type') == 'array' and not schema.get('items')) or (schema.get('type') == 'object' and schema.get('additionalProperties') in (None, True)):
+                found.add(at)
+        self.assertEqual(found, free)
+
+    def test_headers_are_told(self):
+        """Where one is told there is one."""
+        for at, method, status, name in (('/v1/sessions', 'post', 201, 'Location'), ('/v1/jobs', 'post', 202, 'Location'), ('/v1/playground', 'post', 201, 'Location'), ('/v1/assets', 'put', 201, 'Location'),
+                                         ('/v1/render', 'get', 200, 'ETag'), ('/v1/presets', 'get', 304, 'ETag'), ('/openapi.json', 'get', 200, 'ETag')):
+            self.assertIn(name, self.document['paths'][at][method]['responses'][str(status)]['headers'], at)
+        tag = self.daemon.get('/v1/presets').header('ETag')
+        self.assertEqual(self.daemon.get('/v1/presets', If_None_Match=tag).header('ETag'), tag)
+        tag = self.daemon.get('/v1/render?' + daemon.SMALL).header('ETag')
+        self.assertEqual(self.daemon.get('/v1/render?' + daemon.SMALL, If_None_Match=tag).header('ETag'), tag)
+
     def test_names_and_ids_have_patterns(self):
         def schema(path, method='get', name=None):
             return {p['name']: p['schema'] for p in self.document['paths'][path][method]['parameters']}
