@@ -14,7 +14,7 @@
 #include <unistd.h>
 
 struct arguments {
-    const char *device, *listen;
+    const char *device, *listen, *base_path;
     const char *state;
     uint64_t memory;
     unsigned port, queue, sessions, jobs, client_jobs, client_share;
@@ -26,6 +26,7 @@ struct arguments {
 static const struct argp_option table[] = {
     { "listen", 'a', "ADDRESS", 0, "numeric address to listen on (default 127.0.0.1)", 0 },
     { "port", 'p', "PORT", 0, "TCP port, 0 for any free one (default 8080)", 0 },
+    { "base-path", 'b', "/PREFIX", 0, "what stands before every path, as a proxy passes it on, like /some/prefix (default: $KERRD_BASE_PATH, else nothing)", 0 },
     { "queue", 'q', "N", 0, "renders that may wait for the device (default 16)", 0 },
     { "sessions", 's', "N", 0, "live sessions at once, and as many playgrounds (default 16)", 0 },
     { "jobs", 'j', "N", 0, "unfinished jobs at once (default 16)", 0 },
@@ -56,6 +57,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case ARGP_KEY_INIT: state->child_inputs[0] = &arguments->device; return 0;
     case 'a': arguments->listen = text; return 0;
     case 'p': arguments->port = kd_cli_number(state, "--port", text, 0, 65535); return 0;
+    case 'b': arguments->base_path = text; return 0;
     case 'q': arguments->queue = kd_cli_number(state, "--queue", text, 1, 100000); return 0;
     case 's': arguments->sessions = kd_cli_number(state, "--sessions", text, 1, 10000); return 0;
     case 'j': arguments->jobs = kd_cli_number(state, "--jobs", text, 1, 1000); return 0;
@@ -90,27 +92,27 @@ static void set_signals(void (*handler)(int))
 }
 
 /* Whoever sits before the terminal may hold a telephone to it; a log file needs no code. */
-static void show_code(const char *address, uint16_t port, const char *const *own)
+static void show_code(const char *address, uint16_t port, const char *base_path, const char *const *own)
 {
     const char *const listened[] = { address, NULL };
     const char *name = kd_cli_code_of(own ? own : listened);
-    char text[300];
+    char text[600];
     if (!name || !isatty(STDOUT_FILENO))
         return;
     bool six = strchr(name, ':') && *name != '[';
-    snprintf(text, sizeof text, "http://%s%s%s:%u/", six ? "[" : "", name, six ? "]" : "", port);
+    snprintf(text, sizeof text, "http://%s%s%s:%u%s/", six ? "[" : "", name, six ? "]" : "", port, base_path);
     printf("kerrd: for a telephone on this network, %s\n", text);
     if (kd_cli_code(stdout, text))
         fprintf(stderr, "kerrd: no memory for the code of %s\n", text);
 }
 
-static void announce(const char *address, uint16_t port, const char *const *own)
+static void announce(const char *address, uint16_t port, const char *base_path, const char *const *own)
 {
     bool six = strchr(address, ':'); /* an IPv6 address needs brackets in a URL */
-    printf("kerrd: listening on http://%s%s%s:%u/\n", six ? "[" : "", address, six ? "]" : "", port);
+    printf("kerrd: listening on http://%s%s%s:%u%s/\n", six ? "[" : "", address, six ? "]" : "", port, base_path);
     for (const char *const *name = own; name && *name; name++)
-        printf("kerrd: reached at http://%s:%u/\n", *name, port);
-    show_code(address, port, own);
+        printf("kerrd: reached at http://%s:%u%s/\n", *name, port, base_path);
+    show_code(address, port, base_path, own);
     /* Whoever started us may be waiting for this line in a pipe. A service goes on without one. */
     if (fflush(stdout) || ferror(stdout))
         fprintf(stderr, "kerrd: cannot write to standard output: %s\n", strerror(errno));
@@ -149,6 +151,7 @@ static enum kd_status serve(const struct arguments *arguments, struct kd_error *
     const struct kd_server_params params = {
         .listen = arguments->listen,
         .port = (uint16_t)arguments->port,
+        .base_path = arguments->base_path,
         .hosts = arguments->hosts,
         .queue = arguments->queue,
         .sessions = arguments->sessions,
@@ -170,7 +173,7 @@ static enum kd_status serve(const struct arguments *arguments, struct kd_error *
         kd_server_destroy(running);
         return status;
     }
-    announce(arguments->listen, kd_server_port(running), kd_server_own_names(running));
+    announce(arguments->listen, kd_server_port(running), arguments->base_path ? arguments->base_path : "", kd_server_own_names(running));
     status = kd_server_wait(running, error);
     if (status == KD_EDEVICE)
         kd_cli_device_lost(error);
@@ -190,7 +193,7 @@ int kd_cli_serve(int argc, char **argv)
             "is 0. It is 1 when the device was lost: start it again.",
         .children = kd_cli_device_children,
     };
-    struct arguments arguments = { .listen = "127.0.0.1", .port = 8080, .queue = 16, .sessions = 16, .jobs = 16 };
+    struct arguments arguments = { .listen = "127.0.0.1", .base_path = getenv("KERRD_BASE_PATH"), .port = 8080, .queue = 16, .sessions = 16, .jobs = 16 };
     struct kd_error error = { 0 };
 
     argp_parse(&argp, argc, argv, 0, NULL, &arguments);

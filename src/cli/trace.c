@@ -8,7 +8,6 @@
 #include <math.h>
 #include <stdio.h>
 
-static const char *const fates[] = { [KD_RAY_CAPTURED] = "captured", [KD_RAY_ESCAPED] = "escaped", [KD_RAY_UNDECIDED] = "undecided" };
 
 enum kd_status kd_trace_explain(const struct kd_rays_steps *steps, bool points, struct kd_told_steps *out, struct kd_error *error)
 {
@@ -26,7 +25,7 @@ enum kd_status kd_trace_explain(const struct kd_rays_steps *steps, bool points, 
     KD_TRY(kd_ray_path_draw(&out->motion, &(struct kd_ray_path_frame) { 0 }, crossings, out->end.n_crossings, &out->path, error));
     const int n = kd_ray_motion_why(&out->motion, out->end.fate, out->why, sizeof out->why);
     if (steps->end.fate != out->end.fate)
-        snprintf(out->why + n, sizeof out->why - (size_t)n, " The engine has it otherwise: %s.", fates[steps->end.fate]);
+        snprintf(out->why + n, sizeof out->why - (size_t)n, " The engine has it otherwise: %s.", kd_ray_fate_name(steps->end.fate));
 done:
     return status;
 }
@@ -57,7 +56,7 @@ static enum kd_status put_verdict(const struct kd_told_steps *trace, struct kd_b
 {
     const struct kd_rays_steps *steps = trace->steps;
     enum kd_status status;
-    KD_TRY(kd_buffer_printf(out, "%s, crossings %u", fates[steps->end.fate], steps->end.n_crossings));
+    KD_TRY(kd_buffer_printf(out, "%s, crossings %u", kd_ray_fate_name(steps->end.fate), steps->end.n_crossings));
     if (isfinite(steps->end.theta))
         KD_TRY(kd_buffer_printf(out, ", from theta %.11g, phi %.11g", steps->end.theta, steps->end.phi));
     if (isfinite(steps->end.error))
@@ -152,7 +151,7 @@ enum kd_status kd_trace_json(const struct kd_told_steps *trace, struct kd_buffer
     for (size_t i = 0; i < sizeof members / sizeof *members; i++)
         put_member(&json, members[i].name, members[i].x);
     kd_ray_motion_json(&json, &trace->motion);
-    kd_json_string(&json, "fate", fates[steps->end.fate]);
+    kd_json_string(&json, "fate", kd_ray_fate_name(steps->end.fate));
     kd_json_string(&json, "why", trace->why);
     kd_json_number(&json, "crossings", steps->end.n_crossings);
     kd_json_number(&json, "not_shown", (double)steps->lost);

@@ -1,4 +1,5 @@
 /* Requests have these fields, a row each; their schema follows from them. */
+#include "base/schema.h"
 #include "integral/request.h"
 
 #include <math.h>
@@ -140,9 +141,7 @@ static void add_words(struct kd_json *json, const char *words)
 static void add_number_or_word(struct kd_json *json, const struct kd_integral_field *f)
 {
     kd_json_array(json, "anyOf");
-    kd_json_object(json, NULL);
-    kd_json_string(json, "const", f->words);
-    kd_json_end(json);
+    kd_schema_word(json, NULL, f->words);
     kd_json_object(json, NULL);
     add_range(json, f);
     kd_json_end(json);

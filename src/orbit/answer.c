@@ -15,6 +15,8 @@ enum { PLAIN = 10, COLUMNS = 17, SUMMARY = 15 }; /* columns of an orbit that nob
 static const char *const columns[COLUMNS] = { "mino", "tau_proper", "t", "r", "theta", "phi", "x", "y", "z", "energy_error",
                                             "alpha", "beta", "right", "up", "inwards", "delay", "off" };
 
+const char *kd_orbit_column(size_t index) { return index < COLUMNS ? columns[index] : NULL; }
+
 _Static_assert((int)COLUMNS <= (int)KD_NPY_FIELDS, "an array has room for them");
 static int count_of(const struct kd_orbit_params *params) { return kd_orbit_is_seen(params) ? COLUMNS : PLAIN; }
 

@@ -28,6 +28,9 @@ enum kd_status kd_orbit_answer_end(const struct kd_orbit_run *run, enum kd_orbit
 enum kd_status kd_orbit_answer_many(const struct kd_orbit_run *runs, size_t n, const struct kd_orbit_sample *samples,
                                     enum kd_orbit_format format, struct kd_buffer *out);
 
+/* Columns of a series, in their order; the first ones are those of an orbit that nobody looks at. NULL past the last. */
+const char *kd_orbit_column(size_t index);
+
 /* Sentences on what is approximated; NULL past the last. */
 const char *kd_orbit_approximation(const struct kd_orbit_run *run, size_t index);
 

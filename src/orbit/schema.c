@@ -1,10 +1,10 @@
 #include "orbit/schema.h"
 
+#include "base/schema.h"
 #include "orbit/fields.h"
 
+#include <stdio.h>
 #include <string.h>
-
-static void raw(struct kd_json *json, const char *name, const char *text) { kd_json_raw(json, name, text, strlen(text)); }
 
 static void add_range(struct kd_json *json, const struct kd_orbit_field *f)
 {
@@ -14,7 +14,7 @@ static void add_range(struct kd_json *json, const struct kd_orbit_field *f)
     kd_json_number(json, above ? "exclusiveMinimum" : "minimum", least);
     kd_json_number(json, f->open ? "exclusiveMaximum" : "maximum", f->most);
     if (f->bound == KD_BOUND_NOT_ONE)
-        raw(json, "not", "{\"const\":1}");
+        kd_schema_text(json, "not", "{\"const\":1}");
 }
 
 static void add_field(struct kd_json *json, const struct kd_orbit_field *f)
@@ -97,7 +97,7 @@ static void add_section(struct kd_json *json, const struct rows *rows, const cha
     begin_object(json, section);
     add_required(json, rows, section);
     if (apart)
-        raw(json, "not", apart);
+        kd_schema_text(json, "not", apart);
     kd_json_object(json, "properties");
     add_members(json, rows, section);
     kd_json_end(json);
@@ -111,18 +111,27 @@ static void add_sections(struct kd_json *json, const struct rows *rows, const ch
             add_section(json, rows, rows->fields[i].section, apart);
 }
 
-void kd_orbit_schema(struct kd_json *json, const char *name)
+static const char *const forms[KD_ORBIT_FORMS] = { [KD_ORBIT_SHAPE] = "OrbitByShape", [KD_ORBIT_CONSTANTS] = "OrbitByConstants", [KD_ORBIT_STATE] = "OrbitByState", [KD_ORBIT_CASE] = "OrbitByCase" };
+
+void kd_orbit_schemas(struct kd_json *json)
 {
-    kd_json_object(json, name);
-    kd_json_array(json, "oneOf");
     for (int form = 0; form < KD_ORBIT_FORMS; form++) {
         const struct rows rows = { kd_orbit_fields, KD_ORBIT_N_FIELDS, (enum kd_orbit_form)form };
-        begin_object(json, NULL);
+        begin_object(json, forms[form]);
         add_required(json, &rows, "");
         kd_json_object(json, "properties");
         add_members(json, &rows, "");
         add_sections(json, &rows, NULL);
         kd_json_end(json);
+        kd_json_end(json);
+    }
+    kd_json_object(json, "Orbit");
+    kd_json_array(json, "oneOf");
+    for (int form = 0; form < KD_ORBIT_FORMS; form++) {
+        char to[60];
+        snprintf(to, sizeof to, "#/components/schemas/%s", forms[form]);
+        kd_json_object(json, NULL);
+        kd_json_string(json, "$ref", to);
         kd_json_end(json);
     }
     kd_json_end(json);
@@ -131,27 +140,27 @@ void kd_orbit_schema(struct kd_json *json, const char *name)
 
 static void add_orbits(struct kd_json *json, const char *orbit)
 {
-    raw(json, "orbit", orbit);
+    kd_schema_text(json, "orbit", orbit);
     kd_json_object(json, "orbits");
     kd_json_string(json, "type", "array");
     kd_json_number(json, "minItems", 1);
     kd_json_number(json, "maxItems", KD_ORBITS_MAX);
-    raw(json, "items", orbit);
+    kd_schema_text(json, "items", orbit);
     kd_json_end(json);
 }
 
-void kd_orbit_request_schema(struct kd_json *json, const char *name, const char *orbit)
+void kd_orbit_request_schema(struct kd_json *json, const char *name)
 {
     const struct rows rows = { kd_orbit_settings, KD_ORBIT_N_SETTINGS, KD_ORBIT_FORMS };
     begin_object(json, name);
     /* A request has either orbit or orbits. It is no oneOf: generators of clients would make a union of it, and no class with the fields. */
-    raw(json, "if", "{\"required\":[\"orbits\"]}");
-    raw(json, "then", "{\"not\":{\"required\":[\"orbit\"]}}");
-    raw(json, "else", "{\"required\":[\"orbit\"]}");
+    kd_schema_text(json, "if", "{\"required\":[\"orbits\"]}");
+    kd_schema_text(json, "then", "{\"not\":{\"required\":[\"orbit\"]}}");
+    kd_schema_text(json, "else", "{\"required\":[\"orbit\"]}");
     kd_json_object(json, "properties");
     add_members(json, &rows, "");
     add_sections(json, &rows, "{\"required\":[\"periods\",\"time\"]}");
-    add_orbits(json, orbit);
+    add_orbits(json, KD_SCHEMA_REF("Orbit"));
     kd_json_end(json);
     kd_json_end(json);
 }

@@ -86,10 +86,13 @@ static void write_type(struct kd_writer *w, const struct kd_field *field)
         return;
     case KD_FIELD_WORDS: write_many(w, field); return;
     }
-    /* The word first: generators of clients take the first type that a default fits, and "infinity" reads as a number. */
-    kd_write(w, "\"anyOf\":[{\"const\":");
+    /* The word first: generators of clients take the first type that a default fits, and "infinity" reads as a number. An enumeration as well: of a const in a union they
+     * make code that takes nothing else. */
+    kd_write(w, "\"anyOf\":[{\"type\":\"string\",\"const\":");
     kd_write_string(w, field->words);
-    kd_write(w, "},{");
+    kd_write(w, ",\"enum\":[");
+    kd_write_string(w, field->words);
+    kd_write(w, "]},{");
     write_range(w, field->kind == KD_FIELD_INT ? "integer" : "number", field);
     kd_write(w, "}]");
 }
@@ -272,8 +275,8 @@ enum kd_status kd_scene_schema(struct kd_buffer *out)
     kd_write(
         w,
         "\"properties\":{"
-        "\"version\":{\"const\":%d,\"description\":\"version of this document format\"}",
-        KD_SCENE_VERSION);
+        "\"version\":{\"type\":\"integer\",\"enum\":[%d],\"const\":%d,\"description\":\"version of this document format\"}", /* both: makers of clients write numbers badly that are a const alone */
+        KD_SCENE_VERSION, KD_SCENE_VERSION);
     for (size_t i = 0; i < KD_SECTION_COUNT; i++) {
         if (strchr(kd_sections[i].name, '.')) /* written with the section that it stands in */
             continue;

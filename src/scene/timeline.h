@@ -32,11 +32,19 @@
 
 #define KD_TIMELINE_KEYS_MAX 1000
 
-/* Words as requests have them, in this order. */
-#define KD_INTERPOLATIONS "linear", "smooth", "catmull-rom"
+/* Words as requests have them, in this order. W(word), one behind the other with C between them: KD_WORD_OF and KD_COMMA make an array of them. */
+#define KD_INTERPOLATIONS(W, C) W("linear") C W("smooth") C W("catmull-rom")
 enum kd_interpolation { KD_LINEAR, KD_SMOOTH, KD_CATMULL_ROM };
-#define KD_EASES "none", "in", "out", "in-out"
+#define KD_EASES(W, C) W("none") C W("in") C W("out") C W("in-out")
 enum kd_ease { KD_EASE_NONE, KD_EASE_IN, KD_EASE_OUT, KD_EASE_IN_OUT };
+
+#define KD_DISTANCES(W, C) W("linear") C W("geometric")
+#define KD_ANGLES(W, C) W("as-given") C W("shorter")
+#define KD_WORD_OF(word) word
+#define KD_COMMA ,
+
+/* Where a place to look at may be; its r is from 0 to this, M. */
+#define KD_LOOK_AT_FAR 1e12
 
 struct kd_timeline_key {
     double at; /* frame, or seconds */

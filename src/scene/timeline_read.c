@@ -81,8 +81,8 @@ static enum kd_status read_scene(struct reader *r, const cJSON *item, const char
     return kd_member_inside(status, pointer, r->error);
 }
 
-static const char *const interpolations[] = { KD_INTERPOLATIONS }, *const eases[] = { KD_EASES }, *const distances[] = { "linear", "geometric" },
-                                    *const angles[] = { "as-given", "shorter" };
+static const char *const interpolations[] = { KD_INTERPOLATIONS(KD_WORD_OF, KD_COMMA) }, *const eases[] = { KD_EASES(KD_WORD_OF, KD_COMMA) },
+                         *const distances[] = { KD_DISTANCES(KD_WORD_OF, KD_COMMA) }, *const angles[] = { KD_ANGLES(KD_WORD_OF, KD_COMMA) };
 #define READ_WORD(r, item, pointer, words, out) kd_member_word(item, pointer, words, sizeof words / sizeof *words, out, (r)->error)
 
 /* A number of a place to look at; it is there, or `usual` is. */
@@ -107,7 +107,7 @@ static enum kd_status read_look_at(struct reader *r, const cJSON *item, const ch
     if (out->kind == KD_AIM_FREE)
         return kd_member_refuse(item, pointer, "\"hole\", \"free\" or an object with theta_deg, phi_deg and r, without which it is a direction", r->error);
     KD_TRY(kd_members_read(item, pointer, members, sizeof members / sizeof *members, r->error));
-    KD_TRY(read_number(r, radius, pointer, "r", INFINITY, 0, 1e12, &out->r));
+    KD_TRY(read_number(r, radius, pointer, "r", INFINITY, 0, KD_LOOK_AT_FAR, &out->r));
     KD_TRY(read_number(r, theta, pointer, "theta_deg", 90, 0, 180, &out->theta_deg));
     KD_TRY(read_number(r, phi, pointer, "phi_deg", 0, -360, 360, &out->phi_deg));
 done:

@@ -238,7 +238,7 @@ static bool choose(struct kd_request *request, enum MHD_Result *result)
         problem = (struct kd_problem) { .detail = error.message,
                                         .type = error.status == KD_ENOMEM ? KD_PROBLEM_NO_MEMORY
                                                                           : KD_PROBLEM_BAD_REQUEST };
-    else if (!kd_route_is_health(request->raw) && kd_connections_crowded(request->server->connections, request->connection))
+    else if (!kd_route_is_health(&request->server->base, request->raw) && kd_connections_crowded(request->server->connections, request->connection))
         problem = (struct kd_problem) { .type = KD_PROBLEM_CROWDED,
                                         .retry_after = 1,
                                         .close = true,
@@ -266,7 +266,7 @@ static enum MHD_Result begin(struct kd_request *request, const char *version)
     if (!request->raw) {
         return kd_reply_no_memory(request);
     }
-    if (!kd_guard_check(request->mhd, version, server->hosts, kd_route_is_health(request->raw),
+    if (!kd_guard_check(request->mhd, version, server->hosts, kd_route_is_health(&server->base, request->raw),
                         &request->header, &problem)) {
         kd_connection_linger(request->connection);
         return kd_reply_problem(request, &problem);

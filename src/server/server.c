@@ -88,7 +88,7 @@ static enum kd_status start_http(struct kd_server *server, int listener, unsigne
         close(listener);
         return kd_error_set(error, KD_EIO, "the HTTP service could not be started");
     }
-    const struct kd_front_params front = { listener, server->connections, server->health_daemon, server->daemon };
+    const struct kd_front_params front = { listener, server->connections, &server->base, server->health_daemon, server->daemon };
     return kd_front_create(&front, &server->front, error);
 }
 
@@ -191,8 +191,9 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
     if (server->stop_fd < 0 || !server->connections || !server->bodies || !server->replies)
         return kd_error_set(error, KD_ENOMEM, "no memory or descriptor for the server");
     enum kd_status status;
+    KD_TRY(kd_base_path_init(&server->base, params->base_path, error));
     KD_TRY(collect_hosts(server, address, params->hosts, error));
-    KD_TRY(kd_kept_create(&server->kept, error));
+    KD_TRY(kd_kept_create(server->base.path, &server->kept, error));
     /* The socket is opened first: opening a device takes long, and "address in use" is the commonest failure. */
     KD_TRY(kd_listen_open(address, &server->port, &fd, error));
     const unsigned tasks = or_default(params->queue, 16);

@@ -100,6 +100,7 @@ class Usage(Case):
         for port in ["", "-1", "65536", "80x", " 80", "99999999999999999999"]:
             self.bad(2, "0 to 65535", "serve", "--port", port)
         self.bad(2, "--queue", "serve", "--queue", "0")
+        self.bad(2, 'the base path is "x/": it must begin with a slash', "serve", "--base-path", "x/")
         self.bad(2, "excludes SCENE", "scene", "--from", "a.png", "b.json")
         self.bad(2, "excludes --preset", "scene", "--from", "a.png", "--preset", "m87")
 

@@ -303,9 +303,9 @@ class Devices(Case):
 
 
 class Serve(Case):
-    def start(self, *args):
+    def start(self, *args, **env):
         process = subprocess.Popen([KERRD, "serve", "--port", "0", *args], stdout=subprocess.PIPE,
-                                   stderr=subprocess.PIPE)
+                                   stderr=subprocess.PIPE, env={**os.environ, **env})
         self.addCleanup(process.stdout.close)
         self.addCleanup(process.stderr.close)
         self.addCleanup(process.kill)
@@ -320,6 +320,13 @@ class Serve(Case):
                 self.assertEqual(answer.status, 200)
             process.send_signal(number)
             self.assertEqual(process.wait(timeout=30), 0, process.stderr.read())
+
+    def test_a_base_path_by_option_or_environment(self):
+        for args, env in ((("--base-path", "/some/prefix"), {}), ((), {"KERRD_BASE_PATH": "/some/prefix"}), (("--base-path", "/some/prefix"), {"KERRD_BASE_PATH": "/other"})):
+            process, url = self.start(*args, **env)
+            self.assertTrue(url.endswith("/some/prefix/"), url)
+            with urllib.request.urlopen(url + "v1/device", timeout=20) as answer:
+                self.assertEqual(answer.status, 200)
 
     def test_the_same_picture_as_render(self):
         process, url = self.start()

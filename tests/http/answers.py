@@ -63,6 +63,48 @@ class Answers(daemon.Case):
         self.assertGreater(met, 0)
         self.get('/v1/pixel', '/v1/pixel?at=3,2&image.width=64&image.height=36')
 
+    def test_rays(self):
+        rays = {'spin': 0.9, 'observer': {'inclination_deg': 60}, 'rays': [[-5, 0], [2.5, 1e-3], [9, 4], [0.1, 0.1]]}
+        fates = set()
+        for more in ({}, {'observer': {'r': 30, 'inclination_deg': 20}, 'orders': 1}, {'accuracy': {'engine': 'mino-rkn6', 'precision': 'f32', 'steps': 64}}, {'accuracy': {'tolerance': 1e-6}},
+                     {'accuracy': {'engine': 'ks-rk4', 'precision': 'f32'}}, {'accuracy': {'profile': 'draft'}}):
+            answer = self.send('POST', '/v1/rays', '/v1/rays', {**rays, **more})
+            fates |= {ray['fate'] for ray in answer['rays']}
+            self.assertEqual('beyond' in answer['accuracy'], 'tolerance' in more.get('accuracy', {}))
+        self.assertEqual(fates, {'captured', 'escaped'})
+
+    def test_orbits(self):
+        bound, duration = {'p': 12, 'e': 0.3, 'inclination_deg': 30}, {'periods': 2}
+        ends, members = set(), set()
+        for document in ({'orbit': bound, 'duration': duration}, {'orbit': bound, 'spin': 0.9, 'duration': duration, 'samples': 5, 'mass_msun': 10},
+                         {'orbit': bound, 'spin': 0.9, 'duration': duration, 'method': 'closed', 'samples': 3}, {'orbit': {'case': 'isco'}, 'duration': duration, 'method': 'rkn6'},
+                         {'orbit': {'case': 'plunge'}, 'samples': 4}, {'orbit': {'case': 'spherical'}, 'duration': duration, 'samples': 3, 'seen': {'observer_r': 30, 'observer_inclination_deg': 60}},
+                         {'orbit': {'position': {'r': 20, 'theta_deg': 90, 'phi_deg': 0}, 'velocity': {'v_r': 0.9}}, 'duration': {'time': 200}, 'samples': 3},
+                         {'orbits': [bound, {**bound, 'spin': 0.5}], 'duration': duration}, {'orbits': [bound], 'duration': duration, 'samples': 3, 'series': True}):
+            answer = self.send('POST', '/v1/orbits', '/v1/orbits', document)
+            for path in answer.get('orbits', [answer]):
+                ends.add(path['result']['end'])
+                members |= path.keys() | path['result'].keys() | path.get('frequencies', {}).keys()
+        self.assertEqual(ends, {'duration', 'horizon', 'r_max'})
+        self.assertLessEqual({'series', 'shape', 'advance', 'hz', 'drift', 'periastra', 'closed_form_difference'}, members)
+
+    def test_each_quantity(self):
+        for quantity in self.daemon.get('/v1/physics').json()['quantities']:
+            at = '/v1/physics/' + quantity['name']
+            self.get(at)
+            ranged = [p['name'] for p in quantity['parameters'] if 'unit' in p and p['name'] in ('spin', 'r', 'inclination_deg', 'theta_deg')]
+            if len(ranged) > 1 and quantity['name'] in ('kerr', 'redshift', 'frame-dragging'):
+                self.assertIn('shape', self.get(at, f'{at}?{ranged[0]}=0:0.5:2&{ranged[1]}=8:9:3'))
+
+    def test_assets_and_problems(self):
+        self.get('/v1/assets')
+        answers = [self.daemon.get('/nothing'), self.daemon.post('/v1/render', '{'), self.daemon.post('/v1/render', {'image': {'width': 0}}), self.daemon.get('/v1/render', Accept='text/nothing'),
+                   self.daemon.request('POST', '/v1/render', 'x', {'Content-Type': 'text/plain'}), self.daemon.request('PUT', '/')]
+        for answer in answers:
+            self.assertGreaterEqual(answer.status, 400)
+            self.schemas.component('Problem', answer.json())
+        self.assertTrue(self.schemas.wrong({'$ref': '#/components/schemas/Problem'}, {**answer.json(), 'type': 'urn:kerrd:problem:other'}))
+
     def test_integrals(self):
         for name, document in (('line', {'bins': 3}), ('line', {'edges': [0.2, 1.4], 'emissivity': 'lamppost', 'limb': 'haardt'}),
                                ('transfer-function', {'rings': 2, 'g_stars': 2}), ('spectrum', {'frequencies_hz': [1e16, 1e17]}),

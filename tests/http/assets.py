@@ -73,7 +73,7 @@ class Assets(Case):
         picture = png(20, 10, depth=16, colour=6)
         answer = self.put(picture)
         asset = answer.json()
-        self.assertEqual((answer.status, answer.header('Location'), answer.header('Cache-Control')), (201, self.at(asset), 'no-store'))
+        self.assertEqual((answer.status, answer.location(), answer.header('Cache-Control')), (201, self.at(asset), 'no-store'))
         token = asset.pop('token')
         created = asset.pop('created')
         self.assertEqual(asset, {'sha256': hashlib.sha256(picture).hexdigest(), 'type': 'image/png', 'width': 20, 'height': 10, 'bit_depth': 16,
@@ -373,7 +373,7 @@ class Scenes(Case):
     def end(self, answer):
         """Sessions and jobs are few."""
         if answer.status in (201, 202):
-            self.daemon.request('DELETE', answer.header('Location'), headers={'Authorization': f'Bearer {answer.json()["token"]}'})
+            self.daemon.request('DELETE', answer.location(), headers={'Authorization': f'Bearer {answer.json()["token"]}'})
 
     def test_one_that_is_here(self):
         asset = self.made(png(64, 32))

@@ -5,7 +5,6 @@ import json
 import pathlib
 import re
 import shutil
-import socket
 import subprocess
 import sys
 import tempfile
@@ -20,16 +19,10 @@ HAPROXY = shutil.which('haproxy') or next((path for path in ('/usr/sbin/haproxy'
 REQUESTS, AT_ONCE = 400, 8
 
 
-def free_port():
-    with socket.socket() as one:
-        one.bind(('127.0.0.1', 0))
-        return one.getsockname()[1]
-
-
 class Balanced(unittest.TestCase):
     def setUp(self):
         self.servers = [daemon.Daemon('--client-share', 100) for _ in range(2)]
-        self.port = free_port()
+        self.port = daemon.free_port()
         text = CONFIGURATION.read_text().replace(':8000', f'127.0.0.1:{self.port}')
         for server, port in zip(self.servers, ('8081', '8082')):
             text = text.replace('127.0.0.1:' + port, f'127.0.0.1:{server.port}')

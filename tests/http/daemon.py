@@ -11,6 +11,7 @@ import subprocess
 import sys
 import time
 import unittest
+import urllib.parse
 
 COMMAND = []  # the server's command line, from ours; set by main()
 SMALL = 'image.width=64&image.height=36'
@@ -19,8 +20,8 @@ SMALL = 'image.width=64&image.height=36'
 class Answer:
     """A parsed HTTP answer."""
 
-    def __init__(self, status, headers, body):
-        self.status, self.headers, self.body = status, headers, body
+    def __init__(self, status, headers, body, target=''):
+        self.status, self.headers, self.body, self.target = status, headers, body, target
 
     def header(self, name):
         found = [v for k, v in self.headers if k.lower() == name.lower()]
@@ -29,17 +30,21 @@ class Answer:
     def json(self):
         return json.loads(self.body)
 
+    def location(self):
+        """The path of what has been made, or of where it has gone: Location is relative to the request's."""
+        return urllib.parse.urljoin(self.target, self.header('Location'))
+
 
 class Daemon:
     def __init__(self, *options, stderr=None):
         self.process = subprocess.Popen([*COMMAND, '--port', '0', *map(str, options)], stdout=subprocess.PIPE, stderr=stderr)
         line = self.process.stdout.readline().decode()
-        match = re.fullmatch(r'kerrd: listening on http://127\.0\.0\.1:(\d+)/\n', line)
+        match = re.fullmatch(r'kerrd: listening on http://127\.0\.0\.1:(\d+)(\S*)/\n', line)
         if not match:
             self.process.kill()
             self.wait()
             raise RuntimeError(f'no announcement but {line!r}')
-        self.port = int(match[1])
+        self.port, self.base = int(match[1]), match[2]
 
     def connect(self, timeout=60, source='127.0.0.1'):
         return socket.create_connection(('127.0.0.1', self.port), timeout, source_address=(source, 0))
@@ -62,7 +67,7 @@ class Daemon:
                 except OSError:
                     pass  # refused before all of it was sent
             got = connection.getresponse()
-            return Answer(got.status, got.getheaders(), got.read())
+            return Answer(got.status, got.getheaders(), got.read(), target)
         finally:
             connection.close()
 
@@ -128,6 +133,12 @@ def needed(name):
         sys.exit(77)
 
 
+def free_port():
+    with socket.socket() as one:
+        one.bind(('127.0.0.1', 0))
+        return one.getsockname()[1]
+
+
 def eventually(condition, timeout=240):
     deadline = time.monotonic() + timeout
     while time.monotonic() < deadline:
@@ -186,7 +197,7 @@ class Owned(Case):
         one = answer.json()
         self.assertRegex(one['id'], '^[0-9a-f]{16}$')
         self.assertRegex(one['token'], '^[0-9a-f]{32}$')
-        self.assertEqual(answer.header('Location'), f'{self.kind}/{one["id"]}')
+        self.assertEqual(answer.location(), f'{self.kind}/{one["id"]}')
         if not server:
             self.opened.append(one)
         return one

@@ -48,6 +48,8 @@ static int set(struct kd_server_params *params, const char *hosts[2], const char
         return params->port = (uint16_t)atoi(value), 1;
     if (!strcmp(name, "--listen"))
         return params->listen = value, 1;
+    if (!strcmp(name, "--base-path"))
+        return params->base_path = value, 1;
     if (!strcmp(name, "--state"))
         return params->state = value, 1;
     if (!strcmp(name, "--device"))
@@ -70,7 +72,7 @@ int main(int argc, char **argv)
         return fprintf(stderr, "fake_server: %s\n", error.message), 1;
     signal(SIGTERM, on_signal);
     signal(SIGINT, on_signal);
-    printf("kerrd: listening on http://127.0.0.1:%u/\n", kd_server_port(server));
+    printf("kerrd: listening on http://127.0.0.1:%u%s/\n", kd_server_port(server), params.base_path ? params.base_path : "");
     fflush(stdout);
     enum kd_status status = kd_server_wait(server, &error);
     if (status) {

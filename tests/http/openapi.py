@@ -7,6 +7,7 @@ import sys
 import tempfile
 import unittest
 import urllib.parse
+import warnings
 
 import daemon
 
@@ -47,6 +48,46 @@ class OpenApi(daemon.Case):
                         self.assertTrue(media.get('schema'), f'{path} {kind}')
                         bodies += 1
         self.assertGreater(bodies, 50)
+
+    def schemas(self):
+        """Each schema of the document, with where it stands."""
+        def below(at, schema):
+            yield at, schema
+            parts = [*schema.get('properties', {}).items(), *((f'{k}{i}', part) for k in ('anyOf', 'oneOf') for i, part in enumerate(schema.get(k, []))), *((k, schema[k]) for k in ('items', 'additionalProperties') if isinstance(schema.get(k), dict))]
+            for name, part in parts:
+                yield from below(f'{at}/{name}', part)
+        for name, schema in self.document['components']['schemas'].items():
+            yield from below(name, schema)
+        for path, operations in self.document['paths'].items():
+            for method, operation in operations.items():
+                for one in operation.get('parameters', []):
+                    yield from below(f'{method} {path}?{one["name"]}', one['schema'])
+                for body in (operation.get('requestBody', {}), *operation['responses'].values()):
+                    for kind, media in body.get('content', {}).items():
+                        yield from below(f'{method} {path} {kind}', media['schema'])
+
+    def test_nothing_is_left_open(self):
+        """Each schema says what it is, each list of what, each object of which members, and that these are all."""
+        # Documents of their own; what is to be given back as it came; what the type of a job's output decides.
+        free = {'get /openapi.json application/json', 'get /v1/schema application/schema+json', 'Playground/state', 'get /v1/jobs/{id}/result application/json', 'post /v1/jobs application/json/oneOf2/playground'}
+        found = set()
+        for at, schema in self.schemas():
+            if set(schema) == {'required'}:
+                continue  # one of several ways to be whole
+            known = schema.keys() & {'type', '$ref', 'anyOf', 'oneOf', 'enum', 'const'}
+            if not known or (schema.get('type') == 'array' and not schema.get('items')) or (schema.get('type') == 'object' and schema.get('additionalProperties') in (None, True)):
+                found.add(at)
+        self.assertEqual(found, free)
+
+    def test_headers_are_told(self):
+        """Where one is told there is one."""
+        for at, method, status, name in (('/v1/sessions', 'post', 201, 'Location'), ('/v1/jobs', 'post', 202, 'Location'), ('/v1/playground', 'post', 201, 'Location'), ('/v1/assets', 'put', 201, 'Location'),
+                                         ('/v1/render', 'get', 200, 'ETag'), ('/v1/presets', 'get', 304, 'ETag'), ('/openapi.json', 'get', 200, 'ETag')):
+            self.assertIn(name, self.document['paths'][at][method]['responses'][str(status)]['headers'], at)
+        tag = self.daemon.get('/v1/presets').header('ETag')
+        self.assertEqual(self.daemon.get('/v1/presets', If_None_Match=tag).header('ETag'), tag)
+        tag = self.daemon.get('/v1/render?' + daemon.SMALL).header('ETag')
+        self.assertEqual(self.daemon.get('/v1/render?' + daemon.SMALL, If_None_Match=tag).header('ETag'), tag)
 
     def test_names_and_ids_have_patterns(self):
         def schema(path, method='get', name=None):
@@ -93,6 +134,14 @@ class OpenApi(daemon.Case):
                  {'scene': {'image': {'width': 32, 'height': 18}}, 'baselines': 2, 'pixels': 16, 'length_max': 'auto', 'angles_deg': [-90]}),
                 ('rays', {'rays': [[9, 0]], 'spin': 0.999999, 'observer': {'r': 1}}, {'rays': []},
                  {'rays': [[9, 0]], 'spin': 0.999999, 'observer': {'r': 1.01}}),
+                ('rays', *({'rays': [[9, 0]], **more} for more in (
+                    {'spin': 1}, {'spin': -1}, {'observer': {'inclination_deg': 181}}, {'observer': {'r': 1e8}}, {'observer': {'r': 'far'}}, {'orders': 0}, {'orders': 17}, {'orders': 1.5}, {'q': 1},
+                    {'accuracy': {'profile': 'best'}}, {'accuracy': {'tolerance': 1}}, {'accuracy': {'tolerance': 0}}, {'accuracy': {'engine': 'euler'}}, {'accuracy': {'precision': 'f16'}},
+                    {'accuracy': {'engine': 'mino-rkn6', 'steps': 6}}, {'accuracy': {'engine': 'mino-rkn6', 'steps': 2052}}, {'rays': [[1e8, 0]]}, {'rays': [[9]]},
+                    {'spin': -0.9, 'orders': 16, 'observer': {'r': 'infinity', 'inclination_deg': 180}, 'accuracy': {'tolerance': 'profile', 'engine': 'auto', 'precision': 'auto', 'steps': 0}}))),
+                ('jobs', *({'scene': {'image': {'width': 32, 'height': 18}}, 'keyframes': [{'frame': 1, 'scene': {}}], **more} for more in (
+                    {'interpolation': 'cubic'}, {'distances': 'equal'}, {'angles': 'longer'}, {'ease': 'slow'}, {'look_at': 'up'}, {'look_at': {'r': -1}}, {'keyframes': [{'frame': 1}]},
+                    {'interpolation': 'catmull-rom', 'distances': 'geometric', 'angles': 'shorter', 'ease': 'in-out', 'look_at': 'hole', 'scene': {'image': {'width': 32, 'height': 18}, 'camera': {'r': 30}}}))),
                 ('sessions', {'spots': [{}] * 17}, {'spots': [{'r': 0}]}, {'spots': [{'q': 1}]}, {'spots': 1}, {'spot1': {'r': 0}},
                  {'spot1': {'r': 10}, 'image': {'width': 32, 'height': 18}}),
                 ('sessions', {'spots': [{'r': 10}] * 17}, {'spots': [{'r': 10}] * 16, 'image': {'width': 32, 'height': 18}}),
@@ -132,6 +181,10 @@ class OpenApi(daemon.Case):
                                   capture_output=True, text=True, timeout=100)
             self.assertEqual(made.returncode, 0, made.stdout + made.stderr)
             self.assertNotIn('WARNING', made.stdout + made.stderr)
+            with warnings.catch_warnings():
+                warnings.simplefilter('error', SyntaxWarning)  # each file is Python without a doubt
+                for file in folder.rglob('*.py'):
+                    compile(file.read_text(), file, 'exec')
             sys.path.insert(0, str(folder))
             try:
                 self.use_client()
@@ -141,17 +194,54 @@ class OpenApi(daemon.Case):
     def use_client(self):
         package = importlib.import_module('kerrd_generated')
         models = importlib.import_module('kerrd_generated.models')
+        scene_class = models.KerrdSceneVersion1
 
-        def call(name):
-            return importlib.import_module('kerrd_generated.api.default.' + name).sync
-        scene_class = getattr(models, 'KerrdSceneVersion1')
-        with package.Client(base_url=f'http://127.0.0.1:{self.daemon.port}') as client:
-            picture = call('post_render')(client=client, body=scene_class.from_dict({'image': {'width': 64, 'height': 36}}))
+        def call(name, *arguments, **named):
+            return importlib.import_module('kerrd_generated.api.default.' + name).sync(*arguments, client=client, **named)
+        base = f'http://127.0.0.1:{self.daemon.port}{self.document["servers"][0]["url"].removeprefix(".")}'
+        with package.Client(base_url=base) as client:
+            small = {'image': {'width': 64, 'height': 36}}
+            picture = call('post_render', body=scene_class.from_dict(small))
             self.assertTrue(picture.payload.read().startswith(b'\x89PNG'))
-            answer = call('get_physics_kerr')(client=client, spin=0.5, r='isco')
-            self.assertAlmostEqual(answer.to_dict()['values']['isco'], 4.233002529530073, places=9)  # Bardeen, Press & Teukolsky 1972
-            problem = call('get_jobs_id')(client=client, id='0123456789abcdef')
+            answer = call('get_physics_kerr', spin=0.5, r='isco')
+            self.assertAlmostEqual(answer.values.isco, 4.233002529530073, places=9)  # Bardeen, Press & Teukolsky 1972
+            self.assertEqual((answer.units.isco, answer.parameters.spin), ('M', 0.5))
+            problem = call('get_jobs_id', id='0123456789abcdef')
             self.assertEqual((problem.status, problem.type_), (404, 'urn:kerrd:problem:not-found'))
+            self.use_rays_and_orbits(call, models)
+            self.use_what_is_kept(package, base, call, models, small)
+
+    def use_rays_and_orbits(self, call, models):
+        answer = call('post_rays', body=models.RaysRequest(rays=[[-5, 0], [2.5, 0.001]], spin=0.9, observer=models.RaysRequestObserver(inclination_deg=60)))
+        self.assertEqual(([ray.fate for ray in answer.rays], answer.observer.r, answer.accuracy.engine), (['escaped', 'captured'], 'infinity', 'closed'))
+        self.assertGreater(answer.rays[0].crossings[0].r, 1)
+        circle = models.OrbitsRequest(orbit=models.OrbitByShape(p=10, e=0), duration=models.OrbitsRequestDuration(periods=1), samples=3)
+        path = call('post_orbits', body=circle)
+        self.assertEqual((path.fate, path.result.end, len(path.series.rows)), ('bound', 'duration', 3))
+        self.assertAlmostEqual(path.frequencies.coordinate.phi, 10 ** -1.5, places=12)  # Kepler's third law, exact of circles round a hole that does not spin
+        many = call('post_orbits', body=models.OrbitsRequest(orbits=[models.OrbitByShape(p=10, e=0.1), models.OrbitByCase(case=models.OrbitByCaseCase.ISCO)], duration=models.OrbitsRequestDuration(periods=1)))
+        self.assertEqual([one.circular for one in many.orbits], [False, True])
+
+    def use_what_is_kept(self, package, base, call, models, small):
+        """A session and a job are made, changed or waited for, and deleted: by the token that came with them."""
+        session = call('post_sessions', body=models.KerrdSceneVersion1.from_dict(small))
+        job = call('post_jobs', body=models.PostJobsBodyType0(scene=models.KerrdSceneVersion1.from_dict(small)))
+
+        def owner(one):
+            return package.AuthenticatedClient(base_url=base, token=one.token)
+
+        def own(one, name, **named):
+            with owner(one) as client:
+                return importlib.import_module('kerrd_generated.api.default.' + name).sync_detailed(one.id, client=client, **named)
+        patch = models.KerrdSceneVersion1.from_dict({'camera': {'azimuth_deg': 40}})
+        changed = own(session, 'patch_sessions_id', body=patch).parsed
+        self.assertEqual((changed.scene.camera.azimuth_deg, changed.revision), (40, 2))
+        self.assertTrue(daemon.eventually(lambda: call('get_jobs_id', job.id).state == 'done'))
+        self.assertTrue(call('get_jobs_id_result', job.id, format_=models.GetJobsIdResultFormat.PNG, frame=0).payload.read().startswith(b'\x89PNG'))
+        for one, kind in ((session, 'sessions'), (job, 'jobs')):
+            self.assertEqual(call(f'get_{kind}_id', one.id).id, one.id)
+            self.assertEqual(own(one, f'delete_{kind}_id').status_code, 204)
+            self.assertEqual(call(f'get_{kind}_id', one.id).status, 404)
 
 
 if __name__ == '__main__':

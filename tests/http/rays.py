@@ -210,12 +210,13 @@ class Requests(daemon.Case):
                 self.assertEqual(problem['offered'], 'application/json, application/x-npy')
 
     def test_openapi(self):
-        post = self.daemon.get('/openapi.json').json()['paths'][RAYS]['post']
+        document = self.daemon.get('/openapi.json').json()
+        post = document['paths'][RAYS]['post']
         self.assertEqual(set(post['requestBody']['content']), {'application/json', 'application/x-npy'})
         self.assertEqual(set(post['responses']['200']['content']), {'application/json', 'application/x-npy'})
         self.assertEqual([p['name'] for p in post['parameters']],
                          ['spin', 'r', 'inclination_deg', 'orders', 'profile', 'tolerance', 'engine', 'precision', 'steps'])
-        engines = post['requestBody']['content']['application/json']['schema']['properties']['accuracy']['properties']['engine']
+        engines = document['components']['schemas']['RaysRequest']['properties']['accuracy']['properties']['engine']
         detail = self.post('{"rays":[[1,2]],"accuracy":{"engine":"x"}}').json()['detail']
         for engine in engines['enum']:
             self.assertIn(f'"{engine}"', detail)

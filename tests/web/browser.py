@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import sys
 import unittest
+import urllib.parse
 import urllib.request
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / 'http'))
@@ -63,9 +64,9 @@ SMOOTH = 'disk.gas.amplitude=0&disk.emission_opacity=0&style.bloom=0'  # in a li
 class Browser(unittest.TestCase):
     """Tests that share a server and a browser; each page has a context of its own."""
     @classmethod
-    def setUpClass(cls):
-        cls.daemon = daemon.Daemon()
-        cls.base = f'http://127.0.0.1:{cls.daemon.port}/'
+    def setUpClass(cls, *options):
+        cls.daemon = daemon.Daemon(*options)
+        cls.base = f'http://127.0.0.1:{cls.daemon.port}{cls.daemon.base}/'
         cls.playwright = sync_playwright().start()
         cls.browser = cls.playwright.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
 
@@ -90,7 +91,7 @@ class Browser(unittest.TestCase):
             context.close()
         self.assertEqual([c for c in complaints if not self.expected or self.expected not in c], [])
         for request in requests:
-            self.assertTrue(request.url.startswith((self.base, 'blob:' + self.base)), request.url)
+            self.assertTrue(request.url.startswith((self.base, f'blob:{urllib.parse.urljoin(self.base, "/")}')), request.url)
 
     def open(self, fragment='lang=en', wait=AT_REST, **options):
         page = self.page(self.context(**options))

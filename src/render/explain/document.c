@@ -271,10 +271,9 @@ static void put_met(struct kd_json *json, const struct kd_explained *x)
 
 static void put_end(struct kd_json *json, const struct kd_explained *x)
 {
-    static const char *const fates[] = { [KD_RAY_CAPTURED] = "captured", [KD_RAY_ESCAPED] = "escaped", [KD_RAY_UNDECIDED] = "undecided" };
     const struct kd_told_ray *t = x->told;
     kd_json_object(json, "end");
-    kd_json_string(json, "fate", fates[x->end.fate]);
+    kd_json_string(json, "fate", kd_ray_fate_name(x->end.fate));
     kd_json_string(json, "why", x->why);
     kd_json_number(json, "through", t->through);
     put_depth(json, t->through);

@@ -38,13 +38,12 @@ static void put_step(struct kd_json *json, const struct kd_steps_column *columns
 
 void kd_steps_json(struct kd_json *json, const struct kd_rays_steps *steps)
 {
-    static const char *const fates[] = { [KD_RAY_CAPTURED] = "captured", [KD_RAY_ESCAPED] = "escaped", [KD_RAY_UNDECIDED] = "undecided" };
     const struct kd_steps_column *columns = kd_steps_columns(steps);
     kd_json_object(json, "trace");
     kd_json_string(json, "engine", kd_engine_name(steps->params.engine));
     kd_json_string(json, "precision", kd_precision_name(steps->params.precision));
     kd_json_number(json, "steps_a_half_period", steps->params.steps);
-    kd_json_string(json, "fate", fates[steps->end.fate]);
+    kd_json_string(json, "fate", kd_ray_fate_name(steps->end.fate));
     kd_json_number(json, "crossings", steps->end.n_crossings);
     kd_json_number(json, "not_shown", (double)steps->lost);
     kd_json_bool(json, "same_without_trace", steps->same);

@@ -114,7 +114,6 @@ done:
 /* Those whose mean the pixel's light is, where they are several. */
 static enum kd_status put_each(const struct kd_picture *picture, const struct kd_told *pixel, struct kd_buffer *out, struct kd_error *error)
 {
-    static const char *const fates[] = { [KD_RAY_CAPTURED] = "captured", [KD_RAY_ESCAPED] = "escaped", [KD_RAY_UNDECIDED] = "undecided" };
     enum kd_status status = KD_OK;
     if (pixel->rays > 1)
         KD_TRY(kd_buffer_printf(out, "\n%-9s %10s %10s %5s %-9s %4s %35s   %s\n", "ray", "x", "y", "case", "fate", "seen", "its light, linear RGB", "radii of crossings (M)"));
@@ -123,7 +122,7 @@ static enum kd_status put_each(const struct kd_picture *picture, const struct kd
         double at[2];
         KD_TRY(kd_explain_each(picture, i, &x, error));
         kd_explained_ray_at(picture, &x, at);
-        KD_TRY(kd_buffer_printf(out, "1/%-7u %10.4f %10.4f %5s %-9s %4zu %11.4e %11.4e %11.4e  ", pixel->rays, at[0], at[1], x.motion.radial_case, fates[x.end.fate],
+        KD_TRY(kd_buffer_printf(out, "1/%-7u %10.4f %10.4f %5s %-9s %4zu %11.4e %11.4e %11.4e  ", pixel->rays, at[0], at[1], x.motion.radial_case, kd_ray_fate_name(x.end.fate),
                                 x.told->n_places, (double)x.told->light[0], (double)x.told->light[1], (double)x.told->light[2]));
         for (uint32_t n = 0; n < x.end.n_crossings; n++)
             KD_TRY(kd_buffer_printf(out, " %.6g", x.crossings[n].r));

@@ -2,14 +2,16 @@
 
 #include "physics/angle.h"
 #include "physics/kerr.h"
+#include "render/rays/fields.h"
 
 #include <math.h>
 #include <stdio.h>
 
 static enum kd_status check_observer(const struct kd_rays_params *p, struct kd_error *error)
 {
-    if (!(fabs(p->spin) < 1))
-        return kd_error_field(error, "/spin", "spin is %.16g, allowed are numbers above -1 and below 1", p->spin);
+    enum kd_status status = kd_rays_field_check("spin", p->spin, error);
+    if (status)
+        return status;
     double horizon = kd_kerr_horizon(p->spin);
     if (!isinf(p->r) && !(p->r > horizon && p->r <= KD_RAYS_FAR))
         return kd_error_field(error, "/observer/r",
@@ -18,18 +20,15 @@ static enum kd_status check_observer(const struct kd_rays_params *p, struct kd_e
                               p->r, horizon, KD_RAYS_FAR);
     if (!(p->r > 0))
         return kd_error_field(error, "/observer/r", "r is negative");
-    if (!(p->inclination_deg >= 0 && p->inclination_deg <= 180))
-        return kd_error_field(error, "/observer/inclination_deg",
-                              "inclination_deg is %.16g, allowed are 0 to 180 degrees", p->inclination_deg);
-    return KD_OK;
+    return kd_rays_field_check("inclination_deg", p->inclination_deg, error);
 }
 
 static enum kd_status check_accuracy(const struct kd_rays_params *p, struct kd_error *error)
 {
     bool closed = p->engine == KD_ENGINE_CLOSED;
-    if (!p->orders || p->orders > KD_RAYS_MAX_ORDERS)
-        return kd_error_field(error, "/orders", "orders is %u, allowed are whole numbers from 1 to %d", p->orders,
-                              KD_RAYS_MAX_ORDERS);
+    enum kd_status status = kd_rays_field_check("orders", p->orders, error);
+    if (status)
+        return status;
     if ((unsigned)p->engine >= KD_ENGINE_COUNT || (unsigned)p->precision > KD_PRECISION_F64)
         return kd_error_field(error, "/accuracy", "there is no such engine or precision");
     if (closed && p->precision != KD_PRECISION_F64)

@@ -10,6 +10,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+const char *kd_ray_fate_name(enum kd_ray_fate fate)
+{
+    static const char *const names[] = { [KD_RAY_CAPTURED] = "captured", [KD_RAY_ESCAPED] = "escaped", [KD_RAY_UNDECIDED] = "undecided" };
+    return names[fate];
+}
+
 bool kd_ray_ends_equal(const struct kd_ray_end *a, const struct kd_ray_end *b)
 {
     const double x[] = { a->theta, a->phi, a->error }, y[] = { b->theta, b->phi, b->error };

@@ -39,6 +39,7 @@ struct kd_ray_labels {
 };
 
 enum kd_ray_fate { KD_RAY_CAPTURED, KD_RAY_ESCAPED, KD_RAY_UNDECIDED };
+const char *kd_ray_fate_name(enum kd_ray_fate fate); /* "captured", "escaped", "undecided" */
 
 struct kd_ray_crossing { double r, phi, delay, g; };
 

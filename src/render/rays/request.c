@@ -2,6 +2,7 @@
 
 #include "image/npy.h"
 #include "render/rays/check.h"
+#include "render/rays/fields.h"
 #include "render/rays/list.h"
 #include "scene/number.h"
 #include "scene/scan.h"
@@ -13,28 +14,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-enum kind { REAL, RADIUS, TOLERANCE, WHOLE, PROFILE, ENGINE, PRECISION };
-
-static const struct field {
-    const char *section, *name, *pointer, *allowed; /* allowed NULL: words_of */
-    enum kind kind;
-    size_t offset; /* in struct kd_rays_request */
-} fields[] = {
-#define AT(member) offsetof(struct kd_rays_request, member)
-    { "", "spin", "/spin", "numbers above -1 and below 1", REAL, AT(params.spin) },
-    { "observer", "r", "/observer/r", "numbers and \"infinity\"", RADIUS, AT(params.r) },
-    { "observer", "inclination_deg", "/observer/inclination_deg", "0 to 180 degrees", REAL, AT(params.inclination_deg) },
-    { "", "orders", "/orders", "whole numbers from 1 to 16", WHOLE, AT(params.orders) },
-    { "accuracy", "profile", "/accuracy/profile", NULL, PROFILE, AT(wish.profile) },
-    { "accuracy", "tolerance", "/accuracy/tolerance", "numbers above 0 and below 1, and \"profile\"", TOLERANCE, AT(wish.tolerance) },
-    { "accuracy", "engine", "/accuracy/engine", NULL, ENGINE, AT(wish.engine) },
-    { "accuracy", "precision", "/accuracy/precision", NULL, PRECISION, AT(wish.precision) },
-    { "accuracy", "steps", "/accuracy/steps", "multiples of 4 up to 2048, and 0 for the engine's default", WHOLE,
-      AT(wish.steps) },
-#undef AT
-};
-#define N_FIELDS (sizeof fields / sizeof *fields)
 
 void kd_rays_request_init(struct kd_rays_request *request)
 {
@@ -55,47 +34,42 @@ void kd_rays_request_finish(struct kd_rays_request *request)
     *request = (struct kd_rays_request) { 0 };
 }
 
-/* The same words as in a scene. */
-static const struct kd_field *scene_field(const struct field *field) { return kd_field_find("accuracy", field->name); }
-
-static bool store_word(int *at, const struct field *field, const struct kd_value *value)
+static bool store_word(int *at, const struct kd_rays_field *field, const struct kd_value *value)
 {
-    int index = value->kind == KD_VALUE_STRING ? kd_field_word_index(scene_field(field), value->text) : -1;
+    int index = value->kind == KD_VALUE_STRING ? kd_field_word_index(kd_rays_field_words(field), value->text) : -1;
     if (index < 0)
         return false;
-    *at = field->kind == PROFILE ? index : index - 1; /* "auto" comes first */
+    *at = field->kind == KD_RAYS_PROFILE ? index : index - 1; /* "auto" comes first */
     return true;
 }
 
-static bool store(struct kd_rays_request *request, const struct field *field, const struct kd_value *value)
+static bool store(struct kd_rays_request *request, const struct kd_rays_field *field, const struct kd_value *value)
 {
     void *at = (char *)request + field->offset;
     bool number = value->kind == KD_VALUE_NUMBER && isfinite(value->number);
     switch (field->kind) {
-    case RADIUS:
-    case TOLERANCE:
-        if (value->kind == KD_VALUE_STRING && !strcmp(value->text, field->kind == RADIUS ? "infinity" : "profile")) {
+    case KD_RAYS_REAL_OR_WORD:
+        if (value->kind == KD_VALUE_STRING && !strcmp(value->text, field->word)) {
             *(double *)at = INFINITY;
             return true;
         }
         /* fall through */
-    case REAL:
+    case KD_RAYS_REAL:
         if (number)
             *(double *)at = value->number;
         return number;
-    case WHOLE:
+    case KD_RAYS_WHOLE:
         if (!number || value->number != floor(value->number) || value->number < 0 || value->number > 1e9)
             return false;
         *(uint32_t *)at = (uint32_t)value->number;
         return true;
-    case PROFILE:
-    case ENGINE:
-    case PRECISION: return store_word(at, field, value);
+    case KD_RAYS_PROFILE:
+    case KD_RAYS_WORD_OR_AUTO: return store_word(at, field, value);
     }
     return false;
 }
 
-static enum kd_status put(struct kd_rays_request *request, const struct field *field, const struct kd_value *value,
+static enum kd_status put(struct kd_rays_request *request, const struct kd_rays_field *field, const struct kd_value *value,
                           struct kd_error *error)
 {
     char given[KD_VALUE_SIZE], words[KD_ALLOWED_SIZE];
@@ -103,9 +77,9 @@ static enum kd_status put(struct kd_rays_request *request, const struct field *f
         return KD_OK;
     kd_value_describe(value, given);
     if (!field->allowed)
-        kd_value_allowed(scene_field(field), words);
+        kd_value_allowed(kd_rays_field_words(field), words);
     return kd_error_field(error, field->pointer, "%s is %s%s, allowed are %s", field->name, given,
-                          field->kind == REAL || field->kind == WHOLE ? kd_value_unwanted(value) : "",
+                          field->kind == KD_RAYS_REAL || field->kind == KD_RAYS_WHOLE ? kd_value_unwanted(value) : "",
                           field->allowed ? field->allowed : words);
 }
 
@@ -113,16 +87,15 @@ enum kd_status kd_rays_request_set(struct kd_rays_request *request, const char *
                                    struct kd_error *error)
 {
     struct kd_value value = kd_value_typed(text);
-    for (size_t i = 0; i < N_FIELDS; i++)
-        if (!strcmp(fields[i].name, name))
-            return put(request, &fields[i], &value, error);
-    char pointer[sizeof error->pointer] = "", shown[60];
+    const struct kd_rays_field *field = kd_rays_field_find(name);
+    if (field)
+        return put(request, field, &value, error);
+    char pointer[sizeof error->pointer] = "", shown[60], known[160] = "";
+    for (size_t i = 0; i < KD_RAYS_FIELDS; i++)
+        snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", !i ? "" : i + 1 < KD_RAYS_FIELDS ? ", " : " and ", kd_rays_fields[i].name);
     kd_text_pointer(pointer, sizeof pointer, name);
     kd_text_clip(shown, sizeof shown, name);
-    return kd_error_field(error, pointer,
-                          "there is no parameter %s; known are spin, r, inclination_deg, orders, profile, tolerance, "
-                          "engine, precision and steps",
-                          shown);
+    return kd_error_field(error, pointer, "there is no parameter %s; known are %s", shown, known);
 }
 
 enum kd_status kd_rays_request_add(struct kd_rays_request *request, double alpha, double beta,
@@ -157,9 +130,9 @@ static enum kd_status unknown(struct document *d, const char *section, const cha
         kd_text_pointer(pointer, sizeof pointer, section);
     kd_text_pointer(pointer, sizeof pointer, name);
     kd_text_clip(shown, sizeof shown, name);
-    for (size_t i = 0; i < N_FIELDS; i++)
-        if (!strcmp(fields[i].section, section))
-            snprintf(known + strlen(known), sizeof known - strlen(known), "%s, ", fields[i].name);
+    for (size_t i = 0; i < KD_RAYS_FIELDS; i++)
+        if (!strcmp(kd_rays_fields[i].section, section))
+            snprintf(known + strlen(known), sizeof known - strlen(known), "%s, ", kd_rays_fields[i].name);
     if (*section)
         known[strlen(known) - 2] = 0;
     return kd_error_field(d->error, pointer, "there is no field %s here; known are %s%s", shown, known,
@@ -168,12 +141,12 @@ static enum kd_status unknown(struct document *d, const char *section, const cha
 
 static enum kd_status read_member(struct document *d, const char *section, const cJSON *item)
 {
-    for (size_t i = 0; i < N_FIELDS; i++) {
-        if (strcmp(fields[i].section, section) || strcmp(fields[i].name, item->string))
+    for (size_t i = 0; i < KD_RAYS_FIELDS; i++) {
+        if (strcmp(kd_rays_fields[i].section, section) || strcmp(kd_rays_fields[i].name, item->string))
             continue;
         struct kd_value value = kd_tree_value(item);
-        enum kd_status status = once(d, i, fields[i].pointer);
-        return status ? status : put(d->request, &fields[i], &value, d->error);
+        enum kd_status status = once(d, i, kd_rays_fields[i].pointer);
+        return status ? status : put(d->request, &kd_rays_fields[i], &value, d->error);
     }
     return unknown(d, section, item->string);
 }
@@ -193,7 +166,7 @@ static enum kd_status read_outermost(struct document *d, const cJSON *item)
     static const char *const sections[] = { "/observer", "/accuracy" };
     enum kd_status status;
     if (!strcmp(item->string, "rays")) {
-        status = once(d, N_FIELDS + 2, "/rays");
+        status = once(d, KD_RAYS_FIELDS + 2, "/rays");
         if (!status && !cJSON_IsArray(item))
             status = wrong_type(d, item, "/rays", "an array of pairs of numbers [alpha, beta]");
         if (!status && item->child)
@@ -203,7 +176,7 @@ static enum kd_status read_outermost(struct document *d, const cJSON *item)
     for (size_t i = 0; i < 2; i++) {
         if (strcmp(item->string, sections[i] + 1))
             continue;
-        status = once(d, N_FIELDS + i, sections[i]);
+        status = once(d, KD_RAYS_FIELDS + i, sections[i]);
         if (!status && !cJSON_IsObject(item))
             status = wrong_type(d, item, sections[i], "an object with fields");
         for (const cJSON *one = item->child; one && !status; one = one->next)
@@ -222,7 +195,7 @@ static enum kd_status read_tree(struct document *d, const cJSON *root)
     }
     for (const cJSON *item = root->child; item; item = item->next)
         KD_TRY(read_outermost(d, item));
-    if (!(d->seen & 1u << (N_FIELDS + 2)))
+    if (!(d->seen & 1u << (KD_RAYS_FIELDS + 2)))
         KD_TRY(kd_error_field(d->error, "/rays", "rays is missing: an array of pairs of numbers [alpha, beta]"));
 done:
     return status;

@@ -5,8 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-static const char *const fates[] = { "captured", "escaped", "undecided" };
-
 /* 16 orders of `,{"order":15,"r":,"phi":,"delay":,"g":}` with four numbers, and some 150 bytes more. */
 _Static_assert(KD_RAYS_ROW_MAX >= KD_RAYS_MAX_ORDERS * (40 + 4 * KD_DECIMAL_SIZE) + 300, "a row may not fit");
 
@@ -45,7 +43,7 @@ static size_t json(const struct kd_rays_answer *answer, size_t i, char *out)
     const struct kd_ray_crossing *c = answer->crossings + i * answer->params.orders;
     struct row row = { out };
     text(&row, i ? ",{\"fate\":\"" : "{\"fate\":\"");
-    text(&row, fates[end->fate]);
+    text(&row, kd_ray_fate_name(end->fate));
     text(&row, "\",\"crossings\":[");
     for (uint32_t n = 0; n < end->n_crossings; n++) {
         text(&row, n ? ",{" : "{");
@@ -115,7 +113,7 @@ static size_t csv(const struct kd_rays_answer *answer, size_t i, char *out)
     number(&row, answer->alpha_beta[2 * i]);
     cell(&row, answer->alpha_beta[2 * i + 1]);
     *row.at++ = ',';
-    text(&row, fates[end->fate]);
+    text(&row, kd_ray_fate_name(end->fate));
     cell(&row, end->n_crossings);
     cell(&row, end->error);
     cell(&row, end->theta);

@@ -101,11 +101,8 @@ static enum MHD_Result deliver(struct kd_request *request)
     enum kd_status status = to_json(about, p->put.created, &json);
     if (status || !p->put.created)
         return kd_reply_json(request, status, &json, JSON_TYPE);
-    char location[90];
-    snprintf(location, sizeof location, "/v1/assets/%s", about->hash);
     struct MHD_Response *response = kd_reply_take(&json, JSON_TYPE);
-    if (response)
-        MHD_add_response_header(response, "Location", location);
+    kd_reply_location(request, response, about->hash);
     return kd_reply_send(request, MHD_HTTP_CREATED, response);
 }
 

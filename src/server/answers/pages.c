@@ -2,6 +2,7 @@
 #include "server/http/reply.h"
 #include "server/http/route.h"
 
+#include <stdio.h>
 #include <string.h>
 
 static const struct kd_served *find(const char *name)
@@ -19,11 +20,24 @@ static bool document(const struct kd_served *file)
     return strncmp(file->type, "text/javascript", strlen("text/javascript")) && strncmp(file->type, "text/css", strlen("text/css"));
 }
 
+/* The base path itself, without the slash behind it, would have a browser look for the page's files one folder too high. */
+static enum MHD_Result moved(struct kd_request *request)
+{
+    char to[KD_BASE_PATH_MOST + 2];
+    snprintf(to, sizeof to, "%s/", strrchr(request->server->base.path, '/') + 1);
+    struct MHD_Response *response = kd_reply_static("", 0, "text/plain");
+    if (response)
+        MHD_add_response_header(response, "Location", to);
+    return kd_reply_send(request, MHD_HTTP_PERMANENT_REDIRECT, response);
+}
+
 /* "/" and what lies below "/web/". A page is small and may change with the next version of the program: it is asked for again each time, and
  * 304 says that it has not. */
 enum MHD_Result kd_handle_page(struct kd_request *request)
 {
-    const struct kd_served *file = find(strcmp(request->route->path, "/") ? request->target.text + strlen("/web/") : "index.html");
+    if (!*request->target.path)
+        return moved(request);
+    const struct kd_served *file = find(strcmp(request->route->path, "/") ? request->target.path + strlen("/web/") : "index.html");
     if (!file)
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND });
     bool same;

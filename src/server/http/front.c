@@ -78,10 +78,10 @@ static void hand_on(struct kd_front *front, struct guest *guest, bool health)
 /* Hand it on once its first bytes say whose it is. gone: no more bytes will come. True while it is still a guest. */
 static bool look_at(struct kd_front *front, struct guest *guest, bool gone)
 {
-    char begin[32];
+    char begin[KD_BEGINS_BYTES];
     ssize_t n = recv(guest->socket, begin, sizeof begin, MSG_PEEK | MSG_DONTWAIT);
     bool wait = n < 0 && (errno == EAGAIN || errno == EINTR);
-    enum kd_begins begins = n > 0 ? kd_route_begins(begin, (size_t)n) : KD_BEGINS_UNCLEAR;
+    enum kd_begins begins = n > 0 ? kd_route_begins(front->params.base, begin, (size_t)n) : KD_BEGINS_UNCLEAR;
     if (begins != KD_BEGINS_UNCLEAR)
         hand_on(front, guest, begins == KD_BEGINS_HEALTH);
     else if (gone || (n <= 0 && !wait))

@@ -5,6 +5,7 @@
 #define KD_SERVER_HTTP_FRONT_H
 
 #include "base/error.h"
+#include "server/http/base_path.h"
 #include "server/http/connections.h"
 
 #include <microhttpd.h>
@@ -14,6 +15,7 @@ struct kd_front;
 struct kd_front_params {
     int listener; /* non-blocking; the front closes it, also when it cannot be created */
     struct kd_connections *connections;
+    const struct kd_base_path *base; /* outlives the front */
     struct MHD_Daemon *health, *others; /* without listening sockets; they outlive the front */
 };
 

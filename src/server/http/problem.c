@@ -9,9 +9,9 @@
 
 static const struct {
     unsigned status;
-    const char *word, *title;
+    const char *uri, *title;
 } table[] = {
-#define ROW(name, status, word, title) { status, word, title },
+#define ROW(name, status, word, title) { status, "urn:kerrd:problem:" word, title },
     KD_PROBLEMS(ROW)
 #undef ROW
 };
@@ -24,9 +24,9 @@ const char *kd_problem_title(enum kd_problem_type type)
 {
     return table[type].title;
 }
-size_t kd_problem_count(void)
+const char *kd_problem_uri(size_t type)
 {
-    return sizeof table / sizeof *table;
+    return type < sizeof table / sizeof *table ? table[type].uri : NULL;
 }
 
 struct kd_problem kd_problem_from(const struct kd_error *error)
@@ -61,12 +61,10 @@ static void add_text(struct kd_json *json, const char *key, const char *text)
 
 enum kd_status kd_problem_to_json(const struct kd_problem *problem, struct kd_buffer *out)
 {
-    char type[80];
     struct kd_json json = kd_json_begin(out);
 
-    snprintf(type, sizeof type, "urn:kerrd:problem:%s", table[problem->type].word);
     kd_json_object(&json, NULL);
-    kd_json_string(&json, "type", type);
+    kd_json_string(&json, "type", table[problem->type].uri);
     kd_json_string(&json, "title", table[problem->type].title);
     kd_json_number(&json, "status", table[problem->type].status);
     add_text(&json, "detail", problem->detail ? problem->detail : table[problem->type].title);

@@ -66,7 +66,8 @@ struct kd_problem kd_problem_from(const struct kd_error *error);
 
 unsigned kd_problem_status(enum kd_problem_type type);
 const char *kd_problem_title(enum kd_problem_type type);
-size_t kd_problem_count(void);
+/* "urn:kerrd:problem:...", which is the document's type; NULL behind the last. */
+const char *kd_problem_uri(size_t type);
 
 /* The document, application/problem+json. */
 enum kd_status kd_problem_to_json(const struct kd_problem *problem, struct kd_buffer *out);

@@ -99,6 +99,14 @@ void kd_reply_file(struct kd_request *request, enum kd_disposition disposition, 
     snprintf(request->file, sizeof request->file, "%s; filename=\"%s\"", disposition == KD_INLINE ? "inline" : "attachment", name);
 }
 
+void kd_reply_location(const struct kd_request *request, struct MHD_Response *response, const char *id)
+{
+    char to[120];
+    snprintf(to, sizeof to, "%s/%s", strrchr(request->route->path, '/') + 1, id);
+    if (response)
+        MHD_add_response_header(response, "Location", to);
+}
+
 /* Takes no memory of ours. */
 enum MHD_Result kd_reply_bare(struct MHD_Connection *mhd)
 {

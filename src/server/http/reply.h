@@ -26,6 +26,10 @@ enum kd_disposition { KD_INLINE, KD_ATTACHMENT };
 void kd_reply_file(struct kd_request *request, enum kd_disposition disposition, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
+/* Adds Location: the address of what this request has made. It is relative to the request's own, "sessions/ID" to /v1/sessions, so that it holds whatever a proxy puts before
+ * or takes away. NULL is accepted. */
+void kd_reply_location(const struct kd_request *request, struct MHD_Response *response, const char *id);
+
 /* Queue the response and give up the reference; NULL: kd_reply_no_memory. */
 enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struct MHD_Response *response);
 

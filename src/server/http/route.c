@@ -47,11 +47,35 @@ static const char *allow(unsigned methods)
     }
 }
 
+static const char *const health[] = { "/healthz", "/readyz", "/metrics" };
+#define N_HEALTH (sizeof health / sizeof *health)
+
+static bool is_health(const char *path, size_t n)
+{
+    for (size_t i = 0; i < N_HEALTH; i++)
+        if (n == strlen(health[i]) && !memcmp(path, health[i], n))
+            return true;
+    return false;
+}
+
+static bool refuse(struct kd_problem *problem, const char *detail)
+{
+    *problem = (struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND, .detail = detail };
+    return false;
+}
+
 bool kd_route_find(struct kd_request *request, struct kd_problem *problem)
 {
+    const struct kd_base_path *base = &request->server->base;
+    char *path = request->target.path;
+    const char *behind = kd_base_path_behind(base, path);
+    if (!behind && !is_health(path, strlen(path)))
+        return refuse(problem, base->outside);
+    request->target.path = path += behind ? behind - path : 0;
     for (size_t i = 0; i < kd_n_routes; i++) {
         const struct kd_route *route = &kd_routes[i];
-        if (!matches(route, request->target.text, &request->rest))
+        bool page = *base->path && !*path && !strcmp(route->path, "/");
+        if (!page && !matches(route, path, &request->rest))
             continue;
         request->route = route;
         if (permits(route, request->method))
@@ -61,47 +85,41 @@ bool kd_route_find(struct kd_request *request, struct kd_problem *problem)
                                          .detail = "the Allow header names the methods this address takes" };
         return false;
     }
-    *problem = (struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND,
-                                     .detail = "there is no such path; /openapi.json lists those there are" };
-    return false;
+    return refuse(problem, base->unknown);
 }
 
-static const char *const health[] = { "/healthz", "/readyz", "/metrics" };
-#define N_HEALTH (sizeof health / sizeof *health)
-
-bool kd_route_is_health(const char *raw)
+bool kd_route_is_health(const struct kd_base_path *base, const char *raw)
 {
-    size_t n = strcspn(raw, "?");
-    for (size_t i = 0; i < N_HEALTH; i++)
-        if (n == strlen(health[i]) && !memcmp(raw, health[i], n))
-            return true;
-    return false;
+    const char *behind = kd_base_path_behind(base, raw);
+    return is_health(raw, strcspn(raw, "?")) || (behind && is_health(behind, strcspn(behind, "?")));
 }
 
-/* Whether the bytes begin with the text (1), do not (0), or end before that is clear (-1). */
-static int begins_with(const char *bytes, size_t n, const char *text)
+/* Whether the bytes begin with the texts, one behind the other (1), do not (0), or end before that is clear (-1). *end is where they would end. */
+static int begins_with(const char *bytes, size_t n, const char *const texts[3], size_t *end)
 {
-    size_t size = strlen(text);
-    if (memcmp(bytes, text, n < size ? n : size))
-        return 0;
-    return n < size ? -1 : 1;
+    *end = 0;
+    for (size_t i = 0; i < 3; i++) {
+        size_t size = strlen(texts[i]), left = n - *end;
+        if (memcmp(bytes + *end, texts[i], left < size ? left : size))
+            return 0;
+        if (left < size)
+            return -1;
+        *end += size;
+    }
+    return 1;
 }
 
-enum kd_begins kd_route_begins(const char *bytes, size_t n)
+enum kd_begins kd_route_begins(const struct kd_base_path *base, const char *bytes, size_t n)
 {
     static const char *const methods[] = { "GET ", "HEAD " };
+    const char *const bases[] = { "", base->path };
     bool unclear = false;
-    for (size_t m = 0; m < 2; m++) {
-        size_t size = strlen(methods[m]);
-        int method = begins_with(bytes, n, methods[m]);
-        unclear |= method < 0;
-        for (size_t i = 0; method > 0 && i < N_HEALTH; i++) {
-            size_t end = size + strlen(health[i]);
-            int path = begins_with(bytes + size, n - size, health[i]);
-            if (path > 0 && n > end && (bytes[end] == ' ' || bytes[end] == '?'))
-                return KD_BEGINS_HEALTH;
-            unclear |= path < 0 || (path > 0 && n == end);
-        }
+    for (size_t k = 0; k < 2 * 2 * N_HEALTH; k++) {
+        size_t end;
+        int path = begins_with(bytes, n, (const char *const[3]) { methods[k % 2], bases[k / 2 % 2], health[k / 4] }, &end);
+        if (path > 0 && n > end && (bytes[end] == ' ' || bytes[end] == '?'))
+            return KD_BEGINS_HEALTH;
+        unclear |= path < 0 || (path > 0 && n == end);
     }
     return unclear ? KD_BEGINS_UNCLEAR : KD_BEGINS_OTHER;
 }

@@ -2,6 +2,7 @@
 #ifndef KD_SERVER_HTTP_ROUTE_H
 #define KD_SERVER_HTTP_ROUTE_H
 
+#include "server/http/base_path.h"
 #include "server/http/problem.h"
 
 #include <microhttpd.h>
@@ -54,13 +55,15 @@ struct kd_route {
 extern const struct kd_route kd_routes[];
 extern const size_t kd_n_routes;
 
-/* Sets request->route and ->rest, which point into the target's path; false with *problem filled (404, 405). */
+/* Sets request->route, and ->rest, which points into the target's path; takes the base path from that. The base path alone is the page's, too, with an empty path.
+ * False with *problem filled (404, 405). */
 bool kd_route_find(struct kd_request *request, struct kd_problem *problem);
-/* Whether a raw target is one that is answered whatever else is the matter: /healthz, /readyz, /metrics. */
-bool kd_route_is_health(const char *raw);
-/* Says the same of the first n bytes of a connection, which may end too early to tell. */
+/* Whether a raw target is one that is answered whatever else is the matter: /healthz, /readyz, /metrics, with the base path and without it. */
+bool kd_route_is_health(const struct kd_base_path *base, const char *raw);
+/* Says the same of the first n bytes of a connection, which may end too early to tell; KD_BEGINS_BYTES of them tell in any case. */
 enum kd_begins { KD_BEGINS_UNCLEAR, KD_BEGINS_HEALTH, KD_BEGINS_OTHER };
-enum kd_begins kd_route_begins(const char *bytes, size_t n);
+#define KD_BEGINS_BYTES (KD_BASE_PATH_MOST + 32)
+enum kd_begins kd_route_begins(const struct kd_base_path *base, const char *bytes, size_t n);
 
 /* handlers, by file */
 enum MHD_Result kd_handle_page(struct kd_request *request);   /* answers/pages.c */

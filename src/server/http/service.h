@@ -6,6 +6,7 @@
 #ifndef KD_SERVER_HTTP_SERVICE_H
 #define KD_SERVER_HTTP_SERVICE_H
 
+#include "server/http/base_path.h"
 #include "server/http/bytes.h"
 #include "server/http/connections.h"
 #include "server/http/counts.h"
@@ -59,6 +60,7 @@ struct kd_server {
     struct MHD_Daemon *daemon, *health_daemon; /* by what connections begin with: front.h */
     struct kd_front *front;
     uint16_t port;
+    struct kd_base_path base;
     const char **hosts; /* accepted Host names, NULL-terminated; each malloc'd */
     char **own;         /* kd_names_own, where it listens on every address; else NULL */
     unsigned drain_ms, longest_s;

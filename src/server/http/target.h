@@ -12,7 +12,7 @@
 
 struct kd_target {
     char *text; /* owns what the pointers below point into */
-    const char *path;
+    char *path; /* behind the base path, once the route is found */
     struct kd_target_pair {
         const char *name, *value;
     } pairs[KD_TARGET_PAIRS];

@@ -82,11 +82,8 @@ static enum MHD_Result answer(struct kd_request *request, struct kd_job *job, bo
         status = kd_buffer_append(&json, "\n", 1);
     if (status || !created)
         return kd_reply_json(request, status, &json, JSON_TYPE);
-    char location[40];
-    snprintf(location, sizeof location, "/v1/jobs/%s", kd_job_id(job));
     struct MHD_Response *response = kd_reply_take(&json, JSON_TYPE);
-    if (response)
-        MHD_add_response_header(response, "Location", location);
+    kd_reply_location(request, response, kd_job_id(job));
     return kd_reply_send(request, MHD_HTTP_ACCEPTED, response);
 }
 

@@ -3,26 +3,36 @@
 #include "server/asset/store.h"
 #include "server/http/route.h"
 #include "server/openapi/media.h"
+#include "server/openapi/strict.h"
 
-#define WHOLE "{\"type\":\"integer\",\"minimum\":0}"
+#define HASH "{\"type\":\"string\",\"pattern\":\"^[0-9a-f]{64}$\",\"description\":\"of the bytes; what a scene names\"}"
 
-static const char asset[] =
-    "{\"type\":\"object\",\"required\":[\"sha256\",\"type\",\"bytes\"],\"properties\":{"
-    "\"sha256\":{\"type\":\"string\",\"pattern\":\"^[0-9a-f]{64}$\",\"description\":\"of the bytes; what a scene names\"},"
-    "\"token\":{\"type\":\"string\",\"description\":\"deletes it; for who has put it there first alone\"},"
-    "\"type\":{\"type\":\"string\"},\"width\":" WHOLE ",\"height\":" WHOLE ",\"bit_depth\":" WHOLE ",\"channels\":" WHOLE ",\"bytes\":" WHOLE ","
-    "\"nodes\":{\"type\":\"array\",\"items\":" WHOLE ",\"minItems\":3,\"maxItems\":3,\"description\":\"of a grid of matter, in r, theta and phi\"},"
-    "\"spin\":{\"type\":\"number\",\"description\":\"of the hole that the grid is made for\"},"
-    "\"created\":{\"type\":\"number\",\"description\":\"seconds since 1970\"}}}";
+static const char *type(size_t i)
+{
+    static const char *const types[] = { KD_ASSET_TYPE, KD_ASSET_GRID_TYPE };
+    return i < sizeof types / sizeof *types ? types[i] : NULL;
+}
 
-static const char reference[] = "{\"$ref\":\"#/components/schemas/Asset\"}";
-
-static const char assets[] =
-    "{\"type\":\"object\",\"title\":\"Assets\",\"required\":[\"assets\",\"bytes\",\"limits\",\"types\"],\"properties\":{"
-    "\"assets\":" WHOLE ",\"bytes\":" WHOLE ",\"types\":{\"type\":\"array\",\"items\":{\"type\":\"string\"}},"
-    "\"limits\":{\"type\":\"object\",\"properties\":{\"assets\":" WHOLE ",\"bytes\":" WHOLE ",\"asset_bytes\":" WHOLE ",\"asset_pixels\":" WHOLE "}}}}";
-
-void kd_openapi_asset_schema(struct kd_json *json) { kd_json_raw(json, "Asset", asset, sizeof asset - 1); }
+/* Pictures have what is of pictures, grids of matter the last two; who has put it there first is told its token. */
+void kd_openapi_asset_schema(struct kd_json *json)
+{
+    static const struct kd_openapi_member asset[] = {
+        { "sha256", HASH }, { "token", "{\"type\":\"string\",\"description\":\"deletes it\"}", true }, { "type", NULL, false, type },
+        { "width", KD_SCHEMA_COUNT, true }, { "height", KD_SCHEMA_COUNT, true }, { "bit_depth", KD_SCHEMA_COUNT, true }, { "channels", KD_SCHEMA_COUNT, true },
+        { "bytes", KD_SCHEMA_COUNT }, { "created", "{\"type\":\"number\",\"description\":\"seconds since 1970\"}" },
+        { "nodes", "{\"type\":\"array\",\"items\":" KD_SCHEMA_COUNT ",\"minItems\":3,\"maxItems\":3,\"description\":\"in r, theta and phi\"}", true },
+        { "spin", "{\"type\":\"number\",\"description\":\"of the hole that it is made for\"}", true },
+    };
+    static const struct kd_openapi_member limits[] = {
+        { "assets", KD_SCHEMA_COUNT }, { "bytes", KD_SCHEMA_COUNT }, { "asset_bytes", KD_SCHEMA_COUNT }, { "asset_pixels", KD_SCHEMA_COUNT },
+    };
+    static const struct kd_openapi_member assets[] = {
+        { "assets", KD_SCHEMA_COUNT }, { "bytes", KD_SCHEMA_COUNT }, { "limits", KD_SCHEMA_REF("AssetLimits") }, { "types", KD_SCHEMA_LIST(KD_SCHEMA_TEXT) },
+    };
+    KD_OPENAPI_STRICT(json, "Asset", asset);
+    KD_OPENAPI_STRICT(json, "AssetLimits", limits);
+    KD_OPENAPI_STRICT(json, "Assets", assets);
+}
 
 void kd_openapi_asset_body(struct kd_json *json)
 {
@@ -37,8 +47,6 @@ void kd_openapi_asset_body(struct kd_json *json)
 
 void kd_openapi_asset_answer(struct kd_json *json, unsigned method)
 {
-    if (method == KD_PUT)
-        kd_openapi_media(json, "application/json", reference, sizeof reference - 1);
-    else
-        kd_openapi_media(json, "application/json", assets, sizeof assets - 1);
+    const char *schema = method == KD_PUT ? KD_SCHEMA_REF("Asset") : KD_SCHEMA_REF("Assets");
+    kd_openapi_media(json, "application/json", schema, strlen(schema));
 }

@@ -1,9 +1,7 @@
 /* The service describes itself here: OpenAPI 3.1 from the route table, the scene's schema and the problem table. */
 #include "server/openapi/openapi.h"
-#include "render/output/format.h"
 #include "server/http/served.h"
 #include "server/job/formats.h"
-#include "server/openapi/answers.h"
 #include "server/openapi/assets.h"
 #include "server/openapi/integrals.h"
 #include "server/openapi/jobs.h"
@@ -14,6 +12,7 @@
 #include "server/openapi/playground.h"
 #include "server/openapi/rays.h"
 #include "server/openapi/reports.h"
+#include "server/openapi/responses.h"
 #include "server/openapi/sessions.h"
 #include "server/http/request.h"
 #include "scene/scene.h"
@@ -34,13 +33,6 @@ static void add_content(struct kd_json *json, const char *type, const char *to)
 {
     kd_json_object(json, type);
     add_reference(json, "schema", to);
-    kd_json_end(json);
-}
-
-static void add_string_type(struct kd_json *json, const char *name)
-{
-    kd_json_object(json, name);
-    kd_json_string(json, "type", "string");
     kd_json_end(json);
 }
 
@@ -288,80 +280,6 @@ static void add_body(struct kd_json *json, const struct kd_route *route, unsigne
     }
 }
 
-static void begin_response(struct kd_json *json, unsigned status, const char *description)
-{
-    char number[12];
-    snprintf(number, sizeof number, "%u", status);
-    kd_json_object(json, number);
-    kd_json_string(json, "description", description);
-}
-
-/* Writes those of routes whose media types stand in a table; each once. */
-static void add_formats(struct kd_json *json, enum kd_gives gives)
-{
-    static const char stars[] = "{\"$ref\":\"#/components/schemas/Stars\"}"; /* the one format that is JSON */
-    struct kd_job_format format;
-    for (size_t i = 0; gives == KD_GIVES_PICTURE && i < kd_n_formats; i++) {
-        const char *known = strstr(kd_formats[i]->media_type, "json") ? stars : "";
-        kd_openapi_media(json, kd_formats[i]->media_type, known, strlen(known));
-    }
-    for (size_t i = 0; gives == KD_GIVES_RESULT && kd_job_format(i, &format); i++)
-        kd_openapi_media(json, format.media_type, "", 0);
-}
-
-/* A media type of an answer, with the schema that the table of answers has where it is JSON. */
-static void add_known(struct kd_json *json, const struct kd_route *route, unsigned method, const char *type)
-{
-    const char *known = strcmp(type, "application/json") ? NULL : kd_openapi_answer(route->path, method);
-    kd_openapi_media(json, type, known ? known : "", known ? strlen(known) : 0);
-}
-
-static void add_typed(struct kd_json *json, const struct kd_route *route, unsigned method)
-{
-    char type[64];
-    snprintf(type, sizeof type, "%.*s", (int)strcspn(route->answer, ";"), route->answer);
-    switch (route->takes) {
-    case KD_TAKES_RAYS: kd_openapi_rays_answer(json); break;
-    case KD_TAKES_ORBITS: kd_openapi_orbits_answer(json); break;
-    case KD_TAKES_ASSET: kd_openapi_asset_answer(json, method); break;
-    default: add_known(json, route, method, type);
-    }
-    for (const char *also = route->also; also && *also; also += strspn(also, " ")) {
-        snprintf(type, sizeof type, "%.*s", (int)strcspn(also, " "), also);
-        add_known(json, route, method, type);
-        also += strlen(type);
-    }
-}
-
-static void add_answer(struct kd_json *json, const struct kd_route *route, unsigned method)
-{
-    kd_json_object(json, "content");
-    if (route->gives == KD_GIVES_ITS_ANSWER)
-        add_typed(json, route, method);
-    else
-        add_formats(json, route->gives);
-    kd_json_end(json);
-}
-
-static void add_responses(struct kd_json *json, const struct kd_route *route, unsigned method)
-{
-    kd_json_object(json, "responses");
-    const bool makes = method == KD_POST && route->status[1] == 201;
-    begin_response(json, method == KD_DELETE ? 204 : makes ? 201 : route->status[0] ? route->status[0] : 200, route->summary);
-    if (method != KD_DELETE)
-        add_answer(json, route, method);
-    kd_json_end(json);
-    const unsigned also = method == KD_DELETE || (route->status[1] == 201 && method != KD_PUT) ? 0 : route->status[1];
-    if (also) {
-        begin_response(json, also, also == 304 ? "What If-None-Match names" : route->summary);
-        if (also == 201)
-            add_answer(json, route, method);
-        kd_json_end(json);
-    }
-    add_reference(json, "default", "#/components/responses/Problem");
-    kd_json_end(json);
-}
-
 static void add_operation(struct kd_json *json, const char *name, const struct kd_route *route, unsigned method, const cJSON *schema)
 {
     char id[80];
@@ -374,22 +292,7 @@ static void add_operation(struct kd_json *json, const char *name, const struct k
     if (has_parameters(route))
         add_parameters(json, route, method, schema);
     add_body(json, route, method);
-    add_responses(json, route, method);
-    kd_json_end(json);
-}
-
-static void add_problem_schema(struct kd_json *json)
-{
-    static const char *const texts[] = { "type", "title", "detail", "pointer", "offered" };
-    kd_json_object(json, "Problem");
-    kd_json_string(json, "type", "object");
-    kd_json_object(json, "properties");
-    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
-        add_string_type(json, texts[i]);
-    kd_json_object(json, "status");
-    kd_json_string(json, "type", "integer");
-    kd_json_end(json);
-    kd_json_end(json);
+    kd_openapi_responses(json, route, method);
     kd_json_end(json);
 }
 
@@ -400,6 +303,7 @@ static void add_components(struct kd_json *json, const struct kd_buffer *schema)
     kd_json_raw(json, "securitySchemes", token, sizeof token - 1);
     kd_json_object(json, "schemas");
     kd_json_raw(json, "Scene", (const char *)schema->data, schema->size);
+    kd_openapi_rays_schemas(json);
     kd_openapi_orbits_schema(json);
     kd_openapi_integral_schemas(json);
     kd_openapi_playground_schemas(json);
@@ -408,16 +312,9 @@ static void add_components(struct kd_json *json, const struct kd_buffer *schema)
     kd_openapi_pixel_schemas(json);
     kd_openapi_session_schemas(json);
     kd_openapi_job_schema(json);
-    add_problem_schema(json);
+    kd_openapi_problem_schema(json);
     kd_json_end(json);
-    kd_json_object(json, "responses");
-    kd_json_object(json, "Problem");
-    kd_json_string(json, "description", "What went wrong (RFC 9457)");
-    kd_json_object(json, "content");
-    add_content(json, "application/problem+json", "#/components/schemas/Problem");
-    kd_json_end(json);
-    kd_json_end(json);
-    kd_json_end(json);
+    kd_openapi_problem(json);
     kd_json_end(json);
 }
 
@@ -434,7 +331,7 @@ static void add_path(struct kd_json *json, const struct kd_route *route, const c
     kd_json_end(json);
 }
 
-static enum kd_status document(const cJSON *schema, const struct kd_buffer *schema_text, struct kd_buffer *out)
+static enum kd_status document(const char *base_path, const cJSON *schema, const struct kd_buffer *schema_text, struct kd_buffer *out)
 {
     struct kd_json json = kd_json_begin(out);
     kd_json_object(&json, NULL);
@@ -442,6 +339,11 @@ static enum kd_status document(const cJSON *schema, const struct kd_buffer *sche
     kd_json_object(&json, "info");
     kd_json_string(&json, "title", "kerrd");
     kd_json_string(&json, "version", KD_VERSION);
+    kd_json_end(&json);
+    kd_json_array(&json, "servers");
+    kd_json_object(&json, NULL);
+    kd_json_string(&json, "url", *base_path ? base_path : ".");
+    kd_json_end(&json);
     kd_json_end(&json);
     kd_json_object(&json, "paths");
     for (size_t i = 0; i < kd_n_routes; i++)
@@ -455,13 +357,13 @@ static enum kd_status document(const cJSON *schema, const struct kd_buffer *sche
     return kd_json_finish_line(&json);
 }
 
-enum kd_status kd_openapi_json(struct kd_buffer *out)
+enum kd_status kd_openapi_json(const char *base_path, struct kd_buffer *out)
 {
     struct kd_buffer text = { 0 };
     enum kd_status status = kd_scene_schema(&text);
     cJSON *schema = status ? NULL : cJSON_ParseWithLength((const char *)text.data, text.size);
     if (!status)
-        status = schema ? document(schema, &text, out) : KD_ENOMEM;
+        status = schema ? document(base_path, schema, &text, out) : KD_ENOMEM;
     cJSON_Delete(schema);
     kd_buffer_finish(&text);
     return status;

@@ -4,7 +4,8 @@
 
 #include "base/buffer.h"
 
-/* OpenAPI 3.1 from the route table, the scene's schema and the problem table; appended. Some milliseconds: it is made once. */
-enum kd_status kd_openapi_json(struct kd_buffer *out);
+/* OpenAPI 3.1 from the route table, the scene's schema and the problem table; appended. Some milliseconds: it is made once.
+ * base_path: what stands before each path of it; "": the folder that the document is in, whatever a proxy calls that. */
+enum kd_status kd_openapi_json(const char *base_path, struct kd_buffer *out);
 
 #endif

@@ -2,32 +2,24 @@
 
 #include "orbit/schema.h"
 #include "server/openapi/media.h"
-
-#define BOOLEAN "{\"type\":\"boolean\"}"
-#define SPIN "\"spin\":{\"type\":\"number\",\"exclusiveMinimum\":-1,\"exclusiveMaximum\":1}"
-static const char answer[] =
-    "{\"type\":\"object\",\"properties\":{" SPIN ",\"fate\":{\"enum\":[\"bound\",\"plunge\",\"escape\"]},\"circular\":" BOOLEAN
-    ",\"constants\":{\"type\":\"object\"},\"turning_points\":{\"type\":\"object\"},\"shape\":{\"type\":\"object\"}"
-    ",\"frequencies\":{\"type\":\"object\"},\"advance\":{\"type\":\"object\"},\"series\":{\"type\":\"object\",\"properties\":{"
-    "\"columns\":{\"type\":\"array\",\"items\":{\"type\":\"string\"}},\"rows\":{\"type\":\"array\",\"items\":{\"type\":\"array\","
-    "\"items\":{\"type\":[\"number\",\"null\"]}}}}},\"result\":{\"type\":\"object\"},\"orbits\":{\"type\":\"array\",\"items\":{\"type\":\"object\"}}}}";
+#include "server/openapi/strict.h"
 
 void kd_openapi_orbits_body(struct kd_json *json)
 {
-    kd_openapi_body_begin(json);
-    kd_json_object(json, "application/json");
-    kd_orbit_request_schema(json, "schema", "{\"$ref\":\"#/components/schemas/Orbit\"}");
-    kd_json_end(json);
-    kd_openapi_body_end(json);
+    static const char request[] = KD_SCHEMA_REF("OrbitsRequest");
+    kd_openapi_body(json, request, sizeof request - 1, NULL);
 }
 
 void kd_openapi_orbits_schema(struct kd_json *json)
 {
-    kd_orbit_schema(json, "Orbit");
+    kd_orbit_schemas(json);
+    kd_orbit_request_schema(json, "OrbitsRequest");
+    kd_orbit_answer_schemas(json);
 }
 
 void kd_openapi_orbits_answer(struct kd_json *json)
 {
+    static const char answer[] = "{\"oneOf\":[" KD_SCHEMA_REF("OrbitPath") "," KD_SCHEMA_REF("OrbitPaths") "]}";
     static const char *const others[] = { "application/x-ndjson", "text/csv", "application/x-npy" };
     kd_openapi_media(json, "application/json", answer, sizeof answer - 1);
     for (int i = 0; i < 3; i++)

@@ -2,6 +2,7 @@
 
 #include "quantity/quantity.h"
 #include "server/openapi/media.h"
+#include "server/openapi/strict.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -42,12 +43,8 @@ static void add_schema(struct kd_json *json, const struct kd_parameter *p)
         add_words(json, p->words);
     } else {
         kd_json_array(json, "anyOf");
-        if (p->word) { /* first: generators of clients take the first type that a default fits, and "infinity" reads as a number */
-            kd_json_object(json, NULL);
-            kd_json_string(json, "type", "string");
-            kd_json_string(json, "const", p->word);
-            kd_json_end(json);
-        }
+        if (p->word) /* first: generators of clients take the first type that a default fits, and "infinity" reads as a number */
+            kd_schema_word(json, NULL, p->word);
         add_number(json, p);
         kd_json_object(json, NULL);
         kd_json_string(json, "type", "string");
@@ -95,33 +92,96 @@ static void add_parameters(struct kd_json *json, const struct kd_quantity *quant
     kd_json_end(json);
 }
 
-static void add_type(struct kd_json *json, const char *name, const char *schema)
+/* Objects with these members and no others. */
+static void begin_strict(struct kd_json *json, const char *name)
 {
-    kd_json_raw(json, name, schema, strlen(schema));
+    kd_json_object(json, name);
+    kd_json_string(json, "type", "object");
+    kd_json_bool(json, "additionalProperties", false);
+    kd_json_object(json, "properties");
+}
+
+static void end_strict(struct kd_json *json, const char *const *names, size_t n)
+{
+    kd_json_end(json);
+    kd_json_array(json, "required");
+    for (size_t i = 0; i < n; i++)
+        kd_json_string(json, NULL, names[i]);
+    kd_json_end(json);
+    kd_json_end(json);
+}
+
+/* What a parameter was: a word, or a number, and along a range a list of them. */
+static void add_asked(struct kd_json *json, const struct kd_quantity *quantity)
+{
+    const char *names[KD_QUANTITY_PARAMETERS];
+    begin_strict(json, "parameters");
+    for (size_t i = 0; i < quantity->n_parameters; i++) {
+        const struct kd_parameter *p = &quantity->parameters[i];
+        kd_json_object(json, names[i] = p->name);
+        if (p->words) {
+            add_words(json, p->words);
+        } else {
+            kd_json_array(json, "anyOf");
+            if (p->word)
+                kd_schema_word(json, NULL, p->word);
+            kd_schema_text(json, NULL, KD_SCHEMA_NUMBER);
+            kd_schema_text(json, NULL, KD_SCHEMA_LIST(KD_SCHEMA_NUMBER));
+            kd_json_end(json);
+        }
+        kd_json_end(json);
+    }
+    end_strict(json, names, quantity->n_parameters);
+}
+
+static void add_values(struct kd_json *json, const struct kd_quantity *quantity)
+{
+    const char *names[KD_QUANTITY_OUTPUTS];
+    begin_strict(json, "values");
+    for (size_t i = 0; i < quantity->n_outputs; i++) {
+        kd_json_object(json, names[i] = quantity->outputs[i].name);
+        kd_schema_text(json, "anyOf", NUMBERS);
+        kd_json_string(json, "description", quantity->outputs[i].help);
+        kd_json_end(json);
+    }
+    end_strict(json, names, quantity->n_outputs);
+}
+
+/* Of all that has one: numbers, that is. A parameter and an output may have the same name. */
+static void add_units(struct kd_json *json, const struct kd_quantity *quantity)
+{
+    const char *names[KD_QUANTITY_PARAMETERS + KD_QUANTITY_OUTPUTS];
+    size_t n = 0, own;
+    begin_strict(json, "units");
+    for (size_t i = 0; i < quantity->n_parameters; i++)
+        if (!quantity->parameters[i].words)
+            kd_schema_text(json, names[n++] = quantity->parameters[i].name, KD_SCHEMA_TEXT);
+    own = n;
+    for (size_t i = 0; i < quantity->n_outputs; i++) {
+        bool twice = false;
+        for (size_t k = 0; k < own; k++)
+            twice |= !strcmp(names[k], quantity->outputs[i].name);
+        if (!twice)
+            kd_schema_text(json, names[n++] = quantity->outputs[i].name, KD_SCHEMA_TEXT);
+    }
+    end_strict(json, names, n);
 }
 
 static void add_answer(struct kd_json *json, const struct kd_quantity *quantity)
 {
-    kd_json_object(json, "schema");
-    kd_json_string(json, "type", "object");
-    kd_json_object(json, "properties");
-    add_type(json, "quantity", "{\"type\":\"string\"}");
-    add_type(json, "parameters", "{\"type\":\"object\"}");
-    kd_json_object(json, "values");
-    kd_json_object(json, "properties");
-    for (size_t i = 0; i < quantity->n_outputs; i++) {
-        kd_json_object(json, quantity->outputs[i].name);
-        add_type(json, "anyOf", NUMBERS);
-        kd_json_string(json, "description", quantity->outputs[i].help);
-        kd_json_end(json);
-    }
+    static const char *const needed[] = { "quantity", "parameters", "values", "units", "sources", "approximations" };
+    begin_strict(json, "schema");
+    kd_json_object(json, "quantity");
+    kd_json_string(json, "const", quantity->name);
     kd_json_end(json);
-    kd_json_end(json);
-    add_type(json, "units", "{\"type\":\"object\"}");
-    add_type(json, "sources", "{\"type\":\"array\",\"items\":{\"type\":\"string\"}}");
-    add_type(json, "approximations", "{\"type\":\"array\",\"items\":{\"type\":\"string\"}}");
-    kd_json_end(json);
-    kd_json_end(json);
+    add_asked(json, quantity);
+    kd_schema_text(json, "ranges", KD_SCHEMA_LIST(KD_SCHEMA_TEXT)); /* of several: how they are nested */
+    kd_schema_text(json, "shape", KD_SCHEMA_LIST(KD_SCHEMA_COUNT));
+    add_values(json, quantity);
+    add_units(json, quantity);
+    kd_schema_text(json, "sources", KD_SCHEMA_LIST(KD_SCHEMA_TEXT));
+    kd_schema_text(json, "approximations", KD_SCHEMA_LIST(KD_SCHEMA_TEXT));
+    end_strict(json, needed, sizeof needed / sizeof *needed);
 }
 
 static void add_responses(struct kd_json *json, const struct kd_quantity *quantity)
@@ -138,7 +198,7 @@ static void add_responses(struct kd_json *json, const struct kd_quantity *quanti
         kd_openapi_media(json, "audio/wav", "", 0);
     kd_json_end(json);
     kd_json_end(json);
-    add_type(json, "default", "{\"$ref\":\"#/components/responses/Problem\"}");
+    kd_schema_text(json, "default", "{\"$ref\":\"#/components/responses/Problem\"}");
     kd_json_end(json);
 }
 

@@ -1,5 +1,6 @@
 #include "server/openapi/pixel.h"
 
+#include "render/rays/rays.h"
 #include "server/openapi/strict.h"
 
 #define NUMBER KD_SCHEMA_NUMBER
@@ -13,7 +14,8 @@
 /* I, Q and U; and V of volumes. */
 #define STOKES "{\"type\":\"array\",\"minItems\":3,\"maxItems\":4,\"items\":{\"type\":\"number\"}}"
 #define ROWS LIST(LIST("{\"type\":[\"number\",\"null\",\"string\"]}"))
-#define FATE "{\"enum\":[\"captured\",\"escaped\",\"undecided\"]}"
+
+static const char *fate(size_t i) { return i <= KD_RAY_UNDECIDED ? kd_ray_fate_name((enum kd_ray_fate)i) : NULL; }
 
 /* Which way the ray goes. */
 static void add_motion(struct kd_json *json)
@@ -75,7 +77,7 @@ static void add_along(struct kd_json *json)
 static void add_ends(struct kd_json *json)
 {
     static const struct kd_openapi_member end[] = {
-        { "fate", FATE, false }, { "why", TEXT, false }, { "through", NUMBER, false }, { "optical_depth", OR_NULL, false }, { "theta", OR_NULL, true }, { "phi", OR_NULL, true },
+        { "fate", NULL, false, fate }, { "why", TEXT, false }, { "through", NUMBER, false }, { "optical_depth", OR_NULL, false }, { "theta", OR_NULL, true }, { "phi", OR_NULL, true },
         { "azimuth", OR_NULL, true }, { "g", NUMBER, true }, { "emitters", LIST(REF("PixelGlow")), false },
     };
     static const struct kd_openapi_member path[] = {
@@ -83,7 +85,7 @@ static void add_ends(struct kd_json *json)
         { "columns", LIST(TEXT), false }, { "points", LIST(LIST(OR_NULL)), false },
     };
     static const struct kd_openapi_member trace[] = {
-        { "none", TEXT, true }, { "engine", TEXT, true }, { "precision", TEXT, true }, { "steps_a_half_period", COUNT, true }, { "fate", FATE, true }, { "crossings", COUNT, true },
+        { "none", TEXT, true }, { "engine", TEXT, true }, { "precision", TEXT, true }, { "steps_a_half_period", COUNT, true }, { "fate", NULL, true, fate }, { "crossings", COUNT, true },
         { "not_shown", COUNT, true }, { "same_without_trace", TRUTH, true }, { "columns", LIST(TEXT), true }, { "steps", ROWS, true },
     };
     static const struct kd_openapi_member accuracy[] = {

@@ -89,7 +89,7 @@ static void add_properties(struct kd_json *json, bool patch)
     kd_json_string(json, "description", "M a second of the clock; a preset has one of its own");
     kd_json_end(json);
     add_raw(json, "paused", "{\"type\":\"boolean\",\"default\":false}");
-    add_raw(json, "scene", "{\"type\":\"object\",\"description\":\"merge patch of the scene of its pictures\"}");
+    add_raw(json, "scene", KD_SCHEMA_REF("Scene")); /* a merge patch of the scene of its pictures */
     for (size_t i = 0; i < kd_playground_n_settings; i++)
         add_row(json, &kd_playground_settings[i]);
     if (patch) {
@@ -100,7 +100,7 @@ static void add_properties(struct kd_json *json, bool patch)
     }
     add_preset(json);
     add_raw(json, "bodies", BODIES("PlaygroundBody"));
-    add_raw(json, "state", "{\"type\":\"object\",\"description\":\"of a snapshot: all that the motion depends on besides\"}");
+    add_raw(json, "state", "{\"type\":\"object\",\"additionalProperties\":true,\"description\":\"of a snapshot: all that the motion depends on besides. To be given back as it came: it differs between versions\"}");
 }
 
 static void add_document(struct kd_json *json, const char *name, bool patch)

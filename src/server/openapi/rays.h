@@ -9,5 +9,7 @@ void kd_openapi_rays_parameters(struct kd_json *json);
 /* The operation's requestBody; what belongs into the content of its answer. */
 void kd_openapi_rays_body(struct kd_json *json);
 void kd_openapi_rays_answer(struct kd_json *json);
+/* The components of both. */
+void kd_openapi_rays_schemas(struct kd_json *json);
 
 #endif

@@ -24,11 +24,12 @@ void kd_openapi_session_schemas(struct kd_json *json)
     static const struct kd_openapi_member session[] = {
         { "id", KD_SCHEMA_TEXT, false }, { "token", KD_SCHEMA_TEXT, true }, { "revision", KD_SCHEMA_COUNT, false }, { "frame", KD_SCHEMA_COUNT, false },
         { "viewers", KD_SCHEMA_COUNT, false }, { "scene", KD_SCHEMA_REF("Scene"), false },
-        { "varies", KD_SCHEMA_LIST("{\"enum\":[\"moves_with_time\",\"dims_with_time\",\"moves_with_azimuth\"]}"), false },
+        { "varies", KD_SCHEMA_LIST(KD_SCHEMA_REF("SessionVaries")), false },
         { "emitters", KD_SCHEMA_LIST(KD_SCHEMA_REF("EmitterTold")), false }, { "path", KD_SCHEMA_REF("SessionPath"), true },
         { "rendering", KD_SCHEMA_REF("SessionRendering"), true }, { "refining", KD_SCHEMA_REF("SessionRefining"), true }, { "clock", KD_SCHEMA_REF("FallClock"), true }, { "order", KD_SCHEMA_COUNT, true },
     };
     static const struct kd_openapi_member patched[] = { { "revision", KD_SCHEMA_COUNT, false }, { "order", KD_SCHEMA_COUNT, true } };
+    kd_schema_enum(json, "SessionVaries", kd_session_varies_word);
     KD_OPENAPI_STRICT(json, "EmitterTold", emitter);
     KD_OPENAPI_STRICT(json, "SessionPath", path);
     KD_OPENAPI_STRICT(json, "SessionRendering", progress);

@@ -254,10 +254,8 @@ static enum MHD_Result deliver(struct kd_request *request)
     if (!t->out.size)
         return kd_play_ended(request);
     struct MHD_Response *response = kd_reply_text(request, &t->out, t->type);
-    char location[60];
-    snprintf(location, sizeof location, "/v1/playground/%s", kd_play_id(t->play));
-    if (response && t->what == OPEN)
-        MHD_add_response_header(response, "Location", location);
+    if (t->what == OPEN)
+        kd_reply_location(request, response, kd_play_id(t->play));
     if (response && t->what == SNAPSHOT)
         kd_reply_file(request, KD_ATTACHMENT, "playground.json");
     const enum MHD_Result result = kd_reply_send(request, t->what == OPEN ? MHD_HTTP_CREATED : MHD_HTTP_OK, response);

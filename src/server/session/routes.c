@@ -31,19 +31,22 @@ struct kd_session *kd_session_of(struct kd_request *request, enum MHD_Result *re
     return session;
 }
 
+static const struct { unsigned bit; const char *word; } varying[] = {
+    { KD_MOVES_WITH_TIME, "moves_with_time" }, { KD_DIMS_WITH_TIME, "dims_with_time" }, { KD_MOVES_WITH_AZIMUTH, "moves_with_azimuth" },
+};
+
+const char *kd_session_varies_word(size_t index) { return index < sizeof varying / sizeof *varying ? varying[index].word : NULL; }
+
 /* ["moves_with_time", ...]: what the scene would show of another time or azimuth. */
 static enum kd_status add_varies(const struct kd_scene *scene, struct kd_buffer *out)
 {
-    static const struct { unsigned bit; const char *word; } words[] = {
-        { KD_MOVES_WITH_TIME, "moves_with_time" }, { KD_DIMS_WITH_TIME, "dims_with_time" }, { KD_MOVES_WITH_AZIMUTH, "moves_with_azimuth" },
-    };
     const unsigned varies = kd_emit_varies(scene);
     unsigned n = 0;
     enum kd_status status;
     KD_TRY(kd_buffer_printf(out, ",\"varies\":["));
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (varies & words[i].bit)
-            KD_TRY(kd_buffer_printf(out, "%s\"%s\"", n++ ? "," : "", words[i].word));
+    for (size_t i = 0; i < sizeof varying / sizeof *varying; i++)
+        if (varies & varying[i].bit)
+            KD_TRY(kd_buffer_printf(out, "%s\"%s\"", n++ ? "," : "", varying[i].word));
     KD_TRY(kd_buffer_printf(out, "]"));
 done:
     return status;
@@ -110,11 +113,8 @@ static enum MHD_Result answer_created(struct kd_request *request, const struct k
     enum kd_status status = to_json(session, state, true, &json);
     if (status)
         return kd_reply_json(request, status, &json, JSON_TYPE);
-    char location[60];
-    snprintf(location, sizeof location, "/v1/sessions/%s", kd_session_id(session));
     struct MHD_Response *response = kd_reply_take(&json, JSON_TYPE);
-    if (response)
-        MHD_add_response_header(response, "Location", location);
+    kd_reply_location(request, response, kd_session_id(session));
     return kd_reply_send(request, MHD_HTTP_CREATED, response);
 }
 

@@ -61,6 +61,8 @@ struct kd_session *kd_sessions_find(struct kd_sessions *all, const char *id);
 void kd_session_release(struct kd_session *session);
 
 const char *kd_session_id(const struct kd_session *session);
+/* The words of "varies" (session/routes.c); NULL behind the last. */
+const char *kd_session_varies_word(size_t index);
 const char *kd_session_token(const struct kd_session *session);
 bool kd_session_owned(const struct kd_session *session, const char *token); /* in constant time; token may be NULL */
 

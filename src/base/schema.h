@@ -1,0 +1,78 @@
+/* These write JSON Schemas of answers: objects that have these members and no others, so that a test which holds real answers against them sees what is new and
+ * what is gone. One thread a document. */
+#ifndef KD_BASE_SCHEMA_H
+#define KD_BASE_SCHEMA_H
+
+#include "base/json.h"
+
+#include <stdbool.h>
+#include <string.h>
+
+#define KD_SCHEMA_NUMBER "{\"type\":\"number\"}"
+#define KD_SCHEMA_NUMBER_OR_NULL "{\"type\":[\"number\",\"null\"]}"
+#define KD_SCHEMA_COUNT "{\"type\":\"integer\",\"minimum\":0}"
+#define KD_SCHEMA_TRUTH "{\"type\":\"boolean\"}"
+#define KD_SCHEMA_TEXT "{\"type\":\"string\"}"
+#define KD_SCHEMA_LIST(items) "{\"type\":\"array\",\"items\":" items "}"
+#define KD_SCHEMA_MAP(values) "{\"type\":\"object\",\"additionalProperties\":" values "}"
+#define KD_SCHEMA_VECTOR "{\"type\":\"array\",\"minItems\":3,\"maxItems\":3,\"items\":{\"type\":\"number\"}}"
+#define KD_SCHEMA_REF(name) "{\"$ref\":\"#/components/schemas/" name "\"}"
+
+/* The words of an enumeration, one behind the other; NULL behind the last. */
+typedef const char *kd_schema_words(size_t index);
+
+struct kd_schema_member {
+    const char *name, *schema; /* JSON; NULL: the words */
+    bool may_lack;
+    kd_schema_words *words;
+};
+
+static inline void kd_schema_text(struct kd_json *json, const char *name, const char *schema) { kd_json_raw(json, name, schema, strlen(schema)); }
+
+/* Writes {"enum": [...]}. */
+static inline void kd_schema_enum(struct kd_json *json, const char *name, kd_schema_words *words)
+{
+    kd_json_object(json, name);
+    kd_json_array(json, "enum");
+    for (size_t i = 0; words(i); i++)
+        kd_json_string(json, NULL, words(i));
+    kd_json_end(json);
+    kd_json_end(json);
+}
+
+/* Writes the schema of one word. It is an enumeration of one and no const: generated clients take the const of a union for all that there is. */
+static inline void kd_schema_word(struct kd_json *json, const char *name, const char *word)
+{
+    kd_json_object(json, name);
+    kd_json_string(json, "type", "string");
+    kd_json_array(json, "enum");
+    kd_json_string(json, NULL, word);
+    kd_json_end(json);
+    kd_json_end(json);
+}
+
+/* Writes the object `name`. */
+static inline void kd_schema_strict(struct kd_json *json, const char *name, const struct kd_schema_member *members, size_t n)
+{
+    kd_json_object(json, name);
+    kd_json_string(json, "type", "object");
+    kd_json_bool(json, "additionalProperties", false);
+    kd_json_object(json, "properties");
+    for (size_t i = 0; i < n; i++)
+        if (members[i].schema)
+            kd_schema_text(json, members[i].name, members[i].schema);
+        else
+            kd_schema_enum(json, members[i].name, members[i].words);
+    kd_json_end(json);
+    kd_json_array(json, "required");
+    for (size_t i = 0; i < n; i++)
+        if (!members[i].may_lack)
+            kd_json_string(json, NULL, members[i].name);
+    kd_json_end(json);
+    kd_json_end(json);
+}
+
+/* The same of a table whose length the compiler knows. */
+#define KD_SCHEMA_STRICT(json, name, table) kd_schema_strict(json, name, table, sizeof(table) / sizeof *(table))
+
+#endif

@@ -1,0 +1,154 @@
+#include "render/rays/schema.h"
+
+#include "render/rays/check.h"
+#include "render/rays/fields.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static void add_words(struct kd_json *json, const struct kd_field *words)
+{
+    kd_json_array(json, "enum");
+    for (int i = 0; i < kd_field_word_count(words); i++) {
+        char text[40];
+        const struct kd_word word = kd_field_word(words, i);
+        snprintf(text, sizeof text, "%.*s", word.length, word.text);
+        kd_json_string(json, NULL, text);
+    }
+    kd_json_end(json);
+}
+
+static void add_range(struct kd_json *json, const struct kd_rays_field *f)
+{
+    kd_json_string(json, "type", f->kind == KD_RAYS_WHOLE ? "integer" : "number");
+    kd_json_number(json, f->open ? "exclusiveMinimum" : "minimum", f->least);
+    kd_json_number(json, f->open == KD_RAYS_OPEN ? "exclusiveMaximum" : "maximum", f->most);
+    if (f->multiple)
+        kd_json_number(json, "multipleOf", f->multiple);
+}
+
+static void add_field(struct kd_json *json, const char *name, const struct kd_rays_field *f)
+{
+    kd_json_object(json, name);
+    if (!f->allowed) {
+        add_words(json, kd_rays_field_words(f));
+    } else if (!f->word) {
+        add_range(json, f);
+    } else {
+        kd_json_array(json, "anyOf");
+        kd_schema_word(json, NULL, f->word);
+        kd_json_object(json, NULL);
+        add_range(json, f);
+        kd_json_end(json);
+        kd_json_end(json);
+    }
+    kd_json_string(json, "description", f->help);
+    kd_json_end(json);
+}
+
+static void begin_strict(struct kd_json *json, const char *name)
+{
+    kd_json_object(json, name);
+    kd_json_string(json, "type", "object");
+    kd_json_bool(json, "additionalProperties", false);
+}
+
+static void add_members(struct kd_json *json, const char *section)
+{
+    for (size_t i = 0; i < KD_RAYS_FIELDS; i++)
+        if (!strcmp(kd_rays_fields[i].section, section))
+            add_field(json, kd_rays_fields[i].name, &kd_rays_fields[i]);
+}
+
+static void add_section(struct kd_json *json, const char *section)
+{
+    begin_strict(json, section);
+    kd_json_object(json, "properties");
+    add_members(json, section);
+    kd_json_end(json);
+    kd_json_end(json);
+}
+
+static void add_rays(struct kd_json *json)
+{
+    kd_json_object(json, "rays");
+    kd_json_string(json, "type", "array");
+    kd_json_number(json, "minItems", 1);
+    kd_json_number(json, "maxItems", KD_RAYS_MAX);
+    kd_json_string(json, "description", "pairs [alpha, beta], in M");
+    kd_json_object(json, "items");
+    kd_json_string(json, "type", "array");
+    kd_json_number(json, "minItems", 2);
+    kd_json_number(json, "maxItems", 2);
+    kd_json_object(json, "items");
+    kd_json_string(json, "type", "number");
+    kd_json_number(json, "minimum", -KD_RAYS_FAR);
+    kd_json_number(json, "maximum", KD_RAYS_FAR);
+    kd_json_end(json);
+    kd_json_end(json);
+    kd_json_end(json);
+}
+
+void kd_rays_request_schema(struct kd_json *json, const char *name)
+{
+    begin_strict(json, name);
+    kd_schema_text(json, "required", "[\"rays\"]");
+    kd_json_object(json, "properties");
+    add_members(json, "");
+    add_section(json, "observer");
+    add_section(json, "accuracy");
+    add_rays(json);
+    kd_json_end(json);
+    kd_json_end(json);
+}
+
+const char *kd_rays_field_name(size_t index, const char **help)
+{
+    if (index >= KD_RAYS_FIELDS)
+        return NULL;
+    *help = kd_rays_fields[index].help;
+    return kd_rays_fields[index].name;
+}
+
+void kd_rays_field_schema(struct kd_json *json, size_t index) { add_field(json, "schema", &kd_rays_fields[index]); }
+
+static const char *engine(size_t i) { return i < KD_ENGINE_COUNT ? kd_engine_name((enum kd_engine)i) : NULL; }
+static const char *precision(size_t i) { return i <= KD_PRECISION_F64 ? kd_precision_name((enum kd_precision)i) : NULL; }
+static const char *fate(size_t i) { return i <= KD_RAY_UNDECIDED ? kd_ray_fate_name((enum kd_ray_fate)i) : NULL; }
+
+/* The observer comes back as it was asked for, all of it. */
+static void add_observer(struct kd_json *json)
+{
+    begin_strict(json, "RaysObserver");
+    kd_schema_text(json, "required", "[\"r\",\"inclination_deg\"]");
+    kd_json_object(json, "properties");
+    add_members(json, "observer");
+    kd_json_end(json);
+    kd_json_end(json);
+}
+
+void kd_rays_answer_schemas(struct kd_json *json)
+{
+    static const struct kd_schema_member accuracy[] = {
+        { "engine", NULL, false, engine }, { "precision", NULL, false, precision }, { "steps", KD_SCHEMA_COUNT }, { "rays", KD_SCHEMA_COUNT }, { "undecided", KD_SCHEMA_COUNT },
+        { "tolerance", KD_SCHEMA_NUMBER, true }, { "followed_again", KD_SCHEMA_COUNT, true }, { "beyond", KD_SCHEMA_COUNT, true }, { "holds", KD_SCHEMA_NUMBER, true },
+        { "worst_error", KD_SCHEMA_NUMBER, true }, { "median_error", KD_SCHEMA_NUMBER, true },
+    };
+    static const struct kd_schema_member crossing[] = {
+        { "order", KD_SCHEMA_COUNT }, { "r", KD_SCHEMA_NUMBER, true }, { "phi", KD_SCHEMA_NUMBER, true }, { "delay", KD_SCHEMA_NUMBER, true }, { "g", KD_SCHEMA_NUMBER, true },
+    };
+    static const struct kd_schema_member sky[] = { { "theta", KD_SCHEMA_NUMBER }, { "phi", KD_SCHEMA_NUMBER, true } };
+    static const struct kd_schema_member ray[] = {
+        { "fate", NULL, false, fate }, { "crossings", KD_SCHEMA_LIST(KD_SCHEMA_REF("RayCrossing")) }, { "sky", KD_SCHEMA_REF("RaySky"), true }, { "error", KD_SCHEMA_NUMBER, true },
+    };
+    static const struct kd_schema_member answer[] = {
+        { "spin", KD_SCHEMA_NUMBER }, { "observer", KD_SCHEMA_REF("RaysObserver") }, { "orders", KD_SCHEMA_COUNT }, { "accuracy", KD_SCHEMA_REF("RaysAccuracy") },
+        { "approximations", KD_SCHEMA_LIST(KD_SCHEMA_TEXT) }, { "rays", KD_SCHEMA_LIST(KD_SCHEMA_REF("Ray")) },
+    };
+    add_observer(json);
+    KD_SCHEMA_STRICT(json, "RaysAccuracy", accuracy);
+    KD_SCHEMA_STRICT(json, "RayCrossing", crossing);
+    KD_SCHEMA_STRICT(json, "RaySky", sky);
+    KD_SCHEMA_STRICT(json, "Ray", ray);
+    KD_SCHEMA_STRICT(json, "RaysAnswer", answer);
+}
