@@ -16,23 +16,25 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { KEY_RATE = 256, KEY_STATE, KEY_SAMPLES, KEY_SHUTTER };
+enum { KEY_RATE = 256, KEY_STATE, KEY_SAMPLES, KEY_SHUTTER, KEY_ONLY };
 
 struct arguments {
     struct kd_scene_options scene; /* its document: that of the film */
     const char *device, *output, *state;
-    unsigned rate, samples;
+    unsigned rate, samples, first, last; /* frames that are wanted */
+    bool only;
     double shutter;
     uint64_t memory;
     bool stats;
 };
 
 static const struct argp_option table[] = {
-    { "output", 'o', "FILE", 0, "the film to write: .mp4 (H.264) or .webm (VP9), which take the program ffmpeg; .zip, numbered pictures (required)", 0 },
+    { "output", 'o', "FILE", 0, "the film to write: .mp4 (H.264) or .webm (VP9), which take the program ffmpeg; .zip, numbered pictures (required but with --only)", 0 },
     { "rate", KEY_RATE, "N", 0, "frames a second, 1 to 120 (default: 24)", 0 },
     { "samples", KEY_SAMPLES, "N", 0, "motion blur: a frame's light is the mean of that of N pictures, 1 to 64 (default: as the document's motion_blur says, or none)", 0 },
     { "shutter", KEY_SHUTTER, "PART", 0, "the part of a frame's time, up to 1, in which they are (default: as motion_blur says, or 0.5)", 0 },
     { "state", KEY_STATE, "DIR", 0, "keep finished frames there, and go on with those that are there already, whatever ended the run before", 0 },
+    { "only", KEY_ONLY, "FIRST:LAST", 0, "render these frames into the folder of --state, with others beside this process, and write no film", 0 },
     KD_CLI_MEMORY,
     { "stats", 't', NULL, 0, "print frames, their exposure and seconds as one line of JSON on standard error", 0 },
     { 0 },
@@ -47,6 +49,15 @@ static const struct kd_gather_format *kind_of(const char *path)
         if (!strcmp(kinds[i]->name, dot + 1))
             return kinds[i];
     return NULL;
+}
+
+/* "3:17", both frames included. */
+static void read_only(struct arguments *arguments, const char *text, const struct argp_state *state)
+{
+    int end = 0;
+    if (strspn(text, "0123456789:") != strlen(text) || sscanf(text, "%9u:%9u%n", &arguments->first, &arguments->last, &end) != 2 || text[end] || arguments->first > arguments->last)
+        argp_error(state, "--only is %s, allowed is FIRST:LAST, numbers of frames from 0 on, as in 24:47", text);
+    arguments->only = true;
 }
 
 static error_t parse(int key, char *text, struct argp_state *state)
@@ -69,14 +80,19 @@ static error_t parse(int key, char *text, struct argp_state *state)
             argp_error(state, "--shutter is %s, allowed are numbers above 0, at most 1", text);
         return 0;
     case KEY_STATE: arguments->state = text; return 0;
+    case KEY_ONLY: read_only(arguments, text, state); return 0;
     case ARGP_KEY_END:
-        if (!arguments->output)
+        if (arguments->only && (arguments->output || arguments->rate))
+            argp_error(state, "--only excludes %s: it makes frames and no film", arguments->output ? "-o" : "--rate");
+        else if (arguments->only && !arguments->state)
+            argp_error(state, "--state is missing: where should the frames of --only go?");
+        else if (!arguments->only && !arguments->output)
             argp_error(state, "-o FILE is missing: where should the film go?");
-        else if (!kind_of(arguments->output))
+        else if (!arguments->only && !kind_of(arguments->output))
             argp_error(state, "output is \"%s\", allowed is a name that ends in .mp4, .webm or .zip", arguments->output);
         else if (!arguments->scene.document)
             argp_error(state, "KEYFRAMES.json is missing: which frames? As in {\"scene\": {}, \"keyframes\": [{\"frame\": 47, \"scene\": {\"camera\": {\"azimuth_deg\": 90}}}]}");
-        else if (arguments->rate && !kind_of(arguments->output)->waits)
+        else if (arguments->rate && !arguments->only && !kind_of(arguments->output)->waits)
             argp_error(state, "--rate is of .mp4 and .webm: pictures in a .zip have none");
         return 0;
     }
@@ -116,6 +132,14 @@ static enum kd_status read_request(struct work *w, struct kd_error *error)
     status = kd_job_spec_parse(w->text.data ? (const char *)w->text.data : "", w->text.size, &base, &w->assets, &w->spec, error);
     KD_TRY(status ? kd_cli_prefix(error, strcmp(options->document, "-") ? options->document : "standard input") : KD_OK);
     KD_TRY(kd_asset_options_check(&options->assets, error));
+    if (w->arguments->only && w->spec.every > 0)
+        KD_TRY(kd_error_field(error, "/playground", "a playground is filmed, whose frames depend on those before: --only is for other films"));
+    if (w->arguments->only && w->arguments->last >= w->spec.frames)
+        KD_TRY(kd_error_set(error, KD_EINVAL, "--only is %u:%u, allowed are frames 0 to %u", w->arguments->first, w->arguments->last, w->spec.frames - 1));
+    if (!w->arguments->only) {
+        w->arguments->first = 0;
+        w->arguments->last = w->spec.frames - 1;
+    }
     if (w->spec.series->frame != &kd_format_png)
         KD_TRY(kd_error_field(error, "/output", "output is \"%s\", allowed is \"pictures\": of them a film is made", w->spec.series->name));
 done:
@@ -167,7 +191,7 @@ static enum kd_status check(const struct work *w, struct kd_error *error)
             width = scene.image.width;
             height = scene.image.height;
         }
-        if (!status && w->kind->waits && (scene.image.width != width || scene.image.height != height))
+        if (!status && w->kind && w->kind->waits && (scene.image.width != width || scene.image.height != height))
             status = kd_error_set(error, KD_EINVAL, "frame %u is %d x %d pixels and frame 0 %d x %d: a film has one size, a .zip holds any", i, scene.image.width, scene.image.height, width,
                                   height);
     }
@@ -184,7 +208,7 @@ static enum kd_status open_frames(struct work *w, struct kd_error *error)
     w->frames.format = w->spec.series->frame;
     if (!path)
         return kd_frames_open(&w->frames, error);
-    KD_TRY(kd_frames_open_folder(&w->frames, path, error));
+    KD_TRY(kd_frames_open_folder(&w->frames, path, w->arguments->only, error));
     KD_TRY(kd_film_state_read(w->frames.folder, path, &w->state, &there, error));
     KD_TRY(kd_frames_find(&w->frames, &w->kept, error));
     if (w->kept && !there)
@@ -197,7 +221,8 @@ done:
 static bool progress(void *user, double fraction)
 {
     struct work *w = user;
-    return kd_progress_update(&w->progress, (w->done + fraction) / w->spec.frames);
+    const struct arguments *a = w->arguments;
+    return kd_progress_update(&w->progress, ((w->done > a->first ? w->done - a->first : 0) + fraction) / (a->last - a->first + 1));
 }
 
 static bool go_on(void *user) { return progress(user, 0); }
@@ -284,7 +309,7 @@ static enum kd_status render_all(struct work *w, struct kd_error *error)
     if (w->spec.every > 0 && w->kept < w->spec.frames)
         KD_TRY(kd_job_spec_playground((const char *)w->text.data, w->text.size, &w->bodies, error));
     const double begin = w->bodies ? w->bodies->t : 0;
-    for (; w->done < w->spec.frames; w->done++) {
+    for (w->done = w->arguments->first; w->done <= w->arguments->last; w->done++) {
         if (w->bodies)
             KD_TRY(move(w, w->done, begin, &crowd, error));
         if (!kd_frames_has(&w->frames, w->done))
@@ -327,8 +352,9 @@ static enum kd_status run(struct work *w, struct kd_error *error)
     const struct arguments *arguments = w->arguments;
     enum kd_status status;
     KD_TRY(read_request(w, error));
-    KD_TRY(kd_file_check(arguments->output, error));
-    if (w->kind->waits && !kd_program_known("ffmpeg"))
+    if (!arguments->only)
+        KD_TRY(kd_file_check(arguments->output, error));
+    if (w->kind && w->kind->waits && !kd_program_known("ffmpeg"))
         KD_TRY(kd_error_set(error, KD_EABSENT, "films are encoded by the program ffmpeg, which is not found on the PATH: install it, or have the numbered pictures by -o FILE.zip"));
     KD_TRY(kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device, .memory_bytes = arguments->memory, .assets = &w->assets }, &w->renderer, error));
     KD_TRY(check(w, error));
@@ -338,7 +364,8 @@ static enum kd_status run(struct work *w, struct kd_error *error)
     KD_TRY(render_all(w, error));
     const double rendered = kd_progress_clock();
     const struct kd_frames_whole whole = { .format = w->kind, .sweep = w->spec.sweep, .rate = arguments->rate ? arguments->rate : KD_FILM_RATE, .go_on = go_on, .user = w };
-    KD_TRY(kd_frames_save(&w->frames, &whole, arguments->output, error));
+    if (!arguments->only)
+        KD_TRY(kd_frames_save(&w->frames, &whole, arguments->output, error));
     if (arguments->stats)
         KD_TRY(print_stats(w, rendered - began, kd_progress_clock() - rendered, error));
 done:
@@ -361,7 +388,7 @@ int kd_cli_film(int argc, char **argv)
     struct work work = { .arguments = &arguments, .frames = KD_FRAMES_NONE };
     struct kd_error error = { 0 };
     argp_parse(&argp, argc, argv, 0, NULL, &arguments);
-    work.kind = kind_of(arguments.output);
+    work.kind = arguments.only ? NULL : kind_of(arguments.output);
     const enum kd_status status = run(&work, &error);
     kd_encoder_finish(&work.encoder);
     kd_playground_destroy(work.bodies);

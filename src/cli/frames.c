@@ -35,13 +35,14 @@ enum kd_status kd_frames_open(struct kd_frames *f, struct kd_error *error)
     return make_room(f, error);
 }
 
-enum kd_status kd_frames_open_folder(struct kd_frames *f, const char *path, struct kd_error *error)
+enum kd_status kd_frames_open_folder(struct kd_frames *f, const char *path, bool shared, struct kd_error *error)
 {
     if (mkdir(path, 0777) && errno != EEXIST)
         return kd_error_set(error, KD_EINVAL, "the folder %s cannot be made: %s", path, strerror(errno));
     if ((f->folder = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC)) < 0 || (f->lock = openat(f->folder, "lock", O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0600)) < 0)
         return kd_error_set(error, KD_EINVAL, "%ss cannot be kept in %s: %s", f->noun, path, strerror(errno));
-    if (flock(f->lock, LOCK_EX | LOCK_NB))
+    f->shared = shared;
+    if (flock(f->lock, (shared ? LOCK_SH : LOCK_EX) | LOCK_NB))
         return kd_error_set(error, KD_EINVAL, errno == EWOULDBLOCK ? "another process keeps its %ss in %s" : "the %ss in %s cannot be locked", f->noun, path);
     return make_room(f, error);
 }
@@ -71,7 +72,8 @@ enum kd_status kd_frames_find(struct kd_frames *f, unsigned *found, struct kd_er
     struct stat about;
     char name[32];
     *found = 0;
-    remove_halves(f);
+    if (!f->shared)
+        remove_halves(f);
     for (unsigned i = 0; i < f->n; i++) {
         name_of(f, i, name);
         if (fstatat(f->folder, name, &about, AT_SYMLINK_NOFOLLOW))

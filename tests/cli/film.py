@@ -94,6 +94,33 @@ class Case(support.Case):
         return len([n for n in os.listdir(folder) if n.endswith(".png")])
 
 
+class Shares(Case):
+    """Frames of one film by several processes into one folder."""
+
+    def only(self, request, *options, code=0):
+        done = support.run("film", "-", "-t", *options, stdin=json.dumps(request).encode(), seconds=120)
+        self.assertEqual(done.returncode, code, done.stderr)
+        return done.stderr.decode()
+
+    def test_each_makes_its_own(self):
+        state = self.path("state")
+        running = [subprocess.Popen([support.KERRD, "film", self.write(f"{k}.json", json.dumps(TURN)), "--state", state, "--only", part]) for k, part in enumerate(("0:4", "5:9"))]
+        self.assertEqual([process.wait(120) for process in running], [0, 0])
+        self.assertEqual(sorted(name for name in os.listdir(state) if name.endswith(".png")), [f"{k:06}.png" for k in range(10)])
+        self.assertEqual(self.film("film.zip", TURN, "--state", state)["frames_kept"], 10)
+        self.film("alone.zip", TURN)
+        self.assertEqual(self.read("film.zip"), self.read("alone.zip"))
+
+    def test_what_it_takes(self):
+        state = self.path("state")
+        self.assertIn("allowed are frames 0 to 11", self.only(TURN, "--state", state, "--only", "3:12", code=2))
+        for wrong in "3", "3:", "5:3", "-1:2", "1:2:3", "a:b":
+            self.assertIn("allowed is FIRST:LAST", self.only(TURN, "--state", state, f"--only={wrong}", code=2))
+        self.assertIn("--state is missing", self.only(TURN, "--only", "0:1", code=2))
+        self.assertIn("--only excludes -o", self.only(TURN, "--state", state, "--only", "0:1", "-o", self.path("x.zip"), code=2))
+        self.assertIn("/playground", self.only({"playground": {"preset": "disruption"}, "every": 1, "frames": 3}, "--state", state, "--only", "0:1", code=2))
+
+
 class Pictures(Case):
     def test_frames_are_renders_of_their_scenes(self):
         stats = self.film("a.zip", TURN)

@@ -1,13 +1,16 @@
 """Scenes on a Dask cluster of two workers, one of which is killed half-way. cluster.py KERRD FOLDER"""
 import io
+import json
 import os
 import pathlib
 import signal
+import subprocess
 import sys
 import tempfile
 import threading
 import time
 import unittest
+import zipfile
 
 KERRD, FOLDER = sys.argv[1], pathlib.Path(sys.argv[2])
 sys.path.insert(0, str(FOLDER / 'src'))
@@ -125,7 +128,32 @@ class Cluster(unittest.TestCase):
                 hole.stitched({'image': {'width': 90, 'height': 61}})
             self.assertEqual((caught.exception.pointer, caught.exception.allowed is None), ('/style/exposure', False))
 
-    def test_6_bad_arguments(self):
+    def test_6_a_film_by_all_one_of_whom_dies(self):
+        document = {'scene': {'image': {'width': 64, 'height': 36}, 'camera': {'inclination_deg': 80}}, 'keyframes': [{'frame': 199, 'scene': {'camera': {'inclination_deg': 40, 'azimuth_deg': 30}}}]}
+        with tempfile.TemporaryDirectory() as folder:
+            state, alone, here = (pathlib.Path(folder, name) for name in ('frames', 'alone', 'request.json'))
+            here.write_text(json.dumps(document))
+
+            def kill():
+                while len(list(state.glob('*.png'))) < 60:
+                    time.sleep(0.01)
+                killed.append(len(list(state.glob('*.png'))))
+                os.kill(next(iter(self.dask.run(os.getpid).values())), signal.SIGKILL)
+            killed = []
+            killer = threading.Thread(target=kill, daemon=True)
+            killer.start()
+            made = kerrd.dask.film(document, pathlib.Path(folder, 'film.zip'), self.dask, state=state, binary=KERRD)
+            killer.join(10)
+            self.assertLess(killed[0], 200, 'it died before the end')
+            subprocess.run([KERRD, 'film', here, '-o', pathlib.Path(folder, 'one.zip'), '--state', alone], check=True, timeout=200)
+            with zipfile.ZipFile(made) as film, zipfile.ZipFile(pathlib.Path(folder, 'one.zip')) as one:
+                self.assertEqual(film.namelist(), [f'{k:06}.png' for k in range(200)])
+                self.assertEqual([name for name in one.namelist() if one.read(name) != film.read(name)], [])
+            self.assertEqual(pathlib.Path(made).read_bytes(), pathlib.Path(folder, 'one.zip').read_bytes())
+            with self.assertRaisesRegex(kerrd.KerrdError, 'of another request'):
+                kerrd.dask.film({**document, 'frames': 210}, pathlib.Path(folder, 'film.zip'), self.dask, state=state, binary=KERRD)
+
+    def test_7_bad_arguments(self):
         for words, wrong in (('batch is 0', {'batch': 0}), ('layers is', {'layers': 'rgb'}), ('binry is no option', {'binry': KERRD})):
             with self.assertRaisesRegex((ValueError, TypeError), words):
                 kerrd.sweep([SCENE], self.dask, **wrong)

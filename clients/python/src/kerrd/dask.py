@@ -28,6 +28,7 @@ from PIL import Image
 
 from .document import Document, SceneLike, scene_of, tile_of, windows
 from .errors import KerrdError, Problem
+from .film import film as film
 from .local import local
 
 class Servers(WorkerPlugin):
