@@ -157,7 +157,7 @@ done:
     return status;
 }
 
-int kd_cli_render(int argc, char **argv)
+const struct argp *kd_cli_render_argp(void)
 {
     static const struct argp argp = {
         .options = table,
@@ -168,10 +168,15 @@ int kd_cli_render(int argc, char **argv)
                "The picture carries its scene: --from renders it again.",
         .children = kd_scene_device_children,
     };
+    return &argp;
+}
+
+int kd_cli_render(int argc, char **argv)
+{
     struct arguments arguments = { 0 };
     struct kd_error error = { 0 };
 
-    argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+    argp_parse(kd_cli_render_argp(), argc, argv, 0, NULL, &arguments);
     enum kd_status status = run(&arguments, &error);
     kd_scene_options_finish(&arguments.scene);
     return kd_progress_exit(status, &error);
