@@ -11,6 +11,7 @@
  * *kd_cli_ID_argp(void), which may be called again and gives the same then. */
 #define KD_COMMANDS(X)                                                                                          \
     X("render", render, "a scene to a PNG file")                                                                \
+    X("view", view, "a scene, or a picture that is there, in the terminal")                                     \
     X("light-curve", light_curve, "flux and centroid of a scene as its time goes on")                           \
     X("sweep", sweep, "a scene for all values of some fields, as one array or many pictures")                   \
     X("particles", particles, "where the particles of a scene are, as an array")                                \

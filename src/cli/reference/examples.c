@@ -6,6 +6,9 @@ const struct kd_example kd_examples[] = {
     { "render", "kerrd render --preset gargantua --size 640x360 --set camera.roll_deg=20 -o tilted.png", "A scene that is known by name, with one field changed:" },
     { "render", "kerrd render --from hole.png --set disk.outer=30 --size 640x360 -o wide.png", "The scene inside a picture once more, with a wider disk:" },
     { "render", "kerrd render --size 320x180 --set image.layers=rgb,g,r -o maps.fits", "Redshift and radius of each pixel beside the picture:" },
+    { "view", "kerrd view --preset gargantua --size 640x360 --protocol sixel > picture.six", "A picture for a terminal that cannot be asked:" },
+    { "view", "kerrd view --from hole.png --protocol kitty > picture.kitty", "The same by the other protocol, of the scene inside a picture:" },
+    { "view", "kerrd view hole.png --protocol kitty > picture.kitty", "A picture that is there, and a line that tells its scene:" },
     { "light-curve", "kerrd light-curve --preset hot-spot --size 160x90 --frames 24 -o flare.csv", "Flux and centroid over one orbit of a hot spot:" },
     { "sweep", "kerrd sweep --size 160x90 -x spacetime.spin=0,0.9 -x camera.inclination_deg=30:70:20 -o sweep.fits", "Six scenes, two spins by three inclinations, as one array:" },
     { "particles", "kerrd particles --preset living-disk --count 1000 --fields x,y,z -o particles.npy", "Where a thousand particles are:" },
@@ -41,6 +44,7 @@ const struct kd_variable kd_variables[] = {
     { "HOME", NULL, "the folder of ~/.cache" },
     { "VK_DRIVER_FILES", NULL, "the drivers that Vulkan's loader looks at, instead of those that are installed" },
     { "LP_NUM_THREADS", "bench", "how many threads lavapipe has: its speeds are told per core" },
+    { "TMUX", "view", "where it is set, tmux stands before the terminal, and a refusal says so" },
     { "TMPDIR", "sweep serve", "the folder of temporary files; /tmp where it is not set" },
 };
 const size_t kd_n_variables = sizeof kd_variables / sizeof *kd_variables;
