@@ -10,35 +10,22 @@
 
 const char *argp_program_version = "kerrd " KD_VERSION;
 
-static const struct command {
-    const char *name;
-    int (*run)(int argc, char **argv);
-} commands[] = {
-    { "render", kd_cli_render },   { "light-curve", kd_cli_light_curve }, { "sweep", kd_cli_sweep }, { "film", kd_cli_film }, { "particles", kd_cli_particles },
-    { "rays", kd_cli_rays },       { "pixel", kd_cli_pixel },    { "orbit", kd_cli_orbit },
-    { "line", kd_cli_line }, { "transfer-function", kd_cli_transfer_function }, { "spectrum", kd_cli_spectrum }, { "visibility", kd_cli_visibility },
-    { "playground", kd_cli_playground },
-    { "physics", kd_cli_physics }, { "plan", kd_cli_plan },
-    { "scene", kd_cli_scene },     { "presets", kd_cli_presets }, { "serve", kd_cli_serve }, { "doctor", kd_cli_doctor },
-    { "bench", kd_cli_bench },
-};
-
 struct choice {
-    const struct command *command;
+    const struct kd_command *command;
     int index; /* of its name in argv */
     bool help; /* `kerrd help COMMAND` */
 };
 
-static const struct command *find(const char *name, struct argp_state *state)
+static const struct kd_command *find(const char *name, struct argp_state *state)
 {
     char known[300] = "";
     struct kd_slip_best meant = { 0 };
-    for (size_t i = 0; i < sizeof commands / sizeof *commands; i++) {
+    for (size_t i = 0; i < kd_n_commands; i++) {
         size_t used = strlen(known);
-        if (!strcmp(name, commands[i].name))
-            return &commands[i];
-        kd_slip_offer(&meant, name, commands[i].name);
-        snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "", commands[i].name);
+        if (!strcmp(name, kd_commands[i].name))
+            return &kd_commands[i];
+        kd_slip_offer(&meant, name, kd_commands[i].name);
+        snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "", kd_commands[i].name);
     }
     if (meant.name)
         argp_error(state, "there is no command \"%s\"; did you mean %s? Known are %s", name, meant.name, known);
@@ -73,39 +60,22 @@ static const struct argp_option options[] = {
     { 0 },
 };
 
-static const struct argp argp = {
-    .options = options,
-    .parser = parse,
-    .args_doc = "COMMAND [OPTION...]",
-    .doc = "Pictures of black holes: a Kerr renderer on a Vulkan device.\v"
-           "Commands (`kerrd help COMMAND` says more):\n"
-           "  render       a scene to a PNG file\n"
-           "  light-curve  flux and centroid of a scene as its time goes on\n"
-           "  sweep        a scene for all values of some fields, as one array or many pictures\n"
-           "  film         a scene that keyframes change, or a playground, as a film or numbered pictures\n"
-           "  particles    where the particles of a scene are, as an array\n"
-           "  rays         end points of listed rays: crossings, redshift, delay\n"
-           "  pixel        what one pixel of a picture shows: its ray, each emitter on it, why it ends\n"
-           "  orbit        path of a body round the hole, its constants and frequencies\n"
-           "  line         the profile of a line from a thin disk: photons by energy\n"
-           "  transfer-function  how rings of a thin disk are seen, by redshift\n"
-           "  spectrum     what a thin disk of black bodies, or a volume, sends, by frequency\n"
-           "  visibility   what an interferometer measures of a scene, by baseline\n"
-           "  playground   bodies round the hole that pull one another, merge, and are torn apart\n"
-           "  physics      numbers of a hole, an orbit, a disk: one point or a curve\n"
-           "  plan         what a scene costs on this device\n"
-           "  scene        the merged scene, every field named\n"
-           "  presets      the scenes known by name\n"
-           "  serve        the HTTP service\n"
-           "  doctor       what this machine can do and what it lacks\n"
-           "  bench        how fast and how exact each engine is on this device\n"
-           "\n"
-           "Exit codes: 0 done, 1 failed, 2 bad input or usage.",
-};
+/* The text of --help, which lists the commands; a few long names stand out. */
+static const char *help_text(void)
+{
+    static char text[4000];
+    size_t used = (size_t)snprintf(text, sizeof text, "%s", KD_CLI_ABOUT "\vCommands (`kerrd help COMMAND` says more):\n");
+    for (size_t i = 0; i < kd_n_commands && used < sizeof text; i++)
+        used += (size_t)snprintf(text + used, sizeof text - used, "  %-11s  %s\n", kd_commands[i].name, kd_commands[i].help);
+    if (used < sizeof text)
+        snprintf(text + used, sizeof text - used, "%s", "\nExit codes: " KD_CLI_EXIT_CODES ".");
+    return text;
+}
 
 int main(int argc, char **argv)
 {
     static char zero[] = "kerrd";
+    const struct argp argp = { .options = options, .parser = parse, .args_doc = "COMMAND [OPTION...]", .doc = help_text() };
     struct choice choice = { 0 };
     char name[32];
 

@@ -168,7 +168,7 @@ static char *command_of(int argc, char **argv)
     return (char *)text.data;
 }
 
-int kd_cli_bench(int argc, char **argv)
+const struct argp *kd_cli_bench_argp(void)
 {
     static const struct argp argp = {
         .options = options,
@@ -179,12 +179,17 @@ int kd_cli_bench(int argc, char **argv)
                "equatorial plane, speeds the device's own time. Without --quick it takes some minutes.",
         .children = kd_cli_device_children,
     };
+    return &argp;
+}
+
+int kd_cli_bench(int argc, char **argv)
+{
     struct arguments arguments = { 0 };
     struct kd_buffer said = { 0 };
     struct kd_error error = { 0 };
 
     char *command = command_of(argc, argv);
-    argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+    argp_parse(kd_cli_bench_argp(), argc, argv, 0, NULL, &arguments);
     arguments.params.command = command;
     enum kd_status status = bench(&arguments, &said, &error);
     free(command);

@@ -27,7 +27,7 @@ static error_t parse_log(int key, char *text, struct argp_state *state)
 }
 
 static const struct argp_option log_options[] = {
-    { "log-level", 'l', "LEVEL", 0, "error, warn (the default), info or debug", 1 },
+    { "log-level", 'l', "error|warn|info|debug", 0, "what is told on standard error (default: warn)", 1 },
     { NULL, 'h', NULL, OPTION_HIDDEN, NULL, 1 }, /* as --help, which argp itself gives -? */
     { 0 },
 };

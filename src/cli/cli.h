@@ -1,4 +1,4 @@
-/* The subcommands of kerrd share this. Main thread only.
+/* The subcommands of kerrd, which are listed in commands.h, share this. Main thread only.
  *
  * A subcommand gets its own arguments, argv[0] being "kerrd NAME", and returns an exit code. Usage errors
  * leave through argp with KD_EXIT_USAGE. */
@@ -6,32 +6,12 @@
 #define KD_CLI_CLI_H
 
 #include "base/error.h"
+#include "cli/commands.h"
 
 #include <argp.h>
 #include <stdint.h>
 
 enum { KD_EXIT_OK = 0, KD_EXIT_FAILURE = 1, KD_EXIT_USAGE = 2 };
-
-int kd_cli_render(int argc, char **argv);
-int kd_cli_light_curve(int argc, char **argv);
-int kd_cli_sweep(int argc, char **argv);
-int kd_cli_film(int argc, char **argv);
-int kd_cli_particles(int argc, char **argv);
-int kd_cli_rays(int argc, char **argv);
-int kd_cli_pixel(int argc, char **argv);
-int kd_cli_orbit(int argc, char **argv);
-int kd_cli_line(int argc, char **argv);
-int kd_cli_transfer_function(int argc, char **argv);
-int kd_cli_visibility(int argc, char **argv);
-int kd_cli_spectrum(int argc, char **argv);
-int kd_cli_playground(int argc, char **argv);
-int kd_cli_physics(int argc, char **argv);
-int kd_cli_plan(int argc, char **argv);
-int kd_cli_scene(int argc, char **argv);
-int kd_cli_presets(int argc, char **argv);
-int kd_cli_serve(int argc, char **argv);
-int kd_cli_doctor(int argc, char **argv);
-int kd_cli_bench(int argc, char **argv);
 
 /* Children for argp: --log-level (no input), and --device with a `const char *` as its input, which
  * starts as $KERRD_DEVICE or "auto". */

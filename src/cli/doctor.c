@@ -18,15 +18,16 @@
 
 struct arguments {
     const char *device;
-    bool selftest, json;
+    bool selftest, json, devices;
 };
 
-enum { KEY_SELFTEST = 0x100, KEY_JSON };
+enum { KEY_SELFTEST = 0x100, KEY_JSON, KEY_DEVICES };
 
 static const struct argp_option options[] = {
     { "selftest", KEY_SELFTEST, NULL, 0,
       "instead compute rays, orbits, radii and brightnesses that are known, and print each error beside its bound", 0 },
     { "json", KEY_JSON, NULL, 0, "the self-test's table as JSON", 0 },
+    { "devices", KEY_DEVICES, NULL, 0, "only list the devices: index, a tab, name, a line each", 0 },
     { 0 },
 };
 
@@ -37,10 +38,13 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case ARGP_KEY_INIT: state->child_inputs[0] = &arguments->device; return 0;
     case KEY_SELFTEST: arguments->selftest = true; return 0;
     case KEY_JSON: arguments->json = true; return 0;
+    case KEY_DEVICES: arguments->devices = true; return 0;
     case ARGP_KEY_ARG: argp_error(state, "%s: it takes no argument", text); return 0;
     case ARGP_KEY_END:
         if (arguments->json && !arguments->selftest)
             argp_error(state, "--json is for --selftest");
+        if (arguments->devices && arguments->selftest)
+            argp_error(state, "--devices excludes --selftest");
         return 0;
     }
     return ARGP_ERR_UNKNOWN;
@@ -83,6 +87,20 @@ static bool print_devices(struct kd_error *error)
         printf("devices: none\n");
     free(list);
     return usable;
+}
+
+/* For scripts, and for what completes --device in a shell. */
+static int list_devices(void)
+{
+    struct kd_vk_info *list = NULL;
+    struct kd_error error = { 0 };
+    size_t n = 0;
+    if (kd_vk_list(&list, &n, &error))
+        return kd_cli_fail(&error);
+    for (size_t i = 0; i < n; i++)
+        printf("%u\t%s\n", list[i].index, list[i].name);
+    free(list);
+    return kd_cli_print("", 0);
 }
 
 static enum kd_status print_choice(const char *device, struct kd_error *error)
@@ -212,7 +230,7 @@ static int selftest(const struct arguments *arguments)
     return failed ? KD_EXIT_FAILURE : code;
 }
 
-int kd_cli_doctor(int argc, char **argv)
+const struct argp *kd_cli_doctor_argp(void)
 {
     static const struct argp argp = {
         .options = options,
@@ -222,7 +240,12 @@ int kd_cli_doctor(int argc, char **argv)
                "takes a few seconds; docs/accuracy.md says what it compares with what.",
         .children = kd_cli_device_children,
     };
+    return &argp;
+}
+
+int kd_cli_doctor(int argc, char **argv)
+{
     struct arguments arguments = { 0 };
-    argp_parse(&argp, argc, argv, 0, NULL, &arguments);
-    return arguments.selftest ? selftest(&arguments) : examine(arguments.device);
+    argp_parse(kd_cli_doctor_argp(), argc, argv, 0, NULL, &arguments);
+    return arguments.devices ? list_devices() : arguments.selftest ? selftest(&arguments) : examine(arguments.device);
 }

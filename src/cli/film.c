@@ -372,7 +372,7 @@ done:
     return status;
 }
 
-int kd_cli_film(int argc, char **argv)
+const struct argp *kd_cli_film_argp(void)
 {
     static const struct argp argp = {
         .options = table,
@@ -384,10 +384,15 @@ int kd_cli_film(int argc, char **argv)
                "the same frames.",
         .children = kd_scene_device_children,
     };
+    return &argp;
+}
+
+int kd_cli_film(int argc, char **argv)
+{
     struct arguments arguments = { 0 };
     struct work work = { .arguments = &arguments, .frames = KD_FRAMES_NONE };
     struct kd_error error = { 0 };
-    argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+    argp_parse(kd_cli_film_argp(), argc, argv, 0, NULL, &arguments);
     work.kind = arguments.only ? NULL : kind_of(arguments.output);
     const enum kd_status status = run(&work, &error);
     kd_encoder_finish(&work.encoder);

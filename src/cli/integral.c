@@ -170,11 +170,12 @@ done:
 }
 
 /* --inclination-deg for inclination_deg. */
-static void set_options(enum kd_integral what, struct argp_option *options, char names[FIELDS_MAX][32], char helps[FIELDS_MAX][240])
+static void set_options(enum kd_integral what, struct argp_option *options, char names[FIELDS_MAX][32], char helps[FIELDS_MAX][240],
+                        char values[FIELDS_MAX][40])
 {
     size_t n = 0;
     options[n++] = (struct argp_option) { "output", 'o', "FILE", 0, "where to write; .csv and .npy choose those formats", 2 };
-    options[n++] = (struct argp_option) { "format", 'f', "FORMAT", 0, "json, csv or npy, whatever the name of the output", 2 };
+    options[n++] = (struct argp_option) { "format", 'f', "json|csv|npy", 0, "the format, whatever the name of the output", 2 };
     for (size_t i = 0; i < kd_n_integral_fields; i++) {
         const struct kd_integral_field *f = &kd_integral_fields[i];
         if (!(f->of & (1u << what | (what == KD_INTEGRAL_SPECTRUM ? 1u << KD_INTEGRAL_VOLUME : 0))))
@@ -184,32 +185,42 @@ static void set_options(enum kd_integral what, struct argp_option *options, char
             *c = '-';
         const bool word = f->kind == KD_INTEGRAL_REAL && f->words;
         snprintf(helps[i], sizeof helps[i], "%s%s%s%s%s%s", f->help, *f->unit ? " [" : "", f->unit, *f->unit ? "]" : "", word ? "; a number or " : "", word ? f->words : "");
-        const char *value = f->kind == KD_INTEGRAL_WORD ? f->words : f->kind == KD_INTEGRAL_NUMBERS ? "X,Y,..." : "X";
+        snprintf(values[i], sizeof values[i], "X|%s", word ? f->words : "");
+        const char *value = f->kind == KD_INTEGRAL_WORD ? f->words : f->kind == KD_INTEGRAL_NUMBERS ? "X,Y,..." : word ? values[i] : "X";
         options[n++] = (struct argp_option) { names[i], KEY_FIRST + (int)i, value, 0, helps[i], 1 };
     }
 }
 
-static int run(enum kd_integral what, int argc, char **argv)
+/* The options of one of them, and the texts that they point into. */
+struct table {
+    struct argp argp;
+    struct argp_option options[FIELDS_MAX + 3];
+    char names[FIELDS_MAX][32], helps[FIELDS_MAX][240], values[FIELDS_MAX][40], doc[400];
+};
+
+static const struct argp *make_argp(enum kd_integral what, struct table *table)
 {
     static const struct argp_child children[] = { { &kd_cli_log_argp, 0, NULL, 3 }, { 0 } };
-    static char names[FIELDS_MAX][32], helps[FIELDS_MAX][240];
-    struct argp_option options[FIELDS_MAX + 3] = { 0 };
-    char doc[400];
     const char *title = kd_integral_kind_of(what)->title;
-    struct arguments arguments = { .what = what };
-    struct kd_buffer out = { 0 };
-    struct kd_error error = { 0 };
-
-    set_options(what, options, names, helps);
-    snprintf(doc, sizeof doc,
+    set_options(what, table->options, table->names, table->helps, table->values);
+    snprintf(table->doc, sizeof table->doc,
              "%c%s.\vFILE is what POST /v1/%s takes; options change what it says, or say it all. docs/physics/integrals.md tells the formulas. %s",
              title[0] - 'a' + 'A', title + 1, kd_integral_name(what),
              what == KD_INTEGRAL_SPECTRUM ? "With a scene the spectrum is that of its volume; else no device is needed."
              : may_have_scene(what)       ? "The scene is the default one, or what FILE, --preset, --from and --set say."
                                           : "No device is needed.");
-    const struct argp argp = { .options = options, .parser = parse, .args_doc = "[FILE.json|-]", .doc = doc,
-                               .children = may_have_scene(what) ? kd_scene_device_children : children };
-    argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+    table->argp = (struct argp) { .options = table->options, .parser = parse, .args_doc = "[FILE.json|-]", .doc = table->doc,
+                                  .children = may_have_scene(what) ? kd_scene_device_children : children };
+    return &table->argp;
+}
+
+static int run(enum kd_integral what, const struct argp *argp, int argc, char **argv)
+{
+    struct arguments arguments = { .what = what };
+    struct kd_buffer out = { 0 };
+    struct kd_error error = { 0 };
+
+    argp_parse(argp, argc, argv, 0, NULL, &arguments);
     bool print = !arguments.output || !strcmp(arguments.output, "-");
     enum kd_status status = !print || format_of(&arguments) == KD_INTEGRAL_NPY ? kd_file_check(print ? "-" : arguments.output, &error) : KD_OK;
     if (!status)
@@ -222,7 +233,30 @@ static int run(enum kd_integral what, int argc, char **argv)
     return code;
 }
 
-int kd_cli_line(int argc, char **argv) { return run(KD_INTEGRAL_LINE, argc, argv); }
-int kd_cli_transfer_function(int argc, char **argv) { return run(KD_INTEGRAL_TRANSFER, argc, argv); }
-int kd_cli_visibility(int argc, char **argv) { return run(KD_INTEGRAL_VISIBILITY, argc, argv); }
-int kd_cli_spectrum(int argc, char **argv) { return run(KD_INTEGRAL_SPECTRUM, argc, argv); }
+const struct argp *kd_cli_line_argp(void)
+{
+    static struct table table;
+    return make_argp(KD_INTEGRAL_LINE, &table);
+}
+int kd_cli_line(int argc, char **argv) { return run(KD_INTEGRAL_LINE, kd_cli_line_argp(), argc, argv); }
+
+const struct argp *kd_cli_transfer_function_argp(void)
+{
+    static struct table table;
+    return make_argp(KD_INTEGRAL_TRANSFER, &table);
+}
+int kd_cli_transfer_function(int argc, char **argv) { return run(KD_INTEGRAL_TRANSFER, kd_cli_transfer_function_argp(), argc, argv); }
+
+const struct argp *kd_cli_visibility_argp(void)
+{
+    static struct table table;
+    return make_argp(KD_INTEGRAL_VISIBILITY, &table);
+}
+int kd_cli_visibility(int argc, char **argv) { return run(KD_INTEGRAL_VISIBILITY, kd_cli_visibility_argp(), argc, argv); }
+
+const struct argp *kd_cli_spectrum_argp(void)
+{
+    static struct table table;
+    return make_argp(KD_INTEGRAL_SPECTRUM, &table);
+}
+int kd_cli_spectrum(int argc, char **argv) { return run(KD_INTEGRAL_SPECTRUM, kd_cli_spectrum_argp(), argc, argv); }

@@ -23,7 +23,7 @@ static const struct argp_option table[] = {
     { "end", 'b', "T", 0, "time of the last one (default: one orbit of the first spot later)", 0 },
     { "frames", 'n', "N", 0, "how many, evenly spaced (default: 121)", 0 },
     { "output", 'o', "FILE", 0, "where to write; .csv chooses that format (default: - for standard output)", 0 },
-    { "format", 'f', "FORMAT", 0, "json or csv, whatever the name of the output", 0 },
+    { "format", 'f', "json|csv", 0, "the format, whatever the name of the output", 0 },
     { 0 },
 };
 
@@ -143,7 +143,7 @@ done:
     return status;
 }
 
-int kd_cli_light_curve(int argc, char **argv)
+const struct argp *kd_cli_light_curve_argp(void)
 {
     static const struct argp argp = {
         .options = table,
@@ -155,10 +155,15 @@ int kd_cli_light_curve(int argc, char **argv)
                "polarised fraction and the EVPA in radians are told as well, so that a spot's Q-U loop can be drawn. What lies outside the picture is not counted.",
         .children = kd_scene_device_children,
     };
+    return &argp;
+}
+
+int kd_cli_light_curve(int argc, char **argv)
+{
     struct arguments arguments = { .frames = 121, .output = "-" };
     struct kd_error error = { 0 };
 
-    argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+    argp_parse(kd_cli_light_curve_argp(), argc, argv, 0, NULL, &arguments);
     enum kd_status status = run(&arguments, &error);
     kd_scene_options_finish(&arguments.scene);
     return kd_progress_exit(status, &error);

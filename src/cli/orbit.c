@@ -15,7 +15,7 @@ enum { KEY_FIRST = 256 };
 static const struct {
     const char *name, *argument, *help;
 } fields[] = {
-    { "case", "NAME", "mercury, zoom-whirl, plunge, isco or spherical" },
+    { "case", "mercury|zoom-whirl|plunge|isco|spherical", "an orbit that is known by name" },
     { "spin", "A", "spin of the hole, above -1 and below 1" },
     { "p", "P", "a bound orbit between the radii P/(1+E) and P/(1-E)" },
     { "e", "E", "and its eccentricity, below 1" },
@@ -25,7 +25,7 @@ static const struct {
     { "carter", "Q", "Carter's constant, 0 (the default) in the equatorial plane" },
     { "theta_deg", "T", "an orbit by position and velocity: polar angle" },
     { "phi_deg", "F", "azimuth" },
-    { "frame", "NAME", "whose velocity it is: zamo (the default) or static" },
+    { "frame", "zamo|static", "whose velocity it is (zamo)" },
     { "v_r", "V", "components of the velocity, in units of that of light" },
     { "v_theta", "V", NULL },
     { "v_phi", "V", NULL },
@@ -37,14 +37,14 @@ static const struct {
     { "time", "T", "or coordinate time, in M" },
     { "samples", "N", "of the path, both ends counted (1000); 0 for none" },
     { "digits", "N", "significant digits of the series as text (17: all)" },
-    { "method", "NAME", "yoshida6 (the default), rkn6 or closed" },
+    { "method", "yoshida6|rkn6|closed", "how it is followed (yoshida6)" },
     { "steps", "N", "per radial period, instead of a tolerance" },
     { "tolerance", "X", "relative error after a period that chooses the step (1e-12)" },
     { "r_max", "R", "where what escapes is let go (100)" },
     { "observer_inclination_deg", "I", "where each sample is seen, by whom: inclination," },
-    { "observer_r", "R", "radius (infinity)," },
+    { "observer_r", "R|infinity", "radius (infinity)," },
     { "observer_azimuth_deg", "F", "azimuth (0)" },
-    { "observer", "NAME", "and state of motion: static (the default), zamo, keplerian, retrograde or infall" },
+    { "observer", "static|zamo|keplerian|retrograde|infall", "and state of motion (static)" },
     { "mass_msun", "M", "mass of the hole: frequencies in Hz, advance per century" },
 };
 #define N_FIELDS (sizeof fields / sizeof *fields)
@@ -209,7 +209,7 @@ static void set_options(struct argp_option *options, char names[N_FIELDS][32])
     options[0] =
         (struct argp_option) { "output", 'o', "FILE", 0, "where to write; .npy, .csv and .ndjson choose those formats", 0 };
     options[1] =
-        (struct argp_option) { "format", 'f', "FORMAT", 0, "json, ndjson, csv or npy, whatever the name of the output", 0 };
+        (struct argp_option) { "format", 'f', "json|ndjson|csv|npy", 0, "the format, whatever the name of the output", 0 };
     for (size_t i = 0; i < N_FIELDS; i++) {
         strncpy(names[i], fields[i].name, 31);
         for (char *c = names[i]; (c = strchr(c, '_'));)
@@ -218,12 +218,12 @@ static void set_options(struct argp_option *options, char names[N_FIELDS][32])
     }
 }
 
-int kd_cli_orbit(int argc, char **argv)
+const struct argp *kd_cli_orbit_argp(void)
 {
     static const struct argp_child children[] = { { &kd_cli_log_argp, 0, NULL, 0 }, { 0 } };
     static char names[N_FIELDS][32];
-    struct argp_option options[N_FIELDS + 3] = { 0 };
-    const struct argp argp = {
+    static struct argp_option options[N_FIELDS + 3];
+    static const struct argp argp = {
         .options = options,
         .parser = parse,
         .args_doc = "[FILE.json|-]",
@@ -234,11 +234,16 @@ int kd_cli_orbit(int argc, char **argv)
             "orbit --spin 0.9 --p 6 --e 0.5 --inclination-deg 30. No device is needed.",
         .children = children,
     };
+    set_options(options, names);
+    return &argp;
+}
+
+int kd_cli_orbit(int argc, char **argv)
+{
     struct arguments arguments = { 0 };
     struct kd_error error = { 0 };
 
-    set_options(options, names);
-    argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+    argp_parse(kd_cli_orbit_argp(), argc, argv, 0, NULL, &arguments);
     enum kd_status status = run(&arguments, &error);
     return kd_progress_exit(status, &error);
 }

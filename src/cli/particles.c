@@ -21,7 +21,7 @@ struct arguments {
 
 static const struct argp_option table[] = {
     { "output", 'o', "FILE.npy", 0, "where to write; - for standard output", 0 },
-    { "fields", KEY_FIELDS, "NAMES", 0, "columns, with commas between (default: x,y,z)", 0 },
+    { "fields", KEY_FIELDS, "COLUMN,...", 0, "columns, with commas between (default: x,y,z)", 0 },
     { "first", KEY_FIELDS + 1, "N", 0, "number of the first particle (default: 0)", 0 },
     { "stride", KEY_FIELDS + 2, "N", 0, "from one to the next (default: 1)", 0 },
     { "count", KEY_FIELDS + 3, "N", 0, "how many (default: as many as there are)", 0 },
@@ -113,7 +113,7 @@ done:
     return status;
 }
 
-int kd_cli_particles(int argc, char **argv)
+const struct argp *kd_cli_particles_argp(void)
 {
     static const struct argp argp = {
         .options = table,
@@ -124,10 +124,15 @@ int kd_cli_particles(int argc, char **argv)
                "they are.",
         .children = kd_scene_device_children,
     };
+    return &argp;
+}
+
+int kd_cli_particles(int argc, char **argv)
+{
     struct arguments arguments = { 0 };
     struct kd_error error = { 0 };
     struct source source = { 0 };
-    argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+    argp_parse(kd_cli_particles_argp(), argc, argv, 0, NULL, &arguments);
     source.status = prepare(&arguments, &source);
     enum kd_status status = source.status ? KD_OK : kd_file_stream(arguments.output, produce, &source, &error);
     if (source.status == KD_EDEVICE && source.renderer)

@@ -39,7 +39,8 @@ static error_t parse(int key, char *text, struct argp_state *state)
 /* The options of one quantity, and the texts that they point into. */
 struct options {
     struct argp_option table[KD_QUANTITY_PARAMETERS + 4];
-    char names[KD_QUANTITY_PARAMETERS][NAME_SIZE], helps[KD_QUANTITY_PARAMETERS][HELP_SIZE];
+    char names[KD_QUANTITY_PARAMETERS][NAME_SIZE], values[KD_QUANTITY_PARAMETERS][NAME_SIZE], helps[KD_QUANTITY_PARAMETERS][HELP_SIZE], doc[HELP_SIZE];
+    struct argp argp;
 };
 
 static void make_options(const struct kd_quantity *quantity, struct options *options)
@@ -47,18 +48,19 @@ static void make_options(const struct kd_quantity *quantity, struct options *opt
     size_t n = 0;
     for (; n < quantity->n_parameters; n++) {
         const struct kd_parameter *p = &quantity->parameters[n];
-        char *name = options->names[n], *help = options->helps[n], allowed[KD_ALLOWED_TEXT];
+        char *name = options->names[n], *help = options->helps[n], *value = options->values[n], allowed[KD_ALLOWED_TEXT];
         snprintf(name, NAME_SIZE, "%s", p->name);
         for (char *c = name; *c; c++)
             *c = *c == '_' ? '-' : *c;
         kd_parameter_allowed(p, allowed);
+        snprintf(value, NAME_SIZE, "VALUE%s%s", p->word ? "|" : "", p->word ? p->word : "");
         snprintf(help, HELP_SIZE, "%s; %s (default: %s)", p->help, allowed, p->initial);
-        options->table[n] = (struct argp_option) { name, KEY_PARAMETER + (int)n, p->words ? "WORD" : "VALUE", 0, help, 1 };
+        options->table[n] = (struct argp_option) { name, KEY_PARAMETER + (int)n, p->words ? p->words : value, 0, help, 1 };
     }
     options->table[n++] = (struct argp_option) {
         "output", 'o', "FILE", 0, "where to write; .csv and .wav choose that format (default: - for standard output)", 2
     };
-    options->table[n++] = (struct argp_option) { "format", 'f', "FORMAT", 0, "json, csv or wav, whatever the name of the output", 2 };
+    options->table[n++] = (struct argp_option) { "format", 'f', "json|csv|wav", 0, "the format, whatever the name of the output", 2 };
     options->table[n++] = (struct argp_option) { "digits", KEY_DIGITS, "N", 0, "significant digits of the numbers in lists, in CSV of all (default: 17, all)", 2 };
     options->table[n] = (struct argp_option) { 0 };
 }
@@ -88,22 +90,26 @@ done:
     return status;
 }
 
-static int run_quantity(const struct kd_quantity *quantity, int argc, char **argv)
+const struct argp *kd_cli_quantity_argp(const struct kd_quantity *quantity)
 {
     static const struct argp_child children[] = { { &kd_cli_log_argp, 0, NULL, 3 }, { 0 } };
-    struct options options;
-    char doc[HELP_SIZE];
+    static struct options options;
+    make_options(quantity, &options);
+    snprintf(options.doc, sizeof options.doc,
+             "%c%s.\vA VALUE is a number or a range, first:last:count. What each number of the answer means is in "
+             "docs/physics-quantities.md and in GET /v1/physics.",
+             quantity->summary[0] - 'a' + 'A', quantity->summary + 1);
+    options.argp = (struct argp) { .options = options.table, .parser = parse, .doc = options.doc, .children = children };
+    return &options.argp;
+}
+
+static int run_quantity(const struct kd_quantity *quantity, int argc, char **argv)
+{
     struct arguments arguments = { .quantity = quantity };
     struct kd_buffer out = { 0 };
     struct kd_error error = { 0 };
 
-    make_options(quantity, &options);
-    snprintf(doc, sizeof doc,
-             "%c%s.\vA VALUE is a number or a range, first:last:count. What each number of the answer means is in "
-             "docs/physics-quantities.md and in GET /v1/physics.",
-             quantity->summary[0] - 'a' + 'A', quantity->summary + 1);
-    const struct argp argp = { .options = options.table, .parser = parse, .doc = doc, .children = children };
-    argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+    argp_parse(kd_cli_quantity_argp(quantity), argc, argv, 0, NULL, &arguments);
     enum kd_status status = answer_text(&arguments, &out, &error);
     bool print = !arguments.output || !strcmp(arguments.output, "-");
     if (!status && !print)
@@ -133,19 +139,24 @@ static error_t parse_name(int key, char *text, struct argp_state *state)
     return ARGP_ERR_UNKNOWN;
 }
 
-int kd_cli_physics(int argc, char **argv)
+const struct argp *kd_cli_physics_argp(void)
 {
     static const struct argp_child children[] = { { &kd_cli_log_argp, 0, NULL, 0 }, { 0 } };
     static const struct argp argp = {
         .parser = parse_name,
-        .args_doc = "[NAME [OPTION...]]",
+        .args_doc = "[QUANTITY [OPTION...]]",
         .doc = "Numbers of a hole, an orbit, a disk as JSON or CSV, at a point or along a range of a parameter.\v"
-               "Without a NAME, list the quantities; `kerrd physics NAME --help` lists the parameters of one.",
+               "Without a QUANTITY, list them; `kerrd physics QUANTITY --help` lists the parameters of one.",
         .children = children,
     };
+    return &argp;
+}
+
+int kd_cli_physics(int argc, char **argv)
+{
     int index = 0;
     char name[64];
-    argp_parse(&argp, argc, argv, ARGP_IN_ORDER, NULL, &index);
+    argp_parse(kd_cli_physics_argp(), argc, argv, ARGP_IN_ORDER, NULL, &index);
     if (!index) {
         for (size_t i = 0; i < kd_quantity_count; i++)
             printf("%-16s %s\n", kd_quantities[i]->name, kd_quantities[i]->summary);

@@ -20,7 +20,7 @@ static const struct argp_option table[] = {
     { "at", KEY_AT, "X,Y", 0, "the pixel: a place in the picture, in pixels from its upper left corner (required)", 0 },
     { "trace", KEY_TRACE, 0, 0, "tell the engine's own steps along the ray, too (in JSON)", 0 },
     { "output", 'o', "FILE", 0, "where to write; a name that ends in .json chooses that format (default: - for standard output)", 0 },
-    { "format", 'f', "FORMAT", 0, "text or json, whatever the name of the output", 0 },
+    { "format", 'f', "text|json", 0, "the format, whatever the name of the output", 0 },
     KD_CLI_MEMORY,
     { 0 },
 };
@@ -105,7 +105,7 @@ done:
     return status;
 }
 
-int kd_cli_pixel(int argc, char **argv)
+const struct argp *kd_cli_pixel_argp(void)
 {
     static const struct argp argp = {
         .options = table,
@@ -115,10 +115,15 @@ int kd_cli_pixel(int argc, char **argv)
                "why.\vThe scene is merged as for render.",
         .children = kd_scene_device_children,
     };
+    return &argp;
+}
+
+int kd_cli_pixel(int argc, char **argv)
+{
     struct arguments arguments = { 0 };
     struct kd_error error = { 0 };
 
-    argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+    argp_parse(kd_cli_pixel_argp(), argc, argv, 0, NULL, &arguments);
     enum kd_status status = run(&arguments, &error);
     kd_scene_options_finish(&arguments.scene);
     return kd_progress_exit(status, &error);

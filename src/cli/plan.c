@@ -74,7 +74,7 @@ done:
     return status;
 }
 
-int kd_cli_plan(int argc, char **argv)
+const struct argp *kd_cli_plan_argp(void)
 {
     static const struct argp argp = {
         .options = table,
@@ -83,11 +83,16 @@ int kd_cli_plan(int argc, char **argv)
         .doc = "Print what rendering a scene takes: passes, rays, bytes, estimated time, approximations.",
         .children = kd_scene_device_children,
     };
+    return &argp;
+}
+
+int kd_cli_plan(int argc, char **argv)
+{
     struct arguments arguments = { 0 };
     struct kd_buffer out = { 0 };
     struct kd_error error = { 0 };
 
-    argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+    argp_parse(kd_cli_plan_argp(), argc, argv, 0, NULL, &arguments);
     enum kd_status status = plan_scene(&arguments, &out, &error);
     kd_scene_options_finish(&arguments.scene);
     free(arguments.axes);

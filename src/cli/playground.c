@@ -23,8 +23,8 @@ struct arguments {
 };
 
 static const struct argp_option table[] = {
-    { "preset", 'p', "NAME", 0, "begin with this one; --list names them", 0 },
-    { "set", KEY_SET, "NAME=VALUE", 0, "a setting, such as waves=true", 0 },
+    { "preset", 'p', "PLAYGROUND", 0, "begin with this one; --list names them", 0 },
+    { "set", KEY_SET, "SETTING=VALUE", 0, "a setting, such as waves=true", 0 },
     { "time", KEY_TIME, "M", 0, "how long (default: 0, which only writes the begin)", 0 },
     { "output", 'o', "FILE.json", 0, "where the snapshot goes, which can be gone on from (default: standard output, unless there are pictures)", 0 },
     { "series", KEY_SERIES, "FILE", 0, "energy, angular momentum, separation and strain over time, as .csv or .npy", 0 },
@@ -34,7 +34,7 @@ static const struct argp_option table[] = {
     { "picture", KEY_PICTURE, "FILE", 0, "a lensed picture of it at the end, by its end a PNG, FITS, EXR, NPZ or NPY; with --every a name with %d in it, as film/%05d.png", 1 },
     { "every", KEY_EVERY, "M", 0, "pictures from the begin on, so far apart", 1 },
     { "scene", KEY_SCENE, "SCENE.json", 0, "camera, disk, sky and all else of the pictures (default: a view of the preset, or of all bodies)", 1 },
-    { "scene-preset", KEY_SCENE_PRESET, "NAME", 0, "the same from a preset of scenes (`kerrd presets` lists them)", 1 },
+    { "scene-preset", KEY_SCENE_PRESET, "PRESET", 0, "the same from a preset of scenes (`kerrd presets` lists them)", 1 },
     { "scene-set", KEY_SCENE_SET, "PATH=VALUE", 0, "set one field of that scene, as in camera.inclination_deg=60; may be repeated", 1 },
     { "size", KEY_SIZE, "WIDTHxHEIGHT", 0, "of the pictures, as in 1920x1080", 1 },
     { "stats", 't', NULL, 0, "print how many pictures there are and how long they took, as one line of JSON on standard error", 1 },
@@ -76,7 +76,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case KEY_LIST: a->list = true; return 0;
     case KEY_SET:
         if (a->n_sets == SETS_MAX || !strchr(text, '='))
-            argp_error(state, "--set takes NAME=VALUE, at most %d times", SETS_MAX);
+            argp_error(state, "--set takes SETTING=VALUE, at most %d times", SETS_MAX);
         a->sets[a->n_sets++] = text;
         return 0;
     case KEY_TIME:
@@ -257,7 +257,7 @@ done:
     return status;
 }
 
-int kd_cli_playground(int argc, char **argv)
+const struct argp *kd_cli_playground_argp(void)
 {
     static const struct argp argp = {
         .options = table,
@@ -267,9 +267,14 @@ int kd_cli_playground(int argc, char **argv)
                "The document is one that was asked for or written as a snapshot. Without one, and without --preset, there are no bodies.",
         .children = kd_cli_device_children,
     };
+    return &argp;
+}
+
+int kd_cli_playground(int argc, char **argv)
+{
     struct arguments arguments = { 0 };
     struct kd_error error = { 0 };
-    argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+    argp_parse(kd_cli_playground_argp(), argc, argv, 0, NULL, &arguments);
     for (size_t i = 0; arguments.list && i < kd_playground_n_presets; i++)
         printf("%-14s %s\n", kd_playground_presets[i].name, kd_playground_presets[i].title);
     if (arguments.list)

@@ -28,18 +28,18 @@ struct arguments {
 
 static const struct argp_option table[] = {
     { "output", 'o', "FILE", 0, "where to write; .npy and .csv choose those formats (default: - for standard output)", 0 },
-    { "format", 'f', "FORMAT", 0, "json, npy or csv, whatever the name of the output; text with --trace", 0 },
+    { "format", 'f', "json|npy|csv|text", 0, "the format, whatever the name of the output; text goes with --trace", 0 },
     { "ray", 'r', "ALPHA,BETA", 0, "one more ray, in M; may be repeated", 0 },
     { "spin", KEY_SPIN, "A", 0, "spin of the hole, above -1 and below 1", 0 },
-    { "r", KEY_R, "R", 0, "radius of the observer in M, or infinity", 0 },
+    { "r", KEY_R, "R|infinity", 0, "radius of the observer in M", 0 },
     { "inclination-deg", KEY_INCLINATION, "I", 0, "polar angle of the observer", 0 },
     { "orders", KEY_ORDERS, "N", 0, "crossings wanted, 1 to 16", 0 },
-    { "profile", KEY_PROFILE, "NAME", 0, "draft, interactive, balanced, high or reference", 0 },
+    { "profile", KEY_PROFILE, "draft|interactive|balanced|high|reference", 0, "how exactly, in a word", 0 },
     { "tolerance", KEY_TOLERANCE, "T", 0, "relative error of the radii to be held: the fastest engine that does, by this device's table", 0 },
-    { "engine", KEY_ENGINE, "E", 0, "closed (the default), mino-rkn4, mino-rkn6, ks-euler, ks-rk4, ks-tao6, or auto", 0 },
-    { "precision", KEY_PRECISION, "P", 0, "f64 (the default), f32 or auto", 0 },
+    { "engine", KEY_ENGINE, "closed|mino-rkn4|mino-rkn6|ks-euler|ks-rk4|ks-tao6|auto", 0, "how rays are followed (default: closed)", 0 },
+    { "precision", KEY_PRECISION, "f64|f32|auto", 0, "of its numbers (default: f64)", 0 },
     { "steps", KEY_STEPS, "N", 0, "steps a half period, a multiple of 4; 0 for the engine's default", 0 },
-    { "trace", KEY_TRACE, "WHAT", OPTION_ARG_OPTIONAL,
+    { "trace", KEY_TRACE, "steps|path", OPTION_ARG_OPTIONAL,
       "one ray: the case of its roots, why it ends, and its steps as the device takes them, or with --trace=path the points of its path "
       "(engine: mino-rkn6 unless one is named)", 0 },
     { 0 },
@@ -252,7 +252,7 @@ done:
     return status;
 }
 
-int kd_cli_rays(int argc, char **argv)
+const struct argp *kd_cli_rays_argp(void)
 {
     static const struct argp argp = {
         .options = table,
@@ -264,10 +264,15 @@ int kd_cli_rays(int argc, char **argv)
                "change what it says, and --ray adds to it. The closed engine needs no device.",
         .children = kd_cli_device_children,
     };
+    return &argp;
+}
+
+int kd_cli_rays(int argc, char **argv)
+{
     struct arguments arguments = { 0 };
     struct kd_error error = { 0 };
 
-    argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+    argp_parse(kd_cli_rays_argp(), argc, argv, 0, NULL, &arguments);
     enum kd_status status = (arguments.trace ? run_trace : run)(&arguments, &error);
     kd_rays_request_finish(&arguments.more);
     return kd_progress_exit(status, &error);

@@ -1,5 +1,6 @@
 /* kerrd render makes a picture file of a scene. */
 #include "cli/cli.h"
+#include "cli/draw.h"
 #include "cli/file.h"
 #include "cli/progress.h"
 #include "cli/scene_options.h"
@@ -86,25 +87,6 @@ struct work {
     double render_ms, encode_ms;
 };
 
-static enum kd_status draw(struct work *work, const struct kd_format *format, struct kd_scene *scene, struct kd_error *error)
-{
-    struct kd_capacity capacity;
-    kd_renderer_capacity(work->renderer, &capacity);
-    enum kd_status status = kd_format_plan(format, scene, &capacity, &work->plan, error);
-    if (status)
-        return status;
-    struct kd_progress progress;
-    kd_progress_init(&progress);
-    kd_progress_catch_signals();
-    status =
-        kd_render(work->renderer, scene, &work->plan, kd_progress_update, &progress, &work->frame, error);
-    kd_progress_finish(&progress);
-    work->render_ms = 1e3 * (kd_progress_clock() - progress.started);
-    if (status == KD_EDEVICE)
-        kd_cli_device_lost(error);
-    return status;
-}
-
 static enum kd_status save(struct work *work, const struct kd_scene *scene, const struct arguments *arguments, struct kd_error *error)
 {
     double started = kd_progress_clock();
@@ -146,7 +128,7 @@ static enum kd_status run(struct arguments *arguments, struct kd_error *error)
     const struct kd_assets assets = kd_asset_options_assets(&arguments->scene.assets);
     KD_TRY(kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device, .memory_bytes = arguments->memory, .assets = &assets },
                               &work.renderer, error));
-    KD_TRY(draw(&work, arguments->format, &scene, error));
+    KD_TRY(kd_cli_draw(work.renderer, arguments->format, &scene, &work.plan, &work.frame, &work.render_ms, error));
     KD_TRY(save(&work, &scene, arguments, error));
     if (arguments->stats)
         KD_TRY(print_stats(&work, &scene, error));
@@ -157,7 +139,7 @@ done:
     return status;
 }
 
-int kd_cli_render(int argc, char **argv)
+const struct argp *kd_cli_render_argp(void)
 {
     static const struct argp argp = {
         .options = table,
@@ -168,10 +150,15 @@ int kd_cli_render(int argc, char **argv)
                "The picture carries its scene: --from renders it again.",
         .children = kd_scene_device_children,
     };
+    return &argp;
+}
+
+int kd_cli_render(int argc, char **argv)
+{
     struct arguments arguments = { 0 };
     struct kd_error error = { 0 };
 
-    argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+    argp_parse(kd_cli_render_argp(), argc, argv, 0, NULL, &arguments);
     enum kd_status status = run(&arguments, &error);
     kd_scene_options_finish(&arguments.scene);
     return kd_progress_exit(status, &error);

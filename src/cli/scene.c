@@ -35,7 +35,7 @@ static enum kd_status print_scene(const struct kd_scene *scene, bool hash, struc
     return status ? status : kd_buffer_printf(out, "%s", digits);
 }
 
-int kd_cli_scene(int argc, char **argv)
+const struct argp *kd_cli_scene_argp(void)
 {
     static const struct argp_child children[] = { { &kd_scene_options_argp, 0, NULL, 0 },
                                                   { &kd_cli_log_argp, 0, NULL, 0 },
@@ -47,12 +47,17 @@ int kd_cli_scene(int argc, char **argv)
         .doc = "Print the merged scene in canonical form, every field named.",
         .children = children,
     };
+    return &argp;
+}
+
+int kd_cli_scene(int argc, char **argv)
+{
     struct arguments arguments = { 0 };
     struct kd_scene scene;
     struct kd_buffer out = { 0 };
     struct kd_error error = { 0 };
 
-    argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+    argp_parse(kd_cli_scene_argp(), argc, argv, 0, NULL, &arguments);
     enum kd_status status = kd_scene_options_load(&arguments.scene, &scene, &error);
     kd_scene_options_finish(&arguments.scene);
     if (status)
@@ -75,7 +80,7 @@ static error_t parse_presets(int key, char *text, struct argp_state *state)
     return 0;
 }
 
-int kd_cli_presets(int argc, char **argv)
+const struct argp *kd_cli_presets_argp(void)
 {
     static const struct argp_child children[] = { { &kd_cli_log_argp, 0, NULL, 0 }, { 0 } };
     static const struct argp argp = {
@@ -83,7 +88,12 @@ int kd_cli_presets(int argc, char **argv)
         .doc = "List the scenes that kerrd knows by name.",
         .children = children,
     };
-    argp_parse(&argp, argc, argv, 0, NULL, NULL);
+    return &argp;
+}
+
+int kd_cli_presets(int argc, char **argv)
+{
+    argp_parse(kd_cli_presets_argp(), argc, argv, 0, NULL, NULL);
     struct kd_buffer out = { 0 }; /* whole, so that what goes wrong in writing it is told as it is */
     enum kd_status status = KD_OK;
     for (size_t i = 0; i < kd_scene_preset_count() && !status; i++)

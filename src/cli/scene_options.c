@@ -14,7 +14,7 @@
 enum { KEY_PRESET = 'p', KEY_SET = 's', KEY_FROM = 'f', KEY_SIZE = 0x2000, KEY_ASSET, KEY_TILE };
 
 static const struct argp_option options_table[] = {
-    { "preset", KEY_PRESET, "NAME", 0, "start from a preset (`kerrd presets` lists them)", 0 },
+    { "preset", KEY_PRESET, "PRESET", 0, "start from a preset (`kerrd presets` lists them)", 0 },
     { "set", KEY_SET, "PATH=VALUE", 0, "set one field, as in camera.inclination_deg=60; may be repeated", 0 },
     { "size", KEY_SIZE, "WIDTHxHEIGHT", 0, "of the picture, as in 1920x1080: --set image.width and image.height in one", 0 },
     { "tile", KEY_TILE, "WIDTHxHEIGHT+LEFT+TOP", 0, "a part of it, as in 512x512+1024+0: --set image.tile.width and three more in one", 0 },

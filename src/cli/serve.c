@@ -182,7 +182,7 @@ static enum kd_status serve(const struct arguments *arguments, struct kd_error *
     return status;
 }
 
-int kd_cli_serve(int argc, char **argv)
+const struct argp *kd_cli_serve_argp(void)
 {
     static const struct argp argp = {
         .options = table,
@@ -193,10 +193,15 @@ int kd_cli_serve(int argc, char **argv)
             "is 0. It is 1 when the device was lost: start it again.",
         .children = kd_cli_device_children,
     };
+    return &argp;
+}
+
+int kd_cli_serve(int argc, char **argv)
+{
     struct arguments arguments = { .listen = "127.0.0.1", .base_path = getenv("KERRD_BASE_PATH"), .port = 8080, .queue = 16, .sessions = 16, .jobs = 16 };
     struct kd_error error = { 0 };
 
-    argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+    argp_parse(kd_cli_serve_argp(), argc, argv, 0, NULL, &arguments);
     enum kd_status status = serve(&arguments, &error);
     free(arguments.hosts);
     return status ? kd_cli_fail(&error) : KD_EXIT_OK;

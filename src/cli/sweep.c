@@ -257,7 +257,7 @@ done:
     return status;
 }
 
-int kd_cli_sweep(int argc, char **argv)
+const struct argp *kd_cli_sweep_argp(void)
 {
     static const struct argp argp = {
         .options = table,
@@ -268,10 +268,15 @@ int kd_cli_sweep(int argc, char **argv)
                "other, whatever the order of the axes. A job of a server makes the same file.",
         .children = kd_scene_device_children,
     };
+    return &argp;
+}
+
+int kd_cli_sweep(int argc, char **argv)
+{
     struct arguments arguments = { 0 };
     struct kd_error error = { 0 };
 
-    argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+    argp_parse(kd_cli_sweep_argp(), argc, argv, 0, NULL, &arguments);
     enum kd_status status = run(&arguments, &error);
     kd_scene_options_finish(&arguments.scene);
     free(arguments.axes);

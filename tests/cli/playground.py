@@ -8,7 +8,7 @@ from support import Case, main, run
 
 class Playground(Case):
     def test_usage(self):
-        for words, *arguments in [(b"NAME=VALUE", "--set", "waves"), (b"--time is -1", "--time", "-1"),
+        for words, *arguments in [(b"SETTING=VALUE", "--set", "waves"), (b"--time is -1", "--time", "-1"),
                                   (b"names its preset itself", "-p", "emri", "a.json")]:
             done = run("playground", *arguments)
             self.assertEqual((done.returncode, done.stdout), (2, b""))

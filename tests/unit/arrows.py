@@ -43,6 +43,7 @@ FOREIGN = {
     "zlib.h": {"image"},
     "nettle/": {"scene", "playground"},
     "argp.h": {"cli"},
+    "sixel.h": {"cli"},
 }
 # Made from shaders/, which has no other way to be included.
 SHADERS = re.compile(r"^(\w+\.spv\.h|(interface|emitters|faces|layers|lens|spec)\.h)$")

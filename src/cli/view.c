@@ -1,0 +1,193 @@
+/* kerrd view shows a scene, or a picture that is there, in the terminal. */
+#include "cli/cli.h"
+#include "cli/draw.h"
+#include "cli/file.h"
+#include "cli/progress.h"
+#include "cli/scene_line.h"
+#include "cli/scene_options.h"
+#include "cli/show.h"
+#include "cli/terminal.h"
+#include "image/png.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define PICTURE_MAX ((size_t)1 << 30)
+
+enum { KEY_PROTOCOL = 256, KEY_ENLARGE };
+enum protocol { ASKED, KITTY, SIXEL };
+
+struct arguments {
+    struct kd_scene_options scene;
+    const char *device;
+    uint64_t memory;
+    enum protocol protocol;
+    bool enlarge;
+};
+
+static const struct argp_option table[] = {
+    { "protocol", KEY_PROTOCOL, "kitty|sixel", 0, "how the picture is sent, also where standard output is no terminal (default: as the terminal answers)", 0 },
+    { "enlarge", KEY_ENLARGE, NULL, 0, "fill the terminal also with a picture that is smaller", 0 },
+    KD_CLI_MEMORY,
+    { 0 },
+};
+
+static error_t parse(int key, char *text, struct argp_state *state)
+{
+    struct arguments *arguments = state->input;
+    switch (key) {
+    case ARGP_KEY_INIT:
+        state->child_inputs[0] = &arguments->scene;
+        state->child_inputs[1] = &arguments->device;
+        return 0;
+    case KEY_PROTOCOL:
+        if (strcmp(text, "kitty") && strcmp(text, "sixel"))
+            argp_error(state, "--protocol %s: kitty or sixel", text);
+        arguments->protocol = *text == 'k' ? KITTY : SIXEL;
+        return 0;
+    case KEY_ENLARGE: arguments->enlarge = true; return 0;
+    case 'M': arguments->memory = kd_cli_bytes(state, "--memory", text); return 0;
+    }
+    return ARGP_ERR_UNKNOWN;
+}
+
+/* Decides how the picture is sent. */
+static enum kd_status choose(const struct arguments *arguments, const struct kd_terminal *terminal, enum protocol *out, struct kd_error *error)
+{
+    static const char remedy[] = "`kerrd render -o FILE.png` writes the picture to a file, and --protocol kitty or --protocol sixel sends it all the same";
+    *out = arguments->protocol ? arguments->protocol : terminal->kitty ? KITTY : SIXEL;
+    if (arguments->protocol || terminal->kitty || terminal->sixel)
+        return KD_OK;
+    if (!terminal->is)
+        return kd_error_set(error, KD_EIO, "standard output is no terminal that could show a picture: %s", remedy);
+    return kd_error_set(error, KD_EIO, "this terminal can show no picture, neither by kitty's graphics nor as sixel%s: %s",
+                        getenv("TMUX") ? ", or tmux, which stands before it, cannot" : "", remedy);
+}
+
+/* Reads the document if it is a picture that kerrd made; *picture stays empty for anything else, which the scene's own options read. */
+static enum kd_status look(const struct arguments *arguments, struct kd_buffer *picture, struct kd_scene *scene, struct kd_error *error)
+{
+    const struct kd_scene_options *options = &arguments->scene;
+    enum kd_status status;
+    if (!options->document || !strcmp(options->document, "-"))
+        return KD_OK;
+    KD_TRY(kd_file_read(options->document, PICTURE_MAX, picture, error));
+    if (!picture->size || kd_format_of_bytes(picture->data, picture->size) != &kd_format_png) {
+        kd_buffer_finish(picture);
+        return KD_OK;
+    }
+    if (options->preset || options->n_set || options->assets.n)
+        KD_TRY(kd_error_set(error, KD_EINVAL, "%s is a picture, which is shown as it is: to change its scene, give it by --from", options->document));
+    status = kd_format_scene(picture->data, picture->size, scene, error);
+    if (status)
+        kd_cli_prefix(error, options->document);
+done:
+    return status;
+}
+
+static enum kd_status show(const struct kd_buffer *png, enum protocol protocol, const struct kd_terminal *terminal, uint32_t lines, bool enlarge,
+                           struct kd_buffer *out, struct kd_error *error)
+{
+    struct kd_png_about about;
+    enum kd_status status;
+    KD_TRY(kd_png_look(png->data, png->size, &about, error));
+    uint32_t width = about.width, height = about.height, columns = 0;
+    kd_terminal_fit(terminal, lines, enlarge, &width, &height);
+    if (width != about.width && terminal->columns)
+        columns = (uint32_t)((uint64_t)width * terminal->columns / terminal->width);
+    KD_TRY(protocol == KITTY ? kd_show_kitty(png, columns, out, error) : kd_show_sixel(png, width, height, out, error));
+    if (kd_buffer_printf(out, "\n"))
+        KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory for the picture"));
+done:
+    return status;
+}
+
+/* The picture as it is, and a line that tells its scene. */
+static enum kd_status show_picture(const struct arguments *arguments, const struct kd_buffer *png, const struct kd_scene *scene, struct kd_buffer *out,
+                                   struct kd_error *error)
+{
+    const struct kd_terminal terminal = kd_terminal_ask();
+    enum protocol protocol;
+    enum kd_status status;
+    KD_TRY(choose(arguments, &terminal, &protocol, error));
+    KD_TRY(show(png, protocol, &terminal, 2, arguments->enlarge, out, error));
+    if (kd_buffer_printf(out, "%s, %d x %d: ", arguments->scene.document, scene->image.width, scene->image.height) || kd_scene_line(scene, out) ||
+        kd_buffer_printf(out, "\n"))
+        KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory for the scene"));
+done:
+    return status;
+}
+
+/* Renders the scene at the size that fits. */
+static enum kd_status show_scene(struct arguments *arguments, struct kd_scene *scene, struct kd_buffer *out, struct kd_error *error)
+{
+    const struct kd_assets assets = kd_asset_options_assets(&arguments->scene.assets);
+    const struct kd_terminal terminal = kd_terminal_ask();
+    struct kd_renderer *renderer = NULL;
+    struct kd_plan plan;
+    struct kd_frame frame = { 0 };
+    struct kd_buffer png = { 0 };
+    enum protocol protocol;
+    enum kd_status status;
+    double ms;
+    KD_TRY(choose(arguments, &terminal, &protocol, error));
+    uint32_t width = (uint32_t)scene->image.width, height = (uint32_t)scene->image.height;
+    kd_terminal_fit(&terminal, 1, arguments->enlarge, &width, &height);
+    scene->image.width = (int32_t)width;
+    scene->image.height = (int32_t)height;
+    KD_TRY(kd_scene_validate(scene, error));
+    KD_TRY(kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device, .memory_bytes = arguments->memory, .assets = &assets },
+                              &renderer, error));
+    KD_TRY(kd_cli_draw(renderer, &kd_format_png, scene, &plan, &frame, &ms, error));
+    KD_TRY(kd_encode(&kd_format_png, &(struct kd_picture) { &frame, scene, &plan, kd_renderer_device_name(renderer), 0 }, KD_EFFORT_KEEP, NULL, &png, error));
+    KD_TRY(show(&png, protocol, &terminal, 1, false, out, error));
+done:
+    kd_buffer_finish(&png);
+    kd_frame_finish(&frame);
+    kd_renderer_destroy(renderer);
+    return status;
+}
+
+static enum kd_status run(struct arguments *arguments, struct kd_buffer *out, struct kd_error *error)
+{
+    struct kd_scene scene;
+    struct kd_buffer picture = { 0 };
+    enum kd_status status;
+    kd_scene_defaults(&scene);
+    KD_TRY(look(arguments, &picture, &scene, error));
+    if (!picture.size)
+        KD_TRY(kd_scene_options_load(&arguments->scene, &scene, error));
+    KD_TRY(picture.size ? show_picture(arguments, &picture, &scene, out, error) : show_scene(arguments, &scene, out, error));
+done:
+    kd_buffer_finish(&picture);
+    return status;
+}
+
+const struct argp *kd_cli_view_argp(void)
+{
+    static const struct argp argp = {
+        .options = table,
+        .parser = parse,
+        .args_doc = "[SCENE.json|PICTURE.png|-]",
+        .doc = "Show a scene in the terminal, rendered at a size that fits; or a picture that kerrd has made, and its scene in one line.\v"
+               "The terminal is asked whether it has kitty's graphics or sixel. One that has neither cannot show a picture: `kerrd render -o FILE.png` writes "
+               "a file instead. tmux and screen stand before the terminal: kitty's graphics do not pass them, and sixel only where they know it. "
+               "A picture is never larger than its scene says, unless --enlarge is given. The scene is merged as for `kerrd render`.",
+        .children = kd_scene_device_children,
+    };
+    return &argp;
+}
+
+int kd_cli_view(int argc, char **argv)
+{
+    struct arguments arguments = { 0 };
+    struct kd_buffer out = { 0 };
+    struct kd_error error = { 0 };
+
+    argp_parse(kd_cli_view_argp(), argc, argv, 0, NULL, &arguments);
+    enum kd_status status = run(&arguments, &out, &error);
+    kd_scene_options_finish(&arguments.scene);
+    int code = status ? kd_progress_exit(status, &error) : kd_cli_print(out.data, out.size);
+    kd_buffer_finish(&out);
+    return code;
+}
