@@ -234,7 +234,7 @@ static void add_tick(struct kd_json *json)
 
 void kd_openapi_playground_schemas(struct kd_json *json)
 {
-    _Static_assert(KD_PLAYGROUND_BODIES_MAX == 4096, "BODIES says so");
+    _Static_assert(KD_PLAYGROUND_BODIES_MAX == 4096 && KD_PLAYGROUND_NAME == 32, "BODIES and the length of a name say so");
     add_body(json, "PlaygroundBody", false);
     add_body(json, "PlaygroundBodyChange", true);
     add_document(json, "Playground", false);
