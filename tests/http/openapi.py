@@ -15,12 +15,7 @@ OpenAPIV31SpecValidator = daemon.needed('openapi_spec_validator').OpenAPIV31Spec
 daemon.needed('openapi_python_client')
 jsonschema = daemon.needed('jsonschema')
 
-# What the generator does not know by itself.
-CONFIG = """post_hooks: []
-content_type_overrides:
-""" + ''.join(f'  {kind}: application/octet-stream\n' for kind in (
-    'image/png', 'audio/wav', 'application/x-npy', 'application/x-npz', 'application/fits', 'image/x-exr', 'application/zip', 'application/x-kerrd-frames', 'multipart/x-mixed-replace',
-    '"*/*"')) + ''.join(f'  {kind}: text/html\n' for kind in ('text/event-stream', 'application/x-ndjson'))
+CONFIG = pathlib.Path(__file__).resolve().parents[2] / 'docs/examples/openapi-python-client.yml'
 
 KEYS = {'scene': {'image': {'width': 32, 'height': 18}}, 'keyframes': [{'frame': 1, 'scene': {'time': 1}}]}
 
@@ -175,9 +170,8 @@ class OpenApi(daemon.Case):
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)
             folder.joinpath('document.json').write_text(json.dumps(self.document))
-            folder.joinpath('config.yml').write_text(CONFIG)
-            made = subprocess.run([sys.executable, '-m', 'openapi_python_client', 'generate', '--path', folder / 'document.json', '--config',
-                                   folder / 'config.yml', '--meta', 'none', '--output-path', folder / 'kerrd_generated'],
+            made = subprocess.run([sys.executable, '-m', 'openapi_python_client', 'generate', '--path', folder / 'document.json', '--config', CONFIG,
+                                   '--meta', 'none', '--output-path', folder / 'kerrd_generated'],
                                   capture_output=True, text=True, timeout=100)
             self.assertEqual(made.returncode, 0, made.stdout + made.stderr)
             self.assertNotIn('WARNING', made.stdout + made.stderr)

@@ -271,6 +271,14 @@ class Local(unittest.TestCase):
             1 / 0
         self.assertTrue(self.gone(pid))
 
+    def test_below_a_base_path(self):
+        with kerrd.local(binary=KERRD, args=['--base-path', '/some/prefix']) as hole:
+            self.assertTrue(hole.url.endswith('/some/prefix/'), hole.url)
+            self.assertEqual(hole.render({'image': SIZE}).image.size, (48, 27))
+            with hole.session({'image': SIZE}) as live:
+                self.assertEqual(live.patch(camera__azimuth_deg=5), 2)
+                self.assertEqual(list(live)[-1].revision, 2)
+
     def test_it_ends_with_the_interpreter(self):
         code = f'import sys; sys.path.insert(0, {str(FOLDER / "src")!r}); import kerrd; print(kerrd.local(binary={KERRD!r}).process.pid)'
         done = subprocess.run([sys.executable, '-c', code], capture_output=True, text=True, timeout=60, check=True)

@@ -14,6 +14,8 @@
 #include "server/openapi/reports.h"
 #include "server/openapi/responses.h"
 #include "server/openapi/sessions.h"
+#include "server/playground/plays.h"
+#include "server/http/query.h"
 #include "server/http/request.h"
 #include "scene/scene.h"
 
@@ -96,13 +98,15 @@ static void add_path_parameter(struct kd_json *json, const char *path)
 }
 
 #define WHOLE "{\"type\":\"integer\",\"minimum\":0}"
-#define PART "{\"type\":\"number\",\"minimum\":0.25,\"maximum\":1}"
-#define PACE_MS "{\"type\":\"number\",\"minimum\":10,\"maximum\":60000}"
-#define ORDER "order", "{\"type\":\"integer\",\"minimum\":1,\"maximum\":9007199254740992}", \
+#define STRING(x) #x
+#define TEXT(x) STRING(x)
+#define PART "{\"type\":\"number\",\"minimum\":" TEXT(KD_LEAST_MIN) ",\"maximum\":1}"
+#define PACE_MS "{\"type\":\"number\",\"minimum\":" TEXT(KD_PATIENCE_MS_MIN) ",\"maximum\":" TEXT(KD_PATIENCE_MS_MAX) "}"
+#define ORDER "order", "{\"type\":\"integer\",\"minimum\":1,\"maximum\":" TEXT(KD_ORDER_MAX) "}", \
     "of patches that are under way at once the one with the highest number counts: one that comes after a higher one changes nothing"
 #define LEAST "least", PART, "the least part of image.width that a frame has while the scene changes; 0.25 without it"
 #define PATIENCE "patience_ms", PACE_MS, "frames are narrower than that all the same where they were measured to take longer than this"
-#define MOMENT "{\"type\":\"integer\",\"minimum\":0,\"maximum\":60000}"
+#define MOMENT "{\"type\":\"integer\",\"minimum\":0,\"maximum\":" TEXT(KD_WAIT_MS_MAX) "}"
 
 /* Parameters that the query may hold besides fields of a scene; schema NULL: one of the formats of jobs. */
 static const struct {
@@ -116,9 +120,9 @@ static const struct {
     { "/v1/sessions/{id}", ORDER, KD_PATCH }, { "/v1/sessions/{id}/frame", ORDER, KD_PATCH },
     { "/v1/sessions/{id}/frame", "after", WHOLE, "number of the last frame that the client has; 0 without it" },
     { "/v1/sessions/{id}/frame", "wait_ms", MOMENT, "how long to wait for a newer one" },
-    { "/v1/sessions/{id}/frame", "lossy", "{\"type\":\"integer\",\"minimum\":1,\"maximum\":100}",
+    { "/v1/sessions/{id}/frame", "lossy", "{\"type\":\"integer\",\"minimum\":1,\"maximum\":" TEXT(KD_LOSSY_MAX) "}",
       "takes frames that are not the last as JPEG of this quality; without it all are PNG" },
-    { "/v1/sessions/{id}/frame", "sentences", "{\"type\":\"integer\",\"minimum\":0,\"maximum\":4294967295}",
+    { "/v1/sessions/{id}/frame", "sentences", "{\"type\":\"integer\",\"minimum\":0,\"maximum\":" TEXT(KD_SENTENCES_MAX) "}",
       "Kerrd-Sentences of a frame that the client has: where the newer one has the same approximations, they are left out" },
     { "/v1/playground/{id}/frame.png", "after", WHOLE, "number of the last frame that the client has; 0 without it" },
     { "/v1/playground/{id}/frame.png", "wait_ms", MOMENT, "how long to wait for a newer one" },
@@ -135,6 +139,8 @@ static const struct {
     { "/v1/jobs/{id}/result", "frame", WHOLE, "which, by itself: with format=png, fits, npz, npy or exr; with format=stream from which on" },
     { "/v1/jobs/{id}/result", "rate", "{\"type\":\"integer\",\"minimum\":1,\"maximum\":120}", "frames a second, with format=mp4 or webm; 24 without it" },
 };
+
+_Static_assert(KD_PLAYGROUND_DEBRIS_MAX == 1000000 && KD_PLAY_DEBRIS == 20000, "the row of at_most says so");
 
 static bool has_query(const struct kd_route *route)
 {

@@ -7,6 +7,8 @@
 
 #include <string.h>
 
+#define STRING(x) #x
+#define TEXT(x) STRING(x)
 #define BODIES(schema) "{\"type\":\"array\",\"maxItems\":4096,\"items\":{\"$ref\":\"#/components/schemas/" schema "\"}}"
 
 static void add_words(struct kd_json *json, const char *words)
@@ -232,7 +234,7 @@ static void add_tick(struct kd_json *json)
 
 void kd_openapi_playground_schemas(struct kd_json *json)
 {
-    _Static_assert(KD_PLAYGROUND_BODIES_MAX == 4096, "BODIES says so");
+    _Static_assert(KD_PLAYGROUND_BODIES_MAX == 4096 && KD_PLAYGROUND_NAME == 32, "BODIES and the length of a name say so");
     add_body(json, "PlaygroundBody", false);
     add_body(json, "PlaygroundBodyChange", true);
     add_document(json, "Playground", false);
@@ -259,6 +261,6 @@ void kd_openapi_playground_body(struct kd_json *json, bool patch, const char *ot
 void kd_openapi_step_body(struct kd_json *json)
 {
     static const char schema[] = "{\"type\":\"object\",\"additionalProperties\":false,\"required\":[\"by\"],\"properties\":{\"by\":{\"type\":\"number\","
-                                 "\"exclusiveMinimum\":0,\"maximum\":1e18,\"description\":\"M\"}}}";
+                                 "\"exclusiveMinimum\":0,\"maximum\":" TEXT(KD_PLAYGROUND_TIME) ",\"description\":\"M\"}}}";
     kd_openapi_body(json, schema, sizeof schema - 1, NULL);
 }

@@ -2,6 +2,7 @@
 #include "base/clock.h"
 #include "image/npy.h"
 #include "server/http/negotiate.h"
+#include "server/http/query.h"
 #include "server/http/reply.h"
 #include "server/playground/routes.h"
 
@@ -10,7 +11,6 @@
 #include <string.h>
 
 #define PACKED_TYPE "application/octet-stream"
-#define WAIT_MS 25000 /* below the half minute after which proxies give up */
 
 /* The wait for a tick: it belongs to its request. */
 struct wait {
@@ -132,7 +132,7 @@ static enum MHD_Result begin(struct kd_request *request, bool debris)
         return refused;
     if (!kd_target_whole(&request->target, "after", 0, UINT64_MAX, &after))
         return bad_number(request, "after is a generation, Kerrd-Generation of what you have");
-    if (!kd_target_whole(&request->target, "wait_ms", WAIT_MS, 60000, &wait_ms))
+    if (!kd_target_whole(&request->target, "wait_ms", KD_WAIT_MS, KD_WAIT_MS_MAX, &wait_ms))
         return bad_number(request, "wait_ms is a whole number of milliseconds, 0 to 60000");
     if (debris && (!kd_target_whole(&request->target, "at_most", KD_PLAY_DEBRIS, KD_PLAYGROUND_DEBRIS_MAX, &most) || !most))
         return bad_number(request, "at_most is a whole number of pieces, 1 to 1000000");

@@ -1,6 +1,7 @@
 /* This sends the frames of a session: one by one as they are asked for, and as streams. */
 #include "base/clock.h"
 #include "server/http/negotiate.h"
+#include "server/http/query.h"
 #include "server/http/reply.h"
 #include "server/session/sessions.h"
 
@@ -13,7 +14,6 @@
 #include <sys/socket.h>
 
 #define BINARY_TYPE "application/x-kerrd-frames"
-#define WAIT_MS 25000        /* below the half minute after which proxies give up */
 #define HEARTBEAT_MS 15000.0 /* of an event stream */
 #define UNSENT_BYTES (64 << 10) /* in the kernel: more would be frames grown old */
 
@@ -123,13 +123,13 @@ enum MHD_Result kd_live_newest(struct kd_request *request, kd_session_find_fn *f
         return look(request);
     if (!kd_reply_only(request, (const char *const[]) { "after", "wait_ms", kinds ? "lossy" : NULL, kinds ? "sentences" : NULL, patches ? "order" : NULL, NULL }, &refused))
         return refused;
-    if (kinds && kd_target_value(&request->target, "lossy") && (!kd_target_whole(&request->target, "lossy", 0, 100, &lossy) || !lossy))
+    if (kinds && kd_target_value(&request->target, "lossy") && (!kd_target_whole(&request->target, "lossy", 0, KD_LOSSY_MAX, &lossy) || !lossy))
         return bad_number(request, "lossy is a whole number, 1 to 100: the quality of frames that are not the last; without it they are exact");
-    if (!kd_target_whole(&request->target, "sentences", NO_SENTENCES, UINT32_MAX, &sentences))
+    if (!kd_target_whole(&request->target, "sentences", NO_SENTENCES, KD_SENTENCES_MAX, &sentences))
         return bad_number(request, "sentences is Kerrd-Sentences of a frame that you have: one with the same approximations is sent without them");
     if (!kd_target_whole(&request->target, "after", 0, UINT64_MAX, &after))
         return bad_number(request, "after is the number of a frame, Kerrd-Frame of one that you have");
-    if (!kd_target_whole(&request->target, "wait_ms", WAIT_MS, 60000, &wait))
+    if (!kd_target_whole(&request->target, "wait_ms", KD_WAIT_MS, KD_WAIT_MS_MAX, &wait))
         return bad_number(request, "wait_ms is a whole number of milliseconds, 0 to 60000");
     struct kd_session *session = find(request, &refused);
     if (!session)

@@ -6,6 +6,7 @@
 #include "scene/text.h"
 #include "scene/tree.h"
 #include "server/asset/store.h"
+#include "server/http/query.h"
 #include "server/http/reply.h"
 #include "server/render/planned.h"
 #include "server/render/task.h"
@@ -19,7 +20,6 @@
 #include <strings.h>
 
 #define JSON_TYPE "application/json"
-#define ORDER_MAX (1ull << 53) /* a whole number in any client */
 #define STRIKE_VALUES 16 /* in the body of one: more would be wrong */
 
 struct kd_session *kd_session_of(struct kd_request *request, enum MHD_Result *refused)
@@ -140,8 +140,8 @@ static enum kd_status read_pace(const struct kd_request *request, struct kd_sess
     enum kd_status status;
     *said = kd_target_value(&request->target, "least");
     *pace = (struct kd_session_pace)KD_SESSION_PACE_DEFAULT;
-    KD_TRY(read_number(request, "least", 0.25, 1, &pace->least, error));
-    KD_TRY(read_number(request, "patience_ms", 10, 60000, &pace->patience_ms, error));
+    KD_TRY(read_number(request, "least", KD_LEAST_MIN, 1, &pace->least, error));
+    KD_TRY(read_number(request, "patience_ms", KD_PATIENCE_MS_MIN, KD_PATIENCE_MS_MAX, &pace->patience_ms, error));
     if (!*said && isfinite(pace->patience_ms))
         KD_TRY(kd_error_field(error, "/patience_ms", "patience_ms stands without least, whose width it is the patience for"));
 done:
@@ -197,7 +197,7 @@ static enum kd_status read_order(const struct kd_request *request, uint64_t *ord
 {
     const char *text = kd_target_value(&request->target, "order");
     *order = 0;
-    if (text && (!kd_target_whole(&request->target, "order", 0, ORDER_MAX, order) || !*order))
+    if (text && (!kd_target_whole(&request->target, "order", 0, KD_ORDER_MAX, order) || !*order))
         return kd_error_field(error, "/order", "order is %.20s, allowed is a whole number from 1 to 2^53, higher with each patch", text);
     return KD_OK;
 }
