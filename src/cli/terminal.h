@@ -15,7 +15,7 @@ struct kd_terminal {
 /* Asks by escape sequences on /dev/tty, at most KD_TERMINAL_WAIT_MS for the answer: kitty's query of graphics, the pixels of its text where the system
  * does not know them, and the primary device attributes, which any terminal tells and which come last. Its settings are as before afterwards. A terminal
  * that does not answer can show nothing. */
-enum { KD_TERMINAL_WAIT_MS = 1000 };
+enum { KD_TERMINAL_WAIT_MS = 2000 };
 struct kd_terminal kd_terminal_ask(void);
 
 /* The largest size of the same shape that fits into the terminal with `lines` lines of text below it, not larger than it is unless `enlarge`; as it is

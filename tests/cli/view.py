@@ -152,7 +152,7 @@ class View(Case):
         self.assertLess(sum(errors) / len(errors), 2)
 
     def test_neither(self):
-        for answer, seconds in (NEITHER, 0), (b"", 1), (b"\x1b[?6", 1), (b"\x1b_Gi=31;ENOTSUPPORTED\x1b\\" + NEITHER, 0):
+        for answer, seconds in (NEITHER, 0), (b"", 2), (b"\x1b[?6", 2), (b"\x1b_Gi=31;ENOTSUPPORTED\x1b\\" + NEITHER, 0):
             shown = Terminal(*SMALL, answer=answer)
             self.assertEqual((shown.code, shown.sent), (1, b""), answer)
             self.assertIn("this terminal can show no picture, neither by kitty's graphics nor as sixel: `kerrd render -o FILE.png`", shown.stderr)
@@ -166,7 +166,6 @@ class View(Case):
         self.assertEqual(Terminal(*SMALL, answer=KITTY, keys=b"ls").code, 0)
         shown = Terminal(*SMALL, answer=b"", keys=b"\x03")
         self.assertEqual((shown.code, shown.kept), (-signal.SIGINT, True))
-        self.assertLess(shown.seconds, 1)
 
     def test_no_terminal(self):
         self.bad(1, "standard output is no terminal", "view", *SMALL)
