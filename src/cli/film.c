@@ -128,7 +128,8 @@ static enum kd_status read_request(struct work *w, struct kd_error *error)
     KD_TRY(kd_file_read(options->document, KD_JOB_FILM_MAX, &w->text, error));
     KD_TRY(kd_scene_options_load(&beneath, &scene, error));
     w->assets = kd_asset_options_assets(&options->assets);
-    const struct kd_job_base base = { .scene = options->preset || options->from ? &scene : NULL, .samples = w->arguments->samples, .shutter = w->arguments->shutter, .change = change, .user = options };
+    const struct kd_job_base base = { .scene = options->preset || options->from ? &scene : NULL,
+                                      .samples = w->arguments->samples, .shutter = w->arguments->shutter, .change = change, .user = options };
     status = kd_job_spec_parse(w->text.data ? (const char *)w->text.data : "", w->text.size, &base, &w->assets, &w->spec, error);
     KD_TRY(status ? kd_cli_prefix(error, strcmp(options->document, "-") ? options->document : "standard input") : KD_OK);
     KD_TRY(kd_asset_options_check(&options->assets, error));
@@ -289,7 +290,7 @@ static enum kd_status render(struct work *w, unsigned number, const struct kd_cr
     KD_TRY(kd_job_frame_plan(&w->spec, number, crowd, 0, INFINITY, &capacity, &scene, &plan, error));
     KD_TRY(blur.samples ? kd_render_blurred(&(struct kd_blurred) { w->renderer, &blur, &scene, &plan, .progress = progress, .user = w }, &frame, error)
                         : kd_render(w->renderer, &scene, &plan, progress, w, &frame, error));
-    w->traced += !frame.lens_reused && plan.planes;
+    w->traced += (!frame.lens_reused && plan.planes) + frame.others_traced;
     const struct kd_picture picture = { &frame, &scene, &plan, kd_renderer_device_name(w->renderer), number };
     KD_TRY(kd_encode(w->frames.format, &picture, KD_EFFORT_KEEP, &w->encoder, &file, error));
     KD_TRY(kd_frames_put(&w->frames, number, &file, error));

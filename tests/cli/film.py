@@ -158,15 +158,16 @@ class Pictures(Case):
     BLURRED = {"scene": {"image": {**SIZE, "bit_depth": 16}, "style": {"exposure": 0.5, "tone_map": "srgb", "dither": False, "bloom": 0}, "camera": {"inclination_deg": 80}},
                "keyframes": [{"frame": 4, "scene": {"camera": {"inclination_deg": 48}, "time": 40}}], "motion_blur": {"samples": 5, "shutter": 0.8}}
 
-    def light_at(self, place):
+    def light_at(self, place, image=SIZE):
         """Linear light of one picture, at a place between the keyframes of BLURRED."""
-        scene = {**self.BLURRED["scene"], "image": {**SIZE, "layers": ["rgb"]}, "camera": {"inclination_deg": 80 - 8 * place}, "time": 10 * place}
+        scene = {**self.BLURRED["scene"], "image": {**image, "layers": ["rgb"]}, "camera": {"inclination_deg": 80 - 8 * place}, "time": 10 * place}
         self.good("render", self.write("scene.json", json.dumps(scene)), "-o", self.path("light.npz"))
         return numpy.load(self.path("light.npz"))["rgb"].astype(float)
 
     def test_motion_blur(self):
         """A frame is the mean of the light of five pictures, made here of five files of light; not of pictures as they are shown."""
-        self.film("a.zip", self.BLURRED)
+        stats = self.film("a.zip", self.BLURRED)
+        self.assertEqual(stats["lens_maps_traced"], 4 * 5 + 1, "of the last frame all pictures are the same")
         frame = self.frames("a.zip")[1]
         lights = [self.light_at(1 + 0.8 * i / 5) for i in range(5)]
         self.assertEqual(text_of(frame, b"kerrd:motion_blur"), "samples=5 shutter=0.8")
@@ -176,6 +177,16 @@ class Pictures(Case):
         self.assertLess(off.max(), 2, "half a step of rounding, and the device's sRGB in single precision")
         for other in (numpy.mean([as_shown(2 ** 0.5 * light) for light in lights], 0), as_shown(2 ** 0.5 * lights[0]), as_shown(2 ** 0.5 * numpy.mean(lights[:4], 0))):
             self.assertGreater(numpy.abs(shown - other).max(), 1000)
+
+    def test_motion_blur_in_bands(self):
+        """Of a picture that is made in two parts, from the top down."""
+        image = {"width": 320, "height": 180, "samples": 8}
+        request = {**self.BLURRED, "scene": {**self.BLURRED["scene"], "image": {**image, "bit_depth": 16}}, "keyframes": [{"frame": 1, "scene": {"camera": {"inclination_deg": 72}, "time": 10}}]}
+        plan = json.loads(self.good("plan", self.write("scene.json", json.dumps(request["scene"]))))
+        self.assertIn('"bands": 2', json.dumps(plan))
+        self.film("a.zip", request, "--samples", "2", "--shutter", "1")
+        off = numpy.abs(wide_pixels(self.frames("a.zip")[0]) - as_shown(2 ** 0.5 * (self.light_at(0, image) + self.light_at(0.5, image)) / 2))
+        self.assertLess(off.max(), 2)
 
     def test_motion_blur_by_options(self):
         """Samples and shutter of the command line; one sample is the picture itself."""

@@ -53,7 +53,7 @@ static void seen(void *user, const struct kd_frame *frame, uint32_t rows)
     b->glance->seen(b->user, frame, rows);
 }
 
-static enum kd_status add(const struct kd_blurred *b, struct part *part, unsigned sample, double *sum, struct kd_error *error)
+static enum kd_status add(const struct kd_blurred *b, struct part *part, unsigned sample, struct kd_light_sum *sum, struct kd_error *error)
 {
     struct kd_scene scene;
     struct kd_capacity capacity;
@@ -69,7 +69,9 @@ static enum kd_status add(const struct kd_blurred *b, struct part *part, unsigne
     KD_TRY(b->aside ? kd_render_aside(b->renderer, &scene, &plan, go_on, NULL, part, &frame, error) : kd_render(b->renderer, &scene, &plan, go_on, part, &frame, error));
     const float *light = frame.layers[1].data;
     for (size_t i = 0; i < (size_t)3 * frame.width * frame.height; i++)
-        sum[i] += light[i];
+        sum->sum[i] += light[i];
+    sum->n++;
+    sum->traced += !frame.lens_reused && plan.planes;
 done:
     kd_frame_finish(&frame);
     return status;
@@ -80,12 +82,14 @@ enum kd_status kd_render_blurred(const struct kd_blurred *b, struct kd_frame *ou
     static const struct kd_glance looks = { wanted, seen };
     struct part part = { b, 0 };
     const unsigned n = b->blur->samples;
-    struct kd_light_sum others = { calloc((size_t)b->plan->width * b->plan->height, SUM), n - 1 };
+    struct kd_light_sum others = { calloc((size_t)b->plan->width * b->plan->height, SUM) };
     enum kd_status status = others.sum ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for the light of a blurred picture");
     for (; part.done < n - 1 && !status; part.done++)
-        status = add(b, &part, n - 1 - part.done, others.sum, error);
+        status = add(b, &part, n - 1 - part.done, &others, error);
     if (!status)
         status = kd_render_mean(b->renderer, b->scene, b->plan, &others, b->aside, go_on, b->glance ? &looks : NULL, &part, out, error);
+    if (!status)
+        out->others_traced = others.traced;
     free(others.sum);
     return status;
 }

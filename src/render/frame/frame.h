@@ -19,6 +19,7 @@ struct kd_frame {
     char credit[KD_CREDIT];   /* whose work is in it, as they ask to be named; "": nobody does */
     double exposure;          /* stops that were applied */
     bool lens_reused;         /* the trace pass was skipped: the lens map was in the cache */
+    uint32_t others_traced;   /* lens maps of the other pictures that its light is the mean with (frame/blur.h) */
     struct kd_accuracy_report accuracy;
     struct kd_light_report light;
     double density_scale;     /* what the density was multiplied by (volume.normalise_to_jy); 1: by nothing */
@@ -56,7 +57,7 @@ enum kd_status kd_render_aside(struct kd_renderer *renderer, const struct kd_sce
 /* Linear light of other pictures of the same size, added up: red, green and blue of each pixel, rows from the top, of n pictures. */
 struct kd_light_sum {
     double *sum;
-    unsigned n;
+    unsigned n, traced; /* traced: lens maps that were made for them */
 };
 /* As kd_render, or with `aside` kd_render_aside, of a picture whose light is the mean with that of others; frame/blur.h is how it is asked for. plan->radiance is true, and
  * plan->eyes 1. How far off pixels are that were refined is not measured. */

@@ -132,9 +132,10 @@ void kd_jobs_drop_frame(struct kd_jobs *all, const struct kd_job *job)
 /* Counts the lens map of a frame. Of a sweep that is kept, now and then, for who asks after a restart. */
 static void count_map(struct kd_job *job, const struct kd_render_job *render)
 {
-    if (render->status || render->frame.lens_reused || !render->plan.planes)
+    const unsigned traced = render->status ? 0 : (!render->frame.lens_reused && render->plan.planes) + render->frame.others_traced;
+    if (!traced)
         return;
-    job->record.traced++;
+    job->record.traced += traced;
     if (!job->spec.sweep || !kd_job_is_active(job) || kd_clock_ms() < job->counted_ms + COUNTED_MS)
         return;
     kd_job_write(job);

@@ -174,7 +174,8 @@ static void render(struct kd_render_queue *queue, struct kd_render_job *job)
     if (job->run)
         job->status = job->run(job, queue->renderer, go_on, job);
     else if (job->blur.samples)
-        job->status = kd_render_blurred(&(struct kd_blurred) { queue->renderer, &job->blur, &job->scene, &job->plan, aside, aside ? between_slices : go_on, job->glance, job }, &job->frame, &job->error);
+        job->status = kd_render_blurred(&(struct kd_blurred) { queue->renderer, &job->blur, &job->scene, &job->plan, aside, aside ? between_slices : go_on, job->glance, job },
+                                        &job->frame, &job->error);
     else if (aside)
         job->status = kd_render_aside(queue->renderer, &job->scene, &job->plan, between_slices, job->glance, job, &job->frame, &job->error);
     else
