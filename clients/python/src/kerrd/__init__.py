@@ -12,7 +12,7 @@ from .scene import Body, Camera, Disk, Gas, Image, Jets, Motion, Polarization, S
 
 __all__ = [
     "AsyncClient", "AsyncJob", "AsyncSession", "Body", "Camera", "Client", "Disk", "Frame", "Gas", "Image", "Jets", "Job", "JobFailed", "KerrdError", "Motion", "NoBinary",
-    "Polarization", "Problem", "Scene", "Session", "Sky", "Spacetime", "Spot", "Style", "Sweep", "Volume", "local", "sweep",
+    "Polarization", "Problem", "Scene", "Session", "Sky", "Spacetime", "Spot", "Style", "Sweep", "Volume", "local", "sweep", "widget",
 ]
 
 
@@ -21,3 +21,15 @@ def sweep(scenes: Any, client: Any = None, **more: Any) -> Any:
     from .dask import sweep as on_cluster
 
     return on_cluster(scenes, client, **more)
+
+
+def widget(scene: Any = None, client: Any = None, **more: Any) -> Any:
+    """The live hole in a cell of a notebook: kerrd.jupyter.Widget, which needs the package anywidget."""
+    try:
+        from .jupyter import Widget
+    except ModuleNotFoundError as missing:
+        if (missing.name or "").split(".")[0] not in ("anywidget", "traitlets", "ipywidgets"):
+            raise
+        raise ImportError("kerrd.widget needs the package anywidget, which is not installed: pip install 'kerrd[jupyter]'") from missing
+
+    return Widget(scene, client, **more)
