@@ -26,6 +26,7 @@ except ImportError as missing:
     print(f'skipped: {missing}; scripts/setup --browser installs it')
     sys.exit(77)
 import kerrd
+import kerrd.follow
 import kerrd.jupyter
 from kerrd.fields import Fields
 
@@ -167,13 +168,26 @@ class Browser(Case):
         page = Page(widget)
         until(lambda: page.told('frame'), 'a first frame')
         for k in range(12):
-            widget.set(azimuth_deg=10.0 + k, inclination_deg=50.0 + k)
+            page.change(camera__azimuth_deg=10.0 + k, camera__inclination_deg=50.0 + k)
+            until(lambda: len(page.told('took')) == k + 1, 'an answer')
             time.sleep(0.1)
         self.assertLessEqual(len(page.told('frame')), 2, 'no more than two are on their way')
         last = self.rested(page)
         self.assertLess(len(page.told('frame')), 12)
         self.assertTrue(np.array_equal(pixels(last), self.hole.render(widget.scene).array), 'the last one is of the scene as it is now')
         self.assertEqual((widget.scene.camera.azimuth_deg, widget.scene.camera.inclination_deg), (21, 61))
+
+    def test_a_loop_in_a_cell_is_seen(self):
+        """During which the kernel hears no acknowledgment."""
+        widget = self.open()
+        page = Page(widget)
+        until(lambda: page.told('frame'), 'a first frame')
+        begun = time.monotonic()
+        for k in range(20):
+            widget.set(inclination_deg=50.0 + k)
+            time.sleep(0.1)
+        self.assertGreater(len(page.told('frame')), 4)
+        self.assertLessEqual(len(page.told('frame')), 2 + (time.monotonic() - begun) / kerrd.follow.DEAF_S * 2)
 
     def test_nothing_is_fetched_for_nobody(self):
         widget = self.open()

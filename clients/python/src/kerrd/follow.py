@@ -16,6 +16,7 @@ from .errors import KerrdError, Problem
 from .frame import Frame
 
 MOST_UNSHOWN = 2  # frames that a viewer has been sent and has not shown yet
+DEAF_S = 0.25  # after which a frame counts as shown where a cell runs, during which the kernel hears no viewer
 PRESENCE_S = 150  # without a word, after which a viewer is taken to have left: a hidden page speaks once a minute
 AGAIN_S = 2.0  # from one attempt to reach a server that is gone to the next
 REFRESH_S = 0.2  # from one look at a scene that goes on by itself to the next
@@ -26,7 +27,7 @@ def sentence(error: BaseException, url: str) -> str:
     if isinstance(error, Problem):
         return error.detail or str(error)
     if isinstance(error, httpx.TransportError):
-        return f"the server at {url} does not answer ({error or type(error).__name__})"
+        return f"the server at {url} does not answer ({str(error).rstrip('.') or type(error).__name__})"
     return str(error.args[0]) if isinstance(error, KeyError) else str(error)
 
 
@@ -59,7 +60,7 @@ class Follower:
         self._answers: list[Callable[[], None]] = []
         self._views: dict[str, float] = {}
         self._waiters = 0
-        self._unshown: list[int] = []
+        self._unshown: list[tuple[int, float]] = []  # serial, and when it was sent
         self._unsent = False
         self._serial = 0
         self._frame: Frame | None = None
@@ -119,8 +120,16 @@ class Follower:
     def shown(self, serial: int) -> None:
         """A viewer has shown a frame, and with it all before."""
         with self._state:
-            self._unshown = [one for one in self._unshown if one > serial]
+            self._unshown = [sent for sent in self._unshown if sent[0] > serial]
             self._state.notify_all()
+        self._send()
+
+    def deaf(self) -> None:
+        """Who calls this holds up the thread that hears viewers: the oldest frame that was sent counts as shown when it is DEAF_S old, so that a loop in a cell is seen."""
+        with self._state:
+            if self._unshown and monotonic() - self._unshown[0][1] > DEAF_S:
+                del self._unshown[0]
+                self._state.notify_all()
         self._send()
 
     def frame(self, *, final: bool, timeout: float) -> Frame:
@@ -255,6 +264,6 @@ class Follower:
             if self._closed or not self._unsent or not self._views or len(self._unshown) >= MOST_UNSHOWN or self._frame is None:
                 return
             self._unsent = False
-            self._unshown.append(self._serial)
+            self._unshown.append((self._serial, monotonic()))
             frame, serial = self._frame, self._serial
         self.show(frame, serial)

@@ -111,6 +111,7 @@ class Widget(anywidget.AnyWidget):
         Problem, or KerrdError for a name that a scene does not have: the scene stays as it was."""
         named = self._fields.document(changes)
         self._follower.change(lambda scene: patch_of(scene, named))
+        self._follower.deaf()
 
     @property
     def frame(self) -> Frame:
@@ -142,6 +143,7 @@ class Widget(anywidget.AnyWidget):
             return {**document, "image": {**{name: now["image"][name] for name in ("width", "height")}, **document.get("image", {})}}
 
         self._follower.replace(sized)
+        self._follower.deaf()
         return dataclass_of(self._follower.scene, Scene)
 
     def _took(self, scene: Document) -> None:

@@ -147,24 +147,25 @@ function numberControl({ path, positions, low, high, unit, word, first, kind }, 
   const give = value => scene.change({ [path]: value });
   slider.addEventListener('input', () => give(positions[slider.valueAsNumber]));
   box.addEventListener('input', () => (typing = true));
-  box.addEventListener('change', () => {
+  function taken() {
+    if (typing && box.value !== '') give(box.valueAsNumber);
     typing = false;
-    if (box.value !== '') give(box.valueAsNumber);
-  });
+    show(scene.get(path));
+  }
+  box.addEventListener('change', taken);
+  box.addEventListener('keydown', event => event.key === 'Enter' && taken()); // JupyterLab keeps it from being a change
   check?.addEventListener('change', () => give(check.checked ? word : first));
   const distance = (a, b) => Math.abs(a - b);
-  return {
-    nodes: [slider, box, el('span', { class: 'kerrd-unit' }, unit), check && el('label', { class: 'kerrd-word' }, check, word)],
-    show(value) {
-      const number = typeof value === 'number';
-      slider.disabled = box.disabled = !number;
-      if (check) check.checked = value === word;
-      if (!typing) box.value = number ? Number(value.toPrecision(8)) : '';
-      if (!number) return;
-      slider.value = positions.reduce((best, here, k) => (distance(here, value) < distance(positions[best], value) ? k : best), 0);
-      slider.setAttribute('aria-valuetext', `${box.value} ${unit}`);
-    },
-  };
+  function show(value) {
+    const number = typeof value === 'number';
+    slider.disabled = box.disabled = !number;
+    if (check) check.checked = value === word;
+    if (!typing) box.value = number ? Number(value.toPrecision(8)) : '';
+    if (!number) return;
+    slider.value = positions.reduce((best, here, k) => (distance(here, value) < distance(positions[best], value) ? k : best), 0);
+    slider.setAttribute('aria-valuetext', `${box.value} ${unit}`);
+  }
+  return { nodes: [slider, box, el('span', { class: 'kerrd-unit' }, unit), check && el('label', { class: 'kerrd-word' }, check, word)], show };
 }
 
 function choiceControl({ path, choices, kind }, scene, about) {
