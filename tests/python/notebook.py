@@ -57,7 +57,7 @@ CELLS = {
 }
 
 
-PICTURE = {'begin': 'import kerrd\n\nw = kerrd.widget(preset="gas-stars", inclination_deg=78, azimuth_deg=150,\n                 controls=["spin", "inclination_deg", "disk.outer", "sky.model"])\nw'}
+PICTURE = {'begin': 'import kerrd\n\nw = kerrd.widget(preset="gas-stars", inclination_deg=80, time_rate=0,\n                 controls=["spin", "inclination_deg", "disk.outer", "sky.model"])\nw'}
 
 
 def notebook(url):
@@ -174,8 +174,9 @@ class Notebook(unittest.TestCase):
 
     def rest(self):
         """Waits until nothing new comes; returns the bytes of the picture."""
-        shown = None
+        shown, end = None, time.monotonic() + PATIENCE_MS / 1000
         while shown != (shown := self.stage.get_attribute('data-serial')) or self.stage.get_attribute('data-final') != 'true':
+            self.assertLess(time.monotonic(), end, 'no picture at rest')
             self.page.wait_for_timeout(400)
         return bytes(self.picture.evaluate('async img => Array.from(new Uint8Array(await (await fetch(img.src)).arrayBuffer()))'))
 

@@ -27,7 +27,7 @@ from .scene import Scene
 USUAL = ("spacetime.spin", "camera.inclination_deg", "disk.outer", "style.exposure")
 WIDTH = 640  # pixels, of a picture of which nobody has said how large it is to be
 PATIENCE_S = 60.0  # for a picture that is asked for
-SHOW_S = 10.0  # for one that is kept in the notebook beside the widget
+FINEST_S, SHOW_S = 2.0, 10.0  # for the finest one, and for any, that is kept in the notebook beside the widget
 
 _starting = threading.Lock()
 _own: local | None = None
@@ -167,15 +167,24 @@ class Widget(anywidget.AnyWidget):
     def _repr_mimebundle_(self, **kwargs: Any) -> Any:
         """The widget, and a picture for those who read the notebook without its kernel."""
         bundle: Any = super()._repr_mimebundle_(**kwargs)
-        try:
-            frame = self._follower.frame(final=False, timeout=SHOW_S)
-        except KerrdError:
+        frame = self._within(FINEST_S, final=True) or self._within(SHOW_S, final=False)
+        if frame is None:
             return bundle
-        data = {"image/jpeg": frame.data if frame.kind == "image/jpeg" else _encoded(frame, "JPEG")}
+        data = {"image/jpeg": _encoded(frame, "JPEG", self._follower.scene["image"]["height"])}
         return ({**bundle[0], **data}, bundle[1]) if isinstance(bundle, tuple) else {**bundle, **data}
 
+    def _within(self, seconds: float, *, final: bool) -> Frame | None:
+        try:
+            return self._follower.frame(final=final, timeout=seconds)
+        except KerrdError:
+            return None
 
-def _encoded(frame: Frame, kind: str) -> bytes:
+
+def _encoded(frame: Frame, kind: str, height: int | None = None) -> bytes:
+    """The frame as another file; height: scaled to so many rows of pixels."""
     file = io.BytesIO()
-    frame.image.convert("RGB").save(file, kind, quality=85)
+    image = frame.image.convert("RGB")
+    if height is not None and height != image.height:
+        image = image.resize((round(image.width * height / image.height), height))
+    image.save(file, kind, quality=85)
     return file.getvalue()
