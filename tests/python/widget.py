@@ -196,10 +196,12 @@ class Browser(Case):
         page = Page(widget)
         self.rested(page)
         page.say(kind='leave')
-        before = len(page.told('frame'))
-        widget.set(spin=0.3)
-        time.sleep(1)
+        before, fetched = len(page.told('frame')), widget._follower._serial
+        for k in range(5):
+            widget.set(spin=0.1 * k)
+            time.sleep(0.4)
         self.assertEqual(len(page.told('frame')), before)
+        self.assertLessEqual(widget._follower._serial, fetched + 1, 'one was asked for before')
         again = Page(widget, 'two')
         until(lambda: len(again.told('frame')) > before, 'the frame that it is shown at once')
 
