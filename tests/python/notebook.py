@@ -61,7 +61,8 @@ PICTURE = {'begin': 'import kerrd\n\nw = kerrd.widget(preset="gas-stars", inclin
 
 
 def notebook(url):
-    cells = [{'cell_type': 'code', 'id': name, 'metadata': {}, 'source': code.replace('URL', repr(url)), 'outputs': [], 'execution_count': None} for name, code in CELLS.items()]
+    empty = {'cell_type': 'code', 'metadata': {}, 'outputs': [], 'execution_count': None}
+    cells = [{**empty, 'id': name, 'source': code.replace('URL', repr(url))} for name, code in CELLS.items()]
     kernel = {'display_name': 'Python 3', 'language': 'python', 'name': 'python3'}
     return json.dumps({'cells': cells, 'metadata': {'kernelspec': kernel}, 'nbformat': 4, 'nbformat_minor': 5})
 
@@ -75,10 +76,11 @@ class Lab:
         root = pathlib.Path(folder, 'root')
         root.mkdir()
         (root / 'hole.ipynb').write_text(notebook(url))
-        own = {name: str(pathlib.Path(folder, name.lower())) for name in ('HOME', 'JUPYTER_CONFIG_DIR', 'JUPYTER_DATA_DIR', 'JUPYTER_RUNTIME_DIR', 'IPYTHONDIR', 'JUPYTERLAB_SETTINGS_DIR', 'JUPYTERLAB_WORKSPACES_DIR')}
+        names = 'HOME JUPYTER_CONFIG_DIR JUPYTER_DATA_DIR JUPYTER_RUNTIME_DIR IPYTHONDIR JUPYTERLAB_SETTINGS_DIR JUPYTERLAB_WORKSPACES_DIR'
+        own = {name: str(pathlib.Path(folder, name.lower())) for name in names.split()}
         environment = {**os.environ, **own, 'KERRD': KERRD, 'PYTHONPATH': str(FOLDER / 'src'), 'PYTHONDONTWRITEBYTECODE': '1'}
-        options = ['--ServerApp.ip=127.0.0.1', f'--ServerApp.port={self.port}', '--ServerApp.port_retries=0', f'--ServerApp.root_dir={root}', '--ServerApp.allow_root=True', '--no-browser',
-                   '--IdentityProvider.token=', '--ServerApp.disable_check_xsrf=True', '--LabApp.extension_manager=readonly', '--LabApp.news_url=None']
+        options = ['--ServerApp.ip=127.0.0.1', f'--ServerApp.port={self.port}', '--ServerApp.port_retries=0', f'--ServerApp.root_dir={root}', '--ServerApp.allow_root=True',
+                   '--no-browser', '--IdentityProvider.token=', '--ServerApp.disable_check_xsrf=True', '--LabApp.extension_manager=readonly', '--LabApp.news_url=None']
         self.log = open(pathlib.Path(folder, 'log'), 'w+')
         self.process = subprocess.Popen([PYTHON, '-m', 'jupyterlab', *options], env=environment, stdout=self.log, stderr=subprocess.STDOUT, cwd=folder)
         self.base = f'http://127.0.0.1:{self.port}/'
@@ -330,5 +332,5 @@ if __name__ == '__main__':
         picture(sys.argv[4])
         sys.exit()
     SHOTS.mkdir(parents=True, exist_ok=True)
-    signal.alarm(280)
+    signal.alarm(580)
     unittest.main(argv=sys.argv[:1], verbosity=2)

@@ -72,12 +72,13 @@ class Field:
         """What draws a control needs, as JSON has it."""
         told: dict[str, Any] = {"path": self.path, "kind": self.kind, "label": self.label, "help": self.help, "unit": self.unit}
         if self.kind in ("number", "integer"):
-            return {**told, "low": self.low, "high": self.high, "positions": self.positions(), "word": self.word, "first": self.span[0] if self.first is None else self.first}
+            first = self.span[0] if self.first is None else self.first
+            return {**told, "low": self.low, "high": self.high, "positions": self.positions(), "word": self.word, "first": first}
         return {**told, "choices": list(self.choices)}
 
 
 class Fields:
-    """The fields that a schema (/v1/schema) lists, by path ("disk.outer", "spots.0.r") or by the last part of it where one field alone is called that ("spin")."""
+    """The fields that a schema (/v1/schema) lists, by path ("disk.outer", "spots.0.r") or by its last part where one field alone is called that ("spin")."""
 
     def __init__(self, schema: Mapping[str, Any]) -> None:
         self.paths = {path: spec for path, spec in _leaves(schema, "")}
@@ -138,7 +139,8 @@ def _field(path: str, spec: Mapping[str, Any]) -> Field:
         return Field(kind="other", **told)
     low, high = ranges[0]["minimum"], ranges[0]["maximum"]
     start, end = spec.get("x-span", (low, high))
-    return Field(kind=ranges[0]["type"], low=low, high=high, span=(start, end), word=next((part["const"] for part in parts if "const" in part), None), first=spec.get("x-first"), **told)
+    word = next((part["const"] for part in parts if "const" in part), None)
+    return Field(kind=ranges[0]["type"], low=low, high=high, span=(start, end), word=word, first=spec.get("x-first"), **told)
 
 
 def _factors(low: float, high: float) -> list[float]:

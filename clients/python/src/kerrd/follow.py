@@ -42,7 +42,8 @@ class Follower:
     """Keeps a session, and opens another with the same scene where it has ended; frames are fetched only while somebody watches or waits.
 
     took(scene): the scene has become this. show(frame, serial): a viewer is to see it, and calls shown(serial) then; no more than MOST_UNSHOWN are on their way, and
-    of those that come meanwhile the newest alone is kept. complain(text): something is wrong, or with "" no longer. All three are called on any thread, `took` on one at a time.
+    of those that come meanwhile the newest alone is kept. complain(text): something is wrong, or with "" no longer. All three are called on any thread, `took` on one
+    at a time.
     The constructor raises what a server says of a scene that it does not take.
     """
 

@@ -65,8 +65,8 @@ class _SceneTrait(traitlets.TraitType[Any, Any]):
 class Widget(anywidget.AnyWidget):
     """A hole to turn and change, in a notebook's cell.
 
-    scene: a kerrd.Scene, always the current one; a trait: observe it, or set it as a whole (a mapping or dataclasses, in which what is not named goes to its default, but for the
-    picture's size). Observers run on a thread of the widget where the browser has changed it. error: what is wrong, or "".
+    scene: a kerrd.Scene, always the current one; a trait: observe it, or set it as a whole (a mapping or dataclasses, in which what is not named goes to its default, but
+    for the picture's size). Observers run on a thread of the widget where the browser has changed it. error: what is wrong, or "".
     """
 
     _esm = Path(__file__).with_name("widget.js")
@@ -107,7 +107,7 @@ class Widget(anywidget.AnyWidget):
             self._follower.change(lambda scene: {"image": {"width": WIDTH, "height": round(image["height"] * WIDTH / image["width"])}})
 
     def set(self, **changes: Any) -> None:
-        """Changes the scene: set(spin=0.9, camera={"inclination_deg": 60}, disk__outer=30). A field is named by its path, or by the last part of it where that is the name of one alone.
+        """Changes the scene: set(spin=0.9, camera={"inclination_deg": 60}, disk__outer=30). A field is named by its path, or by the last part where one alone is called that.
         Problem, or KerrdError for a name that a scene does not have: the scene stays as it was."""
         named = self._fields.document(changes)
         self._follower.change(lambda scene: patch_of(scene, named))

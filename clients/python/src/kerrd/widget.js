@@ -86,7 +86,8 @@ function hands(stage, scene) {
   function drag(right, down) {
     const { clientWidth: width, clientHeight: height } = stage;
     if (!looks()) return step((-right * 180) / width, (down * 180) / height, begin);
-    const pixel = wide() ? (get('projection') === 'fulldome' ? 180 / Math.min(width, height) : 360 / width) : (2 * Math.tan((get('fov_deg') / 2) * radians)) / width / radians,
+    const round_view = get('projection') === 'fulldome' ? 180 / Math.min(width, height) : 360 / width,
+      pixel = wide() ? round_view : (2 * Math.tan((get('fov_deg') / 2) * radians)) / width / radians,
       roll = get('roll_deg') * radians,
       side = right * Math.cos(roll) - down * Math.sin(roll),
       up = -right * Math.sin(roll) - down * Math.cos(roll);
@@ -195,10 +196,11 @@ function render({ model, el: cell }) {
 
   function show() {
     const wide = scene.get('camera.stereo') === 'pair' ? 2 : 1,
-      place = scene.get('camera.r') === 'infinity' ? '' : `, from ${scene.get('camera.r')} M`;
+      place = scene.get('camera.r') === 'infinity' ? '' : `, from ${scene.get('camera.r')} M`,
+      angles = `inclination ${scene.get('camera.inclination_deg')}°, azimuth ${scene.get('camera.azimuth_deg')}°`;
     stage.style.width = wide * scene.get('image.width') + 'px';
     stage.style.aspectRatio = `${wide * scene.get('image.width')} / ${scene.get('image.height')}`;
-    stage.setAttribute('aria-label', `Black hole of spin ${scene.get('spacetime.spin')} M, seen from inclination ${scene.get('camera.inclination_deg')}°, azimuth ${scene.get('camera.azimuth_deg')}°${place}`);
+    stage.setAttribute('aria-label', `Black hole of spin ${scene.get('spacetime.spin')} M, seen from ${angles}${place}`);
     for (const control of controls) control.show();
   }
   const scene = state(model, id, show);
@@ -222,7 +224,8 @@ function render({ model, el: cell }) {
   }
 
   controls = controlsOf(model, scene);
-  cell.append(el('div', { class: 'kerrd' }, stage, fault, hint, el('div', { class: 'kerrd-controls', 'data-lm-suppress-shortcuts': 'true' }, ...controls.map(({ row }) => row))));
+  const panel = el('div', { class: 'kerrd-controls', 'data-lm-suppress-shortcuts': 'true' }, ...controls.map(({ row }) => row));
+  cell.append(el('div', { class: 'kerrd' }, stage, fault, hint, panel));
   hands(stage, scene);
   model.on('change:scene', scene.told);
   model.on('change:error', complain);
