@@ -295,6 +295,23 @@ class Local(unittest.TestCase):
             time.sleep(0.05)
         self.assertTrue(self.gone(pid))
 
+    def test_an_interrupt_does_not_stop_it(self):
+        """Jupyter's interrupts go to the kernel's whole group of processes, as Ctrl+C does."""
+        code = f'''
+import os, signal, sys, time
+sys.path.insert(0, {str(FOLDER / "src")!r})
+import kerrd
+hole = kerrd.local(binary={KERRD!r})
+try:
+    os.killpg(0, signal.SIGINT)
+    time.sleep(60)
+except KeyboardInterrupt:
+    time.sleep(3)
+print(len(hole.presets()))
+'''
+        done = subprocess.run([sys.executable, '-c', code], capture_output=True, text=True, timeout=100, start_new_session=True)
+        self.assertGreater(int(done.stdout or 0), 3, done.stderr)
+
     def test_what_does_not_start(self):
         with self.assertRaisesRegex(kerrd.KerrdError, 'did not start'):
             kerrd.local(binary=KERRD, args=['--listen', 'nowhere'])

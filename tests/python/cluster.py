@@ -162,5 +162,5 @@ class Cluster(unittest.TestCase):
 
 
 if __name__ == '__main__':
-    signal.alarm(280)
+    signal.alarm(580)
     unittest.main(argv=sys.argv[:1], verbosity=2)

@@ -11,7 +11,7 @@ from .result import Sweep
 from . import scene
 from .scene import *
 
-__all__ = ["AsyncClient", "AsyncJob", "AsyncSession", "Client", "Frame", "Job", "JobFailed", "KerrdError", "NoBinary", "Problem", "Session", "Sweep", "local", "sweep"]
+__all__ = ["AsyncClient", "AsyncJob", "AsyncSession", "Client", "Frame", "Job", "JobFailed", "KerrdError", "NoBinary", "Problem", "Session", "Sweep", "local", "sweep", "widget"]
 __all__ += scene.__all__
 
 
@@ -20,3 +20,15 @@ def sweep(scenes: Any, client: Any = None, **more: Any) -> Any:
     from .dask import sweep as on_cluster
 
     return on_cluster(scenes, client, **more)
+
+
+def widget(scene: Any = None, client: Any = None, **more: Any) -> Any:
+    """The live hole in a cell of a notebook: kerrd.jupyter.Widget, which needs the package anywidget."""
+    try:
+        from .jupyter import Widget
+    except ModuleNotFoundError as missing:
+        if (missing.name or "").split(".")[0] not in ("anywidget", "traitlets", "ipywidgets"):
+            raise
+        raise ImportError("kerrd.widget needs the package anywidget, which is not installed: pip install 'kerrd[jupyter]'") from missing
+
+    return Widget(scene, client, **more)

@@ -191,6 +191,10 @@ def open_session(scene: Document, preset: str | None, least: float | None) -> Ca
     return post("/v1/sessions", scene, _json, params={**over(preset), **({"least": str(least)} if least is not None else {})})
 
 
+def session(name: str) -> Call[dict[str, Any]]:
+    return Call("GET", f"/v1/sessions/{name}", _json)
+
+
 def patch(session: str, token: str, change: Document) -> Call[dict[str, Any]]:
     return post(f"/v1/sessions/{session}", change, _json, token=token, method="PATCH")
 

@@ -217,6 +217,13 @@ class Session:
         self.revision = told["revision"]
         return self.revision
 
+    def refresh(self) -> dict[str, Any]:
+        """Asks for the scene as it is now, which goes on by itself while `motion` is in it, and returns it."""
+        told = self.client._run(calls.session(self.id))
+        self.scene = told["scene"]
+        self.revision = told["revision"]
+        return self.scene
+
     def frame(self, wait: float = FRAME_WAIT_MS / 1000) -> Frame | None:
         """The next frame that has not been seen; None if there is none within so many seconds, as when the scene rests."""
         frame = self.client._run(calls.next_frame(self.id, self._seen, self.quality, int(1000 * wait)))
@@ -228,14 +235,16 @@ class Session:
 
     def __iter__(self) -> Iterator[Frame]:
         """Frames as they come, up to the finest one of a scene that rests, if that has not been seen yet; where something moves, without end."""
-        while self._moves() or self._final < self.revision:
+        while self.moves or self._final < self.revision:
             frame = self.frame(self.frame_wait)
             if frame is not None:
                 yield frame
             elif self._final == self.revision:
                 return  # what goes on changes nothing that is seen
 
-    def _moves(self) -> bool:
+    @property
+    def moves(self) -> bool:
+        """Whether the scene goes on by itself, so that no frame of it is the last."""
         return any(self.scene.get("motion", {}).values())
 
 

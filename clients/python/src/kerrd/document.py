@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import copy
 import dataclasses
+import typing
 from collections.abc import Mapping, Sequence
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -12,6 +14,7 @@ from .scene import Scene
 
 Document: TypeAlias = dict[str, Any]
 SceneLike: TypeAlias = Scene | Mapping[str, Any] | None
+T = TypeVar("T")
 
 
 def plain(value: Any) -> Any:
@@ -87,3 +90,25 @@ def scene_of(scene: SceneLike, changes: Mapping[str, Any]) -> Document:
         else:
             _merge(document, {name: new})
     return document
+
+
+def patch_of(scene: Document, changes: Mapping[str, Any]) -> Document:
+    """The merge patch that makes changes to a whole scene, given as for scene_of. A list goes as a whole, for a merge patch knows no places in it."""
+    lists = [parts[0] for parts in (name.replace("__", ".").split(".") for name in changes) if parts[1:2] and parts[1].isdigit()]
+    return scene_of({name: copy.deepcopy(scene.get(name, [])) for name in lists}, changes)
+
+
+def dataclass_of(document: Mapping[str, Any], kind: type[T]) -> T:
+    """A document as dataclasses; what they have no field for, such as `version`, is left out."""
+    types = typing.get_type_hints(kind)
+    return kind(**{field.name: _typed(document[field.name], types[field.name]) for field in dataclasses.fields(kind) if field.name in document})  # type: ignore[arg-type]
+
+
+def _typed(value: Any, hint: Any) -> Any:
+    """A section as its dataclass, a list of such as a list of them, all else as it is."""
+    for part in typing.get_args(hint):
+        if isinstance(value, Mapping) and dataclasses.is_dataclass(part):
+            return dataclass_of(value, typing.cast(type[Any], part))
+        if isinstance(value, list) and typing.get_args(part) and dataclasses.is_dataclass(typing.get_args(part)[0]):
+            return [dataclass_of(item, typing.get_args(part)[0]) for item in value]
+    return copy.copy(value) if isinstance(value, list) else value

@@ -65,7 +65,8 @@ class local(Client):
     def __init__(self, *, binary: str | os.PathLike[str] | None = None, build: bool = False, device: str | None = None, args: Sequence[str] = (), env: dict[str, str] | None = None,
                  timeout: float = 600, patience: float = 60) -> None:
         command = [find_binary(binary, build=build), "serve", "--port", "0", "--until-eof", *(["--device", device] if device else []), *args]
-        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, env={**os.environ, **(env or {})}, text=True)
+        # Not in this process's group: an interrupt of a cell, or of a script, is for Python alone, and a kernel that ends lets its atexit functions run.
+        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, env={**os.environ, **(env or {})}, text=True, start_new_session=True)
         assert self.process.stdout is not None
         line = self.process.stdout.readline()
         found = re.search(r"listening on (http://\S+)", line)

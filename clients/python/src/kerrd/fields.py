@@ -1,0 +1,149 @@
+"""Fields of the scene by name, of the server's schema: what each takes, and what a slider needs to know of it. No connection is made here."""
+
+from __future__ import annotations
+
+import difflib
+import math
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from .document import Document
+from .errors import KerrdError
+
+MOST_POSITIONS = 400
+DECADES = 30  # a range whose ends differ by more than this factor is one of magnitudes
+PER_DECADE = 40
+UNITS = re.compile(r"_(deg|k|uas|pc|msun|edd|m|jy|ghz|cm3)$")
+
+
+@dataclass(frozen=True)
+class Field:
+    """A field of the scene.
+
+    kind: "number", "integer", "choice", "switch", or "other" of what has no control: a file, a list of words. low, high: what the server takes;
+    span: the part of it that is of use. word: what stands there instead of a number ("infinity"), and first: the number to begin with then.
+    """
+
+    path: str
+    kind: str
+    help: str
+    unit: str
+    default: Any
+    low: float = 0
+    high: float = 0
+    span: tuple[float, float] = (0, 0)
+    word: str | None = None
+    first: float | None = None
+    choices: tuple[str, ...] = ()
+
+    @property
+    def label(self) -> str:
+        """The name in words, without its unit; a field of a list with the number of its element, from 1."""
+        name = UNITS.sub("", self.path.rsplit(".", 1)[-1]).replace("_", " ")
+        section = self.path.split(".")[0]
+        element = re.match(r"[a-z]+\.(\d+)\.", self.path)
+        if element:
+            return f"{section} {int(element[1]) + 1}: {name}"
+        return name if section in ("spacetime", "camera", "style", "time") else f"{section}: {name}"
+
+    def positions(self) -> list[float]:
+        """The numbers that a slider stops at, ends included: round ones, by factors where the range is one of magnitudes; not more than some MOST_POSITIONS."""
+        low, high = self.span
+        if self.kind == "integer" and high - low <= MOST_POSITIONS:
+            return [float(n) for n in range(math.ceil(low), math.floor(high) + 1)]
+        inner: list[float]
+        if self.unit != "degrees" and low > 0 and high / low > DECADES:
+            inner = _factors(low, high)
+        elif self.unit != "degrees" and low == 0 and self.kind == "number" and high > DECADES * self._usual():
+            inner = [0.0, *_factors(self._usual() / 100, high)]  # 0 is "off": from there to a hundredth of what is usual in one step
+        else:
+            step = next(size * 10.0**power for power in range(-12, 13) for size in (1, 2, 5) if (high - low) / (size * 10.0**power) <= MOST_POSITIONS)
+            inner = [round(n * step, 12) for n in range(math.ceil(low / step), math.floor(high / step) + 1)]
+        if self.kind == "integer":
+            inner = [float(round(x)) for x in inner]
+        return sorted({low, high, *(x for x in inner if low < x < high)})
+
+    def _usual(self) -> float:
+        return abs(self.default) if isinstance(self.default, (int, float)) and self.default else 1.0
+
+    def control(self) -> dict[str, Any]:
+        """What draws a control needs, as JSON has it."""
+        told: dict[str, Any] = {"path": self.path, "kind": self.kind, "label": self.label, "help": self.help, "unit": self.unit}
+        if self.kind in ("number", "integer"):
+            first = self.span[0] if self.first is None else self.first
+            return {**told, "low": self.low, "high": self.high, "positions": self.positions(), "word": self.word, "first": first}
+        return {**told, "choices": list(self.choices)}
+
+
+class Fields:
+    """The fields that a schema (/v1/schema) lists, by path ("disk.outer", "spots.0.r") or by its last part where one field alone is called that ("spin")."""
+
+    def __init__(self, schema: Mapping[str, Any]) -> None:
+        self.paths = {path: spec for path, spec in _leaves(schema, "")}
+        self.folders = {name for name, spec in schema["properties"].items() if not spec.get("deprecated") and name not in self.paths}
+
+    def path(self, name: str) -> str:
+        """The whole path of a field, or the name of a section; KerrdError naming the fields that it may mean."""
+        said = name.replace("__", ".")
+        general = re.sub(r"\.\d+(?=\.)", ".*", said)
+        if said in self.folders or general in self.paths:
+            return said
+        ending = [path for path in self.paths if path.endswith("." + said) and "*" not in path]
+        if len(ending) == 1:
+            return ending[0]
+        if ending:
+            raise KerrdError(f"{name} may be {', '.join(ending)}: say which")
+        ends = {path.rsplit(".", 1)[-1] for path in self.paths}
+        near = difflib.get_close_matches(said, [*self.paths, *ends], 3)
+        raise KerrdError(f"a scene has no field {name}" + (f"; near it: {', '.join(near)}" if near else ""))
+
+    def document(self, changes: Mapping[str, Any]) -> Document:
+        """The same changes by whole paths; `size` stays."""
+        return {name if name == "size" else self.path(name): value for name, value in changes.items()}
+
+    def control(self, name: str) -> Field:
+        """A field that a control is wanted for."""
+        path = self.path(name)
+        spec = self.paths.get(re.sub(r"\.\d+(?=\.)", ".*", path))
+        if spec is None:
+            raise KerrdError(f"{name} is a section: a control is of one of its fields, such as {next(p for p in self.paths if p.startswith(path + '.'))}")
+        field = _field(path, spec)
+        if field.kind == "other":
+            raise KerrdError(f"{path} is no number, choice or switch, and has no control; set(**{{{path!r}: …}}) sets it")
+        return field
+
+
+def _leaves(node: Mapping[str, Any], before: str) -> Iterator[tuple[str, Mapping[str, Any]]]:
+    for name, spec in node["properties"].items():
+        if spec.get("deprecated") or "const" in spec:
+            continue
+        if "properties" in spec:
+            yield from _leaves(spec, f"{before}{name}.")
+        elif "properties" in spec.get("items", {}):
+            yield from _leaves(spec["items"], f"{before}{name}.*.")
+        else:
+            yield before + name, spec
+
+
+def _field(path: str, spec: Mapping[str, Any]) -> Field:
+    parts: Sequence[Mapping[str, Any]] = spec.get("anyOf", (spec,))
+    told = {"path": path, "help": spec.get("description", ""), "unit": spec.get("x-unit", ""), "default": spec.get("default")}
+    if "enum" in spec:
+        return Field(kind="choice", choices=tuple(spec["enum"]), **told)
+    if spec.get("type") == "boolean":
+        return Field(kind="switch", **told)
+    ranges = [part for part in parts if "minimum" in part]
+    if not ranges:
+        return Field(kind="other", **told)
+    low, high = ranges[0]["minimum"], ranges[0]["maximum"]
+    start, end = spec.get("x-span", (low, high))
+    word = next((part["const"] for part in parts if "const" in part), None)
+    return Field(kind=ranges[0]["type"], low=low, high=high, span=(start, end), word=word, first=spec.get("x-first"), **told)
+
+
+def _factors(low: float, high: float) -> list[float]:
+    """Numbers of three figures from low to high, each the one before times a factor."""
+    number = min(MOST_POSITIONS, math.ceil(math.log10(high / low) * PER_DECADE))
+    return [float(f"{low * (high / low) ** (k / number):.3g}") for k in range(number + 1)]

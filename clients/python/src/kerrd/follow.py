@@ -1,0 +1,270 @@
+"""A scene that is watched and changed at once: a session at a server, with a thread that tells it changes and one that fetches frames. It knows nothing of Jupyter."""
+
+from __future__ import annotations
+
+import atexit
+import threading
+from collections.abc import Callable, Mapping
+from time import monotonic
+from typing import Any
+
+import httpx
+
+from .client import Client, Session
+from .document import Document, SceneLike, patch_of, scene_of
+from .errors import KerrdError, Problem
+from .frame import Frame
+
+MOST_UNSHOWN = 2  # frames that a viewer has been sent and has not shown yet
+DEAF_S = 0.25  # after which a frame counts as shown where a cell runs, during which the kernel hears no viewer
+PRESENCE_S = 150  # without a word, after which a viewer is taken to have left: a hidden page speaks once a minute
+AGAIN_S = 2.0  # from one attempt to reach a server that is gone to the next
+REFRESH_S = 0.2  # from one look at a scene that goes on by itself to the next
+
+
+def sentence(error: BaseException, url: str) -> str:
+    """What is told of a failure."""
+    if isinstance(error, Problem):
+        return error.detail or str(error)
+    if isinstance(error, httpx.TransportError):
+        return f"the server at {url} does not answer ({str(error).rstrip('.') or type(error).__name__})"
+    return str(error.args[0]) if isinstance(error, KeyError) else str(error)
+
+
+def _end(session: Session) -> None:
+    try:
+        session.close()
+    except (KerrdError, httpx.HTTPError, RuntimeError):
+        pass  # it ends by itself in a minute
+
+
+class Follower:
+    """Keeps a session, and opens another with the same scene where it has ended; frames are fetched only while somebody watches or waits.
+
+    took(scene): the scene has become this. show(frame, serial): a viewer is to see it, and calls shown(serial) then; no more than MOST_UNSHOWN are on their way, and
+    of those that come meanwhile the newest alone is kept. complain(text): something is wrong, or with "" no longer. All three are called on any thread, `took` on one
+    at a time.
+    The constructor raises what a server says of a scene that it does not take.
+    """
+
+    def __init__(self, client: Client, scene: SceneLike, changes: Mapping[str, Any], *, preset: str | None = None, quality: int | None = None) -> None:
+        self.client = client
+        self.quality = quality
+        self.took: Callable[[Document], None] = lambda scene: None
+        self.show: Callable[[Frame, int], None] = lambda frame, serial: None
+        self.complain: Callable[[str], None] = lambda text: None
+        self._session: Session = client.session(scene_of(scene, changes), preset=preset, quality=quality)
+        self.scene: Document = self._session.scene
+        self._patching = threading.RLock()  # the order of scenes
+        self._state = threading.Condition()  # of all that follows
+        self._waiting: dict[str, Any] = {}
+        self._answers: list[Callable[[], None]] = []
+        self._views: dict[str, float] = {}
+        self._waiters = 0
+        self._unshown: list[tuple[int, float]] = []  # serial, and when it was sent
+        self._unsent = False
+        self._serial = 0
+        self._frame: Frame | None = None
+        self._of: Session | None = None  # whose frame it is
+        self._faults = {"change": "", "frame": ""}
+        self._failures = 0
+        self._closed = False
+        self._threads = [threading.Thread(target=work, name=f"kerrd-{work.__name__.strip('_')}", daemon=True) for work in (self._tell, self._fetch)]
+
+    def start(self) -> None:
+        atexit.register(self.close)
+        for thread in self._threads:
+            thread.start()
+
+    def close(self) -> None:
+        """Ends the session and both threads; once is enough."""
+        with self._state:
+            if self._closed:
+                return
+            self._closed = True
+            self._state.notify_all()
+        atexit.unregister(self.close)
+        _end(self._session)
+        for thread in self._threads:
+            if thread is not threading.current_thread() and thread.is_alive():
+                thread.join(2)
+
+    def change(self, patch: Callable[[Document], Document]) -> None:
+        """Changes the scene now, by a merge patch that is made of it as it is; raises what the server says."""
+        self._attempt(lambda: self._patch(patch(self.scene)))
+
+    def replace(self, scene: Callable[[Document], Document]) -> None:
+        """Puts another scene in the place of this one, which it is made of; raises what the server says. By a new session: no patch says "as if nothing had been set"."""
+        self._attempt(lambda: self._exchange(scene(self.scene)))
+
+    def later(self, changes: Mapping[str, Any], answer: Callable[[], None]) -> None:
+        """Changes fields soon, by dotted path; of several values for one that wait the last one counts. answer(): they have been taken, or refused."""
+        with self._state:
+            self._waiting.update(changes)
+            self._answers.append(answer)
+            self._state.notify_all()
+
+    def watch(self, view: str, *, anew: bool = False) -> None:
+        """There is a viewer, which says so again within PRESENCE_S; anew: it has nothing to show yet."""
+        with self._state:
+            self._views[view] = monotonic()
+            if anew:
+                self._unshown.clear()
+                self._unsent = self._frame is not None
+            self._state.notify_all()
+        self._send()
+
+    def leave(self, view: str) -> None:
+        with self._state:
+            self._views.pop(view, None)
+
+    def shown(self, serial: int) -> None:
+        """A viewer has shown a frame, and with it all before."""
+        with self._state:
+            self._unshown = [sent for sent in self._unshown if sent[0] > serial]
+            self._state.notify_all()
+        self._send()
+
+    def deaf(self) -> None:
+        """Who calls this holds up the thread that hears viewers: the oldest frame that was sent counts as shown when it is DEAF_S old, so that a loop in a cell is seen."""
+        with self._state:
+            if self._unshown and monotonic() - self._unshown[0][1] > DEAF_S:
+                del self._unshown[0]
+                self._state.notify_all()
+        self._send()
+
+    def frame(self, *, final: bool, timeout: float) -> Frame:
+        """The newest frame of the scene as it is now, or with `final` its finest, which is the newest where time goes on. KerrdError: it cannot be had."""
+        def there() -> bool:
+            session, frame = self._session, self._frame
+            return frame is not None and self._of is session and frame.revision >= session.revision and (frame.final or session.moves or not final)
+
+        with self._state:
+            failures = self._failures
+            self._waiters += 1
+            self._state.notify_all()
+            try:
+                self._state.wait_for(lambda: self._closed or self._failures > failures or there(), timeout)
+            finally:
+                self._waiters -= 1
+            if there() and self._frame is not None:
+                return self._frame
+            raise KerrdError(("this view is closed" if self._closed else "") or self._faults["frame"] or f"no picture came within {timeout:g} s")
+
+    def _attempt(self, work: Callable[[], None]) -> None:
+        with self._patching:
+            try:
+                work()
+                self.scene = self._session.scene
+                self.took(self.scene)
+            except Exception as error:
+                self._fault("change", sentence(error, self.client.url))
+                raise
+            self._fault("change", "")
+            with self._state:
+                self._state.notify_all()
+
+    def _exchange(self, scene: Document) -> None:
+        before, self._session = self._session, self.client.session(scene, quality=self.quality)
+        _end(before)
+
+    def _patch(self, patch: Document) -> None:
+        try:
+            self._session.patch(patch)
+        except Problem as problem:
+            if problem.status != 404:
+                raise
+            self._reopen(self._session)
+            self._session.patch(patch)
+
+    def _reopen(self, ended: Session) -> None:
+        """A new session in the place of one that has ended, unless another thread has opened it."""
+        with self._patching:
+            if self._session is ended and not self._closed:
+                self._session = self.client.session(self.scene, quality=self.quality)
+
+    def _fault(self, of: str, text: str) -> None:
+        with self._state:
+            if of == "frame" and text:
+                self._failures += 1
+                self._state.notify_all()
+            changed = self._faults[of] != text
+            self._faults[of] = text
+            told = self._faults["frame"] or self._faults["change"]
+        if changed and not self._closed:
+            self.complain(told)
+
+    def _tell(self) -> None:
+        """The thread that tells the server changes."""
+        while True:
+            with self._state:
+                self._state.wait_for(lambda: self._closed or self._answers)
+                if self._closed:
+                    return
+                changes, answers = self._waiting, self._answers
+                self._waiting, self._answers = {}, []
+            try:
+                self.change(lambda scene: patch_of(scene, changes))
+            except Exception:  # told already, and the scene is as it was
+                pass
+            for answer in answers:
+                answer()
+
+    def _wanted(self) -> bool:
+        now = monotonic()
+        self._views = {view: heard for view, heard in self._views.items() if now - heard < PRESENCE_S}
+        return self._waiters > 0 or (bool(self._views) and len(self._unshown) < MOST_UNSHOWN)
+
+    def _fetch(self) -> None:
+        """The thread that fetches frames."""
+        looked = 0.0
+        while True:
+            with self._state:
+                self._state.wait_for(lambda: self._closed or self._wanted())
+                if self._closed:
+                    return
+                session = self._session
+            try:
+                self._next(session)
+                if session.moves and monotonic() - looked > REFRESH_S:
+                    self._look(session)
+                    looked = monotonic()
+                self._fault("frame", "")
+            except Exception as error:
+                if self._closed:
+                    return
+                revision = session.revision
+                self._fault("frame", sentence(error, self.client.url))
+                with self._state:
+                    self._state.wait_for(lambda: self._closed or session.revision != revision, AGAIN_S)
+
+    def _next(self, session: Session) -> None:
+        try:
+            frame = session.frame()
+        except Problem as problem:
+            if problem.status != 404 or self._closed:
+                raise
+            return self._reopen(session)
+        if frame is None:
+            return
+        with self._state:
+            self._frame, self._of, self._unsent = frame, session, True
+            self._serial += 1
+            self._state.notify_all()
+        self._send()
+
+    def _look(self, session: Session) -> None:
+        with self._patching:
+            if session is self._session:
+                self.scene = session.refresh()
+                self.took(self.scene)
+
+    def _send(self) -> None:
+        """Sends the newest frame, if a viewer has not been sent it and has shown enough of those before."""
+        with self._state:
+            if self._closed or not self._unsent or not self._views or len(self._unshown) >= MOST_UNSHOWN or self._frame is None:
+                return
+            self._unsent = False
+            self._unshown.append((self._serial, monotonic()))
+            frame, serial = self._frame, self._serial
+        self.show(frame, serial)

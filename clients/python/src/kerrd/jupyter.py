@@ -1,0 +1,190 @@
+"""The live hole in a cell of a notebook: kerrd.widget(…). Needs the package anywidget (pip install kerrd[jupyter]).
+
+Pictures come from a session of the server to the kernel (follow.py) and over its comm to widget.js: the browser need not reach the server.
+"""
+
+from __future__ import annotations
+
+import copy
+import io
+import threading
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import anywidget
+import traitlets
+
+from .client import Client
+from .document import Document, SceneLike, dataclass_of, patch_of, scene_of
+from .errors import KerrdError
+from .fields import Fields
+from .follow import Follower
+from .frame import Frame
+from .local import local
+from .scene import Scene
+
+USUAL = ("spacetime.spin", "camera.inclination_deg", "disk.outer", "style.exposure")
+WIDTH = 640  # pixels, of a picture of which nobody has said how large it is to be
+PATIENCE_S = 60.0  # for a picture that is asked for
+FINEST_S, SHOW_S = 2.0, 10.0  # for the finest one, and for any, that is kept in the notebook beside the widget
+
+_starting = threading.Lock()
+_own: local | None = None
+
+
+def own_server() -> Client:
+    """The server that widgets of this Python have together where they are given none; another where it has died."""
+    global _own
+    with _starting:
+        if _own is not None and _own.process.poll() is not None:
+            _own.close()
+            _own = None
+        if _own is None:
+            _own = local()
+        return _own
+
+
+class _Taken:
+    """A scene that the server has taken, on its way into the trait."""
+
+    def __init__(self, document: Document) -> None:
+        self.scene = dataclass_of(document, Scene)
+
+
+class _SceneTrait(traitlets.TraitType[Any, Any]):
+    """A kerrd.Scene with every field; what is read is a copy. What is set goes to the server first, and is not set if that refuses it."""
+
+    def validate(self, obj: Any, value: Any) -> Scene:
+        return value.scene if isinstance(value, _Taken) else obj._replaced(value)
+
+    def get(self, obj: Any, cls: Any = None) -> Scene | None:
+        return copy.deepcopy(super().get(obj, cls))
+
+
+class Widget(anywidget.AnyWidget):
+    """A hole to turn and change, in a notebook's cell.
+
+    scene: a kerrd.Scene, always the current one; a trait: observe it, or set it as a whole (a mapping or dataclasses, in which what is not named goes to its default, but
+    for the picture's size). Observers run on a thread of the widget where the browser has changed it. error: what is wrong, or "".
+    """
+
+    _esm = Path(__file__).with_name("widget.js")
+    _css = Path(__file__).with_name("widget.css")
+    scene = _SceneTrait().tag(sync=True, to_json=lambda scene, widget: widget._follower.scene)
+    error = traitlets.Unicode("").tag(sync=True)
+    _controls: Any = traitlets.List().tag(sync=True)
+
+    def __init__(self, scene: SceneLike = None, client: Client | str | None = None, controls: Sequence[str] = USUAL, *, preset: str | None = None, quality: int | None = 80,
+                 **changes: Any) -> None:
+        if client is not None and not isinstance(client, (Client, str)):
+            raise KerrdError(f"client is a {type(client).__name__}; allowed are a kerrd.Client, kerrd.local() and the address of a server")
+        hole = Client(client) if isinstance(client, str) else client or own_server()
+        self._fields = Fields(hole.schema())
+        wanted = [self._fields.control(name) for name in ([controls] if isinstance(controls, str) else controls)]
+        document = scene_of(scene, self._fields.document(changes))
+        self._follower = Follower(hole, document, {}, preset=preset, quality=quality)
+        try:
+            self._begin(document)
+            for field in wanted:
+                patch_of(self._follower.scene, {field.path: None})  # KeyError: of an element that is not there
+        except BaseException:
+            self._follower.close()
+            raise
+        super().__init__(scene=_Taken(self._follower.scene), _controls=[field.control() for field in wanted])
+        self._follower.took = self._took
+        self._follower.show = self._show
+        self._follower.complain = lambda text: self.set_trait("error", text)
+        self.on_msg(self._heard)
+        if self.comm is not None and hasattr(self.comm, "on_close"):
+            self.comm.on_close(lambda message: self._follower.close())
+        self._follower.start()
+
+    def _begin(self, document: Document) -> None:
+        """A picture whose size nobody has said is no wider than WIDTH."""
+        image = self._follower.scene["image"]
+        if not {"width", "height"} & document.get("image", {}).keys() and image["width"] > WIDTH:
+            self._follower.change(lambda scene: {"image": {"width": WIDTH, "height": round(image["height"] * WIDTH / image["width"])}})
+
+    def set(self, **changes: Any) -> None:
+        """Changes the scene: set(spin=0.9, camera={"inclination_deg": 60}, disk__outer=30). A field is named by its path, or by the last part where one alone is called that.
+        Problem, or KerrdError for a name that a scene does not have: the scene stays as it was."""
+        named = self._fields.document(changes)
+        self._follower.change(lambda scene: patch_of(scene, named))
+        self._follower.deaf()
+
+    @property
+    def frame(self) -> Frame:
+        """The newest frame of the scene as it is now; waits for one."""
+        return self._follower.frame(final=False, timeout=PATIENCE_S)
+
+    @property
+    def png(self) -> bytes:
+        """The picture of the scene as it is now, at its finest, as a PNG; where time goes on, the newest one."""
+        frame = self._follower.frame(final=True, timeout=PATIENCE_S)
+        return frame.data if frame.kind == "image/png" else _encoded(frame, "PNG")
+
+    def save(self, path: str) -> None:
+        """Writes the picture as a PNG that carries its scene: `kerrd render --from` makes it again."""
+        if Path(path).suffix.lower() != ".png":
+            raise KerrdError(f"{path} is no name of a PNG: allowed is one that ends in .png")
+        self._follower.client.render(self._follower.scene).save(path)
+
+    def close(self) -> None:
+        """Takes the widget away and ends its session; the end of the kernel does so too."""
+        super().close()
+        if hasattr(self, "_follower"):
+            self._follower.close()
+
+    def _replaced(self, scene: SceneLike) -> Scene:
+        document = scene_of(scene, {})
+
+        def sized(now: Document) -> Document:
+            return {**document, "image": {**{name: now["image"][name] for name in ("width", "height")}, **document.get("image", {})}}
+
+        self._follower.replace(sized)
+        self._follower.deaf()
+        return dataclass_of(self._follower.scene, Scene)
+
+    def _took(self, scene: Document) -> None:
+        self.set_trait("scene", _Taken(scene))
+
+    def _show(self, frame: Frame, serial: int) -> None:
+        self.send({"kind": "frame", "serial": serial, "type": frame.kind, "final": frame.final}, buffers=[frame.data])
+
+    def _heard(self, widget: Any, message: Any, buffers: Any) -> None:
+        """A word of widget.js."""
+        kind = message.get("kind")
+        if kind == "change":
+            self._follower.later(message["values"], lambda: self.send({"kind": "took", "view": message["view"], "scene": self._follower.scene}))
+        elif kind == "shown":
+            self._follower.shown(int(message["serial"]))
+        elif kind == "watch":
+            self._follower.watch(message["view"], anew=bool(message.get("anew")))
+        elif kind == "leave":
+            self._follower.leave(message["view"])
+
+    def _repr_mimebundle_(self, **kwargs: Any) -> Any:
+        """The widget, and a picture for those who read the notebook without its kernel."""
+        bundle: Any = super()._repr_mimebundle_(**kwargs)
+        frame = self._within(FINEST_S, final=True) or self._within(SHOW_S, final=False)
+        if frame is None:
+            return bundle
+        data = {"image/jpeg": _encoded(frame, "JPEG", self._follower.scene["image"]["height"])}
+        return ({**bundle[0], **data}, bundle[1]) if isinstance(bundle, tuple) else {**bundle, **data}
+
+    def _within(self, seconds: float, *, final: bool) -> Frame | None:
+        try:
+            return self._follower.frame(final=final, timeout=seconds)
+        except KerrdError:
+            return None
+
+
+def _encoded(frame: Frame, kind: str, height: int | None = None) -> bytes:
+    """The frame as another file; height: scaled to so many rows of pixels."""
+    file = io.BytesIO()
+    image = frame.image.convert("RGB")
+    if height is not None and height != image.height:
+        image = image.resize((round(image.width * height / image.height), height))
+    image.save(file, kind, quality=85)
+    return file.getvalue()
