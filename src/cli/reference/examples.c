@@ -11,7 +11,7 @@ const struct kd_example kd_examples[] = {
     { "view", "kerrd view hole.png --protocol kitty > picture.kitty", "A picture that is there, and a line that tells its scene:" },
     { "light-curve", "kerrd light-curve --preset hot-spot --size 160x90 --frames 24 -o flare.csv", "Flux and centroid over one orbit of a hot spot:" },
     { "sweep", "kerrd sweep --size 160x90 -x spacetime.spin=0,0.9 -x camera.inclination_deg=30:70:20 -o sweep.fits", "Six scenes, two spins by three inclinations, as one array:" },
-    { "film", "echo '{\"scene\": {}, \"keyframes\": [{\"frame\": 3, \"scene\": {\"camera\": {\"inclination_deg\": 60}}}]}' | kerrd film - --size 160x90 -o turn.zip", "Four numbered pictures, from the default inclination to another one:" },
+    { "film", "kerrd film - --size 160x90 -o turn.zip <<< '{\"scene\": {}, \"keyframes\": [{\"frame\": 3, \"scene\": {\"camera\": {\"inclination_deg\": 60}}}]}'", "Four numbered pictures, from the default inclination to another one:" },
     { "particles", "kerrd particles --preset living-disk --count 1000 --fields x,y,z -o particles.npy", "Where a thousand particles are:" },
     { "rays", "kerrd rays --spin 0.9 --inclination-deg 60 --ray -5,1", "Where one ray ends:" },
     { "rays", "kerrd rays --spin 0.9 --inclination-deg 60 --ray -5,1 --trace=path --format csv -o path.csv", "The points of its path:" },
@@ -47,6 +47,7 @@ const struct kd_variable kd_variables[] = {
     { "LP_NUM_THREADS", "bench", "how many threads lavapipe has: its speeds are told per core" },
     { "TMUX", "view", "where it is set, tmux stands before the terminal, and a refusal says so" },
     { "KERRD_BASE_PATH", "serve", "the base path, where --base-path names none" },
+    { "PATH", "film serve", "the folders in which the program ffmpeg is sought, which encodes films" },
     { "TMPDIR", "sweep film serve", "the folder of temporary files; /tmp where it is not set" },
 };
 const size_t kd_n_variables = sizeof kd_variables / sizeof *kd_variables;
