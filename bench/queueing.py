@@ -255,6 +255,7 @@ class Balancer:
 
     def request(self, make):
         """A process: a request for the work that make() returns. Its value: 200 or 503."""
+        work = make()
         yield from self.passes()
         for _ in range(self.retries + 1):
             turn = self.take()
@@ -267,7 +268,7 @@ class Balancer:
             if not server:
                 return 503
             try:
-                yield server.submit(make())
+                yield server.submit(work)
                 return 200
             except Refused:
                 pass
@@ -281,7 +282,8 @@ class Habits:
     """A visitor's, and what his frames take. Times to the next stroke and of a stroke are exponential."""
     drag: float = 3.0       # mean seconds of a stroke
     rest: float = 12.0      # mean seconds between two
-    pause: float = 0.004    # from a picture to the next input
+    pause: float = 0.001    # from a picture to the next request
+    frames: int = 2         # of an input: the one that is under way when it comes, as time goes on by itself, and the one that shows it
     encode: float = 0.001
     floor: float = 0.010    # device seconds of a frame as small as it may be
     full: float = 0.100     # of one as large as it may be
@@ -296,15 +298,17 @@ def frame_seconds(habits, dragged):
 
 
 def stroke(env, server, habits, seconds, log):
-    """A drag: a patch, the frame that shows it, the next patch. log: (when, seconds from input to picture)."""
+    """A drag: a patch, frames until one shows it, the next patch. log: (when, seconds from input to picture)."""
     server.dragged += 1
     end = env.now + seconds
     try:
         while env.now < end:
-            sent, takes = env.now, frame_seconds(habits, server.dragged)
-            yield server.submit(Work(takes, takes, habits.encode, 'live'))
+            sent = env.now
+            for _ in range(habits.frames):
+                takes = frame_seconds(habits, server.dragged)
+                yield server.submit(Work(takes, takes, habits.encode, 'live'))
+                yield env.timeout(habits.pause)
             log.append((sent, env.now - sent))
-            yield env.timeout(habits.pause)
     finally:
         server.dragged -= 1
 
