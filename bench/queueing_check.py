@@ -61,9 +61,9 @@ def free_port():
 class Server(live.Server):
     """A server of this command line, which is told its --queue."""
 
-    def __init__(self, command, queue):
+    def __init__(self, command, queue, priority=PRIORITY):
         self.process = subprocess.Popen([*command, '--port', '0', '--client-share', '100', '--queue', str(queue)], stdout=subprocess.PIPE, text=True,
-                                        env={**os.environ, 'LP_NUM_THREADS': '1'}, preexec_fn=lambda: os.setpriority(os.PRIO_PROCESS, 0, PRIORITY))
+                                        env={**os.environ, 'LP_NUM_THREADS': '1'}, preexec_fn=lambda: os.setpriority(os.PRIO_PROCESS, 0, priority))
         self.port = int(live.re.search(r':(\d+)/', self.process.stdout.readline())[1])
 
 
@@ -179,7 +179,7 @@ def simulate(n, setting, arrivals, takes, estimated, aside):
     servers = [queueing.Server(env, setting['queue'], aside) for _ in range(n)]
     balancer, log = queueing.Balancer(env, servers, **setting['model']), []
     env.process(queueing.open_renders(env, balancer, arrivals, lambda k: queueing.Work(takes[k], estimated[k]), log))
-    env.run(arrivals[-1] + 600)
+    env.run(max(arrivals) + 600)
     assert len(log) == len(arrivals)
     return [(took, status) for _, _, took, status in sorted(log)], max(at + took for _, at, took, _ in log)
 
@@ -199,15 +199,21 @@ def run(proxied, setting, load, rng, n):
     if len(lone) > 20:  # what a picture that meets none of ours takes beyond Server-Timing, at the time of the run
         c['aside_s'] = statistics.mean(lone)
     foretold = [rng.choice(c['took'][size]) + c['beyond_s'] for size, _ in asked]
-    by_size = [statistics.mean(took) for took in c['took']]
-    replayed = [(timing['total'] + timing['encode'] if 'total' in timing else by_size[size]) + c['beyond_s'] for (size, _), (_, _, timing, _) in zip(asked, answers)]
+    served = [timing['total'] + timing['encode'] if 'total' in timing else None for _, _, timing, _ in answers]
+    like = [[took for took, (at, _) in zip(served, asked) if took and at == size] or c['took'][size] for size in range(len(MIX))]  # for those that were refused
+    replayed = [(took or rng.choice(like[size])) + c['beyond_s'] for took, (size, _) in zip(served, asked)]
     out = {'real': told([(took, status) for status, took, *_ in answers], seconds)}
     estimated = [c['estimates'][size] for size, _ in asked]
     for name, takes in (('replayed', replayed), ('foretold', foretold)):
-        out[name] = told(*simulate(2, setting, arrivals, takes, estimated, max(0.0, c['aside_s'] - c['beyond_s'])))
+        out[name] = told(*simulate(2, setting, sent(arrivals, answers), takes, estimated, max(0.0, c['aside_s'] - c['beyond_s'])))
     out['late_ms'] = 1e3 * queueing.quantile([late for *_, late in answers], 0.95)
     out['calibration'] = {**{key: value for key, value in c.items() if key != 'took'}, 'samples_s': [[round(t, 5) for t in took] for took in c['took']]}
     return out
+
+
+def sent(arrivals, answers):
+    """When they were asked for in fact: a busy machine wakes this script late."""
+    return [at + late for at, (*_, late) in zip(arrivals, answers)]
 
 
 def alone(arrivals, answers):
@@ -220,26 +226,24 @@ def alone(arrivals, answers):
 
 
 def sleeping(path, n, load, rng, count):
-    """n servers of which the device sleeps for as long as the picture says: real queues and a real HAProxy, for next to no processor time. One run, and the model of it."""
-    proxied = Proxied([Server([path], 16) for _ in range(n)], SETTINGS['as in docs/examples'])
+    """n servers of which the device sleeps for as long as the picture says: real queues and a real HAProxy, for next to no processor time. One run, and the model of it with what each picture took."""
+    proxied = Proxied([Server([path], 16, os.getpriority(os.PRIO_PROCESS, 0)) for _ in range(n)], SETTINGS['as in docs/examples'])
     try:
         def some(count):
-            naps = [0.01 * max(1, round(rng.expovariate(1 / 6))) for _ in range(count)]
-            return naps, [(0, f'/v1/render?image.width=64&image.height=36&time={1e3 * nap:.0f}') for nap in naps]
-        naps, asked = some(60)
-        took = [asyncio.run(ask(proxied.port, target))[1] for _, target in asked]
-        slope, aside = statistics.linear_regression(naps, took)  # a sleep of 10 ms takes a little longer
-        naps, asked = some(40 * n)
-        _, rate = asyncio.run(closed(proxied.port, asked, 2 * n))
-        beyond = n / rate - slope * statistics.mean(naps)  # from the end of one to the begin of the next
-        naps, asked = some(count)
-        arrivals = queueing.poisson(rng, load * n / (slope * statistics.mean(naps) + beyond), count)
+            return [(0, f'/v1/render?image.width=64&image.height=36&time={10 * max(1, round(rng.expovariate(1 / 6)))}') for _ in range(count)]
+        single = [asyncio.run(ask(proxied.port, target)) for _, target in some(40)]
+        aside = statistics.median(took - timing['slept'] for _, took, timing in single)
+        answers, rate = asyncio.run(closed(proxied.port, some(40 * n), 2 * n))
+        mean = statistics.mean(timing['slept'] for *_, timing in answers)
+        asked, arrivals = some(count), queueing.poisson(rng, load * rate, count)
         answers, seconds = asyncio.run(opened(proxied.port, asked, arrivals))
     finally:
         proxied.stop()
+    beyond = max(0.0, n / rate - mean)  # from the end of one to the begin of the next
     estimate = 64 * 36 * 1e-6  # of that renderer, a microsecond a ray
-    model = simulate(n, SETTINGS['as in docs/examples'], arrivals, [slope * nap + beyond for nap in naps], [estimate] * count, max(0.0, aside - beyond))
-    return {'real': told([(took, status) for status, took, *_ in answers], seconds), 'replayed': told(*model), 'slope': slope, 'aside_s': aside, 'beyond_s': beyond}
+    model = simulate(n, SETTINGS['as in docs/examples'], sent(arrivals, answers), [timing['slept'] + beyond for _, _, timing, _ in answers], [estimate] * count, max(0.0, aside - beyond))
+    return {'real': told([(took, status) for status, took, *_ in answers], seconds), 'replayed': told(*model), 'rate': rate, 'mean_s': mean, 'aside_s': aside, 'beyond_s': beyond,
+            'late_ms': 1e3 * queueing.quantile([late for *_, late in answers], 0.95)}
 
 
 def calmest(rounds):
