@@ -155,7 +155,7 @@ def main():
         shows = {f'{name}, {size["width"]} × {size["height"]}': (name, size) for name, size in (('default', SIZE), ('first view', SIZE), ('first view', SCREEN_4K))}
         r['resting'] = {title: resting(server, *show, 2 if few else 5) for title, show in shows.items()}
         r['watched'] = {title: watched(server, *show, 2 if few else 5) for title, show in shows.items() if show[0] == 'first view'}
-        r['dragged'] = {f'{n} of the first view': dragged(server, 'first view', SIZE, n, 2 if few else 4, 1 if few else 2) for n in ((1, 4) if few else (1, 2, 4, 8, 16))}
+        r['dragged'] = {f'{n} of the first view': dragged(server, 'first view', SIZE, n, 2 if few else 4, 1 if few else 2) for n in ((1, 4, 8) if few else (1, 2, 4, 8, 16))}
         r['dragged']['1 of the first view, 3840 × 2160'] = dragged(server, 'first view', SCREEN_4K, 1, 2 if few else 4, 1 if few else 2)
     finally:
         server.process.terminate()
