@@ -107,9 +107,10 @@ def steer(session, patches):
     return summary(answers, time.monotonic() - begun, waits)
 
 
-def drag(port, k, begin, seconds, settle):
+def drag(port, k, begin, seconds, settle, scene=None):
     """One of several that are dragged at once, from `begin` on: what it had after the first `settle` seconds."""
-    session = Session(port, {'image': SIZE, 'sky': {'model': 'grid'}, 'camera': {'azimuth_deg': 40 * k}})  # and inclinations of its own, that nobody finds another's lens map
+    scene = scene or {'image': SIZE, 'sky': {'model': 'grid'}}
+    session = Session(port, {**scene, 'camera': {**scene.get('camera', {}), 'azimuth_deg': 40 * k % 360}})  # and inclinations of its own, that nobody finds another's lens map
     time.sleep(max(0, begin - time.monotonic()))
     answers, waits, n = [], [], 0
     while time.monotonic() < begin + seconds:
@@ -129,11 +130,11 @@ def drag(port, k, begin, seconds, settle):
     return row
 
 
-def dragged_together(server, n, seconds=9, settle=3):
+def dragged_together(server, n, seconds=9, settle=3, scene=None):
     """A process each, so that they wait for the server and not for one another."""
     begin = time.monotonic() + 1 + n / 4
     with concurrent.futures.ProcessPoolExecutor(n, mp_context=multiprocessing.get_context('fork')) as pool:
-        running = [pool.submit(drag, server.port, k, begin, seconds, settle) for k in range(n)]
+        running = [pool.submit(drag, server.port, k, begin, seconds, settle, scene) for k in range(n)]
         time.sleep(max(0, begin + settle - time.monotonic()))
         cpu = server.cpu()
         time.sleep(max(0, begin + seconds - time.monotonic()))
@@ -143,7 +144,7 @@ def dragged_together(server, n, seconds=9, settle=3):
     return {'sessions': n, 'fps_least': fps[0], 'fps_median': statistics.median(fps), 'fps_most': fps[-1],
             'latency_ms': statistics.median(row['latency_ms'] for row in each), 'latency_p95_ms': max(row['latency_p95_ms'] for row in each),
             'smallest': sizes[0], 'largest': sizes[-1], 'device_busy': round(sum(row['device'] for row in each), 2),
-            'cpu_ms_a_frame': round(1e3 * cpu / sum(row['frames'] for row in each), 2), 'passes_ms': each[0]['passes_ms']}
+            'cpu_ms_a_frame': round(1e3 * cpu / sum(row['frames'] for row in each), 2), 'cores': round(cpu / (seconds - settle), 2), 'passes_ms': each[0]['passes_ms']}
 
 
 def watch(session, seconds):

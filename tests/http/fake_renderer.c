@@ -7,6 +7,7 @@
  * 10 + |alpha| with the azimuth beta; with steps 8 there is no double precision, with steps 12 each takes a millisecond.
  * The picture of a sky of seed 4711 is under way until another picture is rendered. A device called "compiles" is busy with a small picture of a
  * preset, as with a kernel, until five other pictures have been rendered meanwhile; it fails after a minute without them. */
+#include "base/clock.h"
 #include "render/device/accuracy_store.h"
 #include "render/rays/device.h"
 #include "render/frame/frame.h"
@@ -187,6 +188,7 @@ enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *sc
                          const struct kd_plan *plan, kd_progress_fn progress, void *user,
                          struct kd_frame *out, struct kd_error *error)
 {
+    const double begun = kd_clock_ms();
     enum kd_status status = mishap(scene->top.time, error);
     if (kd_renderer_sky_begin(renderer, scene))
         return kd_error_set(error, KD_EIO, "a picture has the device while its sky is read");
@@ -226,6 +228,7 @@ enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *sc
     if (!out->lens_reused)
         out->timings[out->n_timings++] = (struct kd_timing) { "trace", scene->top.time };
     out->timings[out->n_timings++] = (struct kd_timing) { "total", scene->top.time };
+    out->timings[out->n_timings++] = (struct kd_timing) { "slept", kd_clock_ms() - begun }; /* what it took: a busy machine wakes it late */
     atomic_fetch_add(&drawn, 1);
     return KD_OK;
 }

@@ -1,0 +1,358 @@
+"""A model of servers of kerrd behind HAProxy, by discrete events. It knows no pictures: what a work takes is what somebody has measured.
+
+Seconds throughout. The parts, each after what it stands for:
+
+    Shares     src/server/http/shares.c: whose turn it is, by client, by class, and among the works of a class
+    Server     src/server/render: the bounded queue, slices of long pictures and the lanes that they need, the encoders
+    Balancer   docs/examples/haproxy.cfg: leastconn, maxconn, one queue, retries, servers that die, HAProxy's own time
+    visitor    a session: dragged, whose frames are as fine as the governor lets them be (src/render/live/governor.h), and resting
+
+Left out: memory, bodies and answers, the network, more than one client at a server (HAProxy is one). Needs simpy (pip install simpy).
+bench/queueing_check.py holds it against two real servers, tests/unit/queueing.py against closed forms; bench/queueing_scale.py asks it about a thousand.
+"""
+import collections
+import dataclasses
+import math
+
+import simpy
+
+WEIGHTS = {'live': 8, 'picture': 4, 'rays': 4, 'refinement': 2, 'job': 1}  # KD_CLASSES
+CREDIT = 0.2            # CREDIT_MS of shares.c
+MOMENT, SLICE = 0.1, 0.04  # KD_MOMENT_MS; a submission of a long picture
+BRIEF, BRIEF_LANES, LANES = 3.0, 2, 8  # BRIEF_MS and BRIEF_LANES of turns.c, KD_ASIDES
+ENCODERS = 2            # KD_ENCODERS
+
+
+class Refused(Exception):
+    """503: the queue is full, or the server is gone."""
+
+
+@dataclasses.dataclass(eq=False)
+class Work:
+    seconds: float          # that it has the device
+    estimate: float         # what its plan says of that
+    encode: float = 0.0     # of an encoder, afterwards
+    kind: str = 'picture'
+    client: str = 'proxy'
+    paid: float = 0.0       # the scheduler's own
+    left: float = 0.0
+    expected: float = 0.0
+    stage: str = 'waits'
+    done: simpy.Event = None
+
+
+class Flow:
+    def __init__(self):
+        self.paid = self.now = 0.0
+        self.works = []
+
+
+class Client:
+    def __init__(self):
+        self.paid = self.now = 0.0
+        self.claims = 0
+        self.flows = {kind: Flow() for kind in WEIGHTS}
+
+
+class Shares:
+    """kd_shares_add, _remove, _next and _charge."""
+
+    def __init__(self):
+        self.now, self.clients = 0.0, {}
+
+    def add(self, work):
+        client = self.clients.setdefault(work.client, Client())
+        flow = client.flows[work.kind]
+        if not client.claims:
+            client.paid = max(client.paid, self.now)
+        if not flow.works:
+            flow.paid = max(flow.paid, client.now)
+        client.claims += 1
+        work.paid = flow.now
+        flow.works.append(work)
+
+    def remove(self, work):
+        client = self.clients[work.client]
+        client.claims -= 1
+        client.flows[work.kind].works.remove(work)
+
+    def next(self, may):
+        best, least = None, math.inf
+        for client in self.clients.values():
+            if not client.claims or max(client.paid, self.now - CREDIT) >= least:
+                continue
+            found = self._next_of(client, may)
+            if found:
+                best, least = found, max(client.paid, self.now - CREDIT)
+        return best
+
+    @staticmethod
+    def _next_of(client, may):
+        best, least = None, math.inf
+        for flow in client.flows.values():
+            standing = max(flow.paid, client.now - CREDIT)
+            if not flow.works or standing >= least:
+                continue
+            found = min(filter(may, flow.works), key=lambda work: work.paid + work.expected, default=None)
+            if found:
+                best, least = found, standing
+        return best
+
+    def charge(self, work, seconds):
+        client = self.clients[work.client]
+        flow = client.flows[work.kind]
+        client.paid = max(client.paid, self.now - CREDIT)
+        self.now = max(self.now, client.paid)
+        client.paid += seconds
+        flow.paid = max(flow.paid, client.now - CREDIT)
+        client.now = max(client.now, flow.paid)
+        flow.paid += seconds / WEIGHTS[work.kind]
+        flow.now += seconds / len(flow.works)
+        work.paid += seconds
+        work.expected = max(work.expected - seconds, 0)
+
+
+class Server:
+    """One device and its encoders. `limit`: --queue. `aside`: seconds a request takes here beside its device and encoder, in which others have these."""
+
+    def __init__(self, env, limit=16, aside=0.0):
+        self.env, self.limit, self.aside = env, limit, aside
+        self.shares, self.encoders, self.lanes = Shares(), simpy.Resource(env, ENCODERS), []
+        self.works, self.wake, self.holder, self.alive = [], None, None, True
+        self.busy, self.dragged = 0.0, 0
+        env.process(self._run())
+
+    def submit(self, work):
+        """An event that comes when the work is done, or fails with Refused."""
+        work.done, work.left, work.expected = self.env.event(), work.seconds, work.estimate
+        waiting = sum(w.stage != 'works' and w.kind in ('picture', 'rays') for w in self.works)
+        if not self.alive or (work.kind in ('picture', 'rays') and waiting >= self.limit + (self.holder is None)):
+            work.done.fail(Refused())
+            return work.done
+        work.stage = 'waits for lane' if work.kind == 'job' or (work.kind != 'live' and work.estimate > MOMENT) else 'waits'
+        self.works.append(work)
+        self.shares.add(work)
+        if self.wake and not self.wake.triggered:
+            self.wake.succeed()
+        return work.done
+
+    def kill(self):
+        self.alive = False
+        for work in self.works:
+            if not work.done.triggered:
+                work.done.fail(Refused())
+        self.works.clear()
+
+    def _may(self, work):
+        if work.stage != 'waits for lane':
+            return True
+        brief = work.estimate <= BRIEF
+        mine = [w for w in self.lanes if w.client == work.client]
+        if brief:
+            return len(self.lanes) < LANES and sum(w.estimate <= BRIEF for w in mine) < BRIEF_LANES
+        return LANES - len(self.lanes) > BRIEF_LANES and not any(w.kind == work.kind and w.estimate > BRIEF for w in mine)
+
+    def _run(self):
+        while self.alive:
+            work = self.shares.next(self._may)
+            if not work:
+                self.wake = self.env.event()
+                yield self.wake
+                continue
+            self.holder = work
+            sliced = work in self.lanes or work.stage == 'waits for lane'
+            if work.stage == 'waits for lane':
+                self.lanes.append(work)
+            work.stage = 'works'
+            turn = min(work.left, SLICE) if sliced else work.left
+            yield self.env.timeout(turn)
+            self.holder = None
+            if not self.alive:
+                return
+            self.busy += turn
+            self.shares.charge(work, turn)
+            work.left -= turn
+            if work.left <= 1e-12:
+                self._finish(work)
+
+    def _finish(self, work):
+        self.shares.remove(work)
+        self.works.remove(work)
+        if work in self.lanes:
+            self.lanes.remove(work)
+        if work.encode or self.aside:
+            self.env.process(self._encode(work))
+        else:
+            work.done.succeed()
+
+    def _encode(self, work):
+        with self.encoders.request() as encoder:
+            yield encoder
+            yield self.env.timeout(work.encode)
+        yield self.env.timeout(self.aside)
+        if not work.done.triggered:
+            work.done.succeed()
+
+
+class Balancer:
+    """HAProxy: requests go to the server with fewest connections, among these to the one whose turn is longest ago; while each has `maxconn` they wait in one queue, `patience` at most.
+    A refused one goes to another server, `retries` times. `own`: seconds of one of its `cores` that a request takes."""
+
+    def __init__(self, env, servers, maxconn=2, patience=700.0, retries=5, own=0.0, cores=1):
+        self.env, self.servers, self.maxconn, self.patience, self.retries, self.own = env, servers, maxconn, patience, retries, own
+        self.cores = simpy.Resource(env, cores) if own else None
+        self.waiting = collections.deque()
+        self.by_count = collections.defaultdict(dict)  # connections -> servers, in the order in which they came to have so many
+        self.count = {server: 0 for server in servers}
+        for server in servers:
+            self.by_count[0][server] = None
+
+    def _move(self, server, by):
+        n = self.count[server]
+        del self.by_count[n][server]
+        self.count[server] = n + by
+        self.by_count[n + by][server] = None
+
+    def _least(self):
+        for n in range(self.maxconn):
+            for server in self.by_count[n]:
+                if server.alive:
+                    return server
+        return None
+
+    def take(self):
+        """The server for a request, whose connection is counted from now on; an event whose value it is, None where patience ended."""
+        turn = self.env.event()
+        server = None if self.waiting else self._least()
+        if server:
+            self._move(server, 1)
+            turn.succeed(server)
+        else:
+            self.waiting.append(turn)
+        return turn
+
+    def release(self, server):
+        self._move(server, -1)
+        while self.waiting:
+            if self.waiting[0].triggered:  # its patience has ended
+                self.waiting.popleft()
+                continue
+            server = self._least()
+            if not server:
+                return
+            self._move(server, 1)
+            self.waiting.popleft().succeed(server)
+
+    def forget(self, turn):
+        if not turn.triggered:
+            turn.succeed(None)
+
+    def passes(self):
+        if self.cores:
+            with self.cores.request() as core:
+                yield core
+                yield self.env.timeout(self.own)
+
+    def request(self, make):
+        """A process: a request for the work that make() returns. Its value: 200 or 503."""
+        work = make()
+        yield from self.passes()
+        for _ in range(self.retries + 1):
+            turn = self.take()
+            if not turn.triggered:
+                yield turn | self.env.timeout(self.patience)
+                self.forget(turn)
+            else:
+                yield turn
+            server = turn.value
+            if not server:
+                return 503
+            try:
+                yield server.submit(work)
+                return 200
+            except Refused:
+                pass
+            finally:
+                self.release(server)
+        return 503
+
+
+@dataclasses.dataclass
+class Habits:
+    """A visitor's, and what his frames take. Times to the next stroke and of a stroke are exponential."""
+    drag: float = 3.0       # mean seconds of a stroke
+    rest: float = 12.0      # mean seconds between two
+    pause: float = 0.001    # from a picture to the next request
+    frames: int = 2         # of an input: the one that is under way when it comes, as time goes on by itself, and the one that shows it
+    encode: float = 0.001
+    floor: float = 0.010    # device seconds of a frame as small as it may be
+    full: float = 0.100     # of one as large as it may be
+    fill: float = 0.85      # of what the governor aims at: what its frames take
+    settle: float = 0.3     # device seconds in which a picture at rest becomes as fine as asked
+
+
+def frame_seconds(habits, dragged):
+    """What a frame of one of so many takes: governor.h, target_ms 33 and sparse_ms 60."""
+    share = 1 / dragged
+    return min(max(habits.fill * share * min(0.033 / math.sqrt(share), 0.060), habits.floor), habits.full)
+
+
+def stroke(env, server, habits, seconds, log):
+    """A drag: a patch, frames until one shows it, the next patch. log: (when, seconds from input to picture)."""
+    server.dragged += 1
+    end = env.now + seconds
+    try:
+        while env.now < end:
+            sent = env.now
+            for _ in range(habits.frames):
+                takes = frame_seconds(habits, server.dragged)
+                yield server.submit(Work(takes, takes, habits.encode, 'live'))
+                yield env.timeout(habits.pause)
+            log.append((sent, env.now - sent))
+    finally:
+        server.dragged -= 1
+
+
+def visitor(env, server, habits, rng, stay, log):
+    """A session on one server until its visitor leaves: rests, strokes, and a finer picture after each."""
+    end = env.now + stay
+    try:
+        yield env.timeout(min(rng.expovariate(1 / habits.rest), stay))
+        while env.now < end:
+            yield from stroke(env, server, habits, min(rng.expovariate(1 / habits.drag), end - env.now), log)
+            server.submit(Work(habits.settle, habits.settle, 0, 'refinement')).defused = True
+            yield env.timeout(min(rng.expovariate(1 / habits.rest), max(end - env.now, 0)))
+    except Refused:
+        log.append((env.now, None))  # the session is lost with its server
+
+
+def open_renders(env, balancer, arrivals, make, log):
+    """Requests at given times. make(k): the work of number k. log: (number, arrival, seconds to the answer, status)."""
+    def one(k, at):
+        status = yield env.process(balancer.request(lambda: make(k)))
+        log.append((k, at, env.now - at, status))
+    for k, at in enumerate(arrivals):
+        yield env.timeout(max(at - env.now, 0))
+        env.process(one(k, at))
+
+
+def closed_renders(env, balancer, make, until, log):
+    """A client that asks for one picture after the other."""
+    k = 0
+    while env.now < until:
+        at, k = env.now, k + 1
+        status = yield env.process(balancer.request(lambda: make(k)))
+        log.append((k, at, env.now - at, status))
+
+
+def poisson(rng, rate, n):
+    at, out = 0.0, []
+    for _ in range(n):
+        at += rng.expovariate(rate)
+        out.append(at)
+    return out
+
+
+def quantile(values, q):
+    values = sorted(values)
+    return values[min(int(q * len(values)), len(values) - 1)]
