@@ -48,7 +48,7 @@ function kind(spec) {
   if (spec.type === 'boolean') return { type: 'switch' };
   const asset = spec.anyOf?.find(part => part.pattern);
   if (asset) return { type: 'asset', word: new RegExp(asset.pattern) };
-  const range = spec.anyOf?.find(part => part.type) ?? spec;
+  const range = spec.anyOf?.find(part => part.type && !('const' in part)) ?? spec; // beside a word, which has a type too
   return { type: range.type, minimum: range.minimum, maximum: range.maximum, word: spec.anyOf?.find(part => part.const)?.const };
 }
 

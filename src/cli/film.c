@@ -66,6 +66,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     char *end;
     switch (key) {
     case ARGP_KEY_INIT:
+        arguments->scene.document_is_over = true;
         state->child_inputs[0] = &arguments->scene;
         state->child_inputs[1] = &arguments->device;
         return 0;
@@ -183,17 +184,17 @@ static enum kd_status check(const struct work *w, struct kd_error *error)
     struct kd_capacity capacity;
     struct kd_scene scene;
     struct kd_plan plan;
-    int32_t width = 0, height = 0;
+    uint32_t width = 0, height = 0;
     enum kd_status status = KD_OK;
     kd_renderer_capacity(w->renderer, &capacity);
     for (unsigned i = 0; i < w->spec.frames && !status; i++) {
         status = kd_job_frame_plan(&w->spec, i, w->spec.first, i * w->spec.every, INFINITY, &capacity, &scene, &plan, error);
         if (!i) {
-            width = scene.image.width;
-            height = scene.image.height;
+            width = kd_plan_shown_width(&plan);
+            height = kd_plan_shown_height(&plan);
         }
-        if (!status && w->kind && w->kind->waits && (scene.image.width != width || scene.image.height != height))
-            status = kd_error_set(error, KD_EINVAL, "frame %u is %d x %d pixels and frame 0 %d x %d: a film has one size, a .zip holds any", i, scene.image.width, scene.image.height, width,
+        if (!status && w->kind && w->kind->waits && (kd_plan_shown_width(&plan) != width || kd_plan_shown_height(&plan) != height))
+            status = kd_error_set(error, KD_EINVAL, "frame %u is %u x %u pixels and frame 0 %u x %u: a film has one size, a .zip holds any", i, kd_plan_shown_width(&plan), kd_plan_shown_height(&plan), width,
                                   height);
     }
     return status;

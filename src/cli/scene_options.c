@@ -91,9 +91,9 @@ static void add_asset(struct kd_scene_options *options, const char *text, struct
 
 static void check_sources(const struct kd_scene_options *options, struct argp_state *state)
 {
-    if (options->from && (options->document || options->preset))
-        argp_error(state, "a picture holds every field: --from excludes %s",
-                   options->document ? "SCENE" : "--preset");
+    const bool document = options->document && !options->document_is_over;
+    if (options->from && (document || options->preset))
+        argp_error(state, "a picture holds every field: --from excludes %s", document ? "SCENE" : "--preset");
 }
 
 static error_t parse(int key, char *text, struct argp_state *state)

@@ -14,6 +14,7 @@
 struct kd_scene_options {
     const char *document; /* a path or "-"; NULL: none */
     const char *preset, *from;
+    bool document_is_over; /* the document is no scene, but is merged over one: --from goes with it */
     const char **set; /* "path=value" */
     size_t n_set;
     struct kd_asset_options assets;

@@ -8,7 +8,6 @@
 #include <math.h>
 #include <stdio.h>
 
-
 enum kd_status kd_trace_explain(const struct kd_rays_steps *steps, bool points, struct kd_told_steps *out, struct kd_error *error)
 {
     const double alpha_beta[] = { steps->alpha, steps->beta };

@@ -11,6 +11,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #define PICTURE_MAX ((size_t)1 << 30)
 
@@ -68,8 +69,9 @@ static enum kd_status choose(const struct arguments *arguments, const struct kd_
 static enum kd_status look(const struct arguments *arguments, struct kd_buffer *picture, struct kd_scene *scene, struct kd_error *error)
 {
     const struct kd_scene_options *options = &arguments->scene;
+    struct stat about;
     enum kd_status status;
-    if (!options->document || !strcmp(options->document, "-"))
+    if (!options->document || !strcmp(options->document, "-") || stat(options->document, &about) || !S_ISREG(about.st_mode)) /* what can be read once is the scene's own to read */
         return KD_OK;
     KD_TRY(kd_file_read(options->document, PICTURE_MAX, picture, error));
     if (!picture->size || kd_format_of_bytes(picture->data, picture->size) != &kd_format_png) {
@@ -135,6 +137,8 @@ static enum kd_status show_scene(struct arguments *arguments, struct kd_scene *s
     kd_terminal_fit(&terminal, 1, arguments->enlarge, &width, &height);
     scene->image.width = (int32_t)width;
     scene->image.height = (int32_t)height;
+    if (kd_scene_has_tile(scene))
+        KD_TRY(kd_error_field(error, "/image/tile/width", "image.tile.width is %d, allowed is 0: kerrd view shows whole pictures", scene->tile.width));
     KD_TRY(kd_scene_validate(scene, error));
     KD_TRY(kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device, .memory_bytes = arguments->memory, .assets = &assets },
                               &renderer, error));

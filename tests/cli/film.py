@@ -25,6 +25,8 @@ REAL = os.environ.get("FFMPEG") == "real"
 SIZE = {"width": 96, "height": 54}
 TURN = {"scene": {"image": SIZE, "disk": {"gas": {"amplitude": 0}}}, "keyframes": [{"frame": 11, "scene": {"camera": {"inclination_deg": 20}}}]}
 
+LONG = {**TURN, "keyframes": [{"frame": 59, "scene": {"camera": {"inclination_deg": 20}}}]}
+
 
 def wide_pixels(png):
     """Those of a PNG of 16 bits and three channels, from its filtered rows (PNG 1.2, section 6)."""
@@ -262,19 +264,26 @@ class Pictures(Case):
     def test_goes_on(self):
         """A run that was killed: the frames that were there stay, the rest is rendered, and the whole is that of a run that was not."""
         folder = self.path("kept")
-        there = self.killed("b.zip", TURN, folder, 3)
-        self.assertLess(there, 12)
+        there = self.killed("b.zip", LONG, folder, 3)
+        self.assertLess(there, 60)
         pathlib.Path(folder, "000005.png.aBcDeF").write_bytes(b"half")
         before = {n: os.stat(os.path.join(folder, n)).st_mtime_ns for n in os.listdir(folder) if n.endswith(".png")}
-        self.write("request.json", json.dumps(TURN))
+        self.write("request.json", json.dumps(LONG))
         done = support.run("film", self.path("request.json"), "-o", self.path("b.zip"), "--state", folder, "-t")
         self.assertEqual(done.returncode, 0, done.stderr)
         stats = json.loads(done.stderr)
         self.assertEqual((stats["frames_kept"], stats["exposure_frames"]), (there, 0))
         self.assertEqual({n: os.stat(os.path.join(folder, n)).st_mtime_ns for n in before}, before)
-        self.assertEqual(sorted(os.listdir(folder)), [f"{i:06}.png" for i in range(12)] + ["film.json", "lock"])
-        self.film("a.zip", TURN)
+        self.assertEqual(sorted(os.listdir(folder)), [f"{i:06}.png" for i in range(60)] + ["film.json", "lock"])
+        self.film("a.zip", LONG)
         self.assertEqual(self.read("b.zip"), self.read("a.zip"))
+
+    def test_over_the_scene_of_a_picture(self):
+        self.good("render", "--size", "96x54", "--set", "spacetime.spin=0.3", "--set", "style.exposure=1", "-o", self.path("one.png"))
+        self.film("a.zip", {"scene": {}, "keyframes": [{"frame": 1, "scene": {"camera": {"inclination_deg": 20}}}]}, "--from", self.path("one.png"))
+        first, second = self.frames("a.zip")
+        self.assertEqual(first, self.read("one.png"))
+        self.assertEqual((self.scene_of(second)["spacetime"]["spin"], self.scene_of(second)["camera"]["inclination_deg"]), (0.3, 20))
 
     def test_another_film(self):
         folder = self.path("kept")

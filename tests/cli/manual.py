@@ -105,7 +105,7 @@ class Examples(Case):
         self.assertGreater(seen, 20)
 
     def shell(self, line, env):
-        done = subprocess.run(["bash", "-c", line], cwd=self.folder, env=env, capture_output=True, timeout=120)
+        done = subprocess.run(["bash", "-c", line], cwd=self.folder, env=env, capture_output=True, timeout=300)
         self.assertEqual((done.returncode, done.stderr.decode()), (0, ""), line)
 
     def serve(self, line, env):

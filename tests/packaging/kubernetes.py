@@ -1,5 +1,6 @@
 """The manifests of packaging/kubernetes: valid by the schemas of Kubernetes, and of one piece: ports, names, images and labels that belong together. kubernetes.py FOLDER"""
 import copy
+import os
 import pathlib
 import re
 import shutil
@@ -10,6 +11,9 @@ import unittest
 
 FOLDER = pathlib.Path(sys.argv.pop(1)).resolve()
 ROOT = FOLDER.parents[1]
+PYTHON = ROOT / 'venv-packaging/bin/python'
+if PYTHON.exists() and pathlib.Path(sys.prefix) != PYTHON.parents[1]:
+    os.execv(PYTHON, [PYTHON, __file__, FOLDER, *sys.argv[1:]])
 try:
     import kubernetes_validate
     import yaml
@@ -98,6 +102,8 @@ class Manifests(unittest.TestCase):
             done = subprocess.run([HAPROXY, '-c', '-f', file.name], capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertNotIn('ALERT', done.stderr)
+        sticky = [[line.strip() for line in of_.splitlines() if line.strip().startswith(('stick', 'http-request', 'retry-on', 'acl'))] for of_ in (text, (ROOT / 'docs/examples/haproxy.cfg').read_text())]
+        self.assertEqual(*sticky)
         service, port = re.search(r'server-template kerrd \d+ ([\w-]+):(\d+)', text).groups()
         self.assertIn(int(port), [p['port'] for p in of('Service')[service]['spec']['ports']])
 

@@ -41,6 +41,8 @@ def value(cell):
 def rows(schema, before='', group=None):
     """(path, row, group) of each field of a schema; of a list the rows of its first element."""
     for name, spec in schema['properties'].items():
+        if before + name == 'image.tile':
+            continue  # the page shows whole pictures
         if 'x-nature' in spec:
             yield before + name, spec, spec.get('x-group', group)
         elif 'properties' in spec and 'deprecated' not in spec:

@@ -17,8 +17,10 @@ enum kd_status kd_blur_plan(unsigned samples, double shutter, const struct kd_ca
 {
     if (plan->eyes == 2)
         return kd_error_field(error, "/camera/stereo", "camera.stereo is \"pair\", allowed with motion_blur is \"none\"");
-    if (plan->cut.width || plan->strips)
-        return kd_error_field(error, "/image", "the picture is a tile, or is made in %u strips for it does not fit on the device: motion_blur takes whole pictures that fit", plan->strips);
+    if (plan->cut.width)
+        return kd_error_field(error, "/image/tile/width", "image.tile.width is %u, allowed with motion_blur is 0: the whole picture", plan->cut.width);
+    if (plan->strips)
+        return kd_error_set(error, KD_ETOOBIG, "the picture does not fit on the device in one, only in %u strips, which motion_blur does not take: lower image.width and image.height", plan->strips);
     if (!plan->picture || plan->n_layers)
         return kd_error_field(error, "/image/layers", "image.layers names numbers, allowed with motion_blur is \"rgb\": only light has a mean that can be seen");
     bring_light(plan);
@@ -65,6 +67,8 @@ static enum kd_status add(const struct kd_blurred *b, struct part *part, unsigne
     KD_TRY(kd_plan_make(&scene, &capacity, &plan, error));
     if (plan.width != b->plan->width || plan.height != b->plan->height || plan.eyes != b->plan->eyes || !plan.picture || plan.n_layers)
         KD_TRY(kd_error_field(error, "/image", "the picture is of another size or kind at the end of the shutter's opening than at its begin: motion_blur takes one"));
+    if (plan.strips || plan.cut.width)
+        KD_TRY(kd_error_set(error, KD_ETOOBIG, "a picture of the blurred frame does not fit on the device in one any more"));
     bring_light(&plan);
     KD_TRY(b->aside ? kd_render_aside(b->renderer, &scene, &plan, go_on, NULL, part, &frame, error) : kd_render(b->renderer, &scene, &plan, go_on, part, &frame, error));
     const float *light = frame.layers[1].data;

@@ -114,17 +114,46 @@ done:
     return status;
 }
 
+static enum kd_status refuse_strips(struct kd_error *error, const struct kd_error *why)
+{
+    const struct kd_error whole = *error;
+    return kd_error_set(error, KD_ETOOBIG, "%.250s; in strips it may fit, but %.200s", whole.message, why->message);
+}
+
 /* As few strips as fit. What no tile can have is too large, then: `error` stays as it is. */
 static enum kd_status make_strips(const struct kd_scene *scene, const struct kd_needs *needs, const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error)
 {
     const struct kd_scene strip = kd_tile_strip(scene, 2, 0);
     const struct kd_needs own = of_tile(needs);
-    struct kd_error inner = { 0 }, whole = *error;
+    struct kd_error inner = { 0 };
     if (kd_tile_check(&strip, &own, &inner))
-        return kd_error_set(error, KD_ETOOBIG, "%.250s; in strips it may fit, but %.230s", whole.message, inner.message);
-    for (uint32_t n = 2; n <= STRIPS_MOST; n *= 2)
-        if (!plan_strips(scene, needs, capacity, n, out, &inner))
+        return refuse_strips(error, &inner);
+    for (uint32_t n = 2; n <= STRIPS_MOST; n *= 2) {
+        const enum kd_status status = plan_strips(scene, needs, capacity, n, out, &inner);
+        if (!status)
             return name_lens(out, scene, error);
+        if (status != KD_ETOOBIG) {
+            *error = inner;
+            return status;
+        }
+    }
+    return KD_ETOOBIG;
+}
+
+/* Whether some number of strips may fit: without a list of pixels at the critical curve, and by the first strip, which is as high as any. */
+static enum kd_status check_strips(const struct kd_scene *scene, const struct kd_needs *needs, const struct kd_capacity *capacity, struct kd_error *error)
+{
+    struct kd_scene strip = kd_tile_strip(scene, 2, 0);
+    const struct kd_needs own = of_tile(needs);
+    struct kd_error inner = { 0 };
+    if (kd_tile_check(&strip, &own, &inner))
+        return refuse_strips(error, &inner);
+    for (uint32_t n = 2; n <= STRIPS_MOST; n *= 2) {
+        strip = kd_tile_strip(scene, n, 0);
+        strip = kd_tile_with_margin(&strip, NULL);
+        if (!kd_plan_one_fits(&strip, &own, capacity, &inner))
+            return KD_OK;
+    }
     return KD_ETOOBIG;
 }
 
@@ -144,11 +173,10 @@ enum kd_status kd_plan_check(const struct kd_scene *scene, const struct kd_capac
 {
     const struct kd_needs needs = kd_needs_of(scene), own = of_tile(&needs);
     const struct kd_scene first = scene->camera.stereo == KD_STEREO_PAIR ? kd_scene_eye(scene, -1) : *scene;
-    struct kd_plan plan;
     enum kd_status status = kd_scene_has_tile(scene) ? kd_tile_check(scene, &needs, error) : KD_OK;
     if (status)
         return status;
     const struct kd_scene wide = kd_tile_with_margin(&first, NULL);
     status = kd_scene_has_tile(scene) ? kd_plan_one_fits(&wide, &own, capacity, error) : kd_plan_one_fits(&first, &needs, capacity, error);
-    return status == KD_ETOOBIG ? make_strips(&first, &needs, capacity, &plan, error) : status;
+    return status == KD_ETOOBIG ? check_strips(&first, &needs, capacity, error) : status;
 }

@@ -68,7 +68,7 @@ static void add_plan(struct kd_json *json)
     static const struct kd_openapi_member bytes[] = { { "lens_map", KD_SCHEMA_COUNT, false }, { "device", KD_SCHEMA_COUNT, false }, { "host", KD_SCHEMA_COUNT, false } };
     static const struct kd_openapi_member plan[] = {
         { "rays", KD_SCHEMA_COUNT, false }, { "critical_pixels", KD_SCHEMA_COUNT, false }, { "critical_rays", KD_SCHEMA_COUNT, false }, { "width", KD_SCHEMA_COUNT, false },
-        { "height", KD_SCHEMA_COUNT, false }, { "eyes", KD_SCHEMA_COUNT, true }, { "passes", KD_SCHEMA_LIST(KD_SCHEMA_REF("PlanPass")), false },
+        { "height", KD_SCHEMA_COUNT, false }, { "eyes", KD_SCHEMA_COUNT, true }, { "strips", KD_SCHEMA_COUNT, true }, { "passes", KD_SCHEMA_LIST(KD_SCHEMA_REF("PlanPass")), false },
         { "specialisation", KD_SCHEMA_REF("PlanConstants"), false }, { "accuracy", KD_SCHEMA_REF("PlanAccuracy"), false }, { "bytes", KD_SCHEMA_REF("PlanBytes"), false },
         { "bands", KD_SCHEMA_COUNT, false }, { "lens_map_cacheable", KD_SCHEMA_TRUTH, false }, { "lens_map_key", KD_SCHEMA_TEXT, false },
         { "estimate_ms", KD_SCHEMA_NUMBER, false }, { "estimate_basis", KD_SCHEMA_TEXT, false }, { "approximations", TEXTS, false },

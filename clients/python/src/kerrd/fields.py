@@ -81,7 +81,7 @@ class Fields:
     """The fields that a schema (/v1/schema) lists, by path ("disk.outer", "spots.0.r") or by its last part where one field alone is called that ("spin")."""
 
     def __init__(self, schema: Mapping[str, Any]) -> None:
-        self.paths = {path: spec for path, spec in _leaves(schema, "")}
+        self.paths = {path: spec for path, spec in _leaves(schema, "") if not path.startswith("image.tile.")}  # a session shows whole pictures
         self.folders = {name for name, spec in schema["properties"].items() if not spec.get("deprecated") and name not in self.paths}
 
     def path(self, name: str) -> str:

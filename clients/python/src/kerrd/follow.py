@@ -56,6 +56,7 @@ class Follower:
         self._session: Session = client.session(scene_of(scene, changes), preset=preset, quality=quality)
         self.scene: Document = self._session.scene
         self._patching = threading.RLock()  # the order of scenes
+        self._sending = threading.RLock()  # the order of frames
         self._state = threading.Condition()  # of all that follows
         self._waiting: dict[str, Any] = {}
         self._answers: list[Callable[[], None]] = []
@@ -260,7 +261,11 @@ class Follower:
                 self.took(self.scene)
 
     def _send(self) -> None:
-        """Sends the newest frame, if a viewer has not been sent it and has shown enough of those before."""
+        """Sends the newest frame, if a viewer has not been sent it and has shown enough of those before. One thread at a time, so that none overtakes another."""
+        with self._sending:
+            self._send_newest()
+
+    def _send_newest(self) -> None:
         with self._state:
             if self._closed or not self._unsent or not self._views or len(self._unshown) >= MOST_UNSHOWN or self._frame is None:
                 return
