@@ -10,6 +10,17 @@ SIZES = ((390, 844), (1024, 700), (1440, 900))
 
 
 class Panel(Browser):
+    def test_numbers_beside_a_word_have_their_bounds(self):
+        """What may be a word too is a number all the same: "infinity" or 0.01 to 1e7."""
+        told = self.open().evaluate('''async () => { const { Scene } = await import("./web/scene.js"), scene = await Scene.load();
+            return [...scene.fields.values()].filter(f => f.word).map(f => [f.path, f.type, f.minimum, f.maximum, f.word]); }''')
+        wanted = {path: [(part['type'], part['minimum'], part['maximum']) for part in spec['anyOf'] if 'minimum' in part] for path, spec, _ in rows(self.schema()) if 'anyOf' in spec}
+        self.assertGreater(len(told), 8)
+        for path, kind, least, most, word in told:
+            if word.__class__ is str and path in wanted and wanted[path]:
+                self.assertEqual((kind, least, most), wanted[path][0], path)
+        self.assertIn(['camera.r', 'number', 0.01, 1e7, 'infinity'], told)
+
     def test_each_field_stands_in_its_group(self):
         """In front where the field table says so, else behind a summary; what starts and stops time has its fields beside it."""
         page, schema = self.open(), self.schema()
