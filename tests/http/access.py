@@ -141,7 +141,7 @@ class Roles(Access):
         self.assertEqual(seen, set(CHANGES))
 
     def test_a_body_is_not_waited_for(self):
-        with self.daemon.connect() as s:
+        with self.daemon.connect(5) as s:
             s.sendall(b'POST /v1/render HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 1000\r\n\r\n')
             self.assertEqual(daemon.read_answer(s).status, 401)
 
@@ -218,7 +218,7 @@ class Log(daemon.unittest.TestCase):
 
 class Files(daemon.unittest.TestCase):
     def start(self, *options):
-        done = subprocess.run([*daemon.COMMAND, '--port', '0', *map(str, options)], capture_output=True, text=True, timeout=60)
+        done = subprocess.run([*daemon.COMMAND, '--port', '0', *map(str, options)], capture_output=True, text=True, timeout=10)
         self.assertEqual((done.stderr.count('\n'), 'listening' in done.stdout), (1, False), done)
         self.assertNotIn('0123456789', done.stderr)
         return done.stderr
