@@ -2,6 +2,7 @@
 #include "cli/cli.h"
 #include "cli/code.h"
 #include "render/selftest/first_start.h"
+#include "server/http/listen.h"
 #include "server/server.h"
 
 #include <errno.h>
@@ -15,10 +16,10 @@
 
 struct arguments {
     const char *device, *listen, *base_path;
-    const char *state;
+    const char *state, *token_file;
     uint64_t memory;
     unsigned port, queue, sessions, jobs, client_jobs, client_share;
-    bool cross_site, until_eof;
+    bool cross_site, until_eof, insecure;
     const char **hosts; /* NULL-terminated once there is one */
     size_t n_hosts;
 };
@@ -27,6 +28,8 @@ static const struct argp_option table[] = {
     { "listen", 'a', "ADDRESS", 0, "numeric address to listen on (default 127.0.0.1)", 0 },
     { "port", 'p', "PORT", 0, "TCP port, 0 for any free one (default 8080)", 0 },
     { "base-path", 'b', "/PREFIX", 0, "what stands before every path, as a proxy passes it on, like /some/prefix (default: $KERRD_BASE_PATH, else nothing)", 0 },
+    { "token-file", 'T', "FILE", 0, "take requests with a token of this file alone; a line is NAME ROLE TOKEN, the role view or render", 0 },
+    { "insecure", 'I', NULL, 0, "listen on an address that other machines reach without a token file: whoever reaches it may use it", 0 },
     { "queue", 'q', "N", 0, "renders that may wait for the device (default 16)", 0 },
     { "sessions", 's', "N", 0, "live sessions at once, and as many playgrounds (default 16)", 0 },
     { "jobs", 'j', "N", 0, "unfinished jobs at once (default 16)", 0 },
@@ -66,6 +69,8 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case 'E': arguments->until_eof = true; return 0;
     case 'X': arguments->cross_site = true; return 0;
     case 'S': arguments->state = text; return 0;
+    case 'T': arguments->token_file = text; return 0;
+    case 'I': arguments->insecure = true; return 0;
     case 'M': arguments->memory = kd_cli_bytes(state, "--memory", text); return 0;
     case 'H': add_host(arguments, text, state); return 0;
     case ARGP_KEY_ARG: argp_error(state, "%s: it takes no argument", text); return 0;
@@ -161,8 +166,12 @@ static enum kd_status serve(const struct arguments *arguments, struct kd_error *
         .client_share = arguments->client_share,
         .cross_site = arguments->cross_site,
         .state = arguments->state,
+        .token_file = arguments->token_file,
         .renderer = { .device = arguments->device, .prove = kd_first_start, .memory_bytes = arguments->memory },
     };
+    if (kd_listen_reaches_out(arguments->listen) && !arguments->token_file && !arguments->insecure)
+        return kd_error_set(error, KD_EINVAL, "other machines reach --listen %.100s: --token-file FILE says who may use the server, --insecure lets everybody",
+                            arguments->listen);
     enum kd_status status = kd_server_create(&params, &running, error);
     if (status)
         return status;

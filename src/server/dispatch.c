@@ -98,13 +98,14 @@ void *kd_request_open(void *cls, const char *uri, struct MHD_Connection *mhd)
 static void target_for_log(const char *raw, char *out, size_t size)
 {
     size_t n = 0;
-    while (*raw && n + 6 + 4 < size) {
+    while (*raw && n + 7 + 4 < size) {
         size_t digits = strspn(raw, "0123456789abcdefABCDEF");
-        bool secret = digits >= SECRET, token = !strncmp(raw, "token=", 6);
-        size_t take = token ? 6 : secret ? SHOWN : 1;
+        size_t token = !strncmp(raw, "token=", 6) ? 6 : !strncmp(raw, "access=", 7) ? 7 : 0;
+        bool secret = digits >= SECRET;
+        size_t take = token ? token : secret ? SHOWN : 1;
         for (size_t i = 0; i < take; i++)
             out[n++] = (char)(raw[i] > ' ' && raw[i] < 0x7f ? raw[i] : '?'); /* no second line in the log */
-        raw += token ? 6 + strcspn(raw + 6, "&") : secret ? digits : 1;
+        raw += token ? token + strcspn(raw + token, "&") : secret ? digits : 1;
         for (int i = 0; i < 3 && (token || secret); i++)
             out[n++] = '.';
     }
@@ -115,8 +116,8 @@ static void write_log(const struct kd_request *request, enum MHD_RequestTerminat
 {
     char target[200];
     target_for_log(request->raw ? request->raw : "", target, sizeof target);
-    kd_log(KD_LOG_INFO, "%s %s %u %.1f ms%s", request->method ? request->method : "-", target,
-           request->status, kd_clock_ms() - request->start_ms,
+    kd_log(KD_LOG_INFO, "%s %s %u %.1f ms%s%s%s", request->method ? request->method : "-", target,
+           request->status, kd_clock_ms() - request->start_ms, request->visitor ? " by " : "", request->visitor ? request->visitor->name : "",
            why == MHD_REQUEST_TERMINATED_COMPLETED_OK ? "" : " (cut off)");
 }
 
@@ -214,7 +215,6 @@ static bool body_fault(const struct kd_request *request, char text[TOO_LARGE], s
     return refused;
 }
 
-/* True when the request may go on; else *result is that of having refused it. */
 /* A page of another site may have anything loaded by its visitors' browsers, which say so (Fetch Metadata, W3C). What it could make a
  * server do that it cannot reach itself is refused, but for a visit: a link to a picture is one. */
 static bool is_foreign(const struct kd_request *request)
@@ -228,6 +228,21 @@ static bool is_foreign(const struct kd_request *request)
     return !visit && !strncmp(request->route->path, "/v1/", 4);
 }
 
+/* Who may use nothing here does not learn either what there is. */
+static bool find_route(struct kd_request *request, struct kd_problem *problem)
+{
+    struct kd_problem nowhere;
+    const bool found = kd_route_find(request, &nowhere);
+    if (!found)
+        request->route = NULL;
+    if (!kd_access_check(request, problem))
+        return false;
+    if (!found)
+        *problem = nowhere;
+    return found;
+}
+
+/* True when the request may go on; else *result is that of having refused it. */
 static bool choose(struct kd_request *request, enum MHD_Result *result)
 {
     struct kd_problem problem;
@@ -243,7 +258,7 @@ static bool choose(struct kd_request *request, enum MHD_Result *result)
                                         .retry_after = 1,
                                         .close = true,
                                         .detail = "more connections are open than this server takes" };
-    else if (!kd_route_find(request, &problem))
+    else if (!find_route(request, &problem))
         request->route = NULL;
     else if (is_foreign(request))
         problem = (struct kd_problem) { .type = KD_PROBLEM_CROSS_SITE, .close = request->body_announced,

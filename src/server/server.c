@@ -3,6 +3,7 @@
 #include "base/hash.h"
 #include "base/log.h"
 #include "server/asset/store.h"
+#include "server/http/access.h"
 #include "server/http/descriptors.h"
 #include "server/keeper.h"
 #include "server/http/library.h"
@@ -192,6 +193,8 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
         return kd_error_set(error, KD_ENOMEM, "no memory or descriptor for the server");
     enum kd_status status;
     KD_TRY(kd_base_path_init(&server->base, params->base_path, error));
+    if (params->token_file)
+        KD_TRY(kd_access_read(params->token_file, &server->access, error));
     KD_TRY(collect_hosts(server, address, params->hosts, error));
     KD_TRY(kd_kept_create(server->base.path, &server->kept, error));
     /* The socket is opened first: opening a device takes long, and "address in use" is the commonest failure. */
@@ -304,6 +307,7 @@ void kd_server_destroy(struct kd_server *server)
         free((void *)server->hosts[i]);
     free(server->hosts);
     kd_names_free(server->own);
+    kd_access_free(server->access);
     if (server->stop_fd >= 0)
         close(server->stop_fd);
     pthread_cond_destroy(&server->changed);

@@ -26,6 +26,7 @@ struct kd_server_params {
     unsigned jobs_kib;        /* bytes of the frames of all jobs, default 16 GiB */
     unsigned assets, assets_kib; /* assets at once, and the size of all of them; default 64 and 256 MiB */
     unsigned asset_keep_s;    /* how long an asset stays that nobody asks for, if others want its room; default a day */
+    const char *token_file;   /* who may use it, and how (http/access.h); NULL: everybody may do everything */
     const char *state;        /* a folder in which jobs and assets survive a restart; NULL: none */
     unsigned drain_ms;        /* how long it goes on serving after a stop request, with /readyz failing; default 1000 */
     unsigned connections;     /* connections at once; one more is answered 503, but on the health routes; default 512 */

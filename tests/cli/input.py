@@ -101,6 +101,12 @@ class Usage(Case):
             self.bad(2, "0 to 65535", "serve", "--port", port)
         self.bad(2, "--queue", "serve", "--queue", "0")
         self.bad(2, 'the base path is "x/": it must begin with a slash', "serve", "--base-path", "x/")
+        for address in ("0.0.0.0", "::", "[::]", "192.0.2.1", "2001:db8::1"):
+            self.bad(2, f"other machines reach --listen {address}: --token-file FILE says who may use the server, --insecure lets everybody", "serve", "--listen", address)
+        for address in ("127.0.0.1", "127.1.2.3", "::1", "[::1]"):
+            self.bad(2, 'the base path is "x/"', "serve", "--listen", address, "--base-path", "x/")
+        for reason in ("--insecure", "--token-file=" + self.path("absent")):
+            self.bad(2, "No such file" if "absent" in reason else 'the base path is "x/"', "serve", "--listen", "0.0.0.0", reason, *([] if "absent" in reason else ["--base-path", "x/"]))
         self.bad(2, "excludes SCENE", "scene", "--from", "a.png", "b.json")
         self.bad(2, "excludes --preset", "scene", "--from", "a.png", "--preset", "m87")
 

@@ -10,6 +10,7 @@ import pickle
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 import unittest
@@ -278,6 +279,34 @@ class Local(unittest.TestCase):
             with hole.session({'image': SIZE}) as live:
                 self.assertEqual(live.patch(camera__azimuth_deg=5), 2)
                 self.assertEqual(list(live)[-1].revision, 2)
+
+    def test_an_access_token(self):
+        """Beside the tokens of a session and a job, which are others."""
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder, 'tokens')
+            file.write_text('ann view ann-0123456789abcdef\nbob render bob-0123456789abcdef\n')
+            file.chmod(0o600)
+            with kerrd.local(binary=KERRD, args=['--token-file', str(file)]) as own:
+                for access, status in ((None, 401), ('wrong', 401)):
+                    with self.assertRaises(kerrd.Problem) as caught:
+                        kerrd.Client(own.url, access=access, trust_env=False).presets()
+                    self.assertEqual(caught.exception.status, status)
+                viewer = kerrd.Client(own.url, access='ann-0123456789abcdef', trust_env=False)
+                self.assertEqual(viewer.render({'image': SIZE}).image.size, (48, 27))
+                with self.assertRaises(kerrd.Problem) as caught:
+                    viewer.session({'image': SIZE})
+                self.assertEqual(caught.exception.status, 403)
+                hole = kerrd.Client(own.url, access='bob-0123456789abcdef', trust_env=False)
+                with hole.session({'image': SIZE}) as live:
+                    self.assertEqual(live.patch(camera__azimuth_deg=5), 2)
+                    self.assertEqual(list(live)[-1].revision, 2)
+                with hole.job({'scene': {'image': SIZE}}) as job:
+                    self.assertTrue(job.wait().result().startswith(b'\x89PNG'))
+                self.assertEqual(asyncio.run(self.presets_of(own.url)), hole.presets())
+
+    async def presets_of(self, url):
+        async with kerrd.AsyncClient(url, access='ann-0123456789abcdef', trust_env=False) as hole:
+            return await hole.presets()
 
     def test_it_ends_with_the_interpreter(self):
         code = f'import sys; sys.path.insert(0, {str(FOLDER / "src")!r}); import kerrd; print(kerrd.local(binary={KERRD!r}).process.pid)'

@@ -41,7 +41,7 @@ FOREIGN = {
     "libdeflate.h": {"image"},
     "isa-l/": {"image"},
     "zlib.h": {"image"},
-    "nettle/": {"scene", "playground"},
+    "nettle/": {"scene", "playground", "server"},
     "argp.h": {"cli"},
     "sixel.h": {"cli"},
 }

@@ -31,7 +31,7 @@ const struct kd_example kd_examples[] = {
     { "scene", "kerrd scene scene.json --hash", "The hash of a scene:" },
     { "presets", "kerrd presets", "All of them:" },
     { "serve", "kerrd serve", "On this machine alone, http://127.0.0.1:8080/:" },
-    { "serve", "kerrd serve --listen 0.0.0.0 --state state", "For a network, with jobs that survive a restart:" },
+    { "serve", "kerrd serve --listen 0.0.0.0 --insecure --state state", "For a network on which everybody may use it, with jobs that survive a restart:" },
     { "doctor", "kerrd doctor", "What is here, and whether it works:" },
     { "doctor", "kerrd doctor --devices", "The devices that --device chooses from:" },
     { "bench", "kerrd bench accuracy --quick --seconds 0.001", "A first impression:" },

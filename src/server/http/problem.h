@@ -12,6 +12,8 @@
 #define KD_PROBLEMS(X)                                                                                       \
     X(BAD_REQUEST, 400, "bad-request", "The request is not sound HTTP")                                      \
     X(MALFORMED_JSON, 400, "malformed-json", "The body cannot be read as a JSON object")                     \
+    X(UNAUTHORIZED, 401, "unauthorized", "This server takes a token")                                       \
+    X(ROLE, 403, "role", "The role of your token does not allow this")                                      \
     X(CROSS_SITE, 403, "cross-site", "Pages of other sites may not use this server")                              \
     X(FORBIDDEN, 403, "forbidden", "This takes a token")                                                     \
     X(NOT_FOUND, 404, "not-found", "There is nothing under this address")                                    \

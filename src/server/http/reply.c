@@ -139,6 +139,8 @@ enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struc
     MHD_add_response_header(response, "Cross-Origin-Resource-Policy", server->cross_site ? "cross-origin" : "same-site");
     if (!MHD_get_response_header(response, "Cache-Control"))
         MHD_add_response_header(response, "Cache-Control", "no-store");
+    if (server->access) /* what a cache keeps is for the same token alone */
+        MHD_add_response_header(response, "Vary", "Authorization, " KD_ACCESS_HEADER ", Cookie");
     if (*request->file && status == MHD_HTTP_OK)
         MHD_add_response_header(response, "Content-Disposition", request->file);
     /* On the way down a kept-alive client should look for another server. */
@@ -163,6 +165,8 @@ enum MHD_Result kd_reply_problem(struct kd_request *request, const struct kd_pro
         return kd_reply_no_memory(request);
     if (problem->allow)
         MHD_add_response_header(response, "Allow", problem->allow);
+    if (kd_problem_status(problem->type) == MHD_HTTP_UNAUTHORIZED)
+        MHD_add_response_header(response, "WWW-Authenticate", "Bearer");
     if (problem->retry_after) {
         char seconds[12];
         snprintf(seconds, sizeof seconds, "%u", problem->retry_after);
@@ -246,11 +250,17 @@ done:
     return status;
 }
 
-const char *kd_token_of(struct kd_request *request)
+const char *kd_bearer_of(struct kd_request *request)
 {
     const char *header = MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, "Authorization");
-    if (header && !strncasecmp(header, "Bearer ", 7))
-        return header + 7;
+    return header && !strncasecmp(header, "Bearer ", 7) ? header + 7 : NULL;
+}
+
+const char *kd_token_of(struct kd_request *request)
+{
+    const char *bearer = request->spent ? NULL : kd_bearer_of(request);
+    if (bearer)
+        return bearer;
     for (size_t i = 0; i < request->target.n_pairs; i++)
         if (!strcmp(request->target.pairs[i].name, "token"))
             return request->target.pairs[i].value;

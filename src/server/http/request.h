@@ -2,6 +2,7 @@
 #ifndef KD_SERVER_HTTP_REQUEST_H
 #define KD_SERVER_HTTP_REQUEST_H
 
+#include "server/http/access.h"
 #include "server/http/client.h"
 #include "server/http/guard.h"
 #include "server/http/route.h"
@@ -20,6 +21,8 @@ struct kd_request {
     struct kd_target target;
     struct kd_header header;
     const struct kd_route *route;
+    const struct kd_visitor *visitor; /* whose access token came with it; NULL: none was needed */
+    bool spent; /* its Authorization holds that token, and so no other */
     const char *method, *rest; /* rest: the rest of the path, behind a route that ends in "/" */
     bool head, begun, body_announced, close;
     struct kd_buffer body;
@@ -40,7 +43,9 @@ struct kd_request {
     unsigned status; /* of the reply, for the log */
 };
 
-/* The token that comes with a request, in its header or query; NULL: none. reply.c */
+/* The token in its Authorization; NULL: none. reply.c */
+const char *kd_bearer_of(struct kd_request *request);
+/* The token of a session, playground, job or asset that comes with a request, in its Authorization or query; NULL: none. reply.c */
 const char *kd_token_of(struct kd_request *request);
 
 #endif

@@ -24,15 +24,15 @@ static bool matches(const struct kd_route *route, char *path, const char **rest)
     return true;
 }
 
-static bool permits(const struct kd_route *route, const char *method)
+unsigned kd_route_method(const char *method)
 {
     static const struct { const char *name; unsigned bit; } methods[] = {
         { "GET", KD_GET }, { "HEAD", KD_GET }, { "POST", KD_POST }, { "PATCH", KD_PATCH }, { "DELETE", KD_DELETE }, { "PUT", KD_PUT },
     };
     for (size_t i = 0; i < sizeof methods / sizeof *methods; i++)
         if (!strcmp(methods[i].name, method))
-            return route->methods & methods[i].bit;
-    return false;
+            return methods[i].bit;
+    return 0;
 }
 
 static const char *allow(unsigned methods)
@@ -78,7 +78,7 @@ bool kd_route_find(struct kd_request *request, struct kd_problem *problem)
         if (!page && !matches(route, path, &request->rest))
             continue;
         request->route = route;
-        if (permits(route, request->method))
+        if (route->methods & kd_route_method(request->method))
             return true;
         *problem = (struct kd_problem) { .type = KD_PROBLEM_METHOD,
                                          .allow = allow(route->methods),

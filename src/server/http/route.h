@@ -47,6 +47,8 @@ struct kd_route {
     enum kd_takes takes;
     enum kd_gives gives;
     const char *also;   /* other media types of answers, "a/b c/d"; NULL: none */
+    bool question;      /* its POST leaves nothing at the server, so that the role view may send it (access.h) */
+    bool open;          /* answered without an access token, too */
     unsigned status[2]; /* of an answer that is no problem; { 0 }: 200; DELETE answers 204 */
     const char *own[2]; /* parameters of the query that are no fields of the scene, beside which they stand; NULL: none */
 };
@@ -58,6 +60,8 @@ extern const size_t kd_n_routes;
 /* Sets request->route, and ->rest, which points into the target's path; takes the base path from that. The base path alone is the page's, too, with an empty path.
  * False with *problem filled (404, 405). */
 bool kd_route_find(struct kd_request *request, struct kd_problem *problem);
+/* The bit of a method by its name, KD_GET, ...; 0: no route takes it. */
+unsigned kd_route_method(const char *method);
 /* Whether a raw target is one that is answered whatever else is the matter: /healthz, /readyz, /metrics, with the base path and without it. */
 bool kd_route_is_health(const struct kd_base_path *base, const char *raw);
 /* Says the same of the first n bytes of a connection, which may end too early to tell; KD_BEGINS_BYTES of them tell in any case. */

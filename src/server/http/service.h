@@ -48,6 +48,7 @@ enum kd_phase {
     KD_STOPPED,
 };
 
+struct kd_access;
 struct kd_asset_store;
 struct kd_jobs;
 struct kd_kept;
@@ -80,6 +81,7 @@ struct kd_server {
     _Atomic int phase;
     _Atomic unsigned requests; /* begun and not yet answered in full */
     struct kd_bytes *bodies, *replies; /* being received; not yet taken by their clients */
+    struct kd_access *access; /* who may use it; NULL: everybody may do everything */
     bool cross_site; /* pages of other sites may use it */
     _Atomic unsigned long answers[KD_STATUS_CLASSES]; /* by the first digit of their status; 0: cut off before one */
 

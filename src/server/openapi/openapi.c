@@ -2,6 +2,7 @@
 #include "server/openapi/openapi.h"
 #include "server/http/served.h"
 #include "server/job/formats.h"
+#include "server/openapi/access.h"
 #include "server/openapi/assets.h"
 #include "server/openapi/integrals.h"
 #include "server/openapi/jobs.h"
@@ -293,8 +294,7 @@ static void add_operation(struct kd_json *json, const char *name, const struct k
     kd_json_object(json, name);
     kd_json_string(json, "operationId", id);
     kd_json_string(json, "summary", route->summary);
-    if (method == KD_PATCH || method == KD_DELETE || route->takes == KD_TAKES_STRIKE || route->takes == KD_TAKES_PATH || route->takes == KD_TAKES_STEP)
-        kd_json_raw(json, "security", "[{\"token\":[]}]", strlen("[{\"token\":[]}]"));
+    kd_openapi_access_operation(json, route, method == KD_PATCH || method == KD_DELETE || route->takes == KD_TAKES_STRIKE || route->takes == KD_TAKES_PATH || route->takes == KD_TAKES_STEP);
     if (has_parameters(route))
         add_parameters(json, route, method, schema);
     add_body(json, route, method);
@@ -304,9 +304,8 @@ static void add_operation(struct kd_json *json, const char *name, const struct k
 
 static void add_components(struct kd_json *json, const struct kd_buffer *schema)
 {
-    static const char token[] = "{\"token\":{\"type\":\"http\",\"scheme\":\"bearer\",\"description\":\"the token that came with the session, playground, job or asset\"}}";
     kd_json_object(json, "components");
-    kd_json_raw(json, "securitySchemes", token, sizeof token - 1);
+    kd_openapi_access_schemes(json);
     kd_json_object(json, "schemas");
     kd_json_raw(json, "Scene", (const char *)schema->data, schema->size);
     kd_openapi_rays_schemas(json);
@@ -351,10 +350,11 @@ static enum kd_status document(const char *base_path, const cJSON *schema, const
     kd_json_string(&json, "url", *base_path ? base_path : ".");
     kd_json_end(&json);
     kd_json_end(&json);
+    kd_openapi_access_default(&json);
     kd_json_object(&json, "paths");
     for (size_t i = 0; i < kd_n_routes; i++)
         if (kd_routes[i].takes == KD_TAKES_QUANTITY)
-            kd_openapi_physics_paths(&json);
+            kd_openapi_physics_paths(&json, &kd_routes[i]);
         else
             add_path(&json, &kd_routes[i], schema);
     kd_json_end(&json);

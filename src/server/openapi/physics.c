@@ -1,6 +1,7 @@
 #include "server/openapi/physics.h"
 
 #include "quantity/quantity.h"
+#include "server/openapi/access.h"
 #include "server/openapi/media.h"
 #include "server/openapi/strict.h"
 
@@ -184,7 +185,7 @@ static void add_answer(struct kd_json *json, const struct kd_quantity *quantity)
     end_strict(json, needed, sizeof needed / sizeof *needed);
 }
 
-static void add_responses(struct kd_json *json, const struct kd_quantity *quantity)
+static void add_responses(struct kd_json *json, const struct kd_route *route, const struct kd_quantity *quantity)
 {
     kd_json_object(json, "responses");
     kd_json_object(json, "200");
@@ -198,11 +199,12 @@ static void add_responses(struct kd_json *json, const struct kd_quantity *quanti
         kd_openapi_media(json, "audio/wav", "", 0);
     kd_json_end(json);
     kd_json_end(json);
+    kd_openapi_access_refusals(json, route, KD_GET);
     kd_schema_text(json, "default", "{\"$ref\":\"#/components/responses/Problem\"}");
     kd_json_end(json);
 }
 
-void kd_openapi_physics_paths(struct kd_json *json)
+void kd_openapi_physics_paths(struct kd_json *json, const struct kd_route *route)
 {
     for (size_t i = 0; i < kd_quantity_count; i++) {
         char path[80];
@@ -214,7 +216,7 @@ void kd_openapi_physics_paths(struct kd_json *json)
         kd_json_string(json, "operationId", id);
         kd_json_string(json, "summary", kd_quantities[i]->summary);
         add_parameters(json, kd_quantities[i]);
-        add_responses(json, kd_quantities[i]);
+        add_responses(json, route, kd_quantities[i]);
         kd_json_end(json);
         kd_json_end(json);
     }

@@ -3,8 +3,9 @@
 #define KD_SERVER_OPENAPI_PHYSICS_H
 
 #include "base/json.h"
+#include "server/http/route.h"
 
 /* "/v1/physics/kerr" and so on, among the paths. */
-void kd_openapi_physics_paths(struct kd_json *json);
+void kd_openapi_physics_paths(struct kd_json *json, const struct kd_route *route);
 
 #endif

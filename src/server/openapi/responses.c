@@ -2,6 +2,7 @@
 
 #include "render/output/format.h"
 #include "server/job/formats.h"
+#include "server/openapi/access.h"
 #include "server/openapi/answers.h"
 #include "server/openapi/assets.h"
 #include "server/openapi/media.h"
@@ -104,6 +105,7 @@ void kd_openapi_responses(struct kd_json *json, const struct kd_route *route, un
             add_answer(json, route, method);
         kd_json_end(json);
     }
+    kd_openapi_access_refusals(json, route, method);
     kd_schema_text(json, "default", "{\"$ref\":\"#/components/responses/Problem\"}");
     kd_json_end(json);
 }
@@ -125,6 +127,7 @@ void kd_openapi_problem(struct kd_json *json)
     kd_json_string(json, "description", "What went wrong (RFC 9457)");
     kd_json_object(json, "headers");
     add_header(json, "Retry-After", KD_SCHEMA_COUNT, "seconds, where another try may go better");
+    add_header(json, "WWW-Authenticate", "{\"const\":\"Bearer\"}", "of 401");
     add_header(json, "Allow", KD_SCHEMA_TEXT, "of 405: the methods that would do");
     kd_json_end(json);
     kd_json_object(json, "content");

@@ -134,6 +134,11 @@ def bearer(token: str | None) -> dict[str, str]:
     return {"Authorization": f"Bearer {token}"} if token else {}
 
 
+def admitted(access: str | None) -> dict[str, str]:
+    """The access token in a header of its own: Authorization is for the tokens of sessions, jobs and assets."""
+    return {"Kerrd-Access": access} if access else {}
+
+
 def over(preset: str | None) -> dict[str, str]:
     return {"preset": preset} if preset else {}
 

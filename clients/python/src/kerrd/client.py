@@ -27,13 +27,13 @@ class Client:
     """A server by its address, such as "http://127.0.0.1:8080/".
 
     patience: seconds for which a busy server (429, 503, 507) is asked again, as often as it says, before the refusal is raised. timeout: seconds
-    without a byte. trust_env: whether proxies and certificates are those that the environment names. Requests that are refused raise Problem.
+    without a byte. access: an access token, of a server that has a token file. trust_env: whether proxies and certificates are those that the environment names. Requests that are refused raise Problem.
     """
 
-    def __init__(self, url: str, *, timeout: float = 600, patience: float = 60, headers: Mapping[str, str] | None = None, trust_env: bool = True) -> None:
+    def __init__(self, url: str, *, timeout: float = 600, patience: float = 60, headers: Mapping[str, str] | None = None, access: str | None = None, trust_env: bool = True) -> None:
         self.url = url.rstrip("/") + "/"
         self.patience = patience
-        self._http = httpx.Client(base_url=self.url.rstrip("/"), timeout=httpx.Timeout(timeout, connect=10), headers=dict(headers or {}), trust_env=trust_env)
+        self._http = httpx.Client(base_url=self.url.rstrip("/"), timeout=httpx.Timeout(timeout, connect=10), headers={**(headers or {}), **calls.admitted(access)}, trust_env=trust_env)
 
     def __enter__(self) -> Client:
         return self

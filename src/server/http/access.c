@@ -1,0 +1,192 @@
+#include "server/http/access.h"
+
+#include "base/read.h"
+#include "server/http/request.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <nettle/memops.h>
+#include <nettle/sha2.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+
+#define FILE_MOST ((size_t)64 << 10) /* bytes of a token file */
+#define BLANK " \t\r"
+#define LETTERS "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789"
+#define TOKEN_CHARACTERS LETTERS "-._~=" /* of those of RFC 6750 what an address and a cookie hold as they are */
+
+struct entry {
+    struct kd_visitor visitor;
+    uint8_t hash[SHA256_DIGEST_SIZE]; /* of the token, which is kept nowhere */
+};
+
+struct kd_access {
+    struct entry *entries;
+    size_t n;
+};
+
+static void hash_of(const char *token, uint8_t out[SHA256_DIGEST_SIZE])
+{
+    struct sha256_ctx context;
+    sha256_init(&context);
+    sha256_update(&context, strlen(token), (const uint8_t *)token);
+    sha256_digest(&context, SHA256_DIGEST_SIZE, out);
+}
+
+const struct kd_visitor *kd_access_find(const struct kd_access *access, const char *token)
+{
+    uint8_t hash[SHA256_DIGEST_SIZE];
+    const struct kd_visitor *found = NULL;
+    hash_of(token, hash);
+    for (size_t i = 0; i < access->n; i++)
+        if (memeql_sec(hash, access->entries[i].hash, sizeof hash))
+            found = &access->entries[i].visitor;
+    return found;
+}
+
+static bool parse_role(const char *text, enum kd_role *out)
+{
+    *out = !strcmp(text, "render") ? KD_ROLE_RENDER : KD_ROLE_VIEW;
+    return *out == KD_ROLE_RENDER || !strcmp(text, "view");
+}
+
+/* What is wrong with a line, as a sentence's end without the token; NULL: nothing. */
+static const char *fault_of(const struct kd_access *access, const char *name, const char *role, const char *token, const char *more, struct entry *entry)
+{
+    if (!role || !token || more)
+        return "it must be NAME ROLE TOKEN";
+    if (strlen(name) > KD_ACCESS_NAME_MAX || name[strspn(name, LETTERS "-._@")])
+        return "a name has at most 32 letters, digits and -._@";
+    if (!parse_role(role, &entry->visitor.role))
+        return "the role must be view or render";
+    if (strlen(token) < KD_ACCESS_TOKEN_MIN || strlen(token) > KD_ACCESS_TOKEN_MAX)
+        return "a token has 16 to 256 characters";
+    if (token[strspn(token, TOKEN_CHARACTERS)])
+        return "a token is made of letters, digits and -._~=";
+    if (kd_access_find(access, token))
+        return "another line has the same token";
+    for (size_t i = 0; i < access->n; i++)
+        if (!strcmp(access->entries[i].visitor.name, name))
+            return "another line has the same name";
+    snprintf(entry->visitor.name, sizeof entry->visitor.name, "%s", name);
+    hash_of(token, entry->hash);
+    return NULL;
+}
+
+static enum kd_status add_line(struct kd_access *access, const char *path, unsigned number, char *line, struct kd_error *error)
+{
+    struct entry entry = { 0 };
+    char *rest;
+    line[strcspn(line, "#")] = 0;
+    const char *name = strtok_r(line, BLANK, &rest);
+    if (!name)
+        return KD_OK;
+    const char *role = strtok_r(NULL, BLANK, &rest), *token = strtok_r(NULL, BLANK, &rest), *more = strtok_r(NULL, BLANK, &rest);
+    const char *fault = fault_of(access, name, role, token, more, &entry);
+    if (fault)
+        return kd_error_set(error, KD_EINVAL, "line %u of the token file %.200s: %s", number, path, fault);
+    struct entry *entries = realloc(access->entries, (access->n + 1) * sizeof *entries);
+    if (!entries)
+        return kd_error_set(error, KD_ENOMEM, "out of memory");
+    access->entries = entries;
+    entries[access->n++] = entry;
+    return KD_OK;
+}
+
+static enum kd_status add_lines(struct kd_access *access, const char *path, char *text, struct kd_error *error)
+{
+    enum kd_status status = KD_OK;
+    unsigned number = 0;
+    for (char *line = text, *next; line && !status; line = next) {
+        next = strchr(line, '\n');
+        if (next)
+            *next++ = 0;
+        status = add_line(access, path, ++number, line, error);
+    }
+    if (!status && !access->n)
+        return kd_error_set(error, KD_EINVAL, "the token file %.200s holds no token: a line is NAME ROLE TOKEN", path);
+    return status;
+}
+
+static enum kd_status read_text(const char *path, struct kd_buffer *text, struct kd_error *error)
+{
+    struct stat about;
+    if (stat(path, &about) || !kd_read_file(AT_FDCWD, path, 0, FILE_MOST, text))
+        return kd_error_set(error, KD_EINVAL, "the token file %.200s cannot be read: %s", path, strerror(errno));
+    if (about.st_mode & (S_IROTH | S_IWOTH | S_IWGRP))
+        return kd_error_set(error, KD_EINVAL, "the token file %.200s may be read or written by others (mode %03o): chmod 600 keeps it to its owner", path,
+                            (unsigned)about.st_mode & 0777);
+    if (memchr(text->data ? text->data : (void *)"", 0, text->size))
+        return kd_error_set(error, KD_EINVAL, "the token file %.200s is no text: it holds a zero byte", path);
+    return kd_buffer_append(text, "", 1) ? kd_error_set(error, KD_ENOMEM, "out of memory") : KD_OK;
+}
+
+enum kd_status kd_access_read(const char *path, struct kd_access **out, struct kd_error *error)
+{
+    struct kd_access *access = calloc(1, sizeof *access);
+    struct kd_buffer text = { 0 };
+    enum kd_status status = access ? read_text(path, &text, error) : kd_error_set(error, KD_ENOMEM, "out of memory");
+    if (!status)
+        status = add_lines(access, path, (char *)text.data, error);
+    kd_buffer_finish(&text);
+    if (status)
+        kd_access_free(access);
+    else
+        *out = access;
+    return status;
+}
+
+void kd_access_free(struct kd_access *access)
+{
+    if (access)
+        free(access->entries);
+    free(access);
+}
+
+/* Whose request it is. A token that the page's address or the header of its own brings decides alone; Authorization may as well hold the token of a
+ * session, so what is not ours there leaves it to the cookie. */
+static const struct kd_visitor *visitor_of(struct kd_request *request)
+{
+    const struct kd_access *access = request->server->access;
+    const char *query = kd_access_query(request);
+    const char *own = MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, KD_ACCESS_HEADER);
+    const char *bearer = kd_bearer_of(request);
+    const char *cookie = MHD_lookup_connection_value(request->mhd, MHD_COOKIE_KIND, KD_ACCESS_COOKIE);
+    if (query || own)
+        return kd_access_find(access, query ? query : own);
+    const struct kd_visitor *visitor = bearer ? kd_access_find(access, bearer) : NULL;
+    request->spent = visitor;
+    return visitor || !cookie ? visitor : kd_access_find(access, cookie);
+}
+
+const char *kd_access_query(const struct kd_request *request)
+{
+    if (!request->server->access || !request->route || strcmp(request->route->path, "/"))
+        return NULL;
+    for (size_t i = 0; i < request->target.n_pairs; i++)
+        if (!strcmp(request->target.pairs[i].name, KD_ACCESS_QUERY))
+            return request->target.pairs[i].value;
+    return NULL;
+}
+
+bool kd_role_may(enum kd_role role, const struct kd_route *route, unsigned method)
+{
+    return role == KD_ROLE_RENDER || method == KD_GET || (method == KD_POST && route->question);
+}
+
+bool kd_access_check(struct kd_request *request, struct kd_problem *problem)
+{
+    if (!request->server->access || (request->route && request->route->open))
+        return true;
+    request->visitor = visitor_of(request);
+    *problem = (struct kd_problem) { .type = KD_PROBLEM_UNAUTHORIZED, .close = request->body_announced,
+                                     .detail = "this server takes one of its access tokens, as Authorization: Bearer TOKEN or " KD_ACCESS_HEADER ": TOKEN" };
+    if (!request->visitor)
+        return false;
+    problem->type = KD_PROBLEM_ROLE;
+    problem->detail = "this changes or keeps something at the server, which takes a token of the role render; yours is of the role view";
+    return !request->route || kd_role_may(request->visitor->role, request->route, kd_route_method(request->method));
+}

@@ -1,0 +1,17 @@
+/* This says in openapi.json who may use what: by the tokens of a token file, and by those of a session, a playground, a job, an asset. */
+#ifndef KD_SERVER_OPENAPI_ACCESS_H
+#define KD_SERVER_OPENAPI_ACCESS_H
+
+#include "base/json.h"
+#include "server/http/route.h"
+
+/* The member "securitySchemes" of the components. */
+void kd_openapi_access_schemes(struct kd_json *json);
+/* The member "security" of the document, for all operations that have none. */
+void kd_openapi_access_default(struct kd_json *json);
+/* The member "security" of an operation, where it needs one. owner: it takes the token of the session, playground, job or asset, too. */
+void kd_openapi_access_operation(struct kd_json *json, const struct kd_route *route, bool owner);
+/* Those of an operation's "responses" that refuse a token. */
+void kd_openapi_access_refusals(struct kd_json *json, const struct kd_route *route, unsigned method);
+
+#endif
