@@ -228,7 +228,7 @@ class Routes(daemon.Case):
             answer = self.daemon.request(method, path, **more)
             known = paths[name][method.lower()]['responses']
             self.assertIn(str(answer.status), known, f'{method} {path}')
-            self.assertEqual(set(known) - {'200', '201', '202', '204', '304', 'default'}, set())
+            self.assertEqual(set(known) - {'200', '201', '202', '204', '304', '401', '403', 'default'}, set())
             return answer
         for kind, body, status in (('sessions', '{}', 201), ('jobs', '{"scene": {}}', 202)):
             answer = ask('POST', '/v1/' + kind, body=body)
@@ -240,7 +240,7 @@ class Routes(daemon.Case):
                 self.assertEqual(ask('PATCH', here, body='{"time": 1}', headers=owner).status, 200)
                 self.assertEqual(ask('GET', here + '/frame.png?after=999&wait_ms=1').status, 204)
             self.assertEqual(ask('DELETE', here, headers=owner).status, 204)
-        self.assertEqual(set(paths['/v1/sessions/{id}']['delete']['responses']), {'204', 'default'})
+        self.assertEqual(set(paths['/v1/sessions/{id}']['delete']['responses']), {'204', '401', '403', 'default'})
         tag = ask('GET', '/v1/render?' + daemon.SMALL).header('ETag')
         self.assertEqual(ask('GET', '/v1/render?' + daemon.SMALL, headers={'If-None-Match': tag}).status, 304)
 
