@@ -13,17 +13,17 @@
     X("render", render, "a scene to a PNG file")                                                                \
     X("view", view, "a scene, or a picture that is there, in the terminal")                                     \
     X("light-curve", light_curve, "flux and centroid of a scene as its time goes on")                           \
-    X("sweep", sweep, "a scene for all values of some fields, as one array or many pictures")                   \
-    X("film", film, "a scene that keyframes change, or a playground, as a film or numbered pictures")           \
+    X("sweep", sweep, "a scene for all values of some fields: an array, or pictures")                           \
+    X("film", film, "a film, or numbered pictures, of keyframes or of a playground")                            \
     X("particles", particles, "where the particles of a scene are, as an array")                                \
     X("rays", rays, "end points of listed rays: crossings, redshift, delay")                                    \
-    X("pixel", pixel, "what one pixel of a picture shows: its ray, each emitter on it, why it ends")            \
+    X("pixel", pixel, "what one pixel of a picture shows: its ray, each emitter on it")                         \
     X("orbit", orbit, "path of a body round the hole, its constants and frequencies")                           \
     X("line", line, "the profile of a line from a thin disk: photons by energy")                                \
     X("transfer-function", transfer_function, "how rings of a thin disk are seen, by redshift")                 \
-    X("spectrum", spectrum, "what a thin disk of black bodies, or a volume, sends, by frequency")               \
+    X("spectrum", spectrum, "what a thin disk, or a volume, sends, by frequency")                               \
     X("visibility", visibility, "what an interferometer measures of a scene, by baseline")                      \
-    X("playground", playground, "bodies round the hole that pull one another, merge, and are torn apart")       \
+    X("playground", playground, "bodies round the hole that pull one another, merge, are torn")                 \
     X("physics", physics, "numbers of a hole, an orbit, a disk: one point or a curve")                          \
     X("plan", plan, "what a scene costs on this device")                                                        \
     X("scene", scene, "the merged scene, every field named")                                                    \
