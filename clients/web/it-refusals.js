@@ -27,6 +27,15 @@ const refusals = [
     'frame {}: the picture needs {} of {} memory, {} are allowed (by {…}): lower image.width, image.height or image.samples',
     'fotogramma {}: l’immagine vuole {} di memoria ({}), ammessi sono {} ({…}): riduci image.width, image.height o image.samples',
   ],
+  [
+    '{} is {}, allowed in a tile is a number: its own would not be that of the whole picture; a small picture of the same scene tells one',
+    '{} è {}, ammesso in un riquadro è un numero: il suo non sarebbe quello dell’immagine intera; un’immagine piccola della stessa scena ne dice uno',
+  ],
+  ['{} is {}, allowed in a tile is 0: a lens spreads light over the whole picture', '{} è {}, ammesso in un riquadro è 0: un obiettivo sparge luce su tutta l’immagine'],
+  ['{} is {}, allowed in a tile is 0: a beam spreads light over the whole picture', '{} è {}, ammesso in un riquadro è 0: un fascio sparge luce su tutta l’immagine'],
+  ['{} is {}, allowed in a tile is false: the bar stands in a corner of the whole picture', '{} è {}, ammesso in un riquadro è false: la barra sta in un angolo dell’immagine intera'],
+  ['{} is {}, allowed in a tile are 1 to 8: rays are chosen by what the whole picture shows', '{} è {}, ammessi in un riquadro sono da 1 a 8: i raggi si scelgono da ciò che mostra l’immagine intera'],
+  ['{} is {}, allowed in a tile are numbers: its own would not be those of the whole picture', '{} è {}, ammessi in un riquadro sono numeri: i suoi non sarebbero quelli dell’immagine intera'],
   ['frame {}: it would take about {}, more than the {} a frame may take', 'fotogramma {}: ci vorrebbero circa {}, più dei {} ammessi per un fotogramma'],
   ['{} is {}, allowed are {…} and {}', '{} è {}, ammessi sono {…} e {}'],
   ['{} is {}, allowed is at least {}, the ISCO of {} {}, or {}', '{} è {}, ammesso è almeno {}, l’ISCO per {} {}, o {}'],
@@ -171,7 +180,11 @@ const amounts = {
   days: 'giorni',
 };
 
+const strips = '; in strips it may fit, but ';
+
 export function refusal(text) {
+  const [whole, why] = text.split(strips);
+  if (why) return `${refusal(whole) ?? whole}; a strisce potrebbe starci, ma ${refusal(why) ?? why}`;
   for (const [shape, italian] of refusals) {
     const parts = shape.exec(text)?.slice(1);
     if (parts) return italian.replaceAll('{}', () => Object.entries(amounts).reduce((part, [en, it]) => part.replace(en, it), parts.shift()));
