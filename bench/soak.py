@@ -146,7 +146,7 @@ class Client(threading.Thread):
         connection = http.client.HTTPConnection("127.0.0.1", self.world.server.port, timeout=30)
         try:
             connection.request("GET", f"/v1/sessions/{opened['id']}/{self.random.choice(['events', 'frames'])}")
-            connection.getresponse().read(self.random.randint(1, 4000))
+            connection.getresponse().read1(self.random.randint(1, 4000))
         finally:
             connection.close()
         self.ask("DELETE", f"/v1/sessions/{opened['id']}", meant=(204,), Authorization=f"Bearer {opened['token']}")
@@ -178,7 +178,7 @@ class Client(threading.Thread):
         self.world.left(job["id"], frames, job["token"])
 
     def rays(self):
-        self.ask("POST", "/v1/rays", {"spin": self.random.uniform(-0.9, 0.9), "inclination_deg": 60, "rays": [[self.random.uniform(-9, 9), self.random.uniform(-9, 9)] for _ in range(200)]})
+        self.ask("POST", "/v1/rays", {"spin": self.random.uniform(-0.9, 0.9), "observer": {"inclination_deg": 60}, "rays": [[self.random.uniform(-9, 9), self.random.uniform(-9, 9)] for _ in range(200)]})
 
     def numbers(self):
         self.ask("GET", f"/v1/physics/kerr?spin=0:{self.random.uniform(0.1, 0.9):.3f}:50")
