@@ -51,13 +51,29 @@ static inline void kd_schema_word(struct kd_json *json, const char *name, const 
     kd_json_end(json);
 }
 
-/* Writes the object `name`. */
-static inline void kd_schema_strict(struct kd_json *json, const char *name, const struct kd_schema_member *members, size_t n)
+/* Begin and end the schema of an object `name` with these members and no others, whose schemas are written in between. */
+static inline void kd_schema_begin_strict(struct kd_json *json, const char *name)
 {
     kd_json_object(json, name);
     kd_json_string(json, "type", "object");
     kd_json_bool(json, "additionalProperties", false);
     kd_json_object(json, "properties");
+}
+
+static inline void kd_schema_end_strict(struct kd_json *json, const char *const *names, size_t n)
+{
+    kd_json_end(json);
+    kd_json_array(json, "required");
+    for (size_t i = 0; i < n; i++)
+        kd_json_string(json, NULL, names[i]);
+    kd_json_end(json);
+    kd_json_end(json);
+}
+
+/* Writes the object `name`. */
+static inline void kd_schema_strict(struct kd_json *json, const char *name, const struct kd_schema_member *members, size_t n)
+{
+    kd_schema_begin_strict(json, name);
     for (size_t i = 0; i < n; i++)
         if (members[i].schema)
             kd_schema_text(json, members[i].name, members[i].schema);

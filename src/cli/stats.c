@@ -1,10 +1,10 @@
 #include "cli/stats.h"
 
-#include "base/json.h"
 #include "render/output/notes.h"
 #include "scene/writer.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static void add_field(struct kd_json *json, const struct kd_field *field, const struct kd_scene *scene)
@@ -85,4 +85,15 @@ enum kd_status kd_stats_json(const struct kd_stats *stats, struct kd_buffer *out
     kd_json_end(json);
     kd_json_end(json);
     return kd_json_finish_line(json);
+}
+
+enum kd_status kd_stats_print(struct kd_json *json, struct kd_buffer *line, struct kd_error *error)
+{
+    enum kd_status status = kd_json_finish(json);
+    if (status)
+        kd_error_set(error, status, "out of memory for what --stats prints");
+    else
+        fprintf(stderr, "%s\n", (const char *)line->data);
+    kd_buffer_finish(line);
+    return status;
 }

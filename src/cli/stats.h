@@ -2,6 +2,7 @@
 #ifndef KD_CLI_STATS_H
 #define KD_CLI_STATS_H
 
+#include "base/json.h"
 #include "render/render.h"
 
 struct kd_stats {
@@ -15,5 +16,8 @@ struct kd_stats {
 
 /* One line of JSON. */
 enum kd_status kd_stats_json(const struct kd_stats *stats, struct kd_buffer *out);
+
+/* Ends a line of JSON and prints it on standard error, as --stats of sweeps and films does; frees it in any case. KD_ENOMEM. */
+enum kd_status kd_stats_print(struct kd_json *json, struct kd_buffer *line, struct kd_error *error);
 
 #endif

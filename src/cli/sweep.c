@@ -4,6 +4,7 @@
 #include "cli/frames.h"
 #include "cli/progress.h"
 #include "cli/scene_options.h"
+#include "cli/stats.h"
 #include "render/output/curve.h"
 #include "render/output/flux.h"
 #include "render/output/gather.h"
@@ -207,13 +208,7 @@ static enum kd_status print_stats(const struct work *w, double render_s, double 
     kd_json_number(&json, "render_s", render_s);
     kd_json_number(&json, "write_s", write_s);
     kd_json_end(&json);
-    enum kd_status status = kd_json_finish(&json);
-    if (status)
-        kd_error_set(error, status, "out of memory for what --stats prints");
-    else
-        fprintf(stderr, "%s\n", (const char *)line.data);
-    kd_buffer_finish(&line);
-    return status;
+    return kd_stats_print(&json, &line, error);
 }
 
 static enum kd_status run(struct arguments *arguments, struct kd_error *error)

@@ -1,5 +1,6 @@
 /* This writes answers as JSON, CSV and NPY, and the schema of the first. */
 #include "base/decimal.h"
+#include "base/schema.h"
 #include "image/npy.h"
 #include "integral/answer.h"
 
@@ -126,29 +127,11 @@ enum kd_status kd_integral_write(const struct kd_integral_answer *answer, enum k
 
 static void raw(struct kd_json *json, const char *name, const char *text) { kd_json_raw(json, name, text, strlen(text)); }
 
-static void begin_strict(struct kd_json *json, const char *name)
-{
-    kd_json_object(json, name);
-    kd_json_string(json, "type", "object");
-    kd_json_bool(json, "additionalProperties", false);
-    kd_json_object(json, "properties");
-}
-
-static void end_strict(struct kd_json *json, const char *const *names, size_t n)
-{
-    kd_json_end(json);
-    kd_json_array(json, "required");
-    for (size_t i = 0; i < n; i++)
-        kd_json_string(json, NULL, names[i]);
-    kd_json_end(json);
-    kd_json_end(json);
-}
-
 /* An object with a member for each of the list, of this schema. */
 static void add_listed(struct kd_json *json, const char *name, const struct kd_integral_column *list, size_t n, const char *type)
 {
     const char *names[KD_INTEGRAL_COLUMNS];
-    begin_strict(json, name);
+    kd_schema_begin_strict(json, name);
     for (size_t i = 0; i < n; i++) {
         kd_json_object(json, names[i] = list[i].name);
         kd_json_string(json, "description", list[i].help);
@@ -157,21 +140,21 @@ static void add_listed(struct kd_json *json, const char *name, const struct kd_i
             raw(json, "items", "{\"type\":[\"number\",\"null\"]}");
         kd_json_end(json);
     }
-    end_strict(json, names, n);
+    kd_schema_end_strict(json, names, n);
 }
 
 static void add_parameters(struct kd_json *json, enum kd_integral what)
 {
     const char *names[64];
     size_t n = 0;
-    begin_strict(json, "parameters");
+    kd_schema_begin_strict(json, "parameters");
     for (size_t i = 0; i < kd_n_integral_fields && n < 64; i++) {
         const struct kd_integral_field *f = &kd_integral_fields[i];
         if (!(f->of & 1u << what) || f->kind == KD_INTEGRAL_NUMBERS)
             continue;
         raw(json, names[n++] = f->name, f->kind == KD_INTEGRAL_WORD ? "{\"type\":\"string\"}" : f->lacks ? "{\"type\":[\"number\",\"null\"]}" : "{\"type\":\"number\"}");
     }
-    end_strict(json, names, n);
+    kd_schema_end_strict(json, names, n);
 }
 
 void kd_integral_answer_schema(struct kd_json *json, const char *name, enum kd_integral what)
@@ -179,7 +162,7 @@ void kd_integral_answer_schema(struct kd_json *json, const char *name, enum kd_i
     static const char *const members[] = { "integral", "parameters", "values", "columns", "units", "sources", "approximations", "scene" };
     const struct kd_integral_kind_of *kind = kd_integral_kind_of(what);
     size_t values = count(kind->values, KD_INTEGRAL_VALUES), columns = count(kind->columns, KD_INTEGRAL_COLUMNS);
-    begin_strict(json, name);
+    kd_schema_begin_strict(json, name);
     kd_json_object(json, "integral");
     kd_json_string(json, "const", kd_integral_name(what));
     kd_json_end(json);
@@ -191,5 +174,5 @@ void kd_integral_answer_schema(struct kd_json *json, const char *name, enum kd_i
     raw(json, "approximations", STRINGS);
     if (kd_integral_is_pictured(what))
         raw(json, "scene", "{\"$ref\":\"#/components/schemas/Scene\"}");
-    end_strict(json, members, sizeof members / sizeof *members - !kd_integral_is_pictured(what));
+    kd_schema_end_strict(json, members, sizeof members / sizeof *members - !kd_integral_is_pictured(what));
 }

@@ -54,7 +54,48 @@ print ready >> $CAPTURE
 """
 
 
-class Zsh(Case):
+class Completes:
+    """What each shell must know, by its own complete(line); folder_completed: how it writes a folder."""
+
+    def test_commands(self):
+        self.assertEqual(self.complete("kerrd ren"), ["render"])
+        self.assertEqual(self.complete("kerrd "), sorted([name for name, *rest in contexts() if not rest] + ["help"]))
+        self.assertEqual(self.complete("kerrd help sw"), ["sweep"])
+        self.assertEqual(self.complete("kerrd physics re"), ["redshift"])
+
+    def test_words(self):
+        self.assertEqual(self.complete("kerrd render --log-level=w"), ["--log-level=warn"])
+        self.assertEqual(self.complete("kerrd render -l i"), ["info"])
+        self.assertEqual(self.complete("kerrd rays --trace="), ["--trace=path", "--trace=steps"])
+        self.assertEqual(self.complete("kerrd orbit --case z"), ["zoom-whirl"])
+        self.assertEqual(self.complete("kerrd particles --fields x,dr"), ["x,dr_dt"])
+        self.assertEqual(self.complete("kerrd physics kerr --r i"), ["isco"])
+        self.assertEqual(self.complete("kerrd bench a"), ["accuracy"])
+        self.assertIn("auto", self.complete("kerrd render --device "))
+        self.assertEqual(self.complete("kerrd render --preset gargantua-"), ["gargantua-gas"])
+        self.assertEqual(self.complete("kerrd playground --preset "), sorted(line.split()[0] for line in run("playground", "--list").stdout.decode().splitlines()))
+
+    def test_fields(self):
+        self.assertEqual(self.complete("kerrd scene --set camera.incl"), ["camera.inclination_deg="])
+        self.assertEqual(self.complete("kerrd scene --set=camera.incl"), ["--set=camera.inclination_deg="])
+        self.assertEqual(self.complete("kerrd scene --set disk.model=p"), ["disk.model=particles"])
+        self.assertEqual(self.complete("kerrd scene --set spots.3.bright"), ["spots.3.brightness="])
+        self.assertEqual(self.complete("kerrd scene -s image.layers=order,te"), ["image.layers=order,temperature"])
+        self.assertEqual(self.complete("kerrd sweep -x disk.model=none,p"), ["disk.model=none,particles"])
+        self.assertEqual(self.complete("kerrd playground --set waves=t"), ["waves=true"])
+
+    def test_files(self):
+        self.write("one.json", "{}")
+        os.mkdir(self.path("folder"))
+        self.assertEqual(self.complete("kerrd render on"), ["one.json"])
+        self.assertEqual(self.complete("kerrd render -o on"), ["one.json"])
+        self.assertEqual(self.complete("kerrd render --asset sky=on"), ["sky=one.json"])
+        self.assertEqual(self.complete("kerrd serve --state "), [self.folder_completed])
+
+
+class Zsh(Completes, Case):
+    folder_completed = "folder"
+
     def setUp(self):
         super().setUp()
         self.capture = self.write("capture", "")
@@ -97,49 +138,16 @@ class Zsh(Case):
         os.write(self.fd, line.encode() + b"\x14")
         return sorted(set(self.until("=end")) - {"=end", ""})
 
-    def test_commands(self):
-        self.assertEqual(self.complete("kerrd ren"), ["render"])
-        self.assertEqual(self.complete("kerrd "), sorted([name for name, *rest in contexts() if not rest] + ["help"]))
-        self.assertEqual(self.complete("kerrd help sw"), ["sweep"])
-        self.assertEqual(self.complete("kerrd physics re"), ["redshift"])
-
     def test_every_option(self):
         for context in contexts():
             options = told(context)
             found = {word.rstrip("=").replace("\\", "") for word in self.complete(f"kerrd {' '.join(context)} -")}
             self.assertEqual(set(options), found, context)
 
-    def test_words(self):
-        self.assertEqual(self.complete("kerrd render --log-level=w"), ["--log-level=warn"])
-        self.assertEqual(self.complete("kerrd render -l i"), ["info"])
-        self.assertEqual(self.complete("kerrd rays --trace="), ["--trace=path", "--trace=steps"])
-        self.assertEqual(self.complete("kerrd orbit --case z"), ["zoom-whirl"])
-        self.assertEqual(self.complete("kerrd particles --fields x,dr"), ["x,dr_dt"])
-        self.assertEqual(self.complete("kerrd physics kerr --r i"), ["isco"])
-        self.assertEqual(self.complete("kerrd bench a"), ["accuracy"])
-        self.assertIn("auto", self.complete("kerrd render --device "))
-        self.assertEqual(self.complete("kerrd render --preset gargantua-"), ["gargantua-gas"])
-        self.assertEqual(self.complete("kerrd playground --preset "), sorted(line.split()[0] for line in run("playground", "--list").stdout.decode().splitlines()))
 
-    def test_fields(self):
-        self.assertEqual(self.complete("kerrd scene --set camera.incl"), ["camera.inclination_deg="])
-        self.assertEqual(self.complete("kerrd scene --set=camera.incl"), ["--set=camera.inclination_deg="])
-        self.assertEqual(self.complete("kerrd scene --set disk.model=p"), ["disk.model=particles"])
-        self.assertEqual(self.complete("kerrd scene --set spots.3.bright"), ["spots.3.brightness="])
-        self.assertEqual(self.complete("kerrd scene -s image.layers=order,te"), ["image.layers=order,temperature"])
-        self.assertEqual(self.complete("kerrd sweep -x disk.model=none,p"), ["disk.model=none,particles"])
-        self.assertEqual(self.complete("kerrd playground --set waves=t"), ["waves=true"])
+class Fish(Completes, Case):
+    folder_completed = "folder/"
 
-    def test_files(self):
-        self.write("one.json", "{}")
-        os.mkdir(self.path("folder"))
-        self.assertEqual(self.complete("kerrd render on"), ["one.json"])
-        self.assertEqual(self.complete("kerrd render -o on"), ["one.json"])
-        self.assertEqual(self.complete("kerrd render --asset sky=on"), ["sky=one.json"])
-        self.assertEqual(self.complete("kerrd serve --state "), ["folder"])
-
-
-class Fish(Case):
     def complete(self, line):
         env = {**os.environ, "HOME": self.folder, "PATH": os.path.dirname(KERRD) + os.pathsep + os.environ["PATH"]}
         done = subprocess.run(["fish", "--no-config", "-c", "source $argv[1]; complete -C $argv[2]", str(MADE / "kerrd.fish"), line], cwd=self.folder, env=env,
@@ -147,45 +155,10 @@ class Fish(Case):
         self.assertEqual(done.stderr.decode(), "", line)
         return sorted(row.split("\t")[0] for row in done.stdout.decode().splitlines())
 
-    def test_commands(self):
-        self.assertEqual(self.complete("kerrd ren"), ["render"])
-        self.assertEqual(self.complete("kerrd "), sorted([name for name, *rest in contexts() if not rest] + ["help"]))
-        self.assertEqual(self.complete("kerrd help sw"), ["sweep"])
-        self.assertEqual(self.complete("kerrd physics re"), ["redshift"])
-
     def test_every_option(self):
         for context in contexts():
             found = {word.rstrip("=") for word in self.complete(f"kerrd {' '.join(context)} --")}
             self.assertEqual({option for option in told(context) if option.startswith("--")}, found, context)
-
-    def test_words(self):
-        self.assertEqual(self.complete("kerrd render --log-level=w"), ["--log-level=warn"])
-        self.assertEqual(self.complete("kerrd render -l i"), ["info"])
-        self.assertEqual(self.complete("kerrd rays --trace="), ["--trace=path", "--trace=steps"])
-        self.assertEqual(self.complete("kerrd orbit --case z"), ["zoom-whirl"])
-        self.assertEqual(self.complete("kerrd particles --fields x,dr"), ["x,dr_dt"])
-        self.assertEqual(self.complete("kerrd physics kerr --r i"), ["isco"])
-        self.assertEqual(self.complete("kerrd bench a"), ["accuracy"])
-        self.assertIn("auto", self.complete("kerrd render --device "))
-        self.assertEqual(self.complete("kerrd render --preset gargantua-"), ["gargantua-gas"])
-        self.assertEqual(self.complete("kerrd playground --preset "), sorted(line.split()[0] for line in run("playground", "--list").stdout.decode().splitlines()))
-
-    def test_fields(self):
-        self.assertEqual(self.complete("kerrd scene --set camera.incl"), ["camera.inclination_deg="])
-        self.assertEqual(self.complete("kerrd scene --set=camera.incl"), ["--set=camera.inclination_deg="])
-        self.assertEqual(self.complete("kerrd scene --set disk.model=p"), ["disk.model=particles"])
-        self.assertEqual(self.complete("kerrd scene --set spots.3.bright"), ["spots.3.brightness="])
-        self.assertEqual(self.complete("kerrd scene -s image.layers=order,te"), ["image.layers=order,temperature"])
-        self.assertEqual(self.complete("kerrd sweep -x disk.model=none,p"), ["disk.model=none,particles"])
-        self.assertEqual(self.complete("kerrd playground --set waves=t"), ["waves=true"])
-
-    def test_files(self):
-        self.write("one.json", "{}")
-        os.mkdir(self.path("folder"))
-        self.assertEqual(self.complete("kerrd render on"), ["one.json"])
-        self.assertEqual(self.complete("kerrd render -o on"), ["one.json"])
-        self.assertEqual(self.complete("kerrd render --asset sky=on"), ["sky=one.json"])
-        self.assertEqual(self.complete("kerrd serve --state "), ["folder/"])
 
 
 class Read(Case):

@@ -93,30 +93,11 @@ static void add_parameters(struct kd_json *json, const struct kd_quantity *quant
     kd_json_end(json);
 }
 
-/* Objects with these members and no others. */
-static void begin_strict(struct kd_json *json, const char *name)
-{
-    kd_json_object(json, name);
-    kd_json_string(json, "type", "object");
-    kd_json_bool(json, "additionalProperties", false);
-    kd_json_object(json, "properties");
-}
-
-static void end_strict(struct kd_json *json, const char *const *names, size_t n)
-{
-    kd_json_end(json);
-    kd_json_array(json, "required");
-    for (size_t i = 0; i < n; i++)
-        kd_json_string(json, NULL, names[i]);
-    kd_json_end(json);
-    kd_json_end(json);
-}
-
 /* What a parameter was: a word, or a number, and along a range a list of them. */
 static void add_asked(struct kd_json *json, const struct kd_quantity *quantity)
 {
     const char *names[KD_QUANTITY_PARAMETERS];
-    begin_strict(json, "parameters");
+    kd_schema_begin_strict(json, "parameters");
     for (size_t i = 0; i < quantity->n_parameters; i++) {
         const struct kd_parameter *p = &quantity->parameters[i];
         kd_json_object(json, names[i] = p->name);
@@ -132,20 +113,20 @@ static void add_asked(struct kd_json *json, const struct kd_quantity *quantity)
         }
         kd_json_end(json);
     }
-    end_strict(json, names, quantity->n_parameters);
+    kd_schema_end_strict(json, names, quantity->n_parameters);
 }
 
 static void add_values(struct kd_json *json, const struct kd_quantity *quantity)
 {
     const char *names[KD_QUANTITY_OUTPUTS];
-    begin_strict(json, "values");
+    kd_schema_begin_strict(json, "values");
     for (size_t i = 0; i < quantity->n_outputs; i++) {
         kd_json_object(json, names[i] = quantity->outputs[i].name);
         kd_schema_text(json, "anyOf", NUMBERS);
         kd_json_string(json, "description", quantity->outputs[i].help);
         kd_json_end(json);
     }
-    end_strict(json, names, quantity->n_outputs);
+    kd_schema_end_strict(json, names, quantity->n_outputs);
 }
 
 /* Of all that has one: numbers, that is. A parameter and an output may have the same name. */
@@ -153,7 +134,7 @@ static void add_units(struct kd_json *json, const struct kd_quantity *quantity)
 {
     const char *names[KD_QUANTITY_PARAMETERS + KD_QUANTITY_OUTPUTS];
     size_t n = 0, own;
-    begin_strict(json, "units");
+    kd_schema_begin_strict(json, "units");
     for (size_t i = 0; i < quantity->n_parameters; i++)
         if (!quantity->parameters[i].words)
             kd_schema_text(json, names[n++] = quantity->parameters[i].name, KD_SCHEMA_TEXT);
@@ -165,13 +146,13 @@ static void add_units(struct kd_json *json, const struct kd_quantity *quantity)
         if (!twice)
             kd_schema_text(json, names[n++] = quantity->outputs[i].name, KD_SCHEMA_TEXT);
     }
-    end_strict(json, names, n);
+    kd_schema_end_strict(json, names, n);
 }
 
 static void add_answer(struct kd_json *json, const struct kd_quantity *quantity)
 {
     static const char *const needed[] = { "quantity", "parameters", "values", "units", "sources", "approximations" };
-    begin_strict(json, "schema");
+    kd_schema_begin_strict(json, "schema");
     kd_json_object(json, "quantity");
     kd_json_string(json, "const", quantity->name);
     kd_json_end(json);
@@ -182,7 +163,7 @@ static void add_answer(struct kd_json *json, const struct kd_quantity *quantity)
     add_units(json, quantity);
     kd_schema_text(json, "sources", KD_SCHEMA_LIST(KD_SCHEMA_TEXT));
     kd_schema_text(json, "approximations", KD_SCHEMA_LIST(KD_SCHEMA_TEXT));
-    end_strict(json, needed, sizeof needed / sizeof *needed);
+    kd_schema_end_strict(json, needed, sizeof needed / sizeof *needed);
 }
 
 static void add_responses(struct kd_json *json, const struct kd_route *route, const struct kd_quantity *quantity)
