@@ -65,7 +65,7 @@ def by_suite(tests):
 
 
 def report(build, *options):
-    log = pathlib.Path(build, 'meson-logs/testlog.json')
+    log = max(pathlib.Path(build, 'meson-logs').glob('testlog*.json'), key=lambda path: path.stat().st_mtime)  # a wrapper is part of its name
     tests = read(log)
     slowest = sorted(tests, key=lambda test: -test['duration'])[:8]
     if len(tests) > len(slowest):
