@@ -722,6 +722,18 @@ static void rest_refines_to_what_is_asked_and_then_costs_nothing(void **state)
     }
 }
 
+/* Member by member: bytes between members are anything. */
+static void assert_same_pace(const struct kd_pace *a, const struct kd_pace *b)
+{
+    assert_true(a->rung == b->rung && a->ceiling == b->ceiling && a->count == b->count && a->climbed == b->climbed && a->held == b->held && a->tried == b->tried);
+    for (uint32_t i = 0; i < a->count && i < KD_PACE_FRAMES; i++)
+        assert_memory_equal(&a->costs[i].fixed_ms, &b->costs[i].fixed_ms, 4 * sizeof(double));
+    const double *numbers[][2] = { { &a->changed_at, &b->changed_at }, { &a->failed_at, &b->failed_at }, { &a->retry_ms, &b->retry_ms }, { &a->widest, &b->widest },
+        { &a->failed_target, &b->failed_target }, { &a->held_target, &b->held_target }, { &a->other_ms, &b->other_ms }, { &a->stays, &b->stays } };
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        assert_memory_equal(numbers[i][0], numbers[i][1], sizeof(double));
+}
+
 static void a_change_breaks_into_refinement(void **state)
 {
     (void)state;
@@ -741,7 +753,7 @@ static void a_change_breaks_into_refinement(void **state)
     /* The old one comes in after all: not what is asked now, nor a measure of anything. */
     struct kd_pace pace = s.governor.paces[1];
     kd_governor_frame(&s.governor, s.now, &turn, &(struct kd_frame_cost) { .rays_ms = 9e5, .total_ms = 9e5 });
-    assert_memory_equal(&pace, &s.governor.paces[1], sizeof pace);
+    assert_same_pace(&pace, &s.governor.paces[1]);
     assert_true(kd_governor_turn(&s.governor, s.now).wait_ms == 0);
     int frames;
     frame(&s);
@@ -801,7 +813,7 @@ static void what_measures_nothing_is_not_counted(void **state)
     kd_governor_frame(&s.governor, s.now, &first, &fine);
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
         kd_governor_frame(&s.governor, s.now, &turn, &bad[i]);
-    assert_memory_equal(&pace, &s.governor.paces[1], sizeof pace);
+    assert_same_pace(&pace, &s.governor.paces[1]);
     /* Another ladder; by chance on the same rung. And there the ceiling of the old one is none. */
     s.asked.image.width = 1300;
     change(&s, true);
