@@ -18,7 +18,7 @@ struct arguments {
     const char *device, *listen, *base_path;
     const char *state, *token_file;
     uint64_t memory;
-    unsigned port, queue, sessions, jobs, client_jobs, client_share;
+    unsigned port, queue, sessions, jobs, client_jobs, client_share, client_device_s;
     bool cross_site, until_eof, insecure;
     const char **hosts; /* NULL-terminated once there is one */
     size_t n_hosts;
@@ -33,7 +33,8 @@ static const struct argp_option table[] = {
     { "queue", 'q', "N", 0, "renders that may wait for the device (default 16)", 0 },
     { "sessions", 's', "N", 0, "live sessions at once, and as many playgrounds (default 16)", 0 },
     { "jobs", 'j', "N", 0, "unfinished jobs at once (default 16)", 0 },
-    { "client-share", 'C', "PERCENT", 0, "of each of these that one client, an address, may have (default 75)", 0 },
+    { "client-share", 'C', "PERCENT", 0, "of each of these that one client, a token or an address, may have (default 75)", 0 },
+    { "client-device-seconds", 'D', "S", 0, "of the device's time that one client may use in a minute, 1 to 60 (default: all)", 0 },
     { "jobs-per-client", 'J', "N", 0, "unfinished jobs of one client (default: by --client-share)", 0 },
     { "allow-cross-site", 'X', NULL, 0, "take requests that pages of other sites make, as by an <img>", 0 },
     { "state", 'S', "DIR", 0, "keep jobs and their frames, and assets, there, so that they survive a restart", 0 },
@@ -66,6 +67,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case 'j': arguments->jobs = kd_cli_number(state, "--jobs", text, 1, 1000); return 0;
     case 'J': arguments->client_jobs = kd_cli_number(state, "--jobs-per-client", text, 1, 1000); return 0;
     case 'C': arguments->client_share = kd_cli_number(state, "--client-share", text, 1, 100); return 0;
+    case 'D': arguments->client_device_s = kd_cli_number(state, "--client-device-seconds", text, 1, 60); return 0;
     case 'E': arguments->until_eof = true; return 0;
     case 'X': arguments->cross_site = true; return 0;
     case 'S': arguments->state = text; return 0;
@@ -164,6 +166,7 @@ static enum kd_status serve(const struct arguments *arguments, struct kd_error *
         .jobs = arguments->jobs,
         .client_jobs = arguments->client_jobs,
         .client_share = arguments->client_share,
+        .client_device_s = arguments->client_device_s,
         .cross_site = arguments->cross_site,
         .state = arguments->state,
         .token_file = arguments->token_file,

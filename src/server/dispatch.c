@@ -237,6 +237,8 @@ static bool find_route(struct kd_request *request, struct kd_problem *problem)
         request->route = NULL;
     if (!kd_access_check(request, problem))
         return false;
+    if (request->visitor)
+        kd_client_named(request->visitor->name, request->client);
     if (!found)
         *problem = nowhere;
     return found;

@@ -31,6 +31,7 @@ static int set(struct kd_server_params *params, const char *hosts[2], const char
         { "--jobs", &params->jobs },
         { "--client-jobs", &params->client_jobs },
         { "--client-share", &params->client_share },
+        { "--client-device-seconds", &params->client_device_s },
         { "--jobs-kib", &params->jobs_kib },
         { "--assets", &params->assets },
         { "--assets-kib", &params->assets_kib },

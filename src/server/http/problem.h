@@ -66,6 +66,10 @@ struct kd_problem {
 /* How a library status becomes a problem. pointer and detail point into *error. */
 struct kd_problem kd_problem_from(const struct kd_error *error);
 
+/* Completes what kd_problem_from has made where a limit may be what refuses. quota: it is one client's own, 429. With KD_EBUSY it says in how many seconds to
+ * try again: as the error knows, else otherwise_s. */
+void kd_problem_limit(struct kd_problem *problem, const struct kd_error *error, bool quota, unsigned otherwise_s);
+
 unsigned kd_problem_status(enum kd_problem_type type);
 const char *kd_problem_title(enum kd_problem_type type);
 /* "urn:kerrd:problem:...", which is the document's type; NULL behind the last. */
