@@ -4,6 +4,7 @@
 #include "base/log.h"
 #include "server/asset/store.h"
 #include "server/http/access.h"
+#include "server/http/cors.h"
 #include "server/http/descriptors.h"
 #include "server/keeper.h"
 #include "server/http/library.h"
@@ -195,6 +196,8 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
     KD_TRY(kd_base_path_init(&server->base, params->base_path, error));
     if (params->token_file)
         KD_TRY(kd_access_read(params->token_file, &server->access, error));
+    if (params->cors_origins)
+        KD_TRY(kd_cors_create(params->cors_origins, &server->cors, error));
     KD_TRY(collect_hosts(server, address, params->hosts, error));
     KD_TRY(kd_kept_create(server->base.path, &server->kept, error));
     /* The socket is opened first: opening a device takes long, and "address in use" is the commonest failure. */
@@ -308,6 +311,7 @@ void kd_server_destroy(struct kd_server *server)
     free(server->hosts);
     kd_names_free(server->own);
     kd_access_free(server->access);
+    kd_cors_destroy(server->cors);
     if (server->stop_fd >= 0)
         close(server->stop_fd);
     pthread_cond_destroy(&server->changed);

@@ -1,6 +1,7 @@
 #include "server/http/access.h"
 
 #include "base/read.h"
+#include "server/http/cors.h"
 #include "server/http/request.h"
 
 #include <errno.h>
@@ -159,7 +160,7 @@ static const struct kd_visitor *visitor_of(struct kd_request *request)
         return kd_access_find(access, query ? query : own);
     const struct kd_visitor *visitor = bearer ? kd_access_find(access, bearer) : NULL;
     request->spent = visitor;
-    return visitor || !cookie ? visitor : kd_access_find(access, cookie);
+    return visitor || !cookie || kd_cors_foreign(request) ? visitor : kd_access_find(access, cookie);
 }
 
 const char *kd_access_query(const struct kd_request *request)
