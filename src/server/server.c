@@ -5,6 +5,7 @@
 #include "server/asset/store.h"
 #include "server/http/access.h"
 #include "server/http/cors.h"
+#include "server/http/guesses.h"
 #include "server/http/descriptors.h"
 #include "server/keeper.h"
 #include "server/http/library.h"
@@ -196,6 +197,8 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
     KD_TRY(kd_base_path_init(&server->base, params->base_path, error));
     if (params->token_file)
         KD_TRY(kd_access_read(params->token_file, &server->access, error));
+    if (params->token_file && !(server->guesses = kd_guesses_create()))
+        KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory"));
     if (params->cors_origins)
         KD_TRY(kd_cors_create(params->cors_origins, &server->cors, error));
     KD_TRY(collect_hosts(server, address, params->hosts, error));
@@ -311,6 +314,7 @@ void kd_server_destroy(struct kd_server *server)
     free(server->hosts);
     kd_names_free(server->own);
     kd_access_free(server->access);
+    kd_guesses_destroy(server->guesses);
     kd_cors_destroy(server->cors);
     if (server->stop_fd >= 0)
         close(server->stop_fd);

@@ -210,6 +210,28 @@ class Shares(Access):
         self.assertEqual(self.at('127.0.0.1', 'GET', '/v1/render?' + daemon.SMALL, headers=own(self.OTHER)).status, 200)
 
 
+class Guesses(Access):
+    def ask(self, token, source='127.0.0.1', way=own):
+        with self.daemon.connect(source=source) as s:
+            name, value = next(iter(way(token).items()))
+            s.sendall(f'GET /v1/device HTTP/1.1\r\nHost: localhost\r\n{name}: {value}\r\n\r\n'.encode())
+            return daemon.read_answer(s)
+
+    def test_wrong_tokens_are_counted_by_address(self):
+        self.assertEqual(self.ask(VIEW).status, 200)
+        tries = [self.ask(f'wrong-0123456789-{i}', way=(own, bearer, cookie)[i % 3]) for i in range(40)]
+        self.assertIn([answer.status for answer in tries].count(401), range(20, 26))  # one more every 3 s
+        late = tries[-1]
+        self.assertProblem(late, 429, 'wrong-tokens')
+        self.assertTrue(1 <= int(late.header('Retry-After')) <= 3)
+        self.assertEqual(self.ask(RENDER).status, 429, 'nor is a right one looked at: there is nothing to learn')
+        self.assertEqual(self.ask(VIEW).status, 200, 'who was in stays in')
+        self.assertEqual(self.ask('wrong-0123456789-19').status, 401, 'the same again is no new try')
+        self.assertEqual(self.daemon.get('/v1/device').status, 401, 'and no token is none')
+        self.assertEqual((self.ask('wrong-0123456789-x', '127.0.0.2').status, self.ask(RENDER, '127.0.0.2').status), (401, 200), 'another address')
+        self.assertTrue(daemon.eventually(lambda: self.ask(RENDER).status == 200, 20), 'after some seconds')
+
+
 class Browser(Access):
     more = ('--base-path', '/some/prefix')
 

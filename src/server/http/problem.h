@@ -35,6 +35,7 @@
     X(INVALID_ASSET, 422, "invalid-asset", "The asset is not one that is taken")                             \
     X(TOO_LARGE, 422, "too-large", "The scene is larger than this server renders")                           \
     X(QUOTA, 429, "quota", "This client has as much as one may")                                              \
+    X(WRONG_TOKENS, 429, "wrong-tokens", "Too many wrong tokens have come from this address")                 \
     X(HEADER_TOO_LARGE, 431, "header-too-large", "The header is too large")                                  \
     X(INTERNAL, 500, "internal", "The server failed")                                                        \
     X(DEVICE_LOST, 500, "device-lost", "The device failed")                                                  \
