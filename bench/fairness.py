@@ -3,8 +3,9 @@
 
     bench/fairness.py            about four minutes, on a machine that does nothing else
     bench/fairness.py --only "a job of 1000 frames" --seconds 5
+    bench/fairness.py --size 640 360 --only nothing --only "all that one may queue"
 
-A server of its own. The loads come from 127.0.0.1; who is measured is 127.0.0.2, another client, who asks for one 320 x 180 picture
+A server of its own. The loads come from 127.0.0.1; who is measured is 127.0.0.2, another client, who asks for one picture (of 320 x 180)
 after the other, each with a lens map of its own, watches a session of his own, and asks for /healthz. Writes
 bench/results/DATE-DEVICE-fairness.{json,md}.
 """
@@ -24,7 +25,7 @@ import time
 
 import measure
 
-PICTURE = '/v1/render?image.width=320&image.height=180&camera.inclination_deg=%.6f'
+SIZE = (320, 180)  # of the picture that is measured
 LIVING = {'image': {'width': 640, 'height': 360}, 'disk': {'model': 'particles'}, 'motion': {'time_rate': 10}}
 FRAME = {'image': {'width': 640, 'height': 360}}
 
@@ -110,6 +111,11 @@ class Load:
             thread.join(10)
 
 
+def picture_of(size):
+    """The default scene, with a lens map of its own."""
+    return f'/v1/render?image.width={size[0]}&image.height={size[1]}&camera.inclination_deg={random.uniform(40, 80):.6f}'
+
+
 def inclination():
     return {'camera': {'inclination_deg': round(random.uniform(40, 85), 4)}}
 
@@ -145,10 +151,43 @@ def plans(load):
     load.repeat('huge plans', 20, 'POST', '/v1/plan', {'image': {'width': 32768, 'height': 32768}})
 
 
+def jobs(load):
+    """As many jobs as one may have: every other one the frames of a film, along keyframes and with motion blur."""
+    scene = {'image': {'width': 1280, 'height': 720}}
+    for k in range(12):
+        frames = [{**scene, 'camera': {'inclination_deg': 40 + 0.02 * i + k}} for i in range(200)]
+        film = {'scene': scene, 'keyframes': [{'frame': 239, 'scene': {'camera': {'azimuth_deg': 60 + k}}}], 'motion_blur': {'samples': 4, 'shutter': 0.5}}
+        answer, _ = load.server.ask(load.source, 'POST', '/v1/jobs', film if k % 2 else {'scenes': frames})
+        load.counts[f'job: {answer.status}'] = load.counts.get(f'job: {answer.status}', 0) + 1
+
+
+def playgrounds(load):
+    for _ in range(12):
+        answer, text = load.server.ask(load.source, 'POST', '/v1/playground', {'preset': 'binary'})
+        if answer.status == 201:
+            at = '/v1/playground/' + json.loads(text)['id']
+            load.repeat('playground', 1, 'GET', at + '/bodies?wait_ms=1000')
+
+
+def queue(load):
+    """Twenty ask for long pictures, each of its own, where twelve may wait; eight for lists of rays; twelve sessions are dragged."""
+    def long(connection):
+        return load.server.ask(load.source, 'POST', '/v1/render', {'image': {'width': 2560, 'height': 1440, 'samples': 4},
+                                                                   'camera': {'inclination_deg': round(random.uniform(40, 85), 4)}}, connection=connection)[0]
+    for _ in range(20):
+        load.loop('1440p x 16 rays', long)
+    for _ in range(8):
+        rays(load, 100000)
+    for _ in range(12):
+        load.session('dragged', FRAME, inclination)
+    jobs(load)
+    playgrounds(load)
+
+
 LOADS = {
     'nothing': [], 'two watched sessions': [watched], 'eight dragged sessions': [dragged], 'a 4K picture of 64 rays a pixel': [large],
     'a job of 1000 frames': [job], 'a million device rays': [rays], 'twenty loops of huge plans': [plans],
-    'all of these': [watched, dragged, large, job, rays, plans],
+    'all of these': [watched, dragged, large, job, rays, plans], 'all that one may queue': [queue],
 }
 
 
@@ -178,12 +217,12 @@ def look_at_health(port, source, seconds, at_least):
     return {'healthz_ms': [ms - 50 - lag for ms, lag in zip(took, late)], 'sleep_late_ms': late}
 
 
-def look(server, seconds, at_least=3, source='127.0.0.2'):
+def look(server, seconds, at_least=3, source='127.0.0.2', size=SIZE):
     """What a client meets who does nothing else: pictures, the frames of a session of his own, /healthz."""
     out, viewer = {}, Load(server, source)
     viewer.session('own', LIVING)
     def picture():
-        answer, _ = server.ask(source, 'GET', PICTURE % random.uniform(40, 80))
+        answer, _ = server.ask(source, 'GET', picture_of(size))
         assert answer.status == 200, answer.status
 
     with concurrent.futures.ProcessPoolExecutor(1, multiprocessing.get_context('spawn')) as pool:
@@ -197,18 +236,18 @@ def look(server, seconds, at_least=3, source='127.0.0.2'):
     return out
 
 
-def run_one(path, name, seconds, options=()):
+def run_one(path, name, seconds, options=(), size=SIZE):
     with tempfile.TemporaryDirectory() as state:
         server = Server(path, '--state', state, *options)
         try:
             for _ in range(3):  # kernels are made, and the device is measured
-                server.ask('127.0.0.2', 'GET', PICTURE % random.uniform(40, 80))
+                server.ask('127.0.0.2', 'GET', picture_of(size))
             server.ask('127.0.0.2', 'POST', '/v1/render', {'image': {'width': 640, 'height': 360}, 'disk': {'model': 'particles'}})
             load = Load(server)
             for begin in LOADS[name]:
                 begin(load)
             time.sleep(2 if LOADS[name] else 0)
-            return {**look(server, seconds), 'load': load.counts}
+            return {**look(server, seconds, size=size), 'load': load.counts}
         finally:
             server.stop()
 
@@ -217,6 +256,7 @@ def main():
     p = measure.parser(__doc__.splitlines()[0])
     p.add_argument('--seconds', type=float, default=20, help='that each load is watched for (20)')
     p.add_argument('--only', choices=LOADS, action='append', help='this load alone')
+    p.add_argument('--size', type=int, nargs=2, default=SIZE, metavar=('WIDTH', 'HEIGHT'), help='of the picture that is measured (320 180)')
     arguments, load = p.parse_args(), os.getloadavg()[0]
     path = measure.binary(arguments.build, 'src/kerrd')
     server = Server(path)
@@ -224,13 +264,13 @@ def main():
     server.stop()
     results = {}
     for name in arguments.only or LOADS:
-        results[name] = run_one(path, name, arguments.seconds)
+        results[name] = run_one(path, name, arguments.seconds, size=arguments.size)
         print(name, {k: round(statistics.median(v), 1) if isinstance(v, list) else v for k, v in results[name].items()}, flush=True)
     rows = [[name, str(len(r['picture_ms'])), f"{statistics.median(r['picture_ms']):.0f} / {max(r['picture_ms']):.0f}", f"{r['fps']:.1f}",
              f"{statistics.median(r['healthz_ms']):.1f} / {max(r['healthz_ms']):.0f}", f"{max(r['sleep_late_ms']):.0f}"] for name, r in results.items()]
     h = measure.head(f"{device['name']}, {device['driver']} {device['driver_info']}", load)
     text = measure.head_markdown('What one client may make another one wait', h)
-    text += measure.table(['load of another client', 'pictures', '320 × 180 picture, ms: median / worst', 'frames/s of an own session',
+    text += measure.table(['load of another client', 'pictures', f'{arguments.size[0]} × {arguments.size[1]} picture, ms: median / worst', 'frames/s of an own session',
                            '/healthz, ms: median / worst', 'a sleep is late, ms: worst'], rows)
     if not arguments.only:
         measure.save(arguments.out, 'fairness', h, {'loads': results}, text)

@@ -8,6 +8,7 @@ static void fill(struct kd_error *error, enum kd_status status, const char *poin
     if (!error)
         return;
     error->status = status;
+    error->retry_s = 0;
     snprintf(error->pointer, sizeof error->pointer, "%s", pointer);
     vsnprintf(error->message, sizeof error->message, format, args);
 }

@@ -18,10 +18,12 @@ struct arguments {
     const char *device, *listen, *base_path;
     const char *state, *token_file;
     uint64_t memory;
-    unsigned port, queue, sessions, jobs, client_jobs, client_share;
+    unsigned port, queue, sessions, jobs, client_jobs, client_share, client_device_s;
     bool cross_site, until_eof, insecure;
-    const char **hosts; /* NULL-terminated once there is one */
-    size_t n_hosts;
+    struct texts { /* NULL-terminated once there is one */
+        const char **all;
+        size_t n;
+    } hosts, origins;
 };
 
 static const struct argp_option table[] = {
@@ -33,9 +35,11 @@ static const struct argp_option table[] = {
     { "queue", 'q', "N", 0, "renders that may wait for the device (default 16)", 0 },
     { "sessions", 's', "N", 0, "live sessions at once, and as many playgrounds (default 16)", 0 },
     { "jobs", 'j', "N", 0, "unfinished jobs at once (default 16)", 0 },
-    { "client-share", 'C', "PERCENT", 0, "of each of these that one client, an address, may have (default 75)", 0 },
+    { "client-share", 'C', "PERCENT", 0, "of each of these that one client, a token or an address, may have (default 75)", 0 },
+    { "client-device-seconds", 'D', "S", 0, "of the device's time that one client may use in a minute, 1 to 60 (default: all)", 0 },
     { "jobs-per-client", 'J', "N", 0, "unfinished jobs of one client (default: by --client-share)", 0 },
     { "allow-cross-site", 'X', NULL, 0, "take requests that pages of other sites make, as by an <img>", 0 },
+    { "cors-origin", 'O', "ORIGIN", 0, "let pages of this origin, like https://example.org, use the server and read its answers; may be repeated, or several with commas between", 0 },
     { "state", 'S', "DIR", 0, "keep jobs and their frames, and assets, there, so that they survive a restart", 0 },
     { "until-eof", 'E', NULL, 0, "stop when standard input ends, as it does when the program that holds its other end is gone", 0 },
     KD_CLI_MEMORY,
@@ -43,14 +47,14 @@ static const struct argp_option table[] = {
     { 0 },
 };
 
-static void add_host(struct arguments *arguments, const char *name, struct argp_state *state)
+static void add_text(struct texts *texts, const char *text, const char *option, struct argp_state *state)
 {
-    const char **hosts = realloc(arguments->hosts, (arguments->n_hosts + 2) * sizeof *hosts);
-    if (!hosts)
-        argp_failure(state, KD_EXIT_FAILURE, ENOMEM, "--host");
-    hosts[arguments->n_hosts++] = name;
-    hosts[arguments->n_hosts] = NULL;
-    arguments->hosts = hosts;
+    const char **all = realloc(texts->all, (texts->n + 2) * sizeof *all);
+    if (!all)
+        argp_failure(state, KD_EXIT_FAILURE, ENOMEM, "%s", option);
+    all[texts->n++] = text;
+    all[texts->n] = NULL;
+    texts->all = all;
 }
 
 static error_t parse(int key, char *text, struct argp_state *state)
@@ -66,13 +70,15 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case 'j': arguments->jobs = kd_cli_number(state, "--jobs", text, 1, 1000); return 0;
     case 'J': arguments->client_jobs = kd_cli_number(state, "--jobs-per-client", text, 1, 1000); return 0;
     case 'C': arguments->client_share = kd_cli_number(state, "--client-share", text, 1, 100); return 0;
+    case 'D': arguments->client_device_s = kd_cli_number(state, "--client-device-seconds", text, 1, 60); return 0;
     case 'E': arguments->until_eof = true; return 0;
     case 'X': arguments->cross_site = true; return 0;
     case 'S': arguments->state = text; return 0;
     case 'T': arguments->token_file = text; return 0;
     case 'I': arguments->insecure = true; return 0;
     case 'M': arguments->memory = kd_cli_bytes(state, "--memory", text); return 0;
-    case 'H': add_host(arguments, text, state); return 0;
+    case 'O': add_text(&arguments->origins, text, "--cors-origin", state); return 0;
+    case 'H': add_text(&arguments->hosts, text, "--host", state); return 0;
     case ARGP_KEY_ARG: argp_error(state, "%s: it takes no argument", text); return 0;
     }
     return ARGP_ERR_UNKNOWN;
@@ -157,13 +163,15 @@ static enum kd_status serve(const struct arguments *arguments, struct kd_error *
         .listen = arguments->listen,
         .port = (uint16_t)arguments->port,
         .base_path = arguments->base_path,
-        .hosts = arguments->hosts,
+        .hosts = arguments->hosts.all,
+        .cors_origins = arguments->origins.all,
         .queue = arguments->queue,
         .sessions = arguments->sessions,
         .playgrounds = arguments->sessions,
         .jobs = arguments->jobs,
         .client_jobs = arguments->client_jobs,
         .client_share = arguments->client_share,
+        .client_device_s = arguments->client_device_s,
         .cross_site = arguments->cross_site,
         .state = arguments->state,
         .token_file = arguments->token_file,
@@ -212,6 +220,7 @@ int kd_cli_serve(int argc, char **argv)
 
     argp_parse(kd_cli_serve_argp(), argc, argv, 0, NULL, &arguments);
     enum kd_status status = serve(&arguments, &error);
-    free(arguments.hosts);
+    free(arguments.hosts.all);
+    free(arguments.origins.all);
     return status ? kd_cli_fail(&error) : KD_EXIT_OK;
 }

@@ -6,6 +6,7 @@
 #include "playground/json.h"
 #include "render/rays/request.h"
 #include "base/clock.h"
+#include "server/http/cors.h"
 #include "server/http/library.h"
 #include "server/http/negotiate.h"
 #include "server/http/prompt.h"
@@ -222,7 +223,7 @@ static bool is_foreign(const struct kd_request *request)
     const char *site = MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, "Sec-Fetch-Site");
     const char *mode = MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, "Sec-Fetch-Mode");
     const char *to = MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, "Sec-Fetch-Dest");
-    if (request->server->cross_site || !site || strcmp(site, "cross-site"))
+    if (request->server->cross_site || !site || strcmp(site, "cross-site") || kd_cors_origin(request))
         return false;
     bool visit = mode && !strcmp(mode, "navigate") && to && !strcmp(to, "document") && strcmp(request->method, "POST");
     return !visit && !strncmp(request->route->path, "/v1/", 4);
@@ -237,6 +238,8 @@ static bool find_route(struct kd_request *request, struct kd_problem *problem)
         request->route = NULL;
     if (!kd_access_check(request, problem))
         return false;
+    if (request->visitor)
+        kd_client_named(request->visitor->name, request->client);
     if (!found)
         *problem = nowhere;
     return found;
@@ -258,12 +261,15 @@ static bool choose(struct kd_request *request, enum MHD_Result *result)
                                         .retry_after = 1,
                                         .close = true,
                                         .detail = "more connections are open than this server takes" };
-    else if (!find_route(request, &problem))
+    else if (kd_cors_is_preflight(request)) { /* without a token: browsers send none */
+        *result = kd_cors_preflight(request);
+        return false;
+    } else if (!find_route(request, &problem))
         request->route = NULL;
     else if (is_foreign(request))
         problem = (struct kd_problem) { .type = KD_PROBLEM_CROSS_SITE, .close = request->body_announced,
                                         .detail = "the browser says that a page of another site has asked for this (Sec-Fetch-Site: cross-site), "
-                                                  "which this server takes with --allow-cross-site only" };
+                                                  "which this server takes from those that --cors-origin names, or with --allow-cross-site" };
     else if (!body_fault(request, text, &problem))
         return true;
     *result = kd_reply_problem(request, &problem);

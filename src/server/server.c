@@ -4,6 +4,8 @@
 #include "base/log.h"
 #include "server/asset/store.h"
 #include "server/http/access.h"
+#include "server/http/cors.h"
+#include "server/http/guesses.h"
 #include "server/http/descriptors.h"
 #include "server/keeper.h"
 #include "server/http/library.h"
@@ -168,7 +170,7 @@ static struct kd_renderer_params renderer_params(const struct kd_server *server,
 static enum kd_status start_renders(struct kd_server *server, const struct kd_server_params *params, unsigned tasks, struct kd_error *error)
 {
     const struct kd_renderer_params renderer = renderer_params(server, params);
-    return kd_render_queue_create(&renderer, tasks, share_of(params, tasks), &server->renders, error);
+    return kd_render_queue_create(&renderer, tasks, share_of(params, tasks), params->client_device_s, &server->renders, error);
 }
 
 static enum kd_status start(struct kd_server *server, const struct kd_server_params *params,
@@ -195,6 +197,10 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
     KD_TRY(kd_base_path_init(&server->base, params->base_path, error));
     if (params->token_file)
         KD_TRY(kd_access_read(params->token_file, &server->access, error));
+    if (params->token_file && !(server->guesses = kd_guesses_create()))
+        KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory"));
+    if (params->cors_origins)
+        KD_TRY(kd_cors_create(params->cors_origins, &server->cors, error));
     KD_TRY(collect_hosts(server, address, params->hosts, error));
     KD_TRY(kd_kept_create(server->base.path, &server->kept, error));
     /* The socket is opened first: opening a device takes long, and "address in use" is the commonest failure. */
@@ -308,6 +314,8 @@ void kd_server_destroy(struct kd_server *server)
     free(server->hosts);
     kd_names_free(server->own);
     kd_access_free(server->access);
+    kd_guesses_destroy(server->guesses);
+    kd_cors_destroy(server->cors);
     if (server->stop_fd >= 0)
         close(server->stop_fd);
     pthread_cond_destroy(&server->changed);

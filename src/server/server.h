@@ -22,6 +22,8 @@ struct kd_server_params {
     unsigned jobs;            /* unfinished ones, default 16 */
     unsigned client_share;    /* percent of connections, renders that wait, sessions and jobs that one client may have; default 75 */
     unsigned client_jobs;     /* unfinished ones of one client; 0: by client_share */
+    unsigned client_device_s; /* seconds of the device's time that one client may use in a minute; 0: all */
+    const char *const *cors_origins; /* of pages that may use it and read its answers (http/cors.h), NULL-terminated; NULL: none but its own */
     bool cross_site;          /* take requests that pages of other sites make */
     unsigned jobs_kib;        /* bytes of the frames of all jobs, default 16 GiB */
     unsigned assets, assets_kib; /* assets at once, and the size of all of them; default 64 and 256 MiB */

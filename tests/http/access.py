@@ -1,4 +1,5 @@
 """Who may use a server that has a token file: by header, by cookie, by role, and beside the tokens of sessions and jobs."""
+import http.client
 import json
 import os
 import pathlib
@@ -48,10 +49,14 @@ class Access(daemon.Case):
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.folder.cleanup)
-        cls.options = ('--token-file', token_file(cls.folder.name, LINES), *cls.more)
+        cls.options = ('--token-file', token_file(cls.folder.name, cls.lines()), *cls.more)
         super().setUpClass()
 
     more = ()
+
+    @classmethod
+    def lines(cls):
+        return LINES
 
     def ask(self, method, target, body=None, headers=()):
         body = body if body is None or isinstance(body, bytes) else json.dumps(body)
@@ -175,6 +180,56 @@ class Beside(Access):
         self.assertProblem(self.ask('DELETE', at, headers=bearer(one['token'])), 401, 'unauthorized')
         self.assertProblem(self.ask('DELETE', at, headers=bearer(RENDER)), 403, 'forbidden')
         self.assertEqual(self.ask('DELETE', at, headers=own(RENDER) | bearer(one['token'])).status, 204)
+
+
+class Shares(Access):
+    """Whose token it is counts, not where a request comes from."""
+    more = ('--sessions', 4, '--client-share', 50, '--client-device-seconds', 1)
+    OTHER = 'other-0123456789abcdef'
+
+    @classmethod
+    def lines(cls):
+        return LINES + f'eve render {cls.OTHER}\n'
+
+    def at(self, source, method, target, body=None, headers=()):
+        connection = http.client.HTTPConnection('127.0.0.1', self.daemon.port, timeout=60, source_address=(source, 0))
+        connection.request(method, target, body and json.dumps(body), {'Content-Type': 'application/json', **dict(headers)})
+        got = connection.getresponse()
+        answer = daemon.Answer(got.status, got.getheaders(), got.read())
+        connection.close()
+        return answer
+
+    def test_by_token(self):
+        for source in ('127.0.0.1', '127.0.0.2'):
+            self.assertEqual(self.at(source, 'POST', '/v1/sessions', SCENE, own(RENDER)).status, 201)
+        for source in ('127.0.0.1', '127.0.0.2', '127.0.0.3'):
+            self.assertProblem(self.at(source, 'POST', '/v1/sessions', SCENE, cookie(RENDER)), 429, 'quota')
+        self.assertEqual(self.at('127.0.0.1', 'POST', '/v1/sessions', SCENE, bearer(self.OTHER)).status, 201)
+        self.assertEqual(self.at('127.0.0.1', 'GET', '/v1/render?time=2000&' + daemon.SMALL, headers=own(VIEW)).status, 200)
+        self.assertProblem(self.at('127.0.0.2', 'GET', '/v1/render?' + daemon.SMALL, headers=own(VIEW)), 429, 'quota')
+        self.assertEqual(self.at('127.0.0.1', 'GET', '/v1/render?' + daemon.SMALL, headers=own(self.OTHER)).status, 200)
+
+
+class Guesses(Access):
+    def ask(self, token, source='127.0.0.1', way=own):
+        with self.daemon.connect(source=source) as s:
+            name, value = next(iter(way(token).items()))
+            s.sendall(f'GET /v1/device HTTP/1.1\r\nHost: localhost\r\n{name}: {value}\r\n\r\n'.encode())
+            return daemon.read_answer(s)
+
+    def test_wrong_tokens_are_counted_by_address(self):
+        self.assertEqual(self.ask(VIEW).status, 200)
+        tries = [self.ask(f'wrong-0123456789-{i}', way=(own, bearer, cookie)[i % 3]) for i in range(40)]
+        self.assertIn([answer.status for answer in tries].count(401), range(20, 26))  # one more every 3 s
+        late = tries[-1]
+        self.assertProblem(late, 429, 'wrong-tokens')
+        self.assertTrue(1 <= int(late.header('Retry-After')) <= 3)
+        self.assertEqual(self.ask(RENDER).status, 429, 'nor is a right one looked at: there is nothing to learn')
+        self.assertEqual(self.ask(VIEW).status, 200, 'who was in stays in')
+        self.assertEqual(self.ask('wrong-0123456789-19').status, 401, 'the same again is no new try')
+        self.assertEqual(self.daemon.get('/v1/device').status, 401, 'and no token is none')
+        self.assertEqual((self.ask('wrong-0123456789-x', '127.0.0.2').status, self.ask(RENDER, '127.0.0.2').status), (401, 200), 'another address')
+        self.assertTrue(daemon.eventually(lambda: self.ask(RENDER).status == 200, 20), 'after some seconds')
 
 
 class Browser(Access):

@@ -1,5 +1,5 @@
 /* The HTTP service in front of the renderer it is linked with: fake_server [--NAME VALUE]... with the numbers
- * of struct kd_server_params by name, --listen, --host (once), --token-file and --device. */
+ * of struct kd_server_params by name, --listen, --host and --cors-origin (once each), --token-file and --device. */
 #include "base/log.h"
 #include "server/server.h"
 
@@ -17,7 +17,7 @@ static void on_signal(int number)
     kd_server_stop(server);
 }
 
-static int set(struct kd_server_params *params, const char *hosts[2], const char *name, const char *value)
+static int set(struct kd_server_params *params, const char *hosts[2], const char *origins[2], const char *name, const char *value)
 {
     struct {
         const char *name;
@@ -31,6 +31,7 @@ static int set(struct kd_server_params *params, const char *hosts[2], const char
         { "--jobs", &params->jobs },
         { "--client-jobs", &params->client_jobs },
         { "--client-share", &params->client_share },
+        { "--client-device-seconds", &params->client_device_s },
         { "--jobs-kib", &params->jobs_kib },
         { "--assets", &params->assets },
         { "--assets-kib", &params->assets_kib },
@@ -56,6 +57,8 @@ static int set(struct kd_server_params *params, const char *hosts[2], const char
         return params->state = value, 1;
     if (!strcmp(name, "--device"))
         return params->renderer.device = value, 1;
+    if (!strcmp(name, "--cors-origin"))
+        return origins[0] = value, params->cors_origins = origins, 1;
     if (!strcmp(name, "--host"))
         return hosts[0] = value, params->hosts = hosts, 1;
     return !strcmp(name, "--log") ? kd_log_set_level((enum kd_log_level)atoi(value)), 1 : 0;
@@ -65,10 +68,10 @@ int main(int argc, char **argv)
 {
     struct kd_server_params params = { .client_share = 100 }; /* most tests fill a limit from one address */
     struct kd_error error;
-    const char *hosts[2] = { NULL, NULL };
+    const char *hosts[2] = { NULL, NULL }, *origins[2] = { NULL, NULL };
 
     for (int i = 1; i + 1 < argc; i += 2)
-        if (!set(&params, hosts, argv[i], argv[i + 1]))
+        if (!set(&params, hosts, origins, argv[i], argv[i + 1]))
             return fprintf(stderr, "fake_server: unknown option %s\n", argv[i]), 2;
     if (kd_server_create(&params, &server, &error))
         return fprintf(stderr, "fake_server: %s\n", error.message), 1;

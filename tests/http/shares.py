@@ -97,6 +97,64 @@ class Device(Case):
         self.assertEqual(self.ask('127.0.0.2', 'GET', RENDER).status, 200)
 
 
+class Allowance(Case):
+    """Of the device's time a client may use a second a minute here: one of what it has taken, and of what is accepted by estimate."""
+    options = ('--client-device-seconds', 1, '--queue', 16, '--client-share', 50)
+    SMALL = {'image': {'width': 32, 'height': 18}}
+
+    def refused(self, source, method, target, body=None):
+        """The seconds after which the client is told to try again."""
+        answer = self.ask(source, method, target, body)
+        detail = self.assertProblem(answer, 429, 'quota')['detail']
+        seconds = int(answer.header('Retry-After'))
+        self.assertIn(f"as much of the device's time as one client may use, 1 s a minute; in {seconds} s more is taken", detail)
+        return seconds
+
+    def test_what_it_has_used(self):
+        tag = self.ask('127.0.0.1', 'GET', RENDER + '&time=1500').header('ETag')
+        for method, target, body in (('GET', RENDER, None), ('POST', '/v1/render', {}), ('GET', '/v1/pixel?at=1,1', None), ('POST', '/v1/sessions', self.SMALL),
+                                     ('POST', '/v1/jobs', {'scene': self.SMALL}), ('POST', '/v1/rays', {'rays': [[5, 1]], 'accuracy': {'engine': 'mino-rkn6'}}), ('POST', '/v1/visibility', {'scene': self.SMALL})):
+            with self.subTest(f'{method} {target}'):
+                self.assertTrue(5 < self.refused('127.0.0.1', method, target, body) <= 120)
+                self.assertIn(self.ask('127.0.0.2', method, target, body).status, (200, 201, 202))
+        for method, target, body in (('GET', '/v1/presets', None), ('POST', '/v1/plan', {}), ('POST', '/v1/rays', {'rays': [[5, 1]]}), ('GET', '/v1/physics/kerr?spin=0.5', None)):
+            self.assertEqual(self.ask('127.0.0.1', method, target, body).status, 200, 'what takes no device')
+        self.assertEqual(self.ask('127.0.0.1', 'GET', RENDER + '&time=1500', headers={'If-None-Match': tag}).status, 304)
+
+    def test_what_is_accepted_counts_by_its_estimate(self):
+        self.begin(LONG % 60000, '127.0.0.3')
+        time.sleep(0.3)
+        self.assertGreater(self.refused('127.0.0.3', 'GET', RENDER), 60 * 4)
+
+    def test_a_job_waits_and_leaves_a_half(self):
+        """The bucket of a second is emptied to a half by a few of 40 frames, and fills for one more in 9 s."""
+        own, at = '127.0.0.4', '/v1/jobs/'
+        made = self.ask(own, 'POST', '/v1/jobs', {'scenes': [{**self.SMALL, 'time': 150 + i / 100} for i in range(40)]})
+        self.assertEqual(made.status, 202, made.body)
+        job = made.json()
+        finished = lambda: self.ask(own, 'GET', at + job['id']).json()['finished']
+        self.assertTrue(daemon.eventually(lambda: finished() >= 3))
+        time.sleep(1.5)
+        self.assertLess(finished(), 8)
+        self.assertEqual(self.ask(own, 'GET', RENDER).status, 200)
+        one = {'Authorization': 'Bearer ' + job['token']}
+        self.assertEqual(self.ask(own, 'DELETE', at + job['id'], headers=one).status, 204)
+        self.assertTrue(daemon.eventually(lambda: self.ask(own, 'GET', at + job['id']).status == 404, 5))
+
+    def test_a_session_waits(self):
+        own = '127.0.0.5'
+        session = self.ask(own, 'POST', '/v1/sessions', self.SMALL).json()
+        at, token = '/v1/sessions/' + session['id'], {'Authorization': 'Bearer ' + session['token']}
+        frame = self.ask(own, 'GET', at + '/frame.png?wait_ms=20000')
+        self.assertEqual(frame.status, 200)
+        self.assertEqual(self.ask(own, 'GET', RENDER + '&time=2000').status, 200)
+        self.assertEqual(self.ask(own, 'PATCH', at, {'camera': {'inclination_deg': 33}}, token).status, 200)
+        time.sleep(0.2)
+        newest = self.ask(own, 'GET', at + '/frame.png')
+        self.assertEqual(self.ask(own, 'GET', at + f'/frame.png?after={newest.header("Kerrd-Frame")}&wait_ms=1000').status, 204)
+        self.assertEqual(self.ask(own, 'DELETE', at, headers=token).status, 204)
+
+
 class Tasks(Case):
     """What workers answer by turns."""
     options = ('--queue', 8, '--client-share', 50)

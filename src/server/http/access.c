@@ -1,6 +1,10 @@
 #include "server/http/access.h"
 
 #include "base/read.h"
+#include "base/clock.h"
+#include "base/hash.h"
+#include "server/http/cors.h"
+#include "server/http/guesses.h"
 #include "server/http/request.h"
 
 #include <errno.h>
@@ -146,20 +150,42 @@ void kd_access_free(struct kd_access *access)
     free(access);
 }
 
-/* Whose request it is. A token that the page's address or the header of its own brings decides alone; Authorization may as well hold the token of a
- * session, so what is not ours there leaves it to the cookie. */
-static const struct kd_visitor *visitor_of(struct kd_request *request)
+/* What a request brings as its token. */
+struct brought {
+    const char *alone, *bearer, *cookie; /* one that decides alone; else what there is; each may be NULL */
+};
+
+static struct brought brought_by(struct kd_request *request)
 {
-    const struct kd_access *access = request->server->access;
     const char *query = kd_access_query(request);
     const char *own = MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, KD_ACCESS_HEADER);
-    const char *bearer = kd_bearer_of(request);
-    const char *cookie = MHD_lookup_connection_value(request->mhd, MHD_COOKIE_KIND, KD_ACCESS_COOKIE);
-    if (query || own)
-        return kd_access_find(access, query ? query : own);
-    const struct kd_visitor *visitor = bearer ? kd_access_find(access, bearer) : NULL;
+    return (struct brought) { .alone = query ? query : own, .bearer = kd_bearer_of(request),
+                              .cookie = kd_cors_foreign(request) ? NULL : MHD_lookup_connection_value(request->mhd, MHD_COOKIE_KIND, KD_ACCESS_COOKIE) };
+}
+
+/* Whose request it is. A token that the page's address or the header of its own brings decides alone; Authorization may as well hold the token of a
+ * session, so what is not ours there leaves it to the cookie. */
+static const struct kd_visitor *visitor_of(struct kd_request *request, const struct brought *brought)
+{
+    const struct kd_access *access = request->server->access;
+    if (brought->alone)
+        return kd_access_find(access, brought->alone);
+    const struct kd_visitor *visitor = brought->bearer ? kd_access_find(access, brought->bearer) : NULL;
     request->spent = visitor;
-    return visitor || !cookie ? visitor : kd_access_find(access, cookie);
+    return visitor || !brought->cookie ? visitor : kd_access_find(access, brought->cookie);
+}
+
+/* In how many seconds tokens of this address are looked at again; 0: they are, or none has come. Its client is still its address. */
+static unsigned guesses_wait_s(const struct kd_request *request, const struct brought *brought)
+{
+    struct kd_guesses *guesses = request->server->guesses;
+    const char *const texts[] = { brought->alone, brought->alone ? NULL : brought->bearer, brought->alone ? NULL : brought->cookie };
+    uint64_t hash = KD_HASH_BEGIN; /* the same for the same token, whichever way it is brought */
+    if (request->visitor)
+        return kd_guesses_right(guesses, request->client, request->visitor, kd_clock_ms());
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
+        hash = texts[i] ? kd_hash(hash, texts[i], strlen(texts[i]) + 1) : hash;
+    return hash == KD_HASH_BEGIN ? 0 : kd_guesses_wrong(guesses, request->client, hash, kd_clock_ms());
 }
 
 const char *kd_access_query(const struct kd_request *request)
@@ -181,7 +207,14 @@ bool kd_access_check(struct kd_request *request, struct kd_problem *problem)
 {
     if (!request->server->access || (request->route && request->route->open))
         return true;
-    request->visitor = visitor_of(request);
+    const struct brought brought = brought_by(request);
+    request->visitor = visitor_of(request, &brought);
+    *problem = (struct kd_problem) { .type = KD_PROBLEM_WRONG_TOKENS, .close = request->body_announced, .retry_after = guesses_wait_s(request, &brought),
+                                     .detail = "too many wrong access tokens have come from this address; in a few seconds one is looked at again" };
+    if (problem->retry_after) {
+        request->visitor = NULL;
+        return false;
+    }
     *problem = (struct kd_problem) { .type = KD_PROBLEM_UNAUTHORIZED, .close = request->body_announced,
                                      .detail = "this server takes one of its access tokens, as Authorization: Bearer TOKEN or " KD_ACCESS_HEADER ": TOKEN" };
     if (!request->visitor)

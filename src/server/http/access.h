@@ -38,7 +38,7 @@ const struct kd_visitor *kd_access_find(const struct kd_access *access, const ch
 /* The token in the address of the page, as ?access=TOKEN; NULL: there is none, or the server takes none. */
 const char *kd_access_query(const struct kd_request *request);
 /* Whether a request may go on: its target has been taken apart, and request->route is where it leads, NULL for nowhere. Sets request->visitor and ->spent.
- * False with *problem filled (401, 403). HTTP threads. */
+ * False with *problem filled (401, 403, 429). HTTP threads. */
 bool kd_access_check(struct kd_request *request, struct kd_problem *problem);
 
 #endif

@@ -37,7 +37,7 @@ struct kd_problem kd_problem_from(const struct kd_error *error)
     case KD_ETOOBIG: problem.type = KD_PROBLEM_TOO_LARGE; break;
     case KD_ENOMEM: problem.type = KD_PROBLEM_NO_MEMORY, problem.retry_after = 5; break;
     case KD_EFULL: problem.type = KD_PROBLEM_DISK_FULL, problem.retry_after = 60; break;
-    case KD_EBUSY: problem.type = KD_PROBLEM_QUEUE_FULL, problem.retry_after = 1; break;
+    case KD_EBUSY: problem.type = KD_PROBLEM_QUEUE_FULL, problem.retry_after = error->retry_s ? error->retry_s : 1; break;
     case KD_ECANCELLED: problem.type = KD_PROBLEM_STOPPING, problem.retry_after = 1; break;
     case KD_EABSENT: problem.type = KD_PROBLEM_ABSENT; break;
     case KD_EDEVICE: problem.type = KD_PROBLEM_DEVICE_LOST; break;
@@ -45,6 +45,14 @@ struct kd_problem kd_problem_from(const struct kd_error *error)
     case KD_EIO: problem.type = KD_PROBLEM_INTERNAL; break;
     }
     return problem;
+}
+
+void kd_problem_limit(struct kd_problem *problem, const struct kd_error *error, bool quota, unsigned otherwise_s)
+{
+    if (quota)
+        problem->type = KD_PROBLEM_QUOTA;
+    if (error->status == KD_EBUSY)
+        problem->retry_after = error->retry_s ? error->retry_s : otherwise_s;
 }
 
 /* A message may echo bytes of the request, or end in the middle of a character: JSON must not. */

@@ -35,6 +35,7 @@
     X(INVALID_ASSET, 422, "invalid-asset", "The asset is not one that is taken")                             \
     X(TOO_LARGE, 422, "too-large", "The scene is larger than this server renders")                           \
     X(QUOTA, 429, "quota", "This client has as much as one may")                                              \
+    X(WRONG_TOKENS, 429, "wrong-tokens", "Too many wrong tokens have come from this address")                 \
     X(HEADER_TOO_LARGE, 431, "header-too-large", "The header is too large")                                  \
     X(INTERNAL, 500, "internal", "The server failed")                                                        \
     X(DEVICE_LOST, 500, "device-lost", "The device failed")                                                  \
@@ -65,6 +66,10 @@ struct kd_problem {
 
 /* How a library status becomes a problem. pointer and detail point into *error. */
 struct kd_problem kd_problem_from(const struct kd_error *error);
+
+/* Completes what kd_problem_from has made where a limit may be what refuses. quota: it is one client's own, 429. With KD_EBUSY it says in how many seconds to
+ * try again: as the error knows, else otherwise_s. */
+void kd_problem_limit(struct kd_problem *problem, const struct kd_error *error, bool quota, unsigned otherwise_s);
 
 unsigned kd_problem_status(enum kd_problem_type type);
 const char *kd_problem_title(enum kd_problem_type type);

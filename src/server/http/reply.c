@@ -1,6 +1,7 @@
 #include "server/http/reply.h"
 
 #include "image/gzip.h"
+#include "server/http/cors.h"
 #include "server/http/negotiate.h"
 
 #include <stdarg.h>
@@ -141,6 +142,7 @@ enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struc
         MHD_add_response_header(response, "Cache-Control", "no-store");
     if (server->access) /* what a cache keeps is for the same token alone */
         MHD_add_response_header(response, "Vary", "Authorization, " KD_ACCESS_HEADER ", Cookie");
+    kd_cors_add(request, response);
     if (*request->file && status == MHD_HTTP_OK)
         MHD_add_response_header(response, "Content-Disposition", request->file);
     /* On the way down a kept-alive client should look for another server. */

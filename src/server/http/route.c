@@ -35,14 +35,16 @@ unsigned kd_route_method(const char *method)
     return 0;
 }
 
-static const char *allow(unsigned methods)
+const char *kd_route_allow(const struct kd_route *route)
 {
-    switch (methods) {
+    switch (route->methods) {
     case KD_GET: return "GET, HEAD";
     case KD_POST: return "POST";
     case KD_GET | KD_POST: return "GET, HEAD, POST";
     case KD_GET | KD_PUT: return "GET, HEAD, PUT";
     case KD_GET | KD_DELETE: return "GET, HEAD, DELETE";
+    case KD_GET | KD_PATCH: return "GET, HEAD, PATCH";
+    case KD_POST | KD_DELETE: return "POST, DELETE";
     default: return "GET, HEAD, PATCH, DELETE";
     }
 }
@@ -81,7 +83,7 @@ bool kd_route_find(struct kd_request *request, struct kd_problem *problem)
         if (route->methods & kd_route_method(request->method))
             return true;
         *problem = (struct kd_problem) { .type = KD_PROBLEM_METHOD,
-                                         .allow = allow(route->methods),
+                                         .allow = kd_route_allow(route),
                                          .detail = "the Allow header names the methods this address takes" };
         return false;
     }

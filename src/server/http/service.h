@@ -49,6 +49,8 @@ enum kd_phase {
 };
 
 struct kd_access;
+struct kd_cors;
+struct kd_guesses;
 struct kd_asset_store;
 struct kd_jobs;
 struct kd_kept;
@@ -82,7 +84,9 @@ struct kd_server {
     _Atomic unsigned requests; /* begun and not yet answered in full */
     struct kd_bytes *bodies, *replies; /* being received; not yet taken by their clients */
     struct kd_access *access; /* who may use it; NULL: everybody may do everything */
-    bool cross_site; /* pages of other sites may use it */
+    struct kd_guesses *guesses; /* beside it: wrong tokens by address */
+    struct kd_cors *cors; /* pages of these origins may; NULL: of none but its own */
+    bool cross_site; /* pages of other sites may make it work, which they cannot read */
     _Atomic unsigned long answers[KD_STATUS_CLASSES]; /* by the first digit of their status; 0: cut off before one */
 
     int stop_fd; /* eventfd that wakes the keeper */

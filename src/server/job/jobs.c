@@ -243,8 +243,10 @@ enum kd_status kd_jobs_open(struct kd_jobs *all, struct kd_job_draft *draft, con
                             bool *quota, struct kd_job **out, struct kd_error *error)
 {
     enum kd_status status;
+    *quota = kd_render_queue_afford(all->params.renders, client, error) != KD_OK;
+    if (*quota)
+        return KD_EBUSY;
     struct kd_job *job = kd_job_make(all, &draft->spec);
-    *quota = false;
     if (!job || !kd_secret_make(job->record.id, sizeof job->record.id) || !kd_secret_make(job->record.token, sizeof job->record.token)) {
         status = kd_error_set(error, KD_ENOMEM, "no memory, or no random numbers, for a job");
     } else {

@@ -93,10 +93,7 @@ static enum MHD_Result refuse(struct kd_request *request, const struct kd_error 
     double s = kd_jobs_remaining_s(request->server->jobs);
     if (error->status == KD_EINVAL)
         problem.type = *error->pointer ? KD_PROBLEM_INVALID_JOB : KD_PROBLEM_MALFORMED_JSON;
-    if (quota)
-        problem.type = KD_PROBLEM_QUOTA;
-    if (error->status == KD_EBUSY)
-        problem.retry_after = s < 3600 ? 1 + (unsigned)s : s >= 3600 ? 3600 : 10;
+    kd_problem_limit(&problem, error, quota, s < 3600 ? 1 + (unsigned)s : s >= 3600 ? 3600 : 10);
     return kd_reply_problem(request, &problem);
 }
 

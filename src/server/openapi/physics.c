@@ -3,6 +3,7 @@
 #include "quantity/quantity.h"
 #include "server/openapi/access.h"
 #include "server/openapi/media.h"
+#include "server/openapi/responses.h"
 #include "server/openapi/strict.h"
 
 #include <math.h>
@@ -171,6 +172,9 @@ static void add_responses(struct kd_json *json, const struct kd_route *route, co
     kd_json_object(json, "responses");
     kd_json_object(json, "200");
     kd_json_string(json, "description", quantity->summary);
+    kd_json_object(json, "headers");
+    kd_openapi_cors(json);
+    kd_json_end(json);
     kd_json_object(json, "content");
     kd_json_object(json, "application/json");
     add_answer(json, quantity);

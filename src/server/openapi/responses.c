@@ -21,12 +21,17 @@ static void add_header(struct kd_json *json, const char *name, const char *schem
     kd_json_end(json);
 }
 
+void kd_openapi_cors(struct kd_json *json)
+{
+    kd_schema_text(json, "Access-Control-Allow-Origin", "{\"$ref\":\"#/components/headers/AllowOrigin\"}");
+    kd_schema_text(json, "Access-Control-Expose-Headers", "{\"$ref\":\"#/components/headers/ExposeHeaders\"}");
+}
+
 /* Headers that a client goes by. kept: the answer may be asked for again by its tag. */
 static void add_headers(struct kd_json *json, bool made, bool kept)
 {
-    if (!made && !kept)
-        return;
     kd_json_object(json, "headers");
+    kd_openapi_cors(json);
     if (made)
         add_header(json, "Location", "{\"type\":\"string\",\"format\":\"uri-reference\"}", "where it is, relative to the address that was asked");
     if (kept)
@@ -122,10 +127,15 @@ void kd_openapi_problem_schema(struct kd_json *json)
 
 void kd_openapi_problem(struct kd_json *json)
 {
+    kd_json_object(json, "headers");
+    add_header(json, "AllowOrigin", KD_SCHEMA_TEXT, "the Origin of a request, where kerrd serve --cors-origin names it; a preflight (OPTIONS) of such a one is answered 204 on each path");
+    add_header(json, "ExposeHeaders", KD_SCHEMA_TEXT, "beside it: the headers of answers that scripts of that origin may read");
+    kd_json_end(json);
     kd_json_object(json, "responses");
     kd_json_object(json, "Problem");
     kd_json_string(json, "description", "What went wrong (RFC 9457)");
     kd_json_object(json, "headers");
+    kd_openapi_cors(json);
     add_header(json, "Retry-After", KD_SCHEMA_COUNT, "seconds, where another try may go better");
     add_header(json, "WWW-Authenticate", "{\"const\":\"Bearer\"}", "of 401");
     add_header(json, "Allow", KD_SCHEMA_TEXT, "of 405: the methods that would do");

@@ -237,10 +237,8 @@ static enum MHD_Result refuse(struct kd_request *request, const struct play_task
         problem.type = KD_PROBLEM_INVALID_PLAYGROUND;
     else if (t->task.error.status == KD_EINVAL)
         problem.type = KD_PROBLEM_MALFORMED_JSON;
-    else if (t->task.quota)
-        problem.type = KD_PROBLEM_QUOTA;
-    if (t->task.error.status == KD_EBUSY)
-        problem.retry_after = 10;
+    else
+        kd_problem_limit(&problem, &t->task.error, t->task.quota, 10);
     return kd_reply_problem(request, &problem);
 }
 
@@ -371,10 +369,7 @@ static struct kd_session *picture_of(struct kd_request *request, enum MHD_Result
         return NULL;
     if (kd_play_picture(play, &quota, &picture, &error)) {
         struct kd_problem problem = kd_problem_from(&error);
-        if (quota)
-            problem.type = KD_PROBLEM_QUOTA;
-        if (error.status == KD_EBUSY)
-            problem.retry_after = 10;
+        kd_problem_limit(&problem, &error, quota, 10);
         *refused = kd_reply_problem(request, &problem);
     }
     kd_play_release(play);

@@ -2,6 +2,7 @@
 #ifndef KD_SERVER_RENDER_INTERNAL_H
 #define KD_SERVER_RENDER_INTERNAL_H
 
+#include "server/http/allowance.h"
 #include "server/render/queue.h"
 
 #include <pthread.h>
@@ -31,6 +32,7 @@ struct kd_render_queue {
     pthread_cond_t changed; /* anything below; few threads wait, so one condition serves all */
     bool opened, closing;
     struct kd_shares shares;
+    struct kd_allowance allowance;
     struct kd_render_list jobs;   /* all that want the device, in the order in which they came */
     struct kd_render_job *holder; /* who has the device; NULL: nobody */
     struct kd_lane lanes[KD_ASIDES];

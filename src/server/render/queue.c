@@ -5,6 +5,7 @@
 #include "base/clock.h"
 #include "server/http/connections.h"
 
+#include <math.h>
 #include <string.h>
 #include <stdlib.h>
 
@@ -100,7 +101,7 @@ static void sky_made(void *user)
     pthread_mutex_unlock(&queue->lock);
 }
 
-enum kd_status kd_render_queue_create(const struct kd_renderer_params *params, unsigned limit, unsigned client_limit,
+enum kd_status kd_render_queue_create(const struct kd_renderer_params *params, unsigned limit, unsigned client_limit, unsigned client_s,
                                       struct kd_render_queue **out, struct kd_error *error)
 {
     struct kd_render_queue *queue = calloc(1, sizeof *queue);
@@ -111,6 +112,7 @@ enum kd_status kd_render_queue_create(const struct kd_renderer_params *params, u
     queue->params.sky_user = queue;
     queue->limit = limit;
     queue->client_limit = client_limit;
+    queue->allowance.seconds = client_s;
     queue->jobs.end = &queue->jobs.first;
     queue->encoding.end = &queue->encoding.first;
     pthread_mutex_init(&queue->lock, NULL);
@@ -203,6 +205,30 @@ double kd_render_queue_backlog_ms(struct kd_render_queue *queue)
     return ms;
 }
 
+/* Estimated, of what this client waits for. Locked. */
+static double awaited_ms(const struct kd_render_queue *queue, const char *client)
+{
+    double ms = 0;
+    for (const struct kd_render_job *job = queue->jobs.first; job; job = job->next)
+        if (kd_render_is_awaited(job) && !strcmp(job->claim.client, client))
+            ms += job->claim.left_ms;
+    return ms;
+}
+
+enum kd_status kd_render_queue_afford(struct kd_render_queue *queue, const char *client, struct kd_error *error)
+{
+    pthread_mutex_lock(&queue->lock);
+    const double wait_ms = kd_allowance_wait_ms(&queue->allowance, client, awaited_ms(queue, client), kd_clock_ms());
+    pthread_mutex_unlock(&queue->lock);
+    if (!(wait_ms > 0))
+        return KD_OK;
+    const unsigned s = wait_ms < 1e6 * 1e3 ? (unsigned)ceil(wait_ms * 1e-3) : 1000000;
+    kd_error_set(error, KD_EBUSY, "what you have asked for takes as much of the device's time as one client may use, %u s a minute; in %u s more is taken", queue->allowance.seconds, s);
+    if (error)
+        error->retry_s = s;
+    return KD_EBUSY;
+}
+
 enum kd_status kd_render_queue_admit(struct kd_render_queue *queue, const char *client, bool *quota, struct kd_error *error)
 {
     unsigned n = 0, own = 0;
@@ -219,9 +245,11 @@ enum kd_status kd_render_queue_admit(struct kd_render_queue *queue, const char *
     pthread_mutex_unlock(&queue->lock);
     if (n >= queue->limit + next)
         return kd_error_set(error, KD_EBUSY, "%u renders are waiting, as many as may", n);
-    if (own < queue->client_limit + next)
-        return KD_OK;
     *quota = true;
+    if (own < queue->client_limit + next) {
+        *quota = kd_render_queue_afford(queue, client, error) != KD_OK;
+        return *quota ? KD_EBUSY : KD_OK;
+    }
     return kd_error_set(error, KD_EBUSY, "%u of your renders are waiting, as many as one client may have", own);
 }
 

@@ -75,8 +75,9 @@ struct kd_render_job {
     double submitted_ms, turn_ms, away_ms; /* turn_ms: when its turn began; away_ms: since when it has none */
 };
 
-/* Returns when the device is open, or with the error. client_limit: of those that may wait, how many one client may have. */
-enum kd_status kd_render_queue_create(const struct kd_renderer_params *params, unsigned limit, unsigned client_limit,
+/* Returns when the device is open, or with the error. client_limit: of those that may wait, how many one client may have; client_s: seconds of the
+ * device's time that one may use in a minute, 0: all. */
+enum kd_status kd_render_queue_create(const struct kd_renderer_params *params, unsigned limit, unsigned client_limit, unsigned client_s,
                                       struct kd_render_queue **out, struct kd_error *error);
 /* Cancels what is left and calls its done(). A lost device is left as it is. Accepts NULL. */
 void kd_render_queue_destroy(struct kd_render_queue *queue);
@@ -98,7 +99,10 @@ unsigned kd_render_queue_unfinished(struct kd_render_queue *queue);
 /* Estimated, of all that clients wait for: not of frames of sessions and jobs. */
 double kd_render_queue_backlog_ms(struct kd_render_queue *queue);
 
-/* Whether one more of this client fits: KD_EBUSY, KD_EDEVICE, or KD_OK. *quota: it has as many waiting as one client may. The
+/* Whether this client may begin something new: KD_OK, or KD_EBUSY with when it may, where its work has used, or is estimated to use, as much of the device's time
+ * as one may (http/allowance.h). Any thread. */
+enum kd_status kd_render_queue_afford(struct kd_render_queue *queue, const char *client, struct kd_error *error);
+/* Whether one more of this client fits: KD_EBUSY, KD_EDEVICE, or KD_OK. *quota: it has as many waiting as one client may, or cannot afford it. The
  * submitting thread. */
 enum kd_status kd_render_queue_admit(struct kd_render_queue *queue, const char *client, bool *quota, struct kd_error *error);
 void kd_render_queue_push(struct kd_render_queue *queue, struct kd_render_job *job);

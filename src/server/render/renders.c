@@ -197,10 +197,7 @@ done:
     if (!status)
         return true;
     *problem = kd_problem_from(error);
-    if (quota)
-        problem->type = KD_PROBLEM_QUOTA;
-    if (status == KD_EBUSY)
-        problem->retry_after = retry_after(server);
+    kd_problem_limit(problem, error, quota, retry_after(server));
     return false;
 }
 

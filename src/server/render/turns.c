@@ -53,10 +53,20 @@ static bool frame_fits(const struct kd_render_queue *queue, const struct kd_rend
     return !bytes || queue->frame_bytes <= FRAME_BYTES + (bytes > KD_LONG_FRAME ? 0 : SHORT_BYTES);
 }
 
+/* What a client waits for was affordable when it came. All else goes on when its client can afford it; who has to wait is looked at again by
+ * kd_render_queue_sweep, ten times a second. */
+static bool may_be_paid(const struct kd_render_queue *queue, const struct kd_claim *claim)
+{
+    return kd_render_is_awaited((const struct kd_render_job *)claim) ||
+           kd_allowance_may(&queue->allowance, claim->client, claim->class == KD_CLASS_JOB, kd_clock_ms());
+}
+
 static bool may_have_it(const struct kd_claim *claim, void *user)
 {
     const struct kd_render_job *job = (const struct kd_render_job *)claim;
     struct kd_render_queue *queue = user;
+    if (!queue->lost && !may_be_paid(queue, claim))
+        return false;
     return kd_render_has_begun(job) || queue->lost ||
            (!(job->sky && kd_renderer_sky_begin(queue->renderer, &job->scene)) && frame_fits(queue, job) && (job->stage != KD_RENDER_WAITS_FOR_LANE || lane_for(queue, job)));
 }
@@ -109,6 +119,7 @@ static void charge(struct kd_render_queue *queue, struct kd_render_job *job)
 {
     double now = kd_clock_ms();
     kd_shares_charge(&queue->shares, &job->claim, now - job->turn_ms);
+    kd_allowance_charge(&queue->allowance, job->claim.client, now - job->turn_ms, now);
     job->turn_ms = now;
 }
 

@@ -79,10 +79,7 @@ static enum MHD_Result refuse(struct kd_request *request, const struct kd_error 
     struct kd_problem problem = kd_problem_from(error);
     if (error->status == KD_EINVAL)
         problem.type = KD_PROBLEM_INVALID_PARAMETERS;
-    if (quota)
-        problem.type = KD_PROBLEM_QUOTA;
-    if (error->status == KD_EBUSY)
-        problem.retry_after = 1;
+    kd_problem_limit(&problem, error, quota, 1);
     return kd_reply_problem(request, &problem);
 }
 

@@ -171,9 +171,8 @@ enum MHD_Result kd_handle_sessions(struct kd_request *request)
                                                                 .detail = "the server is stopping and takes no new sessions" });
     if (kd_sessions_open(server->sessions, &planned->scene, &planned->plan, request->client, false, &pace, &quota, &session, &error)) {
         problem = kd_problem_from(&error);
-        if (quota)
-            problem.type = KD_PROBLEM_QUOTA;
         problem.retry_after = 10;
+        kd_problem_limit(&problem, &error, quota, 10);
         return kd_reply_problem(request, &problem);
     }
     kd_session_state(session, &state);

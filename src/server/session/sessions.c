@@ -100,7 +100,9 @@ static enum kd_status make_plan(struct kd_sessions *all, const struct kd_scene *
 enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *scene, const struct kd_plan *plan, const char *client,
                                 bool crowded, const struct kd_session_pace *pace, bool *quota, struct kd_session **out, struct kd_error *error)
 {
-    *quota = false;
+    *quota = kd_render_queue_afford(all->params.renders, client, error) != KD_OK;
+    if (*quota)
+        return KD_EBUSY;
     struct kd_session *s = calloc(1, sizeof *s);
     if (!s || !kd_secret_make(s->id, sizeof s->id) || !kd_secret_make(s->token, sizeof s->token)) {
         free(s);

@@ -1,0 +1,67 @@
+#include "server/http/allowance.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+
+#define MINUTE_S 60.0
+
+static double most_ms(const struct kd_allowance *all) { return 1e3 * all->seconds; }
+
+static double now_in(const struct kd_allowance *all, const struct kd_allowance_place *place, double now_ms)
+{
+    const double filled = all->seconds / MINUTE_S * fmax(now_ms - place->at_ms, 0);
+    return place->at_ms > 0 ? fmin(place->ms + filled, most_ms(all)) : most_ms(all);
+}
+
+static size_t find(const struct kd_allowance *all, const char *client)
+{
+    size_t i = 0;
+    while (i < KD_ALLOWANCE_CLIENTS && (!(all->places[i].at_ms > 0) || strcmp(all->places[i].client, client)))
+        i++;
+    return i;
+}
+
+/* The place of a client, which is made where it has none: in that of the fullest bucket, since least is forgotten with that. */
+static struct kd_allowance_place *place_of(struct kd_allowance *all, const char *client, double now_ms)
+{
+    const size_t known = find(all, client);
+    if (known < KD_ALLOWANCE_CLIENTS)
+        return &all->places[known];
+    struct kd_allowance_place *fullest = &all->places[0];
+    for (size_t i = 1; i < KD_ALLOWANCE_CLIENTS; i++)
+        if (now_in(all, &all->places[i], now_ms) > now_in(all, fullest, now_ms))
+            fullest = &all->places[i];
+    *fullest = (struct kd_allowance_place) { .ms = most_ms(all), .at_ms = now_ms };
+    snprintf(fullest->client, sizeof fullest->client, "%s", client);
+    return fullest;
+}
+
+double kd_allowance_left_ms(const struct kd_allowance *all, const char *client, double now_ms)
+{
+    if (!all->seconds)
+        return INFINITY;
+    const size_t i = find(all, client);
+    return i < KD_ALLOWANCE_CLIENTS ? now_in(all, &all->places[i], now_ms) : most_ms(all);
+}
+
+void kd_allowance_charge(struct kd_allowance *all, const char *client, double ms, double now_ms)
+{
+    if (!all->seconds)
+        return;
+    struct kd_allowance_place *place = place_of(all, client, now_ms);
+    place->ms = now_in(all, place, now_ms) - ms;
+    place->at_ms = now_ms;
+}
+
+double kd_allowance_wait_ms(const struct kd_allowance *all, const char *client, double owed_ms, double now_ms)
+{
+    const double left = kd_allowance_left_ms(all, client, now_ms) - owed_ms;
+    return left > 0 ? 0 : (1 - left) * MINUTE_S / all->seconds; /* until there is a millisecond */
+}
+
+bool kd_allowance_may(const struct kd_allowance *all, const char *client, bool patient, double now_ms)
+{
+    return kd_allowance_left_ms(all, client, now_ms) > (patient ? most_ms(all) / 2 : 0);
+}

@@ -1,0 +1,155 @@
+#include "server/http/cors.h"
+
+#include "server/http/reply.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MAX_AGE_S "600" /* that a browser remembers an answer to its preflight; Chromium takes up to two hours */
+#define NAME "abcdefghijklmnopqrstuvwxyz0123456789"
+#define EXPOSED \
+    "Allow, Content-Disposition, Content-Encoding, ETag, Kerrd-Accuracy, Kerrd-Approximations, Kerrd-Azimuth, Kerrd-Clock, Kerrd-Count, Kerrd-Fields, Kerrd-Flux, Kerrd-Frame, " \
+    "Kerrd-Generation, Kerrd-Particles, Kerrd-Patched, Kerrd-Quality, Kerrd-Revision, Kerrd-Rows, Kerrd-Scene-Hash, Kerrd-Sentences, Kerrd-Time, Kerrd-Waited, Location, " \
+    "Preference-Applied, Retry-After, Server-Timing, WWW-Authenticate"
+
+struct kd_cors {
+    char **origins;
+    size_t n;
+};
+
+/* What is wrong with an origin, as a sentence's end; NULL: nothing. */
+static const char *fault_of(const char *origin)
+{
+    if (!strcmp(origin, "null"))
+        return NULL;
+    if (strchr(origin, '*'))
+        return "each origin is named; * is not taken";
+    const char *host = strstr(origin, "://");
+    if (!host || host == origin || strspn(origin, NAME "+-.") != (size_t)(host - origin))
+        return "an origin is SCHEME://HOST or SCHEME://HOST:PORT, in lower case, or null";
+    host += 3;
+    const char *port = strrchr(host, *host == '[' ? ']' : ':');
+    if (port && *host == '[')
+        port = port[1] == ':' ? port + 1 : NULL;
+    const size_t size = port ? (size_t)(port - host) : strlen(host);
+    if (!size || strspn(host, NAME "-._[:]") < size)
+        return "an origin is SCHEME://HOST or SCHEME://HOST:PORT, in lower case and without a path or a slash behind it";
+    if (port && (!port[1] || strlen(port + 1) > 5 || port[1 + strspn(port + 1, "0123456789")]))
+        return "a port is a number, and no slash stands behind it";
+    if (port && ((!strncmp(origin, "http://", 7) && !strcmp(port, ":80")) || (!strncmp(origin, "https://", 8) && !strcmp(port, ":443"))))
+        return "browsers leave out the port that goes with the scheme, and so must this";
+    return NULL;
+}
+
+static enum kd_status add_one(struct kd_cors *cors, const char *origin, struct kd_error *error)
+{
+    const char *fault = fault_of(origin);
+    if (fault)
+        return kd_error_set(error, KD_EINVAL, "--cors-origin \"%.200s\": %s", origin, fault);
+    char **origins = realloc(cors->origins, (cors->n + 1) * sizeof *origins);
+    if (!origins)
+        return kd_error_set(error, KD_ENOMEM, "out of memory");
+    cors->origins = origins;
+    origins[cors->n] = strdup(origin);
+    return origins[cors->n++] ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory");
+}
+
+static enum kd_status add_all(struct kd_cors *cors, const char *text, struct kd_error *error)
+{
+    char *copy = strdup(text), *rest = copy;
+    enum kd_status status = copy ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory");
+    for (const char *origin; !status && (origin = strsep(&rest, ","));)
+        status = add_one(cors, origin, error);
+    free(copy);
+    return status;
+}
+
+enum kd_status kd_cors_create(const char *const *texts, struct kd_cors **out, struct kd_error *error)
+{
+    struct kd_cors *cors = calloc(1, sizeof *cors);
+    enum kd_status status = cors ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory");
+    for (; !status && *texts; texts++)
+        status = add_all(cors, *texts, error);
+    if (status)
+        kd_cors_destroy(cors);
+    else
+        *out = cors;
+    return status;
+}
+
+void kd_cors_destroy(struct kd_cors *cors)
+{
+    if (!cors)
+        return;
+    for (size_t i = 0; i < cors->n; i++)
+        free(cors->origins[i]);
+    free(cors->origins);
+    free(cors);
+}
+
+static const char *header(const struct kd_request *request, const char *name) { return MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, name); }
+
+const char *kd_cors_origin(const struct kd_request *request)
+{
+    const struct kd_cors *cors = request->server->cors;
+    const char *origin = cors ? header(request, "Origin") : NULL;
+    for (size_t i = 0; origin && i < cors->n; i++)
+        if (!strcmp(cors->origins[i], origin))
+            return origin;
+    return NULL;
+}
+
+bool kd_cors_foreign(const struct kd_request *request)
+{
+    const char *origin = kd_cors_origin(request), *site = header(request, "Sec-Fetch-Site"), *host = origin ? strstr(origin, "://") : NULL;
+    if (!origin || (site && !strcmp(site, "same-origin")))
+        return false;
+    return !host || !request->header.host || strcmp(host + 3, request->header.host);
+}
+
+void kd_cors_add(const struct kd_request *request, struct MHD_Response *response)
+{
+    const char *origin = kd_cors_origin(request);
+    if (request->server->cors)
+        MHD_add_response_header(response, "Vary", "Origin");
+    if (!origin)
+        return;
+    MHD_add_response_header(response, "Access-Control-Allow-Origin", origin);
+    MHD_add_response_header(response, "Access-Control-Expose-Headers", EXPOSED);
+}
+
+bool kd_cors_is_preflight(const struct kd_request *request)
+{
+    return request->server->cors && !strcmp(request->method, "OPTIONS") && header(request, "Origin") && header(request, "Access-Control-Request-Method");
+}
+
+static void allowed_headers(const struct kd_route *route, char *out, size_t size)
+{
+    const bool body = route->methods & (KD_POST | KD_PATCH | KD_PUT), kept = route->status[0] == 304 || route->status[1] == 304;
+    const bool events = route->answer && !strcmp(route->answer, "text/event-stream");
+    snprintf(out, size, "Authorization, " KD_ACCESS_HEADER "%s%s%s%s", body ? ", Content-Type" : "", kept ? ", If-None-Match" : "", events ? ", Last-Event-ID" : "",
+             route->methods & KD_PATCH ? ", Prefer" : "");
+}
+
+enum MHD_Result kd_cors_preflight(struct kd_request *request)
+{
+    char headers[120];
+    struct kd_problem nowhere;
+    if (!kd_cors_origin(request))
+        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_CROSS_SITE, .close = request->body_announced,
+                                                                .detail = "the Origin that a browser asks for is none of those that --cors-origin names" });
+    request->route = NULL;
+    if (!kd_route_find(request, &nowhere) && !request->route)
+        return kd_reply_problem(request, &nowhere);
+    struct MHD_Response *response = MHD_create_response_from_buffer(0, NULL, MHD_RESPMEM_PERSISTENT);
+    if (!response)
+        return kd_reply_no_memory(request);
+    allowed_headers(request->route, headers, sizeof headers);
+    MHD_add_response_header(response, "Access-Control-Allow-Methods", kd_route_allow(request->route));
+    MHD_add_response_header(response, "Access-Control-Allow-Headers", headers);
+    MHD_add_response_header(response, "Access-Control-Max-Age", MAX_AGE_S);
+    if (header(request, "Access-Control-Request-Private-Network"))
+        MHD_add_response_header(response, "Access-Control-Allow-Private-Network", "true");
+    return kd_reply_send(request, MHD_HTTP_NO_CONTENT, response);
+}

@@ -1,0 +1,113 @@
+#include "server/http/guesses.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define REMEMBERED 16u /* of an address: wrong tokens, and names that have been right */
+
+struct place {
+    char client[KD_CLIENT];
+    double tries, at_ms; /* how many were left, and when; at_ms 0: the place is free */
+    uint64_t wrong[REMEMBERED];
+    const void *right[REMEMBERED];
+    unsigned n_wrong, n_right; /* that have been written, the latest over the oldest */
+};
+
+struct kd_guesses {
+    pthread_mutex_t lock;
+    struct place places[KD_GUESSES_CLIENTS];
+};
+
+struct kd_guesses *kd_guesses_create(void)
+{
+    struct kd_guesses *guesses = calloc(1, sizeof *guesses);
+    if (guesses)
+        pthread_mutex_init(&guesses->lock, NULL);
+    return guesses;
+}
+
+void kd_guesses_destroy(struct kd_guesses *guesses)
+{
+    if (guesses)
+        pthread_mutex_destroy(&guesses->lock);
+    free(guesses);
+}
+
+static double tries_now(const struct place *p, double now_ms)
+{
+    return p->at_ms > 0 ? fmin(p->tries + fmax(now_ms - p->at_ms, 0) / (1e3 * KD_GUESSES_EACH_S), KD_GUESSES_MOST) : KD_GUESSES_MOST;
+}
+
+/* Whether a place is the better one to give to another address. */
+static bool gives_way(const struct place *p, const struct place *than, double now_ms)
+{
+    const double a = tries_now(p, now_ms), b = tries_now(than, now_ms);
+    return a > b || (!(a < b) && p->at_ms < than->at_ms);
+}
+
+/* The place of an address, as it is now; it may have been another's. */
+static struct place *place_of(struct kd_guesses *guesses, const char *client, double now_ms)
+{
+    struct place *best = &guesses->places[0];
+    for (struct place *p = guesses->places; p < guesses->places + KD_GUESSES_CLIENTS; p++) {
+        if (p->at_ms > 0 && !strcmp(p->client, client)) {
+            p->tries = tries_now(p, now_ms);
+            p->at_ms = now_ms;
+            return p;
+        }
+        if (gives_way(p, best, now_ms))
+            best = p;
+    }
+    *best = (struct place) { .tries = KD_GUESSES_MOST, .at_ms = now_ms };
+    snprintf(best->client, sizeof best->client, "%s", client);
+    return best;
+}
+
+static unsigned wait_s(const struct place *p) { return p->tries >= 1 ? 0 : 1 + (unsigned)((1 - p->tries) * KD_GUESSES_EACH_S); }
+
+static bool was_right(const struct place *p, const void *whose)
+{
+    for (unsigned i = 0; i < REMEMBERED && i < p->n_right; i++)
+        if (p->right[i] == whose)
+            return true;
+    return false;
+}
+
+static bool was_wrong(const struct place *p, uint64_t hash)
+{
+    for (unsigned i = 0; i < REMEMBERED && i < p->n_wrong; i++)
+        if (p->wrong[i] == hash)
+            return true;
+    return false;
+}
+
+unsigned kd_guesses_right(struct kd_guesses *guesses, const char *client, const void *whose, double now_ms)
+{
+    unsigned wait = 0;
+    pthread_mutex_lock(&guesses->lock);
+    struct place *p = place_of(guesses, client, now_ms);
+    if (!was_right(p, whose)) {
+        wait = wait_s(p);
+        if (!wait)
+            p->right[p->n_right++ % REMEMBERED] = whose;
+    }
+    pthread_mutex_unlock(&guesses->lock);
+    return wait;
+}
+
+unsigned kd_guesses_wrong(struct kd_guesses *guesses, const char *client, uint64_t hash, double now_ms)
+{
+    pthread_mutex_lock(&guesses->lock);
+    struct place *p = place_of(guesses, client, now_ms);
+    const bool again = was_wrong(p, hash);
+    const unsigned wait = again ? 0 : wait_s(p);
+    if (!again && !wait) {
+        p->tries -= 1;
+        p->wrong[p->n_wrong++ % REMEMBERED] = hash;
+    }
+    pthread_mutex_unlock(&guesses->lock);
+    return wait;
+}
