@@ -5,6 +5,9 @@
 #include <pthread.h>
 #include <stdbool.h>
 #include <time.h>
+#ifdef __SANITIZE_THREAD__
+#include <sanitizer/tsan_interface.h>
+#endif
 
 static inline double kd_clock_ms(void)
 {
@@ -21,7 +24,14 @@ static inline bool kd_clock_lock(pthread_mutex_t *lock, double ms)
     long long ns = t.tv_nsec + (long long)(ms * 1e6);
     t.tv_sec += (time_t)(ns / 1000000000);
     t.tv_nsec = (long)(ns % 1000000000);
+#ifdef __SANITIZE_THREAD__ /* gcc's sanitizer does not know this call, and has to be told */
+    __tsan_mutex_pre_lock(lock, __tsan_mutex_try_lock);
+    const bool locked = !pthread_mutex_clocklock(lock, CLOCK_MONOTONIC, &t);
+    __tsan_mutex_post_lock(lock, locked ? __tsan_mutex_try_lock : __tsan_mutex_try_lock_failed, 0);
+    return locked;
+#else
     return !pthread_mutex_clocklock(lock, CLOCK_MONOTONIC, &t);
+#endif
 }
 
 #endif
