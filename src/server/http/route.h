@@ -57,7 +57,7 @@ struct kd_route {
 extern const struct kd_route kd_routes[];
 extern const size_t kd_n_routes;
 
-/* Sets request->route, and ->rest, which points into the target's path; takes the base path from that. The base path alone is the page's, too, with an empty path.
+/* Sets request->route, ->matched, and ->rest, which points into the target's path; takes the base path from that. The base path alone is the page's, too, with an empty path.
  * False with *problem filled (404, 405). */
 bool kd_route_find(struct kd_request *request, struct kd_problem *problem);
 /* The bit of a method by its name, KD_GET, ...; 0: no route takes it. */

@@ -52,6 +52,7 @@ struct kd_access;
 struct kd_asset_store;
 struct kd_jobs;
 struct kd_kept;
+struct kd_measures;
 struct kd_plays;
 struct kd_render_queue;
 struct kd_sessions;
@@ -83,6 +84,7 @@ struct kd_server {
     struct kd_bytes *bodies, *replies; /* being received; not yet taken by their clients */
     struct kd_access *access; /* who may use it; NULL: everybody may do everything */
     bool cross_site; /* pages of other sites may use it */
+    struct kd_measures *measures; /* how long they took */
     _Atomic unsigned long answers[KD_STATUS_CLASSES]; /* by the first digit of their status; 0: cut off before one */
 
     int stop_fd; /* eventfd that wakes the keeper */

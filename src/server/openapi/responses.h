@@ -10,5 +10,7 @@ void kd_openapi_responses(struct kd_json *json, const struct kd_route *route, un
 /* The component of the document that each refusal is; and the answer that carries it, the member "responses" of the components. */
 void kd_openapi_problem_schema(struct kd_json *json);
 void kd_openapi_problem(struct kd_json *json);
+/* The header of every answer, the member "headers" of the components. */
+void kd_openapi_headers(struct kd_json *json);
 
 #endif

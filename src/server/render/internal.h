@@ -2,6 +2,7 @@
 #ifndef KD_SERVER_RENDER_INTERNAL_H
 #define KD_SERVER_RENDER_INTERNAL_H
 
+#include "server/render/measures.h"
 #include "server/render/queue.h"
 
 #include <pthread.h>
@@ -44,6 +45,7 @@ struct kd_render_queue {
     bool lost;
     struct kd_error lost_error;
     _Atomic bool cancel;
+    struct kd_render_measures measures;
 
     pthread_t render_thread, encoders[KD_ENCODERS];
     unsigned n_encoders;
