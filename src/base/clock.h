@@ -27,7 +27,7 @@ static inline bool kd_clock_lock(pthread_mutex_t *lock, double ms)
 #ifdef __SANITIZE_THREAD__ /* gcc's sanitizer does not know this call, and has to be told */
     __tsan_mutex_pre_lock(lock, __tsan_mutex_try_lock);
     const bool locked = !pthread_mutex_clocklock(lock, CLOCK_MONOTONIC, &t);
-    __tsan_mutex_post_lock(lock, locked ? __tsan_mutex_try_lock : __tsan_mutex_try_lock_failed, 0);
+    __tsan_mutex_post_lock(lock, __tsan_mutex_try_lock | (locked ? 0 : __tsan_mutex_try_lock_failed), 0);
     return locked;
 #else
     return !pthread_mutex_clocklock(lock, CLOCK_MONOTONIC, &t);

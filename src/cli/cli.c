@@ -1,6 +1,7 @@
 #include "cli/cli.h"
 
 #include "base/log.h"
+#include "base/utf8.h"
 
 #include <errno.h>
 #include <signal.h>
@@ -10,24 +11,31 @@
 #include <string.h>
 #include <unistd.h>
 
-static error_t parse_log(int key, char *text, struct argp_state *state)
+bool kd_cli_set_log_level(const char *word)
 {
     static const char *const levels[] = { "error", "warn", "info", "debug" };
+    for (int i = 0; i < 4; i++)
+        if (strcmp(word, levels[i]) == 0) {
+            kd_log_set_level((enum kd_log_level)i);
+            return true;
+        }
+    return false;
+}
+
+static error_t parse_log(int key, char *text, struct argp_state *state)
+{
     if (key == 'h')
         argp_state_help(state, stdout, ARGP_HELP_STD_HELP);
     if (key != 'l')
         return ARGP_ERR_UNKNOWN;
-    for (int i = 0; i < 4; i++)
-        if (strcmp(text, levels[i]) == 0) {
-            kd_log_set_level((enum kd_log_level)i);
-            return 0;
-        }
+    if (kd_cli_set_log_level(text))
+        return 0;
     argp_error(state, "--log-level %s: error, warn, info or debug", text);
     return EINVAL;
 }
 
 static const struct argp_option log_options[] = {
-    { "log-level", 'l', "error|warn|info|debug", 0, "what is told on standard error (default: warn)", 1 },
+    { "log-level", 'l', KD_CLI_LOG_LEVELS, 0, KD_CLI_LOG_LEVEL_DOC, 1 },
     { NULL, 'h', NULL, OPTION_HIDDEN, NULL, 1 }, /* as --help, which argp itself gives -? */
     { 0 },
 };
@@ -48,8 +56,7 @@ static error_t parse_device(int key, char *text, struct argp_state *state)
 }
 
 static const struct argp_option device_options[] = {
-    { "device", 'd', "DEVICE", 0,
-      "auto, an index of `kerrd doctor`, or part of a name (default: $KERRD_DEVICE, else auto)", 1 },
+    { "device", 'd', "DEVICE", 0, KD_CLI_DEVICE_DOC, 1 },
     { 0 },
 };
 const struct argp kd_cli_device_argp = { .options = device_options, .parser = parse_device };
@@ -57,10 +64,13 @@ const struct argp_child kd_cli_device_children[] = { { &kd_cli_device_argp, 0, N
 
 int kd_cli_fail(const struct kd_error *error)
 {
-    if (error->pointer[0])
-        fprintf(stderr, "kerrd: %s (at %s)\n", error->message, error->pointer);
+    char line[sizeof error->message + sizeof error->pointer + 8], shown[4 * sizeof line];
+    snprintf(line, sizeof line, error->pointer[0] ? "%s (at %s)" : "%s", error->message, error->pointer);
+    kd_utf8_print(shown, sizeof shown, line); /* a document may hold what would be an order for a terminal */
+    if (kd_log_get_format() == KD_LOG_JSON)
+        kd_log(KD_LOG_ERROR, "%s", shown);
     else
-        fprintf(stderr, "kerrd: %s\n", error->message);
+        fprintf(stderr, "kerrd: %s\n", shown);
     return error->status == KD_EINVAL || error->status == KD_ETOOBIG ? KD_EXIT_USAGE : KD_EXIT_FAILURE;
 }
 
@@ -110,19 +120,28 @@ void kd_cli_close_stdout(void)
     _exit(KD_EXIT_FAILURE);
 }
 
-unsigned kd_cli_number(const struct argp_state *state, const char *option, const char *text, unsigned minimum,
-                       unsigned maximum)
+bool kd_cli_read_number(const char *text, unsigned minimum, unsigned maximum, unsigned *out)
 {
     char *end;
     errno = 0;
     unsigned long value = strtoul(text, &end, 10);
     /* strtoul takes "-1" and " 1" as well; an option does not. */
     if (text[0] < '0' || text[0] > '9' || *end || errno || value < minimum || value > maximum)
-        argp_error(state, "%s %s: a whole number from %u to %u", option, text, minimum, maximum);
-    return (unsigned)value;
+        return false;
+    *out = (unsigned)value;
+    return true;
 }
 
-uint64_t kd_cli_bytes(const struct argp_state *state, const char *option, const char *text)
+unsigned kd_cli_number(const struct argp_state *state, const char *option, const char *text, unsigned minimum,
+                       unsigned maximum)
+{
+    unsigned value = 0;
+    if (!kd_cli_read_number(text, minimum, maximum, &value))
+        argp_error(state, "%s %s: a whole number from %u to %u", option, text, minimum, maximum);
+    return value;
+}
+
+bool kd_cli_read_bytes(const char *text, uint64_t *out)
 {
     static const char units[] = "KMGT";
     char *end;
@@ -131,8 +150,17 @@ uint64_t kd_cli_bytes(const struct argp_state *state, const char *option, const 
     const char *unit = *end ? strchr(units, *end) : NULL;
     int shift = unit ? 10 * (int)(unit - units + 1) : 0;
     if (text[0] < '0' || text[0] > '9' || !unit || end[1] || errno || value > UINT64_C(1) << (50 - shift) || value << shift < 64 << 20)
-        argp_error(state, "%s %s: a size from 64M to 1024T, as 1536M or 2G", option, text);
-    return (uint64_t)value << shift;
+        return false;
+    *out = (uint64_t)value << shift;
+    return true;
+}
+
+uint64_t kd_cli_bytes(const struct argp_state *state, const char *option, const char *text)
+{
+    uint64_t value = 0;
+    if (!kd_cli_read_bytes(text, &value))
+        argp_error(state, "%s %s: " KD_CLI_BYTES_ALLOWED, option, text);
+    return value;
 }
 
 void kd_cli_add_axis(const char ***axes, size_t *n, const char *text, const struct argp_state *state)

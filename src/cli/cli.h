@@ -9,6 +9,7 @@
 #include "cli/commands.h"
 
 #include <argp.h>
+#include <stdbool.h>
 #include <stdint.h>
 
 enum { KD_EXIT_OK = 0, KD_EXIT_FAILURE = 1, KD_EXIT_USAGE = 2 };
@@ -17,8 +18,13 @@ enum { KD_EXIT_OK = 0, KD_EXIT_FAILURE = 1, KD_EXIT_USAGE = 2 };
  * starts as $KERRD_DEVICE or "auto". */
 extern const struct argp kd_cli_log_argp, kd_cli_device_argp;
 extern const struct argp_child kd_cli_device_children[]; /* both, the device first */
+#define KD_CLI_LOG_LEVELS "error|warn|info|debug"
+#define KD_CLI_LOG_LEVEL_DOC "what is told on standard error (default: warn)"
+#define KD_CLI_DEVICE_DOC "auto, an index of `kerrd doctor`, or part of a name (default: $KERRD_DEVICE, else auto)"
+/* Sets the level by its word; false: there is no such level. */
+bool kd_cli_set_log_level(const char *word);
 
-/* "kerrd: MESSAGE (at /pointer)" on stderr; returns the exit code for the status. */
+/* "kerrd: MESSAGE (at /pointer)" on stderr, or the same as a line of a log of JSON; returns the exit code for the status. */
 int kd_cli_fail(const struct kd_error *error);
 
 /* Put "name: " before the message, to say which of several inputs is meant. Returns the error's status. */
@@ -37,10 +43,15 @@ void kd_cli_stdout_failed(int number);
 /* Called at exit, whatever was printed: help and lists too must have arrived, or the exit code is 1. */
 void kd_cli_close_stdout(void);
 
+/* The same without the error: false, and *out as it was. What is allowed, in words, says KD_CLI_BYTES_ALLOWED. */
+bool kd_cli_read_number(const char *text, unsigned minimum, unsigned maximum, unsigned *out);
+bool kd_cli_read_bytes(const char *text, uint64_t *out);
+#define KD_CLI_BYTES_ALLOWED "a size from 64M to 1024T, as 1536M or 2G"
+
 /* A size from an option's text, as 1536M or 2G (powers of 1024), at least 64M; or a usage error. */
 uint64_t kd_cli_bytes(const struct argp_state *state, const char *option, const char *text);
-#define KD_CLI_MEMORY                                                                                                                \
-    { "memory", 'M', "SIZE", 0, "most memory for pictures, as 1536M or 2G (default: what the device and this machine have left)", 0 }
+#define KD_CLI_MEMORY_DOC "most memory for pictures, as 1536M or 2G (default: what the device and this machine have left)"
+#define KD_CLI_MEMORY { "memory", 'M', "SIZE", 0, KD_CLI_MEMORY_DOC, 0 }
 
 /* One more axis, FIELD=VALUES, to a list that the caller frees. */
 void kd_cli_add_axis(const char ***axes, size_t *n, const char *text, const struct argp_state *state);

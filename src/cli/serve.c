@@ -1,6 +1,8 @@
 /* kerrd serve runs the HTTP service until a signal ends it. */
+#include "base/log.h"
 #include "cli/cli.h"
 #include "cli/code.h"
+#include "cli/serve_settings.h"
 #include "render/selftest/first_start.h"
 #include "server/http/listen.h"
 #include "server/server.h"
@@ -14,72 +16,35 @@
 #include <string.h>
 #include <unistd.h>
 
-struct arguments {
-    const char *device, *listen, *base_path;
-    const char *state, *token_file;
-    uint64_t memory;
-    unsigned port, queue, sessions, jobs, client_jobs, client_share, client_device_s;
-    bool cross_site, until_eof, insecure;
-    struct texts { /* NULL-terminated once there is one */
-        const char **all;
-        size_t n;
-    } hosts, origins;
-};
+#define ROW(id, name, letter, argument, kind, least, most, initial, where, doc) { name, argument, KD_SETTING_##kind, least, most, initial, KD_SETTING_##where, doc },
+const struct kd_cli_setting kd_serve_settings[KD_SERVE_COUNT] = { KD_SERVE_SETTINGS(ROW) };
 
+/* A switch may say yes or no, so that a flag can take back what a file says. */
+#define OPTION(id, name, letter, argument, kind, least, most, initial, where, doc) { name, letter, argument, KD_SETTING_##kind == KD_SETTING_SWITCH && argument ? OPTION_ARG_OPTIONAL : 0, doc, 0 },
 static const struct argp_option table[] = {
-    { "listen", 'a', "ADDRESS", 0, "numeric address to listen on (default 127.0.0.1)", 0 },
-    { "port", 'p', "PORT", 0, "TCP port, 0 for any free one (default 8080)", 0 },
-    { "base-path", 'b', "/PREFIX", 0, "what stands before every path, as a proxy passes it on, like /some/prefix (default: $KERRD_BASE_PATH, else nothing)", 0 },
-    { "token-file", 'T', "FILE", 0, "take requests with a token of this file alone; a line is NAME ROLE TOKEN, the role view or render", 0 },
-    { "insecure", 'I', NULL, 0, "listen on an address that other machines reach without a token file: whoever reaches it may use it", 0 },
-    { "queue", 'q', "N", 0, "renders that may wait for the device (default 16)", 0 },
-    { "sessions", 's', "N", 0, "live sessions at once, and as many playgrounds (default 16)", 0 },
-    { "jobs", 'j', "N", 0, "unfinished jobs at once (default 16)", 0 },
-    { "client-share", 'C', "PERCENT", 0, "of each of these that one client, a token or an address, may have (default 75)", 0 },
-    { "client-device-seconds", 'D', "S", 0, "of the device's time that one client may use in a minute, 1 to 60 (default: all)", 0 },
-    { "jobs-per-client", 'J', "N", 0, "unfinished jobs of one client (default: by --client-share)", 0 },
-    { "allow-cross-site", 'X', NULL, 0, "take requests that pages of other sites make, as by an <img>", 0 },
-    { "cors-origin", 'O', "ORIGIN", 0, "let pages of this origin, like https://example.org, use the server and read its answers; may be repeated, or several with commas between", 0 },
-    { "state", 'S', "DIR", 0, "keep jobs and their frames, and assets, there, so that they survive a restart", 0 },
-    { "until-eof", 'E', NULL, 0, "stop when standard input ends, as it does when the program that holds its other end is gone", 0 },
-    KD_CLI_MEMORY,
-    { "host", 'H', "NAME", 0, "answer requests for this host name too; may be repeated", 0 },
+    KD_SERVE_SETTINGS(OPTION)
+    { NULL, 'h', NULL, OPTION_HIDDEN, NULL, 0 }, /* as --help, which argp itself gives -? */
     { 0 },
 };
 
-static void add_text(struct texts *texts, const char *text, const char *option, struct argp_state *state)
-{
-    const char **all = realloc(texts->all, (texts->n + 2) * sizeof *all);
-    if (!all)
-        argp_failure(state, KD_EXIT_FAILURE, ENOMEM, "%s", option);
-    all[texts->n++] = text;
-    all[texts->n] = NULL;
-    texts->all = all;
-}
-
 static error_t parse(int key, char *text, struct argp_state *state)
 {
-    struct arguments *arguments = state->input;
-    switch (key) {
-    case ARGP_KEY_INIT: state->child_inputs[0] = &arguments->device; return 0;
-    case 'a': arguments->listen = text; return 0;
-    case 'p': arguments->port = kd_cli_number(state, "--port", text, 0, 65535); return 0;
-    case 'b': arguments->base_path = text; return 0;
-    case 'q': arguments->queue = kd_cli_number(state, "--queue", text, 1, 100000); return 0;
-    case 's': arguments->sessions = kd_cli_number(state, "--sessions", text, 1, 10000); return 0;
-    case 'j': arguments->jobs = kd_cli_number(state, "--jobs", text, 1, 1000); return 0;
-    case 'J': arguments->client_jobs = kd_cli_number(state, "--jobs-per-client", text, 1, 1000); return 0;
-    case 'C': arguments->client_share = kd_cli_number(state, "--client-share", text, 1, 100); return 0;
-    case 'D': arguments->client_device_s = kd_cli_number(state, "--client-device-seconds", text, 1, 60); return 0;
-    case 'E': arguments->until_eof = true; return 0;
-    case 'X': arguments->cross_site = true; return 0;
-    case 'S': arguments->state = text; return 0;
-    case 'T': arguments->token_file = text; return 0;
-    case 'I': arguments->insecure = true; return 0;
-    case 'M': arguments->memory = kd_cli_bytes(state, "--memory", text); return 0;
-    case 'O': add_text(&arguments->origins, text, "--cors-origin", state); return 0;
-    case 'H': add_text(&arguments->hosts, text, "--host", state); return 0;
-    case ARGP_KEY_ARG: argp_error(state, "%s: it takes no argument", text); return 0;
+    struct kd_settings *settings = state->input;
+    struct kd_error error;
+    char allowed[80];
+    if (key == 'h')
+        argp_state_help(state, stdout, ARGP_HELP_STD_HELP);
+    if (key == ARGP_KEY_ARG)
+        argp_error(state, "%s: it takes no argument", text);
+    for (size_t i = 0; i < KD_SERVE_COUNT; i++) {
+        if (table[i].key != key)
+            continue;
+        const char *value = text ? text : "yes";
+        if (!kd_setting_takes(&kd_serve_settings[i], value, allowed))
+            argp_error(state, "--%s %s: %s", table[i].name, value, allowed);
+        if (kd_settings_give(settings, i, KD_BY_FLAG, value, &error))
+            argp_failure(state, KD_EXIT_FAILURE, ENOMEM, "--%s", table[i].name);
+        return 0;
     }
     return ARGP_ERR_UNKNOWN;
 }
@@ -114,7 +79,7 @@ static void show_code(const char *address, uint16_t port, const char *base_path,
     snprintf(text, sizeof text, "http://%s%s%s:%u%s/", six ? "[" : "", name, six ? "]" : "", port, base_path);
     printf("kerrd: for a telephone on this network, %s\n", text);
     if (kd_cli_code(stdout, text))
-        fprintf(stderr, "kerrd: no memory for the code of %s\n", text);
+        kd_log(KD_LOG_ERROR, "no memory for the code of %s", text);
 }
 
 static void announce(const char *address, uint16_t port, const char *base_path, const char *const *own)
@@ -126,7 +91,7 @@ static void announce(const char *address, uint16_t port, const char *base_path, 
     show_code(address, port, base_path, own);
     /* Whoever started us may be waiting for this line in a pipe. A service goes on without one. */
     if (fflush(stdout) || ferror(stdout))
-        fprintf(stderr, "kerrd: cannot write to standard output: %s\n", strerror(errno));
+        kd_log(KD_LOG_ERROR, "cannot write to standard output: %s", strerror(errno));
     clearerr(stdout);
 }
 
@@ -142,7 +107,7 @@ static void *await_eof(void *unused)
             break;
     }
     if (n < 0)
-        fprintf(stderr, "kerrd: standard input cannot be read (%s), and the server stops\n", strerror(errno));
+        kd_log(KD_LOG_ERROR, "standard input cannot be read (%s), and the server stops", strerror(errno));
     kill(getpid(), SIGTERM);
     return unused;
 }
@@ -157,40 +122,40 @@ static enum kd_status stop_at_eof(struct kd_error *error)
     return KD_OK;
 }
 
-static enum kd_status serve(const struct arguments *arguments, struct kd_error *error)
+static enum kd_status serve(const struct kd_settings *settings, struct kd_error *error)
 {
+    const char *listen = kd_settings_text(settings, KD_SERVE_LISTEN), *base_path = kd_settings_text(settings, KD_SERVE_BASE_PATH);
     const struct kd_server_params params = {
-        .listen = arguments->listen,
-        .port = (uint16_t)arguments->port,
-        .base_path = arguments->base_path,
-        .hosts = arguments->hosts.all,
-        .cors_origins = arguments->origins.all,
-        .queue = arguments->queue,
-        .sessions = arguments->sessions,
-        .playgrounds = arguments->sessions,
-        .jobs = arguments->jobs,
-        .client_jobs = arguments->client_jobs,
-        .client_share = arguments->client_share,
-        .client_device_s = arguments->client_device_s,
-        .cross_site = arguments->cross_site,
-        .state = arguments->state,
-        .token_file = arguments->token_file,
-        .renderer = { .device = arguments->device, .prove = kd_first_start, .memory_bytes = arguments->memory },
+        .listen = listen,
+        .port = (uint16_t)kd_settings_number(settings, KD_SERVE_PORT),
+        .base_path = base_path,
+        .hosts = kd_settings_list(settings, KD_SERVE_HOST),
+        .cors_origins = kd_settings_list(settings, KD_SERVE_CORS_ORIGIN),
+        .queue = kd_settings_number(settings, KD_SERVE_QUEUE),
+        .sessions = kd_settings_number(settings, KD_SERVE_SESSIONS),
+        .playgrounds = kd_settings_number(settings, KD_SERVE_SESSIONS),
+        .jobs = kd_settings_number(settings, KD_SERVE_JOBS),
+        .client_jobs = kd_settings_number(settings, KD_SERVE_CLIENT_JOBS),
+        .client_share = kd_settings_number(settings, KD_SERVE_CLIENT_SHARE),
+        .client_device_s = kd_settings_number(settings, KD_SERVE_CLIENT_DEVICE_S),
+        .cross_site = kd_settings_switch(settings, KD_SERVE_CROSS_SITE),
+        .state = kd_settings_text(settings, KD_SERVE_STATE),
+        .token_file = kd_settings_text(settings, KD_SERVE_TOKEN_FILE),
+        .renderer = { .device = kd_settings_text(settings, KD_SERVE_DEVICE), .prove = kd_first_start, .memory_bytes = kd_settings_bytes(settings, KD_SERVE_MEMORY) },
     };
-    if (kd_listen_reaches_out(arguments->listen) && !arguments->token_file && !arguments->insecure)
-        return kd_error_set(error, KD_EINVAL, "other machines reach --listen %.100s: --token-file FILE says who may use the server, --insecure lets everybody",
-                            arguments->listen);
+    if (kd_listen_reaches_out(listen) && !params.token_file && !kd_settings_switch(settings, KD_SERVE_INSECURE))
+        return kd_error_set(error, KD_EINVAL, "other machines reach --listen %.100s: --token-file FILE says who may use the server, --insecure lets everybody", listen);
     enum kd_status status = kd_server_create(&params, &running, error);
     if (status)
         return status;
     set_signals(on_signal);
-    if (arguments->until_eof)
+    if (kd_settings_switch(settings, KD_SERVE_UNTIL_EOF))
         status = stop_at_eof(error);
     if (status) {
         kd_server_destroy(running);
         return status;
     }
-    announce(arguments->listen, kd_server_port(running), arguments->base_path ? arguments->base_path : "", kd_server_own_names(running));
+    announce(listen, kd_server_port(running), base_path ? base_path : "", kd_server_own_names(running));
     status = kd_server_wait(running, error);
     if (status == KD_EDEVICE)
         kd_cli_device_lost(error);
@@ -207,20 +172,47 @@ const struct argp *kd_cli_serve_argp(void)
         .doc =
             "Serve pictures over HTTP.\v"
             "SIGTERM, SIGINT or SIGHUP: /readyz fails at once, running and queued renders finish, then the exit code "
-            "is 0. It is 1 when the device was lost: start it again.",
-        .children = kd_cli_device_children,
+            "is 0. It is 1 when the device was lost: start it again.\n"
+            "Each option may also stand in the environment, as KERRD_CLIENT_SHARE=50 for --client-share, and in the file that --config names, as "
+            "{\"client-share\": 50}. A flag counts before the environment, and that before the file.",
     };
     return &argp;
 }
 
+static void set_log(const struct kd_settings *settings)
+{
+    kd_cli_set_log_level(kd_settings_text(settings, KD_SERVE_LOG_LEVEL));
+    kd_log_set_format(strcmp(kd_settings_text(settings, KD_SERVE_LOG_FORMAT), "json") ? KD_LOG_TEXT : KD_LOG_JSON);
+}
+
+/* Files and environment come behind the flags, which may name a file, and count less. */
+static enum kd_status configure(struct kd_settings *settings, struct kd_error *error)
+{
+    enum kd_status status;
+    KD_TRY(kd_settings_read_environment(settings, environ, error));
+    set_log(settings); /* what is wrong with the file is told as flags and environment have it */
+    if (kd_settings_text(settings, KD_SERVE_CONFIG))
+        KD_TRY(kd_settings_read_file(settings, kd_settings_text(settings, KD_SERVE_CONFIG), error));
+    set_log(settings);
+    kd_settings_warn(settings, environ);
+done:
+    return status;
+}
+
 int kd_cli_serve(int argc, char **argv)
 {
-    struct arguments arguments = { .listen = "127.0.0.1", .base_path = getenv("KERRD_BASE_PATH"), .port = 8080, .queue = 16, .sessions = 16, .jobs = 16 };
+    struct kd_settings settings;
     struct kd_error error = { 0 };
-
-    argp_parse(kd_cli_serve_argp(), argc, argv, 0, NULL, &arguments);
-    enum kd_status status = serve(&arguments, &error);
-    free(arguments.hosts.all);
-    free(arguments.origins.all);
-    return status ? kd_cli_fail(&error) : KD_EXIT_OK;
+    enum kd_status status = kd_settings_init(&settings, kd_serve_settings, KD_SERVE_COUNT, &error);
+    if (status)
+        return kd_cli_fail(&error);
+    argp_parse(kd_cli_serve_argp(), argc, argv, 0, NULL, &settings);
+    status = configure(&settings, &error);
+    int code = KD_EXIT_OK;
+    if (!status && kd_settings_switch(&settings, KD_SERVE_SHOW_CONFIG))
+        code = kd_settings_show(&settings);
+    else if (!status)
+        status = serve(&settings, &error);
+    kd_settings_finish(&settings);
+    return status ? kd_cli_fail(&error) : code;
 }

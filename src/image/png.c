@@ -1,7 +1,7 @@
 #include "image/png.h"
 
 #include "image/png_pixels.h"
-#include "image/utf8.h"
+#include "base/utf8.h"
 
 #include <png.h>
 #include <stdbool.h>

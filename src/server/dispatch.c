@@ -1,6 +1,5 @@
 #include "server/dispatch.h"
 
-#include "base/log.h"
 #include "integral/request.h"
 #include "orbit/request.h"
 #include "playground/json.h"
@@ -8,8 +7,10 @@
 #include "base/clock.h"
 #include "server/http/cors.h"
 #include "server/http/library.h"
+#include "server/http/measures.h"
 #include "server/http/negotiate.h"
 #include "server/http/prompt.h"
+#include "server/http/request_log.h"
 #include "server/answers/orbits.h"
 #include "server/asset/store.h"
 #include "server/http/reply.h"
@@ -90,36 +91,8 @@ void *kd_request_open(void *cls, const char *uri, struct MHD_Connection *mhd)
     request->start_ms = kd_clock_ms();
     atomic_fetch_add(&server->requests, 1);
     stage(request, KD_STAGE_HEADER);
+    kd_request_log_begin(request);
     return request;
-}
-
-#define SECRET 16    /* hexadecimal digits in a row: an id or a token, and whoever has it may read or change what it names */
-#define SHOWN 4      /* of them in the log */
-
-static void target_for_log(const char *raw, char *out, size_t size)
-{
-    size_t n = 0;
-    while (*raw && n + 7 + 4 < size) {
-        size_t digits = strspn(raw, "0123456789abcdefABCDEF");
-        size_t token = !strncmp(raw, "token=", 6) ? 6 : !strncmp(raw, "access=", 7) ? 7 : 0;
-        bool secret = digits >= SECRET;
-        size_t take = token ? token : secret ? SHOWN : 1;
-        for (size_t i = 0; i < take; i++)
-            out[n++] = (char)(raw[i] > ' ' && raw[i] < 0x7f ? raw[i] : '?'); /* no second line in the log */
-        raw += token ? token + strcspn(raw + token, "&") : secret ? digits : 1;
-        for (int i = 0; i < 3 && (token || secret); i++)
-            out[n++] = '.';
-    }
-    out[n] = 0;
-}
-
-static void write_log(const struct kd_request *request, enum MHD_RequestTerminationCode why)
-{
-    char target[200];
-    target_for_log(request->raw ? request->raw : "", target, sizeof target);
-    kd_log(KD_LOG_INFO, "%s %s %u %.1f ms%s%s%s", request->method ? request->method : "-", target,
-           request->status, kd_clock_ms() - request->start_ms, request->visitor ? " by " : "", request->visitor ? request->visitor->name : "",
-           why == MHD_REQUEST_TERMINATED_COMPLETED_OK ? "" : " (cut off)");
 }
 
 void kd_request_close(void *cls, struct MHD_Connection *mhd, void **state,
@@ -130,7 +103,9 @@ void kd_request_close(void *cls, struct MHD_Connection *mhd, void **state,
     kd_library_works_on(socket_of(mhd));
     if (!request)
         return;
-    write_log(request, why);
+    const double ms = kd_clock_ms() - request->start_ms;
+    kd_request_log_end(request, ms, why != MHD_REQUEST_TERMINATED_COMPLETED_OK);
+    kd_measures_add(server->measures, request->matched, request->status, ms);
     atomic_fetch_add(&server->answers[request->status / 100 % KD_STATUS_CLASSES], 1);
     stage(request, KD_STAGE_IDLE);
     kd_bytes_give(server->bodies, request->client, request->body.size);
@@ -284,6 +259,7 @@ static enum MHD_Result begin(struct kd_request *request, const char *version)
     struct kd_problem problem;
     enum MHD_Result result;
 
+    kd_request_id_choose(MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, KD_REQUEST_ID_HEADER), request->id);
     if (!request->raw) {
         return kd_reply_no_memory(request);
     }
@@ -307,7 +283,7 @@ static enum MHD_Result cut_body(struct kd_request *request, enum kd_problem_type
     request->status = kd_problem_status(type);
     kd_connection_linger(request->connection);
     if (request->connection)
-        kd_problem_send_raw(kd_connection_socket(request->connection), type, detail);
+        kd_problem_send_raw(kd_connection_socket(request->connection), type, detail, request->id);
     return MHD_NO;
 }
 

@@ -10,6 +10,7 @@
 #include "server/keeper.h"
 #include "server/http/library.h"
 #include "server/http/listen.h"
+#include "server/http/measures.h"
 #include "server/http/names.h"
 #include "server/http/request.h"
 #include "server/http/service.h"
@@ -191,7 +192,8 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
     server->bodies = kd_bytes_create(&(struct kd_bytes_params) { clients, KD_BODIES_MAX, KD_BODIES_SHARE, KD_BODIES_SMALL, KD_BODY_MAX, false });
     server->replies = kd_bytes_create(&(struct kd_bytes_params) { clients, KD_REPLIES_MAX, share_of(params, KD_REPLIES_MAX),
                                                                   KD_REPLIES_RESERVE, KD_REPLIES_SMALL, true });
-    if (server->stop_fd < 0 || !server->connections || !server->bodies || !server->replies)
+    server->measures = kd_measures_create();
+    if (server->stop_fd < 0 || !server->connections || !server->bodies || !server->replies || !server->measures)
         return kd_error_set(error, KD_ENOMEM, "no memory or descriptor for the server");
     enum kd_status status;
     KD_TRY(kd_base_path_init(&server->base, params->base_path, error));
@@ -309,6 +311,7 @@ void kd_server_destroy(struct kd_server *server)
     kd_bytes_destroy(server->bodies);
     kd_bytes_destroy(server->replies);
     kd_kept_destroy(server->kept);
+    kd_measures_destroy(server->measures);
     for (size_t i = 0; server->hosts && server->hosts[i]; i++)
         free((void *)server->hosts[i]);
     free(server->hosts);

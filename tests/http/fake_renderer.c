@@ -98,6 +98,24 @@ const char *kd_renderer_device_name(const struct kd_renderer *renderer)
     return "fake";
 }
 
+const char *kd_renderer_device(const struct kd_renderer *renderer)
+{
+    (void)renderer;
+    return "fake";
+}
+
+const char *kd_renderer_driver(const struct kd_renderer *renderer)
+{
+    (void)renderer;
+    return "a \"driver\" \\ of no device";
+}
+
+uint64_t kd_renderer_held(const struct kd_renderer *renderer)
+{
+    (void)renderer;
+    return 12345678;
+}
+
 /* Where the environment names a folder for it, as with devices. */
 char *kd_renderer_cache_file(const struct kd_renderer *renderer, const char *suffix)
 {

@@ -55,6 +55,8 @@ static int set(struct kd_server_params *params, const char *hosts[2], const char
         return params->token_file = value, 1;
     if (!strcmp(name, "--state"))
         return params->state = value, 1;
+    if (!strcmp(name, "--log-format"))
+        return kd_log_set_format(strcmp(value, "json") ? KD_LOG_TEXT : KD_LOG_JSON), 1;
     if (!strcmp(name, "--device"))
         return params->renderer.device = value, 1;
     if (!strcmp(name, "--cors-origin"))

@@ -32,6 +32,7 @@ const struct kd_example kd_examples[] = {
     { "presets", "kerrd presets", "All of them:" },
     { "serve", "kerrd serve", "On this machine alone, http://127.0.0.1:8080/:" },
     { "serve", "kerrd serve --listen 0.0.0.0 --insecure --state state", "For a network on which everybody may use it, with jobs that survive a restart:" },
+    { "serve", "kerrd serve --log-level info --log-format json", "With a line of JSON for each request:" },
     { "doctor", "kerrd doctor", "What is here, and whether it works:" },
     { "doctor", "kerrd doctor --devices", "The devices that --device chooses from:" },
     { "bench", "kerrd bench accuracy --quick --seconds 0.001", "A first impression:" },
@@ -46,7 +47,6 @@ const struct kd_variable kd_variables[] = {
     { "VK_DRIVER_FILES", NULL, "the drivers that Vulkan's loader looks at, instead of those that are installed" },
     { "LP_NUM_THREADS", "bench", "how many threads lavapipe has: its speeds are told per core" },
     { "TMUX", "view", "where it is set, tmux stands before the terminal, and a refusal says so" },
-    { "KERRD_BASE_PATH", "serve", "the base path, where --base-path names none" },
     { "PATH", "film serve", "the folders in which the program ffmpeg is sought, which encodes films" },
     { "TMPDIR", "sweep film serve", "the folder of temporary files; /tmp where it is not set" },
 };

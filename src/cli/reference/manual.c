@@ -1,6 +1,7 @@
 #include "cli/reference/manual.h"
 
 #include "cli/commands.h"
+#include "cli/serve_settings.h"
 #include "cli/reference/options.h"
 #include "quantity/quantity.h"
 
@@ -115,6 +116,24 @@ static bool has_word(const char *words, const char *word)
     return false;
 }
 
+/* The variables that are options, in one entry: what each means stands with its flag. */
+static void write_settings(struct kd_writer *w)
+{
+    const char *gap = "";
+    kd_write(w, ".TP\n");
+    for (size_t i = 0; i < KD_SERVE_COUNT; i++) {
+        char variable[KD_SETTING_VARIABLE];
+        if (kd_serve_settings[i].where == KD_SETTING_FLAG)
+            continue;
+        kd_setting_variable(&kd_serve_settings[i], variable);
+        kd_write(w, "%s\\fB%s\\fR", gap, variable);
+        gap = ", ";
+    }
+    kd_write(w, "\n");
+    write_text(w, "the options of these names, where no flag gives them; a switch is yes or no, several --host have commas between");
+    kd_write(w, "\n");
+}
+
 static void write_environment(struct kd_writer *w, const char *command, bool device)
 {
     bool any = false;
@@ -128,6 +147,8 @@ static void write_environment(struct kd_writer *w, const char *command, bool dev
         kd_write(w, "\n");
         any = true;
     }
+    if (command && !strcmp(command, "serve"))
+        write_settings(w);
 }
 
 static void write_examples(struct kd_writer *w, const char *command)

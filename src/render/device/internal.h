@@ -48,7 +48,8 @@ struct kd_renderer {
     struct kd_capacity kept; /* as it is in the file */
     uint32_t frames;         /* so far, as learn.c counts them */
     bool probing;            /* of what frames cost the least counts, not a mean */
-    char name[800];
+    char name[800];          /* both of what follows */
+    char device[256], driver[520];
 };
 
 

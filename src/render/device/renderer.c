@@ -95,7 +95,9 @@ enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struc
         kd_renderer_destroy(r);
         return kd_error_set(error, KD_ENOMEM, "out of memory for the accuracy table");
     }
-    snprintf(r->name, sizeof r->name, "%s, %s%s%s", info->name, info->driver, *info->driver_info ? " " : "", info->driver_info);
+    snprintf(r->device, sizeof r->device, "%s", info->name);
+    snprintf(r->driver, sizeof r->driver, "%s%s%s", info->driver, *info->driver_info ? " " : "", info->driver_info);
+    snprintf(r->name, sizeof r->name, "%s, %s", r->device, r->driver);
     kd_verdict_recall(r);
     status = params->prove ? params->prove(r, error) : KD_OK;
     if (status) {
@@ -152,6 +154,12 @@ void kd_renderer_capacity(struct kd_renderer *renderer, struct kd_capacity *out)
 }
 
 const char *kd_renderer_device_name(const struct kd_renderer *renderer) { return renderer->name; }
+
+const char *kd_renderer_device(const struct kd_renderer *renderer) { return renderer->device; }
+
+const char *kd_renderer_driver(const struct kd_renderer *renderer) { return renderer->driver; }
+
+uint64_t kd_renderer_held(const struct kd_renderer *renderer) { return atomic_load(&renderer->held); }
 
 char *kd_renderer_cache_file(const struct kd_renderer *renderer, const char *suffix) { return kd_vk_cache_file(renderer->vk, suffix); }
 

@@ -42,6 +42,11 @@ void kd_renderer_sky_stop(struct kd_renderer *renderer); /* afterwards none is, 
 enum kd_status kd_renderer_device_json(struct kd_renderer *renderer, struct kd_buffer *out);
 /* One line: "llvmpipe (LLVM 15.0.6, 256 bits), llvmpipe Mesa 22.3.6". Any thread. */
 const char *kd_renderer_device_name(const struct kd_renderer *renderer);
+/* The two parts of that. Any thread. */
+const char *kd_renderer_device(const struct kd_renderer *renderer);
+const char *kd_renderer_driver(const struct kd_renderer *renderer);
+/* Bytes of device memory that its buffers hold, as of the last frame. Any thread. */
+uint64_t kd_renderer_held(const struct kd_renderer *renderer);
 /* Path of a file that belongs to this device and its driver's version (vk/vk.h): malloc'd, NULL where there is no folder for such. Any thread. */
 char *kd_renderer_cache_file(const struct kd_renderer *renderer, const char *suffix);
 uint32_t kd_renderer_validation_messages(const struct kd_renderer *renderer);

@@ -1,5 +1,7 @@
-/* This answers GET /metrics: counters and gauges in Prometheus's text format 0.0.4. */
+/* This answers GET /metrics: counters, gauges and histograms in Prometheus's text format 0.0.4. */
 #include "server/asset/store.h"
+#include "server/http/measures.h"
+#include "server/http/process.h"
 #include "server/http/reply.h"
 #include "server/render/queue.h"
 #include "server/render/thumbnails.h"
@@ -92,6 +94,9 @@ enum MHD_Result kd_handle_metrics(struct kd_request *request)
     KD_TRY(add_jobs(&text, &now.jobs));
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         KD_TRY(add(&text, rows[i].name, rows[i].type, rows[i].help, rows[i].value));
+    KD_TRY(kd_render_queue_metrics(s->renders, &text));
+    KD_TRY(kd_measures_write(s->measures, &text));
+    KD_TRY(kd_process_write(&text));
 done:
     return kd_reply_json(request, status, &text, request->route->answer);
 }

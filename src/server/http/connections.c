@@ -250,7 +250,7 @@ void kd_connections_refuse(struct kd_connections *all, int socket, enum kd_probl
     pthread_mutex_lock(&all->lock);
     struct kd_connection *one = find(all, socket);
     if (one && one->stage != KD_STAGE_WORK && one->stage != KD_STAGE_REPLY) {
-        kd_problem_send_raw(socket, type, detail);
+        kd_problem_send_raw(socket, type, detail, NULL);
         one->linger = true;
         shutdown(socket, SHUT_WR);
     }
@@ -283,9 +283,9 @@ bool kd_connections_full(struct kd_connections *all)
 static void answer_late(const struct kd_connection *one)
 {
     if (one->stage == KD_STAGE_HEADER)
-        kd_problem_send_raw(one->socket, KD_PROBLEM_TIMEOUT, "the request's header took too long to arrive");
+        kd_problem_send_raw(one->socket, KD_PROBLEM_TIMEOUT, "the request's header took too long to arrive", NULL);
     else if (one->stage == KD_STAGE_BODY)
-        kd_problem_send_raw(one->socket, KD_PROBLEM_TIMEOUT, "the request's body took too long to arrive");
+        kd_problem_send_raw(one->socket, KD_PROBLEM_TIMEOUT, "the request's body took too long to arrive", NULL);
 }
 
 /* Throw away what has arrived. False when there is no more to wait for. */

@@ -53,9 +53,9 @@ static void send_away(struct kd_front *front, struct guest *guest)
 static void refuse(struct kd_front *front, struct guest *guest, bool quota)
 {
     if (quota)
-        kd_problem_send_raw(guest->socket, KD_PROBLEM_QUOTA, "as many of your connections are open as one client may have");
+        kd_problem_send_raw(guest->socket, KD_PROBLEM_QUOTA, "as many of your connections are open as one client may have", NULL);
     else
-        kd_problem_send_raw(guest->socket, KD_PROBLEM_CROWDED, "more connections are open than this server takes");
+        kd_problem_send_raw(guest->socket, KD_PROBLEM_CROWDED, "more connections are open than this server takes", NULL);
     kd_connection_linger(guest->connection);
     send_away(front, guest);
 }
@@ -127,7 +127,7 @@ static void make_room(struct kd_front *front)
     close(front->reserve);
     int socket = accept4(front->params.listener, NULL, NULL, SOCK_NONBLOCK | SOCK_CLOEXEC);
     if (socket >= 0) {
-        kd_problem_send_raw(socket, KD_PROBLEM_CROWDED, "this server has no descriptor left for another connection");
+        kd_problem_send_raw(socket, KD_PROBLEM_CROWDED, "this server has no descriptor left for another connection", NULL);
         close(socket);
     }
     front->reserve = open("/dev/null", O_RDONLY | O_CLOEXEC);

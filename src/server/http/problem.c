@@ -1,7 +1,8 @@
 #include "server/http/problem.h"
 
 #include "base/json.h"
-#include "image/utf8.h"
+#include "base/utf8.h"
+#include "server/http/request_id.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -80,13 +81,16 @@ enum kd_status kd_problem_to_json(const struct kd_problem *problem, struct kd_bu
         add_text(&json, "pointer", problem->pointer);
     if (problem->offered)
         add_text(&json, "offered", problem->offered);
+    if (problem->request_id && *problem->request_id)
+        add_text(&json, "request_id", problem->request_id);
     kd_json_end(&json);
     return kd_json_finish_line(&json);
 }
 
-void kd_problem_send_raw(int socket, enum kd_problem_type type, const char *detail)
+void kd_problem_send_raw(int socket, enum kd_problem_type type, const char *detail, const char *request_id)
 {
-    struct kd_problem problem = { .type = type, .detail = detail };
+    struct kd_problem problem = { .type = type, .detail = detail, .request_id = request_id };
+    const bool named = request_id && *request_id;
     struct kd_buffer body = { 0 }, reply = { 0 };
     bool later = type == KD_PROBLEM_CROWDED || type == KD_PROBLEM_QUOTA;
 
@@ -94,8 +98,9 @@ void kd_problem_send_raw(int socket, enum kd_problem_type type, const char *deta
         !kd_buffer_printf(&reply,
                           "HTTP/1.1 %u Refused\r\nContent-Type: application/problem+json\r\n"
                           "X-Content-Type-Options: nosniff\r\nCross-Origin-Resource-Policy: same-site\r\nCache-Control: no-store\r\n"
-                          "Connection: close\r\n%sContent-Length: %zu\r\n\r\n%s",
-                          table[type].status, later ? "Retry-After: 1\r\n" : "", body.size, (const char *)body.data))
+                          "Connection: close\r\n%s%s%s%sContent-Length: %zu\r\n\r\n%s",
+                          table[type].status, later ? "Retry-After: 1\r\n" : "", named ? KD_REQUEST_ID_HEADER ": " : "", named ? request_id : "",
+                          named ? "\r\n" : "", body.size, (const char *)body.data))
         if (send(socket, reply.data, reply.size, MSG_DONTWAIT | MSG_NOSIGNAL) < 0) {
             /* The peer is gone or does not read: it is about to be cut off in any case. */
         }

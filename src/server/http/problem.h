@@ -60,6 +60,7 @@ struct kd_problem {
     const char *pointer;  /* RFC 6901, into the scene; NULL or "" for none */
     const char *offered;  /* 406, 415: the media types that would do */
     const char *allow;    /* 405: the methods that would do */
+    const char *request_id; /* NULL or "" for none */
     unsigned retry_after; /* seconds; 0: no such header */
     bool close;           /* the rest of what this client sends cannot be trusted or is not wanted */
 };
@@ -79,7 +80,7 @@ const char *kd_problem_uri(size_t type);
 /* The document, application/problem+json. */
 enum kd_status kd_problem_to_json(const struct kd_problem *problem, struct kd_buffer *out);
 
-/* A whole HTTP answer straight to a socket, for where libmicrohttpd can send none. Never blocks. */
-void kd_problem_send_raw(int socket, enum kd_problem_type type, const char *detail);
+/* A whole HTTP answer straight to a socket, for where libmicrohttpd can send none. request_id: NULL or "" where there is none yet. Never blocks. */
+void kd_problem_send_raw(int socket, enum kd_problem_type type, const char *detail, const char *request_id);
 
 #endif

@@ -145,6 +145,8 @@ enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struc
     kd_cors_add(request, response);
     if (*request->file && status == MHD_HTTP_OK)
         MHD_add_response_header(response, "Content-Disposition", request->file);
+    if (*request->id)
+        MHD_add_response_header(response, KD_REQUEST_ID_HEADER, request->id);
     /* On the way down a kept-alive client should look for another server. */
     if (request->close || atomic_load(&server->phase) != KD_SERVING)
         MHD_add_response_header(response, "Connection", "close");
@@ -158,7 +160,9 @@ enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struc
 enum MHD_Result kd_reply_problem(struct kd_request *request, const struct kd_problem *problem)
 {
     struct kd_buffer body = { 0 };
-    if (kd_problem_to_json(problem, &body)) {
+    struct kd_problem named = *problem;
+    named.request_id = request->id;
+    if (kd_problem_to_json(&named, &body)) {
         kd_buffer_finish(&body);
         return kd_reply_no_memory(request);
     }

@@ -5,6 +5,7 @@
 #include "server/http/access.h"
 #include "server/http/client.h"
 #include "server/http/guard.h"
+#include "server/http/request_id.h"
 #include "server/http/route.h"
 #include "server/http/service.h"
 #include "server/http/target.h"
@@ -17,10 +18,12 @@ struct kd_request {
     struct MHD_Connection *mhd;
     struct kd_connection *connection;
     char client[KD_CLIENT]; /* who it is from */
+    char id[KD_REQUEST_ID_MAX + 1]; /* once its header is there */
     char *raw; /* the target as received */
     struct kd_target target;
     struct kd_header header;
     const struct kd_route *route;
+    const struct kd_route *matched; /* where its path leads, also if it is refused; NULL: nowhere */
     const struct kd_visitor *visitor; /* whose access token came with it; NULL: none was needed */
     bool spent; /* its Authorization holds that token, and so no other */
     const char *method, *rest; /* rest: the rest of the path, behind a route that ends in "/" */
@@ -40,6 +43,7 @@ struct kd_request {
     char file[96]; /* Content-Disposition of an answer of 200, by kd_reply_file */
     size_t reply_bytes; /* of a large reply, for its deadline */
     double start_ms;
+    double bytes_before; /* that its connection has had, for the log */
     unsigned status; /* of the reply, for the log */
 };
 

@@ -79,7 +79,7 @@ bool kd_route_find(struct kd_request *request, struct kd_problem *problem)
         bool page = *base->path && !*path && !strcmp(route->path, "/");
         if (!page && !matches(route, path, &request->rest))
             continue;
-        request->route = route;
+        request->route = request->matched = route;
         if (route->methods & kd_route_method(request->method))
             return true;
         *problem = (struct kd_problem) { .type = KD_PROBLEM_METHOD,

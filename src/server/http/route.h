@@ -57,7 +57,7 @@ struct kd_route {
 extern const struct kd_route kd_routes[];
 extern const size_t kd_n_routes;
 
-/* Sets request->route, and ->rest, which points into the target's path; takes the base path from that. The base path alone is the page's, too, with an empty path.
+/* Sets request->route, ->matched, and ->rest, which points into the target's path; takes the base path from that. The base path alone is the page's, too, with an empty path.
  * False with *problem filled (404; 405, where request->route is set too). */
 bool kd_route_find(struct kd_request *request, struct kd_problem *problem);
 /* The methods that a route takes, as the Allow header has them. */

@@ -54,6 +54,7 @@ struct kd_guesses;
 struct kd_asset_store;
 struct kd_jobs;
 struct kd_kept;
+struct kd_measures;
 struct kd_plays;
 struct kd_render_queue;
 struct kd_sessions;
@@ -87,6 +88,7 @@ struct kd_server {
     struct kd_guesses *guesses; /* beside it: wrong tokens by address */
     struct kd_cors *cors; /* pages of these origins may; NULL: of none but its own */
     bool cross_site; /* pages of other sites may make it work, which they cannot read */
+    struct kd_measures *measures; /* how long they took */
     _Atomic unsigned long answers[KD_STATUS_CLASSES]; /* by the first digit of their status; 0: cut off before one */
 
     int stop_fd; /* eventfd that wakes the keeper */

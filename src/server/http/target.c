@@ -1,6 +1,6 @@
 #include "server/http/target.h"
 
-#include "image/utf8.h"
+#include "base/utf8.h"
 #include "scene/text.h"
 
 #include <stdbool.h>

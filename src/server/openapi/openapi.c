@@ -320,6 +320,7 @@ static void add_components(struct kd_json *json, const struct kd_buffer *schema)
     kd_openapi_problem_schema(json);
     kd_json_end(json);
     kd_openapi_problem(json);
+    kd_openapi_headers(json);
     kd_json_end(json);
 }
 

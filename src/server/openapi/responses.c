@@ -1,6 +1,7 @@
 #include "server/openapi/responses.h"
 
 #include "render/output/format.h"
+#include "server/http/request_id.h"
 #include "server/job/formats.h"
 #include "server/openapi/access.h"
 #include "server/openapi/answers.h"
@@ -27,11 +28,24 @@ void kd_openapi_cors(struct kd_json *json)
     kd_schema_text(json, "Access-Control-Expose-Headers", "{\"$ref\":\"#/components/headers/ExposeHeaders\"}");
 }
 
+static void add_request_id(struct kd_json *json)
+{
+    kd_schema_text(json, KD_REQUEST_ID_HEADER, "{\"$ref\":\"#/components/headers/RequestId\"}");
+}
+
+void kd_openapi_headers(struct kd_json *json)
+{
+    kd_json_object(json, "headers");
+    add_header(json, "RequestId", KD_SCHEMA_TEXT, "by which the log knows the request: what it said as " KD_REQUEST_ID_HEADER ", if that is 1 to 64 letters, digits and -._+/=, else a new one");
+    kd_json_end(json);
+}
+
 /* Headers that a client goes by. kept: the answer may be asked for again by its tag. */
 static void add_headers(struct kd_json *json, bool made, bool kept)
 {
     kd_json_object(json, "headers");
     kd_openapi_cors(json);
+    add_request_id(json);
     if (made)
         add_header(json, "Location", "{\"type\":\"string\",\"format\":\"uri-reference\"}", "where it is, relative to the address that was asked");
     if (kept)
@@ -121,6 +135,7 @@ void kd_openapi_problem_schema(struct kd_json *json)
         { "type", NULL, false, kd_problem_uri }, { "title", KD_SCHEMA_TEXT }, { "status", "{\"type\":\"integer\",\"minimum\":400,\"maximum\":599}" }, { "detail", KD_SCHEMA_TEXT },
         { "pointer", "{\"type\":\"string\",\"description\":\"into the request (RFC 6901)\"}", true },
         { "offered", "{\"type\":\"string\",\"description\":\"media types that would do\"}", true },
+        { "request_id", "{\"type\":\"string\",\"description\":\"as in the header X-Request-Id\"}", true },
     };
     KD_OPENAPI_STRICT(json, "Problem", problem);
 }
@@ -136,6 +151,7 @@ void kd_openapi_problem(struct kd_json *json)
     kd_json_string(json, "description", "What went wrong (RFC 9457)");
     kd_json_object(json, "headers");
     kd_openapi_cors(json);
+    add_request_id(json);
     add_header(json, "Retry-After", KD_SCHEMA_COUNT, "seconds, where another try may go better");
     add_header(json, "WWW-Authenticate", "{\"const\":\"Bearer\"}", "of 401");
     add_header(json, "Allow", KD_SCHEMA_TEXT, "of 405: the methods that would do");

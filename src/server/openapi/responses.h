@@ -13,5 +13,7 @@ void kd_openapi_cors(struct kd_json *json);
  * carries it, the members "headers" and "responses" of the components. */
 void kd_openapi_problem_schema(struct kd_json *json);
 void kd_openapi_problem(struct kd_json *json);
+/* The header of every answer, the member "headers" of the components. */
+void kd_openapi_headers(struct kd_json *json);
 
 #endif

@@ -30,6 +30,7 @@ static void encode(struct kd_render_queue *queue, struct kd_render_job *job, str
     const struct kd_picture picture = { &job->frame, &job->scene, &job->plan, kd_render_queue_device_name(queue), job->number, job->lossy };
     job->status = kd_encode(job->format, &picture, job->effort, encoder, &job->file, &job->error);
     job->encode_ms = kd_clock_ms() - start;
+    kd_render_measures_encoded(&queue->measures, job->encode_ms);
     if (!job->keeps)
         kd_frame_drop_layers(&job->frame);
 }

@@ -3,6 +3,7 @@
 #define KD_SERVER_RENDER_INTERNAL_H
 
 #include "server/http/allowance.h"
+#include "server/render/measures.h"
 #include "server/render/queue.h"
 
 #include <pthread.h>
@@ -46,6 +47,7 @@ struct kd_render_queue {
     bool lost;
     struct kd_error lost_error;
     _Atomic bool cancel;
+    struct kd_render_measures measures;
 
     pthread_t render_thread, encoders[KD_ENCODERS];
     unsigned n_encoders;

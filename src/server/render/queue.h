@@ -94,6 +94,8 @@ enum kd_status kd_render_queue_accuracy_json(const struct kd_render_queue *queue
                                              struct kd_error *error);
 /* Begins to read an asset that may become a sky, if a quarter of the memory that is left has room for its pixels meanwhile. Any thread. */
 void kd_render_queue_sky_ahead(struct kd_render_queue *queue, const char *hash, uint32_t width, uint32_t height);
+/* What it has measured, and what there is of the device, in Prometheus's format. */
+enum kd_status kd_render_queue_metrics(struct kd_render_queue *queue, struct kd_buffer *out);
 bool kd_render_queue_lost(struct kd_render_queue *queue, struct kd_error *error);
 unsigned kd_render_queue_unfinished(struct kd_render_queue *queue);
 /* Estimated, of all that clients wait for: not of frames of sessions and jobs. */

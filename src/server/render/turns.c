@@ -195,6 +195,8 @@ static void render(struct kd_render_queue *queue, struct kd_render_job *job)
         kd_render_mark_lost(queue, &job->error);
     else
         describe_device(queue);
+    if (!job->status && !job->run)
+        kd_render_measures_frame(&queue->measures, &job->frame);
     if (!job->status && !job->run && job->rendered)
         job->rendered(job);
 }
@@ -224,6 +226,7 @@ static void take_turn(struct kd_render_queue *queue, struct kd_render_job *job)
     } else {
         kd_render_take_out(queue, job);
         leave_lane(queue, job);
+        kd_render_measures_waited(&queue->measures, job->claim.class, job->queue_ms);
     }
     if (encode)
         kd_render_encode(queue, job);

@@ -1,6 +1,7 @@
-#include "image/utf8.h"
+#include "base/utf8.h"
 
 #include <stdint.h>
+#include <string.h>
 
 bool kd_utf8_ascii(const char *text)
 {
@@ -36,6 +37,26 @@ bool kd_utf8_valid(const char *text)
         p += n;
     }
     return true;
+}
+
+void kd_utf8_print(char *to, size_t size, const char *text)
+{
+    static const char digits[] = "0123456789abcdef";
+    const unsigned char *p = (const unsigned char *)text;
+    while (*p) {
+        const size_t n = sequence(p);
+        const bool printing = n && *p >= 0x20 && *p != 0x7f && !(n == 2 && p[0] == 0xc2 && p[1] < 0xa0);
+        const size_t room = printing ? n : 4;
+        if (room >= size)
+            break;
+        if (printing)
+            memcpy(to, p, n);
+        else
+            memcpy(to, (const char[4]) { '\\', 'x', digits[*p >> 4], digits[*p & 15] }, 4);
+        to += room, size -= room;
+        p += printing ? n : 1;
+    }
+    *to = 0;
 }
 
 size_t kd_latin1_size(const char *text)

@@ -1,0 +1,9 @@
+/* This writes docs/options.md. One thread. */
+#ifndef KD_CLI_REFERENCE_SETTINGS_H
+#define KD_CLI_REFERENCE_SETTINGS_H
+
+#include "scene/writer.h"
+
+void kd_settings_page(struct kd_writer *w);
+
+#endif
