@@ -196,7 +196,7 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
     if (params->token_file)
         KD_TRY(kd_access_read(params->token_file, &server->access, error));
     KD_TRY(collect_hosts(server, address, params->hosts, error));
-    KD_TRY(kd_kept_create(server->base.path, &server->kept, error));
+    KD_TRY(kd_kept_create(server->base.path, server->access != NULL, &server->kept, error));
     /* The socket is opened first: opening a device takes long, and "address in use" is the commonest failure. */
     KD_TRY(kd_listen_open(address, &server->port, &fd, error));
     const unsigned tasks = or_default(params->queue, 16);

@@ -13,6 +13,14 @@ struct kd_request;
 
 enum { KD_GET = 1, KD_POST = 2, KD_PATCH = 4, KD_DELETE = 8, KD_PUT = 16 }; /* HEAD goes with GET */
 
+/* These five, for whoever lists them. */
+struct kd_method {
+    const char *name, *lower; /* "GET", "get" */
+    unsigned bit;
+};
+enum { KD_METHODS = 5 };
+extern const struct kd_method kd_methods[KD_METHODS];
+
 enum kd_takes {
     KD_TAKES_NOTHING,
     KD_TAKES_SCENE, /* in the body, or with GET in the query */

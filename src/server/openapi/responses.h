@@ -7,8 +7,5 @@
 
 /* The member "responses" of an operation. */
 void kd_openapi_responses(struct kd_json *json, const struct kd_route *route, unsigned method);
-/* The component of the document that each refusal is; and the answer that carries it, the member "responses" of the components. */
-void kd_openapi_problem_schema(struct kd_json *json);
-void kd_openapi_problem(struct kd_json *json);
 
 #endif
