@@ -5,7 +5,7 @@ RANGE = re.compile(r'^([^:]+):([^:]+):(\d+)$')
 WIDTH, HEIGHT = 40, 24
 
 # The most of a member that is a number, or that a list may hold, wherever it stands in a body.
-NUMBERS = {'bins': 8, 'rings': 3, 'g_stars': 3, 'frequencies': 3, 'baselines': 3, 'pixels': 16, 'frames': 3, 'steps': 64, 'count': 100}
+NUMBERS = {'bins': 8, 'rings': 3, 'g_stars': 3, 'frequencies': 2, 'baselines': 3, 'pixels': 16, 'frames': 3, 'steps': 64, 'count': 100}
 LISTS = {'rays': 8, 'orbits': 2, 'scenes': 2, 'bodies': 4, 'add': 4, 'spots': 3, 'edges': 8, 'radii': 3, 'g_star': 3, 'frequencies_hz': 2, 'u': 3, 'v': 3, 'lengths': 2, 'angles_deg': 2, 'keyframes': 3}
 
 
@@ -66,6 +66,10 @@ def smaller_job(path, value):
         value.setdefault('scene', {})
     if path == "/v1/visibility" or (path == '/v1/spectrum' and {'scene', 'preset'} & value.keys()):
         value.setdefault('pixels', 16)
+        if value.get('check') in (None, 'finer'):
+            value['check'] = 'none'
+        if path == '/v1/spectrum':
+            value.setdefault('frequencies', 2)
         smaller_scene(value.get('scene'), False)
         return
     scenes = value['scenes'] if isinstance(value.get('scenes'), list) else []
@@ -80,6 +84,8 @@ def body(path, value, sound):
         return
     if sound:
         smaller(value)
+    if path.endswith('/step') and isinstance(value.get('by'), (int, float)) and 1 < value['by'] <= 1e12:
+        value['by'] = 1
     if path in SCENES and 'axes' not in value:
         smaller_scene(value, True)
     if sound and path in WITH_SCENES:

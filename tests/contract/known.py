@@ -13,7 +13,7 @@ TOGETHER = [
     )),
     (r'POST /v1/(line|transfer-function|spectrum|visibility)', (
         r"within the ISCO of this spin", r'^outer is .* and inner is', r'^(energy|frequency)_max\w* is .* and \w+_min\w* ', r'is given, and belongs to ', r'is given beside ', r'^u has .* and v has',
-        r'^there is no field \w+ here', r'one number, allowed are', r' are more than ', r'was not found', r', from inner to outer', r'allowed are larger (radii|values|numbers)',
+        r'^there is no field \w+ here', r'has no light of one frequency in physical units', r'^nothing shines in the picture', r'one number, allowed are', r' are more than ', r'was not found', r', from inner to outer', r'allowed are larger (radii|values|numbers)',
     )),
     (r'POST /v1/orbits', (r'horizon', r'separatrix', r'innermost', r'no such orbit', r'there is no .*orbit')),
     (r'POST /v1/rays', (r'^the query may hold parameters beside a body of application/x-npy only', r'horizon')),  # OpenAPI's parameters are those of all bodies of an operation
@@ -22,6 +22,7 @@ TOGETHER = [
         r', and \w+ is ', r'allowed is (more|less) than ', r'not outside ', r'nothing of this holds', r'turns outside', r'with which it ', r'one of them must be given',
     )),
     # The values of an axis are those of its field, whose schema depends on the name that the axis has.
+    (r'POST /v1/(jobs|sessions/.*/path)', (r'^keyframes/\d+/(frame|at) is',)),  # each behind the one before it
     (r'POST /v1/(jobs|plan)', (r'^axes?\b', r'axis', r'a range that leads from its start to its stop', r'^exposure is of pictures', r'is no (number|value|field)')),
     (r'POST /v1/playground|POST /v1/jobs', (r'^\w+ is no number', r'^velocity is .* c, allowed is up to c')),  # in all three directions together;  # state of a snapshot is to be given back as it came: nobody else can make one
 ]
