@@ -29,14 +29,20 @@ struct kd_schema_member {
 
 static inline void kd_schema_text(struct kd_json *json, const char *name, const char *schema) { kd_json_raw(json, name, schema, strlen(schema)); }
 
-/* Writes {"enum": [...]}. */
-static inline void kd_schema_enum(struct kd_json *json, const char *name, kd_schema_words *words)
+/* Writes the member "enum" of a schema. */
+static inline void kd_schema_words_of(struct kd_json *json, kd_schema_words *words)
 {
-    kd_json_object(json, name);
     kd_json_array(json, "enum");
     for (size_t i = 0; words(i); i++)
         kd_json_string(json, NULL, words(i));
     kd_json_end(json);
+}
+
+/* Writes {"enum": [...]}. */
+static inline void kd_schema_enum(struct kd_json *json, const char *name, kd_schema_words *words)
+{
+    kd_json_object(json, name);
+    kd_schema_words_of(json, words);
     kd_json_end(json);
 }
 

@@ -120,7 +120,7 @@ static enum kd_status check_transfer(struct kd_integral_request *r, struct kd_er
 {
     enum kd_status status = KD_OK;
     const double tilt = 90 - fabs(r->inclination_deg - 90);
-    if (tilt < 0.1)
+    if (tilt < KD_INTEGRAL_FACE_ON)
         return kd_error_field(error, "/inclination_deg", "inclination_deg is %.9g: seen face on each ring has one redshift and no transfer function; allowed are 0.1 to 87 and 93 to 179.9",
                               r->inclination_deg);
     if (r->radii.n) {

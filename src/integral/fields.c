@@ -1,6 +1,7 @@
 /* Requests have these fields, a row each; their schema follows from them. */
 #include "base/schema.h"
 #include "integral/request.h"
+#include "physics/disk_image.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -129,6 +130,21 @@ static void add_range(struct kd_json *json, const struct kd_integral_field *f)
     kd_json_number(json, f->open ? "exclusiveMaximum" : "maximum", f->most);
 }
 
+/* Off the axis, and not within what is seen edge on; of a transfer function not face on either. check.c refuses the same. */
+static void add_inclination(struct kd_json *json, enum kd_integral what)
+{
+    const double least = what == KD_INTEGRAL_TRANSFER ? KD_INTEGRAL_FACE_ON : 0, ends[2][2] = { { least, 90 - KD_DISK_IMAGE_EDGE_ON }, { 90 + KD_DISK_IMAGE_EDGE_ON, 180 - least } };
+    kd_json_array(json, "anyOf");
+    for (int i = 0; i < 2; i++) {
+        kd_json_object(json, NULL);
+        kd_json_string(json, "type", "number");
+        kd_json_number(json, "minimum", ends[i][0]);
+        kd_json_number(json, "maximum", ends[i][1]);
+        kd_json_end(json);
+    }
+    kd_json_end(json);
+}
+
 static void add_words(struct kd_json *json, const char *words)
 {
     size_t n;
@@ -158,7 +174,7 @@ static void add_list(struct kd_json *json, const struct kd_integral_field *f)
     kd_json_end(json);
 }
 
-static void add_field(struct kd_json *json, const struct kd_integral_field *f)
+static void add_field(struct kd_json *json, const struct kd_integral_field *f, enum kd_integral what)
 {
     char help[240];
     snprintf(help, sizeof help, "%s%s%s%s", f->help, *f->unit ? " [" : "", f->unit, *f->unit ? "]" : "");
@@ -166,6 +182,8 @@ static void add_field(struct kd_json *json, const struct kd_integral_field *f)
     kd_json_string(json, "description", help);
     if (f->kind == KD_INTEGRAL_WORD)
         add_words(json, f->words);
+    else if (!strcmp(f->name, "inclination_deg"))
+        add_inclination(json, what);
     else if (f->kind == KD_INTEGRAL_NUMBERS)
         add_list(json, f);
     else if (f->words)
@@ -175,22 +193,33 @@ static void add_field(struct kd_json *json, const struct kd_integral_field *f)
     kd_json_end(json);
 }
 
+static const char *preset_name(size_t i) { return i < kd_scene_preset_count() ? kd_scene_preset_name(i) : NULL; }
+
+static void add_presets(struct kd_json *json)
+{
+    kd_json_object(json, "preset");
+    kd_json_string(json, "type", "string");
+    kd_json_string(json, "description", "preset that the scene begins with");
+    kd_schema_words_of(json, preset_name);
+    kd_json_end(json);
+}
+
 /* The schema of a spectrum is that of both: of a disk, or of a scene. */
 void kd_integral_request_schema(struct kd_json *json, const char *name, enum kd_integral what)
 {
     const unsigned of = what == KD_INTEGRAL_SPECTRUM ? SPECTRUM | VOLUME : 1u << what;
-    static const char preset[] = "{\"type\":\"string\",\"description\":\"preset that the scene begins with\"}", scene[] = "{\"$ref\":\"#/components/schemas/Scene\"}";
+    static const char scene[] = "{\"$ref\":\"#/components/schemas/Scene\"}";
     kd_json_object(json, name);
     kd_json_string(json, "type", "object");
     kd_json_bool(json, "additionalProperties", false);
     kd_json_object(json, "properties");
     if (of & (VOLUME | VISIBILITY)) {
-        kd_json_raw(json, "preset", preset, sizeof preset - 1);
+        add_presets(json);
         kd_json_raw(json, "scene", scene, sizeof scene - 1);
     }
     for (size_t i = 0; i < kd_n_integral_fields; i++)
         if (kd_integral_fields[i].of & of)
-            add_field(json, &kd_integral_fields[i]);
+            add_field(json, &kd_integral_fields[i], what);
     kd_json_end(json);
     kd_json_end(json);
 }

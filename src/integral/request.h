@@ -22,6 +22,7 @@
 #define KD_INTEGRAL_TRANSFERS 5000u            /* rows of a transfer function: 0.1 ms each */
 #define KD_INTEGRAL_FREQUENCIES 1000u
 #define KD_INTEGRAL_PICTURES 200u   /* frequencies of a spectrum that is made of pictures */
+#define KD_INTEGRAL_FACE_ON 0.1  /* degrees off the axis, within which no ring has a transfer function */
 #define KD_INTEGRAL_ORDERS 8u       /* image orders that are told apart */
 
 /* VOLUME is what SPECTRUM becomes when a scene is given. These last two are made of pictures (integral/run.h). */

@@ -155,7 +155,7 @@ void kd_orbit_request_schema(struct kd_json *json, const char *name)
     begin_object(json, name);
     /* A request has either orbit or orbits. It is no oneOf: generators of clients would make a union of it, and no class with the fields. */
     kd_schema_text(json, "if", "{\"required\":[\"orbits\"]}");
-    kd_schema_text(json, "then", "{\"not\":{\"required\":[\"orbit\"]}}");
+    kd_schema_text(json, "then", "{\"not\":{\"anyOf\":[{\"required\":[\"orbit\"]},{\"required\":[\"seen\"]}]}}");
     kd_schema_text(json, "else", "{\"required\":[\"orbit\"]}");
     kd_json_object(json, "properties");
     add_members(json, &rows, "");

@@ -288,6 +288,9 @@ enum kd_status kd_scene_schema(struct kd_buffer *out)
     }
     for (size_t i = 0; i < KD_OLD_NAME_COUNT; i++)
         write_old_name(w, &kd_old_names[i]);
+    kd_write(w, "},\"dependentSchemas\":{");
+    for (size_t i = 0; i < KD_OLD_NAME_COUNT; i++)
+        kd_write(w, "%s\"%s\":{\"not\":{\"required\":[\"%s\"]}}", i ? "," : "", kd_old_names[i].name, kd_old_names[i].section);
     kd_write(w, "}}");
     return writer.status;
 }

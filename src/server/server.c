@@ -204,7 +204,7 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
     if (params->cors_origins)
         KD_TRY(kd_cors_create(params->cors_origins, &server->cors, error));
     KD_TRY(collect_hosts(server, address, params->hosts, error));
-    KD_TRY(kd_kept_create(server->base.path, &server->kept, error));
+    KD_TRY(kd_kept_create(server->base.path, server->access != NULL, &server->kept, error));
     /* The socket is opened first: opening a device takes long, and "address in use" is the commonest failure. */
     KD_TRY(kd_listen_open(address, &server->port, &fd, error));
     const unsigned tasks = or_default(params->queue, 16);

@@ -129,19 +129,20 @@ class Roles(Access):
         self.assertEqual(seen, set(CHANGES) | {('POST', path.split('?')[0]) for path in QUESTIONS})
 
     def test_openapi_tells_it(self):
-        """From the same table: what answers 401 and 403 to whom."""
+        """From the same table: what answers 401 and 403, and which role it takes."""
         document = self.ask('GET', '/openapi.json', headers=own(VIEW)).json()
         schemes = document['components']['securitySchemes']
         self.assertEqual([(schemes[name]['type'], schemes[name].get('name')) for name in ('access', 'accessHeader', 'accessCookie')],
                          [('http', None), ('apiKey', 'Kerrd-Access'), ('apiKey', 'kerrd_access')])
-        self.assertEqual(document['security'], [{}, {'access': []}, {'accessHeader': []}, {'accessCookie': []}])
+        self.assertEqual(document['security'], [{'access': ['view']}, {'accessHeader': ['view']}, {'accessCookie': ['view']}])
         seen = set()
         for path, operations in document['paths'].items():
             for method, operation in operations.items():
                 at = (method.upper(), path.replace('{id}', ID).replace('{sha256}', HASH))
                 health = path in ('/healthz', '/readyz')
                 self.assertEqual((health, '401' in operation['responses'], operation.get('security') == []), (health, not health, health), at)
-                if '403' in operation['responses']:
+                self.assertEqual('403' in operation['responses'], path.startswith('/v1/'), at)
+                if any('render' in roles for way in operation.get('security', []) for roles in way.values()):
                     seen.add(at)
         self.assertEqual(seen, set(CHANGES))
 

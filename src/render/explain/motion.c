@@ -12,14 +12,20 @@
 #define NEAR 0.01    /* of the horizon's radius: as near as it comes to it */
 #define DEGREES (180 / M_PI)
 
+static const char *const radial_cases[] = { "I", "II", "III", "IV" }, *const polar_cases[] = { "ordinary", "vortical", "fixed" };
+enum { ORDINARY, VORTICAL, FIXED };
+
+const char *kd_ray_radial_case(size_t i) { return i < sizeof radial_cases / sizeof *radial_cases ? radial_cases[i] : NULL; }
+const char *kd_ray_polar_case(size_t i) { return i < sizeof polar_cases / sizeof *polar_cases ? polar_cases[i] : NULL; }
+
 /* Roots in the order of Gralla & Lupsasca 2020, and the number of the case, arXiv:1910.12881, section IV. */
 static void name_roots(struct kd_ray_motion *m)
 {
-    static const char *const cases[] = { [KD_NULL_FOUR_REAL] = "II", [KD_NULL_TWO_REAL] = "III", [KD_NULL_NO_REAL] = "IV" };
+    static const int cases[] = { [KD_NULL_FOUR_REAL] = 1, [KD_NULL_TWO_REAL] = 2, [KD_NULL_NO_REAL] = 3 };
     const struct kd_null_roots *q = &m->roots;
     const double right = sqrt(fabs(q->pair)), left = sqrt(fabs(q->pair_left));
     const bool complex_right = q->kind != KD_NULL_FOUR_REAL, complex_left = q->kind == KD_NULL_NO_REAL;
-    m->radial_case = q->kind == KD_NULL_FOUR_REAL && q->r4 > m->horizon ? "I" : cases[q->kind];
+    m->radial_case = radial_cases[q->kind == KD_NULL_FOUR_REAL && q->r4 > m->horizon ? 0 : cases[q->kind]];
     for (int i = 0; i < 2; i++) {
         const double sign = i ? 1 : -1;
         m->root[i][0] = complex_left ? -q->mean : i ? q->r2 : q->r1;
@@ -36,7 +42,7 @@ static void name_polar(struct kd_ray_motion *m, const struct kd_null_motion *con
     const double a2 = p.a * p.a, low = a2 > 0 ? -p.n / a2 : NAN;
     m->polar_root[0] = p.z;
     m->polar_root[1] = low;
-    m->polar_case = p.fixed ? "fixed" : p.crosses ? "ordinary" : "vortical";
+    m->polar_case = polar_cases[p.fixed ? FIXED : p.crosses ? ORDINARY : VORTICAL];
     const double most = sqrt(fmax(0, fmin(1, p.z))), least = p.crosses ? -most : sqrt(fmax(0, fmin(1, low)));
     const double side = m->ray.cos_theta < 0 && !p.crosses ? -1 : 1;
     m->theta[0] = p.fixed ? acos(m->ray.cos_theta) : acos(side * (side < 0 ? least : most));

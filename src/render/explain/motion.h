@@ -23,6 +23,10 @@ struct kd_ray_motion {
     double theta[2];          /* what it swings between */
 };
 
+/* What radial_case and polar_case can be, in a list; NULL behind the last. */
+const char *kd_ray_radial_case(size_t i);
+const char *kd_ray_polar_case(size_t i);
+
 struct kd_ray_motion kd_ray_motion_of(const struct kd_null_ray *ray);
 /* Why a ray of that fate ends as it does, in a sentence. Returns its length. */
 int kd_ray_motion_why(const struct kd_ray_motion *motion, enum kd_ray_fate fate, char *out, size_t size);

@@ -2,6 +2,7 @@
 
 #include "server/http/request.h"
 
+#include <stdio.h>
 #include <string.h>
 
 /* *rest is cut out of the path, which is ours to change once it matches. */
@@ -24,29 +25,28 @@ static bool matches(const struct kd_route *route, char *path, const char **rest)
     return true;
 }
 
+const struct kd_method kd_methods[KD_METHODS] = {
+    { "GET", "get", KD_GET }, { "POST", "post", KD_POST }, { "PATCH", "patch", KD_PATCH }, { "DELETE", "delete", KD_DELETE }, { "PUT", "put", KD_PUT },
+};
+
 unsigned kd_route_method(const char *method)
 {
-    static const struct { const char *name; unsigned bit; } methods[] = {
-        { "GET", KD_GET }, { "HEAD", KD_GET }, { "POST", KD_POST }, { "PATCH", KD_PATCH }, { "DELETE", KD_DELETE }, { "PUT", KD_PUT },
-    };
-    for (size_t i = 0; i < sizeof methods / sizeof *methods; i++)
-        if (!strcmp(methods[i].name, method))
-            return methods[i].bit;
+    if (!strcmp(method, "HEAD"))
+        return KD_GET;
+    for (size_t i = 0; i < KD_METHODS; i++)
+        if (!strcmp(kd_methods[i].name, method))
+            return kd_methods[i].bit;
     return 0;
 }
 
 const char *kd_route_allow(const struct kd_route *route)
 {
-    switch (route->methods) {
-    case KD_GET: return "GET, HEAD";
-    case KD_POST: return "POST";
-    case KD_GET | KD_POST: return "GET, HEAD, POST";
-    case KD_GET | KD_PUT: return "GET, HEAD, PUT";
-    case KD_GET | KD_DELETE: return "GET, HEAD, DELETE";
-    case KD_GET | KD_PATCH: return "GET, HEAD, PATCH";
-    case KD_POST | KD_DELETE: return "POST, DELETE";
-    default: return "GET, HEAD, PATCH, DELETE";
-    }
+    static _Thread_local char text[48];
+    size_t n = 0;
+    for (size_t i = 0; i < KD_METHODS; i++)
+        if (route->methods & kd_methods[i].bit)
+            n += (size_t)snprintf(text + n, sizeof text - n, "%s%s%s", n ? ", " : "", kd_methods[i].name, kd_methods[i].bit == KD_GET ? ", HEAD" : "");
+    return text;
 }
 
 static const char *const health[] = { "/healthz", "/readyz", "/metrics" };

@@ -13,6 +13,14 @@ struct kd_request;
 
 enum { KD_GET = 1, KD_POST = 2, KD_PATCH = 4, KD_DELETE = 8, KD_PUT = 16 }; /* HEAD goes with GET */
 
+/* These five, for whoever lists them. */
+struct kd_method {
+    const char *name, *lower; /* "GET", "get" */
+    unsigned bit;
+};
+enum { KD_METHODS = 5 };
+extern const struct kd_method kd_methods[KD_METHODS];
+
 enum kd_takes {
     KD_TAKES_NOTHING,
     KD_TAKES_SCENE, /* in the body, or with GET in the query */
@@ -60,7 +68,7 @@ extern const size_t kd_n_routes;
 /* Sets request->route, ->matched, and ->rest, which points into the target's path; takes the base path from that. The base path alone is the page's, too, with an empty path.
  * False with *problem filled (404; 405, where request->route is set too). */
 bool kd_route_find(struct kd_request *request, struct kd_problem *problem);
-/* The methods that a route takes, as the Allow header has them. */
+/* The methods that a route takes, as the Allow header has them; until the next call on this thread. */
 const char *kd_route_allow(const struct kd_route *route);
 /* The bit of a method by its name, KD_GET, ...; 0: no route takes it. */
 unsigned kd_route_method(const char *method);

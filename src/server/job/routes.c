@@ -26,11 +26,14 @@ struct kd_job *kd_job_of(struct kd_request *request, enum MHD_Result *refused)
     return job;
 }
 
+static const char *const states[] = { "waiting", "running", "done", "failed", "deleted" };
+enum { WAITING, RUNNING, DONE, FAILED, DELETED };
+
+const char *kd_job_state_word(size_t i) { return i < sizeof states / sizeof *states ? states[i] : NULL; }
+
 static const char *state_word(const struct kd_job_status *s)
 {
-    if (s->deleted)
-        return "deleted";
-    return s->state == KD_JOB_DONE ? "done" : s->state == KD_JOB_FAILED ? "failed" : s->place || *s->delayed ? "waiting" : "running";
+    return states[s->deleted ? DELETED : s->state == KD_JOB_DONE ? DONE : s->state == KD_JOB_FAILED ? FAILED : s->place || *s->delayed ? WAITING : RUNNING];
 }
 
 /* "axes": {"spacetime.spin": 3, ...} */

@@ -6,6 +6,9 @@
 
 #include <string.h>
 
+/* What "state" of a job can be; NULL behind the last. */
+const char *kd_job_state_word(size_t i);
+
 /* A reference to the job that the path names, or NULL after a refusal. */
 struct kd_job *kd_job_of(struct kd_request *request, enum MHD_Result *refused);
 

@@ -3,35 +3,37 @@
 #include "base/schema.h"
 #include "server/http/access.h"
 
-#define REFUSED "{\"$ref\":\"#/components/responses/Problem\"}"
-
 void kd_openapi_access_schemes(struct kd_json *json)
 {
     kd_schema_text(json, "securitySchemes",
         "{\"token\":{\"type\":\"http\",\"scheme\":\"bearer\",\"description\":\"the token that came with the session, playground, job or asset\"},"
+        "\"tokenQuery\":{\"type\":\"apiKey\",\"in\":\"query\",\"name\":\"token\",\"description\":\"the same, where Authorization holds an access token\"},"
         "\"access\":{\"type\":\"http\",\"scheme\":\"bearer\",\"description\":\"an access token of the server's token file, where it has one\"},"
         "\"accessHeader\":{\"type\":\"apiKey\",\"in\":\"header\",\"name\":\"" KD_ACCESS_HEADER "\",\"description\":\"the same, where Authorization holds another token\"},"
         "\"accessCookie\":{\"type\":\"apiKey\",\"in\":\"cookie\",\"name\":\"" KD_ACCESS_COOKIE "\",\"description\":\"the same, of a browser that opened the page with ?access=TOKEN\"}}");
 }
 
-void kd_openapi_access_default(struct kd_json *json)
+/* Ways to say who asks, with the role that it takes: OpenAPI has names of roles in the place of scopes. */
+#define WAYS(role) "{\"access\":[\"" role "\"]},{\"accessHeader\":[\"" role "\"]},{\"accessCookie\":[\"" role "\"]}]"
+
+void kd_openapi_access_default(struct kd_json *json, bool closed)
 {
-    kd_schema_text(json, "security", "[{},{\"access\":[]},{\"accessHeader\":[]},{\"accessCookie\":[]}]");
+    kd_schema_text(json, "security", closed ? "[" WAYS("view") : "[{}," WAYS("view"));
 }
 
-void kd_openapi_access_operation(struct kd_json *json, const struct kd_route *route, bool owner)
+bool kd_openapi_is_owners(const struct kd_route *route, unsigned method)
 {
-    if (owner)
-        kd_schema_text(json, "security", "[{\"token\":[]},{\"token\":[],\"accessHeader\":[]},{\"token\":[],\"accessCookie\":[]}]");
+    return method == KD_PATCH || method == KD_DELETE || route->takes == KD_TAKES_STRIKE || route->takes == KD_TAKES_PATH || route->takes == KD_TAKES_STEP;
+}
+
+void kd_openapi_access_operation(struct kd_json *json, const struct kd_route *route, unsigned method, bool closed)
+{
+#define BOTH "{\"token\":[],\"accessHeader\":[\"render\"]},{\"token\":[],\"accessCookie\":[\"render\"]},{\"tokenQuery\":[],\"access\":[\"render\"]},{\"tokenQuery\":[],\"accessHeader\":[\"render\"]},{\"tokenQuery\":[],\"accessCookie\":[\"render\"]}]"
+    if (kd_openapi_is_owners(route, method))
+        kd_schema_text(json, "security", closed ? "[" BOTH : "[{\"token\":[]},{\"tokenQuery\":[]}," BOTH);
     else if (route->open)
         kd_schema_text(json, "security", "[]");
-}
-
-void kd_openapi_access_refusals(struct kd_json *json, const struct kd_route *route, unsigned method)
-{
-    if (route->open)
-        return;
-    kd_schema_text(json, "401", REFUSED);
-    if (!kd_role_may(KD_ROLE_VIEW, route, method))
-        kd_schema_text(json, "403", REFUSED);
+    else if (!kd_role_may(KD_ROLE_VIEW, route, method))
+        kd_schema_text(json, "security", closed ? "[" WAYS("render") : "[{}," WAYS("render"));
+#undef BOTH
 }

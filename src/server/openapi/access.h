@@ -8,10 +8,10 @@
 /* The member "securitySchemes" of the components. */
 void kd_openapi_access_schemes(struct kd_json *json);
 /* The member "security" of the document, for all operations that have none. */
-void kd_openapi_access_default(struct kd_json *json);
-/* The member "security" of an operation, where it needs one. owner: it takes the token of the session, playground, job or asset, too. */
-void kd_openapi_access_operation(struct kd_json *json, const struct kd_route *route, bool owner);
-/* Those of an operation's "responses" that refuse a token. */
-void kd_openapi_access_refusals(struct kd_json *json, const struct kd_route *route, unsigned method);
+void kd_openapi_access_default(struct kd_json *json, bool closed);
+/* The member "security" of an operation, where it needs one. closed: the server has a token file. */
+void kd_openapi_access_operation(struct kd_json *json, const struct kd_route *route, unsigned method, bool closed);
+/* Whether an operation takes the token of the session, playground, job or asset that it is for. */
+bool kd_openapi_is_owners(const struct kd_route *route, unsigned method);
 
 #endif

@@ -2,6 +2,7 @@
 
 #include "job/spec.h"
 #include "render/frame/blur.h"
+#include "server/job/routes.h"
 #include "server/openapi/media.h"
 #include "server/openapi/strict.h"
 #include "server/openapi/timeline.h"
@@ -19,11 +20,11 @@
 #define ANY_EXPOSURE EXPOSURE("\"one\",\"each\"")
 
 /* Fields with their values; a field has its own schema in Scene. */
-#define AXES "{\"type\":\"object\",\"minProperties\":1,\"maxProperties\":8,\"additionalProperties\":{\"anyOf\":[{\"type\":\"array\",\"minItems\":1," \
-    "\"maxItems\":100000,\"items\":{\"anyOf\":[{\"type\":\"number\"},{\"type\":\"string\"},{\"type\":\"boolean\"},{\"type\":\"array\",\"items\":{\"type\":\"string\"}}]}},{\"type\":\"string\",\"description\":\"START:STOP:STEP or START:STOP/HOW MANY\"}]}}"
+static const char axes[] = "{\"type\":\"object\",\"minProperties\":1,\"maxProperties\":8,\"propertyNames\":" KD_SCHEMA_REF("FieldPath") ",\"additionalProperties\":{\"anyOf\":[{\"type\":\"array\",\"minItems\":1," \
+    "\"maxItems\":100000,\"items\":{\"anyOf\":[{\"type\":\"number\"},{\"type\":\"string\"},{\"type\":\"boolean\"},{\"type\":\"array\",\"items\":{\"type\":\"string\"}}]}},{\"type\":\"string\",\"pattern\":\"^" KD_OPENAPI_DECIMAL ":" KD_OPENAPI_DECIMAL "(:" KD_OPENAPI_DECIMAL "|/([1-9][0-9]{0,5}))$\",\"description\":\"START:STOP:STEP or START:STOP/HOW MANY\"}]}}";
 
 /* A scene with axes. */
-#define SWEEP OBJECT "\"required\":[\"axes\"],\"properties\":{\"scene\":" KD_OPENAPI_SCENE ",\"axes\":" AXES "," EXPOSURE("\"each\"") "," OUTPUT "}}"
+#define SWEEP OBJECT "\"required\":[\"axes\"],\"properties\":{\"scene\":" KD_OPENAPI_SCENE ",\"axes\":" KD_SCHEMA_REF("SweepAxes") "," EXPOSURE("\"each\"") "," OUTPUT "}}"
 
 static const char plan_request[] = "{\"oneOf\":[" KD_OPENAPI_SCENE "," SWEEP "]}";
 
@@ -68,17 +69,17 @@ void kd_openapi_plan_body(struct kd_json *json)
     kd_openapi_body(json, schema, (size_t)n, NULL);
 }
 
+static const char *series(size_t i) { return i < kd_n_series ? kd_series_all[i]->name : NULL; }
+
 void kd_openapi_job_schema(struct kd_json *json)
 {
-    char names[200], output[sizeof names + 20];
-    list_series(names, sizeof names);
-    snprintf(output, sizeof output, "{\"enum\":[%s]}", names);
-    const struct kd_openapi_member job[] = {
+    static const struct kd_openapi_member job[] = {
         { "id", KD_SCHEMA_TEXT, false }, { "token", KD_SCHEMA_TEXT, true },
-        { "state", "{\"enum\":[\"waiting\",\"running\",\"done\",\"failed\",\"deleted\"]}", false }, { "output", output, false }, { "place", COUNT, false },
+        { "state", NULL, false, kd_job_state_word }, { "output", NULL, false, series }, { "place", COUNT, false },
         { "frames", COUNT, false }, { "finished", COUNT, false }, { "fraction", KD_SCHEMA_NUMBER, false }, { "remaining_s", KD_SCHEMA_NUMBER_OR_NULL, false },
         { "bytes", COUNT, false }, { "lens_maps_traced", COUNT, false }, { "exposure", KD_SCHEMA_NUMBER, true }, { "axes", "{\"type\":\"object\",\"additionalProperties\":" COUNT "}", true },
         { "created", KD_SCHEMA_NUMBER, false }, { "ended", KD_SCHEMA_NUMBER_OR_NULL, false }, { "delayed", KD_SCHEMA_TEXT, true }, { "error", KD_SCHEMA_TEXT, true },
     };
+    kd_schema_text(json, "SweepAxes", axes);
     KD_OPENAPI_STRICT(json, "Job", job);
 }

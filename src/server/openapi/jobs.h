@@ -7,7 +7,7 @@
 /* The operation's requestBody. */
 void kd_openapi_jobs_body(struct kd_json *json);
 void kd_openapi_plan_body(struct kd_json *json);
-/* The schema of how far a job is. */
+/* The schemas of how far a job is, and of a sweep's axes. */
 void kd_openapi_job_schema(struct kd_json *json);
 
 #endif

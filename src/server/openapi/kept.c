@@ -43,7 +43,7 @@ static enum kd_status presets_json(struct kd_buffer *out)
 }
 
 static const struct { const char *path, *type; enum kd_status (*make)(struct kd_buffer *out); } makers[] = {
-    { "/openapi.json", "application/json", NULL /* kd_openapi_json, which takes the base path as well */ },
+    { "/openapi.json", "application/json", NULL /* kd_openapi_json, which takes more */ },
     { "/v1/schema", "application/schema+json", kd_scene_schema },
     { "/v1/presets", "application/json", presets_json },
     { "/v1/physics", "application/json", kd_quantity_list_json },
@@ -69,13 +69,13 @@ static enum kd_status finish(struct document *d, const char *type)
     return KD_OK;
 }
 
-static enum kd_status make(struct document *d, size_t i, const char *base_path)
+static enum kd_status make(struct document *d, size_t i, const char *base_path, bool closed)
 {
     struct kd_scene scene;
     struct kd_error error;
     if (i < N_MAKERS) {
         snprintf(d->path, sizeof d->path, "%s", makers[i].path);
-        enum kd_status status = makers[i].make ? makers[i].make(&d->plain) : kd_openapi_json(base_path, &d->plain);
+        enum kd_status status = makers[i].make ? makers[i].make(&d->plain) : kd_openapi_json(base_path, closed, &d->plain);
         return status ? status : finish(d, makers[i].type);
     }
     const char *name = kd_scene_preset_name(i - N_MAKERS);
@@ -85,7 +85,7 @@ static enum kd_status make(struct document *d, size_t i, const char *base_path)
     return finish(d, "application/json");
 }
 
-enum kd_status kd_kept_create(const char *base_path, struct kd_kept **out, struct kd_error *error)
+enum kd_status kd_kept_create(const char *base_path, bool closed, struct kd_kept **out, struct kd_error *error)
 {
     struct kd_kept *kept = calloc(1, sizeof *kept);
     size_t n = N_MAKERS + kd_scene_preset_count();
@@ -95,7 +95,7 @@ enum kd_status kd_kept_create(const char *base_path, struct kd_kept **out, struc
     if (!kept || !kept->documents)
         status = KD_ENOMEM;
     for (; !status && kept->n < n; kept->n++)
-        status = make(&kept->documents[kept->n], kept->n, base_path);
+        status = make(&kept->documents[kept->n], kept->n, base_path, closed);
     if (!status)
         return *out = kept, KD_OK;
     kd_kept_destroy(kept);

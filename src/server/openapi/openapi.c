@@ -4,6 +4,8 @@
 #include "server/job/formats.h"
 #include "server/openapi/access.h"
 #include "server/openapi/assets.h"
+#include "server/openapi/fields.h"
+#include "server/openapi/headers.h"
 #include "server/openapi/integrals.h"
 #include "server/openapi/jobs.h"
 #include "server/openapi/media.h"
@@ -11,6 +13,7 @@
 #include "server/openapi/physics.h"
 #include "server/openapi/pixel.h"
 #include "server/openapi/playground.h"
+#include "server/openapi/problems.h"
 #include "server/openapi/rays.h"
 #include "server/openapi/reports.h"
 #include "server/openapi/responses.h"
@@ -23,6 +26,13 @@
 #include <cjson/cJSON.h>
 #include <stdio.h>
 #include <string.h>
+
+/* What the document is of. */
+struct subject {
+    const char *base_path;
+    const cJSON *schema; /* of a scene */
+    bool closed;         /* the server has a token file */
+};
 
 static void add_reference(struct kd_json *json, const char *name, const char *to)
 {
@@ -113,6 +123,7 @@ static void add_path_parameter(struct kd_json *json, const char *path)
 static const struct {
     const char *path, *name, *schema, *help;
     unsigned methods; /* that take it; 0: all of the route's */
+    bool required;
 } queries[] = {
     { "/v1/sessions", LEAST }, { "/v1/sessions", PATIENCE },
     { "/v1/sessions/{id}", LEAST, KD_PATCH }, { "/v1/sessions/{id}", PATIENCE, KD_PATCH },
@@ -133,7 +144,7 @@ static const struct {
     { "/v1/playground/{id}/debris", "wait_ms", MOMENT, "how long to wait for a newer one" },
     { "/v1/playground/{id}/debris", "at_most", "{\"type\":\"integer\",\"minimum\":1,\"maximum\":1000000}", "pieces: where there are more, every k-th is given; 20000 without it" },
     { "/v1/playground/{id}/events", "since", WHOLE, "number of the event behind which to begin, as Last-Event-ID says it; without it, all that are kept" },
-    { "/v1/pixel", "at", "{\"type\":\"string\",\"pattern\":\"^[0-9.]+([eE][-+]?[0-9]+)?,[0-9.]+([eE][-+]?[0-9]+)?$\"}", "the pixel: a place X,Y in the picture, in pixels from its upper left corner; required" },
+    { "/v1/pixel", "at", "{\"type\":\"string\",\"pattern\":\"^[0-9.]+([eE][-+]?[0-9]+)?,[0-9.]+([eE][-+]?[0-9]+)?$\"}", "the pixel: a place X,Y in the picture, in pixels from its upper left corner", 0, true },
     { "/v1/pixel", "trace", "{\"const\":\"steps\"}", "tells the engine's own steps along the middle ray, too" },
     { "/v1/jobs/{id}/result", "format", NULL,
       "json and csv are those of a light curve; fits and npz without a frame the cube of a sweep; the others of pictures, and of files of numbers; mp4 and webm of pictures alone, by the program ffmpeg" },
@@ -170,52 +181,13 @@ static void add_query(struct kd_json *json, const struct kd_route *route, unsign
             continue;
         begin_parameter(json, "query", queries[i].name);
         kd_json_string(json, "description", queries[i].help);
+        if (queries[i].required)
+            kd_json_bool(json, "required", true);
         if (queries[i].schema)
             kd_json_raw(json, "schema", queries[i].schema, strlen(queries[i].schema));
         else
             add_format_schema(json);
         kd_json_end(json);
-    }
-}
-
-static void add_fields(struct kd_json *json, const cJSON *schema, const char *prefix);
-
-/* The elements of a list by their index. */
-static void add_elements(struct kd_json *json, const cJSON *list, const char *prefix)
-{
-    const cJSON *most = cJSON_GetObjectItemCaseSensitive(list, "maxItems");
-    for (int i = 0; i < (int)cJSON_GetNumberValue(most); i++) {
-        char name[160];
-        snprintf(name, sizeof name, "%s.%d", prefix, i);
-        add_fields(json, cJSON_GetObjectItemCaseSensitive(list, "items"), name);
-    }
-}
-
-/* Every scalar of the schema by its dotted path, but for old names. */
-static void add_fields(struct kd_json *json, const cJSON *schema, const char *prefix)
-{
-    const cJSON *property;
-    cJSON_ArrayForEach(property, cJSON_GetObjectItemCaseSensitive(schema, "properties"))
-    {
-        char name[128];
-        snprintf(name, sizeof name, "%s%s%s", prefix, *prefix ? "." : "", property->string);
-        if (cJSON_GetObjectItemCaseSensitive(property, "deprecated"))
-            continue;
-        if (cJSON_GetObjectItemCaseSensitive(cJSON_GetObjectItemCaseSensitive(property, "items"), "properties")) {
-            add_elements(json, property, name);
-            continue;
-        }
-        if (cJSON_GetObjectItemCaseSensitive(property, "properties")) {
-            add_fields(json, property, name);
-            continue;
-        }
-        char *text = cJSON_PrintUnformatted(property);
-        begin_parameter(json, "query", name);
-        kd_json_raw(json, "schema", text ? text : "", text ? strlen(text) : 0);
-        kd_json_end(json);
-        if (!text)
-            json->status = KD_ENOMEM;
-        cJSON_free(text);
     }
 }
 
@@ -234,7 +206,7 @@ static void add_parameters(struct kd_json *json, const struct kd_route *route, u
     if (route->takes == KD_TAKES_SCENE && !(route->methods & KD_PATCH)) {
         add_preset_parameter(json);
         if (method != KD_POST)
-            add_fields(json, schema, "");
+            kd_openapi_field_parameters(json, schema);
     }
     if (route->takes == KD_TAKES_JOB || route->takes == KD_TAKES_PLAN)
         add_preset_parameter(json);
@@ -287,27 +259,28 @@ static void add_body(struct kd_json *json, const struct kd_route *route, unsigne
     }
 }
 
-static void add_operation(struct kd_json *json, const char *name, const struct kd_route *route, unsigned method, const cJSON *schema)
+static void add_operation(struct kd_json *json, const char *name, const struct kd_route *route, unsigned method, const struct subject *subject)
 {
     char id[80];
     kd_openapi_operation_id(id, sizeof id, name, route->path);
     kd_json_object(json, name);
     kd_json_string(json, "operationId", id);
     kd_json_string(json, "summary", route->summary);
-    kd_openapi_access_operation(json, route, method == KD_PATCH || method == KD_DELETE || route->takes == KD_TAKES_STRIKE || route->takes == KD_TAKES_PATH || route->takes == KD_TAKES_STEP);
+    kd_openapi_access_operation(json, route, method, subject->closed);
     if (has_parameters(route))
-        add_parameters(json, route, method, schema);
+        add_parameters(json, route, method, subject->schema);
     add_body(json, route, method);
     kd_openapi_responses(json, route, method);
     kd_json_end(json);
 }
 
-static void add_components(struct kd_json *json, const struct kd_buffer *schema)
+static void add_components(struct kd_json *json, const cJSON *fields, const struct kd_buffer *schema)
 {
     kd_json_object(json, "components");
     kd_openapi_access_schemes(json);
     kd_json_object(json, "schemas");
     kd_json_raw(json, "Scene", (const char *)schema->data, schema->size);
+    kd_openapi_field_paths(json, fields);
     kd_openapi_rays_schemas(json);
     kd_openapi_orbits_schema(json);
     kd_openapi_integral_schemas(json);
@@ -319,25 +292,21 @@ static void add_components(struct kd_json *json, const struct kd_buffer *schema)
     kd_openapi_job_schema(json);
     kd_openapi_problem_schema(json);
     kd_json_end(json);
-    kd_openapi_problem(json);
-    kd_openapi_headers(json);
+    kd_openapi_header_components(json);
+    kd_openapi_problem_responses(json);
     kd_json_end(json);
 }
 
-static void add_path(struct kd_json *json, const struct kd_route *route, const cJSON *schema)
+static void add_path(struct kd_json *json, const struct kd_route *route, const struct subject *subject)
 {
-    static const struct { const char *name; unsigned bit; } methods[] = {
-        { "get", KD_GET }, { "post", KD_POST }, { "patch", KD_PATCH }, { "delete", KD_DELETE },
-        { "put", KD_PUT },
-    };
     kd_json_object(json, route->path);
-    for (size_t k = 0; k < sizeof methods / sizeof *methods; k++)
-        if (route->methods & methods[k].bit)
-            add_operation(json, methods[k].name, route, methods[k].bit, schema);
+    for (size_t k = 0; k < KD_METHODS; k++)
+        if (route->methods & kd_methods[k].bit)
+            add_operation(json, kd_methods[k].lower, route, kd_methods[k].bit, subject);
     kd_json_end(json);
 }
 
-static enum kd_status document(const char *base_path, const cJSON *schema, const struct kd_buffer *schema_text, struct kd_buffer *out)
+static enum kd_status document(const struct subject *subject, const struct kd_buffer *schema_text, struct kd_buffer *out)
 {
     struct kd_json json = kd_json_begin(out);
     kd_json_object(&json, NULL);
@@ -348,29 +317,29 @@ static enum kd_status document(const char *base_path, const cJSON *schema, const
     kd_json_end(&json);
     kd_json_array(&json, "servers");
     kd_json_object(&json, NULL);
-    kd_json_string(&json, "url", *base_path ? base_path : ".");
+    kd_json_string(&json, "url", *subject->base_path ? subject->base_path : ".");
     kd_json_end(&json);
     kd_json_end(&json);
-    kd_openapi_access_default(&json);
+    kd_openapi_access_default(&json, subject->closed);
     kd_json_object(&json, "paths");
     for (size_t i = 0; i < kd_n_routes; i++)
         if (kd_routes[i].takes == KD_TAKES_QUANTITY)
             kd_openapi_physics_paths(&json, &kd_routes[i]);
         else
-            add_path(&json, &kd_routes[i], schema);
+            add_path(&json, &kd_routes[i], subject);
     kd_json_end(&json);
-    add_components(&json, schema_text);
+    add_components(&json, subject->schema, schema_text);
     kd_json_end(&json);
     return kd_json_finish_line(&json);
 }
 
-enum kd_status kd_openapi_json(const char *base_path, struct kd_buffer *out)
+enum kd_status kd_openapi_json(const char *base_path, bool closed, struct kd_buffer *out)
 {
     struct kd_buffer text = { 0 };
     enum kd_status status = kd_scene_schema(&text);
     cJSON *schema = status ? NULL : cJSON_ParseWithLength((const char *)text.data, text.size);
     if (!status)
-        status = schema ? document(base_path, schema, &text, out) : KD_ENOMEM;
+        status = schema ? document(&(struct subject) { base_path, schema, closed }, &text, out) : KD_ENOMEM;
     cJSON_Delete(schema);
     kd_buffer_finish(&text);
     return status;

@@ -1,9 +1,9 @@
 #include "server/openapi/physics.h"
 
 #include "quantity/quantity.h"
-#include "server/openapi/access.h"
+#include "server/openapi/headers.h"
 #include "server/openapi/media.h"
-#include "server/openapi/responses.h"
+#include "server/openapi/problems.h"
 #include "server/openapi/strict.h"
 
 #include <math.h>
@@ -14,8 +14,7 @@
 #define NUMBERS "[{\"type\":[\"number\",\"null\"]},{\"type\":\"array\",\"items\":{\"type\":[\"number\",\"null\"]}}]"
 
 #define DIGITS "{\"type\":\"integer\",\"minimum\":1,\"maximum\":17}" /* KD_DECIMAL_DIGITS */
-#define DECIMAL "-?((0|[1-9][0-9]*)(\\.[0-9]*)?|\\.[0-9]+)([eE][-+]?[0-9]+)?" /* scene/number.h: one that is typed */
-#define RANGE "^" DECIMAL ":" DECIMAL ":([2-9]|[1-9][0-9]{1,4}|100000)$"
+#define RANGE "^" KD_OPENAPI_DECIMAL ":" KD_OPENAPI_DECIMAL ":([2-9]|[1-9][0-9]{1,4}|100000)$"
 
 static void add_words(struct kd_json *json, const char *text)
 {
@@ -172,9 +171,7 @@ static void add_responses(struct kd_json *json, const struct kd_route *route, co
     kd_json_object(json, "responses");
     kd_json_object(json, "200");
     kd_json_string(json, "description", quantity->summary);
-    kd_json_object(json, "headers");
-    kd_openapi_cors(json);
-    kd_json_end(json);
+    kd_openapi_headers(json, route, KD_GET, 200);
     kd_json_object(json, "content");
     kd_json_object(json, "application/json");
     add_answer(json, quantity);
@@ -184,8 +181,7 @@ static void add_responses(struct kd_json *json, const struct kd_route *route, co
         kd_openapi_media(json, "audio/wav", "", 0);
     kd_json_end(json);
     kd_json_end(json);
-    kd_openapi_access_refusals(json, route, KD_GET);
-    kd_schema_text(json, "default", "{\"$ref\":\"#/components/responses/Problem\"}");
+    kd_openapi_problems(json, route, KD_GET);
     kd_json_end(json);
 }
 

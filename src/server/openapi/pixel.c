@@ -1,5 +1,8 @@
 #include "server/openapi/pixel.h"
 
+#include "render/accuracy/engine.h"
+#include "render/emit/emitter.h"
+#include "render/explain/motion.h"
 #include "render/rays/rays.h"
 #include "server/openapi/strict.h"
 
@@ -17,6 +20,10 @@
 
 static const char *fate(size_t i) { return i <= KD_RAY_UNDECIDED ? kd_ray_fate_name((enum kd_ray_fate)i) : NULL; }
 
+static const char *emitter(size_t i) { return i < KD_EMITTER_COUNT ? kd_emitters[i]->name : NULL; }
+static const char *engine(size_t i) { return i < KD_ENGINE_COUNT ? kd_engine_name((enum kd_engine)i) : NULL; }
+static const char *precision(size_t i) { return i <= KD_PRECISION_F64 ? kd_precision_name((enum kd_precision)i) : NULL; }
+
 /* Which way the ray goes. */
 static void add_motion(struct kd_json *json)
 {
@@ -25,9 +32,9 @@ static void add_motion(struct kd_json *json)
         { "Q", NUMBER, false }, { "outward", TRUTH, false },
     };
     static const struct kd_openapi_member radial[] = {
-        { "case", TEXT, false }, { "real_roots", COUNT, false }, { "roots", LIST(LIST(NUMBER)), false }, { "horizon_r", NUMBER, false }, { "turning_r", OR_NULL, false },
+        { "case", NULL, false, kd_ray_radial_case }, { "real_roots", COUNT, false }, { "roots", LIST(LIST(NUMBER)), false }, { "horizon_r", NUMBER, false }, { "turning_r", OR_NULL, false },
     };
-    static const struct kd_openapi_member polar[] = { { "case", TEXT, false }, { "roots", LIST(NUMBER), false }, { "theta", LIST(NUMBER), false } };
+    static const struct kd_openapi_member polar[] = { { "case", NULL, false, kd_ray_polar_case }, { "roots", LIST(NUMBER), false }, { "theta", LIST(NUMBER), false } };
     KD_OPENAPI_STRICT(json, "RayConstants", constants);
     KD_OPENAPI_STRICT(json, "RayRadial", radial);
     KD_OPENAPI_STRICT(json, "RayPolar", polar);
@@ -37,7 +44,7 @@ static void add_motion(struct kd_json *json)
 static void add_crossings(struct kd_json *json)
 {
     static const struct kd_openapi_member glow[] = {
-        { "name", TEXT, false }, { "light", KD_SCHEMA_VECTOR, false }, { "seen", KD_SCHEMA_VECTOR, false }, { "luminance", NUMBER, false }, { "luminance_seen", NUMBER, false },
+        { "name", NULL, false, emitter }, { "light", KD_SCHEMA_VECTOR, false }, { "seen", KD_SCHEMA_VECTOR, false }, { "luminance", NUMBER, false }, { "luminance_seen", NUMBER, false },
         { "opacity", NUMBER, true }, { "points", TRUTH, true },
     };
     static const struct kd_openapi_member pictured[] = { { "r", NUMBER, false }, { "g", NUMBER, false }, { "footprint", NUMBER, true } };
@@ -53,7 +60,7 @@ static void add_crossings(struct kd_json *json)
 
 static void add_along(struct kd_json *json)
 {
-    static const struct kd_openapi_member volume[] = { { "name", TEXT, false }, { "seen", KD_SCHEMA_VECTOR, false }, { "luminance_seen", NUMBER, false }, { "optical_depth", OR_NULL, false } };
+    static const struct kd_openapi_member volume[] = { { "name", NULL, false, emitter }, { "seen", KD_SCHEMA_VECTOR, false }, { "luminance_seen", NUMBER, false }, { "optical_depth", OR_NULL, false } };
     static const struct kd_openapi_member stretch[] = {
         { "order", COUNT, false }, { "from_r", OR_NULL, false }, { "from_theta", NUMBER, false }, { "from_delay", OR_NULL, false }, { "to_r", OR_NULL, false },
         { "to_theta", NUMBER, false }, { "to_delay", OR_NULL, false },
@@ -64,7 +71,7 @@ static void add_along(struct kd_json *json)
         { "optical_depth", OR_NULL, false }, { "delay", OR_NULL, false }, { "volumes", LIST(REF("PixelVolume")), false }, { "stretches", LIST(REF("PixelStretch")), true },
     };
     static const struct kd_openapi_member met[] = {
-        { "name", TEXT, false }, { "index", COUNT, false }, { "order", COUNT, false }, { "r", NUMBER, false }, { "theta", NUMBER, false }, { "phi", NUMBER, false },
+        { "name", NULL, false, emitter }, { "index", COUNT, false }, { "order", COUNT, false }, { "r", NUMBER, false }, { "theta", NUMBER, false }, { "phi", NUMBER, false },
         { "azimuth", OR_NULL, false }, { "g", NUMBER, false }, { "emission_angle", NUMBER, false }, { "light", KD_SCHEMA_VECTOR, false }, { "seen", KD_SCHEMA_VECTOR, false },
         { "luminance_seen", NUMBER, false }, { "through", NUMBER, false },
     };
@@ -85,11 +92,11 @@ static void add_ends(struct kd_json *json)
         { "columns", LIST(TEXT), false }, { "points", LIST(LIST(OR_NULL)), false },
     };
     static const struct kd_openapi_member trace[] = {
-        { "none", TEXT, true }, { "engine", TEXT, true }, { "precision", TEXT, true }, { "steps_a_half_period", COUNT, true }, { "fate", NULL, true, fate }, { "crossings", COUNT, true },
+        { "none", TEXT, true }, { "engine", NULL, true, engine }, { "precision", NULL, true, precision }, { "steps_a_half_period", COUNT, true }, { "fate", NULL, true, fate }, { "crossings", COUNT, true },
         { "not_shown", COUNT, true }, { "same_without_trace", TRUTH, true }, { "columns", LIST(TEXT), true }, { "steps", ROWS, true },
     };
     static const struct kd_openapi_member accuracy[] = {
-        { "engine", TEXT, false }, { "precision", TEXT, false }, { "steps", COUNT, false }, { "closed_form", OR_NULL, false }, { "picture", OR_NULL, false },
+        { "engine", NULL, false, engine }, { "precision", NULL, false, precision }, { "steps", COUNT, false }, { "closed_form", OR_NULL, false }, { "picture", OR_NULL, false },
         { "path", OR_NULL, false }, { "first_integrals", OR_NULL, false }, { "sum", OR_NULL, false },
     };
     static const struct kd_openapi_member polarization[] = { { "stokes", STOKES, false }, { "evpa", OR_NULL, false }, { "polarization_fraction", OR_NULL, false } };
@@ -111,7 +118,7 @@ void kd_openapi_pixel_schemas(struct kd_json *json)
     static const struct kd_openapi_member colour[] = { { "shown", KD_SCHEMA_VECTOR, false }, { "pixel", KD_SCHEMA_VECTOR, false }, { "ray", KD_SCHEMA_VECTOR, false }, { "exposure", NUMBER, false } };
     static const struct kd_openapi_member ray[] = { RAY, { "light", KD_SCHEMA_VECTOR, false }, { "luminance", NUMBER, false }, { "closed_form", OR_NULL, false }, { "picture", OR_NULL, false } };
     static const struct kd_openapi_member pixel[] = {
-        RAY, { "pixel", PAIR, false }, { "eye", TEXT, true }, { "rays", COUNT, false }, { "colour", REF("PixelColour"), false }, { "path", REF("PixelPath"), false },
+        RAY, { "pixel", PAIR, false }, { "eye", "{\"enum\":[\"left\",\"right\"]}", true }, { "rays", COUNT, false }, { "colour", REF("PixelColour"), false }, { "path", REF("PixelPath"), false },
         { "pixel_polarization", REF("PixelPolarization"), true }, { "trace", REF("PixelTrace"), true }, { "accuracy", REF("PixelAccuracy"), false }, { "each_ray", LIST(REF("PixelRay")), false },
         { "approximations", LIST(TEXT), false },
     };

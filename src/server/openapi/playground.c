@@ -113,6 +113,8 @@ static void add_document(struct kd_json *json, const char *name, bool patch)
     kd_json_object(json, "properties");
     add_properties(json, patch);
     kd_json_end(json);
+    if (!patch)
+        add_raw(json, "dependentSchemas", "{\"state\":{\"required\":[\"bodies\"],\"not\":{\"required\":[\"preset\"]}}}");
     kd_json_end(json);
 }
 

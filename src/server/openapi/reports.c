@@ -1,9 +1,16 @@
 #include "server/openapi/reports.h"
 
+#include "render/accuracy/engine.h"
 #include "render/plan/pass.h"
 #include "server/openapi/strict.h"
+#include "vk/vk.h"
 
 #define TEXTS KD_SCHEMA_LIST(KD_SCHEMA_TEXT)
+
+static const char *engine(size_t i) { return i < KD_ENGINE_COUNT ? kd_engine_name((enum kd_engine)i) : NULL; }
+static const char *precision(size_t i) { return i <= KD_PRECISION_F64 ? kd_precision_name((enum kd_precision)i) : NULL; }
+static const char *device_type(size_t i) { return i <= KD_VK_DISCRETE ? kd_vk_type_name((enum kd_vk_type)i) : NULL; }
+static const char *pass_name(size_t i) { return i < KD_PASS_COUNT ? kd_passes[i].name : NULL; }
 
 static void add_device(struct kd_json *json)
 {
@@ -16,14 +23,15 @@ static void add_device(struct kd_json *json)
         { "allocation_bytes", KD_SCHEMA_COUNT, false }, { "workgroups", KD_SCHEMA_COUNT, false }, { "subgroup_size", KD_SCHEMA_COUNT, false },
     };
     static const struct kd_openapi_member device[] = {
-        { "kerrd", KD_SCHEMA_TEXT, false }, { "name", KD_SCHEMA_TEXT, false }, { "type", KD_SCHEMA_TEXT, false }, { "driver", KD_SCHEMA_TEXT, false },
+        { "kerrd", KD_SCHEMA_TEXT, false }, { "name", KD_SCHEMA_TEXT, false }, { "type", NULL, false, device_type }, { "driver", KD_SCHEMA_TEXT, false },
         { "driver_info", KD_SCHEMA_TEXT, false }, { "vulkan", KD_SCHEMA_TEXT, false }, { "index", KD_SCHEMA_COUNT, false }, { "choice", KD_SCHEMA_TEXT, false },
-        { "precision", TEXTS, false }, { "float64_hardware", KD_SCHEMA_TRUTH, false }, { "timestamps", KD_SCHEMA_TRUTH, false },
+        { "precision", KD_SCHEMA_LIST(KD_SCHEMA_REF("Precision")), false }, { "float64_hardware", KD_SCHEMA_TRUTH, false }, { "timestamps", KD_SCHEMA_TRUTH, false },
         { "selftest", KD_SCHEMA_REF("DeviceSelftest"), false }, { "limits", KD_SCHEMA_REF("DeviceLimits"), false }, { "ns_per_item", KD_SCHEMA_REF("DeviceFigures"), false },
     };
     struct kd_openapi_member figures[1 + KD_FIGURE_COUNT] = { { "basis", "{\"enum\":[\"measured\",\"guess\"]}", false } };
     for (int i = 0; i < KD_FIGURE_COUNT; i++)
         figures[1 + i] = (struct kd_openapi_member) { kd_figures[i].word, KD_SCHEMA_NUMBER, false };
+    kd_schema_enum(json, "Precision", precision);
     KD_OPENAPI_STRICT(json, "DeviceSelftest", selftest);
     KD_OPENAPI_STRICT(json, "DeviceLimits", limits);
     KD_OPENAPI_STRICT(json, "DeviceFigures", figures);
@@ -55,14 +63,14 @@ static void add_lists(struct kd_json *json)
 static void add_plan(struct kd_json *json)
 {
     static const struct kd_openapi_member pass[] = {
-        { "name", KD_SCHEMA_TEXT, false }, { "kernel", KD_SCHEMA_TEXT, true }, { "invocations", KD_SCHEMA_COUNT, false }, { "estimate_ms", KD_SCHEMA_NUMBER, false },
+        { "name", NULL, false, pass_name }, { "kernel", KD_SCHEMA_TEXT, true }, { "invocations", KD_SCHEMA_COUNT, false }, { "estimate_ms", KD_SCHEMA_NUMBER, false },
     };
     static const struct kd_openapi_member constants[] = {
         { "orders", KD_SCHEMA_COUNT, false }, { "steps", KD_SCHEMA_COUNT, false }, { "samples", KD_SCHEMA_COUNT, false }, { "radius_only", KD_SCHEMA_TRUTH, false },
         { "phi", KD_SCHEMA_TRUTH, false }, { "sky", KD_SCHEMA_TRUTH, false },
     };
     static const struct kd_openapi_member accuracy[] = {
-        { "engine", KD_SCHEMA_TEXT, false }, { "precision", KD_SCHEMA_TEXT, false }, { "steps", KD_SCHEMA_COUNT, false }, { "holds", KD_SCHEMA_NUMBER, true },
+        { "engine", NULL, false, engine }, { "precision", NULL, false, precision }, { "steps", KD_SCHEMA_COUNT, false }, { "holds", KD_SCHEMA_NUMBER, true },
         { "table", "{\"enum\":[\"measured\",\"built-in\"]}", false },
     };
     static const struct kd_openapi_member bytes[] = { { "lens_map", KD_SCHEMA_COUNT, false }, { "device", KD_SCHEMA_COUNT, false }, { "host", KD_SCHEMA_COUNT, false } };
@@ -71,12 +79,12 @@ static void add_plan(struct kd_json *json)
         { "height", KD_SCHEMA_COUNT, false }, { "eyes", KD_SCHEMA_COUNT, true }, { "strips", KD_SCHEMA_COUNT, true }, { "passes", KD_SCHEMA_LIST(KD_SCHEMA_REF("PlanPass")), false },
         { "specialisation", KD_SCHEMA_REF("PlanConstants"), false }, { "accuracy", KD_SCHEMA_REF("PlanAccuracy"), false }, { "bytes", KD_SCHEMA_REF("PlanBytes"), false },
         { "bands", KD_SCHEMA_COUNT, false }, { "lens_map_cacheable", KD_SCHEMA_TRUTH, false }, { "lens_map_key", KD_SCHEMA_TEXT, false },
-        { "estimate_ms", KD_SCHEMA_NUMBER, false }, { "estimate_basis", KD_SCHEMA_TEXT, false }, { "approximations", TEXTS, false },
+        { "estimate_ms", KD_SCHEMA_NUMBER, false }, { "estimate_basis", "{\"enum\":[\"measured\",\"guess\"]}", false }, { "approximations", TEXTS, false },
     };
     static const struct kd_openapi_member sweep_bytes[] = { { "device", KD_SCHEMA_COUNT, false }, { "host", KD_SCHEMA_COUNT, false }, { "files", KD_SCHEMA_COUNT, true } };
     static const struct kd_openapi_member sweep[] = {
         { "scenes", KD_SCHEMA_COUNT, false }, { "lens_maps", KD_SCHEMA_COUNT, false }, { "rays", KD_SCHEMA_COUNT, false }, { "bytes", KD_SCHEMA_REF("SweepBytes"), false },
-        { "estimate_ms", KD_SCHEMA_NUMBER, false }, { "shared_ms", KD_SCHEMA_NUMBER, false }, { "estimate_basis", KD_SCHEMA_TEXT, false },
+        { "estimate_ms", KD_SCHEMA_NUMBER, false }, { "shared_ms", KD_SCHEMA_NUMBER, false }, { "estimate_basis", "{\"enum\":[\"measured\",\"guess\"]}", false },
         { "axes", "{\"type\":\"object\",\"additionalProperties\":" KD_SCHEMA_LIST("{\"type\":[\"number\",\"string\",\"boolean\",\"array\"],\"items\":{\"type\":\"string\"}}") "}", false },
     };
     KD_OPENAPI_STRICT(json, "PlanPass", pass);
@@ -95,7 +103,7 @@ static void add_accuracy(struct kd_json *json)
     static const char entry[] = "{\"type\":\"object\",\"required\":[\"rays\",\"crossings\",\"differ\"],\"properties\":{\"rays_per_s\":" KD_SCHEMA_NUMBER ",\"rays_per_s_per_core\":" KD_SCHEMA_NUMBER
         ",\"rays\":" KD_SCHEMA_COUNT ",\"crossings\":" KD_SCHEMA_COUNT ",\"differ\":" KD_SCHEMA_COUNT "},\"additionalProperties\":" KD_SCHEMA_REF("AccuracyErrors") "}";
     static const struct kd_openapi_member row[] = {
-        { "engine", KD_SCHEMA_TEXT, false }, { "precision", KD_SCHEMA_TEXT, false }, { "steps", KD_SCHEMA_COUNT, false }, { "holds", KD_SCHEMA_NUMBER, true },
+        { "engine", NULL, false, engine }, { "precision", NULL, false, precision }, { "steps", KD_SCHEMA_COUNT, false }, { "holds", KD_SCHEMA_NUMBER, true },
         { "sets", "{\"type\":\"object\",\"additionalProperties\":" KD_SCHEMA_REF("AccuracyEntry") "}", false },
     };
     static const struct kd_openapi_member table[] = {

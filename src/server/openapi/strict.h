@@ -4,6 +4,9 @@
 
 #include "base/schema.h"
 
+/* A number as it is typed (scene/number.h), in patterns. */
+#define KD_OPENAPI_DECIMAL "-?((0|[1-9][0-9]*)([.][0-9]*)?|[.][0-9]+)([eE][-+]?[0-9]+)?"
+
 #define kd_openapi_member kd_schema_member
 #define kd_openapi_strict kd_schema_strict
 #define KD_OPENAPI_STRICT KD_SCHEMA_STRICT

@@ -1,0 +1,144 @@
+#include "server/openapi/headers.h"
+
+#include "base/schema.h"
+#include "server/http/request_id.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#define NUMBER KD_SCHEMA_NUMBER
+#define COUNT KD_SCHEMA_COUNT
+#define TEXT KD_SCHEMA_TEXT
+
+/* required: every answer has it where it is named. */
+static const struct { const char *name, *schema, *help; bool required; } headers[] = {
+    { "Location", "{\"type\":\"string\",\"format\":\"uri-reference\"}", "where it is, relative to the address that was asked", true },
+    { "ETag", TEXT, "for If-None-Match", true },
+    { "Content-Disposition", TEXT, "the name of a file", false },
+    { "Server-Timing", TEXT, "ms in the queue, of each pass, of encoding", false },
+    { "Preference-Applied", TEXT, "return=minimal, where Prefer asked for it", false },
+    { "Set-Cookie", TEXT, "the cookie of an access token, where the address had one", false },
+    { "Kerrd-Scene-Hash", "{\"type\":\"string\",\"pattern\":\"^[0-9a-f]{64}$\"}", "SHA-256 of the canonical scene", true },
+    { "Kerrd-Accuracy", TEXT, "what traced it, and its measured error", false },
+    { "Kerrd-Approximations", TEXT, "sentences in quotes, percent-encoded: what is modelled rather than computed", false },
+    { "Kerrd-Clock", TEXT, "an observer's own time, of one that falls", false },
+    { "Kerrd-Flux", TEXT, "of a picture at a radio frequency", false },
+    { "Kerrd-Frame", COUNT, "the number of the frame", false },
+    { "Kerrd-Revision", COUNT, "of the scene that it shows", false },
+    { "Kerrd-Time", NUMBER, "M", false },
+    { "Kerrd-Azimuth", NUMBER, "degrees", false },
+    { "Kerrd-Sentences", COUNT, "stands for the approximations: as sentences in the next request", false },
+    { "Kerrd-Quality", TEXT, "the quality in force", false },
+    { "Kerrd-Waited", NUMBER, "ms that the request waited here", false },
+    { "Kerrd-Patched", COUNT, "the revision that the patch has made", false },
+    { "Kerrd-Rows", TEXT, "ROWS/HEIGHT of a frame that is being drawn", false },
+    { "Kerrd-Fields", TEXT, "columns of a row", true },
+    { "Kerrd-Count", COUNT, "rows", true },
+    { "Kerrd-Particles", COUNT, "how many particles there are", true },
+    { "Kerrd-Generation", COUNT, "for after", true },
+    { "Retry-After", COUNT, "seconds, after which another try may go better", false },
+    { "WWW-Authenticate", "{\"const\":\"Bearer\"}", "how to say who asks", true },
+    { "Allow", TEXT, "the methods that would do", true },
+    { KD_REQUEST_ID_HEADER, TEXT, "by which the log knows the request: what it said as " KD_REQUEST_ID_HEADER ", if that is 1 to 64 letters, digits and -._+/=, else a new one", false },
+    { "Access-Control-Allow-Origin", TEXT, "the Origin of a request, where kerrd serve --cors-origin names it; a preflight (OPTIONS) of such a one is answered 204 on each path", false },
+    { "Access-Control-Expose-Headers", TEXT, "beside it: the headers of answers that scripts of that origin may read", false },
+};
+
+#define EVERY KD_REQUEST_ID_HEADER " Access-Control-Allow-Origin Access-Control-Expose-Headers"
+#define FRAME "Kerrd-Frame Kerrd-Revision Kerrd-Time Kerrd-Azimuth Kerrd-Accuracy Kerrd-Clock Kerrd-Flux Kerrd-Sentences Kerrd-Approximations Kerrd-Quality Server-Timing Kerrd-Waited Kerrd-Patched"
+#define PICTURE "Kerrd-Scene-Hash Kerrd-Approximations Kerrd-Clock Content-Disposition"
+
+/* Names with blanks between them; methods 0: any. */
+static const struct { const char *path; unsigned methods, status; const char *names; } told[] = {
+    { "/", 0, 303, "Location Set-Cookie" },
+    { "/v1/render", 0, 200, PICTURE " Kerrd-Accuracy Kerrd-Flux Server-Timing" },
+    { "/v1/render", 0, 304, PICTURE },
+    { "/v1/pixel", 0, 200, PICTURE " Kerrd-Accuracy Kerrd-Flux Server-Timing" },
+    { "/v1/pixel", 0, 304, PICTURE },
+    { "/v1/rays", 0, 200, "Server-Timing Kerrd-Accuracy Kerrd-Approximations Content-Disposition" },
+    { "/v1/orbits", 0, 200, "Server-Timing Content-Disposition" },
+    { "/v1/line", 0, 200, "Server-Timing Content-Disposition" },
+    { "/v1/transfer-function", 0, 200, "Server-Timing Content-Disposition" },
+    { "/v1/spectrum", 0, 200, "Server-Timing Content-Disposition" },
+    { "/v1/visibility", 0, 200, "Server-Timing Content-Disposition" },
+    { "/v1/physics/{name}", 0, 200, "Server-Timing Content-Disposition" },
+    { "/v1/sessions", KD_POST, 201, "Server-Timing" },
+    { "/v1/sessions/{id}", KD_PATCH, 200, "Server-Timing Preference-Applied" },
+    { "/v1/sessions/{id}", KD_GET, 200, "Server-Timing" },
+    { "/v1/sessions/{id}/ringdown", 0, 200, "Server-Timing" },
+    { "/v1/sessions/{id}/path", KD_POST, 200, "Server-Timing" },
+    { "/v1/sessions/{id}/frame.png", 0, 200, FRAME }, { "/v1/sessions/{id}/frame.png", 0, 204, "Kerrd-Waited" },
+    { "/v1/sessions/{id}/frame", 0, 200, FRAME }, { "/v1/sessions/{id}/frame", 0, 204, "Kerrd-Waited Kerrd-Patched" },
+    { "/v1/sessions/{id}/particles", 0, 200, "Kerrd-Fields Kerrd-Count Kerrd-Particles Kerrd-Time Server-Timing Content-Disposition" },
+    { "/v1/playground/{id}/frame.png", 0, 200, FRAME }, { "/v1/playground/{id}/frame.png", 0, 204, "Kerrd-Waited" },
+    { "/v1/playground/{id}/bodies", 0, 200, "Kerrd-Generation Kerrd-Time" },
+    { "/v1/playground/{id}/debris", 0, 200, "Kerrd-Generation Kerrd-Time" },
+    { "/v1/playground/{id}/snapshot", 0, 200, "Content-Disposition" },
+    { "/v1/playground/{id}/series", 0, 200, "Content-Disposition" },
+    { "/v1/playground/{id}/fallback", 0, 200, "Content-Disposition" },
+    { "/v1/assets/{sha256}", KD_GET, 200, "Content-Disposition" },
+    { "/v1/presets/{name}/thumbnail.png", 0, 200, "Content-Disposition" },
+    { "/v1/jobs/{id}/preview.png", 0, 200, "Kerrd-Frame Kerrd-Rows Content-Disposition" },
+    { "/v1/jobs/{id}/result", 0, 200, "Content-Disposition" },
+};
+
+static void refer(struct kd_json *json, const char *name, size_t n)
+{
+    char member[40], reference[80];
+    snprintf(member, sizeof member, "%.*s", (int)n, name);
+    snprintf(reference, sizeof reference, "{\"$ref\":\"#/components/headers/%s\"}", member);
+    kd_schema_text(json, member, reference);
+}
+
+static void refer_all(struct kd_json *json, const char *names)
+{
+    for (size_t n; *names; names += n + strspn(names + n, " "))
+        refer(json, names, n = strcspn(names, " "));
+}
+
+static const char *names_of(const struct kd_route *route, unsigned method, unsigned status)
+{
+    for (size_t i = 0; i < sizeof told / sizeof *told; i++)
+        if (told[i].status == status && (!told[i].methods || told[i].methods & method) && !strcmp(told[i].path, route->path))
+            return told[i].names;
+    return NULL;
+}
+
+void kd_openapi_headers(struct kd_json *json, const struct kd_route *route, unsigned method, unsigned status)
+{
+    const char *names = names_of(route, method, status);
+    const bool made = status == 201 || status == 202, kept = status == 304 || (status == 200 && route->status[1] == 304);
+    kd_json_object(json, "headers");
+    refer_all(json, EVERY);
+    if (made)
+        refer_all(json, "Location");
+    if (kept)
+        refer_all(json, "ETag");
+    if (names)
+        refer_all(json, names);
+    kd_json_end(json);
+}
+
+void kd_openapi_problem_headers(struct kd_json *json, unsigned status)
+{
+    const char *names = status == 401 ? "WWW-Authenticate" : status == 405 ? "Allow" : status == 409 || status == 429 || status == 503 || status == 507 ? "Retry-After" : NULL;
+    kd_json_object(json, "headers");
+    refer_all(json, EVERY);
+    if (names)
+        refer_all(json, names);
+    kd_json_end(json);
+}
+
+void kd_openapi_header_components(struct kd_json *json)
+{
+    kd_json_object(json, "headers");
+    for (size_t i = 0; i < sizeof headers / sizeof *headers; i++) {
+        kd_json_object(json, headers[i].name);
+        kd_json_string(json, "description", headers[i].help);
+        if (headers[i].required)
+            kd_json_bool(json, "required", true);
+        kd_schema_text(json, "schema", headers[i].schema);
+        kd_json_end(json);
+    }
+    kd_json_end(json);
+}

@@ -1,0 +1,11 @@
+/* This says in openapi.json what can be asked of what has been made: links from the answer that makes it to the operations under its address. */
+#ifndef KD_SERVER_OPENAPI_LINKS_H
+#define KD_SERVER_OPENAPI_LINKS_H
+
+#include "base/json.h"
+#include "server/http/route.h"
+
+/* The member "links" of an answer, where it has made something (201, 202). */
+void kd_openapi_links(struct kd_json *json, const struct kd_route *route, unsigned status);
+
+#endif

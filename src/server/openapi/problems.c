@@ -1,0 +1,124 @@
+#include "server/openapi/problems.h"
+
+#include "server/http/access.h"
+#include "server/openapi/headers.h"
+#include "server/openapi/media.h"
+#include "server/openapi/strict.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static bool always(const struct kd_route *route, unsigned method) { return (void)route, (void)method, true; }
+static bool never(const struct kd_route *route, unsigned method) { return (void)route, (void)method, false; } /* 405 is of no operation: it says that there is none */
+static bool closed(const struct kd_route *route, unsigned method) { return (void)method, !route->open; }
+static bool has_body(const struct kd_route *route, unsigned method) { return (void)route, method == KD_POST || method == KD_PATCH || method == KD_PUT; }
+
+static bool is_one_of(const struct kd_route *route, const char *const *paths)
+{
+    for (; *paths; paths++)
+        if (!strcmp(route->path, *paths))
+            return true;
+    return false;
+}
+
+/* The role, the site that asks, and the token of what is changed. */
+static bool forbids(const struct kd_route *route, unsigned method)
+{
+    return !strncmp(route->path, "/v1/", 4) || (!route->open && !kd_role_may(KD_ROLE_VIEW, route, method));
+}
+
+static bool is_found_by_name(const struct kd_route *route, unsigned method)
+{
+    (void)method;
+    return (strchr(route->path, '{') && route->takes != KD_TAKES_QUANTITY) || !strcmp(route->path, "/v1/accuracy");
+}
+
+/* Answers that a client chooses by Accept. */
+static bool negotiates(const struct kd_route *route, unsigned method)
+{
+    static const char *const by_hand[] = { "/v1/playground/{id}/series", "/v1/playground/{id}/fallback", NULL };
+    (void)method;
+    return route->gives != KD_GIVES_ITS_ANSWER || route->takes == KD_TAKES_RAYS || route->takes == KD_TAKES_ORBITS || route->takes == KD_TAKES_INTEGRAL ||
+           route->takes == KD_TAKES_QUANTITY || route->takes == KD_TAKES_TICK || is_one_of(route, by_hand);
+}
+
+static bool may_come_too_early(const struct kd_route *route, unsigned method)
+{
+    static const char *const paths[] = { "/v1/jobs/{id}/result", "/v1/jobs/{id}/preview.png", NULL };
+    return route->takes == KD_TAKES_PARTICLES || route->takes == KD_TAKES_STRIKE || route->takes == KD_TAKES_STEP ||
+           (route->takes == KD_TAKES_PLAYGROUND && method == KD_PATCH) || is_one_of(route, paths);
+}
+
+static bool checks_what_it_is_given(const struct kd_route *route, unsigned method)
+{
+    static const char *const strict[] = {
+        "/v1/presets/{name}/thumbnail.png", "/v1/sessions/{id}/frame.png", "/v1/playground/{id}/frame.png", "/v1/playground/{id}/events", "/v1/jobs/{id}/preview.png", "/v1/jobs/{id}/result", NULL,
+    };
+    return has_body(route, method) || (route->takes != KD_TAKES_NOTHING && method != KD_DELETE) || is_one_of(route, strict);
+}
+
+static bool makes_films(const struct kd_route *route, unsigned method) { return (void)method, route->gives == KD_GIVES_RESULT; }
+static bool keeps_files(const struct kd_route *route, unsigned method) { return (method == KD_POST && route->takes == KD_TAKES_JOB) || (method == KD_PUT && route->takes == KD_TAKES_ASSET); }
+
+static const struct {
+    unsigned status;
+    bool (*of)(const struct kd_route *route, unsigned method);
+} rows[] = {
+    { 400, always }, { 401, closed }, { 403, forbids }, { 404, is_found_by_name }, { 405, never }, { 406, negotiates }, { 408, always }, { 409, may_come_too_early }, { 413, has_body },
+    { 414, always }, { 415, has_body }, { 421, always }, { 422, checks_what_it_is_given }, { 429, always }, { 431, always }, { 500, closed }, { 501, makes_films }, { 503, always },
+    { 505, always }, { 507, keeps_files },
+};
+
+void kd_openapi_problems(struct kd_json *json, const struct kd_route *route, unsigned method)
+{
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char status[12], reference[80];
+        if (!rows[i].of(route, method))
+            continue;
+        snprintf(status, sizeof status, "%u", rows[i].status);
+        snprintf(reference, sizeof reference, "{\"$ref\":\"#/components/responses/Problem%s\"}", status);
+        kd_schema_text(json, status, reference);
+    }
+}
+
+/* The titles of the problems that have this status. */
+static void describe(struct kd_json *json, unsigned status)
+{
+    char text[500] = "";
+    for (size_t i = 0, n = 0; kd_problem_uri(i) && n < sizeof text; i++)
+        if (kd_problem_status((enum kd_problem_type)i) == status)
+            n += (size_t)snprintf(text + n, sizeof text - n, "%s%s", n ? "; " : "", kd_problem_title((enum kd_problem_type)i));
+    kd_json_string(json, "description", text);
+}
+
+static void add_response(struct kd_json *json, unsigned status)
+{
+    char name[20];
+    snprintf(name, sizeof name, "Problem%u", status);
+    kd_json_object(json, name);
+    describe(json, status);
+    kd_openapi_problem_headers(json, status);
+    kd_json_object(json, "content");
+    kd_openapi_media(json, "application/problem+json", KD_SCHEMA_REF("Problem"), strlen(KD_SCHEMA_REF("Problem")));
+    kd_json_end(json);
+    kd_json_end(json);
+}
+
+void kd_openapi_problem_responses(struct kd_json *json)
+{
+    kd_json_object(json, "responses");
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        add_response(json, rows[i].status);
+    kd_json_end(json);
+}
+
+void kd_openapi_problem_schema(struct kd_json *json)
+{
+    static const struct kd_openapi_member problem[] = {
+        { "type", NULL, false, kd_problem_uri }, { "title", KD_SCHEMA_TEXT }, { "status", "{\"type\":\"integer\",\"minimum\":400,\"maximum\":599}" }, { "detail", KD_SCHEMA_TEXT },
+        { "pointer", "{\"type\":\"string\",\"description\":\"into the request (RFC 6901)\"}", true },
+        { "offered", "{\"type\":\"string\",\"description\":\"media types that would do\"}", true },
+        { "request_id", "{\"type\":\"string\",\"description\":\"as in the header X-Request-Id\"}", true },
+    };
+    KD_OPENAPI_STRICT(json, "Problem", problem);
+}
