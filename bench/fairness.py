@@ -92,7 +92,7 @@ class Load:
 
         def pull(connection):
             answer, _ = self.server.ask(self.source, 'GET', f'{at}/frame.png?after={frame[0]}', connection=connection)
-            frame[0] = int(answer.headers['Kerrd-Frame'])
+            frame[0] = int(answer.headers['Kerrd-Frame'] or frame[0])  # 204 has none
             return answer
 
         def patch(connection):
