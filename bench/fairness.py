@@ -3,7 +3,7 @@
 
     bench/fairness.py            about four minutes, on a machine that does nothing else
     bench/fairness.py --only "a job of 1000 frames" --seconds 5
-    bench/fairness.py --size 640 360 --only nothing --only "all that one may queue"
+    bench/fairness.py --size 640 360 --no-session --only nothing --only "all that one may queue" --save fairness-queued
 
 A server of its own. The loads come from 127.0.0.1; who is measured is 127.0.0.2, another client, who asks for one picture (of 320 x 180)
 after the other, each with a lens map of its own, watches a session of his own, and asks for /healthz. Writes
@@ -92,7 +92,7 @@ class Load:
 
         def pull(connection):
             answer, _ = self.server.ask(self.source, 'GET', f'{at}/frame.png?after={frame[0]}', connection=connection)
-            frame[0] = int(answer.headers['Kerrd-Frame'])
+            frame[0] = int(answer.headers['Kerrd-Frame'] or frame[0])  # 204 has none
             return answer
 
         def patch(connection):
@@ -155,7 +155,7 @@ def jobs(load):
     """As many jobs as one may have: every other one the frames of a film, along keyframes and with motion blur."""
     scene = {'image': {'width': 1280, 'height': 720}}
     for k in range(12):
-        frames = [{**scene, 'camera': {'inclination_deg': 40 + 0.02 * i + k}} for i in range(200)]
+        frames = [{**scene, 'camera': {'inclination_deg': 40 + 0.02 * i + k}} for i in range(50)]
         film = {'scene': scene, 'keyframes': [{'frame': 239, 'scene': {'camera': {'azimuth_deg': 60 + k}}}], 'motion_blur': {'samples': 4, 'shutter': 0.5}}
         answer, _ = load.server.ask(load.source, 'POST', '/v1/jobs', film if k % 2 else {'scenes': frames})
         load.counts[f'job: {answer.status}'] = load.counts.get(f'job: {answer.status}', 0) + 1
@@ -217,10 +217,12 @@ def look_at_health(port, source, seconds, at_least):
     return {'healthz_ms': [ms - 50 - lag for ms, lag in zip(took, late)], 'sleep_late_ms': late}
 
 
-def look(server, seconds, at_least=3, source='127.0.0.2', size=SIZE):
+def look(server, seconds, at_least=3, source='127.0.0.2', size=SIZE, session=True):
     """What a client meets who does nothing else: pictures, the frames of a session of his own, /healthz."""
     out, viewer = {}, Load(server, source)
-    viewer.session('own', LIVING)
+    if session:
+        viewer.session('own', LIVING)
+
     def picture():
         answer, _ = server.ask(source, 'GET', picture_of(size))
         assert answer.status == 200, answer.status
@@ -236,18 +238,23 @@ def look(server, seconds, at_least=3, source='127.0.0.2', size=SIZE):
     return out
 
 
-def run_one(path, name, seconds, options=(), size=SIZE):
+def warm(server, size=SIZE):
+    """Kernels are made, and the device is measured."""
+    for _ in range(3):
+        server.ask('127.0.0.2', 'GET', picture_of(size))
+
+
+def run_one(path, name, seconds, options=(), size=SIZE, session=True):
     with tempfile.TemporaryDirectory() as state:
         server = Server(path, '--state', state, *options)
         try:
-            for _ in range(3):  # kernels are made, and the device is measured
-                server.ask('127.0.0.2', 'GET', picture_of(size))
+            warm(server, size)
             server.ask('127.0.0.2', 'POST', '/v1/render', {'image': {'width': 640, 'height': 360}, 'disk': {'model': 'particles'}})
             load = Load(server)
             for begin in LOADS[name]:
                 begin(load)
             time.sleep(2 if LOADS[name] else 0)
-            return {**look(server, seconds, size=size), 'load': load.counts}
+            return {**look(server, seconds, size=size, session=session), 'load': load.counts}
         finally:
             server.stop()
 
@@ -256,6 +263,8 @@ def main():
     p = measure.parser(__doc__.splitlines()[0])
     p.add_argument('--seconds', type=float, default=20, help='that each load is watched for (20)')
     p.add_argument('--only', choices=LOADS, action='append', help='this load alone')
+    p.add_argument('--no-session', action='store_true', help='the one who is measured asks for pictures alone')
+    p.add_argument('--save', metavar='NAME', help='also what --only has run, under this name')
     p.add_argument('--size', type=int, nargs=2, default=SIZE, metavar=('WIDTH', 'HEIGHT'), help='of the picture that is measured (320 180)')
     arguments, load = p.parse_args(), os.getloadavg()[0]
     path = measure.binary(arguments.build, 'src/kerrd')
@@ -264,7 +273,7 @@ def main():
     server.stop()
     results = {}
     for name in arguments.only or LOADS:
-        results[name] = run_one(path, name, arguments.seconds, size=arguments.size)
+        results[name] = run_one(path, name, arguments.seconds, size=arguments.size, session=not arguments.no_session)
         print(name, {k: round(statistics.median(v), 1) if isinstance(v, list) else v for k, v in results[name].items()}, flush=True)
     rows = [[name, str(len(r['picture_ms'])), f"{statistics.median(r['picture_ms']):.0f} / {max(r['picture_ms']):.0f}", f"{r['fps']:.1f}",
              f"{statistics.median(r['healthz_ms']):.1f} / {max(r['healthz_ms']):.0f}", f"{max(r['sleep_late_ms']):.0f}"] for name, r in results.items()]
@@ -272,8 +281,8 @@ def main():
     text = measure.head_markdown('What one client may make another one wait', h)
     text += measure.table(['load of another client', 'pictures', f'{arguments.size[0]} × {arguments.size[1]} picture, ms: median / worst', 'frames/s of an own session',
                            '/healthz, ms: median / worst', 'a sleep is late, ms: worst'], rows)
-    if not arguments.only:
-        measure.save(arguments.out, 'fairness', h, {'loads': results}, text)
+    if arguments.save or not arguments.only:
+        measure.save(arguments.out, arguments.save or 'fairness', h, {'loads': results}, text)
     else:
         print(text)
 

@@ -15,20 +15,27 @@ import fairness
 SLOWER = 60  # times: two clients halve the device, and the loads' own processes the processor; the rest is noise
 
 
-BESIDE = 8  # times what a picture of 640 x 360 takes alone: two clients halve the device, as above, and its own session has its part of that half
+BESIDE = 10  # times what a picture of 640 x 360 takes alone: two clients halve the device, and on lavapipe all that the other one's requests take of the processor is taken from it
 
 
 class Fair(unittest.TestCase):
     def test_beside_all_that_one_may_queue(self):
         """A picture of 640 x 360 comes within 2 s, or, where the machine is slow or shared, within some times what it takes alone."""
-        alone, beside = (fairness.run_one(daemon.COMMAND[0], name, 1, size=(640, 360)) for name in ('nothing', 'all that one may queue'))
-        solo, met = (statistics.median(run['picture_ms']) for run in (alone, beside))
-        print('alone', alone['picture_ms'], 'beside', beside['picture_ms'], 'frames/s', beside['fps'], beside['load'])
+        size = (640, 360)
+        server = fairness.Server(daemon.COMMAND[0])
+        self.addCleanup(server.stop)
+        fairness.warm(server, size)
+        alone = fairness.look(server, 1, size=size, session=False)['picture_ms']
+        load = fairness.Load(server)
+        self.addCleanup(load.end)
+        fairness.queue(load)
+        beside = fairness.look(server, 1, size=size, session=False)['picture_ms']
+        solo, met = statistics.median(alone), statistics.median(beside)
+        print('alone', alone, 'beside', beside, load.counts)
         self.assertLess(met, max(2000, BESIDE * solo))
-        self.assertGreater(beside['fps'], 0)
         for refused in ('1440p x 16 rays: 429', 'rays: 429'):
-            self.assertGreater(beside['load'].get(refused, 0), 0, 'it has all that it may')
-        self.assertEqual(beside['load'].get('job: 202'), 12)
+            self.assertGreater(load.counts.get(refused, 0), 0, 'it has all that it may')
+        self.assertEqual(load.counts.get('job: 202'), 12)
 
     def test_beside_all_loads(self):
         alone = fairness.run_one(daemon.COMMAND[0], 'nothing', 1)
