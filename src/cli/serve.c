@@ -6,6 +6,7 @@
 #include "server/server.h"
 
 #include <errno.h>
+#include <limits.h>
 #include <poll.h>
 #include <pthread.h>
 #include <signal.h>
@@ -18,7 +19,7 @@ struct arguments {
     const char *device, *listen, *base_path;
     const char *state, *token_file;
     uint64_t memory;
-    unsigned port, queue, sessions, jobs, client_jobs, client_share;
+    unsigned port, queue, sessions, jobs, client_jobs, client_share, device_timeout, device_reopenings;
     bool cross_site, until_eof, insecure;
     const char **hosts; /* NULL-terminated once there is one */
     size_t n_hosts;
@@ -38,6 +39,8 @@ static const struct argp_option table[] = {
     { "allow-cross-site", 'X', NULL, 0, "take requests that pages of other sites make, as by an <img>", 0 },
     { "state", 'S', "DIR", 0, "keep jobs and their frames, and assets, there, so that they survive a restart", 0 },
     { "until-eof", 'E', NULL, 0, "stop when standard input ends, as it does when the program that holds its other end is gone", 0 },
+    { "device-timeout", 'D', "SECONDS", 0, "end with exit code 3 when the device has not finished a piece of work after so long (default 60)", 0 },
+    { "device-reopenings", 'R', "N", 0, "open a device that fails again, so many times in ten minutes, before ending with exit code 3 (default 3)", 0 },
     KD_CLI_MEMORY,
     { "host", 'H', "NAME", 0, "answer requests for this host name too; may be repeated", 0 },
     { 0 },
@@ -66,6 +69,8 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case 'j': arguments->jobs = kd_cli_number(state, "--jobs", text, 1, 1000); return 0;
     case 'J': arguments->client_jobs = kd_cli_number(state, "--jobs-per-client", text, 1, 1000); return 0;
     case 'C': arguments->client_share = kd_cli_number(state, "--client-share", text, 1, 100); return 0;
+    case 'D': arguments->device_timeout = kd_cli_number(state, "--device-timeout", text, 1, 3600); return 0;
+    case 'R': arguments->device_reopenings = kd_cli_number(state, "--device-reopenings", text, 0, 1000000); return 0;
     case 'E': arguments->until_eof = true; return 0;
     case 'X': arguments->cross_site = true; return 0;
     case 'S': arguments->state = text; return 0;
@@ -167,7 +172,8 @@ static enum kd_status serve(const struct arguments *arguments, struct kd_error *
         .cross_site = arguments->cross_site,
         .state = arguments->state,
         .token_file = arguments->token_file,
-        .renderer = { .device = arguments->device, .prove = kd_first_start, .memory_bytes = arguments->memory },
+        .reopenings = arguments->device_reopenings ? arguments->device_reopenings : UINT_MAX,
+        .renderer = { .device = arguments->device, .prove = kd_first_start, .deadline_ms = 1000 * arguments->device_timeout, .memory_bytes = arguments->memory },
     };
     if (kd_listen_reaches_out(arguments->listen) && !arguments->token_file && !arguments->insecure)
         return kd_error_set(error, KD_EINVAL, "other machines reach --listen %.100s: --token-file FILE says who may use the server, --insecure lets everybody",
@@ -199,7 +205,7 @@ const struct argp *kd_cli_serve_argp(void)
         .doc =
             "Serve pictures over HTTP.\v"
             "SIGTERM, SIGINT or SIGHUP: /readyz fails at once, running and queued renders finish, then the exit code "
-            "is 0. It is 1 when the device was lost: start it again.",
+            "is 0. It is 3 when the device was lost for good, or hangs: start it again.",
         .children = kd_cli_device_children,
     };
     return &argp;
@@ -207,7 +213,7 @@ const struct argp *kd_cli_serve_argp(void)
 
 int kd_cli_serve(int argc, char **argv)
 {
-    struct arguments arguments = { .listen = "127.0.0.1", .base_path = getenv("KERRD_BASE_PATH"), .port = 8080, .queue = 16, .sessions = 16, .jobs = 16 };
+    struct arguments arguments = { .listen = "127.0.0.1", .base_path = getenv("KERRD_BASE_PATH"), .port = 8080, .device_timeout = 60, .device_reopenings = 3, .queue = 16, .sessions = 16, .jobs = 16 };
     struct kd_error error = { 0 };
 
     argp_parse(kd_cli_serve_argp(), argc, argv, 0, NULL, &arguments);
