@@ -201,7 +201,7 @@ void kd_renderer_capacity(struct kd_renderer *renderer, struct kd_capacity *out)
 
 const char *kd_renderer_device_name(const struct kd_renderer *renderer) { return renderer->name; }
 
-char *kd_renderer_cache_file(const struct kd_renderer *renderer, const char *suffix) 
+char *kd_renderer_cache_file(const struct kd_renderer *renderer, const char *suffix)
 {
     char *path = NULL;
     return renderer->files && asprintf(&path, "%s%s", renderer->files, suffix) >= 0 ? path : NULL;
