@@ -49,7 +49,7 @@ ENTRIES = {
 NAMES = list(ENTRIES)
 FIELDS = ('entry', 'countdown', 'code', 'injected', 'lost', 'dead', 'hang', 'incoherent')
 EXIT_DEVICE = 3
-PATIENCE_S = 120  # in which each request is answered; longer: it hangs
+PATIENCE_S = 240  # in which each request is answered; longer: it hangs
 RENDER = '/v1/render?image.width=48&image.height=27'
 IMAGE = {'width': 48, 'height': 27}
 SCENE = {'image': IMAGE, 'disk': {'gas': {'amplitude': 0}}}
@@ -393,7 +393,7 @@ class Vulkan(Case):
         self.assertGreater(len(told), 12, told)
         self.faults.disarm()
         same = wanted(server.get(RENDER)).body
-        for n, name in enumerate(('QueueSubmit', 'WaitSemaphores', 'GetSemaphoreCounterValue')):
+        for n, name in enumerate(('QueueSubmit', 'GetSemaphoreCounterValue')):
             self.faults.arm(name, 0, LOST)
             self.assertEqual(wanted(server.get(RENDER)).body, same, name)
             self.assertEqual(self.faults.get('injected'), 1, name)
@@ -438,7 +438,7 @@ class Vulkan(Case):
                 self.faults.set(dead=0, lost=0)
                 server = self.start('--state', state)
                 self.assertEqual(finish_job(server, accepted), job(server))
-                self.assertEqual(server.stop(), 0)
+                self.assertEqual(server.stop(), 0, server.said())
 
     def test_a_device_that_hangs(self):
         """Whoever waits is told, and the process ends."""

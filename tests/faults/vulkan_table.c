@@ -2,6 +2,7 @@
  * mapped too. Without that file it is the kerrd that it would be. */
 #include "vk/functions.h"
 
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <stdatomic.h>
 #include <stdio.h>
@@ -162,6 +163,20 @@ static VKAPI_ATTR void VKAPI_CALL incoherent_GetPhysicalDeviceMemoryProperties(V
         out->memoryTypes[i].propertyFlags &= ~(VkMemoryPropertyFlags)VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 }
 
+/* Under a sanitizer the driver stays where it is when its last device is gone: leaks are looked for at the end, and its own are known by its name. */
+static void keep_driver(const struct kd_vk_functions *fn)
+{
+#ifdef __SANITIZE_ADDRESS__
+    Dl_info from;
+    void *entry = NULL;
+    memcpy(&entry, &fn->CreateBuffer, sizeof entry);
+    if (entry && dladdr(entry, &from) && from.dli_fname)
+        dlopen(from.dli_fname, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+#else
+    (void)fn;
+#endif
+}
+
 /* After each of the three steps: members that are still ours have been copied from a table of an earlier one. */
 static void plant(struct kd_vk_functions *fn)
 {
@@ -170,6 +185,8 @@ static void plant(struct kd_vk_functions *fn)
         atomic_store(&real_##name, fn->name);                                       \
     if (fn->name)                                                                   \
         fn->name = faulty_##name;
+    if (fn->CreateBuffer != faulty_CreateBuffer)
+        keep_driver(fn);
     if (fn->WaitSemaphores == hanging_WaitSemaphores) {
         fn->WaitSemaphores = faulty_WaitSemaphores;
         fn->GetSemaphoreCounterValue = faulty_GetSemaphoreCounterValue;
