@@ -328,12 +328,13 @@ def table(results, rotate):
     total = sum((counts for rows in results.values() for _, _, counts in rows), collections.Counter())
     lines = ['# Faults of Vulkan', '', f'{sum(total.values())} calls of Vulkan have been made to fail, one in each of as many servers: ' +
              ', '.join(f'{total[k]} {k}' for k in KINDS if total[k]) + '.', '',
-             f'Each n-th call of an entry point failed with {"one of" if rotate else "each of"} the codes that the specification lets it return. This table is made by `tests/faults/vulkan.py --full`.', '',
+             f'The n-th call of an entry point failed with {"one of" if rotate else "each of"} the codes that the specification lets it return, for as many n as stand under Faults: all, unless the time '
+             'was limited or, with `--rotate`, the call but names an object. `tests/faults/vulkan.py --full` makes this table.', '',
              '- `same`: the same bytes as without the fault; the driver was asked again, or for something that a picture can do without.',
              '- `recovered`: the same bytes, after the device was closed and opened once more.',
              '- `error`: an answer that says what failed (500 `device-lost`, 503 `out-of-memory`), or a start that does; the next request had the same bytes as without the fault.',
              '- `exit 3`: the process ended with exit code 3, to be started again.',
-             '- `not reached`: there was no such call, as where a slice more or less was rendered.', '',
+             '- `not reached`: there was no such call, as where a slice more or less was rendered. Jobs have no `error`: where memory ran out they tried again.', '',
              '| Scenario | Entry point | Calls | Faults | ' + ' | '.join(KINDS) + ' |', '|---|---|---|---|' + '---|' * len(KINDS)]
     for scenario, rows in results.items():
         for entry, calls, counts in rows:
