@@ -87,7 +87,7 @@ _Noreturn void kd_cli_device_lost(const struct kd_error *error)
 {
     kd_cli_fail(error);
     fflush(NULL);
-    _exit(KD_EXIT_FAILURE);
+    _exit(KD_EXIT_DEVICE);
 }
 
 void kd_cli_stdout_failed(int number)

@@ -12,7 +12,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-enum { KD_EXIT_OK = 0, KD_EXIT_FAILURE = 1, KD_EXIT_USAGE = 2 };
+enum { KD_EXIT_OK = 0, KD_EXIT_FAILURE = 1, KD_EXIT_USAGE = 2, KD_EXIT_DEVICE = 3 };
 
 /* Children for argp: --log-level (no input), and --device with a `const char *` as its input, which
  * starts as $KERRD_DEVICE or "auto". */
@@ -30,7 +30,7 @@ int kd_cli_fail(const struct kd_error *error);
 /* Put "name: " before the message, to say which of several inputs is meant. Returns the error's status. */
 enum kd_status kd_cli_prefix(struct kd_error *error, const char *name);
 
-/* A lost device cannot be torn down: report and leave at once, without destructors. */
+/* A device that hangs cannot be torn down, and one that is lost need not be: report and leave at once, without destructors, with KD_EXIT_DEVICE. */
 _Noreturn void kd_cli_device_lost(const struct kd_error *error);
 
 /* Write to stdout and make sure that it arrived, with what was printed before. */

@@ -48,7 +48,7 @@ extern const size_t kd_n_commands;
 
 /* What --help and the manual say of the whole program. */
 #define KD_CLI_ABOUT "Pictures of black holes: a Kerr renderer on a Vulkan device."
-#define KD_CLI_EXIT_CODES "0 done, 1 failed, 2 bad input or usage"
+#define KD_CLI_EXIT_CODES "0 done, 1 failed, 2 bad input or usage, 3 a device that was lost or hangs"
 
 /* The options of one quantity of `kerrd physics`, which takes its name first. They are made anew by each call, and live until the next. */
 struct kd_quantity;

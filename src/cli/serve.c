@@ -8,6 +8,7 @@
 #include "server/server.h"
 
 #include <errno.h>
+#include <limits.h>
 #include <poll.h>
 #include <pthread.h>
 #include <signal.h>
@@ -125,6 +126,7 @@ static enum kd_status stop_at_eof(struct kd_error *error)
 static enum kd_status serve(const struct kd_settings *settings, struct kd_error *error)
 {
     const char *listen = kd_settings_text(settings, KD_SERVE_LISTEN), *base_path = kd_settings_text(settings, KD_SERVE_BASE_PATH);
+    const unsigned reopenings = kd_settings_number(settings, KD_SERVE_DEVICE_REOPENINGS);
     const struct kd_server_params params = {
         .listen = listen,
         .port = (uint16_t)kd_settings_number(settings, KD_SERVE_PORT),
@@ -141,7 +143,9 @@ static enum kd_status serve(const struct kd_settings *settings, struct kd_error 
         .cross_site = kd_settings_switch(settings, KD_SERVE_CROSS_SITE),
         .state = kd_settings_text(settings, KD_SERVE_STATE),
         .token_file = kd_settings_text(settings, KD_SERVE_TOKEN_FILE),
-        .renderer = { .device = kd_settings_text(settings, KD_SERVE_DEVICE), .prove = kd_first_start, .memory_bytes = kd_settings_bytes(settings, KD_SERVE_MEMORY) },
+        .reopenings = reopenings ? reopenings : UINT_MAX,
+        .renderer = { .device = kd_settings_text(settings, KD_SERVE_DEVICE), .prove = kd_first_start, .deadline_ms = 1000 * kd_settings_number(settings, KD_SERVE_DEVICE_TIMEOUT),
+                      .memory_bytes = kd_settings_bytes(settings, KD_SERVE_MEMORY) },
     };
     if (kd_listen_reaches_out(listen) && !params.token_file && !kd_settings_switch(settings, KD_SERVE_INSECURE))
         return kd_error_set(error, KD_EINVAL, "other machines reach --listen %.100s: --token-file FILE says who may use the server, --insecure lets everybody", listen);
@@ -172,7 +176,7 @@ const struct argp *kd_cli_serve_argp(void)
         .doc =
             "Serve pictures over HTTP.\v"
             "SIGTERM, SIGINT or SIGHUP: /readyz fails at once, running and queued renders finish, then the exit code "
-            "is 0. It is 1 when the device was lost: start it again.\n"
+            "is 0. It is 3 when the device was lost for good, or hangs: start it again.\n"
             "Each option may also stand in the environment, as KERRD_CLIENT_SHARE=50 for --client-share, and in the file that --config names, as "
             "{\"client-share\": 50}. A flag counts before the environment, and that before the file.",
     };

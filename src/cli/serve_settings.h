@@ -30,6 +30,10 @@
     S(UNTIL_EOF, "until-eof", 'E', "yes|no", SWITCH, 0, 0, "no", ANYWHERE,                                                                                                       \
       "stop when standard input ends, as it does when the program that holds its other end is gone")                                                                             \
     S(DEVICE, "device", 'd', "DEVICE", TEXT, 0, 0, "auto", ANYWHERE, KD_CLI_DEVICE_DOC)                                                                                          \
+    S(DEVICE_TIMEOUT, "device-timeout", 't', "SECONDS", NUMBER, 1, 3600, "60", ANYWHERE,                                                                                        \
+      "end with exit code 3 when the device has not finished a piece of work after so long (default 60)")                                                                       \
+    S(DEVICE_REOPENINGS, "device-reopenings", 'R', "N", NUMBER, 0, 1000000, "3", ANYWHERE,                                                                                      \
+      "open a device that fails again, so many times in ten minutes, before ending with exit code 3 (default 3)")                                                               \
     S(LOG_LEVEL, "log-level", 'l', KD_CLI_LOG_LEVELS, WORDS, 0, 0, "warn", ANYWHERE, KD_CLI_LOG_LEVEL_DOC)                                                                       \
     S(LOG_FORMAT, "log-format", 'L', "text|json", WORDS, 0, 0, "text", ANYWHERE, "how that is told: lines for people, or an object of JSON a line (default: text)")              \
     S(CONFIG, "config", 'c', "FILE", TEXT, 0, 0, NULL, NOT_IN_FILE, "read options from this file, a JSON object of them, like {\"port\": 9090}; -FILE: if it is there")          \

@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 #define TICK_MS 100          /* how late a deadline or a vanished client may be noticed */
-#define LAST_ANSWERS_MS 10e3 /* for clients to take the answers under way when nothing else is left */
+#define LAST_ANSWERS_MS 10e3 /* for clients to take the answers under way when nothing else is left, or when what is left hangs in the driver */
 
 static void sleep_a_tick(struct kd_server *server)
 {
@@ -36,9 +36,14 @@ static void stop_listening(struct kd_server *server)
     server->front = NULL;
 }
 
+static bool hangs(struct kd_server *server)
+{
+    return kd_render_queue_hangs(server->renders, kd_thumbnails_hang(server->thumbnails));
+}
+
 static bool cut_short(struct kd_server *server)
 {
-    return atomic_load(&server->abandon) || kd_render_queue_lost(server->renders, NULL);
+    return atomic_load(&server->abandon) || hangs(server) || kd_render_queue_lost(server->renders, NULL);
 }
 
 /* One look; *since is when the present phase began. True when all is done. */
@@ -68,7 +73,7 @@ static bool step_down(struct kd_server *server, double *since)
         }
         if (kd_render_queue_unfinished(server->renders) || kd_turns_unfinished(server->rays) ||
             kd_turns_unfinished(server->turns) || kd_plays_unfinished(server->plays))
-            return false;
+            return hangs(server) && age >= LAST_ANSWERS_MS;
         stop_listening(server);
         enter(server, KD_CLOSING, since);
         return false;
@@ -92,10 +97,12 @@ void *kd_keeper_main(void *user)
         kd_plays_sweep(server->plays);
         kd_jobs_sweep(server->jobs);
     } while (!step_down(server, &since));
-    stop_listening(server);
-    MHD_stop_daemon(server->daemon); /* nothing is suspended: the queues have finished, and take no more */
-    MHD_stop_daemon(server->health_daemon);
-    server->daemon = server->health_daemon = NULL;
+    if (!hangs(server)) { /* nothing is suspended: the queues have finished, and take no more */
+        stop_listening(server);
+        MHD_stop_daemon(server->daemon);
+        MHD_stop_daemon(server->health_daemon);
+        server->daemon = server->health_daemon = NULL;
+    }
     atomic_store(&server->phase, KD_STOPPED);
     kd_log(KD_LOG_INFO, "stopped");
 

@@ -171,7 +171,7 @@ static struct kd_renderer_params renderer_params(const struct kd_server *server,
 static enum kd_status start_renders(struct kd_server *server, const struct kd_server_params *params, unsigned tasks, struct kd_error *error)
 {
     const struct kd_renderer_params renderer = renderer_params(server, params);
-    return kd_render_queue_create(&renderer, tasks, share_of(params, tasks), params->client_device_s, &server->renders, error);
+    return kd_render_queue_create(&renderer, tasks, share_of(params, tasks), params->client_device_s, params->reopenings, &server->renders, error);
 }
 
 static enum kd_status start(struct kd_server *server, const struct kd_server_params *params,

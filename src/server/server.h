@@ -35,6 +35,7 @@ struct kd_server_params {
     unsigned header_ms;       /* a request's header must be complete by then; default 10 000 */
     unsigned body_ms;         /* and its body so long after that; default 30 000 */
     unsigned longest_s; /* a render estimated to take longer than this is refused with 422; default 600 */
+    unsigned reopenings; /* of a device that fails, within ten minutes; default 3, UINT_MAX: none */
     struct kd_renderer_params renderer;
 };
 
@@ -48,8 +49,8 @@ uint16_t kd_server_port(const struct kd_server *server);
 const char *const *kd_server_own_names(const struct kd_server *server);
 /* Begin to stop: /readyz fails at once, running and queued renders finish. Async-signal-safe. */
 void kd_server_stop(struct kd_server *server);
-/* Block until stopped and drained. KD_EDEVICE when the device was lost: exit the process soon, without
- * kd_server_destroy or with it (it then leaves the renderer alone: a lost device cannot be torn down). */
+/* Block until stopped and drained. KD_EDEVICE when the device was lost for good, or hangs: end the process soon, by _exit and without kd_server_destroy,
+ * which would wait for threads that may never come back. */
 enum kd_status kd_server_wait(struct kd_server *server, struct kd_error *error);
 /* Destroys the server. Without a stop before it, running renders are cancelled and nothing is drained. Accepts NULL. */
 void kd_server_destroy(struct kd_server *server);

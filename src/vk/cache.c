@@ -130,7 +130,7 @@ void kd_vk_cache_finish(struct kd_vk *vk)
 {
     struct kd_vk_cache *cache = &vk->cache;
     if (cache->handle) {
-        if (cache->path && cache->grown)
+        if (cache->path && cache->grown && !vk->lost[0])
             save(vk);
         vk->fn.DestroyPipelineCache(vk->device, cache->handle, NULL);
     }

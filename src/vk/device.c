@@ -9,9 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Devices that were lost and then destroyed. They are kept, because a driver whose device hangs or has
- * vanished may crash when it is torn down (lavapipe does); the list keeps them reachable for leak checkers.
- */
+/* Devices that hung when they were destroyed. They are kept, because a driver may crash when one is torn down that still
+ * works (lavapipe does); the list keeps them reachable for leak checkers. */
 static struct kd_vk *graveyard;
 
 enum kd_status kd_vk_alive(const struct kd_vk *vk, struct kd_error *error)
@@ -122,12 +121,19 @@ done:
     return status;
 }
 
+/* Whether its objects may be destroyed. Those of a lost device may, by the specification, once vkDeviceWaitIdle has returned; those
+ * of one that hangs never. */
+static bool is_idle(struct kd_vk *vk)
+{
+    const enum kd_status waited = kd_vk_wait(vk, 0, NULL); /* its deadline, so that closing cannot hang */
+    if (vk->hangs)
+        return false;
+    const VkResult idle = vk->fn.DeviceWaitIdle(vk->device);
+    return !waited || idle >= 0 || idle == VK_ERROR_DEVICE_LOST;
+}
+
 static void close_device(struct kd_vk *vk)
 {
-    if (vk->fn.DeviceWaitIdle(vk->device) == VK_ERROR_DEVICE_LOST) {
-        kd_vk_lose(vk, NULL, "vkDeviceWaitIdle: VK_ERROR_DEVICE_LOST");
-        return;
-    }
     vk->done = vk->submitted;
     kd_vk_retire_all(vk);
     if (vk->n_buffers || vk->n_pipelines)
@@ -143,19 +149,18 @@ void kd_vk_destroy(struct kd_vk *vk)
 {
     if (!vk)
         return;
-    if (vk->device) {
-        enum kd_status status = kd_vk_wait(vk, 0, NULL); /* its deadline, so that closing cannot hang */
-        if (status != KD_EDEVICE)
-            close_device(vk);
-    }
-    if (vk->lost[0]) {
+    if (vk->device && !is_idle(vk)) {
         vk->next_lost = graveyard;
         graveyard = vk;
         return;
     }
+    if (vk->device)
+        close_device(vk);
     kd_vk_instance_finish(&vk->instance);
     free(vk);
 }
+
+bool kd_vk_hangs(const struct kd_vk *vk) { return vk->hangs; }
 
 const struct kd_vk_info *kd_vk_info(const struct kd_vk *vk)
 {

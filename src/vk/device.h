@@ -51,6 +51,7 @@ struct kd_vk {
     struct kd_vk_timing timing;
 
     char lost[256]; /* why the device cannot be used any more, "" while it can */
+    bool hangs;     /* it is lost because it missed a deadline: what is under way may never end */
     struct kd_vk *next_lost;
 };
 

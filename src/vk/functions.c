@@ -30,8 +30,11 @@ enum kd_status kd_vk_functions_load(struct kd_vk_functions *fn, struct kd_error 
     fn->EnumerateInstanceVersion =
         (PFN_vkEnumerateInstanceVersion)fn->GetInstanceProcAddr(NULL, "vkEnumerateInstanceVersion");
     uint32_t version = VK_API_VERSION_1_0; /* a loader without that function is a 1.0 loader */
-    if (fn->EnumerateInstanceVersion)
-        fn->EnumerateInstanceVersion(&version);
+    if (fn->EnumerateInstanceVersion) {
+        enum kd_status status = kd_vk_result_error(error, fn->EnumerateInstanceVersion(&version), "vkEnumerateInstanceVersion");
+        if (status)
+            return status;
+    }
     if (version < VK_API_VERSION_1_2)
         return kd_error_set(error, KD_EDEVICE, "the Vulkan loader is of version %u.%u, kerrd needs 1.2",
                             VK_API_VERSION_MAJOR(version), VK_API_VERSION_MINOR(version));

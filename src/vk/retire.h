@@ -14,7 +14,7 @@ struct kd_vk_retired {
     void (*free)(struct kd_vk *vk, struct kd_vk_retired *object);
 };
 
-/* Free it now if it is idle, else later. On a lost device: never. */
+/* Free it now if it is idle, else later. On a lost device: when that is closed. */
 void kd_vk_retire(struct kd_vk *vk, struct kd_vk_retired *object);
 /* Free those that have become idle. */
 void kd_vk_retire_idle(struct kd_vk *vk);

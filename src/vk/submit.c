@@ -125,9 +125,11 @@ static enum kd_status wait_one(struct kd_vk *vk, uint64_t value, struct kd_error
                                        .pSemaphores = &vk->timeline,
                                        .pValues = &value };
     VkResult result = wait_for(vk, &info, timeout);
-    if (result == VK_TIMEOUT)
+    if (result == VK_TIMEOUT) {
+        vk->hangs = true;
         return kd_vk_lose(vk, error, "submission %" PRIu64 " missed its deadline of %" PRIu64 " ms", value,
                           vk->deadline_ns / 1000000);
+    }
     if (result < 0)
         return failed(vk, error, result, "vkWaitSemaphores");
     return reached(vk, value, error);

@@ -51,10 +51,10 @@ struct kd_vk_params {
 enum kd_status kd_vk_list(struct kd_vk_info **out, size_t *count, struct kd_error *error);
 
 enum kd_status kd_vk_create(const struct kd_vk_params *params, struct kd_vk **out, struct kd_error *error);
-/* Waits for what is under way. A lost device is abandoned instead, memory and all: drivers crash when a
- * device that hangs is torn down. End the process soon then, by _exit: exit handlers of the driver may hang.
- */
+/* Waits for what is under way. A lost device is closed as any other, and one may be created again. One that hangs is abandoned instead,
+ * memory and all: drivers crash when it is torn down. End the process soon then, by _exit: exit handlers of the driver may hang. */
 void kd_vk_destroy(struct kd_vk *vk);
+bool kd_vk_hangs(const struct kd_vk *vk); /* a submission has missed its deadline */
 const struct kd_vk_info *kd_vk_info(const struct kd_vk *vk);
 const char *kd_vk_choice(const struct kd_vk *vk);           /* one sentence: why this device */
 uint32_t kd_vk_validation_messages(const struct kd_vk *vk); /* warnings and errors so far    */

@@ -37,8 +37,8 @@ class Answer:
 
 
 class Daemon:
-    def __init__(self, *options, stderr=None):
-        self.process = subprocess.Popen([*COMMAND, '--port', '0', *map(str, options)], stdout=subprocess.PIPE, stderr=stderr)
+    def __init__(self, *options, stderr=None, env=None):
+        self.process = subprocess.Popen([*COMMAND, '--port', '0', *map(str, options)], stdout=subprocess.PIPE, stderr=stderr, env=env)
         atexit.register(self.process.kill)  # what a failed test has left would keep whoever waits for our output waiting; no effect on one that has ended
         line = self.process.stdout.readline().decode()
         match = re.fullmatch(r'kerrd: listening on http://127\.0\.0\.1:(\d+)(\S*)/\n', line)

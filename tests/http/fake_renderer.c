@@ -2,7 +2,7 @@
  * ones.
  *
  * The scene's time chooses what happens: t >= 0 takes t milliseconds, in slices of 10, and 30 times as long with several rays a
- * pixel; -1 loses the device,
+ * pixel; -1 loses the device, which on one called "mends" can be opened again, -1.5 only the first time,
  * -2 runs out of memory, -3 fails. The exposure that is "auto" is 1 stop and -1 by turns. Rays on the device cross once, at
  * 10 + |alpha| with the azimuth beta; with steps 8 there is no double precision, with steps 12 each takes a millisecond.
  * The picture of a sky of seed 4711 is under way until another picture is rendered. A device called "compiles" is busy with a small picture of a
@@ -52,6 +52,13 @@ void kd_renderer_destroy(struct kd_renderer *renderer)
 {
     free(renderer);
 }
+
+enum kd_status kd_renderer_reopen(struct kd_renderer *renderer, struct kd_error *error)
+{
+    return renderer->params.device && !strcmp(renderer->params.device, "mends") ? KD_OK : kd_error_set(error, KD_EDEVICE, "the device missed its deadline");
+}
+
+bool kd_renderer_hangs(const struct kd_renderer *renderer) { return !renderer->params.device || strcmp(renderer->params.device, "mends"); }
 
 bool kd_renderer_sky_begin(struct kd_renderer *renderer, const struct kd_scene *scene)
 {
@@ -157,11 +164,12 @@ static enum kd_status compile(kd_progress_fn progress, void *user, struct kd_err
 
 static enum kd_status mishap(double time, struct kd_error *error)
 {
-    if (time == -1)
+    static _Atomic unsigned failed;
+    if (time == -1 || (time == -1.5 && !atomic_fetch_add(&failed, 1)))
         return kd_error_set(error, KD_EDEVICE, "the device missed its deadline");
     if (time == -2)
         return kd_error_set(error, KD_ENOMEM, "no memory for the picture");
-    return time < 0 ? kd_error_set(error, KD_EIO, "something failed") : KD_OK;
+    return time < 0 && time != -1.5 ? kd_error_set(error, KD_EIO, "something failed") : KD_OK;
 }
 
 /* This tells of a pixel that its light and that of all its rays is a quarter, and nothing of what gave it. */

@@ -64,6 +64,26 @@ class Stop(unittest.TestCase):
             self.assertEqual(answer.json()['type'], 'urn:kerrd:problem:device-lost')
         self.assertEqual(server.wait(10), 1)
 
+    def test_a_device_that_is_opened_again(self):
+        server = daemon.Daemon('--device', 'mends', '--drain-ms', 10)
+        beside = in_background(server.get, RENDER + '&time=1000&image.samples=2')  # in slices: what is half done begins once more
+        self.assertTrue(daemon.eventually(lambda: server.metrics()['kerrd_renders_unfinished']))
+        session = server.post('/v1/sessions', {'image': {'width': 64, 'height': 36}, 'time': 5}).json()
+        job = server.post('/v1/jobs', {'scenes': [{'image': {'width': 64, 'height': 36}, 'time': t} for t in (100, 100, 100)]}).json()
+        self.assertEqual(server.get(RENDER + '&time=-1.5').status, 200)
+        self.assertEqual(server.metrics()['kerrd_device_reopened_total'], 1)
+        self.assertEqual(beside().status, 200)
+        self.assertEqual(server.get(f'/v1/sessions/{session["id"]}/frame.png?after=0').status, 200)
+        self.assertTrue(daemon.eventually(lambda: server.get(f'/v1/jobs/{job["id"]}').json()['state'] == 'done'))
+        for told in ('missed its deadline', 'opened again 3 times'):  # what fails it twice is told so; and the fourth time is once too often
+            answer = server.get(RENDER + '&time=-1')
+            self.assertEqual((answer.status, answer.json()['type']), (500, 'urn:kerrd:problem:device-lost'))
+            self.assertIn(told, answer.json()['detail'])
+            if told == 'missed its deadline':
+                self.assertEqual([server.get(target).status for target in (RENDER + '&time=1', '/readyz')], [200, 200])
+                self.assertEqual(server.metrics()['kerrd_device_reopened_total'], 3)
+        self.assertEqual(server.wait(10), 1)
+
     def test_starts_that_fail(self):
         server = daemon.Daemon('--drain-ms', 10)
         for options, said in ((('--port', server.port), 'cannot listen'), (('--listen', 'localhost'), 'not a numeric'),

@@ -174,6 +174,7 @@ static void write_exit_status(struct kd_writer *w)
                 ".TP\n.B 0\nIt is done.\n"
                 ".TP\n.B 1\nIt has failed: a device, a disk, a full queue.\n"
                 ".TP\n.B 2\nThe input or the usage is bad.\n"
+                ".TP\n.B 3\nThe device was lost or hangs: the same command may do it when it is given again.\n"
                 ".PP\nWhere the reader of a pipe has left, SIGPIPE ends it without a word.\n"
                 "Complaints are one line on standard error, which names what is wrong, and its JSON pointer where it has one.\n");
 }

@@ -16,7 +16,7 @@
 
 char *kd_accuracy_path(const struct kd_renderer *renderer)
 {
-    return kd_vk_cache_file(renderer->vk, ".accuracy.json");
+    return kd_renderer_cache_file(renderer, ".accuracy.json");
 }
 
 enum kd_status kd_accuracy_save(const struct kd_accuracy_table *table, const char *path, struct kd_error *error)

@@ -26,7 +26,10 @@ struct kd_aside {
 };
 
 struct kd_renderer {
-    struct kd_vk *vk;
+    struct kd_vk *vk; /* NULL: it was lost, and could not be opened again */
+    struct kd_opening { char *device, *cache_dir; bool validate; uint32_t deadline_ms; } opening; /* how it was opened, */
+    struct kd_vk_info opened; /* and what it is */
+    char *files; /* kd_vk_cache_file without a suffix; NULL: there is no folder */
     struct kd_kernels kernels;
     struct kd_store store;
     struct kd_prepared prepared;

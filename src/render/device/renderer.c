@@ -64,6 +64,43 @@ static char *milky_way_file(const struct kd_vk *vk)
     return out;
 }
 
+static enum kd_status open_device(struct kd_renderer *r, struct kd_error *error)
+{
+    const struct kd_vk_params vk = { .device = r->opening.device, .cache_dir = r->opening.cache_dir, .validate = r->opening.validate, .deadline_ms = r->opening.deadline_ms };
+    enum kd_status status = kd_vk_create(&vk, &r->vk, error);
+    if (status)
+        return status;
+    r->store.vk = r->vk;
+    for (size_t i = 0; i < KD_ASIDES; i++)
+        r->asides[i].store.vk = r->vk;
+    return KD_OK;
+}
+
+/* All that is on the device goes with it. */
+static void close_device(struct kd_renderer *r)
+{
+    if (!r->vk)
+        return;
+    kd_kernels_finish(&r->kernels, r->vk);
+    kd_store_empty(&r->store);
+    kd_prepared_finish(&r->prepared, r->vk);
+    for (size_t i = 0; i < KD_ASIDES; i++) {
+        kd_store_empty(&r->asides[i].store);
+        kd_prepared_finish(&r->asides[i].prepared, r->vk);
+    }
+    for (size_t i = 0; i < sizeof r->rays / sizeof **r->rays; i++)
+        kd_vk_buffer_destroy(r->vk, r->rays[i / 3][i % 3]);
+    memset(r->rays, 0, sizeof r->rays);
+    kd_vk_destroy(r->vk);
+    r->vk = NULL;
+}
+
+static bool remember_opening(struct kd_renderer *r, const struct kd_renderer_params *params)
+{
+    r->opening = (struct kd_opening) { .validate = params->validate, .deadline_ms = params->deadline_ms };
+    return (!params->device || (r->opening.device = strdup(params->device))) && (!params->cache_dir || (r->opening.cache_dir = strdup(params->cache_dir)));
+}
+
 enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struct kd_renderer **out,
                                   struct kd_error *error)
 {
@@ -78,18 +115,16 @@ enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struc
     r->passing = params->passing;
     pthread_mutex_init(&r->lock, NULL);
     kd_panoramas_init(&r->panoramas, params->assets, params->sky_made, params->sky_user);
-    struct kd_vk_params vk = { .device = params->device, .cache_dir = params->cache_dir, .validate = params->validate };
-    enum kd_status status = kd_vk_create(&vk, &r->vk, error);
+    enum kd_status status = remember_opening(r, params) ? open_device(r, error) : kd_error_set(error, KD_ENOMEM, "out of memory for the renderer");
     if (status) {
         kd_renderer_destroy(r);
         return status;
     }
     kd_panoramas_keep_at(&r->panoramas, milky_way_file(r->vk));
     const struct kd_vk_info *info = kd_vk_info(r->vk);
+    r->opened = *info;
+    r->files = kd_vk_cache_file(r->vk, "");
     r->capacity = guess(info, params->memory_bytes);
-    r->store.vk = r->vk;
-    for (size_t i = 0; i < KD_ASIDES; i++)
-        r->asides[i].store.vk = r->vk;
     load_accuracy(r);
     if (!r->capacity.accuracy) {
         kd_renderer_destroy(r);
@@ -112,26 +147,39 @@ void kd_renderer_destroy(struct kd_renderer *renderer)
 {
     if (!renderer)
         return;
-    if (renderer->vk) {
-        if (!kd_vk_wait(renderer->vk, 0, NULL) && !renderer->passing)
-            kd_verdict_keep(renderer);
-        kd_kernels_finish(&renderer->kernels, renderer->vk);
-        kd_store_finish(&renderer->store);
-        kd_prepared_finish(&renderer->prepared, renderer->vk);
-        for (size_t i = 0; i < KD_ASIDES; i++) {
-            kd_store_finish(&renderer->asides[i].store);
-            kd_prepared_finish(&renderer->asides[i].prepared, renderer->vk);
-        }
-        for (size_t i = 0; i < sizeof renderer->rays / sizeof **renderer->rays; i++)
-            kd_vk_buffer_destroy(renderer->vk, renderer->rays[i / 3][i % 3]);
-        kd_vk_destroy(renderer->vk);
-    }
+    if (renderer->vk && !kd_vk_wait(renderer->vk, 0, NULL) && !renderer->passing)
+        kd_verdict_keep(renderer);
+    close_device(renderer);
+    free(renderer->opening.device);
+    free(renderer->opening.cache_dir);
+    free(renderer->files);
     pthread_mutex_destroy(&renderer->lock);
     free(renderer->accuracy);
     free(renderer->emit);
     kd_panoramas_finish(&renderer->panoramas);
     kd_grids_finish(&renderer->grids);
     free(renderer);
+}
+
+/* With another version of the driver, too, pictures may be others, and what is known of the device no more true. */
+static bool is_same(const struct kd_vk_info *a, const struct kd_vk_info *b)
+{
+    return !memcmp(a->uuid, b->uuid, sizeof a->uuid) && a->driver_version == b->driver_version && !strcmp(a->name, b->name) && !strcmp(a->driver, b->driver);
+}
+
+bool kd_renderer_hangs(const struct kd_renderer *renderer) { return renderer->vk && kd_vk_hangs(renderer->vk); }
+
+enum kd_status kd_renderer_reopen(struct kd_renderer *r, struct kd_error *error)
+{
+    if (kd_renderer_hangs(r))
+        return kd_error_set(error, KD_EDEVICE, "%s hangs: a submission missed its deadline", r->opened.name);
+    close_device(r);
+    enum kd_status status = open_device(r, error);
+    if (status || is_same(kd_vk_info(r->vk), &r->opened))
+        return status;
+    kd_error_set(error, KD_EDEVICE, "%.200s is gone, and %.200s answers in its place", r->opened.name, kd_vk_info(r->vk)->name);
+    close_device(r);
+    return KD_EDEVICE;
 }
 
 bool kd_renderer_sky_begin(struct kd_renderer *renderer, const struct kd_scene *scene)
@@ -161,7 +209,11 @@ const char *kd_renderer_driver(const struct kd_renderer *renderer) { return rend
 
 uint64_t kd_renderer_held(const struct kd_renderer *renderer) { return atomic_load(&renderer->held); }
 
-char *kd_renderer_cache_file(const struct kd_renderer *renderer, const char *suffix) { return kd_vk_cache_file(renderer->vk, suffix); }
+char *kd_renderer_cache_file(const struct kd_renderer *renderer, const char *suffix)
+{
+    char *path = NULL;
+    return renderer->files && asprintf(&path, "%s%s", renderer->files, suffix) >= 0 ? path : NULL;
+}
 
 uint32_t kd_renderer_validation_messages(const struct kd_renderer *renderer)
 {

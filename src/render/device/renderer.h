@@ -24,11 +24,19 @@ struct kd_renderer_params {
     void (*sky_made)(void *user);   /* by another thread: kd_renderer_sky_begin may say otherwise now; may be NULL */
     void *sky_user;
     bool passing;           /* beside another one of the same device, with less of it: what it learns of the device's speed is not kept */
+    uint32_t deadline_ms;   /* as kd_vk_params */
     uint64_t memory_bytes;  /* most memory for pictures, those rendered aside included; 0: as the device and the host have it */
 };
 enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struct kd_renderer **out,
                                   struct kd_error *error);
 void kd_renderer_destroy(struct kd_renderer *renderer);
+
+/* Closes a device that has failed and opens it once more. What the renderer has learned and what it keeps on the host stay, and pictures come out the same;
+ * buffers and kernels are made anew when they are wanted. KD_EDEVICE: it hangs, so that nothing can be done (kd_renderer_hangs), or it is not to be had now,
+ * or another one answers in its place; it may be called again. */
+enum kd_status kd_renderer_reopen(struct kd_renderer *renderer, struct kd_error *error);
+/* Whether its device has missed a deadline: it can be neither closed nor opened again, and the process should end soon, by _exit. */
+bool kd_renderer_hangs(const struct kd_renderer *renderer);
 
 /* A copy of the present capacity, for kd_plan_make. Its accuracy table stays the renderer's. Any thread. */
 void kd_renderer_capacity(struct kd_renderer *renderer, struct kd_capacity *out);

@@ -68,6 +68,7 @@ enum MHD_Result kd_handle_metrics(struct kd_request *request)
         { "requests", "gauge", "Requests begun and not yet answered in full.", atomic_load(&s->requests) },
         { "renders_unfinished", "gauge", "Pictures and device work waiting, being rendered or encoded.",
           kd_render_queue_unfinished(s->renders) },
+        { "device_reopened_total", "counter", "Times that the device failed and was opened again.", kd_render_queue_reopened(s->renders) },
         { "render_backlog_seconds", "gauge", "Estimated time of what waits for the device.", 1e-3 * kd_render_queue_backlog_ms(s->renders) },
         { "rays_unfinished", "gauge", "Requests for rays under way.", kd_turns_unfinished(s->rays) },
         { "turns_unfinished", "gauge", "Orbits, long quantities and checks of jobs under way.", kd_turns_unfinished(s->turns) },

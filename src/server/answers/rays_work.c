@@ -49,7 +49,7 @@ static enum kd_status trace_on_device(struct kd_render_job *device, struct kd_re
     enum kd_status status = kd_rays_trace(renderer, &answer->params, answer->alpha_beta + 2 * first, n,
                                           answer->crossings + first * answer->params.orders, answer->ends + first, progress,
                                           progress_user, &device->error);
-    job->traced += n;
+    job->traced += status ? 0 : n; /* a device that is opened again goes on here */
     job->turn = (size_t)fmax(1, (double)n * fmin(8, TURN_MS / fmax(kd_clock_ms() - begun, 1e-3)));
     device->more = job->traced < answer->n;
     /* A device without double precision is not a lost one. */

@@ -25,7 +25,7 @@ static void progress(struct kd_render_job *render, double fraction);
 
 void kd_job_give_up(struct kd_job *job, const struct kd_error *error)
 {
-    if (error->status == KD_ENOMEM || error->status == KD_EFULL)
+    if (error->status == KD_ENOMEM || error->status == KD_EFULL || error->status == KD_EDEVICE)
         kd_job_delay(job, error->message);
     else
         kd_job_end(job, KD_JOB_FAILED, error->message);
@@ -231,7 +231,7 @@ static void done(struct kd_render_job *render)
         count_map(job, render);
     if (!status && !frame->measures)
         finished(job, frame->number, render->file.size);
-    else if (status && status != KD_ECANCELLED && status != KD_EDEVICE && kd_job_is_active(job)) { /* those two go on after a restart */
+    else if (status && status != KD_ECANCELLED && !(status == KD_EDEVICE && kd_render_queue_lost(all->params.renders, NULL)) && kd_job_is_active(job)) { /* those two go on after a restart */
         job->next = frame->place < job->next ? frame->place : job->next;
         kd_job_give_up(job, &render->error);
     }

@@ -4,6 +4,7 @@
 
 #include "server/http/allowance.h"
 #include "server/render/measures.h"
+#include "server/render/pulse.h"
 #include "server/render/queue.h"
 
 #include <pthread.h>
@@ -46,6 +47,14 @@ struct kd_render_queue {
     unsigned limit, client_limit, unfinished;
     bool lost;
     struct kd_error lost_error;
+    bool hangs;              /* a thread may never come back from it */
+    bool failed, reopening;  /* the device has failed, and is to be opened again when nobody is inside; somebody does */
+    struct kd_error failure; /* why */
+    unsigned inside;         /* jobs that are */
+    unsigned reopenings, reopened; /* most of them within KD_REOPENINGS_S; so far, ... */
+    unsigned spent;                /* ... and those that count against it, of ... */
+    double spent_from_ms;          /* ... the KD_REOPENINGS_S that began then */
+    struct kd_pulse pulse;         /* of whoever has the device */
     _Atomic bool cancel;
     struct kd_render_measures measures;
 
@@ -71,8 +80,15 @@ static inline bool kd_render_is_awaited(const struct kd_render_job *job)
 }
 
 bool kd_render_unwanted(struct kd_render_queue *queue, struct kd_render_job *job);
-/* The device has failed. */
-void kd_render_mark_lost(struct kd_render_queue *queue, const struct kd_error *error);
+/* As for a job that has not begun: how it waits. */
+void kd_render_stand_in_line(struct kd_render_job *job);
+
+/* reopen.c, locked, but for the first. */
+void kd_render_failed(struct kd_render_queue *queue, const struct kd_error *error); /* the device has. Unlocked */
+/* After its turn: whether the job begins once more. If so its outcome is taken back. */
+bool kd_render_once_more(struct kd_render_queue *queue, struct kd_render_job *job);
+/* Opens a device that has failed again, once nobody is inside; else, or if it has not, does nothing. Unlocks meanwhile. */
+void kd_render_reopen(struct kd_render_queue *queue);
 /* It wants the device no more. Locked. */
 void kd_render_take_out(struct kd_render_queue *queue, struct kd_render_job *job);
 /* Calls its done(). The job may be gone when that returns; until `unfinished` falls, its connection counts as ours. */
@@ -80,6 +96,8 @@ void kd_render_finish(struct kd_render_queue *queue, struct kd_render_job *job);
 
 /* turns.c: if nobody has the device, whoever is next is given it. Locked. */
 void kd_render_next(struct kd_render_queue *queue);
+/* Unlocked, by who has the device. */
+enum kd_status kd_render_describe_device(struct kd_render_queue *queue);
 /* Threads: of short works, with the queue as argument; of long ones, with a lane. They end when the queue is closing and empty. */
 void *kd_render_short_main(void *queue);
 void *kd_render_lane_main(void *lane);

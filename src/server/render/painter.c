@@ -6,6 +6,7 @@
 #include "base/read.h"
 #include "base/replace.h"
 #include "render/output/format.h"
+#include "server/render/pulse.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -34,7 +35,8 @@ struct kd_painter {
     bool ending;
     _Atomic bool cancelled;
     struct kd_renderer *renderer; /* the thread's own; NULL: not open */
-    bool lost;                    /* it cannot be torn down, nor opened again */
+    _Atomic bool hangs;           /* its device: it cannot be torn down, nor opened again */
+    struct kd_pulse pulse;        /* of a painting */
 };
 
 /* Stands before the picture in its file. */
@@ -86,6 +88,7 @@ static bool go_on(void *user, double fraction)
 {
     struct kd_painter *painter = user;
     (void)fraction;
+    kd_pulse_beat(&painter->pulse);
     return !atomic_load(&painter->cancelled);
 }
 
@@ -93,8 +96,8 @@ static enum kd_status open_device(struct kd_painter *painter, struct kd_error *e
 {
     if (painter->renderer)
         return KD_OK;
-    if (painter->lost)
-        return kd_error_set(error, KD_EDEVICE, "the device that paints small pictures is lost");
+    if (atomic_load(&painter->hangs))
+        return kd_error_set(error, KD_EDEVICE, "the device that paints small pictures hangs");
     return kd_renderer_create(&painter->params, &painter->renderer, error);
 }
 
@@ -103,12 +106,12 @@ static void close_device(struct kd_painter *painter)
     if (!painter->renderer)
         return;
     kd_renderer_sky_stop(painter->renderer);
-    if (!painter->lost)
+    if (!atomic_load(&painter->hangs))
         kd_renderer_destroy(painter->renderer);
     painter->renderer = NULL;
 }
 
-static enum kd_status paint(struct kd_painter *painter, struct kd_painting *work)
+static enum kd_status paint_once(struct kd_painter *painter, struct kd_painting *work)
 {
     struct kd_capacity capacity;
     struct kd_plan plan;
@@ -126,7 +129,21 @@ static enum kd_status paint(struct kd_painter *painter, struct kd_painting *work
     keep(painter, work);
 done:
     kd_frame_finish(&frame);
-    painter->lost |= status == KD_EDEVICE && painter->renderer;
+    if (status == KD_EDEVICE && painter->renderer) {
+        atomic_store(&painter->hangs, kd_renderer_hangs(painter->renderer));
+        close_device(painter); /* it may be opened again */
+    }
+    return status;
+}
+
+/* A device that has failed is opened again, once for each picture. */
+static enum kd_status paint(struct kd_painter *painter, struct kd_painting *work)
+{
+    enum kd_status status = paint_once(painter, work);
+    if (status == KD_EDEVICE && !atomic_load(&painter->hangs)) {
+        kd_log(KD_LOG_WARN, "the device that paints small pictures has failed and is opened again: %s", work->error.message);
+        status = paint_once(painter, work);
+    }
     return status;
 }
 
@@ -134,8 +151,11 @@ static void serve(struct kd_painter *painter, struct kd_painting *work)
 {
     if (atomic_load(&painter->cancelled))
         work->status = kd_error_set(&work->error, KD_ECANCELLED, "the server is stopping and paints no more");
-    else if (!recall(painter, work))
+    else if (!recall(painter, work)) {
+        kd_pulse_beat(&painter->pulse);
         work->status = paint(painter, work);
+        kd_pulse_rest(&painter->pulse);
+    }
     work->error.status = work->status;
     work->done(work);
 }
@@ -213,6 +233,8 @@ void kd_painter_paint(struct kd_painter *painter, struct kd_painting *painting)
     pthread_cond_signal(&painter->changed);
     pthread_mutex_unlock(&painter->lock);
 }
+
+bool kd_painter_hangs(struct kd_painter *painter) { return atomic_load(&painter->hangs) || kd_pulse_missing_s(&painter->pulse, painter->params.deadline_ms) > 0; }
 
 void kd_painter_cancel(struct kd_painter *painter) { atomic_store(&painter->cancelled, true); }
 

@@ -3,7 +3,7 @@
  *
  * Its own device is what keeps it out of the way of live frames: software compiles a kernel when it is first used, for seconds, and the queue of the
  * device that does so stands meanwhile. The driver's threads have the painter's weight, too, since the painter's thread starts them. The device is
- * opened for the first picture and closed when none was wanted for a while.
+ * opened for the first picture and closed when none was wanted for a while. One that fails is opened again for the picture, once.
  *
  * Pictures are kept in the folder where the device's driver keeps what it has compiled, one file a name, so that each is painted once for a version
  * and a device. */
@@ -38,6 +38,8 @@ enum kd_status kd_painter_create(const struct kd_renderer_params *params, const 
                                  struct kd_error *error);
 /* Any thread. */
 void kd_painter_paint(struct kd_painter *painter, struct kd_painting *painting);
+/* Whether its device hangs: it paints no more, and the process should end. Any thread. */
+bool kd_painter_hangs(struct kd_painter *painter);
 /* From now on nothing is painted: whatever waits or comes is done with KD_ECANCELLED, what is under way as soon as it can be stopped. Any thread. */
 void kd_painter_cancel(struct kd_painter *painter);
 /* Cancels first. Accepts NULL. */

@@ -1,6 +1,5 @@
 #include "server/render/internal.h"
 
-#include "base/log.h"
 #include "render/device/accuracy_store.h"
 #include "base/clock.h"
 #include "server/http/connections.h"
@@ -48,15 +47,6 @@ bool kd_render_unwanted(struct kd_render_queue *queue, struct kd_render_job *job
     return atomic_load(&queue->cancel) || atomic_load(&job->drop) || kd_socket_abandoned(job->socket);
 }
 
-void kd_render_mark_lost(struct kd_render_queue *queue, const struct kd_error *error)
-{
-    kd_log(KD_LOG_ERROR, "the device is lost: %s", error->message);
-    pthread_mutex_lock(&queue->lock);
-    queue->lost = true;
-    queue->lost_error = *error;
-    pthread_mutex_unlock(&queue->lock);
-}
-
 static enum kd_status start_lanes(struct kd_render_queue *queue, struct kd_error *error)
 {
     for (unsigned i = 0; i < KD_ASIDES; i++) {
@@ -101,7 +91,7 @@ static void sky_made(void *user)
     pthread_mutex_unlock(&queue->lock);
 }
 
-enum kd_status kd_render_queue_create(const struct kd_renderer_params *params, unsigned limit, unsigned client_limit, unsigned client_s,
+enum kd_status kd_render_queue_create(const struct kd_renderer_params *params, unsigned limit, unsigned client_limit, unsigned client_s, unsigned reopenings,
                                       struct kd_render_queue **out, struct kd_error *error)
 {
     struct kd_render_queue *queue = calloc(1, sizeof *queue);
@@ -113,6 +103,7 @@ enum kd_status kd_render_queue_create(const struct kd_renderer_params *params, u
     queue->limit = limit;
     queue->client_limit = client_limit;
     queue->allowance.seconds = client_s;
+    queue->reopenings = reopenings == KD_REOPENINGS_NONE ? 0 : reopenings ? reopenings : KD_REOPENINGS;
     queue->jobs.end = &queue->jobs.first;
     queue->encoding.end = &queue->encoding.first;
     pthread_mutex_init(&queue->lock, NULL);
@@ -175,16 +166,6 @@ enum kd_status kd_render_queue_accuracy_json(const struct kd_render_queue *queue
                                              struct kd_error *error)
 {
     return kd_renderer_accuracy_json(queue->renderer, out, error);
-}
-
-bool kd_render_queue_lost(struct kd_render_queue *queue, struct kd_error *error)
-{
-    pthread_mutex_lock(&queue->lock);
-    bool lost = queue->lost;
-    if (lost && error)
-        *error = queue->lost_error;
-    pthread_mutex_unlock(&queue->lock);
-    return lost;
 }
 
 unsigned kd_render_queue_unfinished(struct kd_render_queue *queue)
@@ -264,12 +245,17 @@ static bool wants_lane(const struct kd_render_job *job)
     }
 }
 
+void kd_render_stand_in_line(struct kd_render_job *job)
+{
+    job->claim.left_ms = job->plan.estimate_ms;
+    job->stage = wants_lane(job) ? KD_RENDER_WAITS_FOR_LANE : KD_RENDER_WAITS;
+}
+
 void kd_render_queue_push(struct kd_render_queue *queue, struct kd_render_job *job)
 {
     job->queue = queue;
     job->submitted_ms = job->away_ms = kd_clock_ms();
-    job->claim.left_ms = job->plan.estimate_ms;
-    job->stage = wants_lane(job) ? KD_RENDER_WAITS_FOR_LANE : KD_RENDER_WAITS;
+    kd_render_stand_in_line(job);
     job->sky = !job->run && kd_renderer_sky_begin(queue->renderer, &job->scene);
     pthread_mutex_lock(&queue->lock);
     kd_render_list_append(&queue->jobs, job);

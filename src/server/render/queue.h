@@ -10,6 +10,9 @@
  * Each client has one lane for each class, and two more for what takes a few seconds at most, so that no client can have them all;
  * and long pictures begin when there is memory for their buffers beside those of the others. Until then they wait.
  *
+ * A device that has failed is opened again (KD_EDEVICE; kd_renderer_reopen): whatever had begun begins once more as if it had not, and only what had the
+ * device when it failed for the second time is told so. Where that cannot be done, or has been done too often, the device is lost, and all that waits is told.
+ *
  * A picture before a sky whose picture has to be read first waits for that, which takes up to a second and no device.
  *
  * Pictures are submitted by one thread, which makes kd_render_queue_admit's answer hold until kd_render_queue_push; other
@@ -23,6 +26,7 @@
 #include "render/render.h"
 #include "server/http/shares.h"
 
+#include <limits.h>
 #include <stdatomic.h>
 #include <stdbool.h>
 
@@ -72,12 +76,18 @@ struct kd_render_job {
     struct kd_render_queue *queue;
     enum kd_render_stage stage;
     bool sky; /* the picture of its sky was not there when it came */
+    bool inside;   /* it is at work with the renderer, or waits between two slices */
+    bool repeated; /* the device has failed it once */
     double submitted_ms, turn_ms, away_ms; /* turn_ms: when its turn began; away_ms: since when it has none */
 };
 
-/* Returns when the device is open, or with the error. client_limit: of those that may wait, how many one client may have; client_s: seconds of the
- * device's time that one may use in a minute, 0: all. */
-enum kd_status kd_render_queue_create(const struct kd_renderer_params *params, unsigned limit, unsigned client_limit, unsigned client_s,
+#define KD_REOPENINGS 3          /* of a device that fails, unless the queue is told otherwise, */
+#define KD_REOPENINGS_S 600.0    /* in so many seconds */
+#define KD_REOPENINGS_NONE UINT_MAX
+
+/* Returns when the device is open, or with the error. client_limit: of those that may wait, how many one client may have; client_s: seconds of the device's
+ * time that one may use in a minute, 0: all. reopenings: how often the device may be opened again within KD_REOPENINGS_S; 0: KD_REOPENINGS; KD_REOPENINGS_NONE: never. */
+enum kd_status kd_render_queue_create(const struct kd_renderer_params *params, unsigned limit, unsigned client_limit, unsigned client_s, unsigned reopenings,
                                       struct kd_render_queue **out, struct kd_error *error);
 /* Cancels what is left and calls its done(). A lost device is left as it is. Accepts NULL. */
 void kd_render_queue_destroy(struct kd_render_queue *queue);
@@ -97,6 +107,10 @@ void kd_render_queue_sky_ahead(struct kd_render_queue *queue, const char *hash, 
 /* What it has measured, and what there is of the device, in Prometheus's format. */
 enum kd_status kd_render_queue_metrics(struct kd_render_queue *queue, struct kd_buffer *out);
 bool kd_render_queue_lost(struct kd_render_queue *queue, struct kd_error *error);
+/* Loses the device if whoever has it has given no sign of life for too long (pulse.h), as when a call of the driver does not return; or if another thread's
+ * hangs. Whether it is so: what waits may never be done. */
+bool kd_render_queue_hangs(struct kd_render_queue *queue, bool another);
+unsigned kd_render_queue_reopened(struct kd_render_queue *queue); /* times, so far */
 unsigned kd_render_queue_unfinished(struct kd_render_queue *queue);
 /* Estimated, of all that clients wait for: not of frames of sessions and jobs. */
 double kd_render_queue_backlog_ms(struct kd_render_queue *queue);

@@ -87,6 +87,8 @@ void kd_thumbnails_destroy(struct kd_thumbnails *s)
     free(s);
 }
 
+bool kd_thumbnails_hang(struct kd_thumbnails *s) { return kd_painter_hangs(s->painter); }
+
 unsigned kd_thumbnails_rendered(struct kd_thumbnails *s)
 {
     pthread_mutex_lock(&s->lock);

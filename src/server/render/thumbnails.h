@@ -16,6 +16,8 @@ struct kd_thumbnails;
 enum kd_status kd_thumbnails_create(struct kd_server *server, const struct kd_renderer_params *renderer, struct kd_thumbnails **out, struct kd_error *error);
 /* On the way down, once the server refuses what is new: nothing more is painted, and who waits is told so at once. Any thread. */
 void kd_thumbnails_cancel(struct kd_thumbnails *thumbnails);
+/* As kd_painter_hangs. Any thread. */
+bool kd_thumbnails_hang(struct kd_thumbnails *thumbnails);
 /* Accepts NULL. */
 void kd_thumbnails_destroy(struct kd_thumbnails *thumbnails);
 /* How many have been painted, and not found in their files. Any thread. */

@@ -65,6 +65,8 @@ static bool may_have_it(const struct kd_claim *claim, void *user)
 {
     const struct kd_render_job *job = (const struct kd_render_job *)claim;
     struct kd_render_queue *queue = user;
+    if (queue->failed) /* those inside only have to leave */
+        return job->inside;
     if (!queue->lost && !may_be_paid(queue, claim))
         return false;
     return kd_render_has_begun(job) || queue->lost ||
@@ -101,16 +103,19 @@ static void begin(struct kd_render_queue *queue, struct kd_render_job *job)
 
 void kd_render_next(struct kd_render_queue *queue)
 {
-    if (queue->holder || !queue->opened)
+    if (queue->holder || !queue->opened || queue->reopening)
         return;
     struct kd_render_job *job = choose(queue);
-    if (!job)
+    if (!job) {
+        kd_pulse_rest(&queue->pulse);
         return;
+    }
     if (!kd_render_has_begun(job))
         begin(queue, job);
     job->turn_ms = kd_clock_ms();
     job->queue_ms += job->turn_ms - job->away_ms;
     queue->holder = job;
+    kd_pulse_beat(&queue->pulse);
     pthread_cond_broadcast(&queue->changed);
 }
 
@@ -138,7 +143,11 @@ static bool between_slices(void *user, double fraction)
         while (queue->holder != job)
             pthread_cond_wait(&queue->changed, &queue->lock);
     }
+    kd_pulse_beat(&queue->pulse);
+    const bool failed = queue->failed; /* while others had it */
     pthread_mutex_unlock(&queue->lock);
+    if (failed)
+        return false;
     if (job->progress)
         job->progress(job, fraction);
     return !kd_render_unwanted(queue, job);
@@ -149,6 +158,7 @@ static bool go_on(void *user, double fraction)
     struct kd_render_job *job = user;
     pthread_mutex_lock(&job->queue->lock);
     job->claim.left_ms = job->plan.estimate_ms * (1 - fraction);
+    kd_pulse_beat(&job->queue->pulse);
     pthread_mutex_unlock(&job->queue->lock);
     if (job->progress)
         job->progress(job, fraction);
@@ -156,7 +166,7 @@ static bool go_on(void *user, double fraction)
 }
 
 /* Only who has the device may ask the renderer, and what it says of its speed changes as it measures itself. Unlocked. */
-static enum kd_status describe_device(struct kd_render_queue *queue)
+enum kd_status kd_render_describe_device(struct kd_render_queue *queue)
 {
     struct kd_buffer json = { 0 }, old = { 0 };
     enum kd_status status = kd_renderer_device_json(queue->renderer, &json);
@@ -192,9 +202,9 @@ static void render(struct kd_render_queue *queue, struct kd_render_job *job)
     else
         job->status = kd_render(queue->renderer, &job->scene, &job->plan, go_on, job, &job->frame, &job->error);
     if (job->status == KD_EDEVICE)
-        kd_render_mark_lost(queue, &job->error);
+        kd_render_failed(queue, &job->error);
     else
-        describe_device(queue);
+        kd_render_describe_device(queue);
     if (!job->status && !job->run)
         kd_render_measures_frame(&queue->measures, &job->frame);
     if (!job->status && !job->run && job->rendered)
@@ -215,21 +225,29 @@ static void leave_lane(struct kd_render_queue *queue, struct kd_render_job *job)
 /* The turn of the job, which has the device. Unlocks while it works. */
 static void take_turn(struct kd_render_queue *queue, struct kd_render_job *job)
 {
+    job->inside = true;
+    queue->inside++;
     pthread_mutex_unlock(&queue->lock);
     render(queue, job);
     pthread_mutex_lock(&queue->lock);
+    job->inside = false;
+    queue->inside--;
     charge(queue, job);
     queue->holder = NULL;
-    const bool more = !job->status && job->more, encode = !job->status && !job->run;
-    if (more) {
+    const bool again = kd_render_once_more(queue, job), more = again || (!job->status && job->more), encode = !more && !job->status && !job->run;
+    if (!again)
+        job->repeated = false; /* it has come on */
+    if (more)
         job->away_ms = job->turn_ms;
-    } else {
+    else {
         kd_render_take_out(queue, job);
-        leave_lane(queue, job);
         kd_render_measures_waited(&queue->measures, job->claim.class, job->queue_ms);
     }
+    if (again || !more)
+        leave_lane(queue, job);
     if (encode)
         kd_render_encode(queue, job);
+    kd_render_reopen(queue);
     kd_render_next(queue);
     pthread_cond_broadcast(&queue->changed);
     if (more || encode)
@@ -243,7 +261,7 @@ static void open_renderer(struct kd_render_queue *queue)
 {
     enum kd_status status = kd_renderer_create(&queue->params, &queue->renderer, &queue->open_error);
     if (!status) {
-        status = describe_device(queue);
+        status = kd_render_describe_device(queue);
         if (status)
             kd_error_set(&queue->open_error, status, "the device could not be described");
     }

@@ -259,7 +259,7 @@ static void done(struct kd_render_job *job)
     job->error.status = job->status;
     if (!job->status)
         publish(s, live);
-    else if (job->status != KD_ECANCELLED)
+    else if (job->status != KD_ECANCELLED && (job->status != KD_EDEVICE || kd_render_queue_lost(all->params.renders, NULL))) /* one that is opened again may show the next */
         fail(s, &job->error);
     kd_session_pump(s);
     kd_session_let_go(s);

@@ -1,0 +1,472 @@
+"""Calls of Vulkan that fail, one by one, beneath a running server (vulkan_table.c): each ends in a clear error, in the same bytes as without it, or in exit code 3.
+
+    python3 vulkan.py build/tests/faults/kerrd_vulkan_faults                    the tests of the suite: first calls, hangs, a device beyond repair
+    python3 vulkan.py build/tests/faults/kerrd_vulkan_faults --full [OPTION...] every call of every entry point with every code, a fresh server for each: hours;
+                                                                                writes docs/faults-vulkan.md
+
+    --rotate       of the codes that the specification allows one a call, by turns: every call and every code, a third of the faults; of calls that name objects every eighth
+    --minutes N    as many of the faults as that takes, drawn by chance
+    --only NAME    a scenario: start, render, session, job, rays, reopen, incoherent; may be repeated
+    --workers N    servers at once (default 2)
+    --table FILE   instead of docs/faults-vulkan.md; - for standard output"""
+import argparse
+import collections
+import concurrent.futures
+import json
+import mmap
+import os
+import pathlib
+import random
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / 'http'))
+import daemon
+
+HOST, DEVICE, INITIALIZATION, LOST, MAP, LAYER, EXTENSION, FEATURE, DRIVER, MANY, FRAGMENTED, POOL, FRAGMENTATION = (
+    -1, -2, -3, -4, -5, -6, -7, -8, -9, -10, -12, -1000069000, -1000161000)
+CODES = {HOST: 'OUT_OF_HOST_MEMORY', DEVICE: 'OUT_OF_DEVICE_MEMORY', INITIALIZATION: 'INITIALIZATION_FAILED', LOST: 'DEVICE_LOST', MAP: 'MEMORY_MAP_FAILED',
+         LAYER: 'LAYER_NOT_PRESENT', EXTENSION: 'EXTENSION_NOT_PRESENT', FEATURE: 'FEATURE_NOT_PRESENT', DRIVER: 'INCOMPATIBLE_DRIVER', MANY: 'TOO_MANY_OBJECTS',
+         FRAGMENTED: 'FRAGMENTED_POOL', POOL: 'OUT_OF_POOL_MEMORY', FRAGMENTATION: 'FRAGMENTATION'}
+MEMORY = (HOST, DEVICE)
+# In the order of vulkan_table.c, with what the specification of Vulkan 1.2 lets each return.
+ENTRIES = {
+    'EnumerateInstanceVersion': (HOST,), 'EnumerateInstanceLayerProperties': MEMORY, 'EnumerateInstanceExtensionProperties': (*MEMORY, LAYER),
+    'CreateInstance': (*MEMORY, INITIALIZATION, LAYER, EXTENSION, DRIVER), 'EnumeratePhysicalDevices': (*MEMORY, INITIALIZATION),
+    'EnumerateDeviceExtensionProperties': (*MEMORY, LAYER), 'CreateDevice': (*MEMORY, INITIALIZATION, EXTENSION, FEATURE, MANY, LOST),
+    'SetDebugUtilsObjectNameEXT': MEMORY, 'DeviceWaitIdle': (*MEMORY, LOST), 'AllocateMemory': MEMORY, 'MapMemory': (*MEMORY, MAP),
+    'FlushMappedMemoryRanges': MEMORY, 'InvalidateMappedMemoryRanges': MEMORY, 'CreateBuffer': MEMORY, 'BindBufferMemory': MEMORY, 'CreateBufferView': MEMORY,
+    'CreateShaderModule': MEMORY, 'CreateDescriptorSetLayout': MEMORY, 'CreatePipelineLayout': MEMORY, 'CreateComputePipelines': MEMORY,
+    'CreatePipelineCache': MEMORY, 'GetPipelineCacheData': MEMORY, 'CreateDescriptorPool': (*MEMORY, FRAGMENTATION),
+    'AllocateDescriptorSets': (*MEMORY, FRAGMENTED, POOL), 'CreateCommandPool': MEMORY, 'ResetCommandPool': MEMORY, 'AllocateCommandBuffers': MEMORY,
+    'BeginCommandBuffer': MEMORY, 'EndCommandBuffer': MEMORY, 'CreateSemaphore': MEMORY, 'GetSemaphoreCounterValue': (*MEMORY, LOST),
+    'WaitSemaphores': (*MEMORY, LOST), 'QueueSubmit': (*MEMORY, LOST), 'CreateQueryPool': MEMORY, 'GetQueryPoolResults': (*MEMORY, LOST),
+}
+NAMES = list(ENTRIES)
+FIELDS = ('entry', 'countdown', 'code', 'injected', 'lost', 'dead', 'hang', 'incoherent')
+EXIT_DEVICE = 3
+PATIENCE_S = 240  # in which each request is answered; longer: it hangs
+RENDER = '/v1/render?image.width=48&image.height=27'
+IMAGE = {'width': 48, 'height': 27}
+SCENE = {'image': IMAGE, 'disk': {'gas': {'amplitude': 0}}}
+
+
+class Faults:
+    """The file that the server under test has mapped."""
+
+    def __init__(self):
+        self.file = tempfile.NamedTemporaryFile()
+        self.size = 8 * (len(FIELDS) + len(NAMES))
+        self.file.write(struct.pack('<2q', -1, -1) + bytes(self.size - 16))
+        self.file.flush()
+        self.map = mmap.mmap(self.file.fileno(), self.size)
+
+    def get(self, field):
+        return struct.unpack_from('<q', self.map, 8 * FIELDS.index(field))[0]
+
+    def set(self, **fields):
+        for field, value in fields.items():
+            struct.pack_into('<q', self.map, 8 * FIELDS.index(field), value)
+
+    def arm(self, name, n, code):
+        """The n-th call from now, counted from 0."""
+        self.set(entry=NAMES.index(name), code=code, injected=0)
+        self.set(countdown=n)
+
+    def disarm(self):
+        self.set(countdown=-1, entry=-1)
+
+    def calls(self):
+        return dict(zip(NAMES, struct.unpack_from(f'<{len(NAMES)}q', self.map, 8 * len(FIELDS))))
+
+    def close(self):
+        self.map.close()
+        self.file.close()
+
+
+class Server(daemon.Daemon):
+    def __init__(self, faults, *options):
+        self.log = tempfile.TemporaryFile()
+        super().__init__('--device-reopenings', 1000, *options, stderr=self.log,
+                         env={**os.environ, 'KD_VULKAN_FAULTS': faults.file.name, 'XDG_CACHE_HOME': CACHE.name})
+
+    def said(self):
+        self.log.seek(0)
+        return self.log.read().decode(errors='replace')
+
+
+
+class Refused(Exception):
+    """A clear answer that is no success: status, type and detail."""
+
+
+class Broken(Exception):
+    """Something that no fault may bring about."""
+
+
+def wanted(answer, statuses=(200,)):
+    if answer.status in statuses:
+        return answer
+    try:
+        problem = answer.json()
+        clear = problem['type'].startswith('urn:kerrd:problem:') and problem['detail'] and problem['status'] == answer.status
+    except (ValueError, KeyError):
+        clear = False
+    if not clear or answer.status < 400:
+        raise Broken(f'no clear answer: {answer.status} {answer.body[:200]}')
+    raise Refused(f'{answer.status} {problem["type"].rsplit(":", 1)[1]}: {problem["detail"]}')
+
+
+# Each scenario returns what is compared: bytes. The server is new, and its device has done nothing but be opened.
+
+def render(server):
+    return wanted(server.request('GET', RENDER, timeout=PATIENCE_S)).body
+
+
+def last_frame(server, session, after):
+    """Of a picture that does not move: the one behind which nothing finer follows. With its number."""
+    for _ in range(60):
+        answer = wanted(server.request('GET', f'/v1/sessions/{session["id"]}/frame.png?after={after}&wait_ms=20000', timeout=PATIENCE_S), (200, 204))
+        if answer.status == 204:
+            raise Broken('no frame for 20 s')
+        after = int(answer.header('Kerrd-Frame'))
+        if 'final=1' in answer.header('Kerrd-Quality'):
+            return answer.body, after
+    raise Broken('no last frame')
+
+
+def session(server):
+    made = wanted(server.request('POST', '/v1/sessions', json.dumps(SCENE), timeout=PATIENCE_S), (201,)).json()
+    first, number = last_frame(server, made, 0)
+    change = json.dumps({'camera': {'inclination_deg': 71}})
+    owner = {'Authorization': 'Bearer ' + made['token']}
+    wanted(server.request('PATCH', f'/v1/sessions/{made["id"]}', change, headers=owner, timeout=PATIENCE_S))
+    second, _ = last_frame(server, made, number)
+    wanted(server.request('DELETE', f'/v1/sessions/{made["id"]}', headers=owner), (204,))
+    return first + second
+
+
+def begin_job(server):
+    return wanted(server.request('POST', '/v1/jobs', json.dumps({'scenes': [SCENE, {**SCENE, 'camera': {'azimuth_deg': 30}}]}), timeout=PATIENCE_S), (202,)).json()
+
+
+def finish_job(server, job):
+    at, until = f'/v1/jobs/{job["id"]}', time.monotonic() + PATIENCE_S
+    while (state := wanted(server.request('GET', at)).json())['state'] in ('waiting', 'running'):
+        if time.monotonic() > until:
+            raise Broken(f'the job hangs: {state}')
+        time.sleep(0.02)
+    if state['state'] != 'done':
+        raise Broken(f'accepted work is lost: {state}')
+    return wanted(server.request('GET', at + '/result?format=stream')).body
+
+
+def job(server):
+    return finish_job(server, begin_job(server))
+
+
+def rays(server):
+    body = {'spin': 0.9, 'observer': {'r': 'infinity', 'inclination_deg': 60}, 'accuracy': {'engine': 'mino-rkn4', 'precision': 'f32'},
+            'rays': [[3 + 0.01 * i, 4] for i in range(600)]}
+    return wanted(server.request('POST', '/v1/rays', json.dumps(body), {'Accept': 'application/x-npy'}, timeout=PATIENCE_S)).body
+
+
+# at_start: the fault is in the start. loses: the device is lost besides. only: of these entry points.
+Scenario = collections.namedtuple('Scenario', 'run at_start loses incoherent only', defaults=(False, False, False, NAMES))
+OPENING = ('EnumerateInstanceVersion', 'EnumerateInstanceLayerProperties', 'EnumerateInstanceExtensionProperties', 'CreateInstance', 'EnumeratePhysicalDevices',
+           'EnumerateDeviceExtensionProperties', 'CreateDevice', 'DeviceWaitIdle', 'CreatePipelineCache', 'CreateCommandPool', 'AllocateCommandBuffers', 'CreateSemaphore')
+SCENARIOS = {'start': Scenario(render, at_start=True), 'render': Scenario(render), 'session': Scenario(session), 'job': Scenario(job), 'rays': Scenario(rays),
+             'reopen': Scenario(render, loses=True, only=OPENING),
+             'incoherent': Scenario(render, incoherent=True, only=('FlushMappedMemoryRanges', 'InvalidateMappedMemoryRanges'))}
+
+
+def reopened(server):
+    return int(server.metrics()['kerrd_device_reopened_total'])
+
+
+def stop(server):
+    """What it ends with. One that does not end hangs."""
+    server.terminate()
+    try:
+        return server.wait(PATIENCE_S)
+    except subprocess.TimeoutExpired:
+        server.process.kill()
+        server.wait()
+        raise Broken('it does not stop') from None
+
+
+def live(server, scenario, faults, fault, same):
+    """The outcome of a fault in a server that has started."""
+    if scenario.loses:
+        faults.set(lost=1)
+    if fault and not scenario.at_start:
+        faults.arm(*fault)
+    try:
+        got, outcome = scenario.run(server), None
+    except Refused as refused:
+        got, outcome = None, f'error {refused}'
+    if faults.get('injected'):
+        faults.disarm()  # else it may come when it stops
+    if same is not None and got is not None and got != same:
+        raise Broken('other bytes than without the fault')
+    if outcome:  # the next is as if nothing had been
+        again = scenario.run(server)
+        if same is not None and again != same:
+            raise Broken('other bytes after the fault')
+    else:
+        outcome = 'recovered' if reopened(server) else 'same'
+    return outcome, got
+
+
+def to_its_end(server, scenario, faults, fault, same):
+    """The same, and of stopping it."""
+    try:
+        outcome, got = live(server, scenario, faults, fault, same)
+        code = stop(server)
+    except (OSError, daemon.http.client.HTTPException) as gone:
+        try:
+            code = server.wait(PATIENCE_S)
+        except subprocess.TimeoutExpired:
+            raise Broken(f'it hangs: {gone!r}') from None
+        if code != EXIT_DEVICE:
+            raise Broken(f'{gone!r}, and it ends with {code}: {server.said()[-3000:]}') from None
+        return 'exit 3', None
+    if code:
+        raise Broken(f'it ends with {code}: {server.said()[-3000:]}')
+    return outcome, got
+
+
+def starts_not(faults):
+    """The one line that says why."""
+    done = subprocess.run([*daemon.COMMAND, '--port', '0'], capture_output=True, text=True, timeout=PATIENCE_S,
+                          env={**os.environ, 'KD_VULKAN_FAULTS': faults.file.name, 'XDG_CACHE_HOME': CACHE.name})
+    lines = done.stderr.splitlines()
+    if done.returncode != 1 or not lines or not lines[-1].startswith('kerrd: '):
+        raise Broken(f'its start ends with {done.returncode}: {done.stderr[-3000:]}')
+    return lines[-1]
+
+
+def one(scenario, fault=None, same=None):
+    """A server with that fault: what came of it, the bytes, whether it came to that, and the calls that there were."""
+    faults, server = Faults(), None
+    try:
+        faults.set(incoherent=scenario.incoherent)
+        if fault and scenario.at_start:
+            faults.arm(*fault)
+        try:
+            server = Server(faults)
+        except RuntimeError:
+            injected = faults.get('injected')
+            faults.arm(*fault)
+            return 'error: ' + starts_not(faults), None, injected, None
+        begun = faults.calls()
+        outcome, got = to_its_end(server, scenario, faults, fault, same)
+        after = faults.calls()
+        calls = begun if scenario.at_start else {name: after[name] - begun[name] for name in NAMES}
+        return outcome, got, faults.get('injected'), calls
+    finally:
+        if server:
+            if server.process.poll() is None:
+                server.process.kill()
+                server.wait()
+            server.log.close()
+        faults.close()
+
+
+CACHE = tempfile.TemporaryDirectory()  # of pipelines; and what the device is known to do
+
+
+def kind_of(outcome):
+    return 'error' if outcome.startswith('error') else outcome
+
+
+def faults_of(scenario, calls, rotate):
+    for name in scenario.only:
+        codes = ENTRIES[name]
+        for n in range(0, calls[name], 8 if rotate and name == 'SetDebugUtilsObjectNameEXT' else 1):
+            for code in codes if not rotate or not n and calls[name] < len(codes) else (codes[n % len(codes)],):
+                yield name, n, code
+
+
+def attempt(scenario, fault, same, until):
+    if time.monotonic() > until:
+        return None, None
+    try:
+        outcome, _, injected, _ = one(scenario, fault, same)
+        return (kind_of(outcome) if injected else 'not reached'), outcome
+    except Broken as broken:
+        return 'BROKEN', str(broken)
+
+
+def sweep(name, rotate, workers, until):
+    """A row for each entry point that the scenario calls: name, calls, faults, and how many came to what."""
+    scenario = SCENARIOS[name]
+    _, same, _, calls = one(scenario)
+    rows = {entry: collections.Counter() for entry in scenario.only if calls[entry]}
+    with concurrent.futures.ThreadPoolExecutor(workers) as pool:
+        faults = list(faults_of(scenario, calls, rotate))
+        random.Random(1).shuffle(faults)
+        doing = {pool.submit(attempt, scenario, fault, same, until): fault for fault in faults}
+        for done in concurrent.futures.as_completed(doing):
+            entry, n, code = doing[done]
+            kind, said = done.result()
+            if not kind:
+                continue
+            rows[entry][kind] += 1
+            print(f'{name}: {entry} {n} {CODES[code]}: {kind}: {said}', file=sys.stderr, flush=True)
+    return [(entry, calls[entry], counts) for entry, counts in rows.items()]
+
+
+KINDS = ('same', 'recovered', 'error', 'exit 3', 'not reached', 'BROKEN')
+
+
+def table(results, rotate):
+    total = sum((counts for rows in results.values() for _, _, counts in rows), collections.Counter())
+    lines = ['# Faults of Vulkan', '', f'{sum(total.values())} calls of Vulkan have been made to fail, one in each of as many servers: ' +
+             ', '.join(f'{total[k]} {k}' for k in KINDS if total[k]) + '.', '',
+             f'The n-th call of an entry point failed with {"one of" if rotate else "each of"} the codes that the specification lets it return, for as many n as stand under Faults: all, unless the time '
+             'was limited or, with `--rotate`, the call but names an object. `tests/faults/vulkan.py --full` makes this table.', '',
+             '- `same`: the same bytes as without the fault; the driver was asked again, or for something that a picture can do without.',
+             '- `recovered`: the same bytes, after the device was closed and opened once more.',
+             '- `error`: an answer that says what failed (500 `device-lost`, 503 `out-of-memory`), or a start that does; the next request had the same bytes as without the fault.',
+             '- `exit 3`: the process ended with exit code 3, to be started again.',
+             '- `not reached`: there was no such call, as where a slice more or less was rendered. Jobs have no `error`: where memory ran out they tried again.', '',
+             '| Scenario | Entry point | Calls | Faults | ' + ' | '.join(KINDS) + ' |', '|---|---|---|---|' + '---|' * len(KINDS)]
+    for scenario, rows in results.items():
+        for entry, calls, counts in rows:
+            lines.append(f'| {scenario} | `vk{entry}` | {calls} | {sum(counts.values())} | ' + ' | '.join(str(counts[k] or '') for k in KINDS) + ' |')
+    return '\n'.join(lines) + '\n'
+
+
+def full(arguments):
+    parser = argparse.ArgumentParser(prog='vulkan.py --full')
+    parser.add_argument('--rotate', action='store_true')
+    parser.add_argument('--minutes', type=float)
+    parser.add_argument('--only', action='append', choices=SCENARIOS)
+    parser.add_argument('--workers', type=int, default=2)
+    parser.add_argument('--table', default=str(pathlib.Path(__file__).resolve().parents[2] / 'docs' / 'faults-vulkan.md'))
+    options = parser.parse_args(arguments)
+    one(SCENARIOS['render'])  # meets the device for the first time, which is tested then
+    names = [name for name in SCENARIOS if not options.only or name in options.only]
+    begun, results = time.monotonic(), {}
+    for i, name in enumerate(names):  # each has its share of what time is left
+        now = time.monotonic()
+        until = now + (60 * options.minutes - (now - begun)) / (len(names) - i) if options.minutes else float('inf')
+        results[name] = sweep(name, options.rotate, options.workers, until)
+    text = table(results, options.rotate)
+    if options.table == '-':
+        print(text, end='')
+    else:
+        pathlib.Path(options.table).write_text(text)
+    return any(counts['BROKEN'] for rows in results.values() for _, _, counts in rows)
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        self.faults = Faults()
+        self.addCleanup(self.faults.close)
+
+    def start(self, *options):
+        server = Server(self.faults, *options)
+        self.addCleanup(server.process.kill)
+        self.addCleanup(server.log.close)
+        return server
+
+
+class Vulkan(Case):
+    def test_first_calls(self):
+        """One server: each request comes as far as the entry point that fails it."""
+        server, told = self.start(), {}
+        for name in ('CreateBuffer', 'BindBufferMemory', 'CreateShaderModule', 'CreateDescriptorSetLayout', 'CreatePipelineLayout', 'CreateComputePipelines',
+                     'ResetCommandPool', 'BeginCommandBuffer', 'CreateDescriptorPool', 'AllocateDescriptorSets', 'CreateBufferView', 'EndCommandBuffer',
+                     'QueueSubmit', 'GetSemaphoreCounterValue', 'WaitSemaphores'):
+            self.faults.arm(name, 0, ENTRIES[name][1])
+            answer = server.get(RENDER)
+            if self.faults.get('injected'):
+                told[name] = answer.status
+                problem = answer.json()
+                self.assertEqual((answer.status, problem['type']), (503, 'urn:kerrd:problem:out-of-memory'), problem)
+                self.assertIn('vk' + name, problem['detail'])
+        self.assertGreater(len(told), 12, told)
+        self.faults.disarm()
+        same = wanted(server.get(RENDER)).body
+        for n, name in enumerate(('QueueSubmit', 'GetSemaphoreCounterValue')):
+            self.faults.arm(name, 0, LOST)
+            self.assertEqual(wanted(server.get(RENDER)).body, same, name)
+            self.assertEqual(self.faults.get('injected'), 1, name)
+            self.assertEqual(reopened(server), n + 1)
+        self.assertEqual(server.stop(), 0, server.said())
+
+    def test_starts_that_fail(self):
+        for name in ('CreateInstance', 'EnumeratePhysicalDevices', 'CreateDevice', 'CreatePipelineCache', 'CreateCommandPool', 'AllocateCommandBuffers', 'CreateSemaphore'):
+            self.faults.arm(name, 0, HOST)
+            done = subprocess.run([*daemon.COMMAND, '--port', '0'], capture_output=True, env={**os.environ, 'KD_VULKAN_FAULTS': self.faults.file.name}, timeout=PATIENCE_S)
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertIn(f'vk{name}: VK_ERROR_OUT_OF_HOST_MEMORY', done.stderr.decode())
+
+    def test_all_go_on_when_the_device_is_opened_again(self):
+        """A session, a job and a list of rays that were under way when a render lost the device."""
+        server = self.start()
+        calm = session(server), job(server), rays(server)
+        for n in (1, 3):
+            with concurrent.futures.ThreadPoolExecutor(4) as pool:
+                under_way = [pool.submit(work, server) for work in (session, job, rays)]
+                self.faults.arm('QueueSubmit', n, LOST)
+                wanted(server.get(RENDER + f'&camera.azimuth_deg={time.monotonic() % 300}'))
+                self.assertEqual(tuple(one.result() for one in under_way), calm)
+        self.assertEqual(reopened(server), 2)
+        self.assertEqual(server.stop(), 0, server.said())
+
+    def test_often(self):
+        """No more than so many times; and the job that was accepted is there after the next start."""
+        for how, options in (('often', ('--device-reopenings', 1)), ('dead', ())):
+            with self.subTest(how), tempfile.TemporaryDirectory() as state:
+                server = self.start('--state', state, *options)
+                accepted = begin_job(server)
+                self.faults.set(dead=how == 'dead')
+                for _ in range(2 if how == 'often' else 1):
+                    self.faults.arm('QueueSubmit', 0, LOST)
+                    try:
+                        server.get(RENDER + f'&camera.azimuth_deg={time.monotonic() % 300}')
+                    except (OSError, daemon.http.client.HTTPException):
+                        break
+                self.assertEqual(server.wait(60), EXIT_DEVICE, server.said())
+                self.faults.disarm()
+                self.faults.set(dead=0, lost=0)
+                server = self.start('--state', state)
+                self.assertEqual(finish_job(server, accepted), job(server))
+                self.assertEqual(server.stop(), 0, server.said())
+
+    def test_a_device_that_hangs(self):
+        """Whoever waits is told, and the process ends."""
+        server = self.start('--device-timeout', 1)
+        self.faults.set(hang=1)
+        answer = server.get(RENDER)
+        self.assertEqual((answer.status, answer.json()['type']), (500, 'urn:kerrd:problem:device-lost'))
+        self.assertIn('missed its deadline of 1000 ms', answer.body.decode())
+        self.assertEqual(server.wait(30), EXIT_DEVICE)
+        self.assertIn('deadline', server.said())
+
+
+class Long(Case):
+    """A call that does not return: nobody can be told but by the end of the process."""
+
+    def test_a_driver_that_hangs(self):
+        server = self.start('--device-timeout', 1)
+        self.faults.set(hang=2)
+        with self.assertRaises((OSError, daemon.http.client.HTTPException)):
+            server.get(RENDER)
+        self.assertEqual(server.wait(60), EXIT_DEVICE)
+        self.assertIn('no sign of life', server.said())
+
+
+if __name__ == '__main__':
+    if '--full' in sys.argv:
+        at = sys.argv.index('--full')
+        daemon.COMMAND[:] = [os.path.abspath(sys.argv[1]), 'serve']
+        sys.exit(full(sys.argv[at + 1:]))
+    daemon.main()
