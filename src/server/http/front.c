@@ -99,6 +99,7 @@ static struct guest *admit(struct kd_front *front, int socket, const struct sock
     struct kd_connection *connection = guest ? kd_connections_add(front->params.connections, socket, client) : NULL;
     if (!connection) {
         free(guest);
+        kd_problem_send_raw(socket, KD_PROBLEM_NO_MEMORY, "there is no memory for another connection");
         close(socket);
         return NULL;
     }
