@@ -89,11 +89,6 @@ def fake():
     return 'fake_server' in daemon.COMMAND[0]
 
 
-def sanitized():
-    with open(daemon.COMMAND[0], 'rb') as f:
-        return b'__asan_init' in f.read()
-
-
 def where(place):
     """The line of a place that control.h calls `from`; of a library its number."""
     if place >> 48:
