@@ -36,7 +36,8 @@ struct kd_faults {
     _Atomic int64_t files_slow;   /* files are not opened for reading before it is 0 again */
     _Atomic int64_t files_waiting; /* for that */
     _Atomic int64_t wall_s;       /* how far the clock on the wall is put forward */
-    _Atomic int64_t steady_ms;    /* and the one that nobody sets */
+    _Atomic int64_t steady_ms;    /* and the one that nobody sets, */
+    _Atomic int64_t steady_step_ms; /* and how much further each time somebody looks at it */
     _Atomic int64_t live;         /* blocks that are not freed: */
     struct kd_fault_block {
         _Atomic uint64_t at;      /* 0: none here */

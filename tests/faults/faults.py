@@ -17,7 +17,7 @@ import daemon  # noqa: E402
 
 LIBRARY = []
 FIELDS = ('fail_at', 'fail_for', 'allocations', 'failed', 'by_library', 'failed_from', 'files_mask', 'files_at', 'files_for', 'files_errno', 'files_count', 'files_failed',
-          'files_slow', 'files_waiting', 'wall_s', 'steady_ms', 'live')
+          'files_slow', 'files_waiting', 'wall_s', 'steady_ms', 'steady_step_ms', 'live')
 BLOCKS = 1 << 16
 OPEN, CREATE, WRITE, READ, SYNC, RENAME, CLOSE = (1 << i for i in range(7))
 ALWAYS = 1 << 60
