@@ -26,7 +26,7 @@ def plain(answer):
 class Case(unittest.TestCase):
     """Each test has a server of its own, which has no leak in the end, under a sanitizer that looks for them as well."""
     options = ('--jobs', 100, '--sessions', 100)
-    most = 25  # failures of each request where not the whole is asked for
+    most = 12  # failures of each request where not the whole is asked for
     armed = None  # the allocation that fails once something is asked
     closes = False  # whether a connection may be closed without a word, because it is new
 
