@@ -2,11 +2,13 @@
 #include "base/slip.h"
 #include "cli/cli.h"
 
+#include <fcntl.h>
 #include <signal.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 const char *argp_program_version = "kerrd " KD_VERSION;
 
@@ -72,6 +74,15 @@ static const char *help_text(void)
     return text;
 }
 
+/* Whoever starts us may have closed a standard stream. Its number must not become that of a client's socket, or of a file that is kept, into which messages would go: it is that of one
+ * on which reading and writing fail, as on a closed one. */
+static void hold_standard_streams(void)
+{
+    for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; fd++)
+        if (fcntl(fd, F_GETFD) < 0 && open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0)
+            return;
+}
+
 int main(int argc, char **argv)
 {
     static char zero[] = "kerrd";
@@ -79,6 +90,7 @@ int main(int argc, char **argv)
     struct choice choice = { 0 };
     char name[32];
 
+    hold_standard_streams();
     argp_err_exit_status = KD_EXIT_USAGE;
     signal(SIGPIPE, SIG_IGN); /* a reader that left is no end for a server; other commands: kd_cli_stdout_failed */
     atexit(kd_cli_close_stdout);

@@ -90,6 +90,7 @@ static enum kd_status poll_timeline(struct kd_vk *vk, struct kd_error *error)
     return reached(vk, value < vk->submitted ? value : vk->submitted, error);
 }
 
+#define GRACE_NS 1000000000u /* after a deadline: whoever was held meanwhile, as in a virtual machine, could not look in time */
 #define STARVED 8 /* deadlines, after which a software device is given up that hardly had the processor */
 
 /* What the threads of this process had of the processor; 0 where that is not known. */
@@ -125,6 +126,8 @@ static enum kd_status wait_one(struct kd_vk *vk, uint64_t value, struct kd_error
                                        .pSemaphores = &vk->timeline,
                                        .pValues = &value };
     VkResult result = wait_for(vk, &info, timeout);
+    if (result == VK_TIMEOUT)
+        result = vk->fn.WaitSemaphores(vk->device, &info, GRACE_NS);
     if (result == VK_TIMEOUT) {
         vk->hangs = true;
         return kd_vk_lose(vk, error, "submission %" PRIu64 " missed its deadline of %" PRIu64 " ms", value,

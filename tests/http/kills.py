@@ -1,7 +1,7 @@
 """Servers killed at random under load: each job that was accepted ends with the right bytes.
 
-    kills.py FAULTS SERVER [OPTION...]         5 kills
-    KD_KILLS=30 kills.py FAULTS SERVER         as many as that
+    kills.py SERVER [OPTION...]         5 kills
+    KD_KILLS=30 kills.py SERVER         as many as that
 
 Needs no device with fake_server; the seed is printed and taken from KD_SEED."""
 import json
@@ -13,7 +13,6 @@ import time
 import unittest
 
 import daemon
-import faults
 import state
 
 KILLS = int(os.environ.get('KD_KILLS', 5))
@@ -74,4 +73,4 @@ class Kills(state.Case):
 
 
 if __name__ == '__main__':
-    faults.main()
+    daemon.main()

@@ -1,4 +1,4 @@
-"""The state folder: what a start finds there, stops and strikes, full disks, clocks that jump, what is left behind."""
+"""The state folder: what a start finds there, stops and strikes, what is left behind. Full disks and clocks that jump: tests/faults."""
 import io
 import json
 import os
@@ -12,9 +12,7 @@ import unittest
 import unittest.mock
 import zipfile
 
-import assets
 import daemon
-import faults
 import job_case
 from job_case import SCENE, SLOW
 
@@ -277,55 +275,6 @@ class Foreign(Case):
 
 
 class Scarce(Case):
-    def setUp(self):
-        super().setUp()
-        if faults.sanitized():
-            self.skipTest('the sanitizer has its own malloc')
-        self.faults = faults.Faults()
-        self.addCleanup(self.faults.close)
-
-    def refused(self, server, status, word):
-        answer = server.post('/v1/jobs', {'scene': SCENE})
-        problem = self.assertProblem(answer, status, word)
-        self.assertGreater(int(answer.header('Retry-After')), 0)
-        self.assertNotIn(self.folder, json.dumps(problem))
-        self.assertNotIn('/', problem['detail'])
-
-    def test_an_asset_without_a_place(self):
-        """What could not be written is not there, not counted, and has left nothing; later it can be."""
-        server = self.start(by=self.faults.start)
-        folder = os.path.join(os.path.dirname(self.jobs), 'assets')
-        put = lambda: server.request('PUT', '/v1/assets', assets.png(seed=1), {'Content-Type': 'image/png'})
-        for what, status, word in (('full', 507, 'disk-full'), ('descriptors', 503, 'out-of-memory')):
-            self.faults.set(what, 1)
-            answer = put()
-            problem = self.assertProblem(answer, status, word)
-            self.assertGreater(int(answer.header('Retry-After')), 0)
-            self.assertNotIn('/', problem['detail'])
-            self.faults.set(what, 0)
-            told = server.get('/v1/assets').json()
-            self.assertEqual((told['assets'], told['bytes'], os.listdir(folder)), (0, 0, []), what)
-        self.assertEqual(put().status, 201)
-        self.assertEqual(len(os.listdir(folder)), 2)
-        self.assertEqual(server.stop(), 0)
-
-    def test_what_runs_out_comes_back(self):
-        for what, status, word in (('full', 507, 'disk-full'), ('descriptors', 503, 'out-of-memory')):
-            with self.subTest(what):
-                server = self.start(by=self.faults.start)
-                job = self.make({'scenes': [{**SCENE, 'time': 100}] * 6}, server=server)
-                self.assertTrue(daemon.eventually(lambda: self.status(job, server)['finished']))
-                self.faults.set(what, 1)
-                self.assertTrue(daemon.eventually(lambda: 'delayed' in self.status(job, server)), self.status(job, server))
-                self.assertEqual(self.status(job, server)['state'], 'waiting')
-                self.assertNotIn('/', self.status(job, server)['delayed'])
-                self.refused(server, status, word)
-                self.faults.set(what, 0)
-                self.until(job, 'done', server)
-                self.assertEqual(len(self.frames_of(job, server)), 6)
-                self.assertEqual(server.stop(), 0)
-                self.assertEqual([n for n in os.listdir(os.path.join(self.jobs, job['id'])) if n.count('.') > 1], [])
-
     def test_device_memory_runs_out(self):
         server = self.start()
         job = self.make({'scene': {**SCENE, 'time': -2}}, server=server)
@@ -333,49 +282,6 @@ class Scarce(Case):
         self.until(self.make({'scene': SCENE}, server=server), 'done', server)
         self.assertEqual(self.status(job, server)['state'], 'waiting')
         server.stop()
-
-    def test_files_that_are_slow(self):
-        """A cube is looked through, and a table read, by a worker: others are answered while a disk keeps it waiting."""
-        server = self.start(by=self.faults.start)
-        scene = {'image': {'width': 8, 'height': 4, 'layers': ['rgb']}}
-        for asked, query in (({'output': 'cube'}, '?format=npz'), ({'output': 'cube'}, '?format=fits'), ({'output': 'light-curve'}, '')):
-            with self.subTest(f'{asked} {query}'):
-                job = self.make({'scene': scene, 'axes': {'style.exposure': '0:4:1'}, **asked}, server=server)
-                self.until(job, 'done', server)
-                path = self.at(job, '/result' + query)
-                at_once = server.get(path)
-                self.faults.set('slow', 1)
-                with server.connect() as late, server.connect() as gone:
-                    for reader in (late, gone):
-                        reader.sendall(f'GET {path} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n'.encode())
-                    self.assertTrue(daemon.eventually(lambda: self.faults.waiting > 0))
-                    for _ in range(3):
-                        self.assertEqual(server.get('/v1/device').status, 200)
-                    self.assertGreater(self.faults.waiting, 0)
-                    daemon.vanish(gone)
-                    self.faults.set('slow', 0)
-                    answer = daemon.read_answer(late)
-                self.assertEqual((answer.status, answer.body), (200, at_once.body))
-                self.assertTrue(daemon.eventually(lambda: server.metrics()['kerrd_turns_unfinished'] == 0))
-                os.remove(os.path.join(self.jobs, job['id'], '000003.png'))
-                self.assertRegex(self.assertProblem(server.get(path), 500, 'internal')['detail'], 'file of (frame|scene) 3 cannot be read')
-        self.assertEqual(server.stop(), 0)
-
-    def test_the_clock_on_the_wall_jumps(self):
-        server = self.start(by=self.faults.start)
-        job = self.make({'scene': SCENE}, server=server)
-        self.until(job, 'done', server)
-        for days in (10, -10):
-            self.faults.set('shift_s', days * 86400)
-            time.sleep(0.4)  # it sweeps ten times a second
-            self.assertEqual(server.get(self.at(job)).status, 200, days)
-        for days in (10, -10):
-            self.assertEqual(server.stop(), 0)
-            self.faults.set('shift_s', days * 86400)
-            server = self.start(by=self.faults.start)
-            time.sleep(0.4)
-            self.assertEqual(server.get(self.at(job)).status, 200, days)
-        self.assertEqual(server.stop(), 0)
 
 
 class Remains(Case):
@@ -409,4 +315,4 @@ class Remains(Case):
 
 
 if __name__ == '__main__':
-    faults.main()
+    daemon.main()

@@ -32,6 +32,7 @@ struct kd_format {
     const char *name;       /* "png": of `format=`, and behind the last dot of a file's name; lower case */
     const char *media_type; /* "image/png" */
     const char *magic;      /* with which every file begins; "": none has a beginning of its own */
+    const char *end;        /* with which every file ends; NULL: none has an end of its own */
     unsigned carries;
     bool live;              /* KD_EFFORT_LIVE is for it */
     /* Makes a scene one of which a frame carries what the format needs; NULL: any is. KD_EINVAL at a field of one that has nothing to tell. */

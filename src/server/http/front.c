@@ -8,6 +8,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <poll.h>
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,6 +17,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#define FULL_MS 10 /* between two looks whether a descriptor is free */
 #define BATCH 64 /* events, and connections accepted between two looks at them */
 
 /* A connection that has not said yet what it wants. Its deadline is that of a header (connections.h). */
@@ -25,11 +27,12 @@ struct guest {
     int socket;
     struct sockaddr_storage address;
     socklen_t address_size;
+    bool spare; /* it has the descriptor that was kept in reserve: whether the server lives it may ask, and nothing else */
 };
 
 struct kd_front {
     struct kd_front_params params;
-    int epoll, stop, reserve; /* reserve: a descriptor to give up where there is no other */
+    int epoll, stop, reserve; /* reserve: a descriptor to give up where there is no other; -1: it is given up */
     struct guest *first, *last; /* the latest first */
     pthread_t thread;
 };
@@ -52,7 +55,9 @@ static void send_away(struct kd_front *front, struct guest *guest)
 
 static void refuse(struct kd_front *front, struct guest *guest, bool quota)
 {
-    if (quota)
+    if (guest->spare)
+        kd_problem_send_raw(guest->socket, KD_PROBLEM_CROWDED, "this server has no descriptor left for another connection", NULL);
+    else if (quota)
         kd_problem_send_raw(guest->socket, KD_PROBLEM_QUOTA, "as many of your connections are open as one client may have", NULL);
     else
         kd_problem_send_raw(guest->socket, KD_PROBLEM_CROWDED, "more connections are open than this server takes", NULL);
@@ -64,7 +69,7 @@ static void hand_on(struct kd_front *front, struct guest *guest, bool health)
 {
     struct MHD_Daemon *daemon = health ? front->params.health : front->params.others;
     enum kd_handed handed = kd_connections_hand_on(front->params.connections, guest->connection, health);
-    if (handed) {
+    if (handed || (guest->spare && !health)) {
         refuse(front, guest, handed == KD_OVER_SHARE);
         return;
     }
@@ -99,6 +104,7 @@ static struct guest *admit(struct kd_front *front, int socket, const struct sock
     struct kd_connection *connection = guest ? kd_connections_add(front->params.connections, socket, client) : NULL;
     if (!connection) {
         free(guest);
+        kd_problem_send_raw(socket, KD_PROBLEM_NO_MEMORY, "there is no memory for another connection", NULL);
         close(socket);
         return NULL;
     }
@@ -116,22 +122,23 @@ static void watch(struct kd_front *front, struct guest *guest)
         send_away(front, guest);
 }
 
-/* Makes room when every descriptor is in use: the guest that has waited longest without a word goes, else the one that has
- * just come, with a reason. */
+static int keep_reserve(void) { return open("/dev/null", O_RDONLY | O_CLOEXEC); }
+
+/* Makes room when every descriptor is in use: the guest that has waited longest without a word goes, else the next one has the reserve. Without either there is nothing to do but to
+ * wait for somebody to go. */
 static void make_room(struct kd_front *front)
 {
-    if (front->last) {
+    struct pollfd waiting = { .fd = front->params.listener, .events = POLLIN };
+    if (poll(&waiting, 1, 0) < 1)
+        return; /* without a descriptor accept fails even if nobody waits */
+    if (front->last)
         send_away(front, front->last);
-        return;
-    }
-    close(front->reserve);
-    int socket = accept4(front->params.listener, NULL, NULL, SOCK_NONBLOCK | SOCK_CLOEXEC);
-    if (socket >= 0) {
-        kd_problem_send_raw(socket, KD_PROBLEM_CROWDED, "this server has no descriptor left for another connection", NULL);
-        close(socket);
-    }
-    front->reserve = open("/dev/null", O_RDONLY | O_CLOEXEC);
-    kd_log(KD_LOG_WARN, "no descriptor is left for another connection");
+    else if (front->reserve >= 0) {
+        close(front->reserve);
+        front->reserve = -1;
+        kd_log(KD_LOG_WARN, "no descriptor is left for another connection");
+    } else
+        poll(NULL, 0, FULL_MS);
 }
 
 /* Accepts a connection; false when nobody waits any more. */
@@ -142,13 +149,16 @@ static bool accept_one(struct kd_front *front)
     int socket = accept4(front->params.listener, (struct sockaddr *)&address, &size, SOCK_NONBLOCK | SOCK_CLOEXEC);
     if (socket < 0 && (errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM)) {
         make_room(front);
-        return false;
+        return false; /* who waits to be accepted is told of again */
     }
     if (socket < 0)
         return errno != EAGAIN && errno != EWOULDBLOCK && errno != EINVAL && errno != EBADF; /* one that has gone already */
+    if (front->reserve < 0)
+        front->reserve = keep_reserve();
     struct guest *guest = admit(front, socket, &address, size);
     if (!guest)
         return true;
+    guest->spare = front->reserve < 0;
     while (front->last != guest && kd_connections_full(front->params.connections))
         send_away(front, front->last);
     if (look_at(front, guest, false)) /* what it wants has mostly come with it, and there is nothing to watch */
@@ -182,7 +192,7 @@ static enum kd_status start(struct kd_front *front, struct kd_error *error)
     struct epoll_event listening = { .events = EPOLLIN, .data.ptr = front }, stopping = { .events = EPOLLIN, .data.ptr = &front->stop };
     front->epoll = epoll_create1(EPOLL_CLOEXEC);
     front->stop = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
-    front->reserve = open("/dev/null", O_RDONLY | O_CLOEXEC);
+    front->reserve = keep_reserve();
     if (front->epoll < 0 || front->stop < 0 || front->reserve < 0 ||
         epoll_ctl(front->epoll, EPOLL_CTL_ADD, front->params.listener, &listening) ||
         epoll_ctl(front->epoll, EPOLL_CTL_ADD, front->stop, &stopping))

@@ -92,7 +92,7 @@ void kd_problem_send_raw(int socket, enum kd_problem_type type, const char *deta
     struct kd_problem problem = { .type = type, .detail = detail, .request_id = request_id };
     const bool named = request_id && *request_id;
     struct kd_buffer body = { 0 }, reply = { 0 };
-    bool later = type == KD_PROBLEM_CROWDED || type == KD_PROBLEM_QUOTA;
+    bool later = type == KD_PROBLEM_CROWDED || type == KD_PROBLEM_QUOTA || type == KD_PROBLEM_NO_MEMORY;
 
     if (!kd_problem_to_json(&problem, &body) &&
         !kd_buffer_printf(&reply,

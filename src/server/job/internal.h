@@ -95,7 +95,9 @@ double kd_job_now_s(void); /* since 1970 */
 
 /* Whether a job is being rendered, or waits for it. */
 static inline bool kd_job_is_active(const struct kd_job *job) { return job->listed && job->record.state == KD_JOB_ACTIVE; }
-void kd_job_write(struct kd_job *job); /* its record, to disk */
+/* Writes a job's record, under the lock as well: a few times a job, some milliseconds each. KD_EFULL, KD_ENOMEM, KD_EIO. */
+enum kd_status kd_job_keep(struct kd_job *job, struct kd_error *error);
+void kd_job_write(struct kd_job *job); /* likewise, where the next writing will do as well: what fails is logged */
 void kd_job_strike(struct kd_job *job); /* counts, once a server, that work on it may be what ends the server */
 void kd_job_end(struct kd_job *job, enum kd_job_state state, const char *why);
 /* Makes a job wait, each time for longer, because something has run out that may be there again later. */

@@ -19,11 +19,15 @@ double kd_job_now_s(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* Writes a job's record, under the lock as well: a few times a job, some milliseconds each. */
+enum kd_status kd_job_keep(struct kd_job *job, struct kd_error *error)
+{
+    return job->listed ? kd_job_store_update(job->all->store, &job->record, error) : KD_OK;
+}
+
 void kd_job_write(struct kd_job *job)
 {
     struct kd_error error;
-    if (job->listed && kd_job_store_update(job->all->store, &job->record, &error))
+    if (kd_job_keep(job, &error))
         kd_log(KD_LOG_ERROR, "job %.4s...: %s", job->record.id, error.message);
 }
 

@@ -6,16 +6,51 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
+#include <unistd.h>
 
+static bool stands_at(int fd, uint64_t at, const char *text)
+{
+    char found[16];
+    const size_t n = strlen(text);
+    return n <= sizeof found && pread(fd, found, n, (off_t)at) == (ssize_t)n && !memcmp(found, text, n);
+}
+
+/* Says whether a frame has the size, the beginning and the end that its format gives it. It was written whole: a file system that was not stopped in order may have cut it off. */
+static bool is_whole(int fd, uint64_t size, const struct kd_series *series)
+{
+    const struct kd_format *format = series->frame;
+    const size_t end = format->end ? strlen(format->end) : 0;
+    if (series->row_bytes)
+        return size == series->row_bytes;
+    return size > 0 && size >= end && stands_at(fd, 0, format->magic) && (!end || stands_at(fd, size - end, format->end));
+}
+
+/* Frames that are damaged are as those that are missing. */
 static void find_frames(struct kd_job *job)
 {
     for (unsigned i = 0; i < job->frames; i++) {
-        uint64_t size = kd_job_store_size(job->all->store, job->record.id, i);
-        job->have[i] = size > 0;
-        job->finished += size > 0;
-        job->bytes += size;
+        uint64_t size = 0;
+        int fd = kd_job_store_get(job->all->store, job->record.id, i, &size);
+        job->have[i] = fd >= 0 && is_whole(fd, size, job->record.series);
+        job->finished += job->have[i];
+        job->bytes += job->have[i] ? size : 0;
+        if (fd >= 0 && !job->have[i])
+            kd_log(KD_LOG_WARN, "frame %u of job %.4s... is damaged", i, job->record.id);
+        if (fd >= 0)
+            close(fd);
     }
     job->all->bytes += job->bytes;
+}
+
+/* A job that was done and has lost frames goes on, if this version knows what they show. */
+static void reopen(struct kd_job *job)
+{
+    if (job->record.state != KD_JOB_DONE || job->finished == job->frames)
+        return;
+    kd_log(KD_LOG_WARN, "job %.4s... was done, and has %u of %u frames: the others are made again", job->record.id, job->finished, job->frames);
+    job->record.state = KD_JOB_ACTIVE;
+    job->record.ended = 0;
 }
 
 /* A clock that has been put back makes no job younger than now; one that has been put forward leaves an hour to fetch what is done. */
@@ -67,6 +102,8 @@ void kd_job_resume(void *user, const struct kd_job_record *known, struct kd_buff
         job->record.series = job->series;
     }
     find_frames(job);
+    if (!*why)
+        reopen(job);
     job->spec.exposure = known->exposure;
     if (!isnan(known->exposure) || job->finished) /* frames without one that was measured are of a version that gave each its own */
         job->exposure.n = 0;

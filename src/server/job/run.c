@@ -5,6 +5,7 @@
 #include "job/frame.h"
 #include "render/output/series.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -180,16 +181,24 @@ static void progress(struct kd_render_job *render, double fraction)
     pthread_mutex_unlock(&frame->job->all->lock);
 }
 
-/* What the small picture says; after the last of them all frames have their exposure. Locked. */
+/* What the small picture says; after the last of them all frames have their exposure, once that is kept: a restart that found frames and no exposure would give those that are missing
+ * another one. Locked. */
 static void measured(struct kd_job *job, double stops)
 {
     struct kd_job_exposure *exposure = &job->exposure;
+    struct kd_error error;
     exposure->stops[exposure->done++] = stops;
     if (exposure->done < exposure->n)
         return;
-    job->spec.exposure = job->record.exposure = kd_job_exposure_of(exposure->stops, exposure->n);
+    job->record.exposure = kd_job_exposure_of(exposure->stops, exposure->n);
+    if (kd_job_keep(job, &error)) {
+        job->record.exposure = NAN;
+        exposure->done = 0;
+        kd_job_delay(job, error.message);
+        return;
+    }
+    job->spec.exposure = job->record.exposure;
     job->revision++;
-    kd_job_write(job);
 }
 
 static void rendered(struct kd_render_job *render)

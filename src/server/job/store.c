@@ -477,12 +477,3 @@ int kd_job_store_get(const struct kd_job_store *store, const char *id, unsigned 
         *size = (uint64_t)about.st_size;
     return fd;
 }
-
-uint64_t kd_job_store_size(const struct kd_job_store *store, const char *id, unsigned frame)
-{
-    uint64_t size = 0;
-    int fd = kd_job_store_get(store, id, frame, &size);
-    if (fd >= 0)
-        close(fd);
-    return size;
-}

@@ -54,9 +54,7 @@ bool kd_job_store_remove(struct kd_job_store *store, const char *id, unsigned mo
 
 enum kd_status kd_job_store_put(struct kd_job_store *store, const char *id, unsigned frame, const struct kd_buffer *png,
                                 struct kd_error *error);
-/* The bytes of a finished frame, 0: it is not there. */
-uint64_t kd_job_store_size(const struct kd_job_store *store, const char *id, unsigned frame);
-/* A descriptor to read it from, with its size; -1: it is not there. */
+/* A descriptor to read a finished frame from, with its size; -1: it is not there. */
 int kd_job_store_get(const struct kd_job_store *store, const char *id, unsigned frame, uint64_t *size);
 
 #endif

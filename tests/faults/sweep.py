@@ -1,0 +1,138 @@
+"""Lets each allocation of a request fail once, and looks at the answer, at what is left behind, and at the answer to the same request afterwards."""
+import collections
+import http.client
+import json
+import unittest
+
+import faults  # first: it knows where daemon is
+import daemon
+
+PROBLEM = {'type', 'title', 'status', 'detail'}
+
+
+def shape(document):
+    """A document without its numbers and texts: a hole in it shows."""
+    if isinstance(document, dict):
+        return {k: shape(v) for k, v in document.items()}
+    return [shape(v) for v in document] if isinstance(document, list) else None if document is None else type(document) is bool
+
+
+def plain(answer):
+    """Without what a job or a session says of its frame, which may have had no memory, or be done already."""
+    document = answer.json()
+    return {k: v for k, v in document.items() if k not in ('remaining_s', 'delayed', 'ended', 'rendering', 'lens_maps_traced', 'error')} if isinstance(document, dict) else document
+
+
+class Case(unittest.TestCase):
+    """Each test has a server of its own, which has no leak in the end, under a sanitizer that looks for them as well."""
+    options = ('--jobs', 100, '--sessions', 100)
+    most = 12  # failures of each request where not the whole is asked for
+    armed = None  # the allocation that fails once something is asked
+    closes = False  # whether a connection may be closed without a word, because it is new
+
+    def setUp(self):
+        self.faults = faults.Faults()
+        self.addCleanup(self.faults.close)
+        self.server = self.faults.start(*self.options)
+        self.connection = http.client.HTTPConnection('127.0.0.1', self.server.port, timeout=60)
+        self.addCleanup(self.end)
+
+    def end(self):
+        self.connection.close()
+        if self.server.process.poll() is None:
+            self.server.terminate()
+        try:
+            self.assertEqual(self.server.wait(60), 0, 'how the server ends')
+        finally:
+            if self.server.process.poll() is None:
+                self.server.process.kill()
+
+    def ask(self, method, target, body=None, headers=None):
+        if body is not None and not isinstance(body, bytes):
+            body, headers = json.dumps(body), {'Content-Type': 'application/json', **(headers or {})}
+        if self.armed is not None:
+            self.faults.memory(self.armed)
+            self.armed = None
+        self.connection.request(method, target, body, headers or {})
+        got = self.connection.getresponse()
+        return daemon.Answer(got.status, got.getheaders(), got.read(), target)
+
+    def get(self, target):
+        return lambda: self.ask('GET', target)
+
+    def post(self, target, body):
+        return lambda: self.ask('POST', target, body)
+
+    def connect(self):
+        """A new connection that has carried a request: those who accept it have all they need."""
+        self.connection.close()
+        self.assertEqual(self.get('/v1/schema')().status, 200)
+
+    def with_failure(self, ask, n):
+        """The answer, None for a closed connection. Counted from the first that it asks of us, until it mends the memory or has come to its end."""
+        self.connect()
+        self.armed = n
+        try:
+            return ask()
+        except (OSError, http.client.HTTPException):
+            return None
+        finally:
+            self.faults.mend()
+
+    def settled(self, most):
+        daemon.eventually(lambda: self.faults.live <= most, 0.3)
+        return self.faults.live
+
+    def leaks(self, ask, n):
+        """Blocks more after each of some failures at the same place, and where they were asked for."""
+        grown, begin = [], self.faults.blocks()
+        for _ in range(4):
+            before = self.faults.live
+            self.with_failure(ask, n)
+            grown.append(self.settled(before) - before)
+        return min(grown), begin
+
+    def new_blocks(self, before):
+        return collections.Counter(faults.where(place) for at, place in self.faults.blocks().items() if at not in before)
+
+    def judge(self, n, answer, good, by_library):
+        """A word for what has come of the n-th failure."""
+        at = lambda: f'allocation {n}, asked for at {faults.where(self.faults.failed_from)}'
+        if answer is None:
+            if self.closes:
+                return 'closed'
+            self.assertGreater(self.faults.by_library, by_library, f'no answer; {at()}')
+            return 'closed by the library'
+        if answer.status == good.status:
+            if 'json' not in good.header('Content-Type'):
+                self.assertEqual(answer.body, good.body, at())
+            elif answer.status >= 400:
+                self.assertEqual(answer.json()['type'], good.json()['type'], at())
+            else:
+                self.assertEqual(shape(plain(answer)), shape(plain(good)), at())
+            return 'whole answer'
+        self.assertIn(answer.status, (500, 503, 507), (answer.body, at()))
+        self.assertEqual(answer.header('Content-Type'), 'application/problem+json', at())
+        self.assertEqual(set(answer.json()) - {'pointer', 'offered', 'request_id'}, PROBLEM, (answer.body, at()))
+        return str(answer.status)
+
+    def sweep(self, ask, status, scenario, most=None):
+        for _ in range(3):
+            self.connect()
+            good = ask()
+        self.assertEqual(good.status, status, good.body)
+        self.with_failure(ask, faults.ALWAYS)
+        count, outcomes = self.faults.counted, collections.Counter()
+        self.assertGreater(count, 0, 'is the library loaded?')
+        for n in faults.some(count, most or self.most):
+            live, by_library, failed = self.settled(0 if n == 0 else self.faults.live), self.faults.by_library, self.faults.failed
+            outcome = self.judge(n, self.with_failure(ask, n), good, by_library)
+            outcomes[outcome if self.faults.failed > failed else 'not reached'] += 1
+            if self.settled(live) > live:
+                grown, begin = self.leaks(ask, n)
+                if grown > 0:
+                    self.fail(f'allocation {n} leaks {grown} blocks: {self.new_blocks(begin)}')
+            self.connect()
+            self.assertEqual(self.judge(n, ask(), good, 0), 'whole answer', 'the same request afterwards')
+        faults.record('memory', scenario, outcomes, count)
+        self.assertEqual(self.server.get('/healthz').status, 200)
