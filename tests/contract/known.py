@@ -4,7 +4,7 @@ import re
 # What JSON Schema and OpenAPI cannot say: a value is sound by itself, and not beside another one. Sentences of refusals, of operations whose name matches.
 TOGETHER = [
     (r'(POST|GET) /v1/(render|pixel|plan|sessions|jobs|playground|visibility|spectrum)|PATCH /v1/(sessions|playground)', (
-        r'^[a-z_.0-9]+ is .*, allowed (is|are) .* (unless|but|in the|without|with|where|when|beside|than) ',  # another field decides what is allowed
+        r'^[a-z_.0-9]+ is .*, allowed (is|are|where|with)\b.* (unless|but|in the|without|with|where|when|beside|than|has|have|is) ',  # another field decides what is allowed
         r' M, allowed is (more than|at least|less than|above) .*(horizon|ISCO)',
         r'allowed are .*there is no such asset|there is no such asset here',
         r', (it|which) needs ', r'; it needs ', r'allowed is less than [a-z_.]+', r'allowed is more than [a-z_.]+', r'^camera\.velocity_r, velocity_theta',
