@@ -142,6 +142,7 @@ class OpenApi(daemon.Case):
                 ('sessions', {'spots': [{'r': 10}], 'spot1': {'r': 10}}, {'spots': [{}] * 17}, {'spots': [{'r': 0}]}, {'spots': [{'q': 1}]}, {'spots': 1}, {'spot1': {'r': 0}},
                  {'spot1': {'r': 10}, 'image': {'width': 32, 'height': 18}}),
                 ('sessions', {'spots': [{'r': 10}] * 17}, {'spots': [{'r': 10}] * 16, 'image': {'width': 32, 'height': 18}}),
+                ('plan', {'sky': {'image': '1'}}, {'sky': {'image': 0}}, {'sky': {'image': ''}}), ('plan', {'sky': {'image': None}}),
                 ('plan', {'image': {'bit_depth': 12}}, {'image': {'bit_depth': 4}}, {'image': {'bit_depth': 16}}),
                 ('plan', {'accuracy': {'engine': 'mino-rkn6', 'steps': 6}}, {'accuracy': {'steps': -4}},
                  {'accuracy': {'engine': 'mino-rkn6', 'steps': 8}}),
