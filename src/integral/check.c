@@ -119,8 +119,7 @@ enum kd_status kd_integral_check_beside(const struct kd_integral_request *r, con
 static enum kd_status check_transfer(struct kd_integral_request *r, struct kd_error *error)
 {
     enum kd_status status = KD_OK;
-    const double tilt = 90 - fabs(r->inclination_deg - 90);
-    if (tilt < KD_INTEGRAL_FACE_ON)
+    if (r->inclination_deg < KD_INTEGRAL_FACE_ON || r->inclination_deg > 180 - KD_INTEGRAL_FACE_ON)
         return kd_error_field(error, "/inclination_deg", "inclination_deg is %.9g: seen face on each ring has one redshift and no transfer function; allowed are 0.1 to 87 and 93 to 179.9",
                               r->inclination_deg);
     if (r->radii.n) {

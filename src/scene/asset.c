@@ -16,7 +16,7 @@ bool kd_asset_is_hash(const char *text)
 bool kd_asset_is_name(const char *text)
 {
     size_t length = strlen(text);
-    return length && length < KD_ASSET_NAME - 1 && strchr(LETTERS, *text) && strspn(text, LETTERS DIGITS "._-") == length;
+    return length && length < KD_ASSET_NAME - 1 && strcmp(text, "null") && strchr(LETTERS, *text) && strspn(text, LETTERS DIGITS "._-") == length;
 }
 
 /* What a field takes. */

@@ -10,7 +10,7 @@
 
 /* A hash is 64 hexadecimal digits, lower case. */
 bool kd_asset_is_hash(const char *text);
-/* A name is a letter, and up to 62 letters, digits, dots, dashes and underscores. */
+/* A name is a letter, and up to 62 letters, digits, dots, dashes and underscores; not "null", which names none. */
 bool kd_asset_is_name(const char *text);
 
 /* What is known of an asset, a picture or a grid of matter (render/emit/matter_grid.h). */

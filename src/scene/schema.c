@@ -82,7 +82,7 @@ static void write_type(struct kd_writer *w, const struct kd_field *field)
     case KD_FIELD_ENUM: write_words(w, field); return;
     case KD_FIELD_WORD: break;
     case KD_FIELD_ASSET:
-        kd_write(w, "\"anyOf\":[{\"type\":\"null\"},{\"type\":\"string\",\"pattern\":\"^([A-Za-z][A-Za-z0-9._-]{0,62}|[0-9a-f]{64})$\"}]");
+        kd_write(w, "\"anyOf\":[{\"type\":\"null\"},{\"type\":\"string\",\"pattern\":\"^(|[A-Za-z][A-Za-z0-9._-]{0,62}|[0-9a-f]{64})$\"}]");
         return;
     case KD_FIELD_WORDS: write_many(w, field); return;
     }

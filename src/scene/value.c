@@ -34,6 +34,8 @@ struct kd_value kd_value_typed(const char *text)
         return (struct kd_value) { KD_VALUE_NUMBER, kd_number_parse(text), NULL };
     if (!strcmp(text, "true") || !strcmp(text, "false"))
         return (struct kd_value) { KD_VALUE_BOOL, text[0] == 't', NULL };
+    if (!strcmp(text, "null"))
+        return (struct kd_value) { KD_VALUE_NULL, 0, NULL };
     return (struct kd_value) { KD_VALUE_STRING, 0, text };
 }
 

@@ -87,6 +87,8 @@ class Pictures(Case):
         self.bad(2, "--asset ground: no field of the scene names it", "render", *named, "--asset", "orion=" + self.path("one.png"), "--asset",
                  "ground=" + self.path("one.png").replace("one", "other"), "-o", "-")
         alone = self.good("render", *SMALL, "--set", "sky.model=image", "-o", "-")
+        self.assertEqual(self.good("render", *named, "--set", "sky.image=null", "-o", "-"), alone)  # the latter of the two holds
+        self.bad(2, "image.width is null where a number is wanted", "render", *SMALL, "--set", "image.width=null", "-o", "-")
         self.assertIn(b"the Milky Way that is made up stands in for it", text(alone)[b"kerrd:approximations"])
         self.assertNotIn(b"Copyright", text(alone))
 

@@ -110,6 +110,7 @@ class OpenApi(daemon.Case):
                 ('orbits', {'orbit': orbit, 'duration': {'periods': 1, 'time': 100}}, {'orbit': orbit, 'duration': {'time': 100}}),
                 ('orbits', {'orbit': orbit, 'duration': {'periods': 2e9}}, {'orbit': orbit, 'duration': {'time': 2e30}},
                  {'orbit': orbit, **short}),
+                ('orbits', {'orbits': [bound], 'seen': {'observer_r': 30, 'observer_inclination_deg': 60}}, {'orbit': bound, 'seen': {'observer_r': 30, 'observer_inclination_deg': 60}, **short}),
                 ('orbits', {'orbit': orbit, 'samples': 1}, {'orbit': orbit, 'samples': 0}),
                 ('orbits', {'orbit': orbit, 'mass_msun': 0}, {'orbit': orbit, 'mass_msun': 1e21}, {'orbit': orbit, 'mass_msun': 1}),
                 ('orbits', {'orbit': orbit, 'steps': 100000001}, {'orbit': orbit, 'steps': 0}),
@@ -122,9 +123,10 @@ class OpenApi(daemon.Case):
                  {'orbit': {**constants, 'r': 1}, 'spin': 0.999999}, {'orbit': constants}),
                 ('line', {'spin': 1}, {'inner': 0.5}, {'inner': 'horizon'}, {'edges': []}, {'edges': ['a', 1]}, {'emissivity': 'gauss'}, {'bins': 0}, {'bins': 2.5}, {'q': 1},
                  {'inclination_deg': 181}, {'spin': 0.5, 'inner': 'isco', 'edges': [0.5, 1, 1.5], 'emissivity': 'broken', 'break_r': 12}),
-                ('transfer-function', {'g_star': [0]}, {'g_star': [1]}, {'rings': 0}, {'bins': 3}, {'radii': [8, 20], 'g_star': [0.5]}),
+                ('transfer-function', {'g_star': [0]}, {'g_star': [1]}, {'rings': 0}, {'bins': 3}, {'inclination_deg': 0.05}, {'inclination_deg': 88}, {'inclination_deg': 179.95}, {'radii': [8, 20], 'g_star': [0.5]}),
+                ('transfer-function', {'inclination_deg': 0.1, 'radii': [8], 'g_star': [0.5]}), ('transfer-function', {'inclination_deg': 179.9, 'radii': [8], 'g_star': [0.5]}),
                 ('spectrum', {'mass_msun': 0}, {'frequencies': 1}, {'colour_correction': 0.9}, {'frequency_min_hz': 'low'}, {'frequencies_hz': [1e17], 'limb': 'laor'}),
-                ('spectrum', {'preset': 1}, {'preset': 'riaf', 'pixels': 4}, {'preset': 'riaf', 'scene': {'time': 1}, 'frequencies_hz': [1e11], 'check': 'none'}),
+                ('spectrum', {'preset': 1}, {'preset': 'nobody'}, {'preset': 'riaf', 'pixels': 4}, {'preset': 'riaf', 'scene': {'time': 1}, 'frequencies_hz': [1e11], 'check': 'none'}),
                 ('visibility', {'u': [1e16], 'v': [0]}, {'length_max': 0}, {'baselines': 1}, {'orders': 9}, {'angles_deg': [500]}, {'check': 'both'}, {'scene': 3}, {'bins': 3},
                  {'scene': {'image': {'width': 32, 'height': 18}}, 'baselines': 2, 'pixels': 16, 'length_max': 'auto', 'angles_deg': [-90]}),
                 ('rays', {'rays': [[9, 0]], 'spin': 0.999999, 'observer': {'r': 1}}, {'rays': []},
@@ -137,14 +139,17 @@ class OpenApi(daemon.Case):
                 ('jobs', *({'scene': {'image': {'width': 32, 'height': 18}}, 'keyframes': [{'frame': 1, 'scene': {}}], **more} for more in (
                     {'interpolation': 'cubic'}, {'distances': 'equal'}, {'angles': 'longer'}, {'ease': 'slow'}, {'look_at': 'up'}, {'look_at': {'r': -1}}, {'keyframes': [{'frame': 1}]},
                     {'interpolation': 'catmull-rom', 'distances': 'geometric', 'angles': 'shorter', 'ease': 'in-out', 'look_at': 'hole', 'scene': {'image': {'width': 32, 'height': 18}, 'camera': {'r': 30}}}))),
-                ('sessions', {'spots': [{}] * 17}, {'spots': [{'r': 0}]}, {'spots': [{'q': 1}]}, {'spots': 1}, {'spot1': {'r': 0}},
+                ('sessions', {'spots': [{'r': 10}], 'spot1': {'r': 10}}, {'spots': [{}] * 17}, {'spots': [{'r': 0}]}, {'spots': [{'q': 1}]}, {'spots': 1}, {'spot1': {'r': 0}},
                  {'spot1': {'r': 10}, 'image': {'width': 32, 'height': 18}}),
                 ('sessions', {'spots': [{'r': 10}] * 17}, {'spots': [{'r': 10}] * 16, 'image': {'width': 32, 'height': 18}}),
+                ('plan', {'sky': {'image': '1'}}, {'sky': {'image': 0}}, {'sky': {'image': ''}}), ('plan', {'sky': {'image': None}}),
                 ('plan', {'image': {'bit_depth': 12}}, {'image': {'bit_depth': 4}}, {'image': {'bit_depth': 16}}),
                 ('plan', {'accuracy': {'engine': 'mino-rkn6', 'steps': 6}}, {'accuracy': {'steps': -4}},
                  {'accuracy': {'engine': 'mino-rkn6', 'steps': 8}}),
                 ('jobs', {**KEYS, 'exposure': 'two'}, {**KEYS, 'motion_blur': {}}, {**KEYS, 'motion_blur': {'samples': 65}}, {**KEYS, 'motion_blur': {'samples': 2, 'shutter': 0}},
                  {'scene': {}, 'axes': {'time': [0]}, 'exposure': 'one'}, {'scenes': [{}], 'motion_blur': {'samples': 2}}, {**KEYS, 'motion_blur': {'samples': 2, 'shutter': 1}, 'exposure': 'one'}),
+                ('playground', {'preset': 'figure-eight', 'bodies': [], 'state': {}}, {'state': {}}, {'preset': 'figure-eight', 'paused': True}),
+                ('jobs', {'axes': {'': [1]}}, {'axes': {'camera': [1]}}, {'axes': {'time': '1'}}, {'axes': {'time': '0:1'}}, {'axes': {'time': 'a:b:c'}}, {'axes': {'time': '0:.5/2', 'spots.0.r': [8]}, 'scene': {'image': {'width': 32, 'height': 18}}}),
                 ('jobs', {'scenes': []}, {'scene': {}, 'keyframes': []}, {'scene': {'image': {'width': 32, 'height': 18}}})):
             body = self.document['paths']['/v1/' + path]['post']['requestBody']['content']['application/json']['schema']
             judge = jsonschema.Draft202012Validator({**body, 'components': self.document['components']})
@@ -154,6 +159,19 @@ class OpenApi(daemon.Case):
                     self.assertEqual(judge.is_valid(document), good)
                     status = self.daemon.post('/v1/' + path, document).status
                     self.assertTrue(status in (200, 201, 202) if good else status == 422, status)
+
+    def test_links_lead_to_what_was_made(self):
+        """Each answer that makes something names the operations under its address; those of its owner take its token in the query, as the links have it."""
+        paths = self.document['paths']
+        for path, method, status in (('/v1/sessions', 'post', '201'), ('/v1/playground', 'post', '201'), ('/v1/jobs', 'post', '202'), ('/v1/assets', 'put', '201')):
+            links = paths[path][method]['responses'][status]['links']
+            self.assertEqual(set(links), {operation['operationId'] for at, operations in paths.items() if at.startswith(path + '/{') for operation in operations.values()})
+            for name, link in links.items():
+                self.assertEqual(link['operationId'], name)
+        session = self.daemon.post('/v1/sessions', {'image': {'width': 32, 'height': 18}}).json()
+        link = paths['/v1/sessions']['post']['responses']['201']['links']['delete_sessions_id']['parameters']
+        self.assertEqual(link, {'id': '$response.body#/id', 'query.token': '$response.body#/token'})
+        self.assertEqual(self.daemon.request('DELETE', f'/v1/sessions/{session["id"]}?token={session["token"]}').status, 204)
 
     def test_ranges_of_a_parameter(self):
         schema = {p['name']: p['schema'] for p in self.document['paths']['/v1/physics/kerr']['get']['parameters']}['spin']
