@@ -1,5 +1,7 @@
 #include "base/error.h"
 
+#include "base/utf8.h"
+
 #include <stdio.h>
 
 static void fill(struct kd_error *error, enum kd_status status, const char *pointer,
@@ -10,6 +12,8 @@ static void fill(struct kd_error *error, enum kd_status status, const char *poin
     error->status = status;
     snprintf(error->pointer, sizeof error->pointer, "%s", pointer);
     vsnprintf(error->message, sizeof error->message, format, args);
+    kd_utf8_show(error->pointer); /* both may quote what is no text, or end in the middle of a character */
+    kd_utf8_show(error->message);
 }
 
 enum kd_status kd_error_set(struct kd_error *error, enum kd_status status, const char *format, ...)

@@ -1,6 +1,8 @@
 #include "image/utf8.h"
 
-#include <stdint.h>
+#include "base/utf8.h"
+
+#include <string.h>
 
 bool kd_utf8_ascii(const char *text)
 {
@@ -10,31 +12,11 @@ bool kd_utf8_ascii(const char *text)
     return true;
 }
 
-/* Bytes of the sequence that starts here, 0 if it is none. Stops at the NUL, which continues nothing. */
-static size_t sequence(const unsigned char *p)
-{
-    static const uint32_t least[5] = { 0, 0, 0x80, 0x800, 0x10000 };
-    size_t n = p[0] < 0x80 ? 1 : p[0] >> 5 == 6 ? 2 : p[0] >> 4 == 14 ? 3 : p[0] >> 3 == 30 ? 4 : 0;
-    if (n < 2)
-        return n;
-    uint32_t code = p[0] & (0x7fu >> n);
-    for (size_t i = 1; i < n; i++) {
-        if (p[i] >> 6 != 2)
-            return 0;
-        code = code << 6 | (p[i] & 0x3fu);
-    }
-    return code < least[n] || code > 0x10ffff || code >> 11 == 0x1b ? 0 : n;
-}
-
 bool kd_utf8_valid(const char *text)
 {
-    const unsigned char *p = (const unsigned char *)text;
-    while (*p) {
-        size_t n = sequence(p);
-        if (!n)
+    for (size_t left = strlen(text), n; left; text += n, left -= n)
+        if (!(n = kd_utf8_sequence(text, left)))
             return false;
-        p += n;
-    }
     return true;
 }
 
