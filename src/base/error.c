@@ -12,7 +12,7 @@ static void fill(struct kd_error *error, enum kd_status status, const char *poin
     error->status = status;
     snprintf(error->pointer, sizeof error->pointer, "%s", pointer);
     vsnprintf(error->message, sizeof error->message, format, args);
-    kd_utf8_show(error->pointer); /* both may quote what is no text, or end in the middle of a character */
+    kd_utf8_mend(error->pointer); /* both may quote what is no text, or end in the middle of a character; a pointer is for programs */
     kd_utf8_show(error->message);
 }
 

@@ -31,13 +31,16 @@ bool kd_utf8_is_control(const char *text, size_t n)
     return (n == 1 && (p[0] < 0x20 || p[0] == 0x7f)) || (n == 2 && p[0] == 0xc2 && p[1] < 0xa0);
 }
 
-void kd_utf8_show(char *text)
+static void mend(char *text, bool controls)
 {
     for (size_t left = strlen(text), n; left; text += n, left -= n) {
         n = kd_utf8_sequence(text, left);
-        const bool plain = n && !kd_utf8_is_control(text, n);
-        if (!plain)
-            memset(text, *text && strchr("\n\t\r", *text) ? ' ' : '?', n ? n : 1);
+        if (!n || (controls && kd_utf8_is_control(text, n)))
+            memset(text, strchr("\n\t\r", *text) ? ' ' : '?', n ? n : 1);
         n = n ? n : 1;
     }
 }
+
+void kd_utf8_mend(char *text) { mend(text, false); }
+
+void kd_utf8_show(char *text) { mend(text, true); }

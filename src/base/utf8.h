@@ -11,7 +11,9 @@ size_t kd_utf8_sequence(const char *text, size_t length);
 /* Says whether the sequence is a control character. */
 bool kd_utf8_is_control(const char *text, size_t n);
 
-/* Puts a blank in the place of each line feed, tab and carriage return, and "?" in that of each byte of other control characters and of what is no UTF-8. */
+/* Puts "?" in the place of each byte of what is no UTF-8. */
+void kd_utf8_mend(char *text);
+/* The same, and of control characters; a blank in that of each line feed, tab and carriage return. */
 void kd_utf8_show(char *text);
 
 #endif
