@@ -1,5 +1,7 @@
 #include "base/error.h"
 
+#include "base/utf8.h"
+
 #include <stdio.h>
 
 static void fill(struct kd_error *error, enum kd_status status, const char *pointer,
@@ -11,6 +13,8 @@ static void fill(struct kd_error *error, enum kd_status status, const char *poin
     error->retry_s = 0;
     snprintf(error->pointer, sizeof error->pointer, "%s", pointer);
     vsnprintf(error->message, sizeof error->message, format, args);
+    kd_utf8_mend(error->pointer); /* both may quote what is no text, or end in the middle of a character; a pointer is for programs */
+    kd_utf8_show(error->message);
 }
 
 enum kd_status kd_error_set(struct kd_error *error, enum kd_status status, const char *format, ...)

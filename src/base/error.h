@@ -26,7 +26,7 @@ struct kd_error {
     char pointer[160]; /* RFC 6901 JSON pointer to the offending field, "" if none */
     char message[480]; /* one sentence, no trailing newline or full stop needed    */
     unsigned retry_s;  /* with KD_EBUSY: in how many seconds another try will go better; 0: nobody knows */
-};
+}; /* both are UTF-8, the message without control characters, whatever they quote */
 
 /* Fill *error (if not NULL) and return status, so that callers can `return kd_error_set(...)`. */
 enum kd_status kd_error_set(struct kd_error *error, enum kd_status status, const char *format, ...)

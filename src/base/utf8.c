@@ -1,7 +1,49 @@
 #include "base/utf8.h"
 
-#include <stdint.h>
 #include <string.h>
+
+size_t kd_utf8_sequence(const char *text, size_t length)
+{
+    const unsigned char *p = (const unsigned char *)text;
+    if (!length)
+        return 0;
+    if (p[0] < 0x80)
+        return 1;
+    size_t n = p[0] >= 0xc2 && p[0] <= 0xdf   ? 2
+               : p[0] >= 0xe0 && p[0] <= 0xef ? 3
+               : p[0] >= 0xf0 && p[0] <= 0xf4 ? 4
+                                              : 0;
+    if (!n || n > length)
+        return 0;
+    for (size_t i = 1; i < n; i++)
+        if ((p[i] & 0xc0) != 0x80)
+            return 0;
+    /* Overlong forms, surrogates and what lies beyond U+10FFFF show in the second byte. */
+    if ((p[0] == 0xe0 && p[1] < 0xa0) || (p[0] == 0xed && p[1] > 0x9f) || (p[0] == 0xf0 && p[1] < 0x90) ||
+        (p[0] == 0xf4 && p[1] > 0x8f))
+        return 0;
+    return n;
+}
+
+bool kd_utf8_is_control(const char *text, size_t n)
+{
+    const unsigned char *p = (const unsigned char *)text;
+    return (n == 1 && (p[0] < 0x20 || p[0] == 0x7f)) || (n == 2 && p[0] == 0xc2 && p[1] < 0xa0);
+}
+
+static void mend(char *text, bool controls)
+{
+    for (size_t left = strlen(text), n; left; text += n, left -= n) {
+        n = kd_utf8_sequence(text, left);
+        if (!n || (controls && kd_utf8_is_control(text, n)))
+            memset(text, strchr("\n\t\r", *text) ? ' ' : '?', n ? n : 1);
+        n = n ? n : 1;
+    }
+}
+
+void kd_utf8_mend(char *text) { mend(text, false); }
+
+void kd_utf8_show(char *text) { mend(text, true); }
 
 bool kd_utf8_ascii(const char *text)
 {
@@ -11,50 +53,29 @@ bool kd_utf8_ascii(const char *text)
     return true;
 }
 
-/* Bytes of the sequence that starts here, 0 if it is none. Stops at the NUL, which continues nothing. */
-static size_t sequence(const unsigned char *p)
-{
-    static const uint32_t least[5] = { 0, 0, 0x80, 0x800, 0x10000 };
-    size_t n = p[0] < 0x80 ? 1 : p[0] >> 5 == 6 ? 2 : p[0] >> 4 == 14 ? 3 : p[0] >> 3 == 30 ? 4 : 0;
-    if (n < 2)
-        return n;
-    uint32_t code = p[0] & (0x7fu >> n);
-    for (size_t i = 1; i < n; i++) {
-        if (p[i] >> 6 != 2)
-            return 0;
-        code = code << 6 | (p[i] & 0x3fu);
-    }
-    return code < least[n] || code > 0x10ffff || code >> 11 == 0x1b ? 0 : n;
-}
-
 bool kd_utf8_valid(const char *text)
 {
-    const unsigned char *p = (const unsigned char *)text;
-    while (*p) {
-        size_t n = sequence(p);
-        if (!n)
+    for (size_t left = strlen(text), n; left; text += n, left -= n)
+        if (!(n = kd_utf8_sequence(text, left)))
             return false;
-        p += n;
-    }
     return true;
 }
 
 void kd_utf8_print(char *to, size_t size, const char *text)
 {
     static const char digits[] = "0123456789abcdef";
-    const unsigned char *p = (const unsigned char *)text;
-    while (*p) {
-        const size_t n = sequence(p);
-        const bool printing = n && *p >= 0x20 && *p != 0x7f && !(n == 2 && p[0] == 0xc2 && p[1] < 0xa0);
+    for (size_t left = strlen(text), step; left; text += step, left -= step) {
+        const size_t n = kd_utf8_sequence(text, left);
+        const bool printing = n && !kd_utf8_is_control(text, n);
         const size_t room = printing ? n : 4;
         if (room >= size)
             break;
         if (printing)
-            memcpy(to, p, n);
+            memcpy(to, text, n);
         else
-            memcpy(to, (const char[4]) { '\\', 'x', digits[*p >> 4], digits[*p & 15] }, 4);
+            memcpy(to, (const char[4]) { '\\', 'x', digits[(unsigned char)*text >> 4], digits[*text & 15] }, 4);
         to += room, size -= room;
-        p += printing ? n : 1;
+        step = printing ? n : 1;
     }
     *to = 0;
 }

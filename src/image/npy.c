@@ -343,9 +343,9 @@ enum kd_status kd_npy_read_text(const void *data, size_t size, struct kd_buffer 
     struct reader r = { .error = error };
     enum kd_status status = read_all(data, size, true, &array, error);
     const enum kd_npy_type type = array.fields[0].type;
-    const uint8_t *p = (const uint8_t *)data + array.header_size;
     if (status)
         return status;
+    const uint8_t *p = (const uint8_t *)data + array.header_size; /* not before: of no bytes there may be no address */
     if (array.n_fields != 1 || array.fields[0].name[0] || !(type == KD_NPY_U1 ? array.n_dimensions == 1 : type >= KD_NPY_TEXT && array.n_dimensions == 0))
         return fail(&r, "it is no text: neither one str nor a list of bytes");
     const size_t n = type == KD_NPY_U1 ? array.items : array.fields[0].count;

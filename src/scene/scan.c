@@ -1,6 +1,7 @@
 #include "scene/scan.h"
 
 #include "scene/number.h"
+#include "base/utf8.h"
 #include "scene/text.h"
 
 #include <ctype.h>
@@ -64,7 +65,7 @@ static enum kd_status string(struct scan *s)
         } else if ((unsigned char)c < 0x20) {
             status = fail(s, s->at, "control character in a string");
         } else {
-            size_t n = kd_text_sequence(s->text + s->at, s->length - s->at);
+            size_t n = kd_utf8_sequence(s->text + s->at, s->length - s->at);
             if (!n)
                 return fail(s, s->at, "invalid UTF-8");
             s->at += n;
@@ -123,7 +124,7 @@ static enum kd_status mark(struct scan *s, char c)
             return too_many(s);
     } else if (c && !strchr(": \t\n\r", c)) {
         return fail(s, s->at,
-                    (c & 0x80) && !kd_text_sequence(s->text + s->at, s->length - s->at)
+                    (c & 0x80) && !kd_utf8_sequence(s->text + s->at, s->length - s->at)
                         ? "invalid UTF-8"
                         : "unexpected character");
     } else if (!c) {

@@ -1,42 +1,15 @@
 #include "scene/text.h"
 
+#include "base/utf8.h"
+
 #include <string.h>
-
-size_t kd_text_sequence(const char *text, size_t length)
-{
-    const unsigned char *p = (const unsigned char *)text;
-    if (!length)
-        return 0;
-    if (p[0] < 0x80)
-        return 1;
-    size_t n = p[0] >= 0xc2 && p[0] <= 0xdf   ? 2
-               : p[0] >= 0xe0 && p[0] <= 0xef ? 3
-               : p[0] >= 0xf0 && p[0] <= 0xf4 ? 4
-                                              : 0;
-    if (!n || n > length)
-        return 0;
-    for (size_t i = 1; i < n; i++)
-        if ((p[i] & 0xc0) != 0x80)
-            return 0;
-    /* Overlong forms, surrogates and what lies beyond U+10FFFF show in the second byte. */
-    if ((p[0] == 0xe0 && p[1] < 0xa0) || (p[0] == 0xed && p[1] > 0x9f) || (p[0] == 0xf0 && p[1] < 0x90) ||
-        (p[0] == 0xf4 && p[1] > 0x8f))
-        return 0;
-    return n;
-}
-
-static int is_control(const char *text, size_t n)
-{
-    const unsigned char *p = (const unsigned char *)text;
-    return (n == 1 && (p[0] < 0x20 || p[0] == 0x7f)) || (n == 2 && p[0] == 0xc2 && p[1] < 0xa0);
-}
 
 void kd_text_clip(char *out, size_t size, const char *text)
 {
     size_t used = 0, length = strnlen(text, size), whole = 0;
     for (size_t i = 0; i < length;) {
-        size_t n = kd_text_sequence(text + i, length - i), step = n ? n : 1;
-        int plain = n && !is_control(text + i, n);
+        size_t n = kd_utf8_sequence(text + i, length - i), step = n ? n : 1;
+        int plain = n && !kd_utf8_is_control(text + i, n);
         if (used + (plain ? n : 1) >= size) {
             strcpy(out + whole, "...");
             return;

@@ -1,11 +1,8 @@
-/* These say of text from outside whether it is UTF-8, and quote it in a message. Any thread. */
+/* These make of text from outside what a message may quote. Any thread. */
 #ifndef KD_SCENE_TEXT_H
 #define KD_SCENE_TEXT_H
 
 #include <stddef.h>
-
-/* Counts the bytes (1 to 4) of the well-formed UTF-8 sequence at text (RFC 3629: shortest form, no surrogates), 0 if none. */
-size_t kd_text_sequence(const char *text, size_t length);
 
 /* Copies text for a reader's eyes: control characters and broken UTF-8 become '?', what does not fit becomes "...". size is at
  * least 8. */

@@ -48,7 +48,8 @@ class Scripts(unittest.TestCase):
                 self.assertIn(words, text)
 
     def test_unknown_arguments(self):
-        for command in (['setup', '--sanitise'], ['matrix', 'debian14'], ['chroot'], ['chroot', 'trixie']):
+        for command in (['setup', '--sanitise'], ['matrix', 'debian14'], ['chroot'], ['chroot', 'trixie'],
+                        ['fuzz', 'scen'], ['fuzz', '--seconds', '0'], ['fuzz', '--result', 'a.txt']):
             with self.subTest(command):
                 code, text = run(*command)
                 self.assertEqual((code, text.count('\n')), (2, 1), text)

@@ -5,6 +5,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -47,6 +48,24 @@ static void each_once_until_one_fails(void **state)
     }
 }
 
+/* What is quoted may be anything, and a sentence may end in the middle of a character. */
+static void errors_can_be_shown(void **state)
+{
+    (void)state;
+    struct kd_error error = { 0 };
+    char long_text[600];
+    kd_error_field(&error, "/\xff\x01", "a\nb\t\x1b[31m \xc3\xa9 \xc3( \xed\xa0\x80 \xf0\x9f\x98\x80 \x7f \xc2\x9b");
+    assert_string_equal(error.pointer, "/?\x01");
+    assert_string_equal(error.message, "a b ?[31m \xc3\xa9 ?( ??? \xf0\x9f\x98\x80 ? ??");
+    memset(long_text, 'a', sizeof long_text);
+    long_text[sizeof error.message - 2] = '\xc3';
+    long_text[sizeof error.message - 1] = '\xa9';
+    long_text[sizeof long_text - 1] = 0;
+    kd_error_set(&error, KD_EINVAL, "%s", long_text);
+    assert_int_equal(strlen(error.message), sizeof error.message - 1);
+    assert_int_equal(error.message[sizeof error.message - 2], '?');
+}
+
 static void without_an_error_to_fill(void **state)
 {
     (void)state;
@@ -65,7 +84,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_once_until_one_fails),
-        cmocka_unit_test(without_an_error_to_fill),
+        cmocka_unit_test(errors_can_be_shown), cmocka_unit_test(without_an_error_to_fill),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -17,7 +17,7 @@ static size_t channels_of(const struct kd_numbers *numbers, struct kd_exr_channe
         for (uint32_t c = 0; c < layer->channels; c++) {
             out[n] = (struct kd_exr_channel) { .data = (const float *)layer->data + c, .step = layer->channels };
             snprintf(out[n++].name, sizeof out->name, "%.*s", layer->channels > 1 ? 1 : (int)sizeof out->name - 1,
-                     layer->channels > 1 ? "RGB" + c : numbers->at[i].name);
+                     layer->channels > 1 ? &"RGB"[c] : numbers->at[i].name);
         }
     }
     return n;

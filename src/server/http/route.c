@@ -77,6 +77,7 @@ bool kd_route_find(struct kd_request *request, struct kd_problem *problem)
     for (size_t i = 0; i < kd_n_routes; i++) {
         const struct kd_route *route = &kd_routes[i];
         bool page = *base->path && !*path && !strcmp(route->path, "/");
+        request->rest = "";
         if (!page && !matches(route, path, &request->rest))
             continue;
         request->route = request->matched = route;

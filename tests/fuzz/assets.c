@@ -1,0 +1,99 @@
+/* This looks at an asset, as a server does before it keeps one, and reads it as a renderer does: a picture of the sky, or a grid of matter.
+ *
+ * Sums that a random change would break are made good first: those of a PNG's chunks. What begins with "grid" becomes an NPZ file: records of a number of the list of names, two bytes of
+ * length and an array's bytes, or for a header its text alone. */
+#include "fuzz.h"
+
+#include "image/npy.h"
+#include "image/zip.h"
+#include "mend.h"
+#include "render/emit/matter_grid.h"
+#include "render/sky/image.h"
+#include "server/asset/folder.h"
+
+#include <math.h>
+
+#define PIXELS (1u << 16) /* of a picture that is decoded too */
+
+static const char *const names[] = { "header", "r", "theta", "phi", "density", "temperature", "u_con_r", "u_con_theta", "u_cov_phi", "u_con_t", "b_con_r", "b_con_theta", "b_cov_phi" };
+enum { NAMES = sizeof names / sizeof *names };
+
+static void add(struct kd_zip *zip, const char *name, const uint8_t *data, size_t size)
+{
+    struct kd_buffer bytes = { 0 };
+    char file[40];
+    const struct kd_npy text = { .fields = { { "", KD_NPY_U1, 0 } }, .n_fields = 1, .shape = { size }, .n_dimensions = 1 };
+    snprintf(file, sizeof file, "%s.npy", name);
+    CHECK(!(size && *data == '{' && kd_npy_write_header(&text, &bytes)) && !kd_buffer_append(&bytes, data, size), "out of memory");
+    CHECK(!kd_zip_add(zip, file, bytes.data ? (void *)bytes.data : "", bytes.size), "a member cannot be added");
+    kd_buffer_finish(&bytes);
+}
+
+static void make_grid(const uint8_t *data, size_t size, struct kd_buffer *out)
+{
+    struct kd_zip *zip;
+    CHECK(!kd_zip_create(out, false, &zip), "a ZIP file cannot be begun");
+    while (size >= 3) {
+        const size_t length = data[1] | (size_t)data[2] << 8, n = length < size - 3 ? length : size - 3;
+        add(zip, names[data[0] % NAMES], data + 3, n);
+        data += 3 + n;
+        size -= 3 + n;
+    }
+    CHECK(!kd_zip_close(zip), "a ZIP file cannot be ended");
+    kd_zip_destroy(zip);
+}
+
+static void check_grid(const void *data, size_t size, const struct kd_asset_about *about, enum kd_status looked)
+{
+    struct kd_matter_grid grid;
+    struct kd_error error = { 0 };
+    const enum kd_status status = kd_matter_grid_read(data, size, &grid, &error);
+    CHECK(!status == !looked, "a grid is looked at as %s and read as %s", kd_status_name(looked), kd_status_name(status));
+    if (status) {
+        kd_fuzz_refused(status, &error);
+        return;
+    }
+    CHECK(grid.rows == about->nodes[0] && grid.columns == about->nodes[1] && grid.layers == about->nodes[2] && grid.spin == about->spin, "a grid is another one than it was looked at");
+    for (size_t i = 0; i < (size_t)grid.rows * grid.columns * grid.layers * KD_MATTER_FLOATS; i++)
+        CHECK(isfinite(grid.nodes[i]), "number %zu of node %zu is %g", i % KD_MATTER_FLOATS, i / KD_MATTER_FLOATS, (double)grid.nodes[i]);
+    kd_matter_grid_finish(&grid);
+}
+
+static void check_sky(const void *data, size_t size)
+{
+    struct kd_sky_picture picture = { 0 };
+    char credit[KD_SKY_CREDIT];
+    struct kd_error error = { 0 };
+    const enum kd_status status = kd_sky_image(data, size, &picture, credit, &error);
+    if (status) {
+        kd_fuzz_refused(status, &error);
+        return;
+    }
+    kd_fuzz_shown(credit);
+    CHECK(picture.height && !(picture.height & (picture.height - 1)) && picture.width == 2 * picture.height, "a sky has %u x %u texels", picture.width, picture.height);
+    for (size_t i = 0; i < (size_t)3 * picture.width * picture.height; i++)
+        CHECK(picture.texels[i] >= 0 && picture.texels[i] <= 1.000001f, "a texel is %g", (double)picture.texels[i]);
+    kd_sky_picture_finish(&picture);
+}
+
+int kd_fuzz_assets(const uint8_t *data, size_t size)
+{
+    struct kd_buffer made = { 0 };
+    struct kd_asset_about about = { 0 };
+    struct kd_error error = { 0 };
+    const bool grid = size > 4 && !memcmp(data, "grid", 4);
+    if (grid)
+        make_grid(data + 4, size - 4, &made);
+    struct kd_fuzz_text bytes = grid ? kd_fuzz_bare(made.data, made.size) : kd_fuzz_bare(data, size);
+    kd_fuzz_mend_png((uint8_t *)bytes.at, bytes.size);
+    const enum kd_status status = kd_asset_look(bytes.at, bytes.size, &about, &error);
+    if (status)
+        kd_fuzz_refused(status, &error);
+    if (kd_matter_grid_is(bytes.at, bytes.size))
+        check_grid(bytes.at, bytes.size, &about, status);
+    else if (!status && (uint64_t)about.width * about.height <= PIXELS)
+        check_sky(bytes.at, bytes.size);
+    free(bytes.at);
+    kd_buffer_finish(&made);
+    return 0;
+}

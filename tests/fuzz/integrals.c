@@ -1,0 +1,67 @@
+/* This reads a request for an integral, the first byte says which: JSON, and line by line as NAME=VALUE. */
+#include "fuzz.h"
+
+#include "integral/request.h"
+
+static void check(struct kd_integral_request *request, enum kd_status status, const struct kd_error *error)
+{
+    if (status) {
+        kd_fuzz_refused(status, error);
+        return;
+    }
+    CHECK(kd_integral_rows(request) <= KD_INTEGRAL_LIST, "an answer has %zu rows", kd_integral_rows(request));
+    if (request->scene)
+        kd_fuzz_sound(request->scene);
+    struct kd_buffer out = { 0 };
+    struct kd_json json = kd_json_begin(&out);
+    kd_json_object(&json, NULL);
+    for (size_t i = 0; i < kd_n_integral_fields; i++)
+        if (kd_integral_fields[i].kind != KD_INTEGRAL_NUMBERS && kd_integral_fields[i].of & 1u << request->what)
+            kd_integral_field_write(&json, request, &kd_integral_fields[i]);
+    kd_json_end(&json);
+    CHECK(!kd_json_finish(&json), "a request cannot be written");
+    kd_fuzz_json(&out);
+    kd_buffer_finish(&out);
+}
+
+static void read_lines(enum kd_integral what, const uint8_t *data, size_t size)
+{
+    struct kd_integral_request request;
+    struct kd_error error = { 0 };
+    struct kd_fuzz_text line;
+    enum kd_status status = KD_OK;
+    kd_integral_request_init(&request, what);
+    while (!status && kd_fuzz_next(&data, &size, &line)) {
+        char *value = strchr(line.at, '=');
+        if (value) {
+            *value++ = 0;
+            status = kd_integral_request_set(&request, line.at, value, &error);
+        }
+        free(line.at);
+    }
+    if (!status)
+        status = kd_integral_request_check(&request, &error);
+    check(&request, status, &error);
+    kd_integral_request_finish(&request);
+}
+
+int kd_fuzz_integrals(const uint8_t *data, size_t size)
+{
+    static const enum kd_integral known[] = { KD_INTEGRAL_LINE, KD_INTEGRAL_TRANSFER, KD_INTEGRAL_SPECTRUM, KD_INTEGRAL_VISIBILITY };
+    if (!size)
+        return 0;
+    const enum kd_integral what = known[*data % 4];
+    struct kd_fuzz_text text = kd_fuzz_bare(data + 1, size - 1);
+    if (text.size && *text.at != '{')
+        read_lines(what, (const uint8_t *)text.at, text.size);
+    else {
+        struct kd_integral_request request;
+        struct kd_error error = { 0 };
+        kd_integral_request_init(&request, what);
+        const enum kd_status status = kd_integral_request_json(&request, text.at, text.size, &error);
+        check(&request, status, &error);
+        kd_integral_request_finish(&request);
+    }
+    free(text.at);
+    return 0;
+}
