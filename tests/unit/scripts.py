@@ -48,12 +48,18 @@ class Scripts(unittest.TestCase):
                 self.assertIn(words, text)
 
     def test_unknown_arguments(self):
-        for command in (['setup', '--sanitise'], ['matrix', 'debian14'], ['chroot'], ['chroot', 'trixie'],
+        for command in (['setup', '--sanitise'], ['matrix', 'debian14'], ['chroot'], ['chroot', 'trixie'], ['chroot', '--bare'],
+                        ['package', '--bare'], ['container', 'run'], ['version', '1.0'],
                         ['fuzz', 'scen'], ['fuzz', '--seconds', '0'], ['fuzz', '--result', 'a.txt']):
             with self.subTest(command):
                 code, text = run(*command)
                 self.assertEqual((code, text.count('\n')), (2, 1), text)
                 self.assertTrue(text.startswith(f'scripts/{command[0]}: '), text)
+
+    def test_everything_is_the_matrix(self):
+        code, text = run('test', '--everything', 'debian14')
+        self.assertEqual(code, 2)
+        self.assertTrue(text.startswith('scripts/matrix: there is no way debian14'), text)
 
     def test_the_report(self):
         """Seconds suite by suite, the slowest, and what was skipped."""
@@ -84,7 +90,7 @@ class Scripts(unittest.TestCase):
                 self.assertNotIn('pipefail', done.stdout)
 
     def test_they_are_shell(self):
-        for script in ('setup', 'test', 'serve', 'matrix', 'chroot', 'cross'):
+        for script in ('setup', 'test', 'serve', 'matrix', 'chroot', 'cross', 'export', 'package', 'container', 'dist-test'):
             subprocess.run(['bash', '-n', SCRIPTS / script], check=True)
 
 

@@ -1,0 +1,55 @@
+"""What `meson install` installs, by name, and that none of it names the folder it was built in. installed.py BUILD SOURCE"""
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+BUILD, SOURCE = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
+
+
+class Installed(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        subprocess.run(['meson', 'install', '-C', BUILD, '--no-rebuild', '--quiet'], env={**os.environ, 'DESTDIR': folder.name}, check=True, timeout=120)
+        cls.root = pathlib.Path(folder.name)
+        cls.prefix = next(cls.root.rglob('bin/kerrd')).parents[1]
+        cls.names = {path.relative_to(cls.prefix).as_posix() for path in cls.prefix.rglob('*') if not path.is_dir()}
+
+    def test_each_command_has_its_page(self):
+        commands = re.findall(r'^    X\("([\w-]+)"', (SOURCE / 'src/cli/commands.h').read_text(), re.M)
+        self.assertGreater(len(commands), 15)
+        self.assertEqual({name for name in self.names if name.startswith('share/man/')}, {'share/man/man1/kerrd.1', *(f'share/man/man1/kerrd-{name}.1' for name in commands)})
+
+    def test_completions_and_the_unit(self):
+        rest = {name for name in self.names if not name.startswith(('share/man/', 'share/doc/'))}
+        self.assertIn('lib/systemd/system/kerrd.service', rest)
+        self.assertEqual({name for name in rest if name.startswith('share/')} - {'share/zsh/site-functions/_kerrd', 'share/zsh/vendor-completions/_kerrd'},
+                         {'share/bash-completion/completions/kerrd', 'share/fish/vendor_completions.d/kerrd.fish'})
+        self.assertTrue(any(name.endswith('/_kerrd') for name in rest))
+        self.assertEqual({name for name in rest if not name.startswith('share/')}, {'bin/kerrd', 'lib/systemd/system/kerrd.service'})
+        started = re.search(r'^ExecStart=(\S+)', (self.prefix / 'lib/systemd/system/kerrd.service').read_text(), re.M)[1]
+        self.assertEqual(self.root / started.lstrip('/'), self.prefix / 'bin/kerrd')
+
+    def test_documents_and_licence(self):
+        folder = 'share/doc/kerrd/'
+        self.assertEqual((self.prefix / folder / 'LICENSE').read_bytes(), (SOURCE / 'LICENSE').read_bytes())
+        self.assertLessEqual({folder + name for name in ('NEWS', 'README.md', 'SECURITY.md')}, self.names)
+        documents = {path.relative_to(SOURCE).as_posix() for path in (SOURCE / 'docs').rglob('*.md')}
+        self.assertGreater(len(documents), 40)
+        self.assertEqual({folder + name for name in documents} - self.names, set())
+
+    def test_all_of_it_can_be_read_by_all(self):
+        wrong = [name for name in self.names if (self.prefix / name).stat().st_mode & 0o444 != 0o444 or (self.prefix / name).stat().st_mode & 0o022]
+        self.assertEqual(wrong, [])
+
+    def test_nothing_names_the_folder_it_was_built_in(self):
+        told = [name for name in self.names for folder in (BUILD, SOURCE, self.root) if str(folder).encode() in (self.prefix / name).read_bytes()]
+        self.assertEqual(told, [])
+
+
+unittest.main(argv=sys.argv[:1], verbosity=2)
