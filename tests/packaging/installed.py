@@ -29,7 +29,7 @@ class Installed(unittest.TestCase):
         rest = {name for name in self.names if not name.startswith(('share/man/', 'share/doc/'))}
         self.assertIn('lib/systemd/system/kerrd.service', rest)
         self.assertEqual({name for name in rest if name.startswith('share/')} - {'share/zsh/site-functions/_kerrd', 'share/zsh/vendor-completions/_kerrd'},
-                         {'share/bash-completion/completions/kerrd', 'share/fish/vendor_completions.d/kerrd.fish'})
+                         {'share/bash-completion/completions/kerrd', 'share/fish/vendor_completions.d/kerrd.fish', 'share/kerrd/grafana/kerrd.json', 'share/kerrd/prometheus/alerts.yml'})
         self.assertTrue(any(name.endswith('/_kerrd') for name in rest))
         self.assertEqual({name for name in rest if not name.startswith('share/')}, {'bin/kerrd', 'lib/systemd/system/kerrd.service'})
         started = re.search(r'^ExecStart=(\S+)', (self.prefix / 'lib/systemd/system/kerrd.service').read_text(), re.M)[1]

@@ -215,7 +215,7 @@ static void set_names_unknown_paths(void **state)
         { "spot3.brightnes", "/spots/2/brightnes", "did you mean spots.2.brightness?" },
         { "spots.0.r.x", "/spots/0/r.x", "unknown field spots.0.r.x" },
         { "spot4.r", "/spot4/r", "did you mean spots.0.r?" },
-        { "camera.\x1b[31m\xff", "/camera/\x1b[31m\xff", "camera.?[31m?" },
+        { "camera.\x1b[31m\xff", "/camera/\x1b[31m?", "camera.?[31m?" },
     };
     struct kd_scene scene, before;
     kd_scene_defaults(&scene);

@@ -51,6 +51,7 @@ enum kd_status kd_renderer_device_json(struct kd_renderer *renderer, struct kd_b
 /* One line: "llvmpipe (LLVM 15.0.6, 256 bits), llvmpipe Mesa 22.3.6". Any thread. */
 const char *kd_renderer_device_name(const struct kd_renderer *renderer);
 /* The two parts of that. Any thread. */
+const char *kd_renderer_type_name(size_t i); /* of the i-th type of devices; NULL: there are no more */
 const char *kd_renderer_device(const struct kd_renderer *renderer);
 const char *kd_renderer_driver(const struct kd_renderer *renderer);
 /* Bytes of device memory that its buffers hold, as of the last frame. Any thread. */

@@ -1,15 +1,14 @@
 #include "server/openapi/reports.h"
 
 #include "render/accuracy/engine.h"
+#include "render/device/renderer.h"
 #include "render/plan/pass.h"
 #include "server/openapi/strict.h"
-#include "vk/vk.h"
 
 #define TEXTS KD_SCHEMA_LIST(KD_SCHEMA_TEXT)
 
 static const char *engine(size_t i) { return i < KD_ENGINE_COUNT ? kd_engine_name((enum kd_engine)i) : NULL; }
 static const char *precision(size_t i) { return i <= KD_PRECISION_F64 ? kd_precision_name((enum kd_precision)i) : NULL; }
-static const char *device_type(size_t i) { return i <= KD_VK_DISCRETE ? kd_vk_type_name((enum kd_vk_type)i) : NULL; }
 static const char *pass_name(size_t i) { return i < KD_PASS_COUNT ? kd_passes[i].name : NULL; }
 
 static void add_device(struct kd_json *json)
@@ -23,7 +22,7 @@ static void add_device(struct kd_json *json)
         { "allocation_bytes", KD_SCHEMA_COUNT, false }, { "workgroups", KD_SCHEMA_COUNT, false }, { "subgroup_size", KD_SCHEMA_COUNT, false },
     };
     static const struct kd_openapi_member device[] = {
-        { "kerrd", KD_SCHEMA_TEXT, false }, { "name", KD_SCHEMA_TEXT, false }, { "type", NULL, false, device_type }, { "driver", KD_SCHEMA_TEXT, false },
+        { "kerrd", KD_SCHEMA_TEXT, false }, { "name", KD_SCHEMA_TEXT, false }, { "type", NULL, false, kd_renderer_type_name }, { "driver", KD_SCHEMA_TEXT, false },
         { "driver_info", KD_SCHEMA_TEXT, false }, { "vulkan", KD_SCHEMA_TEXT, false }, { "index", KD_SCHEMA_COUNT, false }, { "choice", KD_SCHEMA_TEXT, false },
         { "precision", KD_SCHEMA_LIST(KD_SCHEMA_REF("Precision")), false }, { "float64_hardware", KD_SCHEMA_TRUTH, false }, { "timestamps", KD_SCHEMA_TRUTH, false },
         { "selftest", KD_SCHEMA_REF("DeviceSelftest"), false }, { "limits", KD_SCHEMA_REF("DeviceLimits"), false }, { "ns_per_item", KD_SCHEMA_REF("DeviceFigures"), false },
