@@ -79,7 +79,7 @@ class Listed(Case):
 
     def test_preflights(self):
         """Each route says its own methods, and the headers that it reads."""
-        always = ['Authorization', 'Kerrd-Access']
+        always = ['Authorization', 'X-Request-Id', 'Kerrd-Access']
         for target, methods, more in (
                 ('/v1/render', 'GET, HEAD, POST', ['Content-Type', 'If-None-Match']), ('/v1/device', 'GET, HEAD', []), ('/v1/presets', 'GET, HEAD', ['If-None-Match']),
                 ('/v1/sessions', 'POST', ['Content-Type']), ('/v1/sessions/0123456789abcdef', 'GET, HEAD, PATCH, DELETE', ['Content-Type', 'Prefer']),

@@ -175,14 +175,20 @@ static const struct kd_visitor *visitor_of(struct kd_request *request, const str
     return visitor || !brought->cookie ? visitor : kd_access_find(access, brought->cookie);
 }
 
+/* 32 hexadecimal digits: nobody finds a token of that form by trying. */
+static bool may_be_sessions(const char *bearer) { return strlen(bearer) == 32 && strspn(bearer, "0123456789abcdef") == 32; }
+
 /* In how many seconds tokens of this address are looked at again; 0: they are, or none has come. Its client is still its address. */
 static unsigned guesses_wait_s(const struct kd_request *request, const struct brought *brought)
 {
     struct kd_guesses *guesses = request->server->guesses;
     const char *const texts[] = { brought->alone, brought->alone ? NULL : brought->bearer, brought->alone ? NULL : brought->cookie };
     uint64_t hash = KD_HASH_BEGIN; /* the same for the same token, whichever way it is brought */
-    if (request->visitor)
-        return kd_guesses_right(guesses, request->client, request->visitor, kd_clock_ms());
+    if (request->visitor) { /* by its cookie, perhaps, beside a try; but a bearer may be a session's token, too */
+        const bool tried = brought->bearer && !brought->alone && !request->spent && !may_be_sessions(brought->bearer);
+        const unsigned wait = tried ? kd_guesses_wrong(guesses, request->client, kd_hash(hash, brought->bearer, strlen(brought->bearer) + 1), kd_clock_ms()) : 0;
+        return wait ? wait : kd_guesses_right(guesses, request->client, request->visitor, kd_clock_ms());
+    }
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
         hash = texts[i] ? kd_hash(hash, texts[i], strlen(texts[i]) + 1) : hash;
     return hash == KD_HASH_BEGIN ? 0 : kd_guesses_wrong(guesses, request->client, hash, kd_clock_ms());

@@ -40,7 +40,7 @@ static struct kd_allowance_place *place_of(struct kd_allowance *all, const char 
 
 double kd_allowance_left_ms(const struct kd_allowance *all, const char *client, double now_ms)
 {
-    if (!all->seconds)
+    if (!all->seconds || !*client)
         return INFINITY;
     const size_t i = find(all, client);
     return i < KD_ALLOWANCE_CLIENTS ? now_in(all, &all->places[i], now_ms) : most_ms(all);
@@ -48,7 +48,7 @@ double kd_allowance_left_ms(const struct kd_allowance *all, const char *client, 
 
 void kd_allowance_charge(struct kd_allowance *all, const char *client, double ms, double now_ms)
 {
-    if (!all->seconds)
+    if (!all->seconds || !*client)
         return;
     struct kd_allowance_place *place = place_of(all, client, now_ms);
     place->ms = now_in(all, place, now_ms) - ms;

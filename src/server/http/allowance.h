@@ -16,7 +16,7 @@ struct kd_allowance {
     } places[KD_ALLOWANCE_CLIENTS];
 };
 
-/* What the bucket holds, in ms of the device's time; below 0 it is owed. INFINITY without a limit. */
+/* What the bucket holds, in ms of the device's time; below 0 it is owed. INFINITY without a limit, and for "": nobody's, as jobs are that go on after a restart. */
 double kd_allowance_left_ms(const struct kd_allowance *all, const char *client, double now_ms);
 /* Takes what work of a client has used. */
 void kd_allowance_charge(struct kd_allowance *all, const char *client, double ms, double now_ms);

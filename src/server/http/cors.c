@@ -11,7 +11,7 @@
 #define EXPOSED \
     "Allow, Content-Disposition, Content-Encoding, ETag, Kerrd-Accuracy, Kerrd-Approximations, Kerrd-Azimuth, Kerrd-Clock, Kerrd-Count, Kerrd-Fields, Kerrd-Flux, Kerrd-Frame, " \
     "Kerrd-Generation, Kerrd-Particles, Kerrd-Patched, Kerrd-Quality, Kerrd-Revision, Kerrd-Rows, Kerrd-Scene-Hash, Kerrd-Sentences, Kerrd-Time, Kerrd-Waited, Location, " \
-    "Preference-Applied, Retry-After, Server-Timing, WWW-Authenticate"
+    "Preference-Applied, Retry-After, Server-Timing, WWW-Authenticate, X-Request-Id"
 
 struct kd_cors {
     char **origins;
@@ -128,7 +128,7 @@ static void allowed_headers(const struct kd_route *route, char *out, size_t size
 {
     const bool body = route->methods & (KD_POST | KD_PATCH | KD_PUT), kept = route->status[0] == 304 || route->status[1] == 304;
     const bool events = route->answer && !strcmp(route->answer, "text/event-stream");
-    snprintf(out, size, "Authorization, " KD_ACCESS_HEADER "%s%s%s%s", body ? ", Content-Type" : "", kept ? ", If-None-Match" : "", events ? ", Last-Event-ID" : "",
+    snprintf(out, size, "Authorization, X-Request-Id, " KD_ACCESS_HEADER "%s%s%s%s", body ? ", Content-Type" : "", kept ? ", If-None-Match" : "", events ? ", Last-Event-ID" : "",
              route->methods & KD_PATCH ? ", Prefer" : "");
 }
 

@@ -6,13 +6,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define REMEMBERED 16u /* of an address: wrong tokens, and names that have been right */
+#define REMEMBERED 16u /* wrong tokens of an address */
 
 struct place {
     char client[KD_CLIENT];
     double tries, at_ms; /* how many were left, and when; at_ms 0: the place is free */
     uint64_t wrong[REMEMBERED];
-    const void *right[REMEMBERED];
+    const void *right[KD_GUESSES_NAMES];
     unsigned n_wrong, n_right; /* that have been written, the latest over the oldest */
 };
 
@@ -70,7 +70,7 @@ static unsigned wait_s(const struct place *p) { return p->tries >= 1 ? 0 : 1 + (
 
 static bool was_right(const struct place *p, const void *whose)
 {
-    for (unsigned i = 0; i < REMEMBERED && i < p->n_right; i++)
+    for (unsigned i = 0; i < KD_GUESSES_NAMES && i < p->n_right; i++)
         if (p->right[i] == whose)
             return true;
     return false;
@@ -92,7 +92,7 @@ unsigned kd_guesses_right(struct kd_guesses *guesses, const char *client, const 
     if (!was_right(p, whose)) {
         wait = wait_s(p);
         if (!wait)
-            p->right[p->n_right++ % REMEMBERED] = whose;
+            p->right[p->n_right++ % KD_GUESSES_NAMES] = whose;
     }
     pthread_mutex_unlock(&guesses->lock);
     return wait;

@@ -10,6 +10,7 @@
 
 #define KD_GUESSES_MOST 20u     /* wrong tokens of an address at once */
 #define KD_GUESSES_EACH_S 3u    /* after which one more is taken */
+#define KD_GUESSES_NAMES 64u    /* that have been right from an address, and stay in: the latest ones */
 #define KD_GUESSES_CLIENTS 256u /* addresses told apart; one more has the place of one that has tried least, and of these the one that was heard of longest ago */
 
 struct kd_guesses;

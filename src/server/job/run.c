@@ -118,7 +118,7 @@ void kd_jobs_pump(struct kd_jobs *all)
         return;
     double now = kd_clock_ms();
     for (struct kd_job *job = all->first; job; job = job->link)
-        if (kd_job_is_active(job) && !job->unordered && now >= job->due_ms && begin(job))
+        if (kd_job_is_active(job) && !job->unordered && now >= job->due_ms && kd_render_queue_may_push(all->params.renders, job->client) && begin(job))
             return;
 }
 

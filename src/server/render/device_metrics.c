@@ -33,7 +33,7 @@ enum kd_status kd_render_queue_metrics(struct kd_render_queue *queue, struct kd_
     KD_TRY(add_build(out, queue->renderer));
     KD_TRY(kd_buffer_printf(out, "# HELP kerrd_device_memory_bytes Held of the device's memory by buffers, after the latest picture.\n# TYPE kerrd_device_memory_bytes gauge\n"
                                  "kerrd_device_memory_bytes %llu\n", (unsigned long long)kd_renderer_held(queue->renderer)));
-    KD_TRY(kd_buffer_printf(out, "# HELP kerrd_device_lost_total 1: the device is lost, and the server ends.\n# TYPE kerrd_device_lost_total counter\nkerrd_device_lost_total %d\n",
+    KD_TRY(kd_buffer_printf(out, "# HELP kerrd_device_lost 1: the device is lost, and the server ends.\n# TYPE kerrd_device_lost gauge\nkerrd_device_lost %d\n",
                             kd_render_queue_lost(queue, NULL)));
     KD_TRY(kd_render_measures_write(&queue->measures, out));
 done:

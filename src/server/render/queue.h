@@ -107,6 +107,8 @@ void kd_render_queue_sky_ahead(struct kd_render_queue *queue, const char *hash, 
 /* What it has measured, and what there is of the device, in Prometheus's format. */
 enum kd_status kd_render_queue_metrics(struct kd_render_queue *queue, struct kd_buffer *out);
 bool kd_render_queue_lost(struct kd_render_queue *queue, struct kd_error *error);
+/* Whether a frame of a job of this client may be pushed: it leaves half of what the client may use of the device's time to what somebody asks for. */
+bool kd_render_queue_may_push(struct kd_render_queue *queue, const char *client);
 /* Loses the device if whoever has it has given no sign of life for too long (pulse.h), as when a call of the driver does not return; or if another thread's
  * hangs. Whether it is so: what waits may never be done. */
 bool kd_render_queue_hangs(struct kd_render_queue *queue, bool another);

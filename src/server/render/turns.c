@@ -53,12 +53,20 @@ static bool frame_fits(const struct kd_render_queue *queue, const struct kd_rend
     return !bytes || queue->frame_bytes <= FRAME_BYTES + (bytes > KD_LONG_FRAME ? 0 : SHORT_BYTES);
 }
 
-/* What a client waits for was affordable when it came. All else goes on when its client can afford it; who has to wait is looked at again by
- * kd_render_queue_sweep, ten times a second. */
+/* What a client waits for was affordable when it came, and frames of jobs when they were pushed (kd_render_queue_may_push). All else begins when its client can afford it; who has to
+ * wait is looked at again by kd_render_queue_sweep, ten times a second. What has begun has a lane and memory that others wait for: it goes on, and the next one waits. */
 static bool may_be_paid(const struct kd_render_queue *queue, const struct kd_claim *claim)
 {
-    return kd_render_is_awaited((const struct kd_render_job *)claim) ||
-           kd_allowance_may(&queue->allowance, claim->client, claim->class == KD_CLASS_JOB, kd_clock_ms());
+    const struct kd_render_job *job = (const struct kd_render_job *)claim;
+    return kd_render_is_awaited(job) || claim->class == KD_CLASS_JOB || kd_render_has_begun(job) || kd_allowance_may(&queue->allowance, claim->client, false, kd_clock_ms());
+}
+
+bool kd_render_queue_may_push(struct kd_render_queue *queue, const char *client)
+{
+    pthread_mutex_lock(&queue->lock);
+    const bool may = kd_allowance_may(&queue->allowance, client, true, kd_clock_ms());
+    pthread_mutex_unlock(&queue->lock);
+    return may;
 }
 
 static bool may_have_it(const struct kd_claim *claim, void *user)
