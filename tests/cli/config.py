@@ -14,10 +14,11 @@ CLEAN = {name: value for name, value in os.environ.items() if not name.startswit
 # Of each option a value that is allowed, and one that is not: as text, and as the file has it.
 GOOD = {"listen": ("127.0.0.2", "127.0.0.2"), "port": ("9", 9), "base-path": ("/x", "/x"), "host": ("a,b", ["a", "b"]), "token-file": ("/t", "/t"), "insecure": ("yes", True),
         "allow-cross-site": ("yes", True), "queue": ("3", 3), "sessions": ("3", 3), "jobs": ("3", 3), "client-share": ("50", 50), "jobs-per-client": ("2", 2), "state": ("/s", "/s"),
-        "memory": ("128M", "128M"), "until-eof": ("yes", True), "device": ("0", "0"), "log-level": ("info", "info"), "log-format": ("json", "json")}
+        "memory": ("128M", "128M"), "until-eof": ("yes", True), "device": ("0", "0"), "log-level": ("info", "info"), "log-format": ("json", "json"), "client-device-seconds": ("10", 10),
+        "cors-origin": ("https://a.example,https://b.example", ["https://a.example", "https://b.example"]), "device-timeout": ("30", 30), "device-reopenings": ("0", 0)}
 BAD = {"port": ("65536", [65536, -1, 1.5, "9", True, None, 1e300]), "queue": ("0", [0, []]), "sessions": ("x", ["x"]), "jobs": ("1001", [1001]), "client-share": ("101", [0, {}]),
        "jobs-per-client": ("-1", [-1]), "insecure": ("maybe", [1, "yes"]), "allow-cross-site": ("y", ["true"]), "until-eof": ("2", [None]), "memory": ("1", [1, "1", 1073741824]),
-       "log-level": ("loud", ["loud", 1]), "log-format": ("xml", ["xml", True]), "host": (",a,", ["a", [1], [""]]), "listen": (None, [1, ["a"]]), "state": (None, [False])}
+       "log-level": ("loud", ["loud", 1]), "log-format": ("xml", ["xml", True]), "host": (",a,", ["a", [1], [""]]), "listen": (None, [1, ["a"]]), "client-device-seconds": ("61", [0, 61]), "device-timeout": ("0", [0]), "device-reopenings": ("-1", ["3"]), "state": (None, [False])}
 
 
 class Config(support.Case):
