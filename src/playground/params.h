@@ -63,6 +63,7 @@ extern const struct kd_playground_setting kd_playground_body_fields[]; /* of str
 extern const size_t kd_playground_n_body_fields;
 
 struct kd_playground_params kd_playground_defaults(void);
+bool kd_playground_params_same(const struct kd_playground_params *a, const struct kd_playground_params *b); /* all settings; playground.c */
 
 /* Word `i` of "a|b|c", copied; false: there are fewer. */
 bool kd_playground_word(const char *words, int i, char *out, size_t size);

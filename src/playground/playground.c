@@ -172,8 +172,7 @@ enum kd_status kd_playground_change(struct kd_playground *p, uint32_t id, const 
     return status;
 }
 
-/* Whether all settings are the same. */
-static bool same(const struct kd_playground_params *a, const struct kd_playground_params *b)
+bool kd_playground_params_same(const struct kd_playground_params *a, const struct kd_playground_params *b)
 {
 #define KD_SAME_(name, ...) && a->name == b->name
     return true KD_PLAYGROUND_SETTINGS(KD_SAME_, KD_SAME_, KD_SAME_, KD_SAME_);
@@ -190,7 +189,7 @@ enum kd_status kd_playground_set(struct kd_playground *p, const struct kd_playgr
     looks.debris_temperature_k = p->params.debris_temperature_k;
     looks.debris_depth = p->params.debris_depth;
     looks.albedo = p->params.albedo;
-    const bool moves_on = same(&looks, &p->params);
+    const bool moves_on = kd_playground_params_same(&looks, &p->params);
     if (!moves_on)
         disturb(p);
     enum kd_status status = kd_debris_resize(&p->debris, params->debris_capacity, error);

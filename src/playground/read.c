@@ -268,7 +268,7 @@ enum kd_status kd_playground_patch_tree(struct kd_playground **p, const cJSON *t
     enum kd_status status;
     KD_TRY(read_settings(&params, tree, others, error));
     KD_TRY(copy(*p, &changed, error));
-    if (memcmp(&params, &changed->params, sizeof params))
+    if (!kd_playground_params_same(&params, &changed->params))
         KD_TRY(kd_playground_set(changed, &params, error));
     KD_TRY(do_list(changed, ADD, cJSON_GetObjectItemCaseSensitive(tree, "add"), "add", error));
     KD_TRY(do_list(changed, CHANGE, cJSON_GetObjectItemCaseSensitive(tree, "change"), "change", error));

@@ -132,6 +132,17 @@ static struct kd_orbit_sample *follow(const char *text, uint64_t steps, struct k
     return samples;
 }
 
+/* To the bit, but for the bytes between members, which are anything. */
+static void assert_same_samples(const struct kd_orbit_sample *a, const struct kd_orbit_sample *b, size_t n)
+{
+    for (size_t i = 0; i < n; i++) {
+        assert_memory_equal(&a[i], &b[i], offsetof(struct kd_orbit_sample, image.outward));
+        assert_true(a[i].image.outward == b[i].image.outward);
+        assert_memory_equal(&a[i].image.look, &b[i].image.look, sizeof a[i].image.look);
+        assert_memory_equal(&a[i].image.delay, &b[i].image.delay, sizeof *a - offsetof(struct kd_orbit_sample, image.delay));
+    }
+}
+
 static void pieces_change_nothing(void **state)
 {
     (void)state;
@@ -144,7 +155,7 @@ static void pieces_change_nothing(void **state)
                  "{\"spin\":0.9,\"orbit\":{\"p\":6,\"e\":0.5,\"inclination_deg\":30},\"samples\":50,\"method\":\"%s\"}", ways[i]);
         struct kd_orbit_sample *whole = follow(text, UINT64_MAX, &request[0], &run[0]),
                                *cut = follow(text, 7, &request[1], &run[1]);
-        assert_memory_equal(whole, cut, 50 * sizeof *whole);
+        assert_same_samples(whole, cut, 50);
         for (int k = 0; k < 2; k++)
             kd_orbit_request_finish(&request[k]);
         free(whole);
@@ -167,7 +178,7 @@ static void to_its_end_instead(void **state)
         struct kd_orbit_sample *samples[2];
         for (int k = 0; k < 2; k++)
             samples[k] = follow(bodies[i][k], UINT64_MAX, &request[k], &run[k]);
-        assert_memory_equal(samples[0], samples[1], 20 * sizeof **samples);
+        assert_same_samples(samples[0], samples[1], 20);
         for (int k = 0; k < 2; k++) {
             kd_orbit_request_finish(&request[k]);
             free(samples[k]);
