@@ -4,16 +4,20 @@
     bench/soak.py                     half an hour, six at once
     bench/soak.py --minutes 3 --clients 4 --seed 7
     bench/soak.py --minutes 30 --kills 100      and the server is killed a hundred times meanwhile, and started again on the same folder
+    bench/soak.py --minutes 30 --faults 300     and so many faults of memory, disks, descriptors, clocks and of Vulkan happen beneath it (soak_faults.py), none in the last minute
+    bench/soak.py --build build-tsan --minutes 10      under the thread sanitizer, whose reports fail it as well
 
 Pictures, some of them left before they come; sessions that are dragged, left, or ended; streams that are cut; jobs that are waited for or stopped; rays, orbits, numbers;
-questions that are refused. Whoever asks knows what answers there may be: 2xx, 4xx where it is meant, 429, 503 and 507. On lavapipe the device's memory is the process's.
+questions that are refused. Whoever asks knows what answers there may be: 2xx, 4xx where it is meant, 429, 503 and 507; among faults also 500 and a connection that is closed, but never another's bytes.
 
-Fails, with exit code 1, where after a warm-up of a quarter of the time resident memory grows by more than a tenth (and 24 MiB), descriptors by more than 4 or threads by more than 2, each by the
-straight line through what was measured; where an answer was not one of those; where a job that was taken did not end as it should, or ended twice. Writes bench/results/DATE-DEVICE-soak.{json,md}.
+Fails, with exit code 1, where after a warm-up of a quarter of the time resident memory or the device's grows by more than a tenth (and 24 MiB), descriptors by more than 4 or threads by more than 2, each
+by the straight line through what was measured; where an answer was not one of those; where a job that was taken did not end as it should, or ended twice, or its result is not whole to the last
+checksum; where anything half is left in the folder of what is kept. Writes bench/results/DATE-DEVICE-soak.{json,md}.
 """
 import collections
 import contextlib
 import http.client
+import io
 import json
 import os
 import pathlib
@@ -25,6 +29,8 @@ import sys
 import tempfile
 import threading
 import time
+import zipfile
+import zlib
 
 import measure
 
@@ -35,15 +41,15 @@ GONE = (OSError, http.client.HTTPException)
 class Server:
     """On a folder of its own; it may be killed and comes back on the same port."""
 
-    def __init__(self, path, state, log):
-        self.path, self.state, self.log = path, state, log
+    def __init__(self, path, state, log, *options, env=None):
+        self.path, self.state, self.log, self.options, self.env = path, state, log, options, env
         self.port = 0
         self.lock = threading.Lock()
         self.start()
 
     def start(self):
-        self.process = subprocess.Popen([self.path, "serve", "--port", str(self.port), "--state", self.state, "--client-share", "100", "--jobs", "64"], stdout=subprocess.PIPE,
-                                        stderr=self.log, text=True)
+        self.process = subprocess.Popen([self.path, "serve", "--port", str(self.port), "--state", self.state, "--client-share", "100", "--jobs", "64", *self.options],
+                                        stdout=subprocess.PIPE, stderr=self.log, text=True, env=self.env)
         line = self.process.stdout.readline()
         found = re.search(r":(\d+)/", line)
         if not found:
@@ -66,8 +72,41 @@ class Server:
         with contextlib.suppress(OSError, ValueError, AttributeError):
             status = pathlib.Path(f"/proc/{pid}/status").read_text()
             return {"pid": pid, "rss_mib": int(re.search(r"VmRSS:\s+(\d+)", status)[1]) / 1024, "threads": int(re.search(r"Threads:\s+(\d+)", status)[1]),
-                    "descriptors": len(os.listdir(f"/proc/{pid}/fd"))}
+                    "descriptors": len(os.listdir(f"/proc/{pid}/fd")), "device_mib": self.device_mib()}
         return None
+
+    def device_mib(self):
+        """What the server says that it holds of the device's memory; None where it does not answer."""
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=10)
+        try:
+            connection.request("GET", "/metrics")
+            found = re.search(r"^kerrd_device_memory_bytes(?:{[^}]*})? (\S+)$", connection.getresponse().read().decode(), re.M)
+            return float(found[1]) / 2**20 if found else None
+        except GONE:
+            return None
+        finally:
+            connection.close()
+
+
+def is_png(data):
+    """Whether each chunk of it is whole and the last one is there."""
+    at, name = 8, b""
+    while at + 12 <= len(data) and name != b"IEND":
+        length, name = int.from_bytes(data[at : at + 4], "big"), data[at + 4 : at + 8]
+        if zlib.crc32(data[at + 4 : at + 8 + length]) != int.from_bytes(data[at + 8 + length : at + 12 + length], "big"):
+            return False
+        at += 12 + length
+    return data[:8] == b"\x89PNG\r\n\x1a\n" and name == b"IEND" and at == len(data)
+
+
+def is_whole(file, frames):
+    """Whether the result of a job has each of its pictures once, and whole."""
+    try:
+        with zipfile.ZipFile(io.BytesIO(file)) as z:
+            pictures = [name for name in z.namelist() if name.endswith(".png")]
+            return len(pictures) == len(set(pictures)) == frames and all(is_png(z.read(name)) for name in pictures)
+    except (zipfile.BadZipFile, zlib.error):
+        return False
 
 
 class Client(threading.Thread):
@@ -84,7 +123,7 @@ class Client(threading.Thread):
                 act()
                 self.world.count(act.__name__)
             except GONE:
-                if not self.world.kills:
+                if not self.world.lossy():
                     self.world.fault(f"{act.__name__}: no answer")
                 time.sleep(0.2)
 
@@ -107,7 +146,8 @@ class Client(threading.Thread):
             body = answer.read()
         finally:
             connection.close()
-        if answer.status not in meant and answer.status not in BUSY and not (self.world.kills and answer.status == 404):
+        self.world.answered(answer.status, meant)
+        if answer.status not in meant and answer.status not in BUSY and not (self.world.kills and answer.status == 404) and not (answer.status == 500 and self.world.failing.is_set()):
             self.world.fault(f"{method} {path.split('?')[0]}: {answer.status} {body[:200]!r}")
         return answer.status, body
 
@@ -160,7 +200,10 @@ class Client(threading.Thread):
         self.world.taken(job["id"])
         if self.random.random() < 0.3:
             time.sleep(self.random.uniform(0, 0.2))
-            status, _ = self.ask("DELETE", f"/v1/jobs/{job['id']}", meant=(204, 404), Authorization=f"Bearer {job['token']}")
+            status = None
+            while status not in (204, 404):
+                with contextlib.suppress(*GONE):
+                    status, _ = self.ask("DELETE", f"/v1/jobs/{job['id']}", meant=(204, 404), Authorization=f"Bearer {job['token']}")
             self.world.ended(job["id"], "stopped")
             return
         until = time.monotonic() + 300
@@ -170,8 +213,9 @@ class Client(threading.Thread):
                 if status == 200 and json.loads(body)["state"] in ("done", "failed"):
                     state = json.loads(body)["state"]
                     got, file = self.ask("GET", f"/v1/jobs/{job['id']}/result")
-                    whole = got == 200 and file[:2] == b"PK" and file.count(b".png") == 2 * frames
-                    self.world.ended(job["id"], state if whole else "broken")
+                    if got != 200 and self.world.lossy():
+                        continue
+                    self.world.ended(job["id"], state if got == 200 and is_whole(file, frames) else "broken")
                     self.ask("DELETE", f"/v1/jobs/{job['id']}", meant=(204,), Authorization=f"Bearer {job['token']}")
                     return
             time.sleep(0.1)
@@ -193,8 +237,16 @@ class Client(threading.Thread):
 class World:
     def __init__(self, server, seed, kills):
         self.server, self.seed, self.kills = server, seed, kills
-        self.over, self.lock = threading.Event(), threading.Lock()
-        self.counts, self.faults, self.jobs, self.unfinished = collections.Counter(), collections.Counter(), {}, []
+        self.over, self.failing, self.lock = threading.Event(), threading.Event(), threading.Lock()
+        self.counts, self.faults, self.answers, self.jobs, self.unfinished = collections.Counter(), collections.Counter(), collections.Counter(), {}, []
+
+    def lossy(self):
+        """Whether a connection may be closed instead of an answer."""
+        return self.kills or self.failing.is_set()
+
+    def answered(self, status, meant):
+        with self.lock:
+            self.answers["as meant" if status in meant else "busy" if status in BUSY else "errors"] += 1
 
     def count(self, name):
         with self.lock:
@@ -230,15 +282,72 @@ def slope(samples, name):
 def finish(world):
     """Jobs whose clients were sent away when the time was over."""
     client = Client(world, 10**6)
-    for job, _, _ in world.unfinished:
+    for job, frames, token in world.unfinished:
         until = time.monotonic() + 600
         while time.monotonic() < until:
             with contextlib.suppress(*GONE):
                 status, body = client.ask("GET", f"/v1/jobs/{job}")
                 if status == 200 and json.loads(body)["state"] in ("done", "failed"):
-                    world.ended(job, json.loads(body)["state"])
+                    state = json.loads(body)["state"]
+                    got, file = client.ask("GET", f"/v1/jobs/{job}/result")
+                    world.ended(job, state if got == 200 and is_whole(file, frames) else "broken")
+                    client.ask("DELETE", f"/v1/jobs/{job}", meant=(204,), Authorization=f"Bearer {token}")
                     break
             time.sleep(0.2)
+
+
+def is_file_whole(path):
+    try:
+        return is_png(path.read_bytes()) if path.suffix == ".png" else bool(json.loads(path.read_text())) if path.suffix == ".json" else True
+    except ValueError:
+        return False
+
+
+def left_over(state, known):
+    """What is left of jobs that ended and were deleted, and what is half of those whose clients were never told that they were taken: these are kept."""
+    for path in sorted(pathlib.Path(state).rglob("*")):
+        job = next((part for part in path.relative_to(state).parts if part.removesuffix(".new") in known), None)
+        if job:
+            yield f"{path.relative_to(state)} is left of a job that is over"
+        elif path.is_file() and (not is_file_whole(path) or path.parent.suffix == ".new"):
+            yield f"{path.relative_to(state)} is half a file"
+
+
+def live(world, a, harm):
+    """All of the time; what was measured each second, and how often the server was killed."""
+    server, samples, killed, next_fault, mend_at = world.server, [], 0, 0.0, None
+    began, times = time.monotonic(), random.Random(a.seed)
+    while (now := time.monotonic() - began) < 60 * a.minutes:
+        time.sleep(0.1 if harm else 1)
+        if mend_at is not None and now >= mend_at:
+            harm.mend()
+            mend_at = None
+        if killed < a.kills * now / (60 * a.minutes):
+            server.kill()
+            killed += 1
+        elif harm and mend_at is None and now >= next_fault and now < 60 * a.minutes - 60:
+            world.failing.set()
+            mend_at = now + harm.happen()
+            next_fault = now + times.expovariate(a.faults / (60 * a.minutes - 60))
+        elif (not samples or now >= samples[-1]["s"] + 1) and (got := server.sample()):
+            samples.append({"s": round(now, 1), **got, **world.answers})
+        if harm and now >= 60 * a.minutes - 30:  # what was under way has ended
+            world.failing.clear()
+    return samples, killed
+
+
+def over_time(samples):
+    """Ten rows: what was measured, and the answers since the row before."""
+    rows, before = [], {}
+    for s in samples[:: max(len(samples) // 10, 1)]:
+        device = f"{s['device_mib']:.0f}" if s["device_mib"] is not None else ""
+        told = [s.get(name, 0) - before.get(name, 0) for name in ("as meant", "busy", "errors")]
+        rows.append([f"{s['s'] / 60:.1f}", f"{s['rss_mib']:.0f}", device, str(s["descriptors"]), str(s["threads"]), *map(str, told)])
+        before = s
+    return measure.table(["minute", "resident, MiB", "device, MiB", "descriptors", "threads", "answers as meant", "busy", "errors"], rows)
+
+
+GROWTH = {"rss_mib": "resident memory, MiB", "device_mib": "the device's memory, MiB", "descriptors": "descriptors", "threads": "threads"}
 
 
 def main():
@@ -247,49 +356,64 @@ def main():
     p.add_argument("--clients", type=int, default=6)
     p.add_argument("--seed", type=int, default=1)
     p.add_argument("--kills", type=int, default=0, help="how often the server is killed meanwhile (0)")
+    p.add_argument("--faults", type=int, default=0, help="how many faults happen beneath it (0), about")
     a = p.parse_args()
-    load = round(os.getloadavg()[0], 2)
-    with tempfile.TemporaryDirectory() as folder, open(pathlib.Path(folder) / "log", "wb") as log:
-        server = Server(measure.binary(a.build, "src/kerrd"), str(pathlib.Path(folder) / "state"), log)
+    if a.faults and (a.minutes < 2 or a.kills):
+        p.error("--faults takes --minutes of at least 2, and no --kills")
+    load, harm = round(os.getloadavg()[0], 2), None
+    with tempfile.TemporaryDirectory() as folder, open(pathlib.Path(folder) / "log", "w+b") as log:
+        state = str(pathlib.Path(folder) / "state")
+        if a.faults:
+            import soak_faults  # what it needs is built with the tests
+
+            harm = soak_faults.Faults(a.build, random.Random(a.seed))
+            server = Server(harm.command(), state, log, "--device-reopenings", "100000", env=harm.environment())
+        else:
+            server = Server(measure.binary(a.build, "src/kerrd"), state, log)
         world = World(server, a.seed, a.kills)
         device = json.loads(Client(world, 0).ask("GET", "/v1/device")[1])
         clients = [Client(world, k) for k in range(a.clients)]
         for client in clients:
             client.start()
-        began, samples, killed = time.monotonic(), [], 0
-        while (now := time.monotonic() - began) < 60 * a.minutes:
-            time.sleep(1)
-            if killed < a.kills * now / (60 * a.minutes):
-                server.kill()
-                killed += 1
-            elif got := server.sample():
-                samples.append({"s": round(now, 1), **got})
+        samples, killed = live(world, a, harm)
         world.over.set()
         for client in clients:
             client.join(300)
         finish(world)
         lost = [job for job, how in world.jobs.items() if how is None]
         code = server.stop()
-    late = [s for s in samples if s["s"] > 15 * a.minutes]
-    growth = {name: slope(late, name) for name in ("rss_mib", "descriptors", "threads")} if len(late) > 4 and not a.kills else {}
+        left = list(left_over(state, world.jobs))
+        log.seek(0)
+        reports = log.read().count(b"WARNING: ThreadSanitizer")
+    late = [s for s in samples if s["s"] > 15 * a.minutes and s["device_mib"] is not None]
+    growth = {name: slope(late, name) for name in GROWTH} if len(late) > 4 and not a.kills else {}
     broken = {job: how for job, how in world.jobs.items() if how in ("broken", "failed")}
     faults = [*[f"{text} ({n} times)" for text, n in world.faults.items()], *[f"job {job} was lost" for job in lost], *[f"job {job}: {how}" for job, how in broken.items()]]
-    mean = sum(s["rss_mib"] for s in late) / len(late) if late else 0
+    faults += left
     if growth:
-        faults += [f"{name} grows by {growth[name]:.1f}" for name, most in (("rss_mib", max(24, 0.1 * mean)), ("descriptors", 4), ("threads", 2)) if growth[name] > most]
+        means = {name: sum(s[name] for s in late) / len(late) for name in GROWTH}
+        allowed = {"rss_mib": max(24, 0.1 * means["rss_mib"]), "device_mib": max(24, 0.1 * means["device_mib"]), "descriptors": 4, "threads": 2}
+        faults += [f"{name} grows by {growth[name]:.1f}" for name, most in allowed.items() if growth[name] > most]
     if code:
         faults.append(f"the server ended with exit code {code}")
+    if reports:
+        faults.append(f"the thread sanitizer has {reports} reports")
     head = measure.head(f"{device['name']}, {device['driver']} {device['driver_info']}", load)
-    result = {"minutes": a.minutes, "clients": a.clients, "seed": a.seed, "kills": killed, "done": dict(world.counts),
+    result = {"minutes": a.minutes, "clients": a.clients, "seed": a.seed, "kills": killed, "done": dict(world.counts), "injected": dict(harm.counts) if harm else {},
               "jobs": dict(collections.Counter(world.jobs.values())), "growth": growth, "samples": samples[:: max(len(samples) // 200, 1)], "faults": faults}
-    rows = [f"| {name} | {n} |" for name, n in sorted(world.counts.items())]
     jobs = ", ".join(f"{how} {n}" for how, n in sorted(result["jobs"].items(), key=str))
     first, last = (late[0], late[-1]) if late else ({}, {})
-    text = "\n".join([measure.head_markdown(f"{a.minutes:g} minutes of everything, {a.clients} at once", head), "", f"{killed} times killed. Jobs: {jobs}. Faults: {len(faults)}.", "", "| what | how often |", "|---|---|", *rows, "",
-                      "| | after a quarter | at the end | growth by the line |", "|---|---|---|---|",
-                      *[f"| {label} | {first.get(name, 0):.0f} | {last.get(name, 0):.0f} | {growth.get(name, float('nan')):.1f} |" for name, label in
-                        (("rss_mib", "resident memory, MiB"), ("descriptors", "descriptors"), ("threads", "threads"))], "", *[f"- {fault}" for fault in faults]])
-    measure.save(a.out, "soak" if not a.kills else "soak-kills", head, result, text + "\n")
+    text = measure.head_markdown(f"{a.minutes:g} minutes of everything, {a.clients} at once", head)
+    text += f"\n{killed} times killed, {sum(harm.counts.values()) if harm else 0} faults injected. Jobs: {jobs}. Found: {len(faults)}.\n\n"
+    text += over_time(samples) + "\n"
+    if growth:
+        text += measure.table(["", "after a quarter", "at the end", "growth by the line"],
+                              [[label, f"{first.get(name, 0):.0f}", f"{last.get(name, 0):.0f}", f"{growth[name]:.1f}"] for name, label in GROWTH.items()]) + "\n"
+    text += measure.table(["what", "how often"], [[name, str(n)] for name, n in sorted(world.counts.items())])
+    if harm:
+        text += "\n" + measure.table(["injected", "how often"], [[name, str(n)] for name, n in sorted(harm.counts.items()) if n])
+    text += "".join(f"\n- {fault}" for fault in faults) + "\n"
+    measure.save(a.out, "soak-kills" if a.kills else "soak-faults" if a.faults else "soak-tsan" if "tsan" in a.build.name else "soak", head, result, text)
     return bool(faults)
 
 

@@ -5,10 +5,11 @@
     suite.py again BUILD SUITE[,SUITE...] [ARGUMENT...]  run each failed test of these suites once more, by itself, where no other has failed: exit 0 if all
                                           of them pass now. Those are listed in BUILD/meson-logs/flaky.txt, and loudly
     suite.py report BUILD [--no-skip]     the seconds of the last run suite by suite, the slowest tests, and what was skipped and why;
-                                          with --no-skip a skip is exit 1
+                                          with --no-skip a skip is exit 1. BUILD/meson-logs/counts.txt has how many ended how
 
 Meson itself runs no test at all for a name that it does not know, and calls that a success.
 """
+import collections
 import difflib
 import json
 import pathlib
@@ -75,12 +76,16 @@ def report(build, *options):
     for test in skipped:
         reason = (test.get('stdout', '') + test.get('stderr', '')).strip().splitlines()
         print('skipped:', test['name'].split(' / ')[-1], '-', reason[-1] if reason else 'no reason given')
+    flaky = pathlib.Path(build, 'meson-logs/flaky.txt')
+    told = flaky.read_text() if flaky.exists() else ''
+    print(told, end='')
+    ended = collections.Counter('Ok' if test['result'] in ('OK', 'EXPECTEDFAIL') else 'Skipped' if test['result'] == 'SKIP' else 'Fail' for test in tests)
+    passed_again = len(told.splitlines())
+    ended.update(Ok=passed_again, Fail=-passed_again)
+    pathlib.Path(build, 'meson-logs/counts.txt').write_text(''.join(f'{word} {ended[word]}\n' for word in ('Ok', 'Fail', 'Skipped')))
     if skipped and '--no-skip' in options:
         print(f'scripts/test: {len(skipped)} skipped, where none may be', file=sys.stderr)
         return 1
-    flaky = pathlib.Path(build, 'meson-logs/flaky.txt')
-    if flaky.exists():
-        print(flaky.read_text(), end='')
     return 0
 
 

@@ -171,9 +171,7 @@ export async function openOrbits() {
       );
     const answer = await follow(whole);
     if (v.orbit !== thrown) (picture.free(), (hint.textContent = hints));
-    await show(answer);
-    byId('orbits').dataset.kept = false;
-    byId('orbit-kept').textContent = said;
+    await show(answer, said);
   }
 
   // Where there is no such orbit the one before stays, under its own name.
@@ -183,7 +181,8 @@ export async function openOrbits() {
     byId('orbit-kept').textContent = t(`Still shown is the last one that there was: ${shown}.`, `Resta quella di prima, l’ultima che c’era: ${shown}.`);
   }
 
-  async function show(answer) {
+  // What is said of an orbit stands beside it from the start, before the answers that draw its potential.
+  async function show(answer, said) {
     const { column } = answer;
     const [x, y, z] = ['x', 'y', 'z'].map(column),
       { horizon } = (await physics('kerr', { spin: answer.spin })).values;
@@ -194,6 +193,8 @@ export async function openOrbits() {
     picture.show(samples.point, horizon, answer.spin, t(`The orbit in space: ${shown}; ${word(answer.fate)}`, `L’orbita nello spazio: ${shown}; ${word(answer.fate)}`));
     entitle('orbits', shown);
     byId('orbit-facts').replaceChildren(...facts(answer));
+    byId('orbits').dataset.kept = false;
+    byId('orbit-kept').textContent = said;
     byId('orbit-approximations').replaceChildren(...(answer.result.approximations ?? []).map(text => tell(el('li'), text)));
     const least = 10 ** Math.floor(Math.log10(Math.max(...samples.error.map(Math.abs)) || 1e-16));
     drift.draw({

@@ -3,6 +3,16 @@
 #include "base/utf8.h"
 
 #include <stdio.h>
+#include <string.h>
+
+/* A pointer that has been cut off may end in the middle of a character, or of an escape. */
+static void mend_pointer(char *pointer)
+{
+    kd_utf8_mend(pointer);
+    const size_t length = strlen(pointer);
+    if (length && pointer[length - 1] == '~')
+        pointer[length - 1] = '\0';
+}
 
 static void fill(struct kd_error *error, enum kd_status status, const char *pointer,
                  const char *format, va_list args)
@@ -13,7 +23,7 @@ static void fill(struct kd_error *error, enum kd_status status, const char *poin
     error->retry_s = 0;
     snprintf(error->pointer, sizeof error->pointer, "%s", pointer);
     vsnprintf(error->message, sizeof error->message, format, args);
-    kd_utf8_mend(error->pointer); /* both may quote what is no text, or end in the middle of a character; a pointer is for programs */
+    mend_pointer(error->pointer); /* both may quote what is no text; a pointer is for programs */
     kd_utf8_show(error->message);
 }
 
@@ -33,6 +43,16 @@ enum kd_status kd_error_field(struct kd_error *error, const char *pointer, const
     fill(error, KD_EINVAL, pointer, format, args);
     va_end(args);
     return KD_EINVAL;
+}
+
+void kd_error_inside(struct kd_error *error, const char *parent)
+{
+    char inner[sizeof error->pointer];
+    if (!error)
+        return;
+    memcpy(inner, error->pointer, sizeof inner);
+    snprintf(error->pointer, sizeof error->pointer, "%s%.*s", parent, (int)sizeof inner, inner);
+    mend_pointer(error->pointer);
 }
 
 const char *kd_status_name(enum kd_status status)

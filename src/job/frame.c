@@ -6,7 +6,7 @@ enum kd_status kd_job_frame_plan(const struct kd_job_spec *spec, unsigned frame,
                                  struct kd_scene *scene, struct kd_plan *plan, struct kd_error *error)
 {
     struct kd_error inner = { 0 };
-    char pointer[sizeof inner.pointer];
+    char pointer[40];
     enum kd_status status = kd_job_spec_scene(spec, frame, scene, error);
     if (status)
         return status;
@@ -26,10 +26,13 @@ enum kd_status kd_job_frame_plan(const struct kd_job_spec *spec, unsigned frame,
     if (spec->sweep)
         snprintf(pointer, sizeof pointer, "/axes");
     else if (spec->listed)
-        snprintf(pointer, sizeof pointer, "/scenes/%u%.100s", frame, inner.pointer);
+        snprintf(pointer, sizeof pointer, "/scenes/%u", frame);
     else
-        snprintf(pointer, sizeof pointer, "%s%.100s", spec->timeline.n_keys > 1 ? "/keyframes" : "/scene", spec->timeline.n_keys > 1 ? "" : inner.pointer);
-    kd_error_field(error, pointer, "frame %u: %.440s", frame, inner.message);
+        snprintf(pointer, sizeof pointer, "%s", spec->timeline.n_keys > 1 ? "/keyframes" : "/scene");
+    if (spec->sweep || (!spec->listed && spec->timeline.n_keys > 1))
+        *inner.pointer = '\0';
+    kd_error_inside(&inner, pointer);
+    kd_error_field(error, inner.pointer, "frame %u: %.440s", frame, inner.message);
     return error->status = status;
 }
 

@@ -57,11 +57,8 @@ done:
 /* Whose place is wrong is a body of a list. */
 static enum kd_status in_list(enum kd_status status, const char *pointer, struct kd_error *error)
 {
-    char at[160];
-    if (!status || !error || !strncmp(error->pointer, pointer, strlen(pointer)))
-        return status;
-    snprintf(at, sizeof at, "%.110s%.40s", pointer, error->pointer);
-    memcpy(error->pointer, at, sizeof at);
+    if (status && error && strncmp(error->pointer, pointer, strlen(pointer)))
+        kd_error_inside(error, pointer);
     return status;
 }
 

@@ -71,10 +71,7 @@ enum kd_status kd_member_word(const cJSON *item, const char *pointer, const char
 
 enum kd_status kd_member_inside(enum kd_status status, const char *pointer, struct kd_error *error)
 {
-    char joined[2 * sizeof error->pointer];
-    if (!status || !error)
-        return status;
-    snprintf(joined, sizeof joined, "%s%s", pointer, error->pointer);
-    snprintf(error->pointer, sizeof error->pointer, "%.*s", (int)sizeof error->pointer - 1, joined);
+    if (status)
+        kd_error_inside(error, pointer);
     return status;
 }

@@ -66,6 +66,32 @@ static void errors_can_be_shown(void **state)
     assert_int_equal(error.message[sizeof error.message - 2], '?');
 }
 
+/* A pointer says where, in RFC 6901's escapes: what is cut off of it leaves none half. */
+static void pointers_are_cut_between_escapes(void **state)
+{
+    (void)state;
+    struct kd_error error = { 0 };
+    char tildes[200] = "/", cut[400];
+    for (size_t i = 1; i + 2 < sizeof tildes; i += 2)
+        memcpy(tildes + i, "~0", 3);
+    for (size_t prefix = 0; prefix < 5; prefix++) {
+        memcpy(cut, "/abcd" + 5 - prefix, prefix);
+        strcpy(cut + prefix, tildes);
+        kd_error_field(&error, cut, "cut");
+        assert_in_range(strlen(error.pointer), sizeof error.pointer - 2, sizeof error.pointer - 1);
+        assert_int_equal(error.pointer[strlen(error.pointer) - 1], '0');
+        assert_memory_equal(error.pointer, cut, strlen(error.pointer));
+        kd_error_inside(&error, "/scenes/0");
+        assert_memory_equal(error.pointer, "/scenes/0", 9);
+        assert_memory_equal(error.pointer + 9, cut, strlen(error.pointer) - 9);
+        assert_int_equal(error.pointer[strlen(error.pointer) - 1], '0');
+    }
+    kd_error_field(&error, "/r", "r is -1");
+    kd_error_inside(&error, "/orbits/3");
+    assert_string_equal(error.pointer, "/orbits/3/r");
+    kd_error_inside(NULL, "/orbits/3");
+}
+
 static void without_an_error_to_fill(void **state)
 {
     (void)state;
@@ -84,7 +110,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_once_until_one_fails),
-        cmocka_unit_test(errors_can_be_shown), cmocka_unit_test(without_an_error_to_fill),
+        cmocka_unit_test(errors_can_be_shown), cmocka_unit_test(pointers_are_cut_between_escapes), cmocka_unit_test(without_an_error_to_fill),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

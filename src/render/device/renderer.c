@@ -171,6 +171,8 @@ bool kd_renderer_hangs(const struct kd_renderer *renderer) { return renderer->vk
 
 enum kd_status kd_renderer_reopen(struct kd_renderer *r, struct kd_error *error)
 {
+    if (r->vk)
+        kd_vk_wait(r->vk, 0, NULL); /* what has been submitted may hang only now; then the device cannot be closed, and there are never two */
     if (kd_renderer_hangs(r))
         return kd_error_set(error, KD_EDEVICE, "%s hangs: a submission missed its deadline", r->opened.name);
     close_device(r);

@@ -1,6 +1,7 @@
 #include "server/http/process.h"
 
-#include <dirent.h>
+#include "server/http/descriptors.h"
+
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -49,18 +50,6 @@ static struct process look(void)
     return (struct process) { (user + system) / tick, boot_time_s() + start / tick, virtual_bytes, pages * page };
 }
 
-static double open_descriptors(void)
-{
-    double n = 0;
-    DIR *folder = opendir("/proc/self/fd");
-    if (!folder)
-        return NAN;
-    for (const struct dirent *one; (one = readdir(folder));)
-        n += *one->d_name != '.';
-    closedir(folder);
-    return n - 1; /* the one it is read by */
-}
-
 static double most_descriptors(void)
 {
     struct rlimit limit;
@@ -72,7 +61,7 @@ enum kd_status kd_process_write(struct kd_buffer *out)
     const struct process p = look();
     const struct { const char *name, *type, *help; double value; } rows[] = {
         { "cpu_seconds_total", "counter", "Processor time, user and system.", p.cpu_s },
-        { "open_fds", "gauge", "Open file descriptors.", open_descriptors() },
+        { "open_fds", "gauge", "Open file descriptors.", kd_descriptors_open() },
         { "max_fds", "gauge", "Open file descriptors that are allowed.", most_descriptors() },
         { "virtual_memory_bytes", "gauge", "Virtual memory.", p.virtual_bytes },
         { "resident_memory_bytes", "gauge", "Resident memory.", p.resident_bytes },

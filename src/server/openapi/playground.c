@@ -20,6 +20,13 @@ static void add_words(struct kd_json *json, const char *words)
     kd_json_end(json);
 }
 
+static void add_bound(struct kd_json *json, const char *keyword, double value)
+{
+    kd_json_object(json, NULL);
+    kd_json_number(json, keyword, value);
+    kd_json_end(json);
+}
+
 static void add_row(struct kd_json *json, const struct kd_playground_setting *row)
 {
     static const char *const types[] = { [KD_SETTING_REAL] = "number", [KD_SETTING_WHOLE] = "integer", [KD_SETTING_TRUTH] = "boolean", [KD_SETTING_WORD] = "string" };
@@ -30,6 +37,12 @@ static void add_row(struct kd_json *json, const struct kd_playground_setting *ro
     if (row->kind == KD_SETTING_REAL || row->kind == KD_SETTING_WHOLE) {
         kd_json_number(json, "minimum", row->least);
         kd_json_number(json, "maximum", row->most);
+    }
+    if (row->above_0 > 0) {
+        kd_json_array(json, "anyOf");
+        add_bound(json, "const", 0);
+        add_bound(json, "minimum", row->above_0);
+        kd_json_end(json);
     }
     kd_json_string(json, "description", row->help);
     kd_json_end(json);

@@ -3,9 +3,9 @@
 #include "playground/fields.h"
 #include "playground/preset.h"
 #include "playground/show.h"
+#include "scene/members.h"
 #include "scene/tree.h"
 
-#include <stdio.h>
 #include <string.h>
 
 #define USUAL_RATE 50.
@@ -37,7 +37,6 @@ enum kd_status kd_play_read_pace(cJSON *tree, struct kd_play_pace *pace, struct 
 
 enum kd_status kd_play_read_scene(const cJSON *item, const struct kd_playground *p, const struct kd_assets *assets, struct kd_scene *scene, struct kd_error *error)
 {
-    char pointer[sizeof error->pointer];
     enum kd_status status;
     if (!item)
         return KD_OK;
@@ -48,11 +47,7 @@ enum kd_status kd_play_read_scene(const cJSON *item, const struct kd_playground 
     KD_TRY(kd_scene_validate(scene, error));
     KD_TRY(kd_playground_may_show(p, scene, error));
 done:
-    if (status) {
-        snprintf(pointer, sizeof pointer, "/scene%.100s", error->pointer);
-        memcpy(error->pointer, pointer, sizeof pointer);
-    }
-    return status;
+    return kd_member_inside(status, "/scene", error);
 }
 
 double kd_play_usual_rate(const cJSON *tree)

@@ -1,0 +1,66 @@
+"""Faults at random beneath a server, for bench/soak.py: memory, files and descriptors by the library that is preloaded (tests/faults/control.h), Vulkan's calls by a kerrd whose table of them fails
+when it is told to (tests/faults/vulkan_table.c), and the clock on the wall."""
+import collections
+import errno
+import os
+import sys
+
+import measure
+
+sys.path[:0] = [str(measure.ROOT / "tests" / "faults"), str(measure.ROOT / "tests" / "http")]
+import faults  # noqa: E402
+import vulkan  # noqa: E402
+
+CHANGES = faults.CREATE | faults.WRITE | faults.RENAME | faults.SYNC
+FILES = [(errno.ENOSPC, CHANGES), (errno.EDQUOT, CHANGES), (errno.EROFS, faults.CREATE | faults.RENAME), (errno.EIO, CHANGES | faults.OPEN | faults.READ),
+         (errno.EMFILE, faults.OPEN | faults.CREATE)]
+# What is called all the time; the rest is of a start.
+CALLS = ["AllocateMemory", "MapMemory", "CreateBuffer", "BindBufferMemory", "CreateBufferView", "CreateComputePipelines", "CreateDescriptorPool", "AllocateDescriptorSets", "ResetCommandPool",
+         "BeginCommandBuffer", "EndCommandBuffer", "QueueSubmit", "WaitSemaphores", "GetSemaphoreCounterValue", "CreateQueryPool", "GetQueryPoolResults", "CreateDevice"]
+
+
+class Faults:
+    """Those of one server. `happen` lets one be; `mend` ends those that last."""
+
+    def __init__(self, build, random):
+        self.build, self.random = build, random
+        self.memory, self.vulkan = faults.Faults(), vulkan.Faults()
+        self.counts, self.wall_s, self.before, self.kind = collections.Counter(), 0, 0, ""
+
+    def command(self):
+        return measure.binary(self.build, "tests/faults/kerrd_vulkan_faults")
+
+    def environment(self):
+        return {**os.environ, "KD_FAULTS": self.memory.file.name, "KD_VULKAN_FAULTS": self.vulkan.file.name, "LD_PRELOAD": measure.binary(self.build, "tests/faults/libfaults.so")}
+
+    def happen(self):
+        """A fault of any kind; how many seconds it lasts. What is armed and not reached meanwhile does not happen, and is not counted."""
+        r = self.random
+        self.before = self.memory.failed + self.memory.files_failed
+        kind = r.choice(["memory", "files", "vulkan", "clock"])
+        if kind == "memory":
+            self.memory.memory(r.randint(0, 3000), r.choice([1, 1, 3, 50]))
+            self.kind = "an allocation"
+        elif kind == "files":
+            number, mask = r.choice(FILES)
+            self.memory.files(mask, number, r.randint(0, 20), r.choice([1, faults.ALWAYS]))
+            self.kind = errno.errorcode[number]
+        elif kind == "vulkan":
+            name = r.choice(CALLS)
+            code = r.choice(vulkan.ENTRIES[name])
+            self.vulkan.arm(name, r.randint(0, 100), code)
+            self.kind = f"vk{name}: {vulkan.CODES[code]}"
+        else:
+            self.wall_s += r.choice([-1, 1]) * r.randint(1, 10**6)
+            self.memory.set("wall_s", self.wall_s)
+            self.kind = "the clock on the wall is set"
+        return r.uniform(0.1, 2)
+
+    def mend(self):
+        self.memory.mend()
+        self.vulkan.disarm()
+        if self.kind.startswith("vk"):
+            happened = self.vulkan.get("injected")
+        else:
+            happened = self.kind.startswith("the clock") or self.memory.failed + self.memory.files_failed != self.before
+        self.counts[self.kind] += bool(happened)
