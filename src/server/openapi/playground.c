@@ -23,6 +23,7 @@ static void add_words(struct kd_json *json, const char *words)
 static void add_bound(struct kd_json *json, const char *keyword, double value)
 {
     kd_json_object(json, NULL);
+    kd_json_string(json, "type", "number");
     kd_json_number(json, keyword, value);
     kd_json_end(json);
 }
