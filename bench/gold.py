@@ -16,7 +16,7 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 # R. Gold et al. 2020 (ApJ 897, 148), table 1, Jy; and the program Blacklight (C. J. White 2022, ApJS 262, 28), as it was run for this comparison
 GOLD = {"gold-1": (1.6465, 1.65940), "gold-2": (1.4360, 1.44882), "gold-3": (0.4418, 0.446234), "gold-4": (0.2710, 0.272950), "gold-5": (0.0255, 0.0257013)}
-OF_GOLD, OF_BLACKLIGHT, OF_IPOLE, OF_IPOLE_POLARISED = 0.02, 0.003, 0.01, 0.02
+OF_GOLD, OF_BLACKLIGHT, OF_IPOLE, OF_IPOLE_POLARISED, OF_IPOLE_EDGE_ON = 0.02, 0.003, 0.01, 0.02, 0.025
 # Blacklight's rays are parallel, but its observer is at rest at 1000 M: 230 GHz there are less at infinity, and I/nu^3 is invariant
 LAPSE = math.sqrt(1 - 2 / 1000)
 # ipole's model/riaf/riaf.txt (M. Moscibrodzka & C. F. Gammie 2018, MNRAS 475, 43), unpolarised, at 223.005 GHz by degrees, and at 90 degrees by GHz
@@ -54,7 +54,7 @@ def rows(kerrd, size):
         yield f"riaf, polarised, {degrees} degrees", jy, {"ipole": (ipole, jy / ipole - 1, OF_IPOLE_POLARISED)}
     for ghz, ipole in IPOLE_GHZ.items():
         jy, _ = flux(kerrd, "riaf", size, camera__inclination_deg=90, volume__frequency_ghz=ghz)
-        yield f"riaf, {ghz} GHz", jy, {"ipole": (ipole, jy / ipole - 1, None)}
+        yield f"riaf, {ghz} GHz", jy, {"ipole": (ipole, jy / ipole - 1, OF_IPOLE_EDGE_ON)}
 
 
 def main():

@@ -31,6 +31,7 @@ WHEN(neutral, scene->style.tone_map == KD_TONE_NEUTRAL && !plan->numbers && !kd_
 WHEN(bloom, plan->bloom.levels && !plan->numbers && !kd_plan_is_map(plan))
 WHEN(beam, plan->beam.cell && !plan->numbers)
 WHEN(near_beam, plan->beam.cell && !plan->numbers && isfinite(scene->camera.r))
+WHEN(near_flux, kd_scene_is_radio_alone(scene) && isfinite(scene->camera.r))
 WHEN(heat, scene->style.palette == KD_PALETTE_HEAT && !kd_scene_is_radio_alone(scene) && !plan->numbers && !kd_plan_is_map(plan))
 WHEN(normalised, scene->volume.normalise_to_jy > 0 && !plan->held)
 WHEN(held, plan->held)
@@ -64,6 +65,7 @@ static const struct sentence {
       "at its edge", bloom },
     { "post: a Gaussian beam stands for a telescope: no gaps between stations, no noise, no reconstruction; nothing comes from beyond the picture's edge", beam },
     { "post: a near observer's beam has the width at the hole's distance that it has from spacetime.distance_pc", near_beam },
+    { "flux: that of a near camera is its picture's, by the square of its distance from the hole over spacetime.distance_pc; where matter lies round the camera no telescope has such a flux", near_flux },
     { "post: false colours; brightness is of the model's band and no brightness temperature at a radio frequency", heat },
     { "sky: images of stars are cut at the edges of the bands that a picture of this size is made in", cut },
     { "volume: the density is that at which a picture of 128 pixels has the flux volume.normalise_to_jy, found by smaller pictures that the estimated time leaves out; answers tell the factor as density_scale", normalised },
