@@ -1,5 +1,6 @@
 """First calls of Vulkan that fail, devices beyond repair, and devices and drivers that hang; vulkan.py has all calls."""
 import concurrent.futures
+import contextlib
 import os
 import subprocess
 import tempfile
@@ -7,6 +8,8 @@ import time
 import unittest
 
 from vulkan import (ENTRIES, EXIT_DEVICE, HOST, LOST, PATIENCE_S, RENDER, Faults, Server, begin_job, daemon, finish_job, job, rays, reopened, session, wanted)
+
+UNKNOWN = -13  # VK_ERROR_UNKNOWN: a failure that says nothing of memory, nor that the device is lost
 
 
 class Case(unittest.TestCase):
@@ -106,6 +109,18 @@ class Long(Case):
             server.get(RENDER)
         self.assertEqual(server.wait(60), EXIT_DEVICE)
         self.assertIn('no sign of life', server.said())
+
+    def test_a_device_that_fails_while_it_hangs_is_not_opened_beside_itself(self):
+        """Its first piece of work never ends, and the second cannot be begun: what hangs cannot be closed, so there is no other."""
+        server = self.start('--device-timeout', 1)
+        self.faults.arm('BeginCommandBuffer', 1, UNKNOWN)
+        self.faults.set(hang=1)
+        with contextlib.suppress(OSError, daemon.http.client.HTTPException):
+            self.assertEqual(server.get(RENDER).status, 500)
+        self.assertEqual(server.wait(60), EXIT_DEVICE)
+        self.assertEqual(self.faults.get('injected'), 1)
+        self.assertNotIn('opened again', server.said())
+        self.assertEqual(self.faults.calls()['CreateDevice'], 1)
 
 
 if __name__ == '__main__':
