@@ -274,11 +274,14 @@ class Kerrd(unittest.TestCase):
             with self.subTest(scene):
                 if scene.get('accuracy') and not self.has_float64():
                     self.skipTest('the device has no double precision')
-                job, between = self.daemon.post('/v1/jobs', {'scene': scene}).json(), 0
-                while (status := self.daemon.get('/v1/jobs/' + job['id']).json())['state'] == 'running':
-                    self.interrupt()
-                    between += 0 < status['fraction'] < 1
-                self.assertEqual(status['state'], 'done', status)
+                for _ in range(5):  # a machine may be so fast, or so busy, that nothing comes between
+                    job, between = self.daemon.post('/v1/jobs', {'scene': scene}).json(), 0
+                    while (status := self.daemon.get('/v1/jobs/' + job['id']).json())['state'] == 'running':
+                        self.interrupt()
+                        between += 0 < status['fraction'] < 1
+                    self.assertEqual(status['state'], 'done', status)
+                    if between:
+                        break
                 self.assertGreater(between, 0)
                 # The command line renders it in one go, and writes files as jobs do.
                 alone = subprocess.run([daemon.COMMAND[0], 'render', '-', '-o', '-'], input=json.dumps(scene).encode(), capture_output=True,
