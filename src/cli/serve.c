@@ -1,4 +1,5 @@
 /* kerrd serve runs the HTTP service until a signal ends it. */
+#include "base/allocator.h"
 #include "base/log.h"
 #include "cli/cli.h"
 #include "cli/code.h"
@@ -149,6 +150,7 @@ static enum kd_status serve(const struct kd_settings *settings, struct kd_error 
     };
     if (kd_listen_reaches_out(listen) && !params.token_file && !kd_settings_switch(settings, KD_SERVE_INSECURE))
         return kd_error_set(error, KD_EINVAL, "other machines reach --listen %.100s: --token-file FILE says who may use the server, --insecure lets everybody", listen);
+    kd_allocator_for_long();
     enum kd_status status = kd_server_create(&params, &running, error);
     if (status)
         return status;
