@@ -43,6 +43,23 @@ class Installed(unittest.TestCase):
         self.assertGreater(len(documents), 40)
         self.assertEqual({folder + name for name in documents} - self.names, set())
 
+    def test_licences_of_what_it_has_inside(self):
+        """Each that lies in the tree is installed as it is, and Debian's copyright file has its folder, its holders and the first words of its text."""
+        stanzas = (SOURCE / 'packaging/debian/copyright').read_text().split('\n\n')
+        found = [path for folder in ('clients', 'data', 'shaders', 'src') for path in sorted((SOURCE / folder).rglob('*LICEN[SC]E*'))]
+        self.assertGreater(len(found), 1)
+        installed = {(self.prefix / name).read_text() for name in self.names if name.startswith('share/doc/kerrd/licences/')}
+        self.assertEqual(installed, {path.read_text() for path in found})
+        for path in found:
+            text = path.read_text()
+            holder = re.search(r'^Copyright \(c\) (\d{4}),? (.+)$', text, re.M)
+            about = [stanza for stanza in stanzas if stanza.startswith(f'Files: {path.parent.relative_to(SOURCE)}/*\n')]
+            self.assertEqual(len(about), 1, path)
+            self.assertIn(f'\nCopyright: {holder[1]} {holder[2]}\n', about[0])
+            licence = re.search(r'^License: (.+)$', about[0], re.M)[1]
+            words = re.sub(r'[\s.]+', ' ', next(stanza for stanza in stanzas if stanza.startswith(f'License: {licence}\n')))
+            self.assertIn(' '.join(re.search(r'^(Permission|Redistribution).*', text, re.M)[0].split()[:14]), words)
+
     def test_all_of_it_can_be_read_by_all(self):
         wrong = [name for name in self.names if (self.prefix / name).stat().st_mode & 0o444 != 0o444 or (self.prefix / name).stat().st_mode & 0o022]
         self.assertEqual(wrong, [])
