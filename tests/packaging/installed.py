@@ -25,6 +25,10 @@ class Installed(unittest.TestCase):
         self.assertGreater(len(commands), 15)
         self.assertEqual({name for name in self.names if name.startswith('share/man/')}, {'share/man/man1/kerrd.1', *(f'share/man/man1/kerrd-{name}.1' for name in commands)})
 
+    def test_the_promise_has_each_exit_code(self):
+        told = re.findall(r'^\.B (\d+)$', (self.prefix / 'share/man/man1/kerrd.1').read_text().split('.SH EXIT STATUS')[1].split('.SH')[0], re.M)
+        self.assertIn(f"exit codes ({', '.join(told)})", (SOURCE / 'docs/stability.md').read_text())
+
     def test_completions_and_the_unit(self):
         rest = {name for name in self.names if not name.startswith(('share/man/', 'share/doc/'))}
         self.assertIn('lib/systemd/system/kerrd.service', rest)
