@@ -35,7 +35,9 @@ class Installed(unittest.TestCase):
         self.assertEqual({name for name in rest if name.startswith('share/')} - {'share/zsh/site-functions/_kerrd', 'share/zsh/vendor-completions/_kerrd'},
                          {'share/bash-completion/completions/kerrd', 'share/fish/vendor_completions.d/kerrd.fish', 'share/kerrd/grafana/kerrd.json', 'share/kerrd/prometheus/alerts.yml'})
         self.assertTrue(any(name.endswith('/_kerrd') for name in rest))
-        self.assertEqual({name for name in rest if not name.startswith('share/')}, {'bin/kerrd', 'lib/systemd/system/kerrd.service'})
+        self.assertEqual({name for name in rest if not name.startswith('share/')}, {'bin/kerrd', 'lib/systemd/system/kerrd.service', 'lib/sysusers.d/kerrd.conf'})
+        groups = re.search(r'^SupplementaryGroups=(.+)$', (self.prefix / 'lib/systemd/system/kerrd.service').read_text(), re.M)[1].split()
+        self.assertEqual(sorted(groups), sorted(re.findall(r'^g (\S+) - -$', (self.prefix / 'lib/sysusers.d/kerrd.conf').read_text(), re.M)))
         started = re.search(r'^ExecStart=(\S+)', (self.prefix / 'lib/systemd/system/kerrd.service').read_text(), re.M)[1]
         self.assertEqual(self.root / started.lstrip('/'), self.prefix / 'bin/kerrd')
 
