@@ -63,7 +63,9 @@ struct MHD_Response *kd_reply_served(struct kd_request *request, const struct kd
     struct MHD_Response *response = kd_reply_static(form->data, form->size, file->type);
     if (!response)
         return NULL;
-    if (gzip)
+    if (*same)
+        MHD_del_response_header(response, "Content-Type", file->type); /* 304 has no body that it could be of */
+    else if (gzip)
         MHD_add_response_header(response, "Content-Encoding", "gzip");
     MHD_add_response_header(response, "ETag", form->etag);
     MHD_add_response_header(response, "Vary", "Accept-Encoding");
