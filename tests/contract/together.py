@@ -1,6 +1,6 @@
 """Refusals of values that are sound each by itself and do not go together, so that no schema of OpenAPI 3.1 can say so: their sentences, by the operations that give them, as they stand in the source.
 
-A sentence is a format of the C source as it is written there; in front of a bar, if there is one, stands the format round it. `gone` of known.py tells those that are in the source no more. What a schema
+A sentence is a format of the C source as it is written there; in front of a bar, if there is one, stands the format round it. the test contract_sentences sees that each is in the source. What a schema
 can say (a bound, a word, a member that another one takes or excludes) has no place here: a case that fits the document and is refused for it has found a mistake of the document."""
 
 # Fields of a scene beside each other. A document lies over a preset, and a patch over the scene that there is, so that a member which is not in the request has a value all the same, which decides.
@@ -130,8 +130,7 @@ SESSION = ('image.layers holds %zu, allowed in a session, which shows a picture,
 TOGETHER = [
     ('(GET|POST) /v1/(render|pixel)|POST /v1/(plan|sessions|jobs|playground|visibility|spectrum)|PATCH /v1/(sessions|playground)/{id}(/frame)?|POST /v1/sessions/{id}/path', SCENE),
     ('(GET|POST) /v1/render|POST /v1/jobs', PICTURE),
-    ('GET /v1/pixel', ('at is "%s", allowed is X,Y: pixels from the upper left corner, below %u across and %u down',)),
-    ('POST /v1/pixel', ('at is "%s", allowed is X,Y: pixels from the upper left corner, below %u across and %u down',)),
+    ('(GET|POST) /v1/pixel', ('at is "%s", allowed is X,Y: pixels from the upper left corner, below %u across and %u down',)),
     ('POST /v1/sessions|PATCH /v1/sessions/{id}(/frame)?|POST /v1/sessions/{id}/path', SESSION + ('patience_ms stands without least, whose width it is the patience for',)),
     ('POST /v1/sessions/{id}/path|POST /v1/jobs', TIMELINE),
     ('POST /v1/sessions/{id}/path', (
@@ -145,6 +144,15 @@ TOGETHER = [
         'count is %zu, allowed are 1 to %zu: from the %u particles, first %u, stride %u',
         'count is %zu with %zu bytes a particle, allowed are 1 to %llu: the rest with first, or fewer with stride',
     )),
+    # what there is of a job
+    ('GET /v1/jobs/{id}/result', (
+        'frame is the number of a frame of this job, from 0 on',
+        'rate is a whole number of frames a second, from 1 to 120, of format=mp4 or webm',
+        'format is %s|, which hold%s all, or %s or %s, both with frame=NUMBER if wanted',
+        'format is %s: the frames of this job are %s',
+        'frame goes with pictures; a %s comes whole',
+    )),
+    ('GET /v1/jobs/{id}/preview.png', ('the frames of this job are %s: there is nothing to look at',)),
     ('POST /v1/line', RADII + (
         '%s is %.9g after %.9g; allowed are numbers that grow',
         'height is %.9g, allowed are %.9g, 1.05 times the horizon of this spin, and more',

@@ -63,9 +63,7 @@ struct MHD_Response *kd_reply_served(struct kd_request *request, const struct kd
     struct MHD_Response *response = kd_reply_static(form->data, form->size, file->type);
     if (!response)
         return NULL;
-    if (*same)
-        MHD_del_response_header(response, "Content-Type", file->type); /* 304 has no body that it could be of */
-    else if (gzip)
+    if (gzip && !*same)
         MHD_add_response_header(response, "Content-Encoding", "gzip");
     MHD_add_response_header(response, "ETag", form->etag);
     MHD_add_response_header(response, "Vary", "Accept-Encoding");
@@ -138,6 +136,9 @@ enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struc
     struct kd_server *server = request->server;
     if (!response)
         return kd_reply_no_memory(request);
+    const char *type = MHD_get_response_header(response, "Content-Type");
+    if (type && (status == MHD_HTTP_NO_CONTENT || status == MHD_HTTP_NOT_MODIFIED)) /* no body that it could be of */
+        MHD_del_response_header(response, "Content-Type", type);
     MHD_add_response_header(response, "X-Content-Type-Options", "nosniff");
     MHD_add_response_header(response, "Cross-Origin-Resource-Policy", server->cross_site ? "cross-origin" : "same-site");
     if (!MHD_get_response_header(response, "Cache-Control"))
