@@ -1,6 +1,6 @@
 """Refusals of values that are sound each by itself and do not go together, so that no schema of OpenAPI 3.1 can say so: their sentences, by the operations that give them, as they stand in the source.
 
-A sentence is a format of the C source as it is written there; in front of a bar, if there is one, stands the format round it. the test contract_sentences sees that each is in the source. What a schema
+A sentence is a format of the C source as it is written there; in front of a bar, if there is one, stands the format round it. The test contract_sentences sees that each is in the source. What a schema
 can say (a bound, a word, a member that another one takes or excludes) has no place here: a case that fits the document and is refused for it has found a mistake of the document."""
 
 # Fields of a scene beside each other. A document lies over a preset, and a patch over the scene that there is, so that a member which is not in the request has a value all the same, which decides.
