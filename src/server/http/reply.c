@@ -45,7 +45,7 @@ struct MHD_Response *kd_reply_static(const void *data, size_t size, const char *
         void *out;
     } bytes = { data }; /* libmicrohttpd only reads them */
     struct MHD_Response *response = MHD_create_response_from_buffer(size, bytes.out, MHD_RESPMEM_PERSISTENT);
-    if (response)
+    if (response && type)
         MHD_add_response_header(response, "Content-Type", type);
     return response;
 }
