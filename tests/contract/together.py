@@ -126,9 +126,11 @@ RADII = (
 )
 SESSION = ('image.layers holds %zu, allowed in a session, which shows a picture, is one', 'image.tile.width is %u, allowed is 0 in a session, which shows whole pictures of any size')
 
+OF_SCENES = '(GET|POST) /v1/(render|pixel)$|POST /v1/(plan|sessions|jobs|playground|visibility|spectrum)$|PATCH /v1/(sessions|playground)/{id}(/frame)?$|POST /v1/sessions/{id}/path$'
+
 # (operations, their sentences)
 TOGETHER = [
-    ('(GET|POST) /v1/(render|pixel)|POST /v1/(plan|sessions|jobs|playground|visibility|spectrum)|PATCH /v1/(sessions|playground)/{id}(/frame)?|POST /v1/sessions/{id}/path', SCENE),
+    (OF_SCENES, SCENE),
     ('(GET|POST) /v1/render|POST /v1/jobs', PICTURE),
     ('(GET|POST) /v1/pixel', ('at is "%s", allowed is X,Y: pixels from the upper left corner, below %u across and %u down',)),
     ('POST /v1/sessions|PATCH /v1/sessions/{id}(/frame)?|POST /v1/sessions/{id}/path', SESSION + ('patience_ms stands without least, whose width it is the patience for',)),
@@ -266,6 +268,9 @@ TOGETHER = [
         'velocity is %.9g c, allowed is %s',
         "position is %.9g M from the hole, allowed is more than %g M: closer in all is the hole's",
         "there is no such body in a snapshot: it is the hole's, or faster than c",
+        'r is %.16g, allowed is above the horizon at %.9g',  # this and what follows: of gravity kerr
+        '%s at r = %.16g, inside %s, which ends at %.9g here: use %s',
+        'the motion from r = %.16g cannot be followed in double precision',
     )),
     ('PATCH /v1/playground/{id}', (
         'there is no body %.0f, or it is there no more',
