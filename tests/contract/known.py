@@ -24,7 +24,7 @@ def pattern(sentence):
 
 RULES = [(re.compile(operation), [(sentence, pattern(sentence)) for sentence in sentences]) for operation, sentences in TOGETHER]
 BEFORE = re.compile('(?:' + '|'.join(words(one) for one in AMONG) + ')', re.DOTALL)
-RANGE = re.compile(r'\w+ is "[^":]+:[^":]+:\d+", ')
+RANGE = re.compile(r'\w+ is "[^"]*(:\d+|\.\.\.)", ')  # as it is quoted: a long one is cut
 
 
 def together(label, sentence):
