@@ -30,6 +30,7 @@ static void add_field(struct kd_json *json, const struct kd_orbit_field *f)
     } else {
         add_range(json, f);
     }
+    kd_json_string(json, "description", f->help);
     kd_json_end(json);
 }
 

@@ -121,5 +121,5 @@ void kd_openapi_job_schema(struct kd_json *json)
         { "created", KD_SCHEMA_NUMBER, false }, { "ended", KD_SCHEMA_NUMBER_OR_NULL, false }, { "delayed", KD_SCHEMA_TEXT, true }, { "error", KD_SCHEMA_TEXT, true },
     };
     kd_schema_text(json, "SweepAxes", axes);
-    KD_OPENAPI_STRICT(json, "Job", job);
+    KD_OPENAPI_TOLD(json, "Job", "created and ended are seconds since 1970", job);
 }
