@@ -76,8 +76,8 @@ static inline void kd_schema_end_strict(struct kd_json *json, const char *const 
     kd_json_end(json);
 }
 
-/* Writes the object `name`. */
-static inline void kd_schema_strict(struct kd_json *json, const char *name, const struct kd_schema_member *members, size_t n)
+/* Writes the object `name`; about: a sentence on its members, as what their units are, or NULL. */
+static inline void kd_schema_told(struct kd_json *json, const char *name, const char *about, const struct kd_schema_member *members, size_t n)
 {
     kd_schema_begin_strict(json, name);
     for (size_t i = 0; i < n; i++)
@@ -91,10 +91,14 @@ static inline void kd_schema_strict(struct kd_json *json, const char *name, cons
         if (!members[i].may_lack)
             kd_json_string(json, NULL, members[i].name);
     kd_json_end(json);
+    if (about)
+        kd_json_string(json, "description", about);
     kd_json_end(json);
 }
+static inline void kd_schema_strict(struct kd_json *json, const char *name, const struct kd_schema_member *members, size_t n) { kd_schema_told(json, name, NULL, members, n); }
 
 /* The same of a table whose length the compiler knows. */
 #define KD_SCHEMA_STRICT(json, name, table) kd_schema_strict(json, name, table, sizeof(table) / sizeof *(table))
+#define KD_SCHEMA_TOLD(json, name, about, table) kd_schema_told(json, name, about, table, sizeof(table) / sizeof *(table))
 
 #endif

@@ -1,5 +1,6 @@
 /* Requests have these fields, a row each; their schema follows from them. */
 #include "base/schema.h"
+#include "integral/apart.h"
 #include "integral/request.h"
 #include "physics/disk_image.h"
 
@@ -167,7 +168,7 @@ static void add_number_or_word(struct kd_json *json, const struct kd_integral_fi
 static void add_list(struct kd_json *json, const struct kd_integral_field *f)
 {
     kd_json_string(json, "type", "array");
-    kd_json_number(json, "minItems", 1);
+    kd_json_number(json, "minItems", strcmp(f->name, "edges") ? 1 : 2); /* a bin has two */
     kd_json_number(json, "maxItems", KD_INTEGRAL_LIST);
     kd_json_object(json, "items");
     add_range(json, f);
@@ -221,5 +222,6 @@ void kd_integral_request_schema(struct kd_json *json, const char *name, enum kd_
         if (kd_integral_fields[i].of & of)
             add_field(json, &kd_integral_fields[i], what);
     kd_json_end(json);
+    kd_schema_text(json, "not", kd_integral_apart(what));
     kd_json_end(json);
 }

@@ -7,6 +7,8 @@ static const char *fate(size_t i) { return i <= KD_ORBIT_ESCAPE ? kd_orbit_fate_
 static const char *end(size_t i) { return i <= KD_END_FAR ? kd_orbit_end_name((enum kd_orbit_end)i) : NULL; }
 static const char *way(size_t i) { return i < KD_WAYS ? kd_orbit_way_name((enum kd_orbit_way)i) : NULL; }
 
+/* docs/orbits.md says what each is. */
+#define UNITS "per rest mass; lengths and times in M, angles in radians unless a name ends in _deg"
 #define NUMBER KD_SCHEMA_NUMBER
 #define OR_NULL KD_SCHEMA_NUMBER_OR_NULL
 
@@ -20,10 +22,10 @@ static void add_constants(struct kd_json *json)
     static const struct kd_schema_member advance[] = {
         { "periastron", OR_NULL }, { "weak_field", OR_NULL }, { "node", OR_NULL }, { "periastron_arcsec_per_century", OR_NULL, true },
     };
-    KD_SCHEMA_STRICT(json, "OrbitConstants", constants);
-    KD_SCHEMA_STRICT(json, "OrbitTurningPoints", turning);
-    KD_SCHEMA_STRICT(json, "OrbitShape", shape);
-    KD_SCHEMA_STRICT(json, "OrbitAdvance", advance);
+    KD_SCHEMA_TOLD(json, "OrbitConstants", UNITS, constants);
+    KD_SCHEMA_TOLD(json, "OrbitTurningPoints", UNITS, turning);
+    KD_SCHEMA_TOLD(json, "OrbitShape", UNITS, shape);
+    KD_SCHEMA_TOLD(json, "OrbitAdvance", UNITS, advance);
 }
 
 static void add_frequencies(struct kd_json *json)
@@ -34,8 +36,8 @@ static void add_frequencies(struct kd_json *json)
         { "mino", KD_SCHEMA_REF("OrbitMinoFrequencies") }, { "coordinate", KD_SCHEMA_REF("OrbitThreeFrequencies") }, { "proper", KD_SCHEMA_REF("OrbitThreeFrequencies") },
         { "hz", KD_SCHEMA_REF("OrbitThreeFrequencies"), true },
     };
-    KD_SCHEMA_STRICT(json, "OrbitMinoFrequencies", mino);
-    KD_SCHEMA_STRICT(json, "OrbitThreeFrequencies", three);
+    KD_SCHEMA_TOLD(json, "OrbitMinoFrequencies", "radians per Mino time, per M, or as the member says Hz", mino);
+    KD_SCHEMA_TOLD(json, "OrbitThreeFrequencies", "radians per Mino time, per M, or as the member says Hz", three);
     KD_SCHEMA_STRICT(json, "OrbitFrequencies", all);
 }
 
@@ -66,8 +68,8 @@ static void add_result(struct kd_json *json)
         { "approximations", KD_SCHEMA_LIST(KD_SCHEMA_TEXT) },
     };
     KD_SCHEMA_STRICT(json, "OrbitDrift", drift);
-    KD_SCHEMA_STRICT(json, "OrbitDifference", difference);
-    KD_SCHEMA_STRICT(json, "OrbitResult", result);
+    KD_SCHEMA_TOLD(json, "OrbitDifference", UNITS, difference);
+    KD_SCHEMA_TOLD(json, "OrbitResult", UNITS, result);
 }
 
 void kd_orbit_answer_schemas(struct kd_json *json)
@@ -82,6 +84,6 @@ void kd_orbit_answer_schemas(struct kd_json *json)
     add_frequencies(json);
     add_series(json);
     add_result(json);
-    KD_SCHEMA_STRICT(json, "OrbitPath", path);
+    KD_SCHEMA_TOLD(json, "OrbitPath", UNITS, path);
     KD_SCHEMA_STRICT(json, "OrbitPaths", many);
 }

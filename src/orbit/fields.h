@@ -22,6 +22,7 @@ struct kd_orbit_field {
     int needed;
     enum kd_orbit_open open; /* which ends of its range are outside it */
     enum kd_orbit_implied bound;
+    const char *help; /* for schemas, with the unit in brackets */
 };
 
 enum { KD_ORBIT_N_SETTINGS = 16, KD_ORBIT_N_FIELDS = 17 };

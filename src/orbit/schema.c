@@ -30,6 +30,7 @@ static void add_field(struct kd_json *json, const struct kd_orbit_field *f)
     } else {
         add_range(json, f);
     }
+    kd_json_string(json, "description", f->help);
     kd_json_end(json);
 }
 
@@ -91,24 +92,33 @@ static void add_members(struct kd_json *json, const struct rows *rows, const cha
             add_field(json, &rows->fields[i]);
 }
 
-/* apart: JSON of what its members may not be together; NULL: all may. */
-static void add_section(struct kd_json *json, const struct rows *rows, const char *section, const char *apart)
+/* What the members of a section of the settings may not be together, as JSON. A duration has one length, and says by or_end alone what follows what has no periods; who sees an orbit is somewhere. */
+static const struct { const char *section, *not; } apart[] = {
+    { "duration", "{\"anyOf\":[{\"required\":[\"periods\",\"time\"]},{\"required\":[\"or_end\"],\"properties\":{\"or_end\":{\"const\":true}},\"not\":{\"required\":[\"periods\"]}}]}" },
+    { "seen", "{\"not\":{\"required\":[\"observer_inclination_deg\"]},\"anyOf\":[{\"required\":[\"observer_r\"]},"
+              "{\"required\":[\"observer_azimuth_deg\"],\"properties\":{\"observer_azimuth_deg\":{\"not\":{\"const\":0}}}},"
+              "{\"required\":[\"observer\"],\"properties\":{\"observer\":{\"not\":{\"const\":\"static\"}}}}]}" },
+};
+
+
+static void add_section(struct kd_json *json, const struct rows *rows, const char *section)
 {
     begin_object(json, section);
     add_required(json, rows, section);
-    if (apart)
-        kd_schema_text(json, "not", apart);
+    for (size_t i = 0; i < sizeof apart / sizeof *apart; i++)
+        if (!strcmp(apart[i].section, section))
+            kd_schema_text(json, "not", apart[i].not);
     kd_json_object(json, "properties");
     add_members(json, rows, section);
     kd_json_end(json);
     kd_json_end(json);
 }
 
-static void add_sections(struct kd_json *json, const struct rows *rows, const char *apart)
+static void add_sections(struct kd_json *json, const struct rows *rows)
 {
     for (size_t i = 0; i < rows->n; i++)
         if (*rows->fields[i].section && is_first_of_section(rows, &rows->fields[i]))
-            add_section(json, rows, rows->fields[i].section, apart);
+            add_section(json, rows, rows->fields[i].section);
 }
 
 static const char *const forms[KD_ORBIT_FORMS] = { [KD_ORBIT_SHAPE] = "OrbitByShape", [KD_ORBIT_CONSTANTS] = "OrbitByConstants", [KD_ORBIT_STATE] = "OrbitByState", [KD_ORBIT_CASE] = "OrbitByCase" };
@@ -121,7 +131,7 @@ void kd_orbit_schemas(struct kd_json *json)
         add_required(json, &rows, "");
         kd_json_object(json, "properties");
         add_members(json, &rows, "");
-        add_sections(json, &rows, NULL);
+        add_sections(json, &rows);
         kd_json_end(json);
         kd_json_end(json);
     }
@@ -155,11 +165,13 @@ void kd_orbit_request_schema(struct kd_json *json, const char *name)
     begin_object(json, name);
     /* A request has either orbit or orbits. It is no oneOf: generators of clients would make a union of it, and no class with the fields. */
     kd_schema_text(json, "if", "{\"required\":[\"orbits\"]}");
-    kd_schema_text(json, "then", "{\"not\":{\"anyOf\":[{\"required\":[\"orbit\"]},{\"required\":[\"seen\"]}]}}");
-    kd_schema_text(json, "else", "{\"required\":[\"orbit\"]}");
+    kd_schema_text(json, "then", "{\"not\":{\"anyOf\":[{\"required\":[\"orbit\"]},{\"required\":[\"seen\"],\"properties\":{\"seen\":{\"type\":\"object\",\"required\":[\"observer_inclination_deg\"]}}}]}}");
+    kd_schema_text(json, "else", "{\"required\":[\"orbit\"],\"not\":{\"required\":[\"samples\",\"seen\"],\"properties\":{\"samples\":{\"type\":\"number\",\"exclusiveMinimum\":1000},"
+                                  "\"seen\":{\"type\":\"object\",\"required\":[\"observer_inclination_deg\"]}}}}");
+    _Static_assert(KD_ORBIT_SEEN_MAX == 1000, "the schema says so");
     kd_json_object(json, "properties");
     add_members(json, &rows, "");
-    add_sections(json, &rows, "{\"required\":[\"periods\",\"time\"]}");
+    add_sections(json, &rows);
     add_orbits(json, KD_SCHEMA_REF("Orbit"));
     kd_json_end(json);
     kd_json_end(json);

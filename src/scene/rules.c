@@ -246,11 +246,11 @@ static enum kd_status outer_edge(const struct kd_scene *scene, struct kd_error *
         show(scene->disk.outer).text, show_bound(least).text, isco ? ", which is the ISCO" : "");
 }
 
+#define LEAST_HEIGHT 1e-5 /* below it the place of a ray in a float is no longer told within the height */
 static enum kd_status height(const struct kd_scene *scene, struct kd_error *error)
 {
-    const double least = 1e-5; /* below it the place of a ray in a float is no longer told within the height */
-    if (scene->disk.height > 0 && scene->disk.height < least)
-        return kd_error_field(error, "/disk/height", "disk.height is %s, allowed is 0, and %s or more", show(scene->disk.height).text, show(least).text);
+    if (scene->disk.height > 0 && scene->disk.height < LEAST_HEIGHT)
+        return kd_error_field(error, "/disk/height", "disk.height is %s, allowed is 0, and %s or more", show(scene->disk.height).text, show(LEAST_HEIGHT).text);
     if (scene->disk.height == 0 || scene->disk.model != KD_DISK_PARTICLES)
         return KD_OK;
     return kd_error_field(error, "/disk/height", "disk.height is %s, allowed where disk.model is \"particles\" is 0", show(scene->disk.height).text);
@@ -472,7 +472,7 @@ const struct kd_rule kd_rules[] = {
       stereo },
     { "`disk.inner` is not inside the ISCO of the spin, unless there is no disk.", inner_edge },
     { "`disk.outer` is larger than the inner edge, unless there is no disk.", outer_edge },
-    { "`disk.height` is 0, or at least 1e-5; it is 0 for a disk of particles.", height },
+    { "`disk.height` is 0, or at least 1e-5; it is 0 for a disk of particles.", height, "disk", "height", 0, LEAST_HEIGHT },
     { "`volume.outer` is larger than the inner edge, which is at least a hundredth outside the horizon, or a two-thousandth for what is seen at a radio frequency, unless there is no volume; "
       "a torus has its inner edge between the orbit of light and `volume.torus_radius`, which is outside the ISCO, and an outer edge; `volume.gamma_max` is larger than `volume.gamma_min` where electrons go by a power law; `volume.normalise_to_jy` is 0 but where a volume at a radio frequency shines alone, in the plane and pinhole projections, without stereo.", volume },
     { "`jets.outer` is larger than the inner edge, which is at least a twentieth outside the horizon, unless `jets.brightness` is 0; by a `jets.falloff` below 0 light grows "
@@ -485,6 +485,6 @@ const struct kd_rule kd_rules[] = {
     { "`style.beam_uas` is at most a thousand times the width of the picture in the plane and pinhole projections, and 0 in the others.", beam },
     { "`style.colour_bar` needs `style.palette` \"heat\" and `style.tone_map` \"srgb\".", colour_bar },
     { "`image.tile` lies within the picture; its width and height are both above 0, or all of it is 0.", tile },
-    { "`accuracy.steps` is a multiple of 4.", steps, "accuracy", "steps", STEPS },
+    { "`accuracy.steps` is a multiple of 4.", steps, "accuracy", "steps", STEPS, 0 },
 };
 const size_t kd_rule_count = sizeof kd_rules / sizeof *kd_rules;

@@ -22,6 +22,16 @@ static void write_multiple(struct kd_writer *w, const struct kd_field *field)
             kd_write(w, ",\"multipleOf\":%d", kd_rules[i].multiple);
 }
 
+static void write_above_0(struct kd_writer *w, const struct kd_field *field)
+{
+    for (size_t i = 0; i < kd_rule_count; i++)
+        if (kd_rules[i].above_0 > 0 && !strcmp(kd_rules[i].section, field->section) && !strcmp(kd_rules[i].name, field->name)) {
+            kd_write(w, ",\"not\":{\"exclusiveMinimum\":0,\"exclusiveMaximum\":");
+            kd_write_number(w, kd_rules[i].above_0);
+            kd_write(w, "}");
+        }
+}
+
 static void write_words(struct kd_writer *w, const struct kd_field *field)
 {
     kd_write(w, "\"type\":\"string\",\"enum\":[");
@@ -71,7 +81,10 @@ static void write_many(struct kd_writer *w, const struct kd_field *field)
 static void write_type(struct kd_writer *w, const struct kd_field *field)
 {
     switch (field->kind) {
-    case KD_FIELD_REAL: write_range(w, "number", field); return;
+    case KD_FIELD_REAL:
+        write_range(w, "number", field);
+        write_above_0(w, field);
+        return;
     case KD_FIELD_INT:
         if (field->words)
             break;

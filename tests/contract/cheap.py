@@ -7,10 +7,11 @@ WIDTH, HEIGHT = 40, 24
 # The most of a member that is a number, or that a list may hold, wherever it stands in a body.
 NUMBERS = {'bins': 8, 'rings': 3, 'g_stars': 3, 'frequencies': 2, 'baselines': 3, 'pixels': 16, 'frames': 3, 'steps': 64, 'count': 100}
 LISTS = {'rays': 8, 'orbits': 2, 'scenes': 2, 'bodies': 4, 'add': 4, 'spots': 3, 'edges': 8, 'radii': 3, 'g_star': 3, 'frequencies_hz': 2, 'u': 3, 'v': 3, 'lengths': 2, 'angles_deg': 2, 'keyframes': 3}
+DURATIONS = {'periods': 3, 'time': 1e4}
 
 
 def is_count(value):
-    return isinstance(value, int) and not isinstance(value, bool)
+    return (isinstance(value, int) and not isinstance(value, bool)) or (isinstance(value, float) and value.is_integer())  # 8.0 is a whole number of JSON
 
 
 def smaller_image(image):
@@ -34,8 +35,16 @@ def smaller_scene(scene, whole):
     smaller_image(scene.get('image'))
 
 
+def smaller_duration(duration):
+    """Of an orbit."""
+    if isinstance(duration, dict):
+        for name, most in DURATIONS.items():
+            if isinstance(duration.get(name), (int, float)) and not isinstance(duration[name], bool) and duration[name] > most:
+                duration[name] = most
+
+
 def smaller(value, name=''):
-    """The same within."""
+    """The same within, of a body that is valid: there is no number that is too large."""
     if isinstance(value, list):
         if name in LISTS and len(value) > LISTS[name]:
             del value[LISTS[name]:]
@@ -44,10 +53,11 @@ def smaller(value, name=''):
     if isinstance(value, dict):
         for key, one in value.items():
             most = NUMBERS.get(key)
-            if most and is_count(one) and most < one <= 20000:
+            if most and is_count(one) and one > most:
                 value[key] = most
             smaller(one, key)
         smaller_image(value.get('image'))
+        smaller_duration(value.get('duration'))
 
 
 def smaller_axes(axes):

@@ -118,11 +118,11 @@ def after_call(context, case, response):
 @schemathesis.hook
 def filter_failure(context, failure, case, response):
     """Drops what lies in the protocol; known.py has the reasons."""
-    if not known.is_known(failure, case, response):
-        return True
-    with lock:
-        excused[f'{type(failure).__name__}, {response.status_code}, {case.operation.label}'] += 1
-    return False
+    reason = known.why(failure, case, response)
+    if reason:
+        with lock:
+            excused[f'{response.status_code}, {case.operation.label}: {reason}'] += 1
+    return not reason
 
 
 class UndocumentedHeader(Failure):

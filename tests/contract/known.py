@@ -1,58 +1,100 @@
 """Failures of schemathesis' checks that lie in the protocol: each for some operations, one check and what the answer says, with the reason. All else fails the run."""
+import pathlib
 import re
+import sys
 
-# Refusals of a field by itself, of one that is missing or not known: these the document must tell, and a case that fits it must not meet them.
-ALONE = [re.compile(sentence) for sentence in (
-    r'^[\w./]+ is [^,;]*(, a string where a number is wanted)?, allowed (is|are) ', r'unknown field', r'there is no (field|preset|such)', r'is missing', r'is given twice', r'is no (number|value|field)',
-    r'has \d+ \w+, allowed', r'not valid JSON', r'allowed is an? (array|object|list)',
-)]
-# What JSON Schema and OpenAPI cannot say: a value is sound by itself, and not beside another one. Sentences of refusals, of operations whose name matches, that read like those of a field by itself.
-TOGETHER = [
-    (r'(POST|GET) /v1/(render|pixel|plan|sessions|jobs|playground|visibility|spectrum)|PATCH /v1/(sessions|playground)', (
-        r'^[a-z_.0-9]+ is .*, allowed (is|are|where|with)\b.* (unless|but|in the|without|with|where|when|beside|than|has|have|is) ',  # another field decides what is allowed
-        r' M, allowed is (more than|at least|less than|above) .*(horizon|ISCO)',
-        r'allowed are .*there is no such asset|there is no such asset here',
-        r', (it|which) needs ', r'; it needs ', r'allowed is less than [a-z_.]+', r'allowed is more than [a-z_.]+', r'^image\.tile\.\w+ is ', r'^look_at is', r'is given with ', r' with camera\.', r'allowed is at least camera\.r', r'microarcseconds, allowed are up to', r'^[\w.]+ is a (picture|grid) of ', r'allowed is .*the playground\'s', r' of \w+ and \w+', r'^(first|stride|count) is .* particles',
-        r'which is no SHA-256, and no name of an asset',  # an asset has to be there
-    )),
-    (r'POST /v1/(line|transfer-function|spectrum|visibility)', (
-        r"within the ISCO of this spin", r'^outer is .* and inner is', r'^(energy|frequency)_max\w* is .* and \w+_min\w* ', r'is given, and belongs to ', r'is given beside ', r'^u has .* and v has',
-        r'^there is no field \w+ here', r'has no light of one frequency in physical units', r'^nothing shines in the picture', r'one number, allowed are', r' are more than ', r'was not found', r'accuracy\.orders of the scene', r'times the horizon of this spin', r', from inner to outer', r'allowed are larger (radii|values|numbers)',
-    )),
-    (r'POST /v1/orbits', (r'is missing: whence', r'without periods', r'of an orbit that is seen', r'horizon', r'separatrix', r'innermost', r'no such orbit', r'there is no .*orbit')),
-    (r'POST /v1/rays', (r'^the query may hold parameters beside a body of application/x-npy only', r'horizon')),  # OpenAPI's parameters are those of all bodies of an operation
-    (r'GET /v1/physics/', (
-        r'horizon', r'^\w+ is \'[^\']*:[^\']*\', allowed are', r'or a range first:last:count',  # a range is text, whose numbers a pattern cannot bound
-        r', and \w+ is ', r'allowed is (more|less) than ', r'not outside ', r'nothing of this holds', r'turns outside', r'with which it ', r'one of them must be given',
-    )),
-    # The values of an axis are those of its field, whose schema depends on the name that the axis has.
-    (r'POST /v1/(jobs|sessions/.*/path)', (r'^keyframes/\d+/(frame|at) is',)),  # each behind the one before it
-    (r'POST /v1/(jobs|plan)', (r'^axes?\b', r'axis', r'a range that leads from its start to its stop', r'^exposure is of pictures', r'is no (number|value|field)')),
-    (r'POST /v1/playground|POST /v1/jobs', (r'^\w+ is no number', r'^velocity is .* c, allowed is up to c')),  # in all three directions together;  # state of a snapshot is to be given back as it came: nobody else can make one
-]
-RULES = [(re.compile(operation), [re.compile(sentence) for sentence in sentences]) for operation, sentences in TOGETHER]
+from together import AMONG, OF_SCENES, TOGETHER
+
+SOURCE = pathlib.Path(__file__).resolve().parent.parent.parent / 'src'
+CONVERSION = re.compile(r'%(?:\.\*|\.\d+)?(?:ll|z|h)?([a-zA-Z])')
 
 
+def words(sentence):
+    """The pattern of what a format of C makes."""
+    parts, at = [], 0
+    for one in CONVERSION.finditer(sentence):
+        parts += [re.escape(sentence[at:one.start()].replace('%%', '%')), '.*?' if one[1] == 's' else r'[-+.\deinf]+']
+        at = one.end()
+    return ''.join(parts) + re.escape(sentence[at:].replace('%%', '%'))
 
-def is_together(label, sentence):
-    """Whether a refusal is of values that do not go together, or of a place, an asset, a picture that cannot be."""
-    return any(operation.match(label) and any(one.search(sentence) for one in sentences) for operation, sentences in RULES) or not any(one.search(sentence) for one in ALONE)
+
+def pattern(sentence):
+    return re.compile(words(sentence.replace('|', '', 1)), re.DOTALL)
 
 
-def is_known(failure, case, response):
-    """Whether a failure lies in the protocol."""
+RULES = [(re.compile(operation), [(sentence, pattern(sentence)) for sentence in sentences]) for operation, sentences in TOGETHER]
+BEFORE = re.compile('(?:' + '|'.join(words(one) for one in AMONG) + ')', re.DOTALL)
+RANGE = re.compile(r'\w+ is "[^"]*(:\d+|\.\.\.)", ')  # as it is quoted: a long one is cut
+
+
+def together(label, sentence):
+    """The listed sentence of values that do not go together which a refusal is; None: it is none."""
+    for operation, sentences in RULES:
+        if operation.match(label):
+            for name, one in sentences:
+                if one.fullmatch(sentence):
+                    return name
+    before = BEFORE.match(sentence)
+    return together(label, sentence[before.end():]) if before and label in ('POST /v1/jobs', 'POST /v1/plan') else None
+
+
+def of_an_axis(label, problem):
+    """Whether a value of an axis of a sweep is refused. It is one of its field, whose schema depends on the axis' name: the document would have to say each of its 331 again."""
+    name = re.match(r'/axes/([^/]+)(/\d+)?$', problem.get('pointer', ''))
+    return label in ('POST /v1/jobs', 'POST /v1/plan') and name and re.match(r'(axes/)?%s(/\d+)? (is|holds) .*, allowed (is|are) ' % re.escape(name[1]), problem['detail'], re.DOTALL)
+
+
+def refused(label, problem):
+    """Why a refusal of what fits the document lies in the protocol; None: it does not."""
+    sentence, pointer = problem.get('detail', ''), problem.get('pointer', '')
+    if problem.get('status') == 400:  # U+0000 is JSON, and in no text of kerrd: a schema would have to say so of each
+        return 'NUL in a text' if 'NUL in a string' in sentence else None
+    if problem.get('status') != 422:
+        return None
+    if problem.get('type') == 'urn:kerrd:problem:too-large':  # more than this server, on this device, does for one request
+        return 'more than this server does'
+    if of_an_axis(label, problem):
+        return 'a value of an axis'
+    state = {'POST /v1/playground': '/state', 'POST /v1/jobs': '/playground/state'}.get(label)
+    if state and (pointer + '/').startswith(state + '/'):  # of a snapshot, to be given back as it came: nobody else can make one
+        return 'the state of a snapshot'
+    if label.startswith('GET /v1/physics/') and sentence.endswith(' of these'):  # a range is a text, whose numbers no pattern bounds
+        return 'the numbers of a range' if RANGE.match(sentence) else None
+    return together(label, sentence)
+
+
+def has_a_list_by_index(value):
+    """Whether a list of a scene is written as an object: {"0": {...}} changes elements by their index."""
+    if isinstance(value, list):
+        return any(has_a_list_by_index(one) for one in value)
+    return isinstance(value, dict) and any(has_a_list_by_index(one) or (name in ('spots', 'bodies') and isinstance(one, dict) and all(re.fullmatch(r'\d+', key) for key in one)) for name, one in value.items())
+
+
+def why(failure, case, response):
+    """Why a failure lies in the protocol; None: it does not."""
     label, status, kind = case.operation.label, response.status_code, type(failure).__name__
     if kind == 'RejectedPositiveData':
-        problem = response.json()
-        if status == 400:  # U+0000 is JSON, and in no text of kerrd: a schema would have to say so of each
-            return 'NUL in a string' in problem.get('detail', '')
-        if label == 'POST /v1/jobs' and problem.get('pointer', '').startswith('/playground'):
-            return True  # it is a document of another operation, less some members, and free in this one's schema
-        return status == 422 and is_together(label, problem.get('detail', ''))
+        return refused(label, response.json())
+    # docs/scene.md has this form for what lies over a preset, and for a patch; the schema is that of a whole scene, as answers have it, too.
+    if kind == 'AcceptedNegativeData' and re.match(OF_SCENES, label) and re.search(r'\b(spots|bodies): Incorrect type', failure.message) and has_a_list_by_index(case.body):
+        return 'a list of a scene by index'
     # OpenAPI 3.1 has the schema of the whole stream, a text; schemathesis holds it against each event.
-    if failure.title == 'SSE event violates schema' and status == 200:
-        return response.headers['content-type'][0].startswith('text/event-stream')
+    if failure.title == 'SSE event violates schema' and status == 200 and response.headers['content-type'][0].startswith('text/event-stream'):
+        return 'an event of a stream'
     # A session's, playground's, job's or asset's token is a capability: without it the answer is 403 with its problem type, and 401 is of the server's token file alone.
-    if kind == 'MissingHeaderNotRejected' and status == 403:
-        return response.json().get('type') == 'urn:kerrd:problem:forbidden'
-    return False
+    if kind == 'MissingHeaderNotRejected' and status == 403 and response.json().get('type') == 'urn:kerrd:problem:forbidden':
+        return 'without the token that came with it'
+    return None
+
+
+def gone():
+    """Sentences of TOGETHER that are in the source no more."""
+    text = re.sub(r'"\s*\n\s*"', '', '\n'.join(file.read_text() for file in sorted(SOURCE.rglob('*.c')))).replace('\\"', '"')
+    return [sentence for sentence in [*(one for _, sentences in TOGETHER for one in sentences), *AMONG] if sentence.split('|')[-1] not in text]
+
+
+if __name__ == '__main__':
+    left = gone()
+    for sentence in left:
+        print(f'together.py: nothing in src says {sentence!r}')
+    sys.exit(1 if left else 0)

@@ -2,6 +2,7 @@
 import importlib
 import json
 import pathlib
+import socket
 import subprocess
 import sys
 import tempfile
@@ -48,7 +49,7 @@ class OpenApi(daemon.Case):
         """Each schema of the document, with where it stands."""
         def below(at, schema):
             yield at, schema
-            parts = [*schema.get('properties', {}).items(), *((f'{k}{i}', part) for k in ('anyOf', 'oneOf') for i, part in enumerate(schema.get(k, []))), *((k, schema[k]) for k in ('items', 'additionalProperties') if isinstance(schema.get(k), dict))]
+            parts = [*schema.get('properties', {}).items(), *((f'{k}{i}', part) for k in ('anyOf', 'oneOf', 'allOf') for i, part in enumerate(schema.get(k, []))), *((k, schema[k]) for k in ('items', 'additionalProperties') if isinstance(schema.get(k), dict))]
             for name, part in parts:
                 yield from below(f'{at}/{name}', part)
         for name, schema in self.document['components']['schemas'].items():
@@ -64,12 +65,12 @@ class OpenApi(daemon.Case):
     def test_nothing_is_left_open(self):
         """Each schema says what it is, each list of what, each object of which members, and that these are all."""
         # Documents of their own; what is to be given back as it came; what the type of a job's output decides.
-        free = {'get /openapi.json application/json', 'get /v1/schema application/schema+json', 'Playground/state', 'get /v1/jobs/{id}/result application/json', 'post /v1/jobs application/json/oneOf2/playground'}
+        free = {'get /openapi.json application/json', 'get /v1/schema application/schema+json', 'Playground/state', 'get /v1/jobs/{id}/result application/json'}
         found = set()
         for at, schema in self.schemas():
-            if set(schema) == {'required'}:
-                continue  # one of several ways to be whole
-            known = schema.keys() & {'type', '$ref', 'anyOf', 'oneOf', 'enum', 'const'}
+            if set(schema) in ({'required'}, {'not'}):
+                continue  # one of several ways to be whole, or what is not of it
+            known = schema.keys() & {'type', '$ref', 'anyOf', 'oneOf', 'allOf', 'enum', 'const'}
             if not known or (schema.get('type') == 'array' and not schema.get('items')) or (schema.get('type') == 'object' and schema.get('additionalProperties') in (None, True)):
                 found.add(at)
         self.assertEqual(found, free)
@@ -111,6 +112,10 @@ class OpenApi(daemon.Case):
                 ('orbits', {'orbit': orbit, 'duration': {'periods': 2e9}}, {'orbit': orbit, 'duration': {'time': 2e30}},
                  {'orbit': orbit, **short}),
                 ('orbits', {'orbits': [bound], 'seen': {'observer_r': 30, 'observer_inclination_deg': 60}}, {'orbit': bound, 'seen': {'observer_r': 30, 'observer_inclination_deg': 60}, **short}),
+                ('orbits', {'orbits': [bound], 'seen': {'observer_r': 30, 'observer_inclination_deg': 60}}, {'orbits': [bound], 'seen': {'observer': 'static', 'observer_azimuth_deg': 0}}),
+                ('orbits', *({'orbit': bound, **short, **more} for more in (
+                    {'seen': {'observer_r': 30}}, {'seen': {'observer_azimuth_deg': 5}}, {'seen': {'observer': 'zamo'}}, {'seen': {'observer_inclination_deg': 60}, 'samples': 1001},
+                    {'duration': {'or_end': True}}, {'duration': {'time': 9, 'or_end': True}}, {'seen': {}, 'duration': {'periods': 1, 'or_end': True}, 'samples': 1001}))),
                 ('orbits', {'orbit': orbit, 'samples': 1}, {'orbit': orbit, 'samples': 0}),
                 ('orbits', {'orbit': orbit, 'mass_msun': 0}, {'orbit': orbit, 'mass_msun': 1e21}, {'orbit': orbit, 'mass_msun': 1}),
                 ('orbits', {'orbit': orbit, 'steps': 100000001}, {'orbit': orbit, 'steps': 0}),
@@ -123,6 +128,17 @@ class OpenApi(daemon.Case):
                  {'orbit': {**constants, 'r': 1}, 'spin': 0.999999}, {'orbit': constants}),
                 ('line', {'spin': 1}, {'inner': 0.5}, {'inner': 'horizon'}, {'edges': []}, {'edges': ['a', 1]}, {'emissivity': 'gauss'}, {'bins': 0}, {'bins': 2.5}, {'q': 1},
                  {'inclination_deg': 181}, {'spin': 0.5, 'inner': 'isco', 'edges': [0.5, 1, 1.5], 'emissivity': 'broken', 'break_r': 12}),
+                ('line', *({'spin': 0.5, **more} for more in (
+                    {'edges': [1]}, {'edges': [0.5, 1], 'bins': 1}, {'edges': [0.5, 1], 'energy_min': 0}, {'edges': [0.5, 1], 'energy_max': 'auto'}, {'index': 3, 'emissivity': 'lamppost'}, {'outer_index': 3},
+                    {'break_r': 12, 'emissivity': 'power'}, {'height': 9}, {'photon_index': 2, 'emissivity': 'broken'}, {'height': 9, 'photon_index': 2, 'emissivity': 'lamppost', 'bins': 4}))),
+                ('transfer-function', {'radii': [8], 'rings': 1}, {'g_star': [0.5], 'g_stars': 1}, {'radii': [8], 'g_stars': 1}),
+                ('spectrum', {'frequencies_hz': [1e17], 'frequencies': 2}, {'frequencies_hz': [1e17], 'frequency_min_hz': 'auto'}, {'frequencies_hz': [1e17], 'frequency_max_hz': 1e18}, {'pixels': 16}, {'check': 'none'},
+                 {'preset': 'riaf', 'spin': 0.5}, {'scene': {}, 'limb': 'laor'}, {'preset': 'riaf', 'frequencies': 201}, {'preset': 'riaf', 'frequencies_hz': [n * 1e9 for n in range(1, 202)]},
+                 {'frequencies_hz': [n * 1e14 for n in range(1, 1002)]}, {'frequencies_hz': [n * 1e14 for n in range(1, 202)]}),
+                ('visibility', *({'scene': {'image': {'width': 32, 'height': 18}}, 'pixels': 16, 'check': 'none', **more} for more in (
+                    {'u': [1]}, {'v': [1]}, {'u': [1], 'v': [1], 'lengths': [1]}, {'u': [1], 'v': [1], 'length_max': 'auto'}, {'u': [1], 'v': [1], 'baselines': 2}, {'u': [1], 'v': [1], 'angles_deg': [0]},
+                    {'lengths': [1], 'length_max': 1}, {'lengths': [1], 'baselines': 2}, {'lengths': [1], 'angles_deg': [0]}))),
+                ('plan', {'disk': {'height': 1e-6}}, {'disk': {'height': 1e-311}}, {'disk': {'height': 1e-5}}),
                 ('transfer-function', {'g_star': [0]}, {'g_star': [1]}, {'rings': 0}, {'bins': 3}, {'inclination_deg': 0.05}, {'inclination_deg': 88}, {'inclination_deg': 179.95}, {'radii': [8, 20], 'g_star': [0.5]}),
                 ('transfer-function', {'inclination_deg': 0.1, 'radii': [8], 'g_star': [0.5]}), ('transfer-function', {'inclination_deg': 179.9, 'radii': [8], 'g_star': [0.5]}),
                 ('spectrum', {'mass_msun': 0}, {'frequencies': 1}, {'colour_correction': 0.9}, {'frequency_min_hz': 'low'}, {'frequencies_hz': [1e17], 'limb': 'laor'}),
@@ -149,6 +165,13 @@ class OpenApi(daemon.Case):
                 ('jobs', {**KEYS, 'exposure': 'two'}, {**KEYS, 'motion_blur': {}}, {**KEYS, 'motion_blur': {'samples': 65}}, {**KEYS, 'motion_blur': {'samples': 2, 'shutter': 0}},
                  {'scene': {}, 'axes': {'time': [0]}, 'exposure': 'one'}, {'scenes': [{}], 'motion_blur': {'samples': 2}}, {**KEYS, 'motion_blur': {'samples': 2, 'shutter': 1}, 'exposure': 'one'}),
                 ('playground', {'preset': 'figure-eight', 'bodies': [], 'state': {}}, {'state': {}}, {'preset': 'figure-eight', 'paused': True}),
+                ('jobs', *({'scene': {'image': {'width': 32, 'height': 18}}, **more} for more in (
+                    {'frames': 2}, {'interpolation': 'linear'}, {'distances': 'geometric'}, {'angles': 'shorter'}, {'ease': 'in'}, {'look_at': 'hole'}, {'motion_blur': {'samples': 2}}, {'output': 'cube'},
+                    {'exposure': 'each', 'output': 'fits'}, {'keyframes': [{'frame': 1, 'scene': {}}], 'motion_blur': {'samples': 2}, 'output': 'exr'}, {'axes': {'time': [0]}, 'exposure': 'each', 'output': 'cube'},
+                    {'axes': {'time': [0]}, 'output': 'cube'}))),
+                ('jobs', *({'every': 5, 'playground': {'preset': 'binary'}, 'scene': {'image': {'width': 32, 'height': 18}}, **more} for more in (
+                    {}, {'frames': 1, 'playground': {'rate': 1}}, {'frames': 1, 'playground': {'scene': {}}}, {'frames': 1, 'playground': {'paused': True}}, {'frames': 1, 'playground': {'q': 1}},
+                    {'frames': 1, 'exposure': 'one'}, {'frames': 1, 'output': 'cube'}, {'frames': 1}))),
                 ('jobs', {'axes': {'': [1]}}, {'axes': {'camera': [1]}}, {'axes': {'time': '1'}}, {'axes': {'time': '0:1'}}, {'axes': {'time': 'a:b:c'}}, {'axes': {'time': '0:.5/2', 'spots.0.r': [8]}, 'scene': {'image': {'width': 32, 'height': 18}}}),
                 ('jobs', {'scenes': []}, {'scene': {}, 'keyframes': []}, {'scene': {'image': {'width': 32, 'height': 18}}})):
             body = self.document['paths']['/v1/' + path]['post']['requestBody']['content']['application/json']['schema']
@@ -159,6 +182,34 @@ class OpenApi(daemon.Case):
                     self.assertEqual(judge.is_valid(document), good)
                     status = self.daemon.post('/v1/' + path, document).status
                     self.assertTrue(status in (200, 201, 202) if good else status == 422, status)
+
+    def test_what_is_refused_for_its_form_is_told(self):
+        """Of each operation, whatever its path names: each status of these is one that it has in the document."""
+        lines = {'a length of 26 digits': 'Content-Length: ' + 26 * '9', 'a length that is none': 'Content-Length: x', 'another host': 'Host: evil.example', 'another site': 'Sec-Fetch-Site: cross-site',
+                 'a wrong token': 'Authorization: Bearer x', 'nothing that is offered': 'Accept: x/y', 'what it has': 'If-None-Match: *', 'a long line': 'X: ' + 60000 * 'x'}
+        session = self.daemon.post('/v1/sessions', {'image': {'width': 32, 'height': 18}}).json()
+        for path, operations in self.document['paths'].items():
+            at = path.replace('{id}', session['id'] if path.startswith('/v1/sessions') else 16 * '0').replace('{sha256}', 64 * '0').replace('{name}', 'gargantua' if 'presets' in path else 'app.js')
+            for method, operation in operations.items():
+                for name, line in lines.items():
+                    with self.subTest(f'{method} {path}', name=name):
+                        self.assertIn(str(self.said(method, at, line)), operation['responses'])
+                for query in ('?nosuch=1', '?preset=m87&preset=m87', '?%zz', '?' + 70000 * 'a'):
+                    with self.subTest(f'{method} {path}', query=query[:20]):
+                        line = 'X: x' if method in ('get', 'patch', 'put', 'post') else f'Authorization: Bearer {session["token"]}'
+                        self.assertIn(str(self.said(method, at + query, line)), operation['responses'])
+
+    def said(self, method, target, line):
+        """The status of a request with this line in its header."""
+        hosted = '' if line.startswith('Host:') else 'Host: localhost\r\n'
+        with socket.create_connection(('127.0.0.1', self.daemon.port), timeout=60) as connection:
+            connection.sendall(f'{method.upper()} {target} HTTP/1.1\r\n{hosted}Connection: close\r\n{line}\r\n\r\n'.encode())
+            answer = b''
+            while b'\r\n' not in answer:
+                some = connection.recv(4096)
+                self.assertTrue(some, f'{method} {target[:60]}: no answer')
+                answer += some
+        return int(answer.split()[1])
 
     def test_links_lead_to_what_was_made(self):
         """Each answer that makes something names the operations under its address; those of its owner take its token in the query, as the links have it."""

@@ -127,6 +127,8 @@ static void add_observer(struct kd_json *json)
     kd_json_end(json);
 }
 
+/* docs/rays.md says what each is. */
+#define UNITS "lengths and times in M, angles in radians"
 void kd_rays_answer_schemas(struct kd_json *json)
 {
     static const struct kd_schema_member accuracy[] = {
@@ -147,8 +149,8 @@ void kd_rays_answer_schemas(struct kd_json *json)
     };
     add_observer(json);
     KD_SCHEMA_STRICT(json, "RaysAccuracy", accuracy);
-    KD_SCHEMA_STRICT(json, "RayCrossing", crossing);
-    KD_SCHEMA_STRICT(json, "RaySky", sky);
-    KD_SCHEMA_STRICT(json, "Ray", ray);
+    KD_SCHEMA_TOLD(json, "RayCrossing", UNITS, crossing);
+    KD_SCHEMA_TOLD(json, "RaySky", UNITS, sky);
+    KD_SCHEMA_TOLD(json, "Ray", UNITS, ray);
     KD_SCHEMA_STRICT(json, "RaysAnswer", answer);
 }

@@ -26,7 +26,7 @@ static enum MHD_Result moved(struct kd_request *request)
     const char *token = kd_access_query(request);
     char to[KD_BASE_PATH_MOST + KD_ACCESS_TOKEN_MAX + 16];
     snprintf(to, sizeof to, "%s/%s%s", strrchr(request->server->base.path, '/') + 1, token ? "?" KD_ACCESS_QUERY "=" : "", token ? token : "");
-    struct MHD_Response *response = kd_reply_static("", 0, "text/plain");
+    struct MHD_Response *response = kd_reply_static("", 0, NULL);
     if (response)
         MHD_add_response_header(response, "Location", to);
     return kd_reply_send(request, MHD_HTTP_PERMANENT_REDIRECT, response);
@@ -38,7 +38,7 @@ static enum MHD_Result signed_in(struct kd_request *request, const char *token)
 {
     char cookie[KD_ACCESS_TOKEN_MAX + 80];
     snprintf(cookie, sizeof cookie, "%s=%s; HttpOnly; SameSite=Strict", KD_ACCESS_COOKIE, token);
-    struct MHD_Response *response = kd_reply_static("", 0, "text/plain");
+    struct MHD_Response *response = kd_reply_static("", 0, NULL);
     if (response) {
         MHD_add_response_header(response, "Set-Cookie", cookie);
         MHD_add_response_header(response, "Location", ".");

@@ -45,7 +45,7 @@ struct MHD_Response *kd_reply_static(const void *data, size_t size, const char *
         void *out;
     } bytes = { data }; /* libmicrohttpd only reads them */
     struct MHD_Response *response = MHD_create_response_from_buffer(size, bytes.out, MHD_RESPMEM_PERSISTENT);
-    if (response)
+    if (response && type)
         MHD_add_response_header(response, "Content-Type", type);
     return response;
 }
@@ -63,7 +63,7 @@ struct MHD_Response *kd_reply_served(struct kd_request *request, const struct kd
     struct MHD_Response *response = kd_reply_static(form->data, form->size, file->type);
     if (!response)
         return NULL;
-    if (gzip)
+    if (gzip && !*same)
         MHD_add_response_header(response, "Content-Encoding", "gzip");
     MHD_add_response_header(response, "ETag", form->etag);
     MHD_add_response_header(response, "Vary", "Accept-Encoding");
@@ -136,6 +136,9 @@ enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struc
     struct kd_server *server = request->server;
     if (!response)
         return kd_reply_no_memory(request);
+    const char *type = MHD_get_response_header(response, "Content-Type");
+    if (type && (status == MHD_HTTP_NO_CONTENT || status == MHD_HTTP_NOT_MODIFIED)) /* no body that it could be of */
+        MHD_del_response_header(response, "Content-Type", type);
     MHD_add_response_header(response, "X-Content-Type-Options", "nosniff");
     MHD_add_response_header(response, "Cross-Origin-Resource-Policy", server->cross_site ? "cross-origin" : "same-site");
     if (!MHD_get_response_header(response, "Cache-Control"))

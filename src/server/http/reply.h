@@ -13,7 +13,7 @@
 struct MHD_Response *kd_reply_take(struct kd_buffer *body, const char *type);
 /* The same for text, which goes as gzip where the client takes that and it pays. */
 struct MHD_Response *kd_reply_text(struct kd_request *request, struct kd_buffer *body, const char *type);
-/* A response with bytes that outlive it. */
+/* A response with bytes that outlive it; type NULL: there are none. */
 struct MHD_Response *kd_reply_static(const void *data, size_t size, const char *type);
 /* A response with a file that outlives it, as gzip where the client takes that, with its ETag; *same: the client has it, and
  * 304 sends the header alone. */

@@ -46,15 +46,16 @@ static const struct { const char *name, *schema, *help; bool required; } headers
 
 #define EVERY KD_REQUEST_ID_HEADER " Access-Control-Allow-Origin Access-Control-Expose-Headers"
 #define FRAME "Kerrd-Frame Kerrd-Revision Kerrd-Time Kerrd-Azimuth Kerrd-Accuracy Kerrd-Clock Kerrd-Flux Kerrd-Sentences Kerrd-Approximations Kerrd-Quality Server-Timing Kerrd-Waited Kerrd-Patched"
-#define PICTURE "Kerrd-Scene-Hash Kerrd-Approximations Kerrd-Clock Content-Disposition"
+#define SAME "Kerrd-Scene-Hash Kerrd-Approximations Kerrd-Clock"
+#define PICTURE SAME " Content-Disposition"
 
 /* Names with blanks between them; methods 0: any. */
 static const struct { const char *path; unsigned methods, status; const char *names; } told[] = {
     { "/", 0, 303, "Location Set-Cookie" },
     { "/v1/render", 0, 200, PICTURE " Kerrd-Accuracy Kerrd-Flux Server-Timing" },
-    { "/v1/render", 0, 304, PICTURE },
+    { "/v1/render", 0, 304, SAME },
     { "/v1/pixel", 0, 200, PICTURE " Kerrd-Accuracy Kerrd-Flux Server-Timing" },
-    { "/v1/pixel", 0, 304, PICTURE },
+    { "/v1/pixel", 0, 304, SAME },
     { "/v1/rays", 0, 200, "Server-Timing Kerrd-Accuracy Kerrd-Approximations Content-Disposition" },
     { "/v1/orbits", 0, 200, "Server-Timing Content-Disposition" },
     { "/v1/line", 0, 200, "Server-Timing Content-Disposition" },
@@ -81,6 +82,42 @@ static const struct { const char *path; unsigned methods, status; const char *na
     { "/v1/jobs/{id}/preview.png", 0, 200, "Kerrd-Frame Kerrd-Rows Content-Disposition" },
     { "/v1/jobs/{id}/result", 0, 200, "Content-Disposition" },
 };
+
+static bool is_kept(const struct kd_route *route, unsigned method) { return method != KD_DELETE && (route->status[0] == 304 || route->status[1] == 304); }
+static bool tells_events(const struct kd_route *route, unsigned method) { return (void)method, route->answer && !strcmp(route->answer, "text/event-stream"); }
+static bool may_say_little(const struct kd_route *route, unsigned method) { return method == KD_PATCH && !strcmp(route->path, "/v1/sessions/{id}"); }
+
+/* Headers of requests that say more than what HTTP itself says of them. */
+static const struct {
+    const char *name, *help;
+    bool (*of)(const struct kd_route *route, unsigned method);
+} asked[] = {
+    { "If-None-Match", "ETag of what the client has: where it is the same the answer is 304", is_kept },
+    { "Last-Event-ID", "id of the last event that the client has, behind which the stream goes on; what is no number counts as none", tells_events },
+    { "Prefer", "return=minimal (RFC 7240): the answer is the revision alone", may_say_little },
+};
+
+bool kd_openapi_is_asked_by_header(const struct kd_route *route, unsigned method)
+{
+    for (size_t i = 0; i < sizeof asked / sizeof *asked; i++)
+        if (asked[i].of(route, method))
+            return true;
+    return false;
+}
+
+void kd_openapi_asked_headers(struct kd_json *json, const struct kd_route *route, unsigned method)
+{
+    for (size_t i = 0; i < sizeof asked / sizeof *asked; i++) {
+        if (!asked[i].of(route, method))
+            continue;
+        kd_json_object(json, NULL);
+        kd_json_string(json, "name", asked[i].name);
+        kd_json_string(json, "in", "header");
+        kd_json_string(json, "description", asked[i].help);
+        kd_schema_text(json, "schema", TEXT);
+        kd_json_end(json);
+    }
+}
 
 static void refer(struct kd_json *json, const char *name, size_t n)
 {

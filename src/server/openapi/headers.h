@@ -12,4 +12,8 @@ void kd_openapi_problem_headers(struct kd_json *json, unsigned status);
 /* The member "headers" of the components, which both refer to. */
 void kd_openapi_header_components(struct kd_json *json);
 
+/* Parameters of the operation that stand in the header of a request: into its list of parameters, which is there if there are any. */
+bool kd_openapi_is_asked_by_header(const struct kd_route *route, unsigned method);
+void kd_openapi_asked_headers(struct kd_json *json, const struct kd_route *route, unsigned method);
+
 #endif

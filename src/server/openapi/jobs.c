@@ -12,8 +12,15 @@
 #define OBJECT KD_OPENAPI_OBJECT
 #define COUNT KD_SCHEMA_COUNT
 
+#define FRAME "{\"type\":\"integer\",\"minimum\":0,\"maximum\":9999}"
+
 /* What a job makes of its frames: a list of names. */
 #define OUTPUT "\"output\":{\"enum\":[%s]}"
+/* What is of pictures does not go with an output of numbers: a list of names. */
+#define PICTURES_ALONE "\"not\":{\"anyOf\":[{\"required\":[\"exposure\"]},{\"required\":[\"motion_blur\"]}],\"required\":[\"output\"],\"properties\":{\"output\":{\"enum\":[%s]}}},"
+/* What leads from keyframe to keyframe takes some. */
+#define TAKES_KEYFRAMES "\"if\":{\"not\":{\"required\":[\"keyframes\"]}},\"then\":{\"not\":{\"anyOf\":[{\"required\":[\"frames\"]},{\"required\":[\"interpolation\"]}," \
+    "{\"required\":[\"distances\"]},{\"required\":[\"angles\"]},{\"required\":[\"ease\"]},{\"required\":[\"look_at\"]},{\"required\":[\"motion_blur\"]}]}},"
 
 /* Whether pictures whose exposure is "auto" have the same one. */
 #define EXPOSURE(words) "\"exposure\":{\"enum\":[" words "]}"
@@ -23,50 +30,83 @@
 static const char axes[] = "{\"type\":\"object\",\"minProperties\":1,\"maxProperties\":8,\"propertyNames\":" KD_SCHEMA_REF("FieldPath") ",\"additionalProperties\":{\"anyOf\":[{\"type\":\"array\",\"minItems\":1," \
     "\"maxItems\":100000,\"items\":{\"anyOf\":[{\"type\":\"number\"},{\"type\":\"string\"},{\"type\":\"boolean\"},{\"type\":\"array\",\"items\":{\"type\":\"string\"}}]}},{\"type\":\"string\",\"pattern\":\"^" KD_OPENAPI_DECIMAL ":" KD_OPENAPI_DECIMAL "(:" KD_OPENAPI_DECIMAL "|/([1-9][0-9]{0,5}))$\",\"description\":\"START:STOP:STEP or START:STOP/HOW MANY\"}]}}";
 
-/* A scene with axes. */
-#define SWEEP OBJECT "\"required\":[\"axes\"],\"properties\":{\"scene\":" KD_OPENAPI_SCENE ",\"axes\":" KD_SCHEMA_REF("SweepAxes") "," EXPOSURE("\"each\"") "," OUTPUT "}}"
-
-static const char plan_request[] = "{\"oneOf\":[" KD_OPENAPI_SCENE "," SWEEP "]}";
+/* Ways to ask for a job: each is a format that takes the outputs of numbers and those that there are. A scene with axes. */
+static const char sweep[] = OBJECT PICTURES_ALONE "\"required\":[\"axes\"],\"properties\":{\"scene\":" KD_OPENAPI_SCENE ",\"axes\":" KD_SCHEMA_REF("SweepAxes") "," EXPOSURE("\"each\"") "," OUTPUT "}}";
 
 /* A film of a playground. */
-#define FILM OBJECT "\"required\":[\"playground\",\"every\"],\"properties\":{\"playground\":{\"type\":\"object\",\"description\":\"a document of a playground, or a " \
+static const char film[] = OBJECT PICTURES_ALONE "\"required\":[\"playground\",\"every\"],\"anyOf\":[{\"required\":[\"frames\"]},{\"required\":[\"keyframes\"]}],\"properties\":{\"playground\":{\"allOf\":[" \
+    KD_SCHEMA_REF("Playground") ",{\"not\":{\"anyOf\":[{\"required\":[\"rate\"]},{\"required\":[\"paused\"]},{\"required\":[\"scene\"]}]}}],\"description\":\"a document of a playground, or a " \
     "snapshot, as POST /v1/playground takes them, without rate, paused and scene\"},\"every\":{\"type\":\"number\",\"exclusiveMinimum\":0,\"maximum\":1e12," \
-    "\"description\":\"M from a frame to the next\"},\"scene\":" KD_OPENAPI_SCENE "," \
-    KD_OPENAPI_TIMELINE("frame", "{\"type\":\"integer\",\"minimum\":0,\"maximum\":9999}") ",\"frames\":{\"type\":\"integer\",\"minimum\":1,\"maximum\":10000}," EXPOSURE("\"each\"") "," OUTPUT "}}"
+    "\"description\":\"M from a frame to the next\"},\"scene\":" KD_OPENAPI_SCENE ","
+    KD_OPENAPI_TIMELINE("frame", FRAME) ",\"frames\":{\"type\":\"integer\",\"minimum\":1,\"maximum\":10000}," EXPOSURE("\"each\"") "," OUTPUT "}}";
 
-static const char blur[] = "\"motion_blur\":" OBJECT "\"required\":[\"samples\"],\"properties\":{\"samples\":{\"type\":\"integer\",\"minimum\":1,\"maximum\":64},\"shutter\":"
-    "{\"type\":\"number\",\"exclusiveMinimum\":0,\"maximum\":1,\"default\":0.5,\"description\":\"the part of a frame's time in which the shutter is open\"}}}";
+#define BLUR "\"motion_blur\":" OBJECT "\"required\":[\"samples\"],\"properties\":{\"samples\":{\"type\":\"integer\",\"minimum\":1,\"maximum\":64},\"shutter\":" \
+    "{\"type\":\"number\",\"exclusiveMinimum\":0,\"maximum\":1,\"default\":0.5,\"description\":\"the part of a frame's time in which the shutter is open\"}}}"
 
-static const char request[] =
-    "{\"oneOf\":[" OBJECT "\"required\":[\"scene\"],\"properties\":{\"scene\":" KD_OPENAPI_SCENE "," KD_OPENAPI_TIMELINE(
-        "frame", "{\"type\":\"integer\",\"minimum\":0,\"maximum\":9999}")
-    ",\"frames\":{\"type\":\"integer\",\"minimum\":1,\"maximum\":10000},"
-    "%s," ANY_EXPOSURE "," OUTPUT "}}," SWEEP "," FILM "," OBJECT "\"required\":[\"scenes\"],\"properties\":{\"scenes\":{\"type\":\"array\","
-    "\"minItems\":1,\"maxItems\":10000,\"items\":" KD_OPENAPI_SCENE "}," ANY_EXPOSURE "," OUTPUT "}}]}";
+static const char sequence[] = OBJECT PICTURES_ALONE TAKES_KEYFRAMES "\"required\":[\"scene\"],\"properties\":{\"scene\":" KD_OPENAPI_SCENE ","
+    KD_OPENAPI_TIMELINE("frame", FRAME) ",\"frames\":{\"type\":\"integer\",\"minimum\":1,\"maximum\":10000}," BLUR "," ANY_EXPOSURE "," OUTPUT "}}";
+
+static const char list[] = OBJECT PICTURES_ALONE "\"required\":[\"scenes\"],\"properties\":{\"scenes\":{\"type\":\"array\",\"minItems\":1,\"maxItems\":10000,\"items\":" KD_OPENAPI_SCENE "},"
+    ANY_EXPOSURE "," OUTPUT "}}";
 
 _Static_assert(KD_JOB_FRAMES_MAX == 10000 && KD_SWEEP_AXES == 8 && KD_SWEEP_MOST == 100000 && KD_BLUR_SAMPLES == 64, "openapi.json says so");
 
-/* "pictures","light-curve" */
-static void list_series(char *out, size_t size)
+typedef bool is_series(const struct kd_series *one);
+static bool any(const struct kd_series *one) { return (void)one, true; }
+static bool of_any_job(const struct kd_series *one) { return !one->swept; }
+static bool of_numbers(const struct kd_series *one) { return !(one->frame->carries & KD_CARRIES_PICTURE); }
+
+/* Those of a kind: "pictures","light-curve". */
+struct names { char text[200]; };
+static struct names names_of(is_series *is)
 {
-    for (size_t i = 0, n = 0; i < kd_n_series && n < size; i++)
-        n += (size_t)snprintf(out + n, size - n, "%s\"%s\"", i ? "," : "", kd_series_all[i]->name);
+    struct names out = { "" };
+    for (size_t i = 0, n = 0; i < kd_n_series && n < sizeof out.text; i++)
+        if (is(kd_series_all[i]))
+            n += (size_t)snprintf(out.text + n, sizeof out.text - n, "%s\"%s\"", n ? "," : "", kd_series_all[i]->name);
+    return out;
+}
+
+static void add_way(struct kd_json *json, const char *format, is_series *is)
+{
+    const struct names numbers = names_of(of_numbers), known = names_of(is);
+    char schema[sizeof film + sizeof sequence + 2 * sizeof known];
+    snprintf(schema, sizeof schema, format, numbers.text, known.text);
+    kd_schema_text(json, NULL, schema);
+}
+
+static void begin_body(struct kd_json *json)
+{
+    kd_openapi_body_begin(json);
+    kd_json_object(json, "application/json");
+    kd_json_object(json, "schema");
+    kd_json_array(json, "oneOf");
+}
+
+static void end_body(struct kd_json *json)
+{
+    kd_json_end(json);
+    kd_json_end(json);
+    kd_json_end(json);
+    kd_openapi_body_end(json);
 }
 
 void kd_openapi_jobs_body(struct kd_json *json)
 {
-    char names[200], schema[sizeof request + sizeof blur + 4 * sizeof names];
-    list_series(names, sizeof names);
-    int n = snprintf(schema, sizeof schema, request, blur, names, names, names, names);
-    kd_openapi_body(json, schema, (size_t)n, NULL);
+    begin_body(json);
+    add_way(json, sequence, of_any_job);
+    add_way(json, sweep, any);
+    add_way(json, film, of_any_job);
+    add_way(json, list, of_any_job);
+    end_body(json);
 }
 
 void kd_openapi_plan_body(struct kd_json *json)
 {
-    char names[200], schema[sizeof plan_request + sizeof names];
-    list_series(names, sizeof names);
-    int n = snprintf(schema, sizeof schema, plan_request, names);
-    kd_openapi_body(json, schema, (size_t)n, NULL);
+    begin_body(json);
+    kd_schema_text(json, NULL, KD_OPENAPI_SCENE);
+    add_way(json, sweep, any);
+    end_body(json);
 }
 
 static const char *series(size_t i) { return i < kd_n_series ? kd_series_all[i]->name : NULL; }
@@ -81,5 +121,5 @@ void kd_openapi_job_schema(struct kd_json *json)
         { "created", KD_SCHEMA_NUMBER, false }, { "ended", KD_SCHEMA_NUMBER_OR_NULL, false }, { "delayed", KD_SCHEMA_TEXT, true }, { "error", KD_SCHEMA_TEXT, true },
     };
     kd_schema_text(json, "SweepAxes", axes);
-    KD_OPENAPI_STRICT(json, "Job", job);
+    KD_OPENAPI_TOLD(json, "Job", "created and ended are seconds since 1970", job);
 }

@@ -18,6 +18,7 @@
 #include "server/openapi/reports.h"
 #include "server/openapi/responses.h"
 #include "server/openapi/sessions.h"
+#include "server/openapi/strict.h"
 #include "server/playground/plays.h"
 #include "server/http/query.h"
 #include "server/http/request.h"
@@ -108,7 +109,7 @@ static void add_path_parameter(struct kd_json *json, const char *path)
     kd_json_end(json);
 }
 
-#define WHOLE "{\"type\":\"integer\",\"minimum\":0}"
+#define WHOLE "{\"type\":\"integer\",\"minimum\":0,\"maximum\":999999999999999999}" /* what kd_target_number reads */
 #define STRING(x) #x
 #define TEXT(x) STRING(x)
 #define PART "{\"type\":\"number\",\"minimum\":" TEXT(KD_LEAST_MIN) ",\"maximum\":1}"
@@ -144,7 +145,7 @@ static const struct {
     { "/v1/playground/{id}/debris", "wait_ms", MOMENT, "how long to wait for a newer one" },
     { "/v1/playground/{id}/debris", "at_most", "{\"type\":\"integer\",\"minimum\":1,\"maximum\":1000000}", "pieces: where there are more, every k-th is given; 20000 without it" },
     { "/v1/playground/{id}/events", "since", WHOLE, "number of the event behind which to begin, as Last-Event-ID says it; without it, all that are kept" },
-    { "/v1/pixel", "at", "{\"type\":\"string\",\"pattern\":\"^[0-9.]+([eE][-+]?[0-9]+)?,[0-9.]+([eE][-+]?[0-9]+)?$\"}", "the pixel: a place X,Y in the picture, in pixels from its upper left corner", 0, true },
+    { "/v1/pixel", "at", "{\"type\":\"string\",\"pattern\":\"^" KD_OPENAPI_DECIMAL "," KD_OPENAPI_DECIMAL "$\"}", "the pixel: a place X,Y in the picture, in pixels from its upper left corner", 0, true },
     { "/v1/pixel", "trace", "{\"const\":\"steps\"}", "tells the engine's own steps along the middle ray, too" },
     { "/v1/jobs/{id}/result", "format", NULL,
       "json and csv are those of a light curve; fits and npz without a frame the cube of a sweep; the others of pictures, and of files of numbers; mp4 and webm of pictures alone, by the program ffmpeg" },
@@ -191,9 +192,9 @@ static void add_query(struct kd_json *json, const struct kd_route *route, unsign
     }
 }
 
-static bool has_parameters(const struct kd_route *route)
+static bool has_parameters(const struct kd_route *route, unsigned method)
 {
-    return strchr(route->path, '{') || (route->takes == KD_TAKES_SCENE && !(route->methods & KD_PATCH)) || route->takes == KD_TAKES_JOB ||
+    return kd_openapi_is_asked_by_header(route, method) || strchr(route->path, '{') || (route->takes == KD_TAKES_SCENE && !(route->methods & KD_PATCH)) || route->takes == KD_TAKES_JOB ||
            route->takes == KD_TAKES_PLAN || route->takes == KD_TAKES_RAYS || route->takes == KD_TAKES_PARTICLES || has_query(route);
 }
 
@@ -203,6 +204,7 @@ static void add_parameters(struct kd_json *json, const struct kd_route *route, u
     if (strchr(route->path, '{'))
         add_path_parameter(json, route->path);
     add_query(json, route, method);
+    kd_openapi_asked_headers(json, route, method);
     if (route->takes == KD_TAKES_SCENE && !(route->methods & KD_PATCH)) {
         add_preset_parameter(json);
         if (method != KD_POST)
@@ -267,7 +269,7 @@ static void add_operation(struct kd_json *json, const char *name, const struct k
     kd_json_string(json, "operationId", id);
     kd_json_string(json, "summary", route->summary);
     kd_openapi_access_operation(json, route, method, subject->closed);
-    if (has_parameters(route))
+    if (has_parameters(route, method))
         add_parameters(json, route, method, subject->schema);
     add_body(json, route, method);
     kd_openapi_responses(json, route, method);

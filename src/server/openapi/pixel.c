@@ -16,6 +16,8 @@
 #define PAIR "{\"type\":\"array\",\"minItems\":2,\"maxItems\":2,\"items\":{\"type\":\"number\"}}"
 /* I, Q and U; and V of volumes. */
 #define STOKES "{\"type\":\"array\",\"minItems\":3,\"maxItems\":4,\"items\":{\"type\":\"number\"}}"
+/* docs/pixel.md says what each is. */
+#define UNITS "lengths and times in M, angles in radians; frequencies over those that the observer measures"
 #define ROWS LIST(LIST("{\"type\":[\"number\",\"null\",\"string\"]}"))
 
 static const char *fate(size_t i) { return i <= KD_RAY_UNDECIDED ? kd_ray_fate_name((enum kd_ray_fate)i) : NULL; }
@@ -35,9 +37,9 @@ static void add_motion(struct kd_json *json)
         { "case", NULL, false, kd_ray_radial_case }, { "real_roots", COUNT, false }, { "roots", LIST(LIST(NUMBER)), false }, { "horizon_r", NUMBER, false }, { "turning_r", OR_NULL, false },
     };
     static const struct kd_openapi_member polar[] = { { "case", NULL, false, kd_ray_polar_case }, { "roots", LIST(NUMBER), false }, { "theta", LIST(NUMBER), false } };
-    KD_OPENAPI_STRICT(json, "RayConstants", constants);
-    KD_OPENAPI_STRICT(json, "RayRadial", radial);
-    KD_OPENAPI_STRICT(json, "RayPolar", polar);
+    KD_OPENAPI_TOLD(json, "RayConstants", UNITS, constants);
+    KD_OPENAPI_TOLD(json, "RayRadial", UNITS, radial);
+    KD_OPENAPI_TOLD(json, "RayPolar", UNITS, polar);
 }
 
 /* What gives light there, or hides it. */
@@ -54,8 +56,8 @@ static void add_crossings(struct kd_json *json)
         { "emitters", LIST(REF("PixelGlow")), true }, { "optical_depth", OR_NULL, true },
     };
     KD_OPENAPI_STRICT(json, "PixelGlow", glow);
-    KD_OPENAPI_STRICT(json, "PixelPictured", pictured);
-    KD_OPENAPI_STRICT(json, "PixelCrossing", crossing);
+    KD_OPENAPI_TOLD(json, "PixelPictured", UNITS, pictured);
+    KD_OPENAPI_TOLD(json, "PixelCrossing", UNITS, crossing);
 }
 
 static void add_along(struct kd_json *json)
@@ -76,9 +78,9 @@ static void add_along(struct kd_json *json)
         { "luminance_seen", NUMBER, false }, { "through", NUMBER, false },
     };
     KD_OPENAPI_STRICT(json, "PixelVolume", volume);
-    KD_OPENAPI_STRICT(json, "PixelStretch", stretch);
-    KD_OPENAPI_STRICT(json, "PixelAlong", along);
-    KD_OPENAPI_STRICT(json, "PixelMet", met);
+    KD_OPENAPI_TOLD(json, "PixelStretch", UNITS, stretch);
+    KD_OPENAPI_TOLD(json, "PixelAlong", UNITS, along);
+    KD_OPENAPI_TOLD(json, "PixelMet", UNITS, met);
 }
 
 static void add_ends(struct kd_json *json)
@@ -100,9 +102,9 @@ static void add_ends(struct kd_json *json)
         { "path", OR_NULL, false }, { "first_integrals", OR_NULL, false }, { "sum", OR_NULL, false },
     };
     static const struct kd_openapi_member polarization[] = { { "stokes", STOKES, false }, { "evpa", OR_NULL, false }, { "polarization_fraction", OR_NULL, false } };
-    KD_OPENAPI_STRICT(json, "PixelPolarization", polarization);
-    KD_OPENAPI_STRICT(json, "PixelEnd", end);
-    KD_OPENAPI_STRICT(json, "PixelPath", path);
+    KD_OPENAPI_TOLD(json, "PixelPolarization", UNITS, polarization);
+    KD_OPENAPI_TOLD(json, "PixelEnd", UNITS, end);
+    KD_OPENAPI_TOLD(json, "PixelPath", UNITS, path);
     KD_OPENAPI_STRICT(json, "PixelTrace", trace);
     KD_OPENAPI_STRICT(json, "PixelAccuracy", accuracy);
 }
@@ -135,8 +137,8 @@ void kd_openapi_pixel_schemas(struct kd_json *json)
     add_along(json);
     add_ends(json);
     KD_OPENAPI_STRICT(json, "PixelColour", colour);
-    KD_OPENAPI_STRICT(json, "PixelRay", ray);
-    KD_OPENAPI_STRICT(json, "Pixel", pixel);
+    KD_OPENAPI_TOLD(json, "PixelRay", UNITS, ray);
+    KD_OPENAPI_TOLD(json, "Pixel", UNITS, pixel);
     KD_OPENAPI_STRICT(json, "StarImage", image);
     KD_OPENAPI_STRICT(json, "Stars", stars);
 }

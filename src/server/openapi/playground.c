@@ -9,6 +9,8 @@
 
 #define STRING(x) #x
 #define TEXT(x) STRING(x)
+/* docs/playground.md says what each is. */
+#define UNITS "lengths and times in M, masses and energies in those of the hole, speeds in c; a rate in M a second of the clock"
 #define BODIES(schema) "{\"type\":\"array\",\"maxItems\":4096,\"items\":{\"$ref\":\"#/components/schemas/" schema "\"}}"
 
 static void add_words(struct kd_json *json, const char *words)
@@ -147,7 +149,7 @@ static void add_body_state(struct kd_json *json)
 {
     struct kd_openapi_member members[16] = { { "id", "{\"type\":\"integer\",\"minimum\":1}", false }, { "name", KD_SCHEMA_TEXT, false },
                                              { "position", KD_SCHEMA_VECTOR, false }, { "velocity", KD_SCHEMA_VECTOR, false } };
-    kd_openapi_strict(json, "PlaygroundBodyState", members, add_members(members, 4, kd_playground_body_fields, kd_playground_n_body_fields));
+    kd_schema_told(json, "PlaygroundBodyState", UNITS, members, add_members(members, 4, kd_playground_body_fields, kd_playground_n_body_fields));
 }
 
 static void add_settings_state(struct kd_json *json)
@@ -184,11 +186,11 @@ static void add_state(struct kd_json *json)
         { "debris", KD_SCHEMA_REF("PlaygroundDebris"), false }, { "events", KD_SCHEMA_COUNT, false }, { "approximations", KD_SCHEMA_LIST(KD_SCHEMA_TEXT), false },
         { "scene", KD_SCHEMA_REF("Scene"), false },
     };
-    KD_OPENAPI_STRICT(json, "PlaygroundTotals", totals);
-    KD_OPENAPI_STRICT(json, "PlaygroundSpent", spent);
-    KD_OPENAPI_STRICT(json, "PlaygroundSource", source);
-    KD_OPENAPI_STRICT(json, "PlaygroundDebris", debris);
-    KD_OPENAPI_STRICT(json, "PlaygroundStatus", state);
+    KD_OPENAPI_TOLD(json, "PlaygroundTotals", UNITS, totals);
+    KD_OPENAPI_TOLD(json, "PlaygroundSpent", UNITS, spent);
+    KD_OPENAPI_TOLD(json, "PlaygroundSource", UNITS, source);
+    KD_OPENAPI_TOLD(json, "PlaygroundDebris", UNITS, debris);
+    KD_OPENAPI_TOLD(json, "PlaygroundStatus", UNITS, state);
 }
 
 static void add_catalogue(struct kd_json *json)
@@ -217,7 +219,7 @@ static void add_series(struct kd_json *json)
     struct kd_openapi_member columns[KD_SERIES_N];
     for (int i = 0; i < KD_SERIES_N; i++)
         columns[i] = (struct kd_openapi_member) { kd_series_column(i), KD_SCHEMA_LIST(KD_SCHEMA_NUMBER_OR_NULL), false };
-    kd_openapi_strict(json, "PlaygroundColumns", columns, KD_SERIES_N);
+    kd_schema_told(json, "PlaygroundColumns", UNITS, columns, KD_SERIES_N);
     KD_OPENAPI_STRICT(json, "PlaygroundSeries", series);
 }
 
@@ -231,7 +233,7 @@ static void add_happened(struct kd_json *json)
         { "other_mass", KD_SCHEMA_NUMBER, true }, { "mass_left", KD_SCHEMA_NUMBER, true }, { "r", KD_SCHEMA_NUMBER, false }, { "energy", KD_SCHEMA_NUMBER_OR_NULL, false },
         { "tidal_radius", KD_SCHEMA_NUMBER, true }, { "energy_spread", KD_SCHEMA_NUMBER, true },
     };
-    KD_OPENAPI_STRICT(json, "PlaygroundHappened", happened);
+    KD_OPENAPI_TOLD(json, "PlaygroundHappened", UNITS, happened);
 }
 
 static void add_tick(struct kd_json *json)
@@ -245,7 +247,7 @@ static void add_tick(struct kd_json *json)
     for (int i = 0; i < KD_SERIES_N; i++)
         if (i < KD_SERIES_angular_momentum_x || i > KD_SERIES_angular_momentum_z)
             members[n++] = (struct kd_openapi_member) { kd_series_column(i), KD_SCHEMA_NUMBER_OR_NULL, false };
-    kd_openapi_strict(json, "PlaygroundTick", members, n);
+    kd_schema_told(json, "PlaygroundTick", UNITS, members, n);
 }
 
 void kd_openapi_playground_schemas(struct kd_json *json)

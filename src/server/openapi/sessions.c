@@ -31,10 +31,10 @@ void kd_openapi_session_schemas(struct kd_json *json)
     static const struct kd_openapi_member patched[] = { { "revision", KD_SCHEMA_COUNT, false }, { "order", KD_SCHEMA_COUNT, true } };
     kd_schema_enum(json, "SessionVaries", kd_session_varies_word);
     KD_OPENAPI_STRICT(json, "EmitterTold", emitter);
-    KD_OPENAPI_STRICT(json, "SessionPath", path);
-    KD_OPENAPI_STRICT(json, "SessionRendering", progress);
-    KD_OPENAPI_STRICT(json, "SessionRefining", progress);
-    KD_OPENAPI_STRICT(json, "FallClock", clock);
+    KD_OPENAPI_TOLD(json, "SessionPath", "times in seconds", path);
+    KD_OPENAPI_TOLD(json, "SessionRendering", "times in seconds", progress);
+    KD_OPENAPI_TOLD(json, "SessionRefining", "times in seconds", progress);
+    KD_OPENAPI_TOLD(json, "FallClock", "in M, and in seconds where a name ends in _s", clock);
     KD_OPENAPI_STRICT(json, "Session", session);
     KD_OPENAPI_STRICT(json, "SessionPatched", patched); /* who prefers return=minimal */
 }

@@ -10,5 +10,6 @@
 #define kd_openapi_member kd_schema_member
 #define kd_openapi_strict kd_schema_strict
 #define KD_OPENAPI_STRICT KD_SCHEMA_STRICT
+#define KD_OPENAPI_TOLD KD_SCHEMA_TOLD
 
 #endif

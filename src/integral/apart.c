@@ -1,0 +1,30 @@
+#include "integral/apart.h"
+
+#define HAS(name) "{\"required\":[\"" name "\"]}"
+#define BOTH(one, other) "{\"required\":[\"" one "\",\"" other "\"]}"
+#define ALONE(name) "{\"required\":[\"" name "\"],\"not\":{\"anyOf\":["
+/* A member beside an emissivity that it does not belong to. */
+#define NOT_OF(name, words) "{\"required\":[\"" name "\",\"emissivity\"],\"properties\":{\"emissivity\":{\"enum\":[" words "]}}}"
+#define OF_NO_OTHER_THAN(name, word) "{\"required\":[\"" name "\"],\"not\":{\"required\":[\"emissivity\"],\"properties\":{\"emissivity\":{\"enum\":[\"" word "\"]}}}}"
+/* A picture is of a scene, and a disk is of none. */
+#define OF_A_SCENE "\"anyOf\":[" HAS("scene") "," HAS("preset") "]"
+#define OF_A_DISK HAS("spin") "," HAS("inclination_deg") "," HAS("inner") "," HAS("outer") "," HAS("limb") "," HAS("mass_msun") "," HAS("distance_pc") "," HAS("mdot_edd") "," HAS("colour_correction")
+
+static const char line[] = "{\"anyOf\":[" BOTH("edges", "energy_min") "," BOTH("edges", "energy_max") "," BOTH("edges", "bins") "," NOT_OF("index", "\"lamppost\"") ","
+    OF_NO_OTHER_THAN("outer_index", "broken") "," OF_NO_OTHER_THAN("break_r", "broken") "," OF_NO_OTHER_THAN("height", "lamppost") "," OF_NO_OTHER_THAN("photon_index", "lamppost") "]}";
+static const char transfer[] = "{\"anyOf\":[" BOTH("radii", "rings") "," BOTH("g_star", "g_stars") "]}";
+static const char spectrum[] = "{\"anyOf\":[" BOTH("frequencies_hz", "frequency_min_hz") "," BOTH("frequencies_hz", "frequency_max_hz") "," BOTH("frequencies_hz", "frequencies") ","
+    "{\"allOf\":[{" OF_A_SCENE "},{\"anyOf\":[" OF_A_DISK "]}]},"
+    "{" OF_A_SCENE ",\"not\":{\"properties\":{\"frequencies\":{\"maximum\":200},\"frequencies_hz\":{\"maxItems\":200}}}},"
+    "{\"not\":{" OF_A_SCENE "},\"anyOf\":[" HAS("pixels") "," HAS("check") "]},"
+    "{\"not\":{" OF_A_SCENE "},\"required\":[\"frequencies_hz\"],\"properties\":{\"frequencies_hz\":{\"type\":\"array\",\"minItems\":1001}}}]}";
+static const char visibility[] = "{\"anyOf\":[" BOTH("lengths", "length_max") "," BOTH("lengths", "baselines") "," ALONE("u") HAS("v") "]}}," ALONE("v") HAS("u") "]}},"
+    "{\"required\":[\"u\"],\"anyOf\":[" HAS("lengths") "," HAS("length_max") "," HAS("baselines") "," HAS("angles_deg") "]}]}";
+
+const char *kd_integral_apart(enum kd_integral what)
+{
+    _Static_assert(KD_INTEGRAL_PICTURES == 200 && KD_INTEGRAL_FREQUENCIES == 1000, "the schema of a spectrum says so");
+    static const char *const schemas[KD_INTEGRALS] = { [KD_INTEGRAL_LINE] = line, [KD_INTEGRAL_TRANSFER] = transfer, [KD_INTEGRAL_SPECTRUM] = spectrum, [KD_INTEGRAL_VOLUME] = spectrum,
+                                                       [KD_INTEGRAL_VISIBILITY] = visibility };
+    return schemas[what];
+}
