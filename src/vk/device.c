@@ -121,6 +121,8 @@ done:
     return status;
 }
 
+#define IDLE_TRIES 3 /* a call that had no memory may have some the next time; without an answer all that the device has would stay for good */
+
 /* Whether its objects may be destroyed. Those of a lost device may, by the specification, once vkDeviceWaitIdle has returned; those
  * of one that hangs never. */
 static bool is_idle(struct kd_vk *vk)
@@ -128,7 +130,9 @@ static bool is_idle(struct kd_vk *vk)
     const enum kd_status waited = kd_vk_wait(vk, 0, NULL); /* its deadline, so that closing cannot hang */
     if (vk->hangs)
         return false;
-    const VkResult idle = vk->fn.DeviceWaitIdle(vk->device);
+    VkResult idle = vk->fn.DeviceWaitIdle(vk->device);
+    for (int i = 1; i < IDLE_TRIES && (idle == VK_ERROR_OUT_OF_HOST_MEMORY || idle == VK_ERROR_OUT_OF_DEVICE_MEMORY); i++)
+        idle = vk->fn.DeviceWaitIdle(vk->device);
     return !waited || idle >= 0 || idle == VK_ERROR_DEVICE_LOST;
 }
 

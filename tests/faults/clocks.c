@@ -19,6 +19,7 @@ static int64_t ahead_ms(clockid_t clock, const void *caller)
     const bool steady = clock == CLOCK_MONOTONIC || clock == CLOCK_MONOTONIC_COARSE || clock == CLOCK_BOOTTIME;
     if ((!steady && clock != CLOCK_REALTIME) || !kd_fault_ours(caller, &where))
         return 0;
+    atomic_fetch_add(&kd_faults->looks, atomic_load(&kd_faults->wall_s) && !steady ? 1 : steady && (atomic_load(&kd_faults->steady_ms) || atomic_load(&kd_faults->steady_step_ms)));
     return steady ? atomic_fetch_add(&kd_faults->steady_ms, atomic_load(&kd_faults->steady_step_ms)) : 1000 * atomic_load(&kd_faults->wall_s);
 }
 

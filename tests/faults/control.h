@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-enum { KD_FAULT_BLOCKS = 1 << 16 };
+enum { KD_FAULT_BLOCKS = 1 << 16, KD_FAULT_STACKS = 1 << 12 };
 
 /* Operations on files, for files_mask. */
 enum {
@@ -25,6 +25,7 @@ struct kd_faults {
     _Atomic int64_t fail_for;     /* how many then fail in a row; 0 is as 1 */
     _Atomic int64_t allocations;  /* since the start */
     _Atomic int64_t failed;       /* of them */
+    _Atomic int64_t by_stack;     /* 1: each stack by which an allocation is asked for is noted in `stacks`; else, but for 0, fail_at counts those by this stack alone */
     _Atomic int64_t by_library;   /* of those: asked for by libmicrohttpd, which then closes the connection */
     _Atomic int64_t failed_from;  /* where the last that failed was asked for, as in `blocks` */
     _Atomic int64_t files_mask;   /* the operations on files that are counted */
@@ -38,11 +39,17 @@ struct kd_faults {
     _Atomic int64_t wall_s;       /* how far the clock on the wall is put forward */
     _Atomic int64_t steady_ms;    /* and the one that nobody sets, */
     _Atomic int64_t steady_step_ms; /* and how much further each time somebody looks at it */
+    _Atomic int64_t looks;        /* at a clock that was ahead */
     _Atomic int64_t live;         /* blocks that are not freed: */
     struct kd_fault_block {
         _Atomic uint64_t at;      /* 0: none here */
         _Atomic uint64_t from;    /* the number of the object that asked for it << 48, 0 the program, and the return address within */
     } blocks[KD_FAULT_BLOCKS];
+    struct kd_fault_stack {
+        _Atomic int64_t stack;  /* a number made of its return addresses, the same in each process; 0: none here */
+        _Atomic uint64_t from;  /* as in `blocks` */
+        _Atomic int64_t count;  /* allocations */
+    } stacks[KD_FAULT_STACKS];
 };
 
 extern struct kd_faults *kd_faults; /* never NULL: without a file one that lets nothing fail */

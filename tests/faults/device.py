@@ -4,6 +4,7 @@ wants of memory for itself is given to it: docs/faults-vulkan.md, once it is the
     device.py FAULTS KERRD serve                 some of each series
     KD_WHOLE=1 device.py FAULTS KERRD serve      all of them"""
 import collections
+import concurrent.futures
 import errno
 import os
 import random
@@ -75,81 +76,137 @@ class Memory(sweep.Case):
         self.sweep(ask, 200, 'a job from POST to its result, on a device')
 
 
-class Command(unittest.TestCase):
-    """kerrd render -o FILE."""
+class Drawing:
+    """kerrd render -o FILE, over and over."""
 
-    def setUp(self):
+    def __init__(self, case):
         folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
+        case.addCleanup(folder.cleanup)
+        self.case, self.folder, self.out = case, folder.name, os.path.join(folder.name, 'a.png')
         self.faults = faults.Faults()
-        self.addCleanup(self.faults.close)
-        self.out = os.path.join(self.folder, 'a.png')
-        self.assertEqual(self.draw().returncode, 0)  # what it learns of the device, it knows from now on
+        case.addCleanup(self.faults.close)
+        case.assertEqual(self.draw().returncode, 0)  # what it learns of the device, it knows from now on
+        self.calm = self.faults.live  # blocks that it does not free
         with open(self.out, 'rb') as f:
             self.good = f.read()
 
-    def draw(self, *options, **more):
-        return subprocess.run([daemon.COMMAND[0], 'render', *DRAW, *(options or ('-o', self.out))], env={**os.environ, **self.faults.environment()}, stderr=subprocess.PIPE, timeout=60, **more)
+    def draw(self, *options, wrap=(), **more):
+        self.faults.forget()
+        wrap = [*wrap, 'env', *(f'{name}={value}' for name, value in self.faults.environment().items())]  # of kerrd alone
+        return subprocess.run([*wrap, daemon.COMMAND[0], 'render', *DRAW, *(options or ('-o', self.out))], stderr=subprocess.PIPE, timeout=300, **more)
 
     def judge(self, done, n):
-        """A word for how it ended: the old file is as it was, or the new one is whole, and there is nothing else."""
-        self.assertEqual(os.listdir(self.folder), ['a.png'], n)
+        """A word for how it ended: the old file is as it was, or the new one is whole, there is nothing else, and no memory was left behind."""
+        case = self.case
+        case.assertEqual(os.listdir(self.folder), ['a.png'], n)
         with open(self.out, 'rb') as f:
-            self.assertEqual(f.read(), self.good, n)
+            case.assertEqual(f.read(), self.good, n)
+        case.assertLessEqual(self.faults.live, self.calm, (n, collections.Counter(faults.where(place) for place in self.faults.blocks().values()), done.stderr))
         if done.returncode == 0:
             return 'whole picture'
         lines = [line for line in done.stderr.decode().splitlines() if not line.startswith('kerrd: warning:')]
-        self.assertEqual((done.returncode, len(lines)), (1, 1), (n, faults.where(self.faults.failed_from), done.stderr))
-        self.assertTrue(lines[0].startswith('kerrd'), (n, lines))
+        case.assertEqual((done.returncode, len(lines)), (1, 1), (n, faults.where(self.faults.failed_from), done.stderr))
+        case.assertTrue(lines[0].startswith('kerrd'), (n, lines))
         return 'exit code 1 with a reason'
 
-    def test_memory(self):
-        self.faults.memory(faults.ALWAYS)
-        self.draw()
+    def memory(self, stack, n, count=1):
+        """What has come of it when the n-th allocation that is asked for by this stack fails; stack 0: of all."""
+        failed = self.faults.failed
+        self.faults.set('by_stack', stack)
+        self.faults.memory(n, count)
+        done = self.draw()
         self.faults.mend()
-        count, outcomes = self.faults.counted, collections.Counter()
-        for n in [*range(40), *range(40, count, max(1, (count - 40) // 60))] if faults.WHOLE else faults.some(count, 5):  # most are a few places over and over
-            self.faults.memory(n)
-            outcomes[self.judge(self.draw(), n)] += 1
-        faults.record('memory', 'kerrd render', outcomes, count)
+        word = self.judge(done, (stack, n))
+        return word if self.faults.failed > failed else 'not reached'
+
+    def files(self, mask, number, n=0, count=faults.ALWAYS):
+        failed = self.faults.files_failed
+        self.faults.files(mask, number, n, count)
+        done = self.draw()
+        self.faults.mend()
+        word = self.judge(done, n)
+        return word if self.faults.files_failed > failed else 'not reached'
+
+
+class CommandMemory(unittest.TestCase):
+    def setUp(self):
+        self.one = Drawing(self)
+
+    def test_memory(self):
+        """Most of the allocations come from a few places, over and over: each place fails when it is called for the first, the second and the last time. A place is a stack of calls."""
+        self.one.faults.set('by_stack', 1)
+        self.one.draw()
+        stacks = self.one.faults.stacks()
+        points = [(stack, n) for stack, count in stacks.items() for n in sorted({0, min(1, count - 1), count - 1})]
+        every = sum(stacks.values())
+        for_good = [(0, n, faults.ALWAYS) for n in faults.some(every, 3)] if not faults.WHOLE else [(0, round(i * every / 60), faults.ALWAYS) for i in range(60)]
+        tried = points if faults.WHOLE else [points[i] for i in faults.some(len(points), 4)]
+        spare, workers = [self.one], 2 if faults.WHOLE else 1
+        spare += [Drawing(self) for _ in range(workers - 1)]
+
+        def attempt(point):
+            drawing = spare.pop()
+            try:
+                return drawing.memory(*point)
+            finally:
+                spare.append(drawing)
+        with concurrent.futures.ThreadPoolExecutor(workers) as pool:
+            outcomes, after = (collections.Counter(pool.map(attempt, some)) for some in (tried, for_good))
+        faults.record('memory', f'kerrd render: the first, the second and the last of each place, of {every} allocations', outcomes, len(points))
+        faults.record('memory', 'kerrd render: one allocation and all after it', after, every)
+
+
+class Command(unittest.TestCase):
+    def setUp(self):
+        self.one = Drawing(self)
 
     def test_files(self):
-        for number, mask in ((errno.ENOSPC, CHANGES), (errno.EIO, CHANGES | faults.OPEN | faults.READ), (errno.EMFILE, faults.OPEN | faults.CREATE)):
+        for number, mask in ((errno.ENOSPC, CHANGES), (errno.EIO, CHANGES | faults.OPEN | faults.READ), (errno.EMFILE, faults.OPEN | faults.CREATE), (errno.EROFS, faults.CREATE | faults.RENAME)):
             with self.subTest(errno.errorcode[number]):
-                self.faults.files(mask, number, faults.ALWAYS)
-                before = self.faults.files_count
-                self.draw()
-                count, outcomes = self.faults.files_count - before, collections.Counter()
+                one = self.one.faults
+                one.files(mask, number, faults.ALWAYS)
+                before = one.files_count
+                self.one.draw()
+                count = one.files_count - before
                 self.assertGreater(count, 2)
-                for n in faults.some(count, 3):
-                    self.faults.files(mask, number, n, 1)
-                    outcomes[self.judge(self.draw(), n)] += 1
-                self.faults.files(mask, number)
-                outcomes[self.judge(self.draw(), 'all')] += 1
+                outcomes = collections.Counter(self.one.files(mask, number, n, 1) for n in faults.some(count, 3))
+                outcomes[self.one.files(mask, number)] += 1
                 faults.record(errno.errorcode[number], 'kerrd render', outcomes, count + 1)
+
+    def test_a_cache_that_is_read_only(self):
+        """What is learnt of a device is not kept, and is no worse for that. A disk of its own takes a mount namespace, which not every machine lets a user have."""
+        wrap = ['unshare', '--mount', '--propagation', 'private'] if os.geteuid() == 0 else ['unshare', '--mount', '--map-root-user']
+        with tempfile.TemporaryDirectory() as caches:
+            if subprocess.run([*wrap, 'mount', '-t', 'tmpfs', 'none', caches], stderr=subprocess.DEVNULL).returncode:
+                self.skipTest('there is no mount namespace to be had here')
+            wrap += ['sh', '-c', f'mount -t tmpfs -o ro none {caches} && exec env XDG_CACHE_HOME={caches} "$@"', 'sh']
+            done = self.one.draw(wrap=wrap)
+            self.assertEqual(self.one.judge(done, caches), 'whole picture', done.stderr)
+            self.assertEqual(os.listdir(caches), [])
+        faults.record('EROFS', 'kerrd render, caches of a device', ['whole picture'])
 
     def test_a_machine_that_was_held(self):
         """Ten minutes between any two looks at the steady clock are no lost device."""
-        self.faults.set('steady_step_ms', 600_000)
-        self.assertEqual(self.judge(self.draw(), 'held'), 'whole picture')
-        self.faults.set('steady_step_ms', 0)
-        self.assertGreater(self.faults.steady_ms, 6_000_000)
-        faults.record('clocks', 'the steady one, by 10 minutes each time that kerrd render looks', ['whole picture'] * (self.faults.steady_ms // 600_000))
+        clocks = self.one.faults
+        clocks.set('steady_step_ms', 600_000)
+        self.assertEqual(self.one.judge(self.one.draw(), 'held'), 'whole picture')
+        clocks.set('steady_step_ms', 0)
+        self.assertGreater(clocks.steady_ms, 6_000_000)
+        faults.record('clocks', 'the steady one, by 10 minutes each time that kerrd render looks', ['whole picture'] * (clocks.steady_ms // 600_000))
 
     def test_pipes(self):
         """Nobody reads the picture: it ends by SIGPIPE without a word, as other tools do. Nobody reads what it says: the picture is made."""
         read, write = os.pipe()
         os.close(read)
-        done = self.draw('-o', '-', stdout=write)
+        done = self.one.draw('-o', '-', stdout=write)
         os.close(write)
         self.assertEqual((done.returncode, done.stderr), (-signal.SIGPIPE, b''))
         script = '"$@" {}'
         for closed, code in (('2>&-', 0), ('>&-', 0), ('<&- >&- 2>&-', 0)):
-            command = [daemon.COMMAND[0], 'render', *DRAW, '--stats', '-o', self.out]
+            command = [daemon.COMMAND[0], 'render', *DRAW, '--stats', '-o', self.one.out]
             self.assertEqual(subprocess.run(['sh', '-c', script.format(closed), 'sh', *command], timeout=60, stderr=subprocess.DEVNULL).returncode, code, closed)
-            with open(self.out, 'rb') as f:
-                self.assertEqual(f.read(), self.good, closed)
+            with open(self.one.out, 'rb') as f:
+                self.assertEqual(f.read(), self.one.good, closed)
         faults.record('EPIPE', 'kerrd render', ['ends by SIGPIPE: the picture into a closed pipe'] + ['whole picture: standard streams that are not open'] * 3)
 
     def test_caches(self):
@@ -168,7 +225,7 @@ class Command(unittest.TestCase):
                     continue
                 with open(os.path.join(folder, name), 'wb') as f:
                     f.write(change(good[name], random.Random(name)))
-                outcomes[self.judge(self.draw(), (name, word))] += 1
+                outcomes[self.one.judge(self.one.draw(), (name, word))] += 1
         for name, data in good.items():
             with open(os.path.join(folder, name), 'wb') as f:
                 f.write(data)

@@ -16,9 +16,9 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / 'http'))
 import daemon  # noqa: E402
 
 LIBRARY = []
-FIELDS = ('fail_at', 'fail_for', 'allocations', 'failed', 'by_library', 'failed_from', 'files_mask', 'files_at', 'files_for', 'files_errno', 'files_count', 'files_failed',
-          'files_slow', 'files_waiting', 'wall_s', 'steady_ms', 'steady_step_ms', 'live')
-BLOCKS = 1 << 16
+FIELDS = ('fail_at', 'fail_for', 'allocations', 'failed', 'by_stack', 'by_library', 'failed_from', 'files_mask', 'files_at', 'files_for', 'files_errno', 'files_count', 'files_failed',
+          'files_slow', 'files_waiting', 'wall_s', 'steady_ms', 'steady_step_ms', 'looks', 'live')
+BLOCKS, STACKS = 1 << 16, 1 << 12
 OPEN, CREATE, WRITE, READ, SYNC, RENAME, CLOSE = (1 << i for i in range(7))
 ALWAYS = 1 << 60
 WHOLE = bool(os.environ.get('KD_WHOLE'))
@@ -29,7 +29,7 @@ class Faults:
 
     def __init__(self):
         self.file = tempfile.NamedTemporaryFile()
-        self.file.truncate(8 * len(FIELDS) + 16 * BLOCKS)
+        self.file.truncate(8 * len(FIELDS) + 16 * BLOCKS + 24 * STACKS)
         self.map = mmap.mmap(self.file.fileno(), 0)
         self.before = self.counted = 0
         self.mend()
@@ -66,6 +66,16 @@ class Faults:
         """Blocks of the program's that are not freed: where they are -> where they were asked for."""
         words = struct.unpack_from(f'<{2 * BLOCKS}Q', self.map, 8 * len(FIELDS))
         return {at: place for at, place in zip(words[::2], words[1::2]) if at}
+
+    def forget(self):
+        """Before another program is started with it: it has no blocks yet."""
+        self.set('live', 0)
+        self.map[8 * len(FIELDS):8 * len(FIELDS) + 16 * BLOCKS] = bytes(16 * BLOCKS)
+
+    def stacks(self):
+        """Those by which allocations were asked for while by_stack was 1: stack -> how many."""
+        words = struct.unpack_from(f'<{3 * STACKS}q', self.map, 8 * len(FIELDS) + 16 * BLOCKS)
+        return {stack: count for stack, count in zip(words[::3], words[2::3]) if stack}
 
     def environment(self):
         return {'KD_FAULTS': self.file.name, 'LD_PRELOAD': LIBRARY[0], 'ASAN_OPTIONS': ':'.join(filter(None, (os.environ.get('ASAN_OPTIONS'), 'verify_asan_link_order=0')))}

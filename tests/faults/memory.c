@@ -16,7 +16,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-enum { OBJECTS = 64, EARLY = 1 << 16 };
+enum { OBJECTS = 64, EARLY = 1 << 16, DEEPEST = 64 };
 
 static struct kd_faults unused = { .fail_at = -1, .files_at = -1 };
 struct kd_faults *kd_faults = &unused;
@@ -81,7 +81,7 @@ __attribute__((constructor)) static void begin(void)
     int fd = path ? open(path, O_RDWR | O_CLOEXEC) : -1;
     void *map = fd < 0 ? MAP_FAILED : mmap(NULL, sizeof unused, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
     dl_iterate_phdr(note, NULL);
-    tells = getenv("KD_FAULTS_TELL") && backtrace(stack, 1);
+    tells = backtrace(stack, 1) && getenv("KD_FAULTS_TELL"); /* the first call loads what it needs */
     if (map != MAP_FAILED)
         kd_faults = map;
     if (fd >= 0)
@@ -99,13 +99,49 @@ bool kd_fault_ours(const void *caller, uint64_t *where)
     return false;
 }
 
+/* A number of the stack, of the frames that are ours: above 1. */
+static int64_t stack_number(void)
+{
+    void *frames[DEEPEST];
+    const int n = backtrace(frames, DEEPEST);
+    uint64_t number = UINT64_C(0xCBF29CE484222325), where; /* FNV-1a */
+    for (int i = 0; i < n; i++)
+        if (kd_fault_ours(frames[i], &where))
+            for (int k = 0; k < 64; k += 8)
+                number = (number ^ (where >> k & 255)) * UINT64_C(0x100000001B3);
+    return (int64_t)(number >> 1 | 2);
+}
+
+static void note_stack(int64_t number, uint64_t where)
+{
+    for (size_t n = 0; n < KD_FAULT_STACKS; n++) {
+        struct kd_fault_stack *s = &kd_faults->stacks[((uint64_t)number + n) % KD_FAULT_STACKS];
+        int64_t found = 0;
+        if (!atomic_compare_exchange_strong(&s->stack, &found, number) && found != number)
+            continue;
+        atomic_store(&s->from, where);
+        atomic_fetch_add(&s->count, 1);
+        return;
+    }
+    abort(); /* there are more stacks than places for them */
+}
+
+/* Whether this allocation counts, for those of one stack. */
+static bool of_stack(uint64_t where)
+{
+    const int64_t wanted = atomic_load(&kd_faults->by_stack), number = wanted ? stack_number() : 0;
+    if (wanted == 1)
+        note_stack(number, where);
+    return wanted <= 1 || wanted == number;
+}
+
 static bool fails(const void *caller, uint64_t *where)
 {
     void *stack[40];
     if (!kd_fault_ours(caller, where))
         return false;
     atomic_fetch_add(&kd_faults->allocations, 1);
-    if (!kd_fault_next(&kd_faults->fail_at, &kd_faults->fail_for))
+    if (!of_stack(*where) || !kd_fault_next(&kd_faults->fail_at, &kd_faults->fail_for))
         return false;
     atomic_fetch_add(&kd_faults->failed, 1);
     atomic_store(&kd_faults->failed_from, (int64_t)*where);

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """Lets each fault of each series happen, and writes into docs/faults.md what has come of them.
 
-    tests/faults/run.py [BUILD]             all of them, some half an hour on two cores; BUILD: build/
-    tests/faults/run.py --check [BUILD]     those of the suite, a few minutes, and writes nothing
+    tests/faults/run.py [BUILD]                 all of them, some half an hour on two cores; BUILD: build/
+    tests/faults/run.py --keep FOLDER [BUILD]   likewise; what is done stands in the folder, and the next run with it does the rest
+    tests/faults/run.py --check [BUILD]         those of the suite, a few minutes, and writes nothing
 
 The exit code is 1 if a test has failed; then nothing is written either."""
+import argparse
 import collections
 import json
 import os
@@ -18,11 +20,14 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 DOCUMENT = ROOT / 'docs/faults.md'
 BEGIN, END = '<!-- what run.py has found -->', '<!-- its end -->'
-TESTS = {'memory': 'fake', 'disk': 'fake', 'damage': 'fake', 'ends': 'fake', 'jumps': 'fake', 'device': 'kerrd'}
+# Side by side; of the last ones the cases.
+TESTS = ('memory', 'disk', 'damage', 'ends', 'jumps', 'device Memory', 'device Command', 'device CommandMemory', 'device Streams')
 
 
 def start(build, name, ledger, whole):
-    server = [build / 'src/kerrd', 'serve'] if TESTS[name] == 'kerrd' else [build / 'tests/http/fake_server']
+    name, *cases = name.split()
+    server = [build / 'src/kerrd', 'serve', *(['--', *cases] if cases else [])] if name == 'device' else [build / 'tests/http/fake_server']
+    ledger.unlink(missing_ok=True)
     env = {**os.environ, 'KD_LEDGER': str(ledger), 'PYTHONDONTWRITEBYTECODE': '1', **({'KD_WHOLE': '1'} if whole else {})}
     log = tempfile.TemporaryFile()
     return subprocess.Popen([sys.executable, HERE / f'{name}.py', build / 'tests/faults/libfaults.so', *server], env=env, stdout=log, stderr=log), log
@@ -47,24 +52,38 @@ def rows(entries):
     yield 'In all ' + ', '.join(f'{n} of {kind}' for kind, n in sorted(totals.items())) + f': {sum(totals.values())} faults.'
 
 
+def run(build, folder, whole):
+    """Those that have failed. What the others have found is in files of the folder by their names, and those that were there are not run again."""
+    running = {name: start(build, name, folder / f'{name}.part', whole) for name in TESTS if not (folder / name).exists()}
+    failed = []
+    for name, (process, log) in running.items():
+        code = process.wait()
+        if code == 0:
+            (folder / f'{name}.part').rename(folder / name)
+        else:
+            failed.append(name)
+            log.seek(0)
+            sys.stdout.buffer.write(log.read())
+            sys.stdout.buffer.flush()
+    return failed
+
+
 def main():
-    arguments = sys.argv[1:]
-    check = '--check' in arguments
-    build = pathlib.Path(([a for a in arguments if a != '--check'] or [ROOT / 'build'])[0]).resolve()
-    with tempfile.TemporaryDirectory() as folder:
-        running = {name: start(build, name, pathlib.Path(folder) / name, not check) for name in TESTS}
-        failed = []
-        for name, (process, log) in running.items():
-            if process.wait():
-                failed.append(name)
-                log.seek(0)
-                sys.stdout.buffer.write(log.read())
-        entries = [json.loads(line) for name in TESTS if (pathlib.Path(folder) / name).exists() for line in (pathlib.Path(folder) / name).read_text().splitlines()]
+    parser = argparse.ArgumentParser()
+    parser.add_argument('--check', action='store_true')
+    parser.add_argument('--keep', type=pathlib.Path)
+    parser.add_argument('build', nargs='?', type=pathlib.Path, default=ROOT / 'build')
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = options.keep or pathlib.Path(temporary)
+        folder.mkdir(exist_ok=True)
+        failed = run(options.build.resolve(), folder.resolve(), not options.check)
+        entries = [json.loads(line) for name in TESTS if (folder / name).exists() for line in (folder / name).read_text().splitlines()]
     text = '\n'.join(rows(entries))
     print(text)
     if failed:
-        print('failed:', *failed)
-    elif not check:
+        print('failed, or left out without a device:', *failed, sep='\n    ')
+    elif not options.check:
         whole = DOCUMENT.read_text(encoding='utf-8')
         DOCUMENT.write_text(re.sub(f'{BEGIN}.*{END}', lambda _: f'{BEGIN}\n{text}\n\n{END}', whole, flags=re.S), encoding='utf-8')
     return bool(failed)

@@ -34,7 +34,7 @@ class Case(unittest.TestCase):
         self.faults = faults.Faults()
         self.addCleanup(self.faults.close)
         self.server = self.faults.start(*self.options)
-        self.connection = http.client.HTTPConnection('127.0.0.1', self.server.port, timeout=60)
+        self.connection = http.client.HTTPConnection('127.0.0.1', self.server.port, timeout=240)
         self.addCleanup(self.end)
 
     def end(self):
@@ -124,15 +124,20 @@ class Case(unittest.TestCase):
         self.with_failure(ask, faults.ALWAYS)
         count, outcomes = self.faults.counted, collections.Counter()
         self.assertGreater(count, 0, 'is the library loaded?')
+        files = self.server.open_files()
         for n in faults.some(count, most or self.most):
             live, by_library, failed = self.settled(0 if n == 0 else self.faults.live), self.faults.by_library, self.faults.failed
             outcome = self.judge(n, self.with_failure(ask, n), good, by_library)
-            outcomes[outcome if self.faults.failed > failed else 'not reached'] += 1
+            if self.faults.failed == failed:
+                self.assertEqual(outcome, 'whole answer', f'allocation {n}, which did not fail')
+                outcome = 'not reached'
+            outcomes[outcome] += 1
             if self.settled(live) > live:
                 grown, begin = self.leaks(ask, n)
                 if grown > 0:
                     self.fail(f'allocation {n} leaks {grown} blocks: {self.new_blocks(begin)}')
             self.connect()
             self.assertEqual(self.judge(n, ask(), good, 0), 'whole answer', 'the same request afterwards')
+        self.assertTrue(daemon.eventually(lambda: self.server.open_files() <= files), f'descriptors are left: {self.server.open_files()}, before {files}')
         faults.record('memory', scenario, outcomes, count)
         self.assertEqual(self.server.get('/healthz').status, 200)

@@ -5,9 +5,11 @@
 tries every call of every entry point with every code, a fresh server for each: hours. It writes docs/faults-vulkan.md. vulkan_first.py has the tests of the suite.
 
     --rotate       of the codes that the specification allows one a call, by turns: every call and every code, a third of the faults; of calls that name objects every eighth
+    --whole NAME   a scenario for which --rotate does not count; may be repeated
     --minutes N    as many of the faults as that takes, drawn by chance
     --only NAME    a scenario: start, render, session, job, rays, reopen, incoherent; may be repeated
     --workers N    servers at once (default 2)
+    --keep FILE    what was tried is noted there, a line each: the next run with this file goes on from it, and its table has what both have found
     --table FILE   instead of docs/faults-vulkan.md; - for standard output"""
 import argparse
 import collections
@@ -23,8 +25,9 @@ import sys
 import tempfile
 import time
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / 'http'))
+sys.path[:0] = [str(pathlib.Path(__file__).resolve().parent), str(pathlib.Path(__file__).resolve().parent.parent / 'http')]
 import daemon
+from vulkan_report import Kept, table
 
 HOST, DEVICE, INITIALIZATION, LOST, MAP, LAYER, EXTENSION, FEATURE, DRIVER, MANY, FRAGMENTED, POOL, FRAGMENTATION = (
     -1, -2, -3, -4, -5, -6, -7, -8, -9, -10, -12, -1000069000, -1000161000)
@@ -46,7 +49,9 @@ ENTRIES = {
     'WaitSemaphores': (*MEMORY, LOST), 'QueueSubmit': (*MEMORY, LOST), 'CreateQueryPool': MEMORY, 'GetQueryPoolResults': (*MEMORY, LOST),
 }
 NAMES = list(ENTRIES)
+MAKERS = ['AllocateMemory', *(name for name in NAMES if name.startswith('Create'))]
 FIELDS = ('entry', 'countdown', 'code', 'injected', 'lost', 'dead', 'hang', 'incoherent')
+PROBLEMS = ((500, 'device-lost'), (503, 'out-of-memory'))
 EXIT_DEVICE = 3
 PATIENCE_S = 240  # in which each request is answered; longer: it hangs
 RENDER = '/v1/render?image.width=48&image.height=27'
@@ -59,7 +64,7 @@ class Faults:
 
     def __init__(self):
         self.file = tempfile.NamedTemporaryFile()
-        self.size = 8 * (len(FIELDS) + len(NAMES))
+        self.size = 8 * (len(FIELDS) + 2 * len(NAMES))
         self.file.write(struct.pack('<2q', -1, -1) + bytes(self.size - 16))
         self.file.flush()
         self.map = mmap.mmap(self.file.fileno(), self.size)
@@ -81,6 +86,11 @@ class Faults:
 
     def calls(self):
         return dict(zip(NAMES, struct.unpack_from(f'<{len(NAMES)}q', self.map, 8 * len(FIELDS))))
+
+    def objects(self):
+        """Objects of Vulkan that are not destroyed, by the entry point that made them."""
+        made = dict(zip(NAMES, struct.unpack_from(f'<{len(NAMES)}q', self.map, 8 * (len(FIELDS) + len(NAMES)))))
+        return {name: made[name] for name in MAKERS if made[name]}
 
     def close(self):
         self.map.close()
@@ -115,7 +125,7 @@ def wanted(answer, statuses=(200,)):
         clear = problem['type'].startswith('urn:kerrd:problem:') and problem['detail'] and problem['status'] == answer.status
     except (ValueError, KeyError):
         clear = False
-    if not clear or answer.status < 400:
+    if not clear or (answer.status, problem['type'].rsplit(':', 1)[1]) not in PROBLEMS:
         raise Broken(f'no clear answer: {answer.status} {answer.body[:200]}')
     raise Refused(f'{answer.status} {problem["type"].rsplit(":", 1)[1]}: {problem["detail"]}')
 
@@ -213,7 +223,10 @@ def live(server, scenario, faults, fault, same):
     if same is not None and got is not None and got != same:
         raise Broken('other bytes than without the fault')
     if outcome:  # the next is as if nothing had been
-        again = scenario.run(server)
+        try:
+            again = scenario.run(server)
+        except Refused as refused:
+            raise Broken(f'{outcome}; and afterwards {refused}') from None
         if same is not None and again != same:
             raise Broken('other bytes after the fault')
     else:
@@ -236,7 +249,14 @@ def to_its_end(server, scenario, faults, fault, same):
         return 'exit 3', None
     if code:
         raise Broken(f'it ends with {code}: {server.said()[-3000:]}')
+    no_objects(faults)
     return outcome, got
+
+
+def no_objects(faults):
+    """Whoever ends with a device that works has destroyed what was made."""
+    if left := faults.objects():
+        raise Broken(f'objects are left: {left}')
 
 
 def starts_not(faults):
@@ -246,6 +266,7 @@ def starts_not(faults):
     lines = done.stderr.splitlines()
     if done.returncode != 1 or not lines or not lines[-1].startswith('kerrd: '):
         raise Broken(f'its start ends with {done.returncode}: {done.stderr[-3000:]}')
+    no_objects(faults)
     return lines[-1]
 
 
@@ -279,8 +300,21 @@ def one(scenario, fault=None, same=None):
 CACHE = tempfile.TemporaryDirectory()  # of pipelines; and what the device is known to do
 
 
-def kind_of(outcome):
-    return 'error' if outcome.startswith('error') else outcome
+def kind_of(scenario, fault, outcome, injected):
+    """A word for an outcome, if it is one that this fault may have."""
+    name, _, code = fault
+    word = 'error' if outcome.startswith('error') else outcome
+    if not injected:
+        if word != ('recovered' if scenario.loses else 'same'):
+            raise Broken(f'without a fault: {outcome}')
+        return 'not reached'
+    if word == 'error' and f'vk{name}' not in outcome and code != DRIVER:  # there is no driver, it says
+        raise Broken(f'this does not say what has failed: {outcome}')
+    if word == 'error' and code == LOST and not scenario.at_start:
+        raise Broken(f'the device was lost and could have been opened again: {outcome}')
+    if word == 'exit 3' and code != LOST and not scenario.loses:
+        raise Broken('it ends, and the device is not lost')
+    return word
 
 
 def faults_of(scenario, calls, rotate):
@@ -296,18 +330,17 @@ def attempt(scenario, fault, same, until):
         return None, None
     try:
         outcome, _, injected, _ = one(scenario, fault, same)
-        return (kind_of(outcome) if injected else 'not reached'), outcome
+        return kind_of(scenario, fault, outcome, injected), outcome
     except Broken as broken:
         return 'BROKEN', str(broken)
 
 
-def sweep(name, rotate, workers, until):
-    """A row for each entry point that the scenario calls: name, calls, faults, and how many came to what."""
+def sweep(name, rotate, workers, until, kept):
+    """A row for each entry point that the scenario calls: name, calls, how many faults there may be, and how many came to what. Adds to what is kept."""
     scenario = SCENARIOS[name]
     _, same, _, calls = one(scenario)
-    rows = {entry: collections.Counter() for entry in scenario.only if calls[entry]}
     with concurrent.futures.ThreadPoolExecutor(workers) as pool:
-        faults = list(faults_of(scenario, calls, rotate))
+        faults = [fault for fault in faults_of(scenario, calls, rotate) if kept.get((name, *fault), 'BROKEN') == 'BROKEN']
         random.Random(1).shuffle(faults)
         doing = {pool.submit(attempt, scenario, fault, same, until): fault for fault in faults}
         for done in concurrent.futures.as_completed(doing):
@@ -315,54 +348,40 @@ def sweep(name, rotate, workers, until):
             kind, said = done.result()
             if not kind:
                 continue
-            rows[entry][kind] += 1
+            kept.note((name, entry, n, code), kind)
             print(f'{name}: {entry} {n} {CODES[code]}: {kind}: {said}', file=sys.stderr, flush=True)
-    return [(entry, calls[entry], counts) for entry, counts in rows.items()]
-
-
-KINDS = ('same', 'recovered', 'error', 'exit 3', 'not reached', 'BROKEN')
-
-
-def table(results, rotate):
-    total = sum((counts for rows in results.values() for _, _, counts in rows), collections.Counter())
-    lines = ['# Faults of Vulkan', '', f'{sum(total.values())} calls of Vulkan have been made to fail, one in each of as many servers: ' +
-             ', '.join(f'{total[k]} {k}' for k in KINDS if total[k]) + '.', '',
-             f'The n-th call of an entry point failed with {"one of" if rotate else "each of"} the codes that the specification lets it return, for as many n as stand under Faults: all, unless the time '
-             'was limited or, with `--rotate`, the call but names an object. `tests/faults/vulkan.py --full` makes this table.', '',
-             '- `same`: the same bytes as without the fault; the driver was asked again, or for something that a picture can do without.',
-             '- `recovered`: the same bytes, after the device was closed and opened once more.',
-             '- `error`: an answer that says what failed (500 `device-lost`, 503 `out-of-memory`), or a start that does; the next request had the same bytes as without the fault.',
-             '- `exit 3`: the process ended with exit code 3, to be started again.',
-             '- `not reached`: there was no such call, as where a slice more or less was rendered. Jobs have no `error`: where memory ran out they tried again.', '',
-             '| Scenario | Entry point | Calls | Faults | ' + ' | '.join(KINDS) + ' |', '|---|---|---|---|' + '---|' * len(KINDS)]
-    for scenario, rows in results.items():
-        for entry, calls, counts in rows:
-            lines.append(f'| {scenario} | `vk{entry}` | {calls} | {sum(counts.values())} | ' + ' | '.join(str(counts[k] or '') for k in KINDS) + ' |')
-    return '\n'.join(lines) + '\n'
+    rows = {entry: collections.Counter() for entry in scenario.only if calls[entry]}
+    for (of, entry, n, _), kind in kept.items():
+        if of == name and entry in rows:
+            rows[entry][kind] += 1
+            calls[entry] = max(calls[entry], n + 1)
+    return [(entry, calls[entry], calls[entry] * len(ENTRIES[entry]), counts) for entry, counts in rows.items()]
 
 
 def full(arguments):
     parser = argparse.ArgumentParser(prog='vulkan.py --full')
     parser.add_argument('--full', action='store_true', required=True)
     parser.add_argument('--rotate', action='store_true')
+    parser.add_argument('--whole', action='append', choices=SCENARIOS, default=[])
     parser.add_argument('--minutes', type=float)
     parser.add_argument('--only', action='append', choices=SCENARIOS)
     parser.add_argument('--workers', type=int, default=2)
+    parser.add_argument('--keep')
     parser.add_argument('--table', default=str(pathlib.Path(__file__).resolve().parents[2] / 'docs' / 'faults-vulkan.md'))
     options = parser.parse_args(arguments)
     one(SCENARIOS['render'])  # meets the device for the first time, which is tested then
     names = [name for name in SCENARIOS if not options.only or name in options.only]
-    begun, results = time.monotonic(), {}
+    begun, results, kept = time.monotonic(), {}, Kept(options.keep)
     for i, name in enumerate(names):  # each has its share of what time is left
         now = time.monotonic()
         until = now + (60 * options.minutes - (now - begun)) / (len(names) - i) if options.minutes else float('inf')
-        results[name] = sweep(name, options.rotate, options.workers, until)
-    text = table(results, options.rotate)
+        results[name] = sweep(name, options.rotate and name not in options.whole, options.workers, until, kept)
+    text = table(results)
     if options.table == '-':
         print(text, end='')
     else:
         pathlib.Path(options.table).write_text(text)
-    return any(counts['BROKEN'] for rows in results.values() for _, _, counts in rows)
+    return any(counts['BROKEN'] for rows in results.values() for _, _, _, counts in rows)
 
 
 if __name__ == '__main__':

@@ -57,6 +57,24 @@
     X(GetQueryPoolResults, (VkDevice a, VkQueryPool b, uint32_t c, uint32_t d, size_t e, void *f, VkDeviceSize g, VkQueryResultFlags h),  \
       (a, b, c, d, e, f, g, h))
 
+/* Those that destroy what one of the former has made, object by object: name, parameters, arguments, the object, the entry point that made it. */
+#define DESTROYS(X, object) X(Destroy##object, (VkDevice a, Vk##object b, const VkAllocationCallbacks *c), (a, b, c), b, Create##object)
+#define ENDS(X)                                                                                                                           \
+    X(DestroyInstance, (VkInstance a, const VkAllocationCallbacks *b), (a, b), a, CreateInstance)                                         \
+    X(DestroyDevice, (VkDevice a, const VkAllocationCallbacks *b), (a, b), a, CreateDevice)                                               \
+    X(FreeMemory, (VkDevice a, VkDeviceMemory b, const VkAllocationCallbacks *c), (a, b, c), b, AllocateMemory)                           \
+    X(DestroyPipeline, (VkDevice a, VkPipeline b, const VkAllocationCallbacks *c), (a, b, c), b, CreateComputePipelines)                  \
+    DESTROYS(X, Buffer)                                                                                                                   \
+    DESTROYS(X, BufferView)                                                                                                               \
+    DESTROYS(X, ShaderModule)                                                                                                             \
+    DESTROYS(X, DescriptorSetLayout)                                                                                                      \
+    DESTROYS(X, PipelineLayout)                                                                                                           \
+    DESTROYS(X, PipelineCache)                                                                                                            \
+    DESTROYS(X, DescriptorPool)                                                                                                           \
+    DESTROYS(X, CommandPool)                                                                                                              \
+    DESTROYS(X, Semaphore)                                                                                                                \
+    DESTROYS(X, QueryPool)
+
 #define NAME(name, parameters, arguments) AT_##name,
 enum { ENTRIES(NAME) N_ENTRIES };
 #undef NAME
@@ -70,12 +88,16 @@ struct control {
     _Atomic int64_t hang;                   /* 1: what is submitted never ends; 2: the next submission itself does not return */
     _Atomic int64_t incoherent;             /* 1 at the start: memory as on devices whose host has to flush it */
     _Atomic int64_t calls[N_ENTRIES];
+    _Atomic int64_t objects[N_ENTRIES];     /* that it has made and that are not destroyed; of entry points that make none: calls that did not fail */
 };
 static struct control unused = { .entry = -1 }, *control = &unused;
 
 /* The driver's own: the same for all devices of one time. The loader takes the driver out with the last of them, and it may come to lie elsewhere. */
 #define REAL(name, parameters, arguments) static _Atomic(PFN_vk##name) real_##name;
 ENTRIES(REAL)
+#define REAL_END(name, parameters, arguments, object, maker) static _Atomic(PFN_vk##name) real_##name;
+ENDS(REAL_END)
+#undef REAL_END
 #undef REAL
 static _Atomic(PFN_vkGetPhysicalDeviceMemoryProperties) real_GetPhysicalDeviceMemoryProperties;
 
@@ -138,10 +160,23 @@ static bool hangs(void) { return atomic_load(&control->hang) == 1; }
             const VkResult real = atomic_load(&real_##name) arguments;                                         \
             return result ? result : real;                                                                     \
         }                                                                                                      \
-        return result ? result : atomic_load(&real_##name) arguments;                                          \
+        const VkResult made = result ? result : atomic_load(&real_##name) arguments;                           \
+        if (!made)                                                                                             \
+            atomic_fetch_add(&control->objects[AT_##name], 1); /* pipelines are made one by one */             \
+        return made;                                                                                           \
     }
 ENTRIES(DEFINE)
 #undef DEFINE
+
+#define DEFINE_END(name, parameters, arguments, object, maker)                                                 \
+    static VKAPI_ATTR void VKAPI_CALL counting_##name parameters                                               \
+    {                                                                                                          \
+        if (object)                                                                                            \
+            atomic_fetch_sub(&control->objects[AT_##maker], 1);                                                \
+        atomic_load(&real_##name) arguments;                                                                   \
+    }
+ENDS(DEFINE_END)
+#undef DEFINE_END
 
 static VKAPI_ATTR VkResult VKAPI_CALL hanging_WaitSemaphores(VkDevice device, const VkSemaphoreWaitInfo *info, uint64_t timeout)
 {
@@ -193,6 +228,13 @@ static void plant(struct kd_vk_functions *fn)
     }
     ENTRIES(PLANT)
 #undef PLANT
+#define PLANT_END(name, parameters, arguments, object, maker)                       \
+    if (fn->name && fn->name != counting_##name)                                    \
+        atomic_store(&real_##name, fn->name);                                       \
+    if (fn->name)                                                                   \
+        fn->name = counting_##name;
+    ENDS(PLANT_END)
+#undef PLANT_END
     if (fn->WaitSemaphores) {
         fn->WaitSemaphores = hanging_WaitSemaphores;
         fn->GetSemaphoreCounterValue = hanging_GetSemaphoreCounterValue;

@@ -1,11 +1,12 @@
-/* This reads the head of a request, line by line: target, base path, Accept, Accept-Encoding, If-None-Match, Content-Type, Host. No line is needed. */
+/* This reads the head of a request, line by line: target, base path, Accept, Accept-Encoding, If-None-Match, Content-Type, Host, X-Request-Id, Last-Event-ID. No line is needed. */
 #include "fuzz.h"
 
 #include "base/utf8.h"
 #include "server/http/negotiate.h"
 #include "server/http/request.h"
+#include "server/http/request_id.h"
 
-enum { LINES = 7 };
+enum { LINES = 9 };
 
 static void check_target(const char *raw, const struct kd_base_path *base)
 {
@@ -97,6 +98,21 @@ static void check_others(const char *etag, const char *type, const char *host)
     CHECK(!kd_host_listed("", hosts), "no host is one");
 }
 
+/* A request's own identity is taken where a log and a header can hold it, else another one is made; a number is one where it is written as such. */
+static void check_numbers(const char *id, const char *event)
+{
+    static const char letters[] = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz-._+/=";
+    char chosen[KD_REQUEST_ID_MAX + 1];
+    uint64_t number = 0;
+    kd_request_id_choose(id, chosen);
+    CHECK(*chosen && strlen(chosen) <= KD_REQUEST_ID_MAX && chosen[strspn(chosen, letters)] == 0, "\"%s\" is who asks, by \"%s\"", chosen, id);
+    if (kd_target_number(event, UINT64_MAX, &number)) {
+        char text[32];
+        snprintf(text, sizeof text, "%llu", (unsigned long long)number);
+        CHECK(!strcmp(text, event + strspn(event, "0") - (number == 0 && *event)), "\"%s\" is the number %s", event, text);
+    }
+}
+
 int kd_fuzz_http(const uint8_t *data, size_t size)
 {
     struct kd_fuzz_text lines[LINES];
@@ -109,6 +125,7 @@ int kd_fuzz_http(const uint8_t *data, size_t size)
     check_begins(lines[0].at, &base);
     check_accept(lines[2].at, lines[3].at);
     check_others(lines[4].at, lines[5].at, lines[6].at);
+    check_numbers(lines[7].at, lines[8].at);
     for (size_t i = 0; i < LINES; i++)
         free(lines[i].at);
     return 0;

@@ -3,6 +3,7 @@
 #include "fuzz.h"
 
 #include "cli/scene_line.h"
+#include "cli/serve_settings.h"
 #include "image/npy.h"
 #include "image/png.h"
 #include "image/zip.h"
@@ -335,12 +336,40 @@ static void write_accuracy(void)
     free(table);
 }
 
+/* A file with every option that has a default, and the same options as variables. */
+static void write_settings(void)
+{
+    FILE *dict = open_file("config", ""), *file = open_file("config", "defaults"), *variables = open_file("config", "variables");
+    bool first = true;
+    json_words(dict);
+    WORDS(dict, "\n---\n", "KERRD_", "=", ",", "yes", "https://example.org", "http://[::1]:8080", "1536M", "2G");
+    fputs("{}\n---", variables);
+    for (size_t i = 0; i < KD_SERVE_COUNT; i++) {
+        const struct kd_cli_setting *s = &kd_serve_settings[i];
+        char name[KD_SETTING_VARIABLE];
+        kd_setting_variable(s, name);
+        WORDS(dict, s->name, name);
+        alternatives(dict, s->kind == KD_SETTING_WORDS ? s->argument : NULL);
+        if (!s->initial || s->where != KD_SETTING_ANYWHERE)
+            continue;
+        const char *quote = s->kind == KD_SETTING_NUMBER || s->kind == KD_SETTING_SWITCH ? "" : "\"";
+        fprintf(file, "%c\"%s\":%s%s%s", first ? '{' : ',', s->name, quote, s->kind != KD_SETTING_SWITCH ? s->initial : !strcmp(s->initial, "yes") ? "true" : "false", quote);
+        fprintf(variables, "\n%s=%s", name, s->initial);
+        first = false;
+    }
+    fputs("}", file);
+    fclose(dict);
+    fclose(file);
+    fclose(variables);
+    put_text("config", "lists", "{\"host\":[\"a.example\",\"b.example\"],\"cors-origin\":[\"https://example.org,http://localhost:8888\",\"null\"],\"memory\":\"2G\"}\n---\nKERRD_HOST=c.example");
+}
+
 static void write_targets(void)
 {
     for (size_t i = 0; i < kd_n_routes; i++) {
         char name[40], head[400];
         snprintf(name, sizeof name, "route-%02zu", i);
-        snprintf(head, sizeof head, "/some/prefix%s?order=1&since=%%31\n/some/prefix\n%s, image/*;q=0.5, */*;q=0.1\ngzip;q=0.5, *\nW/\"abc-1\", *\napplication/json; charset=utf-8\nlocalhost:8080",
+        snprintf(head, sizeof head, "/some/prefix%s?order=1&since=%%31\n/some/prefix\n%s, image/*;q=0.5, */*;q=0.1\ngzip;q=0.5, *\nW/\"abc-1\", *\napplication/json; charset=utf-8\nlocalhost:8080\nabc-1.2\n17",
                  kd_routes[i].path, kd_routes[i].answer ? kd_routes[i].answer : "image/png");
         put_text("http", name, head);
     }
@@ -362,6 +391,7 @@ int main(int argc, char **argv)
     write_pictures();
     write_arrays();
     write_accuracy();
+    write_settings();
     write_targets();
     return 0;
 }

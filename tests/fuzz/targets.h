@@ -6,7 +6,7 @@
 #include <stdint.h>
 
 #define KD_FUZZ_TARGETS(TARGET) \
-    TARGET(access) TARGET(assets) TARGET(files) TARGET(http) TARGET(integrals) TARGET(job) TARGET(line) TARGET(orbits) TARGET(patch) TARGET(pictures) \
+    TARGET(access) TARGET(assets) TARGET(config) TARGET(files) TARGET(http) TARGET(integrals) TARGET(job) TARGET(line) TARGET(orbits) TARGET(patch) TARGET(pictures) \
     TARGET(playground) TARGET(quantity) TARGET(query) TARGET(rays) TARGET(scene) TARGET(state)
 
 /* Reads an input; ends the process by abort() where what it reads is not as it should be. Always 0. */
