@@ -92,6 +92,8 @@ static bool strays(const struct kd_orbit *o, const struct kd_orbit_path *before,
     return !o->circular && !fallen && before->rate[KD_PATH_W].value > 0 && !(path->rate[KD_PATH_W].value > 0);
 }
 
+#define SEARCH_STEPS 5e6 /* a second or so, if not twice as many as up to the end that was found before: far out a step may be so short that nothing comes of it */
+
 /* Finds the end of a path that is not bound, at the horizon, far away, or when its time is over, by following it once in steps
  * of h. False if it strays, or if it was to be followed to its end and does not come there. */
 static bool find_end(struct kd_orbit_run *run, double h)
@@ -106,7 +108,10 @@ static bool find_end(struct kd_orbit_run *run, double h)
     run->end = KD_END_DURATION;
     run->aim = NAN;
     kd_orbit_path_init(&path, o, &run->start, kd_orbit_run_method(run));
+    double left = o->circular ? INFINITY : fmax(SEARCH_STEPS, 2 * run->mino_end / h);
     for (bool over = false; !over && path.mino.value < longest;) {
+        if (!(left-- > 0))
+            return false;
         before = path;
         kd_orbit_path_step(&path, h);
         if (strays(o, &before, &path))

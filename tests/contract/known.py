@@ -2,6 +2,7 @@
 import pathlib
 import re
 import sys
+import urllib.parse
 
 from together import AMONG, OF_SCENES, TOGETHER
 
@@ -78,6 +79,10 @@ def why(failure, case, response):
     # docs/scene.md has this form for what lies over a preset, and for a patch; the schema is that of a whole scene, as answers have it, too.
     if kind == 'AcceptedNegativeData' and re.match(OF_SCENES, label) and re.search(r'\b(spots|bodies): Incorrect type', failure.message) and has_a_list_by_index(case.body):
         return 'a list of a scene by index'
+    # An empty list or object is nothing in a query: the request is as good as without the parameter.
+    named = re.search(r'parameter `([^`]+)` in query', failure.message) if kind == 'AcceptedNegativeData' else None
+    if named and named[1] not in urllib.parse.parse_qs(urllib.parse.urlsplit(response.request.url).query, keep_blank_values=True):
+        return 'a parameter that is not in the request'
     # OpenAPI 3.1 has the schema of the whole stream, a text; schemathesis holds it against each event.
     if failure.title == 'SSE event violates schema' and status == 200 and response.headers['content-type'][0].startswith('text/event-stream'):
         return 'an event of a stream'

@@ -39,6 +39,11 @@ class Orbits(daemon.Case):
                   b'Content-Length: %d\r\n\r\n' % len(body) + body)
         return s
 
+    def test_steps_of_which_nothing_comes(self):
+        """From 5e19 M on a fall of 10000 M is no way at all: the search for its end is given up."""
+        answer = self.post({'orbit': {'position': {'r': 5.528809622814662e+19}}, 'spin': 0.0355, 'steps': 64, 'duration': {'time': 1e4}, 'r_max': 688835, 'method': 'rkn6'})
+        self.assertEqual((answer.status, answer.json()['pointer']), (422, '/steps'))
+
     def test_seen(self):
         """In every form the same; a circle seen from its axis is a circle; of a fall the end next to the horizon has no image."""
         circle = {'orbit': {'p': 10, 'e': 0}, 'duration': {'periods': 1}, 'samples': 9, 'seen': {'observer_inclination_deg': 0}}
