@@ -15,6 +15,7 @@ import re
 import subprocess
 import sys
 import tempfile
+import time
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
@@ -56,15 +57,17 @@ def run(build, folder, whole):
     """Those that have failed. What the others have found is in files of the folder by their names, and those that were there are not run again."""
     running = {name: start(build, name, folder / f'{name}.part', whole) for name in TESTS if not (folder / name).exists()}
     failed = []
-    for name, (process, log) in running.items():
-        code = process.wait()
-        if code == 0:
-            (folder / f'{name}.part').rename(folder / name)
-        else:
-            failed.append(name)
-            log.seek(0)
-            sys.stdout.buffer.write(log.read())
-            sys.stdout.buffer.flush()
+    while running:
+        time.sleep(0.2)
+        for name in [name for name, (process, _) in running.items() if process.poll() is not None]:
+            process, log = running.pop(name)
+            if process.returncode == 0:
+                (folder / f'{name}.part').rename(folder / name)
+            else:
+                failed.append(name)
+                log.seek(0)
+                sys.stdout.buffer.write(log.read())
+                sys.stdout.buffer.flush()
     return failed
 
 
