@@ -76,7 +76,7 @@ class Operations(Case):
                 word = 'whole, and the log says what failed'
             outcomes[word] += 1
             self.assertEqual(ask(server), 'whole')
-            self.assertTrue(daemon.eventually(lambda: server.open_files() <= files), f'operation {n} leaves a descriptor: {server.open_files()}, before {files}')
+            self.assertTrue(daemon.eventually(lambda: server.open_files() <= files, 10), f'operation {n} leaves a descriptor: {server.open_files()}, before {files}')
         faults.record(errno.errorcode[number], scenario, outcomes, count)
         return server
 
