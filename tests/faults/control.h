@@ -17,7 +17,7 @@ enum {
     KD_FAULT_READ = 8,
     KD_FAULT_SYNC = 16,   /* folders too */
     KD_FAULT_RENAME = 32,
-    KD_FAULT_CLOSE = 64,
+    KD_FAULT_CLOSE = 64,  /* what was open for writing */
 };
 
 struct kd_faults {

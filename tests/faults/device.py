@@ -1,5 +1,5 @@
 """The program itself, on a device: memory and files fail it as a server and as `kerrd render`, its caches are damaged, its pipes are closed, its clocks jump. What a Vulkan driver
-wants of memory for itself is given to it: docs/faults-vulkan.md, once it is there, has faults of drivers.
+wants of memory for itself is given to it: docs/faults-vulkan.md has faults of drivers.
 
     device.py FAULTS KERRD serve                 some of each series
     KD_WHOLE=1 device.py FAULTS KERRD serve      all of them"""

@@ -168,11 +168,17 @@ int renameat(int from_folder, const char *from, int to_folder, const char *to)
     return fails(KD_FAULT_RENAME, HERE) ? -1 : real(from_folder, from, to_folder, to);
 }
 
-/* The descriptor is gone all the same, as where a file system at the far end of a network reports late. */
+static bool is_written(int fd)
+{
+    const int flags = fcntl(fd, F_GETFL);
+    return flags >= 0 && (flags & O_ACCMODE) != O_RDONLY && is_file(fd);
+}
+
+/* The descriptor is gone all the same, as where a file system at the far end of a network reports late. To close what was only read has nothing to report. */
 int close(int fd)
 {
     KD_FAULT_REAL(int, "close", int);
-    const bool late = atomic_load(&kd_faults->files_mask) & KD_FAULT_CLOSE && is_file(fd) && fails(KD_FAULT_CLOSE, HERE);
+    const bool late = atomic_load(&kd_faults->files_mask) & KD_FAULT_CLOSE && is_written(fd) && fails(KD_FAULT_CLOSE, HERE);
     const int cause = errno, result = real(fd);
     if (late)
         errno = cause;

@@ -138,6 +138,6 @@ class Case(unittest.TestCase):
                     self.fail(f'allocation {n} leaks {grown} blocks: {self.new_blocks(begin)}')
             self.connect()
             self.assertEqual(self.judge(n, ask(), good, 0), 'whole answer', 'the same request afterwards')
-        self.assertTrue(daemon.eventually(lambda: self.server.open_files() <= files), f'descriptors are left: {self.server.open_files()}, before {files}')
+        self.assertTrue(daemon.eventually(lambda: self.server.open_files() <= files, 10), f'descriptors are left: {self.server.open_files()}, before {files}')
         faults.record('memory', scenario, outcomes, count)
         self.assertEqual(self.server.get('/healthz').status, 200)

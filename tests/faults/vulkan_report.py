@@ -26,8 +26,8 @@ def table(results):
     total = sum((counts for rows in results.values() for _, _, _, counts in rows), collections.Counter())
     possible = sum(most for rows in results.values() for _, _, most, _ in rows)
     whole = [name for name, rows in results.items() if all(sum(counts.values()) >= most for _, _, most, counts in rows)]
-    lines = ['# Faults of Vulkan', '', f'{sum(total.values())} calls of Vulkan have been made to fail, one in each of as many servers: ' +
-             ', '.join(f'{total[k]} {k}' for k in KINDS if total[k]) + '.', '',
+    lines = ['# Faults of Vulkan', '', f'{sum(total.values()) - total["not reached"]} calls of Vulkan have been made to fail, one in each of as many servers: ' +
+             ', '.join(f'{total[k]} {k}' for k in KINDS if total[k] and k != 'not reached') + '.', '',
              f'Each call of an entry point may fail with each of the codes that the specification lets it return: {possible} faults, in the column Of. All of them were tried in these scenarios: '
              f'{", ".join(whole) or "none"}. In the others each call failed with one of its codes, by turns, unless it but names an object, of which every eighth did. `tests/faults/vulkan.py --full` makes this '
              'table, `--whole` says of which scenarios all are tried.', '',
