@@ -119,6 +119,7 @@ class Client(threading.Thread):
         acts, weights = zip(*self.acts)
         while not self.world.over.is_set():
             act = self.random.choices(acts, weights)[0]
+            next_act = time.monotonic() + self.world.pause
             try:
                 act()
                 self.world.count(act.__name__)
@@ -126,6 +127,7 @@ class Client(threading.Thread):
                 if not self.world.lossy():
                     self.world.fault(f"{act.__name__}: no answer")
                 time.sleep(0.2)
+            self.world.over.wait(max(0, next_act - time.monotonic()))
 
     def scene(self):
         r = self.random
@@ -235,8 +237,8 @@ class Client(threading.Thread):
 
 
 class World:
-    def __init__(self, server, seed, kills):
-        self.server, self.seed, self.kills = server, seed, kills
+    def __init__(self, server, seed, kills, pause):
+        self.server, self.seed, self.kills, self.pause = server, seed, kills, pause
         self.over, self.failing, self.lock = threading.Event(), threading.Event(), threading.Lock()
         self.counts, self.faults, self.answers, self.jobs, self.unfinished = collections.Counter(), collections.Counter(), collections.Counter(), {}, []
 
@@ -361,6 +363,7 @@ def main():
     p = measure.parser(__doc__.split("\n", maxsplit=1)[0])
     p.add_argument("--minutes", type=float, default=30)
     p.add_argument("--clients", type=int, default=6)
+    p.add_argument("--pace", type=float, default=2, help="things that each does in a second, at most (2): how much is asked, and so kept, does not depend on what else the machine does")
     p.add_argument("--seed", type=int, default=1)
     p.add_argument("--kills", type=int, default=0, help="how often the server is killed meanwhile (0)")
     p.add_argument("--faults", type=int, default=0, help="how many faults happen beneath it (0), about")
@@ -379,7 +382,7 @@ def main():
         else:
             # What the driver and the libraries do among themselves is not ours.
             server = Server(measure.binary(a.build, "src/kerrd"), state, log, env={"TSAN_OPTIONS": "ignore_noninstrumented_modules=1", **os.environ})
-        world = World(server, a.seed, a.kills)
+        world = World(server, a.seed, a.kills, 1 / a.pace)
         device = json.loads(Client(world, 0).ask("GET", "/v1/device")[1])
         clients = [Client(world, k) for k in range(a.clients)]
         for client in clients:
