@@ -21,7 +21,9 @@
 #define KD_INTEGRAL_LIST 20001u                /* numbers of a list */
 #define KD_INTEGRAL_TRANSFERS 5000u            /* rows of a transfer function: 0.1 ms each */
 #define KD_INTEGRAL_FREQUENCIES 1000u
-#define KD_INTEGRAL_PICTURES 200u   /* frequencies of a spectrum that is made of pictures */
+#define KD_INTEGRAL_PICTURES 200u   /* frequencies of a spectrum that is made of pictures, */
+#define KD_INTEGRAL_LEAST_HZ 1e3    /* from here ... */
+#define KD_INTEGRAL_MOST_HZ 1e21    /* ... to here, as volume.frequency_ghz */
 #define KD_INTEGRAL_FACE_ON 0.1  /* degrees off the axis, within which no ring has a transfer function */
 #define KD_INTEGRAL_ORDERS 8u       /* image orders that are told apart */
 

@@ -82,7 +82,7 @@ static enum kd_status check_radio(const struct kd_scene *scene, struct kd_error 
 
 enum kd_status kd_integral_check_volume(struct kd_integral_request *r, struct kd_error *error)
 {
-    const double least = 1e3, most = 1e21; /* as volume.frequency_ghz */
+    const double least = KD_INTEGRAL_LEAST_HZ, most = KD_INTEGRAL_MOST_HZ;
     enum kd_status status = KD_OK;
     KD_TRY(check_radio(r->scene, error));
     if (!kd_scene_is_flat(r->scene))

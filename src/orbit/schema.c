@@ -100,7 +100,6 @@ static const struct { const char *section, *not; } apart[] = {
               "{\"required\":[\"observer\"],\"properties\":{\"observer\":{\"not\":{\"const\":\"static\"}}}}]}" },
 };
 
-
 static void add_section(struct kd_json *json, const struct rows *rows, const char *section)
 {
     begin_object(json, section);

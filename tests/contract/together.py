@@ -92,11 +92,20 @@ SCENE = (
     'camera.projection is "ring", allowed in a tile are the others',
     'image.samples is "auto", allowed in a tile are 1 to 8: rays are chosen by what the whole picture shows',
     'camera is where a ray next to the critical curve does not escape: no stars can be sought there',
+    'accuracy.tolerance is %.3g: the ring projection needs f64, which this device has not; allowed is "profile"',
+    'volume.normalise_to_jy is %.9g Jy, at which no density was found: %s %.4g Jy; allowed are 0, and what this matter shines with at some density',
+    'volume.grid is "%s", and the bytes of this asset are not here; allowed are %s',
+    'sky.image is "%s", and the bytes of this asset are not here; allowed are %s',
 )
 # Of a device, or of the table of a driver: by the engine and its precision.
 ENGINE = (
     'the closed engine works in double precision: allowed is "f64", or another engine',
     'the closed engine takes no steps: allowed is 0, or another engine',
+    'steps is %u beside a tolerance, which chooses them: allowed is 0',
+    'tolerance is %.9g beside the engine "closed", which has one accuracy, that of its precision',
+    'steps is %u, allowed for %s are multiples of 4 up to %u, and 0 for the engine\'s default',
+    'precision is f64, which this device has not: allowed are f32, and the engine "closed"',
+    'the accuracy table of this device has no row that can be relied on for what was asked; `kerrd bench accuracy` makes a new one',
 )
 # A scene as one format, or another, has it.
 PICTURE = (
@@ -130,7 +139,7 @@ OF_SCENES = '(GET|POST) /v1/(render|pixel)$|POST /v1/(plan|sessions|jobs|playgro
 
 # (operations, their sentences)
 TOGETHER = [
-    (OF_SCENES, SCENE),
+    (OF_SCENES, SCENE + ENGINE),
     ('(GET|POST) /v1/render|POST /v1/jobs', PICTURE),
     ('(GET|POST) /v1/pixel', ('at is "%s", allowed is X,Y: pixels from the upper left corner, below %u across and %u down',)),
     ('POST /v1/sessions|PATCH /v1/sessions/{id}(/frame)?|POST /v1/sessions/{id}/path', SESSION + ('patience_ms stands without least, whose width it is the patience for',)),
@@ -262,6 +271,10 @@ TOGETHER = [
         '%s is an axis, and no cube has pictures of several sizes or layers; allowed are files of their own, as "pictures" or "fits"',
         'scene %u is %u x %u pixels and scene 0 is %u x %u, and no cube has pictures of several sizes',
         'scene %u has other layers than scene 0, and no cube has pictures of several kinds',
+        'camera.stereo is "pair", allowed with motion_blur is "none"',
+        'image.tile.width is %u, allowed with motion_blur is 0: the whole picture',
+        'image.layers names numbers, allowed with motion_blur is "rgb": only light has a mean that can be seen',
+        "the picture is of another size or kind at the end of the shutter's opening than at its begin: motion_blur takes one",
     )),
     ('(POST|PATCH) /v1/playground|POST /v1/jobs', (
         "spacetime.spin is %.9g, allowed is %.9g: the playground's bodies move round a hole of that spin",

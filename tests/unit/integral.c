@@ -2,6 +2,7 @@
 #include "integral/fourier.h"
 #include "integral/pictures.h"
 #include "integral/request.h"
+#include "scene/table.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -167,8 +168,18 @@ static void test_baselines(void **state)
     kd_integral_request_finish(&r);
 }
 
+static void test_frequencies_of_volumes_are_those_of_scenes(void **state)
+{
+    (void)state;
+    const struct kd_field *row = kd_field_find("volume", "frequency_ghz");
+    assert_non_null(row);
+    near(row->minimum * 1e9, KD_INTEGRAL_LEAST_HZ, 1e-9 * KD_INTEGRAL_LEAST_HZ);
+    near(row->maximum * 1e9, KD_INTEGRAL_MOST_HZ, 1e-9 * KD_INTEGRAL_MOST_HZ);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(test_transforms_are_the_closed_forms), cmocka_unit_test(test_a_point_turns), cmocka_unit_test(test_baselines) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_transforms_are_the_closed_forms), cmocka_unit_test(test_a_point_turns), cmocka_unit_test(test_baselines),
+                                        cmocka_unit_test(test_frequencies_of_volumes_are_those_of_scenes) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -27,7 +27,7 @@
 #define ANY_EXPOSURE EXPOSURE("\"one\",\"each\"")
 
 /* Fields with their values; a field has its own schema in Scene. */
-static const char axes[] = "{\"type\":\"object\",\"minProperties\":1,\"maxProperties\":8,\"propertyNames\":" KD_SCHEMA_REF("FieldPath") ",\"additionalProperties\":{\"anyOf\":[{\"type\":\"array\",\"minItems\":1," \
+static const char axes[] = "{\"type\":\"object\",\"minProperties\":1,\"maxProperties\":8,\"propertyNames\":{\"allOf\":[" KD_SCHEMA_REF("FieldPath") "],\"not\":{\"const\":\"version\"}},\"additionalProperties\":{\"anyOf\":[{\"type\":\"array\",\"minItems\":1," \
     "\"maxItems\":100000,\"items\":{\"anyOf\":[{\"type\":\"number\"},{\"type\":\"string\"},{\"type\":\"boolean\"},{\"type\":\"array\",\"items\":{\"type\":\"string\"}}]}},{\"type\":\"string\",\"pattern\":\"^" KD_OPENAPI_DECIMAL ":" KD_OPENAPI_DECIMAL "(:" KD_OPENAPI_DECIMAL "|/([1-9][0-9]{0,5}))$\",\"description\":\"START:STOP:STEP or START:STOP/HOW MANY\"}]}}";
 
 /* Ways to ask for a job: each is a format that takes the outputs of numbers and those that there are. A scene with axes. */
