@@ -281,6 +281,7 @@ TOGETHER = [
         'velocity is %.9g c, allowed is %s',
         "position is %.9g M from the hole, allowed is more than %g M: closer in all is the hole's",
         "there is no such body in a snapshot: it is the hole's, or faster than c",
+        'name is no string of up to %zu bytes',  # a schema counts characters
         'r is %.16g, allowed is above the horizon at %.9g',  # this and what follows: of gravity kerr
         '%s at r = %.16g, inside %s, which ends at %.9g here: use %s',
         'the motion from r = %.16g cannot be followed in double precision',
