@@ -142,6 +142,7 @@ TOGETHER = [
     (OF_SCENES, SCENE + ENGINE),
     ('(GET|POST) /v1/render|POST /v1/jobs', PICTURE),
     ('(GET|POST) /v1/pixel', ('at is "%s", allowed is X,Y: pixels from the upper left corner, below %u across and %u down',)),
+    ('(POST|PATCH) /v1/playground', SESSION),
     ('POST /v1/sessions|PATCH /v1/sessions/{id}(/frame)?|POST /v1/sessions/{id}/path', SESSION + ('patience_ms stands without least, whose width it is the patience for',)),
     ('POST /v1/sessions/{id}/path|POST /v1/jobs', TIMELINE),
     ('POST /v1/sessions/{id}/path', (
