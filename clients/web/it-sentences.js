@@ -226,6 +226,8 @@ export const sentences = {
     'resa: un fascio gaussiano sta per un telescopio: niente lacune tra le stazioni, niente rumore, niente ricostruzione; nulla giunge da oltre il bordo dell’immagine',
   "post: a near observer's beam has the width at the hole's distance that it has from spacetime.distance_pc":
     'resa: il fascio di un osservatore vicino ha, alla distanza del buco, la larghezza che avrebbe da spacetime.distance_pc',
+  "flux: that of a near camera is its picture's, by the square of its distance from the hole over spacetime.distance_pc; where matter lies round the camera no telescope has such a flux":
+    'flusso: quello di una camera vicina è il flusso della sua immagine, per il quadrato del rapporto tra la sua distanza dal buco e spacetime.distance_pc; dove c’è materia attorno alla camera nessun telescopio misura un tale flusso',
   "post: false colours; brightness is of the model's band and no brightness temperature at a radio frequency":
     'resa: falsi colori; la luminosità è quella della banda del modello, e non una temperatura di brillanza a una frequenza radio',
   'projection: distances to the critical curve on a logarithmic scale; no eye sees it so, and areas are not to scale':

@@ -71,6 +71,13 @@ def has_a_list_by_index(value):
     return isinstance(value, dict) and any(has_a_list_by_index(one) or (name in ('spots', 'bodies') and isinstance(one, dict) and all(re.fullmatch(r'\d+', key) for key in one)) for name, one in value.items())
 
 
+def is_null(body, found):
+    """Whether what a message names, as in body - scene -> spots -> 0 -> r, is null: with RFC 7396 that takes a value back."""
+    for name in found[1].split(' -> ') if found else []:
+        body = body.get(name, 0) if isinstance(body, dict) else body[int(name)] if isinstance(body, list) and name.isdigit() and int(name) < len(body) else 0
+    return bool(found) and body is None
+
+
 def why(failure, case, response):
     """Why a failure lies in the protocol; None: it does not."""
     label, status, kind = case.operation.label, response.status_code, type(failure).__name__
@@ -79,6 +86,8 @@ def why(failure, case, response):
     # docs/scene.md has this form for what lies over a preset, and for a patch; the schema is that of a whole scene, as answers have it, too.
     if kind == 'AcceptedNegativeData' and re.match(OF_SCENES, label) and re.search(r'\b(spots|bodies): Incorrect type', failure.message) and has_a_list_by_index(case.body):
         return 'a list of a scene by index'
+    if kind == 'AcceptedNegativeData' and re.match(OF_SCENES, label) and is_null(case.body, re.search(r'in body - (.*): Incorrect type', failure.message)):
+        return 'null in a scene that lies over another'
     # An empty list or object is nothing in a query: the request is as good as without the parameter.
     named = re.search(r'parameter `([^`]+)` in query', failure.message) if kind == 'AcceptedNegativeData' else None
     if named and named[1] not in urllib.parse.parse_qs(urllib.parse.urlsplit(response.request.url).query, keep_blank_values=True):

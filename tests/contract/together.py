@@ -257,7 +257,7 @@ TOGETHER = [
         '%s is %s, |where the ring is a line; allowed are 0 to 89.9 and 90.1 to 180',
         '%s is %s, |not outside the horizon at %.9g M',
     )),
-    ('GET /v1/physics/ring-image$', ('%s is %s, |too near the horizon for its image to be found; allowed are larger radii',)),
+    ('GET /v1/physics/ring-image$', ('%s is %s, |too near the horizon for its image to be found; allowed are larger radii', '%s is %s, |inside the horizon at %.9g M; allowed is outside')),
     ('GET /v1/physics/scale$', ('mass_msun is "hole", and hole is "none": one of them must be given', 'distance_pc is "hole", and hole is "none": one of them must be given')),
     ('GET /v1/physics/(shadow|sky)$', ('there is no critical curve for this observer',)),
     ('GET /v1/physics/', ('the ranges make more than %d points together',)),

@@ -49,5 +49,8 @@ const struct kd_variable kd_variables[] = {
     { "TMUX", "view", "where it is set, tmux stands before the terminal, and a refusal says so" },
     { "PATH", "film serve", "the folders in which the program ffmpeg is sought, which encodes films" },
     { "TMPDIR", "sweep film serve", "the folder of temporary files; /tmp where it is not set" },
+    { "MALLOC_ARENA_MAX", "serve", "how many heaps threads share; where it is set the C library keeps memory by its own rules" },
+    { "MALLOC_MMAP_THRESHOLD_", "serve", "from how many bytes on a block goes back to the kernel when it is freed; likewise" },
+    { "GLIBC_TUNABLES", "serve", "the same and more, for the C library of GNU; likewise" },
 };
 const size_t kd_n_variables = sizeof kd_variables / sizeof *kd_variables;
