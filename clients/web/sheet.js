@@ -21,9 +21,15 @@ export function sheet(node) {
     'aria-controls': node.id, 'aria-label': t('Controls: height of the sheet', 'Comandi: altezza del foglio') }, t('Controls', 'Comandi'));
   const picture = pinned[node.id] && document.querySelector(pinned[node.id]);
   let at = 0,
-    drag = null;
+    drag = null,
+    placed = false;
 
-  const show = () => at && handle.offsetParent && picture?.scrollIntoView();
+  // Where the page is still too short to be scrolled so far, the picture is not in its place yet.
+  function show() {
+    if (!at || !picture?.offsetHeight || !handle.offsetParent) return;
+    picture.scrollIntoView();
+    placed = Math.abs(picture.getBoundingClientRect().y - parseFloat(getComputedStyle(picture).scrollMarginTop)) < 2;
+  }
 
   function rest(wanted) {
     at = clamp(wanted, 0, heights.length - 1);
@@ -31,6 +37,7 @@ export function sheet(node) {
     node.dataset.height = name;
     node.style.removeProperty('height');
     if (!at) node.scrollTop = 0;
+    placed = false;
     show();
     handle.setAttribute('aria-valuenow', at);
     handle.setAttribute('aria-valuetext', words);
@@ -82,12 +89,12 @@ export function sheet(node) {
   node.prepend(handle);
   rest(0);
   if (picture) {
-    // A sheet that came up before its picture did makes room when there is something to see.
-    let seen = false;
-    new ResizeObserver(() => {
-      const there = picture.offsetHeight > 0;
-      if (there && !seen) show();
-      seen = there;
-    }).observe(picture);
+    // A sheet that came up before its picture did, or before what makes the page long enough, makes room when there is something to see.
+    const grows = new ResizeObserver(() => {
+      placed &&= picture.offsetHeight > 0; // a view that comes again is placed again
+      if (!placed) show();
+    });
+    grows.observe(picture);
+    grows.observe(document.body);
   }
 }
