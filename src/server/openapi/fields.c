@@ -52,9 +52,14 @@ static void each(struct kd_json *json, const cJSON *schema, const char *prefix, 
 static void add_parameter(struct kd_json *json, const char *path, const cJSON *property)
 {
     char *text = cJSON_PrintUnformatted(property);
+    const char *type = cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(property, "type"));
     kd_json_object(json, NULL);
     kd_json_string(json, "name", path);
     kd_json_string(json, "in", "query");
+    if (type && !strcmp(type, "array")) { /* one text, with commas between */
+        kd_json_string(json, "style", "form");
+        kd_json_bool(json, "explode", false);
+    }
     kd_json_raw(json, "schema", text ? text : "", text ? strlen(text) : 0);
     kd_json_end(json);
     if (!text)
