@@ -16,6 +16,10 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+/* Of a sanitizer, where there is one. */
+void __lsan_disable(void) __attribute__((weak));
+void __lsan_enable(void) __attribute__((weak));
+
 enum { OBJECTS = 64, EARLY = 1 << 16, DEEPEST = 64 };
 
 static struct kd_faults unused = { .fail_at = -1, .files_at = -1 };
@@ -81,7 +85,11 @@ __attribute__((constructor)) static void begin(void)
     int fd = path ? open(path, O_RDWR | O_CLOEXEC) : -1;
     void *map = fd < 0 ? MAP_FAILED : mmap(NULL, sizeof unused, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
     dl_iterate_phdr(note, NULL);
-    tells = backtrace(stack, 1) && getenv("KD_FAULTS_TELL"); /* the first call loads what it needs */
+    if (__lsan_disable)
+        __lsan_disable(); /* the first call loads a library, which the loader keeps for good */
+    tells = backtrace(stack, 1) && getenv("KD_FAULTS_TELL");
+    if (__lsan_enable)
+        __lsan_enable();
     if (map != MAP_FAILED)
         kd_faults = map;
     if (fd >= 0)
