@@ -8,7 +8,7 @@
     bench/soak.py --build build-tsan --minutes 10      under the thread sanitizer, whose reports fail it as well, and whose memory may grow
 
 Pictures, some of them left before they come; sessions that are dragged, left, or ended; streams that are cut; jobs that are waited for or stopped; rays, orbits, numbers;
-questions that are refused. Whoever asks knows what answers there may be: 2xx, 4xx where it is meant, 429, 503 and 507; among faults also 500 and a connection that is closed, but never another's bytes.
+questions that are refused. Whoever asks knows what answers there may be: 2xx, 4xx where it is meant, 429, 503 and 507; among faults also 500 and a connection that is closed.
 
 Fails, with exit code 1, where after a warm-up of a quarter of the time resident memory grows by more than a tenth (and 24 MiB), descriptors by more than 4 or threads by more than 2, each by the straight
 line through what was measured; where the device's memory is by more than a block of 64 MiB more in the last third than in the first; where an answer was not one of those; where a job that was taken did not end as it should, or ended twice, or its result is not whole to the last

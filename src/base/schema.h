@@ -99,6 +99,9 @@ static inline void kd_schema_strict(struct kd_json *json, const char *name, cons
 
 /* The same of a table whose length the compiler knows. */
 #define KD_SCHEMA_STRICT(json, name, table) kd_schema_strict(json, name, table, sizeof(table) / sizeof *(table))
+/* A constant in a schema, by the digits that it is written with in the source. */
+#define KD_SCHEMA_DIGITS_OF(x) #x
+#define KD_SCHEMA_DIGITS(x) KD_SCHEMA_DIGITS_OF(x)
 #define KD_SCHEMA_TOLD(json, name, about, table) kd_schema_told(json, name, about, table, sizeof(table) / sizeof *(table))
 
 #endif

@@ -1,5 +1,7 @@
 #include "integral/apart.h"
 
+#include "base/schema.h"
+
 #define HAS(name) "{\"required\":[\"" name "\"]}"
 #define BOTH(one, other) "{\"required\":[\"" one "\",\"" other "\"]}"
 #define ALONE(name) "{\"required\":[\"" name "\"],\"not\":{\"anyOf\":["
@@ -9,9 +11,7 @@
 /* A picture is of a scene, and a disk is of none. */
 #define OF_A_SCENE "\"anyOf\":[" HAS("scene") "," HAS("preset") "]"
 #define OF_A_DISK HAS("spin") "," HAS("inclination_deg") "," HAS("inner") "," HAS("outer") "," HAS("limb") "," HAS("mass_msun") "," HAS("distance_pc") "," HAS("mdot_edd") "," HAS("colour_correction")
-#define STRING(x) #x
-#define TEXT(x) STRING(x)
-#define OF_A_VOLUME "{\"minimum\":" TEXT(KD_INTEGRAL_LEAST_HZ) ",\"maximum\":" TEXT(KD_INTEGRAL_MOST_HZ) "}"
+#define OF_A_VOLUME "{\"minimum\":" KD_SCHEMA_DIGITS(KD_INTEGRAL_LEAST_HZ) ",\"maximum\":" KD_SCHEMA_DIGITS(KD_INTEGRAL_MOST_HZ) "}"
 
 static const char line[] = "{\"anyOf\":[" BOTH("edges", "energy_min") "," BOTH("edges", "energy_max") "," BOTH("edges", "bins") "," NOT_OF("index", "\"lamppost\"") ","
     OF_NO_OTHER_THAN("outer_index", "broken") "," OF_NO_OTHER_THAN("break_r", "broken") "," OF_NO_OTHER_THAN("height", "lamppost") "," OF_NO_OTHER_THAN("photon_index", "lamppost") "]}";

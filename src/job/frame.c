@@ -23,13 +23,12 @@ enum kd_status kd_job_frame_plan(const struct kd_job_spec *spec, unsigned frame,
         status = kd_error_set(&inner, KD_ETOOBIG, "it would take about %.0f s, more than the %.0f s a frame may take", plan->estimate_ms * 1e-3, most_s);
     if (!status)
         return KD_OK;
-    if (spec->sweep)
-        snprintf(pointer, sizeof pointer, "/axes");
-    else if (spec->listed)
+    const bool among_keyframes = !spec->listed && spec->timeline.n_keys > 1;
+    if (spec->listed)
         snprintf(pointer, sizeof pointer, "/scenes/%u", frame);
     else
-        snprintf(pointer, sizeof pointer, "%s", spec->timeline.n_keys > 1 ? "/keyframes" : "/scene");
-    if (spec->sweep || (!spec->listed && spec->timeline.n_keys > 1))
+        snprintf(pointer, sizeof pointer, spec->sweep ? "/axes" : among_keyframes ? "/keyframes" : "/scene");
+    if (spec->sweep || among_keyframes) /* no member of the request is that scene's alone */
         *inner.pointer = '\0';
     kd_error_inside(&inner, pointer);
     kd_error_field(error, inner.pointer, "frame %u: %.440s", frame, inner.message);

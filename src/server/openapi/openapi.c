@@ -110,15 +110,13 @@ static void add_path_parameter(struct kd_json *json, const char *path)
 }
 
 #define WHOLE "{\"type\":\"integer\",\"minimum\":0,\"maximum\":999999999999999999}" /* what kd_target_number reads */
-#define STRING(x) #x
-#define TEXT(x) STRING(x)
-#define PART "{\"type\":\"number\",\"minimum\":" TEXT(KD_LEAST_MIN) ",\"maximum\":1}"
-#define PACE_MS "{\"type\":\"number\",\"minimum\":" TEXT(KD_PATIENCE_MS_MIN) ",\"maximum\":" TEXT(KD_PATIENCE_MS_MAX) "}"
-#define ORDER "order", "{\"type\":\"integer\",\"minimum\":1,\"maximum\":" TEXT(KD_ORDER_MAX) "}", \
+#define PART "{\"type\":\"number\",\"minimum\":" KD_SCHEMA_DIGITS(KD_LEAST_MIN) ",\"maximum\":1}"
+#define PACE_MS "{\"type\":\"number\",\"minimum\":" KD_SCHEMA_DIGITS(KD_PATIENCE_MS_MIN) ",\"maximum\":" KD_SCHEMA_DIGITS(KD_PATIENCE_MS_MAX) "}"
+#define ORDER "order", "{\"type\":\"integer\",\"minimum\":1,\"maximum\":" KD_SCHEMA_DIGITS(KD_ORDER_MAX) "}", \
     "of patches that are under way at once the one with the highest number counts: one that comes after a higher one changes nothing"
 #define LEAST "least", PART, "the least part of image.width that a frame has while the scene changes; 0.25 without it"
 #define PATIENCE "patience_ms", PACE_MS, "frames are narrower than that all the same where they were measured to take longer than this"
-#define MOMENT "{\"type\":\"integer\",\"minimum\":0,\"maximum\":" TEXT(KD_WAIT_MS_MAX) "}"
+#define MOMENT "{\"type\":\"integer\",\"minimum\":0,\"maximum\":" KD_SCHEMA_DIGITS(KD_WAIT_MS_MAX) "}"
 
 /* Parameters that the query may hold besides fields of a scene; schema NULL: one of the formats of jobs. */
 static const struct {
@@ -133,9 +131,9 @@ static const struct {
     { "/v1/sessions/{id}", ORDER, KD_PATCH }, { "/v1/sessions/{id}/frame", ORDER, KD_PATCH },
     { "/v1/sessions/{id}/frame", "after", WHOLE, "number of the last frame that the client has; 0 without it" },
     { "/v1/sessions/{id}/frame", "wait_ms", MOMENT, "how long to wait for a newer one" },
-    { "/v1/sessions/{id}/frame", "lossy", "{\"type\":\"integer\",\"minimum\":1,\"maximum\":" TEXT(KD_LOSSY_MAX) "}",
+    { "/v1/sessions/{id}/frame", "lossy", "{\"type\":\"integer\",\"minimum\":1,\"maximum\":" KD_SCHEMA_DIGITS(KD_LOSSY_MAX) "}",
       "takes frames that are not the last as JPEG of this quality; without it all are PNG" },
-    { "/v1/sessions/{id}/frame", "sentences", "{\"type\":\"integer\",\"minimum\":0,\"maximum\":" TEXT(KD_SENTENCES_MAX) "}",
+    { "/v1/sessions/{id}/frame", "sentences", "{\"type\":\"integer\",\"minimum\":0,\"maximum\":" KD_SCHEMA_DIGITS(KD_SENTENCES_MAX) "}",
       "Kerrd-Sentences of a frame that the client has: where the newer one has the same approximations, they are left out" },
     { "/v1/playground/{id}/frame.png", "after", WHOLE, "number of the last frame that the client has; 0 without it" },
     { "/v1/playground/{id}/frame.png", "wait_ms", MOMENT, "how long to wait for a newer one" },

@@ -7,8 +7,6 @@
 
 #include <string.h>
 
-#define STRING(x) #x
-#define TEXT(x) STRING(x)
 /* docs/playground.md says what each is. */
 #define UNITS "lengths and times in M, masses and energies in those of the hole, speeds in c; a rate in M a second of the clock"
 #define BODIES(schema) "{\"type\":\"array\",\"maxItems\":4096,\"items\":{\"$ref\":\"#/components/schemas/" schema "\"}}"
@@ -19,14 +17,6 @@ static void add_words(struct kd_json *json, const char *words)
     kd_json_array(json, "enum");
     for (int i = 0; kd_playground_word(words, i, word, sizeof word); i++)
         kd_json_string(json, NULL, word);
-    kd_json_end(json);
-}
-
-static void add_bound(struct kd_json *json, const char *keyword, double value)
-{
-    kd_json_object(json, NULL);
-    kd_json_string(json, "type", "number");
-    kd_json_number(json, keyword, value);
     kd_json_end(json);
 }
 
@@ -42,9 +32,9 @@ static void add_row(struct kd_json *json, const struct kd_playground_setting *ro
         kd_json_number(json, "maximum", row->most);
     }
     if (row->above_0 > 0) {
-        kd_json_array(json, "anyOf");
-        add_bound(json, "const", 0);
-        add_bound(json, "minimum", row->above_0);
+        kd_json_object(json, "not");
+        kd_json_number(json, "exclusiveMinimum", 0);
+        kd_json_number(json, "exclusiveMaximum", row->above_0);
         kd_json_end(json);
     }
     kd_json_string(json, "description", row->help);
@@ -279,6 +269,6 @@ void kd_openapi_playground_body(struct kd_json *json, bool patch, const char *ot
 void kd_openapi_step_body(struct kd_json *json)
 {
     static const char schema[] = "{\"type\":\"object\",\"additionalProperties\":false,\"required\":[\"by\"],\"properties\":{\"by\":{\"type\":\"number\","
-                                 "\"exclusiveMinimum\":0,\"maximum\":" TEXT(KD_PLAYGROUND_TIME) ",\"description\":\"M\"}}}";
+                                 "\"exclusiveMinimum\":0,\"maximum\":" KD_SCHEMA_DIGITS(KD_PLAYGROUND_TIME) ",\"description\":\"M\"}}}";
     kd_openapi_body(json, schema, sizeof schema - 1, NULL);
 }
