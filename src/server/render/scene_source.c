@@ -60,13 +60,16 @@ static enum kd_status apply_preset(const struct kd_target *target, struct kd_sce
 static enum kd_status apply_fields(const struct kd_target *target, const char *const own[2], struct kd_scene *scene,
                                    struct kd_error *error)
 {
+    char pointer[sizeof error->pointer];
     for (size_t i = 0; i < 2 * target->n_pairs; i++) {
         const struct kd_target_pair *pair = &target->pairs[i % target->n_pairs];
         if (!strcmp(pair->name, "preset") || is_own(pair->name, own) || !strcmp(pair->name, "style.name") != (i < target->n_pairs))
             continue;
         enum kd_status status = kd_scene_set(scene, pair->name, pair->value, error);
-        if (status == KD_EINVAL && !*error->pointer)
-            pointer_of(pair->name, error->pointer, sizeof error->pointer);
+        if (status == KD_EINVAL && !*error->pointer) {
+            pointer_of(pair->name, pointer, sizeof pointer);
+            kd_error_inside(error, pointer);
+        }
         if (status)
             return status;
     }
