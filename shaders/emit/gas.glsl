@@ -30,8 +30,9 @@
     F(finer)               /* square of the steps of an octave over those of the one before, displacement counted in */ \
     F(depth)               /* optical depth along the normal where the flux is largest */
 #define KD_GAS_ROWS (KD_GAS_RINGS * (KD_GAS_OCTAVES + 1))
-#define KD_TABLES_gas(T)                                                                                       \
-    T(gas, KD_GAS_ROWS) /* a ring: azimuth less the observer's, radians, Omega, and what a place in its plane is multiplied by for that in the next one's; of its octaves: where the lattice has drifted to, part of a cell and whole cells */
+/* A row is a ring: azimuth less the observer's, in radians, Omega, and the factor of a place in its plane for that in the
+ * next one's. A row of an octave: where the lattice has drifted to, part of a cell and whole cells. */
+#define KD_TABLES_gas(T) T(gas, KD_GAS_ROWS)
 #define KD_TRAIT_GAS_DEEP 64u /* opacity by optical depth */
 #define KD_TRAIT_GAS_SHIFT 8u /* the bits from here on: octaves; 0: no turbulence */
 #define KD_TRAIT_GAS_OCTAVES (15u << KD_TRAIT_GAS_SHIFT)

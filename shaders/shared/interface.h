@@ -71,7 +71,8 @@
     U(pixels_y)             /* rows of pixels that light is written to */                                      \
     U(up) U(aside)          /* added to rows and columns of pixels of the picture, as 32-bit integers of either sign: those of the light */ \
     U(rim)                  /* of the rim, where the table of the grid at hand begins (render/view/rim_grid.h) */ \
-                            /* how far its first row is from the curve, and by how much that falls from row to row; numbers of rim.h */ \
+    /* far, fall: how far its first row is from the curve, and by how much that falls from row to row; */ \
+    /* none to up_z: numbers of rim.h */ \
     F(far) F(fall) F(none) F(full)                                                                             \
     F(ahead_x) F(ahead_y) F(ahead_z) F(right_x) F(right_y) F(right_z) F(up_x) F(up_y) F(up_z)                  \
     F(least)                /* images that brighten their pixel by less of the unit of sky.brightness are left out */

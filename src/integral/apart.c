@@ -13,16 +13,29 @@
 #define OF_A_DISK HAS("spin") "," HAS("inclination_deg") "," HAS("inner") "," HAS("outer") "," HAS("limb") "," HAS("mass_msun") "," HAS("distance_pc") "," HAS("mdot_edd") "," HAS("colour_correction")
 #define OF_A_VOLUME "{\"minimum\":" KD_SCHEMA_DIGITS(KD_INTEGRAL_LEAST_HZ) ",\"maximum\":" KD_SCHEMA_DIGITS(KD_INTEGRAL_MOST_HZ) "}"
 
-static const char line[] = "{\"anyOf\":[" BOTH("edges", "energy_min") "," BOTH("edges", "energy_max") "," BOTH("edges", "bins") "," NOT_OF("index", "\"lamppost\"") ","
-    OF_NO_OTHER_THAN("outer_index", "broken") "," OF_NO_OTHER_THAN("break_r", "broken") "," OF_NO_OTHER_THAN("height", "lamppost") "," OF_NO_OTHER_THAN("photon_index", "lamppost") "]}";
+/* clang-format off */
+static const char line[] = "{\"anyOf\":["
+    BOTH("edges", "energy_min") "," BOTH("edges", "energy_max") "," BOTH("edges", "bins") ","
+    NOT_OF("index", "\"lamppost\"") "," OF_NO_OTHER_THAN("outer_index", "broken") ","
+    OF_NO_OTHER_THAN("break_r", "broken") "," OF_NO_OTHER_THAN("height", "lamppost") ","
+    OF_NO_OTHER_THAN("photon_index", "lamppost") "]}";
 static const char transfer[] = "{\"anyOf\":[" BOTH("radii", "rings") "," BOTH("g_star", "g_stars") "]}";
-static const char spectrum[] = "{\"anyOf\":[" BOTH("frequencies_hz", "frequency_min_hz") "," BOTH("frequencies_hz", "frequency_max_hz") "," BOTH("frequencies_hz", "frequencies") ","
+static const char spectrum[] = "{\"anyOf\":["
+    BOTH("frequencies_hz", "frequency_min_hz") "," BOTH("frequencies_hz", "frequency_max_hz") ","
+    BOTH("frequencies_hz", "frequencies") ","
     "{\"allOf\":[{" OF_A_SCENE "},{\"anyOf\":[" OF_A_DISK "]}]},"
-    "{" OF_A_SCENE ",\"not\":{\"properties\":{\"frequencies\":{\"maximum\":200},\"frequencies_hz\":{\"maxItems\":200,\"items\":" OF_A_VOLUME "},\"frequency_min_hz\":" OF_A_VOLUME ",\"frequency_max_hz\":" OF_A_VOLUME "}}},"
+    "{" OF_A_SCENE ",\"not\":{\"properties\":{\"frequencies\":{\"maximum\":200},"
+        "\"frequencies_hz\":{\"maxItems\":200,\"items\":" OF_A_VOLUME "},"
+        "\"frequency_min_hz\":" OF_A_VOLUME ",\"frequency_max_hz\":" OF_A_VOLUME "}}},"
     "{\"not\":{" OF_A_SCENE "},\"anyOf\":[" HAS("pixels") "," HAS("check") "]},"
-    "{\"not\":{" OF_A_SCENE "},\"required\":[\"frequencies_hz\"],\"properties\":{\"frequencies_hz\":{\"type\":\"array\",\"minItems\":1001}}}]}";
-static const char visibility[] = "{\"anyOf\":[" BOTH("lengths", "length_max") "," BOTH("lengths", "baselines") "," ALONE("u") HAS("v") "]}}," ALONE("v") HAS("u") "]}},"
-    "{\"required\":[\"u\"],\"anyOf\":[" HAS("lengths") "," HAS("length_max") "," HAS("baselines") "," HAS("angles_deg") "]}]}";
+    "{\"not\":{" OF_A_SCENE "},\"required\":[\"frequencies_hz\"],"
+        "\"properties\":{\"frequencies_hz\":{\"type\":\"array\",\"minItems\":1001}}}]}";
+static const char visibility[] = "{\"anyOf\":["
+    BOTH("lengths", "length_max") "," BOTH("lengths", "baselines") ","
+    ALONE("u") HAS("v") "]}}," ALONE("v") HAS("u") "]}},"
+    "{\"required\":[\"u\"],\"anyOf\":[" HAS("lengths") "," HAS("length_max") ","
+        HAS("baselines") "," HAS("angles_deg") "]}]}";
+/* clang-format on */
 
 const char *kd_integral_apart(enum kd_integral what)
 {

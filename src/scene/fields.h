@@ -4,13 +4,16 @@
  * parameter, the JSON Schema and docs/scene.md. Add a field here and nowhere else.
  *
  *   REAL(section, name, nature, place, default, minimum, maximum, unit, help)
- *   WORD(section, name, nature, place, default, minimum, maximum, unit, help, word)   a real, or the word (stored as INFINITY)
+ *   WORD(section, name, nature, place, default, minimum, maximum, unit, help, word)
+ *       a real, or the word (stored as INFINITY)
  *   INT (section, name, nature, place, default, minimum, maximum, unit, help)
  *   BOOL(section, name, nature, place, default, help)
- *   ENUM(section, name, nature, place, default, help, words)                          words "a|b|c": the value is the index
- *   ASSET(section, name, nature, place, help)                                         bytes by their SHA-256, or none (scene/asset.h)
- *   WORDS(section, name, nature, place, help, words)                                  some of "a|b_N|c", in any order, each once; b as b_0,
- *                                                                                     b_1, ... too; the first alone unless said otherwise
+ *   ENUM(section, name, nature, place, default, help, words)
+ *       words "a|b|c": the value is the index
+ *   ASSET(section, name, nature, place, help)
+ *       bytes by their SHA-256, or none (scene/asset.h)
+ *   WORDS(section, name, nature, place, help, words)
+ *       some of "a|b_N|c", in any order, each once; b as b_0, b_1, ... too; the first alone unless said otherwise
  *
  * The nature says what a reader may conclude from a picture that the field has changed. A row without one does not compile.
  *   PHYSICS   an exact consequence of general relativity or radiative transfer follows from it, or how closely that is computed

@@ -333,14 +333,16 @@ static void test_adversarial(void **state)
         "{\"camera\":{\"r\":20},\"bodies\":[{\"radius\":1e6,\"r\":1e7}]}",
         "{\"bodies\":[{\"radius\":1e6,\"r\":3,\"motion\":\"static\"}]}", /* round everything */
         "{\"bodies\":[{\"radius\":1e6,\"r\":15},{\"radius\":1e-30,\"r\":15},{\"radius\":2,\"r\":15,\"brightness\":0}]}",
-        "{\"bodies\":[{\"radius\":1,\"r\":1.81,\"motion\":\"zamo\",\"brightness\":1e9,\"temperature_k\":1e9}]}", /* over the horizon */
+        /* over the horizon */
+        "{\"bodies\":[{\"radius\":1,\"r\":1.81,\"motion\":\"zamo\",\"brightness\":1e9,\"temperature_k\":1e9}]}",
         "{\"spacetime\":{\"spin\":0.999999999999},\"bodies\":[{\"radius\":0.5,\"r\":1.06,\"motion\":\"zamo\"},{\"radius\":0.5,\"r\":1.5,\"motion\":\"infall\"}]}",
         "{\"spacetime\":{\"spin\":-0.999},\"camera\":{\"inclination_deg\":0},\"bodies\":[{\"radius\":1,\"r\":6,\"inclination_deg\":0,\"motion\":\"static\"},"
         "{\"radius\":1,\"r\":6,\"inclination_deg\":180,\"motion\":\"velocity\",\"velocity_phi\":0.999}]}",
         "{\"bodies\":[{\"radius\":1,\"r\":6,\"motion\":\"velocity\",\"velocity_r\":0.999},{\"radius\":1,\"r\":6,\"motion\":\"velocity\",\"velocity_r\":-0.999},"
         "{\"radius\":1,\"r\":6,\"motion\":\"velocity\",\"velocity_theta\":0.999}]}",
         "{\"camera\":{\"r\":1.5,\"inclination_deg\":90,\"observer\":\"zamo\"},\"spacetime\":{\"spin\":0.9},\"bodies\":[{\"radius\":3,\"r\":8},{\"radius\":0.3,\"r\":1.6,\"motion\":\"zamo\"}]}",
-        "{\"camera\":{\"r\":1.2,\"inclination_deg\":75,\"observer\":\"infall\"},\"spacetime\":{\"spin\":0.5},\"bodies\":[{\"radius\":3,\"r\":8}]}", /* from within the horizon */
+        /* from within the horizon */
+        "{\"camera\":{\"r\":1.2,\"inclination_deg\":75,\"observer\":\"infall\"},\"spacetime\":{\"spin\":0.5},\"bodies\":[{\"radius\":3,\"r\":8}]}",
         "{\"camera\":{\"r\":3,\"inclination_deg\":75,\"observer\":\"infall\"},\"spacetime\":{\"spin\":0.5},\"bodies\":[{\"radius\":1,\"r\":8,\"phase_deg\":180}]}",
         "{\"bodies\":[{\"radius\":1},{\"radius\":1},{\"radius\":1},{\"radius\":1},{\"radius\":1},{\"radius\":1},{\"radius\":1},{\"radius\":1}]}",
     };

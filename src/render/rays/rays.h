@@ -47,11 +47,11 @@ struct kd_ray_end {
     enum kd_ray_fate fate;
     uint32_t n_crossings;    /* how many of the wanted orders exist outside the horizon */
     double theta, phi;       /* direction of escape, if it escapes: polar angle and azimuth, source minus observer */
-    double error;            /* estimated relative error of the worst crossing radius (of the direction, in radians, if
-                              * there is no crossing); bounds the true one for 999 of 1000 rays at least; NaN for a ray that
-                              * tells neither, by every engine. 1 or
-                              * more: there may be another number of crossings, one next to the horizon or very far out (Mino engines,
-                              * closed form), or there is another number or fate than the closed form's (Kerr-Schild engines) */
+    /* Estimated relative error of the worst crossing radius; of the direction, in radians, if there is no crossing. It
+     * bounds the true one for 999 of 1000 rays at least. NaN for a ray that gives neither, by every engine. 1 or more:
+     * there may be another number of crossings, one next to the horizon or very far out (Mino engines, closed form), or
+     * there is another number or fate than the closed form's (Kerr-Schild engines). */
+    double error;
     bool again;              /* followed again by a finer setting, for the tolerance */
 };
 
