@@ -3,19 +3,28 @@
 
     bench/accuracy_plot.py TABLE.json [-o docs/accuracy.svg] [--set bulk]
 
-Needs matplotlib (pip install matplotlib). The line joins what is worth choosing: nothing else is both faster and more exact.
+Needs matplotlib (pip install matplotlib). The line joins what is worth choosing: nothing else is both faster and more
+exact.
 """
+
 import argparse
 import json
 import textwrap
 
 import matplotlib
+
 matplotlib.use("svg")
 import matplotlib.pyplot as plt
 
 MARKERS = {"mino-rkn4": "v", "mino-rkn6": "o", "ks-rk4": "s", "ks-euler": "^", "ks-tao6": "D"}
-COLOURS = {"mino-rkn4": "#56b4e9", "mino-rkn6": "#0072b2", "ks-rk4": "#d55e00", "ks-euler": "#009e73", "ks-tao6": "#cc79a7"} # Okabe and Ito
-FLOOR = 1e-16 # an error of nothing has to be drawn somewhere
+COLOURS = {
+    "mino-rkn4": "#56b4e9",
+    "mino-rkn6": "#0072b2",
+    "ks-rk4": "#d55e00",
+    "ks-euler": "#009e73",
+    "ks-tao6": "#cc79a7",
+}  # Okabe and Ito
+FLOOR = 1e-16  # an error of nothing has to be drawn somewhere
 
 
 def points(table, name):
@@ -44,17 +53,30 @@ def draw(table, name, axes):
             mine = sorted((p for p in found if p[:2] == (engine, precision)), key=lambda p: p[2])
             if not mine:
                 continue
-            axes.plot([p[3] for p in mine], [p[4] for p in mine], marker=marker, color=COLOURS[engine],
-                      linestyle="-" if precision == "f32" else "--", linewidth=0.8, markersize=5,
-                      markerfacecolor=COLOURS[engine] if precision == "f32" else "white", label=f"{engine} {precision}")
+            axes.plot(
+                [p[3] for p in mine],
+                [p[4] for p in mine],
+                marker=marker,
+                color=COLOURS[engine],
+                linestyle="-" if precision == "f32" else "--",
+                linewidth=0.8,
+                markersize=5,
+                markerfacecolor=COLOURS[engine] if precision == "f32" else "white",
+                label=f"{engine} {precision}",
+            )
             for p in (mine[0], mine[-1]):
                 axes.annotate(str(p[2]), (p[3], p[4]), textcoords="offset points", xytext=(5, 4), fontsize=7)
     kept = front(found)
     axes.plot([p[3] for p in kept], [p[4] for p in kept], color="0.8", linewidth=5, zorder=0, solid_joinstyle="round")
     for row in table["rows"]:
         if row["engine"] == "closed":
-            axes.axhline(row["sets"][name]["rays_per_s"], color="0.4", linewidth=0.8, linestyle=":",
-                         label="closed f64, the reference")
+            axes.axhline(
+                row["sets"][name]["rays_per_s"],
+                color="0.4",
+                linewidth=0.8,
+                linestyle=":",
+                label="closed f64, the reference",
+            )
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.invert_xaxis()
@@ -72,7 +94,7 @@ def main():
     arguments = parser.parse_args()
     with open(arguments.table, encoding="utf-8") as file:
         table = json.load(file)
-    plt.rcParams["svg.hashsalt"] = "kerrd" # the same picture from the same table
+    plt.rcParams["svg.hashsalt"] = "kerrd"  # the same picture from the same table
     figure, axes = plt.subplots(figsize=(8, 5.5))
     draw(table, arguments.set, axes)
     head = f"{arguments.set}: {table['sets'][arguments.set]}. kerrd {table['kerrd']}, {table['date'][:10]}, {table['device']}"

@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
-"""Adaptive sampling against as many rays in every pixel: how far off, for how many rays, in what time; and the photon ring's noise.
+"""Adaptive sampling against as many rays in every pixel: how far off, for how many rays, in what time; and the photon
+ring's noise.
 
     bench/adaptive.py            about six minutes, on a machine that does nothing else
     bench/adaptive.py --no-times --only gas
 
-Pictures of 640 x 360 at 16 bits, judged by those of 64 rays a pixel: PSNR as shown. Times are those of a server with one thread pinned to
-a core, 1280 x 720, lens map and all, in turn; the least of the rounds. The ring: the pixels that more rays at the critical curve change, by
-root mean square against 64 rays elsewhere and 256 there. Needs numpy (pip install numpy). Writes bench/results/DATE-DEVICE-adaptive.{json,md}.
+Pictures of 640 x 360 at 16 bits, judged by those of 64 rays a pixel: PSNR as shown. Times are those of a server with
+one thread pinned to a core, 1280 x 720, lens map and all, in turn; the least of the rounds. The ring: the pixels that
+more rays at the critical curve change, by root mean square against 64 rays elsewhere and 256 there. Needs numpy (pip
+install numpy). Writes bench/results/DATE-DEVICE-adaptive.{json,md}.
 """
+
 import http.client
 import json
 import os
@@ -31,13 +34,28 @@ SCENES = {  # over the preset "smooth", but for the default
     "smooth disk": {},
     "sharp rim, 60°": {"disk": {"taper": 0}, "camera": {"inclination_deg": 60}},
     "from 20 M, sRGB": {"camera": {"r": 20, "fov_deg": 60}, "disk": {"taper": 0}, "style": {"tone_map": "srgb"}},
-    "denser gas": {"camera": {"inclination_deg": 78, "field_m": 44}, "spacetime": {"spin": 0.9},
-            "disk": {"outer": 20, "emission_opacity": 10, "peak_temperature_k": 5200, "gas": {"amplitude": 0.8}}},
-    "denser gas, 85°": {"camera": {"inclination_deg": 85, "field_m": 44}, "spacetime": {"spin": 0.9},
-                 "disk": {"outer": 20, "emission_opacity": 10, "peak_temperature_k": 5200, "gas": {"amplitude": 0.8}}},
-    "gas round spin 0.999": {"spacetime": {"spin": 0.999}, "camera": {"r": 74.1, "inclination_deg": 86.56, "fov_deg": 34},
-                             "disk": {"inner": 7, "outer": 19, "taper": 0.6, "emission_opacity": 30, "peak_temperature_k": 7000,
-                                      "gas": {"amplitude": 0.6, "scale": 0.6, "shear": 8}}},
+    "denser gas": {
+        "camera": {"inclination_deg": 78, "field_m": 44},
+        "spacetime": {"spin": 0.9},
+        "disk": {"outer": 20, "emission_opacity": 10, "peak_temperature_k": 5200, "gas": {"amplitude": 0.8}},
+    },
+    "denser gas, 85°": {
+        "camera": {"inclination_deg": 85, "field_m": 44},
+        "spacetime": {"spin": 0.9},
+        "disk": {"outer": 20, "emission_opacity": 10, "peak_temperature_k": 5200, "gas": {"amplitude": 0.8}},
+    },
+    "gas round spin 0.999": {
+        "spacetime": {"spin": 0.999},
+        "camera": {"r": 74.1, "inclination_deg": 86.56, "fov_deg": 34},
+        "disk": {
+            "inner": 7,
+            "outer": 19,
+            "taper": 0.6,
+            "emission_opacity": 30,
+            "peak_temperature_k": 7000,
+            "gas": {"amplitude": 0.6, "scale": 0.6, "shear": 8},
+        },
+    },
     "sky's grid": {"sky": {"model": "grid"}, "disk": {"model": "none"}},
     "disk and sky's grid": {"sky": {"model": "grid"}},
     "spin 0.998, 85°": {"spacetime": {"spin": 0.998}, "camera": {"inclination_deg": 85}},
@@ -48,20 +66,29 @@ SIZE, LARGE = (640, 360), (1280, 720)
 def merged(scene, **more):
     out = {name: dict(section) if isinstance(section, dict) else section for name, section in scene.items()}
     for name, section in more.items():
-        kept = {inner: {**out.get(name, {}).get(inner, {}), **value} for inner, value in section.items() if isinstance(value, dict)}
+        kept = {
+            inner: {**out.get(name, {}).get(inner, {}), **value}
+            for inner, value in section.items()
+            if isinstance(value, dict)
+        }
         out.setdefault(name, {}).update({**section, **kept})
     return out
 
 
 def whole(kerrd, scene):
     """All of a scene, over its preset."""
-    preset = subprocess.run([kerrd, "scene", *(["-p", "smooth"] if scene is not None else [])], capture_output=True, text=True, check=True)
+    preset = subprocess.run(
+        [kerrd, "scene", *(["-p", "smooth"] if scene is not None else [])], capture_output=True, text=True, check=True
+    )
     return merged(json.loads(preset.stdout), **(scene or {}))
 
 
 def of_size(scene, size, samples, **image):
-    return merged(scene, image={"width": size[0], "height": size[1], "samples": samples, "bit_depth": 16, **image},
-                  style={"exposure": 0.5, "dither": False})
+    return merged(
+        scene,
+        image={"width": size[0], "height": size[1], "samples": samples, "bit_depth": 16, **image},
+        style={"exposure": 0.5, "dither": False},
+    )
 
 
 def paeth(row, above, step):
@@ -85,10 +112,10 @@ def pixels(png):
     """The picture of a 16-bit PNG, 0 to 1."""
     at, data = 8, b""
     while at < len(png):
-        n, kind = struct.unpack(">I4s", png[at:at + 8])
+        n, kind = struct.unpack(">I4s", png[at : at + 8])
         if kind == b"IHDR":
-            width, height = struct.unpack(">II", png[at + 8:at + 16])
-        data += png[at + 8:at + 8 + n] if kind == b"IDAT" else b""
+            width, height = struct.unpack(">II", png[at + 8 : at + 16])
+        data += png[at + 8 : at + 8 + n] if kind == b"IDAT" else b""
         at += 12 + n
     lines = numpy.frombuffer(zlib.decompress(data), numpy.uint8).reshape(height, 6 * width + 1)
     out, above = numpy.zeros((height, 6 * width), numpy.uint8), numpy.zeros(6 * width, numpy.int64)
@@ -117,7 +144,12 @@ class Pictures:
         self.kerrd, self.file = kerrd, pathlib.Path(folder) / "a.png"
 
     def render(self, scene):
-        done = subprocess.run([self.kerrd, "render", "-", "-t", "-o", str(self.file)], input=json.dumps(scene), capture_output=True, text=True)
+        done = subprocess.run(
+            [self.kerrd, "render", "-", "-t", "-o", str(self.file)],
+            input=json.dumps(scene),
+            capture_output=True,
+            text=True,
+        )
         if done.returncode:
             sys.exit(done.stderr)
         return pixels(self.file.read_bytes()), json.loads(done.stderr.splitlines()[-1])
@@ -130,9 +162,14 @@ def quality(pictures, scene):
     rays = {samples: s["rays"] + s["critical_rays"] + s["accuracy"].get("followed", 0) for samples, s in stats.items()}
     accuracy = stats["auto"]["accuracy"]
     found = {
-        "psnr": {str(s * s if s != "auto" else s): round(float(psnr(shown[s], shown[8])), 2) for s in (1, 2, 4, "auto")},
-        "share": rays["auto"] / rays[4], "refined": accuracy["refined"], "between": accuracy["between"],
-        "said": accuracy["pixel_error"], "is": float(((shown["auto"] - shown[8]) ** 2).mean() ** 0.5),
+        "psnr": {
+            str(s * s if s != "auto" else s): round(float(psnr(shown[s], shown[8])), 2) for s in (1, 2, 4, "auto")
+        },
+        "share": rays["auto"] / rays[4],
+        "refined": accuracy["refined"],
+        "between": accuracy["between"],
+        "said": accuracy["pixel_error"],
+        "is": float(((shown["auto"] - shown[8]) ** 2).mean() ** 0.5),
     }
     return found, stats["auto"]["device"]
 
@@ -143,14 +180,26 @@ def ring(pictures, scene):
     truth, bare = shown(8, 2), shown(1, 1)
     at = (bare != shown(1, 16)).any(axis=2)
     noise = lambda picture: float(((picture - truth)[at] ** 2).mean() ** 0.5)
-    return {"pixels": int(at.sum()), "1 ray": noise(bare), "3 x 3 rays": noise(shown(3, 1)), **{f"factor {f}": noise(shown(1, f)) for f in (2, 3, 4)}}
+    return {
+        "pixels": int(at.sum()),
+        "1 ray": noise(bare),
+        "3 x 3 rays": noise(shown(3, 1)),
+        **{f"factor {f}": noise(shown(1, f)) for f in (2, 3, 4)},
+    }
 
 
 class Server:
     def __init__(self, kerrd, core):
-        self.process = subprocess.Popen(["taskset", "-c", str(core), kerrd, "serve", "--port", "0"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
-                                        text=True, env=dict(os.environ, LP_NUM_THREADS="1"))
-        self.http = http.client.HTTPConnection("127.0.0.1", int(re.search(r":(\d+)/", self.process.stdout.readline())[1]), timeout=120)
+        self.process = subprocess.Popen(
+            ["taskset", "-c", str(core), kerrd, "serve", "--port", "0"],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            text=True,
+            env=dict(os.environ, LP_NUM_THREADS="1"),
+        )
+        self.http = http.client.HTTPConnection(
+            "127.0.0.1", int(re.search(r":(\d+)/", self.process.stdout.readline())[1]), timeout=120
+        )
 
     def ms(self, scene):
         self.http.request("POST", "/v1/render", json.dumps(scene), {"Content-Type": "application/json"})
@@ -168,13 +217,15 @@ def least(server, scenes, rounds):
         for name, scene in scenes.items():
             tilt = scene.get("camera", {}).get("inclination_deg", 80) + 1e-3 * n
             ms = server.ms(merged(scene, camera={"inclination_deg": tilt}))
-            if n: # the first one compiles
+            if n:  # the first one compiles
                 found[name].append(ms)
     return {name: min(ms) for name, ms in found.items()}
 
 
 def times(server, scene, rounds):
-    return least(server, {str(s * s if s != "auto" else s): of_size(scene, LARGE, s) for s in (1, 2, 4, "auto")}, rounds)
+    return least(
+        server, {str(s * s if s != "auto" else s): of_size(scene, LARGE, s) for s in (1, 2, 4, "auto")}, rounds
+    )
 
 
 def ring_times(server, scene, rounds):
@@ -182,16 +233,32 @@ def ring_times(server, scene, rounds):
 
 
 def table(results):
-    lines = ["| scene | 1 ray | 4 rays | 16 rays | auto | rays of 16 | refined | between | pixel_error said, is | ms: 1, 4, 16 rays, auto |", "|---|" + "---|" * 9]
+    lines = [
+        "| scene | 1 ray | 4 rays | 16 rays | auto | rays of 16 | refined | between | pixel_error said, is | ms: 1, 4, 16 rays, auto |",
+        "|---|" + "---|" * 9,
+    ]
     for name, r in results["scenes"].items():
         p, ms = r["psnr"], r.get("ms")
-        lines.append(f"| {name} | {p['1']:.1f} | {p['4']:.1f} | {p['16']:.1f} | {p['auto']:.1f} | {100 * r['share']:.0f} % | {r['refined']} | {r['between']} | "
-                     f"{r['said']:.1e}, {r['is']:.1e} | " + (", ".join(f"{ms[k]:.0f}" for k in ("1", "4", "16", "auto")) if ms else "") + " |")
+        lines.append(
+            f"| {name} | {p['1']:.1f} | {p['4']:.1f} | {p['16']:.1f} | {p['auto']:.1f} | {100 * r['share']:.0f} % | {r['refined']} | {r['between']} | "
+            f"{r['said']:.1e}, {r['is']:.1e} | "
+            + (", ".join(f"{ms[k]:.0f}" for k in ("1", "4", "16", "auto")) if ms else "")
+            + " |"
+        )
     if "ring" in results:
-        lines += ["", "Noise at the critical curve, smooth disk, of white: " + ", ".join(f"{k} {v:.2e}" for k, v in results["ring"].items() if k != "pixels") + "."]
+        lines += [
+            "",
+            "Noise at the critical curve, smooth disk, of white: "
+            + ", ".join(f"{k} {v:.2e}" for k, v in results["ring"].items() if k != "pixels")
+            + ".",
+        ]
     if "ring_ms" in results:
         ms = results["ring_ms"]
-        lines += ["Time over that without: " + ", ".join(f"{k} {100 * (v / ms['factor 1'] - 1):+.1f} %" for k, v in ms.items()) + "."]
+        lines += [
+            "Time over that without: "
+            + ", ".join(f"{k} {100 * (v / ms['factor 1'] - 1):+.1f} %" for k, v in ms.items())
+            + "."
+        ]
     return "\n".join(lines) + "\n"
 
 
@@ -220,7 +287,9 @@ def main():
         finally:
             server.process.terminate()
     head = measure.head(results.pop("device"), load)
-    measure.save(options.out, "adaptive", head, results, measure.head_markdown("Adaptive sampling", head) + table(results))
+    measure.save(
+        options.out, "adaptive", head, results, measure.head_markdown("Adaptive sampling", head) + table(results)
+    )
 
 
 if __name__ == "__main__":

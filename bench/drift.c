@@ -1,17 +1,22 @@
-/* How far the first integrals of an orbit drift in ten thousand loops: the symplectic methods beside Runge-Kutta's, on the same
- * equations and at the same number of evaluations. Double precision, without compensated sums: what the methods do, no more.
+/* How far the first integrals of an orbit drift in ten thousand loops: the symplectic methods beside Runge-Kutta's,
+ * on the same equations and at the same number of evaluations. Double precision, without compensated sums: what the
+ * methods do, no more.
  *
- * Two pairs of equations, E and L being constants of both. In Mino time, w = 1/r and u = cos theta, each a motion of its own:
+ * Two pairs of equations, E and L being constants of both. In Mino time, w = 1/r and u = cos theta, each a motion of
+ * its own:
  *   w'^2 = W(w) = E^2 - m + 2m w + (a^2 (E^2 - m) - L^2 - Q) w^2 + 2K w^3 - a^2 Q w^4,  K = Q + (L - aE)^2,
- *   u'^2 = U(u) = Q + (a^2 (E^2 - m) - L^2 - Q) u^2 - a^2 (E^2 - m) u^4,                m = 1 for matter, 0 for light.
- * And Hamilton's equations in Cartesian Kerr-Schild coordinates, of r (p.p - E^2 - f (E + l.p)^2 + m)/2: the Hamiltonian of
- * rays_kerr_schild.comp, which says more, with a mass.
+ *   u'^2 = U(u) = Q + (a^2 (E^2 - m) - L^2 - Q) u^2 - a^2 (E^2 - m) u^4,                m = 1 for matter, 0 for
+ *     light.
+ * And Hamilton's equations in Cartesian Kerr-Schild coordinates, of r (p.p - E^2 - f (E + l.p)^2 + m)/2: the
+ * Hamiltonian of rays_kerr_schild.comp, which says more, with a mass.
  *
- * Judged by: the invariant p.p + m from place and momentum, of which E^2 = 1 or m = 1 is the unit, and Carter's constant.
+ * Judged by: the invariant p.p + m from place and momentum, of which E^2 = 1 or m = 1 is the unit, and Carter's
+ * constant.
  *
- * Two orbits. Matter: a = 0.9, p = 8, e = 0.5, inclined by 60 degrees. Light: outside the horizon it has no stable bound orbit, and
- * errors of the unstable ones grow by e^(2 pi) a turn whatever the method; below 1 - (1 - a^2)^(1/3), under the inner horizon, it
- * has, and all equations above are regular there: one about r = 0.3 that swings through the plane. */
+ * Two orbits. Matter: a = 0.9, p = 8, e = 0.5, inclined by 60 degrees. Light: outside the horizon it has no stable
+ * bound orbit, and errors of the unstable ones grow by e^(2 pi) a turn whatever the method; below 1 - (1 -
+ * a^2)^(1/3), under the inner horizon, it has, and all equations above are regular there: one about r = 0.3 that
+ * swings through the plane. */
 #include "physics/orbit.h"
 
 #include <cJSON.h>
@@ -46,7 +51,8 @@ static void pull(const struct orbit *o, const double y[2], double f[2])
 static double radial(const struct orbit *o, double w)
 {
     double a2 = o->a * o->a, e2 = o->energy * o->energy - o->mass2;
-    return e2 + w * (2 * o->mass2 + w * (power2(o) - o->momentum * o->momentum - o->carter + w * (2 * o->k - a2 * o->carter * w)));
+    return e2 + w * (2 * o->mass2 +
+                     w * (power2(o) - o->momentum * o->momentum - o->carter + w * (2 * o->k - a2 * o->carter * w)));
 }
 
 /* Position, momentum, position: the leapfrog with one evaluation. */
@@ -143,10 +149,10 @@ static void flow_at(const struct orbit *o, const double *x, const double *p, dou
 
 static void flow_kerr_schild(const struct orbit *o, const double *y, double *d) { flow_at(o, y, y + 3, d, d + 3); }
 
-/* M. Tao 2016, Phys. Rev. E 94, 043303: two copies of the phase space, each moved by the other's half, bound by a rotation.
- * Neighbouring halves of the first kind are one. Of omega = 0.1, 0.15, 0.2, 0.3, 0.5, 1, 3 and 10 this is the best for matter:
- * less binds too weakly, and the copies part within a hundred loops; more costs accuracy. For light below the inner horizon none is
- * enough. */
+/* M. Tao 2016, Phys. Rev. E 94, 043303: two copies of the phase space, each moved by the other's half, bound by a
+ * rotation. Neighbouring halves of the first kind are one. Of omega = 0.1, 0.15, 0.2, 0.3, 0.5, 1, 3 and 10 this is
+ * the best for matter: less binds too weakly, and the copies part within a hundred loops; more costs accuracy. For
+ * light below the inner horizon none is enough. */
 #define OMEGA 0.3
 
 static void move(const struct orbit *o, double *x, double *p, double *other_x, double *other_p, double h)
@@ -199,7 +205,10 @@ static void runge_kutta_4(const struct orbit *o, struct state *s, double h, int 
         s->y[i] += h / 6 * (k[0][i] + 2 * (k[1][i] + k[2][i]) + k[3][i]);
 }
 static void rk_4_mino(const struct orbit *o, struct state *s, double h) { runge_kutta_4(o, s, h, 4, flow_mino); }
-static void rk_4_kerr_schild(const struct orbit *o, struct state *s, double h) { runge_kutta_4(o, s, h, 6, flow_kerr_schild); }
+static void rk_4_kerr_schild(const struct orbit *o, struct state *s, double h)
+{
+    runge_kutta_4(o, s, h, 6, flow_kerr_schild);
+}
 
 static const struct method {
     const char *name, *equations;
@@ -215,7 +224,8 @@ static const struct method {
 };
 enum { METHODS = sizeof methods / sizeof *methods };
 
-/* In the plane at the start radius, radially at rest, downwards in theta. In Kerr-Schild coordinates p_r = (2rE - aL)/Delta. */
+/* In the plane at the start radius, radially at rest, downwards in theta. In Kerr-Schild coordinates p_r = (2rE -
+ * aL)/Delta. */
 static struct state start(const struct orbit *o, bool kerr_schild)
 {
     struct state s = { { 1 / o->r, 0, 0, sqrt(o->carter) } };
@@ -224,14 +234,16 @@ static struct state start(const struct orbit *o, bool kerr_schild)
     double a = o->a, r = o->r, q = r * r + a * a, p_r = (2 * r * o->energy - a * o->momentum) / (r * (r - 2) + a * a);
     /* At (x, y, z) = (r, a, 0): dr = (1, a/r, 0), d(theta) = (0, 0, -1/r), d(phi) = (-a, r, 0)/q + a dr/q. */
     double along = p_r + a * o->momentum / q;
-    const double y[6] = { r, a, 0, along - a * o->momentum / q, along * a / r + r * o->momentum / q, sqrt(o->carter) / r };
+    const double y[6] = {
+        r, a, 0, along - a * o->momentum / q, along * a / r + r * o->momentum / q, sqrt(o->carter) / r
+    };
     memcpy(s.y, y, sizeof y);
     memcpy(s.y + 6, y, sizeof y);
     return s;
 }
 
-/* The lengths of a loop, by order 6 in fine steps: Mino time from pericentre to pericentre, and the mean of ds = Sigma/r dtau over
- * many, between which the latitude differs. */
+/* The lengths of a loop, by order 6 in fine steps: Mino time from pericentre to pericentre, and the mean of ds =
+ * Sigma/r dtau over many, between which the latitude differs. */
 static void measure_loop(struct orbit *o)
 {
     enum { FINE = 4096, MANY = 64 };
@@ -257,8 +269,14 @@ static struct orbit matter(void)
     struct kd_orbit k;
     if (kd_orbit_from_shape(0.9, 8, 0.5, 0.5, &k, NULL))
         abort(); /* there is such an orbit */
-    return (struct orbit) { .name = "matter", .a = k.a, .mass2 = 1, .energy = k.energy, .momentum = k.momentum, .carter = k.carter,
-                            .k = k.k, .r = 1 / k.w_high };
+    return (struct orbit) { .name = "matter",
+                            .a = k.a,
+                            .mass2 = 1,
+                            .energy = k.energy,
+                            .momentum = k.momentum,
+                            .carter = k.carter,
+                            .k = k.k,
+                            .r = 1 / k.w_high };
 }
 
 /* The circle at r (Bardeen 1973, eqs. 48 and 49), with less Q, which lets it swing in radius. */
@@ -277,7 +295,8 @@ static struct orbit light(void)
     return o;
 }
 
-/* One row: the largest of both errors until each mark. lost: the loop in which the invariant is off by its unit; 0: none. */
+/* One row: the largest of both errors until each mark. lost: the loop in which the invariant is off by its unit; 0:
+ * none. */
 static void measure(const struct orbit *o, const struct method *m, int steps, cJSON *row)
 {
     void (*integrals)(const struct orbit *, const double *, double *, double *) =

@@ -2,15 +2,18 @@
 """Drift of the first integrals over ten thousand loops: kd_bench_drift once, a table, and with --plot a picture of it.
 
 The picture needs matplotlib (pip install matplotlib)."""
+
 import json
 import math
 import os
 
 import measure
 
-ORBITS = {"matter": "Matter: a = 0.9, p = 8, e = 0.5, inclined by 60°",
-          "light": "Light: a = 0.9, bound about r = 0.3 M, below the inner horizon"}
-COLOURS = {"Yoshida 6": "#0072b2", "RK4": "#d55e00", "RKN6": "#009e73", "Tao, Yoshida 6": "#cc79a7"} # Okabe and Ito
+ORBITS = {
+    "matter": "Matter: a = 0.9, p = 8, e = 0.5, inclined by 60°",
+    "light": "Light: a = 0.9, bound about r = 0.3 M, below the inner horizon",
+}
+COLOURS = {"Yoshida 6": "#0072b2", "RK4": "#d55e00", "RKN6": "#009e73", "Tao, Yoshida 6": "#cc79a7"}  # Okabe and Ito
 
 
 def at(figures, row, what, loops):
@@ -25,24 +28,43 @@ def growth(figures, row):
 
 
 def rows(figures, orbit):
-    return [[r["equations"], r["method"], str(r["steps"]), str(r["evaluations"]),
-             *(measure.error(at(figures, r, "invariant", n)) for n in (1, 100, 10000)),
-             measure.error(at(figures, r, "carter", 10000)), growth(figures, r)] for r in figures["rows"] if r["orbit"] == orbit]
+    return [
+        [
+            r["equations"],
+            r["method"],
+            str(r["steps"]),
+            str(r["evaluations"]),
+            *(measure.error(at(figures, r, "invariant", n)) for n in (1, 100, 10000)),
+            measure.error(at(figures, r, "carter", 10000)),
+            growth(figures, r),
+        ]
+        for r in figures["rows"]
+        if r["orbit"] == orbit
+    ]
 
 
 def plot(figures, path):
     import matplotlib
+
     matplotlib.use("svg")
     import matplotlib.pyplot as plt
-    plt.rcParams["svg.hashsalt"] = "kerrd" # the same picture from the same figures
+
+    plt.rcParams["svg.hashsalt"] = "kerrd"  # the same picture from the same figures
     figure, all_axes = plt.subplots(1, 2, figsize=(10, 4.5), sharey=True)
     most = max(r["evaluations"] for r in figures["rows"])
     for axes, (orbit, title) in zip(all_axes, ORBITS.items()):
         for r in figures["rows"]:
             if r["orbit"] == orbit and r["evaluations"] > most / 2:
-                axes.loglog(figures["loops"][:len(r["invariant"])], r["invariant"], color=COLOURS[r["method"]], linewidth=1.2,
-                            marker="o" if r["equations"] == "Mino" else "s", markersize=4,
-                            linestyle="-" if r["equations"] == "Mino" else "--", label=f"{r['equations']}, {r['method']}")
+                axes.loglog(
+                    figures["loops"][: len(r["invariant"])],
+                    r["invariant"],
+                    color=COLOURS[r["method"]],
+                    linewidth=1.2,
+                    marker="o" if r["equations"] == "Mino" else "s",
+                    markersize=4,
+                    linestyle="-" if r["equations"] == "Mino" else "--",
+                    label=f"{r['equations']}, {r['method']}",
+                )
         axes.set_title(title, fontsize=9)
         axes.set_xlabel("loops, with about 2816 evaluations each")
         axes.grid(True, linewidth=0.3)
@@ -62,9 +84,24 @@ def main():
     h = measure.head("cpu, C in double precision", load)
     text = measure.head_markdown("First integrals over 10 000 loops", h)
     for orbit, title in ORBITS.items():
-        text += f"**{title}**\n\n" + measure.table(
-            ["equations", "method", "steps a loop", "evaluations", "p·p: 1 loop", "100", "10 000", "Q: 10 000", "growth"],
-            rows(figures, orbit)) + "\n"
+        text += (
+            f"**{title}**\n\n"
+            + measure.table(
+                [
+                    "equations",
+                    "method",
+                    "steps a loop",
+                    "evaluations",
+                    "p·p: 1 loop",
+                    "100",
+                    "10 000",
+                    "Q: 10 000",
+                    "growth",
+                ],
+                rows(figures, orbit),
+            )
+            + "\n"
+        )
     measure.save(o.out, "drift", h, figures, text)
     if o.plot:
         plot(figures, o.plot)

@@ -1,6 +1,6 @@
-/* What encoding a live frame costs: real pictures, with and without dither, through libpng, and through libdeflate and ISA-L at
- * each level after each filter of PNG. Times are of the calling thread's processor, so that what else runs counts little; the least
- * of --repeat. Prints one line of JSON; encode.py makes the table. */
+/* What encoding a live frame costs: real pictures, with and without dither, through libpng, and through libdeflate
+ * and ISA-L at each level after each filter of PNG. Times are of the calling thread's processor, so that what else
+ * runs counts little; the least of --repeat. Prints one line of JSON; encode.py makes the table. */
 #include "image/png.h"
 #include "image/png_live.h"
 #include "render/render.h"
@@ -22,7 +22,8 @@ static const struct {
 } subjects[] = {
     { .name = "default scene" },
     { .name = "with a sky", .fields = { { "sky.model", "grid" } } },
-    { .name = "close, with a sky", .fields = { { "camera.r", "12" }, { "sky.model", "grid" }, { "camera.fov_deg", "90" } } },
+    { .name = "close, with a sky",
+      .fields = { { "camera.r", "12" }, { "sky.model", "grid" }, { "camera.fov_deg", "90" } } },
     { .name = "noise", .noise = true },
 };
 static const char *const filters[] = { "none", "sub", "up", "average", "paeth" };
@@ -116,7 +117,8 @@ static size_t by_libdeflate(struct job *job)
 static size_t by_isal(struct job *job)
 {
     static const uint32_t sizes[] = { 0, ISAL_DEF_LVL1_DEFAULT, ISAL_DEF_LVL2_DEFAULT, ISAL_DEF_LVL3_DEFAULT };
-    static uint8_t memory[ISAL_DEF_LVL3_DEFAULT > ISAL_DEF_LVL2_DEFAULT ? ISAL_DEF_LVL3_DEFAULT : ISAL_DEF_LVL2_DEFAULT];
+    static uint8_t
+        memory[ISAL_DEF_LVL3_DEFAULT > ISAL_DEF_LVL2_DEFAULT ? ISAL_DEF_LVL3_DEFAULT : ISAL_DEF_LVL2_DEFAULT];
     static struct isal_zstream stream;
     by_filter(job);
     isal_deflate_init(&stream);
@@ -187,7 +189,9 @@ static void measure(struct job *job, cJSON *rows, int repeat)
 static void one_picture(const char *name, bool dither, const struct kd_frame *frame, int repeat, cJSON *pictures)
 {
     uint32_t width = frame->width, height = frame->height;
-    struct job job = { .width = width, .height = height, .pixels = kd_frame_pixels(frame), .filtered = (3 * (size_t)width + 1) * height };
+    struct job job = {
+        .width = width, .height = height, .pixels = kd_frame_pixels(frame), .filtered = (3 * (size_t)width + 1) * height
+    };
     job.room = 2 * job.filtered + 65536;
     job.rows = malloc(job.filtered);
     job.packed = malloc(job.room);
@@ -260,7 +264,8 @@ int main(int argc, char **argv)
 
     struct kd_error error = { 0 };
     struct kd_renderer *renderer;
-    enum kd_status status = kd_renderer_create(&(struct kd_renderer_params) { .device = o.device, .passing = true }, &renderer, &error);
+    enum kd_status status =
+        kd_renderer_create(&(struct kd_renderer_params) { .device = o.device, .passing = true }, &renderer, &error);
     cJSON *root = cJSON_CreateObject(), *pictures = cJSON_AddArrayToObject(root, "pictures");
     if (!status)
         cJSON_AddStringToObject(root, "device", kd_renderer_device_name(renderer));

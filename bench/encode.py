@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """What encoding a live frame costs, in ms and bytes: kd_bench_encode on one core, as tables."""
+
 import json
 import os
 
@@ -30,7 +31,9 @@ def whole_table(pictures):
 
 def parts_table(picture):
     filters = [r["filter"] for r in picture["rows"] if r["encoder"] == "filter alone"]
-    engines = list(dict.fromkeys((r["encoder"], r["level"]) for r in picture["rows"] if r["encoder"] in ("libdeflate", "isa-l")))
+    engines = list(
+        dict.fromkeys((r["encoder"], r["level"]) for r in picture["rows"] if r["encoder"] in ("libdeflate", "isa-l"))
+    )
     rows = [["the filter alone, ms", *(figure(picture, "filter alone", 0, f)[0] for f in filters)]]
     rows += [[f"{e} {level}", *(" / ".join(figure(picture, e, level, f)) for f in filters)] for e, level in engines]
     return measure.table(["", *filters], rows)
@@ -45,8 +48,10 @@ def main():
     run = json.loads(text.strip().splitlines()[-1])
     h = measure.head(run["device"], load)
     text = measure.head_markdown("Encoding a live frame", h)
-    text += (f"Processor time of one thread, the least of {o.repeat}; 1 kB is 1000 bytes. All at level 1 after the filter Sub, "
-             "the file whole:\n\n" + whole_table(run["pictures"]))
+    text += (
+        f"Processor time of one thread, the least of {o.repeat}; 1 kB is 1000 bytes. All at level 1 after the filter Sub, "
+        "the file whole:\n\n" + whole_table(run["pictures"])
+    )
     for picture in run["pictures"]:
         size, name = title(picture)
         if size.startswith("1280") and picture["dither"] and picture["picture"] != "noise":

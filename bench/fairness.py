@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
-"""What one client may make another one wait: pictures, frames and /healthz beside each load that an address can put on a server.
+"""What one client may make another one wait: pictures, frames and /healthz beside each load that an address can put on
+a server.
 
     bench/fairness.py            about four minutes, on a machine that does nothing else
     bench/fairness.py --only "a job of 1000 frames" --seconds 5
     bench/fairness.py --size 640 360 --no-session --only nothing --only "all that one may queue" --save fairness-queued
 
-A server of its own. The loads come from 127.0.0.1; who is measured is 127.0.0.2, another client, who asks for one picture (of 320 x 180)
-after the other, each with a lens map of its own, watches a session of his own, and asks for /healthz. Writes
-bench/results/DATE-DEVICE-fairness.{json,md}.
+A server of its own. The loads come from 127.0.0.1; who is measured is 127.0.0.2, another client, who asks for one
+picture (of 320 x 180) after the other, each with a lens map of its own, watches a session of his own, and asks for
+/healthz. Writes bench/results/DATE-DEVICE-fairness.{json,md}.
 """
+
 import concurrent.futures
 import contextlib
 import http.client
@@ -26,23 +28,25 @@ import time
 import measure
 
 SIZE = (320, 180)  # of the picture that is measured
-LIVING = {'image': {'width': 640, 'height': 360}, 'disk': {'model': 'particles'}, 'motion': {'time_rate': 10}}
-FRAME = {'image': {'width': 640, 'height': 360}}
+LIVING = {"image": {"width": 640, "height": 360}, "disk": {"model": "particles"}, "motion": {"time_rate": 10}}
+FRAME = {"image": {"width": 640, "height": 360}}
 
 
 class Server:
     def __init__(self, path, *options):
-        self.process = subprocess.Popen([path, 'serve', '--port', '0', *options], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
-        self.port = int(re.search(r':(\d+)/', self.process.stdout.readline())[1])
+        self.process = subprocess.Popen(
+            [path, "serve", "--port", "0", *options], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
+        )
+        self.port = int(re.search(r":(\d+)/", self.process.stdout.readline())[1])
 
     def connect(self, source, timeout=120):
-        return http.client.HTTPConnection('127.0.0.1', self.port, timeout=timeout, source_address=(source, 0))
+        return http.client.HTTPConnection("127.0.0.1", self.port, timeout=timeout, source_address=(source, 0))
 
     def ask(self, source, method, target, body=None, token=None, connection=None):
         own = connection or self.connect(source)
-        headers = {'Content-Type': 'application/json'} if body is not None else {}
+        headers = {"Content-Type": "application/json"} if body is not None else {}
         if token:
-            headers['Authorization'] = 'Bearer ' + token
+            headers["Authorization"] = "Bearer " + token
         own.request(method, target, json.dumps(body) if isinstance(body, dict) else body, headers)
         answer = own.getresponse()
         data = answer.read()
@@ -58,7 +62,7 @@ class Server:
 class Load:
     """Threads that go on until it is over; what they meet in the end is nobody's business."""
 
-    def __init__(self, server, source='127.0.0.1'):
+    def __init__(self, server, source="127.0.0.1"):
         self.server, self.source, self.over, self.threads, self.counts = server, source, threading.Event(), [], {}
         self.connections = []
 
@@ -70,7 +74,7 @@ class Load:
             while not self.over.is_set():
                 try:
                     answer = step(connection)
-                    key = f'{name}: {answer.status}'
+                    key = f"{name}: {answer.status}"
                     self.counts[key] = self.counts.get(key, 0) + 1
                     if answer.status in (429, 503):
                         time.sleep(0.2)
@@ -78,6 +82,7 @@ class Load:
                     connection.close()
                     if not self.over.is_set():
                         time.sleep(0.05)
+
         thread = threading.Thread(target=run, daemon=True)
         thread.start()
         self.threads.append(thread)
@@ -87,20 +92,21 @@ class Load:
             self.loop(name, lambda c: self.server.ask(self.source, method, target, body, connection=c)[0])
 
     def session(self, name, scene, drag=None):
-        session = json.loads(self.server.ask(self.source, 'POST', '/v1/sessions', scene)[1])
-        at, frame = '/v1/sessions/' + session['id'], [0]
+        session = json.loads(self.server.ask(self.source, "POST", "/v1/sessions", scene)[1])
+        at, frame = "/v1/sessions/" + session["id"], [0]
 
         def pull(connection):
-            answer, _ = self.server.ask(self.source, 'GET', f'{at}/frame.png?after={frame[0]}', connection=connection)
-            frame[0] = int(answer.headers['Kerrd-Frame'] or frame[0])  # 204 has none
+            answer, _ = self.server.ask(self.source, "GET", f"{at}/frame.png?after={frame[0]}", connection=connection)
+            frame[0] = int(answer.headers["Kerrd-Frame"] or frame[0])  # 204 has none
             return answer
 
         def patch(connection):
             time.sleep(0.033)
-            return self.server.ask(self.source, 'PATCH', at, drag(), session['token'], connection)[0]
+            return self.server.ask(self.source, "PATCH", at, drag(), session["token"], connection)[0]
+
         self.loop(name, pull)
         if drag:
-            self.loop(name + ', patches', patch)
+            self.loop(name + ", patches", patch)
 
     def end(self):
         self.over.set()
@@ -113,81 +119,114 @@ class Load:
 
 def picture_of(size):
     """The default scene, with a lens map of its own."""
-    return f'/v1/render?image.width={size[0]}&image.height={size[1]}&camera.inclination_deg={random.uniform(40, 80):.6f}'
+    return (
+        f"/v1/render?image.width={size[0]}&image.height={size[1]}&camera.inclination_deg={random.uniform(40, 80):.6f}"
+    )
 
 
 def inclination():
-    return {'camera': {'inclination_deg': round(random.uniform(40, 85), 4)}}
+    return {"camera": {"inclination_deg": round(random.uniform(40, 85), 4)}}
 
 
 def watched(load):
     for _ in range(2):
-        load.session('watched', LIVING)
+        load.session("watched", LIVING)
 
 
 def dragged(load):
     for _ in range(8):
-        load.session('dragged', FRAME, inclination)
+        load.session("dragged", FRAME, inclination)
 
 
 def large(load):
-    load.repeat('4K x 64 rays', 1, 'POST', '/v1/render', {'image': {'width': 3840, 'height': 2160, 'samples': 8}})
+    load.repeat("4K x 64 rays", 1, "POST", "/v1/render", {"image": {"width": 3840, "height": 2160, "samples": 8}})
 
 
 def job(load):
-    picture = {'image': {'width': 1280, 'height': 720}}
-    answer, text = load.server.ask(load.source, 'POST', '/v1/jobs',
-                                   {'scenes': [{**picture, 'camera': {'inclination_deg': 60 + 0.02 * i}} for i in range(1000)]})
+    picture = {"image": {"width": 1280, "height": 720}}
+    answer, text = load.server.ask(
+        load.source,
+        "POST",
+        "/v1/jobs",
+        {"scenes": [{**picture, "camera": {"inclination_deg": 60 + 0.02 * i}} for i in range(1000)]},
+    )
     assert answer.status == 202, text
 
 
 def rays(load, n=1000000):
-    body = json.dumps({'spin': 0.9, 'observer': {'inclination_deg': 70}, 'accuracy': {'engine': 'mino-rkn6', 'precision': 'f64'},
-                       'rays': [[-10 + 20 * (i % 1000) / 1000, -10 + 20 * (i // 1000) / (n / 1000)] for i in range(n)]})
-    load.repeat('rays', 1, 'POST', '/v1/rays', body)
+    body = json.dumps(
+        {
+            "spin": 0.9,
+            "observer": {"inclination_deg": 70},
+            "accuracy": {"engine": "mino-rkn6", "precision": "f64"},
+            "rays": [[-10 + 20 * (i % 1000) / 1000, -10 + 20 * (i // 1000) / (n / 1000)] for i in range(n)],
+        }
+    )
+    load.repeat("rays", 1, "POST", "/v1/rays", body)
 
 
 def plans(load):
-    load.repeat('huge plans', 20, 'POST', '/v1/plan', {'image': {'width': 32768, 'height': 32768}})
+    load.repeat("huge plans", 20, "POST", "/v1/plan", {"image": {"width": 32768, "height": 32768}})
 
 
 def jobs(load):
     """As many jobs as one may have: every other one the frames of a film, along keyframes and with motion blur."""
-    scene = {'image': {'width': 1280, 'height': 720}}
+    scene = {"image": {"width": 1280, "height": 720}}
     for k in range(12):
-        frames = [{**scene, 'camera': {'inclination_deg': 40 + 0.02 * i + k}} for i in range(50)]
-        film = {'scene': scene, 'keyframes': [{'frame': 239, 'scene': {'camera': {'azimuth_deg': 60 + k}}}], 'motion_blur': {'samples': 4, 'shutter': 0.5}}
-        answer, _ = load.server.ask(load.source, 'POST', '/v1/jobs', film if k % 2 else {'scenes': frames})
-        load.counts[f'job: {answer.status}'] = load.counts.get(f'job: {answer.status}', 0) + 1
+        frames = [{**scene, "camera": {"inclination_deg": 40 + 0.02 * i + k}} for i in range(50)]
+        film = {
+            "scene": scene,
+            "keyframes": [{"frame": 239, "scene": {"camera": {"azimuth_deg": 60 + k}}}],
+            "motion_blur": {"samples": 4, "shutter": 0.5},
+        }
+        answer, _ = load.server.ask(load.source, "POST", "/v1/jobs", film if k % 2 else {"scenes": frames})
+        load.counts[f"job: {answer.status}"] = load.counts.get(f"job: {answer.status}", 0) + 1
 
 
 def playgrounds(load):
     for _ in range(12):
-        answer, text = load.server.ask(load.source, 'POST', '/v1/playground', {'preset': 'binary'})
+        answer, text = load.server.ask(load.source, "POST", "/v1/playground", {"preset": "binary"})
         if answer.status == 201:
-            at = '/v1/playground/' + json.loads(text)['id']
-            load.repeat('playground', 1, 'GET', at + '/bodies?wait_ms=1000')
+            at = "/v1/playground/" + json.loads(text)["id"]
+            load.repeat("playground", 1, "GET", at + "/bodies?wait_ms=1000")
 
 
 def queue(load):
-    """Twenty ask for long pictures, each of its own, where twelve may wait; eight for lists of rays; twelve sessions are dragged."""
+    """Twenty ask for long pictures, each of its own, where twelve may wait; eight for lists of rays; twelve sessions
+    are dragged."""
+
     def long(connection):
-        return load.server.ask(load.source, 'POST', '/v1/render', {'image': {'width': 2560, 'height': 1440, 'samples': 4},
-                                                                   'camera': {'inclination_deg': round(random.uniform(40, 85), 4)}}, connection=connection)[0]
+        return load.server.ask(
+            load.source,
+            "POST",
+            "/v1/render",
+            {
+                "image": {"width": 2560, "height": 1440, "samples": 4},
+                "camera": {"inclination_deg": round(random.uniform(40, 85), 4)},
+            },
+            connection=connection,
+        )[0]
+
     for _ in range(20):
-        load.loop('1440p x 16 rays', long)
+        load.loop("1440p x 16 rays", long)
     for _ in range(8):
         rays(load, 100000)
     for _ in range(12):
-        load.session('dragged', FRAME, inclination)
+        load.session("dragged", FRAME, inclination)
     jobs(load)
     playgrounds(load)
 
 
 LOADS = {
-    'nothing': [], 'two watched sessions': [watched], 'eight dragged sessions': [dragged], 'a 4K picture of 64 rays a pixel': [large],
-    'a job of 1000 frames': [job], 'a million device rays': [rays], 'twenty loops of huge plans': [plans],
-    'all of these': [watched, dragged, large, job, rays, plans], 'all that one may queue': [queue],
+    "nothing": [],
+    "two watched sessions": [watched],
+    "eight dragged sessions": [dragged],
+    "a 4K picture of 64 rays a pixel": [large],
+    "a job of 1000 frames": [job],
+    "a million device rays": [rays],
+    "twenty loops of huge plans": [plans],
+    "all of these": [watched, dragged, large, job, rays, plans],
+    "all that one may queue": [queue],
 }
 
 
@@ -202,37 +241,39 @@ def repeat_for(seconds, at_least, step):
 
 
 def look_at_health(port, source, seconds, at_least):
-    """Milliseconds that /healthz takes, and that a sleep before it is late: the latter is how long this machine lets anybody wait, and no
-    server's doing. In a process of its own: beside the threads of the loads it would measure how they share Python's lock."""
-    connection = http.client.HTTPConnection('127.0.0.1', port, timeout=120, source_address=(source, 0))
+    """Milliseconds that /healthz takes, and that a sleep before it is late: the latter is how long this machine lets
+    anybody wait, and no server's doing. In a process of its own: beside the threads of the loads it would measure how
+    they share Python's lock."""
+    connection = http.client.HTTPConnection("127.0.0.1", port, timeout=120, source_address=(source, 0))
     late = []
 
     def step():
         begun = time.monotonic()
         time.sleep(0.05)
         late.append(1e3 * (time.monotonic() - begun) - 50)
-        connection.request('GET', '/healthz')
+        connection.request("GET", "/healthz")
         connection.getresponse().read()
+
     took = repeat_for(seconds, at_least, step)
-    return {'healthz_ms': [ms - 50 - lag for ms, lag in zip(took, late)], 'sleep_late_ms': late}
+    return {"healthz_ms": [ms - 50 - lag for ms, lag in zip(took, late)], "sleep_late_ms": late}
 
 
-def look(server, seconds, at_least=3, source='127.0.0.2', size=SIZE, session=True):
+def look(server, seconds, at_least=3, source="127.0.0.2", size=SIZE, session=True):
     """What a client meets who does nothing else: pictures, the frames of a session of his own, /healthz."""
     out, viewer = {}, Load(server, source)
     if session:
-        viewer.session('own', LIVING)
+        viewer.session("own", LIVING)
 
     def picture():
-        answer, _ = server.ask(source, 'GET', picture_of(size))
+        answer, _ = server.ask(source, "GET", picture_of(size))
         assert answer.status == 200, answer.status
 
-    with concurrent.futures.ProcessPoolExecutor(1, multiprocessing.get_context('spawn')) as pool:
+    with concurrent.futures.ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as pool:
         pool.submit(os.getpid).result()  # it is there
-        begun, frames = time.monotonic(), viewer.counts.get('own: 200', 0)
+        begun, frames = time.monotonic(), viewer.counts.get("own: 200", 0)
         health = pool.submit(look_at_health, server.port, source, seconds, at_least)
-        out['picture_ms'] = repeat_for(seconds, at_least, picture)
-        out['fps'] = (viewer.counts.get('own: 200', 0) - frames) / (time.monotonic() - begun)
+        out["picture_ms"] = repeat_for(seconds, at_least, picture)
+        out["fps"] = (viewer.counts.get("own: 200", 0) - frames) / (time.monotonic() - begun)
         out.update(health.result())
     viewer.end()
     return out
@@ -241,51 +282,85 @@ def look(server, seconds, at_least=3, source='127.0.0.2', size=SIZE, session=Tru
 def warm(server, size=SIZE):
     """Kernels are made, and the device is measured."""
     for _ in range(3):
-        server.ask('127.0.0.2', 'GET', picture_of(size))
+        server.ask("127.0.0.2", "GET", picture_of(size))
 
 
 def run_one(path, name, seconds, options=(), size=SIZE, session=True):
     with tempfile.TemporaryDirectory() as state:
-        server = Server(path, '--state', state, *options)
+        server = Server(path, "--state", state, *options)
         try:
             warm(server, size)
-            server.ask('127.0.0.2', 'POST', '/v1/render', {'image': {'width': 640, 'height': 360}, 'disk': {'model': 'particles'}})
+            server.ask(
+                "127.0.0.2",
+                "POST",
+                "/v1/render",
+                {"image": {"width": 640, "height": 360}, "disk": {"model": "particles"}},
+            )
             load = Load(server)
             for begin in LOADS[name]:
                 begin(load)
             time.sleep(2 if LOADS[name] else 0)
-            return {**look(server, seconds, size=size, session=session), 'load': load.counts}
+            return {**look(server, seconds, size=size, session=session), "load": load.counts}
         finally:
             server.stop()
 
 
 def main():
     p = measure.parser(__doc__.splitlines()[0])
-    p.add_argument('--seconds', type=float, default=20, help='that each load is watched for (20)')
-    p.add_argument('--only', choices=LOADS, action='append', help='this load alone')
-    p.add_argument('--no-session', action='store_true', help='the one who is measured asks for pictures alone')
-    p.add_argument('--save', metavar='NAME', help='also what --only has run, under this name')
-    p.add_argument('--size', type=int, nargs=2, default=SIZE, metavar=('WIDTH', 'HEIGHT'), help='of the picture that is measured (320 180)')
+    p.add_argument("--seconds", type=float, default=20, help="that each load is watched for (20)")
+    p.add_argument("--only", choices=LOADS, action="append", help="this load alone")
+    p.add_argument("--no-session", action="store_true", help="the one who is measured asks for pictures alone")
+    p.add_argument("--save", metavar="NAME", help="also what --only has run, under this name")
+    p.add_argument(
+        "--size",
+        type=int,
+        nargs=2,
+        default=SIZE,
+        metavar=("WIDTH", "HEIGHT"),
+        help="of the picture that is measured (320 180)",
+    )
     arguments, load = p.parse_args(), os.getloadavg()[0]
-    path = measure.binary(arguments.build, 'src/kerrd')
+    path = measure.binary(arguments.build, "src/kerrd")
     server = Server(path)
-    device = json.loads(server.ask('127.0.0.1', 'GET', '/v1/device')[1])
+    device = json.loads(server.ask("127.0.0.1", "GET", "/v1/device")[1])
     server.stop()
     results = {}
     for name in arguments.only or LOADS:
         results[name] = run_one(path, name, arguments.seconds, size=arguments.size, session=not arguments.no_session)
-        print(name, {k: round(statistics.median(v), 1) if isinstance(v, list) else v for k, v in results[name].items()}, flush=True)
-    rows = [[name, str(len(r['picture_ms'])), f"{statistics.median(r['picture_ms']):.0f} / {max(r['picture_ms']):.0f}", f"{r['fps']:.1f}",
-             f"{statistics.median(r['healthz_ms']):.1f} / {max(r['healthz_ms']):.0f}", f"{max(r['sleep_late_ms']):.0f}"] for name, r in results.items()]
+        print(
+            name,
+            {k: round(statistics.median(v), 1) if isinstance(v, list) else v for k, v in results[name].items()},
+            flush=True,
+        )
+    rows = [
+        [
+            name,
+            str(len(r["picture_ms"])),
+            f"{statistics.median(r['picture_ms']):.0f} / {max(r['picture_ms']):.0f}",
+            f"{r['fps']:.1f}",
+            f"{statistics.median(r['healthz_ms']):.1f} / {max(r['healthz_ms']):.0f}",
+            f"{max(r['sleep_late_ms']):.0f}",
+        ]
+        for name, r in results.items()
+    ]
     h = measure.head(f"{device['name']}, {device['driver']} {device['driver_info']}", load)
-    text = measure.head_markdown('What one client may make another one wait', h)
-    text += measure.table(['load of another client', 'pictures', f'{arguments.size[0]} × {arguments.size[1]} picture, ms: median / worst', 'frames/s of an own session',
-                           '/healthz, ms: median / worst', 'a sleep is late, ms: worst'], rows)
+    text = measure.head_markdown("What one client may make another one wait", h)
+    text += measure.table(
+        [
+            "load of another client",
+            "pictures",
+            f"{arguments.size[0]} × {arguments.size[1]} picture, ms: median / worst",
+            "frames/s of an own session",
+            "/healthz, ms: median / worst",
+            "a sleep is late, ms: worst",
+        ],
+        rows,
+    )
     if arguments.save or not arguments.only:
-        measure.save(arguments.out, arguments.save or 'fairness', h, {'loads': results}, text)
+        measure.save(arguments.out, arguments.save or "fairness", h, {"loads": results}, text)
     else:
         print(text)
 
 
-if __name__ == '__main__':
+if __name__ == "__main__":
     main()

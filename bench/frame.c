@@ -1,7 +1,8 @@
-/* What a whole frame costs, pass by pass: the scene of a file, which stays the same when the default grows richer, with a cold lens map, and again with the map
- * reused, as when only the exposure or the palette changes; asked for, a third time from another azimuth, before which a sky turns. --live: cold frames are those of
- * a drag, and reused ones those of a session whose time goes on. Prints one line of JSON: every run, in ms.
- * frame.py runs it with one and two lavapipe threads and takes medians. */
+/* What a whole frame costs, pass by pass: the scene of a file, which stays the same when the default grows richer,
+ * with a cold lens map, and again with the map reused, as when only the exposure or the palette changes; asked for,
+ * a third time from another azimuth, before which a sky turns. --live: cold frames are those of a drag, and reused
+ * ones those of a session whose time goes on. Prints one line of JSON: every run, in ms. frame.py runs it with one
+ * and two lavapipe threads and takes medians. */
 #include "render/output/png.h"
 #include "render/render.h"
 
@@ -24,9 +25,9 @@ static double now_ms(void)
     return 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
 }
 
-static enum kd_status encode(struct kd_renderer *renderer, const struct kd_scene *scene,
-                             const struct kd_plan *plan, const struct kd_frame *frame, int level, cJSON *run,
-                             const char *name, struct kd_error *error)
+static enum kd_status encode(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
+                             const struct kd_frame *frame, int level, cJSON *run, const char *name,
+                             struct kd_error *error)
 {
     struct kd_buffer png = { 0 };
     double start = now_ms();
@@ -89,7 +90,8 @@ static enum kd_status measure(const struct options *o, struct kd_renderer *rende
     scene.sky.model = o->sky ? KD_SKY_GRID : scene.sky.model;
     scene.disk.model = o->particles ? KD_DISK_PARTICLES : scene.disk.model;
     cJSON *first = cJSON_AddArrayToObject(root, "first"), *cold = cJSON_AddArrayToObject(root, "cold");
-    cJSON *reused = cJSON_AddArrayToObject(root, "reused"), *turned = o->turn ? cJSON_AddArrayToObject(root, "turned") : NULL;
+    cJSON *reused = cJSON_AddArrayToObject(root, "reused"),
+          *turned = o->turn ? cJSON_AddArrayToObject(root, "turned") : NULL;
     enum kd_status status = one_frame(renderer, &scene, o->live, first, error); /* compiles the kernels */
     for (int k = 0; k < o->repeat && !status; k++) {
         scene.camera.inclination_deg += 1e-3; /* another lens map of the same work */
@@ -135,7 +137,8 @@ int main(int argc, char **argv)
         { "sky", 'k', NULL, 0, "with a sky, which needs the integrator", 0 },
         { "particles", 'p', NULL, 0, "with a disk of particles", 0 },
         { "turn", 't', NULL, 0, "and with the observer half a degree further round the hole", 0 },
-        { "live", 'l', NULL, 0, "cold frames are those of a drag, and reused ones those of a scene whose time goes on", 0 },
+        { "live", 'l', NULL, 0, "cold frames are those of a drag, and reused ones those of a scene whose time goes on",
+          0 },
         { 0 },
     };
     struct options o = { "auto", "bench/scenes/frame.json", 1280, 720, 9, false, false, false, false };

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """What a frame costs from the scene to the PNG, with one lavapipe thread and with two: medians of kd_bench_frame."""
+
 import json
 import os
 import pathlib
@@ -26,7 +27,9 @@ def frames(bench, flags, cores, threads, repeat):
     """One run of a build's bench; builds from before the scene had a file of its own have it as their default."""
     known = "--scene" in measure.run([bench, "--help"])
     scene = ["--scene", str(measure.ROOT / "bench/scenes/frame.json")] if known else []
-    return json.loads(measure.run([bench, *scene, "--repeat", str(repeat), *flags], cores, threads).strip().splitlines()[-1])
+    return json.loads(
+        measure.run([bench, *scene, "--repeat", str(repeat), *flags], cores, threads).strip().splitlines()[-1]
+    )
 
 
 def medians(runs):
@@ -45,7 +48,9 @@ def medians(runs):
 def main():
     p = measure.parser(__doc__)
     p.add_argument("--rounds", type=int, default=3, help="runs with each number of threads, in turn (3)")
-    p.add_argument("--before", type=pathlib.Path, help="another build directory, whose frames are timed in turn with this one's")
+    p.add_argument(
+        "--before", type=pathlib.Path, help="another build directory, whose frames are timed in turn with this one's"
+    )
     p.add_argument("--repeat", type=int, default=9, help="frames of each kind in a run (9)")
     o = p.parse_args()
     bench, kerrd = measure.binary(o.build, "bench/kd_bench_frame"), measure.binary(o.build, "src/kerrd")
@@ -71,19 +76,52 @@ def main():
         figures.append({"threads": name, "scene": scene, "build": build or "this", **m})
         for kind in ("cold", "reused"):
             f = m[kind]
-            rows.append([scene + (f", {build}" if build else ""), name, kind, *("–" if f[k] is None else f"{f[k]:.1f}" for k in PASSES),
-                         f"{f['to_png_1']:.0f}", f"{f['to_png_6']:.0f}"])
+            rows.append(
+                [
+                    scene + (f", {build}" if build else ""),
+                    name,
+                    kind,
+                    *("–" if f[k] is None else f"{f[k]:.1f}" for k in PASSES),
+                    f"{f['to_png_1']:.0f}",
+                    f"{f['to_png_6']:.0f}",
+                ]
+            )
     text = measure.head_markdown("A frame, pass by pass", h)
-    text += (f"{any_run['width']} × {any_run['height']}, one ray a pixel, three image orders; ms, medians of "
-             f"{o.rounds * o.repeat} frames.\n\n")
-    text += measure.table(["scene", "lavapipe", "lens map", "trace", "transfer", "expose", "post", "readback",
-                           "render, wall", "encode 1", "encode 6", "to PNG, 1", "to PNG, 6"], rows)
-    text += ("\nThe passes are the device's timestamps; \"render, wall\" is the host's clock round all of them. Encode 1 is the "
-             "PNG of the live\nview, encode 6 that of a file. \"to PNG\" is render plus encode.\n\n")
+    text += (
+        f"{any_run['width']} × {any_run['height']}, one ray a pixel, three image orders; ms, medians of "
+        f"{o.rounds * o.repeat} frames.\n\n"
+    )
+    text += measure.table(
+        [
+            "scene",
+            "lavapipe",
+            "lens map",
+            "trace",
+            "transfer",
+            "expose",
+            "post",
+            "readback",
+            "render, wall",
+            "encode 1",
+            "encode 6",
+            "to PNG, 1",
+            "to PNG, 6",
+        ],
+        rows,
+    )
+    text += (
+        "\nThe passes are the device's timestamps; \"render, wall\" is the host's clock round all of them. Encode 1 is the "
+        'PNG of the live\nview, encode 6 that of a file. "to PNG" is render plus encode.\n\n'
+    )
     text += "`kerrd render -o frame.png` from start to exit, default scene, kernels cached: "
     text += ", ".join(f"{whole[name]:.0f} ms with {name}" for name, *_ in setups) + f" (median of {o.repeat}).\n"
-    measure.save(o.out, "frame", h, {"width": any_run["width"], "height": any_run["height"], "figures": figures,
-                                     "command_line_ms": whole}, text)
+    measure.save(
+        o.out,
+        "frame",
+        h,
+        {"width": any_run["width"], "height": any_run["height"], "figures": figures, "command_line_ms": whole},
+        text,
+    )
 
 
 if __name__ == "__main__":

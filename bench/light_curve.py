@@ -5,19 +5,30 @@
 
 Needs matplotlib (pip install matplotlib).
 """
+
 import argparse
 import json
 import pathlib
 import subprocess
 
 import matplotlib
+
 matplotlib.use("svg")
 import matplotlib.pyplot as plt
 
 from physics_plots import BLUE, GREEN, RED, save
 
-SCENE = {"spacetime.spin": 0.5, "disk.model": "none", "spots.0.brightness": 1, "spots.0.r": 9, "spots.0.size": 1, "camera.field_m": 40,
-         "image.width": 400, "image.height": 400, "image.samples": 2}
+SCENE = {
+    "spacetime.spin": 0.5,
+    "disk.model": "none",
+    "spots.0.brightness": 1,
+    "spots.0.r": 9,
+    "spots.0.size": 1,
+    "camera.field_m": 40,
+    "image.width": 400,
+    "image.height": 400,
+    "image.samples": 2,
+}
 
 
 def curve(kerrd, frames=121, **changes):
@@ -33,14 +44,28 @@ def main():
     parser.add_argument("--kerrd", default="build/src/kerrd")
     parser.add_argument("-o", "--output", default="docs/physics/hot-spots.svg")
     options = parser.parse_args()
-    plt.rcParams.update({"svg.hashsalt": "kerrd", "svg.fonttype": "none", "font.size": 8, "axes.titlesize": 9, "legend.fontsize": 7, "legend.frameon": False})
+    plt.rcParams.update(
+        {
+            "svg.hashsalt": "kerrd",
+            "svg.fonttype": "none",
+            "font.size": 8,
+            "axes.titlesize": 9,
+            "legend.fontsize": 7,
+            "legend.frameon": False,
+        }
+    )
     figure, (light, track) = plt.subplots(1, 2, figsize=(8, 3.6), width_ratios=(1.2, 1), layout="constrained")
     for inclination, colour in ((155, BLUE), (120, GREEN), (100, RED)):
         for slow, style in ((True, "-"), (False, ":")):
             c = curve(options.kerrd, camera__inclination_deg=inclination, disk__slow_light=slow)
             mean = sum(c["spots_flux"][:-1]) / (len(c["t"]) - 1)
-            light.plot(c["t"], [f / mean for f in c["spots_flux"]], style, color=colour,
-                       label=f"i = {inclination}°" + ("" if slow else ", fast light"))
+            light.plot(
+                c["t"],
+                [f / mean for f in c["spots_flux"]],
+                style,
+                color=colour,
+                label=f"i = {inclination}°" + ("" if slow else ", fast light"),
+            )
             if slow:
                 track.plot(c["centroid_x"], c["centroid_y"], color=colour)
                 track.plot(c["centroid_x"][0], c["centroid_y"][0], "o", color=colour, markersize=4)

@@ -1,6 +1,8 @@
-/* Line profiles by one thread, in its own time: what the table of a spin and an inclination costs, what the sum does, and how far off the profile is. One line of JSON a pair.
+/* Line profiles by one thread, in its own time: what the table of a spin and an inclination costs, what the sum
+ * does, and how far off the profile is. One line of JSON a pair.
  *
- *     kd_bench_line [TOLERANCE [REPEAT [DIRECTIONS]]]      0.003, 7, 0: the true error by so many directions of tests/oracle/line_triangles.h, 0: it is not looked at
+ *     kd_bench_line [TOLERANCE [REPEAT [DIRECTIONS]]]      0.003, 7, 0: the true error by so many directions of
+ *                                                          tests/oracle/line_triangles.h, 0: it is not looked at
  *
  * 500 bins from 0 to 1.7, r^-3 from the ISCO to 400 M; the least of REPEAT runs. No device. */
 #include "physics/line_profile.h"
@@ -11,7 +13,8 @@
 #include <time.h>
 
 enum { BINS = 500 };
-static const double spins[] = { -0.998, -0.5, 0, 0.5, 0.9, 0.99, 0.998 }, inclinations[] = { 5, 30, 45, 60, 70, 75, 80, 85 };
+static const double spins[] = { -0.998, -0.5, 0, 0.5, 0.9, 0.99, 0.998 },
+                    inclinations[] = { 5, 30, 45, 60, 70, 75, 80, 85 };
 static struct kd_disk_image image;
 
 static double own_ms(void)
@@ -50,7 +53,8 @@ static bool pair(double a, double i, double tolerance, int repeat, int direction
             return false;
         table = fmin(table, made - begun), sum = fmin(sum, own_ms() - made);
     }
-    printf("{\"spin\": %g, \"inclination_deg\": %g, \"table_ms\": %.3f, \"sum_ms\": %.3f, \"told\": %.2e", a, i, table, sum, profile.error);
+    printf("{\"spin\": %g, \"inclination_deg\": %g, \"table_ms\": %.3f, \"sum_ms\": %.3f, \"told\": %.2e", a, i, table,
+           sum, profile.error);
     if (directions)
         printf(", \"true\": %.2e", true_error(edges, share, directions));
     puts("}");

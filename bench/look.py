@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""What each feature of the look costs: the smooth disk, and with one thing more at a time; the default scene with all that it has.
+"""What each feature of the look costs: the smooth disk, and with one thing more at a time; the default scene with all
+that it has.
 
     bench/look.py            about two minutes, on a machine that does nothing else
     bench/look.py --before OTHER/build      the smooth disk by a build without the features too, in turn
@@ -7,6 +8,7 @@
 640 x 360, two threads; least of the frames of all rounds, whose lens map is traced anew (cold) or reused. Writes
 bench/results/DATE-DEVICE-look.{json,md}.
 """
+
 import json
 import os
 import pathlib
@@ -35,13 +37,21 @@ WALL = "total"
 
 
 def frames(bench, scene, repeat):
-    text = measure.run([bench, "--scene", scene, "--width", "640", "--height", "360", "--repeat", str(repeat)], "0,1", 2)
+    text = measure.run(
+        [bench, "--scene", scene, "--width", "640", "--height", "360", "--repeat", str(repeat)], "0,1", 2
+    )
     return json.loads(text.strip().splitlines()[-1])
 
 
 def least(runs, kind):
     """The least time of each pass, and of the whole frame, by itself."""
-    names = {name: None for r in runs for f in r[kind] for name, value in f.items() if isinstance(value, float) and not name.startswith("encode")}
+    names = {
+        name: None
+        for r in runs
+        for f in r[kind]
+        for name, value in f.items()
+        if isinstance(value, float) and not name.startswith("encode")
+    }
     return {name: min(f[name] for r in runs for f in r[kind] if name in f) for name in names}
 
 
@@ -49,7 +59,11 @@ def main():
     p = measure.parser(__doc__)
     p.add_argument("--rounds", type=int, default=3, help="runs of each scene, in turn (3)")
     p.add_argument("--repeat", type=int, default=5, help="frames of each kind in a run (5)")
-    p.add_argument("--before", type=pathlib.Path, help="another build directory, whose smooth disk (bench/scenes/frame.json) is timed too")
+    p.add_argument(
+        "--before",
+        type=pathlib.Path,
+        help="another build directory, whose smooth disk (bench/scenes/frame.json) is timed too",
+    )
     o = p.parse_args()
     bench, kerrd = measure.binary(o.build, "bench/kd_bench_frame"), measure.binary(o.build, "src/kerrd")
     load, runs = os.getloadavg()[0], {}
@@ -57,11 +71,16 @@ def main():
         subjects = []
         for name, arguments in SCENES.items():
             path = pathlib.Path(folder, f"{len(subjects)}.json")
-            path.write_text(subprocess.run([kerrd, "scene", *arguments], capture_output=True, text=True, check=True).stdout)
+            path.write_text(
+                subprocess.run([kerrd, "scene", *arguments], capture_output=True, text=True, check=True).stdout
+            )
             subjects.append((name, bench, str(path)))
         if o.before:
             frame = str(measure.ROOT / "bench/scenes/frame.json")
-            subjects += [("frame.json", bench, frame), ("frame.json, before", measure.binary(o.before, "bench/kd_bench_frame"), frame)]
+            subjects += [
+                ("frame.json", bench, frame),
+                ("frame.json, before", measure.binary(o.before, "bench/kd_bench_frame"), frame),
+            ]
         for _ in range(o.rounds):
             for name, program, scene in subjects:
                 runs.setdefault(name, []).append(frames(program, scene, o.repeat))
@@ -71,8 +90,14 @@ def main():
     rows = []
     for name, f in figures.items():
         base = figures["frame.json" if name.startswith("frame.json") else "smooth disk"]
-        rows.append([name, *(f"{f['cold'].get(k, 0):.1f}" if f["cold"].get(k, 0) >= 0.05 else "–" for k in passes),
-                     *(f"{f[kind][WALL]:.1f}" for kind in ("cold", "reused")), *(f"{f[kind][WALL] - base[kind][WALL]:+.1f}" for kind in ("cold", "reused"))])
+        rows.append(
+            [
+                name,
+                *(f"{f['cold'].get(k, 0):.1f}" if f["cold"].get(k, 0) >= 0.05 else "–" for k in passes),
+                *(f"{f[kind][WALL]:.1f}" for kind in ("cold", "reused")),
+                *(f"{f[kind][WALL] - base[kind][WALL]:+.1f}" for kind in ("cold", "reused")),
+            ]
+        )
     text = measure.head_markdown("What each feature of the look costs", h)
     text += f"640 × 360, two lavapipe threads, ms, least of {o.rounds * o.repeat} frames; passes of a frame whose lens map is traced.\n\n"
     text += measure.table(["scene", *passes, "all, cold", "all, reused", "more, cold", "more, reused"], rows)

@@ -1,4 +1,5 @@
 """What the benchmark scripts share: the machine, the pinned run, medians, the files under bench/results."""
+
 import argparse
 import datetime
 import json
@@ -43,8 +44,9 @@ def run(command, cores=None, threads=None):
         environment["LP_NUM_THREADS"] = str(threads)
     if cores is not None:
         command = ["taskset", "-c", cores, *command]
-    done = subprocess.run(command, env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True,
-                          errors="replace")
+    done = subprocess.run(
+        command, env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace"
+    )
     if done.returncode:
         sys.exit(f"{shlex.join(command)} failed with {done.returncode}:\n{done.stderr}")
     return done.stdout + done.stderr
@@ -55,7 +57,8 @@ def one_core(command, core):
 
 
 def processor(pid):
-    """Seconds of all cores that another process has had, by a clock of its own: not in steps of 10 ms, as /proc has them."""
+    """Seconds of all cores that another process has had, by a clock of its own: not in steps of 10 ms, as /proc has
+    them."""
     return time.clock_gettime((~pid << 3) | 2)  # clock_getcpuclockid(3)
 
 
@@ -79,7 +82,10 @@ def head(device, load_before, command=None):
     m = machine()
     return {
         "date": datetime.date.today().isoformat(),
-        "cpu": m["cpu"], "cores": m["cores"], "system": m["system"], "driver": device,
+        "cpu": m["cpu"],
+        "cores": m["cores"],
+        "system": m["system"],
+        "driver": device,
         "command": command or shlex.join(["bench/" + pathlib.Path(sys.argv[0]).name, *portable(sys.argv[1:])]),
         "load_average": [round(x, 2) for x in (load_before, os.getloadavg()[0])],
     }
@@ -98,8 +104,10 @@ def portable(arguments):
 
 def head_markdown(title, h):
     load = " to ".join(map(str, h["load_average"]))
-    return (f"# {title}\n\n{h['date']}. {h['cpu']}, {h['cores']} cores, {h['system']}.\n"
-            f"Driver: {h['driver']}. Load average while it ran: {load}.\n\n    {h['command']}\n\n")
+    return (
+        f"# {title}\n\n{h['date']}. {h['cpu']}, {h['cores']} cores, {h['system']}.\n"
+        f"Driver: {h['driver']}. Load average while it ran: {load}.\n\n    {h['command']}\n\n"
+    )
 
 
 def table(names, rows):

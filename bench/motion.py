@@ -1,12 +1,15 @@
 #!/usr/bin/env python3
-"""Gas that moves by a tenth of a pixel a frame, seen from 5 degrees above its plane: does it shimmer? One ray a pixel against 64.
+"""Gas that moves by a tenth of a pixel a frame, seen from 5 degrees above its plane: does it shimmer? One ray a pixel
+against 64.
 
     bench/motion.py            about five minutes, on a machine that does nothing else
 
-A hundred frames of 320 x 180, linear light, by a server of its own. Of each pixel the variance in time, and the mean square of the step from frame
-to frame; both over those of the pictures of 64 rays a pixel, of the whole picture and of the pixels that few rays show well, those whose gas is finest. Needs
-numpy. Writes bench/results/DATE-DEVICE-motion.{json,md}.
+A hundred frames of 320 x 180, linear light, by a server of its own. Of each pixel the variance in time, and the mean
+square of the step from frame to frame; both over those of the pictures of 64 rays a pixel, of the whole picture and of
+the pixels that few rays show well, those whose gas is finest. Needs numpy. Writes
+bench/results/DATE-DEVICE-motion.{json,md}.
 """
+
 import http.client
 import io
 import json
@@ -39,17 +42,28 @@ def ask(port, method, target, body=None):
 def film(port, samples, inclination):
     """(frames, height, width), luminance of linear light."""
     field = 46
-    scene = {"image": {"width": WIDTH, "height": HEIGHT, "samples": samples, "layers": ["rgb"]},
-             "camera": {"inclination_deg": inclination, "field_m": field}}
+    scene = {
+        "image": {"width": WIDTH, "height": HEIGHT, "samples": samples, "layers": ["rgb"]},
+        "camera": {"inclination_deg": inclination, "field_m": field},
+    }
     end = {"camera": {"centre_alpha": STEP * (FRAMES - 1) * field / WIDTH}}
-    job = json.loads(ask(port, "POST", "/v1/jobs", {"scene": scene, "keyframes": [{"frame": FRAMES - 1, "scene": end}], "output": "layers"}))
+    job = json.loads(
+        ask(
+            port,
+            "POST",
+            "/v1/jobs",
+            {"scene": scene, "keyframes": [{"frame": FRAMES - 1, "scene": end}], "output": "layers"},
+        )
+    )
     at = "/v1/jobs/" + job["id"]
     while (state := json.loads(ask(port, "GET", at)))["state"] in ("waiting", "running"):
         time.sleep(0.2)
     if state["state"] != "done":
         raise SystemExit(state)
     with zipfile.ZipFile(io.BytesIO(ask(port, "GET", at + "/result"))) as files:
-        return numpy.stack([numpy.load(io.BytesIO(files.read(name)))["rgb"] @ (0.2126, 0.7152, 0.0722) for name in files.namelist()])
+        return numpy.stack(
+            [numpy.load(io.BytesIO(files.read(name)))["rgb"] @ (0.2126, 0.7152, 0.0722) for name in files.namelist()]
+        )
 
 
 def figures(light, truth):
@@ -58,9 +72,12 @@ def figures(light, truth):
     lit = truth.mean(0) > 0.02
     step = lambda x: numpy.square(numpy.diff(x, axis=0)).mean(0)
     fine = lit & (step(light) > numpy.quantile(step(light)[lit], 0.9))
-    return {"variance": float(light.var(0)[lit].sum() / truth.var(0)[lit].sum()), "steps": float(step(light)[lit].sum() / step(truth)[lit].sum()),
-            "variance_finest": float(light.var(0)[fine].sum() / truth.var(0)[fine].sum()),
-            "off": float(numpy.sqrt(numpy.square(light - truth)[:, lit].mean()))}
+    return {
+        "variance": float(light.var(0)[lit].sum() / truth.var(0)[lit].sum()),
+        "steps": float(step(light)[lit].sum() / step(truth)[lit].sum()),
+        "variance_finest": float(light.var(0)[fine].sum() / truth.var(0)[fine].sum()),
+        "off": float(numpy.sqrt(numpy.square(light - truth)[:, lit].mean())),
+    }
 
 
 def main():
@@ -69,7 +86,9 @@ def main():
     o = p.parse_args()
     kerrd = measure.binary(o.build, "src/kerrd")
     load = os.getloadavg()[0]
-    server = subprocess.Popen([kerrd, "serve", "--port", "0"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    server = subprocess.Popen(
+        [kerrd, "serve", "--port", "0"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
+    )
     try:
         port = int(re.search(r":(\d+)/", server.stdout.readline())[1])
         device = json.loads(ask(port, "GET", "/v1/device"))["name"]
@@ -77,16 +96,40 @@ def main():
         for inclination in map(float, o.inclinations.split(",")):
             truth = film(port, 8, inclination)
             for samples in (1, 2):
-                found.append({"inclination_deg": inclination, "rays": samples * samples, **figures(film(port, samples, inclination), truth)})
+                found.append(
+                    {
+                        "inclination_deg": inclination,
+                        "rays": samples * samples,
+                        **figures(film(port, samples, inclination), truth),
+                    }
+                )
                 print(found[-1], flush=True)
     finally:
         server.terminate()
     h = measure.head(device, load)
     text = measure.head_markdown("Gas moved by a tenth of a pixel a frame, against 64 rays a pixel", h)
     text += f"{WIDTH} × {HEIGHT}, {FRAMES} frames of the default scene's gas, square roots of linear light; 1 is the truth's.\n\n"
-    text += measure.table(["inclination", "rays a pixel", "variance in time", "of the finest tenth", "steps from frame to frame", "off by, of white"],
-                          [[f"{f['inclination_deg']:g}°", str(f["rays"]), f"{f['variance']:.3f}", f"{f['variance_finest']:.3f}", f"{f['steps']:.2f}", f"{f['off']:.3f}"]
-                           for f in found])
+    text += measure.table(
+        [
+            "inclination",
+            "rays a pixel",
+            "variance in time",
+            "of the finest tenth",
+            "steps from frame to frame",
+            "off by, of white",
+        ],
+        [
+            [
+                f"{f['inclination_deg']:g}°",
+                str(f["rays"]),
+                f"{f['variance']:.3f}",
+                f"{f['variance_finest']:.3f}",
+                f"{f['steps']:.2f}",
+                f"{f['off']:.3f}",
+            ]
+            for f in found
+        ],
+    )
     measure.save(o.out, "motion", h, {"figures": found}, text)
 
 

@@ -1,5 +1,5 @@
-// Yoshida's step of src/physics/orbit_path.c in double precision, an orbit an invocation, its sums not compensated: what a
-// kernel for lists of orbits would cost.
+// Yoshida's step of src/physics/orbit_path.c in double precision, an orbit an invocation, its sums not compensated:
+// what a kernel for lists of orbits would cost.
 #version 450
 layout(local_size_x = 64) in;
 
@@ -12,8 +12,9 @@ struct Orbit {
 layout(std430, set = 0, binding = 0) buffer Orbits { Orbit orbits[]; };
 layout(push_constant) uniform Push { uint n, steps; };
 
-const double kicks[7] = double[](0.7845136104775572lf, 0.23557321335935813lf, -1.177679984178871lf, 1.3151863206839112lf,
-                                 -1.177679984178871lf, 0.23557321335935813lf, 0.7845136104775572lf);
+const double kicks[7] =
+    double[](0.7845136104775572lf, 0.23557321335935813lf, -1.177679984178871lf, 1.3151863206839112lf,
+             -1.177679984178871lf, 0.23557321335935813lf, 0.7845136104775572lf);
 
 void main()
 {
@@ -36,7 +37,8 @@ void main()
                 break;
             double w2 = w * w, a2w2 = a2 * w2, y2 = y * y, up = a2 * o.z * y2;
             double far = 1.0lf / w2, hole = 1.0lf / (1.0lf - 2.0lf * w + a2w2);
-            double left = w - o.w_low, right = o.w_high - w, g = o.g0 + w * (o.g1 + w * o.g2), slope = o.g1 + 2.0lf * w * o.g2;
+            double left = w - o.w_low, right = o.w_high - w, g = o.g0 + w * (o.g1 + w * o.g2),
+                   slope = o.g1 + 2.0lf * w * o.g2;
             double kick = kicks[stage] * o.h;
             v += kick * (0.5lf * ((right - left) * g + left * right * slope) + o.strength_w * (w - o.centre_w));
             u += kick * y * (2.0lf * bend * o.z * y2 + o.stiff);

@@ -1,10 +1,10 @@
-/* The step of the orbit integrator on the device against the same step on the processor, one by one and eight abreast: whether a
- * kernel for lists of orbits would pay.
+/* The step of the orbit integrator on the device against the same step on the processor, one by one and eight
+ * abreast: whether a kernel for lists of orbits would pay.
  *
  *     LP_NUM_THREADS=1 taskset -c 0 kd_bench_orbits [ORBITS [STEPS]]
  *
- * All follow the same orbits by the same number of steps. The device's sums are not compensated, and it looks at the energy only,
- * not at Q, the rest mass and periastra. */
+ * All follow the same orbits by the same number of steps. The device's sums are not compensated, and it looks at the
+ * energy only, not at Q, the rest mass and periastra. */
 #include "physics/orbit_lanes.h"
 #include "vk/vk.h"
 
@@ -29,10 +29,7 @@ static double now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static double between(double low, double high)
-{
-    return low + (high - low) * drand48();
-}
+static double between(double low, double high) { return low + (high - low) * drand48(); }
 
 static struct orbit pack(const struct kd_orbit_path *p, double h)
 {
@@ -158,10 +155,12 @@ int main(int argc, char **argv)
         gpu_worst = fmax(gpu_worst, orbits[i].drift / by_energy);
         apart = fmax(apart, fabs(orbits[i].t / paths[i].rate[KD_PATH_T].value - 1));
     }
-    printf("%u orbits, %u steps of 1/400 period\none by one     %.1f ns a step, worst error of E %.1e\neight abreast  %.1f ns a "
+    printf("%u orbits, %u steps of 1/400 period\none by one     %.1f ns a step, worst error of E %.1e\neight abreast  "
+           "%.1f ns a "
            "step\ndevice         %.1f ns a step, worst error of E "
            "%.1e, t apart by %.1e\n",
-           n, steps, 1e9 * cpu / n / steps, cpu_worst, 1e9 * lanes / n / steps, 1e9 * gpu / n / steps, gpu_worst, apart);
+           n, steps, 1e9 * cpu / n / steps, cpu_worst, 1e9 * lanes / n / steps, 1e9 * gpu / n / steps, gpu_worst,
+           apart);
     free(paths);
     free(again);
     free(orbits);

@@ -1,11 +1,15 @@
 #!/usr/bin/env python3
-"""The page in Chromium as somebody has it: time to the first picture, frames a second, milliseconds a frame of the server and of the browser.
+"""The page in Chromium as somebody has it: time to the first picture, frames a second, milliseconds a frame of the
+server and of the browser.
 
-    bench/page.py            about two minutes, on a machine that does nothing else; needs Chromium, and Playwright in venv/ (scripts/setup --browser)
+    bench/page.py            about two minutes, on a machine that does nothing else; needs Chromium, and Playwright in
+                             venv/ (scripts/setup --browser)
 
-A window of 1440 x 900 on the machine of the server. Rows: time running, the camera dragged round the hole, both again on a line of 300 ms and 1 Mbit/s
-(Chromium's own). Each row has what was asked for beside it. Writes bench/results/DATE-DEVICE-page.{json,md}.
+A window of 1440 x 900 on the machine of the server. Rows: time running, the camera dragged round the hole, both again
+on a line of 300 ms and 1 Mbit/s (Chromium's own). Each row has what was asked for beside it. Writes
+bench/results/DATE-DEVICE-page.{json,md}.
 """
+
 import json
 import os
 import re
@@ -16,12 +20,13 @@ import urllib.request
 
 import measure
 
-WINDOW = {'width': 1440, 'height': 900}
+WINDOW = {"width": 1440, "height": 900}
 PATIENCE_MS = 120_000
-SCENES = {'default': 'preset=default', 'first view': 'preset=gas-stars'}
-FAR = {'offline': False, 'latency': 300, 'downloadThroughput': 1e6 / 8, 'uploadThroughput': 1e6 / 8}
-# Every answer with a frame that the page reads, with the width, what the server took for it, and the time from answer to picture.
-WATCH = '''() => {
+SCENES = {"default": "preset=default", "first view": "preset=gas-stars"}
+FAR = {"offline": False, "latency": 300, "downloadThroughput": 1e6 / 8, "uploadThroughput": 1e6 / 8}
+# Every answer with a frame that the page reads, with the width, what the server took for it, and the time from answer
+# to picture.
+WATCH = """() => {
     window.seen = [];
     const real = window.fetch;
     window.fetch = async (...asked) => {
@@ -37,14 +42,15 @@ WATCH = '''() => {
     new MutationObserver(shows).observe(document.getElementById("stage"), { childList: true });
     const put = ImageBitmapRenderingContext.prototype.transferFromImageBitmap;
     ImageBitmapRenderingContext.prototype.transferFromImageBitmap = function (bitmap) { put.call(this, bitmap); shows(); };
-}'''
+}"""
 
 
 def drag(page, seconds):
     """As a hand does: some sixty places a second, there and back, round the hole."""
     page.mouse.move(700, 400)
     page.mouse.down()
-    page.evaluate('''seconds => new Promise(done => {
+    page.evaluate(
+        """seconds => new Promise(done => {
         const stage = document.getElementById('stage'), begun = performance.now();
         const move = now => {
             const x = 700 + 200 * Math.sin((now - begun) / 700), y = 400 + 60 * Math.sin((now - begun) / 500);
@@ -52,21 +58,30 @@ def drag(page, seconds):
             now - begun < 1e3 * seconds ? requestAnimationFrame(move) : done();
         };
         requestAnimationFrame(move);
-    })''', seconds)
+    })""",
+        seconds,
+    )
     page.mouse.up()
 
 
 def row(page, act, seconds):
-    page.evaluate('() => { window.seen.length = 0; }')
+    page.evaluate("() => { window.seen.length = 0; }")
     act(seconds)
-    seen = page.evaluate('() => window.seen')
-    widths = [int(re.match(r'width=(\d+)', one['quality'])[1]) for one in seen]
-    passes = [{name: float(ms) for name, ms in re.findall(r'(\w+);dur=([\d.]+)', one['timing'])} for one in seen]
+    seen = page.evaluate("() => window.seen")
+    widths = [int(re.match(r"width=(\d+)", one["quality"])[1]) for one in seen]
+    passes = [{name: float(ms) for name, ms in re.findall(r"(\w+);dur=([\d.]+)", one["timing"])} for one in seen]
     median = lambda values: round(statistics.median(values), 1) if values else None
     stage = page.evaluate('() => document.getElementById("stage").clientWidth')
-    return {'fps': round(len(seen) / seconds, 1), 'width': median(widths), 'window': stage, 'part': round(statistics.median(widths) / stage, 2) if widths else None,
-            'server_ms': median([p.get('total', 0) for p in passes]), 'encode_ms': median([p.get('encode', 0) for p in passes]),
-            'browser_ms': median([one['shown'] - one['came'] for one in seen if one.get('shown')]), 'kB': median([one['bytes'] / 1e3 for one in seen])}
+    return {
+        "fps": round(len(seen) / seconds, 1),
+        "width": median(widths),
+        "window": stage,
+        "part": round(statistics.median(widths) / stage, 2) if widths else None,
+        "server_ms": median([p.get("total", 0) for p in passes]),
+        "encode_ms": median([p.get("encode", 0) for p in passes]),
+        "browser_ms": median([one["shown"] - one["came"] for one in seen if one.get("shown")]),
+        "kB": median([one["bytes"] / 1e3 for one in seen]),
+    }
 
 
 def first_picture(browser, base):
@@ -87,40 +102,45 @@ def rows_of(browser, base, seconds):
     for name, scene in SCENES.items():
         page = browser.new_page(viewport=WINDOW)
         page.set_default_timeout(PATIENCE_MS)
-        page.goto(f'{base}#{scene}&motion.time_rate=4')
-        page.wait_for_selector('#stage[data-final]')
+        page.goto(f"{base}#{scene}&motion.time_rate=4")
+        page.wait_for_selector("#stage[data-final]")
         page.evaluate(WATCH)
         line = page.context.new_cdp_session(page)
         for far in (False, True):
             if far:
-                line.send('Network.enable')
-                line.send('Network.emulateNetworkConditions', FAR)
+                line.send("Network.enable")
+                line.send("Network.emulateNetworkConditions", FAR)
             page.wait_for_timeout(4000)  # it finds its size
-            where = ', 300 ms and 1 Mbit/s' if far else ''
-            rows[f'{name}: time runs{where}'] = row(page, lambda s: page.wait_for_timeout(1e3 * s), seconds)
+            where = ", 300 ms and 1 Mbit/s" if far else ""
+            rows[f"{name}: time runs{where}"] = row(page, lambda s: page.wait_for_timeout(1e3 * s), seconds)
             drag(page, 3)
-            rows[f'{name}: dragged{where}'] = row(page, lambda s: drag(page, s), seconds)
+            rows[f"{name}: dragged{where}"] = row(page, lambda s: drag(page, s), seconds)
         page.close()
     return rows
 
 
 def asked_for(name):
-    return '≥ 8' if 'Mbit' in name else '≥ 30' if 'time runs' in name else '≥ 20, at half the width'
+    return "≥ 8" if "Mbit" in name else "≥ 30" if "time runs" in name else "≥ 20, at half the width"
 
 
 def main():
     from playwright.sync_api import sync_playwright
+
     p = measure.parser(__doc__.splitlines()[0])
-    p.add_argument('--seconds', type=float, default=6, help='of each row (6)')
+    p.add_argument("--seconds", type=float, default=6, help="of each row (6)")
     arguments, load = p.parse_args(), os.getloadavg()[0]
-    server = subprocess.Popen([measure.binary(arguments.build, 'src/kerrd'), 'serve', '--port', '0'], stdout=subprocess.PIPE, text=True)
+    server = subprocess.Popen(
+        [measure.binary(arguments.build, "src/kerrd"), "serve", "--port", "0"], stdout=subprocess.PIPE, text=True
+    )
     try:
-        port = re.search(r':(\d+)/', server.stdout.readline())[1]
-        base = f'http://127.0.0.1:{port}/'
-        with urllib.request.urlopen(base + 'v1/device') as answer:
+        port = re.search(r":(\d+)/", server.stdout.readline())[1]
+        base = f"http://127.0.0.1:{port}/"
+        with urllib.request.urlopen(base + "v1/device") as answer:
             device = json.load(answer)
         with sync_playwright() as playwright:
-            browser = playwright.chromium.launch(executable_path=shutil.which('chromium'), args=['--no-sandbox', '--disable-gpu', '--disable-3d-apis'])
+            browser = playwright.chromium.launch(
+                executable_path=shutil.which("chromium"), args=["--no-sandbox", "--disable-gpu", "--disable-3d-apis"]
+            )
             first_picture(browser, base)  # which makes the kernels
             first, rows = first_picture(browser, base), rows_of(browser, base, arguments.seconds)
             browser.close()
@@ -128,13 +148,35 @@ def main():
         server.terminate()
         server.wait()
     h = measure.head(f"{device['name']}, {device['driver']} {device['driver_info']}", load)
-    text = measure.head_markdown('The page in Chromium, %d × %d' % tuple(WINDOW.values()), h)
-    text += f'First picture: {first} ms after the start of the page (asked for: less than 500), the median of five.\n\n'
-    text += measure.table(['what moves', 'frames/s', 'asked for', 'width of the picture, of the window', 'server, ms', 'of it encoding', 'browser, ms', 'kB'],
-                          [[name, str(r['fps']), asked_for(name), f"{r['width']:g} of {r['window']}", str(r['server_ms']), str(r['encode_ms']), str(r['browser_ms']), str(r['kB'])]
-                           for name, r in rows.items()])
-    measure.save(arguments.out, 'page', h, {'first_picture_ms': first, 'rows': rows}, text)
+    text = measure.head_markdown("The page in Chromium, %d × %d" % tuple(WINDOW.values()), h)
+    text += f"First picture: {first} ms after the start of the page (asked for: less than 500), the median of five.\n\n"
+    text += measure.table(
+        [
+            "what moves",
+            "frames/s",
+            "asked for",
+            "width of the picture, of the window",
+            "server, ms",
+            "of it encoding",
+            "browser, ms",
+            "kB",
+        ],
+        [
+            [
+                name,
+                str(r["fps"]),
+                asked_for(name),
+                f"{r['width']:g} of {r['window']}",
+                str(r["server_ms"]),
+                str(r["encode_ms"]),
+                str(r["browser_ms"]),
+                str(r["kB"]),
+            ]
+            for name, r in rows.items()
+        ],
+    )
+    measure.save(arguments.out, "page", h, {"first_picture_ms": first, "rows": rows}, text)
 
 
-if __name__ == '__main__':
+if __name__ == "__main__":
     main()

@@ -1,5 +1,6 @@
-/* What the particles of a disk cost a frame: from their numbers to the density on the grid, for 1e3 to 1e7 of them. A small
- * picture with its lens map reused; times of the device pass and of the whole frame, in ms. Prints one line of JSON: all runs. */
+/* What the particles of a disk cost a frame: from their numbers to the density on the grid, for 1e3 to 1e7 of them.
+ * A small picture with its lens map reused; times of the device pass and of the whole frame, in ms. Prints one line
+ * of JSON: all runs. */
 #include "render/emit/particles.h"
 #include "render/render.h"
 
@@ -41,7 +42,8 @@ static enum kd_status one_frame(struct kd_renderer *renderer, const struct kd_sc
     return KD_OK;
 }
 
-static enum kd_status measure(struct kd_renderer *renderer, double epicycles, int count, int repeat, cJSON *rows, struct kd_error *error)
+static enum kd_status measure(struct kd_renderer *renderer, double epicycles, int count, int repeat, cJSON *rows,
+                              struct kd_error *error)
 {
     struct kd_particle_grid grid = { 0 };
     struct kd_scene scene;

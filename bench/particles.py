@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Particles of a disk: from their numbers to the density on the grid, on one lavapipe thread: kd_bench_particles."""
+
 import json
 import os
 
@@ -22,13 +23,25 @@ def main():
         f = {key: first[key] for key in ("particles", "epicycles", "rows", "columns", "bytes")}
         f |= {"median_ms": measure.median(device), "best_ms": min(device), "frame_ms": measure.median(frame)}
         figures.append(f)
-        rows.append([f"{f['particles']:,}".replace(",", " "), "yes" if f["epicycles"] else "no", f"{f['rows']} × {f['columns']}",
-                     f"{f['median_ms']:.2f}", f"{f['best_ms']:.2f}", f"{1e6 * f['best_ms'] / f['particles']:.1f}",
-                     f"{f['bytes'] / 1e6:.2f}"])
+        rows.append(
+            [
+                f"{f['particles']:,}".replace(",", " "),
+                "yes" if f["epicycles"] else "no",
+                f"{f['rows']} × {f['columns']}",
+                f"{f['median_ms']:.2f}",
+                f"{f['best_ms']:.2f}",
+                f"{1e6 * f['best_ms'] / f['particles']:.1f}",
+                f"{f['bytes'] / 1e6:.2f}",
+            ]
+        )
     text = measure.head_markdown("Particles of a disk", h)
-    text += measure.table(["particles", "epicycles", "grid", "median, ms", "best, ms", "best, ns a particle", "grid and tables, MB"], rows)
-    text += ("\nDevice time of the pass `particles` of a frame whose lens map is reused: positions at another time, their weights on the grid, "
-             f"density.\n{o.rounds * o.repeat} frames. A particle itself takes no memory: it is worked out from its number.\n")
+    text += measure.table(
+        ["particles", "epicycles", "grid", "median, ms", "best, ms", "best, ns a particle", "grid and tables, MB"], rows
+    )
+    text += (
+        "\nDevice time of the pass `particles` of a frame whose lens map is reused: positions at another time, their weights on the grid, "
+        f"density.\n{o.rounds * o.repeat} frames. A particle itself takes no memory: it is worked out from its number.\n"
+    )
     measure.save(o.out, "particles", h, {"figures": figures}, text)
 
 

@@ -2,6 +2,7 @@
 """kerrd's lens map beside kerrz, a closed-form code in double precision: the same image, the same core, in turn.
 
 kerrz is run as a program and, for its error, called as a library: pip install kerrz==0.4.1 'kerrz[py]'."""
+
 import argparse
 import json
 import math
@@ -13,7 +14,7 @@ import tempfile
 import measure
 
 SPIN, INCLINATION, HALF_WIDTH = 0.9, 70.0, 12
-OBSERVER = 1e7 # M: kerrz's own default for its distant observer
+OBSERVER = 1e7  # M: kerrz's own default for its distant observer
 
 # What each pair computes: title, kd_bench_trace's (method, computes), kerrz's mapper and flags.
 PAIRS = [
@@ -38,9 +39,31 @@ def time_kerrz(program, mapper, flags, side, core):
     """Rays/s from the time that kerrz prints: its tracing and mapping, without starting up or writing the file."""
     with tempfile.TemporaryDirectory() as folder:
         text = measure.one_core(
-            [program, "image", "--spin", str(SPIN), "--incl", str(INCLINATION), "--dist", str(OBSERVER),
-             "--alpha", str(HALF_WIDTH), "--beta", str(HALF_WIDTH), "--resolution", str(side // (2 * HALF_WIDTH)),
-             "--nthreads", "1", "--map", mapper, "-o", os.path.join(folder, "image.pgm"), *flags], core)
+            [
+                program,
+                "image",
+                "--spin",
+                str(SPIN),
+                "--incl",
+                str(INCLINATION),
+                "--dist",
+                str(OBSERVER),
+                "--alpha",
+                str(HALF_WIDTH),
+                "--beta",
+                str(HALF_WIDTH),
+                "--resolution",
+                str(side // (2 * HALF_WIDTH)),
+                "--nthreads",
+                "1",
+                "--map",
+                mapper,
+                "-o",
+                os.path.join(folder, "image.pgm"),
+                *flags,
+            ],
+            core,
+        )
     found = re.search(r"Time elapsed: ([\d.]+)(ms|s)\b", text)
     if not found:
         raise SystemExit(f"kerrz printed no time:\n{text}")
@@ -49,8 +72,24 @@ def time_kerrz(program, mapper, flags, side, core):
 
 def time_kerrd(bench, side, sample, core):
     with tempfile.NamedTemporaryFile(suffix=".json") as f:
-        measure.one_core([bench, "--spin", str(SPIN), "--inclination", str(INCLINATION), "--size", str(side),
-                          "--repeat", "3", "--sample", str(sample), "--json", f.name], core)
+        measure.one_core(
+            [
+                bench,
+                "--spin",
+                str(SPIN),
+                "--inclination",
+                str(INCLINATION),
+                "--size",
+                str(side),
+                "--repeat",
+                "3",
+                "--sample",
+                str(sample),
+                "--json",
+                f.name,
+            ],
+            core,
+        )
         return json.load(f)
 
 
@@ -65,12 +104,14 @@ def first_crossing(np, lam, eta, up, w0):
     """r of the first crossing, NaN if there is none: the Mino time by Carlson's integral, the radius by 3000 steps of
     RKN4 in double precision. Neither code under test works like this."""
     a, u = SPIN, math.cos(math.radians(INCLINATION))
-    A, K, D = a * a - lam ** 2 - eta, eta + (lam - a) ** 2, a * a * eta
+    A, K, D = a * a - lam**2 - eta, eta + (lam - a) ** 2, a * a * eta
     root = np.sqrt(A * A + 4 * D)
-    b = np.where(A < 0, (root - A) / 2, 2 * D / (root + A)) # a^2 times minus the negative root of U(u^2)
+    b = np.where(A < 0, (root - A) / 2, 2 * D / (root + A))  # a^2 times minus the negative root of U(u^2)
     top = eta / b
+
     def since_plane(x):
         return x * carlson_rf(np, 1 - x * x / top, 1 + a * a * x * x / b, np.ones_like(x)) / np.sqrt(eta)
+
     tau = since_plane(np.minimum(u, np.sqrt(top)))
     tau = np.where(up, 2 * since_plane(np.sqrt(top)) - tau, tau)
     steps, horizon = 3000, 1 / (1 + math.sqrt(1 - a * a))
@@ -100,11 +141,15 @@ def judge_kerrz(np, library, n):
     u, s = math.cos(math.radians(INCLINATION)), math.sin(math.radians(INCLINATION))
     with np.errstate(invalid="ignore", divide="ignore"):
         own = first_crossing(np, lam, eta, beta > 0, 1 / OBSERVER)
-        far = first_crossing(np, -alpha * s, (alpha ** 2 - SPIN ** 2) * u * u + beta ** 2, beta > 0, 0.0)
+        far = first_crossing(np, -alpha * s, (alpha**2 - SPIN**2) * u * u + beta**2, beta > 0, 0.0)
         judged = (own > metric.isco) & (own < 1e3) & (far < 1e3)
     e, d = abs(r / own - 1)[judged], abs(r / far - 1)[judged]
-    return {"rays_judged": int(judged.sum()), "r_median": float(np.median(e)), "r_worst": float(e.max()),
-            "r_median_to_infinity": float(np.median(d))}
+    return {
+        "rays_judged": int(judged.sum()),
+        "r_median": float(np.median(e)),
+        "r_worst": float(e.max()),
+        "r_median_to_infinity": float(np.median(d)),
+    }
 
 
 def thousands(x):
@@ -136,34 +181,74 @@ def main():
         found = [[m for m in r["methods"] if (m["method"], m["computes"]) == name][0] for r in ours]
         kerrd = [1e6 * m["mray_per_s"] for m in found]
         ratio = measure.median([x / y for x, y in zip(kerrd, kerrz)])
-        pairs.append({"what": what, "kerrd_method": ", ".join(name), "kerrz_arguments": ["--map", mapper, *flags],
-                      "kerrd_rays_per_s": measure.median(kerrd), "kerrz_rays_per_s": measure.median(kerrz),
-                      "ratio": ratio, "ratio_range": [min(x / y for x, y in zip(kerrd, kerrz)),
-                                                     max(x / y for x, y in zip(kerrd, kerrz))],
-                      "kerrd_r_median": found[0]["r_median"], "kerrd_r_worst": found[0]["r_worst"],
-                      "kerrd_rounds": kerrd, "kerrz_rounds": kerrz})
+        pairs.append(
+            {
+                "what": what,
+                "kerrd_method": ", ".join(name),
+                "kerrz_arguments": ["--map", mapper, *flags],
+                "kerrd_rays_per_s": measure.median(kerrd),
+                "kerrz_rays_per_s": measure.median(kerrz),
+                "ratio": ratio,
+                "ratio_range": [min(x / y for x, y in zip(kerrd, kerrz)), max(x / y for x, y in zip(kerrd, kerrz))],
+                "kerrd_r_median": found[0]["r_median"],
+                "kerrd_r_worst": found[0]["r_worst"],
+                "kerrd_rounds": kerrd,
+                "kerrz_rounds": kerrz,
+            }
+        )
         for code, method, speeds, times, e in (
-                ("kerrd", name[0] + ", f32", kerrd, ratio, found[0]),
-                (f"kerrz {version}", "closed form, f64", kerrz, 1, errors)):
-            rows.append([what, code, method, thousands(measure.median(speeds)), f"{times:.1f}",
-                         thousands(max(speeds)), f"{max(speeds) / max(kerrz):.1f}", measure.error(e["r_median"]), measure.error(e["r_worst"])])
+            ("kerrd", name[0] + ", f32", kerrd, ratio, found[0]),
+            (f"kerrz {version}", "closed form, f64", kerrz, 1, errors),
+        ):
+            rows.append(
+                [
+                    what,
+                    code,
+                    method,
+                    thousands(measure.median(speeds)),
+                    f"{times:.1f}",
+                    thousands(max(speeds)),
+                    f"{max(speeds) / max(kerrz):.1f}",
+                    measure.error(e["r_median"]),
+                    measure.error(e["r_worst"]),
+                ]
+            )
     h = measure.head(ours[0]["device"], load)
     text = measure.head_markdown("kerrd and kerrz", h)
-    text += (f"a = {SPIN}, i = {INCLINATION:g}°, ±{HALF_WIDTH} M, {o.side} × {o.side} rays; {o.rounds} rounds in turn, one "
-             "thread on one core;\nmedians of the rounds, and for the ratio of each round's ratio; the best round is the "
-             "one that\nother work disturbed least. Errors are relative, of the first crossing's radius.\n\n")
-    text += measure.table(["computes", "code", "method", "rays/s/core", "ratio", "best round", "ratio", "r: median",
-                           "worst"], rows)
-    text += (f"\nThe observer is at infinity for kerrd and at r = {OBSERVER:.0e} M for kerrz, which has none at infinity: its "
-             f"radii differ from\nthose at infinity by {errors['r_median_to_infinity']:.0e} (median). Its errors are taken "
-             "with its own start and constants of motion, so that this\ndifference is not counted.\n\n"
-             "Timed: kerrd's trace pass by the device's own timestamps (camera to crossings in memory, three crossings a "
-             "ray unless\none is said); kerrz's `image` command by the time that it prints (camera to mapped value), which "
-             "leaves out starting up\nand writing the file. kerrz follows a ray to a second crossing only where the first "
-             "misses its disk, and computes only\nwhat its mapper asks for.\n")
-    measure.save(o.out, "peers", h, {"spin": SPIN, "inclination_deg": INCLINATION, "half_width_m": HALF_WIDTH,
-                                     "rays": o.side ** 2, "rounds": o.rounds, "kerrz_version": version,
-                                     "kerrz_observer_r": OBSERVER, "kerrz_error": errors, "pairs": pairs}, text)
+    text += (
+        f"a = {SPIN}, i = {INCLINATION:g}°, ±{HALF_WIDTH} M, {o.side} × {o.side} rays; {o.rounds} rounds in turn, one "
+        "thread on one core;\nmedians of the rounds, and for the ratio of each round's ratio; the best round is the "
+        "one that\nother work disturbed least. Errors are relative, of the first crossing's radius.\n\n"
+    )
+    text += measure.table(
+        ["computes", "code", "method", "rays/s/core", "ratio", "best round", "ratio", "r: median", "worst"], rows
+    )
+    text += (
+        f"\nThe observer is at infinity for kerrd and at r = {OBSERVER:.0e} M for kerrz, which has none at infinity: its "
+        f"radii differ from\nthose at infinity by {errors['r_median_to_infinity']:.0e} (median). Its errors are taken "
+        "with its own start and constants of motion, so that this\ndifference is not counted.\n\n"
+        "Timed: kerrd's trace pass by the device's own timestamps (camera to crossings in memory, three crossings a "
+        "ray unless\none is said); kerrz's `image` command by the time that it prints (camera to mapped value), which "
+        "leaves out starting up\nand writing the file. kerrz follows a ray to a second crossing only where the first "
+        "misses its disk, and computes only\nwhat its mapper asks for.\n"
+    )
+    measure.save(
+        o.out,
+        "peers",
+        h,
+        {
+            "spin": SPIN,
+            "inclination_deg": INCLINATION,
+            "half_width_m": HALF_WIDTH,
+            "rays": o.side**2,
+            "rounds": o.rounds,
+            "kerrz_version": version,
+            "kerrz_observer_r": OBSERVER,
+            "kerrz_error": errors,
+            "pairs": pairs,
+        },
+        text,
+    )
 
 
 if __name__ == "__main__":

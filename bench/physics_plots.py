@@ -5,6 +5,7 @@
 
 Needs matplotlib (pip install matplotlib). bench/light_curve.py makes the figure of hot-spots.md.
 """
+
 import argparse
 import json
 import pathlib
@@ -12,10 +13,11 @@ import re
 import subprocess
 
 import matplotlib
+
 matplotlib.use("svg")
 import matplotlib.pyplot as plt
 
-BLUE, SKY, GREEN, ORANGE, RED, PINK = "#0072b2", "#56b4e9", "#009e73", "#e69f00", "#d55e00", "#cc79a7" # Okabe and Ito
+BLUE, SKY, GREEN, ORANGE, RED, PINK = "#0072b2", "#56b4e9", "#009e73", "#e69f00", "#d55e00", "#cc79a7"  # Okabe and Ito
 KERRD = "build/src/kerrd"
 NAN = float("nan")
 HORIZON = (2 * (1 + 0.19**0.5)) ** 0.5  # of a = 0.9 in the plane, where x^2 + y^2 = r^2 + a^2
@@ -23,7 +25,9 @@ HORIZON = (2 * (1 + 0.19**0.5)) ** 0.5  # of a = 0.9 in the plane, where x^2 + y
 
 def run(*words, text=None):
     """What a command of kerrd prints."""
-    return subprocess.run([KERRD, *map(str, words)], check=True, stdout=subprocess.PIPE, input=text, encoding="utf-8").stdout
+    return subprocess.run(
+        [KERRD, *map(str, words)], check=True, stdout=subprocess.PIPE, input=text, encoding="utf-8"
+    ).stdout
 
 
 def save(figure, path):
@@ -39,14 +43,20 @@ def ask(name, **parameters):
     """(parameters, values) of an answer; a missing number is None, which leaves a gap in a line."""
     options = [f"--{key.replace('_', '-')}={value}" for key, value in parameters.items()]
     answer = json.loads(run("physics", name, *options))
-    return answer["parameters"], {key: [NAN if x is None else x for x in value] if isinstance(value, list) else value
-                                  for key, value in answer["values"].items()}
+    return answer["parameters"], {
+        key: [NAN if x is None else x for x in value] if isinstance(value, list) else value
+        for key, value in answer["values"].items()
+    }
 
 
 def radii(axes):
     p, v = ask("kerr", spin="-0.9999:0.9999:121", r="isco")
-    for name, label, colour in (("isco", "ISCO", BLUE), ("marginally_bound", "marginally bound", GREEN),
-                                ("photon_prograde", "photon orbit", ORANGE), ("horizon", "horizon", "black")):
+    for name, label, colour in (
+        ("isco", "ISCO", BLUE),
+        ("marginally_bound", "marginally bound", GREEN),
+        ("photon_prograde", "photon orbit", ORANGE),
+        ("horizon", "horizon", "black"),
+    ):
         axes.plot(p["spin"], v[name], color=colour, label=label)
     axes.axhline(2, color="0.6", linestyle=":", label="static limit in the plane")
     axes.set(xlabel="spin a", ylabel="r / M", ylim=(0, 9.5), title="Circular orbits (a < 0: against the hole)")
@@ -55,14 +65,23 @@ def radii(axes):
 def frequencies(axes):
     for a, style in ((0, "--"), (0.9, "-")):
         p, v = ask("kerr", spin=a, r="2:14:121")
-        lines = (("omega_phi", "$\\Omega_\\phi$", "black"), ("omega_theta", "$\\Omega_\\theta$", BLUE)) if a else (
-            ("omega_phi", "$\\Omega_\\phi = \\Omega_\\theta$", "black"),)
+        lines = (
+            (("omega_phi", "$\\Omega_\\phi$", "black"), ("omega_theta", "$\\Omega_\\theta$", BLUE))
+            if a
+            else (("omega_phi", "$\\Omega_\\phi = \\Omega_\\theta$", "black"),)
+        )
         for name, label, colour in lines:
             axes.plot(p["r"], v[name], style, color=colour, label=f"{label}, a = {a}")
         isco = ask("kerr", spin=a)[1]["isco"]
         p, v = ask("kerr", spin=a, r=f"{isco!r}:14:601")  # from where it vanishes
         axes.plot(p["r"], v["kappa"], style, color=RED, label=f"$\\kappa$, a = {a}")
-    axes.set(xlabel="r / M", ylabel="M × angular frequency", yscale="log", ylim=(6e-3, 0.4), title="Orbit and its small oscillations")
+    axes.set(
+        xlabel="r / M",
+        ylabel="M × angular frequency",
+        yscale="log",
+        ylim=(6e-3, 0.4),
+        title="Orbit and its small oscillations",
+    )
 
 
 def potential(axes):
@@ -71,7 +90,12 @@ def potential(axes):
         axes.plot(p["r"], v["v_matter"], color=colour, label=f"L = {l:.4g}")
         if isinstance(v["r_min_matter"], float) and v["r_max_matter"]:
             axes.plot([v["r_min_matter"], v["r_max_matter"]], [v["v_min_matter"], v["v_max_matter"]], ".", color=colour)
-    axes.set(xlabel="r / M", ylabel="V, energy a unit of rest mass", ylim=(0.85, 1.08), title="Effective potential of matter, a = 0; dots: its extrema")
+    axes.set(
+        xlabel="r / M",
+        ylabel="V, energy a unit of rest mass",
+        ylim=(0.85, 1.08),
+        title="Effective potential of matter, a = 0; dots: its extrema",
+    )
 
 
 def embedding(axes):
@@ -80,7 +104,12 @@ def embedding(axes):
         _, v = ask("flamm", spin=a, r=f"{horizon!r}:16:161")
         axes.plot(v["radius"], v["z"], color=colour, label=f"a = {a}")
         axes.plot([-x for x in v["radius"]], v["z"], color=colour)
-    axes.set(xlabel="circumference / 2πM", ylabel="z / M", title="The equatorial plane embedded in flat space", aspect="equal")
+    axes.set(
+        xlabel="circumference / 2πM",
+        ylabel="z / M",
+        title="The equatorial plane embedded in flat space",
+        aspect="equal",
+    )
 
 
 def shadows(axes):
@@ -92,9 +121,18 @@ def shadows(axes):
 
 def redshift(axes):
     p, v = ask("redshift", spin=0, inclination_deg=75, r=6, phi_deg="0:360:121")
-    for name, label, colour, style in (("g", "direct image", BLUE, "-"), ("g_1", "order 1", RED, "-"), ("g_flat", "straight rays", "0.4", ":")):
+    for name, label, colour, style in (
+        ("g", "direct image", BLUE, "-"),
+        ("g_1", "order 1", RED, "-"),
+        ("g_flat", "straight rays", "0.4", ":"),
+    ):
         axes.plot(p["phi_deg"], v[name], style, color=colour, label=label)
-    axes.set(xlabel="φ on the ring, degrees", ylabel="g", title="Redshift round the ISCO, a = 0, i = 75°", xticks=range(0, 361, 90))
+    axes.set(
+        xlabel="φ on the ring, degrees",
+        ylabel="g",
+        title="Redshift round the ISCO, a = 0, i = 75°",
+        xticks=range(0, 361, 90),
+    )
 
 
 def flux(axes):
@@ -103,7 +141,13 @@ def flux(axes):
         p, v = ask("disk-flux", spin=a, r=f"{isco!r}:20:301")
         axes.plot(p["r"], v["page_thorne"], color=colour, label=f"a = {a}")
         axes.plot(p["r"], v["shakura_sunyaev"], ":", color=colour)
-    axes.set(xlabel="r / M", ylabel="F M² / Ṁ", yscale="log", ylim=(1e-6, 2e-2), title="Disk flux; dotted: Newton's, cut at the ISCO")
+    axes.set(
+        xlabel="r / M",
+        ylabel="F M² / Ṁ",
+        yscale="log",
+        ylim=(1e-6, 2e-2),
+        title="Disk flux; dotted: Newton's, cut at the ISCO",
+    )
 
 
 def colours(axes):
@@ -116,8 +160,11 @@ def colours(axes):
 
 
 def deflection(axes):
-    for a, sign, label, colour in ((0, "", "a = 0", "black"), (0.9, "", "a = 0.9, towards +φ", BLUE),
-                                   (0.9, "_retrograde", "a = 0.9, towards −φ", RED)):
+    for a, sign, label, colour in (
+        (0, "", "a = 0", "black"),
+        (0.9, "", "a = 0.9, towards +φ", BLUE),
+        (0.9, "_retrograde", "a = 0.9, towards −φ", RED),
+    ):
         b_c = ask("deflection", spin=a)[1]["b_critical" + sign]
         p, near = ask("deflection", spin=a, b=f"{b_c + 1e-3!r}:{b_c + 0.1!r}:199")
         q, far = ask("deflection", spin=a, b=f"{b_c + 0.1!r}:16:200")
@@ -134,7 +181,12 @@ def quality(axes):
         axes.plot(p["spin"], v["quality"], color=colour, label=f"m = {m}".replace("-", "−"))
         if m == 2:
             axes.plot(p["spin"], v["quality_cubic"], ":", color="0.4", label="2.1 + 11.3 a³")
-    axes.set(xlabel="spin a", ylabel="quality factor", ylim=(0, 15), title="Quasi-normal modes l = 2, n = 0; a cubic that circulates for m = 2")
+    axes.set(
+        xlabel="spin a",
+        ylabel="quality factor",
+        ylim=(0, 15),
+        title="Quasi-normal modes l = 2, n = 0; a cubic that circulates for m = 2",
+    )
 
 
 def ringdown(axes):
@@ -151,21 +203,49 @@ def fallback(axes):
         start = v["fallback_days"]
         p, v = ask("tidal", mass_msun=mass, time_days=f"{start * 1.000001!r}:{start * 16!r}:121")
         axes.plot(p["time_days"], v["rate_msun_yr"], color=colour, label=f"$10^{power}$ solar masses")
-    axes.set(xlabel="days since the disruption", ylabel="solar masses a year", xscale="log", yscale="log", title="What comes back of a torn sun, as $t^{-5/3}$")
+    axes.set(
+        xlabel="days since the disruption",
+        ylabel="solar masses a year",
+        xscale="log",
+        yscale="log",
+        title="What comes back of a torn sun, as $t^{-5/3}$",
+    )
 
 
 def light(axes):
-    """Rays in the equatorial plane from an eye far to the right, as the Kerr-Schild engine steps along them; these are mirrored rays."""
+    """Rays in the equatorial plane from an eye far to the right, as the Kerr-Schild engine steps along them; these are
+    mirrored rays."""
     for b in (-12, -10, -8, -6, -4, -3.2, -2.9, -2.7, -2, 0, 2, 4, 6, 6.6, 6.9, 7.5, 9, 11):
-        text = run("rays", "--trace", f"--ray={b},0.001", "--spin=0.9", "--inclination-deg=90", "--engine=ks-rk4", "--precision=f64", "--steps=64",
-                   "--format=csv")
+        text = run(
+            "rays",
+            "--trace",
+            f"--ray={b},0.001",
+            "--spin=0.9",
+            "--inclination-deg=90",
+            "--engine=ks-rk4",
+            "--precision=f64",
+            "--steps=64",
+            "--format=csv",
+        )
         names, *rows = [line.split(",") for line in text.splitlines()]
         at = [names.index(name) for name in ("r", "x", "y")]
         places = [[float(row[k]) for k in at] for row in rows if all(row[k] for k in at)]
         places = [place for place in places if place[0] < 50]
-        axes.plot([x for _, x, _ in places], [-y for _, _, y in places], color=RED if places[-1][0] < 3 else BLUE, linewidth=0.8)
+        axes.plot(
+            [x for _, x, _ in places],
+            [-y for _, _, y in places],
+            color=RED if places[-1][0] < 3 else BLUE,
+            linewidth=0.8,
+        )
     axes.add_patch(plt.Circle((0, 0), HORIZON, color="black"))
-    axes.set(xlabel="x / M", ylabel="y / M", aspect="equal", xlim=(-15, 22), ylim=(-14, 14), title="Light in the equatorial plane, a = 0.9; red: falls in")
+    axes.set(
+        xlabel="x / M",
+        ylabel="y / M",
+        aspect="equal",
+        xlim=(-15, 22),
+        ylim=(-14, 14),
+        title="Light in the equatorial plane, a = 0.9; red: falls in",
+    )
 
 
 def crossings(axis, value):
@@ -201,7 +281,12 @@ def distances(axes):
         axes.plot(radius, angle, color=colour, label=name)
     far = ask("shadow", spin=0.9, inclination_deg=60, angle_deg=0)[1]["width"]
     axes.plot(radius[10:], [57.29578 * far / r for r in radius[10:]], ":", color="0.4", label=f"{far:.2f} M / r")
-    axes.set(xlabel="r / M of the observer", ylabel="width of the shadow, degrees", xscale="log", title="The shadow from near by, a = 0.9, i = 60°")
+    axes.set(
+        xlabel="r / M of the observer",
+        ylabel="width of the shadow, degrees",
+        xscale="log",
+        title="The shadow from near by, a = 0.9, i = 60°",
+    )
 
 
 def tone(axes):
@@ -214,7 +299,15 @@ def tone(axes):
 
 
 def chirp(axes):
-    p, v = ask("inspiral", mass1_msun=36, mass2_msun=29, distance_pc=4.1e8, period_s=100, eccentricity=0, before_s="0.003:1:400")
+    p, v = ask(
+        "inspiral",
+        mass1_msun=36,
+        mass2_msun=29,
+        distance_pc=4.1e8,
+        period_s=100,
+        eccentricity=0,
+        before_s="0.003:1:400",
+    )
     axes.plot([-t for t in p["before_s"]], v["chirp_hz"], color=BLUE)
     axes.set(xlabel="seconds before the coalescence", ylabel="Hz", title="Chirp of 36 and 29 solar masses")
 
@@ -252,7 +345,9 @@ PICTURES = {
 
 def draw(panels, path):
     rows = (len(panels) + 1) // 2
-    figure, grid = plt.subplots(rows, min(len(panels), 2), figsize=(9.5 if len(panels) > 1 else 6, 3.8 * rows), squeeze=False)
+    figure, grid = plt.subplots(
+        rows, min(len(panels), 2), figsize=(9.5 if len(panels) > 1 else 6, 3.8 * rows), squeeze=False
+    )
     for panel, axes in zip(panels, grid.flat):
         panel(axes)
         axes.title.set_fontsize(9)
@@ -271,7 +366,9 @@ def main():
     parser.add_argument("chapters", nargs="*", metavar="CHAPTER", help="names among " + ", ".join((*PANELS, *PICTURES)))
     arguments = parser.parse_args()
     KERRD = arguments.kerrd
-    plt.rcParams.update({"svg.hashsalt": "kerrd", "svg.fonttype": "none", "path.simplify": True}) # the same file each time
+    plt.rcParams.update(
+        {"svg.hashsalt": "kerrd", "svg.fonttype": "none", "path.simplify": True}
+    )  # the same file each time
     for name in arguments.chapters or (*PANELS, *PICTURES):
         if name in PANELS:
             draw(PANELS[name], arguments.output / f"{name}.svg")

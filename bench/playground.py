@@ -3,9 +3,11 @@
 
     bench/playground.py [KERRD]      a table in Markdown on standard output
 
-A star is torn into as many pieces as there are to be, among bodies of no radius that pull one another; then the same snapshot goes on for few sub-steps and for many,
-each a hundredth of what debris could take at once, and the difference of the two times is divided by that of their numbers: the least of three.
+A star is torn into as many pieces as there are to be, among bodies of no radius that pull one another; then the same
+snapshot goes on for few sub-steps and for many, each a hundredth of what debris could take at once, and the difference
+of the two times is divided by that of their numbers: the least of three.
 """
+
 import json
 import math
 import os
@@ -31,12 +33,22 @@ def bodies(n):
     for _ in range(n):
         r, phi = rng.uniform(100, 300), rng.uniform(0, 2 * math.pi)
         v = math.sqrt(r) / (r - 2)
-        yield {"mass": 1e-10, "position": [r * math.cos(phi), r * math.sin(phi), rng.uniform(-9, 9)], "velocity": [-v * math.sin(phi), v * math.cos(phi), 0]}
+        yield {
+            "mass": 1e-10,
+            "position": [r * math.cos(phi), r * math.sin(phi), rng.uniform(-9, 9)],
+            "velocity": [-v * math.sin(phi), v * math.cos(phi), 0],
+        }
 
 
 def measure(n, pieces, folder):
     begun, torn = (os.path.join(folder, name) for name in ("begun.json", "torn.json"))
-    document = {"h_max": 20, "budget": 1000000, "debris_capacity": max(pieces, 1), "debris_per_body": max(pieces, 16), "bodies": list(bodies(n))}
+    document = {
+        "h_max": 20,
+        "budget": 1000000,
+        "debris_capacity": max(pieces, 1),
+        "debris_per_body": max(pieces, 16),
+        "bodies": list(bodies(n)),
+    }
     if pieces:
         document["preset"] = "disruption"
     with open(begun, "w") as file:
@@ -47,7 +59,10 @@ def measure(n, pieces, folder):
     assert len(snapshot["bodies"]) == n and snapshot["state"]["debris"]["used"] == pieces, (n, pieces)
     best = math.inf
     for _ in range(3):
-        times = [run(torn, "--set", "h_max=0.1", "--set", f"budget={budget}", "--time", "1e6", "-o", os.devnull) for budget in (FEW, MANY)]
+        times = [
+            run(torn, "--set", "h_max=0.1", "--set", f"budget={budget}", "--time", "1e6", "-o", os.devnull)
+            for budget in (FEW, MANY)
+        ]
         best = min(best, (times[1] - times[0]) / (MANY - FEW))
     return 1e3 * best
 
@@ -55,7 +70,17 @@ def measure(n, pieces, folder):
 def main():
     print("| bodies | pieces of debris | ms a step | steps/s |\n|---|---|---|---|")
     with tempfile.TemporaryDirectory() as folder:
-        for n, pieces in [(400, 0), (1000, 0), (2000, 0), (4096, 0), (8, 100000), (8, 300000), (8, 1000000), (2000, 300000), (4095, 1000000)]:
+        for n, pieces in [
+            (400, 0),
+            (1000, 0),
+            (2000, 0),
+            (4096, 0),
+            (8, 100000),
+            (8, 300000),
+            (8, 1000000),
+            (2000, 300000),
+            (4095, 1000000),
+        ]:
             ms = measure(n, pieces, folder)
             print(f"| {n} | {pieces} | {ms:.1f} | {1e3 / ms:.0f} |", flush=True)
 

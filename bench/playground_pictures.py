@@ -1,12 +1,16 @@
 #!/usr/bin/env python3
-"""How fast a playground is shown live: frames a second of a star that is torn apart, by its pieces of debris, and of many bodies.
+"""How fast a playground is shown live: frames a second of a star that is torn apart, by its pieces of debris, and of
+many bodies.
 
-    bench/playground_pictures.py [KERRD]     about two minutes, on a machine that does nothing else: a table in Markdown on standard output
+    bench/playground_pictures.py [KERRD]     about two minutes, on a machine that does nothing else: a table in
+                                             Markdown on standard output
 
-A server of its own, on all cores; this script is its client. Each playground goes on at 100 M a second and is watched for six seconds, after two: rays of a
-pixel are what the session has found for the pace of the device, states those of the playground that its frames have shown, ms what the device spends on a frame, and M/s what the motion has
-got beside the pictures.
+A server of its own, on all cores; this script is its client. Each playground goes on at 100 M a second and is watched
+for six seconds, after two: rays of a pixel are what the session has found for the pace of the device, states those of
+the playground that its frames have shown, ms what the device spends on a frame, and M/s what the motion has got beside
+the pictures.
 """
+
 import http.client
 import json
 import math
@@ -19,7 +23,11 @@ import sys
 import tempfile
 import time
 
-KERRD = sys.argv[1] if len(sys.argv) > 1 else os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "build", "src", "kerrd")
+KERRD = (
+    sys.argv[1]
+    if len(sys.argv) > 1
+    else os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "build", "src", "kerrd")
+)
 SIZES = [(640, 360), (320, 180)]
 TORN = [2000, 100000, 300000, 1000000]
 CROWDS = [400, 1000, 4096]
@@ -29,10 +37,17 @@ WARM_S, LOOK_S = 2, 6
 class Server:
     def __init__(self):
         self.process = subprocess.Popen([KERRD, "serve", "--port", "0"], stdout=subprocess.PIPE, text=True)
-        self.connection = http.client.HTTPConnection("127.0.0.1", int(re.search(r":(\d+)/", self.process.stdout.readline())[1]), timeout=120)
+        self.connection = http.client.HTTPConnection(
+            "127.0.0.1", int(re.search(r":(\d+)/", self.process.stdout.readline())[1]), timeout=120
+        )
 
     def ask(self, method, target, body=None, token=None):
-        self.connection.request(method, target, body, {"Content-Type": "application/json"} | ({"Authorization": "Bearer " + token} if token else {}))
+        self.connection.request(
+            method,
+            target,
+            body,
+            {"Content-Type": "application/json"} | ({"Authorization": "Bearer " + token} if token else {}),
+        )
         answer = self.connection.getresponse()
         data = answer.read()
         assert answer.status < 300, (answer.status, data)
@@ -47,7 +62,9 @@ def torn(pieces, folder):
     """The preset's star after its passage, in so many pieces."""
     begun, ended = (os.path.join(folder, name) for name in ("begun.json", "ended.json"))
     with open(begun, "w") as file:
-        json.dump({"preset": "disruption", "budget": 1000000, "debris_capacity": pieces, "debris_per_body": pieces}, file)
+        json.dump(
+            {"preset": "disruption", "budget": 1000000, "debris_capacity": pieces, "debris_per_body": pieces}, file
+        )
     subprocess.run([KERRD, "playground", begun, "--time", "2700", "-o", ended], check=True, stderr=subprocess.DEVNULL)
     with open(ended) as file:
         document = json.load(file)
@@ -62,9 +79,21 @@ def crowd(n):
     for _ in range(n):
         r, phi = rng.uniform(15, 60), rng.uniform(0, 2 * math.pi)
         v = math.sqrt(r) / (r - 2)
-        bodies.append({"mass": 1e-10, "radius": 0.2, "temperature_k": rng.uniform(3000, 12000), "position": [r * math.cos(phi), r * math.sin(phi), rng.uniform(-5, 5)],
-                       "velocity": [-v * math.sin(phi), v * math.cos(phi), 0]})
-    return {"mergers": False, "tides": False, "bodies": bodies, "scene": {"camera": {"inclination_deg": 70, "field_m": 130}, "disk": {"outer": 14}}}
+        bodies.append(
+            {
+                "mass": 1e-10,
+                "radius": 0.2,
+                "temperature_k": rng.uniform(3000, 12000),
+                "position": [r * math.cos(phi), r * math.sin(phi), rng.uniform(-5, 5)],
+                "velocity": [-v * math.sin(phi), v * math.cos(phi), 0],
+            }
+        )
+    return {
+        "mergers": False,
+        "tides": False,
+        "bodies": bodies,
+        "scene": {"camera": {"inclination_deg": 70, "field_m": 130}, "disk": {"outer": 14}},
+    }
 
 
 def watch(server, document, size):
@@ -81,14 +110,20 @@ def watch(server, document, size):
     server.ask("DELETE", at, token=made["token"])
     looked = [headers for when, headers in answers if when > WARM_S]
     states = len({headers["Kerrd-Time"] for headers in looked})
-    total = statistics.median(float(re.search(r"total;dur=([0-9.]+)", headers["Server-Timing"])[1]) for headers in looked)
-    quality = [re.match(r"width=(\d+) height=(\d+) samples=(\d+)", headers["Kerrd-Quality"]).groups() for headers in looked]
+    total = statistics.median(
+        float(re.search(r"total;dur=([0-9.]+)", headers["Server-Timing"])[1]) for headers in looked
+    )
+    quality = [
+        re.match(r"width=(\d+) height=(\d+) samples=(\d+)", headers["Kerrd-Quality"]).groups() for headers in looked
+    ]
     rays = statistics.median(int(w) * int(h) * int(n) / (size[0] * size[1]) for w, h, n in quality)
     return len(looked) / LOOK_S, states / LOOK_S, rays, total, state["rate_reached"]
 
 
 def main():
-    print("| bodies | pieces | size | frames/s | states/s | rays a pixel | ms a frame | M/s of 100 |\n|---|---|---|---|---|---|---|---|")
+    print(
+        "| bodies | pieces | size | frames/s | states/s | rays a pixel | ms a frame | M/s of 100 |\n|---|---|---|---|---|---|---|---|"
+    )
     server = Server()
     try:
         with tempfile.TemporaryDirectory() as folder:
@@ -96,7 +131,10 @@ def main():
                 document = torn(pieces, folder) if pieces else crowd(bodies)
                 for size in SIZES:
                     rate, states, rays, ms, reached = watch(server, document, size)
-                    print(f"| {bodies if not pieces else 0} | {pieces} | {size[0]}×{size[1]} | {rate:.1f} | {states:.1f} | {rays:.2g} | {ms:.1f} | {reached:.0f} |", flush=True)
+                    print(
+                        f"| {bodies if not pieces else 0} | {pieces} | {size[0]}×{size[1]} | {rate:.1f} | {states:.1f} | {rays:.2g} | {ms:.1f} | {reached:.0f} |",
+                        flush=True,
+                    )
     finally:
         server.end()
 

@@ -1,26 +1,30 @@
-"""A model of servers of kerrd behind HAProxy, by discrete events. It knows no pictures: what a work takes is what somebody has measured.
+"""A model of servers of kerrd behind HAProxy, by discrete events. It knows no pictures: what a work takes is what
+somebody has measured.
 
 Seconds throughout. The parts, each after what it stands for:
 
     Shares     src/server/http/shares.c: whose turn it is, by client, by class, and among the works of a class
     Server     src/server/render: the bounded queue, slices of long pictures and the lanes that they need, the encoders
     Balancer   docs/examples/haproxy.cfg: leastconn, maxconn, one queue, retries, servers that die, HAProxy's own time
-    visitor    a session: dragged, whose frames are as fine as the governor lets them be (src/render/live/governor.h), and resting
+    visitor    a session: dragged, whose frames are as fine as the governor lets them be (src/render/live/governor.h),
+               and resting
 
-Left out: memory, bodies and answers, the network, more than one client at a server (HAProxy is one). Needs simpy (pip install simpy).
-bench/queueing_check.py holds it against two real servers, tests/unit/queueing.py against closed forms; bench/queueing_scale.py asks it about a thousand.
+Left out: memory, bodies and answers, the network, more than one client at a server (HAProxy is one). Needs simpy (pip
+install simpy). bench/queueing_check.py holds it against two real servers, tests/unit/queueing.py against closed forms;
+bench/queueing_scale.py asks it about a thousand.
 """
+
 import collections
 import dataclasses
 import math
 
 import simpy
 
-WEIGHTS = {'live': 8, 'picture': 4, 'rays': 4, 'refinement': 2, 'job': 1}  # KD_CLASSES
-CREDIT = 0.2            # CREDIT_MS of shares.c
+WEIGHTS = {"live": 8, "picture": 4, "rays": 4, "refinement": 2, "job": 1}  # KD_CLASSES
+CREDIT = 0.2  # CREDIT_MS of shares.c
 MOMENT, SLICE = 0.1, 0.04  # KD_MOMENT_MS; a submission of a long picture
 BRIEF, BRIEF_LANES, LANES = 3.0, 2, 8  # BRIEF_MS and BRIEF_LANES of turns.c, KD_ASIDES
-ENCODERS = 2            # KD_ENCODERS
+ENCODERS = 2  # KD_ENCODERS
 
 
 class Refused(Exception):
@@ -29,15 +33,15 @@ class Refused(Exception):
 
 @dataclasses.dataclass(eq=False)
 class Work:
-    seconds: float          # that it has the device
-    estimate: float         # what its plan says of that
-    encode: float = 0.0     # of an encoder, afterwards
-    kind: str = 'picture'
-    client: str = 'proxy'
-    paid: float = 0.0       # the scheduler's own
+    seconds: float  # that it has the device
+    estimate: float  # what its plan says of that
+    encode: float = 0.0  # of an encoder, afterwards
+    kind: str = "picture"
+    client: str = "proxy"
+    paid: float = 0.0  # the scheduler's own
     left: float = 0.0
     expected: float = 0.0
-    stage: str = 'waits'
+    stage: str = "waits"
     done: simpy.Event = None
 
 
@@ -113,7 +117,8 @@ class Shares:
 
 
 class Server:
-    """One device and its encoders. `limit`: --queue. `aside`: seconds a request takes here beside its device and encoder, in which others have these."""
+    """One device and its encoders. `limit`: --queue. `aside`: seconds a request takes here beside its device and
+    encoder, in which others have these."""
 
     def __init__(self, env, limit=16, aside=0.0):
         self.env, self.limit, self.aside = env, limit, aside
@@ -125,11 +130,13 @@ class Server:
     def submit(self, work):
         """An event that comes when the work is done, or fails with Refused."""
         work.done, work.left, work.expected = self.env.event(), work.seconds, work.estimate
-        waiting = sum(w.stage != 'works' and w.kind in ('picture', 'rays') for w in self.works)
-        if not self.alive or (work.kind in ('picture', 'rays') and waiting >= self.limit + (self.holder is None)):
+        waiting = sum(w.stage != "works" and w.kind in ("picture", "rays") for w in self.works)
+        if not self.alive or (work.kind in ("picture", "rays") and waiting >= self.limit + (self.holder is None)):
             work.done.fail(Refused())
             return work.done
-        work.stage = 'waits for lane' if work.kind == 'job' or (work.kind != 'live' and work.estimate > MOMENT) else 'waits'
+        work.stage = (
+            "waits for lane" if work.kind == "job" or (work.kind != "live" and work.estimate > MOMENT) else "waits"
+        )
         self.works.append(work)
         self.shares.add(work)
         if self.wake and not self.wake.triggered:
@@ -144,13 +151,15 @@ class Server:
         self.works.clear()
 
     def _may(self, work):
-        if work.stage != 'waits for lane':
+        if work.stage != "waits for lane":
             return True
         brief = work.estimate <= BRIEF
         mine = [w for w in self.lanes if w.client == work.client]
         if brief:
             return len(self.lanes) < LANES and sum(w.estimate <= BRIEF for w in mine) < BRIEF_LANES
-        return LANES - len(self.lanes) > BRIEF_LANES and not any(w.kind == work.kind and w.estimate > BRIEF for w in mine)
+        return LANES - len(self.lanes) > BRIEF_LANES and not any(
+            w.kind == work.kind and w.estimate > BRIEF for w in mine
+        )
 
     def _run(self):
         while self.alive:
@@ -160,10 +169,10 @@ class Server:
                 yield self.wake
                 continue
             self.holder = work
-            sliced = work in self.lanes or work.stage == 'waits for lane'
-            if work.stage == 'waits for lane':
+            sliced = work in self.lanes or work.stage == "waits for lane"
+            if work.stage == "waits for lane":
                 self.lanes.append(work)
-            work.stage = 'works'
+            work.stage = "works"
             turn = min(work.left, SLICE) if sliced else work.left
             yield self.env.timeout(turn)
             self.holder = None
@@ -195,14 +204,24 @@ class Server:
 
 
 class Balancer:
-    """HAProxy: requests go to the server with fewest connections, among these to the one whose turn is longest ago; while each has `maxconn` they wait in one queue, `patience` at most.
-    A refused one goes to another server, `retries` times. `own`: seconds of one of its `cores` that a request takes."""
+    """HAProxy: requests go to the server with fewest connections, among these to the one whose turn is longest ago;
+    while each has `maxconn` they wait in one queue, `patience` at most. A refused one goes to another server, `retries`
+    times. `own`: seconds of one of its `cores` that a request takes."""
 
     def __init__(self, env, servers, maxconn=2, patience=700.0, retries=5, own=0.0, cores=1):
-        self.env, self.servers, self.maxconn, self.patience, self.retries, self.own = env, servers, maxconn, patience, retries, own
+        self.env, self.servers, self.maxconn, self.patience, self.retries, self.own = (
+            env,
+            servers,
+            maxconn,
+            patience,
+            retries,
+            own,
+        )
         self.cores = simpy.Resource(env, cores) if own else None
         self.waiting = collections.deque()
-        self.by_count = collections.defaultdict(dict)  # connections -> servers, in the order in which they came to have so many
+        self.by_count = collections.defaultdict(
+            dict
+        )  # connections -> servers, in the order in which they came to have so many
         self.count = {server: 0 for server in servers}
         for server in servers:
             self.by_count[0][server] = None
@@ -221,7 +240,8 @@ class Balancer:
         return None
 
     def take(self):
-        """The server for a request, whose connection is counted from now on; an event whose value it is, None where patience ended."""
+        """The server for a request, whose connection is counted from now on; an event whose value it is, None where
+        patience ended."""
         turn = self.env.event()
         server = None if self.waiting else self._least()
         if server:
@@ -280,15 +300,18 @@ class Balancer:
 @dataclasses.dataclass
 class Habits:
     """A visitor's, and what his frames take. Times to the next stroke and of a stroke are exponential."""
-    drag: float = 3.0       # mean seconds of a stroke
-    rest: float = 12.0      # mean seconds between two
-    pause: float = 0.001    # from a picture to the next request
-    frames: int = 2         # of an input: the one that is under way when it comes, as time goes on by itself, and the one that shows it
+
+    drag: float = 3.0  # mean seconds of a stroke
+    rest: float = 12.0  # mean seconds between two
+    pause: float = 0.001  # from a picture to the next request
+    frames: int = (
+        2  # of an input: the one that is under way when it comes, as time goes on by itself, and the one that shows it
+    )
     encode: float = 0.001
-    floor: float = 0.010    # device seconds of a frame as small as it may be
-    full: float = 0.100     # of one as large as it may be
-    fill: float = 0.85      # of what the governor aims at: what its frames take
-    settle: float = 0.3     # device seconds in which a picture at rest becomes as fine as asked
+    floor: float = 0.010  # device seconds of a frame as small as it may be
+    full: float = 0.100  # of one as large as it may be
+    fill: float = 0.85  # of what the governor aims at: what its frames take
+    settle: float = 0.3  # device seconds in which a picture at rest becomes as fine as asked
 
 
 def frame_seconds(habits, dragged):
@@ -306,7 +329,7 @@ def stroke(env, server, habits, seconds, log):
             sent = env.now
             for _ in range(habits.frames):
                 takes = frame_seconds(habits, server.dragged)
-                yield server.submit(Work(takes, takes, habits.encode, 'live'))
+                yield server.submit(Work(takes, takes, habits.encode, "live"))
                 yield env.timeout(habits.pause)
             log.append((sent, env.now - sent))
     finally:
@@ -320,7 +343,7 @@ def visitor(env, server, habits, rng, stay, log):
         yield env.timeout(min(rng.expovariate(1 / habits.rest), stay))
         while env.now < end:
             yield from stroke(env, server, habits, min(rng.expovariate(1 / habits.drag), end - env.now), log)
-            server.submit(Work(habits.settle, habits.settle, 0, 'refinement')).defused = True
+            server.submit(Work(habits.settle, habits.settle, 0, "refinement")).defused = True
             yield env.timeout(min(rng.expovariate(1 / habits.rest), max(end - env.now, 0)))
     except Refused:
         log.append((env.now, None))  # the session is lost with its server
@@ -328,9 +351,11 @@ def visitor(env, server, habits, rng, stay, log):
 
 def open_renders(env, balancer, arrivals, make, log):
     """Requests at given times. make(k): the work of number k. log: (number, arrival, seconds to the answer, status)."""
+
     def one(k, at):
         status = yield env.process(balancer.request(lambda: make(k)))
         log.append((k, at, env.now - at, status))
+
     for k, at in enumerate(arrivals):
         yield env.timeout(max(at - env.now, 0))
         env.process(one(k, at))

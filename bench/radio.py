@@ -1,12 +1,15 @@
 #!/usr/bin/env python3
-"""Rays a second and core through volumes at a radio frequency, without and with the transfer of polarised light, beside Blacklight and ipole.
+"""Rays a second and core through volumes at a radio frequency, without and with the transfer of polarised light, beside
+Blacklight and ipole.
 
     bench/radio.py            two or three minutes
     bench/radio.py --sizes 48 96 --rounds 1      half a minute
 
-One picture of each scene at two sizes, by one thread: rays are the pixels by which the sizes differ, and their time is the processor time by which the two processes differ, so that start, kernels
-and the rays that measure the error cancel, and what else runs hardly matters. Least of all rounds. Writes bench/results/DATE-DEVICE-radio.{json,md}.
+One picture of each scene at two sizes, by one thread: rays are the pixels by which the sizes differ, and their time is
+the processor time by which the two processes differ, so that start, kernels and the rays that measure the error cancel,
+and what else runs hardly matters. Least of all rounds. Writes bench/results/DATE-DEVICE-radio.{json,md}.
 """
+
 import json
 import os
 import pathlib
@@ -30,25 +33,44 @@ SCENES = {  # arguments of `kerrd render`; whether light is polarised
     "riaf, kappa electrons, polarised": (["-p", "riaf", *KAPPA, *TRANSFER], True),
     "torus, polarised": (["-p", "torus", *TRANSFER], True),
 }
-BLACKLIGHT, IPOLE = 3000, 89  # rays/s and core, measured: unpolarised, gold-1 by Dormand and Prince in Kerr-Schild coordinates; polarised, ipole's riaf
+# Rays/s and core, measured: unpolarised, gold-1 by Dormand and Prince in Kerr-Schild coordinates; polarised, ipole's riaf.
+BLACKLIGHT, IPOLE = 3000, 89
 
 
 def render(kerrd, arguments, size, core):
     """Seconds of processor time of one picture, and what it says of itself."""
     with tempfile.TemporaryDirectory() as folder:
-        command = ["taskset", "-c", str(core), kerrd, "render", *arguments, "--set", "image.critical_factor=1", "--size", f"{size}x{size}", "--stats", "-o", str(pathlib.Path(folder, "a.png"))]
+        command = [
+            "taskset",
+            "-c",
+            str(core),
+            kerrd,
+            "render",
+            *arguments,
+            "--set",
+            "image.critical_factor=1",
+            "--size",
+            f"{size}x{size}",
+            "--stats",
+            "-o",
+            str(pathlib.Path(folder, "a.png")),
+        ]
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
         done = subprocess.run(command, env=dict(os.environ, LP_NUM_THREADS="1"), capture_output=True, text=True)
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
     if done.returncode:
         raise SystemExit(done.stderr)
-    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, json.loads(done.stderr.strip().splitlines()[-1])
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, json.loads(
+        done.stderr.strip().splitlines()[-1]
+    )
 
 
 def main():
     p = measure.parser(__doc__)
     p.add_argument("--rounds", type=int, default=3, help="runs of each scene at each size, in turn (3)")
-    p.add_argument("--sizes", type=int, nargs=2, default=[64, 160], help="pixels along a side of the two pictures (64 160)")
+    p.add_argument(
+        "--sizes", type=int, nargs=2, default=[64, 160], help="pixels along a side of the two pictures (64 160)"
+    )
     o = p.parse_args()
     kerrd, load, least, told = measure.binary(o.build, "src/kerrd"), os.getloadavg()[0], {}, {}
     for n in range(o.rounds + 1):  # the first fills the driver's cache of kernels
@@ -60,18 +82,40 @@ def main():
     first = next(iter(told.values()))
     doctor = subprocess.run([kerrd, "doctor"], capture_output=True, text=True).stdout
     driver = first.get("device") or re.search(r"llvmpipe[^\n]*", doctor)[0]
-    h, rows, figures, rays = measure.head(driver if isinstance(driver, str) else driver["name"], load), [], {}, o.sizes[1]**2 - o.sizes[0]**2
+    h, rows, figures, rays = (
+        measure.head(driver if isinstance(driver, str) else driver["name"], load),
+        [],
+        {},
+        o.sizes[1] ** 2 - o.sizes[0] ** 2,
+    )
     for name, (_, polarised) in SCENES.items():
         rate = rays / (least[name, o.sizes[1]] - least[name, o.sizes[0]])
         error = told[name]["accuracy"].get("volume_error")
-        figures[name] = {"rays_per_s_core": rate, "seconds": [least[name, s] for s in o.sizes], "volume_error": error, "flux_jy": told[name].get("flux_jy")}
-        rows.append([name, f"{rate / 1e3:.1f}", f"{rate / IPOLE:.0f} × ipole" if polarised else f"{rate / BLACKLIGHT:.1f} × Blacklight",
-                     " and ".join(f"{x:.2f}" for x in figures[name]["seconds"]), measure.error(error)])
+        figures[name] = {
+            "rays_per_s_core": rate,
+            "seconds": [least[name, s] for s in o.sizes],
+            "volume_error": error,
+            "flux_jy": told[name].get("flux_jy"),
+        }
+        rows.append(
+            [
+                name,
+                f"{rate / 1e3:.1f}",
+                f"{rate / IPOLE:.0f} × ipole" if polarised else f"{rate / BLACKLIGHT:.1f} × Blacklight",
+                " and ".join(f"{x:.2f}" for x in figures[name]["seconds"]),
+                measure.error(error),
+            ]
+        )
     text = measure.head_markdown("Rays a second and core at radio frequencies", h)
-    text += (f"Pictures of {o.sizes[0]} and {o.sizes[1]} pixels a side by one thread, one ray a pixel: the difference of their rays over that of their processor times, each the least of {o.rounds}. "
-             f"Blacklight follows some {BLACKLIGHT} rays/s and core, ipole {IPOLE} of polarised light. "
-             "Starts differ by a tenth of a second on a machine that others use: a rate is as good as the difference of the times is large beside that.\n\n")
-    text += measure.table(["scene", "k rays/s and core", "beside others", "processor time of both pictures, s", "error, 9 rays of 10"], rows)
+    text += (
+        f"Pictures of {o.sizes[0]} and {o.sizes[1]} pixels a side by one thread, one ray a pixel: the difference of their rays over that of their processor times, each the least of {o.rounds}. "
+        f"Blacklight follows some {BLACKLIGHT} rays/s and core, ipole {IPOLE} of polarised light. "
+        "Starts differ by a tenth of a second on a machine that others use: a rate is as good as the difference of the times is large beside that.\n\n"
+    )
+    text += measure.table(
+        ["scene", "k rays/s and core", "beside others", "processor time of both pictures, s", "error, 9 rays of 10"],
+        rows,
+    )
     measure.save(o.out, "radio", h, {"figures": figures}, text)
 
 

@@ -1,4 +1,5 @@
-/* Lensing bands and demagnification in numbers, as the Markdown of docs/physics/photon-rings.md. No device, no options, a millisecond. */
+/* Lensing bands and demagnification in numbers, as the Markdown of docs/physics/photon-rings.md. No device, no
+ * options, a millisecond. */
 #include "physics/kerr.h"
 #include "physics/lensing.h"
 
@@ -22,14 +23,12 @@ static void bands(void)
          "|---|---|---|---|---|---|");
     for (int n = 1; n <= ORDERS; n++) {
         double in = kd_lensing_edge(&c, &p, n, 2), out = kd_lensing_edge(&c, &p, n, INFINITY);
-        printf("| %d | %.9f | %.9f | %.5g | %.5g | %.5g |\n", n, p.rho * (1 + in), p.rho * (1 + out), p.rho * (out - in),
-               -p.rho * in, p.rho * out);
+        printf("| %d | %.9f | %.9f | %.5g | %.5g | %.5g |\n", n, p.rho * (1 + in), p.rho * (1 + out),
+               p.rho * (out - in), -p.rho * in, p.rho * out);
     }
 }
 
-struct ring {
-    double spin, inclination_deg, angle_deg;
-};
+struct ring { double spin, inclination_deg, angle_deg; };
 
 static void demagnification(const struct ring *rings, int count, double source)
 {

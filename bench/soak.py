@@ -1,19 +1,28 @@
 #!/usr/bin/env python3
-"""What a server looks like after a long time with many who do all sorts of things at random: memory, descriptors, threads and errors over time. It fails on a slope.
+"""What a server looks like after a long time with many who do all sorts of things at random: memory, descriptors,
+threads and errors over time. It fails on a slope.
 
     bench/soak.py                     half an hour, six at once
     bench/soak.py --minutes 3 --clients 4 --seed 7
-    bench/soak.py --minutes 30 --kills 100      and the server is killed a hundred times meanwhile, and started again on the same folder
-    bench/soak.py --minutes 30 --faults 300     and so many faults of memory, disks, descriptors, clocks and of Vulkan happen beneath it (soak_faults.py), none in the last minute
-    bench/soak.py --build build-tsan --minutes 10      under the thread sanitizer, whose reports fail it as well, and whose memory may grow
+    bench/soak.py --minutes 30 --kills 100      and the server is killed a hundred times meanwhile, and started again
+                                                on the same folder
+    bench/soak.py --minutes 30 --faults 300     and so many faults of memory, disks, descriptors, clocks and of Vulkan
+                                                happen beneath it (soak_faults.py), none in the last minute
+    bench/soak.py --build build-tsan --minutes 10      under the thread sanitizer, whose reports fail it as well, and
+                                                       whose memory may grow
 
-Pictures, some of them left before they come; sessions that are dragged, left, or ended; streams that are cut; jobs that are waited for or stopped; rays, orbits, numbers;
-questions that are refused. Whoever asks knows what answers there may be: 2xx, 4xx where it is meant, 429, 503 and 507; among faults also 500 and a connection that is closed.
+Pictures, some of them left before they come; sessions that are dragged, left, or ended; streams that are cut; jobs that
+are waited for or stopped; rays, orbits, numbers; questions that are refused. Whoever asks knows what answers there may
+be: 2xx, 4xx where it is meant, 429, 503 and 507; among faults also 500 and a connection that is closed.
 
-Fails, with exit code 1, where after a warm-up of a quarter of the time resident memory grows by more than a tenth (and 24 MiB), descriptors by more than 4 or threads by more than 2, each by the straight
-line through what was measured; where the device's memory is by more than a block of 64 MiB more in the last third than in the first; where an answer was not one of those; where a job that was taken did not end as it should, or ended twice, or its result is not whole to the last
-checksum; where anything half is left in the folder of what is kept. Writes bench/results/DATE-DEVICE-soak.{json,md}.
+Fails, with exit code 1, where after a warm-up of a quarter of the time resident memory grows by more than a tenth (and
+24 MiB), descriptors by more than 4 or threads by more than 2, each by the straight line through what was measured;
+where the device's memory is by more than a block of 64 MiB more in the last third than in the first; where an answer
+was not one of those; where a job that was taken did not end as it should, or ended twice, or its result is not whole to
+the last checksum; where anything half is left in the folder of what is kept. Writes
+bench/results/DATE-DEVICE-soak.{json,md}.
 """
+
 import collections
 import contextlib
 import http.client
@@ -48,8 +57,25 @@ class Server:
         self.start()
 
     def start(self):
-        self.process = subprocess.Popen([self.path, "serve", "--port", str(self.port), "--state", self.state, "--client-share", "100", "--jobs", "64", *self.options],
-                                        stdout=subprocess.PIPE, stderr=self.log, text=True, env=self.env)
+        self.process = subprocess.Popen(
+            [
+                self.path,
+                "serve",
+                "--port",
+                str(self.port),
+                "--state",
+                self.state,
+                "--client-share",
+                "100",
+                "--jobs",
+                "64",
+                *self.options,
+            ],
+            stdout=subprocess.PIPE,
+            stderr=self.log,
+            text=True,
+            env=self.env,
+        )
         line = self.process.stdout.readline()
         found = re.search(r":(\d+)/", line)
         if not found:
@@ -71,8 +97,13 @@ class Server:
         pid = self.process.pid
         with contextlib.suppress(OSError, ValueError, AttributeError):
             status = pathlib.Path(f"/proc/{pid}/status").read_text()
-            return {"pid": pid, "rss_mib": int(re.search(r"VmRSS:\s+(\d+)", status)[1]) / 1024, "threads": int(re.search(r"Threads:\s+(\d+)", status)[1]),
-                    "descriptors": len(os.listdir(f"/proc/{pid}/fd")), "device_mib": self.device_mib()}
+            return {
+                "pid": pid,
+                "rss_mib": int(re.search(r"VmRSS:\s+(\d+)", status)[1]) / 1024,
+                "threads": int(re.search(r"Threads:\s+(\d+)", status)[1]),
+                "descriptors": len(os.listdir(f"/proc/{pid}/fd")),
+                "device_mib": self.device_mib(),
+            }
         return None
 
     def device_mib(self):
@@ -80,7 +111,9 @@ class Server:
         connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=10)
         try:
             connection.request("GET", "/metrics")
-            found = re.search(r"^kerrd_device_memory_bytes(?:{[^}]*})? (\S+)$", connection.getresponse().read().decode(), re.M)
+            found = re.search(
+                r"^kerrd_device_memory_bytes(?:{[^}]*})? (\S+)$", connection.getresponse().read().decode(), re.M
+            )
             return float(found[1]) / 2**20 if found else None
         except GONE:
             return None
@@ -93,7 +126,9 @@ def is_png(data):
     at, name = 8, b""
     while at + 12 <= len(data) and name != b"IEND":
         length, name = int.from_bytes(data[at : at + 4], "big"), data[at + 4 : at + 8]
-        if zlib.crc32(data[at + 4 : at + 8 + length]) != int.from_bytes(data[at + 8 + length : at + 12 + length], "big"):
+        if zlib.crc32(data[at + 4 : at + 8 + length]) != int.from_bytes(
+            data[at + 8 + length : at + 12 + length], "big"
+        ):
             return False
         at += 12 + length
     return data[:8] == b"\x89PNG\r\n\x1a\n" and name == b"IEND" and at == len(data)
@@ -113,7 +148,16 @@ class Client(threading.Thread):
     def __init__(self, world, number):
         super().__init__(daemon=True)
         self.world, self.random = world, random.Random(world.seed * 1000 + number)
-        self.acts = [(self.picture, 6), (self.left_picture, 3), (self.session, 4), (self.stream, 2), (self.job, 3), (self.rays, 2), (self.numbers, 2), (self.wrong, 2)]
+        self.acts = [
+            (self.picture, 6),
+            (self.left_picture, 3),
+            (self.session, 4),
+            (self.stream, 2),
+            (self.job, 3),
+            (self.rays, 2),
+            (self.numbers, 2),
+            (self.wrong, 2),
+        ]
 
     def run(self):
         acts, weights = zip(*self.acts)
@@ -131,7 +175,11 @@ class Client(threading.Thread):
 
     def scene(self):
         r = self.random
-        scene = {"image": {"width": r.choice([32, 64, 96]), "height": r.choice([24, 54])}, "camera": {"inclination_deg": r.uniform(1, 179)}, "spacetime": {"spin": r.uniform(-0.99, 0.99)}}
+        scene = {
+            "image": {"width": r.choice([32, 64, 96]), "height": r.choice([24, 54])},
+            "camera": {"inclination_deg": r.uniform(1, 179)},
+            "spacetime": {"spin": r.uniform(-0.99, 0.99)},
+        }
         if r.random() < 0.2:
             scene["sky"] = {"model": r.choice(["grid", "stars", "catalogue"])}
         if r.random() < 0.2:
@@ -143,13 +191,23 @@ class Client(threading.Thread):
     def ask(self, method, path, document=None, meant=(200,), **headers):
         connection = http.client.HTTPConnection("127.0.0.1", self.world.server.port, timeout=120)
         try:
-            connection.request(method, path, None if document is None else json.dumps(document), {"Content-Type": "application/json", **headers})
+            connection.request(
+                method,
+                path,
+                None if document is None else json.dumps(document),
+                {"Content-Type": "application/json", **headers},
+            )
             answer = connection.getresponse()
             body = answer.read()
         finally:
             connection.close()
         self.world.answered(answer.status, meant)
-        if answer.status not in meant and answer.status not in BUSY and not (self.world.kills and answer.status == 404) and not (answer.status == 500 and self.world.failing.is_set()):
+        if (
+            answer.status not in meant
+            and answer.status not in BUSY
+            and not (self.world.kills and answer.status == 404)
+            and not (answer.status == 500 and self.world.failing.is_set())
+        ):
             self.world.fault(f"{method} {path.split('?')[0]}: {answer.status} {body[:200]!r}")
         return answer.status, body
 
@@ -174,7 +232,12 @@ class Client(threading.Thread):
             return
         token, after = {"Authorization": f"Bearer {opened['token']}"}, 0
         for _ in range(self.random.randint(1, 6)):
-            self.ask("PATCH", f"/v1/sessions/{opened['id']}", {"camera": {"azimuth_deg": self.random.uniform(-180, 180)}}, **token)
+            self.ask(
+                "PATCH",
+                f"/v1/sessions/{opened['id']}",
+                {"camera": {"azimuth_deg": self.random.uniform(-180, 180)}},
+                **token,
+            )
             self.ask("GET", f"/v1/sessions/{opened['id']}/frame?after={after}&wait_ms=2000&lossy=75", meant=(200, 204))
             after += 1
         if self.random.random() < 0.7:
@@ -195,7 +258,12 @@ class Client(threading.Thread):
 
     def job(self):
         frames = self.random.randint(2, 8)
-        status, body = self.ask("POST", "/v1/jobs", {"scene": self.scene(), "keyframes": [{"frame": frames - 1, "scene": {"camera": {"azimuth_deg": 40}}}]}, (202,))
+        status, body = self.ask(
+            "POST",
+            "/v1/jobs",
+            {"scene": self.scene(), "keyframes": [{"frame": frames - 1, "scene": {"camera": {"azimuth_deg": 40}}}]},
+            (202,),
+        )
         if status != 202:
             return
         job = json.loads(body)
@@ -205,7 +273,9 @@ class Client(threading.Thread):
             status = None
             while status not in (204, 404):
                 with contextlib.suppress(*GONE):
-                    status, _ = self.ask("DELETE", f"/v1/jobs/{job['id']}", meant=(204, 404), Authorization=f"Bearer {job['token']}")
+                    status, _ = self.ask(
+                        "DELETE", f"/v1/jobs/{job['id']}", meant=(204, 404), Authorization=f"Bearer {job['token']}"
+                    )
             self.world.ended(job["id"], "stopped")
             return
         until = time.monotonic() + 300
@@ -224,15 +294,32 @@ class Client(threading.Thread):
         self.world.left(job["id"], frames, job["token"])
 
     def rays(self):
-        self.ask("POST", "/v1/rays", {"spin": self.random.uniform(-0.9, 0.9), "observer": {"inclination_deg": 60}, "rays": [[self.random.uniform(-9, 9), self.random.uniform(-9, 9)] for _ in range(200)]})
+        self.ask(
+            "POST",
+            "/v1/rays",
+            {
+                "spin": self.random.uniform(-0.9, 0.9),
+                "observer": {"inclination_deg": 60},
+                "rays": [[self.random.uniform(-9, 9), self.random.uniform(-9, 9)] for _ in range(200)],
+            },
+        )
 
     def numbers(self):
         self.ask("GET", f"/v1/physics/kerr?spin=0:{self.random.uniform(0.1, 0.9):.3f}:50")
-        self.ask("POST", "/v1/orbits", {"spin": 0.5, "orbit": {"p": self.random.uniform(8, 20), "e": 0.3}, "samples": 200})
+        self.ask(
+            "POST", "/v1/orbits", {"spin": 0.5, "orbit": {"p": self.random.uniform(8, 20), "e": 0.3}, "samples": 200}
+        )
 
     def wrong(self):
-        path, document, meant = self.random.choice([("/v1/render", {"image": {"width": -1}}, 422), ("/v1/jobs", {"scenes": []}, 422), ("/v1/orbits", {"orbit": {"p": 1}}, 422),
-                                                    ("/v1/nowhere", {}, 404), ("/v1/sessions/0123456789abcdef", {}, 405)])
+        path, document, meant = self.random.choice(
+            [
+                ("/v1/render", {"image": {"width": -1}}, 422),
+                ("/v1/jobs", {"scenes": []}, 422),
+                ("/v1/orbits", {"orbit": {"p": 1}}, 422),
+                ("/v1/nowhere", {}, 404),
+                ("/v1/sessions/0123456789abcdef", {}, 405),
+            ]
+        )
         self.ask("POST", path, document, (meant, 400, 422, 404, 405))
 
 
@@ -240,7 +327,13 @@ class World:
     def __init__(self, server, seed, kills, pause):
         self.server, self.seed, self.kills, self.pause = server, seed, kills, pause
         self.over, self.failing, self.lock = threading.Event(), threading.Event(), threading.Lock()
-        self.counts, self.faults, self.answers, self.jobs, self.unfinished = collections.Counter(), collections.Counter(), collections.Counter(), {}, []
+        self.counts, self.faults, self.answers, self.jobs, self.unfinished = (
+            collections.Counter(),
+            collections.Counter(),
+            collections.Counter(),
+            {},
+            [],
+        )
 
     def lossy(self):
         """Whether a connection may be closed instead of an answer."""
@@ -306,13 +399,20 @@ def finish(world):
 
 def is_file_whole(path):
     try:
-        return is_png(path.read_bytes()) if path.suffix == ".png" else bool(json.loads(path.read_text())) if path.suffix == ".json" else True
+        return (
+            is_png(path.read_bytes())
+            if path.suffix == ".png"
+            else bool(json.loads(path.read_text()))
+            if path.suffix == ".json"
+            else True
+        )
     except ValueError:
         return False
 
 
 def left_over(state, known):
-    """What is left of jobs that ended and were deleted, and what is half of those whose clients were never told that they were taken: these are kept."""
+    """What is left of jobs that ended and were deleted, and what is half of those whose clients were never told that
+    they were taken: these are kept."""
     for path in sorted(pathlib.Path(state).rglob("*")):
         job = next((part for part in path.relative_to(state).parts if part.removesuffix(".new") in known), None)
         if job:
@@ -350,20 +450,43 @@ def over_time(samples):
     for s in samples[:: max(len(samples) // 10, 1)]:
         device = f"{s['device_mib']:.0f}" if s["device_mib"] is not None else ""
         told = [s.get(name, 0) - before.get(name, 0) for name in ("as meant", "busy", "errors")]
-        rows.append([f"{s['s'] / 60:.1f}", f"{s['rss_mib']:.0f}", device, str(s["descriptors"]), str(s["threads"]), *map(str, told)])
+        rows.append(
+            [
+                f"{s['s'] / 60:.1f}",
+                f"{s['rss_mib']:.0f}",
+                device,
+                str(s["descriptors"]),
+                str(s["threads"]),
+                *map(str, told),
+            ]
+        )
         before = s
-    return measure.table(["minute", "resident, MiB", "device, MiB", "descriptors", "threads", "answers as meant", "busy", "errors"], rows)
+    return measure.table(
+        ["minute", "resident, MiB", "device, MiB", "descriptors", "threads", "answers as meant", "busy", "errors"], rows
+    )
 
 
-BLOCK_MIB = 64  # the device's memory is taken in blocks of so much (KD_VK_BLOCK_BYTES), and one of them may be taken late: which buffers lie in one is a matter of chance
-GROWTH = {"rss_mib": "resident memory, MiB", "device_mib": "the device's memory, MiB", "descriptors": "descriptors", "threads": "threads"}
+# the device's memory is taken in blocks of so much (KD_VK_BLOCK_BYTES), and one of them may be taken late: which
+# buffers lie in one is a matter of chance
+BLOCK_MIB = 64
+GROWTH = {
+    "rss_mib": "resident memory, MiB",
+    "device_mib": "the device's memory, MiB",
+    "descriptors": "descriptors",
+    "threads": "threads",
+}
 
 
 def main():
     p = measure.parser(__doc__.split("\n", maxsplit=1)[0])
     p.add_argument("--minutes", type=float, default=30)
     p.add_argument("--clients", type=int, default=6)
-    p.add_argument("--pace", type=float, default=2, help="things that each does in a second, at most (2): how much is asked, and so kept, does not depend on what else the machine does")
+    p.add_argument(
+        "--pace",
+        type=float,
+        default=2,
+        help="things that each does in a second, at most (2): how much is asked, and so kept, does not depend on what else the machine does",
+    )
     p.add_argument("--seed", type=int, default=1)
     p.add_argument("--kills", type=int, default=0, help="how often the server is killed meanwhile (0)")
     p.add_argument("--faults", type=int, default=0, help="how many faults happen beneath it (0), about")
@@ -381,7 +504,12 @@ def main():
             server = Server(harm.command(), state, log, "--device-reopenings", "100000", env=harm.environment())
         else:
             # What the driver and the libraries do among themselves is not ours.
-            server = Server(measure.binary(a.build, "src/kerrd"), state, log, env={"TSAN_OPTIONS": "ignore_noninstrumented_modules=1", **os.environ})
+            server = Server(
+                measure.binary(a.build, "src/kerrd"),
+                state,
+                log,
+                env={"TSAN_OPTIONS": "ignore_noninstrumented_modules=1", **os.environ},
+            )
         world = World(server, a.seed, a.kills, 1 / a.pace)
         device = json.loads(Client(world, 0).ask("GET", "/v1/device")[1])
         clients = [Client(world, k) for k in range(a.clients)]
@@ -398,9 +526,17 @@ def main():
         log.seek(0)
         reports = log.read().count(b"WARNING: ThreadSanitizer")
     late = [s for s in samples if s["s"] > 15 * a.minutes and s["device_mib"] is not None]
-    growth = {name: (risen if name == "device_mib" else slope)(late, name) for name in GROWTH} if len(late) > 4 and not a.kills else {}
+    growth = (
+        {name: (risen if name == "device_mib" else slope)(late, name) for name in GROWTH}
+        if len(late) > 4 and not a.kills
+        else {}
+    )
     broken = {job: how for job, how in world.jobs.items() if how in ("broken", "failed")}
-    faults = [*[f"{text} ({n} times)" for text, n in world.faults.items()], *[f"job {job} was lost" for job in lost], *[f"job {job}: {how}" for job, how in broken.items()]]
+    faults = [
+        *[f"{text} ({n} times)" for text, n in world.faults.items()],
+        *[f"job {job} was lost" for job in lost],
+        *[f"job {job}: {how}" for job, how in broken.items()],
+    ]
     faults += left
     if growth:
         mean = sum(s["rss_mib"] for s in late) / len(late)
@@ -413,21 +549,47 @@ def main():
     if reports:
         faults.append(f"the thread sanitizer has {reports} reports")
     head = measure.head(f"{device['name']}, {device['driver']} {device['driver_info']}", load)
-    result = {"minutes": a.minutes, "clients": a.clients, "seed": a.seed, "kills": killed, "done": dict(world.counts), "injected": dict(harm.counts) if harm else {},
-              "jobs": dict(collections.Counter(world.jobs.values())), "growth": growth, "samples": samples[:: max(len(samples) // 200, 1)], "faults": faults}
+    result = {
+        "minutes": a.minutes,
+        "clients": a.clients,
+        "seed": a.seed,
+        "kills": killed,
+        "done": dict(world.counts),
+        "injected": dict(harm.counts) if harm else {},
+        "jobs": dict(collections.Counter(world.jobs.values())),
+        "growth": growth,
+        "samples": samples[:: max(len(samples) // 200, 1)],
+        "faults": faults,
+    }
     jobs = ", ".join(f"{how} {n}" for how, n in sorted(result["jobs"].items(), key=str))
     first, last = (late[0], late[-1]) if late else ({}, {})
     text = measure.head_markdown(f"{a.minutes:g} minutes of everything, {a.clients} at once", head)
     text += f"\n{killed} times killed, {sum(harm.counts.values()) if harm else 0} faults injected. Jobs: {jobs}. Found: {len(faults)}.\n\n"
     text += over_time(samples) + "\n"
     if growth:
-        text += measure.table(["", "after a quarter", "at the end", "growth"],
-                              [[label, f"{first.get(name, 0):.0f}", f"{last.get(name, 0):.0f}", f"{growth[name]:.1f}"] for name, label in GROWTH.items()]) + "\n"
+        text += (
+            measure.table(
+                ["", "after a quarter", "at the end", "growth"],
+                [
+                    [label, f"{first.get(name, 0):.0f}", f"{last.get(name, 0):.0f}", f"{growth[name]:.1f}"]
+                    for name, label in GROWTH.items()
+                ],
+            )
+            + "\n"
+        )
     text += measure.table(["what", "how often"], [[name, str(n)] for name, n in sorted(world.counts.items())])
     if harm:
-        text += "\n" + measure.table(["injected", "how often"], [[name, str(n)] for name, n in sorted(harm.counts.items()) if n])
+        text += "\n" + measure.table(
+            ["injected", "how often"], [[name, str(n)] for name, n in sorted(harm.counts.items()) if n]
+        )
     text += "".join(f"\n- {fault}" for fault in faults) + "\n"
-    measure.save(a.out, "soak-kills" if a.kills else "soak-faults" if a.faults else "soak-tsan" if tsan else "soak", head, result, text)
+    measure.save(
+        a.out,
+        "soak-kills" if a.kills else "soak-faults" if a.faults else "soak-tsan" if tsan else "soak",
+        head,
+        result,
+        text,
+    )
     return bool(faults)
 
 

@@ -1,5 +1,7 @@
-"""Faults at random beneath a server, for bench/soak.py: memory, files and descriptors by the library that is preloaded (tests/faults/control.h), Vulkan's calls by a kerrd whose table of them fails
-when it is told to (tests/faults/vulkan_table.c), and the clock on the wall."""
+"""Faults at random beneath a server, for bench/soak.py: memory, files and descriptors by the library that is preloaded
+(tests/faults/control.h), Vulkan's calls by a kerrd whose table of them fails when it is told to
+(tests/faults/vulkan_table.c), and the clock on the wall."""
+
 import collections
 import errno
 import os
@@ -12,11 +14,33 @@ import faults  # noqa: E402
 import vulkan  # noqa: E402
 
 CHANGES = faults.CREATE | faults.WRITE | faults.RENAME | faults.SYNC
-FILES = [(errno.ENOSPC, CHANGES), (errno.EDQUOT, CHANGES), (errno.EROFS, faults.CREATE | faults.RENAME), (errno.EIO, CHANGES | faults.OPEN | faults.READ),
-         (errno.EMFILE, faults.OPEN | faults.CREATE)]
+FILES = [
+    (errno.ENOSPC, CHANGES),
+    (errno.EDQUOT, CHANGES),
+    (errno.EROFS, faults.CREATE | faults.RENAME),
+    (errno.EIO, CHANGES | faults.OPEN | faults.READ),
+    (errno.EMFILE, faults.OPEN | faults.CREATE),
+]
 # What is called all the time; the rest is of a start.
-CALLS = ["AllocateMemory", "MapMemory", "CreateBuffer", "BindBufferMemory", "CreateBufferView", "CreateComputePipelines", "CreateDescriptorPool", "AllocateDescriptorSets", "ResetCommandPool",
-         "BeginCommandBuffer", "EndCommandBuffer", "QueueSubmit", "WaitSemaphores", "GetSemaphoreCounterValue", "CreateQueryPool", "GetQueryPoolResults", "CreateDevice"]
+CALLS = [
+    "AllocateMemory",
+    "MapMemory",
+    "CreateBuffer",
+    "BindBufferMemory",
+    "CreateBufferView",
+    "CreateComputePipelines",
+    "CreateDescriptorPool",
+    "AllocateDescriptorSets",
+    "ResetCommandPool",
+    "BeginCommandBuffer",
+    "EndCommandBuffer",
+    "QueueSubmit",
+    "WaitSemaphores",
+    "GetSemaphoreCounterValue",
+    "CreateQueryPool",
+    "GetQueryPoolResults",
+    "CreateDevice",
+]
 
 
 class Faults:
@@ -31,10 +55,16 @@ class Faults:
         return measure.binary(self.build, "tests/faults/kerrd_vulkan_faults")
 
     def environment(self):
-        return {**os.environ, "KD_FAULTS": self.memory.file.name, "KD_VULKAN_FAULTS": self.vulkan.file.name, "LD_PRELOAD": measure.binary(self.build, "tests/faults/libfaults.so")}
+        return {
+            **os.environ,
+            "KD_FAULTS": self.memory.file.name,
+            "KD_VULKAN_FAULTS": self.vulkan.file.name,
+            "LD_PRELOAD": measure.binary(self.build, "tests/faults/libfaults.so"),
+        }
 
     def happen(self):
-        """A fault of any kind; how many seconds it lasts. What is armed and not reached meanwhile does not happen, and is not counted."""
+        """A fault of any kind; how many seconds it lasts. What is armed and not reached meanwhile does not happen, and
+        is not counted."""
         r = self.random
         self.before = self.memory.failed + self.memory.files_failed
         kind = r.choice(["memory", "files", "vulkan", "clock"])

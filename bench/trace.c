@@ -14,9 +14,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-struct options { const char *device, *json; int size, repeat, sample; double spin, inclination; };
+struct options {
+    const char *device, *json;
+    int size, repeat, sample;
+    double spin, inclination;
+};
 
-struct method { const char *name, *what; struct kd_needs needs; int orders, steps; };
+struct method {
+    const char *name, *what;
+    struct kd_needs needs;
+    int orders, steps;
+};
 static const struct method methods[] = {
     { "closed form", "r of 3 crossings", { .quantities = KD_LENS_W }, 3, 0 },
     { "closed form", "r of 1 crossing", { .quantities = KD_LENS_W }, 1, 0 },
@@ -35,7 +43,10 @@ static const struct method methods[] = {
 };
 enum { METHODS = sizeof methods / sizeof *methods };
 
-struct figures { double mray_s, r_median, r_worst, r1_median, phi_median, phi_worst, phi1_median; int rays[2]; };
+struct figures {
+    double mray_s, r_median, r_worst, r1_median, phi_median, phi_worst, phi1_median;
+    int rays[2];
+};
 
 static int by_value(const void *a, const void *b)
 {
@@ -55,8 +66,8 @@ static double quantile(double *values, int n, double q)
 static double turn(double x) { return fabs(remainder(x, 2 * M_PI)); }
 
 /* Errors of the first two orders at a sample of pixels. */
-static void judge(const struct options *o, const struct kd_scene *scene, const struct kd_plan *plan, const float *planes,
-                  struct figures *f)
+static void judge(const struct options *o, const struct kd_scene *scene, const struct kd_plan *plan,
+                  const float *planes, struct figures *f)
 {
     /* Radii at which a disk can be: BL azimuth diverges at the horizon. */
     double isco = kd_kerr_isco(scene->spacetime.spin);
@@ -81,7 +92,9 @@ static void judge(const struct options *o, const struct kd_scene *scene, const s
                     continue;
                 r_error[k][count[k]] = fabs(1 / (double)w / path.r[k] - 1);
                 phi_error[k][count[k]++] =
-                    kd_plan_holds(plan, KD_LENS_PHI) ? turn(planes[(size_t)(k + (int)plan->orders) * plan->rays + at] - path.phi[k]) : NAN;
+                    kd_plan_holds(plan, KD_LENS_PHI)
+                        ? turn(planes[(size_t)(k + (int)plan->orders) * plan->rays + at] - path.phi[k])
+                        : NAN;
             }
         }
     }
@@ -189,18 +202,19 @@ int main(int argc, char **argv)
         { 0 },
     };
     struct options o = { "auto", NULL, 1024, 9, 64, 0.9, 70 };
-    struct argp parser = { table, option, NULL, "Rays per second of the lens-map kernels against their error.", NULL, NULL, NULL };
+    struct argp parser = { table, option, NULL, "Rays per second of the lens-map kernels against their error.",
+                           NULL,  NULL,   NULL };
     argp_parse(&parser, argc, argv, 0, NULL, &o);
 
     struct kd_error error = { 0 };
     struct kd_renderer *renderer;
     struct figures figures[METHODS] = { 0 };
-    if (kd_renderer_create(&(struct kd_renderer_params){ .device = o.device, .passing = true }, &renderer, &error)) {
+    if (kd_renderer_create(&(struct kd_renderer_params) { .device = o.device, .passing = true }, &renderer, &error)) {
         fprintf(stderr, "kd_bench_trace: %s\n", error.message);
         return 1;
     }
-    printf("device: %s\na = %g, i = %g deg, +-12 M, %d x %d rays, median of %d runs\n\n", kd_renderer_device_name(renderer), o.spin,
-           o.inclination, o.size, o.size, o.repeat);
+    printf("device: %s\na = %g, i = %g deg, +-12 M, %d x %d rays, median of %d runs\n\n",
+           kd_renderer_device_name(renderer), o.spin, o.inclination, o.size, o.size, o.repeat);
     printf("| method | computes | Mray/s | r: median | worst | order 1 | phi: median | worst | order 1 |\n");
     printf("|---|---|---|---|---|---|---|---|---|\n");
     for (int i = 0; i < METHODS; i++) {
@@ -209,8 +223,8 @@ int main(int argc, char **argv)
             fprintf(stderr, "kd_bench_trace: %s\n", error.message);
             return 1;
         }
-        printf("| %s | %s | %.2f | %.1e | %.1e | %.1e | %.1e | %.1e | %.1e |\n", methods[i].name, methods[i].what, f->mray_s,
-               f->r_median, f->r_worst, f->r1_median, f->phi_median, f->phi_worst, f->phi1_median);
+        printf("| %s | %s | %.2f | %.1e | %.1e | %.1e | %.1e | %.1e | %.1e |\n", methods[i].name, methods[i].what,
+               f->mray_s, f->r_median, f->r_worst, f->r1_median, f->phi_median, f->phi_worst, f->phi1_median);
         fflush(stdout);
     }
     if (o.json && !write_json(o.json, kd_renderer_device_name(renderer), &o, figures)) {

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Speed and error of the lens-map kernels on one core, for several holes: kd_bench_trace, some rounds, medians."""
+
 import json
 import os
 import tempfile
@@ -34,7 +35,7 @@ def main():
     runs = {case: [] for case in CASES}
     for k in range(o.rounds):
         for a, i in CASES:
-            sample = o.sample if k == 0 else 2 # judged once
+            sample = o.sample if k == 0 else 2  # judged once
             command = [bench, "--spin", str(a), "--inclination", str(i), "--repeat", "3", "--sample", str(sample)]
             runs[a, i].append(one_run(command, o.core))
     h = measure.head(runs[CASES[0]][0]["device"], load)
@@ -42,15 +43,53 @@ def main():
     cases = []
     for (a, i), list_ in runs.items():
         methods = merge(list_)
-        cases.append({"spin": a, "inclination_deg": i, "field_m": list_[0]["field_m"], "rays": list_[0]["rays"],
-                      "methods": methods})
+        cases.append(
+            {
+                "spin": a,
+                "inclination_deg": i,
+                "field_m": list_[0]["field_m"],
+                "rays": list_[0]["rays"],
+                "methods": methods,
+            }
+        )
         text += f"a = {a:g}, i = {i}°, ±12 M\n\n"
-        text += measure.table(
-            ["method", "computes", "Mray/s/core", "best", "r: median", "worst", "order 1", "φ: median", "worst",
-             "order 1"],
-            [[m["method"], m["computes"], f"{m['mray_per_s']:.1f}", f"{m['mray_per_s_best']:.1f}",
-              *(measure.error(m[k]) for k in ("r_median", "r_worst", "r_median_order_1", "phi_median", "phi_worst",
-                                              "phi_median_order_1"))] for m in methods]) + "\n"
+        text += (
+            measure.table(
+                [
+                    "method",
+                    "computes",
+                    "Mray/s/core",
+                    "best",
+                    "r: median",
+                    "worst",
+                    "order 1",
+                    "φ: median",
+                    "worst",
+                    "order 1",
+                ],
+                [
+                    [
+                        m["method"],
+                        m["computes"],
+                        f"{m['mray_per_s']:.1f}",
+                        f"{m['mray_per_s_best']:.1f}",
+                        *(
+                            measure.error(m[k])
+                            for k in (
+                                "r_median",
+                                "r_worst",
+                                "r_median_order_1",
+                                "phi_median",
+                                "phi_worst",
+                                "phi_median_order_1",
+                            )
+                        ),
+                    ]
+                    for m in methods
+                ],
+            )
+            + "\n"
+        )
     measure.save(o.out, "trace", h, {"rounds": o.rounds, "cases": cases}, text)
 
 

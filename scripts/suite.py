@@ -1,14 +1,18 @@
 #!/usr/bin/env python3
 """What scripts/test asks about a build's tests; it speaks of nothing else.
 
-    suite.py known BUILD [ARGUMENT...]    exit 2 and a sentence for a test or suite that `meson test ARGUMENT...` would not find
-    suite.py again BUILD SUITE[,SUITE...] [ARGUMENT...]  run each failed test of these suites once more, by itself, where no other has failed: exit 0 if all
+    suite.py known BUILD [ARGUMENT...]    exit 2 and a sentence for a test or suite that `meson test ARGUMENT...` would
+                                          not find
+    suite.py again BUILD SUITE[,SUITE...] [ARGUMENT...]  run each failed test of these suites once more, by itself,
+                                                         where no other has failed: exit 0 if all
                                           of them pass now. Those are listed in BUILD/meson-logs/flaky.txt, and loudly
-    suite.py report BUILD [--no-skip]     the seconds of the last run suite by suite, the slowest tests, and what was skipped and why;
-                                          with --no-skip a skip is exit 1. BUILD/meson-logs/counts.txt has how many ended how
+    suite.py report BUILD [--no-skip]     the seconds of the last run suite by suite, the slowest tests, and what was
+                                          skipped and why; with --no-skip a skip is exit 1. BUILD/meson-logs/counts.txt
+                                          has how many ended how
 
 Meson itself runs no test at all for a name that it does not know, and calls that a success.
 """
+
 import collections
 import difflib
 import json
@@ -17,8 +21,22 @@ import subprocess
 import sys
 
 # Options of `meson test` that are followed by a value (1.0 to 1.7).
-VALUED = {'-C', '-t', '--timeout-multiplier', '--maxfail', '--repeat', '--gdb-path', '--wrapper', '--wrap', '--logbase', '-j',
-          '--num-processes', '--setup', '--test-args', '--max-lines'}
+VALUED = {
+    "-C",
+    "-t",
+    "--timeout-multiplier",
+    "--maxfail",
+    "--repeat",
+    "--gdb-path",
+    "--wrapper",
+    "--wrap",
+    "--logbase",
+    "-j",
+    "--num-processes",
+    "--setup",
+    "--test-args",
+    "--max-lines",
+}
 
 
 def asked(arguments):
@@ -26,12 +44,12 @@ def asked(arguments):
     names, suites = [], []
     rest = iter(arguments)
     for argument in rest:
-        option, equals, value = argument.partition('=')
-        if option in ('--suite', '--no-suite'):
-            suites.append(value if equals else next(rest, ''))
+        option, equals, value = argument.partition("=")
+        if option in ("--suite", "--no-suite"):
+            suites.append(value if equals else next(rest, ""))
         elif argument in VALUED:
             next(rest, None)
-        elif not argument.startswith('-'):
+        elif not argument.startswith("-"):
             names.append(argument)
     return names, suites
 
@@ -39,52 +57,64 @@ def asked(arguments):
 def unknown(kind, word, known):
     near = difflib.get_close_matches(word, known, 3, 0.5) + [name for name in sorted(known) if word and word in name]
     near = list(dict.fromkeys(near))[:5]
-    hint = f'; near it: {", ".join(near)}' if near else '; `scripts/test --list` names them all'
-    return f'scripts/test: there is no {kind} {word!r}{hint}'
+    hint = f"; near it: {', '.join(near)}" if near else "; `scripts/test --list` names them all"
+    return f"scripts/test: there is no {kind} {word!r}{hint}"
 
 
 def check(build, arguments):
-    made = subprocess.run(['meson', 'introspect', '--tests', build], check=True, capture_output=True, text=True).stdout
+    made = subprocess.run(["meson", "introspect", "--tests", build], check=True, capture_output=True, text=True).stdout
     tests = json.loads(made)
-    known = {'test': {test['name'] for test in tests}, 'suite': {suite.split(':')[-1] for test in tests for suite in test['suite']}}
+    known = {
+        "test": {test["name"] for test in tests},
+        "suite": {suite.split(":")[-1] for test in tests for suite in test["suite"]},
+    }
     names, suites = asked(arguments)
-    wanted = [('test', name.split(':')[-1]) for name in names] + [('suite', name.split(':')[-1]) for name in suites]
+    wanted = [("test", name.split(":")[-1]) for name in names] + [("suite", name.split(":")[-1]) for name in suites]
     missing = [unknown(kind, word, known[kind]) for kind, word in wanted if word not in known[kind]]
-    print(*missing, sep='\n', end='\n' if missing else '', file=sys.stderr)
+    print(*missing, sep="\n", end="\n" if missing else "", file=sys.stderr)
     return 2 if missing else 0
 
 
 def by_suite(tests):
-    """How many tests each suite has and the sum of their seconds, most first; a test of several suites counts in each. Tests run beside
-    one another: the sum is more than what the run took."""
+    """How many tests each suite has and the sum of their seconds, most first; a test of several suites counts in each.
+    Tests run beside one another: the sum is more than what the run took."""
     sums = {}
     for test in tests:
-        for suite in test['name'].partition(' / ')[0].split(':')[-1].split('+'):
+        for suite in test["name"].partition(" / ")[0].split(":")[-1].split("+"):
             number, seconds = sums.get(suite, (0, 0))
-            sums[suite] = number + 1, seconds + test['duration']
+            sums[suite] = number + 1, seconds + test["duration"]
     return sorted(((suite, *figures) for suite, figures in sums.items()), key=lambda row: -row[2])
 
 
 def report(build, *options):
-    log = max(pathlib.Path(build, 'meson-logs').glob('testlog*.json'), key=lambda path: path.stat().st_mtime)  # a wrapper is part of its name
+    log = max(
+        pathlib.Path(build, "meson-logs").glob("testlog*.json"), key=lambda path: path.stat().st_mtime
+    )  # a wrapper is part of its name
     tests = read(log)
-    slowest = sorted(tests, key=lambda test: -test['duration'])[:8]
+    slowest = sorted(tests, key=lambda test: -test["duration"])[:8]
     if len(tests) > len(slowest):
-        print('suites:', ', '.join(f'{suite} {number} in {seconds:.0f} s' for suite, number, seconds in by_suite(tests)))
-        print('slowest:', ', '.join(f'{test["name"]} {test["duration"]:.0f} s' for test in slowest))
-    skipped = [test for test in tests if test['result'] == 'SKIP']
+        print(
+            "suites:", ", ".join(f"{suite} {number} in {seconds:.0f} s" for suite, number, seconds in by_suite(tests))
+        )
+        print("slowest:", ", ".join(f"{test['name']} {test['duration']:.0f} s" for test in slowest))
+    skipped = [test for test in tests if test["result"] == "SKIP"]
     for test in skipped:
-        reason = (test.get('stdout', '') + test.get('stderr', '')).strip().splitlines()
-        print('skipped:', test['name'].split(' / ')[-1], '-', reason[-1] if reason else 'no reason given')
-    flaky = pathlib.Path(build, 'meson-logs/flaky.txt')
-    told = flaky.read_text() if flaky.exists() else ''
-    print(told, end='')
-    ended = collections.Counter('Ok' if test['result'] in ('OK', 'EXPECTEDFAIL') else 'Skipped' if test['result'] == 'SKIP' else 'Fail' for test in tests)
+        reason = (test.get("stdout", "") + test.get("stderr", "")).strip().splitlines()
+        print("skipped:", test["name"].split(" / ")[-1], "-", reason[-1] if reason else "no reason given")
+    flaky = pathlib.Path(build, "meson-logs/flaky.txt")
+    told = flaky.read_text() if flaky.exists() else ""
+    print(told, end="")
+    ended = collections.Counter(
+        "Ok" if test["result"] in ("OK", "EXPECTEDFAIL") else "Skipped" if test["result"] == "SKIP" else "Fail"
+        for test in tests
+    )
     passed_again = len(told.splitlines())
     ended.update(Ok=passed_again, Fail=-passed_again)
-    pathlib.Path(build, 'meson-logs/counts.txt').write_text(''.join(f'{word} {ended[word]}\n' for word in ('Ok', 'Fail', 'Skipped')))
-    if skipped and '--no-skip' in options:
-        print(f'scripts/test: {len(skipped)} skipped, where none may be', file=sys.stderr)
+    pathlib.Path(build, "meson-logs/counts.txt").write_text(
+        "".join(f"{word} {ended[word]}\n" for word in ("Ok", "Fail", "Skipped"))
+    )
+    if skipped and "--no-skip" in options:
+        print(f"scripts/test: {len(skipped)} skipped, where none may be", file=sys.stderr)
         return 1
     return 0
 
@@ -97,24 +127,34 @@ def read(log):
 
 
 def again(build, suites, *arguments):
-    logs = pathlib.Path(build, 'meson-logs')
-    failed = [test['name'].split(' / ') for test in read(logs / 'testlog.json') if test['result'] not in ('OK', 'SKIP', 'EXPECTEDFAIL')]
-    others = [name for of, name in failed if not set(suites.split(',')) & set(of.split(':')[-1].split('+'))]
+    logs = pathlib.Path(build, "meson-logs")
+    failed = [
+        test["name"].split(" / ")
+        for test in read(logs / "testlog.json")
+        if test["result"] not in ("OK", "SKIP", "EXPECTEDFAIL")
+    ]
+    others = [name for of, name in failed if not set(suites.split(",")) & set(of.split(":")[-1].split("+"))]
     if not failed or others or len(failed) > MOST_AGAIN:
         return 1
     twice = []
     for _, name in failed:
-        print(f'{name} has failed: once more, by itself', flush=True)
-        subprocess.run(['meson', 'test', '-C', build, '--no-rebuild', '--print-errorlogs', '--logbase', 'again', *arguments, name])
-        if [test['result'] for test in read(logs / 'again.json')] != ['OK']:
+        print(f"{name} has failed: once more, by itself", flush=True)
+        subprocess.run(
+            ["meson", "test", "-C", build, "--no-rebuild", "--print-errorlogs", "--logbase", "again", *arguments, name]
+        )
+        if [test["result"] for test in read(logs / "again.json")] != ["OK"]:
             twice.append(name)
             continue
-        with (logs / 'flaky.txt').open('a') as flaky:
-            print(f'FLAKY: {name} failed once, passed alone: there is a race in it, mend it', file=flaky)
+        with (logs / "flaky.txt").open("a") as flaky:
+            print(f"FLAKY: {name} failed once, passed alone: there is a race in it, mend it", file=flaky)
     for name in twice:
-        print(f'{name} has failed twice')
+        print(f"{name} has failed twice")
     return 1 if twice else 0
 
 
-if __name__ == '__main__':
-    sys.exit({'known': lambda build, *arguments: check(build, arguments), 'again': again, 'report': report}[sys.argv[1]](*sys.argv[2:]))
+if __name__ == "__main__":
+    sys.exit(
+        {"known": lambda build, *arguments: check(build, arguments), "again": again, "report": report}[sys.argv[1]](
+            *sys.argv[2:]
+        )
+    )

@@ -4,9 +4,10 @@
 to_double.py INCLUDE_DIR INPUT OUTPUT DEPFILE
 
 Includes are expanded; float, vec3 and vec4 become double, dvec3 and dvec4; numbers with a point or an exponent get the
-suffix LF; KD_DOUBLE is defined. Kernels that go through here use math.glsl instead of built-in transcendental functions, which
-GLSL has in single precision only.
+suffix LF; KD_DOUBLE is defined. Kernels that go through here use math.glsl instead of built-in transcendental
+functions, which GLSL has in single precision only.
 """
+
 import pathlib
 import re
 import sys
@@ -28,11 +29,11 @@ def expand(path):
     return lines
 
 
-text = '\n'.join(expand(source))
-text = re.sub(r'/\*.*?\*/', lambda comment: '\n' * comment[0].count('\n'), text, flags=re.S)
-text = re.sub(r'(?<![\w.])(\d+\.\d*(?:e[+-]?\d+)?|\d+e[+-]?\d+)(?![\w.])', r'\1LF', text)
-text = re.sub(r'\bfloat\b', 'double', text)
-text = re.sub(r'\bvec([34])\b', r'dvec\1', text)
-text = re.sub(r'^(#version .*)$', r'\1\n#define KD_DOUBLE', text, count=1, flags=re.M)
-output.write_text(text + '\n')
-depfile.write_text(f'{output}: ' + ' '.join(str(path).replace(' ', r'\ ') for path in seen) + '\n')
+text = "\n".join(expand(source))
+text = re.sub(r"/\*.*?\*/", lambda comment: "\n" * comment[0].count("\n"), text, flags=re.S)
+text = re.sub(r"(?<![\w.])(\d+\.\d*(?:e[+-]?\d+)?|\d+e[+-]?\d+)(?![\w.])", r"\1LF", text)
+text = re.sub(r"\bfloat\b", "double", text)
+text = re.sub(r"\bvec([34])\b", r"dvec\1", text)
+text = re.sub(r"^(#version .*)$", r"\1\n#define KD_DOUBLE", text, count=1, flags=re.M)
+output.write_text(text + "\n")
+depfile.write_text(f"{output}: " + " ".join(str(path).replace(" ", r"\ ") for path in seen) + "\n")

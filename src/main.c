@@ -66,16 +66,19 @@ static const struct argp_option options[] = {
 static const char *help_text(void)
 {
     static char text[4000];
-    size_t used = (size_t)snprintf(text, sizeof text, "%s", KD_CLI_ABOUT "\vCommands (`kerrd help COMMAND` says more):\n");
+    size_t used =
+        (size_t)snprintf(text, sizeof text, "%s", KD_CLI_ABOUT "\vCommands (`kerrd help COMMAND` says more):\n");
     for (size_t i = 0; i < kd_n_commands && used < sizeof text; i++)
-        used += (size_t)snprintf(text + used, sizeof text - used, "  %-11s  %s\n", kd_commands[i].name, kd_commands[i].help);
+        used += (size_t)snprintf(text + used, sizeof text - used, "  %-11s  %s\n", kd_commands[i].name,
+                                 kd_commands[i].help);
     if (used < sizeof text)
         snprintf(text + used, sizeof text - used, "%s", "\nExit codes: " KD_CLI_EXIT_CODES ".");
     return text;
 }
 
-/* Whoever starts us may have closed a standard stream. Its number must not become that of a client's socket, or of a file that is kept, into which messages would go: it is that of one
- * on which reading and writing fail, as on a closed one. */
+/* Whoever starts us may have closed a standard stream. Its number must not become that of a client's socket, or of a
+ * file that is kept, into which messages would go: it is that of one on which reading and writing fail, as on a
+ * closed one. */
 static void hold_standard_streams(void)
 {
     for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; fd++)
@@ -86,7 +89,9 @@ static void hold_standard_streams(void)
 int main(int argc, char **argv)
 {
     static char zero[] = "kerrd";
-    const struct argp argp = { .options = options, .parser = parse, .args_doc = "COMMAND [OPTION...]", .doc = help_text() };
+    const struct argp argp = {
+        .options = options, .parser = parse, .args_doc = "COMMAND [OPTION...]", .doc = help_text()
+    };
     struct choice choice = { 0 };
     char name[32];
 

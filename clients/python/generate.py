@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Writes what is made of something else: src/kerrd/scene.py, the scene as dataclasses, of the schema that kerrd serves, and
-src/kerrd/client.py of src/kerrd/aio.py, by unasync.
+"""Writes what is made of something else: src/kerrd/scene.py, the scene as dataclasses, of the schema that kerrd serves,
+and src/kerrd/client.py of src/kerrd/aio.py, by unasync.
 
     generate.py KERRD            KERRD: the program
     generate.py --check KERRD    exit 1 naming what is not what would be written
 """
+
 import json
 import keyword
 import pathlib
@@ -43,7 +44,9 @@ def described(name, field):
     facts += [f"{part['minimum']:.12g} to {part['maximum']:.12g}" for part in ranges]
     if "default" in field:
         facts.append(f"default {json.dumps(field['default'])}")
-    return textwrap.fill(f"{name}: {'; '.join(facts)}.", 136, initial_indent="    ", subsequent_indent="        ", break_long_words=False).replace("\\", "\\\\")
+    return textwrap.fill(
+        f"{name}: {'; '.join(facts)}.", 136, initial_indent="    ", subsequent_indent="        ", break_long_words=False
+    ).replace("\\", "\\\\")
 
 
 def class_of(name):
@@ -63,12 +66,30 @@ def write(name, node, out):
         elif field.get("type") == "array" and field["items"].get("type") == "object":
             kind = {"spots": "Spot", "bodies": "Body"}[key]
             write(kind, {**field["items"], "description": f"one of `{key}`"}, out)
-            rows.append((key, f"Sequence[{kind}]", textwrap.fill(f"{key}: {field['description']}; up to {field['maxItems']}.", 136, initial_indent="    ", subsequent_indent="        ")))
+            rows.append(
+                (
+                    key,
+                    f"Sequence[{kind}]",
+                    textwrap.fill(
+                        f"{key}: {field['description']}; up to {field['maxItems']}.",
+                        136,
+                        initial_indent="    ",
+                        subsequent_indent="        ",
+                    ),
+                )
+            )
         else:
             rows.append((key, annotation(field), described(key, field)))
     title = node.get("description", "a scene, version 1")
-    out.append("@dataclass\nclass %s:\n    \"\"\"%s.\n\n%s\n    \"\"\"\n\n%s\n" % (
-        name, title[0].upper() + title[1:], "\n".join(text for _, _, text in rows), "\n".join(f"    {key}: {kind} | None = None" for key, kind, _ in rows)))
+    out.append(
+        '@dataclass\nclass %s:\n    """%s.\n\n%s\n    """\n\n%s\n'
+        % (
+            name,
+            title[0].upper() + title[1:],
+            "\n".join(text for _, _, text in rows),
+            "\n".join(f"    {key}: {kind} | None = None" for key, kind, _ in rows),
+        )
+    )
 
 
 def scene(kerrd):
@@ -85,9 +106,13 @@ def scene(kerrd):
     out = []
     write("Scene", schema, out)
     names = sorted(re.search(r"class (\w+)", text)[1] for text in out)
-    return ('"""The scene as dataclasses, written by generate.py from the schema; None leaves a field to the server."""\n\n'
-            "# This file is generated: change src/scene/fields.h, then run clients/python/generate.py.\n\nfrom __future__ import annotations\n\n"
-            "from collections.abc import Sequence\nfrom dataclasses import dataclass\nfrom typing import Literal\n\n" + f"__all__ = {json.dumps(names)}\n\n\n" + "\n\n".join(out))
+    return (
+        '"""The scene as dataclasses, written by generate.py from the schema; None leaves a field to the server."""\n\n'
+        "# This file is generated: change src/scene/fields.h, then run clients/python/generate.py.\n\nfrom __future__ import annotations\n\n"
+        "from collections.abc import Sequence\nfrom dataclasses import dataclass\nfrom typing import Literal\n\n"
+        + f"__all__ = {json.dumps(names)}\n\n\n"
+        + "\n\n".join(out)
+    )
 
 
 BLOCKING = {"AsyncClient": "Client", "AsyncSession": "Session", "AsyncJob": "Job", "aclose": "close", "asyncio": "time"}
@@ -102,7 +127,9 @@ def client():
         unasync.unasync_files([str(source)], [unasync.Rule("/async/", "/blocking/", BLOCKING)])
         text = pathlib.Path(folder, "blocking", "client.py").read_text()
     head, rest = text.split("\n", 1)
-    return '"""The client that blocks, made of aio.py by generate.py; any thread may use one."""\n' + rest.replace(", spoken to by one event loop", "")
+    return '"""The client that blocks, made of aio.py by generate.py; any thread may use one."""\n' + rest.replace(
+        ", spoken to by one event loop", ""
+    )
 
 
 def main():

@@ -36,7 +36,10 @@ export function showAccuracy(frame, scene) {
   const held =
     scene.get('accuracy.tolerance') === 'profile'
       ? t(`Profile “${profile}”.`, `Profilo «${profile}».`)
-      : t(`Tolerance ${number(scene.get('accuracy.tolerance'))}.`, `Tolleranza ${number(scene.get('accuracy.tolerance'))}.`);
+      : t(
+          `Tolerance ${number(scene.get('accuracy.tolerance'))}.`,
+          `Tolleranza ${number(scene.get('accuracy.tolerance'))}.`,
+        );
   const measured = !(sampled > 0)
     ? t(
         'The error of this picture was not measured: no ray of it crosses the disk’s plane where it could be.',
@@ -77,16 +80,21 @@ export function showAccuracy(frame, scene) {
       ),
     ),
   );
-  byId('approximations').replaceChildren(...frame.approximations.map(sentence => {
+  byId('approximations').replaceChildren(
+    ...frame.approximations.map(sentence => {
       const item = tell(el('li'), sentence);
       item.textContent = readable(item.textContent);
       return item;
-    }));
+    }),
+  );
 }
 
 // What is said of an observer that falls by itself.
 function fallen({ r, proper_time_to_horizon: left }) {
-  const horizon = left == null ? t('within the horizon', 'dentro l’orizzonte') : t(`${number(left, 3)} M to the horizon`, `${number(left, 3)} M all’orizzonte`);
+  const horizon =
+    left == null
+      ? t('within the horizon', 'dentro l’orizzonte')
+      : t(`${number(left, 3)} M to the horizon`, `${number(left, 3)} M all’orizzonte`);
   return `r = ${number(r, 3)} M, ${horizon}; `;
 }
 
@@ -94,7 +102,10 @@ function fallen({ r, proper_time_to_horizon: left }) {
 function lessened({ narrow, part }) {
   if (narrow) return t(' (a wider one would take over 0.1 s)', ' (una più larga richiederebbe oltre 0,1 s)');
   if (part < 1)
-    return t(` (1/${1 / part} of the window: this server takes no picture of all of it, which would be too much work)`, ` (1/${1 / part} della finestra: un’immagine di tutta questo server non la accetta, sarebbe troppo lavoro)`);
+    return t(
+      ` (1/${1 / part} of the window: this server takes no picture of all of it, which would be too much work)`,
+      ` (1/${1 / part} della finestra: un’immagine di tutta questo server non la accetta, sarebbe troppo lavoro)`,
+    );
   return '';
 }
 
@@ -103,8 +114,14 @@ export function caption(frame) {
     frame.accuracy.sampled > 0
       ? t(`error ≤ ${number(frame.accuracy.worst, 2)}, `, `errore ≤ ${number(frame.accuracy.worst, 2)}, `)
       : '';
-  const rays = frame.samples > 1 ? t(`, ${frame.samples ** 2} rays a pixel`, `, ${frame.samples ** 2} raggi per pixel`) : '';
-  const lossy = frame.lossy ? t(`, colours lossy while it moves (JPEG ${frame.lossy})`, `, colori con perdita mentre si muove (JPEG ${frame.lossy})`) : '';
+  const rays =
+    frame.samples > 1 ? t(`, ${frame.samples ** 2} rays a pixel`, `, ${frame.samples ** 2} raggi per pixel`) : '';
+  const lossy = frame.lossy
+    ? t(
+        `, colours lossy while it moves (JPEG ${frame.lossy})`,
+        `, colori con perdita mentre si muove (JPEG ${frame.lossy})`,
+      )
+    : '';
   const pace = frame.pace
     ? t(`, ${number(frame.pace, 2)} pictures a second`, `, ${number(frame.pace, 2)} immagini al secondo`)
     : '';

@@ -1,18 +1,23 @@
-// What needs the server and fails is said where it would stand. Where that is nobody's fault it is tried again: by itself as soon as
-// somebody looks, or at once by hand.
+// What needs the server and fails is said where it would stand. Where that is nobody's fault it is tried again: by
+// itself as soon as somebody looks, or at once by hand.
 import { el, latest, seen } from './dom.js';
 import { t, tell } from './i18n.js';
 import { passes } from './server.js';
 
 export const again_ms = 3000;
 
-// fault: an element for the sentence; view: whose it is; refused(error) is told of what will not pass. Returns the task to be called.
+// fault: an element for the sentence; view: whose it is; refused(error) is told of what will not pass. Returns the task
+// to be called.
 export function persistent(fault, view, task, refused = () => {}) {
   let timer = 0,
     tries = 0,
     asked = [];
   let byHand = null;
-  const button = el('button', { type: 'button', class: 'again', onclick: () => (byHand ?? run)(...asked) }, t('Try again', 'Riprova'));
+  const button = el(
+    'button',
+    { type: 'button', class: 'again', onclick: () => (byHand ?? run)(...asked) },
+    t('Try again', 'Riprova'),
+  );
 
   const attempt = latest(async (...what) => {
     clearTimeout(timer);

@@ -1,5 +1,5 @@
-// Who comes by the plain address sees the first view: its session is opened, and its first picture shown, before the rest of the page is read. source.js then
-// goes on with the session, and has the same answer.
+// Who comes by the plain address sees the first view: its session is opened, and its first picture shown, before the
+// rest of the page is read. source.js then goes on with the session, and has the same answer.
 import { byId } from './dom.js';
 import { fits } from './fit.js';
 import * as link from './link.js';
@@ -11,7 +11,8 @@ export const first_view = 'gas-stars';
 const patience_ms = 250; // with the first picture, which has the machine to itself: over a long line both come at once
 
 const stage = byId('stage');
-const plain = first_view && !document.hidden && link.entries('').every(([key]) => ['lang', 'pace'].includes(key)) && fits(stage);
+const plain =
+  first_view && !document.hidden && link.entries('').every(([key]) => ['lang', 'pace'].includes(key)) && fits(stage);
 let left = null, // the session, until somebody takes it
   shown = null; // its first picture
 
@@ -30,7 +31,8 @@ function poll(url) {
   const one = { after: 0, carries: null, begun: performance.now() };
   one.answer = fetch(`${url}/frame?after=0&lossy=90`).then(
     answer => {
-      if (answer.status !== 200 && answer.status !== 204) return { one, error: Object.assign(new Error(), { status: answer.status }) };
+      if (answer.status !== 200 && answer.status !== 204)
+        return { one, error: Object.assign(new Error(), { status: answer.status }) };
       if (answer.status === 200) shown = show(answer.clone()); // who goes on with the session shows it as well
       return { one, answer, took: performance.now() - one.begun };
     },
@@ -39,13 +41,17 @@ function poll(url) {
   return one;
 }
 
-// { id, token, revision, … as the server tells it, with the size, what is kept of it, and requests that are under way }; null: somebody has to try himself,
-// and hears what is wrong.
+// { id, token, revision, … as the server tells it, with the size, what is kept of it, and requests that are under way
+// }; null: somebody has to try himself, and hears what is wrong.
 async function open() {
   const size = windowSize(stage),
     keeps = kept(),
     body = JSON.stringify({ image: { ...size, samples: 2 } });
-  const answer = await fetch(`v1/sessions?preset=${first_view}&${keeps}`, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body });
+  const answer = await fetch(`v1/sessions?preset=${first_view}&${keeps}`, {
+    method: 'POST',
+    headers: { 'Content-Type': 'application/json' },
+    body,
+  });
   if (!answer.ok) return null;
   left = { ...(await answer.json()), size, keeps };
   left.flight = [poll('v1/sessions/' + left.id)];
@@ -53,10 +59,18 @@ async function open() {
 }
 
 const opened = plain ? open().catch(() => null) : null;
-Promise.race([(async () => (await opened, await left?.flight[0].answer, shown))(), new Promise(resolve => setTimeout(resolve, patience_ms))])
+Promise.race([
+  (async () => (await opened, await left?.flight[0].answer, shown))(),
+  new Promise(resolve => setTimeout(resolve, patience_ms)),
+])
   .catch(() => {})
   .then(() => document.head.append(byId('rest').content));
-const read = plain ? fetch('v1/presets/' + first_view).then(answer => (answer.ok ? answer.json() : null), () => null) : null;
+const read = plain
+  ? fetch('v1/presets/' + first_view).then(
+      answer => (answer.ok ? answer.json() : null),
+      () => null,
+    )
+  : null;
 
 // The first view as a document; null: it has to be asked for.
 export const firstDocument = async () => read;
@@ -69,4 +83,13 @@ export async function take() {
   return session;
 }
 
-addEventListener('pagehide', () => left && fetch('v1/sessions/' + left.id, { method: 'DELETE', headers: { Authorization: `Bearer ${left.token}` }, keepalive: true }));
+addEventListener(
+  'pagehide',
+  () =>
+    left &&
+    fetch('v1/sessions/' + left.id, {
+      method: 'DELETE',
+      headers: { Authorization: `Bearer ${left.token}` },
+      keepalive: true,
+    }),
+);

@@ -1,5 +1,5 @@
-// The page: a picture of the scene that follows what is chosen, and three more views of numbers. It draws; it computes no
-// physics.
+// The page: a picture of the scene that follows what is chosen, and three more views of numbers. It draws; it computes
+// no physics.
 import { byId, el } from './dom.js';
 import { caption, showAccuracy } from './accuracy.js';
 import { persistent } from './again.js';
@@ -25,10 +25,13 @@ import { openSource } from './source.js';
 import { buildStruck } from './struck.js';
 import { handle } from './view.js';
 
-// What a view needs is loaded when it is opened. Some browsers remember for good that a module did not come: by hand there is another way.
+// What a view needs is loaded when it is opened. Some browsers remember for good that a module did not come: by hand
+// there is another way.
 const load = module =>
   module.catch(() => {
-    throw Object.assign(new Error(t('The server does not answer', 'Il server non risponde')), { byHand: () => location.reload() });
+    throw Object.assign(new Error(t('The server does not answer', 'Il server non risponde')), {
+      byHand: () => location.reload(),
+    });
   });
 const views = {
   lensing: null,
@@ -84,14 +87,16 @@ function goTo(view) {
 }
 
 const patience_ms = 1000;
-const telling_ms = 250; // words and numbers beside the picture follow no faster while it moves; at rest they are those of the picture
+// words and numbers beside the picture follow no faster while it moves; at rest they are those of the picture
+const telling_ms = 250;
 
 // The picture first: what else there is takes a tenth of a second to build, and would keep it from being shown.
 async function watch(scene) {
   const stage = byId('stage'),
     size = () => {
       const { width, height } = windowSize(stage);
-      return { width: scene.get('camera.stereo') === 'pair' ? width / 2 : width, height }; // of a pair each eye has half of the window
+      // of a pair each eye has half of the window
+      return { width: scene.get('camera.stereo') === 'pair' ? width / 2 : width, height };
     };
   const carry = buildCarry(stage, scene);
   let told_ms = -Infinity,
@@ -106,7 +111,12 @@ async function watch(scene) {
       tells = frame.final || now - told_ms > telling_ms; // what stands beside pictures that follow each other
     if (tells) told_ms = now;
     await carry(frame.picture, frame, tells ? describe(scene) : null);
-    if (!any) requestAnimationFrame(() => (performance.getEntriesByName('first-picture').length || performance.mark('first-picture'), setTimeout(seen)));
+    if (!any)
+      requestAnimationFrame(
+        () => (
+          performance.getEntriesByName('first-picture').length || performance.mark('first-picture'), setTimeout(seen)
+        ),
+      );
     any = true;
     const { complain, drawOverlays } = await parts;
     fall?.then(({ shown }) => shown(frame));
@@ -126,7 +136,7 @@ async function watch(scene) {
     resting = whether;
     if (whether && stage.dataset.final !== 'true') (await parts).drawOverlays();
     stage.dataset.final = resting; // the scene may have changed meanwhile
-    if (resting) (followFiner(false), followMeasured());
+    if (resting) followFiner(false), followMeasured();
     else if (!scene.goesOn()) followFiner(true);
   }
 
@@ -156,21 +166,27 @@ async function watch(scene) {
   // Names of stars, once there are any that have one.
   let stars = null;
   function nameStars() {
-    if (scene.get('sky.model') === 'catalogue') stars ??= import('./stars.js').then(({ buildStars }) => buildStars(stage, scene)).catch(() => (stars = null));
+    if (scene.get('sky.model') === 'catalogue')
+      stars ??= import('./stars.js').then(({ buildStars }) => buildStars(stage, scene)).catch(() => (stars = null));
   }
 
   // A slider to the measured ring, once there is a telescope's beam.
   let measured = null;
   async function followMeasured() {
     const { drawOverlays } = await parts;
-    if (scene.get('style.beam_uas') > 0) measured ??= import('./measured.js').then(({ buildMeasured }) => buildMeasured(stage, scene, size, yes => drawOverlays.choose('ring', yes))).catch(() => (measured = null));
+    if (scene.get('style.beam_uas') > 0)
+      measured ??= import('./measured.js')
+        .then(({ buildMeasured }) => buildMeasured(stage, scene, size, yes => drawOverlays.choose('ring', yes)))
+        .catch(() => (measured = null));
     (await measured)?.();
   }
 
   // What the scene adds up to, once somebody chooses.
   let integrals = null;
   byId('integral').addEventListener('change', ({ target }) => {
-    integrals ??= load(import('./integrals.js')).then(({ buildIntegrals }) => buildIntegrals(byId('integral-plot'), scene));
+    integrals ??= load(import('./integrals.js')).then(({ buildIntegrals }) =>
+      buildIntegrals(byId('integral-plot'), scene),
+    );
     integrals.then(choose => choose(target.value)).catch(error => ((integrals = null), sayWrong(error.message)));
   });
 
@@ -183,7 +199,8 @@ async function watch(scene) {
   stage.addEventListener('tap', ({ detail }) => askPixel(({ look }) => look(detail, true)));
   byId('ask').addEventListener('click', () => askPixel(({ toggle }) => (toggle(), stage.focus())));
   stage.addEventListener('keydown', event => {
-    if (event.key.toLowerCase() === 'i' && !event.ctrlKey && !event.metaKey && !event.altKey && event.target === stage) askPixel(({ toggle }) => toggle());
+    if (event.key.toLowerCase() === 'i' && !event.ctrlKey && !event.metaKey && !event.altKey && event.target === stage)
+      askPixel(({ toggle }) => toggle());
   });
 
   async function refuse(error) {
@@ -219,7 +236,11 @@ async function watch(scene) {
   });
   buildStruck(scene, goTo);
   for (const event of ['drift', 'move']) scene.addEventListener(event, () => source.refresh());
-  if (!byId('welcome').hidden) import('./drift.js').then(({ begin }) => begin(scene), () => {});
+  if (!byId('welcome').hidden)
+    import('./drift.js').then(
+      ({ begin }) => begin(scene),
+      () => {},
+    );
   buildPace(source.refresh);
   buildFull(stage);
   buildHistory(scene);
@@ -229,7 +250,10 @@ async function watch(scene) {
   byId('farther').addEventListener('click', () => zoom(1.25));
   const again = () => startAgain(scene).catch(error => sayWrong(error.message));
   byId('reset').addEventListener('click', again);
-  stage.addEventListener('dblclick', event => event.target.closest('button, a, input') || (pixel?.then(({ close }) => close()), again()));
+  stage.addEventListener(
+    'dblclick',
+    event => event.target.closest('button, a, input') || (pixel?.then(({ close }) => close()), again()),
+  );
   let asked = '';
   new ResizeObserver(() => {
     const { width, height } = size(),

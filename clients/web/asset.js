@@ -1,4 +1,5 @@
-// A picture, or a grid of matter, that a field names: taken from a file, put to the server, and named by the hash of its bytes.
+// A picture, or a grid of matter, that a field names: taken from a file, put to the server, and named by the hash of
+// its bytes.
 import { el } from './dom.js';
 import { t, tell } from './i18n.js';
 import { ask } from './server.js';
@@ -6,10 +7,20 @@ import { ask } from './server.js';
 export function assetRow(field, scene, id, hint) {
   const name = el('output', { class: 'asset' }),
     fault = el('p', { class: 'fault', hidden: true }),
-    none = el('button', { type: 'button', onclick: () => scene.change({ [field.path]: null }) }, t('Leave it out', 'Togli'));
+    none = el(
+      'button',
+      { type: 'button', onclick: () => scene.change({ [field.path]: null }) },
+      t('Leave it out', 'Togli'),
+    );
   const grid = field.path === 'volume.grid',
     type = grid ? 'application/x-npz' : 'image/png';
-  const file = el('input', { type: 'file', accept: grid ? '.npz' : type, id, 'aria-describedby': hint, onchange: take });
+  const file = el('input', {
+    type: 'file',
+    accept: grid ? '.npz' : type,
+    id,
+    'aria-describedby': hint,
+    onchange: take,
+  });
 
   async function take() {
     const [picture] = file.files;
@@ -29,7 +40,11 @@ export function assetRow(field, scene, id, hint) {
     nodes: [file, el('div', { class: 'pair' }, name, none), fault],
     show: () => {
       const hash = scene.get(field.path);
-      name.value = hash ? `SHA-256 ${hash.slice(0, 8)}…` : grid ? t('No file yet: there is no matter', 'Ancora nessun file: non c’è materia') : '';
+      name.value = hash
+        ? `SHA-256 ${hash.slice(0, 8)}…`
+        : grid
+          ? t('No file yet: there is no matter', 'Ancora nessun file: non c’è materia')
+          : '';
       none.hidden = !hash;
     },
   };

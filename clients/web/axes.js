@@ -6,5 +6,7 @@ export const degrees = radians => (radians == null ? null : (radians * 180) / Ma
 export const spin = value => ({ name: 'spin', value, min: -0.998, max: 0.998, step: 0.002 });
 export const axis = (label, more) => ({ label, ...more });
 // A range of radii from the horizon outwards.
-export const outside = (far, points = 141) => async p => ({ r: `${(await physics('kerr', { spin: p.spin })).values.horizon}:${far}:${points}` });
+export const outside =
+  (far, points = 141) =>
+  async p => ({ r: `${(await physics('kerr', { spin: p.spin })).values.horizon}:${far}:${points}` });
 export const radius = t('radius r / M', 'raggio r / M');

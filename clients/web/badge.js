@@ -1,4 +1,5 @@
-// What kind of a field something is, in a word: physics, model or look. What the words mean is the server's, and stands in the legend and under a pointer that rests on one.
+// What kind of a field something is, in a word: physics, model or look. What the words mean is the server's, and stands
+// in the legend and under a pointer that rests on one.
 import { el } from './dom.js';
 import { nature } from './i18n.js';
 

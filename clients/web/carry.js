@@ -1,24 +1,42 @@
-// Until the next picture comes the one that is shown goes along with the camera: it is moved and scaled as what is far away would be. That is exact where the
-// field of view changes, nearly right where the camera is turned, and a guess where it comes nearer. What comes next is computed. The picture at rest is faded
-// in over the coarse one before it.
+// Until the next picture comes the one that is shown goes along with the camera: it is moved and scaled as what is far
+// away would be. That is exact where the field of view changes, nearly right where the camera is turned, and a guess
+// where it comes nearer. What comes next is computed. The picture at rest is faded in over the coarse one before it.
 import { el, still } from './dom.js';
 import { sizeOf } from './sizes.js';
 
-const sides = { inclination_deg: 3, azimuth_deg: 10 }; // by how much two pictures may differ that are shown one round the other
-const names = ['r', 'field_m', 'fov_deg', 'yaw_deg', 'pitch_deg', 'roll_deg', 'projection', 'observer', 'stereo', ...Object.keys(sides)];
+// by how much two pictures may differ that are shown one round the other
+const sides = { inclination_deg: 3, azimuth_deg: 10 };
+const names = [
+  'r',
+  'field_m',
+  'fov_deg',
+  'yaw_deg',
+  'pitch_deg',
+  'roll_deg',
+  'projection',
+  'observer',
+  'stereo',
+  ...Object.keys(sides),
+];
 const radians = Math.PI / 180;
 const most = 4; // times larger or smaller: beyond that too little of it would be seen, or too much is missing
 const half = fov_deg => Math.tan((fov_deg / 2) * radians);
 
-// What has become of a picture that one camera saw, where another is now: { scale, right, down } in widths of the picture; null: nothing that can be said.
+// What has become of a picture that one camera saw, where another is now: { scale, right, down } in widths of the
+// picture; null: nothing that can be said.
 export function carried(then, now, height) {
   const same = name => then[name] === now[name];
-  if (!['projection', 'observer', 'stereo', 'roll_deg'].every(same) || !['auto', 'plane', 'pinhole'].includes(now.projection) || now.stereo === 'pair') return null;
+  if (
+    !['projection', 'observer', 'stereo', 'roll_deg'].every(same) ||
+    !['auto', 'plane', 'pinhole'].includes(now.projection) ||
+    now.stereo === 'pair'
+  )
+    return null;
   const far = then.r === 'infinity';
   if (far !== (now.r === 'infinity')) return null;
   const scale = far ? then.field_m / now.field_m : (half(then.fov_deg) * then.r) / (half(now.fov_deg) * now.r);
   if (!(scale < most && scale > 1 / most)) return null;
-  const widths = 1 / (2 * half(now.fov_deg)) * radians, // of a degree
+  const widths = (1 / (2 * half(now.fov_deg))) * radians, // of a degree
     side = far ? 0 : (then.yaw_deg - now.yaw_deg) * Math.cos(now.pitch_deg * radians) * widths,
     up = far ? 0 : (then.pitch_deg - now.pitch_deg) * widths,
     roll = now.roll_deg * radians;
@@ -27,11 +45,13 @@ export function carried(then, now, height) {
   return Math.hypot(right, down / height) < 1 ? { scale, right, down } : null;
 }
 
-// Shows pictures in the stage, each of which says what camera saw it. The last one of a scene is an <img>, exact, and may be saved as any other. Those that others
-// follow are drawn on a canvas over it, which takes half of what a new <img> takes each time; below it the last full one goes along by itself. One with all pixels
-// that it will have is faded in over one with fewer.
+// Shows pictures in the stage, each of which says what camera saw it. The last one of a scene is an <img>, exact, and
+// may be saved as any other. Those that others follow are drawn on a canvas over it, which takes half of what a new
+// <img> takes each time; below it the last full one goes along by itself. One with all pixels that it will have is
+// faded in over one with fewer.
 export function buildCarry(stage, scene) {
-  const camera = document => Object.fromEntries(names.map(name => [name, document?.[name] ?? scene.fields.get('camera.' + name).default])),
+  const camera = document =>
+      Object.fromEntries(names.map(name => [name, document?.[name] ?? scene.fields.get('camera.' + name).default])),
     canvas = el('canvas', { id: 'moving', 'aria-hidden': 'true', hidden: true }),
     context = canvas.getContext('bitmaprenderer', { alpha: false }),
     seen = new Map(); // by what each was seen
@@ -42,7 +62,8 @@ export function buildCarry(stage, scene) {
   function go(node) {
     const by = seen.get(node),
       { width, height } = sizeOf(stage),
-      way = by && carried(by, Object.fromEntries(names.map(name => [name, scene.get('camera.' + name)])), height / width);
+      way =
+        by && carried(by, Object.fromEntries(names.map(name => [name, scene.get('camera.' + name)])), height / width);
     const moved = way && (Math.abs(way.scale - 1) > 1e-4 || Math.hypot(way.right, way.down) > 1e-4),
       transform = moved ? `translate(${width * way.right}px, ${width * way.down}px) scale(${way.scale})` : '';
     if (node.style.transform !== transform) node.style.transform = transform;
@@ -51,7 +72,12 @@ export function buildCarry(stage, scene) {
   // Where the coarse picture shrinks, what was at rest comes out round it: not where that was seen from another side.
   function cover() {
     const [below, over] = [picture, canvas].map(node => seen.get(node)),
-      other = below && over && Object.entries(sides).some(([name, most]) => !(Math.abs(((below[name] - over[name] + 1260) % 360) - 180) <= most));
+      other =
+        below &&
+        over &&
+        Object.entries(sides).some(
+          ([name, most]) => !(Math.abs(((below[name] - over[name] + 1260) % 360) - 180) <= most),
+        );
     picture.style.opacity = !canvas.hidden && canvas.style.transform && other ? 0 : '';
   }
 
@@ -72,7 +98,8 @@ export function buildCarry(stage, scene) {
     const mine = ++begun,
       bitmap = await createImageBitmap(blob);
     if (mine !== begun) return bitmap.close();
-    if (canvas.width !== bitmap.width || canvas.height !== bitmap.height) Object.assign(canvas, { width: bitmap.width, height: bitmap.height });
+    if (canvas.width !== bitmap.width || canvas.height !== bitmap.height)
+      Object.assign(canvas, { width: bitmap.width, height: bitmap.height });
     context.transferFromImageBitmap(bitmap);
     canvas.classList.remove('leaving');
     canvas.hidden = false;
@@ -95,7 +122,11 @@ export function buildCarry(stage, scene) {
     seen.delete(old);
     saw(next, by);
     const over = canvas.hidden ? old : canvas,
-      fades = all && (canvas.hidden ? old.naturalWidth : canvas.width) < width && (over === canvas || old.naturalWidth) && !still.matches;
+      fades =
+        all &&
+        (canvas.hidden ? old.naturalWidth : canvas.width) < width &&
+        (over === canvas || old.naturalWidth) &&
+        !still.matches;
     if (over === old && fades) {
       old.removeAttribute('id');
       old.alt = '';
@@ -107,7 +138,8 @@ export function buildCarry(stage, scene) {
 
   // alt: what is said of it, null: what was said of the one before.
   return async function show(blob, frame, alt) {
-    if (frame.final || !picture.getAttribute('src') || !context || !globalThis.createImageBitmap) return rest(blob, frame, alt);
+    if (frame.final || !picture.getAttribute('src') || !context || !globalThis.createImageBitmap)
+      return rest(blob, frame, alt);
     await move(blob, frame);
     if (alt != null && picture.alt !== alt) picture.alt = alt;
   };

@@ -1,5 +1,5 @@
-// The waves of the closest pair, for ears. Their frequency is in units of 1/M: heard with a hole of so few suns that it begins at a pitch
-// of its own, which is said. The course of the tone is that of the screen, not of such a hole.
+// The waves of the closest pair, for ears. Their frequency is in units of 1/M: heard with a hole of so few suns that it
+// begins at a pitch of its own, which is said. The course of the tone is that of the screen, not of such a hole.
 import { number, t } from './i18n.js';
 
 const key = 'kerrd.playground.sound';
@@ -80,7 +80,11 @@ export function chirp(button, words) {
       const hertz = Math.min(frequency * first.hertz, highest_hz);
       button.dataset.hz = hertz.toFixed(1);
       tone.frequency.setTargetAtTime(hertz, context.currentTime, glide_s);
-      gain.gain.setTargetAtTime(tick.paused || tick.resting ? 0 : loudest * Math.tanh((0.3 * strain) / first.strain), context.currentTime, glide_s);
+      gain.gain.setTargetAtTime(
+        tick.paused || tick.resting ? 0 : loudest * Math.tanh((0.3 * strain) / first.strain),
+        context.currentTime,
+        glide_s,
+      );
     },
   };
 }

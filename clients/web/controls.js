@@ -21,7 +21,13 @@ function numberRow(field, scene, id, hint) {
     max: short ? maximum : 1000,
     'aria-describedby': hint,
   });
-  const box = el('input', { type: 'number', min: minimum, max: maximum, step: whole ? 1 : 'any', 'aria-describedby': hint });
+  const box = el('input', {
+    type: 'number',
+    min: minimum,
+    max: maximum,
+    step: whole ? 1 : 'any',
+    'aria-describedby': hint,
+  });
   const give = value => scene.change({ [field.path]: value });
   slider.addEventListener('input', () => {
     const value = short ? slider.valueAsNumber : s.from(slider.valueAsNumber);
@@ -41,7 +47,13 @@ function numberRow(field, scene, id, hint) {
       given = value !== special;
     if (check) check.checked = !given;
     slider.disabled = box.disabled = !given;
-    box.value = !given ? '' : field.path === 'time' ? Math.round(value * 100) / 100 : value >= 1e6 ? value.toExponential().replace('+', '') : Number(value.toPrecision(8));
+    box.value = !given
+      ? ''
+      : field.path === 'time'
+        ? Math.round(value * 100) / 100
+        : value >= 1e6
+          ? value.toExponential().replace('+', '')
+          : Number(value.toPrecision(8));
     if (!given) return;
     slider.value = short ? value : s.to(value);
     slider.setAttribute('aria-valuetext', `${number(value)} ${unit(field.unit)}`);
@@ -61,7 +73,8 @@ function choiceRow(field, scene, id, hint) {
     show: () => {
       const value = scene.get(field.path);
       select.value = value;
-      if (select.value !== value) select.add(new Option(word(value, field.path), value, false, true)); // several words, or one with a number
+      // several words, or one with a number
+      if (select.value !== value) select.add(new Option(word(value, field.path), value, false, true));
     },
   };
 }
@@ -98,7 +111,8 @@ function row(field, scene) {
   control.label?.setAttribute('aria-label', mark ? `${label} (${mark})` : label);
   const fault = el('p', { class: 'fault', hidden: true }),
     about = el('p', { class: 'help', id: id + '-help', lang: helpLang }, help);
-  // The help of a choice tells what is chosen. What shows its value already stays as it is, but for what somebody has typed into.
+  // The help of a choice tells what is chosen. What shows its value already stays as it is, but for what somebody has
+  // typed into.
   let shown;
   function show() {
     const value = scene.get(field.path);
@@ -106,7 +120,7 @@ function row(field, scene) {
     shown = value;
     control.show();
     const told = hint(field.path, value);
-    if (told) ((about.textContent = told), about.removeAttribute('lang'));
+    if (told) (about.textContent = told), about.removeAttribute('lang');
   }
   const node = el(
     'div',
@@ -114,7 +128,13 @@ function row(field, scene) {
     el(
       'div',
       { class: 'head' },
-      el('label', { for: id, class: control.inside && 'switch' }, control.inside, label, mark && el('span', { class: 'unit' }, mark)),
+      el(
+        'label',
+        { for: id, class: control.inside && 'switch' },
+        control.inside,
+        label,
+        mark && el('span', { class: 'unit' }, mark),
+      ),
       badge(field.nature, `${id}-nature`),
     ),
     control.nodes,
@@ -150,11 +170,14 @@ export function buildControls(scene, living_root) {
   know(scene.natures);
   const rows = [],
     lists = [];
-  for (const details of document.querySelectorAll('#panel > details, #fields > details')) remember(details, details.id === 'group-' + in_front);
+  for (const details of document.querySelectorAll('#panel > details, #fields > details'))
+    remember(details, details.id === 'group-' + in_front);
 
   // home: 'camera', 'spots.0', or '' for the document itself.
   function add(home) {
-    const own = [...scene.fields.values()].filter(({ path }) => path.slice(0, Math.max(0, path.lastIndexOf('.'))) === home && !left_out.includes(path));
+    const own = [...scene.fields.values()].filter(
+      ({ path }) => path.slice(0, Math.max(0, path.lastIndexOf('.'))) === home && !left_out.includes(path),
+    );
     return own.map(field => rows[rows.push(row(field, scene)) - 1]);
   }
 
@@ -163,7 +186,12 @@ export function buildControls(scene, living_root) {
     const own = add(home).filter(r => !beside_time.includes(r.path)),
       [front, rest] = [true, false].map(yes => own.filter(r => Boolean(r.front) === yes).map(r => r.node));
     if (!rest.length) return front;
-    const more = el('details', { class: 'rest', id: 'rest-' + home }, el('summary', {}, t(`More: ${title}`, `Altro: ${title}`)), rest);
+    const more = el(
+      'details',
+      { class: 'rest', id: 'rest-' + home },
+      el('summary', {}, t(`More: ${title}`, `Altro: ${title}`)),
+      rest,
+    );
     remember(more, !front.length);
     return [...front, more];
   }
@@ -186,7 +214,14 @@ export function buildControls(scene, living_root) {
       grew = groups.length < wanted;
     for (let i = groups.length; i < wanted; i++) {
       const title = element(name, i);
-      groups.push(el('details', { class: 'element', id: `element-${name}-${i}` }, el('summary', {}, title), parts(`${name}.${i}`, title)));
+      groups.push(
+        el(
+          'details',
+          { class: 'element', id: `element-${name}-${i}` },
+          el('summary', {}, title),
+          parts(`${name}.${i}`, title),
+        ),
+      );
       remember(groups[i], false);
       node.append(groups[i]);
     }
@@ -197,7 +232,8 @@ export function buildControls(scene, living_root) {
 
   // What has no field that means anything here is not there either.
   function showParts() {
-    for (const rest of document.querySelectorAll('.parts .rest, .part')) rest.hidden = !rest.querySelector('.field:not([hidden])');
+    for (const rest of document.querySelectorAll('.parts .rest, .part'))
+      rest.hidden = !rest.querySelector('.field:not([hidden])');
   }
 
   function show() {
@@ -205,7 +241,7 @@ export function buildControls(scene, living_root) {
     let others = false; // fields than those that stood here
     for (const r of rows) {
       const hidden = !meansSomething(scene, r.path);
-      if (r.node.hidden !== hidden) ((r.node.hidden = hidden), (others = true));
+      if (r.node.hidden !== hidden) (r.node.hidden = hidden), (others = true);
       r.show();
     }
     if (others || grown) showParts();
@@ -223,7 +259,8 @@ export function buildControls(scene, living_root) {
     if (!at || !text) return Boolean(at);
     at.node.hidden = false;
     showParts();
-    for (let around = at.node.closest('details'); around; around = around.parentElement.closest('details')) around.open = true;
+    for (let around = at.node.closest('details'); around; around = around.parentElement.closest('details'))
+      around.open = true;
     return true;
   };
 }

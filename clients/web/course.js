@@ -1,4 +1,5 @@
-// A playground's numbers over its time, as charts: from what it tells as it goes, and of the fallback from /v1/playground/ID/fallback.
+// A playground's numbers over its time, as charts: from what it tells as it goes, and of the fallback from
+// /v1/playground/ID/fallback.
 import { t } from './i18n.js';
 import { plot } from './plot.js';
 import { ask } from './server.js';
@@ -11,7 +12,10 @@ const time = { label: t('time t / M', 'tempo t / M') };
 
 // Rows of text/csv under their names.
 function table(text) {
-  const [names, ...lines] = text.trim().split('\n').map(line => line.split(','));
+  const [names, ...lines] = text
+    .trim()
+    .split('\n')
+    .map(line => line.split(','));
   return lines.map(line => Object.fromEntries(names.map((name, i) => [name, line[i] === '' ? null : Number(line[i])])));
 }
 
@@ -25,7 +29,14 @@ export function course(root) {
     asked = 0;
 
   function add(tick) {
-    const row = [tick.t, tick.energy, tick.energy_balance, Math.hypot(...tick.angular_momentum), tick.separation, tick.wave_frequency],
+    const row = [
+        tick.t,
+        tick.energy,
+        tick.energy_balance,
+        Math.hypot(...tick.angular_momentum),
+        tick.separation,
+        tick.wave_frequency,
+      ],
       last = rows.at(-1);
     if (last && !(tick.t - last[0] > every)) return;
     rows.push(row);
@@ -37,17 +48,45 @@ export function course(root) {
   const column = name => rows.map(row => row[columns.indexOf(name)]);
   function one(chart, title, label, name, y) {
     charts[chart].hidden = !y.some(value => value != null && Number.isFinite(value));
-    if (!charts[chart].hidden) charts[chart].draw({ live: true, title, x: time, y: { label }, series: [{ name, x: column('t'), y }] });
+    if (!charts[chart].hidden)
+      charts[chart].draw({ live: true, title, x: time, y: { label }, series: [{ name, x: column('t'), y }] });
   }
 
   function draw() {
     const balance = column('energy_balance'),
       size = most_kinetic || 1;
-    one('balance', t('Energy error', 'Errore dell’energia'), 'ΔE / K', t('the books less their start, by the largest kinetic energy', 'bilancio meno il suo inizio, sulla massima energia cinetica'), balance.map(e => (e - balance[0]) / size));
+    one(
+      'balance',
+      t('Energy error', 'Errore dell’energia'),
+      'ΔE / K',
+      t(
+        'the books less their start, by the largest kinetic energy',
+        'bilancio meno il suo inizio, sulla massima energia cinetica',
+      ),
+      balance.map(e => (e - balance[0]) / size),
+    );
     const momentum = column('angular_momentum');
-    one('momentum', t('Angular momentum of the bodies', 'Momento angolare dei corpi'), 'Δ|L| / |L|', t('|L| less its start', '|L| meno il valore iniziale'), momentum.map(l => (l - momentum[0]) / (momentum[0] || 1)));
-    one('separation', t('Separation of the closest pair', 'Distanza della coppia più stretta'), 'd / M', t('separation', 'distanza'), column('separation'));
-    one('chirp', t('Frequency of its waves', 'Frequenza delle sue onde'), 'f M', t('wave frequency', 'frequenza dell’onda'), column('wave_frequency'));
+    one(
+      'momentum',
+      t('Angular momentum of the bodies', 'Momento angolare dei corpi'),
+      'Δ|L| / |L|',
+      t('|L| less its start', '|L| meno il valore iniziale'),
+      momentum.map(l => (l - momentum[0]) / (momentum[0] || 1)),
+    );
+    one(
+      'separation',
+      t('Separation of the closest pair', 'Distanza della coppia più stretta'),
+      'd / M',
+      t('separation', 'distanza'),
+      column('separation'),
+    );
+    one(
+      'chirp',
+      t('Frequency of its waves', 'Frequenza delle sue onde'),
+      'f M',
+      t('wave frequency', 'frequenza dell’onda'),
+      column('wave_frequency'),
+    );
   }
 
   async function fallback(address) {
@@ -59,7 +98,10 @@ export function course(root) {
     charts.fallback.draw({
       live: true,
       title: t('What falls back', 'Ciò che ricade'),
-      note: t('Mass that came back in a time, counted; the line is t^(−5/3) for the same debris.', 'Massa tornata per unità di tempo, contata; la linea è t^(−5/3) per gli stessi detriti.'),
+      note: t(
+        'Mass that came back in a time, counted; the line is t^(−5/3) for the same debris.',
+        'Massa tornata per unità di tempo, contata; la linea è t^(−5/3) per gli stessi detriti.',
+      ),
       x: { label: t('time since it was torn / M', 'tempo dallo strappo / M'), log: true },
       y: { label: t('rate / M per M', 'tasso / M per M'), log: true },
       series: [

@@ -1,4 +1,5 @@
-// The curves of light, space and the disk: each a few parameters, an equation, and what of the numbers of /v1/physics is drawn.
+// The curves of light, space and the disk: each a few parameters, an equation, and what of the numbers of /v1/physics
+// is drawn.
 import { axis, degrees, outside, radius, spin } from './axes.js';
 import { number, t } from './i18n.js';
 import { drawn, physics, physicsUrl } from './server.js';
@@ -14,8 +15,15 @@ export const light = [
     also: async p => {
       const { r } = await outside(16, 81)(p),
         hill = l => ({ spin: p.spin, l, r }),
-        [along, against] = await Promise.all((p.spin == 0 ? [1] : [1, -1]).map(l => physics('potential', { ...hill(l), ...drawn }))); // without spin both are one
-      return { r: along.parameters.r, along: along.values, against: against?.values, csv: physicsUrl('potential', hill(1)) };
+        [along, against] = await Promise.all(
+          (p.spin == 0 ? [1] : [1, -1]).map(l => physics('potential', { ...hill(l), ...drawn })),
+        ); // without spin both are one
+      return {
+        r: along.parameters.r,
+        along: along.values,
+        against: against?.values,
+        csv: physicsUrl('potential', hill(1)),
+      };
     },
     show: (v, p, { r, along, against, csv }) => ({
       csv,
@@ -36,7 +44,10 @@ export const light = [
                   ` Quella emessa da dentro la collina arriva a ${number(v.farthest)} M e ricade.`,
                 )),
       x: axis(radius, { min: 0 }),
-      y: axis(t('energy / angular momentum × M', 'energia / momento angolare × M'), { min: 0, max: 1.3 * Math.max(along.v_max_light, 1 / p.b) }),
+      y: axis(t('energy / angular momentum × M', 'energia / momento angolare × M'), {
+        min: 0,
+        max: 1.3 * Math.max(along.v_max_light, 1 / p.b),
+      }),
       series: [
         { name: t('least for light', 'minima per la luce'), y: along.v_light },
         p.spin !== 0 && { name: t('least, against the spin', 'minima, contro la rotazione'), y: against.v_light },
@@ -55,7 +66,8 @@ export const light = [
     title: t('How far light bends', 'Quanto si piega la luce'),
     inputs: [spin(0)],
     query: { b: '2:20:181' },
-    equation: '<mi>α</mi><mo>→</mo><mfrac><mrow><mn>4</mn><mi>M</mi></mrow><mi>b</mi></mfrac><mtext>&nbsp; (b ≫ M)</mtext>',
+    equation:
+      '<mi>α</mi><mo>→</mo><mfrac><mrow><mn>4</mn><mi>M</mi></mrow><mi>b</mi></mfrac><mtext>&nbsp; (b ≫ M)</mtext>',
     show: (v, p) => ({
       note: t(
         `Light nearer than b = ${number(v.b_critical)} M (${number(v.b_critical_retrograde)} M against the spin) falls in; next to it, it winds round the hole before it leaves.`,
@@ -65,7 +77,10 @@ export const light = [
       y: axis(t('deflection, degrees', 'deflessione, gradi'), { min: 0, max: 360 }),
       series: [
         { name: t('exact', 'esatta'), y: v.angle.map(degrees) },
-        p.spin !== 0 && { name: t('exact, against the spin', 'esatta, contro la rotazione'), y: v.angle_retrograde.map(degrees) },
+        p.spin !== 0 && {
+          name: t('exact, against the spin', 'esatta, contro la rotazione'),
+          y: v.angle_retrograde.map(degrees),
+        },
         { name: t('weak field, 4M/b', 'campo debole, 4M/b'), y: v.weak.map(degrees), style: 'dim' },
       ],
       marks: [{ x: v.b_critical, label: 'b_c' }],
@@ -78,11 +93,19 @@ export const light = [
     inputs: [
       spin(0.9),
       { name: 'inclination_deg', value: 60, min: 0, max: 89, step: 1 },
-      { name: 'angle_deg', label: t('Where on the edge', 'Dove lungo il bordo'), value: 160, min: 0, max: 360, step: 1 },
+      {
+        name: 'angle_deg',
+        label: t('Where on the edge', 'Dove lungo il bordo'),
+        value: 160,
+        min: 0,
+        max: 360,
+        step: 1,
+      },
     ],
     query: { order: '1:6:6' },
     also: async p => (await physics('photon-rings', { ...p, spin: 0, ...drawn })).values,
-    equation: '<msub><mi>w</mi><mrow><mi>n</mi><mo>+</mo><mn>1</mn></mrow></msub><mo>→</mo><msup><mi>e</mi><mrow><mo>−</mo><mi>γ</mi></mrow></msup><msub><mi>w</mi><mi>n</mi></msub>',
+    equation:
+      '<msub><mi>w</mi><mrow><mi>n</mi><mo>+</mo><mn>1</mn></mrow></msub><mo>→</mo><msup><mi>e</mi><mrow><mo>−</mo><mi>γ</mi></mrow></msup><msub><mi>w</mi><mi>n</mi></msub>',
     show: (v, p, plain) => ({
       note: t(
         `γ = ${number(v.gamma)}, of the photon orbit at r = ${number(v.orbit_r)} M, which is seen there: each ring is ${number(Math.exp(v.gamma), 3)} times thinner than the one before, ${number(Math.exp(plain.gamma), 3)} times without spin.`,

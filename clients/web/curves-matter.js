@@ -21,7 +21,10 @@ export const matter = [
       '<msup><mrow><mo>(</mo><mfrac><mrow><mi>d</mi><mi>r</mi></mrow><mrow><mi>d</mi><mi>τ</mi></mrow></mfrac><mo>)</mo></mrow><mn>2</mn></msup><mo>=</mo><msup><mi>E</mi><mn>2</mn></msup><mo>−</mo><msubsup><mi>V</mi><mi>eff</mi><mn>2</mn></msubsup><mtext>&nbsp; (a = 0)</mtext>',
     also: async p => {
       const { values } = await physics('kerr', { spin: p.spin });
-      return { isco: values.isco, ...(await physics('potential', { spin: p.spin, l: values.isco_momentum, r: p.r, ...drawn })).values };
+      return {
+        isco: values.isco,
+        ...(await physics('potential', { spin: p.spin, l: values.isco_momentum, r: p.r, ...drawn })).values,
+      };
     },
     show: (v, p, at_isco) => ({
       note:
@@ -53,7 +56,19 @@ export const matter = [
       { name: 'l', label: 'l', value: 2, min: 2, max: 4, step: 1 },
       { name: 'm', label: 'm', value: 2, min: -4, max: 4, step: 1 },
       { name: 'mass_msun', value: 60, min: 0.001, max: 1e12 },
-      { name: 'octaves', label: t('Octaves up or down', 'Ottave in su o in giù'), min: -40, max: 40, step: 1, auto: true, nature: 'look', about: t('For the ear alone: a whole octave doubles each frequency', 'Solo per l’orecchio: un’ottava raddoppia ogni frequenza') },
+      {
+        name: 'octaves',
+        label: t('Octaves up or down', 'Ottave in su o in giù'),
+        min: -40,
+        max: 40,
+        step: 1,
+        auto: true,
+        nature: 'look',
+        about: t(
+          'For the ear alone: a whole octave doubles each frequency',
+          'Solo per l’orecchio: un’ottava raddoppia ogni frequenza',
+        ),
+      },
     ],
     query: { t: '0:90:241' },
     after: listen,

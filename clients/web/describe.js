@@ -26,21 +26,29 @@ export function nameOf(scene) {
 
 function whence(scene) {
   if (scene.get('camera.projection') === 'ring')
-    return t('the edge of its shadow unrolled, distances to it on a logarithmic scale', 'il bordo della sua ombra srotolato, con le distanze da esso in scala logaritmica');
+    return t(
+      'the edge of its shadow unrolled, distances to it on a logarithmic scale',
+      'il bordo della sua ombra srotolato, con le distanze da esso in scala logaritmica',
+    );
   const r = scene.get('camera.r');
   if (r === 'infinity') {
     const field = number(scene.get('camera.field_m'));
     return t(`seen from infinity, ${field} M across`, `visto dall’infinito, largo ${field} M`);
   }
-  if (scene.get('camera.projection') === 'equirectangular') return t(`all that is seen from ${number(r)} M`, `tutto ciò che si vede da ${number(r)} M`);
-  if (scene.get('camera.projection') === 'fulldome') return t(`half of what is seen from ${number(r)} M`, `metà di ciò che si vede da ${number(r)} M`);
+  if (scene.get('camera.projection') === 'equirectangular')
+    return t(`all that is seen from ${number(r)} M`, `tutto ciò che si vede da ${number(r)} M`);
+  if (scene.get('camera.projection') === 'fulldome')
+    return t(`half of what is seen from ${number(r)} M`, `metà di ciò che si vede da ${number(r)} M`);
   const wide = number(scene.get('camera.fov_deg'));
   return t(`seen from ${number(r)} M, ${wide}° across`, `visto da ${number(r)} M, largo ${wide}°`);
 }
 
 // The server says what shines.
 export function describe(scene) {
-  const hole = t(`A black hole, ${nameOf(scene)}, ${whence(scene)}.`, `Un buco nero, ${nameOf(scene)}, ${whence(scene)}.`),
+  const hole = t(
+      `A black hole, ${nameOf(scene)}, ${whence(scene)}.`,
+      `Un buco nero, ${nameOf(scene)}, ${whence(scene)}.`,
+    ),
     told = scene.emitters.filter(({ sentence }) => sentence).map(({ sentence }) => said(sentence).text);
   return [hole, ...told].join(' ');
 }
@@ -51,7 +59,10 @@ export function followScene(scene) {
     entitle('lensing', nameOf(scene));
     byId('picture').alt = describe(scene);
     byId('stage').parentNode.toggleAttribute('data-bar', scene.get('style.colour_bar'));
-    byId('stage').setAttribute('aria-label', t(`Camera on the hole: ${nameOf(scene)}`, `Camera sul buco: ${nameOf(scene)}`));
+    byId('stage').setAttribute(
+      'aria-label',
+      t(`Camera on the hole: ${nameOf(scene)}`, `Camera sul buco: ${nameOf(scene)}`),
+    );
   }
   const soon = paced(follow);
   for (const event of ['change', 'settle']) scene.addEventListener(event, soon);

@@ -4,7 +4,13 @@ import { still } from './dom.js';
 const rate_deg = 1.5; // a second
 
 export function begin(scene) {
-  if (scene.held || still.matches || scene.get('motion.azimuth_rate_deg') !== 0 || scene.get('motion.proper_time_rate') !== 0) return;
+  if (
+    scene.held ||
+    still.matches ||
+    scene.get('motion.azimuth_rate_deg') !== 0 ||
+    scene.get('motion.proper_time_rate') !== 0
+  )
+    return;
   const touches = ['pointerdown', 'keydown', 'wheel'];
   function end() {
     for (const touch of touches) document.removeEventListener(touch, end, true);

@@ -1,5 +1,5 @@
-// M87* and Sgr A* beside what the Event Horizon Telescope measured, at one scale on the sky: our picture, the same through the telescope's
-// beam, and the ring with its error. A slider goes from one to the next.
+// M87* and Sgr A* beside what the Event Horizon Telescope measured, at one scale on the sky: our picture, the same
+// through the telescope's beam, and the ring with its error. A slider goes from one to the next.
 import { byId, el, svg } from './dom.js';
 import { persistent } from './again.js';
 import { number, t } from './i18n.js';
@@ -12,8 +12,8 @@ const beam_uas = 20; // of the telescope at 1.3 mm: EHT Collaboration 2019, ApJL
 const most_px = 720;
 const key = 'scale.beside';
 
-// How each is seen: M87* with its jet at a position angle of 288 degrees and the spin away from us (ApJL 875, L5), north up. Of Sgr A* the inclination
-// is low (ApJL 930, L16), its direction on the sky is not known.
+// How each is seen: M87* with its jet at a position angle of 288 degrees and the spin away from us (ApJL 875, L5),
+// north up. Of Sgr A* the inclination is low (ApJL 930, L16), its direction on the sky is not known.
 export const seen = {
   m87: { name: 'M87*', inclination: 163, roll: 108 },
   sgra: { name: 'Sgr A*', inclination: 30, roll: 0 },
@@ -33,16 +33,32 @@ function panel(hole) {
     lines = svg('svg', { class: 'sky-lines', 'aria-hidden': 'true' }),
     words = el('p', { class: 'help' });
   stack.append(...pictures, lines);
-  const node = el('figure', { class: 'plot sky', id: 'sky-' + hole }, seen[hole].name && el('figcaption', {}, seen[hole].name), stack, words);
+  const node = el(
+    'figure',
+    { class: 'plot sky', id: 'sky-' + hole },
+    seen[hole].name && el('figcaption', {}, seen[hole].name),
+    stack,
+    words,
+  );
   let shown = []; // addresses of what the pictures are made of
 
   function query(look, more) {
     const size = Math.min(2 * Math.round((stack.clientWidth * Math.min(devicePixelRatio || 1, 2)) / 2), most_px) || 360;
     return new URLSearchParams({
-      'spacetime.spin': look.spin, 'spacetime.mass_msun': look.mass, 'spacetime.distance_pc': look.distance,
-      'camera.inclination_deg': look.inclination, 'camera.roll_deg': look.roll, 'camera.field_m': look.field,
-      'disk.outer': 15, 'style.bloom': 0, 'style.tone_map': 'srgb', 'style.palette': 'heat',
-      'image.width': size, 'image.height': size, 'image.samples': 2, ...more,
+      'spacetime.spin': look.spin,
+      'spacetime.mass_msun': look.mass,
+      'spacetime.distance_pc': look.distance,
+      'camera.inclination_deg': look.inclination,
+      'camera.roll_deg': look.roll,
+      'camera.field_m': look.field,
+      'disk.outer': 15,
+      'style.bloom': 0,
+      'style.tone_map': 'srgb',
+      'style.palette': 'heat',
+      'image.width': size,
+      'image.height': size,
+      'image.samples': 2,
+      ...more,
     });
   }
 
@@ -62,21 +78,47 @@ function panel(hole) {
   // Lengths are microarcseconds, or M where they are too small to be told.
   function draw(look, edge, v) {
     const [c, s] = [Math.cos, Math.sin].map(of => of((look.roll * Math.PI) / 180)),
-      points = edge.alpha.map((a, i) => [(a * c - edge.beta[i] * s) * look.unit, -(a * s + edge.beta[i] * c) * look.unit]),
+      points = edge.alpha.map((a, i) => [
+        (a * c - edge.beta[i] * s) * look.unit,
+        -(a * s + edge.beta[i] * c) * look.unit,
+      ]),
       middle = [0, 1].map(i => (Math.min(...points.map(p => p[i])) + Math.max(...points.map(p => p[i]))) / 2),
       half = look.width / 2,
-      bar = [1, 2, 5].flatMap(m => [-9, -6, -3, 0, 1, 2].map(d => m * 10 ** d)).filter(x => x < half * 0.75).sort((a, b) => a - b).at(-1),
+      bar = [1, 2, 5]
+        .flatMap(m => [-9, -6, -3, 0, 1, 2].map(d => m * 10 ** d))
+        .filter(x => x < half * 0.75)
+        .sort((a, b) => a - b)
+        .at(-1),
       ring = { cx: middle[0], cy: middle[1], r: v.ring_uas / 2 }, // where it lies was not measured
       text = (12 * look.width) / (stack.clientWidth || 360); // 12 pixels
     lines.setAttribute('viewBox', `${-half} ${-half} ${look.width} ${look.width}`);
     lines.replaceChildren(
       ...(v.ring_uas
-        ? [svg('circle', { class: 'sky-ring-width', ...ring, 'stroke-width': v.ring_error_uas }), svg('circle', { class: 'sky-ring', ...ring })]
+        ? [
+            svg('circle', { class: 'sky-ring-width', ...ring, 'stroke-width': v.ring_error_uas }),
+            svg('circle', { class: 'sky-ring', ...ring }),
+          ]
         : []),
-      svg('path', { class: 'sky-shadow', d: 'M' + points.map(p => p.map(x => x.toFixed(3)).join(' ')).join('L') + 'Z' }),
+      svg('path', {
+        class: 'sky-shadow',
+        d: 'M' + points.map(p => p.map(x => x.toFixed(3)).join(' ')).join('L') + 'Z',
+      }),
       svg('path', { class: 'bar', d: `M${-half * 0.93} ${half * 0.93}h${bar}` }),
-      svg('text', { class: 'axis', 'font-size': text, x: -half * 0.93, y: half * 0.93 - text * 0.5 }, look.unit === 1 ? `${number(bar)} M` : `${number(bar)} µas`),
-      ...(v.ring_uas ? [svg('circle', { class: 'sky-beam', cx: half * 0.93 - beam_uas / 2, cy: half * 0.93 - beam_uas / 2, r: beam_uas / 2 })] : []),
+      svg(
+        'text',
+        { class: 'axis', 'font-size': text, x: -half * 0.93, y: half * 0.93 - text * 0.5 },
+        look.unit === 1 ? `${number(bar)} M` : `${number(bar)} µas`,
+      ),
+      ...(v.ring_uas
+        ? [
+            svg('circle', {
+              class: 'sky-beam',
+              cx: half * 0.93 - beam_uas / 2,
+              cy: half * 0.93 - beam_uas / 2,
+              r: beam_uas / 2,
+            }),
+          ]
+        : []),
     );
   }
 
@@ -94,24 +136,48 @@ function panel(hole) {
 
   return {
     node,
-    // v: values of the quantity scale for it. Draws the lines, and returns what the pictures then have to be: functions, the coarse one first.
+    // v: values of the quantity scale for it. Draws the lines, and returns what the pictures then have to be:
+    // functions, the coarse one first.
     async show(spin, inclination, v) {
-      const edge = (await physics('shadow', { spin, inclination_deg: inclination, angle_deg: '0:358:180', ...drawn })).values,
+      const edge = (await physics('shadow', { spin, inclination_deg: inclination, angle_deg: '0:358:180', ...drawn }))
+          .values,
         measured = hole !== 'none',
-        look = { spin, inclination, roll: seen[hole].roll, mass: v.mass, distance: v.distance, field: measured ? across_uas / v.m_uas : alone_m,
-          unit: measured ? v.m_uas : 1, width: measured ? across_uas : alone_m };
+        look = {
+          spin,
+          inclination,
+          roll: seen[hole].roll,
+          mass: v.mass,
+          distance: v.distance,
+          field: measured ? across_uas / v.m_uas : alone_m,
+          unit: measured ? v.m_uas : 1,
+          width: measured ? across_uas : alone_m,
+        };
       draw(look, edge, v);
       say(v, edge);
-      return [() => picture(0, look, {}), measured && (() => picture(1, look, { 'style.beam_uas': beam_uas }))].filter(Boolean);
+      return [() => picture(0, look, {}), measured && (() => picture(1, look, { 'style.beam_uas': beam_uas }))].filter(
+        Boolean,
+      );
     },
   };
 }
 
 // The slider: 0 our picture, 1 through the beam, 2 the ring.
 function slide(root) {
-  const slider = el('input', { type: 'range', id: 'beside', min: 0, max: 2, step: 0.01, value: link.get(key) ?? 1,
-      'aria-label': t('From our picture through the beam to the measured ring', 'Dalla nostra immagine attraverso il fascio all’anello misurato') }),
-    marks = stops.map(([at, text]) => el('button', { type: 'button', onclick: () => ((slider.value = at), follow()) }, text));
+  const slider = el('input', {
+      type: 'range',
+      id: 'beside',
+      min: 0,
+      max: 2,
+      step: 0.01,
+      value: link.get(key) ?? 1,
+      'aria-label': t(
+        'From our picture through the beam to the measured ring',
+        'Dalla nostra immagine attraverso il fascio all’anello misurato',
+      ),
+    }),
+    marks = stops.map(([at, text]) =>
+      el('button', { type: 'button', onclick: () => ((slider.value = at), follow()) }, text),
+    );
   function follow() {
     const at = slider.valueAsNumber,
       beam = Math.min(at, 1),
@@ -137,7 +203,15 @@ export function beside(root) {
     paint = persistent(fault, 'scale', async pictures => {
       for (const make of pictures) await make();
     });
-  root.append(fault, el('div', { class: 'sky-pair' }, Object.values(panels).map(({ node }) => node)), control);
+  root.append(
+    fault,
+    el(
+      'div',
+      { class: 'sky-pair' },
+      Object.values(panels).map(({ node }) => node),
+    ),
+    control,
+  );
   return async (hole, spin, inclination, values) => {
     for (const [name, { node }] of Object.entries(panels)) {
       node.hidden = hole === 'none' ? name !== 'none' : name === 'none';
@@ -148,7 +222,15 @@ export function beside(root) {
       other = { m87: 'sgra', sgra: 'm87' }[hole];
     if (other) {
       const tilt = seen[other].inclination;
-      pictures.push(...(await panels[other].show(spin, tilt, (await physics('scale', { hole: other, spin, inclination_deg: tilt })).values)));
+      pictures.push(
+        ...(await panels[other].show(
+          spin,
+          tilt,
+          (
+            await physics('scale', { hole: other, spin, inclination_deg: tilt })
+          ).values,
+        )),
+      );
     }
     paint(pictures); // while the numbers are there already
   };

@@ -1,5 +1,6 @@
-// "Fall in": the observer falls freely through the horizon, while its clock, the redshift of the sky and the black disk before it are told. The
-// session lets it fall and tells its clock with each picture; here is said how fast, and where to when somebody pulls the slider.
+// "Fall in": the observer falls freely through the horizon, while its clock, the redshift of the sky and the black disk
+// before it are told. The session lets it fall and tells its clock with each picture; here is said how fast, and where
+// to when somebody pulls the slider.
 import { byId, latest, still } from './dom.js';
 import { duration, number, t, tell } from './i18n.js';
 import { physics } from './server.js';
@@ -16,7 +17,14 @@ const velocities = ['velocity_r', 'velocity_theta', 'velocity_phi'];
 const pace = 'motion.proper_time_rate',
   rates = ['motion.azimuth_rate_deg', 'motion.time_rate', pace];
 // It takes these from the scene, and gives them back.
-const taken = [...['r', 'azimuth_deg', 'observer', 'projection', 'fov_deg', 'yaw_deg', 'pitch_deg', ...numbers, ...velocities].map(name => 'camera.' + name), 'sky.model', 'time', ...rates];
+const taken = [
+  ...['r', 'azimuth_deg', 'observer', 'projection', 'fov_deg', 'yaw_deg', 'pitch_deg', ...numbers, ...velocities].map(
+    name => 'camera.' + name,
+  ),
+  'sky.model',
+  'time',
+  ...rates,
+];
 
 const thousandth = x => Math.round(x * 1e3) / 1e3;
 const turn = degrees => thousandth(degrees - 360 * Math.round(degrees / 360));
@@ -34,7 +42,15 @@ function faller(scene) {
 }
 
 export function buildFall(scene) {
-  const [start, box, where, at, play, back, fault] = ['fall-in', 'fall', 'fall-where', 'fall-at', 'fall-play', 'fall-back', 'fall-fault'].map(byId);
+  const [start, box, where, at, play, back, fault] = [
+    'fall-in',
+    'fall',
+    'fall-where',
+    'fall-at',
+    'fall-play',
+    'fall-back',
+    'fall-fault',
+  ].map(byId);
   let way = null, // what /v1/physics/infall says of where it began; last: the radius where it ends here
     before = null,
     held = false, // before
@@ -48,18 +64,31 @@ export function buildFall(scene) {
   const ended = () => r <= way.last;
 
   function phase({ proper_time_to_horizon }) {
-    if (!ended()) return proper_time_to_horizon == null ? t('Within the horizon', 'Dentro l’orizzonte') : t('Falling freely', 'In caduta libera');
-    return way.end ? t('The inner horizon, where the model ends', 'L’orizzonte interno, dove il modello finisce') : t('The singularity: the end', 'La singolarità: la fine');
+    if (!ended())
+      return proper_time_to_horizon == null
+        ? t('Within the horizon', 'Dentro l’orizzonte')
+        : t('Falling freely', 'In caduta libera');
+    return way.end
+      ? t('The inner horizon, where the model ends', 'L’orizzonte interno, dove il modello finisce')
+      : t('The singularity: the end', 'La singolarità: la fine');
   }
 
   // The sky from where the camera is, and the black disk before it.
   const measure = latest(async () => {
     const { mass_msun, ...who } = faller(scene),
-      { values } = await physics('sky', { ...who, observer: 'infall', observer_r: Number(r.toPrecision(3)), yaw_deg: 180 }),
+      { values } = await physics('sky', {
+        ...who,
+        observer: 'infall',
+        observer_r: Number(r.toPrecision(3)),
+        yaw_deg: 180,
+      }),
       wide = number(2 * values.dark_radius_deg, 3),
       part = number(100 * values.dark_share, 2);
     byId('fall-behind').textContent = `× ${number(values.g_behind, 3)}`;
-    byId('fall-sky').textContent = t(`× ${number(values.g_least, 3)} to ${number(values.g_greatest, 3)}`, `da × ${number(values.g_least, 3)} a ${number(values.g_greatest, 3)}`);
+    byId('fall-sky').textContent = t(
+      `× ${number(values.g_least, 3)} to ${number(values.g_greatest, 3)}`,
+      `da × ${number(values.g_least, 3)} a ${number(values.g_greatest, 3)}`,
+    );
     byId('fall-disk').textContent = t(`${wide}° wide, ${part} % of sky`, `largo ${wide}°, ${part} % del cielo`);
   });
 
@@ -72,12 +101,15 @@ export function buildFall(scene) {
       now = phase(clock);
     if (where.textContent !== now) where.textContent = now;
     byId('fall-r').textContent = `${number(r, 3)} M`;
-    byId('fall-horizon').textContent = clock.proper_time_to_horizon == null ? t('behind', 'alle spalle') : span('proper_time_to_horizon');
+    byId('fall-horizon').textContent =
+      clock.proper_time_to_horizon == null ? t('behind', 'alle spalle') : span('proper_time_to_horizon');
     byId('fall-end').textContent = span('proper_time_to_end');
-    if (document.activeElement !== at || !scene.held) at.value = (1000 * Math.log(r / way.r)) / Math.log(way.last / way.r);
+    if (document.activeElement !== at || !scene.held)
+      at.value = (1000 * Math.log(r / way.r)) / Math.log(way.last / way.r);
     at.setAttribute('aria-valuetext', `${byId('fall-r').textContent}, ${now}`);
     showPlay();
-    measure().catch(() => ['behind', 'sky', 'disk'].forEach(name => (byId('fall-' + name).textContent = '–'))); // the others are as good without
+    // the others are as good without
+    measure().catch(() => ['behind', 'sky', 'disk'].forEach(name => (byId('fall-' + name).textContent = '–')));
   }
 
   // So fast that what is left falls by the same part every second; not told anew with each picture.
@@ -128,7 +160,11 @@ export function buildFall(scene) {
       from = far ? begin_r : scene.get('camera.r');
     try {
       const { values } = await physics('infall', { ...faller(scene), r: from });
-      way = { ...values, r: from, last: Math.min(values.end + Math.min(0.05, 0.2 * (1 - values.end)), from * (1 - 1e-9)) };
+      way = {
+        ...values,
+        r: from,
+        last: Math.min(values.end + Math.min(0.05, 0.2 * (1 - values.end)), from * (1 - 1e-9)),
+      };
     } catch (error) {
       tell(fault, error.message);
       return;
@@ -140,7 +176,9 @@ export function buildFall(scene) {
     left = way.proper_time_to_end;
     scene.change({
       'camera.r': from,
-      ...Object.fromEntries((falls(scene) ? velocities : [...velocities, ...numbers]).map(name => ['camera.' + name, null])),
+      ...Object.fromEntries(
+        (falls(scene) ? velocities : [...velocities, ...numbers]).map(name => ['camera.' + name, null]),
+      ),
       'camera.observer': 'infall',
       ...(['equirectangular', 'fulldome'].includes(projection) ? {} : { 'camera.projection': null }),
       ...(far ? { 'camera.fov_deg': wide_deg, 'camera.yaw_deg': null, 'camera.pitch_deg': null } : {}),

@@ -1,5 +1,6 @@
-// All of a preset is in the window, whatever the window's shape: the field is as wide as the scene says in windows up to 16:9, the shape that scenes
-// are composed for, and in lower ones wider, so that as much is seen upwards. It follows the window until somebody chooses a field.
+// All of a preset is in the window, whatever the window's shape: the field is as wide as the scene says in windows up
+// to 16:9, the shape that scenes are composed for, and in lower ones wider, so that as much is seen upwards. It follows
+// the window until somebody chooses a field.
 import { byId } from './dom.js';
 
 const widest = 16 / 9;
@@ -41,7 +42,8 @@ export function buildFit(scene) {
 
   new ResizeObserver(() => {
     const now = scene.fitted();
-    if (!now || byId('lensing').hidden || widthOf(path => scene.get(path)) !== now.path) return; // one who falls meanwhile has another width
+    // one who falls meanwhile has another width
+    if (!now || byId('lensing').hidden || widthOf(path => scene.get(path)) !== now.path) return;
     const value = wide(now.path, now.base);
     if (value === now.value) return;
     now.value = value;

@@ -11,7 +11,13 @@ export async function flamm(scene, look, path) {
     far = scene.get('camera.r') === 'infinity',
     { horizon } = (await physics('kerr', { spin })).values,
     within = !far && scene.get('camera.r') <= horizon;
-  if (within) throw new Error(t('there is none within the horizon, where r is no direction in space', 'non esiste dentro l’orizzonte, dove r non è una direzione nello spazio'));
+  if (within)
+    throw new Error(
+      t(
+        'there is none within the horizon, where r is no direction in space',
+        'non esiste dentro l’orizzonte, dove r non è una direzione nello spazio',
+      ),
+    );
   const outer = Math.max(scene.get('disk.outer'), 12);
   const range = `${horizon}:${outer}:129`;
   const [surface, dragging] = await Promise.all([

@@ -1,12 +1,13 @@
-// Requests for pictures that are under way. Several are while something moves, each for the frame after that of the one before: while one picture is read and drawn
-// the server makes the next, and over a long line more of them. As many as there are wait to be asked for again, so that what is late holds all back. At rest
-// there is one. Over a long line a change of the camera goes with a request, so that it costs no way of its own: from.pending is the next one.
+// Requests for pictures that are under way. Several are while something moves, each for the frame after that of the one
+// before: while one picture is read and drawn the server makes the next, and over a long line more of them. As many as
+// there are wait to be asked for again, so that what is late holds all back. At rest there is one. Over a long line a
+// change of the camera goes with a request, so that it costs no way of its own: from.pending is the next one.
 import { Problem, ask } from './server.js';
 
 export const still_ms = 600; // without a change and a picture that is not the last, after which one request is enough
 
-// moving(): lately; goesOn(): pictures come whether anything is changed or not; options(change) of fetch; arrived(from, request, answer) is told of changes that
-// the server knows, and refused(from) of one that it does not take.
+// moving(): lately; goesOn(): pictures come whether anything is changed or not; options(change) of fetch; arrived(from,
+// request, answer) is told of changes that the server knows, and refused(from) of one that it does not take.
 export function buildFlight(line, { moving, goesOn, options, arrived, refused }) {
   let kick = () => {};
 
@@ -28,12 +29,15 @@ export function buildFlight(line, { moving, goesOn, options, arrived, refused })
   const depth = () => (!moving() ? 1 : line.far() && !goesOn() ? 2 : line.depth());
   const behind = from => Math.max(from.frame - 1, ...from.flight.map(({ after }) => after)) + 1;
 
-  // Over a long line they go out one after the other: of those that go together pictures come together, and take each other’s time.
+  // Over a long line they go out one after the other: of those that go together pictures come together, and take each
+  // other’s time.
   function top(from) {
     if (!from.flight.some(({ after }) => after === from.frame)) poll(from, from.frame);
     const wanted = () => from.flight.length < depth() || (from.pending && from.flight.length < line.most);
     while (wanted()) {
-      const wait = line.far() ? line.pace_ms - (performance.now() - Math.max(...from.flight.map(({ begun }) => begun))) : 0;
+      const wait = line.far()
+        ? line.pace_ms - (performance.now() - Math.max(...from.flight.map(({ begun }) => begun)))
+        : 0;
       if (wait > 0) return void setTimeout(() => kick(), wait);
       poll(from, behind(from));
     }

@@ -4,7 +4,8 @@ import { ask_kerr, heavy, predict, reference } from './predict.js';
 
 const beyond = 8; // times what is seen: farther out a predicted path ends
 
-// aims() is what the hand aims at, mass() that of a new body. Returns the speed of a circular orbit at a place, and what draws the path of the aim.
+// aims() is what the hand aims at, mass() that of a new body. Returns the speed of a circular orbit at a place, and
+// what draws the path of the aim.
 export function foretold(running, plane, aims, mass) {
   const soften = () => running.state?.settings.softening ?? 0.05;
   const speed = place => reference(place, heavy(plane.all()), soften());
@@ -16,7 +17,9 @@ export function foretold(running, plane, aims, mass) {
       what = { x: from, v: velocity, mass: (body == null ? mass() : plane.body(body)?.mass) ?? 0 },
       far = (beyond * Math.max(...plane.size)) / plane.scale + Math.hypot(...from);
     const others = kerr ? [] : plane.all().filter(({ id }) => id !== body);
-    const path = kerr ? await ask_kerr(what, settings.spin, far).catch(() => ({ points: [] })) : predict(what, others, settings, far);
+    const path = kerr
+      ? await ask_kerr(what, settings.spin, far).catch(() => ({ points: [] }))
+      : predict(what, others, settings, far);
     if (!plane.aim || aims().from !== from || aims().velocity !== velocity) return;
     plane.foresee(path);
   });

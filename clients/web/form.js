@@ -15,9 +15,10 @@ function slider(spec, input, tell) {
   return { node, follow: () => input.value !== '' && (node.value = s.to(input.valueAsNumber)) };
 }
 
-// specs: [{ name, label, unit, help, value, min, max, step, choices, words, auto, nature, about }]; a label goes over what the
-// name says, about over the server's help; without a nature it is physics; changed() is
-// told. What is auto has no value until somebody gives it one, and is emptied to have none again. Returns values() by name, and put({ name: value }).
+// specs: [{ name, label, unit, help, value, min, max, step, choices, words, auto, nature, about }]; a label goes over
+// what the name says, about over the server's help; without a nature it is physics; changed() is told. What is auto has
+// no value until somebody gives it one, and is emptied to have none again. Returns values() by name, and put({ name:
+// value }).
 export function buildForm(root, prefix, specs, changed) {
   const inputs = new Map();
   for (const spec of specs) {
@@ -32,7 +33,14 @@ export function buildForm(root, prefix, specs, changed) {
           described,
           spec.choices.map(choice => el('option', { value: choice }, spec.words?.[choice] ?? word(choice))),
         )
-      : el('input', { type: 'number', ...described, min: spec.min, max: spec.max, step: spec.step ?? 'any', required: !spec.auto });
+      : el('input', {
+          type: 'number',
+          ...described,
+          min: spec.min,
+          max: spec.max,
+          step: spec.step ?? 'any',
+          required: !spec.auto,
+        });
     input.value = link.get(key) ?? spec.value ?? '';
     input.chosen = !spec.auto || link.get(key) != null;
     const slide = !spec.choices && spec.step && slider(spec, input, tell);
@@ -55,7 +63,12 @@ export function buildForm(root, prefix, specs, changed) {
       el(
         'div',
         { class: 'field' },
-        el('div', { class: 'head' }, el('label', { for: id }, spec.label ?? text.label, mark && el('span', { class: 'unit' }, mark)), badge(spec.nature ?? 'physics', `${id}-nature`)),
+        el(
+          'div',
+          { class: 'head' },
+          el('label', { for: id }, spec.label ?? text.label, mark && el('span', { class: 'unit' }, mark)),
+          badge(spec.nature ?? 'physics', `${id}-nature`),
+        ),
         el('div', { class: slide ? 'pair' : '' }, slide ? slide.node : null, input),
         el('p', { class: 'help', id: `${id}-help`, lang: spec.about ? null : text.helpLang }, spec.about ?? text.help),
       ),
@@ -64,7 +77,10 @@ export function buildForm(root, prefix, specs, changed) {
   const input = name => inputs.get(name).input;
   return {
     input,
-    values: () => Object.fromEntries([...inputs].filter(([, { input }]) => input.chosen).map(([name, { input }]) => [name, input.value])),
+    values: () =>
+      Object.fromEntries(
+        [...inputs].filter(([, { input }]) => input.chosen).map(([name, { input }]) => [name, input.value]),
+      ),
     // Several at once, as one change: who calls says so.
     put(values) {
       for (const [name, value] of Object.entries(values)) {
@@ -77,7 +93,7 @@ export function buildForm(root, prefix, specs, changed) {
     },
     // What an auto field comes to, as long as nobody has chosen.
     suggest(name, value) {
-      if (!input(name).chosen) ((input(name).value = value), inputs.get(name).follow());
+      if (!input(name).chosen) (input(name).value = value), inputs.get(name).follow();
     },
   };
 }

@@ -14,7 +14,8 @@ export const figures = header =>
 
 const sentences = header => [...(header ?? '').matchAll(/"([^"]*)"/g)].map(m => decodeURIComponent(m[1]));
 
-// What a picture leaves out. The server sends it where it is not what the request said is known: the session keeps it by its number.
+// What a picture leaves out. The server sends it where it is not what the request said is known: the session keeps it
+// by its number.
 export function approximations(session, get) {
   session.told = get('Kerrd-Sentences');
   if (!session.sentences.has(session.told)) session.sentences.set(session.told, sentences(get('Kerrd-Approximations')));
@@ -31,8 +32,12 @@ export const passes = header =>
       ms: Number(/dur=([\d.]+)/.exec(entry)?.[1] ?? 0),
     }));
 
-// What is said of a picture’s size: all: it has all pixels that one at rest will have; narrow: fewer than were to be kept while something moves.
+// What is said of a picture’s size: all: it has all pixels that one at rest will have; narrow: fewer than were to be
+// kept while something moves.
 export function fits(quality, { width }, { keeps, part }) {
   const all = Math.round(width * part);
-  return { all: quality.width === all, narrow: quality.width < 0.98 * all * Number(new URLSearchParams(keeps).get('least')) };
+  return {
+    all: quality.width === all,
+    narrow: quality.width < 0.98 * all * Number(new URLSearchParams(keeps).get('least')),
+  };
 }

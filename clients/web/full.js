@@ -1,4 +1,5 @@
-// The picture alone fills all of the window: by the key F or a button, left by Esc. Where the browser can, the window takes all of the screen.
+// The picture alone fills all of the window: by the key F or a button, left by Esc. Where the browser can, the window
+// takes all of the screen.
 import { byId } from './dom.js';
 import { t } from './i18n.js';
 import * as link from './link.js';
@@ -21,13 +22,15 @@ export function buildFull(stage) {
     if (full === (body.dataset.full === 'true')) return;
     full ? (body.dataset.full = 'true') : delete body.dataset.full;
     link.set('full', full ? '1' : null);
-    const label = full ? t('Leave the picture (Esc)', 'Lascia l’immagine (Esc)') : t('The picture alone (F)', 'Solo l’immagine (F)');
+    const label = full
+      ? t('Leave the picture (Esc)', 'Lascia l’immagine (Esc)')
+      : t('The picture alone (F)', 'Solo l’immagine (F)');
     button.setAttribute('aria-label', label);
     button.title = label;
     button.setAttribute('aria-pressed', full);
     clearTimeout(timer);
     delete body.dataset.awake;
-    if (full) ((before = document.activeElement), stage.focus());
+    if (full) (before = document.activeElement), stage.focus();
     else (before?.isConnected && before !== body ? before : stage).focus();
   }
 
@@ -48,7 +51,7 @@ export function buildFull(stage) {
     if (event.ctrlKey || event.metaKey || event.altKey || byId('lensing').hidden) return;
     if (event.key === 'Escape' && body.dataset.full) return leave();
     const free = event.target === body || stage.contains(event.target);
-    if (event.key.toLowerCase() === 'f' && free) (event.preventDefault(), toggle());
+    if (event.key.toLowerCase() === 'f' && free) event.preventDefault(), toggle();
   });
   document.addEventListener('fullscreenchange', () => document.fullscreenElement || show(false));
   document.addEventListener('viewchange', () => byId('lensing').hidden && leave());

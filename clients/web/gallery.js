@@ -1,5 +1,5 @@
-// The presets are a strip of small pictures, each with a name and a sentence. Pictures are the server's, asked for one at a time once a card is
-// seen: one that the server has not painted yet takes it seconds.
+// The presets are a strip of small pictures, each with a name and a sentence. Pictures are the server's, asked for one
+// at a time once a card is seen: one that the server has not painted yet takes it seconds.
 import { first_view } from './ahead.js';
 import { byId, el, seen } from './dom.js';
 import captions from './captions.js';
@@ -23,8 +23,13 @@ export function buildGallery(scene, select, presets) {
       .sort((a, b) => order(a.name) - order(b.name))
       .map(({ name, label: text, title }) => {
         const sentence = caption(name, title);
-        return el('button', { type: 'button', tabindex: -1, 'data-preset': name, title: sentence, onclick: () => choose(name) },
-          el('img', { width: 192, height: 120, alt: '' }), el('b', {}, label(name, text)), el('span', {}, sentence));
+        return el(
+          'button',
+          { type: 'button', tabindex: -1, 'data-preset': name, title: sentence, onclick: () => choose(name) },
+          el('img', { width: 192, height: 120, alt: '' }),
+          el('b', {}, label(name, text)),
+          el('span', {}, sentence),
+        );
       });
   strip.replaceChildren(...cards);
 
@@ -49,7 +54,8 @@ export function buildGallery(scene, select, presets) {
   let shown = null; // the name of the card that was brought into sight
   function follow() {
     const now = cards.find(card => card.dataset.preset === select.value);
-    if (now && shown !== select.value && !strip.matches(':hover')) strip.scrollTo({ left: now.offsetLeft - strip.offsetLeft - (strip.clientWidth - now.offsetWidth) / 2 });
+    if (now && shown !== select.value && !strip.matches(':hover'))
+      strip.scrollTo({ left: now.offsetLeft - strip.offsetLeft - (strip.clientWidth - now.offsetWidth) / 2 });
     if (strip.clientWidth) shown = select.value;
     for (const card of cards) card.setAttribute('aria-pressed', card.dataset.preset === select.value);
     if (!strip.contains(document.activeElement)) reach(now ?? cards[0]);
@@ -74,9 +80,12 @@ export function buildGallery(scene, select, presets) {
       const [image] = wanted;
       if (!image) return (loading = false);
       image.src = `v1/presets/${image.parentNode.dataset.preset}/thumbnail.png`;
-      const came = await image.decode().then(() => true, () => false);
+      const came = await image.decode().then(
+        () => true,
+        () => false,
+      );
       failed = came ? 0 : failed + 1;
-      if (came || failed === tries) (wanted.delete(image), eyes.unobserve(image.parentNode), (failed = 0));
+      if (came || failed === tries) wanted.delete(image), eyes.unobserve(image.parentNode), (failed = 0);
       if (!came) image.removeAttribute('src');
       if (!came) await pause(again_ms);
     }
@@ -86,7 +95,7 @@ export function buildGallery(scene, select, presets) {
   const eyes = new IntersectionObserver(
     entries => {
       for (const { target, isIntersecting } of entries) wanted[isIntersecting ? 'add' : 'delete'](target.firstChild);
-      if (wanted.size && !loading) ((loading = true), load());
+      if (wanted.size && !loading) (loading = true), load();
     },
     { root: strip },
   );

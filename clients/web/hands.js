@@ -1,12 +1,13 @@
-// Throwing by hand: with a pointer, with fingers, with keys. Press where nothing is and drag: the arrow is the velocity; or drag a body, to
-// throw it anew. Two fingers, the wheel, Shift or another button move the view.
+// Throwing by hand: with a pointer, with fingers, with keys. Press where nothing is and drag: the arrow is the
+// velocity; or drag a body, to throw it anew. Two fingers, the wheel, Shift or another button move the view.
 const small_px = 5; // less is no drag
 const near_px = 12;
 const arrow_px = 90; // an arrow so long has the reference speed (predict.js)
 const turn = Math.PI / 36;
 
 // aims: { from: [x, y, z], velocity: [x, y, z], body: id or null, armed: it has been given a velocity }
-// told: { aim(aims), release(), choose(id), pause(), step(), remove(), fit(), speed(place) } - speed: the reference speed at a place.
+// told: { aim(aims), release(), choose(id), pause(), step(), remove(), fit(), speed(place) } - speed: the reference
+// speed at a place.
 export function hands(stage, plane, told) {
   const aims = { from: [20, 0, 0], velocity: [0, 0, 0], body: null, armed: false };
   let drag = null; // { x, y, hit, from, moved } or { pan }
@@ -127,8 +128,13 @@ export function hands(stage, plane, told) {
       one = Math.min(w, h) / plane.scale / 40,
       by = moves[event.key];
     if (by && event.shiftKey) plane.pan(by[0] * 4 * one, by[1] * 4 * one);
-    else if (by) aim({ from: [aims.from[0] + by[0] * one, aims.from[1] + by[1] * one, aims.body == null ? aims.from[2] : 0], body: null });
-    else if (keys[event.key.length === 1 ? event.key.toLowerCase() : event.key]) keys[event.key.length === 1 ? event.key.toLowerCase() : event.key]();
+    else if (by)
+      aim({
+        from: [aims.from[0] + by[0] * one, aims.from[1] + by[1] * one, aims.body == null ? aims.from[2] : 0],
+        body: null,
+      });
+    else if (keys[event.key.length === 1 ? event.key.toLowerCase() : event.key])
+      keys[event.key.length === 1 ? event.key.toLowerCase() : event.key]();
     else return;
     event.preventDefault();
   });

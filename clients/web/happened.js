@@ -19,16 +19,44 @@ const words = {
   inspiral: e => t(`Waves have brought ${e.name} inside 6 M`, `Le onde hanno portato ${e.name} entro 6 M`),
   escape: e => t(`${e.name} has left the space that is followed`, `${e.name} ha lasciato lo spazio seguito`),
 };
-const masses = e => [e.mass, e.other_mass ?? e.mass_left].filter(m => m != null).map(m => number(m, 3)).join(e.mass_left == null ? ' + ' : ' → ');
+const masses = e =>
+  [e.mass, e.other_mass ?? e.mass_left]
+    .filter(m => m != null)
+    .map(m => number(m, 3))
+    .join(e.mass_left == null ? ' + ' : ' → ');
 
 // Returns { happened(event), clear() }; aloud(sentence) is told of each.
 export function eventList(root, aloud) {
   const rows = el('tbody', {}),
     none = el('p', { class: 'help' }, t('Nothing yet.', 'Ancora niente.'));
-  const heads = ['t / M', t('event', 'evento'), t('what', 'che cosa'), t('masses', 'masse'), 'r / M', t('energy', 'energia')];
-  const table = el('table', { hidden: true }, el('thead', {}, el('tr', {}, heads.map(text => el('th', { scope: 'col' }, text)))), rows),
+  const heads = [
+    't / M',
+    t('event', 'evento'),
+    t('what', 'che cosa'),
+    t('masses', 'masse'),
+    'r / M',
+    t('energy', 'energia'),
+  ];
+  const table = el(
+      'table',
+      { hidden: true },
+      el(
+        'thead',
+        {},
+        el(
+          'tr',
+          {},
+          heads.map(text => el('th', { scope: 'col' }, text)),
+        ),
+      ),
+      rows,
+    ),
     title = el('h2', { id: 'play-happened' }, t('What has happened', 'Che cosa è successo'));
-  root.append(title, none, el('div', { class: 'scroll', tabindex: 0, role: 'region', 'aria-labelledby': 'play-happened' }, table));
+  root.append(
+    title,
+    none,
+    el('div', { class: 'scroll', tabindex: 0, role: 'region', 'aria-labelledby': 'play-happened' }, table),
+  );
   return {
     happened(told) {
       const name = text => text && said(text).text,
@@ -54,7 +82,10 @@ export function eventList(root, aloud) {
     lost({ to }) {
       none.hidden = false;
       none.dataset.lost = true;
-      none.textContent = t(`What happened up to event ${to} is no longer kept.`, `Ciò che è successo fino all’evento ${to} non è più conservato.`);
+      none.textContent = t(
+        `What happened up to event ${to} is no longer kept.`,
+        `Ciò che è successo fino all’evento ${to} non è più conservato.`,
+      );
     },
     clear() {
       none.textContent = t('Nothing yet.', 'Ancora niente.');

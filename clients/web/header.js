@@ -20,7 +20,8 @@ export function buildKeys() {
     show = () => keys.open || keys.showModal();
   byId('show-keys').addEventListener('click', show);
   document.addEventListener('keydown', event => {
-    if (event.key === '?' && !event.ctrlKey && !event.metaKey && !event.target.closest('textarea, input, select')) show();
+    if (event.key === '?' && !event.ctrlKey && !event.metaKey && !event.target.closest('textarea, input, select'))
+      show();
   });
 }
 
@@ -28,5 +29,6 @@ export function buildKeys() {
 export function welcome() {
   const line = byId('welcome');
   line.hidden = link.entries('').some(([key]) => !['lang', 'pause', 'view'].includes(key));
-  for (const event of ['pointerdown', 'keydown', 'wheel']) document.addEventListener(event, () => (line.hidden = true), { once: true, passive: true });
+  for (const event of ['pointerdown', 'keydown', 'wheel'])
+    document.addEventListener(event, () => (line.hidden = true), { once: true, passive: true });
 }

@@ -56,7 +56,13 @@ export function buildHistory(scene) {
   buttons[1].addEventListener('click', () => go(future, past));
   document.addEventListener('keydown', event => {
     const key = event.key.toLowerCase();
-    if (!(event.ctrlKey || event.metaKey) || event.altKey || byId('lensing').hidden || event.target.closest('textarea, input[type=number], input[type=text]')) return;
+    if (
+      !(event.ctrlKey || event.metaKey) ||
+      event.altKey ||
+      byId('lensing').hidden ||
+      event.target.closest('textarea, input[type=number], input[type=text]')
+    )
+      return;
     if (key !== 'z' && (key !== 'y' || event.shiftKey)) return;
     event.preventDefault();
     key === 'z' && !event.shiftKey ? go(past, future) : go(future, past);

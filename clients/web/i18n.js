@@ -1,5 +1,6 @@
-// English and Italian. A text of the page stands in both languages where it is used: t('Presets', 'Preimpostazioni'), or in
-// index.html as data-it beside the English one. it.js has what the server says in English, and is fetched for Italian alone.
+// English and Italian. A text of the page stands in both languages where it is used: t('Presets', 'Preimpostazioni'),
+// or in index.html as data-it beside the English one. it.js has what the server says in English, and is fetched for
+// Italian alone.
 import * as link from './link.js';
 
 export const lang = (link.get('lang') ?? navigator.language ?? 'en').startsWith('it') ? 'it' : 'en';
@@ -110,16 +111,26 @@ const labels = {
   bodies: 'Body',
 };
 
-const spell = name => (name[0].toUpperCase() + name.slice(1)).replace(/_(deg|k|uas|pc|msun|edd|s|hz|km)$/, '').replaceAll('_', ' ');
+const spell = name =>
+  (name[0].toUpperCase() + name.slice(1)).replace(/_(deg|k|uas|pc|msun|edd|s|hz|km)$/, '').replaceAll('_', ' ');
 
 function labelOf(path) {
   const short = path.split('.').pop();
-  return (lang === 'it' ? (words.fields[path]?.[0] ?? words.fields[short]?.[0]) : (labels[path] ?? labels[short])) ?? spell(short);
+  return (
+    (lang === 'it' ? (words.fields[path]?.[0] ?? words.fields[short]?.[0]) : (labels[path] ?? labels[short])) ??
+    spell(short)
+  );
 }
 
 // A help names other fields by their labels, not by their paths, and points to no file.
-const inside = /\b(?:spacetime|camera|disk|sky|image|style|accuracy|motion|spots|bodies|volume|jets|polarization)(?:\.[a-z_]+)+/g;
-export const readable = help => help && help.replace(/ \(docs\/[^)]*\)/g, '').replace(/docs\/[\w./-]+\w/g, t('the documentation', 'la documentazione')).replace(inside, path => t(`“${labelOf(path)}”`, `«${labelOf(path)}»`));
+const inside =
+  /\b(?:spacetime|camera|disk|sky|image|style|accuracy|motion|spots|bodies|volume|jets|polarization)(?:\.[a-z_]+)+/g;
+export const readable = help =>
+  help &&
+  help
+    .replace(/ \(docs\/[^)]*\)/g, '')
+    .replace(/docs\/[\w./-]+\w/g, t('the documentation', 'la documentazione'))
+    .replace(inside, path => t(`“${labelOf(path)}”`, `«${labelOf(path)}»`));
 
 // Label and help of a field of the scene or of a parameter, from its path and the server's English.
 export function named(path, help) {
@@ -135,7 +146,8 @@ export function helpOf(help) {
   return { help: text && text[0].toUpperCase() + text.slice(1), helpLang: marked };
 }
 
-export const section = (name, help) => words?.fields[name]?.[0] ?? labels[name] ?? spell(help.length < 12 ? help : name);
+export const section = (name, help) =>
+  words?.fields[name]?.[0] ?? labels[name] ?? spell(help.length < 12 ? help : name);
 export const element = (list, index) => `${words?.fields[list]?.[0] ?? labels[list] ?? spell(list)} ${index + 1}`;
 // A nature of fields in a word and a sentence.
 export function nature(name, help) {
@@ -202,7 +214,8 @@ const choices = {
   'volume.model uniform': 'uniform shell',
 };
 // Some are called something else for a certain field: path.
-export const word = (value, path) => words?.values[`${path} ${value}`] ?? choices[`${path} ${value}`] ?? words?.values[value] ?? choices[value] ?? value;
+export const word = (value, path) =>
+  words?.values[`${path} ${value}`] ?? choices[`${path} ${value}`] ?? words?.values[value] ?? choices[value] ?? value;
 export const preset = (name, title) => words?.presets[name] ?? title; // of the playground; of scenes: captions.js
 export const label = (name, text) => words?.labels[name] ?? text;
 
@@ -212,7 +225,8 @@ const raised = text => [...text].map(c => (c === '-' ? '⁻' : '⁰¹²³⁴⁵�
 const formats = new Map();
 function shown(v, most, grouped) {
   const key = `${most} ${grouped}`;
-  if (!formats.has(key)) formats.set(key, new Intl.NumberFormat(lang, { maximumSignificantDigits: most, useGrouping: grouped }));
+  if (!formats.has(key))
+    formats.set(key, new Intl.NumberFormat(lang, { maximumSignificantDigits: most, useGrouping: grouped }));
   return formats.get(key).format(v).replace('-', '−');
 }
 
@@ -249,5 +263,6 @@ export function translatePage() {
   document.documentElement.lang = lang;
   if (lang !== 'it') return;
   for (const node of document.querySelectorAll('[data-it]')) node.textContent = node.dataset.it;
-  for (const node of document.querySelectorAll('[data-it-label]')) node.setAttribute('aria-label', node.dataset.itLabel);
+  for (const node of document.querySelectorAll('[data-it-label]'))
+    node.setAttribute('aria-label', node.dataset.itLabel);
 }

@@ -1,4 +1,5 @@
-// The path of one ray past the hole, in space, to be turned by hand or by arrow keys. It draws points that the server has computed.
+// The path of one ray past the hole, in space, to be turned by hand or by arrow keys. It draws points that the server
+// has computed.
 import { el } from './dom.js';
 import { t } from './i18n.js';
 
@@ -7,7 +8,14 @@ const wide = 240,
 const rings = [5, 10, 20, 40]; // M, circles of the plane
 
 export function buildInset() {
-  const node = el('canvas', { tabindex: 0, role: 'img', 'aria-label': t('The path of this ray past the hole; drag or arrow keys turn it', 'Il percorso di questo raggio accanto al buco; si gira trascinando o con le frecce') }),
+  const node = el('canvas', {
+      tabindex: 0,
+      role: 'img',
+      'aria-label': t(
+        'The path of this ray past the hole; drag or arrow keys turn it',
+        'Il percorso di questo raggio accanto al buco; si gira trascinando o con le frecce',
+      ),
+    }),
     context = node.getContext('2d'),
     ratio = Math.min(devicePixelRatio || 1, 2);
   node.width = wide * ratio;
@@ -38,7 +46,9 @@ export function buildInset() {
 
   function line(points, colour, width, scale) {
     context.beginPath();
-    points.forEach((point, i) => (i ? context.lineTo : context.moveTo).call(context, point[0] * scale, -point[1] * scale));
+    points.forEach((point, i) =>
+      (i ? context.lineTo : context.moveTo).call(context, point[0] * scale, -point[1] * scale),
+    );
     Object.assign(context, { strokeStyle: colour, lineWidth: width });
     context.stroke();
   }
@@ -48,14 +58,39 @@ export function buildInset() {
     const scale = Math.min(wide, high) / 2 / reach(answer),
       horizon = answer.radial.horizon_r,
       points = answer.path.points.map(turned),
-      halves = [points.map(point => (point[2] < 0 ? point : null)), points.map(point => (point[2] >= 0 ? point : null))];
+      halves = [
+        points.map(point => (point[2] < 0 ? point : null)),
+        points.map(point => (point[2] >= 0 ? point : null)),
+      ];
     context.setTransform(ratio, 0, 0, ratio, (wide / 2) * ratio, (high / 2) * ratio);
     context.clearRect(-wide, -high, 2 * wide, 2 * high);
-    for (const r of rings) line(Array.from({ length: 73 }, (_, i) => onPlane(r, (i * Math.PI) / 36)), '#3a352e', 1, scale);
-    const stretches = half => half.reduce((runs, point, i) => (point ? ((half[i - 1] ? runs.at(-1) : runs[runs.push(points[i - 1] ? [points[i - 1]] : []) - 1]).push(point), runs) : runs), []);
+    for (const r of rings)
+      line(
+        Array.from({ length: 73 }, (_, i) => onPlane(r, (i * Math.PI) / 36)),
+        '#3a352e',
+        1,
+        scale,
+      );
+    const stretches = half =>
+      half.reduce(
+        (runs, point, i) =>
+          point
+            ? ((half[i - 1] ? runs.at(-1) : runs[runs.push(points[i - 1] ? [points[i - 1]] : []) - 1]).push(point),
+              runs)
+            : runs,
+        [],
+      );
     for (const run of stretches(halves[0])) line(run, '#8a5f30', 1.5, scale);
     context.beginPath();
-    context.ellipse(0, 0, wider(horizon) * scale, Math.hypot(wider(horizon) * Math.sin(pitch), horizon * Math.cos(pitch)) * scale, 0, 0, 2 * Math.PI);
+    context.ellipse(
+      0,
+      0,
+      wider(horizon) * scale,
+      Math.hypot(wider(horizon) * Math.sin(pitch), horizon * Math.cos(pitch)) * scale,
+      0,
+      0,
+      2 * Math.PI,
+    );
     Object.assign(context, { fillStyle: '#000', strokeStyle: '#7d7568', lineWidth: 1 });
     context.fill();
     context.stroke();

@@ -1,9 +1,18 @@
 // These are in Italian the sentences with which the server refuses something, or says what is seen.
 // What is refused, and seen, by the shape of the sentence; {} stands for a value with its unit, {…} for a list.
 const refusals = [
-  ['{} is {}, allowed are radii outside the horizon, r = {}', '{} è {}, ammessi sono valori fuori dall’orizzonte, r = {}'],
-  ['{} is {}, where there is no observer {}; allowed there are {…}', '{} è {}, dove non c’è un osservatore {}; ammessi lì sono {…}'],
-  ['{} is {}, allowed is 0 but in the plane and pinhole projections: in the others pixels are not of one angle', '{} è {}, ammesso è 0 tranne che nelle proiezioni piana e stenopeica: nelle altre i pixel non hanno tutti lo stesso angolo'],
+  [
+    '{} is {}, allowed are radii outside the horizon, r = {}',
+    '{} è {}, ammessi sono valori fuori dall’orizzonte, r = {}',
+  ],
+  [
+    '{} is {}, where there is no observer {}; allowed there are {…}',
+    '{} è {}, dove non c’è un osservatore {}; ammessi lì sono {…}',
+  ],
+  [
+    '{} is {}, allowed is 0 but in the plane and pinhole projections: in the others pixels are not of one angle',
+    '{} è {}, ammesso è 0 tranne che nelle proiezioni piana e stenopeica: nelle altre i pixel non hanno tutti lo stesso angolo',
+  ],
   [
     '{} is {}, allowed are up to {}, {} times the width of the picture at this spacetime.mass_msun and spacetime.distance_pc',
     '{} è {}, ammessi sono fino a {}, {} volte la larghezza dell’immagine per questi spacetime.mass_msun e spacetime.distance_pc',
@@ -14,7 +23,10 @@ const refusals = [
   ],
   ['{} is {}{?}, allowed are whole numbers from {} to {}', '{} è {}{?}, ammessi sono gli interi da {} a {}'],
   ['{} is {}, allowed are multiples of 4 up to {}, and 0', '{} è {}, ammessi sono i multipli di 4 fino a {}, e 0'],
-  ['{} is {}{?}, allowed are {} to {}, or a range first:last:count of {} to {} of these', '{} è {}{?}, ammessi sono da {} a {}, o un intervallo primo:ultimo:quanti, da {} a {}'],
+  [
+    '{} is {}{?}, allowed are {} to {}, or a range first:last:count of {} to {} of these',
+    '{} è {}{?}, ammessi sono da {} a {}, o un intervallo primo:ultimo:quanti, da {} a {}',
+  ],
   [
     '{} is {}{?}, allowed are above {} and below {}, or a range first:last:count of {} to {} of these',
     '{} è {}{?}, ammessi sono sopra {} e sotto {}, o un intervallo primo:ultimo:quanti, da {} a {}',
@@ -31,17 +43,41 @@ const refusals = [
     '{} is {}, allowed in a tile is a number: its own would not be that of the whole picture; a small picture of the same scene tells one',
     '{} è {}, ammesso in un riquadro è un numero: il suo non sarebbe quello dell’immagine intera; un’immagine piccola della stessa scena ne dice uno',
   ],
-  ['{} is {}, allowed in a tile is 0: a lens spreads light over the whole picture', '{} è {}, ammesso in un riquadro è 0: un obiettivo sparge luce su tutta l’immagine'],
-  ['{} is {}, allowed in a tile is 0: a beam spreads light over the whole picture', '{} è {}, ammesso in un riquadro è 0: un fascio sparge luce su tutta l’immagine'],
-  ['{} is {}, allowed in a tile is false: the bar stands in a corner of the whole picture', '{} è {}, ammesso in un riquadro è false: la barra sta in un angolo dell’immagine intera'],
-  ['{} is {}, allowed in a tile are 1 to 8: rays are chosen by what the whole picture shows', '{} è {}, ammessi in un riquadro sono da 1 a 8: i raggi si scelgono da ciò che mostra l’immagine intera'],
-  ['{} is {}, allowed in a tile are numbers: its own would not be those of the whole picture', '{} è {}, ammessi in un riquadro sono numeri: i suoi non sarebbero quelli dell’immagine intera'],
-  ['frame {}: it would take about {}, more than the {} a frame may take', 'fotogramma {}: ci vorrebbero circa {}, più dei {} ammessi per un fotogramma'],
+  [
+    '{} is {}, allowed in a tile is 0: a lens spreads light over the whole picture',
+    '{} è {}, ammesso in un riquadro è 0: un obiettivo sparge luce su tutta l’immagine',
+  ],
+  [
+    '{} is {}, allowed in a tile is 0: a beam spreads light over the whole picture',
+    '{} è {}, ammesso in un riquadro è 0: un fascio sparge luce su tutta l’immagine',
+  ],
+  [
+    '{} is {}, allowed in a tile is false: the bar stands in a corner of the whole picture',
+    '{} è {}, ammesso in un riquadro è false: la barra sta in un angolo dell’immagine intera',
+  ],
+  [
+    '{} is {}, allowed in a tile are 1 to 8: rays are chosen by what the whole picture shows',
+    '{} è {}, ammessi in un riquadro sono da 1 a 8: i raggi si scelgono da ciò che mostra l’immagine intera',
+  ],
+  [
+    '{} is {}, allowed in a tile are numbers: its own would not be those of the whole picture',
+    '{} è {}, ammessi in un riquadro sono numeri: i suoi non sarebbero quelli dell’immagine intera',
+  ],
+  [
+    'frame {}: it would take about {}, more than the {} a frame may take',
+    'fotogramma {}: ci vorrebbero circa {}, più dei {} ammessi per un fotogramma',
+  ],
   ['{} is {}, allowed are {…} and {}', '{} è {}, ammessi sono {…} e {}'],
-  ['{} is {}, allowed is at least {}, the ISCO of {} {}, or {}', '{} è {}, ammesso è almeno {}, l’ISCO per {} {}, o {}'],
+  [
+    '{} is {}, allowed is at least {}, the ISCO of {} {}, or {}',
+    '{} è {}, ammesso è almeno {}, l’ISCO per {} {}, o {}',
+  ],
   ['{} is {}, allowed is at least {}, the ISCO of {} {}', '{} è {}, ammesso è almeno {}, l’ISCO per {} {}'],
   ['{} is {}, allowed is more than {}, the horizon of {} {}', '{} è {}, ammesso è più di {}, l’orizzonte per {} {}'],
-  ['{} is {}, allowed is more than the inner edge, {}, which is the ISCO', '{} è {}, ammesso è più del bordo interno, {}, che è l’ISCO'],
+  [
+    '{} is {}, allowed is more than the inner edge, {}, which is the ISCO',
+    '{} è {}, ammesso è più del bordo interno, {}, che è l’ISCO',
+  ],
   ['{} is {}, allowed is more than the inner edge, {}', '{} è {}, ammesso è più del bordo interno, {}'],
   ['{} is {}, allowed is less than {}, {}', '{} è {}, ammesso è meno di {}, {}'],
   ['{} is {} with {} {}, allowed is {}', '{} è {} con {} {}, ammesso è {}'],
@@ -98,8 +134,14 @@ const refusals = [
     '{} is {}, allowed is {} unless camera.observer is {} at a finite camera.r',
     '{} è {}, ammesso è {} salvo che camera.observer sia {} a un camera.r finito',
   ],
-  ['{} is {} with {} {}; it needs a finite {}, at infinity use {}', '{} è {} con {} {}; vuole un {} finito, all’infinito usa {}'],
-  ['{} is {} with {} {}; parallel rays need {} {}, at a finite radius use {}', '{} è {} con {} {}; raggi paralleli vogliono {} {}, a distanza finita usa {}'],
+  [
+    '{} is {} with {} {}; it needs a finite {}, at infinity use {}',
+    '{} è {} con {} {}; vuole un {} finito, all’infinito usa {}',
+  ],
+  [
+    '{} is {} with {} {}; parallel rays need {} {}, at a finite radius use {}',
+    '{} è {} con {} {}; raggi paralleli vogliono {} {}, a distanza finita usa {}',
+  ],
   [
     '{} is {}, allowed is 0 with {} {}: beyond {} the modes of a hole crowd and none of them rings alone',
     '{} è {}, ammesso è 0 con {} {}: oltre {} i modi di un buco si affollano e nessuno risuona da solo',
@@ -115,19 +157,49 @@ const refusals = [
   ['{} is {}, inside the horizon at {}; allowed is outside', '{} è {}, dentro l’orizzonte, a {}; ammesso è fuori'],
   ['{} is {}, not outside the horizon at {}', '{} è {}, non fuori dall’orizzonte, a {}'],
   ['{} is {}, and l is {}; allowed is {} to {}', '{} è {}, e l è {}; ammessi sono da {} a {}'],
-  ['there is no {}: the list has {} elements, and the next free index is {}', 'non c’è {}: la lista ha {} elementi, e il prossimo indice libero è {}'],
-  ['there is no {}: the list has {} element, and the next free index is {}', 'non c’è {}: la lista ha {} elemento, e il prossimo indice libero è {}'],
+  [
+    'there is no {}: the list has {} elements, and the next free index is {}',
+    'non c’è {}: la lista ha {} elementi, e il prossimo indice libero è {}',
+  ],
+  [
+    'there is no {}: the list has {} element, and the next free index is {}',
+    'non c’è {}: la lista ha {} elemento, e il prossimo indice libero è {}',
+  ],
   ['{} sessions are open, as many as may', 'sono aperte {} sessioni, quante se ne possono aprire'],
-  ['{} is {}, which follows bound orbits only, and this one is to plunge', '{} è {}, che segue solo orbite legate, e questa deve cadere'],
-  ['volume.grid is matter round a hole of the spin {}, and spacetime.spin is {}; allowed is the same', 'volume.grid è materia attorno a un buco di spin {}, e spacetime.spin è {}; ammesso è lo stesso'],
-  ['{} is a picture of {} x {}, allowed is a grid of matter, an NPZ file', '{} è un’immagine di {} × {}, ammessa è una griglia di materia, un file NPZ'],
-  ['{} is a grid of matter of {} x {} x {} nodes, allowed is a picture of the whole sky', '{} è una griglia di materia di {} × {} × {} nodi, ammessa è un’immagine di tutto il cielo'],
-  ['a grid of matter is an NPZ file of arrays: {} is missing, damaged or longer than {} bytes', 'una griglia di materia è un file NPZ di array: {} manca, è danneggiato o è più lungo di {} byte'],
-  ['a grid of matter is an NPZ file of arrays: {} is missing, allowed is {}', 'una griglia di materia è un file NPZ di array: {} manca, ammesso è {}'],
-  ['a grid of matter is an NPZ file of arrays: {…} is {}, allowed is {}', 'una griglia di materia è un file NPZ di array: {} è {}, ammesso è {}'],
+  [
+    '{} is {}, which follows bound orbits only, and this one is to plunge',
+    '{} è {}, che segue solo orbite legate, e questa deve cadere',
+  ],
+  [
+    'volume.grid is matter round a hole of the spin {}, and spacetime.spin is {}; allowed is the same',
+    'volume.grid è materia attorno a un buco di spin {}, e spacetime.spin è {}; ammesso è lo stesso',
+  ],
+  [
+    '{} is a picture of {} x {}, allowed is a grid of matter, an NPZ file',
+    '{} è un’immagine di {} × {}, ammessa è una griglia di materia, un file NPZ',
+  ],
+  [
+    '{} is a grid of matter of {} x {} x {} nodes, allowed is a picture of the whole sky',
+    '{} è una griglia di materia di {} × {} × {} nodi, ammessa è un’immagine di tutto il cielo',
+  ],
+  [
+    'a grid of matter is an NPZ file of arrays: {} is missing, damaged or longer than {} bytes',
+    'una griglia di materia è un file NPZ di array: {} manca, è danneggiato o è più lungo di {} byte',
+  ],
+  [
+    'a grid of matter is an NPZ file of arrays: {} is missing, allowed is {}',
+    'una griglia di materia è un file NPZ di array: {} manca, ammesso è {}',
+  ],
+  [
+    'a grid of matter is an NPZ file of arrays: {…} is {}, allowed is {}',
+    'una griglia di materia è un file NPZ di array: {} è {}, ammesso è {}',
+  ],
   ['a grid of matter is an NPZ file of arrays: {…}', 'una griglia di materia è un file NPZ di array (in inglese): {}'],
   // what is seen of emitters
-  ['Matter from a grid of numbers from {} to {}, at {} GHz.', 'Materia da una griglia di numeri, da {} a {}, a {} GHz.'],
+  [
+    'Matter from a grid of numbers from {} to {}, at {} GHz.',
+    'Materia da una griglia di numeri, da {} a {}, a {} GHz.',
+  ],
   ['No matter: no file is chosen.', 'Nessuna materia: nessun file è scelto.'],
   ['A thin disk from the ISCO to {}.', 'Un disco sottile dall’ISCO a {}.'],
   ['A thin disk from {} to {}.', 'Un disco sottile da {} a {}.'],
@@ -145,15 +217,21 @@ const refusals = [
   ['Bodies at {…}.', 'Corpi a {…}.'],
   ['{…} bodies of a playground at {…} M of its time.', '{…} corpi di un laboratorio, a {…} M del suo tempo.'],
   ['{…} body of a playground at {…} M of its time.', '{…} corpo di un laboratorio, a {…} M del suo tempo.'],
-  ['Not shown, as they have no radius or are at the horizon: {…}.', 'Non si vedono, perché non hanno raggio o sono all’orizzonte: {…}.'],
+  [
+    'Not shown, as they have no radius or are at the horizon: {…}.',
+    'Non si vedono, perché non hanno raggio o sono all’orizzonte: {…}.',
+  ],
   ['{…} pieces of debris, from {…} M to {…} M.', '{…} pezzi di detriti, da {…} M a {…} M.'],
 ].map(shape);
 
 function shape([english, italian]) {
   const escaped = english.replace(/[.*+()]/g, '\\$&');
-  const value = '("[^"]*"|[^ ,;:]+(?: (?:M|[A-Z]?[a-z]+ rates|solar masses|solar radii|pixels|degrees(?: per second)?|decades|bits|stops|days|pc|microarcseconds|GiB|s))?)';
+  const value =
+    '("[^"]*"|[^ ,;:]+(?: (?:M|[A-Z]?[a-z]+ rates|solar masses|solar radii|pixels|degrees(?: per second)?|decades|bits|stops|days|pc|microarcseconds|GiB|s))?)';
   return [
-    new RegExp(`^${escaped.replaceAll('{}', value).replace('{…}', '(.+)').replace('{?}', '(, a string where a number is wanted| where a number is wanted|)')}$`),
+    new RegExp(
+      `^${escaped.replaceAll('{}', value).replace('{…}', '(.+)').replace('{?}', '(, a string where a number is wanted| where a number is wanted|)')}$`,
+    ),
     italian.replace('{?}', '{}').replace('{…}', '{}'),
   ];
 }
@@ -187,6 +265,9 @@ export function refusal(text) {
   if (why) return `${refusal(whole) ?? whole}; a strisce potrebbe starci, ma ${refusal(why) ?? why}`;
   for (const [shape, italian] of refusals) {
     const parts = shape.exec(text)?.slice(1);
-    if (parts) return italian.replaceAll('{}', () => Object.entries(amounts).reduce((part, [en, it]) => part.replace(en, it), parts.shift()));
+    if (parts)
+      return italian.replaceAll('{}', () =>
+        Object.entries(amounts).reduce((part, [en, it]) => part.replace(en, it), parts.shift()),
+      );
   }
 }

@@ -22,13 +22,15 @@ export const sentences = {
   Jets: 'Getti',
   'A celestial grid behind.': 'Dietro, un reticolo celeste.',
   'Stars and a Milky Way behind.': 'Dietro, stelle e una Via Lattea.',
-  'The stars of the Hipparcos catalogue and a Milky Way behind.': 'Dietro, le stelle del catalogo Hipparcos e una Via Lattea.',
+  'The stars of the Hipparcos catalogue and a Milky Way behind.':
+    'Dietro, le stelle del catalogo Hipparcos e una Via Lattea.',
   'Stars behind.': 'Dietro, stelle.',
   'The stars of the Hipparcos catalogue behind.': 'Dietro, le stelle del catalogo Hipparcos.',
   'A Milky Way behind.': 'Dietro, una Via Lattea.',
   'A picture of the sky behind.': 'Dietro, un’immagine del cielo.',
   'Stars over a picture of the sky behind.': 'Dietro, stelle su un’immagine del cielo.',
-  'The stars of the Hipparcos catalogue over a picture of the sky behind.': 'Dietro, le stelle del catalogo Hipparcos su un’immagine del cielo.',
+  'The stars of the Hipparcos catalogue over a picture of the sky behind.':
+    'Dietro, le stelle del catalogo Hipparcos su un’immagine del cielo.',
   'disk: geometrically thin, in the equatorial plane, gas on circular Kerr orbits that ends at the inner edge':
     'disco: geometricamente sottile, nel piano equatoriale, gas su orbite circolari di Kerr che finisce al bordo interno',
   'disk: each element shines as an isotropic black body; no limb darkening, no irradiation by returning light':
@@ -54,8 +56,7 @@ export const sentences = {
     'macchie: luce veloce: mostrate dove sono a un solo tempo coordinato, qualunque sia il ritardo della luce',
   'bodies: opaque spheres in their own frames; space is flat, and light straight, within the scale of one: no tides, no own gravity, no shadows':
     'corpi: sfere opache nel proprio riferimento; lo spazio è piatto, e la luce dritta, alla scala di ognuno: niente maree, gravità propria, né ombre',
-  'bodies: no light of the disk falls on them':
-    'corpi: su di loro non cade luce del disco',
+  'bodies: no light of the disk falls on them': 'corpi: su di loro non cade luce del disco',
   'bodies: they throw back light of a smooth disk that nothing hides, straight from 16 rings of 24 places, evenly to all sides; three moments of its direction are kept':
     'corpi: rimandano la luce di un disco liscio che nulla nasconde, dritta da 16 anelli di 24 luoghi, ugualmente da ogni lato; della sua direzione si tengono tre momenti',
   'bodies: one whose radius is more than a tenth of its distance from the hole is drawn in the flat space of its centre, where a body has another shape':
@@ -104,7 +105,8 @@ export const sentences = {
     'gas: luce veloce: mostrato a un solo tempo coordinato, qualunque sia il ritardo della luce',
   'gas: the optical depth of the disk is as its flux, a chosen number at the brightest radius, and grey; each crossing absorbs by its depth over the cosine of the angle of emission':
     'gas: la profondità ottica del disco è come il suo flusso, un numero scelto dove è più brillante, e grigia; ogni attraversamento assorbe secondo la profondità sul coseno dell’angolo di emissione',
-  'disk: image orders beyond accuracy.orders are left out': 'disco: gli ordini d’immagine oltre accuracy.orders sono tralasciati',
+  'disk: image orders beyond accuracy.orders are left out':
+    'disco: gli ordini d’immagine oltre accuracy.orders sono tralasciati',
   'particles: brightness is that of the smooth disk times their number over the mean; opacity stays as it is':
     'particelle: la luminosità è quella del disco liscio per il loro numero sulla media; l’opacità resta com’è',
   'particles: epicycles to first order about circular orbits, a chosen number a radius; no pressure, no collisions':
@@ -123,7 +125,7 @@ export const sentences = {
     'oscillazione smorzata: la luce dei volumi ha l’ordine dell’attraversamento del piano più vicino sul suo raggio, da dove cos(theta) inverte prima a dove inverte dopo',
   'polarization: of all light from the plane alike, by the field in the frame of the gas; nothing on its way changes it: no Faraday rotation':
     'polarizzazione: uguale per tutta la luce dal piano, secondo il campo nel riferimento del gas; nulla per via la cambia: niente rotazione di Faraday',
-  'polarization: synchrotron: direction and fraction alone are those of the field; brightness and colour are the disk\'s, whatever the angle to the field':
+  "polarization: synchrotron: direction and fraction alone are those of the field; brightness and colour are the disk's, whatever the angle to the field":
     'polarizzazione: sincrotrone: del campo sono solo direzione e frazione; luminosità e colore sono quelli del disco, qualunque sia l’angolo col campo',
   'polarization: scattering: the fraction is that of a deep, plane atmosphere of electrons (Chandrasekhar 1960); its limb darkening, and light that returns to the disk, are left out':
     'polarizzazione: diffusione: la frazione è quella di un’atmosfera piana e profonda di elettroni (Chandrasekhar 1960); il suo oscuramento al bordo, e la luce che torna al disco, sono tralasciati',
@@ -137,15 +139,18 @@ export const sentences = {
     'polarizzazione: luce di sincrotrone di una distribuzione kappa secondo Pandya et al. 2016, V per elettroni caldi; limitata al 99 % di I',
   'polarization: Faraday rotation and conversion of a kappa distribution alone by the fits of Marszewski et al. 2021, made for frequencies above 100 gyrofrequencies and a tenth of (kappa w)^2 of them times sin(theta); in between kappa 3.5, 4, 4.5 and 5, by the way to each':
     'polarizzazione: rotazione e conversione di Faraday della sola distribuzione kappa secondo Marszewski et al. 2021, per frequenze sopra 100 girofrequenze e sopra un decimo di (kappa w)^2 di esse per sin(theta); fra kappa 3,5, 4, 4,5 e 5 in proporzione',
-  'polarization: Faraday rotation and conversion of those electrons alone (Shcherbakov 2008, Dexter 2016; Jones & O\'Dell 1977): none is cold':
+  "polarization: Faraday rotation and conversion of those electrons alone (Shcherbakov 2008, Dexter 2016; Jones & O'Dell 1977): none is cold":
     'polarizzazione: rotazione e conversione di Faraday di quei soli elettroni (Shcherbakov 2008, Dexter 2016; Jones & O’Dell 1977): nessuno è freddo',
-  'polarization: Faraday rotation and conversion are left out': 'polarizzazione: rotazione e conversione di Faraday sono tralasciate',
+  'polarization: Faraday rotation and conversion are left out':
+    'polarizzazione: rotazione e conversione di Faraday sono tralasciate',
   'polarization: disorder of the field makes linear polarisation less where it is made, where it is absorbed and where it is converted; Faraday rotation is that of a field in order':
     'polarizzazione: il disordine del campo riduce la polarizzazione lineare dove nasce, dove è assorbita e dove è convertita; la rotazione di Faraday è quella di un campo ordinato',
-  'polarization: light of volumes, bodies and the sky is unpolarised': 'polarizzazione: la luce di volumi, corpi e cielo non è polarizzata',
+  'polarization: light of volumes, bodies and the sky is unpolarised':
+    'polarizzazione: la luce di volumi, corpi e cielo non è polarizzata',
   'sky: a drawn celestial grid; its lensing is exact, its brightness carries no redshift':
     'cielo: un reticolo celeste disegnato; la sua lente è esatta, la sua luminosità non porta redshift',
-  'sky: stars are made up, as many of each magnitude as there are in truth': 'cielo: le stelle sono inventate, tante di ogni magnitudine quante ce ne sono davvero',
+  'sky: stars are made up, as many of each magnitude as there are in truth':
+    'cielo: le stelle sono inventate, tante di ogni magnitudine quante ce ne sono davvero',
   'sky: stars of the Hipparcos catalogue, all at infinity; nearly complete to magnitude 8 alone, and without those that it lacks':
     'cielo: stelle del catalogo Hipparcos, tutte all’infinito; quasi completo solo fino alla magnitudine 8, e senza quelle che gli mancano',
   'sky: stars shine as black bodies of the temperature that their colour stands for, and each image is spread over some 1.2 pixels':
@@ -162,7 +167,8 @@ export const sentences = {
     'cielo: le immagini delle stelle sono tagliate ai bordi delle fasce in cui un’immagine di queste dimensioni è fatta',
   'sky: the light between the stars is a Milky Way that is made up; no place in it is a place in the sky':
     'cielo: la luce fra le stelle è una Via Lattea inventata; nessun suo luogo è un luogo del cielo',
-  'sky: the light between the stars is shifted as that of black bodies of 5600 K': 'cielo: la luce fra le stelle è spostata come quella di corpi neri di 5600 K',
+  'sky: the light between the stars is shifted as that of black bodies of 5600 K':
+    'cielo: la luce fra le stelle è spostata come quella di corpi neri di 5600 K',
   'sky: sky.model is "image" and sky.image names none: the Milky Way that is made up stands in for it':
     'cielo: sky.model è "image" e sky.image non ne nomina alcuna: al suo posto sta la Via Lattea inventata',
   'sky: the light between the stars is a picture, photographic and not calibrated: its white is taken for 21 magnitudes a square arcsecond, and stars that it shows are spread as light':
@@ -183,7 +189,8 @@ export const sentences = {
     'volume: inventato, uguale ovunque fra i suoi bordi, fermo per osservatori senza momento angolare; finisce un centesimo fuori dall’orizzonte; grigio, con il colore di una temperatura scelta, e luce bolometrica qualunque sia disk.band',
   'jets: stylised, cones of optically thin light along the spin axis that flies outwards along the radius at one speed, past observers of zero angular momentum; no magnetic field, no synchrotron spectrum: brightness goes as g^(2 + index), colour is that of a chosen temperature and is not shifted':
     'getti: stilizzati, coni di luce otticamente sottile lungo l’asse di rotazione che va verso l’esterno lungo il raggio a una sola velocità, rispetto a osservatori senza momento angolare; nessun campo magnetico, nessuno spettro di sincrotrone: la luminosità va come g^(2 + indice), il colore è quello di una temperatura scelta e non è spostato',
-  'volume: all polarisations of light are absorbed alike: none is told': 'volume: tutte le polarizzazioni della luce sono assorbite allo stesso modo: nessuna è data',
+  'volume: all polarisations of light are absorbed alike: none is told':
+    'volume: tutte le polarizzazioni della luce sono assorbite allo stesso modo: nessuna è data',
   'volume: light of one frequency, without scattering; brightness 1 is a brightness temperature of 1e10 K':
     'volume: luce di una sola frequenza, senza diffusione; luminosità 1 è una temperatura di brillanza di 1e10 K',
   'volume: the analytic model of Gold et al. 2020, made up to compare programs; it ends at its edges':
@@ -194,7 +201,8 @@ export const sentences = {
     'volume: il toro di Fishbone e Moncrief 1976, in equilibrio senza il suo campo magnetico, messo solo per la sua pressione; le temperature di ioni ed elettroni sono in un solo rapporto',
   'volume: matter between the nodes of a grid by way of its neighbours, density and temperature by their logarithms; it stands still, as it was at one time, while light passes':
     'volume: la materia fra i nodi di una griglia è presa dai nodi vicini, densità e temperatura dai loro logaritmi; sta ferma, com’era a un istante, mentre la luce passa',
-  'volume: no file of a grid is named: there is no matter': 'volume: nessun file di griglia è indicato: non c’è materia',
+  'volume: no file of a grid is named: there is no matter':
+    'volume: nessun file di griglia è indicato: non c’è materia',
   'volume: synchrotron light by the fits of Pandya et al. 2016, good to a few percent where they hold; electrons move in all directions alike':
     'volume: luce di sincrotrone secondo le formule di Pandya et al. 2016, buone a qualche percento dove valgono; gli elettroni vanno ugualmente in ogni direzione',
   'volume: the density is that at which a picture of 128 pixels has the flux volume.normalise_to_jy, found by smaller pictures that the estimated time leaves out; answers tell the factor as density_scale':
@@ -219,7 +227,8 @@ export const sentences = {
     'resa: l’alone di un obiettivo; parte della luce viva è sparsa attorno al suo posto, la sua somma si conserva, e ciò che uscirebbe dall’immagine resta al bordo',
   'layers: maps of places and angles are those of one ray a pixel, and no means over it':
     'mappe: quelle di luoghi e angoli sono di un solo raggio per pixel, non medie su di esso',
-  'layers: a picture of a map has false colours; FITS, EXR, NPZ and NPY have its numbers': 'mappe: l’immagine di una mappa è in falsi colori; FITS, EXR, NPZ e NPY ne contengono i numeri',
+  'layers: a picture of a map has false colours; FITS, EXR, NPZ and NPY have its numbers':
+    'mappe: l’immagine di una mappa è in falsi colori; FITS, EXR, NPZ e NPY ne contengono i numeri',
   'post: a film-like tone curve; pixel values are not proportional to radiance':
     'resa: una curva dei toni da pellicola; i valori dei pixel non sono proporzionali alla radianza',
   "post: a Gaussian beam stands for a telescope: no gaps between stations, no noise, no reconstruction; nothing comes from beyond the picture's edge":
@@ -249,20 +258,30 @@ export const sentences = {
     'una sola immagine di ogni punto, seguita da quella del punto prima: la diretta, ma accanto a un buco in rotazione visto quasi di taglio può passare a una che gli ha girato attorno; nessuna da entro 1,2 orizzonti',
   'a test particle: it has no mass of its own, radiates nothing and is not torn':
     'una particella di prova: non ha massa propria, non irradia e non si spezza',
-  'spin parameter a; a < 0: the orbit or the disk turns against its hole': 'parametro di spin a; a < 0: l’orbita o il disco gira contro il buco',
-  "spin parameter a; a < 0: the star comes in against the hole's spin": 'parametro di spin a; a < 0: la stella arriva contro la rotazione del buco',
-  'spin parameter a; nearer to 1 damped and undamped modes crowd and l, n stop being names for them': 'parametro di spin a; più vicino a 1 modi smorzati e non si affollano, e l, n non bastano più a nominarli',
+  'spin parameter a; a < 0: the orbit or the disk turns against its hole':
+    'parametro di spin a; a < 0: l’orbita o il disco gira contro il buco',
+  "spin parameter a; a < 0: the star comes in against the hole's spin":
+    'parametro di spin a; a < 0: la stella arriva contro la rotazione del buco',
+  'spin parameter a; nearer to 1 damped and undamped modes crowd and l, n stop being names for them':
+    'parametro di spin a; più vicino a 1 modi smorzati e non si affollano, e l, n non bastano più a nominarli',
   'spin parameter a': 'parametro di spin a',
-  'impact parameter of light in the equatorial plane, |L|/E': 'parametro d’impatto della luce nel piano equatoriale, |L|/E',
-  'polar angle of the observer, who is at infinity; at 90 the plane is a line': 'angolo polare di chi osserva, all’infinito; a 90 il piano è una linea',
-  'polar angle of the observer, at infinity; not within 0.1 of 90': 'angolo polare di chi osserva, all’infinito; non a meno di 0,1 da 90',
-  'where on the critical curve: about its centre, from the right over the top': 'dove sulla curva critica: attorno al centro, da destra passando in alto',
-  'angular momentum, positive towards +phi: a unit of mass of matter; of the photon that V_light is for': 'momento angolare, positivo verso +φ: per unità di massa della materia; del fotone a cui V_luce si riferisce',
+  'impact parameter of light in the equatorial plane, |L|/E':
+    'parametro d’impatto della luce nel piano equatoriale, |L|/E',
+  'polar angle of the observer, who is at infinity; at 90 the plane is a line':
+    'angolo polare di chi osserva, all’infinito; a 90 il piano è una linea',
+  'polar angle of the observer, at infinity; not within 0.1 of 90':
+    'angolo polare di chi osserva, all’infinito; non a meno di 0,1 da 90',
+  'where on the critical curve: about its centre, from the right over the top':
+    'dove sulla curva critica: attorno al centro, da destra passando in alto',
+  'angular momentum, positive towards +phi: a unit of mass of matter; of the photon that V_light is for':
+    'momento angolare, positivo verso +φ: per unità di massa della materia; del fotone a cui V_luce si riferisce',
   'radius of the ring': 'raggio dell’anello',
   'mass of the hole': 'massa del buco',
-  'accretion rate: luminosity over the Eddington luminosity, with the efficiency of this spin': 'accrescimento: luminosità su quella di Eddington, con l’efficienza di questo spin',
+  'accretion rate: luminosity over the Eddington luminosity, with the efficiency of this spin':
+    'accrescimento: luminosità su quella di Eddington, con l’efficienza di questo spin',
   multipole: 'multipolo',
-  'azimuthal number, -l to l; m > 0 turns with a hole of positive spin': 'numero azimutale, da −l a l; m > 0 gira con un buco di spin positivo',
+  'azimuthal number, -l to l; m > 0 turns with a hole of positive spin':
+    'numero azimutale, da −l a l; m > 0 gira con un buco di spin positivo',
   'mass of the hole, with any redshift: m (1 + z)': 'massa del buco, con l’eventuale redshift: m (1 + z)',
   'one mass': 'una massa',
   'the other': 'l’altra massa',

@@ -125,7 +125,10 @@ export const values = {
 };
 
 export const natures = {
-  physics: ['fisica', 'Conseguenza esatta della relatività generale o del trasporto radiativo, o quanto bene è calcolata'],
+  physics: [
+    'fisica',
+    'Conseguenza esatta della relatività generale o del trasporto radiativo, o quanto bene è calcolata',
+  ],
   model: ['modello', 'Un modello scelto della materia o di una sorgente, o un suo numero'],
   look: ['aspetto', 'Cambia l’immagine, non la fisica'],
 };

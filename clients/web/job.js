@@ -1,5 +1,5 @@
-// A job of the server's, followed from this page while it goes on: how far it is is told, and it can be cancelled. It outlives a reload of
-// the page.
+// A job of the server's, followed from this page while it goes on: how far it is is told, and it can be cancelled. It
+// outlives a reload of the page.
 import { duration, number, t, tell } from './i18n.js';
 import { ask, getJson, passes, postJson } from './server.js';
 
@@ -28,10 +28,10 @@ function memory(key) {
 
 export const remembered = key => Boolean(memory(key).read()?.id);
 
-// key: of the tab's memory. Elements: starts, buttons that wait meanwhile; cancel, another; bar; told and fault, for sentences. words: what is said of it,
-// { done, cancelled, written, before(n) }. take(job) fetches what came of it and may say something itself; seen(status, job) is told of each
-// look, and may give a promise of what it does.
-// Returns { begin(request, about), resume() }: request() gives a document of POST /v1/jobs; about is kept with the job.
+// key: of the tab's memory. Elements: starts, buttons that wait meanwhile; cancel, another; bar; told and fault, for
+// sentences. words: what is said of it, { done, cancelled, written, before(n) }. take(job) fetches what came of it and
+// may say something itself; seen(status, job) is told of each look, and may give a promise of what it does. Returns {
+// begin(request, about), resume() }: request() gives a document of POST /v1/jobs; about is kept with the job.
 export function jobOf({ key, starts, cancel, bar, told, fault, words, take, seen = () => {}, free = () => true }) {
   const kept = memory(key);
   let job = null;
@@ -46,7 +46,10 @@ export function jobOf({ key, starts, cancel, bar, told, fault, words, take, seen
     told.setAttribute('aria-live', busy ? 'off' : 'polite');
     if (!status) return;
     bar.value = status.fraction;
-    const left = status.remaining_s == null ? '' : t(`, ${duration(status.remaining_s)} to go`, `, mancano ${duration(status.remaining_s)}`);
+    const left =
+      status.remaining_s == null
+        ? ''
+        : t(`, ${duration(status.remaining_s)} to go`, `, mancano ${duration(status.remaining_s)}`);
     if (status.delayed) tell(told, status.delayed);
     else if (status.place) told.textContent = words.before(status.place);
     else if (status.fraction === 1) told.textContent = words.written;
@@ -61,7 +64,8 @@ export function jobOf({ key, starts, cancel, bar, told, fault, words, take, seen
     tell(fault, wrong ? sentence : '');
   }
 
-  const remove = ({ id, token }) => ask('v1/jobs/' + id, { method: 'DELETE', headers: { Authorization: `Bearer ${token}` } });
+  const remove = ({ id, token }) =>
+    ask('v1/jobs/' + id, { method: 'DELETE', headers: { Authorization: `Bearer ${token}` } });
 
   // Once it is here, and has been looked at, the server need not keep it.
   async function fetched(done, looked) {
@@ -109,7 +113,8 @@ export function jobOf({ key, starts, cancel, bar, told, fault, words, take, seen
       show({ fraction: 0 });
       try {
         const { id, token } = await postJson('v1/jobs', await request());
-        if (job !== asked) return void remove({ id, token }).catch(() => {}); // cancelled before the server had answered
+        // cancelled before the server had answered
+        if (job !== asked) return void remove({ id, token }).catch(() => {});
         job = { id, token, ...about };
         kept.write(job);
         follow();

@@ -1,4 +1,5 @@
-// The page knows this of single fields beyond the schema, which says all else. A field that is not here has its control all the same.
+// The page knows this of single fields beyond the schema, which says all else. A field that is not here has its control
+// all the same.
 
 export const left_out = ['image.width', 'image.height']; // the window's
 export const beside_time = ['time', 'motion.time_rate']; // stand beside what starts and stops it
@@ -9,8 +10,21 @@ const has_disk = scene => scene.get('disk.model') !== 'none',
 const only_with = {
   'disk.flare': scene => has_disk(scene) && scene.get('disk.height') > 0,
   'style.ringdown_time': scene => scene.get('style.ringdown') > 0,
-  'disk.outer': scene => has_disk(scene) || is_map(scene) || scene.get('camera.projection') === 'ring', // maps and rings are of crossings within it
-  ...Object.fromEntries(['taper', 'opacity', 'emission_opacity', 'height', 'gas.amplitude', 'gas.octaves', 'gas.scale', 'gas.shear', 'gas.seed'].map(name => ['disk.' + name, has_disk])),
+  // maps and rings are of crossings within it
+  'disk.outer': scene => has_disk(scene) || is_map(scene) || scene.get('camera.projection') === 'ring',
+  ...Object.fromEntries(
+    [
+      'taper',
+      'opacity',
+      'emission_opacity',
+      'height',
+      'gas.amplitude',
+      'gas.octaves',
+      'gas.scale',
+      'gas.shear',
+      'gas.seed',
+    ].map(name => ['disk.' + name, has_disk]),
+  ),
   ...Object.fromEntries(['layer_min', 'layer_max', 'legend'].map(name => ['image.' + name, is_map])),
 };
 
@@ -19,7 +33,8 @@ const far = scene => scene.get('camera.r') === 'infinity';
 // Fields of the camera that mean something with some choices alone: what is chosen, and whose fields are whose.
 const of_camera = [
   {
-    chosen: scene => (scene.get('camera.projection') !== 'auto' ? scene.get('camera.projection') : far(scene) ? 'plane' : 'pinhole'),
+    chosen: scene =>
+      scene.get('camera.projection') !== 'auto' ? scene.get('camera.projection') : far(scene) ? 'plane' : 'pinhole',
     plane: ['field_m', 'centre_alpha', 'centre_beta'],
     pinhole: ['fov_deg', 'yaw_deg', 'pitch_deg', 'observer'],
     equirectangular: ['yaw_deg', 'pitch_deg', 'observer'],
@@ -52,6 +67,11 @@ export function meansSomething(scene, path) {
   if (only_with[path] && !only_with[path](scene)) return false;
   if (field.varies) return field.varies.some(word => scene.varies.includes(word));
   if (key && key !== path && scene.get(key) === off(scene.fields.get(key))) return false;
-  if (!Object.entries(field.with ?? {}).every(([other, values]) => [values].flat().includes(scene.get(`${home}.${other}`)))) return false;
+  if (
+    !Object.entries(field.with ?? {}).every(([other, values]) =>
+      [values].flat().includes(scene.get(`${home}.${other}`)),
+    )
+  )
+    return false;
   return home !== 'camera' || hasChoice(scene, path.slice(dot + 1));
 }

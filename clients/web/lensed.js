@@ -10,7 +10,10 @@ const widest = 960; // device pixels
 
 // box: where pictures go; running: running.js. Returns { show(yes) }.
 export function lensed(box, running) {
-  let picture = el('img', { alt: t('The playground as light shows it', 'Il laboratorio come lo mostra la luce'), draggable: false }),
+  let picture = el('img', {
+      alt: t('The playground as light shows it', 'Il laboratorio come lo mostra la luce'),
+      draggable: false,
+    }),
     wanted = false,
     at_work = false,
     url = '',
@@ -32,7 +35,8 @@ export function lensed(box, running) {
     const ratio = Math.min(devicePixelRatio || 1, widest / Math.max(box.clientWidth, 1)),
       [width, height] = [even(box.clientWidth * ratio), even(box.clientHeight * ratio)],
       now = running.state?.scene?.image;
-    if (wanted && box.clientWidth && now && (now.width !== width || now.height !== height)) send({ image: { width, height } });
+    if (wanted && box.clientWidth && now && (now.width !== width || now.height !== height))
+      send({ image: { width, height } });
   }
   new ResizeObserver(fit).observe(box);
 
@@ -70,7 +74,10 @@ export function lensed(box, running) {
   // Dragged, or by arrow keys, the camera goes round the hole.
   let from = null;
   function turn({ inclination_deg, azimuth_deg }) {
-    camera = { inclination_deg: Math.min(Math.max(inclination_deg, 1), 179), azimuth_deg: azimuth_deg - 360 * Math.round(azimuth_deg / 360) };
+    camera = {
+      inclination_deg: Math.min(Math.max(inclination_deg, 1), 179),
+      azimuth_deg: azimuth_deg - 360 * Math.round(azimuth_deg / 360),
+    };
     send({ camera });
   }
   function now() {
@@ -92,7 +99,10 @@ export function lensed(box, running) {
   });
   box.addEventListener('pointermove', event => {
     if (!from) return;
-    turn({ inclination_deg: from.inclination_deg - (event.clientY - from.y) * 0.4, azimuth_deg: from.azimuth_deg - (event.clientX - from.x) * 0.4 });
+    turn({
+      inclination_deg: from.inclination_deg - (event.clientY - from.y) * 0.4,
+      azimuth_deg: from.azimuth_deg - (event.clientX - from.x) * 0.4,
+    });
   });
   for (const end of ['pointerup', 'pointercancel']) box.addEventListener(end, () => (from = null));
 

@@ -1,4 +1,5 @@
-// The session's events tell, frame by frame, the light of a picture and that part of it which is kept apart: its curve, where its middle goes, and how it is polarised.
+// The session's events tell, frame by frame, the light of a picture and that part of it which is kept apart: its curve,
+// where its middle goes, and how it is polarised.
 import { byId, el } from './dom.js';
 import { said, t } from './i18n.js';
 import { apart } from './living.js';
@@ -12,7 +13,11 @@ const far = scene => scene.get('camera.r') === 'infinity';
 
 export function buildLight(root, scene) {
   const curve = plot(),
-    { picture, list, figure: track } = drawing('track-caption', t('The cross is the hole’s place.', 'La croce è il posto del buco.')),
+    {
+      picture,
+      list,
+      figure: track,
+    } = drawing('track-caption', t('The cross is the hole’s place.', 'La croce è il posto del buco.')),
     loop = drawing(
       'loop-caption',
       t(
@@ -21,7 +26,11 @@ export function buildLight(root, scene) {
       ),
     );
   loop.figure.hidden = true;
-  const none = el('p', { class: 'help', hidden: true }, t('This projection has no light curve.', 'Questa proiezione non ha curva di luce.'));
+  const none = el(
+    'p',
+    { class: 'help', hidden: true },
+    t('This projection has no light curve.', 'Questa proiezione non ha curva di luce.'),
+  );
   root.append(curve, track, loop.figure, none);
   let stream = null,
     address = '',
@@ -33,7 +42,10 @@ export function buildLight(root, scene) {
     timer = 0;
     if (!points.length) return;
     const name = said(apart(scene)?.title ?? '').text;
-    byId('track-caption').textContent = t(`Where the middle of this light is seen: ${name}`, `Dove si vede il centro di questa luce: ${name}`);
+    byId('track-caption').textContent = t(
+      `Where the middle of this light is seen: ${name}`,
+      `Dove si vede il centro di questa luce: ${name}`,
+    );
     const sorted = points[0].time > points.at(-1).time ? points.toReversed() : points,
       x = sorted.map(p => p.time),
       unit = far(scene) ? 'M' : '°',
@@ -52,12 +64,20 @@ export function buildLight(root, scene) {
         { name, x, y: sorted.map(p => p.spots) },
       ],
     });
-    drawTrack(picture, points.map(p => p.middle), unit);
+    drawTrack(
+      picture,
+      points.map(p => p.middle),
+      unit,
+    );
     drawLoop(name, sorted, x, area);
     list.show({
       live: true,
       x: { label: t('time t / M', 'tempo t / M') },
-      series: [0, 1].map(i => ({ name: far(scene) ? ['α / M', 'β / M'][i] : [t('right, °', 'destra, °'), t('up, °', 'alto, °')][i], x, y: sorted.map(p => p.middle[i]) })),
+      series: [0, 1].map(i => ({
+        name: far(scene) ? ['α / M', 'β / M'][i] : [t('right, °', 'destra, °'), t('up, °', 'alto, °')][i],
+        x,
+        y: sorted.map(p => p.middle[i]),
+      })),
     });
   }
 
@@ -65,16 +85,29 @@ export function buildLight(root, scene) {
     const polarised = Boolean(points.at(-1)?.stokes);
     loop.figure.hidden = !polarised;
     if (!polarised) return;
-    byId('loop-caption').textContent = t(`How this light is polarised: ${name}`, `Come è polarizzata questa luce: ${name}`);
+    byId('loop-caption').textContent = t(
+      `How this light is polarised: ${name}`,
+      `Come è polarizzata questa luce: ${name}`,
+    );
     const [q, u] = points.at(-1).stokes;
-    drawTrack(loop.picture, points.map(p => p.stokes ?? [null, null]), area, ['Q', 'U'], 0.5 * Math.atan2(u, q));
+    drawTrack(
+      loop.picture,
+      points.map(p => p.stokes ?? [null, null]),
+      area,
+      ['Q', 'U'],
+      0.5 * Math.atan2(u, q),
+    );
     const columns = [
       ['Q', p => p.stokes?.[0]],
       ['U', p => p.stokes?.[1]],
       [t('Q, all', 'Q, tutta'), p => p.whole?.[0]],
       [t('U, all', 'U, tutta'), p => p.whole?.[1]],
     ];
-    loop.list.show({ live: true, x: { label: t('time t / M', 'tempo t / M') }, series: columns.map(([name, of]) => ({ name, x, y: sorted.map(p => of(p) ?? null) })) });
+    loop.list.show({
+      live: true,
+      x: { label: t('time t / M', 'tempo t / M') },
+      series: columns.map(([name, of]) => ({ name, x, y: sorted.map(p => of(p) ?? null) })),
+    });
   }
 
   function take({ data }) {
@@ -89,7 +122,17 @@ export function buildLight(root, scene) {
     kind = now;
     if (time === points.at(-1)?.time) points.pop(); // the same, seen finer
     const { flux, spots, stokes } = light;
-    points = [...points.slice(1 - kept), { time, all: flux, spots: spots.flux, middle: spots.centroid ?? [null, null], stokes: spots.stokes?.slice(1, 3), whole: stokes?.slice(1, 3) }];
+    points = [
+      ...points.slice(1 - kept),
+      {
+        time,
+        all: flux,
+        spots: spots.flux,
+        middle: spots.centroid ?? [null, null],
+        stokes: spots.stokes?.slice(1, 3),
+        whole: stokes?.slice(1, 3),
+      },
+    ];
     timer ||= setTimeout(draw, pace_ms);
   }
 

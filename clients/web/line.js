@@ -1,8 +1,11 @@
-// How pictures that move are asked for: as good as the line lets them be. Those of the highest quality differ from what is exact by less than eyes tell while
-// it moves; where their bytes take long the quality falls until they do not, and rises again where they come at once.
+// How pictures that move are asked for: as good as the line lets them be. Those of the highest quality differ from what
+// is exact by less than eyes tell while it moves; where their bytes take long the quality falls until they do not, and
+// rises again where they come at once.
 const qualities = [90, 75, 60, 45, 30];
-const long_ms = 45; // that the bytes of a picture take for each that is under way at once, over which it is of a lower quality next time
-const slow_ms = 105; // from picture to picture, over which a line that is busy for most of it makes the next one of a lower quality
+// that the bytes of a picture take for each that is under way at once, over which it is of a lower quality next time
+const long_ms = 45;
+// from picture to picture, over which a line that is busy for most of it makes the next one of a lower quality
+const slow_ms = 105;
 const steep = 3; // times slow_ms: bytes that take longer than this lower the quality by two steps at once
 const soon_ms = 3000; // after a higher quality was tried: one that must be given up again sooner is tried less often
 const busy = 0.7; // of the time from picture to picture
@@ -25,7 +28,10 @@ export function buildLine() {
     trips = [],
     read_ms = 0,
     came_ms = -Infinity;
-  const depth = () => (at + 1 === qualities.length && read_ms > choked_ms ? 3 : Math.min(Math.max(1 + Math.ceil(trip_ms / frame_ms), 2), most));
+  const depth = () =>
+    at + 1 === qualities.length && read_ms > choked_ms
+      ? 3
+      : Math.min(Math.max(1 + Math.ceil(trip_ms / frame_ms), 2), most);
   return {
     most,
     pace_ms: frame_ms,
@@ -43,7 +49,8 @@ export function buildLine() {
     read(quality, ms) {
       const now = performance.now(),
         since = now - came_ms,
-        holds_up = since > slow_ms && since < choked_ms && ms > busy * since; // the line takes that long, and not the server
+        // the line takes that long, and not the server
+        holds_up = since > slow_ms && since < choked_ms && ms > busy * since;
       came_ms = now;
       read_ms = ms;
       if (quality !== qualities[at]) return; // it was asked for before

@@ -1,5 +1,5 @@
-// The page's address is its state: after the # stand the view, the language, what differs from the default scene, and the
-// parameters of the other views, as in a query.
+// The page's address is its state: after the # stand the view, the language, what differs from the default scene, and
+// the parameters of the other views, as in a query.
 const state = new URLSearchParams(location.hash.slice(1));
 const load = performance.timeOrigin; // marks the entries of the browser's history that are ours
 let timer = 0;
@@ -22,7 +22,7 @@ export function set(key, value) {
 }
 
 export function flush(how = 'replaceState') {
-  if (timer || how !== 'replaceState') (clearTimeout(timer), write(how));
+  if (timer || how !== 'replaceState') clearTimeout(timer), write(how);
 }
 
 // Another view, which the browser's Back leaves again.

@@ -6,8 +6,8 @@ import { physics } from './server.js';
 
 const usual_rate = 8; // M a second, where none was chosen
 
-// The server says what there is to be seen: light of which flux and centroid are told, light of higher image orders to ring, another
-// time, another azimuth.
+// The server says what there is to be seen: light of which flux and centroid are told, light of higher image orders to
+// ring, another time, another azimuth.
 export const apart = scene => scene.emitters.find(emitter => emitter.apart);
 const canRing = scene => scene.get('accuracy.orders') > 1 && scene.emitters.some(({ at }) => at === 'crossing');
 const showsTime = scene => scene.varies.some(word => word.endsWith('_time'));
@@ -20,7 +20,11 @@ const seeds = scene => [...scene.fields.keys()].filter(path => path.endsWith('.s
 // A button gives its field a value, and takes it back; what then could move does.
 function buildButton(scene, { path, button, type, default: usual }, rate) {
   const isOn = () => (type === 'choice' ? scene.get(path) === button.value : scene.get(path) !== usual);
-  const node = el('button', { type: 'button', id: 'set-' + path.replaceAll('.', '-'), onclick: () => scene.change(isOn() ? { [path]: null } : { [path]: button.value, ...rate() }) }),
+  const node = el('button', {
+      type: 'button',
+      id: 'set-' + path.replaceAll('.', '-'),
+      onclick: () => scene.change(isOn() ? { [path]: null } : { [path]: button.value, ...rate() }),
+    }),
     { group } = scene.sections.find(({ name }) => path.startsWith(name + '.'));
   tell(node, button.title);
   const place = byId('group-' + group);
@@ -34,8 +38,10 @@ export function buildLiving(stage, scene, source) {
     fault = byId('strike-fault');
   let second = 0; // M as a time, of the hole's mass
 
-  const goesItself = () => scene.get('motion.proper_time_rate') !== 0; // the observer, by its own clock, which takes time and azimuth along
-  const moves = () => goesItself() || showsTime(scene) || (showsAzimuth(scene) && scene.get('motion.azimuth_rate_deg') !== 0);
+  // the observer, by its own clock, which takes time and azimuth along
+  const goesItself = () => scene.get('motion.proper_time_rate') !== 0;
+  const moves = () =>
+    goesItself() || showsTime(scene) || (showsAzimuth(scene) && scene.get('motion.azimuth_rate_deg') !== 0);
   const rate = () => (goesItself() ? {} : { 'motion.time_rate': scene.get('motion.time_rate') || usual_rate });
   const buttons = withButton(scene)
     .reverse() // each is put before those that are there
@@ -51,11 +57,17 @@ export function buildLiving(stage, scene, source) {
   function tell_time() {
     const time = Math.round(scene.get('time') * 10) / 10;
     const rest = scene.resting() ? t(' – at rest, nothing moves', ' – a riposo, nulla si muove') : '';
-    clock.textContent = showsTime(scene) ? `t = ${number(time, 8)} M` + (second ? ` = ${duration(time * second)}` : '') + rest : '';
+    clock.textContent = showsTime(scene)
+      ? `t = ${number(time, 8)} M` + (second ? ` = ${duration(time * second)}` : '') + rest
+      : '';
   }
 
   const weigh = latest(async () => {
-    const { values } = await physics('scale', { hole: 'none', mass_msun: scene.get('spacetime.mass_msun'), distance_pc: 1 });
+    const { values } = await physics('scale', {
+      hole: 'none',
+      mass_msun: scene.get('spacetime.mass_msun'),
+      distance_pc: 1,
+    });
     second = values.m_s;
     tell_time();
   });
@@ -74,7 +86,9 @@ export function buildLiving(stage, scene, source) {
   }
 
   play.addEventListener('click', toggle);
-  seed.addEventListener('click', () => scene.change(Object.fromEntries(seeds(scene).map(path => [path, Math.floor(Math.random() * 1000) + 1]))));
+  seed.addEventListener('click', () =>
+    scene.change(Object.fromEntries(seeds(scene).map(path => [path, Math.floor(Math.random() * 1000) + 1]))),
+  );
   // Only in time that goes on does it ring.
   strike.addEventListener('click', () => {
     if (!goesItself() && scene.get('motion.time_rate') <= 0) scene.change({ 'motion.time_rate': usual_rate });

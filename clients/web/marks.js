@@ -9,7 +9,11 @@ function ring(c, plane, r) {
 
 export function circles(c, plane, colours) {
   const { photons, bound, isco } = plane.radii;
-  for (const [r, colour, dash, name] of [[photons, 'blue', [2, 3], t('photons', 'fotoni')], [bound, 'rose', [5, 4], t('marginally bound', 'marginalmente legata')], [isco, 'green', [], 'ISCO']]) {
+  for (const [r, colour, dash, name] of [
+    [photons, 'blue', [2, 3], t('photons', 'fotoni')],
+    [bound, 'rose', [5, 4], t('marginally bound', 'marginalmente legata')],
+    [isco, 'green', [], 'ISCO'],
+  ]) {
     if (r * plane.scale < 3) continue;
     c.strokeStyle = colours[colour];
     c.globalAlpha = 0.75;
@@ -56,7 +60,9 @@ export function aim(c, plane, colours) {
   c.lineWidth = 2;
   c.beginPath();
   c.moveTo(x, y), c.lineTo(tx, ty);
-  if (Math.hypot(tx - x, ty - y) > 4) for (const side of [-0.45, 0.45]) (c.moveTo(tx, ty), c.lineTo(tx - 9 * Math.cos(angle + side), ty - 9 * Math.sin(angle + side)));
+  if (Math.hypot(tx - x, ty - y) > 4)
+    for (const side of [-0.45, 0.45])
+      c.moveTo(tx, ty), c.lineTo(tx - 9 * Math.cos(angle + side), ty - 9 * Math.sin(angle + side));
   c.stroke();
   c.lineWidth = 1;
   c.textAlign = tx < x ? 'right' : 'left';
@@ -72,7 +78,10 @@ export function bar(c, plane, colours) {
   c.strokeStyle = c.fillStyle = colours.ink;
   c.lineWidth = 1;
   c.beginPath();
-  c.moveTo(14, h - 20), c.lineTo(14, h - 14), c.lineTo(14 + length * plane.scale, h - 14), c.lineTo(14 + length * plane.scale, h - 20);
+  c.moveTo(14, h - 20),
+    c.lineTo(14, h - 14),
+    c.lineTo(14 + length * plane.scale, h - 14),
+    c.lineTo(14 + length * plane.scale, h - 20);
   c.stroke();
   c.textAlign = 'left';
   c.fillText(`${length >= 1e5 ? length.toExponential(0) : length} M`, 20, h - 20);

@@ -1,5 +1,6 @@
-// A hole whose ring the Event Horizon Telescope measured has a slider over its picture: from our picture, without a beam, through the one that a beam
-// blurs, which is the scene as it is, to the measured ring with its error, drawn to scale.
+// A hole whose ring the Event Horizon Telescope measured has a slider over its picture: from our picture, without a
+// beam, through the one that a beam blurs, which is the scene as it is, to the measured ring with its error, drawn to
+// scale.
 import { byId, el } from './dom.js';
 import { stops } from './eht.js';
 import { number, t } from './i18n.js';
@@ -13,13 +14,22 @@ export function holeOf(scene) {
   return Object.keys(holes).find(name => holes[name][0] === mass && holes[name][1] === distance);
 }
 
-export const isMeasured = scene => Boolean(holeOf(scene)) && scene.get('camera.r') === 'infinity' && scene.get('style.beam_uas') > 0;
+export const isMeasured = scene =>
+  Boolean(holeOf(scene)) && scene.get('camera.r') === 'infinity' && scene.get('style.beam_uas') > 0;
 
-// The line over the picture: the ring, and the edges of its error. Where on the sky it lies was not measured: it is drawn round the middle of the shadow.
+// The line over the picture: the ring, and the edges of its error. Where on the sky it lies was not measured: it is
+// drawn round the middle of the shadow.
 export async function ring(scene, look, path) {
   const hole = holeOf(scene);
-  if (!hole) throw new Error(t('of M87* and Sgr A* alone, by their masses and distances', 'solo di M87* e Sgr A*, con le loro masse e distanze'));
-  if (scene.get('camera.r') !== 'infinity') throw new Error(t('as seen from the Earth alone: from infinity', 'solo come si vede dalla Terra: dall’infinito'));
+  if (!hole)
+    throw new Error(
+      t(
+        'of M87* and Sgr A* alone, by their masses and distances',
+        'solo di M87* e Sgr A*, con le loro masse e distanze',
+      ),
+    );
+  if (scene.get('camera.r') !== 'infinity')
+    throw new Error(t('as seen from the Earth alone: from infinity', 'solo come si vede dalla Terra: dall’infinito'));
   const spin = scene.get('spacetime.spin'),
     inclination_deg = scene.get('camera.inclination_deg');
   const [{ values: v }, { values: edge }] = await Promise.all([
@@ -28,8 +38,17 @@ export async function ring(scene, look, path) {
   ]);
   const middle = ['alpha', 'beta'].map(name => (Math.min(...edge[name]) + Math.max(...edge[name])) / 2),
     around = [...Array(121).keys()].map(k => (k * Math.PI) / 60),
-    circle = uas => path(around.map(phi => look.plane(middle[0] + (uas / 2 / v.m_uas) * Math.cos(phi), middle[1] + (uas / 2 / v.m_uas) * Math.sin(phi))), true);
-  const words = t(`measured: ${number(v.ring_uas)} ± ${number(v.ring_error_uas)} µas`, `misurato: ${number(v.ring_uas)} ± ${number(v.ring_error_uas)} µas`);
+    circle = uas =>
+      path(
+        around.map(phi =>
+          look.plane(middle[0] + (uas / 2 / v.m_uas) * Math.cos(phi), middle[1] + (uas / 2 / v.m_uas) * Math.sin(phi)),
+        ),
+        true,
+      );
+  const words = t(
+    `measured: ${number(v.ring_uas)} ± ${number(v.ring_error_uas)} µas`,
+    `misurato: ${number(v.ring_uas)} ± ${number(v.ring_error_uas)} µas`,
+  );
   return {
     lines: [circle(v.ring_uas), circle(v.ring_uas - v.ring_error_uas), circle(v.ring_uas + v.ring_error_uas)],
     tags: [words],
@@ -42,8 +61,18 @@ export async function ring(scene, look, path) {
 
 // choose(yes): whether the ring is drawn. size(): of the pictures.
 export function buildMeasured(stage, scene, size, choose) {
-  const slider = el('input', { type: 'range', id: 'measured', min: 0, max: 2, step: 0.01, value: 2,
-      'aria-label': t('From our picture through the beam to the measured ring', 'Dalla nostra immagine attraverso il fascio all’anello misurato') }),
+  const slider = el('input', {
+      type: 'range',
+      id: 'measured',
+      min: 0,
+      max: 2,
+      step: 0.01,
+      value: 2,
+      'aria-label': t(
+        'From our picture through the beam to the measured ring',
+        'Dalla nostra immagine attraverso il fascio all’anello misurato',
+      ),
+    }),
     words = el('output', { for: 'measured' }),
     root = el('div', { id: 'measured-row' }, slider, words),
     sharp = el('img', { id: 'sharp', alt: '', draggable: false, hidden: true });
@@ -73,7 +102,11 @@ export function buildMeasured(stage, scene, size, choose) {
     asking = true;
     try {
       const body = JSON.stringify({ ...JSON.parse(document), style: { name: 'raw', palette: 'heat' } }),
-        url = URL.createObjectURL(await (await ask('v1/render', { method: 'POST', headers: { 'Content-Type': 'application/json' }, body })).blob());
+        url = URL.createObjectURL(
+          await (
+            await ask('v1/render', { method: 'POST', headers: { 'Content-Type': 'application/json' }, body })
+          ).blob(),
+        );
       sharp.src = url;
       await sharp.decode();
       URL.revokeObjectURL(old);

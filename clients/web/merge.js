@@ -9,8 +9,8 @@ function differences(before, after) {
   return patch;
 }
 
-// RFC 7396, from one document to another: a list that changes is sent whole. A style that is named gives its own colours to all that a patch does not say, so
-// with another name all of the new style is said.
+// RFC 7396, from one document to another: a list that changes is sent whole. A style that is named gives its own
+// colours to all that a patch does not say, so with another name all of the new style is said.
 export function mergePatch(before, after) {
   const patch = differences(before, after);
   if (patch.style?.name !== undefined) patch.style = { ...patch.style, ...after.style };
@@ -21,4 +21,7 @@ export function mergePatch(before, after) {
 const by_hand = ['azimuth_deg', 'inclination_deg', 'yaw_deg', 'pitch_deg', 'field_m', 'fov_deg', 'r'];
 
 // Whether a patch only moves the camera, as a drag does: nothing that the server says of a scene follows from that.
-export const moves = ({ camera, ...rest }) => camera != null && !Object.keys(rest).length && Object.entries(camera).every(([name, value]) => by_hand.includes(name) && typeof value === 'number');
+export const moves = ({ camera, ...rest }) =>
+  camera != null &&
+  !Object.keys(rest).length &&
+  Object.entries(camera).every(([name, value]) => by_hand.includes(name) && typeof value === 'number');

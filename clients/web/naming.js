@@ -1,4 +1,5 @@
-// Lines over the picture carry their names: each at a place of its line that is in the window and far from the names that are there.
+// Lines over the picture carry their names: each at a place of its line that is in the window and far from the names
+// that are there.
 import { svg } from './dom.js';
 
 const places = 40; // of a line that are tried
@@ -8,7 +9,9 @@ const letter = 7; // pixels, about
 function candidates(path, width, height, wide) {
   const length = path.getTotalLength(),
     points = Array.from({ length: places }, (_, i) => path.getPointAtLength(((i + 0.5) / places) * length));
-  return points.filter(({ x, y }) => x > margin.x && x + wide < width - margin.x && y > margin.y && y < height - margin.bottom);
+  return points.filter(
+    ({ x, y }) => x > margin.x && x + wide < width - margin.x && y > margin.y && y < height - margin.bottom,
+  );
 }
 
 // Apart from names, and from the middle, where most lines cross.
@@ -26,7 +29,9 @@ export function nameLines(groups, width, height) {
       if (!text || !paths[i]?.getAttribute('d')) continue;
       const places = candidates(paths[i], width, height, letter * text.length + 6);
       if (!places.length) continue;
-      const best = places.reduce((one, other) => (room(other, taken, width, height) > room(one, taken, width, height) ? other : one));
+      const best = places.reduce((one, other) =>
+        room(other, taken, width, height) > room(one, taken, width, height) ? other : one,
+      );
       taken.push([best.x, best.y]);
       node.append(svg('text', { class: 'tag', x: best.x + 5, y: best.y - 5 }, text));
     }

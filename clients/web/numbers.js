@@ -46,7 +46,10 @@ const cell = text => `"${String(text ?? '').replaceAll('"', '""')}"`;
 // No address gives this again.
 function sheet(spec) {
   const [{ x }] = spec.series,
-    rows = [[spec.x.label, ...spec.series.map(s => s.name)].map(cell), ...x.map((at, i) => [at, ...spec.series.map(s => s.y[i])])];
+    rows = [
+      [spec.x.label, ...spec.series.map(s => s.name)].map(cell),
+      ...x.map((at, i) => [at, ...spec.series.map(s => s.y[i])]),
+    ];
   return URL.createObjectURL(new Blob([rows.map(row => row.join(',') + '\n').join('')], { type: 'text/csv' }));
 }
 
@@ -67,7 +70,13 @@ export function numbers(id) {
     spec = next;
     if (!spec.live || performance.now() > filled + live_ms) fill();
     if (links.firstChild && spec.live) return;
-    const link = (spec.csv || spec.live) && el('a', { href: spec.live ? '#' : spec.csv + '&format=csv', download: spec.live ? 'kerrd.csv' : '' }, t('All of them as CSV', 'Tutti, in CSV'));
+    const link =
+      (spec.csv || spec.live) &&
+      el(
+        'a',
+        { href: spec.live ? '#' : spec.csv + '&format=csv', download: spec.live ? 'kerrd.csv' : '' },
+        t('All of them as CSV', 'Tutti, in CSV'),
+      );
     if (spec.live) link.addEventListener('click', () => (URL.revokeObjectURL(link.href), (link.href = sheet(spec))));
     links.replaceChildren(...(link ? [link] : []));
   };

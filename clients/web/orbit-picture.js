@@ -17,7 +17,8 @@ const grip = 8; // as near to the body a drag takes hold of it, of 200 across
 const full = 60; // how long an arrow is for the speed of light
 
 // The path as an outside eye far away sees it, by straight lines: turn about the axis, then tilt.
-// hand: { placed([x, y]), thrown([x, y], [vx, vy]) } is told of places in the equatorial plane, M, and velocities in it, c.
+// hand: { placed([x, y]), thrown([x, y], [vx, vy]) } is told of places in the equatorial plane, M, and velocities in
+// it, c.
 export function buildPicture(root, hand) {
   const turn = el('input', { type: 'range', id: 'orbit-turn', min: -180, max: 180, value: 30 });
   const tilt = el('input', { type: 'range', id: 'orbit-tilt', min: 0, max: 180, value: 62 });
@@ -39,7 +40,11 @@ export function buildPicture(root, hand) {
       k = 70 / reach;
     const towards = x * Math.cos(a) + y * Math.sin(a),
       right = y * Math.cos(a) - x * Math.sin(a);
-    return { x: right * k, y: (towards * Math.cos(i) - z * Math.sin(i)) * k, depth: towards * Math.sin(i) + z * Math.cos(i) };
+    return {
+      x: right * k,
+      y: (towards * Math.cos(i) - z * Math.sin(i)) * k,
+      depth: towards * Math.sin(i) + z * Math.cos(i),
+    };
   }
 
   function draw() {
@@ -53,7 +58,8 @@ export function buildPicture(root, hand) {
         flat = j => [at(j).x, at(j).y],
         side = depth < 0 ? 'back' : 'front';
       if (side !== last || !k) parts[side] += `M${text(flat(k - 1))}`;
-      parts[side] += `C${text(nudge(flat(k - 2), [x, y], flat(k - 1)))} ${text(nudge(flat(k + 1), flat(k - 1), [x, y]))} ${text([x, y])}`;
+      parts[side] +=
+        `C${text(nudge(flat(k - 2), [x, y], flat(k - 1)))} ${text(nudge(flat(k + 1), flat(k - 1), [x, y]))} ${text([x, y])}`;
       last = side;
     }
     const ring = [...Array(73).keys()].map(k =>

@@ -1,5 +1,5 @@
-// Orbits of bodies, by POST /v1/orbits: the path in space, the potential it moves in, how well its energy is kept, and how
-// its periastron advances.
+// Orbits of bodies, by POST /v1/orbits: the path in space, the potential it moves in, how well its energy is kept, and
+// how its periastron advances.
 import { persistent } from './again.js';
 import { entitle } from './describe.js';
 import { byId, el, still } from './dom.js';
@@ -25,7 +25,10 @@ function facts(answer) {
     measured = result.periastron_advance_measured;
   return rows([
     ['a', `${number(answer.spin)} M`],
-    shape && [t('p, e, inclination', 'p, e, inclinazione'), `${number(shape.p)} M, ${number(shape.e)}, ${number(shape.inclination_deg)}°`],
+    shape && [
+      t('p, e, inclination', 'p, e, inclinazione'),
+      `${number(shape.p)} M, ${number(shape.e)}, ${number(shape.inclination_deg)}°`,
+    ],
     [t('Fate', 'Sorte'), word(answer.fate)],
     ['E', Math.abs(c.binding) < 1e-4 ? `1 − ${number(c.binding / (1 + c.energy))}` : number(c.energy, 8)],
     ['L', `${number(c.angular_momentum, 8)} M`],
@@ -35,7 +38,10 @@ function facts(answer) {
       `${result.end === 'horizon' || turn.r_min == null ? t('horizon', 'orizzonte') : number(turn.r_min)} – ${turn.r_max == null ? '∞' : number(turn.r_max) + ' M'}`,
     ],
     // A circle has no periastron, an orbit in the equatorial plane no node.
-    advance && [t('Advance of the periastron, exact', 'Avanzamento del periastro, esatto'), answer.circular ? '–' : degrees(advance.periastron)],
+    advance && [
+      t('Advance of the periastron, exact', 'Avanzamento del periastro, esatto'),
+      answer.circular ? '–' : degrees(advance.periastron),
+    ],
     advance && century != null && !answer.circular && [t('in a century', 'in un secolo'), `${number(century)}″`],
     measured != null && [
       flat
@@ -47,7 +53,10 @@ function facts(answer) {
       degrees(measured),
     ],
     advance && !answer.circular && [t('weak field, 6πM/p', 'campo debole, 6πM/p'), degrees(advance.weak_field)],
-    advance && [t('Advance of the node (dragging)', 'Avanzamento del nodo (trascinamento)'), flat ? '–' : degrees(advance.node)],
+    advance && [
+      t('Advance of the node (dragging)', 'Avanzamento del nodo (trascinamento)'),
+      flat ? '–' : degrees(advance.node),
+    ],
     [t('Drift of the energy', 'Deriva dell’energia'), number(drift.energy, 2)],
     [t('of Carter’s constant', 'della costante di Carter'), number(drift.carter, 2)],
     [t('of the mass', 'della massa'), number(drift.mass, 2)],
@@ -57,8 +66,12 @@ function facts(answer) {
 
 function nameOf({ spin, shape }) {
   const a = `a = ${number(spin)} M`;
-  return shape ? t(`${a}, p = ${number(shape.p)} M, e = ${number(shape.e)}, inclination ${number(shape.inclination_deg)}°`,
-                   `${a}, p = ${number(shape.p)} M, e = ${number(shape.e)}, inclinazione ${number(shape.inclination_deg)}°`) : a;
+  return shape
+    ? t(
+        `${a}, p = ${number(shape.p)} M, e = ${number(shape.e)}, inclination ${number(shape.inclination_deg)}°`,
+        `${a}, p = ${number(shape.p)} M, e = ${number(shape.e)}, inclinazione ${number(shape.inclination_deg)}°`,
+      )
+    : a;
 }
 
 export async function openOrbits() {
@@ -106,10 +119,11 @@ export async function openOrbits() {
     const began = yes && !running;
     running = yes;
     label();
-    if (began) ((last = performance.now()), begin());
+    if (began) (last = performance.now()), begin();
   }
   play.addEventListener('click', () => run(!running));
-  // The lines over the picture of the Lensing view follow what the fields say (orbit-lensed.js); its hole spins as this one does.
+  // The lines over the picture of the Lensing view follow what the fields say (orbit-lensed.js); its hole spins as this
+  // one does.
   byId('orbit-show').addEventListener('click', () => {
     document.querySelector('nav [data-view=lensing]').click();
     document.dispatchEvent(new CustomEvent('showorbit', { detail: constants?.spin }));
@@ -118,7 +132,8 @@ export async function openOrbits() {
 
   const load = persistent(fault, 'orbits', follows, keep);
 
-  // What somebody does with the body by hand goes through the fields, so that a link and a keyboard can do the same; all of it is one change.
+  // What somebody does with the body by hand goes through the fields, so that a link and a keyboard can do the same;
+  // all of it is one change.
   const set = values => (form.put(values), load());
   const azimuth = ([x, y]) => Math.atan2(y, x);
   const digits = (x, n) => Number(x.toFixed(n));
@@ -129,17 +144,27 @@ export async function openOrbits() {
     run(false);
     const r = Math.min(Math.sqrt(Math.max(at[0] ** 2 + at[1] ** 2 - a * a, 1)), form.input('r').max);
     set({ orbit: thrown, r: digits(r, 2), phi_deg: digits((azimuth(at) * 180) / Math.PI, 1) });
-    hint.textContent = t('Placed. Drag the body once more to throw it: the arrow is its velocity.', 'Posato. Trascina ancora il corpo per lanciarlo: la freccia è la sua velocità.');
+    hint.textContent = t(
+      'Placed. Drag the body once more to throw it: the arrow is its velocity.',
+      'Posato. Trascina ancora il corpo per lanciarlo: la freccia è la sua velocità.',
+    );
   }
 
   function throwIt(at, [vx, vy]) {
     const phi = azimuth(at);
-    set({ v_r: digits(vx * Math.cos(phi) + vy * Math.sin(phi), 3), v_phi: digits(vy * Math.cos(phi) - vx * Math.sin(phi), 3) });
+    set({
+      v_r: digits(vx * Math.cos(phi) + vy * Math.sin(phi), 3),
+      v_phi: digits(vy * Math.cos(phi) - vx * Math.sin(phi), 3),
+    });
     hint.textContent = hints;
     run(true);
   }
 
-  const fields = { [own]: ['spin', 'p', 'e', 'inclination_deg'], [integrals]: ['spin', 'energy', 'angular_momentum', 'carter'], [thrown]: ['spin', 'r', 'phi_deg', 'v_r', 'v_phi'] };
+  const fields = {
+    [own]: ['spin', 'p', 'e', 'inclination_deg'],
+    [integrals]: ['spin', 'energy', 'angular_momentum', 'carter'],
+    [thrown]: ['spin', 'r', 'phi_deg', 'v_r', 'v_phi'],
+  };
 
   // Who turns to the integrals of motion begins with those of the orbit that is shown.
   let constants = null,
@@ -148,14 +173,22 @@ export async function openOrbits() {
     const turned = chosen && chosen !== integrals && orbit === integrals;
     chosen = orbit;
     if (!turned || !constants) return form.values();
-    form.put(Object.fromEntries(['energy', 'angular_momentum', 'carter'].map(name => [name, Math.max(digits(constants[name], 6), form.input(name).min)])));
+    form.put(
+      Object.fromEntries(
+        ['energy', 'angular_momentum', 'carter'].map(name => [
+          name,
+          Math.max(digits(constants[name], 6), form.input(name).min),
+        ]),
+      ),
+    );
     form.put({ spin: digits(constants.spin, 3) });
     return form.values();
   }
 
   async function follows() {
     const v = take(form.values());
-    for (const name of new Set(Object.values(fields).flat())) form.input(name).closest('.field').hidden = !fields[v.orbit]?.includes(name);
+    for (const name of new Set(Object.values(fields).flat()))
+      form.input(name).closest('.field').hidden = !fields[v.orbit]?.includes(name);
     form.input('periods').closest('.field').hidden = ends(v);
     const asked = {
       ...requested(v),
@@ -170,7 +203,7 @@ export async function openOrbits() {
         `Dentro la separatrice, p = ${number(edge)} M, nulla torna indietro: si vede la caduta di un corpo con l’energia dell’ultima orbita che torna, e ${number(Math.sqrt(share), 3)} del suo momento angolare.`,
       );
     const answer = await follow(whole);
-    if (v.orbit !== thrown) (picture.free(), (hint.textContent = hints));
+    if (v.orbit !== thrown) picture.free(), (hint.textContent = hints);
     await show(answer, said);
   }
 
@@ -178,7 +211,10 @@ export async function openOrbits() {
   function keep() {
     if (!shown) return;
     byId('orbits').dataset.kept = true;
-    byId('orbit-kept').textContent = t(`Still shown is the last one that there was: ${shown}.`, `Resta quella di prima, l’ultima che c’era: ${shown}.`);
+    byId('orbit-kept').textContent = t(
+      `Still shown is the last one that there was: ${shown}.`,
+      `Resta quella di prima, l’ultima che c’era: ${shown}.`,
+    );
   }
 
   // What is said of an orbit stands beside it from the start, before the answers that draw its potential.
@@ -187,22 +223,38 @@ export async function openOrbits() {
     const [x, y, z] = ['x', 'y', 'z'].map(column),
       { horizon } = (await physics('kerr', { spin: answer.spin })).values;
     constants = { spin: answer.spin, ...answer.constants };
-    samples = { t: column('t'), r: column('r'), error: column('energy_error'), point: x.map((_, i) => [x[i], y[i], z[i]]) };
+    samples = {
+      t: column('t'),
+      r: column('r'),
+      error: column('energy_error'),
+      point: x.map((_, i) => [x[i], y[i], z[i]]),
+    };
     at = 0;
     shown = nameOf(answer);
-    picture.show(samples.point, horizon, answer.spin, t(`The orbit in space: ${shown}; ${word(answer.fate)}`, `L’orbita nello spazio: ${shown}; ${word(answer.fate)}`));
+    picture.show(
+      samples.point,
+      horizon,
+      answer.spin,
+      t(`The orbit in space: ${shown}; ${word(answer.fate)}`, `L’orbita nello spazio: ${shown}; ${word(answer.fate)}`),
+    );
     entitle('orbits', shown);
     byId('orbit-facts').replaceChildren(...facts(answer));
     byId('orbits').dataset.kept = false;
     byId('orbit-kept').textContent = said;
-    byId('orbit-approximations').replaceChildren(...(answer.result.approximations ?? []).map(text => tell(el('li'), text)));
+    byId('orbit-approximations').replaceChildren(
+      ...(answer.result.approximations ?? []).map(text => tell(el('li'), text)),
+    );
     const least = 10 ** Math.floor(Math.log10(Math.max(...samples.error.map(Math.abs)) || 1e-16));
     drift.draw({
       title: t('Energy error along the way', 'Errore dell’energia lungo il percorso'),
       x: { label: t('time t / M', 'tempo t / M') },
       y: { label: `ΔE / E / ${number(least)}` },
       series: [
-        { name: t('first integral less its start', 'integrale primo meno il valore iniziale'), x: samples.t, y: samples.error.map(error => error / least) },
+        {
+          name: t('first integral less its start', 'integrale primo meno il valore iniziale'),
+          x: samples.t,
+          y: samples.error.map(error => error / least),
+        },
       ],
       marks: [{ y: 0 }],
     });
@@ -215,7 +267,12 @@ export async function openOrbits() {
     const high = Math.min(Math.max(3 * (turn.r_max ?? 20), 12), 1e8),
       flat = Math.abs(constants.carter) < 1e-9;
     const { horizon } = (await physics('kerr', { spin })).values;
-    const v = await physics('potential', { spin, l: constants.angular_momentum, r: `${horizon}:${high}:400`, ...(high < 1e3 ? drawn : {}) });
+    const v = await physics('potential', {
+      spin,
+      l: constants.angular_momentum,
+      r: `${horizon}:${high}:400`,
+      ...(high < 1e3 ? drawn : {}),
+    });
     // Far out all of it is next to 1, and what is above 1 is a wall next to the hole.
     const least = v.values.v_min_matter ?? constants.energy,
       off = 1 - least < 1e-3 ? 1 : 0,
@@ -232,7 +289,13 @@ export async function openOrbits() {
           ),
       x: { label: t('radius r / M', 'raggio r / M'), min: 0 },
       y: { label: off ? 'V_eff − 1' : 'V_eff', min: low - 0.3 * (top - low), max: top + 0.3 * (top - low) },
-      series: [{ name: off ? 'V_eff − 1' : 'V_eff', x: v.parameters.r, y: v.values.v_matter.map(value => value && value - off) }],
+      series: [
+        {
+          name: off ? 'V_eff − 1' : 'V_eff',
+          x: v.parameters.r,
+          y: v.values.v_matter.map(value => value && value - off),
+        },
+      ],
       marks: [
         { y: energy, label: off ? 'E − 1' : 'E' },
         ...(turn.r_min ? [{ x: turn.r_min, label: 'r_min' }] : []),

@@ -1,5 +1,5 @@
-// Lines lie over the picture. Each is made of numbers of /v1/physics: places on the image plane, or directions from a camera that is near;
-// what is done with them here is to look through the camera at them.
+// Lines lie over the picture. Each is made of numbers of /v1/physics: places on the image plane, or directions from a
+// camera that is near; what is done with them here is to look through the camera at them.
 import { byId, el, latest, svg } from './dom.js';
 import { number, t, tell } from './i18n.js';
 import { nameLines } from './naming.js';
@@ -8,8 +8,8 @@ import * as link from './link.js';
 
 const radians = Math.PI / 180;
 
-// From numbers to pixels of a window of the given size, by the camera of src/render/camera.c: `plane` takes alpha and beta,
-// `direction` components towards -r, +phi and -theta.
+// From numbers to pixels of a window of the given size, by the camera of src/render/camera.c: `plane` takes alpha and
+// beta, `direction` components towards -r, +phi and -theta.
 function camera(scene, width, height) {
   const get = name => scene.get('camera.' + name),
     roll = get('roll_deg') * radians;
@@ -23,7 +23,10 @@ function camera(scene, width, height) {
       right = side * c - upward * s,
       up = side * s + upward * c;
     if (projection === 'equirectangular')
-      return [width * (0.5 + Math.atan2(right, ahead) / (2 * Math.PI)), height * (0.5 - Math.atan2(up, Math.hypot(right, ahead)) / Math.PI)];
+      return [
+        width * (0.5 + Math.atan2(right, ahead) / (2 * Math.PI)),
+        height * (0.5 - Math.atan2(up, Math.hypot(right, ahead)) / Math.PI),
+      ];
     const aside = Math.hypot(right, up) || 1,
       off = ((Math.min(width, height) / 2) * Math.atan2(aside, ahead)) / (Math.PI / 2);
     return [width / 2 + (off * right) / aside, height / 2 - (off * up) / aside];
@@ -39,7 +42,9 @@ function camera(scene, width, height) {
         upward = up * Math.cos(pitch) - level * Math.sin(pitch);
       const projection = get('projection');
       if (projection === 'equirectangular' || projection === 'fulldome') return turned(projection, ahead, side, upward);
-      return ahead > 0.02 ? rolled(side / ahead, upward / ahead, width / 2 / Math.tan((get('fov_deg') / 2) * radians)) : null;
+      return ahead > 0.02
+        ? rolled(side / ahead, upward / ahead, width / 2 / Math.tan((get('fov_deg') / 2) * radians))
+        : null;
     },
   };
 }
@@ -56,18 +61,25 @@ const path = (points, closed) => {
     if (point?.every(Number.isFinite)) text += `${pen}${point[0].toFixed(1)} ${point[1].toFixed(1)}`;
     pen = point?.every(Number.isFinite) ? 'L' : 'M';
   }
-  return closed && points.every(Boolean) && !points.some((point, i) => beyondSeam(point, points.at(i - 1))) ? text + 'Z' : text;
+  return closed && points.every(Boolean) && !points.some((point, i) => beyondSeam(point, points.at(i - 1)))
+    ? text + 'Z'
+    : text;
 };
 
 const at_infinity = scene => scene.get('camera.r') === 'infinity';
 const motion = scene =>
   Object.fromEntries(
-    ['velocity_r', 'velocity_theta', 'velocity_phi', 'infall_from', 'infall_energy', 'infall_momentum'].map(name => [name, scene.get('camera.' + name)]),
+    ['velocity_r', 'velocity_theta', 'velocity_phi', 'infall_from', 'infall_energy', 'infall_momentum'].map(name => [
+      name,
+      scene.get('camera.' + name),
+    ]),
   );
 const hole = scene => ({
   spin: scene.get('spacetime.spin'),
   inclination_deg: scene.get('camera.inclination_deg'),
-  ...(at_infinity(scene) ? {} : { observer_r: scene.get('camera.r'), observer: scene.get('camera.observer'), ...motion(scene) }),
+  ...(at_infinity(scene)
+    ? {}
+    : { observer_r: scene.get('camera.r'), observer: scene.get('camera.observer'), ...motion(scene) }),
 });
 
 async function shadow(scene, look) {
@@ -100,7 +112,8 @@ const refusals = {
   '/inclination_deg': t('a line, seen from the plane itself', 'una linea, vista dal piano stesso'),
 };
 
-// The image of order 0 or 1 of a circle in the equatorial plane. Where a degree of it is seen far spread, more points are asked for.
+// The image of order 0 or 1 of a circle in the equatorial plane. Where a degree of it is seen far spread, more points
+// are asked for.
 async function circle(scene, look, r, order = 0) {
   const far = at_infinity(scene);
   const ask = async angle_deg => {
@@ -113,7 +126,11 @@ async function circle(scene, look, r, order = 0) {
   for (const [i, here] of rough.entries()) {
     const next = rough[i + 1],
       gap = here.at && next?.at ? Math.hypot(next.at[0] - here.at[0], next.at[1] - here.at[1]) : 0;
-    fine.push(...(gap > 12 ? (await ask(`${here.angle}:${next.angle}:${Math.min(Math.ceil(gap / 6), 40)}`)).slice(0, -1) : [here]));
+    fine.push(
+      ...(gap > 12
+        ? (await ask(`${here.angle}:${next.angle}:${Math.min(Math.ceil(gap / 6), 40)}`)).slice(0, -1)
+        : [here]),
+    );
   }
   return path(fine.map(point => point.at));
 }
@@ -126,7 +143,10 @@ async function photons(scene, look) {
   if (Math.abs(one - other) > 1e-3) lines.push(await circle(scene, look, other));
   return {
     lines,
-    tags: lines.length > 1 ? [t('photons, with the turning', 'fotoni, nel verso'), t('photons, against', 'fotoni, contro')] : [t('photon orbit', 'orbita dei fotoni')],
+    tags:
+      lines.length > 1
+        ? [t('photons, with the turning', 'fotoni, nel verso'), t('photons, against', 'fotoni, contro')]
+        : [t('photon orbit', 'orbita dei fotoni')],
     words: t(
       `r = ${number(one)} M with the disk’s turning, ${number(other)} M against it`,
       `r = ${number(one)} M nel verso del disco, ${number(other)} M nel verso opposto`,
@@ -135,7 +155,11 @@ async function photons(scene, look) {
 }
 
 async function isco(scene, look) {
-  return { lines: [await circle(scene, look, 'isco')], tags: ['ISCO'], words: `r = ${number((await radii(scene)).isco)} M` };
+  return {
+    lines: [await circle(scene, look, 'isco')],
+    tags: ['ISCO'],
+    words: `r = ${number((await radii(scene)).isco)} M`,
+  };
 }
 
 async function ergosphere(scene, look) {
@@ -157,7 +181,12 @@ async function orders(scene, look) {
   for (const edge of edges) for (const order of [0, 1]) lines.push(await circle(scene, look, edge, order));
   return {
     lines,
-    tags: [t('inner edge, order 0', 'bordo interno, ordine 0'), t('inner edge, order 1', 'bordo interno, ordine 1'), t('outer edge, order 0', 'bordo esterno, ordine 0'), t('outer edge, order 1', 'bordo esterno, ordine 1')],
+    tags: [
+      t('inner edge, order 0', 'bordo interno, ordine 0'),
+      t('inner edge, order 1', 'bordo interno, ordine 1'),
+      t('outer edge, order 0', 'bordo esterno, ordine 0'),
+      t('outer edge, order 1', 'bordo esterno, ordine 1'),
+    ],
     words: t(
       'both edges of the disk, seen directly (order 0) and past the far side (order 1)',
       'i due bordi del disco, visti direttamente (ordine 0) e oltre il lato opposto (ordine 1)',
@@ -167,7 +196,13 @@ async function orders(scene, look) {
 
 async function names(scene) {
   const { brightest, hasNames, nameOf } = await import('./stars.js');
-  if (!hasNames(scene)) throw new Error(t('of the stars of Hipparcos alone: choose them as the sky', 'solo delle stelle di Hipparcos: sceglile come cielo'));
+  if (!hasNames(scene))
+    throw new Error(
+      t(
+        'of the stars of Hipparcos alone: choose them as the sky',
+        'solo delle stelle di Hipparcos: sceglile come cielo',
+      ),
+    );
   const stars = await brightest(scene, byId('stage'), 16);
   return {
     lines: [],
@@ -177,7 +212,8 @@ async function names(scene) {
 }
 
 const measured = async (scene, look) => (await import('./measured.js')).ring(scene, look, path);
-const orbit = async (scene, look, stage) => (await import('./orbit-lensed.js')).orbit(scene, look, path, stage.clientWidth);
+const orbit = async (scene, look, stage) =>
+  (await import('./orbit-lensed.js')).orbit(scene, look, path, stage.clientWidth);
 const curved = async (scene, look) => (await import('./flamm.js')).flamm(scene, look, path);
 async function polarization(scene, look, stage) {
   return (await import('./ticks.js')).ticks(scene, stage.clientWidth, stage.clientHeight);
@@ -210,7 +246,8 @@ export function buildOverlays(root, stage, scene) {
       tell(notes.get(name), '');
       if (!chosen.has(name)) continue;
       try {
-        if (scene.get('camera.projection') === 'ring' || scene.get('camera.stereo') === 'pair') throw new Error(t('not in this projection', 'non in questa proiezione'));
+        if (scene.get('camera.projection') === 'ring' || scene.get('camera.stereo') === 'pair')
+          throw new Error(t('not in this projection', 'non in questa proiezione'));
         const { lines, labels = [], tags = [], words } = await make(scene, look, stage);
         groups.push({
           tags,
@@ -228,7 +265,15 @@ export function buildOverlays(root, stage, scene) {
     }
     if (scene.get('camera.projection') === 'ring') {
       const { lines, nodes } = await (await import('./rings.js')).ringAxes(scene, width, height);
-      groups.push({ tags: [], node: svg('g', { class: 'over-axes' }, lines.map(d => svg('path', { d })), nodes) });
+      groups.push({
+        tags: [],
+        node: svg(
+          'g',
+          { class: 'over-axes' },
+          lines.map(d => svg('path', { d })),
+          nodes,
+        ),
+      });
     }
     layer.setAttribute('viewBox', `0 0 ${width} ${height}`);
     layer.replaceChildren(...groups.map(({ node }) => node));
@@ -279,8 +324,10 @@ export function buildOverlays(root, stage, scene) {
     box.dispatchEvent(new Event('change'));
     if (spin != null && spin !== scene.get('spacetime.spin')) scene.change({ 'spacetime.spin': spin });
   });
-  for (const event of ['change', 'move']) scene.addEventListener(event, () => layer.classList.add('late')); // until the picture has come to rest
-  scene.addEventListener('tick', () => scene.get('motion.proper_time_rate') && layer.replaceChildren()); // of another place
+  // until the picture has come to rest
+  for (const event of ['change', 'move']) scene.addEventListener(event, () => layer.classList.add('late'));
+  // of another place
+  scene.addEventListener('tick', () => scene.get('motion.proper_time_rate') && layer.replaceChildren());
   // Axes belong to a coarse picture, too.
   const axes = () => scene.get('camera.projection') === 'ring' && draw();
   scene.addEventListener('change', axes);

@@ -1,4 +1,5 @@
-// The curves: each a few parameters, an equation, numbers of /v1/physics, a few sentences, and what they are taken from.
+// The curves: each a few parameters, an equation, numbers of /v1/physics, a few sentences, and what they are taken
+// from.
 import { persistent } from './again.js';
 import { light } from './curves-light.js';
 import { matter } from './curves-matter.js';
@@ -12,7 +13,20 @@ import { drawn, getJson, physics, physicsUrl } from './server.js';
 const { explained } = await import(lang === 'it' ? './explained-it.js' : './explained.js');
 
 // In the order in which they are read.
-const order = ['null-potential', 'deflection', 'photon-rings', 'potential', 'redshift', 'kerr', 'disk-flux', 'frame-dragging', 'flamm', 'qnm', 'inspiral', 'tidal'];
+const order = [
+  'null-potential',
+  'deflection',
+  'photon-rings',
+  'potential',
+  'redshift',
+  'kerr',
+  'disk-flux',
+  'frame-dragging',
+  'flamm',
+  'qnm',
+  'inspiral',
+  'tidal',
+];
 const charts = [...light, ...matter].sort((a, b) => order.indexOf(a.id ?? a.name) - order.indexOf(b.id ?? b.name));
 
 // A few sentences under a curve, and how it follows, folded.
@@ -20,7 +34,16 @@ function reading(id) {
   const { text, steps } = explained[id];
   return [
     el('p', { class: 'reading' }, text),
-    el('details', { class: 'derivation' }, el('summary', {}, t('How it follows', 'Come si ricava')), el('ol', {}, steps.map(step => el('li', {}, step)))),
+    el(
+      'details',
+      { class: 'derivation' },
+      el('summary', {}, t('How it follows', 'Come si ricava')),
+      el(
+        'ol',
+        {},
+        steps.map(step => el('li', {}, step)),
+      ),
+    ),
   ];
 }
 

@@ -1,5 +1,5 @@
-// "What is this light?": where the light of one pixel comes from, in words, with its ray bending past the hole beside it. A tap asks, a pointer at rest asks
-// again, arrow keys move the cross.
+// "What is this light?": where the light of one pixel comes from, in words, with its ray bending past the hole beside
+// it. A tap asks, a pointer at rest asks again, arrow keys move the cross.
 import { byId, el, latest } from './dom.js';
 import { number, said, t, tell } from './i18n.js';
 import { buildInset } from './inset.js';
@@ -11,46 +11,97 @@ const change_ms = 400; // that the scene is as it is
 const star_px = 6;
 const faint = 0.005; // share of the light below which a source goes unmentioned
 
-const degrees = radians => (((radians * 180) / Math.PI) % 360 + 360) % 360;
+const degrees = radians => ((((radians * 180) / Math.PI) % 360) + 360) % 360;
 const angle = radians => number(degrees(radians), 3) + '°';
 const length = r => number(r, 4) + ' M';
 
 // All that sends light to the ray, the brightest first: { seen, kind, name, ...what is known of the place }.
 function sources({ crossings, met, along, end }) {
   const all = [
-    ...crossings.flatMap(crossing => (crossing.emitters ?? []).map(({ name, luminance_seen: seen }) => ({ ...crossing, kind: 'crossing', name, seen }))),
-    ...(along?.volumes ?? []).map(({ name, luminance_seen: seen, optical_depth }) => ({ kind: 'along', name, seen, optical_depth, delay: along.volumes.length === 1 ? along.delay : null })),
+    ...crossings.flatMap(crossing =>
+      (crossing.emitters ?? []).map(({ name, luminance_seen: seen }) => ({
+        ...crossing,
+        kind: 'crossing',
+        name,
+        seen,
+      })),
+    ),
+    ...(along?.volumes ?? []).map(({ name, luminance_seen: seen, optical_depth }) => ({
+      kind: 'along',
+      name,
+      seen,
+      optical_depth,
+      delay: along.volumes.length === 1 ? along.delay : null,
+    })),
     ...(met ? [{ ...met, kind: 'met', seen: met.luminance_seen }] : []),
-    ...(end.emitters ?? []).map(({ name, luminance_seen: seen, points }) => ({ ...end, kind: 'end', name, seen, points })),
+    ...(end.emitters ?? []).map(({ name, luminance_seen: seen, points }) => ({
+      ...end,
+      kind: 'end',
+      name,
+      seen,
+      points,
+    })),
   ].filter(({ seen }) => seen > 0);
   const whole = all.reduce((sum, { seen }) => sum + seen, 0);
   return all.map(source => ({ ...source, share: source.seen / whole })).sort((a, b) => b.seen - a.seen);
 }
 
-// An observer at infinity has no moment at which light left, but differences of them: from the hole it would take r + 2 ln r.
+// An observer at infinity has no moment at which light left, but differences of them: from the hole it would take r + 2
+// ln r.
 const ago = (delay, far) =>
   far
-    ? [t('Travel time', 'Tempo di viaggio'), length(Math.abs(delay)) + (delay < 0 ? t(' less than from the hole’s place', ' in meno che dal posto del buco') : t(' more than from the hole’s place', ' in più che dal posto del buco'))]
+    ? [
+        t('Travel time', 'Tempo di viaggio'),
+        length(Math.abs(delay)) +
+          (delay < 0
+            ? t(' less than from the hole’s place', ' in meno che dal posto del buco')
+            : t(' more than from the hole’s place', ' in più che dal posto del buco')),
+      ]
     : [t('It left', 'È partita'), t(`${length(delay)} ago`, `${length(delay)} fa`)];
 
-const images = [t('direct image', 'immagine diretta'), t('lensed far side', 'lato lontano, deviato'), t('photon ring', 'anello di fotoni')];
+const images = [
+  t('direct image', 'immagine diretta'),
+  t('lensed far side', 'lato lontano, deviato'),
+  t('photon ring', 'anello di fotoni'),
+];
 const orderOf = order => `${images[Math.min(order, 2)]} (${t('order', 'ordine')} ${order})`;
 
 // A sentence for each of them, and facts.
 function wording(source, { title, far, star }) {
   const { kind, points } = source;
-  if (kind === 'end') return { head: star ? nameOf(star) : points ? t('Starlight', 'Luce di stelle') : t('The sky', 'Il cielo'), facts: skyFacts(source, star) };
+  if (kind === 'end')
+    return {
+      head: star ? nameOf(star) : points ? t('Starlight', 'Luce di stelle') : t('The sky', 'Il cielo'),
+      facts: skyFacts(source, star),
+    };
   if (kind === 'along')
-    return { head: title, facts: [[t('Optical depth', 'Profondità ottica'), number(source.optical_depth, 3)], ...(source.delay != null ? [ago(source.delay, far)] : [])] };
+    return {
+      head: title,
+      facts: [
+        [t('Optical depth', 'Profondità ottica'), number(source.optical_depth, 3)],
+        ...(source.delay != null ? [ago(source.delay, far)] : []),
+      ],
+    };
   return {
     head: t(`${title}, at r = ${length(source.r)}`, `${title}, a r = ${length(source.r)}`),
     facts: [
       [t('Image', 'Immagine'), orderOf(source.order)],
       ['φ', angle(source.azimuth)],
       ...(source.delay != null ? [ago(source.delay, far)] : []),
-      ...(source.g != null ? [[t('Frequency ratio g', 'Rapporto di frequenze g'), `${number(source.g, 3)}, ${source.g > 1 ? t('bluer', 'più blu') : t('redder', 'più rossa')}`]] : []),
-      ...(source.temperature != null ? [[t('Temperature there', 'Temperatura là'), number(source.temperature, 3) + ' K']] : []),
-      ...(source.emission_angle != null ? [[t('Angle to its normal', 'Angolo con la normale'), angle(source.emission_angle)]] : []),
+      ...(source.g != null
+        ? [
+            [
+              t('Frequency ratio g', 'Rapporto di frequenze g'),
+              `${number(source.g, 3)}, ${source.g > 1 ? t('bluer', 'più blu') : t('redder', 'più rossa')}`,
+            ],
+          ]
+        : []),
+      ...(source.temperature != null
+        ? [[t('Temperature there', 'Temperatura là'), number(source.temperature, 3) + ' K']]
+        : []),
+      ...(source.emission_angle != null
+        ? [[t('Angle to its normal', 'Angolo con la normale'), angle(source.emission_angle)]]
+        : []),
     ],
   };
 }
@@ -64,12 +115,17 @@ function skyFacts({ theta, azimuth, g }, star) {
 }
 
 function none({ end }) {
-  if (end.fate === 'captured') return t('No light: followed back, this ray falls into the hole', 'Nessuna luce: seguito all’indietro, questo raggio cade nel buco');
+  if (end.fate === 'captured')
+    return t(
+      'No light: followed back, this ray falls into the hole',
+      'Nessuna luce: seguito all’indietro, questo raggio cade nel buco',
+    );
   if (end.fate === 'escaped') return t('Dark sky', 'Cielo buio');
   return t('No light', 'Nessuna luce');
 }
 
-// size() → { width, height } of the picture in its own pixels. Returns look({ x, y }), places in the stage, and close().
+// size() → { width, height } of the picture in its own pixels. Returns look({ x, y }), places in the stage, and
+// close().
 export function buildPixel(stage, scene, size) {
   const card = byId('pixel'),
     cross = byId('cross'),
@@ -79,9 +135,20 @@ export function buildPixel(stage, scene, size) {
     error = el('p', { class: 'help' }),
     fault = el('p', { class: 'fault', role: 'status' }),
     inset = buildInset(),
-    close_button = el('button', { type: 'button', class: 'close', 'aria-label': t('Close (Esc)', 'Chiudi (Esc)'), title: 'Esc', onclick: () => (close(), stage.focus()) }, '×');
+    close_button = el(
+      'button',
+      {
+        type: 'button',
+        class: 'close',
+        'aria-label': t('Close (Esc)', 'Chiudi (Esc)'),
+        title: 'Esc',
+        onclick: () => (close(), stage.focus()),
+      },
+      '×',
+    );
   card.replaceChildren(close_button, head, facts, others, inset.node, error, fault);
-  let at = null, // { u, v }: shares of the picture, which stay what they are where the window turns or shrinks; null: closed
+  // { u, v }: shares of the picture, which stay what they are where the window turns or shrinks; null: closed
+  let at = null,
     pinned = false,
     timer = 0;
 
@@ -97,17 +164,34 @@ export function buildPixel(stage, scene, size) {
   function show(answer, star) {
     const far = scene.get('camera.r') === 'infinity',
       all = sources(answer),
-      titled = name => { const { text } = said(scene.emitters.find(emitter => emitter.name === name)?.title ?? name); return text[0].toUpperCase() + text.slice(1); }, // prettier-ignore
+      titled = name => {
+        const { text } = said(scene.emitters.find(emitter => emitter.name === name)?.title ?? name);
+        return text[0].toUpperCase() + text.slice(1);
+      }, // prettier-ignore
       [first, ...rest] = all,
-      { head: words, facts: rows } = first ? wording(first, { title: titled(first.name), far, star: first.points ? star : null }) : { head: none(answer), facts: answer.end.fate === 'escaped' ? skyFacts(answer.end) : [] };
+      { head: words, facts: rows } = first
+        ? wording(first, { title: titled(first.name), far, star: first.points ? star : null })
+        : { head: none(answer), facts: answer.end.fate === 'escaped' ? skyFacts(answer.end) : [] };
     head.textContent = words;
     facts.replaceChildren(...rows.map(([name, value]) => el('div', {}, el('dt', {}, name), el('dd', {}, value))));
     const also = rest.filter(({ share }) => share > faint);
     others.textContent = also.length
-      ? t('Also ', 'Anche ') + also.map(({ name, order, share }) => `${titled(name)}${order == null ? '' : ` (${t('order', 'ordine')} ${order})`} ${number(100 * share, 2)} %`).join(', ')
+      ? t('Also ', 'Anche ') +
+        also
+          .map(
+            ({ name, order, share }) =>
+              `${titled(name)}${order == null ? '' : ` (${t('order', 'ordine')} ${order})`} ${number(100 * share, 2)} %`,
+          )
+          .join(', ')
       : '';
     const { picture } = answer.accuracy;
-    error.textContent = picture > 0 ? t(`Its radii are within ${number(picture, 2)} of closed form.`, `Le sue distanze r differiscono di ${number(picture, 2)} dalla forma chiusa.`) : '';
+    error.textContent =
+      picture > 0
+        ? t(
+            `Its radii are within ${number(picture, 2)} of closed form.`,
+            `Le sue distanze r differiscono di ${number(picture, 2)} dalla forma chiusa.`,
+          )
+        : '';
     inset.show(answer, scene.get('spacetime.spin'));
   }
 
@@ -118,7 +202,14 @@ export function buildPixel(stage, scene, size) {
       y = Math.min(at.v * height, height - 0.01);
     try {
       const body = JSON.stringify(scene.document({ 'image.width': width, 'image.height': height, 'image.samples': 1 })),
-        [answer, star] = await Promise.all([ask(`v1/pixel?at=${x.toFixed(2)},${y.toFixed(2)}`, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body }).then(reply => reply.json()), starAt()]);
+        [answer, star] = await Promise.all([
+          ask(`v1/pixel?at=${x.toFixed(2)},${y.toFixed(2)}`, {
+            method: 'POST',
+            headers: { 'Content-Type': 'application/json' },
+            body,
+          }).then(reply => reply.json()),
+          starAt(),
+        ]);
       fault.textContent = '';
       if (at) show(answer, star);
     } catch (wrong) {
@@ -152,7 +243,8 @@ export function buildPixel(stage, scene, size) {
   }
 
   stage.addEventListener('pointermove', event => {
-    if (!at || pinned || event.buttons || event.pointerType === 'touch' || event.target.closest('button, a, input')) return;
+    if (!at || pinned || event.buttons || event.pointerType === 'touch' || event.target.closest('button, a, input'))
+      return;
     const box = stage.getBoundingClientRect();
     look({ x: event.clientX - box.left, y: event.clientY - box.top }, false);
   });
@@ -161,7 +253,8 @@ export function buildPixel(stage, scene, size) {
   stage.addEventListener(
     'keydown',
     event => {
-      const step = at && event.target === stage && !event.ctrlKey && !event.metaKey && !event.altKey && steps[event.key];
+      const step =
+        at && event.target === stage && !event.ctrlKey && !event.metaKey && !event.altKey && steps[event.key];
       if (!step) return;
       event.preventDefault();
       event.stopImmediatePropagation();
@@ -178,5 +271,9 @@ export function buildPixel(stage, scene, size) {
     clearTimeout(timer);
     timer = setTimeout(find, change_ms);
   });
-  return { look, close, toggle: () => (at ? close() : look({ x: stage.clientWidth / 2, y: stage.clientHeight / 2 }, true)) };
+  return {
+    look,
+    close,
+    toggle: () => (at ? close() : look({ x: stage.clientWidth / 2, y: stage.clientHeight / 2 }, true)),
+  };
 }

@@ -1,8 +1,10 @@
-// The plane of the playground from above, or tilted: the hole and its circles, bodies with their trails, debris, and what somebody aims.
+// The plane of the playground from above, or tilted: the hole and its circles, bodies with their trails, debris, and
+// what somebody aims.
 import { aim, bar, circles } from './marks.js';
 import { physics } from './server.js';
 
-const turns = { past: 160, few: 400, none: 1500 }; // points of a trail; up to how many bodies there are trails of full length, and any
+// points of a trail; up to how many bodies there are trails of full length, and any
+const turns = { past: 160, few: 400, none: 1500 };
 const least_px = 2.5;
 const hot = { least: 1000, most: 30000, n: 117 }; // kelvin, of the table of colours
 const style = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
@@ -30,12 +32,20 @@ export class Plane {
 
   constructor(canvas) {
     this.#canvas = canvas;
-    this.#colours = Object.fromEntries(['ink', 'dim', 'edge', 'rule', 'glow', 'blue', 'green', 'rose', 'violet'].map(name => [name, style('--' + name)]));
+    this.#colours = Object.fromEntries(
+      ['ink', 'dim', 'edge', 'rule', 'glow', 'blue', 'green', 'rose', 'violet'].map(name => [name, style('--' + name)]),
+    );
     new ResizeObserver(() => this.redraw()).observe(canvas);
-    physics('blackbody', { temperature_k: `${hot.least}:${hot.most}:${hot.n}`, digits: 3 }).then(({ values }) => {
-      this.#table = values.srgb_r.map((_, i) => `rgb(${[values.srgb_r[i], values.srgb_g[i], values.srgb_b[i]].map(c => Math.round(255 * c)).join(' ')})`);
-      this.redraw();
-    }, () => {}); // grey, then
+    physics('blackbody', { temperature_k: `${hot.least}:${hot.most}:${hot.n}`, digits: 3 }).then(
+      ({ values }) => {
+        this.#table = values.srgb_r.map(
+          (_, i) =>
+            `rgb(${[values.srgb_r[i], values.srgb_g[i], values.srgb_b[i]].map(c => Math.round(255 * c)).join(' ')})`,
+        );
+        this.redraw();
+      },
+      () => {},
+    ); // grey, then
   }
 
   get size() {
@@ -44,7 +54,10 @@ export class Plane {
 
   project([x, y, z]) {
     const [w, h] = this.size;
-    return [w / 2 + (x - this.cx) * this.scale, h / 2 - ((y - this.cy) * Math.cos(this.tilt) + z * Math.sin(this.tilt)) * this.scale];
+    return [
+      w / 2 + (x - this.cx) * this.scale,
+      h / 2 - ((y - this.cy) * Math.cos(this.tilt) + z * Math.sin(this.tilt)) * this.scale,
+    ];
   }
 
   // The place of the plane z = 0 under a pixel.
@@ -61,12 +74,16 @@ export class Plane {
     this.redraw();
   }
 
-  // What is to be seen of a preset, or else of a snapshot's bodies about the first of them: its middle, and how far it reaches. Bodies far from the hole are followed.
+  // What is to be seen of a preset, or else of a snapshot's bodies about the first of them: its middle, and how far it
+  // reaches. Bodies far from the hole are followed.
   around(preset) {
     const all = this.all(),
       middle = preset?.centre ?? (!preset && all.length ? all[0].x : [0, 0, 0]);
     this.follows = Math.hypot(...middle) > 0 ? 'all' : null;
-    const farthest = Math.max(...all.map(({ x }) => Math.hypot(...x.map((q, k) => q - middle[k]))), all.length ? 20 : 400);
+    const farthest = Math.max(
+      ...all.map(({ x }) => Math.hypot(...x.map((q, k) => q - middle[k]))),
+      all.length ? 20 : 400,
+    );
     return { middle, wide: preset?.reach ?? farthest };
   }
 
@@ -98,7 +115,14 @@ export class Plane {
   row(i) {
     const { words, f, u } = this.bodies,
       at = i * words;
-    return { id: u[at], x: [...f.slice(at + 1, at + 4)], v: [...f.slice(at + 4, at + 7)], mass: f[at + 7], radius: f[at + 8], temperature_k: f[at + 9] };
+    return {
+      id: u[at],
+      x: [...f.slice(at + 1, at + 4)],
+      v: [...f.slice(at + 4, at + 7)],
+      mass: f[at + 7],
+      radius: f[at + 8],
+      temperature_k: f[at + 9],
+    };
   }
 
   all() {
@@ -170,7 +194,8 @@ export class Plane {
       ratio = Math.min(devicePixelRatio || 1, 2),
       canvas = this.#canvas;
     if (!w || !h) return;
-    if (canvas.width !== Math.round(w * ratio) || canvas.height !== Math.round(h * ratio)) [canvas.width, canvas.height] = [Math.round(w * ratio), Math.round(h * ratio)];
+    if (canvas.width !== Math.round(w * ratio) || canvas.height !== Math.round(h * ratio))
+      [canvas.width, canvas.height] = [Math.round(w * ratio), Math.round(h * ratio)];
     const c = canvas.getContext('2d', { alpha: false });
     c.setTransform(ratio, 0, 0, ratio, 0, 0);
     c.fillStyle = '#050404';
@@ -179,7 +204,8 @@ export class Plane {
     circles(c, this, this.#colours);
     this.#labels = [];
     const all = this.all(),
-      behind = body => body.x[2] * Math.cos(this.tilt) - body.x[1] * Math.sin(this.tilt) < 0 && Math.hypot(...body.x) < 1e4;
+      behind = body =>
+        body.x[2] * Math.cos(this.tilt) - body.x[1] * Math.sin(this.tilt) < 0 && Math.hypot(...body.x) < 1e4;
     this.#drawTrails(c);
     this.#drawDebris(c, w, h);
     for (const body of all.filter(behind)) this.#drawBody(c, body, w, h);
@@ -218,7 +244,8 @@ export class Plane {
     c.globalAlpha = 1;
   }
 
-  // From one place to the next as the velocities at both say (Hermite, as a Bezier curve). Where it has gone round too far meanwhile nobody knows how.
+  // From one place to the next as the velocities at both say (Hermite, as a Bezier curve). Where it has gone round too
+  // far meanwhile nobody knows how.
   #stretch(c, before, now, on) {
     const there = this.project(now);
     if (!on) return c.moveTo(...there);
@@ -252,7 +279,7 @@ export class Plane {
     c.arc(x, y, size, 0, 2 * Math.PI);
     c.fillStyle = body.temperature_k > 0 ? this.#colour(body.temperature_k) : '#000';
     c.fill();
-    if (!(body.temperature_k > 0)) ((c.strokeStyle = this.#colours.edge), c.stroke());
+    if (!(body.temperature_k > 0)) (c.strokeStyle = this.#colours.edge), c.stroke();
     if (body.id === this.chosen) {
       c.beginPath();
       c.arc(x, y, size + 5, 0, 2 * Math.PI);
@@ -264,7 +291,11 @@ export class Plane {
       wide = c.measureText(name).width,
       [left, low] = [x + size + 6, y + 4];
     // A name that would lie on another one waits until there is room, but for the chosen body's.
-    if (body.id !== this.chosen && this.#labels.some(one => Math.abs(one.low - low) < 13 && left < one.left + one.wide && one.left < left + wide)) return;
+    if (
+      body.id !== this.chosen &&
+      this.#labels.some(one => Math.abs(one.low - low) < 13 && left < one.left + one.wide && one.left < left + wide)
+    )
+      return;
     this.#labels.push({ left, low, wide });
     c.fillStyle = this.#colours.ink;
     c.textAlign = 'left';

@@ -22,9 +22,21 @@ const words = {
       'Five planets and a moon, each with the trail that it leaves: the nearer the faster, the innermost goes round within four seconds. As light shows it gas glows near the hole, and what passes behind is seen lifted over it. Press where nothing is and drag: you throw one more, and can send it between them.',
       'Cinque pianeti e una luna, ciascuno con la sua scia: i più vicini vanno più in fretta, il più interno fa un giro in quattro secondi. Come lo mostra la luce, vicino al buco splende del gas, e ciò che passa dietro si vede sollevato sopra di esso. Premi dove non c’è nulla e trascina: ne lanci un altro, anche in mezzo a loro.',
     ),
-  binary: () => t('Two dark bodies lose energy to gravitational waves, come nearer, turn faster, and merge. With the sound on their wave is heard.', 'Due corpi oscuri perdono energia in onde gravitazionali, si avvicinano, girano più in fretta e si fondono. Con il suono acceso se ne sente l’onda.'),
-  emri: () => t('A light body spirals towards the hole, faster the nearer it is, and falls in once it is within the last stable orbit (green). With the sound on its wave is heard.', 'Un corpo leggero scende a spirale verso il buco, tanto più in fretta quanto più è vicino, e cade una volta dentro l’ultima orbita stabile (verde). Con il suono acceso se ne sente l’onda.'),
-  'figure-eight': () => t('Three equal bodies follow one another along the same eight. Throw a fourth one among them, and it is over.', 'Tre corpi uguali si inseguono lungo lo stesso otto. Lanciane un quarto in mezzo, e finisce.'),
+  binary: () =>
+    t(
+      'Two dark bodies lose energy to gravitational waves, come nearer, turn faster, and merge. With the sound on their wave is heard.',
+      'Due corpi oscuri perdono energia in onde gravitazionali, si avvicinano, girano più in fretta e si fondono. Con il suono acceso se ne sente l’onda.',
+    ),
+  emri: () =>
+    t(
+      'A light body spirals towards the hole, faster the nearer it is, and falls in once it is within the last stable orbit (green). With the sound on its wave is heard.',
+      'Un corpo leggero scende a spirale verso il buco, tanto più in fretta quanto più è vicino, e cade una volta dentro l’ultima orbita stabile (verde). Con il suono acceso se ne sente l’onda.',
+    ),
+  'figure-eight': () =>
+    t(
+      'Three equal bodies follow one another along the same eight. Throw a fourth one among them, and it is over.',
+      'Tre corpi uguali si inseguono lungo lo stesso otto. Lanciane un quarto in mezzo, e finisce.',
+    ),
 };
 
 export const seenOf = name => words[name]?.() ?? '';

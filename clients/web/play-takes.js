@@ -4,14 +4,20 @@ import { take } from './server.js';
 
 // part: of playground-parts.js; running: running.js; act(task) tells what is wrong; begin(snapshot).
 export function buildTakes(part, running, act, begin) {
-  for (const [button, what, name, type] of part.takes) button.addEventListener('click', () => act(() => take(running.address(what), name, type)));
+  for (const [button, what, name, type] of part.takes)
+    button.addEventListener('click', () => act(() => take(running.address(what), name, type)));
   // Films, once somebody looks.
   let films = null;
   const filmed = part.record.closest('details');
   const record = () =>
     filmed.open &&
     (films ??= import('./record.js')
-      .then(({ recordPlay }) => recordPlay(part.record, running, () => ({ width: part.pictures.clientWidth, height: part.pictures.clientHeight })))
+      .then(({ recordPlay }) =>
+        recordPlay(part.record, running, () => ({
+          width: part.pictures.clientWidth,
+          height: part.pictures.clientHeight,
+        })),
+      )
       .catch(() => (films = null)));
   filmed.addEventListener('toggle', record);
   if (remembered('play-film')) filmed.open = true;

@@ -28,11 +28,17 @@ function clock(node) {
   return tick => {
     const { rate, rate_reached: reached, slowed, paused, resting } = tick,
       pace = number(rate, 3),
-      counts = [t(`bodies: ${number(tick.bodies)}`, `corpi: ${number(tick.bodies)}`), tick.debris > 0 && t(`debris: ${number(tick.debris)}`, `detriti: ${number(tick.debris)}`)];
+      counts = [
+        t(`bodies: ${number(tick.bodies)}`, `corpi: ${number(tick.bodies)}`),
+        tick.debris > 0 && t(`debris: ${number(tick.debris)}`, `detriti: ${number(tick.debris)}`),
+      ];
     const going = paused
       ? t('time stands still', 'il tempo è fermo')
       : slowed && reached < 0.97 * rate
-        ? t(`${number(reached, 3)} M a second; asked for ${pace}: more it cannot compute`, `${number(reached, 3)} M al secondo; chiesti ${pace}: di più non riesce a calcolare`)
+        ? t(
+            `${number(reached, 3)} M a second; asked for ${pace}: more it cannot compute`,
+            `${number(reached, 3)} M al secondo; chiesti ${pace}: di più non riesce a calcolare`,
+          )
         : resting
           ? t('it rests', 'riposa')
           : t(`${pace} M a second`, `${pace} M al secondo`);
@@ -49,7 +55,16 @@ export function parts(root, known) {
     fit = button('play-fit', '↺', { 'aria-label': t('The view as at first (0)', 'La vista com’era (0)') });
   const stage = el(
     'div',
-    { id: 'play-stage', tabindex: 0, role: 'application', 'aria-describedby': 'play-how', 'aria-label': t('The plane of the hole from above: bodies are thrown here', 'Il piano del buco dall’alto: qui si lanciano i corpi') },
+    {
+      id: 'play-stage',
+      tabindex: 0,
+      role: 'application',
+      'aria-describedby': 'play-how',
+      'aria-label': t(
+        'The plane of the hole from above: bodies are thrown here',
+        'Il piano del buco dall’alto: qui si lanciano i corpi',
+      ),
+    },
     canvas,
     el('div', { class: 'buttons' }, nearer, farther, fit),
   );
@@ -57,18 +72,38 @@ export function parts(root, known) {
       id: 'play-lensed',
       tabindex: 0,
       role: 'application',
-      'aria-label': t('The playground as light shows it: drag or arrow keys turn the camera', 'Il laboratorio come lo mostra la luce: trascina o usa le frecce per girare la camera'),
+      'aria-label': t(
+        'The playground as light shows it: drag or arrow keys turn the camera',
+        'Il laboratorio come lo mostra la luce: trascina o usa le frecce per girare la camera',
+      ),
       hidden: true,
     }),
     pictures = el('div', { id: 'play-pictures' }, stage, lensed),
-    views = [['plan', t('From above', 'Dall’alto')], ['lensed', t('As light shows it', 'Come lo mostra la luce')], ['both', t('Both', 'Tutt’e due')]].map(([value, text]) => button('play-show-' + value, text, { value }));
+    views = [
+      ['plan', t('From above', 'Dall’alto')],
+      ['lensed', t('As light shows it', 'Come lo mostra la luce')],
+      ['both', t('Both', 'Tutt’e due')],
+    ].map(([value, text]) => button('play-show-' + value, text, { value }));
   const told = el('p', { id: 'play-clock' }),
     words = el('p', { id: 'play-words' }),
     said = el('p', { id: 'play-said', class: 'help', role: 'status' }),
     fault = el('p', { id: 'play-fault', class: 'fault', role: 'status' });
   const tilt = el('input', { type: 'range', id: 'play-tilt', min: 0, max: 80, value: 0 }),
-    middle = el('select', { id: 'play-middle' }, [['', t('stays', 'resta ferma')], ['all', t('goes with all bodies', 'segue tutti i corpi')], ['chosen', t('goes with the chosen body', 'segue il corpo scelto')]].map(([value, text]) => el('option', { value }, text)));
-  const preset = el('select', { id: 'play-preset' }, el('option', { value: '', hidden: true }, t('a snapshot', 'un’istantanea')), known.presets.map(({ name, title }) => el('option', { value: name, title }, titled(name, english[name] ?? name)))),
+    middle = el(
+      'select',
+      { id: 'play-middle' },
+      [
+        ['', t('stays', 'resta ferma')],
+        ['all', t('goes with all bodies', 'segue tutti i corpi')],
+        ['chosen', t('goes with the chosen body', 'segue il corpo scelto')],
+      ].map(([value, text]) => el('option', { value }, text)),
+    );
+  const preset = el(
+      'select',
+      { id: 'play-preset' },
+      el('option', { value: '', hidden: true }, t('a snapshot', 'un’istantanea')),
+      known.presets.map(({ name, title }) => el('option', { value: name, title }, titled(name, english[name] ?? name))),
+    ),
     help = el('p', { class: 'help', id: 'play-preset-help' }),
     again = button('play-again', t('Begin again', 'Ricomincia')),
     pause = button('play-pause', ''),
@@ -102,18 +137,85 @@ export function parts(root, known) {
     heard,
     group(t('Throw', 'Lancia'), true, body, foretold),
     group(t('What acts', 'Che cosa agisce'), true, rules, waves),
-    group(t('View', 'Vista'), false, field('play-tilt', t('Tilt', 'Inclinazione'), tilt), field('play-middle', t('Its middle', 'Il suo centro'), middle)),
-    group(t('Take and bring', 'Scarica e carica'), false, el('p', { class: 'row' }, takes.map(([node]) => node)), field('play-load', t('Load a snapshot', 'Carica un’istantanea'), load), record),
+    group(
+      t('View', 'Vista'),
+      false,
+      field('play-tilt', t('Tilt', 'Inclinazione'), tilt),
+      field('play-middle', t('Its middle', 'Il suo centro'), middle),
+    ),
+    group(
+      t('Take and bring', 'Scarica e carica'),
+      false,
+      el(
+        'p',
+        { class: 'row' },
+        takes.map(([node]) => node),
+      ),
+      field('play-load', t('Load a snapshot', 'Carica un’istantanea'), load),
+      record,
+    ),
     group(t('What is modelled, not computed', 'Ciò che è modello, non calcolo'), false, approximations),
   );
   root.replaceChildren(
-    el('p', { class: 'lead' }, t('Throw bodies round the hole. The server moves them, tears stars apart and lets pairs spiral together.', 'Lancia corpi attorno al buco. Il server li muove, fa a pezzi le stelle e fa avvicinare le coppie a spirale.')),
+    el(
+      'p',
+      { class: 'lead' },
+      t(
+        'Throw bodies round the hole. The server moves them, tears stars apart and lets pairs spiral together.',
+        'Lancia corpi attorno al buco. Il server li muove, fa a pezzi le stelle e fa avvicinare le coppie a spirale.',
+      ),
+    ),
     fault,
-    el('div', { class: 'play' }, el('div', { class: 'seen' }, el('div', { class: 'row views', role: 'group', 'aria-label': t('Show', 'Mostra') }, views), pictures, told, words, said, el('p', { class: 'help', id: 'play-how' }, keys())), panel, el('div', { class: 'told' }, events, charts)),
+    el(
+      'div',
+      { class: 'play' },
+      el(
+        'div',
+        { class: 'seen' },
+        el('div', { class: 'row views', role: 'group', 'aria-label': t('Show', 'Mostra') }, views),
+        pictures,
+        told,
+        words,
+        said,
+        el('p', { class: 'help', id: 'play-how' }, keys()),
+      ),
+      panel,
+      el('div', { class: 'told' }, events, charts),
+    ),
   );
   return {
-    canvas, stage, lensed, pictures, views, nearer, farther, fit, tilt, middle, preset, help, again, pause, step, pace, rate, sound, heard, rules, waves, body, foretold,
-    approximations, takes, load, record, events, charts, words, said, fault,
+    canvas,
+    stage,
+    lensed,
+    pictures,
+    views,
+    nearer,
+    farther,
+    fit,
+    tilt,
+    middle,
+    preset,
+    help,
+    again,
+    pause,
+    step,
+    pace,
+    rate,
+    sound,
+    heard,
+    rules,
+    waves,
+    body,
+    foretold,
+    approximations,
+    takes,
+    load,
+    record,
+    events,
+    charts,
+    words,
+    said,
+    fault,
     clock: clock(told),
     paused(yes) {
       pause.textContent = yes ? t('Go on', 'Riprendi') : t('Pause', 'Pausa');

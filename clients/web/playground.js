@@ -31,7 +31,14 @@ export async function openPlayground() {
   const known = await getJson('v1/playground');
   // What is fitted into the window needs its size.
   await new Promise((done, fail) =>
-    document.head.append(el('link', { rel: 'stylesheet', href: new URL('playground.css', import.meta.url), onload: done, onerror: () => fail(new Error(t('The server does not answer', 'Il server non risponde'))) })),
+    document.head.append(
+      el('link', {
+        rel: 'stylesheet',
+        href: new URL('playground.css', import.meta.url),
+        onload: done,
+        onerror: () => fail(new Error(t('The server does not answer', 'Il server non risponde'))),
+      }),
+    ),
   );
   const root = byId('playground'),
     part = parts(root, known),
@@ -63,7 +70,12 @@ export async function openPlayground() {
   const patch = change => act(() => running.change(change));
 
   // What is aimed at, drawn and foretold.
-  const { speed, foretell } = foretold(running, plane, () => hand.aims, () => form.fields().mass);
+  const { speed, foretell } = foretold(
+    running,
+    plane,
+    () => hand.aims,
+    () => form.fields().mass,
+  );
   function showAim(aims) {
     const ref = speed(aims.from),
       v = Math.hypot(...aims.velocity),
@@ -90,7 +102,9 @@ export async function openPlayground() {
     flying = mine;
     const fields = form.fields(),
       v = velocity.map(x => Number(x.toPrecision(9)));
-    const state = await patch(body == null ? { add: [{ ...fields, position: from, velocity: v }] } : { change: [{ id: body, velocity: v }] });
+    const state = await patch(
+      body == null ? { add: [{ ...fields, position: from, velocity: v }] } : { change: [{ id: body, velocity: v }] },
+    );
     if (flying === mine) flying = null;
     if (!state) return;
     const id = body ?? state.added?.[0];
@@ -129,7 +143,8 @@ export async function openPlayground() {
   });
   function next(by) {
     const ids = plane.all().map(({ id }) => id);
-    if (ids.length) choose(ids[(ids.indexOf(chosen) + by + (chosen == null && by < 0 ? 1 : 0) + ids.length) % ids.length]);
+    if (ids.length)
+      choose(ids[(ids.indexOf(chosen) + by + (chosen == null && by < 0 ? 1 : 0) + ids.length) % ids.length]);
     if (chosen != null) say(plane.names.get(chosen) ?? '');
   }
   function fit() {
@@ -185,7 +200,9 @@ export async function openPlayground() {
     }),
     hurry = rate => setRate((hurries = rate));
   part.pace.addEventListener('input', () => hurry((part.rate.value = pace.from(part.pace.valueAsNumber))));
-  part.rate.addEventListener('change', () => (part.rate.validity.valid ? hurry(part.rate.valueAsNumber) : part.rate.reportValidity()));
+  part.rate.addEventListener('change', () =>
+    part.rate.validity.valid ? hurry(part.rate.valueAsNumber) : part.rate.reportValidity(),
+  );
   part.pause.addEventListener('click', pause);
   part.step.addEventListener('click', step);
   part.nearer.addEventListener('click', () => plane.zoom(1.25));
@@ -198,7 +215,8 @@ export async function openPlayground() {
     hole = {};
     link.set('play.rate', null);
     link.set('play.preset', part.preset.value === first ? null : part.preset.value);
-    show([...part.views].find(button => button.getAttribute('aria-pressed') === 'true')?.value ?? usual()); // what is usual is another thing now
+    // what is usual is another thing now
+    show([...part.views].find(button => button.getAttribute('aria-pressed') === 'true')?.value ?? usual());
     begin();
   });
   part.again.addEventListener('click', () => begin());
@@ -230,7 +248,8 @@ export async function openPlayground() {
     else plane.radii = { horizon: 2, photons: 3, bound: 4, isco: 6 };
   });
   running.addEventListener('state', ({ detail: state }) => {
-    const newest = !running.waits(); // an answer to what was asked before would take back for a moment what somebody has just set
+    // an answer to what was asked before would take back for a moment what somebody has just set
+    const newest = !running.waits();
     if (newest) showRules(state.settings);
     part.views[0].parentNode.hidden = !state.scene; // there are no pictures where the server has no scene for it
     plane.names = new Map(state.bodies.map(({ id, name }) => [id, said(name).text]));
@@ -247,7 +266,9 @@ export async function openPlayground() {
           );
     const sentences = state.approximations.map(text => el('li', {}, tell(el('span'), text)));
     part.approximations.replaceChildren(...sentences);
-    part.waves.replaceChildren(...state.approximations.filter(text => /\bwaves\b/.test(text)).flatMap(text => [tell(el('span'), text), ' ']));
+    part.waves.replaceChildren(
+      ...state.approximations.filter(text => /\bwaves\b/.test(text)).flatMap(text => [tell(el('span'), text), ' ']),
+    );
     part.waves.hidden = !state.settings.waves;
   });
   running.addEventListener('moved', ({ detail }) => {
@@ -261,7 +282,8 @@ export async function openPlayground() {
       else if (body) form.choose(body);
       else if (!awaited || !plane.names.has(chosen)) choose(null);
     }
-    if (hand.aims.body != null && plane.body(hand.aims.body)) Object.assign(hand.aims, { from: plane.body(hand.aims.body).x });
+    if (hand.aims.body != null && plane.body(hand.aims.body))
+      Object.assign(hand.aims, { from: plane.body(hand.aims.body).x });
     if (hand.aims.armed) showAim(hand.aims);
   });
   running.addEventListener('debris', ({ detail }) => {
@@ -269,7 +291,8 @@ export async function openPlayground() {
     part.canvas.dataset.debris = detail.n;
     plane.redraw();
   });
-  const kinetic = () => plane.all().reduce((sum, { mass, v }) => sum + 0.5 * mass * (v[0] ** 2 + v[1] ** 2 + v[2] ** 2), 0);
+  const kinetic = () =>
+    plane.all().reduce((sum, { mass, v }) => sum + 0.5 * mass * (v[0] ** 2 + v[1] ** 2 + v[2] ** 2), 0);
   running.addEventListener('tick', ({ detail: tick }) => {
     charts.follow(tick, kinetic(), running.address('fallback'));
     sound.follow(tick);

@@ -1,5 +1,5 @@
-// uPlot draws the charts. What is added here: curves that do not share their x, marks, a legend that hides curves and says their
-// values, reading by keyboard, and the numbers as a table beside each.
+// uPlot draws the charts. What is added here: curves that do not share their x, marks, a legend that hides curves and
+// says their values, reading by keyboard, and the numbers as a table beside each.
 import { el, svg } from './dom.js';
 import { number, t } from './i18n.js';
 import { numbers, shared } from './numbers.js';
@@ -8,7 +8,11 @@ document.head.append(el('link', { rel: 'stylesheet', href: new URL('vendor/uplot
 // The shorter of uPlot's two builds is a script, not a module: it leaves its name in the window.
 const uPlot = await new Promise((done, fail) =>
   document.head.append(
-    el('script', { src: new URL('vendor/uplot/uPlot.iife.min.js', import.meta.url), onload: () => done(window.uPlot), onerror: () => fail(new Error('uPlot')) }),
+    el('script', {
+      src: new URL('vendor/uplot/uPlot.iife.min.js', import.meta.url),
+      onload: () => done(window.uPlot),
+      onerror: () => fail(new Error('uPlot')),
+    }),
   ),
 );
 
@@ -66,14 +70,16 @@ function drawMarks(u, marks) {
     ctx.lineWidth = ratio;
     ctx.setLineDash([3 * ratio, 3 * ratio]);
     ctx.beginPath();
-    if (upright) (ctx.moveTo(at, bbox.top), ctx.lineTo(at, bbox.top + bbox.height));
-    else (ctx.moveTo(bbox.left, at), ctx.lineTo(bbox.left + bbox.width, at));
+    if (upright) ctx.moveTo(at, bbox.top), ctx.lineTo(at, bbox.top + bbox.height);
+    else ctx.moveTo(bbox.left, at), ctx.lineTo(bbox.left + bbox.width, at);
     ctx.stroke();
     ctx.fillStyle = colour('--ink');
     ctx.textAlign = upright && !mark.left ? 'left' : 'right';
     const above = at - bbox.top > 16 * ratio ? -4 : 14;
     const down = mark.low ? bbox.height - 8 * ratio : (12 + 14 * (i % 4)) * ratio;
-    const place = upright ? [at + (mark.left ? -4 : 4) * ratio, bbox.top + down] : [bbox.left + bbox.width - 4 * ratio, at + above * ratio];
+    const place = upright
+      ? [at + (mark.left ? -4 : 4) * ratio, bbox.top + down]
+      : [bbox.left + bbox.width - 4 * ratio, at + above * ratio];
     ctx.fillText(mark.label ?? '', ...place);
   });
   ctx.restore();
@@ -99,16 +105,23 @@ function axis(label, values, more) {
 const room = (u, values) => 12 + 7 * Math.max(2, ...(values ?? []).map(text => text.length));
 
 function key(style) {
-  return svg('svg', { viewBox: '0 0 26 8', class: 'key', 'aria-hidden': 'true' }, svg('path', { class: `line line-${style}`, d: 'M0 4H26' }));
+  return svg(
+    'svg',
+    { viewBox: '0 0 26 8', class: 'key', 'aria-hidden': 'true' },
+    svg('path', { class: `line line-${style}`, d: 'M0 4H26' }),
+  );
 }
 
-// spec: { title, note, csv, live, x: { label, min, max, log }, y: likewise, series: [{ name, x, y, style }], marks: [{ x or y, label, low, left }] }.
-// Returns the figure, with a method draw(spec) that puts other numbers into it.
+// spec: { title, note, csv, live, x: { label, min, max, log }, y: likewise, series: [{ name, x, y, style }], marks: [{
+// x or y, label, low, left }] }. Returns the figure, with a method draw(spec) that puts other numbers into it.
 export function plot(first) {
   const id = 'plot-' + ++count,
     caption = el('figcaption', { id });
   const chart = el('div', { class: 'chart', role: 'slider', tabindex: 0, 'aria-labelledby': id });
-  const legend = el('ul', { class: 'legend', 'aria-label': t('Curves: press to hide or show', 'Curve: premi per nasconderle o mostrarle') });
+  const legend = el('ul', {
+    class: 'legend',
+    'aria-label': t('Curves: press to hide or show', 'Curve: premi per nasconderle o mostrarle'),
+  });
   const note = el('p', { class: 'help' }),
     list = numbers(id);
   const figure = el('figure', { class: 'plot' }, caption, chart, legend, note, list);
@@ -120,7 +133,10 @@ export function plot(first) {
 
   const shift = axis => power(limits[axis], spec[axis].log),
     label = axis => spec[axis].label + (shift(axis) ? ` / ${number(10 ** shift(axis))}` : '');
-  const size = () => ({ width: chart.clientWidth, height: Math.round(Math.min(Math.max(chart.clientWidth * 0.6, 200), 340)) });
+  const size = () => ({
+    width: chart.clientWidth,
+    height: Math.round(Math.min(Math.max(chart.clientWidth * 0.6, 200), 340)),
+  });
 
   // The values at the cursor: in the legend, and as what the slider that the chart is stands at.
   function read() {
@@ -133,7 +149,10 @@ export function plot(first) {
     chart.setAttribute('aria-valuenow', u.data[0][at] ?? 0);
     chart.setAttribute(
       'aria-valuetext',
-      [`${spec.x.label}: ${number(u.data[0][at])}`, ...spec.series.map((s, i) => `${s.name}: ${number(values[i])}`)].join('; '),
+      [
+        `${spec.x.label}: ${number(u.data[0][at])}`,
+        ...spec.series.map((s, i) => `${s.name}: ${number(values[i])}`),
+      ].join('; '),
     );
   }
 
@@ -148,22 +167,25 @@ export function plot(first) {
         cursor: { y: false, drag: { x: false, y: false }, points: { size: 7 } },
         scales: { x: scale('x', spec.x), y: scale('y', spec.y) },
         axes: [
-          axis(
-            () => label('x'),
-            ticks('x'),
-            { size: 28, space: 60, ...(spec.x.whole ? { incrs: [1, 2, 5, 10] } : {}) },
-          ),
-          axis(
-            () => label('y'),
-            ticks('y'),
-            { size: room, space: 36 },
-          ),
+          axis(() => label('x'), ticks('x'), {
+            size: 28,
+            space: 60,
+            ...(spec.x.whole ? { incrs: [1, 2, 5, 10] } : {}),
+          }),
+          axis(() => label('y'), ticks('y'), { size: room, space: 36 }),
         ],
         series: [
           {},
           ...spec.series.map((s, i) => {
             const [stroke, dash] = s.style === 'dim' ? ['--dim', [5, 4]] : strokes[i % strokes.length];
-            return { stroke: colour(stroke), dash, width: s.style === 'dim' ? 1.5 : 2, show: !hidden.has(s.name), pxAlign: 0, points: { show: false } };
+            return {
+              stroke: colour(stroke),
+              dash,
+              width: s.style === 'dim' ? 1.5 : 2,
+              show: !hidden.has(s.name),
+              pxAlign: 0,
+              points: { show: false },
+            };
           }),
         ],
         hooks: { draw: [() => drawMarks(u, spec.marks ?? [])], setCursor: [() => u && read()] },
@@ -176,7 +198,13 @@ export function plot(first) {
 
   function toggle(s, i) {
     const name = el('span', {}, s.name);
-    const button = el('button', { type: 'button', 'aria-pressed': !hidden.has(s.name) }, key(s.style ?? i % strokes.length), name, el('b', {}));
+    const button = el(
+      'button',
+      { type: 'button', 'aria-pressed': !hidden.has(s.name) },
+      key(s.style ?? i % strokes.length),
+      name,
+      el('b', {}),
+    );
     button.addEventListener('click', () => {
       const called = spec.series[i].name;
       if (!hidden.delete(called)) hidden.add(called);
@@ -219,7 +247,16 @@ export function plot(first) {
     list.show(spec);
   }
 
-  const moves = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: 10, PageDown: -10, Home: -Infinity, End: Infinity };
+  const moves = {
+    ArrowRight: 1,
+    ArrowUp: 1,
+    ArrowLeft: -1,
+    ArrowDown: -1,
+    PageUp: 10,
+    PageDown: -10,
+    Home: -Infinity,
+    End: Infinity,
+  };
   chart.addEventListener('keydown', event => {
     if (!u || !(event.key in moves) || event.ctrlKey || event.metaKey || event.altKey) return;
     event.preventDefault();

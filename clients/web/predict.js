@@ -1,6 +1,7 @@
-// Where something thrown will go. In the potential of Paczynski and Wiita this is reckoned here, by the law and the steps that the server
-// has (playground/step.c): kick, drift, kick, h <= C (r - 2), softened pulls of the other bodies, speeds held at c. Waves, tides and mergers
-// are left out, and the pulls of light bodies. With gravity "kerr" the server is asked (POST /v1/orbits).
+// Where something thrown will go. In the potential of Paczynski and Wiita this is reckoned here, by the law and the
+// steps that the server has (playground/step.c): kick, drift, kick, h <= C (r - 2), softened pulls of the other bodies,
+// speeds held at c. Waves, tides and mergers are left out, and the pulls of light bodies. With gravity "kerr" the
+// server is asked (POST /v1/orbits).
 import { postJson } from './server.js';
 
 const light = 1e-5, // masses of the hole
@@ -22,7 +23,8 @@ export const heavy = bodies =>
 export function reference(place, bodies, softening) {
   const r = Math.max(radius(place), 2.5);
   let square = r / (r - 2) ** 2;
-  for (const body of bodies) square += body.mass / Math.hypot(...place.map((x, k) => x - body.x[k]), softening, body.radius);
+  for (const body of bodies)
+    square += body.mass / Math.hypot(...place.map((x, k) => x - body.x[k]), softening, body.radius);
   return Math.min(Math.sqrt(square), 0.9);
 }
 
@@ -59,7 +61,8 @@ function kick(v, a, n, time) {
   }
 }
 
-// thrown: { x, v, mass }; bodies: likewise, without it. Returns { points, captured }, up to one and a half turns or `far` from the hole.
+// thrown: { x, v, mass }; bodies: likewise, without it. Returns { points, captured }, up to one and a half turns or
+// `far` from the hole.
 export function predict(thrown, bodies, { softening, safety, h_max }, far) {
   const all = [thrown, ...heavy(bodies)],
     x = Float64Array.from(all.flatMap(body => body.x)),
@@ -96,7 +99,8 @@ export function predict(thrown, bodies, { softening, safety, h_max }, far) {
     kick(v, a, n, h / 2);
     t += h;
     const last = points.at(-1);
-    if (Math.hypot(here[0] - last[0], here[1] - last[1], here[2] - last[2]) > Math.min(apart, out / 60)) points.push(here);
+    if (Math.hypot(here[0] - last[0], here[1] - last[1], here[2] - last[2]) > Math.min(apart, out / 60))
+      points.push(here);
     if (out > far) break;
   }
   return { points, captured: false };
@@ -117,13 +121,22 @@ export async function ask_kerr({ x, v }, spin, far) {
     duration: { time: 3 * Math.PI * r ** 1.5 },
     orbit: {
       position: { r, theta_deg: (theta * 180) / Math.PI, phi_deg: (phi * 180) / Math.PI },
-      velocity: { frame: 'zamo', v_r: along(s * cp, s * sp, c), v_theta: along(c * cp, c * sp, -s), v_phi: along(-sp, cp, 0) },
+      velocity: {
+        frame: 'zamo',
+        v_r: along(s * cp, s * sp, c),
+        v_theta: along(c * cp, c * sp, -s),
+        v_phi: along(-sp, cp, 0),
+      },
     },
   });
   const { columns, rows } = answer.series,
     [ir, ith, iphi] = ['r', 'theta', 'phi'].map(name => columns.indexOf(name));
   const points = rows
     .filter(row => row[iphi] != null)
-    .map(row => [row[ir] * Math.sin(row[ith]) * Math.cos(row[iphi]), row[ir] * Math.sin(row[ith]) * Math.sin(row[iphi]), row[ir] * Math.cos(row[ith])]);
+    .map(row => [
+      row[ir] * Math.sin(row[ith]) * Math.cos(row[iphi]),
+      row[ir] * Math.sin(row[ith]) * Math.sin(row[iphi]),
+      row[ir] * Math.cos(row[ith]),
+    ]);
   return { points, captured: answer.result.end === 'horizon' };
 }

@@ -1,4 +1,5 @@
-// The box of presets. It names the one that the scene is, at whatever time and from whichever side; a link remembers the name.
+// The box of presets. It names the one that the scene is, at whatever time and from whichever side; a link remembers
+// the name.
 import { firstDocument, first_view } from './ahead.js';
 import { byId, el } from './dom.js';
 import { label, t, tell } from './i18n.js';
@@ -17,17 +18,26 @@ export async function startAgain(scene) {
   scene.replace(first_view ? await document_of(first_view) : {}, {}, scene.fits);
 }
 
-// What a link says of the scene goes over the preset that it names, and without one over the default scene. One that says nothing is of the first view.
+// What a link says of the scene goes over the preset that it names, and without one over the default scene. One that
+// says nothing is of the first view.
 export async function openPreset(scene) {
-  const chosen = link.get('preset') ?? (scene.linked.some(path => !['image', 'time'].includes(path.split('.')[0])) ? plain : first_view),
+  const chosen =
+      link.get('preset') ??
+      (scene.linked.some(path => !['image', 'time'].includes(path.split('.')[0])) ? plain : first_view),
     held = scene.held,
     linked = Object.fromEntries(scene.linked.map(path => [path, scene.get(path)]));
-  const document = !chosen || chosen === plain ? {} : (chosen === first_view && (await firstDocument())) || await document_of(chosen).catch(error => {
-    if (error.status !== 404) throw error;
-    scene.unknown.push('preset');
-  });
+  const document =
+    !chosen || chosen === plain
+      ? {}
+      : (chosen === first_view && (await firstDocument())) ||
+        (await document_of(chosen).catch(error => {
+          if (error.status !== 404) throw error;
+          scene.unknown.push('preset');
+        }));
   // The width that the preset has anyhow nobody has chosen.
-  const given = Object.fromEntries(Object.entries(linked).filter(([path, value]) => value !== valueAt(document ?? {}, path)));
+  const given = Object.fromEntries(
+    Object.entries(linked).filter(([path, value]) => value !== valueAt(document ?? {}, path)),
+  );
   scene.replace(document ?? {}, linked, values => scene.fits(values, given));
   if (held) scene.hold(true);
 }
@@ -45,12 +55,14 @@ function essence(scene, document, fitted = null) {
   return JSON.stringify(own);
 }
 
-// A link with a preset says what differs from it, so the default too, where the preset has another value. The width that the window asks for is not said.
+// A link with a preset says what differs from it, so the default too, where the preset has another value. The width
+// that the window asks for is not said.
 function linkBeside(scene, document, fitted) {
   for (const [path, { default: usual }] of scene.fields) {
     const theirs = told(valueAt(document, path)) ?? usual;
     if (fitted?.path === path) link.set(path, theirs === usual ? null : theirs);
-    else if (besides(path) && !left_out.includes(path) && theirs !== usual && scene.get(path) === usual) link.set(path, usual);
+    else if (besides(path) && !left_out.includes(path) && theirs !== usual && scene.get(path) === usual)
+      link.set(path, usual);
   }
 }
 
@@ -97,7 +109,9 @@ export async function buildPresets(scene) {
     }
   });
   for (const event of ['change', 'settle']) scene.addEventListener(event, follow);
-  const names = [link.get('preset') ?? first_view, first_view].filter(name => presets.some(preset => preset.name === name));
+  const names = [link.get('preset') ?? first_view, first_view].filter(name =>
+    presets.some(preset => preset.name === name),
+  );
   await Promise.all([...new Set(names)].map(learn));
   follow();
   buildGallery(scene, select, presets);

@@ -1,5 +1,5 @@
-// Films of five seconds, made by a job on the server while the page goes on: the pictures come first, and what they look like is shown as they come; then the server
-// has them encoded, or gives them as they are, numbered.
+// Films of five seconds, made by a job on the server while the page goes on: the pictures come first, and what they
+// look like is shown as they come; then the server has them encoded, or gives them as they are, numbered.
 import { el, latest } from './dom.js';
 import { duration, t, tell } from './i18n.js';
 import { jobOf, offer } from './job.js';
@@ -10,13 +10,26 @@ export const seconds = 5;
 const plan_ms = 600; // after the last change until what it would take is asked for
 const even = x => Math.max(2, 2 * Math.round(x / 2));
 
-const choose = (id, label, options) => el('div', {}, el('label', { for: id }, label), el('select', { id }, options.map(([value, text]) => el('option', { value }, text))));
+const choose = (id, label, options) =>
+  el(
+    'div',
+    {},
+    el('label', { for: id }, label),
+    el(
+      'select',
+      { id },
+      options.map(([value, text]) => el('option', { value }, text)),
+    ),
+  );
 const button = (id, text, attributes) => el('button', { type: 'button', id, ...attributes }, text);
 
-// kinds: [{ name, text, lacks(): why it would show nothing, request(n, width, height): a document of a job, plan(n, width, height): one of /v1/plan }]; size(): of what is
-// seen, in pixels; key: of the tab's memory, and of ids. Returns renew(), to be called when what would be filmed has changed.
+// kinds: [{ name, text, lacks(): why it would show nothing, request(n, width, height): a document of a job, plan(n,
+// width, height): one of /v1/plan }]; size(): of what is seen, in pixels; key: of the tab's memory, and of ids. Returns
+// renew(), to be called when what would be filmed has changed.
 export function buildFilms(box, { key, kinds, size }) {
-  const starts = kinds.map(({ name, text }) => button(`${key}-${name}`, text, { 'aria-describedby': `${key}-${name}-takes` })),
+  const starts = kinds.map(({ name, text }) =>
+      button(`${key}-${name}`, text, { 'aria-describedby': `${key}-${name}-takes` }),
+    ),
     takes = kinds.map(({ name }) => el('span', { id: `${key}-${name}-takes`, class: 'help' }));
   const sizes = choose(`${key}-size`, t('Size', 'Dimensioni'), [
       ['640', t('as seen, 640 wide', 'come si vede, larghe 640')],
@@ -28,7 +41,10 @@ export function buildFilms(box, { key, kinds, size }) {
     counts = choose(
       `${key}-frames`,
       t('Pictures', 'Immagini'),
-      [12, 24, 60].map(rate => [rate * seconds, t(`${rate * seconds}: ${rate} a second`, `${rate * seconds}: ${rate} al secondo`)]),
+      [12, 24, 60].map(rate => [
+        rate * seconds,
+        t(`${rate * seconds}: ${rate} a second`, `${rate * seconds}: ${rate} al secondo`),
+      ]),
     ),
     forms = choose(`${key}-form`, t('File', 'File'), [
       ['mp4', 'MP4 (H.264)'],
@@ -38,14 +54,33 @@ export function buildFilms(box, { key, kinds, size }) {
   const [wide, many, form] = [sizes, counts, forms].map(node => node.lastChild);
   many.value = 24 * seconds;
   const cancel = button(`${key}-cancel`, t('Cancel', 'Annulla'), { hidden: true }),
-    got = el('a', { class: 'button', id: `${key}-got`, href: '', hidden: true }, t('Download it again', 'Scaricalo di nuovo')),
-    bar = el('progress', { id: `${key}-bar`, max: 1, value: 0, hidden: true, 'aria-label': t('How much of the film is drawn', 'Quanto del film è disegnato') }),
-    preview = el('img', { id: `${key}-preview`, class: 'preview', hidden: true, alt: t('The film’s newest picture', 'L’immagine più recente del film') }),
+    got = el(
+      'a',
+      { class: 'button', id: `${key}-got`, href: '', hidden: true },
+      t('Download it again', 'Scaricalo di nuovo'),
+    ),
+    bar = el('progress', {
+      id: `${key}-bar`,
+      max: 1,
+      value: 0,
+      hidden: true,
+      'aria-label': t('How much of the film is drawn', 'Quanto del film è disegnato'),
+    }),
+    preview = el('img', {
+      id: `${key}-preview`,
+      class: 'preview',
+      hidden: true,
+      alt: t('The film’s newest picture', 'L’immagine più recente del film'),
+    }),
     told = el('p', { id: `${key}-told`, class: 'help', role: 'status' }),
     fault = el('p', { id: `${key}-fault`, class: 'fault', role: 'status' });
   box.replaceChildren(
     el('h2', {}, t('A film of five seconds', 'Un film di cinque secondi')),
-    el('div', { class: 'films' }, starts.map((start, i) => el('p', { class: 'row' }, start, ' ', takes[i]))),
+    el(
+      'div',
+      { class: 'films' },
+      starts.map((start, i) => el('p', { class: 'row' }, start, ' ', takes[i])),
+    ),
     el('div', { class: 'choices' }, sizes, counts, forms),
     el('p', { class: 'row' }, cancel, ' ', got),
     bar,
@@ -67,7 +102,7 @@ export function buildFilms(box, { key, kinds, size }) {
 
   // The newest picture, if another one has come.
   function look({ finished }, { id }) {
-    if (finished && finished !== shown && !looks) ((shown = finished), (looks = show(id)));
+    if (finished && finished !== shown && !looks) (shown = finished), (looks = show(id));
     return looks;
   }
 
@@ -79,7 +114,14 @@ export function buildFilms(box, { key, kinds, size }) {
       return { film: await ask(`${at}${as}&rate=${rate}`), as };
     } catch (error) {
       if (error.status !== 501) throw error;
-      return { film: await ask(at + 'zip'), as: 'zip', instead: t('This server has no ffmpeg, which encodes films: these are the numbered pictures.', 'Questo server non ha ffmpeg, che codifica i film: ecco le immagini numerate.') };
+      return {
+        film: await ask(at + 'zip'),
+        as: 'zip',
+        instead: t(
+          'This server has no ffmpeg, which encodes films: these are the numbered pictures.',
+          'Questo server non ha ffmpeg, che codifica i film: ecco le immagini numerate.',
+        ),
+      };
     }
   }
 
@@ -118,7 +160,11 @@ export function buildFilms(box, { key, kinds, size }) {
       const [n, width, height] = picked();
       got.hidden = preview.hidden = true;
       shown = -1;
-      job.begin(() => kinds[i].request(n, width, height), { name: `kerrd-${kinds[i].name}-${width}x${height}`, form: form.value, rate: n / seconds });
+      job.begin(() => kinds[i].request(n, width, height), {
+        name: `kerrd-${kinds[i].name}-${width}x${height}`,
+        form: form.value,
+        rate: n / seconds,
+      });
     }),
   );
 
@@ -130,7 +176,12 @@ export function buildFilms(box, { key, kinds, size }) {
         await postJson('v1/plan', kind.plan(...picked())).then(
           ({ estimate_ms, estimate_basis }) => {
             const time = duration(Number((estimate_ms / 1000).toPrecision(2)));
-            tell(takes[i], estimate_basis === 'guess' ? t(`some ${time}, by a guess`, `circa ${time}, a occhio`) : t(`about ${time}`, `circa ${time}`));
+            tell(
+              takes[i],
+              estimate_basis === 'guess'
+                ? t(`some ${time}, by a guess`, `circa ${time}, a occhio`)
+                : t(`about ${time}`, `circa ${time}`),
+            );
           },
           error => tell(takes[i], error.message),
         );
@@ -158,9 +209,15 @@ function glide(scene, path, range) {
   return {
     request(n, width, height) {
       const [from, to] = range(n);
-      return { scene: scene.document({ ...over(width, height), [path]: from }), keyframes: [{ frame: n - 1, scene: at(to) }] };
+      return {
+        scene: scene.document({ ...over(width, height), [path]: from }),
+        keyframes: [{ frame: n - 1, scene: at(to) }],
+      };
     },
-    plan: (n, width, height) => ({ scene: scene.document(over(width, height)), axes: { [path]: steps(...range(n), n) } }),
+    plan: (n, width, height) => ({
+      scene: scene.document(over(width, height)),
+      axes: { [path]: steps(...range(n), n) },
+    }),
   };
 }
 
@@ -186,15 +243,24 @@ export function recordScene(box, scene, size) {
     {
       name: 'time',
       text: t('Five seconds of time', 'Cinque secondi di tempo'),
-      lacks: () => !falls() && still('moves_with_time dims_with_time') && t('nothing moves in it', 'non vi si muove nulla'),
+      lacks: () =>
+        !falls() && still('moves_with_time dims_with_time') && t('nothing moves in it', 'non vi si muove nulla'),
       ...time,
       request(n, width, height) {
         const document = time.request(n, width, height);
-        if (falls()) document.keyframes = [{ frame: n - 1, proper_time: (scene.get('motion.proper_time_rate') * seconds * (n - 1)) / n }];
+        if (falls())
+          document.keyframes = [
+            { frame: n - 1, proper_time: (scene.get('motion.proper_time_rate') * seconds * (n - 1)) / n },
+          ];
         return document;
       },
     },
-    { name: 'spin', text: t('Spin 0 → 0.998', 'Rotazione 0 → 0,998'), lacks: () => null, ...glide(scene, 'spacetime.spin', () => [0, 0.998]) },
+    {
+      name: 'spin',
+      text: t('Spin 0 → 0.998', 'Rotazione 0 → 0,998'),
+      lacks: () => null,
+      ...glide(scene, 'spacetime.spin', () => [0, 0.998]),
+    },
   ];
   const renew = buildFilms(box, { key: 'film', kinds, size });
   for (const event of ['change', 'settle']) scene.addEventListener(event, renew);
@@ -210,7 +276,12 @@ export function recordPlay(box, running, size) {
     async request(n, width, height) {
       const { rate, scene } = running.state,
         { rate: pace, paused, scene: view, ...playground } = await getJson(running.address('snapshot'));
-      return { playground, every: (rate * seconds) / n, frames: n, scene: { ...scene, image: { ...scene.image, width, height } } };
+      return {
+        playground,
+        every: (rate * seconds) / n,
+        frames: n,
+        scene: { ...scene, image: { ...scene.image, width, height } },
+      };
     },
   };
   const renew = buildFilms(box, { key: 'play-film', kinds: [kind], size });

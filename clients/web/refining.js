@@ -1,9 +1,11 @@
-// A picture that takes the server long, the first one or a finer one: how much of it is done, and how many seconds are left, in words and as a bar at the picture’s edge.
+// A picture that takes the server long, the first one or a finer one: how much of it is done, and how many seconds are
+// left, in words and as a bar at the picture’s edge.
 import { byId, seen } from './dom.js';
 import { number, t } from './i18n.js';
 import { getJson } from './server.js';
 
-const patience_ms = 1500; // after the picture that is shown, or the change that asks for another one, before anything is said
+// after the picture that is shown, or the change that asks for another one, before anything is said
+const patience_ms = 1500;
 const every_ms = 700;
 
 const names = {
@@ -14,10 +16,17 @@ const names = {
 
 function sentence(name, { fraction, remaining_s: left }) {
   const done = `${names[name]()}: ${number(Math.round(100 * fraction))} %`;
-  return left == null ? done : done + t(`, ${number(Math.ceil(left))} s to go`, `, mancano ${number(Math.ceil(left))} s`).replace('mancano 1 s', 'manca 1 s');
+  return left == null
+    ? done
+    : done +
+        t(`, ${number(Math.ceil(left))} s to go`, `, mancano ${number(Math.ceil(left))} s`).replace(
+          'mancano 1 s',
+          'manca 1 s',
+        );
 }
 
-// address(): of the session; say(words): of what is on its way. Returns follow(waits): a picture other than the one that is shown is to come.
+// address(): of the session; say(words): of what is on its way. Returns follow(waits): a picture other than the one
+// that is shown is to come.
 export function buildRefining(address, say) {
   const bar = byId('refined'),
     first = byId('first');

@@ -1,5 +1,6 @@
-// The axes of the projection "ring" (src/render/view/ring.c): across, the angle round the critical curve; upwards, the distance to it, in decades on both
-// sides of the curve, outside it above; and the image orders by name, where light of the disk's edges puts them.
+// The axes of the projection "ring" (src/render/view/ring.c): across, the angle round the critical curve; upwards, the
+// distance to it, in decades on both sides of the curve, outside it above; and the image orders by name, where light of
+// the disk's edges puts them.
 import { svg } from './dom.js';
 import { drawn, physics } from './server.js';
 
@@ -25,7 +26,11 @@ export async function ringAxes(scene, width, height) {
       nodes.push(text(12, at + 4, `${side < 0 ? '−' : ''}10${superscript(log)}`));
     }
   }
-  for (let degrees = Math.ceil((get('roll_deg') - 180) / every_deg) * every_deg; degrees <= get('roll_deg') + 180; degrees += every_deg) {
+  for (
+    let degrees = Math.ceil((get('roll_deg') - 180) / every_deg) * every_deg;
+    degrees <= get('roll_deg') + 180;
+    degrees += every_deg
+  ) {
     const x = width * ((degrees - get('roll_deg')) / 360 + 0.5);
     if (x < 50 || x > width - 60) continue;
     lines.push(`M${x} ${height}v-8`);
@@ -35,8 +40,13 @@ export async function ringAxes(scene, width, height) {
   const x = width / 3,
     [inner, outer] = [scene.get('disk.inner'), scene.get('disk.outer')];
   const { values } = await physics('photon-rings', {
-    spin: scene.get('spacetime.spin'), inclination_deg: get('inclination_deg'), angle_deg: ((angle(x) % 360) + 360) % 360, order: `1:${orders}:${orders}`,
-    inner: typeof inner === 'number' ? inner : 'horizon', outer, ...drawn,
+    spin: scene.get('spacetime.spin'),
+    inclination_deg: get('inclination_deg'),
+    angle_deg: ((angle(x) % 360) + 360) % 360,
+    order: `1:${orders}:${orders}`,
+    inner: typeof inner === 'number' ? inner : 'horizon',
+    outer,
+    ...drawn,
   });
   values.outer_edge.forEach((edge, i) => {
     const from = values.inner_edge[i],

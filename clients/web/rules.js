@@ -37,12 +37,37 @@ function control(row, id, changed) {
   const common = { id, 'aria-describedby': `${hint} ${id}-nature` };
   if (row.type === 'boolean') {
     const input = el('input', { type: 'checkbox', ...common, onchange: () => changed(row.name, input.checked) });
-    return { node: el('div', { class: 'field', 'data-setting': row.name }, el('div', { class: 'head' }, el('label', { class: 'switch', for: id }, input, names[row.name] ?? row.name), mark), help), show: value => (input.checked = value) };
+    return {
+      node: el(
+        'div',
+        { class: 'field', 'data-setting': row.name },
+        el(
+          'div',
+          { class: 'head' },
+          el('label', { class: 'switch', for: id }, input, names[row.name] ?? row.name),
+          mark,
+        ),
+        help,
+      ),
+      show: value => (input.checked = value),
+    };
   }
   const input = row.words
-    ? el('select', common, row.words.map(choice => el('option', { value: choice }, word(choice))))
-    : el('input', { type: 'number', ...common, min: row.least, max: row.most, step: row.type === 'integer' ? 1 : 'any', required: true });
-  const tell = () => (input.validity.valid ? changed(row.name, row.words ? input.value : input.valueAsNumber) : input.reportValidity());
+    ? el(
+        'select',
+        common,
+        row.words.map(choice => el('option', { value: choice }, word(choice))),
+      )
+    : el('input', {
+        type: 'number',
+        ...common,
+        min: row.least,
+        max: row.most,
+        step: row.type === 'integer' ? 1 : 'any',
+        required: true,
+      });
+  const tell = () =>
+    input.validity.valid ? changed(row.name, row.words ? input.value : input.valueAsNumber) : input.reportValidity();
   input.addEventListener('change', tell);
   if (!row.words && row.type !== 'integer')
     stepByArrows(input, { minimum: row.least, maximum: row.most, default: row.default }, value => {
@@ -50,23 +75,38 @@ function control(row, id, changed) {
       tell();
     });
   return {
-    node: el('div', { class: 'field', 'data-setting': row.name }, el('div', { class: 'head' }, el('label', { for: id }, names[row.name] ?? row.name), mark), input, help),
+    node: el(
+      'div',
+      { class: 'field', 'data-setting': row.name },
+      el('div', { class: 'head' }, el('label', { for: id }, names[row.name] ?? row.name), mark),
+      input,
+      help,
+    ),
     show: value => document.activeElement !== input && (input.value = value),
   };
 }
 
 // rows: of GET /v1/playground; changed(name, value); anew(name, value): of what is chosen when a playground begins.
 export function rules(root, rows, changed, anew) {
-  const made = new Map(rows.map(row => [row.name, control(row, 'play-' + row.name, fixed.includes(row.name) ? anew : changed)])),
+  const made = new Map(
+      rows.map(row => [row.name, control(row, 'play-' + row.name, fixed.includes(row.name) ? anew : changed)]),
+    ),
     nodes = list => list.map(name => made.get(name)?.node).filter(Boolean);
   const others = rows.map(row => row.name).filter(name => !front.includes(name) && !fixed.includes(name));
   root.append(
     ...nodes(front),
     el('details', { class: 'rest' }, el('summary', {}, t('More settings', 'Altre impostazioni')), ...nodes(others)),
-    el('details', { class: 'rest' }, el('summary', {}, t('The hole’s pull (begins anew)', 'L’attrazione del buco (ricomincia)')), ...nodes(fixed)),
+    el(
+      'details',
+      { class: 'rest' },
+      el('summary', {}, t('The hole’s pull (begins anew)', 'L’attrazione del buco (ricomincia)')),
+      ...nodes(fixed),
+    ),
   );
   return settings => {
     for (const [name, { show }] of made) show(settings[name]);
-    for (const name of ['amplification', 'waves', 'tides', 'mergers', 'softening']) if (made.has(name)) made.get(name).node.hidden = settings.gravity === 'kerr' || (name === 'amplification' && !settings.waves);
+    for (const name of ['amplification', 'waves', 'tides', 'mergers', 'softening'])
+      if (made.has(name))
+        made.get(name).node.hidden = settings.gravity === 'kerr' || (name === 'amplification' && !settings.waves);
   };
 }

@@ -1,5 +1,6 @@
-// A playground of the server's: told what to do, and followed as it goes. Where bodies are comes packed, as often as somebody
-// draws; what happens comes as events. One that has ended, with the server or for want of anybody who watched, is begun anew.
+// A playground of the server's: told what to do, and followed as it goes. Where bodies are comes packed, as often as
+// somebody draws; what happens comes as events. One that has ended, with the server or for want of anybody who watched,
+// is begun anew.
 import { again_ms } from './again.js';
 import { seen } from './dom.js';
 import { t } from './i18n.js';
@@ -26,7 +27,8 @@ function unpack(buffer) {
   };
 }
 
-// Tells of: begun (state), state, moved (bodies), debris, tick, happened (event), lost (numbers of events), ended (sentence), fault (error or null).
+// Tells of: begun (state), state, moved (bodies), debris, tick, happened (event), lost (numbers of events), ended
+// (sentence), fault (error or null).
 export class Running extends EventTarget {
   #session = null;
   #document = {};
@@ -36,7 +38,8 @@ export class Running extends EventTarget {
   #last = 0; // number of the newest event that came
   #named = 0;
   #tries = 0;
-  #turn = Promise.resolve(); // of the newest change: each goes when the one before has been answered, or they might arrive the other way round
+  // of the newest change: each goes when the one before has been answered, or they might arrive the other way round
+  #turn = Promise.resolve();
 
   state = null;
   tick = null;
@@ -45,7 +48,8 @@ export class Running extends EventTarget {
 
   constructor() {
     super();
-    for (const event of ['visibilitychange', 'viewchange']) document.addEventListener(event, () => (seenNow() ? this.#listen() : this.#leave()));
+    for (const event of ['visibilitychange', 'viewchange'])
+      document.addEventListener(event, () => (seenNow() ? this.#listen() : this.#leave()));
     addEventListener('pagehide', () => {
       this.#hush();
       this.#end();
@@ -58,11 +62,15 @@ export class Running extends EventTarget {
   }
 
   #headers() {
-    return { 'Content-Type': 'application/json', ...(this.#session ? { Authorization: `Bearer ${this.#session.token}` } : {}) };
+    return {
+      'Content-Type': 'application/json',
+      ...(this.#session ? { Authorization: `Bearer ${this.#session.token}` } : {}),
+    };
   }
 
   #end() {
-    if (this.#session) fetch(this.#session.url, { method: 'DELETE', headers: this.#headers(), keepalive: true }).catch(() => {});
+    if (this.#session)
+      fetch(this.#session.url, { method: 'DELETE', headers: this.#headers(), keepalive: true }).catch(() => {});
     this.#session = null;
   }
 
@@ -72,7 +80,8 @@ export class Running extends EventTarget {
     if (!session || this.#kept?.session === session) return;
     const answer = await ask(session.url + '/snapshot').catch(() => null),
       { rate, paused } = this.state;
-    if (answer && !seenNow() && session === this.#session) this.#kept = { session, document: { ...(await answer.json()), rate, paused } };
+    if (answer && !seenNow() && session === this.#session)
+      this.#kept = { session, document: { ...(await answer.json()), rate, paused } };
   }
 
   #hush() {
@@ -84,7 +93,11 @@ export class Running extends EventTarget {
 
   // A document of docs/playground.md. What the server refuses is thrown.
   async begin(given) {
-    const answer = await ask('v1/playground', { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify(given) }),
+    const answer = await ask('v1/playground', {
+        method: 'POST',
+        headers: { 'Content-Type': 'application/json' },
+        body: JSON.stringify(given),
+      }),
       { token, ...state } = await answer.json();
     this.#hush();
     this.#end();
@@ -130,7 +143,9 @@ export class Running extends EventTarget {
     let state;
     try {
       if (session !== this.#session) return null;
-      state = await (await ask(session.url + part, { method, headers: this.#headers(), body: JSON.stringify(body) })).json();
+      state = await (
+        await ask(session.url + part, { method, headers: this.#headers(), body: JSON.stringify(body) })
+      ).json();
     } catch (error) {
       if (error.status === 404 && session === this.#session) this.#anew();
       throw error;
@@ -161,8 +176,14 @@ export class Running extends EventTarget {
     this.#tell(
       'ended',
       kept
-        ? t('The server has ended this playground: it goes on from where it was when you left.', 'Il server ha chiuso questo laboratorio: riprende da dov’era quando l’hai lasciato.')
-        : t('The server has ended this playground: it begins again.', 'Il server ha chiuso questo laboratorio: si ricomincia.'),
+        ? t(
+            'The server has ended this playground: it goes on from where it was when you left.',
+            'Il server ha chiuso questo laboratorio: riprende da dov’era quando l’hai lasciato.',
+          )
+        : t(
+            'The server has ended this playground: it begins again.',
+            'Il server ha chiuso questo laboratorio: si ricomincia.',
+          ),
     );
     for (;;)
       try {

@@ -1,11 +1,13 @@
-// "Save picture": a job on the server renders it at any size, while the page goes on. The PNG holds the scene that it shows.
+// "Save picture": a job on the server renders it at any size, while the page goes on. The PNG holds the scene that it
+// shows.
 import { byId } from './dom.js';
 import { t } from './i18n.js';
 import { jobOf, offer, remembered } from './job.js';
 import { samples } from './source.js';
 import { ask } from './server.js';
 
-// What the picture is to be, as values that go over those of the scene. Of the window's shape it shows what the window shows.
+// What the picture is to be, as values that go over those of the scene. Of the window's shape it shows what the window
+// shows.
 export function picked(scene, size) {
   const choice = byId('save-size').value,
     here = size(),
@@ -22,7 +24,17 @@ export function picked(scene, size) {
 }
 
 export function buildSave(scene, size, changed) {
-  const [start, cancel, bar, told, fault, got, own, sizes, group] = ['save', 'save-cancel', 'save-bar', 'save-told', 'save-fault', 'save-got', 'save-own', 'save-size', 'take'].map(byId);
+  const [start, cancel, bar, told, fault, got, own, sizes, group] = [
+    'save',
+    'save-cancel',
+    'save-bar',
+    'save-told',
+    'save-fault',
+    'save-got',
+    'save-own',
+    'save-size',
+    'take',
+  ].map(byId);
 
   // A size of one's own begins with the window's.
   function showSize() {
@@ -61,7 +73,9 @@ export function buildSave(scene, size, changed) {
     if (![...own.querySelectorAll('input')].every(box => own.hidden || box.reportValidity())) return;
     const over = picked(scene, size);
     got.hidden = true;
-    job.begin(() => ({ scene: scene.document(over) }), { name: `kerrd-${over['image.width']}x${over['image.height']}.png` });
+    job.begin(() => ({ scene: scene.document(over) }), {
+      name: `kerrd-${over['image.width']}x${over['image.height']}.png`,
+    });
   });
   for (const control of [sizes, byId('save-width'), byId('save-height')]) control.addEventListener('change', showSize);
   if (job.resume() || remembered('film')) group.open = true;

@@ -13,12 +13,57 @@ const specs = [
     value: 'm87',
     choices: ['m87', 'sgra', 'none'],
     words: { m87: 'M87*', sgra: 'Sgr A*', none: t('of your choice', 'a tua scelta') },
-    about: t('Whose mass, distance and inclination are taken, and whose measured ring stands beside', 'Di chi sono massa, distanza e inclinazione, e l’anello misurato che sta accanto'),
+    about: t(
+      'Whose mass, distance and inclination are taken, and whose measured ring stands beside',
+      'Di chi sono massa, distanza e inclinazione, e l’anello misurato che sta accanto',
+    ),
   },
-  { name: 'mass_msun', unit: 'solar masses', value: 10, min: 0.001, max: 1e12, about: t('Of the hole of your choice: all lengths and times go with it', 'Del buco a tua scelta: ogni lunghezza e ogni tempo va con essa') },
-  { name: 'distance_pc', unit: 'pc', value: 1000, min: 0.001, max: 1e11, about: t('Of the hole of your choice: how large it is on the sky', 'Del buco a tua scelta: quanto è grande sul cielo') },
-  { name: 'spin', unit: 'M', value: 0.9, min: -0.998, max: 0.998, step: 0.002, about: t('The hole’s angular momentum over its mass squared; below 0 it turns against the disk', 'Il momento angolare sul quadrato della massa; sotto 0 ruota contro il disco') },
-  { name: 'inclination_deg', unit: 'degrees', min: 0, max: 180, step: 1, auto: true, about: t('Between the axis of the hole and the line of sight; empty: that of the hole', 'Tra l’asse del buco e la linea di vista; vuoto: quella del buco') }, // that of the hole
+  {
+    name: 'mass_msun',
+    unit: 'solar masses',
+    value: 10,
+    min: 0.001,
+    max: 1e12,
+    about: t(
+      'Of the hole of your choice: all lengths and times go with it',
+      'Del buco a tua scelta: ogni lunghezza e ogni tempo va con essa',
+    ),
+  },
+  {
+    name: 'distance_pc',
+    unit: 'pc',
+    value: 1000,
+    min: 0.001,
+    max: 1e11,
+    about: t(
+      'Of the hole of your choice: how large it is on the sky',
+      'Del buco a tua scelta: quanto è grande sul cielo',
+    ),
+  },
+  {
+    name: 'spin',
+    unit: 'M',
+    value: 0.9,
+    min: -0.998,
+    max: 0.998,
+    step: 0.002,
+    about: t(
+      'The hole’s angular momentum over its mass squared; below 0 it turns against the disk',
+      'Il momento angolare sul quadrato della massa; sotto 0 ruota contro il disco',
+    ),
+  },
+  {
+    name: 'inclination_deg',
+    unit: 'degrees',
+    min: 0,
+    max: 180,
+    step: 1,
+    auto: true,
+    about: t(
+      'Between the axis of the hole and the line of sight; empty: that of the hole',
+      'Tra l’asse del buco e la linea di vista; vuoto: quella del buco',
+    ),
+  }, // that of the hole
 ];
 
 const shown = [
@@ -43,7 +88,8 @@ const shown = [
 ];
 
 // What is seen, for the title.
-const name = (hole, v) => entitle('scale', hole === 'none' ? `${number(v.mass)} M☉, ${number(v.distance)} pc` : specs[0].words[hole]);
+const name = (hole, v) =>
+  entitle('scale', hole === 'none' ? `${number(v.mass)} M☉, ${number(v.distance)} pc` : specs[0].words[hole]);
 
 export async function openScale() {
   const show = beside(byId('scale-pictures'));
@@ -52,7 +98,12 @@ export async function openScale() {
       any = hole === 'none';
     form.suggest('inclination_deg', inclination_deg);
     for (const name of ['mass_msun', 'distance_pc']) form.input(name).disabled = !any;
-    const { values, units, sources } = await physics('scale', { hole, spin, inclination_deg, ...(any ? { mass_msun, distance_pc } : {}) });
+    const { values, units, sources } = await physics('scale', {
+      hole,
+      spin,
+      inclination_deg,
+      ...(any ? { mass_msun, distance_pc } : {}),
+    });
     name(hole, values);
     if (!any)
       for (const [name, value] of [
@@ -64,7 +115,12 @@ export async function openScale() {
       ...shown
         .filter(([name]) => values[name] != null)
         .map(([name, en, it]) =>
-          el('tr', {}, el('th', { scope: 'row' }, t(en, it)), el('td', {}, units[name] === 's' ? duration(values[name]) : `${number(values[name])} ${unit(units[name])}`)),
+          el(
+            'tr',
+            {},
+            el('th', { scope: 'row' }, t(en, it)),
+            el('td', {}, units[name] === 's' ? duration(values[name]) : `${number(values[name])} ${unit(units[name])}`),
+          ),
         ),
     );
     byId('scale-sources').textContent = sources.join('; ');

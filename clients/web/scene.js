@@ -1,6 +1,6 @@
-// The scene of the page is what differs from the defaults of the server's schema, by dotted path. While time goes on the
-// server knows how late it is; what it says of that is told as 'tick', what else it changes as 'settle', what anybody here
-// changes as 'change', and while a hand moves the camera as 'move'.
+// The scene of the page is what differs from the defaults of the server's schema, by dotted path. While time goes on
+// the server knows how late it is; what it says of that is told as 'tick', what else it changes as 'settle', what
+// anybody here changes as 'change', and while a hand moves the camera as 'move'.
 import { still } from './dom.js';
 import { getJson } from './server.js';
 import * as link from './link.js';
@@ -16,15 +16,26 @@ const known = ['view', 'lang', 'over', 'preset', 'pause', 'full', 'look', 'pace'
 function* flatten(schema, prefix = '') {
   for (const [name, spec] of Object.entries(schema.properties)) {
     if (spec.deprecated || aside.includes(name)) continue;
-    if (spec.items?.properties) for (let i = 0; i < spec.maxItems; i++) yield* flatten(spec.items, `${prefix}${name}.${i}.`);
+    if (spec.items?.properties)
+      for (let i = 0; i < spec.maxItems; i++) yield* flatten(spec.items, `${prefix}${name}.${i}.`);
     else if (spec.properties) yield* flatten(spec, `${prefix}${name}.`);
     else if (!('const' in spec))
-      yield { path: prefix + name, ...kind(spec), default: told(spec.default), unit: spec['x-unit'], help: spec.description, nature: spec['x-nature'], front: spec['x-front'], ...control(spec) };
+      yield {
+        path: prefix + name,
+        ...kind(spec),
+        default: told(spec.default),
+        unit: spec['x-unit'],
+        help: spec.description,
+        nature: spec['x-nature'],
+        front: spec['x-front'],
+        ...control(spec),
+      };
   }
 }
 
 // What its control needs to know (src/scene/control.h).
-const control = spec => Object.fromEntries(['span', 'first', 'switch', 'with', 'varies', 'button'].map(key => [key, spec['x-' + key]]));
+const control = spec =>
+  Object.fromEntries(['span', 'first', 'switch', 'with', 'varies', 'button'].map(key => [key, spec['x-' + key]]));
 
 // The section or the element that a field stands in, as a path.
 const home = path => path.slice(0, Math.max(0, path.lastIndexOf('.')));
@@ -32,7 +43,10 @@ const home = path => path.slice(0, Math.max(0, path.lastIndexOf('.')));
 // Those of a member of the document, each with its path; a section may stand in another one: disk.gas.
 function sections([path, spec]) {
   if (spec.deprecated || !(spec.properties || spec.items)) return [];
-  return [[path, spec], ...Object.entries(spec.properties ?? {}).flatMap(([name, inner]) => sections([`${path}.${name}`, inner]))];
+  return [
+    [path, spec],
+    ...Object.entries(spec.properties ?? {}).flatMap(([name, inner]) => sections([`${path}.${name}`, inner])),
+  ];
 }
 
 // What stands there in a document; undefined where nothing does.
@@ -43,13 +57,24 @@ export const told = value => (Array.isArray(value) ? value.join(',') : value);
 
 // { type: 'number' | 'integer' | 'choice' | 'switch' | 'words' | 'asset', minimum, maximum, word, choices }
 function kind(spec) {
-  if (spec.items) return { type: 'words', word: new RegExp(spec.items.pattern), choices: spec['x-words'].map(name => name.replace(/_N$/, '')) };
+  if (spec.items)
+    return {
+      type: 'words',
+      word: new RegExp(spec.items.pattern),
+      choices: spec['x-words'].map(name => name.replace(/_N$/, '')),
+    };
   if (spec.enum) return { type: 'choice', choices: spec.enum };
   if (spec.type === 'boolean') return { type: 'switch' };
   const asset = spec.anyOf?.find(part => part.pattern);
   if (asset) return { type: 'asset', word: new RegExp(asset.pattern) };
-  const range = spec.anyOf?.find(part => part.type && !('const' in part)) ?? spec; // beside a word, which has a type too
-  return { type: range.type, minimum: range.minimum, maximum: range.maximum, word: spec.anyOf?.find(part => part.const)?.const };
+  // beside a word, which has a type too
+  const range = spec.anyOf?.find(part => part.type && !('const' in part)) ?? spec;
+  return {
+    type: range.type,
+    minimum: range.minimum,
+    maximum: range.maximum,
+    word: spec.anyOf?.find(part => part.const)?.const,
+  };
 }
 
 function parse(field, text) {
@@ -84,9 +109,16 @@ export class Scene extends EventTarget {
     scene.natures = schema['x-natures'];
     scene.sections = Object.entries(schema.properties)
       .flatMap(sections)
-      .map(([name, spec]) => ({ name, help: spec.description, group: spec['x-group'], most: spec.items && spec.maxItems }));
+      .map(([name, spec]) => ({
+        name,
+        help: spec.description,
+        group: spec['x-group'],
+        most: spec.items && spec.maxItems,
+      }));
     scene.fields = new Map([...flatten(schema)].map(field => [field.path, field]));
-    scene.switches = new Map([...scene.fields.values()].filter(field => field.switch).map(({ path }) => [home(path), path]));
+    scene.switches = new Map(
+      [...scene.fields.values()].filter(field => field.switch).map(({ path }) => [home(path), path]),
+    );
     scene.#styles = schema.properties.style.properties.name['x-sets'];
     scene.#renew(schema);
     const style = scene.#styles[link.get('style.name')] ?? {};
@@ -98,7 +130,12 @@ export class Scene extends EventTarget {
     }
     const names = scene.sections.map(({ name }) => name);
     for (const [key] of link.entries(''))
-      if (key.includes('.') ? names.includes(key.split('.')[0]) && !scene.fields.has(key) : !known.includes(key) && key !== 'time') scene.unknown.push(key);
+      if (
+        key.includes('.')
+          ? names.includes(key.split('.')[0]) && !scene.fields.has(key)
+          : !known.includes(key) && key !== 'time'
+      )
+        scene.unknown.push(key);
     return scene;
   }
 
@@ -118,7 +155,12 @@ export class Scene extends EventTarget {
   }
 
   count(list) {
-    return Math.max(0, ...[...this.#values.keys()].filter(path => path.startsWith(list + '.')).map(path => Number(path.split('.')[1]) + 1));
+    return Math.max(
+      0,
+      ...[...this.#values.keys()]
+        .filter(path => path.startsWith(list + '.'))
+        .map(path => Number(path.split('.')[1]) + 1),
+    );
   }
 
   #styleFirst(values) {
@@ -167,13 +209,15 @@ export class Scene extends EventTarget {
     return this.held ? 0 : this.drift || this.get('motion.azimuth_rate_deg');
   }
 
-  // The changes: { 'camera.r': 30 }; null is the default. A style sets its fields, but for those that are among the changes.
+  // The changes: { 'camera.r': 30 }; null is the default. A style sets its fields, but for those that are among the
+  // changes.
   change(values) {
     this.#set(values);
     this.#changed();
   }
 
-  // What a hand moves is a 'move' each time, and a 'change' only where it rests: what stands beside the picture follows then.
+  // What a hand moves is a 'move' each time, and a 'change' only where it rests: what stands beside the picture follows
+  // then.
   move(values) {
     this.#set(values);
     this.#stop();
@@ -186,9 +230,9 @@ export class Scene extends EventTarget {
 
   #set(values) {
     this.drifts(0);
-    if ('time' in values) (this.jumps++, (this.#now = null));
+    if ('time' in values) this.jumps++, (this.#now = null);
     const all = { ...this.#styles[values['style.name']], ...values };
-    for (const path of this.#moved.keys()) if (path in all) (this.#moved.delete(path), this.jumped.add(path));
+    for (const path of this.#moved.keys()) if (path in all) this.#moved.delete(path), this.jumped.add(path);
     for (const [path, value] of this.#styleFirst(Object.entries(all))) this.#put(path, value);
   }
 
@@ -218,14 +262,17 @@ export class Scene extends EventTarget {
   }
 
   goesOn() {
-    return this.turns() !== 0 || (!this.held && ['time_rate', 'proper_time_rate'].some(name => this.get(`motion.${name}`) !== 0));
+    return (
+      this.turns() !== 0 ||
+      (!this.held && ['time_rate', 'proper_time_rate'].some(name => this.get(`motion.${name}`) !== 0))
+    );
   }
 
   // What the server says of values that it changed.
   settle(values) {
     this.#stop();
     if ('time' in values) this.#now = null;
-    for (const [path, value] of Object.entries(values)) (this.#moved.delete(path), this.#put(path, value));
+    for (const [path, value] of Object.entries(values)) this.#moved.delete(path), this.#put(path, value);
     this.dispatchEvent(new Event('settle'));
   }
 
@@ -258,29 +305,38 @@ export class Scene extends EventTarget {
     this.dispatchEvent(new Event('tick'));
   }
 
-  // All of a document, whatever was there before; the picture's size is the page's affair. over: values by path that go over it, a style's among them
-  // before its fields; fitted: what of it the window changes (fit.js).
+  // All of a document, whatever was there before; the picture's size is the page's affair. over: values by path that go
+  // over it, a style's among them before its fields; fitted: what of it the window changes (fit.js).
   replace(document, over = {}, fitted = values => values) {
     this.held = still.matches;
     link.set('pause', null);
     const values = Object.fromEntries([...this.fields.keys()].map(path => [path, valueAt(document, path) ?? null]));
-    this.change(fitted({ ...values, 'image.width': null, 'image.height': null, ...this.#styles[over['style.name']], ...over }));
+    this.change(
+      fitted({ ...values, 'image.width': null, 'image.height': null, ...this.#styles[over['style.name']], ...over }),
+    );
   }
 
   #with(other, moved) {
-    return new Map([...this.#values, ...moved, ...(this.#now == null ? [] : [['time', this.#now]]), ...Object.entries(other)]);
+    return new Map([
+      ...this.#values,
+      ...moved,
+      ...(this.#now == null ? [] : [['time', this.#now]]),
+      ...Object.entries(other),
+    ]);
   }
 
-  // As JSON, with what differs only; other: values that go over those of the page; begun: with what is moved where it began. Elements at their defaults
-  // before others are {}.
+  // As JSON, with what differs only; other: values that go over those of the page; begun: with what is moved where it
+  // began. Elements at their defaults before others are {}.
   document(other = {}, begun = false) {
     const out = {};
     for (const [path, value] of this.#with(other, begun ? [] : this.#moved)) {
       const names = path.split('.'),
         last = names.pop();
-      names.reduce((inside, name) => (inside[name] ??= {}), out)[last] = this.fields.get(path)?.type === 'words' ? value.split(',') : value;
+      names.reduce((inside, name) => (inside[name] ??= {}), out)[last] =
+        this.fields.get(path)?.type === 'words' ? value.split(',') : value;
     }
-    for (const { name } of this.sections.filter(({ most }) => most)) if (out[name]) out[name] = Array.from({ length: this.count(name) }, (_, i) => out[name][i] ?? {});
+    for (const { name } of this.sections.filter(({ most }) => most))
+      if (out[name]) out[name] = Array.from({ length: this.count(name) }, (_, i) => out[name][i] ?? {});
     return out;
   }
 
@@ -290,7 +346,12 @@ export class Scene extends EventTarget {
       const path = before + name;
       if (typeof value !== 'object' || this.fields.get(path)?.type === 'words') return [[path, told(value)]];
       const inner = this.#pairs(value, path + '.');
-      return inner.length ? inner : [...this.fields.values()].filter(field => field.path.startsWith(path + '.')).slice(0, 1).map(field => [field.path, field.default]);
+      return inner.length
+        ? inner
+        : [...this.fields.values()]
+            .filter(field => field.path.startsWith(path + '.'))
+            .slice(0, 1)
+            .map(field => [field.path, field.default]);
     });
   }
 

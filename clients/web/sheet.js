@@ -1,5 +1,6 @@
-// The controls of a view lie in a sheet over the lower edge of a narrow, upright window, while its picture stays where it is. A handle has three
-// heights: by a drag, a tap, or arrow keys. In any other window the controls stand beside the picture, and there is no handle (style.css).
+// The controls of a view lie in a sheet over the lower edge of a narrow, upright window, while its picture stays where
+// it is. A handle has three heights: by a drag, a tap, or arrow keys. In any other window the controls stand beside the
+// picture, and there is no handle (style.css).
 import { el } from './dom.js';
 import { t } from './i18n.js';
 
@@ -17,8 +18,20 @@ const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
 const pinned = { 'orbit-panel': '#orbit-picture', 'scale-panel': '#scale-pictures', 'play-panel': '#play-pictures' };
 
 export function sheet(node) {
-  const handle = el('div', { class: 'handle', role: 'slider', tabindex: 0, 'aria-orientation': 'vertical', 'aria-valuemin': 0, 'aria-valuemax': heights.length - 1,
-    'aria-controls': node.id, 'aria-label': t('Controls: height of the sheet', 'Comandi: altezza del foglio') }, t('Controls', 'Comandi'));
+  const handle = el(
+    'div',
+    {
+      class: 'handle',
+      role: 'slider',
+      tabindex: 0,
+      'aria-orientation': 'vertical',
+      'aria-valuemin': 0,
+      'aria-valuemax': heights.length - 1,
+      'aria-controls': node.id,
+      'aria-label': t('Controls: height of the sheet', 'Comandi: altezza del foglio'),
+    },
+    t('Controls', 'Comandi'),
+  );
   const picture = pinned[node.id] && document.querySelector(pinned[node.id]);
   let at = 0,
     drag = null,
@@ -55,13 +68,22 @@ export function sheet(node) {
   handle.addEventListener('pointerdown', event => {
     if (event.button) return;
     handle.setPointerCapture(event.pointerId);
-    drag = { x: event.clientX, y: event.clientY, height: node.offsetHeight, moved: false, time: event.timeStamp, last: event.clientY, speed: 0 };
+    drag = {
+      x: event.clientX,
+      y: event.clientY,
+      height: node.offsetHeight,
+      moved: false,
+      time: event.timeStamp,
+      last: event.clientY,
+      speed: 0,
+    };
   });
   handle.addEventListener('pointermove', event => {
     if (!drag) return;
     const up = drag.y - event.clientY,
       took = event.timeStamp - drag.time;
-    drag.moved ||= Math.hypot(up, event.clientX - drag.x) > tap_px; // sideways it is no tap, but another preset (swipe.js)
+    // sideways it is no tap, but another preset (swipe.js)
+    drag.moved ||= Math.hypot(up, event.clientX - drag.x) > tap_px;
     if (took > 0) drag.speed = (drag.last - event.clientY) / took;
     Object.assign(drag, { time: event.timeStamp, last: event.clientY });
     if (drag.moved) node.style.height = `${clamp(drag.height + up, handle.offsetHeight, innerHeight)}px`;
@@ -74,7 +96,16 @@ export function sheet(node) {
   });
   handle.addEventListener('pointercancel', () => ((drag = null), rest(at)));
 
-  const keys = { ArrowUp: () => at + 1, ArrowRight: () => at + 1, PageUp: () => at + 1, ArrowDown: () => at - 1, ArrowLeft: () => at - 1, PageDown: () => at - 1, Home: () => 0, End: () => heights.length - 1 };
+  const keys = {
+    ArrowUp: () => at + 1,
+    ArrowRight: () => at + 1,
+    PageUp: () => at + 1,
+    ArrowDown: () => at - 1,
+    ArrowLeft: () => at - 1,
+    PageDown: () => at - 1,
+    Home: () => 0,
+    End: () => heights.length - 1,
+  };
   handle.addEventListener('keydown', event => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     if (event.key === 'Enter' || event.key === ' ') turn();
@@ -84,12 +115,16 @@ export function sheet(node) {
     event.stopPropagation(); // a space is not the clock's
   });
   // Who goes by the keyboard sees what has the focus.
-  node.addEventListener('focusin', event => event.target !== handle && at === 0 && event.target.matches(':focus-visible') && rest(1));
+  node.addEventListener(
+    'focusin',
+    event => event.target !== handle && at === 0 && event.target.matches(':focus-visible') && rest(1),
+  );
   node.classList.add('sheet');
   node.prepend(handle);
   rest(0);
   if (picture) {
-    // A sheet that came up before its picture did, or before what makes the page long enough, makes room when there is something to see.
+    // A sheet that came up before its picture did, or before what makes the page long enough, makes room when there is
+    // something to see.
     const grows = new ResizeObserver(() => {
       placed &&= picture.offsetHeight > 0; // a view that comes again is placed again
       if (!placed) show();

@@ -1,13 +1,17 @@
-// Sliders and arrow keys for a number of which its range, unit and usual value are known: { minimum, maximum, unit, default, type }.
+// Sliders and arrow keys for a number of which its range, unit and usual value are known: { minimum, maximum, unit,
+// default, type }.
 const decades = 30; // from this ratio on a range is one of magnitudes
 const positions = 1000;
 
-// A magnitude goes by factors. Where 0 means that a thing is off, the slider is linear below a hundredth of the usual value.
+// A magnitude goes by factors. Where 0 means that a thing is off, the slider is linear below a hundredth of the usual
+// value.
 function spread({ minimum: low, maximum: high, unit, type, default: usual }) {
   if (unit === 'degrees' || low < 0) return null;
   if (low > 0) return high / low > decades ? [x => Math.log(x / low), u => low * Math.exp(u)] : null;
   const small = (Number(usual) || 1) / 100;
-  return type !== 'integer' && high > decades * small * 100 ? [x => Math.asinh(x / small), u => small * Math.sinh(u)] : null;
+  return type !== 'integer' && high > decades * small * 100
+    ? [x => Math.asinh(x / small), u => small * Math.sinh(u)]
+    : null;
 }
 
 const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
@@ -25,7 +29,9 @@ export function scale(range) {
 
 // One step of an arrow key: about a hundredth of the range, or a tenth of the leading digit where it goes by factors.
 function step(range, value) {
-  const size = spread(range) ? Math.abs(value) || (Number(range.default) || 1) / 10 : (range.maximum - range.minimum) / 10;
+  const size = spread(range)
+    ? Math.abs(value) || (Number(range.default) || 1) / 10
+    : (range.maximum - range.minimum) / 10;
   return 10 ** (Math.floor(Math.log10(size)) - 1);
 }
 

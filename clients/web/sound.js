@@ -1,5 +1,6 @@
-// A ringdown is made for ears. What rings too low or too high for them is shifted by whole octaves, which makes all of it as much faster or
-// slower; and as it makes a swing or two before it is gone, its fading is stretched at the same pitch. Both are said.
+// A ringdown is made for ears. What rings too low or too high for them is shifted by whole octaves, which makes all of
+// it as much faster or slower; and as it makes a swing or two before it is gone, its fading is stretched at the same
+// pitch. Both are said.
 import { el } from './dom.js';
 import { duration, number, t, tell } from './i18n.js';
 import { physicsUrl } from './server.js';
@@ -18,19 +19,33 @@ export function ringing(v, asked, octaves) {
     short = damping / 2 ** shift,
     stretch = Math.max(1, Number((fading_s / short).toPrecision(2)));
   const url = stretched => physicsUrl('qnm', { ...asked, shift_octaves: shift, stretch: stretched }) + '&format=wav';
-  return { octaves: shift, pitch, short, stretch, swings: v.quality / Math.PI, audible: pitch >= heard.least && pitch <= heard.most, url };
+  return {
+    octaves: shift,
+    pitch,
+    short,
+    stretch,
+    swings: v.quality / Math.PI,
+    audible: pitch >= heard.least && pitch <= heard.most,
+    url,
+  };
 }
 
 // In words: what was done to it.
 export function told({ octaves, pitch, short, stretch, swings, audible }) {
-  if (!audible) return t(`No ear hears ${number(pitch, 3)} Hz.`, `Nessun orecchio sente ${number(pitch, 3)} Hz.`) + shifted(octaves);
+  if (!audible)
+    return (
+      t(`No ear hears ${number(pitch, 3)} Hz.`, `Nessun orecchio sente ${number(pitch, 3)} Hz.`) + shifted(octaves)
+    );
   const fades =
     stretch > 1
       ? t(
           `its fading stretched ${number(stretch)} times, by e in ${duration(short * stretch)}: left as it is it would make ${number(swings, 2)} of its swings in ${duration(short)}, a click.`,
           `con lo smorzamento allungato di ${number(stretch)} volte, un fattore e in ${duration(short * stretch)}: lasciato com’è farebbe ${number(swings, 2)} delle sue oscillazioni in ${duration(short)}, uno schiocco.`,
         )
-      : t(`fading by e in ${duration(short)}: ${number(swings, 2)} of its swings.`, `si smorza di un fattore e in ${duration(short)}: di sue oscillazioni ${number(swings, 2)}.`);
+      : t(
+          `fading by e in ${duration(short)}: ${number(swings, 2)} of its swings.`,
+          `si smorza di un fattore e in ${duration(short)}: di sue oscillazioni ${number(swings, 2)}.`,
+        );
   return t(`At ${number(pitch, 3)} Hz, ${fades}`, `A ${number(pitch, 3)} Hz, ${fades}`) + shifted(octaves);
 }
 
@@ -68,7 +83,13 @@ export function soundRow(ring) {
     'p',
     { class: 'row' },
     audible && el('button', { type: 'button', onclick: () => sound(url(stretch)) }, t('Hear it', 'Ascolta')),
-    audible && stretch > 1 && el('button', { type: 'button', onclick: () => sound(url(1), true) }, t('As short as it is, repeated', 'Breve com’è, ripetuto')),
+    audible &&
+      stretch > 1 &&
+      el(
+        'button',
+        { type: 'button', onclick: () => sound(url(1), true) },
+        t('As short as it is, repeated', 'Breve com’è, ripetuto'),
+      ),
     audible && el('a', { class: 'button', href: url(stretch), download: 'ringdown.wav' }, t('Save WAV', 'Salva WAV')),
     words,
   );

@@ -1,7 +1,7 @@
-// Pictures of the scene come from a live session. The scene goes to the session as it changes, one patch at a time and the latest
-// wins; pictures come by asking, again and again, for the one after that which is shown, so a slow device or a slow line never
-// falls behind. How fine each picture is while the scene changes is the server’s affair; at rest it has all pixels of the window
-// and several rays for each.
+// Pictures of the scene come from a live session. The scene goes to the session as it changes, one patch at a time and
+// the latest wins; pictures come by asking, again and again, for the one after that which is shown, so a slow device or
+// a slow line never falls behind. How fine each picture is while the scene changes is the server’s affair; at rest it
+// has all pixels of the window and several rays for each.
 import { again_ms } from './again.js';
 import { latest, seen } from './dom.js';
 import { approximations, figures, fits, passes } from './frame.js';
@@ -16,12 +16,14 @@ const least_samples = 2;
 const least_part = 1 / 8; // of the window’s width, of a picture at rest
 
 // A picture at rest has so many; what is saved has as many.
-export const samples = scene => (scene.get('image.samples') === 'auto' ? 'auto' : Math.max(scene.get('image.samples'), least_samples));
+export const samples = scene =>
+  scene.get('image.samples') === 'auto' ? 'auto' : Math.max(scene.get('image.samples'), least_samples);
 
 const pause = ms => new Promise(resolve => setTimeout(resolve, ms));
 
-// scene; size() → { width, height } of the window in device pixels; told are shown(frame), failed(error), and rests(whether), which is true as soon as
-// the picture that is shown is the last one of the scene as it now is: until the server has answered a change, its pictures are of the scene before. Returns
+// scene; size() → { width, height } of the window in device pixels; told are shown(frame), failed(error), and
+// rests(whether), which is true as soon as the picture that is shown is the last one of the scene as it now is: until
+// the server has answered a change, its pictures are of the scene before. Returns
 //   refresh()      to be called whenever the scene or the window has changed
 //   address()      of the session, or null
 //   strike(wrong)  the hole, once the server knows the scene as it is; wrong(sentence) is told of a refusal
@@ -55,7 +57,8 @@ export function openSource(scene, size, shown, failed, rests) {
     return scene.document(over, true);
   }
 
-  // What differs from what the session has. It knows best how late it is and where an observer that falls has come to, unless somebody has set that.
+  // What differs from what the session has. It knows best how late it is and where an observer that falls has come to,
+  // unless somebody has set that.
   function difference(document) {
     const { time: then, ...before } = session.document,
       { time, ...after } = document;
@@ -71,7 +74,10 @@ export function openSource(scene, size, shown, failed, rests) {
     if (scene.goesOn()) return;
     const { time, camera } = now,
       moved = { time };
-    for (const [name, usual] of [['azimuth_deg', 0], ['r', 'infinity']]) {
+    for (const [name, usual] of [
+      ['azimuth_deg', 0],
+      ['r', 'infinity'],
+    ]) {
       const there = document.camera?.[name] ?? usual;
       if (scene.begun('camera.' + name) !== there) continue; // somebody has moved it since
       moved['camera.' + name] = camera[name];
@@ -80,17 +86,23 @@ export function openSource(scene, size, shown, failed, rests) {
     scene.settle(moved);
   }
 
-  const settle = () => last && rests(asked === told && session != null && last.final && last.revision >= session.revision);
+  const settle = () =>
+    last && rests(asked === told && session != null && last.final && last.revision >= session.revision);
 
-  const headers = () => ({ 'Content-Type': 'application/json', ...(session ? { Authorization: `Bearer ${session.token}` } : {}) });
+  const headers = () => ({
+    'Content-Type': 'application/json',
+    ...(session ? { Authorization: `Bearer ${session.token}` } : {}),
+  });
 
   async function struck(document) {
     const wrong = striking;
     striking = null;
-    const answer = await ask(session.url + '/ringdown', { method: 'POST', headers: headers(), body: '{}' }).catch(error => {
-      if (!(error instanceof Problem) || error.status === 404) throw error;
-      wrong(error.message);
-    });
+    const answer = await ask(session.url + '/ringdown', { method: 'POST', headers: headers(), body: '{}' }).catch(
+      error => {
+        if (!(error instanceof Problem) || error.status === 404) throw error;
+        wrong(error.message);
+      },
+    );
     if (!answer) return;
     const { revision, scene: now, ...seen_of_it } = await answer.json();
     session.revision = revision;
@@ -100,7 +112,8 @@ export function openSource(scene, size, shown, failed, rests) {
     scene.tellSeen(seen_of_it);
   }
 
-  // A session that has ended is opened anew: it lives for a minute without anybody who watches. A window that is not seen has no size.
+  // A session that has ended is opened anew: it lives for a minute without anybody who watches. A window that is not
+  // seen has no size.
   async function send() {
     await seen('lensing');
     if (!session) scene.land();
@@ -129,7 +142,8 @@ export function openSource(scene, size, shown, failed, rests) {
       }
       const little = patch && same && moves(patch) && !striking;
       if (little && pulling && line.far() && !session.plain) return carry(patch, document, now_asked, jumps);
-      if (session) session.pending = null; // what it holds is in this one as well, and none goes before this one is answered
+      // what it holds is in this one as well, and none goes before this one is answered
+      if (session) session.pending = null;
       const begun = performance.now(),
         order = session ? ++session.order : 0,
         query = [...(same ? [] : [keeps]), ...(order ? ['order=' + order] : [])].join('&');
@@ -143,7 +157,15 @@ export function openSource(scene, size, shown, failed, rests) {
       if (!session) last &&= { final: false }; // its revisions are counted anew
       session ??= fresh({ id, token });
       session.cameras.set(revision, document.camera ?? {});
-      Object.assign(session, { document: dozes === naps ? document : asleep(document), revision, jumps, keeps, part, known: known ?? 0, plain: false });
+      Object.assign(session, {
+        document: dozes === naps ? document : asleep(document),
+        revision,
+        jumps,
+        keeps,
+        part,
+        known: known ?? 0,
+        plain: false,
+      });
       session.touched.clear();
       if (scene.jumps === jumps && patch?.motion) follow(document, now);
       if (!little) scene.tellSeen(seen_of_it);
@@ -166,8 +188,9 @@ export function openSource(scene, size, shown, failed, rests) {
   }
   const put = latest(send);
 
-  // Over a long line a change of the camera goes with a request for a picture, of which several are under way: it costs no round trip of its own. Each holds all that has
-  // changed since the latest one that was answered, for one that is overtaken does not count.
+  // Over a long line a change of the camera goes with a request for a picture, of which several are under way: it costs
+  // no round trip of its own. Each holds all that has changed since the latest one that was answered, for one that is
+  // overtaken does not count.
   function carry(patch, document, asked, jumps) {
     for (const name of Object.keys(patch.camera)) session.touched.add(name);
     Object.assign(session, { jumps, pending: { patch, document, asked } });
@@ -187,7 +210,10 @@ export function openSource(scene, size, shown, failed, rests) {
   const flight = buildFlight(line, {
     moving: () => performance.now() - stirred_ms < still_ms,
     goesOn: () => scene.goesOn(),
-    options: change => ({ ...(change && { method: 'PATCH', headers: headers(), body: JSON.stringify(change) }), signal: polls.signal }),
+    options: change => ({
+      ...(change && { method: 'PATCH', headers: headers(), body: JSON.stringify(change) }),
+      signal: polls.signal,
+    }),
     arrived,
     // The server knows what is wrong with it, and says so of the same change by itself.
     refused(from) {
@@ -207,13 +233,18 @@ export function openSource(scene, size, shown, failed, rests) {
     const clock = get('Kerrd-Clock') && figures(get('Kerrd-Clock'));
     const falls = clock && scene.get('motion.proper_time_rate'),
       azimuth = Number(get('Kerrd-Azimuth'));
-    const moved = falls ? { 'camera.r': clock.r, 'camera.azimuth_deg': clock.azimuth_deg } : scene.turns() ? { 'camera.azimuth_deg': Number(azimuth.toFixed(3)) } : {};
+    const moved = falls
+      ? { 'camera.r': clock.r, 'camera.azimuth_deg': clock.azimuth_deg }
+      : scene.turns()
+        ? { 'camera.azimuth_deg': Number(azimuth.toFixed(3)) }
+        : {};
     if (scene.goesOn()) scene.tick(Number(get('Kerrd-Time')), final, current ? moved : {});
     from.frame = Number(get('Kerrd-Frame'));
     for (const old of from.cameras.keys()) if (old < revision) from.cameras.delete(old);
     const now = performance.now();
     if (quality.final !== 1) stirred_ms = now;
-    recent = scene.goesOn() ? [...recent.filter((time, i) => time > now - 2000 || i >= recent.length - 2), now] : []; // a slow server's last three, too
+    // a slow server's last three, too
+    recent = scene.goesOn() ? [...recent.filter((time, i) => time > now - 2000 || i >= recent.length - 2), now] : [];
     const picture = await answer.blob();
     line.read(quality.lossy, performance.now() - now);
     await shown({
@@ -249,7 +280,7 @@ export function openSource(scene, size, shown, failed, rests) {
         from.flight.length = 0; // the others have failed as well, or come too late
         if (session !== from) continue; // nobody asks for that one any more
         if (error.status !== 404) failed(Object.assign(error, { again: true }));
-        else ((session = null), put());
+        else (session = null), put();
         await pause(error.status === 404 ? 0 : again_ms);
       }
     }
@@ -262,7 +293,9 @@ export function openSource(scene, size, shown, failed, rests) {
     dozes++;
     const patch = { motion: { azimuth_rate_deg: 0 }, camera: { azimuth_deg: scene.get('camera.azimuth_deg') } };
     session.document = asleep(session.document);
-    fetch(session.url, { method: 'PATCH', headers: headers(), body: JSON.stringify(patch), keepalive: true }).catch(() => {});
+    fetch(session.url, { method: 'PATCH', headers: headers(), body: JSON.stringify(patch), keepalive: true }).catch(
+      () => {},
+    );
     put();
   }
   for (const gone of ['visibilitychange', 'viewchange']) document.addEventListener(gone, doze);

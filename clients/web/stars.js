@@ -1,5 +1,5 @@
-// Names of stars: of a sky that has real ones, the server says which images of which bright stars are where in the picture. The one that a pointer
-// is at is named, with all others of the same star.
+// Names of stars: of a sky that has real ones, the server says which images of which bright stars are where in the
+// picture. The one that a pointer is at is named, with all others of the same star.
 import { byId, el, latest, svg } from './dom.js';
 import { number, t } from './i18n.js';
 import { ask } from './server.js';
@@ -10,23 +10,35 @@ const hidden = 0.02; // through which part of a disk a star shows
 const stale_px = 6; // places go on by so much before a new list is asked for,
 const again_ms = 1500; // and no sooner: it is a picture's work on the device that makes these
 
-export const hasNames = scene => scene.get('sky.model') === 'catalogue' && scene.get('camera.projection') !== 'ring' && scene.get('camera.stereo') !== 'pair';
+export const hasNames = scene =>
+  scene.get('sky.model') === 'catalogue' &&
+  scene.get('camera.projection') !== 'ring' &&
+  scene.get('camera.stereo') !== 'pair';
 export const nameOf = ({ name, designation }) => [name, designation].filter(Boolean).join(' · ');
 
 // What decides where they are, as a key; the clock does not. moved: fields that the server has moved on.
 function sceneOf(scene, { clientWidth: width, clientHeight: height }, moved) {
-  const { time, motion, style, ...document } = scene.document({ 'image.width': width, 'image.height': height, 'image.samples': 1, ...moved });
+  const { time, motion, style, ...document } = scene.document({
+    'image.width': width,
+    'image.height': height,
+    'image.samples': 1,
+    ...moved,
+  });
   return JSON.stringify(document);
 }
 
 let kept = { key: '', answer: null };
 
-// { width, height, azimuth_deg, images: [{ name, designation, magnitude, x, y, x_by_azimuth, y_by_azimuth, magnification, g, through, seen_magnitude, mirrored }] } of the stage as it is, the
-// brightest first.
+// { width, height, azimuth_deg, images: [{ name, designation, magnitude, x, y, x_by_azimuth, y_by_azimuth,
+// magnification, g, through, seen_magnitude, mirrored }] } of the stage as it is, the brightest first.
 export function starsIn(scene, stage, moved) {
   const key = sceneOf(scene, stage, moved);
   if (kept.key !== key) {
-    const answer = ask('v1/render', { method: 'POST', headers: { 'Content-Type': 'application/json', Accept: 'application/vnd.kerrd.stars+json' }, body: key }).then(async reply => {
+    const answer = ask('v1/render', {
+      method: 'POST',
+      headers: { 'Content-Type': 'application/json', Accept: 'application/vnd.kerrd.stars+json' },
+      body: key,
+    }).then(async reply => {
       const list = await reply.json();
       list.images = list.images.filter(image => image.through > hidden);
       return list;
@@ -46,8 +58,10 @@ export async function brightest(scene, stage, most) {
 
 function told(image, others) {
   const parts = [t(`magnitude ${number(image.magnitude, 3)}`, `magnitudine ${number(image.magnitude, 3)}`)];
-  if (image.seen_magnitude != null) parts.push(t(`seen as ${number(image.seen_magnitude, 3)}`, `vista come ${number(image.seen_magnitude, 3)}`));
-  if (image.magnification != null) parts.push(t(`magnified × ${number(image.magnification, 2)}`, `ingrandita × ${number(image.magnification, 2)}`));
+  if (image.seen_magnitude != null)
+    parts.push(t(`seen as ${number(image.seen_magnitude, 3)}`, `vista come ${number(image.seen_magnitude, 3)}`));
+  if (image.magnification != null)
+    parts.push(t(`magnified × ${number(image.magnification, 2)}`, `ingrandita × ${number(image.magnification, 2)}`));
   if (image.mirrored) parts.push(t('mirrored', 'specchiata'));
   if (others) parts.push(t(`${others + 1} images`, `${others + 1} immagini`));
   return parts.join(', ');
@@ -81,7 +95,11 @@ export function buildStars(stage, scene) {
     if (!image) return;
     const all = images.filter(one => one.name === image.name && one.designation === image.designation);
     marks.setAttribute('viewBox', `0 0 ${list.width} ${list.height}`);
-    marks.replaceChildren(...all.map(one => svg('circle', { cx: one.x, cy: one.y, r: one === image ? 9 : 6, class: one === image ? 'this' : '' })));
+    marks.replaceChildren(
+      ...all.map(one =>
+        svg('circle', { cx: one.x, cy: one.y, r: one === image ? 9 : 6, class: one === image ? 'this' : '' }),
+      ),
+    );
     label.replaceChildren(el('b', {}, nameOf(image)), el('span', {}, told(image, all.length - 1)));
     label.hidden = false;
     const { offsetWidth, offsetHeight } = label;
@@ -92,7 +110,8 @@ export function buildStars(stage, scene) {
   const look = latest(async () => {
     if (!pointer || !hasNames(scene) || (scene.goesOn() && scene.get('motion.proper_time_rate'))) return clear();
     asked = performance.now();
-    const list = await starsIn(scene, stage, turns() && { 'camera.azimuth_deg': azimuth }).catch(() => null); // without them the picture is as good
+    // without them the picture is as good
+    const list = await starsIn(scene, stage, turns() && { 'camera.azimuth_deg': azimuth }).catch(() => null);
     last = turns() ? list : null;
     if (list && pointer) name(list);
   });
@@ -100,7 +119,10 @@ export function buildStars(stage, scene) {
   function point(event) {
     if (event.buttons && !pointer) return;
     const box = stage.getBoundingClientRect();
-    pointer = event.buttons || event.target.closest('button, a, input') ? null : { x: event.clientX - box.left, y: event.clientY - box.top };
+    pointer =
+      event.buttons || event.target.closest('button, a, input')
+        ? null
+        : { x: event.clientX - box.left, y: event.clientY - box.top };
     clearTimeout(timer);
     if (!pointer) return clear();
     timer = setTimeout(look, turns() ? rest_ms : kept.key === sceneOf(scene, stage) ? 0 : rest_ms);

@@ -1,4 +1,5 @@
-// A struck hole is heard at once, unless somebody has muted it: its ringdown for ears (sound.js), and its curve in the view of physics.
+// A struck hole is heard at once, unless somebody has muted it: its ringdown for ears (sound.js), and its curve in the
+// view of physics.
 import { byId } from './dom.js';
 import { t, tell } from './i18n.js';
 import { physics } from './server.js';
@@ -17,7 +18,10 @@ function muted(to) {
 
 export function buildStruck(scene, goTo) {
   // It is the hole that rings, about its own axis, whichever way the disk turns.
-  const hole = () => ({ spin: Number(Math.abs(scene.get('spacetime.spin')).toFixed(4)), mass_msun: scene.get('spacetime.mass_msun') }),
+  const hole = () => ({
+      spin: Number(Math.abs(scene.get('spacetime.spin')).toFixed(4)),
+      mass_msun: scene.get('spacetime.mass_msun'),
+    }),
     mute = byId('mute'),
     words = byId('heard');
   let on = !muted();

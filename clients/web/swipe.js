@@ -1,11 +1,14 @@
-// A finger that goes sideways over the line below the picture, or over the handle of a sheet, turns over to the next preset. The picture itself is for
-// the camera, and its edges are where telephones take a finger for Back.
+// A finger that goes sideways over the line below the picture, or over the handle of a sheet, turns over to the next
+// preset. The picture itself is for the camera, and its edges are where telephones take a finger for Back.
 const turn_px = 48;
 const steeper = 2; // times as far across as along
 
 export function swipe(node, turn) {
   let begun = null;
-  node.addEventListener('pointerdown', event => (begun = event.pointerType === 'touch' && event.isPrimary ? { x: event.clientX, y: event.clientY } : null));
+  node.addEventListener(
+    'pointerdown',
+    event => (begun = event.pointerType === 'touch' && event.isPrimary ? { x: event.clientX, y: event.clientY } : null),
+  );
   node.addEventListener('pointerup', event => {
     if (!begun || !event.isPrimary) return;
     const across = event.clientX - begun.x;

@@ -4,7 +4,11 @@ import { el } from './dom.js';
 import { helpOf, number, t } from './i18n.js';
 import { stepByArrows } from './slider.js';
 
-const labels = { mass: t('Mass', 'Massa'), radius: t('Radius', 'Raggio'), temperature_k: t('Temperature', 'Temperatura') };
+const labels = {
+  mass: t('Mass', 'Massa'),
+  radius: t('Radius', 'Raggio'),
+  temperature_k: t('Temperature', 'Temperatura'),
+};
 const units = { mass: 'M', radius: 'M', temperature_k: 'K' };
 const usual = { mass: 1e-6, radius: 0.3, temperature_k: 6000 };
 const axes = ['x', 'y', 'z'];
@@ -14,11 +18,20 @@ const listed = 500;
 // Returns { bodies(list), choose(body or null), aims(aims, reference), fields() }.
 export function thrown(root, rows, told) {
   let chosen = null;
-  const which = el('select', { id: 'play-body', onchange: () => told.choose(which.value ? Number(which.value) : null) }),
+  const which = el('select', {
+      id: 'play-body',
+      onchange: () => told.choose(which.value ? Number(which.value) : null),
+    }),
     where = el('p', { class: 'help', id: 'play-body-where' });
 
   function box(id, label, unit, range, change, help) {
-    const input = el('input', { type: 'number', id, step: 'any', required: true, ...(range ? { min: range.least, max: range.most } : {}) }),
+    const input = el('input', {
+        type: 'number',
+        id,
+        step: 'any',
+        required: true,
+        ...(range ? { min: range.least, max: range.most } : {}),
+      }),
       tell = () => (input.validity.valid ? change(input.valueAsNumber) : input.reportValidity());
     input.addEventListener('change', tell);
     if (range)
@@ -27,26 +40,75 @@ export function thrown(root, rows, told) {
         tell();
       });
     const about = help ? helpOf(help) : null;
-    return { input, node: el('div', { class: 'field', title: about?.help }, el('label', { for: id }, label, el('span', { class: 'unit' }, unit)), input) };
+    return {
+      input,
+      node: el(
+        'div',
+        { class: 'field', title: about?.help },
+        el('label', { for: id }, label, el('span', { class: 'unit' }, unit)),
+        input,
+      ),
+    };
   }
 
   const own = rows.map(row => ({
     name: row.name,
-    ...box('play-body-' + row.name, labels[row.name] ?? row.name, units[row.name] ?? '', row, value => chosen && told.change(chosen.id, { [row.name]: value }), row.help),
+    ...box(
+      'play-body-' + row.name,
+      labels[row.name] ?? row.name,
+      units[row.name] ?? '',
+      row,
+      value => chosen && told.change(chosen.id, { [row.name]: value }),
+      row.help,
+    ),
   }));
   for (const { name, input } of own) input.value = usual[name];
   let aims = { from: [0, 0, 0], velocity: [0, 0, 0] };
   const put = (list, k, value) => list.map((old, i) => (i === k ? value : old));
-  const place = axes.map((axis, k) => box('play-at-' + axis, axis, 'M', null, value => told.aim({ from: put(aims.from, k, value), body: chosen?.id ?? null }))),
-    speed = axes.map((axis, k) => box('play-v-' + axis, `v_${axis}`, 'c', null, value => told.aim({ velocity: put(aims.velocity, k, value), armed: true }))),
+  const place = axes.map((axis, k) =>
+      box('play-at-' + axis, axis, 'M', null, value =>
+        told.aim({ from: put(aims.from, k, value), body: chosen?.id ?? null }),
+      ),
+    ),
+    speed = axes.map((axis, k) =>
+      box('play-v-' + axis, `v_${axis}`, 'c', null, value =>
+        told.aim({ velocity: put(aims.velocity, k, value), armed: true }),
+      ),
+    ),
     go = el('button', { type: 'button', id: 'play-throw', onclick: told.release }, ''),
-    remove = el('button', { type: 'button', id: 'play-remove', onclick: told.remove, hidden: true }, t('Remove', 'Togli'));
+    remove = el(
+      'button',
+      { type: 'button', id: 'play-remove', onclick: told.remove, hidden: true },
+      t('Remove', 'Togli'),
+    );
   root.append(
-    el('div', { class: 'field' }, el('div', { class: 'head' }, el('label', { for: which.id }, t('Body', 'Corpo')), badge('model', 'play-body-nature')), which),
+    el(
+      'div',
+      { class: 'field' },
+      el(
+        'div',
+        { class: 'head' },
+        el('label', { for: which.id }, t('Body', 'Corpo')),
+        badge('model', 'play-body-nature'),
+      ),
+      which,
+    ),
     where,
-    el('div', { class: 'three' }, own.map(({ node }) => node)),
-    el('div', { class: 'three' }, place.map(({ node }) => node)),
-    el('div', { class: 'three' }, speed.map(({ node }) => node)),
+    el(
+      'div',
+      { class: 'three' },
+      own.map(({ node }) => node),
+    ),
+    el(
+      'div',
+      { class: 'three' },
+      place.map(({ node }) => node),
+    ),
+    el(
+      'div',
+      { class: 'three' },
+      speed.map(({ node }) => node),
+    ),
     el('p', { class: 'row' }, go, remove),
   );
   const fresh = () => el('option', { value: '' }, t('a new one', 'uno nuovo'));

@@ -1,5 +1,5 @@
-// Ticks over the picture show how its light is polarised: along the electric field, as long as the part of the light that is. Stokes I, Q and U come from
-// the server as numbers, of a small picture of the same view.
+// Ticks over the picture show how its light is polarised: along the electric field, as long as the part of the light
+// that is. Stokes I, Q and U come from the server as numbers, of a small picture of the same view.
 import { number, t } from './i18n.js';
 import { ask } from './server.js';
 
@@ -13,13 +13,15 @@ export function stokesOf(buffer) {
   const view = new DataView(buffer),
     from = 10 + view.getUint16(8, true),
     pixels = [];
-  for (let at = from; at + 12 <= buffer.byteLength; at += 12) pixels.push([0, 4, 8].map(k => view.getFloat32(at + k, true)));
+  for (let at = from; at + 12 <= buffer.byteLength; at += 12)
+    pixels.push([0, 4, 8].map(k => view.getFloat32(at + k, true)));
   return pixels;
 }
 
 const degrees = (q, u) => (90 / Math.PI) * Math.atan2(u, q);
 
-// Of all light: how much is polarised, where to, and beta 2 (Palumbo, Wong & Prather 2020), the part that turns with the place round the middle, from north to east.
+// Of all light: how much is polarised, where to, and beta 2 (Palumbo, Wong & Prather 2020), the part that turns with
+// the place round the middle, from north to east.
 function sums(pixels, columns, rows) {
   const all = { i: 0, q: 0, u: 0, re: 0, im: 0 };
   for (const [k, [i, q, u]] of pixels.entries()) {
@@ -47,12 +49,29 @@ function words({ i, q, u, re, im }) {
 
 export async function ticks(scene, width, height) {
   if (scene.get('polarization.model') === 'none')
-    throw new Error(t('no light is polarised: choose a polarization model among the controls', 'nessuna luce è polarizzata: scegli un modello di polarizzazione fra i controlli'));
+    throw new Error(
+      t(
+        'no light is polarised: choose a polarization model among the controls',
+        'nessuna luce è polarizzata: scegli un modello di polarizzazione fra i controlli',
+      ),
+    );
   const columns = across,
     rows = Math.max(1, Math.round((across * height) / width));
-  const body = scene.document({ 'image.width': columns, 'image.height': rows, 'image.samples': 2, 'image.critical_factor': 1, 'image.layers': layers });
-  const answer = await ask('v1/render', { method: 'POST', headers: { 'Content-Type': 'application/json', Accept: 'application/x-npy' }, body: JSON.stringify(body) });
-  const pixels = stokesOf(await answer.arrayBuffer()).map(([i, q, u]) => (Number.isFinite(i + q + u) ? [i, q, u] : [0, 0, 0])),
+  const body = scene.document({
+    'image.width': columns,
+    'image.height': rows,
+    'image.samples': 2,
+    'image.critical_factor': 1,
+    'image.layers': layers,
+  });
+  const answer = await ask('v1/render', {
+    method: 'POST',
+    headers: { 'Content-Type': 'application/json', Accept: 'application/x-npy' },
+    body: JSON.stringify(body),
+  });
+  const pixels = stokesOf(await answer.arrayBuffer()).map(([i, q, u]) =>
+      Number.isFinite(i + q + u) ? [i, q, u] : [0, 0, 0],
+    ),
     all = sums(pixels, columns, rows);
   if (!all.i) return { lines: [], words: t('nothing shines here', 'qui non splende nulla') };
   const brightest = Math.max(...pixels.map(([i]) => i)),

@@ -1,4 +1,5 @@
-// "Look around": five things to see on a black hole, each with a view of its own and a few sentences. What was seen before comes back.
+// "Look around": five things to see on a black hole, each with a view of its own and a few sentences. What was seen
+// before comes back.
 import { byId, el, still } from './dom.js';
 import { t } from './i18n.js';
 import { startAgain } from './presets.js';
@@ -72,15 +73,28 @@ export function buildTour(stage, scene) {
 
   const lines = () => [...document.querySelectorAll('#overlays input:checked')].map(input => input.id.slice(5));
   function draw(wanted) {
-    for (const input of document.querySelectorAll('#overlays input')) if (input.checked !== wanted.includes(input.id.slice(5))) input.click();
+    for (const input of document.querySelectorAll('#overlays input'))
+      if (input.checked !== wanted.includes(input.id.slice(5))) input.click();
   }
 
   // Through what lies between, by factors for lengths; the rest of the view changes at once.
   function fly(view) {
     const now = ++flight,
-      ways = Object.entries(view).map(([path, to]) => ({ path, to, from: scene.get(path), glides: path.startsWith('camera.') && typeof scene.get(path) === 'number', length: path === 'camera.field_m' })),
+      ways = Object.entries(view).map(([path, to]) => ({
+        path,
+        to,
+        from: scene.get(path),
+        glides: path.startsWith('camera.') && typeof scene.get(path) === 'number',
+        length: path === 'camera.field_m',
+      })),
       begun = performance.now();
-    const place = x => Object.fromEntries(ways.map(({ path, to, from, glides, length }) => [path, x === 1 || !glides ? to : Number((length ? from * (to / from) ** x : from + x * (to - from)).toFixed(3))]));
+    const place = x =>
+      Object.fromEntries(
+        ways.map(({ path, to, from, glides, length }) => [
+          path,
+          x === 1 || !glides ? to : Number((length ? from * (to / from) ** x : from + x * (to - from)).toFixed(3)),
+        ]),
+      );
     function step() {
       if (now !== flight) return;
       const x = still.matches ? 1 : Math.min((performance.now() - begun) / flight_ms, 1);
@@ -99,7 +113,9 @@ export function buildTour(stage, scene) {
     at.textContent = t(`${here + 1} of ${stops.length}`, `${here + 1} di ${stops.length}`);
     back.disabled = here === 0;
     next.textContent = here + 1 < stops.length ? t('Next', 'Avanti') : t('Done', 'Fatto');
-    const rest = Object.fromEntries(stops.flatMap(([, others]) => Object.keys(others)).map(path => [path, usual.get(path)]));
+    const rest = Object.fromEntries(
+      stops.flatMap(([, others]) => Object.keys(others)).map(path => [path, usual.get(path)]),
+    );
     fly({ ...rest, ...view });
     draw(over);
   }

@@ -6,7 +6,8 @@ import { numbers } from './numbers.js';
 const parts = 5; // of a track, each with its own strength
 const edge = 94; // of 100 from the middle
 
-// A cubic a stretch, at each place along the chord of its neighbours (E. Catmull & R. Rom 1974), by a third of the stretch: places come at uneven times.
+// A cubic a stretch, at each place along the chord of its neighbours (E. Catmull & R. Rom 1974), by a third of the
+// stretch: places come at uneven times.
 function curve(track, from, to) {
   const at = i => track[Math.min(Math.max(i, 0), track.length - 1)],
     text = ([x, y]) => `${x.toFixed(2)} ${y.toFixed(2)}`,
@@ -23,7 +24,8 @@ function curve(track, from, to) {
   return path;
 }
 
-// names: of the axes, where they are to be told; field: the angle of a direction that is drawn through the last place, from upwards to the left, radians.
+// names: of the axes, where they are to be told; field: the angle of a direction that is drawn through the last place,
+// from upwards to the left, radians.
 export function drawTrack(picture, points, unit, names = [], field = null) {
   const seen = points.filter(([x, y]) => x != null && y != null),
     reach = 1.25 * Math.max(...seen.flat().map(Math.abs), 1e-6),
@@ -38,13 +40,21 @@ export function drawTrack(picture, points, unit, names = [], field = null) {
     [right, up] = [-Math.sin(field), Math.cos(field)].map(part => 14 * part);
   picture.replaceChildren(
     svg('path', { class: 'axes', d: `M-${edge} 0H${edge}M0 -${edge - 8}V${edge - 16}` }),
-    ...(last > 0 ? [...Array(parts).keys()].map(i => svg('path', { class: 'track', opacity: (i + 2) / (parts + 1), d: curve(track, share(i), share(i + 1)) })) : []),
+    ...(last > 0
+      ? [...Array(parts).keys()].map(i =>
+          svg('path', { class: 'track', opacity: (i + 2) / (parts + 1), d: curve(track, share(i), share(i + 1)) }),
+        )
+      : []),
     svg('path', { class: 'cross', d: 'M-4 0H4M0 -4V4' }),
-    ...(last >= 0 && field != null ? [svg('path', { class: 'field', d: `M${x - right} ${y + up}L${x + right} ${y - up}` })] : []),
+    ...(last >= 0 && field != null
+      ? [svg('path', { class: 'field', d: `M${x - right} ${y + up}L${x + right} ${y - up}` })]
+      : []),
     ...(last >= 0 ? [svg('circle', { class: 'body', r: 2.5, cx: x, cy: y })] : []),
     svg('path', { class: 'bar', d: `M${-half} 85V89H${half}V85` }),
     svg('text', { class: 'axis', x: 0, y: 97, 'text-anchor': 'middle' }, `${number(bar)} ${unit}`),
-    ...names.map((name, i) => svg('text', { class: 'axis name', x: i ? 0 : edge, y: i ? -89 : -3, 'text-anchor': i ? 'middle' : 'end' }, name)),
+    ...names.map((name, i) =>
+      svg('text', { class: 'axis name', x: i ? 0 : edge, y: i ? -89 : -3, 'text-anchor': i ? 'middle' : 'end' }, name),
+    ),
   );
 }
 
@@ -52,5 +62,9 @@ export function drawTrack(picture, points, unit, names = [], field = null) {
 export function drawing(id, note) {
   const picture = svg('svg', { class: 'rosette', viewBox: '-100 -100 200 200', role: 'img', 'aria-labelledby': id }),
     list = numbers(id);
-  return { picture, list, figure: el('figure', { class: 'plot' }, el('figcaption', { id }), picture, el('p', { class: 'help' }, note), list) };
+  return {
+    picture,
+    list,
+    figure: el('figure', { class: 'plot' }, el('figcaption', { id }), picture, el('p', { class: 'help' }, note), list),
+  };
 }

@@ -1,4 +1,5 @@
-// The camera is moved by hand: drag to go round the hole, or near it to look around; wheel or pinch to come nearer, or to see less; keys for all.
+// The camera is moved by hand: drag to go round the hole, or near it to look around; wheel or pinch to come nearer, or
+// to see less; keys for all.
 import { byId } from './dom.js';
 import { t } from './i18n.js';
 import * as link from './link.js';
@@ -20,7 +21,9 @@ function looker(scene) {
   let chosen = link.get('look');
   const can = () => scene.get('camera.r') !== 'infinity' && scene.get('camera.projection') !== 'ring';
   const deep = () =>
-    scene.get('camera.r') <= near_r || scene.get('camera.observer') === 'infall' || ['equirectangular', 'fulldome'].includes(scene.get('camera.projection'));
+    scene.get('camera.r') <= near_r ||
+    scene.get('camera.observer') === 'infall' ||
+    ['equirectangular', 'fulldome'].includes(scene.get('camera.projection'));
   const looks = () => can() && (chosen == null ? deep() : chosen === '1');
 
   function show() {
@@ -62,10 +65,11 @@ export function handle(stage, scene) {
   const far = () => get('r') === 'infinity';
   const narrows = () => looks() && !['equirectangular', 'fulldome'].includes(get('projection'));
 
-  // What wheel and fingers change: at infinity and where one looks around the field narrows, elsewhere the camera comes nearer; it stops outside every
-  // static limit (r = 2), unless it is within already.
+  // What wheel and fingers change: at infinity and where one looks around the field narrows, elsewhere the camera comes
+  // nearer; it stops outside every static limit (r = 2), unless it is within already.
   function reach() {
-    if (get('projection') === 'ring') return { name: 'ring_decades_min', low: -13, high: Math.min(get('ring_decades_max') - 0.5, -1) };
+    if (get('projection') === 'ring')
+      return { name: 'ring_decades_min', low: -13, high: Math.min(get('ring_decades_max') - 0.5, -1) };
     if (far()) return { name: 'field_m', low: 0.5, high: 1e4 };
     if (narrows()) return { name: 'fov_deg', low: 2, high: 150 };
     return { name: 'r', low: Math.min(2.1, get('r')), high: 1e5 };

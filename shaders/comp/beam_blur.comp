@@ -1,6 +1,7 @@
-/* This kernel blurs a grid of cells by a Gaussian along one of its axes (render/plan/beam.h). An invocation makes four cells next to one another on
- * the axis, which share what they read: the weight of a cell for one of them is the weight of the cell before it for the one before. ROWS: along
- * columns, from row to row. What lies beyond the ends is dark. */
+/* This kernel blurs a grid of cells by a Gaussian along one of its axes (render/plan/beam.h). An invocation makes
+ * four cells next to one another on the axis, which share what they read: the weight of a cell for one of them is
+ * the weight of the cell before it for the one before. ROWS: along columns, from row to row. What lies beyond the
+ * ends is dark. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

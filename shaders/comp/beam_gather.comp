@@ -1,6 +1,7 @@
-/* This kernel makes rows of cells of rows of light (render/plan/beam.h). An invocation makes one cell of one row: the mean of the pixels of the row round it, weighted by a
- * quadratic B-spline of the cells' width; or, where a cell is a pixel, the pixel. Light that is no number, or 10^30 and more, counts as none: it
- * would be all over the picture. */
+/* This kernel makes rows of cells of rows of light (render/plan/beam.h). An invocation makes one cell of one row:
+ * the mean of the pixels of the row round it, weighted by a quadratic B-spline of the cells' width; or, where a cell
+ * is a pixel, the pixel. Light that is no number, or 10^30 and more, counts as none: it would be all over the
+ * picture. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

@@ -1,5 +1,6 @@
-/* This kernel writes rows of pixels as rows of cells, or back, by quadratic B-splines (render/plan/beam.h). An invocation makes one cell of a slice
- * of rows from `count` cells above and below it. What lies beyond the ends is dark. */
+/* This kernel writes rows of pixels as rows of cells, or back, by quadratic B-splines (render/plan/beam.h). An
+ * invocation makes one cell of a slice of rows from `count` cells above and below it. What lies beyond the ends is
+ * dark. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

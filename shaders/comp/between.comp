@@ -1,15 +1,17 @@
-/* This kernel puts rays between rays: it makes the lens map of a square grid of rays on listed pixels by interpolation in the map of the picture's
- * grid, which has one ray in the middle of each pixel. No light is followed: what this saves is rays, and what it gives is the source across the
- * pixel, as the ray bundle of James, von Tunzelmann, Franklin & Thorne 2015 (Class. Quantum Grav. 32, 065001, appendix A.2) does to first order.
+/* This kernel puts rays between rays: it makes the lens map of a square grid of rays on listed pixels by
+ * interpolation in the map of the picture's grid, which has one ray in the middle of each pixel. No light is
+ * followed: what this saves is rays, and what it gives is the source across the pixel, as the ray bundle of James,
+ * von Tunzelmann, Franklin & Thorne 2015 (Class. Quantum Grav. 32, 065001, appendix A.2) does to first order.
  *
- * Through a pixel and its eight neighbours goes one biquadratic polynomial, for w and for the azimuth of each crossing, and so on; of directions in
- * the sky for the unit vector. At (x, y) of a pixel's side from the middle it is off by x(x^2 - 1)/6 of the third difference along x, at most
- * by 1/17 of it, and likewise along y.
+ * Through a pixel and its eight neighbours goes one biquadratic polynomial, for w and for the azimuth of each
+ * crossing, and so on; of directions in the sky for the unit vector. At (x, y) of a pixel's side from the middle it
+ * is off by x(x^2 - 1)/6 of the third difference along x, at most by 1/17 of it, and likewise along y.
  *
- * MARK: instead say of each listed pixel, in the word that is its own behind the list, whether that may be done: 1, or 0. All nine
- * rays must have crossings of the same orders and the same fate; in the metric of the source the second differences must be less than BENT
- * of the first, and of crossings the third ones less than TWISTED: the error is then less than 0.004 of a pixel. At the edges of
- * the picture, and of the band that the buffer holds, it may not. */
+ * MARK: instead say of each listed pixel, in the word that is its own behind the list, whether that may be done: 1,
+ * or 0. All nine rays must have crossings of the same orders and the same fate; in the metric of the source the
+ * second differences must be less than BENT of the first, and of crossings the third ones less than TWISTED: the
+ * error is then less than 0.004 of a pixel. At the edges of the picture, and of the band that the buffer holds, it
+ * may not. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
@@ -30,7 +32,8 @@ layout(set = 0, binding = 1) readonly buffer LensMap { float lens[]; };
 const float BENT = 0.3, TWISTED = 0.06;
 const bool SKY = (QUANTITIES & KD_LENS_SKY_U) != 0u, FATE = (QUANTITIES & KD_LENS_FATE) != 0u;
 
-/* The polynomial: its value in the middle, slopes along x and y, half second differences, and the mixed terms xy, x^2 y, x y^2, x^2 y^2. */
+/* The polynomial: its value in the middle, slopes along x and y, half second differences, and the mixed terms xy,
+ * x^2 y, x y^2, x^2 y^2. */
 struct kd_biquadratic { vec3 slope_x, slope_y, bend_x, bend_y, xy, xxy, xyy, xxyy; };
 
 vec3 turned(vec3 d, bool angle)
@@ -41,7 +44,10 @@ vec3 turned(vec3 d, bool angle)
 }
 
 /* A quantity of the ray at a place of the map: of crossings w, and a second one; of the sky a unit vector. */
-vec3 crossing(uint n, uint quantity, uint at) { return vec3(lens[at + n * push.map_stride], lens[at + (kd_plane(quantity) + n) * push.map_stride], 0.0); }
+vec3 crossing(uint n, uint quantity, uint at)
+{
+    return vec3(lens[at + n * push.map_stride], lens[at + (kd_plane(quantity) + n) * push.map_stride], 0.0);
+}
 
 vec3 direction(uint at)
 {
@@ -74,7 +80,8 @@ kd_biquadratic patch_of(uint n, uint quantity, uint at)
 
 vec3 change(kd_biquadratic p, float x, float y)
 {
-    return x * (p.slope_x + x * p.bend_x) + y * (p.slope_y + y * p.bend_y) + x * y * (p.xy + x * p.xxy + y * p.xyy + x * y * p.xxyy);
+    return x * (p.slope_x + x * p.bend_x) + y * (p.slope_y + y * p.bend_y) +
+           x * y * (p.xy + x * p.xxy + y * p.xyy + x * y * p.xxyy);
 }
 
 /* Whether a patch is straight enough, m being its metric. */
@@ -84,8 +91,9 @@ bool straight(kd_biquadratic p, vec3 m)
     return dot(a, a) + dot(b, b) + dot(c, c) < BENT * BENT * (dot(i, i) + dot(j, j)); /* false of what is no number */
 }
 
-/* Whether what the polynomial of crossing n leaves out, the third difference along x and y, is small beside its slopes. Each of the four rays
- * two pixels off tells it, if it has such a crossing. A map that bends one way on one side of a pixel and the other way on its other side has no second difference there. */
+/* Whether what the polynomial of crossing n leaves out, the third difference along x and y, is small beside its
+ * slopes. Each of the four rays two pixels off tells it, if it has such a crossing. A map that bends one way on one
+ * side of a pixel and the other way on its other side has no second difference there. */
 bool even(uint n, uint quantity, uint at, kd_biquadratic p, vec3 m, uint x, uint y)
 {
     vec3 own = crossing(n, quantity, at), i = m * p.slope_x, j = m * p.slope_y;
@@ -97,7 +105,8 @@ bool even(uint n, uint quantity, uint at, kd_biquadratic p, vec3 m, uint x, uint
             continue;
         int far = (forth ? 2 : -2) * (along_x ? 1 : int(push.width));
         vec3 second = crossing(n, quantity, at + far);
-        vec3 s = forth ? (along_x ? p.slope_x : p.slope_y) : -(along_x ? p.slope_x : p.slope_y), b = along_x ? p.bend_x : p.bend_y;
+        vec3 s = forth ? (along_x ? p.slope_x : p.slope_y) : -(along_x ? p.slope_x : p.slope_y),
+             b = along_x ? p.bend_x : p.bend_y;
         vec3 third = m * (turned(second - own, quantity == KD_LENS_PHI) - 2.0 * s - 4.0 * b);
         most = max(most, second.x > 0.0 ? dot(third, third) : 0.0);
     }
@@ -116,7 +125,8 @@ bool alike(uint at)
                 same = same && own >= 0.0 && (own > 0.0 ? other > 0.0 : other == 0.0);
             }
             if (FATE)
-                same = same && lens[there + kd_plane(KD_LENS_FATE) * push.map_stride] == lens[at + kd_plane(KD_LENS_FATE) * push.map_stride];
+                same = same && lens[there + kd_plane(KD_LENS_FATE) * push.map_stride] ==
+                                   lens[at + kd_plane(KD_LENS_FATE) * push.map_stride];
         }
     return same;
 }
@@ -135,7 +145,8 @@ bool may(uint x, uint y, uint at)
         float r = 1.0 / w;
         kd_biquadratic p = patch_of(n, (QUANTITIES & KD_LENS_PHI) != 0u ? KD_LENS_PHI : KD_LENS_W, at);
         vec3 m = vec3(r * r, (QUANTITIES & KD_LENS_PHI) != 0u ? r : 0.0, 0.0);
-        yes = yes && straight(p, m) && even(n, (QUANTITIES & KD_LENS_PHI) != 0u ? KD_LENS_PHI : KD_LENS_W, at, p, m, x, y);
+        yes = yes && straight(p, m) &&
+              even(n, (QUANTITIES & KD_LENS_PHI) != 0u ? KD_LENS_PHI : KD_LENS_W, at, p, m, x, y);
     }
     if (escapes(at))
         yes = yes && straight(patch_of(ORDERS, 0u, at), vec3(1.0));
@@ -186,7 +197,8 @@ void fill(uint at, uint to)
             continue;
         }
         for (int i = 0; i < 4; i++) /* w comes with the others */
-            if ((QUANTITIES & beside[i]) != 0u && (i > 0 || (QUANTITIES & (KD_LENS_PHI | KD_LENS_DELAY | KD_LENS_SLOPE)) == 0u))
+            if ((QUANTITIES & beside[i]) != 0u &&
+                (i > 0 || (QUANTITIES & (KD_LENS_PHI | KD_LENS_DELAY | KD_LENS_SLOPE)) == 0u))
                 interpolate(n, beside[i], at, to);
     }
     if (FATE)
@@ -201,7 +213,8 @@ void main()
     uint pixel = push.first + gl_GlobalInvocationID.x;
     if (gl_GlobalInvocationID.x >= push.count)
         return;
-    uint x = uint(listed[push.list + 2 * pixel]), y = uint(listed[push.list + 2 * pixel + 1]) - push.row0, at = y * push.width + x;
+    uint x = uint(listed[push.list + 2 * pixel]), y = uint(listed[push.list + 2 * pixel + 1]) - push.row0,
+         at = y * push.width + x;
     if (MARK)
         listed[push.list + 2 * push.marks + pixel] = may(x, y, at) ? 1.0 : 0.0;
     else

@@ -1,11 +1,12 @@
-/* This kernel adds up the light that a lens takes from its places (shared/bloom.glsl) over blocks of BLOCK_X times BLOCK_Y pixels, which are smaller
- * than the cells of the finest grid. An invocation takes four columns of pixels, or one block where that is larger.
+/* This kernel adds up the light that a lens takes from its places (shared/bloom.glsl) over blocks of BLOCK_X times
+ * BLOCK_Y pixels, which are smaller than the cells of the finest grid. An invocation takes four columns of pixels,
+ * or one block where that is larger.
  *
- * A block's rows may lie in two bands or more: each band adds its rows to what those before it have left, one after the other, so that the sum
- * does not depend on where bands end.
+ * A block's rows may lie in two bands or more: each band adds its rows to what those before it have left, one after
+ * the other, so that the sum does not depend on where bands end.
  *
- * Two kernels are made of this file: KD_TEXELS reads the radiance as texels of four floats, three of which are four pixels; it needs rows
- * of a multiple of four pixels. */
+ * Two kernels are made of this file: KD_TEXELS reads the radiance as texels of four floats, three of which are four
+ * pixels; it needs rows of a multiple of four pixels. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -41,10 +42,14 @@ vec3 one_at(uint x, uint row)
     vec3 light = taken(vec3(radiance[at], radiance[at + 1], radiance[at + 2]));
     return x < push.pixels_x ? light : vec3(0);
 }
-quad quad_at(uint x, uint row) { return quad(one_at(x, row), one_at(x + 1, row), one_at(x + 2, row), one_at(x + 3, row)); }
+quad quad_at(uint x, uint row)
+{
+    return quad(one_at(x, row), one_at(x + 1, row), one_at(x + 2, row), one_at(x + 3, row));
+}
 #endif
 
-const uint WIDE = BLOCK_X > 4 ? BLOCK_X : 4, EACH = BLOCK_X < 4 ? 4 / BLOCK_X : 1; /* columns of an invocation, blocks that it has */
+const uint WIDE = BLOCK_X > 4 ? BLOCK_X : 4,
+           EACH = BLOCK_X < 4 ? 4 / BLOCK_X : 1; /* columns of an invocation, blocks that it has */
 
 /* What the bands before have left of block n of an invocation. */
 vec3 begun(uint at, uint n, uint left) { return BEGUN && n < EACH && n < left ? blocks[at + n].rgb : vec3(0); }
@@ -54,7 +59,8 @@ void main()
     uvec2 place = bloom_place(gl_GlobalInvocationID.x, push.across);
     if (place.y >= push.block_rows)
         return;
-    uint block = push.block_row0 + place.y, first = BLOCK_Y * block, at = block * push.blocks_x + EACH * place.x, left = push.blocks_x - EACH * place.x;
+    uint block = push.block_row0 + place.y, first = BLOCK_Y * block, at = block * push.blocks_x + EACH * place.x,
+         left = push.blocks_x - EACH * place.x;
     vec3 a = vec3(0), b = vec3(0), c = vec3(0), d = vec3(0);
     if (BEGUN && first < push.row0) {
         a = begun(at, 0, left);

@@ -1,5 +1,6 @@
-/* This kernel makes a grid of half as many cells each way from the next finer one: weights are 1, 3, 3, 1 over 8, so that each fine cell gives all
- * that it has, and that a quadratic B-spline of the fine grid becomes one of the coarse grid. */
+/* This kernel makes a grid of half as many cells each way from the next finer one: weights are 1, 3, 3, 1 over 8, so
+ * that each fine cell gives all that it has, and that a quadratic B-spline of the fine grid becomes one of the
+ * coarse grid. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -7,7 +8,12 @@
 #include "shared/bloom.glsl"
 
 layout(local_size_x = KD_GROUP_SIZE) in;
-layout(push_constant) uniform Push { uint cells_x, cells_y; float share, coarse_share; } push; /* of the coarse grid */
+layout(push_constant) uniform Push
+{
+    uint cells_x, cells_y;
+    float share, coarse_share;
+}
+push; /* of the coarse grid */
 #ifdef KD_TEXELS
 layout(set = 0, binding = 0) uniform textureBuffer fine;
 vec3 cell(int at) { return texelFetch(fine, at).rgb; }
@@ -19,7 +25,8 @@ layout(set = 0, binding = 1) writeonly buffer Coarse { vec4 coarse[]; };
 
 void main()
 {
-    int n = int(gl_GlobalInvocationID.x), across = int(push.cells_x), rows = 2 * int(push.cells_y), columns = 2 * across;
+    int n = int(gl_GlobalInvocationID.x), across = int(push.cells_x), rows = 2 * int(push.cells_y),
+        columns = 2 * across;
     if (n >= across * int(push.cells_y))
         return;
     int x = 2 * (n % across) - 1, y = 2 * (n / across) - 1;

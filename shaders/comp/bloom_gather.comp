@@ -1,6 +1,7 @@
-/* This kernel spreads the light of blocks of pixels as a quadratic B-spline on the finest grid. A block gives to its own cell and to the eight round it, by where in its
- * cell its middle is, so that what is spread moves and widens evenly with it. What it would give to cells beyond the edge comes back to
- * those inside. An invocation makes two cells each way, which share what they read. */
+/* This kernel spreads the light of blocks of pixels as a quadratic B-spline on the finest grid. A block gives to its
+ * own cell and to the eight round it, by where in its cell its middle is, so that what is spread moves and widens
+ * evenly with it. What it would give to cells beyond the edge comes back to those inside. An invocation makes two
+ * cells each way, which share what they read. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -26,21 +27,26 @@ layout(set = 0, binding = 1) writeonly buffer Cells { vec4 cells[]; };
 /* So many pixels, pixels a block, blocks and cells along an axis. */
 struct kd_bloom_axis { uint pixels, block, blocks, cells; };
 /* A block, and its weights for two neighbouring cells. */
-struct kd_tap { int at; float a, b; };
+struct kd_tap {
+    int at;
+    float a, b;
+};
 
-/* The blocks whose middles are at most 1.5 cells from the middles of cell i and the next one are among these and those that follow. */
+/* The blocks whose middles are at most 1.5 cells from the middles of cell i and the next one are among these and
+ * those that follow. */
 int first_tap(kd_bloom_axis axis, int i)
 {
     float step_ = float(axis.cells * axis.block) / float(axis.pixels);
     return int(ceil((float(i) - 1) / step_ - 0.5));
 }
 
-/* Block k, which may be a mirror image beyond an edge. The last block may be narrower than the others: its middle lies before its place,
- * and what is mirrored in the edge, too. */
+/* Block k, which may be a mirror image beyond an edge. The last block may be narrower than the others: its middle
+ * lies before its place, and what is mirrored in the edge, too. */
 kd_tap tap(kd_bloom_axis axis, int i, int k)
 {
     int count = int(axis.blocks), behind = k - count, within = k < 0 ? -1 - k : behind < 0 ? k : count - 1 - behind;
-    float scale = float(axis.cells) / float(axis.pixels), at = (float(k) + 0.5) * (scale * float(axis.block)) - (float(i) + 0.5);
+    float scale = float(axis.cells) / float(axis.pixels),
+          at = (float(k) + 0.5) * (scale * float(axis.block)) - (float(i) + 0.5);
     if (RAGGED) {
         float narrow = 0.5 * scale * float(axis.blocks * axis.block - axis.pixels);
         at -= behind < -1 ? 0.0 : behind == -1 ? narrow : behind == 0 ? 3 * narrow : 4 * narrow;

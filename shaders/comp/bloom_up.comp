@@ -1,8 +1,10 @@
-/* This kernel adds up what the cells of one grid spread, and of all coarser ones: this grid's share, and the coarser grid's sum on this one.
+/* This kernel adds up what the cells of one grid spread, and of all coarser ones: this grid's share, and the coarser
+ * grid's sum on this one.
  *
- * The coarser sum: weights 3 and 1 over 4 (G. Chaikin 1974) are those by which a quadratic B-spline is one of half the spacing: all grids
- * together are a sum of such splines, whatever grid they are looked up on. The share is smoothed by 1, 2, 1 over 4 each way, which has a
- * zero where a grid mistakes waves for longer ones: so a point of light spreads alike wherever in its cell it is. */
+ * The coarser sum: weights 3 and 1 over 4 (G. Chaikin 1974) are those by which a quadratic B-spline is one of half
+ * the spacing: all grids together are a sum of such splines, whatever grid they are looked up on. The share is
+ * smoothed by 1, 2, 1 over 4 each way, which has a zero where a grid mistakes waves for longer ones: so a point of
+ * light spreads alike wherever in its cell it is. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -10,7 +12,12 @@
 #include "shared/bloom.glsl"
 
 layout(local_size_x = KD_GROUP_SIZE) in;
-layout(push_constant) uniform Push { uint cells_x, cells_y; float share, coarse_share; } push; /* of the fine grid */
+layout(push_constant) uniform Push
+{
+    uint cells_x, cells_y;
+    float share, coarse_share;
+}
+push; /* of the fine grid */
 #ifdef KD_TEXELS
 layout(set = 0, binding = 0) uniform textureBuffer coarse;
 layout(set = 0, binding = 1) uniform textureBuffer light;
@@ -53,11 +60,14 @@ void main()
     pair c = smoothed(across * bloom_mirror(y + 1, rows), at), d = smoothed(across * bloom_mirror(y + 2, rows), at);
     int half_x = across / 2, half_y = rows / 2;
     ivec3 near = ivec3(bloom_mirror(x / 2 - 1, half_x), bloom_mirror(x / 2, half_x), bloom_mirror(x / 2 + 1, half_x));
-    pair e = finer(half_x * bloom_mirror(y / 2 - 1, half_y), near), f = finer(half_x * bloom_mirror(y / 2, half_y), near);
+    pair e = finer(half_x * bloom_mirror(y / 2 - 1, half_y), near),
+         f = finer(half_x * bloom_mirror(y / 2, half_y), near);
     pair g = finer(half_x * bloom_mirror(y / 2 + 1, half_y), near);
     float own = push.share / 16, above = push.coarse_share / 16;
-    vec3 upper_left = own * (a.a + 2 * b.a + c.a) + above * (e.a + 3 * f.a), upper_right = own * (a.b + 2 * b.b + c.b) + above * (e.b + 3 * f.b);
-    vec3 lower_left = own * (b.a + 2 * c.a + d.a) + above * (3 * f.a + g.a), lower_right = own * (b.b + 2 * c.b + d.b) + above * (3 * f.b + g.b);
+    vec3 upper_left = own * (a.a + 2 * b.a + c.a) + above * (e.a + 3 * f.a),
+         upper_right = own * (a.b + 2 * b.b + c.b) + above * (e.b + 3 * f.b);
+    vec3 lower_left = own * (b.a + 2 * c.a + d.a) + above * (3 * f.a + g.a),
+         lower_right = own * (b.b + 2 * c.b + d.b) + above * (3 * f.b + g.b);
     int n = across * y + x;
     bool more = x + 1 < across, below = y + 1 < rows;
     fine[n] = vec4(upper_left, 0);

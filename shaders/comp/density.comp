@@ -1,10 +1,12 @@
-/* This kernel makes of the weights that particles.comp has counted the density at each node, over the one expected there. */
+/* This kernel makes of the weights that particles.comp has counted the density at each node, over the one expected
+ * there. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
 
 layout(local_size_x = KD_GROUP_SIZE) in;
-layout(push_constant) uniform Push { uint columns; } push;
+layout(push_constant) uniform Push { uint columns; }
+push;
 layout(set = 0, binding = 0) readonly buffer Grid { uint grid[]; };
 layout(set = 0, binding = 1) readonly buffer Expected { float per_unit[]; }; /* of a row */
 layout(set = 0, binding = 2) writeonly buffer Density { float density[]; };

@@ -1,11 +1,13 @@
-/* This kernel counts the picture's luminance into a histogram, for auto exposure. Integer counts: the same on every run. Of a large picture each
- * `skip`-th pixel is counted, a number that shares no factor with usual widths, so that all columns have their turn. */
+/* This kernel counts the picture's luminance into a histogram, for auto exposure. Integer counts: the same on every
+ * run. Of a large picture each `skip`-th pixel is counted, a number that shares no factor with usual widths, so that
+ * all columns have their turn. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
 
 layout(local_size_x = KD_GROUP_SIZE) in;
-layout(push_constant) uniform Push { uint pixels, skip; } push;
+layout(push_constant) uniform Push { uint pixels, skip; }
+push;
 layout(set = 0, binding = 0) readonly buffer Radiance { float radiance[]; };
 layout(set = 0, binding = 1) buffer Histogram { uint histogram[KD_HISTOGRAM_BINS]; };
 shared uint local_bins[KD_HISTOGRAM_BINS];
@@ -20,7 +22,8 @@ void main()
         float y = 0.2126 * radiance[3 * i] + 0.7152 * radiance[3 * i + 1] + 0.0722 * radiance[3 * i + 2];
         uint bin = 0;
         if (y > 0.0)
-            bin = clamp(floatBitsToUint(y) >> 20, KD_HISTOGRAM_FIRST + 1, KD_HISTOGRAM_FIRST + KD_HISTOGRAM_BINS - 1) - KD_HISTOGRAM_FIRST;
+            bin = clamp(floatBitsToUint(y) >> 20, KD_HISTOGRAM_FIRST + 1, KD_HISTOGRAM_FIRST + KD_HISTOGRAM_BINS - 1) -
+                  KD_HISTOGRAM_FIRST;
         atomicAdd(local_bins[bin], 1);
     }
     barrier();

@@ -1,17 +1,20 @@
-/* This kernel finds the footprint of each ray: the size of what it stands for, on the disk for each crossing, and in the sky (shared/lens.h).
+/* This kernel finds the footprint of each ray: the size of what it stands for, on the disk for each crossing, and in
+ * the sky (shared/lens.h).
  *
- * A step of the camera is a square in the picture; the map takes it, to first order, to a parallelogram, and a disc one step across to
- * an ellipse. The footprint is the long axis of that ellipse: the largest singular value of the map's derivative J,
+ * A step of the camera is a square in the picture; the map takes it, to first order, to a parallelogram, and a disc
+ * one step across to an ellipse. The footprint is the long axis of that ellipse: the largest singular value of the
+ * map's derivative J,
  *   sigma^2 = (A + B)/2 + sqrt((A - B)^2/4 + C^2),   A = |J_x|^2, B = |J_y|^2, C = J_x.J_y .
  * The derivative comes from differences to the neighbouring rays of the same order or fate. The rays next to it
- * on both sides give it to second order; so do two on one side, at the edge of the picture or of what the buffer holds; one ray alone
- * gives it to first order. Where neither side has any, the ray is by itself at an edge, and its footprint is KD_FOOTPRINT_EDGE.
- * Half the second difference counts as well: where the map turns back within a step it has a size all the same. It is of second
- * order, too.
+ * on both sides give it to second order; so do two on one side, at the edge of the picture or of what the buffer
+ * holds; one ray alone gives it to first order. Where neither side has any, the ray is by itself at an edge, and its
+ * footprint is KD_FOOTPRINT_EDGE. Half the second difference counts as well: where the map turns back within a step
+ * it has a size all the same. It is of second order, too.
  *
- * Rays on listed pixels stand on a square grid, which is taken by itself for each pixel, or on a lattice (ray/place.glsl). On a lattice J is the
- * linear map that fits best, by least squares, the differences to the neighbours in this pixel and those beside it, for a step of the side
- * of the area that one ray has; what the fit leaves is counted like the second difference.
+ * Rays on listed pixels stand on a square grid, which is taken by itself for each pixel, or on a lattice
+ * (ray/place.glsl). On a lattice J is the linear map that fits best, by least squares, the differences to the
+ * neighbours in this pixel and those beside it, for a step of the side of the area that one ray has; what the fit
+ * leaves is counted like the second difference.
  *
  * Differences are those of 32-bit numbers: a footprint of less than some 1e-6 of r, or 1e-6 radians, is noise. */
 #version 450
@@ -40,7 +43,10 @@ float map_at(uint at) { return lens[at]; }
 const bool SHAPED = (QUANTITIES & KD_LENS_SHAPE) != 0u;
 
 /* A ray comes here: of a crossing (w, phi), of the sky a unit vector. */
-struct kd_spot { vec3 at; bool there; };
+struct kd_spot {
+    vec3 at;
+    bool there;
+};
 
 /* n: which crossing; ORDERS: the sky. */
 kd_spot spot(uint n, uint at, bool there)
@@ -65,7 +71,10 @@ vec3 apart(uint n, kd_spot own, kd_spot other)
 }
 
 /* The change from ray to ray along one axis of the picture, and half the second difference. */
-struct kd_change { vec3 slope, bend; bool there; };
+struct kd_change {
+    vec3 slope, bend;
+    bool there;
+};
 
 /* At this place of so many along the axis, a step of which is `step_` in a plane of the map. */
 kd_change change(uint n, kd_spot own, uint at, uint place, uint places, uint step_)
@@ -107,7 +116,9 @@ kd_oval oval(float rr, float ff, float rf)
     float size = longest(rr, ff, rf), i = rr / (rr + ff), j = 0.5 - 0.5 * rf * inversesqrt(rr * ff);
     if (!kd_is_finite(i + j))
         return kd_oval(size, KD_NO_OVAL.shape);
-    return kd_oval(size, 1.0 + (floor(2047.0 * clamp(i, 0.0, 1.0) + 0.5) + 2048.0 * floor(2047.0 * clamp(j, 0.0, 1.0) + 0.5)) / 8388608.0);
+    return kd_oval(
+        size, 1.0 + (floor(2047.0 * clamp(i, 0.0, 1.0) + 0.5) + 2048.0 * floor(2047.0 * clamp(j, 0.0, 1.0) + 0.5)) /
+                        8388608.0);
 }
 
 /* The ray's place in a grid, all of which lies in the map row by row. */
@@ -116,7 +127,8 @@ struct kd_grid { uint x, y, width, rows; };
 kd_oval on_grid(uint n, uint at, kd_grid grid)
 {
     kd_spot own = spot(n, at, true);
-    kd_change across = change(n, own, at, grid.x, grid.width, 1), down = change(n, own, at, grid.y, grid.rows, grid.width);
+    kd_change across = change(n, own, at, grid.x, grid.width, 1),
+              down = change(n, own, at, grid.y, grid.rows, grid.width);
     vec3 m = scale(n, own), i = m * across.slope, j = m * down.slope, bend_i = m * across.bend, bend_j = m * down.bend;
     kd_oval o = kd_oval(longest(dot(i, i) + dot(bend_i, bend_i), dot(j, j) + dot(bend_j, bend_j), dot(i, j)), 0.0);
     if (SHAPED && n < ORDERS) {
@@ -129,7 +141,11 @@ kd_oval on_grid(uint n, uint at, kd_grid grid)
 }
 
 /* Sums for the linear map that fits best: of v v^T, of d v^T, and of d.d; how many neighbours lack what the ray has. */
-struct kd_fit { float xx, xy, yy; vec3 dx, dy; float dd, count, lacks; };
+struct kd_fit {
+    float xx, xy, yy;
+    vec3 dx, dy;
+    float dd, count, lacks;
+};
 
 /* Which pixels beside this one are listed too: they are next to it in the list. */
 struct kd_beside { bool left, right; };
@@ -169,17 +185,27 @@ kd_oval on_lattice(uint n, uint at)
     kd_spot own = spot(n, at, true);
     kd_fit fit = kd_fit(0.0, 0.0, 0.0, vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0);
     vec3 m = scale(n, own);
-#define BOTH(vx, vy) count(fit, n, own, m, all, at, k, int(vx), int(vy)); count(fit, n, own, m, all, at, k, -int(vx), -int(vy));
-    BOTH(X1, Y1) BOTH(X2, Y2) BOTH(X3, Y3) BOTH(X4, Y4)
+#define BOTH(vx, vy) \
+    count(fit, n, own, m, all, at, k, int(vx), int(vy)); \
+    count(fit, n, own, m, all, at, k, -int(vx), -int(vy))
+    BOTH(X1, Y1);
+    BOTH(X2, Y2);
+    BOTH(X3, Y3);
+    BOTH(X4, Y4);
     float area = float(CRITICAL), det = fit.xx * fit.yy - fit.xy * fit.xy; /* of one ray; at least area^2, or 0 */
     vec3 i = (fit.yy * fit.dx - fit.xy * fit.dy) / det, j = (fit.xx * fit.dy - fit.xy * fit.dx) / det;
     float left = max(fit.dd - dot(i, fit.dx) - dot(j, fit.dy), 0.0) / max(fit.count, 1.0);
     kd_oval o = kd_oval(longest(area * dot(i, i) + left, area * dot(j, j) + left, area * dot(i, j)), KD_NO_OVAL.shape);
     if (SHAPED && n < ORDERS)
-        o.shape = oval(area * (i.x * i.x + j.x * j.x) + left, area * (i.y * i.y + j.y * j.y) + left, area * (i.x * i.y + j.x * j.y)).shape;
-    /* Four rays on a pixel without others beside it stand on a line: what is known along it is taken for all directions. */
+        o.shape = oval(area * (i.x * i.x + j.x * j.x) + left, area * (i.y * i.y + j.y * j.y) + left,
+                       area * (i.x * i.y + j.x * j.y))
+                      .shape;
+    /* Four rays on a pixel without others beside it stand on a line: what is known along it is taken for all
+     * directions. */
     if (det < 0.5 * area * area)
-        o = kd_oval(fit.lacks > 0.0 || fit.count == 0.0 ? KD_FOOTPRINT_EDGE : longest(area * fit.dd / (fit.xx + fit.yy), 0.0, 0.0), KD_NO_OVAL.shape);
+        o = kd_oval(fit.lacks > 0.0 || fit.count == 0.0 ? KD_FOOTPRINT_EDGE
+                                                        : longest(area * fit.dd / (fit.xx + fit.yy), 0.0, 0.0),
+                    KD_NO_OVAL.shape);
     return o;
 }
 

@@ -1,18 +1,19 @@
-/* This kernel makes the lens map in closed form, for an observer at infinity or outside the photon orbits: radii of the crossings, and as the scene
- * requires their azimuths, radial slopes, the direction in which a ray escapes and its fate. Planes: shared/lens.h, all but the delay
- * and alpha.
+/* This kernel makes the lens map in closed form, for an observer at infinity or outside the photon orbits: radii of
+ * the crossings, and as the scene requires their azimuths, radial slopes, the direction in which a ray escapes and
+ * its fate. Planes: shared/lens.h, all but the delay and alpha.
  *
- * When a ray crosses the plane is known (polar.glsl), and where it then is (arc.glsl). The azimuth by which the hole drags it is
- * an integral over each half period, by Gauss and Legendre's rule: its places are reached from the crossings at both ends, and
- * the times that they lie from there are the same for all half periods but the first. The ray escapes when w vanishes, and that
- * is known from w and w' at its last crossing. */
+ * When a ray crosses the plane is known (polar.glsl), and where it then is (arc.glsl). The azimuth by which the hole
+ * drags it is an integral over each half period, by Gauss and Legendre's rule: its places are reached from the
+ * crossings at both ends, and the times that they lie from there are the same for all half periods but the first.
+ * The ray escapes when w vanishes, and that is known from w and w' at its last crossing. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
 #include "shared/spec.h"
 KD_SPEC_LENS_CLOSED(KD_SPEC_U_, KD_SPEC_B_)
 #include "ray/planes.glsl"
-const bool PHI = (QUANTITIES & KD_LENS_PHI) != 0u, SKY = (QUANTITIES & KD_LENS_FATE) != 0u, SLOPE = (QUANTITIES & KD_LENS_SLOPE) != 0u;
+const bool PHI = (QUANTITIES & KD_LENS_PHI) != 0u, SKY = (QUANTITIES & KD_LENS_FATE) != 0u,
+           SLOPE = (QUANTITIES & KD_LENS_SLOPE) != 0u;
 #include "ray/kerr_ray.glsl"
 #include "ray/polar.glsl"
 #include "ray/polar_azimuth.glsl"
@@ -29,21 +30,23 @@ layout(set = 0, binding = 1) buffer Given { uint undecided; }; /* rays given up 
 #include "ray/place.glsl"
 
 const float EPSILON = 6e-8; /* unit roundoff */
-const uint MORE = 12; /* half periods after the last order: beyond them only rays within 1e-13 of the critical curve circle */
+const uint MORE =
+    12; /* half periods after the last order: beyond them only rays within 1e-13 of the critical curve circle */
 
 /* Where a ray is between two crossings. */
 struct kd_leg {
-    kd_centre last;    /* the last crossing, or the start        */
-    kd_state next;     /* where the plane is crossed next, if it */
-    bool alive;        /* still is outside then                  */
-    float psi, chi;    /* azimuth there, but for the drag since `last`; the drag up to `last`, */
-    float drag;        /* and since                                      */
-    float tau;         /* time there                                     */
-    float side;        /* 1: it leaves the last crossing upwards; -1: downwards */
-    bool crossed;      /* the start is no longer `last`                  */
+    kd_centre last; /* the last crossing, or the start        */
+    kd_state next;  /* where the plane is crossed next, if it */
+    bool alive;     /* still is outside then                  */
+    float psi, chi; /* azimuth there, but for the drag since `last`; the drag up to `last`, */
+    float drag;     /* and since                                      */
+    float tau;      /* time there                                     */
+    float side;     /* 1: it leaves the last crossing upwards; -1: downwards */
+    bool crossed;   /* the start is no longer `last`                  */
 };
 
-/* This is an upper bound of the time to the horizon, or to infinity for a ray that sets out outwards: R is above its least value. */
+/* This is an upper bound of the time to the horizon, or to infinity for a ray that sets out outwards: R is above its
+ * least value. */
 float time_limit(kd_barrier b, kd_state start, float e, bool falls)
 {
     float e2 = e * e, least = min(e2, start.dw * start.dw);
@@ -54,16 +57,18 @@ float time_limit(kd_barrier b, kd_state start, float e, bool falls)
     return start.dw < 0.0 ? 1.01 * start.w / sqrt(max(least, 1e-12 * e2)) : 1e30;
 }
 
-/* The closed form goes on beyond the horizon, turns inside and comes back out: a ray that falls must still be falling, and within
- * the time that it can take at most. One that escapes comes back from infinity on the other side, where w < 0. */
+/* The closed form goes on beyond the horizon, turns inside and comes back out: a ray that falls must still be
+ * falling, and within the time that it can take at most. One that escapes comes back from infinity on the other
+ * side, where w < 0. */
 bool goes_on(kd_leg leg, bool falls, float limit)
 {
     return leg.tau < limit && (falls ? leg.next.dw > 0.0 : leg.last.dv > 0.0 || leg.next.dw <= 0.0);
 }
 
-/* Whether polar.first is a time at all. Where A > 0 it is none if Q < 0, and rounding has its way where Q nearly vanishes (polar.glsl): the
- * plane is not reached sooner than at the greatest speed, which is s / 2 sqrt(e), as u'^2 = Q + A u^2 - e u^4 is s^2/4e at its largest. Where A < 0
- * and Q = 0, in the plane, half periods are counted as ever, though nothing is crossed. */
+/* Whether polar.first is a time at all. Where A > 0 it is none if Q < 0, and rounding has its way where Q nearly
+ * vanishes (polar.glsl): the plane is not reached sooner than at the greatest speed, which is s / 2 sqrt(e), as u'^2
+ * = Q + A u^2 - e u^4 is s^2/4e at its largest. Where A < 0 and Q = 0, in the plane, half periods are counted as
+ * ever, though nothing is crossed. */
 bool first_is_known(kd_geodesic m, kd_polar polar, float u, float ae)
 {
     return m.a2 <= 0.0 || (m.q > 0.0 && polar.first * polar.s > 1.98 * abs(u * ae));
@@ -76,15 +81,16 @@ void keep(uint at, uint n, bool any, kd_leg leg, kd_drag_terms drag)
     at += n * slice.stride;
     lens[at] = w;
     if (PHI)
-        lens[at + kd_plane(KD_LENS_PHI) * slice.stride] = any ? -(leg.psi + leg.chi + leg.drag + kd_drag_fallen(drag, w)) : 0.0;
+        lens[at + kd_plane(KD_LENS_PHI) * slice.stride] =
+            any ? -(leg.psi + leg.chi + leg.drag + kd_drag_fallen(drag, w)) : 0.0;
     if (SLOPE)
         lens[at + kd_plane(KD_LENS_SLOPE) * slice.stride] = any ? leg.next.dw : 0.0;
 }
 
-/* Keep where the ray ends. nodes, z: of the leg that it does not finish; before: time from the last crossing to the start, if it
- * is the start that the leg begins with. */
-void keep_end(uint at, kd_geodesic m, kd_ray ray, kd_arcs a, kd_azimuth azimuth, kd_drag_terms drag, kd_leg leg, kd_arc middle,
-              float leg_z, float before, bool decided)
+/* Keep where the ray ends. nodes, z: of the leg that it does not finish; before: time from the last crossing to the
+ * start, if it is the start that the leg begins with. */
+void keep_end(uint at, kd_geodesic m, kd_ray ray, kd_arcs a, kd_azimuth azimuth, kd_drag_terms drag, kd_leg leg,
+              kd_arc middle, float leg_z, float before, bool decided)
 {
     kd_state far_away;
     far_away.w = 0.0;

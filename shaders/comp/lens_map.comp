@@ -1,9 +1,9 @@
-/* This kernel makes the lens map by integration: radii of the crossings, and as the scene requires their azimuths, radial slopes, the direction in which a
- * ray escapes and its fate; for an observer at any radius.
+/* This kernel makes the lens map by integration: radii of the crossings, and as the scene requires their azimuths,
+ * radial slopes, the direction in which a ray escapes and its fate; for an observer at any radius.
  *
- * When a ray crosses the plane is known in closed form (polar.glsl), so the steps end exactly on the crossings: each half
- * period is STEPS equal steps of the radial equation, the same for every ray, without a search and without divergence.
- * From the last crossing before it escapes, a ray goes on with the full vector equation of the angles.
+ * When a ray crosses the plane is known in closed form (polar.glsl), so the steps end exactly on the crossings: each
+ * half period is STEPS equal steps of the radial equation, the same for every ray, without a search and without
+ * divergence. From the last crossing before it escapes, a ray goes on with the full vector equation of the angles.
  *
  * Planes: shared/lens.h, all but the delay and alpha. */
 #version 450
@@ -12,7 +12,8 @@
 #include "shared/spec.h"
 KD_SPEC_LENS_MAP(KD_SPEC_U_, KD_SPEC_B_)
 #include "ray/planes.glsl"
-const bool PHI = (QUANTITIES & KD_LENS_PHI) != 0u, SKY = (QUANTITIES & KD_LENS_FATE) != 0u, SLOPE = (QUANTITIES & KD_LENS_SLOPE) != 0u;
+const bool PHI = (QUANTITIES & KD_LENS_PHI) != 0u, SKY = (QUANTITIES & KD_LENS_FATE) != 0u,
+           SLOPE = (QUANTITIES & KD_LENS_SLOPE) != 0u;
 
 #define KD_NYSTROEM_ORDER METHOD
 #include "ray/kerr_ray.glsl"
@@ -42,7 +43,8 @@ struct kd_turning {
     bool any, last;   /* none comes after it in its half period */
 };
 
-/* The drag of that group in two parts, in ingoing coordinates up to the turn and from there on in outgoing ones, which are smooth there and have no pole on their way. */
+/* The drag of that group in two parts, in ingoing coordinates up to the turn and from there on in outgoing ones,
+ * which are smooth there and have no pole on their way. */
 float kd_drag_about_turn(kd_geodesic m, float e, float h, inout kd_turning t)
 {
     kd_state z = t.start;
@@ -53,7 +55,9 @@ float kd_drag_about_turn(kd_geodesic m, float e, float h, inout kd_turning t)
         z = kd_radial_step(m, z, k == 0 ? 0.0 : of * h);
         z.dw = z.w > cam.horizon && z.dw < 0.0 ? kd_leaving(m, z.w, e) : z.dw;
         t.w = j == 5 ? z.w : t.w;
-        float beside = INGOING || (k > 0 && k < 4) || k == (j < 5 ? 4 : 0) || (j == 9 && t.last) ? 0.0 : j == 0 ? -7.0 : 7.0; /* groups share a place where they meet */
+        float beside = INGOING || (k > 0 && k < 4) || k == (j < 5 ? 4 : 0) || (j == 9 && t.last) ? 0.0
+                       : j == 0 ? -7.0
+                                : 7.0; /* groups share a place where they meet */
         sum += (of * kd_boole(k) + beside) * kd_drag_ingoing(m, z, e, cam.spin, cam.root, j < 5 ? -1.0 : 1.0);
     }
     return sum;
@@ -97,7 +101,8 @@ void main()
     bool alive = polar.crosses && !dark;
     const float deepest = INGOING ? max(2.0, 1.1 * cam.w0) : 2.0;
     float h = polar.first * (1.0 / float(STEPS));
-    for (uint n = 0; n < (PHI ? 2 : 1) * ORDERS + (SLOPE ? ORDERS : 0); n++) /* those of crossings come first, without gaps */
+    for (uint n = 0; n < (PHI ? 2 : 1) * ORDERS + (SLOPE ? ORDERS : 0);
+         n++) /* those of crossings come first, without gaps */
         lens[at + n * slice.stride] = 0.0;
 
     for (uint n = 0; n < ORDERS && alive; n++) {
@@ -129,9 +134,14 @@ void main()
                 low = min(low, y.w);
                 high = max(high, INGOING && y.dw <= 0.0 ? 0.0 : y.w); /* what still leaves may be within the horizon */
                 if (INGOING && (PHI || SKY))
-                    sum += (j == 3 ? 7.0 : j == 1 ? 12.0 : 32.0) * kd_drag_ingoing(m, y, ray.e, cam.spin, cam.root, way);
+                    sum += (j == 3   ? 7.0
+                            : j == 1 ? 12.0
+                                     : 32.0) *
+                           kd_drag_ingoing(m, y, ray.e, cam.spin, cam.root, way);
                 if (!INGOING && (PHI || SKY))
-                    sum += (j == 3 ? (i + 4 == STEPS ? 7.0 : 14.0) : j == 1 ? 12.0 : 32.0) *
+                    sum += (j == 3   ? (i + 4 == STEPS ? 7.0 : 14.0)
+                            : j == 1 ? 12.0
+                                     : 32.0) *
                            kd_drag(m, y, ray.e, cam.spin, cam.root, way);
             }
             if ((PHI || SKY) && returns && way < 0.0 && part >= 0.0) { /* from here on in outgoing coordinates */
@@ -166,7 +176,8 @@ void main()
         kd_escape end = kd_path_escape(m, ray, last);
         if (dark)
             end.fate = KD_FATE_CAPTURED;
-        else if (!kd_is_decided(barrier, start, EPSILON) || kd_flies_out(barrier, start) != (end.fate == KD_FATE_ESCAPED))
+        else if (!kd_is_decided(barrier, start, EPSILON) ||
+                 kd_flies_out(barrier, start) != (end.fate == KD_FATE_ESCAPED))
             end.fate = KD_FATE_UNDECIDED;
         lens[at + kd_plane(KD_LENS_SKY_U) * slice.stride] = end.u;
         lens[at + kd_plane(KD_LENS_SKY_PHI) * slice.stride] = -end.phi;

@@ -1,8 +1,10 @@
-/* This kernel puts the particles of the disk where they are at one time: each from its number, in closed form, onto the grid or into a list (src/render/emit/particles.h).
+/* This kernel puts the particles of the disk where they are at one time: each from its number, in closed form, onto
+ * the grid or into a list (src/render/emit/particles.h).
  *
- * Phases are fractions of a turn in 32 bits, so that sums wrap exactly. A particle is shared out among the four nodes around it.
- * A word of the grid holds 16 bits for its node, from particles to the right of it, and 16 for its neighbour on the right, so that
- * two additions do. Those that fall are laid out by phase and by azimuth at the ISCO (src/render/emit/plunging.h). */
+ * Phases are fractions of a turn in 32 bits, so that sums wrap exactly. A particle is shared out among the four
+ * nodes around it. A word of the grid holds 16 bits for its node, from particles to the right of it, and 16 for its
+ * neighbour on the right, so that two additions do. Those that fall are laid out by phase and by azimuth at the ISCO
+ * (src/render/emit/plunging.h). */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
@@ -44,8 +46,8 @@ void share_out(float row, uint phi, uint first, uint rows, uint columns_log2)
     atomicAdd(grid[at + (1 << columns_log2)], (upper - upper_right) | upper_right << 16);
 }
 
-/* A particle that falls is back at its start when it is at its end, on another lap and so at another azimuth. Beyond the ends of
- * the curve its grid, as far as it reaches, holds those of the laps before and after. */
+/* A particle that falls is back at its start when it is at its end, on another lap and so at another azimuth. Beyond
+ * the ends of the curve its grid, as far as it reaches, holds those of the laps before and after. */
 uint launch(uint random, uint lap) { return kd_hash(random + kd_hash(lap)) + push.turn; }
 
 void plunge(uint random, uint n)
@@ -85,7 +87,8 @@ void main()
     if (LIST) {
         grid[3 * n] = floatBitsToUint(row);
         grid[3 * n + 1] = phi;
-        grid[3 * n + 2] = SWING ? floatBitsToUint(push.tilt * swing(kd_hash(random + 0x3c6ef372u), guides[k].vertical).c) : 0;
+        grid[3 * n + 2] =
+            SWING ? floatBitsToUint(push.tilt * swing(kd_hash(random + 0x3c6ef372u), guides[k].vertical).c) : 0;
     } else {
         share_out(row, phi, 0, push.rows, push.columns_log2);
     }

@@ -1,9 +1,10 @@
-/* This kernel adds up the light of a picture, for its sum and its centre. Over pixels at x and y steps from the middle, of luminance Y, and with
- * f = 1/|(1, x step, y step)| (1 in the image plane),
+/* This kernel adds up the light of a picture, for its sum and its centre. Over pixels at x and y steps from the
+ * middle, of luminance Y, and with f = 1/|(1, x step, y step)| (1 in the image plane),
  *   sum of Y f^3, of Y f^4, of Y f^4 x, of Y f^4 y,
- * of the whole picture and of the hot spots' own light; and of Stokes Q, U and V and of the spots' Q and U, where they are kept, that of each by f^3. f^3 is the solid angle of a pixel over that of the middle one, f times
- * (1, x step, y step) the unit vector towards it. An invocation adds up KD_LIGHT_PIXELS pixels and compensates (W. Kahan 1965, CACM
- * 8, 40); the host adds its sums in double. Always in the same order. */
+ * of the whole picture and of the hot spots' own light; and of Stokes Q, U and V and of the spots' Q and U, where
+ * they are kept, that of each by f^3. f^3 is the solid angle of a pixel over that of the middle one, f times (1, x
+ * step, y step) the unit vector towards it. An invocation adds up KD_LIGHT_PIXELS pixels and compensates (W. Kahan
+ * 1965, CACM 8, 40); the host adds its sums in double. Always in the same order. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
@@ -47,7 +48,9 @@ void main()
             vec3 s = vec3(radiance[at], radiance[at + push.plane], radiance[at + 2 * push.plane]);
             stokes = add(stokes, vec4(s.xy, s.z > KD_STOKES_LEAST_UNTOLD ? 0.0 : s.z, 0.0) * term.x);
             if (STOKES_APART)
-                stokes_spots = add(stokes_spots, vec4(radiance[at + 3 * push.plane], radiance[at + 4 * push.plane], 0.0, 0.0) * term.x);
+                stokes_spots =
+                    add(stokes_spots,
+                        vec4(radiance[at + 3 * push.plane], radiance[at + 4 * push.plane], 0.0, 0.0) * term.x);
         }
         o += KD_GROUP_SIZE;
         for (px += KD_GROUP_SIZE; px >= push.pixels_x; px -= push.pixels_x)

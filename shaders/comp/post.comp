@@ -1,8 +1,10 @@
-/* This kernel makes pixels of light: exposure, tone map, sRGB encoding, dither, rounding. One invocation writes four pixels as whole words: RGB of 8 bits in
- * three, of 16 bits in six, packed without padding as a PNG encoder wants them. The invocations behind the last pixel write zeros.
+/* This kernel makes pixels of light: exposure, tone map, sRGB encoding, dither, rounding. One invocation writes four
+ * pixels as whole words: RGB of 8 bits in three, of 16 bits in six, packed without padding as a PNG encoder wants
+ * them. The invocations behind the last pixel write zeros.
  *
- * Eight kernels are made of this file: KD_TEXELS reads the radiance as texels of four floats, three of which are four pixels; KD_BLOOM
- * takes away the light that a lens spreads, and adds what arrives; KD_HEAT shows luminance, behind the tone curve, in false colour. */
+ * Eight kernels are made of this file: KD_TEXELS reads the radiance as texels of four floats, three of which are
+ * four pixels; KD_BLOOM takes away the light that a lens spreads, and adds what arrives; KD_HEAT shows luminance,
+ * behind the tone curve, in false colour. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -45,8 +47,9 @@ layout(set = 0, binding = 2) uniform textureBuffer colours;
 
 #define LEVELS (WIDE ? 65535 : 255)
 
-/* ACES reference rendering and sRGB output transforms: S. Hill's rational fit, with his matrices into and out of the space
- * in which the curve acts (2016). Numerator and denominator are divided by 0.983729, the former by way of the second matrix. */
+/* ACES reference rendering and sRGB output transforms: S. Hill's rational fit, with his matrices into and out of the
+ * space in which the curve acts (2016). Numerator and denominator are divided by 0.983729, the former by way of the
+ * second matrix. */
 vec3 aces(vec3 c)
 {
     const float d = 0.983729;
@@ -58,8 +61,8 @@ vec3 aces(vec3 c)
     return outof * c;
 }
 
-/* Khronos PBR Neutral (E. Chin, 2024): light below 0.8 keeps its colour and, but for an offset of 0.04, its brightness; above, the largest
- * channel tends to 1, and colour to white, the slower the brighter it is. */
+/* Khronos PBR Neutral (E. Chin, 2024): light below 0.8 keeps its colour and, but for an offset of 0.04, its
+ * brightness; above, the largest channel tends to 1, and colour to white, the slower the brighter it is. */
 vec3 neutral(vec3 c)
 {
     const float start = 0.8 - 0.04, desaturation = 0.15, d = 1 - start;
@@ -71,9 +74,9 @@ vec3 neutral(vec3 c)
     return peak < start ? c : bright;
 }
 
-/* LEVELS times what IEC 61966-2-1 encodes c in [0, 1] as. Its power 1.055 c^(1/2.4) - 0.055 is a polynomial in s = c^(1/4): of those
- * that are 1 at 1 the minimax one for c from 0.0031308 to 1, good to 3.4e-7, and 2e-7 more, so that roundoff leaves white at 65535.
- * Its error stays below 5.4e-7, a thirtieth of a step of 16 bits. */
+/* LEVELS times what IEC 61966-2-1 encodes c in [0, 1] as. Its power 1.055 c^(1/2.4) - 0.055 is a polynomial in s =
+ * c^(1/4): of those that are 1 at 1 the minimax one for c from 0.0031308 to 1, good to 3.4e-7, and 2e-7 more, so
+ * that roundoff leaves white at 65535. Its error stays below 5.4e-7, a thirtieth of a step of 16 bits. */
 vec3 srgb(vec3 c)
 {
     const float unit = float(LEVELS);
@@ -99,9 +102,7 @@ vec3 heat(float y)
 #endif
 
 /* Where a pixel is in the picture, as floats: both are exact. */
-struct place {
-    float x, y;
-};
+struct place { float x, y; };
 
 /* The quotient as a float is wrong by one at most: places reach 2^30, rows 2^15. */
 place place_of(uint i)
@@ -118,7 +119,10 @@ place next(place at)
 }
 
 /* A threshold in [0, 1) that depends on the place alone: interleaved gradient noise (J. Jimenez 2014). */
-float threshold(place at) { return fract(52.9829189 * fract(0.06711056 * (at.x + push.left) + 0.00583715 * (at.y + push.top))); }
+float threshold(place at)
+{
+    return fract(52.9829189 * fract(0.06711056 * (at.x + push.left) + 0.00583715 * (at.y + push.top)));
+}
 
 /* A lens spreads this to the four pixels of an invocation. */
 struct spread { vec3 a, b, c, d; };
@@ -192,10 +196,10 @@ void main()
 #else
     const spread to = spread(vec3(0), vec3(0), vec3(0), vec3(0));
 #endif
-    ivec3 p[KD_POST_PIXELS] = { pixel(a.xyz, first, to.a), pixel(vec3(a.w, b.xy), second, to.b), pixel(vec3(b.zw, c.x), third, to.c),
-                                pixel(c.yzw, fourth, to.d) };
-    /* Behind the end a word is 0. It is chosen rather than skipped: a word that is chosen is a finished vector to lavapipe, which else
-     * packs it anew for each lane that it stores, at a fifth of the whole kernel. */
+    ivec3 p[KD_POST_PIXELS] = { pixel(a.xyz, first, to.a), pixel(vec3(a.w, b.xy), second, to.b),
+                                pixel(vec3(b.zw, c.x), third, to.c), pixel(c.yzw, fourth, to.d) };
+    /* Behind the end a word is 0. It is chosen rather than skipped: a word that is chosen is a finished vector to
+     * lavapipe, which else packs it anew for each lane that it stores, at a fifth of the whole kernel. */
     bool inside = i < push.pixels;
 #define KEEP(word) (inside ? uint(word) : 0u)
     if (WIDE) {

@@ -1,21 +1,24 @@
-/* This kernel finds the end points of listed rays, by integration in Mino time; in single precision, and as double by shaders/to_double.py.
+/* This kernel finds the end points of listed rays, by integration in Mino time; in single precision, and as double
+ * by shaders/to_double.py.
  *
- * As lens_map.comp, each half period is STEPS steps that end on the crossing. Here u is integrated beside w: the smooth part
- * of the azimuth and of the delay need it. A second integration of w with half the steps, and the variation of w with
- * its start, give the error: what the steps lose, and what rounding loses. (An embedded pair is cheaper, but a hundred times looser:
- * docs/rays.md.)
+ * As lens_map.comp, each half period is STEPS steps that end on the crossing. Here u is integrated beside w: the
+ * smooth part of the azimuth and of the delay need it. A second integration of w with half the steps, and the
+ * variation of w with its start, give the error: what the steps lose, and what rounding loses. (An embedded pair is
+ * cheaper, but a hundred times looser: docs/rays.md.)
  *
- * Azimuth: psi + chi. psi' = L/(1 - u^2), of which polar_azimuth.glsl takes out the peak near the axis exactly; the rest is
- * L e / (sqrt(c) (sqrt(y) + sqrt(c))), y = b + e u^2, c = b + e.
+ * Azimuth: psi + chi. psi' = L/(1 - u^2), of which polar_azimuth.glsl takes out the peak near the axis exactly; the
+ * rest is L e / (sqrt(c) (sqrt(y) + sqrt(c))), y = b + e u^2, c = b + e.
  *
  * Delay: t' = E/w^2 + 2E/w + [E (4 + a^2 - 2a^2 w + a^4 w^2) - a L (1 + a^2 w^2)] / Delta_w + a (L - a E (1 - u^2)),
- * Delta_w = 1 - 2w + a^2 w^2. The first two grow without bound towards infinity, on the way in and on the way out; but
+ * Delta_w = 1 - 2w + a^2 w^2. The first two grow without bound towards infinity, on the way in and on the way out;
+ * but
  *   E^2/w^2 = (-w'/w)' + K w - D w^2   and   E/w = -(ln((E + w')/w))' + w^2 (K - D w)/(E + w'),
- * so that what is left to integrate is smooth, and an observer at infinity less r_o + 2 ln r_o costs nothing. That has a pole at
- * the horizon. A ray that falls in is counted in ingoing time instead: with D = Delta_w and W as in radial_step.glsl
+ * so that what is left to integrate is smooth, and an observer at infinity less r_o + 2 ln r_o costs nothing. That
+ * has a pole at the horizon. A ray that falls in is counted in ingoing time instead: with D = Delta_w and W as in
+ * radial_step.glsl
  *   t' = (1 + a^2 w^2) (w'/(w^2 D) + K/(W + w')) + a (L - a E (1 - u^2)),
- * where the first term is d/dtau of -1/w + ln(w^2/D) + 2 kd_fall and the rest has no pole at all; one that comes from next to
- * the horizon in outgoing time, with -w' for w'. */
+ * where the first term is d/dtau of -1/w + ln(w^2/D) + 2 kd_fall and the rest has no pole at all; one that comes
+ * from next to the horizon in outgoing time, with -w' for w'. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
@@ -32,11 +35,14 @@ const bool INGOING = false; /* observers stand outside the horizon */
 
 layout(local_size_x = KD_GROUP_SIZE) in;
 
-layout(push_constant) uniform Push { uint first, count; } push;
-layout(set = 0, binding = 0) readonly buffer Rays {
+layout(push_constant) uniform Push { uint first, count; }
+push;
+layout(set = 0, binding = 0) readonly buffer Rays
+{
     float spin, u, s, horizon, root, w0, epsilon; /* the hole and the observer; unit roundoff */
     float list[];                                 /* alpha, beta, 1: inwards or -1: outwards */
-} cam;
+}
+cam;
 layout(set = 0, binding = 1) writeonly buffer Ends { float ends[]; };
 #include "ray/trace.glsl"
 #include "ray/escape.glsl"
@@ -84,16 +90,17 @@ float delay_edge(kd_geodesic m, kd_state y, float way)
     return -y.dw / y.w - 2.0 * kd_log(0.5 * energy_and_fall(m, y.w, y.dw) / y.w);
 }
 
-/* Estimates how far w may be off where the first integral w'^2 = W^2 - D K w^2 is: a velocity that is wrong for the time of a half
- * period. */
+/* Estimates how far w may be off where the first integral w'^2 = W^2 - D K w^2 is: a velocity that is wrong for the
+ * time of a half period. */
 float drifted(kd_geodesic m, kd_state y, float time)
 {
     float off = abs(y.dw * y.dw - kd_fall_squared(m, y.w, 1.0, cam.spin, cam.root));
     return time * off / max(abs(y.dw), sqrt(off) + 1e-30);
 }
 
-/* Halving the steps of a method of order p loses 2^p - 1 times what is left, 15 or 63: thirty times what is left is a bound even
- * where the steps are too coarse for that law. And what a half turn of such steps loses where no crossing says so. */
+/* Halving the steps of a method of order p loses 2^p - 1 times what is left, 15 or 63: thirty times what is left is
+ * a bound even where the steps are too coarse for that law. And what a half turn of such steps loses where no
+ * crossing says so. */
 const float LEFT = METHOD == 4 ? 2.0 : 0.5;
 float lost_in_a_turn(float h) { return METHOD == 4 ? 0.1 * h * h * h * h : 0.1 * h * h * h * h * h * h; }
 
@@ -132,7 +139,8 @@ void main()
     KD_TRACE_STEP(KD_TRACE_START, 0.0, last.y, last.v, 0.0);
     float above = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;
     float h = polar.first / float(STEPS), psi = 0.0, chi = 0.0, delay = 0.0, tau = 0.0, error = 0.0;
-    float lost_before = 0.0, spread = 1.0; /* at the last crossing: what the steps had lost of w, and how far two rays had parted */
+    float lost_before = 0.0,
+          spread = 1.0; /* at the last crossing: what the steps had lost of w, and how far two rays had parted */
     bool alive = polar.crosses;
     uint at = 3 * ORDERS + 4, o = at * i;
     for (uint n = 0; n < 3 * ORDERS; n++)
@@ -169,13 +177,15 @@ void main()
         alive = j > STEPS && w > 0.0;
         tau += h * float(min(j, STEPS));
         float left = h * float(STEPS - min(j, STEPS)), ahead = left * abs(y.dw);
-        /* The error of w is what the steps lose and what rounding does. The steps lose what separates the two integrations, where
-         * that is small; but no less than what the last crossing was off by, times what the variation has grown by since, for two
-         * wrong paths may meet. Rounding adds some ten operations of a unit each, which the variation amplifies, as much in the
-         * time of the crossing, and the drift of the first integral. */
+        /* The error of w is what the steps lose and what rounding does. The steps lose what separates the two
+         * integrations, where that is small; but no less than what the last crossing was off by, times what the
+         * variation has grown by since, for two wrong paths may meet. Rounding adds some ten operations of a unit
+         * each, which the variation amplifies, as much in the time of the crossing, and the drift of the first
+         * integral. */
         float parted = abs(p.y.z) + left * abs(p.dy.z);
         float lost = max((LEFT + min(apart / max(abs(w), 1e-30), 2.0)) * apart, lost_before * parted / spread);
-        float off = lost + drifted(m, y, h * float(STEPS)) + cam.epsilon * ((4.0 + 0.01 * float(STEPS)) * w + kick * abs(p.y.z) + 8.0 * tau * abs(y.dw));
+        float off = lost + drifted(m, y, h * float(STEPS)) +
+                    cam.epsilon * ((4.0 + 0.01 * float(STEPS)) * w + kick * abs(p.y.z) + 8.0 * tau * abs(y.dw));
         /* So close to the horizon or to infinity a crossing may exist or not: only what certainly does is told. */
         if (min(abs(w), abs(cam.horizon - w)) + ahead < off) {
             error = max(error, 1.0);

@@ -1,15 +1,18 @@
-/* This kernel follows listed rays the common way: Hamilton's equations in ingoing Cartesian Kerr-Schild coordinates, for comparison.
+/* This kernel follows listed rays the common way: Hamilton's equations in ingoing Cartesian Kerr-Schild coordinates,
+ * for comparison.
  *
- *   H = (p.p - E^2 - f (E + l.p)^2)/2,  f = 2r^3/(r^4 + a^2 z^2),  l = ((rx + ay)/(r^2 + a^2), (ry - ax)/(r^2 + a^2), z/r)
+ *   H = (p.p - E^2 - f (E + l.p)^2)/2,  f = 2r^3/(r^4 + a^2 z^2),  l = ((rx + ay)/(r^2 + a^2), (ry - ax)/(r^2 +
+ *                                       a^2), z/r)
  *
- * A traced-back ray is a photon of the mirrored spacetime (t, phi) -> (-t, -phi) that flies away from the observer: it falls
- * through the future horizon, where these coordinates are regular. The independent variable s has d(lambda) = r ds, that is, the
- * Hamiltonian is r H, which has the same null orbits: steps of a constant size then shrink with r, and stay symplectic.
+ * A traced-back ray is a photon of the mirrored spacetime (t, phi) -> (-t, -phi) that flies away from the observer:
+ * it falls through the future horizon, where these coordinates are regular. The independent variable s has d(lambda)
+ * = r ds, that is, the Hamiltonian is r H, which has the same null orbits: steps of a constant size then shrink with
+ * r, and stay symplectic.
  *
  * METHOD 0: symplectic Euler, p first, with one fixed-point iteration, as the shaders of the web do. 1: classical
- * Runge-Kutta of order 4. 2: M. Tao's extended phase space (2016, Phys. Rev. E 94, 043303) with Yoshida's composition of
- * order 6, solution A (1990, Phys. Lett. A 150, 262).
- * Crossings of z = 0 by cubic Hermite interpolation. The start (position and momentum) comes from the host in double. */
+ * Runge-Kutta of order 4. 2: M. Tao's extended phase space (2016, Phys. Rev. E 94, 043303) with Yoshida's
+ * composition of order 6, solution A (1990, Phys. Lett. A 150, 262). Crossings of z = 0 by cubic Hermite
+ * interpolation. The start (position and momentum) comes from the host in double. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
@@ -19,16 +22,21 @@ KD_SPEC_RAYS(KD_SPEC_U_, KD_SPEC_B_)
 
 layout(local_size_x = KD_GROUP_SIZE) in;
 
-layout(push_constant) uniform Push { uint first, count; } push;
-layout(set = 0, binding = 0) readonly buffer Rays {
+layout(push_constant) uniform Push { uint first, count; }
+push;
+layout(set = 0, binding = 0) readonly buffer Rays
+{
     float spin, horizon_r, far, pad;
-    float list[]; /* x, y, z, p_x, p_y, p_z; 1/r and azimuth of the crossing before the start, 0 and 0 where there is none */
-} rays;
+    float list[]; /* x, y, z, p_x, p_y, p_z; 1/r and azimuth of the crossing before the start, 0 and 0 where there is
+                     none */
+}
+rays;
 layout(set = 0, binding = 1) writeonly buffer Ends { float ends[]; };
 #include "ray/trace.glsl"
 
-/* This is Tao's omega, in units of 1/s. A small one lets the copies part on long orbits, a large one costs accuracy as it costs
- * phase: of 0.1, 0.5, 2 and 10 the first was the most accurate by factors of 15 to 10^4 over the half turns of a ray. */
+/* This is Tao's omega, in units of 1/s. A small one lets the copies part on long orbits, a large one costs accuracy
+ * as it costs phase: of 0.1, 0.5, 2 and 10 the first was the most accurate by factors of 15 to 10^4 over the half
+ * turns of a ray. */
 #define KD_BIND 0.1
 
 struct kd_point { vec3 x, p; };
@@ -139,8 +147,8 @@ float hermite_slope(float y0, float d0, float y1, float d1, float s)
     return d0 + s * (2.0 * c2 + 3.0 * s * c3);
 }
 
-/* Counts what a step from x to y adds to the turns about the axis that atan2 forgets: whether the chord between them crosses the
- * half plane x < 0. Within a step's bend of the axis the ray may pass on the other side of it. */
+/* Counts what a step from x to y adds to the turns about the axis that atan2 forgets: whether the chord between them
+ * crosses the half plane x < 0. Within a step's bend of the axis the ray may pass on the other side of it. */
 float turned(vec3 x, vec3 y)
 {
     if ((x.y < 0.0) == (y.y < 0.0) || (x.x * y.y - y.x * x.y) / (y.y - x.y) > 0.0)
@@ -168,9 +176,9 @@ void main()
     for (uint n = 0; n < 3 * ORDERS + 4; n++)
         ends[o + n] = 0.0;
 
-    /* lavapipe leaves all loops of an invocation after 65535 rounds, inner ones counted, with whatever the variables then hold: stay
-     * below it, and a ray that needs more is undecided. At the most steps of src/render/rays/check.c these are 16 half turns
-     * (Tao's method) or 60; a ray that passes the hole takes 8 to 13. */
+    /* lavapipe leaves all loops of an invocation after 65535 rounds, inner ones counted, with whatever the variables
+     * then hold: stay below it, and a ray that needs more is undecided. At the most steps of src/render/rays/check.c
+     * these are 16 half turns (Tao's method) or 60; a ray that passes the hole takes 8 to 13. */
     const uint most = min(60 * STEPS, METHOD == 2 ? 8000 : 64000);
 
     float h = 0.6 * KD_PI / float(STEPS), fate = KD_FATE_UNDECIDED, about = 0.0;
@@ -201,7 +209,8 @@ void main()
             float s = z0 / (z0 - z1);
             for (int k = 0; k < 4; k++)
                 s = clamp(s - hermite(z0, d0.z, z1, d1.z, s) / hermite_slope(z0, d0.z, z1, d1.z, s), 0.0, 1.0);
-            vec3 hit = vec3(hermite(before.x.x, d0.x, y.a.x.x, d1.x, s), hermite(before.x.y, d0.y, y.a.x.y, d1.y, s), 0.0);
+            vec3 hit =
+                vec3(hermite(before.x.x, d0.x, y.a.x.x, d1.x, s), hermite(before.x.y, d0.y, y.a.x.y, d1.y, s), 0.0);
             float hit_r = radius(hit);
             if (!(hit_r > rays.horizon_r)) {
                 fate = KD_FATE_CAPTURED;

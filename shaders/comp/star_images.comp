@@ -1,17 +1,19 @@
-/* This kernel spreads the images of stars over pixels. Of each pair of star_tiles.comp and star_search.comp: the places in the ray's cell of the picture, [-1/2, 1/2]^2
- * steps, that the lens map takes to the star; and there the star's light, magnified, over the nearest pixels.
+/* This kernel spreads the images of stars over pixels. Of each pair of star_tiles.comp and star_search.comp: the
+ * places in the ray's cell of the picture, [-1/2, 1/2]^2 steps, that the lens map takes to the star; and there the
+ * star's light, magnified, over the nearest pixels.
  *
- * About its ray the map is taken to be quadratic, in the plane of the sky that is square to the ray (orthographic projection): coefficients by
- * the eight rays round it, least squares for the first ones, second differences for the others; on the rim of higher order, by twenty; beside rays that do not escape,
- * and at edges, by those that there are, to first order. It has its roots by Newton's method, from four starts where it is not plain that there is but one, each
- * counted once: up to four where a caustic passes.
+ * About its ray the map is taken to be quadratic, in the plane of the sky that is square to the ray (orthographic
+ * projection): coefficients by the eight rays round it, least squares for the first ones, second differences for the
+ * others; on the rim of higher order, by twenty; beside rays that do not escape, and at edges, by those that there
+ * are, to first order. It has its roots by Newton's method, from four starts where it is not plain that there is but
+ * one, each counted once: up to four where a caustic passes.
  *
- * A star's flux F in an image is F dOmega/dOmega_s: with the solid angle of a pixel, its mean radiance there is F over the solid angle of
- * the sky that the map takes a pixel to at the star's place, |det J|/cos(angle to the ray), and the picture's own drops out. It is spread
- * as ray/star_light.glsl has it.
+ * A star's flux F in an image is F dOmega/dOmega_s: with the solid angle of a pixel, its mean radiance there is F
+ * over the solid angle of the sky that the map takes a pixel to at the star's place, |det J|/cos(angle to the ray),
+ * and the picture's own drops out. It is spread as ray/star_light.glsl has it.
  *
  * Rays of the rim (ray/rim.glsl) are taken likewise, with steps of its own, and what those are in the picture.
- */
+ * / */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
@@ -30,12 +32,19 @@ layout(set = 0, binding = 4) readonly buffer Stars { float stars[]; };
 
 #define KD_STAR_THIN 0.02 /* the area of a patch over the square of its size */
 
-/* f(x, y) = c + a x + b y + aa x^2 + ab x y + bb y^2 + aaa x^3 + aab x^2 y + abb x y^2 + bbb y^3, and on the rim + aaab x^3 y + abbb x y^3; in radians. */
-struct kd_patch { vec2 c, a, b, aa, ab, bb, aaa, aab, abb, bbb, aaab, abbb; bool there; };
+/* f(x, y) = c + a x + b y + aa x^2 + ab x y + bb y^2 + aaa x^3 + aab x^2 y + abb x y^2 + bbb y^3, and on the rim +
+ * aaab x^3 y + abbb x y^3; in radians. */
+struct kd_patch {
+    vec2 c, a, b, aa, ab, bb, aaa, aab, abb, bbb, aaab, abbb;
+    bool there;
+};
 
 struct kd_chart { vec3 n, e1, e2; };
 
-struct kd_neighbour { vec2 f; bool there; };
+struct kd_neighbour {
+    vec2 f;
+    bool there;
+};
 
 kd_neighbour neighbour(kd_chart c, uint at, uint x, uint y, int dx, int dy)
 {
@@ -56,13 +65,15 @@ void one_sided(kd_neighbour before, kd_neighbour after, inout vec2 a, inout vec2
     there = there && (before.there || after.there);
 }
 
-/* Next to a caustic a patch is thin: what numbers of 32 bits have lost is much of its width, and so are terms of third order. There it is the cubic that fits
- * 7 x 7 rays best, in the mean of squares: by the polynomials 1, u, u^2 - 4, u^3 - 7u, which are orthogonal on -3 ... 3 and have the norms 7, 28, 84, 216. */
+/* Next to a caustic a patch is thin: what numbers of 32 bits have lost is much of its width, and so are terms of
+ * third order. There it is the cubic that fits 7 x 7 rays best, in the mean of squares: by the polynomials 1, u, u^2
+ * - 4, u^3 - 7u, which are orthogonal on -3 ... 3 and have the norms 7, 28, 84, 216. */
 void refine(kd_chart c, uint at, uint x, uint y, inout kd_patch o)
 {
     float area = o.a.x * o.b.y - o.a.y * o.b.x, size = dot(o.a, o.a) + dot(o.b, o.b);
     bool thin = abs(area) < KD_STAR_THIN * size, there = true;
-    vec2 k00 = vec2(0.0), k10 = vec2(0.0), k01 = vec2(0.0), k20 = vec2(0.0), k11 = vec2(0.0), k02 = vec2(0.0), k30 = vec2(0.0), k21 = vec2(0.0), k12 = vec2(0.0), k03 = vec2(0.0);
+    vec2 k00 = vec2(0.0), k10 = vec2(0.0), k01 = vec2(0.0), k20 = vec2(0.0), k11 = vec2(0.0), k02 = vec2(0.0),
+         k30 = vec2(0.0), k21 = vec2(0.0), k12 = vec2(0.0), k03 = vec2(0.0);
     for (int i = 0; i < (thin ? 49 : 0); i++) {
         int row = i / 7, dx = i - 7 * row - 3, dy = row - 3;
         kd_neighbour n = neighbour(c, at, x, y, dx, dy);
@@ -93,14 +104,21 @@ void refine(kd_chart c, uint at, uint x, uint y, inout kd_patch o)
     }
 }
 
-/* On the rim steps are long, and its numbers have lost next to nothing: by 20 rays, 5 x 5 without the corners, all terms of third order, and x^3 y and x y^3. */
-void extend(kd_chart c, uint at, uint x, uint y, kd_neighbour w, kd_neighbour e, kd_neighbour n, kd_neighbour s, vec2 nw, vec2 ne, vec2 sw, vec2 se, inout kd_patch o)
+/* On the rim steps are long, and its numbers have lost next to nothing: by 20 rays, 5 x 5 without the corners, all
+ * terms of third order, and x^3 y and x y^3. */
+void extend(kd_chart c, uint at, uint x, uint y, kd_neighbour w, kd_neighbour e, kd_neighbour n, kd_neighbour s,
+            vec2 nw, vec2 ne, vec2 sw, vec2 se, inout kd_patch o)
 {
-    kd_neighbour w2 = neighbour(c, at, x, y, -2, 0), e2 = neighbour(c, at, x, y, 2, 0), n2 = neighbour(c, at, x, y, 0, -2), s2 = neighbour(c, at, x, y, 0, 2);
-    vec2 before = 0.5 * (neighbour(c, at, x, y, -2, 1).f - neighbour(c, at, x, y, -2, -1).f), after = 0.5 * (neighbour(c, at, x, y, 2, 1).f - neighbour(c, at, x, y, 2, -1).f);
-    vec2 above = 0.5 * (neighbour(c, at, x, y, 1, -2).f - neighbour(c, at, x, y, -1, -2).f), below = 0.5 * (neighbour(c, at, x, y, 1, 2).f - neighbour(c, at, x, y, -1, 2).f);
-    kd_quartic along = kd_quartic_of(w2.f, w.f, vec2(0.0), e.f, e2.f), down = kd_quartic_of(n2.f, n.f, vec2(0.0), s.f, s2.f);
-    kd_quartic slope_y = kd_quartic_of(before, 0.5 * (sw - nw), 0.5 * (s.f - n.f), 0.5 * (se - ne), after), slope_x = kd_quartic_of(above, 0.5 * (ne - nw), 0.5 * (e.f - w.f), 0.5 * (se - sw), below);
+    kd_neighbour w2 = neighbour(c, at, x, y, -2, 0), e2 = neighbour(c, at, x, y, 2, 0),
+                 n2 = neighbour(c, at, x, y, 0, -2), s2 = neighbour(c, at, x, y, 0, 2);
+    vec2 before = 0.5 * (neighbour(c, at, x, y, -2, 1).f - neighbour(c, at, x, y, -2, -1).f),
+         after = 0.5 * (neighbour(c, at, x, y, 2, 1).f - neighbour(c, at, x, y, 2, -1).f);
+    vec2 above = 0.5 * (neighbour(c, at, x, y, 1, -2).f - neighbour(c, at, x, y, -1, -2).f),
+         below = 0.5 * (neighbour(c, at, x, y, 1, 2).f - neighbour(c, at, x, y, -1, 2).f);
+    kd_quartic along = kd_quartic_of(w2.f, w.f, vec2(0.0), e.f, e2.f),
+               down = kd_quartic_of(n2.f, n.f, vec2(0.0), s.f, s2.f);
+    kd_quartic slope_y = kd_quartic_of(before, 0.5 * (sw - nw), 0.5 * (s.f - n.f), 0.5 * (se - ne), after),
+               slope_x = kd_quartic_of(above, 0.5 * (ne - nw), 0.5 * (e.f - w.f), 0.5 * (se - sw), below);
     if (w2.there && e2.there && n2.there && s2.there) {
         o.a = along.x;
         o.aa = along.xx;
@@ -118,8 +136,10 @@ void extend(kd_chart c, uint at, uint x, uint y, kd_neighbour w, kd_neighbour e,
 
 kd_patch patch_about(kd_chart c, uint at, uint x, uint y)
 {
-    kd_neighbour w = neighbour(c, at, x, y, -1, 0), e = neighbour(c, at, x, y, 1, 0), n = neighbour(c, at, x, y, 0, -1), s = neighbour(c, at, x, y, 0, 1);
-    kd_neighbour nw = neighbour(c, at, x, y, -1, -1), ne = neighbour(c, at, x, y, 1, -1), sw = neighbour(c, at, x, y, -1, 1), se = neighbour(c, at, x, y, 1, 1);
+    kd_neighbour w = neighbour(c, at, x, y, -1, 0), e = neighbour(c, at, x, y, 1, 0), n = neighbour(c, at, x, y, 0, -1),
+                 s = neighbour(c, at, x, y, 0, 1);
+    kd_neighbour nw = neighbour(c, at, x, y, -1, -1), ne = neighbour(c, at, x, y, 1, -1),
+                 sw = neighbour(c, at, x, y, -1, 1), se = neighbour(c, at, x, y, 1, 1);
     kd_patch o;
     o.there = true;
     o.c = o.ab = o.aaa = o.aab = o.abb = o.bbb = o.aaab = o.abbb = vec2(0.0);
@@ -139,7 +159,8 @@ kd_patch patch_about(kd_chart c, uint at, uint x, uint y)
 
 vec2 value(kd_patch m, vec2 p)
 {
-    vec2 f = m.c + p.x * (m.a + p.x * (m.aa + m.aaa * p.x + m.aab * p.y) + m.ab * p.y) + p.y * (m.b + p.y * (m.bb + m.bbb * p.y + m.abb * p.x));
+    vec2 f = m.c + p.x * (m.a + p.x * (m.aa + m.aaa * p.x + m.aab * p.y) + m.ab * p.y) +
+             p.y * (m.b + p.y * (m.bb + m.bbb * p.y + m.abb * p.x));
     return AT_RIM ? f + p.x * p.y * (p.x * p.x * m.aaab + p.y * p.y * m.abbb) : f;
 }
 
@@ -149,7 +170,8 @@ mat2 derivative(kd_patch m, vec2 p)
     mat2 j = mat2(m.a + p.x * (2.0 * m.aa + 3.0 * m.aaa * p.x + 2.0 * m.aab * p.y) + p.y * (m.ab + m.abb * p.y),
                   m.b + p.y * (2.0 * m.bb + 3.0 * m.bbb * p.y + 2.0 * m.abb * p.x) + p.x * (m.ab + m.aab * p.x));
     if (AT_RIM)
-        j += mat2(p.y * (3.0 * p.x * p.x * m.aaab + p.y * p.y * m.abbb), p.x * (p.x * p.x * m.aaab + 3.0 * p.y * p.y * m.abbb));
+        j += mat2(p.y * (3.0 * p.x * p.x * m.aaab + p.y * p.y * m.abbb),
+                  p.x * (p.x * p.x * m.aaab + 3.0 * p.y * p.y * m.abbb));
     return j;
 }
 float determinant_of(mat2 j) { return j[0].x * j[1].y - j[1].x * j[0].y; }
@@ -177,13 +199,17 @@ bool is_plain(kd_patch m)
     return 1.2 * (all.x + all.y) * (abs(j[0].x) + abs(j[0].y) + abs(j[1].x) + abs(j[1].y)) < 0.7 * abs(det);
 }
 
-/* Where two cells meet each has a share of the light, which goes from 0 to 1 over a fifth of a step: their maps put an image at slightly different
- * places, and none is lost or counted twice. */
+/* Where two cells meet each has a share of the light, which goes from 0 to 1 over a fifth of a step: their maps put
+ * an image at slightly different places, and none is lost or counted twice. */
 float share(float x) { return clamp(3.0 - 5.0 * abs(x), 0.0, 1.0); }
 
-/* A place p in a ray's cell: in the picture, in its steps; how many of them, squared, there are to a step of the ray, squared; the share that the ray's
- * image there has, beside those by the rim or by the grid; and, over what is measured as 1, the energy at infinity. */
-struct kd_star_pixel { vec2 place; float steps, share, energy; };
+/* A place p in a ray's cell: in the picture, in its steps; how many of them, squared, there are to a step of the
+ * ray, squared; the share that the ray's image there has, beside those by the rim or by the grid; and, over what is
+ * measured as 1, the energy at infinity. */
+struct kd_star_pixel {
+    vec2 place;
+    float steps, share, energy;
+};
 
 kd_star_pixel spot_at(uint x, uint y, vec2 p)
 {
@@ -195,7 +221,8 @@ kd_star_pixel spot_at(uint x, uint y, vec2 p)
         o.place = seen.place;
         o.steps = cell.area * seen.steps;
         o.share = kd_rim_share(cell.place) * kd_rim_part(vec2(x, y) + p, 0.0);
-        o.energy = cam.e_t - (cam.e_r * cell.d.x + cam.e_theta * cell.d.y + cam.e_phi * cell.d.z) * inversesqrt(dot(cell.d, cell.d));
+        o.energy = cam.e_t - (cam.e_r * cell.d.x + cam.e_theta * cell.d.y + cam.e_phi * cell.d.z) *
+                                 inversesqrt(dot(cell.d, cell.d));
         return o;
     }
     o.energy = kd_camera_ray(px, py).e;
@@ -227,14 +254,19 @@ void images(uint at, uint k)
         fresh |= counts ? 1u << i : 0u;
     }
     for (; fresh != 0u; fresh &= fresh - 1u) { /* a loop, for it alone skips work */
-        vec2 p = (fresh & 1u) != 0u ? found[0] : (fresh & 2u) != 0u ? found[1] : (fresh & 4u) != 0u ? found[2] : found[3];
+        vec2 p = (fresh & 1u) != 0u   ? found[0]
+                 : (fresh & 2u) != 0u ? found[1]
+                 : (fresh & 4u) != 0u ? found[2]
+                                      : found[3];
         float det = max(abs(determinant_of(derivative(m, p))), 1e-6 * size);
         kd_star_pixel spot = spot_at(x, y, p);
         float magnified = stars[4u * k + 3u] * cosine * spot.steps / (det * float(SIDE * SIDE));
         if (magnified < push.least)
             continue;
-        vec3 colour = kd_sky_shifted(stars[4u * push.stars + k], FINITE ? 1.0 / spot.energy : 1.0, VISIBLE ? KD_TRAIT_VISIBLE : 0u);
-        kd_star_spread((spot.place + 0.5) / float(SIDE) - 0.5, emission.sky.brightness * magnified * share(p.x) * share(p.y) * spot.share * colour);
+        vec3 colour = kd_sky_shifted(stars[4u * push.stars + k], FINITE ? 1.0 / spot.energy : 1.0,
+                                     VISIBLE ? KD_TRAIT_VISIBLE : 0u);
+        kd_star_spread((spot.place + 0.5) / float(SIDE) - 0.5,
+                       emission.sky.brightness * magnified * share(p.x) * share(p.y) * spot.share * colour);
     }
 }
 

@@ -1,13 +1,15 @@
-/* This kernel lists pairs of a ray and a star that it may see, ray by ray, of those that star_tiles.comp has left over: where the map is not
- * simple. A ray stands for a cell of the picture one step wide, which the lens map takes to a patch of the sky; here are the stars in a
- * parallelogram about that patch, by its first derivatives. star_images.comp finds their places.
+/* This kernel lists pairs of a ray and a star that it may see, ray by ray, of those that star_tiles.comp has left
+ * over: where the map is not simple. A ray stands for a cell of the picture one step wide, which the lens map takes
+ * to a patch of the sky; here are the stars in a parallelogram about that patch, by its first derivatives.
+ * star_images.comp finds their places.
  *
- * Stars are sorted into square cells on the six faces of a cube about the sphere, the brightest of a cell first (shared/faces.h). A star whose light,
- * by twice the mean magnification of a ray's patch, would brighten the pixel by less than push.least of the unit of sky.brightness ends the
- * search of its cell. A patch of more than KD_STAR_PATCH radians, next to the critical curve, is left out.
+ * Stars are sorted into square cells on the six faces of a cube about the sphere, the brightest of a cell first
+ * (shared/faces.h). A star whose light, by twice the mean magnification of a ray's patch, would brighten the pixel
+ * by less than push.least of the unit of sky.brightness ends the search of its cell. A patch of more than
+ * KD_STAR_PATCH radians, next to the critical curve, is left out.
  *
- * The parallelogram: with J the map's derivative, |x_i| <= KD_STAR_ROOM for x = (J^T J + e tr(J^T J))^-1 J^T p. e makes room for what the
- * derivative does not say where J is all but singular, on the caustic. */
+ * The parallelogram: with J the map's derivative, |x_i| <= KD_STAR_ROOM for x = (J^T J + e tr(J^T J))^-1 J^T p. e
+ * makes room for what the derivative does not say where J is all but singular, on the caustic. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -46,7 +48,12 @@ vec3 down(vec3 n, uint at, uint y)
 }
 
 /* Whether others have all images there: the rim, or another of its grids. */
-bool is_left_out(uint x, uint y) { return AT_RIM ? kd_rim_part(vec2(x, y), 0.7) <= 0.0 : RIM == 1u && kd_rim_share(kd_rim_place(kd_camera_look(vec2(x + push.column0, y + push.row0)))) >= 1.0; }
+bool is_left_out(uint x, uint y)
+{
+    return AT_RIM
+               ? kd_rim_part(vec2(x, y), 0.7) <= 0.0
+               : RIM == 1u && kd_rim_share(kd_rim_place(kd_camera_look(vec2(x + push.column0, y + push.row0)))) >= 1.0;
+}
 
 void search(uint at)
 {
@@ -56,22 +63,26 @@ void search(uint at)
     float aa = dot(a, a), bb = dot(b, b), ab = dot(a, b), more = KD_STAR_MARGIN * (aa + bb);
     float det = (aa + more) * (bb + more) - ab * ab, unit = 1.0 / max(det, 1e-30);
     float size = AT_RIM ? sqrt(aa + bb) : kd_sky_size(at, aa, bb, ab), steps = kd_steps_of(x, y);
-    float patch_ = sqrt(max(aa * bb - ab * ab, 0.0)), least = 0.5 * push.least * float(SIDE * SIDE) * patch_ / max(steps, 1e-30);
+    float patch_ = sqrt(max(aa * bb - ab * ab, 0.0)),
+          least = 0.5 * push.least * float(SIDE * SIDE) * patch_ / max(steps, 1e-30);
     float reach = 0.75 * size;
-    bool looks = kd_sky_escapes(at) && size < (RIM != 0u ? KD_STAR_PATCH_RIM : KD_STAR_PATCH) && aa > 0.0 && bb > 0.0 && !is_left_out(x, y);
+    bool looks = kd_sky_escapes(at) && size < (RIM != 0u ? KD_STAR_PATCH_RIM : KD_STAR_PATCH) && aa > 0.0 && bb > 0.0 &&
+                 !is_left_out(x, y);
     /* What x is made of; so that a star is tested by two products. */
     vec3 to_x = ((bb + more) * a - ab * b) * unit, to_y = ((aa + more) * b - ab * a) * unit;
     float far = 1.3 * reach * reach;
-    /* The rectangle about the parallelogram, to which e adds little unless it is thin; and at most what a ray's size makes room for: a step of the
-     * direction moves the place on the face by 1 + p^2 + q^2 times as much at most, and more, as that grows. */
+    /* The rectangle about the parallelogram, to which e adds little unless it is thin; and at most what a ray's size
+     * makes room for: a step of the direction moves the place on the face by 1 + p^2 + q^2 times as much at most,
+     * and more, as that grows. */
     kd_face face = kd_face_of(n);
     vec2 middle = vec2(face.p, face.q), all = vec2(1.25 * reach * (1.0 + dot(middle, middle)));
-    vec2 room = abs(kd_face_place(face.number, n + a) - middle) + abs(kd_face_place(face.number, n + b) - middle) + 0.1 * all;
+    vec2 room =
+        abs(kd_face_place(face.number, n + a) - middle) + abs(kd_face_place(face.number, n + b) - middle) + 0.1 * all;
     room = patch_ < 0.1 * (aa + bb) ? all : min(1.1 * KD_STAR_ROOM * room, all);
     kd_cells cells = kd_cells_of(face.number, middle - room, middle + room);
     kd_star_walk walk = kd_star_walk_from(cells, looks);
-    /* lavapipe executes both sides of a branch, and skips work only by leaving a loop. So the inner loop goes from star to star, and from cell
-     * to cell, until one is near, and the outer one notes it. */
+    /* lavapipe executes both sides of a branch, and skips work only by leaving a loop. So the inner loop goes from
+     * star to star, and from cell to cell, until one is near, and the outer one notes it. */
     for (;;) {
         bool near = false;
         for (;;) {
@@ -79,7 +90,8 @@ void search(uint at)
             if (walk.k < walk.end && !walk.done) {
                 vec4 star = star_row(walk.k);
                 vec3 p = star.xyz - n;
-                near = abs(dot(p, to_x)) <= KD_STAR_ROOM && abs(dot(p, to_y)) <= KD_STAR_ROOM && dot(p, p) < far && star.w >= least;
+                near = abs(dot(p, to_x)) <= KD_STAR_ROOM && abs(dot(p, to_y)) <= KD_STAR_ROOM && dot(p, p) < far &&
+                       star.w >= least;
                 walk.k = star.w < least ? walk.end : walk.k + 1u;
             }
             if (walk.done || near)

@@ -1,16 +1,18 @@
-/* This kernel lists pairs of a ray and a star that it may see, from square tiles of the lens map. Each ray stands for a cell of the picture one step wide;
- * star_images.comp finds where in it the star's image is.
+/* This kernel lists pairs of a ray and a star that it may see, from square tiles of the lens map. Each ray stands
+ * for a cell of the picture one step wide; star_images.comp finds where in it the star's image is.
  *
- * Nine rays of a tile, in threes, give the map over it to second order, from places in the tile to the plane of the sky that is square to the middle
- * ray. A tile is simple where all nine escape; where the map's derivative changes by less than KD_STAR_TILE_BENT of itself, so that it has one inverse
- * there, which Newton's method finds; and where the corners say that terms of third order amount to less than KD_STAR_TILE_OFF rays. Tiles that are
- * not simple are listed: large ones, KD_STAR_TILE rays a side, as small ones of three rays a side, for the next run of this kernel; and of small ones the
- * rays, for star_search.comp.
+ * Nine rays of a tile, in threes, give the map over it to second order, from places in the tile to the plane of the
+ * sky that is square to the middle ray. A tile is simple where all nine escape; where the map's derivative changes
+ * by less than KD_STAR_TILE_BENT of itself, so that it has one inverse there, which Newton's method finds; and where
+ * the corners say that terms of third order amount to less than KD_STAR_TILE_OFF rays. Tiles that are not simple are
+ * listed: large ones, KD_STAR_TILE rays a side, as small ones of three rays a side, for the next run of this kernel;
+ * and of small ones the rays, for star_search.comp.
  *
- * Stars are sorted as faces.h says, the brightest of a cell first; a cell's search ends with the star that would brighten a pixel by less than
- * push.least.
+ * Stars are sorted as faces.h says, the brightest of a cell first; a cell's search ends with the star that would
+ * brighten a pixel by less than push.least.
  *
- * BRIGHT: the light of stars in simple tiles is spread here and now, at the places and as much magnified as the tile's map of second order has it. */
+ * BRIGHT: the light of stars in simple tiles is spread here and now, at the places and as much magnified as the
+ * tile's map of second order has it. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -31,11 +33,20 @@ layout(set = 0, binding = 10) readonly buffer Stars_ { float star_numbers[]; };
 #define KD_STAR_TILE_BENT 0.7
 #define KD_STAR_TILE_OFF 0.2
 const int HALF = int(TILE) / 2;
-const float NEAR = TILE == KD_STAR_TILE || AT_RIM ? 0.72 : 0.65; /* rays that a star may be off the one that it is paired with: images are sought to 0.6 */
+const float NEAR =
+    TILE == KD_STAR_TILE || AT_RIM
+        ? 0.72
+        : 0.65; /* rays that a star may be off the one that it is paired with: images are sought to 0.6 */
 
-/* The map over a tile: q = a u + b v + aa u^2 + ab u v + bb v^2, u and v from -1 to 1 from its first rays to its last ones. In units of a and b
- * for aa, ab and bb. */
-struct kd_tile { vec3 n, e1, e2; vec2 a, b, aa, ab, bb; float det, bent; kd_cells cells; bool simple; };
+/* The map over a tile: q = a u + b v + aa u^2 + ab u v + bb v^2, u and v from -1 to 1 from its first rays to its
+ * last ones. In units of a and b for aa, ab and bb. */
+struct kd_tile {
+    vec3 n, e1, e2;
+    vec2 a, b, aa, ab, bb;
+    float det, bent;
+    kd_cells cells;
+    bool simple;
+};
 
 vec2 solve(kd_tile t, vec2 q) { return vec2(t.b.y * q.x - t.b.x * q.y, t.a.x * q.y - t.a.y * q.x) / t.det; }
 
@@ -49,7 +60,7 @@ kd_tile tile_about(uint at, bool whole)
     vec3 e1 = normalize(abs(n.z) < 0.9 ? vec3(-n.y, n.x, 0.0) : vec3(0.0, -n.z, n.y)), e2 = cross(n, e1);
     bool escape = whole && kd_sky_escapes(at);
     uint face = kd_face_of(kd_sky_galactic(n)).number;
-    vec2 low = vec2(1e9), high = vec2(-1e9); /* of the places of all nine */
+    vec2 low = vec2(1e9), high = vec2(-1e9);     /* of the places of all nine */
     vec2 corners = vec2(0.0), sides = vec2(0.0); /* of u v^2 and u^2 v: what the corners have beyond the rest */
     t.a = t.b = t.aa = t.ab = t.bb = vec2(0.0);
     for (int k = 0; k < 9; k++) {
@@ -82,7 +93,8 @@ kd_tile tile_about(uint at, bool whole)
     escape = escape && most(low - room) < KD_FACE_EDGE && most(high + room) < KD_FACE_EDGE;
     t.bent = 2.0 * (most(t.aa) + most(t.ab) + most(t.bb));
     float unit = 1.0 / float(HALF * HALF);
-    bool fine = AT_RIM || kd_sky_size(at, unit * dot(t.a, t.a), unit * dot(t.b, t.b), unit * dot(t.a, t.b)) < (RIM == 1u ? KD_STAR_PATCH_RIM : KD_STAR_PATCH);
+    bool fine = AT_RIM || kd_sky_size(at, unit * dot(t.a, t.a), unit * dot(t.b, t.b), unit * dot(t.a, t.b)) <
+                              (RIM == 1u ? KD_STAR_PATCH_RIM : KD_STAR_PATCH);
     float off = (most(solve(t, corners)) + most(solve(t, sides))) * float(HALF);
     t.simple = escape && kd_is_finite(t.bent) && t.bent < KD_STAR_TILE_BENT && off < KD_STAR_TILE_OFF && fine;
     return t;
@@ -107,8 +119,10 @@ float area(kd_tile t, vec2 p)
     return abs((du.x * dv.y - du.y * dv.x) * t.det) * (1.0 / float(HALF * HALF));
 }
 
-/* The light of star k, whose place is that many rays from the middle one of a tile, which is the ray (x, y) of the picture; magnified: its flux, over the sky that a pixel is mapped to. Where
- * two tiles meet each has a share of it, which goes from 0 to 1 over a fifth of a step, as that of two rays (star_images.comp): their maps differ a little there. */
+/* The light of star k, whose place is that many rays from the middle one of a tile, which is the ray (x, y) of the
+ * picture; magnified: its flux, over the sky that a pixel is mapped to. Where two tiles meet each has a share of it,
+ * which goes from 0 to 1 over a fifth of a step, as that of two rays (star_images.comp): their maps differ a little
+ * there. */
 void shine(uint x, uint y, vec2 place, uint k, float magnified, bool bright)
 {
     vec2 share = clamp(0.5 + 5.0 * (float(HALF) + 0.5 - abs(place)), 0.0, 1.0);
@@ -117,7 +131,8 @@ void shine(uint x, uint y, vec2 place, uint k, float magnified, bool bright)
     ivec2 near = ivec2(floor(place + 0.5));
     float energy = FINITE ? kd_camera_ray(uint(int(x) + near.x), uint(int(y) + near.y)).e : 1.0;
     vec3 colour = kd_sky_shifted(star_numbers[4u * push.stars + k], 1.0 / energy, VISIBLE ? KD_TRAIT_VISIBLE : 0u);
-    kd_star_spread((vec2(x, y) + place + 0.5) / float(SIDE) - 0.5, emission.sky.brightness * magnified * share.x * share.y * colour);
+    kd_star_spread((vec2(x, y) + place + 0.5) / float(SIDE) - 0.5,
+                   emission.sky.brightness * magnified * share.x * share.y * colour);
 }
 
 /* The pairs of star k, whose place is that many rays from the middle one; none, if it is too faint. */
@@ -137,12 +152,14 @@ void note(uint at, vec2 place, uint k, bool bright)
     }
 }
 
-/* What a tile is made of, from ray `first` of the map at (x, y) on, as far as it is there: rays, or small tiles, onto their list. */
+/* What a tile is made of, from ray `first` of the map at (x, y) on, as far as it is there: rays, or small tiles,
+ * onto their list. */
 void list(uint first, uint x, uint y)
 {
     const bool large = TILE == KD_STAR_TILE;
     const uint step_ = large ? 3u : 1u;
-    uint columns = (min(TILE, push.width - x) + step_ - 1u) / step_, all = columns * ((min(TILE, push.end - y) + step_ - 1u) / step_);
+    uint columns = (min(TILE, push.width - x) + step_ - 1u) / step_,
+         all = columns * ((min(TILE, push.end - y) + step_ - 1u) / step_);
     uint to = (large ? 2u : 2u + push.tiles) + atomicAdd(listed[large ? 0u : 1u], all);
     for (uint i = 0; i < all; i++) {
         uint row = i / columns;
@@ -150,7 +167,8 @@ void list(uint first, uint x, uint y)
     }
 }
 
-/* Whether others have all images that a tile's rays have: another of the rim's grids, or the rim: it has those of its corners, and its edge is not hollow. */
+/* Whether others have all images that a tile's rays have: another of the rim's grids, or the rim: it has those of
+ * its corners, and its edge is not hollow. */
 bool is_left_out(uint x, uint y)
 {
     if (AT_RIM)
@@ -175,8 +193,11 @@ void seek(uint x, uint y)
     /* u and v of a star are these products; of one in a cell of the tile, by the linear map, at most so large. */
     vec3 to_u = (t.b.y * t.e1 - t.b.x * t.e2) / t.det, to_v = (t.a.x * t.e2 - t.a.y * t.e1) / t.det;
     float most_ = (1.0 + NEAR / float(HALF)) * (1.0 + 0.5 * t.bent) + 0.05;
-    float unit = push.least * float(SIDE * SIDE) / (AT_RIM ? 1.2 * kd_steps_of(x + 1u, y + 1u) : 1.0); /* of the rim's rays the last stand for a little less */
-    float sharp = 1.0 - t.bent, least = sharp * sharp * unit * abs(t.det) * (1.0 / float(HALF * HALF)); /* where it is brightest */
+    float unit =
+        push.least * float(SIDE * SIDE) /
+        (AT_RIM ? 1.2 * kd_steps_of(x + 1u, y + 1u) : 1.0); /* of the rim's rays the last stand for a little less */
+    float sharp = 1.0 - t.bent,
+          least = sharp * sharp * unit * abs(t.det) * (1.0 / float(HALF * HALF)); /* where it is brightest */
     bool left_out = is_left_out(x, y);
     kd_star_walk walk = kd_star_walk_from(t.cells, t.simple && !left_out);
     for (;;) {
@@ -199,7 +220,8 @@ void seek(uint x, uint y)
         place = place_of(t, place);
         float patch_ = area(t, place);
         if (BRIGHT)
-            shine(x + push.column0 + uint(HALF), y + push.row0 + uint(HALF), place * float(HALF), walk.k - 1u, star.w * dot(star.xyz, t.n) / (patch_ * float(SIDE * SIDE)), star.w > unit * patch_);
+            shine(x + push.column0 + uint(HALF), y + push.row0 + uint(HALF), place * float(HALF), walk.k - 1u,
+                  star.w * dot(star.xyz, t.n) / (patch_ * float(SIDE * SIDE)), star.w > unit * patch_);
         else
             note(at, place * float(HALF), walk.k - 1u, star.w > 0.8 * unit * patch_);
     }

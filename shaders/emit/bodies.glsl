@@ -1,28 +1,36 @@
 /* Bodies are opaque spheres, off the plane or in it, that rays meet on their way (light/meet.glsl).
  *
- * A body is a sphere of radius R in its own frame, and space is taken for flat within its scale. The map A of a body takes what lies from its centre to
- * places by the orthonormal frame of zero angular momentum there: by r, theta and phi, stretched by the metric. The light that arrives from it at one time
- * is a plane wave there, t = n.Y, n being the direction that it flies in. A body of velocity v meets it where, in its own frame, t' = gamma (t - v.Y),
+ * A body is a sphere of radius R in its own frame, and space is taken for flat within its scale. The map A of a body
+ * takes what lies from its centre to places by the orthonormal frame of zero angular momentum there: by r, theta and
+ * phi, stretched by the metric. The light that arrives from it at one time is a plane wave there, t = n.Y, n being
+ * the direction that it flies in. A body of velocity v meets it where, in its own frame, t' = gamma (t - v.Y),
  *
  *   b^2 + t'^2 = R^2,   b^2 = Y^2 - t^2,
  *
- * and b, the distance of the ray from the centre, does not depend on v: what moves is seen as a sphere, turned (Penrose 1959, Terrell 1959). The cosine
- * of the angle of emission in the body's frame is t'/R. Its surface shines as a black body, by a linear law of limb darkening:
+ * and b, the distance of the ray from the centre, does not depend on v: what moves is seen as a sphere, turned
+ * (Penrose 1959, Terrell 1959). The cosine of the angle of emission in the body's frame is t'/R. Its surface shines
+ * as a black body, by a linear law of limb darkening:
  *
- *   light = brightness B(g T) (1 - c (1 - cos)) / (1 - c/3),   1/g = -k.U = (u^t E - u^phi L) - u^r p_r - u^theta p_theta. */
+ *   light = brightness B(g T) (1 - c (1 - cos)) / (1 - c/3),   1/g = -k.U = (u^t E - u^phi L) - u^r p_r - u^theta
+ *     p_theta. */
 #ifndef KD_BLOCK_bodies
-#define KD_BLOCK_bodies(F, U, A)                                                                                \
-    F(least)                  /* 1/r of the outermost place that a body may be at */                            \
-    F(x) F(y) F(z) F(reach)   /* a ball round all of them, M: x and y by azimuths that are mirrored, 0 at the observer */ \
+/* clang-format off */
+#define KD_BLOCK_bodies(F, U, A) \
+    F(least)                  /* 1/r of the outermost place that a body may be at */ \
+    /* a ball round all of them, M: x and y by azimuths that are mirrored, 0 at the observer */ \
+    F(x) F(y) F(z) F(reach) \
     U(leaves)                   /* of the tree, a power of two */
+/* clang-format on */
 #define KD_TABLES_bodies(T)
 #define KD_TRAIT_LIT 64u /* some throw back light of the disk */
 #define KD_TRAITS_bodies(T) T(VISIBLE) T(AZIMUTH) T(LIT)
-/* A tree of balls in the order of a heap: nodes from 1 on, of x, y, z and radius, two below each, of which the last `leaves` are the bodies'. Behind it
- * lie the bodies, KD_BODY_WORDS each: three rows of the map A, each with what it makes of the centre; velocity and gamma; the velocity
- * past which coordinates turn, R, limb darkening and brightness; factors of E, L, p_r and p_theta in 1/g; temperature over the disk's largest, and which body of the list it is;
- * and the light of the disk that it throws back (src/render/emit/bodies_lit.c): its sum and its sum along r, theta and phi; that along rr, thetatheta and phiphi, and its
- * temperature over the disk's largest; that along rtheta, rphi and thetaphi. */
+/* A tree of balls in the order of a heap: nodes from 1 on, of x, y, z and radius, two below each, of which the last
+ * `leaves` are the bodies'. Behind it lie the bodies, KD_BODY_WORDS each: three rows of the map A, each with what it
+ * makes of the centre; velocity and gamma; the velocity past which coordinates turn, R, limb darkening and
+ * brightness; factors of E, L, p_r and p_theta in 1/g; temperature over the disk's largest, and which body of the
+ * list it is; and the light of the disk that it throws back (src/render/emit/bodies_lit.c): its sum and its sum
+ * along r, theta and phi; that along rr, thetatheta and phiphi, and its temperature over the disk's largest; that
+ * along rtheta, rphi and thetaphi. */
 #define KD_BODY_WORDS 40
 #define KD_BUFFERS_bodies(B) B(3, stored, bodies)
 #define KD_PASS_bodies(P)
@@ -32,7 +40,10 @@
 #ifdef KD_MARCH
 vec4 kd_bodies_row(uint at) { return vec4(bodies[at], bodies[at + 1u], bodies[at + 2u], bodies[at + 3u]); }
 vec4 kd_bodies_node(uint node) { return kd_bodies_row(4u * node); }
-vec4 kd_body_row(uint body, uint row) { return kd_bodies_row(8u * emission.bodies.leaves + KD_BODY_WORDS * body + 4u * row); }
+vec4 kd_body_row(uint body, uint row)
+{
+    return kd_bodies_row(8u * emission.bodies.leaves + KD_BODY_WORDS * body + 4u * row);
+}
 
 uint kd_bodies_which(kd_met met) { return uint(kd_body_row(met.body, 6u).y); }
 
@@ -41,20 +52,24 @@ float kd_bodies_shift(kd_met met)
 {
     vec4 u = kd_body_row(met.body, 5u);
     float s = sqrt(max(1.0 - met.u * met.u, 1e-8));
-    return max(u.x * met.energy - u.y * met.momentum - u.z * met.dw / max(kd_delta(met.w, cam.root), 1e-30) - u.w * met.du / s, 1e-6);
+    return max(u.x * met.energy - u.y * met.momentum - u.z * met.dw / max(kd_delta(met.w, cam.root), 1e-30) -
+                   u.w * met.du / s,
+               1e-6);
 }
 
 /* In its own frame. */
 float kd_bodies_kelvin(kd_met met) { return emission.disk.peak * kd_body_row(met.body, 6u).x; }
 
-/* What falls on a surface of normal y from light of these moments of direction n, to their second order (R. Ramamoorthi & P. Hanrahan 2001, "On the
- * relationship between radiance and irradiance", J. Opt. Soc. Am. A 18, 2448): a cosine that is cut at 0 is 1/4 + c/2 + 5 (3 c^2 - 1)/32. */
+/* What falls on a surface of normal y from light of these moments of direction n, to their second order (R.
+ * Ramamoorthi & P. Hanrahan 2001, "On the relationship between radiance and irradiance", J. Opt. Soc. Am. A 18,
+ * 2448): a cosine that is cut at 0 is 1/4 + c/2 + 5 (3 c^2 - 1)/32. */
 vec3 kd_bodies_reflected(kd_met met)
 {
     vec4 a = kd_body_row(met.body, 7u), b = kd_body_row(met.body, 8u), c = kd_body_row(met.body, 9u);
     float s = sqrt(max(1.0 - met.u * met.u, 0.0));
     vec4 p = vec4(s * cos(met.phi), -s * sin(met.phi), met.u, met.w);
-    vec3 y = vec3(dot(kd_body_row(met.body, 0u), p), dot(kd_body_row(met.body, 1u), p), dot(kd_body_row(met.body, 2u), p));
+    vec3 y =
+        vec3(dot(kd_body_row(met.body, 0u), p), dot(kd_body_row(met.body, 1u), p), dot(kd_body_row(met.body, 2u), p));
     /* The normal, by the frame of the body: light left it at t' = R cos there. */
     vec4 v = kd_body_row(met.body, 3u), own = kd_body_row(met.body, 4u);
     y /= max(met.w, 1e-12);
@@ -64,13 +79,15 @@ vec3 kd_bodies_reflected(kd_met met)
     y *= inversesqrt(max(dot(y, y), 1e-30));
     float square = dot(b.xyz, y * y) + 2.0 * (c.x * y.x * y.y + c.y * y.x * y.z + c.z * y.y * y.z);
     float light = max(0.25 * a.x + 0.5 * dot(a.yzw, y) + (5.0 / 32.0) * (3.0 * square - a.x), 0.0), t2 = b.w * b.w;
-    return b.w > 0.0 ? light / (t2 * t2) * kd_black_body(min(b.w / kd_bodies_shift(met), 1e6), TRAITS_bodies) : vec3(0.0);
+    return b.w > 0.0 ? light / (t2 * t2) * kd_black_body(min(b.w / kd_bodies_shift(met), 1e6), TRAITS_bodies)
+                     : vec3(0.0);
 }
 
 vec3 kd_bodies_light(kd_met met)
 {
     vec4 own = kd_body_row(met.body, 4u);
-    float t = kd_body_row(met.body, 6u).x / kd_bodies_shift(met), limb = (1.0 - own.z * (1.0 - met.cosine)) / (1.0 - own.z * (1.0 / 3.0));
+    float t = kd_body_row(met.body, 6u).x / kd_bodies_shift(met),
+          limb = (1.0 - own.z * (1.0 - met.cosine)) / (1.0 - own.z * (1.0 / 3.0));
     vec3 light = own.w * limb * kd_black_body(min(t, 1e6), TRAITS_bodies);
     if ((TRAITS_bodies & KD_TRAIT_LIT) != 0u)
         light += kd_bodies_reflected(met);

@@ -1,19 +1,25 @@
-/* Debris that tides have torn off bodies shines here, as a density on the plane of the disk (src/scene/crowd.h, src/playground/show.h).
+/* Debris that tides have torn off bodies shines here, as a density on the plane of the disk (src/scene/crowd.h,
+ * src/playground/show.h).
  *
- * A column of it, S bodies' worth to M^2, is a black body of one temperature with an optical depth D S, seen with the velocity that it has in the mean at
- * the place, (v_r, v_phi) of the observer of zero angular momentum there (Bardeen, Press & Teukolsky 1972): in the equatorial plane, with
- * A = (r^2 + a^2)^2 - a^2 Delta, the lapse^2 is r^2 Delta/A, g_rr = r^2/Delta, g_phiphi = A/r^2, the dragging 2ar/A, and
+ * A column of it, S bodies' worth to M^2, is a black body of one temperature with an optical depth D S, seen with
+ * the velocity that it has in the mean at the place, (v_r, v_phi) of the observer of zero angular momentum there
+ * (Bardeen, Press & Teukolsky 1972): in the equatorial plane, with A = (r^2 + a^2)^2 - a^2 Delta, the lapse^2 is r^2
+ * Delta/A, g_rr = r^2/Delta, g_phiphi = A/r^2, the dragging 2ar/A, and
  *
- *   1/g = gamma ((E - dragging L)/lapse - v_r p_r/sqrt(g_rr) - v_phi L/sqrt(g_phiphi)),   light = (1 - exp(-D S)) B(g T). */
+ *   1/g = gamma ((E - dragging L)/lapse - v_r p_r/sqrt(g_rr) - v_phi L/sqrt(g_phiphi)),   light = (1 - exp(-D S))
+ *     B(g T). */
 #ifndef KD_BLOCK_debris
-#define KD_BLOCK_debris(F, U, A)                                                                                \
-    U(turn) U(rows) U(columns)      /* nodes of a whole turn; rows of nodes, and nodes a row */                \
-    F(first_row) F(first_column) F(rows_octave) /* rows that r doubles in, which count from r = 1 */           \
-    F(depth)                    /* D, over the area of a node where r is 1 */                                  \
+/* clang-format off */
+#define KD_BLOCK_debris(F, U, A) \
+    U(turn) U(rows) U(columns)      /* nodes of a whole turn; rows of nodes, and nodes a row */ \
+    F(first_row) F(first_column) F(rows_octave) /* rows that r doubles in, which count from r = 1 */ \
+    F(depth)                    /* D, over the area of a node where r is 1 */ \
     F(temperature)              /* over the disk's largest */
+/* clang-format on */
 #define KD_TABLES_debris(T)
 #define KD_TRAITS_debris(T) T(VISIBLE)
-#define KD_BUFFERS_debris(B) B(4, floats, debris) /* of each node three numbers: bodies' worth, and that times v_r and v_phi */
+#define KD_BUFFERS_debris(B) \
+    B(4, floats, debris) /* of each node three numbers: bodies' worth, and that times v_r and v_phi */
 #define KD_PASS_debris(P)
 #endif
 
@@ -27,20 +33,24 @@ vec3 kd_debris_node(uint row, uint column)
 /* What nodes hold there, bilinear between them; nothing off the grid. */
 vec3 kd_debris_at(float row, float turn)
 {
-    float turns = float(emission.debris.turn), columns = float(emission.debris.columns), from = turn - emission.debris.first_column / turns;
+    float turns = float(emission.debris.turn), columns = float(emission.debris.columns),
+          from = turn - emission.debris.first_column / turns;
     float column = (from - floor(from)) * turns;
     bool round_ = emission.debris.columns == emission.debris.turn;
     if (!(row >= 0.0 && row <= float(emission.debris.rows - 1u)) || !(round_ || column <= columns - 1.0))
         return vec3(0.0);
-    uint i = min(uint(row), emission.debris.rows - 2u), j = min(uint(column), emission.debris.columns - (round_ ? 1u : 2u));
+    uint i = min(uint(row), emission.debris.rows - 2u),
+         j = min(uint(column), emission.debris.columns - (round_ ? 1u : 2u));
     float right = column - float(j);
-    return mix(mix(kd_debris_node(i, j), kd_debris_node(i, j + 1u), right), mix(kd_debris_node(i + 1u, j), kd_debris_node(i + 1u, j + 1u), right), row - float(i));
+    return mix(mix(kd_debris_node(i, j), kd_debris_node(i, j + 1u), right),
+               mix(kd_debris_node(i + 1u, j), kd_debris_node(i + 1u, j + 1u), right), row - float(i));
 }
 
 /* 1/g of what moves so. */
 float kd_debris_shift(kd_sample s, vec2 v)
 {
-    float a = cam.spin, w2 = s.w * s.w, d = kd_delta(s.w, cam.root), b = 1.0 + a * a * w2, big = b * b - a * a * d * w2; /* Delta and A over r^2 and r^4 */
+    float a = cam.spin, w2 = s.w * s.w, d = kd_delta(s.w, cam.root), b = 1.0 + a * a * w2,
+          big = b * b - a * a * d * w2; /* Delta and A over r^2 and r^4 */
     float lapse = sqrt(max(d, 1e-12) / big), gamma = inversesqrt(max(1.0 - dot(v, v), 1e-6));
     float along = s.slope * inversesqrt(max(d, 1e-12)), round_ = s.momentum * s.w * inversesqrt(big);
     return max(gamma * ((s.energy - 2.0 * a * w2 * s.w / big * s.momentum) / lapse - v.x * along - v.y * round_), 1e-6);

@@ -1,17 +1,20 @@
 /* The smooth thin disk shines here.
  *
- * An element at radius r shines as a black body of temperature T(r). Liouville: I_nu/nu^3 is constant along the ray, so that it is seen
- * as a black body of g T, its bolometric intensity g^4 F / pi. Radiance is in units of the brightest surface brightness at g = 1. */
+ * An element at radius r shines as a black body of temperature T(r). Liouville: I_nu/nu^3 is constant along the ray,
+ * so that it is seen as a black body of g T, its bolometric intensity g^4 F / pi. Radiance is in units of the
+ * brightest surface brightness at g = 1. */
 #ifndef KD_BLOCK_disk
 #define KD_DISK_TABLE 1024
-#define KD_BLOCK_disk(F, U, A)                                                                                  \
-    F(r_in) F(r_out)       /* M */                                                                             \
-    F(fade)                /* 1 over the width of the outer fade, 1/M */                                       \
-    F(opacity)                                                                                                 \
-    F(peak)                /* largest effective temperature times the hardening, K */                          \
+/* clang-format off */
+#define KD_BLOCK_disk(F, U, A) \
+    F(r_in) F(r_out)       /* M */ \
+    F(fade)                /* 1 over the width of the outer fade, 1/M */ \
+    F(opacity) \
+    F(peak)                /* largest effective temperature times the hardening, K */ \
     F(luminous)            /* log2 of the fraction that the eye weighs of a black body of that */
-#define KD_TABLES_disk(T)                                                                                      \
-    T(disk, KD_DISK_TABLE) /* (T/T_peak) r^(3/4) against y = sqrt(1 - r_isco/r) in [0, 1], and its growth */
+/* clang-format on */
+#define KD_TABLES_disk(T) \
+    T(disk, KD_DISK_TABLE)  /* (T/T_peak) r^(3/4) against y = sqrt(1 - r_isco/r) in [0, 1], and its growth */
 #define KD_TRAIT_VISIBLE 8u /* brightness as the eye weighs it instead of bolometric */
 #define KD_TRAITS_disk(T) T(DOPPLER) T(REDSHIFT) T(VISIBLE)
 #define KD_BUFFERS_disk(B)
@@ -49,7 +52,8 @@ kd_gas kd_disk_gas(kd_sample s, uint traits)
     /* The outer fade: 1 inside, 0 at r_out, with vanishing slope at both ends. */
     float f = clamp((emission.disk.r_out - r) * emission.disk.fade, 0.0, 1.0);
     bool inside = r >= emission.disk.r_in && r <= emission.disk.r_out;
-    /* Elsewhere t may be no number: inside the orbit of light u^t is none, and E (r^(3/2) + a) - L, which g is divided by, vanishes. */
+    /* Elsewhere t may be no number: inside the orbit of light u^t is none, and E (r^(3/2) + a) - L, which g is
+     * divided by, vanishes. */
     return kd_gas(inside ? t : 0.0, inside ? emission.disk.opacity * (f * f * (3.0 - 2.0 * f)) : 0.0);
 }
 

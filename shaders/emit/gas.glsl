@@ -1,37 +1,39 @@
-/* Turbulent gas takes the place of the smooth disk: what shines is that disk, its temperature and its optical depth multiplied by a procedural
- * pattern, and each crossing is as opaque as the way of the ray through the gas is long.
+/* Turbulent gas takes the place of the smooth disk: what shines is that disk, its temperature and its optical depth
+ * multiplied by a procedural pattern, and each crossing is as opaque as the way of the ray through the gas is long.
  *
- * Pattern. Rings, KD_GAS_RING apart in ln r, turn rigidly with the Omega of their middle. Each holds noise of its own in the plane that
- * turns with it, at K (r/r_j) (cos psi, sin psi), psi = phi - Omega_j t + shear ln(r/r_j): features grow with r, there is no seam in phi,
- * and nothing winds up, whatever t is. Of the two rings about a place the noises b are added with weights w_1^2 + w_2^2 = 1, so that
- * the variance is the same everywhere. Octaves are those of fractional Brownian motion; each has a lattice turned, shifted at random and
- * adrift, and is displaced by those before it (domain warp).
+ * Pattern. Rings, KD_GAS_RING apart in ln r, turn rigidly with the Omega of their middle. Each holds noise of its
+ * own in the plane that turns with it, at K (r/r_j) (cos psi, sin psi), psi = phi - Omega_j t + shear ln(r/r_j):
+ * features grow with r, there is no seam in phi, and nothing winds up, whatever t is. Of the two rings about a place
+ * the noises b are added with weights w_1^2 + w_2^2 = 1, so that the variance is the same everywhere. Octaves are
+ * those of fractional Brownian motion; each has a lattice turned, shifted at random and adrift, and is displaced by
+ * those before it (domain warp).
  *
- * With n = sum of s_k b_k, b_k of variance 1 and nearly Gaussian, flux and depth are multiplied by exp(n - sum s_k^2/2), whose mean
- * is 1. A black body of T^4 proportional to that flux keeps colour and brightness together.
+ * With n = sum of s_k b_k, b_k of variance 1 and nearly Gaussian, flux and depth are multiplied by exp(n - sum
+ * s_k^2/2), whose mean is 1. A black body of T^4 proportional to that flux keeps colour and brightness together.
  *
- * Opacity. A layer of optical depth tau along its normal takes 1 - exp(-tau/cos) of what crosses it at an angle theta to it, in the frame
- * of the gas. There cos(theta) = |p_theta| g / r, p_theta^2 = Q in the plane (Carter 1968), by a photon's energy of 1/g. */
+ * Opacity. A layer of optical depth tau along its normal takes 1 - exp(-tau/cos) of what crosses it at an angle
+ * theta to it, in the frame of the gas. There cos(theta) = |p_theta| g / r, p_theta^2 = Q in the plane (Carter
+ * 1968), by a photon's energy of 1/g. */
 #ifndef KD_BLOCK_gas
-#define KD_GAS_RING 0.2       /* ln of the ratio of neighbouring rings' radii */
-#define KD_GAS_RINGS 80       /* from 1 to 1e6 M and one beyond */
+#define KD_GAS_RING 0.2 /* ln of the ratio of neighbouring rings' radii */
+#define KD_GAS_RINGS 80 /* from 1 to 1e6 M and one beyond */
 #define KD_GAS_OCTAVES 8
-#define KD_GAS_DRIFT 0.15     /* cells that the first octave's lattice moves by while its ring turns by a radian */
-#define KD_GAS_HASTE 1.6      /* that of each octave over the one before */
-#define KD_GAS_FINER 1.9      /* cells a length, likewise */
-#define KD_GAS_TURN 0.9       /* and its lattice is turned by so much, radians */
-#define KD_BLOCK_gas(F, U, A)                                                                                   \
-    F(first)               /* log2 of the innermost ring's radius */                                           \
-    F(cells)               /* K: of the first octave, over the length r */                                     \
-    F(shear)                                                                                                   \
-    F(warp)                /* displacement by one standard deviation of an octave, in its own cells */         \
-    F(loudness)            /* s_0 */                                                                           \
-    F(persistence)         /* s_(k+1)/s_k */                                                                   \
-    F(finer)               /* square of the steps of an octave over those of the one before, displacement counted in */ \
-    F(depth)               /* optical depth along the normal where the flux is largest */
+#define KD_GAS_DRIFT 0.15 /* cells that the first octave's lattice moves by while its ring turns by a radian */
+#define KD_GAS_HASTE 1.6  /* that of each octave over the one before */
+#define KD_GAS_FINER 1.9  /* cells a length, likewise */
+#define KD_GAS_TURN 0.9   /* and its lattice is turned by so much, radians */
+#define KD_BLOCK_gas(F, U, A) \
+    F(first) /* log2 of the innermost ring's radius */ \
+    F(cells) /* K: of the first octave, over the length r */ \
+    F(shear) \
+    F(warp)        /* displacement by one standard deviation of an octave, in its own cells */ \
+    F(loudness)    /* s_0 */ \
+    F(persistence) /* s_(k+1)/s_k */ \
+    F(finer)       /* square of the steps of an octave over those of the one before, displacement counted in */ \
+    F(depth)       /* optical depth along the normal where the flux is largest */
 #define KD_GAS_ROWS (KD_GAS_RINGS * (KD_GAS_OCTAVES + 1))
-/* A row is a ring: azimuth less the observer's, in radians, Omega, and the factor of a place in its plane for that in the
- * next one's. A row of an octave: where the lattice has drifted to, part of a cell and whole cells. */
+/* A row is a ring: azimuth less the observer's, in radians, Omega, and the factor of a place in its plane for that
+ * in the next one's. A row of an octave: where the lattice has drifted to, part of a cell and whole cells. */
 #define KD_TABLES_gas(T) T(gas, KD_GAS_ROWS)
 #define KD_TRAIT_GAS_DEEP 64u /* opacity by optical depth */
 #define KD_TRAIT_GAS_SHIFT 8u /* the bits from here on: octaves; 0: no turbulence */
@@ -53,23 +55,31 @@ vec2 kd_gas_gradient(uint point)
     return vec2(float(int(h) >> 16), float(int(h << 16) >> 16));
 }
 
-/* Gradient noise of variance 1 (Perlin 2002) in a lattice that is shifted by at.xy of a cell and at.zw cells; and, uncorrelated with it,
- * that of the gradients turned by a quarter. */
+/* Gradient noise of variance 1 (Perlin 2002) in a lattice that is shifted by at.xy of a cell and at.zw cells; and,
+ * uncorrelated with it, that of the gradients turned by a quarter. */
 vec2 kd_gas_noise(vec2 p, vec4 at)
 {
     p += at.xy;
     vec2 corner = floor(p), d = p - corner, e = d - 1.0;
     uvec2 i = uvec2(ivec2(corner + at.zw));
     uint x0 = i.x << 16, x1 = x0 + 0x10000u, y0 = i.y & 0xffffu, y1 = (i.y + 1u) & 0xffffu;
-    vec2 a = kd_gas_gradient(x0 | y0), b = kd_gas_gradient(x1 | y0), c = kd_gas_gradient(x0 | y1), f = kd_gas_gradient(x1 | y1);
+    vec2 a = kd_gas_gradient(x0 | y0), b = kd_gas_gradient(x1 | y0), c = kd_gas_gradient(x0 | y1),
+         f = kd_gas_gradient(x1 | y1);
     vec2 t = d * d * d * (d * (d * 6.0 - 15.0) + 10.0);
-    vec2 low = mix(vec2(a.x * d.x + a.y * d.y, a.x * d.y - a.y * d.x), vec2(b.x * e.x + b.y * d.y, b.x * d.y - b.y * e.x), t.x);
-    vec2 high = mix(vec2(c.x * d.x + c.y * e.y, c.x * e.y - c.y * d.x), vec2(f.x * e.x + f.y * e.y, f.x * e.y - f.y * e.x), t.x);
-    return mix(low, high, t.y) * (5.677716904867669 / 32768.0); /* E[n^2] over gradients of the square and places of the cell */
+    vec2 low = mix(vec2(a.x * d.x + a.y * d.y, a.x * d.y - a.y * d.x),
+                   vec2(b.x * e.x + b.y * d.y, b.x * d.y - b.y * e.x), t.x);
+    vec2 high = mix(vec2(c.x * d.x + c.y * e.y, c.x * e.y - c.y * d.x),
+                    vec2(f.x * e.x + f.y * e.y, f.x * e.y - f.y * e.x), t.x);
+    return mix(low, high, t.y) *
+           (5.677716904867669 / 32768.0); /* E[n^2] over gradients of the square and places of the cell */
 }
 
 /* This is a ring's plane, and what moves in it. */
-struct kd_gas_ring { vec2 p; uint row; float ahead; };
+struct kd_gas_ring {
+    vec2 p;
+    uint row;
+    float ahead;
+};
 
 /* ln(r/r_j) = `off`. */
 kd_gas_ring kd_gas_ring_of(uint j, float off, kd_sample s)
@@ -92,8 +102,8 @@ vec4 kd_gas_lattice(kd_gas_ring ring, uint octave)
     return at;
 }
 
-/* How many cells of the pattern one ray stands for: of the ellipse that the lens map's is there, the sum of the squared semi-axes and
- * their product squared. A step (dr, r dphi) is one of (dr, r dphi + shear dr) K/r cells. */
+/* How many cells of the pattern one ray stands for: of the ellipse that the lens map's is there, the sum of the
+ * squared semi-axes and their product squared. A step (dr, r dphi) is one of (dr, r dphi + shear dr) K/r cells. */
 struct kd_gas_steps { float sum, product; };
 
 kd_gas_steps kd_gas_footprint(kd_sample s)
@@ -106,8 +116,9 @@ kd_gas_steps kd_gas_footprint(kd_sample s)
     return kd_gas_steps(all * (1.0 + shear * (shear * i + 2.0 * c)), all * all * both * (1.0 - j * j));
 }
 
-/* What is left of an octave, in the mean over what a ray stands for: the variance of this noise along a line of q cells is about that at
- * a point over 1 + 0.66 q^2. Nothing is where that is a small part, so that no alias shimmers; and the loop ends. */
+/* What is left of an octave, in the mean over what a ray stands for: the variance of this noise along a line of q
+ * cells is about that at a point over 1 + 0.66 q^2. Nothing is where that is a small part, so that no alias
+ * shimmers; and the loop ends. */
 float kd_gas_left(kd_gas_steps q)
 {
     float fine = 1.0 + 0.66 * q.sum + 0.4356 * q.product, cut = clamp(1.8 - 0.5 * q.sum, 0.0, 1.0);
@@ -153,7 +164,8 @@ kd_glow kd_gas_glow(kd_sample s)
     if ((TRAITS_gas & KD_TRAIT_GAS_DEEP) != 0u) {
         float t = gas.t / kd_orbit_shift(s.w, s.energy, s.momentum, TRAITS_gas), t2 = t * t;
         float taken = 1.0 - exp(-emission.gas.depth * t2 * t2 * more / max(kd_gas_cosine(s), 1e-6));
-        gas.alpha = gas.alpha > 0.0 ? gas.alpha * taken : 0.0; /* elsewhere g may be no number: inside the orbit of light */
+        gas.alpha =
+            gas.alpha > 0.0 ? gas.alpha * taken : 0.0; /* elsewhere g may be no number: inside the orbit of light */
     }
     gas.t *= sqrt(sqrt(more));
     return kd_glow(gas.alpha * kd_black_body(gas.t, TRAITS_gas), gas.alpha, 0.0);

@@ -1,26 +1,32 @@
-/* Two jets, stylised, are optically thin light in cones along the spin axis, which flies outwards at one speed along the radius, past observers of
- * zero angular momentum (Bardeen, Press & Teukolsky 1972). Those see of a photon the energy and radial momentum
+/* Two jets, stylised, are optically thin light in cones along the spin axis, which flies outwards at one speed along
+ * the radius, past observers of zero angular momentum (Bardeen, Press & Teukolsky 1972). Those see of a photon the
+ * energy and radial momentum
  *
- *   e = (E - omega L) sqrt(A/(Sigma Delta)),   k_r = p_r sqrt(Delta/Sigma),   and the matter   -k.U = Gamma (e - beta k_r).
+ *   e = (E - omega L) sqrt(A/(Sigma Delta)),   k_r = p_r sqrt(Delta/Sigma),   and the matter   -k.U = Gamma (e -
+ *                                              beta k_r).
  *
- * A spectrum j_nu as nu^-alpha keeps its shape when it is shifted. j_nu/nu^2 is the same for all: along the observer's affine parameter light is
- * g^(2 + alpha) j, g = 1/(-k.U), the D^(2 + alpha) of a steady jet (Lind & Blandford 1985, ApJ 295, 358).
+ * A spectrum j_nu as nu^-alpha keeps its shape when it is shifted. j_nu/nu^2 is the same for all: along the
+ * observer's affine parameter light is g^(2 + alpha) j, g = 1/(-k.U), the D^(2 + alpha) of a steady jet (Lind &
+ * Blandford 1985, ApJ 295, 358).
  *
- * Across, with x = tan(theta)/tan(opening), a spine (1 - x^2)^2 and a sheath 27/4 x^2 (1 - x^2)^2; along, (r/inner)^-falloff, which begins
- * and ends smoothly. */
+ * Across, with x = tan(theta)/tan(opening), a spine (1 - x^2)^2 and a sheath 27/4 x^2 (1 - x^2)^2; along,
+ * (r/inner)^-falloff, which begins and ends smoothly. */
 #ifndef KD_BLOCK_jets
 #define KD_JETS_RISE 0.5 /* of the inner radius, over which light begins */
 #define KD_JETS_FADE 0.3 /* of the outer radius, over which it ends */
-#define KD_BLOCK_jets(F, U, A)                                                                                  \
-    F(inner) F(outer)      /* M */                                                                             \
-    F(cot)                 /* 1/tan of the opening angle */                                                    \
-    F(tan_)                /* and its tangent */                                                               \
-    F(brightness)          /* log2 of the light of a length, 1/M, at the inner edge of the spine, in units of the disk's brightest surface */ \
-    F(sheath)              /* share of the sheath, 0 to 1 */                                                   \
-    F(falloff) F(power)    /* power: 2 + alpha */                                                              \
-    F(gamma) F(gamma_beta)                                                                                     \
-    F(counter)             /* light of the jet below, over that above */                                       \
+/* clang-format off */
+#define KD_BLOCK_jets(F, U, A) \
+    F(inner) F(outer)      /* M */ \
+    F(cot)                 /* 1/tan of the opening angle */ \
+    F(tan_)                /* and its tangent */ \
+    /* log2 of the light of a length, 1/M, at the inner edge of the spine, in units of the disk's brightest surface */ \
+    F(brightness) \
+    F(sheath)              /* share of the sheath, 0 to 1 */ \
+    F(falloff) F(power)    /* power: 2 + alpha */ \
+    F(gamma) F(gamma_beta) \
+    F(counter)             /* light of the jet below, over that above */ \
     F(temperature)         /* K, whose colour it has */
+/* clang-format on */
 #define KD_TABLES_jets(T)
 #define KD_TRAITS_jets(T)
 #define KD_BUFFERS_jets(B)
@@ -28,32 +34,43 @@
 #endif
 
 #ifdef KD_EMIT_CODE
-/* This is -k.U of its matter, with no difference of what is nearly the same: of light that comes along with the jet, e - k_r is what is across over the
- * sum, across^2 = k_theta^2 + k_phi^2 = (p_theta^2 + L^2 Sigma^2/(A sin^2))/Sigma, which by p_theta^2 = Q + a^2 E^2 u^2 - L^2 u^2/sin^2 and
- * A = (r^2 + a^2)^2 - a^2 Delta sin^2 has no sine below: Sigma across^2 = Q + L^2 + a^2 E^2 u^2 - L^2 a^2 (Sigma + 2 r)/A. */
+/* This is -k.U of its matter, with no difference of what is nearly the same: of light that comes along with the jet,
+ * e - k_r is what is across over the sum, across^2 = k_theta^2 + k_phi^2 = (p_theta^2 + L^2 Sigma^2/(A
+ * sin^2))/Sigma, which by p_theta^2 = Q + a^2 E^2 u^2 - L^2 u^2/sin^2 and A = (r^2 + a^2)^2 - a^2 Delta sin^2 has no
+ * sine below: Sigma across^2 = Q + L^2 + a^2 E^2 u^2 - L^2 a^2 (Sigma + 2 r)/A. */
 float kd_jets_energy(kd_midst p)
 {
     float a = cam.spin, w2 = p.w * p.w, aw2 = a * a * w2, b = 1.0 + aw2, delta = max(kd_delta(p.w, cam.root), 1e-30);
     float area = b * b - aw2 * delta * (1.0 - p.u * p.u), sigma = 1.0 + aw2 * p.u * p.u;
-    float e = (p.energy - 2.0 * a * w2 * p.w / area * p.momentum) * sqrt(area / (sigma * delta)), k = p.dw * inversesqrt(delta * sigma);
-    float ae = a * p.energy, l2 = p.momentum * p.momentum, across = w2 / sigma * max(p.q + l2 + ae * ae * p.u * p.u - l2 * aw2 * (sigma + 2.0 * p.w) / area, 0.0);
-    float along = emission.jets.gamma * across / (e + abs(k)) + abs(k) / (emission.jets.gamma + emission.jets.gamma_beta);
+    float e = (p.energy - 2.0 * a * w2 * p.w / area * p.momentum) * sqrt(area / (sigma * delta)),
+          k = p.dw * inversesqrt(delta * sigma);
+    float ae = a * p.energy, l2 = p.momentum * p.momentum,
+          across = w2 / sigma * max(p.q + l2 + ae * ae * p.u * p.u - l2 * aw2 * (sigma + 2.0 * p.w) / area, 0.0);
+    float along =
+        emission.jets.gamma * across / (e + abs(k)) + abs(k) / (emission.jets.gamma + emission.jets.gamma_beta);
     return max(k > 0.0 ? along : emission.jets.gamma * e - emission.jets.gamma_beta * k, 1e-30);
 }
 
 kd_medium kd_jets_along(kd_midst p)
 {
-    float r = 1.0 / p.w, c = abs(p.u), s = sqrt(max(1.0 - p.u * p.u, 0.0)), x = min(s / max(c, 1e-6) * emission.jets.cot, 1e6);
+    float r = 1.0 / p.w, c = abs(p.u), s = sqrt(max(1.0 - p.u * p.u, 0.0)),
+          x = min(s / max(c, 1e-6) * emission.jets.cot, 1e6);
     float inner = emission.jets.inner, outer = emission.jets.outer, width = r * emission.jets.tan_;
-    float in_cone = max(1.0 - x * x, 0.0), across = in_cone * in_cone * (1.0 - emission.jets.sheath + emission.jets.sheath * 6.75 * x * x);
-    float up = clamp((r - inner) / (KD_JETS_RISE * inner), 0.0, 1.0), down = clamp((outer - r) / (KD_JETS_FADE * outer), 0.0, 1.0);
+    float in_cone = max(1.0 - x * x, 0.0),
+          across = in_cone * in_cone * (1.0 - emission.jets.sheath + emission.jets.sheath * 6.75 * x * x);
+    float up = clamp((r - inner) / (KD_JETS_RISE * inner), 0.0, 1.0),
+          down = clamp((outer - r) / (KD_JETS_FADE * outer), 0.0, 1.0);
     float along = up * up * (3.0 - 2.0 * up) * down * down * (3.0 - 2.0 * down);
-    /* Both powers and the brightness at once: g to the 12th is 2^92 and r/inner to the 10th 2^199, so that one by one they would be no number where all is one. */
-    float light = exp2(clamp(emission.jets.brightness - emission.jets.falloff * log2(r / inner) - emission.jets.power * log2(kd_jets_energy(p)), -126.0, 120.0));
+    /* Both powers and the brightness at once: g to the 12th is 2^92 and r/inner to the 10th 2^199, so that one by
+     * one they would be no number where all is one. */
+    float light = exp2(clamp(emission.jets.brightness - emission.jets.falloff * log2(r / inner) -
+                                 emission.jets.power * log2(kd_jets_energy(p)),
+                             -126.0, 120.0));
     float side = p.u > 0.0 ? 1.0 : emission.jets.counter;
     light *= side * across * along;
     /* Outside, the way to the cone, and no shorter than what its edge, which is smooth, asks for. */
-    float away = max(r * (s - c * emission.jets.tan_) * inversesqrt(1.0 + emission.jets.tan_ * emission.jets.tan_), 0.0);
+    float away =
+        max(r * (s - c * emission.jets.tan_) * inversesqrt(1.0 + emission.jets.tan_ * emission.jets.tan_), 0.0);
     float grain = min(max(away, 0.25 * width), r);
     return kd_medium(light * kd_colour_of(kd_colour_at(emission.jets.temperature)), 0.0, grain);
 }

@@ -1,8 +1,11 @@
-/* The disk shines as particles: its brightness is that of the smooth disk times their number over the mean (src/render/emit/particles.h). */
+/* The disk shines as particles: its brightness is that of the smooth disk times their number over the mean
+ * (src/render/emit/particles.h). */
 #ifndef KD_BLOCK_particles
-#define KD_BLOCK_particles(F, U, A)                                                                             \
-    U(rows) U(columns)     /* intervals of the grid; columns a power of 2 */                                   \
+/* clang-format off */
+#define KD_BLOCK_particles(F, U, A) \
+    U(rows) U(columns)     /* intervals of the grid; columns a power of 2 */ \
     F(rows_octave)         /* rows that r doubles in */
+/* clang-format on */
 #define KD_TABLES_particles(T)
 #define KD_TRAITS_particles(T) KD_TRAITS_disk(T) T(SLOW)
 #define KD_BUFFERS_particles(B) B(0, floats, density) /* on the grid, then on that of plunge.glsl */
@@ -10,9 +13,12 @@
 #endif
 
 #ifdef KD_EMIT_CODE
-/* A place lies on one of the grids, which begins at node `first`. It has a row, and an azimuth in turns on the row before and on
- * the one after. */
-struct kd_place { uint first, rows, columns; float row, before, after; };
+/* A place lies on one of the grids, which begins at node `first`. It has a row, and an azimuth in turns on the row
+ * before and on the one after. */
+struct kd_place {
+    uint first, rows, columns;
+    float row, before, after;
+};
 
 /* Says how many turns ahead that is now which went round with a row's Omega and was seen a time `ago`. */
 float kd_particles_ahead(uint row, float ago)
@@ -38,7 +44,8 @@ float kd_density_of_row(kd_place at, uint row, float turn)
 {
     float column = (turn - floor(turn)) * float(at.columns);
     uint j = uint(column), first = at.first + row * at.columns;
-    return mix(KD_OWN_FLOAT(density, first + (j & (at.columns - 1))), KD_OWN_FLOAT(density, first + ((j + 1) & (at.columns - 1))), column - float(j));
+    return mix(KD_OWN_FLOAT(density, first + (j & (at.columns - 1))),
+               KD_OWN_FLOAT(density, first + ((j + 1) & (at.columns - 1))), column - float(j));
 }
 
 /* This is the number of particles over the one expected, bilinear between the nodes. */

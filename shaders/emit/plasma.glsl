@@ -1,28 +1,35 @@
-/* Matter that is seen at one radio frequency: the analytic model of R. Gold et al. 2020 (ApJ 897, 148), and hot electrons in a magnetic field by power laws, as
- * A. E. Broderick, H.-Y. Pu and others have them. What is where is one struct, kd_plasma, of which light and, by whoever asks, polarisation are made.
+/* Matter that is seen at one radio frequency: the analytic model of R. Gold et al. 2020 (ApJ 897, 148), and hot
+ * electrons in a magnetic field by power laws, as A. E. Broderick, H.-Y. Pu and others have them. What is where is
+ * one struct, kd_plasma, of which light and, by whoever asks, polarisation are made.
  *
- * Observed at nu, light grows by (nu_obs/nu)^2 j_nu and depth by (nu/nu_obs) alpha_nu of a unit of the affine parameter by the observer's energy: I/nu^3 is
- * invariant, j/nu^2 and alpha nu are, too (Rybicki & Lightman 1979, 4.9), and nu/nu_obs = -k.u. */
+ * Observed at nu, light grows by (nu_obs/nu)^2 j_nu and depth by (nu/nu_obs) alpha_nu of a unit of the affine
+ * parameter by the observer's energy: I/nu^3 is invariant, j/nu^2 and alpha nu are, too (Rybicki & Lightman 1979,
+ * 4.9), and nu/nu_obs = -k.u. */
 #ifndef KD_BLOCK_plasma
-#define KD_BLOCK_plasma(F, U, A)                                                                                \
-    F(inner) F(outer)      /* M */                                                                             \
-    F(frequency)           /* log2 of what is observed, GHz */                                                 \
-    F(light) F(depth)      /* log2 of the units of kd_radiates by M of length: of light, and of 1 */               \
-    F(kelvin) F(jansky)    /* of light 1: brightness temperature, K, and Jy a steradian */                      \
+/* clang-format off */
+#define KD_BLOCK_plasma(F, U, A) \
+    F(inner) F(outer)      /* M */ \
+    F(frequency)           /* log2 of what is observed, GHz */ \
+    F(light) F(depth)      /* log2 of the units of kd_radiates by M of length: of light, and of 1 */ \
+    F(kelvin) F(jansky)    /* of light 1: brightness temperature, K, and Jy a steradian */ \
     F(gold_light) F(gold_depth) /* log2 of the light and the depth of a length M where the density is 1, at 230 GHz */ \
-    F(gold_index) F(gold_flat) F(gold_momentum)                                                                \
-    F(density) F(density_index) /* log2 of that at r = 1 M, cm^-3, and what it falls as */                      \
-    F(heat) F(heat_index)  /* log2 of Theta there, and what it falls as */                                     \
+    F(gold_index) F(gold_flat) F(gold_momentum) \
+    F(density) F(density_index) /* log2 of that at r = 1 M, cm^-3, and what it falls as */ \
+    F(heat) F(heat_index)  /* log2 of Theta there, and what it falls as */ \
     F(steep)               /* 1 over the scale height over the distance from the axis; 0: there is no height */ \
-    F(field) F(field_index) /* log2 of B^2/n at r = 1 M, gauss^2 cm^3, and what it falls as */                  \
-    F(power_index) F(power_light) F(power_depth) /* of a power law of electrons */                             \
-    F(torus_momentum) F(torus_edge) F(torus_index) /* l; what ln h has too much; density as h - 1 to this */   \
+    F(field) F(field_index) /* log2 of B^2/n at r = 1 M, gauss^2 cm^3, and what it falls as */ \
+    F(power_index) F(power_light) F(power_depth) /* of a power law of electrons */ \
+    F(torus_momentum) F(torus_edge) F(torus_index) /* l; what ln h has too much; density as h - 1 to this */ \
     U(grid_rows) U(grid_columns) U(grid_layers) /* nodes in r, theta and phi; 1 layer: the same all round */ \
-    F(grid_r) F(grid_per_r) F(grid_theta) F(grid_per_theta) F(grid_phi) F(grid_per_phi) /* the first of each, log2 of it for r, and how many there are in 1 */ \
-    F(grid_fall)           /* a, where phi is that of ingoing coordinates; else 0 */                            \
-    F(grid_field)          /* log2 of the unit of its field, gauss */                                           \
-    F(kappa) F(kappa_width) /* of a kappa distribution, log2(kappa - 3), */                                   \
-    F(kappa_light_low) F(kappa_light_high) F(kappa_light_sharp) F(kappa_depth_low) F(kappa_depth_high) F(kappa_depth_sharp) /* and physics/synchrotron.h */
+    /* the first of each, log2 of it for r, and how many there are in 1 */ \
+    F(grid_r) F(grid_per_r) F(grid_theta) F(grid_per_theta) F(grid_phi) F(grid_per_phi) \
+    F(grid_fall)           /* a, where phi is that of ingoing coordinates; else 0 */ \
+    F(grid_field)          /* log2 of the unit of its field, gauss */ \
+    F(kappa) F(kappa_width) /* of a kappa distribution, log2(kappa - 3), */ \
+    /* and physics/synchrotron.h */ \
+    F(kappa_light_low) F(kappa_light_high) F(kappa_light_sharp) F(kappa_depth_low) F(kappa_depth_high) \
+    F(kappa_depth_sharp)
+/* clang-format on */
 #define KD_KAPPA_FIRST -10.0 /* log2(z) of the table's first row, */
 #define KD_KAPPA_OCTAVE 16   /* rows for each octave */
 #define KD_KAPPA_ROWS 640
@@ -30,40 +37,51 @@
 #define KD_TRAIT_PLASMA_GOLD 2u
 #define KD_TRAIT_PLASMA_VERTICAL 4u /* the field is along the axis, */
 #define KD_TRAIT_PLASMA_RADIAL 8u   /* or along the radius, else round the axis */
-#define KD_TRAIT_PLASMA_REST 512u   /* it is at rest for observers of zero angular momentum, else it goes round and falls in */
-#define KD_TRAIT_PLASMA_POWER 64u   /* a power law of electrons */
+#define KD_TRAIT_PLASMA_REST \
+    512u /* it is at rest for observers of zero angular momentum, else it goes round and falls in */
+#define KD_TRAIT_PLASMA_POWER 64u /* a power law of electrons */
 #define KD_TRAIT_PLASMA_TORUS 128u
-#define KD_TRAIT_PLASMA_KAPPA 256u  /* a kappa distribution of electrons */
-#define KD_TRAIT_PLASMA_GRID 1024u  /* all of it is in a buffer: src/render/emit/matter_grid.h */
-#define KD_TRAITS_plasma(T) T(PLASMA_GOLD) T(PLASMA_VERTICAL) T(PLASMA_RADIAL) T(PLASMA_REST) T(PLASMA_POWER) T(PLASMA_TORUS) T(PLASMA_KAPPA) T(PLASMA_GRID) T(AZIMUTH)
+#define KD_TRAIT_PLASMA_KAPPA 256u /* a kappa distribution of electrons */
+#define KD_TRAIT_PLASMA_GRID 1024u /* all of it is in a buffer: src/render/emit/matter_grid.h */
+/* clang-format off */
+#define KD_TRAITS_plasma(T) \
+    T(PLASMA_GOLD) \
+    T(PLASMA_VERTICAL) T(PLASMA_RADIAL) T(PLASMA_REST) T(PLASMA_POWER) T(PLASMA_TORUS) T(PLASMA_KAPPA) T(PLASMA_GRID) \
+        T(AZIMUTH)
+/* clang-format on */
 #define KD_BUFFERS_plasma(B) B(5, quads, plasma_grid)
 #define KD_GRID_CELLS 2.0 /* of the grid, that a grain goes through at most */
 #define KD_PASS_plasma(P)
 #define KD_TORUS_COLD -24.0 /* log2(h - 1) */
-#define KD_PLASMA_SEEN 7.0 /* scale heights, beyond which there is 2e-11 of the plane's density, and none is looked for */
+#define KD_PLASMA_SEEN \
+    7.0 /* scale heights, beyond which there is 2e-11 of the plane's density, and none is looked for */
 #endif
 
 #ifdef KD_EMIT_CODE
 #include "emit/synchrotron.glsl"
 
-/* This is the metric at a place, past observers of zero angular momentum: their lapse^2 and their angular velocity, g_phiphi, g_rr and Sigma/r^2
- * (Bardeen, Press & Teukolsky 1972). */
+/* This is the metric at a place, past observers of zero angular momentum: their lapse^2 and their angular velocity,
+ * g_phiphi, g_rr and Sigma/r^2 (Bardeen, Press & Teukolsky 1972). */
 struct kd_metric { float lapse2, omega, round_, radial, sigma; };
 kd_metric kd_metric_at(float w, float u)
 {
-    float a = cam.spin, aw2 = a * a * w * w, b = 1.0 + aw2, delta = max(kd_delta(w, cam.root), 1e-30), s2 = max(1.0 - u * u, 1e-12);
+    float a = cam.spin, aw2 = a * a * w * w, b = 1.0 + aw2, delta = max(kd_delta(w, cam.root), 1e-30),
+          s2 = max(1.0 - u * u, 1e-12);
     float area = b * b - aw2 * delta * s2, sigma = 1.0 + aw2 * u * u;
-    return kd_metric(sigma * delta / area, 2.0 * a * w * w * w / area, area * s2 / (sigma * w * w), sigma / delta, sigma);
+    return kd_metric(sigma * delta / area, 2.0 * a * w * w * w / area, area * s2 / (sigma * w * w), sigma / delta,
+                     sigma);
 }
 
-/* This is how matter moves: u^t and u_phi, u^phi - omega u^t being u_phi/g_phiphi, u^r and u^theta, which is 0 but on a grid. */
+/* This is how matter moves: u^t and u_phi, u^phi - omega u^t being u_phi/g_phiphi, u^r and u^theta, which is 0 but
+ * on a grid. */
 struct kd_flow { float time, round_, out_, down; };
 const bool KD_PLASMA_GRID = (TRAITS_plasma & KD_TRAIT_PLASMA_GRID) != 0u;
 
 /* Its -k.u, by the photon's E, L and p_r. */
 float kd_flow_energy(kd_flow v, kd_metric g, kd_midst p)
 {
-    float energy = v.time * (p.energy - g.omega * p.momentum) - v.round_ * p.momentum / g.round_ - v.out_ * p.dw * g.radial / g.sigma;
+    float energy = v.time * (p.energy - g.omega * p.momentum) - v.round_ * p.momentum / g.round_ -
+                   v.out_ * p.dw * g.radial / g.sigma;
     if (KD_PLASMA_GRID)
         energy -= v.down * p.du * inversesqrt(max(1.0 - p.u * p.u, 1e-12));
     return max(energy, 1e-12);
@@ -72,7 +90,8 @@ float kd_flow_energy(kd_flow v, kd_metric g, kd_midst p)
 /* Gold et al.: u_mu = u_t (1, 0, 0, -l), l = l0 R^(3/2)/(1 + R), R = r sin(theta). */
 kd_flow kd_flow_gold(kd_metric g, kd_midst p)
 {
-    float axis = sqrt(max(1.0 - p.u * p.u, 0.0)) / p.w, l = emission.plasma.gold_momentum * axis * sqrt(axis) / (1.0 + axis), seen = 1.0 - g.omega * l;
+    float axis = sqrt(max(1.0 - p.u * p.u, 0.0)) / p.w,
+          l = emission.plasma.gold_momentum * axis * sqrt(axis) / (1.0 + axis), seen = 1.0 - g.omega * l;
     float scale = inversesqrt(max(seen * seen / g.lapse2 - l * l / g.round_, 1e-30));
     return kd_flow(scale * seen / g.lapse2, scale * l, 0.0, 0.0);
 }
@@ -80,50 +99,71 @@ kd_flow kd_flow_gold(kd_metric g, kd_midst p)
 /* On the circular orbit's angular velocity at its r, at whatever latitude. */
 kd_flow kd_flow_round(kd_metric g, float r)
 {
-    float past = 1.0 / (r * sqrt(r) + cam.spin) - g.omega, time = inversesqrt(max(g.lapse2 - g.round_ * past * past, 1e-12));
+    float past = 1.0 / (r * sqrt(r) + cam.spin) - g.omega,
+          time = inversesqrt(max(g.lapse2 - g.round_ * past * past, 1e-12));
     return kd_flow(time, g.round_ * past * time, 0.0, 0.0);
 }
 
-/* Inside the ISCO it keeps the e and l that it has there at its latitude (H.-Y. Pu, K. Akiyama & K. Asada 2016, ApJ 831, 4), and does not change that. With
- * them Sigma^2 (u^r)^2 = A e^2 - 4 a r e l - (Sigma - 2r) l^2/sin^2 - Sigma Delta is a quartic that vanishes at the ISCO: divided by r - r_isco, it has no
- * difference of what is nearly the same. Where it is below 0, off the plane, the matter goes round with the angular velocity of e and l. */
+/* Inside the ISCO it keeps the e and l that it has there at its latitude (H.-Y. Pu, K. Akiyama & K. Asada 2016, ApJ
+ * 831, 4), and does not change that. With them Sigma^2 (u^r)^2 = A e^2 - 4 a r e l - (Sigma - 2r) l^2/sin^2 - Sigma
+ * Delta is a quartic that vanishes at the ISCO: divided by r - r_isco, it has no difference of what is nearly the
+ * same. Where it is below 0, off the plane, the matter goes round with the angular velocity of e and l. */
 kd_flow kd_flow_plunge(kd_metric g, kd_midst p)
 {
-    float r = 1.0 / p.w, edge = emission.frame.r_isco, a2 = cam.spin * cam.spin, u2 = p.u * p.u, s2 = max(1.0 - u2, 1e-12);
+    float r = 1.0 / p.w, edge = emission.frame.r_isco, a2 = cam.spin * cam.spin, u2 = p.u * p.u,
+          s2 = max(1.0 - u2, 1e-12);
     kd_metric there = kd_metric_at(1.0 / edge, p.u);
     kd_flow v = kd_flow_round(there, edge);
     float l = v.round_, e = there.lapse2 * v.time + there.omega * l, l2 = l * l / s2;
-    float c3 = 2.0, c4 = e * e - 1.0, c2 = a2 * (1.0 + u2) * c4 - l2, c1 = 2.0 * (a2 * (s2 * e * e + u2) + l2 - 2.0 * cam.spin * e * l);
+    float c3 = 2.0, c4 = e * e - 1.0, c2 = a2 * (1.0 + u2) * c4 - l2,
+          c1 = 2.0 * (a2 * (s2 * e * e + u2) + l2 - 2.0 * cam.spin * e * l);
     float b2 = c3 + edge * c4, b1 = c2 + edge * b2, b0 = c1 + edge * b1;
     float out2 = (r - edge) * (b0 + r * (b1 + r * (b2 + r * c4))) * p.w * p.w * p.w * p.w / (g.sigma * g.sigma);
-    float seen = e - g.omega * l, rest = out2 < 0.0 ? inversesqrt(max(seen * seen / g.lapse2 - l * l / g.round_, 1e-12)) : 1.0;
+    float seen = e - g.omega * l,
+          rest = out2 < 0.0 ? inversesqrt(max(seen * seen / g.lapse2 - l * l / g.round_, 1e-12)) : 1.0;
     return kd_flow(rest * seen / g.lapse2, rest * l, -sqrt(max(out2, 0.0)), 0.0);
 }
 
-/* This is -ln(1 - z), for z from 0 to 1: GLSL's logarithm is good to 5e-7 only beside 1. By 2 artanh(y), whose next term is below 1e-8 of it. */
+/* This is -ln(1 - z), for z from 0 to 1: GLSL's logarithm is good to 5e-7 only beside 1. By 2 artanh(y), whose next
+ * term is below 1e-8 of it. */
 float kd_less_ln(float z)
 {
     float y = z / (2.0 - z), y2 = y * y;
-    return y2 < 0.04 ? y * (2.0 + y2 * (2.0 / 3.0 + y2 * (2.0 / 5.0 + y2 * (2.0 / 7.0 + y2 * (2.0 / 9.0))))) : -log(1.0 - z);
+    return y2 < 0.04 ? y * (2.0 + y2 * (2.0 / 3.0 + y2 * (2.0 / 5.0 + y2 * (2.0 / 7.0 + y2 * (2.0 / 9.0)))))
+                     : -log(1.0 - z);
 }
 
-/* The torus of L. G. Fishbone & V. Moncrief 1976 (ApJ 207, 962): u^t u_phi = l everywhere. With u_phi^2 = g_phiphi U^2 and u^t = sqrt(1 + U^2)/lapse,
- * U^2 (1 + U^2) = l^2 lapse^2/g_phiphi = q/4; and ln h = ln((1 + sqrt(1 + q))/lapse^2)/2 - sqrt(1 + q)/2 - omega l, equation 3.6. It is a hundredth, the
- * difference of numbers near 1: U^2 = (sqrt(1 + q) - 1)/2 has ln(1 + U^2)/2 - U^2 of it, and 1 - lapse^2 = 2 r (r^2 + a^2)/A. */
-struct kd_equilibrium { kd_flow flow; float enthalpy; }; /* ln h */
+/* The torus of L. G. Fishbone & V. Moncrief 1976 (ApJ 207, 962): u^t u_phi = l everywhere. With u_phi^2 = g_phiphi
+ * U^2 and u^t = sqrt(1 + U^2)/lapse, U^2 (1 + U^2) = l^2 lapse^2/g_phiphi = q/4; and ln h = ln((1 + sqrt(1 +
+ * q))/lapse^2)/2 - sqrt(1 + q)/2 - omega l, equation 3.6. It is a hundredth, the difference of numbers near 1: U^2 =
+ * (sqrt(1 + q) - 1)/2 has ln(1 + U^2)/2 - U^2 of it, and 1 - lapse^2 = 2 r (r^2 + a^2)/A. */
+struct kd_equilibrium {
+    kd_flow flow;
+    float enthalpy;
+}; /* ln h */
 kd_equilibrium kd_torus_at(kd_metric g, kd_midst p)
 {
-    float l = emission.plasma.torus_momentum, q = 4.0 * l * l * g.lapse2 / g.round_, u2 = 0.5 * q / (1.0 + sqrt(1.0 + q)), b = 1.0 + cam.spin * cam.spin * p.w * p.w;
+    float l = emission.plasma.torus_momentum, q = 4.0 * l * l * g.lapse2 / g.round_,
+          u2 = 0.5 * q / (1.0 + sqrt(1.0 + q)), b = 1.0 + cam.spin * cam.spin * p.w * p.w;
     float area = g.round_ * g.sigma * p.w * p.w / max(1.0 - p.u * p.u, 1e-12), lapsed = min(2.0 * p.w * b / area, 1.0);
-    precise float ln_h = 0.5 * (kd_less_ln(lapsed) + kd_less_ln(u2 / (1.0 + u2))) - u2 - g.omega * l - emission.plasma.torus_edge;
+    precise float ln_h =
+        0.5 * (kd_less_ln(lapsed) + kd_less_ln(u2 / (1.0 + u2))) - u2 - g.omega * l - emission.plasma.torus_edge;
     return kd_equilibrium(kd_flow(sqrt((1.0 + u2) / g.lapse2), sqrt(g.round_ * u2) * sign(l), 0.0, 0.0), ln_h);
 }
 
-/* All that is known of the matter at a place. energy: -k.u, the frequency there over the observed one; frequency: its log2, GHz; field: the unit vector along B,
- * b.u = 0, contravariant components t, r, theta, phi of Boyer and Lindquist, of a photon that arrives. */
-struct kd_plasma { kd_electrons electrons; kd_flow flow; kd_metric around; float energy, frequency; vec4 field; };
+/* All that is known of the matter at a place. energy: -k.u, the frequency there over the observed one; frequency:
+ * its log2, GHz; field: the unit vector along B, b.u = 0, contravariant components t, r, theta, phi of Boyer and
+ * Lindquist, of a photon that arrives. */
+struct kd_plasma {
+    kd_electrons electrons;
+    kd_flow flow;
+    kd_metric around;
+    float energy, frequency;
+    vec4 field;
+};
 
-/* A direction is made perpendicular to u: b = e + (e.u) u, k.b = k.e - energy e.u. e has the components r, theta times 1/sin(theta), phi. */
+/* A direction is made perpendicular to u: b = e + (e.u) u, k.b = k.e - energy e.u. e has the components r, theta
+ * times 1/sin(theta), phi. */
 void kd_plasma_field(inout kd_plasma m, kd_midst p)
 {
     float s = sqrt(max(1.0 - p.u * p.u, 1e-12)), r2 = 1.0 / (p.w * p.w), out_ = 0.0, down = 0.0, round_ = 0.0;
@@ -135,7 +175,9 @@ void kd_plasma_field(inout kd_plasma m, kd_midst p)
     else
         round_ = 1.0;
     float in_u = out_ * m.around.radial * m.flow.out_ + round_ * m.flow.round_;
-    float length_ = inversesqrt(max(out_ * out_ * m.around.radial + down * down * s * s * m.around.sigma * r2 + round_ * round_ * m.around.round_ + in_u * in_u, 1e-30));
+    float length_ = inversesqrt(max(out_ * out_ * m.around.radial + down * down * s * s * m.around.sigma * r2 +
+                                        round_ * round_ * m.around.round_ + in_u * in_u,
+                                    1e-30));
     float k = out_ * p.dw * m.around.radial / m.around.sigma + down * p.du + round_ * p.momentum;
     m.electrons.cosine = clamp((k / m.energy - in_u) * length_, -1.0, 1.0);
     m.electrons.sine2 = max((1.0 - m.electrons.cosine) * (1.0 + m.electrons.cosine), 0.0);
@@ -143,35 +185,44 @@ void kd_plasma_field(inout kd_plasma m, kd_midst p)
     m.field = length_ * vec4(in_u * m.flow.time, out_ + in_u * m.flow.out_, down * s, round_ + in_u * turn);
 }
 
-/* What lies between the nodes of a grid: linear in log r, theta and phi. matter: log2 of density and Theta, u^r, r u^theta; rest: u_phi/(r sin^2 theta), and b^r, r b^theta and
- * b_phi/(r sin^2 theta) in the grid's unit. */
+/* What lies between the nodes of a grid: linear in log r, theta and phi. matter: log2 of density and Theta, u^r, r
+ * u^theta; rest: u_phi/(r sin^2 theta), and b^r, r b^theta and b_phi/(r sin^2 theta) in the grid's unit. */
 struct kd_grid_node { vec4 matter, rest; };
 
 kd_grid_node kd_grid_line(uint at, uint next, float part)
 {
-    return kd_grid_node(mix(plasma_grid[at], plasma_grid[next], part), mix(plasma_grid[at + 1u], plasma_grid[next + 1u], part));
+    return kd_grid_node(mix(plasma_grid[at], plasma_grid[next], part),
+                        mix(plasma_grid[at + 1u], plasma_grid[next + 1u], part));
 }
 
-/* phi of Kerr and Schild's ingoing coordinates is phi + int a/Delta dr, a/(r+ - r-) ln((r - r+)/(r - r-)) = -a/(r - 1) artanh(x)/x, x = (r+ - 1)/(r - 1). */
+/* phi of Kerr and Schild's ingoing coordinates is phi + int a/Delta dr, a/(r+ - r-) ln((r - r+)/(r - r-)) = -a/(r -
+ * 1) artanh(x)/x, x = (r+ - 1)/(r - 1). */
 float kd_grid_fallen(float r)
 {
     float x = min(cam.root / max(r - 1.0, 1e-6), 0.999999), x2 = x * x;
-    return -emission.plasma.grid_fall / max(r - 1.0, 1e-6) * (x2 < 0.01 ? 1.0 + x2 * (1.0 / 3.0 + 0.2 * x2) : atanh(x) / x);
+    return -emission.plasma.grid_fall / max(r - 1.0, 1e-6) *
+           (x2 < 0.01 ? 1.0 + x2 * (1.0 / 3.0 + 0.2 * x2) : atanh(x) / x);
 }
 
 kd_grid_node kd_grid_at(kd_midst p, float log2_r)
 {
     uvec2 most = uvec2(emission.plasma.grid_rows, emission.plasma.grid_columns) - 1u;
     float theta = kd_atan2(sqrt(max(1.0 - p.u * p.u, 0.0)), p.u);
-    vec2 x = clamp(vec2((log2_r - emission.plasma.grid_r) * emission.plasma.grid_per_r, (theta - emission.plasma.grid_theta) * emission.plasma.grid_per_theta), vec2(0.0), vec2(most));
+    vec2 x = clamp(vec2((log2_r - emission.plasma.grid_r) * emission.plasma.grid_per_r,
+                        (theta - emission.plasma.grid_theta) * emission.plasma.grid_per_theta),
+                   vec2(0.0), vec2(most));
     vec2 cell = min(floor(x), vec2(most) - 1.0), part = x - cell;
-    uint layers = emission.plasma.grid_layers, node = 2u * layers, row = node * (most.y + 1u), at = uint(cell.x) * row + uint(cell.y) * node;
-    float turned = (p.phi + emission.frame.azimuth + kd_grid_fallen(1.0 / p.w) - emission.plasma.grid_phi) * emission.plasma.grid_per_phi, layer = floor(turned), past = turned - layer;
+    uint layers = emission.plasma.grid_layers, node = 2u * layers, row = node * (most.y + 1u),
+         at = uint(cell.x) * row + uint(cell.y) * node;
+    float turned = (p.phi + emission.frame.azimuth + kd_grid_fallen(1.0 / p.w) - emission.plasma.grid_phi) *
+                   emission.plasma.grid_per_phi,
+          layer = floor(turned), past = turned - layer;
     uint first = uint(clamp(layer - floor(layer / float(layers)) * float(layers), 0.0, float(layers - 1u)));
     kd_grid_node sum = kd_grid_node(vec4(0.0), vec4(0.0));
     for (uint n = 0u; n < min(layers, 2u); n++) { /* lavapipe skips what a loop does not do, and nothing else */
         uint k = first + n, from = at + 2u * (k < layers ? k : 0u);
-        kd_grid_node low = kd_grid_line(from, from + row, part.x), high = kd_grid_line(from + node, from + node + row, part.x);
+        kd_grid_node low = kd_grid_line(from, from + row, part.x),
+                     high = kd_grid_line(from + node, from + node + row, part.x);
         float weight = layers == 1u ? 1.0 : n == 0u ? 1.0 - past : past;
         sum.matter += weight * mix(low.matter, high.matter, part.y);
         sum.rest += weight * mix(low.rest, high.rest, part.y);
@@ -179,8 +230,9 @@ kd_grid_node kd_grid_at(kd_midst p, float log2_r)
     return sum;
 }
 
-/* Any u^r, u^theta and u_phi are of a unit vector that is timelike: -lapse^2 (u^t)^2 = -1 - U^2, with U the components for the observer of zero angular momentum. So B is that
- * of b, b.u = 0 gives lapse b^t = B.U/sqrt(1 + U^2), and b^2 = (B^2 + (B x U)^2)/(1 + U^2), no difference of large numbers by the horizon. */
+/* Any u^r, u^theta and u_phi are of a unit vector that is timelike: -lapse^2 (u^t)^2 = -1 - U^2, with U the
+ * components for the observer of zero angular momentum. So B is that of b, b.u = 0 gives lapse b^t = B.U/sqrt(1 +
+ * U^2), and b^2 = (B^2 + (B x U)^2)/(1 + U^2), no difference of large numbers by the horizon. */
 kd_plasma kd_plasma_of_grid(kd_midst p, float log2_r)
 {
     kd_plasma m;
@@ -190,7 +242,8 @@ kd_plasma kd_plasma_of_grid(kd_midst p, float log2_r)
     n.rest *= vec4(s * s, 1.0, 1.0, s * s);
     vec3 size = vec3(sqrt(m.around.radial), sqrt(m.around.sigma), r * inversesqrt(m.around.round_));
     vec3 flow = size * vec3(n.matter.zw, n.rest.x), field = size * n.rest.yzw, across = cross(field, flow);
-    float all = 1.0 + dot(flow, flow), root = sqrt(all), lapse = sqrt(m.around.lapse2), b2 = max((dot(field, field) + dot(across, across)) / all, 1e-36), one = inversesqrt(b2);
+    float all = 1.0 + dot(flow, flow), root = sqrt(all), lapse = sqrt(m.around.lapse2),
+          b2 = max((dot(field, field) + dot(across, across)) / all, 1e-36), one = inversesqrt(b2);
     m.flow = kd_flow(root / lapse, r * n.rest.x, n.matter.z, p.w * n.matter.w);
     m.energy = kd_flow_energy(m.flow, m.around, p);
     m.frequency = emission.plasma.frequency + log2(m.energy);
@@ -198,18 +251,22 @@ kd_plasma kd_plasma_of_grid(kd_midst p, float log2_r)
     m.electrons.heat = n.matter.y;
     m.electrons.field = emission.plasma.grid_field + 0.5 * (emission.plasma.density + log2(b2));
     float time = dot(field, flow) / (root * lapse), around = r * n.rest.w;
-    float k = n.rest.y * p.dw * m.around.radial / m.around.sigma + p.w * n.rest.z * p.du / s + around * p.momentum / m.around.round_ - time * (p.energy - m.around.omega * p.momentum);
+    float k = n.rest.y * p.dw * m.around.radial / m.around.sigma + p.w * n.rest.z * p.du / s +
+              around * p.momentum / m.around.round_ - time * (p.energy - m.around.omega * p.momentum);
     m.electrons.cosine = clamp(one * k / m.energy, -1.0, 1.0);
     m.electrons.sine2 = max((1.0 - m.electrons.cosine) * (1.0 + m.electrons.cosine), 0.0);
     m.field = one * vec4(time, n.rest.y, p.w * n.rest.z, m.around.omega * time + around / m.around.round_);
     return m;
 }
 
-/* A cell's edges are seen in the light: a grain goes through so many. It is no shorter than half of one of the finest rows that a grid may have, which columns and layers next to the axis would ask for. */
+/* A cell's edges are seen in the light: a grain goes through so many. It is no shorter than half of one of the
+ * finest rows that a grid may have, which columns and layers next to the axis would ask for. */
 float kd_grid_grain(kd_midst p, float sharp)
 {
     float r = 1.0 / p.w, s2 = max(1.0 - p.u * p.u, 1e-4);
-    float cells = KD_LOG2_E * abs(p.dw) * r * emission.plasma.grid_per_r + abs(p.du) * inversesqrt(s2) * emission.plasma.grid_per_theta + abs(p.momentum) / s2 * emission.plasma.grid_per_phi;
+    float cells = KD_LOG2_E * abs(p.dw) * r * emission.plasma.grid_per_r +
+                  abs(p.du) * inversesqrt(s2) * emission.plasma.grid_per_theta +
+                  abs(p.momentum) / s2 * emission.plasma.grid_per_phi;
     return max(min(r / (4.0 + sharp), KD_GRID_CELLS * p.speed / max(cells, 1e-12)), r / 2048.0);
 }
 
@@ -223,7 +280,8 @@ kd_plasma kd_plasma_at(kd_midst p)
     if (KD_PLASMA_GRID)
         return kd_plasma_of_grid(p, -log2(p.w));
     kd_plasma m;
-    float log2_r = -log2(p.w), x2 = p.u * p.u / max(1.0 - p.u * p.u, 1e-12) * emission.plasma.steep * emission.plasma.steep;
+    float log2_r = -log2(p.w),
+          x2 = p.u * p.u / max(1.0 - p.u * p.u, 1e-12) * emission.plasma.steep * emission.plasma.steep;
     m.around = kd_metric_at(p.w, p.u);
     float more = 0.0; /* log2(h - 1) */
     if ((TRAITS_plasma & KD_TRAIT_PLASMA_TORUS) != 0u) {
@@ -238,11 +296,13 @@ kd_plasma kd_plasma_at(kd_midst p)
         m.flow = kd_flow_plunge(m.around, p);
     m.energy = kd_flow_energy(m.flow, m.around, p);
     m.frequency = emission.plasma.frequency + log2(m.energy);
-    m.electrons.density = emission.plasma.density - emission.plasma.density_index * log2_r - 0.5 * KD_LOG2_E * min(x2, 1e6);
+    m.electrons.density =
+        emission.plasma.density - emission.plasma.density_index * log2_r - 0.5 * KD_LOG2_E * min(x2, 1e6);
     m.electrons.heat = emission.plasma.heat - emission.plasma.heat_index * log2_r;
     if ((TRAITS_plasma & KD_TRAIT_PLASMA_TORUS) != 0u) {
         m.electrons.density = emission.plasma.density + emission.plasma.torus_index * more;
-        m.electrons.heat = emission.plasma.heat + max(more, KD_TORUS_COLD); /* no fit holds at no temperature, but there is nothing */
+        m.electrons.heat =
+            emission.plasma.heat + max(more, KD_TORUS_COLD); /* no fit holds at no temperature, but there is nothing */
         m.electrons.field = 0.5 * (m.electrons.density + emission.plasma.field + more);
     } else
         m.electrons.field = 0.5 * (m.electrons.density + emission.plasma.field - emission.plasma.field_index * log2_r);
@@ -251,37 +311,50 @@ kd_plasma kd_plasma_at(kd_midst p)
 }
 
 /* log2((2^-sa + 2^-sb)^(-1/s)): the lesser, less smoothly the larger s is. */
-float kd_log2_joined(float a, float b, float s) { return min(a, b) - log2(1.0 + exp2(-min(s * abs(a - b), 120.0))) / s; }
+float kd_log2_joined(float a, float b, float s)
+{
+    return min(a, b) - log2(1.0 + exp2(-min(s * abs(a - b), 120.0))) / s;
+}
 
 /* A kappa distribution (physics/synchrotron.h): log2 of z and X, and of the four laws for low and high frequencies. */
 struct kd_kappa_laws { float z, x, light_low, light_high, depth_low, depth_high; };
 kd_kappa_laws kd_kappa_of(kd_electrons e, float frequency)
 {
-    float turn = e.field + KD_LOG2_GYRO, slant = 0.5 * log2(max(e.sine2, 1e-30)), z = e.heat + emission.plasma.kappa_width, k = emission.plasma.kappa;
-    float x = clamp(frequency - turn - slant - 2.0 * z, -600.0, 600.0), place = clamp((z - KD_KAPPA_FIRST) * float(KD_KAPPA_OCTAVE), 0.0, float(KD_KAPPA_ROWS - 1)), row = floor(place);
+    float turn = e.field + KD_LOG2_GYRO, slant = 0.5 * log2(max(e.sine2, 1e-30)),
+          z = e.heat + emission.plasma.kappa_width, k = emission.plasma.kappa;
+    float x = clamp(frequency - turn - slant - 2.0 * z, -600.0, 600.0),
+          place = clamp((z - KD_KAPPA_FIRST) * float(KD_KAPPA_OCTAVE), 0.0, float(KD_KAPPA_ROWS - 1)),
+          row = floor(place);
     vec4 f = kd_table_row(kappa, uint(row));
-    float below = min(z - KD_KAPPA_FIRST, 0.0) * (k - 1.0 / 3.0), size = f.x + (place - row) * f.y + below; /* z^a where z is small */
-    return kd_kappa_laws(z, x, emission.plasma.kappa_light_low + x * (1.0 / 3.0), emission.plasma.kappa_light_high - 0.5 * (k - 2.0) * x, emission.plasma.kappa_depth_low + size - x * (2.0 / 3.0),
+    float below = min(z - KD_KAPPA_FIRST, 0.0) * (k - 1.0 / 3.0),
+          size = f.x + (place - row) * f.y + below; /* z^a where z is small */
+    return kd_kappa_laws(z, x, emission.plasma.kappa_light_low + x * (1.0 / 3.0),
+                         emission.plasma.kappa_light_high - 0.5 * (k - 2.0) * x,
+                         emission.plasma.kappa_depth_low + size - x * (2.0 / 3.0),
                          emission.plasma.kappa_depth_high - 0.5 * (k + 1.0) * x);
 }
 
 kd_radiates kd_plasma_kappa(kd_electrons e, float frequency)
 {
     kd_kappa_laws of = kd_kappa_of(e, frequency);
-    float light = kd_log2_joined(of.light_low, of.light_high, emission.plasma.kappa_light_sharp), depth = kd_log2_joined(of.depth_low, of.depth_high, emission.plasma.kappa_depth_sharp);
-    return kd_radiates(e.density + e.field + KD_LOG2_GYRO + 0.5 * log2(max(e.sine2, 1e-30)) + light, e.density - frequency + depth - 3.0 * of.z, 0.5 * emission.plasma.kappa);
+    float light = kd_log2_joined(of.light_low, of.light_high, emission.plasma.kappa_light_sharp),
+          depth = kd_log2_joined(of.depth_low, of.depth_high, emission.plasma.kappa_depth_sharp);
+    return kd_radiates(e.density + e.field + KD_LOG2_GYRO + 0.5 * log2(max(e.sine2, 1e-30)) + light,
+                       e.density - frequency + depth - 3.0 * of.z, 0.5 * emission.plasma.kappa);
 }
 
 kd_radiates kd_plasma_gives(kd_plasma m)
 {
     if ((TRAITS_plasma & KD_TRAIT_PLASMA_POWER) != 0u)
-        return kd_synchrotron_by_power(m.electrons, m.frequency, emission.plasma.power_index, emission.plasma.power_light, emission.plasma.power_depth);
+        return kd_synchrotron_by_power(m.electrons, m.frequency, emission.plasma.power_index,
+                                       emission.plasma.power_light, emission.plasma.power_depth);
     if ((TRAITS_plasma & KD_TRAIT_PLASMA_KAPPA) != 0u)
         return kd_plasma_kappa(m.electrons, m.frequency);
     return kd_synchrotron_thermal(m.electrons, m.frequency);
 }
 
-/* From logarithms. What is deeper than 2^40 a length shows its own light alone, and so both are made less by the same factor. */
+/* From logarithms. What is deeper than 2^40 a length shows its own light alone, and so both are made less by the
+ * same factor. */
 kd_medium kd_plasma_medium(float light, float depth, float grain)
 {
     float over = max(depth - 40.0, 0.0);
@@ -290,10 +363,12 @@ kd_medium kd_plasma_medium(float light, float depth, float grain)
     return kd_medium(vec3(light > -126.0 ? exp2(min(light, 99.0)) : 0.0), depth > -126.0 ? exp2(depth) : 0.0, grain);
 }
 
-/* M along the ray over which a layer exp(-x^2/2), x = steep u/sin(theta), and with it the field: in it by its height and where it is, beyond it the way to where there is something. sharp: kd_radiates's steep. */
+/* M along the ray over which a layer exp(-x^2/2), x = steep u/sin(theta), and with it the field: in it by its height
+ * and where it is, beyond it the way to where there is something. sharp: kd_radiates's steep. */
 float kd_plasma_grain(kd_midst p, float steep, float sharp)
 {
-    float r = 1.0 / p.w, per = 1.0 / p.speed, s2 = max(1.0 - p.u * p.u, 1e-6), turn = abs(p.du) * per * r, along = abs(p.dw) * r * r * per;
+    float r = 1.0 / p.w, per = 1.0 / p.speed, s2 = max(1.0 - p.u * p.u, 1e-6), turn = abs(p.du) * per * r,
+          along = abs(p.dw) * r * r * per;
     float near_ = 0.6 * max(r - 1.0 / cam.horizon, 1e-4 * r), x = steep * abs(p.u) * inversesqrt(s2);
     float up = steep * turn / s2 * max(1.0, 0.5 * min(x, KD_PLASMA_SEEN) * (1.0 + 0.5 * sharp));
     if (KD_PLASMA_GRID)
@@ -305,11 +380,14 @@ float kd_plasma_grain(kd_midst p, float steep, float sharp)
 
 kd_medium kd_plasma_gold(kd_midst p)
 {
-    float r = 1.0 / p.w, x = emission.plasma.gold_flat * p.u, grain = kd_plasma_grain(p, emission.plasma.gold_flat, 0.0);
+    float r = 1.0 / p.w, x = emission.plasma.gold_flat * p.u,
+          grain = kd_plasma_grain(p, emission.plasma.gold_flat, 0.0);
     kd_metric g = kd_metric_at(p.w, p.u);
-    float up = log2(kd_flow_energy(kd_flow_gold(g, p), g, p)), n = -0.5 * KD_LOG2_E * min(0.01 * r * r + x * x, 1e6), index = emission.plasma.gold_index;
+    float up = log2(kd_flow_energy(kd_flow_gold(g, p), g, p)), n = -0.5 * KD_LOG2_E * min(0.01 * r * r + x * x, 1e6),
+          index = emission.plasma.gold_index;
     grain = 1.0 / (1.0 / grain + 0.4 * abs(p.dw) * r * r / p.speed * min(0.01 * r, 1.0));
-    return kd_plasma_medium(emission.plasma.gold_light + n - (2.0 + index) * up, emission.plasma.gold_depth + n - (1.5 + index) * up, grain);
+    return kd_plasma_medium(emission.plasma.gold_light + n - (2.0 + index) * up,
+                            emission.plasma.gold_depth + n - (1.5 + index) * up, grain);
 }
 
 kd_medium kd_plasma_along(kd_midst p)
@@ -322,7 +400,9 @@ kd_medium kd_plasma_along(kd_midst p)
         kd_plasma m = kd_plasma_at(p);
         kd_radiates gives = kd_plasma_gives(m);
         float up = m.frequency - emission.plasma.frequency;
-        medium = kd_plasma_medium(gives.light + emission.plasma.light - 2.0 * up, gives.depth + emission.plasma.depth + up, kd_plasma_grain(p, emission.plasma.steep, gives.steep));
+        medium =
+            kd_plasma_medium(gives.light + emission.plasma.light - 2.0 * up, gives.depth + emission.plasma.depth + up,
+                             kd_plasma_grain(p, emission.plasma.steep, gives.steep));
 #ifdef KD_MARCH
         if (KD_HAS(stokes) && r >= emission.plasma.inner && r <= emission.plasma.outer)
             kd_stokes_at(m, p, medium.light.x, medium.depth, gives.depth + emission.plasma.depth + up);
@@ -330,10 +410,14 @@ kd_medium kd_plasma_along(kd_midst p)
     }
     if (r < emission.plasma.inner || r > emission.plasma.outer)
         return kd_medium(vec3(0.0), 0.0, max(max(emission.plasma.inner - r, r - emission.plasma.outer), 0.1 * r));
-    /* Off the plane the fall begins as the square root of the way from the ISCO: stretches are the shorter the nearer they are to it. */
-    if ((TRAITS_plasma & (KD_TRAIT_PLASMA_GOLD | KD_TRAIT_PLASMA_REST | KD_TRAIT_PLASMA_TORUS | KD_TRAIT_PLASMA_GRID)) == 0u && r < emission.frame.r_isco)
+    /* Off the plane the fall begins as the square root of the way from the ISCO: stretches are the shorter the
+     * nearer they are to it. */
+    if ((TRAITS_plasma &
+         (KD_TRAIT_PLASMA_GOLD | KD_TRAIT_PLASMA_REST | KD_TRAIT_PLASMA_TORUS | KD_TRAIT_PLASMA_GRID)) == 0u &&
+        r < emission.frame.r_isco)
         medium.grain = min(medium.grain, max(0.8 * (emission.frame.r_isco - r), 2e-3 * r));
-    float edge = min(abs(r - emission.plasma.inner), abs(r - emission.plasma.outer)); /* within the bounds of other volumes */
+    float edge =
+        min(abs(r - emission.plasma.inner), abs(r - emission.plasma.outer)); /* within the bounds of other volumes */
     medium.grain = KD_VOLUMES > 1 ? min(medium.grain, max(edge, 2.5e-4 * r)) : medium.grain;
     return medium;
 }

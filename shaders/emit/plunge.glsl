@@ -1,23 +1,27 @@
-/* Gas plunges from the ISCO with its energy E and angular momentum L; src/render/emit/plunging.h says in which parcels.
+/* Gas plunges from the ISCO with its energy E and angular momentum L; src/render/emit/plunging.h says in which
+ * parcels.
  *
- * A grey body of one temperature, seen through by its optical depth, which is as its surface density, 1/(r |u^r|) times the
- * particles over those expected. With W = (r^2 + a^2 - aL/E) E/r^2 of the gas and of the light, D = Delta/r^2, J = L - aE,
+ * A grey body of one temperature, seen through by its optical depth, which is as its surface density, 1/(r |u^r|)
+ * times the particles over those expected. With W = (r^2 + a^2 - aL/E) E/r^2 of the gas and of the light, D =
+ * Delta/r^2, J = L - aE,
  *   u^r = -sqrt(2/(3 r0)) (r0/r - 1)^(3/2),   r0 the ISCO's radius     (Mummery & Balbus 2022, arXiv:2209.03579)
  *   1/g = -p.u = (W W' - w' u^r)/D - J J'/r^2 ,                         (Carter 1968)
  * the primed ones and w', which is positive where a ray traced back goes in and the light comes out, the light's. */
 #ifndef KD_BLOCK_plunge
 #define KD_PLUNGE_TABLE 512
-#define KD_BLOCK_plunge(F, U, A)                                                                                \
-    F(first) F(last)       /* w at the start and at the end of the plunge */                                   \
-    F(energy) F(j)         /* of its gas: E, and L - aE */                                                     \
-    F(temperature)         /* over the disk's largest */                                                       \
-    F(depth)               /* optical depth where r |u^r| is 1, of as many particles as expected */            \
-    F(log_first) F(step_)  /* of the table: its first place, and entries per unit */                           \
-    F(laps) F(turns)       /* per M: from start to end; of the orbit at the ISCO */                            \
-    U(at)                  /* where its grid lies behind the other particles' */                               \
-    U(rows) U(columns)                                                                                         \
+/* clang-format off */
+#define KD_BLOCK_plunge(F, U, A) \
+    F(first) F(last)       /* w at the start and at the end of the plunge */ \
+    F(energy) F(j)         /* of its gas: E, and L - aE */ \
+    F(temperature)         /* over the disk's largest */ \
+    F(depth)               /* optical depth where r |u^r| is 1, of as many particles as expected */ \
+    F(log_first) F(step_)  /* of the table: its first place, and entries per unit */ \
+    F(laps) F(turns)       /* per M: from start to end; of the orbit at the ISCO */ \
+    U(at)                  /* where its grid lies behind the other particles' */ \
+    U(rows) U(columns) \
     U(lap_rows) U(lead_rows) /* from start to end; before the start */
-#define KD_TABLES_plunge(T)                                                                                    \
+/* clang-format on */
+#define KD_TABLES_plunge(T) \
     T(plunge, KD_PLUNGE_TABLE) /* phase and azimuth, in turns, against log2 (r_isco - r)/(r - r+) */
 #define KD_TRAITS_plunge(T) KD_TRAITS_disk(T)
 #define KD_BUFFERS_plunge(B)
@@ -33,7 +37,8 @@ kd_place kd_plunge_place(kd_sample s, float turn)
     uint k = min(uint(max(way, 0.0)), KD_PLUNGE_TABLE - 2);
     vec2 at = mix(kd_table_row(plunge, k).xy, kd_table_row(plunge, k + 1).xy, clamp(way - float(k), 0.0, 1.0));
     float ago = (TRAITS_particles & KD_TRAIT_SLOW) != 0u ? s.ago : 0.0;
-    float row = (at.x + ago * emission.plunge.laps) * float(emission.plunge.lap_rows) + float(emission.plunge.lead_rows);
+    float row =
+        (at.x + ago * emission.plunge.laps) * float(emission.plunge.lap_rows) + float(emission.plunge.lead_rows);
     turn += ago * emission.plunge.turns - at.y;
     row = clamp(row, 0.0, float(emission.plunge.rows));
     return kd_place(emission.plunge.at, emission.plunge.rows, emission.plunge.columns, row, turn, turn);
@@ -53,7 +58,8 @@ float kd_plunge_shift(kd_sample s, bool doppler, bool redshift)
     float own = emission.plunge.energy - a * emission.plunge.j * w2, g = 1.0;
     if (doppler) {
         float j = s.momentum - a * s.energy;
-        g = 1.0 / max(((s.energy - a * j * w2) * own - s.slope * kd_plunge_speed(s.w)) / d - j * emission.plunge.j * w2, 1e-20);
+        g = 1.0 / max(((s.energy - a * j * w2) * own - s.slope * kd_plunge_speed(s.w)) / d - j * emission.plunge.j * w2,
+                      1e-20);
     } else if (FINITE) {
         g = 1.0 / s.energy;
     }
@@ -73,5 +79,8 @@ kd_gas kd_plunge_gas(kd_sample s, float number)
 }
 
 /* Says whether a crossing lies where the gas plunges. */
-bool kd_plunge_falls(kd_sample s) { return KD_HAS(plunge) && s.w >= emission.plunge.first && s.w <= emission.plunge.last; }
+bool kd_plunge_falls(kd_sample s)
+{
+    return KD_HAS(plunge) && s.w >= emission.plunge.first && s.w <= emission.plunge.last;
+}
 #endif

@@ -1,31 +1,38 @@
-/* Light that leaves gas in the plane is polarised, and keeps along its ray a direction that the ray carries with it. Walker & Penrose (1970) give that as a number: with
- * F = k ^ f, k the light's wave vector and f the direction of its electric field,
+/* Light that leaves gas in the plane is polarised, and keeps along its ray a direction that the ray carries with it.
+ * Walker & Penrose (1970) give that as a number: with F = k ^ f, k the light's wave vector and f the direction of
+ * its electric field,
  *
  *   kappa = (A - i B)(r - i a cos(theta)),   A = k^t f^r - k^r f^t,   B = k^phi f^theta - k^theta f^phi
  *
- * stays the same all along the ray, the components being those in Carter's frame (Chandrasekhar 1983, section 60), which have for a vector V
+ * stays the same all along the ray, the components being those in Carter's frame (Chandrasekhar 1983, section 60),
+ * which have for a vector V
  *
- *   V^t = ((r^2 + a^2) E - a L)/sqrt(Delta Sigma),  V^r = sqrt(Delta/Sigma) V_r,  V^theta = V_theta/sqrt(Sigma),  V^phi = (L/sin(theta) - a E sin(theta))/sqrt(Sigma),
+ *   V^t = ((r^2 + a^2) E - a L)/sqrt(Delta Sigma),  V^r = sqrt(Delta/Sigma) V_r,  V^theta = V_theta/sqrt(Sigma),
+ *                                                   V^phi = (L/sin(theta) - a E sin(theta))/sqrt(Sigma),
  *
- * E = -V_t and L = V_phi. In the equatorial plane, times sqrt(Delta/Sigma), what is needed of them is finite wherever gas can be. A quarter turn of f from right to up multiplies kappa by -i:
- * so that f = x right + y up has x - i y = kappa/kappa(right), and only that of `right` is computed at the observer.
+ * E = -V_t and L = V_phi. In the equatorial plane, times sqrt(Delta/Sigma), what is needed of them is finite
+ * wherever gas can be. A quarter turn of f from right to up multiplies kappa by -i: so that f = x right + y up has x
+ * - i y = kappa/kappa(right), and only that of `right` is computed at the observer.
  *
- * Stokes Q and U are those of the IAU (1973): the angle of the electric field counts from the top of the picture, as if that were north, to its left, as if that were east. */
+ * Stokes Q and U are those of the IAU (1973): the angle of the electric field counts from the top of the picture, as
+ * if that were north, to its left, as if that were east. */
 #ifndef KD_BLOCK_polarization
 #define KD_SCATTERING_ROWS 128 /* of the table: by sqrt(mu), the fraction there and that of the next row */
-#define KD_BLOCK_polarization(F, U, A)                                                                          \
-    F(fraction)            /* of a field that is in order, times how far it is */
+#define KD_BLOCK_polarization(F, U, A) F(fraction) /* of a field that is in order, times how far it is */
 #define KD_TABLES_polarization(T) T(scattering, KD_SCATTERING_ROWS)
-#define KD_TRAIT_SCATTERED 2u /* by electrons: across the plane of the light and the normal; else by a field: across that of the light and the field, */
-#define KD_TRAIT_RADIAL 4u    /* which points outwards, */
-#define KD_TRAIT_VERTICAL 8u  /* along the normal; without either round the axis */
+#define KD_TRAIT_SCATTERED \
+    2u /* by electrons: across the plane of the light and the normal; else by a field: across that of the light and \
+          the field, */
+#define KD_TRAIT_RADIAL 4u   /* which points outwards, */
+#define KD_TRAIT_VERTICAL 8u /* along the normal; without either round the axis */
 #define KD_TRAITS_polarization(T) T(SCATTERED) T(RADIAL) T(VERTICAL)
 #define KD_BUFFERS_polarization(B)
 #define KD_PASS_polarization(P)
 #endif
 
 #ifdef KD_EMIT_CODE
-/* This is kappa of the unit vector to the right of a ray in the picture, up to a factor above 0. x, y: its place there. */
+/* This is kappa of the unit vector to the right of a ray in the picture, up to a factor above 0. x, y: its place
+ * there. */
 vec2 kd_polarization_right(uvec2 place)
 {
     kd_ray k = kd_camera_ray(place.x, place.y);
@@ -34,27 +41,36 @@ vec2 kd_polarization_right(uvec2 place)
         vec2 alpha = vec2(a * s - k.l, k.p), right = vec2(cam.cxx, cam.cxy);
         return vec2(right.x * alpha.x + right.y * alpha.y, right.x * alpha.y - right.y * alpha.x);
     }
-    vec3 c0 = vec3(cam.c0x, cam.c0y, cam.c0z), cx = vec3(cam.cxx, cam.cxy, cam.cxz), cy = vec3(cam.cyx, cam.cyy, cam.cyz);
+    vec3 c0 = vec3(cam.c0x, cam.c0y, cam.c0z), cx = vec3(cam.cxx, cam.cxy, cam.cxz),
+         cy = vec3(cam.cyx, cam.cyy, cam.cyz);
     vec2 at = vec2(float(place.x) - cam.middle_x, cam.middle_y - float(place.y)), off = at;
     float ahead = kd_camera_ahead(off.x, off.y);
     vec3 look = normalize(ahead * c0 + off.x * cx + off.y * cy), up = cy;
-    if (SIGHT == KD_SIGHT_DOME) { /* as carried from the middle along the great circle: no place of the dome is a pole of that */
+    if (SIGHT ==
+        KD_SIGHT_DOME) { /* as carried from the middle along the great circle: no place of the dome is a pole of that */
         float d = length(at);
         vec2 to = d > 0.0 ? at / d : vec2(0.0, 1.0), angle = kd_quarter_turns(d * cam.turn_x);
         up = to.y * (angle.x * (to.x * cx + to.y * cy) - angle.y * c0) + to.x * (to.x * cy - to.y * cx);
     }
     vec3 f = normalize(cross(look, up));
     float w2 = cam.w0 * cam.w0, aw2 = a * w2;
-    float energy = cam.e_r * f.x + cam.e_theta * f.y + cam.e_phi * f.z, momentum = cam.l_r * f.x + cam.l_theta * f.y + cam.l_phi * f.z;
-    float p = cam.p_r * f.x + cam.p_theta * f.y + cam.p_phi * f.z, dw = cam.dw_r * f.x + cam.dw_theta * f.y + cam.dw_phi * f.z;
+    float energy = cam.e_r * f.x + cam.e_theta * f.y + cam.e_phi * f.z,
+          momentum = cam.l_r * f.x + cam.l_theta * f.y + cam.l_phi * f.z;
+    float p = cam.p_r * f.x + cam.p_theta * f.y + cam.p_phi * f.z,
+          dw = cam.dw_r * f.x + cam.dw_theta * f.y + cam.dw_phi * f.z;
     float a_t = k.e * (1.0 + a * aw2) - aw2 * k.l * s, f_t = energy * (1.0 + a * aw2) - aw2 * momentum * s;
-    vec2 ab = vec2((a_t * dw - k.dw * f_t) / kd_delta(cam.w0, cam.root), -w2 * ((k.l - a * k.e * s) * p - k.p * (momentum - a * energy * s)));
+    vec2 ab = vec2((a_t * dw - k.dw * f_t) / kd_delta(cam.w0, cam.root),
+                   -w2 * ((k.l - a * k.e * s) * p - k.p * (momentum - a * energy * s)));
     float turn = -a * cam.u * cam.w0;
     return vec2(ab.x - turn * ab.y, ab.y + turn * ab.x);
 }
 
-/* What there is of light from a crossing: the fraction that is polarised, and kappa of its electric field, up to a factor above 0 or below. */
-struct kd_polarized { float fraction; vec2 kappa; };
+/* What there is of light from a crossing: the fraction that is polarised, and kappa of its electric field, up to a
+ * factor above 0 or below. */
+struct kd_polarized {
+    float fraction;
+    vec2 kappa;
+};
 
 /* down: whether the light goes down through the plane there. */
 kd_polarized kd_polarization_left(kd_sample s, bool down)
@@ -63,9 +79,12 @@ kd_polarized kd_polarization_left(kd_sample s, bool down)
     bool falls = kd_plunge_falls(s);
     /* Light, gas and field in Carter's frame, times sqrt(Delta)/r those that point to t and r. */
     float k_theta = (down ? w : -w) * sqrt(max(s.q, 0.0));
-    vec4 k = vec4(s.energy * (1.0 + a * a * w2) - a * w2 * s.momentum, s.slope, root * k_theta, root * w * (s.momentum - a * s.energy));
-    vec4 u = falls ? vec4(emission.plunge.energy - a * emission.plunge.j * w2, kd_plunge_speed(w), 0.0, root * w * emission.plunge.j)
-                   : vec4(root, 0.0, 0.0, (inversesqrt(w) - a) * w); /* on a circle its speed is (sqrt(r) - a)/sqrt(Delta) */
+    vec4 k = vec4(s.energy * (1.0 + a * a * w2) - a * w2 * s.momentum, s.slope, root * k_theta,
+                  root * w * (s.momentum - a * s.energy));
+    vec4 u =
+        falls ? vec4(emission.plunge.energy - a * emission.plunge.j * w2, kd_plunge_speed(w), 0.0,
+                     root * w * emission.plunge.j)
+              : vec4(root, 0.0, 0.0, (inversesqrt(w) - a) * w); /* on a circle its speed is (sqrt(r) - a)/sqrt(Delta) */
     vec4 b = vec4(-a * root * root, 0.0, 0.0, root * (1.0 / w + a * a * w)); /* d/dphi */
     if ((TRAITS_polarization & KD_TRAIT_RADIAL) != 0u)
         b = vec4(0.0, 1.0, 0.0, 0.0);
@@ -74,9 +93,11 @@ kd_polarized kd_polarization_left(kd_sample s, bool down)
     /* f is orthogonal to all three: what b has of u, or of k, does not count. */
     vec3 f = u.x * cross(k.yzw, b.yzw) - k.x * cross(u.yzw, b.yzw) + b.x * cross(u.yzw, k.yzw);
     float f_t = dot(u.yzw, cross(k.yzw, b.yzw));
-    kd_polarized out_ = kd_polarized(emission.polarization.fraction, vec2(k.x * f.x - k.y * f_t, -(k.w * f.y - k.z * f.z)));
+    kd_polarized out_ =
+        kd_polarized(emission.polarization.fraction, vec2(k.x * f.x - k.y * f_t, -(k.w * f.y - k.z * f.z)));
     if ((TRAITS_polarization & KD_TRAIT_SCATTERED) != 0u) {
-        float g = falls ? kd_plunge_shift(s, true, true) : kd_orbit_shift(w, s.energy, s.momentum, KD_TRAIT_DOPPLER | KD_TRAIT_REDSHIFT);
+        float g = falls ? kd_plunge_shift(s, true, true)
+                        : kd_orbit_shift(w, s.energy, s.momentum, KD_TRAIT_DOPPLER | KD_TRAIT_REDSHIFT);
         float at = sqrt(clamp(g * abs(k_theta), 0.0, 1.0)) * float(KD_SCATTERING_ROWS);
         uint row = min(uint(at), KD_SCATTERING_ROWS - 1u);
         vec2 of = kd_table_row(scattering, row).xy;
@@ -85,8 +106,9 @@ kd_polarized kd_polarization_left(kd_sample s, bool down)
     return out_;
 }
 
-/* Stokes Q and U of the light of a crossing, as parts of its I. A ray traced back from above the plane goes down through it first, so that the light comes up; one from the plane itself by where it
- * looks. right: of the ray's place, kd_polarization_right. */
+/* Stokes Q and U of the light of a crossing, as parts of its I. A ray traced back from above the plane goes down
+ * through it first, so that the light comes up; one from the plane itself by where it looks. right: of the ray's
+ * place, kd_polarization_right. */
 vec2 kd_polarization_at(kd_sample s, vec2 right, float up)
 {
     float above = cam.u != 0.0 ? cam.u : up;

@@ -1,28 +1,32 @@
 /* The sky is what lies at infinity, where rays end that escape.
  *
- * grid: a celestial sphere: four quadrants in quiet colours, meridians and parallels in white. The line's width is a fortieth of the
- * spacing. Of all others, light that is spread over the sky, and stars.
+ * grid: a celestial sphere: four quadrants in quiet colours, meridians and parallels in white. The line's width is a
+ * fortieth of the spacing. Of all others, light that is spread over the sky, and stars.
  *
- * Spread light is a panorama in galactic coordinates (src/render/sky/panorama.h), at the level of its mips that a ray's footprint asks for,
- * between two of them. A texel is reached through a quadratic B-spline, which has no corners where the picture is magnified. Stars are
- * points: comp/star_images.comp has spread each of their images over some pixels before, and they are read here as a pixel's light, 64 bits
- * a channel.
+ * Spread light is a panorama in galactic coordinates (src/render/sky/panorama.h), at the level of its mips that a
+ * ray's footprint asks for, between two of them. A texel is reached through a quadratic B-spline, which has no
+ * corners where the picture is magnified. Stars are points: comp/star_images.comp has spread each of their images
+ * over some pixels before, and they are read here as a pixel's light, 64 bits a channel.
  *
- * By Liouville I_nu/nu^3 is the same along a ray: a black body of T is seen as one of g T, its bolometric intensity g^4 times what
- * it was, g = 1/E by the energy E at infinity of what the observer measures as 1. A star's flux goes likewise, by the solid angle that it is
- * magnified to. Spread light is taken for that of black bodies of KD_SKY_KELVIN when it is shifted. */
+ * By Liouville I_nu/nu^3 is the same along a ray: a black body of T is seen as one of g T, its bolometric intensity
+ * g^4 times what it was, g = 1/E by the energy E at infinity of what the observer measures as 1. A star's flux goes
+ * likewise, by the solid angle that it is magnified to. Spread light is taken for that of black bodies of
+ * KD_SKY_KELVIN when it is shifted. */
 #ifndef KD_BLOCK_sky
-#define KD_BLOCK_sky(F, U, A)                                                                                   \
-    F(brightness)                                                                                              \
-    F(spacing)             /* of the grid, radians */                                                          \
-    F(spread)              /* brightness of the panorama */                                                    \
-    U(columns) U(rows)     /* of its finest level, powers of two */                                            \
-    F(texel)               /* log2 of one, radians */                                                          \
-    F(xx) F(xy) F(xz) F(yx) F(yy) F(yz) F(zx) F(zy) F(zz) /* from directions, azimuths less the observer's, to galactic ones: rows */
+/* clang-format off */
+#define KD_BLOCK_sky(F, U, A) \
+    F(brightness) \
+    F(spacing)             /* of the grid, radians */ \
+    F(spread)              /* brightness of the panorama */ \
+    U(columns) U(rows)     /* of its finest level, powers of two */ \
+    F(texel)               /* log2 of one, radians */ \
+    /* from directions, azimuths less the observer's, to galactic ones: rows */ \
+    F(xx) F(xy) F(xz) F(yx) F(yy) F(yz) F(zx) F(zy) F(zz)
+/* clang-format on */
 #define KD_TRAIT_SKY_GRID 64u
 #define KD_TRAIT_SKY_SPREAD 128u
 #define KD_SKY_KELVIN 5600.0
-#define KD_STAR_LIGHT 6      /* words a pixel: of red, green, blue the lower 32 bits and the upper ones */
+#define KD_STAR_LIGHT 6          /* words a pixel: of red, green, blue the lower 32 bits and the upper ones */
 #define KD_STAR_UNIT 268435456.0 /* 2^28: of 1 in these words */
 #define KD_TABLES_sky(T)
 #define KD_TRAITS_sky(T) T(VISIBLE) T(SKY_GRID) T(SKY_SPREAD) T(POINTS) T(SPREAD)
@@ -44,13 +48,15 @@ vec3 kd_sky_shifted(float kelvin, float g, uint traits)
 /* From the hole's frame to the galactic one. */
 vec3 kd_sky_galactic(vec3 n)
 {
-    return vec3(emission.sky.xx * n.x + emission.sky.xy * n.y + emission.sky.xz * n.z, emission.sky.yx * n.x + emission.sky.yy * n.y + emission.sky.yz * n.z,
+    return vec3(emission.sky.xx * n.x + emission.sky.xy * n.y + emission.sky.xz * n.z,
+                emission.sky.yx * n.x + emission.sky.yy * n.y + emission.sky.yz * n.z,
                 emission.sky.zx * n.x + emission.sky.zy * n.y + emission.sky.zz * n.z);
 }
 
 vec3 kd_sky_from_galactic(vec3 n)
 {
-    return vec3(emission.sky.xx * n.x + emission.sky.yx * n.y + emission.sky.zx * n.z, emission.sky.xy * n.x + emission.sky.yy * n.y + emission.sky.zy * n.z,
+    return vec3(emission.sky.xx * n.x + emission.sky.yx * n.y + emission.sky.zx * n.z,
+                emission.sky.xy * n.x + emission.sky.yy * n.y + emission.sky.zy * n.z,
                 emission.sky.xz * n.x + emission.sky.yz * n.y + emission.sky.zz * n.z);
 }
 #endif
@@ -58,22 +64,27 @@ vec3 kd_sky_from_galactic(vec3 n)
 #ifdef KD_EMIT_END_CODE
 vec3 kd_sky_texel(uint word)
 {
-    return uintBitsToFloat(((word >> 27) + 103u) << 23) * vec3(float(word & 511u), float((word >> 9) & 511u), float((word >> 18) & 511u));
+    return uintBitsToFloat(((word >> 27) + 103u) << 23) *
+           vec3(float(word & 511u), float((word >> 9) & 511u), float((word >> 18) & 511u));
 }
 
 /* At (u, v) of [0, 1], of one level. */
 vec3 kd_sky_level(vec2 at, uint level)
 {
-    uint columns = emission.sky.columns >> level, rows = emission.sky.rows >> level, all = emission.sky.columns * emission.sky.rows;
+    uint columns = emission.sky.columns >> level, rows = emission.sky.rows >> level,
+         all = emission.sky.columns * emission.sky.rows;
     uint first = (4u * all - ((4u * all) >> (2u * level))) / 3u;
-    float x = at.x * float(columns), y = at.y * float(rows), column = floor(x), row = floor(y), p = x - column - 0.5, q = y - row - 0.5;
+    float x = at.x * float(columns), y = at.y * float(rows), column = floor(x), row = floor(y), p = x - column - 0.5,
+          q = y - row - 0.5;
     vec3 a = vec3(0.5 * (0.5 - p) * (0.5 - p), 0.75 - p * p, 0.5 * (0.5 + p) * (0.5 + p));
     vec3 b = vec3(0.5 * (0.5 - q) * (0.5 - q), 0.75 - q * q, 0.5 * (0.5 + q) * (0.5 + q)), sum = vec3(0.0);
     uint i1 = uint(column) & (columns - 1u), i0 = (i1 - 1u) & (columns - 1u), i2 = (i1 + 1u) & (columns - 1u);
     int last = int(rows) - 1;
     for (int k = 0; k < 3; k++) {
         uint line = first + columns * uint(clamp(int(row) + k - 1, 0, last));
-        sum += b[k] * (a.x * kd_sky_texel(KD_OWN_WORD(panorama, line + i0)) + a.y * kd_sky_texel(KD_OWN_WORD(panorama, line + i1)) + a.z * kd_sky_texel(KD_OWN_WORD(panorama, line + i2)));
+        sum += b[k] * (a.x * kd_sky_texel(KD_OWN_WORD(panorama, line + i0)) +
+                       a.y * kd_sky_texel(KD_OWN_WORD(panorama, line + i1)) +
+                       a.z * kd_sky_texel(KD_OWN_WORD(panorama, line + i2)));
     }
     return sum;
 }
@@ -82,7 +93,8 @@ vec3 kd_sky_spread(vec3 n, float footprint)
 {
     float latitude = kd_atan2(n.z, sqrt(n.x * n.x + n.y * n.y)), longitude = kd_atan2(n.y, n.x);
     vec2 at = vec2(0.5 - longitude / (2.0 * KD_PI), clamp(0.5 - latitude / KD_PI, 0.0, 1.0));
-    float coarsest = log2(float(emission.sky.rows)) - 1.0, level = clamp(log2(max(footprint, 1e-9)) - emission.sky.texel, 0.0, coarsest);
+    float coarsest = log2(float(emission.sky.rows)) - 1.0,
+          level = clamp(log2(max(footprint, 1e-9)) - emission.sky.texel, 0.0, coarsest);
     uint k = uint(level);
     return mix(kd_sky_level(at, k), kd_sky_level(at, min(k + 1u, uint(coarsest))), level - float(k));
 }
@@ -116,8 +128,11 @@ vec3 kd_sky_end(kd_end end)
     if ((TRAITS_sky & KD_TRAIT_SKY_SPREAD) != 0u) {
         kd_phasor phi = kd_cos_sin(end.phi);
         float s = sqrt(max(1.0 - end.u * end.u, 0.0));
-        vec3 spread = emission.sky.spread * kd_sky_spread(kd_sky_galactic(vec3(s * phi.c, s * phi.s, end.u)), end.footprint);
-        light += FINITE ? spread * kd_sky_shifted(KD_SKY_KELVIN, 1.0 / end.energy, TRAITS_sky) / kd_colour_of(kd_colour_at(KD_SKY_KELVIN)) : spread;
+        vec3 spread =
+            emission.sky.spread * kd_sky_spread(kd_sky_galactic(vec3(s * phi.c, s * phi.s, end.u)), end.footprint);
+        light += FINITE ? spread * kd_sky_shifted(KD_SKY_KELVIN, 1.0 / end.energy, TRAITS_sky) /
+                              kd_colour_of(kd_colour_at(KD_SKY_KELVIN))
+                        : spread;
     }
     return light;
 }

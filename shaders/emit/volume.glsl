@@ -1,15 +1,19 @@
-/* A shell of matter about the hole that is the same everywhere, by its own measure: it shines and takes light away along each ray's way through it. It
- * is at rest for observers of zero angular momentum (Bardeen, Press & Teukolsky 1972), who see the energy
+/* A shell of matter about the hole that is the same everywhere, by its own measure: it shines and takes light away
+ * along each ray's way through it. It is at rest for observers of zero angular momentum (Bardeen, Press & Teukolsky
+ * 1972), who see the energy
  *
  *   -k.U = (E - omega L) sqrt(A/(Sigma Delta)),   omega = 2 a r/A,   A = (r^2 + a^2)^2 - a^2 Delta sin^2(theta).
  *
- * Without the shift it is seen as if its frequencies were the observer's: what is left is the affine parameter, and its closed form. */
+ * Without the shift it is seen as if its frequencies were the observer's: what is left is the affine parameter, and
+ * its closed form. */
 #ifndef KD_BLOCK_volume
-#define KD_BLOCK_volume(F, U, A)                                                                                \
-    F(inner) F(outer)      /* M */                                                                             \
-    F(emissivity)          /* a unit of length, 1/M, in units of the disk's brightest surface */               \
-    F(opacity)             /* optical depth a unit of length, 1/M */                                           \
+/* clang-format off */
+#define KD_BLOCK_volume(F, U, A) \
+    F(inner) F(outer)      /* M */ \
+    F(emissivity)          /* a unit of length, 1/M, in units of the disk's brightest surface */ \
+    F(opacity)             /* optical depth a unit of length, 1/M */ \
     F(temperature)         /* K, whose colour it has */
+/* clang-format on */
 #define KD_TABLES_volume(T)
 #define KD_TRAITS_volume(T) T(REDSHIFT)
 #define KD_BUFFERS_volume(B)
@@ -25,8 +29,9 @@ float kd_volume_energy(kd_midst p)
     return (p.energy - 2.0 * a * w2 * p.w / area * p.momentum) * sqrt(area / (sigma * max(delta, 1e-30)));
 }
 
-/* The march finds the edges of all volumes together. Those of the shell may lie within others: there a stretch is no longer than the way to them, or than this
- * part of r, by which the shell's length is uncertain at `balanced`, and less the finer stretches are. */
+/* The march finds the edges of all volumes together. Those of the shell may lie within others: there a stretch is no
+ * longer than the way to them, or than this part of r, by which the shell's length is uncertain at `balanced`, and
+ * less the finer stretches are. */
 #define KD_VOLUME_EDGE 2.5e-4
 float kd_volume_grain(float r, float grain)
 {
@@ -39,10 +44,12 @@ kd_medium kd_volume_along(kd_midst p)
     bool shifts = (TRAITS_volume & KD_TRAIT_REDSHIFT) != 0u;
     float r = 1.0 / p.w, seen = shifts ? kd_volume_energy(p) : 1.0, g = 1.0 / max(seen, 1e-6);
     vec3 colour = kd_colour_of(kd_colour_at(g * emission.volume.temperature));
-    kd_medium medium = kd_medium(min(emission.volume.emissivity * g * g * g, 1e30) * colour, emission.volume.opacity * seen,
-                                 kd_volume_grain(r, shifts ? 0.6 * (r - 1.0 / cam.horizon) : 1e30));
+    kd_medium medium =
+        kd_medium(min(emission.volume.emissivity * g * g * g, 1e30) * colour, emission.volume.opacity * seen,
+                  kd_volume_grain(r, shifts ? 0.6 * (r - 1.0 / cam.horizon) : 1e30));
     if (r < emission.volume.inner || r > emission.volume.outer)
-        return kd_medium(vec3(0.0), 0.0, kd_volume_grain(r, max(max(emission.volume.inner - r, r - emission.volume.outer), 0.1 * r)));
+        return kd_medium(vec3(0.0), 0.0,
+                         kd_volume_grain(r, max(max(emission.volume.inner - r, r - emission.volume.outer), 0.1 * r)));
     return medium;
 }
 #endif

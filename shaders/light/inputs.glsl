@@ -1,5 +1,6 @@
-/* Kernels that make light of a lens map read this: the map, numbers and tables of the emitters, the camera, and the emitters' own buffers.
- * Bindings 0, 1, 2, 4, and from KD_OWN_BINDING on; 3 is what they write. Needs the specialisation constants of KD_SPEC_TRANSFER. */
+/* Kernels that make light of a lens map read this: the map, numbers and tables of the emitters, the camera, and the
+ * emitters' own buffers. Bindings 0, 1, 2, 4, and from KD_OWN_BINDING on; 3 is what they write. Needs the
+ * specialisation constants of KD_SPEC_TRANSFER. */
 #ifndef KD_INPUTS_GLSL
 #define KD_INPUTS_GLSL
 
@@ -12,7 +13,8 @@ layout(local_size_x = KD_GROUP_SIZE) in;
 #define F(name) float name;
 #define U(name) uint name;
 #define A(type, name, count) type name[count];
-#define BLOCK(number, name) struct kd_##name##_block { KD_BLOCK_##name(F, U, A) };
+#define BLOCK(number, name) \
+    struct kd_##name##_block { KD_BLOCK_##name(F, U, A) };
 #define MEMBER(number, name) kd_##name##_block name;
 #ifdef KD_TEXELS
 layout(set = 0, binding = 0) uniform textureBuffer lens_texels;
@@ -23,13 +25,17 @@ layout(set = 0, binding = 0) readonly buffer LensMap { float lens[]; };
 struct kd_spot_block { KD_BLOCK_spot(F, U) };
 KD_EMIT_BLOCKS(BLOCK)
 layout(set = 0, binding = 1, std140) uniform Emission { KD_EMIT_BLOCKS(MEMBER) } emission_;
-/* This is the same for all invocations, and read before the first branch: behind one lavapipe reads it anew for each lane and each use. */
+/* This is the same for all invocations, and read before the first branch: behind one lavapipe reads it anew for each
+ * lane and each use. */
 struct kd_emission { KD_EMIT_BLOCKS(MEMBER) } emission;
 #define READ(number, name) emission.name = emission_.name;
 #include "light/tables.glsl"
-/* The emitters' own buffers: as texels where the map is. lavapipe reads storage lane by lane, at ten times the price. */
-#define KD_OWN_stored(number, member) layout(set = 0, binding = KD_OWN_BINDING + number) readonly buffer Own_##member { float member[]; };
-#define KD_OWN_quads(number, member) layout(set = 0, binding = KD_OWN_BINDING + number) readonly buffer Own_##member { vec4 member[]; };
+/* The emitters' own buffers: as texels where the map is. lavapipe reads storage lane by lane, at ten times the
+ * price. */
+#define KD_OWN_stored(number, member) \
+    layout(set = 0, binding = KD_OWN_BINDING + number) readonly buffer Own_##member { float member[]; };
+#define KD_OWN_quads(number, member) \
+    layout(set = 0, binding = KD_OWN_BINDING + number) readonly buffer Own_##member { vec4 member[]; };
 #ifdef KD_TEXELS
 #define KD_OWN_words(number, member) layout(set = 0, binding = KD_OWN_BINDING + number) uniform utextureBuffer member;
 #define KD_OWN_pairs(number, member) KD_OWN_words(number, member)
@@ -38,8 +44,10 @@ struct kd_emission { KD_EMIT_BLOCKS(MEMBER) } emission;
 #define KD_OWN_PAIR(member, at) texelFetch(member, int(at)).rg
 #define KD_OWN_FLOAT(member, at) texelFetch(member, int(at)).r
 #else
-#define KD_OWN_words(number, member) layout(set = 0, binding = KD_OWN_BINDING + number) readonly buffer Own_##member { uint member[]; };
-#define KD_OWN_pairs(number, member) layout(set = 0, binding = KD_OWN_BINDING + number) readonly buffer Own_##member { uvec2 member[]; };
+#define KD_OWN_words(number, member) \
+    layout(set = 0, binding = KD_OWN_BINDING + number) readonly buffer Own_##member { uint member[]; };
+#define KD_OWN_pairs(number, member) \
+    layout(set = 0, binding = KD_OWN_BINDING + number) readonly buffer Own_##member { uvec2 member[]; };
 #define KD_OWN_floats(number, member) KD_OWN_stored(number, member)
 #define KD_OWN_WORD(member, at) member[at]
 #define KD_OWN_PAIR(member, at) member[at]
@@ -54,7 +62,10 @@ KD_EMIT_BUFFERS
 
 const bool SLOW = (QUANTITIES & KD_LENS_DELAY) != 0u;
 
-float quantity(uint which, uint at) { return (QUANTITIES & which) != 0u ? KD_MAP_AT(at + kd_plane(which) * slice.stride) : 0.0; }
+float quantity(uint which, uint at)
+{
+    return (QUANTITIES & which) != 0u ? KD_MAP_AT(at + kd_plane(which) * slice.stride) : 0.0;
+}
 
 /* This is Q by w'^2 = R(w) of kerr_ray.glsl, of a ray whose place in the picture does not tell it. */
 float kd_carter_of_slope(float energy, float momentum, float w, float slope)

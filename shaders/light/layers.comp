@@ -1,5 +1,6 @@
-/* This kernel makes one layer of a frame (shared/layers.h), from the lens map: an invocation writes a pixel's number, NaN where there is none. LAYER says
- * which, ORDER of which crossing. KD_MARCH: for scenes with volumes or bodies, where light is that which transfer.comp has left, Stokes Q, U and V behind it. */
+/* This kernel makes one layer of a frame (shared/layers.h), from the lens map: an invocation writes a pixel's
+ * number, NaN where there is none. LAYER says which, ORDER of which crossing. KD_MARCH: for scenes with volumes or
+ * bodies, where light is that which transfer.comp has left, Stokes Q, U and V behind it. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
@@ -39,16 +40,20 @@ float kd_layer_size(float footprint) { return footprint < KD_FOOTPRINT_EDGE ? fo
 kd_sample sample_at(uint n, float w, uint at, kd_ray ray)
 {
     uint plane = at + n * slice.stride;
-    bool listed = (QUANTITIES & KD_LENS_ALPHA) != 0u; /* rays round the critical curve, which the camera does not know */
+    bool listed =
+        (QUANTITIES & KD_LENS_ALPHA) != 0u; /* rays round the critical curve, which the camera does not know */
     float momentum = (listed ? -quantity(KD_LENS_ALPHA, at) : ray.l) * cam.s;
-    float ago = SLOW ? quantity(KD_LENS_DELAY, plane) - emission.frame.delay : 0.0, slope = quantity(KD_LENS_SLOPE, plane);
+    float ago = SLOW ? quantity(KD_LENS_DELAY, plane) - emission.frame.delay : 0.0,
+          slope = quantity(KD_LENS_SLOPE, plane);
     float q = listed ? kd_carter_of_slope(ray.e, momentum, w, slope) : kd_geodesic_of(ray, cam.spin, cam.u, cam.s).q;
-    return kd_sample(w, quantity(KD_LENS_PHI, plane), ago, slope, ray.e, momentum, q, quantity(KD_LENS_FOOTPRINT, plane), quantity(KD_LENS_SHAPE, plane), n);
+    return kd_sample(w, quantity(KD_LENS_PHI, plane), ago, slope, ray.e, momentum, q,
+                     quantity(KD_LENS_FOOTPRINT, plane), quantity(KD_LENS_SHAPE, plane), n);
 }
 
 const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);
 
-/* A ray of the pixel was given up: that leaves no number. It is no NaN that says so, which a device need not carry through sums. */
+/* A ray of the pixel was given up: that leaves no number. It is no NaN that says so, which a device need not carry
+ * through sums. */
 bool untold = false;
 
 #ifdef KD_MARCH
@@ -97,7 +102,8 @@ vec4 light(uvec2 place, uint at, uint pixel)
         float fate = quantity(KD_LENS_FATE, at);
         given_up = given_up || fate == KD_FATE_UNDECIDED;
         if (fate == KD_FATE_ESCAPED)
-            kd_beam_end(beam, kd_end(quantity(KD_LENS_SKY_U, at), quantity(KD_LENS_SKY_PHI, at), quantity(KD_LENS_SKY_FOOTPRINT, at), ray.e));
+            kd_beam_end(beam, kd_end(quantity(KD_LENS_SKY_U, at), quantity(KD_LENS_SKY_PHI, at),
+                                     quantity(KD_LENS_SKY_FOOTPRINT, at), ray.e));
         kd_beam_points(beam, pixel);
     }
     untold = untold || given_up;
@@ -105,7 +111,8 @@ vec4 light(uvec2 place, uint at, uint pixel)
 }
 #endif
 
-/* The angle of the electric field, from north to east, in (-pi/2, pi/2]; and the part of the light that is polarised. */
+/* The angle of the electric field, from north to east, in (-pi/2, pi/2]; and the part of the light that is
+ * polarised. */
 float kd_layer_evpa(vec4 light)
 {
     float by = kd_squarable(max(abs(light.y), abs(light.z)));
@@ -116,8 +123,8 @@ float kd_layer_polarized(vec4 light) { return light.x > 0.0 ? kd_part_of(vec3(li
 /* The layer's number of the mean light of a pixel. */
 float value_of_light(vec4 light)
 {
-#define LIGHT_VALUE_(number, name, needs, value)                                                                \
-    if (LAYER == number)                                                                                       \
+#define LIGHT_VALUE_(number, name, needs, value) \
+    if (LAYER == number) \
         return value;
     KD_LAYERS(LIGHT_VALUE_, NOT_, NOT_END_)
     return KD_NOTHING;
@@ -126,8 +133,8 @@ float value_of_light(vec4 light)
 /* The number of a crossing, which must lie on the disk. */
 float value_of(kd_sample s, float delay)
 {
-#define VALUE_(number, name, needs, value, met)                                                                  \
-    if (LAYER == number)                                                                                       \
+#define VALUE_(number, name, needs, value, met) \
+    if (LAYER == number) \
         return value;
     KD_LAYERS(NOT_LIGHT_, VALUE_, NOT_END_)
     return KD_NOTHING;
@@ -137,8 +144,8 @@ float value_of(kd_sample s, float delay)
 /* That of a body which hides what lies behind. */
 float value_of_met(kd_met met)
 {
-#define MET_(number, name, needs, value, met)                                                                  \
-    if (LAYER == number)                                                                                       \
+#define MET_(number, name, needs, value, met) \
+    if (LAYER == number) \
         return met;
     KD_LAYERS(NOT_LIGHT_, MET_, NOT_END_)
     return KD_NOTHING;
@@ -173,13 +180,14 @@ float of_crossing(uvec2 place, uint at)
     return KD_NOTHING;
 }
 
-#define END_VALUE_(number, name, needs, value)                                                                 \
-    if (LAYER == number)                                                                                       \
+#define END_VALUE_(number, name, needs, value) \
+    if (LAYER == number) \
         return value;
 float of_end(uint at)
 {
     float fate = quantity(KD_LENS_FATE, at);
-    kd_end end = kd_end(quantity(KD_LENS_SKY_U, at), quantity(KD_LENS_SKY_PHI, at), quantity(KD_LENS_SKY_FOOTPRINT, at), 1.0);
+    kd_end end =
+        kd_end(quantity(KD_LENS_SKY_U, at), quantity(KD_LENS_SKY_PHI, at), quantity(KD_LENS_SKY_FOOTPRINT, at), 1.0);
     KD_LAYERS(NOT_LIGHT_, NOT_, END_VALUE_)
     return KD_NOTHING;
 }
@@ -206,8 +214,10 @@ void main()
         const uint rays = CRITICAL > 0 ? CRITICAL : SIDE * SIDE;
         vec4 sum = vec4(0.0);
         for (uint i = 0u; i < rays; i++) {
-            uvec2 place = CRITICAL > 0 ? kd_critical_place(uvec2(px, py), i) : uvec2(px, py) * SIDE + uvec2(i % SIDE, i / SIDE);
-            sum += light(place, CRITICAL > 0 ? listed * CRITICAL + i : (place.y - slice.band0) * cam.width + place.x, o);
+            uvec2 place =
+                CRITICAL > 0 ? kd_critical_place(uvec2(px, py), i) : uvec2(px, py) * SIDE + uvec2(i % SIDE, i / SIDE);
+            sum +=
+                light(place, CRITICAL > 0 ? listed * CRITICAL + i : (place.y - slice.band0) * cam.width + place.x, o);
         }
         sum *= 1.0 / float(rays);
 #endif

@@ -1,17 +1,20 @@
-/* This is the march: light along a ray through volumes, composed with the crossings of the lens map in their order (docs/physics/volume.md).
+/* This is the march: light along a ray through volumes, composed with the crossings of the lens map in their order
+ * (docs/physics/volume.md).
  *
- * The ray is followed once more, by the steps of ray/escape.glsl, long and accurate as they are; between the ends of a step it is the quintic that
- * fits y, y' and y'' at both (Hermite's: its error is of the sixth order of the step, as the integrator's). A step is parted where w or u turns and
- * where the plane is crossed, so that both are monotone in each part, and of a part what lies within the volumes' bounds is found by Newton's method.
- * That is gone through in stretches with three places each, Gauss and Legendre's, as long as the grain, the depth and the way across allow; one that
- * turns out too long is gone through anew.
+ * The ray is followed once more, by the steps of ray/escape.glsl, long and accurate as they are; between the ends of
+ * a step it is the quintic that fits y, y' and y'' at both (Hermite's: its error is of the sixth order of the step,
+ * as the integrator's). A step is parted where w or u turns and where the plane is crossed, so that both are
+ * monotone in each part, and of a part what lies within the volumes' bounds is found by Newton's method. That is
+ * gone through in stretches with three places each, Gauss and Legendre's, as long as the grain, the depth and the
+ * way across allow; one that turns out too long is gone through anew.
  *
- * Needs inputs.glsl, KD_MARCH_MEET(beam, w, n, place, at), which composes crossing n of the lens map, and KD_MARCH_GIVEN_UP(beam) for a ray whose end is
- * not found. */
+ * Needs inputs.glsl, KD_MARCH_MEET(beam, w, n, place, at), which composes crossing n of the lens map, and
+ * KD_MARCH_GIVEN_UP(beam) for a ray whose end is not found. */
 #ifndef KD_MARCH_GLSL
 #define KD_MARCH_GLSL
 
-/* These are told anew with each dispatch: by one kernel a sample of pixels is followed more closely (src/render/frame/march_error.c). */
+/* These are told anew with each dispatch: by one kernel a sample of pixels is followed more closely
+ * (src/render/frame/march_error.c). */
 #define STEPS slice.steps /* a half period */
 #define FINE slice.fine   /* quarters of a stretch a grain */
 
@@ -19,16 +22,20 @@
 #include "ray/escape.glsl"
 
 #define KD_MARCH_SHORTEST (1.0 / 4096.0) /* stretch, of a step, */
-#define KD_MARCH_LEAST 0.05   /* or, where that is shorter, of the longest that the way allows */
+#define KD_MARCH_LEAST 0.05              /* or, where that is shorter, of the longest that the way allows */
 #define KD_MARCH_WAY 0.5      /* longest stretch, of r: over it three places find the integral of r^2 to 4e-5 */
 #define KD_MARCH_DEPTH 1.0    /* and in optical depth */
-#define KD_MARCH_TURN 1.0      /* and in radians of Faraday rotation and conversion, */
-#define KD_MARCH_TURNED 0.125  /* but this part of a grain: what turns further is mixed, and little is left of it */
+#define KD_MARCH_TURN 1.0     /* and in radians of Faraday rotation and conversion, */
+#define KD_MARCH_TURNED 0.125 /* but this part of a grain: what turns further is mixed, and little is left of it */
 #define KD_MARCH_TOO_LONG 1.5 /* one that is by so much longer than its places allow is gone through anew */
 #define KD_MARCH_BEHIND 1.5   /* grain of what little is seen of, at most, over that of what is in front */
-#define KD_MARCH_LOOPS 65536u /* more than there are: lavapipe ends loops before their condition does, and what that leaves undone is to be found out */
-#define KD_MARCH_CLOSE 1e-8    /* Delta w^4 where a ray that turns is as close to the horizon as 32 bits tell: its time there has no digits, and stays finite */
-#define KD_MARCH_DEEP 1e3      /* optical depth that is as good as any above */
+#define KD_MARCH_LOOPS \
+    65536u /* more than there are: lavapipe ends loops before their condition does, and what that leaves undone is to \
+              be found out */
+#define KD_MARCH_CLOSE \
+    1e-8 /* Delta w^4 where a ray that turns is as close to the horizon as 32 bits tell: its time there has no digits, \
+            and stays finite */
+#define KD_MARCH_DEEP 1e3            /* optical depth that is as good as any above */
 #define KD_MARCH_OPAQUE slice.opaque /* a ray ends where less than this of the light behind comes through */
 
 /* A polynomial of the time within a step, from 0 to 1. */
@@ -42,9 +49,18 @@ kd_quintic kd_quintic_of(float y0, float d0, float a0, float y1, float d1, float
                       6.0 * rest - 3.0 * slope + 0.5 * bend);
 }
 
-float kd_quintic_at(kd_quintic q, float t) { return q.c0 + t * (q.c1 + t * (q.c2 + t * (q.c3 + t * (q.c4 + t * q.c5)))); }
-float kd_quintic_slope(kd_quintic q, float t) { return q.c1 + t * (2.0 * q.c2 + t * (3.0 * q.c3 + t * (4.0 * q.c4 + t * 5.0 * q.c5))); }
-kd_quintic kd_quintic_derived(kd_quintic q) { return kd_quintic(q.c1, 2.0 * q.c2, 3.0 * q.c3, 4.0 * q.c4, 5.0 * q.c5, 0.0); }
+float kd_quintic_at(kd_quintic q, float t)
+{
+    return q.c0 + t * (q.c1 + t * (q.c2 + t * (q.c3 + t * (q.c4 + t * q.c5))));
+}
+float kd_quintic_slope(kd_quintic q, float t)
+{
+    return q.c1 + t * (2.0 * q.c2 + t * (3.0 * q.c3 + t * (4.0 * q.c4 + t * 5.0 * q.c5)));
+}
+kd_quintic kd_quintic_derived(kd_quintic q)
+{
+    return kd_quintic(q.c1, 2.0 * q.c2, 3.0 * q.c3, 4.0 * q.c4, 5.0 * q.c5, 0.0);
+}
 
 /* Where it takes a value between two times, at one of which it is below it: Newton's method, held between them. */
 float kd_quintic_root(kd_quintic q, float value, float low, float high)
@@ -84,17 +100,30 @@ const bool KD_MARCH_DELAYS = true;
 const bool KD_MARCH_DELAYS = (KD_ALONG_TRAITS & KD_TRAIT_SLOW) != 0u;
 #endif
 
-/* The azimuth by which the hole drags the ray, in the coordinates of ray/radial_step.glsl: chi up to the beginning of a step, without what those leave
- * out; and which they are: way, and what was left out before. ago: how long before the light that shows the scene's time that at the beginning of a step left. */
-struct kd_march_drag { float chi, way, fallen; bool returns; float ago; };
+/* The azimuth by which the hole drags the ray, in the coordinates of ray/radial_step.glsl: chi up to the beginning
+ * of a step, without what those leave out; and which they are: way, and what was left out before. ago: how long
+ * before the light that shows the scene's time that at the beginning of a step left. */
+struct kd_march_drag {
+    float chi, way, fallen;
+    bool returns;
+    float ago;
+};
 
-/* A step of the ray. chi grows by a cubic in it; ago by a quintic, and by what kd_march_edge has where the ray goes one way: inwards, along = 1, or outwards, -1. */
-struct kd_stride { kd_quintic w, u, x, y; float h, c0, c1, c2, c3, way; kd_quintic ago; float along; };
+/* A step of the ray. chi grows by a cubic in it; ago by a quintic, and by what kd_march_edge has where the ray goes
+ * one way: inwards, along = 1, or outwards, -1. */
+struct kd_stride {
+    kd_quintic w, u, x, y;
+    float h, c0, c1, c2, c3, way;
+    kd_quintic ago;
+    float along;
+};
 
-/* Boyer and Lindquist's time grows by t' = (1 + a^2 w^2) W/(w^2 D) + a (L - a E (1 - u^2)) along the ray back, D = 1 - 2w + a^2 w^2 and W = E + a (a E - L) w^2. With
- * w'^2 = W^2 - D K w^2 the first part is (1 + a^2 w^2) (w'/(w^2 D) + K/(W + w')) where the ray goes inwards, and the same with -w' where it goes outwards: of that
- * the first is d/dtau of -1/w + ln(w^2/D) + 2 kd_fall, which has all that grows without bound towards infinity and at the horizon, and less r_o + 2 ln r_o
- * vanishes for an observer at infinity. The rest is smooth. In the step in which the ray turns t' is so itself. */
+/* Boyer and Lindquist's time grows by t' = (1 + a^2 w^2) W/(w^2 D) + a (L - a E (1 - u^2)) along the ray back, D = 1
+ * - 2w + a^2 w^2 and W = E + a (a E - L) w^2. With w'^2 = W^2 - D K w^2 the first part is (1 + a^2 w^2) (w'/(w^2 D)
+ * + K/(W + w')) where the ray goes inwards, and the same with -w' where it goes outwards: of that the first is
+ * d/dtau of -1/w + ln(w^2/D) + 2 kd_fall, which has all that grows without bound towards infinity and at the
+ * horizon, and less r_o + 2 ln r_o vanishes for an observer at infinity. The rest is smooth. In the step in which
+ * the ray turns t' is so itself. */
 float kd_march_edge(float w)
 {
     return w > 0.0 ? 2.0 * kd_fall(w, cam.root) - 1.0 / w + kd_log(w * w / kd_horizons(w, cam.root)) : 0.0;
@@ -107,27 +136,36 @@ float kd_march_later(kd_geodesic m, kd_ray ray, kd_stride s, float t)
     y.w = w;
     y.dw = kd_quintic_slope(s.w, t) / s.h;
     float all = ray.e + a * (a * ray.e - m.momentum) * w2;
-    float out_ = s.along != 0.0 ? b * m.k / kd_one_way(m, y, ray.e, a, s.along) : b * all / max(w2 * kd_horizons(w, cam.root), KD_MARCH_CLOSE);
+    float out_ = s.along != 0.0 ? b * m.k / kd_one_way(m, y, ray.e, a, s.along)
+                                : b * all / max(w2 * kd_horizons(w, cam.root), KD_MARCH_CLOSE);
     return s.h * (out_ + a * (m.momentum - a * ray.e * (1.0 - u * u)));
 }
 
-/* By the polynomial through five places of the step (Newton's forward differences), integrated: at its end that is Boole's rule. */
+/* By the polynomial through five places of the step (Newton's forward differences), integrated: at its end that is
+ * Boole's rule. */
 kd_quintic kd_march_later_along(kd_geodesic m, kd_ray ray, kd_stride s, float begin)
 {
-    float f0 = kd_march_later(m, ray, s, 0.0), f1 = kd_march_later(m, ray, s, 0.25), f2 = kd_march_later(m, ray, s, 0.5);
+    float f0 = kd_march_later(m, ray, s, 0.0), f1 = kd_march_later(m, ray, s, 0.25),
+          f2 = kd_march_later(m, ray, s, 0.5);
     float f3 = kd_march_later(m, ray, s, 0.75), f4 = kd_march_later(m, ray, s, 1.0);
-    float d1 = f1 - f0, d2 = f2 - 2.0 * f1 + f0, d3 = f3 - f0 + 3.0 * (f1 - f2), d4 = f4 + f0 - 4.0 * (f1 + f3) + 6.0 * f2;
-    return kd_quintic(begin, f0, 2.0 * d1 - d2 + (2.0 / 3.0) * d3 - 0.5 * d4, (8.0 / 3.0) * (d2 - d3) + (22.0 / 9.0) * d4, (8.0 / 3.0) * d3 - 4.0 * d4, (32.0 / 15.0) * d4);
+    float d1 = f1 - f0, d2 = f2 - 2.0 * f1 + f0, d3 = f3 - f0 + 3.0 * (f1 - f2),
+          d4 = f4 + f0 - 4.0 * (f1 + f3) + 6.0 * f2;
+    return kd_quintic(begin, f0, 2.0 * d1 - d2 + (2.0 / 3.0) * d3 - 0.5 * d4,
+                      (8.0 / 3.0) * (d2 - d3) + (22.0 / 9.0) * d4, (8.0 / 3.0) * d3 - 4.0 * d4, (32.0 / 15.0) * d4);
 }
 
-float kd_march_ago(kd_stride s, float t) { return kd_quintic_at(s.ago, t) + s.along * kd_march_edge(kd_quintic_at(s.w, t)); }
+float kd_march_ago(kd_stride s, float t)
+{
+    return kd_quintic_at(s.ago, t) + s.along * kd_march_edge(kd_quintic_at(s.w, t));
+}
 
 float kd_march_rate(kd_geodesic m, kd_ray ray, float w, float dw, float way)
 {
     kd_state y;
     y.w = w;
     y.dw = dw;
-    return INGOING ? kd_drag_ingoing(m, y, ray.e, cam.spin, cam.root, way) : kd_drag(m, y, ray.e, cam.spin, cam.root, way);
+    return INGOING ? kd_drag_ingoing(m, y, ray.e, cam.spin, cam.root, way)
+                   : kd_drag(m, y, ray.e, cam.spin, cam.root, way);
 }
 
 kd_stride kd_stride_of(kd_geodesic m, kd_ray ray, kd_path p, kd_path q, float h, inout kd_march_drag drag)
@@ -151,7 +189,10 @@ kd_stride kd_stride_of(kd_geodesic m, kd_ray ray, kd_path p, kd_path q, float h,
         s.c1 = r0;
         s.c2 = 0.5 * (4.0 * r1 - 3.0 * r0 - r2);
         s.c3 = (2.0 / 3.0) * (r0 - 2.0 * r1 + r2);
-        drag.chi += s.c1 + s.c2 + s.c3 + (INGOING ? 0.0 : s.way * (kd_drag_fall(q.y.w, cam.spin, cam.root) - kd_drag_fall(p.y.w, cam.spin, cam.root)));
+        drag.chi +=
+            s.c1 + s.c2 + s.c3 +
+            (INGOING ? 0.0
+                     : s.way * (kd_drag_fall(q.y.w, cam.spin, cam.root) - kd_drag_fall(p.y.w, cam.spin, cam.root)));
     }
     if (KD_MARCH_DELAYS) {
         s.along = p.v.w > 0.0 && q.v.w > 0.0 ? 1.0 : p.v.w < 0.0 && q.v.w < 0.0 ? -1.0 : 0.0;
@@ -168,7 +209,8 @@ kd_march_drag kd_march_drag_of(kd_geodesic m, kd_ray ray)
         kd_state y;
         y.w = ray.w;
         y.dw = ray.dw;
-        kd_barrier b = kd_barrier_beside(m, kd_barrier_of(m, ray, cam.spin, cam.u, cam.horizon, cam.root, 6e-8), y, ray.e, cam.horizon);
+        kd_barrier b = kd_barrier_beside(m, kd_barrier_of(m, ray, cam.spin, cam.u, cam.horizon, cam.root, 6e-8), y,
+                                         ray.e, cam.horizon);
         drag.returns = !kd_flies_out(b, y);
         drag.way = drag.returns && y.dw > 0.0 ? 1.0 : -1.0;
         drag.fallen = drag.way > 0.0 ? -2.0 * cam.twist : 0.0;
@@ -181,23 +223,29 @@ vec3 kd_march_shorter(vec3 m, vec2 d, float less)
 {
     vec2 md = vec2(m.x * d.x + m.y * d.y, m.y * d.x + m.z * d.y);
     float dd = dot(d, md) * less * less;
-    return m - less * vec3(2.0 * d.x * md.x, d.x * md.y + d.y * md.x, 2.0 * d.y * md.y) + dd * vec3(d.x * d.x, d.x * d.y, d.y * d.y);
+    return m - less * vec3(2.0 * d.x * md.x, d.x * md.y + d.y * md.x, 2.0 * d.y * md.y) +
+           dd * vec3(d.x * d.x, d.x * d.y, d.y * d.y);
 }
 
-/* What a ray stands for at its crossing n of the plane, across the ray: the ellipse there, whose axis along the ray is shorter by the cosine to the
- * normal, stands across the ray, so that it is again less long in the plane by that cosine, and by the sine along the normal. outwards: 1 if the ray is
- * traced that way, -1 if inwards. Nothing is known of what a ray does not cross. */
+/* What a ray stands for at its crossing n of the plane, across the ray: the ellipse there, whose axis along the ray
+ * is shorter by the cosine to the normal, stands across the ray, so that it is again less long in the plane by that
+ * cosine, and by the sine along the normal. outwards: 1 if the ray is traced that way, -1 if inwards. Nothing is
+ * known of what a ray does not cross. */
 kd_spread kd_march_spread(kd_geodesic m, kd_ray ray, uint n, uint at, float outwards)
 {
     uint k = at + min(n, ORDERS - 1u) * slice.stride;
     float w = lens[k], size = quantity(KD_LENS_FOOTPRINT, k);
     uint bits = floatBitsToUint(quantity(KD_LENS_SHAPE, k));
     float i = float(bits & 2047u) * (1.0 / 2047.0), j = float((bits >> 11) & 2047u) * (2.0 / 2047.0) - 1.0;
-    float both = sqrt(i * (1.0 - i)), apart = i - 0.5, all = size * size / (0.5 + sqrt(apart * apart + j * j * both * both));
+    float both = sqrt(i * (1.0 - i)), apart = i - 0.5,
+          all = size * size / (0.5 + sqrt(apart * apart + j * j * both * both));
     vec3 flat_ = all * vec3(i, j * both, 1.0 - i);
-    /* The ray's direction as if space were flat: r'^2 = R(w)/w^4, the turn about the axis L, and sqrt(Q) along the normal, over r. */
-    float w2 = w * w, out2 = max(ray.e * ray.e + w2 * (m.a2 + w * (2.0 * m.k - w * m.d)), 0.0), round_ = -m.momentum * w, up2 = max(m.q, 0.0) * w2;
-    float plane2 = max(out2 + round_ * round_, 1e-12), c2 = up2 / (up2 + plane2), less = 1.0 - sqrt(c2), rise = sqrt(1.0 - c2);
+    /* The ray's direction as if space were flat: r'^2 = R(w)/w^4, the turn about the axis L, and sqrt(Q) along the
+     * normal, over r. */
+    float w2 = w * w, out2 = max(ray.e * ray.e + w2 * (m.a2 + w * (2.0 * m.k - w * m.d)), 0.0),
+          round_ = -m.momentum * w, up2 = max(m.q, 0.0) * w2;
+    float plane2 = max(out2 + round_ * round_, 1e-12), c2 = up2 / (up2 + plane2), less = 1.0 - sqrt(c2),
+          rise = sqrt(1.0 - c2);
     vec2 d = vec2(outwards * sqrt(out2), round_) * inversesqrt(plane2);
     vec3 across = kd_march_shorter(flat_, d, less);
     vec2 md = vec2(across.x * d.x + across.y * d.y, across.y * d.x + across.z * d.y);
@@ -207,25 +255,30 @@ kd_spread kd_march_spread(kd_geodesic m, kd_ray ray, uint n, uint at, float outw
 
 kd_midst kd_midst_of(kd_geodesic m, kd_ray ray, kd_stride s, kd_spread spread, uint order, float t)
 {
-    float w = kd_quintic_at(s.w, t), u = kd_quintic_at(s.u, t), dw = kd_quintic_slope(s.w, t) / s.h, du = kd_quintic_slope(s.u, t) / s.h;
+    float w = kd_quintic_at(s.w, t), u = kd_quintic_at(s.u, t), dw = kd_quintic_slope(s.w, t) / s.h,
+          du = kd_quintic_slope(s.u, t) / s.h;
     float r = 1.0 / w, fall = dw * r, turn = max(m.q + m.momentum * m.momentum + m.energy2 * u * u, 0.0);
     float phi = 0.0;
     if (KD_MARCH_TURNS)
-        phi = -(kd_atan2(kd_quintic_at(s.y, t), kd_quintic_at(s.x, t)) + s.c0 + t * (s.c1 + t * (s.c2 + t * s.c3)) + s.way * kd_drag_fall(w, cam.spin, cam.root));
-    return kd_midst(w, u, dw, du, ray.e, m.momentum, m.q, r * sqrt(fall * fall + turn), phi, spread, order, KD_MARCH_DELAYS ? kd_march_ago(s, t) : 0.0);
+        phi = -(kd_atan2(kd_quintic_at(s.y, t), kd_quintic_at(s.x, t)) + s.c0 + t * (s.c1 + t * (s.c2 + t * s.c3)) +
+                s.way * kd_drag_fall(w, cam.spin, cam.root));
+    return kd_midst(w, u, dw, du, ray.e, m.momentum, m.q, r * sqrt(fall * fall + turn), phi, spread, order,
+                    KD_MARCH_DELAYS ? kd_march_ago(s, t) : 0.0);
 }
 
-/* A place's light was dimmed by half its own depth and all of those before it. By Gauss's method of three stages (Hairer, Norsett & Wanner 1993,
- * II.7), of coefficients a_ij, it is dimmed by sum_j a_ij/b_j x_j: to first order in depth this is what is left, and nothing where light is as depth,
- * whose sum is right as it is. */
+/* A place's light was dimmed by half its own depth and all of those before it. By Gauss's method of three stages
+ * (Hairer, Norsett & Wanner 1993, II.7), of coefficients a_ij, it is dimmed by sum_j a_ij/b_j x_j: to first order in
+ * depth this is what is left, and nothing where light is as depth, whose sum is right as it is. */
 vec3 kd_march_rest(vec4 one, vec4 two, vec4 three)
 {
     float x = one.w + two.w + three.w;
-    vec3 rest = 0.0809475 * (one.rgb * two.w - two.rgb * (one.w - three.w) - three.rgb * two.w) - 0.0352425 * (one.rgb * three.w - three.rgb * one.w);
+    vec3 rest = 0.0809475 * (one.rgb * two.w - two.rgb * (one.w - three.w) - three.rgb * two.w) -
+                0.0352425 * (one.rgb * three.w - three.rgb * one.w);
     return x < 8.0 ? exp(-0.5 * x) * rest : vec3(0.0);
 }
 
-/* Sums of many small parts keep what their last digit loses (Kahan 1965): thousands of places, each rounded likewise, are off by 5e-5 else. */
+/* Sums of many small parts keep what their last digit loses (Kahan 1965): thousands of places, each rounded
+ * likewise, are off by 5e-5 else. */
 void kd_march_add(inout float sum, inout float off, float more)
 {
     precise float y = more - off, t = sum + y;
@@ -242,14 +295,18 @@ void kd_march_add(inout vec3 sum, inout vec3 off, vec3 more)
     sum = t;
 }
 
-/* Goes through a part of a step that lies in the volumes. What it adds is summed up by itself, and what comes through it is the exponential of its depth. */
-void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, kd_spread spread, uint order, float from, float to, inout float stretch, inout bool lost)
+/* Goes through a part of a step that lies in the volumes. What it adds is summed up by itself, and what comes
+ * through it is the exponential of its depth. */
+void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, kd_spread spread, uint order, float from,
+                   float to, inout float stretch, inout bool lost)
 {
     float coarse = 4.0 / float(FINE), front = beam.through, depth = 0.0, depth_off = 0.0;
     vec3 light = vec3(0.0), light_off = vec3(0.0), seen = vec3(0.0), seen_off = vec3(0.0);
-    float wish = stretch / s.h; /* how long the next stretch may be; 0: not known, and what is found on one of no length tells */
+    float wish =
+        stretch / s.h; /* how long the next stretch may be; 0: not known, and what is found on one of no length tells */
     for (uint n = 0u; n < KD_MARCH_LOOPS && from < to && beam.through > KD_MARCH_OPAQUE; n++) {
-        float left = to - from, length_ = wish > 0.0 ? left / ceil(min(left / wish, 16777216.0)) : 0.0, most = 1.0, least = KD_MARCH_SHORTEST;
+        float left = to - from, length_ = wish > 0.0 ? left / ceil(min(left / wish, 16777216.0)) : 0.0, most = 1.0,
+              least = KD_MARCH_SHORTEST;
         float next = from + length_;
         length_ = next - from; /* as rounded */
         kd_beam trial = kd_beam(vec3(0.0), 0.0, beam.through);
@@ -257,7 +314,7 @@ void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, k
         KD_TELL_TRY(length_ > 0.0 ? 3.0 : 1.0)
         float far = min(inversesqrt(beam.through), KD_MARCH_BEHIND);
         vec4 one = vec4(0.0), two = vec4(0.0), three = vec4(0.0); /* light and depth of the three */
-        for (int k = 0; k < (length_ > 0.0 ? 3 : 1); k++) { /* one place tells how long the first may be */
+        for (int k = 0; k < (length_ > 0.0 ? 3 : 1); k++) {       /* one place tells how long the first may be */
             float weight = k == 1 ? 4.0 / 9.0 : 5.0 / 18.0, x = k == 0 ? 0.1127016654 : k == 1 ? 0.5 : 0.8872983346;
             kd_midst p = kd_midst_of(m, ray, s, spread, order, from + x * length_);
             kd_stokes_here = kd_stokes(vec4(0.0), 0.0, vec3(0.0), vec3(0.0));
@@ -268,10 +325,13 @@ void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, k
                 kd_stokes_along(polarised, weight * length_ * way);
             one = two;
             two = three;
-            three = vec4(min(weight * length_ * way * medium.light, KD_BEAM_MOST), min(weight * length_ * way * medium.depth, KD_MARCH_DEEP));
-            float allowed = min(min(medium.grain * far, KD_MARCH_WAY * r) / (p.speed * s.h), KD_MARCH_DEPTH / max(medium.depth * way, 1e-30));
+            three = vec4(min(weight * length_ * way * medium.light, KD_BEAM_MOST),
+                         min(weight * length_ * way * medium.depth, KD_MARCH_DEEP));
+            float allowed = min(min(medium.grain * far, KD_MARCH_WAY * r) / (p.speed * s.h),
+                                KD_MARCH_DEPTH / max(medium.depth * way, 1e-30));
             if (KD_HAS(stokes))
-                allowed = min(allowed, max(KD_MARCH_TURN / max(length(kd_stokes_here.turns) * way, 1e-30), KD_MARCH_TURNED * allowed));
+                allowed = min(allowed, max(KD_MARCH_TURN / max(length(kd_stokes_here.turns) * way, 1e-30),
+                                           KD_MARCH_TURNED * allowed));
             most = min(most, coarse * allowed);
             least = min(least, KD_MARCH_LEAST * coarse * KD_MARCH_WAY * r / (p.speed * s.h));
         }
@@ -305,12 +365,22 @@ bool kd_march_meets(kd_geodesic m, kd_ray ray)
     return ray.w >= w || ray.e * ray.e + w2 * (m.a2 + w * (2.0 * m.k - w * m.d)) > 0.0;
 }
 
-/* This is where a ray is: the step at hand goes from p to q. side: of the plane that p is on, crossed: how often the ray has crossed it before; stretch: how
- * long the next one may be, in Mino time; steps: how many there were. goes: there is a step at hand. lost: no end was found.
- * left: Mino time from p to a surface that ends the ray (light/meet.glsl). */
-struct kd_march_way { kd_geodesic m; kd_path p, q; kd_stride s; kd_march_drag drag; float rate2, side, h, stretch, left; uint crossed, steps; bool goes, lost; };
+/* This is where a ray is: the step at hand goes from p to q. side: of the plane that p is on, crossed: how often the
+ * ray has crossed it before; stretch: how long the next one may be, in Mino time; steps: how many there were. goes:
+ * there is a step at hand. lost: no end was found. left: Mino time from p to a surface that ends the ray
+ * (light/meet.glsl). */
+struct kd_march_way {
+    kd_geodesic m;
+    kd_path p, q;
+    kd_stride s;
+    kd_march_drag drag;
+    float rate2, side, h, stretch, left;
+    uint crossed, steps;
+    bool goes, lost;
+};
 
-/* These are the least and the largest value that a step's quintic can have: those of its coefficients by Bernstein's polynomials (Farouki & Rajan 1987). */
+/* These are the least and the largest value that a step's quintic can have: those of its coefficients by Bernstein's
+ * polynomials (Farouki & Rajan 1987). */
 vec2 kd_quintic_hull(kd_quintic q)
 {
     float b1 = q.c0 + 0.2 * q.c1, b2 = q.c0 + 0.4 * q.c1 + 0.1 * q.c2, b3 = q.c0 + 0.6 * q.c1 + 0.3 * q.c2 + 0.1 * q.c3;
@@ -324,8 +394,10 @@ bool kd_march_crosses(kd_march_way y) { return y.q.y.z * y.side < 0.0; }
 bool kd_march_matters(kd_march_way y)
 {
     vec2 w = kd_quintic_hull(y.s.w), u = kd_quintic_hull(y.s.u);
-    bool within = w.y >= emission.frame.along_least && w.x <= emission.frame.along_most && u.y >= -emission.frame.along_u && u.x <= emission.frame.along_u;
-    bool beside = !(emission.frame.along_hollow > 0.0) || u.x < -emission.frame.along_hollow || u.y > emission.frame.along_hollow;
+    bool within = w.y >= emission.frame.along_least && w.x <= emission.frame.along_most &&
+                  u.y >= -emission.frame.along_u && u.x <= emission.frame.along_u;
+    bool beside =
+        !(emission.frame.along_hollow > 0.0) || u.x < -emission.frame.along_hollow || u.y > emission.frame.along_hollow;
     return (within && beside) || (KD_GLOWS && kd_march_crosses(y));
 }
 
@@ -334,7 +406,8 @@ void kd_march_leave(inout kd_march_way y)
 {
     bool crosses = kd_march_crosses(y), falls = y.q.y.w >= cam.horizon && (!INGOING || y.q.v.w > 0.0);
     /* What flies outwards beyond the volumes, the quicker the further, does not come back. */
-    bool gone = y.q.v.w < 0.0 && y.q.y.w < emission.frame.along_least && (y.q.y.w <= 0.0 || kd_path_pull(y.m, y.q.y).w <= 0.0);
+    bool gone =
+        y.q.v.w < 0.0 && y.q.y.w < emission.frame.along_least && (y.q.y.w <= 0.0 || kd_path_pull(y.m, y.q.y).w <= 0.0);
     y.side = crosses ? -y.side : y.side;
     y.crossed += crosses ? 1u : 0u;
     y.left -= y.h;
@@ -351,11 +424,12 @@ void kd_march_next(inout kd_march_way y, kd_ray ray)
     if (INGOING && y.q.y.w > cam.horizon && y.q.v.w < 0.0)
         y.q.v.w = kd_leaving(y.m, y.q.y.w, ray.e);
     y.lost = y.lost || y.steps++ >= 12u * STEPS; /* it circles for ever */
-    y.goes = !y.lost && kd_is_finite(y.q.y.w); /* else it has fallen in */
+    y.goes = !y.lost && kd_is_finite(y.q.y.w);   /* else it has fallen in */
     y.s = kd_stride_of(y.m, ray, y.p, y.q, y.h, y.drag);
 }
 
-/* Takes steps to the next one that matters: lavapipe skips work only by leaving a loop, and so those that do not, and take little, have one of their own. */
+/* Takes steps to the next one that matters: lavapipe skips work only by leaving a loop, and so those that do not,
+ * and take little, have one of their own. */
 void kd_march_advance(inout kd_march_way y, kd_ray ray)
 {
     bool far = true;
@@ -382,7 +456,8 @@ void kd_march_through(inout kd_beam beam, inout kd_march_way y, kd_ray ray, uvec
         end = turn_u > t ? min(end, turn_u) : end;
         end = plane > t ? min(end, plane) : end;
         if (emission.frame.along_knot > 0.0) {
-            float before = kd_quintic_at(s.w, t) - emission.frame.along_knot, behind = kd_quintic_at(s.w, end) - emission.frame.along_knot;
+            float before = kd_quintic_at(s.w, t) - emission.frame.along_knot,
+                  behind = kd_quintic_at(s.w, end) - emission.frame.along_knot;
             float knot = before * behind < 0.0 ? kd_quintic_root(s.w, emission.frame.along_knot, t, end) : none;
             end = knot > t ? min(end, knot) : end;
         }
@@ -390,12 +465,15 @@ void kd_march_through(inout kd_beam beam, inout kd_march_way y, kd_ray ray, uvec
         kd_quintic_clip(s.w, emission.frame.along_least, 1.0, from, to);
         kd_quintic_clip(s.w, emission.frame.along_most, -1.0, from, to);
         kd_quintic_clip(s.u, up * emission.frame.along_u, -up, from, to);
-        kd_quintic_clip(s.u, up * (emission.frame.along_hollow > 0.0 ? emission.frame.along_hollow : -1.0), up, from, to);
+        kd_quintic_clip(s.u, up * (emission.frame.along_hollow > 0.0 ? emission.frame.along_hollow : -1.0), up, from,
+                        to);
         kd_spread spread = kd_spread(vec3(0.0), vec3(0.0));
         uint order = 0u;
-        if (KD_OVERS || (KD_MARCH_TURNS && ORDERS > 0)) { /* of the crossing ahead, or of that behind where the ray leaves the plane */
+        if (KD_OVERS || (KD_MARCH_TURNS &&
+                         ORDERS > 0)) { /* of the crossing ahead, or of that behind where the ray leaves the plane */
             uint passed = y.crossed + (t >= plane ? 1u : 0u);
-            bool leaves = passed > 0u && kd_quintic_at(s.u, 0.5 * (from + to)) * kd_quintic_slope(s.u, 0.5 * (from + to)) > 0.0;
+            bool leaves =
+                passed > 0u && kd_quintic_at(s.u, 0.5 * (from + to)) * kd_quintic_slope(s.u, 0.5 * (from + to)) > 0.0;
             order = leaves ? passed - 1u : passed;
         }
         if (KD_MARCH_TURNS && ORDERS > 0)
@@ -431,7 +509,8 @@ kd_march_way kd_march_begin(kd_ray ray, float left)
     return y;
 }
 
-/* Follows one ray up to a Mino time, before which it crosses the plane so often, but for what lies there or at its end. */
+/* Follows one ray up to a Mino time, before which it crosses the plane so often, but for what lies there or at its
+ * end. */
 void kd_march_follow(inout kd_beam beam, uvec2 place, uint at, float time, uint crossings)
 {
     kd_ray ray = kd_camera_ray(place.x, place.y);
@@ -451,7 +530,8 @@ void kd_march_follow(inout kd_beam beam, uvec2 place, uint at, float time, uint 
     if (y.lost || (y.goes && beam.through > 0.0))
         KD_MARCH_GIVEN_UP(beam);
     KD_TELL_MARCHED(y.steps)
-    for (uint n = y.crossed; KD_GLOWS && n < min(ORDERS, crossings) && beam.through > 0.0; n++) { /* beyond the volumes */
+    for (uint n = y.crossed; KD_GLOWS && n < min(ORDERS, crossings) && beam.through > 0.0;
+         n++) { /* beyond the volumes */
         float w = lens[at + n * slice.stride];
         if (w == 0.0)
             break;

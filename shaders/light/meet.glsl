@@ -1,16 +1,18 @@
-/* This finds the first body that a ray meets (emit/bodies.glsl), and composes its light with what lies before it: crossings of the lens map, and volumes
- * that are gone through by the march.
+/* This finds the first body that a ray meets (emit/bodies.glsl), and composes its light with what lies before it:
+ * crossings of the lens map, and volumes that are gone through by the march.
  *
- * The ray is followed by the steps of ray/escape.glsl. With n the direction from the hole, azimuths by Boyer and Lindquist, and w = 1/r, a place is
- * X = n/w; from a point c it lies along Z = n - w c, and X' is along e = n' w - n w', which stays finite at infinity and next to constant where space is
- * flat. So the ray is nearest to c where Z.e changes its sign, once a step at most.
+ * The ray is followed by the steps of ray/escape.glsl. With n the direction from the hole, azimuths by Boyer and
+ * Lindquist, and w = 1/r, a place is X = n/w; from a point c it lies along Z = n - w c, and X' is along e = n' w - n
+ * w', which stays finite at infinity and next to constant where space is flat. So the ray is nearest to c where Z.e
+ * changes its sign, once a step at most.
  *
- * lavapipe skips work only by leaving a loop: the inner ones take steps, and go down the tree of balls, until a body is near each ray of a group or none is
- * left to come; the outer one looks closer. Needs light/march.glsl. */
+ * lavapipe skips work only by leaving a loop: the inner ones take steps, and go down the tree of balls, until a body
+ * is near each ray of a group or none is left to come; the outer one looks closer. Needs light/march.glsl. */
 #ifndef KD_MEET_GLSL
 #define KD_MEET_GLSL
 
-#define KD_MEET_SLACK 0.02 /* of r, and 0.1 of the ball's radius: a ray that passes a ball by less is looked at closer */
+#define KD_MEET_SLACK \
+    0.02 /* of r, and 0.1 of the ball's radius: a ray that passes a ball by less is looked at closer */
 #define KD_MEET_FAR 1e30
 
 /* An end of a step: (n, w), and what it grows by in a step. */
@@ -20,7 +22,8 @@ kd_met_end kd_met_end_of(kd_geodesic m, kd_ray ray, kd_path p, float h, float ch
 {
     kd_phasor t = kd_cos_sin(chi);
     float rate = kd_drag(m, kd_state(p.y.w, p.v.w), ray.e, cam.spin, cam.root, 0.0);
-    vec2 n = vec2(p.y.x * t.c - p.y.y * t.s, p.y.x * t.s + p.y.y * t.c), v = vec2(p.v.x * t.c - p.v.y * t.s, p.v.x * t.s + p.v.y * t.c);
+    vec2 n = vec2(p.y.x * t.c - p.y.y * t.s, p.y.x * t.s + p.y.y * t.c),
+         v = vec2(p.v.x * t.c - p.v.y * t.s, p.v.x * t.s + p.v.y * t.c);
     return kd_met_end(vec4(n, p.y.zw), h * vec4(v + rate * vec2(-n.y, n.x), p.v.zw));
 }
 
@@ -51,7 +54,8 @@ kd_met_sight kd_met_sight_of(kd_met_end e, vec4 a, vec4 b, vec4 c, vec4 v, float
     vec4 p = vec4(e.p.xyz, e.p.w), d = e.d;
     vec3 y = vec3(dot(a, p), dot(b, p), dot(c, p)), f = p.w * vec3(dot(a, d), dot(b, d), dot(c, d)) - d.w * y;
     /* Light flies along n + turn e_phi in coordinates that turn: of the length that makes n one. */
-    float f2 = max(dot(f, f), 1e-36), long_ = (-turn * f.z + sqrt(max(turn * turn * f.z * f.z + (1.0 - turn * turn) * f2, 0.0))) / f2;
+    float f2 = max(dot(f, f), 1e-36),
+          long_ = (-turn * f.z + sqrt(max(turn * turn * f.z * f.z + (1.0 - turn * turn) * f2, 0.0))) / f2;
     vec3 n = -long_ * f;
     n.z -= turn;
     float t = dot(n, y) / max(1.0 + turn * n.z, 1e-3);
@@ -63,7 +67,8 @@ kd_met_sight kd_met_sight_of(kd_met_end e, vec4 a, vec4 b, vec4 c, vec4 v, float
 /* Where in the step the ray comes to the surface; beyond 1: it does not. */
 float kd_met_time(kd_met_end a, kd_met_end b, uint body, out float cosine)
 {
-    vec4 r0 = kd_body_row(body, 0u), r1 = kd_body_row(body, 1u), r2 = kd_body_row(body, 2u), v = kd_body_row(body, 3u), own = kd_body_row(body, 4u);
+    vec4 r0 = kd_body_row(body, 0u), r1 = kd_body_row(body, 1u), r2 = kd_body_row(body, 2u), v = kd_body_row(body, 3u),
+         own = kd_body_row(body, 4u);
     float size = own.y;
     kd_met_sight s0 = kd_met_sight_of(a, r0, r1, r2, v, own.x), s1 = kd_met_sight_of(b, r0, r1, r2, v, own.x);
     float in0 = size * a.p.w, in1 = size * max(b.p.w, 0.0);
@@ -101,18 +106,20 @@ uint kd_met_next(uint node)
     return next == 1u ? 0u : next;
 }
 
-/* Whether it is not known what the ray at hand meets: a driver may end loops before their condition does, and of thousands of bodies on top of each other there
- * are more than lavapipe goes through. */
+/* Whether it is not known what the ray at hand meets: a driver may end loops before their condition does, and of
+ * thousands of bodies on top of each other there are more than lavapipe goes through. */
 bool kd_meet_lost = false;
 
-#define KD_MEET_CLOSE 0.995 /* of 1/r of the horizon: up to there places of a step are known; azimuths have no end at it */
+#define KD_MEET_CLOSE \
+    0.995 /* of 1/r of the horizon: up to there places of a step are known; azimuths have no end at it */
 
 kd_met kd_meet(uvec2 place)
 {
     kd_ray ray = kd_camera_ray(place.x, place.y);
     kd_geodesic m = kd_geodesic_of(ray, cam.spin, cam.u, cam.s);
     kd_path p = kd_path_start(ray, cam.u, cam.s), q = p;
-    float rate2 = max(ray.l * ray.l + ray.p * ray.p, ray.e * ray.e), h = 0.0, begun = 0.0, near_horizon = 0.97 * cam.horizon;
+    float rate2 = max(ray.l * ray.l + ray.p * ray.p, ray.e * ray.e), h = 0.0, begun = 0.0,
+          near_horizon = 0.97 * cam.horizon;
     float side = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;
     kd_march_drag drag = kd_march_drag_of(m, ray);
     kd_met met = kd_met_nothing();
@@ -120,9 +127,12 @@ kd_met kd_meet(uvec2 place)
     vec4 all = vec4(emission.bodies.x, emission.bodies.y, emission.bodies.z, emission.bodies.reach);
     float out_ = emission.bodies.least, out2 = out_ * out_;
     bool goes = (ray.w >= out_ || ray.e * ray.e + out2 * (m.a2 + out_ * (2.0 * m.k - out_ * m.d)) > 0.0) &&
-                !(INGOING && !kd_from_outside(m, ray.e, cam.spin, cam.horizon)), first = true;
-    uint crossed = 0u, node = 0u, taken = 0u, top = emission.bodies.leaves > 1u ? 2u : 1u; /* below the ball round all of them */
-    b = kd_met_end_of(m, ray, p, 1.0, INGOING ? drag.chi + drag.fallen + drag.way * kd_drag_fall(p.y.w, cam.spin, cam.root) : drag.chi);
+                !(INGOING && !kd_from_outside(m, ray.e, cam.spin, cam.horizon)),
+         first = true;
+    uint crossed = 0u, node = 0u, taken = 0u,
+         top = emission.bodies.leaves > 1u ? 2u : 1u; /* below the ball round all of them */
+    b = kd_met_end_of(m, ray, p, 1.0,
+                      INGOING ? drag.chi + drag.fallen + drag.way * kd_drag_fall(p.y.w, cam.spin, cam.root) : drag.chi);
     for (;;) {
         uint leaf = 0u;
         while (leaf == 0u && (goes || node != 0u)) {
@@ -142,7 +152,8 @@ kd_met kd_meet(uvec2 place)
                 if (INGOING && q.y.w > cam.horizon && q.v.w < 0.0)
                     q.v.w = kd_leaving(m, q.y.w, ray.e);
                 kd_stride s = kd_stride_of(m, ray, p, q, h, drag);
-                float chi = INGOING ? drag.chi + drag.fallen + drag.way * kd_drag_fall(q.y.w, cam.spin, cam.root) : drag.chi;
+                float chi =
+                    INGOING ? drag.chi + drag.fallen + drag.way * kd_drag_fall(q.y.w, cam.spin, cam.root) : drag.chi;
                 a = kd_met_end(b.p, (first ? h : h / was) * b.d);
                 b = kd_met_end_of(m, ray, q, h, chi);
                 first = false;
@@ -167,8 +178,8 @@ kd_met kd_meet(uvec2 place)
         if (t <= 1.0 && time < met.time) {
             kd_met_end e = kd_met_between(a, b, t);
             float per = 1.0 / h;
-            met = kd_met(time, body, crossed + (q.y.z * side < 0.0 && e.p.z * side < 0.0 ? 1u : 0u), max(e.p.w, 1e-12), e.p.z, -kd_atan2(e.p.y, e.p.x),
-                         per * e.d.w, per * e.d.z, ray.e, m.momentum, cosine);
+            met = kd_met(time, body, crossed + (q.y.z * side < 0.0 && e.p.z * side < 0.0 ? 1u : 0u), max(e.p.w, 1e-12),
+                         e.p.z, -kd_atan2(e.p.y, e.p.x), per * e.d.w, per * e.d.z, ray.e, m.momentum, cosine);
         }
         if (node == 0u && met.body != KD_NOBODY) /* later steps lie behind */
             break;

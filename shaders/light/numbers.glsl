@@ -1,9 +1,10 @@
-/* These are numbers of a place on a ray, whatever of them a picture shows: layers are made of them (shared/layers.h), and what is told of a ray. Needs
- * light/inputs.glsl. */
+/* These are numbers of a place on a ray, whatever of them a picture shows: layers are made of them
+ * (shared/layers.h), and what is told of a ray. Needs light/inputs.glsl. */
 #ifndef KD_NUMBERS_GLSL
 #define KD_NUMBERS_GLSL
 
-/* This is the frequency as the observer measures it over that in the frame of the gas, whether a picture shows that or not. */
+/* This is the frequency as the observer measures it over that in the frame of the gas, whether a picture shows that
+ * or not. */
 float kd_layer_g(kd_sample s)
 {
     if (kd_plunge_falls(s))
@@ -17,21 +18,26 @@ float kd_layer_temperature(kd_sample s)
     if (kd_plunge_falls(s))
         return emission.plunge.temperature * emission.disk.peak;
     float r = 1.0 / s.w, t = emission.disk.peak * kd_disk_heat(s.w) * inversesqrt(r * sqrt(r));
-    return KD_HAS(gas) && KD_GAS_TAKEN > 0u ? t * exp(0.25 * kd_gas_excess(s)) : t; /* its flux goes as the fourth power */
+    return KD_HAS(gas) && KD_GAS_TAKEN > 0u ? t * exp(0.25 * kd_gas_excess(s))
+                                            : t; /* its flux goes as the fourth power */
 }
 
 #ifdef KD_MARCH
 /* The same of a surface that is met, whichever emitter's it is. */
 float kd_layer_met_g(kd_met met)
 {
-#define KD_MET_G_(number, name) if (KD_HAS(name)) return 1.0 / kd_##name##_shift(met);
+#define KD_MET_G_(number, name) \
+    if (KD_HAS(name)) \
+        return 1.0 / kd_##name##_shift(met);
     KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_MET_G_)
     return 0.0;
 }
 
 float kd_layer_met_temperature(kd_met met)
 {
-#define KD_MET_KELVIN_(number, name) if (KD_HAS(name)) return kd_##name##_kelvin(met);
+#define KD_MET_KELVIN_(number, name) \
+    if (KD_HAS(name)) \
+        return kd_##name##_kelvin(met);
     KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_MET_KELVIN_)
     return 0.0;
 }
@@ -40,9 +46,10 @@ float kd_layer_met_temperature(kd_met met)
 /* Brings an azimuth to (-pi, pi]. */
 float kd_layer_turned(float phi) { return phi - 2.0 * KD_PI * ceil((phi - KD_PI) * (0.5 / KD_PI)); }
 
-/* An angle is had from its cosine. For that between the light and the normal of the disk, in the frame of the gas, that is g |p_theta| / r: the
- * photon's momentum along the normal, p_theta / r with p_theta^2 = Q in the equatorial plane, over its energy there, 1/g; gas that stays
- * in the plane, however it moves in it, sees the normal along theta (Carter 1968). */
+/* An angle is had from its cosine. For that between the light and the normal of the disk, in the frame of the gas,
+ * that is g |p_theta| / r: the photon's momentum along the normal, p_theta / r with p_theta^2 = Q in the equatorial
+ * plane, over its energy there, 1/g; gas that stays in the plane, however it moves in it, sees the normal along
+ * theta (Carter 1968). */
 float kd_layer_angle(float c) { return kd_angle_upper(clamp(c, -1.0, 1.0), sqrt(max(1.0 - c * c, 0.0))); }
 
 #endif

@@ -1,22 +1,38 @@
-/* Polarised light through a medium that is the same all along: dS/ds = j - K S for S = (I, Q, U, V), in closed form (E. Landi Degl'Innocenti & M. Landi
- * Degl'Innocenti 1985, Sol. Phys. 97, 239; Landi Degl'Innocenti & Landolfi 2004, section 8.3), with
+/* Polarised light through a medium that is the same all along: dS/ds = j - K S for S = (I, Q, U, V), in closed form
+ * (E. Landi Degl'Innocenti & M. Landi Degl'Innocenti 1985, Sol. Phys. 97, 239; Landi Degl'Innocenti & Landolfi 2004,
+ * section 8.3), with
  *
- *   K S = alpha S + (a.v, a I - rho x v),   v = (Q, U, V),   a = (alpha_Q, alpha_U, alpha_V),   rho = (rho_Q, rho_U, rho_V).
+ *   K S = alpha S + (a.v, a I - rho x v),   v = (Q, U, V),   a = (alpha_Q, alpha_U, alpha_V),   rho = (rho_Q,
+ *                                                            rho_U, rho_V).
  *
- * Written with the Pauli matrices, I + v.sigma, that is what a 2 x 2 matrix does to it: exp(-K s) S = A S A*, A = exp(-alpha s/2) (cosh(lambda s/2) - sinh(lambda s/2)/lambda c.sigma),
- * with c = a + i rho and lambda = sqrt(c.c) = Lambda_1 + i Lambda_2. Products of such matrices keep I^2 >= Q^2 + U^2 + V^2 whatever is rounded, and have half as many
- * numbers as their 4 x 4 twins. Light of the medium itself is the integral of A j A*, whose four functions of the length are means of exponentials. */
+ * Written with the Pauli matrices, I + v.sigma, that is what a 2 x 2 matrix does to it: exp(-K s) S = A S A*, A =
+ * exp(-alpha s/2) (cosh(lambda s/2) - sinh(lambda s/2)/lambda c.sigma), with c = a + i rho and lambda = sqrt(c.c) =
+ * Lambda_1 + i Lambda_2. Products of such matrices keep I^2 >= Q^2 + U^2 + V^2 whatever is rounded, and have half as
+ * many numbers as their 4 x 4 twins. Light of the medium itself is the integral of A j A*, whose four functions of
+ * the length are means of exponentials. */
 #ifndef KD_STOKES_GLSL
 #define KD_STOKES_GLSL
 
 /* The matrix s + (re + i im).sigma, s a complex number. */
-struct kd_jones { vec2 s; vec3 re, im; };
+struct kd_jones {
+    vec2 s;
+    vec3 re, im;
+};
 /* A length of matter: the light that it gives, and its depth: of I, of Q, U and V, and how far it turns them. */
-struct kd_stokes { vec4 light; float depth; vec3 takes, turns; };
+struct kd_stokes {
+    vec4 light;
+    float depth;
+    vec3 takes, turns;
+};
 /* What comes of it on the observer's side: what it does to light from behind, and its own light. */
-struct kd_stokes_cell { kd_jones passes; vec4 light; };
+struct kd_stokes_cell {
+    kd_jones passes;
+    vec4 light;
+};
 
-#define KD_STOKES_NEAR 0.25 /* below this |lambda|, or below a tenth of a larger depth, differences of what is nearly the same are series: both are good to some 1e-6 there */
+#define KD_STOKES_NEAR \
+    0.25 /* below this |lambda|, or below a tenth of a larger depth, differences of what is nearly the same are \
+            series: both are good to some 1e-6 there */
 
 vec2 kd_complex_times(vec2 a, vec2 b) { return vec2(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x); }
 
@@ -37,7 +53,8 @@ vec4 kd_stokes_forms(vec4 s, float one, vec3 p, vec3 q, float two, vec3 re, vec3
     vec3 v = s.yzw, across = cross(re, im);
     float size = dot(re, re) + dot(im, im);
     float i = one * s.x + 2.0 * dot(p, v) + two * (size * s.x - 2.0 * dot(v, across));
-    vec3 w = one * v + 2.0 * (s.x * p - cross(q, v)) + two * (2.0 * (s.x * across + dot(re, v) * re + dot(im, v) * im) - size * v);
+    vec3 w = one * v + 2.0 * (s.x * p - cross(q, v)) +
+             two * (2.0 * (s.x * across + dot(re, v) * re + dot(im, v) * im) - size * v);
     return vec4(i, w);
 }
 
@@ -59,7 +76,8 @@ vec4 kd_stokes_sound(vec4 s)
 /* The mean of exp(-y s) for s from 0 to 1, of a number and of a complex one with exp(-y) at hand. */
 float kd_stokes_mean(float y)
 {
-    return abs(y) < 0.25 ? 1.0 - y * (0.5 - y * (1.0 / 6.0 - y * (1.0 / 24.0 - y * (1.0 / 120.0 - y * (1.0 / 720.0))))) : (1.0 - exp(-y)) / y;
+    return abs(y) < 0.25 ? 1.0 - y * (0.5 - y * (1.0 / 6.0 - y * (1.0 / 24.0 - y * (1.0 / 120.0 - y * (1.0 / 720.0)))))
+                         : (1.0 - exp(-y)) / y;
 }
 vec2 kd_stokes_mean(vec2 y, vec2 passes)
 {
@@ -75,7 +93,8 @@ vec2 kd_stokes_mean(vec2 y, vec2 passes)
     return y2 < 0.25 ? sum : vec2(dot(size, y), size.y * y.x - size.x * y.y) / y2;
 }
 
-/* The means of s^k exp(-t s), k from 1 to 6, by the recursion that is stable: upwards where t is large, else downwards from a sum of what is above 0. */
+/* The means of s^k exp(-t s), k from 1 to 6, by the recursion that is stable: upwards where t is large, else
+ * downwards from a sum of what is above 0. */
 struct kd_stokes_moments { float m1, m2, m3, m4, m5, m6; };
 kd_stokes_moments kd_stokes_moments_of(float t)
 {
@@ -120,27 +139,34 @@ kd_stokes_cell kd_stokes_cell_of(kd_stokes m)
     float square = dot(lambda, lambda), per = 1.0 / max(square, 1e-30), around = lambda.y * (0.5 / 6.28318531);
     bool near = square < max(KD_STOKES_NEAR * KD_STOKES_NEAR, 0.01 * t * t);
     kd_phasor half_ = kd_cos_sin(6.28318531 * clamp(around - floor(around), 0.0, 1.0));
-    vec2 power = vec2((lambda.x - lambda.y) * (lambda.x + lambda.y), 2.0 * lambda.x * lambda.y), c = vec2(half_.c, half_.s);
+    vec2 power = vec2((lambda.x - lambda.y) * (lambda.x + lambda.y), 2.0 * lambda.x * lambda.y),
+         c = vec2(half_.c, half_.s);
 
-    float more = exp(0.5 * (lambda.x - t)), less = exp(-0.5 * (lambda.x + t)), both = 0.5 * (more + less), apart = 0.5 * (more - less);
-    vec2 sinh_ = vec2(apart * c.x, both * c.y), direct = per * vec2(dot(sinh_, lambda), sinh_.y * lambda.x - sinh_.x * lambda.y);
+    float more = exp(0.5 * (lambda.x - t)), less = exp(-0.5 * (lambda.x + t)), both = 0.5 * (more + less),
+          apart = 0.5 * (more - less);
+    vec2 sinh_ = vec2(apart * c.x, both * c.y),
+         direct = per * vec2(dot(sinh_, lambda), sinh_.y * lambda.x - sinh_.x * lambda.y);
     vec2 series = vec2(0.5, 0.0) + kd_complex_times(power, vec2(1.0 / 48.0, 0.0) + power * (1.0 / 3840.0));
     vec2 over = square < KD_STOKES_NEAR * KD_STOKES_NEAR ? exp(-0.5 * t) * series : direct;
     kd_stokes_cell cell;
-    cell.passes = kd_jones(vec2(both * c.x, apart * c.y), over.y * m.turns - over.x * m.takes, -over.x * m.turns - over.y * m.takes);
+    cell.passes = kd_jones(vec2(both * c.x, apart * c.y), over.y * m.turns - over.x * m.takes,
+                           -over.x * m.turns - over.y * m.takes);
 
     /* Means of exp(-t s) times |cosh|^2, |sinh/lambda|^2 and cosh* sinh/lambda of lambda s/2. */
     float low = kd_stokes_mean(t - lambda.x), high = kd_stokes_mean(t + lambda.x), e = exp(-t);
     vec2 around_ = kd_stokes_mean(vec2(t, -lambda.y), e * vec2(c.x * c.x - c.y * c.y, 2.0 * c.x * c.y));
     float cosh_ = 0.5 * (low + high), one = 0.5 * (cosh_ + around_.x), two = 0.5 * per * (cosh_ - around_.x);
-    vec2 odd = 0.5 * vec2(0.5 * (low - high), around_.y), w = per * vec2(dot(odd, lambda), odd.y * lambda.x - odd.x * lambda.y);
+    vec2 odd = 0.5 * vec2(0.5 * (low - high), around_.y),
+         w = per * vec2(dot(odd, lambda), odd.y * lambda.x - odd.x * lambda.y);
     if (near) {
         kd_stokes_moments k = kd_stokes_moments_of(t);
         float x = lambda.x * lambda.x, y = lambda.y * lambda.y, xy = lambda.x * lambda.y;
         two = 0.5 * (0.5 * k.m2 + (x - y) * k.m4 / 24.0 + (x * x - x * y + y * y) * k.m6 / 720.0);
-        w = 0.5 * vec2(k.m1 + (x - y) * k.m3 / 6.0 + (x * x - x * y + y * y) * k.m5 / 120.0, -xy * k.m3 / 6.0 - xy * (x - y) * k.m5 / 120.0);
+        w = 0.5 * vec2(k.m1 + (x - y) * k.m3 / 6.0 + (x * x - x * y + y * y) * k.m5 / 120.0,
+                       -xy * k.m3 / 6.0 - xy * (x - y) * k.m5 / 120.0);
     }
-    cell.light = kd_stokes_sound(kd_stokes_forms(m.light, one, w.y * m.turns - w.x * m.takes, -w.x * m.turns - w.y * m.takes, two, m.takes, m.turns));
+    cell.light = kd_stokes_sound(kd_stokes_forms(m.light, one, w.y * m.turns - w.x * m.takes,
+                                                 -w.x * m.turns - w.y * m.takes, two, m.takes, m.turns));
     return cell;
 }
 

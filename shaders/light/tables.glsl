@@ -7,7 +7,9 @@ layout(set = 0, binding = 2) uniform textureBuffer tables;
 #define KD_T(table, rows) uint table;
 struct kd_table_places { KD_EMIT_TABLES };
 #undef KD_T
-#define KD_T(table, rows) at.table = end; end += rows;
+#define KD_T(table, rows) \
+    at.table = end; \
+    end += rows;
 kd_table_places kd_tables()
 {
     kd_table_places at;

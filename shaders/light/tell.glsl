@@ -1,20 +1,24 @@
-/* This writes down what each emitter gives one ray, on its way through the kernel that makes the picture: transfer.comp compiled with KD_TELL writes
- * records to binding 3 instead of light; otherwise nothing is left of this. The first number is how many records there were, those that have no
- * room included; behind it both sums have places of their own, in this order, so that no number of others takes theirs. A record is KD_TELL_RECORD
- * numbers, the first of which says of what:
+/* This writes down what each emitter gives one ray, on its way through the kernel that makes the picture:
+ * transfer.comp compiled with KD_TELL writes records to binding 3 instead of light; otherwise nothing is left of
+ * this. The first number is how many records there were, those that have no room included; behind it both sums have
+ * places of their own, in this order, so that no number of others takes theirs. A record is KD_TELL_RECORD numbers,
+ * the first of which says of what:
  *
- *   KD_TELL_AT        a place: order, w, azimuth, slope, footprint, g, temperature (K), angle of emission, what all in front lets through
+ *   KD_TELL_AT        a place: order, w, azimuth, slope, footprint, g, temperature (K), angle of emission, what all
+ *                     in front lets through
  *   KD_TELL_OF_PLACE  an emitter there: its number, light, opacity, what of its light comes through
  *   KD_TELL_ENDS      where it ends: cosine of the polar angle, azimuth, footprint
  *   KD_TELL_OF_END, KD_TELL_OF_POINTS   an emitter there: its number, light
- *   KD_TELL_ALONG     a stretch through volumes: w and u at both ends, light that it adds, what comes through before and behind it; and KD_TELL_ALONG_AT behind
- *                     it: the delay of light from both ends
+ *   KD_TELL_ALONG     a stretch through volumes: w and u at both ends, light that it adds, what comes through
+ *                     before and behind it; and KD_TELL_ALONG_AT behind it: the delay of light from both ends
  *   KD_TELL_OF_VOLUME a volume, of the whole ray: its number, light as it arrives, optical depth
- *   KD_TELL_MET       a surface that hides all behind it: number of its emitter, light, which of them, crossings before it, cosine of the angle of
- *                     emission, what comes through in front; and KD_TELL_MET_AT behind it: w, u, azimuth, g
+ *   KD_TELL_MET       a surface that hides all behind it: number of its emitter, light, which of them, crossings
+ *                     before it, cosine of the angle of emission, what comes through in front; and KD_TELL_MET_AT
+ *                     behind it: w, u, azimuth, g
  *   KD_TELL_POLARIZED of the place before it: Stokes Q and U of its light over I
  *   KD_TELL_LOST      the ray was given up
- *   KD_TELL_FRONT, KD_TELL_WHOLE        the sum before the end and with it: light, what comes through, the steps and places of the march, and Stokes Q, U and V
+ *   KD_TELL_FRONT, KD_TELL_WHOLE        the sum before the end and with it: light, what comes through, the steps
+ *                                       and places of the march, and Stokes Q, U and V
  *                     of a volume, and whether there are any */
 #ifndef KD_TELL_GLSL
 #define KD_TELL_GLSL
@@ -51,64 +55,78 @@ void kd_tell(float of, vec4 a, vec4 b, vec2 c)
 void kd_tell_place(kd_sample s, float through)
 {
     float g = kd_layer_g(s);
-    kd_tell(KD_TELL_AT, vec4(s.order, s.w, s.phi, s.slope), vec4(s.footprint, g, kd_layer_temperature(s), kd_layer_angle(g * sqrt(max(s.q, 0.0)) * s.w)), vec2(through, 0.0));
+    kd_tell(KD_TELL_AT, vec4(s.order, s.w, s.phi, s.slope),
+            vec4(s.footprint, g, kd_layer_temperature(s), kd_layer_angle(g * sqrt(max(s.q, 0.0)) * s.w)),
+            vec2(through, 0.0));
 }
 #define KD_TELL_PLACE(s, through) kd_tell_place(s, through);
-#define KD_TELL_GLOW(number, seen, glow) kd_tell(KD_TELL_OF_PLACE, vec4(number, glow.light), vec4(glow.alpha, seen, 0.0, 0.0), vec2(0.0));
-#define KD_TELL_POLARIZED_AT(s, place, up)                                                                     \
-    if (KD_HAS(polarization))                                                                                  \
-        kd_tell(KD_TELL_POLARIZED, vec4(kd_polarization_at(s, kd_polarization_right(place), up), 0.0, 0.0), vec4(0.0), vec2(0.0));
+#define KD_TELL_GLOW(number, seen, glow) \
+    kd_tell(KD_TELL_OF_PLACE, vec4(number, glow.light), vec4(glow.alpha, seen, 0.0, 0.0), vec2(0.0));
+#define KD_TELL_POLARIZED_AT(s, place, up) \
+    if (KD_HAS(polarization)) \
+        kd_tell(KD_TELL_POLARIZED, vec4(kd_polarization_at(s, kd_polarization_right(place), up), 0.0, 0.0), vec4(0.0), \
+                vec2(0.0));
 /* Stretches without length are none. */
 #define KD_TELL_BEFORE(beam) kd_beam before = beam;
-#define KD_TELL_STRETCH(s, from, to, beam)                                                                     \
-    if (from < to) {                                                                                           \
-        kd_tell(KD_TELL_ALONG, vec4(kd_quintic_at(s.w, from), kd_quintic_at(s.w, to), kd_quintic_at(s.u, from), kd_quintic_at(s.u, to)), \
-                vec4(beam.light - before.light, before.through), vec2(beam.through, 0.0));                     \
-        kd_tell(KD_TELL_ALONG_AT, vec4(vec2(kd_march_ago(s, from), kd_march_ago(s, to)) + emission.frame.delay, 0.0, 0.0), vec4(0.0), vec2(0.0)); \
+#define KD_TELL_STRETCH(s, from, to, beam) \
+    if (from < to) { \
+        kd_tell( \
+            KD_TELL_ALONG, \
+            vec4(kd_quintic_at(s.w, from), kd_quintic_at(s.w, to), kd_quintic_at(s.u, from), kd_quintic_at(s.u, to)), \
+            vec4(beam.light - before.light, before.through), vec2(beam.through, 0.0)); \
+        kd_tell(KD_TELL_ALONG_AT, \
+                vec4(vec2(kd_march_ago(s, from), kd_march_ago(s, to)) + emission.frame.delay, 0.0, 0.0), vec4(0.0), \
+                vec2(0.0)); \
     }
 #define KD_TELL_END(end) kd_tell(KD_TELL_ENDS, vec4(end.u, end.phi, end.footprint, 0.0), vec4(0.0), vec2(0.0));
 #define KD_TELL_LIGHT(of, number, light) kd_tell(of, vec4(number, light), vec4(0.0), vec2(0.0));
-#define KD_TELL_MET_(number, name, met, light, through)                                                        \
-    kd_tell(KD_TELL_MET, vec4(number, light), vec4(kd_##name##_which(met), met.crossed, met.cosine, through), vec2(0.0));    \
+#define KD_TELL_MET_(number, name, met, light, through) \
+    kd_tell(KD_TELL_MET, vec4(number, light), vec4(kd_##name##_which(met), met.crossed, met.cosine, through), \
+            vec2(0.0)); \
     kd_tell(KD_TELL_MET_AT, vec4(met.w, met.u, met.phi, 1.0 / kd_##name##_shift(met)), vec4(0.0), vec2(0.0));
 #define KD_TELL_GIVEN_UP kd_tell(KD_TELL_LOST, vec4(0.0), vec4(0.0), vec2(0.0));
-#define KD_TELL_SUM(of, beam) kd_tell_at(of == KD_TELL_FRONT ? 0u : 1u, of, vec4(beam.light, beam.through), vec4(kd_told_steps, kd_told_places, KD_TOLD_STOKES.xy), KD_TOLD_STOKES.zw);
+#define KD_TELL_SUM(of, beam) \
+    kd_tell_at(of == KD_TELL_FRONT ? 0u : 1u, of, vec4(beam.light, beam.through), \
+               vec4(kd_told_steps, kd_told_places, KD_TOLD_STOKES.xy), KD_TOLD_STOKES.zw);
 #ifdef KD_MARCH
 #define KD_TOLD_STOKES (KD_HAS(stokes) ? vec4(kd_stokes_seen, 1.0) : vec4(0.0))
 #else
 #define KD_TOLD_STOKES vec4(0.0)
 #endif
 
-/* Light and depth of each volume: of a place a unit of the affine parameter, of the stretch that is tried, and of all that were taken. */
+/* Light and depth of each volume: of a place a unit of the affine parameter, of the stretch that is tried, and of
+ * all that were taken. */
 float kd_told_steps = 0.0, kd_told_places = 0.0;
 #define KD_TELL_NONE_(number, name)
-#define KD_TELL_VOLUME_(number, name) vec4 kd_place_##name = vec4(0.0), kd_tried_##name = vec4(0.0), kd_told_##name = vec4(0.0);
+#define KD_TELL_VOLUME_(number, name) \
+    vec4 kd_place_##name = vec4(0.0), kd_tried_##name = vec4(0.0), kd_told_##name = vec4(0.0);
 #define KD_TELL_VOLUMES_(OF) KD_EMITTERS(KD_TELL_NONE_, KD_TELL_NONE_, KD_TELL_NONE_, KD_TELL_NONE_, OF, KD_TELL_NONE_)
 KD_TELL_VOLUMES_(KD_TELL_VOLUME_)
 #define KD_TELL_MEDIUM(name, one) kd_place_##name = vec4(one.light, one.depth);
 #define KD_TELL_TRY_(number, name) kd_tried_##name = vec4(0.0);
-#define KD_TELL_TRY(places)                                                                                    \
-    kd_told_places += places;                                                                                  \
+#define KD_TELL_TRY(places) \
+    kd_told_places += places; \
     KD_TELL_VOLUMES_(KD_TELL_TRY_)
-#define KD_TELL_ON_(number, name) kd_tried_##name += vec4(tells * min(told_way * kd_place_##name.rgb, 1e30), told_way * kd_place_##name.a);
-#define KD_TELL_ON(comes, way)                                                                                 \
-    {                                                                                                          \
-        float tells = comes, told_way = way;                                                                   \
-        KD_TELL_VOLUMES_(KD_TELL_ON_)                                                                          \
+#define KD_TELL_ON_(number, name) \
+    kd_tried_##name += vec4(tells * min(told_way * kd_place_##name.rgb, 1e30), told_way * kd_place_##name.a);
+#define KD_TELL_ON(comes, way) \
+    { \
+        float tells = comes, told_way = way; \
+        KD_TELL_VOLUMES_(KD_TELL_ON_) \
     }
 /* What the stretch adds beyond the sum of its places is each volume's by its share of that. */
 #define KD_TELL_TAKE_(number, name) kd_told_##name += kd_tried_##name * vec4(share, 1.0);
-#define KD_TELL_TAKE(before, tried, rest)                                                                      \
-    {                                                                                                          \
-        vec3 added = tried - before, share = vec3(1.0) + rest / max(added, vec3(1e-30));                       \
+#define KD_TELL_TAKE(before, tried, rest) \
+    { \
+        vec3 added = tried - before, share = vec3(1.0) + rest / max(added, vec3(1e-30)); \
         share = vec3(added.r > 0.0 ? share.r : 1.0, added.g > 0.0 ? share.g : 1.0, added.b > 0.0 ? share.b : 1.0); \
-        KD_TELL_VOLUMES_(KD_TELL_TAKE_)                                                                        \
+        KD_TELL_VOLUMES_(KD_TELL_TAKE_) \
     }
-#define KD_TELL_OF_(number, name)                                                                              \
-    if (KD_HAS(name))                                                                                          \
+#define KD_TELL_OF_(number, name) \
+    if (KD_HAS(name)) \
         kd_tell(KD_TELL_OF_VOLUME, vec4(number, kd_told_##name.rgb), vec4(kd_told_##name.a, 0.0, 0.0, 0.0), vec2(0.0));
-#define KD_TELL_MARCHED(steps)                                                                                 \
-    kd_told_steps = float(steps);                                                                              \
+#define KD_TELL_MARCHED(steps) \
+    kd_told_steps = float(steps); \
     KD_TELL_VOLUMES_(KD_TELL_OF_)
 #else
 #define KD_TELL_MEDIUM(name, one)

@@ -1,5 +1,6 @@
-/* This kernel makes light, linear sRGB radiance, of the lens map. An invocation lights a pixel, or a column of KD_TRANSFER_ROWS of them. KD_MARCH: for
- * scenes with volumes, along the rays themselves, one ray of a pixel: slice.ray. */
+/* This kernel makes light, linear sRGB radiance, of the lens map. An invocation lights a pixel, or a column of
+ * KD_TRANSFER_ROWS of them. KD_MARCH: for scenes with volumes, along the rays themselves, one ray of a pixel:
+ * slice.ray. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
@@ -17,7 +18,8 @@ layout(set = 0, binding = 3) KD_RADIANCE_ACCESS buffer Radiance { float radiance
 
 const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);
 
-/* Where STOKES says so these are kept of a ray: Stokes Q, U and V of all its light, Q and U of that which is kept apart, and whether it was given up. */
+/* Where STOKES says so these are kept of a ray: Stokes Q, U and V of all its light, Q and U of that which is kept
+ * apart, and whether it was given up. */
 vec3 stokes = vec3(0.0);
 vec2 stokes_apart = vec2(0.0);
 bool untold = false;
@@ -29,22 +31,25 @@ void forget_stokes()
     untold = false;
 }
 
-/* A crossing of order n, w = 1/r (below 0: the ray was given up on its way there), of the ray at this place of the camera and `at` in
- * the lens map. */
+/* A crossing of order n, w = 1/r (below 0: the ray was given up on its way there), of the ray at this place of the
+ * camera and `at` in the lens map. */
 void meet(inout kd_beam beam, float w, uint n, uvec2 place, uint at)
 {
     kd_ray ray = kd_camera_ray(place.x, place.y);
     float momentum = ((QUANTITIES & KD_LENS_ALPHA) != 0u ? -quantity(KD_LENS_ALPHA, at) : ray.l) * cam.s;
     uint plane = at + n * slice.stride;
-    float ago = SLOW ? quantity(KD_LENS_DELAY, plane) - emission.frame.delay : 0.0, slope = quantity(KD_LENS_SLOPE, plane);
-    float carter = (QUANTITIES & KD_LENS_ALPHA) != 0u ? kd_carter_of_slope(ray.e, momentum, w, slope)
-                                                      : ray.p * ray.p + cam.u * cam.u * (ray.l * ray.l - cam.spin * cam.spin * ray.e * ray.e);
+    float ago = SLOW ? quantity(KD_LENS_DELAY, plane) - emission.frame.delay : 0.0,
+          slope = quantity(KD_LENS_SLOPE, plane);
+    float carter = (QUANTITIES & KD_LENS_ALPHA) != 0u
+                       ? kd_carter_of_slope(ray.e, momentum, w, slope)
+                       : ray.p * ray.p + cam.u * cam.u * (ray.l * ray.l - cam.spin * cam.spin * ray.e * ray.e);
     if (w < 0.0) {
         kd_beam_given_up(beam);
         untold = true;
         return;
     }
-    kd_sample s = kd_sample(w, quantity(KD_LENS_PHI, plane), ago, slope, ray.e, momentum, carter, quantity(KD_LENS_FOOTPRINT, plane), quantity(KD_LENS_SHAPE, plane), n);
+    kd_sample s = kd_sample(w, quantity(KD_LENS_PHI, plane), ago, slope, ray.e, momentum, carter,
+                            quantity(KD_LENS_FOOTPRINT, plane), quantity(KD_LENS_SHAPE, plane), n);
     float before = dot(beam.light, LUMINANCE), before_apart = beam.apart;
     kd_beam_at(beam, s);
     KD_TELL_POLARIZED_AT(s, place, ray.p)
@@ -68,7 +73,8 @@ vec3 background(uvec2 place, uint at, uint pixel)
         untold = true;
     }
     if (fate == KD_FATE_ESCAPED)
-        kd_beam_end(beam, kd_end(quantity(KD_LENS_SKY_U, at), quantity(KD_LENS_SKY_PHI, at), quantity(KD_LENS_SKY_FOOTPRINT, at), kd_camera_ray(place.x, place.y).e));
+        kd_beam_end(beam, kd_end(quantity(KD_LENS_SKY_U, at), quantity(KD_LENS_SKY_PHI, at),
+                                 quantity(KD_LENS_SKY_FOOTPRINT, at), kd_camera_ray(place.x, place.y).e));
     if (ENDS && fate != KD_FATE_UNDECIDED)
         kd_beam_points(beam, pixel);
     return beam.light;
@@ -117,13 +123,16 @@ kd_beam follow(uvec2 place, uint at, uint pixel)
 #endif
 
 /* A pixel's light lies here. */
-uint light_at(uint x, uint y) { return (y - (CRITICAL > 0 ? slice.band0 : slice.band0 / SIDE)) * emission.frame.pixels_x + x; }
+uint light_at(uint x, uint y)
+{
+    return (y - (CRITICAL > 0 ? slice.band0 : slice.band0 / SIDE)) * emission.frame.pixels_x + x;
+}
 
 #ifdef KD_TELL
 #include "light/numbers.glsl"
 
-/* Follows one ray, whose place is in the push constants: on the grid its row of rays is row0, its column `rows`; on listed pixels it is number `ray` of that
- * whose number in the list is row0. */
+/* Follows one ray, whose place is in the push constants: on the grid its row of rays is row0, its column `rows`; on
+ * listed pixels it is number `ray` of that whose number in the list is row0. */
 void main()
 {
     kd_camera_read();
@@ -132,7 +141,8 @@ void main()
         return;
     uvec2 pixel = CRITICAL > 0 ? kd_listed_pixel(slice.row0) : uvec2(slice.rows, slice.row0) / SIDE;
     uvec2 place = CRITICAL > 0 ? kd_critical_place(pixel, slice.ray) : uvec2(slice.rows, slice.row0);
-    follow(place, CRITICAL > 0 ? slice.row0 * CRITICAL + slice.ray : (place.y - slice.band0) * cam.width + place.x, light_at(pixel.x, pixel.y));
+    follow(place, CRITICAL > 0 ? slice.row0 * CRITICAL + slice.ray : (place.y - slice.band0) * cam.width + place.x,
+           light_at(pixel.x, pixel.y));
 }
 #else
 void store_light(uint at, vec3 light)
@@ -142,7 +152,8 @@ void store_light(uint at, vec3 light)
     radiance[3 * at + 2] = light.b;
 }
 
-/* Behind the band's pixels stand the luminance that is kept apart, and Stokes Q, U and V of all light, and Q and U of that, a band of pixels each. */
+/* Behind the band's pixels stand the luminance that is kept apart, and Stokes Q, U and V of all light, and Q and U
+ * of that, a band of pixels each. */
 const uint STOKES_AT = KD_APART ? 4u : 3u;
 void store(uint at, vec3 light, float apart, vec3 all, vec2 spots)
 {
@@ -161,20 +172,23 @@ void store(uint at, vec3 light, float apart, vec3 all, vec2 spots)
     }
 }
 
-/* Lights KD_TRANSFER_ROWS pixels below one another, of one ray each, behind which no light is spread. Those where nothing shines are left as they
- * are: they were made dark before.
+/* Lights KD_TRANSFER_ROWS pixels below one another, of one ray each, behind which no light is spread. Those where
+ * nothing shines are left as they are: they were made dark before.
  *
- * lavapipe executes both sides of a branch, and skips work only by leaving a loop. So the inner loop looks for the next crossing that
- * may shine, which takes little, and the outer one lights it. Where light is spread over the sky each pixel has some, and looking for it only takes
- * time. */
+ * lavapipe executes both sides of a branch, and skips work only by leaving a loop. So the inner loop looks for the
+ * next crossing that may shine, which takes little, and the outer one lights it. Where light is spread over the sky
+ * each pixel has some, and looking for it only takes time. */
 #ifdef KD_MARCH
-const bool COLUMNS = false, SAMPLES = CRITICAL == 0; /* its error is measured on a lattice of pixels (src/render/frame/march_error.c) */
+const bool COLUMNS = false,
+           SAMPLES = CRITICAL == 0; /* its error is measured on a lattice of pixels (src/render/frame/march_error.c) */
 #else
 const bool SAMPLES = false;
-const bool COLUMNS = SIDE == 1 && CRITICAL == 0 && (KD_END_TRAITS / KD_TRAIT_SPREAD & 1u) * (QUANTITIES & KD_LENS_FATE) == 0u;
+const bool COLUMNS =
+    SIDE == 1 && CRITICAL == 0 && (KD_END_TRAITS / KD_TRAIT_SPREAD & 1u) * (QUANTITIES & KD_LENS_FATE) == 0u;
 #endif
 
-/* Where a sky is of points alone, each pixel has those first; where there is a crossing, they are lit anew behind it. */
+/* Where a sky is of points alone, each pixel has those first; where there is a crossing, they are lit anew behind
+ * it. */
 void point_column(uint x, uint y, uint end)
 {
     for (;;) {
@@ -232,13 +246,14 @@ kd_beam follow_one(uvec2 pixel, uint listed, uint ray, uint to)
     return follow(place, CRITICAL > 0 ? listed * CRITICAL + ray : (place.y - slice.band0) * cam.width + place.x, to);
 }
 
-/* The march has one ray an invocation: lavapipe (Mesa 22.3) ends all loops of eight invocations after 65 535 passes in total, which the rays of a
- * pixel through turbulent gas come to one after the other. */
+/* The march has one ray an invocation: lavapipe (Mesa 22.3) ends all loops of eight invocations after 65 535 passes
+ * in total, which the rays of a pixel through turbulent gas come to one after the other. */
 void main()
 {
     kd_camera_read();
     KD_EMIT_BLOCKS(READ)
-    uint px = gl_GlobalInvocationID.x, py = slice.row0 / SIDE + gl_WorkGroupID.y, listed = 0, number = slice.to + gl_WorkGroupID.y * slice.columns + px;
+    uint px = gl_GlobalInvocationID.x, py = slice.row0 / SIDE + gl_WorkGroupID.y, listed = 0,
+         number = slice.to + gl_WorkGroupID.y * slice.columns + px;
     bool sampled = SAMPLES && slice.columns > 0;
     if (px >= (CRITICAL > 0 ? slice.rows : sampled ? slice.columns : emission.frame.pixels_x))
         return;
@@ -247,7 +262,8 @@ void main()
         py = slice.row0 / SIDE + gl_WorkGroupID.y * slice.every_y;
     }
     if (COLUMNS) {
-        uint y = slice.row0 + gl_WorkGroupID.y * KD_TRANSFER_ROWS, end = min(y + KD_TRANSFER_ROWS, slice.row0 + slice.rows);
+        uint y = slice.row0 + gl_WorkGroupID.y * KD_TRANSFER_ROWS,
+             end = min(y + KD_TRANSFER_ROWS, slice.row0 + slice.rows);
         if (ENDS)
             point_column(px, y, end);
         if (KD_GLOWS)

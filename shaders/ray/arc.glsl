@@ -1,15 +1,17 @@
-/* The motion v'^2 = f(v) = e^2 + A v^2 + 2K v^3 - D v^4 has a closed form from any point of a path, forwards and backwards.
+/* The motion v'^2 = f(v) = e^2 + A v^2 + 2K v^3 - D v^4 has a closed form from any point of a path, forwards and
+ * backwards.
  *
  * With g(z) = 1/(wp(z) - A/12), where wp is Weierstrass's function with the invariants of f,
  *   g'^2 = 4g + A g^2 + e^2 D g^3 + G g^4,    G = e^2 (K^2 + A D)/4,    g = z^2 + ...,
  * Biermann's formula (Whittaker & Watson 20.6) leads from v, v' at one time to v at z before or after it:
  *   v(+-z) = v + (g (F P/2 + c g) +- v' g'/2) / (P^2 + v'^2 D g^2/4),
  *   F = v'' = v (A + 3K v - 2D v^2),  s = v (K - D v)/2,  P = 1 - g s,  c = v'^2 (K/4 - D v/2).
- * g has its pole after the time from 0 to v = K/D, behind the horizon: no stretch outside of it lasts so long. No root of f is
- * needed. The pair (g, g') is the same for all points of a path: one pair serves the same time after each crossing and before it. It
- * comes from the Laurent series of wp (Abramowitz & Stegun 18.5) up to z sqrt|A| = pi/2, and by the duplication formula from z to
- * 2z. The unit of time is a power of two, by which nothing is rounded, such that 1 <= |A| < 4 and a half period lasts from pi/2 to
- * pi; rays with b below 1 or so have a smaller A, and fall or are gone long before. */
+ * g has its pole after the time from 0 to v = K/D, behind the horizon: no stretch outside of it lasts so long. No
+ * root of f is needed. The pair (g, g') is the same for all points of a path: one pair serves the same time after
+ * each crossing and before it. It comes from the Laurent series of wp (Abramowitz & Stegun 18.5) up to z sqrt|A| =
+ * pi/2, and by the duplication formula from z to 2z. The unit of time is a power of two, by which nothing is
+ * rounded, such that 1 <= |A| < 4 and a half period lasts from pi/2 to pi; rays with b below 1 or so have a smaller
+ * A, and fall or are gone long before. */
 #ifndef KD_ARC_GLSL
 #define KD_ARC_GLSL
 
@@ -64,8 +66,12 @@ kd_arc kd_arc_short(kd_lattice l, float z)
 {
     kd_arc o;
     float y = z * z, y2 = y * y;
-    float sum = (l.a * (-1.0 / 12.0)) * y + y2 * (l.c2 + y * (l.c3 + y * (l.c4 + y * (l.c5 + y * (l.c6 + y * (l.c7 + y * l.c8))))));
-    float slope = y2 * (l.c2 + y * (2.0 * l.c3 + y * (3.0 * l.c4 + y * (4.0 * l.c5 + y * (5.0 * l.c6 + y * (6.0 * l.c7 + y * (7.0 * l.c8)))))));
+    float sum = (l.a * (-1.0 / 12.0)) * y +
+                y2 * (l.c2 + y * (l.c3 + y * (l.c4 + y * (l.c5 + y * (l.c6 + y * (l.c7 + y * l.c8))))));
+    float slope =
+        y2 *
+        (l.c2 + y * (2.0 * l.c3 +
+                     y * (3.0 * l.c4 + y * (4.0 * l.c5 + y * (5.0 * l.c6 + y * (6.0 * l.c7 + y * (7.0 * l.c8)))))));
     float inv = 1.0 / (1.0 + sum), part = sum * inv;
     /* These are small differences from what g and g' are where f is 1. */
     precise float g = y - y * part, turn = z - z * part, dg = turn - turn * (part + slope * inv);

@@ -1,5 +1,6 @@
-/* This integrates the azimuth by which the hole drags a ray, chi' = a (W/D - E) (radial_step.glsl), over a stretch of its path by Gauss and
- * Legendre's rule with seven places (Abramowitz & Stegun 25.4.29): three near each end and the middle. */
+/* This integrates the azimuth by which the hole drags a ray, chi' = a (W/D - E) (radial_step.glsl), over a stretch
+ * of its path by Gauss and Legendre's rule with seven places (Abramowitz & Stegun 25.4.29): three near each end and
+ * the middle. */
 #ifndef KD_ARC_DRAG_GLSL
 #define KD_ARC_DRAG_GLSL
 
@@ -40,8 +41,8 @@ kd_drag_terms kd_drag_terms_of(kd_geodesic m, float e, float a, float root, floa
     return o;
 }
 
-/* The integrand leaves out the factor a. Of a ray that falls in it is that of ingoing coordinates, without -E. Both kinds are
- * computed side by side, for a driver that runs both branches of an if. */
+/* The integrand leaves out the factor a. Of a ray that falls in it is that of ingoing coordinates, without -E. Both
+ * kinds are computed side by side, for a driver that runs both branches of an if. */
 float kd_drag_at(kd_drag_terms t, float v)
 {
     float w = v * t.unit, w2 = w * w, d = kd_delta(w, t.root), kw = t.k * w2;
@@ -54,10 +55,11 @@ float kd_drag_at(kd_drag_terms t, float v)
 /* Integrates between two points of a path, z apart in scaled time, by the nodes of z. */
 float kd_drag_between(kd_drag_terms t, kd_centre from, kd_centre to, kd_nodes n, float z)
 {
-    float sum = 0.208979591836735 * kd_drag_at(t, kd_around(from, n.middle).x) +
-                0.190915025252559 * (kd_drag_at(t, kd_around(from, n.inner).x) + kd_drag_at(t, kd_around(to, n.inner).y)) +
-                0.139852695744638 * (kd_drag_at(t, kd_around(from, n.between).x) + kd_drag_at(t, kd_around(to, n.between).y)) +
-                0.0647424830844348 * (kd_drag_at(t, kd_around(from, n.outer).x) + kd_drag_at(t, kd_around(to, n.outer).y));
+    float sum =
+        0.208979591836735 * kd_drag_at(t, kd_around(from, n.middle).x) +
+        0.190915025252559 * (kd_drag_at(t, kd_around(from, n.inner).x) + kd_drag_at(t, kd_around(to, n.inner).y)) +
+        0.139852695744638 * (kd_drag_at(t, kd_around(from, n.between).x) + kd_drag_at(t, kd_around(to, n.between).y)) +
+        0.0647424830844348 * (kd_drag_at(t, kd_around(from, n.outer).x) + kd_drag_at(t, kd_around(to, n.outer).y));
     return t.a * z * t.unit * (t.falls ? sum - t.e : sum);
 }
 

@@ -5,8 +5,8 @@
 #include "ray/arc.glsl"
 #include "ray/polar_azimuth.glsl"
 
-/* This is g of the time from here to w = 0, or back to there, which Biermann's formula gives with v = 0 at the other end. A point
- * that still moves inwards is taken to be far from it. */
+/* This is g of the time from here to w = 0, or back to there, which Biermann's formula gives with v = 0 at the other
+ * end. A point that still moves inwards is taken to be far from it. */
 float kd_arc_to_infinity(kd_state y, float e) { return y.dw < 0.0 ? 2.0 * y.w * y.w / (e * (e - y.dw)) : 1e30; }
 
 /* The inverse of g, to second order. */
@@ -15,8 +15,9 @@ float kd_arc_time(kd_lattice l, float g)
     return sqrt(g) * (1.0 + g * (l.a * (-1.0 / 24.0) + g * (l.a * l.a * (3.0 / 640.0) - l.d * (1.0 / 40.0))));
 }
 
-/* This is the scaled time from `last` to infinity, for a ray that gets there before `next`, z later; `middle` is the arc of z/2. The
- * nearest of the three points tells the time to 1e-3, and what is left there of w tells the rest, as w'' = 0 at w = 0. */
+/* This is the scaled time from `last` to infinity, for a ray that gets there before `next`, z later; `middle` is the
+ * arc of z/2. The nearest of the three points tells the time to 1e-3, and what is left there of w tells the rest, as
+ * w'' = 0 at w = 0. */
 float kd_arc_escape_time(kd_arcs a, kd_centre last, kd_arc middle, kd_state next, float z, float e)
 {
     float most = last.dv < 0.0 ? 4.0 * last.v / min(e, -last.dv) : 1e30; /* the places further on mean nothing */
@@ -44,7 +45,8 @@ float kd_arc_escape_time(kd_arcs a, kd_centre last, kd_arc middle, kd_state next
 
 struct kd_direction { float u, psi; };
 
-/* This is where a ray stands after that time since a crossing of the plane, which it left upwards; psi is counted from there. */
+/* This is where a ray stands after that time since a crossing of the plane, which it left upwards; psi is counted
+ * from there. */
 kd_direction kd_arc_direction(kd_geodesic m, kd_arcs a, kd_azimuth azimuth, float time)
 {
     kd_direction o;
@@ -73,9 +75,9 @@ vec3 kd_direction_pull(kd_geodesic m, vec3 n)
     return f;
 }
 
-/* This is the direction of a ray that escapes soon after its start, from which psi is counted, by four steps of the vector equation
- * of escape.glsl: in a quarter radian each their error is below a float's. One that never meets the plane, as b < a, is such a ray if it
- * starts outside the photon orbits. */
+/* This is the direction of a ray that escapes soon after its start, from which psi is counted, by four steps of the
+ * vector equation of escape.glsl: in a quarter radian each their error is below a float's. One that never meets the
+ * plane, as b < a, is such a ray if it starts outside the photon orbits. */
 kd_direction kd_arc_direction_aside(kd_geodesic m, kd_ray ray, float u, float s, float time)
 {
     vec3 n = vec3(s, 0.0, u), v = vec3(-u * ray.p, ray.l, s * ray.p);

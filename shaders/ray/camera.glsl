@@ -1,6 +1,6 @@
-/* This holds the camera and the rows at hand, and leads from a ray's place in the picture to its constants of motion. Needs KD_CAMERA_BINDING and the
- * specialisation constant SIGHT (KD_SIGHT_). KD_CAMERA_ONLY: without the rows, for kernels with push constants of their own, which read
- * `cam` themselves. */
+/* This holds the camera and the rows at hand, and leads from a ray's place in the picture to its constants of
+ * motion. Needs KD_CAMERA_BINDING and the specialisation constant SIGHT (KD_SIGHT_). KD_CAMERA_ONLY: without the
+ * rows, for kernels with push constants of their own, which read `cam` themselves. */
 #ifndef KD_CAMERA_GLSL
 #define KD_CAMERA_GLSL
 
@@ -63,7 +63,8 @@ kd_ray kd_camera_ray(uint px, uint py)
         float n = inversesqrt(kx * kx + ky * ky + kz * kz), m_r = -kx * n, m_theta = -ky * n, m_phi = -kz * n;
         ray.e = cam.e_t + cam.e_r * m_r + cam.e_theta * m_theta + cam.e_phi * m_phi;
         ray.l = cam.l_t + cam.l_r * m_r + cam.l_theta * m_theta + cam.l_phi * m_phi;
-        ray.p = cam.p_t - (cam.p_r * kx + cam.p_theta * ky + cam.p_phi * kz) * n; /* not by m: what is one product is rounded twice */
+        ray.p = cam.p_t - (cam.p_r * kx + cam.p_theta * ky + cam.p_phi * kz) *
+                              n; /* not by m: what is one product is rounded twice */
         ray.w = cam.w0;
         ray.dw = cam.dw_t - (cam.dw_r * kx + cam.dw_theta * ky + cam.dw_phi * kz) * n;
     }

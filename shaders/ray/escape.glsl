@@ -1,5 +1,5 @@
-/* This follows a ray to its end: from a known point of its path to infinity or to the horizon, with the direction as a unit vector
- * n = (sin theta cos psi, sin theta sin psi, cos theta), which knows no pole:
+/* This follows a ray to its end: from a known point of its path to infinity or to the horizon, with the direction as
+ * a unit vector n = (sin theta cos psi, sin theta sin psi, cos theta), which knows no pole:
  *   n'' = e u z - (Q + L^2 + 2 e u^2) n,   n.n = 1,   |n'|^2 = Q + L^2 + e u^2,   (n x n')_z = L,   e = a^2 E^2.
  * Needs camera.glsl and the specialisation constants STEPS and INGOING. */
 #ifndef KD_ESCAPE_GLSL
@@ -67,17 +67,20 @@ float kd_path_drag(kd_geodesic m, kd_ray ray, kd_path p, kd_path q, float h)
     if (INGOING && 1.5 * (c.w - a.w) > 0.25 * h * (a.dw + c.dw)) /* in the middle it still moves inwards */
         b.dw = -b.dw;
     if (INGOING) /* no pole: what leaves is in ingoing coordinates from the start */
-        return h * (1.0 / 6.0) * (kd_drag_ingoing(m, a, ray.e, cam.spin, cam.root, -1.0) + 4.0 * kd_drag_ingoing(m, b, ray.e, cam.spin, cam.root, -1.0) +
-                                  kd_drag_ingoing(m, c, ray.e, cam.spin, cam.root, -1.0));
+        return h * (1.0 / 6.0) *
+               (kd_drag_ingoing(m, a, ray.e, cam.spin, cam.root, -1.0) +
+                4.0 * kd_drag_ingoing(m, b, ray.e, cam.spin, cam.root, -1.0) +
+                kd_drag_ingoing(m, c, ray.e, cam.spin, cam.root, -1.0));
     float way = a.dw < 0.0 && c.dw < 0.0 ? -1.0 : 0.0; /* a ray that turns again does not escape */
     float pole = way * (kd_drag_fall(c.w, cam.spin, cam.root) - kd_drag_fall(a.w, cam.spin, cam.root));
-    return pole + h * (1.0 / 6.0) *
-                      (kd_drag(m, a, ray.e, cam.spin, cam.root, way) + 4.0 * kd_drag(m, b, ray.e, cam.spin, cam.root, way) +
-                       kd_drag(m, c, ray.e, cam.spin, cam.root, way));
+    return pole +
+           h * (1.0 / 6.0) *
+               (kd_drag(m, a, ray.e, cam.spin, cam.root, way) + 4.0 * kd_drag(m, b, ray.e, cam.spin, cam.root, way) +
+                kd_drag(m, c, ray.e, cam.spin, cam.root, way));
 }
 
-/* This is w' of what leaves, by the first integral: within the horizon it does not vanish, and what rounding does to it there, where it may be
- * large, would be felt outside. */
+/* This is w' of what leaves, by the first integral: within the horizon it does not vanish, and what rounding does to
+ * it there, where it may be large, would be felt outside. */
 float kd_leaving(kd_geodesic m, float w, float e) { return -sqrt(kd_fall_squared(m, w, e, cam.spin, cam.root)); }
 
 kd_escape kd_path_escape(kd_geodesic m, kd_ray ray, kd_path p)
@@ -86,8 +89,8 @@ kd_escape kd_path_escape(kd_geodesic m, kd_ray ray, kd_path p)
     o.fate = KD_FATE_UNDECIDED;
     o.u = 0.0;
     o.phi = 0.0;
-    /* Steps as fine as between crossings, and no coarser than 1/E where the ray is nearly radial; nor than 1/sqrt(6K w), which counts
-     * deep in the hole. */
+    /* Steps as fine as between crossings, and no coarser than 1/E where the ray is nearly radial; nor than 1/sqrt(6K
+     * w), which counts deep in the hole. */
     float rate2 = max(ray.l * ray.l + ray.p * ray.p, ray.e * ray.e);
     float h = KD_PI / (float(STEPS) * sqrt(rate2));
     /* Twelve half periods: beyond them only rays within 1e-13 of the critical curve still circle. */

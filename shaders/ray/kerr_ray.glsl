@@ -35,8 +35,9 @@ kd_geodesic kd_geodesic_of(kd_ray ray, float a, float u, float s)
     return m;
 }
 
-/* This is Delta/r^2 = 1 - 2w + a^2 w^2 from root = sqrt(1 - a^2): 1 - w is exact near the horizon of a fast hole, and the two
- * factors keep their digits where the horizons all but meet. Precise: multiplied out, as a driver may, they would have lost them. */
+/* This is Delta/r^2 = 1 - 2w + a^2 w^2 from root = sqrt(1 - a^2): 1 - w is exact near the horizon of a fast hole,
+ * and the two factors keep their digits where the horizons all but meet. Precise: multiplied out, as a driver may,
+ * they would have lost them. */
 float kd_delta(float w, float root)
 {
     precise float d = 1.0 - w, h = root * w, delta = (d - h) * (d + h);

@@ -1,9 +1,12 @@
-/* These are Runge-Kutta-Nystroem methods for y'' = f(y), for scalars and vectors alike: from (y, v) over a step h to (y_out, v_out), T being
- * the type and PULL(m, y) the function f. KD_NYSTROEM_ORDER, which a kernel may define before as a specialisation constant:
+/* These are Runge-Kutta-Nystroem methods for y'' = f(y), for scalars and vectors alike: from (y, v) over a step h to
+ * (y_out, v_out), T being the type and PULL(m, y) the function f. KD_NYSTROEM_ORDER, which a kernel may define
+ * before as a specialisation constant:
  *   6: J. Albrecht's in five stages (1955, ZAMM 35, 100);
- *   4: E. J. Nystroem's in three, the fewest there are (1925, Acta Soc. Sci. Fenn. 50, 13; Hairer, Norsett & Wanner 1993, II.14).
- * The sums are precise: a driver may otherwise add a step's small terms to y one by one (Vulkan allows reassociation), each of which
- * rounds as y does. The orders are seen in tests/gpu/test_rays.c: twice the steps leave a sixty-fourth of the error, or a sixteenth. */
+ *   4: E. J. Nystroem's in three, the fewest there are (1925, Acta Soc. Sci. Fenn. 50, 13; Hairer, Norsett & Wanner
+ *     1993, II.14).
+ * The sums are precise: a driver may otherwise add a step's small terms to y one by one (Vulkan allows
+ * reassociation), each of which rounds as y does. The orders are seen in tests/gpu/test_rays.c: twice the steps
+ * leave a sixty-fourth of the error, or a sixteenth. */
 #ifndef KD_NYSTROEM_GLSL
 #define KD_NYSTROEM_GLSL
 
@@ -11,27 +14,27 @@
 #define KD_NYSTROEM_ORDER 6
 #endif
 
-#define KD_NYSTROEM_STEP(T, PULL, m, y, v, h, y_out, v_out)                                                      \
-    float h2 = h * h;                                                                                            \
-    T hv = h * v;                                                                                                \
-    T k1 = PULL(m, y);                                                                                           \
-    if (KD_NYSTROEM_ORDER == 4) {                                                                                \
-        T k2 = PULL(m, y + 0.5 * hv + h2 * 0.125 * k1);                                                          \
-        T k3 = PULL(m, y + hv + h2 * 0.5 * k2);                                                                  \
-        precise T y_step = hv + h2 * (1.0 / 6.0) * (k1 + 2.0 * k2), y_sum = y + y_step;                          \
-        precise T v_step = h * (1.0 / 6.0) * (k1 + 4.0 * k2 + k3), v_sum = v + v_step;                           \
-        y_out = y_sum;                                                                                           \
-        v_out = v_sum;                                                                                           \
-    } else {                                                                                                     \
-        T k2 = PULL(m, y + 0.25 * hv + h2 * (1.0 / 32.0) * k1);                                                  \
-        T k3 = PULL(m, y + 0.5 * hv + h2 * (1.0 / 24.0) * (4.0 * k2 - k1));                                      \
-        T k4 = PULL(m, y + 0.75 * hv + h2 * (1.0 / 32.0) * (3.0 * k1 + 4.0 * k2 + 2.0 * k3));                    \
-        T k5 = PULL(m, y + hv + h2 * (1.0 / 14.0) * (6.0 * k2 - k3 + 2.0 * k4));                                 \
-        precise T y_step = hv + h2 * (1.0 / 90.0) * (7.0 * k1 + 24.0 * k2 + 6.0 * k3 + 8.0 * k4);                \
-        precise T v_step = h * (1.0 / 90.0) * (7.0 * (k1 + k5) + 32.0 * (k2 + k4) + 12.0 * k3);                  \
-        precise T y_sum = y + y_step, v_sum = v + v_step;                                                        \
-        y_out = y_sum;                                                                                           \
-        v_out = v_sum;                                                                                           \
+#define KD_NYSTROEM_STEP(T, PULL, m, y, v, h, y_out, v_out) \
+    float h2 = h * h; \
+    T hv = h * v; \
+    T k1 = PULL(m, y); \
+    if (KD_NYSTROEM_ORDER == 4) { \
+        T k2 = PULL(m, y + 0.5 * hv + h2 * 0.125 * k1); \
+        T k3 = PULL(m, y + hv + h2 * 0.5 * k2); \
+        precise T y_step = hv + h2 * (1.0 / 6.0) * (k1 + 2.0 * k2), y_sum = y + y_step; \
+        precise T v_step = h * (1.0 / 6.0) * (k1 + 4.0 * k2 + k3), v_sum = v + v_step; \
+        y_out = y_sum; \
+        v_out = v_sum; \
+    } else { \
+        T k2 = PULL(m, y + 0.25 * hv + h2 * (1.0 / 32.0) * k1); \
+        T k3 = PULL(m, y + 0.5 * hv + h2 * (1.0 / 24.0) * (4.0 * k2 - k1)); \
+        T k4 = PULL(m, y + 0.75 * hv + h2 * (1.0 / 32.0) * (3.0 * k1 + 4.0 * k2 + 2.0 * k3)); \
+        T k5 = PULL(m, y + hv + h2 * (1.0 / 14.0) * (6.0 * k2 - k3 + 2.0 * k4)); \
+        precise T y_step = hv + h2 * (1.0 / 90.0) * (7.0 * k1 + 24.0 * k2 + 6.0 * k3 + 8.0 * k4); \
+        precise T v_step = h * (1.0 / 90.0) * (7.0 * (k1 + k5) + 32.0 * (k2 + k4) + 12.0 * k3); \
+        precise T y_sum = y + y_step, v_sum = v + v_step; \
+        y_out = y_sum; \
+        v_out = v_sum; \
     }
 
 #endif

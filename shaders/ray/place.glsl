@@ -1,8 +1,9 @@
-/* This finds which ray an invocation is for. Needs camera.glsl, the lens map as `lens`, and the specialisation constants CRITICAL, GENERATOR and
- * SHIFT.
+/* This finds which ray an invocation is for. Needs camera.glsl, the lens map as `lens`, and the specialisation
+ * constants CRITICAL, GENERATOR and SHIFT.
  *
- * CRITICAL = 0: rays are on the picture's grid, and a row of workgroups is a row of rays. Otherwise they are on the listed pixels,
- * CRITICAL on each, on a lattice or, if GENERATOR is 0, a square grid (src/render/view/critical_pixels.h); the list, x and y of each pixel, is in the lens map behind its planes. */
+ * CRITICAL = 0: rays are on the picture's grid, and a row of workgroups is a row of rays. Otherwise they are on the
+ * listed pixels, CRITICAL on each, on a lattice or, if GENERATOR is 0, a square grid
+ * (src/render/view/critical_pixels.h); the list, x and y of each pixel, is in the lens map behind its planes. */
 #ifndef KD_PLACE_GLSL
 #define KD_PLACE_GLSL
 
@@ -18,7 +19,8 @@ uvec2 kd_listed_pixel(uint pixel)
     return uvec2(KD_MAP_AT(at), KD_MAP_AT(at + 1));
 }
 
-/* The ray of this number on a pixel, in steps of the camera, of which there are CRITICAL to a pixel; on a square grid, SHIFT. */
+/* The ray of this number on a pixel, in steps of the camera, of which there are CRITICAL to a pixel; on a square
+ * grid, SHIFT. */
 uvec2 kd_critical_place(uvec2 pixel, uint ray)
 {
     if (GENERATOR == 0)

@@ -4,7 +4,8 @@
 
 #include "shared/lens.h"
 
-/* The first plane of a quantity: as kd_lens_plane of src/render/view/layout.h. A constant once the kernel is specialised. */
+/* The first plane of a quantity: as kd_lens_plane of src/render/view/layout.h. A constant once the kernel is
+ * specialised. */
 uint kd_plane(uint quantity)
 {
     uint before = QUANTITIES & (quantity - 1u);

@@ -3,10 +3,11 @@
  * u = sqrt(U+) cos(x) turns u'^2 = Q + A u^2 - e u^4, e = a^2 E^2, into
  *   x'^2 = p^2 cos^2 x + q^2 sin^2 x,    q^2 = (s - A)/2,  p^2 = q^2 + e U+ = s,  s = sqrt(A^2 + 4 e Q),
  * Gauss's own form of the elliptic integral: a half period takes pi / AGM(p, q), and Landen's transformation
- * tan(x_{n+1} - x_n) = (q_n/p_n) tan x_n (Abramowitz & Stegun 17.6.8) does the incomplete one. Rays with an impact parameter
- * well above a have q/p near 1 and would do with two iterations. Four serve pictures: they leave
- * 1e-7 at q/p = 0.05 and 1e-5 at 0.01. Less than that has only a ray that aims at the hole along the plane of the disk, with |alpha|
- * below a and |beta| below a hundredth of it. The kernel of listed rays tells each one's error: it defines KD_POLAR_LISTED and takes eight. */
+ * tan(x_{n+1} - x_n) = (q_n/p_n) tan x_n (Abramowitz & Stegun 17.6.8) does the incomplete one. Rays with an impact
+ * parameter well above a have q/p near 1 and would do with two iterations. Four serve pictures: they leave 1e-7 at
+ * q/p = 0.05 and 1e-5 at 0.01. Less than that has only a ray that aims at the hole along the plane of the disk, with
+ * |alpha| below a and |beta| below a hundredth of it. The kernel of listed rays tells each one's error: it defines
+ * KD_POLAR_LISTED and takes eight. */
 #ifndef KD_POLAR_GLSL
 #define KD_POLAR_GLSL
 
@@ -37,7 +38,7 @@ kd_polar kd_polar_of(kd_geodesic m, kd_ray ray, float u, float s)
     float larger = max(cx, abs(sx)); /* only the direction counts; its squares must not vanish */
     sx = larger > 0.0 ? sx / larger : -1.0;
     cx = larger > 0.0 ? cx / larger : 0.0;
-    float angle = kd_angle_upper(sx, cx);                         /* pi/2 - x */
+    float angle = kd_angle_upper(sx, cx); /* pi/2 - x */
 
     float k0 = sqrt(o.b / max(root, 1e-30));
     float p = sqrt(root), q = k0 * p;

@@ -1,4 +1,5 @@
-/* This follows the radial motion w'' = A w + 3K w^2 - 2D w^3 a step at a time, and the azimuth by which the hole drags a ray. */
+/* This follows the radial motion w'' = A w + 3K w^2 - 2D w^3 a step at a time, and the azimuth by which the hole
+ * drags a ray. */
 #ifndef KD_RADIAL_STEP_GLSL
 #define KD_RADIAL_STEP_GLSL
 
@@ -19,8 +20,8 @@ kd_state kd_radial_step(kd_geodesic m, kd_state y, float h)
 /* This is Delta/r^2, with a floor so that it can be divided by. */
 float kd_horizons(float w, float root) { return max(kd_delta(w, root), 1e-30); }
 
-/* This is W + |w'| of a ray that goes one way, W = E (1 + a^2 w^2) - a L w^2; the floors are for what has no meaning behind the
- * horizon. */
+/* This is W + |w'| of a ray that goes one way, W = E (1 + a^2 w^2) - a L w^2; the floors are for what has no meaning
+ * behind the horizon. */
 float kd_one_way(kd_geodesic m, kd_state y, float e, float a, float way)
 {
     return max(e + a * (a * e - m.momentum) * y.w * y.w + max(way * y.dw, 0.0), 1e-12);
@@ -29,16 +30,18 @@ float kd_one_way(kd_geodesic m, kd_state y, float e, float a, float way)
 /* This is w'^2 = W^2 - D K w^2, which holds its digits next to the horizon. */
 float kd_fall_squared(kd_geodesic m, float w, float e, float a, float root)
 {
-    precise float w2 = w * w, all = e + a * (a * e - m.momentum) * w2, square = all * all - kd_delta(w, root) * m.k * w2;
+    precise float w2 = w * w, all = e + a * (a * e - m.momentum) * w2,
+                  square = all * all - kd_delta(w, root) * m.k * w2;
     return square;
 }
 
 /* The azimuth chi by which the hole drags a ray, chi' = a (W/D - E), D = 1 - 2w + a^2 w^2.
  *
- * On the way into the horizon chi' diverges as 1/D, and its quadrature with it. What a falling ray leaves regular is the
- * azimuth of ingoing Kerr-Schild coordinates: less a w'/D, whose integral is elementary and is put back by kd_drag_fall. As
- * w'^2 = W^2 - D K w^2, the rest is a (K w^2/(W + w') - E), without a pole or a difference; and the same with the other sign of w'
- * for one that comes from next to the horizon. way: 1 for a ray that goes straight in, -1 straight out, else 0. */
+ * On the way into the horizon chi' diverges as 1/D, and its quadrature with it. What a falling ray leaves regular is
+ * the azimuth of ingoing Kerr-Schild coordinates: less a w'/D, whose integral is elementary and is put back by
+ * kd_drag_fall. As w'^2 = W^2 - D K w^2, the rest is a (K w^2/(W + w') - E), without a pole or a difference; and the
+ * same with the other sign of w' for one that comes from next to the horizon. way: 1 for a ray that goes straight
+ * in, -1 straight out, else 0. */
 float kd_drag(kd_geodesic m, kd_state y, float e, float a, float root, float way)
 {
     float w = y.w, w2 = w * w;
@@ -47,8 +50,9 @@ float kd_drag(kd_geodesic m, kd_state y, float e, float a, float root, float way
     return a * w * (2.0 * e - a * m.momentum * w) / kd_horizons(w, root);
 }
 
-/* The same for a ray that may come from within the horizon, or go back to it: that of ingoing coordinates (way = -1) while it leaves, of
- * outgoing ones (1) while it returns; D is divided by on the other half of the way. Both are smooth where the ray turns, for w'^2 = W^2 - D K w^2. */
+/* The same for a ray that may come from within the horizon, or go back to it: that of ingoing coordinates (way = -1)
+ * while it leaves, of outgoing ones (1) while it returns; D is divided by on the other half of the way. Both are
+ * smooth where the ray turns, for w'^2 = W^2 - D K w^2. */
 float kd_drag_ingoing(kd_geodesic m, kd_state y, float e, float a, float root, float way)
 {
     float w2 = y.w * y.w, speed = abs(y.dw), sum = max(e + a * (a * e - m.momentum) * w2 + speed, 1e-12);
@@ -56,14 +60,15 @@ float kd_drag_ingoing(kd_geodesic m, kd_state y, float e, float a, float root, f
     return a * ((along ? m.k * w2 : sum) / (along ? sum : kd_horizons(y.w, root)) - e);
 }
 
-/* Says whether light that crosses the horizon here comes from outside: W > 0 there. That of the other side of the hole's past is dark. */
+/* Says whether light that crosses the horizon here comes from outside: W > 0 there. That of the other side of the
+ * hole's past is dark. */
 bool kd_from_outside(kd_geodesic m, float e, float a, float horizon)
 {
     return e + a * (a * e - m.momentum) * horizon * horizon > 0.0;
 }
 
-/* This is the integral from 0 to w of dw / D = 1/(2 root) log(1 + x), x = 2 root w / (1 - r+ w); by its series where x is small, as
- * for a hole that is nearly extremal. */
+/* This is the integral from 0 to w of dw / D = 1/(2 root) log(1 + x), x = 2 root w / (1 - r+ w); by its series where
+ * x is small, as for a hole that is nearly extremal. */
 float kd_fall(float w, float root)
 {
     precise float gap = 1.0 - w - root * w;
@@ -79,9 +84,10 @@ float kd_fall(float w, float root)
 }
 float kd_drag_fall(float w, float a, float root) { return a * kd_fall(w, root); }
 
-/* A ray ends there by its constants alone. R' = 2w (A + 3Kw - 2Dw^2) vanishes once between infinity and the photon region, and
- * at the horizon R = W^2: a ray on one side of that place comes to the other exactly if R > 0 there. R = W^2 - D K w^2 holds its
- * digits next to the horizon too. `noise`: what rounding may have done to it, in units of the roundoff. */
+/* A ray ends there by its constants alone. R' = 2w (A + 3Kw - 2Dw^2) vanishes once between infinity and the photon
+ * region, and at the horizon R = W^2: a ray on one side of that place comes to the other exactly if R > 0 there. R =
+ * W^2 - D K w^2 holds its digits next to the horizon too. `noise`: what rounding may have done to it, in units of
+ * the roundoff. */
 struct kd_barrier {
     float w, r, noise; /* the place, the horizon if it lies behind; R there */
     bool open;         /* it lies clearly behind the horizon: nothing to pass */
@@ -96,7 +102,8 @@ kd_barrier kd_barrier_of(kd_geodesic m, kd_ray ray, float a, float u, float hori
     o.open = w > 1.01 * horizon;
     o.w = min(w, horizon);
     float w2 = o.w * o.w, ae = a * ray.e, d = max(kd_delta(o.w, root), 0.0);
-    precise float fall = ray.e + a * (ae - m.momentum) * w2, size = abs(ray.e) + abs(a) * (abs(ae) + abs(m.momentum)) * w2;
+    precise float fall = ray.e + a * (ae - m.momentum) * w2,
+                  size = abs(ray.e) + abs(a) * (abs(ae) + abs(m.momentum)) * w2;
     float all = abs(ae) + abs(m.momentum), size_k = m.q + 2.0 * u * u * m.energy2 + all * all;
     precise float r = fall * fall - d * m.k * w2; /* rounded as `noise` counts it */
     o.r = r;
@@ -104,11 +111,13 @@ kd_barrier kd_barrier_of(kd_geodesic m, kd_ray ray, float a, float u, float hori
     return o;
 }
 
-/* The same from a place beside it, for an observer next to the orbits of light: R is w'^2 there, and between the two places it changes by
- * x^2 (A + 6Kw - 6Dw^2 + x (2K - 4Dw) - x^2 D), x being the way, since R' vanishes at the barrier. Of w' next to 0 its square has more digits than R. */
+/* The same from a place beside it, for an observer next to the orbits of light: R is w'^2 there, and between the two
+ * places it changes by x^2 (A + 6Kw - 6Dw^2 + x (2K - 4Dw) - x^2 D), x being the way, since R' vanishes at the
+ * barrier. Of w' next to 0 its square has more digits than R. */
 kd_barrier kd_barrier_beside(kd_geodesic m, kd_barrier b, kd_state y, float e, float horizon)
 {
-    float x = y.w - b.w, c2 = m.a2 + 6.0 * b.w * (m.k - m.d * b.w), hump = x * x * (c2 + x * (2.0 * m.k - 4.0 * m.d * b.w - x * m.d));
+    float x = y.w - b.w, c2 = m.a2 + 6.0 * b.w * (m.k - m.d * b.w),
+          hump = x * x * (c2 + x * (2.0 * m.k - 4.0 * m.d * b.w - x * m.d));
     float noise = 16.0 * (abs(y.dw) * (abs(e) + sqrt(m.k) * y.w) + abs(x * c2) * b.w + abs(hump));
     if (b.w < horizon && noise < b.noise) {
         b.r = y.dw * y.dw - hump;
@@ -118,10 +127,7 @@ kd_barrier kd_barrier_beside(kd_geodesic m, kd_barrier b, kd_state y, float e, f
 }
 
 /* Says whether a ray goes into the horizon from where it is now, without turning. */
-bool kd_falls_in(kd_barrier b, kd_state y)
-{
-    return y.dw > 0.0 && (b.open || y.w > b.w || b.r > 0.0);
-}
+bool kd_falls_in(kd_barrier b, kd_state y) { return y.dw > 0.0 && (b.open || y.w > b.w || b.r > 0.0); }
 
 /* Says which way kd_drag takes from here on. */
 float kd_way(kd_barrier b, kd_state y)

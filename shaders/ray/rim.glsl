@@ -1,10 +1,14 @@
-/* The rim of the shadow, rays next to the critical curve (src/render/view/rim.h), between which images of stars of all orders are found: some grids (rim_grid.h). Binding 7. Needs
- * sky_map.glsl and camera.glsl, and the specialisation constant RIM: 0: there is none; 1: the rays at hand are the picture's, and leave images next to the
+/* The rim of the shadow, rays next to the critical curve (src/render/view/rim.h), between which images of stars of
+ * all orders are found: some grids (rim_grid.h). Binding 7. Needs sky_map.glsl and camera.glsl, and the
+ * specialisation constant RIM: 0: there is none; 1: the rays at hand are the picture's, and leave images next to the
  * curve to the rim; 2: they are those of one of its grids. */
 #ifndef KD_RIM_GLSL
 #define KD_RIM_GLSL
 
-layout(set = 0, binding = 7) readonly buffer Rim { float rim[]; }; /* how far the curve is from the middle, by the angle; from push.rim on the table of the grid at hand */
+layout(set = 0, binding = 7) readonly buffer Rim
+{
+    float rim[];
+}; /* how far the curve is from the middle, by the angle; from push.rim on the table of the grid at hand */
 
 const bool AT_RIM = RIM == 2u;
 
@@ -12,33 +16,42 @@ const bool AT_RIM = RIM == 2u;
 vec3 kd_camera_look(vec2 place)
 {
     float x = place.x - cam.middle_x, y = cam.middle_y - place.y, ahead = kd_camera_ahead(x, y);
-    return ahead * vec3(cam.c0x, cam.c0y, cam.c0z) + x * vec3(cam.cxx, cam.cxy, cam.cxz) + y * vec3(cam.cyx, cam.cyy, cam.cyz);
+    return ahead * vec3(cam.c0x, cam.c0y, cam.c0z) + x * vec3(cam.cxx, cam.cxy, cam.cxz) +
+           y * vec3(cam.cyx, cam.cyy, cam.cyz);
 }
 
-/* And the place that it sees a direction at, and how many steps of the picture, squared, there are to a unit of the area about `ahead` of the direction's
- * plane. None behind a pinhole. */
-struct kd_seen { vec2 place; float steps; };
+/* And the place that it sees a direction at, and how many steps of the picture, squared, there are to a unit of the
+ * area about `ahead` of the direction's plane. None behind a pinhole. */
+struct kd_seen {
+    vec2 place;
+    float steps;
+};
 
 kd_seen kd_camera_seen(vec3 d)
 {
-    vec3 c0 = vec3(cam.c0x, cam.c0y, cam.c0z), cx = vec3(cam.cxx, cam.cxy, cam.cxz), cy = vec3(cam.cyx, cam.cyy, cam.cyz);
+    vec3 c0 = vec3(cam.c0x, cam.c0y, cam.c0z), cx = vec3(cam.cxx, cam.cxy, cam.cxz),
+         cy = vec3(cam.cyx, cam.cyy, cam.cyz);
     vec2 middle = vec2(cam.middle_x, cam.middle_y);
     if (SIGHT == KD_SIGHT_PLANE)
         return kd_seen(middle + vec2(dot(d - c0, cx), -dot(d - c0, cy)) / dot(cx, cx), 1.0 / dot(cx, cx));
-    float depth = dot(d, c0), right = dot(d, cx), up = dot(d, cy), length2 = dot(d, d), all = sqrt(length2), solid = 1.0 / (length2 * all);
+    float depth = dot(d, c0), right = dot(d, cx), up = dot(d, cy), length2 = dot(d, d), all = sqrt(length2),
+          solid = 1.0 / (length2 * all);
     if (SIGHT == KD_SIGHT_PINHOLE) {
         float ahead = max(depth, 1e-6), c = ahead / all;
-        return kd_seen(depth > 1e-6 ? middle + vec2(right, -up) / (ahead * dot(cx, cx)) : vec2(-1e6), solid / (dot(cx, cx) * c * c * c));
+        return kd_seen(depth > 1e-6 ? middle + vec2(right, -up) / (ahead * dot(cx, cx)) : vec2(-1e6),
+                       solid / (dot(cx, cx) * c * c * c));
     }
     float quarter = 0.5 * KD_PI;
     if (SIGHT == KD_SIGHT_SPHERE) {
         float level = sqrt(right * right + depth * depth);
         vec2 angles = vec2(kd_atan2(right, depth), -kd_atan2(up, level));
-        return kd_seen(middle + angles / (quarter * vec2(cam.turn_x, cam.turn_y)), solid * all / (quarter * quarter * cam.turn_x * cam.turn_y * max(level, 1e-6)));
+        return kd_seen(middle + angles / (quarter * vec2(cam.turn_x, cam.turn_y)),
+                       solid * all / (quarter * quarter * cam.turn_x * cam.turn_y * max(level, 1e-6)));
     }
     float aside = sqrt(right * right + up * up), off = kd_atan2(aside, depth), unit = off / (quarter * cam.turn_x);
     vec2 towards = aside > 0.0 ? vec2(right, -up) / aside : vec2(0.0);
-    return kd_seen(middle + unit * towards, solid * off * all / (quarter * quarter * cam.turn_x * cam.turn_x * max(aside, 1e-6)));
+    return kd_seen(middle + unit * towards,
+                   solid * off * all / (quarter * quarter * cam.turn_x * cam.turn_x * max(aside, 1e-6)));
 }
 
 vec3 kd_rim_ahead() { return vec3(push.ahead_x, push.ahead_y, push.ahead_z); }
@@ -69,11 +82,17 @@ struct kd_quartic { vec2 x, xx, xxx; };
 kd_quartic kd_quartic_of(vec2 p2, vec2 p1, vec2 o, vec2 n1, vec2 n2)
 {
     vec2 far = n2 - p2, near = n1 - p1;
-    return kd_quartic((8.0 * near - far) * (1.0 / 12.0), (16.0 * (n1 + p1) - (n2 + p2) - 30.0 * o) * (1.0 / 24.0), (far - 2.0 * near) * (1.0 / 12.0));
+    return kd_quartic((8.0 * near - far) * (1.0 / 12.0), (16.0 * (n1 + p1) - (n2 + p2) - 30.0 * o) * (1.0 / 24.0),
+                      (far - 2.0 * near) * (1.0 / 12.0));
 }
 
-/* A place p in the cell (x, y) of a grid: on the plane, as the direction, and the area of the plane that the cell has there. */
-struct kd_rim_cell { vec2 place; vec3 d; float area; };
+/* A place p in the cell (x, y) of a grid: on the plane, as the direction, and the area of the plane that the cell
+ * has there. */
+struct kd_rim_cell {
+    vec2 place;
+    vec3 d;
+    float area;
+};
 
 /* Of a column: the curve's point, and how that goes by. */
 struct kd_rim_column { vec2 at, by; };
@@ -88,20 +107,24 @@ kd_rim_column kd_rim_curve(uint k)
 kd_rim_cell kd_rim_cell_at(uint x, uint y, vec2 p)
 {
     kd_rim_column own = kd_rim_curve(x);
-    vec2 before = kd_rim_curve(x == 0u ? 0u : x - 1u).by, after = kd_rim_curve(min(x + 1u, push.width - 1u)).by, b = 0.5 * (after - before), c = 0.5 * (after + before) - own.by;
+    vec2 before = kd_rim_curve(x == 0u ? 0u : x - 1u).by, after = kd_rim_curve(min(x + 1u, push.width - 1u)).by,
+         b = 0.5 * (after - before), c = 0.5 * (after + before) - own.by;
     vec2 at = own.at + p.x * (own.by + p.x * (0.5 * b + p.x * (1.0 / 3.0) * c)), along = own.by + p.x * (b + p.x * c);
     float off = push.far * exp(-push.fall * (float(y) + p.y));
     kd_rim_cell o;
     o.place = (1.0 + off) * at;
     o.area = abs(along.x * at.y - along.y * at.x) * (1.0 + off) * push.fall * off;
-    o.d = SIGHT == KD_SIGHT_PLANE ? kd_rim_ahead() + vec3(o.place, 0.0) : kd_rim_ahead() + o.place.x * kd_rim_right() + o.place.y * kd_rim_up();
+    o.d = SIGHT == KD_SIGHT_PLANE ? kd_rim_ahead() + vec3(o.place, 0.0)
+                                  : kd_rim_ahead() + o.place.x * kd_rim_right() + o.place.y * kd_rim_up();
     return o;
 }
 
 /* The share that the grid at hand has of an image at its column and row; of one within some of it, at most. */
 float kd_rim_part(vec2 at, float within)
 {
-    vec2 low = (at + within - vec2(rim[push.rim], rim[push.rim + 3u])), high = (vec2(rim[push.rim + 1u], rim[push.rim + 4u]) - at + within), by = vec2(rim[push.rim + 2u], rim[push.rim + 5u]);
+    vec2 low = (at + within - vec2(rim[push.rim], rim[push.rim + 3u])),
+         high = (vec2(rim[push.rim + 1u], rim[push.rim + 4u]) - at + within),
+         by = vec2(rim[push.rim + 2u], rim[push.rim + 5u]);
     vec2 share = clamp(low * by + 0.5, 0.0, 1.0) * clamp(high * by + 0.5, 0.0, 1.0);
     return share.x * share.y;
 }

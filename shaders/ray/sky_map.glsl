@@ -1,5 +1,6 @@
-/* Kernels that look for stars in a lens map share these bindings: the map, and numbers and tables of the emitters. Bindings 0, 1, 2. Needs the
- * specialisation constants QUANTITIES, ORDERS and RIM: where that is 2, the rays at hand are the rim's (rim.glsl), whose map is where they come from, x, y and z. */
+/* Kernels that look for stars in a lens map share these bindings: the map, and numbers and tables of the emitters.
+ * Bindings 0, 1, 2. Needs the specialisation constants QUANTITIES, ORDERS and RIM: where that is 2, the rays at hand
+ * are the rim's (rim.glsl), whose map is where they come from, x, y and z. */
 #ifndef KD_SKY_MAP_GLSL
 #define KD_SKY_MAP_GLSL
 
@@ -11,7 +12,8 @@ layout(local_size_x = KD_GROUP_SIZE) in;
 #define F(name) float name;
 #define U(name) uint name;
 #define A(type, name, count) type name[count];
-#define BLOCK(number, name) struct kd_##name##_block { KD_BLOCK_##name(F, U, A) };
+#define BLOCK(number, name) \
+    struct kd_##name##_block { KD_BLOCK_##name(F, U, A) };
 #define MEMBER(number, name) kd_##name##_block name;
 struct kd_spot_block { KD_BLOCK_spot(F, U) };
 KD_EMIT_BLOCKS(BLOCK)
@@ -29,7 +31,10 @@ layout(set = 0, binding = 1, std140) uniform Emission { KD_EMIT_BLOCKS(MEMBER) }
 
 /* Read before the first branch: behind one lavapipe reads them anew for each lane and each use. */
 kd_star_push push;
-struct kd_sky_emission { kd_frame_block frame; kd_sky_block sky; } emission;
+struct kd_sky_emission {
+    kd_frame_block frame;
+    kd_sky_block sky;
+} emission;
 void kd_sky_map_read()
 {
     push = push_;
@@ -42,11 +47,13 @@ void kd_sky_map_read()
 #include "emit/sky.glsl"
 
 float kd_sky_number(uint quantity, uint at) { return map_at(at + kd_plane(quantity) * push.stride); }
-/* How much of the sky a ray stands for, radians: as the map has it or, without that, by the derivatives along the picture's axes, whose products these are. */
+/* How much of the sky a ray stands for, radians: as the map has it or, without that, by the derivatives along the
+ * picture's axes, whose products these are. */
 float kd_sky_size(uint at, float aa, float bb, float ab)
 {
     float half_ = 0.5 * (aa - bb);
-    return (QUANTITIES & KD_LENS_SKY_FOOTPRINT) != 0u ? kd_sky_number(KD_LENS_SKY_FOOTPRINT, at) : sqrt(0.5 * (aa + bb) + sqrt(half_ * half_ + ab * ab));
+    return (QUANTITIES & KD_LENS_SKY_FOOTPRINT) != 0u ? kd_sky_number(KD_LENS_SKY_FOOTPRINT, at)
+                                                      : sqrt(0.5 * (aa + bb) + sqrt(half_ * half_ + ab * ab));
 }
 bool kd_sky_escapes(uint at) { return RIM == 2u || kd_sky_number(KD_LENS_FATE, at) == KD_FATE_ESCAPED; }
 

@@ -1,5 +1,6 @@
-/* The light of a star's image is spread over the pixels next to it as a quadratic B-spline, of standard deviation half a pixel, over 3 x 3: the weights add up to 1, and their
- * centre is the place. It is added up in 64-bit fixed point, so that the sum does not depend on the order. Binding KD_STAR_LIGHT_BINDING. */
+/* The light of a star's image is spread over the pixels next to it as a quadratic B-spline, of standard deviation
+ * half a pixel, over 3 x 3: the weights add up to 1, and their centre is the place. It is added up in 64-bit fixed
+ * point, so that the sum does not depend on the order. Binding KD_STAR_LIGHT_BINDING. */
 #ifndef KD_STAR_LIGHT_GLSL
 #define KD_STAR_LIGHT_GLSL
 
@@ -25,10 +26,18 @@ void kd_star_spread(vec2 place, vec3 light)
     vec3 wx = kd_star_weights(place.x - middle.x), wy = kd_star_weights(place.y - middle.y);
     int pixels_x = int(emission.frame.pixels_x), pixels_y = int(push.pixels_y);
     for (int k = 0; k < 9; k++) {
-        int r = k / 3, c = k - 3 * r, px = int(middle.x) + c - 1 + int(push.aside), py = int(middle.y) + r - 1 + int(push.up);
+        int r = k / 3, c = k - 3 * r, px = int(middle.x) + c - 1 + int(push.aside),
+            py = int(middle.y) + r - 1 + int(push.up);
         if (px >= 0 && px < pixels_x && py >= 0 && py < pixels_y) {
             uint o = KD_STAR_LIGHT * uint(py * pixels_x + px);
-            vec3 part = min((r == 0 ? wy.x : r == 1 ? wy.y : wy.z) * (c == 0 ? wx.x : c == 1 ? wx.y : wx.z) * light, vec3(1e9));
+            vec3 part = min((r == 0   ? wy.x
+                             : r == 1 ? wy.y
+                                      : wy.z) *
+                                (c == 0   ? wx.x
+                                 : c == 1 ? wx.y
+                                          : wx.z) *
+                                light,
+                            vec3(1e9));
             kd_star_add(o, part.r);
             kd_star_add(o + 2u, part.g);
             kd_star_add(o + 4u, part.b);

@@ -1,5 +1,5 @@
-/* What the kernels share that seek stars: the list of them, in cells; and what they write, pairs of a ray and a star, and rays that are still to be
- * sought for. Bindings 3 to 6. Needs sky_map.glsl. */
+/* What the kernels share that seek stars: the list of them, in cells; and what they write, pairs of a ray and a
+ * star, and rays that are still to be sought for. Bindings 3 to 6. Needs sky_map.glsl. */
 #ifndef KD_STAR_LIST_GLSL
 #define KD_STAR_LIST_GLSL
 
@@ -8,7 +8,8 @@ layout(set = 0, binding = 3) buffer Pairs { uint pairs[]; }; /* how many; then, 
 #ifdef KD_TEXELS
 layout(set = 0, binding = 4) uniform textureBuffer stars;
 vec4 star_row(uint k) { return texelFetch(stars, int(k)); }
-layout(set = 0, binding = 5) uniform utextureBuffer cells; /* the table of the fine ones, then that of the coarse ones */
+layout(set = 0,
+       binding = 5) uniform utextureBuffer cells; /* the table of the fine ones, then that of the coarse ones */
 uint cell_at(uint of) { return texelFetch(cells, int(of)).r; }
 #else
 layout(set = 0, binding = 4) readonly buffer Stars { vec4 stars[]; };
@@ -16,20 +17,31 @@ vec4 star_row(uint k) { return stars[k]; }
 layout(set = 0, binding = 5) readonly buffer Cells { uint cells[]; };
 uint cell_at(uint of) { return cells[of]; }
 #endif
-layout(set = 0, binding = 6) buffer Listed { uint listed[]; };        /* how many tiles, and rays; then so many tiles, for push.tiles of which there is room; and rays */
+layout(set = 0, binding = 6) buffer Listed
+{
+    uint listed[];
+}; /* how many tiles, and rays; then so many tiles, for push.tiles of which there is room; and rays */
 
 /* The cells of a face in a rectangle. */
-struct kd_cells { int first, side; ivec2 low, high; };
+struct kd_cells {
+    int first, side;
+    ivec2 low, high;
+};
 
 kd_cells kd_cells_of(uint face, vec2 low, vec2 high)
 {
     bool far = max(high.x - low.x, high.y - low.y) > KD_FACE_FAR;
-    int side = far ? KD_FACE_COARSE : KD_FACE_FINE, first = (far ? KD_FACE_TABLE(KD_FACE_FINE) : 0) + int(face) * side * side;
+    int side = far ? KD_FACE_COARSE : KD_FACE_FINE,
+        first = (far ? KD_FACE_TABLE(KD_FACE_FINE) : 0) + int(face) * side * side;
     return kd_cells(first, side, kd_face_cell(low.x, low.y, float(side)), kd_face_cell(high.x, high.y, float(side)));
 }
 
 /* Goes through the stars of such cells: k is the next one, of a cell that ends before `end`. */
-struct kd_star_walk { ivec2 cell; uint k, end; bool done; };
+struct kd_star_walk {
+    ivec2 cell;
+    uint k, end;
+    bool done;
+};
 
 kd_star_walk kd_star_walk_from(kd_cells c, bool any) { return kd_star_walk(ivec2(c.low.x - 1, c.low.y), 0u, 0u, !any); }
 

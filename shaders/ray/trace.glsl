@@ -1,6 +1,7 @@
-/* This writes down what a kernel does, step by step, for `kerrd rays --trace`: compiled with KD_TRACE it writes a record of each step of its one ray
- * to binding 2; otherwise nothing is left of this. Numbers: how many records there were, the constants of the motion, then the records: stage, step,
- * four numbers, their derivatives, chi. Records that have no room are counted only. */
+/* This writes down what a kernel does, step by step, for `kerrd rays --trace`: compiled with KD_TRACE it writes a
+ * record of each step of its one ray to binding 2; otherwise nothing is left of this. Numbers: how many records
+ * there were, the constants of the motion, then the records: stage, step, four numbers, their derivatives, chi.
+ * Records that have no room are counted only. */
 #ifndef KD_TRACE_GLSL
 #define KD_TRACE_GLSL
 
@@ -22,7 +23,7 @@ void kd_trace(float stage, float h, vec4 y, vec4 dy, float chi)
     }
     steps[at + 10] = chi;
 }
-#define KD_TRACE_CONSTANTS(m)                                                                                          \
+#define KD_TRACE_CONSTANTS(m) \
     steps[1] = m.momentum, steps[2] = m.q, steps[3] = m.energy2, steps[4] = m.a2, steps[5] = m.k, steps[6] = m.d
 #define KD_TRACE_STEP(stage, h, y, dy, chi) kd_trace(stage, h, y, dy, chi)
 #else

@@ -1,18 +1,20 @@
 /* This finds the light that a lens spreads to a point of the picture; bloom_*.comp and post.comp share it.
  *
- * Spread light is on a grid of cells that covers the picture exactly, a vec4 a cell, rows from the top. Beyond the edge the grid is
- * its own mirror image: what would leave the picture stays at its edge. */
+ * Spread light is on a grid of cells that covers the picture exactly, a vec4 a cell, rows from the top. Beyond the
+ * edge the grid is its own mirror image: what would leave the picture stays at its edge. */
 #ifndef KD_BLOOM_GLSL
 #define KD_BLOOM_GLSL
 
-/* In units of white, what the exposure takes as 1: light of which all that is over it may be spread; half the way from nothing to all; and the
- * most that is spread of one place. Light near white is included, as the film-like curve shows the brightest of many pictures there. */
+/* In units of white, what the exposure takes as 1: light of which all that is over it may be spread; half the way
+ * from nothing to all; and the most that is spread of one place. Light near white is included, as the film-like
+ * curve shows the brightest of many pictures there. */
 #define KD_BLOOM_FROM 0.6
 #define KD_BLOOM_KNEE 0.4
 #define KD_BLOOM_MOST 64.0
 
-/* What a lens takes of exposed light c from its place, where it spreads the share `strength` of bright light: nothing below FROM - KNEE, of
- * what is beyond FROM + KNEE all that is over FROM, by a parabola between. Where y is 10^30 or more, or no number, light stays. */
+/* What a lens takes of exposed light c from its place, where it spreads the share `strength` of bright light:
+ * nothing below FROM - KNEE, of what is beyond FROM + KNEE all that is over FROM, by a parabola between. Where y is
+ * 10^30 or more, or no number, light stays. */
 vec3 bloom_of(vec3 c, float strength)
 {
     float y = 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b;

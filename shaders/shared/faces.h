@@ -1,25 +1,40 @@
-/* The sphere is divided into cells by the six faces of a cube about it, each a grid. A direction belongs to the face of its largest component, where
- * it has a place (p, q) in [-1, 1]: the two others over that one. Each face goes on beyond its edges, to KD_FACE_EDGE, so that what lies near a
- * direction lies on the direction's own face: stars are on up to three of them. */
+/* The sphere is divided into cells by the six faces of a cube about it, each a grid. A direction belongs to the face
+ * of its largest component, where it has a place (p, q) in [-1, 1]: the two others over that one. Each face goes on
+ * beyond its edges, to KD_FACE_EDGE, so that what lies near a direction lies on the direction's own face: stars are
+ * on up to three of them. */
 #ifndef KD_FACES_GLSL
 #define KD_FACES_GLSL
 
 #define KD_FACE_EDGE 1.5
-#define KD_FACE_FINE 192   /* cells along a side, edges included; all stars are sorted into these, */
-#define KD_FACE_COARSE 32  /* and once more into these, for where one looks far and for bright ones alone */
-#define KD_FACE_FAR 0.06   /* that is so far on a face */
+#define KD_FACE_FINE 192  /* cells along a side, edges included; all stars are sorted into these, */
+#define KD_FACE_COARSE 32 /* and once more into these, for where one looks far and for bright ones alone */
+#define KD_FACE_FAR 0.06  /* that is so far on a face */
 #define KD_FACES 6
 #define KD_FACE_TABLE(side) (KD_FACES * (side) * (side) + 2) /* numbers: where each cell begins, and the end, twice */
 
 #ifdef VULKAN
-struct kd_face { uint number; float p, q; };
+struct kd_face {
+    uint number;
+    float p, q;
+};
 
 kd_face kd_face_of(vec3 n)
 {
     vec3 a = abs(n);
     bool x = a.x >= a.y && a.x >= a.z, y = !x && a.y >= a.z;
     float along = x ? n.x : y ? n.y : n.z, unit = 1.0 / abs(along);
-    return kd_face((x ? 0u : y ? 2u : 4u) + (along < 0.0 ? 1u : 0u), (x ? n.y : y ? n.z : n.x) * unit, (x ? n.z : y ? n.x : n.y) * unit);
+    return kd_face((x   ? 0u
+                    : y ? 2u
+                        : 4u) +
+                       (along < 0.0 ? 1u : 0u),
+                   (x   ? n.y
+                    : y ? n.z
+                        : n.x) *
+                       unit,
+                   (x   ? n.z
+                    : y ? n.x
+                        : n.y) *
+                       unit);
 }
 
 /* The place of a direction on a face that it is before. */

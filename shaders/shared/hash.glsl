@@ -1,4 +1,5 @@
-/* This is a hash of 32 bits (Chris Wellons, "Prospecting for hash functions", 2018: lowbias32). Counters become random numbers. */
+/* This is a hash of 32 bits (Chris Wellons, "Prospecting for hash functions", 2018: lowbias32). Counters become
+ * random numbers. */
 #ifndef KD_HASH_GLSL
 #define KD_HASH_GLSL
 

@@ -1,8 +1,11 @@
-/* A frame has these layers besides "rgb": maps of numbers, one a pixel. A line each; the number is the place of its name among the words of
- * image.layers (src/scene/fields.h), where "rgb" is 0. What it is called, its unit and its colours: src/render/plan/layer_kinds.c, by the name.
+/* A frame has these layers besides "rgb": maps of numbers, one a pixel. A line each; the number is the place of its
+ * name among the words of image.layers (src/scene/fields.h), where "rgb" is 0. What it is called, its unit and its
+ * colours: src/render/plan/layer_kinds.c, by the name.
  *
- *   LIGHT(number, name, needs, value)      of the light of all rays of a pixel, their mean (light/layers.comp): GLSL of its Stokes I, Q, U and V, the vec4 `light`
- *   CROSSING(number, name, needs, value, met)  of one place on the pixel's middle ray, where that crosses the disk: GLSL of the sample s and
+ *   LIGHT(number, name, needs, value)      of the light of all rays of a pixel, their mean (light/layers.comp):
+ *                                          GLSL of its Stokes I, Q, U and V, the vec4 `light`
+ *   CROSSING(number, name, needs, value, met)  of one place on the pixel's middle ray, where that crosses the disk:
+ *                                              GLSL of the sample s and
  *                                          its delay; or, of kd_met met, where it meets a body before that
  *   RAY(number, name, needs, value)        of the end of that ray: GLSL of its fate and of kd_end end
  *
@@ -10,27 +13,31 @@
 #ifndef KD_LAYERS_H
 #define KD_LAYERS_H
 
-#define KD_LAYERS(LIGHT, CROSSING, RAY)                                                                        \
-    LIGHT(1, intensity, 0u, light.x)                                                                           \
-    CROSSING(2, g, 0, kd_layer_g(s), kd_layer_met_g(met))                                                                           \
-    CROSSING(3, temperature, 0, kd_layer_temperature(s), kd_layer_met_temperature(met))                                                       \
-    CROSSING(4, r, 0, 1.0 / s.w, 1.0 / met.w)                                                                               \
-    CROSSING(5, phi, KD_LENS_PHI, kd_layer_turned(s.phi + emission.frame.azimuth), kd_layer_turned(met.phi + emission.frame.azimuth))                           \
-    CROSSING(6, delay, KD_LENS_DELAY, delay, KD_NOTHING)                                                                   \
-    CROSSING(7, emission_angle, 0, kd_layer_angle(kd_layer_g(s) * sqrt(max(s.q, 0.0)) * s.w), kd_layer_angle(met.cosine))                  \
-    CROSSING(8, order, 0, float(s.order), float(met.crossed))                                                                      \
-    RAY(9, sky_theta, KD_LENS_SKY, fate == KD_FATE_ESCAPED ? kd_layer_angle(end.u) : KD_NOTHING)               \
-    RAY(10, sky_phi, KD_LENS_SKY, fate == KD_FATE_ESCAPED ? kd_layer_turned(end.phi + emission.frame.azimuth) : KD_NOTHING) \
-    RAY(11, fate, KD_LENS_SKY, fate)                                                                           \
-    CROSSING(12, footprint, KD_LENS_PHI | KD_LENS_FOOTPRINT, kd_layer_size(s.footprint), KD_NOTHING)                       \
-    RAY(13, sky_footprint, KD_LENS_SKY | KD_LENS_SKY_FOOTPRINT, fate == KD_FATE_ESCAPED ? kd_layer_size(end.footprint) : KD_NOTHING) \
-    CROSSING(14, optical_depth, 0, kd_layer_depth(s), uintBitsToFloat(KD_INFINITE_BITS))                                            \
-    LIGHT(15, stokes_q, KD_LENS_SLOPE, light.y)                                                                                     \
-    LIGHT(16, stokes_u, KD_LENS_SLOPE, light.z)                                                                                     \
-    LIGHT(17, evpa, KD_LENS_SLOPE, kd_layer_evpa(light))                                                                            \
-    LIGHT(18, polarization_fraction, KD_LENS_SLOPE, kd_layer_polarized(light))                                                   \
-    LIGHT(19, brightness_temperature, 0u, light.x * emission.plasma.kelvin)                                                         \
-    LIGHT(20, specific_intensity, 0u, light.x * emission.plasma.jansky)                                        \
+#define KD_LAYERS(LIGHT, CROSSING, RAY) \
+    LIGHT(1, intensity, 0u, light.x) \
+    CROSSING(2, g, 0, kd_layer_g(s), kd_layer_met_g(met)) \
+    CROSSING(3, temperature, 0, kd_layer_temperature(s), kd_layer_met_temperature(met)) \
+    CROSSING(4, r, 0, 1.0 / s.w, 1.0 / met.w) \
+    CROSSING(5, phi, KD_LENS_PHI, kd_layer_turned(s.phi + emission.frame.azimuth), \
+             kd_layer_turned(met.phi + emission.frame.azimuth)) \
+    CROSSING(6, delay, KD_LENS_DELAY, delay, KD_NOTHING) \
+    CROSSING(7, emission_angle, 0, kd_layer_angle(kd_layer_g(s) * sqrt(max(s.q, 0.0)) * s.w), \
+             kd_layer_angle(met.cosine)) \
+    CROSSING(8, order, 0, float(s.order), float(met.crossed)) \
+    RAY(9, sky_theta, KD_LENS_SKY, fate == KD_FATE_ESCAPED ? kd_layer_angle(end.u) : KD_NOTHING) \
+    RAY(10, sky_phi, KD_LENS_SKY, \
+        fate == KD_FATE_ESCAPED ? kd_layer_turned(end.phi + emission.frame.azimuth) : KD_NOTHING) \
+    RAY(11, fate, KD_LENS_SKY, fate) \
+    CROSSING(12, footprint, KD_LENS_PHI | KD_LENS_FOOTPRINT, kd_layer_size(s.footprint), KD_NOTHING) \
+    RAY(13, sky_footprint, KD_LENS_SKY | KD_LENS_SKY_FOOTPRINT, \
+        fate == KD_FATE_ESCAPED ? kd_layer_size(end.footprint) : KD_NOTHING) \
+    CROSSING(14, optical_depth, 0, kd_layer_depth(s), uintBitsToFloat(KD_INFINITE_BITS)) \
+    LIGHT(15, stokes_q, KD_LENS_SLOPE, light.y) \
+    LIGHT(16, stokes_u, KD_LENS_SLOPE, light.z) \
+    LIGHT(17, evpa, KD_LENS_SLOPE, kd_layer_evpa(light)) \
+    LIGHT(18, polarization_fraction, KD_LENS_SLOPE, kd_layer_polarized(light)) \
+    LIGHT(19, brightness_temperature, 0u, light.x *emission.plasma.kelvin) \
+    LIGHT(20, specific_intensity, 0u, light.x *emission.plasma.jansky) \
     LIGHT(21, stokes_v, KD_LENS_SLOPE, light.w)
 
 #endif

@@ -1,5 +1,5 @@
-/* These elementary functions have known errors in both precisions: Vulkan allows its atan 4096 ulp and its sine 2^-11, and has none of them in
- * double. KD_DOUBLE: to 1e-16 instead of 1e-7. */
+/* These elementary functions have known errors in both precisions: Vulkan allows its atan 4096 ulp and its sine
+ * 2^-11, and has none of them in double. KD_DOUBLE: to 1e-16 instead of 1e-7. */
 #ifndef KD_MATH_GLSL
 #define KD_MATH_GLSL
 
@@ -21,10 +21,14 @@ float kd_atan_small(float x)
 {
     float z = x * x;
 #ifdef KD_DOUBLE
-    float p = -6.485021904942025371773e1 + z * (-1.228866684490136173410e2 + z * (-7.500855792314704667340e1 +
-        z * (-1.615753718733365076637e1 + z * -8.750608600031904122785e-1)));
-    float q = 1.945506571482613964425e2 + z * (4.853903996359136964868e2 + z * (4.328810604912902668951e2 +
-        z * (1.650270098316988542046e2 + z * (2.485846490142306297962e1 + z))));
+    float p =
+        -6.485021904942025371773e1 +
+        z * (-1.228866684490136173410e2 +
+             z * (-7.500855792314704667340e1 + z * (-1.615753718733365076637e1 + z * -8.750608600031904122785e-1)));
+    float q =
+        1.945506571482613964425e2 +
+        z * (4.853903996359136964868e2 +
+             z * (4.328810604912902668951e2 + z * (1.650270098316988542046e2 + z * (2.485846490142306297962e1 + z))));
     return x + x * z * p / q;
 #else
     return x + x * z * (-0.333329491539 + z * (0.199777106478 + z * (-0.138776856032 + z * 0.0805374449538)));
@@ -44,7 +48,8 @@ float kd_angle_upper(float x, float y)
 
 float kd_atan2(float y, float x) { return y < 0.0 ? -kd_angle_upper(x, -y) : kd_angle_upper(x, y); }
 
-/* The power of ten that brings a number > 0 to where squares of it are numbers of 32 bits: those of less than 1e-19 and of more than 1e19 are none. */
+/* The power of ten that brings a number > 0 to where squares of it are numbers of 32 bits: those of less than 1e-19
+ * and of more than 1e19 are none. */
 float kd_squarable(float x) { return x < 1e-10 ? 1e25 : x > 1e10 ? 1e-20 : 1.0; }
 
 /* The length of v in parts of a number > 0, however small or large both are. */

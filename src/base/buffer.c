@@ -54,5 +54,5 @@ enum kd_status kd_buffer_printf(struct kd_buffer *buffer, const char *format, ..
 void kd_buffer_finish(struct kd_buffer *buffer)
 {
     free(buffer->data);
-    *buffer = (struct kd_buffer){ 0 };
+    *buffer = (struct kd_buffer) { 0 };
 }

@@ -12,14 +12,10 @@
 #define K_MAX 324
 #define WORDS 38 /* of 32 bits: 10^324 has 1077, and 2^1152/10^292 still has 183 */
 
-struct g {
-    uint64_t high, low;
-};
+struct g { uint64_t high, low; };
 static struct g powers[K_MAX - K_MIN + 1];
 
-struct big {
-    uint32_t word[WORDS]; /* least significant first */
-};
+struct big { uint32_t word[WORDS]; /* least significant first */ };
 
 static void multiply_by_ten(struct big *n)
 {
@@ -41,10 +37,7 @@ static void divide_by_ten(struct big *n)
     }
 }
 
-static uint32_t bit(const struct big *n, int at)
-{
-    return at < 0 ? 0 : n->word[at / 32] >> (at % 32) & 1;
-}
+static uint32_t bit(const struct big *n, int at) { return at < 0 ? 0 : n->word[at / 32] >> (at % 32) & 1; }
 
 static struct g leading_bits(const struct big *n, int exact)
 {
@@ -202,7 +195,8 @@ size_t kd_decimal_print(char out[KD_DECIMAL_SIZE], double value)
 
 double kd_decimal_round(double value, int digits)
 {
-    /* Powers of ten up to 10^22 and whole numbers up to 10^15 are exact as doubles, so that one division or product rounds once. */
+    /* Powers of ten up to 10^22 and whole numbers up to 10^15 are exact as doubles, so that one division or product
+     * rounds once. */
     static const double exact[] = { 1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
                                     1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22 };
     const int most = sizeof exact / sizeof *exact - 1;

@@ -14,8 +14,7 @@ static void mend_pointer(char *pointer)
         pointer[length - 1] = '\0';
 }
 
-static void fill(struct kd_error *error, enum kd_status status, const char *pointer,
-                 const char *format, va_list args)
+static void fill(struct kd_error *error, enum kd_status status, const char *pointer, const char *format, va_list args)
 {
     if (!error)
         return;

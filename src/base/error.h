@@ -36,12 +36,14 @@ enum kd_status kd_error_set(struct kd_error *error, enum kd_status status, const
 enum kd_status kd_error_field(struct kd_error *error, const char *pointer, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* The field of *error (which may be NULL) lies within parent, a JSON pointer that comes before its own. What does not fit is cut off, by whole characters and escapes. */
+/* The field of *error (which may be NULL) lies within parent, a JSON pointer that comes before its own. What does
+ * not fit is cut off, by whole characters and escapes. */
 void kd_error_inside(struct kd_error *error, const char *parent);
 
-/* One step of a function that can fail: KD_TRY(f(...)) keeps what f returned in the function's own `enum kd_status status`, and unless that
- * is KD_OK goes to the function's label `done`, where the good way ends too: there it lets go of what it holds, and returns status. What is
- * read after `done` must be set before the first step; a loop needs no condition of its own, a step inside it leaves the function. */
+/* One step of a function that can fail: KD_TRY(f(...)) keeps what f returned in the function's own `enum kd_status
+ * status`, and unless that is KD_OK goes to the function's label `done`, where the good way ends too: there it lets
+ * go of what it holds, and returns status. What is read after `done` must be set before the first step; a loop needs
+ * no condition of its own, a step inside it leaves the function. */
 #define KD_TRY(step) \
     do { \
         if ((status = (step))) \

@@ -1,4 +1,5 @@
-/* This tells bytes apart: FNV-1a of 64 bits (Fowler, Noll & Vo 1991), against damage and between versions, not against malice. Pure. */
+/* This tells bytes apart: FNV-1a of 64 bits (Fowler, Noll & Vo 1991), against damage and between versions, not
+ * against malice. Pure. */
 #ifndef KD_BASE_HASH_H
 #define KD_BASE_HASH_H
 

@@ -5,10 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-struct kd_json kd_json_begin(struct kd_buffer *out)
-{
-    return (struct kd_json) { .out = out, .begun = out->size };
-}
+struct kd_json kd_json_begin(struct kd_buffer *out) { return (struct kd_json) { .out = out, .begun = out->size }; }
 
 struct kd_json kd_json_begin_lines(struct kd_buffer *out)
 {

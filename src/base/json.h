@@ -9,8 +9,9 @@
  *     kd_json_end(&json);
  *     return kd_json_finish(&json);
  *
- * After a first failure nothing more is written. kd_json_finish says so and takes back all that the document has appended:
- * a document is whole or not there. `name` is the member's in an object, NULL in an array and of the outermost value. */
+ * After a first failure nothing more is written. kd_json_finish says so and takes back all that the document has
+ * appended: a document is whole or not there. `name` is the member's in an object, NULL in an array and of the
+ * outermost value. */
 #ifndef KD_BASE_JSON_H
 #define KD_BASE_JSON_H
 
@@ -22,13 +23,12 @@ enum { KD_JSON_DEPTH = 32 };
 
 struct kd_json {
     struct kd_buffer *out;
-    enum kd_status status; /* KD_ENOMEM: no memory; KD_EINVAL: objects and arrays do not fit together, the caller's mistake */
-    size_t begun;          /* out->size before the document */
+    enum kd_status
+        status;   /* KD_ENOMEM: no memory; KD_EINVAL: objects and arrays do not fit together, the caller's mistake */
+    size_t begun; /* out->size before the document */
     unsigned depth;
     bool lines; /* a member a line, for readers */
-    struct {
-        bool array, filled;
-    } open[KD_JSON_DEPTH];
+    struct { bool array, filled; } open[KD_JSON_DEPTH];
 };
 
 /* Appends to out, whose earlier bytes stay. */

@@ -49,7 +49,9 @@ static void write_json(enum kd_log_level level, const char *event, const struct 
     }
     kd_json_end(&json);
     if (kd_json_finish_line(&json))
-        fprintf(stderr, "{\"level\":\"error\",\"event\":\"message\",\"message\":\"there was no memory for a line of the log\"}\n");
+        fprintf(
+            stderr,
+            "{\"level\":\"error\",\"event\":\"message\",\"message\":\"there was no memory for a line of the log\"}\n");
     else
         fwrite(line.data, 1, line.size, stderr); /* one call: lines do not interleave */
     kd_buffer_finish(&line);
@@ -75,7 +77,8 @@ void kd_log(enum kd_log_level level, const char *format, ...)
     kd_log_event(level, "message", &(struct kd_log_member) { "message", message, 0 }, 1, message);
 }
 
-void kd_log_event(enum kd_log_level level, const char *event, const struct kd_log_member *members, size_t n, const char *message)
+void kd_log_event(enum kd_log_level level, const char *event, const struct kd_log_member *members, size_t n,
+                  const char *message)
 {
     if (!kd_log_tells(level))
         return;

@@ -1,8 +1,8 @@
 /* An event is one line on stderr. Any thread. Level and format are set once, at start.
  *
- * A line of text is "kerrd: LEVEL: MESSAGE". A line of JSON is an object with time (RFC 3339, UTC, milliseconds), level, event, and what the event has;
- * that of kd_log is "message" and has the member message. Whatever a message holds, it stays one line: control characters, and bytes that are not of
- * UTF-8, become \xNN. */
+ * A line of text is "kerrd: LEVEL: MESSAGE". A line of JSON is an object with time (RFC 3339, UTC, milliseconds),
+ * level, event, and what the event has; that of kd_log is "message" and has the member message. Whatever a message
+ * holds, it stays one line: control characters, and bytes that are not of UTF-8, become \xNN. */
 #ifndef KD_BASE_LOG_H
 #define KD_BASE_LOG_H
 
@@ -12,7 +12,7 @@
 enum kd_log_level { KD_LOG_ERROR, KD_LOG_WARN, KD_LOG_INFO, KD_LOG_DEBUG };
 enum kd_log_format { KD_LOG_TEXT, KD_LOG_JSON };
 
-void kd_log_set_level(enum kd_log_level level); /* default KD_LOG_WARN */
+void kd_log_set_level(enum kd_log_level level);    /* default KD_LOG_WARN */
 void kd_log_set_format(enum kd_log_format format); /* default KD_LOG_TEXT */
 enum kd_log_format kd_log_get_format(void);
 bool kd_log_tells(enum kd_log_level level); /* whether an event of this level is told */
@@ -25,6 +25,7 @@ struct kd_log_member {
     double number;
 };
 /* An event of its own kind. Lines of JSON have its members, lines of text have its message. */
-void kd_log_event(enum kd_log_level level, const char *event, const struct kd_log_member *members, size_t n, const char *message);
+void kd_log_event(enum kd_log_level level, const char *event, const struct kd_log_member *members, size_t n,
+                  const char *message);
 
 #endif

@@ -55,7 +55,8 @@ static bool read_mount(char *line, const struct version *version, char *group, c
 {
     char filesystem[32], options[256];
     char *tail = strstr(line, " - ");
-    return tail && sscanf(tail, " - %31s %*s %255s", filesystem, options) == 2 && !strcmp(filesystem, version->filesystem) &&
+    return tail && sscanf(tail, " - %31s %*s %255s", filesystem, options) == 2 &&
+           !strcmp(filesystem, version->filesystem) &&
            (!version->controller || list_holds(options, version->controller)) &&
            sscanf(line, "%*s %*s %*s %1023s %1023s", group, mount) == 2;
 }
@@ -80,8 +81,9 @@ static FILE *open_list(const char *root, const char *path)
     return snprintf(name, sizeof name, "%s%s", root, path) < (int)sizeof name ? fopen(name, "re") : NULL;
 }
 
-/* Finds the folder of the process's group, and how many of its characters are the mount's. In a container the mount may show
- * only a part of the tree; the path in /proc/self/cgroup then names the whole way, or something that is not seen here. */
+/* Finds the folder of the process's group, and how many of its characters are the mount's. In a container the mount
+ * may show only a part of the tree; the path in /proc/self/cgroup then names the whole way, or something that is not
+ * seen here. */
 static bool find_group(const char *root, const struct version *version, char *folder, size_t size, size_t *mount_length)
 {
     char line[4096], mounted[1024], mount[1024], group[1024];
@@ -100,8 +102,9 @@ static bool find_group(const char *root, const struct version *version, char *fo
     if (!found)
         return false;
     size_t above = strcmp(mounted, "/") ? strlen(mounted) : 0;
-    const char *below = strncmp(group, mounted, above) || (group[above] && group[above] != '/') || strstr(group, "/..") ? ""
-                                                                                                            : group + above;
+    const char *below = strncmp(group, mounted, above) || (group[above] && group[above] != '/') || strstr(group, "/..")
+                            ? ""
+                            : group + above;
     *mount_length = strlen(mount);
     return snprintf(folder, size, "%s%s", mount, strcmp(below, "/") ? below : "") < (int)size;
 }

@@ -1,9 +1,9 @@
 /* This finds how much memory this process may take without being killed for it. Linux. Any thread.
  *
- * The least of what the machine says is available (MemAvailable in proc_meminfo(5)) and what each control group above the process
- * has left of its memory.max, or memory.limit_in_bytes in version 1 of control groups (Documentation/admin-guide/cgroup-v2.rst and
- * cgroup-v1/memory.rst of Linux). Of what a group uses, file pages that nobody has touched of late do not count: the kernel drops
- * them first. */
+ * The least of what the machine says is available (MemAvailable in proc_meminfo(5)) and what each control group
+ * above the process has left of its memory.max, or memory.limit_in_bytes in version 1 of control groups
+ * (Documentation/admin-guide/cgroup-v2.rst and cgroup-v1/memory.rst of Linux). Of what a group uses, file pages that
+ * nobody has touched of late do not count: the kernel drops them first. */
 #ifndef KD_BASE_MEMORY_LIMIT_H
 #define KD_BASE_MEMORY_LIMIT_H
 
@@ -11,12 +11,14 @@
 #include <stdint.h>
 
 struct kd_memory_limit {
-    uint64_t left;  /* bytes that it may take beside those it holds */
-    uint64_t own;   /* bytes that it holds: its resident memory but for files; 0 where that cannot be read */
-    const char *by; /* what sets it, for a sentence: "the memory that is available", "the memory.max of a control group" */
+    uint64_t left; /* bytes that it may take beside those it holds */
+    uint64_t own;  /* bytes that it holds: its resident memory but for files; 0 where that cannot be read */
+    const char
+        *by; /* what sets it, for a sentence: "the memory that is available", "the memory.max of a control group" */
 };
 
-/* False if not even MemAvailable can be read: out of descriptors, no /proc. root comes before each path: "" but in tests. */
+/* False if not even MemAvailable can be read: out of descriptors, no /proc. root comes before each path: "" but in
+ * tests. */
 bool kd_memory_limit_read(const char *root, struct kd_memory_limit *out);
 
 #endif

@@ -53,9 +53,12 @@ static int spawn(const char *const argv[], int in, int told, int out, pid_t *pid
     sigaddset(&usual, SIGPIPE);
     posix_spawnattr_setsigmask(&how, &none);
     posix_spawnattr_setsigdefault(&how, &usual);
-    posix_spawnattr_setflags(&how, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP); /* Ctrl-C is for us, who then end it */
-    if (!(code = posix_spawn_file_actions_adddup2(&files, in, 0)) && !(code = posix_spawn_file_actions_adddup2(&files, told, 2)) &&
-        !(code = posix_spawn_file_actions_adddup2(&files, out, 3)) && !(code = posix_spawn_file_actions_addopen(&files, 1, "/dev/null", O_WRONLY, 0)) &&
+    posix_spawnattr_setflags(&how, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF |
+                                       POSIX_SPAWN_SETPGROUP); /* Ctrl-C is for us, who then end it */
+    if (!(code = posix_spawn_file_actions_adddup2(&files, in, 0)) &&
+        !(code = posix_spawn_file_actions_adddup2(&files, told, 2)) &&
+        !(code = posix_spawn_file_actions_adddup2(&files, out, 3)) &&
+        !(code = posix_spawn_file_actions_addopen(&files, 1, "/dev/null", O_WRONLY, 0)) &&
         !(code = posix_spawn_file_actions_addclosefrom_np(&files, 4)))
         code = posix_spawnp(pid, argv[0], &files, &how, (char *const *)argv, environ);
     posix_spawnattr_destroy(&how);
@@ -88,11 +91,15 @@ bool kd_program_known(const char *name)
     return false;
 }
 
-enum kd_status kd_program_start(const char *const argv[], int out, uint64_t most, struct kd_program *program, struct kd_error *error)
+enum kd_status kd_program_start(const char *const argv[], int out, uint64_t most, struct kd_program *program,
+                                struct kd_error *error)
 {
     int in = -1, told = -1, to = fcntl(out, F_DUPFD_CLOEXEC, 4);
     *program = (struct kd_program)KD_PROGRAM_NONE;
-    int code = to >= 0 && make_pipe(&program->in, &in, true) && make_pipe(&program->told, &told, false) && lift(&in) && lift(&told) ? 0 : errno;
+    int code = to >= 0 && make_pipe(&program->in, &in, true) && make_pipe(&program->told, &told, false) && lift(&in) &&
+                       lift(&told)
+                   ? 0
+                   : errno;
     if (!code) {
         (void)fcntl(program->in, F_SETPIPE_SZ, PIPE_BYTES); /* refused, it is 64 KiB */
         code = spawn(argv, in, told, to, &program->pid);
@@ -121,13 +128,15 @@ size_t kd_program_write(struct kd_program *program, const void *data, size_t siz
 
 void kd_program_hang_up(struct kd_program *program) { shut(&program->in); }
 
-/* The end of what it says is kept: there is the reason. True: it has closed its standard error, as it does when it ends. */
+/* The end of what it says is kept: there is the reason. True: it has closed its standard error, as it does when it
+ * ends. */
 static bool listen_to(struct kd_program *p)
 {
     char part[256];
     ssize_t n;
     while ((n = read(p->told, part, sizeof part)) > 0) {
-        size_t room = sizeof p->said - 1, keep = (size_t)n < room ? (size_t)n : room, old = p->n_said < room - keep ? p->n_said : room - keep;
+        size_t room = sizeof p->said - 1, keep = (size_t)n < room ? (size_t)n : room,
+               old = p->n_said < room - keep ? p->n_said : room - keep;
         memmove(p->said, p->said + p->n_said - old, old);
         memcpy(p->said + old, part + (size_t)n - keep, keep);
         p->n_said = old + keep;

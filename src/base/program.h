@@ -28,7 +28,8 @@ bool kd_program_known(const char *name);
 /* argv[0] is looked for on the PATH. out: becomes descriptor 3; it stays ours; a file of
  * more than `most` bytes ends the program. The program is nice to others, has none of our other descriptors, and
  * what it prints goes nowhere. KD_EABSENT: there is no such program here. KD_EIO. */
-enum kd_status kd_program_start(const char *const argv[], int out, uint64_t most, struct kd_program *program, struct kd_error *error);
+enum kd_status kd_program_start(const char *const argv[], int out, uint64_t most, struct kd_program *program,
+                                struct kd_error *error);
 /* How many of these bytes it has taken; 0: none now, or none any more, as kd_program_over will say. */
 size_t kd_program_write(struct kd_program *program, const void *data, size_t size);
 void kd_program_hang_up(struct kd_program *program);

@@ -86,16 +86,16 @@ bool kd_replace_file_at(int folder, const char *name, const void *data, size_t s
     int cause = errno;
     if (!good)
         unlinkat(folder, temporary, 0);
-    /* The new name is as good as the old one without this, but a power cut may bring the old one back. Some file systems have no such call
-     * for folders. */
+    /* The new name is as good as the old one without this, but a power cut may bring the old one back. Some file
+     * systems have no such call for folders. */
     if (good && fsync(folder) && errno != EINVAL && errno != EROFS)
         cause = errno, good = false;
     errno = cause;
     return good;
 }
 
-/* Removes what killed processes have left half written. A file that was touched a moment ago is still being written, and
- * stays. */
+/* Removes what killed processes have left half written. A file that was touched a moment ago is still being written,
+ * and stays. */
 static void remove_stale(int folder, const char *name)
 {
     int fd = openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -104,8 +104,9 @@ static void remove_stale(int folder, const char *name)
     if (fd >= 0 && !d)
         close(fd);
     for (struct dirent *entry; d && (entry = readdir(d));)
-        if (kd_replace_is_temporary(entry->d_name, name) && !fstatat(folder, entry->d_name, &about, AT_SYMLINK_NOFOLLOW) &&
-            S_ISREG(about.st_mode) && about.st_mtime < time(NULL) - STALE_S)
+        if (kd_replace_is_temporary(entry->d_name, name) &&
+            !fstatat(folder, entry->d_name, &about, AT_SYMLINK_NOFOLLOW) && S_ISREG(about.st_mode) &&
+            about.st_mtime < time(NULL) - STALE_S)
             unlinkat(folder, entry->d_name, 0);
     if (d)
         closedir(d);

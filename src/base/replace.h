@@ -7,11 +7,11 @@
 
 enum { KD_TEMPORARY_TAIL = 7 }; /* characters at the end of the temporary name: a dot and six letters or digits */
 
-/* Writes beside the name and renames: readers see the old file or the new one, even after a power cut. folder: a descriptor of the
- * folder. False, with errno, if it cannot be; the old file then stays. */
+/* Writes beside the name and renames: readers see the old file or the new one, even after a power cut. folder: a
+ * descriptor of the folder. False, with errno, if it cannot be; the old file then stays. */
 bool kd_replace_file_at(int folder, const char *name, const void *data, size_t size);
-/* The same by a path. Makes the directories on the way (private ones), and removes what killed processes have left of earlier
- * attempts. */
+/* The same by a path. Makes the directories on the way (private ones), and removes what killed processes have left
+ * of earlier attempts. */
 bool kd_replace_file(const char *path, const void *data, size_t size);
 /* Whether `other` is what kd_replace_file_at calls the file while it writes it. */
 bool kd_replace_is_temporary(const char *other, const char *name);

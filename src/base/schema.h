@@ -1,5 +1,5 @@
-/* These write JSON Schemas of answers: objects that have these members and no others, so that a test which holds real answers against them sees what is new and
- * what is gone. One thread a document. */
+/* These write JSON Schemas of answers: objects that have these members and no others, so that a test which holds
+ * real answers against them sees what is new and what is gone. One thread a document. */
 #ifndef KD_BASE_SCHEMA_H
 #define KD_BASE_SCHEMA_H
 
@@ -27,7 +27,10 @@ struct kd_schema_member {
     kd_schema_words *words;
 };
 
-static inline void kd_schema_text(struct kd_json *json, const char *name, const char *schema) { kd_json_raw(json, name, schema, strlen(schema)); }
+static inline void kd_schema_text(struct kd_json *json, const char *name, const char *schema)
+{
+    kd_json_raw(json, name, schema, strlen(schema));
+}
 
 /* Writes the member "enum" of a schema. */
 static inline void kd_schema_words_of(struct kd_json *json, kd_schema_words *words)
@@ -46,7 +49,8 @@ static inline void kd_schema_enum(struct kd_json *json, const char *name, kd_sch
     kd_json_end(json);
 }
 
-/* Writes the schema of one word. It is an enumeration of one and no const: generated clients take the const of a union for all that there is. */
+/* Writes the schema of one word. It is an enumeration of one and no const: generated clients take the const of a
+ * union for all that there is. */
 static inline void kd_schema_word(struct kd_json *json, const char *name, const char *word)
 {
     kd_json_object(json, name);
@@ -57,7 +61,8 @@ static inline void kd_schema_word(struct kd_json *json, const char *name, const 
     kd_json_end(json);
 }
 
-/* Begin and end the schema of an object `name` with these members and no others, whose schemas are written in between. */
+/* Begin and end the schema of an object `name` with these members and no others, whose schemas are written in
+ * between. */
 static inline void kd_schema_begin_strict(struct kd_json *json, const char *name)
 {
     kd_json_object(json, name);
@@ -77,7 +82,8 @@ static inline void kd_schema_end_strict(struct kd_json *json, const char *const 
 }
 
 /* Writes the object `name`; about: a sentence on its members, as what their units are, or NULL. */
-static inline void kd_schema_told(struct kd_json *json, const char *name, const char *about, const struct kd_schema_member *members, size_t n)
+static inline void kd_schema_told(struct kd_json *json, const char *name, const char *about,
+                                  const struct kd_schema_member *members, size_t n)
 {
     kd_schema_begin_strict(json, name);
     for (size_t i = 0; i < n; i++)
@@ -95,13 +101,18 @@ static inline void kd_schema_told(struct kd_json *json, const char *name, const 
         kd_json_string(json, "description", about);
     kd_json_end(json);
 }
-static inline void kd_schema_strict(struct kd_json *json, const char *name, const struct kd_schema_member *members, size_t n) { kd_schema_told(json, name, NULL, members, n); }
+static inline void kd_schema_strict(struct kd_json *json, const char *name, const struct kd_schema_member *members,
+                                    size_t n)
+{
+    kd_schema_told(json, name, NULL, members, n);
+}
 
 /* The same of a table whose length the compiler knows. */
 #define KD_SCHEMA_STRICT(json, name, table) kd_schema_strict(json, name, table, sizeof(table) / sizeof *(table))
 /* A constant in a schema, by the digits that it is written with in the source. */
 #define KD_SCHEMA_DIGITS_OF(x) #x
 #define KD_SCHEMA_DIGITS(x) KD_SCHEMA_DIGITS_OF(x)
-#define KD_SCHEMA_TOLD(json, name, about, table) kd_schema_told(json, name, about, table, sizeof(table) / sizeof *(table))
+#define KD_SCHEMA_TOLD(json, name, about, table) \
+    kd_schema_told(json, name, about, table, sizeof(table) / sizeof *(table))
 
 #endif

@@ -1,5 +1,5 @@
-/* This looks at text from outside: whether it is UTF-8 (RFC 3629: shortest form, no surrogates, nothing past U+10FFFF), and makes it fit to be shown; and what PNG chunks need of
- * Latin-1. Any thread. */
+/* This looks at text from outside: whether it is UTF-8 (RFC 3629: shortest form, no surrogates, nothing past
+ * U+10FFFF), and makes it fit to be shown; and what PNG chunks need of Latin-1. Any thread. */
 #ifndef KD_BASE_UTF8_H
 #define KD_BASE_UTF8_H
 
@@ -19,8 +19,9 @@ void kd_utf8_mend(char *text);
 /* The same, and of control characters; a blank in that of each line feed, tab and carriage return. */
 void kd_utf8_show(char *text);
 
-/* Writes the text, cut to what fits, with nothing in it that is no printing character: a control character and a byte that is not of
- * UTF-8 become \xNN, so that a line stays one line and a terminal takes no order from it. size: at least 1; four bytes for each of the text are enough. */
+/* Writes the text, cut to what fits, with nothing in it that is no printing character: a control character and a
+ * byte that is not of UTF-8 become \xNN, so that a line stays one line and a terminal takes no order from it. size:
+ * at least 1; four bytes for each of the text are enough. */
 void kd_utf8_print(char *to, size_t size, const char *text);
 
 /* Latin-1 to UTF-8: bytes needed with the NUL; copy, returning the byte after the NUL. */

@@ -1,5 +1,6 @@
-/* How long this process's threads had to wait for a core: load by others makes work on the host's cores slower, and this tells by
- * how much. Linux's /proc/self/task/N/schedstat has it (its Documentation/scheduler/sched-stats.rst). Any thread. */
+/* How long this process's threads had to wait for a core: load by others makes work on the host's cores slower, and
+ * this tells by how much. Linux's /proc/self/task/N/schedstat has it (its Documentation/scheduler/sched-stats.rst).
+ * Any thread. */
 #ifndef KD_BASE_WAITING_H
 #define KD_BASE_WAITING_H
 
@@ -9,7 +10,8 @@ struct kd_waiting {
 
 struct kd_waiting kd_waiting_now(void);
 
-/* The share of the time since in which threads that could run did run: 1 when nobody else wants the cores, or nothing is known. */
+/* The share of the time since in which threads that could run did run: 1 when nobody else wants the cores, or
+ * nothing is known. */
 double kd_waiting_share(const struct kd_waiting *since);
 
 #endif

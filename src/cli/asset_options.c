@@ -17,10 +17,14 @@ enum kd_status kd_asset_options_add(struct kd_asset_options *options, const char
 {
     size_t length = strcspn(text, "=");
     struct kd_named_asset asset = { .path = text[length] ? text + length + 1 : "" };
-    snprintf(asset.name, sizeof asset.name, "%.*s", (int)(length < sizeof asset.name ? length : sizeof asset.name - 1), text);
+    snprintf(asset.name, sizeof asset.name, "%.*s", (int)(length < sizeof asset.name ? length : sizeof asset.name - 1),
+             text);
     if (!*asset.path || length >= sizeof asset.name || !kd_asset_is_name(asset.name))
-        return kd_error_set(error, KD_EINVAL, "--asset %.100s: it takes NAME=FILE, as in sky=milky-way.png; a name is a letter and up to 62 letters, "
-                            "digits, dots, dashes and underscores", text);
+        return kd_error_set(
+            error, KD_EINVAL,
+            "--asset %.100s: it takes NAME=FILE, as in sky=milky-way.png; a name is a letter and up to 62 letters, "
+            "digits, dots, dashes and underscores",
+            text);
     for (size_t i = 0; i < options->n; i++)
         if (!strcmp(options->list[i].name, asset.name))
             return kd_error_set(error, KD_EINVAL, "--asset %s: this name is given twice", asset.name);
@@ -104,7 +108,8 @@ struct kd_assets kd_asset_options_assets(struct kd_asset_options *options)
     return (struct kd_assets) { find, take, give_back, "null and names of --asset NAME=FILE", options };
 }
 
-enum kd_status kd_asset_options_resolve(struct kd_asset_options *options, struct kd_scene *scene, struct kd_error *error)
+enum kd_status kd_asset_options_resolve(struct kd_asset_options *options, struct kd_scene *scene,
+                                        struct kd_error *error)
 {
     const struct kd_assets assets = kd_asset_options_assets(options);
     enum kd_status status = KD_OK;

@@ -18,12 +18,14 @@ struct kd_asset_options { /* starts zeroed */
 
 /* "sky=milky-way.png"; KD_EINVAL says what is wrong with it. */
 enum kd_status kd_asset_options_add(struct kd_asset_options *options, const char *text, struct kd_error *error);
-/* Reads and checks the files, and puts their hashes in the place of their names. An asset that no field names is an error, as is a field
- * that names none of these. */
-enum kd_status kd_asset_options_resolve(struct kd_asset_options *options, struct kd_scene *scene, struct kd_error *error);
+/* Reads and checks the files, and puts their hashes in the place of their names. An asset that no field names is an
+ * error, as is a field that names none of these. */
+enum kd_status kd_asset_options_resolve(struct kd_asset_options *options, struct kd_scene *scene,
+                                        struct kd_error *error);
 /* KD_EINVAL: nothing names one of them. */
 enum kd_status kd_asset_options_check(const struct kd_asset_options *options, struct kd_error *error);
-/* The files as a renderer is given them: they are read again when it needs them, and must not have changed. They keep the options' address. */
+/* The files as a renderer is given them: they are read again when it needs them, and must not have changed. They
+ * keep the options' address. */
 struct kd_assets kd_asset_options_assets(struct kd_asset_options *options);
 void kd_asset_options_finish(struct kd_asset_options *options);
 

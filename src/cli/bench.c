@@ -69,8 +69,9 @@ static enum kd_status summarise(const struct kd_accuracy_table *t, struct kd_buf
         const struct kd_accuracy_row *row = &t->rows[i];
         const struct kd_accuracy_entry *e = &row->sets[KD_ACCURACY_BULK];
         bool closed = row->engine == KD_ENGINE_CLOSED;
-        KD_TRY(kd_buffer_printf(out, "%-10s %-9s %5u %12.3g", kd_engine_name(row->engine), kd_precision_name(row->precision),
-                                row->steps, e->rays_per_s * 1e-6 / (closed || !t->cores ? 1 : t->cores)));
+        KD_TRY(kd_buffer_printf(out, "%-10s %-9s %5u %12.3g", kd_engine_name(row->engine),
+                                kd_precision_name(row->precision), row->steps,
+                                e->rays_per_s * 1e-6 / (closed || !t->cores ? 1 : t->cores)));
         for (int q = 0; q < KD_ACCURACY_G; q++)
             KD_TRY(put_error(out, e->of[q].median));
         KD_TRY(closed ? kd_buffer_printf(out, " %7s", "-") : kd_buffer_printf(out, " %7u", e->differ));
@@ -97,15 +98,16 @@ static enum kd_status write_as(const struct kd_accuracy_table *table, const char
 }
 
 /* A quick table does not replace a thorough one of the same version. */
-static enum kd_status keep(const struct kd_renderer *renderer, const struct kd_accuracy_table *table, struct kd_buffer *said,
-                           struct kd_error *error)
+static enum kd_status keep(const struct kd_renderer *renderer, const struct kd_accuracy_table *table,
+                           struct kd_buffer *said, struct kd_error *error)
 {
     struct kd_accuracy_table *old = malloc(sizeof *old);
     char *path = kd_accuracy_path(renderer);
     enum kd_status status = KD_OK, told;
     if (!path)
         told = kd_buffer_printf(said, "\nnot kept: there is no cache directory\n");
-    else if (old && table->quick && !kd_accuracy_load(path, old, NULL) && !old->quick && !strcmp(old->version, table->version))
+    else if (old && table->quick && !kd_accuracy_load(path, old, NULL) && !old->quick &&
+             !strcmp(old->version, table->version))
         told = kd_buffer_printf(said, "\nnot kept: %s is no quick one\n", path);
     else if (!(status = kd_accuracy_save(table, path, error)))
         told = kd_buffer_printf(said, "\nkept in %s\n", path);
@@ -116,7 +118,8 @@ static enum kd_status keep(const struct kd_renderer *renderer, const struct kd_a
     return told && !status ? kd_error_set(error, told, "out of memory") : status;
 }
 
-static enum kd_status measure(struct arguments *a, struct kd_accuracy_table *t, struct kd_buffer *said, struct kd_error *error)
+static enum kd_status measure(struct arguments *a, struct kd_accuracy_table *t, struct kd_buffer *said,
+                              struct kd_error *error)
 {
     struct kd_renderer *renderer = NULL;
     struct kd_progress progress;
@@ -174,8 +177,10 @@ const struct argp *kd_cli_bench_argp(void)
         .options = options,
         .parser = parse,
         .args_doc = "accuracy",
-        .doc = "Measure speed and error of every engine, precision and number of steps on this device, against the closed form.\v"
-               "The table is kept for this device, and GET /v1/accuracy serves it. Errors are those of the crossings of the "
+        .doc = "Measure speed and error of every engine, precision and number of steps on this device, against the "
+               "closed form.\v"
+               "The table is kept for this device, and GET /v1/accuracy serves it. Errors are those of the crossings "
+               "of the "
                "equatorial plane, speeds the device's own time. Without --quick it takes some minutes.",
         .children = kd_cli_device_children,
     };
@@ -193,7 +198,8 @@ int kd_cli_bench(int argc, char **argv)
     arguments.params.command = command;
     enum kd_status status = bench(&arguments, &said, &error);
     free(command);
-    bool loud = (arguments.json && !strcmp(arguments.json, "-")) || (arguments.markdown && !strcmp(arguments.markdown, "-"));
+    bool loud =
+        (arguments.json && !strcmp(arguments.json, "-")) || (arguments.markdown && !strcmp(arguments.markdown, "-"));
     int code = status ? kd_cli_fail(&error) : loud ? KD_EXIT_OK : kd_cli_print(said.data, said.size);
     kd_buffer_finish(&said);
     return code;

@@ -60,7 +60,9 @@ static const struct argp_option device_options[] = {
     { 0 },
 };
 const struct argp kd_cli_device_argp = { .options = device_options, .parser = parse_device };
-const struct argp_child kd_cli_device_children[] = { { &kd_cli_device_argp, 0, NULL, 0 }, { &kd_cli_log_argp, 0, NULL, 0 }, { 0 } };
+const struct argp_child kd_cli_device_children[] = { { &kd_cli_device_argp, 0, NULL, 0 },
+                                                     { &kd_cli_log_argp, 0, NULL, 0 },
+                                                     { 0 } };
 
 int kd_cli_fail(const struct kd_error *error)
 {
@@ -149,7 +151,8 @@ bool kd_cli_read_bytes(const char *text, uint64_t *out)
     unsigned long long value = strtoull(text, &end, 10);
     const char *unit = *end ? strchr(units, *end) : NULL;
     int shift = unit ? 10 * (int)(unit - units + 1) : 0;
-    if (text[0] < '0' || text[0] > '9' || !unit || end[1] || errno || value > UINT64_C(1) << (50 - shift) || value << shift < 64 << 20)
+    if (text[0] < '0' || text[0] > '9' || !unit || end[1] || errno || value > UINT64_C(1) << (50 - shift) ||
+        value << shift < 64 << 20)
         return false;
     *out = (uint64_t)value << shift;
     return true;

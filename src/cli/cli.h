@@ -24,20 +24,22 @@ extern const struct argp_child kd_cli_device_children[]; /* both, the device fir
 /* Sets the level by its word; false: there is no such level. */
 bool kd_cli_set_log_level(const char *word);
 
-/* "kerrd: MESSAGE (at /pointer)" on stderr, or the same as a line of a log of JSON; returns the exit code for the status. */
+/* "kerrd: MESSAGE (at /pointer)" on stderr, or the same as a line of a log of JSON; returns the exit code for the
+ * status. */
 int kd_cli_fail(const struct kd_error *error);
 
 /* Put "name: " before the message, to say which of several inputs is meant. Returns the error's status. */
 enum kd_status kd_cli_prefix(struct kd_error *error, const char *name);
 
-/* A device that hangs cannot be torn down, and one that is lost need not be: report and leave at once, without destructors, with KD_EXIT_DEVICE. */
+/* A device that hangs cannot be torn down, and one that is lost need not be: report and leave at once, without
+ * destructors, with KD_EXIT_DEVICE. */
 _Noreturn void kd_cli_device_lost(const struct kd_error *error);
 
 /* Write to stdout and make sure that it arrived, with what was printed before. */
 int kd_cli_print(const void *data, size_t size);
 
-/* Reports, by its errno, that stdout could not be written. A reader that left, as in `kerrd plan | head`, ends the program by
- * SIGPIPE without a word, as it does other tools; all else is said, once. */
+/* Reports, by its errno, that stdout could not be written. A reader that left, as in `kerrd plan | head`, ends the
+ * program by SIGPIPE without a word, as it does other tools; all else is said, once. */
 void kd_cli_stdout_failed(int number);
 
 /* Called at exit, whatever was printed: help and lists too must have arrived, or the exit code is 1. */
@@ -50,7 +52,8 @@ bool kd_cli_read_bytes(const char *text, uint64_t *out);
 
 /* A size from an option's text, as 1536M or 2G (powers of 1024), at least 64M; or a usage error. */
 uint64_t kd_cli_bytes(const struct argp_state *state, const char *option, const char *text);
-#define KD_CLI_MEMORY_DOC "most memory for pictures, as 1536M or 2G (default: what the device and this machine have left)"
+#define KD_CLI_MEMORY_DOC \
+    "most memory for pictures, as 1536M or 2G (default: what the device and this machine have left)"
 #define KD_CLI_MEMORY { "memory", 'M', "SIZE", 0, KD_CLI_MEMORY_DOC, 0 }
 
 /* One more axis, FIELD=VALUES, to a list that the caller frees. */

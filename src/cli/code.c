@@ -4,8 +4,8 @@
 #include <stdbool.h>
 #include <string.h>
 
-/* Whether the module at this place is dark; the quiet zone round the code, which readers need, is light: two modules are enough for them
- * (ISO/IEC 18004 wants four, which a small terminal has no room for). */
+/* Whether the module at this place is dark; the quiet zone round the code, which readers need, is light: two modules
+ * are enough for them (ISO/IEC 18004 wants four, which a small terminal has no room for). */
 static bool dark(const QRcode *code, int x, int y)
 {
     return x >= 0 && y >= 0 && x < code->width && y < code->width && code->data[y * code->width + x] & 1;
@@ -15,7 +15,8 @@ enum { QUIET = 2 };
 
 enum kd_status kd_cli_code(FILE *to, const char *text)
 {
-    static const char *const halves[2][2] = { { " ", "▄" }, { "▀", "█" } }; /* of the upper and the lower row, what is dark */
+    static const char *const halves[2][2] = { { " ", "▄" },
+                                              { "▀", "█" } }; /* of the upper and the lower row, what is dark */
     QRcode *code = QRcode_encodeString8bit(text, 0, QR_ECLEVEL_M);
     if (!code)
         return KD_ENOMEM;
@@ -29,14 +30,16 @@ enum kd_status kd_cli_code(FILE *to, const char *text)
     return KD_OK;
 }
 
-/* Of private networks (RFC 1918) the likelier ones first: containers and virtual machines of this one have 172.16.0.0/12. */
+/* Of private networks (RFC 1918) the likelier ones first: containers and virtual machines of this one have
+ * 172.16.0.0/12. */
 static int likelihood(const char *name)
 {
     static const char *const networks[] = { "192.168.", "10.", "172." };
     for (int i = 0; i < 3; i++)
         if (!strncmp(name, networks[i], strlen(networks[i])))
             return 4 - i;
-    return strspn(name, "0123456789.") == strlen(name); /* any other address before a name, which a telephone may not resolve */
+    return strspn(name, "0123456789.") ==
+           strlen(name); /* any other address before a name, which a telephone may not resolve */
 }
 
 const char *kd_cli_code_of(const char *const *names)

@@ -1,38 +1,39 @@
-/* The subcommands of kerrd are listed once, here: main hands over to one, --help lists them, and manual pages and completions are made of
- * them (cli/reference). Constant data, any thread. */
+/* The subcommands of kerrd are listed once, here: main hands over to one, --help lists them, and manual pages and
+ * completions are made of them (cli/reference). Constant data, any thread. */
 #ifndef KD_CLI_COMMANDS_H
 #define KD_CLI_COMMANDS_H
 
 #include <argp.h>
 #include <stddef.h>
 
-/* X(its name, what its functions are called by, what it does in one line), in the order in which they are listed. A line makes known two functions,
- * which the subcommand's own file defines: int kd_cli_ID(int argc, char **argv), as cli.h says, and what options it takes, const struct argp
- * *kd_cli_ID_argp(void), which may be called again and gives the same then. */
-#define KD_COMMANDS(X)                                                                                          \
-    X("render", render, "a scene to a PNG file")                                                                \
-    X("view", view, "a scene, or a picture that is there, in the terminal")                                     \
-    X("light-curve", light_curve, "flux and centroid of a scene as its time goes on")                           \
-    X("sweep", sweep, "a scene for all values of some fields: an array, or pictures")                           \
-    X("film", film, "a film, or numbered pictures, of keyframes or of a playground")                            \
-    X("particles", particles, "where the particles of a scene are, as an array")                                \
-    X("rays", rays, "end points of listed rays: crossings, redshift, delay")                                    \
-    X("pixel", pixel, "what one pixel of a picture shows: its ray, each emitter on it")                         \
-    X("orbit", orbit, "path of a body round the hole, its constants and frequencies")                           \
-    X("line", line, "the profile of a line from a thin disk: photons by energy")                                \
-    X("transfer-function", transfer_function, "how rings of a thin disk are seen, by redshift")                 \
-    X("spectrum", spectrum, "what a thin disk, or a volume, sends, by frequency")                               \
-    X("visibility", visibility, "what an interferometer measures of a scene, by baseline")                      \
-    X("playground", playground, "bodies round the hole that pull one another, merge, are torn")                 \
-    X("physics", physics, "numbers of a hole, an orbit, a disk: one point or a curve")                          \
-    X("plan", plan, "what a scene costs on this device")                                                        \
-    X("scene", scene, "the merged scene, every field named")                                                    \
-    X("presets", presets, "the scenes known by name")                                                           \
-    X("serve", serve, "the HTTP service")                                                                       \
-    X("doctor", doctor, "what this machine can do and what it lacks")                                           \
+/* X(its name, what its functions are called by, what it does in one line), in the order in which they are listed. A
+ * line makes known two functions, which the subcommand's own file defines: int kd_cli_ID(int argc, char **argv), as
+ * cli.h says, and what options it takes, const struct argp *kd_cli_ID_argp(void), which may be called again and
+ * gives the same then. */
+#define KD_COMMANDS(X) \
+    X("render", render, "a scene to a PNG file") \
+    X("view", view, "a scene, or a picture that is there, in the terminal") \
+    X("light-curve", light_curve, "flux and centroid of a scene as its time goes on") \
+    X("sweep", sweep, "a scene for all values of some fields: an array, or pictures") \
+    X("film", film, "a film, or numbered pictures, of keyframes or of a playground") \
+    X("particles", particles, "where the particles of a scene are, as an array") \
+    X("rays", rays, "end points of listed rays: crossings, redshift, delay") \
+    X("pixel", pixel, "what one pixel of a picture shows: its ray, each emitter on it") \
+    X("orbit", orbit, "path of a body round the hole, its constants and frequencies") \
+    X("line", line, "the profile of a line from a thin disk: photons by energy") \
+    X("transfer-function", transfer_function, "how rings of a thin disk are seen, by redshift") \
+    X("spectrum", spectrum, "what a thin disk, or a volume, sends, by frequency") \
+    X("visibility", visibility, "what an interferometer measures of a scene, by baseline") \
+    X("playground", playground, "bodies round the hole that pull one another, merge, are torn") \
+    X("physics", physics, "numbers of a hole, an orbit, a disk: one point or a curve") \
+    X("plan", plan, "what a scene costs on this device") \
+    X("scene", scene, "the merged scene, every field named") \
+    X("presets", presets, "the scenes known by name") \
+    X("serve", serve, "the HTTP service") \
+    X("doctor", doctor, "what this machine can do and what it lacks") \
     X("bench", bench, "how fast and how exact each engine is on this device")
 
-#define KD_COMMAND_FUNCTIONS(name, id, help)   \
+#define KD_COMMAND_FUNCTIONS(name, id, help) \
     int kd_cli_##id(int argc, char **argv); \
     const struct argp *kd_cli_##id##_argp(void);
 KD_COMMANDS(KD_COMMAND_FUNCTIONS)
@@ -50,7 +51,8 @@ extern const size_t kd_n_commands;
 #define KD_CLI_ABOUT "Pictures of black holes: a Kerr renderer on a Vulkan device."
 #define KD_CLI_EXIT_CODES "0 done, 1 failed, 2 bad input or usage, 3 a device that was lost or hangs"
 
-/* The options of one quantity of `kerrd physics`, which takes its name first. They are made anew by each call, and live until the next. */
+/* The options of one quantity of `kerrd physics`, which takes its name first. They are made anew by each call, and
+ * live until the next. */
 struct kd_quantity;
 const struct argp *kd_cli_quantity_argp(const struct kd_quantity *quantity);
 

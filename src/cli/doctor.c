@@ -1,4 +1,5 @@
-/* kerrd doctor says what this machine can do and what it lacks, with a tiny picture as the proof; or checks a table of known numbers. */
+/* kerrd doctor says what this machine can do and what it lacks, with a tiny picture as the proof; or checks a table
+ * of known numbers. */
 #include "cli/cli.h"
 #include "cli/progress.h"
 #include "cli/selftest.h"
@@ -50,22 +51,18 @@ static error_t parse(int key, char *text, struct argp_state *state)
     return ARGP_ERR_UNKNOWN;
 }
 
-static double mib(uint64_t bytes)
-{
-    return (double)bytes / (1 << 20);
-}
+static double mib(uint64_t bytes) { return (double)bytes / (1 << 20); }
 
 static void print_device(const struct kd_vk_info *info)
 {
     uint32_t v = info->api_version;
     printf("device %u: %s\n", info->index, info->name);
-    printf("  %s, Vulkan %u.%u.%u, driver %s%s%s\n", kd_vk_type_name(info->type), v >> 22 & 0x7f,
-           v >> 12 & 0x3ff, v & 0xfff, info->driver, *info->driver_info ? " " : "", info->driver_info);
+    printf("  %s, Vulkan %u.%u.%u, driver %s%s%s\n", kd_vk_type_name(info->type), v >> 22 & 0x7f, v >> 12 & 0x3ff,
+           v & 0xfff, info->driver, *info->driver_info ? " " : "", info->driver_info);
     printf("  memory %.0f MiB, one binding %.0f MiB, one allocation %.0f MiB\n", mib(info->heap_bytes),
            mib(info->max_binding_bytes), mib(info->max_allocation_bytes));
-    printf("  subgroup %u, workgroup %u, push constants %u bytes, f64 %s, timestamps %s\n",
-           info->subgroup_size, info->max_workgroup, info->max_push_bytes, info->float64 ? "yes" : "no",
-           info->timestamps ? "yes" : "no");
+    printf("  subgroup %u, workgroup %u, push constants %u bytes, f64 %s, timestamps %s\n", info->subgroup_size,
+           info->max_workgroup, info->max_push_bytes, info->float64 ? "yes" : "no", info->timestamps ? "yes" : "no");
     printf("  %s%s\n", info->missing[0] ? "not usable: lacks " : "usable", info->missing);
 }
 
@@ -106,8 +103,7 @@ static int list_devices(void)
 static enum kd_status print_choice(const char *device, struct kd_error *error)
 {
     struct kd_vk *vk = NULL;
-    enum kd_status status =
-        kd_vk_create(&(struct kd_vk_params) { .device = device, .cache_dir = "" }, &vk, error);
+    enum kd_status status = kd_vk_create(&(struct kd_vk_params) { .device = device, .cache_dir = "" }, &vk, error);
     if (!status)
         printf("choice: %s\n", kd_vk_choice(vk));
     kd_vk_destroy(vk);
@@ -123,8 +119,7 @@ static void print_cache(void)
             : home && *home      ? asprintf(&path, "%s/.cache/kerrd", home)
                                  : -1;
     if (n < 0)
-        printf(
-            "kernel cache: none, since neither XDG_CACHE_HOME nor HOME is set; each start compiles anew\n");
+        printf("kernel cache: none, since neither XDG_CACHE_HOME nor HOME is set; each start compiles anew\n");
     else if (access(path, F_OK) && errno == ENOENT)
         printf("kernel cache: %s, not there yet\n", path);
     else if (access(path, R_OK | W_OK | X_OK))
@@ -140,10 +135,8 @@ static void print_validation(const char *device)
 {
     struct kd_vk *vk = NULL;
     struct kd_error error = { 0 };
-    if (kd_vk_create(&(struct kd_vk_params) { .device = device, .cache_dir = "", .validate = true }, &vk,
-                     &error))
-        printf("validation layer: no (%s); it is for developers: apt install vulkan-validationlayers\n",
-               error.message);
+    if (kd_vk_create(&(struct kd_vk_params) { .device = device, .cache_dir = "", .validate = true }, &vk, &error))
+        printf("validation layer: no (%s); it is for developers: apt install vulkan-validationlayers\n", error.message);
     else
         printf("validation layer: present (KERRD_VALIDATE=1 turns it on)\n");
     kd_vk_destroy(vk);
@@ -165,8 +158,8 @@ static enum kd_status draw(struct kd_renderer *renderer, struct kd_error *error)
         double started = kd_progress_clock();
         kd_frame_finish(&frame);
         KD_TRY(kd_render(renderer, &scene, &plan, NULL, NULL, &frame, error));
-        printf("render: " WIDTH " x " HEIGHT " pixels in %.1f ms%s\n",
-               1e3 * (kd_progress_clock() - started), i ? "" : ", kernels made on the way");
+        printf("render: " WIDTH " x " HEIGHT " pixels in %.1f ms%s\n", 1e3 * (kd_progress_clock() - started),
+               i ? "" : ", kernels made on the way");
     }
 done:
     kd_frame_finish(&frame);
@@ -177,7 +170,8 @@ static void print_selftest(const struct kd_verdict *tested)
 {
     printf("self-test: %s", kd_verdict_word(tested));
     if (tested->result == KD_FAILED)
-        printf(", %u of %u checks, first %s; --selftest shows all of them", tested->failed, tested->checks, tested->worst);
+        printf(", %u of %u checks, first %s; --selftest shows all of them", tested->failed, tested->checks,
+               tested->worst);
     else if (tested->result == KD_PASSED)
         printf(", %u checks in %.1f s%s", tested->checks, tested->seconds,
                tested->now ? "" : " when kerrd met this device and driver; --selftest runs it anew");
@@ -187,8 +181,8 @@ static void print_selftest(const struct kd_verdict *tested)
 static enum kd_status try_render(const char *device, struct kd_error *error)
 {
     struct kd_renderer *renderer = NULL;
-    enum kd_status status =
-        kd_renderer_create(&(struct kd_renderer_params) { .device = device, .prove = kd_first_start }, &renderer, error);
+    enum kd_status status = kd_renderer_create(
+        &(struct kd_renderer_params) { .device = device, .prove = kd_first_start }, &renderer, error);
     if (status)
         return status;
     print_selftest(kd_renderer_verdict(renderer));
@@ -236,7 +230,8 @@ const struct argp *kd_cli_doctor_argp(void)
         .options = options,
         .parser = parse,
         .doc = "List the Vulkan devices, say which would be used and why, and render a tiny picture on it.\v"
-               "The exit code is 0 if kerrd can work here and 1 if it cannot, or if a check of --selftest failed. The self-test "
+               "The exit code is 0 if kerrd can work here and 1 if it cannot, or if a check of --selftest failed. The "
+               "self-test "
                "takes a few seconds; docs/accuracy.md says what it compares with what.",
         .children = kd_cli_device_children,
     };

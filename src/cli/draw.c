@@ -3,8 +3,8 @@
 #include "cli/cli.h"
 #include "cli/progress.h"
 
-enum kd_status kd_cli_draw(struct kd_renderer *renderer, const struct kd_format *format, struct kd_scene *scene, struct kd_plan *plan, struct kd_frame *frame,
-                           double *ms, struct kd_error *error)
+enum kd_status kd_cli_draw(struct kd_renderer *renderer, const struct kd_format *format, struct kd_scene *scene,
+                           struct kd_plan *plan, struct kd_frame *frame, double *ms, struct kd_error *error)
 {
     struct kd_capacity capacity;
     kd_renderer_capacity(renderer, &capacity);

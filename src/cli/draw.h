@@ -1,13 +1,14 @@
-/* These draw one picture for the command line: the plan, a bar of progress, and a device that was lost on the way. Main thread only. */
+/* These draw one picture for the command line: the plan, a bar of progress, and a device that was lost on the way.
+ * Main thread only. */
 #ifndef KD_CLI_DRAW_H
 #define KD_CLI_DRAW_H
 
 #include "render/output/format.h"
 #include "render/render.h"
 
-/* Plans and renders what the format needs of a scene; Ctrl-C stops it. *ms: what rendering took. The program ends where the device is lost.
- * *frame is the caller's to finish, also on error. */
-enum kd_status kd_cli_draw(struct kd_renderer *renderer, const struct kd_format *format, struct kd_scene *scene, struct kd_plan *plan, struct kd_frame *frame,
-                           double *ms, struct kd_error *error);
+/* Plans and renders what the format needs of a scene; Ctrl-C stops it. *ms: what rendering took. The program ends
+ * where the device is lost. *frame is the caller's to finish, also on error. */
+enum kd_status kd_cli_draw(struct kd_renderer *renderer, const struct kd_format *format, struct kd_scene *scene,
+                           struct kd_plan *plan, struct kd_frame *frame, double *ms, struct kd_error *error);
 
 #endif

@@ -11,8 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static enum kd_status read_fd(int fd, const char *name, size_t most, struct kd_buffer *out,
-                              struct kd_error *error)
+static enum kd_status read_fd(int fd, const char *name, size_t most, struct kd_buffer *out, struct kd_error *error)
 {
     uint8_t chunk[64 * 1024];
     for (;;) {

@@ -30,12 +30,21 @@ struct arguments {
 };
 
 static const struct argp_option table[] = {
-    { "output", 'o', "FILE", 0, "the film to write: .mp4 (H.264) or .webm (VP9), which take the program ffmpeg; .zip, numbered pictures (required but with --only)", 0 },
+    { "output", 'o', "FILE", 0,
+      "the film to write: .mp4 (H.264) or .webm (VP9), which take the program ffmpeg; .zip, numbered pictures "
+      "(required but with --only)",
+      0 },
     { "rate", KEY_RATE, "N", 0, "frames a second, 1 to 120 (default: 24)", 0 },
-    { "samples", KEY_SAMPLES, "N", 0, "motion blur: a frame's light is the mean of that of N pictures, 1 to 64 (default: as the document's motion_blur says, or none)", 0 },
-    { "shutter", KEY_SHUTTER, "PART", 0, "the part of a frame's time, up to 1, in which they are (default: as motion_blur says, or 0.5)", 0 },
-    { "state", KEY_STATE, "DIR", 0, "keep finished frames there, and go on with those that are there already, whatever ended the run before", 0 },
-    { "only", KEY_ONLY, "FIRST:LAST", 0, "render these frames into the folder of --state, with others beside this process, and write no film", 0 },
+    { "samples", KEY_SAMPLES, "N", 0,
+      "motion blur: a frame's light is the mean of that of N pictures, 1 to 64 (default: as the document's motion_blur "
+      "says, or none)",
+      0 },
+    { "shutter", KEY_SHUTTER, "PART", 0,
+      "the part of a frame's time, up to 1, in which they are (default: as motion_blur says, or 0.5)", 0 },
+    { "state", KEY_STATE, "DIR", 0,
+      "keep finished frames there, and go on with those that are there already, whatever ended the run before", 0 },
+    { "only", KEY_ONLY, "FIRST:LAST", 0,
+      "render these frames into the folder of --state, with others beside this process, and write no film", 0 },
     KD_CLI_MEMORY,
     { "stats", 't', NULL, 0, "print frames, their exposure and seconds as one line of JSON on standard error", 0 },
     { 0 },
@@ -56,7 +65,9 @@ static const struct kd_gather_format *kind_of(const char *path)
 static void read_only(struct arguments *arguments, const char *text, const struct argp_state *state)
 {
     int end = 0;
-    if (strspn(text, "0123456789:") != strlen(text) || sscanf(text, "%9u:%9u%n", &arguments->first, &arguments->last, &end) != 2 || text[end] || arguments->first > arguments->last)
+    if (strspn(text, "0123456789:") != strlen(text) ||
+        sscanf(text, "%9u:%9u%n", &arguments->first, &arguments->last, &end) != 2 || text[end] ||
+        arguments->first > arguments->last)
         argp_error(state, "--only is %s, allowed is FIRST:LAST, numbers of frames from 0 on, as in 24:47", text);
     arguments->only = true;
 }
@@ -91,9 +102,11 @@ static error_t parse(int key, char *text, struct argp_state *state)
         else if (!arguments->only && !arguments->output)
             argp_error(state, "-o FILE is missing: where should the film go?");
         else if (!arguments->only && !kind_of(arguments->output))
-            argp_error(state, "output is \"%s\", allowed is a name that ends in .mp4, .webm or .zip", arguments->output);
+            argp_error(state, "output is \"%s\", allowed is a name that ends in .mp4, .webm or .zip",
+                       arguments->output);
         else if (!arguments->scene.document)
-            argp_error(state, "KEYFRAMES.json is missing: which frames? As in {\"scene\": {}, \"keyframes\": [{\"frame\": 47, \"scene\": {\"camera\": {\"azimuth_deg\": 90}}}]}");
+            argp_error(state, "KEYFRAMES.json is missing: which frames? As in {\"scene\": {}, \"keyframes\": "
+                              "[{\"frame\": 47, \"scene\": {\"camera\": {\"azimuth_deg\": 90}}}]}");
         else if (arguments->rate && !arguments->only && !kind_of(arguments->output)->waits)
             argp_error(state, "--rate is of .mp4 and .webm: pictures in a .zip have none");
         return 0;
@@ -116,9 +129,13 @@ struct work {
     unsigned kept, done, measured, traced; /* kept: frames that were there */
 };
 
-static enum kd_status change(void *user, struct kd_scene *scene, struct kd_error *error) { return kd_scene_options_set(user, scene, error); }
+static enum kd_status change(void *user, struct kd_scene *scene, struct kd_error *error)
+{
+    return kd_scene_options_set(user, scene, error);
+}
 
-/* Reads the request. --preset and --from take the place of the scene that others are merged over; --set and --size come last. */
+/* Reads the request. --preset and --from take the place of the scene that others are merged over; --set and --size
+ * come last. */
 static enum kd_status read_request(struct work *w, struct kd_error *error)
 {
     struct kd_scene_options *options = &w->arguments->scene, beneath = *options;
@@ -131,25 +148,35 @@ static enum kd_status read_request(struct work *w, struct kd_error *error)
     KD_TRY(kd_scene_options_load(&beneath, &scene, error));
     w->assets = kd_asset_options_assets(&options->assets);
     const struct kd_job_base base = { .scene = options->preset || options->from ? &scene : NULL,
-                                      .samples = w->arguments->samples, .shutter = w->arguments->shutter, .change = change, .user = options };
-    status = kd_job_spec_parse(w->text.data ? (const char *)w->text.data : "", w->text.size, &base, &w->assets, &w->spec, error);
-    KD_TRY(status ? kd_cli_prefix(error, strcmp(options->document, "-") ? options->document : "standard input") : KD_OK);
+                                      .samples = w->arguments->samples,
+                                      .shutter = w->arguments->shutter,
+                                      .change = change,
+                                      .user = options };
+    status = kd_job_spec_parse(w->text.data ? (const char *)w->text.data : "", w->text.size, &base, &w->assets,
+                               &w->spec, error);
+    KD_TRY(status ? kd_cli_prefix(error, strcmp(options->document, "-") ? options->document : "standard input")
+                  : KD_OK);
     KD_TRY(kd_asset_options_check(&options->assets, error));
     if (w->arguments->only && w->spec.every > 0)
-        KD_TRY(kd_error_field(error, "/playground", "a playground is filmed, whose frames depend on those before: --only is for other films"));
+        KD_TRY(
+            kd_error_field(error, "/playground",
+                           "a playground is filmed, whose frames depend on those before: --only is for other films"));
     if (w->arguments->only && w->arguments->last >= w->spec.frames)
-        KD_TRY(kd_error_set(error, KD_EINVAL, "--only is %u:%u, allowed are frames 0 to %u", w->arguments->first, w->arguments->last, w->spec.frames - 1));
+        KD_TRY(kd_error_set(error, KD_EINVAL, "--only is %u:%u, allowed are frames 0 to %u", w->arguments->first,
+                            w->arguments->last, w->spec.frames - 1));
     if (!w->arguments->only) {
         w->arguments->first = 0;
         w->arguments->last = w->spec.frames - 1;
     }
     if (w->spec.series->frame != &kd_format_png)
-        KD_TRY(kd_error_field(error, "/output", "output is \"%s\", allowed is \"pictures\": of them a film is made", w->spec.series->name));
+        KD_TRY(kd_error_field(error, "/output", "output is \"%s\", allowed is \"pictures\": of them a film is made",
+                              w->spec.series->name));
 done:
     return status;
 }
 
-/* All that frames depend on, in a request and beside it: bytes of the one, texts of the options, and what files are named. */
+/* All that frames depend on, in a request and beside it: bytes of the one, texts of the options, and what files are
+ * named. */
 static enum kd_status identify(struct work *w, struct kd_error *error)
 {
     const struct kd_scene_options *options = &w->arguments->scene;
@@ -161,7 +188,8 @@ static enum kd_status identify(struct work *w, struct kd_error *error)
     beneath.n_set = 0;
     KD_TRY(kd_scene_options_load(&beneath, &scene, error));
     KD_TRY(kd_scene_to_json(&scene, &all));
-    KD_TRY(kd_buffer_printf(&all, "\n%d %u %.17g", options->preset || options->from, w->spec.blur.samples, w->spec.blur.shutter));
+    KD_TRY(kd_buffer_printf(&all, "\n%d %u %.17g", options->preset || options->from, w->spec.blur.samples,
+                            w->spec.blur.shutter));
     for (size_t i = 0; i < options->n_set; i++)
         KD_TRY(kd_buffer_printf(&all, "\n%s", options->set[i]));
     for (size_t i = 0; i < options->assets.n; i++)
@@ -189,14 +217,18 @@ static enum kd_status check(const struct work *w, struct kd_error *error)
     enum kd_status status = KD_OK;
     kd_renderer_capacity(w->renderer, &capacity);
     for (unsigned i = 0; i < w->spec.frames && !status; i++) {
-        status = kd_job_frame_plan(&w->spec, i, w->spec.first, i * w->spec.every, INFINITY, &capacity, &scene, &plan, error);
+        status =
+            kd_job_frame_plan(&w->spec, i, w->spec.first, i * w->spec.every, INFINITY, &capacity, &scene, &plan, error);
         if (!i) {
             width = kd_plan_shown_width(&plan);
             height = kd_plan_shown_height(&plan);
         }
-        if (!status && w->kind && w->kind->waits && (kd_plan_shown_width(&plan) != width || kd_plan_shown_height(&plan) != height))
-            status = kd_error_set(error, KD_EINVAL, "frame %u is %u x %u pixels and frame 0 %u x %u: a film has one size, a .zip holds any", i, kd_plan_shown_width(&plan), kd_plan_shown_height(&plan), width,
-                                  height);
+        if (!status && w->kind && w->kind->waits &&
+            (kd_plan_shown_width(&plan) != width || kd_plan_shown_height(&plan) != height))
+            status =
+                kd_error_set(error, KD_EINVAL,
+                             "frame %u is %u x %u pixels and frame 0 %u x %u: a film has one size, a .zip holds any", i,
+                             kd_plan_shown_width(&plan), kd_plan_shown_height(&plan), width, height);
     }
     return status;
 }
@@ -215,7 +247,10 @@ static enum kd_status open_frames(struct work *w, struct kd_error *error)
     KD_TRY(kd_film_state_read(w->frames.folder, path, &w->state, &there, error));
     KD_TRY(kd_frames_find(&w->frames, &w->kept, error));
     if (w->kept && !there)
-        KD_TRY(kd_error_set(error, KD_EINVAL, "%.200s holds pictures, such as frames have, and says not of which film: name another folder by --state", path));
+        KD_TRY(kd_error_set(
+            error, KD_EINVAL,
+            "%.200s holds pictures, such as frames have, and says not of which film: name another folder by --state",
+            path));
     w->spec.exposure = there ? w->state.exposure : NAN;
 done:
     return status;
@@ -225,7 +260,8 @@ static bool progress(void *user, double fraction)
 {
     struct work *w = user;
     const struct arguments *a = w->arguments;
-    return kd_progress_update(&w->progress, ((w->done > a->first ? w->done - a->first : 0) + fraction) / (a->last - a->first + 1));
+    return kd_progress_update(&w->progress,
+                              ((w->done > a->first ? w->done - a->first : 0) + fraction) / (a->last - a->first + 1));
 }
 
 static bool go_on(void *user) { return progress(user, 0); }
@@ -246,7 +282,8 @@ done:
     return status;
 }
 
-/* The one exposure of frames that have one, unless the folder knows it; and into the folder of which film its frames are. */
+/* The one exposure of frames that have one, unless the folder knows it; and into the folder of which film its frames
+ * are. */
 static enum kd_status expose(struct work *w, struct kd_error *error)
 {
     unsigned frames[KD_JOB_EXPOSURE_FRAMES];
@@ -263,7 +300,8 @@ done:
     return status;
 }
 
-/* Moves the bodies of a playground on to the frame, from the one before, and says what it shows; as a job of the server does. */
+/* Moves the bodies of a playground on to the frame, from the one before, and says what it shows; as a job of the
+ * server does. */
 static enum kd_status move(struct work *w, unsigned number, double begin, struct kd_crowd **out, struct kd_error *error)
 {
     struct kd_playground_run run;
@@ -290,7 +328,9 @@ static enum kd_status render(struct work *w, unsigned number, const struct kd_cr
     enum kd_status status;
     kd_renderer_capacity(w->renderer, &capacity);
     KD_TRY(kd_job_frame_plan(&w->spec, number, crowd, 0, INFINITY, &capacity, &scene, &plan, error));
-    KD_TRY(blur.samples ? kd_render_blurred(&(struct kd_blurred) { w->renderer, &blur, &scene, &plan, .progress = progress, .user = w }, &frame, error)
+    KD_TRY(blur.samples ? kd_render_blurred(&(struct kd_blurred) { w->renderer, &blur, &scene, &plan,
+                                                                   .progress = progress, .user = w },
+                                            &frame, error)
                         : kd_render(w->renderer, &scene, &plan, progress, w, &frame, error));
     w->traced += (!frame.lens_reused && plan.planes) + frame.others_traced;
     const struct kd_picture picture = { &frame, &scene, &plan, kd_renderer_device_name(w->renderer), number };
@@ -352,15 +392,24 @@ static enum kd_status run(struct work *w, struct kd_error *error)
     if (!arguments->only)
         KD_TRY(kd_file_check(arguments->output, error));
     if (w->kind && w->kind->waits && !kd_program_known("ffmpeg"))
-        KD_TRY(kd_error_set(error, KD_EABSENT, "films are encoded by the program ffmpeg, which is not found on the PATH: install it, or have the numbered pictures by -o FILE.zip"));
-    KD_TRY(kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device, .memory_bytes = arguments->memory, .assets = &w->assets }, &w->renderer, error));
+        KD_TRY(kd_error_set(error, KD_EABSENT,
+                            "films are encoded by the program ffmpeg, which is not found on the PATH: install it, or "
+                            "have the numbered pictures by -o FILE.zip"));
+    KD_TRY(kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device,
+                                                             .memory_bytes = arguments->memory,
+                                                             .assets = &w->assets },
+                              &w->renderer, error));
     KD_TRY(check(w, error));
     KD_TRY(identify(w, error));
     KD_TRY(open_frames(w, error));
     const double began = kd_progress_clock();
     KD_TRY(render_all(w, error));
     const double rendered = kd_progress_clock();
-    const struct kd_frames_whole whole = { .format = w->kind, .sweep = w->spec.sweep, .rate = arguments->rate ? arguments->rate : KD_FILM_RATE, .go_on = go_on, .user = w };
+    const struct kd_frames_whole whole = { .format = w->kind,
+                                           .sweep = w->spec.sweep,
+                                           .rate = arguments->rate ? arguments->rate : KD_FILM_RATE,
+                                           .go_on = go_on,
+                                           .user = w };
     if (!arguments->only)
         KD_TRY(kd_frames_save(&w->frames, &whole, arguments->output, error));
     if (arguments->stats)
@@ -375,9 +424,11 @@ const struct argp *kd_cli_film_argp(void)
         .options = table,
         .parser = parse,
         .args_doc = "KEYFRAMES.json|-",
-        .doc = "Make a film: of a scene that keyframes change, of a list of scenes, or of a playground. The document is the body of a job (docs/jobs.md), as in "
+        .doc = "Make a film: of a scene that keyframes change, of a list of scenes, or of a playground. The document "
+               "is the body of a job (docs/jobs.md), as in "
                "{\"scene\": {}, \"keyframes\": [{\"frame\": 47, \"scene\": {\"camera\": {\"azimuth_deg\": 90}}}]}.\v"
-               "With --preset or --from the document's scenes are merged over that scene; --set and --size change the scene that keyframes are merged over. A job of a server makes "
+               "With --preset or --from the document's scenes are merged over that scene; --set and --size change the "
+               "scene that keyframes are merged over. A job of a server makes "
                "the same frames.",
         .children = kd_scene_device_children,
     };

@@ -28,19 +28,30 @@ static double number(const cJSON *o, const char *name)
 
 static enum kd_status compare(const cJSON *o, const char *path, struct kd_film_state *state, struct kd_error *error)
 {
-    const char *version = cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(o, "version")), *device = cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(o, "device"));
+    const char *version = cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(o, "version")),
+               *device = cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(o, "device"));
     if (number(o, "format") != FORMAT || !version || !device)
-        return kd_error_set(error, KD_EINVAL, "%.200s/" NAME " is not one that this version of kerrd wrote: name another folder by --state, or remove this one", path);
+        return kd_error_set(
+            error, KD_EINVAL,
+            "%.200s/" NAME
+            " is not one that this version of kerrd wrote: name another folder by --state, or remove this one",
+            path);
     if (!is_text(o, "version", KD_VERSION) || !is_text(o, "device", state->device))
-        return kd_error_set(error, KD_EINVAL, "the frames in %.200s are of kerrd %.40s on %.80s, and this is kerrd " KD_VERSION " on %.80s, whose pictures may differ: name another folder by "
-                                              "--state, or remove this one", path, version, device, state->device);
+        return kd_error_set(error, KD_EINVAL,
+                            "the frames in %.200s are of kerrd %.40s on %.80s, and this is kerrd " KD_VERSION
+                            " on %.80s, whose pictures may differ: name another folder by "
+                            "--state, or remove this one",
+                            path, version, device, state->device);
     if (!is_text(o, "request", state->request) || number(o, "frames") != state->frames)
-        return kd_error_set(error, KD_EINVAL, "the frames in %.200s are of another request: name another folder by --state, or remove this one", path);
+        return kd_error_set(
+            error, KD_EINVAL,
+            "the frames in %.200s are of another request: name another folder by --state, or remove this one", path);
     state->exposure = number(o, "exposure");
     return KD_OK;
 }
 
-enum kd_status kd_film_state_read(int folder, const char *path, struct kd_film_state *state, bool *there, struct kd_error *error)
+enum kd_status kd_film_state_read(int folder, const char *path, struct kd_film_state *state, bool *there,
+                                  struct kd_error *error)
 {
     struct kd_buffer text = { 0 };
     cJSON *root = NULL;

@@ -39,15 +39,22 @@ enum kd_status kd_frames_open_folder(struct kd_frames *f, const char *path, bool
 {
     if (mkdir(path, 0777) && errno != EEXIST)
         return kd_error_set(error, KD_EINVAL, "the folder %s cannot be made: %s", path, strerror(errno));
-    if ((f->folder = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC)) < 0 || (f->lock = openat(f->folder, "lock", O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0600)) < 0)
+    if ((f->folder = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC)) < 0 ||
+        (f->lock = openat(f->folder, "lock", O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0600)) < 0)
         return kd_error_set(error, KD_EINVAL, "%ss cannot be kept in %s: %s", f->noun, path, strerror(errno));
     f->shared = shared;
     if (flock(f->lock, (shared ? LOCK_SH : LOCK_EX) | LOCK_NB))
-        return kd_error_set(error, KD_EINVAL, errno == EWOULDBLOCK ? "another process keeps its %ss in %s" : "the %ss in %s cannot be locked", f->noun, path);
+        return kd_error_set(error, KD_EINVAL,
+                            errno == EWOULDBLOCK ? "another process keeps its %ss in %s"
+                                                 : "the %ss in %s cannot be locked",
+                            f->noun, path);
     return make_room(f, error);
 }
 
-static void name_of(const struct kd_frames *f, unsigned frame, char out[32]) { snprintf(out, 32, "%06u.%s", frame, f->format->name); }
+static void name_of(const struct kd_frames *f, unsigned frame, char out[32])
+{
+    snprintf(out, 32, "%06u.%s", frame, f->format->name);
+}
 
 /* Removes what a process that was killed has left half written. */
 static void remove_halves(const struct kd_frames *f)
@@ -79,7 +86,8 @@ enum kd_status kd_frames_find(struct kd_frames *f, unsigned *found, struct kd_er
         if (fstatat(f->folder, name, &about, AT_SYMLINK_NOFOLLOW))
             continue;
         if (!S_ISREG(about.st_mode))
-            return kd_error_set(error, KD_EINVAL, "%s in the folder of the %ss is no file that kerrd wrote: remove it", name, f->noun);
+            return kd_error_set(error, KD_EINVAL, "%s in the folder of the %ss is no file that kerrd wrote: remove it",
+                                name, f->noun);
         f->sizes[i] = (uint64_t)about.st_size;
         *found += about.st_size > 0;
     }
@@ -185,9 +193,16 @@ static size_t pour(void *user, void *to, size_t size)
     return n;
 }
 
-enum kd_status kd_frames_save(struct kd_frames *f, const struct kd_frames_whole *whole, const char *path, struct kd_error *error)
+enum kd_status kd_frames_save(struct kd_frames *f, const struct kd_frames_whole *whole, const char *path,
+                              struct kd_error *error)
 {
-    const struct kd_gather_source source = { .user = f, .sweep = whole->sweep, .frame = f->format, .n = f->n, .rate = whole->rate, .size = size_of, .read = kd_frames_read };
+    const struct kd_gather_source source = { .user = f,
+                                             .sweep = whole->sweep,
+                                             .frame = f->format,
+                                             .n = f->n,
+                                             .rate = whole->rate,
+                                             .size = size_of,
+                                             .read = kd_frames_read };
     struct kd_error made = { 0 };
     struct pour p = { .whole = whole, .error = &made };
     enum kd_status status;

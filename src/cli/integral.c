@@ -21,7 +21,10 @@ struct arguments {
 };
 
 /* Those that may be made of pictures. */
-static bool may_have_scene(enum kd_integral what) { return what == KD_INTEGRAL_SPECTRUM || kd_integral_is_pictured(what); }
+static bool may_have_scene(enum kd_integral what)
+{
+    return what == KD_INTEGRAL_SPECTRUM || kd_integral_is_pictured(what);
+}
 
 static error_t parse(int key, char *text, struct argp_state *state)
 {
@@ -57,24 +60,28 @@ static enum kd_integral_format format_of(const struct arguments *arguments)
     return !strcmp(format, "npy") ? KD_INTEGRAL_NPY : !strcmp(format, "csv") ? KD_INTEGRAL_CSV : KD_INTEGRAL_JSON;
 }
 
-static enum kd_status read_file(const struct arguments *arguments, struct kd_integral_request *request, struct kd_error *error)
+static enum kd_status read_file(const struct arguments *arguments, struct kd_integral_request *request,
+                                struct kd_error *error)
 {
     struct kd_buffer file = { 0 };
     enum kd_status status = kd_file_read(arguments->input, KD_INTEGRAL_BODY_MAX, &file, error);
-    if (!status && (status = kd_integral_request_read(request, file.data ? (const char *)file.data : "", file.size, error)))
+    if (!status &&
+        (status = kd_integral_request_read(request, file.data ? (const char *)file.data : "", file.size, error)))
         kd_cli_prefix(error, strcmp(arguments->input, "-") ? arguments->input : "standard input");
     kd_buffer_finish(&file);
     return status;
 }
 
 /* The scene of the file, or of --preset or --from, and what --set changes. */
-static enum kd_status load_scene(struct arguments *arguments, struct kd_integral_request *request, struct kd_error *error)
+static enum kd_status load_scene(struct arguments *arguments, struct kd_integral_request *request,
+                                 struct kd_error *error)
 {
     struct kd_scene_options *options = &arguments->scene;
     enum kd_status status = KD_OK;
     const bool chosen = options->preset || options->from;
     if (chosen && request->scene)
-        return kd_error_set(error, KD_EINVAL, "--%s beside a file that has a scene: allowed is one of the two", options->preset ? "preset" : "from");
+        return kd_error_set(error, KD_EINVAL, "--%s beside a file that has a scene: allowed is one of the two",
+                            options->preset ? "preset" : "from");
     if (!request->scene && !chosen && !options->n_set && !kd_integral_is_pictured(request->what))
         return KD_OK;
     if (!request->scene)
@@ -125,7 +132,8 @@ static enum kd_status make_picture(struct work *w, const struct kd_integral_requ
     kd_renderer_capacity(w->renderer, &capacity);
     KD_TRY(kd_format_plan(format, &scene, &capacity, &plan, error));
     KD_TRY(kd_render(w->renderer, &scene, &plan, progress, w, &frame, error));
-    KD_TRY(kd_encode(format, &(struct kd_picture) { &frame, &scene, &plan, kd_renderer_device_name(w->renderer), 0 }, KD_EFFORT_QUICK, NULL, &file, error));
+    KD_TRY(kd_encode(format, &(struct kd_picture) { &frame, &scene, &plan, kd_renderer_device_name(w->renderer), 0 },
+                     KD_EFFORT_QUICK, NULL, &file, error));
     KD_TRY(kd_integral_run_take(&w->run, &file, &scene, &plan, error));
     kd_integral_run_step(&w->run, INFINITY);
 done:
@@ -134,10 +142,12 @@ done:
     return status;
 }
 
-static enum kd_status make_pictures(struct work *w, struct arguments *arguments, const struct kd_integral_request *request, struct kd_error *error)
+static enum kd_status make_pictures(struct work *w, struct arguments *arguments,
+                                    const struct kd_integral_request *request, struct kd_error *error)
 {
     const struct kd_assets assets = kd_asset_options_assets(&arguments->scene.assets);
-    enum kd_status status = kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device, .assets = &assets }, &w->renderer, error);
+    enum kd_status status = kd_renderer_create(
+        &(struct kd_renderer_params) { .device = arguments->device, .assets = &assets }, &w->renderer, error);
     if (status)
         return status;
     kd_progress_init(&w->progress);
@@ -170,12 +180,14 @@ done:
 }
 
 /* --inclination-deg for inclination_deg. */
-static void set_options(enum kd_integral what, struct argp_option *options, char names[FIELDS_MAX][32], char helps[FIELDS_MAX][240],
-                        char values[FIELDS_MAX][40])
+static void set_options(enum kd_integral what, struct argp_option *options, char names[FIELDS_MAX][32],
+                        char helps[FIELDS_MAX][240], char values[FIELDS_MAX][40])
 {
     size_t n = 0;
-    options[n++] = (struct argp_option) { "output", 'o', "FILE", 0, "where to write; .csv and .npy choose those formats", 2 };
-    options[n++] = (struct argp_option) { "format", 'f', "json|csv|npy", 0, "the format, whatever the name of the output", 2 };
+    options[n++] =
+        (struct argp_option) { "output", 'o', "FILE", 0, "where to write; .csv and .npy choose those formats", 2 };
+    options[n++] =
+        (struct argp_option) { "format", 'f', "json|csv|npy", 0, "the format, whatever the name of the output", 2 };
     for (size_t i = 0; i < kd_n_integral_fields; i++) {
         const struct kd_integral_field *f = &kd_integral_fields[i];
         if (!(f->of & (1u << what | (what == KD_INTEGRAL_SPECTRUM ? 1u << KD_INTEGRAL_VOLUME : 0))))
@@ -184,9 +196,13 @@ static void set_options(enum kd_integral what, struct argp_option *options, char
         for (char *c = names[i]; (c = strchr(c, '_'));)
             *c = '-';
         const bool word = f->kind == KD_INTEGRAL_REAL && f->words;
-        snprintf(helps[i], sizeof helps[i], "%s%s%s%s%s%s", f->help, *f->unit ? " [" : "", f->unit, *f->unit ? "]" : "", word ? "; a number or " : "", word ? f->words : "");
+        snprintf(helps[i], sizeof helps[i], "%s%s%s%s%s%s", f->help, *f->unit ? " [" : "", f->unit, *f->unit ? "]" : "",
+                 word ? "; a number or " : "", word ? f->words : "");
         snprintf(values[i], sizeof values[i], "X|%s", word ? f->words : "");
-        const char *value = f->kind == KD_INTEGRAL_WORD ? f->words : f->kind == KD_INTEGRAL_NUMBERS ? "X,Y,..." : word ? values[i] : "X";
+        const char *value = f->kind == KD_INTEGRAL_WORD      ? f->words
+                            : f->kind == KD_INTEGRAL_NUMBERS ? "X,Y,..."
+                            : word                           ? values[i]
+                                                             : "X";
         options[n++] = (struct argp_option) { names[i], KEY_FIRST + (int)i, value, 0, helps[i], 1 };
     }
 }
@@ -204,12 +220,16 @@ static const struct argp *make_argp(enum kd_integral what, struct table *table)
     const char *title = kd_integral_kind_of(what)->title;
     set_options(what, table->options, table->names, table->helps, table->values);
     snprintf(table->doc, sizeof table->doc,
-             "%c%s.\vFILE is what POST /v1/%s takes; options change what it says, or say it all. docs/physics/integrals.md tells the formulas. %s",
+             "%c%s.\vFILE is what POST /v1/%s takes; options change what it says, or say it all. "
+             "docs/physics/integrals.md tells the formulas. %s",
              title[0] - 'a' + 'A', title + 1, kd_integral_name(what),
              what == KD_INTEGRAL_SPECTRUM ? "With a scene the spectrum is that of its volume; else no device is needed."
-             : may_have_scene(what)       ? "The scene is the default one, or what FILE, --preset, --from and --set say."
-                                          : "No device is needed.");
-    table->argp = (struct argp) { .options = table->options, .parser = parse, .args_doc = "[FILE.json|-]", .doc = table->doc,
+             : may_have_scene(what) ? "The scene is the default one, or what FILE, --preset, --from and --set say."
+                                    : "No device is needed.");
+    table->argp = (struct argp) { .options = table->options,
+                                  .parser = parse,
+                                  .args_doc = "[FILE.json|-]",
+                                  .doc = table->doc,
                                   .children = may_have_scene(what) ? kd_scene_device_children : children };
     return &table->argp;
 }
@@ -222,7 +242,9 @@ static int run(enum kd_integral what, const struct argp *argp, int argc, char **
 
     argp_parse(argp, argc, argv, 0, NULL, &arguments);
     bool print = !arguments.output || !strcmp(arguments.output, "-");
-    enum kd_status status = !print || format_of(&arguments) == KD_INTEGRAL_NPY ? kd_file_check(print ? "-" : arguments.output, &error) : KD_OK;
+    enum kd_status status = !print || format_of(&arguments) == KD_INTEGRAL_NPY
+                                ? kd_file_check(print ? "-" : arguments.output, &error)
+                                : KD_OK;
     if (!status)
         status = answer_text(&arguments, &out, &error);
     if (!status && !print)
@@ -245,14 +267,20 @@ const struct argp *kd_cli_transfer_function_argp(void)
     static struct table table;
     return make_argp(KD_INTEGRAL_TRANSFER, &table);
 }
-int kd_cli_transfer_function(int argc, char **argv) { return run(KD_INTEGRAL_TRANSFER, kd_cli_transfer_function_argp(), argc, argv); }
+int kd_cli_transfer_function(int argc, char **argv)
+{
+    return run(KD_INTEGRAL_TRANSFER, kd_cli_transfer_function_argp(), argc, argv);
+}
 
 const struct argp *kd_cli_visibility_argp(void)
 {
     static struct table table;
     return make_argp(KD_INTEGRAL_VISIBILITY, &table);
 }
-int kd_cli_visibility(int argc, char **argv) { return run(KD_INTEGRAL_VISIBILITY, kd_cli_visibility_argp(), argc, argv); }
+int kd_cli_visibility(int argc, char **argv)
+{
+    return run(KD_INTEGRAL_VISIBILITY, kd_cli_visibility_argp(), argc, argv);
+}
 
 const struct argp *kd_cli_spectrum_argp(void)
 {

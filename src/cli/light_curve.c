@@ -49,7 +49,8 @@ static error_t parse(int key, char *text, struct argp_state *state)
 }
 
 /* Reads the times as the scene's own time is read, with its range and its messages. */
-static enum kd_status span(const struct arguments *arguments, struct kd_scene *scene, double *to, struct kd_error *error)
+static enum kd_status span(const struct arguments *arguments, struct kd_scene *scene, double *to,
+                           struct kd_error *error)
 {
     const struct kd_spot *on[KD_SPOTS];
     struct kd_scene last = *scene;
@@ -109,7 +110,9 @@ static enum kd_status save(const struct work *w, const struct arguments *argumen
 {
     struct kd_buffer text = { 0 };
     const char *dot = strrchr(arguments->output, '.');
-    const struct kd_table_format *format = arguments->format ? arguments->format : dot ? kd_series_table(&kd_light_curve, dot + 1) : NULL;
+    const struct kd_table_format *format = arguments->format ? arguments->format
+                                           : dot             ? kd_series_table(&kd_light_curve, dot + 1)
+                                                             : NULL;
     if (!format)
         format = &kd_light_curve.tables[0];
     enum kd_status status = format->write(w->rows, w->frames, NULL, &text);
@@ -132,7 +135,8 @@ static enum kd_status run(struct arguments *arguments, struct kd_error *error)
     if (strcmp(arguments->output, "-"))
         KD_TRY(kd_file_check(arguments->output, error));
     const struct kd_assets assets = kd_asset_options_assets(&arguments->scene.assets);
-    KD_TRY(kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device, .assets = &assets }, &work.renderer, error));
+    KD_TRY(kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device, .assets = &assets },
+                              &work.renderer, error));
     if (!(work.rows = malloc(work.frames * sizeof *work.rows)))
         KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory for %u rows", work.frames));
     KD_TRY(measure(&work, &scene, to, error));
@@ -150,9 +154,12 @@ const struct argp *kd_cli_light_curve_argp(void)
         .parser = parse,
         .args_doc = KD_SCENE_ARGS_DOC,
         .doc = "Flux and centroid of a scene as its time goes on: of the whole picture and of its hot spots alone.\v"
-               "Flux is in M^2 (from a finite radius: sr) times the unit of brightness, centroids are (alpha, beta) in M (degrees to "
-               "the right of the hole and above it). Where light is polarised (polarization.model), Stokes Q and U in the unit of the flux, the "
-               "polarised fraction and the EVPA in radians are told as well, so that a spot's Q-U loop can be drawn. What lies outside the picture is not counted.",
+               "Flux is in M^2 (from a finite radius: sr) times the unit of brightness, centroids are (alpha, beta) in "
+               "M (degrees to "
+               "the right of the hole and above it). Where light is polarised (polarization.model), Stokes Q and U in "
+               "the unit of the flux, the "
+               "polarised fraction and the EVPA in radians are told as well, so that a spot's Q-U loop can be drawn. "
+               "What lies outside the picture is not counted.",
         .children = kd_scene_device_children,
     };
     return &argp;

@@ -33,7 +33,8 @@ static const struct {
     { "r", "R", "the radius there; or of a place on the way of an orbit by its constants" },
     { "outward", "true|false", "whether such an orbit moves outwards there" },
     { "periods", "N", "how long: radial periods (10), turns where r is constant" },
-    { "or_end", "true|false", "whether what plunges or escapes, and has no periods, is followed to its end instead (false)" },
+    { "or_end", "true|false",
+      "whether what plunges or escapes, and has no periods, is followed to its end instead (false)" },
     { "time", "T", "or coordinate time, in M" },
     { "samples", "N", "of the path, both ends counted (1000); 0 for none" },
     { "digits", "N", "significant digits of the series as text (17: all)" },
@@ -160,7 +161,8 @@ static void share(struct kd_orbit_feed *feed)
         pthread_join(threads[--n], NULL);
 }
 
-static enum kd_status write_answer(const struct arguments *arguments, struct kd_orbit_feed *feed, struct kd_error *error)
+static enum kd_status write_answer(const struct arguments *arguments, struct kd_orbit_feed *feed,
+                                   struct kd_error *error)
 {
     const char *path = arguments->output ? arguments->output : "-";
     struct source source = { .feed = feed, .error = error };
@@ -207,14 +209,17 @@ static enum kd_status run(const struct arguments *arguments, struct kd_error *er
 static void set_options(struct argp_option *options, char names[N_FIELDS][32])
 {
     options[0] =
-        (struct argp_option) { "output", 'o', "FILE", 0, "where to write; .npy, .csv and .ndjson choose those formats", 0 };
-    options[1] =
-        (struct argp_option) { "format", 'f', "json|ndjson|csv|npy", 0, "the format, whatever the name of the output", 0 };
+        (struct argp_option) { "output", 'o', "FILE", 0, "where to write; .npy, .csv and .ndjson choose those formats",
+                               0 };
+    options[1] = (struct argp_option) {
+        "format", 'f', "json|ndjson|csv|npy", 0, "the format, whatever the name of the output", 0
+    };
     for (size_t i = 0; i < N_FIELDS; i++) {
         strncpy(names[i], fields[i].name, 31);
         for (char *c = names[i]; (c = strchr(c, '_'));)
             *c = '-';
-        options[2 + i] = (struct argp_option) { names[i], KEY_FIRST + (int)i, fields[i].argument, 0, fields[i].help, 0 };
+        options[2 + i] =
+            (struct argp_option) { names[i], KEY_FIRST + (int)i, fields[i].argument, 0, fields[i].help, 0 };
     }
 }
 
@@ -227,11 +232,12 @@ const struct argp *kd_cli_orbit_argp(void)
         .options = options,
         .parser = parse,
         .args_doc = "[FILE.json|-]",
-        .doc =
-            "Follow a body round a Kerr hole: its path, turning points, constants of motion and their drift, frequencies, and the "
-            "advance of its periastron.\v"
-            "FILE is what POST /v1/orbits takes, one orbit or a list of them; options change what it says, or say it all: kerrd "
-            "orbit --spin 0.9 --p 6 --e 0.5 --inclination-deg 30. No device is needed.",
+        .doc = "Follow a body round a Kerr hole: its path, turning points, constants of motion and their drift, "
+               "frequencies, and the "
+               "advance of its periastron.\v"
+               "FILE is what POST /v1/orbits takes, one orbit or a list of them; options change what it says, or say "
+               "it all: kerrd "
+               "orbit --spin 0.9 --p 6 --e 0.5 --inclination-deg 30. No device is needed.",
         .children = children,
     };
     set_options(options, names);

@@ -66,7 +66,8 @@ static enum kd_status header(struct source *s)
         snprintf(array.fields[i].name, sizeof array.fields[i].name, "%s", kd_particle_column_name(s->list.columns[i]));
         array.fields[i].type = KD_NPY_F4;
     }
-    return kd_npy_write_header(&array, &s->ready) ? kd_error_set(&s->error, KD_ENOMEM, "out of memory for the header") : KD_OK;
+    return kd_npy_write_header(&array, &s->ready) ? kd_error_set(&s->error, KD_ENOMEM, "out of memory for the header")
+                                                  : KD_OK;
 }
 
 static enum kd_status more(struct source *s)
@@ -75,7 +76,8 @@ static enum kd_status more(struct source *s)
     size_t bytes = n * kd_particle_list_row(&s->list);
     float *rows = malloc(bytes);
     s->ready.size = s->at = 0;
-    enum kd_status status = rows ? kd_particle_list_fill(s->renderer, &s->list, s->listed, n, rows, &s->error) : KD_ENOMEM;
+    enum kd_status status =
+        rows ? kd_particle_list_fill(s->renderer, &s->list, s->listed, n, rows, &s->error) : KD_ENOMEM;
     if (!rows || (!status && kd_buffer_append(&s->ready, rows, bytes)))
         status = kd_error_set(&s->error, KD_ENOMEM, "out of memory for %zu particles", n);
     free(rows);
@@ -119,9 +121,11 @@ const struct argp *kd_cli_particles_argp(void)
         .options = table,
         .parser = parse,
         .args_doc = KD_SCENE_ARGS_DOC,
-        .doc = "Where the particles of a scene are at its time, and how they move, as an NPY array: a record a particle.\v"
-               "Columns: x, y, z, r, phi, latitude, energy, angular_momentum, dr_dt, dphi_dt, dlatitude_dt; docs/live.md says what "
-               "they are.",
+        .doc =
+            "Where the particles of a scene are at its time, and how they move, as an NPY array: a record a particle.\v"
+            "Columns: x, y, z, r, phi, latitude, energy, angular_momentum, dr_dt, dphi_dt, dlatitude_dt; docs/live.md "
+            "says what "
+            "they are.",
         .children = kd_scene_device_children,
     };
     return &argp;

@@ -39,7 +39,8 @@ static error_t parse(int key, char *text, struct argp_state *state)
 /* The options of one quantity, and the texts that they point into. */
 struct options {
     struct argp_option table[KD_QUANTITY_PARAMETERS + 4];
-    char names[KD_QUANTITY_PARAMETERS][NAME_SIZE], values[KD_QUANTITY_PARAMETERS][NAME_SIZE], helps[KD_QUANTITY_PARAMETERS][HELP_SIZE], doc[HELP_SIZE];
+    char names[KD_QUANTITY_PARAMETERS][NAME_SIZE], values[KD_QUANTITY_PARAMETERS][NAME_SIZE],
+        helps[KD_QUANTITY_PARAMETERS][HELP_SIZE], doc[HELP_SIZE];
     struct argp argp;
 };
 
@@ -48,20 +49,25 @@ static void make_options(const struct kd_quantity *quantity, struct options *opt
     size_t n = 0;
     for (; n < quantity->n_parameters; n++) {
         const struct kd_parameter *p = &quantity->parameters[n];
-        char *name = options->names[n], *help = options->helps[n], *value = options->values[n], allowed[KD_ALLOWED_TEXT];
+        char *name = options->names[n], *help = options->helps[n], *value = options->values[n],
+             allowed[KD_ALLOWED_TEXT];
         snprintf(name, NAME_SIZE, "%s", p->name);
         for (char *c = name; *c; c++)
             *c = *c == '_' ? '-' : *c;
         kd_parameter_allowed(p, allowed);
         snprintf(value, NAME_SIZE, "VALUE%s%s", p->word ? "|" : "", p->word ? p->word : "");
         snprintf(help, HELP_SIZE, "%s; %s (default: %s)", p->help, allowed, p->initial);
-        options->table[n] = (struct argp_option) { name, KEY_PARAMETER + (int)n, p->words ? p->words : value, 0, help, 1 };
+        options->table[n] =
+            (struct argp_option) { name, KEY_PARAMETER + (int)n, p->words ? p->words : value, 0, help, 1 };
     }
     options->table[n++] = (struct argp_option) {
         "output", 'o', "FILE", 0, "where to write; .csv and .wav choose that format (default: - for standard output)", 2
     };
-    options->table[n++] = (struct argp_option) { "format", 'f', "json|csv|wav", 0, "the format, whatever the name of the output", 2 };
-    options->table[n++] = (struct argp_option) { "digits", KEY_DIGITS, "N", 0, "significant digits of the numbers in lists, in CSV of all (default: 17, all)", 2 };
+    options->table[n++] =
+        (struct argp_option) { "format", 'f', "json|csv|wav", 0, "the format, whatever the name of the output", 2 };
+    options->table[n++] = (struct argp_option) {
+        "digits", KEY_DIGITS, "N", 0, "significant digits of the numbers in lists, in CSV of all (default: 17, all)", 2
+    };
     options->table[n] = (struct argp_option) { 0 };
 }
 
@@ -75,7 +81,8 @@ static enum kd_status answer_text(const struct arguments *arguments, struct kd_b
     kd_quantity_request_init(&request, arguments->quantity);
     for (size_t i = 0; i < arguments->quantity->n_parameters; i++)
         if (arguments->given[i])
-            KD_TRY(kd_quantity_request_set(&request, arguments->quantity->parameters[i].name, arguments->given[i], error));
+            KD_TRY(
+                kd_quantity_request_set(&request, arguments->quantity->parameters[i].name, arguments->given[i], error));
     if (arguments->digits)
         KD_TRY(kd_quantity_request_set(&request, "digits", arguments->digits, error));
     if (!strcmp(format, "wav"))
@@ -99,7 +106,8 @@ const struct argp *kd_cli_quantity_argp(const struct kd_quantity *quantity)
              "%c%s.\vA VALUE is a number or a range, first:last:count. What each number of the answer means is in "
              "docs/physics-quantities.md and in GET /v1/physics.",
              quantity->summary[0] - 'a' + 'A', quantity->summary + 1);
-    options.argp = (struct argp) { .options = options.table, .parser = parse, .doc = options.doc, .children = children };
+    options.argp =
+        (struct argp) { .options = options.table, .parser = parse, .doc = options.doc, .children = children };
     return &options.argp;
 }
 

@@ -19,7 +19,8 @@ struct arguments {
 static const struct argp_option table[] = {
     { "at", KEY_AT, "X,Y", 0, "the pixel: a place in the picture, in pixels from its upper left corner (required)", 0 },
     { "trace", KEY_TRACE, 0, 0, "tell the engine's own steps along the ray, too (in JSON)", 0 },
-    { "output", 'o', "FILE", 0, "where to write; a name that ends in .json chooses that format (default: - for standard output)", 0 },
+    { "output", 'o', "FILE", 0,
+      "where to write; a name that ends in .json chooses that format (default: - for standard output)", 0 },
     { "format", 'f', "text|json", 0, "the format, whatever the name of the output", 0 },
     KD_CLI_MEMORY,
     { 0 },
@@ -58,8 +59,8 @@ static error_t parse(int key, char *text, struct argp_state *state)
     return ARGP_ERR_UNKNOWN;
 }
 
-static enum kd_status draw(const struct arguments *arguments, struct kd_renderer *renderer, struct kd_scene *scene, struct kd_plan *plan,
-                           struct kd_frame *frame, struct kd_error *error)
+static enum kd_status draw(const struct arguments *arguments, struct kd_renderer *renderer, struct kd_scene *scene,
+                           struct kd_plan *plan, struct kd_frame *frame, struct kd_error *error)
 {
     struct kd_capacity capacity;
     struct kd_progress progress;
@@ -92,11 +93,14 @@ static enum kd_status run(struct arguments *arguments, struct kd_error *error)
     if (strcmp(path, "-"))
         KD_TRY(kd_file_check(path, error));
     const struct kd_assets assets = kd_asset_options_assets(&arguments->scene.assets);
-    KD_TRY(kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device, .memory_bytes = arguments->memory, .assets = &assets },
+    KD_TRY(kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device,
+                                                             .memory_bytes = arguments->memory,
+                                                             .assets = &assets },
                               &renderer, error));
     KD_TRY(draw(arguments, renderer, &scene, &plan, &frame, error));
     const struct kd_picture picture = { &frame, &scene, &plan, kd_renderer_device_name(renderer), 0 };
-    KD_TRY(wants_json(arguments) ? kd_encode(&kd_format_pixel, &picture, KD_EFFORT_KEEP, NULL, &text, error) : kd_explain_text(&picture, &text, error));
+    KD_TRY(wants_json(arguments) ? kd_encode(&kd_format_pixel, &picture, KD_EFFORT_KEEP, NULL, &text, error)
+                                 : kd_explain_text(&picture, &text, error));
     KD_TRY(kd_file_write(path, &text, error));
 done:
     kd_buffer_finish(&text);
@@ -111,7 +115,8 @@ const struct argp *kd_cli_pixel_argp(void)
         .options = table,
         .parser = parse,
         .args_doc = KD_SCENE_ARGS_DOC,
-        .doc = "Explain what one pixel of a scene's picture shows: its ray, what that crosses and when, what each emitter gives it, where it ends and "
+        .doc = "Explain what one pixel of a scene's picture shows: its ray, what that crosses and when, what each "
+               "emitter gives it, where it ends and "
                "why.\vThe scene is merged as for render.",
         .children = kd_scene_device_children,
     };

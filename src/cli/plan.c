@@ -32,8 +32,8 @@ static error_t parse(int key, char *text, struct argp_state *state)
     return 0;
 }
 
-static enum kd_status plan_sweep(struct arguments *arguments, const struct kd_scene *scene, const struct kd_capacity *capacity, struct kd_buffer *out,
-                                 struct kd_error *error)
+static enum kd_status plan_sweep(struct arguments *arguments, const struct kd_scene *scene,
+                                 const struct kd_capacity *capacity, struct kd_buffer *out, struct kd_error *error)
 {
     const struct kd_assets assets = kd_asset_options_assets(&arguments->scene.assets);
     struct kd_sweep *sweep = NULL;
@@ -50,8 +50,7 @@ done:
     return status;
 }
 
-static enum kd_status plan_scene(struct arguments *arguments, struct kd_buffer *out,
-                                 struct kd_error *error)
+static enum kd_status plan_scene(struct arguments *arguments, struct kd_buffer *out, struct kd_error *error)
 {
     struct kd_scene scene;
     struct kd_capacity capacity;

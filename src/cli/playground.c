@@ -1,4 +1,5 @@
-/* kerrd playground lets bodies move round the hole for a while, and writes where they are then and what has happened. */
+/* kerrd playground lets bodies move round the hole for a while, and writes where they are then and what has
+ * happened. */
 #include "cli/cli.h"
 #include "cli/file.h"
 #include "cli/playground_pictures.h"
@@ -11,7 +12,21 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { KEY_SET = 256, KEY_TIME, KEY_SERIES, KEY_FALLBACK, KEY_EVENTS, KEY_LIST, KEY_PICTURE, KEY_EVERY, KEY_SCENE, KEY_SCENE_PRESET, KEY_SCENE_SET, KEY_SIZE, SETS_MAX = 64 };
+enum {
+    KEY_SET = 256,
+    KEY_TIME,
+    KEY_SERIES,
+    KEY_FALLBACK,
+    KEY_EVENTS,
+    KEY_LIST,
+    KEY_PICTURE,
+    KEY_EVERY,
+    KEY_SCENE,
+    KEY_SCENE_PRESET,
+    KEY_SCENE_SET,
+    KEY_SIZE,
+    SETS_MAX = 64
+};
 
 struct arguments {
     const char *document, *preset, *output, *series, *fallback, *events;
@@ -26,18 +41,27 @@ static const struct argp_option table[] = {
     { "preset", 'p', "PLAYGROUND", 0, "begin with this one; --list names them", 0 },
     { "set", KEY_SET, "SETTING=VALUE", 0, "a setting, such as waves=true", 0 },
     { "time", KEY_TIME, "M", 0, "how long (default: 0, which only writes the begin)", 0 },
-    { "output", 'o', "FILE.json", 0, "where the snapshot goes, which can be gone on from (default: standard output, unless there are pictures)", 0 },
-    { "series", KEY_SERIES, "FILE", 0, "energy, angular momentum, separation and strain over time, as .csv or .npy", 0 },
+    { "output", 'o', "FILE.json", 0,
+      "where the snapshot goes, which can be gone on from (default: standard output, unless there are pictures)", 0 },
+    { "series", KEY_SERIES, "FILE", 0, "energy, angular momentum, separation and strain over time, as .csv or .npy",
+      0 },
     { "fallback", KEY_FALLBACK, "FILE.csv", 0, "the rate at which debris has come back, beside the line t^(-5/3)", 0 },
     { "events", KEY_EVENTS, "FILE.ndjson", 0, "what has happened, a line each", 0 },
     { "list", KEY_LIST, 0, 0, "name the presets", 0 },
-    { "picture", KEY_PICTURE, "FILE", 0, "a lensed picture of it at the end, by its end a PNG, FITS, EXR, NPZ or NPY; with --every a name with %d in it, as film/%05d.png", 1 },
+    { "picture", KEY_PICTURE, "FILE", 0,
+      "a lensed picture of it at the end, by its end a PNG, FITS, EXR, NPZ or NPY; with --every a name with %d in it, "
+      "as film/%05d.png",
+      1 },
     { "every", KEY_EVERY, "M", 0, "pictures from the begin on, so far apart", 1 },
-    { "scene", KEY_SCENE, "SCENE.json", 0, "camera, disk, sky and all else of the pictures (default: a view of the preset, or of all bodies)", 1 },
-    { "scene-preset", KEY_SCENE_PRESET, "PRESET", 0, "the same from a preset of scenes (`kerrd presets` lists them)", 1 },
-    { "scene-set", KEY_SCENE_SET, "PATH=VALUE", 0, "set one field of that scene, as in camera.inclination_deg=60; may be repeated", 1 },
+    { "scene", KEY_SCENE, "SCENE.json", 0,
+      "camera, disk, sky and all else of the pictures (default: a view of the preset, or of all bodies)", 1 },
+    { "scene-preset", KEY_SCENE_PRESET, "PRESET", 0, "the same from a preset of scenes (`kerrd presets` lists them)",
+      1 },
+    { "scene-set", KEY_SCENE_SET, "PATH=VALUE", 0,
+      "set one field of that scene, as in camera.inclination_deg=60; may be repeated", 1 },
     { "size", KEY_SIZE, "WIDTHxHEIGHT", 0, "of the pictures, as in 1920x1080", 1 },
-    { "stats", 't', NULL, 0, "print how many pictures there are and how long they took, as one line of JSON on standard error", 1 },
+    { "stats", 't', NULL, 0,
+      "print how many pictures there are and how long they took, as one line of JSON on standard error", 1 },
     KD_CLI_MEMORY,
     { 0 },
 };
@@ -135,7 +159,8 @@ static bool ends(const char *text, const char *end)
     return strlen(text) >= strlen(end) && !strcmp(text + strlen(text) - strlen(end), end);
 }
 
-/* What has happened since the begin, a line each. More than KD_PLAYGROUND_EVENTS in one sub-step are not kept: a line says which are lost. */
+/* What has happened since the begin, a line each. More than KD_PLAYGROUND_EVENTS in one sub-step are not kept: a
+ * line says which are lost. */
 struct story {
     struct kd_buffer text;
     uint64_t told, lost; /* number of the last event that it has; how many are missing */
@@ -155,7 +180,9 @@ static enum kd_status add_lost(struct story *story, uint64_t to)
 
 static enum kd_status go_on_telling(struct story *story, const struct kd_playground *p)
 {
-    const uint64_t last = p->events.last, first = last > KD_PLAYGROUND_EVENTS ? last - KD_PLAYGROUND_EVENTS : 0; /* the one before the first that is kept */
+    const uint64_t last = p->events.last, first = last > KD_PLAYGROUND_EVENTS
+                                                      ? last - KD_PLAYGROUND_EVENTS
+                                                      : 0; /* the one before the first that is kept */
     enum kd_status status = KD_OK;
     if (story->told < first) {
         KD_TRY(add_lost(story, first));
@@ -207,9 +234,11 @@ static enum kd_status go_on(struct kd_playground *p, double t, struct story *sto
     }
     const struct kd_playground_progress progress = kd_playground_progress(p, &run);
     if (progress.ended)
-        fprintf(stderr, "kerrd: time ends at %g M, after %.9g M of %.9g M\n", KD_PLAYGROUND_TIME, progress.done, t - begin);
+        fprintf(stderr, "kerrd: time ends at %g M, after %.9g M of %.9g M\n", KD_PLAYGROUND_TIME, progress.done,
+                t - begin);
     else if (progress.slowed)
-        fprintf(stderr, "kerrd: the budget of %u sub-steps was spent after %.9g M of %.9g M\n", p->params.budget, progress.done, t - begin);
+        fprintf(stderr, "kerrd: the budget of %u sub-steps was spent after %.9g M of %.9g M\n", p->params.budget,
+                progress.done, t - begin);
     return KD_OK;
 }
 
@@ -245,7 +274,8 @@ static enum kd_status work(struct arguments *a, struct kd_error *error)
     else
         KD_TRY(go_on(p, p->t + a->time, &story, error));
     if (story.lost)
-        fprintf(stderr, "kerrd: %llu events are lost: of one sub-step %d are kept\n", (unsigned long long)story.lost, KD_PLAYGROUND_EVENTS);
+        fprintf(stderr, "kerrd: %llu events are lost: of one sub-step %d are kept\n", (unsigned long long)story.lost,
+                KD_PLAYGROUND_EVENTS);
     KD_TRY(write_one(p, SERIES, a->series, error));
     KD_TRY(write_one(p, FALLBACK, a->fallback, error));
     if (a->events)
@@ -263,8 +293,10 @@ const struct argp *kd_cli_playground_argp(void)
         .options = table,
         .parser = parse,
         .args_doc = "[FILE.json|-]",
-        .doc = "Bodies round the hole that pull one another, merge, are torn apart and spiral in; docs/playground.md says what is computed.\v"
-               "The document is one that was asked for or written as a snapshot. Without one, and without --preset, there are no bodies.",
+        .doc = "Bodies round the hole that pull one another, merge, are torn apart and spiral in; docs/playground.md "
+               "says what is computed.\v"
+               "The document is one that was asked for or written as a snapshot. Without one, and without --preset, "
+               "there are no bodies.",
         .children = kd_cli_device_children,
     };
     return &argp;

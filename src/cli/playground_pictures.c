@@ -10,7 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* One %d, perhaps with a width: where it is, and how long; NULL: there is none, or there is something else that printf would take. */
+/* One %d, perhaps with a width: where it is, and how long; NULL: there is none, or there is something else that
+ * printf would take. */
 static const char *number_in(const char *path, int *length)
 {
     const char *at = strchr(path, '%'), *end = at;
@@ -26,19 +27,29 @@ static const char *number_in(const char *path, int *length)
 enum kd_status kd_pictures_check(const struct kd_pictures_asked *asked, struct kd_error *error)
 {
     int length;
-    const char *idle = asked->every > 0 ? "--every" : asked->scene.document ? "--scene" : asked->scene.preset ? "--scene-preset" :
-                       asked->scene.n_set ? "--scene-set and --size" : asked->stats ? "--stats" : asked->memory ? "--memory" : NULL;
+    const char *idle = asked->every > 0        ? "--every"
+                       : asked->scene.document ? "--scene"
+                       : asked->scene.preset   ? "--scene-preset"
+                       : asked->scene.n_set    ? "--scene-set and --size"
+                       : asked->stats          ? "--stats"
+                       : asked->memory         ? "--memory"
+                                               : NULL;
     if (!asked->path)
         return idle ? kd_error_set(error, KD_EINVAL, "for --picture FILE, which is missing: %s", idle) : KD_OK;
     if (!kd_format_of_path(asked->path))
-        return kd_error_set(error, KD_EINVAL, "--picture is \"%s\", allowed is a name that ends in .png, .fits, .exr, .npz or .npy", asked->path);
+        return kd_error_set(error, KD_EINVAL,
+                            "--picture is \"%s\", allowed is a name that ends in .png, .fits, .exr, .npz or .npy",
+                            asked->path);
     if (asked->every > 0 && !number_in(asked->path, &length))
-        return kd_error_set(error, KD_EINVAL, "--picture is \"%s\", allowed with --every is a name with one %%d in it, as film/%%05d.png", asked->path);
+        return kd_error_set(error, KD_EINVAL,
+                            "--picture is \"%s\", allowed with --every is a name with one %%d in it, as film/%%05d.png",
+                            asked->path);
     return KD_OK;
 }
 
 /* A scene that nobody names has the spin that the playground has. */
-static enum kd_status load(struct kd_pictures_asked *asked, const char *view, const struct kd_playground *p, struct kd_scene *out, struct kd_error *error)
+static enum kd_status load(struct kd_pictures_asked *asked, const char *view, const struct kd_playground *p,
+                           struct kd_scene *out, struct kd_error *error)
 {
     enum kd_status status;
     if (asked->scene.document || asked->scene.preset)
@@ -49,7 +60,8 @@ static enum kd_status load(struct kd_pictures_asked *asked, const char *view, co
     return status ? status : kd_scene_options_merge(&asked->scene, out, error);
 }
 
-enum kd_status kd_pictures_begin(struct kd_pictures_asked *asked, const char *view, const struct kd_playground *p, struct kd_pictures *out, struct kd_error *error)
+enum kd_status kd_pictures_begin(struct kd_pictures_asked *asked, const char *view, const struct kd_playground *p,
+                                 struct kd_pictures *out, struct kd_error *error)
 {
     enum kd_status status;
     *out = (struct kd_pictures) { .asked = asked };
@@ -57,7 +69,9 @@ enum kd_status kd_pictures_begin(struct kd_pictures_asked *asked, const char *vi
     KD_TRY(load(asked, view, p, &out->scene, error));
     KD_TRY(kd_playground_may_show(p, &out->scene, error));
     out->assets = kd_asset_options_assets(&asked->scene.assets);
-    KD_TRY(kd_renderer_create(&(struct kd_renderer_params) { .device = asked->device, .memory_bytes = asked->memory, .assets = &out->assets }, &out->renderer, error));
+    KD_TRY(kd_renderer_create(
+        &(struct kd_renderer_params) { .device = asked->device, .memory_bytes = asked->memory, .assets = &out->assets },
+        &out->renderer, error));
 done:
     return status;
 }
@@ -75,7 +89,8 @@ static void name_of(const struct kd_pictures *p, char out[4096])
     snprintf(out, 4096, "%.*s%0*u%s", (int)(at - p->asked->path), p->asked->path, width, p->made, at + length);
 }
 
-static enum kd_status render(struct kd_pictures *p, struct kd_scene *scene, struct kd_buffer *file, struct kd_error *error)
+static enum kd_status render(struct kd_pictures *p, struct kd_scene *scene, struct kd_buffer *file,
+                             struct kd_error *error)
 {
     struct kd_capacity capacity;
     struct kd_plan plan;

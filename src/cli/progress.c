@@ -53,10 +53,7 @@ void kd_progress_finish(struct kd_progress *progress)
     progress->visible = false;
 }
 
-static void on_signal(int number)
-{
-    caught = number;
-}
+static void on_signal(int number) { caught = number; }
 
 void kd_progress_catch_signals(void)
 {

@@ -24,7 +24,8 @@ double kd_progress_clock(void); /* seconds, monotonic */
 void kd_progress_catch_signals(void);
 /* Die of the signal that was caught, as the shell expects; returns if there was none. */
 void kd_progress_reraise(void);
-/* The exit code of a command that a signal may have stopped: it has said what failed, and dies of the signal if that was it. */
+/* The exit code of a command that a signal may have stopped: it has said what failed, and dies of the signal if that
+ * was it. */
 int kd_progress_exit(enum kd_status status, const struct kd_error *error);
 
 #endif

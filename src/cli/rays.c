@@ -12,7 +12,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { KEY_SPIN = 256, KEY_R, KEY_INCLINATION, KEY_ORDERS, KEY_PROFILE, KEY_TOLERANCE, KEY_ENGINE, KEY_PRECISION, KEY_STEPS, KEY_END, KEY_TRACE };
+enum {
+    KEY_SPIN = 256,
+    KEY_R,
+    KEY_INCLINATION,
+    KEY_ORDERS,
+    KEY_PROFILE,
+    KEY_TOLERANCE,
+    KEY_ENGINE,
+    KEY_PRECISION,
+    KEY_STEPS,
+    KEY_END,
+    KEY_TRACE
+};
 #define N_FIELDS (KEY_END - KEY_SPIN)
 
 /* The fields in the order of their keys, by the names that kd_rays_request_set has for them. */
@@ -27,7 +39,8 @@ struct arguments {
 };
 
 static const struct argp_option table[] = {
-    { "output", 'o', "FILE", 0, "where to write; .npy and .csv choose those formats (default: - for standard output)", 0 },
+    { "output", 'o', "FILE", 0, "where to write; .npy and .csv choose those formats (default: - for standard output)",
+      0 },
     { "format", 'f', "json|npy|csv|text", 0, "the format, whatever the name of the output; text goes with --trace", 0 },
     { "ray", 'r', "ALPHA,BETA", 0, "one more ray, in M; may be repeated", 0 },
     { "spin", KEY_SPIN, "A", 0, "spin of the hole, above -1 and below 1", 0 },
@@ -35,13 +48,17 @@ static const struct argp_option table[] = {
     { "inclination-deg", KEY_INCLINATION, "I", 0, "polar angle of the observer", 0 },
     { "orders", KEY_ORDERS, "N", 0, "crossings wanted, 1 to 16", 0 },
     { "profile", KEY_PROFILE, "draft|interactive|balanced|high|reference", 0, "how exactly, in a word", 0 },
-    { "tolerance", KEY_TOLERANCE, "T", 0, "relative error of the radii to be held: the fastest engine that does, by this device's table", 0 },
-    { "engine", KEY_ENGINE, "closed|mino-rkn4|mino-rkn6|ks-euler|ks-rk4|ks-tao6|auto", 0, "how rays are followed (default: closed)", 0 },
+    { "tolerance", KEY_TOLERANCE, "T", 0,
+      "relative error of the radii to be held: the fastest engine that does, by this device's table", 0 },
+    { "engine", KEY_ENGINE, "closed|mino-rkn4|mino-rkn6|ks-euler|ks-rk4|ks-tao6|auto", 0,
+      "how rays are followed (default: closed)", 0 },
     { "precision", KEY_PRECISION, "f64|f32|auto", 0, "of its numbers (default: f64)", 0 },
     { "steps", KEY_STEPS, "N", 0, "steps a half period, a multiple of 4; 0 for the engine's default", 0 },
     { "trace", KEY_TRACE, "steps|path", OPTION_ARG_OPTIONAL,
-      "one ray: the case of its roots, why it ends, and its steps as the device takes them, or with --trace=path the points of its path "
-      "(engine: mino-rkn6 unless one is named)", 0 },
+      "one ray: the case of its roots, why it ends, and its steps as the device takes them, or with --trace=path the "
+      "points of its path "
+      "(engine: mino-rkn6 unless one is named)",
+      0 },
     { 0 },
 };
 
@@ -141,14 +158,15 @@ static enum kd_status load(const struct arguments *arguments, struct kd_rays_req
         if (arguments->fields[i])
             KD_TRY(kd_rays_request_set(request, names[i], arguments->fields[i], error));
     for (size_t i = 0; i < arguments->more.n; i++)
-        KD_TRY(kd_rays_request_add(request, arguments->more.alpha_beta[2 * i], arguments->more.alpha_beta[2 * i + 1], error));
+        KD_TRY(kd_rays_request_add(request, arguments->more.alpha_beta[2 * i], arguments->more.alpha_beta[2 * i + 1],
+                                   error));
 done:
     return status;
 }
 
 /* What the wish for accuracy comes to, on a device if it needs one. */
-static enum kd_status settle(const struct arguments *arguments, struct kd_rays_request *request, struct kd_renderer **renderer,
-                             struct kd_error *error)
+static enum kd_status settle(const struct arguments *arguments, struct kd_rays_request *request,
+                             struct kd_renderer **renderer, struct kd_error *error)
 {
     struct kd_capacity capacity;
     enum kd_status status;
@@ -168,18 +186,15 @@ static enum kd_status trace(struct kd_renderer *renderer, struct kd_rays_answer 
     struct kd_progress progress;
     kd_progress_init(&progress);
     kd_progress_catch_signals();
-    enum kd_status status = kd_rays_trace(renderer, &answer->params, answer->alpha_beta, answer->n, answer->crossings, answer->ends,
-                           kd_progress_update, &progress, error);
+    enum kd_status status = kd_rays_trace(renderer, &answer->params, answer->alpha_beta, answer->n, answer->crossings,
+                                          answer->ends, kd_progress_update, &progress, error);
     kd_progress_finish(&progress);
     if (status == KD_EDEVICE && !*error->pointer) /* with a pointer it only lacks what was asked for */
         kd_cli_device_lost(error);
     return status ? status : kd_rays_answer_summarise(answer, error);
 }
 
-static size_t produce(void *user, void *to, size_t size)
-{
-    return kd_rays_stream_read(user, to, size);
-}
+static size_t produce(void *user, void *to, size_t size) { return kd_rays_stream_read(user, to, size); }
 
 static enum kd_status run(const struct arguments *arguments, struct kd_error *error)
 {
@@ -238,7 +253,8 @@ static enum kd_status run_trace(const struct arguments *arguments, struct kd_err
     if (arguments->output && strcmp(arguments->output, "-"))
         KD_TRY(kd_file_check(arguments->output, error));
     KD_TRY(settle(arguments, &request, &renderer, error));
-    status = kd_rays_steps(renderer, &request.params, &(struct kd_ray_labels) { request.alpha_beta, NULL, 1 }, &steps, error);
+    status = kd_rays_steps(renderer, &request.params, &(struct kd_ray_labels) { request.alpha_beta, NULL, 1 }, &steps,
+                           error);
     if (status == KD_EDEVICE && !*error->pointer) /* as in trace() */
         kd_cli_device_lost(error);
     KD_TRY(status);

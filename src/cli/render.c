@@ -22,7 +22,8 @@ struct arguments {
 };
 
 static const struct argp_option table[] = {
-    { "output", 'o', "FILE", 0, "the file to write, by its end a PNG, FITS, EXR, NPZ or NPY; - for standard output, a PNG (required)", 0 },
+    { "output", 'o', "FILE", 0,
+      "the file to write, by its end a PNG, FITS, EXR, NPZ or NPY; - for standard output, a PNG (required)", 0 },
     KD_CLI_MEMORY,
     { "stats", 't', NULL, 0, "print times and accuracy as one line of JSON on standard error", 0 },
     { 0 },
@@ -40,11 +41,12 @@ static void name_formats(char *out, size_t size)
     }
 }
 
-/* Finds the format by the output's name; the first of all for a name that says nothing. The name of another kind of picture is
- * refused. */
+/* Finds the format by the output's name; the first of all for a name that says nothing. The name of another kind of
+ * picture is refused. */
 static const struct kd_format *format_of(const char *path, const struct argp_state *state)
 {
-    static const char *const others[] = { ".jpg", ".jpeg", ".gif", ".webp", ".tif", ".tiff", ".bmp", ".hdr", ".pdf", ".svg" };
+    static const char *const others[] = { ".jpg",  ".jpeg", ".gif", ".webp", ".tif",
+                                          ".tiff", ".bmp",  ".hdr", ".pdf",  ".svg" };
     const struct kd_format *format = kd_format_of_path(path);
     const char *dot = strrchr(path, '.');
     char known[80];
@@ -53,7 +55,8 @@ static const struct kd_format *format_of(const char *path, const struct argp_sta
     name_formats(known, sizeof known);
     for (size_t i = 0; dot && i < sizeof others / sizeof *others; i++)
         if (!strcasecmp(dot, others[i]))
-            argp_error(state, "output is \"%s\", allowed is a %s file: a name that does not end in %s", path, known, others[i]);
+            argp_error(state, "output is \"%s\", allowed is a %s file: a name that does not end in %s", path, known,
+                       others[i]);
     return kd_formats[0];
 }
 
@@ -87,7 +90,8 @@ struct work {
     double render_ms, encode_ms;
 };
 
-static enum kd_status save(struct work *work, const struct kd_scene *scene, const struct arguments *arguments, struct kd_error *error)
+static enum kd_status save(struct work *work, const struct kd_scene *scene, const struct arguments *arguments,
+                           struct kd_error *error)
 {
     double started = kd_progress_clock();
     const struct kd_picture picture = { &work->frame, scene, &work->plan, kd_renderer_device_name(work->renderer), 0 };
@@ -96,8 +100,7 @@ static enum kd_status save(struct work *work, const struct kd_scene *scene, cons
     return status ? status : kd_file_write(arguments->output, &work->file, error);
 }
 
-static enum kd_status print_stats(const struct work *work, const struct kd_scene *scene,
-                                  struct kd_error *error)
+static enum kd_status print_stats(const struct work *work, const struct kd_scene *scene, struct kd_error *error)
 {
     const struct kd_stats stats = {
         .device = kd_renderer_device_name(work->renderer),
@@ -126,7 +129,9 @@ static enum kd_status run(struct arguments *arguments, struct kd_error *error)
     KD_TRY(kd_scene_options_load(&arguments->scene, &scene, error));
     KD_TRY(kd_file_check(arguments->output, error));
     const struct kd_assets assets = kd_asset_options_assets(&arguments->scene.assets);
-    KD_TRY(kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device, .memory_bytes = arguments->memory, .assets = &assets },
+    KD_TRY(kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device,
+                                                             .memory_bytes = arguments->memory,
+                                                             .assets = &assets },
                               &work.renderer, error));
     KD_TRY(kd_cli_draw(work.renderer, arguments->format, &scene, &work.plan, &work.frame, &work.render_ms, error));
     KD_TRY(save(&work, &scene, arguments, error));

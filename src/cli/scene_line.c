@@ -15,7 +15,8 @@ static void strip(char *text)
 }
 
 /* Whether the field is not as in a default one; its value is then the text in *value. */
-static bool differs(const struct kd_scene *scene, const struct kd_field *field, size_t index, struct kd_buffer *value, struct kd_writer *w)
+static bool differs(const struct kd_scene *scene, const struct kd_field *field, size_t index, struct kd_buffer *value,
+                    struct kd_writer *w)
 {
     struct kd_buffer initial = { 0 };
     struct kd_writer own = { .out = &initial };
@@ -33,7 +34,8 @@ static bool differs(const struct kd_scene *scene, const struct kd_field *field, 
 }
 
 /* An element of a list that is there is told, also where nothing of it differs: its first field makes it. */
-static enum kd_status add_element(const struct kd_scene *scene, const struct kd_section *section, size_t index, struct kd_buffer *out)
+static enum kd_status add_element(const struct kd_scene *scene, const struct kd_section *section, size_t index,
+                                  struct kd_buffer *out)
 {
     struct kd_buffer value = { 0 };
     struct kd_writer w = { 0 };

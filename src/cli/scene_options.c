@@ -16,9 +16,14 @@ enum { KEY_PRESET = 'p', KEY_SET = 's', KEY_FROM = 'f', KEY_SIZE = 0x2000, KEY_A
 static const struct argp_option options_table[] = {
     { "preset", KEY_PRESET, "PRESET", 0, "start from a preset (`kerrd presets` lists them)", 0 },
     { "set", KEY_SET, "PATH=VALUE", 0, "set one field, as in camera.inclination_deg=60; may be repeated", 0 },
-    { "size", KEY_SIZE, "WIDTHxHEIGHT", 0, "of the picture, as in 1920x1080: --set image.width and image.height in one", 0 },
-    { "tile", KEY_TILE, "WIDTHxHEIGHT+LEFT+TOP", 0, "a part of it, as in 512x512+1024+0: --set image.tile.width and three more in one", 0 },
-    { "asset", KEY_ASSET, "NAME=FILE", 0, "a PNG, or an NPZ of matter, that a field of the scene names so, as in sky.image=NAME or volume.grid=NAME; may be repeated", 0 },
+    { "size", KEY_SIZE, "WIDTHxHEIGHT", 0, "of the picture, as in 1920x1080: --set image.width and image.height in one",
+      0 },
+    { "tile", KEY_TILE, "WIDTHxHEIGHT+LEFT+TOP", 0,
+      "a part of it, as in 512x512+1024+0: --set image.tile.width and three more in one", 0 },
+    { "asset", KEY_ASSET, "NAME=FILE", 0,
+      "a PNG, or an NPZ of matter, that a field of the scene names so, as in sky.image=NAME or volume.grid=NAME; may "
+      "be repeated",
+      0 },
     { "from", KEY_FROM, "PICTURE.png", 0, "take the scene from inside a picture that kerrd made", 0 },
     { 0 },
 };
@@ -122,13 +127,13 @@ static error_t parse(int key, char *text, struct argp_state *state)
 
 const struct argp kd_scene_options_argp = { .options = options_table, .parser = parse };
 const struct argp_child kd_scene_device_children[] = {
-    { &kd_scene_options_argp, 0, NULL, 0 }, { &kd_cli_device_argp, 0, NULL, 0 }, { &kd_cli_log_argp, 0, NULL, 0 }, { 0 },
+    { &kd_scene_options_argp, 0, NULL, 0 },
+    { &kd_cli_device_argp, 0, NULL, 0 },
+    { &kd_cli_log_argp, 0, NULL, 0 },
+    { 0 },
 };
 
-static const char *shown(const char *path)
-{
-    return strcmp(path, "-") ? path : "standard input";
-}
+static const char *shown(const char *path) { return strcmp(path, "-") ? path : "standard input"; }
 
 static enum kd_status merge_document(const char *path, struct kd_scene *scene, struct kd_error *error)
 {
@@ -168,7 +173,8 @@ static enum kd_status apply_set(const char *text, struct kd_scene *scene, struct
     return status;
 }
 
-enum kd_status kd_scene_options_set(const struct kd_scene_options *options, struct kd_scene *scene, struct kd_error *error)
+enum kd_status kd_scene_options_set(const struct kd_scene_options *options, struct kd_scene *scene,
+                                    struct kd_error *error)
 {
     enum kd_status status = KD_OK;
     for (size_t i = 0; i < options->n_set && !status; i++)

@@ -19,7 +19,8 @@ struct report {
 
 static void print_row(const struct kd_selftest_row *row)
 {
-    printf("%-4s  %-60s %-17s %8.1e %8.1e  %s\n", row->ok ? "ok" : "FAIL", row->what, row->by, row->error, row->bound, row->source);
+    printf("%-4s  %-60s %-17s %8.1e %8.1e  %s\n", row->ok ? "ok" : "FAIL", row->what, row->by, row->error, row->bound,
+           row->source);
 }
 
 static void add_row(struct kd_json *rows, const struct kd_selftest_row *row)
@@ -66,7 +67,8 @@ static void print_summary(const struct report *r, const char *device, bool float
         printf("all ok; nearest to its bound, at %.0f %%: %s\n", 100 * r->nearest, r->nearest_what);
 }
 
-static enum kd_status table_json(struct report *r, const char *device, bool float64, double seconds, struct kd_buffer *out)
+static enum kd_status table_json(struct report *r, const char *device, bool float64, double seconds,
+                                 struct kd_buffer *out)
 {
     struct kd_json whole = kd_json_begin(out), *json = &whole;
     kd_json_end(r->rows);
@@ -87,7 +89,8 @@ static enum kd_status table_json(struct report *r, const char *device, bool floa
     return kd_json_finish_line(json);
 }
 
-static enum kd_status print_json(struct report *r, const char *device, bool float64, double seconds, struct kd_error *error)
+static enum kd_status print_json(struct report *r, const char *device, bool float64, double seconds,
+                                 struct kd_error *error)
 {
     struct kd_buffer text = { 0 };
     enum kd_status status = table_json(r, device, float64, seconds, &text);

@@ -6,8 +6,8 @@
 
 #include <stdbool.h>
 
-/* Runs the self-test on the device and prints its table, or with `json` one JSON document. KD_OK also when checks failed:
- * *failed counts them. */
+/* Runs the self-test on the device and prints its table, or with `json` one JSON document. KD_OK also when checks
+ * failed: *failed counts them. */
 enum kd_status kd_cli_selftest(const char *device, bool json, unsigned *failed, struct kd_error *error);
 
 #endif

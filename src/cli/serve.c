@@ -18,14 +18,15 @@
 #include <string.h>
 #include <unistd.h>
 
-#define ROW(id, name, letter, argument, kind, least, most, initial, where, doc) { name, argument, KD_SETTING_##kind, least, most, initial, KD_SETTING_##where, doc },
+#define ROW(id, name, letter, argument, kind, least, most, initial, where, doc) \
+    { name, argument, KD_SETTING_##kind, least, most, initial, KD_SETTING_##where, doc },
 const struct kd_cli_setting kd_serve_settings[KD_SERVE_COUNT] = { KD_SERVE_SETTINGS(ROW) };
 
 /* A switch may say yes or no, so that a flag can take back what a file says. */
-#define OPTION(id, name, letter, argument, kind, least, most, initial, where, doc) { name, letter, argument, KD_SETTING_##kind == KD_SETTING_SWITCH && argument ? OPTION_ARG_OPTIONAL : 0, doc, 0 },
+#define OPTION(id, name, letter, argument, kind, least, most, initial, where, doc) \
+    { name, letter, argument, KD_SETTING_##kind == KD_SETTING_SWITCH && argument ? OPTION_ARG_OPTIONAL : 0, doc, 0 },
 static const struct argp_option table[] = {
-    KD_SERVE_SETTINGS(OPTION)
-    { NULL, 'h', NULL, OPTION_HIDDEN, NULL, 0 }, /* as --help, which argp itself gives -? */
+    KD_SERVE_SETTINGS(OPTION) { NULL, 'h', NULL, OPTION_HIDDEN, NULL, 0 }, /* as --help, which argp itself gives -? */
     { 0 },
 };
 
@@ -97,7 +98,8 @@ static void announce(const char *address, uint16_t port, const char *base_path, 
     clearerr(stdout);
 }
 
-/* Whoever has started this server holds the other end of its standard input, and lets go of it even where it is killed. */
+/* Whoever has started this server holds the other end of its standard input, and lets go of it even where it is
+ * killed. */
 static void *await_eof(void *unused)
 {
     char bytes[64];
@@ -126,7 +128,8 @@ static enum kd_status stop_at_eof(struct kd_error *error)
 
 static enum kd_status serve(const struct kd_settings *settings, struct kd_error *error)
 {
-    const char *listen = kd_settings_text(settings, KD_SERVE_LISTEN), *base_path = kd_settings_text(settings, KD_SERVE_BASE_PATH);
+    const char *listen = kd_settings_text(settings, KD_SERVE_LISTEN),
+               *base_path = kd_settings_text(settings, KD_SERVE_BASE_PATH);
     const unsigned reopenings = kd_settings_number(settings, KD_SERVE_DEVICE_REOPENINGS);
     const struct kd_server_params params = {
         .listen = listen,
@@ -145,11 +148,16 @@ static enum kd_status serve(const struct kd_settings *settings, struct kd_error 
         .state = kd_settings_text(settings, KD_SERVE_STATE),
         .token_file = kd_settings_text(settings, KD_SERVE_TOKEN_FILE),
         .reopenings = reopenings ? reopenings : UINT_MAX,
-        .renderer = { .device = kd_settings_text(settings, KD_SERVE_DEVICE), .prove = kd_first_start, .deadline_ms = 1000 * kd_settings_number(settings, KD_SERVE_DEVICE_TIMEOUT),
+        .renderer = { .device = kd_settings_text(settings, KD_SERVE_DEVICE),
+                      .prove = kd_first_start,
+                      .deadline_ms = 1000 * kd_settings_number(settings, KD_SERVE_DEVICE_TIMEOUT),
                       .memory_bytes = kd_settings_bytes(settings, KD_SERVE_MEMORY) },
     };
     if (kd_listen_reaches_out(listen) && !params.token_file && !kd_settings_switch(settings, KD_SERVE_INSECURE))
-        return kd_error_set(error, KD_EINVAL, "other machines reach --listen %.100s: --token-file FILE says who may use the server, --insecure lets everybody", listen);
+        return kd_error_set(error, KD_EINVAL,
+                            "other machines reach --listen %.100s: --token-file FILE says who may use the server, "
+                            "--insecure lets everybody",
+                            listen);
     kd_allocator_for_long();
     enum kd_status status = kd_server_create(&params, &running, error);
     if (status)
@@ -179,7 +187,8 @@ const struct argp *kd_cli_serve_argp(void)
             "Serve pictures over HTTP.\v"
             "SIGTERM, SIGINT or SIGHUP: /readyz fails at once, running and queued renders finish, then the exit code "
             "is 0. It is 3 when the device was lost for good, or hangs: start it again.\n"
-            "Each option may also stand in the environment, as KERRD_CLIENT_SHARE=50 for --client-share, and in the file that --config names, as "
+            "Each option may also stand in the environment, as KERRD_CLIENT_SHARE=50 for --client-share, and in the "
+            "file that --config names, as "
             "{\"client-share\": 50}. A flag counts before the environment, and that before the file.",
     };
     return &argp;

@@ -8,9 +8,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum kd_status kd_settings_init(struct kd_settings *settings, const struct kd_cli_setting *table, size_t n, struct kd_error *error)
+enum kd_status kd_settings_init(struct kd_settings *settings, const struct kd_cli_setting *table, size_t n,
+                                struct kd_error *error)
 {
-    *settings = (struct kd_settings) { .table = table, .n = n, .values = calloc(n * KD_SETTING_SOURCES, sizeof *settings->values) };
+    *settings = (struct kd_settings) { .table = table,
+                                       .n = n,
+                                       .values = calloc(n * KD_SETTING_SOURCES, sizeof *settings->values) };
     return settings->values ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory");
 }
 
@@ -79,7 +82,8 @@ static struct kd_setting_values *values_of(const struct kd_settings *settings, s
     return &settings->values[i * KD_SETTING_SOURCES + source];
 }
 
-enum kd_status kd_settings_give(struct kd_settings *settings, size_t i, enum kd_setting_source source, const char *text, struct kd_error *error)
+enum kd_status kd_settings_give(struct kd_settings *settings, size_t i, enum kd_setting_source source, const char *text,
+                                struct kd_error *error)
 {
     struct kd_setting_values *values = values_of(settings, i, source);
     if (settings->table[i].kind != KD_SETTING_LIST)
@@ -177,7 +181,8 @@ int kd_settings_show(const struct kd_settings *settings)
         value.size = 0;
         source_of(settings, i, source, sizeof source);
         KD_TRY(add_value(settings, i, &value));
-        KD_TRY(kd_buffer_printf(&text, "%-16s  %-24s  %s\n", settings->table[i].name, value.size ? (const char *)value.data : "", source));
+        KD_TRY(kd_buffer_printf(&text, "%-16s  %-24s  %s\n", settings->table[i].name,
+                                value.size ? (const char *)value.data : "", source));
     }
 done:
     if (status)

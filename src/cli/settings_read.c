@@ -20,7 +20,8 @@
 #define PREFIX "KERRD_"
 #define FILE_MOST ((size_t)64 << 10)
 
-/* Variables that are no options of the server: what Vulkan does is for developers, and the scripts beside the sources have one of their own. */
+/* Variables that are no options of the server: what Vulkan does is for developers, and the scripts beside the
+ * sources have one of their own. */
 static const char *const others[] = { "KERRD_VALIDATE", "KERRD_WERROR" };
 
 void kd_setting_variable(const struct kd_cli_setting *setting, char out[KD_SETTING_VARIABLE])
@@ -35,12 +36,14 @@ void kd_setting_variable(const struct kd_cli_setting *setting, char out[KD_SETTI
 static size_t find_key(const struct kd_settings *settings, const char *name)
 {
     size_t i = 0;
-    while (i < settings->n && (settings->table[i].where != KD_SETTING_ANYWHERE || strcmp(settings->table[i].name, name)))
+    while (i < settings->n &&
+           (settings->table[i].where != KD_SETTING_ANYWHERE || strcmp(settings->table[i].name, name)))
         i++;
     return i;
 }
 
-static enum kd_status refuse_key(const struct kd_settings *settings, const char *name, const char *pointer, struct kd_error *error)
+static enum kd_status refuse_key(const struct kd_settings *settings, const char *name, const char *pointer,
+                                 struct kd_error *error)
 {
     struct kd_slip_best best = { 0 };
     char given[60], known[400] = "";
@@ -48,7 +51,8 @@ static enum kd_status refuse_key(const struct kd_settings *settings, const char 
     for (size_t i = 0; i < settings->n; i++)
         if (settings->table[i].where == KD_SETTING_ANYWHERE) {
             kd_slip_offer(&best, name, settings->table[i].name);
-            snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", *known ? ", " : "", settings->table[i].name);
+            snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", *known ? ", " : "",
+                     settings->table[i].name);
         }
     if (best.name)
         return kd_error_field(error, pointer, "there is no option %s; did you mean %s?", given, best.name);
@@ -59,7 +63,8 @@ static enum kd_status refuse_key(const struct kd_settings *settings, const char 
 static bool text_of(const struct kd_cli_setting *setting, const cJSON *item, char number[24], const char **text)
 {
     *text = cJSON_IsString(item) ? item->valuestring : number;
-    if (setting->kind == KD_SETTING_NUMBER && cJSON_IsNumber(item) && item->valuedouble >= 0 && item->valuedouble < 1e9 && floor(item->valuedouble) == item->valuedouble)
+    if (setting->kind == KD_SETTING_NUMBER && cJSON_IsNumber(item) && item->valuedouble >= 0 &&
+        item->valuedouble < 1e9 && floor(item->valuedouble) == item->valuedouble)
         snprintf(number, 24, "%.0f", item->valuedouble);
     else if (setting->kind == KD_SETTING_SWITCH && cJSON_IsBool(item))
         snprintf(number, 24, cJSON_IsTrue(item) ? "yes" : "no");
@@ -69,7 +74,8 @@ static bool text_of(const struct kd_cli_setting *setting, const cJSON *item, cha
 }
 
 /* pointer: of the item. */
-static enum kd_status take(struct kd_settings *settings, size_t i, const cJSON *item, const char *pointer, struct kd_error *error)
+static enum kd_status take(struct kd_settings *settings, size_t i, const cJSON *item, const char *pointer,
+                           struct kd_error *error)
 {
     const struct kd_cli_setting *setting = &settings->table[i];
     char allowed[80], number[24];
@@ -86,7 +92,8 @@ static enum kd_status take(struct kd_settings *settings, size_t i, const cJSON *
     return kd_member_refuse(item, pointer, allowed, error);
 }
 
-static enum kd_status take_list(struct kd_settings *settings, size_t i, const cJSON *item, const char *pointer, struct kd_error *error)
+static enum kd_status take_list(struct kd_settings *settings, size_t i, const cJSON *item, const char *pointer,
+                                struct kd_error *error)
 {
     enum kd_status status = KD_OK;
     char at[sizeof error->pointer];
@@ -114,7 +121,8 @@ static enum kd_status read_members(struct kd_settings *settings, const cJSON *ob
         for (const cJSON *before = object->child; before != item; before = before->next)
             if (!strcmp(before->string, item->string))
                 return kd_error_field(error, pointer, "%s is given twice", item->string);
-        status = settings->table[i].kind == KD_SETTING_LIST ? take_list(settings, i, item, pointer, error) : take(settings, i, item, pointer, error);
+        status = settings->table[i].kind == KD_SETTING_LIST ? take_list(settings, i, item, pointer, error)
+                                                            : take(settings, i, item, pointer, error);
     }
     return status;
 }
@@ -140,12 +148,13 @@ done:
     return status;
 }
 
-/* Whether a variable is one that Kubernetes sets for each Service, as it does unless enableServiceLinks is false: that of a Service called kerrd is KERRD_PORT=tcp://10.0.0.1:8080. */
+/* Whether a variable is one that Kubernetes sets for each Service, as it does unless enableServiceLinks is false:
+ * that of a Service called kerrd is KERRD_PORT=tcp://10.0.0.1:8080. */
 static bool is_link(const char *name, const char *value)
 {
     const char *port = strstr(name, "_PORT_");
-    return strstr(name, "_SERVICE_HOST") || strstr(name, "_SERVICE_PORT") || !strncmp(value, "tcp://", 6) || !strncmp(value, "udp://", 6) ||
-           (port && isdigit((unsigned char)port[6]));
+    return strstr(name, "_SERVICE_HOST") || strstr(name, "_SERVICE_PORT") || !strncmp(value, "tcp://", 6) ||
+           !strncmp(value, "udp://", 6) || (port && isdigit((unsigned char)port[6]));
 }
 
 /* The option that a variable is; n: none. *value is what stands behind the name. */
@@ -169,9 +178,13 @@ static enum kd_status give_variable(struct kd_settings *settings, size_t i, cons
     enum kd_status status = copy ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory");
     kd_setting_variable(&settings->table[i], own);
     kd_text_clip(shown, sizeof shown, value);
-    for (char *text = status ? NULL : list ? strtok_r(copy, ",", &rest) : copy; text && !status; text = list ? strtok_r(NULL, ",", &rest) : NULL) {
+    for (char *text = status ? NULL
+                      : list ? strtok_r(copy, ",", &rest)
+                             : copy;
+         text && !status; text = list ? strtok_r(NULL, ",", &rest) : NULL) {
         if (!kd_setting_takes(&settings->table[i], text, allowed))
-            status = kd_error_set(error, KD_EINVAL, "the environment: %s is \"%s\", allowed is %s", own, shown, allowed);
+            status =
+                kd_error_set(error, KD_EINVAL, "the environment: %s is \"%s\", allowed is %s", own, shown, allowed);
         else
             status = kd_settings_give(settings, i, KD_BY_ENVIRONMENT, text, error);
     }
@@ -179,7 +192,8 @@ static enum kd_status give_variable(struct kd_settings *settings, size_t i, cons
     return status;
 }
 
-enum kd_status kd_settings_read_environment(struct kd_settings *settings, char *const *environment, struct kd_error *error)
+enum kd_status kd_settings_read_environment(struct kd_settings *settings, char *const *environment,
+                                            struct kd_error *error)
 {
     enum kd_status status = KD_OK;
     for (; *environment && !status; environment++) {
@@ -204,14 +218,16 @@ static void warn_of(const struct kd_settings *settings, const char *name)
     struct kd_slip_best best = { 0 };
     char lower[60] = "", own[KD_SETTING_VARIABLE] = "";
     for (size_t k = 0; name[sizeof PREFIX - 1 + k] && k + 1 < sizeof lower; k++)
-        lower[k] = (char)(name[sizeof PREFIX - 1 + k] == '_' ? '-' : tolower((unsigned char)name[sizeof PREFIX - 1 + k]));
+        lower[k] =
+            (char)(name[sizeof PREFIX - 1 + k] == '_' ? '-' : tolower((unsigned char)name[sizeof PREFIX - 1 + k]));
     for (size_t i = 0; i < settings->n; i++)
         if (settings->table[i].where != KD_SETTING_FLAG)
             kd_slip_offer(&best, lower, settings->table[i].name);
     for (size_t i = 0; best.name && i < settings->n; i++)
         if (best.name == settings->table[i].name)
             kd_setting_variable(&settings->table[i], own);
-    kd_log(KD_LOG_WARN, "the environment: %s is no option of kerrd serve%s%s%s", name, *own ? "; did you mean " : "", own, *own ? "?" : "");
+    kd_log(KD_LOG_WARN, "the environment: %s is no option of kerrd serve%s%s%s", name, *own ? "; did you mean " : "",
+           own, *own ? "?" : "");
 }
 
 void kd_settings_warn(const struct kd_settings *settings, char *const *environment)

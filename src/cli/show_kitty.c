@@ -7,7 +7,8 @@
 
 enum { PIECE = 4096, PIECE_BYTES = PIECE / 4 * 3 };
 
-enum kd_status kd_show_kitty(const struct kd_buffer *png, uint32_t columns, struct kd_buffer *out, struct kd_error *error)
+enum kd_status kd_show_kitty(const struct kd_buffer *png, uint32_t columns, struct kd_buffer *out,
+                             struct kd_error *error)
 {
     enum kd_status status;
     char text[PIECE + 1], width[20] = "";

@@ -28,8 +28,9 @@ static unsigned char *scaled(unsigned char *from, const struct kd_png *png, uint
     if (!from || (width == png->width && height == png->height))
         return from;
     unsigned char *to = malloc((size_t)width * height * 3);
-    if (to && SIXEL_FAILED(sixel_helper_scale_image(to, from, (int)png->width, (int)png->height, SIXEL_PIXELFORMAT_RGB888, (int)width, (int)height,
-                                                    SIXEL_RES_BILINEAR, NULL))) {
+    if (to &&
+        SIXEL_FAILED(sixel_helper_scale_image(to, from, (int)png->width, (int)png->height, SIXEL_PIXELFORMAT_RGB888,
+                                              (int)width, (int)height, SIXEL_RES_BILINEAR, NULL))) {
         free(to);
         to = NULL;
     }
@@ -37,12 +38,10 @@ static unsigned char *scaled(unsigned char *from, const struct kd_png *png, uint
     return to;
 }
 
-static int take(char *data, int size, void *user)
-{
-    return kd_buffer_append(user, data, (size_t)size) ? -1 : size;
-}
+static int take(char *data, int size, void *user) { return kd_buffer_append(user, data, (size_t)size) ? -1 : size; }
 
-enum kd_status kd_show_sixel(const struct kd_buffer *file, uint32_t width, uint32_t height, struct kd_buffer *out, struct kd_error *error)
+enum kd_status kd_show_sixel(const struct kd_buffer *file, uint32_t width, uint32_t height, struct kd_buffer *out,
+                             struct kd_error *error)
 {
     struct kd_png png;
     sixel_dither_t *dither = NULL;
@@ -53,14 +52,17 @@ enum kd_status kd_show_sixel(const struct kd_buffer *file, uint32_t width, uint3
     unsigned char *pixels = scaled(bytes_of(&png), &png, width, height);
     SIXELSTATUS failed = pixels ? sixel_dither_new(&dither, COLOURS, NULL) : SIXEL_BAD_ALLOCATION;
     if (!SIXEL_FAILED(failed))
-        failed = sixel_dither_initialize(dither, pixels, (int)width, (int)height, SIXEL_PIXELFORMAT_RGB888, SIXEL_LARGE_AUTO, SIXEL_REP_AUTO, SIXEL_QUALITY_HIGH);
+        failed = sixel_dither_initialize(dither, pixels, (int)width, (int)height, SIXEL_PIXELFORMAT_RGB888,
+                                         SIXEL_LARGE_AUTO, SIXEL_REP_AUTO, SIXEL_QUALITY_HIGH);
     if (!SIXEL_FAILED(failed))
         failed = sixel_output_new(&output, take, out, NULL);
     if (!SIXEL_FAILED(failed))
         failed = sixel_encode(pixels, (int)width, (int)height, 3, dither, output);
     if (SIXEL_FAILED(failed))
-        status = failed == SIXEL_BAD_ALLOCATION ? kd_error_set(error, KD_ENOMEM, "out of memory for a picture of %u x %u pixels", width, height)
-                                                : kd_error_set(error, KD_EIO, "libsixel cannot encode the picture: %s", sixel_helper_format_error(failed));
+        status = failed == SIXEL_BAD_ALLOCATION
+                     ? kd_error_set(error, KD_ENOMEM, "out of memory for a picture of %u x %u pixels", width, height)
+                     : kd_error_set(error, KD_EIO, "libsixel cannot encode the picture: %s",
+                                    sixel_helper_format_error(failed));
     if (output)
         sixel_output_unref(output);
     if (dither)

@@ -17,7 +17,8 @@ struct kd_stats {
 /* One line of JSON. */
 enum kd_status kd_stats_json(const struct kd_stats *stats, struct kd_buffer *out);
 
-/* Ends a line of JSON and prints it on standard error, as --stats of sweeps and films does; frees it in any case. KD_ENOMEM. */
+/* Ends a line of JSON and prints it on standard error, as --stats of sweeps and films does; frees it in any case.
+ * KD_ENOMEM. */
 enum kd_status kd_stats_print(struct kd_json *json, struct kd_buffer *line, struct kd_error *error);
 
 #endif

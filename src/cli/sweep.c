@@ -24,10 +24,14 @@ struct arguments {
 };
 
 static const struct argp_option table[] = {
-    { "axis", 'x', "FIELD=VALUES", 0, "an axis: VALUE,VALUE,... or START:STOP:STEP or START:STOP/HOW MANY; again for each more, the last one fastest", 0 },
-    { "output", 'o', "FILE", 0, "the file to write: .fits or .npz, one array a layer; .zip, pictures; .csv or .json, their light (required)", 0 },
+    { "axis", 'x', "FIELD=VALUES", 0,
+      "an axis: VALUE,VALUE,... or START:STOP:STEP or START:STOP/HOW MANY; again for each more, the last one fastest",
+      0 },
+    { "output", 'o', "FILE", 0,
+      "the file to write: .fits or .npz, one array a layer; .zip, pictures; .csv or .json, their light (required)", 0 },
     KD_CLI_MEMORY,
-    { "stats", 't', NULL, 0, "print scenes, lens maps, fluxes in Jy and seconds as one line of JSON on standard error", 0 },
+    { "stats", 't', NULL, 0, "print scenes, lens maps, fluxes in Jy and seconds as one line of JSON on standard error",
+      0 },
     { 0 },
 };
 
@@ -40,8 +44,11 @@ struct kind {
 
 static const struct kind *kind_of(const char *path)
 {
-    static struct kind kinds[] = { { ".fits", &kd_format_fits, &kd_gather_fits }, { ".npz", &kd_format_fits, &kd_gather_npz },
-                                   { ".zip", &kd_format_png, &kd_gather_zip }, { ".csv", NULL, NULL }, { ".json", NULL, NULL } };
+    static struct kind kinds[] = { { ".fits", &kd_format_fits, &kd_gather_fits },
+                                   { ".npz", &kd_format_fits, &kd_gather_npz },
+                                   { ".zip", &kd_format_png, &kd_gather_zip },
+                                   { ".csv", NULL, NULL },
+                                   { ".json", NULL, NULL } };
     const char *dot = strrchr(path, '.');
     for (size_t i = 0; dot && i < sizeof kinds / sizeof *kinds; i++)
         if (!strcmp(kinds[i].end, dot)) {
@@ -65,11 +72,13 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case 'M': arguments->memory = kd_cli_bytes(state, "--memory", text); return 0;
     case ARGP_KEY_END:
         if (!arguments->n_axes)
-            argp_error(state, "--axis is missing: which field takes which values? As in --axis spacetime.spin=0,0.5,0.9");
+            argp_error(state,
+                       "--axis is missing: which field takes which values? As in --axis spacetime.spin=0,0.5,0.9");
         else if (!arguments->output)
             argp_error(state, "-o FILE is missing: where should the sweep go?");
         else if (!kind_of(arguments->output))
-            argp_error(state, "output is \"%s\", allowed is a name that ends in .fits, .npz, .zip, .csv or .json", arguments->output);
+            argp_error(state, "output is \"%s\", allowed is a name that ends in .fits, .npz, .zip, .csv or .json",
+                       arguments->output);
         return 0;
     }
     return ARGP_ERR_UNKNOWN;
@@ -88,7 +97,8 @@ struct work {
 };
 
 /* The plan of a scene; its error says which. */
-static enum kd_status plan_of(struct work *w, unsigned number, struct kd_scene *scene, struct kd_plan *plan, struct kd_error *error)
+static enum kd_status plan_of(struct work *w, unsigned number, struct kd_scene *scene, struct kd_plan *plan,
+                              struct kd_error *error)
 {
     struct kd_capacity capacity;
     struct kd_error inner = { 0 };
@@ -163,7 +173,8 @@ static enum kd_status render_all(struct work *w, struct kd_error *error)
 
 static enum kd_status save_whole(struct work *w, const char *path, struct kd_error *error)
 {
-    return kd_frames_save(&w->frames, &(struct kd_frames_whole) { .format = w->kind->whole, .sweep = w->sweep }, path, error);
+    return kd_frames_save(&w->frames, &(struct kd_frames_whole) { .format = w->kind->whole, .sweep = w->sweep }, path,
+                          error);
 }
 
 static enum kd_status save_table(struct work *w, const char *path, struct kd_error *error)
@@ -176,7 +187,10 @@ static enum kd_status save_table(struct work *w, const char *path, struct kd_err
     for (unsigned i = 0; i < w->sweep->scenes && read; i++)
         read = kd_frames_read(&w->frames, i, 0, rows + i * row, row);
     enum kd_status status = !rows ? KD_ENOMEM : read ? format->write(rows, w->sweep->scenes, w->sweep, &text) : KD_EIO;
-    status = status ? kd_error_set(error, status, status == KD_EIO ? "the scenes cannot be read again from TMPDIR" : "out of memory for %u rows", w->sweep->scenes)
+    status = status ? kd_error_set(error, status,
+                                   status == KD_EIO ? "the scenes cannot be read again from TMPDIR"
+                                                    : "out of memory for %u rows",
+                                   w->sweep->scenes)
                     : kd_file_write(path, &text, error);
     kd_buffer_finish(&text);
     free(rows);
@@ -226,7 +240,9 @@ static enum kd_status run(struct arguments *arguments, struct kd_error *error)
     if (work.kind->frame == &kd_format_fits)
         KD_TRY(kd_cube_check(sweep, error));
     KD_TRY(kd_file_check(arguments->output, error));
-    KD_TRY(kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device, .memory_bytes = arguments->memory, .assets = &assets },
+    KD_TRY(kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device,
+                                                             .memory_bytes = arguments->memory,
+                                                             .assets = &assets },
                               &work.renderer, error));
     KD_TRY(check(&work, error));
     work.frames.n = sweep->scenes;
@@ -259,7 +275,8 @@ const struct argp *kd_cli_sweep_argp(void)
         .parser = parse,
         .args_doc = KD_SCENE_ARGS_DOC,
         .doc = "Render a scene for all combinations of values of some fields: its axes.\v"
-               "A range START:STOP:STEP holds STOP if a whole number of steps leads there. Scenes that share a lens map are rendered one after the "
+               "A range START:STOP:STEP holds STOP if a whole number of steps leads there. Scenes that share a lens "
+               "map are rendered one after the "
                "other, whatever the order of the axes. A job of a server makes the same file.",
         .children = kd_scene_device_children,
     };

@@ -17,8 +17,8 @@
 #define ESC "\033"
 #define KITTY_QUERY ESC "_Gi=31,s=1,v=1,a=q,t=d,f=24;AAAA" ESC "\\" /* a picture of one pixel that is not kept */
 #define KITTY_ANSWER ESC "_Gi=31;OK" ESC "\\"
-#define PIXELS_QUERY ESC "[14t"        /* answered by ESC [ 4 ; HEIGHT ; WIDTH t */
-#define ATTRIBUTES_QUERY ESC "[c"      /* answered by ESC [ ? 62 ; 4 ; 22 c, where 4 means sixel */
+#define PIXELS_QUERY ESC "[14t"   /* answered by ESC [ 4 ; HEIGHT ; WIDTH t */
+#define ATTRIBUTES_QUERY ESC "[c" /* answered by ESC [ ? 62 ; 4 ; 22 c, where 4 means sixel */
 enum { ANSWER_SIZE = 1024, CTRL_C = 3 };
 
 /* Finds the answer to ATTRIBUTES_QUERY; NULL: it has not come. */
@@ -66,7 +66,8 @@ static bool listen(int fd, char answer[ANSWER_SIZE])
     return false;
 }
 
-/* The answer to `query`, "" for none. The terminal shows none of it and makes no signal of a key meanwhile: else its settings could stay so. */
+/* The answer to `query`, "" for none. The terminal shows none of it and makes no signal of a key meanwhile: else its
+ * settings could stay so. */
 static void ask(int fd, const char *query, char answer[ANSWER_SIZE])
 {
     struct termios before, raw;

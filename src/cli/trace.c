@@ -8,23 +8,31 @@
 #include <math.h>
 #include <stdio.h>
 
-enum kd_status kd_trace_explain(const struct kd_rays_steps *steps, bool points, struct kd_told_steps *out, struct kd_error *error)
+enum kd_status kd_trace_explain(const struct kd_rays_steps *steps, bool points, struct kd_told_steps *out,
+                                struct kd_error *error)
 {
     const double alpha_beta[] = { steps->alpha, steps->beta };
     const struct kd_ray_labels labels = { alpha_beta, NULL, 1 };
     struct kd_ray_crossing crossings[KD_RAYS_MAX_ORDERS];
     *out = (struct kd_told_steps) { .steps = steps, .points = points };
     const struct kd_null_ray ray = {
-        .spin = steps->params.spin, .radius = steps->params.r, .cos_theta = kd_cos_deg(steps->params.inclination_deg),
-        .sin_theta = kd_sin_deg(steps->params.inclination_deg), .alpha = steps->alpha, .beta = steps->beta, .orders = (int)steps->params.orders,
+        .spin = steps->params.spin,
+        .radius = steps->params.r,
+        .cos_theta = kd_cos_deg(steps->params.inclination_deg),
+        .sin_theta = kd_sin_deg(steps->params.inclination_deg),
+        .alpha = steps->alpha,
+        .beta = steps->beta,
+        .orders = (int)steps->params.orders,
     };
     enum kd_status status;
     KD_TRY(kd_rays_closed(&steps->params, &labels, true, crossings, &out->end, NULL, NULL, error));
     out->motion = kd_ray_motion_of(&ray);
-    KD_TRY(kd_ray_path_draw(&out->motion, &(struct kd_ray_path_frame) { 0 }, crossings, out->end.n_crossings, &out->path, error));
+    KD_TRY(kd_ray_path_draw(&out->motion, &(struct kd_ray_path_frame) { 0 }, crossings, out->end.n_crossings,
+                            &out->path, error));
     const int n = kd_ray_motion_why(&out->motion, out->end.fate, out->why, sizeof out->why);
     if (steps->end.fate != out->end.fate)
-        snprintf(out->why + n, sizeof out->why - (size_t)n, " The engine has it otherwise: %s.", kd_ray_fate_name(steps->end.fate));
+        snprintf(out->why + n, sizeof out->why - (size_t)n, " The engine has it otherwise: %s.",
+                 kd_ray_fate_name(steps->end.fate));
 done:
     return status;
 }
@@ -32,15 +40,19 @@ done:
 void kd_trace_finish(struct kd_told_steps *trace) { kd_ray_path_finish(&trace->path); }
 
 /* Prints residuals by their size, and all else to as many digits as the precision has. */
-static enum kd_status put_cell(const struct kd_rays_steps *steps, const struct kd_steps_column *column, double x, struct kd_buffer *out)
+static enum kd_status put_cell(const struct kd_rays_steps *steps, const struct kd_steps_column *column, double x,
+                               struct kd_buffer *out)
 {
-    bool wide = steps->params.precision == KD_PRECISION_F64, residual = column->name[0] == 'r' && column->name[1] == 'e';
+    bool wide = steps->params.precision == KD_PRECISION_F64,
+         residual = column->name[0] == 'r' && column->name[1] == 'e';
     if (!isfinite(x))
         return kd_buffer_printf(out, " %*s", residual ? 8 : wide ? 18 : 14, "-");
-    return residual ? kd_buffer_printf(out, " %8.1e", x) : kd_buffer_printf(out, " %*.*g", wide ? 18 : 14, wide ? 11 : 7, x);
+    return residual ? kd_buffer_printf(out, " %8.1e", x)
+                    : kd_buffer_printf(out, " %*.*g", wide ? 18 : 14, wide ? 11 : 7, x);
 }
 
-static enum kd_status put_text_row(const struct kd_rays_steps *steps, const struct kd_rays_step *step, struct kd_buffer *out)
+static enum kd_status put_text_row(const struct kd_rays_steps *steps, const struct kd_rays_step *step,
+                                   struct kd_buffer *out)
 {
     enum kd_status status;
     KD_TRY(kd_buffer_printf(out, "%6u %-8s %5u", step->number, kd_steps_stage(step), step->order));
@@ -63,7 +75,7 @@ static enum kd_status put_verdict(const struct kd_told_steps *trace, struct kd_b
     if (steps->lost)
         KD_TRY(kd_buffer_printf(out, "\n%zu more steps are not shown", steps->lost));
     KD_TRY(kd_buffer_printf(out, "\n%s\nwithout --trace the device gives %s\n", trace->why,
-                   steps->same ? "the same, bit for bit" : "OTHER numbers: these steps are not quite those"));
+                            steps->same ? "the same, bit for bit" : "OTHER numbers: these steps are not quite those"));
 done:
     return status;
 }
@@ -105,9 +117,10 @@ enum kd_status kd_trace_text(const struct kd_told_steps *trace, struct kd_buffer
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
         kd_decimal_print(given[i], numbers[i]);
     enum kd_status status;
-    KD_TRY(kd_buffer_printf(out, "alpha %s, beta %s; spin %s, inclination %s, r %s; ", given[0], given[1],
-                            given[2], given[3], isinf(p->r) ? "infinity" : given[4]));
-    KD_TRY(kd_buffer_printf(out, "%s %s, %u steps a half period\n", kd_engine_name(p->engine), kd_precision_name(p->precision), p->steps));
+    KD_TRY(kd_buffer_printf(out, "alpha %s, beta %s; spin %s, inclination %s, r %s; ", given[0], given[1], given[2],
+                            given[3], isinf(p->r) ? "infinity" : given[4]));
+    KD_TRY(kd_buffer_printf(out, "%s %s, %u steps a half period\n", kd_engine_name(p->engine),
+                            kd_precision_name(p->precision), p->steps));
     KD_TRY(kd_ray_motion_text(&trace->motion, out));
     KD_TRY(trace->points ? put_points(&trace->path, out) : put_steps(steps, out));
     KD_TRY(put_verdict(trace, out));
@@ -141,11 +154,22 @@ enum kd_status kd_trace_json(const struct kd_told_steps *trace, struct kd_buffer
     kd_json_object(&json, NULL);
     kd_json_string(&json, "engine", kd_engine_name(p->engine));
     kd_json_string(&json, "precision", kd_precision_name(p->precision));
-    const struct { const char *name; double x; } members[] = {
-        { "steps_a_half_period", p->steps }, { "orders", p->orders },
-        { "spin", p->spin }, { "inclination_deg", p->inclination_deg }, { "r", p->r }, /* without r: from infinity */
-        { "alpha", steps->alpha }, { "beta", steps->beta }, { "lambda", trace->motion.lambda }, { "eta", trace->motion.eta },
-        { "sky_theta", steps->end.theta }, { "sky_phi", steps->end.phi }, { "error", steps->end.error },
+    const struct {
+        const char *name;
+        double x;
+    } members[] = {
+        { "steps_a_half_period", p->steps },
+        { "orders", p->orders },
+        { "spin", p->spin },
+        { "inclination_deg", p->inclination_deg },
+        { "r", p->r }, /* without r: from infinity */
+        { "alpha", steps->alpha },
+        { "beta", steps->beta },
+        { "lambda", trace->motion.lambda },
+        { "eta", trace->motion.eta },
+        { "sky_theta", steps->end.theta },
+        { "sky_phi", steps->end.phi },
+        { "error", steps->end.error },
     };
     for (size_t i = 0; i < sizeof members / sizeof *members; i++)
         put_member(&json, members[i].name, members[i].x);
@@ -164,7 +188,8 @@ enum kd_status kd_trace_json(const struct kd_told_steps *trace, struct kd_buffer
     return kd_json_finish_line(&json);
 }
 
-static enum kd_status put_csv_row(const struct kd_rays_steps *steps, const struct kd_rays_step *step, struct kd_buffer *out)
+static enum kd_status put_csv_row(const struct kd_rays_steps *steps, const struct kd_rays_step *step,
+                                  struct kd_buffer *out)
 {
     char text[KD_DECIMAL_SIZE];
     enum kd_status status;

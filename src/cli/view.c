@@ -27,7 +27,8 @@ struct arguments {
 };
 
 static const struct argp_option table[] = {
-    { "protocol", KEY_PROTOCOL, "kitty|sixel", 0, "how the picture is sent, also where standard output is no terminal (default: as the terminal answers)", 0 },
+    { "protocol", KEY_PROTOCOL, "kitty|sixel", 0,
+      "how the picture is sent, also where standard output is no terminal (default: as the terminal answers)", 0 },
     { "enlarge", KEY_ENLARGE, NULL, 0, "fill the terminal also with a picture that is smaller", 0 },
     KD_CLI_MEMORY,
     { 0 },
@@ -53,25 +54,31 @@ static error_t parse(int key, char *text, struct argp_state *state)
 }
 
 /* Decides how the picture is sent. */
-static enum kd_status choose(const struct arguments *arguments, const struct kd_terminal *terminal, enum protocol *out, struct kd_error *error)
+static enum kd_status choose(const struct arguments *arguments, const struct kd_terminal *terminal, enum protocol *out,
+                             struct kd_error *error)
 {
-    static const char remedy[] = "`kerrd render -o FILE.png` writes the picture to a file, and --protocol kitty or --protocol sixel sends it all the same";
+    static const char remedy[] = "`kerrd render -o FILE.png` writes the picture to a file, and --protocol kitty or "
+                                 "--protocol sixel sends it all the same";
     *out = arguments->protocol ? arguments->protocol : terminal->kitty ? KITTY : SIXEL;
     if (arguments->protocol || terminal->kitty || terminal->sixel)
         return KD_OK;
     if (!terminal->is)
         return kd_error_set(error, KD_EIO, "standard output is no terminal that could show a picture: %s", remedy);
-    return kd_error_set(error, KD_EIO, "this terminal can show no picture, neither by kitty's graphics nor as sixel%s: %s",
+    return kd_error_set(error, KD_EIO,
+                        "this terminal can show no picture, neither by kitty's graphics nor as sixel%s: %s",
                         getenv("TMUX") ? ", or tmux, which stands before it, cannot" : "", remedy);
 }
 
-/* Reads the document if it is a picture that kerrd made; *picture stays empty for anything else, which the scene's own options read. */
-static enum kd_status look(const struct arguments *arguments, struct kd_buffer *picture, struct kd_scene *scene, struct kd_error *error)
+/* Reads the document if it is a picture that kerrd made; *picture stays empty for anything else, which the scene's
+ * own options read. */
+static enum kd_status look(const struct arguments *arguments, struct kd_buffer *picture, struct kd_scene *scene,
+                           struct kd_error *error)
 {
     const struct kd_scene_options *options = &arguments->scene;
     struct stat about;
     enum kd_status status;
-    if (!options->document || !strcmp(options->document, "-") || stat(options->document, &about) || !S_ISREG(about.st_mode)) /* what can be read once is the scene's own to read */
+    if (!options->document || !strcmp(options->document, "-") || stat(options->document, &about) ||
+        !S_ISREG(about.st_mode)) /* what can be read once is the scene's own to read */
         return KD_OK;
     KD_TRY(kd_file_read(options->document, PICTURE_MAX, picture, error));
     if (!picture->size || kd_format_of_bytes(picture->data, picture->size) != &kd_format_png) {
@@ -79,7 +86,9 @@ static enum kd_status look(const struct arguments *arguments, struct kd_buffer *
         return KD_OK;
     }
     if (options->preset || options->n_set || options->assets.n)
-        KD_TRY(kd_error_set(error, KD_EINVAL, "%s is a picture, which is shown as it is: to change its scene, give it by --from", options->document));
+        KD_TRY(kd_error_set(error, KD_EINVAL,
+                            "%s is a picture, which is shown as it is: to change its scene, give it by --from",
+                            options->document));
     status = kd_format_scene(picture->data, picture->size, scene, error);
     if (status)
         kd_cli_prefix(error, options->document);
@@ -87,8 +96,8 @@ done:
     return status;
 }
 
-static enum kd_status show(const struct kd_buffer *png, enum protocol protocol, const struct kd_terminal *terminal, uint32_t lines, bool enlarge,
-                           struct kd_buffer *out, struct kd_error *error)
+static enum kd_status show(const struct kd_buffer *png, enum protocol protocol, const struct kd_terminal *terminal,
+                           uint32_t lines, bool enlarge, struct kd_buffer *out, struct kd_error *error)
 {
     struct kd_png_about about;
     enum kd_status status;
@@ -105,23 +114,24 @@ done:
 }
 
 /* The picture as it is, and a line that tells its scene. */
-static enum kd_status show_picture(const struct arguments *arguments, const struct kd_buffer *png, const struct kd_scene *scene, struct kd_buffer *out,
-                                   struct kd_error *error)
+static enum kd_status show_picture(const struct arguments *arguments, const struct kd_buffer *png,
+                                   const struct kd_scene *scene, struct kd_buffer *out, struct kd_error *error)
 {
     const struct kd_terminal terminal = kd_terminal_ask();
     enum protocol protocol;
     enum kd_status status;
     KD_TRY(choose(arguments, &terminal, &protocol, error));
     KD_TRY(show(png, protocol, &terminal, 2, arguments->enlarge, out, error));
-    if (kd_buffer_printf(out, "%s, %d x %d: ", arguments->scene.document, scene->image.width, scene->image.height) || kd_scene_line(scene, out) ||
-        kd_buffer_printf(out, "\n"))
+    if (kd_buffer_printf(out, "%s, %d x %d: ", arguments->scene.document, scene->image.width, scene->image.height) ||
+        kd_scene_line(scene, out) || kd_buffer_printf(out, "\n"))
         KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory for the scene"));
 done:
     return status;
 }
 
 /* Renders the scene at the size that fits. */
-static enum kd_status show_scene(struct arguments *arguments, struct kd_scene *scene, struct kd_buffer *out, struct kd_error *error)
+static enum kd_status show_scene(struct arguments *arguments, struct kd_scene *scene, struct kd_buffer *out,
+                                 struct kd_error *error)
 {
     const struct kd_assets assets = kd_asset_options_assets(&arguments->scene.assets);
     const struct kd_terminal terminal = kd_terminal_ask();
@@ -138,12 +148,18 @@ static enum kd_status show_scene(struct arguments *arguments, struct kd_scene *s
     scene->image.width = (int32_t)width;
     scene->image.height = (int32_t)height;
     if (kd_scene_has_tile(scene))
-        KD_TRY(kd_error_field(error, "/image/tile/width", "image.tile.width is %d, allowed is 0: kerrd view shows whole pictures", scene->tile.width));
+        KD_TRY(kd_error_field(error, "/image/tile/width",
+                              "image.tile.width is %d, allowed is 0: kerrd view shows whole pictures",
+                              scene->tile.width));
     KD_TRY(kd_scene_validate(scene, error));
-    KD_TRY(kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device, .memory_bytes = arguments->memory, .assets = &assets },
+    KD_TRY(kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device,
+                                                             .memory_bytes = arguments->memory,
+                                                             .assets = &assets },
                               &renderer, error));
     KD_TRY(kd_cli_draw(renderer, &kd_format_png, scene, &plan, &frame, &ms, error));
-    KD_TRY(kd_encode(&kd_format_png, &(struct kd_picture) { &frame, scene, &plan, kd_renderer_device_name(renderer), 0 }, KD_EFFORT_KEEP, NULL, &png, error));
+    KD_TRY(kd_encode(&kd_format_png,
+                     &(struct kd_picture) { &frame, scene, &plan, kd_renderer_device_name(renderer), 0 },
+                     KD_EFFORT_KEEP, NULL, &png, error));
     KD_TRY(show(&png, protocol, &terminal, 1, false, out, error));
 done:
     kd_buffer_finish(&png);
@@ -161,7 +177,8 @@ static enum kd_status run(struct arguments *arguments, struct kd_buffer *out, st
     KD_TRY(look(arguments, &picture, &scene, error));
     if (!picture.size)
         KD_TRY(kd_scene_options_load(&arguments->scene, &scene, error));
-    KD_TRY(picture.size ? show_picture(arguments, &picture, &scene, out, error) : show_scene(arguments, &scene, out, error));
+    KD_TRY(picture.size ? show_picture(arguments, &picture, &scene, out, error)
+                        : show_scene(arguments, &scene, out, error));
 done:
     kd_buffer_finish(&picture);
     return status;
@@ -173,10 +190,14 @@ const struct argp *kd_cli_view_argp(void)
         .options = table,
         .parser = parse,
         .args_doc = "[SCENE.json|PICTURE.png|-]",
-        .doc = "Show a scene in the terminal, rendered at a size that fits; or a picture that kerrd has made, and its scene in one line.\v"
-               "The terminal is asked whether it has kitty's graphics or sixel. One that has neither cannot show a picture: `kerrd render -o FILE.png` writes "
-               "a file instead. tmux and screen stand before the terminal: kitty's graphics do not pass them, and sixel only where they know it. "
-               "A picture is never larger than its scene says, unless --enlarge is given. The scene is merged as for `kerrd render`.",
+        .doc = "Show a scene in the terminal, rendered at a size that fits; or a picture that kerrd has made, and its "
+               "scene in one line.\v"
+               "The terminal is asked whether it has kitty's graphics or sixel. One that has neither cannot show a "
+               "picture: `kerrd render -o FILE.png` writes "
+               "a file instead. tmux and screen stand before the terminal: kitty's graphics do not pass them, and "
+               "sixel only where they know it. "
+               "A picture is never larger than its scene says, unless --enlarge is given. The scene is merged as for "
+               "`kerrd render`.",
         .children = kd_scene_device_children,
     };
     return &argp;

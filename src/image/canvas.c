@@ -28,14 +28,16 @@ void kd_canvas_darken(const struct kd_canvas *canvas, uint32_t x, uint32_t y)
     }
 }
 
-void kd_canvas_fill(const struct kd_canvas *canvas, uint32_t x, uint32_t y, uint32_t width, uint32_t height, struct kd_map_colour colour)
+void kd_canvas_fill(const struct kd_canvas *canvas, uint32_t x, uint32_t y, uint32_t width, uint32_t height,
+                    struct kd_map_colour colour)
 {
     for (uint32_t j = 0; j < height; j++)
         for (uint32_t i = 0; i < width; i++)
             kd_canvas_put(canvas, x + i, y + j, colour);
 }
 
-void kd_canvas_write(const struct kd_canvas *canvas, uint32_t x, uint32_t y, uint32_t end, uint32_t dot, const char *text)
+void kd_canvas_write(const struct kd_canvas *canvas, uint32_t x, uint32_t y, uint32_t end, uint32_t dot,
+                     const char *text)
 {
     for (; *text && x + KD_FONT_WIDTH * dot <= end; text++, x += KD_FONT_ADVANCE * dot)
         for (int j = 0; j < KD_FONT_HEIGHT; j++)

@@ -1,4 +1,5 @@
-/* This draws on a finished picture: rectangles, letters, and panels that are darkened behind them. Pure functions, any thread. */
+/* This draws on a finished picture: rectangles, letters, and panels that are darkened behind them. Pure functions,
+ * any thread. */
 #ifndef KD_IMAGE_CANVAS_H
 #define KD_IMAGE_CANVAS_H
 
@@ -20,14 +21,16 @@ void kd_canvas_put(const struct kd_canvas *canvas, uint32_t x, uint32_t y, struc
 void kd_canvas_darken(const struct kd_canvas *canvas, uint32_t x, uint32_t y);
 
 /* A rectangle that is inside. */
-void kd_canvas_fill(const struct kd_canvas *canvas, uint32_t x, uint32_t y, uint32_t width, uint32_t height, struct kd_map_colour colour);
+void kd_canvas_fill(const struct kd_canvas *canvas, uint32_t x, uint32_t y, uint32_t width, uint32_t height,
+                    struct kd_map_colour colour);
 
 /* Letters of image/font.h, `dot` pixels a dot, from x on as far as they end before `end`; and how wide a text is. */
-void kd_canvas_write(const struct kd_canvas *canvas, uint32_t x, uint32_t y, uint32_t end, uint32_t dot, const char *text);
+void kd_canvas_write(const struct kd_canvas *canvas, uint32_t x, uint32_t y, uint32_t end, uint32_t dot,
+                     const char *text);
 uint32_t kd_canvas_text_width(uint32_t dot, const char *text);
 
-/* Pixels of a dot: as many whole ones as let `width` dots go into the picture's width, and make `height` of them a seventh of its height at most, but one
- * at least. */
+/* Pixels of a dot: as many whole ones as let `width` dots go into the picture's width, and make `height` of them a
+ * seventh of its height at most, but one at least. */
 uint32_t kd_canvas_dot(const struct kd_canvas *canvas, uint32_t width, uint32_t height);
 
 #endif

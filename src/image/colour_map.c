@@ -113,5 +113,6 @@ double kd_map_scale_place(const struct kd_map_scale *scale, double value)
 {
     if (scale->low == scale->high)
         return 0;
-    return scale->logarithmic ? log(value / scale->low) / log(scale->high / scale->low) : (value - scale->low) / (scale->high - scale->low);
+    return scale->logarithmic ? log(value / scale->low) / log(scale->high / scale->low)
+                              : (value - scale->low) / (scale->high - scale->low);
 }

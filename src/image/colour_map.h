@@ -1,9 +1,11 @@
-/* These maps give colours for numbers: their lightness L* (CIE 1976) is what the table says and their hue that of CIELAB, found inside the gamut of
- * sRGB (CIE 15:2004, IEC 61966-2-1). No table and no fit: each colour is computed. Pure functions, any thread.
+/* These maps give colours for numbers: their lightness L* (CIE 1976) is what the table says and their hue that of
+ * CIELAB, found inside the gamut of sRGB (CIE 15:2004, IEC 61966-2-1). No table and no fit: each colour is computed.
+ * Pure functions, any thread.
  *
  *   SEQUENTIAL   L* from 8 to 94 at a constant rate, violet, blue, green, yellow: an order that is also one in grey
  *   HEAT         L* from 0 to 100 at a constant rate, black, red, orange, white: for brightness
- *   DIVERGING    L* from 36 up to 94 at 1/2 and down again, red, white, blue: for what has a middle, as g has 1; red is below it
+ *   DIVERGING    L* from 36 up to 94 at 1/2 and down again, red, white, blue: for what has a middle, as g has 1;
+ *                red is below it
  *   CYCLIC       L* 70 throughout, hue once round: for angles; its ends are the same colour
  *   CATEGORICAL  hues by the golden angle: x is the number of a class, 0, 1, 2, ... */
 #ifndef KD_IMAGE_COLOUR_MAP_H
@@ -32,7 +34,7 @@ static inline struct kd_map_colour kd_map_table_at(const struct kd_map_table *ta
 
 /* Which number has which colour. */
 struct kd_map_scale {
-    double low, high;  /* at the ends of the map; logarithmic: both above 0 */
+    double low, high; /* at the ends of the map; logarithmic: both above 0 */
     bool logarithmic;
 };
 /* Place on the map, 0 at low and 1 at high, beyond them less and more; 0 where both are one number. */

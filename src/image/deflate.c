@@ -45,7 +45,8 @@ enum kd_status kd_deflate_create(enum kd_deflate_engine engine, struct kd_deflat
 {
     *out = NULL;
     if (!kd_deflate_has(engine))
-        return kd_error_set(error, KD_EINVAL, "this kerrd was built without the deflate engine %s", kd_deflate_name(engine));
+        return kd_error_set(error, KD_EINVAL, "this kerrd was built without the deflate engine %s",
+                            kd_deflate_name(engine));
     struct kd_deflate *deflate = calloc(1, sizeof *deflate);
     if (deflate && engine == KD_DEFLATE_LIBDEFLATE)
         deflate->compressor = libdeflate_alloc_compressor(LEVEL);

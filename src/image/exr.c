@@ -17,7 +17,8 @@ struct file {
     char message[160];
 };
 
-static int64_t write_at(exr_const_context_t context, void *user, const void *data, uint64_t size, uint64_t offset, exr_stream_error_func_ptr_t fail)
+static int64_t write_at(exr_const_context_t context, void *user, const void *data, uint64_t size, uint64_t offset,
+                        exr_stream_error_func_ptr_t fail)
 {
     struct file *f = user;
     size_t end = f->from + offset + size;
@@ -34,7 +35,8 @@ static int64_t write_at(exr_const_context_t context, void *user, const void *dat
     return (int64_t)size;
 }
 
-static int64_t read_at(exr_const_context_t context, void *user, void *to, uint64_t size, uint64_t offset, exr_stream_error_func_ptr_t fail)
+static int64_t read_at(exr_const_context_t context, void *user, void *to, uint64_t size, uint64_t offset,
+                       exr_stream_error_func_ptr_t fail)
 {
     const struct file *f = user;
     (void)context, (void)fail;
@@ -56,19 +58,21 @@ static void keep_message(exr_const_context_t context, exr_result_t code, const c
     void *user = NULL;
     (void)code;
     if (context && !exr_get_user_data(context, &user) && user && message)
-        snprintf(((struct file *)user)->message, sizeof ((struct file *)user)->message, "%s", message);
+        snprintf(((struct file *)user)->message, sizeof((struct file *)user)->message, "%s", message);
 }
 
 static enum kd_status failed(const struct file *f, exr_result_t code, struct kd_error *error)
 {
-    return f->no_memory || code == EXR_ERR_OUT_OF_MEMORY ? kd_error_set(error, KD_ENOMEM, "out of memory for an EXR file")
-                                         : kd_error_set(error, KD_EINVAL, "EXR: %s", *f->message ? f->message : exr_get_default_error_message(code));
+    return f->no_memory || code == EXR_ERR_OUT_OF_MEMORY
+               ? kd_error_set(error, KD_ENOMEM, "out of memory for an EXR file")
+               : kd_error_set(error, KD_EINVAL, "EXR: %s",
+                              *f->message ? f->message : exr_get_default_error_message(code));
 }
 
-#define TRY(call)                                                                                              \
-    do {                                                                                                       \
-        if ((code = (call)) != EXR_ERR_SUCCESS)                                                                \
-            goto done;                                                                                         \
+#define TRY(call) \
+    do { \
+        if ((code = (call)) != EXR_ERR_SUCCESS) \
+            goto done; \
     } while (0)
 
 static exr_result_t put_header(exr_context_t context, const struct kd_exr *image)
@@ -76,7 +80,8 @@ static exr_result_t put_header(exr_context_t context, const struct kd_exr *image
     exr_result_t code;
     int part;
     TRY(exr_add_part(context, "kerrd", EXR_STORAGE_SCANLINE, &part));
-    TRY(exr_initialize_required_attr_simple(context, part, (int32_t)image->width, (int32_t)image->height, EXR_COMPRESSION_ZIP));
+    TRY(exr_initialize_required_attr_simple(context, part, (int32_t)image->width, (int32_t)image->height,
+                                            EXR_COMPRESSION_ZIP));
     for (size_t i = 0; i < image->n_channels; i++)
         TRY(exr_add_channel(context, part, image->channels[i].name, EXR_PIXEL_FLOAT, EXR_PERCEPTUALLY_LINEAR, 1, 1));
     for (size_t i = 0; i < image->n_texts; i++)
@@ -115,7 +120,8 @@ static exr_result_t put_rows(exr_context_t context, const struct kd_exr *image)
     TRY(exr_get_scanlines_per_chunk(context, 0, &rows));
     for (uint32_t y = 0; y < image->height; y += (uint32_t)rows) {
         TRY(exr_write_scanline_chunk_info(context, 0, (int)y, &chunk));
-        TRY(y ? exr_encoding_update(context, 0, &chunk, &encoder) : exr_encoding_initialize(context, 0, &chunk, &encoder));
+        TRY(y ? exr_encoding_update(context, 0, &chunk, &encoder)
+              : exr_encoding_initialize(context, 0, &chunk, &encoder));
         TRY(connect(&encoder, image, y));
         if (!y)
             TRY(exr_encoding_choose_default_routines(context, 0, &encoder));
@@ -147,7 +153,8 @@ done:
     return code ? failed(&file, code, error) : KD_OK;
 }
 
-enum kd_status kd_exr_find_text(const void *data, size_t size, const char *name, struct kd_buffer *out, struct kd_error *error)
+enum kd_status kd_exr_find_text(const void *data, size_t size, const char *name, struct kd_buffer *out,
+                                struct kd_error *error)
 {
     struct file file = { .data = data, .size = size };
     exr_context_initializer_t with = EXR_DEFAULT_CONTEXT_INITIALIZER;

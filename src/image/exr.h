@@ -1,4 +1,5 @@
-/* This writes OpenEXR files of named channels of 32-bit numbers, by OpenEXR's C core: one part, scan lines, ZIP. Any thread. */
+/* This writes OpenEXR files of named channels of 32-bit numbers, by OpenEXR's C core: one part, scan lines, ZIP. Any
+ * thread. */
 #ifndef KD_IMAGE_EXR_H
 #define KD_IMAGE_EXR_H
 
@@ -27,6 +28,7 @@ struct kd_exr {
 enum kd_status kd_exr_encode(const struct kd_exr *image, struct kd_buffer *out, struct kd_error *error);
 
 /* Appends the string attribute of a file to *out. KD_EINVAL: no such attribute, or not a whole EXR file. */
-enum kd_status kd_exr_find_text(const void *data, size_t size, const char *name, struct kd_buffer *out, struct kd_error *error);
+enum kd_status kd_exr_find_text(const void *data, size_t size, const char *name, struct kd_buffer *out,
+                                struct kd_error *error);
 
 #endif

@@ -5,7 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { VALUE = 10, PIECE = 67, ROOM = 20 }; /* where a value begins; most characters of a text between its quotes beside a "&"; a number's width */
+enum {
+    VALUE = 10,
+    PIECE = 67,
+    ROOM = 20
+}; /* where a value begins; most characters of a text between its quotes beside a "&"; a number's width */
 
 static enum kd_status put_card(struct kd_buffer *cards, const char *text)
 {
@@ -37,7 +41,8 @@ enum kd_status kd_fits_real(struct kd_buffer *cards, const char *key, double val
         if (strtod(number, NULL) == value)
             break;
     }
-    snprintf(text, sizeof text, "%*s%s", ROOM - (strpbrk(number, ".E") ? 0 : 1), number, strpbrk(number, ".E") ? "" : ".");
+    snprintf(text, sizeof text, "%*s%s", ROOM - (strpbrk(number, ".E") ? 0 : 1), number,
+             strpbrk(number, ".E") ? "" : ".");
     return put_value(cards, key, text, comment);
 }
 
@@ -101,7 +106,8 @@ uint32_t kd_fits_sum(uint32_t sum, const void *bytes, size_t size)
     return (uint32_t)all;
 }
 
-/* Sixteen letters and digits whose sum, where they stand, is the complement of another: appendix J.2 of the standard. */
+/* Sixteen letters and digits whose sum, where they stand, is the complement of another: appendix J.2 of the
+ * standard. */
 static void encode_sum(uint32_t sum, char out[17])
 {
     uint32_t value = ~sum;
@@ -172,12 +178,16 @@ static enum kd_status put_shape(struct kd_buffer *out, const struct kd_fits_shap
     if (shape->primary)
         KD_TRY(put_value(out, "SIMPLE", "                   T", "conforms to the FITS standard"));
     else
-        KD_TRY(kd_fits_text(out, "XTENSION", shape->table ? "BINTABLE" : "IMAGE", shape->table ? "table" : "image extension"));
+        KD_TRY(kd_fits_text(out, "XTENSION", shape->table ? "BINTABLE" : "IMAGE",
+                            shape->table ? "table" : "image extension"));
     KD_TRY(kd_fits_integer(out, "BITPIX", shape->table ? 8 : -32, shape->table ? NULL : "IEEE numbers of 32 bits"));
     KD_TRY(kd_fits_integer(out, "NAXIS", shape->n_axes, NULL));
     for (unsigned i = 0; i < shape->n_axes; i++) {
         snprintf(key, sizeof key, "NAXIS%u", i + 1);
-        KD_TRY(kd_fits_integer(out, key, (long long)shape->axes[i], shape->table || i > 1 ? NULL : i ? "from the lowest row" : "from the left"));
+        KD_TRY(kd_fits_integer(out, key, (long long)shape->axes[i],
+                               shape->table || i > 1 ? NULL
+                               : i                   ? "from the lowest row"
+                                                     : "from the left"));
     }
     if (shape->primary) {
         KD_TRY(put_value(out, "EXTEND", "                   T", NULL));
@@ -191,7 +201,8 @@ done:
     return status;
 }
 
-enum kd_status kd_fits_head(struct kd_buffer *out, const struct kd_fits_shape *shape, const struct kd_buffer *cards, uint32_t data_sum)
+enum kd_status kd_fits_head(struct kd_buffer *out, const struct kd_fits_shape *shape, const struct kd_buffer *cards,
+                            uint32_t data_sum)
 {
     const size_t from = out->size;
     char text[32], letters[17];
@@ -210,9 +221,12 @@ done:
     return status;
 }
 
-enum kd_status kd_fits_image(struct kd_buffer *out, bool primary, const struct kd_fits_array *array, const struct kd_buffer *cards)
+enum kd_status kd_fits_image(struct kd_buffer *out, bool primary, const struct kd_fits_array *array,
+                             const struct kd_buffer *cards)
 {
-    const struct kd_fits_shape shape = { .primary = primary, .n_axes = array->channels > 1 ? 3 : 2, .axes = { array->width, array->height, array->channels } };
+    const struct kd_fits_shape shape = { .primary = primary,
+                                         .n_axes = array->channels > 1 ? 3 : 2,
+                                         .axes = { array->width, array->height, array->channels } };
     struct kd_buffer data = { 0 };
     enum kd_status status;
     KD_TRY(put_data(&data, array));

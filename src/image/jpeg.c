@@ -81,12 +81,14 @@ static void compress(struct work *work, const uint8_t *pixels, unsigned quality)
     jpeg_finish_compress(info);
 }
 
-enum kd_status kd_jpeg_encode(uint32_t width, uint32_t height, const uint8_t *pixels, unsigned quality, struct kd_buffer *out, struct kd_error *error)
+enum kd_status kd_jpeg_encode(uint32_t width, uint32_t height, const uint8_t *pixels, unsigned quality,
+                              struct kd_buffer *out, struct kd_error *error)
 {
     if (quality < 1 || quality > 100)
         return kd_error_set(error, KD_EINVAL, "a JPEG of quality %u: allowed are 1 to 100", quality);
     if (width < 1 || width > JPEG_MAX_DIMENSION || height < 1 || height > JPEG_MAX_DIMENSION)
-        return kd_error_set(error, KD_EINVAL, "a JPEG of %u x %u pixels: each side is 1 to %ld", width, height, JPEG_MAX_DIMENSION);
+        return kd_error_set(error, KD_EINVAL, "a JPEG of %u x %u pixels: each side is 1 to %ld", width, height,
+                            JPEG_MAX_DIMENSION);
     struct work *work = calloc(1, sizeof *work);
     if (!work)
         return kd_error_set(error, KD_ENOMEM, "out of memory for a JPEG of %u x %u pixels", width, height);
@@ -96,7 +98,9 @@ enum kd_status kd_jpeg_encode(uint32_t width, uint32_t height, const uint8_t *pi
     work->info.err = jpeg_std_error(&work->errors);
     work->errors.error_exit = give_up;
     work->errors.output_message = say_nothing;
-    work->destination = (struct jpeg_destination_mgr) { .init_destination = begin_piece, .empty_output_buffer = put_piece, .term_destination = put_last_piece };
+    work->destination = (struct jpeg_destination_mgr) { .init_destination = begin_piece,
+                                                        .empty_output_buffer = put_piece,
+                                                        .term_destination = put_last_piece };
     if (!setjmp(work->back)) {
         jpeg_create_compress(&work->info);
         work->info.image_width = width;
@@ -104,7 +108,8 @@ enum kd_status kd_jpeg_encode(uint32_t width, uint32_t height, const uint8_t *pi
         compress(work, pixels, quality);
     } else {
         out->size = before;
-        status = kd_error_set(error, KD_ENOMEM, "a JPEG of %u x %u pixels could not be made: %s", width, height, work->text);
+        status =
+            kd_error_set(error, KD_ENOMEM, "a JPEG of %u x %u pixels could not be made: %s", width, height, work->text);
     }
     jpeg_destroy_compress(&work->info);
     free(work);

@@ -8,11 +8,18 @@
 
 /* In dots. */
 enum {
-    PADDING = 4, BAR_HEIGHT = 7, BAR_WIDTH = 112, TICK = 2, GAP = 3, MARGIN = 4,
-    PANEL_WIDTH = BAR_WIDTH + 2 * PADDING + 4 * KD_FONT_ADVANCE, /* numbers at the ends stand out by half their length */
+    PADDING = 4,
+    BAR_HEIGHT = 7,
+    BAR_WIDTH = 112,
+    TICK = 2,
+    GAP = 3,
+    MARGIN = 4,
+    PANEL_WIDTH = BAR_WIDTH + 2 * PADDING +
+        4 * KD_FONT_ADVANCE, /* numbers at the ends stand out by half their length */
     PANEL_HEIGHT = 2 * PADDING + 2 * KD_FONT_HEIGHT + BAR_HEIGHT + TICK + 2 * GAP,
 };
-_Static_assert(PANEL_WIDTH + 2 * MARGIN <= KD_LEGEND_LEAST_WIDTH && PANEL_HEIGHT + 2 * MARGIN <= KD_LEGEND_LEAST_HEIGHT, "it fits");
+_Static_assert(PANEL_WIDTH + 2 * MARGIN <= KD_LEGEND_LEAST_WIDTH && PANEL_HEIGHT + 2 * MARGIN <= KD_LEGEND_LEAST_HEIGHT,
+               "it fits");
 
 /* A panel of dots on a canvas: where it begins, and pixels a dot. */
 struct panel {
@@ -21,7 +28,8 @@ struct panel {
 };
 
 /* x, y, width and height in pixels of the panel. */
-static void fill(const struct panel *p, uint32_t x, uint32_t y, uint32_t width, uint32_t height, struct kd_map_colour colour)
+static void fill(const struct panel *p, uint32_t x, uint32_t y, uint32_t width, uint32_t height,
+                 struct kd_map_colour colour)
 {
     kd_canvas_fill(p->canvas, p->left + x, p->top + y, width, height, colour);
 }
@@ -39,7 +47,11 @@ static void write_centred(const struct panel *p, double x, uint32_t y, const cha
 }
 
 /* Round numbers between the ends of a scale: multiples of a step, or a few numbers in each decade. */
-struct row { double step; const double *of_decade; int decades; };
+struct row {
+    double step;
+    const double *of_decade;
+    int decades;
+};
 
 /* In four digits, with an exponent where that is shorter by two letters. */
 static void label(double value, char out[12])
@@ -68,7 +80,8 @@ static size_t numbers(const struct kd_map_scale *scale, const struct row *row, s
     double low = fmin(scale->low, scale->high), high = fmax(scale->low, scale->high);
     size_t n = 0;
     if (!row->of_decade) {
-        for (double k = ceil(low / row->step - 1e-9); k * row->step <= high + 1e-9 * row->step && n <= KD_LEGEND_TICKS; k++)
+        for (double k = ceil(low / row->step - 1e-9); k * row->step <= high + 1e-9 * row->step && n <= KD_LEGEND_TICKS;
+             k++)
             n = take(scale, k == 0 ? 0 : k * row->step, out, n);
         return n;
     }
@@ -85,7 +98,8 @@ static bool fit(const struct kd_map_scale *scale, double room, const struct kd_t
     if (n > KD_LEGEND_TICKS)
         return false;
     for (size_t i = 1; i < n; i++) {
-        double apart = fabs(kd_map_scale_place(scale, ticks[i].value) - kd_map_scale_place(scale, ticks[i - 1].value)) * room;
+        double apart =
+            fabs(kd_map_scale_place(scale, ticks[i].value) - kd_map_scale_place(scale, ticks[i - 1].value)) * room;
         if (apart < 0.5 * (double)(strlen(ticks[i].label) + strlen(ticks[i - 1].label)) + 1.5)
             return false;
     }
@@ -96,8 +110,8 @@ static size_t logarithmic_ticks(const struct kd_map_scale *scale, double room, s
 {
     static const double many[] = { 1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 7, 8, 0 }, some[] = { 1, 1.5, 2, 3, 5, 7, 0 },
                         few[] = { 1, 2, 5, 0 }, ones[] = { 1, 0 };
-    static const struct row rows[] = { { 0, many, 1 }, { 0, some, 1 }, { 0, few, 1 }, { 0, ones, 1 }, { 0, ones, 2 }, { 0, ones, 3 },
-                                       { 0, ones, 5 }, { 0, ones, 10 } };
+    static const struct row rows[] = { { 0, many, 1 }, { 0, some, 1 }, { 0, few, 1 },  { 0, ones, 1 },
+                                       { 0, ones, 2 }, { 0, ones, 3 }, { 0, ones, 5 }, { 0, ones, 10 } };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         size_t n = numbers(scale, &rows[i], out);
         if (fit(scale, room, out, n))
@@ -147,11 +161,15 @@ static void draw_classes(const struct panel *p, const struct kd_legend *legend, 
         char number[12];
         snprintf(number, sizeof number, "%u", i);
         fill(p, x + i * each, y, each - p->dot, BAR_HEIGHT * p->dot, kd_colour_map_at(KD_MAP_CATEGORICAL, i));
-        write_centred(p, x + (i + 0.5) * each, y + (BAR_HEIGHT + TICK) * p->dot, legend->names ? legend->names[i] : number);
+        write_centred(p, x + (i + 0.5) * each, y + (BAR_HEIGHT + TICK) * p->dot,
+                      legend->names ? legend->names[i] : number);
     }
 }
 
-uint32_t kd_legend_dot(const struct kd_canvas *canvas) { return kd_canvas_dot(canvas, PANEL_WIDTH + 2 * MARGIN, PANEL_HEIGHT); }
+uint32_t kd_legend_dot(const struct kd_canvas *canvas)
+{
+    return kd_canvas_dot(canvas, PANEL_WIDTH + 2 * MARGIN, PANEL_HEIGHT);
+}
 
 bool kd_legend_draw(const struct kd_canvas *canvas, const struct kd_legend *legend)
 {

@@ -10,7 +10,8 @@
 static const struct {
     const char *code;
     size_t size;
-} types[] = { [KD_NPY_F8] = { "<f8", 8 }, [KD_NPY_F4] = { "<f4", 4 }, [KD_NPY_U1] = { "|u1", 1 }, [KD_NPY_U4] = { "<u4", 4 }, [KD_NPY_TEXT] = { "<U", 4 }, [KD_NPY_BYTES] = { "|S", 1 } };
+} types[] = { [KD_NPY_F8] = { "<f8", 8 }, [KD_NPY_F4] = { "<f4", 4 },  [KD_NPY_U1] = { "|u1", 1 },
+              [KD_NPY_U4] = { "<u4", 4 }, [KD_NPY_TEXT] = { "<U", 4 }, [KD_NPY_BYTES] = { "|S", 1 } };
 enum { TYPES_READ = KD_NPY_U4 };
 
 size_t kd_npy_item_size(const struct kd_npy *array)
@@ -78,10 +79,7 @@ static enum kd_status fail(struct reader *r, const char *what)
     return kd_error_set(r->error, KD_EINVAL, "not a usable NPY array: %s", what);
 }
 
-static void skip_blanks(struct reader *r)
-{
-    r->at += strspn(r->at, " \t\n");
-}
+static void skip_blanks(struct reader *r) { r->at += strspn(r->at, " \t\n"); }
 
 static bool take(struct reader *r, char c)
 {
@@ -155,7 +153,8 @@ static bool is_text(const char *code, struct kd_npy_field *out)
 {
     for (size_t i = KD_NPY_TEXT; i <= KD_NPY_BYTES; i++) {
         const char *digits = code + strlen(types[i].code);
-        if (strncmp(code, types[i].code, strlen(types[i].code)) || !*digits || strlen(digits) > 6 || digits[strspn(digits, "0123456789")])
+        if (strncmp(code, types[i].code, strlen(types[i].code)) || !*digits || strlen(digits) > 6 ||
+            digits[strspn(digits, "0123456789")])
             continue;
         out->type = (enum kd_npy_type)i;
         out->count = (uint32_t)strtoul(digits, NULL, 10);
@@ -188,8 +187,7 @@ static bool good_name(const struct kd_npy *array, const char *name)
     for (size_t i = 0; i + 1 < array->n_fields; i++)
         if (!strcmp(array->fields[i].name, name))
             return false;
-    return *name &&
-           !name[strspn(name, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_")];
+    return *name && !name[strspn(name, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_")];
 }
 
 /* ('name', '<f8') or ('name', '<f8', (3,)) */
@@ -296,8 +294,8 @@ static enum kd_status read_all(const void *data, size_t size, bool text, struct 
     if (!start)
         return fail(&r, "it does not start as NPY of version 1.0 or 2.0 does");
     if (length > KD_NPY_HEADER_MAX || length > size - start)
-        return fail(&r, length > KD_NPY_HEADER_MAX ? "its header has more than 10000 bytes"
-                                                   : "it ends within its header");
+        return fail(&r,
+                    length > KD_NPY_HEADER_MAX ? "its header has more than 10000 bytes" : "it ends within its header");
     memcpy(header, (const char *)data + start, length);
     header[length] = 0;
     if (strlen(header) != length)
@@ -320,7 +318,10 @@ static enum kd_status read_all(const void *data, size_t size, bool text, struct 
     return KD_OK;
 }
 
-enum kd_status kd_npy_read(const void *data, size_t size, struct kd_npy *out, struct kd_error *error) { return read_all(data, size, false, out, error); }
+enum kd_status kd_npy_read(const void *data, size_t size, struct kd_npy *out, struct kd_error *error)
+{
+    return read_all(data, size, false, out, error);
+}
 
 /* A character of UTF-32 in UTF-8; 0 bytes: it is none. */
 static size_t to_utf8(uint32_t c, char out[4])
@@ -346,13 +347,16 @@ enum kd_status kd_npy_read_text(const void *data, size_t size, struct kd_buffer 
     if (status)
         return status;
     const uint8_t *p = (const uint8_t *)data + array.header_size; /* not before: of no bytes there may be no address */
-    if (array.n_fields != 1 || array.fields[0].name[0] || !(type == KD_NPY_U1 ? array.n_dimensions == 1 : type >= KD_NPY_TEXT && array.n_dimensions == 0))
+    if (array.n_fields != 1 || array.fields[0].name[0] ||
+        !(type == KD_NPY_U1 ? array.n_dimensions == 1 : type >= KD_NPY_TEXT && array.n_dimensions == 0))
         return fail(&r, "it is no text: neither one str nor a list of bytes");
     const size_t n = type == KD_NPY_U1 ? array.items : array.fields[0].count;
     for (size_t i = 0; i < n && !status; i++) {
         char c[4] = { 0 };
         const uint8_t *at = p + types[type].size * i;
-        size_t bytes = type == KD_NPY_TEXT ? to_utf8(at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24, c) : 1;
+        size_t bytes = type == KD_NPY_TEXT
+                           ? to_utf8(at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24, c)
+                           : 1;
         if (!bytes)
             return fail(&r, "its text holds what is no character");
         if (type != KD_NPY_TEXT)

@@ -20,8 +20,8 @@ struct job {
     png_infop info;
     bool no_memory;
     char message[160];
-    struct kd_buffer *sink; /* encoding */
-    const uint8_t *source;  /* decoding */
+    struct kd_buffer *sink;   /* encoding */
+    const uint8_t *source;    /* decoding */
     size_t left, size, texts; /* texts: chunks of text in the file */
     struct kd_buffer stream;  /* encoding: all pixels; empty: they are written row by row */
     struct kd_png *picture;
@@ -66,10 +66,7 @@ static void sink_write(png_structp png, png_bytep data, size_t size)
     }
 }
 
-static void sink_flush(png_structp png)
-{
-    (void)png;
-}
+static void sink_flush(png_structp png) { (void)png; }
 
 static bool key_ok(const char *key)
 {
@@ -95,8 +92,8 @@ static enum kd_status check_params(const struct kd_png_params *params, struct kd
     for (size_t i = 0; i < params->n_text; i++) {
         const struct kd_png_text *text = &params->text[i];
         if (!key_ok(text->key))
-            return kd_error_set(error, KD_EINVAL,
-                                "PNG text key \"%.80s\": 1 to 79 printable ASCII characters", text->key);
+            return kd_error_set(error, KD_EINVAL, "PNG text key \"%.80s\": 1 to 79 printable ASCII characters",
+                                text->key);
         if (!kd_utf8_valid(text->value))
             return kd_error_set(error, KD_EINVAL, "PNG text \"%s\" is not UTF-8", text->key);
         total += strlen(text->key) + strlen(text->value);
@@ -162,16 +159,14 @@ static bool encode(struct job *job, const struct kd_png_params *params)
     return true;
 }
 
-enum kd_status kd_png_encode(const struct kd_png_params *params, struct kd_buffer *out,
-                             struct kd_error *error)
+enum kd_status kd_png_encode(const struct kd_png_params *params, struct kd_buffer *out, struct kd_error *error)
 {
     enum kd_status status = check_params(params, error);
     if (status)
         return status;
     size_t start = out->size;
     struct job job = { .sink = out };
-    job.png = png_create_write_struct_2(PNG_LIBPNG_VER_STRING, &job, on_error, on_warning, &job, job_malloc,
-                                        job_free);
+    job.png = png_create_write_struct_2(PNG_LIBPNG_VER_STRING, &job, on_error, on_warning, &job, job_malloc, job_free);
     job.info = job.png ? png_create_info_struct(job.png) : NULL;
     if (!job.info || (kd_png_filtered_bytes(params) <= KD_PNG_WHOLE && kd_png_pixels(params, &job.stream)))
         status = kd_error_set(error, KD_ENOMEM, "out of memory for a PNG encoder");
@@ -198,9 +193,10 @@ static void source_read(png_structp png, png_bytep data, size_t size)
     job->left -= size;
 }
 
-/* Text, as one block: the array, then its strings. Latin-1 chunks become UTF-8. libpng passes over a chunk that is too long, unfolds
- * to too much, is damaged or comes after too many others, and goes on with a mere warning; which of them it does so with is another
- * matter in 1.6.39 than in 1.6.48. One of them may have been the scene, so a text that is missing is an error. */
+/* Text, as one block: the array, then its strings. Latin-1 chunks become UTF-8. libpng passes over a chunk that is
+ * too long, unfolds to too much, is damaged or comes after too many others, and goes on with a mere warning; which
+ * of them it does so with is another matter in 1.6.39 than in 1.6.48. One of them may have been the scene, so a text
+ * that is missing is an error. */
 static enum kd_status take_text(struct job *job)
 {
     png_textp text = NULL;
@@ -211,8 +207,7 @@ static enum kd_status take_text(struct job *job)
     size_t total = 0;
     for (int i = 0; i < n; i++) {
         bool utf8 = text[i].compression >= PNG_ITXT_COMPRESSION_NONE;
-        total +=
-            kd_latin1_size(text[i].key) + (utf8 ? strlen(text[i].text) + 1 : kd_latin1_size(text[i].text));
+        total += kd_latin1_size(text[i].key) + (utf8 ? strlen(text[i].text) + 1 : kd_latin1_size(text[i].text));
         if (total > MAX_TEXT + 2u * MAX_CHUNKS || (utf8 && !kd_utf8_valid(text[i].text)))
             return KD_EINVAL;
     }
@@ -236,7 +231,8 @@ static enum kd_status take_text(struct job *job)
     return KD_OK;
 }
 
-/* Deflate expands by 1032 at most: a header that promises more pixels than the file can hold is refused before it costs memory. */
+/* Deflate expands by 1032 at most: a header that promises more pixels than the file can hold is refused before it
+ * costs memory. */
 static void check_promise(struct job *job, uint32_t height)
 {
     uint64_t packed = (uint64_t)png_get_rowbytes(job->png, job->info) * height;
@@ -282,8 +278,8 @@ static void read_info(struct job *job)
 {
     png_set_read_fn(job->png, job, source_read);
     png_set_user_limits(job->png, MAX_SIDE, MAX_SIDE);
-    png_set_chunk_malloc_max(job->png, MAX_TEXT + 128); /* with its key */
-    png_set_chunk_cache_max(job->png, MAX_CHUNKS + 1); /* libpng takes two fewer */
+    png_set_chunk_malloc_max(job->png, MAX_TEXT + 128);                   /* with its key */
+    png_set_chunk_cache_max(job->png, MAX_CHUNKS + 1);                    /* libpng takes two fewer */
     png_set_crc_action(job->png, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT); /* damaged text is damage too */
     png_read_info(job->png, job->info);
 }
@@ -315,20 +311,18 @@ static enum kd_status check_header(const uint8_t *data, size_t size, size_t *tex
     if (size < 33)
         return kd_error_set(error, KD_EINVAL, "the PNG file ends inside its header");
     uint32_t width = big_endian(data + 16), height = big_endian(data + 20);
-    if (memcmp(data + 12, "IHDR", 4) == 0 &&
-        (width < 1 || width > MAX_SIDE || height < 1 || height > MAX_SIDE))
-        return kd_error_set(error, KD_EINVAL, "a PNG of %u x %u pixels: each side is 1 to %u", width, height,
-                            MAX_SIDE);
+    if (memcmp(data + 12, "IHDR", 4) == 0 && (width < 1 || width > MAX_SIDE || height < 1 || height > MAX_SIDE))
+        return kd_error_set(error, KD_EINVAL, "a PNG of %u x %u pixels: each side is 1 to %u", width, height, MAX_SIDE);
     for (size_t at = 8; at < size;) {
         size_t room = size - at;
         if (room < 12 || big_endian(data + at) > room - 12)
-            return kd_error_set(error, KD_EINVAL,
-                                "damaged PNG file: the chunk at byte %zu ends past the file", at);
+            return kd_error_set(error, KD_EINVAL, "damaged PNG file: the chunk at byte %zu ends past the file", at);
         if (memcmp(data + at + 4, "IEND", 4) == 0) {
             *end = at + 12 + big_endian(data + at);
             break;
         }
-        *texts += memcmp(data + at + 4, "tEXt", 4) == 0 || memcmp(data + at + 4, "zTXt", 4) == 0 || memcmp(data + at + 4, "iTXt", 4) == 0;
+        *texts += memcmp(data + at + 4, "tEXt", 4) == 0 || memcmp(data + at + 4, "zTXt", 4) == 0 ||
+                  memcmp(data + at + 4, "iTXt", 4) == 0;
         at += 12 + (size_t)big_endian(data + at);
     }
     return KD_OK;
@@ -342,17 +336,16 @@ enum kd_status kd_png_decode(const void *data, size_t size, struct kd_png *out, 
     enum kd_status status = check_header(data, size, &job.texts, &end, error);
     if (status)
         return status;
-    job.png = png_create_read_struct_2(PNG_LIBPNG_VER_STRING, &job, on_error, on_warning, &job, job_malloc,
-                                       job_free);
+    job.png = png_create_read_struct_2(PNG_LIBPNG_VER_STRING, &job, on_error, on_warning, &job, job_malloc, job_free);
     job.info = job.png ? png_create_info_struct(job.png) : NULL;
     bool done = job.info && decode(&job);
     if (!job.info || job.no_memory) /* though libpng carries on without a text that it cannot hold */
-        status = kd_error_set(error, KD_ENOMEM, "out of memory for a PNG of %u x %u pixels", out->width,
-                              out->height);
+        status = kd_error_set(error, KD_ENOMEM, "out of memory for a PNG of %u x %u pixels", out->width, out->height);
     else if (!done)
         status = kd_error_set(error, KD_EINVAL, "damaged PNG file: %s", job.message);
     else if ((status = take_text(&job)) == KD_EINVAL)
-        kd_error_set(error, status, "the text of the PNG file is damaged, not UTF-8, over %u bytes or in over %d pieces", MAX_TEXT,
+        kd_error_set(error, status,
+                     "the text of the PNG file is damaged, not UTF-8, over %u bytes or in over %d pieces", MAX_TEXT,
                      MAX_CHUNKS - 1);
     else if (status)
         kd_error_set(error, status, "out of memory for the text of a PNG file");

@@ -15,14 +15,16 @@ struct kd_png_text { const char *key, *value; }; /* UTF-8; written as iTXt where
 struct kd_png_params {
     uint32_t width, height;
     int bit_depth;   /* 8 or 16 */
-    int compression; /* 0..8: 0 stored, 1 as fast as it goes, from 2 on each row by the filter that suits it; those of libdeflate, of large pictures (png_pixels.h) zlib's */
+    int compression; /* 0..8: 0 stored, 1 as fast as it goes, from 2 on each row by the filter that suits it; those of
+                        libdeflate, of large pictures (png_pixels.h) zlib's */
     const void *pixels;
     const struct kd_png_text *text;
     size_t n_text;
 };
 enum kd_status kd_png_encode(const struct kd_png_params *params, struct kd_buffer *out, struct kd_error *error);
 
-/* A decoded picture; RGB whatever the file held. Free with kd_png_finish. Limits: 32768 pixels a side, 1 MiB of text. */
+/* A decoded picture; RGB whatever the file held. Free with kd_png_finish. Limits: 32768 pixels a side, 1 MiB of
+ * text. */
 struct kd_png {
     uint32_t width, height;
     int bit_depth; /* 8 or 16 */
@@ -32,8 +34,9 @@ struct kd_png {
 };
 enum kd_status kd_png_decode(const void *data, size_t size, struct kd_png *out, struct kd_error *error);
 
-/* What a PNG file says of itself, its pixels not decoded. It is a PNG file if its chunks are whole and end with the file, libpng takes
- * the header, and its bytes may hold as many pixels as it promises; else KD_EINVAL. Whether its pixels are sound only decoding tells. */
+/* What a PNG file says of itself, its pixels not decoded. It is a PNG file if its chunks are whole and end with the
+ * file, libpng takes the header, and its bytes may hold as many pixels as it promises; else KD_EINVAL. Whether its
+ * pixels are sound only decoding tells. */
 struct kd_png_about {
     uint32_t width, height;
     int bit_depth, channels; /* as in the file: 1, 2, 4, 8 or 16; 1 to 4, and 1 for a palette */

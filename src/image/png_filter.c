@@ -21,7 +21,8 @@ static int paeth(int left, int above, int corner)
 }
 
 /* Bytes from `first` to `end`, of pixels that have one to the left if `left` is 1; those of others are 0. */
-static void all_of(const uint8_t *row, const uint8_t *above, size_t first, size_t end, size_t step, int left, uint8_t *restrict room[FILTERS])
+static void all_of(const uint8_t *row, const uint8_t *above, size_t first, size_t end, size_t step, int left,
+                   uint8_t *restrict room[FILTERS])
 {
     for (size_t i = first; i < end; i++) {
         const int x = row[i], a = left ? row[i - step] : 0, b = above[i], c = left ? above[i - step] : 0;
@@ -40,7 +41,8 @@ static uint64_t size_of(const uint8_t *bytes, size_t n)
     return sum;
 }
 
-void kd_png_filter_least(uint8_t *restrict to, const uint8_t *row, const uint8_t *above, size_t stride, size_t step, uint8_t *restrict room)
+void kd_png_filter_least(uint8_t *restrict to, const uint8_t *row, const uint8_t *above, size_t stride, size_t step,
+                         uint8_t *restrict room)
 {
     uint8_t *filtered[FILTERS] = { room, room + stride, room + 2 * stride, room + 3 * stride, room + 4 * stride };
     memcpy(filtered[NONE], row, stride);

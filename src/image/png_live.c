@@ -39,7 +39,8 @@ void kd_png_live_destroy(struct kd_png_live *live)
     free(live);
 }
 
-/* This filter makes kerrd's pictures smallest, among those whose cost is nothing beside deflate's (docs/decisions/0004-live-png.md). */
+/* This filter makes kerrd's pictures smallest, among those whose cost is nothing beside deflate's
+ * (docs/decisions/0004-live-png.md). */
 static void filter_rows(uint8_t *restrict to, const uint8_t *restrict pixels, size_t stride, uint32_t height)
 {
     for (uint32_t y = 0; y < height; y++, to += stride + 1, pixels += stride)
@@ -91,7 +92,8 @@ done:
     return status;
 }
 
-static enum kd_status put_file(struct kd_png_live *live, uint32_t width, uint32_t height, size_t filtered, struct kd_buffer *out)
+static enum kd_status put_file(struct kd_png_live *live, uint32_t width, uint32_t height, size_t filtered,
+                               struct kd_buffer *out)
 {
     static const uint8_t signature[8] = { 0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n' };
     uint8_t header[13] = { [8] = 8, [9] = 2 }; /* bits a channel; RGB */
@@ -121,11 +123,12 @@ enum kd_status kd_png_live_encode(struct kd_png_live *live, uint32_t width, uint
                                   struct kd_buffer *out, struct kd_error *error)
 {
     if (width < 1 || width > MAX_SIDE || height < 1 || height > MAX_SIDE)
-        return kd_error_set(error, KD_EINVAL, "a live PNG of %u x %u pixels: each side is 1 to %d", width, height, MAX_SIDE);
+        return kd_error_set(error, KD_EINVAL, "a live PNG of %u x %u pixels: each side is 1 to %d", width, height,
+                            MAX_SIDE);
     uint64_t filtered = (3 * (uint64_t)width + 1) * height;
     if (filtered > KD_DEFLATE_MAX) /* so that the IDAT chunk stays below its 2 GiB whatever the pixels are */
-        return kd_error_set(error, KD_ETOOBIG, "a live PNG of %u x %u pixels takes %.2f GiB uncompressed, at most 1", width, height,
-                            (double)filtered / (1 << 30));
+        return kd_error_set(error, KD_ETOOBIG, "a live PNG of %u x %u pixels takes %.2f GiB uncompressed, at most 1",
+                            width, height, (double)filtered / (1 << 30));
     size_t start = out->size;
     enum kd_status status = make_room(live, (size_t)filtered);
     if (!status) {

@@ -26,7 +26,8 @@ static void copy_row(const struct kd_png_params *p, uint32_t y, size_t stride, u
     }
 }
 
-/* room: two rows, the first of them zeros, and what the filters need. Filters cost more than they gain at the lowest levels. */
+/* room: two rows, the first of them zeros, and what the filters need. Filters cost more than they gain at the lowest
+ * levels. */
 static void filter(const struct kd_png_params *p, uint8_t *to, uint8_t *room)
 {
     const size_t stride = p->width * step_of(p);

@@ -30,8 +30,10 @@ enum kd_status kd_zip_create(struct kd_buffer *out, bool deflated, struct kd_zip
     z->archive = archive_write_new();
     z->entry = archive_entry_new();
     if (!z->archive || !z->entry || archive_write_set_format_zip(z->archive) != ARCHIVE_OK ||
-        (deflated ? archive_write_zip_set_compression_deflate : archive_write_zip_set_compression_store)(z->archive) != ARCHIVE_OK ||
-        archive_write_set_bytes_per_block(z->archive, 0) != ARCHIVE_OK || archive_write_open(z->archive, out, NULL, keep, NULL) != ARCHIVE_OK) {
+        (deflated ? archive_write_zip_set_compression_deflate : archive_write_zip_set_compression_store)(z->archive) !=
+            ARCHIVE_OK ||
+        archive_write_set_bytes_per_block(z->archive, 0) != ARCHIVE_OK ||
+        archive_write_open(z->archive, out, NULL, keep, NULL) != ARCHIVE_OK) {
         kd_zip_destroy(z);
         return KD_ENOMEM;
     }
@@ -66,7 +68,10 @@ enum kd_status kd_zip_add(struct kd_zip *zip, const char *name, const void *data
     return status ? status : kd_zip_append(zip, data, size);
 }
 
-enum kd_status kd_zip_close(struct kd_zip *zip) { return archive_write_close(zip->archive) == ARCHIVE_OK ? KD_OK : KD_ENOMEM; }
+enum kd_status kd_zip_close(struct kd_zip *zip)
+{
+    return archive_write_close(zip->archive) == ARCHIVE_OK ? KD_OK : KD_ENOMEM;
+}
 
 void kd_zip_destroy(struct kd_zip *zip)
 {
@@ -92,7 +97,8 @@ static enum kd_status take(struct archive *archive, size_t most, struct kd_buffe
     return n < 0 ? KD_EINVAL : KD_OK;
 }
 
-/* Members are found by the directory at the end alone: libarchive's reader of streams inflates whatever it passes over, which may be a thousand times as long as the file. NULL: no memory. */
+/* Members are found by the directory at the end alone: libarchive's reader of streams inflates whatever it passes
+ * over, which may be a thousand times as long as the file. NULL: no memory. */
 static struct archive *open_directory(const void *data, size_t size)
 {
     struct archive *archive = archive_read_new();

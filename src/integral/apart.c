@@ -6,12 +6,19 @@
 #define BOTH(one, other) "{\"required\":[\"" one "\",\"" other "\"]}"
 #define ALONE(name) "{\"required\":[\"" name "\"],\"not\":{\"anyOf\":["
 /* A member beside an emissivity that it does not belong to. */
-#define NOT_OF(name, words) "{\"required\":[\"" name "\",\"emissivity\"],\"properties\":{\"emissivity\":{\"enum\":[" words "]}}}"
-#define OF_NO_OTHER_THAN(name, word) "{\"required\":[\"" name "\"],\"not\":{\"required\":[\"emissivity\"],\"properties\":{\"emissivity\":{\"enum\":[\"" word "\"]}}}}"
+#define NOT_OF(name, words) \
+    "{\"required\":[\"" name "\",\"emissivity\"],\"properties\":{\"emissivity\":{\"enum\":[" words "]}}}"
+#define OF_NO_OTHER_THAN(name, word) \
+    "{\"required\":[\"" name \
+    "\"],\"not\":{\"required\":[\"emissivity\"],\"properties\":{\"emissivity\":{\"enum\":[\"" word "\"]}}}}"
 /* A picture is of a scene, and a disk is of none. */
 #define OF_A_SCENE "\"anyOf\":[" HAS("scene") "," HAS("preset") "]"
-#define OF_A_DISK HAS("spin") "," HAS("inclination_deg") "," HAS("inner") "," HAS("outer") "," HAS("limb") "," HAS("mass_msun") "," HAS("distance_pc") "," HAS("mdot_edd") "," HAS("colour_correction")
-#define OF_A_VOLUME "{\"minimum\":" KD_SCHEMA_DIGITS(KD_INTEGRAL_LEAST_HZ) ",\"maximum\":" KD_SCHEMA_DIGITS(KD_INTEGRAL_MOST_HZ) "}"
+#define OF_A_DISK \
+    HAS("spin") \
+    "," HAS("inclination_deg") "," HAS("inner") "," HAS("outer") "," HAS("limb") "," HAS("mass_msun") "," HAS( \
+        "distance_pc") "," HAS("mdot_edd") "," HAS("colour_correction")
+#define OF_A_VOLUME \
+    "{\"minimum\":" KD_SCHEMA_DIGITS(KD_INTEGRAL_LEAST_HZ) ",\"maximum\":" KD_SCHEMA_DIGITS(KD_INTEGRAL_MOST_HZ) "}"
 
 /* clang-format off */
 static const char line[] = "{\"anyOf\":["
@@ -40,7 +47,10 @@ static const char visibility[] = "{\"anyOf\":["
 const char *kd_integral_apart(enum kd_integral what)
 {
     _Static_assert(KD_INTEGRAL_PICTURES == 200 && KD_INTEGRAL_FREQUENCIES == 1000, "the schema of a spectrum says so");
-    static const char *const schemas[KD_INTEGRALS] = { [KD_INTEGRAL_LINE] = line, [KD_INTEGRAL_TRANSFER] = transfer, [KD_INTEGRAL_SPECTRUM] = spectrum, [KD_INTEGRAL_VOLUME] = spectrum,
+    static const char *const schemas[KD_INTEGRALS] = { [KD_INTEGRAL_LINE] = line,
+                                                       [KD_INTEGRAL_TRANSFER] = transfer,
+                                                       [KD_INTEGRAL_SPECTRUM] = spectrum,
+                                                       [KD_INTEGRAL_VOLUME] = spectrum,
                                                        [KD_INTEGRAL_VISIBILITY] = visibility };
     return schemas[what];
 }

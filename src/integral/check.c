@@ -19,14 +19,21 @@ static enum kd_status check_disk(struct kd_integral_request *r, struct kd_error 
 {
     double isco = kd_kerr_isco(r->spin);
     if (fabs(r->inclination_deg - 90) < KD_DISK_IMAGE_EDGE_ON)
-        return kd_error_field(error, "/inclination_deg", "inclination_deg is %.9g, where the disk is seen edge on; allowed are 0 to 87 and 93 to 180", r->inclination_deg);
+        return kd_error_field(
+            error, "/inclination_deg",
+            "inclination_deg is %.9g, where the disk is seen edge on; allowed are 0 to 87 and 93 to 180",
+            r->inclination_deg);
     if (isnan(r->inner))
         r->inner = isco;
     if (r->inner < isco * (1 - 1e-9))
-        return kd_error_field(error, "/inner", "inner is %.9g, within the ISCO of this spin, %.9g M; allowed are that and larger radii, and \"isco\"", r->inner, isco);
+        return kd_error_field(
+            error, "/inner",
+            "inner is %.9g, within the ISCO of this spin, %.9g M; allowed are that and larger radii, and \"isco\"",
+            r->inner, isco);
     r->inner = fmax(r->inner, isco);
     if (r->outer <= r->inner * (1 + 1e-6))
-        return kd_error_field(error, "/outer", "outer is %.9g and inner is %.9g; allowed are larger radii than that", r->outer, r->inner);
+        return kd_error_field(error, "/outer", "outer is %.9g and inner is %.9g; allowed are larger radii than that",
+                              r->outer, r->inner);
     return KD_OK;
 }
 
@@ -37,7 +44,8 @@ enum kd_status kd_integral_check_growth(const struct kd_integral_list *list, con
         if (!(list->at[i] > list->at[i - 1])) {
             char pointer[60];
             snprintf(pointer, sizeof pointer, "/%s/%zu", name, i);
-            return kd_error_field(error, pointer, "%s is %.9g after %.9g; allowed are numbers that grow", name, list->at[i], list->at[i - 1]);
+            return kd_error_field(error, pointer, "%s is %.9g after %.9g; allowed are numbers that grow", name,
+                                  list->at[i], list->at[i - 1]);
         }
     return KD_OK;
 }
@@ -59,11 +67,14 @@ static enum kd_status check_emissivity(const struct kd_integral_request *r, stru
         if (kd_integral_given(r, belongs[i].name) && !(belongs[i].of & 1u << r->emissivity)) {
             char pointer[40];
             snprintf(pointer, sizeof pointer, "/%s", belongs[i].name);
-            return kd_error_field(error, pointer, "%s is given, and belongs to emissivity %s", belongs[i].name, belongs[i].words);
+            return kd_error_field(error, pointer, "%s is given, and belongs to emissivity %s", belongs[i].name,
+                                  belongs[i].words);
         }
     double least = 1.05 * kd_kerr_horizon(r->spin);
     if (r->emissivity == KD_LINE_LAMPPOST && r->height < least)
-        return kd_error_field(error, "/height", "height is %.9g, allowed are %.9g, 1.05 times the horizon of this spin, and more", r->height, least);
+        return kd_error_field(error, "/height",
+                              "height is %.9g, allowed are %.9g, 1.05 times the horizon of this spin, and more",
+                              r->height, least);
     return KD_OK;
 }
 
@@ -74,10 +85,13 @@ static enum kd_status fill_edges(struct kd_integral_request *r, struct kd_error 
     if (isnan(r->energy_max))
         r->energy_max = 1.7 * r->rest_energy;
     if (!(r->energy_max > r->energy_min))
-        return kd_error_field(error, "/energy_max", "energy_max is %.9g and energy_min %.9g; allowed are larger values than that", r->energy_max, r->energy_min);
+        return kd_error_field(error, "/energy_max",
+                              "energy_max is %.9g and energy_min %.9g; allowed are larger values than that",
+                              r->energy_max, r->energy_min);
     enum kd_status status = kd_integral_make_room(r, f, (size_t)r->bins + 1, "/bins", &list, error);
     for (size_t i = 0; !status && i <= r->bins; i++)
-        list->at[i] = i == r->bins ? r->energy_max : r->energy_min + (r->energy_max - r->energy_min) * (double)i / r->bins;
+        list->at[i] =
+            i == r->bins ? r->energy_max : r->energy_min + (r->energy_max - r->energy_min) * (double)i / r->bins;
     return status;
 }
 
@@ -90,23 +104,29 @@ static enum kd_status check_edges(struct kd_integral_request *r, struct kd_error
         if (kd_integral_given(r, even[i]))
             return kd_error_field(error, "/edges", "edges are given beside %s: allowed is one of the two", even[i]);
     if (r->edges.n < 2)
-        return kd_error_field(error, "/edges", "edges has one number, allowed are 2 to %u: both ends of each bin", KD_INTEGRAL_LIST);
+        return kd_error_field(error, "/edges", "edges has one number, allowed are 2 to %u: both ends of each bin",
+                              KD_INTEGRAL_LIST);
     r->bins = (uint32_t)r->edges.n - 1, r->energy_min = r->edges.at[0], r->energy_max = r->edges.at[r->bins];
     return kd_integral_check_growth(&r->edges, "edges", error);
 }
 
 /* n numbers at equal ratios, or at the middles of n parts of 0 to 1. */
-enum kd_status kd_integral_fill_list(struct kd_integral_request *r, const char *name, uint32_t n, double first, double last, struct kd_error *error)
+enum kd_status kd_integral_fill_list(struct kd_integral_request *r, const char *name, uint32_t n, double first,
+                                     double last, struct kd_error *error)
 {
     struct kd_integral_list *list;
     enum kd_status status = kd_integral_make_room(r, kd_integral_field_named(r, name), n, "", &list, error);
     for (size_t i = 0; !status && i < n; i++)
-        list->at[i] = !(first > 0) ? ((double)i + 0.5) / n : n == 1 ? first : i + 1 == n ? last : first * pow(last / first, (double)i / (n - 1));
+        list->at[i] = !(first > 0) ? ((double)i + 0.5) / n
+                      : n == 1     ? first
+                      : i + 1 == n ? last
+                                   : first * pow(last / first, (double)i / (n - 1));
     return status;
 }
 
 /* A list is refused beside what would have made it. */
-enum kd_status kd_integral_check_beside(const struct kd_integral_request *r, const char *list, const char *const *others, size_t n, struct kd_error *error)
+enum kd_status kd_integral_check_beside(const struct kd_integral_request *r, const char *list,
+                                        const char *const *others, size_t n, struct kd_error *error)
 {
     char pointer[40];
     snprintf(pointer, sizeof pointer, "/%s", list);
@@ -120,7 +140,9 @@ static enum kd_status check_transfer(struct kd_integral_request *r, struct kd_er
 {
     enum kd_status status = KD_OK;
     if (r->inclination_deg < KD_INTEGRAL_FACE_ON || r->inclination_deg > 180 - KD_INTEGRAL_FACE_ON)
-        return kd_error_field(error, "/inclination_deg", "inclination_deg is %.9g: seen face on each ring has one redshift and no transfer function; allowed are 0.1 to 87 and 93 to 179.9",
+        return kd_error_field(error, "/inclination_deg",
+                              "inclination_deg is %.9g: seen face on each ring has one redshift and no transfer "
+                              "function; allowed are 0.1 to 87 and 93 to 179.9",
                               r->inclination_deg);
     if (r->radii.n) {
         KD_TRY(kd_integral_check_beside(r, "radii", (const char *const[]) { "rings" }, 1, error));
@@ -138,10 +160,13 @@ static enum kd_status check_transfer(struct kd_integral_request *r, struct kd_er
         if (r->radii.at[i] < r->inner * (1 - 1e-12) || r->radii.at[i] > r->outer) {
             char pointer[60];
             snprintf(pointer, sizeof pointer, "/radii/%zu", i);
-            return kd_error_field(error, pointer, "a radius is %.9g, allowed are %.9g to %.9g, from inner to outer", r->radii.at[i], r->inner, r->outer);
+            return kd_error_field(error, pointer, "a radius is %.9g, allowed are %.9g to %.9g, from inner to outer",
+                                  r->radii.at[i], r->inner, r->outer);
         }
     if (r->radii.n * r->g_star.n > KD_INTEGRAL_TRANSFERS)
-        return kd_error_field(error, r->radii.n > r->g_star.n ? "/radii" : "/g_star", "%zu radii with %zu g* are more than %u places", r->radii.n, r->g_star.n, KD_INTEGRAL_TRANSFERS);
+        return kd_error_field(error, r->radii.n > r->g_star.n ? "/radii" : "/g_star",
+                              "%zu radii with %zu g* are more than %u places", r->radii.n, r->g_star.n,
+                              KD_INTEGRAL_TRANSFERS);
 done:
     return status;
 }
@@ -154,15 +179,18 @@ enum kd_status kd_integral_check_frequencies(struct kd_integral_request *r, uint
     if (r->frequencies_hz.n) {
         KD_TRY(kd_integral_check_beside(r, "frequencies_hz", even, 3, error));
         if (r->frequencies_hz.n > most)
-            return kd_error_field(error, "/frequencies_hz", "frequencies_hz has %zu numbers, allowed are 1 to %u", r->frequencies_hz.n, most);
-        r->frequencies = (uint32_t)r->frequencies_hz.n, r->frequency_min_hz = r->frequencies_hz.at[0], r->frequency_max_hz = r->frequencies_hz.at[r->frequencies - 1];
+            return kd_error_field(error, "/frequencies_hz", "frequencies_hz has %zu numbers, allowed are 1 to %u",
+                                  r->frequencies_hz.n, most);
+        r->frequencies = (uint32_t)r->frequencies_hz.n, r->frequency_min_hz = r->frequencies_hz.at[0],
+        r->frequency_max_hz = r->frequencies_hz.at[r->frequencies - 1];
         return kd_integral_check_growth(&r->frequencies_hz, "frequencies_hz", error);
     }
     if (r->frequencies > most)
         return kd_error_field(error, "/frequencies", "frequencies is %u, allowed are 2 to %u", r->frequencies, most);
     if (!(r->frequency_max_hz > r->frequency_min_hz))
-        return kd_error_field(error, "/frequency_max_hz", "frequency_max_hz is %.9g and frequency_min_hz %.9g; allowed are larger values than that", r->frequency_max_hz,
-                              r->frequency_min_hz);
+        return kd_error_field(error, "/frequency_max_hz",
+                              "frequency_max_hz is %.9g and frequency_min_hz %.9g; allowed are larger values than that",
+                              r->frequency_max_hz, r->frequency_min_hz);
     KD_TRY(kd_integral_fill_list(r, "frequencies_hz", r->frequencies, r->frequency_min_hz, r->frequency_max_hz, error));
 done:
     return status;
@@ -171,7 +199,8 @@ done:
 static enum kd_status check_frequencies(struct kd_integral_request *r, struct kd_error *error)
 {
     double hottest = fmax(r->inner, kd_disk_peak_page_thorne(r->spin));
-    double t = r->colour_correction * kd_disk_temperature(kd_disk_flux_page_thorne(r->spin, hottest), r->spin, r->mass_msun, r->mdot_edd);
+    double t = r->colour_correction *
+               kd_disk_temperature(kd_disk_flux_page_thorne(r->spin, hottest), r->spin, r->mass_msun, r->mdot_edd);
     if (isnan(r->frequency_min_hz))
         r->frequency_min_hz = 1e-3 * t * KD_K_J_K / KD_H_J_S;
     if (isnan(r->frequency_max_hz))

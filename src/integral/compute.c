@@ -44,7 +44,8 @@ static const char *const disk_approximations[] = {
 };
 
 static const char *const visibility_sources[] = {
-    "A. R. Thompson, J. M. Moran & G. W. Swenson 2017, Interferometry and Synthesis in Radio Astronomy, 3rd ed., eq. 3.7",
+    "A. R. Thompson, J. M. Moran & G. W. Swenson 2017, Interferometry and Synthesis in Radio Astronomy, 3rd ed., eq. "
+    "3.7",
     "M. D. Johnson et al. 2020, Sci. Adv. 6, eaaz1310 (rings at long baselines)",
     NULL,
 };
@@ -66,7 +67,9 @@ static const char *const volume_approximations[] = {
 static const struct kd_integral_kind_of kinds[KD_INTEGRALS] = {
     [KD_INTEGRAL_LINE] = { "relativistic line profile of a thin disk",
                            { { "isco", "M", "innermost stable circular orbit" },
-                             { "total", "M^2", "all photons, or energies: the integral of g^3 epsilon f, or g^4, over the image plane" },
+                             { "total", "M^2",
+                               "all photons, or energies: the integral of g^3 epsilon f, or g^4, over the image "
+                               "plane" },
                              { "inside", "1", "share of them between the first and the last edge" },
                              { "error", "1", "estimated, of the cumulative share at any edge" } },
                            { { "energy_low", "unit of rest_energy", "edge of the bin" },
@@ -82,7 +85,8 @@ static const struct kd_integral_kind_of kinds[KD_INTEGRALS] = {
                                  { "g", "1", "energy at infinity over that for the gas" },
                                  { "f_near", "1", "f of the side that is nearer to the observer" },
                                  { "f_far", "1", "f of the far side" },
-                                 { "mu_near", "1", "cosine off the disk's normal at which the light leaves the gas there" },
+                                 { "mu_near", "1",
+                                   "cosine off the disk's normal at which the light leaves the gas there" },
                                  { "mu_far", "1", "the same of the far side" },
                                  { "g_min", "1", "of the ring" },
                                  { "g_max", "1", "of the ring" } },
@@ -92,7 +96,8 @@ static const struct kd_integral_kind_of kinds[KD_INTEGRALS] = {
                                { { "isco", "M", "innermost stable circular orbit" },
                                  { "t_max_k", "K", "effective temperature of the hottest ring" },
                                  { "luminosity_w", "W", "efficiency times Mdot c^2" },
-                                 { "error", "1", "estimated, relative, of the flux where it is above a millionth of its maximum" } },
+                                 { "error", "1",
+                                   "estimated, relative, of the flux where it is above a millionth of its maximum" } },
                                { { "frequency_hz", "Hz", "at the observer" },
                                  { "flux_w_m2_hz", "W/m^2/Hz", "F_nu" },
                                  { "flux_jy", "Jy", "F_nu" },
@@ -107,7 +112,9 @@ static const struct kd_integral_kind_of kinds[KD_INTEGRALS] = {
                                { "flux_w_m2_hz", "W/m^2/Hz", "F_nu" },
                                { "flux_jy", "Jy", "F_nu" },
                                { "nu_l_nu_w", "W", "4 pi D^2 nu F_nu, as if it shone evenly" },
-                               { "error", "1", "estimated, relative, of the flux: by that of a picture 1.5 times as fine; 1: of its own size or more" } },
+                               { "error", "1",
+                                 "estimated, relative, of the flux: by that of a picture 1.5 times as fine; 1: of its "
+                                 "own size or more" } },
                              volume_sources,
                              volume_approximations },
     [KD_INTEGRAL_VISIBILITY] = { "visibilities of a scene's picture",
@@ -116,7 +123,9 @@ static const struct kd_integral_kind_of kinds[KD_INTEGRALS] = {
                                    { "width_uas", "uas", "of the map" },
                                    { "height_uas", "uas", "of the map" },
                                    { "nyquist_gl", "Gl", "longest baseline that pixels so wide tell" },
-                                   { "edge_share", "1", "what a sky as bright as the map's border would send over all of the map, of what the map sends" },
+                                   { "edge_share", "1",
+                                     "what a sky as bright as the map's border would send over all of the map, of what "
+                                     "the map sends" },
                                    { "undefined", "pixels", "whose light was no number, and counts as none" },
                                    { "error", NULL, "largest of the column error" } },
                                  { { "u_gl", "Gl", "baseline to the east, in units of 1e9 wavelengths" },
@@ -148,10 +157,20 @@ enum kd_status kd_integral_make_columns(struct kd_integral_answer *answer, size_
     return KD_OK;
 }
 
-static enum kd_status compute_line(const struct kd_integral_request *r, const struct kd_disk_image *image, struct kd_integral_answer *answer, struct kd_error *error)
+static enum kd_status compute_line(const struct kd_integral_request *r, const struct kd_disk_image *image,
+                                   struct kd_integral_answer *answer, struct kd_error *error)
 {
-    const struct kd_line_params params = { .inner = r->inner, .outer = r->outer, .emissivity = r->emissivity, .index = r->index, .outer_index = r->outer_index,
-                                           .break_r = r->break_r, .height = r->height, .photon_index = r->photon_index, .tolerance = r->tolerance, .limb = r->limb, .energy = r->energy };
+    const struct kd_line_params params = { .inner = r->inner,
+                                           .outer = r->outer,
+                                           .emissivity = r->emissivity,
+                                           .index = r->index,
+                                           .outer_index = r->outer_index,
+                                           .break_r = r->break_r,
+                                           .height = r->height,
+                                           .photon_index = r->photon_index,
+                                           .tolerance = r->tolerance,
+                                           .limb = r->limb,
+                                           .energy = r->energy };
     struct kd_line_profile profile;
     double sum = 0;
     enum kd_status status;
@@ -159,7 +178,8 @@ static enum kd_status compute_line(const struct kd_integral_request *r, const st
     double *const *c = answer->columns, *edges = malloc((r->bins + 1) * sizeof *edges);
     for (size_t i = 0; edges && i <= r->bins; i++)
         edges[i] = r->edges.at[i] / r->rest_energy;
-    status = edges ? kd_line_profile(image, &params, edges, (int)r->bins, c[2], &profile, error) : kd_error_set(error, KD_ENOMEM, "out of memory for %u bins", r->bins);
+    status = edges ? kd_line_profile(image, &params, edges, (int)r->bins, c[2], &profile, error)
+                   : kd_error_set(error, KD_ENOMEM, "out of memory for %u bins", r->bins);
     free(edges);
     for (size_t i = 0; !status && i < r->bins; i++)
         c[0][i] = r->edges.at[i], c[1][i] = r->edges.at[i + 1], c[3][i] = sum = fmin(sum + c[2][i], 1); /* rounding */
@@ -170,26 +190,34 @@ done:
     return status;
 }
 
-static enum kd_status one_ring(const struct kd_integral_request *r, const struct kd_disk_image *image, size_t at, struct kd_integral_answer *answer, struct kd_error *error)
+static enum kd_status one_ring(const struct kd_integral_request *r, const struct kd_disk_image *image, size_t at,
+                               struct kd_integral_answer *answer, struct kd_error *error)
 {
     struct kd_transfer_ring ring;
     char pointer[40];
     snprintf(pointer, sizeof pointer, "/radii/%zu", at);
     if (!kd_transfer_ring_of(image, r->radii.at[at], &ring))
-        return kd_error_field(error, pointer, "a radius is %.9g, whose ends of g were not found at this inclination; allowed are inclinations further from face on and edge on", r->radii.at[at]);
+        return kd_error_field(error, pointer,
+                              "a radius is %.9g, whose ends of g were not found at this inclination; allowed are "
+                              "inclinations further from face on and edge on",
+                              r->radii.at[at]);
     for (size_t k = 0; k < r->g_stars; k++) {
         double g_star = r->g_star.at[k];
         struct kd_transfer side[2];
         if (!kd_transfer_at(image, &ring, g_star, side))
-            return kd_error_field(error, pointer, "a radius is %.9g, whose place of g* %.9g was not found", ring.r, g_star);
-        const double row[] = { ring.r, g_star, ring.g_min + g_star * (ring.g_max - ring.g_min), side[0].f, side[1].f, side[0].mu, side[1].mu, ring.g_min, ring.g_max };
+            return kd_error_field(error, pointer, "a radius is %.9g, whose place of g* %.9g was not found", ring.r,
+                                  g_star);
+        const double row[] = { ring.r,     g_star,     ring.g_min + g_star * (ring.g_max - ring.g_min),
+                               side[0].f,  side[1].f,  side[0].mu,
+                               side[1].mu, ring.g_min, ring.g_max };
         for (size_t i = 0; i < sizeof row / sizeof *row; i++)
             answer->columns[i][at * r->g_stars + k] = row[i];
     }
     return KD_OK;
 }
 
-static enum kd_status compute_transfer(const struct kd_integral_request *r, const struct kd_disk_image *image, struct kd_integral_answer *answer, struct kd_error *error)
+static enum kd_status compute_transfer(const struct kd_integral_request *r, const struct kd_disk_image *image,
+                                       struct kd_integral_answer *answer, struct kd_error *error)
 {
     enum kd_status status = kd_integral_make_columns(answer, kd_integral_rows(r), error);
     for (size_t i = 0; !status && i < r->rings; i++)
@@ -198,30 +226,38 @@ static enum kd_status compute_transfer(const struct kd_integral_request *r, cons
     return status;
 }
 
-static enum kd_status compute_spectrum(const struct kd_integral_request *r, const struct kd_disk_image *image, struct kd_integral_answer *answer, struct kd_error *error)
+static enum kd_status compute_spectrum(const struct kd_integral_request *r, const struct kd_disk_image *image,
+                                       struct kd_integral_answer *answer, struct kd_error *error)
 {
-    const struct kd_disk_spectrum_params params = { r->inner, r->outer, r->mass_msun, r->distance_pc, r->mdot_edd, r->colour_correction, r->limb };
+    const struct kd_disk_spectrum_params params = { r->inner,       r->outer,    r->mass_msun,
+                                                    r->distance_pc, r->mdot_edd, r->colour_correction,
+                                                    r->limb };
     double hottest = fmax(r->inner, kd_disk_peak_page_thorne(r->spin)), distance = r->distance_pc * KD_PARSEC_M;
     enum kd_status status;
     KD_TRY(kd_integral_make_columns(answer, r->frequencies, error));
     double *const *c = answer->columns;
-    KD_TRY(kd_disk_spectrum(image, &params, r->frequencies_hz.at, (int)r->frequencies, c[1], &answer->values[3], error));
+    KD_TRY(
+        kd_disk_spectrum(image, &params, r->frequencies_hz.at, (int)r->frequencies, c[1], &answer->values[3], error));
     for (size_t i = 0; i < r->frequencies; i++) {
         c[0][i] = r->frequencies_hz.at[i];
         c[2][i] = c[1][i] * 1e26;
         c[3][i] = 4 * M_PI * distance * distance * c[0][i] * c[1][i];
     }
     answer->values[0] = image->isco;
-    answer->values[1] = kd_disk_temperature(kd_disk_flux_page_thorne(r->spin, hottest), r->spin, r->mass_msun, r->mdot_edd);
-    answer->values[2] = kd_kerr_efficiency(r->spin) * kd_disk_rate(r->spin, r->mass_msun, r->mdot_edd) * KD_C_M_S * KD_C_M_S;
+    answer->values[1] =
+        kd_disk_temperature(kd_disk_flux_page_thorne(r->spin, hottest), r->spin, r->mass_msun, r->mdot_edd);
+    answer->values[2] =
+        kd_kerr_efficiency(r->spin) * kd_disk_rate(r->spin, r->mass_msun, r->mdot_edd) * KD_C_M_S * KD_C_M_S;
 done:
     return status;
 }
 
-enum kd_status kd_integral_compute(const struct kd_integral_request *request, struct kd_integral_answer *answer, struct kd_error *error)
+enum kd_status kd_integral_compute(const struct kd_integral_request *request, struct kd_integral_answer *answer,
+                                   struct kd_error *error)
 {
-    static enum kd_status (*const compute[KD_INTEGRAL_VOLUME])(const struct kd_integral_request *, const struct kd_disk_image *, struct kd_integral_answer *,
-                                                         struct kd_error *) = { compute_line, compute_transfer, compute_spectrum };
+    static enum kd_status (*const compute[KD_INTEGRAL_VOLUME])(
+        const struct kd_integral_request *, const struct kd_disk_image *, struct kd_integral_answer *,
+        struct kd_error *) = { compute_line, compute_transfer, compute_spectrum };
     struct kd_disk_image *image = NULL;
     enum kd_status status;
     *answer = (struct kd_integral_answer) { .request = request };

@@ -15,14 +15,20 @@
 #define VOLUME (1u << KD_INTEGRAL_VOLUME)
 #define VISIBILITY (1u << KD_INTEGRAL_VISIBILITY)
 #define ALL (LINE | TRANSFER | SPECTRUM)
-#define REAL(name, unit, least, most, of, help) { #name, unit, help, KD_INTEGRAL_REAL, AT(name), least, most, false, NULL, of, false }
-#define OR_WORD(name, unit, least, most, word, of, help) { #name, unit, help, KD_INTEGRAL_REAL, AT(name), least, most, false, word, of, false }
-#define WORD(name, member, words, of, help) { #name, "", help, KD_INTEGRAL_WORD, AT(member), 0, 0, false, words, of, false }
-#define WHOLE(name, least, most, of, help) { #name, "", help, KD_INTEGRAL_WHOLE, AT(name), least, most, false, NULL, of, false }
-#define NUMBERS(name, unit, least, most, of, help) { #name, unit, help, KD_INTEGRAL_NUMBERS, AT(name), least, most, false, NULL, of, false }
+#define REAL(name, unit, least, most, of, help) \
+    { #name, unit, help, KD_INTEGRAL_REAL, AT(name), least, most, false, NULL, of, false }
+#define OR_WORD(name, unit, least, most, word, of, help) \
+    { #name, unit, help, KD_INTEGRAL_REAL, AT(name), least, most, false, word, of, false }
+#define WORD(name, member, words, of, help) \
+    { #name, "", help, KD_INTEGRAL_WORD, AT(member), 0, 0, false, words, of, false }
+#define WHOLE(name, least, most, of, help) \
+    { #name, "", help, KD_INTEGRAL_WHOLE, AT(name), least, most, false, NULL, of, false }
+#define NUMBERS(name, unit, least, most, of, help) \
+    { #name, unit, help, KD_INTEGRAL_NUMBERS, AT(name), least, most, false, NULL, of, false }
 
 const struct kd_integral_field kd_integral_fields[] = {
-    { "spin", "M", "spin of the hole, below 0 for a disk that turns against it", KD_INTEGRAL_REAL, AT(spin), -1, 1, true, NULL, ALL, false },
+    { "spin", "M", "spin of the hole, below 0 for a disk that turns against it", KD_INTEGRAL_REAL, AT(spin), -1, 1,
+      true, NULL, ALL, false },
     REAL(inclination_deg, "deg", 0, 180, ALL, "of the observer, who is at infinity, off the axis; not 87 to 93"),
     OR_WORD(inner, "M", 1, 1e6, "isco", ALL, "inner edge of the disk, the ISCO or beyond"),
     REAL(outer, "M", 1, 1e6, ALL, "outer edge of the disk"),
@@ -32,42 +38,61 @@ const struct kd_integral_field kd_integral_fields[] = {
     REAL(break_r, "M", 1, 1e6, LINE, "broken: where the index changes"),
     REAL(height, "M", 1, 1e4, LINE, "lamppost: height of the source on the axis"),
     REAL(photon_index, "", 0, 10, LINE, "lamppost: photon index of the source's power law"),
-    WORD(limb, limb, "isotropic|laor|haardt", LINE | SPECTRUM, "light by the angle off the disk's normal: even, 1 + 2.06 mu, or ln(1 + 1/mu)"),
-    REAL(tolerance, "", 0, 0.1, LINE, "error of the cumulative share that will do: sums are made closer until it is reached, or as close as there is; 0: as close as there is"),
+    WORD(limb, limb, "isotropic|laor|haardt", LINE | SPECTRUM,
+         "light by the angle off the disk's normal: even, 1 + 2.06 mu, or ln(1 + 1/mu)"),
+    REAL(tolerance, "", 0, 0.1, LINE,
+         "error of the cumulative share that will do: sums are made closer until it is reached, or as close as there "
+         "is; 0: as close as there is"),
     WORD(counts, energy, "photons|energy", LINE, "what a bin counts"),
-    REAL(rest_energy, "", 1e-9, 1e9, LINE, "energy of the line where the gas is at rest, in any unit: edges are in the same"),
+    REAL(rest_energy, "", 1e-9, 1e9, LINE,
+         "energy of the line where the gas is at rest, in any unit: edges are in the same"),
     REAL(energy_min, "", 0, 1e9, LINE, "first edge of bins of equal width"),
     OR_WORD(energy_max, "", 0, 1e9, "auto", LINE, "last edge; auto: 1.7 times rest_energy"),
     WHOLE(bins, 1, KD_INTEGRAL_ROWS, LINE, "number of bins of equal width"),
-    NUMBERS(edges, "", 0, 1e9, LINE, "edges of the bins, instead of energy_min, energy_max and bins; each above the one before"),
+    NUMBERS(edges, "", 0, 1e9, LINE,
+            "edges of the bins, instead of energy_min, energy_max and bins; each above the one before"),
     WHOLE(rings, 1, 1000, TRANSFER, "number of radii, from inner to outer at equal ratios"),
     NUMBERS(radii, "M", 1, 1e6, TRANSFER, "radii, instead of rings; between inner and outer"),
     WHOLE(g_stars, 1, 1000, TRANSFER, "number of g* at each radius, the middles of as many equal parts of 0 to 1"),
-    { "g_star", "", "numbers between 0, the reddest light of the ring, and 1, the bluest, instead of g_stars", KD_INTEGRAL_NUMBERS, AT(g_star), 0, 1, true, NULL, TRANSFER, false },
+    { "g_star", "", "numbers between 0, the reddest light of the ring, and 1, the bluest, instead of g_stars",
+      KD_INTEGRAL_NUMBERS, AT(g_star), 0, 1, true, NULL, TRANSFER, false },
     REAL(mass_msun, "solar masses", 1e-5, 1e12, SPECTRUM, "mass of the hole"),
     REAL(distance_pc, "pc", 1e-3, 1e12, SPECTRUM, "how far away it is"),
-    REAL(mdot_edd, "Eddington rates", 1e-12, 1e3, SPECTRUM, "accretion rate: luminosity over the Eddington luminosity, with the efficiency of this spin"),
+    REAL(mdot_edd, "Eddington rates", 1e-12, 1e3, SPECTRUM,
+         "accretion rate: luminosity over the Eddington luminosity, with the efficiency of this spin"),
     REAL(colour_correction, "", 1, 10, SPECTRUM, "colour temperature over effective temperature"),
-    OR_WORD(frequency_min_hz, "Hz", 1e-3, 1e25, "auto", SPECTRUM | VOLUME, "first frequency; auto: 0.001 k/h times the hottest ring's colour temperature; of a volume a thirtieth of volume.frequency_ghz"),
-    OR_WORD(frequency_max_hz, "Hz", 1e-3, 1e25, "auto", SPECTRUM | VOLUME, "last frequency; auto: 30 k/h times the same; of a volume 30 times volume.frequency_ghz"),
-    WHOLE(frequencies, 2, KD_INTEGRAL_FREQUENCIES, SPECTRUM | VOLUME, "number of frequencies, at equal ratios: 200; of a volume 13, and 200 at most"),
+    OR_WORD(frequency_min_hz, "Hz", 1e-3, 1e25, "auto", SPECTRUM | VOLUME,
+            "first frequency; auto: 0.001 k/h times the hottest ring's colour temperature; of a volume a thirtieth of "
+            "volume.frequency_ghz"),
+    OR_WORD(frequency_max_hz, "Hz", 1e-3, 1e25, "auto", SPECTRUM | VOLUME,
+            "last frequency; auto: 30 k/h times the same; of a volume 30 times volume.frequency_ghz"),
+    WHOLE(frequencies, 2, KD_INTEGRAL_FREQUENCIES, SPECTRUM | VOLUME,
+          "number of frequencies, at equal ratios: 200; of a volume 13, and 200 at most"),
     NUMBERS(frequencies_hz, "Hz", 1e-3, 1e25, SPECTRUM | VOLUME, "frequencies, instead of the three before"),
-    { "u", "Gl", "baselines to the east, in units of 1e9 wavelengths; as many as v", KD_INTEGRAL_NUMBERS, AT(u), -1e15, 1e15, false, NULL, VISIBILITY, false },
+    { "u", "Gl", "baselines to the east, in units of 1e9 wavelengths; as many as v", KD_INTEGRAL_NUMBERS, AT(u), -1e15,
+      1e15, false, NULL, VISIBILITY, false },
     { "v", "Gl", "baselines to the north", KD_INTEGRAL_NUMBERS, AT(v), -1e15, 1e15, false, NULL, VISIBILITY, false },
-    NUMBERS(lengths, "Gl", 0, 1e15, VISIBILITY, "lengths of baselines, instead of u and v; each with each of angles_deg"),
-    { "length_max", "Gl", "baselines from 0 to this length, instead of lengths; auto: half of the longest that the map's pixels tell", KD_INTEGRAL_REAL, AT(length_max), 1e-9, 1e15,
-      false, "auto", VISIBILITY, true },
+    NUMBERS(lengths, "Gl", 0, 1e15, VISIBILITY,
+            "lengths of baselines, instead of u and v; each with each of angles_deg"),
+    { "length_max", "Gl",
+      "baselines from 0 to this length, instead of lengths; auto: half of the longest that the map's pixels tell",
+      KD_INTEGRAL_REAL, AT(length_max), 1e-9, 1e15, false, "auto", VISIBILITY, true },
     WHOLE(baselines, 2, KD_INTEGRAL_ROWS, VISIBILITY, "number of lengths from 0 to length_max"),
-    { "angles_deg", "deg", "position angles of baselines with lengths, from the north to the east; 0 and 90", KD_INTEGRAL_NUMBERS, AT(angles_deg), -360, 360, false, NULL, VISIBILITY, false },
-    WHOLE(orders, 0, KD_INTEGRAL_ORDERS, VISIBILITY, "number of image orders, from 0 on, whose light is told apart too"),
-    WHOLE(pixels, 16, 2048, VOLUME | VISIBILITY, "pixels along the longer side of a picture: 128 of a spectrum, 256 of a visibility"),
-    WORD(check, unchecked, "finer|none", VOLUME | VISIBILITY, "what tells the error: the same picture with half as many pixels more along each side, or nothing"),
+    { "angles_deg", "deg", "position angles of baselines with lengths, from the north to the east; 0 and 90",
+      KD_INTEGRAL_NUMBERS, AT(angles_deg), -360, 360, false, NULL, VISIBILITY, false },
+    WHOLE(orders, 0, KD_INTEGRAL_ORDERS, VISIBILITY,
+          "number of image orders, from 0 on, whose light is told apart too"),
+    WHOLE(pixels, 16, 2048, VOLUME | VISIBILITY,
+          "pixels along the longer side of a picture: 128 of a spectrum, 256 of a visibility"),
+    WORD(check, unchecked, "finer|none", VOLUME | VISIBILITY,
+         "what tells the error: the same picture with half as many pixels more along each side, or nothing"),
 };
 const size_t kd_n_integral_fields = sizeof kd_integral_fields / sizeof *kd_integral_fields;
 
 const char *kd_integral_name(enum kd_integral what)
 {
-    static const char *const names[KD_INTEGRALS] = { "line", "transfer-function", "spectrum", "spectrum", "visibility" };
+    static const char *const names[KD_INTEGRALS] = { "line", "transfer-function", "spectrum", "spectrum",
+                                                     "visibility" };
     return names[what];
 }
 
@@ -82,10 +107,30 @@ enum kd_integral kd_integral_of_route(const char *path)
 void kd_integral_request_init(struct kd_integral_request *request, enum kd_integral what)
 {
     *request = (struct kd_integral_request) {
-        .what = what, .inclination_deg = 30, .inner = NAN, .outer = 400, .index = 3, .outer_index = 3, .break_r = 10, .height = 10, .photon_index = 2, .tolerance = 1e-3,
-        .rest_energy = 1, .energy_max = NAN, .bins = 500,
-        .rings = 10, .g_stars = 20, .mass_msun = 10, .distance_pc = 1e4, .mdot_edd = 0.1, .colour_correction = 1.7, .frequency_min_hz = NAN, .frequency_max_hz = NAN,
-        .frequencies = what == KD_INTEGRAL_VOLUME ? 13 : 200, .length_max = NAN, .baselines = 200,
+        .what = what,
+        .inclination_deg = 30,
+        .inner = NAN,
+        .outer = 400,
+        .index = 3,
+        .outer_index = 3,
+        .break_r = 10,
+        .height = 10,
+        .photon_index = 2,
+        .tolerance = 1e-3,
+        .rest_energy = 1,
+        .energy_max = NAN,
+        .bins = 500,
+        .rings = 10,
+        .g_stars = 20,
+        .mass_msun = 10,
+        .distance_pc = 1e4,
+        .mdot_edd = 0.1,
+        .colour_correction = 1.7,
+        .frequency_min_hz = NAN,
+        .frequency_max_hz = NAN,
+        .frequencies = what == KD_INTEGRAL_VOLUME ? 13 : 200,
+        .length_max = NAN,
+        .baselines = 200,
     };
 }
 
@@ -109,7 +154,8 @@ static void write_word(struct kd_json *json, const char *name, const char *words
     kd_json_string(json, name, text);
 }
 
-void kd_integral_field_write(struct kd_json *json, const struct kd_integral_request *request, const struct kd_integral_field *field)
+void kd_integral_field_write(struct kd_json *json, const struct kd_integral_request *request,
+                             const struct kd_integral_field *field)
 {
     const char *at = (const char *)request + field->offset;
     int word;
@@ -131,10 +177,12 @@ static void add_range(struct kd_json *json, const struct kd_integral_field *f)
     kd_json_number(json, f->open ? "exclusiveMaximum" : "maximum", f->most);
 }
 
-/* Off the axis, and not within what is seen edge on; of a transfer function not face on either. check.c refuses the same. */
+/* Off the axis, and not within what is seen edge on; of a transfer function not face on either. check.c refuses the
+ * same. */
 static void add_inclination(struct kd_json *json, enum kd_integral what)
 {
-    const double least = what == KD_INTEGRAL_TRANSFER ? KD_INTEGRAL_FACE_ON : 0, ends[2][2] = { { least, 90 - KD_DISK_IMAGE_EDGE_ON }, { 90 + KD_DISK_IMAGE_EDGE_ON, 180 - least } };
+    const double least = what == KD_INTEGRAL_TRANSFER ? KD_INTEGRAL_FACE_ON : 0,
+                 ends[2][2] = { { least, 90 - KD_DISK_IMAGE_EDGE_ON }, { 90 + KD_DISK_IMAGE_EDGE_ON, 180 - least } };
     kd_json_array(json, "anyOf");
     for (int i = 0; i < 2; i++) {
         kd_json_object(json, NULL);

@@ -12,7 +12,8 @@ static void turn(double turns, double *re, double *im)
 }
 
 /* A row's sum with the turns of its columns: four at a time, so that no sum waits for the one before. */
-static void row_sum(const float *row, const double *re, const double *im, uint32_t width, double *out_re, double *out_im)
+static void row_sum(const float *row, const double *re, const double *im, uint32_t width, double *out_re,
+                    double *out_im)
 {
     double a[4] = { 0 }, b[4] = { 0 };
     uint32_t i = 0;
@@ -24,7 +25,8 @@ static void row_sum(const float *row, const double *re, const double *im, uint32
     *out_re = (a[0] + a[1]) + (a[2] + a[3]), *out_im = (b[0] + b[1]) + (b[2] + b[3]);
 }
 
-void kd_fourier(const struct kd_fourier_grid *grid, const float *const *maps, size_t n, double u_gl, double v_gl, double *scratch, double (*out)[2])
+void kd_fourier(const struct kd_fourier_grid *grid, const float *const *maps, size_t n, double u_gl, double v_gl,
+                double *scratch, double (*out)[2])
 {
     double *re = scratch, *im = scratch + grid->width;
     const double step_u = u_gl * GIGA * grid->pixel, step_v = v_gl * GIGA * grid->pixel;

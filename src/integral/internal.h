@@ -7,23 +7,28 @@
 #include <cjson/cJSON.h>
 
 /* request.c */
-const struct kd_integral_field *kd_integral_field_named(const struct kd_integral_request *request, const char *name); /* NULL: it has none of that name */
+const struct kd_integral_field *kd_integral_field_named(const struct kd_integral_request *request,
+                                                        const char *name); /* NULL: it has none of that name */
 /* Room for n numbers of a list, in place of what it had. */
-enum kd_status kd_integral_make_room(struct kd_integral_request *request, const struct kd_integral_field *f, size_t n, const char *pointer, struct kd_integral_list **list,
-                                     struct kd_error *error);
+enum kd_status kd_integral_make_room(struct kd_integral_request *request, const struct kd_integral_field *f, size_t n,
+                                     const char *pointer, struct kd_integral_list **list, struct kd_error *error);
 
 /* check.c */
 bool kd_integral_given(const struct kd_integral_request *request, const char *name);
 /* Numbers of a list must grow. */
 enum kd_status kd_integral_check_growth(const struct kd_integral_list *list, const char *name, struct kd_error *error);
 /* A list is refused beside what would have made it. */
-enum kd_status kd_integral_check_beside(const struct kd_integral_request *request, const char *list, const char *const *others, size_t n, struct kd_error *error);
+enum kd_status kd_integral_check_beside(const struct kd_integral_request *request, const char *list,
+                                        const char *const *others, size_t n, struct kd_error *error);
 /* n numbers at equal ratios, or, where the first is 0, at the middles of n parts of 0 to 1. */
-enum kd_status kd_integral_fill_list(struct kd_integral_request *request, const char *name, uint32_t n, double first, double last, struct kd_error *error);
-enum kd_status kd_integral_check_frequencies(struct kd_integral_request *request, uint32_t most, struct kd_error *error);
+enum kd_status kd_integral_fill_list(struct kd_integral_request *request, const char *name, uint32_t n, double first,
+                                     double last, struct kd_error *error);
+enum kd_status kd_integral_check_frequencies(struct kd_integral_request *request, uint32_t most,
+                                             struct kd_error *error);
 
 /* scene.c */
-bool kd_integral_is_scene_member(const struct kd_integral_request *request, const char *name); /* "preset" and "scene" of those that may have a scene */
+bool kd_integral_is_scene_member(const struct kd_integral_request *request,
+                                 const char *name); /* "preset" and "scene" of those that may have a scene */
 /* Takes both from a document. */
 enum kd_status kd_integral_read_scene(struct kd_integral_request *request, const cJSON *root, struct kd_error *error);
 enum kd_status kd_integral_check_visibility(struct kd_integral_request *request, struct kd_error *error);

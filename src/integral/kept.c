@@ -54,7 +54,10 @@ enum kd_status kd_kept_image(double spin, double inclination_deg, struct kd_disk
     if (!kd_disk_image_init(image, spin, inclination_deg * (M_PI / 180))) {
         free(image);
         *out = NULL;
-        return kd_error_field(error, "/spin", "spin is %.17g: double precision does not follow the disk's image at inclination_deg %.9g so near an extremal hole", spin, inclination_deg);
+        return kd_error_field(error, "/spin",
+                              "spin is %.17g: double precision does not follow the disk's image at inclination_deg "
+                              "%.9g so near an extremal hole",
+                              spin, inclination_deg);
     }
     keep(spin, inclination_deg, image);
     return KD_OK;

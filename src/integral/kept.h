@@ -1,4 +1,5 @@
-/* Disk images that were made lately are kept for the next request, as fits ask for the same spin and inclination again. Any thread. */
+/* Disk images that were made lately are kept for the next request, as fits ask for the same spin and inclination
+ * again. Any thread. */
 #ifndef KD_INTEGRAL_KEPT_H
 #define KD_INTEGRAL_KEPT_H
 

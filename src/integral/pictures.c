@@ -10,14 +10,21 @@
 
 unsigned kd_integral_pictures(const struct kd_integral_request *r)
 {
-    return kd_integral_is_pictured(r->what) ? (r->unchecked ? 1 : 2) * (r->what == KD_INTEGRAL_VOLUME ? r->frequencies : 1) : 0;
+    return kd_integral_is_pictured(r->what)
+               ? (r->unchecked ? 1 : 2) * (r->what == KD_INTEGRAL_VOLUME ? r->frequencies : 1)
+               : 0;
 }
 
-bool kd_integral_is_finer(const struct kd_integral_request *r, unsigned picture) { return !r->unchecked && picture % 2; }
+bool kd_integral_is_finer(const struct kd_integral_request *r, unsigned picture)
+{
+    return !r->unchecked && picture % 2;
+}
 
 static struct kd_words layers_of(const struct kd_integral_request *r)
 {
-    struct kd_words words = { 1, { { kd_scene_is_radio_alone(r->scene) ? KD_LAYER_specific_intensity : KD_LAYER_intensity, -1 } } };
+    struct kd_words words = {
+        1, { { kd_scene_is_radio_alone(r->scene) ? KD_LAYER_specific_intensity : KD_LAYER_intensity, -1 } }
+    };
     for (uint32_t n = 0; n < r->orders; n++)
         words.at[words.count++] = (struct kd_numbered_word) { KD_LAYER_intensity, (int16_t)n };
     return words;
@@ -26,14 +33,16 @@ static struct kd_words layers_of(const struct kd_integral_request *r)
 struct kd_scene kd_integral_scene(const struct kd_integral_request *r, unsigned picture)
 {
     struct kd_scene scene = *r->scene;
-    const double w = scene.image.width, h = scene.image.height, size = r->pixels * (kd_integral_is_finer(r, picture) ? KD_INTEGRAL_FINER : 1) / fmax(w, h);
+    const double w = scene.image.width, h = scene.image.height,
+                 size = r->pixels * (kd_integral_is_finer(r, picture) ? KD_INTEGRAL_FINER : 1) / fmax(w, h);
     scene.image.width = (int32_t)fmax(1, rint(w * size)), scene.image.height = (int32_t)fmax(1, rint(h * size));
     scene.style.beam_uas = 0; /* no telescope */
     scene.style.bloom = 0;
     if (r->what == KD_INTEGRAL_VISIBILITY) {
         scene.image.layers = layers_of(r);
     } else { /* matter of a given flux is the same at all frequencies: it has that flux at the scene's own */
-        scene.volume.normalise_ghz = isfinite(scene.volume.normalise_ghz) ? scene.volume.normalise_ghz : r->scene->volume.frequency_ghz;
+        scene.volume.normalise_ghz =
+            isfinite(scene.volume.normalise_ghz) ? scene.volume.normalise_ghz : r->scene->volume.frequency_ghz;
         scene.volume.frequency_ghz = r->frequencies_hz.at[picture / (r->unchecked ? 1 : 2)] * 1e-9;
     }
     return scene;
@@ -41,12 +50,14 @@ struct kd_scene kd_integral_scene(const struct kd_integral_request *r, unsigned 
 
 double kd_integral_pixel(const struct kd_scene *scene)
 {
-    return kd_camera_pixel(scene) * kd_scale_microarcseconds(scene->spacetime.mass_msun, scene->spacetime.distance_pc) * RADIANS_PER_UAS;
+    return kd_camera_pixel(scene) * kd_scale_microarcseconds(scene->spacetime.mass_msun, scene->spacetime.distance_pc) *
+           RADIANS_PER_UAS;
 }
 
 double kd_integral_nyquist_gl(const struct kd_scene *scene) { return 0.5e-9 / kd_integral_pixel(scene); }
 
-static enum kd_status encode_maps(const struct kd_picture *picture, enum kd_effort effort, void **memory, struct kd_buffer *out, struct kd_error *error)
+static enum kd_status encode_maps(const struct kd_picture *picture, enum kd_effort effort, void **memory,
+                                  struct kd_buffer *out, struct kd_error *error)
 {
     (void)effort, (void)memory;
     for (size_t i = 0; i < picture->plan->n_layers; i++) {
@@ -56,12 +67,14 @@ static enum kd_status encode_maps(const struct kd_picture *picture, enum kd_effo
         if (!layer)
             return kd_error_set(error, KD_EINVAL, "the frame has no layer %s", name);
         if (kd_buffer_append(out, layer->data, (size_t)picture->frame->width * picture->frame->height * sizeof(float)))
-            return kd_error_set(error, KD_ENOMEM, "out of memory for a map of %u x %u pixels", picture->frame->width, picture->frame->height);
+            return kd_error_set(error, KD_ENOMEM, "out of memory for a map of %u x %u pixels", picture->frame->width,
+                                picture->frame->height);
     }
     return KD_OK;
 }
 
-static enum kd_status encode_flux(const struct kd_picture *picture, enum kd_effort effort, void **memory, struct kd_buffer *out, struct kd_error *error)
+static enum kd_status encode_flux(const struct kd_picture *picture, enum kd_effort effort, void **memory,
+                                  struct kd_buffer *out, struct kd_error *error)
 {
     const double jy = kd_flux_jy(picture->scene, picture->frame);
     (void)effort, (void)memory;
@@ -70,7 +83,15 @@ static enum kd_status encode_flux(const struct kd_picture *picture, enum kd_effo
 
 const struct kd_format *kd_integral_picture_format(enum kd_integral what)
 {
-    static const struct kd_format maps = { .name = "maps", .media_type = "application/octet-stream", .magic = "", .carries = KD_CARRIES_LAYERS, .encode = encode_maps },
-                                  flux = { .name = "flux", .media_type = "application/octet-stream", .magic = "", .carries = KD_CARRIES_LIGHT, .encode = encode_flux };
+    static const struct kd_format maps = { .name = "maps",
+                                           .media_type = "application/octet-stream",
+                                           .magic = "",
+                                           .carries = KD_CARRIES_LAYERS,
+                                           .encode = encode_maps },
+                                  flux = { .name = "flux",
+                                           .media_type = "application/octet-stream",
+                                           .magic = "",
+                                           .carries = KD_CARRIES_LIGHT,
+                                           .encode = encode_flux };
     return what == KD_INTEGRAL_VISIBILITY ? &maps : &flux;
 }

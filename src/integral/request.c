@@ -12,8 +12,9 @@
 
 void kd_integral_request_finish(struct kd_integral_request *request)
 {
-    struct kd_integral_list *const lists[] = { &request->edges, &request->radii, &request->g_star, &request->frequencies_hz, &request->u, &request->v,
-                                               &request->lengths, &request->angles_deg };
+    struct kd_integral_list *const lists[] = { &request->edges,          &request->radii,     &request->g_star,
+                                               &request->frequencies_hz, &request->u,         &request->v,
+                                               &request->lengths,        &request->angles_deg };
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
         free(lists[i]->at);
         *lists[i] = (struct kd_integral_list) { 0 };
@@ -22,14 +23,20 @@ void kd_integral_request_finish(struct kd_integral_request *request)
     request->scene = NULL;
 }
 
-static bool has(const struct kd_integral_request *request, const struct kd_integral_field *field) { return field->of & 1u << request->what; }
+static bool has(const struct kd_integral_request *request, const struct kd_integral_field *field)
+{
+    return field->of & 1u << request->what;
+}
 
-static enum kd_status unknown(const struct kd_integral_request *request, const char *name, const char *pointer, struct kd_error *error)
+static enum kd_status unknown(const struct kd_integral_request *request, const char *name, const char *pointer,
+                              struct kd_error *error)
 {
     char shown[60], known[400] = ""; /* kd_error_field clips what is longer */
     struct kd_slip_best meant = { 0 };
     if (request->what == KD_INTEGRAL_SPECTRUM && !strcmp(name, "volume"))
-        return kd_error_field(error, pointer, "volume is given, and belongs to a scene: \"scene\": {\"volume\": ...}, or a preset such as \"preset\": \"riaf\"");
+        return kd_error_field(error, pointer,
+                              "volume is given, and belongs to a scene: \"scene\": {\"volume\": ...}, or a preset such "
+                              "as \"preset\": \"riaf\"");
     kd_text_clip(shown, sizeof shown, name);
     for (size_t i = 0; i < kd_n_integral_fields; i++) {
         const struct kd_integral_field *f = &kd_integral_fields[i];
@@ -39,8 +46,8 @@ static enum kd_status unknown(const struct kd_integral_request *request, const c
         kd_slip_offer(&meant, name, f->name);
         snprintf(known + used, sizeof known - used, "%s%s", used ? ", " : "", f->name);
     }
-    return kd_error_field(error, pointer, "there is no field %s here%s%s; known are %s", shown, meant.name ? "; did you mean " : "", meant.name ? meant.name : "",
-                          known);
+    return kd_error_field(error, pointer, "there is no field %s here%s%s; known are %s", shown,
+                          meant.name ? "; did you mean " : "", meant.name ? meant.name : "", known);
 }
 
 /* The text up to a mark, cut where there is no room for it. */
@@ -61,20 +68,25 @@ static void describe_allowed(const struct kd_integral_field *f, char out[KD_ALLO
     if (f->kind == KD_INTEGRAL_WORD) {
         char one[64];
         size_t used = 0;
-        for (const char *word = f->words; *word; word += word[strcspn(word, "|")] ? strcspn(word, "|") + 1 : strlen(word))
-            used += (size_t)snprintf(out + used, KD_ALLOWED_SIZE - used, "%s\"%s\"", used ? ", " : "", part(word, "|", one));
+        for (const char *word = f->words; *word;
+             word += word[strcspn(word, "|")] ? strcspn(word, "|") + 1 : strlen(word))
+            used += (size_t)snprintf(out + used, KD_ALLOWED_SIZE - used, "%s\"%s\"", used ? ", " : "",
+                                     part(word, "|", one));
         return;
     }
-    snprintf(out, KD_ALLOWED_SIZE, f->open ? "%snumbers above %s and below %s%s%s%s" : "%s%s to %s%s%s%s", f->kind == KD_INTEGRAL_WHOLE ? "whole numbers from " : "", low,
-             high, f->words ? ", and \"" : "", f->words ? f->words : "", f->words ? "\"" : "");
+    snprintf(out, KD_ALLOWED_SIZE, f->open ? "%snumbers above %s and below %s%s%s%s" : "%s%s to %s%s%s%s",
+             f->kind == KD_INTEGRAL_WHOLE ? "whole numbers from " : "", low, high, f->words ? ", and \"" : "",
+             f->words ? f->words : "", f->words ? "\"" : "");
 }
 
-static enum kd_status refuse(const struct kd_integral_field *f, const struct kd_value *value, const char *pointer, struct kd_error *error)
+static enum kd_status refuse(const struct kd_integral_field *f, const struct kd_value *value, const char *pointer,
+                             struct kd_error *error)
 {
     char given[KD_VALUE_SIZE], allowed[KD_ALLOWED_SIZE];
     kd_value_describe(value, given);
     describe_allowed(f, allowed);
-    return kd_error_field(error, pointer, "%s is %s%s, allowed are %s", f->name, given, f->kind == KD_INTEGRAL_WORD ? "" : kd_value_unwanted(value), allowed);
+    return kd_error_field(error, pointer, "%s is %s%s, allowed are %s", f->name, given,
+                          f->kind == KD_INTEGRAL_WORD ? "" : kd_value_unwanted(value), allowed);
 }
 
 static bool inside(const struct kd_integral_field *f, const struct kd_value *value)
@@ -123,8 +135,8 @@ static bool store(struct kd_integral_request *request, const struct kd_integral_
 }
 
 /* Room for n numbers of a list, in place of what it had. */
-enum kd_status kd_integral_make_room(struct kd_integral_request *request, const struct kd_integral_field *f, size_t n, const char *pointer, struct kd_integral_list **list,
-                                struct kd_error *error)
+enum kd_status kd_integral_make_room(struct kd_integral_request *request, const struct kd_integral_field *f, size_t n,
+                                     const char *pointer, struct kd_integral_list **list, struct kd_error *error)
 {
     *list = (struct kd_integral_list *)(void *)((char *)request + f->offset);
     if (!n || n > KD_INTEGRAL_LIST)
@@ -134,8 +146,8 @@ enum kd_status kd_integral_make_room(struct kd_integral_request *request, const 
     return (*list)->at ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for %zu numbers", n);
 }
 
-static enum kd_status put_number(struct kd_integral_list *list, size_t i, const struct kd_integral_field *f, const struct kd_value *value, const char *pointer,
-                                 struct kd_error *error)
+static enum kd_status put_number(struct kd_integral_list *list, size_t i, const struct kd_integral_field *f,
+                                 const struct kd_value *value, const char *pointer, struct kd_error *error)
 {
     char at[sizeof error->pointer];
     snprintf(at, sizeof at, "%s/%zu", pointer, i);
@@ -145,7 +157,8 @@ static enum kd_status put_number(struct kd_integral_list *list, size_t i, const 
     return KD_OK;
 }
 
-static enum kd_status read_list(struct kd_integral_request *request, const struct kd_integral_field *f, const cJSON *item, const char *pointer, struct kd_error *error)
+static enum kd_status read_list(struct kd_integral_request *request, const struct kd_integral_field *f,
+                                const cJSON *item, const char *pointer, struct kd_error *error)
 {
     struct kd_integral_list *list;
     size_t i = 0;
@@ -166,7 +179,8 @@ done:
 }
 
 /* Numbers with commas between them. */
-static enum kd_status read_typed(struct kd_integral_request *request, const struct kd_integral_field *f, const char *text, const char *pointer, struct kd_error *error)
+static enum kd_status read_typed(struct kd_integral_request *request, const struct kd_integral_field *f,
+                                 const char *text, const char *pointer, struct kd_error *error)
 {
     struct kd_integral_list *list;
     size_t n = 1, i = 0;
@@ -208,7 +222,8 @@ static enum kd_status read_item(struct kd_integral_request *request, const cJSON
     return store(request, f, &value) ? KD_OK : refuse(f, &value, pointer, error);
 }
 
-enum kd_status kd_integral_request_read(struct kd_integral_request *request, const char *text, size_t length, struct kd_error *error)
+enum kd_status kd_integral_request_read(struct kd_integral_request *request, const char *text, size_t length,
+                                        struct kd_error *error)
 {
     cJSON *root = NULL;
     enum kd_status status;
@@ -224,13 +239,15 @@ done:
     return status;
 }
 
-enum kd_status kd_integral_request_json(struct kd_integral_request *request, const char *text, size_t length, struct kd_error *error)
+enum kd_status kd_integral_request_json(struct kd_integral_request *request, const char *text, size_t length,
+                                        struct kd_error *error)
 {
     enum kd_status status = kd_integral_request_read(request, text, length, error);
     return status ? status : kd_integral_request_check(request, error);
 }
 
-enum kd_status kd_integral_request_set(struct kd_integral_request *request, const char *name, const char *text, struct kd_error *error)
+enum kd_status kd_integral_request_set(struct kd_integral_request *request, const char *name, const char *text,
+                                       struct kd_error *error)
 {
     char pointer[sizeof error->pointer] = "";
     kd_text_pointer(pointer, sizeof pointer, name);

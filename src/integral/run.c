@@ -9,12 +9,13 @@
 #include <string.h>
 
 #define UAS_PER_RADIAN (180 * 3.6e9 / M_PI)
-/* What a picture is off by falls as the square of its pixels: of that the difference from a finer one, 1.5 times as fine, is 1 - 1/1.5^2. */
+/* What a picture is off by falls as the square of its pixels: of that the difference from a finer one, 1.5 times as
+ * fine, is 1 - 1/1.5^2. */
 #define OF_DIFFERENCE (1 / (1 - 1 / (KD_INTEGRAL_FINER * KD_INTEGRAL_FINER)))
 #define EDGE 1 /* pixels: the border, whose light tells of what lies beyond it */
 
-enum { U, V, LENGTH, ORDER, RE, IM, AMPLITUDE, PHASE, ERROR }; /* columns of a visibility */
-enum { HZ, SI, JY, NU_L_NU, FLUX_ERROR };                      /* of a spectrum of pictures */
+enum { U, V, LENGTH, ORDER, RE, IM, AMPLITUDE, PHASE, ERROR };          /* columns of a visibility */
+enum { HZ, SI, JY, NU_L_NU, FLUX_ERROR };                               /* of a spectrum of pictures */
 enum { FLUX, PIXEL, WIDTH, HEIGHT, LONGEST, BORDER, UNDEFINED, WORST }; /* values of a visibility */
 
 static unsigned bands(const struct kd_integral_run *run) { return 1 + run->answer.request->orders; }
@@ -28,13 +29,15 @@ static void lay_out(struct kd_integral_answer *answer)
         memcpy(c[HZ], r->frequencies_hz.at, answer->rows * sizeof(double));
     for (size_t row = 0; r->what == KD_INTEGRAL_VISIBILITY && row < answer->rows; row++) {
         const size_t at = row / (1 + r->orders);
-        c[U][row] = r->u.at[at], c[V][row] = r->v.at[at], c[LENGTH][row] = hypot(c[U][row], c[V][row]), c[ORDER][row] = (double)(row % (1 + r->orders)) - 1;
+        c[U][row] = r->u.at[at], c[V][row] = r->v.at[at], c[LENGTH][row] = hypot(c[U][row], c[V][row]),
+        c[ORDER][row] = (double)(row % (1 + r->orders)) - 1;
     }
     for (size_t row = 0; r->unchecked && row < answer->rows; row++)
         c[r->what == KD_INTEGRAL_VOLUME ? FLUX_ERROR : ERROR][row] = NAN;
 }
 
-enum kd_status kd_integral_run_begin(struct kd_integral_run *run, const struct kd_integral_request *request, struct kd_error *error)
+enum kd_status kd_integral_run_begin(struct kd_integral_run *run, const struct kd_integral_request *request,
+                                     struct kd_error *error)
 {
     *run = (struct kd_integral_run) { .pictures = kd_integral_pictures(request), .answer.request = request };
     if (!run->pictures)
@@ -74,13 +77,19 @@ static double border_share(const float *map, uint32_t width, uint32_t height, do
 static void tell_map(struct kd_integral_run *run, const struct kd_scene *scene, double sum, double undefined)
 {
     const double pixel = run->grid.pixel, jy = kd_scene_is_radio_alone(scene) ? sum * pixel * pixel : NAN;
-    const double told[] = { [FLUX] = jy, [PIXEL] = pixel * UAS_PER_RADIAN, [WIDTH] = pixel * UAS_PER_RADIAN * run->grid.width, [HEIGHT] = pixel * UAS_PER_RADIAN * run->grid.height,
-                            [LONGEST] = kd_integral_nyquist_gl(scene), [BORDER] = border_share(run->map[0], run->grid.width, run->grid.height, sum), [UNDEFINED] = undefined,
+    const double told[] = { [FLUX] = jy,
+                            [PIXEL] = pixel * UAS_PER_RADIAN,
+                            [WIDTH] = pixel * UAS_PER_RADIAN * run->grid.width,
+                            [HEIGHT] = pixel * UAS_PER_RADIAN * run->grid.height,
+                            [LONGEST] = kd_integral_nyquist_gl(scene),
+                            [BORDER] = border_share(run->map[0], run->grid.width, run->grid.height, sum),
+                            [UNDEFINED] = undefined,
                             [WORST] = run->answer.request->unchecked ? NAN : 0 };
     memcpy(run->answer.values, told, sizeof told);
 }
 
-static enum kd_status begin_map(struct kd_integral_run *run, struct kd_buffer *file, const struct kd_scene *scene, struct kd_error *error)
+static enum kd_status begin_map(struct kd_integral_run *run, struct kd_buffer *file, const struct kd_scene *scene,
+                                struct kd_error *error)
 {
     const struct kd_wcs wcs = kd_wcs_of(scene);
     const uint32_t width = (uint32_t)scene->image.width, height = (uint32_t)scene->image.height;
@@ -89,15 +98,19 @@ static enum kd_status begin_map(struct kd_integral_run *run, struct kd_buffer *f
     run->maps = *file;
     *file = (struct kd_buffer) { 0 };
     if (run->maps.size != bands(run) * n * sizeof(float))
-        return kd_error_set(error, KD_EINVAL, "a map of %zu bytes came for one of %u x %u pixels", run->maps.size, width, height);
-    run->grid = (struct kd_fourier_grid) { width, height, kd_integral_pixel(scene), wcs.at[0].pixel - 1, height - wcs.at[1].pixel };
+        return kd_error_set(error, KD_EINVAL, "a map of %zu bytes came for one of %u x %u pixels", run->maps.size,
+                            width, height);
+    run->grid = (struct kd_fourier_grid) { width, height, kd_integral_pixel(scene), wcs.at[0].pixel - 1,
+                                           height - wcs.at[1].pixel };
     for (unsigned k = bands(run); k--;) {
         float *map = (float *)run->maps.data + k * n;
         sum = total(map, n, &undefined); /* that of all light is the last */
         run->map[k] = map;
     }
     if (!(sum > 0))
-        return kd_error_field(error, "/scene", "nothing shines in the picture of %u x %u pixels, whose visibility was asked for", width, height);
+        return kd_error_field(error, "/scene",
+                              "nothing shines in the picture of %u x %u pixels, whose visibility was asked for", width,
+                              height);
     run->scale = kd_scene_is_radio_alone(scene) ? run->grid.pixel * run->grid.pixel : 1 / sum;
     run->baseline = 0;
     free(run->scratch);
@@ -108,7 +121,8 @@ static enum kd_status begin_map(struct kd_integral_run *run, struct kd_buffer *f
     return KD_OK;
 }
 
-static enum kd_status take_flux(struct kd_integral_run *run, struct kd_buffer *file, const struct kd_scene *scene, struct kd_error *error)
+static enum kd_status take_flux(struct kd_integral_run *run, struct kd_buffer *file, const struct kd_scene *scene,
+                                struct kd_error *error)
 {
     const struct kd_integral_request *r = run->answer.request;
     const size_t row = run->picture / (r->unchecked ? 1 : 2);
@@ -119,7 +133,9 @@ static enum kd_status take_flux(struct kd_integral_run *run, struct kd_buffer *f
     memcpy(&jy, file->data, sizeof jy);
     kd_buffer_finish(file);
     if (kd_integral_is_finer(r, run->picture)) {
-        c[FLUX_ERROR][row] = jy == c[JY][row] ? 0 : fmin(OF_DIFFERENCE * fabs(jy / c[JY][row] - 1), 1); /* 1: the coarser one saw none of it */
+        c[FLUX_ERROR][row] = jy == c[JY][row] ? 0
+                                              : fmin(OF_DIFFERENCE * fabs(jy / c[JY][row] - 1),
+                                                     1); /* 1: the coarser one saw none of it */
         run->answer.values[2] = fmax(run->answer.values[2], c[FLUX_ERROR][row]);
         return KD_OK;
     }
@@ -129,13 +145,15 @@ static enum kd_status take_flux(struct kd_integral_run *run, struct kd_buffer *f
     return KD_OK;
 }
 
-enum kd_status kd_integral_run_take(struct kd_integral_run *run, struct kd_buffer *file, const struct kd_scene *scene, const struct kd_plan *plan, struct kd_error *error)
+enum kd_status kd_integral_run_take(struct kd_integral_run *run, struct kd_buffer *file, const struct kd_scene *scene,
+                                    const struct kd_plan *plan, struct kd_error *error)
 {
     if (!run->picture) {
         run->answer.n_told = plan->n_approximations;
         memcpy(run->answer.told, plan->approximations, plan->n_approximations * sizeof *plan->approximations);
     }
-    return run->answer.request->what == KD_INTEGRAL_VOLUME ? take_flux(run, file, scene, error) : begin_map(run, file, scene, error);
+    return run->answer.request->what == KD_INTEGRAL_VOLUME ? take_flux(run, file, scene, error)
+                                                           : begin_map(run, file, scene, error);
 }
 
 static void put(struct kd_integral_run *run, size_t row, double re, double im)

@@ -29,9 +29,11 @@ struct kd_integral_run {
 };
 
 /* Computes all of it if it is made of no pictures. Of one that fails nothing is left to finish. */
-enum kd_status kd_integral_run_begin(struct kd_integral_run *run, const struct kd_integral_request *request, struct kd_error *error);
+enum kd_status kd_integral_run_begin(struct kd_integral_run *run, const struct kd_integral_request *request,
+                                     struct kd_error *error);
 /* Takes the file over. KD_EINVAL at /scene: nothing shines in it. */
-enum kd_status kd_integral_run_take(struct kd_integral_run *run, struct kd_buffer *file, const struct kd_scene *scene, const struct kd_plan *plan, struct kd_error *error);
+enum kd_status kd_integral_run_take(struct kd_integral_run *run, struct kd_buffer *file, const struct kd_scene *scene,
+                                    const struct kd_plan *plan, struct kd_error *error);
 /* Goes on until the time has come on kd_clock_ms; false: with this picture it is done. */
 bool kd_integral_run_step(struct kd_integral_run *run, double until_ms);
 void kd_integral_run_finish(struct kd_integral_run *run);

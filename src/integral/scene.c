@@ -1,4 +1,5 @@
-/* Requests for integrals over pictures have a scene: "preset" and "scene", and fields that say which pictures are made of it. */
+/* Requests for integrals over pictures have a scene: "preset" and "scene", and fields that say which pictures are
+ * made of it. */
 #include "integral/internal.h"
 #include "integral/pictures.h"
 
@@ -15,7 +16,8 @@
 
 bool kd_integral_is_scene_member(const struct kd_integral_request *r, const char *name)
 {
-    return (kd_integral_is_pictured(r->what) || r->what == KD_INTEGRAL_SPECTRUM) && (!strcmp(name, "preset") || !strcmp(name, "scene"));
+    return (kd_integral_is_pictured(r->what) || r->what == KD_INTEGRAL_SPECTRUM) &&
+           (!strcmp(name, "preset") || !strcmp(name, "scene"));
 }
 
 enum kd_status kd_integral_make_scene(struct kd_integral_request *r, struct kd_error *error)
@@ -52,9 +54,12 @@ enum kd_status kd_integral_read_scene(struct kd_integral_request *r, const cJSON
     const cJSON *preset = NULL, *scene = NULL;
     enum kd_status status = KD_OK;
     for (const cJSON *item = root->child; item; item = item->next) {
-        const cJSON **to = !kd_integral_is_scene_member(r, item->string) ? NULL : *item->string == 'p' ? &preset : &scene;
+        const cJSON **to = !kd_integral_is_scene_member(r, item->string) ? NULL
+                           : *item->string == 'p'                        ? &preset
+                                                                         : &scene;
         if (to && *to)
-            return kd_error_field(error, *item->string == 'p' ? "/preset" : "/scene", "%s is given twice", item->string);
+            return kd_error_field(error, *item->string == 'p' ? "/preset" : "/scene", "%s is given twice",
+                                  item->string);
         if (to)
             *to = item;
     }
@@ -73,10 +78,14 @@ done:
 static enum kd_status check_radio(const struct kd_scene *scene, struct kd_error *error)
 {
     if (!kd_scene_is_radio(scene))
-        return kd_error_field(error, "/scene/volume/model", "volume.model has no light of one frequency in physical units, which a spectrum is of; allowed are those with volume.frequency_ghz, "
-                                                            "such as gold and riaf; without scene and preset the spectrum is that of a thin disk");
+        return kd_error_field(error, "/scene/volume/model",
+                              "volume.model has no light of one frequency in physical units, which a spectrum is of; "
+                              "allowed are those with volume.frequency_ghz, "
+                              "such as gold and riaf; without scene and preset the spectrum is that of a thin disk");
     if (!kd_scene_is_radio_alone(scene))
-        return kd_error_field(error, "/scene", "something shines beside the volume, whose light has no frequency: disk.model and sky.model must be \"none\", without jets, spots and bodies");
+        return kd_error_field(error, "/scene",
+                              "something shines beside the volume, whose light has no frequency: disk.model and "
+                              "sky.model must be \"none\", without jets, spots and bodies");
     return KD_OK;
 }
 
@@ -86,7 +95,9 @@ enum kd_status kd_integral_check_volume(struct kd_integral_request *r, struct kd
     enum kd_status status = KD_OK;
     KD_TRY(check_radio(r->scene, error));
     if (!kd_scene_is_flat(r->scene))
-        return kd_error_field(error, "/scene/camera/projection", "camera.projection has no areas to scale, by which flux is measured; allowed are plane and pinhole");
+        return kd_error_field(
+            error, "/scene/camera/projection",
+            "camera.projection has no areas to scale, by which flux is measured; allowed are plane and pinhole");
     if (isnan(r->frequency_min_hz))
         r->frequency_min_hz = fmax(r->scene->volume.frequency_ghz * 1e9 / 30, least);
     if (isnan(r->frequency_max_hz))
@@ -96,7 +107,9 @@ enum kd_status kd_integral_check_volume(struct kd_integral_request *r, struct kd
         if (r->frequencies_hz.at[i] < least || r->frequencies_hz.at[i] > most) {
             char pointer[60];
             snprintf(pointer, sizeof pointer, "/frequencies_hz/%zu", i);
-            return kd_error_field(error, pointer, "a frequency is %.9g, allowed are those of volume.frequency_ghz, %.9g to %.9g Hz", r->frequencies_hz.at[i], least, most);
+            return kd_error_field(error, pointer,
+                                  "a frequency is %.9g, allowed are those of volume.frequency_ghz, %.9g to %.9g Hz",
+                                  r->frequencies_hz.at[i], least, most);
         }
     r->pixels = r->pixels ? r->pixels : 128;
 done:
@@ -109,7 +122,8 @@ static enum kd_status fill_lengths(struct kd_integral_request *r, struct kd_erro
     struct kd_integral_list *list;
     if (isnan(r->length_max))
         r->length_max = 0.5 * kd_integral_nyquist_gl(&scene);
-    enum kd_status status = kd_integral_make_room(r, kd_integral_field_named(r, "lengths"), r->baselines, "/baselines", &list, error);
+    enum kd_status status =
+        kd_integral_make_room(r, kd_integral_field_named(r, "lengths"), r->baselines, "/baselines", &list, error);
     for (size_t i = 0; !status && i < r->baselines; i++)
         list->at[i] = r->length_max * (double)i / (r->baselines - 1);
     return status;
@@ -130,7 +144,8 @@ static enum kd_status make_baselines(struct kd_integral_request *r, struct kd_er
         KD_TRY(kd_integral_check_beside(r, "lengths", (const char *const[]) { "length_max", "baselines" }, 2, error));
     const size_t n = r->lengths.n * r->angles_deg.n;
     if (n > KD_INTEGRAL_ROWS)
-        return kd_error_field(error, r->lengths.n > r->angles_deg.n ? "/lengths" : "/angles_deg", "%zu lengths at %zu angles are more than %u baselines", r->lengths.n, r->angles_deg.n,
+        return kd_error_field(error, r->lengths.n > r->angles_deg.n ? "/lengths" : "/angles_deg",
+                              "%zu lengths at %zu angles are more than %u baselines", r->lengths.n, r->angles_deg.n,
                               KD_INTEGRAL_ROWS);
     KD_TRY(kd_integral_make_room(r, kd_integral_field_named(r, "u"), n, "/u", &u, error));
     KD_TRY(kd_integral_make_room(r, kd_integral_field_named(r, "v"), n, "/v", &v, error));
@@ -149,11 +164,13 @@ static enum kd_status check_baselines(struct kd_integral_request *r, struct kd_e
     if (!r->u.n && !r->v.n)
         KD_TRY(make_baselines(r, error));
     else if (r->u.n != r->v.n)
-        KD_TRY(kd_error_field(error, r->u.n > r->v.n ? "/u" : "/v", "u has %zu numbers and v has %zu; allowed are as many of each", r->u.n, r->v.n));
+        KD_TRY(kd_error_field(error, r->u.n > r->v.n ? "/u" : "/v",
+                              "u has %zu numbers and v has %zu; allowed are as many of each", r->u.n, r->v.n));
     else
         KD_TRY(kd_integral_check_beside(r, "u", others, 4, error));
     if (r->u.n * (1 + r->orders) > KD_INTEGRAL_ROWS)
-        return kd_error_field(error, r->orders ? "/orders" : "/u", "%zu baselines with %u orders are more than %u rows", r->u.n, r->orders, KD_INTEGRAL_ROWS);
+        return kd_error_field(error, r->orders ? "/orders" : "/u", "%zu baselines with %u orders are more than %u rows",
+                              r->u.n, r->orders, KD_INTEGRAL_ROWS);
 done:
     return status;
 }
@@ -161,9 +178,12 @@ done:
 static enum kd_status check_orders(const struct kd_integral_request *r, struct kd_error *error)
 {
     if (r->orders && r->scene->disk.model == KD_DISK_NONE)
-        return kd_error_field(error, "/orders", "orders is %u, and there is no disk whose image orders could be told apart; allowed is 0", r->orders);
+        return kd_error_field(error, "/orders",
+                              "orders is %u, and there is no disk whose image orders could be told apart; allowed is 0",
+                              r->orders);
     if (r->orders > (uint32_t)r->scene->accuracy.orders)
-        return kd_error_field(error, "/orders", "orders is %u, allowed are 0 to %d, accuracy.orders of the scene", r->orders, r->scene->accuracy.orders);
+        return kd_error_field(error, "/orders", "orders is %u, allowed are 0 to %d, accuracy.orders of the scene",
+                              r->orders, r->scene->accuracy.orders);
     return KD_OK;
 }
 
@@ -173,7 +193,9 @@ enum kd_status kd_integral_check_visibility(struct kd_integral_request *r, struc
     if (!r->scene)
         KD_TRY(kd_integral_make_scene(r, error));
     if (!kd_wcs_of(r->scene).far)
-        return kd_error_field(error, "/scene/camera", "camera sees no flat map from far away, which visibilities are of; allowed are camera.r \"infinity\" and the projections auto and plane");
+        return kd_error_field(error, "/scene/camera",
+                              "camera sees no flat map from far away, which visibilities are of; allowed are camera.r "
+                              "\"infinity\" and the projections auto and plane");
     KD_TRY(check_orders(r, error));
     r->pixels = r->pixels ? r->pixels : 256;
     KD_TRY(check_baselines(r, error));

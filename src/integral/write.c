@@ -17,7 +17,8 @@ static size_t count(const struct kd_integral_column *list, size_t most)
 }
 
 /* Those of a list that ends with a NULL, and n more. */
-static void write_sentences(struct kd_json *json, const char *name, const char *const *sentences, const char *const *more, size_t n)
+static void write_sentences(struct kd_json *json, const char *name, const char *const *sentences,
+                            const char *const *more, size_t n)
 {
     kd_json_array(json, name);
     for (; *sentences; sentences++)
@@ -106,7 +107,9 @@ done:
 static enum kd_status write_npy(const struct kd_integral_answer *answer, struct kd_buffer *out)
 {
     const struct kd_integral_kind_of *kind = kd_integral_kind_of(answer->request->what);
-    struct kd_npy array = { .n_fields = count(kind->columns, KD_INTEGRAL_COLUMNS), .shape = { answer->rows }, .n_dimensions = 1 };
+    struct kd_npy array = { .n_fields = count(kind->columns, KD_INTEGRAL_COLUMNS),
+                            .shape = { answer->rows },
+                            .n_dimensions = 1 };
     enum kd_status status;
     for (size_t i = 0; i < array.n_fields; i++)
         snprintf(array.fields[i].name, sizeof array.fields[i].name, "%s", kind->columns[i].name);
@@ -118,17 +121,24 @@ done:
     return status;
 }
 
-enum kd_status kd_integral_write(const struct kd_integral_answer *answer, enum kd_integral_format format, struct kd_buffer *out)
+enum kd_status kd_integral_write(const struct kd_integral_answer *answer, enum kd_integral_format format,
+                                 struct kd_buffer *out)
 {
-    return format == KD_INTEGRAL_CSV ? write_csv(answer, out) : format == KD_INTEGRAL_NPY ? write_npy(answer, out) : write_json(answer, out);
+    return format == KD_INTEGRAL_CSV   ? write_csv(answer, out)
+           : format == KD_INTEGRAL_NPY ? write_npy(answer, out)
+                                       : write_json(answer, out);
 }
 
 #define STRINGS "{\"type\":\"array\",\"items\":{\"type\":\"string\"}}"
 
-static void raw(struct kd_json *json, const char *name, const char *text) { kd_json_raw(json, name, text, strlen(text)); }
+static void raw(struct kd_json *json, const char *name, const char *text)
+{
+    kd_json_raw(json, name, text, strlen(text));
+}
 
 /* An object with a member for each of the list, of this schema. */
-static void add_listed(struct kd_json *json, const char *name, const struct kd_integral_column *list, size_t n, const char *type)
+static void add_listed(struct kd_json *json, const char *name, const struct kd_integral_column *list, size_t n,
+                       const char *type)
 {
     const char *names[KD_INTEGRAL_COLUMNS];
     kd_schema_begin_strict(json, name);
@@ -152,14 +162,18 @@ static void add_parameters(struct kd_json *json, enum kd_integral what)
         const struct kd_integral_field *f = &kd_integral_fields[i];
         if (!(f->of & 1u << what) || f->kind == KD_INTEGRAL_NUMBERS)
             continue;
-        raw(json, names[n++] = f->name, f->kind == KD_INTEGRAL_WORD ? "{\"type\":\"string\"}" : f->lacks ? "{\"type\":[\"number\",\"null\"]}" : "{\"type\":\"number\"}");
+        raw(json, names[n++] = f->name,
+            f->kind == KD_INTEGRAL_WORD ? "{\"type\":\"string\"}"
+            : f->lacks                  ? "{\"type\":[\"number\",\"null\"]}"
+                                        : "{\"type\":\"number\"}");
     }
     kd_schema_end_strict(json, names, n);
 }
 
 void kd_integral_answer_schema(struct kd_json *json, const char *name, enum kd_integral what)
 {
-    static const char *const members[] = { "integral", "parameters", "values", "columns", "units", "sources", "approximations", "scene" };
+    static const char *const members[] = { "integral", "parameters", "values",         "columns",
+                                           "units",    "sources",    "approximations", "scene" };
     const struct kd_integral_kind_of *kind = kd_integral_kind_of(what);
     size_t values = count(kind->values, KD_INTEGRAL_VALUES), columns = count(kind->columns, KD_INTEGRAL_COLUMNS);
     kd_schema_begin_strict(json, name);

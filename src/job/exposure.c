@@ -60,8 +60,8 @@ static void make_small(struct kd_scene *scene)
     scene->image.bit_depth = 8;
 }
 
-enum kd_status kd_job_exposure_plan(const struct kd_job_spec *spec, unsigned frame, const struct kd_capacity *capacity, struct kd_scene *scene, struct kd_plan *plan,
-                                    struct kd_error *error)
+enum kd_status kd_job_exposure_plan(const struct kd_job_spec *spec, unsigned frame, const struct kd_capacity *capacity,
+                                    struct kd_scene *scene, struct kd_plan *plan, struct kd_error *error)
 {
     enum kd_status status = kd_job_spec_scene(spec, frame, scene, error);
     if (status)

@@ -2,8 +2,9 @@
 
 #include <stdio.h>
 
-enum kd_status kd_job_frame_plan(const struct kd_job_spec *spec, unsigned frame, const struct kd_crowd *crowd, double late, double most_s, const struct kd_capacity *capacity,
-                                 struct kd_scene *scene, struct kd_plan *plan, struct kd_error *error)
+enum kd_status kd_job_frame_plan(const struct kd_job_spec *spec, unsigned frame, const struct kd_crowd *crowd,
+                                 double late, double most_s, const struct kd_capacity *capacity, struct kd_scene *scene,
+                                 struct kd_plan *plan, struct kd_error *error)
 {
     struct kd_error inner = { 0 };
     char pointer[40];
@@ -20,7 +21,8 @@ enum kd_status kd_job_frame_plan(const struct kd_job_spec *spec, unsigned frame,
     if (!status && spec->blur.samples)
         status = kd_blur_plan(spec->blur.samples, spec->blur.shutter, capacity, plan, &inner);
     if (!status && plan->estimate_ms > 1e3 * most_s)
-        status = kd_error_set(&inner, KD_ETOOBIG, "it would take about %.0f s, more than the %.0f s a frame may take", plan->estimate_ms * 1e-3, most_s);
+        status = kd_error_set(&inner, KD_ETOOBIG, "it would take about %.0f s, more than the %.0f s a frame may take",
+                              plan->estimate_ms * 1e-3, most_s);
     if (!status)
         return KD_OK;
     const bool among_keyframes = !spec->listed && spec->timeline.n_keys > 1;
@@ -35,7 +37,8 @@ enum kd_status kd_job_frame_plan(const struct kd_job_spec *spec, unsigned frame,
     return error->status = status;
 }
 
-static enum kd_status sample_of(const struct kd_blur *blur, unsigned sample, struct kd_scene *out, struct kd_error *error)
+static enum kd_status sample_of(const struct kd_blur *blur, unsigned sample, struct kd_scene *out,
+                                struct kd_error *error)
 {
     return kd_job_spec_sample(blur->user, blur->frame, sample, out, error);
 }

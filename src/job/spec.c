@@ -47,10 +47,13 @@ static enum kd_status read_list(struct reader *r)
     char pointer[40];
     if (!n || n > KD_JOB_FRAMES_MAX)
         return cJSON_IsArray(r->scenes)
-                   ? kd_error_field(r->error, "/scenes", "there are %d scenes, allowed are 1 to %d", n, KD_JOB_FRAMES_MAX)
+                   ? kd_error_field(r->error, "/scenes", "there are %d scenes, allowed are 1 to %d", n,
+                                    KD_JOB_FRAMES_MAX)
                    : kd_member_refuse(r->scenes, "/scenes", "an array of scenes", r->error);
     if (r->scene || r->timeline.keyframes || r->frames || kd_timeline_manner(&r->timeline) || r->axes)
-        return kd_error_field(r->error, "/scenes", "scenes stands alone: scene, axes, keyframes, frames, interpolation, distances, angles, ease and look_at do not go with it");
+        return kd_error_field(r->error, "/scenes",
+                              "scenes stands alone: scene, axes, keyframes, frames, interpolation, distances, angles, "
+                              "ease and look_at do not go with it");
     all->keys = calloc((size_t)n, sizeof *all->keys);
     enum kd_status status = all->keys ? KD_OK : kd_error_set(r->error, KD_ENOMEM, "out of memory for %d scenes", n);
     spec->listed = true;
@@ -70,8 +73,10 @@ static enum kd_status refuse_without_keyframes(const struct reader *r)
     const char *name = r->frames ? "frames" : kd_timeline_manner(&r->timeline);
     char pointer[40];
     snprintf(pointer, sizeof pointer, "/%s", name);
-    return kd_error_field(r->error, pointer, "without keyframes a job is one picture: leave %s out, or say what changes, as in "
-                          "\"keyframes\": [{\"frame\": 24, \"scene\": {\"time\": 100}}]", name);
+    return kd_error_field(r->error, pointer,
+                          "without keyframes a job is one picture: leave %s out, or say what changes, as in "
+                          "\"keyframes\": [{\"frame\": 24, \"scene\": {\"time\": 100}}]",
+                          name);
 }
 
 static enum kd_status read_sequence(struct reader *r)
@@ -100,7 +105,9 @@ static enum kd_status read_sweep(struct reader *r)
     struct kd_scene base = r->base;
     enum kd_status status;
     if (r->timeline.keyframes || r->frames || kd_timeline_manner(&r->timeline))
-        return kd_error_field(r->error, "/axes", "axes stand alone with their scene: keyframes, frames, interpolation, distances, angles, ease and look_at do not go with them");
+        return kd_error_field(r->error, "/axes",
+                              "axes stand alone with their scene: keyframes, frames, interpolation, distances, angles, "
+                              "ease and look_at do not go with them");
     KD_TRY(read_scene(r, r->scene, "/scene", &base));
     KD_TRY(kd_sweep_read(r->axes, &base, r->assets, &spec->sweep, r->error));
     spec->frames = spec->sweep->scenes;
@@ -116,7 +123,8 @@ static enum kd_status look_through(struct reader *r, const struct kd_playground 
     const struct kd_timeline *timeline = &r->spec->timeline;
     enum kd_status status = KD_OK;
     for (size_t i = 0; i < timeline->n_keys && !status; i++)
-        status = kd_member_inside(kd_playground_may_show(p, &timeline->keys[i].scene, r->error), timeline->n_keys > 1 && i ? "/keyframes" : "/scene", r->error);
+        status = kd_member_inside(kd_playground_may_show(p, &timeline->keys[i].scene, r->error),
+                                  timeline->n_keys > 1 && i ? "/keyframes" : "/scene", r->error);
     return status;
 }
 
@@ -141,9 +149,11 @@ static enum kd_status read_film(struct reader *r)
     struct kd_scene first;
     enum kd_status status;
     if (r->scenes || r->axes)
-        return kd_error_field(r->error, "/playground", "a playground goes with scene, keyframes and frames; scenes and axes do not go with it");
+        return kd_error_field(r->error, "/playground",
+                              "a playground goes with scene, keyframes and frames; scenes and axes do not go with it");
     if (!cJSON_IsObject(r->playground))
-        return kd_member_refuse(r->playground, "/playground", "an object: a document of a playground, or a snapshot", r->error);
+        return kd_member_refuse(r->playground, "/playground", "an object: a document of a playground, or a snapshot",
+                                r->error);
     KD_TRY(read_every(r));
     KD_TRY(kd_member_inside(kd_playground_read_tree(r->playground, &p, r->error), "/playground", r->error));
     if (!r->asked->scene && !named(r->asked))
@@ -153,7 +163,9 @@ static enum kd_status read_film(struct reader *r)
     KD_TRY(kd_timeline_read(&r->timeline, &by_frame, r->assets, &first, &spec->timeline, r->error));
     spec->frames = (unsigned)kd_timeline_end(&spec->timeline) + 1;
     if (!r->frames && !r->timeline.keyframes)
-        KD_TRY(kd_error_field(r->error, "/frames", "frames is missing: how many pictures of the playground, or keyframes, of which the last is the last"));
+        KD_TRY(kd_error_field(
+            r->error, "/frames",
+            "frames is missing: how many pictures of the playground, or keyframes, of which the last is the last"));
     if (r->frames)
         KD_TRY(kd_member_whole(r->frames, "/frames", spec->frames, KD_JOB_FRAMES_MAX, &spec->frames, r->error));
     KD_TRY(look_through(r, p));
@@ -163,7 +175,8 @@ done:
     return status;
 }
 
-enum kd_status kd_job_spec_playground(const char *text, size_t length, struct kd_playground **out, struct kd_error *error)
+enum kd_status kd_job_spec_playground(const char *text, size_t length, struct kd_playground **out,
+                                      struct kd_error *error)
 {
     cJSON *root = NULL;
     enum kd_status status;
@@ -180,7 +193,9 @@ static enum kd_status read_output(struct reader *r)
     if (r->output)
         r->spec->series = cJSON_IsString(r->output) ? kd_series_named(r->output->valuestring) : NULL;
     if (r->spec->series && r->spec->series->swept && !r->axes)
-        return kd_error_field(r->error, "/output", "output is \"%s\", which takes axes, as in \"axes\": {\"spacetime.spin\": [0, 0.5, 0.9]}", r->spec->series->name);
+        return kd_error_field(r->error, "/output",
+                              "output is \"%s\", which takes axes, as in \"axes\": {\"spacetime.spin\": [0, 0.5, 0.9]}",
+                              r->spec->series->name);
     if (r->spec->series)
         return KD_OK;
     for (size_t i = 0, n = 0; i < kd_n_series && n < sizeof known; i++)
@@ -190,19 +205,24 @@ static enum kd_status read_output(struct reader *r)
 
 static bool makes_pictures(const struct kd_job_spec *spec) { return spec->series->frame->carries & KD_CARRIES_PICTURE; }
 
-/* Says whether frames have one exposure. What a playground's show is not known before it has moved, and those of axes stand for themselves. */
+/* Says whether frames have one exposure. What a playground's show is not known before it has moved, and those of
+ * axes stand for themselves. */
 static enum kd_status read_exposure(struct reader *r)
 {
     struct kd_job_spec *spec = r->spec;
     const bool pictures = makes_pictures(spec);
     unsigned word = !spec->listed && !spec->sweep && !r->playground && spec->frames > 1 && pictures ? ONE : EACH;
-    enum kd_status status = kd_member_word(r->exposure, "/exposure", exposures, sizeof exposures / sizeof *exposures, &word, r->error);
+    enum kd_status status =
+        kd_member_word(r->exposure, "/exposure", exposures, sizeof exposures / sizeof *exposures, &word, r->error);
     if (status)
         return status;
     if (r->exposure && !pictures)
-        return kd_error_field(r->error, "/exposure", "exposure is of pictures: it does not go with \"output\": \"%s\"", spec->series->name);
+        return kd_error_field(r->error, "/exposure", "exposure is of pictures: it does not go with \"output\": \"%s\"",
+                              spec->series->name);
     if (word == ONE && (spec->sweep || r->playground))
-        return kd_error_field(r->error, "/exposure", "exposure is \"one\", allowed with %s is \"each\": give style.exposure of the scene a number, which all frames then have",
+        return kd_error_field(r->error, "/exposure",
+                              "exposure is \"one\", allowed with %s is \"each\": give style.exposure of the scene a "
+                              "number, which all frames then have",
                               spec->sweep ? "axes" : "a playground");
     spec->one_exposure = word == ONE;
     return KD_OK;
@@ -211,12 +231,12 @@ static enum kd_status read_exposure(struct reader *r)
 /* What cannot be blurred, in words; NULL: it can. */
 static const char *unblurred(const struct reader *r)
 {
-    return r->playground                ? "a playground, whose bodies move from frame to frame"
-           : r->spec->sweep             ? "axes, between whose scenes nothing moves"
-           : r->spec->listed            ? "scenes, between which nothing moves"
-           : !r->timeline.keyframes     ? "a scene without keyframes, in which nothing moves"
-           : !makes_pictures(r->spec)   ? "an output of numbers: only light has a mean that can be seen"
-                                        : NULL;
+    return r->playground              ? "a playground, whose bodies move from frame to frame"
+           : r->spec->sweep           ? "axes, between whose scenes nothing moves"
+           : r->spec->listed          ? "scenes, between which nothing moves"
+           : !r->timeline.keyframes   ? "a scene without keyframes, in which nothing moves"
+           : !makes_pictures(r->spec) ? "an output of numbers: only light has a mean that can be seen"
+                                      : NULL;
 }
 
 static enum kd_status read_blur(struct reader *r)
@@ -228,21 +248,33 @@ static enum kd_status read_blur(struct reader *r)
     double part = 0.5;
     enum kd_status status = KD_OK;
     if (!r->blur && !asked->samples)
-        return asked->shutter > 0 ? kd_error_field(r->error, "/motion_blur", "a shutter takes samples: how many pictures is the light of a frame the mean of?") : KD_OK;
+        return asked->shutter > 0
+                   ? kd_error_field(r->error, "/motion_blur",
+                                    "a shutter takes samples: how many pictures is the light of a frame the mean of?")
+                   : KD_OK;
     if (unblurred(r))
-        return kd_error_field(r->error, "/motion_blur", "motion_blur is of frames of keyframes, as pictures; it does not go with %s", unblurred(r));
+        return kd_error_field(r->error, "/motion_blur",
+                              "motion_blur is of frames of keyframes, as pictures; it does not go with %s",
+                              unblurred(r));
     if (r->blur && !cJSON_IsObject(r->blur))
-        return kd_member_refuse(r->blur, "/motion_blur", "an object with samples and shutter, as in {\"samples\": 16, \"shutter\": 0.5}", r->error);
+        return kd_member_refuse(r->blur, "/motion_blur",
+                                "an object with samples and shutter, as in {\"samples\": 16, \"shutter\": 0.5}",
+                                r->error);
     if (r->blur)
         KD_TRY(kd_members_read(r->blur, "/motion_blur", members, sizeof members / sizeof *members, r->error));
     if (!samples && !asked->samples)
-        KD_TRY(kd_error_field(r->error, "/motion_blur/samples", "samples is missing: how many pictures is the light of a frame the mean of, from 1 to %d?", KD_BLUR_SAMPLES));
+        KD_TRY(
+            kd_error_field(r->error, "/motion_blur/samples",
+                           "samples is missing: how many pictures is the light of a frame the mean of, from 1 to %d?",
+                           KD_BLUR_SAMPLES));
     if (samples)
         KD_TRY(kd_member_whole(samples, "/motion_blur/samples", 1, KD_BLUR_SAMPLES, &spec->blur.samples, r->error));
     if (shutter) {
         part = cJSON_IsNumber(shutter) ? shutter->valuedouble : 0;
         if (!(part > 0) || part > 1)
-            KD_TRY(kd_member_refuse(shutter, "/motion_blur/shutter", "a number above 0, at most 1: the part of a frame's time in which the shutter is open", r->error));
+            KD_TRY(kd_member_refuse(
+                shutter, "/motion_blur/shutter",
+                "a number above 0, at most 1: the part of a frame's time in which the shutter is open", r->error));
     }
     spec->blur.samples = asked->samples ? asked->samples : spec->blur.samples;
     spec->blur.shutter = asked->shutter > 0 ? asked->shutter : part;
@@ -250,13 +282,15 @@ done:
     return status;
 }
 
-enum kd_status kd_job_spec_parse(const char *text, size_t length, const struct kd_job_base *base, const struct kd_assets *assets, struct kd_job_spec *out,
-                                 struct kd_error *error)
+enum kd_status kd_job_spec_parse(const char *text, size_t length, const struct kd_job_base *base,
+                                 const struct kd_assets *assets, struct kd_job_spec *out, struct kd_error *error)
 {
     struct kd_job_spec spec = { .series = kd_series_all[0], .exposure = NAN };
     struct reader r = { .spec = &spec, .asked = base, .assets = assets, .error = error };
-    const struct kd_member members[] = { { "scene", &r.scene }, { "scenes", &r.scenes }, { "frames", &r.frames }, { "axes", &r.axes }, { "output", &r.output },
-                                         { "playground", &r.playground }, { "every", &r.every }, { "exposure", &r.exposure },
+    const struct kd_member members[] = { { "scene", &r.scene },      { "scenes", &r.scenes },
+                                         { "frames", &r.frames },    { "axes", &r.axes },
+                                         { "output", &r.output },    { "playground", &r.playground },
+                                         { "every", &r.every },      { "exposure", &r.exposure },
                                          { "motion_blur", &r.blur }, KD_TIMELINE_MEMBERS(r.timeline) };
     cJSON *root = NULL;
     kd_scene_defaults(&r.base);
@@ -271,7 +305,9 @@ enum kd_status kd_job_spec_parse(const char *text, size_t length, const struct k
     KD_TRY(kd_members_read(root, "", members, sizeof members / sizeof *members, error));
     KD_TRY(read_output(&r));
     if (r.every && !r.playground)
-        KD_TRY(kd_error_field(error, "/every", "every is for a film of a playground: leave it out, or say which, as in \"playground\": {\"preset\": \"disruption\"}"));
+        KD_TRY(kd_error_field(error, "/every",
+                              "every is for a film of a playground: leave it out, or say which, as in \"playground\": "
+                              "{\"preset\": \"disruption\"}"));
     if (!r.playground && length > KD_JOB_BODY_MAX)
         KD_TRY(kd_error_set(error, KD_ETOOBIG, "a job without a playground may have %u bytes", KD_JOB_BODY_MAX));
     KD_TRY(r.playground ? read_film(&r) : r.scenes ? read_list(&r) : r.axes ? read_sweep(&r) : read_sequence(&r));
@@ -298,18 +334,21 @@ static enum kd_status scene_at(const struct kd_job_spec *spec, double at, struct
 {
     struct kd_error inner = { 0 };
     if (kd_timeline_scene(&spec->timeline, at, out, &inner))
-        return kd_error_field(error, inner.pointer, "between keyframes, frame %.9g is no valid scene: %.380s", at, inner.message);
+        return kd_error_field(error, inner.pointer, "between keyframes, frame %.9g is no valid scene: %.380s", at,
+                              inner.message);
     if (isinf(out->style.exposure) && !isnan(spec->exposure))
         out->style.exposure = spec->exposure;
     return KD_OK;
 }
 
-enum kd_status kd_job_spec_scene(const struct kd_job_spec *spec, unsigned frame, struct kd_scene *out, struct kd_error *error)
+enum kd_status kd_job_spec_scene(const struct kd_job_spec *spec, unsigned frame, struct kd_scene *out,
+                                 struct kd_error *error)
 {
     return spec->sweep ? kd_sweep_scene(spec->sweep, frame, out, error) : scene_at(spec, frame, out, error);
 }
 
-enum kd_status kd_job_spec_sample(const struct kd_job_spec *spec, unsigned frame, unsigned sample, struct kd_scene *out, struct kd_error *error)
+enum kd_status kd_job_spec_sample(const struct kd_job_spec *spec, unsigned frame, unsigned sample, struct kd_scene *out,
+                                  struct kd_error *error)
 {
     return scene_at(spec, frame + spec->blur.shutter * sample / spec->blur.samples, out, error);
 }

@@ -12,8 +12,10 @@
 
 enum { PLAIN = 10, COLUMNS = 17, SUMMARY = 15 }; /* columns of an orbit that nobody looks at, and of one that is seen */
 
-static const char *const columns[COLUMNS] = { "mino", "tau_proper", "t", "r", "theta", "phi", "x", "y", "z", "energy_error",
-                                            "alpha", "beta", "right", "up", "inwards", "delay", "off" };
+static const char *const columns[COLUMNS] = { "mino",  "tau_proper", "t",     "r",  "theta",
+                                              "phi",   "x",          "y",     "z",  "energy_error",
+                                              "alpha", "beta",       "right", "up", "inwards",
+                                              "delay", "off" };
 
 const char *kd_orbit_column(size_t index) { return index < COLUMNS ? columns[index] : NULL; }
 
@@ -22,9 +24,23 @@ static int count_of(const struct kd_orbit_params *params) { return kd_orbit_is_s
 
 static void columns_of(const struct kd_orbit_sample *s, double to[COLUMNS])
 {
-    const double all[COLUMNS] = { s->place.mino, s->place.proper, s->place.t, s->place.r, s->place.theta, s->place.phi, s->x, s->y,
-                                  s->z,          s->energy_error,
-                                  s->image.alpha, s->image.beta, s->image.look.right, s->image.look.up, s->image.look.inwards, s->image.delay, s->image.off };
+    const double all[COLUMNS] = { s->place.mino,
+                                  s->place.proper,
+                                  s->place.t,
+                                  s->place.r,
+                                  s->place.theta,
+                                  s->place.phi,
+                                  s->x,
+                                  s->y,
+                                  s->z,
+                                  s->energy_error,
+                                  s->image.alpha,
+                                  s->image.beta,
+                                  s->image.look.right,
+                                  s->image.look.up,
+                                  s->image.look.inwards,
+                                  s->image.delay,
+                                  s->image.off };
     memcpy(to, all, sizeof all);
 }
 
@@ -66,18 +82,17 @@ static void open(struct text *t, const char *name)
         t->status = kd_buffer_printf(t->out, "%s\"%s\":{", first ? "" : ",", name);
 }
 
-static void close(struct text *t)
-{
-    put(t, "}");
-}
+static void close(struct text *t) { put(t, "}"); }
 
 const char *kd_orbit_approximation(const struct kd_orbit_run *run, size_t index)
 {
     const char *const all[] = {
         "a test particle: it has no mass of its own, radiates nothing and is not torn",
-        run->orbit.fate == KD_ORBIT_PLUNGE ? "Boyer-Lindquist t and phi grow without bound towards the horizon, where a path ends"
-                                           : NULL,
-        kd_orbit_is_seen(run->params) ? "one image of each point, followed from that of the point before: the direct one, but next to a hole that spins and is seen nearly edge on it may pass "
+        run->orbit.fate == KD_ORBIT_PLUNGE
+            ? "Boyer-Lindquist t and phi grow without bound towards the horizon, where a path ends"
+            : NULL,
+        kd_orbit_is_seen(run->params) ? "one image of each point, followed from that of the point before: the direct "
+                                        "one, but next to a hole that spins and is seen nearly edge on it may pass "
                                         "onto one that has gone round it; none is told from within 1.2 horizons"
                                       : NULL,
     };
@@ -189,7 +204,8 @@ static void drift(struct text *t, const struct kd_orbit_run *run)
 /* The difference between the end of the path and the closed form there: two methods that share no step. */
 static void against_closed(struct text *t, const struct kd_orbit_run *run)
 {
-    struct kd_orbit_place got = kd_orbit_path_place(&run->path), want = kd_orbit_bound_at(&run->bound, run->path.mino.value);
+    struct kd_orbit_place got = kd_orbit_path_place(&run->path),
+                          want = kd_orbit_bound_at(&run->bound, run->path.mino.value);
     open(t, "closed_form_difference");
     member(t, "tau_proper", got.proper - want.proper);
     member(t, "t", got.t - want.t);
@@ -324,8 +340,9 @@ enum kd_status kd_orbit_answer_begin(const struct kd_orbit_run *run, enum kd_orb
     return t.status;
 }
 
-enum kd_status kd_orbit_answer_samples(const struct kd_orbit_params *params, enum kd_orbit_format format, const struct kd_orbit_sample *samples,
-                                       size_t n, size_t first, struct kd_buffer *out)
+enum kd_status kd_orbit_answer_samples(const struct kd_orbit_params *params, enum kd_orbit_format format,
+                                       const struct kd_orbit_sample *samples, size_t n, size_t first,
+                                       struct kd_buffer *out)
 {
     struct text t = { .out = out, .digits = (int)params->digits };
     double values[COLUMNS];
@@ -365,11 +382,21 @@ enum kd_status kd_orbit_answer_end(const struct kd_orbit_run *run, enum kd_orbit
     return t.status;
 }
 
-static const char *const summary_names[SUMMARY] = {
-    "fate",          "spin",        "energy",    "angular_momentum",   "carter",           "r_min",        "r_max",
-    "omega_r",       "omega_theta", "omega_phi", "periastron_advance", "advance_measured", "energy_drift", "carter_drift",
-    "error_estimate"
-};
+static const char *const summary_names[SUMMARY] = { "fate",
+                                                    "spin",
+                                                    "energy",
+                                                    "angular_momentum",
+                                                    "carter",
+                                                    "r_min",
+                                                    "r_max",
+                                                    "omega_r",
+                                                    "omega_theta",
+                                                    "omega_phi",
+                                                    "periastron_advance",
+                                                    "advance_measured",
+                                                    "energy_drift",
+                                                    "carter_drift",
+                                                    "error_estimate" };
 
 /* fate: 0 bound, 1 plunge, 2 escape. */
 static void summary_of(const struct kd_orbit_run *run, double to[SUMMARY])
@@ -402,7 +429,8 @@ static void many_json(struct text *t, const struct kd_orbit_run *runs, size_t n,
         put(t, i ? ",\n" : "\n");
         t->status = t->status ? t->status : kd_orbit_answer_begin(&runs[i], KD_ORBIT_JSON, t->out);
         if (samples && !t->status)
-            t->status = kd_orbit_answer_samples(runs[i].params, KD_ORBIT_JSON, samples + i * runs[i].samples, runs[i].samples, 0, t->out);
+            t->status = kd_orbit_answer_samples(runs[i].params, KD_ORBIT_JSON, samples + i * runs[i].samples,
+                                                runs[i].samples, 0, t->out);
         if (!t->status)
             t->status = kd_orbit_answer_end(&runs[i], KD_ORBIT_JSON, t->out);
         t->out->size -= !t->status; /* its newline */
@@ -427,7 +455,8 @@ enum kd_status kd_orbit_answer_many(const struct kd_orbit_run *runs, size_t n, c
         csv_names(&t, names, count);
     for (size_t i = 0; i < n && !t.status; i++) {
         if (samples) {
-            t.status = kd_orbit_answer_samples(runs[i].params, format, samples + i * runs[i].samples, runs[i].samples, 0, out);
+            t.status =
+                kd_orbit_answer_samples(runs[i].params, format, samples + i * runs[i].samples, runs[i].samples, 0, out);
             continue;
         }
         summary_of(&runs[i], values);

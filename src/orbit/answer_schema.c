@@ -15,12 +15,18 @@ static const char *way(size_t i) { return i < KD_WAYS ? kd_orbit_way_name((enum 
 static void add_constants(struct kd_json *json)
 {
     static const struct kd_schema_member constants[] = {
-        { "energy", NUMBER }, { "binding", NUMBER }, { "angular_momentum", NUMBER }, { "carter", NUMBER }, { "binet_c", OR_NULL, true },
+        { "energy", NUMBER }, { "binding", NUMBER },        { "angular_momentum", NUMBER },
+        { "carter", NUMBER }, { "binet_c", OR_NULL, true },
     };
-    static const struct kd_schema_member turning[] = { { "r_min", OR_NULL }, { "r_max", OR_NULL }, { "theta_min_deg", NUMBER }, { "theta_max_deg", OR_NULL } };
+    static const struct kd_schema_member turning[] = {
+        { "r_min", OR_NULL }, { "r_max", OR_NULL }, { "theta_min_deg", NUMBER }, { "theta_max_deg", OR_NULL }
+    };
     static const struct kd_schema_member shape[] = { { "p", NUMBER }, { "e", NUMBER }, { "inclination_deg", NUMBER } };
     static const struct kd_schema_member advance[] = {
-        { "periastron", OR_NULL }, { "weak_field", OR_NULL }, { "node", OR_NULL }, { "periastron_arcsec_per_century", OR_NULL, true },
+        { "periastron", OR_NULL },
+        { "weak_field", OR_NULL },
+        { "node", OR_NULL },
+        { "periastron_arcsec_per_century", OR_NULL, true },
     };
     KD_SCHEMA_TOLD(json, "OrbitConstants", UNITS, constants);
     KD_SCHEMA_TOLD(json, "OrbitTurningPoints", UNITS, turning);
@@ -30,10 +36,14 @@ static void add_constants(struct kd_json *json)
 
 static void add_frequencies(struct kd_json *json)
 {
-    static const struct kd_schema_member mino[] = { { "r", OR_NULL }, { "theta", OR_NULL }, { "phi", OR_NULL }, { "t", OR_NULL }, { "tau_proper", OR_NULL } };
+    static const struct kd_schema_member mino[] = {
+        { "r", OR_NULL }, { "theta", OR_NULL }, { "phi", OR_NULL }, { "t", OR_NULL }, { "tau_proper", OR_NULL }
+    };
     static const struct kd_schema_member three[] = { { "r", OR_NULL }, { "theta", OR_NULL }, { "phi", OR_NULL } };
     static const struct kd_schema_member all[] = {
-        { "mino", KD_SCHEMA_REF("OrbitMinoFrequencies") }, { "coordinate", KD_SCHEMA_REF("OrbitThreeFrequencies") }, { "proper", KD_SCHEMA_REF("OrbitThreeFrequencies") },
+        { "mino", KD_SCHEMA_REF("OrbitMinoFrequencies") },
+        { "coordinate", KD_SCHEMA_REF("OrbitThreeFrequencies") },
+        { "proper", KD_SCHEMA_REF("OrbitThreeFrequencies") },
         { "hz", KD_SCHEMA_REF("OrbitThreeFrequencies"), true },
     };
     KD_SCHEMA_TOLD(json, "OrbitMinoFrequencies", "radians per Mino time, per M, or as the member says Hz", mino);
@@ -59,12 +69,25 @@ static void add_series(struct kd_json *json)
 
 static void add_result(struct kd_json *json)
 {
-    static const struct kd_schema_member drift[] = { { "energy", OR_NULL }, { "angular_momentum", NUMBER }, { "carter", OR_NULL }, { "mass", OR_NULL }, { "binet_c", OR_NULL, true } };
-    static const struct kd_schema_member difference[] = { { "tau_proper", OR_NULL }, { "t", OR_NULL }, { "r", OR_NULL }, { "theta", OR_NULL }, { "phi", OR_NULL } };
+    static const struct kd_schema_member drift[] = { { "energy", OR_NULL },
+                                                     { "angular_momentum", NUMBER },
+                                                     { "carter", OR_NULL },
+                                                     { "mass", OR_NULL },
+                                                     { "binet_c", OR_NULL, true } };
+    static const struct kd_schema_member difference[] = {
+        { "tau_proper", OR_NULL }, { "t", OR_NULL }, { "r", OR_NULL }, { "theta", OR_NULL }, { "phi", OR_NULL }
+    };
     static const struct kd_schema_member result[] = {
-        { "method", NULL, false, way }, { "end", NULL, false, end }, { "mino_end", OR_NULL }, { "steps", KD_SCHEMA_COUNT, true }, { "mino_step", OR_NULL, true },
-        { "error_estimate", OR_NULL, true }, { "drift", KD_SCHEMA_REF("OrbitDrift"), true }, { "periastra", KD_SCHEMA_COUNT, true },
-        { "periastron_advance_measured", OR_NULL, true }, { "closed_form_difference", KD_SCHEMA_REF("OrbitDifference"), true },
+        { "method", NULL, false, way },
+        { "end", NULL, false, end },
+        { "mino_end", OR_NULL },
+        { "steps", KD_SCHEMA_COUNT, true },
+        { "mino_step", OR_NULL, true },
+        { "error_estimate", OR_NULL, true },
+        { "drift", KD_SCHEMA_REF("OrbitDrift"), true },
+        { "periastra", KD_SCHEMA_COUNT, true },
+        { "periastron_advance_measured", OR_NULL, true },
+        { "closed_form_difference", KD_SCHEMA_REF("OrbitDifference"), true },
         { "approximations", KD_SCHEMA_LIST(KD_SCHEMA_TEXT) },
     };
     KD_SCHEMA_STRICT(json, "OrbitDrift", drift);
@@ -75,9 +98,16 @@ static void add_result(struct kd_json *json)
 void kd_orbit_answer_schemas(struct kd_json *json)
 {
     static const struct kd_schema_member path[] = {
-        { "spin", NUMBER }, { "fate", NULL, false, fate }, { "circular", KD_SCHEMA_TRUTH }, { "constants", KD_SCHEMA_REF("OrbitConstants") },
-        { "turning_points", KD_SCHEMA_REF("OrbitTurningPoints") }, { "shape", KD_SCHEMA_REF("OrbitShape"), true }, { "frequencies", KD_SCHEMA_REF("OrbitFrequencies"), true },
-        { "advance", KD_SCHEMA_REF("OrbitAdvance"), true }, { "series", KD_SCHEMA_REF("OrbitSeries"), true }, { "result", KD_SCHEMA_REF("OrbitResult") },
+        { "spin", NUMBER },
+        { "fate", NULL, false, fate },
+        { "circular", KD_SCHEMA_TRUTH },
+        { "constants", KD_SCHEMA_REF("OrbitConstants") },
+        { "turning_points", KD_SCHEMA_REF("OrbitTurningPoints") },
+        { "shape", KD_SCHEMA_REF("OrbitShape"), true },
+        { "frequencies", KD_SCHEMA_REF("OrbitFrequencies"), true },
+        { "advance", KD_SCHEMA_REF("OrbitAdvance"), true },
+        { "series", KD_SCHEMA_REF("OrbitSeries"), true },
+        { "result", KD_SCHEMA_REF("OrbitResult") },
     };
     static const struct kd_schema_member many[] = { { "orbits", KD_SCHEMA_LIST(KD_SCHEMA_REF("OrbitPath")) } };
     add_constants(json);

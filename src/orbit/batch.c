@@ -11,7 +11,8 @@ size_t kd_orbit_batch_bytes(const struct kd_orbit_request *request)
     return request->n * (sizeof(struct kd_orbit_run) + series);
 }
 
-enum kd_status kd_orbit_batch_init(struct kd_orbit_batch *batch, const struct kd_orbit_request *request, struct kd_error *error)
+enum kd_status kd_orbit_batch_init(struct kd_orbit_batch *batch, const struct kd_orbit_request *request,
+                                   struct kd_error *error)
 {
     *batch = (struct kd_orbit_batch) { .request = request, .n = request->n };
     bool series = request->params.series && request->params.samples;
@@ -36,10 +37,7 @@ void kd_orbit_batch_finish(struct kd_orbit_batch *batch)
     batch->samples = NULL;
 }
 
-static bool given_up(const struct kd_orbit_batch *batch)
-{
-    return batch->stop && batch->stop(batch->user);
-}
+static bool given_up(const struct kd_orbit_batch *batch) { return batch->stop && batch->stop(batch->user); }
 
 static enum kd_status follow(struct kd_orbit_batch *batch, size_t i, struct kd_error *error)
 {
@@ -53,7 +51,8 @@ static enum kd_status follow(struct kd_orbit_batch *batch, size_t i, struct kd_e
     return KD_OK;
 }
 
-static enum kd_status follow_abreast(struct kd_orbit_batch *batch, struct kd_orbit_run *const *runs, int n, struct kd_error *error)
+static enum kd_status follow_abreast(struct kd_orbit_batch *batch, struct kd_orbit_run *const *runs, int n,
+                                     struct kd_error *error)
 {
     bool done = false;
     while (!done) {
@@ -99,13 +98,11 @@ bool kd_orbit_batch_turn(struct kd_orbit_batch *batch)
     if (first >= batch->n)
         return false;
     struct kd_error error = { 0 };
-    if (!atomic_load(&batch->failed) && follow_few(batch, first, last, &error) && !atomic_exchange(&batch->failed, true))
+    if (!atomic_load(&batch->failed) && follow_few(batch, first, last, &error) &&
+        !atomic_exchange(&batch->failed, true))
         batch->error = error;
     atomic_fetch_add(&batch->finished, last - first);
     return last < batch->n;
 }
 
-bool kd_orbit_batch_done(const struct kd_orbit_batch *batch)
-{
-    return atomic_load(&batch->finished) == batch->n;
-}
+bool kd_orbit_batch_done(const struct kd_orbit_batch *batch) { return atomic_load(&batch->finished) == batch->n; }

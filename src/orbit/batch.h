@@ -21,7 +21,8 @@ struct kd_orbit_batch {
 };
 
 /* Every orbit is checked here: some microseconds each. The request must outlive the batch. */
-enum kd_status kd_orbit_batch_init(struct kd_orbit_batch *batch, const struct kd_orbit_request *request, struct kd_error *error);
+enum kd_status kd_orbit_batch_init(struct kd_orbit_batch *batch, const struct kd_orbit_request *request,
+                                   struct kd_error *error);
 void kd_orbit_batch_finish(struct kd_orbit_batch *batch);
 size_t kd_orbit_batch_bytes(const struct kd_orbit_request *request);
 

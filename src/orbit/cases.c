@@ -10,17 +10,15 @@ const char *kd_orbit_case_name(enum kd_orbit_case which)
     return names[which];
 }
 
-double kd_orbit_case_mass_msun(enum kd_orbit_case which)
-{
-    return which == KD_CASE_MERCURY ? 1 : NAN;
-}
+double kd_orbit_case_mass_msun(enum kd_orbit_case which) { return which == KD_CASE_MERCURY ? 1 : NAN; }
 
 /* Semi-major axis and eccentricity of Mercury (NASA's planetary fact sheet), GM of the Sun (IAU 2015 nominal). */
 static struct kd_orbit_spec mercury(double spin)
 {
     const double axis_m = 57.909e9, e = 0.20563, gm_m = 1.3271244e20 / (299792458. * 299792458.);
-    return (
-        struct kd_orbit_spec) { .form = KD_ORBIT_SHAPE, .spin = isnan(spin) ? 0 : spin, .e = e, .p = axis_m * (1 - e * e) / gm_m };
+    return (struct kd_orbit_spec) {
+        .form = KD_ORBIT_SHAPE, .spin = isnan(spin) ? 0 : spin, .e = e, .p = axis_m * (1 - e * e) / gm_m
+    };
 }
 
 struct kd_orbit_spec kd_orbit_case_spec(enum kd_orbit_case which, double spin)

@@ -4,8 +4,8 @@
 #define SEEN 4                /* samples a piece, of an orbit that is seen: some 8 ms */
 #define STEPS_A_LINE 1000000u /* between lines of progress: some 0.4 s */
 
-enum kd_status kd_orbit_feed_init(struct kd_orbit_feed *feed, const struct kd_orbit_request *request, enum kd_orbit_format format,
-                                  struct kd_error *error)
+enum kd_status kd_orbit_feed_init(struct kd_orbit_feed *feed, const struct kd_orbit_request *request,
+                                  enum kd_orbit_format format, struct kd_error *error)
 {
     feed->request = request;
     feed->format = format;
@@ -15,15 +15,13 @@ enum kd_status kd_orbit_feed_init(struct kd_orbit_feed *feed, const struct kd_or
     if (!request->many)
         return kd_orbit_run_init(&feed->run, request, 0, error);
     if (format == KD_ORBIT_NDJSON)
-        return kd_error_field(error, "/orbits",
-                              "application/x-ndjson streams one orbit; a list of orbits is answered as JSON, CSV or NPY");
+        return kd_error_field(
+            error, "/orbits",
+            "application/x-ndjson streams one orbit; a list of orbits is answered as JSON, CSV or NPY");
     return kd_orbit_batch_init(&feed->batch, request, error);
 }
 
-void kd_orbit_feed_finish(struct kd_orbit_feed *feed)
-{
-    kd_orbit_batch_finish(&feed->batch);
-}
+void kd_orbit_feed_finish(struct kd_orbit_feed *feed) { kd_orbit_batch_finish(&feed->batch); }
 
 static enum kd_status out_of_memory(enum kd_status status, struct kd_error *error)
 {
@@ -40,7 +38,8 @@ static enum kd_status more_of_one(struct kd_orbit_feed *feed, struct kd_buffer *
         feed->stage = KD_FEED_SERIES;
         return out_of_memory(kd_orbit_answer_begin(run, feed->format, out), error);
     }
-    size_t first = run->sampled, n = kd_orbit_run_advance(run, STEPS, feed->samples, kd_orbit_is_seen(run->params) ? SEEN : KD_ORBIT_FEED_SAMPLES);
+    size_t first = run->sampled, n = kd_orbit_run_advance(run, STEPS, feed->samples,
+                                                          kd_orbit_is_seen(run->params) ? SEEN : KD_ORBIT_FEED_SAMPLES);
     if (n)
         status = kd_orbit_answer_samples(run->params, feed->format, feed->samples, n, first, out);
     if (!status && feed->format == KD_ORBIT_NDJSON && run->done - feed->told >= STEPS_A_LINE) {
@@ -62,8 +61,9 @@ static enum kd_status more_of_many(struct kd_orbit_feed *feed, struct kd_buffer 
         return KD_OK;
     feed->stage = KD_FEED_DONE;
     if (batch->failed)
-        return batch->error.status == KD_EINVAL ? kd_error_field(error, batch->error.pointer, "%s", batch->error.message)
-                                                : kd_error_set(error, batch->error.status, "%s", batch->error.message);
+        return batch->error.status == KD_EINVAL
+                   ? kd_error_field(error, batch->error.pointer, "%s", batch->error.message)
+                   : kd_error_set(error, batch->error.status, "%s", batch->error.message);
     return out_of_memory(kd_orbit_answer_many(batch->runs, batch->n, batch->samples, feed->format, out), error);
 }
 
@@ -72,10 +72,7 @@ enum kd_status kd_orbit_feed_more(struct kd_orbit_feed *feed, struct kd_buffer *
     return feed->request->many ? more_of_many(feed, out, error) : more_of_one(feed, out, error);
 }
 
-bool kd_orbit_feed_done(const struct kd_orbit_feed *feed)
-{
-    return feed->stage == KD_FEED_DONE;
-}
+bool kd_orbit_feed_done(const struct kd_orbit_feed *feed) { return feed->stage == KD_FEED_DONE; }
 
 double kd_orbit_feed_fraction(const struct kd_orbit_feed *feed)
 {
@@ -84,7 +81,4 @@ double kd_orbit_feed_fraction(const struct kd_orbit_feed *feed)
     return (double)atomic_load(&feed->batch.finished) / (double)feed->batch.n;
 }
 
-bool kd_orbit_feed_help(struct kd_orbit_feed *feed)
-{
-    return kd_orbit_batch_turn(&feed->batch);
-}
+bool kd_orbit_feed_help(struct kd_orbit_feed *feed) { return kd_orbit_batch_turn(&feed->batch); }

@@ -1,4 +1,5 @@
-/* A feed makes the bytes of an answer from its request, in pieces of some 30 ms; POST /v1/orbits and `kerrd orbit` share it. */
+/* A feed makes the bytes of an answer from its request, in pieces of some 30 ms; POST /v1/orbits and `kerrd orbit`
+ * share it. */
 #ifndef KD_ORBIT_FEED_H
 #define KD_ORBIT_FEED_H
 
@@ -18,10 +19,10 @@ struct kd_orbit_feed {
     struct kd_orbit_sample samples[KD_ORBIT_FEED_SAMPLES];
 };
 
-/* The request, checked, must outlive the feed. Every orbit is solved here: KD_EINVAL as kd_orbit_run_init; NDJSON is for one orbit.
- */
-enum kd_status kd_orbit_feed_init(struct kd_orbit_feed *feed, const struct kd_orbit_request *request, enum kd_orbit_format format,
-                                  struct kd_error *error);
+/* The request, checked, must outlive the feed. Every orbit is solved here: KD_EINVAL as kd_orbit_run_init; NDJSON is
+ * for one orbit. / */
+enum kd_status kd_orbit_feed_init(struct kd_orbit_feed *feed, const struct kd_orbit_request *request,
+                                  enum kd_orbit_format format, struct kd_error *error);
 void kd_orbit_feed_finish(struct kd_orbit_feed *feed);
 
 /* Appends the next piece to `out`; of many orbits nothing until all are done. KD_EINVAL as kd_orbit_run_prepare, before
@@ -30,7 +31,8 @@ enum kd_status kd_orbit_feed_more(struct kd_orbit_feed *feed, struct kd_buffer *
 bool kd_orbit_feed_done(const struct kd_orbit_feed *feed);
 double kd_orbit_feed_fraction(const struct kd_orbit_feed *feed);
 
-/* Helps with a batch of many orbits, on another thread than kd_orbit_feed_more's. False when there is nothing left to begin. */
+/* Helps with a batch of many orbits, on another thread than kd_orbit_feed_more's. False when there is nothing left
+ * to begin. */
 bool kd_orbit_feed_help(struct kd_orbit_feed *feed);
 
 #endif

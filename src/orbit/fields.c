@@ -18,43 +18,64 @@ enum { OPTIONAL, NEEDED };
 const struct kd_orbit_field kd_orbit_settings[] = {
 #define AT(member) offsetof(struct kd_orbit_params, member)
     { "", "spin", REAL, AT(spin), -1, 1, 0, ANY, 0, KD_OPEN, .help = "of the hole, a/M" },
-    { "", "samples", WHOLE, AT(samples), 0, KD_ORBIT_SAMPLES_MAX, 0, ANY, 0, .bound = KD_BOUND_NOT_ONE, .help = "of the path, both ends counted; 0 for none; of an orbit that is seen at most 1000" },
-    { "", "digits", WHOLE, AT(digits), 1, KD_DECIMAL_DIGITS, 0, ANY, 0, .help = "significant digits of the series as text" },
-    { "", "steps", WHOLE, AT(steps), 0, 100000000, 0, ANY, 0, .help = "in a radial period, instead of a tolerance; 0: by that" },
-    { "", "tolerance", REAL, AT(tolerance), 1e-14, 1e-3, 0, ANY, 0, .help = "relative error after a period, which chooses the step" },
+    { "", "samples", WHOLE, AT(samples), 0, KD_ORBIT_SAMPLES_MAX, 0, ANY, 0, .bound = KD_BOUND_NOT_ONE,
+      .help = "of the path, both ends counted; 0 for none; of an orbit that is seen at most 1000" },
+    { "", "digits", WHOLE, AT(digits), 1, KD_DECIMAL_DIGITS, 0, ANY, 0,
+      .help = "significant digits of the series as text" },
+    { "", "steps", WHOLE, AT(steps), 0, 100000000, 0, ANY, 0,
+      .help = "in a radial period, instead of a tolerance; 0: by that" },
+    { "", "tolerance", REAL, AT(tolerance), 1e-14, 1e-3, 0, ANY, 0,
+      .help = "relative error after a period, which chooses the step" },
     { "", "method", WORD, AT(way), 0, 0, WAY_WORDS, ANY, 0, .help = "how it is followed" },
     { "", "r_max", REAL, AT(r_max), 2, 1e6, 0, ANY, 0, .help = "where what escapes is let go [M]" },
-    { "", "mass_msun", REAL, AT(mass_msun), 1e-20, 1e20, 0, ANY, 0, .help = "of the hole [solar masses]: frequencies in Hz, the advance per century" },
+    { "", "mass_msun", REAL, AT(mass_msun), 1e-20, 1e20, 0, ANY, 0,
+      .help = "of the hole [solar masses]: frequencies in Hz, the advance per century" },
     { "", "series", TRUTH, AT(series), 0, 1, 0, ANY, 0, .help = "of a list: the samples of each, too" },
-    { "duration", "periods", REAL, AT(periods), 0, 1e9, 0, ANY, 0, .help = "radial periods, turns where r is constant" },
+    { "duration", "periods", REAL, AT(periods), 0, 1e9, 0, ANY, 0,
+      .help = "radial periods, turns where r is constant" },
     { "duration", "time", REAL, AT(time), 0, 1e30, 0, ANY, 0, .help = "coordinate time [M]" },
-    { "duration", "or_end", TRUTH, AT(or_end), 0, 1, 0, ANY, 0, .help = "what plunges or escapes, and has no periods, is followed to its end instead" },
-    { "seen", "observer_r", REAL, AT(seen.r), 0, 1e7, 0, ANY, 0, .bound = KD_BOUND_RADIUS, .help = "of who sees it [M]; without it infinity" },
-    { "seen", "observer_inclination_deg", REAL, AT(seen.inclination_deg), 0, 180, 0, ANY, 0, .help = "of who sees it, off the axis [deg]" },
-    { "seen", "observer_azimuth_deg", REAL, AT(seen.azimuth_deg), -1e6, 1e6, 0, ANY, 0, .help = "of who sees it [deg]" },
+    { "duration", "or_end", TRUTH, AT(or_end), 0, 1, 0, ANY, 0,
+      .help = "what plunges or escapes, and has no periods, is followed to its end instead" },
+    { "seen", "observer_r", REAL, AT(seen.r), 0, 1e7, 0, ANY, 0, .bound = KD_BOUND_RADIUS,
+      .help = "of who sees it [M]; without it infinity" },
+    { "seen", "observer_inclination_deg", REAL, AT(seen.inclination_deg), 0, 180, 0, ANY, 0,
+      .help = "of who sees it, off the axis [deg]" },
+    { "seen", "observer_azimuth_deg", REAL, AT(seen.azimuth_deg), -1e6, 1e6, 0, ANY, 0,
+      .help = "of who sees it [deg]" },
     { "seen", "observer", WORD, AT(seen.motion), 0, 0, FRAME_WORDS, ANY, 0, .help = "how who sees it moves" },
 #undef AT
 };
-_Static_assert(sizeof kd_orbit_settings / sizeof *kd_orbit_settings == KD_ORBIT_N_SETTINGS, "as many as the header says");
+_Static_assert(sizeof kd_orbit_settings / sizeof *kd_orbit_settings == KD_ORBIT_N_SETTINGS,
+               "as many as the header says");
 
 const struct kd_orbit_field kd_orbit_fields[] = {
 #define AT(member) offsetof(struct kd_orbit_spec, member)
     { "", "spin", REAL, AT(spin), -1, 1, 0, ANY, 0, KD_OPEN, .help = "of the hole, a/M" },
-    { "", "p", REAL, AT(p), 0, 1e20, 0, KD_ORBIT_SHAPE, NEEDED, .bound = KD_BOUND_RADIUS, .help = "a bound orbit between the radii p/(1+e) and p/(1-e) [M]" },
+    { "", "p", REAL, AT(p), 0, 1e20, 0, KD_ORBIT_SHAPE, NEEDED, .bound = KD_BOUND_RADIUS,
+      .help = "a bound orbit between the radii p/(1+e) and p/(1-e) [M]" },
     { "", "e", REAL, AT(e), 0, 1, 0, KD_ORBIT_SHAPE, NEEDED, KD_OPEN_ABOVE, .help = "its eccentricity" },
-    { "", "inclination_deg", REAL, AT(inclination_deg), 0, 180, 0, KD_ORBIT_SHAPE, OPTIONAL, .help = "its inclination; above 90 is retrograde [deg]" },
+    { "", "inclination_deg", REAL, AT(inclination_deg), 0, 180, 0, KD_ORBIT_SHAPE, OPTIONAL,
+      .help = "its inclination; above 90 is retrograde [deg]" },
     { "", "energy", REAL, AT(energy), -1e6, 1e6, 0, KD_ORBIT_CONSTANTS, NEEDED, .help = "per rest mass" },
-    { "", "angular_momentum", REAL, AT(momentum), -1e20, 1e20, 0, KD_ORBIT_CONSTANTS, NEEDED, .help = "about the axis, per rest mass [M]" },
-    { "", "carter", REAL, AT(carter), -1e30, 1e30, 0, KD_ORBIT_CONSTANTS, OPTIONAL, .bound = KD_BOUND_POSITIVE, .help = "Carter's constant, per rest mass [M^2]; 0 in the equatorial plane" },
-    { "", "r", REAL, AT(r), 0, 1e20, 0, KD_ORBIT_CONSTANTS, OPTIONAL, .bound = KD_BOUND_RADIUS, .help = "a radius on its way [M]" },
-    { "", "outward", TRUTH, AT(outward), 0, 1, 0, KD_ORBIT_CONSTANTS, OPTIONAL, .help = "whether it moves outwards there" },
-    { "position", "r", REAL, AT(place_r), 0, 1e20, 0, KD_ORBIT_STATE, NEEDED, .bound = KD_BOUND_RADIUS, .help = "radius [M]" },
+    { "", "angular_momentum", REAL, AT(momentum), -1e20, 1e20, 0, KD_ORBIT_CONSTANTS, NEEDED,
+      .help = "about the axis, per rest mass [M]" },
+    { "", "carter", REAL, AT(carter), -1e30, 1e30, 0, KD_ORBIT_CONSTANTS, OPTIONAL, .bound = KD_BOUND_POSITIVE,
+      .help = "Carter's constant, per rest mass [M^2]; 0 in the equatorial plane" },
+    { "", "r", REAL, AT(r), 0, 1e20, 0, KD_ORBIT_CONSTANTS, OPTIONAL, .bound = KD_BOUND_RADIUS,
+      .help = "a radius on its way [M]" },
+    { "", "outward", TRUTH, AT(outward), 0, 1, 0, KD_ORBIT_CONSTANTS, OPTIONAL,
+      .help = "whether it moves outwards there" },
+    { "position", "r", REAL, AT(place_r), 0, 1e20, 0, KD_ORBIT_STATE, NEEDED, .bound = KD_BOUND_RADIUS,
+      .help = "radius [M]" },
     { "position", "theta_deg", REAL, AT(theta_deg), 0, 180, 0, KD_ORBIT_STATE, OPTIONAL, .help = "polar angle [deg]" },
     { "position", "phi_deg", REAL, AT(phi_deg), -360, 360, 0, KD_ORBIT_STATE, OPTIONAL, .help = "azimuth [deg]" },
-    { "velocity", "frame", WORD, AT(frame), 0, 0, FRAME_WORDS, KD_ORBIT_STATE, OPTIONAL, .help = "whose velocity it is" },
+    { "velocity", "frame", WORD, AT(frame), 0, 0, FRAME_WORDS, KD_ORBIT_STATE, OPTIONAL,
+      .help = "whose velocity it is" },
     { "velocity", "v_r", REAL, AT(v), -1, 1, 0, KD_ORBIT_STATE, OPTIONAL, .help = "component along r [c]" },
-    { "velocity", "v_theta", REAL, AT(v) + sizeof(double), -1, 1, 0, KD_ORBIT_STATE, OPTIONAL, .help = "component along theta [c]" },
-    { "velocity", "v_phi", REAL, AT(v) + 2 * sizeof(double), -1, 1, 0, KD_ORBIT_STATE, OPTIONAL, .help = "component along phi [c]" },
+    { "velocity", "v_theta", REAL, AT(v) + sizeof(double), -1, 1, 0, KD_ORBIT_STATE, OPTIONAL,
+      .help = "component along theta [c]" },
+    { "velocity", "v_phi", REAL, AT(v) + 2 * sizeof(double), -1, 1, 0, KD_ORBIT_STATE, OPTIONAL,
+      .help = "component along phi [c]" },
     { "", "case", WORD, AT(named), 0, 0, CASE_WORDS, KD_ORBIT_CASE, NEEDED, .help = "an orbit that is known by name" },
 #undef AT
 };
@@ -91,7 +112,8 @@ static void describe_allowed(const struct kd_orbit_field *field, char out[KD_ALL
     case REAL: snprintf(out, KD_ALLOWED_SIZE, ranges[field->open], low, high); return;
     case WORD:
         for (int i = 0; kd_orbit_field_word(field, i) && used < KD_ALLOWED_SIZE; i++)
-            used += (size_t)snprintf(out + used, KD_ALLOWED_SIZE - used, "%s\"%s\"", i ? ", " : "", kd_orbit_field_word(field, i));
+            used += (size_t)snprintf(out + used, KD_ALLOWED_SIZE - used, "%s\"%s\"", i ? ", " : "",
+                                     kd_orbit_field_word(field, i));
         return;
     }
 }
@@ -132,8 +154,8 @@ static bool store(void *to, const struct kd_orbit_field *field, const struct kd_
     return false;
 }
 
-enum kd_status kd_orbit_field_put(void *to, const struct kd_orbit_field *field, const struct kd_value *value, const char *pointer,
-                                  struct kd_error *error)
+enum kd_status kd_orbit_field_put(void *to, const struct kd_orbit_field *field, const struct kd_value *value,
+                                  const char *pointer, struct kd_error *error)
 {
     char given[KD_VALUE_SIZE], allowed[KD_ALLOWED_SIZE];
     if (store(to, field, value))

@@ -8,8 +8,9 @@
 enum kd_orbit_kind { KD_FIELD_IS_REAL, KD_FIELD_IS_WHOLE, KD_FIELD_IS_TRUTH, KD_FIELD_IS_WORD };
 enum kd_orbit_words { NO_WORDS, WAY_WORDS, FRAME_WORDS, CASE_WORDS };
 enum kd_orbit_open { KD_CLOSED, KD_OPEN_ABOVE, KD_OPEN };
-/* What holds of a number besides its range, whatever else is asked: a schema can say it. Who asks for more is told by what it is that
- * cannot be: the horizon of this spin, say. A horizon is above 1 M: 1 + sqrt(1 - a^2), Bardeen, Press & Teukolsky 1972. */
+/* What holds of a number besides its range, whatever else is asked: a schema can say it. Who asks for more is told
+ * by what it is that cannot be: the horizon of this spin, say. A horizon is above 1 M: 1 + sqrt(1 - a^2), Bardeen,
+ * Press & Teukolsky 1972. */
 enum kd_orbit_implied { KD_BOUND_NONE, KD_BOUND_RADIUS, KD_BOUND_POSITIVE, KD_BOUND_NOT_ONE };
 
 struct kd_orbit_field {
@@ -33,7 +34,7 @@ extern const struct kd_orbit_field kd_orbit_fields[KD_ORBIT_N_FIELDS];     /* of
 const char *kd_orbit_field_word(const struct kd_orbit_field *field, int i);
 
 /* Store a value in its struct, or KD_EINVAL with the pointer, the value and what is allowed. */
-enum kd_status kd_orbit_field_put(void *to, const struct kd_orbit_field *field, const struct kd_value *value, const char *pointer,
-                                  struct kd_error *error);
+enum kd_status kd_orbit_field_put(void *to, const struct kd_orbit_field *field, const struct kd_value *value,
+                                  const char *pointer, struct kd_error *error);
 
 #endif

@@ -24,10 +24,15 @@ static const char *const form_texts[KD_ORBIT_FORMS] = {
 
 void kd_orbit_request_init(struct kd_orbit_request *request)
 {
-    *request = (struct kd_orbit_request) {
-        .params = { .spin = NAN, .periods = NAN, .time = NAN, .r_max = 100, .tolerance = 1e-12, .mass_msun = NAN, .samples = 1000, .digits = KD_DECIMAL_DIGITS,
-                    .seen = { INFINITY, NAN, 0, KD_OBSERVER_STATIC } }
-    };
+    *request = (struct kd_orbit_request) { .params = { .spin = NAN,
+                                                       .periods = NAN,
+                                                       .time = NAN,
+                                                       .r_max = 100,
+                                                       .tolerance = 1e-12,
+                                                       .mass_msun = NAN,
+                                                       .samples = 1000,
+                                                       .digits = KD_DECIMAL_DIGITS,
+                                                       .seen = { INFINITY, NAN, 0, KD_OBSERVER_STATIC } } };
 }
 
 void kd_orbit_request_finish(struct kd_orbit_request *request)
@@ -38,7 +43,9 @@ void kd_orbit_request_finish(struct kd_orbit_request *request)
 
 static struct kd_orbit_spec empty_spec(void)
 {
-    return (struct kd_orbit_spec) { .form = KD_ORBIT_FORMS, .spin = NAN, .r = NAN, .theta_deg = 90, .frame = KD_OBSERVER_ZAMO };
+    return (struct kd_orbit_spec) {
+        .form = KD_ORBIT_FORMS, .spin = NAN, .r = NAN, .theta_deg = 90, .frame = KD_OBSERVER_ZAMO
+    };
 }
 
 /* A table and what it fills. */
@@ -74,7 +81,8 @@ static enum kd_status unknown(const struct target *t, const char *section, const
     kd_text_clip(shown, sizeof shown, name);
     for (size_t i = 0; i < t->n; i++) {
         const struct kd_orbit_field *f = &t->fields[i];
-        bool own = !strcmp(f->section, section), inner = !*section && *f->section && (!i || strcmp(f[-1].section, f->section));
+        bool own = !strcmp(f->section, section),
+             inner = !*section && *f->section && (!i || strcmp(f[-1].section, f->section));
         size_t used = strlen(known);
         if (own || inner)
             kd_slip_offer(&meant, name, own ? f->name : f->section);
@@ -82,9 +90,10 @@ static enum kd_status unknown(const struct target *t, const char *section, const
             snprintf(known + used, sizeof known - used, "%s%s", used ? ", " : "", own ? f->name : f->section);
     }
     if (meant.name)
-        return kd_error_field(error, pointer, "there is no field %s here; did you mean %s? Known are %s%s", shown, meant.name, known,
-                              *section ? "" : t->extra);
-    return kd_error_field(error, pointer, "there is no field %s here; known are %s%s", shown, known, *section ? "" : t->extra);
+        return kd_error_field(error, pointer, "there is no field %s here; did you mean %s? Known are %s%s", shown,
+                              meant.name, known, *section ? "" : t->extra);
+    return kd_error_field(error, pointer, "there is no field %s here; known are %s%s", shown, known,
+                          *section ? "" : t->extra);
 }
 
 static enum kd_status read_field(struct target *t, const char *section, const cJSON *item, const char *pointer,
@@ -106,7 +115,8 @@ static enum kd_status not_a(const cJSON *item, const char *pointer, const char *
     char given[KD_VALUE_SIZE];
     struct kd_value value = kd_tree_value(item);
     kd_value_describe(&value, given);
-    return kd_error_field(error, pointer, "%s is %s, allowed is %s", *pointer ? pointer + 1 : "the document", given, allowed);
+    return kd_error_field(error, pointer, "%s is %s, allowed is %s", *pointer ? pointer + 1 : "the document", given,
+                          allowed);
 }
 
 /* A field, or a section with fields. */
@@ -139,7 +149,8 @@ static enum kd_status mixed(const struct kd_orbit_spec *spec, const struct kd_or
     size_t i = 0;
     while (!(spec->seen & 1u << i) || kd_orbit_fields[i].form != spec->form)
         i++;
-    return kd_error_field(error, pointer, "%s is given beside %s; " FORMS, field->name, kd_orbit_fields[i].name, FORM_TEXTS);
+    return kd_error_field(error, pointer, "%s is given beside %s; " FORMS, field->name, kd_orbit_fields[i].name,
+                          FORM_TEXTS);
 }
 
 /* Checks that an orbit is given in one form, and wholly. */
@@ -168,7 +179,8 @@ static enum kd_status settle(struct kd_orbit_spec *spec, const char *pointer, st
     return KD_OK;
 }
 
-static enum kd_status read_orbit(struct kd_orbit_spec *spec, const cJSON *object, const char *pointer, struct kd_error *error)
+static enum kd_status read_orbit(struct kd_orbit_spec *spec, const cJSON *object, const char *pointer,
+                                 struct kd_error *error)
 {
     struct target target = { kd_orbit_fields, KD_ORBIT_N_FIELDS, spec, 0, "" };
     enum kd_status status = KD_OK;
@@ -219,12 +231,14 @@ static enum kd_status read_tree(struct kd_orbit_request *request, const cJSON *r
         return KD_EINVAL;
     }
     for (const cJSON *item = root->child; item && !status; item = item->next)
-        status = !strcmp(item->string, "orbit") || !strcmp(item->string, "orbits") ? read_orbits(request, item, error)
-                                                                                   : read_item(&target, item, "", error);
+        status = !strcmp(item->string, "orbit") || !strcmp(item->string, "orbits")
+                     ? read_orbits(request, item, error)
+                     : read_item(&target, item, "", error);
     return status;
 }
 
-enum kd_status kd_orbit_request_json(struct kd_orbit_request *request, const char *text, size_t length, struct kd_error *error)
+enum kd_status kd_orbit_request_json(struct kd_orbit_request *request, const char *text, size_t length,
+                                     struct kd_error *error)
 {
     cJSON *root = NULL;
     enum kd_status status;
@@ -245,8 +259,8 @@ static const struct kd_orbit_field *by_name(const struct kd_orbit_field *table, 
 }
 
 /* Sets a field. "r" is that of a position too, whichever the orbit is given by. */
-static enum kd_status set_field(struct kd_orbit_request *request, const struct kd_orbit_field *field, const struct kd_value *value,
-                                const char *pointer, struct kd_error *error)
+static enum kd_status set_field(struct kd_orbit_request *request, const struct kd_orbit_field *field,
+                                const struct kd_value *value, const char *pointer, struct kd_error *error)
 {
     if (!request->specs) {
         if (!(request->specs = malloc(sizeof *request->specs)))
@@ -256,7 +270,8 @@ static enum kd_status set_field(struct kd_orbit_request *request, const struct k
     }
     struct kd_orbit_spec *spec = request->specs;
     if (request->many)
-        return kd_error_field(error, pointer, "%s belongs to one orbit, and there is a list of %zu", field->name, request->n);
+        return kd_error_field(error, pointer, "%s belongs to one orbit, and there is a list of %zu", field->name,
+                              request->n);
     if (!strcmp(field->name, "r") && spec->form != KD_ORBIT_CONSTANTS)
         field = find(&(struct target) { kd_orbit_fields, KD_ORBIT_N_FIELDS, spec, 0, "" }, "position", "r");
     enum kd_status status = kd_orbit_field_put(spec, field, value, pointer, error);
@@ -269,7 +284,8 @@ static enum kd_status set_field(struct kd_orbit_request *request, const struct k
     return status;
 }
 
-enum kd_status kd_orbit_request_set(struct kd_orbit_request *request, const char *name, const char *text, struct kd_error *error)
+enum kd_status kd_orbit_request_set(struct kd_orbit_request *request, const char *name, const char *text,
+                                    struct kd_error *error)
 {
     struct kd_value value = kd_value_typed(text);
     char pointer[sizeof error->pointer] = "", shown[60];
@@ -297,31 +313,38 @@ enum kd_status kd_orbit_request_check(const struct kd_orbit_request *request, st
     if (!isnan(p->periods) && !isnan(p->time))
         return kd_error_field(error, "/duration", "duration is given as periods and as time: allowed is one of them");
     if (p->or_end && isnan(p->periods))
-        return kd_error_field(error, "/duration/or_end", "or_end is true without periods, allowed is false: what has none is followed to its end in any case, unless a time is given");
-    if (!kd_orbit_is_seen(p) && (isfinite(p->seen.r) || p->seen.azimuth_deg != 0 || p->seen.motion != KD_OBSERVER_STATIC))
-        return kd_error_field(error, "/seen/observer_inclination_deg", "observer_inclination_deg is missing: whence the orbit is seen");
+        return kd_error_field(error, "/duration/or_end",
+                              "or_end is true without periods, allowed is false: what has none is followed to its end "
+                              "in any case, unless a time is given");
+    if (!kd_orbit_is_seen(p) &&
+        (isfinite(p->seen.r) || p->seen.azimuth_deg != 0 || p->seen.motion != KD_OBSERVER_STATIC))
+        return kd_error_field(error, "/seen/observer_inclination_deg",
+                              "observer_inclination_deg is missing: whence the orbit is seen");
     if (kd_orbit_is_seen(p) && request->many)
         return kd_error_field(error, "/seen", "seen belongs to one orbit, and there is a list of %zu", request->n);
     if (kd_orbit_is_seen(p) && p->samples > KD_ORBIT_SEEN_MAX)
-        return kd_error_field(error, "/samples", "samples is %u, allowed are up to %u of an orbit that is seen", p->samples, KD_ORBIT_SEEN_MAX);
+        return kd_error_field(error, "/samples", "samples is %u, allowed are up to %u of an orbit that is seen",
+                              p->samples, KD_ORBIT_SEEN_MAX);
     if (p->samples == 1)
         return kd_error_field(error, "/samples",
                               "samples is 1, allowed are 0 for none and 2 or more: both ends of the path are samples");
     if (request->many && p->series && (double)p->samples * (double)request->n > KD_ORBIT_SAMPLES_MAX)
-        return kd_error_field(error, "/samples", "%u samples of %zu orbits are more than %u in all", p->samples, request->n,
-                              KD_ORBIT_SAMPLES_MAX);
+        return kd_error_field(error, "/samples", "%u samples of %zu orbits are more than %u in all", p->samples,
+                              request->n, KD_ORBIT_SAMPLES_MAX);
     return KD_OK;
 }
 
 /* The error that rounding of the constants leaves in a whirl: 4 units of the last place, times kd_orbit_whirl. */
-static double rounding_of(const struct kd_orbit_spec *s, const struct kd_orbit *orbit, const struct kd_orbit_state *start)
+static double rounding_of(const struct kd_orbit_spec *s, const struct kd_orbit *orbit,
+                          const struct kd_orbit_state *start)
 {
-    bool given = s->form == KD_ORBIT_CONSTANTS || s->form == KD_ORBIT_STATE; /* p and e say exactly where the turning points are */
+    bool given = s->form == KD_ORBIT_CONSTANTS ||
+                 s->form == KD_ORBIT_STATE; /* p and e say exactly where the turning points are */
     return given ? 4 * DBL_EPSILON * kd_orbit_whirl(orbit, start, NULL) : 0;
 }
 
-static enum kd_status check_whirl(const struct kd_orbit_spec *s, const struct kd_orbit *orbit, const struct kd_orbit_state *start,
-                                  double *rounding, struct kd_error *error)
+static enum kd_status check_whirl(const struct kd_orbit_spec *s, const struct kd_orbit *orbit,
+                                  const struct kd_orbit_state *start, double *rounding, struct kd_error *error)
 {
     double r;
     char energy[KD_NUMBER_SIZE], momentum[KD_NUMBER_SIZE];
@@ -331,11 +354,12 @@ static enum kd_status check_whirl(const struct kd_orbit_spec *s, const struct kd
     kd_orbit_whirl(orbit, start, &r);
     kd_number_format(energy, orbit->energy);
     kd_number_format(momentum, orbit->momentum);
-    return kd_error_field(error, s->form == KD_ORBIT_CONSTANTS ? "/angular_momentum" : "/velocity",
-                          "energy %s and angular_momentum %s lead to the unstable circle at r = %.9g, so closely that double "
-                          "precision does not tell how long the body whirls there, and whether it falls or returns: allowed are "
-                          "values that differ from these by some parts in 1e12",
-                          energy, momentum, r);
+    return kd_error_field(
+        error, s->form == KD_ORBIT_CONSTANTS ? "/angular_momentum" : "/velocity",
+        "energy %s and angular_momentum %s lead to the unstable circle at r = %.9g, so closely that double "
+        "precision does not tell how long the body whirls there, and whether it falls or returns: allowed are "
+        "values that differ from these by some parts in 1e12",
+        energy, momentum, r);
 }
 
 static enum kd_status solve(const struct kd_orbit_spec *s, const struct kd_orbit_params *params, struct kd_orbit *orbit,
@@ -350,8 +374,7 @@ static enum kd_status solve(const struct kd_orbit_spec *s, const struct kd_orbit
             r = params->r_max;
         status = kd_orbit_from_constants(s->spin, s->energy, s->momentum, s->carter, r, orbit, error);
         break;
-    default:
-        status = kd_orbit_from_state(s->spin, s->place_r, s->theta_deg, s->frame, s->v, orbit, start, error);
+    default: status = kd_orbit_from_state(s->spin, s->place_r, s->theta_deg, s->frame, s->v, orbit, start, error);
     }
     if (!status && s->form != KD_ORBIT_STATE)
         *start = kd_orbit_start(orbit, s->form == KD_ORBIT_SHAPE ? NAN : r, s->outward);

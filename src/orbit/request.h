@@ -1,6 +1,7 @@
 /* This reads from outside what is asked of the orbit integrator: a JSON document, or fields by name. Any thread.
  *
- *     {"spin": 0.9, "orbit": {"p": 6, "e": 0.5, "inclination_deg": 30}, "duration": {"periods": 10}, "samples": 1000,
+ *     {"spin": 0.9, "orbit": {"p": 6, "e": 0.5, "inclination_deg": 30}, "duration": {"periods": 10}, "samples":
+ *       1000,
  *      "method": "yoshida6", "tolerance": 1e-12, "seen": {"observer_r": 30, "observer_inclination_deg": 60}}
  *
  * An orbit is one of
@@ -8,10 +9,11 @@
  *     {"p", "e", "inclination_deg"}                                   bound, between p/(1+e) and p/(1-e)
  *     {"energy", "angular_momentum", "carter", "r", "outward"}        the last three may be left out
  *     {"position": {"r", "theta_deg", "phi_deg"}, "velocity": {"frame", "v_r", "v_theta", "v_phi"}}
- *     {"case"}                                                        "mercury", "zoom-whirl", "plunge", "isco", "spherical"
+ *     {"case"}                                                        "mercury", "zoom-whirl", "plunge", "isco",
+ *       "spherical"
  *
- * and may have a "spin" of its own. "orbits" instead of "orbit": an array of up to KD_ORBITS_MAX, answered with a summary each,
- * and with series if "series" is true. */
+ * and may have a "spin" of its own. "orbits" instead of "orbit": an array of up to KD_ORBITS_MAX, answered with a
+ * summary each, and with series if "series" is true. */
 #ifndef KD_ORBIT_REQUEST_H
 #define KD_ORBIT_REQUEST_H
 
@@ -27,7 +29,7 @@
 #define KD_ORBIT_SAMPLES_MAX 200000u        /* of one orbit; of all together where there are many */
 #define KD_ORBIT_SEEN_MAX 1000u             /* samples of one that is seen: each takes some 2 ms */
 #define KD_ORBIT_ROUNDING_MAX 1e-3
-#define KD_ORBIT_STEPS_MAX 1000000000.      /* of one orbit: five minutes */
+#define KD_ORBIT_STEPS_MAX 1000000000. /* of one orbit: five minutes */
 
 enum kd_orbit_form { KD_ORBIT_SHAPE, KD_ORBIT_CONSTANTS, KD_ORBIT_STATE, KD_ORBIT_CASE, KD_ORBIT_FORMS };
 
@@ -49,15 +51,16 @@ struct kd_orbit_spec {
 };
 
 struct kd_orbit_params {
-    double spin;          /* NAN if not given: 0, or the case's own */
-    double periods, time; /* the duration: radial periods (turns, if r is constant), or t in M; NAN but for at most one */
-    bool or_end;          /* what has no periods, for it plunges or escapes, is followed to its end instead of being refused */
-    double r_max;         /* where what escapes is let go, 100 */
-    double tolerance;     /* relative error of a radial period, 1e-12; chooses the step where `steps` is 0 */
-    double mass_msun;     /* for times in seconds; NAN: none */
-    uint32_t steps;       /* per radial period */
-    uint32_t samples;     /* 0: no series */
-    uint32_t digits;      /* significant, of the series' numbers as text */
+    double spin; /* NAN if not given: 0, or the case's own */
+    double periods,
+        time;     /* the duration: radial periods (turns, if r is constant), or t in M; NAN but for at most one */
+    bool or_end;  /* what has no periods, for it plunges or escapes, is followed to its end instead of being refused */
+    double r_max; /* where what escapes is let go, 100 */
+    double tolerance; /* relative error of a radial period, 1e-12; chooses the step where `steps` is 0 */
+    double mass_msun; /* for times in seconds; NAN: none */
+    uint32_t steps;   /* per radial period */
+    uint32_t samples; /* 0: no series */
+    uint32_t digits;  /* significant, of the series' numbers as text */
     enum kd_orbit_way way;
     bool series; /* of many orbits */
     struct kd_orbit_observer {
@@ -65,7 +68,10 @@ struct kd_orbit_params {
         enum kd_observer motion;
     } seen; /* by whom */
 };
-static inline bool kd_orbit_is_seen(const struct kd_orbit_params *params) { return params->seen.inclination_deg == params->seen.inclination_deg; }
+static inline bool kd_orbit_is_seen(const struct kd_orbit_params *params)
+{
+    return params->seen.inclination_deg == params->seen.inclination_deg;
+}
 
 struct kd_orbit_request {
     struct kd_orbit_params params;
@@ -77,18 +83,22 @@ struct kd_orbit_request {
 void kd_orbit_request_init(struct kd_orbit_request *request);
 void kd_orbit_request_finish(struct kd_orbit_request *request);
 
-/* Merge a document into a request without orbits. Types and ranges are checked, not yet whether each orbit exists. KD_EINVAL
- * without a pointer: this is no JSON document. */
-enum kd_status kd_orbit_request_json(struct kd_orbit_request *request, const char *text, size_t length, struct kd_error *error);
+/* Merge a document into a request without orbits. Types and ranges are checked, not yet whether each orbit exists.
+ * KD_EINVAL without a pointer: this is no JSON document. */
+enum kd_status kd_orbit_request_json(struct kd_orbit_request *request, const char *text, size_t length,
+                                     struct kd_error *error);
 
-/* One parameter or one field of the orbit (request->specs[0], which appears with its first field) by the last part of its name. */
-enum kd_status kd_orbit_request_set(struct kd_orbit_request *request, const char *name, const char *text, struct kd_error *error);
+/* One parameter or one field of the orbit (request->specs[0], which appears with its first field) by the last part
+ * of its name. */
+enum kd_status kd_orbit_request_set(struct kd_orbit_request *request, const char *name, const char *text,
+                                    struct kd_error *error);
 /* Checks, after the last kd_orbit_request_set, that there is an orbit, and wholly. */
 enum kd_status kd_orbit_request_check(const struct kd_orbit_request *request, struct kd_error *error);
 
-/* The motion that a spec asks for; KD_EINVAL with the pointer within the request, such as "/orbits/17/p". The azimuth of the
- * start is not in it. *rounding: the error, relative to the whole way, that rounding of its constants leaves where they lead to a
- * whirl, at an unstable circle that they all but belong to; what would have more than KD_ORBIT_ROUNDING_MAX is refused. */
+/* The motion that a spec asks for; KD_EINVAL with the pointer within the request, such as "/orbits/17/p". The
+ * azimuth of the start is not in it. *rounding: the error, relative to the whole way, that rounding of its constants
+ * leaves where they lead to a whirl, at an unstable circle that they all but belong to; what would have more than
+ * KD_ORBIT_ROUNDING_MAX is refused. */
 enum kd_status kd_orbit_request_solve(const struct kd_orbit_request *request, size_t index, struct kd_orbit *orbit,
                                       struct kd_orbit_state *start, double *rounding, struct kd_error *error);
 

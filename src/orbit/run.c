@@ -11,7 +11,7 @@
 #define DEFAULT_PERIODS 10
 #define SEARCHES 3      /* samples in a row without an image, after which one is searched for */
 #define SEARCH_EVERY 64 /* samples only */
-#define HALVINGS 6 /* of the step in search of an end: each gains a factor of 64, from some 1e-10 to rounding */
+#define HALVINGS 6      /* of the step in search of an end: each gains a factor of 64, from some 1e-10 to rounding */
 
 const char *kd_orbit_end_name(enum kd_orbit_end end)
 {
@@ -28,10 +28,13 @@ static enum kd_status look(struct kd_orbit_run *run, struct kd_error *error)
     char others[KD_OBSERVER_TEXT];
     run->image = (struct kd_place_image) { .off = NAN };
     if (isfinite(o->r) && !(o->r > kd_kerr_horizon(run->orbit.a)))
-        return kd_error_field(error, "/seen/observer_r", "observer_r is %.9g, allowed are radii outside the horizon, r = %.9g", o->r, kd_kerr_horizon(run->orbit.a));
+        return kd_error_field(error, "/seen/observer_r",
+                              "observer_r is %.9g, allowed are radii outside the horizon, r = %.9g", o->r,
+                              kd_kerr_horizon(run->orbit.a));
     if (isfinite(o->r) && !kd_observer_exists(o->motion, &at))
-        return kd_error_field(error, "/seen/observer_r", "observer_r is %.9g, where there is no observer %s; allowed there are %s", o->r, kd_observers[o->motion].word,
-                              kd_observer_others(&at, others));
+        return kd_error_field(error, "/seen/observer_r",
+                              "observer_r is %.9g, where there is no observer %s; allowed there are %s", o->r,
+                              kd_observers[o->motion].word, kd_observer_others(&at, others));
     run->view = kd_place_view_of(&motion, &at);
     return KD_OK;
 }
@@ -39,8 +42,9 @@ static enum kd_status look(struct kd_orbit_run *run, struct kd_error *error)
 enum kd_status kd_orbit_run_init(struct kd_orbit_run *run, const struct kd_orbit_request *request, size_t index,
                                  struct kd_error *error)
 {
-    *run =
-        (struct kd_orbit_run) { .params = &request->params, .error_estimate = NAN, .mino_end = NAN, .aim = NAN, .first_phi = NAN };
+    *run = (struct kd_orbit_run) {
+        .params = &request->params, .error_estimate = NAN, .mino_end = NAN, .aim = NAN, .first_phi = NAN
+    };
     enum kd_status status = kd_orbit_request_solve(request, index, &run->orbit, &run->start, &run->rounding, error);
     if (status)
         return status;
@@ -82,8 +86,8 @@ static double mino_at(const struct kd_orbit_run *run, double time)
     return high;
 }
 
-/* Whether a step went where its constants forbid it to go: through the turning point, or back where there is none. Next to a
- * whirl a step that is too long does so. */
+/* Whether a step went where its constants forbid it to go: through the turning point, or back where there is none.
+ * Next to a whirl a step that is too long does so. */
 static bool strays(const struct kd_orbit *o, const struct kd_orbit_path *before, const struct kd_orbit_path *path)
 {
     bool fallen = !(path->place[KD_PATH_W].value < 1 / kd_kerr_horizon(o->a)); /* or no number any more */
@@ -92,16 +96,19 @@ static bool strays(const struct kd_orbit *o, const struct kd_orbit_path *before,
     return !o->circular && !fallen && before->rate[KD_PATH_W].value > 0 && !(path->rate[KD_PATH_W].value > 0);
 }
 
-#define SEARCH_STEPS 5e6 /* a second or so, if not twice as many as up to the end that was found before: far out a step may be so short that nothing comes of it */
+#define SEARCH_STEPS \
+    5e6 /* a second or so, if not twice as many as up to the end that was found before: far out a step may be so short \
+           that nothing comes of it */
 
-/* Finds the end of a path that is not bound, at the horizon, far away, or when its time is over, by following it once in steps
- * of h. False if it strays, or if it was to be followed to its end and does not come there. */
+/* Finds the end of a path that is not bound, at the horizon, far away, or when its time is over, by following it
+ * once in steps of h. False if it strays, or if it was to be followed to its end and does not come there. */
 static bool find_end(struct kd_orbit_run *run, double h)
 {
     const struct kd_orbit *o = &run->orbit;
     struct kd_orbit_path path, before;
     double horizon = 1 / kd_kerr_horizon(o->a), far = 1 / run->params->r_max;
-    double time = run->params->time, turns = isnan(run->params->periods) || !o->circular ? LONGEST_TURNS : run->params->periods;
+    double time = run->params->time,
+           turns = isnan(run->params->periods) || !o->circular ? LONGEST_TURNS : run->params->periods;
     double longest = turns * 2 * M_PI / kd_orbit_pace(o);
     if (run->start.w <= far)
         far = run->start.w_rate > 0 ? run->start.w : 0.5 * run->start.w;
@@ -135,7 +142,8 @@ static bool find_end(struct kd_orbit_run *run, double h)
         }
     }
     run->mino_end = path.mino.value;
-    return !isnan(run->aim) || o->circular || path.place[KD_PATH_W].value == run->start.w; /* on an unstable circle itself */
+    return !isnan(run->aim) || o->circular ||
+           path.place[KD_PATH_W].value == run->start.w; /* on an unstable circle itself */
 }
 
 static enum kd_status no_end(const struct kd_orbit_run *run, struct kd_error *error)
@@ -150,12 +158,14 @@ static enum kd_status set_end(struct kd_orbit_run *run, struct kd_error *error)
     const struct kd_orbit_params *p = run->params;
     if (run->closed) {
         run->end = KD_END_DURATION;
-        run->mino_end = isnan(p->time) ? (isnan(p->periods) ? DEFAULT_PERIODS : p->periods) * run->period : mino_at(run, p->time);
+        run->mino_end =
+            isnan(p->time) ? (isnan(p->periods) ? DEFAULT_PERIODS : p->periods) * run->period : mino_at(run, p->time);
         return KD_OK;
     }
     if (!isnan(p->periods) && !p->or_end && !run->orbit.circular)
         return kd_error_field(error, "/duration/periods",
-                              "periods belong to a bound orbit, and this one is to %s: leave the duration out, or give or_end beside it, to "
+                              "periods belong to a bound orbit, and this one is to %s: leave the duration out, or give "
+                              "or_end beside it, to "
                               "follow it to its end, or give a time",
                               kd_orbit_fate_name(run->orbit.fate));
     double h = 2 * M_PI / kd_orbit_pace(&run->orbit) / 128, before = NAN;
@@ -175,7 +185,8 @@ static enum kd_status set_end(struct kd_orbit_run *run, struct kd_error *error)
 static enum kd_status begin(struct kd_orbit_run *run, struct kd_error *error)
 {
     if (run->params->way == KD_WAY_CLOSED && !run->closed)
-        return kd_error_field(error, "/method", "method is \"closed\", which follows bound orbits only, and this one is to %s",
+        return kd_error_field(error, "/method",
+                              "method is \"closed\", which follows bound orbits only, and this one is to %s",
                               kd_orbit_fate_name(run->orbit.fate));
     enum kd_status status = set_end(run, error);
     kd_orbit_path_init(&run->path, &run->orbit, &run->start, kd_orbit_run_method(run));
@@ -187,7 +198,8 @@ static enum kd_status begin(struct kd_orbit_run *run, struct kd_error *error)
 /* run->h is what the step should be at most. */
 static enum kd_status cut(struct kd_orbit_run *run, struct kd_error *error)
 {
-    double pieces = run->samples ? run->samples - 1 : 1, each = fmax(ceil(run->mino_end / run->h / pieces * (1 - 1e-12)), 1);
+    double pieces = run->samples ? run->samples - 1 : 1,
+           each = fmax(ceil(run->mino_end / run->h / pieces * (1 - 1e-12)), 1);
     if (run->params->way == KD_WAY_CLOSED)
         each = 1;
     if (!(each * pieces <= KD_ORBIT_STEPS_MAX))
@@ -230,10 +242,12 @@ static enum kd_status settle(struct kd_orbit_run *run, struct kd_error *error)
         run->periastra = 1;
         run->first_phi = run->last_phi = 0;
     }
-    double pace = sqrt(fmax(kd_orbit_radial(&run->orbit, run->aim), 0)); /* t grows as 1/w^2: a step across w says nothing of it */
+    double pace = sqrt(
+        fmax(kd_orbit_radial(&run->orbit, run->aim), 0)); /* t grows as 1/w^2: a step across w says nothing of it */
     if (!status && run->rounding > 1e-12 && !run->params->steps && run->end == KD_END_FAR && run->h * pace > run->aim)
-        return kd_error_field(error, "/r_max", "r_max is %g, too far for the steps that a path with a whirl like this one is followed in",
-                              run->params->r_max);
+        return kd_error_field(
+            error, "/r_max", "r_max is %g, too far for the steps that a path with a whirl like this one is followed in",
+            run->params->r_max);
     return status;
 }
 
@@ -267,7 +281,8 @@ static struct kd_orbit_sample sample_of(struct kd_orbit_run *run, struct kd_orbi
     if (kd_orbit_is_seen(run->params)) {
         const double from = run->params->seen.azimuth_deg * (M_PI / 180);
         const bool searches = run->missed < SEARCHES || run->missed % SEARCH_EVERY == 0;
-        const bool found = kd_place_image_seen(&run->view, place.r, cos(place.theta), place.phi - from, &run->image, searches, &image);
+        const bool found =
+            kd_place_image_seen(&run->view, place.r, cos(place.theta), place.phi - from, &run->image, searches, &image);
         run->missed = found ? 0 : run->missed + 1;
         if (found)
             run->image = image;
@@ -311,7 +326,8 @@ static size_t advance_closed(struct kd_orbit_run *run, uint64_t steps, struct kd
     return n;
 }
 
-/* Takes the last step of a path that is not bound, to the end that was found with another step: less than half a step off. */
+/* Takes the last step of a path that is not bound, to the end that was found with another step: less than half a
+ * step off. */
 static void step_to_the_end(struct kd_orbit_run *run)
 {
     if (run->end == KD_END_DURATION)

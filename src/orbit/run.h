@@ -1,4 +1,5 @@
-/* A run follows one orbit from its start to the end of what was asked for, in pieces. A run belongs to one thread at a time. */
+/* A run follows one orbit from its start to the end of what was asked for, in pieces. A run belongs to one thread at
+ * a time. */
 #ifndef KD_ORBIT_RUN_H
 #define KD_ORBIT_RUN_H
 
@@ -34,16 +35,17 @@ struct kd_orbit_run {
     double aim; /* of a path that is not bound, 1/r or t of its last place; NAN if it ends when its time is over */
     uint64_t steps, done;
     uint32_t samples, sampled;
-    double error_estimate; /* relative, of the place after a period (or the whole path): from half as many steps, or `rounding`
-                            * if that is larger. NAN if neither is known: `steps` was given, or the closed form, and no whirl ahead */
+    double error_estimate; /* relative, of the place after a period (or the whole path): from half as many steps, or
+                            * `rounding` if that is larger. NAN if neither is known: `steps` was given, or the closed
+                            * form, and no whirl ahead */
     /* while it goes on */
     struct kd_orbit_path path;
     struct kd_orbit_drift worst; /* absolute values */
     uint64_t periastra;
-    double first_phi, last_phi; /* azimuth at periastra */
-    struct kd_place_view view;    /* of who looks */
-    struct kd_place_image image;  /* the latest that was found */
-    unsigned missed;              /* samples since then */
+    double first_phi, last_phi;  /* azimuth at periastra */
+    struct kd_place_view view;   /* of who looks */
+    struct kd_place_image image; /* the latest that was found */
+    unsigned missed;             /* samples since then */
 };
 
 /* params must outlive the run. KD_EINVAL as kd_orbit_request_solve. */
@@ -52,13 +54,14 @@ enum kd_status kd_orbit_run_init(struct kd_orbit_run *run, const struct kd_orbit
 
 enum kd_orbit_method kd_orbit_run_method(const struct kd_orbit_run *run);
 
-/* Finds the end, and a step that holds the tolerance; takes up to a second for one, and tries some of many abreast. KD_EINVAL,
- * pointer "/duration" or "/method", if it cannot be done. */
+/* Finds the end, and a step that holds the tolerance; takes up to a second for one, and tries some of many abreast.
+ * KD_EINVAL, pointer "/duration" or "/method", if it cannot be done. */
 enum kd_status kd_orbit_run_prepare(struct kd_orbit_run *const *runs, size_t n, struct kd_error *error);
 
 /* Up to `steps` steps and `room` samples on; returns how many samples were written. */
 size_t kd_orbit_run_advance(struct kd_orbit_run *run, uint64_t steps, struct kd_orbit_sample *samples, size_t room);
-/* The same for up to KD_ORBIT_LANES runs side by side, all of which kd_orbit_run_abreast admits: prepared, and without samples. */
+/* The same for up to KD_ORBIT_LANES runs side by side, all of which kd_orbit_run_abreast admits: prepared, and
+ * without samples. */
 bool kd_orbit_run_abreast(const struct kd_orbit_run *run);
 void kd_orbit_run_advance_abreast(struct kd_orbit_run *const *runs, int n, uint64_t steps);
 bool kd_orbit_run_done(const struct kd_orbit_run *run);

@@ -92,12 +92,17 @@ static void add_members(struct kd_json *json, const struct rows *rows, const cha
             add_field(json, &rows->fields[i]);
 }
 
-/* What the members of a section of the settings may not be together, as JSON. A duration has one length, and says by or_end alone what follows what has no periods; who sees an orbit is somewhere. */
-static const struct { const char *section, *not; } apart[] = {
-    { "duration", "{\"anyOf\":[{\"required\":[\"periods\",\"time\"]},{\"required\":[\"or_end\"],\"properties\":{\"or_end\":{\"const\":true}},\"not\":{\"required\":[\"periods\"]}}]}" },
-    { "seen", "{\"not\":{\"required\":[\"observer_inclination_deg\"]},\"anyOf\":[{\"required\":[\"observer_r\"]},"
-              "{\"required\":[\"observer_azimuth_deg\"],\"properties\":{\"observer_azimuth_deg\":{\"not\":{\"const\":0}}}},"
-              "{\"required\":[\"observer\"],\"properties\":{\"observer\":{\"not\":{\"const\":\"static\"}}}}]}" },
+/* What the members of a section of the settings may not be together, as JSON. A duration has one length, and says by
+ * or_end alone what follows what has no periods; who sees an orbit is somewhere. */
+static const struct {
+    const char *section, *not;
+} apart[] = {
+    { "duration", "{\"anyOf\":[{\"required\":[\"periods\",\"time\"]},{\"required\":[\"or_end\"],\"properties\":{\"or_"
+                  "end\":{\"const\":true}},\"not\":{\"required\":[\"periods\"]}}]}" },
+    { "seen",
+      "{\"not\":{\"required\":[\"observer_inclination_deg\"]},\"anyOf\":[{\"required\":[\"observer_r\"]},"
+      "{\"required\":[\"observer_azimuth_deg\"],\"properties\":{\"observer_azimuth_deg\":{\"not\":{\"const\":0}}}},"
+      "{\"required\":[\"observer\"],\"properties\":{\"observer\":{\"not\":{\"const\":\"static\"}}}}]}" },
 };
 
 static void add_section(struct kd_json *json, const struct rows *rows, const char *section)
@@ -120,7 +125,10 @@ static void add_sections(struct kd_json *json, const struct rows *rows)
             add_section(json, rows, rows->fields[i].section);
 }
 
-static const char *const forms[KD_ORBIT_FORMS] = { [KD_ORBIT_SHAPE] = "OrbitByShape", [KD_ORBIT_CONSTANTS] = "OrbitByConstants", [KD_ORBIT_STATE] = "OrbitByState", [KD_ORBIT_CASE] = "OrbitByCase" };
+static const char *const forms[KD_ORBIT_FORMS] = { [KD_ORBIT_SHAPE] = "OrbitByShape",
+                                                   [KD_ORBIT_CONSTANTS] = "OrbitByConstants",
+                                                   [KD_ORBIT_STATE] = "OrbitByState",
+                                                   [KD_ORBIT_CASE] = "OrbitByCase" };
 
 void kd_orbit_schemas(struct kd_json *json)
 {
@@ -162,11 +170,16 @@ void kd_orbit_request_schema(struct kd_json *json, const char *name)
 {
     const struct rows rows = { kd_orbit_settings, KD_ORBIT_N_SETTINGS, KD_ORBIT_FORMS };
     begin_object(json, name);
-    /* A request has either orbit or orbits. It is no oneOf: generators of clients would make a union of it, and no class with the fields. */
+    /* A request has either orbit or orbits. It is no oneOf: generators of clients would make a union of it, and no
+     * class with the fields. */
     kd_schema_text(json, "if", "{\"required\":[\"orbits\"]}");
-    kd_schema_text(json, "then", "{\"not\":{\"anyOf\":[{\"required\":[\"orbit\"]},{\"required\":[\"seen\"],\"properties\":{\"seen\":{\"type\":\"object\",\"required\":[\"observer_inclination_deg\"]}}}]}}");
-    kd_schema_text(json, "else", "{\"required\":[\"orbit\"],\"not\":{\"required\":[\"samples\",\"seen\"],\"properties\":{\"samples\":{\"type\":\"number\",\"exclusiveMinimum\":1000},"
-                                  "\"seen\":{\"type\":\"object\",\"required\":[\"observer_inclination_deg\"]}}}}");
+    kd_schema_text(json, "then",
+                   "{\"not\":{\"anyOf\":[{\"required\":[\"orbit\"]},{\"required\":[\"seen\"],\"properties\":{\"seen\":{"
+                   "\"type\":\"object\",\"required\":[\"observer_inclination_deg\"]}}}]}}");
+    kd_schema_text(json, "else",
+                   "{\"required\":[\"orbit\"],\"not\":{\"required\":[\"samples\",\"seen\"],\"properties\":{\"samples\":"
+                   "{\"type\":\"number\",\"exclusiveMinimum\":1000},"
+                   "\"seen\":{\"type\":\"object\",\"required\":[\"observer_inclination_deg\"]}}}}");
     _Static_assert(KD_ORBIT_SEEN_MAX == 1000, "the schema says so");
     kd_json_object(json, "properties");
     add_members(json, &rows, "");

@@ -28,7 +28,8 @@ static struct trial begin(const struct kd_orbit_run *run)
     struct trial t = { .last = INFINITY };
     /* At the horizon t is infinite, so the trial stops a little before it. */
     t.span = run->closed ? fmin(run->period, run->mino_end) : (run->end == KD_END_HORIZON ? 0.999 : 1) * run->mino_end;
-    /* A fall is fast at its end, of which the span shows little, and a whirl magnifies errors that are not those of the step. */
+    /* A fall is fast at its end, of which the span shows little, and a whirl magnifies errors that are not those of
+     * the step. */
     t.longest = run->closed ? t.span : 2 * M_PI / kd_orbit_pace(&run->orbit) / 256;
     t.n = (uint32_t)fmin(fmax(16, ceil(t.span * kd_orbit_pace(&run->orbit) * 4)), STEPS_MAX / 4);
     return t;
@@ -41,8 +42,8 @@ static double distance(const struct kd_orbit_place *a, const struct kd_orbit_pla
     return isnan(a->t) || isnan(a->r) ? INFINITY : d;
 }
 
-/* The error of a method of order 6 is a 63rd of what half the steps move the end by. Stops where rounding, or a whirl that
- * magnifies it, leaves nothing to gain. */
+/* The error of a method of order 6 is a 63rd of what half the steps move the end by. Stops where rounding, or a
+ * whirl that magnifies it, leaves nothing to gain. */
 static void judge(struct kd_orbit_run *run, struct trial *t)
 {
     double error = distance(&t->coarse, &t->fine) / 63, tolerance = fmax(run->params->tolerance, 0.1 * run->rounding);

@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-/* The next quarter turn is taken off while the angle still is degrees, where nothing is rounded by it. `first`: cosines begin a
- * quarter turn ahead of sines. 0 + : no negative zero. */
+/* The next quarter turn is taken off while the angle still is degrees, where nothing is rounded by it. `first`:
+ * cosines begin a quarter turn ahead of sines. 0 + : no negative zero. */
 static double turned(double degrees, int first)
 {
     int quarter;
@@ -16,12 +16,6 @@ static double turned(double degrees, int first)
     }
 }
 
-double kd_cos_deg(double degrees)
-{
-    return turned(degrees, 1);
-}
+double kd_cos_deg(double degrees) { return turned(degrees, 1); }
 
-double kd_sin_deg(double degrees)
-{
-    return turned(degrees, 0);
-}
+double kd_sin_deg(double degrees) { return turned(degrees, 0); }

@@ -27,19 +27,14 @@ static double duplicate(struct kd_carlson_arg *s)
 }
 
 /* x, y + z and y z. */
-struct plain {
-    double x, sum, product;
-};
+struct plain { double x, sum, product; };
 
 static struct plain plain_of(const struct kd_carlson_arg *s)
 {
     return (struct plain) { s->first * s->first, s->sum * s->sum - 2 * s->root, s->root * s->root };
 }
 
-static bool converged(double x, double yz)
-{
-    return x * x + 2 * fabs(yz) < spread2;
-}
+static bool converged(double x, double yz) { return x * x + 2 * fabs(yz) < spread2; }
 
 double kd_carlson_rf_arg(struct kd_carlson_arg s)
 {
@@ -94,11 +89,8 @@ double kd_carlson_rc(double x, double y)
 /* The series of R_J and R_D in the elementary symmetric functions (DLMF 19.36.2). */
 static double series_j(double e2, double e3, double e4, double e5)
 {
-    return 1 +
-           e2 * (-3.0 / 14 + e2 * (9.0 / 88 - e2 / 16) + e3 * (-9.0 / 52 + e2 * (45.0 / 272)) +
-                 e4 * (3.0 / 20)) +
-           e3 * (1.0 / 6 + e3 * (3.0 / 40)) - e4 * (3.0 / 22) + e5 * (3.0 / 26) -
-           (9.0 / 68) * (e3 * e4 + e2 * e5);
+    return 1 + e2 * (-3.0 / 14 + e2 * (9.0 / 88 - e2 / 16) + e3 * (-9.0 / 52 + e2 * (45.0 / 272)) + e4 * (3.0 / 20)) +
+           e3 * (1.0 / 6 + e3 * (3.0 / 40)) - e4 * (3.0 / 22) + e5 * (3.0 / 26) - (9.0 / 68) * (e3 * e4 + e2 * e5);
 }
 
 double kd_carlson_rj_arg(struct kd_carlson_arg s, double p)
@@ -108,8 +100,7 @@ double kd_carlson_rj_arg(struct kd_carlson_arg s, double p)
     if (p == 0 || (s.first == 0 && s.root == 0))
         return INFINITY;
     struct plain v = plain_of(&s);
-    double delta = (p - v.x) * (p * (p - v.sum) + v.product), scale = 1, sum = 0, mean = 1, x = 0, yz = 0,
-           y_z = 0;
+    double delta = (p - v.x) * (p * (p - v.sum) + v.product), scale = 1, sum = 0, mean = 1, x = 0, yz = 0, y_z = 0;
     for (int i = 0; i < STEPS; i++) {
         mean = 0.2 * (v.x + v.sum + 2 * p);
         x = 1 - v.x / mean;
@@ -151,8 +142,7 @@ double kd_carlson_rd_arg(struct kd_carlson_arg s)
         scale *= 0.25;
     }
     double z2 = z * z;
-    return scale * series_j(xy - 6 * z2, (3 * xy - 8 * z2) * z, 3 * (xy - z2) * z2, xy * z2 * z) /
-               (mean * sqrt(mean)) +
+    return scale * series_j(xy - 6 * z2, (3 * xy - 8 * z2) * z, 3 * (xy - z2) * z2, xy * z2 * z) / (mean * sqrt(mean)) +
            3 * sum;
 }
 
@@ -218,8 +208,7 @@ double complex kd_carlson_rj_complex(struct kd_carlson_arg s, double complex p)
     if (!(s.first >= 0 && s.sum > 0 && s.root >= 0 && creal(p) > 0))
         return NAN;
     struct plain v = plain_of(&s);
-    double complex delta = (p - v.x) * (p * (p - v.sum) + v.product), sum = 0, mean = 1, x = 0, yz = 0,
-                   y_z = 0;
+    double complex delta = (p - v.x) * (p * (p - v.sum) + v.product), sum = 0, mean = 1, x = 0, yz = 0, y_z = 0;
     double scale = 1;
     for (int i = 0; i < STEPS; i++) {
         mean = 0.2 * (v.x + v.sum + 2 * p);
@@ -239,10 +228,8 @@ double complex kd_carlson_rj_complex(struct kd_carlson_arg s, double complex p)
     double complex q = -0.5 * (x + y_z), q2 = q * q, xyz = x * yz;
     double complex e2 = x * y_z + yz - 3 * q2, e3 = xyz + 2 * q * (e2 + 2 * q2);
     double complex e4 = (2 * xyz + q * (e2 + 3 * q2)) * q, e5 = xyz * q2;
-    double complex series = 1 +
-                            e2 * (-3.0 / 14 + e2 * (9.0 / 88 - e2 / 16) +
-                                  e3 * (-9.0 / 52 + e2 * (45.0 / 272)) + e4 * (3.0 / 20)) +
-                            e3 * (1.0 / 6 + e3 * (3.0 / 40)) - e4 * (3.0 / 22) + e5 * (3.0 / 26) -
-                            (9.0 / 68) * (e3 * e4 + e2 * e5);
+    double complex series =
+        1 + e2 * (-3.0 / 14 + e2 * (9.0 / 88 - e2 / 16) + e3 * (-9.0 / 52 + e2 * (45.0 / 272)) + e4 * (3.0 / 20)) +
+        e3 * (1.0 / 6 + e3 * (3.0 / 40)) - e4 * (3.0 / 22) + e5 * (3.0 / 26) - (9.0 / 68) * (e3 * e4 + e2 * e5);
     return scale * series / (mean * csqrt(mean)) + 6 * sum;
 }

@@ -1,4 +1,5 @@
-/* This gives the colour of a black body: Planck's law through the CIE 1931 observer to linear sRGB. No palette. Double precision, pure, any thread. */
+/* This gives the colour of a black body: Planck's law through the CIE 1931 observer to linear sRGB. No palette.
+ * Double precision, pure, any thread. */
 #ifndef KD_PHYSICS_COLOUR_H
 #define KD_PHYSICS_COLOUR_H
 
@@ -10,14 +11,14 @@ extern const double kd_cie1931[KD_CIE1931_COUNT][3];
 struct kd_colour_xyz { double x, y, z; };
 struct kd_colour_rgb { double r, g, b; };
 
-/* CIE XYZ of the spectral radiance B_lambda(T), integrated over wavelength in W m^-2 sr^-1 (without the factor 683 lm/W).
- * T in K, > 0. */
+/* CIE XYZ of the spectral radiance B_lambda(T), integrated over wavelength in W m^-2 sr^-1 (without the factor 683
+ * lm/W). T in K, > 0. */
 struct kd_colour_xyz kd_colour_blackbody(double temperature);
 
-/* Linear sRGB, not clipped: components can be negative. The matrix is that of IEC 61966-2-1:1999 with the digits of its amendment 1
- * of 2003, the inverse of its four-digit one of RGB to XYZ, whose second row gives the luminance: 0.2126, 0.7152, 0.0722. (From the
- * chromaticities of primaries and white follow numbers that differ from the fourth digit on: 3.2409699, or with another D65
- * 3.2404542.) */
+/* Linear sRGB, not clipped: components can be negative. The matrix is that of IEC 61966-2-1:1999 with the digits of
+ * its amendment 1 of 2003, the inverse of its four-digit one of RGB to XYZ, whose second row gives the luminance:
+ * 0.2126, 0.7152, 0.0722. (From the chromaticities of primaries and white follow numbers that differ from the fourth
+ * digit on: 3.2409699, or with another D65 3.2404542.) */
 struct kd_colour_rgb kd_colour_xyz_to_srgb(struct kd_colour_xyz xyz);
 
 /* The encoding of a component of linear sRGB in [0, 1] (IEC 61966-2-1). */

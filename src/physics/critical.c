@@ -12,7 +12,7 @@ struct place {
     struct kd_shell_orbit orbit;
     double alpha, beta2;
     double right, up2, inwards, energy; /* the latter at infinity, over what is measured */
-    double x, y2; /* as seen from the centre; at a finite radius components of the direction */
+    double x, y2;                       /* as seen from the centre; at a finite radius components of the direction */
 };
 
 /* `at` is the orbit's place over sin i. Where the inclination is small, only orbits near the polar one are
@@ -30,15 +30,16 @@ static struct place label(const struct kd_critical *c, double at)
     return p;
 }
 
-/* The direction in which the photon arrives, with R(r_o) of a double root. Its p_theta, which may be the root of a negative number here,
- * is left out: in a level frame it is seen in `up` alone. */
+/* The direction in which the photon arrives, with R(r_o) of a double root. Its p_theta, which may be the root of a
+ * negative number here, is left out: in a level frame it is seen in `up` alone. */
 static void look(const struct kd_critical *c, struct place *p)
 {
     const struct kd_shell_orbit *o = &p->orbit;
     double r = c->observer.radius, q = o->a / o->r, root = sqrt(fmax(r * r + 2 * o->r * r - q * q * o->eta, 0));
     const struct kd_covector photon = { .energy = 1, .momentum = -p->alpha, .radial = (r - o->r) * root };
-    const struct kd_look seen = c->tetrad.falls && photon.radial <= 0 ? kd_tetrad_look_inwards(&c->tetrad, &photon, p->beta2)
-                                                                      : kd_tetrad_look(&c->tetrad, &photon);
+    const struct kd_look seen = c->tetrad.falls && photon.radial <= 0
+                                    ? kd_tetrad_look_inwards(&c->tetrad, &photon, p->beta2)
+                                    : kd_tetrad_look(&c->tetrad, &photon);
     double up = seen.energy / c->tetrad.theta.polar; /* over beta */
     p->right = seen.right;
     p->inwards = seen.inwards;
@@ -61,13 +62,10 @@ static struct place see(const struct kd_critical *c, double at)
     return p;
 }
 
-static double beta2_at(const void *curve, double at)
-{
-    return label(curve, at).beta2;
-}
+static double beta2_at(const void *curve, double at) { return label(curve, at).beta2; }
 
-/* An end shows the equatorial orbit itself to an observer in the equator, else the orbit that has its turning point at the
- * observer's latitude. Near the axis that is far from the equatorial one, over sin i. */
+/* An end shows the equatorial orbit itself to an observer in the equator, else the orbit that has its turning point
+ * at the observer's latitude. Near the axis that is far from the equatorial one, over sin i. */
 static double end(const struct kd_critical *c, double equatorial)
 {
     double limit = copysign(1, equatorial);
@@ -87,7 +85,8 @@ static double along(const struct kd_critical *c, double at)
 static bool valid(const struct kd_critical_observer *o)
 {
     return fabs(o->spin) < 1 && fabs(o->cos_theta) <= 1 && o->sin_theta >= 0 && o->sin_theta <= 1 &&
-           o->radius > (o->motion.observer == KD_OBSERVER_INFALL ? kd_kerr_inner_horizon(o->spin) : kd_kerr_horizon(o->spin)) &&
+           o->radius >
+               (o->motion.observer == KD_OBSERVER_INFALL ? kd_kerr_inner_horizon(o->spin) : kd_kerr_horizon(o->spin)) &&
            (unsigned)o->motion.observer < KD_OBSERVER_COUNT;
 }
 
@@ -169,9 +168,7 @@ struct kd_critical_point kd_critical_at(const struct kd_critical *c, double angl
     /* One coordinate is better known than the other, and the angle gives that. */
     bool side = fabs(k) >= s;
     double y = side ? p.x * s / k : sqrt(fmax(p.y2, 0)), x = side ? p.x : y * k / s, rho = hypot(x, y);
-    struct kd_critical_point q = {
-        .orbit = p.orbit, .alpha = p.alpha, .angle = angle, .rho = rho, .inwards = 1
-    };
+    struct kd_critical_point q = { .orbit = p.orbit, .alpha = p.alpha, .angle = angle, .rho = rho, .inwards = 1 };
     double below = turned < 0 ? -1 : 1;
     if (isinf(c->observer.radius)) {
         q.alpha = c->centre + x;
@@ -232,11 +229,9 @@ struct kd_critical_point kd_critical_round(const struct kd_critical *c, double a
     return upper(c, along <= 0 ? c->low : along >= 1 ? c->high : place_evenly(c, low + (high - low) * half * half));
 }
 
-/* Sums over the upper half, with half the weight at the ends. rho enters less half the width, so that its squares keep their
- * digits. */
-struct sums {
-    double off, off2, area;
-};
+/* Sums over the upper half, with half the weight at the ends. rho enters less half the width, so that its squares
+ * keep their digits. */
+struct sums { double off, off2, area; };
 
 static void add(const struct kd_critical *c, double angle, double weight, struct sums *s)
 {

@@ -15,9 +15,7 @@ static double slow(double a, double w) { return 1 - w * (2 - a * a * w); }
 
 static double drag(double a, double b, double w) { return a * w * (2 - a * b * w) / slow(a, w); }
 
-struct far {
-    double a, b, w0; /* w0: at the closest approach */
-};
+struct far { double a, b, w0; /* w0: at the closest approach */ };
 
 /* With w = w0 sin(psi) the first root drops out of w'^2 = w0^2 cos^2(psi) D(psi), and
  *   alpha = 2 Int_0^{pi/2} (phi'/sqrt(D) - 1) dpsi,   D = b^2 - a^2 - 2 (b - a)^2 w0 (s + 1/(1 + s)),   s = sin(psi).
@@ -32,7 +30,8 @@ static double far_bending(double x, double y, const void *context)
     return M_PI * (a * a + mass + chi * (2 * b + chi)) / (root * (root + b + chi));
 }
 
-/* Newton for w'^2 = 0 from 1/b, right of which it lies; the cubic is convex enough out here that it never overshoots far. */
+/* Newton for w'^2 = 0 from 1/b, right of which it lies; the cubic is convex enough out here that it never overshoots
+ * far. */
 static double nearest_w(double a, double b)
 {
     double quadratic = b * b - a * a, cubic = 2 * (b - a) * (b - a), w = 1 / b;
@@ -84,12 +83,10 @@ double kd_deflection_weak(double b) { return 4 / b; }
 double kd_deflection_weak_second(double a, double b) { return (4 + (15 * M_PI / 4 - 4 * a) / b) / b; }
 
 /* On the critical ray w'^2 = cubic (w_c - w)^2 (w - w_1), w_1 = quadratic/cubic - 2 w_c < 0. */
-struct critical {
-    double a, b, w, w1, cubic, rate;
-};
+struct critical { double a, b, w, w1, cubic, rate; };
 
-/* What the pole at w_c leaves: (rate(w) - rate(w_c))/(1 - w/w_c) for rate = (b + chi')/sqrt(cubic (w - w_1)), with the factor
- * taken out of both differences, that of chi' and that of the root. */
+/* What the pole at w_c leaves: (rate(w) - rate(w_c))/(1 - w/w_c) for rate = (b + chi')/sqrt(cubic (w - w_1)), with
+ * the factor taken out of both differences, that of chi' and that of the root. */
 static double regular(double x, double y, const void *context)
 {
     (void)y;
@@ -113,6 +110,6 @@ struct kd_deflection_strong kd_deflection_strong(double a)
     double by_b = 2 * c.w * c.w * (b - 2 * (b - a) * c.w); /* -d w'^2/db at w_c */
     double e2 = b * by_b / (c.cubic * (c.w - c.w1));
     double rest = kd_quadrature(regular, &c);
-    return (struct kd_deflection_strong) {
-        .rate = c.rate, .offset = c.rate * log(4 * c.w * c.w / e2) + 2 * rest - M_PI };
+    return (struct kd_deflection_strong) { .rate = c.rate,
+                                           .offset = c.rate * log(4 * c.w * c.w / e2) + 2 * rest - M_PI };
 }

@@ -1,9 +1,10 @@
-/* This is by how much light bends in the equatorial plane of Kerr. Double precision, pure functions, any thread. G = c = M = 1; impact parameter b =
- * |L|/E > 0; the light turns towards +phi, so that a < 0 is a hole that turns against it. Angles in radians.
+/* This is by how much light bends in the equatorial plane of Kerr. Double precision, pure functions, any thread. G =
+ * c = M = 1; impact parameter b = |L|/E > 0; the light turns towards +phi, so that a < 0 is a hole that turns
+ * against it. Angles in radians.
  *
  * Sources: C. G. Darwin 1959, Proc. R. Soc. Lond. A 249, 180 (Schwarzschild); S. V. Iyer & E. C. Hioki 2009,
- * arXiv:0907.0352 (Kerr, and the weak field to the second order in M/b); V. Bozza 2002, Phys. Rev. D 66, 103001 (the strong
- * limit). Domain |a| < 1; outside: NaN. */
+ * arXiv:0907.0352 (Kerr, and the weak field to the second order in M/b); V. Bozza 2002, Phys. Rev. D 66, 103001 (the
+ * strong limit). Domain |a| < 1; outside: NaN. */
 #ifndef KD_PHYSICS_DEFLECTION_H
 #define KD_PHYSICS_DEFLECTION_H
 
@@ -20,19 +21,18 @@ double kd_deflection(double a, double b);
 /* The closest approach of that ray, in Boyer-Lindquist's r. */
 double kd_deflection_closest(double a, double b);
 
-/* How far light of the same b gets that is sent out from within the photon orbit, before it falls back: the other turning point. NaN
- * also for b > 2 r+/a, a > 0: at the horizon all light has E >= L a/(2 r+), and none of it so little for its L. */
+/* How far light of the same b gets that is sent out from within the photon orbit, before it falls back: the other
+ * turning point. NaN also for b > 2 r+/a, a > 0: at the horizon all light has E >= L a/(2 r+), and none of it so
+ * little for its L. */
 double kd_deflection_farthest(double a, double b);
 
 /* 4/b, and with the next order 4/b + (15 pi/4 - 4a)/b^2. */
 double kd_deflection_weak(double b);
 double kd_deflection_weak_second(double a, double b);
 
-/* Bozza's limit for b -> critical: -rate ln(b/critical - 1) + offset. rate = 1 and offset = ln(216 (7 - 4 sqrt 3)) - pi at
- * a = 0. Its error falls as (b/critical - 1) ln(b/critical - 1). Relative error of both 1e-12 for a <= 0.99. */
-struct kd_deflection_strong {
-    double rate, offset;
-};
+/* Bozza's limit for b -> critical: -rate ln(b/critical - 1) + offset. rate = 1 and offset = ln(216 (7 - 4 sqrt 3)) -
+ * pi at a = 0. Its error falls as (b/critical - 1) ln(b/critical - 1). Relative error of both 1e-12 for a <= 0.99. */
+struct kd_deflection_strong { double rate, offset; };
 struct kd_deflection_strong kd_deflection_strong(double a);
 
 #endif

@@ -24,8 +24,8 @@ double kd_disk_flux_page_thorne(double a, double r)
     double x = sqrt(r), x0 = sqrt(r0), dx = (r - r0) / (x + x0);
     /* Roots of x^3 - 3x + 2a; the middle one by a sine, exact as a -> 0. */
     double x1 = 2 * cos((acos(a) - M_PI) / 3), x2 = 2 * sin(asin(a) / 3), x3 = -2 * cos(acos(a) / 3);
-    double bracket = dx - 1.5 * a * log1p(dx / x0) - log_term(a, x, x0, x1, x2, x3) -
-                     log_term(a, x, x0, x2, x1, x3) - log_term(a, x, x0, x3, x1, x2);
+    double bracket = dx - 1.5 * a * log1p(dx / x0) - log_term(a, x, x0, x1, x2, x3) - log_term(a, x, x0, x2, x1, x3) -
+                     log_term(a, x, x0, x3, x1, x2);
     double f = 1.5 * bracket / (x * x * (x * (x * x - 3) + 2 * a));
     return fmax(f, 0) / (4 * M_PI * r);
 }
@@ -36,21 +36,19 @@ double kd_disk_flux_shakura_sunyaev(double a, double r)
     return r > r0 ? 3 / (8 * M_PI * r * r * r) * (1 - sqrt(r0 / r)) : 0;
 }
 
-/* The flux is B(x)/(x^4 (x^3 - 3x + 2a)) but for constants, with x = sqrt(r) = 1 + y, x0 = sqrt(r_isco), d = 1 - a and
+/* The flux is B(x)/(x^4 (x^3 - 3x + 2a)) but for constants, with x = sqrt(r) = 1 + y, x0 = sqrt(r_isco), d = 1 - a
+ * and
  *
  *   B' = (x^4 - 6x^2 + 8ax - 3a^2)/(x (x^3 - 3x + 2a))      x^3 - 3x + 2a = y^2 (y + 3) - 2d
  *
- * (15n is the integral of this from x0.) Near the ISCO, where the logarithms of 15n cancel, the integral itself has all digits. The
- * numerator is y^3 (y + 4) - 2d (1 + 4y) - 3d^2, of which y - y0 is a factor. */
+ * (15n is the integral of this from x0.) Near the ISCO, where the logarithms of 15n cancel, the integral itself has
+ * all digits. The numerator is y^3 (y + 4) - 2d (1 + 4y) - 3d^2, of which y - y0 is a factor. */
 struct rise {
     double a, y0, gap; /* from x0 to the nearest root of x^3 - 3x + 2a, the photon orbit's */
     double turns;      /* ln(1 + (x - x0)/gap), in which B' is smooth for a hole that is nearly extremal too */
 };
 
-static double below(double a, double y)
-{
-    return y * y * (y + 3) - 2 * (1 - a);
-}
+static double below(double a, double y) { return y * y * (y + 3) - 2 * (1 - a); }
 
 static double slope_of_bracket(double a, double y0, double beyond)
 {
@@ -94,10 +92,10 @@ double kd_disk_redshift(double a, double r, double lambda)
     return 1 / (kd_kerr_ut(a, r) * (1 - kd_kerr_omega(a, r) * lambda));
 }
 
-/* -p.u = [(P U + sigma sqrt(R S))/Delta - (lambda - a)(L - a E)]/r^2, sigma the sign of p^r, with the radial potentials
- * R = P^2 - Delta K of the photon and S = U^2 - Delta (r^2 + J^2) of the gas. u^r is known in closed form, which does not
- * cancel at the ISCO: (u^r)^2 = 2/(3 r0) (r0/r - 1)^3. For sigma < 0 the bracket cancels at the horizon; multiplied out by
- * P U + sqrt(R S) it does not. */
+/* -p.u = [(P U + sigma sqrt(R S))/Delta - (lambda - a)(L - a E)]/r^2, sigma the sign of p^r, with the radial
+ * potentials R = P^2 - Delta K of the photon and S = U^2 - Delta (r^2 + J^2) of the gas. u^r is known in closed
+ * form, which does not cancel at the ISCO: (u^r)^2 = 2/(3 r0) (r0/r - 1)^3. For sigma < 0 the bracket cancels at the
+ * horizon; multiplied out by P U + sqrt(R S) it does not. */
 double kd_disk_redshift_plunging(double a, double r, double lambda, double eta, bool outwards)
 {
     double r0 = kd_kerr_isco(a), e = 1 - kd_kerr_efficiency(a), l = kd_kerr_momentum(a, r0), j = l - a * e;

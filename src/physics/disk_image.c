@@ -9,20 +9,23 @@
 #include <string.h>
 
 enum { POINTS = 6 }; /* of an interpolation */
-#define NEAREST 0.1 /* M between the ISCO and the origin of u: above a = 0.9995 all nodes would lie at the horizon else, where the image no longer changes */
+#define NEAREST \
+    0.1 /* M between the ISCO and the origin of u: above a = 0.9995 all nodes would lie at the horizon else, where the \
+           image no longer changes */
 #define NODES 1e-7  /* of ln r, at the nodes */
 #define PLACE 1e-12 /* at a place that is asked for by itself */
 #define BENDS 10.   /* by how much of itself a slope changes for a change of ln r, at most */
-#define DRIFTS 0.2  /* what a slope is off by where only that of flat space is known; elsewhere by so much of what the rings before did not tell of the place */
-#define FLATTEST 0.1 /* slopes that are met lie between this and its inverse */
-#define MOVED 0.3   /* by how much of R the angles before may move a guess */
+#define DRIFTS \
+    0.2 /* what a slope is off by where only that of flat space is known; elsewhere by so much of what the rings \
+           before did not tell of the place */
+#define FLATTEST 0.1  /* slopes that are met lie between this and its inverse */
+#define MOVED 0.3     /* by how much of R the angles before may move a guess */
 enum { HISTORY = 5 }; /* rings of nodes that a slope is made from, besides the last */
 
-struct ellipse {
-    double x0, y0, a, b;
-};
+struct ellipse { double x0, y0, a, b; };
 
-/* About where the ring is seen: the near side as in flat space, the far side as a thin lens lifts it, b (b - r cos i) = 4 r, with sin(i)^4 so that face on nothing is lifted. */
+/* About where the ring is seen: the near side as in flat space, the far side as a thin lens lifts it, b (b - r cos
+ * i) = 4 r, with sin(i)^4 so that face on nothing is lifted. */
 static struct ellipse around(const struct kd_disk_image *image, double r)
 {
     double flat = r * image->cos_i, s2 = image->sin_i * image->sin_i;
@@ -50,20 +53,22 @@ double kd_disk_image_radius(const struct kd_disk_image *image, double alpha, dou
     return kd_null_radius_after(&m, &roots, kd_null_polar_first(&m));
 }
 
-static double mismatch(const struct kd_disk_image *image, const struct ellipse *e, double x, double y, double log_stretch, double r)
+static double mismatch(const struct kd_disk_image *image, const struct ellipse *e, double x, double y,
+                       double log_stretch, double r)
 {
     double stretch = exp(log_stretch), found = kd_disk_image_radius(image, e->x0 + stretch * x, e->y0 + stretch * y);
     return found > 0 ? log(found / r) : -INFINITY;
 }
 
-/* d ln r/d ln R where it is looked for, and by how much of itself that may be off: by `drift`, and `bend` times the error of ln r that the place has. */
-struct slope {
-    double value, drift, bend;
-};
+/* d ln r/d ln R where it is looked for, and by how much of itself that may be off: by `drift`, and `bend` times the
+ * error of ln r that the place has. */
+struct slope { double value, drift, bend; };
 
-/* The root of ln(r_0/r) in ln R from a guess: secants, whose first slope is the one given, kept within what brackets the root. A last step is not looked at where what is left after it, by how
- * the slope changes on the way, is below `exact`. `slope`: 1 in flat space; its value is left as the last one met. */
-static bool find(const struct kd_disk_image *image, const struct ellipse *e, const double direction[2], double r, double exact, double *log_stretch, struct slope *slope)
+/* The root of ln(r_0/r) in ln R from a guess: secants, whose first slope is the one given, kept within what brackets
+ * the root. A last step is not looked at where what is left after it, by how the slope changes on the way, is below
+ * `exact`. `slope`: 1 in flat space; its value is left as the last one met. */
+static bool find(const struct kd_disk_image *image, const struct ellipse *e, const double direction[2], double r,
+                 double exact, double *log_stretch, struct slope *slope)
 {
     double cosine = e->a * direction[0], sine = e->b * direction[1];
     double x = *log_stretch, low = -INFINITY, high = INFINITY, before = NAN, f_before = NAN, reach = 0.02;
@@ -78,7 +83,9 @@ static bool find(const struct kd_disk_image *image, const struct ellipse *e, con
         if (met)
             slope->value = (f - f_before) / (x - before);
         double next = x - f / (met || !i ? slope->value : 1);
-        double left = met ? fabs(f * f_before) * BENDS : i ? INFINITY : fabs(f) * (slope->drift + slope->bend * fabs(f));
+        double left = met ? fabs(f * f_before) * BENDS
+                      : i ? INFINITY
+                          : fabs(f) * (slope->drift + slope->bend * fabs(f));
         if (next > low && next < high && left < exact) {
             *log_stretch = next;
             return true;
@@ -115,15 +122,19 @@ static struct ellipse growth_of(const struct kd_disk_image *image, double r)
 {
     const double step = 1e-4;
     struct ellipse in = around(image, r * (1 - step)), out = around(image, r * (1 + step));
-    return (struct ellipse) { 0, (out.y0 - in.y0) / (2 * step), (out.a - in.a) / (step * (out.a + in.a)), (out.b - in.b) / (step * (out.b + in.b)) };
+    return (struct ellipse) { 0, (out.y0 - in.y0) / (2 * step), (out.a - in.a) / (step * (out.a + in.a)),
+                              (out.b - in.b) / (step * (out.b + in.b)) };
 }
 
-/* d ln r/d ln R at a fixed direction from the centre of ring k's ellipse, where the ring and its neighbours are about known. A place moves with ln r by p_L and with chi by p_chi, along which R changes by the
- * shares `swells` and `turns` of itself: the slope is d x p_chi/(p_L x p_chi), d = R (A cos chi, B sin chi). */
-static double slope_at(const struct ellipse *e, const struct ellipse *growth, const double direction[2], double stretch, double swells, double turns)
+/* d ln r/d ln R at a fixed direction from the centre of ring k's ellipse, where the ring and its neighbours are
+ * about known. A place moves with ln r by p_L and with chi by p_chi, along which R changes by the shares `swells`
+ * and `turns` of itself: the slope is d x p_chi/(p_L x p_chi), d = R (A cos chi, B sin chi). */
+static double slope_at(const struct ellipse *e, const struct ellipse *growth, const double direction[2], double stretch,
+                       double swells, double turns)
 {
     double c = direction[0], s = direction[1];
-    double across = (swells + growth->a) * c * (turns * s + c) - (growth->y0 / (e->b * stretch) + (swells + growth->b) * s) * (turns * c - s);
+    double across = (swells + growth->a) * c * (turns * s + c) -
+                    (growth->y0 / (e->b * stretch) + (swells + growth->b) * s) * (turns * c - s);
     return 1 / across;
 }
 
@@ -137,23 +148,29 @@ struct making {
 
 /* Slopes at the last of some nodes by backward differences, the last first: sums of nabla^m/m, m = 1 ... so many. */
 static const double backward[HISTORY][HISTORY + 1] = {
-    { 1, -1 }, { 1.5, -2, 0.5 }, { 11. / 6, -3, 1.5, -1. / 3 }, { 25. / 12, -4, 3, -4. / 3, 0.25 }, { 137. / 60, -5, 5, -10. / 3, 1.25, -0.2 },
+    { 1, -1 },
+    { 1.5, -2, 0.5 },
+    { 11. / 6, -3, 1.5, -1. / 3 },
+    { 25. / 12, -4, 3, -4. / 3, 0.25 },
+    { 137. / 60, -5, 5, -10. / 3, 1.25, -0.2 },
 };
 
-/* By how much guesses from the rings before were off: at the angle at hand, as far as the last three angles tell, and at these. */
-struct miss {
-    double next, last[3];
-};
+/* By how much guesses from the rings before were off: at the angle at hand, as far as the last three angles tell,
+ * and at these. */
+struct miss { double next, last[3]; };
 
-static struct slope slope_of(const struct kd_disk_image *image, const struct making *m, int j, const double direction[2], double stretch, const struct miss *off)
+static struct slope slope_of(const struct kd_disk_image *image, const struct making *m, int j,
+                             const double direction[2], double stretch, const struct miss *off)
 {
     int n = image->angles, back = m->k < HISTORY ? m->k : HISTORY;
     const double *weight = backward[back - 1], *g = m->guessed, per_radian = n / (2 * M_PI);
     double swells = weight[0] * stretch;
     for (int i = 1; i <= back; i++)
         swells += weight[i] * image->stretch[m->k - i][j];
-    double turns = (8 * (g[(j + 1) % n] - g[(j + n - 1) % n]) - g[(j + 2) % n] + g[(j + n - 2) % n]) / 12 + backward[1][0] * off->next + backward[1][1] * off->last[0] + backward[1][2] * off->last[1];
-    double value = slope_at(&m->e, &m->growth, direction, stretch, swells * m->rate / stretch, turns * per_radian / stretch);
+    double turns = (8 * (g[(j + 1) % n] - g[(j + n - 1) % n]) - g[(j + 2) % n] + g[(j + n - 2) % n]) / 12 +
+                   backward[1][0] * off->next + backward[1][1] * off->last[0] + backward[1][2] * off->last[1];
+    double value =
+        slope_at(&m->e, &m->growth, direction, stretch, swells * m->rate / stretch, turns * per_radian / stretch);
     if (!(value > FLATTEST && value < 1 / FLATTEST)) /* rings guessed so badly tell nothing */
         return (struct slope) { 1, INFINITY, 0 };
     double drift = fabs(m->rate * off->next) + per_radian * fabs(off->next - 2 * off->last[0] + off->last[1]);
@@ -192,7 +209,8 @@ bool kd_disk_image_init(struct kd_disk_image *image, double spin, double inclina
     if (!(c > sin(KD_DISK_IMAGE_EDGE_ON * M_PI / 180)))
         return false;
     for (int j = 0; j < KD_DISK_IMAGE_ANGLES; j++) {
-        image->cosine[j] = cos(2 * M_PI * j / KD_DISK_IMAGE_ANGLES), image->sine[j] = sin(2 * M_PI * j / KD_DISK_IMAGE_ANGLES);
+        image->cosine[j] = cos(2 * M_PI * j / KD_DISK_IMAGE_ANGLES),
+        image->sine[j] = sin(2 * M_PI * j / KD_DISK_IMAGE_ANGLES);
         image->stretch[0][j] = 1;
     }
     for (int k = 1; k <= KD_DISK_IMAGE_RINGS; k++)
@@ -227,11 +245,15 @@ static void between_rings(const struct kd_disk_image *image, double r, int skip,
     }
 }
 
-double kd_disk_image_step(const struct kd_disk_image *image, double r, double share) { return share * (r - image->horizon) / r; }
+double kd_disk_image_step(const struct kd_disk_image *image, double r, double share)
+{
+    return share * (r - image->horizon) / r;
+}
 
 bool kd_disk_image_place(const struct kd_disk_image *image, double r, double chi, double *alpha, double *beta)
 {
-    double row[KD_DISK_IMAGE_ANGLES], weight[POINTS], stretch = 0, turns = chi / (2 * M_PI), at = (turns - floor(turns)) * image->angles;
+    double row[KD_DISK_IMAGE_ANGLES], weight[POINTS], stretch = 0, turns = chi / (2 * M_PI),
+                                                      at = (turns - floor(turns)) * image->angles;
     int n = image->angles, first = (int)floor(at) - POINTS / 2 + 1;
     const double direction[2] = { cos(chi), sin(chi) };
     struct ellipse e = around(image, r);
@@ -251,7 +273,8 @@ bool kd_disk_image_place(const struct kd_disk_image *image, double r, double chi
 void kd_disk_image_ring(const struct kd_disk_image *image, double r, int skip, int n, double *alpha, double *beta)
 {
     double row[KD_DISK_IMAGE_ANGLES], round[KD_DISK_IMAGE_ANGLES + POINTS];
-    int nodes = image->angles / skip < n ? image->angles / skip : n, every = image->angles / nodes, finer = n / nodes, apart = KD_DISK_IMAGE_ANGLES / n;
+    int nodes = image->angles / skip < n ? image->angles / skip : n, every = image->angles / nodes, finer = n / nodes,
+        apart = KD_DISK_IMAGE_ANGLES / n;
     struct ellipse e = around(image, r);
     between_rings(image, r, skip, row);
     for (int j = 0; j < nodes + POINTS; j++)
@@ -275,7 +298,8 @@ struct kd_disk_ring kd_disk_image_gas(const struct kd_disk_image *image, double 
     return (struct kd_disk_ring) { r, kd_kerr_ut(image->spin, r), kd_kerr_omega(image->spin, r) };
 }
 
-struct kd_disk_light kd_disk_image_light(const struct kd_disk_image *image, const struct kd_disk_ring *gas, double alpha, double beta)
+struct kd_disk_light kd_disk_image_light(const struct kd_disk_image *image, const struct kd_disk_ring *gas,
+                                         double alpha, double beta)
 {
     double a = image->spin, c = image->cos_i, eta = (alpha - a) * (alpha + a) * c * c + beta * beta;
     double g = kd_disk_image_redshift(image, gas, alpha);

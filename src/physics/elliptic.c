@@ -5,9 +5,7 @@
 #include <math.h>
 
 /* phi = turns pi + rest, |rest| <= pi/2. */
-struct reduced {
-    double turns, s, c;
-};
+struct reduced { double turns, s, c; };
 
 static struct reduced reduce(double phi)
 {
@@ -41,10 +39,7 @@ double kd_elliptic_pi(double n, double phi, double m)
     return r.turns == 0 ? p : p + 2 * r.turns * kd_elliptic_pi_complete(n, m);
 }
 
-double kd_elliptic_k(double m)
-{
-    return kd_carlson_rf(0, 1 - m, 1);
-}
+double kd_elliptic_k(double m) { return kd_carlson_rf(0, 1 - m, 1); }
 
 /* DLMF 19.25.1 in the form without cancellation near m = 1. */
 double kd_elliptic_e_complete(double m)

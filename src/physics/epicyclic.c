@@ -4,8 +4,9 @@
 
 #include <math.h>
 
-/* kappa^2 r^2/Omega^2 = x^4 - 6x^2 + 8ax - 3a^2 with x = sqrt(r), the quartic whose root is the ISCO. Near a = 1 the root is
- * triple and lies at x = 1: regrouped around it, from d = x - 1 and e = 1 - a, nothing cancels that need not. */
+/* kappa^2 r^2/Omega^2 = x^4 - 6x^2 + 8ax - 3a^2 with x = sqrt(r), the quartic whose root is the ISCO. Near a = 1 the
+ * root is triple and lies at x = 1: regrouped around it, from d = x - 1 and e = 1 - a, nothing cancels that need
+ * not. */
 double kd_epicyclic_radial(double a, double r)
 {
     double x = sqrt(r), d = (r - 1) / (x + 1), e = 1 - a;
@@ -23,7 +24,8 @@ double kd_epicyclic_vertical(double a, double r)
     return kd_kerr_omega(a, r) * sqrt(q) / r;
 }
 
-/* d(phi)/dt = (L (1 - 2/r) + 2aE/r) / (E (r^2 + a^2 + 2a^2/r) - 2aL/r) in the plane, from the metric; the quotient is Omega. */
+/* d(phi)/dt = (L (1 - 2/r) + 2aE/r) / (E (r^2 + a^2 + 2a^2/r) - 2aL/r) in the plane, from the metric; the quotient
+ * is Omega. */
 double kd_epicyclic_shear(double a, double r)
 {
     double e = kd_kerr_energy(a, r), l = kd_kerr_momentum(a, r), omega = kd_kerr_omega(a, r);

@@ -11,7 +11,8 @@ bool kd_infall_is_level(const struct kd_observer_motion *m, const struct kd_vant
     return at->spin == 0 || at->u == 0 || at->s == 0 || (m->fall_momentum == 0 && kd_observer_energy(m, at) == 1);
 }
 
-/* (Sigma r')^2 = c[4] r^4 + ... + c[0], in r; divided by fall_from - r where that is finite, since it vanishes there. */
+/* (Sigma r')^2 = c[4] r^4 + ... + c[0], in r; divided by fall_from - r where that is finite, since it vanishes
+ * there. */
 struct fall {
     double c[5], spin, u, low, span, above; /* above: from the upper end to fall_from */
     double energy, momentum, swing, carter; /* E; L; L/sin^2; K = Q + (L - a E)^2 */
@@ -24,8 +25,16 @@ static struct fall fall_of(const struct kd_observer_motion *m, const struct kd_v
     double ls = l == 0 ? 0 : l / at->s, q = at->u * at->u * (ls * ls - a * a * bound), rest = l - a * e;
     struct fall f = {
         .c = { -a * a * q, 2 * (q + rest * rest), a * a * bound - l * l - q, 2, bound },
-        .spin = a, .u = at->u, .low = r, .span = at->r - r, .above = m->fall_from - at->r, .from_rest = isfinite(m->fall_from),
-        .energy = e, .momentum = l, .swing = l == 0 ? 0 : ls / at->s, .carter = q + rest * rest,
+        .spin = a,
+        .u = at->u,
+        .low = r,
+        .span = at->r - r,
+        .above = m->fall_from - at->r,
+        .from_rest = isfinite(m->fall_from),
+        .energy = e,
+        .momentum = l,
+        .swing = l == 0 ? 0 : ls / at->s,
+        .carter = q + rest * rest,
     };
     if (f.from_rest) /* from the lowest power on, of which the first vanish exactly without spin */
         for (int i = 0; i < 4; i++)
@@ -57,14 +66,16 @@ double kd_infall_proper_time(const struct kd_observer_motion *m, const struct kd
     return f.span > 0 ? kd_quadrature(pace, &f) : 0;
 }
 
-/* (P + Sigma r')/Delta with P = E (r^2 + a^2) - a L. By P^2 - (Sigma r')^2 = Delta (r^2 + K) it is regular at the horizon. */
+/* (P + Sigma r')/Delta with P = E (r^2 + a^2) - a L. By P^2 - (Sigma r')^2 = Delta (r^2 + K) it is regular at the
+ * horizon. */
 static double ingoing(const struct fall *f, double r, double speed)
 {
     double a = f->spin, p = f->energy * (r * r + a * a) - a * f->momentum;
     return p > 0 ? (r * r + f->carter) / (p + speed) : (p - speed) / (r * r - 2 * r + a * a);
 }
 
-/* Sigma dphi/dtau of ingoing Kerr-Schild coordinates, phi + integral of a/Delta dr (Carter 1968 for that of Boyer and Lindquist). */
+/* Sigma dphi/dtau of ingoing Kerr-Schild coordinates, phi + integral of a/Delta dr (Carter 1968 for that of Boyer
+ * and Lindquist). */
 static double turning(double x, double y, const void *user)
 {
     const struct fall *f = user;
@@ -105,7 +116,11 @@ double kd_infall_last(double a)
     return fmax(0.01, inner + fmin(0.01, 0.1 * (outer - inner)));
 }
 
-struct clock { const struct kd_observer_motion *motion; const struct kd_vantage *at; double proper_time; };
+struct clock {
+    const struct kd_observer_motion *motion;
+    const struct kd_vantage *at;
+    double proper_time;
+};
 
 static double too_far(const void *user, double r)
 {
@@ -113,7 +128,8 @@ static double too_far(const void *user, double r)
     return kd_infall_proper_time(c->motion, c->at, r) - c->proper_time;
 }
 
-struct kd_infall_way kd_infall_after(const struct kd_observer_motion *m, const struct kd_vantage *at, double proper_time)
+struct kd_infall_way kd_infall_after(const struct kd_observer_motion *m, const struct kd_vantage *at,
+                                     double proper_time)
 {
     const struct clock clock = { m, at, proper_time };
     double last = fmin(kd_infall_last(at->spin), at->r);

@@ -26,8 +26,9 @@ double kd_kerr_isco(double a)
     double z2 = sqrt(3 * a * a + z1 * z1);
     double r = 3 + z2 - copysign(sqrt(fmax(0, 3 - z1) * (3 + z1 + 2 * z2)), a);
 
-    /* 3 - Z1 cancels for small a, below zero at some, and its root is good to 1e-8 only; Newton on the defining quartic in x = sqrt(r),
-     * x^4 - 6x^2 + 8ax - 3a^2 = 0, mends it. Near a = 1 the quartic has a triple root and the formula is the better one. */
+    /* 3 - Z1 cancels for small a, below zero at some, and its root is good to 1e-8 only; Newton on the defining
+     * quartic in x = sqrt(r), x^4 - 6x^2 + 8ax - 3a^2 = 0, mends it. Near a = 1 the quartic has a triple root and
+     * the formula is the better one. */
     if (fabs(a) < 0.7) {
         double x = sqrt(r);
         for (int i = 0; i < 3; i++)
@@ -52,9 +53,9 @@ double kd_kerr_marginally_bound(double a)
 
 double kd_kerr_omega(double a, double r) { return 1 / (r * sqrt(r) + a); }
 
-/* Near a = 1 the prograde orbits come close to r = 1, where 1 - 3/r + 2a/r^(3/2) and the numerators of E and L cancel and
- * lose half their digits. As polynomials in x = sqrt(r) they are regrouped around x = 1, from x - 1 and 1 - a, which are
- * known to full precision. */
+/* Near a = 1 the prograde orbits come close to r = 1, where 1 - 3/r + 2a/r^(3/2) and the numerators of E and L
+ * cancel and lose half their digits. As polynomials in x = sqrt(r) they are regrouped around x = 1, from x - 1 and 1
+ * - a, which are known to full precision. */
 struct circle { double x, d, e, norm; }; /* sqrt(r), x - 1, 1 - a, sqrt(x^3 (x^3 - 3x + 2a)) */
 
 static struct circle circle_of(double a, double r)

@@ -1,6 +1,6 @@
-/* The Kerr hole has these scalars that depend on spin, and these circular equatorial orbits. Double precision, pure functions, any thread. Units G =
- * c = M = 1. The spin a is signed: a < 0 means that the orbit or disk, which always turns towards +phi, is retrograde to the hole. Domain |a| < 1;
- * outside it the result is NaN.
+/* The Kerr hole has these scalars that depend on spin, and these circular equatorial orbits. Double precision, pure
+ * functions, any thread. Units G = c = M = 1. The spin a is signed: a < 0 means that the orbit or disk, which always
+ * turns towards +phi, is retrograde to the hole. Domain |a| < 1; outside it the result is NaN.
  *
  * Sources: Bardeen, Press & Teukolsky 1972, ApJ 178, 347 [BPT]; Chandrasekhar 1983. */
 #ifndef KD_PHYSICS_KERR_H
@@ -30,15 +30,15 @@ double kd_kerr_ut(double a, double r);
 /* Efficiency of a thin disk, 1 - E(ISCO). */
 double kd_kerr_efficiency(double a);
 
-/* Boyer-Lindquist azimuth less that of ingoing Kerr-Schild coordinates, which is the same at infinity: the integral of a/Delta from r to
- * infinity. r > r+; it diverges at the horizon. */
+/* Boyer-Lindquist azimuth less that of ingoing Kerr-Schild coordinates, which is the same at infinity: the integral
+ * of a/Delta from r to infinity. r > r+; it diverges at the horizon. */
 double kd_kerr_twist(double a, double r);
 
 /* Angular velocity of frame dragging, -g_tphi/g_phiphi. */
 double kd_kerr_dragging(double a, double r, double cos_theta);
 
-/* Anything at r turns with d(phi)/dt within this of the frame dragging, where light does: sqrt(Delta) Sigma/(B sin(theta)),
- * B = (r^2 + a^2)^2 - a^2 Delta sin^2(theta) [BPT eqs 2.3, 2.5]. Infinite on the axis. */
+/* Anything at r turns with d(phi)/dt within this of the frame dragging, where light does: sqrt(Delta) Sigma/(B
+ * sin(theta)), B = (r^2 + a^2)^2 - a^2 Delta sin^2(theta) [BPT eqs 2.3, 2.5]. Infinite on the axis. */
 double kd_kerr_rotation_reach(double a, double r, double cos_theta, double sin_theta);
 
 #endif

@@ -11,7 +11,8 @@
  * then good to some 1e-14. */
 #define NEAR 0.03
 
-/* At this distance the ray is as good as the critical one: a crossing differs from that on the curve by less than rounding. */
+/* At this distance the ray is as good as the critical one: a crossing differs from that on the curve by less than
+ * rounding. */
 #define ON_CURVE 1e-40
 
 /* The centre is as far inside as d goes. Exactly there beta = 0, where the first crossing may be a start in
@@ -90,7 +91,8 @@ static double beyond(const void *user, double s)
     return (ray.radial.turns ? ray.radial.roots.r4 : 0) - q->source;
 }
 
-/* Goes in steps of the exponent from where an edge of this order is expected to where f changes sign, at most to `end`. */
+/* Goes in steps of the exponent from where an edge of this order is expected to where f changes sign, at most to
+ * `end`. */
 static double solve(kd_root_fn f, const struct search *q, double expected, double end)
 {
     double low = fmin(expected, end) - 1, high = fmin(low + 2, end);
@@ -116,7 +118,8 @@ double kd_lensing_edge(const struct kd_critical *c, const struct kd_critical_poi
     if (inside)
         return -exp(solve(late, &q, expected, log(CENTRE)));
     if (isfinite(source)) {
-        /* Up to this distance a ray meets the source twice: on its way in, sooner the farther out it goes, and on its way out. */
+        /* Up to this distance a ray meets the source twice: on its way in, sooner the farther out it goes, and on
+         * its way out. */
         far = solve(beyond, &q, 0, far);
         struct ray turn = ray_of(&q, far);
         q.out = !(turn.crossing < turn.radial.turn.tau);

@@ -6,9 +6,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define STEP 0.03    /* of ln r between rings, in the mean */
-#define BRIGHT 0.5   /* of that at the edge of the disk that shines more, and so much more than it at the other edge */
-enum { FEWEST = 64, MOST = 512, COARSEST = 8 }; /* rings; how many times fewer of them, and of angles, the roughest sum looks at */
+#define STEP 0.03  /* of ln r between rings, in the mean */
+#define BRIGHT 0.5 /* of that at the edge of the disk that shines more, and so much more than it at the other edge */
+enum {
+    FEWEST = 64,
+    MOST = 512,
+    COARSEST = 8
+}; /* rings; how many times fewer of them, and of angles, the roughest sum looks at */
 
 double kd_line_limb(enum kd_line_limb limb, double mu)
 {
@@ -24,7 +28,8 @@ static double emissivity(const struct kd_line_params *p, const struct kd_lamppos
 {
     switch (p->emissivity) {
     case KD_LINE_POWER: return pow(r, -p->index);
-    case KD_LINE_BROKEN: return pow(p->break_r, -p->index) * pow(r / p->break_r, r < p->break_r ? -p->index : -p->outer_index);
+    case KD_LINE_BROKEN:
+        return pow(p->break_r, -p->index) * pow(r / p->break_r, r < p->break_r ? -p->index : -p->outer_index);
     case KD_LINE_LAMPPOST: break;
     }
     return kd_lamppost_at(lamp, r);
@@ -32,12 +37,15 @@ static double emissivity(const struct kd_line_params *p, const struct kd_lamppos
 
 /* A ring as it is seen: places, energies, and how bright; the first direction once more at the end. */
 struct ring {
-    double alpha[KD_DISK_IMAGE_ANGLES + 1], beta[KD_DISK_IMAGE_ANGLES + 1], g[KD_DISK_IMAGE_ANGLES + 1], light[KD_DISK_IMAGE_ANGLES + 1];
+    double alpha[KD_DISK_IMAGE_ANGLES + 1], beta[KD_DISK_IMAGE_ANGLES + 1], g[KD_DISK_IMAGE_ANGLES + 1],
+        light[KD_DISK_IMAGE_ANGLES + 1];
 };
 
-/* What the cells between two rings send: the light of each, and its energies, which are those of a parallelogram over which g is linear: centre -+ (narrow +- wide)/2. */
+/* What the cells between two rings send: the light of each, and its energies, which are those of a parallelogram
+ * over which g is linear: centre -+ (narrow +- wide)/2. */
 struct strip {
-    double light[KD_DISK_IMAGE_ANGLES], centre[KD_DISK_IMAGE_ANGLES], narrow[KD_DISK_IMAGE_ANGLES], wide[KD_DISK_IMAGE_ANGLES];
+    double light[KD_DISK_IMAGE_ANGLES], centre[KD_DISK_IMAGE_ANGLES], narrow[KD_DISK_IMAGE_ANGLES],
+        wide[KD_DISK_IMAGE_ANGLES];
 };
 
 struct sum {
@@ -57,7 +65,8 @@ static int bin_of(struct sum *s, double g)
     return s->last = at;
 }
 
-/* The energies of a cell, g linear over a parallelogram: the share of it below an energy is square in that at both ends and straight between. */
+/* The energies of a cell, g linear over a parallelogram: the share of it below an energy is square in that at both
+ * ends and straight between. */
 struct spread {
     double low, narrow, all, slope, steep; /* all: narrow + wide; slope: 1/wide; steep: 1/(2 narrow wide) */
 };
@@ -92,8 +101,10 @@ static void add_cell(struct sum *s, double light, double centre, double narrow, 
     }
 }
 
-/* A chord between nodes h apart lies off the curve by -h^2 f''/12 in the mean. Nodes that are moved by a twelfth of their second difference leave the fourth power of h; next to the horns of a profile, where g is
- * stationary along a ring, that is worth twice as many directions. No node is moved by more than half of itself where it must not change its sign. */
+/* A chord between nodes h apart lies off the curve by -h^2 f''/12 in the mean. Nodes that are moved by a twelfth of
+ * their second difference leave the fourth power of h; next to the horns of a profile, where g is stationary along a
+ * ring, that is worth twice as many directions. No node is moved by more than half of itself where it must not
+ * change its sign. */
 static void straighten(double *f, int n, bool positive)
 {
     double before = f[n - 1], first = f[0];
@@ -105,7 +116,8 @@ static void straighten(double *f, int n, bool positive)
     f[n] = f[0];
 }
 
-static void fill_ring(const struct kd_disk_image *image, const struct kd_line_params *p, const struct kd_lamppost *lamp, double r, int skip, int n, struct ring *ring)
+static void fill_ring(const struct kd_disk_image *image, const struct kd_line_params *p, const struct kd_lamppost *lamp,
+                      double r, int skip, int n, struct ring *ring)
 {
     double bright = emissivity(p, lamp, r);
     kd_disk_image_ring(image, r, skip, n, ring->alpha, ring->beta);
@@ -122,18 +134,26 @@ static void fill_ring(const struct kd_disk_image *image, const struct kd_line_pa
     straighten(ring->light, n, true);
 }
 
-/* The cells between ring x and ring y, ln r of which differs by `apart`. Across a cell light falls as a power of r, and area grows with the edges and with the width, which is about as r itself: their
- * product by Simpson's rule, between the ends the geometric mean of light. The mean of g, weighed by that, is off its middle by a twelfth of the products of its steps and those of light. */
+/* The cells between ring x and ring y, ln r of which differs by `apart`. Across a cell light falls as a power of r,
+ * and area grows with the edges and with the width, which is about as r itself: their product by Simpson's rule,
+ * between the ends the geometric mean of light. The mean of g, weighed by that, is off its middle by a twelfth of
+ * the products of its steps and those of light. */
 static void fill_strip(const struct ring *x, const struct ring *y, double apart, int n, struct strip *strip)
 {
     for (int j = 0; j < n; j++) {
         int k = j + 1;
-        double wa = 0.5 * (y->alpha[j] + y->alpha[k] - x->alpha[j] - x->alpha[k]), wb = 0.5 * (y->beta[j] + y->beta[k] - x->beta[j] - x->beta[k]);
-        double here = fabs(wa * (x->beta[k] - x->beta[j]) - wb * (x->alpha[k] - x->alpha[j])), there = fabs(wa * (y->beta[k] - y->beta[j]) - wb * (y->alpha[k] - y->alpha[j]));
-        double area = 0.5 * (here + there), grown = 0.5 * area * apart, in = 0.5 * (x->light[j] + x->light[k]), out = 0.5 * (y->light[j] + y->light[k]);
-        double first = in * (here - grown), last = out * (there + grown), light = (first + 4 * sqrt(in * out) * area + last) * (1. / 6);
+        double wa = 0.5 * (y->alpha[j] + y->alpha[k] - x->alpha[j] - x->alpha[k]),
+               wb = 0.5 * (y->beta[j] + y->beta[k] - x->beta[j] - x->beta[k]);
+        double here = fabs(wa * (x->beta[k] - x->beta[j]) - wb * (x->alpha[k] - x->alpha[j])),
+               there = fabs(wa * (y->beta[k] - y->beta[j]) - wb * (y->alpha[k] - y->alpha[j]));
+        double area = 0.5 * (here + there), grown = 0.5 * area * apart, in = 0.5 * (x->light[j] + x->light[k]),
+               out = 0.5 * (y->light[j] + y->light[k]);
+        double first = in * (here - grown), last = out * (there + grown),
+               light = (first + 4 * sqrt(in * out) * area + last) * (1. / 6);
         double along = (x->light[k] + y->light[k] - x->light[j] - y->light[j]) / (in + out);
-        double g = 0.25 * (x->g[j] + x->g[k] + y->g[j] + y->g[k]), g_across = 0.5 * (y->g[j] + y->g[k] - x->g[j] - x->g[k]), g_along = 0.5 * (x->g[k] + y->g[k] - x->g[j] - y->g[j]);
+        double g = 0.25 * (x->g[j] + x->g[k] + y->g[j] + y->g[k]),
+               g_across = 0.5 * (y->g[j] + y->g[k] - x->g[j] - x->g[k]),
+               g_along = 0.5 * (x->g[k] + y->g[k] - x->g[j] - y->g[j]);
         strip->light[j] = light;
         strip->centre[j] = g + (g_along * along + g_across * (last - first) / light) * (1. / 12);
         double one = fabs(g_across), other = fabs(g_along);
@@ -141,7 +161,8 @@ static void fill_strip(const struct ring *x, const struct ring *y, double apart,
     }
 }
 
-static void add_strip(struct sum *s, const struct ring *x, const struct ring *y, double apart, int n, struct strip *strip)
+static void add_strip(struct sum *s, const struct ring *x, const struct ring *y, double apart, int n,
+                      struct strip *strip)
 {
     fill_strip(x, y, apart, n, strip);
     for (int j = 0; j < n; j++)
@@ -154,20 +175,22 @@ struct work {
 };
 
 /* How closely an integral looks: rings and angles `coarse` times fewer, and every `skip`th node of the table. */
-struct looks {
-    int coarse, skip;
-};
+struct looks { int coarse, skip; };
 
-static void integrate(const struct kd_disk_image *image, const struct kd_line_params *p, const struct kd_lamppost *lamp, struct looks looks, struct work *work, struct sum *s)
+static void integrate(const struct kd_disk_image *image, const struct kd_line_params *p, const struct kd_lamppost *lamp,
+                      struct looks looks, struct work *work, struct sum *s)
 {
     int around = image->angles > 64 || image->cos_i < 0.6 ? KD_DISK_IMAGE_ANGLES : KD_DISK_IMAGE_ANGLES / 2;
     double rings_of_coarsest = ceil(log(p->outer / p->inner) / (STEP * COARSEST));
-    int n = around / looks.coarse, m = (int)fmin(fmax(rings_of_coarsest, FEWEST / COARSEST), MOST / COARSEST) * (COARSEST / looks.coarse);
+    int n = around / looks.coarse,
+        m = (int)fmin(fmax(rings_of_coarsest, FEWEST / COARSEST), MOST / COARSEST) * (COARSEST / looks.coarse);
     struct ring *rings = work->rings;
-    bool outwards = emissivity(p, lamp, p->outer) * p->outer * p->outer > emissivity(p, lamp, p->inner) * p->inner * p->inner; /* by ring of equal ln r */
+    bool outwards = emissivity(p, lamp, p->outer) * p->outer * p->outer >
+                    emissivity(p, lamp, p->inner) * p->inner * p->inner; /* by ring of equal ln r */
     double before = 0, first = outwards ? 2 - BRIGHT : BRIGHT;
     for (int i = 0; i <= m; i++) {
-        double part = (double)i / m, r = i == m ? p->outer : p->inner * pow(p->outer / p->inner, part * (first + (1 - first) * part));
+        double part = (double)i / m,
+               r = i == m ? p->outer : p->inner * pow(p->outer / p->inner, part * (first + (1 - first) * part));
         fill_ring(image, p, lamp, r, looks.skip, n, &rings[i & 1]);
         if (i)
             add_strip(s, &rings[!(i & 1)], &rings[i & 1], log(r / before), n, &work->strip);
@@ -188,9 +211,12 @@ static double apart(const struct sum *x, const struct sum *y)
 
 enum { LEVELS = 4 }; /* looks: 8, 4, 2 and 1 times fewer rings and angles */
 
-/* Sums ever closer until the error is as small as it may be: at least two, of which the later one is the answer, in sums[*n]. Cells err with the square of their size, so that halving it shows three
- * times what is left: of the difference three quarters are counted, since in some profiles two sums come nearer by chance. The table errs with the sixth power of its step, so that twice the step shows 63 times what is left: an eighth is counted. */
-static double approach(const struct kd_disk_image *image, const struct kd_line_params *p, const struct kd_lamppost *lamp, struct work *work, struct sum sums[LEVELS + 1], int *n)
+/* Sums ever closer until the error is as small as it may be: at least two, of which the later one is the answer, in
+ * sums[*n]. Cells err with the square of their size, so that halving it shows three times what is left: of the
+ * difference three quarters are counted, since in some profiles two sums come nearer by chance. The table errs with
+ * the sixth power of its step, so that twice the step shows 63 times what is left: an eighth is counted. */
+static double approach(const struct kd_disk_image *image, const struct kd_line_params *p,
+                       const struct kd_lamppost *lamp, struct work *work, struct sum sums[LEVELS + 1], int *n)
 {
     integrate(image, p, lamp, (struct looks) { COARSEST, 2 }, work, &sums[LEVELS]);
     integrate(image, p, lamp, (struct looks) { COARSEST, 1 }, work, &sums[0]);
@@ -203,13 +229,16 @@ static double approach(const struct kd_disk_image *image, const struct kd_line_p
     return error;
 }
 
-enum kd_status kd_line_profile(const struct kd_disk_image *image, const struct kd_line_params *params, const double *edges, int bins, double *share,
-                               struct kd_line_profile *profile, struct kd_error *error)
+enum kd_status kd_line_profile(const struct kd_disk_image *image, const struct kd_line_params *params,
+                               const double *edges, int bins, double *share, struct kd_line_profile *profile,
+                               struct kd_error *error)
 {
     struct kd_lamppost lamp;
     struct sum sums[LEVELS + 1];
-    if (params->emissivity == KD_LINE_LAMPPOST && !kd_lamppost_init(&lamp, image->spin, params->height, params->photon_index, params->inner, params->outer))
-        return kd_error_field(error, "/height", "height is %.9g: its light is not found on the whole disk", params->height);
+    if (params->emissivity == KD_LINE_LAMPPOST &&
+        !kd_lamppost_init(&lamp, image->spin, params->height, params->photon_index, params->inner, params->outer))
+        return kd_error_field(error, "/height", "height is %.9g: its light is not found on the whole disk",
+                              params->height);
     struct work *work = malloc(sizeof *work);
     double *in = calloc((size_t)bins * (LEVELS + 1), sizeof *in);
     enum kd_status status = work && in ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for %d bins", bins);
@@ -218,11 +247,13 @@ enum kd_status kd_line_profile(const struct kd_disk_image *image, const struct k
         for (int i = 0; i <= LEVELS; i++)
             sums[i] = (struct sum) { .edges = edges, .bins = bins, .in = in + (size_t)i * (size_t)bins };
         double left = approach(image, params, &lamp, work, sums, &n);
-        *profile = (struct kd_line_profile) { .total = sums[n].total + (sums[n].total - sums[n - 1].total) / 3, .error = left };
+        *profile = (struct kd_line_profile) { .total = sums[n].total + (sums[n].total - sums[n - 1].total) / 3,
+                                              .error = left };
         for (int i = 0; i < bins; i++)
             share[i] = sums[n].in[i] / sums[n].total;
         if (!(sums[n].total > 0 && isfinite(profile->total)))
-            status = kd_error_field(error, "/spin", "spin is %.17g: the sum is no number, so near an extremal hole", image->spin);
+            status = kd_error_field(error, "/spin", "spin is %.17g: the sum is no number, so near an extremal hole",
+                                    image->spin);
     }
     free(work);
     free(in);

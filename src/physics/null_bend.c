@@ -15,9 +15,12 @@ struct swing {
     double at;   /* x of the observer, -pi ... pi */
 };
 
-/* The roots of Gauss and Legendre on [0, 1], half of them, and their weights: A. N. Lowan et al. 1942, Bull. AMS 48, 739; ten points. */
-static const double roots[] = { 0.07443716949081560544, 0.21669769706462038234, 0.33970478414951225622, 0.43253168334449225535, 0.48695326425858586444 };
-static const double weights[] = { 0.14776211235737643509, 0.13463335965499817754, 0.10954318125799102200, 0.07472567457529029657, 0.03333567215434406880 };
+/* The roots of Gauss and Legendre on [0, 1], half of them, and their weights: A. N. Lowan et al. 1942, Bull. AMS 48,
+ * 739; ten points. */
+static const double roots[] = { 0.07443716949081560544, 0.21669769706462038234, 0.33970478414951225622,
+                                0.43253168334449225535, 0.48695326425858586444 };
+static const double weights[] = { 0.14776211235737643509, 0.13463335965499817754, 0.10954318125799102200,
+                                  0.07472567457529029657, 0.03333567215434406880 };
 
 static bool swing_of(const struct kd_null_motion *m, struct swing *o, struct kd_null_bend *out)
 {
@@ -50,7 +53,8 @@ static double time_to(const struct swing *w, double x)
 static double swung(const struct swing *w, double tau)
 {
     const double half = 2 * time_to(w, 0.5 * M_PI), away = fabs(w->at) > 0.5 * M_PI ? copysign(M_PI, w->at) : 0;
-    const double total = time_to(w, w->at - away) + tau + copysign(away != 0 ? half : 0, away), swings = nearbyint(total / half), rest = total - swings * half;
+    const double total = time_to(w, w->at - away) + tau + copysign(away != 0 ? half : 0, away),
+                 swings = nearbyint(total / half), rest = total - swings * half;
     return swings * M_PI + copysign(kd_jacobi_am(sqrt(w->s) * fabs(rest), w->kappa, w->n / w->s), rest);
 }
 
@@ -61,7 +65,8 @@ static double drag_rate(const struct swing *w, double s2)
     return 1 / (speed * (w->full + speed));
 }
 
-/* sin^2 of pi/16, 3 pi/16, 5 pi/16, 7 pi/16: over a whole period midpoints converge as fast as Gauss's, kappa^8 is below 1e-8 outside the shadow. */
+/* sin^2 of pi/16, 3 pi/16, 5 pi/16, 7 pi/16: over a whole period midpoints converge as fast as Gauss's, kappa^8 is
+ * below 1e-8 outside the shadow. */
 static const double squares[] = { 0.03806023374435662, 0.30865828381745514, 0.69134171618254486, 0.96193976625564338 };
 
 static double dragged(const struct swing *w, double from, double to)
@@ -108,7 +113,8 @@ bool kd_null_bend_of(const struct kd_null_ray *ray, struct kd_null_bend *out)
         const struct kd_null_radius at = kd_null_radius_of(&q, ray->radius);
         start = kd_null_radial_integrals(&q, &at, false);
     }
-    const double tau = ray->outward ? start.tau : 2 * q.turn.tau - start.tau, phi = ray->outward ? start.phi : 2 * q.turn.phi - start.phi;
+    const double tau = ray->outward ? start.tau : 2 * q.turn.tau - start.tau,
+                 phi = ray->outward ? start.phi : 2 * q.turn.phi - start.phi;
     const double to = swung(&w, tau);
     out->turn = to - w.at;
     out->drag = -(phi + m.a * m.a * m.lambda / w.full * dragged(&w, w.at, to));

@@ -16,14 +16,14 @@ struct state { double y[STATE]; };
 
 struct course {
     struct kd_null_motion m;
-    double horizon;      /* 1/r+ */
-    double sense;        /* of lambda, where that is 0 */
-    double psi;          /* azimuth so far, without frame dragging, not reduced to a turn */
+    double horizon;        /* 1/r+ */
+    double sense;          /* of lambda, where that is 0 */
+    double psi;            /* azimuth so far, without frame dragging, not reduced to a turn */
     double last_x, last_y; /* n in the plane when it was last looked at */
-    double way;          /* 1: time is counted as on the way in, -1: as on the way out */
-    double ingoing;      /* sign of the energy in ingoing coordinates; 0: in those of Boyer and Lindquist */
-    double edge;         /* what was taken out of the time, at the start */
-    double first;        /* 1/r from where on there are places */
+    double way;            /* 1: time is counted as on the way in, -1: as on the way out */
+    double ingoing;        /* sign of the energy in ingoing coordinates; 0: in those of Boyer and Lindquist */
+    double edge;           /* what was taken out of the time, at the start */
+    double first;          /* 1/r from where on there are places */
     struct state now;
     double mino;
     int order;
@@ -36,7 +36,8 @@ struct course {
 static double gone(const struct course *c, double w, double dw, double d)
 {
     const struct kd_null_motion *m = &c->m;
-    const double all = 1 + m->a * (m->a - m->lambda) * w * w, along = all + c->ingoing * dw, against = all - c->ingoing * dw;
+    const double all = 1 + m->a * (m->a - m->lambda) * w * w, along = all + c->ingoing * dw,
+                 against = all - c->ingoing * dw;
     return fabs(against) >= fabs(along) ? m->k * w * w / against : along / d;
 }
 
@@ -49,12 +50,16 @@ static struct state rates(const struct course *c, const struct state *s)
     return (struct state) { {
         [W] = dw,
         [DW] = w * (m->quadratic + w * (3 * m->k + 2 * m->constant * w)),
-        [NX] = s->y[VX], [NY] = s->y[VY], [NZ] = s->y[VZ],
-        [VX] = -pull * s->y[NX], [VY] = -pull * s->y[NY], [VZ] = (a2 - pull) * u,
+        [NX] = s->y[VX],
+        [NY] = s->y[VY],
+        [NZ] = s->y[VZ],
+        [VX] = -pull * s->y[NX],
+        [VY] = -pull * s->y[NY],
+        [VZ] = (a2 - pull) * u,
         [CHI] = c->ingoing != 0 ? a * (g - 1) : a * w * (2 - a * m->lambda * w) / d,
-        [T] = c->ingoing != 0 ? w * (m->k + m->constant * w) + a2 * u * u + (w != 0 ? 2 * g / w : 0) :
-              w * (m->k + m->constant * w) * (1 + 2 * w / (1 + c->way * dw)) + 4 +
-              ((8 - 2 * a * m->lambda) * w - 4 * a2 * w * w) / d + a2 * u * u,
+        [T] = c->ingoing != 0 ? w * (m->k + m->constant * w) + a2 * u * u + (w != 0 ? 2 * g / w : 0)
+                              : w * (m->k + m->constant * w) * (1 + 2 * w / (1 + c->way * dw)) + 4 +
+                                    ((8 - 2 * a * m->lambda) * w - 4 * a2 * w * w) / d + a2 * u * u,
     } };
 }
 
@@ -69,8 +74,8 @@ static struct state ahead(const struct state *s, const struct state *rate, doubl
 /* Runge and Kutta's step. */
 static struct state step(const struct course *c, const struct state *s, double h)
 {
-    const struct state k1 = rates(c, s), s2 = ahead(s, &k1, 0.5 * h), k2 = rates(c, &s2), s3 = ahead(s, &k2, 0.5 * h), k3 = rates(c, &s3),
-                       s4 = ahead(s, &k3, h), k4 = rates(c, &s4);
+    const struct state k1 = rates(c, s), s2 = ahead(s, &k1, 0.5 * h), k2 = rates(c, &s2), s3 = ahead(s, &k2, 0.5 * h),
+                       k3 = rates(c, &s3), s4 = ahead(s, &k3, h), k4 = rates(c, &s4);
     struct state o;
     for (int i = 0; i < STATE; i++)
         o.y[i] = s->y[i] + h / 6 * (k1.y[i] + 2 * (k2.y[i] + k3.y[i]) + k4.y[i]);
@@ -97,7 +102,8 @@ static double drift(const struct course *c, const struct state *s)
     double radial = -y[DW] * y[DW], size = y[DW] * y[DW];
     for (int i = 0; i < 4; i++)
         radial += terms[i], size += fabs(terms[i]);
-    const double speed2 = y[VX] * y[VX] + y[VY] * y[VY] + y[VZ] * y[VZ], polar = m->eta + l2 + m->a * m->a * u2 - speed2;
+    const double speed2 = y[VX] * y[VX] + y[VY] * y[VY] + y[VZ] * y[VZ],
+                 polar = m->eta + l2 + m->a * m->a * u2 - speed2;
     const double moment = y[NX] * y[VY] - y[NY] * y[VX] - m->lambda, about = sqrt(fabs(m->eta) + l2 + m->a * m->a);
     double worst = fmax(fabs(radial) / size, fabs(y[NX] * y[NX] + y[NY] * y[NY] + u2 - 1));
     if (about > 0)
@@ -105,8 +111,8 @@ static double drift(const struct course *c, const struct state *s)
     return worst;
 }
 
-/* Count the azimuth on to a state. A ray through the axis turns by pi there: one with alpha = 0 towards -phi, one from an observer on the axis as
- * those next to it, whose lambda has the sign of -alpha (null_polar.h). */
+/* Count the azimuth on to a state. A ray through the axis turns by pi there: one with alpha = 0 towards -phi, one
+ * from an observer on the axis as those next to it, whose lambda has the sign of -alpha (null_polar.h). */
 static void turn(struct course *c, const struct state *s)
 {
     const double x = s->y[NX], y = s->y[NY], dot = c->last_x * x + c->last_y * y, cross = c->last_x * y - c->last_y * x;
@@ -135,13 +141,19 @@ static bool put(struct course *c, const struct state *s, int crossing)
     if (c->to->n == c->most)
         return false;
     c->out[c->to->n++] = (struct kd_null_place) {
-        .mino = c->mino, .r = 1 / s->y[W], .u = fmax(-1, fmin(1, s->y[NZ])), .phi = 0 - (c->psi + s->y[CHI]), .delay = s->y[T] + edge(c, s) - c->edge,
-        .order = c->order, .crossing = crossing,
+        .mino = c->mino,
+        .r = 1 / s->y[W],
+        .u = fmax(-1, fmin(1, s->y[NZ])),
+        .phi = 0 - (c->psi + s->y[CHI]),
+        .delay = s->y[T] + edge(c, s) - c->edge,
+        .order = c->order,
+        .crossing = crossing,
     };
     return true;
 }
 
-/* The part of a step from `from` at which y[which] is `value`, which it passes on the way: by bisection, and secants. */
+/* The part of a step from `from` at which y[which] is `value`, which it passes on the way: by bisection, and
+ * secants. */
 static double part_of(const struct course *c, const struct state *from, double h, int which, double value)
 {
     double low = 0, high = h;
@@ -162,14 +174,20 @@ static double part_of(const struct course *c, const struct state *from, double h
 
 static bool set_out(struct course *c, const struct kd_null_ray *ray)
 {
-    const double u = ray->cos_theta, s = ray->sin_theta > 0 ? ray->sin_theta : sqrt((1 - u) * (1 + u)), w = isinf(ray->radius) ? 0 : 1 / ray->radius;
+    const double u = ray->cos_theta, s = ray->sin_theta > 0 ? ray->sin_theta : sqrt((1 - u) * (1 + u)),
+                 w = isinf(ray->radius) ? 0 : 1 / ray->radius;
     const struct kd_null_motion *m = &c->m;
     const double all = 1 + w * w * (m->quadratic + w * (2 * m->k + m->constant * w));
     if (!(all >= -1e-12) || !isfinite(m->lambda) || !isfinite(m->eta)) /* and NaN is no ray */
         return false;
     c->now = (struct state) { {
-        [W] = w, [DW] = (ray->outward ? -1 : 1) * sqrt(fmax(all, 0)),
-        [NX] = s, [NZ] = u, [VX] = -ray->beta * u, [VY] = 0 - ray->alpha, [VZ] = ray->beta * s,
+        [W] = w,
+        [DW] = (ray->outward ? -1 : 1) * sqrt(fmax(all, 0)),
+        [NX] = s,
+        [NZ] = u,
+        [VX] = -ray->beta * u,
+        [VY] = 0 - ray->alpha,
+        [VZ] = ray->beta * s,
     } };
     c->sense = s > 0 || !(ray->alpha > 0) ? 1 : -1;
     c->last_x = s > 0 ? s : c->now.y[VX];
@@ -180,7 +198,8 @@ static bool set_out(struct course *c, const struct kd_null_ray *ray)
     return true;
 }
 
-/* The next step is no longer than this, to the next place. Deep in the hole w changes by itself at the rate sqrt(6 k w). */
+/* The next step is no longer than this, to the next place. Deep in the hole w changes by itself at the rate sqrt(6 k
+ * w). */
 static double length_of(const struct course *c)
 {
     const struct kd_null_motion *m = &c->m;
@@ -190,10 +209,16 @@ static double length_of(const struct course *c)
 }
 
 /* Says that a ray in ingoing coordinates comes from no outside: it is bound for the horizon of the past from within. */
-static bool is_dark(const struct course *c) { return c->ingoing * (1 + c->m.a * (c->m.a - c->m.lambda) * c->horizon * c->horizon) <= 0; }
+static bool is_dark(const struct course *c)
+{
+    return c->ingoing * (1 + c->m.a * (c->m.a - c->m.lambda) * c->horizon * c->horizon) <= 0;
+}
 
 /* Says that chi and t have a pole where the ray would come to the horizon next. */
-static bool has_pole(const struct course *c) { return c->ingoing == 0 || c->now.y[DW] > 0 || (c->now.y[W] > c->horizon && is_dark(c)); }
+static bool has_pole(const struct course *c)
+{
+    return c->ingoing == 0 || c->now.y[DW] > 0 || (c->now.y[W] > c->horizon && is_dark(c));
+}
 
 /* A step of at most h; at a crossing it ends there, which is a place. False: no room is left. */
 static bool go(struct course *c, double h)
@@ -268,25 +293,33 @@ static void run(struct course *c, double near)
     to->end = KD_COURSE_LONG;
 }
 
-static struct kd_null_course follow(const struct kd_null_ray *ray, double ingoing, double far, double near, struct kd_null_place *out, size_t most)
+static struct kd_null_course follow(const struct kd_null_ray *ray, double ingoing, double far, double near,
+                                    struct kd_null_place *out, size_t most)
 {
     struct kd_null_course course = { .least_r = INFINITY };
     const double begun = isinf(ray->radius) ? 0 : 1 / ray->radius;
     struct course c = {
-        .m = kd_null_motion_of(ray->spin, ray->cos_theta, ray->sin_theta, ray->alpha, ray->beta), .horizon = 1 / kd_kerr_horizon(ray->spin), .ingoing = ingoing,
-        .first = fmin(1 / far, begun > 0 ? begun : INFINITY), .out = out, .most = most, .to = &course,
+        .m = kd_null_motion_of(ray->spin, ray->cos_theta, ray->sin_theta, ray->alpha, ray->beta),
+        .horizon = 1 / kd_kerr_horizon(ray->spin),
+        .ingoing = ingoing,
+        .first = fmin(1 / far, begun > 0 ? begun : INFINITY),
+        .out = out,
+        .most = most,
+        .to = &course,
     };
     if (set_out(&c, ray))
         run(&c, near);
     return course;
 }
 
-struct kd_null_course kd_null_course_of(const struct kd_null_ray *ray, double far, double near, struct kd_null_place *out, size_t most)
+struct kd_null_course kd_null_course_of(const struct kd_null_ray *ray, double far, double near,
+                                        struct kd_null_place *out, size_t most)
 {
     return follow(ray, 0, far, near, out, most);
 }
 
-struct kd_null_course kd_null_course_ingoing(const struct kd_null_ray *ray, bool reversed, double far, double near, struct kd_null_place *out, size_t most)
+struct kd_null_course kd_null_course_ingoing(const struct kd_null_ray *ray, bool reversed, double far, double near,
+                                             struct kd_null_place *out, size_t most)
 {
     return follow(ray, reversed ? -1 : 1, far, near, out, most);
 }

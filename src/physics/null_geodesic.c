@@ -119,8 +119,7 @@ static void cross(const struct motion *m, const struct kd_null_ray *ray, struct 
 
 static void escape(const struct motion *m, const struct kd_null_motion *k, struct kd_null_path *path)
 {
-    struct kd_null_radial_sum sum =
-        m->forward < 0 ? m->start : sub(add(m->radial.turn, m->radial.turn), m->start);
+    struct kd_null_radial_sum sum = m->forward < 0 ? m->start : sub(add(m->radial.turn, m->radial.turn), m->start);
     struct kd_null_polar_place sky = kd_null_polar_at(&m->polar, k, m->end);
     path->sky_u = sky.u;
     path->sky_phi = -(sum.phi + sky.phi);
@@ -143,8 +142,7 @@ static void without_roots(const struct kd_null_ray *ray, const struct kd_null_mo
 }
 
 /* R = r^4: a radial ray of Schwarzschild, or the principal ray in the equatorial plane, lambda = a. */
-static void principal(const struct kd_null_ray *ray, const struct kd_null_motion *k,
-                      struct kd_null_path *path)
+static void principal(const struct kd_null_ray *ray, const struct kd_null_motion *k, struct kd_null_path *path)
 {
     if (!ray->outward)
         return;
@@ -157,9 +155,7 @@ static void principal(const struct kd_null_ray *ray, const struct kd_null_motion
 
 static struct kd_null_path follow(const struct kd_null_ray *ray)
 {
-    struct kd_null_path path = {
-        .status = KD_NULL_BAD_INPUT, .fate = KD_NULL_CAPTURED, .sky_u = NAN, .sky_phi = NAN
-    };
+    struct kd_null_path path = { .status = KD_NULL_BAD_INPUT, .fate = KD_NULL_CAPTURED, .sky_u = NAN, .sky_phi = NAN };
     if (!valid(ray))
         return path;
     struct kd_null_motion k = kd_null_motion_of(ray->spin, ray->cos_theta, ray->sin_theta, ray->alpha, ray->beta);
@@ -202,14 +198,12 @@ struct kd_null_path kd_null_trace_fast(const struct kd_null_ray *ray)
     return path;
 }
 
-struct slope {
-    double r, phi, delay;
-};
+struct slope { double r, phi, delay; };
 
 /* How far the answers move when alpha and beta change by the fractions `step` and `other`, in units of
  * `step`; INFINITY for what is there no more. */
-static void add_slopes(const struct kd_null_ray *ray, struct kd_null_path *path, double step,
-                       double other, struct slope *slopes, double *sky)
+static void add_slopes(const struct kd_null_ray *ray, struct kd_null_path *path, double step, double other,
+                       struct slope *slopes, double *sky)
 {
     struct kd_null_ray near = *ray;
     near.alpha *= 1 + step, near.beta *= 1 + other;
@@ -225,8 +219,7 @@ static void add_slopes(const struct kd_null_ray *ray, struct kd_null_path *path,
     }
     bool lost = there.fate != path->fate || there.status != path->status;
     if (path->fate == KD_NULL_ESCAPED)
-        *sky +=
-            lost ? INFINITY : (fabs(there.sky_u - path->sky_u) + fabs(there.sky_phi - path->sky_phi)) / step;
+        *sky += lost ? INFINITY : (fabs(there.sky_u - path->sky_u) + fabs(there.sky_phi - path->sky_phi)) / step;
 }
 
 /* Roundings per chain of operations, from some 1e5 rays repeated with 64-bit significands: the worst error
@@ -241,12 +234,10 @@ static double weight_of(const struct kd_null_ray *ray)
  * r+). The two poles at the horizons, whose difference counts, lose 1/(r+ - r-). */
 static void estimate(const struct kd_null_ray *ray, struct kd_null_crossing *x, const struct slope *d)
 {
-    double plus = kd_kerr_horizon(ray->spin), gap = plus - kd_kerr_inner_horizon(ray->spin),
-           eps = DBL_EPSILON;
+    double plus = kd_kerr_horizon(ray->spin), gap = plus - kd_kerr_inner_horizon(ray->spin), eps = DBL_EPSILON;
     double weight = weight_of(ray), poles = (1 + x->r / (x->r - plus)) / gap * (1 + d->r);
     x->error_r = 4 * x->error_r + eps * (4 + weight * d->r);
-    x->error_phi =
-        4 * x->error_phi + eps * (4 + 2 * fabs(x->phi) + weight * d->phi + 4 * fabs(ray->spin) * poles);
+    x->error_phi = 4 * x->error_phi + eps * (4 + 2 * fabs(x->phi) + weight * d->phi + 4 * fabs(ray->spin) * poles);
     x->error_delay =
         4 * x->error_delay + eps * (8 + 8 * x->r + 4 * fabs(x->delay) + weight * d->delay + 8 * plus * poles);
     if (isfinite(ray->radius))
@@ -260,8 +251,8 @@ struct kd_null_path kd_null_trace(const struct kd_null_ray *ray)
         return path;
     struct kd_null_motion k = kd_null_motion_of(ray->spin, ray->cos_theta, ray->sin_theta, ray->alpha, ray->beta);
     struct kd_null_roots roots = kd_null_roots_of(&k);
-    /* The step is short against the distance from the critical curve and long against rounding; it leads away from that curve,
-     * so that the ray stays on its side. */
+    /* The step is short against the distance from the critical curve and long against rounding; it leads away from
+     * that curve, so that the ray stays on its side. */
     double step = fmin(fmax(1e-2 * roots.margin, 1e-13), 1e-11);
     if (roots.kind != KD_NULL_FOUR_REAL)
         step = -step;
@@ -273,8 +264,7 @@ struct kd_null_path kd_null_trace(const struct kd_null_ray *ray)
         estimate(ray, &path.crossing[n], &slopes[n]);
     double gap = kd_kerr_horizon(ray->spin) - kd_kerr_inner_horizon(ray->spin);
     if (path.fate == KD_NULL_ESCAPED)
-        path.sky_error =
-            4 * path.sky_error +
-            DBL_EPSILON * (4 + 2 * fabs(path.sky_phi) + weight_of(ray) * sky + 8 * fabs(ray->spin) / gap);
+        path.sky_error = 4 * path.sky_error +
+                         DBL_EPSILON * (4 + 2 * fabs(path.sky_phi) + weight_of(ray) * sky + 8 * fabs(ray->spin) / gap);
     return path;
 }

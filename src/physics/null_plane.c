@@ -19,12 +19,20 @@ struct ray {
 
 static struct ray ray_of(const struct kd_vantage *at, const struct kd_covector *p)
 {
-    const double a = at->spin, ae = a * p->energy, l = p->momentum * at->s, u2 = at->u * at->u, r_plus = kd_kerr_horizon(a);
+    const double a = at->spin, ae = a * p->energy, l = p->momentum * at->s, u2 = at->u * at->u,
+                 r_plus = kd_kerr_horizon(a);
     const double q = p->polar * p->polar + u2 * (p->momentum * p->momentum - ae * ae), k = q + (l - ae) * (l - ae);
     return (struct ray) {
-        .a2 = ae * ae - q - l * l, .k3 = 3 * k, .c2 = -2 * a * a * q, .e2 = 2 * ae * ae, .horizon = 1 / r_plus,
+        .a2 = ae * ae - q - l * l,
+        .k3 = 3 * k,
+        .c2 = -2 * a * a * q,
+        .e2 = 2 * ae * ae,
+        .horizon = 1 / r_plus,
         .ours = at->r > r_plus || (r_plus * r_plus + a * a) * p->energy - a * l > 0,
-        .w = 1 / at->r, .dw = p->radial / (at->r * at->r), .u = at->u, .du = at->s * p->polar,
+        .w = 1 / at->r,
+        .dw = p->radial / (at->r * at->r),
+        .u = at->u,
+        .du = at->s * p->polar,
     };
 }
 
@@ -44,7 +52,8 @@ static struct series series_of(const struct ray *o)
     for (int n = 0; n + 2 <= ORDER; n++) {
         w2[n] = product(s.w, s.w, n);
         u2[n] = product(s.u, s.u, n);
-        const double ww = o->a2 * s.w[n] + o->k3 * w2[n] + o->c2 * product(w2, s.w, n), uu = o->a2 * s.u[n] - o->e2 * product(u2, s.u, n);
+        const double ww = o->a2 * s.w[n] + o->k3 * w2[n] + o->c2 * product(w2, s.w, n),
+                     uu = o->a2 * s.u[n] - o->e2 * product(u2, s.u, n);
         s.w[n + 2] = ww / ((n + 1) * (n + 2));
         s.u[n + 2] = uu / ((n + 1) * (n + 2));
     }
@@ -54,7 +63,8 @@ static struct series series_of(const struct ray *o)
 /* How far a series is good to a rounding of its first term; size: what is not to be rounded away. */
 static double reach(const double *c, double size)
 {
-    const double last = pow(size / fabs(c[ORDER]), 1.0 / ORDER), before = pow(size / fabs(c[ORDER - 1]), 1.0 / (ORDER - 1));
+    const double last = pow(size / fabs(c[ORDER]), 1.0 / ORDER),
+                 before = pow(size / fabs(c[ORDER - 1]), 1.0 / (ORDER - 1));
     return fmin(last, before) * exp(-2);
 }
 

@@ -6,9 +6,7 @@
 #include <math.h>
 
 /* A point of the motion: sin^2 x, cos^2 x and 1 - kappa sin^2 x, each without cancellation. */
-struct phase {
-    double s2, c2, d2;
-};
+struct phase { double s2, c2, d2; };
 
 /* From the turning point at z to `at`, and the regular part alone of phi. */
 static struct kd_null_polar_sum from_turn(const struct kd_null_polar *p, struct phase at)
@@ -68,9 +66,7 @@ static void set_start(struct kd_null_polar *p, const struct kd_null_motion *m, d
 
 struct kd_null_polar kd_null_polar_of(const struct kd_null_motion *m)
 {
-    struct kd_null_polar p = { .a = m->a,
-                               .u = fabs(m->c),
-                               .side = m->c < 0 || (m->c == 0 && m->beta < 0) ? -1 : 1 };
+    struct kd_null_polar p = { .a = m->a, .u = fabs(m->c), .side = m->c < 0 || (m->c == 0 && m->beta < 0) ? -1 : 1 };
     double disc, gap, weight, a2 = m->a * m->a;
     kd_null_polar_gap(m, &disc, &gap, &weight);
     p.sense = m->alpha <= 0 ? 1 : -1;
@@ -134,8 +130,7 @@ struct kd_null_polar_sum kd_null_polar_crossing(const struct kd_null_polar *p, i
     };
 }
 
-struct kd_null_polar_place kd_null_polar_at(const struct kd_null_polar *p, const struct kd_null_motion *m,
-                                            double tau)
+struct kd_null_polar_place kd_null_polar_at(const struct kd_null_polar *p, const struct kd_null_motion *m, double tau)
 {
     if (p->fixed)
         return (struct kd_null_polar_place) { m->c, m->s > 0 ? m->lambda / (m->s * m->s) * tau : 0 };
@@ -155,8 +150,7 @@ struct kd_null_polar_place kd_null_polar_at(const struct kd_null_polar *p, const
         cosine = j.cn;
         weight = p->s * at.d2;
     }
-    double here =
-        from_turn(p, at).phi + atan2(sqrt(p->z * at.s2), p->cc * sqrt(p->z) * fmax(cosine, 0) * sqrt(weight));
+    double here = from_turn(p, at).phi + atan2(sqrt(p->z * at.s2), p->cc * sqrt(p->z) * fmax(cosine, 0) * sqrt(weight));
     double phi = 2 * swings * p->quarter.phi + copysign(here, rest) - p->start.phi;
     double sign = p->vortical || fmod(swings, 2) == 0 ? p->side : -p->side;
     return (struct kd_null_polar_place) { sign * sqrt(p->z) * cosine, p->sense * phi };

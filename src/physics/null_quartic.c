@@ -136,8 +136,7 @@ struct kd_null_displacement kd_null_displacement_of(const struct kd_null_motion 
 /* About r the quartic is x^4 + 4r x^3 + c2 x^2 + c1 x + c0 with small c1 and c0. It splits into x^2 - sum x +
  * product, with both small, and x^2 + (4r + sum) x + g; comparing coefficients gives a contraction by about
  * c0/g^2. */
-struct kd_null_roots kd_null_roots_beside(const struct kd_null_motion *m,
-                                          const struct kd_null_displacement *d)
+struct kd_null_roots kd_null_roots_beside(const struct kd_null_motion *m, const struct kd_null_displacement *d)
 {
     double r = d->r, c2 = d->bend + d->quadratic, c1 = 2 * (r * d->quadratic + d->k);
     double c0 = (d->quadratic * r + 2 * d->k) * r + d->constant, sum = 0, product = 0, g = c2;

@@ -1,10 +1,12 @@
-/* This finds the roots of the radial potential of a null geodesic of Kerr. Units G = c = M = 1 and E = 1. Pure functions, any thread.
+/* This finds the roots of the radial potential of a null geodesic of Kerr. Units G = c = M = 1 and E = 1. Pure
+ * functions, any thread.
  *
  *   R(r) = (r^2 + a^2 - a lambda)^2 - Delta (eta + (lambda - a)^2) = r^4 + A r^2 + 2 K r + C
  *
- * Sources: Gralla & Lupsasca 2020, arXiv:1910.12881, section IV and appendix A (roots and cases). The roots are found
- * otherwise than there: r1 and r2 by Newton's method from a side where it is monotone, the other two by division, so
- * that their meeting, the critical curve, shows in one number (pair) that has the accuracy of the coefficients. */
+ * Sources: Gralla & Lupsasca 2020, arXiv:1910.12881, section IV and appendix A (roots and cases). The roots are
+ * found otherwise than there: r1 and r2 by Newton's method from a side where it is monotone, the other two by
+ * division, so that their meeting, the critical curve, shows in one number (pair) that has the accuracy of the
+ * coefficients. */
 #ifndef KD_PHYSICS_NULL_QUARTIC_H
 #define KD_PHYSICS_NULL_QUARTIC_H
 
@@ -54,10 +56,10 @@ struct kd_null_displacement {
 struct kd_null_displacement kd_null_displacement_of(const struct kd_null_motion *critical, double r, double bend,
                                                     double dalpha, double dbeta);
 
-/* The same roots for a ray beside the critical curve, where the coefficients themselves no longer tell `pair`: it is found from
- * the displacement, with a relative error of a few 1e-16 however small that is. m is the displaced ray's motion. Meant for
- * displacements of some percent at most; where the iteration does not settle (near a = 1, where bend is small), the answer is
- * that of kd_null_roots_of. */
+/* The same roots for a ray beside the critical curve, where the coefficients themselves no longer tell `pair`: it is
+ * found from the displacement, with a relative error of a few 1e-16 however small that is. m is the displaced ray's
+ * motion. Meant for displacements of some percent at most; where the iteration does not settle (near a = 1, where
+ * bend is small), the answer is that of kd_null_roots_of. */
 struct kd_null_roots kd_null_roots_beside(const struct kd_null_motion *m, const struct kd_null_displacement *d);
 
 #endif

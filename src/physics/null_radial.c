@@ -8,9 +8,7 @@
 
 /* Int (r - r1)/(r - r5) dr/sqrt(R) for a pole r5: (2/3) (d12 d13 d14/d15) R_J(..., u2) + 2 R_C(s^2, q2),
  * DLMF 19.29.8. */
-struct pole {
-    double u2, s, q2;
-};
+struct pole { double u2, s, q2; };
 
 /* The arguments that DLMF 19.29 has for the path from r to the reference. */
 struct span {
@@ -107,8 +105,7 @@ static struct span span_inner(const struct kd_null_radial *q, const struct kd_nu
 }
 
 /* Int dr/((r - r5) sqrt(R)) from Int (r - r1)/(r - r5) dr/sqrt(R). */
-static double at_pole(const struct kd_null_roots *o, const struct span *s, const struct pole *p, double r5,
-                      double tau)
+static double at_pole(const struct kd_null_roots *o, const struct span *s, const struct pole *p, double r5, double tau)
 {
     double e = r5 - o->r1;
     double j = kd_carlson_rj_arg(s->arg, p->u2), c = kd_carlson_rc(p->s * p->s, p->q2);
@@ -131,8 +128,8 @@ struct kd_null_radial_sum kd_null_radial_rates(const struct kd_null_motion *m, d
                                          r * r + 2 * r + 4 + ((8 - 2 * al) * r - 4 * a * a) / delta };
 }
 
-struct kd_null_radial_sum kd_null_radial_integrals(const struct kd_null_radial *q,
-                                                   const struct kd_null_radius *at, bool time)
+struct kd_null_radial_sum kd_null_radial_integrals(const struct kd_null_radial *q, const struct kd_null_radius *at,
+                                                   bool time)
 {
     const struct kd_null_roots *o = &q->roots;
     struct kd_null_radial_sum sum = { 0 };
@@ -141,13 +138,12 @@ struct kd_null_radial_sum kd_null_radial_integrals(const struct kd_null_radial *
     struct span s = q->inner ? span_inner(q, at) : span_outer(q, at);
     sum.tau = 2 * kd_carlson_rf_arg(s.arg);
     double a = q->motion.a, al = a * q->motion.lambda, gap = q->r_plus - q->r_minus;
-    double plus = at_pole(o, &s, &s.plus, q->r_plus, sum.tau),
-           minus = at_pole(o, &s, &s.minus, q->r_minus, sum.tau);
+    double plus = at_pole(o, &s, &s.plus, q->r_plus, sum.tau), minus = at_pole(o, &s, &s.minus, q->r_minus, sum.tau);
     sum.phi = a * ((2 * q->r_plus - al) * plus - (2 * q->r_minus - al) * minus) / gap;
     if (time) {
         double slope = 8 - 2 * al, rest = -4 * a * a;
-        sum.t = powers(o, &s, sum.tau) +
-                ((slope * q->r_plus + rest) * plus - (slope * q->r_minus + rest) * minus) / gap;
+        sum.t =
+            powers(o, &s, sum.tau) + ((slope * q->r_plus + rest) * plus - (slope * q->r_minus + rest) * minus) / gap;
     }
     return sum;
 }
@@ -185,7 +181,8 @@ static void jacobi_two(struct kd_null_radial *q)
 }
 
 /* Jacobi's functions, and whether the ray turns. */
-static struct kd_null_radial without_times(const struct kd_null_motion *m, const struct kd_null_roots *roots, bool inner)
+static struct kd_null_radial without_times(const struct kd_null_motion *m, const struct kd_null_roots *roots,
+                                           bool inner)
 {
     struct kd_null_radial q = { .motion = *m, .roots = *roots, .inner = inner };
     q.r_plus = kd_kerr_horizon(m->a);
@@ -204,8 +201,7 @@ static struct kd_null_radius at_turn(const struct kd_null_roots *roots)
     return (struct kd_null_radius) { roots->r4, r41, r42, 0, sqrt(r43), -r43, 0 };
 }
 
-struct kd_null_radial kd_null_radial_of(const struct kd_null_motion *m, const struct kd_null_roots *roots,
-                                        bool inner)
+struct kd_null_radial kd_null_radial_of(const struct kd_null_motion *m, const struct kd_null_roots *roots, bool inner)
 {
     struct kd_null_radial q = without_times(m, roots, inner);
     if (q.turns && !inner) {
@@ -218,7 +214,8 @@ struct kd_null_radial kd_null_radial_of(const struct kd_null_motion *m, const st
     return q;
 }
 
-/* The time from infinity, by U12, U13 + U14 and U13 U14 of span_outer alone; where it is more than `tau`, which most often is known without an integral, at least something between them. R_F is never less than at three arguments of
+/* The time from infinity, by U12, U13 + U14 and U13 U14 of span_outer alone; where it is more than `tau`, which most
+ * often is known without an integral, at least something between them. R_F is never less than at three arguments of
  * the same mean: a function that is convex in all of them together, and symmetric (DLMF 19.16.1). */
 static double time_from_infinity(const struct kd_null_radius *at, double tau)
 {
@@ -312,8 +309,7 @@ double kd_null_radius_after(const struct kd_null_motion *m, const struct kd_null
 
 /* DLMF 19.29 with a complex root singled out: the one of the left pair above the real axis. R_C's first
  * argument has a positive real part because r - r1 does. */
-static double complex_pole(const struct kd_null_roots *o, struct kd_carlson_arg arg, double r, double r5,
-                           double tau)
+static double complex_pole(const struct kd_null_roots *o, struct kd_carlson_arg arg, double r, double r5, double tau)
 {
     double left = sqrt(-o->pair_left);
     double complex r1 = -o->mean + I * left, y1 = csqrt(r - r1), y2 = conj(y1), e = r5 - r1;
@@ -326,8 +322,8 @@ static double complex_pole(const struct kd_null_roots *o, struct kd_carlson_arg 
     return creal((all - tau) / e);
 }
 
-struct kd_null_radial_sum kd_null_radial_complex(const struct kd_null_motion *m,
-                                                 const struct kd_null_roots *o, double r)
+struct kd_null_radial_sum kd_null_radial_complex(const struct kd_null_motion *m, const struct kd_null_roots *o,
+                                                 double r)
 {
     double x = r - o->mean, xl = r + o->mean, right = -o->pair, left = -o->pair_left;
     double p = sqrt(x * x + right), pl = sqrt(xl * xl + left);
@@ -337,8 +333,7 @@ struct kd_null_radial_sum kd_null_radial_complex(const struct kd_null_motion *m,
     arg.root = 2 * (p * xl + pl * x);
     double plus = kd_kerr_horizon(m->a), minus = kd_kerr_inner_horizon(m->a), al = m->a * m->lambda;
     struct kd_null_radial_sum total = { .tau = 2 * kd_carlson_rf_arg(arg) };
-    double i_plus = complex_pole(o, arg, r, plus, total.tau),
-           i_minus = complex_pole(o, arg, r, minus, total.tau);
+    double i_plus = complex_pole(o, arg, r, plus, total.tau), i_minus = complex_pole(o, arg, r, minus, total.tau);
     total.phi = m->a * ((2 * plus - al) * i_plus - (2 * minus - al) * i_minus) / (plus - minus);
     return total;
 }

@@ -53,9 +53,11 @@ static struct kd_tetrad frame_static(const struct kd_observer_motion *motion, co
 }
 
 /* What goes round at one radius, sense = +-1, and is at its highest latitude: r'' = 0 where r' = theta' = 0, that is
- *   d_r g_tt + 2 Omega d_r g_tphi + Omega^2 d_r g_phiphi = 0,   which is   Omega sin = +-G/(1 +- a sin G),   G^2 = (r^2 - a^2 cos^2)/(r Sigma^2).
- * In Mino's time r'' depends on r alone, so that r stays. In the equatorial plane Omega = +-1/(r^(3/2) +- a); off it the orbit is a spherical
- * one (Wilkins 1972, Phys. Rev. D 5, 814). sin * (Omega - omega), which is regular on the axis. */
+ *   d_r g_tt + 2 Omega d_r g_tphi + Omega^2 d_r g_phiphi = 0,   which is   Omega sin = +-G/(1 +- a sin G),   G^2 =
+ *     (r^2 - a^2 cos^2)/(r Sigma^2).
+ * In Mino's time r'' depends on r alone, so that r stays. In the equatorial plane Omega = +-1/(r^(3/2) +- a); off it
+ * the orbit is a spherical one (Wilkins 1972, Phys. Rev. D 5, 814). sin * (Omega - omega), which is regular on the
+ * axis. */
 static double circling(double a, double r, double u, double s, int sense)
 {
     double g = sqrt((r - a * u) * (r + a * u) / r) / (r * r + a * a * u * u);
@@ -66,7 +68,8 @@ static double circling(double a, double r, double u, double s, int sense)
 static struct kd_tetrad circular(const struct kd_vantage *at, int sense)
 {
     const struct shape k = shape_of(at);
-    double v = k.big / k.sigma * circling(at->spin, at->r, at->u, at->s, sense) / sqrt(k.delta), gamma = 1 / sqrt((1 - v) * (1 + v));
+    double v = k.big / k.sigma * circling(at->spin, at->r, at->u, at->s, sense) / sqrt(k.delta),
+           gamma = 1 / sqrt((1 - v) * (1 + v));
     const struct kd_tetrad zamo = frame_zamo(NULL, at);
     return kd_tetrad_boosted(&zamo, (double[]) { gamma, 0, 0, gamma * v });
 }
@@ -83,9 +86,9 @@ static struct kd_tetrad frame_retrograde(const struct kd_observer_motion *motion
     return circular(at, -1);
 }
 
-/* Rain, from rest at infinity without angular momentum: E = 1, L = 0, theta constant, Sigma r' = -sqrt(2r (r^2 + a^2)) (Doran 2000, Phys.
- * Rev. D 61, 067503; Natario 2009, Gen. Rel. Grav. 41, 2579). e_phi is that of zero angular momentum, e_r what remains. Nothing of it knows
- * the horizon: 2r (r^2 + a^2) = B - Sigma Delta. */
+/* Rain, from rest at infinity without angular momentum: E = 1, L = 0, theta constant, Sigma r' = -sqrt(2r (r^2 +
+ * a^2)) (Doran 2000, Phys. Rev. D 61, 067503; Natario 2009, Gen. Rel. Grav. 41, 2579). e_phi is that of zero angular
+ * momentum, e_r what remains. Nothing of it knows the horizon: 2r (r^2 + a^2) = B - Sigma Delta. */
 static struct kd_tetrad rain(const struct kd_vantage *at)
 {
     const struct shape k = shape_of(at);
@@ -110,7 +113,8 @@ static double swing(double momentum, const struct kd_vantage *at)
 static double rest_energy(double momentum, const struct kd_vantage *at)
 {
     const struct shape k = shape_of(at);
-    return kd_kerr_dragging(at->spin, at->r, at->u) * momentum + sqrt(k.sigma * k.delta / k.big) * hypot(1, swing(momentum, at));
+    return kd_kerr_dragging(at->spin, at->r, at->u) * momentum +
+           sqrt(k.sigma * k.delta / k.big) * hypot(1, swing(momentum, at));
 }
 
 double kd_observer_energy(const struct kd_observer_motion *m, const struct kd_vantage *at)
@@ -120,7 +124,8 @@ double kd_observer_energy(const struct kd_observer_motion *m, const struct kd_va
     return isfinite(m->fall_energy) ? m->fall_energy : isfinite(from.r) ? rest_energy(m->fall_momentum, &from) : 1;
 }
 
-/* With E' = E - omega L and no motion in latitude, (Sigma r')^2 = B E'^2 - Sigma Delta (1 + x_phi^2). Its components x in the frame of rain:
+/* With E' = E - omega L and no motion in latitude, (Sigma r')^2 = B E'^2 - Sigma Delta (1 + x_phi^2). Its components
+ * x in the frame of rain:
  *   x_t - x_r = (sqrt(B) E' - Sigma r')/(sqrt(B) + sqrt(2r (r^2 + a^2))),   (x_t - x_r)(x_t + x_r) = 1 + x_phi^2,
  * of which nothing vanishes at the horizon. */
 static struct kd_tetrad frame_infall(const struct kd_observer_motion *m, const struct kd_vantage *at)
@@ -146,7 +151,10 @@ static struct kd_tetrad frame_velocity(const struct kd_observer_motion *m, const
     return kd_tetrad_boosted(&zamo, (double[]) { gamma, gamma * v[0], gamma * v[1], gamma * v[2] });
 }
 
-struct round { double a, u, s; int sense; };
+struct round {
+    double a, u, s;
+    int sense;
+};
 
 /* The lapse less the speed times it: below 0 where what goes round would be faster than light. */
 static double slower_than_light(const void *user, double r)
@@ -163,19 +171,20 @@ double kd_observer_light_orbit(double a, double u, int sense)
     return u == 0 ? kd_kerr_photon_orbit(sense * a) : kd_root(slower_than_light, &o, kd_kerr_horizon(a), 4.01);
 }
 
-#define OUTSIDE(NAME, word, what, where, outside, ...)                                                         \
-    static double outside_of_##word(double a, double u)                                                        \
-    {                                                                                                          \
-        (void)u;                                                                                               \
-        return outside;                                                                                        \
+#define OUTSIDE(NAME, word, what, where, outside, ...) \
+    static double outside_of_##word(double a, double u) \
+    { \
+        (void)u; \
+        return outside; \
     }
 KD_OBSERVERS(OUTSIDE)
 
-#define ROW(NAME, name, what, where, edge_r, edge_name, not_inside)                                            \
+#define ROW(NAME, name, what, where, edge_r, edge_name, not_inside) \
     [KD_OBSERVER_##NAME] = { #name, edge_name, not_inside, outside_of_##name, frame_##name },
 const struct kd_observer_row kd_observers[] = { KD_OBSERVERS(ROW) };
 
-#define FITS(NAME, word, ...) _Static_assert(sizeof #word <= 11, "room in KD_OBSERVER_TEXT for \"" #word "\", quoted, and \" or \"");
+#define FITS(NAME, word, ...) \
+    _Static_assert(sizeof #word <= 11, "room in KD_OBSERVER_TEXT for \"" #word "\", quoted, and \" or \"");
 KD_OBSERVERS(FITS)
 
 bool kd_observer_exists(enum kd_observer observer, const struct kd_vantage *at)
@@ -188,14 +197,16 @@ struct kd_observer_motion kd_observer_motion_of(enum kd_observer observer)
     return (struct kd_observer_motion) { .observer = observer, .fall_from = INFINITY, .fall_energy = INFINITY };
 }
 
-/* Whether r' vanishes between here and where it is let go: w'^2 of a body, in w = 1/r (DESIGN: geodesics of Kerr, mu = 1). */
+/* Whether r' vanishes between here and where it is let go: w'^2 of a body, in w = 1/r (DESIGN: geodesics of Kerr, mu
+ * = 1). */
 static bool turns_on_its_way(const struct kd_observer_motion *m, const struct kd_vantage *at)
 {
     double a = at->spin, e = kd_observer_energy(m, at), l = m->fall_momentum, bound = (e - 1) * (e + 1);
     double ls = l == 0 ? 0 : l / at->s, q = at->u * at->u * (ls * ls - a * a * bound), rest = l - a * e, roots[4];
     const double c[] = { bound, 2, a * a * bound - l * l - q, 2 * (q + rest * rest), -a * a * q };
     double last = fmin(1 / at->r, 1 / kd_kerr_horizon(a));
-    return last > 1 / m->fall_from * (1 + 1e-9) && kd_polynomial_roots(c, 4, 1 / m->fall_from * (1 + 1e-9) + 1e-12, last, roots) > 0;
+    return last > 1 / m->fall_from * (1 + 1e-9) &&
+           kd_polynomial_roots(c, 4, 1 / m->fall_from * (1 + 1e-9) + 1e-12, last, roots) > 0;
 }
 
 static enum kd_observer_fault check_fall(const struct kd_observer_motion *m, const struct kd_vantage *at, double *bound)
@@ -243,6 +254,7 @@ const char *kd_observer_others(const struct kd_vantage *at, char out[KD_OBSERVER
     snprintf(out, KD_OBSERVER_TEXT, "none");
     for (int i = 0; i < KD_OBSERVER_COUNT; i++)
         if (kd_observer_exists((enum kd_observer)i, at))
-            used += snprintf(out + used, (size_t)(KD_OBSERVER_TEXT - used), "%s\"%s\"", used ? " or " : "", kd_observers[i].word);
+            used += snprintf(out + used, (size_t)(KD_OBSERVER_TEXT - used), "%s\"%s\"", used ? " or " : "",
+                             kd_observers[i].word);
     return out;
 }

@@ -16,10 +16,7 @@ const char *kd_orbit_fate_name(enum kd_orbit_fate fate)
     return names[fate];
 }
 
-double kd_orbit_radial(const struct kd_orbit *o, double w)
-{
-    return kd_polynomial_at(o->w, 4, w);
-}
+double kd_orbit_radial(const struct kd_orbit *o, double w) { return kd_polynomial_at(o->w, 4, w); }
 
 double kd_orbit_radial_slope(const struct kd_orbit *o, double w)
 {
@@ -31,8 +28,8 @@ double kd_orbit_radial_by_energy(const struct kd_orbit *o, double w)
     return 2 * o->energy * (1 + o->a * o->a * w * w) - 4 * o->a * (o->momentum - o->a * o->energy) * w * w * w;
 }
 
-/* z is the root of the quadratic in u^2 that is reached; 1 - z follows from the product L^2 = (1 - z)(n - a^2 b) or from z n =
- * Q, whichever subtracts nothing. */
+/* z is the root of the quadratic in u^2 that is reached; 1 - z follows from the product L^2 = (1 - z)(n - a^2 b) or
+ * from z n = Q, whichever subtracts nothing. */
 static void set_polar(struct kd_orbit *o)
 {
     double flat = o->a * o->a * o->binding, l2 = o->momentum * o->momentum, sum = o->total + flat;
@@ -94,7 +91,8 @@ static void set_fate(struct kd_orbit *o)
     if (o->circular) { /* unstable where W has a minimum */
         double w = o->w_low, bend = o->w[2] + w * (3 * o->w[3] + w * 6 * o->w[4]);
         double size = fabs(o->w[2]) + w * (3 * fabs(o->w[3]) + w * 6 * fabs(o->w[4]));
-        o->fate = bend > 1e-7 * size ? KD_ORBIT_PLUNGE : KD_ORBIT_BOUND; /* at a triple root it is zero but for rounding */
+        o->fate =
+            bend > 1e-7 * size ? KD_ORBIT_PLUNGE : KD_ORBIT_BOUND; /* at a triple root it is zero but for rounding */
         return;
     }
     o->fate = !o->turns_in ? KD_ORBIT_PLUNGE : o->turns_out ? KD_ORBIT_BOUND : KD_ORBIT_ESCAPE;
@@ -114,17 +112,18 @@ static bool to_the_future(const struct kd_orbit *o)
     return o->energy * (1 + o->a * o->a * w * w) - o->a * o->momentum * w * w > 0;
 }
 
-enum kd_status kd_orbit_from_constants(double a, double energy, double momentum, double carter, double r, struct kd_orbit *o,
-                                       struct kd_error *error)
+enum kd_status kd_orbit_from_constants(double a, double energy, double momentum, double carter, double r,
+                                       struct kd_orbit *o, struct kd_error *error)
 {
     enum kd_status status = kd_orbit_check_spin(a, error);
     if (status)
         return status;
     if (!(carter >= 0))
-        return kd_error_field(error, "/carter",
-                              "carter is %.16g, allowed are 0 and above; a motion that never crosses the equator (Q < 0) is "
-                              "given by position and velocity",
-                              carter);
+        return kd_error_field(
+            error, "/carter",
+            "carter is %.16g, allowed are 0 and above; a motion that never crosses the equator (Q < 0) is "
+            "given by position and velocity",
+            carter);
     if (!isnan(r) && !(r > kd_kerr_horizon(a)))
         return kd_error_field(error, "/r", "r is %.16g, allowed is above the horizon at %.9g", r, kd_kerr_horizon(a));
     *o = (struct kd_orbit) {
@@ -134,7 +133,8 @@ enum kd_status kd_orbit_from_constants(double a, double energy, double momentum,
     if (!find_range(o, 1 / r) && !isnan(r))
         return kd_error_field(error, "/r", "r is %.16g, where a particle of these constants cannot be", r);
     if (!(o->w_high > 0) || !to_the_future(o))
-        return kd_error_field(error, "/energy", "energy is %.16g: no particle outside the horizon has these constants", energy);
+        return kd_error_field(error, "/energy", "energy is %.16g: no particle outside the horizon has these constants",
+                              energy);
     set_fate(o);
     return KD_OK;
 }
@@ -172,7 +172,8 @@ double kd_orbit_whirl(const struct kd_orbit *o, const struct kd_orbit_state *s, 
         bool ahead = s->w <= w ? s->w_rate > 0 || o->turns_out : s->w_rate < 0 || o->turns_in;
         if (!ahead || o->w[2] + w * (3 * o->w[3] + w * 6 * o->w[4]) <= 0)
             continue;
-        double size = fabs(o->w[0]) + 2 * w + fabs(o->w[2]) * w * w + 2 * w3 * (fabs(o->carter) + rest * rest) + fabs(o->w[4]) * w3 * w;
+        double size = fabs(o->w[0]) + 2 * w + fabs(o->w[2]) * w * w + 2 * w3 * (fabs(o->carter) + rest * rest) +
+                      fabs(o->w[4]) * w3 * w;
         if (r)
             *r = 1 / w;
         return size / fabs(kd_orbit_radial(o, w));
@@ -191,23 +192,26 @@ static enum kd_status check_state(double a, double r, double theta_deg, enum kd_
     if (status)
         return status;
     if (!(r > kd_kerr_horizon(a)) || !isfinite(r))
-        return kd_error_field(error, "/position/r", "r is %.16g, allowed is above the horizon at %.9g", r, kd_kerr_horizon(a));
+        return kd_error_field(error, "/position/r", "r is %.16g, allowed is above the horizon at %.9g", r,
+                              kd_kerr_horizon(a));
     if (!(theta_deg >= 0 && theta_deg <= 180))
         return kd_error_field(error, "/position/theta_deg", "theta_deg is %.16g, allowed is 0 to 180", theta_deg);
     if (!kd_observer_exists(frame, &at))
-        return kd_error_field(error, "/velocity/frame", "%s at r = %.16g, inside %s, which ends at %.9g here: use %s", row->why, r,
-                              row->edge, row->outside(a, at.u), kd_observer_others(&at, others));
+        return kd_error_field(error, "/velocity/frame", "%s at r = %.16g, inside %s, which ends at %.9g here: use %s",
+                              row->why, r, row->edge, row->outside(a, at.u), kd_observer_others(&at, others));
     if (!(speed < 1))
         return kd_error_field(error, "/velocity", "the speed is %.16g, allowed is below 1, that of light", speed);
     return KD_OK;
 }
 
-/* The ends of a motion near a stable circle. There the roots of W run into one another and drown in its rounding, and W at the start may come out below zero;
- * but it is known to be w_rate^2, and W about the start, as a polynomial of the distance d, loses nothing. */
+/* The ends of a motion near a stable circle. There the roots of W run into one another and drown in its rounding,
+ * and W at the start may come out below zero; but it is known to be w_rate^2, and W about the start, as a polynomial
+ * of the distance d, loses nothing. */
 static bool find_range_of_circle(struct kd_orbit *o, const struct kd_orbit_state *start)
 {
     const double w = start->w, cubic = o->w[3] + 4 * w * o->w[4];
-    const double c[5] = { start->w_rate * start->w_rate, kd_orbit_radial_slope(o, w), o->w[2] + w * (3 * o->w[3] + w * 6 * o->w[4]), cubic, o->w[4] };
+    const double c[5] = { start->w_rate * start->w_rate, kd_orbit_radial_slope(o, w),
+                          o->w[2] + w * (3 * o->w[3] + w * 6 * o->w[4]), cubic, o->w[4] };
     const double middle = -c[1] / (2 * c[2]), reach = sqrt(middle * middle - c[0] / c[2]);
     if (!(c[2] < 0) || !(reach < NEAR_CIRCLE * w) || !(fabs(cubic) * reach < -0.1 * c[2]))
         return false;
@@ -224,12 +228,15 @@ static bool find_range_of_circle(struct kd_orbit *o, const struct kd_orbit_state
     return true;
 }
 
-/* The range of a start that is at a turning point as far as rounding lets see, and by rounding beyond it. W is known there to `unknown`, 64 roundings of
- * its largest terms: the range is looked for where W rises above that. Where it does not before its next extremum, both ends are one: a circle. */
+/* The range of a start that is at a turning point as far as rounding lets see, and by rounding beyond it. W is known
+ * there to `unknown`, 64 roundings of its largest terms: the range is looked for where W rises above that. Where it
+ * does not before its next extremum, both ends are one: a circle. */
 static bool find_range_at_turn(struct kd_orbit *o, const struct kd_orbit_state *start)
 {
-    const double w = start->w, slope = kd_orbit_radial_slope(o, w), bend = o->w[2] + w * (3 * o->w[3] + w * 6 * o->w[4]);
-    const double size = fabs(o->w[0]) + w * (fabs(o->w[1]) + w * (fabs(o->w[2]) + w * (fabs(o->w[3]) + w * fabs(o->w[4]))));
+    const double w = start->w, slope = kd_orbit_radial_slope(o, w),
+                 bend = o->w[2] + w * (3 * o->w[3] + w * 6 * o->w[4]);
+    const double size =
+        fabs(o->w[0]) + w * (fabs(o->w[1]) + w * (fabs(o->w[2]) + w * (fabs(o->w[3]) + w * fabs(o->w[4]))));
     const double unknown = 64 * DBL_EPSILON * size;
     if (fabs(kd_orbit_radial(o, w)) > unknown || start->w_rate * start->w_rate > unknown)
         return false;
@@ -255,7 +262,8 @@ enum kd_status kd_orbit_from_state(double a, double r, double theta_deg, enum kd
     const struct kd_observer_motion motion = kd_observer_motion_of(frame);
     const struct kd_tetrad tetrad = kd_observer_tetrad(&motion, &at);
     double gamma = 1 / sqrt(1 - (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
-    const struct kd_covector p = kd_tetrad_covector(&tetrad, (double[]) { gamma, gamma * v[0], gamma * v[1], gamma * v[2] });
+    const struct kd_covector p =
+        kd_tetrad_covector(&tetrad, (double[]) { gamma, gamma * v[0], gamma * v[1], gamma * v[2] });
     *o = (struct kd_orbit) { .a = a, .energy = p.energy, .binding = (1 - p.energy) * (1 + p.energy) };
     o->momentum = p.momentum * at.s;
     o->carter = p.polar * p.polar + at.u * at.u * (a * a * o->binding + p.momentum * p.momentum);
@@ -267,7 +275,8 @@ enum kd_status kd_orbit_from_state(double a, double r, double theta_deg, enum kd
         .u_rate = -p.polar * at.s,
     };
     if (!find_range_of_circle(o, start) && !find_range(o, start->w) && !find_range_at_turn(o, start))
-        return kd_error_field(error, "/position/r", "the motion from r = %.16g cannot be followed in double precision", r);
+        return kd_error_field(error, "/position/r", "the motion from r = %.16g cannot be followed in double precision",
+                              r);
     if (start->w_rate == 0) { /* exactly at the turning point that is there */
         bool outer = fabs(o->w_low - start->w) < fabs(o->w_high - start->w);
         *(outer ? &o->w_low : &o->w_high) = start->w;

@@ -8,9 +8,7 @@
 #include <math.h>
 
 /* sn, cn^2 and dn^2 of a phase between 0 and K, each without cancellation. */
-struct phase {
-    double s, c2, d2;
-};
+struct phase { double s, c2, d2; };
 
 /* Int sn^2 and Int sn^2/(1 - n sn^2), rest being 1 - n sn^2 at the end. */
 static double integral_s2(struct phase at)
@@ -30,7 +28,8 @@ static double integral_pole(struct phase at, double rest)
  * h = (r1 - r2)/(r1 - r3), h5 = h (r3 - r5)/(r2 - r5) [Fujita & Hikida eqs 27 to 32]. Int r^2 follows from
  * d/du [sn cn dn/(1 - h s)], which leaves the integrals of s and of s/(1 - h s) only, and k_r/h = q stays finite:
  *
- *   Int r^2 = r2^2 u + 2 r2 (r2 - r3) h T - (r1 - r3)(r2 - r4) h/2 [sn cn dn/(1 - h s) - u - (3h - 2 - 2k + q) T + q S] */
+ *   Int r^2 = r2^2 u + 2 r2 (r2 - r3) h T - (r1 - r3)(r2 - r4) h/2 [sn cn dn/(1 - h s) - u - (3h - 2 - 2k + q) T +
+ *     q S] */
 static struct kd_orbit_sums radial_sums(const struct kd_orbit_bound *b, double u, struct phase at)
 {
     const struct kd_orbit *o = &b->orbit;
@@ -59,10 +58,7 @@ static struct kd_orbit_sums radial_sums(const struct kd_orbit_bound *b, double u
 }
 
 /* L = 0 and high enough: the axis is passed at each turning point, where L/sin^2 theta is a step of pi. */
-static bool through_axis(const struct kd_orbit *o)
-{
-    return o->momentum == 0 && o->axis_gap == 0;
-}
+static bool through_axis(const struct kd_orbit *o) { return o->momentum == 0 && o->axis_gap == 0; }
 
 /* Sums the polar integrals from the equator to the phase u whose functions are `at`. */
 static struct kd_orbit_sums polar_sums(const struct kd_orbit_bound *b, double u, struct phase at)
@@ -134,7 +130,8 @@ static void set_radial(struct kd_orbit_bound *b)
     b->h_minus = b->h * (r[2] - kd_kerr_inner_horizon(o->a)) / (r[1] - kd_kerr_inner_horizon(o->a));
     b->unit_r = o->circular ? 1 : b->pace_r;
     b->quarter_r = o->circular ? 1 : kd_carlson_rf(0, b->k1_r, 1);
-    b->half_r = radial_sums(b, b->quarter_r, o->circular ? (struct phase) { 0, 1, 1 } : (struct phase) { 1, 0, b->k1_r });
+    b->half_r =
+        radial_sums(b, b->quarter_r, o->circular ? (struct phase) { 0, 1, 1 } : (struct phase) { 1, 0, b->k1_r });
 }
 
 static void set_polar(struct kd_orbit_bound *b)
@@ -235,7 +232,8 @@ static double complete_excess(double k)
 double kd_orbit_periastron_advance(const struct kd_orbit_bound *b)
 {
     const struct kd_orbit *o = &b->orbit;
-    if (o->a == 0) { /* 4 K(k) sqrt(p/(p - 6 + 2e)) - 2 pi, k = 4e/(p - 6 + 2e): C. Darwin 1961, Proc. R. Soc. A 263, 39 */
+    if (o->a ==
+        0) { /* 4 K(k) sqrt(p/(p - 6 + 2e)) - 2 pi, k = 4e/(p - 6 + 2e): C. Darwin 1961, Proc. R. Soc. A 263, 39 */
         double less = 2 * o->w_high + 4 * o->w_low; /* (6 - 2e)/p */
         double pace = expm1(-0.5 * log1p(-less)), excess = complete_excess(2 * (o->w_high - o->w_low) / (1 - less));
         return 2 * M_PI * (pace + excess + pace * excess);

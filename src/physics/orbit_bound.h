@@ -1,18 +1,16 @@
-/* Bound timelike geodesics of Kerr have a closed form: this gives place and time at any Mino time, and the fundamental frequencies. Double
- * precision, pure functions, any thread. Units G = c = M = 1.
+/* Bound timelike geodesics of Kerr have a closed form: this gives place and time at any Mino time, and the
+ * fundamental frequencies. Double precision, pure functions, any thread. Units G = c = M = 1.
  *
- * R. Fujita & W. Hikida 2009, arXiv:0906.1420 (r, theta, t, phi by elliptic functions; frequencies as S. Drasco & S. A. Hughes
- * 2004, astro-ph/0308479, define them). Their integrals of the third kind are written with Carlson's R_J so that a circular or
- * an equatorial orbit, or one through the axis, is no special case. */
+ * R. Fujita & W. Hikida 2009, arXiv:0906.1420 (r, theta, t, phi by elliptic functions; frequencies as S. Drasco & S.
+ * A. Hughes 2004, astro-ph/0308479, define them). Their integrals of the third kind are written with Carlson's R_J
+ * so that a circular or an equatorial orbit, or one through the axis, is no special case. */
 #ifndef KD_PHYSICS_ORBIT_BOUND_H
 #define KD_PHYSICS_ORBIT_BOUND_H
 
 #include "physics/orbit.h"
 
 /* Growth of each coordinate; `mino` is Mino time itself. */
-struct kd_orbit_sums {
-    double proper, t, phi;
-};
+struct kd_orbit_sums { double proper, t, phi; };
 
 struct kd_orbit_bound {
     struct kd_orbit orbit;
@@ -36,14 +34,12 @@ struct kd_orbit_frequencies {
 };
 struct kd_orbit_frequencies kd_orbit_frequencies_of(const struct kd_orbit_bound *bound);
 
-/* Azimuth gained between periastra beyond a full turn, 2 pi (|Upsilon_phi| / Upsilon_r - 1), and between ascending nodes. For
- * a = 0 the former without cancellation however wide the orbit. */
+/* Azimuth gained between periastra beyond a full turn, 2 pi (|Upsilon_phi| / Upsilon_r - 1), and between ascending
+ * nodes. For a = 0 the former without cancellation however wide the orbit. */
 double kd_orbit_periastron_advance(const struct kd_orbit_bound *bound);
 double kd_orbit_nodal_advance(const struct kd_orbit_bound *bound);
 
-struct kd_orbit_place {
-    double mino, proper, t, r, theta, phi;
-};
+struct kd_orbit_place { double mino, proper, t, r, theta, phi; };
 /* At Mino time `mino` since the start, where phi, t and proper time are 0. */
 struct kd_orbit_place kd_orbit_bound_at(const struct kd_orbit_bound *bound, double mino);
 

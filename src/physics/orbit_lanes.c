@@ -20,13 +20,9 @@ typedef int64_t mask __attribute__((vector_size(8 * KD_ORBIT_LANES)));
 #endif
 #define INLINE static inline __attribute__((always_inline))
 
-struct exact {
-    lane value, rest;
-};
+struct exact { lane value, rest; };
 
-struct spring {
-    lane strength, centre, kick[4], drift[4];
-};
+struct spring { lane strength, centre, kick[4], drift[4]; };
 
 struct state {
     lane a, a2, energy, momentum, binding, z, n, axis_gap, total, w_low, w_high, g[3], c[5], horizon;
@@ -61,7 +57,8 @@ INLINE void radial_force(const struct state *s, const lane *w, const lane *rest,
 
 INLINE void kick(struct state *s, double weight)
 {
-    lane w = s->place[KD_PATH_W].value, y = s->place[KD_PATH_Y].value, rest = s->place[KD_PATH_W].rest, f[KD_PATH_RATES];
+    lane w = s->place[KD_PATH_W].value, y = s->place[KD_PATH_Y].value, rest = s->place[KD_PATH_W].rest,
+         f[KD_PATH_RATES];
     lane w2 = w * w, a2w2 = s->a * s->a * w2, y2 = y * y, flat = s->a * s->a * s->binding, up = s->a * s->a * s->z * y2,
          far = 1 / w2;
     radial_force(s, &w, &rest, &f[KD_PATH_W]);
@@ -70,8 +67,8 @@ INLINE void kick(struct state *s, double weight)
     f[KD_PATH_PROPER] = far + up;
     lane turn = s->twist * (1 - y2) / (1 - s->nu * y2), hole = 1 / (1 - 2 * w + a2w2);
     f[KD_PATH_CHI] = turn + s->a * (2 * s->energy * w - s->a * s->momentum * w2) * hole;
-    f[KD_PATH_T] =
-        s->energy * (far + 2 * w * far + 4 + up) + ((8 * s->energy - 2 * s->a * s->momentum) * w - 4 * a2w2 * s->energy) * hole;
+    f[KD_PATH_T] = s->energy * (far + 2 * w * far + 4 + up) +
+                   ((8 * s->energy - 2 * s->a * s->momentum) * w - 4 * a2w2 * s->energy) * hole;
     for (int i = 0; i < KD_PATH_RATES; i++) {
         lane move = weight * s->h * f[i];
         add(&s->rate[i], &move);
@@ -93,7 +90,8 @@ INLINE void drift(struct state *s, int which)
 
 INLINE void look(struct state *s)
 {
-    lane w = s->place[KD_PATH_W].value, v = s->rate[KD_PATH_W].value, y = s->place[KD_PATH_Y].value, u = s->rate[KD_PATH_Y].value;
+    lane w = s->place[KD_PATH_W].value, v = s->rate[KD_PATH_W].value, y = s->place[KD_PATH_Y].value,
+         u = s->rate[KD_PATH_Y].value;
     lane radial = v * v - (s->c[0] + w * (s->c[1] + w * (s->c[2] + w * (s->c[3] + w * s->c[4]))));
     lane by_energy = 2 * s->energy * (1 + s->a2 * w * w) - 4 * s->a * (s->momentum - s->a * s->energy) * w * w * w;
     lane steep = s->n - s->a2 * s->binding * s->z * y * y, polar = s->z * (u * u - (1 - y) * (1 + y) * steep);
@@ -107,8 +105,8 @@ INLINE void look(struct state *s)
     keep_greater(&s->worst_binet, &radial, &all);
 }
 
-/* Takes so many steps of all lanes. It ends early, and returns what is left, after a step in which w ceased to grow in some
- * lane: *turned. */
+/* Takes so many steps of all lanes. It ends early, and returns what is left, after a step in which w ceased to grow
+ * in some lane: *turned. */
 WIDEST static uint64_t go(struct state *s, uint64_t steps, bool looks, bool stops, mask *turned)
 {
     const mask none = { 0 };
@@ -151,7 +149,8 @@ static struct kd_exact get_exact(const struct exact *from, int i)
 static void load(struct state *s, int i, const struct kd_orbit_path *p, double h)
 {
     const struct kd_orbit *o = &p->orbit;
-    s->a[i] = o->a, s->a2[i] = o->a * o->a, s->energy[i] = o->energy, s->momentum[i] = o->momentum, s->binding[i] = o->binding;
+    s->a[i] = o->a, s->a2[i] = o->a * o->a, s->energy[i] = o->energy, s->momentum[i] = o->momentum,
+    s->binding[i] = o->binding;
     s->z[i] = o->z, s->n[i] = o->n, s->axis_gap[i] = o->axis_gap, s->total[i] = o->total;
     s->w_low[i] = o->w_low, s->w_high[i] = o->w_high, s->horizon[i] = kd_kerr_horizon(o->a);
     for (int k = 0; k < 3; k++)

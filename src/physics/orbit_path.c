@@ -14,8 +14,8 @@ static inline void add(struct kd_exact *to, double x)
     to->value = sum;
 }
 
-/* Half of W'. Where both ends are known it is computed from the distances to them, so that an orbit whose ends are one stays
- * there for ever. */
+/* Half of W'. Where both ends are known it is computed from the distances to them, so that an orbit whose ends are
+ * one stays there for ever. */
 static double radial_force(const struct kd_orbit_path *p, double w, double rest)
 {
     const struct kd_orbit *o = &p->orbit;
@@ -31,8 +31,8 @@ static double pull_of_spring(const struct kd_spring *s, double q, double rest)
     return s->strength * ((q - s->centre) + rest);
 }
 
-/* The derivatives of the rates at a place: the forces besides those of the springs, then the rates of proper time, t and chi.
- * rest: what rounding left out of w. */
+/* The derivatives of the rates at a place: the forces besides those of the springs, then the rates of proper time, t
+ * and chi. rest: what rounding left out of w. */
 static void pull(const struct kd_orbit_path *p, const double *q, double rest, double *f)
 {
     const struct kd_orbit *o = &p->orbit;
@@ -52,18 +52,16 @@ static void pull(const struct kd_orbit_path *p, const double *q, double rest, do
     double hole = 1 / (1 - 2 * w + a2w2);                                          /* r^2/Delta */
     f[KD_PATH_CHI] = turn + a * (2 * o->energy * w - a * o->momentum * w2) * hole; /* a (2Er - aL)/Delta */
     /* E r^2 + 2 E r + 4 E + [(8E - 2aL) r - 4 a^2 E]/Delta + a^2 E u^2 */
-    f[KD_PATH_T] =
-        o->energy * (far + 2 * w * far + 4 + up) + ((8 * o->energy - 2 * a * o->momentum) * w - 4 * a2w2 * o->energy) * hole;
+    f[KD_PATH_T] = o->energy * (far + 2 * w * far + 4 + up) +
+                   ((8 * o->energy - 2 * a * o->momentum) * w - 4 * a2w2 * o->energy) * hole;
 }
 
-/* The weights w3, w2, w1, w0 of Yoshida's solution A, to 25 digits: his three equations once more by Newton's method. */
-const double kd_orbit_kicks[4] = { 0.7845136104775572638194976, 0.2355732133593581336847932, -1.177679984178871006946416,
-                                   1.31518632068391121888425 };
+/* The weights w3, w2, w1, w0 of Yoshida's solution A, to 25 digits: his three equations once more by Newton's
+ * method. */
+const double kd_orbit_kicks[4] = { 0.7845136104775572638194976, 0.2355732133593581336847932,
+                                   -1.177679984178871006946416, 1.31518632068391121888425 };
 
-static int kick_of(int stage)
-{
-    return stage < 4 ? stage : 6 - stage;
-}
+static int kick_of(int stage) { return stage < 4 ? stage : 6 - stage; }
 
 /* Half a leapfrog and half the next. */
 static double drift_of(int stage)
@@ -73,8 +71,8 @@ static double drift_of(int stage)
     return 0.5 * (kd_orbit_kicks[kick_of(stage)] + kd_orbit_kicks[kick_of(stage - 1)]);
 }
 
-/* An oscillator's turn in the time of each drift, as three shears: whatever rounding makes of their coefficients, the area stays,
- * and errors do not add up. */
+/* An oscillator's turn in the time of each drift, as three shears: whatever rounding makes of their coefficients,
+ * the area stays, and errors do not add up. */
 void kd_orbit_set_turns(struct kd_spring *s, double h)
 {
     double omega = sqrt(s->strength);
@@ -214,8 +212,9 @@ void kd_orbit_path_init(struct kd_orbit_path *p, const struct kd_orbit *o, const
     enter(p);
 }
 
-/* Counts the half turns that atan2 does not see. Q >= 0: the azimuth grows steadily, and jumps at pi, where y changes sign on
- * its way down. Q < 0: a turning point next to the equator is a jump back by pi. L = 0: the axis is passed where y turns. */
+/* Counts the half turns that atan2 does not see. Q >= 0: the azimuth grows steadily, and jumps at pi, where y
+ * changes sign on its way down. Q < 0: a turning point next to the equator is a jump back by pi. L = 0: the axis is
+ * passed where y turns. */
 static void count(struct kd_orbit_path *p, double y, double rate, int way)
 {
     double y_now = p->place[KD_PATH_Y].value, rate_now = p->rate[KD_PATH_Y].value;
@@ -266,7 +265,8 @@ struct kd_orbit_drift kd_orbit_path_drift(const struct kd_orbit_path *p)
     double a2 = o->a * o->a, w = p->place[KD_PATH_W].value, rate = p->rate[KD_PATH_W].value;
     double y = p->place[KD_PATH_Y].value, y_rate = p->rate[KD_PATH_Y].value, u2 = o->z * y * y;
     double radial = rate * rate - kd_orbit_radial(o, w);
-    double polar = o->z * (y_rate * y_rate - (1 - y) * (1 + y) * steep(p)), sine2 = o->axis_gap + o->z * (1 - y) * (1 + y);
+    double polar = o->z * (y_rate * y_rate - (1 - y) * (1 + y) * steep(p)),
+           sine2 = o->axis_gap + o->z * (1 - y) * (1 + y);
     struct kd_orbit_drift d = {
         .energy = radial / (kd_orbit_radial_by_energy(o, w) * o->energy),
         .carter = o->total > 0 ? polar / o->total : 0,
@@ -336,7 +336,8 @@ struct kd_orbit_path kd_orbit_path_to_radius(const struct kd_orbit_path *path, d
     struct kd_orbit_path end = moved(path, h);
     bool beyond = (height(path, RADIUS, w) < 0) != (height(&end, RADIUS, w) < 0);
     if (!beyond && (path->rate[KD_PATH_W].value < 0) != (end.rate[KD_PATH_W].value < 0))
-        h = kd_orbit_path_to_apsis(path, h).mino.value - path->mino.value; /* with E = 1 infinity is a turning point like others */
+        h = kd_orbit_path_to_apsis(path, h).mino.value -
+            path->mino.value; /* with E = 1 infinity is a turning point like others */
     return to_event(path, h, RADIUS, w);
 }
 

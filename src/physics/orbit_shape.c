@@ -3,17 +3,16 @@
 
 #include <math.h>
 
-/* Schmidt's E, L and Q of an orbit with the turning points r1, r2 and z = cos^2(theta_min) = 1 - x^2 (2002, gr-qc/0202090, B.16
- * to B.21), regrouped. With L = x l, R(r) = 0 reads, in l instead of L,
+/* Schmidt's E, L and Q of an orbit with the turning points r1, r2 and z = cos^2(theta_min) = 1 - x^2 (2002,
+ * gr-qc/0202090, B.16 to B.21), regrouped. With L = x l, R(r) = 0 reads, in l instead of L,
  *
  *   f E^2 - 2 g a x E l - h l^2 - d = 0        Q = z (a^2 b + l^2)
  *   d = (r^2 + a^2 z) Delta    f = r^4 + a^2 (r (r + 2) + z Delta)    g = 2r    h = r (r - 2) + a^2 z
  *
- * which is regular at the pole, x = 0, where his h is not. His determinants of the two turning points vanish as e does; here they
- * are divided by r2 - r1, from divided differences, and e = 0 is a case like any other. His sign of the root becomes that of ax. */
-struct column {
-    double f, g, h, d;
-};
+ * which is regular at the pole, x = 0, where his h is not. His determinants of the two turning points vanish as e
+ * does; here they are divided by r2 - r1, from divided differences, and e = 0 is a case like any other. His sign of
+ * the root becomes that of ax. */
+struct column { double f, g, h, d; };
 
 static struct column values(double a2, double z, double r)
 {
@@ -26,10 +25,12 @@ static struct column values(double a2, double z, double r)
 static struct column differences(double a2, double z, double r1, double r2)
 {
     double one = r1 + r2, two = r1 * r1 + r1 * r2 + r2 * r2, three = one * (r1 * r1 + r2 * r2);
-    return (struct column) { three + a2 * (one + 2 + z * (one - 2)), 2, one - 2, three - 2 * two + a2 * one + a2 * z * (one - 2) };
+    return (struct column) { three + a2 * (one + 2 + z * (one - 2)), 2, one - 2,
+                             three - 2 * two + a2 * one + a2 * z * (one - 2) };
 }
 
-/* The positive root of the quadratic at r, for E and b = 1 - E^2 known: q = f - d = 2r (r^2 + a^2) and b stand for d and E^2. */
+/* The positive root of the quadratic at r, for E and b = 1 - E^2 known: q = f - d = 2r (r^2 + a^2) and b stand for d
+ * and E^2. */
 static double root_at(const struct column *v, double ax, double r, double a2, double energy, double binding)
 {
     double half = v->g * ax * energy, rest = 2 * r * (r * r + a2) - v->f * binding;
@@ -45,9 +46,9 @@ static double binding_at(const struct kd_orbit *o, double x, double l, double w)
     return fixed / (1 + a2 * w * w * (1 + z * (1 - 2 * w + a2 * w * w)));
 }
 
-/* E as his formula has it loses the digits of b in wide orbits, and l those of b. With E^2 = 1 - b the two equations leave, l^2
- * eliminated, rho b = chi - 2 a x sigma E l with chi from q instead of d: E and l are needed in a small term only. What that
- * loses next to a parabola the outer turning point knows, where W = 0 is all but b = 2w. */
+/* E as his formula has it loses the digits of b in wide orbits, and l those of b. With E^2 = 1 - b the two equations
+ * leave, l^2 eliminated, rho b = chi - 2 a x sigma E l with chi from q instead of d: E and l are needed in a small
+ * term only. What that loses next to a parabola the outer turning point knows, where W = 0 is all but b = 2w. */
 static void energy_and_momentum(struct kd_orbit *o, double x, double r1, double r2, double *l)
 {
     double a2 = o->a * o->a, z = (1 - x) * (1 + x), ax = o->a * x;

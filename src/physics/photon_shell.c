@@ -47,8 +47,7 @@ static struct kd_shell_orbit orbit(const struct kd_shell *s, double y, double w)
     struct kd_shell_orbit o = { .a = s->a, .r = 1 + y, .y = y, .w = w };
     double x = s->x_polar + w, cube = o.r * o.r * o.r;
     o.lambda = -copysign(1, s->a) * w * (y + s->y_polar + 2 * s->n / (y * s->y_polar));
-    o.eta = y < 1 ? cube / (s->spin * s->spin) * (3 - y - 4 * s->n / (y * y))
-                  : cube / (y * y) * (4 - o.r * x * x);
+    o.eta = y < 1 ? cube / (s->spin * s->spin) * (3 - y - 4 * s->n / (y * y)) : cube / (y * y) * (4 - o.r * x * x);
     return o;
 }
 
@@ -66,8 +65,7 @@ struct kd_shell_orbit kd_shell_orbit_of_radius(double a, double r)
     struct kd_shell s = kd_shell_of(a);
     double y = r - 1;
     bool there = a != 0 && r >= kd_kerr_photon_orbit(s.spin) && r <= kd_kerr_photon_orbit(-s.spin);
-    return there ? orbit(&s, y, (y - s.y_polar) / s.spin)
-                 : (struct kd_shell_orbit) { a, NAN, NAN, NAN, NAN, NAN };
+    return there ? orbit(&s, y, (y - s.y_polar) / s.spin) : (struct kd_shell_orbit) { a, NAN, NAN, NAN, NAN, NAN };
 }
 
 double kd_shell_bend(const struct kd_shell_orbit *o)

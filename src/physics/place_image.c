@@ -18,11 +18,18 @@ enum { PLACES = 1500, GUESSES = 96, TRIES = 5, ITERATIONS = 14 };
 /* A vector in the space of (r, theta, phi) as if it were flat, as good as any other to tell how near two places are. */
 struct vector { double x[3]; };
 
-static struct vector less(const struct vector *a, const struct vector *b) { return (struct vector) { { a->x[0] - b->x[0], a->x[1] - b->x[1], a->x[2] - b->x[2] } }; }
-static double dot(const struct vector *a, const struct vector *b) { return a->x[0] * b->x[0] + a->x[1] * b->x[1] + a->x[2] * b->x[2]; }
+static struct vector less(const struct vector *a, const struct vector *b)
+{
+    return (struct vector) { { a->x[0] - b->x[0], a->x[1] - b->x[1], a->x[2] - b->x[2] } };
+}
+static double dot(const struct vector *a, const struct vector *b)
+{
+    return a->x[0] * b->x[0] + a->x[1] * b->x[1] + a->x[2] * b->x[2];
+}
 static struct vector cross(const struct vector *a, const struct vector *b)
 {
-    return (struct vector) { { a->x[1] * b->x[2] - a->x[2] * b->x[1], a->x[2] * b->x[0] - a->x[0] * b->x[2], a->x[0] * b->x[1] - a->x[1] * b->x[0] } };
+    return (struct vector) { { a->x[1] * b->x[2] - a->x[2] * b->x[1], a->x[2] * b->x[0] - a->x[0] * b->x[2],
+                               a->x[0] * b->x[1] - a->x[1] * b->x[0] } };
 }
 
 static double angle(const struct vector *a, const struct vector *b)
@@ -38,15 +45,19 @@ struct search {
     struct kd_null_place *places; /* room for PLACES */
 };
 
-/* The ray that is seen there in the chart: alpha and beta at infinity, else the direction by its stereographic image about -r. */
+/* The ray that is seen there in the chart: alpha and beta at infinity, else the direction by its stereographic image
+ * about -r. */
 static bool ray_of(const struct kd_place_view *view, const double at[2], struct kd_null_ray *ray, struct kd_look *look)
 {
     const struct kd_vantage *v = &view->frame.at;
-    *ray = (struct kd_null_ray) { .spin = v->spin, .radius = v->r, .cos_theta = v->u, .sin_theta = v->s, .alpha = at[0], .beta = at[1] };
+    *ray = (struct kd_null_ray) {
+        .spin = v->spin, .radius = v->r, .cos_theta = v->u, .sin_theta = v->s, .alpha = at[0], .beta = at[1]
+    };
     *look = (struct kd_look) { NAN, NAN, NAN, NAN };
     if (isinf(v->r))
         return true;
-    const double n = at[0] * at[0] + at[1] * at[1], right = 2 * at[0] / (1 + n), up = 2 * at[1] / (1 + n), inwards = (1 - n) / (1 + n);
+    const double n = at[0] * at[0] + at[1] * at[1], right = 2 * at[0] / (1 + n), up = 2 * at[1] / (1 + n),
+                 inwards = (1 - n) / (1 + n);
     const double x[4] = { 1, inwards, up, -right };
     const struct kd_covector photon = kd_tetrad_covector(&view->frame, x);
     if (!(photon.energy > 0))
@@ -97,7 +108,8 @@ static double apart(const struct search *s, const struct vector *from, const str
 {
     const struct vector along = less(to, from), there = less(&s->place, from);
     const double share = fmin(fmax(dot(&along, &there) / (dot(&along, &along) + 1e-300), 0), 1);
-    const struct vector off = { { there.x[0] - share * along.x[0], there.x[1] - share * along.x[1], there.x[2] - share * along.x[2] } };
+    const struct vector off = { { there.x[0] - share * along.x[0], there.x[1] - share * along.x[1],
+                                  there.x[2] - share * along.x[2] } };
     return dot(&off, &off);
 }
 
@@ -109,7 +121,8 @@ static struct miss nearest(const struct search *s, const struct kd_null_place *f
     for (int round = 0; round < 24; round++) { /* thirds: the distance has one least there */
         double one, other;
         const double a = low + step / 3, b = high - step / 3;
-        const struct vector at = between(four, a, &one), to = between(four, b, &other), u = less(&at, &s->place), v = less(&to, &s->place);
+        const struct vector at = between(four, a, &one), to = between(four, b, &other), u = less(&at, &s->place),
+                            v = less(&to, &s->place);
         if (dot(&u, &u) < dot(&v, &v))
             high = b;
         else
@@ -118,7 +131,8 @@ static struct miss nearest(const struct search *s, const struct kd_null_place *f
     }
     const double middle = 0.5 * (low + high), h = 1e-4 * (four[2].mino - four[1].mino);
     double before, after;
-    const struct vector from = between(four, middle - h, &before), to = between(four, middle + h, &after), here = between(four, middle, &best.delay);
+    const struct vector from = between(four, middle - h, &before), to = between(four, middle + h, &after),
+                        here = between(four, middle, &best.delay);
     best.off = less(&here, &s->place);
     best.way = less(&to, &from);
     /* Along the ray nothing is left but at its ends: that is what nearest means. */
@@ -166,7 +180,8 @@ static bool misses(const struct search *s, const double at[2], struct miss *out)
         from = to;
     }
     const size_t first = best < 1 ? 0 : best + 3 > course.n ? course.n - 4 : best - 1;
-    *out = nearest(s, &s->places[first], s->places[best > 0 ? best - 1 : 0].mino, s->places[best + 2 < course.n ? best + 2 : course.n - 1].mino);
+    *out = nearest(s, &s->places[first], s->places[best > 0 ? best - 1 : 0].mino,
+                   s->places[best + 2 < course.n ? best + 2 : course.n - 1].mino);
     out->swept = swept_there;
     return isfinite(out->size);
 }
@@ -189,7 +204,8 @@ static void across(const struct miss *m, struct vector axes[2])
 /* Newton's step in the chart; false where the images of the place meet. */
 static bool step_from(const struct search *s, const double at[2], const struct miss *m, double step[2])
 {
-    const double h = 1e-6 * (isinf(s->view->frame.at.r) ? fmax(1, hypot(at[0], at[1])) : fmax(hypot(at[0], at[1]), 1 / s->view->frame.at.r));
+    const double h = 1e-6 * (isinf(s->view->frame.at.r) ? fmax(1, hypot(at[0], at[1]))
+                                                        : fmax(hypot(at[0], at[1]), 1 / s->view->frame.at.r));
     struct vector axes[2];
     double rate[2][2];
     across(m, axes);
@@ -202,7 +218,8 @@ static bool step_from(const struct search *s, const double at[2], const struct m
         for (int i = 0; i < 2; i++)
             rate[i][j] = dot(&change, &axes[i]) / h;
     }
-    const double det = rate[0][0] * rate[1][1] - rate[0][1] * rate[1][0], f[2] = { dot(&m->off, &axes[0]), dot(&m->off, &axes[1]) };
+    const double det = rate[0][0] * rate[1][1] - rate[0][1] * rate[1][0],
+                 f[2] = { dot(&m->off, &axes[0]), dot(&m->off, &axes[1]) };
     step[0] = -(rate[1][1] * f[0] - rate[0][1] * f[1]) / det;
     step[1] = -(rate[0][0] * f[1] - rate[1][0] * f[0]) / det;
     return isfinite(step[0]) && isfinite(step[1]);
@@ -235,12 +252,14 @@ static bool solve(const struct search *s, double at[2], struct miss *m)
 /* Distances from the hole on the sky, from small to large: half of them about where the critical curve lies. */
 static void distances(const struct search *s, double to[GUESSES])
 {
-    const double from = s->view->frame.at.r, most = isinf(from) ? 3 * s->r + 30 : 60 * from, unit = isinf(from) ? 1 : 0.5 / from;
+    const double from = s->view->frame.at.r, most = isinf(from) ? 3 * s->r + 30 : 60 * from,
+                 unit = isinf(from) ? 1 : 0.5 / from;
     double wide = LEAST, fine = NEAR;
     for (int i = 0; i < GUESSES; i++) {
         const bool take_fine = fine < wide && fine < FAR;
         to[i] = unit * (take_fine ? fine : wide);
-        *(take_fine ? &fine : &wide) = take_fine ? fine + 2 * (FAR - NEAR) / GUESSES : wide * pow(most / LEAST, 2. / GUESSES);
+        *(take_fine ? &fine : &wide) =
+            take_fine ? fine + 2 * (FAR - NEAR) / GUESSES : wide * pow(most / LEAST, 2. / GUESSES);
     }
 }
 
@@ -253,7 +272,8 @@ static bool search_along(const struct search *s, double way, double turned, doub
     int tries = 0;
     distances(s, where);
     for (int i = 0; i < GUESSES; i++)
-        near[i] = misses(s, (double[]) { where[i] * towards[0], where[i] * towards[1] }, &guess) ? guess.size : INFINITY;
+        near[i] =
+            misses(s, (double[]) { where[i] * towards[0], where[i] * towards[1] }, &guess) ? guess.size : INFINITY;
     for (int i = GUESSES - 1; i >= 0 && tries < TRIES; i--) {
         if (!(near[i] < INFINITY) || (i > 0 && near[i] > near[i - 1]) || (i + 1 < GUESSES && near[i] > near[i + 1]))
             continue;
@@ -270,7 +290,8 @@ static bool search(const struct search *s, double at[2], struct miss *m)
 {
     static const double turns[] = { 0, 0.35, -0.35, 0.8, -0.8 };
     const struct kd_vantage *v = &s->view->frame.at;
-    const double *p = s->place.x, right = p[1], up = p[2] * v->s - p[0] * v->u, way = right == 0 && up == 0 ? 0 : atan2(up, right);
+    const double *p = s->place.x, right = p[1], up = p[2] * v->s - p[0] * v->u,
+                 way = right == 0 && up == 0 ? 0 : atan2(up, right);
     for (size_t i = 0; i < sizeof turns / sizeof *turns; i++)
         if (search_along(s, way, turns[i], at, m))
             return true;
@@ -284,8 +305,8 @@ struct kd_place_view kd_place_view_of(const struct kd_observer_motion *motion, c
     return (struct kd_place_view) { kd_observer_tetrad(motion, at) };
 }
 
-bool kd_place_image_seen(const struct kd_place_view *view, double r, double u, double phi, const struct kd_place_image *near, bool searches,
-                         struct kd_place_image *out)
+bool kd_place_image_seen(const struct kd_place_view *view, double r, double u, double phi,
+                         const struct kd_place_image *near, bool searches, struct kd_place_image *out)
 {
     struct kd_null_place places[PLACES];
     const double off_axis = r * sqrt(fmax(0, (1 - u) * (1 + u)));

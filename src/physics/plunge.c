@@ -44,7 +44,8 @@ struct kd_plunge_event kd_plunge_at(const struct kd_plunge *o, double r)
     /* Integrals of r^2/r0^2 and r/r0 over y, less y. */
     double square = 0.5 * y / (1 + y * y) - 1.5 * atan(y), line = -atan(y);
     return (struct kd_plunge_event) {
-        .t = o->t_rate * y - scale * (o->energy * r0 * (r0 * square + 2 * line) - o->outer.t * outer - o->inner.t * inner),
+        .t = o->t_rate * y -
+             scale * (o->energy * r0 * (r0 * square + 2 * line) - o->outer.t * outer - o->inner.t * inner),
         .phi = o->phi_rate * y + scale * (o->outer.phi * outer + o->inner.phi * inner),
     };
 }

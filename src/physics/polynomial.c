@@ -66,7 +66,8 @@ int kd_polynomial_roots(const double *c, int degree, double low, double high, do
     double left = low;
     bool touched = false; /* the left end is a root that has been counted */
     for (int i = 0; i < n_turns && n < degree; i++) {
-        double right = turns[i], f_left = kd_polynomial_at(c, degree, left), f_right = kd_polynomial_at(c, degree, right);
+        double right = turns[i], f_left = kd_polynomial_at(c, degree, left),
+               f_right = kd_polynomial_at(c, degree, right);
         bool touches = i + 1 < n_turns && vanishes(c, degree, right);
         if (touches && (i + 2 == n_turns || turns[i + 1] != right)) {
             roots[n++] = right;

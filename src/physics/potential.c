@@ -11,10 +11,7 @@ double kd_potential(double a, double l, double mu2, double r)
     return (2 * a * l * r + r * sqrt(fmax(0, delta) * (r * r * l * l + mu2 * big))) / big;
 }
 
-double kd_potential_critical_impact(double a)
-{
-    return 6 * cos(acos(-a) / 3) - a;
-}
+double kd_potential_critical_impact(double a) { return 6 * cos(acos(-a) / 3) - a; }
 
 static const struct kd_potential_extrema none = { NAN, NAN, NAN, NAN };
 

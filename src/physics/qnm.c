@@ -6,15 +6,13 @@
 enum { S = -2, ITERATIONS = 40 };
 
 /* alpha_k a_{k+1} + beta_k a_k + gamma_k a_{k-1} = 0, alpha = alpha0 + alpha1 k + alpha2 k^2, and so on. */
-struct recurrence {
-    double complex alpha[3], beta[3], gamma[3];
-};
+struct recurrence { double complex alpha[3], beta[3], gamma[3]; };
 
 static double complex quadratic(const double complex c[3], double k) { return c[0] + k * (c[1] + k * c[2]); }
 
-/* Its continued fraction, inverted at `row`: zero if a minimal solution a_k exists. Of the infinite part `terms` are kept,
- * begun with `rest` for -a_{K+1}/a_K. Any row will do in exact arithmetic; in this one the root is best seen from the row that
- * it belongs to (Leaver 1985, after eq. 14). */
+/* Its continued fraction, inverted at `row`: zero if a minimal solution a_k exists. Of the infinite part `terms` are
+ * kept, begun with `rest` for -a_{K+1}/a_K. Any row will do in exact arithmetic; in this one the root is best seen
+ * from the row that it belongs to (Leaver 1985, after eq. 14). */
 static double complex fraction(const struct recurrence *r, int row, int terms, double complex rest)
 {
     double complex below = rest;
@@ -61,8 +59,9 @@ struct problem {
     double complex c, separation; /* a omega; a guess, then the eigenvalue */
 };
 
-/* The minimal solution of the radial recurrence goes as a_{k+1}/a_k = 1 + p/sqrt(k) + q/k + ..., with p^2 = -2 i b w and
- * Re(p) < 0, q from the next order but one (Nollert 1993). A wrong start of the fraction dies out as exp(4 Re(p) sqrt(k)). */
+/* The minimal solution of the radial recurrence goes as a_{k+1}/a_k = 1 + p/sqrt(k) + q/k + ..., with p^2 = -2 i b w
+ * and Re(p) < 0, q from the next order but one (Nollert 1993). A wrong start of the fraction dies out as exp(4 Re(p)
+ * sqrt(k)). */
 static double complex radial_fraction(const struct problem *problem, const struct recurrence *r, double complex omega)
 {
     double a = problem->a, b = sqrt((1 - a) * (1 + a));
@@ -132,8 +131,8 @@ static bool improve(const struct kd_qnm_branch *branch, double a, double toleran
 static double complex schwarzschild(int l, int n)
 {
     double inverse = 1 / (l + 0.5), N = n + 0.5, N2 = N * N, beta = 1 - S * S;
-    double complex sum = -beta * beta / 27 + beta * (204 * N2 + 211) / 3888 +
-                         (854160 * N2 * N2 - 1664760 * N2 - 776939) / 40310784;
+    double complex sum =
+        -beta * beta / 27 + beta * (204 * N2 + 211) / 3888 + (854160 * N2 * N2 - 1664760 * N2 - 776939) / 40310784;
     sum = sum * inverse - I * N * (beta / 9 + 235 * N2 / 3888 - 1415.0 / 15552);
     sum = sum * inverse + beta / 3 - 5 * N2 / 36 - 115.0 / 432;
     sum = sum * inverse - I * N;
@@ -176,7 +175,10 @@ bool kd_qnm_start(struct kd_qnm_branch *branch, int l, int m, int n)
     if (l < KD_QNM_L_MIN || l > KD_QNM_L_MAX || abs(m) > l || n < 0 || n > KD_QNM_N_MAX)
         return false;
     *branch = (struct kd_qnm_branch) {
-        .l = l, .m = m, .n = n, .step = 0.05,
+        .l = l,
+        .m = m,
+        .n = n,
+        .step = 0.05,
         .at = { schwarzschild(l, n), l * (l + 1) - S * (S + 1) },
     };
     if (!improve(branch, 0, precise, &branch->at))
@@ -189,9 +191,10 @@ bool kd_qnm_move(struct kd_qnm_branch *branch, double a)
 {
     if (!(a >= 0 && a <= KD_QNM_SPIN_MAX))
         return false;
-    /* As a -> 1 overtones come as near as Im(omega)/(n + 1/2), and turn sharply where the undamped modes part from the damped
-     * (l = 2, m = 1, n = 1 at a = 0.995). What is found within a hundredth of that from where it was expected is the mode, and
-     * not a neighbour; a tenth is not enough. Near a = 0 there is no parabola yet, but no neighbour either. */
+    /* As a -> 1 overtones come as near as Im(omega)/(n + 1/2), and turn sharply where the undamped modes part from
+     * the damped (l = 2, m = 1, n = 1 at a = 0.995). What is found within a hundredth of that from where it was
+     * expected is the mode, and not a neighbour; a tenth is not enough. Near a = 0 there is no parabola yet, but no
+     * neighbour either. */
     const double apart = 1 / (branch->n + 0.5), target = stretched(a);
     while (branch->a != a) {
         double y = stretched(branch->a), left = target - y;

@@ -6,7 +6,7 @@
 
 #define STEP (2 * M_PI / 64) /* of chi from node to node */
 #define LEAST_STEP 1e-5
-#define TABLE 1e-7 /* of ln r: a table needs no more */
+#define TABLE 1e-7  /* of ln r: a table needs no more */
 #define TURN 1.0    /* of phi from node to node, at most: near pi its direction would be a guess */
 #define STRETCH 0.2 /* of ln rho, at most: where the image has a corner, beside the axis, phi can make a whole turn */
 
@@ -21,8 +21,11 @@ static void place(const struct kd_ring_image *ring, double chi, double log_rho, 
 /* ln(r_n/r), or -INFINITY for a ray that is captured before its crossing n, INFINITY for one that escapes. */
 static double mismatch(const struct kd_ring_image *ring, double chi, double log_rho, struct kd_null_crossing *crossing)
 {
-    struct kd_null_ray ray = { .spin = ring->spin, .radius = INFINITY, .cos_theta = ring->cos_theta,
-                               .sin_theta = ring->sin_theta, .orders = ring->order + 1 };
+    struct kd_null_ray ray = { .spin = ring->spin,
+                               .radius = INFINITY,
+                               .cos_theta = ring->cos_theta,
+                               .sin_theta = ring->sin_theta,
+                               .orders = ring->order + 1 };
     place(ring, chi, log_rho, &ray.alpha, &ray.beta);
     struct kd_null_path path = kd_null_trace_fast(&ray);
     if (path.crossings <= ring->order)
@@ -31,9 +34,10 @@ static double mismatch(const struct kd_ring_image *ring, double chi, double log_
     return log(crossing->r / ring->radius);
 }
 
-/* Towards ln r_n = ln r along chi from a guess: out to where the sign differs, then halved until both ends have a crossing,
- * then by Illinois' rule, until |ln r_n/r| is below the bound. */
-static bool approach(const struct kd_ring_image *ring, double chi, double bound, double *log_rho, struct kd_null_crossing *crossing)
+/* Towards ln r_n = ln r along chi from a guess: out to where the sign differs, then halved until both ends have a
+ * crossing, then by Illinois' rule, until |ln r_n/r| is below the bound. */
+static bool approach(const struct kd_ring_image *ring, double chi, double bound, double *log_rho,
+                     struct kd_null_crossing *crossing)
 {
     double h = INFINITY, step = 0.02, at = *log_rho, f = mismatch(ring, chi, at, crossing), other, g = f;
     for (other = at; (f < 0) == (g < 0) && step < 40; step *= 2) {
@@ -92,8 +96,12 @@ static bool add_node(struct kd_ring_image *ring, double *step)
 
 struct kd_ring_image kd_ring_image_plain(double spin, double inclination, double r, int order)
 {
-    return (struct kd_ring_image) { .spin = spin, .cos_theta = cos(inclination), .sin_theta = sin(inclination),
-                              .flatten = cos(inclination), .radius = r, .order = order };
+    return (struct kd_ring_image) { .spin = spin,
+                                    .cos_theta = cos(inclination),
+                                    .sin_theta = sin(inclination),
+                                    .flatten = cos(inclination),
+                                    .radius = r,
+                                    .order = order };
 }
 
 /* A guess: next to the critical curve, or where the ring would be without lensing. */
@@ -128,9 +136,11 @@ static bool azimuth(const struct kd_ring_image *ring, double phi, double chi, do
 /* Between the nodes k and k + 1, where phi is passed, by Illinois' rule to 1e-4: near enough for Newton's method. */
 static bool bracket(const struct kd_ring_image *ring, double phi, int k, double *chi, double *log_rho)
 {
-    double low = ring->chi[k], high = ring->chi[k + 1], f = turn(ring->phi[k] - phi), g = f + (ring->phi[k + 1] - ring->phi[k]), h;
+    double low = ring->chi[k], high = ring->chi[k + 1], f = turn(ring->phi[k] - phi),
+           g = f + (ring->phi[k + 1] - ring->phi[k]), h;
     for (int i = 0, side = 0; i < 60; i++) {
-        double x = f / (f - g), at = low + x * (high - low), share = (at - ring->chi[k]) / (ring->chi[k + 1] - ring->chi[k]);
+        double x = f / (f - g), at = low + x * (high - low),
+               share = (at - ring->chi[k]) / (ring->chi[k + 1] - ring->chi[k]);
         *chi = at;
         *log_rho = ring->log_rho[k] + share * (ring->log_rho[k + 1] - ring->log_rho[k]);
         if (!azimuth(ring, phi, at, log_rho, &h))
@@ -148,7 +158,8 @@ static bool bracket(const struct kd_ring_image *ring, double phi, int k, double 
 }
 
 /* Slope of ln r_n in ln rho: steep for late orders and large r, so that the step follows it. */
-static double slope(const struct kd_ring_image *ring, double chi, double log_rho, double f, double *phi_slope, double phi)
+static double slope(const struct kd_ring_image *ring, double chi, double log_rho, double f, double *phi_slope,
+                    double phi)
 {
     struct kd_null_crossing out;
     double h = 1e-6, change;
@@ -160,9 +171,10 @@ static double slope(const struct kd_ring_image *ring, double chi, double log_rho
     return change / h;
 }
 
-/* One step of Newton's method for (ln r_n, phi) = (ln r, phi) in (chi, ln rho). Returns its size, INFINITY where there is no
- * crossing. */
-static double newton(const struct kd_ring_image *ring, double phi, double *chi, double *log_rho, struct kd_null_crossing *here)
+/* One step of Newton's method for (ln r_n, phi) = (ln r, phi) in (chi, ln rho). Returns its size, INFINITY where
+ * there is no crossing. */
+static double newton(const struct kd_ring_image *ring, double phi, double *chi, double *log_rho,
+                     struct kd_null_crossing *here)
 {
     const double h = 1e-7;
     struct kd_null_crossing aside;

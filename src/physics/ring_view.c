@@ -6,7 +6,8 @@
 
 #include <math.h>
 
-struct kd_ring_view kd_ring_view_of(const struct kd_observer_motion *motion, const struct kd_vantage *at, double r, int order)
+struct kd_ring_view kd_ring_view_of(const struct kd_observer_motion *motion, const struct kd_vantage *at, double r,
+                                    int order)
 {
     const struct kd_observer_motion rain = kd_observer_motion_of(KD_OBSERVER_INFALL);
     return (struct kd_ring_view) { kd_observer_tetrad(&rain, at), kd_observer_tetrad(motion, at), r, order };
@@ -15,7 +16,8 @@ struct kd_ring_view kd_ring_view_of(const struct kd_observer_motion *motion, con
 /* The components in the frame of rain of the photon that is seen at tan(rho/2) = e^h, towards chi. */
 static void photon_at(const struct kd_ring_view *view, double chi, double h, double x[4])
 {
-    const double right = cos(chi), up = fabs(view->rain.at.u) * sin(chi), off = 1 / (cosh(h) * hypot(right, up)); /* sin(rho) = 1/cosh(h) */
+    const double right = cos(chi), up = fabs(view->rain.at.u) * sin(chi),
+                 off = 1 / (cosh(h) * hypot(right, up)); /* sin(rho) = 1/cosh(h) */
     x[0] = 1, x[1] = -tanh(h), x[2] = off * up, x[3] = -off * right;
 }
 
@@ -29,7 +31,8 @@ static double mismatch(const struct kd_ring_view *view, double chi, double h)
     return r > 0 ? log(r / view->radius) : -INFINITY;
 }
 
-/* ln r_n = ln r along chi: from a guess out to where the sign differs, then halved until both ends have a crossing, then by Illinois' rule. */
+/* ln r_n = ln r along chi: from a guess out to where the sign differs, then halved until both ends have a crossing,
+ * then by Illinois' rule. */
 static bool solve(const struct kd_ring_view *view, double chi, double *h, double *residual)
 {
     double at = log(view->radius / view->rain.at.r), f = mismatch(view, chi, at), other = at, g = f, miss = INFINITY;
@@ -60,8 +63,14 @@ static void add_place(const struct kd_ring_view *view, const struct kd_covector 
     out->phi = out->delay = NAN;
     if (!(photon->energy > 0) || !(at->r > kd_kerr_horizon(at->spin)))
         return;
-    const struct kd_null_ray ray = { .spin = at->spin, .radius = at->r, .cos_theta = at->u, .sin_theta = at->s, .alpha = out->alpha, .beta = out->beta,
-                                     .outward = photon->radial < 0, .orders = view->order + 1 };
+    const struct kd_null_ray ray = { .spin = at->spin,
+                                     .radius = at->r,
+                                     .cos_theta = at->u,
+                                     .sin_theta = at->s,
+                                     .alpha = out->alpha,
+                                     .beta = out->beta,
+                                     .outward = photon->radial < 0,
+                                     .orders = view->order + 1 };
     const struct kd_null_path path = kd_null_trace_fast(&ray);
     if (path.crossings > view->order) {
         out->phi = path.crossing[view->order].phi;
@@ -75,7 +84,8 @@ bool kd_ring_view_seen(const struct kd_ring_view *view, double chi, struct kd_ri
     const bool found = solve(view, chi, &h, &out->residual);
     photon_at(view, chi, h, x);
     const struct kd_covector photon = kd_tetrad_covector(&view->rain, x);
-    out->look = view->frame.falls ? kd_tetrad_look_past_rain(&view->frame, photon.energy, x) : kd_tetrad_look(&view->frame, &photon);
+    out->look = view->frame.falls ? kd_tetrad_look_past_rain(&view->frame, photon.energy, x)
+                                  : kd_tetrad_look(&view->frame, &photon);
     out->alpha = -photon.momentum / photon.energy;
     out->beta = photon.polar / photon.energy;
     add_place(view, &photon, out);

@@ -4,9 +4,7 @@
 #include <math.h>
 #include <stdbool.h>
 
-struct point {
-    double x, f;
-};
+struct point { double x, f; };
 
 /* The fraction of the way from a to b at which to look next: through a, b and c where the inverse function is
  * monotone. */
@@ -15,8 +13,7 @@ static double fraction(struct point a, struct point b, struct point c)
     double xi = (a.x - b.x) / (c.x - b.x), phi = (a.f - b.f) / (c.f - b.f);
     if (!(1 - sqrt(1 - xi) < phi && phi < sqrt(xi)))
         return 0.5;
-    return a.f / (b.f - a.f) * c.f / (b.f - c.f) +
-           (c.x - a.x) / (b.x - a.x) * a.f / (c.f - a.f) * b.f / (c.f - b.f);
+    return a.f / (b.f - a.f) * c.f / (b.f - c.f) + (c.x - a.x) / (b.x - a.x) * a.f / (c.f - a.f) * b.f / (c.f - b.f);
 }
 
 double kd_root(kd_root_fn f, const void *user, double low, double high)

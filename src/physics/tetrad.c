@@ -93,15 +93,20 @@ struct kd_look kd_tetrad_look_past_rain(const struct kd_tetrad *frame, double en
     return (struct kd_look) { -y[3] / t, y[2] / t, y[1] / t, energy / t };
 }
 
-/* In the frame of rain, with B and F of observer.c, x_t - x_r = (sqrt(B) (E - omega L) - p^r)/(sqrt(B) + F), and the norm gives x_t + x_r. */
+/* In the frame of rain, with B and F of observer.c, x_t - x_r = (sqrt(B) (E - omega L) - p^r)/(sqrt(B) + F), and the
+ * norm gives x_t + x_r. */
 struct kd_look kd_tetrad_look_inwards(const struct kd_tetrad *frame, const struct kd_covector *photon, double polar2)
 {
-    const double a = frame->at.spin, r = frame->at.r, s = frame->at.s, sigma = r * r + a * a * frame->at.u * frame->at.u, w2 = r * r + a * a;
-    const double delta = (r - kd_kerr_horizon(a)) * (r - kd_kerr_inner_horizon(a)), big = w2 * w2 - a * a * delta * s * s;
+    const double a = frame->at.spin, r = frame->at.r, s = frame->at.s,
+                 sigma = r * r + a * a * frame->at.u * frame->at.u, w2 = r * r + a * a;
+    const double delta = (r - kd_kerr_horizon(a)) * (r - kd_kerr_inner_horizon(a)),
+                 big = w2 * w2 - a * a * delta * s * s;
     const double round = photon->momentum * sqrt(sigma / big), up = photon->polar / sqrt(sigma);
     const double energy = photon->energy - 2 * a * r / big * photon->momentum * s;
-    const double less = (sqrt(big) * energy - photon->radial) / (sqrt(big) + sqrt(2 * r * w2)), more = (polar2 / sigma + round * round) / less;
-    return kd_tetrad_look_past_rain(frame, photon->energy, (double[]) { 0.5 * (more + less), 0.5 * (more - less), up, round });
+    const double less = (sqrt(big) * energy - photon->radial) / (sqrt(big) + sqrt(2 * r * w2)),
+                 more = (polar2 / sigma + round * round) / less;
+    return kd_tetrad_look_past_rain(frame, photon->energy,
+                                    (double[]) { 0.5 * (more + less), 0.5 * (more - less), up, round });
 }
 
 struct kd_look kd_tetrad_look(const struct kd_tetrad *frame, const struct kd_covector *photon)
@@ -118,5 +123,6 @@ struct kd_covector kd_tetrad_outgoing(const struct kd_vantage *at, double alpha,
 {
     double a = at->spin, r = at->r, across = alpha + a * at->s, along = r * r + a * a + a * alpha * at->s;
     double delta = (r - kd_kerr_horizon(a)) * (r - kd_kerr_inner_horizon(a));
-    return (struct kd_covector) { 1, -alpha, beta, sqrt(fmax(0, along * along - delta * (beta * beta + across * across))) };
+    return (struct kd_covector) { 1, -alpha, beta,
+                                  sqrt(fmax(0, along * along - delta * (beta * beta + across * across))) };
 }

@@ -3,16 +3,21 @@
 #include <math.h>
 #include <stdbool.h>
 
-/* ln h but for a constant, equation 3.6 by the lapse^2 = Sigma Delta/A, omega = 2 a r/A, g_phiphi = A sin^2/Sigma and U^2 = u_phi^2/g_phiphi, where
- * (u^t u_phi)^2 = l^2 is U^2 (1 + U^2) g_phiphi/lapse^2. The shader has the same constant (emit/plasma.glsl). */
+/* ln h but for a constant, equation 3.6 by the lapse^2 = Sigma Delta/A, omega = 2 a r/A, g_phiphi = A sin^2/Sigma
+ * and U^2 = u_phi^2/g_phiphi, where (u^t u_phi)^2 = l^2 is U^2 (1 + U^2) g_phiphi/lapse^2. The shader has the same
+ * constant (emit/plasma.glsl). */
 static double enthalpy(double a, double l, double r, double u)
 {
-    const double sigma = r * r + a * a * u * u, delta = r * r - 2 * r + a * a, s2 = (1 - u) * (1 + u), big = (r * r + a * a) * (r * r + a * a) - a * a * delta * s2;
+    const double sigma = r * r + a * a * u * u, delta = r * r - 2 * r + a * a, s2 = (1 - u) * (1 + u),
+                 big = (r * r + a * a) * (r * r + a * a) - a * a * delta * s2;
     const double lapse2 = sigma * delta / big, u2 = 0.5 * (sqrt(1 + 4 * l * l * lapse2 * sigma / (big * s2)) - 1);
     return 0.5 * (log1p(u2) - log(lapse2)) - u2 - 2 * a * r / big * l;
 }
 
-double kd_torus_log_enthalpy(const struct kd_torus *torus, double spin, double r, double u) { return enthalpy(spin, torus->l, r, u) - torus->edge; }
+double kd_torus_log_enthalpy(const struct kd_torus *torus, double spin, double r, double u)
+{
+    return enthalpy(spin, torus->l, r, u) - torus->edge;
+}
 
 /* u^t u_phi of a circular orbit (Bardeen, Press & Teukolsky 1972). */
 static double orbit(double a, double r)
@@ -52,6 +57,7 @@ struct kd_torus kd_torus_of(double spin, double inner, double most)
     const bool closes = kd_torus_log_enthalpy(&t, spin, FAR, 0) < 0;
     t.outer = closes ? outer_of(&t, spin, most, FAR) : INFINITY;
     for (int i = 1; i < RADII; i++)
-        t.height = fmax(t.height, height_at(&t, spin, inner * pow((closes ? t.outer : FAR) / inner, (double)i / RADII)));
+        t.height =
+            fmax(t.height, height_at(&t, spin, inner * pow((closes ? t.outer : FAR) / inner, (double)i / RADII)));
     return t;
 }

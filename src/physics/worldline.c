@@ -19,7 +19,8 @@ bool kd_worldline_is_known(const struct kd_observer_motion *m, const struct kd_v
     }
 }
 
-/* dt/dtau and dphi/dtau of those that stay at their radius. One of zero angular momentum has E = -p_t = lapse, and u^t = 1/lapse. */
+/* dt/dtau and dphi/dtau of those that stay at their radius. One of zero angular momentum has E = -p_t = lapse, and
+ * u^t = 1/lapse. */
 static void pace(const struct kd_observer_motion *m, const struct kd_vantage *at, double *time, double *azimuth)
 {
     double sense = m->observer == KD_OBSERVER_RETROGRADE ? -1 : 1;
@@ -33,7 +34,8 @@ static void pace(const struct kd_observer_motion *m, const struct kd_vantage *at
     *azimuth = m->observer == KD_OBSERVER_ZAMO ? kd_kerr_dragging(at->spin, at->r, at->u) * *time : 0;
 }
 
-struct kd_worldline_place kd_worldline_after(const struct kd_observer_motion *m, const struct kd_vantage *at, double proper_time)
+struct kd_worldline_place kd_worldline_after(const struct kd_observer_motion *m, const struct kd_vantage *at,
+                                             double proper_time)
 {
     if (m->observer == KD_OBSERVER_INFALL) {
         const struct kd_infall_way way = kd_infall_after(m, at, proper_time);

@@ -25,7 +25,8 @@ enum kd_status kd_debris_resize(struct kd_playground_debris *debris, uint32_t ca
 {
     if (capacity == debris->capacity && debris->pieces)
         return KD_OK;
-    struct kd_debris_piece *pieces = calloc(capacity + 1, sizeof *pieces); /* one more: there is always something to free */
+    struct kd_debris_piece *pieces =
+        calloc(capacity + 1, sizeof *pieces); /* one more: there is always something to free */
     if (!pieces)
         return kd_error_set(error, KD_ENOMEM, "no memory for %u pieces of debris", capacity);
     /* From the newest back, which lies before `next`. */
@@ -59,14 +60,17 @@ struct kd_debris_source *kd_debris_source_of(struct kd_playground_debris *debris
     return number && source->number == number ? source : NULL;
 }
 
-struct kd_debris_source *kd_debris_source_begin(struct kd_playground_debris *debris, const char *name, double mass, uint32_t pieces, double spread)
+struct kd_debris_source *kd_debris_source_begin(struct kd_playground_debris *debris, const char *name, double mass,
+                                                uint32_t pieces, double spread)
 {
     const uint32_t number = ++debris->last_source, slot = number % KD_DEBRIS_SOURCES;
     struct kd_debris_source *source = &debris->sources[slot];
     for (uint32_t i = 0; source->number && i < debris->used; i++)
         if (debris->pieces[i].source == slot)
             give_up(debris, &debris->pieces[i]);
-    *source = (struct kd_debris_source) { .number = number, .t = debris->t, .piece_mass = mass / pieces, .worth = 1.0 / pieces, .spread = spread };
+    *source = (struct kd_debris_source) {
+        .number = number, .t = debris->t, .piece_mass = mass / pieces, .worth = 1.0 / pieces, .spread = spread
+    };
     snprintf(source->name, sizeof source->name, "%s", name);
     return source;
 }
@@ -106,7 +110,8 @@ static struct kd_debris_piece piece_of(const struct kd_debris_shed *shed, double
         speed2 += shed->v[k] * shed->v[k];
     }
     const double r = kd_playground_radius(x);
-    if (!(r > KD_PLAYGROUND_CAPTURE) || !(speed2 > 0)) /* torn off inside the hole, or at rest: where the body is, and as it moves */
+    if (!(r > KD_PLAYGROUND_CAPTURE) ||
+        !(speed2 > 0)) /* torn off inside the hole, or at rest: where the body is, and as it moves */
         memcpy(x, shed->x, sizeof x);
     const double wanted = 2 * (energy - kd_playground_potential(kd_playground_radius(x)));
     const double factor = speed2 > 0 ? sqrt(fmin(fmax(wanted, 0), 1) / speed2) : 1;
@@ -117,13 +122,15 @@ static struct kd_debris_piece piece_of(const struct kd_debris_shed *shed, double
     return piece;
 }
 
-void kd_debris_shed(struct kd_playground_debris *debris, struct kd_debris_source *source, const struct kd_debris_shed *shed)
+void kd_debris_shed(struct kd_playground_debris *debris, struct kd_debris_source *source,
+                    const struct kd_debris_shed *shed)
 {
     double e[3][3];
     directions(shed->x, shed->v, e);
     const double energy = kd_playground_specific(shed->x, shed->v);
     for (uint32_t i = 0; i < shed->n; i++) {
-        const double u = 2 * (i + kd_random_drawn(shed->seed, shed->random)) / shed->n - 1; /* even, and in its place at random */
+        const double u =
+            2 * (i + kd_random_drawn(shed->seed, shed->random)) / shed->n - 1; /* even, and in its place at random */
         source->pieces++;
         if (!debris->capacity) {
             source->lost++;
@@ -150,9 +157,7 @@ static void count(struct kd_debris_source *source, struct kd_debris_piece *piece
     piece->stage = KD_DEBRIS_BACK;
 }
 
-struct motion {
-    double x[3], v[3], r, outwards;
-};
+struct motion { double x[3], v[3], r, outwards; };
 
 /* Kick, drift, kick. */
 static void move(struct motion *m, double h)
@@ -175,7 +180,8 @@ static void move(struct motion *m, double h)
 }
 
 /* Moves one piece on by dt, which begins `since` after its source did. False: it is there no more. */
-static bool advance(struct kd_debris_piece *piece, struct kd_debris_source *source, double since, double dt, double safety, bool feeds, double *radius)
+static bool advance(struct kd_debris_piece *piece, struct kd_debris_source *source, double since, double dt,
+                    double safety, bool feeds, double *radius)
 {
     struct motion m = { .outwards = 0 };
     for (int k = 0; k < 3; k++) {
@@ -237,11 +243,15 @@ double kd_debris_stride(const struct kd_playground_debris *debris, double safety
 
 struct kd_debris_rate kd_debris_rate(const struct kd_debris_source *source, int bin)
 {
-    const double first = pow(10, (double)bin / KD_DEBRIS_PER_DECADE), end = pow(10, (bin + 1.) / KD_DEBRIS_PER_DECADE), t = sqrt(first * end);
+    const double first = pow(10, (double)bin / KD_DEBRIS_PER_DECADE), end = pow(10, (bin + 1.) / KD_DEBRIS_PER_DECADE),
+                 t = sqrt(first * end);
     return (struct kd_debris_rate) {
-        .t = t, .width = end - first, .pieces = source->back[bin],
+        .t = t,
+        .width = end - first,
+        .pieces = source->back[bin],
         .rate = source->piece_mass * source->back[bin] / (end - first),
-        .line = source->piece_mass * source->pieces / (2 * source->spread) * cbrt(4 * M_PI * M_PI) / 3 * pow(t, -5. / 3),
+        .line =
+            source->piece_mass * source->pieces / (2 * source->spread) * cbrt(4 * M_PI * M_PI) / 3 * pow(t, -5. / 3),
     };
 }
 
@@ -254,7 +264,8 @@ enum kd_status kd_debris_csv(const struct kd_playground_debris *debris, struct k
         for (int bin = 0; source->number && bin < KD_DEBRIS_BINS; bin++) {
             const struct kd_debris_rate rate = kd_debris_rate(source, bin);
             if (rate.pieces)
-                KD_TRY(kd_buffer_printf(out, "%u,%.9g,%.9g,%u,%.9g,%.9g\n", source->number, rate.t, rate.width, rate.pieces, rate.rate, rate.line));
+                KD_TRY(kd_buffer_printf(out, "%u,%.9g,%.9g,%u,%.9g,%.9g\n", source->number, rate.t, rate.width,
+                                        rate.pieces, rate.rate, rate.line));
         }
     }
 done:
@@ -277,7 +288,9 @@ enum kd_status kd_debris_npy(const struct kd_playground_debris *debris, struct k
             const struct kd_debris_rate rate = kd_debris_rate(source, bin);
             if (!rate.pieces)
                 continue;
-            KD_TRY(kd_buffer_append(&rows, (const double[]) { source->number, rate.t, rate.width, rate.pieces, rate.rate, rate.line }, 6 * sizeof(double)));
+            KD_TRY(kd_buffer_append(
+                &rows, (const double[]) { source->number, rate.t, rate.width, rate.pieces, rate.rate, rate.line },
+                6 * sizeof(double)));
             array.shape[0]++;
         }
     }

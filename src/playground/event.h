@@ -1,4 +1,5 @@
-/* What happens in a playground is told as events, by number. The last KD_PLAYGROUND_EVENTS are kept. One thread at a time. */
+/* What happens in a playground is told as events, by number. The last KD_PLAYGROUND_EVENTS are kept. One thread at a
+ * time. */
 #ifndef KD_PLAYGROUND_EVENT_H
 #define KD_PLAYGROUND_EVENT_H
 
@@ -26,9 +27,10 @@ struct kd_playground_event {
     uint64_t number; /* from 1 */
     double t;
     enum kd_playground_event_kind kind;
-    uint32_t body, other;                                              /* by id; other 0: there is none */
+    uint32_t body, other; /* by id; other 0: there is none */
     char name[KD_PLAYGROUND_NAME], other_name[KD_PLAYGROUND_NAME];
-    double mass, other_mass; /* of a merger those of the two before; of shedding and disruption what is lost, and what is left */
+    double mass,
+        other_mass; /* of a merger those of the two before; of shedding and disruption what is lost, and what is left */
     double r, energy;
     double tidal_radius, spread; /* r_t and the half width of the debris' energies; NAN where that means nothing */
 };

@@ -8,7 +8,8 @@
 #include <stdio.h>
 #include <string.h>
 
-const struct kd_playground_setting *kd_playground_row(const struct kd_playground_setting *table, size_t n, const char *name)
+const struct kd_playground_setting *kd_playground_row(const struct kd_playground_setting *table, size_t n,
+                                                      const char *name)
 {
     for (size_t i = 0; i < n; i++)
         if (!strcmp(table[i].name, name))
@@ -58,13 +59,14 @@ static void allowed(const struct kd_playground_setting *row, char out[KD_ALLOWED
     else if (row->kind == KD_SETTING_TRUTH)
         snprintf(out, KD_ALLOWED_SIZE, "true and false");
     else if (row->kind != KD_SETTING_WORD)
-        snprintf(out, KD_ALLOWED_SIZE, "%s%s to %s", row->kind == KD_SETTING_WHOLE ? "whole numbers from " : "", low, high);
+        snprintf(out, KD_ALLOWED_SIZE, "%s%s to %s", row->kind == KD_SETTING_WHOLE ? "whole numbers from " : "", low,
+                 high);
     for (int i = 0; row->kind == KD_SETTING_WORD && kd_playground_word(row->words, i, word, sizeof word); i++)
         used += (size_t)snprintf(out + used, KD_ALLOWED_SIZE - used, "%s\"%s\"", i ? ", " : "", word);
 }
 
-enum kd_status kd_playground_put(void *to, const struct kd_playground_setting *row, const struct kd_value *value, const char *pointer,
-                                 struct kd_error *error)
+enum kd_status kd_playground_put(void *to, const struct kd_playground_setting *row, const struct kd_value *value,
+                                 const char *pointer, struct kd_error *error)
 {
     char given[KD_VALUE_SIZE], may[KD_ALLOWED_SIZE];
     if (store((char *)to + row->offset, row, value))
@@ -72,7 +74,8 @@ enum kd_status kd_playground_put(void *to, const struct kd_playground_setting *r
     kd_value_describe(value, given);
     allowed(row, may);
     return kd_error_field(error, pointer, "%s is %s%s, allowed are %s", row->name, given,
-                          row->kind == KD_SETTING_REAL || row->kind == KD_SETTING_WHOLE ? kd_value_unwanted(value) : "", may);
+                          row->kind == KD_SETTING_REAL || row->kind == KD_SETTING_WHOLE ? kd_value_unwanted(value) : "",
+                          may);
 }
 
 void kd_playground_tell(const void *from, const struct kd_playground_setting *row, struct kd_json *json)
@@ -103,7 +106,8 @@ enum kd_status kd_playground_unknown(const char *pointer, const char *name, stru
     return kd_error_field(error, at, "there is no field %s here", clipped);
 }
 
-enum kd_status kd_playground_numbers(double *to, int n, double most, const cJSON *item, const char *pointer, struct kd_error *error)
+enum kd_status kd_playground_numbers(double *to, int n, double most, const cJSON *item, const char *pointer,
+                                     struct kd_error *error)
 {
     if (!cJSON_IsArray(item) || cJSON_GetArraySize(item) != n)
         return kd_error_field(error, pointer, "this is no array of %d numbers", n);
@@ -118,7 +122,8 @@ enum kd_status kd_playground_numbers(double *to, int n, double most, const cJSON
         snprintf(index, sizeof index, "%d", i);
         kd_playground_pointer(at, pointer, index);
         kd_value_describe(&value, given);
-        return kd_error_field(error, at, "this is %s%s, allowed are %g to %g", given, kd_value_unwanted(&value), -most, most);
+        return kd_error_field(error, at, "this is %s%s, allowed are %g to %g", given, kd_value_unwanted(&value), -most,
+                              most);
     }
     return KD_OK;
 }

@@ -9,18 +9,20 @@
 #include <cjson/cJSON.h>
 
 /* NULL: there is no such row. */
-const struct kd_playground_setting *kd_playground_row(const struct kd_playground_setting *table, size_t n, const char *name);
+const struct kd_playground_setting *kd_playground_row(const struct kd_playground_setting *table, size_t n,
+                                                      const char *name);
 
 /* KD_EINVAL with the pointer, the value and what is allowed. */
-enum kd_status kd_playground_put(void *to, const struct kd_playground_setting *row, const struct kd_value *value, const char *pointer,
-                                 struct kd_error *error);
+enum kd_status kd_playground_put(void *to, const struct kd_playground_setting *row, const struct kd_value *value,
+                                 const char *pointer, struct kd_error *error);
 /* The value of a row of *from as a member. */
 void kd_playground_tell(const void *from, const struct kd_playground_setting *row, struct kd_json *json);
 
 /* "there is no field X here", with its pointer. */
 enum kd_status kd_playground_unknown(const char *pointer, const char *name, struct kd_error *error);
 /* n numbers of an array, each finite and of size up to `most`. */
-enum kd_status kd_playground_numbers(double *to, int n, double most, const cJSON *item, const char *pointer, struct kd_error *error);
+enum kd_status kd_playground_numbers(double *to, int n, double most, const cJSON *item, const char *pointer,
+                                     struct kd_error *error);
 /* to = "pointer/name" */
 void kd_playground_pointer(char to[160], const char *pointer, const char *name);
 

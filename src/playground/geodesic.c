@@ -7,9 +7,12 @@
 #include <math.h>
 #include <string.h>
 
-#define STEPS_A_TURN 256 /* of the fastest phase: 1e-8 in place after a hundred orbits (tests/unit/playground_kerr.c) */
+#define STEPS_A_TURN \
+    256 /* of the fastest phase: 1e-8 in place after a hundred orbits (tests/unit/playground_kerr.c) \
+         */
 
-/* The fastest phase of the motion per Mino time: the slopes of both forces, and how fast w goes by where nothing holds it. */
+/* The fastest phase of the motion per Mino time: the slopes of both forces, and how fast w goes by where nothing
+ * holds it. */
 static double pace(const struct kd_orbit *o)
 {
     const double w[3] = { o->w_low, 0.5 * (o->w_low + o->w_high), o->w_high };
@@ -21,18 +24,22 @@ static double pace(const struct kd_orbit *o)
     return sqrt(fastest);
 }
 
-enum kd_status kd_geodesic_begin(struct kd_playground_geodesic *g, double spin, const double x[3], const double v[3], double t, struct kd_error *error)
+enum kd_status kd_geodesic_begin(struct kd_playground_geodesic *g, double spin, const double x[3], const double v[3],
+                                 double t, struct kd_error *error)
 {
     const struct kd_playground_spherical at = kd_playground_spherical(x, v);
     struct kd_orbit orbit;
     struct kd_orbit_state start;
-    enum kd_status status = kd_orbit_from_state(spin, at.r, at.theta * 180 / M_PI, KD_OBSERVER_ZAMO, at.v, &orbit, &start, error);
+    enum kd_status status =
+        kd_orbit_from_state(spin, at.r, at.theta * 180 / M_PI, KD_OBSERVER_ZAMO, at.v, &orbit, &start, error);
     if (status) {
         if (error && strncmp(error->pointer, "/velocity", 9))
             strcpy(error->pointer, "/position");
         return status;
     }
-    *g = (struct kd_playground_geodesic) { .spin = spin, .from_t = t, .phi = at.phi, .h = 2 * M_PI / pace(&orbit) / STEPS_A_TURN };
+    *g = (struct kd_playground_geodesic) {
+        .spin = spin, .from_t = t, .phi = at.phi, .h = 2 * M_PI / pace(&orbit) / STEPS_A_TURN
+    };
     memcpy(g->from_x, x, sizeof g->from_x);
     memcpy(g->from_v, v, sizeof g->from_v);
     kd_orbit_path_init(&g->path, &orbit, &start, KD_ORBIT_YOSHIDA6);
@@ -40,19 +47,25 @@ enum kd_status kd_geodesic_begin(struct kd_playground_geodesic *g, double spin, 
     return KD_OK;
 }
 
-/* Place and velocity, by E, L and the rates in Mino time: with S = Sigma, D = Delta, gamma = (E - omega L)/alpha the observer sees
- * v_r = r' (S/D)^(1/2)/(S gamma), v_theta = theta' S^(1/2)/(S gamma), v_phi = L/(g_phiphi^(1/2) gamma), r' = dr/dlambda. */
+/* Place and velocity, by E, L and the rates in Mino time: with S = Sigma, D = Delta, gamma = (E - omega L)/alpha the
+ * observer sees v_r = r' (S/D)^(1/2)/(S gamma), v_theta = theta' S^(1/2)/(S gamma), v_phi = L/(g_phiphi^(1/2)
+ * gamma), r' = dr/dlambda. */
 static void tell(const struct kd_playground_geodesic *g, const struct kd_orbit_path *path, double x[3], double v[3])
 {
     const struct kd_orbit *o = &path->orbit;
     const struct kd_orbit_place at = kd_orbit_path_place(path);
     const double a2 = o->a * o->a, r = at.r, c = cos(at.theta), s = sin(at.theta), s2 = s * s, phi = g->phi + at.phi;
-    const double sigma = r * r + a2 * c * c, delta = r * r - 2 * r + a2, big = (r * r + a2) * (r * r + a2) - a2 * delta * s2;
-    const double alpha = sqrt(sigma * delta / big), omega = 2 * o->a * r / big, gamma = (o->energy - omega * o->momentum) / alpha;
+    const double sigma = r * r + a2 * c * c, delta = r * r - 2 * r + a2,
+                 big = (r * r + a2) * (r * r + a2) - a2 * delta * s2;
+    const double alpha = sqrt(sigma * delta / big), omega = 2 * o->a * r / big,
+                 gamma = (o->energy - omega * o->momentum) / alpha;
     const double r_rate = -path->rate[KD_PATH_W].value * r * r, u_rate = sqrt(o->z) * path->rate[KD_PATH_Y].value;
-    const double v_r = r_rate / (sqrt(sigma * delta) * gamma), v_theta = s > 0 ? -u_rate / s / (sqrt(sigma) * gamma) : 0;
+    const double v_r = r_rate / (sqrt(sigma * delta) * gamma),
+                 v_theta = s > 0 ? -u_rate / s / (sqrt(sigma) * gamma) : 0;
     const double v_phi = s > 0 ? o->momentum / (sqrt(big / sigma) * s * gamma) : 0;
-    const double n[3][3] = { { s * cos(phi), s * sin(phi), c }, { c * cos(phi), c * sin(phi), -s }, { -sin(phi), cos(phi), 0 } };
+    const double n[3][3] = { { s * cos(phi), s * sin(phi), c },
+                             { c * cos(phi), c * sin(phi), -s },
+                             { -sin(phi), cos(phi), 0 } };
     for (int k = 0; k < 3; k++) {
         x[k] = r * n[0][k];
         v[k] = v_r * n[0][k] + v_theta * n[1][k] + v_phi * n[2][k];
@@ -61,7 +74,9 @@ static void tell(const struct kd_playground_geodesic *g, const struct kd_orbit_p
 
 static enum kd_geodesic_fate fate_at(const struct kd_playground_geodesic *g, double r)
 {
-    return !(r > KD_GEODESIC_NEAR * kd_kerr_horizon(g->spin)) ? KD_GEODESIC_CAPTURED : !(r < KD_GEODESIC_FAR) ? KD_GEODESIC_AWAY : KD_GEODESIC_GOES;
+    return !(r > KD_GEODESIC_NEAR * kd_kerr_horizon(g->spin)) ? KD_GEODESIC_CAPTURED
+           : !(r < KD_GEODESIC_FAR)                           ? KD_GEODESIC_AWAY
+                                                              : KD_GEODESIC_GOES;
 }
 
 bool kd_geodesic_approach(struct kd_playground_geodesic *g, double t, uint32_t *steps)
@@ -72,7 +87,8 @@ bool kd_geodesic_approach(struct kd_playground_geodesic *g, double t, uint32_t *
         struct kd_orbit_path next = g->path;
         kd_orbit_path_step(&next, g->h);
         const double then = kd_orbit_path_place(&next).t;
-        if (isnan(then) || !(next.place[KD_PATH_W].value > 0) || g->from_t + then > t) /* past the horizon, past infinity, past t */
+        if (isnan(then) || !(next.place[KD_PATH_W].value > 0) ||
+            g->from_t + then > t) /* past the horizon, past infinity, past t */
             return true;
         if (!*steps)
             return false;
@@ -106,7 +122,8 @@ enum kd_geodesic_fate kd_geodesic_at(struct kd_playground_geodesic *g, double t,
     }
     struct kd_orbit_path next = g->path;
     kd_orbit_path_step(&next, g->h);
-    return fate_at(g, r) == KD_GEODESIC_CAPTURED && next.place[KD_PATH_W].value > 0 ? KD_GEODESIC_CAPTURED : KD_GEODESIC_AWAY;
+    return fate_at(g, r) == KD_GEODESIC_CAPTURED && next.place[KD_PATH_W].value > 0 ? KD_GEODESIC_CAPTURED
+                                                                                    : KD_GEODESIC_AWAY;
 }
 
 void kd_geodesic_save(const struct kd_playground_geodesic *g, double state[KD_GEODESIC_STATE])

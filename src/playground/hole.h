@@ -1,22 +1,27 @@
-/* These say how the hole is to bodies: it pulls by the potential of Paczynski and Wiita. Pure functions, any thread; units G = c = M = 1.
+/* These say how the hole is to bodies: it pulls by the potential of Paczynski and Wiita. Pure functions, any thread;
+ * units G = c = M = 1.
  *
- * Phi = -1/(r - 2) (B. Paczynski & P. Wiita 1980, A&A 88, 23). With the kinetic energy of Newton, v^2/2, it has Schwarzschild's last stable
- * orbit, 6, and its marginally bound one, 4, exactly. Speeds have no bound in it: what falls from rest far away is at c where r = 4. Whoever
- * moves bodies by it holds speeds at 1 and says what energy that took. */
+ * Phi = -1/(r - 2) (B. Paczynski & P. Wiita 1980, A&A 88, 23). With the kinetic energy of Newton, v^2/2, it has
+ * Schwarzschild's last stable orbit, 6, and its marginally bound one, 4, exactly. Speeds have no bound in it: what
+ * falls from rest far away is at c where r = 4. Whoever moves bodies by it holds speeds at 1 and says what energy
+ * that took. */
 #ifndef KD_PLAYGROUND_HOLE_H
 #define KD_PLAYGROUND_HOLE_H
 
 #include <math.h>
 
-#define KD_PLAYGROUND_HORIZON 2.    /* r_s */
-#define KD_PLAYGROUND_CAPTURE 2.05  /* what comes closer is the hole's: the sub-steps never reach the horizon itself */
+#define KD_PLAYGROUND_HORIZON 2.   /* r_s */
+#define KD_PLAYGROUND_CAPTURE 2.05 /* what comes closer is the hole's: the sub-steps never reach the horizon itself */
 
 static inline double kd_playground_radius(const double x[3]) { return sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]); }
 
 static inline double kd_playground_potential(double r) { return -1 / (r - KD_PLAYGROUND_HORIZON); }
 
 /* The acceleration at x is this times x. */
-static inline double kd_playground_pull(double r) { return -1 / (r * (r - KD_PLAYGROUND_HORIZON) * (r - KD_PLAYGROUND_HORIZON)); }
+static inline double kd_playground_pull(double r)
+{
+    return -1 / (r * (r - KD_PLAYGROUND_HORIZON) * (r - KD_PLAYGROUND_HORIZON));
+}
 
 /* The speed of a circular orbit: v^2 = r/(r - 2)^2. */
 static inline double kd_playground_circular(double r) { return sqrt(r) / (r - KD_PLAYGROUND_HORIZON); }

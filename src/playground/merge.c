@@ -5,10 +5,16 @@
 #include <math.h>
 #include <string.h>
 
-static struct kd_playground_event event_of(const struct kd_playground *p, enum kd_playground_event_kind kind, const struct kd_playground_body *body)
+static struct kd_playground_event event_of(const struct kd_playground *p, enum kd_playground_event_kind kind,
+                                           const struct kd_playground_body *body)
 {
-    struct kd_playground_event event = { .t = p->t, .kind = kind, .body = body->id, .mass = body->mass, .r = kd_playground_radius(body->x),
-                                         .tidal_radius = NAN, .spread = NAN };
+    struct kd_playground_event event = { .t = p->t,
+                                         .kind = kind,
+                                         .body = body->id,
+                                         .mass = body->mass,
+                                         .r = kd_playground_radius(body->x),
+                                         .tidal_radius = NAN,
+                                         .spread = NAN };
     memcpy(event.name, body->name, sizeof event.name);
     return event;
 }
@@ -30,7 +36,8 @@ static bool touched(const struct kd_playground_body *a, const struct kd_playgrou
     return a->radius > 0 && b->radius > 0 && d2 <= reach * reach;
 }
 
-/* b becomes part of a: mass and momentum are the sums, the place is their centre, the volume the sum. The heavier one's name and number stay. */
+/* b becomes part of a: mass and momentum are the sums, the place is their centre, the volume the sum. The heavier
+ * one's name and number stay. */
 static void join(struct kd_playground *p, struct kd_playground_body *a, struct kd_playground_body *b)
 {
     const bool other = b->mass > a->mass;
@@ -110,7 +117,8 @@ void kd_playground_capture(struct kd_playground *p)
         kd_playground_event_add(&p->events, event);
         spent->captured_mass += body->mass;
         for (int k = 0; k < 3; k++)
-            spent->captured_momentum[k] += body->mass * (body->x[(k + 1) % 3] * body->v[(k + 2) % 3] - body->x[(k + 2) % 3] * body->v[(k + 1) % 3]);
+            spent->captured_momentum[k] += body->mass * (body->x[(k + 1) % 3] * body->v[(k + 2) % 3] -
+                                                         body->x[(k + 2) % 3] * body->v[(k + 1) % 3]);
         kd_playground_drop(p, i);
     }
     if (taken) /* once for all of them: it goes over all pairs */

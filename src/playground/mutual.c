@@ -3,9 +3,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* The widest vectors that the processor has, chosen when the program starts. Sums and their order are the same: no fused operations. A sanitizer
- * is not there yet when that choice is made. */
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+/* The widest vectors that the processor has, chosen when the program starts. Sums and their order are the same: no
+ * fused operations. A sanitizer is not there yet when that choice is made. */
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__)
 #define WIDE __attribute__((target_clones("default", "avx2", "avx512f")))
 #else
 #define WIDE
@@ -23,8 +24,9 @@ enum kd_status kd_playground_mutual_reserve(struct kd_playground_mutual *mutual,
     if (!block)
         return kd_error_set(error, KD_ENOMEM, "no memory for %zu bodies", n);
     free(mutual->block);
-    double **const arrays[ARRAYS] = { &mutual->x, &mutual->y, &mutual->z, &mutual->mass, &mutual->radius, &mutual->ax,
-                                      &mutual->ay, &mutual->az, &mutual->potential, &mutual->rate, &mutual->near };
+    double **const arrays[ARRAYS] = { &mutual->x,         &mutual->y,    &mutual->z,   &mutual->mass,
+                                      &mutual->radius,    &mutual->ax,   &mutual->ay,  &mutual->az,
+                                      &mutual->potential, &mutual->rate, &mutual->near };
     for (size_t i = 0; i < ARRAYS; i++)
         *arrays[i] = block + i * room;
     mutual->block = block;
@@ -38,8 +40,9 @@ void kd_playground_mutual_finish(struct kd_playground_mutual *mutual)
     *mutual = (struct kd_playground_mutual) { 0 };
 }
 
-/* What all n bodies do to LANES of them, from `first` on. The lanes are gone through side by side, in vectors where the processor has them, and each sums up
- * over the others in their order: the result does not depend on the width of a vector. */
+/* What all n bodies do to LANES of them, from `first` on. The lanes are gone through side by side, in vectors where
+ * the processor has them, and each sums up over the others in their order: the result does not depend on the width
+ * of a vector. */
 WIDE static void pull(const struct kd_playground_mutual *p, size_t first, size_t n, double softening2, double margin)
 {
     double x[LANES], y[LANES], z[LANES], mass[LANES], radius[LANES], self[LANES], sum[SUMS][LANES] = { 0 };
@@ -72,8 +75,8 @@ WIDE static void pull(const struct kd_playground_mutual *p, size_t first, size_t
             out[s][first + l] = sum[s][l] - (s == NEAR); /* of itself it is near */
 }
 
-void kd_playground_mutual_fill(struct kd_playground_mutual *mutual, const struct kd_playground_body *bodies, size_t n, double softening,
-                               double margin)
+void kd_playground_mutual_fill(struct kd_playground_mutual *mutual, const struct kd_playground_body *bodies, size_t n,
+                               double softening, double margin)
 {
     for (size_t i = 0; i < n; i++) {
         mutual->x[i] = bodies[i].x[0];

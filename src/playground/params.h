@@ -1,5 +1,5 @@
-/* The settings of a playground, a row each: the struct, its defaults, how JSON and --set are read and written, and the schema follow from the
- * rows. Any thread. */
+/* The settings of a playground, a row each: the struct, its defaults, how JSON and --set are read and written, and
+ * the schema follow from the rows. Any thread. */
 #ifndef KD_PLAYGROUND_PARAMS_H
 #define KD_PLAYGROUND_PARAMS_H
 
@@ -12,22 +12,25 @@ enum kd_playground_gravity { KD_GRAVITY_PACZYNSKI_WIITA, KD_GRAVITY_KERR };
 #define KD_PLAYGROUND_BODIES_MAX 4096u
 #define KD_PLAYGROUND_DEBRIS_MAX 1000000u
 
-/* REAL and WHOLE(NAME, default, least, most, help), TRUTH(NAME, default, help), WORD(NAME, default, "a|b", help). Settings that are FIXED are
- * chosen when a playground is made and stay. */
+/* REAL and WHOLE(NAME, default, least, most, help), TRUTH(NAME, default, help), WORD(NAME, default, "a|b", help).
+ * Settings that are FIXED are chosen when a playground is made and stay. */
 #define KD_PLAYGROUND_SETTINGS(REAL, WHOLE, TRUTH, WORD) \
-    WORD(gravity, KD_GRAVITY_PACZYNSKI_WIITA, "paczynski-wiita|kerr", \
-         "the pull of the hole: a potential, in which bodies also pull one another; or exact geodesics of test bodies") \
+    WORD( \
+        gravity, KD_GRAVITY_PACZYNSKI_WIITA, "paczynski-wiita|kerr", \
+        "the pull of the hole: a potential, in which bodies also pull one another; or exact geodesics of test bodies") \
     REAL(spin, 0, -0.999, 0.999, "spin of the hole, which gravity \"kerr\" knows and the potential does not") \
     REAL(softening, 0.05, 1e-4, 1e3, "length in M within which the pull of bodies on one another is softened") \
     REAL(h_max, 1, 1e-6, 1e6, "longest sub-step in M; debris moves on so often") \
     REAL(safety, 0.03, 1e-4, 0.2, "C of the sub-step's bound C (r - 2), and of the same for two bodies") \
-    WHOLE(budget, 20000, 1, 100000000, "most sub-steps of one advance; when they are spent, less time has gone by than was asked for") \
+    WHOLE(budget, 20000, 1, 100000000, \
+          "most sub-steps of one advance; when they are spent, less time has gone by than was asked for") \
     TRUTH(mergers, true, "bodies that touch become one") \
     TRUTH(tides, true, "the hole's tide sheds a star's mass, and tears it apart") \
     TRUTH(waves, false, "bodies lose energy to gravitational waves") \
     REAL(amplification, 1, 0, 1e9, "by how much that loss is exaggerated; 1 is the real one") \
     TRUTH(feeds, true, "debris that has come back is counted and leaves, as part of the disk; else it goes on") \
-    WHOLE(debris_capacity, 100000, 0, KD_PLAYGROUND_DEBRIS_MAX, "pieces of debris there may be; a new one takes the place of the oldest") \
+    WHOLE(debris_capacity, 100000, 0, KD_PLAYGROUND_DEBRIS_MAX, \
+          "pieces of debris there may be; a new one takes the place of the oldest") \
     WHOLE(debris_per_body, 20000, 16, KD_PLAYGROUND_DEBRIS_MAX, "pieces that a body falls into when it is torn apart") \
     REAL(debris_temperature_k, 5000, 300, 1e9, "temperature in K of the black body that debris shines as in pictures") \
     REAL(debris_depth, 1, 0, 1e6, "optical depth in pictures of the debris of one body, spread over 1000 M^2") \
@@ -63,7 +66,8 @@ extern const struct kd_playground_setting kd_playground_body_fields[]; /* of str
 extern const size_t kd_playground_n_body_fields;
 
 struct kd_playground_params kd_playground_defaults(void);
-bool kd_playground_params_same(const struct kd_playground_params *a, const struct kd_playground_params *b); /* all settings; playground.c */
+bool kd_playground_params_same(const struct kd_playground_params *a,
+                               const struct kd_playground_params *b); /* all settings; playground.c */
 
 /* Word `i` of "a|b|c", copied; false: there are fewer. */
 bool kd_playground_word(const char *words, int i, char *out, size_t size);

@@ -12,7 +12,8 @@
 
 static bool kerr(const struct kd_playground *p) { return p->params.gravity == KD_GRAVITY_KERR; }
 
-enum kd_status kd_playground_create(const struct kd_playground_params *params, struct kd_playground **out, struct kd_error *error)
+enum kd_status kd_playground_create(const struct kd_playground_params *params, struct kd_playground **out,
+                                    struct kd_error *error)
 {
     struct kd_playground *p = calloc(1, sizeof *p);
     if (!p)
@@ -59,17 +60,22 @@ static enum kd_status reserve(struct kd_playground *p, struct kd_error *error)
 }
 
 /* Whether such a body can be; of gravity "kerr" its geodesic decides. */
-static enum kd_status check(const struct kd_playground *p, const struct kd_playground_body *body, struct kd_error *error)
+static enum kd_status check(const struct kd_playground *p, const struct kd_playground_body *body,
+                            struct kd_error *error)
 {
     const double r = kd_playground_radius(body->x), v = kd_playground_radius(body->v);
     for (int k = 0; k < 3; k++)
         if (!(fabs(body->x[k]) <= FAR))
-            return kd_error_field(error, "/position", "position holds %g, allowed are -%g to %g M", body->x[k], FAR, FAR);
+            return kd_error_field(error, "/position", "position holds %g, allowed are -%g to %g M", body->x[k], FAR,
+                                  FAR);
     if (!(v <= 1 + 1e-12) || (kerr(p) && !(v < 1)))
-        return kd_error_field(error, "/velocity", "velocity is %.9g c, allowed is %s", v, kerr(p) ? "less than c" : "up to c");
+        return kd_error_field(error, "/velocity", "velocity is %.9g c, allowed is %s", v,
+                              kerr(p) ? "less than c" : "up to c");
     if (!kerr(p) && !(r > KD_PLAYGROUND_CAPTURE))
-        return kd_error_field(error, "/position", "position is %.9g M from the hole, allowed is more than %g M: closer in all is the hole's", r,
-                              KD_PLAYGROUND_CAPTURE);
+        return kd_error_field(
+            error, "/position",
+            "position is %.9g M from the hole, allowed is more than %g M: closer in all is the hole's", r,
+            KD_PLAYGROUND_CAPTURE);
     return KD_OK;
 }
 
@@ -96,7 +102,8 @@ void kd_playground_settle(struct kd_playground *p)
     p->disturbed = false;
 }
 
-static enum kd_status put(struct kd_playground *p, size_t i, const struct kd_playground_body *body, uint32_t id, struct kd_error *error)
+static enum kd_status put(struct kd_playground *p, size_t i, const struct kd_playground_body *body, uint32_t id,
+                          struct kd_error *error)
 {
     enum kd_status status = check(p, body, error);
     if (!status && kerr(p))
@@ -110,7 +117,8 @@ static enum kd_status put(struct kd_playground *p, size_t i, const struct kd_pla
     return KD_OK;
 }
 
-enum kd_status kd_playground_add(struct kd_playground *p, const struct kd_playground_body *body, uint32_t *id, struct kd_error *error)
+enum kd_status kd_playground_add(struct kd_playground *p, const struct kd_playground_body *body, uint32_t *id,
+                                 struct kd_error *error)
 {
     enum kd_status status;
     if (p->n >= KD_PLAYGROUND_BODIES_MAX)
@@ -160,7 +168,8 @@ enum kd_status kd_playground_remove(struct kd_playground *p, uint32_t id, struct
     return KD_OK;
 }
 
-enum kd_status kd_playground_change(struct kd_playground *p, uint32_t id, const struct kd_playground_body *body, struct kd_error *error)
+enum kd_status kd_playground_change(struct kd_playground *p, uint32_t id, const struct kd_playground_body *body,
+                                    struct kd_error *error)
 {
     struct kd_playground_body *old = kd_playground_find(p, id);
     if (!old)
@@ -174,12 +183,13 @@ enum kd_status kd_playground_change(struct kd_playground *p, uint32_t id, const 
 
 bool kd_playground_params_same(const struct kd_playground_params *a, const struct kd_playground_params *b)
 {
-#define KD_SAME_(name, ...) && a->name == b->name
+#define KD_SAME_(name, ...) &&a->name == b->name
     return true KD_PLAYGROUND_SETTINGS(KD_SAME_, KD_SAME_, KD_SAME_, KD_SAME_);
 #undef KD_SAME_
 }
 
-enum kd_status kd_playground_set(struct kd_playground *p, const struct kd_playground_params *params, struct kd_error *error)
+enum kd_status kd_playground_set(struct kd_playground *p, const struct kd_playground_params *params,
+                                 struct kd_error *error)
 {
     if (params->gravity != p->params.gravity)
         return kd_error_field(error, "/gravity", "gravity is chosen when a playground is made, and stays");
@@ -208,16 +218,22 @@ void kd_playground_approximations(const struct kd_playground *p, struct kd_json 
     if (!(p->t < KD_PLAYGROUND_TIME))
         kd_json_string(json, NULL, "Time has come to its end, 1e12 M, and stands.");
     if (kerr(p)) {
-        kd_json_string(json, NULL, "Bodies are test bodies: they do not pull one another, do not meet, and have no tides and no waves.");
+        kd_json_string(
+            json, NULL,
+            "Bodies are test bodies: they do not pull one another, do not meet, and have no tides and no waves.");
     } else {
-        kd_json_string(json, NULL, "The hole pulls by the potential of Paczynski and Wiita, which has Schwarzschild's last stable orbit but no "
-                                   "dragging and no slowing of time; its r is taken for Schwarzschild's.");
+        kd_json_string(json, NULL,
+                       "The hole pulls by the potential of Paczynski and Wiita, which has Schwarzschild's last stable "
+                       "orbit but no "
+                       "dragging and no slowing of time; its r is taken for Schwarzschild's.");
         kd_json_string(json, NULL, "The hole stands still, and bodies that it takes do not make it heavier.");
         kd_json_string(json, NULL, "Bodies pull one another by Newton's law, softened, and at once.");
         kd_json_string(json, NULL, "Speeds are held at c.");
         if (s->waves)
-            kd_json_string(json, NULL, "Gravitational waves take what Peters' formula says: leading order, whose power is 4 % too high at r = 10 M for "
-                                       "a = 0 and 27 % at a = 0.9, below 1 % only near 300 M.");
+            kd_json_string(json, NULL,
+                           "Gravitational waves take what Peters' formula says: leading order, whose power is 4 % too "
+                           "high at r = 10 M for "
+                           "a = 0 and 27 % at a = 0.9, below 1 % only near 300 M.");
         if (s->waves && s->amplification != 1) {
             char text[120];
             snprintf(text, sizeof text, "The loss to gravitational waves is exaggerated %g times.", s->amplification);
@@ -228,7 +244,9 @@ void kd_playground_approximations(const struct kd_playground *p, struct kd_json 
         if (s->waves && p->n > KD_WAVE_PAIRS_MAX)
             kd_json_string(json, NULL, "Of so many bodies each radiates with the hole alone.");
         if (s->tides && p->debris.last_source)
-            kd_json_string(json, NULL, "Debris has a flat distribution of energies from where it is torn off, and moves in the hole's potential alone.");
+            kd_json_string(json, NULL,
+                           "Debris has a flat distribution of energies from where it is torn off, and moves in the "
+                           "hole's potential alone.");
     }
     kd_json_end(json);
 }

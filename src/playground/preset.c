@@ -7,17 +7,20 @@
 #include <stdio.h>
 #include <string.h>
 
-static enum kd_status add(struct kd_playground *p, const char *name, struct kd_playground_body body, struct kd_error *error)
+static enum kd_status add(struct kd_playground *p, const char *name, struct kd_playground_body body,
+                          struct kd_error *error)
 {
     snprintf(body.name, sizeof body.name, "%s", name);
     return kd_playground_add(p, &body, NULL, error);
 }
 
-/* On a circle of radius r, at the azimuth phi along it, in a plane that is inclined and goes up at the azimuth `node`. */
+/* On a circle of radius r, at the azimuth phi along it, in a plane that is inclined and goes up at the azimuth
+ * `node`. */
 static struct kd_playground_body circling(double r, double phi, double inclination, double node)
 {
     const double v = kd_playground_circular(r), c = cos(inclination), s = sin(inclination);
-    const double x[3] = { r * cos(phi), r * sin(phi) * c, r * sin(phi) * s }, u[3] = { -v * sin(phi), v * cos(phi) * c, v * cos(phi) * s };
+    const double x[3] = { r * cos(phi), r * sin(phi) * c, r * sin(phi) * s },
+                 u[3] = { -v * sin(phi), v * cos(phi) * c, v * cos(phi) * s };
     return (struct kd_playground_body) {
         .x = { cos(node) * x[0] - sin(node) * x[1], sin(node) * x[0] + cos(node) * x[1], x[2] },
         .v = { cos(node) * u[0] - sin(node) * u[1], sin(node) * u[0] + cos(node) * u[1], u[2] },
@@ -27,8 +30,12 @@ static struct kd_playground_body circling(double r, double phi, double inclinati
 /* On a parabola whose pericentre is 1.2 times as deep as the tidal radius, r away from the hole. */
 static struct kd_playground_body passing(double mass, double radius, double temperature_k, double r)
 {
-    const double pericentre = radius * cbrt(1 / mass) / 1.2, l = pericentre * sqrt(2 / (pericentre - 2)), across = l / r;
-    return (struct kd_playground_body) { .mass = mass, .radius = radius, .temperature_k = temperature_k, .x = { r, 0, 0 },
+    const double pericentre = radius * cbrt(1 / mass) / 1.2, l = pericentre * sqrt(2 / (pericentre - 2)),
+                 across = l / r;
+    return (struct kd_playground_body) { .mass = mass,
+                                         .radius = radius,
+                                         .temperature_k = temperature_k,
+                                         .x = { r, 0, 0 },
                                          .v = { -sqrt(2 / (r - 2) - across * across), across, 0 } };
 }
 
@@ -44,8 +51,8 @@ static enum kd_status disruption(struct kd_playground *p, struct kd_error *error
     return add(p, "star", passing(1e-6, 0.47, 5800, 300), error);
 }
 
-/* A white dwarf of one sun, 5500 km large, and a hole of a thousand suns, on a parabola as deep as the star's above: the tidal radius is 37 M, and what is bound most tightly
- * comes back after 16 000 M, 78 s there. */
+/* A white dwarf of one sun, 5500 km large, and a hole of a thousand suns, on a parabola as deep as the star's above:
+ * the tidal radius is 37 M, and what is bound most tightly comes back after 16 000 M, 78 s there. */
 static void dwarf_settings(struct kd_playground_params *s)
 {
     s->h_max = 5;
@@ -65,9 +72,12 @@ static void system_settings(struct kd_playground_params *s)
 
 static enum kd_status planets(struct kd_playground *p, struct kd_error *error)
 {
-    static const struct { const char *name; double mass, radius, temperature_k, r, phi, inclination; } list[] = {
-        { "first", 1e-6, 0.03, 9000, 14, 0.3, 0.05 },  { "second", 1e-5, 0.12, 6500, 24, 2.1, 0.12 },
-        { "third", 3e-5, 0.25, 5200, 38, 4.0, 0.08 },  { "fourth", 1e-4, 0.4, 4300, 60, 5.5, 0.2 },
+    static const struct {
+        const char *name;
+        double mass, radius, temperature_k, r, phi, inclination;
+    } list[] = {
+        { "first", 1e-6, 0.03, 9000, 14, 0.3, 0.05 }, { "second", 1e-5, 0.12, 6500, 24, 2.1, 0.12 },
+        { "third", 3e-5, 0.25, 5200, 38, 4.0, 0.08 }, { "fourth", 1e-4, 0.4, 4300, 60, 5.5, 0.2 },
         { "fifth", 1e-3, 1, 3500, 100, 1.2, 0.15 },
     };
     enum kd_status status = KD_OK;
@@ -101,14 +111,24 @@ static void binary_settings(struct kd_playground_params *s)
     s->tides = false;
 }
 
-/* Two dark bodies of a hundredth each, 5 M apart, in free fall from rest 1000 M from the hole: they meet long before they have fallen far. */
+/* Two dark bodies of a hundredth each, 5 M apart, in free fall from rest 1000 M from the hole: they meet long before
+ * they have fallen far. */
 static enum kd_status binary(struct kd_playground *p, struct kd_error *error)
 {
     const double mass = 0.01, d = 5, v = 0.5 * sqrt(2 * mass / d);
-    enum kd_status status = add(p, "one", (struct kd_playground_body) { .mass = mass, .radius = 0.2, .temperature_k = 20000,
-                                                                       .x = { 1000, d / 2, 0 }, .v = { v, 0, 0 } }, error);
-    return status ? status : add(p, "other", (struct kd_playground_body) { .mass = mass, .radius = 0.2, .temperature_k = 12000,
-                                                                         .x = { 1000, -d / 2, 0 }, .v = { -v, 0, 0 } }, error);
+    enum kd_status status =
+        add(p, "one",
+            (struct kd_playground_body) {
+                .mass = mass, .radius = 0.2, .temperature_k = 20000, .x = { 1000, d / 2, 0 }, .v = { v, 0, 0 } },
+            error);
+    return status ? status
+                  : add(p, "other",
+                        (struct kd_playground_body) { .mass = mass,
+                                                      .radius = 0.2,
+                                                      .temperature_k = 12000,
+                                                      .x = { 1000, -d / 2, 0 },
+                                                      .v = { -v, 0, 0 } },
+                        error);
 }
 
 static void emri_settings(struct kd_playground_params *s)
@@ -122,7 +142,8 @@ static enum kd_status emri(struct kd_playground *p, struct kd_error *error)
 {
     struct kd_playground_body body = circling(12, 0, 0, 0);
     body.mass = 1e-3;
-    body.radius = 0.3; /* so large that it is seen: nothing else depends on it, as there is nothing to touch and tides are off */
+    body.radius =
+        0.3; /* so large that it is seen: nothing else depends on it, as there is nothing to touch and tides are off */
     body.temperature_k = 12000;
     return add(p, "companion", body, error);
 }
@@ -143,7 +164,8 @@ static enum kd_status swarm(struct kd_playground *p, struct kd_error *error)
         double drawn[5]; /* one after the other: arguments of a call have no order */
         for (int k = 0; k < 5; k++)
             drawn[k] = kd_random_drawn(p->params.seed, n);
-        struct kd_playground_body body = circling(20 * pow(5, drawn[0]), 2 * M_PI * drawn[1], 0.3 * drawn[2], 2 * M_PI * drawn[3]);
+        struct kd_playground_body body =
+            circling(20 * pow(5, drawn[0]), 2 * M_PI * drawn[1], 0.3 * drawn[2], 2 * M_PI * drawn[3]);
         char name[KD_PLAYGROUND_NAME];
         snprintf(name, sizeof name, "swarm %d", i + 1);
         body.mass = 1e-7;
@@ -161,8 +183,8 @@ static void eight_settings(struct kd_playground_params *s)
     s->softening = 0.001;
 }
 
-/* A. Chenciner & R. Montgomery 2000, Ann. Math. 152, 881; start by C. Simo. Scaled to masses m = 0.1 and the length 100 M, at rest 1e5 M from the hole,
- * whose tide there is 1e-8 of their pull. */
+/* A. Chenciner & R. Montgomery 2000, Ann. Math. 152, 881; start by C. Simo. Scaled to masses m = 0.1 and the length
+ * 100 M, at rest 1e5 M from the hole, whose tide there is 1e-8 of their pull. */
 static enum kd_status eight(struct kd_playground *p, struct kd_error *error)
 {
     static const double x[3][2] = { { 0.97000436, -0.24308753 }, { -0.97000436, 0.24308753 }, { 0, 0 } };
@@ -172,28 +194,77 @@ static enum kd_status eight(struct kd_playground *p, struct kd_error *error)
     enum kd_status status = KD_OK;
     for (int i = 0; !status && i < 3; i++) {
         const double share = i == 2 ? 1 : -0.5;
-        status = add(p, names[i], (struct kd_playground_body) { .mass = mass, .radius = 2, .temperature_k = 4000 + 3000 * i,
-                                                               .x = { 1e5 + length * x[i][0], length * x[i][1], 0 },
-                                                               .v = { share * speed * v3[0], share * speed * v3[1], 0 } }, error);
+        status = add(p, names[i],
+                     (struct kd_playground_body) { .mass = mass,
+                                                   .radius = 2,
+                                                   .temperature_k = 4000 + 3000 * i,
+                                                   .x = { 1e5 + length * x[i][0], length * x[i][1], 0 },
+                                                   .v = { share * speed * v3[0], share * speed * v3[1], 0 } },
+                     error);
     }
     return status;
 }
 
 const struct kd_playground_preset kd_playground_presets[] = {
-    { "disruption", "A star on a pass so close that the tide tears it apart", 100, { 0 }, 330, disruption_settings, disruption,
+    { "disruption",
+      "A star on a pass so close that the tide tears it apart",
+      100,
+      { 0 },
+      330,
+      disruption_settings,
+      disruption,
       "{\"spacetime\":{\"spin\":0},\"camera\":{\"inclination_deg\":60,\"field_m\":180},\"disk\":{\"outer\":22}}" },
-    { "white-dwarf", "A white dwarf torn apart by a hole of a thousand suns: its debris comes back within a minute", 300, { 0 }, 330, dwarf_settings, dwarf,
-      "{\"spacetime\":{\"spin\":0},\"camera\":{\"inclination_deg\":30,\"field_m\":640,\"centre_beta\":-80},\"disk\":{\"outer\":20}}" },
-    { "system", "Five planets round the hole, and a moon", 100, { 0 }, 120, system_settings, planets,
+    { "white-dwarf",
+      "A white dwarf torn apart by a hole of a thousand suns: its debris comes back within a minute",
+      300,
+      { 0 },
+      330,
+      dwarf_settings,
+      dwarf,
+      "{\"spacetime\":{\"spin\":0},\"camera\":{\"inclination_deg\":30,\"field_m\":640,\"centre_beta\":-80},\"disk\":{"
+      "\"outer\":20}}" },
+    { "system",
+      "Five planets round the hole, and a moon",
+      100,
+      { 0 },
+      120,
+      system_settings,
+      planets,
       "{\"spacetime\":{\"spin\":0},\"camera\":{\"inclination_deg\":75,\"field_m\":90},\"disk\":{\"outer\":11}}" },
-    { "binary", "Two bodies that spiral together, their loss to waves exaggerated a thousand times", 200, { 1000 }, 6, binary_settings, binary,
-      "{\"spacetime\":{\"spin\":0},\"camera\":{\"inclination_deg\":20,\"field_m\":14,\"centre_beta\":-939},\"disk\":{\"outer\":20}}" },
-    { "emri", "A light body that spirals into the hole, its loss to waves exaggerated twenty times", 400, { 0 }, 16, emri_settings, emri,
+    { "binary",
+      "Two bodies that spiral together, their loss to waves exaggerated a thousand times",
+      200,
+      { 1000 },
+      6,
+      binary_settings,
+      binary,
+      "{\"spacetime\":{\"spin\":0},\"camera\":{\"inclination_deg\":20,\"field_m\":14,\"centre_beta\":-939},\"disk\":{"
+      "\"outer\":20}}" },
+    { "emri",
+      "A light body that spirals into the hole, its loss to waves exaggerated twenty times",
+      400,
+      { 0 },
+      16,
+      emri_settings,
+      emri,
       "{\"spacetime\":{\"spin\":0},\"camera\":{\"inclination_deg\":75,\"field_m\":40},\"disk\":{\"model\":\"none\"}}" },
-    { "swarm", "Four hundred bodies round the hole", 100, { 0 }, 120, swarm_settings, swarm,
+    { "swarm",
+      "Four hundred bodies round the hole",
+      100,
+      { 0 },
+      120,
+      swarm_settings,
+      swarm,
       "{\"spacetime\":{\"spin\":0},\"camera\":{\"inclination_deg\":75,\"field_m\":120},\"disk\":{\"outer\":18}}" },
-    { "figure-eight", "Three bodies that follow one another along an eight, far away", 3000, { 1e5 }, 130, eight_settings, eight,
-      "{\"spacetime\":{\"spin\":0},\"camera\":{\"inclination_deg\":10,\"field_m\":400,\"centre_beta\":-98480.775},\"disk\":{\"outer\":20}}" },
+    { "figure-eight",
+      "Three bodies that follow one another along an eight, far away",
+      3000,
+      { 1e5 },
+      130,
+      eight_settings,
+      eight,
+      "{\"spacetime\":{\"spin\":0},\"camera\":{\"inclination_deg\":10,\"field_m\":400,\"centre_beta\":-98480.775},"
+      "\"disk\":{\"outer\":20}}" },
 };
 const size_t kd_playground_n_presets = sizeof kd_playground_presets / sizeof *kd_playground_presets;
 

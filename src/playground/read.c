@@ -15,7 +15,8 @@
 
 #define VALUES 4000000 /* of a document: of 4 096 bodies some fifty each, and the sources' counts */
 
-static enum kd_status read_name(struct kd_playground_body *body, const cJSON *item, const char *pointer, struct kd_error *error)
+static enum kd_status read_name(struct kd_playground_body *body, const cJSON *item, const char *pointer,
+                                struct kd_error *error)
 {
     if (!cJSON_IsString(item) || strlen(item->valuestring) >= sizeof body->name)
         return kd_error_field(error, pointer, "name is no string of up to %zu bytes", sizeof body->name - 1);
@@ -23,15 +24,18 @@ static enum kd_status read_name(struct kd_playground_body *body, const cJSON *it
     return KD_OK;
 }
 
-/* The fields that are given; the others stay. *id: NULL where a body has none to be called by. grown: how many times the most that a new body may have this one may: mergers add. */
-static enum kd_status read_body(struct kd_playground_body *body, const cJSON *item, const char *pointer, uint32_t *id, double grown, struct kd_error *error)
+/* The fields that are given; the others stay. *id: NULL where a body has none to be called by. grown: how many times
+ * the most that a new body may have this one may: mergers add. */
+static enum kd_status read_body(struct kd_playground_body *body, const cJSON *item, const char *pointer, uint32_t *id,
+                                double grown, struct kd_error *error)
 {
     static const struct kd_playground_setting id_row = { "id", KD_SETTING_WHOLE, 0, 0, 1, UINT32_MAX, 0, NULL, NULL };
     enum kd_status status = KD_OK;
     if (!cJSON_IsObject(item))
         return kd_error_field(error, pointer, "a body is an object");
     for (const cJSON *one = item->child; one; one = one->next) {
-        const struct kd_playground_setting *row = kd_playground_row(kd_playground_body_fields, kd_playground_n_body_fields, one->string);
+        const struct kd_playground_setting *row =
+            kd_playground_row(kd_playground_body_fields, kd_playground_n_body_fields, one->string);
         const struct kd_value value = kd_tree_value(one);
         char at[160];
         kd_playground_pointer(at, pointer, one->string);
@@ -42,7 +46,8 @@ static enum kd_status read_body(struct kd_playground_body *body, const cJSON *it
         else if (!strcmp(one->string, "name"))
             KD_TRY(read_name(body, one, at, error));
         else if (!strcmp(one->string, "position"))
-            KD_TRY(kd_playground_numbers(body->x, 3, 1e18, one, at, error)); /* how far a new one may be is checked where it is added */
+            KD_TRY(kd_playground_numbers(body->x, 3, 1e18, one, at,
+                                         error)); /* how far a new one may be is checked where it is added */
         else if (!strcmp(one->string, "velocity"))
             KD_TRY(kd_playground_numbers(body->v, 3, 1 + 1e-12, one, at, error));
         else if (id && !strcmp(one->string, "id"))
@@ -72,21 +77,27 @@ static struct kd_playground_body plain(void)
 
 enum list { ADD, CHANGE, REMOVE };
 
-static enum kd_status do_one(struct kd_playground *p, enum list what, const cJSON *item, const char *pointer, struct kd_error *error)
+static enum kd_status do_one(struct kd_playground *p, enum list what, const cJSON *item, const char *pointer,
+                             struct kd_error *error)
 {
     struct kd_playground_body body = plain();
     uint32_t id = 0;
     enum kd_status status;
     if (what == REMOVE) {
-        if (!cJSON_IsNumber(item) || !(item->valuedouble >= 1 && item->valuedouble <= UINT32_MAX) || item->valuedouble != floor(item->valuedouble))
+        if (!cJSON_IsNumber(item) || !(item->valuedouble >= 1 && item->valuedouble <= UINT32_MAX) ||
+            item->valuedouble != floor(item->valuedouble))
             return kd_error_field(error, pointer, "this is no body's id");
         status = kd_playground_remove(p, (uint32_t)item->valuedouble, error);
-        return status ? kd_error_field(error, pointer, "there is no body %.0f, or it is there no more", item->valuedouble) : KD_OK;
+        return status
+                   ? kd_error_field(error, pointer, "there is no body %.0f, or it is there no more", item->valuedouble)
+                   : KD_OK;
     }
     if (what == CHANGE) {
         const cJSON *given = cJSON_GetObjectItemCaseSensitive(item, "id");
         const struct kd_playground_body *old =
-            kd_playground_find(p, cJSON_IsNumber(given) && given->valuedouble >= 1 && given->valuedouble <= UINT32_MAX ? (uint32_t)given->valuedouble : 0);
+            kd_playground_find(p, cJSON_IsNumber(given) && given->valuedouble >= 1 && given->valuedouble <= UINT32_MAX
+                                      ? (uint32_t)given->valuedouble
+                                      : 0);
         if (!old)
             return kd_error_field(error, pointer, "there is no body with this id, or it is there no more");
         body = *old;
@@ -96,12 +107,15 @@ static enum kd_status do_one(struct kd_playground *p, enum list what, const cJSO
     KD_TRY(read_body(&body, item, pointer, what == CHANGE ? &id : NULL, 1, error));
     if (isnan(body.x[0]))
         KD_TRY(kd_error_field(error, pointer, "a body needs a position"));
-    KD_TRY(in_list(what == CHANGE ? kd_playground_change(p, id, &body, error) : kd_playground_add(p, &body, NULL, error), pointer, error));
+    KD_TRY(
+        in_list(what == CHANGE ? kd_playground_change(p, id, &body, error) : kd_playground_add(p, &body, NULL, error),
+                pointer, error));
 done:
     return status;
 }
 
-static enum kd_status do_list(struct kd_playground *p, enum list what, const cJSON *list, const char *name, struct kd_error *error)
+static enum kd_status do_list(struct kd_playground *p, enum list what, const cJSON *list, const char *name,
+                              struct kd_error *error)
 {
     char pointer[160], index[12];
     unsigned i = 0;
@@ -109,8 +123,10 @@ static enum kd_status do_list(struct kd_playground *p, enum list what, const cJS
     snprintf(pointer, sizeof pointer, "/%s", name);
     if (list && !cJSON_IsArray(list))
         return kd_error_field(error, pointer, "%s is no array", name);
-    if (list && what != ADD && cJSON_GetArraySize(list) > (int)KD_PLAYGROUND_BODIES_MAX) /* of ADD the body that is one too many is named */
-        return kd_error_field(error, pointer, "%s has %d elements, allowed are up to %u", name, cJSON_GetArraySize(list), KD_PLAYGROUND_BODIES_MAX);
+    if (list && what != ADD &&
+        cJSON_GetArraySize(list) > (int)KD_PLAYGROUND_BODIES_MAX) /* of ADD the body that is one too many is named */
+        return kd_error_field(error, pointer, "%s has %d elements, allowed are up to %u", name,
+                              cJSON_GetArraySize(list), KD_PLAYGROUND_BODIES_MAX);
     for (const cJSON *one = list ? list->child : NULL; one; one = one->next) {
         snprintf(pointer, sizeof pointer, "/%s", name);
         snprintf(index, sizeof index, "%u", i++);
@@ -129,11 +145,13 @@ static bool among(const char *name, const char *const *names)
 }
 
 /* The settings that are given, and that there is nothing else but `others`. */
-static enum kd_status read_settings(struct kd_playground_params *params, const cJSON *tree, const char *const *others, struct kd_error *error)
+static enum kd_status read_settings(struct kd_playground_params *params, const cJSON *tree, const char *const *others,
+                                    struct kd_error *error)
 {
     enum kd_status status = KD_OK;
     for (const cJSON *one = tree->child; one; one = one->next) {
-        const struct kd_playground_setting *row = kd_playground_row(kd_playground_settings, kd_playground_n_settings, one->string);
+        const struct kd_playground_setting *row =
+            kd_playground_row(kd_playground_settings, kd_playground_n_settings, one->string);
         const struct kd_value value = kd_tree_value(one);
         char at[160];
         kd_playground_pointer(at, "", one->string);
@@ -149,7 +167,8 @@ done:
 enum kd_status kd_playground_parse(const char *text, size_t length, cJSON **tree, struct kd_error *error)
 {
     enum kd_status status = kd_tree_parse(text, length, KD_PLAYGROUND_JSON_MAX, VALUES, tree, error);
-    return !status && !cJSON_IsObject(*tree) ? kd_error_set(error, KD_EINVAL, "the document is no JSON object") : status;
+    return !status && !cJSON_IsObject(*tree) ? kd_error_set(error, KD_EINVAL, "the document is no JSON object")
+                                             : status;
 }
 
 const struct kd_playground_preset *kd_playground_preset_in(const cJSON *tree)
@@ -167,7 +186,10 @@ static enum kd_status read_preset(const cJSON *tree, const struct kd_playground_
         return KD_OK;
     if (cJSON_IsString(name))
         kd_text_clip(clipped, sizeof clipped, name->valuestring);
-    return kd_error_field(error, "/preset", "preset is %s, allowed are \"disruption\", \"system\", \"binary\", \"emri\", \"swarm\", \"figure-eight\"", clipped);
+    return kd_error_field(
+        error, "/preset",
+        "preset is %s, allowed are \"disruption\", \"system\", \"binary\", \"emri\", \"swarm\", \"figure-eight\"",
+        clipped);
 }
 
 /* The bodies of a snapshot may be farther out than new ones, where motion has brought them. */
@@ -182,8 +204,10 @@ static enum kd_status take_bodies(struct kd_playground *p, const cJSON *list, st
         KD_TRY(read_body(&body, one, pointer, NULL, KD_PLAYGROUND_BODIES_MAX, error));
         if (isnan(body.x[0]))
             KD_TRY(kd_error_field(error, pointer, "a body needs a position"));
-        if (!(kd_playground_radius(body.x) > KD_PLAYGROUND_CAPTURE && kd_playground_radius(body.v) <= 1 + 1e-12) && p->params.gravity != KD_GRAVITY_KERR)
-            KD_TRY(kd_error_field(error, pointer, "there is no such body in a snapshot: it is the hole's, or faster than c"));
+        if (!(kd_playground_radius(body.x) > KD_PLAYGROUND_CAPTURE && kd_playground_radius(body.v) <= 1 + 1e-12) &&
+            p->params.gravity != KD_GRAVITY_KERR)
+            KD_TRY(kd_error_field(error, pointer,
+                                  "there is no such body in a snapshot: it is the hole's, or faster than c"));
         KD_TRY(in_list(kd_playground_add(p, &held, NULL, error), pointer, error));
         body.id = p->bodies[p->n - 1].id;
         p->bodies[p->n - 1] = body;
@@ -203,7 +227,8 @@ enum kd_status kd_playground_read_tree(const cJSON *tree, struct kd_playground *
     if (preset)
         preset->settings(&params);
     KD_TRY(read_settings(&params, tree, others, error));
-    const cJSON *state = cJSON_GetObjectItemCaseSensitive(tree, "state"), *bodies = cJSON_GetObjectItemCaseSensitive(tree, "bodies");
+    const cJSON *state = cJSON_GetObjectItemCaseSensitive(tree, "state"),
+                *bodies = cJSON_GetObjectItemCaseSensitive(tree, "bodies");
     if (state && preset)
         KD_TRY(kd_error_field(error, "/preset", "a snapshot has bodies of its own, and no preset"));
     KD_TRY(kd_playground_create(&params, &p, error));
@@ -289,7 +314,8 @@ enum kd_status kd_playground_patch(struct kd_playground **p, const char *text, s
     return status;
 }
 
-enum kd_status kd_playground_params_set(struct kd_playground_params *params, const char *name, const char *text, struct kd_error *error)
+enum kd_status kd_playground_params_set(struct kd_playground_params *params, const char *name, const char *text,
+                                        struct kd_error *error)
 {
     const struct kd_playground_setting *row = kd_playground_row(kd_playground_settings, kd_playground_n_settings, name);
     const struct kd_value value = kd_value_typed(text);

@@ -1,5 +1,5 @@
-/* A playground's numbers over time are kept as rows: every `interval` M one, and when there are KD_SERIES_ROWS every second one is left out and the
- * interval doubled, so that they span all of it. One thread at a time. */
+/* A playground's numbers over time are kept as rows: every `interval` M one, and when there are KD_SERIES_ROWS every
+ * second one is left out and the interval doubled, so that they span all of it. One thread at a time. */
 #ifndef KD_PLAYGROUND_SERIES_H
 #define KD_PLAYGROUND_SERIES_H
 
@@ -14,7 +14,8 @@ enum { KD_SERIES_ROWS = 4096 };
     X(t, "M", "time") \
     X(bodies, "", "how many there are") \
     X(energy, "M", "of the bodies: kinetic, in the hole's field, and of all pairs") \
-    X(energy_balance, "M", "the same with all that has left and has been given: constant but for the error of the integration") \
+    X(energy_balance, "M", \
+      "the same with all that has left and has been given: constant but for the error of the integration") \
     X(angular_momentum_x, "M^2", "of the bodies") \
     X(angular_momentum_y, "M^2", "of the bodies") \
     X(angular_momentum_z, "M^2", "of the bodies") \

@@ -19,13 +19,23 @@ static double slower(const double v[3], bool approximate)
     return approximate ? 1 / sqrt(1 + v2) : 1;
 }
 
-static void show_body(const struct kd_playground_body *body, uint32_t which, bool approximate, double albedo, struct kd_seen_body *out)
+static void show_body(const struct kd_playground_body *body, uint32_t which, bool approximate, double albedo,
+                      struct kd_seen_body *out)
 {
     const struct kd_playground_spherical at = kd_playground_spherical(body->x, body->v);
     const double slow = slower(at.v, approximate);
     *out = (struct kd_seen_body) {
-        .r = at.r, .u = cos(at.theta), .s = sin(at.theta), .phi = at.phi, .velocity = { slow * at.v[0], slow * at.v[1], slow * at.v[2] },
-        .radius = body->radius, .which = which, .temperature_k = body->temperature_k, .brightness = 1, .limb_darkening = LIMB, .albedo = albedo,
+        .r = at.r,
+        .u = cos(at.theta),
+        .s = sin(at.theta),
+        .phi = at.phi,
+        .velocity = { slow * at.v[0], slow * at.v[1], slow * at.v[2] },
+        .radius = body->radius,
+        .which = which,
+        .temperature_k = body->temperature_k,
+        .brightness = 1,
+        .limb_darkening = LIMB,
+        .albedo = albedo,
     };
 }
 
@@ -33,11 +43,14 @@ void kd_show_places(const struct kd_debris_piece *pieces, size_t n, struct kd_sh
 {
     const float cells = (float)(KD_SHOW_TURN_MOST / (2 * M_PI)), turn = KD_SHOW_TURN_MOST;
     for (size_t i = 0; i < n; i++) {
-        const float x = (float)pieces[i].x[0], y = (float)pieces[i].x[1], z = (float)pieces[i].x[2], r2 = x * x + y * y + z * z, across2 = x * x + y * y;
+        const float x = (float)pieces[i].x[0], y = (float)pieces[i].x[1], z = (float)pieces[i].x[2],
+                    r2 = x * x + y * y + z * z, across2 = x * x + y * y;
         float column = cells * atan2f(y, x);
         column += column < 0 ? turn : 0;
-        const bool somewhere = pieces[i].stage != KD_DEBRIS_FREE && across2 > 0 && r2 > 1 && r2 < 1e30f; /* the hole is there, or more than the coarsest grid has rows for */
-        out[i] = somewhere ? (struct kd_show_place) { 0.5f * cells * logf(r2), column < turn ? column : 0 } : (struct kd_show_place) { NAN, NAN };
+        const bool somewhere = pieces[i].stage != KD_DEBRIS_FREE && across2 > 0 && r2 > 1 &&
+                               r2 < 1e30f; /* the hole is there, or more than the coarsest grid has rows for */
+        out[i] = somewhere ? (struct kd_show_place) { 0.5f * cells * logf(r2), column < turn ? column : 0 }
+                           : (struct kd_show_place) { NAN, NAN };
     }
 }
 
@@ -48,7 +61,11 @@ struct taken {
     bool column[KD_SHOW_TURN_LEAST];
 };
 
-enum { COARSER = KD_SHOW_TURN_MOST / KD_SHOW_TURN_LEAST, LOW = -1024, HIGH = 3072 }; /* rows of it: of any r that there is */
+enum {
+    COARSER = KD_SHOW_TURN_MOST / KD_SHOW_TURN_LEAST,
+    LOW = -1024,
+    HIGH = 3072
+}; /* rows of it: of any r that there is */
 
 static bool take(const struct kd_show_place *places, size_t n, struct taken *out)
 {
@@ -87,8 +104,8 @@ static void beside_gap(const bool column[KD_SHOW_TURN_LEAST], uint32_t *first, u
     *count = KD_SHOW_TURN_LEAST - widest;
 }
 
-/* Cells are as small as they may be with a handful of pieces in each that has any, by those of the coarsest grid: a stream is narrower than these, and
- * has more. A grid that does not go all round ends a node behind its last cell. */
+/* Cells are as small as they may be with a handful of pieces in each that has any, by those of the coarsest grid: a
+ * stream is narrower than these, and has more. A grid that does not go all round ends a node behind its last cell. */
 void kd_show_grid(const struct kd_show_place *places, size_t n, struct kd_crowd_debris *out)
 {
     struct taken taken;
@@ -97,13 +114,18 @@ void kd_show_grid(const struct kd_show_place *places, size_t n, struct kd_crowd_
     if (!take(places, n, &taken) || !taken.pieces)
         return;
     beside_gap(taken.column, &first, &columns);
-    const double rows = fmin(taken.rows[1] - taken.rows[0] + 1, KD_SHOW_NODES / (columns + 1) - 1), mean = (double)taken.pieces / (double)taken.cells;
+    const double rows = fmin(taken.rows[1] - taken.rows[0] + 1, KD_SHOW_NODES / (columns + 1) - 1),
+                 mean = (double)taken.pieces / (double)taken.cells;
     const bool round_ = columns == KD_SHOW_TURN_LEAST;
-    while (finer < COARSER && mean >= PER_CELL * 4 * finer * finer && (2 * finer * rows + 1) * (2 * finer * columns + 1) <= KD_SHOW_NODES)
+    while (finer < COARSER && mean >= PER_CELL * 4 * finer * finer &&
+           (2 * finer * rows + 1) * (2 * finer * columns + 1) <= KD_SHOW_NODES)
         finer *= 2;
     *out = (struct kd_crowd_debris) {
-        .turn = finer * KD_SHOW_TURN_LEAST, .rows = finer * (uint32_t)rows + 1, .columns = finer * columns + !round_,
-        .first_row = (int32_t)finer * taken.rows[0], .first_column = finer * first,
+        .turn = finer * KD_SHOW_TURN_LEAST,
+        .rows = finer * (uint32_t)rows + 1,
+        .columns = finer * columns + !round_,
+        .first_row = (int32_t)finer * taken.rows[0],
+        .first_column = finer * first,
     };
 }
 
@@ -121,14 +143,16 @@ static void add(float *left, float *right, float share, float worth, float vr, f
 /* What moves so fast as seen by the observer of zero angular momentum, along e_r and e_phi. */
 static void seen_velocity(const struct kd_debris_piece *p, bool approximate, float out[2])
 {
-    const float x[3] = { (float)p->x[0], (float)p->x[1], (float)p->x[2] }, v[3] = { (float)p->v[0], (float)p->v[1], (float)p->v[2] };
+    const float x[3] = { (float)p->x[0], (float)p->x[1], (float)p->x[2] },
+                v[3] = { (float)p->v[0], (float)p->v[1], (float)p->v[2] };
     const float across = hypotf(x[0], x[1]), r = hypotf(across, x[2]), v2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
     const float slow = approximate ? 1 / sqrtf(1 + v2) : 1;
     out[0] = slow * (x[0] * v[0] + x[1] * v[1] + x[2] * v[2]) / r;
     out[1] = slow * (x[0] * v[1] - x[1] * v[0]) / across;
 }
 
-void kd_show_share_out(const struct kd_debris_piece *pieces, const struct kd_show_place *places, size_t n, const float worth[KD_DEBRIS_SOURCES], bool approximate, struct kd_crowd_debris *to)
+void kd_show_share_out(const struct kd_debris_piece *pieces, const struct kd_show_place *places, size_t n,
+                       const float worth[KD_DEBRIS_SOURCES], bool approximate, struct kd_crowd_debris *to)
 {
     const float scale = (float)to->turn / KD_SHOW_TURN_MOST, turn = (float)to->turn;
     const size_t width = KD_CROWD_NODE * (size_t)to->columns;
@@ -141,9 +165,11 @@ void kd_show_share_out(const struct kd_debris_piece *pieces, const struct kd_sho
         }
         const float from = scale * places[i].column - (float)to->first_column;
         const float column = from < 0 ? from + turn : from, own = worth[pieces[i].source];
-        const uint32_t k = (uint32_t)fminf(fmaxf(row, 0), (float)(to->rows - 2)), j = (uint32_t)fminf(column, (float)(to->columns - (to->columns == to->turn ? 1 : 2)));
+        const uint32_t k = (uint32_t)fminf(fmaxf(row, 0), (float)(to->rows - 2)),
+                       j = (uint32_t)fminf(column, (float)(to->columns - (to->columns == to->turn ? 1 : 2)));
         const float upper = row - (float)k, right = column - (float)j;
-        float *node = to->nodes + k * width + KD_CROWD_NODE * (size_t)j, *next = j + 1 < to->columns ? node + KD_CROWD_NODE : to->nodes + k * width, v[2];
+        float *node = to->nodes + k * width + KD_CROWD_NODE * (size_t)j,
+              *next = j + 1 < to->columns ? node + KD_CROWD_NODE : to->nodes + k * width, v[2];
         seen_velocity(&pieces[i], approximate, v);
         add(node, next, right, own * (1 - upper), v[0], v[1]);
         add(node + width, next + width, right, own * upper, v[0], v[1]);
@@ -161,7 +187,8 @@ enum kd_status kd_playground_show(const struct kd_playground *p, struct kd_crowd
     struct kd_show_place *places = malloc((n + 1) * sizeof *places);
     struct kd_crowd_debris grid = { 0 };
     struct kd_crowd *crowd = NULL;
-    enum kd_status status = places ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for what is shown of a playground");
+    enum kd_status status =
+        places ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for what is shown of a playground");
     KD_TRY(status);
     kd_show_places(p->debris.pieces, n, places);
     if (p->debris.alive)
@@ -203,11 +230,14 @@ done:
     return status;
 }
 
-enum kd_status kd_playground_may_show(const struct kd_playground *p, const struct kd_scene *scene, struct kd_error *error)
+enum kd_status kd_playground_may_show(const struct kd_playground *p, const struct kd_scene *scene,
+                                      struct kd_error *error)
 {
     if (p->params.gravity == KD_GRAVITY_KERR && p->params.spin != scene->spacetime.spin)
-        return kd_error_field(error, "/spacetime/spin", "spacetime.spin is %.9g, allowed is %.9g: the playground's bodies move round a hole of that spin",
-                              scene->spacetime.spin, p->params.spin);
+        return kd_error_field(
+            error, "/spacetime/spin",
+            "spacetime.spin is %.9g, allowed is %.9g: the playground's bodies move round a hole of that spin",
+            scene->spacetime.spin, p->params.spin);
     return KD_OK;
 }
 
@@ -241,7 +271,8 @@ enum kd_status kd_playground_widen(const struct kd_playground *p, struct kd_scen
     return kd_scene_set(scene, "camera.field_m", text, error);
 }
 
-enum kd_status kd_playground_usual_scene(const struct kd_playground_preset *preset, const struct kd_playground *p, struct kd_scene *out, struct kd_error *error)
+enum kd_status kd_playground_usual_scene(const struct kd_playground_preset *preset, const struct kd_playground *p,
+                                         struct kd_scene *out, struct kd_error *error)
 {
     static const char size[] = "{\"image\":{\"width\":640,\"height\":360}}";
     enum kd_status status;

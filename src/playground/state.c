@@ -11,8 +11,8 @@
 
 #define MOST 1e300
 #define LAST (KD_PLAYGROUND_TIME + 1e6) /* M: what comes to the end of time may be a sub-step past it */
-#define OLD_PIECE ((size_t)32) /* bytes of a piece in a snapshot of a version before this */
-#define WHOLE 9e15 /* numbers that a double holds exactly */
+#define OLD_PIECE ((size_t)32)          /* bytes of a piece in a snapshot of a version before this */
+#define WHOLE 9e15                      /* numbers that a double holds exactly */
 
 /* Numbers by name: of the playground, its debris, a body, a source. */
 struct number {
@@ -21,24 +21,30 @@ struct number {
     enum { REAL, TIME, COUNT, COUNT32, TRUTH } kind;
 };
 #define OF(type, member, kind) { #member, offsetof(struct type, member), kind }
-static const struct number whole[] = { OF(kd_playground, t, TIME), OF(kd_playground, steps, COUNT), OF(kd_playground, last_id, COUNT32),
-                                       OF(kd_playground, rate, REAL), OF(kd_playground, random, COUNT), OF(kd_playground, held, TRUTH) };
-static const struct number spent[] = { OF(kd_playground_spent, captured_mass, REAL), OF(kd_playground_spent, captured_energy, REAL),
-                                       OF(kd_playground_spent, merged, REAL), OF(kd_playground_spent, capped, REAL),
-                                       OF(kd_playground_spent, radiated, REAL), OF(kd_playground_spent, torn_mass, REAL),
-                                       OF(kd_playground_spent, torn_energy, REAL), OF(kd_playground_spent, given, REAL) };
-static const struct number body[] = { OF(kd_playground_body, id, COUNT32), OF(kd_playground_body, whole_mass, REAL),
-                                      OF(kd_playground_body, whole_radius, REAL), OF(kd_playground_body, depth, REAL),
-                                      OF(kd_playground_body, shed, REAL), OF(kd_playground_body, told, REAL),
-                                      OF(kd_playground_body, source, COUNT32), OF(kd_playground_body, radiated, REAL),
-                                      OF(kd_playground_body, told_inspiral, TRUTH) };
-static const struct number debris[] = { OF(kd_playground_debris, used, COUNT32), OF(kd_playground_debris, next, COUNT32),
-                                        OF(kd_playground_debris, last_source, COUNT32), OF(kd_playground_debris, t, TIME),
-                                        OF(kd_playground_debris, haste, REAL) };
-static const struct number source[] = { OF(kd_debris_source, number, COUNT32), OF(kd_debris_source, t, TIME),
-                                        OF(kd_debris_source, piece_mass, REAL), OF(kd_debris_source, worth, REAL), OF(kd_debris_source, spread, REAL),
-                                        OF(kd_debris_source, pieces, COUNT32), OF(kd_debris_source, captured, COUNT32),
-                                        OF(kd_debris_source, lost, COUNT32) };
+static const struct number whole[] = { OF(kd_playground, t, TIME),          OF(kd_playground, steps, COUNT),
+                                       OF(kd_playground, last_id, COUNT32), OF(kd_playground, rate, REAL),
+                                       OF(kd_playground, random, COUNT),    OF(kd_playground, held, TRUTH) };
+static const struct number spent[] = {
+    OF(kd_playground_spent, captured_mass, REAL), OF(kd_playground_spent, captured_energy, REAL),
+    OF(kd_playground_spent, merged, REAL),        OF(kd_playground_spent, capped, REAL),
+    OF(kd_playground_spent, radiated, REAL),      OF(kd_playground_spent, torn_mass, REAL),
+    OF(kd_playground_spent, torn_energy, REAL),   OF(kd_playground_spent, given, REAL)
+};
+static const struct number body[] = {
+    OF(kd_playground_body, id, COUNT32),         OF(kd_playground_body, whole_mass, REAL),
+    OF(kd_playground_body, whole_radius, REAL),  OF(kd_playground_body, depth, REAL),
+    OF(kd_playground_body, shed, REAL),          OF(kd_playground_body, told, REAL),
+    OF(kd_playground_body, source, COUNT32),     OF(kd_playground_body, radiated, REAL),
+    OF(kd_playground_body, told_inspiral, TRUTH)
+};
+static const struct number debris[] = { OF(kd_playground_debris, used, COUNT32),
+                                        OF(kd_playground_debris, next, COUNT32),
+                                        OF(kd_playground_debris, last_source, COUNT32),
+                                        OF(kd_playground_debris, t, TIME), OF(kd_playground_debris, haste, REAL) };
+static const struct number source[] = { OF(kd_debris_source, number, COUNT32),   OF(kd_debris_source, t, TIME),
+                                        OF(kd_debris_source, piece_mass, REAL),  OF(kd_debris_source, worth, REAL),
+                                        OF(kd_debris_source, spread, REAL),      OF(kd_debris_source, pieces, COUNT32),
+                                        OF(kd_debris_source, captured, COUNT32), OF(kd_debris_source, lost, COUNT32) };
 static const struct number geodesic[] = { OF(kd_playground_geodesic, from_t, TIME) };
 #define N(table) (sizeof(table) / sizeof *(table))
 
@@ -129,11 +135,16 @@ static enum kd_status bad(const char *pointer, const char *name, const char *wha
     return kd_error_field(error, at, "%s %s", name, what);
 }
 
-static const struct range { double least, most; bool whole; } ranges[] = {
-    [REAL] = { -MOST, MOST, false }, [TIME] = { 0, LAST, false }, [COUNT] = { 0, WHOLE, true }, [COUNT32] = { 0, UINT32_MAX, true }, [TRUTH] = { 0, 1, true },
+static const struct range {
+    double least, most;
+    bool whole;
+} ranges[] = {
+    [REAL] = { -MOST, MOST, false },     [TIME] = { 0, LAST, false }, [COUNT] = { 0, WHOLE, true },
+    [COUNT32] = { 0, UINT32_MAX, true }, [TRUTH] = { 0, 1, true },
 };
 
-static enum kd_status read_numbers(void *to, const struct number *table, size_t n, const cJSON *item, const char *pointer, struct kd_error *error)
+static enum kd_status read_numbers(void *to, const struct number *table, size_t n, const cJSON *item,
+                                   const char *pointer, struct kd_error *error)
 {
     for (size_t i = 0; i < n; i++) {
         void *at = (char *)to + table[i].offset;
@@ -141,7 +152,8 @@ static enum kd_status read_numbers(void *to, const struct number *table, size_t 
         const struct range *may = &ranges[table[i].kind];
         const double x = cJSON_IsNumber(one) ? one->valuedouble : NAN;
         char what[120];
-        snprintf(what, sizeof what, "is %.17g, allowed %s %.17g to %.17g", x, may->whole ? "are whole numbers from" : "is", may->least, may->most);
+        snprintf(what, sizeof what, "is %.17g, allowed %s %.17g to %.17g", x,
+                 may->whole ? "are whole numbers from" : "is", may->least, may->most);
         if (!(x >= may->least && x <= may->most) || (may->whole && x != floor(x)))
             return bad(pointer, table[i].name, cJSON_IsNumber(one) ? what : "is no number", error);
         switch (table[i].kind) {
@@ -155,15 +167,18 @@ static enum kd_status read_numbers(void *to, const struct number *table, size_t 
     return KD_OK;
 }
 
-static enum kd_status read_source(struct kd_playground_debris *d, const cJSON *item, const char *pointer, struct kd_error *error)
+static enum kd_status read_source(struct kd_playground_debris *d, const cJSON *item, const char *pointer,
+                                  struct kd_error *error)
 {
     struct kd_debris_source one = { 0 };
     double back[KD_DEBRIS_BINS];
     const cJSON *name = cJSON_GetObjectItemCaseSensitive(item, "name");
     enum kd_status status;
     KD_TRY(read_numbers(&one, source, N(source), item, pointer, error));
-    KD_TRY(kd_playground_numbers(back, KD_DEBRIS_BINS, UINT32_MAX, cJSON_GetObjectItemCaseSensitive(item, "back"), pointer, error));
-    if (!one.number || one.number > d->last_source || !(one.spread > 0) || !(one.piece_mass > 0) || !(one.worth > 0 && one.worth <= 1) || !cJSON_IsString(name))
+    KD_TRY(kd_playground_numbers(back, KD_DEBRIS_BINS, UINT32_MAX, cJSON_GetObjectItemCaseSensitive(item, "back"),
+                                 pointer, error));
+    if (!one.number || one.number > d->last_source || !(one.spread > 0) || !(one.piece_mass > 0) ||
+        !(one.worth > 0 && one.worth <= 1) || !cJSON_IsString(name))
         KD_TRY(bad(pointer, "number", "and what is with it are none of a source", error));
     snprintf(one.name, sizeof one.name, "%s", name->valuestring);
     for (int k = 0; k < KD_DEBRIS_BINS; k++) {
@@ -187,18 +202,21 @@ static bool look(struct kd_playground_debris *d)
             return false;
         if (piece->stage == KD_DEBRIS_FREE)
             continue;
-        if (!(r > KD_PLAYGROUND_CAPTURE && r < 1e18) || !(kd_playground_radius(piece->v) < 1.001) || !d->sources[piece->source].number)
+        if (!(r > KD_PLAYGROUND_CAPTURE && r < 1e18) || !(kd_playground_radius(piece->v) < 1.001) ||
+            !d->sources[piece->source].number)
             return false;
         haste += 1 / (r - KD_PLAYGROUND_HORIZON);
         d->alive++;
     }
-    return !d->alive || (d->haste > 0.5 * haste && d->haste < 1e9); /* it bounds the sub-steps that all of them take at once */
+    return !d->alive ||
+           (d->haste > 0.5 * haste && d->haste < 1e9); /* it bounds the sub-steps that all of them take at once */
 }
 
 static enum kd_status read_debris(struct kd_playground_debris *d, const cJSON *item, struct kd_error *error)
 {
     const char *pointer = "/state/debris";
-    const cJSON *sources = cJSON_GetObjectItemCaseSensitive(item, "sources"), *pieces = cJSON_GetObjectItemCaseSensitive(item, "pieces");
+    const cJSON *sources = cJSON_GetObjectItemCaseSensitive(item, "sources"),
+                *pieces = cJSON_GetObjectItemCaseSensitive(item, "pieces");
     enum kd_status status;
     KD_TRY(read_numbers(d, debris, N(debris), item, pointer, error));
     if (d->used > d->capacity || d->next > d->used || (d->capacity && d->next >= d->capacity)) {
@@ -207,11 +225,15 @@ static enum kd_status read_debris(struct kd_playground_debris *d, const cJSON *i
     }
     if (cJSON_IsString(pieces) && d->used && strlen(pieces->valuestring) == kd_base64_length(d->used * OLD_PIECE)) {
         d->used = d->next = 0;
-        KD_TRY(bad(pointer, "pieces", "are those of an older version, whose places are of single precision: this one cannot go on from them", error));
+        KD_TRY(
+            bad(pointer, "pieces",
+                "are those of an older version, whose places are of single precision: this one cannot go on from them",
+                error));
     }
     for (const cJSON *one = cJSON_IsArray(sources) ? sources->child : NULL; one; one = one->next)
         KD_TRY(read_source(d, one, "/state/debris/sources", error));
-    if (!cJSON_IsString(pieces) || !kd_base64_read(d->pieces, d->used * sizeof *d->pieces, pieces->valuestring) || !look(d)) {
+    if (!cJSON_IsString(pieces) || !kd_base64_read(d->pieces, d->used * sizeof *d->pieces, pieces->valuestring) ||
+        !look(d)) {
         d->used = d->next = d->alive = 0;
         KD_TRY(bad(pointer, "pieces", "are not those of a snapshot", error));
     }
@@ -229,13 +251,15 @@ static enum kd_status read_body(struct kd_playground *p, size_t i, const cJSON *
     const struct kd_playground_body *read = &p->bodies[i];
     if (!read->id || read->id > p->last_id || (i && read->id <= p->bodies[i - 1].id))
         KD_TRY(bad(pointer, "id", "is none that a snapshot has there", error));
-    if (read->whole_mass != 0 && !(read->whole_mass >= KD_PLAYGROUND_LEAST && read->whole_radius >= KD_PLAYGROUND_LEAST))
+    if (read->whole_mass != 0 &&
+        !(read->whole_mass >= KD_PLAYGROUND_LEAST && read->whole_radius >= KD_PLAYGROUND_LEAST))
         KD_TRY(bad(pointer, "whole_mass", "and whole_radius are none of a star in its pass", error));
     if (p->params.gravity != KD_GRAVITY_KERR)
         return KD_OK;
     KD_TRY(kd_playground_numbers(x, 3, 1e6, cJSON_GetObjectItemCaseSensitive(item, "from_position"), pointer, error));
     KD_TRY(kd_playground_numbers(v, 3, 1, cJSON_GetObjectItemCaseSensitive(item, "from_velocity"), pointer, error));
-    KD_TRY(kd_playground_numbers(state, KD_GEODESIC_STATE, MOST, cJSON_GetObjectItemCaseSensitive(item, "geodesic"), pointer, error));
+    KD_TRY(kd_playground_numbers(state, KD_GEODESIC_STATE, MOST, cJSON_GetObjectItemCaseSensitive(item, "geodesic"),
+                                 pointer, error));
     KD_TRY(read_numbers(&begun, geodesic, N(geodesic), item, pointer, error));
     KD_TRY(kd_geodesic_begin(&p->geodesics[i], p->params.spin, x, v, begun.from_t, error));
     kd_geodesic_restore(&p->geodesics[i], state);
@@ -245,19 +269,23 @@ done:
 
 enum kd_status kd_state_read(struct kd_playground *p, const cJSON *state, struct kd_error *error)
 {
-    const cJSON *bodies = cJSON_GetObjectItemCaseSensitive(state, "bodies"), *gone = cJSON_GetObjectItemCaseSensitive(state, "spent"),
+    const cJSON *bodies = cJSON_GetObjectItemCaseSensitive(state, "bodies"),
+                *gone = cJSON_GetObjectItemCaseSensitive(state, "spent"),
                 *events = cJSON_GetObjectItemCaseSensitive(state, "events");
     size_t i = 0;
     enum kd_status status;
     KD_TRY(read_numbers(p, whole, N(whole), state, "/state", error));
     KD_TRY(read_numbers(&p->spent, spent, N(spent), gone, "/state/spent", error));
-    KD_TRY(kd_playground_numbers(p->spent.captured_momentum, 3, MOST, cJSON_GetObjectItemCaseSensitive(gone, "captured_momentum"), "/state/spent", error));
+    KD_TRY(kd_playground_numbers(p->spent.captured_momentum, 3, MOST,
+                                 cJSON_GetObjectItemCaseSensitive(gone, "captured_momentum"), "/state/spent", error));
     if (!cJSON_IsArray(bodies) || (size_t)cJSON_GetArraySize(bodies) != p->n || p->rate < 0)
         KD_TRY(bad("/state", "bodies", "are not as many as the bodies", error));
     for (const cJSON *one = bodies->child; one; one = one->next)
         KD_TRY(read_body(p, i++, one, error));
     KD_TRY(read_debris(&p->debris, cJSON_GetObjectItemCaseSensitive(state, "debris"), error));
-    p->events.last = cJSON_IsNumber(events) && events->valuedouble >= 0 && events->valuedouble <= WHOLE ? (uint64_t)events->valuedouble : 0;
+    p->events.last = cJSON_IsNumber(events) && events->valuedouble >= 0 && events->valuedouble <= WHOLE
+                         ? (uint64_t)events->valuedouble
+                         : 0;
     p->forced = false;
 done:
     return status;

@@ -1,4 +1,5 @@
-/* These write and read the part "state" of a snapshot: all that the motion depends on besides settings and bodies. Private to src/playground. */
+/* These write and read the part "state" of a snapshot: all that the motion depends on besides settings and bodies.
+ * Private to src/playground. */
 #ifndef KD_PLAYGROUND_STATE_H
 #define KD_PLAYGROUND_STATE_H
 

@@ -6,8 +6,10 @@
 #include <math.h>
 #include <string.h>
 
-#define PIECE 256      /* steps of geodesics, a microsecond or two each */
-#define CLEARANCE 1.25 /* the rate aimed at over the least that is allowed: room for the rate of one step to swing about that of the places */
+#define PIECE 256 /* steps of geodesics, a microsecond or two each */
+#define CLEARANCE \
+    1.25 /* the rate aimed at over the least that is allowed: room for the rate of one step to swing about that of the \
+            places */
 
 void kd_playground_force(struct kd_playground *p)
 {
@@ -98,7 +100,8 @@ static void kick(struct kd_playground *p, double time)
         hold(p, &p->bodies[i]);
 }
 
-/* Bodies that have come past the capture radius in this drift are pulled by the hole no more: they are taken after it. */
+/* Bodies that have come past the capture radius in this drift are pulled by the hole no more: they are taken after
+ * it. */
 static void drift(struct kd_playground *p, double time)
 {
     for (size_t i = 0; i < p->n; i++)
@@ -111,7 +114,8 @@ static void drift(struct kd_playground *p, double time)
 static double step(struct kd_playground *p)
 {
     kd_playground_force(p);
-    const double least = demanded(p), aim = CLEARANCE * least, rate = p->rate > 0 ? fmax(2 * aim - p->rate, least) : aim, h = 1 / rate;
+    const double least = demanded(p), aim = CLEARANCE * least,
+                 rate = p->rate > 0 ? fmax(2 * aim - p->rate, least) : aim, h = 1 / rate;
     if (!(p->t + h > p->t))
         return 0;
     p->rate = rate;
@@ -136,9 +140,15 @@ static void arrive(struct kd_playground *p)
             i++;
             continue;
         }
-        struct kd_playground_event event = { .t = p->t, .kind = fate == KD_GEODESIC_CAPTURED ? KD_PLAYGROUND_CAPTURED : KD_PLAYGROUND_ESCAPE,
-                                             .body = body->id, .mass = body->mass, .r = kd_playground_radius(body->x),
-                                             .energy = body->mass * p->geodesics[i].path.orbit.energy, .tidal_radius = NAN, .spread = NAN };
+        struct kd_playground_event event = { .t = p->t,
+                                             .kind = fate == KD_GEODESIC_CAPTURED ? KD_PLAYGROUND_CAPTURED
+                                                                                  : KD_PLAYGROUND_ESCAPE,
+                                             .body = body->id,
+                                             .mass = body->mass,
+                                             .r = kd_playground_radius(body->x),
+                                             .energy = body->mass * p->geodesics[i].path.orbit.energy,
+                                             .tidal_radius = NAN,
+                                             .spread = NAN };
         memcpy(event.name, body->name, sizeof event.name);
         kd_playground_event_add(&p->events, event);
         if (fate == KD_GEODESIC_CAPTURED) {
@@ -158,13 +168,22 @@ void kd_playground_series_row(struct kd_playground *p, double row[KD_SERIES_N])
     double back = 0;
     for (int i = 0; i < KD_DEBRIS_SOURCES; i++)
         back += p->debris.sources[i].piece_mass * p->debris.sources[i].all_back;
-    const double now_row[KD_SERIES_N] = {
-        [KD_SERIES_t] = p->t, [KD_SERIES_bodies] = (double)p->n, [KD_SERIES_energy] = now.energy,
-        [KD_SERIES_energy_balance] = now.energy + s->captured_energy + s->merged + s->capped + s->radiated + s->torn_energy - s->given,
-        [KD_SERIES_angular_momentum_x] = now.angular[0], [KD_SERIES_angular_momentum_y] = now.angular[1],
-        [KD_SERIES_angular_momentum_z] = now.angular[2], [KD_SERIES_radiated] = s->radiated, [KD_SERIES_separation] = now.separation,
-        [KD_SERIES_wave_frequency] = now.wave_frequency, [KD_SERIES_h_plus] = now.h_plus, [KD_SERIES_h_cross] = now.h_cross,
-        [KD_SERIES_debris] = p->debris.alive, [KD_SERIES_debris_back] = back };
+    const double now_row[KD_SERIES_N] = { [KD_SERIES_t] = p->t,
+                                          [KD_SERIES_bodies] = (double)p->n,
+                                          [KD_SERIES_energy] = now.energy,
+                                          [KD_SERIES_energy_balance] = now.energy + s->captured_energy + s->merged +
+                                                                       s->capped + s->radiated + s->torn_energy -
+                                                                       s->given,
+                                          [KD_SERIES_angular_momentum_x] = now.angular[0],
+                                          [KD_SERIES_angular_momentum_y] = now.angular[1],
+                                          [KD_SERIES_angular_momentum_z] = now.angular[2],
+                                          [KD_SERIES_radiated] = s->radiated,
+                                          [KD_SERIES_separation] = now.separation,
+                                          [KD_SERIES_wave_frequency] = now.wave_frequency,
+                                          [KD_SERIES_h_plus] = now.h_plus,
+                                          [KD_SERIES_h_cross] = now.h_cross,
+                                          [KD_SERIES_debris] = p->debris.alive,
+                                          [KD_SERIES_debris_back] = back };
     memcpy(row, now_row, sizeof now_row);
 }
 
@@ -193,7 +212,8 @@ static void advance_debris(struct kd_playground *p)
         kd_debris_advance(debris, p->t, p->params.safety, p->params.feeds);
 }
 
-/* One sub-step, and what comes of it. With nothing but debris left, as far as that may go at once. False: the time cannot tell so little. */
+/* One sub-step, and what comes of it. With nothing but debris left, as far as that may go at once. False: the time
+ * cannot tell so little. */
 static bool go(struct kd_playground *p)
 {
     if (p->n) {
@@ -219,7 +239,9 @@ static bool go(struct kd_playground *p)
 
 void kd_playground_begin(struct kd_playground *p, double time, struct kd_playground_run *run)
 {
-    *run = (struct kd_playground_run) { .begin = p->t, .end = p->t + time, .stride = p->params.h_max, .first = p->steps, .left = p->params.budget };
+    *run = (struct kd_playground_run) {
+        .begin = p->t, .end = p->t + time, .stride = p->params.h_max, .first = p->steps, .left = p->params.budget
+    };
     kd_playground_settle(p);
     if (p->params.gravity != KD_GRAVITY_KERR || !(p->aim > run->end))
         return;
@@ -230,10 +252,12 @@ void kd_playground_begin(struct kd_playground *p, double time, struct kd_playgro
 
 static bool is_over(const struct kd_playground *p, const struct kd_playground_run *run)
 {
-    return run->stuck || !(p->t < run->end) || !(p->t < KD_PLAYGROUND_TIME) || !run->left || p->steps - run->first >= p->params.budget;
+    return run->stuck || !(p->t < run->end) || !(p->t < KD_PLAYGROUND_TIME) || !run->left ||
+           p->steps - run->first >= p->params.budget;
 }
 
-/* How long a stride is that half of what is left of the budget is enough for, as far as the bodies' motion now can tell. */
+/* How long a stride is that half of what is left of the budget is enough for, as far as the bodies' motion now can
+ * tell. */
 static double affordable(const struct kd_playground *p, uint32_t left)
 {
     double pace = 0;
@@ -242,8 +266,8 @@ static double affordable(const struct kd_playground *p, uint32_t left)
     return pace > 0 ? 0.5 * left / pace : INFINITY;
 }
 
-/* Gravity "kerr", in strides: all bodies approach the stride's end, one after the other, and are there together. Where the budget is spent in between nobody has moved, and the next
- * run goes on towards the same end. */
+/* Gravity "kerr", in strides: all bodies approach the stride's end, one after the other, and are there together.
+ * Where the budget is spent in between nobody has moved, and the next run goes on towards the same end. */
 static void follow_on(struct kd_playground *p, struct kd_playground_run *run)
 {
     if (!(p->aim > p->t)) {
@@ -276,8 +300,11 @@ bool kd_playground_go_on(struct kd_playground *p, struct kd_playground_run *run,
 
 struct kd_playground_progress kd_playground_progress(const struct kd_playground *p, const struct kd_playground_run *run)
 {
-    return (struct kd_playground_progress) { .asked = run->end - run->begin, .done = p->t - run->begin, .steps = (uint32_t)(p->steps - run->first),
-                                             .slowed = p->t < run->end, .ended = !(p->t < KD_PLAYGROUND_TIME) };
+    return (struct kd_playground_progress) { .asked = run->end - run->begin,
+                                             .done = p->t - run->begin,
+                                             .steps = (uint32_t)(p->steps - run->first),
+                                             .slowed = p->t < run->end,
+                                             .ended = !(p->t < KD_PLAYGROUND_TIME) };
 }
 
 void kd_playground_advance(struct kd_playground *p, double time, struct kd_playground_progress *progress)

@@ -33,7 +33,8 @@ static void begin(struct kd_playground *p, struct kd_playground_body *body)
     body->depth = body->shed = body->told = 0;
     kd_debris_advance(&p->debris, p->t, p->params.safety, p->params.feeds);
     body->source = kd_debris_source_begin(&p->debris, body->name, body->mass, p->params.debris_per_body,
-                                          kd_tide_spread(body->mass, body->radius))->number;
+                                          kd_tide_spread(body->mass, body->radius))
+                       ->number;
 }
 
 static void end(struct kd_playground_body *body)
@@ -44,9 +45,14 @@ static void end(struct kd_playground_body *body)
 
 static void tell(struct kd_playground *p, const struct kd_playground_body *body, double lost, double energy, bool whole)
 {
-    struct kd_playground_event event = { .t = p->t, .kind = whole ? KD_PLAYGROUND_DISRUPTION : KD_PLAYGROUND_SHEDDING, .body = body->id,
-                                         .mass = lost, .other_mass = whole ? 0 : body->mass, .r = kd_playground_radius(body->x),
-                                         .energy = energy, .tidal_radius = kd_tide_radius(body->whole_mass, body->whole_radius),
+    struct kd_playground_event event = { .t = p->t,
+                                         .kind = whole ? KD_PLAYGROUND_DISRUPTION : KD_PLAYGROUND_SHEDDING,
+                                         .body = body->id,
+                                         .mass = lost,
+                                         .other_mass = whole ? 0 : body->mass,
+                                         .r = kd_playground_radius(body->x),
+                                         .energy = energy,
+                                         .tidal_radius = kd_tide_radius(body->whole_mass, body->whole_radius),
                                          .spread = kd_tide_spread(body->whole_mass, body->whole_radius) };
     memcpy(event.name, body->name, sizeof event.name);
     kd_playground_event_add(&p->events, event);
@@ -61,20 +67,29 @@ static bool shed(struct kd_playground *p, struct kd_playground_body *body)
         end(body);
         return false;
     }
-    const uint32_t all = (uint32_t)round(fmin(1 / source->worth, KD_PLAYGROUND_DEBRIS_MAX)), torn = (uint32_t)floor(share * all);
-    const uint32_t due = body->whole_mass * (1 - (double)torn / all) < KD_PLAYGROUND_LEAST ? all : torn; /* what would be left is too little for a body */
+    const uint32_t all = (uint32_t)round(fmin(1 / source->worth, KD_PLAYGROUND_DEBRIS_MAX)),
+                   torn = (uint32_t)floor(share * all);
+    const uint32_t due = body->whole_mass * (1 - (double)torn / all) < KD_PLAYGROUND_LEAST
+                             ? all
+                             : torn; /* what would be left is too little for a body */
     if (due <= source->pieces)
         return false;
     kd_debris_advance(&p->debris, p->t, p->params.safety, p->params.feeds);
-    kd_debris_shed(&p->debris, source, &(struct kd_debris_shed) { .x = body->x, .v = body->v, .radius = body->whole_radius,
-                                                                  .n = due - source->pieces, .seed = p->params.seed, .random = &p->random });
+    kd_debris_shed(&p->debris, source,
+                   &(struct kd_debris_shed) { .x = body->x,
+                                              .v = body->v,
+                                              .radius = body->whole_radius,
+                                              .n = due - source->pieces,
+                                              .seed = p->params.seed,
+                                              .random = &p->random });
     const double mass = body->whole_mass * (1 - (double)due / all), lost = body->mass - mass;
     p->spent.torn_mass += lost;
     body->mass = mass;
     body->shed = (double)due / all;
     const bool whole = due == all;
     if (whole || body->shed >= body->told + TOLD || body->told == 0) {
-        tell(p, body, body->whole_mass * (body->shed - (whole ? 0 : body->told)), lost * kd_playground_specific(body->x, body->v), whole);
+        tell(p, body, body->whole_mass * (body->shed - (whole ? 0 : body->told)),
+             lost * kd_playground_specific(body->x, body->v), whole);
         body->told = body->shed;
     }
     p->forced = false;
@@ -91,8 +106,9 @@ void kd_playground_tides(struct kd_playground *p)
         i++;
         if (!passes && (!(body->mass > 0) || !(body->radius > 0)))
             continue;
-        const double depth = (passes ? kd_tide_radius(body->whole_mass, body->whole_radius) : kd_tide_radius(body->mass, body->radius)) /
-                             kd_playground_radius(body->x);
+        const double depth =
+            (passes ? kd_tide_radius(body->whole_mass, body->whole_radius) : kd_tide_radius(body->mass, body->radius)) /
+            kd_playground_radius(body->x);
         if (passes && depth < KD_TIDE_OVER)
             end(body);
         if (!(depth > KD_TIDE_BEGINS))

@@ -16,7 +16,8 @@ static void add_body(struct kd_playground_totals *sum, const struct kd_playgroun
         sum->momentum[k] += m * v[k];
         sum->angular[k] += m * (x[l] * v[n] - x[n] * v[l]);
     }
-    /* h+ = I''_xx - I''_yy, hx = 2 I''_xy, I''_ij = sum m (2 v_i v_j + x_i a_j + a_i x_j): M. Maggiore 2008, eq. 3.72. */
+    /* h+ = I''_xx - I''_yy, hx = 2 I''_xy, I''_ij = sum m (2 v_i v_j + x_i a_j + a_i x_j): M. Maggiore 2008, eq.
+     * 3.72. */
     sum->h_plus += 2 * m * (v[0] * v[0] - v[1] * v[1] + x[0] * a[0] - x[1] * a[1]);
     sum->h_cross += 2 * m * (2 * v[0] * v[1] + x[0] * a[1] + x[1] * a[0]);
 }
@@ -24,7 +25,8 @@ static void add_body(struct kd_playground_totals *sum, const struct kd_playgroun
 /* Distance and twice the frequency of going round, |x v'|/(pi d^2). */
 static void pair(struct kd_playground_totals *sum, const double x[3], const double v[3])
 {
-    const double c[3] = { x[1] * v[2] - x[2] * v[1], x[2] * v[0] - x[0] * v[2], x[0] * v[1] - x[1] * v[0] }, d = kd_playground_radius(x);
+    const double c[3] = { x[1] * v[2] - x[2] * v[1], x[2] * v[0] - x[0] * v[2], x[0] * v[1] - x[1] * v[0] },
+                 d = kd_playground_radius(x);
     sum->separation = d;
     sum->wave_frequency = kd_playground_radius(c) / (M_PI * d * d);
 }
@@ -67,8 +69,9 @@ struct kd_playground_totals kd_playground_totals(struct kd_playground *p)
         for (size_t i = 0; i < p->n; i++) {
             const struct kd_playground_body *body = &p->bodies[i];
             const double pull = kd_playground_pull(kd_playground_radius(body->x));
-            add_body(&sum, body, (const double[3]) { p->mutual.ax[i] + pull * body->x[0], p->mutual.ay[i] + pull * body->x[1],
-                                                     p->mutual.az[i] + pull * body->x[2] });
+            add_body(&sum, body,
+                     (const double[3]) { p->mutual.ax[i] + pull * body->x[0], p->mutual.ay[i] + pull * body->x[1],
+                                         p->mutual.az[i] + pull * body->x[2] });
             sum.mutual += 0.5 * body->mass * p->mutual.potential[i];
         }
         sum.energy = sum.kinetic + sum.potential + sum.mutual;

@@ -39,7 +39,8 @@ bool kd_wave_reaction(double m1, double m2, const double x[3], const double v[3]
 bool kd_wave_reaction_hole(double m, const double x[3], const double v[3], double amplification, double a[3])
 {
     const double r = kd_playground_radius(x), scale = (r - KD_PLAYGROUND_HORIZON) / r;
-    const bool held = react(m * (1 + m), 1, x, (const double[3]) { scale * v[0], scale * v[1], scale * v[2] }, amplification, a);
+    const bool held =
+        react(m * (1 + m), 1, x, (const double[3]) { scale * v[0], scale * v[1], scale * v[2] }, amplification, a);
     for (int k = 0; k < 3; k++)
         a[k] *= scale;
     return held;
@@ -71,7 +72,8 @@ void kd_wave_partners(const struct kd_playground_body *bodies, size_t n, double 
             }
         }
     }
-    /* A pair that is bound stays; whoever is no half of one has none. Chains (i to j, j to k) end in pairs, which are looked at whole. */
+    /* A pair that is bound stays; whoever is no half of one has none. Chains (i to j, j to k) end in pairs, which
+     * are looked at whole. */
     for (size_t i = 0; i < n; i++) {
         const size_t j = partners[i];
         if (j < n && i < j && partners[j] == i && !bound(&bodies[i], &bodies[j], softening2))

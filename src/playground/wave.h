@@ -1,10 +1,10 @@
-/* Two masses that go round each other lose energy and angular momentum to gravitational waves, as Peters says on the average over an orbit. Pure
- * functions, any thread; G = c = 1.
+/* Two masses that go round each other lose energy and angular momentum to gravitational waves, as Peters says on the
+ * average over an orbit. Pure functions, any thread; G = c = 1.
  *
- * The relative acceleration at 2.5 post-Newtonian order, with m = m1 + m2, eta = m1 m2/m^2, x = r n the relative place and v the relative
- * velocity:  a = (8/5) eta (m^2/r^3) [r' n (3 v^2 + 17 m/(3 r)) - v (v^2 + 3 m/r)]
- * (T. Damour & N. Deruelle 1981, Phys. Lett. A 87, 81; L. Blanchet 2014, Living Rev. Relativ. 17, 2, eq. 203). On a Kepler orbit its averages are
- * those of P. C. Peters 1964, Phys. Rev. 136, B1224. */
+ * The relative acceleration at 2.5 post-Newtonian order, with m = m1 + m2, eta = m1 m2/m^2, x = r n the relative
+ * place and v the relative velocity:  a = (8/5) eta (m^2/r^3) [r' n (3 v^2 + 17 m/(3 r)) - v (v^2 + 3 m/r)] (T.
+ * Damour & N. Deruelle 1981, Phys. Lett. A 87, 81; L. Blanchet 2014, Living Rev. Relativ. 17, 2, eq. 203). On a
+ * Kepler orbit its averages are those of P. C. Peters 1964, Phys. Rev. 136, B1224. */
 #ifndef KD_PLAYGROUND_WAVE_H
 #define KD_PLAYGROUND_WAVE_H
 
@@ -18,12 +18,13 @@ struct kd_playground_body;
 /* *a: the acceleration times `amplification`, held to a tenth of m/r^2; true where it was held. */
 bool kd_wave_reaction(double m1, double m2, const double x[3], const double v[3], double amplification, double a[3]);
 
-/* The same of a body of mass m that goes round the hole at x in its potential (hole.h), where a circle has v^2 = r/(r - 2)^2 instead of 1/r: speeds
- * are scaled by (r - 2)/r, and the force too, so that a circle of radius r shrinks as Peters says of one of radius r and
- * the masses 1 and m, though the hole stands still. */
+/* The same of a body of mass m that goes round the hole at x in its potential (hole.h), where a circle has v^2 =
+ * r/(r - 2)^2 instead of 1/r: speeds are scaled by (r - 2)/r, and the force too, so that a circle of radius r
+ * shrinks as Peters says of one of radius r and the masses 1 and m, though the hole stands still. */
 bool kd_wave_reaction_hole(double m, const double x[3], const double v[3], double amplification, double a[3]);
 
-/* For each of n bodies the index of the one that pulls it most, if that holds for the other, too, and the two are bound to each other; else n. */
+/* For each of n bodies the index of the one that pulls it most, if that holds for the other, too, and the two are
+ * bound to each other; else n. */
 void kd_wave_partners(const struct kd_playground_body *bodies, size_t n, double softening, size_t *partners);
 
 #endif

@@ -3,20 +3,20 @@
 #include "physics/colour.h"
 #include "physics/constants.h"
 
-#define PARAMETERS(P)                                                                                                  \
+#define PARAMETERS(P) \
     P(temperature_k, .unit = "K", .initial = "5772", .minimum = 100, .maximum = 1e9, .help = "temperature")
-#define OUTPUTS(O)                                                                                                     \
-    O(x, .unit = "1", .help = "CIE 1931 chromaticity x")                                                               \
-    O(y, .unit = "1", .help = "CIE 1931 chromaticity y")                                                               \
-    O(linear_r, .unit = "1", .help = "linear sRGB of luminance 1, not clipped: negative outside the gamut")            \
-    O(linear_g, .unit = "1", .help = "linear sRGB, green")                                                             \
-    O(linear_b, .unit = "1", .help = "linear sRGB, blue")                                                              \
-    O(srgb_r, .unit = "1", .help = "encoded sRGB, 0 to 1: brightest component 1, moved to the edge of the gamut")      \
-    O(srgb_g, .unit = "1", .help = "encoded sRGB, green")                                                              \
-    O(srgb_b, .unit = "1", .help = "encoded sRGB, blue")                                                               \
-    O(peak_nm, .unit = "nm", .help = "wavelength of the largest radiance a unit of wavelength (Wien)")                 \
-    O(peak_hz, .unit = "Hz", .help = "frequency of the largest radiance a unit of frequency")                          \
-    O(radiance, .unit = "W m^-2 sr^-1", .help = "sigma T^4/pi")                                                        \
+#define OUTPUTS(O) \
+    O(x, .unit = "1", .help = "CIE 1931 chromaticity x") \
+    O(y, .unit = "1", .help = "CIE 1931 chromaticity y") \
+    O(linear_r, .unit = "1", .help = "linear sRGB of luminance 1, not clipped: negative outside the gamut") \
+    O(linear_g, .unit = "1", .help = "linear sRGB, green") \
+    O(linear_b, .unit = "1", .help = "linear sRGB, blue") \
+    O(srgb_r, .unit = "1", .help = "encoded sRGB, 0 to 1: brightest component 1, moved to the edge of the gamut") \
+    O(srgb_g, .unit = "1", .help = "encoded sRGB, green") \
+    O(srgb_b, .unit = "1", .help = "encoded sRGB, blue") \
+    O(peak_nm, .unit = "nm", .help = "wavelength of the largest radiance a unit of wavelength (Wien)") \
+    O(peak_hz, .unit = "Hz", .help = "frequency of the largest radiance a unit of frequency") \
+    O(radiance, .unit = "W m^-2 sr^-1", .help = "sigma T^4/pi") \
     O(luminous_fraction, .unit = "1", .help = "of the radiance that the eye weighs: Y over radiance")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 
@@ -43,12 +43,16 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     struct kd_colour_rgb shown = kd_colour_blackbody_unit(t);
     double most = fmax(shown.r, fmax(shown.g, shown.b));
     *o = (struct outputs) {
-        .x = c.x / sum, .y = c.y / sum,
-        .linear_r = linear.r, .linear_g = linear.g, .linear_b = linear.b,
+        .x = c.x / sum,
+        .y = c.y / sum,
+        .linear_r = linear.r,
+        .linear_g = linear.g,
+        .linear_b = linear.b,
         .srgb_r = kd_colour_srgb_encode(shown.r / most),
         .srgb_g = kd_colour_srgb_encode(shown.g / most),
         .srgb_b = kd_colour_srgb_encode(shown.b / most),
-        .peak_nm = KD_WIEN_M_K * 1e9 / t, .peak_hz = KD_WIEN_HZ_K * t,
+        .peak_nm = KD_WIEN_M_K * 1e9 / t,
+        .peak_hz = KD_WIEN_HZ_K * t,
         .radiance = KD_STEFAN_BOLTZMANN_SI * pow(t, 4) / M_PI,
         .luminous_fraction = kd_colour_luminous_fraction(t),
     };

@@ -19,49 +19,59 @@
 #define KD_DEFINE_MEMBER(member, ...) double member;
 #define KD_DEFINE_ROW(member, ...) { .name = #member, __VA_ARGS__ },
 
-#define KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)                                                                       \
-    struct parameters { PARAMETERS(KD_DEFINE_MEMBER) };                                                               \
-    struct outputs { OUTPUTS(KD_DEFINE_MEMBER) };                                                                     \
-    static const struct kd_parameter parameter_rows[] = { PARAMETERS(KD_DEFINE_ROW) };                                \
-    static const struct kd_output output_rows[] = { OUTPUTS(KD_DEFINE_ROW) };                                         \
-    _Static_assert(sizeof(struct parameters) <= KD_QUANTITY_PARAMETERS * sizeof(double), "too many parameters");      \
+#define KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS) \
+    struct parameters { PARAMETERS(KD_DEFINE_MEMBER) }; \
+    struct outputs { OUTPUTS(KD_DEFINE_MEMBER) }; \
+    static const struct kd_parameter parameter_rows[] = { PARAMETERS(KD_DEFINE_ROW) }; \
+    static const struct kd_output output_rows[] = { OUTPUTS(KD_DEFINE_ROW) }; \
+    _Static_assert(sizeof(struct parameters) <= KD_QUANTITY_PARAMETERS * sizeof(double), "too many parameters"); \
     _Static_assert(sizeof(struct outputs) <= KD_QUANTITY_OUTPUTS * sizeof(double), "too many outputs");
 
 #define KD_QUANTITY_IN(in) ((const struct parameters *)(const void *)(in))
 #define KD_QUANTITY_OUT(out) ((struct outputs *)(void *)(out))
 
 /* The file also has `evaluate`, and `sources` and `approximations`, ended by NULL. */
-#define KD_QUANTITY(symbol, name_, summary_, ...)                                                                     \
-    const struct kd_quantity kd_quantity_##symbol = {                                                                 \
-        .name = name_, .summary = summary_,                                                                           \
-        .parameters = parameter_rows, .n_parameters = sizeof parameter_rows / sizeof *parameter_rows,                 \
-        .outputs = output_rows, .n_outputs = sizeof output_rows / sizeof *output_rows,                                \
-        .sources = sources, .approximations = approximations, .evaluate = evaluate, __VA_ARGS__                       \
-    };
+#define KD_QUANTITY(symbol, name_, summary_, ...) \
+    const struct kd_quantity kd_quantity_##symbol = { .name = name_, \
+                                                      .summary = summary_, \
+                                                      .parameters = parameter_rows, \
+                                                      .n_parameters = sizeof parameter_rows / sizeof *parameter_rows, \
+                                                      .outputs = output_rows, \
+                                                      .n_outputs = sizeof output_rows / sizeof *output_rows, \
+                                                      .sources = sources, \
+                                                      .approximations = approximations, \
+                                                      .evaluate = evaluate, \
+                                                      __VA_ARGS__ };
 
 /* Many quantities share these rows. */
-#define KD_PARAMETER_SPIN(P)                                                                                          \
-    P(spin, .unit = "M", .initial = "0.9", .minimum = -1, .maximum = 1, .open = true,                                 \
+#define KD_PARAMETER_SPIN(P) \
+    P(spin, .unit = "M", .initial = "0.9", .minimum = -1, .maximum = 1, .open = true, \
       .help = "spin parameter a; a < 0: the orbit or the disk turns against its hole")
-#define KD_PARAMETER_MASS(P)                                                                                          \
+#define KD_PARAMETER_MASS(P) \
     P(mass_msun, .unit = "solar masses", .initial = "1e8", .minimum = 1e-3, .maximum = 1e12, .help = "mass of the hole")
-#define KD_PARAMETER_OBSERVER(P)                                                                                      \
-    P(observer_r, .unit = "M", .initial = "infinity", .minimum = 0.01, .maximum = 1e7, .word = "infinity",             \
-      .help = "radius of the observer")                                                                                \
-    P(observer, .initial = "static", .words = KD_OBSERVER_WORDS, .help = "state of motion at a finite radius" KD_OBSERVER_HELP) \
-    P(velocity_r, .unit = "c", .initial = "0", .minimum = -1, .maximum = 1, .help = "outwards, past one of zero angular momentum (observer velocity)") \
-    P(velocity_theta, .unit = "c", .initial = "0", .minimum = -1, .maximum = 1, .help = "away from the north pole, likewise") \
-    P(velocity_phi, .unit = "c", .initial = "0", .minimum = -1, .maximum = 1, .help = "towards +phi, likewise")         \
-    P(infall_from, .unit = "M", .initial = "infinity", .minimum = 1, .maximum = 1e7, .word = "infinity",               \
-      .help = "radius from which the observer falls, at rest there but for its angular momentum (observer infall)")    \
-    P(infall_energy, .unit = "1", .initial = "rest", .minimum = -100, .maximum = 1e3, .word = "rest",                  \
-      .help = "its energy per mass; rest: as infall_from has it")                                                      \
-    P(infall_momentum, .unit = "M", .initial = "0", .minimum = -1e4, .maximum = 1e4, .help = "its angular momentum per mass")
+#define KD_PARAMETER_OBSERVER(P) \
+    P(observer_r, .unit = "M", .initial = "infinity", .minimum = 0.01, .maximum = 1e7, .word = "infinity", \
+      .help = "radius of the observer") \
+    P(observer, .initial = "static", .words = KD_OBSERVER_WORDS, \
+      .help = "state of motion at a finite radius" KD_OBSERVER_HELP) \
+    P(velocity_r, .unit = "c", .initial = "0", .minimum = -1, .maximum = 1, \
+      .help = "outwards, past one of zero angular momentum (observer velocity)") \
+    P(velocity_theta, .unit = "c", .initial = "0", .minimum = -1, .maximum = 1, \
+      .help = "away from the north pole, likewise") \
+    P(velocity_phi, .unit = "c", .initial = "0", .minimum = -1, .maximum = 1, .help = "towards +phi, likewise") \
+    P(infall_from, .unit = "M", .initial = "infinity", .minimum = 1, .maximum = 1e7, .word = "infinity", \
+      .help = "radius from which the observer falls, at rest there but for its angular momentum (observer infall)") \
+    P(infall_energy, .unit = "1", .initial = "rest", .minimum = -100, .maximum = 1e3, .word = "rest", \
+      .help = "its energy per mass; rest: as infall_from has it") \
+    P(infall_momentum, .unit = "M", .initial = "0", .minimum = -1e4, .maximum = 1e4, \
+      .help = "its angular momentum per mass")
 /* The motion that these say. */
-#define KD_QUANTITY_MOTION(p)                                                                                         \
-    (struct kd_observer_motion) {                                                                                     \
-        .observer = (enum kd_observer)(p)->observer, .velocity = { (p)->velocity_r, (p)->velocity_theta, (p)->velocity_phi }, \
-        .fall_from = (p)->infall_from, .fall_energy = (p)->infall_energy, .fall_momentum = (p)->infall_momentum,      \
+#define KD_QUANTITY_MOTION(p) \
+    (struct kd_observer_motion) \
+    { \
+        .observer = (enum kd_observer)(p)->observer, \
+        .velocity = { (p)->velocity_r, (p)->velocity_theta, (p)->velocity_phi }, .fall_from = (p)->infall_from, \
+        .fall_energy = (p)->infall_energy, .fall_momentum = (p)->infall_momentum, \
     }
 
 /* KD_EINVAL with "/name": "r is 1.2, " and the reason, which ends in what is allowed. */
@@ -70,6 +80,7 @@ enum kd_status kd_quantity_outside(struct kd_error *error, const char *name, dou
 /* r at or outside the horizon of spin a, or that error. */
 enum kd_status kd_quantity_outside_horizon(double a, double r, struct kd_error *error);
 /* Whether there is such an observer, or the error for /observer_r or the number that is wrong. */
-enum kd_status kd_quantity_observer_exists(const struct kd_observer_motion *motion, const struct kd_vantage *at, struct kd_error *error);
+enum kd_status kd_quantity_observer_exists(const struct kd_observer_motion *motion, const struct kd_vantage *at,
+                                           struct kd_error *error);
 
 #endif

@@ -2,24 +2,28 @@
 
 #include "physics/deflection.h"
 
-#define PARAMETERS(P)                                                                                                  \
-    KD_PARAMETER_SPIN(P)                                                                                               \
-    P(b, .unit = "M", .initial = "10", .minimum = 1, .maximum = 1e12, .along = true,                                   \
+#define PARAMETERS(P) \
+    KD_PARAMETER_SPIN(P) \
+    P(b, .unit = "M", .initial = "10", .minimum = 1, .maximum = 1e12, .along = true, \
       .help = "impact parameter of light in the equatorial plane, |L|/E")
-#define OUTPUTS(O)                                                                                                     \
-    O(angle, .unit = "radians", .help = "total bending towards +phi, whole turns included; null if captured, b < b_critical") \
-    O(angle_retrograde, .unit = "radians", .help = "the same of light that turns towards -phi")                        \
-    O(weak, .unit = "radians", .help = "weak field, 4/b")                                                              \
-    O(weak_second, .unit = "radians", .help = "with the next order, 4/b + (15 pi/4 - 4a)/b^2")                         \
-    O(weak_second_retrograde, .unit = "radians", .help = "the same towards -phi")                                      \
-    O(strong, .unit = "radians", .help = "limit next to b_critical, -rate ln(b/b_critical - 1) + offset; null if captured") \
-    O(strong_retrograde, .unit = "radians", .help = "the same towards -phi")                                           \
-    O(closest, .unit = "M", .help = "closest approach r of the light towards +phi; null if captured")                  \
-    O(closest_retrograde, .unit = "M", .help = "the same towards -phi")                                                \
-    O(farthest, .unit = "M", .help = "how far light towards +phi gets that is sent out within the photon orbit, before it falls back; null if it leaves, or if no light there has so little energy for its L") \
-    O(farthest_retrograde, .unit = "M", .help = "the same towards -phi")                                               \
-    O(b_critical, .unit = "M", .fixed = true, .help = "impact parameter of the circular photon orbit towards +phi")    \
-    O(b_critical_retrograde, .unit = "M", .fixed = true, .help = "the same towards -phi")                              \
+#define OUTPUTS(O) \
+    O(angle, .unit = "radians", \
+      .help = "total bending towards +phi, whole turns included; null if captured, b < b_critical") \
+    O(angle_retrograde, .unit = "radians", .help = "the same of light that turns towards -phi") \
+    O(weak, .unit = "radians", .help = "weak field, 4/b") \
+    O(weak_second, .unit = "radians", .help = "with the next order, 4/b + (15 pi/4 - 4a)/b^2") \
+    O(weak_second_retrograde, .unit = "radians", .help = "the same towards -phi") \
+    O(strong, .unit = "radians", \
+      .help = "limit next to b_critical, -rate ln(b/b_critical - 1) + offset; null if captured") \
+    O(strong_retrograde, .unit = "radians", .help = "the same towards -phi") \
+    O(closest, .unit = "M", .help = "closest approach r of the light towards +phi; null if captured") \
+    O(closest_retrograde, .unit = "M", .help = "the same towards -phi") \
+    O(farthest, .unit = "M", \
+      .help = "how far light towards +phi gets that is sent out within the photon orbit, before it falls back; null " \
+              "if it leaves, or if no light there has so little energy for its L") \
+    O(farthest_retrograde, .unit = "M", .help = "the same towards -phi") \
+    O(b_critical, .unit = "M", .fixed = true, .help = "impact parameter of the circular photon orbit towards +phi") \
+    O(b_critical_retrograde, .unit = "M", .fixed = true, .help = "the same towards -phi") \
     O(strong_rate, .unit = "1", .fixed = true, .help = "rate of the strong limit, 1 at spin 0") \
     O(strong_offset, .unit = "radians", .fixed = true, .help = "its offset")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
@@ -34,9 +38,7 @@ static const char *const approximations[] = {
     NULL,
 };
 
-struct memory {
-    struct kd_deflection_strong with, against;
-};
+struct memory { struct kd_deflection_strong with, against; };
 
 static double strong(struct kd_deflection_strong limit, double b, double critical)
 {

@@ -4,19 +4,19 @@
 #include "physics/embedding.h"
 #include "physics/kerr.h"
 
-#define PARAMETERS(P)                                                                                                  \
-    P(spin, .unit = "M", .initial = "0", .minimum = -1, .maximum = 1, .open = true, .help = "spin parameter a")        \
-    P(r, .unit = "M", .initial = "2:20:73", .minimum = 1, .maximum = 1e9, .along = true,                               \
-      .help = "Boyer-Lindquist radius, at or outside the horizon")                                                     \
-    P(phi_deg, .unit = "degrees", .initial = "0", .minimum = -360, .maximum = 360, .along = true,                      \
+#define PARAMETERS(P) \
+    P(spin, .unit = "M", .initial = "0", .minimum = -1, .maximum = 1, .open = true, .help = "spin parameter a") \
+    P(r, .unit = "M", .initial = "2:20:73", .minimum = 1, .maximum = 1e9, .along = true, \
+      .help = "Boyer-Lindquist radius, at or outside the horizon") \
+    P(phi_deg, .unit = "degrees", .initial = "0", .minimum = -360, .maximum = 360, .along = true, \
       .help = "azimuth: a range of it and one of r make a mesh")
-#define OUTPUTS(O)                                                                                                     \
-    O(x, .unit = "M", .help = "of the embedded surface: radius cos(phi)")                                              \
-    O(y, .unit = "M", .help = "of the embedded surface: radius sin(phi)")                                              \
-    O(z, .unit = "M", .help = "height over the horizon's circle")                                                      \
-    O(radius, .unit = "M", .help = "circumference over 2 pi, sqrt(r^2 + a^2 + 2a^2/r)")                                \
-    O(proper_distance, .unit = "M", .help = "from the horizon along r")                                                \
-    O(flamm, .unit = "M", .help = "sqrt(8 (r - 2)), z for a = 0; null for r < 2")                                      \
+#define OUTPUTS(O) \
+    O(x, .unit = "M", .help = "of the embedded surface: radius cos(phi)") \
+    O(y, .unit = "M", .help = "of the embedded surface: radius sin(phi)") \
+    O(z, .unit = "M", .help = "height over the horizon's circle") \
+    O(radius, .unit = "M", .help = "circumference over 2 pi, sqrt(r^2 + a^2 + 2a^2/r)") \
+    O(proper_distance, .unit = "M", .help = "from the horizon along r") \
+    O(flamm, .unit = "M", .help = "sqrt(8 (r - 2)), z for a = 0; null for r < 2") \
     O(horizon, .unit = "M", .fixed = true, .help = "where the surface begins")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 

@@ -5,26 +5,35 @@
 #include "physics/kerr.h"
 #include "physics/scale.h"
 
-#define PARAMETERS(P)                                                                                                  \
-    P(spin, .unit = "M", .initial = "0", .minimum = -1, .maximum = 1, .open = true, .help = "spin parameter a")        \
-    P(inclination_deg, .unit = "degrees", .initial = "90", .minimum = 0, .maximum = 180, .help = "polar angle of what falls") \
-    P(infall_from, .unit = "M", .initial = "infinity", .minimum = 1, .maximum = 1e7, .word = "infinity",               \
-      .help = "radius from which it falls, at rest there but for its angular momentum")                                \
-    P(infall_energy, .unit = "1", .initial = "rest", .minimum = -100, .maximum = 1e3, .word = "rest",                  \
-      .help = "its energy per mass; rest: as infall_from has it")                                                      \
-    P(infall_momentum, .unit = "M", .initial = "0", .minimum = -1e4, .maximum = 1e4, .help = "its angular momentum per mass") \
-    KD_PARAMETER_MASS(P)                                                                                               \
-    P(r, .unit = "M", .initial = "0.2:20:100", .minimum = 0.001, .maximum = 1e7, .along = true, .help = "radius where it is")
-#define OUTPUTS(O)                                                                                                     \
-    O(proper_time_to_horizon, .unit = "M", .help = "by its own clock, from r to the outer horizon; null within")       \
-    O(proper_time_to_end, .unit = "M", .help = "by its own clock, from r to where the model ends: the inner horizon, or without spin the singularity") \
-    O(proper_time_to_horizon_s, .unit = "s", .help = "the same in seconds")                                            \
-    O(proper_time_to_end_s, .unit = "s", .help = "the same in seconds")                                                \
-    O(velocity, .unit = "1", .help = "towards the hole past one of zero angular momentum, in units of that of light; null within the horizon") \
-    O(g_behind, .unit = "1", .help = "frequency of starlight from straight behind, as it measures it, over that far away")  \
-    O(azimuth_to_end_deg, .unit = "degrees", .help = "how far it turns until the end, in ingoing Kerr-Schild azimuth, that of camera.azimuth_deg")  \
-    O(time_to_end, .unit = "M", .help = "coordinate time until the end, of ingoing Kerr-Schild coordinates, which know no outer horizon") \
-    O(energy, .unit = "1", .fixed = true, .help = "per mass")                                                          \
+#define PARAMETERS(P) \
+    P(spin, .unit = "M", .initial = "0", .minimum = -1, .maximum = 1, .open = true, .help = "spin parameter a") \
+    P(inclination_deg, .unit = "degrees", .initial = "90", .minimum = 0, .maximum = 180, \
+      .help = "polar angle of what falls") \
+    P(infall_from, .unit = "M", .initial = "infinity", .minimum = 1, .maximum = 1e7, .word = "infinity", \
+      .help = "radius from which it falls, at rest there but for its angular momentum") \
+    P(infall_energy, .unit = "1", .initial = "rest", .minimum = -100, .maximum = 1e3, .word = "rest", \
+      .help = "its energy per mass; rest: as infall_from has it") \
+    P(infall_momentum, .unit = "M", .initial = "0", .minimum = -1e4, .maximum = 1e4, \
+      .help = "its angular momentum per mass") \
+    KD_PARAMETER_MASS(P) \
+    P(r, .unit = "M", .initial = "0.2:20:100", .minimum = 0.001, .maximum = 1e7, .along = true, \
+      .help = "radius where it is")
+#define OUTPUTS(O) \
+    O(proper_time_to_horizon, .unit = "M", .help = "by its own clock, from r to the outer horizon; null within") \
+    O(proper_time_to_end, .unit = "M", \
+      .help = "by its own clock, from r to where the model ends: the inner horizon, or without spin the singularity") \
+    O(proper_time_to_horizon_s, .unit = "s", .help = "the same in seconds") \
+    O(proper_time_to_end_s, .unit = "s", .help = "the same in seconds") \
+    O(velocity, .unit = "1", \
+      .help = \
+          "towards the hole past one of zero angular momentum, in units of that of light; null within the horizon") \
+    O(g_behind, .unit = "1", \
+      .help = "frequency of starlight from straight behind, as it measures it, over that far away") \
+    O(azimuth_to_end_deg, .unit = "degrees", \
+      .help = "how far it turns until the end, in ingoing Kerr-Schild azimuth, that of camera.azimuth_deg") \
+    O(time_to_end, .unit = "M", \
+      .help = "coordinate time until the end, of ingoing Kerr-Schild coordinates, which know no outer horizon") \
+    O(energy, .unit = "1", .fixed = true, .help = "per mass") \
     O(end, .unit = "M", .fixed = true, .help = "radius where the model ends")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 
@@ -35,7 +44,8 @@ static const char *const sources[] = {
 };
 static const char *const approximations[] = { NULL };
 
-static enum kd_status check(const struct kd_observer_motion *motion, const struct kd_vantage *at, struct kd_error *error)
+static enum kd_status check(const struct kd_observer_motion *motion, const struct kd_vantage *at,
+                            struct kd_error *error)
 {
     const double end = kd_kerr_inner_horizon(at->spin);
     if (!(at->r > end))
@@ -43,7 +53,8 @@ static enum kd_status check(const struct kd_observer_motion *motion, const struc
     if (kd_quantity_observer_exists(motion, at, error))
         return KD_EINVAL;
     if (!kd_infall_is_level(motion, at))
-        return kd_quantity_outside(error, "inclination_deg", atan2(at->s, at->u) * (180 / M_PI), "where it would not stay at this latitude; allowed with "
+        return kd_quantity_outside(error, "inclination_deg", atan2(at->s, at->u) * (180 / M_PI),
+                                   "where it would not stay at this latitude; allowed with "
                                    "spin are 0, 90 and 180, or what falls from rest at infinity");
     return KD_OK;
 }
@@ -55,7 +66,10 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     struct outputs *o = KD_QUANTITY_OUT(out);
     const struct kd_vantage at = { p->spin, p->r, kd_cos_deg(p->inclination_deg), kd_sin_deg(p->inclination_deg) };
     const struct kd_observer_motion motion = {
-        .observer = KD_OBSERVER_INFALL, .fall_from = p->infall_from, .fall_energy = p->infall_energy, .fall_momentum = p->infall_momentum,
+        .observer = KD_OBSERVER_INFALL,
+        .fall_from = p->infall_from,
+        .fall_energy = p->infall_energy,
+        .fall_momentum = p->infall_momentum,
     };
     const double horizon = kd_kerr_horizon(p->spin), second = kd_scale_seconds(p->mass_msun);
     if (check(&motion, &at, error))

@@ -4,31 +4,31 @@
 #include "physics/angle.h"
 #include "physics/kerr.h"
 
-#define PARAMETERS(P)                                                                                                  \
-    KD_PARAMETER_SPIN(P)                                                                                               \
-    P(theta_deg, .unit = "degrees", .initial = "90", .minimum = 0, .maximum = 180,                                     \
-      .help = "polar angle at which the ergosphere is given")                                                          \
-    P(r, .unit = "M", .initial = "10", .minimum = 1, .maximum = 1e9, .word = "isco", .along = true,                    \
+#define PARAMETERS(P) \
+    KD_PARAMETER_SPIN(P) \
+    P(theta_deg, .unit = "degrees", .initial = "90", .minimum = 0, .maximum = 180, \
+      .help = "polar angle at which the ergosphere is given") \
+    P(r, .unit = "M", .initial = "10", .minimum = 1, .maximum = 1e9, .word = "isco", .along = true, \
       .help = "radius of the circular orbit whose frequencies are given")
-#define OUTPUTS(O)                                                                                                     \
-    O(horizon, .unit = "M", .fixed = true, .help = "outer horizon r+")                                                 \
-    O(inner_horizon, .unit = "M", .fixed = true, .help = "inner horizon r-")                                           \
-    O(horizon_omega, .unit = "1/M", .fixed = true, .help = "angular velocity of the horizon, a/(2 r+)")                \
-    O(ergosphere, .unit = "M", .fixed = true, .help = "static limit r_E at theta_deg")                                 \
-    O(photon_prograde, .unit = "M", .fixed = true, .help = "circular photon orbit that turns towards +phi")            \
-    O(photon_retrograde, .unit = "M", .fixed = true, .help = "circular photon orbit that turns towards -phi")          \
-    O(marginally_bound, .unit = "M", .fixed = true, .help = "circular orbit with E = 1, towards +phi")                 \
-    O(marginally_bound_retrograde, .unit = "M", .fixed = true, .help = "the same towards -phi")                        \
-    O(isco, .unit = "M", .fixed = true, .help = "innermost stable circular orbit, towards +phi")                       \
-    O(isco_retrograde, .unit = "M", .fixed = true, .help = "the same towards -phi")                                    \
-    O(isco_energy, .unit = "1", .fixed = true, .help = "specific energy E at the ISCO")                                \
-    O(isco_momentum, .unit = "M", .fixed = true, .help = "specific angular momentum L at the ISCO")                    \
-    O(isco_omega, .unit = "1/M", .fixed = true, .help = "angular velocity Omega at the ISCO")                          \
-    O(efficiency, .unit = "1", .fixed = true, .help = "1 - E at the ISCO")                                             \
-    O(energy, .unit = "1", .help = "specific energy E at r; null at and inside the photon orbit")                      \
-    O(momentum, .unit = "M", .help = "specific angular momentum L at r; likewise")                                     \
-    O(omega_phi, .unit = "1/M", .help = "orbital frequency Omega_phi at r, angular, of coordinate time; likewise")     \
-    O(kappa, .unit = "1/M", .help = "radial epicyclic frequency at r; null inside the ISCO too")                       \
+#define OUTPUTS(O) \
+    O(horizon, .unit = "M", .fixed = true, .help = "outer horizon r+") \
+    O(inner_horizon, .unit = "M", .fixed = true, .help = "inner horizon r-") \
+    O(horizon_omega, .unit = "1/M", .fixed = true, .help = "angular velocity of the horizon, a/(2 r+)") \
+    O(ergosphere, .unit = "M", .fixed = true, .help = "static limit r_E at theta_deg") \
+    O(photon_prograde, .unit = "M", .fixed = true, .help = "circular photon orbit that turns towards +phi") \
+    O(photon_retrograde, .unit = "M", .fixed = true, .help = "circular photon orbit that turns towards -phi") \
+    O(marginally_bound, .unit = "M", .fixed = true, .help = "circular orbit with E = 1, towards +phi") \
+    O(marginally_bound_retrograde, .unit = "M", .fixed = true, .help = "the same towards -phi") \
+    O(isco, .unit = "M", .fixed = true, .help = "innermost stable circular orbit, towards +phi") \
+    O(isco_retrograde, .unit = "M", .fixed = true, .help = "the same towards -phi") \
+    O(isco_energy, .unit = "1", .fixed = true, .help = "specific energy E at the ISCO") \
+    O(isco_momentum, .unit = "M", .fixed = true, .help = "specific angular momentum L at the ISCO") \
+    O(isco_omega, .unit = "1/M", .fixed = true, .help = "angular velocity Omega at the ISCO") \
+    O(efficiency, .unit = "1", .fixed = true, .help = "1 - E at the ISCO") \
+    O(energy, .unit = "1", .help = "specific energy E at r; null at and inside the photon orbit") \
+    O(momentum, .unit = "M", .help = "specific angular momentum L at r; likewise") \
+    O(omega_phi, .unit = "1/M", .help = "orbital frequency Omega_phi at r, angular, of coordinate time; likewise") \
+    O(kappa, .unit = "1/M", .help = "radial epicyclic frequency at r; null inside the ISCO too") \
     O(omega_theta, .unit = "1/M", .help = "vertical epicyclic frequency at r; null at and inside the photon orbit")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 
@@ -77,5 +77,4 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     return KD_OK;
 }
 
-KD_QUANTITY(kerr, "kerr", "radii, ISCO and frequencies of circular orbits of a Kerr hole", .point_us = 2,
-            .fresh_us = 2)
+KD_QUANTITY(kerr, "kerr", "radii, ISCO and frequencies of circular orbits of a Kerr hole", .point_us = 2, .fresh_us = 2)

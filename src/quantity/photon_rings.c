@@ -5,33 +5,41 @@
 #include "physics/kerr.h"
 #include "physics/lensing.h"
 
-#define PARAMETERS(P)                                                                                                  \
-    KD_PARAMETER_SPIN(P)                                                                                               \
-    P(inclination_deg, .unit = "degrees", .initial = "60", .minimum = 0, .maximum = 180,                               \
-      .help = "polar angle of the observer, who is at infinity; at 90 the plane is a line")                            \
-    P(angle_deg, .unit = "degrees", .initial = "0", .minimum = -360, .maximum = 720,                                   \
-      .help = "where on the critical curve: about its centre, from the right over the top")                            \
-    P(inner, .unit = "M", .initial = "horizon", .minimum = 1, .maximum = 1e9, .word = "horizon",                       \
-      .help = "radius in the equatorial plane from which on light is sent")                                            \
-    P(outer, .unit = "M", .initial = "infinity", .minimum = 1, .maximum = 1e9, .word = "infinity", .help = "radius up to which it is") \
-    P(order, .unit = "1", .initial = "1:6:6", .minimum = 1, .maximum = 12, .whole = true, .along = true,               \
+#define PARAMETERS(P) \
+    KD_PARAMETER_SPIN(P) \
+    P(inclination_deg, .unit = "degrees", .initial = "60", .minimum = 0, .maximum = 180, \
+      .help = "polar angle of the observer, who is at infinity; at 90 the plane is a line") \
+    P(angle_deg, .unit = "degrees", .initial = "0", .minimum = -360, .maximum = 720, \
+      .help = "where on the critical curve: about its centre, from the right over the top") \
+    P(inner, .unit = "M", .initial = "horizon", .minimum = 1, .maximum = 1e9, .word = "horizon", \
+      .help = "radius in the equatorial plane from which on light is sent") \
+    P(outer, .unit = "M", .initial = "infinity", .minimum = 1, .maximum = 1e9, .word = "infinity", \
+      .help = "radius up to which it is") \
+    P(order, .unit = "1", .initial = "1:6:6", .minimum = 1, .maximum = 12, .whole = true, .along = true, \
       .help = "of the ring: how many half turns round the hole its light has made")
-#define OUTPUTS(O)                                                                                                     \
-    O(inner_edge, .unit = "1", .help = "distance from the critical curve along the radius about its centre, over that radius, where inner is seen; below 0 inside; null if nowhere") \
-    O(outer_edge, .unit = "1", .help = "the same of outer")                                                            \
-    O(width, .unit = "M", .help = "of the ring there, from edge to edge")                                              \
-    O(ladder, .unit = "M", .help = "width of order 1 times e^(-gamma (order - 1)), which the widths tend to but for a factor") \
-    O(gamma, .unit = "1", .fixed = true, .help = "Lyapunov exponent of the photon orbit that is seen there, for each half turn; pi for a = 0") \
-    O(orbit_r, .unit = "M", .fixed = true, .help = "radius of that orbit")                                             \
+#define OUTPUTS(O) \
+    O(inner_edge, .unit = "1", \
+      .help = "distance from the critical curve along the radius about its centre, over that radius, where inner is " \
+              "seen; below 0 inside; null if nowhere") \
+    O(outer_edge, .unit = "1", .help = "the same of outer") \
+    O(width, .unit = "M", .help = "of the ring there, from edge to edge") \
+    O(ladder, .unit = "M", \
+      .help = "width of order 1 times e^(-gamma (order - 1)), which the widths tend to but for a factor") \
+    O(gamma, .unit = "1", .fixed = true, \
+      .help = "Lyapunov exponent of the photon orbit that is seen there, for each half turn; pi for a = 0") \
+    O(orbit_r, .unit = "M", .fixed = true, .help = "radius of that orbit") \
     O(rho, .unit = "M", .fixed = true, .help = "radius of the critical curve about its centre there")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 
 static const char *const sources[] = {
-    "S. E. Gralla, D. E. Holz & R. M. Wald 2019, Phys. Rev. D 100, 024018; S. E. Gralla & A. Lupsasca 2020, Phys. Rev. D 101, 044031 (edges)",
+    "S. E. Gralla, D. E. Holz & R. M. Wald 2019, Phys. Rev. D 100, 024018; S. E. Gralla & A. Lupsasca 2020, Phys. Rev. "
+    "D 101, 044031 (edges)",
     "M. D. Johnson et al. 2020, Sci. Adv. 6, eaaz1310 (gamma)",
     NULL,
 };
-static const char *const approximations[] = { "ladder is the limit of high orders, drawn from the first one on to be compared", NULL };
+static const char *const approximations[] = {
+    "ladder is the limit of high orders, drawn from the first one on to be compared", NULL
+};
 
 struct memory {
     struct kd_critical curve;
@@ -41,7 +49,8 @@ struct memory {
 
 static double width_of(const struct memory *m, const struct parameters *p, int order)
 {
-    return m->point.rho * (kd_lensing_edge(&m->curve, &m->point, order, p->outer) - kd_lensing_edge(&m->curve, &m->point, order, m->inner));
+    return m->point.rho * (kd_lensing_edge(&m->curve, &m->point, order, p->outer) -
+                           kd_lensing_edge(&m->curve, &m->point, order, m->inner));
 }
 
 /* From below the plane the picture is that from above, upside down. */
@@ -51,11 +60,14 @@ static enum kd_status begin(const struct parameters *p, struct memory *m, struct
     const bool below = p->inclination_deg > 90;
     m->inner = isinf(p->inner) ? horizon : p->inner;
     if (m->inner < horizon)
-        return kd_quantity_outside(error, "inner", m->inner, "inside the horizon at %.9g M; allowed is outside", horizon);
+        return kd_quantity_outside(error, "inner", m->inner, "inside the horizon at %.9g M; allowed is outside",
+                                   horizon);
     if (!(p->outer > m->inner))
         return kd_quantity_outside(error, "outer", p->outer, "allowed is more than inner, %.9g M", m->inner);
-    m->curve = kd_critical_of(&(struct kd_critical_observer) {
-        .spin = p->spin, .radius = INFINITY, .cos_theta = fabs(kd_cos_deg(p->inclination_deg)), .sin_theta = kd_sin_deg(p->inclination_deg) });
+    m->curve = kd_critical_of(&(struct kd_critical_observer) { .spin = p->spin,
+                                                               .radius = INFINITY,
+                                                               .cos_theta = fabs(kd_cos_deg(p->inclination_deg)),
+                                                               .sin_theta = kd_sin_deg(p->inclination_deg) });
     m->point = kd_critical_at(&m->curve, (below ? -p->angle_deg : p->angle_deg) * (M_PI / 180));
     m->gamma = kd_shell_exponents(&m->point.orbit).gamma;
     m->first = width_of(m, p, 1);
@@ -78,5 +90,7 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     return KD_OK;
 }
 
-KD_QUANTITY(photon_rings, "photon-rings", "the rings of light that has gone round the hole: their edges beside the critical curve, and how much thinner each is",
+KD_QUANTITY(photon_rings, "photon-rings",
+            "the rings of light that has gone round the hole: their edges beside the critical curve, and how much "
+            "thinner each is",
             .memory_size = sizeof(struct memory), .point_us = 60, .fresh_us = 60)

@@ -2,20 +2,20 @@
 
 #include "physics/potential.h"
 
-#define PARAMETERS(P)                                                                                                  \
-    P(spin, .unit = "M", .initial = "0", .minimum = -1, .maximum = 1, .open = true, .help = "spin parameter a")        \
-    P(l, .unit = "M", .initial = "4", .minimum = -1e6, .maximum = 1e6,                                                 \
-      .help = "angular momentum, positive towards +phi: a unit of mass of matter; of the photon that V_light is for")  \
+#define PARAMETERS(P) \
+    P(spin, .unit = "M", .initial = "0", .minimum = -1, .maximum = 1, .open = true, .help = "spin parameter a") \
+    P(l, .unit = "M", .initial = "4", .minimum = -1e6, .maximum = 1e6, \
+      .help = "angular momentum, positive towards +phi: a unit of mass of matter; of the photon that V_light is for") \
     P(r, .unit = "M", .initial = "2:30:281", .minimum = 1, .maximum = 1e9, .along = true, .help = "radius")
-#define OUTPUTS(O)                                                                                                     \
-    O(v_matter, .unit = "1", .help = "least specific energy of matter with L at r")                                    \
-    O(v_light, .unit = "1", .help = "least energy of light with L at r")                                               \
-    O(newton, .unit = "1", .help = "1 - 1/r + L^2/(2 r^2), Newton's beside v_matter")                                  \
-    O(r_max_matter, .unit = "M", .fixed = true, .help = "unstable circular orbit of matter with L; null if none")      \
-    O(v_max_matter, .unit = "1", .fixed = true, .help = "v_matter there")                                              \
-    O(r_min_matter, .unit = "M", .fixed = true, .help = "stable circular orbit of matter with L; null if none")        \
-    O(v_min_matter, .unit = "1", .fixed = true, .help = "v_matter there")                                              \
-    O(r_max_light, .unit = "M", .fixed = true, .help = "circular photon orbit of the sign of L; null for L = 0")       \
+#define OUTPUTS(O) \
+    O(v_matter, .unit = "1", .help = "least specific energy of matter with L at r") \
+    O(v_light, .unit = "1", .help = "least energy of light with L at r") \
+    O(newton, .unit = "1", .help = "1 - 1/r + L^2/(2 r^2), Newton's beside v_matter") \
+    O(r_max_matter, .unit = "M", .fixed = true, .help = "unstable circular orbit of matter with L; null if none") \
+    O(v_max_matter, .unit = "1", .fixed = true, .help = "v_matter there") \
+    O(r_min_matter, .unit = "M", .fixed = true, .help = "stable circular orbit of matter with L; null if none") \
+    O(v_min_matter, .unit = "1", .fixed = true, .help = "v_matter there") \
+    O(r_max_light, .unit = "M", .fixed = true, .help = "circular photon orbit of the sign of L; null for L = 0") \
     O(v_max_light, .unit = "1", .fixed = true, .help = "v_light there, |L|/b_c")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 
@@ -24,11 +24,14 @@ static const char *const sources[] = {
     "C. W. Misner, K. S. Thorne & J. A. Wheeler 1973, Gravitation, sect. 25.5 and 33.5",
     NULL,
 };
-static const char *const approximations[] = { "newton is Newton's potential and the centrifugal one, plus the rest mass", NULL };
+static const char *const approximations[] = {
+    "newton is Newton's potential and the centrifugal one, plus the rest mass", NULL
+};
 
 static void fill_extrema(const struct parameters *p, struct outputs *o)
 {
-    struct kd_potential_extrema matter = kd_potential_of_matter(p->spin, p->l), light = kd_potential_of_light(p->spin, p->l);
+    struct kd_potential_extrema matter = kd_potential_of_matter(p->spin, p->l),
+                                light = kd_potential_of_light(p->spin, p->l);
     o->r_max_matter = matter.r_max;
     o->v_max_matter = matter.v_max;
     o->r_min_matter = matter.r_min;
@@ -52,5 +55,6 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     return KD_OK;
 }
 
-KD_QUANTITY(potential, "potential", "effective potential of light and of matter in the equatorial plane, with its extrema",
-            .point_us = 1, .fresh_us = 5)
+KD_QUANTITY(potential, "potential",
+            "effective potential of light and of matter in the equatorial plane, with its extrema", .point_us = 1,
+            .fresh_us = 5)

@@ -6,39 +6,42 @@
 
 #include <stdlib.h>
 
-#define PARAMETERS(P)                                                                                                  \
-    P(l, .unit = "1", .initial = "2", .minimum = KD_QNM_L_MIN, .maximum = KD_QNM_L_MAX, .whole = true,                 \
-      .help = "multipole")                                                                                             \
-    P(m, .unit = "1", .initial = "2", .minimum = -KD_QNM_L_MAX, .maximum = KD_QNM_L_MAX, .whole = true,                \
-      .help = "azimuthal number, -l to l; m > 0 turns with a hole of positive spin")                                   \
-    P(n, .unit = "1", .initial = "0", .minimum = 0, .maximum = KD_QNM_N_MAX, .whole = true,                            \
-      .help = "overtone, counted at spin 0; 0 decays slowest")                                                         \
-    P(spin, .unit = "M", .initial = "0.7", .minimum = -KD_QNM_SPIN_MAX, .maximum = KD_QNM_SPIN_MAX,                    \
-      .help = "spin parameter a; nearer to 1 damped and undamped modes crowd and l, n stop being names for them")      \
-    P(mass_msun, .unit = "solar masses", .initial = "60", .minimum = 1e-3, .maximum = 1e12, .along = true,             \
-      .help = "mass of the hole, with any redshift: m (1 + z)")                                                        \
-    P(t, .unit = "M", .initial = "0", .minimum = 0, .maximum = 1e6, .along = true, .help = "time of the sample `wave`")              \
-    P(shift_octaves, .unit = "1", .initial = "0", .minimum = -40, .maximum = 40, .along = true,                        \
-      .help = "octaves by which the sound is higher than the ringing, and faster")                                     \
-    P(stretch, .unit = "1", .initial = "1", .minimum = 1, .maximum = 1e6, .along = true,                               \
+#define PARAMETERS(P) \
+    P(l, .unit = "1", .initial = "2", .minimum = KD_QNM_L_MIN, .maximum = KD_QNM_L_MAX, .whole = true, \
+      .help = "multipole") \
+    P(m, .unit = "1", .initial = "2", .minimum = -KD_QNM_L_MAX, .maximum = KD_QNM_L_MAX, .whole = true, \
+      .help = "azimuthal number, -l to l; m > 0 turns with a hole of positive spin") \
+    P(n, .unit = "1", .initial = "0", .minimum = 0, .maximum = KD_QNM_N_MAX, .whole = true, \
+      .help = "overtone, counted at spin 0; 0 decays slowest") \
+    P(spin, .unit = "M", .initial = "0.7", .minimum = -KD_QNM_SPIN_MAX, .maximum = KD_QNM_SPIN_MAX, \
+      .help = "spin parameter a; nearer to 1 damped and undamped modes crowd and l, n stop being names for them") \
+    P(mass_msun, .unit = "solar masses", .initial = "60", .minimum = 1e-3, .maximum = 1e12, .along = true, \
+      .help = "mass of the hole, with any redshift: m (1 + z)") \
+    P(t, .unit = "M", .initial = "0", .minimum = 0, .maximum = 1e6, .along = true, \
+      .help = "time of the sample `wave`") \
+    P(shift_octaves, .unit = "1", .initial = "0", .minimum = -40, .maximum = 40, .along = true, \
+      .help = "octaves by which the sound is higher than the ringing, and faster") \
+    P(stretch, .unit = "1", .initial = "1", .minimum = 1, .maximum = 1e6, .along = true, \
       .help = "how many times as slowly as the ringing the sound then fades, at the same pitch")
-#define OUTPUTS(O)                                                                                                     \
-    O(omega_re, .unit = "1/M", .fixed = true, .help = "angular frequency")                                             \
-    O(omega_im, .unit = "1/M", .fixed = true, .help = "minus the damping rate")                                        \
-    O(separation_re, .unit = "1", .fixed = true, .help = "separation constant A_lm(a omega), l(l+1) - 2 at spin 0")    \
-    O(separation_im, .unit = "1", .fixed = true, .help = "its imaginary part")                                         \
-    O(quality, .unit = "1", .fixed = true, .help = "Q = omega_re/(-2 omega_im)")                                       \
-    O(quality_cubic, .unit = "1", .fixed = true, .help = "2.1 + 11.3 a^3, which circulates for l = m = 2, n = 0; null else") \
-    O(quality_cubic_error, .unit = "1", .fixed = true, .help = "how far it is off, relative")                          \
-    O(fit_omega_re, .unit = "1/M", .fixed = true, .help = "fit of Berti et al. 2006 for l = m = 2, n = 0 to 2; null else") \
-    O(fit_quality, .unit = "1", .fixed = true, .help = "their Q")                                                      \
-    O(fit_omega_re_error, .unit = "1", .fixed = true, .help = "how far it is off, relative")                           \
-    O(fit_quality_error, .unit = "1", .fixed = true, .help = "how far it is off, relative")                            \
-    O(frequency_hz, .unit = "Hz", .help = "omega_re/(2 pi) for mass_msun")                                             \
-    O(damping_s, .unit = "s", .help = "time in which the amplitude falls by e")                                        \
-    O(t_s, .unit = "s", .help = "t for mass_msun")                                                                     \
-    O(wave, .unit = "1", .help = "e^(omega_im t) cos(omega_re t)")                                                     \
-    O(sound_hz, .unit = "Hz", .help = "frequency_hz shifted by shift_octaves: that of the WAV file")                   \
+#define OUTPUTS(O) \
+    O(omega_re, .unit = "1/M", .fixed = true, .help = "angular frequency") \
+    O(omega_im, .unit = "1/M", .fixed = true, .help = "minus the damping rate") \
+    O(separation_re, .unit = "1", .fixed = true, .help = "separation constant A_lm(a omega), l(l+1) - 2 at spin 0") \
+    O(separation_im, .unit = "1", .fixed = true, .help = "its imaginary part") \
+    O(quality, .unit = "1", .fixed = true, .help = "Q = omega_re/(-2 omega_im)") \
+    O(quality_cubic, .unit = "1", .fixed = true, \
+      .help = "2.1 + 11.3 a^3, which circulates for l = m = 2, n = 0; null else") \
+    O(quality_cubic_error, .unit = "1", .fixed = true, .help = "how far it is off, relative") \
+    O(fit_omega_re, .unit = "1/M", .fixed = true, \
+      .help = "fit of Berti et al. 2006 for l = m = 2, n = 0 to 2; null else") \
+    O(fit_quality, .unit = "1", .fixed = true, .help = "their Q") \
+    O(fit_omega_re_error, .unit = "1", .fixed = true, .help = "how far it is off, relative") \
+    O(fit_quality_error, .unit = "1", .fixed = true, .help = "how far it is off, relative") \
+    O(frequency_hz, .unit = "Hz", .help = "omega_re/(2 pi) for mass_msun") \
+    O(damping_s, .unit = "s", .help = "time in which the amplitude falls by e") \
+    O(t_s, .unit = "s", .help = "t for mass_msun") \
+    O(wave, .unit = "1", .help = "e^(omega_im t) cos(omega_re t)") \
+    O(sound_hz, .unit = "Hz", .help = "frequency_hz shifted by shift_octaves: that of the WAV file") \
     O(sound_damping_s, .unit = "s", .help = "damping_s likewise, times stretch")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 
@@ -95,4 +98,5 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     return KD_OK;
 }
 
-KD_QUANTITY(qnm, "qnm", "quasi-normal modes of a Kerr hole, and its ringdown", .point_us = 1, .fresh_us = 1500, .sound = true)
+KD_QUANTITY(qnm, "qnm", "quasi-normal modes of a Kerr hole, and its ringdown", .point_us = 1, .fresh_us = 1500,
+            .sound = true)

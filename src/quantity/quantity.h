@@ -1,14 +1,15 @@
-/* Quantities are the numbers that GET /v1/physics/NAME and `kerrd physics NAME` give by name, and docs/physics-quantities.md lists. Each is a table
- * of parameters and outputs and one function; requests, JSON, CSV, options, OpenAPI and the reference page follow from it. To add one: a file like
- * kerr.c and a line in table.c.
+/* Quantities are the numbers that GET /v1/physics/NAME and `kerrd physics NAME` give by name, and
+ * docs/physics-quantities.md lists. Each is a table of parameters and outputs and one function; requests, JSON, CSV,
+ * options, OpenAPI and the reference page follow from it. To add one: a file like kerr.c and a line in table.c.
  *
- * A parameter may be a range, first:last:count, of evenly spaced values with both ends. The answer then has a point for
- * each value; with several ranges for each combination, the last parameter of the table varying fastest.
+ * A parameter may be a range, first:last:count, of evenly spaced values with both ends. The answer then has a point
+ * for each value; with several ranges for each combination, the last parameter of the table varying fastest.
  *
  *     struct kd_quantity_request request;
  *     struct kd_quantity_answer answer = { 0 };
  *     kd_quantity_request_init(&request, kd_quantity_find("kerr"));
- *     if (kd_quantity_request_set(&request, "spin", "0:0.998:100", &error) || kd_quantity_evaluate(&request, &answer, &error))
+ *     if (kd_quantity_request_set(&request, "spin", "0:0.998:100", &error) || kd_quantity_evaluate(&request,
+ *       &answer, &error))
  *         ...
  *     kd_quantity_json(&answer, &out);
  *     kd_quantity_answer_finish(&answer);
@@ -35,8 +36,8 @@ struct kd_parameter {
     const char *initial;            /* as a request writes it; may be a range */
     double minimum, maximum;        /* both included, unless open */
     bool open;
-    bool whole;      /* whole numbers alone */
-    bool along;      /* outputs that are `fixed` do not depend on it; these come last */
+    bool whole; /* whole numbers alone */
+    bool along; /* outputs that are `fixed` do not depend on it; these come last */
     const char *word, *words;
 };
 
@@ -53,13 +54,13 @@ struct kd_quantity {
     const struct kd_output *outputs;
     size_t n_outputs;
     const char *const *sources, *const *approximations; /* sentences, up to a NULL */
-    /* Evaluates one point. out[] and memory (zeroed at first, memory_size bytes) keep what the last call left; `fresh` when a
-     * parameter that is not `along` has changed since. KD_EINVAL with the parameter's pointer for what lies outside the
-     * domain. */
+    /* Evaluates one point. out[] and memory (zeroed at first, memory_size bytes) keep what the last call left;
+     * `fresh` when a parameter that is not `along` has changed since. KD_EINVAL with the parameter's pointer for
+     * what lies outside the domain. */
     enum kd_status (*evaluate)(const double *in, double *out, void *memory, bool fresh, struct kd_error *error);
     size_t memory_size;
-    /* The longest time on one core of 2020, in microseconds, with the text of the answer: of each point, and of each fresh one
-     * besides. */
+    /* The longest time on one core of 2020, in microseconds, with the text of the answer: of each point, and of each
+     * fresh one besides. */
     double point_us, fresh_us;
     bool sound; /* a point of it can be heard: quantity/sound.h */
 };
@@ -92,10 +93,11 @@ struct kd_quantity_request {
 };
 
 void kd_quantity_request_init(struct kd_quantity_request *request, const struct kd_quantity *quantity);
-/* "digits" sets the digits. KD_EINVAL with "/name" for a name that is no parameter and a value that it does not allow. */
+/* "digits" sets the digits. KD_EINVAL with "/name" for a name that is no parameter and a value that it does not
+ * allow. */
 enum kd_status kd_quantity_request_set(struct kd_quantity_request *request, const char *name, const char *text,
                                        struct kd_error *error);
-size_t kd_quantity_points(const struct kd_quantity_request *request); /* saturates at KD_QUANTITY_POINTS + 1 */
+size_t kd_quantity_points(const struct kd_quantity_request *request);  /* saturates at KD_QUANTITY_POINTS + 1 */
 double kd_quantity_cost_ms(const struct kd_quantity_request *request); /* estimated, from the table alone */
 
 struct kd_quantity_answer {
@@ -109,7 +111,8 @@ enum kd_status kd_quantity_evaluate(const struct kd_quantity_request *request, s
                                     struct kd_error *error);
 void kd_quantity_answer_finish(struct kd_quantity_answer *answer);
 
-/* Does the same a point at a time, for a caller that has other work in between: begin, then next until point is answer.points. */
+/* Does the same a point at a time, for a caller that has other work in between: begin, then next until point is
+ * answer.points. */
 struct kd_quantity_run {
     struct kd_quantity_answer answer;
     size_t point; /* how many there are */
@@ -125,9 +128,9 @@ enum kd_status kd_quantity_run_begin(struct kd_quantity_run *run, const struct k
 enum kd_status kd_quantity_run_next(struct kd_quantity_run *run, struct kd_error *error);
 void kd_quantity_run_finish(struct kd_quantity_run *run);
 
-/* {"quantity", "parameters", "values", "units", "sources", "approximations"}. A parameter that is a range is an array of
- * its values; values are then arrays too, one number a point, but for outputs that no range changes. With several
- * ranges they are flat, in row-major order, and "ranges" and "shape" say of what. */
+/* {"quantity", "parameters", "values", "units", "sources", "approximations"}. A parameter that is a range is an
+ * array of its values; values are then arrays too, one number a point, but for outputs that no range changes. With
+ * several ranges they are flat, in row-major order, and "ranges" and "shape" say of what. */
 enum kd_status kd_quantity_json(const struct kd_quantity_answer *answer, struct kd_buffer *out);
 /* A line of names, then one line a point: every parameter, every output. */
 enum kd_status kd_quantity_csv(const struct kd_quantity_answer *answer, struct kd_buffer *out);

@@ -5,27 +5,30 @@
 #include "physics/kerr.h"
 #include "physics/ring_image.h"
 
-#define PARAMETERS(P)                                                                                                  \
-    KD_PARAMETER_SPIN(P)                                                                                               \
-    P(inclination_deg, .unit = "degrees", .initial = "60", .minimum = 0, .maximum = 180,                               \
-      .help = "polar angle of the observer, at infinity; not within 0.1 of 90")                                        \
-    P(r, .unit = "M", .initial = "6", .minimum = 1, .maximum = 1e4, .word = "isco", .help = "radius of the ring")      \
-    P(phi_deg, .unit = "degrees", .initial = "0:355:72", .minimum = -360, .maximum = 720, .along = true,               \
+#define PARAMETERS(P) \
+    KD_PARAMETER_SPIN(P) \
+    P(inclination_deg, .unit = "degrees", .initial = "60", .minimum = 0, .maximum = 180, \
+      .help = "polar angle of the observer, at infinity; not within 0.1 of 90") \
+    P(r, .unit = "M", .initial = "6", .minimum = 1, .maximum = 1e4, .word = "isco", .help = "radius of the ring") \
+    P(phi_deg, .unit = "degrees", .initial = "0:355:72", .minimum = -360, .maximum = 720, .along = true, \
       .help = "azimuth on the ring, less the observer's: 0 is the near side, 90 recedes")
-#define OUTPUTS(O)                                                                                                     \
-    O(g, .unit = "1", .help = "redshift factor nu_observed/nu_emitted of the direct image")                            \
-    O(g4, .unit = "1", .help = "g^4: its bolometric intensity over the emitted one")                                   \
-    O(alpha, .unit = "M", .help = "where it is seen: to the right")                                                    \
-    O(beta, .unit = "M", .help = "where it is seen: along the projected spin")                                         \
-    O(delay, .unit = "M", .help = "time of flight, less r_o + 2 ln r_o of the observer")                               \
-    O(images, .unit = "1", .help = "direct images: 1, but 3 or more beyond a caustic, next to edge-on; the first from +alpha towards +beta is given") \
-    O(g_1, .unit = "1", .help = "g of the image of order 1, seen past the other side of the hole")                     \
-    O(g4_1, .unit = "1", .help = "its g^4")                                                                            \
-    O(alpha_1, .unit = "M", .help = "where it is seen")                                                                \
-    O(beta_1, .unit = "M", .help = "where it is seen")                                                                 \
-    O(delay_1, .unit = "M", .help = "time of flight, likewise")                                                        \
-    O(images_1, .unit = "1", .help = "images of order 1, likewise")                                                    \
-    O(g_flat, .unit = "1", .help = "sqrt(1 - 3/r)/(1 - v.n), v = sqrt(1/(r - 2)), without lensing or spin; null for r <= 3") \
+#define OUTPUTS(O) \
+    O(g, .unit = "1", .help = "redshift factor nu_observed/nu_emitted of the direct image") \
+    O(g4, .unit = "1", .help = "g^4: its bolometric intensity over the emitted one") \
+    O(alpha, .unit = "M", .help = "where it is seen: to the right") \
+    O(beta, .unit = "M", .help = "where it is seen: along the projected spin") \
+    O(delay, .unit = "M", .help = "time of flight, less r_o + 2 ln r_o of the observer") \
+    O(images, .unit = "1", \
+      .help = "direct images: 1, but 3 or more beyond a caustic, next to edge-on; the first from +alpha towards " \
+              "+beta is given") \
+    O(g_1, .unit = "1", .help = "g of the image of order 1, seen past the other side of the hole") \
+    O(g4_1, .unit = "1", .help = "its g^4") \
+    O(alpha_1, .unit = "M", .help = "where it is seen") \
+    O(beta_1, .unit = "M", .help = "where it is seen") \
+    O(delay_1, .unit = "M", .help = "time of flight, likewise") \
+    O(images_1, .unit = "1", .help = "images of order 1, likewise") \
+    O(g_flat, .unit = "1", \
+      .help = "sqrt(1 - 3/r)/(1 - v.n), v = sqrt(1/(r - 2)), without lensing or spin; null for r <= 3") \
     O(g4_flat, .unit = "1", .help = "its fourth power")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 
@@ -55,14 +58,16 @@ static double g_of(const struct parameters *p, double r, const struct kd_ring_im
 
 static enum kd_status not_found(const struct memory *m, struct kd_error *error)
 {
-    return kd_quantity_outside(error, "r", m->r, "so near the horizon that its image was not found; allowed are larger ones");
+    return kd_quantity_outside(error, "r", m->r,
+                               "so near the horizon that its image was not found; allowed are larger ones");
 }
 
 static enum kd_status make_rings(const struct parameters *p, struct memory *m, struct kd_error *error)
 {
     double i = p->inclination_deg, up = (i > 90 ? 180 - i : i) * (M_PI / 180); /* mirrored: the same but for beta */
     if (i > 89.9 && i < 90.1)
-        return kd_quantity_outside(error, "inclination_deg", i, "where the ring is a line; allowed are 0 to 89.9 and 90.1 to 180");
+        return kd_quantity_outside(error, "inclination_deg", i,
+                                   "where the ring is a line; allowed are 0 to 89.9 and 90.1 to 180");
     m->r = isinf(p->r) ? kd_kerr_isco(p->spin) : p->r;
     if (m->r <= kd_kerr_horizon(p->spin))
         return kd_quantity_outside(error, "r", m->r, "not outside the horizon at %.9g M", kd_kerr_horizon(p->spin));
@@ -93,5 +98,5 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     return KD_OK;
 }
 
-KD_QUANTITY(redshift, "redshift", "redshift g and g^4 round a ring of gas, with its lensed images", .memory_size = sizeof(struct memory),
-            .point_us = 100, .fresh_us = 3000)
+KD_QUANTITY(redshift, "redshift", "redshift g and g^4 round a ring of gas, with its lensed images",
+            .memory_size = sizeof(struct memory), .point_us = 100, .fresh_us = 3000)

@@ -106,7 +106,8 @@ static bool parse(const struct kd_parameter *p, const char *text, struct kd_axis
     return good;
 }
 
-static enum kd_status refuse(const struct kd_parameter *p, const char *pointer, const char *text, struct kd_error *error)
+static enum kd_status refuse(const struct kd_parameter *p, const char *pointer, const char *text,
+                             struct kd_error *error)
 {
     char given[64], allowed[KD_ALLOWED_TEXT];
     kd_text_clip(given, sizeof given, text);
@@ -125,10 +126,11 @@ static enum kd_status unknown(const struct kd_quantity *quantity, const char *po
     for (size_t i = 0; i < quantity->n_parameters; i++)
         kd_slip_offer(&meant, name, quantity->parameters[i].name);
     for (size_t i = 0; i < quantity->n_parameters && used < sizeof known; i++)
-        used += (size_t)snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "", quantity->parameters[i].name);
+        used +=
+            (size_t)snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "", quantity->parameters[i].name);
     if (meant.name)
-        return kd_error_field(error, pointer, "%s has no parameter \"%s\"; did you mean %s? Known are %s", quantity->name, given, meant.name,
-                              known);
+        return kd_error_field(error, pointer, "%s has no parameter \"%s\"; did you mean %s? Known are %s",
+                              quantity->name, given, meant.name, known);
     return kd_error_field(error, pointer, "%s has no parameter \"%s\"; known are %s", quantity->name, given, known);
 }
 
@@ -139,7 +141,8 @@ static enum kd_status set_digits(struct kd_quantity_request *request, const char
     const char *rest = number(text, &value);
     if (!rest || *rest || value != floor(value) || value < 1 || value > KD_DECIMAL_DIGITS) {
         kd_text_clip(given, sizeof given, text);
-        return kd_error_field(error, "/digits", "digits is \"%s\", allowed are whole numbers from 1 to %d", given, KD_DECIMAL_DIGITS);
+        return kd_error_field(error, "/digits", "digits is \"%s\", allowed are whole numbers from 1 to %d", given,
+                              KD_DECIMAL_DIGITS);
     }
     request->digits = (int)value;
     return KD_OK;
@@ -181,10 +184,7 @@ static size_t combinations(const struct kd_quantity_request *request, bool all)
     return n;
 }
 
-size_t kd_quantity_points(const struct kd_quantity_request *request)
-{
-    return combinations(request, true);
-}
+size_t kd_quantity_points(const struct kd_quantity_request *request) { return combinations(request, true); }
 
 double kd_quantity_cost_ms(const struct kd_quantity_request *request)
 {

@@ -5,32 +5,40 @@
 #include "physics/ring_image.h"
 #include "physics/ring_view.h"
 
-#define PARAMETERS(P)                                                                                                  \
-    KD_PARAMETER_SPIN(P)                                                                                               \
-    P(inclination_deg, .unit = "degrees", .initial = "60", .minimum = 0, .maximum = 180,                               \
-      .help = "polar angle of the observer; not within 0.1 of 90")                                                     \
-    KD_PARAMETER_OBSERVER(P)                                                                                           \
-    P(r, .unit = "M", .initial = "6", .minimum = 1, .maximum = 1e4, .word = "isco", .help = "radius of the ring")      \
-    P(order, .unit = "1", .initial = "0", .minimum = 0, .maximum = 1, .whole = true,                                   \
-      .help = "of the image: 0 direct, 1 past the other side of the hole")                                             \
-    P(angle_deg, .unit = "degrees", .initial = "0:355:72", .minimum = -360, .maximum = 720, .along = true,             \
-      .help = "direction of the image plane from its origin, as (cos, cos i sin) of it: even round a ring seen unlensed; at a finite radius of the sky " \
+#define PARAMETERS(P) \
+    KD_PARAMETER_SPIN(P) \
+    P(inclination_deg, .unit = "degrees", .initial = "60", .minimum = 0, .maximum = 180, \
+      .help = "polar angle of the observer; not within 0.1 of 90") \
+    KD_PARAMETER_OBSERVER(P) \
+    P(r, .unit = "M", .initial = "6", .minimum = 1, .maximum = 1e4, .word = "isco", .help = "radius of the ring") \
+    P(order, .unit = "1", .initial = "0", .minimum = 0, .maximum = 1, .whole = true, \
+      .help = "of the image: 0 direct, 1 past the other side of the hole") \
+    P(angle_deg, .unit = "degrees", .initial = "0:355:72", .minimum = -360, .maximum = 720, .along = true, \
+      .help = "direction of the image plane from its origin, as (cos, cos i sin) of it: even round a ring seen " \
+              "unlensed; at a finite radius of the sky " \
               "about -r, so in the frame of one that falls from rest at infinity")
-#define OUTPUTS(O)                                                                                                     \
-    O(alpha, .unit = "M", .help = "the image on the image plane, to the right; at any distance it labels the constants of motion; null where light has no energy at infinity") \
-    O(beta, .unit = "M", .help = "the image on the image plane, along the projected spin; likewise")                   \
-    O(right, .unit = "1", .help = "direction in which it is seen at a finite radius, a unit vector: towards +phi; null at infinity") \
-    O(up, .unit = "1", .help = "its component up, towards -theta")                                                     \
-    O(inwards, .unit = "1", .help = "its component inwards, towards -r")                                               \
-    O(phi_deg, .unit = "degrees", .help = "which point of the ring is seen there: its azimuth less the observer's, not reduced to a turn; null for an " \
-                                          "observer within the horizon, and for light whose energy at infinity is not above 0") \
-    O(delay, .unit = "M", .help = "time of flight; of an observer at infinity less r_o + 2 ln r_o; null where phi_deg is")
+#define OUTPUTS(O) \
+    O(alpha, .unit = "M", \
+      .help = "the image on the image plane, to the right; at any distance it labels the constants of motion; null " \
+              "where light has no energy at infinity") \
+    O(beta, .unit = "M", .help = "the image on the image plane, along the projected spin; likewise") \
+    O(right, .unit = "1", \
+      .help = "direction in which it is seen at a finite radius, a unit vector: towards +phi; null at infinity") \
+    O(up, .unit = "1", .help = "its component up, towards -theta") \
+    O(inwards, .unit = "1", .help = "its component inwards, towards -r") \
+    O(phi_deg, .unit = "degrees", \
+      .help = "which point of the ring is seen there: its azimuth less the observer's, not reduced to a turn; null " \
+              "for an " \
+              "observer within the horizon, and for light whose energy at infinity is not above 0") \
+    O(delay, .unit = "M", \
+      .help = "time of flight; of an observer at infinity less r_o + 2 ln r_o; null where phi_deg is")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 
 static const char *const sources[] = {
     "S. E. Gralla & A. Lupsasca 2020, Phys. Rev. D 101, 044032 (rays in closed form)",
     "B. Carter 1968, Phys. Rev. 174, 1559 (rays of observers at a finite radius, followed by Taylor series)",
-    "J. M. Bardeen, W. H. Press & S. A. Teukolsky 1972, ApJ 178, 347; C. Doran 2000, Phys. Rev. D 61, 067503 (frames of observers)",
+    "J. M. Bardeen, W. H. Press & S. A. Teukolsky 1972, ApJ 178, 347; C. Doran 2000, Phys. Rev. D 61, 067503 (frames "
+    "of observers)",
     NULL,
 };
 static const char *const approximations[] = { NULL };
@@ -68,7 +76,8 @@ static bool see_near(const struct parameters *p, const struct kd_ring_view *ring
 {
     struct kd_ring_view_point at;
     const bool found = kd_ring_view_seen(ring, p->angle_deg * (M_PI / 180), &at);
-    *o = (struct outputs) { at.alpha, at.beta, at.look.right, at.look.up, at.look.inwards, at.phi * (180 / M_PI), at.delay };
+    *o = (struct outputs) { at.alpha, at.beta, at.look.right, at.look.up, at.look.inwards, at.phi * (180 / M_PI),
+                            at.delay };
     return found;
 }
 
@@ -79,13 +88,16 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     struct memory *m = memory;
     const double i = p->inclination_deg, r = isinf(p->r) ? kd_kerr_isco(p->spin) : p->r;
     if (i > 89.9 && i < 90.1)
-        return kd_quantity_outside(error, "inclination_deg", i, "where the ring is a line; allowed are 0 to 89.9 and 90.1 to 180");
+        return kd_quantity_outside(error, "inclination_deg", i,
+                                   "where the ring is a line; allowed are 0 to 89.9 and 90.1 to 180");
     if (kd_quantity_outside_horizon(p->spin, r, error) || (fresh && make(p, r, m, error)))
         return KD_EINVAL;
     if (!(isinf(p->observer_r) ? see_far(p, &m->far, o) : see_near(p, &m->near, o)))
-        return kd_quantity_outside(error, "r", r, "too near the horizon for its image to be found; allowed are larger radii");
+        return kd_quantity_outside(error, "r", r,
+                                   "too near the horizon for its image to be found; allowed are larger radii");
     return KD_OK;
 }
 
-KD_QUANTITY(ring_image, "ring-image", "a ring in the equatorial plane as it is seen, direct or past the hole, from any distance",
+KD_QUANTITY(ring_image, "ring-image",
+            "a ring in the equatorial plane as it is seen, direct or past the hole, from any distance",
             .memory_size = sizeof(struct memory), .point_us = 300, .fresh_us = 10)

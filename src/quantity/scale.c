@@ -6,37 +6,40 @@
 #include "physics/kerr.h"
 #include "physics/scale.h"
 
-#define PARAMETERS(P)                                                                                                  \
-    P(hole, .initial = "m87", .words = "m87|sgra|none", .help = "a hole whose ring has been measured: M87*, Sgr A*")   \
-    P(spin, .unit = "M", .initial = "0", .minimum = -1, .maximum = 1, .open = true, .help = "spin parameter a")        \
-    P(inclination_deg, .unit = "degrees", .initial = "0", .minimum = 0, .maximum = 180,                                \
-      .help = "polar angle of the observer, for the shadow of a hole with spin")                                       \
-    P(mass_msun, .unit = "solar masses", .initial = "hole", .minimum = 1e-3, .maximum = 1e12, .word = "hole",          \
-      .along = true, .help = "mass of the hole")                                                                       \
-    P(distance_pc, .unit = "pc", .initial = "hole", .minimum = 1e-3, .maximum = 1e11, .word = "hole", .along = true,   \
+#define PARAMETERS(P) \
+    P(hole, .initial = "m87", .words = "m87|sgra|none", .help = "a hole whose ring has been measured: M87*, Sgr A*") \
+    P(spin, .unit = "M", .initial = "0", .minimum = -1, .maximum = 1, .open = true, .help = "spin parameter a") \
+    P(inclination_deg, .unit = "degrees", .initial = "0", .minimum = 0, .maximum = 180, \
+      .help = "polar angle of the observer, for the shadow of a hole with spin") \
+    P(mass_msun, .unit = "solar masses", .initial = "hole", .minimum = 1e-3, .maximum = 1e12, .word = "hole", \
+      .along = true, .help = "mass of the hole") \
+    P(distance_pc, .unit = "pc", .initial = "hole", .minimum = 1e-3, .maximum = 1e11, .word = "hole", .along = true, \
       .help = "its (angular diameter) distance")
-#define OUTPUTS(O)                                                                                                     \
-    O(mass, .unit = "solar masses", .help = "as used")                                                                 \
-    O(distance, .unit = "pc", .help = "as used")                                                                       \
-    O(m_km, .unit = "km", .help = "M as a length, G m/c^2")                                                            \
-    O(m_s, .unit = "s", .help = "M as a time, G m/c^3")                                                                \
-    O(m_uas, .unit = "microarcseconds", .help = "M on the sky")                                                        \
-    O(shadow_uas, .unit = "microarcseconds", .help = "mean diameter of the shadow for this spin and inclination; 2 sqrt(27) M for a = 0")                 \
-    O(ring_uas, .unit = "microarcseconds", .help = "measured diameter of the ring; null for no hole")                  \
-    O(ring_error_uas, .unit = "microarcseconds", .help = "its error, one sigma")                                       \
-    O(ring_over_shadow, .unit = "1", .help = "measured over computed")                                                 \
-    O(horizon_km, .unit = "km", .help = "radius of the horizon r+")                                                    \
-    O(horizon_au, .unit = "au", .help = "radius of the horizon r+")                                                    \
-    O(light_crossing_s, .unit = "s", .help = "time of light over the horizon's diameter, 2 r+/c")                      \
-    O(isco_period_s, .unit = "s", .help = "period of the ISCO for an observer far away")                               \
-    O(photon_period_s, .unit = "s", .help = "the same of the circular photon orbit, towards +phi")                     \
-    O(fall_s, .unit = "s", .help = "proper time from horizon to singularity, at rest at infinity, a = 0: 4/3 M")       \
+#define OUTPUTS(O) \
+    O(mass, .unit = "solar masses", .help = "as used") \
+    O(distance, .unit = "pc", .help = "as used") \
+    O(m_km, .unit = "km", .help = "M as a length, G m/c^2") \
+    O(m_s, .unit = "s", .help = "M as a time, G m/c^3") \
+    O(m_uas, .unit = "microarcseconds", .help = "M on the sky") \
+    O(shadow_uas, .unit = "microarcseconds", \
+      .help = "mean diameter of the shadow for this spin and inclination; 2 sqrt(27) M for a = 0") \
+    O(ring_uas, .unit = "microarcseconds", .help = "measured diameter of the ring; null for no hole") \
+    O(ring_error_uas, .unit = "microarcseconds", .help = "its error, one sigma") \
+    O(ring_over_shadow, .unit = "1", .help = "measured over computed") \
+    O(horizon_km, .unit = "km", .help = "radius of the horizon r+") \
+    O(horizon_au, .unit = "au", .help = "radius of the horizon r+") \
+    O(light_crossing_s, .unit = "s", .help = "time of light over the horizon's diameter, 2 r+/c") \
+    O(isco_period_s, .unit = "s", .help = "period of the ISCO for an observer far away") \
+    O(photon_period_s, .unit = "s", .help = "the same of the circular photon orbit, towards +phi") \
+    O(fall_s, .unit = "s", .help = "proper time from horizon to singularity, at rest at infinity, a = 0: 4/3 M") \
     O(fall_longest_s, .unit = "s", .help = "the longest that there is for a = 0: pi M")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 
 static const char *const sources[] = {
-    "M87*: Event Horizon Telescope Collaboration 2019, ApJL 875, L1: 42 +- 3 microarcseconds, 6.5e9 solar masses, 16.8 Mpc",
-    "Sgr A*: EHT Collaboration 2022, ApJL 930, L12: 51.8 +- 2.3 microarcseconds; GRAVITY Collaboration 2022, A&A 657, L12: 4.297e6 solar masses, 8277 pc",
+    "M87*: Event Horizon Telescope Collaboration 2019, ApJL 875, L1: 42 +- 3 microarcseconds, 6.5e9 solar masses, 16.8 "
+    "Mpc",
+    "Sgr A*: EHT Collaboration 2022, ApJL 930, L12: 51.8 +- 2.3 microarcseconds; GRAVITY Collaboration 2022, A&A 657, "
+    "L12: 4.297e6 solar masses, 8277 pc",
     "critical curve: J. M. Bardeen 1973, in Black Holes (Les Houches), p. 215",
     "constants: CODATA 2018, IAU 2012 B2, IAU 2015 B2 and B3",
     NULL,
@@ -69,9 +72,11 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
         m->shadow = shadow_of(p);
     const struct kd_scale_hole *hole = p->hole < KD_SCALE_HOLES ? &kd_scale_holes[(int)p->hole] : NULL;
     if (!hole && isinf(p->mass_msun))
-        return kd_error_field(error, "/mass_msun", "mass_msun is \"hole\", and hole is \"none\": one of them must be given");
+        return kd_error_field(error, "/mass_msun",
+                              "mass_msun is \"hole\", and hole is \"none\": one of them must be given");
     if (!hole && isinf(p->distance_pc))
-        return kd_error_field(error, "/distance_pc", "distance_pc is \"hole\", and hole is \"none\": one of them must be given");
+        return kd_error_field(error, "/distance_pc",
+                              "distance_pc is \"hole\", and hole is \"none\": one of them must be given");
     o->mass = isinf(p->mass_msun) ? hole->mass_msun : p->mass_msun;
     o->distance = isinf(p->distance_pc) ? hole->distance_pc : p->distance_pc;
     o->m_km = kd_scale_metres(o->mass) * 1e-3;

@@ -3,20 +3,23 @@
 #include "physics/angle.h"
 #include "physics/orbit.h"
 
-#define PARAMETERS(P)                                                                                                  \
-    KD_PARAMETER_SPIN(P)                                                                                               \
-    P(inclination_deg, .unit = "degrees", .initial = "0", .minimum = 0, .maximum = 180,                                \
-      .help = "inclination of the orbit to the equator, as of /v1/orbits; more than 90 is retrograde")                 \
+#define PARAMETERS(P) \
+    KD_PARAMETER_SPIN(P) \
+    P(inclination_deg, .unit = "degrees", .initial = "0", .minimum = 0, .maximum = 180, \
+      .help = "inclination of the orbit to the equator, as of /v1/orbits; more than 90 is retrograde") \
     P(e, .unit = "1", .initial = "0", .minimum = 0, .maximum = 0.999999, .along = true, .help = "eccentricity")
-#define OUTPUTS(O)                                                                                                     \
-    O(p, .unit = "M", .help = "least semi-latus rectum of a stable bound orbit")                                       \
-    O(r_min, .unit = "M", .help = "where a body on the separatrix whirls: its periapsis p/(1 + e)")                    \
-    O(r_max, .unit = "M", .help = "its apoapsis p/(1 - e)")                                                            \
-    O(circle, .unit = "M", .help = "radius of the orbit of light of this inclination: above it there are circles, below the separatrix unstable ones")
+#define OUTPUTS(O) \
+    O(p, .unit = "M", .help = "least semi-latus rectum of a stable bound orbit") \
+    O(r_min, .unit = "M", .help = "where a body on the separatrix whirls: its periapsis p/(1 + e)") \
+    O(r_max, .unit = "M", .help = "its apoapsis p/(1 - e)") \
+    O(circle, .unit = "M", \
+      .help = "radius of the orbit of light of this inclination: above it there are circles, below the separatrix " \
+              "unstable ones")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 
 static const char *const sources[] = {
-    "L. C. Stein & N. Warburton 2020, Phys. Rev. D 101, 064007 (what the separatrix is: two radial turning points coincide)",
+    "L. C. Stein & N. Warburton 2020, Phys. Rev. D 101, 064007 (what the separatrix is: two radial turning points "
+    "coincide)",
     "W. Schmidt 2002, Class. Quantum Grav. 19, 2743 (constants of motion from p, e, inclination)",
     NULL,
 };
@@ -34,4 +37,5 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     return KD_OK;
 }
 
-KD_QUANTITY(separatrix, "separatrix", "where bound orbits end: the least p of a stable one, by eccentricity and inclination", .point_us = 60)
+KD_QUANTITY(separatrix, "separatrix",
+            "where bound orbits end: the least p of a stable one, by eccentricity and inclination", .point_us = 60)

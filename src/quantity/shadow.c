@@ -3,32 +3,38 @@
 #include "physics/angle.h"
 #include "physics/critical.h"
 
-#define PARAMETERS(P)                                                                                                  \
-    KD_PARAMETER_SPIN(P)                                                                                               \
-    P(inclination_deg, .unit = "degrees", .initial = "60", .minimum = 0, .maximum = 180, .help = "polar angle of the observer") \
-    KD_PARAMETER_OBSERVER(P)                                                                                           \
-    P(angle_deg, .unit = "degrees", .initial = "0:355:72", .minimum = -360, .maximum = 720, .along = true,             \
+#define PARAMETERS(P) \
+    KD_PARAMETER_SPIN(P) \
+    P(inclination_deg, .unit = "degrees", .initial = "60", .minimum = 0, .maximum = 180, \
+      .help = "polar angle of the observer") \
+    KD_PARAMETER_OBSERVER(P) \
+    P(angle_deg, .unit = "degrees", .initial = "0:355:72", .minimum = -360, .maximum = 720, .along = true, \
       .help = "where on the curve: about its centre, from the right over the top")
-#define OUTPUTS(O)                                                                                                     \
-    O(alpha, .unit = "M", .help = "the curve on the image plane, to the right; at any distance it labels the constants of motion") \
-    O(beta, .unit = "M", .help = "the curve on the image plane, along the projected spin; likewise")                   \
-    O(rho, .unit = "M or radians", .help = "distance from the centre: in M for an observer at infinity, else an angle on the sky") \
-    O(right, .unit = "1", .help = "direction in which it is seen at a finite radius, a unit vector: towards +phi; null at infinity") \
-    O(up, .unit = "1", .help = "its component up, towards -theta")                                                     \
-    O(inwards, .unit = "1", .help = "its component inwards, towards -r")                                               \
-    O(orbit_r, .unit = "M", .help = "radius of the photon orbit that is seen there")                                   \
-    O(lyapunov, .unit = "1", .help = "gamma of that orbit: images of order n lie closer by e^-gamma each half turn")   \
-    O(area, .unit = "M^2 or sr", .fixed = true, .help = "of the shadow: in M^2, or the solid angle")                   \
-    O(mean_radius, .unit = "M or radians", .fixed = true, .help = "mean of rho about the middle of the two ends")      \
-    O(displacement, .unit = "M or radians", .fixed = true, .help = "of that middle from the hole's centre, to the right") \
-    O(asymmetry, .unit = "M or radians", .fixed = true, .help = "twice the root mean square of rho less its mean")     \
-    O(width, .unit = "M or radians", .fixed = true, .help = "from left to right end")                                  \
+#define OUTPUTS(O) \
+    O(alpha, .unit = "M", \
+      .help = "the curve on the image plane, to the right; at any distance it labels the constants of motion") \
+    O(beta, .unit = "M", .help = "the curve on the image plane, along the projected spin; likewise") \
+    O(rho, .unit = "M or radians", \
+      .help = "distance from the centre: in M for an observer at infinity, else an angle on the sky") \
+    O(right, .unit = "1", \
+      .help = "direction in which it is seen at a finite radius, a unit vector: towards +phi; null at infinity") \
+    O(up, .unit = "1", .help = "its component up, towards -theta") \
+    O(inwards, .unit = "1", .help = "its component inwards, towards -r") \
+    O(orbit_r, .unit = "M", .help = "radius of the photon orbit that is seen there") \
+    O(lyapunov, .unit = "1", .help = "gamma of that orbit: images of order n lie closer by e^-gamma each half turn") \
+    O(area, .unit = "M^2 or sr", .fixed = true, .help = "of the shadow: in M^2, or the solid angle") \
+    O(mean_radius, .unit = "M or radians", .fixed = true, .help = "mean of rho about the middle of the two ends") \
+    O(displacement, .unit = "M or radians", .fixed = true, \
+      .help = "of that middle from the hole's centre, to the right") \
+    O(asymmetry, .unit = "M or radians", .fixed = true, .help = "twice the root mean square of rho less its mean") \
+    O(width, .unit = "M or radians", .fixed = true, .help = "from left to right end") \
     O(height, .unit = "M or radians", .fixed = true, .help = "from bottom to top")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 
 static const char *const sources[] = {
     "J. M. Bardeen 1973, in Black Holes (Les Houches), p. 215; E. Teo 2003, Gen. Rel. Grav. 35, 1909",
-    "T. Johannsen & D. Psaltis 2010, ApJ 718, 446; C.-K. Chan, D. Psaltis & F. Ozel 2013, ApJ 777, 13 (displacement, radius, asymmetry)",
+    "T. Johannsen & D. Psaltis 2010, ApJ 718, 446; C.-K. Chan, D. Psaltis & F. Ozel 2013, ApJ 777, 13 (displacement, "
+    "radius, asymmetry)",
     "M. D. Johnson et al. 2020, Sci. Adv. 6, eaaz1310 (gamma)",
     NULL,
 };
@@ -36,11 +42,17 @@ static const char *const approximations[] = { NULL };
 
 struct memory { struct kd_critical curve; };
 
-static enum kd_status make_curve(const struct parameters *p, struct memory *m, struct outputs *o, struct kd_error *error)
+static enum kd_status make_curve(const struct parameters *p, struct memory *m, struct outputs *o,
+                                 struct kd_error *error)
 {
-    const struct kd_vantage at = { p->spin, p->observer_r, kd_cos_deg(p->inclination_deg), kd_sin_deg(p->inclination_deg) };
+    const struct kd_vantage at = { p->spin, p->observer_r, kd_cos_deg(p->inclination_deg),
+                                   kd_sin_deg(p->inclination_deg) };
     const struct kd_critical_observer observer = {
-        .spin = at.spin, .radius = at.r, .cos_theta = at.u, .sin_theta = at.s, .motion = KD_QUANTITY_MOTION(p),
+        .spin = at.spin,
+        .radius = at.r,
+        .cos_theta = at.u,
+        .sin_theta = at.s,
+        .motion = KD_QUANTITY_MOTION(p),
     };
     if (kd_quantity_observer_exists(&observer.motion, &at, error))
         return KD_EINVAL;

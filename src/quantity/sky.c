@@ -3,30 +3,36 @@
 #include "physics/angle.h"
 #include "physics/sky_view.h"
 
-#define PARAMETERS(P)                                                                                                  \
-    KD_PARAMETER_SPIN(P)                                                                                               \
-    P(inclination_deg, .unit = "degrees", .initial = "60", .minimum = 0, .maximum = 180, .help = "polar angle of the observer") \
-    KD_PARAMETER_OBSERVER(P)                                                                                           \
-    P(yaw_deg, .unit = "degrees", .initial = "0:180:37", .minimum = -360, .maximum = 360, .along = true,               \
-      .help = "direction of g: to the right of the hole, 180 straight away from it, as camera.yaw_deg")                \
-    P(pitch_deg, .unit = "degrees", .initial = "0", .minimum = -90, .maximum = 90, .along = true, .help = "upwards, as camera.pitch_deg")
-#define OUTPUTS(O)                                                                                                     \
-    O(g, .unit = "1", .help = "frequency of starlight from that direction, as it is measured, over that far away; null in the dark disk") \
-    O(g_ahead, .unit = "1", .fixed = true, .help = "the same straight ahead, towards the hole")                        \
-    O(g_behind, .unit = "1", .fixed = true, .help = "straight behind, away from the hole")                             \
-    O(g_above, .unit = "1", .fixed = true, .help = "overhead, towards -theta")                                         \
-    O(g_below, .unit = "1", .fixed = true, .help = "towards +theta")                                                   \
-    O(g_right, .unit = "1", .fixed = true, .help = "towards +phi")                                                     \
-    O(g_left, .unit = "1", .fixed = true, .help = "towards -phi")                                                      \
-    O(g_least, .unit = "1", .fixed = true, .help = "least over all the sky that is seen")                              \
-    O(g_greatest, .unit = "1", .fixed = true, .help = "largest over it")                                               \
-    O(dark_radius_deg, .unit = "degrees", .fixed = true, .help = "angular radius of the black disk: of the round one of its solid angle") \
-    O(dark_sr, .unit = "sr", .fixed = true, .help = "solid angle of the black disk")                                   \
+#define PARAMETERS(P) \
+    KD_PARAMETER_SPIN(P) \
+    P(inclination_deg, .unit = "degrees", .initial = "60", .minimum = 0, .maximum = 180, \
+      .help = "polar angle of the observer") \
+    KD_PARAMETER_OBSERVER(P) \
+    P(yaw_deg, .unit = "degrees", .initial = "0:180:37", .minimum = -360, .maximum = 360, .along = true, \
+      .help = "direction of g: to the right of the hole, 180 straight away from it, as camera.yaw_deg") \
+    P(pitch_deg, .unit = "degrees", .initial = "0", .minimum = -90, .maximum = 90, .along = true, \
+      .help = "upwards, as camera.pitch_deg")
+#define OUTPUTS(O) \
+    O(g, .unit = "1", \
+      .help = \
+          "frequency of starlight from that direction, as it is measured, over that far away; null in the dark disk") \
+    O(g_ahead, .unit = "1", .fixed = true, .help = "the same straight ahead, towards the hole") \
+    O(g_behind, .unit = "1", .fixed = true, .help = "straight behind, away from the hole") \
+    O(g_above, .unit = "1", .fixed = true, .help = "overhead, towards -theta") \
+    O(g_below, .unit = "1", .fixed = true, .help = "towards +theta") \
+    O(g_right, .unit = "1", .fixed = true, .help = "towards +phi") \
+    O(g_left, .unit = "1", .fixed = true, .help = "towards -phi") \
+    O(g_least, .unit = "1", .fixed = true, .help = "least over all the sky that is seen") \
+    O(g_greatest, .unit = "1", .fixed = true, .help = "largest over it") \
+    O(dark_radius_deg, .unit = "degrees", .fixed = true, \
+      .help = "angular radius of the black disk: of the round one of its solid angle") \
+    O(dark_sr, .unit = "sr", .fixed = true, .help = "solid angle of the black disk") \
     O(dark_share, .unit = "1", .fixed = true, .help = "the part of all directions that it takes")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 
 static const char *const sources[] = {
-    "J. M. Bardeen, W. H. Press & S. A. Teukolsky 1972, ApJ 178, 347; C. Doran 2000, Phys. Rev. D 61, 067503 (frames of observers)",
+    "J. M. Bardeen, W. H. Press & S. A. Teukolsky 1972, ApJ 178, 347; C. Doran 2000, Phys. Rev. D 61, 067503 (frames "
+    "of observers)",
     "J. M. Bardeen 1973, in Black Holes (Les Houches), p. 215 (the edge of the black disk)",
     NULL,
 };
@@ -35,16 +41,19 @@ static const char *const approximations[] = { NULL };
 struct memory { struct kd_sky_view view; };
 
 /* Far away all the sky is as it is, and the hole is a point. */
-static void far_away(struct outputs *o)
-{
-    *o = (struct outputs) { 1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 0 };
-}
+static void far_away(struct outputs *o) { *o = (struct outputs) { 1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 0 }; }
 
-static enum kd_status look_around(const struct parameters *p, struct kd_sky_view *view, struct outputs *o, struct kd_error *error)
+static enum kd_status look_around(const struct parameters *p, struct kd_sky_view *view, struct outputs *o,
+                                  struct kd_error *error)
 {
-    const struct kd_vantage at = { p->spin, p->observer_r, kd_cos_deg(p->inclination_deg), kd_sin_deg(p->inclination_deg) };
+    const struct kd_vantage at = { p->spin, p->observer_r, kd_cos_deg(p->inclination_deg),
+                                   kd_sin_deg(p->inclination_deg) };
     const struct kd_critical_observer observer = {
-        .spin = at.spin, .radius = at.r, .cos_theta = at.u, .sin_theta = at.s, .motion = KD_QUANTITY_MOTION(p),
+        .spin = at.spin,
+        .radius = at.r,
+        .cos_theta = at.u,
+        .sin_theta = at.s,
+        .motion = KD_QUANTITY_MOTION(p),
     };
     if (kd_quantity_observer_exists(&observer.motion, &at, error))
         return KD_EINVAL;

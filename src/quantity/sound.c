@@ -31,7 +31,8 @@ enum kd_status kd_quantity_sound_check(const struct kd_quantity_request *request
     const struct kd_quantity *quantity = request->quantity;
     char pointer[60];
     if (!quantity->sound)
-        return kd_error_field(error, "/format", "format is \"wav\", allowed for %s are \"json\" and \"csv\"", quantity->name);
+        return kd_error_field(error, "/format", "format is \"wav\", allowed for %s are \"json\" and \"csv\"",
+                              quantity->name);
     for (size_t i = 0; i < quantity->n_parameters; i++) {
         snprintf(pointer, sizeof pointer, "/%s", quantity->parameters[i].name);
         if (request->axes[i].count > 1)
@@ -59,11 +60,12 @@ static enum kd_status audible(const struct kd_quantity_answer *answer, struct kd
     double low = four_digits(mass * hz / KD_SOUND_HZ_MAX, true), high = four_digits(mass * hz / KD_SOUND_HZ_MIN, false);
     if (hz >= KD_SOUND_HZ_MIN && hz <= KD_SOUND_HZ_MAX)
         return KD_OK;
-    return kd_error_field(error, "/mass_msun",
-                          "mass_msun is %g, which rings at %.3g Hz with this shift_octaves; heard are %g to %g Hz: allowed are masses "
-                          "from %.4g to %.4g solar masses, or shift_octaves %.0f to %.0f for this one",
-                          mass, hz, KD_SOUND_HZ_MIN, KD_SOUND_HZ_MAX, low, high, ceil(log2(KD_SOUND_HZ_MIN / natural)),
-                          floor(log2(KD_SOUND_HZ_MAX / natural)));
+    return kd_error_field(
+        error, "/mass_msun",
+        "mass_msun is %g, which rings at %.3g Hz with this shift_octaves; heard are %g to %g Hz: allowed are masses "
+        "from %.4g to %.4g solar masses, or shift_octaves %.0f to %.0f for this one",
+        mass, hz, KD_SOUND_HZ_MIN, KD_SOUND_HZ_MAX, low, high, ceil(log2(KD_SOUND_HZ_MIN / natural)),
+        floor(log2(KD_SOUND_HZ_MAX / natural)));
 }
 
 static double parameter_of(const struct kd_quantity_answer *answer, const char *name)
@@ -71,16 +73,18 @@ static double parameter_of(const struct kd_quantity_answer *answer, const char *
     return answer->request.axes[parameter(answer->request.quantity, name)].first;
 }
 
-/* Every mode is short enough unstretched: the mode of the greatest quality, 285 (l = m = 4, a = 0.9999), fades by e in 4.5 s
- * at 20 Hz. */
+/* Every mode is short enough unstretched: the mode of the greatest quality, 285 (l = m = 4, a = 0.9999), fades by e
+ * in 4.5 s at 20 Hz. */
 static enum kd_status short_enough(const struct kd_quantity_answer *answer, struct kd_error *error)
 {
     double fades = output(answer, "sound_damping_s"), stretch = parameter_of(answer, "stretch");
     if (fades <= KD_SOUND_DAMPING_S)
         return KD_OK;
-    return kd_error_field(error, "/stretch", "stretch is %g, which makes the sound fade by e in %.3g s; allowed for this one is 1 to %.4g, "
-                          "which is %g s", stretch, fades, four_digits(fmax(1, KD_SOUND_DAMPING_S * stretch / fades), false),
-                          KD_SOUND_DAMPING_S);
+    return kd_error_field(
+        error, "/stretch",
+        "stretch is %g, which makes the sound fade by e in %.3g s; allowed for this one is 1 to %.4g, "
+        "which is %g s",
+        stretch, fades, four_digits(fmax(1, KD_SOUND_DAMPING_S * stretch / fades), false), KD_SOUND_DAMPING_S);
 }
 
 /* A file in memory. */
@@ -132,10 +136,12 @@ static void describe(SNDFILE *file, const struct kd_quantity_answer *answer)
                               answer->request.axes[i].first);
     if (n < sizeof text)
         n += (size_t)snprintf(text + n, sizeof text - n,
-                              "; the hole rings at %.6g Hz and fades by e in %.6g s; this sound is %g octaves higher, at %.6g Hz, and fades "
+                              "; the hole rings at %.6g Hz and fades by e in %.6g s; this sound is %g octaves higher, "
+                              "at %.6g Hz, and fades "
                               "by e in %.6g s, %g times as slowly as it would at that pitch",
-                              output(answer, "frequency_hz"), output(answer, "damping_s"), parameter_of(answer, "shift_octaves"),
-                              output(answer, "sound_hz"), output(answer, "sound_damping_s"), parameter_of(answer, "stretch"));
+                              output(answer, "frequency_hz"), output(answer, "damping_s"),
+                              parameter_of(answer, "shift_octaves"), output(answer, "sound_hz"),
+                              output(answer, "sound_damping_s"), parameter_of(answer, "stretch"));
     for (size_t i = 0; quantity->approximations[i] && n < sizeof text; i++)
         n += (size_t)snprintf(text + n, sizeof text - n, "; %s", quantity->approximations[i]);
     sf_set_string(file, SF_STR_TITLE, quantity->summary);

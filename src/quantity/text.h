@@ -8,7 +8,8 @@
 /* A number in the fewest digits; `missing` if it is none. */
 void kd_quantity_write_number(struct kd_writer *w, double value, const char *missing);
 /* A parameter's value: a number, or its word between quotes. */
-void kd_quantity_write_value(struct kd_writer *w, const struct kd_parameter *parameter, double value, const char *quote);
+void kd_quantity_write_value(struct kd_writer *w, const struct kd_parameter *parameter, double value,
+                             const char *quote);
 /* ["...", ...] of a list ended by NULL. */
 void kd_quantity_write_sentences(struct kd_writer *w, const char *const *sentences);
 

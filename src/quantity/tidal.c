@@ -6,32 +6,40 @@
 #include "physics/scale.h"
 #include "physics/tidal.h"
 
-#define PARAMETERS(P)                                                                                                  \
-    P(spin, .unit = "M", .initial = "0", .minimum = -1, .maximum = 1, .open = true,                                    \
-      .help = "spin parameter a; a < 0: the star comes in against the hole's spin")                                    \
-    P(mass_msun, .unit = "solar masses", .initial = "1e6", .minimum = 1e-3, .maximum = 1e12, .help = "mass of the hole") \
-    P(star_mass_msun, .unit = "solar masses", .initial = "1", .minimum = 1e-3, .maximum = 1e3, .help = "mass of the star") \
-    P(star_radius_rsun, .unit = "solar radii", .initial = "1", .minimum = 1e-6, .maximum = 1e4, .help = "its radius")  \
-    P(penetration, .unit = "1", .initial = "1", .minimum = 0.1, .maximum = 100, .along = true,                         \
-      .help = "tidal radius over pericentre of its parabolic orbit")                                                   \
-    P(time_days, .unit = "days", .initial = "fallback", .minimum = 0, .maximum = 1e9, .word = "fallback", .along = true, \
+#define PARAMETERS(P) \
+    P(spin, .unit = "M", .initial = "0", .minimum = -1, .maximum = 1, .open = true, \
+      .help = "spin parameter a; a < 0: the star comes in against the hole's spin") \
+    P(mass_msun, .unit = "solar masses", .initial = "1e6", .minimum = 1e-3, .maximum = 1e12, \
+      .help = "mass of the hole") \
+    P(star_mass_msun, .unit = "solar masses", .initial = "1", .minimum = 1e-3, .maximum = 1e3, \
+      .help = "mass of the star") \
+    P(star_radius_rsun, .unit = "solar radii", .initial = "1", .minimum = 1e-6, .maximum = 1e4, .help = "its radius") \
+    P(penetration, .unit = "1", .initial = "1", .minimum = 0.1, .maximum = 100, .along = true, \
+      .help = "tidal radius over pericentre of its parabolic orbit") \
+    P(time_days, .unit = "days", .initial = "fallback", .minimum = 0, .maximum = 1e9, .word = "fallback", \
+      .along = true, \
       .help = "time after the disruption, for the rate of fallback; \"fallback\": when the first debris returns")
-#define OUTPUTS(O)                                                                                                     \
-    O(tidal_radius, .unit = "M", .fixed = true, .help = "r_t = R (M/m)^(1/3)")                                         \
-    O(tidal_radius_km, .unit = "km", .fixed = true, .help = "r_t")                                                     \
-    O(horizon, .unit = "M", .fixed = true, .help = "outer horizon")                                                    \
+#define OUTPUTS(O) \
+    O(tidal_radius, .unit = "M", .fixed = true, .help = "r_t = R (M/m)^(1/3)") \
+    O(tidal_radius_km, .unit = "km", .fixed = true, .help = "r_t") \
+    O(horizon, .unit = "M", .fixed = true, .help = "outer horizon") \
     O(marginally_bound, .unit = "M", .fixed = true, .help = "parabolic orbits with a smaller pericentre are captured") \
-    O(hills_msun, .unit = "solar masses", .fixed = true, .help = "mass of a hole whose horizon is at r_t of this star (Hills)") \
-    O(capture_msun, .unit = "solar masses", .fixed = true, .help = "with the marginally bound orbit at r_t: the heaviest that tears it") \
-    O(energy_spread, .unit = "c^2", .fixed = true, .help = "half the range of specific energy in the debris, M R/r_t^2") \
-    O(fallback_s, .unit = "s", .fixed = true, .help = "time t_fb until the first debris returns")                      \
-    O(fallback_days, .unit = "days", .fixed = true, .help = "the same")                                                \
-    O(peak_msun_yr, .unit = "solar masses a year", .fixed = true, .help = "largest rate of fallback, m/(3 t_fb)")      \
-    O(peak_eddington, .unit = "Eddington rates", .fixed = true, .help = "the same, with the efficiency of this spin")  \
-    O(above_eddington_days, .unit = "days", .fixed = true, .help = "until the rate falls to the Eddington rate; null if it is never above") \
-    O(pericentre, .unit = "M", .help = "r_t over penetration")                                                         \
+    O(hills_msun, .unit = "solar masses", .fixed = true, \
+      .help = "mass of a hole whose horizon is at r_t of this star (Hills)") \
+    O(capture_msun, .unit = "solar masses", .fixed = true, \
+      .help = "with the marginally bound orbit at r_t: the heaviest that tears it") \
+    O(energy_spread, .unit = "c^2", .fixed = true, \
+      .help = "half the range of specific energy in the debris, M R/r_t^2") \
+    O(fallback_s, .unit = "s", .fixed = true, .help = "time t_fb until the first debris returns") \
+    O(fallback_days, .unit = "days", .fixed = true, .help = "the same") \
+    O(peak_msun_yr, .unit = "solar masses a year", .fixed = true, .help = "largest rate of fallback, m/(3 t_fb)") \
+    O(peak_eddington, .unit = "Eddington rates", .fixed = true, .help = "the same, with the efficiency of this spin") \
+    O(above_eddington_days, .unit = "days", .fixed = true, \
+      .help = "until the rate falls to the Eddington rate; null if it is never above") \
+    O(pericentre, .unit = "M", .help = "r_t over penetration") \
     O(pericentre_over_capture, .unit = "1", .help = "over marginally_bound: below 1 the star is swallowed whole") \
-    O(rate_msun_yr, .unit = "solar masses a year", .help = "rate of fallback at time_days, as t^(-5/3) after t_fb, 0 before")
+    O(rate_msun_yr, .unit = "solar masses a year", \
+      .help = "rate of fallback at time_days, as t^(-5/3) after t_fb, 0 before")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 
 static const char *const sources[] = {
@@ -42,8 +50,10 @@ static const char *const sources[] = {
     NULL,
 };
 static const char *const approximations[] = {
-    "Newton's tide on a star without structure or spin, on a parabolic orbit; spin enters through horizon and capture alone",
-    "debris spread evenly in energy and half of it bound; simulations differ by factors of two, and rise smoothly to the peak",
+    "Newton's tide on a star without structure or spin, on a parabolic orbit; spin enters through horizon and capture "
+    "alone",
+    "debris spread evenly in energy and half of it bound; simulations differ by factors of two, and rise smoothly to "
+    "the peak",
     NULL,
 };
 

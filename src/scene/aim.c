@@ -5,7 +5,8 @@
 
 #include <math.h>
 
-/* At a horizon E, L and Delta p_r say one thing less than elsewhere (tetrad.h): a camera that is so near to it looks as one beside it does. */
+/* At a horizon E, L and Delta p_r say one thing less than elsewhere (tetrad.h): a camera that is so near to it looks
+ * as one beside it does. */
 static const double BESIDE = 1e-7;
 
 static struct kd_vantage beside_horizon(struct kd_vantage at)
@@ -31,20 +32,24 @@ static struct kd_covector straight_out(const struct kd_vantage *at)
 }
 
 /* A photon that arrives from there: it flies along minus the way. */
-static bool arriving(const struct kd_aim *aim, const struct kd_scene *scene, const struct kd_vantage *at, struct kd_covector *out)
+static bool arriving(const struct kd_aim *aim, const struct kd_scene *scene, const struct kd_vantage *at,
+                     struct kd_covector *out)
 {
     const bool falls = scene->camera.observer == KD_OBSERVER_INFALL;
     const struct kd_observer_motion by = kd_observer_motion_of(falls ? KD_OBSERVER_INFALL : KD_OBSERVER_ZAMO);
     const struct kd_tetrad frame = kd_observer_tetrad(&by, at);
-    const double u = kd_cos_deg(aim->theta_deg), s = kd_sin_deg(aim->theta_deg), phi = aim->phi_deg - scene->camera.azimuth_deg;
+    const double u = kd_cos_deg(aim->theta_deg), s = kd_sin_deg(aim->theta_deg),
+                 phi = aim->phi_deg - scene->camera.azimuth_deg;
     const double far = isinf(aim->r) ? 1 : aim->r, here = isinf(aim->r) ? 0 : at->r;
-    const double x = far * s * kd_cos_deg(phi) - here * at->s, y = far * s * kd_sin_deg(phi), z = far * u - here * at->u, length = sqrt(x * x + y * y + z * z);
+    const double x = far * s * kd_cos_deg(phi) - here * at->s, y = far * s * kd_sin_deg(phi),
+                 z = far * u - here * at->u, length = sqrt(x * x + y * y + z * z);
     const double m[4] = { 1, -(at->s * x + at->u * z) / length, -(at->u * x - at->s * z) / length, -y / length };
     *out = kd_tetrad_covector(&frame, m);
     return length > 1e-9 * fmax(far, here);
 }
 
-enum kd_status kd_aim_look(const struct kd_aim *aim, const struct kd_scene *scene, double look[3], struct kd_error *error)
+enum kd_status kd_aim_look(const struct kd_aim *aim, const struct kd_scene *scene, double look[3],
+                           struct kd_error *error)
 {
     if (aim->kind == KD_AIM_FREE) {
         free_look(scene, look);

@@ -16,29 +16,38 @@ bool kd_asset_is_hash(const char *text)
 bool kd_asset_is_name(const char *text)
 {
     size_t length = strlen(text);
-    return length && length < KD_ASSET_NAME - 1 && strcmp(text, "null") && strchr(LETTERS, *text) && strspn(text, LETTERS DIGITS "._-") == length;
+    return length && length < KD_ASSET_NAME - 1 && strcmp(text, "null") && strchr(LETTERS, *text) &&
+           strspn(text, LETTERS DIGITS "._-") == length;
 }
 
 /* What a field takes. */
-static enum kd_status suits(const struct kd_scene *scene, const char *path, const char *pointer, const struct kd_asset_found *found, struct kd_error *error)
+static enum kd_status suits(const struct kd_scene *scene, const char *path, const char *pointer,
+                            const struct kd_asset_found *found, struct kd_error *error)
 {
     if (!strcmp(path, "volume.grid")) {
         if (!found->nodes[0])
-            return kd_error_field(error, pointer, "%s is a picture of %u x %u pixels, allowed is a grid of matter, an NPZ file", path, found->width, found->height);
+            return kd_error_field(error, pointer,
+                                  "%s is a picture of %u x %u pixels, allowed is a grid of matter, an NPZ file", path,
+                                  found->width, found->height);
         return kd_asset_check_grid(found->spin, scene, error);
     }
     if (strcmp(path, "sky.image"))
         return KD_OK;
     if (found->nodes[0])
-        return kd_error_field(error, pointer, "%s is a grid of matter of %u x %u x %u nodes, allowed is a picture of the whole sky", path, found->nodes[0], found->nodes[1], found->nodes[2]);
+        return kd_error_field(error, pointer,
+                              "%s is a grid of matter of %u x %u x %u nodes, allowed is a picture of the whole sky",
+                              path, found->nodes[0], found->nodes[1], found->nodes[2]);
     if (!kd_asset_is_panorama(found->width, found->height))
-        return kd_error_field(error, pointer, "%s is a picture of %u x %u pixels, allowed is one of the whole sky: twice as wide as it is high, of %d to %d "
-                              "rows", path, found->width, found->height, KD_PANORAMA_LEAST, KD_PANORAMA_MOST);
+        return kd_error_field(error, pointer,
+                              "%s is a picture of %u x %u pixels, allowed is one of the whole sky: twice as wide as it "
+                              "is high, of %d to %d "
+                              "rows",
+                              path, found->width, found->height, KD_PANORAMA_LEAST, KD_PANORAMA_MOST);
     return KD_OK;
 }
 
-static enum kd_status resolve(struct kd_scene *scene, const struct kd_field *field, size_t index, const struct kd_assets *assets,
-                              struct kd_error *error)
+static enum kd_status resolve(struct kd_scene *scene, const struct kd_field *field, size_t index,
+                              const struct kd_assets *assets, struct kd_error *error)
 {
     struct kd_asset_found found = { 0 };
     char path[KD_PATH_SIZE], pointer[KD_PATH_SIZE];
@@ -48,7 +57,8 @@ static enum kd_status resolve(struct kd_scene *scene, const struct kd_field *fie
     kd_field_path(field, index, path);
     kd_field_pointer(field, index, pointer);
     if (!assets->find(assets->user, name, &found) || !kd_asset_is_hash(found.hash))
-        return kd_error_field(error, pointer, "%s is \"%s\", and there is no such asset here; allowed are %s", path, name, assets->allowed);
+        return kd_error_field(error, pointer, "%s is \"%s\", and there is no such asset here; allowed are %s", path,
+                              name, assets->allowed);
     enum kd_status status = suits(scene, path, pointer, &found, error);
     if (!status)
         kd_field_put_asset(scene, field, index, found.hash);

@@ -1,6 +1,6 @@
-/* Assets are bytes that a scene names and does not hold. A document names one by the SHA-256 of its bytes or by a name that whoever reads the
- * document knows it by; a name is resolved into the hash before the scene is used, so that the identity of a scene, and of its picture, is the
- * content. Nothing is ever fetched for a name. Any thread. */
+/* Assets are bytes that a scene names and does not hold. A document names one by the SHA-256 of its bytes or by a
+ * name that whoever reads the document knows it by; a name is resolved into the hash before the scene is used, so
+ * that the identity of a scene, and of its picture, is the content. Nothing is ever fetched for a name. Any thread. */
 #ifndef KD_SCENE_ASSET_H
 #define KD_SCENE_ASSET_H
 
@@ -26,18 +26,21 @@ struct kd_asset_bytes {
     size_t size;
     void *held; /* the keeper's */
 };
-/* Whoever keeps assets: a server's store, the files of a command line. It outlives those who ask. Its functions may be called by any thread. */
+/* Whoever keeps assets: a server's store, the files of a command line. It outlives those who ask. Its functions may
+ * be called by any thread. */
 struct kd_assets {
-    bool (*find)(void *user, const char *name, struct kd_asset_found *out); /* by a name or a hash; false: it is not here */
+    bool (*find)(void *user, const char *name,
+                 struct kd_asset_found *out); /* by a name or a hash; false: it is not here */
     bool (*take)(void *user, const char *hash, struct kd_asset_bytes *out); /* false: no longer */
     void (*give_back)(void *user, struct kd_asset_bytes *bytes);
     const char *allowed; /* what a field may name, for a sentence: "names of --asset NAME=FILE" */
     void *user;
 };
 
-/* Puts the hash in the place of each name; hashes are looked up too. KD_EINVAL with the field's pointer, and *scene unchanged, where an asset is
- * not here, or is not what the field takes: sky.image is a picture twice as wide as high, of KD_PANORAMA_LEAST to KD_PANORAMA_MOST rows, volume.grid a grid of matter
- * round a hole of the scene's spin. */
+/* Puts the hash in the place of each name; hashes are looked up too. KD_EINVAL with the field's pointer, and *scene
+ * unchanged, where an asset is not here, or is not what the field takes: sky.image is a picture twice as wide as
+ * high, of KD_PANORAMA_LEAST to KD_PANORAMA_MOST rows, volume.grid a grid of matter round a hole of the scene's
+ * spin. */
 enum { KD_PANORAMA_LEAST = 16, KD_PANORAMA_MOST = 4096 };
 static inline bool kd_asset_is_panorama(uint32_t width, uint32_t height)
 {

@@ -2,15 +2,15 @@
 
 #include <math.h>
 
-#define ALONE 0.2    /* in a picture that is exposed for it */
-#define BEHIND 0.01  /* bright stars beside a disk, not a white sky */
+#define ALONE 0.2   /* in a picture that is exposed for it */
+#define BEHIND 0.01 /* bright stars beside a disk, not a white sky */
 
 static bool shines_before(const struct kd_scene *scene)
 {
     const struct kd_spot *on[KD_SPOTS];
     const struct kd_body *bodies[KD_SCENE_BODIES];
-    return scene->disk.model != KD_DISK_NONE || scene->volume.model != KD_VOLUME_NONE || scene->jets.brightness > 0 || kd_scene_spots(scene, on) ||
-           kd_scene_bodies(scene, bodies) || scene->crowd.at;
+    return scene->disk.model != KD_DISK_NONE || scene->volume.model != KD_VOLUME_NONE || scene->jets.brightness > 0 ||
+           kd_scene_spots(scene, on) || kd_scene_bodies(scene, bodies) || scene->crowd.at;
 }
 
 double kd_scene_sky_brightness(const struct kd_scene *scene)
@@ -26,7 +26,8 @@ double kd_scene_exposure_most(const struct kd_scene *scene)
 {
     const double brightness = kd_scene_sky_brightness(scene);
     const bool chosen = isfinite(scene->sky.brightness) && shines_before(scene);
-    if (scene->sky.model == KD_SKY_NONE || scene->sky.model == KD_SKY_GRID || scene->style.palette != KD_PALETTE_COLOUR || chosen || !(brightness > 0))
+    if (scene->sky.model == KD_SKY_NONE || scene->sky.model == KD_SKY_GRID ||
+        scene->style.palette != KD_PALETTE_COLOUR || chosen || !(brightness > 0))
         return INFINITY;
     return log2(DARK / brightness);
 }

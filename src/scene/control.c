@@ -16,7 +16,8 @@ static bool is_of(const struct kd_control *control, const struct kd_field *field
     size_t n = strlen(field->section);
     if (!n)
         return !strcmp(control->path, field->name);
-    return !strncmp(control->path, field->section, n) && control->path[n] == '.' && !strcmp(control->path + n + 1, field->name);
+    return !strncmp(control->path, field->section, n) && control->path[n] == '.' &&
+           !strcmp(control->path + n + 1, field->name);
 }
 
 static const struct kd_control *from(size_t i, const struct kd_field *field, enum kd_control_kind kind)
@@ -26,7 +27,10 @@ static const struct kd_control *from(size_t i, const struct kd_field *field, enu
     return i < kd_control_count ? &kd_controls[i] : NULL;
 }
 
-const struct kd_control *kd_control_find(const struct kd_field *field, enum kd_control_kind kind) { return from(0, field, kind); }
+const struct kd_control *kd_control_find(const struct kd_field *field, enum kd_control_kind kind)
+{
+    return from(0, field, kind);
+}
 
 const struct kd_control *kd_control_next(const struct kd_field *field, const struct kd_control *found)
 {

@@ -25,8 +25,8 @@ enum kd_status kd_element_find(const struct kd_section *list, const char *token,
     kd_text_pointer(pointer, sizeof pointer, list->name);
     kd_text_pointer(pointer, sizeof pointer, token);
     kd_text_clip(shown, sizeof shown, token);
-    return kd_error_field(error, pointer, "there is no %s.%s: %s is a list, whose elements are %s.0 to %s.%zu", list->name, shown,
-                          list->name, list->name, list->name, list->most - 1);
+    return kd_error_field(error, pointer, "there is no %s.%s: %s is a list, whose elements are %s.0 to %s.%zu",
+                          list->name, shown, list->name, list->name, list->name, list->most - 1);
 }
 
 enum kd_status kd_element_reach(const struct kd_section *list, size_t size, size_t index, struct kd_error *error)
@@ -35,7 +35,8 @@ enum kd_status kd_element_reach(const struct kd_section *list, size_t size, size
         return KD_OK;
     char pointer[KD_PATH_SIZE];
     kd_element_pointer(list, index, pointer);
-    return kd_error_field(error, pointer, "there is no %s.%zu: the list has %zu element%s, and the next free index is %zu", list->name,
+    return kd_error_field(error, pointer,
+                          "there is no %s.%zu: the list has %zu element%s, and the next free index is %zu", list->name,
                           index, size, size == 1 ? "" : "s", size);
 }
 

@@ -4,7 +4,8 @@
 
 #include "scene/table.h"
 
-/* Reads an index: token is "0", "1", ... below the list's `most`, without leading zeros; else KD_EINVAL with the pointer to it. */
+/* Reads an index: token is "0", "1", ... below the list's `most`, without leading zeros; else KD_EINVAL with the
+ * pointer to it. */
 enum kd_status kd_element_find(const struct kd_section *list, const char *token, size_t *index, struct kd_error *error);
 
 /* A list grows by the next free index alone: KD_EINVAL for one beyond it, which names it. */

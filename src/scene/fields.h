@@ -15,12 +15,14 @@
  *   WORDS(section, name, nature, place, help, words)
  *       some of "a|b_N|c", in any order, each once; b as b_0, b_1, ... too; the first alone unless said otherwise
  *
- * The nature says what a reader may conclude from a picture that the field has changed. A row without one does not compile.
- *   PHYSICS   an exact consequence of general relativity or radiative transfer follows from it, or how closely that is computed
+ * The nature says what a reader may conclude from a picture that the field has changed. A row without one does not
+ * compile.
+ *   PHYSICS   an exact consequence of general relativity or radiative transfer follows from it, or how closely that
+ *             is computed
  *   MODEL     it chooses a model of matter or of a source, or a number of one
  *   LOOK      it changes the picture, not the physics
- * The place is where the page has it: FRONT with the few that everybody turns, REST among the others. A section has the group of the page
- * that its fields stand in: LOOK, GAS, HOLE, CAMERA or MORE.
+ * The place is where the page has it: FRONT with the few that everybody turns, REST among the others. A section has
+ * the group of the page that its fields stand in: LOOK, GAS, HOLE, CAMERA or MORE.
  *
  * Bounds are inclusive. Lengths are in M = GM/c^2; the unit "1" is a pure number.
  * Order here is the order of the canonical form and of the reference. */
@@ -29,393 +31,540 @@
 
 #include "physics/observer.h"
 
-#define KD_SPACETIME_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                               \
-    REAL(spacetime, spin, PHYSICS, FRONT, 0.7, -0.999999999999, 0.999999999999, "M",                                 \
-         "spin parameter a; a < 0 is a disk retrograde to its hole")                                                 \
-    REAL(spacetime, mass_msun, PHYSICS, REST, 1e8, 1e-3, 1e12, "solar masses",                                       \
-         "mass of the hole; sets the temperature when disk.colour is \"accretion\"")                                  \
-    REAL(spacetime, distance_pc, PHYSICS, REST, 260000.0, 1e-3, 1e11, "pc",                                          \
-         "(angular diameter) distance of the hole: with its mass it says how wide a picture is on the sky, for a beam and a scale")
+#define KD_SPACETIME_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
+    REAL(spacetime, spin, PHYSICS, FRONT, 0.7, -0.999999999999, 0.999999999999, "M", \
+         "spin parameter a; a < 0 is a disk retrograde to its hole") \
+    REAL(spacetime, mass_msun, PHYSICS, REST, 1e8, 1e-3, 1e12, "solar masses", \
+         "mass of the hole; sets the temperature when disk.colour is \"accretion\"") \
+    REAL(spacetime, distance_pc, PHYSICS, REST, 260000.0, 1e-3, 1e11, "pc", \
+         "(angular diameter) distance of the hole: with its mass it says how wide a picture is on the sky, for a " \
+         "beam and a scale")
 
-#define KD_CAMERA_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                  \
-    WORD(camera, r, PHYSICS, FRONT, INFINITY, 0.01, 1e7, "M", "Boyer-Lindquist radius of the observer", "infinity")   \
-    REAL(camera, inclination_deg, PHYSICS, FRONT, 82.0, 0.0, 180.0, "degrees",                                       \
-         "polar angle of the observer: 0 over the pole of the disk's rotation, 90 in its plane")                     \
-    REAL(camera, azimuth_deg, PHYSICS, REST, 0.0, -360.0, 360.0, "degrees",                                          \
-         "Boyer-Lindquist azimuth of the observer; of one that falls, ingoing Kerr-Schild azimuth, the same far away")   \
-    ENUM(camera, observer, PHYSICS, FRONT, KD_OBSERVER_STATIC,                                                        \
-         "state of motion at a finite radius" KD_OBSERVER_HELP, KD_OBSERVER_WORDS)                                   \
-    REAL(camera, velocity_r, PHYSICS, REST, 0.0, -1.0, 1.0, "c", "velocity outwards, past one of zero angular momentum (observer: velocity)") \
-    REAL(camera, velocity_theta, PHYSICS, REST, 0.0, -1.0, 1.0, "c", "velocity away from the north pole, likewise (observer: velocity)") \
-    REAL(camera, velocity_phi, PHYSICS, REST, 0.0, -1.0, 1.0, "c", "velocity along the disk's rotation, likewise (observer: velocity)") \
-    WORD(camera, infall_from, PHYSICS, REST, INFINITY, 1.0, 1e7, "M",                                                \
-         "radius from which the observer falls, at rest there but for its angular momentum (observer: infall)", "infinity") \
-    WORD(camera, infall_energy, PHYSICS, REST, INFINITY, -100.0, 1e3, "1",                                           \
-         "energy per mass of the falling observer; rest: as infall_from has it (observer: infall)", "rest")          \
-    REAL(camera, infall_momentum, PHYSICS, REST, 0.0, -1e4, 1e4, "M",                                                \
-         "angular momentum per mass of the falling observer, which moves in r and azimuth, not in latitude (observer: infall)") \
-    ENUM(camera, projection, LOOK, REST, KD_PROJECTION_AUTO,                                                         \
-         "plane: parallel rays, image plane in M, at infinity only; pinhole: at a finite radius only; "              \
-         "ring: angle round the critical curve against the logarithm of the distance to it, at infinity "            \
-         "only; equirectangular: all directions from a finite radius, longitude across and latitude upwards; fulldome: " \
-         "the angle from the middle as the distance from it, 90 degrees at the nearer edges, from a finite radius; auto: " \
-         "plane or pinhole, whichever fits camera.r",                                                                \
-         "auto|plane|pinhole|ring|equirectangular|fulldome")                                                                                  \
-    REAL(camera, field_m, LOOK, FRONT, 46.0, 1e-6, 1e7, "M", "width of the image plane (plane projection)")          \
+#define KD_CAMERA_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
+    WORD(camera, r, PHYSICS, FRONT, INFINITY, 0.01, 1e7, "M", "Boyer-Lindquist radius of the observer", "infinity") \
+    REAL(camera, inclination_deg, PHYSICS, FRONT, 82.0, 0.0, 180.0, "degrees", \
+         "polar angle of the observer: 0 over the pole of the disk's rotation, 90 in its plane") \
+    REAL(camera, azimuth_deg, PHYSICS, REST, 0.0, -360.0, 360.0, "degrees", \
+         "Boyer-Lindquist azimuth of the observer; of one that falls, ingoing Kerr-Schild azimuth, the same far away") \
+    ENUM(camera, observer, PHYSICS, FRONT, KD_OBSERVER_STATIC, "state of motion at a finite radius" KD_OBSERVER_HELP, \
+         KD_OBSERVER_WORDS) \
+    REAL(camera, velocity_r, PHYSICS, REST, 0.0, -1.0, 1.0, "c", \
+         "velocity outwards, past one of zero angular momentum (observer: velocity)") \
+    REAL(camera, velocity_theta, PHYSICS, REST, 0.0, -1.0, 1.0, "c", \
+         "velocity away from the north pole, likewise (observer: velocity)") \
+    REAL(camera, velocity_phi, PHYSICS, REST, 0.0, -1.0, 1.0, "c", \
+         "velocity along the disk's rotation, likewise (observer: velocity)") \
+    WORD(camera, infall_from, PHYSICS, REST, INFINITY, 1.0, 1e7, "M", \
+         "radius from which the observer falls, at rest there but for its angular momentum (observer: infall)", \
+         "infinity") \
+    WORD(camera, infall_energy, PHYSICS, REST, INFINITY, -100.0, 1e3, "1", \
+         "energy per mass of the falling observer; rest: as infall_from has it (observer: infall)", "rest") \
+    REAL(camera, infall_momentum, PHYSICS, REST, 0.0, -1e4, 1e4, "M", \
+         "angular momentum per mass of the falling observer, which moves in r and azimuth, not in latitude " \
+         "(observer: infall)") \
+    ENUM(camera, projection, LOOK, REST, KD_PROJECTION_AUTO, \
+         "plane: parallel rays, image plane in M, at infinity only; pinhole: at a finite radius only; " \
+         "ring: angle round the critical curve against the logarithm of the distance to it, at infinity " \
+         "only; equirectangular: all directions from a finite radius, longitude across and latitude upwards; " \
+         "fulldome: " \
+         "the angle from the middle as the distance from it, 90 degrees at the nearer edges, from a finite radius; " \
+         "auto: " \
+         "plane or pinhole, whichever fits camera.r", \
+         "auto|plane|pinhole|ring|equirectangular|fulldome") \
+    REAL(camera, field_m, LOOK, FRONT, 46.0, 1e-6, 1e7, "M", "width of the image plane (plane projection)") \
     REAL(camera, fov_deg, LOOK, FRONT, 50.0, 1e-6, 179.0, "degrees", "horizontal field of view (pinhole projection)") \
-    REAL(camera, centre_alpha, LOOK, REST, 0.0, -1e7, 1e7, "M", "image-plane alpha at the middle of the picture (plane)") \
-    REAL(camera, centre_beta, LOOK, REST, 0.0, -1e7, 1e7, "M", "image-plane beta at the middle of the picture (plane)") \
-    REAL(camera, yaw_deg, LOOK, REST, 0.0, -180.0, 180.0, "degrees", "look to the right of the hole (from a finite radius)")      \
-    REAL(camera, pitch_deg, LOOK, REST, 0.0, -90.0, 90.0, "degrees", "look above the hole (from a finite radius)")                \
-    REAL(camera, roll_deg, LOOK, REST, 0.0, -360.0, 360.0, "degrees", "turn the camera clockwise about its axis; ring: the angle " \
-         "in the middle of the picture, 0 at alpha > 0, rising to the right")                                        \
-    ENUM(camera, stereo, LOOK, REST, KD_STEREO_NONE,                                                                 \
-         "pair: two pictures side by side, the left eye's on the left, each image.width wide and in pinhole projection; none: one eye", "none|pair") \
-    REAL(camera, eye_distance, LOOK, REST, 0.5, 1e-6, 1e6, "M", "distance of the eyes, across the way the camera looks (stereo: pair)") \
-    REAL(camera, ring_decades_max, LOOK, REST, 0.0, -12.0, 0.0, "decades",                                           \
-         "log10 of the distance to the critical curve, over its radius, at the upper and lower edge (ring)")         \
-    REAL(camera, ring_decades_min, LOOK, REST, -10.0, -13.0, -1.0, "decades",                                        \
+    REAL(camera, centre_alpha, LOOK, REST, 0.0, -1e7, 1e7, "M", \
+         "image-plane alpha at the middle of the picture (plane)") \
+    REAL(camera, centre_beta, LOOK, REST, 0.0, -1e7, 1e7, "M", \
+         "image-plane beta at the middle of the picture (plane)") \
+    REAL(camera, yaw_deg, LOOK, REST, 0.0, -180.0, 180.0, "degrees", \
+         "look to the right of the hole (from a finite radius)") \
+    REAL(camera, pitch_deg, LOOK, REST, 0.0, -90.0, 90.0, "degrees", "look above the hole (from a finite radius)") \
+    REAL(camera, roll_deg, LOOK, REST, 0.0, -360.0, 360.0, "degrees", \
+         "turn the camera clockwise about its axis; ring: the angle " \
+         "in the middle of the picture, 0 at alpha > 0, rising to the right") \
+    ENUM(camera, stereo, LOOK, REST, KD_STEREO_NONE, \
+         "pair: two pictures side by side, the left eye's on the left, each image.width wide and in pinhole " \
+         "projection; none: one eye", \
+         "none|pair") \
+    REAL(camera, eye_distance, LOOK, REST, 0.5, 1e-6, 1e6, "M", \
+         "distance of the eyes, across the way the camera looks (stereo: pair)") \
+    REAL(camera, ring_decades_max, LOOK, REST, 0.0, -12.0, 0.0, "decades", \
+         "log10 of the distance to the critical curve, over its radius, at the upper and lower edge (ring)") \
+    REAL(camera, ring_decades_min, LOOK, REST, -10.0, -13.0, -1.0, "decades", \
          "the same at the middle line, above which rays pass outside the curve and below which inside (ring)")
 
-#define KD_DISK_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                    \
-    ENUM(disk, model, MODEL, FRONT, KD_DISK_NOVIKOV_THORNE,                                                          \
-         "radial flux: none, the exact Page-Thorne integral, or the Newtonian thin disk cut at the ISCO; "           \
-         "particles: the exact one, made of orbiting particles",                                                     \
-         "none|novikov-thorne|shakura-sunyaev|particles")                                                            \
-    WORD(disk, inner, MODEL, REST, INFINITY, 1.0, 1e6, "M", "inner edge; never inside the ISCO", "isco")             \
-    REAL(disk, outer, MODEL, FRONT, 22.0, 1.0, 1e6, "M", "outer edge; larger than the inner one")                    \
-    REAL(disk, taper, MODEL, REST, 0.7, 0.0, 1.0, "1",                                                               \
-         "the outer fraction of the radius over which the disk fades out; 0 cuts it sharply")                        \
-    REAL(disk, opacity, MODEL, REST, 1.0, 0.0, 1.0, "1", "opacity of one crossing; 1 is optically thick")            \
-    REAL(disk, emission_opacity, MODEL, REST, 10.0, 0.0, 1e6, "1",                                                    \
-         "optical depth along the normal where the disk is brightest, elsewhere as its flux: a crossing takes 1 - exp(-depth/cos) of " \
-         "disk.opacity, by the angle of emission in the gas's frame; 0: opacity is the same everywhere")             \
-    REAL(disk, height, MODEL, REST, 0.0, 0.0, 0.5, "1",                                                              \
-         "height of the gas over its distance from the axis, at 10 M: where its density has fallen to exp(-1/2); it has the thin disk's optical depth from " \
-         "top to bottom; 0: a thin disk")                                                                            \
+#define KD_DISK_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
+    ENUM(disk, model, MODEL, FRONT, KD_DISK_NOVIKOV_THORNE, \
+         "radial flux: none, the exact Page-Thorne integral, or the Newtonian thin disk cut at the ISCO; " \
+         "particles: the exact one, made of orbiting particles", \
+         "none|novikov-thorne|shakura-sunyaev|particles") \
+    WORD(disk, inner, MODEL, REST, INFINITY, 1.0, 1e6, "M", "inner edge; never inside the ISCO", "isco") \
+    REAL(disk, outer, MODEL, FRONT, 22.0, 1.0, 1e6, "M", "outer edge; larger than the inner one") \
+    REAL(disk, taper, MODEL, REST, 0.7, 0.0, 1.0, "1", \
+         "the outer fraction of the radius over which the disk fades out; 0 cuts it sharply") \
+    REAL(disk, opacity, MODEL, REST, 1.0, 0.0, 1.0, "1", "opacity of one crossing; 1 is optically thick") \
+    REAL(disk, emission_opacity, MODEL, REST, 10.0, 0.0, 1e6, "1", \
+         "optical depth along the normal where the disk is brightest, elsewhere as its flux: a crossing takes 1 - " \
+         "exp(-depth/cos) of " \
+         "disk.opacity, by the angle of emission in the gas's frame; 0: opacity is the same everywhere") \
+    REAL(disk, height, MODEL, REST, 0.0, 0.0, 0.5, "1", \
+         "height of the gas over its distance from the axis, at 10 M: where its density has fallen to exp(-1/2); it " \
+         "has the thin disk's optical depth from " \
+         "top to bottom; 0: a thin disk") \
     REAL(disk, flare, MODEL, REST, 0.0, -0.5, 0.5, "1", "power of the distance from the axis that the ratio grows as") \
-    ENUM(disk, colour, MODEL, REST, KD_COLOUR_PEAK,                                                                  \
-         "temperature scale: a chosen peak temperature, or from spacetime.mass_msun and disk.mdot_edd",              \
-         "peak|accretion")                                                                                           \
-    REAL(disk, peak_temperature_k, MODEL, FRONT, 3600.0, 300.0, 1e9, "K",                                            \
-         "largest effective temperature of the disk, in its own frame (colour: peak)")                               \
-    REAL(disk, mdot_edd, MODEL, REST, 0.1, 1e-12, 1e3, "Eddington rates",                                            \
-         "accretion rate: luminosity over the Eddington luminosity, with the efficiency of this spin")               \
-    REAL(disk, hardening, MODEL, REST, 1.0, 1.0, 3.0, "1", "colour temperature over effective temperature")          \
-    ENUM(disk, band, LOOK, REST, KD_BAND_BOLOMETRIC,                                                                 \
-         "brightness: bolometric, g^4 F; or visible, the luminance of the Planck spectrum as the eye weighs it",     \
-         "bolometric|visible")                                                                                       \
-    BOOL(disk, doppler, PHYSICS, REST, true, "the Doppler shift and beaming of the orbiting gas")                    \
-    BOOL(disk, redshift, PHYSICS, REST, true, "gravitational redshift and time dilation of the orbiting gas")        \
-    INT(disk, particles, MODEL, REST, 300000, 1000, 10000000, "1", "number of particles (model: particles)")         \
-    INT(disk, seed, MODEL, REST, 1, 0, 2147483647, "1", "another number, other particles (model: particles)")        \
-    REAL(disk, density_index, MODEL, REST, 2.0, 0.0, 4.0, "1",                                                       \
-         "particles per area fall as r to this power; 2 puts as many into each octave of r (model: particles)")      \
-    REAL(disk, plunging, MODEL, REST, 0.02, 0.0, 0.5, "1",                                                           \
-         "share of the particles that fall from the ISCO on its energy and angular momentum; none do where disk.inner is not " \
-         "\"isco\" (model: particles)")                                                                              \
-    REAL(disk, plunging_temperature, MODEL, REST, 0.7, 0.0, 1.0, "1",                                                \
-         "temperature of the plunging gas over the disk's largest; 0: it is not seen (model: particles)")            \
-    REAL(disk, epicycles, MODEL, REST, 0.02, 0.0, 0.2, "1",                                                          \
-         "largest oscillations in latitude, radians, and in r over r, the latter times (kappa/Omega)^2, which vanishes at " \
-         "the ISCO (model: particles)")                                                                              \
-    BOOL(disk, slow_light, PHYSICS, REST, false, "each ray shows particles, gas and spots where they were when its light left them, instead of all at " \
+    ENUM(disk, colour, MODEL, REST, KD_COLOUR_PEAK, \
+         "temperature scale: a chosen peak temperature, or from spacetime.mass_msun and disk.mdot_edd", \
+         "peak|accretion") \
+    REAL(disk, peak_temperature_k, MODEL, FRONT, 3600.0, 300.0, 1e9, "K", \
+         "largest effective temperature of the disk, in its own frame (colour: peak)") \
+    REAL(disk, mdot_edd, MODEL, REST, 0.1, 1e-12, 1e3, "Eddington rates", \
+         "accretion rate: luminosity over the Eddington luminosity, with the efficiency of this spin") \
+    REAL(disk, hardening, MODEL, REST, 1.0, 1.0, 3.0, "1", "colour temperature over effective temperature") \
+    ENUM(disk, band, LOOK, REST, KD_BAND_BOLOMETRIC, \
+         "brightness: bolometric, g^4 F; or visible, the luminance of the Planck spectrum as the eye weighs it", \
+         "bolometric|visible") \
+    BOOL(disk, doppler, PHYSICS, REST, true, "the Doppler shift and beaming of the orbiting gas") \
+    BOOL(disk, redshift, PHYSICS, REST, true, "gravitational redshift and time dilation of the orbiting gas") \
+    INT(disk, particles, MODEL, REST, 300000, 1000, 10000000, "1", "number of particles (model: particles)") \
+    INT(disk, seed, MODEL, REST, 1, 0, 2147483647, "1", "another number, other particles (model: particles)") \
+    REAL(disk, density_index, MODEL, REST, 2.0, 0.0, 4.0, "1", \
+         "particles per area fall as r to this power; 2 puts as many into each octave of r (model: particles)") \
+    REAL(disk, plunging, MODEL, REST, 0.02, 0.0, 0.5, "1", \
+         "share of the particles that fall from the ISCO on its energy and angular momentum; none do where " \
+         "disk.inner is not " \
+         "\"isco\" (model: particles)") \
+    REAL(disk, plunging_temperature, MODEL, REST, 0.7, 0.0, 1.0, "1", \
+         "temperature of the plunging gas over the disk's largest; 0: it is not seen (model: particles)") \
+    REAL(disk, epicycles, MODEL, REST, 0.02, 0.0, 0.2, "1", \
+         "largest oscillations in latitude, radians, and in r over r, the latter times (kappa/Omega)^2, which " \
+         "vanishes at " \
+         "the ISCO (model: particles)") \
+    BOOL(disk, slow_light, PHYSICS, REST, false, \
+         "each ray shows particles, gas and spots where they were when its light left them, instead of all at " \
          "one coordinate time")
 
-#define KD_GAS_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                     \
-    REAL(gas, amplitude, MODEL, FRONT, 0.8, 0.0, 3.0, "1",                                                           \
-         "turbulence: standard deviation of the logarithm of the flux, and of the optical depth; 0: a smooth disk")  \
-    INT(gas, octaves, MODEL, REST, 6, 1, 8, "1", "scales of the turbulence, each about half the one before")         \
-    REAL(gas, scale, MODEL, REST, 0.4, 0.02, 2.0, "1", "size of the largest eddies, over r, before they are drawn out") \
-    REAL(gas, shear, MODEL, REST, 5.0, -20.0, 20.0, "1",                                                             \
-         "azimuth by which streaks trail, radians for each unit of ln r; they are 1 + shear^2 times as long as wide; below 0 they lead") \
+#define KD_GAS_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
+    REAL(gas, amplitude, MODEL, FRONT, 0.8, 0.0, 3.0, "1", \
+         "turbulence: standard deviation of the logarithm of the flux, and of the optical depth; 0: a smooth disk") \
+    INT(gas, octaves, MODEL, REST, 6, 1, 8, "1", "scales of the turbulence, each about half the one before") \
+    REAL(gas, scale, MODEL, REST, 0.4, 0.02, 2.0, "1", \
+         "size of the largest eddies, over r, before they are drawn out") \
+    REAL(gas, shear, MODEL, REST, 5.0, -20.0, 20.0, "1", \
+         "azimuth by which streaks trail, radians for each unit of ln r; they are 1 + shear^2 times as long as wide; " \
+         "below 0 they lead") \
     INT(gas, seed, MODEL, REST, 1, 0, 2147483647, "1", "another number, other gas")
 
-#define KD_SPOTS_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                   \
-    REAL(spots, brightness, MODEL, FRONT, 0.0, 0.0, 1e6, "1",                                                        \
-         "surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no such spot") \
-    REAL(spots, r, MODEL, FRONT, 9.0, 1.0, 1e6, "M", "radius of the circular orbit that the centre goes round on; never inside the ISCO") \
-    REAL(spots, phase_deg, MODEL, REST, 0.0, -360.0, 360.0, "degrees", "azimuth of the centre at time 0")            \
-    REAL(spots, size, MODEL, FRONT, 1.0, 1e-3, 1e5, "M", "distance from the centre at which the Gaussian has fallen to exp(-1/2)") \
-    REAL(spots, index, MODEL, REST, 1.0, -4.0, 6.0, "1", "spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen") \
-    REAL(spots, temperature_k, MODEL, REST, 9000.0, 300.0, 1e9, "K", "colour: that of a black body of this temperature, shifted by g")
+#define KD_SPOTS_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
+    REAL(spots, brightness, MODEL, FRONT, 0.0, 0.0, 1e6, "1", \
+         "surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no " \
+         "such spot") \
+    REAL(spots, r, MODEL, FRONT, 9.0, 1.0, 1e6, "M", \
+         "radius of the circular orbit that the centre goes round on; never inside the ISCO") \
+    REAL(spots, phase_deg, MODEL, REST, 0.0, -360.0, 360.0, "degrees", "azimuth of the centre at time 0") \
+    REAL(spots, size, MODEL, FRONT, 1.0, 1e-3, 1e5, "M", \
+         "distance from the centre at which the Gaussian has fallen to exp(-1/2)") \
+    REAL(spots, index, MODEL, REST, 1.0, -4.0, 6.0, "1", \
+         "spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen") \
+    REAL(spots, temperature_k, MODEL, REST, 9000.0, 300.0, 1e9, "K", \
+         "colour: that of a black body of this temperature, shifted by g")
 #define KD_SPOTS 16 /* at most; the kernels have room for as many */
 
-#define KD_BODIES_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                  \
-    REAL(bodies, radius, MODEL, FRONT, 0.0, 0.0, 1e6, "M", "radius of the sphere, in its own frame; 0: there is no such body") \
-    REAL(bodies, r, MODEL, FRONT, 15.0, 1.0, 1e7, "M", "Boyer-Lindquist radius of its centre, at least a twentieth outside the horizon's") \
-    REAL(bodies, inclination_deg, MODEL, REST, 90.0, 0.0, 180.0, "degrees",                                          \
-         "polar angle of the centre: 0 over the pole of the disk's rotation, 90 in its plane")                       \
-    REAL(bodies, phase_deg, MODEL, FRONT, 0.0, -360.0, 360.0, "degrees", "azimuth of the centre at time 0; 0 is that of the observer's camera.azimuth_deg 0") \
-    ENUM(bodies, motion, MODEL, REST, KD_OBSERVER_KEPLERIAN,                                                         \
-         "state of motion, which shifts its light; static, zamo, keplerian and retrograde take it round with time, the last two in the disk's plane alone" KD_OBSERVER_HELP, \
-         KD_OBSERVER_WORDS)                                                                                          \
-    REAL(bodies, velocity_r, MODEL, REST, 0.0, -1.0, 1.0, "c", "velocity outwards, past one of zero angular momentum (motion: velocity)") \
-    REAL(bodies, velocity_theta, MODEL, REST, 0.0, -1.0, 1.0, "c", "velocity away from the north pole, likewise (motion: velocity)") \
-    REAL(bodies, velocity_phi, MODEL, REST, 0.0, -1.0, 1.0, "c", "velocity along the disk's rotation, likewise (motion: velocity)") \
-    REAL(bodies, temperature_k, MODEL, FRONT, 6000.0, 300.0, 1e9, "K", "it shines as a black body of this temperature, shifted by g") \
-    REAL(bodies, brightness, MODEL, REST, 1.0, 0.0, 1e9, "1", "light of its surface over that of the black body, on the scale of the disk's temperatures; 0: dark") \
-    REAL(bodies, limb_darkening, MODEL, REST, 0.6, 0.0, 1.0, "1", "light of its rim is less by so much than that of its middle, linearly in the cosine of the angle; 0: none")
+#define KD_BODIES_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
+    REAL(bodies, radius, MODEL, FRONT, 0.0, 0.0, 1e6, "M", \
+         "radius of the sphere, in its own frame; 0: there is no such body") \
+    REAL(bodies, r, MODEL, FRONT, 15.0, 1.0, 1e7, "M", \
+         "Boyer-Lindquist radius of its centre, at least a twentieth outside the horizon's") \
+    REAL(bodies, inclination_deg, MODEL, REST, 90.0, 0.0, 180.0, "degrees", \
+         "polar angle of the centre: 0 over the pole of the disk's rotation, 90 in its plane") \
+    REAL(bodies, phase_deg, MODEL, FRONT, 0.0, -360.0, 360.0, "degrees", \
+         "azimuth of the centre at time 0; 0 is that of the observer's camera.azimuth_deg 0") \
+    ENUM(bodies, motion, MODEL, REST, KD_OBSERVER_KEPLERIAN, \
+         "state of motion, which shifts its light; static, zamo, keplerian and retrograde take it round with time, " \
+         "the last two in the disk's plane alone" KD_OBSERVER_HELP, \
+         KD_OBSERVER_WORDS) \
+    REAL(bodies, velocity_r, MODEL, REST, 0.0, -1.0, 1.0, "c", \
+         "velocity outwards, past one of zero angular momentum (motion: velocity)") \
+    REAL(bodies, velocity_theta, MODEL, REST, 0.0, -1.0, 1.0, "c", \
+         "velocity away from the north pole, likewise (motion: velocity)") \
+    REAL(bodies, velocity_phi, MODEL, REST, 0.0, -1.0, 1.0, "c", \
+         "velocity along the disk's rotation, likewise (motion: velocity)") \
+    REAL(bodies, temperature_k, MODEL, FRONT, 6000.0, 300.0, 1e9, "K", \
+         "it shines as a black body of this temperature, shifted by g") \
+    REAL(bodies, brightness, MODEL, REST, 1.0, 0.0, 1e9, "1", \
+         "light of its surface over that of the black body, on the scale of the disk's temperatures; 0: dark") \
+    REAL(bodies, limb_darkening, MODEL, REST, 0.6, 0.0, 1.0, "1", \
+         "light of its rim is less by so much than that of its middle, linearly in the cosine of the angle; 0: none")
 #define KD_SCENE_BODIES 8 /* at most */
 
-#define KD_VOLUME_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                  \
-    ENUM(volume, model, MODEL, FRONT, KD_VOLUME_NONE,                                                                \
-         "matter all along the rays: none; uniform, a shell that is the same everywhere and does not move: what light and opacity along bent rays come to; " \
-         "at one radio frequency gold, the analytic model of Gold et al. 2020, riaf, a hot, thin flow whose density, temperature and magnetic field are powers of r, torus, a thick one in equilibrium, and grid, numbers from a file", \
-         "none|uniform|gold|riaf|torus|grid")                                                                                   \
-    WORD(volume, inner, MODEL, REST, INFINITY, 1.0, 3e4, "M", "inner edge; horizon: as near to it as it may be, a hundredth outside it, or a two-thousandth for what is seen at a radio frequency; of a torus half of the radius of its largest pressure", "horizon") \
-    REAL(volume, outer, MODEL, FRONT, 20.0, 1.0, 3e4, "M", "outer edge; larger than the inner one")                  \
-    REAL(volume, emissivity, MODEL, FRONT, 0.02, 0.0, 1e30, "1/M", "light of a length of M, in its own frame, in units of the disk's brightest (model: uniform)") \
-    REAL(volume, opacity, MODEL, FRONT, 0.02, 0.0, 1e30, "1/M", "optical depth of a length of M, in its own frame (model: uniform)")  \
-    REAL(volume, temperature_k, MODEL, REST, 6500.0, 300.0, 1e9, "K", "colour: that of a black body of this temperature, shifted by g (model: uniform)") \
-    BOOL(volume, redshift, PHYSICS, REST, true, "the frequency shift of the matter (model: uniform)")                \
-    REAL(volume, frequency_ghz, PHYSICS, FRONT, 230.0, 1e-6, 1e12, "GHz", "frequency that is observed (models: gold, riaf, torus, grid)") \
-    ASSET(volume, grid, MODEL, FRONT, "density, temperature, velocity and magnetic field of electrons on a grid of r, theta and phi, an NPZ file (model: grid); without one there is no matter") \
-    REAL(volume, grid_scale, MODEL, FRONT, 1.0, 0.0, 1e30, "1", "factor on the density of the file; its magnetic field is multiplied by the square root of this (model: grid)") \
-    REAL(volume, gold_emission, MODEL, REST, 3e-18, 0.0, 1e30, "erg/(s cm^3 Hz sr)", "C n0: emissivity at 230 GHz where the density is largest (model: gold)") \
-    REAL(volume, gold_index, MODEL, REST, 0.0, -10.0, 10.0, "1", "alpha: emissivity goes as nu^-alpha, absorptivity as nu^-(2.5 + alpha) (model: gold)") \
-    REAL(volume, gold_flattening, MODEL, FRONT, 0.0, 0.0, 1e4, "1", "h: density goes as exp(-(h cos(theta))^2/2); 0: round (model: gold)") \
-    REAL(volume, gold_momentum, MODEL, REST, 0.0, -1.0, 1.0, "1", "l0: angular momentum, l0 R^(3/2)/(1 + R) an energy of 1, R = r sin(theta); 0: zero angular momentum (model: gold)") \
-    REAL(volume, gold_absorption, MODEL, REST, 0.0, 0.0, 1e30, "1", "A: absorptivity in 1/cm over emissivity in erg/(s cm^3 Hz sr), at 230 GHz (model: gold)") \
-    REAL(volume, density_cm3, MODEL, FRONT, 3e7, 0.0, 1e30, "1/cm^3", "electrons at 1 M in the plane, as their power law has it (model: riaf), or where there are most of them (model: torus)") \
-    REAL(volume, density_index, MODEL, REST, 1.1, -10.0, 10.0, "1", "density goes as r^-p, p being this number (model: riaf)") \
-    REAL(volume, electron_temperature_k, MODEL, FRONT, 3e11, 1.0, 1e30, "K", "temperature of the electrons at 1 M (model: riaf)") \
-    REAL(volume, temperature_index, MODEL, REST, 0.84, -10.0, 10.0, "1", "temperature goes as r^-p, p being this number (model: riaf)") \
-    REAL(volume, height, MODEL, REST, 0.1, 0.0, 10.0, "1", "height over the distance from the axis at which the density has fallen to exp(-1/2); 0: it is the same at all heights (model: riaf)") \
-    REAL(volume, magnetisation, MODEL, REST, 0.016666666666666666, 0.0, 1e12, "1", "magnetic pressure over the rest energy of a proton for each electron, at 1 M (model: riaf)") \
-    REAL(volume, magnetisation_index, MODEL, REST, 1.0, -10.0, 10.0, "1", "magnetisation goes as r^-p, p being this number (model: riaf)") \
-    ENUM(volume, field, MODEL, REST, KD_VOLUME_TOROIDAL, "magnetic field: round the axis, along it, or along the radius, made perpendicular to the motion (models: riaf, torus)", "toroidal|vertical|radial") \
-    ENUM(volume, flow, MODEL, REST, KD_VOLUME_ORBITS, "motion: with the circular orbit's angular velocity at each r, and falling in from the ISCO; or at rest for observers of zero angular momentum (model: riaf)", "orbits|rest") \
-    ENUM(volume, electrons, MODEL, REST, KD_VOLUME_THERMAL, "energies of the electrons (models: riaf, torus, grid); kappa: thermal ones with a tail of a power law", "thermal|power-law|kappa") \
-    REAL(volume, electrons_index, MODEL, REST, 3.5, 1.1, 10.0, "1", "p: electrons of energy gamma go as gamma to minus this (electrons: power-law)") \
-    REAL(volume, kappa, MODEL, REST, 4.0, 3.1, 7.5, "1", "kappa: electrons of high energy gamma go as gamma to 1 minus this (electrons: kappa)") \
-    REAL(volume, torus_radius, MODEL, FRONT, 12.0, 1.0, 1e3, "M", "where the pressure is largest; the inner edge is volume.inner (model: torus)") \
+#define KD_VOLUME_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
+    ENUM(volume, model, MODEL, FRONT, KD_VOLUME_NONE, \
+         "matter all along the rays: none; uniform, a shell that is the same everywhere and does not move: what " \
+         "light and opacity along bent rays come to; " \
+         "at one radio frequency gold, the analytic model of Gold et al. 2020, riaf, a hot, thin flow whose density, " \
+         "temperature and magnetic field are powers of r, torus, a thick one in equilibrium, and grid, numbers from " \
+         "a file", \
+         "none|uniform|gold|riaf|torus|grid") \
+    WORD(volume, inner, MODEL, REST, INFINITY, 1.0, 3e4, "M", \
+         "inner edge; horizon: as near to it as it may be, a hundredth outside it, or a two-thousandth for what is " \
+         "seen at a radio frequency; of a torus half of the radius of its largest pressure", \
+         "horizon") \
+    REAL(volume, outer, MODEL, FRONT, 20.0, 1.0, 3e4, "M", "outer edge; larger than the inner one") \
+    REAL(volume, emissivity, MODEL, FRONT, 0.02, 0.0, 1e30, "1/M", \
+         "light of a length of M, in its own frame, in units of the disk's brightest (model: uniform)") \
+    REAL(volume, opacity, MODEL, FRONT, 0.02, 0.0, 1e30, "1/M", \
+         "optical depth of a length of M, in its own frame (model: uniform)") \
+    REAL(volume, temperature_k, MODEL, REST, 6500.0, 300.0, 1e9, "K", \
+         "colour: that of a black body of this temperature, shifted by g (model: uniform)") \
+    BOOL(volume, redshift, PHYSICS, REST, true, "the frequency shift of the matter (model: uniform)") \
+    REAL(volume, frequency_ghz, PHYSICS, FRONT, 230.0, 1e-6, 1e12, "GHz", \
+         "frequency that is observed (models: gold, riaf, torus, grid)") \
+    ASSET(volume, grid, MODEL, FRONT, \
+          "density, temperature, velocity and magnetic field of electrons on a grid of r, theta and phi, an NPZ file " \
+          "(model: grid); without one there is no matter") \
+    REAL(volume, grid_scale, MODEL, FRONT, 1.0, 0.0, 1e30, "1", \
+         "factor on the density of the file; its magnetic field is multiplied by the square root of this (model: " \
+         "grid)") \
+    REAL(volume, gold_emission, MODEL, REST, 3e-18, 0.0, 1e30, "erg/(s cm^3 Hz sr)", \
+         "C n0: emissivity at 230 GHz where the density is largest (model: gold)") \
+    REAL(volume, gold_index, MODEL, REST, 0.0, -10.0, 10.0, "1", \
+         "alpha: emissivity goes as nu^-alpha, absorptivity as nu^-(2.5 + alpha) (model: gold)") \
+    REAL(volume, gold_flattening, MODEL, FRONT, 0.0, 0.0, 1e4, "1", \
+         "h: density goes as exp(-(h cos(theta))^2/2); 0: round (model: gold)") \
+    REAL(volume, gold_momentum, MODEL, REST, 0.0, -1.0, 1.0, "1", \
+         "l0: angular momentum, l0 R^(3/2)/(1 + R) an energy of 1, R = r sin(theta); 0: zero angular momentum " \
+         "(model: gold)") \
+    REAL(volume, gold_absorption, MODEL, REST, 0.0, 0.0, 1e30, "1", \
+         "A: absorptivity in 1/cm over emissivity in erg/(s cm^3 Hz sr), at 230 GHz (model: gold)") \
+    REAL(volume, density_cm3, MODEL, FRONT, 3e7, 0.0, 1e30, "1/cm^3", \
+         "electrons at 1 M in the plane, as their power law has it (model: riaf), or where there are most of them " \
+         "(model: torus)") \
+    REAL(volume, density_index, MODEL, REST, 1.1, -10.0, 10.0, "1", \
+         "density goes as r^-p, p being this number (model: riaf)") \
+    REAL(volume, electron_temperature_k, MODEL, FRONT, 3e11, 1.0, 1e30, "K", \
+         "temperature of the electrons at 1 M (model: riaf)") \
+    REAL(volume, temperature_index, MODEL, REST, 0.84, -10.0, 10.0, "1", \
+         "temperature goes as r^-p, p being this number (model: riaf)") \
+    REAL(volume, height, MODEL, REST, 0.1, 0.0, 10.0, "1", \
+         "height over the distance from the axis at which the density has fallen to exp(-1/2); 0: it is the same at " \
+         "all heights (model: riaf)") \
+    REAL(volume, magnetisation, MODEL, REST, 0.016666666666666666, 0.0, 1e12, "1", \
+         "magnetic pressure over the rest energy of a proton for each electron, at 1 M (model: riaf)") \
+    REAL(volume, magnetisation_index, MODEL, REST, 1.0, -10.0, 10.0, "1", \
+         "magnetisation goes as r^-p, p being this number (model: riaf)") \
+    ENUM(volume, field, MODEL, REST, KD_VOLUME_TOROIDAL, \
+         "magnetic field: round the axis, along it, or along the radius, made perpendicular to the motion (models: " \
+         "riaf, torus)", \
+         "toroidal|vertical|radial") \
+    ENUM(volume, flow, MODEL, REST, KD_VOLUME_ORBITS, \
+         "motion: with the circular orbit's angular velocity at each r, and falling in from the ISCO; or at rest for " \
+         "observers of zero angular momentum (model: riaf)", \
+         "orbits|rest") \
+    ENUM(volume, electrons, MODEL, REST, KD_VOLUME_THERMAL, \
+         "energies of the electrons (models: riaf, torus, grid); kappa: thermal ones with a tail of a power law", \
+         "thermal|power-law|kappa") \
+    REAL(volume, electrons_index, MODEL, REST, 3.5, 1.1, 10.0, "1", \
+         "p: electrons of energy gamma go as gamma to minus this (electrons: power-law)") \
+    REAL(volume, kappa, MODEL, REST, 4.0, 3.1, 7.5, "1", \
+         "kappa: electrons of high energy gamma go as gamma to 1 minus this (electrons: kappa)") \
+    REAL(volume, torus_radius, MODEL, FRONT, 12.0, 1.0, 1e3, "M", \
+         "where the pressure is largest; the inner edge is volume.inner (model: torus)") \
     REAL(volume, adiabatic_index, MODEL, REST, 1.4444444444444444, 1.1, 2.0, "1", "of the gas (model: torus)") \
-    REAL(volume, temperature_ratio, MODEL, REST, 3.0, 0.0, 1e6, "1", "temperature of the ions over that of the electrons (model: torus)") \
-    REAL(volume, beta, MODEL, REST, 10.0, 1e-6, 1e12, "1", "pressure of the gas over that of the magnetic field (model: torus)") \
-    REAL(volume, gamma_min, MODEL, REST, 30.0, 1.0, 1e9, "1", "least energy of the electrons over that at rest (electrons: power-law)") \
-    REAL(volume, gamma_max, MODEL, REST, 1e5, 1.0, 1e12, "1", "largest energy of the electrons, more than the least (electrons: power-law)") \
-    REAL(volume, normalise_to_jy, MODEL, REST, 0.0, 0.0, 1e12, "Jy", "flux that the picture shall have: the density (of gold the emissivity, of a grid its factor) is multiplied by what it takes, which kerrd finds by small pictures and answers tell; 0: left as it is (models: gold, riaf, torus, grid)") \
-    WORD(volume, normalise_ghz, MODEL, REST, INFINITY, 1e-6, 1e12, "GHz", "frequency of that flux; observed: the one that the picture shows", "observed")
+    REAL(volume, temperature_ratio, MODEL, REST, 3.0, 0.0, 1e6, "1", \
+         "temperature of the ions over that of the electrons (model: torus)") \
+    REAL(volume, beta, MODEL, REST, 10.0, 1e-6, 1e12, "1", \
+         "pressure of the gas over that of the magnetic field (model: torus)") \
+    REAL(volume, gamma_min, MODEL, REST, 30.0, 1.0, 1e9, "1", \
+         "least energy of the electrons over that at rest (electrons: power-law)") \
+    REAL(volume, gamma_max, MODEL, REST, 1e5, 1.0, 1e12, "1", \
+         "largest energy of the electrons, more than the least (electrons: power-law)") \
+    REAL(volume, normalise_to_jy, MODEL, REST, 0.0, 0.0, 1e12, "Jy", \
+         "flux that the picture shall have: the density (of gold the emissivity, of a grid its factor) is multiplied " \
+         "by what it takes, which kerrd finds by small pictures and answers tell; 0: left as it is (models: gold, " \
+         "riaf, torus, grid)") \
+    WORD(volume, normalise_ghz, MODEL, REST, INFINITY, 1e-6, 1e12, "GHz", \
+         "frequency of that flux; observed: the one that the picture shows", "observed")
 
-#define KD_JETS_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                    \
-    REAL(jets, brightness, MODEL, FRONT, 0.0, 0.0, 1e9, "1/M", "light of a length of M in its own frame, carried back to the inner edge, where it begins smoothly, in units of the disk's brightest; 0: there are none") \
-    REAL(jets, opening_deg, MODEL, FRONT, 8.0, 1.0, 60.0, "degrees", "half of the angle of the cone")                    \
-    REAL(jets, lorentz, MODEL, FRONT, 2.0, 1.0, 100.0, "1", "Lorentz factor: how fast the light's source flies outwards") \
-    REAL(jets, inner, MODEL, REST, 4.0, 1.0, 1e6, "M", "where the light begins, at least a twentieth outside the horizon") \
-    REAL(jets, outer, MODEL, REST, 60.0, 1.0, 1e6, "M", "where it ends; larger than the inner edge")                 \
-    REAL(jets, falloff, MODEL, REST, 1.5, -10.0, 10.0, "1", "light along the jet goes as r to minus this")            \
-    REAL(jets, sheath, MODEL, REST, 0.5, 0.0, 1.0, "1", "from a bright spine, 0, to bright edges, 1")                 \
-    REAL(jets, spectral_index, MODEL, REST, 0.7, -10.0, 10.0, "1", "brightness goes as the frequency shift to 2 plus this") \
-    REAL(jets, temperature_k, LOOK, REST, 14000.0, 300.0, 1e9, "K", "colour: that of a black body of this temperature, not shifted") \
+#define KD_JETS_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
+    REAL(jets, brightness, MODEL, FRONT, 0.0, 0.0, 1e9, "1/M", \
+         "light of a length of M in its own frame, carried back to the inner edge, where it begins smoothly, in " \
+         "units of the disk's brightest; 0: there are none") \
+    REAL(jets, opening_deg, MODEL, FRONT, 8.0, 1.0, 60.0, "degrees", "half of the angle of the cone") \
+    REAL(jets, lorentz, MODEL, FRONT, 2.0, 1.0, 100.0, "1", \
+         "Lorentz factor: how fast the light's source flies outwards") \
+    REAL(jets, inner, MODEL, REST, 4.0, 1.0, 1e6, "M", \
+         "where the light begins, at least a twentieth outside the horizon") \
+    REAL(jets, outer, MODEL, REST, 60.0, 1.0, 1e6, "M", "where it ends; larger than the inner edge") \
+    REAL(jets, falloff, MODEL, REST, 1.5, -10.0, 10.0, "1", "light along the jet goes as r to minus this") \
+    REAL(jets, sheath, MODEL, REST, 0.5, 0.0, 1.0, "1", "from a bright spine, 0, to bright edges, 1") \
+    REAL(jets, spectral_index, MODEL, REST, 0.7, -10.0, 10.0, "1", \
+         "brightness goes as the frequency shift to 2 plus this") \
+    REAL(jets, temperature_k, LOOK, REST, 14000.0, 300.0, 1e9, "K", \
+         "colour: that of a black body of this temperature, not shifted") \
     BOOL(jets, counterjet, MODEL, REST, true, "the jet below the disk, too")
 
-#define KD_POLARIZATION_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                             \
-    ENUM(polarization, model, MODEL, FRONT, KD_POLARIZATION_NONE,                                                     \
-         "of light from the disk's plane: none; synchrotron, across polarization.field and the light, in the gas's frame; or scattering, of a deep atmosphere of free " \
-         "electrons, across the normal and the light; transfer: of a volume at a radio frequency, Stokes I, Q, U and V all along the rays", "none|synchrotron|scattering|transfer") \
-    ENUM(polarization, field, MODEL, REST, KD_FIELD_TOROIDAL,                                                        \
-         "direction of the magnetic field in the plane: round the axis, outwards, or along the normal (model: synchrotron)", "toroidal|radial|vertical") \
-    REAL(polarization, electron_index, MODEL, REST, 3.0, 1.0, 10.0, "1",                                             \
-         "electrons have energies E as E to minus this power p, and the light of a field in order is polarised by (p + 1)/(p + 7/3) (model: synchrotron)") \
-    REAL(polarization, order, MODEL, REST, 1.0, 0.0, 1.0, "1", "part of that polarisation which disorder within a pixel leaves") \
-    BOOL(polarization, faraday, PHYSICS, REST, true, "electrons turn the direction of light that passes (Faraday rotation), and make linear of circular polarisation and back (model: transfer)")
+#define KD_POLARIZATION_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
+    ENUM(polarization, model, MODEL, FRONT, KD_POLARIZATION_NONE, \
+         "of light from the disk's plane: none; synchrotron, across polarization.field and the light, in the gas's " \
+         "frame; or scattering, of a deep atmosphere of free " \
+         "electrons, across the normal and the light; transfer: of a volume at a radio frequency, Stokes I, Q, U and " \
+         "V all along the rays", \
+         "none|synchrotron|scattering|transfer") \
+    ENUM(polarization, field, MODEL, REST, KD_FIELD_TOROIDAL, \
+         "direction of the magnetic field in the plane: round the axis, outwards, or along the normal (model: " \
+         "synchrotron)", \
+         "toroidal|radial|vertical") \
+    REAL(polarization, electron_index, MODEL, REST, 3.0, 1.0, 10.0, "1", \
+         "electrons have energies E as E to minus this power p, and the light of a field in order is polarised by (p " \
+         "+ 1)/(p + 7/3) (model: synchrotron)") \
+    REAL(polarization, order, MODEL, REST, 1.0, 0.0, 1.0, "1", \
+         "part of that polarisation which disorder within a pixel leaves") \
+    BOOL(polarization, faraday, PHYSICS, REST, true, \
+         "electrons turn the direction of light that passes (Faraday rotation), and make linear of circular " \
+         "polarisation and back (model: transfer)")
 
-#define KD_SKY_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                     \
-    ENUM(sky, model, MODEL, FRONT, KD_SKY_NONE,                                                                      \
-         "what lies at infinity: nothing; a celestial grid that shows the lensing; stars and a Milky Way that are made up; the stars of the " \
-         "Hipparcos catalogue over that Milky Way; or sky.image without stars", "none|grid|stars|catalogue|image")   \
-    WORD(sky, brightness, MODEL, FRONT, INFINITY, 0.0, 100.0, "1",                                                   \
-         "brightness of the sky in units of the disk's brightest surface brightness at g = 1: of the grid; of 21 magnitudes a square arcsecond, " \
-         "by which stars and the Milky Way keep their true ratio; auto: 0.2, or 0.01 of stars and the Milky Way where something shines before them", \
-         "auto")                                                                                                     \
-    REAL(sky, grid_deg, MODEL, REST, 15.0, 1.0, 90.0, "degrees", "spacing of the celestial grid")                    \
-    REAL(sky, milky_way, MODEL, FRONT, 1.0, 0.0, 100.0, "1", "brightness of the Milky Way, or of sky.image, over its own; 0: stars alone") \
-    ASSET(sky, image, MODEL, FRONT,                                                                                  \
-          "picture of the whole sky in the place of the Milky Way that is made up (model: stars, catalogue, image): twice as wide as high, galactic " \
-          "longitude across, growing to the left from 0 in the middle, latitude upwards; its white is 21 magnitudes a square arcsecond") \
-    REAL(sky, limit_mag, MODEL, REST, 14.0, -2.0, 14.0, "magnitudes", "stars fainter than this are left out")        \
-    INT(sky, seed, MODEL, REST, 1, 0, 2147483647, "1", "another number, another sky that is made up")                \
-    ENUM(sky, orientation, MODEL, FRONT, KD_SKY_GALACTIC,                                                            \
-         "galactic, equatorial: the hole's axis points to that pole of the sky, and azimuth 0 to longitude 0; sgra, m87: from azimuth 0 the hole " \
-         "stands before that one, as seen from the Earth, with the galactic or the celestial pole above", "galactic|equatorial|sgra|m87") \
-    REAL(sky, turn_deg, MODEL, REST, 0.0, -360.0, 360.0, "degrees", "the sky is turned about the hole's axis by so much, as by camera.azimuth_deg") \
-    REAL(sky, tilt_deg, MODEL, REST, 0.0, -180.0, 180.0, "degrees", "and, after that, about the horizontal axis of the picture from azimuth 0")
+#define KD_SKY_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
+    ENUM(sky, model, MODEL, FRONT, KD_SKY_NONE, \
+         "what lies at infinity: nothing; a celestial grid that shows the lensing; stars and a Milky Way that are " \
+         "made up; the stars of the " \
+         "Hipparcos catalogue over that Milky Way; or sky.image without stars", \
+         "none|grid|stars|catalogue|image") \
+    WORD(sky, brightness, MODEL, FRONT, INFINITY, 0.0, 100.0, "1", \
+         "brightness of the sky in units of the disk's brightest surface brightness at g = 1: of the grid; of 21 " \
+         "magnitudes a square arcsecond, " \
+         "by which stars and the Milky Way keep their true ratio; auto: 0.2, or 0.01 of stars and the Milky Way " \
+         "where something shines before them", \
+         "auto") \
+    REAL(sky, grid_deg, MODEL, REST, 15.0, 1.0, 90.0, "degrees", "spacing of the celestial grid") \
+    REAL(sky, milky_way, MODEL, FRONT, 1.0, 0.0, 100.0, "1", \
+         "brightness of the Milky Way, or of sky.image, over its own; 0: stars alone") \
+    ASSET(sky, image, MODEL, FRONT, \
+          "picture of the whole sky in the place of the Milky Way that is made up (model: stars, catalogue, image): " \
+          "twice as wide as high, galactic " \
+          "longitude across, growing to the left from 0 in the middle, latitude upwards; its white is 21 magnitudes " \
+          "a square arcsecond") \
+    REAL(sky, limit_mag, MODEL, REST, 14.0, -2.0, 14.0, "magnitudes", "stars fainter than this are left out") \
+    INT(sky, seed, MODEL, REST, 1, 0, 2147483647, "1", "another number, another sky that is made up") \
+    ENUM(sky, orientation, MODEL, FRONT, KD_SKY_GALACTIC, \
+         "galactic, equatorial: the hole's axis points to that pole of the sky, and azimuth 0 to longitude 0; sgra, " \
+         "m87: from azimuth 0 the hole " \
+         "stands before that one, as seen from the Earth, with the galactic or the celestial pole above", \
+         "galactic|equatorial|sgra|m87") \
+    REAL(sky, turn_deg, MODEL, REST, 0.0, -360.0, 360.0, "degrees", \
+         "the sky is turned about the hole's axis by so much, as by camera.azimuth_deg") \
+    REAL(sky, tilt_deg, MODEL, REST, 0.0, -180.0, 180.0, "degrees", \
+         "and, after that, about the horizontal axis of the picture from azimuth 0")
 
-#define KD_IMAGE_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                   \
-    INT(image, width, LOOK, FRONT, 1280, 1, 32768, "pixels", "width of the picture")                                 \
-    INT(image, height, LOOK, FRONT, 720, 1, 32768, "pixels", "height of the picture")                                \
-    INT(image, samples, LOOK, FRONT, 1, 1, 8, "1",                                                                   \
+#define KD_IMAGE_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
+    INT(image, width, LOOK, FRONT, 1280, 1, 32768, "pixels", "width of the picture") \
+    INT(image, height, LOOK, FRONT, 720, 1, 32768, "pixels", "height of the picture") \
+    INT(image, samples, LOOK, FRONT, 1, 1, 8, "1", \
         "rays along each side of a pixel: n gives n x n rays, averaged; auto: one, and 16 where the picture shows " \
-        "that one was not enough", "auto")                                                                                 \
-    REAL(image, pixel_error, LOOK, REST, 0.003, 0.001, 0.5, "1",                                                      \
-         "by how much of white a pixel of one ray may seem to be off before it is given more (samples: auto)")  \
-    INT(image, critical_factor, LOOK, REST, 4, 1, 16, "1",                                                           \
-        "so many times as many along each side of the pixels that the critical curve passes, where the photon ring is thinner " \
-        "than they are; at most 16 in all")                                                                          \
-    INT(image, bit_depth, LOOK, REST, 8, 8, 16, "bits", "bits a channel: 8 or 16")                                   \
-    WORDS(image, layers, LOOK, REST,                                                                                 \
-          "what the file holds: the picture, or maps of the rays (docs/layers.md); of the first crossing on the disk, or behind _N of " \
-          "image order N; a PNG shows one in false colour, FITS, EXR, NPZ and NPY hold several as numbers",         \
-          "rgb|intensity_N|g_N|temperature_N|r_N|phi_N|delay_N|emission_angle_N|order|sky_theta|sky_phi|fate|footprint_N|sky_footprint|optical_depth_N|stokes_q_N|stokes_u_N|evpa_N|polarization_fraction_N|brightness_temperature|specific_intensity|stokes_v")       \
-    WORD(image, layer_min, LOOK, REST, INFINITY, -1e12, 1e12, "1",                                                   \
-         "number at the lower end of the colours of a layer; auto: what docs/layers.md says of each", "auto")        \
-    WORD(image, layer_max, LOOK, REST, INFINITY, -1e12, 1e12, "1", "the same at their upper end", "auto")            \
+        "that one was not enough", \
+        "auto") \
+    REAL(image, pixel_error, LOOK, REST, 0.003, 0.001, 0.5, "1", \
+         "by how much of white a pixel of one ray may seem to be off before it is given more (samples: auto)") \
+    INT(image, critical_factor, LOOK, REST, 4, 1, 16, "1", \
+        "so many times as many along each side of the pixels that the critical curve passes, where the photon ring " \
+        "is thinner " \
+        "than they are; at most 16 in all") \
+    INT(image, bit_depth, LOOK, REST, 8, 8, 16, "bits", "bits a channel: 8 or 16") \
+    WORDS(image, layers, LOOK, REST, \
+          "what the file holds: the picture, or maps of the rays (docs/layers.md); of the first crossing on the " \
+          "disk, or behind _N of " \
+          "image order N; a PNG shows one in false colour, FITS, EXR, NPZ and NPY hold several as numbers", \
+          "rgb|intensity_N|g_N|temperature_N|r_N|phi_N|delay_N|emission_angle_N|order|sky_theta|sky_phi|fate|" \
+          "footprint_N|sky_footprint|optical_depth_N|stokes_q_N|stokes_u_N|evpa_N|polarization_fraction_N|brightness_" \
+          "temperature|specific_intensity|stokes_v") \
+    WORD(image, layer_min, LOOK, REST, INFINITY, -1e12, 1e12, "1", \
+         "number at the lower end of the colours of a layer; auto: what docs/layers.md says of each", "auto") \
+    WORD(image, layer_max, LOOK, REST, INFINITY, -1e12, 1e12, "1", "the same at their upper end", "auto") \
     BOOL(image, legend, LOOK, REST, true, "a colour bar in the lower left corner of a layer in false colour")
 
-#define KD_TILE_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                    \
-    INT(tile, left, LOOK, REST, 0, 0, 32767, "pixels", "columns of the picture to its left")                          \
-    INT(tile, top, LOOK, REST, 0, 0, 32767, "pixels", "rows of the picture above it")                                 \
-    INT(tile, width, LOOK, REST, 0, 0, 32768, "pixels", "its width; 0: the whole picture is made, and no tile")       \
+#define KD_TILE_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
+    INT(tile, left, LOOK, REST, 0, 0, 32767, "pixels", "columns of the picture to its left") \
+    INT(tile, top, LOOK, REST, 0, 0, 32767, "pixels", "rows of the picture above it") \
+    INT(tile, width, LOOK, REST, 0, 0, 32768, "pixels", "its width; 0: the whole picture is made, and no tile") \
     INT(tile, height, LOOK, REST, 0, 0, 32768, "pixels", "its height, likewise")
 
-#define KD_STYLE_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                   \
-    ENUM(style, name, LOOK, FRONT, KD_STYLE_FILM,                                                                    \
-         "a preset of what makes the look, which a document sets by naming it, but for the fields that it sets itself; none: nothing", \
-         "none|film|raw|dngr|eht|starless")                                                                                       \
-    WORD(style, exposure, LOOK, FRONT, INFINITY, -40.0, 40.0, "stops",                                               \
-         "brightness as a power of two over the disk's brightest surface brightness at g = 1; auto: by what shines, and stars alone no further than that space is black", "auto") \
-    ENUM(style, tone_map, LOOK, FRONT, KD_TONE_ACES,                                                                 \
-         "aces: film-like curve; srgb: proportional to light, clipped; neutral: keeps colours and compresses what is near white", \
-         "aces|srgb|neutral")                                                                                        \
-    REAL(style, bloom, LOOK, FRONT, 0.4, 0.0, 1.0, "1",                                                              \
-         "share of bright light that a lens spreads round its place: all of what is over 0.6 of white, by an even knee from 0.2 on; 0: none") \
-    REAL(style, beam_uas, LOOK, REST, 0.0, 0.0, 1e12, "microarcseconds",                                             \
-         "full width at half maximum of the round Gaussian beam of a telescope that sees the picture from spacetime.distance_pc; 0: none") \
-    ENUM(style, palette, LOOK, REST, KD_PALETTE_COLOUR,                                                              \
-         "colour: that of light; heat: brightness in false colour, black, red, orange, white, by a lightness that is proportional to it", \
-         "colour|heat")                                                                                              \
-    BOOL(style, colour_bar, LOOK, REST, false,                                                                       \
-         "a bar of brightness (palette: heat; tone_map: srgb) in the lower left corner, a scale of the sky and the beam in the upper right one") \
-    BOOL(style, dither, LOOK, REST, true, "half a step of ordered noise before rounding, against banding")           \
-    REAL(style, ringdown, LOOK, REST, 0.0, 0.0, 1.0, "1",                                                            \
-         "a struck hole, as an illustration: light of image orders 1 and up is multiplied by 1 + this * e^(-t/tau) cos(w t), the " \
-         "quasi-normal mode l = m = 2, n = 0 of the hole; 0: none")                                                  \
-    REAL(style, ringdown_time, LOOK, REST, 0.0, -1e12, 1e12, "M", "time at which it was struck; before that nothing rings")
+#define KD_STYLE_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
+    ENUM(style, name, LOOK, FRONT, KD_STYLE_FILM, \
+         "a preset of what makes the look, which a document sets by naming it, but for the fields that it sets " \
+         "itself; none: nothing", \
+         "none|film|raw|dngr|eht|starless") \
+    WORD(style, exposure, LOOK, FRONT, INFINITY, -40.0, 40.0, "stops", \
+         "brightness as a power of two over the disk's brightest surface brightness at g = 1; auto: by what shines, " \
+         "and stars alone no further than that space is black", \
+         "auto") \
+    ENUM(style, tone_map, LOOK, FRONT, KD_TONE_ACES, \
+         "aces: film-like curve; srgb: proportional to light, clipped; neutral: keeps colours and compresses what is " \
+         "near white", \
+         "aces|srgb|neutral") \
+    REAL(style, bloom, LOOK, FRONT, 0.4, 0.0, 1.0, "1", \
+         "share of bright light that a lens spreads round its place: all of what is over 0.6 of white, by an even " \
+         "knee from 0.2 on; 0: none") \
+    REAL(style, beam_uas, LOOK, REST, 0.0, 0.0, 1e12, "microarcseconds", \
+         "full width at half maximum of the round Gaussian beam of a telescope that sees the picture from " \
+         "spacetime.distance_pc; 0: none") \
+    ENUM(style, palette, LOOK, REST, KD_PALETTE_COLOUR, \
+         "colour: that of light; heat: brightness in false colour, black, red, orange, white, by a lightness that is " \
+         "proportional to it", \
+         "colour|heat") \
+    BOOL(style, colour_bar, LOOK, REST, false, \
+         "a bar of brightness (palette: heat; tone_map: srgb) in the lower left corner, a scale of the sky and the " \
+         "beam in the upper right one") \
+    BOOL(style, dither, LOOK, REST, true, "half a step of ordered noise before rounding, against banding") \
+    REAL(style, ringdown, LOOK, REST, 0.0, 0.0, 1.0, "1", \
+         "a struck hole, as an illustration: light of image orders 1 and up is multiplied by 1 + this * e^(-t/tau) " \
+         "cos(w t), the " \
+         "quasi-normal mode l = m = 2, n = 0 of the hole; 0: none") \
+    REAL(style, ringdown_time, LOOK, REST, 0.0, -1e12, 1e12, "M", \
+         "time at which it was struck; before that nothing rings")
 
-#define KD_MOTION_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                  \
-    REAL(motion, azimuth_rate_deg, LOOK, FRONT, 0.0, -360.0, 360.0, "degrees per second", "the observer goes round the axis") \
-    REAL(motion, time_rate, LOOK, FRONT, 0.0, -1e6, 1e6, "M per second", "coordinate time goes on")                      \
-    REAL(motion, proper_time_rate, LOOK, REST, 0.0, 0.0, 1e6, "M per second",                                         \
-         "the observer goes on by its own clock: it falls, to where a camera can be at last, or goes round, and coordinate time goes on as " \
+#define KD_MOTION_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
+    REAL(motion, azimuth_rate_deg, LOOK, FRONT, 0.0, -360.0, 360.0, "degrees per second", \
+         "the observer goes round the axis") \
+    REAL(motion, time_rate, LOOK, FRONT, 0.0, -1e6, 1e6, "M per second", "coordinate time goes on") \
+    REAL(motion, proper_time_rate, LOOK, REST, 0.0, 0.0, 1e6, "M per second", \
+         "the observer goes on by its own clock: it falls, to where a camera can be at last, or goes round, and " \
+         "coordinate time goes on as " \
          "it does on its way")
 
-#define KD_ACCURACY_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                \
-    ENUM(accuracy, profile, PHYSICS, FRONT, KD_PROFILE_BALANCED,                                                     \
-         "how closely rays are followed, coarse to fine; reference is double precision",                             \
-         "draft|interactive|balanced|high|reference")                                                                \
-    WORD(accuracy, tolerance, PHYSICS, REST, INFINITY, 1e-18, 0.1, "1",                                              \
-         "relative error of the crossing radii to be held, by the accuracy table of the device, instead of the profile", \
-         "profile")                                                                                                  \
-    ENUM(accuracy, engine, PHYSICS, REST, KD_ENGINE_WORD_AUTO,                                                       \
-         "what traces the rays; auto: the closed form outside the orbits of light, else mino-rkn6",                  \
-         "auto|closed|mino-rkn4|mino-rkn6|ks-euler|ks-rk4|ks-tao6")                                                  \
-    ENUM(accuracy, precision, PHYSICS, REST, KD_PRECISION_WORD_AUTO, "of the arithmetic; auto: what the profile means", \
-         "auto|f32|f64")                                                                                             \
-    INT(accuracy, steps, PHYSICS, REST, 0, 0, 2048, "1",                                                             \
-        "steps of the integrator a half turn, a multiple of 4; 0: what the profile means")                           \
+#define KD_ACCURACY_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
+    ENUM(accuracy, profile, PHYSICS, FRONT, KD_PROFILE_BALANCED, \
+         "how closely rays are followed, coarse to fine; reference is double precision", \
+         "draft|interactive|balanced|high|reference") \
+    WORD(accuracy, tolerance, PHYSICS, REST, INFINITY, 1e-18, 0.1, "1", \
+         "relative error of the crossing radii to be held, by the accuracy table of the device, instead of the " \
+         "profile", \
+         "profile") \
+    ENUM(accuracy, engine, PHYSICS, REST, KD_ENGINE_WORD_AUTO, \
+         "what traces the rays; auto: the closed form outside the orbits of light, else mino-rkn6", \
+         "auto|closed|mino-rkn4|mino-rkn6|ks-euler|ks-rk4|ks-tao6") \
+    ENUM(accuracy, precision, PHYSICS, REST, KD_PRECISION_WORD_AUTO, \
+         "of the arithmetic; auto: what the profile means", "auto|f32|f64") \
+    INT(accuracy, steps, PHYSICS, REST, 0, 0, 2048, "1", \
+        "steps of the integrator a half turn, a multiple of 4; 0: what the profile means") \
     INT(accuracy, orders, PHYSICS, REST, 3, 1, 8, "1", "equatorial crossings kept a ray: image orders 0 to n - 1")
 
-#define KD_TOP_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                     \
+#define KD_TOP_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     REAL(top, time, PHYSICS, FRONT, 0.0, -1e12, 1e12, "M", "coordinate time of the picture")
 
-/* The sections, in order: SECTION(name, rows, group, help), and LIST(name, element, rows, group, most, help) for up to `most` elements that have these
- * rows each. The rows of "top" are members of the document itself. */
-#define KD_SCENE_SECTIONS(SECTION, LIST)                                                                             \
-    SECTION(spacetime, KD_SPACETIME_FIELDS, HOLE, "the hole")                                                        \
-    SECTION(camera, KD_CAMERA_FIELDS, CAMERA, "where the observer is and what it looks at")                          \
-    SECTION(disk, KD_DISK_FIELDS, GAS, "the accretion disk in the equatorial plane, turning towards +phi")           \
-    SECTION(gas, KD_GAS_FIELDS, GAS, "turbulence in the gas of the smooth disk models")                              \
-    LIST(spots, spot, KD_SPOTS_FIELDS, GAS, KD_SPOTS, "hot spots: Gaussians in the equatorial plane that go round with the gas") \
-    LIST(bodies, body, KD_BODIES_FIELDS, GAS, KD_SCENE_BODIES, "bodies: spheres that shine, before the hole, behind it and in the disk") \
-    SECTION(volume, KD_VOLUME_FIELDS, GAS, "matter all along the rays")                                              \
-    SECTION(jets, KD_JETS_FIELDS, GAS, "stylised jets along the spin axis")                                          \
-    SECTION(polarization, KD_POLARIZATION_FIELDS, MORE, "how light is polarised: what layers and ticks show of it; of light from the disk's plane no picture does")     \
-    SECTION(sky, KD_SKY_FIELDS, LOOK, "what lies at infinity")                                                       \
-    SECTION(image, KD_IMAGE_FIELDS, MORE, "the size of the picture")                                                 \
-    SECTION(tile, KD_TILE_FIELDS, MORE, "a part of the picture, made by itself, the same to the byte as there")      \
-    SECTION(style, KD_STYLE_FIELDS, LOOK, "from brightness to the colours of the file")                              \
-    SECTION(motion, KD_MOTION_FIELDS, CAMERA, "what goes on by itself in a live session; a still picture knows none of it") \
-    SECTION(accuracy, KD_ACCURACY_FIELDS, MORE, "how closely the rays are followed")                                 \
+/* The sections, in order: SECTION(name, rows, group, help), and LIST(name, element, rows, group, most, help) for up
+ * to `most` elements that have these rows each. The rows of "top" are members of the document itself. */
+#define KD_SCENE_SECTIONS(SECTION, LIST) \
+    SECTION(spacetime, KD_SPACETIME_FIELDS, HOLE, "the hole") \
+    SECTION(camera, KD_CAMERA_FIELDS, CAMERA, "where the observer is and what it looks at") \
+    SECTION(disk, KD_DISK_FIELDS, GAS, "the accretion disk in the equatorial plane, turning towards +phi") \
+    SECTION(gas, KD_GAS_FIELDS, GAS, "turbulence in the gas of the smooth disk models") \
+    LIST(spots, spot, KD_SPOTS_FIELDS, GAS, KD_SPOTS, \
+         "hot spots: Gaussians in the equatorial plane that go round with the gas") \
+    LIST(bodies, body, KD_BODIES_FIELDS, GAS, KD_SCENE_BODIES, \
+         "bodies: spheres that shine, before the hole, behind it and in the disk") \
+    SECTION(volume, KD_VOLUME_FIELDS, GAS, "matter all along the rays") \
+    SECTION(jets, KD_JETS_FIELDS, GAS, "stylised jets along the spin axis") \
+    SECTION( \
+        polarization, KD_POLARIZATION_FIELDS, MORE, \
+        "how light is polarised: what layers and ticks show of it; of light from the disk's plane no picture does") \
+    SECTION(sky, KD_SKY_FIELDS, LOOK, "what lies at infinity") \
+    SECTION(image, KD_IMAGE_FIELDS, MORE, "the size of the picture") \
+    SECTION(tile, KD_TILE_FIELDS, MORE, "a part of the picture, made by itself, the same to the byte as there") \
+    SECTION(style, KD_STYLE_FIELDS, LOOK, "from brightness to the colours of the file") \
+    SECTION(motion, KD_MOTION_FIELDS, CAMERA, \
+            "what goes on by itself in a live session; a still picture knows none of it") \
+    SECTION(accuracy, KD_ACCURACY_FIELDS, MORE, "how closely the rays are followed") \
     SECTION(top, KD_TOP_FIELDS, CAMERA, "members of the document itself")
 
-/* Sections that stand in another one, whose member they are in documents: PART(s, name, section); s is handed through. */
+/* Sections that stand in another one, whose member they are in documents: PART(s, name, section); s is handed
+ * through. */
 #define KD_SCENE_PARTS(PART, s) PART(s, gas, disk) PART(s, tile, image)
 
-/* Styles: a document that names one in style.name sets these fields, but for those that it sets itself (scene/style.h). A column for each
- * word of style.name but "none": ROW(section, name, values as kd_field_put takes them), of fields in sections that are no lists.
+/* Styles: a document that names one in style.name sets these fields, but for those that it sets itself
+ * (scene/style.h). A column for each word of style.name but "none": ROW(section, name, values as kd_field_put takes
+ * them), of fields in sections that are no lists.
  *
- * film: the eye's view of a bright thing through a lens. raw: light, and nothing after it. dngr: as Interstellar had it, whose disk is without
- * the frequency shifts of its gas, and with lens flare (O. James et al. 2015, section 4.3). eht: as the Event Horizon Telescope shows its
- * pictures, at its resolution of about 20 microarcseconds (EHT Collaboration 2019, ApJL 875, L4). starless: no disk, and a sky that is
- * made up, bent: what R. Antonelli's ray tracer of that name (2015) is known for. NAN: the style leaves the field as it is. */
+ * film: the eye's view of a bright thing through a lens. raw: light, and nothing after it. dngr: as Interstellar had
+ * it, whose disk is without the frequency shifts of its gas, and with lens flare (O. James et al. 2015, section
+ * 4.3). eht: as the Event Horizon Telescope shows its pictures, at its resolution of about 20 microarcseconds (EHT
+ * Collaboration 2019, ApJL 875, L4). starless: no disk, and a sky that is made up, bent: what R. Antonelli's ray
+ * tracer of that name (2015) is known for. NAN: the style leaves the field as it is. */
 #define KD_STYLES 5
-#define KD_SCENE_STYLES(ROW)                                                                                         \
-    /*                      film               raw                dngr               eht                starless */  \
-    ROW(disk, model,        NAN,               NAN,               NAN,               NAN,               KD_DISK_NONE) \
-    ROW(disk, doppler,      1,                 1,                 0,                 1,                 1)           \
-    ROW(disk, redshift,     1,                 1,                 0,                 1,                 1)           \
-    ROW(sky, model,         NAN,               NAN,               NAN,               NAN,               KD_SKY_STARS) \
-    ROW(style, exposure,    NAN,               NAN,               NAN,               NAN,               0.5)         \
-    ROW(style, tone_map,    KD_TONE_ACES,      KD_TONE_SRGB,      KD_TONE_ACES,      KD_TONE_SRGB,      KD_TONE_ACES) \
-    ROW(style, bloom,       0.4,               0,                 0.4,               0,                 0.4)         \
-    ROW(style, beam_uas,    0,                 0,                 0,                 20,                0)           \
-    ROW(style, palette,     KD_PALETTE_COLOUR, KD_PALETTE_COLOUR, KD_PALETTE_COLOUR, KD_PALETTE_HEAT,   KD_PALETTE_COLOUR) \
-    ROW(style, colour_bar,  0,                 0,                 0,                 1,                 0)           \
-    ROW(style, dither,      1,                 0,                 1,                 1,                 1)
+#define KD_SCENE_STYLES(ROW) \
+    /*                      film               raw                dngr               eht                starless */ \
+    ROW(disk, model, NAN, NAN, NAN, NAN, KD_DISK_NONE) \
+    ROW(disk, doppler, 1, 1, 0, 1, 1) \
+    ROW(disk, redshift, 1, 1, 0, 1, 1) \
+    ROW(sky, model, NAN, NAN, NAN, NAN, KD_SKY_STARS) \
+    ROW(style, exposure, NAN, NAN, NAN, NAN, 0.5) \
+    ROW(style, tone_map, KD_TONE_ACES, KD_TONE_SRGB, KD_TONE_ACES, KD_TONE_SRGB, KD_TONE_ACES) \
+    ROW(style, bloom, 0.4, 0, 0.4, 0, 0.4) \
+    ROW(style, beam_uas, 0, 0, 0, 20, 0) \
+    ROW(style, palette, KD_PALETTE_COLOUR, KD_PALETTE_COLOUR, KD_PALETTE_COLOUR, KD_PALETTE_HEAT, KD_PALETTE_COLOUR) \
+    ROW(style, colour_bar, 0, 0, 0, 1, 0) \
+    ROW(style, dither, 1, 0, 1, 1, 1)
 
 /* Skies that have light between their stars, or a picture of it. */
-#define KD_WITH_SPREAD_(WITH, path) WITH(path, "model", KD_SKY_STARS) WITH(path, "model", KD_SKY_CATALOGUE) WITH(path, "model", KD_SKY_IMAGE)
+/* clang-format off */
+#define KD_WITH_SPREAD_(WITH, path) \
+    WITH(path, "model", KD_SKY_STARS) WITH(path, "model", KD_SKY_CATALOGUE) WITH(path, "model", KD_SKY_IMAGE)
+/* clang-format on */
 
-/* Controls of a page (scene/control.h), by the fields' paths, of a list's without a number; a section's stand together. */
-#define KD_SCENE_CONTROLS(SPAN, FIRST, SWITCH, WITH, VARIES, BUTTON)                                                 \
-    SPAN("spacetime.spin", -0.998, 0.998)                                                                            \
-    SPAN("spacetime.mass_msun", 1, 1e10)                                                                             \
-    SPAN("spacetime.distance_pc", 1e3, 1e9)                                                                          \
-    SPAN("camera.r", 2.1, 1000) FIRST("camera.r", 60)                                                                \
-    SPAN("camera.field_m", 4, 400)                                                                                   \
-    SPAN("camera.fov_deg", 2, 120)                                                                                   \
-    SPAN("camera.azimuth_deg", -180, 180)                                                                            \
-    SPAN("camera.centre_alpha", -50, 50)                                                                             \
-    SPAN("camera.centre_beta", -50, 50)                                                                              \
-    SPAN("camera.roll_deg", -180, 180)                                                                               \
-    WITH("camera.eye_distance", "stereo", KD_STEREO_PAIR) SPAN("camera.eye_distance", 0.01, 10)                     \
-    SPAN("camera.infall_from", 2.1, 1000) FIRST("camera.infall_from", 100)                                           \
-    SPAN("camera.infall_energy", 0, 10) FIRST("camera.infall_energy", 1)                                             \
-    SPAN("camera.infall_momentum", -5, 5)                                                                            \
-    BUTTON("disk.model", KD_DISK_PARTICLES, "Disk of particles")                                                     \
-    SPAN("disk.inner", 1, 50) FIRST("disk.inner", 6)                                                                 \
-    SPAN("disk.outer", 3, 200)                                                                                       \
-    WITH("disk.peak_temperature_k", "colour", KD_COLOUR_PEAK) SPAN("disk.peak_temperature_k", 1000, 1e5)             \
-    WITH("disk.mdot_edd", "colour", KD_COLOUR_ACCRETION) SPAN("disk.mdot_edd", 1e-3, 10)                             \
-    VARIES("disk.slow_light", "moves_with_time")                                                                     \
-    WITH("disk.particles", "model", KD_DISK_PARTICLES)                                                               \
-    WITH("disk.seed", "model", KD_DISK_PARTICLES) SPAN("disk.seed", 0, 1000)                                         \
-    WITH("disk.density_index", "model", KD_DISK_PARTICLES)                                                           \
-    WITH("disk.plunging", "model", KD_DISK_PARTICLES)                                                                \
-    WITH("disk.plunging_temperature", "model", KD_DISK_PARTICLES)                                                    \
-    WITH("disk.epicycles", "model", KD_DISK_PARTICLES)                                                               \
-    SWITCH("disk.gas.amplitude")                                                                                     \
-    SPAN("disk.gas.seed", 0, 1000)                                                                                   \
-    SWITCH("spots.brightness") BUTTON("spots.brightness", 4, "Hot spot")                                             \
-    SWITCH("bodies.radius") SPAN("bodies.radius", 0.1, 20) BUTTON("bodies.radius", 2, "Body")                        \
-    SPAN("bodies.r", 3, 200) SPAN("bodies.phase_deg", -180, 180) SPAN("bodies.temperature_k", 1000, 1e5)            \
-    WITH("bodies.velocity_r", "motion", KD_OBSERVER_VELOCITY) WITH("bodies.velocity_theta", "motion", KD_OBSERVER_VELOCITY) \
-    WITH("bodies.velocity_phi", "motion", KD_OBSERVER_VELOCITY)                                                      \
-    SWITCH("volume.model") SPAN("volume.outer", 3, 200)                                                               \
-    SPAN("volume.inner", 1, 100) FIRST("volume.inner", 6)                                                             \
-    WITH("volume.emissivity", "model", KD_VOLUME_UNIFORM) SPAN("volume.emissivity", 1e-4, 10)                        \
-    WITH("volume.opacity", "model", KD_VOLUME_UNIFORM) SPAN("volume.opacity", 1e-4, 10)                              \
-    WITH("volume.temperature_k", "model", KD_VOLUME_UNIFORM) SPAN("volume.temperature_k", 1000, 1e5)                  \
-    WITH("volume.redshift", "model", KD_VOLUME_UNIFORM)                                                              \
-    WITH("volume.frequency_ghz", "model", KD_VOLUME_GOLD) WITH("volume.frequency_ghz", "model", KD_VOLUME_RIAF) WITH("volume.frequency_ghz", "model", KD_VOLUME_TORUS) WITH("volume.frequency_ghz", "model", KD_VOLUME_GRID) SPAN("volume.frequency_ghz", 10, 1e4) \
-    WITH("volume.grid", "model", KD_VOLUME_GRID) WITH("volume.grid_scale", "model", KD_VOLUME_GRID) SPAN("volume.grid_scale", 1e-4, 1e4) \
-    WITH("volume.gold_emission", "model", KD_VOLUME_GOLD) SPAN("volume.gold_emission", 1e-20, 1e-15)                 \
-    WITH("volume.gold_index", "model", KD_VOLUME_GOLD) SPAN("volume.gold_index", -4, 4)                              \
-    WITH("volume.gold_flattening", "model", KD_VOLUME_GOLD) SPAN("volume.gold_flattening", 0, 40)                    \
-    WITH("volume.gold_momentum", "model", KD_VOLUME_GOLD)                                                            \
-    WITH("volume.gold_absorption", "model", KD_VOLUME_GOLD) SPAN("volume.gold_absorption", 0, 1e6)                   \
-    WITH("volume.density_cm3", "model", KD_VOLUME_RIAF) WITH("volume.density_cm3", "model", KD_VOLUME_TORUS) SPAN("volume.density_cm3", 10000, 1e+10) \
+/* Controls of a page (scene/control.h), by the fields' paths, of a list's without a number; a section's stand
+ * together. */
+/* clang-format off */
+#define KD_SCENE_CONTROLS(SPAN, FIRST, SWITCH, WITH, VARIES, BUTTON) \
+    SPAN("spacetime.spin", -0.998, 0.998) \
+    SPAN("spacetime.mass_msun", 1, 1e10) \
+    SPAN("spacetime.distance_pc", 1e3, 1e9) \
+    SPAN("camera.r", 2.1, 1000) FIRST("camera.r", 60) \
+    SPAN("camera.field_m", 4, 400) \
+    SPAN("camera.fov_deg", 2, 120) \
+    SPAN("camera.azimuth_deg", -180, 180) \
+    SPAN("camera.centre_alpha", -50, 50) \
+    SPAN("camera.centre_beta", -50, 50) \
+    SPAN("camera.roll_deg", -180, 180) \
+    WITH("camera.eye_distance", "stereo", KD_STEREO_PAIR) SPAN("camera.eye_distance", 0.01, 10) \
+    SPAN("camera.infall_from", 2.1, 1000) FIRST("camera.infall_from", 100) \
+    SPAN("camera.infall_energy", 0, 10) FIRST("camera.infall_energy", 1) \
+    SPAN("camera.infall_momentum", -5, 5) \
+    BUTTON("disk.model", KD_DISK_PARTICLES, "Disk of particles") \
+    SPAN("disk.inner", 1, 50) FIRST("disk.inner", 6) \
+    SPAN("disk.outer", 3, 200) \
+    WITH("disk.peak_temperature_k", "colour", KD_COLOUR_PEAK) SPAN("disk.peak_temperature_k", 1000, 1e5) \
+    WITH("disk.mdot_edd", "colour", KD_COLOUR_ACCRETION) SPAN("disk.mdot_edd", 1e-3, 10) \
+    VARIES("disk.slow_light", "moves_with_time") \
+    WITH("disk.particles", "model", KD_DISK_PARTICLES) \
+    WITH("disk.seed", "model", KD_DISK_PARTICLES) SPAN("disk.seed", 0, 1000) \
+    WITH("disk.density_index", "model", KD_DISK_PARTICLES) \
+    WITH("disk.plunging", "model", KD_DISK_PARTICLES) \
+    WITH("disk.plunging_temperature", "model", KD_DISK_PARTICLES) \
+    WITH("disk.epicycles", "model", KD_DISK_PARTICLES) \
+    SWITCH("disk.gas.amplitude") \
+    SPAN("disk.gas.seed", 0, 1000) \
+    SWITCH("spots.brightness") BUTTON("spots.brightness", 4, "Hot spot") \
+    SWITCH("bodies.radius") SPAN("bodies.radius", 0.1, 20) BUTTON("bodies.radius", 2, "Body") \
+    SPAN("bodies.r", 3, 200) SPAN("bodies.phase_deg", -180, 180) SPAN("bodies.temperature_k", 1000, 1e5) \
+    WITH("bodies.velocity_r", "motion", KD_OBSERVER_VELOCITY) \
+    WITH("bodies.velocity_theta", "motion", KD_OBSERVER_VELOCITY) \
+    WITH("bodies.velocity_phi", "motion", KD_OBSERVER_VELOCITY) \
+    SWITCH("volume.model") SPAN("volume.outer", 3, 200) \
+    SPAN("volume.inner", 1, 100) FIRST("volume.inner", 6) \
+    WITH("volume.emissivity", "model", KD_VOLUME_UNIFORM) SPAN("volume.emissivity", 1e-4, 10) \
+    WITH("volume.opacity", "model", KD_VOLUME_UNIFORM) SPAN("volume.opacity", 1e-4, 10) \
+    WITH("volume.temperature_k", "model", KD_VOLUME_UNIFORM) SPAN("volume.temperature_k", 1000, 1e5) \
+    WITH("volume.redshift", "model", KD_VOLUME_UNIFORM) \
+    WITH("volume.frequency_ghz", "model", KD_VOLUME_GOLD) WITH("volume.frequency_ghz", "model", KD_VOLUME_RIAF) \
+    WITH("volume.frequency_ghz", "model", KD_VOLUME_TORUS) WITH("volume.frequency_ghz", "model", KD_VOLUME_GRID) \
+    SPAN("volume.frequency_ghz", 10, 1e4) \
+    WITH("volume.grid", "model", KD_VOLUME_GRID) WITH("volume.grid_scale", "model", KD_VOLUME_GRID) \
+    SPAN("volume.grid_scale", 1e-4, 1e4) \
+    WITH("volume.gold_emission", "model", KD_VOLUME_GOLD) SPAN("volume.gold_emission", 1e-20, 1e-15) \
+    WITH("volume.gold_index", "model", KD_VOLUME_GOLD) SPAN("volume.gold_index", -4, 4) \
+    WITH("volume.gold_flattening", "model", KD_VOLUME_GOLD) SPAN("volume.gold_flattening", 0, 40) \
+    WITH("volume.gold_momentum", "model", KD_VOLUME_GOLD) \
+    WITH("volume.gold_absorption", "model", KD_VOLUME_GOLD) SPAN("volume.gold_absorption", 0, 1e6) \
+    WITH("volume.density_cm3", "model", KD_VOLUME_RIAF) WITH("volume.density_cm3", "model", KD_VOLUME_TORUS) \
+    SPAN("volume.density_cm3", 10000, 1e+10) \
     WITH("volume.density_index", "model", KD_VOLUME_RIAF) SPAN("volume.density_index", 0, 3) \
     WITH("volume.electron_temperature_k", "model", KD_VOLUME_RIAF) SPAN("volume.electron_temperature_k", 1e+09, 1e+13) \
     WITH("volume.temperature_index", "model", KD_VOLUME_RIAF) SPAN("volume.temperature_index", 0, 2) \
@@ -424,7 +573,8 @@
     WITH("volume.magnetisation_index", "model", KD_VOLUME_RIAF) SPAN("volume.magnetisation_index", 0, 3) \
     WITH("volume.field", "model", KD_VOLUME_RIAF) WITH("volume.field", "model", KD_VOLUME_TORUS) \
     WITH("volume.flow", "model", KD_VOLUME_RIAF) \
-    WITH("volume.electrons", "model", KD_VOLUME_RIAF) WITH("volume.electrons", "model", KD_VOLUME_TORUS) WITH("volume.electrons", "model", KD_VOLUME_GRID) \
+    WITH("volume.electrons", "model", KD_VOLUME_RIAF) WITH("volume.electrons", "model", KD_VOLUME_TORUS) \
+    WITH("volume.electrons", "model", KD_VOLUME_GRID) \
     WITH("volume.kappa", "electrons", KD_VOLUME_KAPPA) \
     WITH("volume.torus_radius", "model", KD_VOLUME_TORUS) SPAN("volume.torus_radius", 5, 50) \
     WITH("volume.adiabatic_index", "model", KD_VOLUME_TORUS) \
@@ -433,45 +583,70 @@
     WITH("volume.electrons_index", "electrons", KD_VOLUME_POWER_LAW) SPAN("volume.electrons_index", 2, 6) \
     WITH("volume.gamma_min", "electrons", KD_VOLUME_POWER_LAW) SPAN("volume.gamma_min", 1, 1000) \
     WITH("volume.gamma_max", "electrons", KD_VOLUME_POWER_LAW) SPAN("volume.gamma_max", 1000, 1e+07) \
-    WITH("volume.normalise_to_jy", "model", KD_VOLUME_GOLD) WITH("volume.normalise_to_jy", "model", KD_VOLUME_RIAF) WITH("volume.normalise_to_jy", "model", KD_VOLUME_TORUS) WITH("volume.normalise_to_jy", "model", KD_VOLUME_GRID) \
+    WITH("volume.normalise_to_jy", "model", KD_VOLUME_GOLD) WITH("volume.normalise_to_jy", "model", KD_VOLUME_RIAF) \
+    WITH("volume.normalise_to_jy", "model", KD_VOLUME_TORUS) WITH("volume.normalise_to_jy", "model", KD_VOLUME_GRID) \
     SPAN("volume.normalise_to_jy", 0, 10) \
-    WITH("volume.normalise_ghz", "model", KD_VOLUME_GOLD) WITH("volume.normalise_ghz", "model", KD_VOLUME_RIAF) WITH("volume.normalise_ghz", "model", KD_VOLUME_TORUS) WITH("volume.normalise_ghz", "model", KD_VOLUME_GRID) \
+    WITH("volume.normalise_ghz", "model", KD_VOLUME_GOLD) WITH("volume.normalise_ghz", "model", KD_VOLUME_RIAF) \
+    WITH("volume.normalise_ghz", "model", KD_VOLUME_TORUS) WITH("volume.normalise_ghz", "model", KD_VOLUME_GRID) \
     SPAN("volume.normalise_ghz", 10, 1e4) FIRST("volume.normalise_ghz", 230) \
-    SWITCH("jets.brightness") SPAN("jets.brightness", 0.001, 10) BUTTON("jets.brightness", 0.1, "Jets")              \
-    SPAN("jets.lorentz", 1, 10) SPAN("jets.outer", 5, 500) SPAN("jets.inner", 1, 50)                                 \
-    SWITCH("polarization.model")                                                                                     \
-    WITH("polarization.field", "model", KD_POLARIZATION_SYNCHROTRON) WITH("polarization.electron_index", "model", KD_POLARIZATION_SYNCHROTRON) \
-    SPAN("polarization.electron_index", 1, 5)                                                                        \
-    WITH("polarization.order", "model", KD_POLARIZATION_SYNCHROTRON) WITH("polarization.order", "model", KD_POLARIZATION_SCATTERING) \
-    WITH("polarization.order", "model", KD_POLARIZATION_TRANSFER) WITH("polarization.faraday", "model", KD_POLARIZATION_TRANSFER) \
-    SWITCH("sky.model")                                                                                              \
-    SPAN("sky.brightness", 1e-4, 1) FIRST("sky.brightness", 0.01)                                                    \
-    WITH("sky.grid_deg", "model", KD_SKY_GRID)                                                                       \
-    SPAN("sky.milky_way", 0, 4) KD_WITH_SPREAD_(WITH, "sky.milky_way")                                               \
-    KD_WITH_SPREAD_(WITH, "sky.image")                                                                               \
-    WITH("sky.limit_mag", "model", KD_SKY_STARS) WITH("sky.limit_mag", "model", KD_SKY_CATALOGUE)                    \
-    SPAN("sky.seed", 0, 1000) KD_WITH_SPREAD_(WITH, "sky.seed")                                                      \
-    KD_WITH_SPREAD_(WITH, "sky.orientation") KD_WITH_SPREAD_(WITH, "sky.turn_deg") KD_WITH_SPREAD_(WITH, "sky.tilt_deg") \
-    FIRST("image.samples", 2)                                                                                        \
-    WITH("image.pixel_error", "samples", INFINITY)                                                                   \
-    SPAN("style.exposure", -10, 10) FIRST("style.exposure", 0)                                                       \
-    SPAN("style.beam_uas", 0, 50)                                                                                    \
-    WITH("style.colour_bar", "palette", KD_PALETTE_HEAT)                                                             \
-    SPAN("style.ringdown_time", -1000, 1000)                                                                         \
-    SPAN("accuracy.tolerance", 1e-12, 1e-2) FIRST("accuracy.tolerance", 1e-6)                                        \
-    SPAN("motion.time_rate", -100, 100) VARIES("motion.time_rate", "moves_with_time|dims_with_time")                 \
-    SPAN("motion.proper_time_rate", 0, 20)                                                                            \
+    SWITCH("jets.brightness") SPAN("jets.brightness", 0.001, 10) BUTTON("jets.brightness", 0.1, "Jets") \
+    SPAN("jets.lorentz", 1, 10) SPAN("jets.outer", 5, 500) SPAN("jets.inner", 1, 50) \
+    SWITCH("polarization.model") \
+    WITH("polarization.field", "model", KD_POLARIZATION_SYNCHROTRON) \
+    WITH("polarization.electron_index", "model", KD_POLARIZATION_SYNCHROTRON) \
+    SPAN("polarization.electron_index", 1, 5) \
+    WITH("polarization.order", "model", KD_POLARIZATION_SYNCHROTRON) \
+    WITH("polarization.order", "model", KD_POLARIZATION_SCATTERING) \
+    WITH("polarization.order", "model", KD_POLARIZATION_TRANSFER) \
+    WITH("polarization.faraday", "model", KD_POLARIZATION_TRANSFER) \
+    SWITCH("sky.model") \
+    SPAN("sky.brightness", 1e-4, 1) FIRST("sky.brightness", 0.01) \
+    WITH("sky.grid_deg", "model", KD_SKY_GRID) \
+    SPAN("sky.milky_way", 0, 4) KD_WITH_SPREAD_(WITH, "sky.milky_way") \
+    KD_WITH_SPREAD_(WITH, "sky.image") \
+    WITH("sky.limit_mag", "model", KD_SKY_STARS) WITH("sky.limit_mag", "model", KD_SKY_CATALOGUE) \
+    SPAN("sky.seed", 0, 1000) KD_WITH_SPREAD_(WITH, "sky.seed") \
+    KD_WITH_SPREAD_(WITH, "sky.orientation") KD_WITH_SPREAD_(WITH, "sky.turn_deg") \
+    KD_WITH_SPREAD_(WITH, "sky.tilt_deg") \
+    FIRST("image.samples", 2) \
+    WITH("image.pixel_error", "samples", INFINITY) \
+    SPAN("style.exposure", -10, 10) FIRST("style.exposure", 0) \
+    SPAN("style.beam_uas", 0, 50) \
+    WITH("style.colour_bar", "palette", KD_PALETTE_HEAT) \
+    SPAN("style.ringdown_time", -1000, 1000) \
+    SPAN("accuracy.tolerance", 1e-12, 1e-2) FIRST("accuracy.tolerance", 1e-6) \
+    SPAN("motion.time_rate", -100, 100) VARIES("motion.time_rate", "moves_with_time|dims_with_time") \
+    SPAN("motion.proper_time_rate", 0, 20) \
     SPAN("time", -1000, 1000) VARIES("time", "moves_with_time|dims_with_time")
+/* clang-format on */
 
 /* What elements were called before there were lists: OLD(name, list, index). They are still read, and never written. */
 #define KD_SCENE_OLD_NAMES(OLD) OLD(spot1, spots, 0) OLD(spot2, spots, 1) OLD(spot3, spots, 2)
 
-enum kd_projection { KD_PROJECTION_AUTO, KD_PROJECTION_PLANE, KD_PROJECTION_PINHOLE, KD_PROJECTION_RING,
-                     KD_PROJECTION_EQUIRECTANGULAR, KD_PROJECTION_FULLDOME };
+enum kd_projection {
+    KD_PROJECTION_AUTO,
+    KD_PROJECTION_PLANE,
+    KD_PROJECTION_PINHOLE,
+    KD_PROJECTION_RING,
+    KD_PROJECTION_EQUIRECTANGULAR,
+    KD_PROJECTION_FULLDOME
+};
 enum kd_stereo { KD_STEREO_NONE, KD_STEREO_PAIR };
 enum kd_disk_model { KD_DISK_NONE, KD_DISK_NOVIKOV_THORNE, KD_DISK_SHAKURA_SUNYAEV, KD_DISK_PARTICLES };
-enum kd_volume_model { KD_VOLUME_NONE, KD_VOLUME_UNIFORM, KD_VOLUME_GOLD, KD_VOLUME_RIAF, KD_VOLUME_TORUS, KD_VOLUME_GRID };
-enum kd_polarization_model { KD_POLARIZATION_NONE, KD_POLARIZATION_SYNCHROTRON, KD_POLARIZATION_SCATTERING, KD_POLARIZATION_TRANSFER };
+enum kd_volume_model {
+    KD_VOLUME_NONE,
+    KD_VOLUME_UNIFORM,
+    KD_VOLUME_GOLD,
+    KD_VOLUME_RIAF,
+    KD_VOLUME_TORUS,
+    KD_VOLUME_GRID
+};
+enum kd_polarization_model {
+    KD_POLARIZATION_NONE,
+    KD_POLARIZATION_SYNCHROTRON,
+    KD_POLARIZATION_SCATTERING,
+    KD_POLARIZATION_TRANSFER
+};
 enum kd_polarization_field { KD_FIELD_TOROIDAL, KD_FIELD_RADIAL, KD_FIELD_VERTICAL };
 enum kd_volume_field { KD_VOLUME_TOROIDAL, KD_VOLUME_VERTICAL, KD_VOLUME_RADIAL };
 enum kd_volume_flow { KD_VOLUME_ORBITS, KD_VOLUME_REST };

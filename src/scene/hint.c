@@ -20,8 +20,7 @@ static void known_names(const struct kd_section *section, char out[HINT_SIZE])
         used += (size_t)snprintf(out + used, HINT_SIZE - used, "%s%s", separator, kd_sections[i].name);
     }
     for (size_t i = 0; i < section->count && used < HINT_SIZE; i++, separator = ", ")
-        used += (size_t)snprintf(out + used, HINT_SIZE - used, "%s%s", separator,
-                                 kd_fields[section->first + i].name);
+        used += (size_t)snprintf(out + used, HINT_SIZE - used, "%s%s", separator, kd_fields[section->first + i].name);
 }
 
 /* Writes "; did you mean camera.r?" or "; known are ...". */
@@ -56,7 +55,8 @@ static void hint(const char *section, size_t index, const char *name, char out[H
 enum kd_status kd_hint_unknown(struct kd_error *error, const char *section, size_t index, const char *name)
 {
     const struct kd_section *known = kd_section_find(section);
-    char shown_section[48], shown_name[64], element[24] = "", suggestion[HINT_SIZE], pointer[sizeof error->pointer] = "";
+    char shown_section[48], shown_name[64], element[24] = "", suggestion[HINT_SIZE],
+                                            pointer[sizeof error->pointer] = "";
     kd_text_clip(shown_section, sizeof shown_section, section);
     kd_text_clip(shown_name, sizeof shown_name, name);
     hint(section, index, name, suggestion);
@@ -69,5 +69,6 @@ enum kd_status kd_hint_unknown(struct kd_error *error, const char *section, size
         kd_text_pointer(pointer, sizeof pointer, element + 1);
     }
     kd_text_pointer(pointer, sizeof pointer, name);
-    return kd_error_field(error, pointer, "unknown field %s%s%s%s%s", shown_section, element, *section ? "." : "", shown_name, suggestion);
+    return kd_error_field(error, pointer, "unknown field %s%s%s%s%s", shown_section, element, *section ? "." : "",
+                          shown_name, suggestion);
 }

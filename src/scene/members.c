@@ -12,11 +12,12 @@ enum kd_status kd_member_refuse(const cJSON *item, const char *pointer, const ch
     char given[KD_VALUE_SIZE];
     struct kd_value value = kd_tree_value(item);
     kd_value_describe(&value, given);
-    return kd_error_field(error, pointer, "%s is %s, allowed is %s", *pointer ? pointer + 1 : "the document", given, allowed);
+    return kd_error_field(error, pointer, "%s is %s, allowed is %s", *pointer ? pointer + 1 : "the document", given,
+                          allowed);
 }
 
-static enum kd_status refuse_name(const cJSON *item, const char *pointer, const struct kd_member *members, size_t n, bool twice,
-                                  struct kd_error *error)
+static enum kd_status refuse_name(const cJSON *item, const char *pointer, const struct kd_member *members, size_t n,
+                                  bool twice, struct kd_error *error)
 {
     char at[sizeof error->pointer], name[60], known[240] = "";
     snprintf(at, sizeof at, "%s", pointer);
@@ -29,7 +30,8 @@ static enum kd_status refuse_name(const cJSON *item, const char *pointer, const 
     return kd_error_field(error, at, "there is no field %s here; known are %s", name, known);
 }
 
-enum kd_status kd_members_read(const cJSON *object, const char *pointer, const struct kd_member *members, size_t n, struct kd_error *error)
+enum kd_status kd_members_read(const cJSON *object, const char *pointer, const struct kd_member *members, size_t n,
+                               struct kd_error *error)
 {
     for (const cJSON *item = object->child; item; item = item->next) {
         size_t i = 0;
@@ -42,7 +44,8 @@ enum kd_status kd_members_read(const cJSON *object, const char *pointer, const s
     return KD_OK;
 }
 
-enum kd_status kd_member_whole(const cJSON *item, const char *pointer, unsigned least, unsigned most, unsigned *out, struct kd_error *error)
+enum kd_status kd_member_whole(const cJSON *item, const char *pointer, unsigned least, unsigned most, unsigned *out,
+                               struct kd_error *error)
 {
     char allowed[60];
     double value = cJSON_IsNumber(item) ? item->valuedouble : -1;
@@ -53,7 +56,8 @@ enum kd_status kd_member_whole(const cJSON *item, const char *pointer, unsigned 
     return KD_OK;
 }
 
-enum kd_status kd_member_word(const cJSON *item, const char *pointer, const char *const *words, size_t n, unsigned *out, struct kd_error *error)
+enum kd_status kd_member_word(const cJSON *item, const char *pointer, const char *const *words, size_t n, unsigned *out,
+                              struct kd_error *error)
 {
     char allowed[100];
     size_t length = 0;
@@ -64,7 +68,11 @@ enum kd_status kd_member_word(const cJSON *item, const char *pointer, const char
             *out = (unsigned)i;
             return KD_OK;
         }
-        length += (size_t)snprintf(allowed + length, sizeof allowed - length, "%s\"%s\"", !i ? "" : i + 1 < n ? ", " : " or ", words[i]);
+        length += (size_t)snprintf(allowed + length, sizeof allowed - length, "%s\"%s\"",
+                                   !i          ? ""
+                                   : i + 1 < n ? ", "
+                                               : " or ",
+                                   words[i]);
     }
     return kd_member_refuse(item, pointer, allowed, error);
 }

@@ -46,7 +46,10 @@ static bool goes_on(const struct kd_scene *scene)
     return scene->motion.proper_time_rate > 0 && kd_worldline_goes_on(&motion, &at);
 }
 
-bool kd_scene_falls(const struct kd_scene *scene) { return scene->camera.observer == KD_OBSERVER_INFALL && goes_on(scene); }
+bool kd_scene_falls(const struct kd_scene *scene)
+{
+    return scene->camera.observer == KD_OBSERVER_INFALL && goes_on(scene);
+}
 
 bool kd_scene_azimuth_goes_on(const struct kd_scene *scene)
 {
@@ -131,7 +134,8 @@ struct kd_observer_motion kd_body_motion(const struct kd_body *body)
     return motion;
 }
 
-/* It is the hole that rings, and m counts about its own axis: spin a < 0 turns the disk against the hole, and rings as |a| does. */
+/* It is the hole that rings, and m counts about its own axis: spin a < 0 turns the disk against the hole, and rings
+ * as |a| does. */
 bool kd_scene_ringdown(const struct kd_scene *scene, double *wave)
 {
     double t = scene->top.time - scene->style.ringdown_time;

@@ -41,7 +41,8 @@ static size_t exponent(const char *text, size_t i, size_t length)
 /* Measures the number that text starts with; open: one of the sides of its point may be empty. */
 static size_t span(const char *text, size_t length, bool open)
 {
-    size_t start = length && text[0] == '-', point = digits(text, start, length), end = point, whole = point - start, fraction = 0;
+    size_t start = length && text[0] == '-', point = digits(text, start, length), end = point, whole = point - start,
+           fraction = 0;
     if (whole > 1 && text[start] == '0')
         return 0;
     if (point < length && text[point] == '.') {

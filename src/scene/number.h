@@ -1,4 +1,5 @@
-/* These read and write numbers as JSON has them and as they are typed, whatever the locale of the process. Any thread. */
+/* These read and write numbers as JSON has them and as they are typed, whatever the locale of the process. Any
+ * thread. */
 #ifndef KD_SCENE_NUMBER_H
 #define KD_SCENE_NUMBER_H
 
@@ -19,9 +20,7 @@ enum { KD_NUMBER_SIZE = 32 };
 void kd_number_format(char out[KD_NUMBER_SIZE], double value);
 
 /* Gives this thread alone the C locale, around code that reads numbers with strtod. */
-struct kd_number_locale {
-    locale_t c, previous;
-};
+struct kd_number_locale { locale_t c, previous; };
 struct kd_number_locale kd_number_locale_enter(void);
 void kd_number_locale_leave(struct kd_number_locale state);
 

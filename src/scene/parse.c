@@ -11,7 +11,7 @@
 #include <string.h>
 
 struct reader {
-    struct kd_scene scene; /* a copy, handed over when the whole document is right */
+    struct kd_scene scene;      /* a copy, handed over when the whole document is right */
     bool given[KD_FIELD_COUNT]; /* by the document, in sections that are no lists */
     bool seen_section[KD_SECTION_COUNT], seen_version;
     const struct kd_old_name *old[KD_SECTION_COUNT]; /* by which an element of the list was given */
@@ -80,8 +80,8 @@ static enum kd_status store_words(struct reader *reader, const struct kd_field *
     kd_field_path(field, index, path);
     kd_value_describe(&value, given);
     kd_value_allowed(field, allowed);
-    return kd_error_field(reader->error, pointer, "%s %s %s, allowed are arrays: %s", path, cJSON_IsArray(item) && bad ? "holds" : "is",
-                          bad ? given : "an array of none", allowed);
+    return kd_error_field(reader->error, pointer, "%s %s %s, allowed are arrays: %s", path,
+                          cJSON_IsArray(item) && bad ? "holds" : "is", bad ? given : "an array of none", allowed);
 }
 
 static enum kd_status read_field(struct reader *reader, struct object *object, const cJSON *item)
@@ -114,8 +114,8 @@ static void reset(struct reader *reader, const struct kd_section *section, size_
 }
 
 /* Reads a section, or an element that is there. */
-static enum kd_status read_object(struct reader *reader, const struct kd_section *section, size_t index, const char *pointer,
-                                  const cJSON *item, bool patch)
+static enum kd_status read_object(struct reader *reader, const struct kd_section *section, size_t index,
+                                  const char *pointer, const cJSON *item, bool patch)
 {
     struct object object = { .section = section, .index = index, .patch = patch };
     if (patch && cJSON_IsNull(item)) {
@@ -134,7 +134,8 @@ static enum kd_status read_object(struct reader *reader, const struct kd_section
 }
 
 /* Elements are made as they are needed; null makes none. */
-static enum kd_status read_element(struct reader *reader, const struct kd_section *list, size_t index, const cJSON *item, bool patch)
+static enum kd_status read_element(struct reader *reader, const struct kd_section *list, size_t index,
+                                   const cJSON *item, bool patch)
 {
     char pointer[KD_PATH_SIZE];
     size_t size = kd_section_size(&reader->scene, list);
@@ -159,7 +160,8 @@ done:
     return status;
 }
 
-/* {"0": {...}} changes elements by their index, in any order: what it adds to the list must follow that without a gap. */
+/* {"0": {...}} changes elements by their index, in any order: what it adds to the list must follow that without a
+ * gap. */
 static enum kd_status read_indices(struct reader *reader, const struct kd_section *list, const cJSON *object)
 {
     size_t before = kd_section_size(&reader->scene, list), last = before;
@@ -189,11 +191,13 @@ static enum kd_status both_names(struct reader *reader, const struct kd_old_name
 {
     char pointer[KD_PATH_SIZE];
     snprintf(pointer, sizeof pointer, "/%s", old->name);
-    return kd_error_field(reader->error, pointer, "%s is an old name of %s.%zu, and %s is given too; allowed is one of them", old->name,
+    return kd_error_field(reader->error, pointer,
+                          "%s is an old name of %s.%zu, and %s is given too; allowed is one of them", old->name,
                           old->section, old->index, old->section);
 }
 
-static enum kd_status read_list(struct reader *reader, const struct kd_section *list, const char *pointer, const cJSON *item)
+static enum kd_status read_list(struct reader *reader, const struct kd_section *list, const char *pointer,
+                                const cJSON *item)
 {
     char allowed[96];
     if (reader->old[list - kd_sections])
@@ -217,7 +221,8 @@ static enum kd_status read_section(struct reader *reader, const struct kd_sectio
     enum kd_status status = once(reader, &reader->seen_section[section - kd_sections], pointer);
     if (status)
         return status;
-    return section->most ? read_list(reader, section, pointer, item) : read_object(reader, section, 0, pointer, item, reader->patch);
+    return section->most ? read_list(reader, section, pointer, item)
+                         : read_object(reader, section, 0, pointer, item, reader->patch);
 }
 
 /* An element by its old name may be beyond the next free index: those between are made too, at their defaults. */
@@ -243,9 +248,12 @@ static enum kd_status read_member(struct reader *reader, struct object *top, con
         enum kd_status status = once(reader, &reader->seen_version, "/version");
         return status ? status : kd_value_version(&value, reader->error);
     }
-    const struct kd_section *section = *item->string && !strchr(item->string, '.') ? kd_section_find(item->string) : NULL;
+    const struct kd_section *section =
+        *item->string && !strchr(item->string, '.') ? kd_section_find(item->string) : NULL;
     const struct kd_old_name *old = kd_old_name_find(item->string);
-    return section ? read_section(reader, section, item) : old ? read_old(reader, old, item) : read_field(reader, top, item);
+    return section ? read_section(reader, section, item)
+           : old   ? read_old(reader, old, item)
+                   : read_field(reader, top, item);
 }
 
 static enum kd_status read_document(struct reader *reader, const struct kd_scene *before, const cJSON *root)

@@ -7,7 +7,7 @@
 
 struct kd_preset {
     const char *name, *label, *title; /* label: a name for people; title: one sentence without a full stop */
-    bool smooth;              /* merged over the preset "smooth"; else over the defaults */
+    bool smooth;                      /* merged over the preset "smooth"; else over the defaults */
     const char *json;
 };
 extern const struct kd_preset kd_presets[];

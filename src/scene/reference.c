@@ -7,41 +7,42 @@
 
 #include <string.h>
 
-static const char introduction[] = "# The scene document\n"
-                                   "\n"
-                                   "What to render, as JSON. Every field may be left out: `{}` is the "
-                                   "default picture. This page is generated from\n"
-                                   "`src/scene/fields.h`; do not edit it.\n"
-                                   "\n"
-                                   "    {\"version\": 1, \"spacetime\": {\"spin\": 0.9}, \"camera\": "
-                                   "{\"inclination_deg\": 70}, \"image\": {\"width\": 640}}\n"
-                                   "\n"
-                                   "A field is also named by its path, on the command line (`--set "
-                                   "camera.inclination_deg=70`) and in a link\n"
-                                   "(`/v1/render?camera.inclination_deg=70`). Lengths and times are in M = "
-                                   "GM/c^2. Ranges include both ends.\n"
-                                   "\n"
-                                   "A list is an array of objects that have the same fields; what an object does "
-                                   "not name is at its default. An array\n"
-                                   "takes the place of the whole list, in a document over a preset and in a merge "
-                                   "patch (RFC 7396) alike. An object in its\n"
-                                   "place changes elements by their index, and keeps the others:\n"
-                                   "\n"
-                                   "    {\"spots\": [{\"brightness\": 4}, {\"brightness\": 2, \"r\": 12}]}   two spots\n"
-                                   "    {\"spots\": {\"1\": {\"r\": 14}}}                                the second "
-                                   "one goes elsewhere\n"
-                                   "\n"
-                                   "An index that is one beyond the last element makes another one; a greater one is "
-                                   "an error. On the command line and in a\n"
-                                   "link an element's field is `spots.1.r`. In a merge patch `null` takes a field, a "
-                                   "section or an element back to its\n"
-                                   "defaults, and empties a list.\n"
-                                   "\n"
-                                   "An unknown field, a field given twice, a wrong type, `null` and a value "
-                                   "outside its range are errors that point\n"
-                                   "at the field. So are NaN, numbers that overflow, text after the "
-                                   "document, nesting deeper than 32 levels and more\n"
-                                   "than 1 MiB.\n";
+static const char introduction[] =
+    "# The scene document\n"
+    "\n"
+    "What to render, as JSON. Every field may be left out: `{}` is the "
+    "default picture. This page is generated from\n"
+    "`src/scene/fields.h`; do not edit it.\n"
+    "\n"
+    "    {\"version\": 1, \"spacetime\": {\"spin\": 0.9}, \"camera\": "
+    "{\"inclination_deg\": 70}, \"image\": {\"width\": 640}}\n"
+    "\n"
+    "A field is also named by its path, on the command line (`--set "
+    "camera.inclination_deg=70`) and in a link\n"
+    "(`/v1/render?camera.inclination_deg=70`). Lengths and times are in M = "
+    "GM/c^2. Ranges include both ends.\n"
+    "\n"
+    "A list is an array of objects that have the same fields; what an object does "
+    "not name is at its default. An array\n"
+    "takes the place of the whole list, in a document over a preset and in a merge "
+    "patch (RFC 7396) alike. An object in its\n"
+    "place changes elements by their index, and keeps the others:\n"
+    "\n"
+    "    {\"spots\": [{\"brightness\": 4}, {\"brightness\": 2, \"r\": 12}]}   two spots\n"
+    "    {\"spots\": {\"1\": {\"r\": 14}}}                                the second "
+    "one goes elsewhere\n"
+    "\n"
+    "An index that is one beyond the last element makes another one; a greater one is "
+    "an error. On the command line and in a\n"
+    "link an element's field is `spots.1.r`. In a merge patch `null` takes a field, a "
+    "section or an element back to its\n"
+    "defaults, and empties a list.\n"
+    "\n"
+    "An unknown field, a field given twice, a wrong type, `null` and a value "
+    "outside its range are errors that point\n"
+    "at the field. So are NaN, numbers that overflow, text after the "
+    "document, nesting deeper than 32 levels and more\n"
+    "than 1 MiB.\n";
 
 static void write_escaped(struct kd_writer *w, const char *text)
 {
@@ -52,11 +53,12 @@ static void write_escaped(struct kd_writer *w, const char *text)
 static void write_field(struct kd_writer *w, const struct kd_field *field)
 {
     static const char *const types[] = { "number", "number or word", "whole number", "true or false",
-                                         "word", "asset", "words" };
+                                         "word",   "asset",          "words" };
     char allowed[KD_ALLOWED_SIZE];
     kd_value_allowed(field, allowed);
-    kd_write(w, "| `%s%s%s%s` | %s | %s | `", field->section, *field->section ? "." : "", field->stride ? "N." : "", field->name,
-             kd_natures[field->nature].word, field->kind == KD_FIELD_INT && field->words ? "whole number or word" : types[field->kind]);
+    kd_write(w, "| `%s%s%s%s` | %s | %s | `", field->section, *field->section ? "." : "", field->stride ? "N." : "",
+             field->name, kd_natures[field->nature].word,
+             field->kind == KD_FIELD_INT && field->words ? "whole number or word" : types[field->kind]);
     kd_write_value(w, field, field->initial);
     kd_write(w, "` | ");
     const char *whole = "whole numbers from "; /* the type column says so */
@@ -72,8 +74,8 @@ static void write_list(struct kd_writer *w, const struct kd_section *list)
     size_t names = 0;
     for (size_t i = 0; i < KD_OLD_NAME_COUNT; i++)
         if (!strcmp(kd_old_names[i].section, list->name))
-            kd_write(w, "%s`%s` is `%s.%zu`", names++ ? ", " : " Old names are still read: ", kd_old_names[i].name, list->name,
-                     kd_old_names[i].index);
+            kd_write(w, "%s`%s` is `%s.%zu`", names++ ? ", " : " Old names are still read: ", kd_old_names[i].name,
+                     list->name, kd_old_names[i].index);
     kd_write(w, "%s\n\n", names ? "." : "");
 }
 
@@ -87,8 +89,8 @@ static void write_section(struct kd_writer *w, const struct kd_section *section)
         write_list(w, section);
     kd_write(w, "| field | nature | type | default | allowed | meaning |\n|---|---|---|---|---|---|\n");
     if (!*section->name)
-        kd_write(w, "| `version` | | whole number | `%d` | %d | version of this document format |\n",
-                 KD_SCENE_VERSION, KD_SCENE_VERSION);
+        kd_write(w, "| `version` | | whole number | `%d` | %d | version of this document format |\n", KD_SCENE_VERSION,
+                 KD_SCENE_VERSION);
     for (size_t i = 0; i < section->count; i++)
         write_field(w, &kd_fields[section->first + i]);
 }
@@ -96,8 +98,10 @@ static void write_section(struct kd_writer *w, const struct kd_section *section)
 static void write_styles(struct kd_writer *w)
 {
     const struct kd_field *names = kd_style_field();
-    kd_write(w, "\n## Styles\n\nA document that has `style.name` sets the fields of that style, but for those that it sets itself; so does a patch, and\n"
-                "a query. The order of `--set` on the command line counts. The canonical form shows every field: nothing else depends on the name.\n\n"
+    kd_write(w, "\n## Styles\n\nA document that has `style.name` sets the fields of that style, but for those that it "
+                "sets itself; so does a patch, and\n"
+                "a query. The order of `--set` on the command line counts. The canonical form shows every field: "
+                "nothing else depends on the name.\n\n"
                 "| field |");
     for (int style = 0; style < KD_STYLES; style++) {
         const struct kd_word word = kd_field_word(names, style + 1);
@@ -142,11 +146,10 @@ enum kd_status kd_scene_reference(struct kd_buffer *out)
         write_styles(w);
     kd_write(w, "\n## Presets\n\n");
     for (size_t i = 0; i < kd_preset_count; i++)
-        kd_write(w, "- `%s` (%s): %s.\n  `%s`%s\n", kd_presets[i].name, kd_presets[i].label, kd_presets[i].title, kd_presets[i].json, kd_presets[i].smooth ? " over `smooth`" : "");
-    kd_write(
-        w,
-        "\n## Canonical form\n\n"
-        "Every field in the order of this page, `version` first, without spaces, each number in the fewest\n"
-        "digits that read back as the same double. Its SHA-256 is the hash of the scene.\n");
+        kd_write(w, "- `%s` (%s): %s.\n  `%s`%s\n", kd_presets[i].name, kd_presets[i].label, kd_presets[i].title,
+                 kd_presets[i].json, kd_presets[i].smooth ? " over `smooth`" : "");
+    kd_write(w, "\n## Canonical form\n\n"
+                "Every field in the order of this page, `version` first, without spaces, each number in the fewest\n"
+                "digits that read back as the same double. Its SHA-256 is the hash of the scene.\n");
     return writer.status;
 }

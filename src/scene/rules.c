@@ -9,9 +9,7 @@
 
 #include <stdio.h>
 
-struct shown {
-    char text[KD_NUMBER_SIZE];
-};
+struct shown { char text[KD_NUMBER_SIZE]; };
 
 static struct shown show(double value)
 {
@@ -21,18 +19,18 @@ static struct shown show(double value)
 }
 
 /* A computed bound is rounded up to what a person would type, so that typing it is accepted. */
-static struct shown show_bound(double value)
-{
-    return show(ceil(value * 1e9) / 1e9);
-}
+static struct shown show_bound(double value) { return show(ceil(value * 1e9) / 1e9); }
 
-#define WORD_OF_NEAR(projection)                                                                                                  \
-    ((projection) == KD_PROJECTION_EQUIRECTANGULAR ? "equirectangular" : (projection) == KD_PROJECTION_FULLDOME ? "fulldome" : "pinhole")
+#define WORD_OF_NEAR(projection) \
+    ((projection) == KD_PROJECTION_EQUIRECTANGULAR ? "equirectangular" \
+     : (projection) == KD_PROJECTION_FULLDOME      ? "fulldome" \
+                                                   : "pinhole")
 
 /* Those that a camera at a finite radius may have. */
 static bool is_near(enum kd_projection projection)
 {
-    return projection == KD_PROJECTION_PINHOLE || projection == KD_PROJECTION_EQUIRECTANGULAR || projection == KD_PROJECTION_FULLDOME;
+    return projection == KD_PROJECTION_PINHOLE || projection == KD_PROJECTION_EQUIRECTANGULAR ||
+           projection == KD_PROJECTION_FULLDOME;
 }
 
 static bool looks_from_near(const struct kd_camera *camera)
@@ -55,17 +53,18 @@ static enum kd_status projection(const struct kd_scene *scene, struct kd_error *
     const struct kd_camera *camera = &scene->camera;
     if (is_near(camera->projection) && !isfinite(camera->r))
         return kd_error_field(error, "/camera/projection",
-                              "camera.projection is \"%s\" with camera.r \"infinity\"; it needs a finite camera.r, at infinity use \"plane\"",
+                              "camera.projection is \"%s\" with camera.r \"infinity\"; it needs a finite camera.r, at "
+                              "infinity use \"plane\"",
                               WORD_OF_NEAR(camera->projection));
     if (camera->projection == KD_PROJECTION_PLANE && isfinite(camera->r))
-        return kd_error_field(
-            error, "/camera/projection",
-            "camera.projection is \"plane\" with camera.r %s M; parallel rays need camera.r "
-            "\"infinity\", at a finite radius use \"pinhole\"",
-            show(camera->r).text);
+        return kd_error_field(error, "/camera/projection",
+                              "camera.projection is \"plane\" with camera.r %s M; parallel rays need camera.r "
+                              "\"infinity\", at a finite radius use \"pinhole\"",
+                              show(camera->r).text);
     if (camera->projection == KD_PROJECTION_RING && isfinite(camera->r))
         return kd_error_field(error, "/camera/projection",
-                              "camera.projection is \"ring\" with camera.r %s M, allowed is \"infinity\"", show(camera->r).text);
+                              "camera.projection is \"ring\" with camera.r %s M, allowed is \"infinity\"",
+                              show(camera->r).text);
     return KD_OK;
 }
 
@@ -86,14 +85,15 @@ static enum kd_status aim(const struct kd_scene *scene, struct kd_error *error)
     };
     for (size_t i = 0; i < sizeof knobs / sizeof *knobs; i++)
         if (knobs[i].idle && knobs[i].value != 0)
-            return kd_error_field(
-                error, knobs[i].pointer,
-                "camera.%s is %s, allowed is 0 in the %s projection, which is aimed with %s",
-                knobs[i].pointer + sizeof "/camera", show(knobs[i].value).text,
-                near ? WORD_OF_NEAR(camera->projection) : ring ? "ring" : "plane",
-                near ? "camera.yaw_deg and camera.pitch_deg"
-                : ring  ? "camera.roll_deg and camera.ring_decades_max and _min"
-                        : "camera.centre_alpha and camera.centre_beta");
+            return kd_error_field(error, knobs[i].pointer,
+                                  "camera.%s is %s, allowed is 0 in the %s projection, which is aimed with %s",
+                                  knobs[i].pointer + sizeof "/camera", show(knobs[i].value).text,
+                                  near   ? WORD_OF_NEAR(camera->projection)
+                                  : ring ? "ring"
+                                         : "plane",
+                                  near   ? "camera.yaw_deg and camera.pitch_deg"
+                                  : ring ? "camera.roll_deg and camera.ring_decades_max and _min"
+                                         : "camera.centre_alpha and camera.centre_beta");
     return KD_OK;
 }
 
@@ -113,8 +113,8 @@ static enum kd_status horizon(const struct kd_scene *scene, struct kd_error *err
     if (r > least || scene->camera.observer == KD_OBSERVER_INFALL)
         return KD_OK;
     return kd_error_field(error, "/camera/r",
-                          "camera.r is %s M, allowed is more than %s M, the horizon of spacetime.spin %s",
-                          show(r).text, show_bound(least).text, show(scene->spacetime.spin).text);
+                          "camera.r is %s M, allowed is more than %s M, the horizon of spacetime.spin %s", show(r).text,
+                          show_bound(least).text, show(scene->spacetime.spin).text);
 }
 
 static enum kd_status observer(const struct kd_scene *scene, struct kd_error *error)
@@ -126,12 +126,16 @@ static enum kd_status observer(const struct kd_scene *scene, struct kd_error *er
     if (kd_observer_exists((enum kd_observer)camera->observer, &at))
         return KD_OK;
     if (camera->observer == KD_OBSERVER_INFALL)
-        return kd_error_field(error, "/camera/r", "camera.r is %s M, allowed for camera.observer \"infall\" is more than %s M, the inner horizon, where the "
-                              "model ends", show(camera->r).text, show_bound(row->outside(at.spin, at.u)).text);
-    return kd_error_field(
-        error, "/camera/r",
-        "camera.r is %s M, allowed for camera.observer \"%s\" at this inclination is more than %s M, %s; camera.observer %s can be inside",
-        show(camera->r).text, row->word, show_bound(row->outside(at.spin, at.u)).text, row->edge, kd_observer_others(&at, others));
+        return kd_error_field(
+            error, "/camera/r",
+            "camera.r is %s M, allowed for camera.observer \"infall\" is more than %s M, the inner horizon, where the "
+            "model ends",
+            show(camera->r).text, show_bound(row->outside(at.spin, at.u)).text);
+    return kd_error_field(error, "/camera/r",
+                          "camera.r is %s M, allowed for camera.observer \"%s\" at this inclination is more than %s M, "
+                          "%s; camera.observer %s can be inside",
+                          show(camera->r).text, row->word, show_bound(row->outside(at.spin, at.u)).text, row->edge,
+                          kd_observer_others(&at, others));
 }
 
 /* What the numbers of an observer's own motion are worth. */
@@ -146,28 +150,40 @@ static enum kd_status motion(const struct kd_scene *scene, struct kd_error *erro
     case KD_OBSERVER_SOUND: return KD_OK;
     case KD_OBSERVER_TOO_FAST:
         snprintf(pointer, sizeof pointer, "/camera/%s", kd_observer_fastest(m.velocity, &bound));
-        return kd_error_field(error, pointer, "camera.velocity_r, velocity_theta and velocity_phi make a speed of %s, allowed is less "
-                              "than 1, that of light", show(hypot(hypot(m.velocity[0], m.velocity[1]), m.velocity[2])).text);
+        return kd_error_field(error, pointer,
+                              "camera.velocity_r, velocity_theta and velocity_phi make a speed of %s, allowed is less "
+                              "than 1, that of light",
+                              show(hypot(hypot(m.velocity[0], m.velocity[1]), m.velocity[2])).text);
     case KD_OBSERVER_TWO_ENERGIES:
-        return kd_error_field(error, "/camera/infall_energy", "camera.infall_energy is %s with camera.infall_from %s M, allowed is \"rest\"",
+        return kd_error_field(error, "/camera/infall_energy",
+                              "camera.infall_energy is %s with camera.infall_from %s M, allowed is \"rest\"",
                               show(m.fall_energy).text, show(m.fall_from).text);
     case KD_OBSERVER_FROM_INSIDE:
-        return kd_error_field(error, "/camera/infall_from", "camera.infall_from is %s M, allowed is at least camera.r, %s M",
-                              show(m.fall_from).text, show(bound).text);
+        return kd_error_field(error, "/camera/infall_from",
+                              "camera.infall_from is %s M, allowed is at least camera.r, %s M", show(m.fall_from).text,
+                              show(bound).text);
     case KD_OBSERVER_TURNS: break;
     }
     if (isfinite(m.fall_energy))
-        return kd_error_field(error, "/camera/infall_energy", "camera.infall_energy is %s, allowed at camera.r %s M with this angular momentum is at "
-                              "least %s", show(m.fall_energy).text, show(camera->r).text, show_bound(bound).text);
-    return kd_error_field(error, "/camera/infall_momentum", "camera.infall_momentum is %s M, with which the observer turns outside camera.r %s M; "
-                          "allowed are those nearer to 0", show(m.fall_momentum).text, show(camera->r).text);
+        return kd_error_field(error, "/camera/infall_energy",
+                              "camera.infall_energy is %s, allowed at camera.r %s M with this angular momentum is at "
+                              "least %s",
+                              show(m.fall_energy).text, show(camera->r).text, show_bound(bound).text);
+    return kd_error_field(error, "/camera/infall_momentum",
+                          "camera.infall_momentum is %s M, with which the observer turns outside camera.r %s M; "
+                          "allowed are those nearer to 0",
+                          show(m.fall_momentum).text, show(camera->r).text);
 }
 
 /* Silence here, too, would leave the user turning a knob that does nothing. */
 static enum kd_status idle_motion(const struct kd_scene *scene, struct kd_error *error)
 {
     const struct kd_camera *c = &scene->camera;
-    const struct { const char *pointer; double value, idle; int observer; } knobs[] = {
+    const struct {
+        const char *pointer;
+        double value, idle;
+        int observer;
+    } knobs[] = {
         { "/camera/velocity_r", c->velocity_r, 0, KD_OBSERVER_VELOCITY },
         { "/camera/velocity_theta", c->velocity_theta, 0, KD_OBSERVER_VELOCITY },
         { "/camera/velocity_phi", c->velocity_phi, 0, KD_OBSERVER_VELOCITY },
@@ -177,9 +193,14 @@ static enum kd_status idle_motion(const struct kd_scene *scene, struct kd_error 
     };
     for (size_t i = 0; i < sizeof knobs / sizeof *knobs; i++)
         if (knobs[i].value != knobs[i].idle && (c->observer != knobs[i].observer || !isfinite(c->r)))
-            return kd_error_field(error, knobs[i].pointer, "camera.%s is %s, allowed is %s unless camera.observer is \"%s\" at a finite camera.r",
-                                  knobs[i].pointer + sizeof "/camera", show(knobs[i].value).text,
-                                  knobs[i].idle == 0 ? "0" : i == 3 ? "\"infinity\"" : "\"rest\"", kd_observers[knobs[i].observer].word);
+            return kd_error_field(
+                error, knobs[i].pointer,
+                "camera.%s is %s, allowed is %s unless camera.observer is \"%s\" at a finite camera.r",
+                knobs[i].pointer + sizeof "/camera", show(knobs[i].value).text,
+                knobs[i].idle == 0 ? "0"
+                : i == 3           ? "\"infinity\""
+                                   : "\"rest\"",
+                kd_observers[knobs[i].observer].word);
     return KD_OK;
 }
 
@@ -192,17 +213,24 @@ static enum kd_status path(const struct kd_scene *scene, struct kd_error *error)
     if (m->proper_time_rate == 0)
         return KD_OK;
     if (!kd_worldline_is_known(&motion, &at))
-        return kd_error_field(error, "/motion/proper_time_rate", "motion.proper_time_rate is %s, allowed is 0 unless camera.observer stays, goes round in "
-                              "the equatorial plane or falls without leaving its latitude, from a finite camera.r", show(m->proper_time_rate).text);
+        return kd_error_field(error, "/motion/proper_time_rate",
+                              "motion.proper_time_rate is %s, allowed is 0 unless camera.observer stays, goes round in "
+                              "the equatorial plane or falls without leaving its latitude, from a finite camera.r",
+                              show(m->proper_time_rate).text);
     if (scene->disk.slow_light && scene->camera.observer == KD_OBSERVER_INFALL)
-        return kd_error_field(error, "/disk/slow_light", "disk.slow_light is true, allowed is false with motion.proper_time_rate %s of one who falls: the way leads "
-                              "into the ergosphere, where there is none", show(m->proper_time_rate).text);
+        return kd_error_field(
+            error, "/disk/slow_light",
+            "disk.slow_light is true, allowed is false with motion.proper_time_rate %s of one who falls: the way leads "
+            "into the ergosphere, where there is none",
+            show(m->proper_time_rate).text);
     if (m->time_rate == 0 && m->azimuth_rate_deg == 0)
         return KD_OK;
     const bool time = m->time_rate != 0;
-    return kd_error_field(error, time ? "/motion/time_rate" : "/motion/azimuth_rate_deg", "motion.%s is %s, allowed is 0 with motion.proper_time_rate %s: time and "
-                          "azimuth go on as they do on the observer's way", time ? "time_rate" : "azimuth_rate_deg",
-                          show(time ? m->time_rate : m->azimuth_rate_deg).text, show(m->proper_time_rate).text);
+    return kd_error_field(error, time ? "/motion/time_rate" : "/motion/azimuth_rate_deg",
+                          "motion.%s is %s, allowed is 0 with motion.proper_time_rate %s: time and "
+                          "azimuth go on as they do on the observer's way",
+                          time ? "time_rate" : "azimuth_rate_deg", show(time ? m->time_rate : m->azimuth_rate_deg).text,
+                          show(m->proper_time_rate).text);
 }
 
 static enum kd_status stereo(const struct kd_scene *scene, struct kd_error *error)
@@ -211,15 +239,22 @@ static enum kd_status stereo(const struct kd_scene *scene, struct kd_error *erro
     double bound;
     if (camera->stereo == KD_STEREO_NONE)
         return KD_OK;
-    if (!isfinite(camera->r) || (camera->projection != KD_PROJECTION_AUTO && camera->projection != KD_PROJECTION_PINHOLE))
-        return kd_error_field(error, "/camera/stereo", "camera.stereo is \"pair\", allowed is \"none\" but from a finite camera.r in pinhole projection");
+    if (!isfinite(camera->r) ||
+        (camera->projection != KD_PROJECTION_AUTO && camera->projection != KD_PROJECTION_PINHOLE))
+        return kd_error_field(
+            error, "/camera/stereo",
+            "camera.stereo is \"pair\", allowed is \"none\" but from a finite camera.r in pinhole projection");
     for (int side = -1; side <= 1; side += 2) {
         const struct kd_scene eye = kd_scene_eye(scene, side);
         const struct kd_vantage at = kd_scene_vantage(&eye);
         const struct kd_observer_motion m = kd_scene_observer(&eye);
-        if (!(camera->eye_distance < camera->r && kd_observer_exists(m.observer, &at) && at.r >= 0.01 && at.r <= 1e7 && kd_observer_check(&m, &at, &bound) == KD_OBSERVER_SOUND))
-            return kd_error_field(error, "/camera/eye_distance", "camera.eye_distance is %s M, with which an eye would be where camera.observer cannot be; allowed are "
-                                  "smaller ones", show(camera->eye_distance).text);
+        if (!(camera->eye_distance < camera->r && kd_observer_exists(m.observer, &at) && at.r >= 0.01 && at.r <= 1e7 &&
+              kd_observer_check(&m, &at, &bound) == KD_OBSERVER_SOUND))
+            return kd_error_field(
+                error, "/camera/eye_distance",
+                "camera.eye_distance is %s M, with which an eye would be where camera.observer cannot be; allowed are "
+                "smaller ones",
+                show(camera->eye_distance).text);
     }
     return KD_OK;
 }
@@ -229,10 +264,9 @@ static enum kd_status inner_edge(const struct kd_scene *scene, struct kd_error *
     double least = kd_kerr_isco(scene->spacetime.spin);
     if (scene->disk.model == KD_DISK_NONE || scene->disk.inner >= least)
         return KD_OK;
-    return kd_error_field(
-        error, "/disk/inner",
-        "disk.inner is %s M, allowed is at least %s M, the ISCO of spacetime.spin %s, or \"isco\"",
-        show(scene->disk.inner).text, show_bound(least).text, show(scene->spacetime.spin).text);
+    return kd_error_field(error, "/disk/inner",
+                          "disk.inner is %s M, allowed is at least %s M, the ISCO of spacetime.spin %s, or \"isco\"",
+                          show(scene->disk.inner).text, show_bound(least).text, show(scene->spacetime.spin).text);
 }
 
 static enum kd_status outer_edge(const struct kd_scene *scene, struct kd_error *error)
@@ -241,19 +275,20 @@ static enum kd_status outer_edge(const struct kd_scene *scene, struct kd_error *
     double least = isco ? kd_kerr_isco(scene->spacetime.spin) : scene->disk.inner;
     if (scene->disk.model == KD_DISK_NONE || scene->disk.outer > least)
         return KD_OK;
-    return kd_error_field(
-        error, "/disk/outer", "disk.outer is %s M, allowed is more than the inner edge, %s M%s",
-        show(scene->disk.outer).text, show_bound(least).text, isco ? ", which is the ISCO" : "");
+    return kd_error_field(error, "/disk/outer", "disk.outer is %s M, allowed is more than the inner edge, %s M%s",
+                          show(scene->disk.outer).text, show_bound(least).text, isco ? ", which is the ISCO" : "");
 }
 
 #define LEAST_HEIGHT 1e-5 /* below it the place of a ray in a float is no longer told within the height */
 static enum kd_status height(const struct kd_scene *scene, struct kd_error *error)
 {
     if (scene->disk.height > 0 && scene->disk.height < LEAST_HEIGHT)
-        return kd_error_field(error, "/disk/height", "disk.height is %s, allowed is 0, and %s or more", show(scene->disk.height).text, show(LEAST_HEIGHT).text);
+        return kd_error_field(error, "/disk/height", "disk.height is %s, allowed is 0, and %s or more",
+                              show(scene->disk.height).text, show(LEAST_HEIGHT).text);
     if (scene->disk.height == 0 || scene->disk.model != KD_DISK_PARTICLES)
         return KD_OK;
-    return kd_error_field(error, "/disk/height", "disk.height is %s, allowed where disk.model is \"particles\" is 0", show(scene->disk.height).text);
+    return kd_error_field(error, "/disk/height", "disk.height is %s, allowed where disk.model is \"particles\" is 0",
+                          show(scene->disk.height).text);
 }
 
 static enum kd_status volume(const struct kd_scene *scene, struct kd_error *error)
@@ -263,29 +298,46 @@ static enum kd_status volume(const struct kd_scene *scene, struct kd_error *erro
     if (v->model == KD_VOLUME_TORUS) {
         const double isco = kd_kerr_isco(scene->spacetime.spin);
         if (!(v->torus_radius > isco))
-            return kd_error_field(error, "/volume/torus_radius", "volume.torus_radius is %s M, allowed is more than the ISCO, %s M", show(v->torus_radius).text, show_bound(isco).text);
+            return kd_error_field(error, "/volume/torus_radius",
+                                  "volume.torus_radius is %s M, allowed is more than the ISCO, %s M",
+                                  show(v->torus_radius).text, show_bound(isco).text);
         const double light = kd_kerr_photon_orbit(scene->spacetime.spin);
         if (!(least < v->torus_radius) || !(least > light))
-            return kd_error_field(error, "/volume/inner", "volume.inner is %s%s M, allowed for a torus is less than volume.torus_radius, %s M, and more than the orbit of light, %s M", isinf(v->inner) ? "\"horizon\", for a torus " : "",
-                                  show(least).text, show_bound(v->torus_radius).text, show_bound(light).text);
+            return kd_error_field(error, "/volume/inner",
+                                  "volume.inner is %s%s M, allowed for a torus is less than volume.torus_radius, %s M, "
+                                  "and more than the orbit of light, %s M",
+                                  isinf(v->inner) ? "\"horizon\", for a torus " : "", show(least).text,
+                                  show_bound(v->torus_radius).text, show_bound(light).text);
         const struct kd_torus torus = kd_torus_of(scene->spacetime.spin, least, v->torus_radius);
         if (!isfinite(torus.outer) || !(torus.log_most > 0))
-            return kd_error_field(error, "/volume/torus_radius", "volume.torus_radius is %s M with the inner edge at %s M: gas that goes round like that has no outer edge; allowed is less, or an inner edge further out",
+            return kd_error_field(error, "/volume/torus_radius",
+                                  "volume.torus_radius is %s M with the inner edge at %s M: gas that goes round like "
+                                  "that has no outer edge; allowed is less, or an inner edge further out",
                                   show(v->torus_radius).text, show(least).text);
     }
     if (v->model >= KD_VOLUME_RIAF && v->electrons == KD_VOLUME_POWER_LAW && !(v->gamma_max > v->gamma_min))
-        return kd_error_field(error, "/volume/gamma_max", "volume.gamma_max is %s, allowed is more than volume.gamma_min, %s", show(v->gamma_max).text, show_bound(v->gamma_min).text);
+        return kd_error_field(error, "/volume/gamma_max",
+                              "volume.gamma_max is %s, allowed is more than volume.gamma_min, %s",
+                              show(v->gamma_max).text, show_bound(v->gamma_min).text);
     if (v->normalise_to_jy > 0 && !(kd_scene_is_radio_alone(scene) && kd_scene_is_flat(scene)))
-        return kd_error_field(error, "/volume/normalise_to_jy", "volume.normalise_to_jy is %s Jy, allowed is 0 but where a volume at a radio frequency shines alone, in the plane and pinhole projections", show(v->normalise_to_jy).text);
+        return kd_error_field(error, "/volume/normalise_to_jy",
+                              "volume.normalise_to_jy is %s Jy, allowed is 0 but where a volume at a radio frequency "
+                              "shines alone, in the plane and pinhole projections",
+                              show(v->normalise_to_jy).text);
     if (v->normalise_to_jy > 0 && scene->camera.stereo != KD_STEREO_NONE)
-        return kd_error_field(error, "/volume/normalise_to_jy", "volume.normalise_to_jy is %s Jy, allowed for a pair of eyes is 0: each would see another density", show(v->normalise_to_jy).text);
+        return kd_error_field(
+            error, "/volume/normalise_to_jy",
+            "volume.normalise_to_jy is %s Jy, allowed for a pair of eyes is 0: each would see another density",
+            show(v->normalise_to_jy).text);
     if (v->model == KD_VOLUME_NONE || v->outer > least)
         return KD_OK;
-    return kd_error_field(error, "/volume/outer", "volume.outer is %s M, allowed is more than the inner edge, %s M", show(v->outer).text,
-                          show_bound(least).text);
+    return kd_error_field(error, "/volume/outer", "volume.outer is %s M, allowed is more than the inner edge, %s M",
+                          show(v->outer).text, show_bound(least).text);
 }
 
-#define JETS_GROWTH 60 /* octaves of light from the inner edge to the outer one: beyond lies what 32 bits do not hold */
+#define JETS_GROWTH \
+    60 /* octaves of light from the inner edge to the outer one: beyond lies what 32 bits do not hold \
+        */
 static enum kd_status jets(const struct kd_scene *scene, struct kd_error *error)
 {
     const struct kd_jets *j = &scene->jets;
@@ -294,11 +346,14 @@ static enum kd_status jets(const struct kd_scene *scene, struct kd_error *error)
         return KD_OK;
     const double slowest = -JETS_GROWTH / log2(j->outer / least);
     if (j->outer > least && j->falloff < slowest)
-        return kd_error_field(error, "/jets/falloff", "jets.falloff is %s, with which light grows more than 2^60 times from %s to %s M, allowed is at least %s",
-                              show(j->falloff).text, show(least).text, show(j->outer).text, show_bound(slowest).text);
+        return kd_error_field(
+            error, "/jets/falloff",
+            "jets.falloff is %s, with which light grows more than 2^60 times from %s to %s M, allowed is at least %s",
+            show(j->falloff).text, show(least).text, show(j->outer).text, show_bound(slowest).text);
     if (j->outer > least)
         return KD_OK;
-    return kd_error_field(error, "/jets/outer", "jets.outer is %s M, allowed is more than the inner edge, %s M", show(j->outer).text, show_bound(least).text);
+    return kd_error_field(error, "/jets/outer", "jets.outer is %s M, allowed is more than the inner edge, %s M",
+                          show(j->outer).text, show_bound(least).text);
 }
 
 static enum kd_status spots(const struct kd_scene *scene, struct kd_error *error)
@@ -312,8 +367,8 @@ static enum kd_status spots(const struct kd_scene *scene, struct kd_error *error
             continue;
         kd_field_path(r, i, path);
         kd_field_pointer(r, i, pointer);
-        return kd_error_field(error, pointer, "%s is %s M, allowed is at least %s M, the ISCO of spacetime.spin %s", path,
-                              show(spot->r).text, show_bound(least).text, show(scene->spacetime.spin).text);
+        return kd_error_field(error, pointer, "%s is %s M, allowed is at least %s M, the ISCO of spacetime.spin %s",
+                              path, show(spot->r).text, show_bound(least).text, show(scene->spacetime.spin).text);
     }
     return KD_OK;
 }
@@ -321,7 +376,8 @@ static enum kd_status spots(const struct kd_scene *scene, struct kd_error *error
 #define BODIES_CLEAR 1.05 /* of the horizon's radius */
 
 /* A field of a body, and why it is not allowed. */
-static enum kd_status body_field(const char *name, size_t index, const char *is, const char *allowed, struct kd_error *error)
+static enum kd_status body_field(const char *name, size_t index, const char *is, const char *allowed,
+                                 struct kd_error *error)
 {
     char path[KD_PATH_SIZE], pointer[KD_PATH_SIZE];
     const struct kd_field *field = kd_field_find("bodies", name);
@@ -334,7 +390,8 @@ static enum kd_status body(const struct kd_scene *scene, size_t index, struct kd
 {
     const struct kd_body *b = &scene->bodies.at[index];
     const struct kd_vantage at = kd_body_vantage(scene, b);
-    const double least = BODIES_CLEAR * kd_kerr_horizon(scene->spacetime.spin), v[] = { b->velocity_r, b->velocity_theta, b->velocity_phi };
+    const double least = BODIES_CLEAR * kd_kerr_horizon(scene->spacetime.spin),
+                 v[] = { b->velocity_r, b->velocity_theta, b->velocity_phi };
     const bool circular = b->motion == KD_OBSERVER_KEPLERIAN || b->motion == KD_OBSERVER_RETROGRADE;
     const struct kd_observer_row *row = &kd_observers[b->motion];
     char allowed[160];
@@ -348,16 +405,19 @@ static enum kd_status body(const struct kd_scene *scene, size_t index, struct kd
         return body_field("inclination_deg", index, show(b->inclination_deg).text, allowed, error);
     }
     if (!kd_observer_exists((enum kd_observer)b->motion, &at)) {
-        snprintf(allowed, sizeof allowed, "more than %s M, %s, with motion \"%s\": inside %s", show_bound(row->outside(at.spin, at.u)).text, row->edge, row->word, row->why);
+        snprintf(allowed, sizeof allowed, "more than %s M, %s, with motion \"%s\": inside %s",
+                 show_bound(row->outside(at.spin, at.u)).text, row->edge, row->word, row->why);
         return body_field("r", index, show(b->r).text, allowed, error);
     }
     if (b->motion == KD_OBSERVER_VELOCITY && !(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] <= 0.999 * 0.999)) {
         const char *fastest = kd_observer_fastest(v, &most);
-        return body_field(fastest, index, show(most).text, "a velocity of at most 0.999 together with the other two components", error);
+        return body_field(fastest, index, show(most).text,
+                          "a velocity of at most 0.999 together with the other two components", error);
     }
     for (int i = 0; i < 3; i++)
         if (b->motion != KD_OBSERVER_VELOCITY && v[i] != 0)
-            return body_field((const char *[]) { "velocity_r", "velocity_theta", "velocity_phi" }[i], index, show(v[i]).text, "0 unless motion is \"velocity\"", error);
+            return body_field((const char *[]) { "velocity_r", "velocity_theta", "velocity_phi" }[i], index,
+                              show(v[i]).text, "0 unless motion is \"velocity\"", error);
     return KD_OK;
 }
 
@@ -374,9 +434,11 @@ static enum kd_status ringdown(const struct kd_scene *scene, struct kd_error *er
 {
     if (scene->style.ringdown == 0 || fabs(scene->spacetime.spin) <= KD_QNM_SPIN_MAX)
         return KD_OK;
-    return kd_error_field(error, "/style/ringdown",
-                          "style.ringdown is %s, allowed is 0 with spacetime.spin %s: beyond %s the modes of a hole crowd and none of "
-                          "them rings alone", show(scene->style.ringdown).text, show(scene->spacetime.spin).text, show(KD_QNM_SPIN_MAX).text);
+    return kd_error_field(
+        error, "/style/ringdown",
+        "style.ringdown is %s, allowed is 0 with spacetime.spin %s: beyond %s the modes of a hole crowd and none of "
+        "them rings alone",
+        show(scene->style.ringdown).text, show(scene->spacetime.spin).text, show(KD_QNM_SPIN_MAX).text);
 }
 
 static enum kd_status beam(const struct kd_scene *scene, struct kd_error *error)
@@ -385,10 +447,15 @@ static enum kd_status beam(const struct kd_scene *scene, struct kd_error *error)
     if (scene->style.beam_uas == 0 || scene->style.beam_uas <= most) /* false of NAN */
         return KD_OK;
     if (isnan(width))
-        return kd_error_field(error, "/style/beam_uas", "style.beam_uas is %s, allowed is 0 but in the plane and pinhole projections: in the others pixels are not of one angle",
+        return kd_error_field(error, "/style/beam_uas",
+                              "style.beam_uas is %s, allowed is 0 but in the plane and pinhole projections: in the "
+                              "others pixels are not of one angle",
                               show(scene->style.beam_uas).text);
-    return kd_error_field(error, "/style/beam_uas", "style.beam_uas is %s microarcseconds, allowed are up to %s, %d times the width of the picture at "
-                          "this spacetime.mass_msun and spacetime.distance_pc", show(scene->style.beam_uas).text, show(most).text, BEAM_WIDTHS);
+    return kd_error_field(
+        error, "/style/beam_uas",
+        "style.beam_uas is %s microarcseconds, allowed are up to %s, %d times the width of the picture at "
+        "this spacetime.mass_msun and spacetime.distance_pc",
+        show(scene->style.beam_uas).text, show(most).text, BEAM_WIDTHS);
 }
 
 /* A bar would be that of no curve, and of no colour. */
@@ -397,8 +464,10 @@ static enum kd_status colour_bar(const struct kd_scene *scene, struct kd_error *
     const bool heat = scene->style.palette == KD_PALETTE_HEAT;
     if (!scene->style.colour_bar || (heat && scene->style.tone_map == KD_TONE_SRGB))
         return KD_OK;
-    return kd_error_field(error, "/style/colour_bar", "style.colour_bar is true, allowed is false unless style.palette is \"heat\" and style.tone_map "
-                          "\"srgb\": else brightness has no one colour, or no even scale");
+    return kd_error_field(
+        error, "/style/colour_bar",
+        "style.colour_bar is true, allowed is false unless style.palette is \"heat\" and style.tone_map "
+        "\"srgb\": else brightness has no one colour, or no even scale");
 }
 
 /* The rest of what accuracy.* may not say together depends on the device: render/accuracy/engine.h. */
@@ -406,26 +475,35 @@ static enum kd_status steps(const struct kd_scene *scene, struct kd_error *error
 {
     if (scene->accuracy.steps % STEPS == 0)
         return KD_OK;
-    return kd_error_field(error, "/accuracy/steps", "accuracy.steps is %d, allowed are multiples of 4 up to 2048, and 0",
-                          scene->accuracy.steps);
+    return kd_error_field(error, "/accuracy/steps",
+                          "accuracy.steps is %d, allowed are multiples of 4 up to 2048, and 0", scene->accuracy.steps);
 }
 
-/* A tile lies in its picture. What is made of the whole picture, no tile can have: it is refused where a plan is made (render/plan/tile.h). */
+/* A tile lies in its picture. What is made of the whole picture, no tile can have: it is refused where a plan is
+ * made (render/plan/tile.h). */
 static enum kd_status tile(const struct kd_scene *scene, struct kd_error *error)
 {
     const struct kd_tile *t = &scene->tile;
     if ((t->width > 0) != (t->height > 0))
-        return kd_error_field(error, t->width ? "/image/tile/height" : "/image/tile/width", "image.tile.width is %d and image.tile.height %d pixels, allowed are both above 0, or both 0: the whole picture",
+        return kd_error_field(error, t->width ? "/image/tile/height" : "/image/tile/width",
+                              "image.tile.width is %d and image.tile.height %d pixels, allowed are both above 0, or "
+                              "both 0: the whole picture",
                               t->width, t->height);
     if (!t->width && (t->left || t->top))
-        return kd_error_field(error, t->left ? "/image/tile/left" : "/image/tile/top", "image.tile.left is %d and image.tile.top %d pixels, allowed are 0 without image.tile.width and image.tile.height",
+        return kd_error_field(error, t->left ? "/image/tile/left" : "/image/tile/top",
+                              "image.tile.left is %d and image.tile.top %d pixels, allowed are 0 without "
+                              "image.tile.width and image.tile.height",
                               t->left, t->top);
     if (t->left + t->width > scene->image.width)
-        return kd_error_field(error, "/image/tile/width", "image.tile.width is %d pixels from column %d on, allowed are up to %d in a picture of image.width %d", t->width, t->left,
-                              scene->image.width > t->left ? scene->image.width - t->left : 0, scene->image.width);
+        return kd_error_field(
+            error, "/image/tile/width",
+            "image.tile.width is %d pixels from column %d on, allowed are up to %d in a picture of image.width %d",
+            t->width, t->left, scene->image.width > t->left ? scene->image.width - t->left : 0, scene->image.width);
     if (t->top + t->height > scene->image.height)
-        return kd_error_field(error, "/image/tile/height", "image.tile.height is %d pixels from row %d on, allowed are up to %d in a picture of image.height %d", t->height, t->top,
-                              scene->image.height > t->top ? scene->image.height - t->top : 0, scene->image.height);
+        return kd_error_field(
+            error, "/image/tile/height",
+            "image.tile.height is %d pixels from row %d on, allowed are up to %d in a picture of image.height %d",
+            t->height, t->top, scene->image.height > t->top ? scene->image.height - t->top : 0, scene->image.height);
     return KD_OK;
 }
 
@@ -435,54 +513,86 @@ static enum kd_status transfer(const struct kd_scene *scene, struct kd_error *er
     if (scene->polarization.model != KD_POLARIZATION_TRANSFER)
         return KD_OK;
     if (!kd_scene_is_magnetic(scene))
-        return kd_error_field(error, "/polarization/model", "polarization.model is \"transfer\", allowed where volume.model has electrons in a magnetic field: \"riaf\", \"torus\", \"grid\"");
+        return kd_error_field(error, "/polarization/model",
+                              "polarization.model is \"transfer\", allowed where volume.model has electrons in a "
+                              "magnetic field: \"riaf\", \"torus\", \"grid\"");
     if (scene->volume.electrons == KD_VOLUME_KAPPA && !(scene->volume.kappa >= 3.5 && scene->volume.kappa <= 5))
-        return kd_error_field(error, "/volume/kappa", "volume.kappa is %s, allowed with polarization.model \"transfer\" is 3.5 to 5, for which Faraday rotation is known",
+        return kd_error_field(error, "/volume/kappa",
+                              "volume.kappa is %s, allowed with polarization.model \"transfer\" is 3.5 to 5, for which "
+                              "Faraday rotation is known",
                               show(scene->volume.kappa).text);
     if (!kd_scene_is_radio_alone(scene))
-        return kd_error_field(error, "/polarization/model", "polarization.model is \"transfer\", allowed where nothing but the volume shines: disk.model and sky.model \"none\", "
+        return kd_error_field(error, "/polarization/model",
+                              "polarization.model is \"transfer\", allowed where nothing but the volume shines: "
+                              "disk.model and sky.model \"none\", "
                               "no jets, spots or bodies");
     if (scene->camera.projection == KD_PROJECTION_RING)
-        return kd_error_field(error, "/polarization/model", "polarization.model is \"transfer\", allowed is \"none\" with camera.projection \"ring\", where a picture has no up");
+        return kd_error_field(error, "/polarization/model",
+                              "polarization.model is \"transfer\", allowed is \"none\" with camera.projection "
+                              "\"ring\", where a picture has no up");
     return KD_OK;
 }
 
 const struct kd_rule kd_rules[] = {
     { "`image.bit_depth` is 8 or 16.", bit_depth, "image", "bit_depth", BITS },
-    { "`camera.projection` \"pinhole\", \"equirectangular\" and \"fulldome\" need a finite `camera.r`, \"plane\" and \"ring\" need `camera.r` \"infinity\".",
+    { "`camera.projection` \"pinhole\", \"equirectangular\" and \"fulldome\" need a finite `camera.r`, \"plane\" and "
+      "\"ring\" need `camera.r` \"infinity\".",
       projection },
-    { "`camera.centre_alpha` and `camera.centre_beta` aim the plane projection, `camera.yaw_deg` and `camera.pitch_deg` "
+    { "`camera.centre_alpha` and `camera.centre_beta` aim the plane projection, `camera.yaw_deg` and "
+      "`camera.pitch_deg` "
       "those from a finite radius; each pair is 0 in the other projections.",
       aim },
     { "`camera.ring_decades_min` is less than `camera.ring_decades_max`.", decades },
     { "`camera.r` is outside the outer horizon, 1 + sqrt(1 - a^2), unless `camera.observer` is \"infall\".", horizon },
     { "Each `camera.observer` exists in a region of its own" KD_OBSERVER_PLACES ".", observer },
-    { "`camera.velocity_r`, `camera.velocity_theta` and `camera.velocity_phi` are a speed below 1. What falls is outside no turning point: "
-      "`camera.infall_from` is at least `camera.r`, and it does not turn on its way; `camera.infall_energy` is enough to be at "
+    { "`camera.velocity_r`, `camera.velocity_theta` and `camera.velocity_phi` are a speed below 1. What falls is "
+      "outside no turning point: "
+      "`camera.infall_from` is at least `camera.r`, and it does not turn on its way; `camera.infall_energy` is enough "
+      "to be at "
       "`camera.r`, and \"rest\" where `camera.infall_from` is not \"infinity\".",
       motion },
-    { "`camera.velocity_*` and `camera.infall_*` have their defaults unless `camera.observer` is \"velocity\" or \"infall\" at a finite "
+    { "`camera.velocity_*` and `camera.infall_*` have their defaults unless `camera.observer` is \"velocity\" or "
+      "\"infall\" at a finite "
       "`camera.r`.",
       idle_motion },
-    { "`motion.proper_time_rate` needs an observer at a finite `camera.r` that stays there (static, zamo), goes round in the equatorial plane, or falls "
-      "without leaving its latitude: without spin, in that plane, on the axis, or from rest at infinity; `motion.time_rate` and "
+    { "`motion.proper_time_rate` needs an observer at a finite `camera.r` that stays there (static, zamo), goes round "
+      "in the equatorial plane, or falls "
+      "without leaving its latitude: without spin, in that plane, on the axis, or from rest at infinity; "
+      "`motion.time_rate` and "
       "`motion.azimuth_rate_deg` are 0 then, and `disk.slow_light` is false for one who falls.",
       path },
-    { "`camera.stereo` \"pair\" needs a finite `camera.r` and the pinhole projection, and `camera.observer` exists where each eye is, less than `camera.r` from the other.",
+    { "`camera.stereo` \"pair\" needs a finite `camera.r` and the pinhole projection, and `camera.observer` exists "
+      "where each eye is, less than `camera.r` from the other.",
       stereo },
     { "`disk.inner` is not inside the ISCO of the spin, unless there is no disk.", inner_edge },
     { "`disk.outer` is larger than the inner edge, unless there is no disk.", outer_edge },
-    { "`disk.height` is 0, or at least 1e-5; it is 0 for a disk of particles.", height, "disk", "height", 0, LEAST_HEIGHT },
-    { "`volume.outer` is larger than the inner edge, which is at least a hundredth outside the horizon, or a two-thousandth for what is seen at a radio frequency, unless there is no volume; "
-      "a torus has its inner edge between the orbit of light and `volume.torus_radius`, which is outside the ISCO, and an outer edge; `volume.gamma_max` is larger than `volume.gamma_min` where electrons go by a power law; `volume.normalise_to_jy` is 0 but where a volume at a radio frequency shines alone, in the plane and pinhole projections, without stereo.", volume },
-    { "`jets.outer` is larger than the inner edge, which is at least a twentieth outside the horizon, unless `jets.brightness` is 0; by a `jets.falloff` below 0 light grows "
-      "at most 2^60 times in between.", jets },
+    { "`disk.height` is 0, or at least 1e-5; it is 0 for a disk of particles.", height, "disk", "height", 0,
+      LEAST_HEIGHT },
+    { "`volume.outer` is larger than the inner edge, which is at least a hundredth outside the horizon, or a "
+      "two-thousandth for what is seen at a radio frequency, unless there is no volume; "
+      "a torus has its inner edge between the orbit of light and `volume.torus_radius`, which is outside the ISCO, and "
+      "an outer edge; `volume.gamma_max` is larger than `volume.gamma_min` where electrons go by a power law; "
+      "`volume.normalise_to_jy` is 0 but where a volume at a radio frequency shines alone, in the plane and pinhole "
+      "projections, without stereo.",
+      volume },
+    { "`jets.outer` is larger than the inner edge, which is at least a twentieth outside the horizon, unless "
+      "`jets.brightness` is 0; by a `jets.falloff` below 0 light grows "
+      "at most 2^60 times in between.",
+      jets },
     { "`spots.N.r` is not inside the ISCO of the spin, unless the spot's brightness is 0.", spots },
-    { "`bodies.N.r` is at least a twentieth outside the horizon, and where `bodies.N.motion` exists; keplerian and retrograde orbits have `bodies.N.inclination_deg` 90; "
-      "`bodies.N.velocity_*` are a speed of at most 0.999, and 0 unless the motion is \"velocity\"; unless the body's radius is 0.", bodies },
-    { "`polarization.model` \"transfer\" needs a volume whose electrons are in a magnetic field (`volume.model` \"riaf\", \"torus\" or \"grid\"), of a kappa distribution with `volume.kappa` from 3.5 to 5, beside which nothing shines, and no ring projection.", transfer },
+    { "`bodies.N.r` is at least a twentieth outside the horizon, and where `bodies.N.motion` exists; keplerian and "
+      "retrograde orbits have `bodies.N.inclination_deg` 90; "
+      "`bodies.N.velocity_*` are a speed of at most 0.999, and 0 unless the motion is \"velocity\"; unless the body's "
+      "radius is 0.",
+      bodies },
+    { "`polarization.model` \"transfer\" needs a volume whose electrons are in a magnetic field (`volume.model` "
+      "\"riaf\", \"torus\" or \"grid\"), of a kappa distribution with `volume.kappa` from 3.5 to 5, beside which "
+      "nothing shines, and no ring projection.",
+      transfer },
     { "`style.ringdown` is 0 where the spin is beyond 0.9999 or -0.9999.", ringdown },
-    { "`style.beam_uas` is at most a thousand times the width of the picture in the plane and pinhole projections, and 0 in the others.", beam },
+    { "`style.beam_uas` is at most a thousand times the width of the picture in the plane and pinhole projections, and "
+      "0 in the others.",
+      beam },
     { "`style.colour_bar` needs `style.palette` \"heat\" and `style.tone_map` \"srgb\".", colour_bar },
     { "`image.tile` lies within the picture; its width and height are both above 0, or all of it is 0.", tile },
     { "`accuracy.steps` is a multiple of 4.", steps, "accuracy", "steps", STEPS, 0 },

@@ -7,7 +7,8 @@
 struct kd_rule {
     const char *text;
     enum kd_status (*check)(const struct kd_scene *scene, struct kd_error *error);
-    /* A schema can say it too where the rule is that a whole number is a multiple of one, or that a number is 0 or at least another; else NULL, NULL, 0, 0. */
+    /* A schema can say it too where the rule is that a whole number is a multiple of one, or that a number is 0 or
+     * at least another; else NULL, NULL, 0, 0. */
     const char *section, *name;
     int32_t multiple;
     double above_0;

@@ -25,8 +25,8 @@ struct scan {
 static enum kd_status fail(struct scan *s, size_t at, const char *what)
 {
     struct kd_text_place place = kd_text_place_of(s->text, at);
-    return kd_error_set(s->error, KD_EINVAL, "the document is not valid JSON: %s at byte %zu, line %zu, column %zu", what, at, place.line,
-                        place.column);
+    return kd_error_set(s->error, KD_EINVAL, "the document is not valid JSON: %s at byte %zu, line %zu, column %zu",
+                        what, at, place.line, place.column);
 }
 
 /* The escape after a backslash at s->at. */
@@ -124,9 +124,8 @@ static enum kd_status mark(struct scan *s, char c)
             return too_many(s);
     } else if (c && !strchr(": \t\n\r", c)) {
         return fail(s, s->at,
-                    (c & 0x80) && !kd_utf8_sequence(s->text + s->at, s->length - s->at)
-                        ? "invalid UTF-8"
-                        : "unexpected character");
+                    (c & 0x80) && !kd_utf8_sequence(s->text + s->at, s->length - s->at) ? "invalid UTF-8"
+                                                                                        : "unexpected character");
     } else if (!c) {
         return fail(s, s->at, "NUL");
     }

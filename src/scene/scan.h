@@ -11,16 +11,17 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Looks at a whole document. most: how many values it may hold, each of which costs cJSON some 64 bytes. KD_SCAN_FEW is far more
- * than a scene has fields: a document with more is wrong, and cheap to refuse. */
+/* Looks at a whole document. most: how many values it may hold, each of which costs cJSON some 64 bytes. KD_SCAN_FEW
+ * is far more than a scene has fields: a document with more is wrong, and cheap to refuse. */
 enum { KD_SCAN_FEW = 4096 };
 enum kd_status kd_scan_json(const char *text, size_t length, size_t most, struct kd_error *error);
 
-/* Looks at the bytes from start to end alone, of KD_SCAN_FEW values at most, for a reader that takes the rest itself. Messages
- * count from text. */
+/* Looks at the bytes from start to end alone, of KD_SCAN_FEW values at most, for a reader that takes the rest
+ * itself. Messages count from text. */
 enum kd_status kd_scan_json_part(const char *text, size_t start, size_t end, struct kd_error *error);
 
-/* Whether an object has a member of this name, of ASCII letters; found without reading its values. Of what is no JSON it may say anything. */
+/* Whether an object has a member of this name, of ASCII letters; found without reading its values. Of what is no
+ * JSON it may say anything. */
 bool kd_scan_names(const char *text, size_t length, const char *name);
 
 #endif

@@ -18,14 +18,16 @@ static void write_range(struct kd_writer *w, const char *type, const struct kd_f
 static void write_multiple(struct kd_writer *w, const struct kd_field *field)
 {
     for (size_t i = 0; i < kd_rule_count; i++)
-        if (kd_rules[i].multiple && !strcmp(kd_rules[i].section, field->section) && !strcmp(kd_rules[i].name, field->name))
+        if (kd_rules[i].multiple && !strcmp(kd_rules[i].section, field->section) &&
+            !strcmp(kd_rules[i].name, field->name))
             kd_write(w, ",\"multipleOf\":%d", kd_rules[i].multiple);
 }
 
 static void write_above_0(struct kd_writer *w, const struct kd_field *field)
 {
     for (size_t i = 0; i < kd_rule_count; i++)
-        if (kd_rules[i].above_0 > 0 && !strcmp(kd_rules[i].section, field->section) && !strcmp(kd_rules[i].name, field->name)) {
+        if (kd_rules[i].above_0 > 0 && !strcmp(kd_rules[i].section, field->section) &&
+            !strcmp(kd_rules[i].name, field->name)) {
             kd_write(w, ",\"not\":{\"exclusiveMinimum\":0,\"exclusiveMaximum\":");
             kd_write_number(w, kd_rules[i].above_0);
             kd_write(w, "}");
@@ -64,7 +66,9 @@ static void write_many(struct kd_writer *w, const struct kd_field *field)
         alone |= !has;
         numbered |= has;
     }
-    kd_write(w, "\"type\":\"array\",\"minItems\":1,\"maxItems\":%d,\"uniqueItems\":true,\"items\":{\"type\":\"string\",\"pattern\":\"^(",
+    kd_write(w,
+             "\"type\":\"array\",\"minItems\":1,\"maxItems\":%d,\"uniqueItems\":true,\"items\":{\"type\":\"string\","
+             "\"pattern\":\"^(",
              KD_WORDS_MOST);
     write_pattern(w, field, false);
     kd_write(w, "%s", alone && numbered ? "|" : "");
@@ -95,12 +99,13 @@ static void write_type(struct kd_writer *w, const struct kd_field *field)
     case KD_FIELD_ENUM: write_words(w, field); return;
     case KD_FIELD_WORD: break;
     case KD_FIELD_ASSET:
-        kd_write(w, "\"anyOf\":[{\"type\":\"null\"},{\"type\":\"string\",\"pattern\":\"^(|[A-Za-z][A-Za-z0-9._-]{0,62}|[0-9a-f]{64})$\"}]");
+        kd_write(w, "\"anyOf\":[{\"type\":\"null\"},{\"type\":\"string\",\"pattern\":\"^(|[A-Za-z][A-Za-z0-9._-]{0,62}|"
+                    "[0-9a-f]{64})$\"}]");
         return;
     case KD_FIELD_WORDS: write_many(w, field); return;
     }
-    /* The word first: generators of clients take the first type that a default fits, and "infinity" reads as a number. An enumeration as well: of a const in a union they
-     * make code that takes nothing else. */
+    /* The word first: generators of clients take the first type that a default fits, and "infinity" reads as a
+     * number. An enumeration as well: of a const in a union they make code that takes nothing else. */
     kd_write(w, "\"anyOf\":[{\"type\":\"string\",\"const\":");
     kd_write_string(w, field->words);
     kd_write(w, ",\"enum\":[");
@@ -162,7 +167,7 @@ static void write_with(struct kd_writer *w, const struct kd_field *field, const 
 static void write_control(struct kd_writer *w, const struct kd_field *field, const struct kd_control *control)
 {
     static const char *const keys[] = {
-        [KD_CONTROL_SPAN] = "span", [KD_CONTROL_FIRST] = "first", [KD_CONTROL_SWITCH] = "switch",
+        [KD_CONTROL_SPAN] = "span", [KD_CONTROL_FIRST] = "first",   [KD_CONTROL_SWITCH] = "switch",
         [KD_CONTROL_WITH] = "with", [KD_CONTROL_VARIES] = "varies", [KD_CONTROL_BUTTON] = "button",
     };
     kd_write(w, ",\"x-%s\":", keys[control->kind]);
@@ -257,8 +262,8 @@ static void write_section(struct kd_writer *w, const struct kd_section *section)
 /* Writes an old name; x-now is the path that has taken its place. */
 static void write_old_name(struct kd_writer *w, const struct kd_old_name *old)
 {
-    kd_write(w, ",\"%s\":{\"description\":\"an old name of %s.%zu\",\"deprecated\":true,\"x-now\":\"%s.%zu\",", old->name, old->section,
-             old->index, old->section, old->index);
+    kd_write(w, ",\"%s\":{\"description\":\"an old name of %s.%zu\",\"deprecated\":true,\"x-now\":\"%s.%zu\",",
+             old->name, old->section, old->index, old->section, old->index);
     write_object(w, kd_section_find(old->section));
 }
 
@@ -279,17 +284,16 @@ static void write_words_of_fields(struct kd_writer *w)
 enum kd_status kd_scene_schema(struct kd_buffer *out)
 {
     struct kd_writer writer = { .out = out }, *w = &writer;
-    kd_write(
-        w,
-        "{\"$schema\":\"https://json-schema.org/draft/2020-12/schema\",\"title\":\"kerrd scene, version %d\","
-        "\"type\":\"object\",\"additionalProperties\":false,",
-        KD_SCENE_VERSION);
+    kd_write(w,
+             "{\"$schema\":\"https://json-schema.org/draft/2020-12/schema\",\"title\":\"kerrd scene, version %d\","
+             "\"type\":\"object\",\"additionalProperties\":false,",
+             KD_SCENE_VERSION);
     write_words_of_fields(w);
-    kd_write(
-        w,
-        "\"properties\":{"
-        "\"version\":{\"type\":\"integer\",\"enum\":[%d],\"const\":%d,\"description\":\"version of this document format\"}", /* both: makers of clients write numbers badly that are a const alone */
-        KD_SCENE_VERSION, KD_SCENE_VERSION);
+    kd_write(w,
+             "\"properties\":{"
+             "\"version\":{\"type\":\"integer\",\"enum\":[%d],\"const\":%d,\"description\":\"version of this document "
+             "format\"}", /* both: makers of clients write numbers badly that are a const alone */
+             KD_SCENE_VERSION, KD_SCENE_VERSION);
     for (size_t i = 0; i < KD_SECTION_COUNT; i++) {
         if (strchr(kd_sections[i].name, '.')) /* written with the section that it stands in */
             continue;
@@ -303,7 +307,8 @@ enum kd_status kd_scene_schema(struct kd_buffer *out)
         write_old_name(w, &kd_old_names[i]);
     kd_write(w, "},\"dependentSchemas\":{");
     for (size_t i = 0; i < KD_OLD_NAME_COUNT; i++)
-        kd_write(w, "%s\"%s\":{\"not\":{\"required\":[\"%s\"]}}", i ? "," : "", kd_old_names[i].name, kd_old_names[i].section);
+        kd_write(w, "%s\"%s\":{\"not\":{\"required\":[\"%s\"]}}", i ? "," : "", kd_old_names[i].name,
+                 kd_old_names[i].section);
     kd_write(w, "}}");
     return writer.status;
 }

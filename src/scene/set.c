@@ -21,8 +21,10 @@ static enum kd_status whole_section(const struct kd_section *section, struct kd_
     char pointer[KD_PATH_SIZE], path[KD_PATH_SIZE];
     kd_section_pointer(section, pointer);
     kd_field_path(&kd_fields[section->first], 0, path);
-    return section->most ? kd_error_field(error, pointer, "%s is a list; name a field of one of its elements, as in %s", section->name, path)
-                         : kd_error_field(error, pointer, "%s is a section; name one of its fields, as in %s", section->name, path);
+    return section->most ? kd_error_field(error, pointer, "%s is a list; name a field of one of its elements, as in %s",
+                                          section->name, path)
+                         : kd_error_field(error, pointer, "%s is a section; name one of its fields, as in %s",
+                                          section->name, path);
 }
 
 static enum kd_status whole_element(const struct kd_section *list, size_t index, struct kd_error *error)
@@ -30,7 +32,8 @@ static enum kd_status whole_element(const struct kd_section *list, size_t index,
     char pointer[KD_PATH_SIZE], path[KD_PATH_SIZE];
     kd_element_pointer(list, index, pointer);
     kd_field_path(&kd_fields[list->first], index, path);
-    return kd_error_field(error, pointer, "%s.%zu is an element; name one of its fields, as in %s", list->name, index, path);
+    return kd_error_field(error, pointer, "%s.%zu is an element; name one of its fields, as in %s", list->name, index,
+                          path);
 }
 
 /* The token of the path before its next dot, "" where it has none or is too long; *rest is what follows. */
@@ -103,7 +106,8 @@ bool kd_scene_same_path(const char *a, const char *b)
     return !strcmp(one, other);
 }
 
-static enum kd_status find_field(const char *path, struct place *place, const struct kd_field **out, struct kd_error *error)
+static enum kd_status find_field(const char *path, struct place *place, const struct kd_field **out,
+                                 struct kd_error *error)
 {
     enum kd_status status = find_place(path, place, error);
     if (status)
@@ -120,8 +124,7 @@ enum kd_status kd_field_at(const char *path, const struct kd_field **out, size_t
     return status;
 }
 
-enum kd_status kd_scene_set(struct kd_scene *scene, const char *path, const char *text,
-                            struct kd_error *error)
+enum kd_status kd_scene_set(struct kd_scene *scene, const char *path, const char *text, struct kd_error *error)
 {
     struct kd_value value = kd_value_typed(text);
     const struct kd_field *field;

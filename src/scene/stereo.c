@@ -29,13 +29,14 @@ static struct vec outwards(const struct basis *b, const double local[3])
     return mix(1, mix(local[0], b->r, local[1], b->theta), local[2], b->phi);
 }
 
-/* Where a camera looks, and what is up and to the right in its picture, in (e_r, e_theta, e_phi), as render/view/camera.c has it. */
+/* Where a camera looks, and what is up and to the right in its picture, in (e_r, e_theta, e_phi), as
+ * render/view/camera.c has it. */
 struct view { double ahead[3], right[3], up[3]; };
 
 static struct view view_of(const struct kd_camera *c)
 {
-    const double cy = kd_cos_deg(c->yaw_deg), sy = kd_sin_deg(c->yaw_deg), cp = kd_cos_deg(c->pitch_deg), sp = kd_sin_deg(c->pitch_deg),
-                 cr = kd_cos_deg(c->roll_deg), sr = kd_sin_deg(c->roll_deg);
+    const double cy = kd_cos_deg(c->yaw_deg), sy = kd_sin_deg(c->yaw_deg), cp = kd_cos_deg(c->pitch_deg),
+                 sp = kd_sin_deg(c->pitch_deg), cr = kd_cos_deg(c->roll_deg), sr = kd_sin_deg(c->roll_deg);
     const double up[3] = { cy * sp, -cp, -sy * sp }, side[3] = { sy, 0, cy };
     struct view v = { .ahead = { -cp * cy, -sp, cp * sy } };
     for (int i = 0; i < 3; i++) {
@@ -45,9 +46,10 @@ static struct view view_of(const struct kd_camera *c)
     return v;
 }
 
-/* What a length of 1 along a leg is in coordinates: dr, r dtheta, r sin(theta) dphi; the azimuth of what falls is that of ingoing Kerr-Schild
- * coordinates. From p_mu by Sigma p^r, Sigma p^theta = p_theta and Sigma p^phi = L/sin^2 - a E + a (P + w)/Delta with P = E (r^2 + a^2) - a L, w = Sigma p^r of
- * those and 0 of others. At the horizon, where the last is 0/0 of what falls, next to it. */
+/* What a length of 1 along a leg is in coordinates: dr, r dtheta, r sin(theta) dphi; the azimuth of what falls is
+ * that of ingoing Kerr-Schild coordinates. From p_mu by Sigma p^r, Sigma p^theta = p_theta and Sigma p^phi = L/sin^2
+ * - a E + a (P + w)/Delta with P = E (r^2 + a^2) - a L, w = Sigma p^r of those and 0 of others. At the horizon,
+ * where the last is 0/0 of what falls, next to it. */
 static void along(const struct kd_vantage *at, const struct kd_covector *leg, bool falls, double out[3])
 {
     const double a = at->spin, r = at->r, s = at->s, sigma = r * r + a * a * at->u * at->u, w2 = r * r + a * a;

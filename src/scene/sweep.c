@@ -29,7 +29,8 @@ const struct kd_sweep_value *kd_sweep_at(const struct kd_sweep *sweep, unsigned 
     return &sweep->axes[axis].values[left % sweep->axes[axis].n];
 }
 
-static enum kd_status set(const struct kd_sweep *sweep, unsigned scene, bool style, struct kd_scene *out, struct kd_error *error)
+static enum kd_status set(const struct kd_sweep *sweep, unsigned scene, bool style, struct kd_scene *out,
+                          struct kd_error *error)
 {
     enum kd_status status = KD_OK;
     for (size_t i = 0; i < sweep->n_axes && !status; i++)
@@ -42,11 +43,15 @@ static enum kd_status set(const struct kd_sweep *sweep, unsigned scene, bool sty
 static void tell(const struct kd_sweep *sweep, unsigned scene, char *out, size_t size)
 {
     for (size_t i = 0, n = 0; i < sweep->n_axes && n < size; i++)
-        n += (size_t)snprintf(out + n, size - n, "%s%s %.40s", !i ? "" : i + 1 < sweep->n_axes ? ", " : " and ", sweep->axes[i].path,
-                              kd_sweep_at(sweep, scene, i)->text);
+        n += (size_t)snprintf(out + n, size - n, "%s%s %.40s",
+                              !i                      ? ""
+                              : i + 1 < sweep->n_axes ? ", "
+                                                      : " and ",
+                              sweep->axes[i].path, kd_sweep_at(sweep, scene, i)->text);
 }
 
-enum kd_status kd_sweep_scene(const struct kd_sweep *sweep, unsigned scene, struct kd_scene *out, struct kd_error *error)
+enum kd_status kd_sweep_scene(const struct kd_sweep *sweep, unsigned scene, struct kd_scene *out,
+                              struct kd_error *error)
 {
     struct kd_error inner = { 0 };
     char with[160];
@@ -99,7 +104,8 @@ void kd_sweep_name(const struct kd_sweep *sweep, unsigned scene, char out[KD_SWE
     for (size_t i = 0; i < sweep->n_axes; i++) {
         const char *dot = strrchr(sweep->axes[i].path, '.');
         char part[KD_SWEEP_NAME];
-        int length = snprintf(part, sizeof part, " %s=%.24s", dot ? dot + 1 : sweep->axes[i].path, kd_sweep_at(sweep, scene, i)->text);
+        int length = snprintf(part, sizeof part, " %s=%.24s", dot ? dot + 1 : sweep->axes[i].path,
+                              kd_sweep_at(sweep, scene, i)->text);
         if (n + (size_t)length >= KD_SWEEP_NAME)
             break;
         for (const char *c = part; *c; c++)

@@ -25,7 +25,10 @@ struct reader {
 
 static struct kd_sweep_axis *last(const struct reader *r) { return &r->sweep->axes[r->sweep->n_axes - 1]; }
 
-static enum kd_status no_memory(const struct reader *r) { return kd_error_set(r->error, KD_ENOMEM, "out of memory for the axes of a sweep"); }
+static enum kd_status no_memory(const struct reader *r)
+{
+    return kd_error_set(r->error, KD_ENOMEM, "out of memory for the axes of a sweep");
+}
 
 static enum kd_status too_many(const struct reader *r, double n)
 {
@@ -40,7 +43,8 @@ static enum kd_status begin(struct reader *r, const char *path)
     kd_text_pointer(r->pointer, sizeof r->pointer, path);
     kd_text_clip(name, sizeof name, path);
     if (s->n_axes == KD_SWEEP_AXES)
-        return kd_error_field(r->error, r->pointer, "%s is one axis too many, allowed are up to %d", name, KD_SWEEP_AXES);
+        return kd_error_field(r->error, r->pointer, "%s is one axis too many, allowed are up to %d", name,
+                              KD_SWEEP_AXES);
     for (size_t i = 0; i < s->n_axes; i++)
         if (kd_scene_same_path(s->axes[i].path, path))
             return kd_error_field(r->error, r->pointer, "%s is given twice", name);
@@ -85,7 +89,9 @@ static enum kd_status add(struct reader *r, const char *text, const char *at)
         free(copy);
         return no_memory(r);
     }
-    axis->values[axis->n++] = (struct kd_sweep_value) { copy, value.kind == KD_VALUE_NUMBER && r->field->kind != KD_FIELD_ASSET ? value.number : NAN };
+    axis->values[axis->n++] =
+        (struct kd_sweep_value) { copy, value.kind == KD_VALUE_NUMBER && r->field->kind != KD_FIELD_ASSET ? value.number
+                                                                                                          : NAN };
     return KD_OK;
 }
 
@@ -97,7 +103,10 @@ static enum kd_status add_number(struct reader *r, double value, const char *at)
 }
 
 /* A range as it is written; by: ':' a step, '/' a count, 0: it is none. */
-struct range { double from, to, step; char by; };
+struct range {
+    double from, to, step;
+    char by;
+};
 
 static struct range range_of(const char *text)
 {
@@ -126,8 +135,11 @@ static enum kd_status add_range(struct reader *r, const char *text)
     if (count)
         range.step = (range.to - range.from) / steps;
     if (!(steps >= 0) || !isfinite(steps) || !isfinite(range.step) || range.step == 0)
-        return kd_error_field(r->error, r->pointer, "%s is \"%s\", allowed are a list of values, and a range that leads from its start to its stop: "
-                              "\"10:80:15\", start:stop:step, or \"10:80/15\", start:stop/how many", last(r)->path, shown);
+        return kd_error_field(
+            r->error, r->pointer,
+            "%s is \"%s\", allowed are a list of values, and a range that leads from its start to its stop: "
+            "\"10:80:15\", start:stop:step, or \"10:80/15\", start:stop/how many",
+            last(r)->path, shown);
     if (steps > KD_SWEEP_MOST)
         return too_many(r, steps + 1);
     size_t n = (size_t)(steps + HITS) + 1;
@@ -158,7 +170,8 @@ static enum kd_status refuse_twins(struct reader *r)
     if (twin)
         kd_text_clip(shown, sizeof shown, twin);
     enum kd_status status = !texts ? no_memory(r)
-                            : twin ? kd_error_field(r->error, r->pointer, "%s holds %s twice", axis->path, shown) : KD_OK;
+                            : twin ? kd_error_field(r->error, r->pointer, "%s holds %s twice", axis->path, shown)
+                                   : KD_OK;
     free(texts);
     return status;
 }
@@ -208,7 +221,8 @@ static enum kd_status join(struct reader *r, const cJSON *words, struct kd_buffe
 {
     enum kd_status status = KD_OK;
     for (const cJSON *word = words->child; word && !status; word = word->next)
-        status = kd_buffer_printf(out, "%s%s", word == words->child ? "" : ",", cJSON_IsString(word) ? word->valuestring : "?");
+        status = kd_buffer_printf(out, "%s%s", word == words->child ? "" : ",",
+                                  cJSON_IsString(word) ? word->valuestring : "?");
     return status ? no_memory(r) : KD_OK;
 }
 
@@ -231,7 +245,8 @@ static enum kd_status add_item(struct reader *r, const cJSON *item, const char *
         return add(r, cJSON_IsTrue(item) ? "true" : "false", at);
     if (cJSON_IsArray(item) && r->field->kind == KD_FIELD_WORDS)
         return add_words(r, item, at);
-    if (cJSON_IsString(item) && (r->field->kind == KD_FIELD_ASSET || kd_value_typed(item->valuestring).kind == KD_VALUE_STRING))
+    if (cJSON_IsString(item) &&
+        (r->field->kind == KD_FIELD_ASSET || kd_value_typed(item->valuestring).kind == KD_VALUE_STRING))
         return add(r, item->valuestring, at);
     return kd_member_refuse(item, at, "a value of its field: a number, a word, true or false", r->error);
 }
@@ -255,14 +270,17 @@ done:
     return status;
 }
 
-enum kd_status kd_sweep_read(const cJSON *axes, const struct kd_scene *base, const struct kd_assets *assets, struct kd_sweep **out, struct kd_error *error)
+enum kd_status kd_sweep_read(const cJSON *axes, const struct kd_scene *base, const struct kd_assets *assets,
+                             struct kd_sweep **out, struct kd_error *error)
 {
     struct reader r = { .sweep = create(base), .assets = assets, .error = error, .pointer = "/axes" };
     enum kd_status status;
     if (!r.sweep)
         KD_TRY(no_memory(&r));
     if (!cJSON_IsObject(axes) || !axes->child)
-        KD_TRY(kd_member_refuse(axes, "/axes", "an object of one field and more, each with its values, as {\"spacetime.spin\": [0, 0.5]}", error));
+        KD_TRY(kd_member_refuse(
+            axes, "/axes", "an object of one field and more, each with its values, as {\"spacetime.spin\": [0, 0.5]}",
+            error));
     for (const cJSON *axis = axes->child; axis; axis = axis->next)
         KD_TRY(read_axis(&r, axis));
 done:
@@ -278,7 +296,9 @@ static enum kd_status add_typed(struct reader *r, char *values)
         if (comma)
             *comma++ = 0;
         const struct kd_value typed = kd_value_typed(value);
-        status = typed.kind == KD_VALUE_NUMBER && r->field->kind != KD_FIELD_ASSET ? add_number(r, typed.number, r->pointer) : add(r, value, r->pointer);
+        status = typed.kind == KD_VALUE_NUMBER && r->field->kind != KD_FIELD_ASSET
+                     ? add_number(r, typed.number, r->pointer)
+                     : add(r, value, r->pointer);
     }
     return status;
 }
@@ -289,7 +309,8 @@ static enum kd_status read_typed(struct reader *r, char *text)
     char *values = strchr(text, '=');
     enum kd_status status;
     if (!values || values == text)
-        KD_TRY(kd_error_set(r->error, KD_EINVAL, "an axis is \"%.60s\", allowed is FIELD=VALUE,VALUE,... or FIELD=START:STOP:STEP", text));
+        KD_TRY(kd_error_set(r->error, KD_EINVAL,
+                            "an axis is \"%.60s\", allowed is FIELD=VALUE,VALUE,... or FIELD=START:STOP:STEP", text));
     *values++ = 0;
     KD_TRY(begin(r, text));
     if (range_of(values).by)
@@ -301,8 +322,8 @@ done:
     return status;
 }
 
-enum kd_status kd_sweep_typed(const char *const *axes, size_t n, const struct kd_scene *base, const struct kd_assets *assets, struct kd_sweep **out,
-                              struct kd_error *error)
+enum kd_status kd_sweep_typed(const char *const *axes, size_t n, const struct kd_scene *base,
+                              const struct kd_assets *assets, struct kd_sweep **out, struct kd_error *error)
 {
     struct reader r = { .sweep = create(base), .assets = assets, .error = error, .pointer = "/axes" };
     enum kd_status status = r.sweep ? KD_OK : no_memory(&r);

@@ -4,63 +4,72 @@
 #include <string.h>
 
 /* Members of "top" stand in the document itself. */
-#define PART_NAME(s, part, whole) offsetof(struct kd_scene, s) == offsetof(struct kd_scene, part) ? #whole "." #part :
-#define SECTION_NAME(s) (KD_SCENE_PARTS(PART_NAME, s) offsetof(struct kd_scene, s) == offsetof(struct kd_scene, top) ? "" : #s)
+#define PART_NAME(s, part, whole) offsetof(struct kd_scene, s) == offsetof(struct kd_scene, part) ? #whole "." #part:
+#define SECTION_NAME(s) \
+    (KD_SCENE_PARTS(PART_NAME, s) offsetof(struct kd_scene, s) == offsetof(struct kd_scene, top) ? "" : #s)
 
-/* These say where the rows of each section begin in the scene, in which struct they are, and how far the next element is. */
-#define PLACE(name, ROWS, group, help)                                                                       \
-    struct rows_of_##name {                                                                                  \
-        KD_M_ROWS(ROWS)                                                                                      \
-    };                                                                                                       \
+/* These say where the rows of each section begin in the scene, in which struct they are, and how far the next
+ * element is. */
+#define PLACE(name, ROWS, group, help) \
+    struct rows_of_##name { KD_M_ROWS(ROWS) }; \
     enum { BASE_##name = offsetof(struct kd_scene, name), STRIDE_##name = 0 };
-#define LIST_PLACE(name, element, ROWS, group, most, help)                                                   \
-    struct rows_of_##name {                                                                                  \
-        KD_M_ROWS(ROWS)                                                                                      \
-    };                                                                                                       \
+#define LIST_PLACE(name, element, ROWS, group, most, help) \
+    struct rows_of_##name { KD_M_ROWS(ROWS) }; \
     enum { BASE_##name = offsetof(struct kd_scene, name.at), STRIDE_##name = sizeof(struct kd_##element) };
 KD_SCENE_SECTIONS(PLACE, LIST_PLACE)
 
 const struct kd_nature kd_natures[KD_NATURE_COUNT] = {
-    [KD_FIELD_PHYSICS] = { "physics", "an exact consequence of general relativity or radiative transfer, or how closely it is computed" },
+    [KD_FIELD_PHYSICS] = { "physics", "an exact consequence of general relativity or radiative transfer, or how "
+                                      "closely it is computed" },
     [KD_FIELD_MODEL] = { "model", "a chosen model of matter or of a source, or a number of one" },
     [KD_FIELD_LOOK] = { "look", "changes the picture, not the physics" },
 };
 const char *const kd_groups[KD_GROUP_COUNT] = {
-    [KD_GROUP_LOOK] = "look", [KD_GROUP_GAS] = "gas", [KD_GROUP_HOLE] = "hole", [KD_GROUP_CAMERA] = "camera", [KD_GROUP_MORE] = "more",
+    [KD_GROUP_LOOK] = "look",     [KD_GROUP_GAS] = "gas",   [KD_GROUP_HOLE] = "hole",
+    [KD_GROUP_CAMERA] = "camera", [KD_GROUP_MORE] = "more",
 };
 
-#define AT(s, n, nature_, place_)                                                                            \
-    .section = SECTION_NAME(s), .name = #n, .offset = BASE_##s + offsetof(struct rows_of_##s, n), .stride = STRIDE_##s, \
-    .nature = KD_FIELD_##nature_, .place = KD_FIELD_##place_
+#define AT(s, n, nature_, place_) \
+    .section = SECTION_NAME(s), .name = #n, .offset = BASE_##s + offsetof(struct rows_of_##s, n), \
+    .stride = STRIDE_##s, .nature = KD_FIELD_##nature_, .place = KD_FIELD_##place_
 #define RANGE(lo, hi, u) .minimum = lo, .maximum = hi, .unit = u
 
-#define REAL(s, n, of, at, d, lo, hi, u, h)                                                                  \
+#define REAL(s, n, of, at, d, lo, hi, u, h) \
     { AT(s, n, of, at), .kind = KD_FIELD_REAL, .initial = d, RANGE(lo, hi, u), .help = h },
-#define WORD(s, n, of, at, d, lo, hi, u, h, w)                                                               \
+#define WORD(s, n, of, at, d, lo, hi, u, h, w) \
     { AT(s, n, of, at), .kind = KD_FIELD_WORD, .initial = d, RANGE(lo, hi, u), .help = h, .words = w },
-#define INT(s, n, of, at, d, lo, hi, u, h, ...)                                                              \
-    { AT(s, n, of, at), .kind = KD_FIELD_INT, .initial = d, RANGE(lo, hi, u), .help = h, __VA_OPT__(.words = __VA_ARGS__) },
-#define BOOL(s, n, of, at, d, h)                                                                             \
-    { AT(s, n, of, at), .kind = KD_FIELD_BOOL, .initial = d, RANGE(0, 1, ""), .help = h },
-#define ENUM(s, n, of, at, d, h, w)                                                                          \
+#define INT(s, n, of, at, d, lo, hi, u, h, ...) \
+    { AT(s, n, of, at), .kind = KD_FIELD_INT, \
+      .initial = d,     RANGE(lo, hi, u), \
+      .help = h,        __VA_OPT__(.words = __VA_ARGS__) },
+#define BOOL(s, n, of, at, d, h) { AT(s, n, of, at), .kind = KD_FIELD_BOOL, .initial = d, RANGE(0, 1, ""), .help = h },
+#define ENUM(s, n, of, at, d, h, w) \
     { AT(s, n, of, at), .kind = KD_FIELD_ENUM, .initial = d, RANGE(0, 0, ""), .help = h, .words = w },
 #define ASSET(s, n, of, at, h) { AT(s, n, of, at), .kind = KD_FIELD_ASSET, RANGE(0, 1, ""), .help = h },
-#define WORDS(s, n, of, at, h, w)                                                                            \
-    { AT(s, n, of, at), .kind = KD_FIELD_WORDS, RANGE(0, 0, ""), .help = h, .words = w },
+#define WORDS(s, n, of, at, h, w) { AT(s, n, of, at), .kind = KD_FIELD_WORDS, RANGE(0, 0, ""), .help = h, .words = w },
 
 #define FIELDS(name, ROWS, group, help) ROWS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)
 #define LIST_FIELDS(name, element, ROWS, group, most, help) FIELDS(name, ROWS, group, help)
 const struct kd_field kd_fields[KD_FIELD_COUNT] = { KD_SCENE_SECTIONS(FIELDS, LIST_FIELDS) };
 
 /* An enumerator counts the rows on from section to section: FIRST_ is each one's first row. */
-#define EXTENT(name, ROWS, group, help)                                                                      \
+#define EXTENT(name, ROWS, group, help) \
     FIRST_##name, LAST_##name = FIRST_##name - 1 + (KD_COUNT_ROWS(name, ROWS, group, help)),
 #define LIST_EXTENT(name, element, ROWS, group, most, help) EXTENT(name, ROWS, group, help)
 enum { KD_SCENE_SECTIONS(EXTENT, LIST_EXTENT) };
-#define SECTION(n, ROWS, g, h)                                                                               \
-    { .name = SECTION_NAME(n), .help = h, .group = KD_GROUP_##g, .first = FIRST_##n, .count = LAST_##n - FIRST_##n + 1 },
-#define LIST(n, element, ROWS, g, limit, h)                                                                  \
-    { .name = #n, .help = h, .group = KD_GROUP_##g, .first = FIRST_##n, .count = LAST_##n - FIRST_##n + 1, .most = limit, \
+#define SECTION(n, ROWS, g, h) \
+    { .name = SECTION_NAME(n), \
+      .help = h, \
+      .group = KD_GROUP_##g, \
+      .first = FIRST_##n, \
+      .count = LAST_##n - FIRST_##n + 1 },
+#define LIST(n, element, ROWS, g, limit, h) \
+    { .name = #n, \
+      .help = h, \
+      .group = KD_GROUP_##g, \
+      .first = FIRST_##n, \
+      .count = LAST_##n - FIRST_##n + 1, \
+      .most = limit, \
       .size_at = offsetof(struct kd_scene, n.count) },
 const struct kd_section kd_sections[KD_SECTION_COUNT] = { KD_SCENE_SECTIONS(SECTION, LIST) };
 
@@ -216,7 +225,8 @@ const struct kd_words *kd_field_words(const struct kd_scene *scene, const struct
     return (const void *)((const char *)scene + field->offset + index * field->stride);
 }
 
-void kd_field_put_words(struct kd_scene *scene, const struct kd_field *field, size_t index, const struct kd_words *words)
+void kd_field_put_words(struct kd_scene *scene, const struct kd_field *field, size_t index,
+                        const struct kd_words *words)
 {
     memcpy((char *)scene + field->offset + index * field->stride, words, sizeof *words);
 }

@@ -1,11 +1,19 @@
-/* This has the rows of scene/fields.h as data: one table that everything about scenes is generated from. Internal to src/scene and its tests.
- * Constant data and pure functions, any thread. */
+/* This has the rows of scene/fields.h as data: one table that everything about scenes is generated from. Internal to
+ * src/scene and its tests. Constant data and pure functions, any thread. */
 #ifndef KD_SCENE_TABLE_H
 #define KD_SCENE_TABLE_H
 
 #include "scene/scene.h"
 
-enum kd_field_kind { KD_FIELD_REAL, KD_FIELD_WORD, KD_FIELD_INT, KD_FIELD_BOOL, KD_FIELD_ENUM, KD_FIELD_ASSET, KD_FIELD_WORDS };
+enum kd_field_kind {
+    KD_FIELD_REAL,
+    KD_FIELD_WORD,
+    KD_FIELD_INT,
+    KD_FIELD_BOOL,
+    KD_FIELD_ENUM,
+    KD_FIELD_ASSET,
+    KD_FIELD_WORDS
+};
 
 /* These words say what a field means and where the page has it: the columns of scene/fields.h. */
 enum kd_field_nature { KD_FIELD_PHYSICS, KD_FIELD_MODEL, KD_FIELD_LOOK };
@@ -19,17 +27,17 @@ struct kd_field {
     enum kd_field_kind kind;
     enum kd_field_nature nature;
     enum kd_field_place place;
-    size_t offset; /* in struct kd_scene, of a list's first element: double, int32_t (INT, ENUM), bool, a text (ASSET), or struct kd_words */
+    size_t offset; /* in struct kd_scene, of a list's first element: double, int32_t (INT, ENUM), bool, a text (ASSET),
+                      or struct kd_words */
     size_t stride; /* from element to element of a list; 0 in a section that is none */
     double initial, minimum, maximum;
     const char *unit; /* "1": a pure number; "" for BOOL, ENUM, ASSET and WORDS */
     const char *help;
-    const char *words; /* WORD: the word for INFINITY; INT: the same, kept as 0, or NULL; ENUM and WORDS: "a|b|c"; NULL otherwise */
+    const char *words; /* WORD: the word for INFINITY; INT: the same, kept as 0, or NULL; ENUM and WORDS: "a|b|c"; NULL
+                          otherwise */
 };
 
-struct kd_nature {
-    const char *word, *help;
-};
+struct kd_nature { const char *word, *help; };
 
 struct kd_section {
     const char *name; /* "" for the document itself: always the last; "disk.gas" for one that stands in another */
@@ -64,7 +72,8 @@ union kd_list_room {
 };
 enum { KD_LIST_MOST = sizeof(union kd_list_room) };
 
-/* A list has its rows once. Whatever takes a field takes the index of the element beside it: 0 in a section that is no list. */
+/* A list has its rows once. Whatever takes a field takes the index of the element beside it: 0 in a section that is
+ * no list. */
 extern const struct kd_nature kd_natures[KD_NATURE_COUNT];
 extern const char *const kd_groups[KD_GROUP_COUNT]; /* "look", "gas", ... */
 extern const struct kd_field kd_fields[KD_FIELD_COUNT];
@@ -73,7 +82,8 @@ extern const struct kd_old_name kd_old_names[KD_OLD_NAME_COUNT];
 
 /* Find by name: NULL when there is none; "" is the document itself. Names are case-sensitive. */
 const struct kd_section *kd_section_find(const char *section);
-/* Find sections in sections: the one of this name in a section, NULL for none; whether one is in another; its name there; its pointer. */
+/* Find sections in sections: the one of this name in a section, NULL for none; whether one is in another; its name
+ * there; its pointer. */
 enum { KD_PATH_SIZE = 80 };
 const struct kd_section *kd_section_part(const struct kd_section *section, const char *name);
 bool kd_section_is_part(const struct kd_section *section, const struct kd_section *whole);
@@ -82,18 +92,18 @@ void kd_section_pointer(const struct kd_section *section, char out[KD_PATH_SIZE]
 const struct kd_field *kd_field_find(const char *section, const char *name);
 const struct kd_old_name *kd_old_name_find(const char *name);
 
-/* Count the elements: those of a list, 1 of a section that is none. To resize takes what a list loses, and what it gains, to the
- * defaults. */
+/* Count the elements: those of a list, 1 of a section that is none. To resize takes what a list loses, and what it
+ * gains, to the defaults. */
 size_t kd_section_size(const struct kd_scene *scene, const struct kd_section *section);
 void kd_section_resize(struct kd_scene *scene, const struct kd_section *section, size_t size);
 /* Sets all fields of one element to their defaults. */
 void kd_section_reset(struct kd_scene *scene, const struct kd_section *section, size_t index);
-/* Takes elements whose fields are all at their defaults from the end of a list, down to `least`. An old name of an element says no more of
- * whether there is one. */
+/* Takes elements whose fields are all at their defaults from the end of a list, down to `least`. An old name of an
+ * element says no more of whether there is one. */
 void kd_section_trim(struct kd_scene *scene, const struct kd_section *list, size_t least);
 
-/* Read and write a field of any kind as a double: exact for int32_t, 0 or 1 for bool, the index for ENUM. Of an ASSET it says
- * whether there is one; 0 puts it away. WORDS that are one word alone are its index, others NAN. */
+/* Read and write a field of any kind as a double: exact for int32_t, 0 or 1 for bool, the index for ENUM. Of an
+ * ASSET it says whether there is one; 0 puts it away. WORDS that are one word alone are its index, others NAN. */
 double kd_field_get(const struct kd_scene *scene, const struct kd_field *field, size_t index);
 void kd_field_put(struct kd_scene *scene, const struct kd_field *field, size_t index, double value);
 
@@ -103,12 +113,14 @@ void kd_field_put_asset(struct kd_scene *scene, const struct kd_field *field, si
 
 /* Read and write a WORDS field (scene/words.h). */
 const struct kd_words *kd_field_words(const struct kd_scene *scene, const struct kd_field *field, size_t index);
-void kd_field_put_words(struct kd_scene *scene, const struct kd_field *field, size_t index, const struct kd_words *words);
+void kd_field_put_words(struct kd_scene *scene, const struct kd_field *field, size_t index,
+                        const struct kd_words *words);
 
 /* True if value may be stored in field: in range, whole where that is asked for, INFINITY where that is a word. */
 bool kd_field_holds(const struct kd_field *field, double value);
 
-/* An ENUM has words, and so have WORDS, as the row spells them. The text of a word is not NUL-terminated: print it with %.*s. */
+/* An ENUM has words, and so have WORDS, as the row spells them. The text of a word is not NUL-terminated: print it
+ * with %.*s. */
 struct kd_word {
     const char *text;
     int length;
@@ -117,10 +129,12 @@ int kd_field_word_count(const struct kd_field *field);
 struct kd_word kd_field_word(const struct kd_field *field, int index);
 int kd_field_word_index(const struct kd_field *field, const char *text); /* -1: none of them */
 
-/* Finds a field by its dotted path, as kd_scene_set does, and the index of its element, which need not be there yet: KD_EINVAL with a pointer. */
+/* Finds a field by its dotted path, as kd_scene_set does, and the index of its element, which need not be there yet:
+ * KD_EINVAL with a pointer. */
 enum kd_status kd_field_at(const char *path, const struct kd_field **out, size_t *index, struct kd_error *error);
 
-/* Spell a field: "camera.r" and "/camera/r"; "time" and "/time"; "spots.3.r" and "/spots/3/r"; "disk.gas.seed" and "/disk/gas/seed". */
+/* Spell a field: "camera.r" and "/camera/r"; "time" and "/time"; "spots.3.r" and "/spots/3/r"; "disk.gas.seed" and
+ * "/disk/gas/seed". */
 void kd_field_path(const struct kd_field *field, size_t index, char out[KD_PATH_SIZE]);
 void kd_field_pointer(const struct kd_field *field, size_t index, char out[KD_PATH_SIZE]);
 

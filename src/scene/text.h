@@ -4,12 +4,12 @@
 
 #include <stddef.h>
 
-/* Copies text for a reader's eyes: control characters and broken UTF-8 become '?', what does not fit becomes "...". size is at
- * least 8. */
+/* Copies text for a reader's eyes: control characters and broken UTF-8 become '?', what does not fit becomes "...".
+ * size is at least 8. */
 void kd_text_clip(char *out, size_t size, const char *text);
 
-/* Appends "/token" to a JSON pointer (RFC 6901: ~ and / escaped). A token that does not fit is left out, so that the pointer still
- * names its parent. */
+/* Appends "/token" to a JSON pointer (RFC 6901: ~ and / escaped). A token that does not fit is left out, so that the
+ * pointer still names its parent. */
 void kd_text_pointer(char *pointer, size_t size, const char *token);
 
 /* Finds the line and column of a byte of a text, both from 1; columns count characters. */

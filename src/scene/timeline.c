@@ -15,7 +15,10 @@ void kd_timeline_finish(struct kd_timeline *timeline)
 
 double kd_timeline_end(const struct kd_timeline *t) { return t->n_keys ? t->keys[t->n_keys - 1].at : 0; }
 
-static bool continuous(const struct kd_field *field) { return field->kind == KD_FIELD_REAL || field->kind == KD_FIELD_WORD; }
+static bool continuous(const struct kd_field *field)
+{
+    return field->kind == KD_FIELD_REAL || field->kind == KD_FIELD_WORD;
+}
 
 /* A number of every key: a field's, or without one the proper time. */
 struct column {
@@ -45,7 +48,10 @@ static double value_at(const struct column *c, size_t key)
     return c->ratios ? log(value) : value;
 }
 
-static double apart(const struct column *c, size_t key) { return c->timeline->keys[key + 1].at - c->timeline->keys[key].at; }
+static double apart(const struct column *c, size_t key)
+{
+    return c->timeline->keys[key + 1].at - c->timeline->keys[key].at;
+}
 
 /* Gives the slope of the straight line from a key to the next; NAN where there is none: a word, or no next. */
 static double secant(const struct column *c, size_t key)
@@ -56,9 +62,9 @@ static double secant(const struct column *c, size_t key)
     return isfinite(rise) ? rise / apart(c, key) : NAN;
 }
 
-/* The slope at a key that keeps the curve between its neighbours: the weighted harmonic mean of the secants, 0 at a turning point
- * (Fritsch & Butland, SIAM J. Sci. Stat. Comput. 5 (1984) 300, with the weights of Brodlie that SLATEC's PCHIM takes). At rest at both
- * ends. */
+/* The slope at a key that keeps the curve between its neighbours: the weighted harmonic mean of the secants, 0 at a
+ * turning point (Fritsch & Butland, SIAM J. Sci. Stat. Comput. 5 (1984) 300, with the weights of Brodlie that
+ * SLATEC's PCHIM takes). At rest at both ends. */
 static double monotone_slope(const struct column *c, size_t key, double before, double after)
 {
     if (!(before * after > 0))
@@ -106,25 +112,36 @@ static bool is_distance(const struct kd_field *field)
     return !strcmp(field->section, "camera") && (!strcmp(field->name, "r") || !strcmp(field->name, "field_m"));
 }
 
-static bool is_turn(const struct kd_field *field) { return !strcmp(field->unit, "degrees") && field->maximum - field->minimum >= 360; }
+static bool is_turn(const struct kd_field *field)
+{
+    return !strcmp(field->unit, "degrees") && field->maximum - field->minimum >= 360;
+}
 
 /* Catmull and Rom's cubic moves what is the same in two keys, too. */
 static bool stays(const struct kd_timeline *timeline, size_t key, const struct kd_field *field, size_t index)
 {
     const struct kd_scene *from = &timeline->keys[key].scene, *to = &timeline->keys[key + 1].scene;
-    return timeline->interpolation != KD_CATMULL_ROM && kd_field_get(from, field, index) == kd_field_get(to, field, index);
+    return timeline->interpolation != KD_CATMULL_ROM &&
+           kd_field_get(from, field, index) == kd_field_get(to, field, index);
 }
 
 /* An element that only one of two keyframes has is at its defaults in the other. */
-static void section_between(const struct kd_timeline *timeline, size_t key, double t, const struct kd_section *section, struct kd_scene *out)
+static void section_between(const struct kd_timeline *timeline, size_t key, double t, const struct kd_section *section,
+                            struct kd_scene *out)
 {
-    size_t size = kd_section_size(&timeline->keys[key].scene, section), next = kd_section_size(&timeline->keys[key + 1].scene, section);
+    size_t size = kd_section_size(&timeline->keys[key].scene, section),
+           next = kd_section_size(&timeline->keys[key + 1].scene, section);
     if (next > size)
         kd_section_resize(out, section, size = next);
     for (size_t index = 0; index < size; index++)
         for (size_t i = section->first; i < section->first + section->count; i++) {
             const struct kd_field *field = &kd_fields[i];
-            const struct column column = { timeline, field, index, key, timeline->geometric && is_distance(field), timeline->shorter && is_turn(field),
+            const struct column column = { timeline,
+                                           field,
+                                           index,
+                                           key,
+                                           timeline->geometric && is_distance(field),
+                                           timeline->shorter && is_turn(field),
                                            timeline->interpolation };
             if (continuous(field) && !stays(timeline, key, field, index))
                 kd_field_put(out, field, index, between(&column, key, t));
@@ -138,8 +155,11 @@ static enum kd_status go_on(struct kd_scene *scene, double proper_time, struct k
     if (proper_time == 0)
         return KD_OK;
     if (!kd_worldline_is_known(&motion, &at))
-        return kd_error_field(error, "", "proper_time is %.9g M, allowed is 0 unless camera.observer stays, goes round in the equatorial plane or falls without "
-                              "leaving its latitude, from a finite camera.r", proper_time);
+        return kd_error_field(error, "",
+                              "proper_time is %.9g M, allowed is 0 unless camera.observer stays, goes round in the "
+                              "equatorial plane or falls without "
+                              "leaving its latitude, from a finite camera.r",
+                              proper_time);
     kd_scene_go_on(scene, proper_time);
     return KD_OK;
 }
@@ -156,11 +176,13 @@ static double eased(enum kd_ease ease, double t)
 
 static bool same_aim(const struct kd_aim *a, const struct kd_aim *b)
 {
-    return a->kind == b->kind && (a->kind != KD_AIM_PLACE || (a->r == b->r && a->theta_deg == b->theta_deg && a->phi_deg == b->phi_deg));
+    return a->kind == b->kind &&
+           (a->kind != KD_AIM_PLACE || (a->r == b->r && a->theta_deg == b->theta_deg && a->phi_deg == b->phi_deg));
 }
 
 /* Turns the camera as keyframes aim it; to: the next one, or NULL. */
-static enum kd_status aim(struct kd_scene *scene, const struct kd_timeline_key *from, const struct kd_timeline_key *to, double t, struct kd_error *error)
+static enum kd_status aim(struct kd_scene *scene, const struct kd_timeline_key *from, const struct kd_timeline_key *to,
+                          double t, struct kd_error *error)
 {
     double look[3], then[3];
     const bool turns = to && !same_aim(&from->aim, &to->aim);
@@ -188,7 +210,8 @@ static size_t key_before(const struct kd_timeline *timeline, double at)
     return key;
 }
 
-enum kd_status kd_timeline_scene(const struct kd_timeline *timeline, double at, struct kd_scene *out, struct kd_error *error)
+enum kd_status kd_timeline_scene(const struct kd_timeline *timeline, double at, struct kd_scene *out,
+                                 struct kd_error *error)
 {
     struct kd_error inner = { 0 };
     const double end = kd_timeline_end(timeline);
@@ -196,7 +219,9 @@ enum kd_status kd_timeline_scene(const struct kd_timeline *timeline, double at, 
         at = end * eased(timeline->ease, at / end);
     const size_t key = key_before(timeline, at);
     const struct kd_timeline_key *from = &timeline->keys[key], *to = NULL;
-    const struct column clock = { .timeline = timeline, .from = key, .by = timeline->interpolation == KD_LINEAR ? KD_LINEAR : KD_SMOOTH };
+    const struct column clock = { .timeline = timeline,
+                                  .from = key,
+                                  .by = timeline->interpolation == KD_LINEAR ? KD_LINEAR : KD_SMOOTH };
     double proper_time = from->proper_time, t = 0;
     *out = from->scene;
     if (from->at < at && key + 1 < timeline->n_keys) {

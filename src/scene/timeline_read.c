@@ -28,16 +28,19 @@ static enum kd_status read_place(struct reader *r, const cJSON *item, const char
     unsigned frame = 0;
     char allowed[80];
     if (!first && last(r)->at >= r->form->most)
-        return kd_error_field(r->error, pointer, "%s follows a keyframe at %.9g, the last place that there may be", pointer + 1, r->form->most);
+        return kd_error_field(r->error, pointer, "%s follows a keyframe at %.9g, the last place that there may be",
+                              pointer + 1, r->form->most);
     if (r->form->whole) {
-        enum kd_status status = kd_member_whole(item, pointer, first ? 0 : (unsigned)last(r)->at + 1, (unsigned)r->form->most, &frame, r->error);
+        enum kd_status status = kd_member_whole(item, pointer, first ? 0 : (unsigned)last(r)->at + 1,
+                                                (unsigned)r->form->most, &frame, r->error);
         *out = frame;
         return status;
     }
     *out = cJSON_IsNumber(item) ? item->valuedouble : NAN;
     if (*out <= r->form->most && (first ? *out >= 0 : *out > last(r)->at))
         return KD_OK;
-    snprintf(allowed, sizeof allowed, "a number %s %.9g to %.9g", first ? "from" : "above", first ? 0 : last(r)->at, r->form->most);
+    snprintf(allowed, sizeof allowed, "a number %s %.9g to %.9g", first ? "from" : "above", first ? 0 : last(r)->at,
+             r->form->most);
     return kd_member_refuse(item, pointer, allowed, r->error);
 }
 
@@ -48,7 +51,9 @@ static double proper_time_to(const struct kd_scene *scene, const char *word)
     const struct kd_observer_motion motion = kd_scene_observer(scene);
     if (motion.observer != KD_OBSERVER_INFALL || !kd_worldline_is_known(&motion, &at))
         return NAN;
-    double r = !strcmp(word, "horizon") ? kd_kerr_horizon(at.spin) : !strcmp(word, "end") ? kd_infall_last(at.spin) : NAN;
+    double r = !strcmp(word, "horizon") ? kd_kerr_horizon(at.spin)
+               : !strcmp(word, "end")   ? kd_infall_last(at.spin)
+                                        : NAN;
     return r <= at.r ? kd_infall_proper_time(&motion, &at, r) : NAN;
 }
 
@@ -57,15 +62,24 @@ static enum kd_status read_proper_time(struct reader *r, const cJSON *item, cons
     struct kd_timeline_key *key = last(r);
     const struct kd_vantage at = kd_scene_vantage(&key->scene);
     const struct kd_observer_motion motion = kd_scene_observer(&key->scene);
-    double value = cJSON_IsNumber(item) ? item->valuedouble : cJSON_IsString(item) ? proper_time_to(&key->scene, item->valuestring) : NAN;
+    double value = cJSON_IsNumber(item)   ? item->valuedouble
+                   : cJSON_IsString(item) ? proper_time_to(&key->scene, item->valuestring)
+                                          : NAN;
     if (!(value >= 0 && value <= 1e12))
-        return kd_member_refuse(item, pointer, "0 to 1000000000000 M, or \"horizon\" or \"end\" of an observer that falls from further out without leaving its "
-                                "latitude", r->error);
+        return kd_member_refuse(item, pointer,
+                                "0 to 1000000000000 M, or \"horizon\" or \"end\" of an observer that falls from "
+                                "further out without leaving its "
+                                "latitude",
+                                r->error);
     if (value > 0 && !kd_worldline_is_known(&motion, &at))
-        return kd_member_refuse(item, pointer, "0 unless camera.observer stays, goes round in the equatorial plane or falls without leaving its latitude, from a "
-                                "finite camera.r", r->error);
+        return kd_member_refuse(item, pointer,
+                                "0 unless camera.observer stays, goes round in the equatorial plane or falls without "
+                                "leaving its latitude, from a "
+                                "finite camera.r",
+                                r->error);
     if (value > 0 && key->scene.motion.proper_time_rate > 0)
-        return kd_error_field(r->error, pointer, "%s is given with motion.proper_time_rate, allowed is one of them", pointer + 1);
+        return kd_error_field(r->error, pointer, "%s is given with motion.proper_time_rate, allowed is one of them",
+                              pointer + 1);
     key->proper_time = value;
     return KD_OK;
 }
@@ -81,18 +95,24 @@ static enum kd_status read_scene(struct reader *r, const cJSON *item, const char
     return kd_member_inside(status, pointer, r->error);
 }
 
-static const char *const interpolations[] = { KD_INTERPOLATIONS(KD_WORD_OF, KD_COMMA) }, *const eases[] = { KD_EASES(KD_WORD_OF, KD_COMMA) },
-                         *const distances[] = { KD_DISTANCES(KD_WORD_OF, KD_COMMA) }, *const angles[] = { KD_ANGLES(KD_WORD_OF, KD_COMMA) };
-#define READ_WORD(r, item, pointer, words, out) kd_member_word(item, pointer, words, sizeof words / sizeof *words, out, (r)->error)
+static const char *const interpolations[] = { KD_INTERPOLATIONS(KD_WORD_OF, KD_COMMA) },
+                         *const eases[] = { KD_EASES(KD_WORD_OF, KD_COMMA) },
+                         *const distances[] = { KD_DISTANCES(KD_WORD_OF, KD_COMMA) },
+                         *const angles[] = { KD_ANGLES(KD_WORD_OF, KD_COMMA) };
+#define READ_WORD(r, item, pointer, words, out) \
+    kd_member_word(item, pointer, words, sizeof words / sizeof *words, out, (r)->error)
 
 /* A number of a place to look at; it is there, or `usual` is. */
-static enum kd_status read_number(struct reader *r, const cJSON *item, const char *pointer, const char *name, double usual, double least, double most, double *out)
+static enum kd_status read_number(struct reader *r, const cJSON *item, const char *pointer, const char *name,
+                                  double usual, double least, double most, double *out)
 {
     char at[80], allowed[60];
     snprintf(at, sizeof at, "%s/%s", pointer, name);
     snprintf(allowed, sizeof allowed, "a number from %.9g to %.9g", least, most);
     *out = cJSON_IsNumber(item) ? item->valuedouble : usual;
-    return (!item || cJSON_IsNumber(item)) && *out >= least && (*out <= most || !item) ? KD_OK : kd_member_refuse(item, at, allowed, r->error);
+    return (!item || cJSON_IsNumber(item)) && *out >= least && (*out <= most || !item)
+               ? KD_OK
+               : kd_member_refuse(item, at, allowed, r->error);
 }
 
 static enum kd_status read_look_at(struct reader *r, const cJSON *item, const char *pointer, struct kd_aim *out)
@@ -101,11 +121,15 @@ static enum kd_status read_look_at(struct reader *r, const cJSON *item, const ch
     const struct kd_member members[] = { { "r", &radius }, { "theta_deg", &theta }, { "phi_deg", &phi } };
     const char *word = cJSON_IsString(item) ? item->valuestring : "";
     enum kd_status status;
-    *out = (struct kd_aim) { .kind = !strcmp(word, "hole") ? KD_AIM_HOLE : cJSON_IsObject(item) ? KD_AIM_PLACE : KD_AIM_FREE };
+    *out = (struct kd_aim) { .kind = !strcmp(word, "hole")  ? KD_AIM_HOLE
+                                     : cJSON_IsObject(item) ? KD_AIM_PLACE
+                                                            : KD_AIM_FREE };
     if (out->kind == KD_AIM_HOLE || !strcmp(word, "free"))
         return KD_OK;
     if (out->kind == KD_AIM_FREE)
-        return kd_member_refuse(item, pointer, "\"hole\", \"free\" or an object with theta_deg, phi_deg and r, without which it is a direction", r->error);
+        return kd_member_refuse(
+            item, pointer,
+            "\"hole\", \"free\" or an object with theta_deg, phi_deg and r, without which it is a direction", r->error);
     KD_TRY(kd_members_read(item, pointer, members, sizeof members / sizeof *members, r->error));
     KD_TRY(read_number(r, radius, pointer, "r", INFINITY, 0, KD_LOOK_AT_FAR, &out->r));
     KD_TRY(read_number(r, theta, pointer, "theta_deg", 90, 0, 180, &out->theta_deg));
@@ -126,12 +150,16 @@ static enum kd_status read_key(struct reader *r, const cJSON *item, size_t index
         snprintf(at, sizeof at, "an object with %s and scene", r->form->place);
         return kd_member_refuse(item, pointer, at, r->error);
     }
-    const struct kd_member members[] = { { r->form->place, &place }, { "scene", &scene }, { "proper_time", &proper_time },
-                                         { "ease", &ease }, { "look_at", &look_at } };
+    const struct kd_member members[] = { { r->form->place, &place },
+                                         { "scene", &scene },
+                                         { "proper_time", &proper_time },
+                                         { "ease", &ease },
+                                         { "look_at", &look_at } };
     KD_TRY(kd_members_read(item, pointer, members, sizeof members / sizeof *members, r->error));
     if (!place || !(scene || proper_time || look_at))
-        KD_TRY(kd_error_field(r->error, pointer, "a keyframe has a %s and a scene, a proper_time or a look_at, here %s is missing", r->form->place,
-                              place ? "scene" : r->form->place));
+        KD_TRY(kd_error_field(r->error, pointer,
+                              "a keyframe has a %s and a scene, a proper_time or a look_at, here %s is missing",
+                              r->form->place, place ? "scene" : r->form->place));
     snprintf(at, sizeof at, "%s/%s", pointer, r->form->place);
     KD_TRY(read_place(r, place, at, index == 0, &where));
     if (where > 0) { /* one at 0 takes the place of the first itself */
@@ -156,11 +184,17 @@ done:
 
 const char *kd_timeline_manner(const struct kd_timeline_items *t)
 {
-    return t->interpolation ? "interpolation" : t->distances ? "distances" : t->angles ? "angles" : t->ease ? "ease" : t->look_at ? "look_at" : NULL;
+    return t->interpolation ? "interpolation"
+           : t->distances   ? "distances"
+           : t->angles      ? "angles"
+           : t->ease        ? "ease"
+           : t->look_at     ? "look_at"
+                            : NULL;
 }
 
-enum kd_status kd_timeline_read(const struct kd_timeline_items *items, const struct kd_timeline_form *form, const struct kd_assets *assets,
-                                const struct kd_scene *first, struct kd_timeline *out, struct kd_error *error)
+enum kd_status kd_timeline_read(const struct kd_timeline_items *items, const struct kd_timeline_form *form,
+                                const struct kd_assets *assets, const struct kd_scene *first, struct kd_timeline *out,
+                                struct kd_error *error)
 {
     struct kd_timeline timeline = { 0 };
     struct reader r = { form, assets, &timeline, error };
@@ -178,7 +212,8 @@ enum kd_status kd_timeline_read(const struct kd_timeline_items *items, const str
     if (items->keyframes && !cJSON_IsArray(items->keyframes))
         KD_TRY(kd_member_refuse(items->keyframes, "/keyframes", "an array of keyframes", error));
     if (items->keyframes && (!n || n > KD_TIMELINE_KEYS_MAX))
-        KD_TRY(kd_error_field(error, "/keyframes", "there are %zu keyframes, allowed are 1 to %d", n, KD_TIMELINE_KEYS_MAX));
+        KD_TRY(kd_error_field(error, "/keyframes", "there are %zu keyframes, allowed are 1 to %d", n,
+                              KD_TIMELINE_KEYS_MAX));
     timeline.keys = calloc(n + 1, sizeof *timeline.keys);
     if (!timeline.keys)
         KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory for %zu scenes", n + 1));

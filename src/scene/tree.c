@@ -36,21 +36,25 @@ static enum kd_status parse(const char *text, size_t length, cJSON **out, struct
     size_t at = (size_t)(end - text);
     struct kd_text_place place = kd_text_place_of(text, at < length ? at : length);
     if (!root && at >= length)
-        return kd_error_set(error, KD_EINVAL, "the document is not valid JSON: it ends too early, after %zu bytes, in line %zu",
-                            length, place.line);
+        return kd_error_set(error, KD_EINVAL,
+                            "the document is not valid JSON: it ends too early, after %zu bytes, in line %zu", length,
+                            place.line);
     if (!root)
-        return kd_error_set(error, KD_EINVAL, "the document is not valid JSON near byte %zu, line %zu, column %zu", at, place.line, place.column);
+        return kd_error_set(error, KD_EINVAL, "the document is not valid JSON near byte %zu, line %zu, column %zu", at,
+                            place.line, place.column);
     at += strspn(end, " \t\n\r");
     if (at < length) {
         cJSON_Delete(root);
         place = kd_text_place_of(text, at);
-        return kd_error_set(error, KD_EINVAL, "text follows the document at byte %zu, line %zu, column %zu", at, place.line, place.column);
+        return kd_error_set(error, KD_EINVAL, "text follows the document at byte %zu, line %zu, column %zu", at,
+                            place.line, place.column);
     }
     *out = root;
     return KD_OK;
 }
 
-enum kd_status kd_tree_parse(const char *text, size_t length, size_t most, size_t values, cJSON **out, struct kd_error *error)
+enum kd_status kd_tree_parse(const char *text, size_t length, size_t most, size_t values, cJSON **out,
+                             struct kd_error *error)
 {
     if (length > most)
         return kd_error_set(error, KD_EINVAL, "the document has %zu bytes, allowed are %zu", length, most);

@@ -8,15 +8,16 @@
 #include <cjson/cJSON.h>
 #include <stddef.h>
 
-/* text need not end in a NUL. KD_EINVAL without a pointer: this is no JSON document, or one of more than `most` bytes or `values`
- * values. Free *out with cJSON_Delete. */
-enum kd_status kd_tree_parse(const char *text, size_t length, size_t most, size_t values, cJSON **out, struct kd_error *error);
+/* text need not end in a NUL. KD_EINVAL without a pointer: this is no JSON document, or one of more than `most`
+ * bytes or `values` values. Free *out with cJSON_Delete. */
+enum kd_status kd_tree_parse(const char *text, size_t length, size_t most, size_t values, cJSON **out,
+                             struct kd_error *error);
 
 /* Makes a value of the item. It is valid as long as the item. */
 struct kd_value kd_tree_value(const cJSON *item);
 
-/* Reads a scene that is part of a larger document, as kd_scene_from_json does, or with patch as kd_scene_patch. *scene is unchanged
- * on error; its pointer counts from the scene. */
+/* Reads a scene that is part of a larger document, as kd_scene_from_json does, or with patch as kd_scene_patch.
+ * *scene is unchanged on error; its pointer counts from the scene. */
 enum kd_status kd_scene_from_tree(struct kd_scene *scene, const cJSON *object, bool patch, struct kd_error *error);
 
 #endif

@@ -9,7 +9,8 @@
 #include <string.h>
 
 /* An asset's name that nobody has resolved names nothing. */
-static enum kd_status asset(const struct kd_scene *scene, const struct kd_field *field, size_t index, struct kd_error *error)
+static enum kd_status asset(const struct kd_scene *scene, const struct kd_field *field, size_t index,
+                            struct kd_error *error)
 {
     char path[KD_PATH_SIZE], pointer[KD_PATH_SIZE];
     const char *name = kd_field_asset(scene, field, index);
@@ -17,16 +18,19 @@ static enum kd_status asset(const struct kd_scene *scene, const struct kd_field 
         return KD_OK;
     kd_field_path(field, index, path);
     kd_field_pointer(field, index, pointer);
-    return kd_error_field(error, pointer, "%s is \"%.64s\", which is no SHA-256, and no name of an asset that is known here", path, name);
+    return kd_error_field(
+        error, pointer, "%s is \"%.64s\", which is no SHA-256, and no name of an asset that is known here", path, name);
 }
 
 /* Ranges are checked here too: a scene that was filled in by hand has passed no parser. */
-static enum kd_status range(const struct kd_scene *scene, const struct kd_field *field, size_t index, struct kd_error *error)
+static enum kd_status range(const struct kd_scene *scene, const struct kd_field *field, size_t index,
+                            struct kd_error *error)
 {
     double value = kd_field_get(scene, field, index);
     if (field->kind == KD_FIELD_ASSET)
         return asset(scene, field, index, error);
-    if (field->kind == KD_FIELD_WORDS ? kd_words_hold(field, kd_field_words(scene, field, index)) : kd_field_holds(field, value))
+    if (field->kind == KD_FIELD_WORDS ? kd_words_hold(field, kd_field_words(scene, field, index))
+                                      : kd_field_holds(field, value))
         return KD_OK;
     char number[KD_NUMBER_SIZE], path[KD_PATH_SIZE], pointer[KD_PATH_SIZE], allowed[KD_ALLOWED_SIZE];
     kd_field_path(field, index, path);

@@ -55,21 +55,24 @@ static void list_words(const struct kd_field *field, char out[KD_ALLOWED_SIZE])
     for (int i = 0; i < count && used < KD_ALLOWED_SIZE; i++) {
         struct kd_word word = kd_field_word(field, i);
         const char *separator = i == 0 ? "" : i + 1 < count ? ", " : " and ";
-        used += (size_t)snprintf(out + used, KD_ALLOWED_SIZE - used, "%s\"%.*s\"", separator, word.length,
-                                 word.text);
+        used += (size_t)snprintf(out + used, KD_ALLOWED_SIZE - used, "%s\"%.*s\"", separator, word.length, word.text);
     }
 }
 
 /* "1 to 3 of a, b_N and c, each once": of as many as there are. */
 static void list_many(const struct kd_field *field, char out[KD_ALLOWED_SIZE])
 {
-    int count = kd_field_word_count(field), used = snprintf(out, KD_ALLOWED_SIZE, "1 to %d of ", count < KD_WORDS_MOST ? count : KD_WORDS_MOST);
+    int count = kd_field_word_count(field),
+        used = snprintf(out, KD_ALLOWED_SIZE, "1 to %d of ", count < KD_WORDS_MOST ? count : KD_WORDS_MOST);
     bool any = false, numbered = false;
     for (int i = 0; i < count && used < KD_ALLOWED_SIZE; i++) {
         int length = kd_words_length(field, i, &numbered);
         any |= numbered;
-        used += snprintf(out + used, (size_t)(KD_ALLOWED_SIZE - used), "%s%.*s%s", i == 0 ? "" : i + 1 < count ? ", " : " and ", length,
-                         kd_field_word(field, i).text, numbered ? "[_N]" : "");
+        used += snprintf(out + used, (size_t)(KD_ALLOWED_SIZE - used), "%s%.*s%s",
+                         i == 0          ? ""
+                         : i + 1 < count ? ", "
+                                         : " and ",
+                         length, kd_field_word(field, i).text, numbered ? "[_N]" : "");
     }
     if (used < KD_ALLOWED_SIZE)
         snprintf(out + used, (size_t)(KD_ALLOWED_SIZE - used), ", each once%s", any ? ", N a number" : "");
@@ -88,13 +91,16 @@ void kd_value_allowed(const struct kd_field *field, char out[KD_ALLOWED_SIZE])
         snprintf(out, KD_ALLOWED_SIZE, "%s to %s%s%s, and \"%s\"", low, high, space, unit, field->words);
         return;
     case KD_FIELD_INT:
-        snprintf(out, KD_ALLOWED_SIZE, field->words ? "whole numbers from %s to %s%s%s, and \"%s\"" : "whole numbers from %s to %s%s%s", low,
+        snprintf(out, KD_ALLOWED_SIZE,
+                 field->words ? "whole numbers from %s to %s%s%s, and \"%s\"" : "whole numbers from %s to %s%s%s", low,
                  high, space, unit, field->words);
         return;
     case KD_FIELD_BOOL: snprintf(out, KD_ALLOWED_SIZE, "true and false"); return;
     case KD_FIELD_ENUM: list_words(field, out); return;
     case KD_FIELD_ASSET:
-        snprintf(out, KD_ALLOWED_SIZE, "null, the SHA-256 of an asset as 64 hexadecimal digits, and a name: a letter, then letters, digits, . _ and -");
+        snprintf(out, KD_ALLOWED_SIZE,
+                 "null, the SHA-256 of an asset as 64 hexadecimal digits, and a name: a letter, then letters, digits, "
+                 ". _ and -");
         return;
     case KD_FIELD_WORDS: list_many(field, out); return;
     }

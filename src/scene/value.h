@@ -4,14 +4,7 @@
 
 #include "scene/table.h"
 
-enum kd_value_kind {
-    KD_VALUE_NUMBER,
-    KD_VALUE_STRING,
-    KD_VALUE_BOOL,
-    KD_VALUE_NULL,
-    KD_VALUE_ARRAY,
-    KD_VALUE_OBJECT
-};
+enum kd_value_kind { KD_VALUE_NUMBER, KD_VALUE_STRING, KD_VALUE_BOOL, KD_VALUE_NULL, KD_VALUE_ARRAY, KD_VALUE_OBJECT };
 
 struct kd_value {
     enum kd_value_kind kind;
@@ -19,18 +12,20 @@ struct kd_value {
     const char *text; /* STRING */
 };
 
-/* Stores the value, that of WORDS from their text, or fails with KD_EINVAL, the field's pointer, the value and what is allowed; *scene is then unchanged. */
+/* Stores the value, that of WORDS from their text, or fails with KD_EINVAL, the field's pointer, the value and what
+ * is allowed; *scene is then unchanged. */
 enum kd_status kd_value_store(struct kd_scene *scene, const struct kd_field *field, size_t index,
                               const struct kd_value *value, struct kd_error *error);
 
 /* Checks the member "version": 1 and nothing else. */
 enum kd_status kd_value_version(const struct kd_value *value, struct kd_error *error);
 
-/* Takes typed text as the value that a document would hold in its place: what is not a number or a truth value is a word. */
+/* Takes typed text as the value that a document would hold in its place: what is not a number or a truth value is a
+ * word. */
 struct kd_value kd_value_typed(const char *text);
 
-/* Says what a message adds after a value that is no number where only a number will do: ", a string where a number is wanted", or
- * "". */
+/* Says what a message adds after a value that is no number where only a number will do: ", a string where a number
+ * is wanted", or "". */
 const char *kd_value_unwanted(const struct kd_value *value);
 
 /* Write how a message calls the value, and what its field allows: "-1 to 1 M", "\"a\" and \"b\"", "true and false". */

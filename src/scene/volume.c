@@ -8,7 +8,8 @@
 
 /* So far outside the horizon matter ends: what is at rest there is no longer seen, and a length to there is finite. */
 #define CLEAR 1.01
-#define CLEAR_RADIO 1.0005 /* of what goes as the energy of the light, which grows as one over the square root of the way to there */
+#define CLEAR_RADIO \
+    1.0005 /* of what goes as the energy of the light, which grows as one over the square root of the way to there */
 
 #define TORUS 0.5 /* of where its pressure is largest, as simulations commonly begin */
 
@@ -18,7 +19,8 @@ bool kd_scene_is_magnetic(const struct kd_scene *scene) { return scene->volume.m
 
 double kd_scene_volume_inner(const struct kd_scene *scene)
 {
-    const double horizon = kd_kerr_horizon(scene->spacetime.spin), least = (kd_scene_is_radio(scene) ? CLEAR_RADIO : CLEAR) * horizon;
+    const double horizon = kd_kerr_horizon(scene->spacetime.spin),
+                 least = (kd_scene_is_radio(scene) ? CLEAR_RADIO : CLEAR) * horizon;
     if (isinf(scene->volume.inner) && scene->volume.model == KD_VOLUME_TORUS)
         return fmax(TORUS * scene->volume.torus_radius, least);
     return isinf(scene->volume.inner) ? least : fmax(scene->volume.inner, least);
@@ -28,8 +30,9 @@ bool kd_scene_is_radio_alone(const struct kd_scene *scene)
 {
     const struct kd_spot *on[KD_SPOTS];
     const struct kd_body *bodies[KD_SCENE_BODIES];
-    return kd_scene_is_radio(scene) && scene->disk.model == KD_DISK_NONE && scene->jets.brightness == 0 && scene->sky.model == KD_SKY_NONE &&
-           !kd_scene_spots(scene, on) && !kd_scene_bodies(scene, bodies) && !scene->crowd.at;
+    return kd_scene_is_radio(scene) && scene->disk.model == KD_DISK_NONE && scene->jets.brightness == 0 &&
+           scene->sky.model == KD_SKY_NONE && !kd_scene_spots(scene, on) && !kd_scene_bodies(scene, bodies) &&
+           !scene->crowd.at;
 }
 
 #define SAME_SPIN 1e-6
@@ -41,5 +44,7 @@ enum kd_status kd_asset_check_grid(double spin, const struct kd_scene *scene, st
         return KD_OK;
     kd_number_format(made, spin);
     kd_number_format(here, scene->spacetime.spin);
-    return kd_error_field(error, "/volume/grid", "volume.grid is matter round a hole of the spin %s, and spacetime.spin is %s; allowed is the same", made, here);
+    return kd_error_field(
+        error, "/volume/grid",
+        "volume.grid is matter round a hole of the spin %s, and spacetime.spin is %s; allowed is the same", made, here);
 }

@@ -82,7 +82,8 @@ bool kd_words_hold(const struct kd_field *field, const struct kd_words *words)
     for (int i = 0; i < words->count; i++) {
         struct kd_numbered_word word = words->at[i];
         bool numbered;
-        if (word.word < 0 || word.word >= kd_field_word_count(field) || word.number < -1 || word.number > KD_WORD_NUMBER_MAX)
+        if (word.word < 0 || word.word >= kd_field_word_count(field) || word.number < -1 ||
+            word.number > KD_WORD_NUMBER_MAX)
             return false;
         kd_words_length(field, word.word, &numbered);
         if ((word.number >= 0 && !numbered) || holds(words, word, i))

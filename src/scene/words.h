@@ -1,5 +1,5 @@
-/* The value of a WORDS field is some of its words in an order of their own, each once; a word that the field's row has as "name_N" alone or with a
- * number behind it, name_0, name_1, ... Any thread. */
+/* The value of a WORDS field is some of its words in an order of their own, each once; a word that the field's row
+ * has as "name_N" alone or with a number behind it, name_0, name_1, ... Any thread. */
 #ifndef KD_SCENE_WORDS_H
 #define KD_SCENE_WORDS_H
 

@@ -85,7 +85,8 @@ void kd_write_field(struct kd_writer *writer, const struct kd_scene *scene, cons
     kd_write_string(writer, asset);
 }
 
-static void write_fields(struct kd_writer *writer, const struct kd_section *section, size_t index, const struct kd_scene *scene)
+static void write_fields(struct kd_writer *writer, const struct kd_section *section, size_t index,
+                         const struct kd_scene *scene)
 {
     for (size_t i = 0; i < section->count; i++) {
         const struct kd_field *field = &kd_fields[section->first + i];

@@ -61,8 +61,9 @@ static void stage(struct kd_request *request, enum kd_stage to)
     kd_connections_stage(request->server->connections, request->connection, to, 0);
 }
 
-/* libmicrohttpd takes the query apart by itself, into memory of the connection; some hundred parameters exhaust that, and it then waits for
- * ever (0.9.75). Here it has not begun yet, and without "&" there is one: target.c reads the query from our copy. */
+/* libmicrohttpd takes the query apart by itself, into memory of the connection; some hundred parameters exhaust
+ * that, and it then waits for ever (0.9.75). Here it has not begun yet, and without "&" there is one: target.c reads
+ * the query from our copy. */
 static void hide_pairs(const char *uri)
 {
     union {
@@ -84,7 +85,8 @@ void *kd_request_open(void *cls, const char *uri, struct MHD_Connection *mhd)
     request->server = server;
     request->mhd = mhd;
     request->connection = connection_of(mhd);
-    request->close = kd_connection_is_health(request->connection); /* its next request may be anything, and is for the other daemon */
+    request->close = kd_connection_is_health(
+        request->connection); /* its next request may be anything, and is for the other daemon */
     kd_client_of(mhd, request->client);
     request->raw = strdup(uri);
     hide_pairs(uri);
@@ -95,8 +97,7 @@ void *kd_request_open(void *cls, const char *uri, struct MHD_Connection *mhd)
     return request;
 }
 
-void kd_request_close(void *cls, struct MHD_Connection *mhd, void **state,
-                      enum MHD_RequestTerminationCode why)
+void kd_request_close(void *cls, struct MHD_Connection *mhd, void **state, enum MHD_RequestTerminationCode why)
 {
     struct kd_server *server = cls;
     struct kd_request *request = *state;
@@ -128,7 +129,10 @@ void kd_request_close(void *cls, struct MHD_Connection *mhd, void **state,
 }
 
 /* What a request's body is, and how many bytes it may hold. */
-static struct most { const char *what; size_t bytes; } most_of(const struct kd_request *request)
+static struct most {
+    const char *what;
+    size_t bytes;
+} most_of(const struct kd_request *request)
 {
     switch (request->route->takes) {
     case KD_TAKES_RAYS: return (struct most) { "a body of rays", KD_RAYS_BODY_MAX };
@@ -154,18 +158,28 @@ static const char *too_large(const struct kd_request *request, char text[TOO_LAR
 static bool media_type_fault(const struct kd_request *request, bool patch, struct kd_problem *problem)
 {
 #define SAY "a body must say Content-Type: application/json"
-#define OR(other) { other, "application/json, " other, SAY " or " other }
-    static const struct { const char *other, *offered, *detail; } all[] = {
-        { "application/json", "application/json", SAY }, OR(KD_NPY_TYPE), OR(KD_PATCH_TYPE),
-        { KD_ASSET_TYPE, KD_ASSET_TYPE ", " KD_ASSET_GRID_TYPE, "an asset must say Content-Type: " KD_ASSET_TYPE " or " KD_ASSET_GRID_TYPE },
+#define OR(other) \
+    { \
+        other, "application/json, " other, SAY " or " other \
+    }
+    static const struct {
+        const char *other, *offered, *detail;
+    } all[] = {
+        { "application/json", "application/json", SAY },
+        OR(KD_NPY_TYPE),
+        OR(KD_PATCH_TYPE),
+        { KD_ASSET_TYPE, KD_ASSET_TYPE ", " KD_ASSET_GRID_TYPE,
+          "an asset must say Content-Type: " KD_ASSET_TYPE " or " KD_ASSET_GRID_TYPE },
     };
 #undef OR
 #undef SAY
     const bool asset = request->route->takes == KD_TAKES_ASSET;
     size_t i = asset ? 3 : patch ? 2 : request->route->takes == KD_TAKES_RAYS;
     const char *type = request->header.content_type;
-    *problem = (struct kd_problem) { .type = KD_PROBLEM_MEDIA_TYPE, .offered = all[i].offered, .detail = all[i].detail };
-    return !kd_media_type_is(type, asset ? KD_ASSET_GRID_TYPE : "application/json") && !kd_media_type_is(type, all[i].other);
+    *problem =
+        (struct kd_problem) { .type = KD_PROBLEM_MEDIA_TYPE, .offered = all[i].offered, .detail = all[i].detail };
+    return !kd_media_type_is(type, asset ? KD_ASSET_GRID_TYPE : "application/json") &&
+           !kd_media_type_is(type, all[i].other);
 }
 
 /* A sentence that has to be made is in text. */
@@ -173,8 +187,7 @@ static bool body_fault(const struct kd_request *request, char text[TOO_LARGE], s
 {
     bool patch = !strcmp(request->method, "PATCH");
     if (!patch && strcmp(request->method, "POST") && strcmp(request->method, "PUT")) {
-        *problem =
-            (struct kd_problem) { .type = KD_PROBLEM_BAD_REQUEST, .detail = "this method takes no body" };
+        *problem = (struct kd_problem) { .type = KD_PROBLEM_BAD_REQUEST, .detail = "this method takes no body" };
         return request->body_announced;
     }
     if (request->route->takes == KD_TAKES_STRIKE && !request->body_announced)
@@ -185,14 +198,17 @@ static bool body_fault(const struct kd_request *request, char text[TOO_LARGE], s
         *problem = (struct kd_problem) { .type = KD_PROBLEM_BODY_TOO_LARGE, .detail = too_large(request, text) };
         return true;
     }
-    bool quota, refused = kd_bytes_take(request->server->bodies, request->client, 0, request->header.content_length, &quota);
-    *problem = (struct kd_problem) { .type = quota ? KD_PROBLEM_QUOTA : KD_PROBLEM_CROWDED, .retry_after = 1,
+    bool quota,
+        refused = kd_bytes_take(request->server->bodies, request->client, 0, request->header.content_length, &quota);
+    *problem = (struct kd_problem) { .type = quota ? KD_PROBLEM_QUOTA : KD_PROBLEM_CROWDED,
+                                     .retry_after = 1,
                                      .detail = quota ? BODIES_OF_CLIENT : BODIES_TOO_MANY };
     return refused;
 }
 
-/* A page of another site may have anything loaded by its visitors' browsers, which say so (Fetch Metadata, W3C). What it could make a
- * server do that it cannot reach itself is refused, but for a visit: a link to a picture is one. */
+/* A page of another site may have anything loaded by its visitors' browsers, which say so (Fetch Metadata, W3C).
+ * What it could make a server do that it cannot reach itself is refused, but for a visit: a link to a picture is
+ * one. */
 static bool is_foreign(const struct kd_request *request)
 {
     const char *site = MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, "Sec-Fetch-Site");
@@ -228,10 +244,11 @@ static bool choose(struct kd_request *request, enum MHD_Result *result)
     char text[TOO_LARGE];
 
     if (kd_target_parse(&request->target, request->raw, &error))
-        problem = (struct kd_problem) { .detail = error.message,
-                                        .type = error.status == KD_ENOMEM ? KD_PROBLEM_NO_MEMORY
-                                                                          : KD_PROBLEM_BAD_REQUEST };
-    else if (!kd_route_is_health(&request->server->base, request->raw) && kd_connections_crowded(request->server->connections, request->connection))
+        problem =
+            (struct kd_problem) { .detail = error.message,
+                                  .type = error.status == KD_ENOMEM ? KD_PROBLEM_NO_MEMORY : KD_PROBLEM_BAD_REQUEST };
+    else if (!kd_route_is_health(&request->server->base, request->raw) &&
+             kd_connections_crowded(request->server->connections, request->connection))
         problem = (struct kd_problem) { .type = KD_PROBLEM_CROWDED,
                                         .retry_after = 1,
                                         .close = true,
@@ -242,9 +259,12 @@ static bool choose(struct kd_request *request, enum MHD_Result *result)
     } else if (!find_route(request, &problem))
         request->route = NULL;
     else if (is_foreign(request))
-        problem = (struct kd_problem) { .type = KD_PROBLEM_CROSS_SITE, .close = request->body_announced,
-                                        .detail = "the browser says that a page of another site has asked for this (Sec-Fetch-Site: cross-site), "
-                                                  "which this server takes from those that --cors-origin names, or with --allow-cross-site" };
+        problem = (struct kd_problem) {
+            .type = KD_PROBLEM_CROSS_SITE,
+            .close = request->body_announced,
+            .detail = "the browser says that a page of another site has asked for this (Sec-Fetch-Site: cross-site), "
+                      "which this server takes from those that --cors-origin names, or with --allow-cross-site"
+        };
     else if (!body_fault(request, text, &problem))
         return true;
     *result = kd_reply_problem(request, &problem);
@@ -297,8 +317,10 @@ static enum MHD_Result receive(struct kd_request *request, const char *data, siz
         return cut_body(request, KD_PROBLEM_BODY_TOO_LARGE, too_large(request, text));
     size_t all = request->body.size + *size;
     bool quota;
-    if (kd_bytes_take(server->bodies, request->client, *size, all > request->header.content_length ? all : request->header.content_length, &quota))
-        return quota ? cut_body(request, KD_PROBLEM_QUOTA, BODIES_OF_CLIENT) : cut_body(request, KD_PROBLEM_CROWDED, BODIES_TOO_MANY);
+    if (kd_bytes_take(server->bodies, request->client, *size,
+                      all > request->header.content_length ? all : request->header.content_length, &quota))
+        return quota ? cut_body(request, KD_PROBLEM_QUOTA, BODIES_OF_CLIENT)
+                     : cut_body(request, KD_PROBLEM_CROWDED, BODIES_TOO_MANY);
     if (kd_buffer_append(&request->body, data, *size)) {
         kd_bytes_give(server->bodies, request->client, *size);
         return cut_body(request, KD_PROBLEM_NO_MEMORY, "no memory for the body");

@@ -1,5 +1,5 @@
-/* This leads from libmicrohttpd to the handler of a route: header and body are received and judged, what was under way is given up when a client
- * leaves. HTTP thread only. */
+/* This leads from libmicrohttpd to the handler of a route: header and body are received and judged, what was under
+ * way is given up when a client leaves. HTTP thread only. */
 #ifndef KD_SERVER_DISPATCH_H
 #define KD_SERVER_DISPATCH_H
 
@@ -9,8 +9,7 @@
 void *kd_request_open(void *cls, const char *uri, struct MHD_Connection *mhd);
 enum MHD_Result kd_request_handle(void *cls, struct MHD_Connection *mhd, const char *url, const char *method,
                                   const char *version, const char *data, size_t *size, void **state);
-void kd_request_close(void *cls, struct MHD_Connection *mhd, void **state,
-                      enum MHD_RequestTerminationCode why);
+void kd_request_close(void *cls, struct MHD_Connection *mhd, void **state, enum MHD_RequestTerminationCode why);
 void kd_request_connection(void *cls, struct MHD_Connection *mhd, void **socket_context,
                            enum MHD_ConnectionNotificationCode what);
 

@@ -11,8 +11,10 @@
 #include <poll.h>
 #include <unistd.h>
 
-#define TICK_MS 100          /* how late a deadline or a vanished client may be noticed */
-#define LAST_ANSWERS_MS 10e3 /* for clients to take the answers under way when nothing else is left, or when what is left hangs in the driver */
+#define TICK_MS 100 /* how late a deadline or a vanished client may be noticed */
+#define LAST_ANSWERS_MS \
+    10e3 /* for clients to take the answers under way when nothing else is left, or when what is left hangs in the \
+            driver */
 
 static void sleep_a_tick(struct kd_server *server)
 {

@@ -29,10 +29,7 @@
 #include <sys/eventfd.h>
 #include <unistd.h>
 
-static unsigned or_default(unsigned value, unsigned otherwise)
-{
-    return value ? value : otherwise;
-}
+static unsigned or_default(unsigned value, unsigned otherwise) { return value ? value : otherwise; }
 
 static bool add_host(struct kd_server *server, size_t *n, const char *name)
 {
@@ -40,9 +37,10 @@ static bool add_host(struct kd_server *server, size_t *n, const char *name)
     return server->hosts[(*n)++];
 }
 
-/* Loopback by name and number, the listening address if it is one address, else the machine's own ones and its name, and what the
- * caller adds. */
-static enum kd_status collect_hosts(struct kd_server *server, const char *listen, const char *const *more, struct kd_error *error)
+/* Loopback by name and number, the listening address if it is one address, else the machine's own ones and its name,
+ * and what the caller adds. */
+static enum kd_status collect_hosts(struct kd_server *server, const char *listen, const char *const *more,
+                                    struct kd_error *error)
 {
     const char *names[4] = { "127.0.0.1", "localhost", "[::1]", listen };
     char bracketed[80];
@@ -76,11 +74,12 @@ static void set_etag_tail(struct kd_server *server)
 static struct MHD_Daemon *start_daemon(struct kd_server *server, unsigned connections)
 {
     return MHD_start_daemon(
-        MHD_USE_EPOLL_INTERNAL_THREAD | MHD_ALLOW_SUSPEND_RESUME | MHD_USE_ERROR_LOG | MHD_USE_NO_LISTEN_SOCKET, 0, NULL, NULL,
-        kd_request_handle, server, MHD_OPTION_EXTERNAL_LOGGER, kd_library_log, server->connections, MHD_OPTION_CONNECTION_LIMIT, connections,
-        MHD_OPTION_CONNECTION_TIMEOUT, KD_IDLE_S, MHD_OPTION_CONNECTION_MEMORY_LIMIT, (size_t)KD_HEADER_POOL,
-        MHD_OPTION_URI_LOG_CALLBACK, kd_request_open, server, MHD_OPTION_NOTIFY_COMPLETED, kd_request_close,
-        server, MHD_OPTION_NOTIFY_CONNECTION, kd_request_connection, server, MHD_OPTION_END);
+        MHD_USE_EPOLL_INTERNAL_THREAD | MHD_ALLOW_SUSPEND_RESUME | MHD_USE_ERROR_LOG | MHD_USE_NO_LISTEN_SOCKET, 0,
+        NULL, NULL, kd_request_handle, server, MHD_OPTION_EXTERNAL_LOGGER, kd_library_log, server->connections,
+        MHD_OPTION_CONNECTION_LIMIT, connections, MHD_OPTION_CONNECTION_TIMEOUT, KD_IDLE_S,
+        MHD_OPTION_CONNECTION_MEMORY_LIMIT, (size_t)KD_HEADER_POOL, MHD_OPTION_URI_LOG_CALLBACK, kd_request_open,
+        server, MHD_OPTION_NOTIFY_COMPLETED, kd_request_close, server, MHD_OPTION_NOTIFY_CONNECTION,
+        kd_request_connection, server, MHD_OPTION_END);
 }
 
 /* The daemons' own limits lie above ours, so that they never close a connection without a word. */
@@ -92,7 +91,8 @@ static enum kd_status start_http(struct kd_server *server, int listener, unsigne
         close(listener);
         return kd_error_set(error, KD_EIO, "the HTTP service could not be started");
     }
-    const struct kd_front_params front = { listener, server->connections, &server->base, server->health_daemon, server->daemon };
+    const struct kd_front_params front = { listener, server->connections, &server->base, server->health_daemon,
+                                           server->daemon };
     return kd_front_create(&front, &server->front, error);
 }
 
@@ -118,41 +118,59 @@ static uint64_t bytes_share_of(const struct kd_server_params *params, uint64_t b
     return bytes / 100 * (percent > 100 ? 100 : percent);
 }
 
-static enum kd_status start_sessions(struct kd_server *server, const struct kd_server_params *params, struct kd_error *error)
+static enum kd_status start_sessions(struct kd_server *server, const struct kd_server_params *params,
+                                     struct kd_error *error)
 {
     const unsigned most = or_default(params->sessions, 16);
     const struct kd_sessions_params sessions = {
-        .renders = server->renders, .limit = most, .client_limit = share_of(params, most),
-        .idle_ms = or_default(params->session_ms, KD_SESSION_IDLE_MS), .longest_s = server->longest_s,
+        .renders = server->renders,
+        .limit = most,
+        .client_limit = share_of(params, most),
+        .idle_ms = or_default(params->session_ms, KD_SESSION_IDLE_MS),
+        .longest_s = server->longest_s,
         .assets = kd_asset_store_assets(server->assets),
     };
     return kd_sessions_create(&sessions, &server->sessions, error);
 }
 
-static enum kd_status start_plays(struct kd_server *server, const struct kd_server_params *params, struct kd_error *error)
+static enum kd_status start_plays(struct kd_server *server, const struct kd_server_params *params,
+                                  struct kd_error *error)
 {
     const unsigned most = or_default(params->playgrounds, 16);
     const size_t bytes = params->playgrounds_kib ? (size_t)params->playgrounds_kib << 10 : KD_PLAYS_BYTES;
     const struct kd_plays_params plays = {
-        .sessions = server->sessions, .renders = server->renders, .limit = most, .client_limit = share_of(params, most),
-        .idle_ms = or_default(params->session_ms, KD_SESSION_IDLE_MS), .bytes = bytes, .client_bytes = (size_t)bytes_share_of(params, bytes),
+        .sessions = server->sessions,
+        .renders = server->renders,
+        .limit = most,
+        .client_limit = share_of(params, most),
+        .idle_ms = or_default(params->session_ms, KD_SESSION_IDLE_MS),
+        .bytes = bytes,
+        .client_bytes = (size_t)bytes_share_of(params, bytes),
     };
     return kd_plays_create(&plays, &server->plays, error);
 }
 
-static enum kd_status start_jobs(struct kd_server *server, const struct kd_server_params *params, struct kd_error *error)
+static enum kd_status start_jobs(struct kd_server *server, const struct kd_server_params *params,
+                                 struct kd_error *error)
 {
     const unsigned most = or_default(params->jobs, 16);
     const struct kd_jobs_params jobs = {
-        .renders = server->renders, .turns = server->turns, .state = params->state, .limit = most, .kept = KD_JOBS_KEPT,
+        .renders = server->renders,
+        .turns = server->turns,
+        .state = params->state,
+        .limit = most,
+        .kept = KD_JOBS_KEPT,
         .client_limit = params->client_jobs ? params->client_jobs : share_of(params, most),
-        .longest_s = server->longest_s, .longest_job_s = KD_JOB_LONGEST_S,
-        .bytes = params->jobs_kib ? (uint64_t)params->jobs_kib << 10 : KD_JOB_BYTES, .keep_s = KD_JOB_KEEP_S,
+        .longest_s = server->longest_s,
+        .longest_job_s = KD_JOB_LONGEST_S,
+        .bytes = params->jobs_kib ? (uint64_t)params->jobs_kib << 10 : KD_JOB_BYTES,
+        .keep_s = KD_JOB_KEEP_S,
     };
     return kd_jobs_create(&jobs, &server->jobs, error);
 }
 
-static enum kd_status make_assets(struct kd_server *server, const struct kd_server_params *params, struct kd_error *error)
+static enum kd_status make_assets(struct kd_server *server, const struct kd_server_params *params,
+                                  struct kd_error *error)
 {
     const unsigned most = or_default(params->assets, KD_ASSETS);
     const uint64_t bytes = params->assets_kib ? (uint64_t)params->assets_kib << 10 : KD_ASSETS_BYTES;
@@ -168,14 +186,15 @@ static struct kd_renderer_params renderer_params(const struct kd_server *server,
     return renderer;
 }
 
-static enum kd_status start_renders(struct kd_server *server, const struct kd_server_params *params, unsigned tasks, struct kd_error *error)
+static enum kd_status start_renders(struct kd_server *server, const struct kd_server_params *params, unsigned tasks,
+                                    struct kd_error *error)
 {
     const struct kd_renderer_params renderer = renderer_params(server, params);
-    return kd_render_queue_create(&renderer, tasks, share_of(params, tasks), params->client_device_s, params->reopenings, &server->renders, error);
+    return kd_render_queue_create(&renderer, tasks, share_of(params, tasks), params->client_device_s,
+                                  params->reopenings, &server->renders, error);
 }
 
-static enum kd_status start(struct kd_server *server, const struct kd_server_params *params,
-                            struct kd_error *error)
+static enum kd_status start(struct kd_server *server, const struct kd_server_params *params, struct kd_error *error)
 {
     const char *address = params->listen ? params->listen : "127.0.0.1";
     unsigned connections = kd_descriptors_for(or_default(params->connections, 512));
@@ -185,13 +204,15 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
     server->drain_ms = params->drain_ms == UINT_MAX ? 0 : or_default(params->drain_ms, 1000);
     server->longest_s = or_default(params->longest_s, 600);
     server->stop_fd = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
-    server->connections = kd_connections_create(connections, share_of(params, connections), or_default(params->header_ms, 10000),
-                                                or_default(params->body_ms, 30000));
+    server->connections =
+        kd_connections_create(connections, share_of(params, connections), or_default(params->header_ms, 10000),
+                              or_default(params->body_ms, 30000));
     server->cross_site = params->cross_site;
     const unsigned clients = kd_connections_most(connections);
-    server->bodies = kd_bytes_create(&(struct kd_bytes_params) { clients, KD_BODIES_MAX, KD_BODIES_SHARE, KD_BODIES_SMALL, KD_BODY_MAX, false });
-    server->replies = kd_bytes_create(&(struct kd_bytes_params) { clients, KD_REPLIES_MAX, share_of(params, KD_REPLIES_MAX),
-                                                                  KD_REPLIES_RESERVE, KD_REPLIES_SMALL, true });
+    server->bodies = kd_bytes_create(
+        &(struct kd_bytes_params) { clients, KD_BODIES_MAX, KD_BODIES_SHARE, KD_BODIES_SMALL, KD_BODY_MAX, false });
+    server->replies = kd_bytes_create(&(struct kd_bytes_params) {
+        clients, KD_REPLIES_MAX, share_of(params, KD_REPLIES_MAX), KD_REPLIES_RESERVE, KD_REPLIES_SMALL, true });
     server->measures = kd_measures_create();
     if (server->stop_fd < 0 || !server->connections || !server->bodies || !server->replies || !server->measures)
         return kd_error_set(error, KD_ENOMEM, "no memory or descriptor for the server");
@@ -231,8 +252,7 @@ done:
     return status;
 }
 
-enum kd_status kd_server_create(const struct kd_server_params *params, struct kd_server **out,
-                                struct kd_error *error)
+enum kd_status kd_server_create(const struct kd_server_params *params, struct kd_server **out, struct kd_error *error)
 {
     struct kd_server *server = calloc(1, sizeof *server);
     if (!server)
@@ -249,15 +269,9 @@ enum kd_status kd_server_create(const struct kd_server_params *params, struct kd
     return KD_OK;
 }
 
-const char *const *kd_server_own_names(const struct kd_server *server)
-{
-    return (const char *const *)server->own;
-}
+const char *const *kd_server_own_names(const struct kd_server *server) { return (const char *const *)server->own; }
 
-uint16_t kd_server_port(const struct kd_server *server)
-{
-    return server->port;
-}
+uint16_t kd_server_port(const struct kd_server *server) { return server->port; }
 
 void kd_server_stop(struct kd_server *server)
 {

@@ -1,5 +1,5 @@
-/* An arena knows which bytes of one range are free: offsets only, no memory. First fit in address order; neighbours coalesce. Pure bookkeeping, not
- * thread-safe. */
+/* An arena knows which bytes of one range are free: offsets only, no memory. First fit in address order; neighbours
+ * coalesce. Pure bookkeeping, not thread-safe. */
 #ifndef KD_VK_ARENA_H
 #define KD_VK_ARENA_H
 
@@ -7,9 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-struct kd_vk_span {
-    uint64_t begin, end;
-};
+struct kd_vk_span { uint64_t begin, end; };
 
 struct kd_vk_arena {
     struct kd_vk_span *free; /* ascending, never touching one another */

@@ -7,12 +7,10 @@ static void emit(struct kd_vk *vk, VkCommandBuffer commands, const struct kd_vk_
     const VkMemoryBarrier memory = { .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
                                      .srcAccessMask = barrier->src_access,
                                      .dstAccessMask = barrier->dst_access };
-    vk->fn.CmdPipelineBarrier(commands, barrier->src_stages, barrier->dst_stages, 0, 1, &memory, 0, NULL, 0,
-                              NULL);
+    vk->fn.CmdPipelineBarrier(commands, barrier->src_stages, barrier->dst_stages, 0, 1, &memory, 0, NULL, 0, NULL);
 }
 
-void kd_vk_barrier_before(struct kd_vk *vk, VkCommandBuffer commands, const struct kd_vk_access *accesses,
-                          size_t n)
+void kd_vk_barrier_before(struct kd_vk *vk, VkCommandBuffer commands, const struct kd_vk_access *accesses, size_t n)
 {
     struct kd_vk_barrier barrier;
     if (kd_vk_hazards_add(&vk->hazards, accesses, n, &barrier))

@@ -29,15 +29,14 @@ static enum kd_status buffer_init(struct kd_vk *vk, struct kd_vk_buffer *buffer,
     KD_VK_TRY(&vk->fn, CreateBuffer, vk->device, &info, NULL, &buffer->handle);
     vk->fn.GetBufferMemoryRequirements(vk->device, buffer->handle, &needs);
     KD_TRY(kd_vk_heap_take(vk, buffer->memory, needs.size, needs.alignment, &buffer->slice, error));
-    KD_VK_TRY(&vk->fn, BindBufferMemory, vk->device, buffer->handle, buffer->slice.block->memory,
-              buffer->slice.offset);
+    KD_VK_TRY(&vk->fn, BindBufferMemory, vk->device, buffer->handle, buffer->slice.block->memory, buffer->slice.offset);
     kd_vk_debug_name(vk, VK_OBJECT_TYPE_BUFFER, KD_VK_HANDLE(buffer->handle), "%s", buffer->name);
 done:
     return status;
 }
 
-enum kd_status kd_vk_buffer_create(struct kd_vk *vk, uint64_t size, enum kd_vk_memory memory,
-                                   const char *name, struct kd_vk_buffer **out, struct kd_error *error)
+enum kd_status kd_vk_buffer_create(struct kd_vk *vk, uint64_t size, enum kd_vk_memory memory, const char *name,
+                                   struct kd_vk_buffer **out, struct kd_error *error)
 {
     *out = NULL;
     enum kd_status status = kd_vk_alive(vk, error);
@@ -49,9 +48,8 @@ enum kd_status kd_vk_buffer_create(struct kd_vk *vk, uint64_t size, enum kd_vk_m
         return kd_error_set(error, KD_EINVAL, "buffer '%s' has no bytes", name);
     /* The size is checked before vkCreateBuffer, which need not cope with any size. */
     if (size > vk->physical.info.max_allocation_bytes)
-        return kd_error_set(error, KD_ENOMEM,
-                            "buffer '%s' of %.2f MiB: the device allocates at most %.2f MiB at once", name,
-                            (double)size / 0x1p20, (double)vk->physical.info.max_allocation_bytes / 0x1p20);
+        return kd_error_set(error, KD_ENOMEM, "buffer '%s' of %.2f MiB: the device allocates at most %.2f MiB at once",
+                            name, (double)size / 0x1p20, (double)vk->physical.info.max_allocation_bytes / 0x1p20);
     struct kd_vk_buffer *buffer = calloc(1, sizeof *buffer);
     if (!buffer)
         return kd_error_set(error, KD_ENOMEM, "buffer '%s': out of host memory", name);
@@ -84,7 +82,4 @@ void *kd_vk_buffer_map(struct kd_vk_buffer *buffer)
     return map && (buffer->slice.block->coherent || buffer->memory != KD_VK_DEVICE) ? map + buffer->slice.offset : NULL;
 }
 
-uint64_t kd_vk_buffer_size(const struct kd_vk_buffer *buffer)
-{
-    return buffer->size;
-}
+uint64_t kd_vk_buffer_size(const struct kd_vk_buffer *buffer) { return buffer->size; }

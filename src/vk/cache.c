@@ -32,8 +32,7 @@ static bool header_fits(const struct kd_vk *vk, const uint8_t *data, size_t size
     memcpy(words, data, sizeof words);
     return words[0] >= sizeof words + VK_UUID_SIZE && words[0] <= size &&
            words[1] == VK_PIPELINE_CACHE_HEADER_VERSION_ONE && words[2] == device->vendorID &&
-           words[3] == device->deviceID &&
-           !memcmp(data + sizeof words, device->pipelineCacheUUID, VK_UUID_SIZE);
+           words[3] == device->deviceID && !memcmp(data + sizeof words, device->pipelineCacheUUID, VK_UUID_SIZE);
 }
 
 /* NULL when there is to be none, or nowhere to put it. */
@@ -55,8 +54,8 @@ static char *path_of(const struct kd_vk *vk, const char *dir)
         return NULL;
     for (unsigned i = 0; i < VK_UUID_SIZE; i++)
         snprintf(uuid + 2 * i, 3, "%02x", device->pipelineCacheUUID[i]);
-    if (asprintf(&path, "%s/%04x-%04x-%08x-%s" SUFFIX, base, device->vendorID, device->deviceID,
-                 device->driverVersion, uuid) < 0)
+    if (asprintf(&path, "%s/%04x-%04x-%08x-%s" SUFFIX, base, device->vendorID, device->deviceID, device->driverVersion,
+                 uuid) < 0)
         return NULL;
     return path;
 }
@@ -107,7 +106,8 @@ static void save(struct kd_vk *vk)
     if (vk->fn.GetPipelineCacheData(vk->device, cache->handle, &size, NULL) < 0 || !size)
         return;
     uint8_t *file = malloc(sizeof(struct envelope) + size);
-    if (file && vk->fn.GetPipelineCacheData(vk->device, cache->handle, &size, file + sizeof(struct envelope)) == VK_SUCCESS) {
+    if (file &&
+        vk->fn.GetPipelineCacheData(vk->device, cache->handle, &size, file + sizeof(struct envelope)) == VK_SUCCESS) {
         struct envelope envelope = { .bytes = size, .hash = kd_hash(KD_HASH_BEGIN, file + sizeof envelope, size) };
         memcpy(envelope.magic, magic, sizeof magic);
         memcpy(file, &envelope, sizeof envelope);

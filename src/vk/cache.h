@@ -10,8 +10,8 @@ struct kd_vk;
 
 struct kd_vk_cache {
     VkPipelineCache handle;
-    char *path;    /* NULL: kept in memory only */
-    uint64_t hash; /* of the data last read or written, 0: none */
+    char *path;        /* NULL: kept in memory only */
+    uint64_t hash;     /* of the data last read or written, 0: none */
     atomic_bool grown; /* pipelines were made since; by any thread */
 };
 

@@ -82,8 +82,8 @@ static enum kd_status any(const struct kd_vk_info *infos, size_t count, size_t *
     return count ? unusable(&infos[0], error) : kd_error_set(error, KD_EDEVICE, "there is no Vulkan device");
 }
 
-enum kd_status kd_vk_choose(const struct kd_vk_info *infos, size_t count, const char *wish, size_t *index,
-                            char *why, size_t why_size, struct kd_error *error)
+enum kd_status kd_vk_choose(const struct kd_vk_info *infos, size_t count, const char *wish, size_t *index, char *why,
+                            size_t why_size, struct kd_error *error)
 {
     size_t n = 0;
     enum kd_status status;
@@ -91,8 +91,8 @@ enum kd_status kd_vk_choose(const struct kd_vk_info *infos, size_t count, const 
     if (!wish || !wish[0] || !strcmp(wish, "auto")) {
         status = any(infos, count, index, &n, error);
         if (n > 1 && !status)
-            snprintf(reason, sizeof reason, "the best %s among %zu usable devices",
-                     kd_vk_type_name(infos[*index].type), n);
+            snprintf(reason, sizeof reason, "the best %s among %zu usable devices", kd_vk_type_name(infos[*index].type),
+                     n);
         else
             snprintf(reason, sizeof reason, "the only usable device");
     } else if (wish[strspn(wish, "0123456789")] == 0) {

@@ -27,9 +27,7 @@ static uint64_t most_of(const struct kd_vk *vk, enum kd_vk_kind kind)
 {
     const struct kd_vk_info *info = &vk->physical.info;
     uint32_t texel = kd_vk_kind_info(kind)->texel_bytes;
-    return texel                   ? info->max_texels * texel
-           : kind == KD_VK_UNIFORM ? info->max_uniform_bytes
-                                   : info->max_binding_bytes;
+    return texel ? info->max_texels * texel : kind == KD_VK_UNIFORM ? info->max_uniform_bytes : info->max_binding_bytes;
 }
 
 /* Beyond what holds for every kind. */
@@ -45,16 +43,14 @@ static enum kd_status check_kind(const struct kd_vk *vk, const char *pass, uint3
         return kd_error_set(error, KD_EINVAL, "%s: binding %u, '%s', must span whole texels of %u bytes", pass, index,
                             binding->buffer->name, texel);
     if (size > most)
-        return kd_error_set(
-            error, KD_ETOOBIG,
-            "%s: binding %u spans %" PRIu64 " bytes of '%s', this device binds at most %" PRIu64, pass, index,
-            size, binding->buffer->name, most);
+        return kd_error_set(error, KD_ETOOBIG,
+                            "%s: binding %u spans %" PRIu64 " bytes of '%s', this device binds at most %" PRIu64, pass,
+                            index, size, binding->buffer->name, most);
     return KD_OK;
 }
 
 static enum kd_status check_binding(const struct kd_vk *vk, const char *pass, uint32_t index,
-                                    const struct kd_vk_binding *binding, enum kd_vk_kind kind,
-                                    struct kd_error *error)
+                                    const struct kd_vk_binding *binding, enum kd_vk_kind kind, struct kd_error *error)
 {
     if (!binding->buffer)
         return kd_error_set(error, KD_EINVAL, "%s: binding %u has no buffer", pass, index);
@@ -63,22 +59,21 @@ static enum kd_status check_binding(const struct kd_vk *vk, const char *pass, ui
         return kd_error_set(error, KD_EINVAL,
                             "%s: binding %u, bytes %" PRIu64 "+%" PRIu64 " of '%s' (%" PRIu64
                             " bytes), must lie inside it and begin at a multiple of %u",
-                            pass, index, binding->offset, binding->size, binding->buffer->name,
-                            binding->buffer->size, KD_VK_ALIGNMENT);
+                            pass, index, binding->offset, binding->size, binding->buffer->name, binding->buffer->size,
+                            KD_VK_ALIGNMENT);
     return check_kind(vk, pass, index, binding, kind, error);
 }
 
-static enum kd_status check_dispatch(const struct kd_vk *vk, const struct kd_vk_dispatch *dispatch,
-                                     const char *pass, struct kd_error *error)
+static enum kd_status check_dispatch(const struct kd_vk *vk, const struct kd_vk_dispatch *dispatch, const char *pass,
+                                     struct kd_error *error)
 {
     enum kd_status status = KD_OK;
     if (!dispatch->pipeline)
         return kd_error_set(error, KD_EINVAL, "%s: a dispatch without a pipeline", pass);
     for (int i = 0; i < 3; i++)
         if (dispatch->groups[i] > vk->physical.properties.limits.maxComputeWorkGroupCount[i])
-            return kd_error_set(
-                error, KD_ETOOBIG, "%s: %u groups along axis %d, this device takes at most %u", pass,
-                dispatch->groups[i], i, vk->physical.properties.limits.maxComputeWorkGroupCount[i]);
+            return kd_error_set(error, KD_ETOOBIG, "%s: %u groups along axis %d, this device takes at most %u", pass,
+                                dispatch->groups[i], i, vk->physical.properties.limits.maxComputeWorkGroupCount[i]);
     if (dispatch->pipeline->push_bytes && !dispatch->push)
         return kd_error_set(error, KD_EINVAL, "%s: no push constants were given", pass);
     for (uint32_t i = 0; i < dispatch->pipeline->n_buffers && !status; i++)
@@ -98,8 +93,8 @@ static struct kd_vk_access access_of(struct kd_vk *vk, struct kd_vk_buffer *buff
                                    .host = kd_vk_buffer_map(buffer) != NULL };
 }
 
-static enum kd_status bind_buffers(struct kd_vk *vk, struct kd_vk_slot *slot,
-                                   const struct kd_vk_dispatch *dispatch, struct kd_error *error)
+static enum kd_status bind_buffers(struct kd_vk *vk, struct kd_vk_slot *slot, const struct kd_vk_dispatch *dispatch,
+                                   struct kd_error *error)
 {
     VkDescriptorSet set;
     VkDescriptorBufferInfo buffers[KD_VK_MAX_BINDINGS];
@@ -122,13 +117,12 @@ static enum kd_status bind_buffers(struct kd_vk *vk, struct kd_vk_slot *slot,
                                              .descriptorType = kind->descriptor,
                                              .pBufferInfo = &buffers[i],
                                              .pTexelBufferView = &views[i] };
-        if (kind->texel_bytes && (status = kd_vk_view_get(vk, b->buffer, kind->format, b->offset, buffers[i].range,
-                                                          &views[i], error)))
+        if (kind->texel_bytes &&
+            (status = kd_vk_view_get(vk, b->buffer, kind->format, b->offset, buffers[i].range, &views[i], error)))
             return status;
     }
     vk->fn.UpdateDescriptorSets(vk->device, pipeline->n_buffers, writes, 0, NULL);
-    vk->fn.CmdBindDescriptorSets(slot->commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->layout, 0, 1, &set,
-                                 0, NULL);
+    vk->fn.CmdBindDescriptorSets(slot->commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->layout, 0, 1, &set, 0, NULL);
     return KD_OK;
 }
 
@@ -148,9 +142,7 @@ static void order_dispatch(struct kd_vk *vk, struct kd_vk_slot *slot, const stru
 enum kd_status kd_vk_dispatch(struct kd_vk *vk, const struct kd_vk_dispatch *dispatch, struct kd_error *error)
 {
     struct kd_vk_slot *slot;
-    const char *pass = dispatch->pass       ? dispatch->pass
-                       : dispatch->pipeline ? dispatch->pipeline->name
-                                            : "unnamed";
+    const char *pass = dispatch->pass ? dispatch->pass : dispatch->pipeline ? dispatch->pipeline->name : "unnamed";
     enum kd_status status;
     KD_TRY(check_dispatch(vk, dispatch, pass, error));
     KD_TRY(kd_vk_submit_slot(vk, &slot, error));
@@ -161,19 +153,16 @@ enum kd_status kd_vk_dispatch(struct kd_vk *vk, const struct kd_vk_dispatch *dis
     order_dispatch(vk, slot, dispatch);
     vk->fn.CmdBindPipeline(slot->commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->handle);
     if (pipeline->push_bytes)
-        vk->fn.CmdPushConstants(slot->commands, pipeline->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
-                                pipeline->push_bytes, dispatch->push);
-    vk->fn.CmdDispatch(slot->commands, groups[0] + !groups[0], groups[1] + !groups[1],
-                       groups[2] + !groups[2]);
-    ((struct kd_vk_pipeline *)pipeline)->retired.ticket =
-        kd_vk_current(vk); /* ours to write, not the caller's */
+        vk->fn.CmdPushConstants(slot->commands, pipeline->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, pipeline->push_bytes,
+                                dispatch->push);
+    vk->fn.CmdDispatch(slot->commands, groups[0] + !groups[0], groups[1] + !groups[1], groups[2] + !groups[2]);
+    ((struct kd_vk_pipeline *)pipeline)->retired.ticket = kd_vk_current(vk); /* ours to write, not the caller's */
 done:
     return status;
 }
 
 enum kd_status kd_vk_copy(struct kd_vk *vk, const char *pass, struct kd_vk_buffer *to, uint64_t to_offset,
-                          struct kd_vk_buffer *from, uint64_t from_offset, uint64_t size,
-                          struct kd_error *error)
+                          struct kd_vk_buffer *from, uint64_t from_offset, uint64_t size, struct kd_error *error)
 {
     struct kd_vk_slot *slot;
     if (!pass)
@@ -202,8 +191,8 @@ enum kd_status kd_vk_copy(struct kd_vk *vk, const char *pass, struct kd_vk_buffe
     return KD_OK;
 }
 
-enum kd_status kd_vk_fill(struct kd_vk *vk, const char *pass, struct kd_vk_buffer *buffer, uint64_t offset, uint64_t size,
-                          uint32_t value, struct kd_error *error)
+enum kd_status kd_vk_fill(struct kd_vk *vk, const char *pass, struct kd_vk_buffer *buffer, uint64_t offset,
+                          uint64_t size, uint32_t value, struct kd_error *error)
 {
     struct kd_vk_slot *slot;
     if (!inside(buffer, offset, size) || offset % 4 || size % 4)

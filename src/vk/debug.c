@@ -24,15 +24,14 @@ VkDebugUtilsMessengerCreateInfoEXT kd_vk_debug_messenger(struct kd_vk_debug *deb
         .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
         .messageSeverity =
             VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
-        .messageType =
-            VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT,
+        .messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT,
         .pfnUserCallback = heard,
         .pUserData = debug,
     };
 }
 
-enum kd_status kd_vk_debug_listen(struct kd_vk_debug *debug, const struct kd_vk_functions *fn,
-                                  VkInstance instance, struct kd_error *error)
+enum kd_status kd_vk_debug_listen(struct kd_vk_debug *debug, const struct kd_vk_functions *fn, VkInstance instance,
+                                  struct kd_error *error)
 {
     enum kd_status status;
     VkDebugUtilsMessengerCreateInfoEXT info = kd_vk_debug_messenger(debug);

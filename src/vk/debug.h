@@ -16,8 +16,8 @@ struct kd_vk_debug {
 
 VkDebugUtilsMessengerCreateInfoEXT kd_vk_debug_messenger(struct kd_vk_debug *debug);
 /* KD_EDEVICE when VK_EXT_debug_utils is absent: then nothing would be heard. */
-enum kd_status kd_vk_debug_listen(struct kd_vk_debug *debug, const struct kd_vk_functions *fn,
-                                  VkInstance instance, struct kd_error *error);
+enum kd_status kd_vk_debug_listen(struct kd_vk_debug *debug, const struct kd_vk_functions *fn, VkInstance instance,
+                                  struct kd_error *error);
 void kd_vk_debug_finish(struct kd_vk_debug *debug, const struct kd_vk_functions *fn, VkInstance instance);
 
 /* Name an object for messages and captures; without debug utils nothing happens. */

@@ -30,8 +30,7 @@ done:
 }
 
 enum kd_status kd_vk_descriptors_take(struct kd_vk *vk, struct kd_vk_descriptors *descriptors,
-                                      VkDescriptorSetLayout layout, VkDescriptorSet *out,
-                                      struct kd_error *error)
+                                      VkDescriptorSetLayout layout, VkDescriptorSet *out, struct kd_error *error)
 {
     enum kd_status status;
     size_t pool = descriptors->used / KD_VK_SETS_PER_POOL;

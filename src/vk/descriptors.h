@@ -16,8 +16,7 @@ struct kd_vk_descriptors {
 };
 
 enum kd_status kd_vk_descriptors_take(struct kd_vk *vk, struct kd_vk_descriptors *descriptors,
-                                      VkDescriptorSetLayout layout, VkDescriptorSet *out,
-                                      struct kd_error *error);
+                                      VkDescriptorSetLayout layout, VkDescriptorSet *out, struct kd_error *error);
 void kd_vk_descriptors_reset(struct kd_vk *vk, struct kd_vk_descriptors *descriptors);
 void kd_vk_descriptors_finish(struct kd_vk *vk, struct kd_vk_descriptors *descriptors);
 

@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Devices that hung when they were destroyed. They are kept, because a driver may crash when one is torn down that still
- * works (lavapipe does); the list keeps them reachable for leak checkers. */
+/* Devices that hung when they were destroyed. They are kept, because a driver may crash when one is torn down that
+ * still works (lavapipe does); the list keeps them reachable for leak checkers. */
 static struct kd_vk *graveyard;
 
 enum kd_status kd_vk_alive(const struct kd_vk *vk, struct kd_error *error)
@@ -121,17 +121,20 @@ done:
     return status;
 }
 
-#define IDLE_TRIES 3 /* a call that had no memory may have some the next time; without an answer all that the device has would stay for good */
+#define IDLE_TRIES \
+    3 /* a call that had no memory may have some the next time; without an answer all that the device has would stay \
+         for good */
 
-/* Whether its objects may be destroyed. Those of a lost device may, by the specification, once vkDeviceWaitIdle has returned; those
- * of one that hangs never. */
+/* Whether its objects may be destroyed. Those of a lost device may, by the specification, once vkDeviceWaitIdle has
+ * returned; those of one that hangs never. */
 static bool is_idle(struct kd_vk *vk)
 {
     const enum kd_status waited = kd_vk_wait(vk, 0, NULL); /* its deadline, so that closing cannot hang */
     if (vk->hangs)
         return false;
     VkResult idle = vk->fn.DeviceWaitIdle(vk->device);
-    for (int i = 1; i < IDLE_TRIES && (idle == VK_ERROR_OUT_OF_HOST_MEMORY || idle == VK_ERROR_OUT_OF_DEVICE_MEMORY); i++)
+    for (int i = 1; i < IDLE_TRIES && (idle == VK_ERROR_OUT_OF_HOST_MEMORY || idle == VK_ERROR_OUT_OF_DEVICE_MEMORY);
+         i++)
         idle = vk->fn.DeviceWaitIdle(vk->device);
     return !waited || idle >= 0 || idle == VK_ERROR_DEVICE_LOST;
 }
@@ -141,8 +144,7 @@ static void close_device(struct kd_vk *vk)
     vk->done = vk->submitted;
     kd_vk_retire_all(vk);
     if (vk->n_buffers || vk->n_pipelines)
-        kd_log(KD_LOG_WARN, "closing a device with %u buffers and %u pipelines alive", vk->n_buffers,
-               vk->n_pipelines);
+        kd_log(KD_LOG_WARN, "closing a device with %u buffers and %u pipelines alive", vk->n_buffers, vk->n_pipelines);
     kd_vk_submit_finish(vk);
     kd_vk_cache_finish(vk);
     kd_vk_heap_finish(vk);
@@ -166,14 +168,8 @@ void kd_vk_destroy(struct kd_vk *vk)
 
 bool kd_vk_hangs(const struct kd_vk *vk) { return vk->hangs; }
 
-const struct kd_vk_info *kd_vk_info(const struct kd_vk *vk)
-{
-    return &vk->physical.info;
-}
-const char *kd_vk_choice(const struct kd_vk *vk)
-{
-    return vk->choice;
-}
+const struct kd_vk_info *kd_vk_info(const struct kd_vk *vk) { return &vk->physical.info; }
+const char *kd_vk_choice(const struct kd_vk *vk) { return vk->choice; }
 
 uint32_t kd_vk_validation_messages(const struct kd_vk *vk)
 {

@@ -36,7 +36,7 @@ struct kd_vk {
     struct kd_vk_heap heap;
     struct kd_vk_cache cache;
     struct kd_vk_retired *retired; /* destroyed by the caller, perhaps still used by the device */
-    struct kd_vk_buffer *mapped; /* those that the host sees and whose memory is not coherent */
+    struct kd_vk_buffer *mapped;   /* those that the host sees and whose memory is not coherent */
     uint64_t next_buffer_id;
     uint32_t n_buffers;
     atomic_uint n_pipelines; /* alive, for the warning at the end */
@@ -62,9 +62,6 @@ enum kd_status kd_vk_lose(struct kd_vk *vk, struct kd_error *error, const char *
     __attribute__((format(printf, 3, 4)));
 
 /* The timeline value that the commands now being recorded will have. */
-static inline uint64_t kd_vk_current(const struct kd_vk *vk)
-{
-    return vk->submitted + 1;
-}
+static inline uint64_t kd_vk_current(const struct kd_vk *vk) { return vk->submitted + 1; }
 
 #endif

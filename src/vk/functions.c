@@ -31,16 +31,17 @@ enum kd_status kd_vk_functions_load(struct kd_vk_functions *fn, struct kd_error 
         (PFN_vkEnumerateInstanceVersion)fn->GetInstanceProcAddr(NULL, "vkEnumerateInstanceVersion");
     uint32_t version = VK_API_VERSION_1_0; /* a loader without that function is a 1.0 loader */
     if (fn->EnumerateInstanceVersion) {
-        enum kd_status status = kd_vk_result_error(error, fn->EnumerateInstanceVersion(&version), "vkEnumerateInstanceVersion");
+        enum kd_status status =
+            kd_vk_result_error(error, fn->EnumerateInstanceVersion(&version), "vkEnumerateInstanceVersion");
         if (status)
             return status;
     }
     if (version < VK_API_VERSION_1_2)
         return kd_error_set(error, KD_EDEVICE, "the Vulkan loader is of version %u.%u, kerrd needs 1.2",
                             VK_API_VERSION_MAJOR(version), VK_API_VERSION_MINOR(version));
-#define LOAD(name)                                                                                           \
-    fn->name = (PFN_vk##name)fn->GetInstanceProcAddr(NULL, "vk" #name);                                      \
-    if (!fn->name)                                                                                           \
+#define LOAD(name) \
+    fn->name = (PFN_vk##name)fn->GetInstanceProcAddr(NULL, "vk" #name); \
+    if (!fn->name) \
         return absent(error, "vk" #name);
     KD_VK_GLOBAL_FUNCTIONS(LOAD)
 #undef LOAD
@@ -48,13 +49,12 @@ enum kd_status kd_vk_functions_load(struct kd_vk_functions *fn, struct kd_error 
     return KD_OK;
 }
 
-enum kd_status kd_vk_functions_instance(struct kd_vk_functions *fn, VkInstance instance,
-                                        struct kd_error *error)
+enum kd_status kd_vk_functions_instance(struct kd_vk_functions *fn, VkInstance instance, struct kd_error *error)
 {
 #define OPTIONAL(name) fn->name = (PFN_vk##name)fn->GetInstanceProcAddr(instance, "vk" #name);
-#define LOAD(name)                                                                                           \
-    OPTIONAL(name)                                                                                           \
-    if (!fn->name)                                                                                           \
+#define LOAD(name) \
+    OPTIONAL(name) \
+    if (!fn->name) \
         return absent(error, "vk" #name);
     KD_VK_DEBUG_FUNCTIONS(OPTIONAL)
     KD_VK_INSTANCE_FUNCTIONS(LOAD)
@@ -66,9 +66,9 @@ enum kd_status kd_vk_functions_instance(struct kd_vk_functions *fn, VkInstance i
 
 enum kd_status kd_vk_functions_device(struct kd_vk_functions *fn, VkDevice device, struct kd_error *error)
 {
-#define LOAD(name)                                                                                           \
-    fn->name = (PFN_vk##name)fn->GetDeviceProcAddr(device, "vk" #name);                                      \
-    if (!fn->name)                                                                                           \
+#define LOAD(name) \
+    fn->name = (PFN_vk##name)fn->GetDeviceProcAddr(device, "vk" #name); \
+    if (!fn->name) \
         return absent(error, "vk" #name);
     KD_VK_DEVICE_FUNCTIONS(LOAD)
 #undef LOAD
@@ -79,7 +79,7 @@ enum kd_status kd_vk_functions_device(struct kd_vk_functions *fn, VkDevice devic
 const char *kd_vk_result_name(VkResult result)
 {
     switch (result) {
-#define NAME(r)                                                                                              \
+#define NAME(r) \
     case r: return #r;
         NAME(VK_SUCCESS)
         NAME(VK_NOT_READY)
@@ -109,6 +109,6 @@ enum kd_status kd_vk_result_error(struct kd_error *error, VkResult result, const
     if (result >= 0)
         return KD_OK;
     bool memory = result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY;
-    return kd_error_set(error, memory ? KD_ENOMEM : KD_EDEVICE, "%s: %s (%d)", call,
-                        kd_vk_result_name(result), (int)result);
+    return kd_error_set(error, memory ? KD_ENOMEM : KD_EDEVICE, "%s: %s (%d)", call, kd_vk_result_name(result),
+                        (int)result);
 }

@@ -13,85 +13,85 @@
 #define VK_NO_PROTOTYPES
 #include <vulkan/vulkan.h>
 
-#define KD_VK_GLOBAL_FUNCTIONS(X)                                                                            \
-    X(EnumerateInstanceVersion)                                                                              \
-    X(EnumerateInstanceLayerProperties)                                                                      \
-    X(EnumerateInstanceExtensionProperties)                                                                  \
+#define KD_VK_GLOBAL_FUNCTIONS(X) \
+    X(EnumerateInstanceVersion) \
+    X(EnumerateInstanceLayerProperties) \
+    X(EnumerateInstanceExtensionProperties) \
     X(CreateInstance)
 
-#define KD_VK_INSTANCE_FUNCTIONS(X)                                                                          \
-    X(DestroyInstance)                                                                                       \
-    X(EnumeratePhysicalDevices)                                                                              \
-    X(EnumerateDeviceExtensionProperties)                                                                    \
-    X(GetPhysicalDeviceProperties)                                                                           \
-    X(GetPhysicalDeviceProperties2)                                                                          \
-    X(GetPhysicalDeviceFeatures2)                                                                            \
-    X(GetPhysicalDeviceMemoryProperties)                                                                     \
-    X(GetPhysicalDeviceMemoryProperties2)                                                                    \
-    X(GetPhysicalDeviceQueueFamilyProperties)                                                                \
-    X(CreateDevice)                                                                                          \
+#define KD_VK_INSTANCE_FUNCTIONS(X) \
+    X(DestroyInstance) \
+    X(EnumeratePhysicalDevices) \
+    X(EnumerateDeviceExtensionProperties) \
+    X(GetPhysicalDeviceProperties) \
+    X(GetPhysicalDeviceProperties2) \
+    X(GetPhysicalDeviceFeatures2) \
+    X(GetPhysicalDeviceMemoryProperties) \
+    X(GetPhysicalDeviceMemoryProperties2) \
+    X(GetPhysicalDeviceQueueFamilyProperties) \
+    X(CreateDevice) \
     X(GetDeviceProcAddr)
 
 /* These belong to VK_EXT_debug_utils and are NULL where the extension is not enabled. */
-#define KD_VK_DEBUG_FUNCTIONS(X)                                                                             \
-    X(CreateDebugUtilsMessengerEXT)                                                                          \
-    X(DestroyDebugUtilsMessengerEXT)                                                                         \
+#define KD_VK_DEBUG_FUNCTIONS(X) \
+    X(CreateDebugUtilsMessengerEXT) \
+    X(DestroyDebugUtilsMessengerEXT) \
     X(SetDebugUtilsObjectNameEXT)
 
-#define KD_VK_DEVICE_FUNCTIONS(X)                                                                            \
-    X(DestroyDevice)                                                                                         \
-    X(GetDeviceQueue)                                                                                        \
-    X(DeviceWaitIdle)                                                                                        \
-    X(AllocateMemory)                                                                                        \
-    X(FreeMemory)                                                                                            \
-    X(MapMemory)                                                                                             \
-    X(FlushMappedMemoryRanges)                                                                               \
-    X(InvalidateMappedMemoryRanges)                                                                          \
-    X(CreateBuffer)                                                                                          \
-    X(DestroyBuffer)                                                                                         \
-    X(GetBufferMemoryRequirements)                                                                           \
-    X(BindBufferMemory)                                                                                      \
-    X(CreateBufferView)                                                                                      \
-    X(DestroyBufferView)                                                                                     \
-    X(CreateShaderModule)                                                                                    \
-    X(DestroyShaderModule)                                                                                   \
-    X(CreateDescriptorSetLayout)                                                                             \
-    X(DestroyDescriptorSetLayout)                                                                            \
-    X(CreatePipelineLayout)                                                                                  \
-    X(DestroyPipelineLayout)                                                                                 \
-    X(CreateComputePipelines)                                                                                \
-    X(DestroyPipeline)                                                                                       \
-    X(CreatePipelineCache)                                                                                   \
-    X(DestroyPipelineCache)                                                                                  \
-    X(GetPipelineCacheData)                                                                                  \
-    X(CreateDescriptorPool)                                                                                  \
-    X(DestroyDescriptorPool)                                                                                 \
-    X(ResetDescriptorPool)                                                                                   \
-    X(AllocateDescriptorSets)                                                                                \
-    X(UpdateDescriptorSets)                                                                                  \
-    X(CreateCommandPool)                                                                                     \
-    X(DestroyCommandPool)                                                                                    \
-    X(ResetCommandPool)                                                                                      \
-    X(AllocateCommandBuffers)                                                                                \
-    X(BeginCommandBuffer)                                                                                    \
-    X(EndCommandBuffer)                                                                                      \
-    X(CreateSemaphore)                                                                                       \
-    X(DestroySemaphore)                                                                                      \
-    X(GetSemaphoreCounterValue)                                                                              \
-    X(WaitSemaphores)                                                                                        \
-    X(QueueSubmit)                                                                                           \
-    X(CreateQueryPool)                                                                                       \
-    X(DestroyQueryPool)                                                                                      \
-    X(ResetQueryPool)                                                                                        \
-    X(GetQueryPoolResults)                                                                                   \
-    X(CmdResetQueryPool)                                                                                     \
-    X(CmdWriteTimestamp)                                                                                     \
-    X(CmdPipelineBarrier)                                                                                    \
-    X(CmdBindPipeline)                                                                                       \
-    X(CmdBindDescriptorSets)                                                                                 \
-    X(CmdPushConstants)                                                                                      \
-    X(CmdDispatch)                                                                                           \
-    X(CmdCopyBuffer)                                                                                         \
+#define KD_VK_DEVICE_FUNCTIONS(X) \
+    X(DestroyDevice) \
+    X(GetDeviceQueue) \
+    X(DeviceWaitIdle) \
+    X(AllocateMemory) \
+    X(FreeMemory) \
+    X(MapMemory) \
+    X(FlushMappedMemoryRanges) \
+    X(InvalidateMappedMemoryRanges) \
+    X(CreateBuffer) \
+    X(DestroyBuffer) \
+    X(GetBufferMemoryRequirements) \
+    X(BindBufferMemory) \
+    X(CreateBufferView) \
+    X(DestroyBufferView) \
+    X(CreateShaderModule) \
+    X(DestroyShaderModule) \
+    X(CreateDescriptorSetLayout) \
+    X(DestroyDescriptorSetLayout) \
+    X(CreatePipelineLayout) \
+    X(DestroyPipelineLayout) \
+    X(CreateComputePipelines) \
+    X(DestroyPipeline) \
+    X(CreatePipelineCache) \
+    X(DestroyPipelineCache) \
+    X(GetPipelineCacheData) \
+    X(CreateDescriptorPool) \
+    X(DestroyDescriptorPool) \
+    X(ResetDescriptorPool) \
+    X(AllocateDescriptorSets) \
+    X(UpdateDescriptorSets) \
+    X(CreateCommandPool) \
+    X(DestroyCommandPool) \
+    X(ResetCommandPool) \
+    X(AllocateCommandBuffers) \
+    X(BeginCommandBuffer) \
+    X(EndCommandBuffer) \
+    X(CreateSemaphore) \
+    X(DestroySemaphore) \
+    X(GetSemaphoreCounterValue) \
+    X(WaitSemaphores) \
+    X(QueueSubmit) \
+    X(CreateQueryPool) \
+    X(DestroyQueryPool) \
+    X(ResetQueryPool) \
+    X(GetQueryPoolResults) \
+    X(CmdResetQueryPool) \
+    X(CmdWriteTimestamp) \
+    X(CmdPipelineBarrier) \
+    X(CmdBindPipeline) \
+    X(CmdBindDescriptorSets) \
+    X(CmdPushConstants) \
+    X(CmdDispatch) \
+    X(CmdCopyBuffer) \
     X(CmdFillBuffer)
 
 struct kd_vk_functions {
@@ -106,8 +106,7 @@ struct kd_vk_functions {
 
 /* Three steps, each needing what the one before made possible. KD_EDEVICE names what is absent. */
 enum kd_status kd_vk_functions_load(struct kd_vk_functions *fn, struct kd_error *error);
-enum kd_status kd_vk_functions_instance(struct kd_vk_functions *fn, VkInstance instance,
-                                        struct kd_error *error);
+enum kd_status kd_vk_functions_instance(struct kd_vk_functions *fn, VkInstance instance, struct kd_error *error);
 enum kd_status kd_vk_functions_device(struct kd_vk_functions *fn, VkDevice device, struct kd_error *error);
 
 /* For tests alone: called after each step, to replace members (tests/gpu/fake_device.h). NULL otherwise. */

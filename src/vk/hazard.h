@@ -41,8 +41,8 @@ struct kd_vk_barrier {
 bool kd_vk_hazards_add(struct kd_vk_hazards *hazards, const struct kd_vk_access *accesses, size_t n,
                        struct kd_vk_barrier *barrier);
 
-/* Called at the end of a submission: true if *barrier has to be recorded for the host to see what was written. The other
- * direction needs none: vkQueueSubmit itself makes earlier host writes visible to the device. */
+/* Called at the end of a submission: true if *barrier has to be recorded for the host to see what was written. The
+ * other direction needs none: vkQueueSubmit itself makes earlier host writes visible to the device. */
 bool kd_vk_hazards_to_host(struct kd_vk_hazards *hazards, struct kd_vk_barrier *barrier);
 
 #endif

@@ -55,22 +55,18 @@ static bool has_extension(const struct kd_vk_functions *fn, const char *layer, c
 static enum kd_status check_validation(const struct kd_vk_functions *fn, struct kd_error *error)
 {
     if (!has_layer(fn, VALIDATION_LAYER))
-        return kd_error_set(error, KD_EDEVICE, "validation was asked for, but %s is not installed",
-                            VALIDATION_LAYER);
+        return kd_error_set(error, KD_EDEVICE, "validation was asked for, but %s is not installed", VALIDATION_LAYER);
     if (!has_extension(fn, VALIDATION_LAYER, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME))
-        return kd_error_set(error, KD_EDEVICE,
-                            "validation was asked for, but this %s cannot validate synchronisation",
+        return kd_error_set(error, KD_EDEVICE, "validation was asked for, but this %s cannot validate synchronisation",
                             VALIDATION_LAYER);
     return KD_OK;
 }
 
-static enum kd_status create(struct kd_vk_instance *instance, const VkInstanceCreateInfo *info,
-                             struct kd_error *error)
+static enum kd_status create(struct kd_vk_instance *instance, const VkInstanceCreateInfo *info, struct kd_error *error)
 {
     VkResult result = instance->fn.CreateInstance(info, NULL, &instance->handle);
     if (result == VK_ERROR_INCOMPATIBLE_DRIVER)
-        return kd_error_set(error, KD_EDEVICE,
-                            "no Vulkan device: no driver is installed, or none works here");
+        return kd_error_set(error, KD_EDEVICE, "no Vulkan device: no driver is installed, or none works here");
     if (result < 0)
         return kd_vk_result_error(error, result, "vkCreateInstance");
     return kd_vk_functions_instance(&instance->fn, instance->handle, error);
@@ -111,18 +107,20 @@ enum kd_status kd_vk_instance_init(struct kd_vk_instance *instance, bool validat
                                                .pNext = debug_utils ? &messenger : NULL,
                                                .enabledValidationFeatureCount = 1,
                                                .pEnabledValidationFeatures = &enable };
-    /* Newer layers (Debian 13's 1.4, for one) leave what shaders read and write out of synchronisation validation unless they are told
-     * otherwise. All our hazards are between a shader and something else. */
+    /* Newer layers (Debian 13's 1.4, for one) leave what shaders read and write out of synchronisation validation
+     * unless they are told otherwise. All our hazards are between a shader and something else. */
     const VkBool32 yes = VK_TRUE;
-    const VkLayerSettingEXT heuristic = { VALIDATION_LAYER, "syncval_shader_accesses_heuristic", VK_LAYER_SETTING_TYPE_BOOL32_EXT, 1,
-                                          &yes };
+    const VkLayerSettingEXT heuristic = { VALIDATION_LAYER, "syncval_shader_accesses_heuristic",
+                                          VK_LAYER_SETTING_TYPE_BOOL32_EXT, 1, &yes };
     const VkLayerSettingsCreateInfoEXT more = { .sType = VK_STRUCTURE_TYPE_LAYER_SETTINGS_CREATE_INFO_EXT,
                                                 .pNext = &features,
                                                 .settingCount = 1,
                                                 .pSettings = &heuristic };
     const VkInstanceCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
-        .pNext = settings ? (const void *)&more : validate ? &features : NULL,
+        .pNext = settings   ? (const void *)&more
+                 : validate ? &features
+                            : NULL,
         .flags = portability ? VK_INSTANCE_CREATE_ENUMERATE_PORTABILITY_BIT_KHR : 0,
         .pApplicationInfo = &application,
         .enabledLayerCount = validate,

@@ -36,8 +36,8 @@ static VkMappedMemoryRange range_of(const struct kd_vk_buffer *buffer)
                                    .size = buffer->slice.size };
 }
 
-/* Buffers for reading back are left out: the host writes nothing to them, and its old copy must not replace what the device
- * wrote. */
+/* Buffers for reading back are left out: the host writes nothing to them, and its old copy must not replace what the
+ * device wrote. */
 VkResult kd_vk_mapped_flush(struct kd_vk *vk, uint64_t value)
 {
     VkResult result = VK_SUCCESS;

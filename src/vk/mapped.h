@@ -1,6 +1,7 @@
-/* Mapped memory may not be coherent: what the host writes reaches the device by a flush, what the device writes reaches the host by an invalidation.
- * The layer does both, so that nobody else has to know: before a submission it flushes the buffers that are read in it, and when one is seen
- * finished it invalidates those that were written. Where memory is coherent the list is empty. */
+/* Mapped memory may not be coherent: what the host writes reaches the device by a flush, what the device writes
+ * reaches the host by an invalidation. The layer does both, so that nobody else has to know: before a submission it
+ * flushes the buffers that are read in it, and when one is seen finished it invalidates those that were written.
+ * Where memory is coherent the list is empty. */
 #ifndef KD_VK_MAPPED_H
 #define KD_VK_MAPPED_H
 

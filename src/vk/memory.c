@@ -16,9 +16,10 @@ static bool plain(VkMemoryPropertyFlags flags)
     return !(flags & ~(VkMemoryPropertyFlags)(LOCAL | VISIBLE | COHERENT | CACHED));
 }
 
-/* Points for a type, -1 where it will not do. The host reads memory that it does not cache ten times more slowly: for reading
- * back, cached memory is worth the invalidation that it may need; for writing, which goes past the cache, coherence is. Host memory is sought outside the device's: on a discrete
- * card the part of its memory that the host can map may be as small as 256 MiB. */
+/* Points for a type, -1 where it will not do. The host reads memory that it does not cache ten times more slowly:
+ * for reading back, cached memory is worth the invalidation that it may need; for writing, which goes past the
+ * cache, coherence is. Host memory is sought outside the device's: on a discrete card the part of its memory that
+ * the host can map may be as small as 256 MiB. */
 static int points(VkMemoryPropertyFlags flags, enum kd_vk_memory memory, bool host_near)
 {
     bool visible = flags & VISIBLE, local = flags & LOCAL, cached = flags & CACHED, coherent = flags & COHERENT;
@@ -32,8 +33,8 @@ static int points(VkMemoryPropertyFlags flags, enum kd_vk_memory memory, bool ho
     return -1;
 }
 
-int kd_vk_memory_type(const VkPhysicalDeviceMemoryProperties *properties, uint32_t allowed,
-                      enum kd_vk_memory memory, bool host_near)
+int kd_vk_memory_type(const VkPhysicalDeviceMemoryProperties *properties, uint32_t allowed, enum kd_vk_memory memory,
+                      bool host_near)
 {
     int best = -1, best_points = 0;
     for (uint32_t i = 0; i < properties->memoryTypeCount; i++) {
@@ -101,8 +102,7 @@ void kd_vk_heap_finish(struct kd_vk *vk)
     }
 }
 
-static enum kd_status block_fill(struct kd_vk *vk, struct kd_vk_block *block, uint64_t size,
-                                 struct kd_error *error)
+static enum kd_status block_fill(struct kd_vk *vk, struct kd_vk_block *block, uint64_t size, struct kd_error *error)
 {
     enum kd_status status;
     VkMemoryPropertyFlags flags = vk->heap.properties.memoryTypes[block->type].propertyFlags;
@@ -111,8 +111,7 @@ static enum kd_status block_fill(struct kd_vk *vk, struct kd_vk_block *block, ui
                                         .memoryTypeIndex = block->type };
     void *map = NULL;
     KD_VK_TRY(&vk->fn, AllocateMemory, vk->device, &info, NULL, &block->memory);
-    kd_vk_debug_name(vk, VK_OBJECT_TYPE_DEVICE_MEMORY, KD_VK_HANDLE(block->memory), "block of type %u",
-                     block->type);
+    kd_vk_debug_name(vk, VK_OBJECT_TYPE_DEVICE_MEMORY, KD_VK_HANDLE(block->memory), "block of type %u", block->type);
     block->coherent = flags & COHERENT;
     if (flags & VISIBLE)
         KD_VK_TRY(&vk->fn, MapMemory, vk->device, block->memory, 0, VK_WHOLE_SIZE, 0, &map);
@@ -181,22 +180,20 @@ enum kd_status kd_vk_heap_take(struct kd_vk *vk, enum kd_vk_memory memory, uint6
     struct kd_error why = { 0 };
     if (alignment < KD_VK_ALIGNMENT)
         alignment = KD_VK_ALIGNMENT;
-    size = size > UINT64_MAX - alignment ? size
-                                         : (size + KD_VK_ALIGNMENT - 1) & ~(uint64_t)(KD_VK_ALIGNMENT - 1);
+    size = size > UINT64_MAX - alignment ? size : (size + KD_VK_ALIGNMENT - 1) & ~(uint64_t)(KD_VK_ALIGNMENT - 1);
     enum kd_status status = take_or_grow(vk, type, size, alignment, out, &why);
     if (status == KD_ENOMEM && vk->retired && !kd_vk_wait(vk, 0, NULL))
         status = take_or_grow(vk, type, size, alignment, out, &why); /* with what was waiting to be freed */
     if (!status)
         return KD_OK;
-    return kd_error_set(
-        error, status, "%.2f MiB of %s memory: %.200s (%.2f MiB are held, the heap has %.0f MiB)",
-        (double)size / 0x1p20,
-        memory == KD_VK_DEVICE   ? "device"
-        : memory == KD_VK_UPLOAD ? "upload"
-                                 : "readback",
-        why.message, (double)kd_vk_allocated(vk) / 0x1p20,
-        (double)vk->heap.properties.memoryHeaps[vk->heap.properties.memoryTypes[type].heapIndex].size /
-            0x1p20);
+    return kd_error_set(error, status, "%.2f MiB of %s memory: %.200s (%.2f MiB are held, the heap has %.0f MiB)",
+                        (double)size / 0x1p20,
+                        memory == KD_VK_DEVICE   ? "device"
+                        : memory == KD_VK_UPLOAD ? "upload"
+                                                 : "readback",
+                        why.message, (double)kd_vk_allocated(vk) / 0x1p20,
+                        (double)vk->heap.properties.memoryHeaps[vk->heap.properties.memoryTypes[type].heapIndex].size /
+                            0x1p20);
 }
 
 void kd_vk_heap_give(struct kd_vk *vk, const struct kd_vk_slice *slice)

@@ -9,13 +9,13 @@
 /* Vulkan guarantees 4096 allocations; a block this large keeps us far below. A larger buffer gets a block of
  * its own. */
 #define KD_VK_BLOCK_BYTES (UINT64_C(64) << 20)
-/* No nonCoherentAtomSize is larger (Vulkan 1.2, table 53): buffers share no atom. No min{Storage,Uniform,Texel}BufferOffsetAlignment
- * is larger either: a binding of any kind may begin at each multiple. */
+/* No nonCoherentAtomSize is larger (Vulkan 1.2, table 53): buffers share no atom. No
+ * min{Storage,Uniform,Texel}BufferOffsetAlignment is larger either: a binding of any kind may begin at each
+ * multiple. */
 #define KD_VK_ALIGNMENT 256
-#define KD_VK_BUFFER_USAGE                                                                                   \
-    (VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |                               \
-     VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |                           \
-     VK_BUFFER_USAGE_TRANSFER_DST_BIT)
+#define KD_VK_BUFFER_USAGE \
+    (VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | \
+     VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT)
 
 struct kd_vk_block {
     struct kd_vk_block *next;
@@ -46,7 +46,7 @@ void kd_vk_heap_give(struct kd_vk *vk, const struct kd_vk_slice *slice);
 
 /* The best of the memory types in `allowed` (a bit each) for a purpose, or -1. Pure. host_near: the device's
  * own memory is the host's too (CPU, integrated), so mapping it costs nothing. */
-int kd_vk_memory_type(const VkPhysicalDeviceMemoryProperties *properties, uint32_t allowed,
-                      enum kd_vk_memory memory, bool host_near);
+int kd_vk_memory_type(const VkPhysicalDeviceMemoryProperties *properties, uint32_t allowed, enum kd_vk_memory memory,
+                      bool host_near);
 
 #endif

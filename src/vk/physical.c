@@ -35,8 +35,8 @@ static void lacks(struct kd_vk_info *info, const char *what)
     snprintf(info->missing + used, sizeof info->missing - used, "%s%s", used ? ", " : "", what);
 }
 
-/* A family must compute. One with timestamps is better, then one that does not draw, in whose queue a desktop's frames and
- * ours do not wait for each other. The first of equals is taken. */
+/* A family must compute. One with timestamps is better, then one that does not draw, in whose queue a desktop's
+ * frames and ours do not wait for each other. The first of equals is taken. */
 static int family_points(const VkQueueFamilyProperties *family)
 {
     if (!(family->queueFlags & VK_QUEUE_COMPUTE_BIT) || !family->queueCount)
@@ -108,13 +108,10 @@ static void read_heaps(const struct kd_vk_functions *fn, struct kd_vk_physical *
 static void read_1_2(const struct kd_vk_functions *fn, struct kd_vk_physical *device)
 {
     struct kd_vk_info *info = &device->info;
-    VkPhysicalDeviceVulkan12Properties p12 = { .sType =
-                                                   VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_PROPERTIES };
-    VkPhysicalDeviceVulkan11Properties p11 = { .sType =
-                                                   VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES,
+    VkPhysicalDeviceVulkan12Properties p12 = { .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_PROPERTIES };
+    VkPhysicalDeviceVulkan11Properties p11 = { .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES,
                                                .pNext = &p12 };
-    VkPhysicalDeviceProperties2 p = { .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
-                                      .pNext = &p11 };
+    VkPhysicalDeviceProperties2 p = { .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &p11 };
     VkPhysicalDeviceVulkan12Features f12 = { .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES };
     VkPhysicalDeviceFeatures2 f = { .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &f12 };
     fn->GetPhysicalDeviceProperties2(device->handle, &p);
@@ -168,8 +165,8 @@ static void inspect(const struct kd_vk_functions *fn, uint32_t index, struct kd_
         read_1_2(fn, device);
 }
 
-enum kd_status kd_vk_physical_list(const struct kd_vk_functions *fn, VkInstance instance,
-                                   struct kd_vk_physical **out, size_t *count, struct kd_error *error)
+enum kd_status kd_vk_physical_list(const struct kd_vk_functions *fn, VkInstance instance, struct kd_vk_physical **out,
+                                   size_t *count, struct kd_error *error)
 {
     enum kd_status status;
     VkPhysicalDevice handles[64];

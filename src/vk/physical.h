@@ -19,7 +19,7 @@ struct kd_vk_physical {
 };
 
 /* Every physical device of the instance; *out is malloc'd. KD_EDEVICE if there is none. */
-enum kd_status kd_vk_physical_list(const struct kd_vk_functions *fn, VkInstance instance,
-                                   struct kd_vk_physical **out, size_t *count, struct kd_error *error);
+enum kd_status kd_vk_physical_list(const struct kd_vk_functions *fn, VkInstance instance, struct kd_vk_physical **out,
+                                   size_t *count, struct kd_error *error);
 
 #endif

@@ -12,21 +12,19 @@
 #define SPIRV_MAGIC 0x07230203u
 #define MAX_SPEC 32
 
-static enum kd_status check(const struct kd_vk *vk, const struct kd_vk_pipeline_params *params,
-                            struct kd_error *error)
+static enum kd_status check(const struct kd_vk *vk, const struct kd_vk_pipeline_params *params, struct kd_error *error)
 {
     const char *name = params->name ? params->name : "unnamed";
     uint32_t max_push = vk->physical.info.max_push_bytes;
-    if (!params->spirv || params->spirv_bytes < 20 || params->spirv_bytes % 4 ||
-        params->spirv[0] != SPIRV_MAGIC)
+    if (!params->spirv || params->spirv_bytes < 20 || params->spirv_bytes % 4 || params->spirv[0] != SPIRV_MAGIC)
         return kd_error_set(error, KD_EINVAL, "pipeline '%s': this is not SPIR-V", name);
     if (params->n_buffers > KD_VK_MAX_BINDINGS)
-        return kd_error_set(error, KD_EINVAL, "pipeline '%s': %u buffers, at most %u", name,
-                            params->n_buffers, KD_VK_MAX_BINDINGS);
+        return kd_error_set(error, KD_EINVAL, "pipeline '%s': %u buffers, at most %u", name, params->n_buffers,
+                            KD_VK_MAX_BINDINGS);
     for (uint32_t i = 0; i < params->n_buffers; i++)
         if (!kd_vk_kind_info(params->kinds[i]))
-            return kd_error_set(error, KD_EINVAL, "pipeline '%s': binding %u is of kind %u, which there is none of", name, i,
-                                (uint32_t)params->kinds[i]);
+            return kd_error_set(error, KD_EINVAL, "pipeline '%s': binding %u is of kind %u, which there is none of",
+                                name, i, (uint32_t)params->kinds[i]);
     if (params->push_bytes > max_push || params->push_bytes % 4)
         return kd_error_set(error, KD_EINVAL,
                             "pipeline '%s': %u bytes of push constants, at most %u and a multiple of 4", name,
@@ -42,12 +40,12 @@ static enum kd_status make_layout(struct kd_vk *vk, struct kd_vk_pipeline *pipel
     enum kd_status status;
     VkDescriptorSetLayoutBinding bindings[KD_VK_MAX_BINDINGS];
     for (uint32_t i = 0; i < pipeline->n_buffers; i++)
-        bindings[i] = (VkDescriptorSetLayoutBinding) { .binding = i,
-                                                       .descriptorType = kd_vk_kind_info(pipeline->kinds[i])->descriptor,
-                                                       .descriptorCount = 1,
-                                                       .stageFlags = VK_SHADER_STAGE_COMPUTE_BIT };
-    const VkDescriptorSetLayoutCreateInfo set = { .sType =
-                                                      VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+        bindings[i] =
+            (VkDescriptorSetLayoutBinding) { .binding = i,
+                                             .descriptorType = kd_vk_kind_info(pipeline->kinds[i])->descriptor,
+                                             .descriptorCount = 1,
+                                             .stageFlags = VK_SHADER_STAGE_COMPUTE_BIT };
+    const VkDescriptorSetLayoutCreateInfo set = { .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
                                                   .bindingCount = pipeline->n_buffers,
                                                   .pBindings = bindings };
     KD_VK_TRY(&vk->fn, CreateDescriptorSetLayout, vk->device, &set, NULL, &pipeline->set_layout);
@@ -60,8 +58,7 @@ static enum kd_status make_layout(struct kd_vk *vk, struct kd_vk_pipeline *pipel
                                                 .pushConstantRangeCount = pipeline->push_bytes > 0,
                                                 .pPushConstantRanges = &push };
     KD_VK_TRY(&vk->fn, CreatePipelineLayout, vk->device, &layout, NULL, &pipeline->layout);
-    kd_vk_debug_name(vk, VK_OBJECT_TYPE_PIPELINE_LAYOUT, KD_VK_HANDLE(pipeline->layout), "%s",
-                     pipeline->name);
+    kd_vk_debug_name(vk, VK_OBJECT_TYPE_PIPELINE_LAYOUT, KD_VK_HANDLE(pipeline->layout), "%s", pipeline->name);
 done:
     return status;
 }
@@ -86,8 +83,7 @@ static enum kd_status make_pipeline(struct kd_vk *vk, struct kd_vk_pipeline *pip
                    .pSpecializationInfo = params->n_spec ? &spec : NULL },
         .layout = pipeline->layout,
     };
-    KD_VK_TRY(&vk->fn, CreateComputePipelines, vk->device, vk->cache.handle, 1, &info, NULL,
-              &pipeline->handle);
+    KD_VK_TRY(&vk->fn, CreateComputePipelines, vk->device, vk->cache.handle, 1, &info, NULL, &pipeline->handle);
     kd_vk_debug_name(vk, VK_OBJECT_TYPE_PIPELINE, KD_VK_HANDLE(pipeline->handle), "%s", pipeline->name);
     vk->cache.grown = true;
 done:

@@ -26,11 +26,5 @@ static void sweep(struct kd_vk *vk, uint64_t done)
     }
 }
 
-void kd_vk_retire_idle(struct kd_vk *vk)
-{
-    sweep(vk, vk->done);
-}
-void kd_vk_retire_all(struct kd_vk *vk)
-{
-    sweep(vk, UINT64_MAX);
-}
+void kd_vk_retire_idle(struct kd_vk *vk) { sweep(vk, vk->done); }
+void kd_vk_retire_all(struct kd_vk *vk) { sweep(vk, UINT64_MAX); }

@@ -1,5 +1,5 @@
-/* Objects wait here whose owner has destroyed them while the device may still use them: each waits for the last submission that could and is freed
- * when that is seen finished. */
+/* Objects wait here whose owner has destroyed them while the device may still use them: each waits for the last
+ * submission that could and is freed when that is seen finished. */
 #ifndef KD_VK_RETIRE_H
 #define KD_VK_RETIRE_H
 

@@ -10,10 +10,7 @@
 
 static uint64_t now_ns(void) { return (uint64_t)(kd_clock_ms() * 1e6); }
 
-static struct kd_vk_slot *slot_of(struct kd_vk *vk, uint64_t value)
-{
-    return &vk->slots[value % KD_VK_SLOTS];
-}
+static struct kd_vk_slot *slot_of(struct kd_vk *vk, uint64_t value) { return &vk->slots[value % KD_VK_SLOTS]; }
 
 static enum kd_status slot_init(struct kd_vk *vk, uint32_t index, struct kd_error *error)
 {
@@ -90,7 +87,8 @@ static enum kd_status poll_timeline(struct kd_vk *vk, struct kd_error *error)
     return reached(vk, value < vk->submitted ? value : vk->submitted, error);
 }
 
-#define GRACE_NS 1000000000u /* after a deadline: whoever was held meanwhile, as in a virtual machine, could not look in time */
+#define GRACE_NS \
+    1000000000u   /* after a deadline: whoever was held meanwhile, as in a virtual machine, could not look in time */
 #define STARVED 8 /* deadlines, after which a software device is given up that hardly had the processor */
 
 /* What the threads of this process had of the processor; 0 where that is not known. */
@@ -100,8 +98,9 @@ static uint64_t processor_ns(void)
     return clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t) ? 0 : (uint64_t)t.tv_sec * 1000000000u + (uint64_t)t.tv_nsec;
 }
 
-/* Waits once. On a machine that others keep busy a software device, whose threads are this process' own, may compile a kernel for longer than a deadline and be sound: a
- * deadline that passed while the process had less than half of it of the processor does not count, a few times. */
+/* Waits once. On a machine that others keep busy a software device, whose threads are this process' own, may compile
+ * a kernel for longer than a deadline and be sound: a deadline that passed while the process had less than half of
+ * it of the processor does not count, a few times. */
 static VkResult wait_for(struct kd_vk *vk, const VkSemaphoreWaitInfo *info, uint64_t timeout)
 {
     VkResult result = VK_TIMEOUT;
@@ -144,8 +143,8 @@ enum kd_status kd_vk_wait(struct kd_vk *vk, uint64_t ticket, struct kd_error *er
     if (status)
         return status;
     if (ticket > vk->submitted)
-        return kd_error_set(error, KD_EINVAL, "there is no submission %" PRIu64 ", the last was %" PRIu64,
-                            ticket, vk->submitted);
+        return kd_error_set(error, KD_EINVAL, "there is no submission %" PRIu64 ", the last was %" PRIu64, ticket,
+                            vk->submitted);
     if (!ticket)
         ticket = vk->submitted;
     if (vk->done < ticket)
@@ -175,12 +174,10 @@ done:
     return status;
 }
 
-static enum kd_status enqueue(struct kd_vk *vk, struct kd_vk_slot *slot, uint64_t value,
-                              struct kd_error *error)
+static enum kd_status enqueue(struct kd_vk *vk, struct kd_vk_slot *slot, uint64_t value, struct kd_error *error)
 {
     enum kd_status status;
-    const VkTimelineSemaphoreSubmitInfo timeline = { .sType =
-                                                         VK_STRUCTURE_TYPE_TIMELINE_SEMAPHORE_SUBMIT_INFO,
+    const VkTimelineSemaphoreSubmitInfo timeline = { .sType = VK_STRUCTURE_TYPE_TIMELINE_SEMAPHORE_SUBMIT_INFO,
                                                      .signalSemaphoreValueCount = 1,
                                                      .pSignalSemaphoreValues = &value };
     const VkSubmitInfo info = { .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO,

@@ -74,8 +74,7 @@ void kd_vk_timing_begin(struct kd_vk *vk, struct kd_vk_stamps *stamps, VkCommand
     stamp(vk, stamps, commands);
 }
 
-void kd_vk_timing_pass(struct kd_vk *vk, struct kd_vk_stamps *stamps, VkCommandBuffer commands,
-                       const char *pass)
+void kd_vk_timing_pass(struct kd_vk *vk, struct kd_vk_stamps *stamps, VkCommandBuffer commands, const char *pass)
 {
     if (stamps->broken)
         return;
@@ -108,9 +107,8 @@ static bool read_stamps(struct kd_vk *vk, struct kd_vk_stamps *stamps, uint64_t 
 {
     for (size_t first = 0; first < stamps->n; first += KD_VK_STAMPS_PER_POOL) {
         size_t n = stamps->n - first < KD_VK_STAMPS_PER_POOL ? stamps->n - first : KD_VK_STAMPS_PER_POOL;
-        if (vk->fn.GetQueryPoolResults(vk->device, stamps->pools[first / KD_VK_STAMPS_PER_POOL], 0,
-                                       (uint32_t)n, n * sizeof *out, out + first, sizeof *out,
-                                       VK_QUERY_RESULT_64_BIT) != VK_SUCCESS)
+        if (vk->fn.GetQueryPoolResults(vk->device, stamps->pools[first / KD_VK_STAMPS_PER_POOL], 0, (uint32_t)n,
+                                       n * sizeof *out, out + first, sizeof *out, VK_QUERY_RESULT_64_BIT) != VK_SUCCESS)
             return false;
     }
     return true;

@@ -14,11 +14,9 @@
 
 /* The timestamps of one submission. */
 struct kd_vk_stamps {
-    VkQueryPool *pools; /* kept at the most that one submission has needed */
-    size_t n_pools, n;  /* n: stamps written */
-    struct kd_vk_stamp_span {
-        uint32_t pass, commands;
-    } * spans; /* span i lies between stamps i and i + 1 */
+    VkQueryPool *pools;                                          /* kept at the most that one submission has needed */
+    size_t n_pools, n;                                           /* n: stamps written */
+    struct kd_vk_stamp_span { uint32_t pass, commands; } *spans; /* span i lies between stamps i and i + 1 */
     size_t n_spans, capacity;
     bool broken; /* no memory to go on: this submission is not timed */
 };
@@ -31,8 +29,7 @@ struct kd_vk_timing {
 
 void kd_vk_timing_begin(struct kd_vk *vk, struct kd_vk_stamps *stamps, VkCommandBuffer commands);
 /* Called before each command, which belongs to this pass. */
-void kd_vk_timing_pass(struct kd_vk *vk, struct kd_vk_stamps *stamps, VkCommandBuffer commands,
-                       const char *pass);
+void kd_vk_timing_pass(struct kd_vk *vk, struct kd_vk_stamps *stamps, VkCommandBuffer commands, const char *pass);
 void kd_vk_timing_end(struct kd_vk *vk, struct kd_vk_stamps *stamps, VkCommandBuffer commands);
 /* Add a finished submission to the totals. */
 void kd_vk_timing_collect(struct kd_vk *vk, struct kd_vk_stamps *stamps);

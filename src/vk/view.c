@@ -13,8 +13,8 @@ static struct kd_vk_view *find(const struct kd_vk_buffer *buffer, VkFormat forma
     return view;
 }
 
-/* Destroy idle views until few are left. Those that the device may still use stay, so a buffer has no more than that and what is
- * under way. */
+/* Destroy idle views until few are left. Those that the device may still use stay, so a buffer has no more than that
+ * and what is under way. */
 static void thin_out(struct kd_vk *vk, struct kd_vk_buffer *buffer)
 {
     uint32_t n = 0;
@@ -30,8 +30,8 @@ static void thin_out(struct kd_vk *vk, struct kd_vk_buffer *buffer)
     }
 }
 
-enum kd_status kd_vk_view_get(struct kd_vk *vk, struct kd_vk_buffer *buffer, VkFormat format, uint64_t offset, uint64_t range,
-                              VkBufferView *out, struct kd_error *error)
+enum kd_status kd_vk_view_get(struct kd_vk *vk, struct kd_vk_buffer *buffer, VkFormat format, uint64_t offset,
+                              uint64_t range, VkBufferView *out, struct kd_error *error)
 {
     enum kd_status status = KD_OK;
     struct kd_vk_view *view = find(buffer, format, offset, range);

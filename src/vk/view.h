@@ -1,5 +1,5 @@
-/* These are views of a buffer as texels. A buffer keeps those that it was bound with, as most are bound again and again, and takes them along when
- * it is freed. */
+/* These are views of a buffer as texels. A buffer keeps those that it was bound with, as most are bound again and
+ * again, and takes them along when it is freed. */
 #ifndef KD_VK_VIEW_H
 #define KD_VK_VIEW_H
 
@@ -22,8 +22,8 @@ struct kd_vk_view {
 #define KD_VK_VIEWS_KEPT 8
 
 /* A view of these bytes, for the submission that is being recorded. */
-enum kd_status kd_vk_view_get(struct kd_vk *vk, struct kd_vk_buffer *buffer, VkFormat format, uint64_t offset, uint64_t range,
-                              VkBufferView *out, struct kd_error *error);
+enum kd_status kd_vk_view_get(struct kd_vk *vk, struct kd_vk_buffer *buffer, VkFormat format, uint64_t offset,
+                              uint64_t range, VkBufferView *out, struct kd_error *error);
 /* Before the buffer is destroyed, which nothing uses any more. */
 void kd_vk_views_finish(struct kd_vk *vk, struct kd_vk_buffer *buffer);
 

@@ -1,8 +1,9 @@
 /* This drives a Vulkan 1.2 compute device: memory, pipelines, submission, timing. Knows nothing of black holes.
  *
  * One thread owns a struct kd_vk and everything made from it; only kd_vk_list and kd_vk_info of a
- * device that is already open may be called from elsewhere, and kd_vk_pipeline_create by threads that the owner waits for. Every object has a name, for the validation layer
- * and for captures. destroy accepts NULL and half-built objects. */
+ * device that is already open may be called from elsewhere, and kd_vk_pipeline_create by threads that the owner
+ * waits for. Every object has a name, for the validation layer and for captures. destroy accepts NULL and half-built
+ * objects. */
 #ifndef KD_VK_VK_H
 #define KD_VK_VK_H
 
@@ -34,16 +35,17 @@ struct kd_vk_info {
     uint64_t max_allocation_bytes;
     uint32_t max_push_bytes, subgroup_size, max_groups_x, max_groups_y, max_workgroup;
     bool float64, timestamps;
-    uint8_t uuid[16];           /* of the device, the same for every driver and process */
-    uint32_t driver_version;    /* in the driver's own packing */
-    char missing[256]; /* what this device lacks for kerrd, "" if it is usable */
+    uint8_t uuid[16];        /* of the device, the same for every driver and process */
+    uint32_t driver_version; /* in the driver's own packing */
+    char missing[256];       /* what this device lacks for kerrd, "" if it is usable */
 };
 
 struct kd_vk_params {
     const char *device;    /* "auto", an index, or part of a name (case-insensitive)    */
     const char *cache_dir; /* pipeline cache directory, NULL: $XDG_CACHE_HOME/kerrd, "": none */
     bool validate;         /* Khronos layer with synchronisation validation; also KERRD_VALIDATE=1 */
-    uint32_t deadline_ms;  /* of one submission, then KD_EDEVICE; 0: 60000. A software device that hardly has the processor has up to 8 times as long */
+    uint32_t deadline_ms;  /* of one submission, then KD_EDEVICE; 0: 60000. A software device that hardly has the
+                              processor has up to 8 times as long */
 };
 
 /* Every device of this machine, whether usable or not, in the order of their indices. *out is malloc'd.
@@ -51,33 +53,35 @@ struct kd_vk_params {
 enum kd_status kd_vk_list(struct kd_vk_info **out, size_t *count, struct kd_error *error);
 
 enum kd_status kd_vk_create(const struct kd_vk_params *params, struct kd_vk **out, struct kd_error *error);
-/* Waits for what is under way. A lost device is closed as any other, and one may be created again. One that hangs is abandoned instead,
- * memory and all: drivers crash when it is torn down. End the process soon then, by _exit: exit handlers of the driver may hang. */
+/* Waits for what is under way. A lost device is closed as any other, and one may be created again. One that hangs is
+ * abandoned instead, memory and all: drivers crash when it is torn down. End the process soon then, by _exit: exit
+ * handlers of the driver may hang. */
 void kd_vk_destroy(struct kd_vk *vk);
 bool kd_vk_hangs(const struct kd_vk *vk); /* a submission has missed its deadline */
 const struct kd_vk_info *kd_vk_info(const struct kd_vk *vk);
 const char *kd_vk_choice(const struct kd_vk *vk);           /* one sentence: why this device */
 uint32_t kd_vk_validation_messages(const struct kd_vk *vk); /* warnings and errors so far    */
-/* Path of a file in the cache directory that belongs to this device and this version of its driver, as the pipeline cache
- * does; malloc'd. NULL where there is no such directory. Any thread. */
+/* Path of a file in the cache directory that belongs to this device and this version of its driver, as the pipeline
+ * cache does; malloc'd. NULL where there is no such directory. Any thread. */
 char *kd_vk_cache_file(const struct kd_vk *vk, const char *suffix);
 
-/* Buffers: suballocated from few large allocations. Each can be bound as any kind and copied from and to. UPLOAD and READBACK
- * are host-visible and persistently mapped. What the host has written to an UPLOAD buffer before
- * kd_vk_submit is seen by that submission; what the device has written to either is seen by the host after kd_vk_wait, also
- * where the memory is not coherent. A READBACK buffer's contents are the device's alone. */
+/* Buffers: suballocated from few large allocations. Each can be bound as any kind and copied from and to. UPLOAD and
+ * READBACK are host-visible and persistently mapped. What the host has written to an UPLOAD buffer before
+ * kd_vk_submit is seen by that submission; what the device has written to either is seen by the host after
+ * kd_vk_wait, also where the memory is not coherent. A READBACK buffer's contents are the device's alone. */
 enum kd_vk_memory { KD_VK_DEVICE, KD_VK_UPLOAD, KD_VK_READBACK };
-enum kd_status kd_vk_buffer_create(struct kd_vk *vk, uint64_t size, enum kd_vk_memory memory,
-                                   const char *name, struct kd_vk_buffer **out, struct kd_error *error);
+enum kd_status kd_vk_buffer_create(struct kd_vk *vk, uint64_t size, enum kd_vk_memory memory, const char *name,
+                                   struct kd_vk_buffer **out, struct kd_error *error);
 /* May be called at any time. Buffers and pipelines that the device still uses are freed once it has finished. */
 void kd_vk_buffer_destroy(struct kd_vk *vk, struct kd_vk_buffer *buffer);
 void *kd_vk_buffer_map(struct kd_vk_buffer *buffer); /* NULL for KD_VK_DEVICE without host access */
 uint64_t kd_vk_buffer_size(const struct kd_vk_buffer *buffer);
 uint64_t kd_vk_allocated(const struct kd_vk *vk); /* bytes held from the device, all buffers */
 
-/* How a kernel sees a binding. A software device reads a storage buffer lane by lane with a check for each word, uniform
- * buffers and texels through vector gathers; elsewhere the kinds differ little. Only storage can be written, and only storage
- * holds as much as max_binding_bytes: a kernel that reads bands of pixels as texels needs a twin that reads them as storage. */
+/* How a kernel sees a binding. A software device reads a storage buffer lane by lane with a check for each word,
+ * uniform buffers and texels through vector gathers; elsewhere the kinds differ little. Only storage can be written,
+ * and only storage holds as much as max_binding_bytes: a kernel that reads bands of pixels as texels needs a twin
+ * that reads them as storage. */
 enum kd_vk_kind {
     KD_VK_STORAGE,     /* buffer { } */
     KD_VK_UNIFORM,     /* uniform { }, std140 or std430; max_uniform_bytes */
@@ -124,13 +128,11 @@ struct kd_vk_dispatch {
     const void *push;
     uint32_t groups[3]; /* 0 counts as 1 */
 };
-enum kd_status kd_vk_dispatch(struct kd_vk *vk, const struct kd_vk_dispatch *dispatch,
-                              struct kd_error *error);
+enum kd_status kd_vk_dispatch(struct kd_vk *vk, const struct kd_vk_dispatch *dispatch, struct kd_error *error);
 enum kd_status kd_vk_copy(struct kd_vk *vk, const char *pass, struct kd_vk_buffer *to, uint64_t to_offset,
-                          struct kd_vk_buffer *from, uint64_t from_offset, uint64_t size,
-                          struct kd_error *error);
-enum kd_status kd_vk_fill(struct kd_vk *vk, const char *pass, struct kd_vk_buffer *buffer, uint64_t offset, uint64_t size,
-                          uint32_t value, struct kd_error *error);
+                          struct kd_vk_buffer *from, uint64_t from_offset, uint64_t size, struct kd_error *error);
+enum kd_status kd_vk_fill(struct kd_vk *vk, const char *pass, struct kd_vk_buffer *buffer, uint64_t offset,
+                          uint64_t size, uint32_t value, struct kd_error *error);
 
 /* Submit what was recorded (nothing recorded: no-op) and return at once; *ticket (may be NULL) is the
  * timeline value. At most KD_VK_IN_FLIGHT submissions are under way: one more waits for the oldest. */

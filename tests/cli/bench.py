@@ -1,4 +1,5 @@
 """kerrd bench accuracy, once, on a real device: what the table says must be plausible, kept, and served."""
+
 import json
 import math
 import os
@@ -17,7 +18,9 @@ SETS = ["bulk", "near-critical", "near-axis", "edge-on", "near-extremal"]
 
 def serve(cache, path):
     """Status and document of one GET from a daemon of its own."""
-    daemon = subprocess.Popen([KERRD, "serve", "--port", "0"], stdout=subprocess.PIPE, env={**os.environ, "XDG_CACHE_HOME": cache})
+    daemon = subprocess.Popen(
+        [KERRD, "serve", "--port", "0"], stdout=subprocess.PIPE, env={**os.environ, "XDG_CACHE_HOME": cache}
+    )
     try:
         url = re.search(r"http://\S+", daemon.stdout.readline().decode())[0]
         with urllib.request.urlopen(url + path, timeout=30) as answer:
@@ -39,8 +42,17 @@ class Accuracy(unittest.TestCase):
         cls.before = serve(cls.cache, "v1/accuracy")
         files = [os.path.join(folder.name, name) for name in ("table.json", "table.md")]
         # Meson lets malloc fill what it frees: with the buffers of a thousand submissions that is most of the time.
-        done = run("bench", "accuracy", "--quick", "-o", files[0], "--markdown", files[1],
-                   env={**os.environ, "XDG_CACHE_HOME": cls.cache, "MALLOC_PERTURB_": "0"}, seconds=500)
+        done = run(
+            "bench",
+            "accuracy",
+            "--quick",
+            "-o",
+            files[0],
+            "--markdown",
+            files[1],
+            env={**os.environ, "XDG_CACHE_HOME": cls.cache, "MALLOC_PERTURB_": "0"},
+            seconds=500,
+        )
         assert (done.returncode, done.stderr) == (0, b""), done
         cls.said = done.stdout.decode()
         with open(files[0], encoding="utf-8") as file:
@@ -58,10 +70,20 @@ class Accuracy(unittest.TestCase):
         self.assertEqual(list(self.table["sets"]), SETS)
 
     def test_every_setting(self):
-        steps = {"mino-rkn4": (8, 256), "mino-rkn6": (4, 128), "ks-rk4": (16, 256), "ks-euler": (64, 1024), "ks-tao6": (32, 256)}
+        steps = {
+            "mino-rkn4": (8, 256),
+            "mino-rkn6": (4, 128),
+            "ks-rk4": (16, 256),
+            "ks-euler": (64, 1024),
+            "ks-tao6": (32, 256),
+        }
         precisions = ["f32"] if self.table["skipped"] else ["f32", "f64"]
-        wanted = {("closed", "f64", 0)} | {(engine, precision, first << k) for engine, (first, last) in steps.items()
-                                           for precision in precisions for k in range(int(math.log2(last // first)) + 1)}
+        wanted = {("closed", "f64", 0)} | {
+            (engine, precision, first << k)
+            for engine, (first, last) in steps.items()
+            for precision in precisions
+            for k in range(int(math.log2(last // first)) + 1)
+        }
         self.assertEqual(set(self.rows), wanted)
         for key, sets in self.rows.items():
             self.assertEqual(list(sets), SETS)
@@ -83,8 +105,8 @@ class Accuracy(unittest.TestCase):
         self.assertLessEqual(bulk["r"]["median"], 2e-7)
         self.assertLessEqual(bulk["phi"]["median"], 2e-7)
         self.assertEqual(bulk["differ"], 0)
-        # Single precision holds b to 6e-8: next to the critical curve no fate is told, and such rays count. A fifth of the set is a
-        # millionth away from it.
+        # Single precision holds b to 6e-8: next to the critical curve no fate is told, and such rays count. A fifth of
+        # the set is a millionth away from it.
         near = self.rows["mino-rkn6", "f32", 16]["near-critical"]
         self.assertLess(near["differ"], near["rays"] / 4)
 
@@ -98,19 +120,37 @@ class Accuracy(unittest.TestCase):
         for name in SETS:
             self.assertEqual(self.rows["mino-rkn6", "f64", 64][name]["differ"], 0, name)
         # Order 6 and order 4: errors of the bulk fall by at least half of 2^order.
-        for engine, coarse, ratio in (("mino-rkn6", 8, 32), ("mino-rkn4", 16, 8), ("ks-rk4", 32, 8), ("ks-euler", 64, 1)):
-            self.assertGreater(self.bulk(engine, "f64", coarse)["r"]["median"] /
-                               self.bulk(engine, "f64", 2 * coarse)["r"]["median"], ratio, engine)
+        for engine, coarse, ratio in (
+            ("mino-rkn6", 8, 32),
+            ("mino-rkn4", 16, 8),
+            ("ks-rk4", 32, 8),
+            ("ks-euler", 64, 1),
+        ):
+            self.assertGreater(
+                self.bulk(engine, "f64", coarse)["r"]["median"] / self.bulk(engine, "f64", 2 * coarse)["r"]["median"],
+                ratio,
+                engine,
+            )
 
     def test_mino_time_pays(self):
         """Printed, not asserted: times are no gates."""
+
         def fastest(engine, precisions, bound):
-            return max((sets["bulk"]["rays_per_s"] for (name, precision, _), sets in self.rows.items()
-                        if name == engine and precision in precisions and sets["bulk"]["r"]["median"] <= bound), default=None)
+            return max(
+                (
+                    sets["bulk"]["rays_per_s"]
+                    for (name, precision, _), sets in self.rows.items()
+                    if name == engine and precision in precisions and sets["bulk"]["r"]["median"] <= bound
+                ),
+                default=None,
+            )
+
         mino, other = fastest("mino-rkn6", ("f32",), 1e-6), fastest("ks-rk4", ("f32", "f64"), 1e-6)
         self.assertIsNotNone(mino)
-        print(f"at a median error of 1e-6: mino-rkn6 {mino:.3g} rays/s, ks-rk4 " +
-              (f"{other:.3g}, ratio {mino / other:.0f}" if other else "never"))
+        print(
+            f"at a median error of 1e-6: mino-rkn6 {mino:.3g} rays/s, ks-rk4 "
+            + (f"{other:.3g}, ratio {mino / other:.0f}" if other else "never")
+        )
 
     def test_kept_and_served(self):
         kept = re.search(r"^kept in (.+)$", self.said, re.M)[1]
@@ -126,9 +166,17 @@ class Accuracy(unittest.TestCase):
         self.assertIn("damaged", problem["detail"])
 
     def test_planned_by(self):
-        """A plan looks a tolerance up in the table that the device keeps, which a renderer owns: memory that is given back is filled."""
-        done = run("plan", "--set", "accuracy.tolerance=1e-5", "--set", "camera.r=30",
-                   env={**os.environ, "XDG_CACHE_HOME": self.cache, "MALLOC_PERTURB_": "165"}, seconds=60)
+        """A plan looks a tolerance up in the table that the device keeps, which a renderer owns: memory that is given
+        back is filled."""
+        done = run(
+            "plan",
+            "--set",
+            "accuracy.tolerance=1e-5",
+            "--set",
+            "camera.r=30",
+            env={**os.environ, "XDG_CACHE_HOME": self.cache, "MALLOC_PERTURB_": "165"},
+            seconds=60,
+        )
         self.assertEqual((done.returncode, done.stderr), (0, b""), done)
         self.assertGreater(json.loads(done.stdout)["rays"], 0)
 

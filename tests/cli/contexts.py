@@ -1,4 +1,5 @@
 """What may be typed behind kerrd, as the program itself tells it by --help."""
+
 import os
 import re
 
@@ -8,12 +9,17 @@ from support import run
 def contexts():
     """Each command, and "physics NAME" for each quantity."""
     listed = re.findall(r"^  ([a-z-]+)  ", run("--help").stdout.decode(), re.M)
-    return [[name] for name in listed] + [["physics", line.split()[0]] for line in run("physics").stdout.decode().splitlines()]
+    return [[name] for name in listed] + [
+        ["physics", line.split()[0]] for line in run("physics").stdout.decode().splitlines()
+    ]
 
 
 def told(context):
-    """The options that --help has, short and long, and their arguments: {"--output": "=FILE", "--trace": "[=steps|path", "-o": ""}."""
-    text = run(*context, "--help", env={**os.environ, "ARGP_HELP_FMT": "rmargin=900,opt-doc-col=60"}).stdout.decode()  # a line each
+    """The options that --help has, short and long, and their arguments: {"--output": "=FILE", "--trace":
+    "[=steps|path", "-o": ""}."""
+    text = run(
+        *context, "--help", env={**os.environ, "ARGP_HELP_FMT": "rmargin=900,opt-doc-col=60"}
+    ).stdout.decode()  # a line each
     options = {}
     for line in re.findall(r"^ {2,}(-.*)", text, re.M):
         for option, argument in re.findall(r"(?:^|, )(--?[a-zA-Z?][a-z0-9-]*)(\[?=[^\s\]]+)?", line.split("   ")[0]):

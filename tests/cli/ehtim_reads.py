@@ -1,4 +1,6 @@
-"""A FITS file of numbers as ehtim and astropy read it, in a virtual environment of its own: pixels to the bit, the total flux to 1e-6, the angular scale."""
+"""A FITS file of numbers as ehtim and astropy read it, in a virtual environment of its own: pixels to the bit, the
+total flux to 1e-6, the angular scale."""
+
 import json
 import math
 import pathlib
@@ -28,7 +30,12 @@ class Ehtim(support.Case):
     def read_by_ehtim(self, *scene):
         for end in ("fits", "npz"):
             self.good("render", *scene, "--set", "image.layers=intensity", "-o", self.path("a." + end))
-        done = subprocess.run([PYTHON, "-I", "-c", READER, self.path("a.fits"), self.path("a.npz")], capture_output=True, text=True, timeout=200)
+        done = subprocess.run(
+            [PYTHON, "-I", "-c", READER, self.path("a.fits"), self.path("a.npz")],
+            capture_output=True,
+            text=True,
+            timeout=200,
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
         found = json.loads(done.stdout.splitlines()[-1])
         by_ehtim, by_astropy, light = found["sums"]
@@ -46,7 +53,8 @@ class Ehtim(support.Case):
         self.assertAlmostEqual(128 * found["pixel_uas"] / (field * M_UAS), 1, delta=1e-4)
 
     def test_visibilities(self):
-        """Those of kerrd visibility beside ehtim's direct transform of the file, whose phase centre is the middle of the picture too."""
+        """Those of kerrd visibility beside ehtim's direct transform of the file, whose phase centre is the middle of
+        the picture too."""
         code = """
 import json, sys
 import ehtim, numpy
@@ -58,18 +66,64 @@ print(json.dumps([[z.real, z.imag] for z in v]))
 """
         for scene in (("-p", "m87"), ("-p", "riaf", "--set", "camera.roll_deg=20")):
             layer = "intensity" if "m87" in scene else "specific_intensity"
-            self.good("render", *scene, "--size", "128x128", "--set", "image.layers=" + layer, "--set", "style.beam_uas=0", "-o", self.path("a.fits"))
+            self.good(
+                "render",
+                *scene,
+                "--size",
+                "128x128",
+                "--set",
+                "image.layers=" + layer,
+                "--set",
+                "style.beam_uas=0",
+                "-o",
+                self.path("a.fits"),
+            )
             uv = [[0, 0], [3.5, 1.25], [-7, 2], [0.5, -11], [20, 13]]
-            options = [*scene, "--set", "image.width=512", "--set", "image.height=512", "--pixels", "128", "--check", "none"]
-            columns = json.loads(self.good("visibility", *options, "--u", ",".join(str(u) for u, v in uv), "--v", ",".join(str(v) for u, v in uv)))["columns"]
-            done = subprocess.run([PYTHON, "-I", "-c", code, self.path("a.fits"), json.dumps(uv)], capture_output=True, text=True, timeout=200)
+            options = [
+                *scene,
+                "--set",
+                "image.width=512",
+                "--set",
+                "image.height=512",
+                "--pixels",
+                "128",
+                "--check",
+                "none",
+            ]
+            columns = json.loads(
+                self.good(
+                    "visibility",
+                    *options,
+                    "--u",
+                    ",".join(str(u) for u, v in uv),
+                    "--v",
+                    ",".join(str(v) for u, v in uv),
+                )
+            )["columns"]
+            done = subprocess.run(
+                [PYTHON, "-I", "-c", code, self.path("a.fits"), json.dumps(uv)],
+                capture_output=True,
+                text=True,
+                timeout=200,
+            )
             self.assertEqual(done.returncode, 0, done.stderr)
-            for (theirs_re, theirs_im), re, im in zip(json.loads(done.stdout.splitlines()[-1]), columns["re"], columns["im"]):
+            for (theirs_re, theirs_im), re, im in zip(
+                json.loads(done.stdout.splitlines()[-1]), columns["re"], columns["im"]
+            ):
                 self.assertAlmostEqual(re / columns["re"][0], theirs_re, delta=1e-5)
                 self.assertAlmostEqual(im / columns["re"][0], theirs_im, delta=1e-5)
 
     def test_light_along_rays(self):
-        self.read_by_ehtim("-p", "thick-disk", "--size", "64x64", "--set", "spacetime.mass_msun=6.5e9", "--set", "spacetime.distance_pc=16.8e6")
+        self.read_by_ehtim(
+            "-p",
+            "thick-disk",
+            "--size",
+            "64x64",
+            "--set",
+            "spacetime.mass_msun=6.5e9",
+            "--set",
+            "spacetime.distance_pc=16.8e6",
+        )
 
 
 support.main(needs_device=True)

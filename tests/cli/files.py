@@ -1,4 +1,6 @@
-"""Files of numbers: the same to the bit in NPY, NPZ, FITS and EXR, as numpy, astropy and OpenEXR read them; units, world coordinates, the scene inside."""
+"""Files of numbers: the same to the bit in NPY, NPZ, FITS and EXR, as numpy, astropy and OpenEXR read them; units,
+world coordinates, the scene inside."""
+
 import json
 import math
 import os
@@ -21,7 +23,15 @@ except ImportError as missing:
     sys.exit(77)
 
 LAYERS = ["r", "rgb", "g_1", "intensity", "sky_theta"]
-SCENE = [*support.SMALL, "--set", "sky.model=grid", "--set", "spacetime.mass_msun=6.5e9", "--set", "spacetime.distance_pc=16.8e6"]
+SCENE = [
+    *support.SMALL,
+    "--set",
+    "sky.model=grid",
+    "--set",
+    "spacetime.mass_msun=6.5e9",
+    "--set",
+    "spacetime.distance_pc=16.8e6",
+]
 M_UAS = 6.5e9 * 1476.625 / (16.8e6 * 3.0856775814913673e16) * math.degrees(1) * 3.6e9  # G m_sun/c^2 = 1476.625 m
 
 
@@ -38,7 +48,11 @@ class Files(support.Case):
         cls.addClassCleanup(folder.cleanup)
         cls.files = {end: os.path.join(folder.name, "a." + end) for end in ("npy", "npz", "fits", "exr")}
         for path in cls.files.values():
-            subprocess.run([support.KERRD, "render", *SCENE, "--set", "image.layers=" + ",".join(LAYERS), "-o", path], check=True, timeout=120)
+            subprocess.run(
+                [support.KERRD, "render", *SCENE, "--set", "image.layers=" + ",".join(LAYERS), "-o", path],
+                check=True,
+                timeout=120,
+            )
 
     def shot(self, name, *more, layers=LAYERS):
         self.good("render", *SCENE, "--set", "image.layers=" + ",".join(layers), *more, "-o", self.path(name))
@@ -81,10 +95,14 @@ class Files(support.Case):
         self.bad(2, "no notes.json", "render", "--from", self.path("torn.npz"), "-o", self.path("d.png"))
         torn = bytearray(self.read("a.fits"))
         at = torn.index(b"CONTINUE", torn.index(b"KDSCENE"))
-        torn[at:at + 80] = b" " * 80
+        torn[at : at + 80] = b" " * 80
         self.write("torn.fits", bytes(torn))
         self.bad(2, "no whole card KDSCENE", "render", "--from", self.path("torn.fits"), "-o", self.path("d.png"))
-        for end, head, words in (("fits", 2880, "no whole card KDSCENE"), ("exr", 400, "EXR: "), ("npz", 900, "no notes.json")):
+        for end, head, words in (
+            ("fits", 2880, "no whole card KDSCENE"),
+            ("exr", 400, "EXR: "),
+            ("npz", 900, "no notes.json"),
+        ):
             self.write("cut." + end, self.read("a." + end)[:head])
             self.bad(2, words, "render", "--from", self.path("cut." + end), "-o", self.path("d.png"))
 
@@ -100,13 +118,18 @@ class Files(support.Case):
         self.assertEqual(json.loads(header["KDSCENE"]), notes["scene"])
         self.assertEqual(json.loads(texts["kerrd:scene"]), notes["scene"])
         self.assertEqual(len({header["KDHASH"], notes["hash"], texts["kerrd:hash"]}), 1)
-        self.assertEqual((header["BUNIT"], header["SPIN"], header["CAM_R"], notes["units"]["sky_theta"]), ("M", 0.7, "infinity", "rad"))
+        self.assertEqual(
+            (header["BUNIT"], header["SPIN"], header["CAM_R"], notes["units"]["sky_theta"]),
+            ("M", 0.7, "infinity", "rad"),
+        )
         self.assertAlmostEqual(header["M_UAS"] / M_UAS, 1, delta=1e-6)
         self.assertIn("sampled=", header["KDACCUR"])
 
     def test_world_coordinates(self):
         """By hand: half a width of pixels from the middle, east to the left, north up."""
-        header = self.opened(self.shot("a.fits", "--set", "camera.field_m=32", "--set", "camera.centre_alpha=4", layers=["r"]))[0].header
+        header = self.opened(
+            self.shot("a.fits", "--set", "camera.field_m=32", "--set", "camera.centre_alpha=4", layers=["r"])
+        )[0].header
         alpha, beta = WCS(header, key="A").pixel_to_world_values(0, 35)  # the upper left pixel
         self.assertAlmostEqual(float(alpha), 4 - 16 + 0.25, places=9)
         self.assertAlmostEqual(float(beta), 9 - 0.25, places=9)
@@ -115,7 +138,9 @@ class Files(support.Case):
         self.assertAlmostEqual(float(north) * 3.6e9 / (8.75 * M_UAS), 1, delta=1e-6)
         rolled = ["--set", "camera.field_m=32", "--set", "camera.centre_alpha=4", "--set", "camera.roll_deg=90"]
         header = self.opened(self.shot("e.fits", *rolled, layers=["r"]))[0].header
-        alpha, beta = WCS(header, key="A").pixel_to_world_values(0, 35)  # 15.75 left of the middle and 8.75 above: what is up looks along alpha
+        alpha, beta = WCS(header, key="A").pixel_to_world_values(
+            0, 35
+        )  # 15.75 left of the middle and 8.75 above: what is up looks along alpha
         self.assertAlmostEqual(float(alpha), 4 + 8.75, places=9)
         self.assertAlmostEqual(float(beta), 15.75, places=9)
         east, north = WCS(header).pixel_to_world_values(0, 35)
@@ -126,7 +151,9 @@ class Files(support.Case):
         right, up = WCS(header).pixel_to_world_values(63, 17.5)
         self.assertAlmostEqual(float(right), math.degrees(math.atan(63 / 64)), places=6)
         self.assertAlmostEqual(float(up), 0, places=9)
-        header = self.opened(self.shot("c.fits", *near, "--set", "camera.projection=equirectangular", layers=["r"]))[0].header
+        header = self.opened(self.shot("c.fits", *near, "--set", "camera.projection=equirectangular", layers=["r"]))[
+            0
+        ].header
         right, up = WCS(header).pixel_to_world_values(47.5, 26.5)
         self.assertAlmostEqual(float(right), 90, places=6)
         self.assertAlmostEqual(float(up), 45, places=6)

@@ -1,5 +1,7 @@
-"""Films by the command line: frames as `kerrd render` makes them, one exposure, what is kept in a folder and gone on with, what is refused. With FFMPEG=real (suite `film`)
-what the program ffmpeg makes of them, as ffprobe and ffmpeg read it."""
+"""Films by the command line: frames as `kerrd render` makes them, one exposure, what is kept in a folder and gone on
+with, what is refused. With FFMPEG=real (suite `film`) what the program ffmpeg makes of them, as ffprobe and ffmpeg read
+it."""
+
 import json
 import os
 import pathlib
@@ -23,7 +25,10 @@ except ImportError as missing:
 PSNR = 46  # dB; measured 50: what 4:2:0 leaves of colours at edges, and H.264 at its quality
 REAL = os.environ.get("FFMPEG") == "real"
 SIZE = {"width": 96, "height": 54}
-TURN = {"scene": {"image": SIZE, "disk": {"gas": {"amplitude": 0}}}, "keyframes": [{"frame": 11, "scene": {"camera": {"inclination_deg": 20}}}]}
+TURN = {
+    "scene": {"image": SIZE, "disk": {"gas": {"amplitude": 0}}},
+    "keyframes": [{"frame": 11, "scene": {"camera": {"inclination_deg": 20}}}],
+}
 
 LONG = {**TURN, "keyframes": [{"frame": 59, "scene": {"camera": {"inclination_deg": 20}}}]}
 
@@ -34,8 +39,8 @@ def wide_pixels(png):
     assert (depth, colour) == (16, 2)
     data, at = b"", 8
     while at < len(png):
-        n, kind = struct.unpack(">I4s", png[at:at + 8])
-        data += png[at + 8:at + 8 + n] if kind == b"IDAT" else b""
+        n, kind = struct.unpack(">I4s", png[at : at + 8])
+        data += png[at + 8 : at + 8 + n] if kind == b"IDAT" else b""
         at += 12 + n
     rows = numpy.frombuffer(zlib.decompress(data), numpy.uint8).reshape(height, 1 + 6 * width)
     out = numpy.zeros((height + 1, 6 * width + 6), int)
@@ -52,7 +57,7 @@ def wide_pixels(png):
 
 def text_of(png, name):
     start = png.index(b"tEXt" + name + b"\0")
-    return png[start + 5 + len(name):start + 4 + struct.unpack(">I", png[start - 4:start])[0]].decode()
+    return png[start + 5 + len(name) : start + 4 + struct.unpack(">I", png[start - 4 : start])[0]].decode()
 
 
 def as_shown(light):
@@ -64,7 +69,9 @@ def as_shown(light):
 class Case(support.Case):
     def film(self, name, request, *options, code=0):
         """Runs it; what --stats says, or the complaint."""
-        done = support.run("film", "-", "-o", self.path(name), "-t", *options, stdin=json.dumps(request).encode(), seconds=280)
+        done = support.run(
+            "film", "-", "-o", self.path(name), "-t", *options, stdin=json.dumps(request).encode(), seconds=280
+        )
         self.assertEqual(done.returncode, code, done.stderr)
         return json.loads(done.stderr) if not code else done.stderr.decode()
 
@@ -84,7 +91,10 @@ class Case(support.Case):
     def killed(self, name, request, folder, frames, *options):
         """Kills a run when so many frames are there."""
         self.write("request.json", json.dumps(request))
-        process = subprocess.Popen([support.KERRD, "film", self.path("request.json"), "-o", self.path(name), "--state", folder, *options], stderr=subprocess.PIPE)
+        process = subprocess.Popen(
+            [support.KERRD, "film", self.path("request.json"), "-o", self.path(name), "--state", folder, *options],
+            stderr=subprocess.PIPE,
+        )
         until = time.monotonic() + 120
         while len([n for n in (os.listdir(folder) if os.path.isdir(folder) else []) if n.endswith(".png")]) < frames:
             self.assertIsNone(process.poll(), "it ended before it was killed")
@@ -106,9 +116,16 @@ class Shares(Case):
 
     def test_each_makes_its_own(self):
         state = self.path("state")
-        running = [subprocess.Popen([support.KERRD, "film", self.write(f"{k}.json", json.dumps(TURN)), "--state", state, "--only", part]) for k, part in enumerate(("0:4", "5:9"))]
+        running = [
+            subprocess.Popen(
+                [support.KERRD, "film", self.write(f"{k}.json", json.dumps(TURN)), "--state", state, "--only", part]
+            )
+            for k, part in enumerate(("0:4", "5:9"))
+        ]
         self.assertEqual([process.wait(120) for process in running], [0, 0])
-        self.assertEqual(sorted(name for name in os.listdir(state) if name.endswith(".png")), [f"{k:06}.png" for k in range(10)])
+        self.assertEqual(
+            sorted(name for name in os.listdir(state) if name.endswith(".png")), [f"{k:06}.png" for k in range(10)]
+        )
         self.assertEqual(self.film("film.zip", TURN, "--state", state)["frames_kept"], 10)
         self.film("alone.zip", TURN)
         self.assertEqual(self.read("film.zip"), self.read("alone.zip"))
@@ -119,8 +136,20 @@ class Shares(Case):
         for wrong in "3", "3:", "5:3", "-1:2", "1:2:3", "a:b":
             self.assertIn("allowed is FIRST:LAST", self.only(TURN, "--state", state, f"--only={wrong}", code=2))
         self.assertIn("--state is missing", self.only(TURN, "--only", "0:1", code=2))
-        self.assertIn("--only excludes -o", self.only(TURN, "--state", state, "--only", "0:1", "-o", self.path("x.zip"), code=2))
-        self.assertIn("/playground", self.only({"playground": {"preset": "disruption"}, "every": 1, "frames": 3}, "--state", state, "--only", "0:1", code=2))
+        self.assertIn(
+            "--only excludes -o", self.only(TURN, "--state", state, "--only", "0:1", "-o", self.path("x.zip"), code=2)
+        )
+        self.assertIn(
+            "/playground",
+            self.only(
+                {"playground": {"preset": "disruption"}, "every": 1, "frames": 3},
+                "--state",
+                state,
+                "--only",
+                "0:1",
+                code=2,
+            ),
+        )
 
 
 class Pictures(Case):
@@ -129,12 +158,16 @@ class Pictures(Case):
         frames = self.frames("a.zip")
         self.assertEqual((stats["frames"], stats["frames_kept"], len(frames)), (12, 0, 12))
         scenes = [self.scene_of(png) for png in frames]
-        self.assertEqual([round(s["camera"]["inclination_deg"], 6) for s in scenes][::11], [self.scene_of(frames[0])["camera"]["inclination_deg"], 20])
+        self.assertEqual(
+            [round(s["camera"]["inclination_deg"], 6) for s in scenes][::11],
+            [self.scene_of(frames[0])["camera"]["inclination_deg"], 20],
+        )
         for k in (0, 7, 11):
             self.assertEqual(self.again(frames[k]), frames[k], k)
 
     def test_one_exposure(self):
-        """The median of nine frames' own, measured at 160 pixels, unless each is to have its own, or a keyframe gives a number."""
+        """The median of nine frames' own, measured at 160 pixels, unless each is to have its own, or a keyframe gives a
+        number."""
         stats = self.film("a.zip", TURN)
         scenes = [self.scene_of(png) for png in self.frames("a.zip")]
         self.assertEqual((stats["exposure_frames"], {s["style"]["exposure"] for s in scenes}), (9, {stats["exposure"]}))
@@ -147,8 +180,21 @@ class Pictures(Case):
         self.assertAlmostEqual(stats["exposure"], sorted(own)[4], delta=0.0051)
         self.assertGreater(max(own) - min(own), 0.2, "else any exposure would do")
         stats = self.film("b.zip", {**TURN, "exposure": "each"})
-        self.assertEqual((stats["exposure"], stats["exposure_frames"], {self.scene_of(png)["style"]["exposure"] for png in self.frames("b.zip")}), (None, 0, {"auto"}))
-        given = {"scene": TURN["scene"], "keyframes": [{"frame": 4, "scene": {"style": {"exposure": 1}}}, {"frame": 6, "scene": {"camera": {"inclination_deg": 50}}}]}
+        self.assertEqual(
+            (
+                stats["exposure"],
+                stats["exposure_frames"],
+                {self.scene_of(png)["style"]["exposure"] for png in self.frames("b.zip")},
+            ),
+            (None, 0, {"auto"}),
+        )
+        given = {
+            "scene": TURN["scene"],
+            "keyframes": [
+                {"frame": 4, "scene": {"style": {"exposure": 1}}},
+                {"frame": 6, "scene": {"camera": {"inclination_deg": 50}}},
+            ],
+        }
         stats = self.film("c.zip", given)
         found = [self.scene_of(png)["style"]["exposure"] for png in self.frames("c.zip")]
         self.assertEqual((stats["exposure_frames"], found), (4, [stats["exposure"]] * 4 + [1] * 3))
@@ -157,17 +203,30 @@ class Pictures(Case):
         stats = self.film("d.zip", {"scenes": [TURN["scene"]] * 2, "exposure": "one"})
         self.assertEqual(stats["exposure_frames"], 2)
 
-    BLURRED = {"scene": {"image": {**SIZE, "bit_depth": 16}, "style": {"exposure": 0.5, "tone_map": "srgb", "dither": False, "bloom": 0}, "camera": {"inclination_deg": 80}},
-               "keyframes": [{"frame": 4, "scene": {"camera": {"inclination_deg": 48}, "time": 40}}], "motion_blur": {"samples": 5, "shutter": 0.8}}
+    BLURRED = {
+        "scene": {
+            "image": {**SIZE, "bit_depth": 16},
+            "style": {"exposure": 0.5, "tone_map": "srgb", "dither": False, "bloom": 0},
+            "camera": {"inclination_deg": 80},
+        },
+        "keyframes": [{"frame": 4, "scene": {"camera": {"inclination_deg": 48}, "time": 40}}],
+        "motion_blur": {"samples": 5, "shutter": 0.8},
+    }
 
     def light_at(self, place, image=SIZE):
         """Linear light of one picture, at a place between the keyframes of BLURRED."""
-        scene = {**self.BLURRED["scene"], "image": {**image, "layers": ["rgb"]}, "camera": {"inclination_deg": 80 - 8 * place}, "time": 10 * place}
+        scene = {
+            **self.BLURRED["scene"],
+            "image": {**image, "layers": ["rgb"]},
+            "camera": {"inclination_deg": 80 - 8 * place},
+            "time": 10 * place,
+        }
         self.good("render", self.write("scene.json", json.dumps(scene)), "-o", self.path("light.npz"))
         return numpy.load(self.path("light.npz"))["rgb"].astype(float)
 
     def test_motion_blur(self):
-        """A frame is the mean of the light of five pictures, made here of five files of light; not of pictures as they are shown."""
+        """A frame is the mean of the light of five pictures, made here of five files of light; not of pictures as they
+        are shown."""
         stats = self.film("a.zip", self.BLURRED)
         self.assertEqual(stats["lens_maps_traced"], 4 * 5 + 1, "of the last frame all pictures are the same")
         frame = self.frames("a.zip")[1]
@@ -175,19 +234,30 @@ class Pictures(Case):
         self.assertEqual(text_of(frame, b"kerrd:motion_blur"), "samples=5 shutter=0.8")
         self.assertEqual((self.scene_of(frame)["camera"]["inclination_deg"], self.scene_of(frame)["time"]), (72, 10))
         shown = wide_pixels(frame)
-        off = numpy.abs(shown - as_shown(2 ** 0.5 * numpy.mean(lights, 0)))
+        off = numpy.abs(shown - as_shown(2**0.5 * numpy.mean(lights, 0)))
         self.assertLess(off.max(), 2, "half a step of rounding, and the device's sRGB in single precision")
-        for other in (numpy.mean([as_shown(2 ** 0.5 * light) for light in lights], 0), as_shown(2 ** 0.5 * lights[0]), as_shown(2 ** 0.5 * numpy.mean(lights[:4], 0))):
+        for other in (
+            numpy.mean([as_shown(2**0.5 * light) for light in lights], 0),
+            as_shown(2**0.5 * lights[0]),
+            as_shown(2**0.5 * numpy.mean(lights[:4], 0)),
+        ):
             self.assertGreater(numpy.abs(shown - other).max(), 1000)
 
     def test_motion_blur_in_bands(self):
         """Of a picture that is made in two parts, from the top down."""
         image = {"width": 320, "height": 180, "samples": 8}
-        request = {**self.BLURRED, "scene": {**self.BLURRED["scene"], "image": {**image, "bit_depth": 16}}, "keyframes": [{"frame": 1, "scene": {"camera": {"inclination_deg": 72}, "time": 10}}]}
+        request = {
+            **self.BLURRED,
+            "scene": {**self.BLURRED["scene"], "image": {**image, "bit_depth": 16}},
+            "keyframes": [{"frame": 1, "scene": {"camera": {"inclination_deg": 72}, "time": 10}}],
+        }
         plan = json.loads(self.good("plan", self.write("scene.json", json.dumps(request["scene"]))))
         self.assertIn('"bands": 2', json.dumps(plan))
         self.film("a.zip", request, "--samples", "2", "--shutter", "1")
-        off = numpy.abs(wide_pixels(self.frames("a.zip")[0]) - as_shown(2 ** 0.5 * (self.light_at(0, image) + self.light_at(0.5, image)) / 2))
+        off = numpy.abs(
+            wide_pixels(self.frames("a.zip")[0])
+            - as_shown(2**0.5 * (self.light_at(0, image) + self.light_at(0.5, image)) / 2)
+        )
         self.assertLess(off.max(), 2)
 
     def test_motion_blur_by_options(self):
@@ -206,9 +276,18 @@ class Pictures(Case):
         self.assertEqual(text_of(self.frames("e.zip")[0], b"kerrd:motion_blur"), "samples=2 shutter=0.5")
 
     def test_motion_blur_of_what_is_refined(self):
-        """Where pixels get more rays by how they are shown, and the exposure is each frame's own: with glare and a beam the mean is the same light."""
-        request = {"scene": {"image": {**SIZE, "samples": "auto"}, "camera": {"inclination_deg": 80}, "spots": [{"brightness": 3}]},
-                   "keyframes": [{"frame": 2, "scene": {"time": 30}}], "motion_blur": {"samples": 3}, "exposure": "each"}
+        """Where pixels get more rays by how they are shown, and the exposure is each frame's own: with glare and a beam
+        the mean is the same light."""
+        request = {
+            "scene": {
+                "image": {**SIZE, "samples": "auto"},
+                "camera": {"inclination_deg": 80},
+                "spots": [{"brightness": 3}],
+            },
+            "keyframes": [{"frame": 2, "scene": {"time": 30}}],
+            "motion_blur": {"samples": 3},
+            "exposure": "each",
+        }
         self.film("a.zip", request, "--state", self.path("kept"))
         os.unlink(self.path("kept/000001.png"))
         self.film("b.zip", request, "--state", self.path("kept"))
@@ -218,37 +297,96 @@ class Pictures(Case):
     def test_no_motion_blur(self):
         keys = TURN["keyframes"]
         for request, options, words in (
-                ({**TURN, "motion_blur": {"samples": 65}}, [], "from 1 to 64 (at /motion_blur/samples)"), ({**TURN, "motion_blur": {"shutter": 0.5}}, [], "(at /motion_blur/samples)"),
-                ({**TURN, "motion_blur": {"samples": 2, "shutter": 0}}, [], "(at /motion_blur/shutter)"), ({**TURN, "motion_blur": {"samples": 2, "shutter": 1.1}}, [], "(at /motion_blur/shutter)"),
-                ({**TURN, "motion_blur": 4}, [], "(at /motion_blur)"), ({**TURN, "motion_blur": {"samples": 2, "angle": 180}}, [], "(at /motion_blur/angle)"),
-                ({"scene": {}}, ["--samples", "2"], "without keyframes"), ({"scenes": [{}, {}], "motion_blur": {"samples": 2}}, [], "with scenes"),
-                ({"scene": {}, "axes": {"time": [0, 1]}, "motion_blur": {"samples": 2}}, [], "with axes"),
-                ({"playground": {"preset": "system"}, "every": 1, "frames": 2, "motion_blur": {"samples": 2}}, [], "with a playground"),
-                ({**TURN, "output": "light-curve", "motion_blur": {"samples": 2}}, [], "with an output of numbers"), (TURN, ["--shutter", "0.5"], "takes samples"),
-                ({"scene": {"image": {**SIZE, "layers": ["g"]}}, "keyframes": keys, "motion_blur": {"samples": 2}}, [], "image.layers"),
-                ({"scene": {"camera": {"r": 20, "projection": "pinhole", "stereo": "pair"}}, "keyframes": keys, "motion_blur": {"samples": 2}}, [], "camera.stereo"),
-                (TURN, ["--samples", "0"], "--samples"), (TURN, ["--samples", "2", "--shutter", "2"], "--shutter")):
+            ({**TURN, "motion_blur": {"samples": 65}}, [], "from 1 to 64 (at /motion_blur/samples)"),
+            ({**TURN, "motion_blur": {"shutter": 0.5}}, [], "(at /motion_blur/samples)"),
+            ({**TURN, "motion_blur": {"samples": 2, "shutter": 0}}, [], "(at /motion_blur/shutter)"),
+            ({**TURN, "motion_blur": {"samples": 2, "shutter": 1.1}}, [], "(at /motion_blur/shutter)"),
+            ({**TURN, "motion_blur": 4}, [], "(at /motion_blur)"),
+            ({**TURN, "motion_blur": {"samples": 2, "angle": 180}}, [], "(at /motion_blur/angle)"),
+            ({"scene": {}}, ["--samples", "2"], "without keyframes"),
+            ({"scenes": [{}, {}], "motion_blur": {"samples": 2}}, [], "with scenes"),
+            ({"scene": {}, "axes": {"time": [0, 1]}, "motion_blur": {"samples": 2}}, [], "with axes"),
+            (
+                {"playground": {"preset": "system"}, "every": 1, "frames": 2, "motion_blur": {"samples": 2}},
+                [],
+                "with a playground",
+            ),
+            ({**TURN, "output": "light-curve", "motion_blur": {"samples": 2}}, [], "with an output of numbers"),
+            (TURN, ["--shutter", "0.5"], "takes samples"),
+            (
+                {"scene": {"image": {**SIZE, "layers": ["g"]}}, "keyframes": keys, "motion_blur": {"samples": 2}},
+                [],
+                "image.layers",
+            ),
+            (
+                {
+                    "scene": {"camera": {"r": 20, "projection": "pinhole", "stereo": "pair"}},
+                    "keyframes": keys,
+                    "motion_blur": {"samples": 2},
+                },
+                [],
+                "camera.stereo",
+            ),
+            (TURN, ["--samples", "0"], "--samples"),
+            (TURN, ["--samples", "2", "--shutter", "2"], "--shutter"),
+        ):
             done = support.run("film", "-", "-o", self.path("a.zip"), *options, stdin=json.dumps(request).encode())
             self.assertEqual(done.returncode, 2, (request, options, done.stderr))
             self.assertIn(words, done.stderr.decode(), (request, options))
 
     def test_options_of_scenes(self):
-        self.film("a.zip", {"scene": {"image": SIZE}, "keyframes": [{"frame": 1, "scene": {"time": 4}}]}, "--preset", "face-on", "--size", "48x32", "--set", "style.exposure=2")
+        self.film(
+            "a.zip",
+            {"scene": {"image": SIZE}, "keyframes": [{"frame": 1, "scene": {"time": 4}}]},
+            "--preset",
+            "face-on",
+            "--size",
+            "48x32",
+            "--set",
+            "style.exposure=2",
+        )
         scenes = [self.scene_of(png) for png in self.frames("a.zip")]
         face_on = json.loads(self.good("scene", "--preset", "face-on"))["camera"]["inclination_deg"]
-        self.assertEqual([(s["camera"]["inclination_deg"], s["image"]["width"], s["image"]["height"], s["style"]["exposure"], s["time"]) for s in scenes],
-                         [(face_on, 48, 32, 2, t) for t in (0, 4)])
+        self.assertEqual(
+            [
+                (
+                    s["camera"]["inclination_deg"],
+                    s["image"]["width"],
+                    s["image"]["height"],
+                    s["style"]["exposure"],
+                    s["time"],
+                )
+                for s in scenes
+            ],
+            [(face_on, 48, 32, 2, t) for t in (0, 4)],
+        )
 
     def test_a_playground(self):
         """As `kerrd playground --every` makes it, also where some of its frames are there already."""
-        document = {"preset": "white-dwarf", "debris_per_body": 200, "budget": 40}  # so few sub-steps that they end before a frame's time has gone by
+        document = {
+            "preset": "white-dwarf",
+            "debris_per_body": 200,
+            "budget": 40,
+        }  # so few sub-steps that they end before a frame's time has gone by
         request = {"playground": document, "every": 200, "frames": 4, "scene": {"image": SIZE}}
         self.film("a.zip", request, "--state", self.path("kept"))
         whole = self.read("a.zip")
         self.write("p.json", json.dumps(document))
         scene = self.scene_of_view(self.frames("a.zip")[0])
         self.write("scene.json", json.dumps(scene))
-        support.run("playground", self.path("p.json"), "--time", "600", "--every", "200", "--picture", self.path("%06d.png"), "--scene", self.path("scene.json"), seconds=200)
+        support.run(
+            "playground",
+            self.path("p.json"),
+            "--time",
+            "600",
+            "--every",
+            "200",
+            "--picture",
+            self.path("%06d.png"),
+            "--scene",
+            self.path("scene.json"),
+            seconds=200,
+        )
         self.assertEqual([self.read(f"{i:06}.png") for i in range(4)], self.frames("a.zip"))
         for k in (1, 3):
             os.unlink(os.path.join(self.path("kept"), f"{k:06}.png"))
@@ -257,12 +395,13 @@ class Pictures(Case):
 
     def scene_of_view(self, png):
         start = png.index(b"kerrd:scene\0")
-        text = json.loads(png[start + 12:png.index(b"}}", png.index(b'"playground"', start)) + 2])
+        text = json.loads(png[start + 12 : png.index(b"}}", png.index(b'"playground"', start)) + 2])
         del text["playground"]
         return text
 
     def test_goes_on(self):
-        """A run that was killed: the frames that were there stay, the rest is rendered, and the whole is that of a run that was not."""
+        """A run that was killed: the frames that were there stay, the rest is rendered, and the whole is that of a run
+        that was not."""
         folder = self.path("kept")
         there = self.killed("b.zip", LONG, folder, 3)
         self.assertLess(there, 60)
@@ -279,16 +418,37 @@ class Pictures(Case):
         self.assertEqual(self.read("b.zip"), self.read("a.zip"))
 
     def test_over_the_scene_of_a_picture(self):
-        self.good("render", "--size", "96x54", "--set", "spacetime.spin=0.3", "--set", "style.exposure=1", "-o", self.path("one.png"))
-        self.film("a.zip", {"scene": {}, "keyframes": [{"frame": 1, "scene": {"camera": {"inclination_deg": 20}}}]}, "--from", self.path("one.png"))
+        self.good(
+            "render",
+            "--size",
+            "96x54",
+            "--set",
+            "spacetime.spin=0.3",
+            "--set",
+            "style.exposure=1",
+            "-o",
+            self.path("one.png"),
+        )
+        self.film(
+            "a.zip",
+            {"scene": {}, "keyframes": [{"frame": 1, "scene": {"camera": {"inclination_deg": 20}}}]},
+            "--from",
+            self.path("one.png"),
+        )
         first, second = self.frames("a.zip")
         self.assertEqual(first, self.read("one.png"))
-        self.assertEqual((self.scene_of(second)["spacetime"]["spin"], self.scene_of(second)["camera"]["inclination_deg"]), (0.3, 20))
+        self.assertEqual(
+            (self.scene_of(second)["spacetime"]["spin"], self.scene_of(second)["camera"]["inclination_deg"]), (0.3, 20)
+        )
 
     def test_another_film(self):
         folder = self.path("kept")
         self.film("a.zip", TURN, "--state", folder)
-        for options, request in ((["--set", "camera.field_m=30"], TURN), ([], {**TURN, "exposure": "each"}), ([], {**TURN, "frames": 13})):
+        for options, request in (
+            (["--set", "camera.field_m=30"], TURN),
+            ([], {**TURN, "exposure": "each"}),
+            ([], {**TURN, "frames": 13}),
+        ):
             self.assertIn("are of another request", self.film("b.zip", request, "--state", folder, *options, code=2))
         said = json.loads(pathlib.Path(folder, "film.json").read_text())
         for name, value in (("version", "0.0.1"), ("device", "an abacus")):
@@ -301,13 +461,25 @@ class Pictures(Case):
 
     def test_refused(self):
         for name, request, options, words in (
-                ("a.zip", {"scene": {}, "keyframes": []}, [], "(at /keyframes"), ("a.zip", {**TURN, "exposure": "two"}, [], '"one" or "each"'),
-                ("a.zip", {**TURN, "output": "fits"}, [], "(at /output"), ("a.zip", {**TURN, "output": "light-curve", "exposure": "one"}, [], "(at /exposure"),
-                ("a.zip", {"scene": {}, "axes": {"spacetime.spin": [0, 0.5]}, "exposure": "one"}, [], "(at /exposure"),
-                ("a.zip", {"playground": {"preset": "system"}, "every": 1, "frames": 2, "exposure": "one"}, [], "(at /exposure"),
-                ("a.zip", {**TURN, "scene": {"camera": {"r": 0.1}}}, [], "(at /scene/camera/r"), ("a.zip", TURN, ["--set", "camera.x=1"], "camera.x"),
-                ("a.zip", TURN, ["--asset", "sky=" + self.write("x.png", "no picture")], "x.png"), ("a.avi", TURN, [], ".mp4, .webm or .zip"),
-                ("a.mp4", TURN, ["--rate", "121"], "--rate"), ("a.zip", TURN, ["--rate", "24"], "--rate is of"), ("a.zip", TURN, ["--device", "none such"], "none such")):
+            ("a.zip", {"scene": {}, "keyframes": []}, [], "(at /keyframes"),
+            ("a.zip", {**TURN, "exposure": "two"}, [], '"one" or "each"'),
+            ("a.zip", {**TURN, "output": "fits"}, [], "(at /output"),
+            ("a.zip", {**TURN, "output": "light-curve", "exposure": "one"}, [], "(at /exposure"),
+            ("a.zip", {"scene": {}, "axes": {"spacetime.spin": [0, 0.5]}, "exposure": "one"}, [], "(at /exposure"),
+            (
+                "a.zip",
+                {"playground": {"preset": "system"}, "every": 1, "frames": 2, "exposure": "one"},
+                [],
+                "(at /exposure",
+            ),
+            ("a.zip", {**TURN, "scene": {"camera": {"r": 0.1}}}, [], "(at /scene/camera/r"),
+            ("a.zip", TURN, ["--set", "camera.x=1"], "camera.x"),
+            ("a.zip", TURN, ["--asset", "sky=" + self.write("x.png", "no picture")], "x.png"),
+            ("a.avi", TURN, [], ".mp4, .webm or .zip"),
+            ("a.mp4", TURN, ["--rate", "121"], "--rate"),
+            ("a.zip", TURN, ["--rate", "24"], "--rate is of"),
+            ("a.zip", TURN, ["--device", "none such"], "none such"),
+        ):
             done = support.run("film", "-", "-o", self.path(name), *options, stdin=json.dumps(request).encode())
             self.assertIn(done.returncode, (1, 2), (request, options))
             self.assertIn(words, done.stderr.decode(), (request, options))
@@ -316,7 +488,16 @@ class Pictures(Case):
         self.bad(2, "KEYFRAMES.json is missing", "film", "-o", self.path("a.zip"))
         self.bad(2, "cannot open", "film", self.path("none.json"), "-o", self.path("a.zip"))
         # without ffmpeg nothing is rendered
-        done = support.run("film", "-", "-o", self.path("a.mp4"), "--device", "none such", stdin=json.dumps(TURN).encode(), env={**os.environ, "PATH": self.folder})
+        done = support.run(
+            "film",
+            "-",
+            "-o",
+            self.path("a.mp4"),
+            "--device",
+            "none such",
+            stdin=json.dumps(TURN).encode(),
+            env={**os.environ, "PATH": self.folder},
+        )
         self.assertEqual((done.returncode, b"ffmpeg, which is not found" in done.stderr), (1, True), done.stderr)
 
 
@@ -324,18 +505,54 @@ class Films(Case):
     """By the real ffmpeg."""
 
     def probed(self, name):
-        about = json.loads(subprocess.run(["ffprobe", "-v", "error", "-count_frames", "-show_streams", "-show_format", "-of", "json", self.path(name)], capture_output=True, check=True).stdout)
+        about = json.loads(
+            subprocess.run(
+                [
+                    "ffprobe",
+                    "-v",
+                    "error",
+                    "-count_frames",
+                    "-show_streams",
+                    "-show_format",
+                    "-of",
+                    "json",
+                    self.path(name),
+                ],
+                capture_output=True,
+                check=True,
+            ).stdout
+        )
         (stream,) = about["streams"]
         return stream, float(about["format"]["duration"]), {k.lower(): v for k, v in about["format"]["tags"].items()}
 
     def pixels(self, name, frame, chain=""):
-        done = subprocess.run(["ffmpeg", "-v", "error", "-i", self.path(name), "-vf", f"select=eq(n\\,{frame}),{chain}format=rgb24", "-frames:v", "1", "-f", "rawvideo", "-"],
-                              capture_output=True, check=True)
+        done = subprocess.run(
+            [
+                "ffmpeg",
+                "-v",
+                "error",
+                "-i",
+                self.path(name),
+                "-vf",
+                f"select=eq(n\\,{frame}),{chain}format=rgb24",
+                "-frames:v",
+                "1",
+                "-f",
+                "rawvideo",
+                "-",
+            ],
+            capture_output=True,
+            check=True,
+        )
         return numpy.frombuffer(done.stdout, numpy.uint8).astype(float)
 
     def test_ten_seconds(self):
-        """240 frames of 1280 x 720, killed on the way and gone on with, are those of a run that was not, to the byte; and the film shows them."""
-        request = {"scene": {"image": {"width": 1280, "height": 720}, "disk": {"gas": {"amplitude": 0}}}, "keyframes": [{"frame": 239, "scene": {"camera": {"azimuth_deg": 90}, "time": 60}}]}
+        """240 frames of 1280 x 720, killed on the way and gone on with, are those of a run that was not, to the byte;
+        and the film shows them."""
+        request = {
+            "scene": {"image": {"width": 1280, "height": 720}, "disk": {"gas": {"amplitude": 0}}},
+            "keyframes": [{"frame": 239, "scene": {"camera": {"azimuth_deg": 90}, "time": 60}}],
+        }
         folder = self.path("kept")
         there = self.killed("a.mp4", request, folder, 20)
         stats = self.film("a.mp4", request, "--state", self.path("kept"))
@@ -343,14 +560,31 @@ class Films(Case):
         self.film("b.mp4", request)
         self.assertEqual(self.read("a.mp4"), self.read("b.mp4"))
         stream, duration, tags = self.probed("a.mp4")
-        self.assertEqual((stream["codec_name"], stream["width"], stream["height"], stream["r_frame_rate"], stream["nb_read_frames"], stream["pix_fmt"]), ("h264", 1280, 720, "24/1", "240", "yuv420p"))
-        self.assertEqual((stream["color_space"], stream["color_primaries"], stream["color_transfer"], stream["color_range"]), ("bt709", "bt709", "bt709", "tv"))
+        self.assertEqual(
+            (
+                stream["codec_name"],
+                stream["width"],
+                stream["height"],
+                stream["r_frame_rate"],
+                stream["nb_read_frames"],
+                stream["pix_fmt"],
+            ),
+            ("h264", 1280, 720, "24/1", "240", "yuv420p"),
+        )
+        self.assertEqual(
+            (stream["color_space"], stream["color_primaries"], stream["color_transfer"], stream["color_range"]),
+            ("bt709", "bt709", "bt709", "tv"),
+        )
         self.assertAlmostEqual(duration, 10, delta=0.01)
         first = pathlib.Path(folder, "000000.png").read_bytes()
         self.assertEqual(json.loads(tags["comment"]), self.scene_of(first))
         self.assertEqual(self.scene_of(first)["style"]["exposure"], stats["exposure"])
         for frame in 0, 117, 239:
-            shown = self.pixels("a.mp4", frame, "scale=in_color_matrix=bt709:in_range=tv:flags=accurate_rnd+full_chroma_int,format=gbrp,")
+            shown = self.pixels(
+                "a.mp4",
+                frame,
+                "scale=in_color_matrix=bt709:in_range=tv:flags=accurate_rnd+full_chroma_int,format=gbrp,",
+            )
             drawn = self.pixels(f"kept/{frame:06}.png", 0)
             self.assertEqual(len(shown), 1280 * 720 * 3)
             psnr = 20 * numpy.log10(255 / numpy.sqrt(numpy.mean((shown - drawn) ** 2)))
@@ -360,7 +594,10 @@ class Films(Case):
     def test_rate_and_webm(self):
         self.film("a.webm", TURN, "--rate", "6")
         stream, duration, tags = self.probed("a.webm")
-        self.assertEqual((stream["codec_name"], stream["r_frame_rate"], stream["nb_read_frames"], stream["color_range"]), ("vp9", "6/1", "12", "tv"))
+        self.assertEqual(
+            (stream["codec_name"], stream["r_frame_rate"], stream["nb_read_frames"], stream["color_range"]),
+            ("vp9", "6/1", "12", "tv"),
+        )
         self.assertAlmostEqual(duration, 2, delta=0.01)
         self.assertIn("12 frames", tags["title"])
 
@@ -373,10 +610,16 @@ class Films(Case):
         """Ctrl-C ends the encoder too, and leaves no film."""
         os.mkdir(self.path("bin"))
         script = self.path("bin/ffmpeg")
-        pathlib.Path(script).write_text(f"#!{sys.executable}\nimport os, time\nopen({self.path('pid')!r}, 'w').write(str(os.getpid()))\ntime.sleep(600)\n")
+        pathlib.Path(script).write_text(
+            f"#!{sys.executable}\nimport os, time\nopen({self.path('pid')!r}, 'w').write(str(os.getpid()))\ntime.sleep(600)\n"
+        )
         os.chmod(script, 0o755)
         self.write("request.json", json.dumps(TURN))
-        process = subprocess.Popen([support.KERRD, "film", self.path("request.json"), "-o", self.path("a.mp4")], env={**os.environ, "PATH": self.path("bin")}, stderr=subprocess.PIPE)
+        process = subprocess.Popen(
+            [support.KERRD, "film", self.path("request.json"), "-o", self.path("a.mp4")],
+            env={**os.environ, "PATH": self.path("bin")},
+            stderr=subprocess.PIPE,
+        )
         self.addCleanup(process.kill)
         until = time.monotonic() + 60
         while not os.path.exists(self.path("pid")) or not self.read("pid"):

@@ -1,4 +1,6 @@
-"""volume.model "grid": the torus that docs/examples/torus_grid.py samples beside the torus itself, polarised as well; a flow with a vertical field; and files that are refused."""
+"""volume.model "grid": the torus that docs/examples/torus_grid.py samples beside the torus itself, polarised as well; a
+flow with a vertical field; and files that are refused."""
+
 import json
 import os
 import pathlib
@@ -16,7 +18,18 @@ except ImportError as missing:
 EXAMPLES = pathlib.Path(__file__).resolve().parents[2] / "docs/examples"
 EXAMPLE = EXAMPLES / "torus_grid.py"
 SMALL = ["-p", "torus", "--size", "24x24", "--set", "image.critical_factor=1"]
-UNITS = dict(r="M", theta="rad", density="cm^-3", temperature="K", u_con_r="c", u_con_theta="c/M", u_cov_phi="c M", b_con_r="G", b_con_theta="G/M", b_cov_phi="G M")
+UNITS = dict(
+    r="M",
+    theta="rad",
+    density="cm^-3",
+    temperature="K",
+    u_con_r="c",
+    u_con_theta="c/M",
+    u_cov_phi="c M",
+    b_con_r="G",
+    b_con_theta="G/M",
+    b_cov_phi="G M",
+)
 HEADER = dict(format="kerrd-grid", version=1, spin=0.5, azimuth="boyer-lindquist", units=UNITS)
 GRID = ["--set", "volume.model=grid", "--set", "volume.grid=g"]
 
@@ -46,35 +59,93 @@ class Grid(Case):
             for before, now in zip(coarse, fine):
                 self.assertTrue(3 < before / now < 5.5, off)
         turned = self.maps(*self.sampled(48, 24, 6), "--set", "camera.azimuth_deg=77")[self.layers]
-        self.assertAlmostEqual(turned.sum() / want.sum() - 1, -off[0][0], delta=1e-4, msg="layers that are all the same")
+        self.assertAlmostEqual(
+            turned.sum() / want.sum() - 1, -off[0][0], delta=1e-4, msg="layers that are all the same"
+        )
 
     def test_a_dump(self):
-        """What a converter makes of B and u of a simulation is the field b in the frame of the matter that B was made of, by the metric as a matrix."""
+        """What a converter makes of B and u of a simulation is the field b in the frame of the matter that B was made
+        of, by the metric as a matrix."""
         random, a, rho_unit = numpy.random.default_rng(3), 0.9, 2e-18
-        r, theta, phi = numpy.geomspace(1.2, 40, 24), (numpy.arange(12) + 0.5) * numpy.pi / 12, numpy.arange(4) * numpy.pi / 2
+        r, theta, phi = (
+            numpy.geomspace(1.2, 40, 24),
+            (numpy.arange(12) + 0.5) * numpy.pi / 12,
+            numpy.arange(4) * numpy.pi / 2,
+        )
         shape = (len(r), len(theta), len(phi))
-        sigma, sin2 = (f[..., None] for f in (r[:, None] ** 2 + (a * numpy.cos(theta)) ** 2, numpy.sin(theta) ** 2 + 0 * r[:, None]))
+        sigma, sin2 = (
+            f[..., None]
+            for f in (r[:, None] ** 2 + (a * numpy.cos(theta)) ** 2, numpy.sin(theta) ** 2 + 0 * r[:, None])
+        )
         h, g = 2 * r[:, None, None] / sigma, numpy.zeros((4, 4, len(r), len(theta), 1))
-        for i, j, of in ((0, 0, h - 1), (0, 1, h), (0, 3, -a * sin2 * h), (1, 1, 1 + h), (1, 3, -a * sin2 * (1 + h)), (2, 2, sigma), (3, 3, sin2 * (sigma + a**2 * sin2 * (1 + h)))):
+        for i, j, of in (
+            (0, 0, h - 1),
+            (0, 1, h),
+            (0, 3, -a * sin2 * h),
+            (1, 1, 1 + h),
+            (1, 3, -a * sin2 * (1 + h)),
+            (2, 2, sigma),
+            (3, 3, sin2 * (sigma + a**2 * sin2 * (1 + h))),
+        ):
             g[i, j] = g[j, i] = of
         times = lambda v, w: numpy.einsum("ab...,a...,b...->...", g, v, w)
         lapse, scale = 1 / numpy.sqrt(1 + h), numpy.sqrt(numpy.abs(numpy.einsum("aa...->a...", g)))
-        still = numpy.array([1 / lapse, -lapse * h, 0 * h, 0 * h]) * numpy.ones(shape)  # at rest in the slices, g_ab still^b = (-lapse, 0, 0, 0)
+        still = numpy.array([1 / lapse, -lapse * h, 0 * h, 0 * h]) * numpy.ones(
+            shape
+        )  # at rest in the slices, g_ab still^b = (-lapse, 0, 0, 0)
         push = numpy.array([numpy.zeros(shape), *(random.normal(size=(3, *shape)) / scale[1:])])
         u = still * numpy.sqrt(1 + times(push, push)) + push
         self.assertLess(abs(times(u, u) + 1).max(), 1e-9)
         b = random.normal(size=(4, *shape)) / scale
         b += u * times(b, u)  # across u
         rho, te = random.uniform(0.1, 1, shape), random.uniform(1e10, 1e11, shape)
-        numpy.savez(self.path("dump.npz"), a=a, r=r, theta=theta, phi=phi, rho=rho, te=te, u=u, B=b[1:] * u[0] - b[0] * u[1:], rho_unit=rho_unit)
-        subprocess.run([sys.executable, EXAMPLES / "dump_grid.py", self.path("dump.npz"), self.path("grid.npz")], check=True, env=os.environ)
+        numpy.savez(
+            self.path("dump.npz"),
+            a=a,
+            r=r,
+            theta=theta,
+            phi=phi,
+            rho=rho,
+            te=te,
+            u=u,
+            B=b[1:] * u[0] - b[0] * u[1:],
+            rho_unit=rho_unit,
+        )
+        subprocess.run(
+            [sys.executable, EXAMPLES / "dump_grid.py", self.path("dump.npz"), self.path("grid.npz")],
+            check=True,
+            env=os.environ,
+        )
         below = lambda v: numpy.einsum("ab...,b...->a...", g, v)
         gauss = 2.99792458e10 * (4 * numpy.pi * rho_unit) ** 0.5
-        want = dict(u_con_r=u[1], u_con_theta=u[2], u_cov_phi=below(u)[3], b_con_r=gauss * b[1], b_con_theta=gauss * b[2], b_cov_phi=gauss * below(b)[3], density=rho * rho_unit / 1.67262192e-24, temperature=te)
+        want = dict(
+            u_con_r=u[1],
+            u_con_theta=u[2],
+            u_cov_phi=below(u)[3],
+            b_con_r=gauss * b[1],
+            b_con_theta=gauss * b[2],
+            b_cov_phi=gauss * below(b)[3],
+            density=rho * rho_unit / 1.67262192e-24,
+            temperature=te,
+        )
         with numpy.load(self.path("grid.npz")) as file:
             for name, of in want.items():
                 self.assertLess(abs(file[name] - of).max() / abs(of).max(), 1e-9, name)
-        done = run("render", "--size", "8x8", "--set", "disk.model=none", "--set", f"spacetime.spin={a}", "--asset", "g=" + self.path("grid.npz"), *GRID, "--stats", "-o", self.path("dump.png"))
+        done = run(
+            "render",
+            "--size",
+            "8x8",
+            "--set",
+            "disk.model=none",
+            "--set",
+            f"spacetime.spin={a}",
+            "--asset",
+            "g=" + self.path("grid.npz"),
+            *GRID,
+            "--stats",
+            "-o",
+            self.path("dump.png"),
+        )
         self.assertGreater(json.loads(done.stderr)["flux_jy"], 0)
 
     def test_polarised(self):
@@ -89,7 +160,8 @@ class Grid(Case):
         self.assertTrue(all(3 < coarse / fine < 5.5 for coarse, fine in zip(*off)), off)
 
     def test_a_vertical_field(self):
-        """Beside the model riaf outside the ISCO: components of the field in r and theta, and what the motion makes of them."""
+        """Beside the model riaf outside the ISCO: components of the field in r and theta, and what the motion makes of
+        them."""
         self.layers = "intensity,stokes_q,stokes_u,stokes_v"
         a, k, mp, me, c, kb = 0.5, 6.0, 1.67262192369e-24, 9.1093837015e-28, 2.99792458e10, 1.380649e-16
         r, theta = numpy.geomspace(5, 25, 128)[:, None], ((numpy.arange(96) + 0.5) * numpy.pi / 96)[None, :]
@@ -101,12 +173,42 @@ class Grid(Case):
         size = numpy.sqrt(numpy.cos(theta) ** 2 * sigma / delta + s2 / r**2 * sigma)
         field = numpy.sqrt(8 * numpy.pi * 0.1 / r * density * mp * c**2) / size
         full = numpy.zeros_like(density)
-        arrays = dict(density=density, temperature=full + 3e11 * r**-0.84, u_con_r=full, u_con_theta=full, u_cov_phi=time * (g[1] + omega * g[2]), b_con_r=field * numpy.cos(theta),
-                      b_con_theta=-field * numpy.sin(theta) / r, b_cov_phi=full, u_con_t=time)
+        arrays = dict(
+            density=density,
+            temperature=full + 3e11 * r**-0.84,
+            u_con_r=full,
+            u_con_theta=full,
+            u_cov_phi=time * (g[1] + omega * g[2]),
+            b_con_r=field * numpy.cos(theta),
+            b_con_theta=-field * numpy.sin(theta) / r,
+            b_cov_phi=full,
+            u_con_t=time,
+        )
         path = self.path("flow.npz")
         numpy.savez(path, header=json.dumps(HEADER), r=r[:, 0], theta=theta[0], **arrays)
-        flow = ["-p", "riaf", *SMALL[2:], "--set", "spacetime.spin=0.5", "--set", "volume.inner=5", "--set", "volume.outer=25", "--set", "polarization.model=transfer", "--set", "volume.field=vertical",
-                "--set", "volume.magnetisation=0.1", "--set", "volume.height=0.5", "--set", "volume.density_cm3=3e5", "--set", "camera.field_m=50"]
+        flow = [
+            "-p",
+            "riaf",
+            *SMALL[2:],
+            "--set",
+            "spacetime.spin=0.5",
+            "--set",
+            "volume.inner=5",
+            "--set",
+            "volume.outer=25",
+            "--set",
+            "polarization.model=transfer",
+            "--set",
+            "volume.field=vertical",
+            "--set",
+            "volume.magnetisation=0.1",
+            "--set",
+            "volume.height=0.5",
+            "--set",
+            "volume.density_cm3=3e5",
+            "--set",
+            "camera.field_m=50",
+        ]
         want, got = self.maps(*flow), self.maps(*flow, "--asset", "g=" + path, *GRID)
         for name in self.layers.split(","):
             off = abs(got[name] - want[name]).max() / want["intensity"].max()
@@ -116,20 +218,57 @@ class Grid(Case):
     def test_what_uses_it(self):
         """A density by its flux, a spectrum and a pixel."""
         asset = self.sampled(48, 24)
-        told = json.loads(run("render", *SMALL, *asset, "--set", "volume.normalise_to_jy=1.5", "--stats", "-o", self.path("a.png")).stderr)
+        told = json.loads(
+            run(
+                "render", *SMALL, *asset, "--set", "volume.normalise_to_jy=1.5", "--stats", "-o", self.path("a.png")
+            ).stderr
+        )
         self.assertAlmostEqual(told["flux_jy"], 1.5, delta=0.01)
-        scaled = json.loads(run("render", *SMALL, *asset, "--set", f"volume.grid_scale={told['density_scale']!r}", "--stats", "-o", self.path("a.png")).stderr)
+        scaled = json.loads(
+            run(
+                "render",
+                *SMALL,
+                *asset,
+                "--set",
+                f"volume.grid_scale={told['density_scale']!r}",
+                "--stats",
+                "-o",
+                self.path("a.png"),
+            ).stderr
+        )
         self.assertAlmostEqual(scaled["flux_jy"] / told["flux_jy"], 1, delta=1e-6)
-        spectrum = json.loads(self.good("spectrum", "-p", "torus", *asset, "--frequencies-hz", "86e9,230e9", "--pixels", "40", "--check", "none"))["columns"]["flux_jy"]
+        spectrum = json.loads(
+            self.good(
+                "spectrum", "-p", "torus", *asset, "--frequencies-hz", "86e9,230e9", "--pixels", "40", "--check", "none"
+            )
+        )["columns"]["flux_jy"]
         self.assertTrue(all(0.1 < flux < 10 for flux in spectrum), spectrum)
         self.assertIn("plasma", self.good("pixel", *SMALL, *asset, "--at", "12,20").decode())
-        told = json.loads(run("render", "-p", "torus", "--size", "8x8", "--set", "volume.model=grid", "--stats", "-o", self.path("a.png")).stderr)
-        self.assertIn('volume: no file of a grid is named: there is no matter', told["approximations"])
+        told = json.loads(
+            run(
+                "render",
+                "-p",
+                "torus",
+                "--size",
+                "8x8",
+                "--set",
+                "volume.model=grid",
+                "--stats",
+                "-o",
+                self.path("a.png"),
+            ).stderr
+        )
+        self.assertIn("volume: no file of a grid is named: there is no matter", told["approximations"])
         self.assertEqual(told["flux_jy"], 0)
 
     def test_what_is_refused(self):
         r, theta = numpy.geomspace(2, 20, 6), (numpy.arange(4) + 0.5) * numpy.pi / 4
-        good = dict(header=json.dumps(HEADER), r=r, theta=theta, **{name: numpy.ones((6, 4)) for name in UNITS if name not in ("r", "theta")})
+        good = dict(
+            header=json.dumps(HEADER),
+            r=r,
+            theta=theta,
+            **{name: numpy.ones((6, 4)) for name in UNITS if name not in ("r", "theta")},
+        )
 
         def header(**changes):
             return {"header": json.dumps({**HEADER, **changes})}
@@ -138,18 +277,40 @@ class Grid(Case):
             of = numpy.ones((6, 4))
             of[2, 1] = value
             return {name: of}
+
         round_ = {name: numpy.ones((6, 4, 4)) for name in UNITS if name not in ("r", "theta")}
         files = (
-            ({"header": None}, "header is missing"), ({"header": "x"}, "header is no JSON object"), ({"header": 1.0}, "it is no text"), (header(format="other"), "has not the format \"kerrd-grid\""),
-            (header(spin=None), "header.spin is no number from -1 to 1"), (header(azimuth="?"), "header.azimuth is neither"), (header(units={**UNITS, "density": "g/cm^3"}), 'header.units.density is "g/cm^3", allowed is "cm^-3"'),
-            (header(units={k: v for k, v in UNITS.items() if k != "b_con_r"}), 'header.units.b_con_r is missing, allowed is "G"'), ({"r": numpy.linspace(2, 20, 6)}, "in even steps of their logarithm, here"),
-            ({"r": r[::-1]}, "r 0 is 20"), ({"r": numpy.full(6, numpy.nan)}, "r 0 is"), ({"theta": theta * 0.5}, "theta does not go from pole to pole"), ({"theta": theta[:1]}, "theta is no list of 2 numbers or more"),
-            ({"density": None}, "density is missing"), ({"density": numpy.ones((4, 6))}, "allowed is the shape (6, 4) of r, theta"), ({"density": numpy.ones((6, 4), ">f8")}, "the element type is >f8"),
-            ({"density": numpy.asfortranarray(numpy.ones((6, 4)))}, "Fortran order"), (array(-1), "density[2, 1] is -1, allowed are 0 to 1e+30 cm^-3"), (array(numpy.nan, "temperature"), "temperature[2, 1] is"),
-            (array(numpy.inf, "b_con_r"), "b_con_r[2, 1] is inf"), (array(-1e9, "u_con_theta"), "u_con_theta[2, 1] is -1e+09, allowed are -1e+06 to 1e+06 c/M over r"),
-            ({"u_con_t": numpy.ones((6, 4))}, "the velocity's u.u at u_con_t"), ({"phi": numpy.linspace(0, 6.28, 4), **round_}, "phi does not go round once"),
+            ({"header": None}, "header is missing"),
+            ({"header": "x"}, "header is no JSON object"),
+            ({"header": 1.0}, "it is no text"),
+            (header(format="other"), 'has not the format "kerrd-grid"'),
+            (header(spin=None), "header.spin is no number from -1 to 1"),
+            (header(azimuth="?"), "header.azimuth is neither"),
+            (header(units={**UNITS, "density": "g/cm^3"}), 'header.units.density is "g/cm^3", allowed is "cm^-3"'),
+            (
+                header(units={k: v for k, v in UNITS.items() if k != "b_con_r"}),
+                'header.units.b_con_r is missing, allowed is "G"',
+            ),
+            ({"r": numpy.linspace(2, 20, 6)}, "in even steps of their logarithm, here"),
+            ({"r": r[::-1]}, "r 0 is 20"),
+            ({"r": numpy.full(6, numpy.nan)}, "r 0 is"),
+            ({"theta": theta * 0.5}, "theta does not go from pole to pole"),
+            ({"theta": theta[:1]}, "theta is no list of 2 numbers or more"),
+            ({"density": None}, "density is missing"),
+            ({"density": numpy.ones((4, 6))}, "allowed is the shape (6, 4) of r, theta"),
+            ({"density": numpy.ones((6, 4), ">f8")}, "the element type is >f8"),
+            ({"density": numpy.asfortranarray(numpy.ones((6, 4)))}, "Fortran order"),
+            (array(-1), "density[2, 1] is -1, allowed are 0 to 1e+30 cm^-3"),
+            (array(numpy.nan, "temperature"), "temperature[2, 1] is"),
+            (array(numpy.inf, "b_con_r"), "b_con_r[2, 1] is inf"),
+            (array(-1e9, "u_con_theta"), "u_con_theta[2, 1] is -1e+09, allowed are -1e+06 to 1e+06 c/M over r"),
+            ({"u_con_t": numpy.ones((6, 4))}, "the velocity's u.u at u_con_t"),
+            ({"phi": numpy.linspace(0, 6.28, 4), **round_}, "phi does not go round once"),
             ({"phi": numpy.arange(4) * numpy.pi / 2}, "allowed is the shape (6, 4, 4) of r, theta and phi"),
-            ({"r": numpy.geomspace(2, 20, 4096), "theta": (numpy.arange(1024) + 0.5) * numpy.pi / 1024}, "is 4096 x 1024 x 1 nodes, allowed are 2097152 in all"),
+            (
+                {"r": numpy.geomspace(2, 20, 4096), "theta": (numpy.arange(1024) + 0.5) * numpy.pi / 1024},
+                "is 4096 x 1024 x 1 nodes, allowed are 2097152 in all",
+            ),
         )
         for i, (changes, words) in enumerate(files):
             path = self.path(f"{i}.npz")
@@ -158,12 +319,38 @@ class Grid(Case):
                 self.bad(2, words, "scene", "--set", "spacetime.spin=0.5", "--asset", "g=" + path, *GRID)
         path = self.path("good.npz")
         numpy.savez(path, **{**good, "phi": numpy.arange(4) * numpy.pi / 4, **round_})  # half a turn, twice
-        self.assertRegex(json.loads(self.good("scene", "--set", "spacetime.spin=0.5", "--asset", "g=" + path, *GRID))["volume"]["grid"], "^[0-9a-f]{64}$")
-        self.bad(2, "volume.grid is matter round a hole of the spin 0.5, and spacetime.spin is 0.6; allowed is the same (at /volume/grid)", "scene", "--set", "spacetime.spin=0.6", "--asset", "g=" + path, *GRID)
-        self.bad(2, "sky.image is a grid of matter of 6 x 4 x 4 nodes, allowed is a picture of the whole sky", "scene", "--asset", "g=" + path, "--set", "sky.image=g")
+        self.assertRegex(
+            json.loads(self.good("scene", "--set", "spacetime.spin=0.5", "--asset", "g=" + path, *GRID))["volume"][
+                "grid"
+            ],
+            "^[0-9a-f]{64}$",
+        )
+        self.bad(
+            2,
+            "volume.grid is matter round a hole of the spin 0.5, and spacetime.spin is 0.6; allowed is the same (at /volume/grid)",
+            "scene",
+            "--set",
+            "spacetime.spin=0.6",
+            "--asset",
+            "g=" + path,
+            *GRID,
+        )
+        self.bad(
+            2,
+            "sky.image is a grid of matter of 6 x 4 x 4 nodes, allowed is a picture of the whole sky",
+            "scene",
+            "--asset",
+            "g=" + path,
+            "--set",
+            "sky.image=g",
+        )
         for cut in (4, 100, len(self.read("good.npz")) - 30):
             self.write("cut.npz", self.read("good.npz")[:cut])
-            self.assertEqual(run("scene", "--set", "spacetime.spin=0.5", "--asset", "g=" + self.path("cut.npz"), *GRID).returncode, 2, cut)
+            self.assertEqual(
+                run("scene", "--set", "spacetime.spin=0.5", "--asset", "g=" + self.path("cut.npz"), *GRID).returncode,
+                2,
+                cut,
+            )
 
 
 if __name__ == "__main__":

@@ -1,4 +1,5 @@
 """Arguments and scenes, good and bad. Needs no device."""
+
 import json
 import os
 import signal
@@ -35,7 +36,9 @@ class Usage(Case):
         self.bad(2, "did you mean gargantua?", "scene", "--preset", "gargantau")
         self.bad(2, "did you mean redshift?", "physics", "redshft")
         self.bad(2, "did you mean camera.inclination_deg?", "scene", "--set", "camera.inclination=60")
-        self.bad(2, "did you mean energy?", "orbit", self.write("slip.json", '{"orbit":{"enrgy":1,"angular_momentum":5}}'))
+        self.bad(
+            2, "did you mean energy?", "orbit", self.write("slip.json", '{"orbit":{"enrgy":1,"angular_momentum":5}}')
+        )
 
     def test_size(self):
         image = json.loads(self.good("scene", "--size", "1920x1080"))["image"]
@@ -56,9 +59,16 @@ class Usage(Case):
     def test_assets(self):
         """Those that nothing names; tests/cli/render.py has one that is shown."""
         picture = self.path("a.png")
-        chunk = lambda kind, data: struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+        chunk = lambda kind, data: (
+            struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+        )
         with open(picture, "wb") as file:
-            file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 1, 1, 8, 0, 0, 0, 0)) + chunk(b"IDAT", zlib.compress(b"\0\0")) + chunk(b"IEND", b""))
+            file.write(
+                b"\x89PNG\r\n\x1a\n"
+                + chunk(b"IHDR", struct.pack(">IIBBBBB", 1, 1, 8, 0, 0, 0, 0))
+                + chunk(b"IDAT", zlib.compress(b"\0\0"))
+                + chunk(b"IEND", b"")
+            )
         self.bad(2, "--asset sky: no field of the scene names it", "scene", "--asset", "sky=" + picture)
         self.bad(2, "not a PNG file", "scene", "--asset", "sky=" + self.write("b.png", "text"))
         self.bad(2, "No such file", "scene", "--asset", "sky=" + self.path("none.png"))
@@ -72,10 +82,31 @@ class Usage(Case):
         self.bad(2, "line 2", "scene", self.write("c.json", '{"time":\n'))
 
     def test_numbers_as_they_were_given(self):
-        self.bad(2, "r is 1.2, allowed is above the horizon at 1.43588989", "orbit", "--spin", "0.9", "--energy", "0.9", "--angular-momentum", "4", "--r", "1.2")
+        self.bad(
+            2,
+            "r is 1.2, allowed is above the horizon at 1.43588989",
+            "orbit",
+            "--spin",
+            "0.9",
+            "--energy",
+            "0.9",
+            "--angular-momentum",
+            "4",
+            "--r",
+            "1.2",
+        )
 
     def test_nowhere_to_write(self):
-        lists = ["presets"], ["physics"], ["scene"], ["physics", "kerr"], ["orbit", "--case", "isco"], ["--help"], ["--version"], ["plan", "--help"]
+        lists = (
+            ["presets"],
+            ["physics"],
+            ["scene"],
+            ["physics", "kerr"],
+            ["orbit", "--case", "isco"],
+            ["--help"],
+            ["--version"],
+            ["plan", "--help"],
+        )
         for command in lists:
             with open("/dev/full", "wb") as full:
                 self.bad(1, "cannot write to standard output: No space left on device", *command, stdout=full)
@@ -102,11 +133,25 @@ class Usage(Case):
         self.bad(2, "--queue", "serve", "--queue", "0")
         self.bad(2, 'the base path is "x/": it must begin with a slash', "serve", "--base-path", "x/")
         for address in ("0.0.0.0", "::", "[::]", "192.0.2.1", "2001:db8::1"):
-            self.bad(2, f"other machines reach --listen {address}: --token-file FILE says who may use the server, --insecure lets everybody", "serve", "--listen", address)
+            self.bad(
+                2,
+                f"other machines reach --listen {address}: --token-file FILE says who may use the server, --insecure lets everybody",
+                "serve",
+                "--listen",
+                address,
+            )
         for address in ("127.0.0.1", "127.1.2.3", "::1", "[::1]"):
             self.bad(2, 'the base path is "x/"', "serve", "--listen", address, "--base-path", "x/")
         for reason in ("--insecure", "--token-file=" + self.path("absent")):
-            self.bad(2, "No such file" if "absent" in reason else 'the base path is "x/"', "serve", "--listen", "0.0.0.0", reason, *([] if "absent" in reason else ["--base-path", "x/"]))
+            self.bad(
+                2,
+                "No such file" if "absent" in reason else 'the base path is "x/"',
+                "serve",
+                "--listen",
+                "0.0.0.0",
+                reason,
+                *([] if "absent" in reason else ["--base-path", "x/"]),
+            )
         self.bad(2, "excludes SCENE", "scene", "--from", "a.png", "b.json")
         self.bad(2, "excludes --preset", "scene", "--from", "a.png", "--preset", "m87")
 
@@ -118,12 +163,19 @@ class Files(Case):
         self.bad(2, "No such file", "scene", "--from", self.path("absent.png"))
 
     def test_bad_documents(self):
-        for text, words in [("", "not valid JSON"), (OPEN, "not valid JSON"), ("{}{}", "follows"), ("[]", "object"),
-                            ('{"camera":{"zoom":2}}', "(at /camera/zoom)"),
-                            ('{"camera":{"inclination_deg":"x"}}', "(at /camera/inclination_deg)"),
-                            ('{"camera":{"inclination_deg":181}}', "0 to 180"),
-                            ('{"image":{"bit_depth":12}}', "(at /image/bit_depth)"),
-                            ("[" * 100000, ""), ("\0", ""), ("\xff\xfe", "")]:
+        for text, words in [
+            ("", "not valid JSON"),
+            (OPEN, "not valid JSON"),
+            ("{}{}", "follows"),
+            ("[]", "object"),
+            ('{"camera":{"zoom":2}}', "(at /camera/zoom)"),
+            ('{"camera":{"inclination_deg":"x"}}', "(at /camera/inclination_deg)"),
+            ('{"camera":{"inclination_deg":181}}', "0 to 180"),
+            ('{"image":{"bit_depth":12}}', "(at /image/bit_depth)"),
+            ("[" * 100000, ""),
+            ("\0", ""),
+            ("\xff\xfe", ""),
+        ]:
             path = self.write("scene.json", text)
             self.bad(2, words, "scene", path)
             self.bad(2, words, "scene", "-", stdin=text.encode())

@@ -1,4 +1,5 @@
 """kerrd light-curve: forms, times, and what is refused."""
+
 import csv
 import io
 import json
@@ -15,7 +16,10 @@ class LightCurve(Case):
         rows = self.rows("--preset", "hot-spot", "-n", "9")
         self.assertAlmostEqual(float(rows[-1]["t"]), 2 * math.pi * 27.5, delta=1e-9)
         self.assertEqual([r["frame"] for r in rows], [str(i) for i in range(9)])
-        first, last = ([float(r[name]) for name in ("flux", "spots_flux", "spots_centroid_x", "spots_centroid_y")] for r in (rows[0], rows[-1]))
+        first, last = (
+            [float(r[name]) for name in ("flux", "spots_flux", "spots_centroid_x", "spots_centroid_y")]
+            for r in (rows[0], rows[-1])
+        )
         for a, b in zip(first, last):
             self.assertAlmostEqual(a, b, delta=1e-4)
         # The preset's hole is seen from below: clockwise, as GRAVITY saw it.
@@ -37,22 +41,34 @@ class LightCurve(Case):
 
     def test_the_scene_of_a_picture(self):
         self.good("render", *SMALL, "--preset", "hot-spot", "-o", self.path("a.png"))
-        self.assertEqual(self.rows("--from", self.path("a.png"), "-n", "2"), self.rows("--preset", "hot-spot", *SMALL, "-n", "2"))
+        self.assertEqual(
+            self.rows("--from", self.path("a.png"), "-n", "2"), self.rows("--preset", "hot-spot", *SMALL, "-n", "2")
+        )
 
     def test_without_a_spot(self):
         rows = self.rows("--preset", "smooth", "--end", "50", "-n", "2")
-        self.assertEqual((rows[0]["spots_flux"], rows[0]["spots_centroid_x"], rows[0]["flux"]), ("0", "", rows[1]["flux"]))
+        self.assertEqual(
+            (rows[0]["spots_flux"], rows[0]["spots_centroid_x"], rows[0]["flux"]), ("0", "", rows[1]["flux"])
+        )
         self.assertGreater(float(rows[0]["flux"]), 1)
 
     def test_of_polarised_light(self):
         options = ["--preset", "hot-spot", "--set", "polarization.field=vertical", "-n", "3"]
         plain, rows = self.rows(*options), self.rows(*options, "--set", "polarization.model=synchrotron")
-        names = ["stokes_q", "stokes_u", "polarization_fraction", "evpa", *("spots_" + name for name in ("stokes_q", "stokes_u", "polarization_fraction", "evpa"))]
+        names = [
+            "stokes_q",
+            "stokes_u",
+            "polarization_fraction",
+            "evpa",
+            *("spots_" + name for name in ("stokes_q", "stokes_u", "polarization_fraction", "evpa")),
+        ]
         self.assertEqual(list(rows[0]), [*plain[0], *names])
         for row, other in zip(rows, plain):
             self.assertAlmostEqual(float(row["flux"]), float(other["flux"]), delta=1e-5 * float(other["flux"]))
             for of in "", "spots_":
-                flux, q, u, fraction, angle = (float(row[of + name]) for name in ("flux", "stokes_q", "stokes_u", "polarization_fraction", "evpa"))
+                flux, q, u, fraction, angle = (
+                    float(row[of + name]) for name in ("flux", "stokes_q", "stokes_u", "polarization_fraction", "evpa")
+                )
                 self.assertAlmostEqual(fraction, math.hypot(q, u) / flux, delta=1e-9)
                 self.assertAlmostEqual(math.cos(2 * angle) * fraction * flux, q, delta=1e-6)
                 self.assertTrue(0.02 < fraction < 0.75)
@@ -69,8 +85,22 @@ class LightCurve(Case):
             self.assertEqual(done.returncode, 2)
             self.assertIn(words, done.stderr.decode())
         self.bad(2, "areas of the others are not to scale", "light-curve", "--preset", "photon-rings", "--end", "1")
-        self.bad(2, "spots.1.r is 2 M, allowed is at least", "light-curve", "--set", "spot2.brightness=1", "--set", "spot2.r=2")
-        self.bad(2, "there is no spots.1: the list has 0 elements, and the next free index is 0", "light-curve", "--set", "spots.1.r=9")
+        self.bad(
+            2,
+            "spots.1.r is 2 M, allowed is at least",
+            "light-curve",
+            "--set",
+            "spot2.brightness=1",
+            "--set",
+            "spot2.r=2",
+        )
+        self.bad(
+            2,
+            "there is no spots.1: the list has 0 elements, and the next free index is 0",
+            "light-curve",
+            "--set",
+            "spots.1.r=9",
+        )
 
 
 if __name__ == "__main__":

@@ -1,4 +1,6 @@
-"""Manual pages and the completions of bash, against what the program itself says: each option of --help stands in both, examples run, words are taken."""
+"""Manual pages and the completions of bash, against what the program itself says: each option of --help stands in both,
+examples run, words are taken."""
+
 import json
 import os
 import pathlib
@@ -20,7 +22,15 @@ def pages():
 
 def plain(roff):
     text = re.sub(r"\\f[BIR]", "", roff)
-    for escape, character in ("\\-", "-"), ("\\(aq", "'"), ("\\(dq", '"'), ("\\(ti", "~"), ("\\(ha", "^"), ("\\&", ""), ("\\e", "\\"):
+    for escape, character in (
+        ("\\-", "-"),
+        ("\\(aq", "'"),
+        ("\\(dq", '"'),
+        ("\\(ti", "~"),
+        ("\\(ha", "^"),
+        ("\\&", ""),
+        ("\\e", "\\"),
+    ):
         text = text.replace(escape, character)
     return text
 
@@ -42,19 +52,30 @@ class Manual(Case):
         for context in contexts():
             text = plain(pages()[f"kerrd-{context[0]}.1"])
             if context[1:]:
-                text = text.partition(f'.SS "kerrd {" ".join(context)}"')[2].partition("\n.S")[0] + text.partition("\n.SH OPTIONS")[2].partition("\n.SH ")[0]
+                text = (
+                    text.partition(f'.SS "kerrd {" ".join(context)}"')[2].partition("\n.S")[0]
+                    + text.partition("\n.SH OPTIONS")[2].partition("\n.SH ")[0]
+                )
             heads = re.findall(r"^\.TP\n(.*)", text, re.M)
             options = told(context)
             self.assertIn("--help", options)
             for option, argument in options.items():
-                self.assertEqual(sum(bool(re.search("(^|, )" + re.escape(option + argument) + r"\]?($|,)", head)) for head in heads), 1, (context, option, argument))
+                self.assertEqual(
+                    sum(bool(re.search("(^|, )" + re.escape(option + argument) + r"\]?($|,)", head)) for head in heads),
+                    1,
+                    (context, option, argument),
+                )
 
     def test_docs_of_help(self):
         """The text of --help before and after the options, a word at a time: it wraps lines elsewhere."""
         for context in contexts():
             words = " ".join(run(*context, "--help").stdout.decode().replace("`", "").split())
             text = plain(pages()[f"kerrd-{context[0]}.1"])
-            for paragraph in re.findall(r"^(?:\.SH DESCRIPTION|\.PP)\n([^.\n].*)$", text.partition("\n.SH OPTIONS")[0], re.M) if not context[1:] else []:
+            for paragraph in (
+                re.findall(r"^(?:\.SH DESCRIPTION|\.PP)\n([^.\n].*)$", text.partition("\n.SH OPTIONS")[0], re.M)
+                if not context[1:]
+                else []
+            ):
                 self.assertIn(" ".join(paragraph.replace("`", "").split()), words, context)
 
     def test_environment(self):
@@ -67,7 +88,12 @@ class Manual(Case):
 
     def test_date(self):
         program = MADE / "kd_cli_reference"
-        made = subprocess.run([program, "man", "render"], env={**os.environ, "SOURCE_DATE_EPOCH": "86400"}, capture_output=True, check=True).stdout
+        made = subprocess.run(
+            [program, "man", "render"],
+            env={**os.environ, "SOURCE_DATE_EPOCH": "86400"},
+            capture_output=True,
+            check=True,
+        ).stdout
         self.assertIn(b".TH KERRD\\-RENDER 1 1970-01-02 ", made)
         self.assertEqual(subprocess.run([program, "man", "rendr"], capture_output=True).returncode, 1)
 
@@ -76,11 +102,18 @@ class Installed(Case):
     def test_places(self):
         """Where Debian looks for them, below the prefix."""
         build = MADE.parents[2]
-        places = json.loads(subprocess.run(["meson", "introspect", "--installed", build], capture_output=True, check=True).stdout)
-        prefix = json.loads(subprocess.run(["meson", "introspect", "--buildoptions", build], capture_output=True, check=True).stdout)
+        places = json.loads(
+            subprocess.run(["meson", "introspect", "--installed", build], capture_output=True, check=True).stdout
+        )
+        prefix = json.loads(
+            subprocess.run(["meson", "introspect", "--buildoptions", build], capture_output=True, check=True).stdout
+        )
         prefix = next(option["value"] for option in prefix if option["name"] == "prefix")
-        wanted = {"kerrd": "share/bash-completion/completions/kerrd", "kerrd.fish": "share/fish/vendor_completions.d/kerrd.fish",
-                  "_kerrd": "share/zsh/vendor-completions/_kerrd" if prefix == "/usr" else "share/zsh/site-functions/_kerrd"}
+        wanted = {
+            "kerrd": "share/bash-completion/completions/kerrd",
+            "kerrd.fish": "share/fish/vendor_completions.d/kerrd.fish",
+            "_kerrd": "share/zsh/vendor-completions/_kerrd" if prefix == "/usr" else "share/zsh/site-functions/_kerrd",
+        }
         wanted.update({name: f"share/man/man1/{name}" for name in pages()})
         for name, place in wanted.items():
             self.assertTrue((MADE / name).exists(), name)
@@ -110,7 +143,13 @@ class Examples(Case):
 
     def serve(self, line, env):
         """At a free port, until it listens."""
-        server = subprocess.Popen(["bash", "-c", f"exec {line} --port 0"], cwd=self.folder, env=env, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        server = subprocess.Popen(
+            ["bash", "-c", f"exec {line} --port 0"],
+            cwd=self.folder,
+            env=env,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+        )
         with server:
             self.assertIn(b"listening on http://", server.stdout.readline())
             server.send_signal(signal.SIGTERM)
@@ -119,7 +158,8 @@ class Examples(Case):
 
 class Words(Case):
     def test_words_of_help(self):
-        """What --help spells out as a|b|c is what the program takes: a wrong word is refused, and the complaint names each."""
+        """What --help spells out as a|b|c is what the program takes: a wrong word is refused, and the complaint names
+        each."""
         seen = 0
         for context in contexts():
             for option, argument in told(context).items():
@@ -127,7 +167,12 @@ class Words(Case):
                 if "|" not in argument or len(words) < 2:
                     continue
                 seen += 1
-                more = {"orbit": ["--case", "isco"], "rays": ["--ray", "1,1"], "pixel": ["--at", "1,1"], "spectrum": ["--preset", "riaf"] if option == "--check" else []}.get(context[0], [])
+                more = {
+                    "orbit": ["--case", "isco"],
+                    "rays": ["--ray", "1,1"],
+                    "pixel": ["--at", "1,1"],
+                    "spectrum": ["--preset", "riaf"] if option == "--check" else [],
+                }.get(context[0], [])
                 done = run(*context, *more, f"{option}=zzz")
                 self.assertNotEqual(done.returncode, 0, (context, option))
                 for word in words:
@@ -143,7 +188,13 @@ class Bash(Case):
         tokens = re.findall(r"[=:]+|[^\s=:]+", line) + ([""] if line.endswith(" ") else [])  # as bash splits them
         script = 'source "$1"; COMP_LINE=$2 COMP_POINT=${#2}; shift 2; COMP_WORDS=("$@") COMP_CWORD=$(($# - 1)); _kerrd; printf "%s\\n" "${COMPREPLY[@]}"'
         env = {**os.environ, "PATH": os.path.dirname(KERRD) + os.pathsep + os.environ["PATH"]}
-        done = subprocess.run(["bash", "--norc", "-c", script, "bash", str(MADE / "kerrd"), line, *tokens], cwd=self.folder, env=env, capture_output=True, timeout=60)
+        done = subprocess.run(
+            ["bash", "--norc", "-c", script, "bash", str(MADE / "kerrd"), line, *tokens],
+            cwd=self.folder,
+            env=env,
+            capture_output=True,
+            timeout=60,
+        )
         self.assertEqual(done.stderr.decode(), "", line)
         return sorted(done.stdout.decode().split())
 
@@ -156,9 +207,15 @@ class Bash(Case):
     def test_every_option(self):
         for context in contexts():
             options = told(context)
-            expected = sorted([option for option in options if option.startswith("--")] + [option + "=" for option, argument in options.items() if argument.startswith("[")])
+            expected = sorted(
+                [option for option in options if option.startswith("--")]
+                + [option + "=" for option, argument in options.items() if argument.startswith("[")]
+            )
             self.assertEqual(self.complete(f"kerrd {' '.join(context)} --"), expected)
-            self.assertEqual(sorted(options), sorted(word for word in self.complete(f"kerrd {' '.join(context)} -") if not word.endswith("=")))
+            self.assertEqual(
+                sorted(options),
+                sorted(word for word in self.complete(f"kerrd {' '.join(context)} -") if not word.endswith("=")),
+            )
 
     def test_words(self):
         self.assertEqual(self.complete("kerrd render --log-level "), ["debug", "error", "info", "warn"])
@@ -175,8 +232,14 @@ class Bash(Case):
     def test_names(self):
         self.assertEqual(self.complete("kerrd render --preset gargantua-"), ["gargantua-gas"])
         self.assertEqual(self.complete("kerrd render -p gargantua-"), ["gargantua-gas"])
-        self.assertEqual(self.complete("kerrd render --preset="), sorted(line.split()[0] for line in run("presets").stdout.decode().splitlines()))
-        self.assertEqual(self.complete("kerrd playground --preset "), sorted(line.split()[0] for line in run("playground", "--list").stdout.decode().splitlines()))
+        self.assertEqual(
+            self.complete("kerrd render --preset="),
+            sorted(line.split()[0] for line in run("presets").stdout.decode().splitlines()),
+        )
+        self.assertEqual(
+            self.complete("kerrd playground --preset "),
+            sorted(line.split()[0] for line in run("playground", "--list").stdout.decode().splitlines()),
+        )
         self.assertEqual(self.complete("kerrd playground --scene-preset gargantua-"), ["gargantua-gas"])
         self.assertEqual(self.complete("kerrd playground --set wav"), ["waves="])
         self.assertEqual(self.complete("kerrd playground --set waves="), ["false", "true"])
@@ -203,11 +266,15 @@ class Bash(Case):
         self.assertEqual(self.complete("kerrd sweep -x disk.mod"), ["disk.model="])
         words = self.complete("kerrd scene --set disk.model=")
         self.assertIn("particles", words)
-        self.assertEqual(self.complete("kerrd sweep --axis disk.model=particles,thi"), [f"particles,{word}" for word in words if word.startswith("thi")])
+        self.assertEqual(
+            self.complete("kerrd sweep --axis disk.model=particles,thi"),
+            [f"particles,{word}" for word in words if word.startswith("thi")],
+        )
         self.assertEqual(self.complete("kerrd scene --set camera.r="), ["infinity"])
 
     def test_words_of_fields_are_taken(self):
-        """Each word that is proposed for a field is one of it: it may be refused for its company, and not for itself."""
+        """Each word that is proposed for a field is one of it: it may be refused for its company, and not for
+        itself."""
         complaint = lambda field, word: run("scene", "--set", field + word).stderr.decode()
         words = 0
         for field in [name for name in self.complete("kerrd scene --set ") if ".0." not in name]:

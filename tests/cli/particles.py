@@ -1,4 +1,5 @@
 """kerrd particles: the array, what of it, and what is refused."""
+
 import math
 import os
 import re
@@ -12,10 +13,10 @@ SCENE = ["--preset", "living-disk", "--set", "disk.particles=150000"]
 def read(data):
     """Names, and rows of floats; without NumPy."""
     size = struct.unpack("<H", data[8:10])[0]
-    header = data[10:10 + size].decode()
+    header = data[10 : 10 + size].decode()
     names = re.findall(r"\('([a-z_]*)', '<f4'\)", header)
     count = int(re.search(r"'shape': \(([0-9]*),\)", header)[1])
-    return names, [row for row in struct.iter_unpack(f"<{len(names)}f", data[10 + size:])], count
+    return names, [row for row in struct.iter_unpack(f"<{len(names)}f", data[10 + size :])], count
 
 
 class Particles(Case):
@@ -33,15 +34,43 @@ class Particles(Case):
             self.assertAlmostEqual(rows[140000 + 3 * i][2], r * math.sin(latitude), delta=1e-6 * r)
 
     def test_time(self):
-        options = ["--set", "disk.epicycles=0", "--set", "disk.plunging=0", "--fields", "phi,dphi_dt", "--count", "50", "--stride", "1000", "-o", "-"]
+        options = [
+            "--set",
+            "disk.epicycles=0",
+            "--set",
+            "disk.plunging=0",
+            "--fields",
+            "phi,dphi_dt",
+            "--count",
+            "50",
+            "--stride",
+            "1000",
+            "-o",
+            "-",
+        ]
         _, start, _ = read(self.good("particles", *SCENE, *options))
         _, then, _ = read(self.good("particles", *SCENE, "--set", "time=7", *options))
         for (phi, rate), (later, _) in zip(start, then):
             self.assertAlmostEqual(math.remainder(later - phi - 7 * rate, 2 * math.pi), 0, delta=2e-6)
 
     def test_refused(self):
-        self.bad(2, "disk.model is \"novikov-thorne\", allowed for a list of particles is \"particles\" (at /disk/model)", "particles", "-o", self.path("b.npy"))
-        self.bad(2, "stride is 0, allowed are whole numbers from 1 to 150000", "particles", *SCENE, "--stride", "0", "-o", self.path("b.npy"))
+        self.bad(
+            2,
+            'disk.model is "novikov-thorne", allowed for a list of particles is "particles" (at /disk/model)',
+            "particles",
+            "-o",
+            self.path("b.npy"),
+        )
+        self.bad(
+            2,
+            "stride is 0, allowed are whole numbers from 1 to 150000",
+            "particles",
+            *SCENE,
+            "--stride",
+            "0",
+            "-o",
+            self.path("b.npy"),
+        )
         self.bad(2, "each once", "particles", *SCENE, "--fields", "mass", "-o", self.path("b.npy"))
         done = run("particles", *SCENE)
         self.assertEqual((done.returncode, done.stdout), (2, b""))

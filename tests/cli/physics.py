@@ -1,4 +1,5 @@
 """kerrd physics: names, options, ranges, forms, and what is refused."""
+
 import csv
 import io
 import json
@@ -21,13 +22,17 @@ class Physics(Case):
     def test_point_and_curve(self):
         values = json.loads(self.good("physics", "kerr", "--spin=-0.5", "--r", "isco"))["values"]
         self.assertEqual(values["kappa"], 0)
-        self.assertAlmostEqual(values["isco"], 7.5545847145123, delta=1e-12)  # Bardeen, Press & Teukolsky 1972, eq. 2.21
+        self.assertAlmostEqual(
+            values["isco"], 7.5545847145123, delta=1e-12
+        )  # Bardeen, Press & Teukolsky 1972, eq. 2.21
         curve = json.loads(self.good("physics", "kerr", "--spin", "-0.5:0.5:3", "--r", "isco"))["values"]
         self.assertEqual(curve["isco"][0], values["isco"])
         self.assertEqual(curve["isco"][1], curve["isco_retrograde"][1])
 
     def test_ringdown(self):
-        rows = list(csv.DictReader(io.StringIO(self.good("physics", "qnm", "--spin", "0:0.68:2", "-f", "csv").decode())))
+        rows = list(
+            csv.DictReader(io.StringIO(self.good("physics", "qnm", "--spin", "0:0.68:2", "-f", "csv").decode()))
+        )
         # Berti's public table, and Stein 2019
         for row, omega in zip(rows, (0.3736716844180419, 0.5239751042900845)):
             self.assertAlmostEqual(float(row["omega_re"]), omega, delta=1e-13)
@@ -42,8 +47,17 @@ class Physics(Case):
         with open(path, "rb") as file:
             self.assertEqual(self.good("physics", "qnm", "--mass-msun", "62", "--format", "wav"), file.read())
         self.bad(2, "heard are 20 to 20000 Hz", "physics", "qnm", "--mass-msun", "4e6", "-o", path)
-        self.bad(2, "spin is a range of 3 values, allowed in a sound is one", "physics", "qnm", "--spin", "0:0.9:3", "-o", path)
-        self.bad(2, "format is \"wav\", allowed for kerr", "physics", "kerr", "-o", path)
+        self.bad(
+            2,
+            "spin is a range of 3 values, allowed in a sound is one",
+            "physics",
+            "qnm",
+            "--spin",
+            "0:0.9:3",
+            "-o",
+            path,
+        )
+        self.bad(2, 'format is "wav", allowed for kerr', "physics", "kerr", "-o", path)
 
     def test_forms(self):
         options = ["physics", "disk-flux", "--mass-msun", "10", "--r", "5:25:5"]
@@ -60,12 +74,21 @@ class Physics(Case):
 
     def test_refused(self):
         self.bad(2, "known are kerr, ", "physics", "nothing")
-        for words, *args in (("--mass", "--mass", "1"), ("parameters are options", "0.5"), ("json, csv or wav", "-f", "npy")):
+        for words, *args in (
+            ("--mass", "--mass", "1"),
+            ("parameters are options", "0.5"),
+            ("json, csv or wav", "-f", "npy"),
+        ):
             done = run("physics", "kerr", *args)  # argp's hint that follows takes two lines
             self.assertEqual((done.returncode, done.stdout), (2, b""))
             self.assertIn(words, done.stderr.decode().splitlines()[0])
-        for option, value, words in (("--spin", "1", "(at /spin)"), ("--spin", "0:1:2", "(at /spin)"), ("--r", "1.2", "horizon"),
-                                     ("--theta-deg", "181", "(at /theta_deg)"), ("--r", "2:3:100001", "(at /r)")):
+        for option, value, words in (
+            ("--spin", "1", "(at /spin)"),
+            ("--spin", "0:1:2", "(at /spin)"),
+            ("--r", "1.2", "horizon"),
+            ("--theta-deg", "181", "(at /theta_deg)"),
+            ("--r", "2:3:100001", "(at /r)"),
+        ):
             self.bad(2, words, "physics", "kerr", option, value)
         self.bad(2, "100000 points", "physics", "kerr", "--spin", "0:0.5:1000", "--r", "3:4:1000")
         self.bad(1, "No such file", "physics", "kerr", "-o", self.path("absent/a.json"))
@@ -78,9 +101,35 @@ class Physics(Case):
 
 class Integrals(Case):
     def test_options_are_the_document(self):
-        self.write("ask.json", json.dumps({"spin": 0.5, "inclination_deg": 70, "emissivity": "broken", "outer_index": 2.5, "edges": [0.5, 0.9, 1.3]}))
+        self.write(
+            "ask.json",
+            json.dumps(
+                {
+                    "spin": 0.5,
+                    "inclination_deg": 70,
+                    "emissivity": "broken",
+                    "outer_index": 2.5,
+                    "edges": [0.5, 0.9, 1.3],
+                }
+            ),
+        )
         told = self.good("line", self.path("ask.json"))
-        self.assertEqual(self.good("line", "--spin", "0.5", "--inclination-deg", "70", "--emissivity", "broken", "--outer-index", "2.5", "--edges", "0.5,0.9,1.3"), told)
+        self.assertEqual(
+            self.good(
+                "line",
+                "--spin",
+                "0.5",
+                "--inclination-deg",
+                "70",
+                "--emissivity",
+                "broken",
+                "--outer-index",
+                "2.5",
+                "--edges",
+                "0.5,0.9,1.3",
+            ),
+            told,
+        )
         self.assertEqual(len(json.loads(told)["columns"]["share"]), 2)
         self.good("line", "--bins", "7", "-o", self.path("line.csv"))
         rows = list(csv.DictReader(io.StringIO(self.read("line.csv").decode())))
@@ -88,14 +137,25 @@ class Integrals(Case):
         self.assertTrue(self.good("line", "--bins", "7", "-f", "npy").startswith(b"\x93NUMPY"))
 
     def test_other_integrals(self):
-        rows = list(csv.DictReader(io.StringIO(self.good("transfer-function", "--radii", "6,12", "--g-star", "0.5", "-f", "csv").decode())))
+        rows = list(
+            csv.DictReader(
+                io.StringIO(self.good("transfer-function", "--radii", "6,12", "--g-star", "0.5", "-f", "csv").decode())
+            )
+        )
         self.assertEqual([float(row["r"]) for row in rows], [6, 12])
         told = json.loads(self.good("spectrum", "--frequencies", "3", "--mass-msun", "1e6"))
         self.assertEqual(told["parameters"]["mass_msun"], 1e6)
 
     def test_refused(self):
-        for args, words in ((["--spin", "1"], "(at /spin)"), (["--edges", "1,2,x"], "(at /edges/2)"), (["--bins", "0"], "(at /bins)"), (["--height", "9"], "belongs to emissivity lamppost"),
-                            (["absent.json"], "No such file"), (["a.json", "b.json"], "one file at a time"), (["-f", "png"], "json, csv or npy")):
+        for args, words in (
+            (["--spin", "1"], "(at /spin)"),
+            (["--edges", "1,2,x"], "(at /edges/2)"),
+            (["--bins", "0"], "(at /bins)"),
+            (["--height", "9"], "belongs to emissivity lamppost"),
+            (["absent.json"], "No such file"),
+            (["a.json", "b.json"], "one file at a time"),
+            (["-f", "png"], "json, csv or npy"),
+        ):
             self.bad(2, words, "line", *args)
         self.bad(2, "standard input: ", "line", "-", stdin=b"{")
         self.bad(2, "(at /inner)", "line", "--inner", "2", "-o", self.path("a.json"))

@@ -1,4 +1,5 @@
 """kerrd pixel: tables and JSON say the same, and bad places are refused."""
+
 import json
 import math
 import re
@@ -18,11 +19,16 @@ class Pixel(Case):
             fates.add(found["end"]["fate"])
             self.assertIn(found["end"]["why"], lines)
             self.assertIn(f"radial case {found['radial']['case']}, ", lines[2])
-            rows = [line.split() for line in lines[lines.index("") + 2:]]
+            rows = [line.split() for line in lines[lines.index("") + 2 :]]
             for crossing, row in zip(found["crossings"], rows):
                 self.assertEqual(int(row[0]), crossing["order"])
-                for text, number, digits in (row[1], crossing["r"], 6), (row[2], math.degrees(crossing["phi"]), 3), (row[3], crossing["delay"], 5), (row[4], crossing["g"], 5):
-                    self.assertAlmostEqual(float(text), number, delta=0.6 * 10 ** -digits)
+                for text, number, digits in (
+                    (row[1], crossing["r"], 6),
+                    (row[2], math.degrees(crossing["phi"]), 3),
+                    (row[3], crossing["delay"], 5),
+                    (row[4], crossing["g"], 5),
+                ):
+                    self.assertAlmostEqual(float(text), number, delta=0.6 * 10**-digits)
             ray = [line.split() for line in lines if line.startswith("ray ")][0]
             for text, number in zip(ray[1:], found["colour"]["ray"]):
                 self.assertAlmostEqual(float(text), number, delta=1e-4 * number)
@@ -34,7 +40,7 @@ class Pixel(Case):
         self.good("render", *scene, "--set", "image.layers=" + ",".join(names), "-o", self.path("stokes.npy"))
         data = self.read("stokes.npy")
         width, height = (int(n) for n in re.search(rb"'shape': \((\d+), (\d+)\)", data).groups()[::-1])
-        numbers = data[10 + struct.unpack_from("<H", data, 8)[0]:]
+        numbers = data[10 + struct.unpack_from("<H", data, 8)[0] :]
         seen = 0
         for x, y in (20, 12), (44, 20), (31, 28), (2, 2):
             found = json.loads(self.good("pixel", *scene, "--at", f"{x},{y}", "--format", "json"))
@@ -49,14 +55,24 @@ class Pixel(Case):
             seen += 1
             text = self.good("pixel", *scene, "--at", f"{x},{y}").decode()
             ray = found["polarization"]
-            self.assertIn(f"of the ray: EVPA {math.degrees(ray['evpa']):.4f} deg, fraction {ray['polarization_fraction']:.5f}", text)
+            self.assertIn(
+                f"of the ray: EVPA {math.degrees(ray['evpa']):.4f} deg, fraction {ray['polarization_fraction']:.5f}",
+                text,
+            )
         self.assertGreaterEqual(seen, 3)
 
     def test_circular_polarisation_of_a_volume(self):
         scene = ["--preset", "riaf", "--set", "polarization.model=transfer", "--size", "40x30"]
-        self.good("render", *scene, "--set", "image.layers=intensity,stokes_q,stokes_u,stokes_v", "-o", self.path("stokes.npy"))
+        self.good(
+            "render",
+            *scene,
+            "--set",
+            "image.layers=intensity,stokes_q,stokes_u,stokes_v",
+            "-o",
+            self.path("stokes.npy"),
+        )
         data = self.read("stokes.npy")
-        numbers = data[10 + struct.unpack_from("<H", data, 8)[0]:]
+        numbers = data[10 + struct.unpack_from("<H", data, 8)[0] :]
         found = json.loads(self.good("pixel", *scene, "--at", "14,16", "--format", "json"))
         layers = struct.unpack_from("<4f", numbers, 16 * (40 * 16 + 14))
         self.assertGreater(abs(layers[3]), 1e-4 * layers[0])

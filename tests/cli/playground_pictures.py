@@ -1,4 +1,5 @@
 """kerrd playground --picture: films, what their files say, and what is refused."""
+
 import hashlib
 import json
 import pathlib
@@ -19,7 +20,7 @@ class Pictures(Case):
         self.bad(2, "the picture shows a playground", "render", "--from", film % 1, "-o", self.path("again.png"))
         snapshot = self.path("snapshot.json")
         self.good("playground", "-p", "system", "--time", "10", "--picture", one, "-o", snapshot, *small)
-        header = pathlib.Path(one).read_bytes()[:2880 * 4]
+        header = pathlib.Path(one).read_bytes()[: 2880 * 4]
         self.assertIn(b"PLAY_N", header)
         self.assertIn(hashlib.sha256(pathlib.Path(snapshot).read_bytes()).hexdigest().encode(), header)
 
@@ -27,14 +28,29 @@ class Pictures(Case):
         self.bad(2, "one %d in it", "playground", "-p", "emri", "--every", "1", "--picture", self.path("a.png"))
         self.bad(2, "allowed is a name that ends in", "playground", "-p", "emri", "--picture", self.path("a.gif"))
         self.bad(2, "--picture FILE, which is missing", "playground", "-p", "emri", "--every", "1")
-        self.bad(2, "at /spacetime/spin", "playground", "--picture", self.path("a.png"), self.kerr(), "--scene-set", "spacetime.spin=0.5")
+        self.bad(
+            2,
+            "at /spacetime/spin",
+            "playground",
+            "--picture",
+            self.path("a.png"),
+            self.kerr(),
+            "--scene-set",
+            "spacetime.spin=0.5",
+        )
         self.bad(2, "which is missing: --scene-set and --size", "playground", "-p", "emri", "--size", "64x36")
-        for words, *arguments in [(b"PATH=VALUE", "--scene-set", "camera"), (b"WIDTHxHEIGHT", "--size", "640"), (b"--every is 0", "--every", "0")]:
+        for words, *arguments in [
+            (b"PATH=VALUE", "--scene-set", "camera"),
+            (b"WIDTHxHEIGHT", "--size", "640"),
+            (b"--every is 0", "--every", "0"),
+        ]:
             self.assertIn(words, run("playground", *arguments).stderr)
 
     def kerr(self):
         path = self.path("kerr.json")
-        pathlib.Path(path).write_text('{"gravity":"kerr","spin":0.9,"bodies":[{"mass":1e-6,"radius":0.2,"position":[9,0,0],"velocity":[0,0.4,0]}]}')
+        pathlib.Path(path).write_text(
+            '{"gravity":"kerr","spin":0.9,"bodies":[{"mass":1e-6,"radius":0.2,"position":[9,0,0],"velocity":[0,0.4,0]}]}'
+        )
         return path
 
 

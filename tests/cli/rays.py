@@ -1,4 +1,5 @@
 """kerrd rays: what it takes, what it says of mistakes, and that every form tells the same. Needs no device."""
+
 import csv
 import io
 import json
@@ -31,23 +32,42 @@ class Rays(Case):
         for ray in ["", "1", "1,", ",1", "1,2,3", "1 ,2", "1,nan", "x,1", "+1,2", "1,2 "]:
             self.bad(2, "ALPHA,BETA", "rays", "--ray", ray)
         self.bad(2, "json, npy or csv", "rays", "--ray", "1,2", "--format", "png")
-        self.assertEqual(self.good("rays", "--ray", "-.5,6.", "--spin", ".5"), self.good("rays", "--ray", "-0.5,6", "--spin", "0.5"))
+        self.assertEqual(
+            self.good("rays", "--ray", "-.5,6.", "--spin", ".5"), self.good("rays", "--ray", "-0.5,6", "--spin", "0.5")
+        )
 
     def test_bad_values(self):
         for option, value, pointer in [
-                ("--spin", "1.0000001", "/spin"), ("--spin", "nan", "/spin"), ("--spin", "", "/spin"),
-                ("--r", "1", "/observer/r"), ("--r", "far", "/observer/r"), ("--inclination-deg", "181", "/observer/inclination_deg"),
-                ("--orders", "0", "/orders"), ("--orders", "17", "/orders"), ("--engine", "fast", "/accuracy/engine"),
-                ("--precision", "f32", "/accuracy/precision"), ("--steps", "8", "/accuracy/steps")]:
+            ("--spin", "1.0000001", "/spin"),
+            ("--spin", "nan", "/spin"),
+            ("--spin", "", "/spin"),
+            ("--r", "1", "/observer/r"),
+            ("--r", "far", "/observer/r"),
+            ("--inclination-deg", "181", "/observer/inclination_deg"),
+            ("--orders", "0", "/orders"),
+            ("--orders", "17", "/orders"),
+            ("--engine", "fast", "/accuracy/engine"),
+            ("--precision", "f32", "/accuracy/precision"),
+            ("--steps", "8", "/accuracy/steps"),
+        ]:
             self.bad(2, f"(at {pointer})", "rays", "--ray", "1,2", option, value)
         self.bad(2, "(at /rays/1/0)", "rays", "--ray", "1,2", "--ray", "1e999,2")
         self.bad(2, "(at /rays/0)", "rays", "--ray", "50,0", "--r", "10")
 
     def test_bad_files(self):
-        for text, words in [("", "not valid JSON"), (OPEN, "not valid JSON"), (OPEN + "]}x", "not valid JSON"), ("[]", "an object"),
-                            (OPEN + ',[1]]}', "(at /rays/1)"), (OPEN + '],"mass":1}', "(at /mass)"), ("{}", "(at /rays)"),
-                            (OPEN + '],"spin":1}', "(at /spin)"), (npy([]), "(at /rays)"), (npy([[1, 2]])[:-1], "(at /rays)"),
-                            (npy([[1, math.nan]]), "(at /rays/0/1)")]:
+        for text, words in [
+            ("", "not valid JSON"),
+            (OPEN, "not valid JSON"),
+            (OPEN + "]}x", "not valid JSON"),
+            ("[]", "an object"),
+            (OPEN + ",[1]]}", "(at /rays/1)"),
+            (OPEN + '],"mass":1}', "(at /mass)"),
+            ("{}", "(at /rays)"),
+            (OPEN + '],"spin":1}', "(at /spin)"),
+            (npy([]), "(at /rays)"),
+            (npy([[1, 2]])[:-1], "(at /rays)"),
+            (npy([[1, math.nan]]), "(at /rays/0/1)"),
+        ]:
             self.bad(2, words, "rays", self.write("rays.json", text))
             self.bad(2, words, "rays", "-", stdin=text if isinstance(text, bytes) else text.encode())
         self.bad(2, "rays.json: ", "rays", self.write("rays.json", "{"))
@@ -57,13 +77,17 @@ class Rays(Case):
 
     def test_the_same_from_every_source(self):
         by_options = self.good("rays", *self.OPTIONS, *[f"--ray={a},{b}" for a, b in self.RAYS])
-        document = self.write("rays.json", self.document(spin=-0.5, observer={"r": 50, "inclination_deg": 30}, orders=2))
+        document = self.write(
+            "rays.json", self.document(spin=-0.5, observer={"r": 50, "inclination_deg": 30}, orders=2)
+        )
         self.assertEqual(self.good("rays", document), by_options)
         self.assertEqual(self.good("rays", "-", *self.OPTIONS, stdin=npy(self.RAYS)), by_options)
         other = self.write("other.json", self.document(spin=0.9))
         self.assertEqual(self.good("rays", *self.OPTIONS, other), by_options)
         fewer = self.write("fewer.npy", npy(self.RAYS[:1]))
-        self.assertEqual(self.good("rays", *self.OPTIONS, fewer, *[f"--ray={a},{b}" for a, b in self.RAYS[1:]]), by_options)
+        self.assertEqual(
+            self.good("rays", *self.OPTIONS, fewer, *[f"--ray={a},{b}" for a, b in self.RAYS[1:]]), by_options
+        )
 
     def test_the_same_in_every_form(self):
         source = self.write("rays.npy", npy(self.RAYS))
@@ -113,10 +137,26 @@ class Rays(Case):
         self.assertTrue(done.stderr.startswith(b"kerrd: "), done.stderr)
 
     def test_a_tolerance_is_held_ray_by_ray(self):
-        """On a device. What 32 bits do not hold of five orders next to the critical curve is followed again; what no double holds says so."""
-        near = ["--ray=5.8396981340323952,-2.9198490670161976", "--ray=5.8438,-2.9219", "--ray=-7,1"] # 1e-6 and 1e-3 from it
+        """On a device. What 32 bits do not hold of five orders next to the critical curve is followed again; what no
+        double holds says so."""
+        near = [
+            "--ray=5.8396981340323952,-2.9198490670161976",
+            "--ray=5.8438,-2.9219",
+            "--ray=-7,1",
+        ]  # 1e-6 and 1e-3 from it
         for tolerance, beyond in ((1e-5, 0), (1e-12, 1)):
-            done = run("rays", "--spin", "0.9", "--inclination-deg", "70", "--orders", "5", "--tolerance", str(tolerance), *near)
+            done = run(
+                "rays",
+                "--spin",
+                "0.9",
+                "--inclination-deg",
+                "70",
+                "--orders",
+                "5",
+                "--tolerance",
+                str(tolerance),
+                *near,
+            )
             if done.returncode == 1:
                 self.skipTest("there is no device")
             answer = json.loads(done.stdout)
@@ -132,7 +172,7 @@ class Rays(Case):
         start = 10 + struct.unpack("<H", whole[8:10])[0]
         row = (len(whole) - start) // len(rays)
         part = self.good("rays", "-", "--format", "npy", stdin=npy(rays[31000:31010]))
-        self.assertEqual(part[-10 * row:], whole[start + 31000 * row:start + 31010 * row])
+        self.assertEqual(part[-10 * row :], whole[start + 31000 * row : start + 31010 * row])
 
 
 if __name__ == "__main__":

@@ -1,4 +1,5 @@
 """Pictures from the command line, on a real device."""
+
 import ast
 import hashlib
 import json
@@ -24,9 +25,9 @@ def chunks(png):
     assert png[:8] == b"\x89PNG\r\n\x1a\n"
     at, found = 8, []
     while at < len(png):
-        length, = struct.unpack(">I", png[at:at + 4])
-        kind, body = png[at + 4:at + 8], png[at + 8:at + 8 + length]
-        assert struct.unpack(">I", png[at + 8 + length:at + 12 + length])[0] == zlib.crc32(kind + body)
+        (length,) = struct.unpack(">I", png[at : at + 4])
+        kind, body = png[at + 4 : at + 8], png[at + 8 : at + 8 + length]
+        assert struct.unpack(">I", png[at + 8 + length : at + 12 + length])[0] == zlib.crc32(kind + body)
         found.append((kind, body))
         at += 12 + length
     return found
@@ -45,7 +46,7 @@ class Pictures(Case):
         self.assertEqual(text(png)[b"kerrd:scene"] + b"\n", self.good("scene", *SMALL))
         self.assertEqual(text(png)[b"kerrd:hash"] + b"\n", self.good("scene", "--hash", *SMALL))
         pixels = zlib.decompress(b"".join(body for kind, body in chunks(png) if kind == b"IDAT"))
-        self.assertGreater(len(set(pixels)), 20) # no black picture
+        self.assertGreater(len(set(pixels)), 20)  # no black picture
         self.assertEqual(os.listdir(self.folder), ["a.png"])
         mask = os.umask(0)
         os.umask(mask)
@@ -56,39 +57,116 @@ class Pictures(Case):
         eht = "--preset", "m87", "--set", "style.name=eht", "--set", "image.samples=1"
         self.good("render", *eht, "--size=320x180", "-o", self.path("a.png"))
         style = json.loads(text(self.read("a.png"))[b"kerrd:scene"])["style"]
-        self.assertEqual([style[name] for name in ("name", "beam_uas", "palette", "colour_bar", "tone_map", "bloom")],
-                         ["eht", 20, "heat", True, "srgb", 0])
-        bare = self.good("render", *eht, "--size=320x180", "--set", "style.colour_bar=false", "--set", "style.beam_uas=15", "-o", "-")
+        self.assertEqual(
+            [style[name] for name in ("name", "beam_uas", "palette", "colour_bar", "tone_map", "bloom")],
+            ["eht", 20, "heat", True, "srgb", 0],
+        )
+        bare = self.good(
+            "render", *eht, "--size=320x180", "--set", "style.colour_bar=false", "--set", "style.beam_uas=15", "-o", "-"
+        )
         self.assertEqual(json.loads(text(bare)[b"kerrd:scene"])["style"]["beam_uas"], 15)
         self.assertIn(b"Gaussian beam", text(bare)[b"kerrd:approximations"])
-        self.bad(2, "at /style/beam_uas", "render", *SMALL, "--set", "style.name=eht", "--set", "camera.projection=ring", "-o", self.path("b.png"))
-        self.bad(2, "at /style/colour_bar", "render", *SMALL, "--set", "style.name=eht", "--set", "style.palette=colour", "-o", self.path("b.png"))
+        self.bad(
+            2,
+            "at /style/beam_uas",
+            "render",
+            *SMALL,
+            "--set",
+            "style.name=eht",
+            "--set",
+            "camera.projection=ring",
+            "-o",
+            self.path("b.png"),
+        )
+        self.bad(
+            2,
+            "at /style/colour_bar",
+            "render",
+            *SMALL,
+            "--set",
+            "style.name=eht",
+            "--set",
+            "style.palette=colour",
+            "-o",
+            self.path("b.png"),
+        )
 
     def test_a_picture_of_the_sky(self):
-        chunk = lambda kind, data: struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+        chunk = lambda kind, data: (
+            struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+        )
+
         def sky(name, width, height):
             rows = b"".join(b"\0" + bytes([255, 128, y % 256] * width) for y in range(height))
-            data = (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) + chunk(b"tEXt", b"Copyright\0A. Body") +
-                    chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+            data = (
+                b"\x89PNG\r\n\x1a\n"
+                + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0))
+                + chunk(b"tEXt", b"Copyright\0A. Body")
+                + chunk(b"IDAT", zlib.compress(rows))
+                + chunk(b"IEND", b"")
+            )
             with open(self.path(name), "wb") as file:
                 file.write(data)
             return hashlib.sha256(data).hexdigest()
+
         one, other = sky("one.png", 64, 32), sky("other.png", 64, 30)
         named = *SMALL, "--set", "sky.model=image", "--set", "sky.image=orion"
         self.good("render", *named, "--asset", "orion=" + self.path("one.png"), "-o", self.path("a.png"))
         self.assertEqual(json.loads(text(self.read("a.png"))[b"kerrd:scene"])["sky"]["image"], one)
         self.assertEqual(text(self.read("a.png"))[b"Copyright"], b"sky: A. Body")
-        self.assertIn(b"sky: the light between the stars is a picture", text(self.read("a.png"))[b"kerrd:approximations"])
-        again = self.good("render", "--from", self.path("a.png"), "--asset", "whatever=" + self.path("one.png"), "-o", "-")
+        self.assertIn(
+            b"sky: the light between the stars is a picture", text(self.read("a.png"))[b"kerrd:approximations"]
+        )
+        again = self.good(
+            "render", "--from", self.path("a.png"), "--asset", "whatever=" + self.path("one.png"), "-o", "-"
+        )
         self.assertEqual(again, self.read("a.png"))
-        self.bad(2, "sky.image is \"orion\", and there is no such asset here; allowed are null and names of --asset NAME=FILE", "render", *named, "-o", "-")
-        self.bad(2, f"sky.image is \"{one}\", and there is no such asset here", "render", "--from", self.path("a.png"), "-o", "-")
-        self.bad(2, "sky.image is a picture of 64 x 30 pixels", "render", *named, "--asset", "orion=" + self.path("other.png"), "-o", "-")
-        self.bad(2, "--asset ground: no field of the scene names it", "render", *named, "--asset", "orion=" + self.path("one.png"), "--asset",
-                 "ground=" + self.path("one.png").replace("one", "other"), "-o", "-")
+        self.bad(
+            2,
+            'sky.image is "orion", and there is no such asset here; allowed are null and names of --asset NAME=FILE',
+            "render",
+            *named,
+            "-o",
+            "-",
+        )
+        self.bad(
+            2,
+            f'sky.image is "{one}", and there is no such asset here',
+            "render",
+            "--from",
+            self.path("a.png"),
+            "-o",
+            "-",
+        )
+        self.bad(
+            2,
+            "sky.image is a picture of 64 x 30 pixels",
+            "render",
+            *named,
+            "--asset",
+            "orion=" + self.path("other.png"),
+            "-o",
+            "-",
+        )
+        self.bad(
+            2,
+            "--asset ground: no field of the scene names it",
+            "render",
+            *named,
+            "--asset",
+            "orion=" + self.path("one.png"),
+            "--asset",
+            "ground=" + self.path("one.png").replace("one", "other"),
+            "-o",
+            "-",
+        )
         alone = self.good("render", *SMALL, "--set", "sky.model=image", "-o", "-")
-        self.assertEqual(self.good("render", *named, "--set", "sky.image=null", "-o", "-"), alone)  # the latter of the two holds
-        self.bad(2, "image.width is null where a number is wanted", "render", *SMALL, "--set", "image.width=null", "-o", "-")
+        self.assertEqual(
+            self.good("render", *named, "--set", "sky.image=null", "-o", "-"), alone
+        )  # the latter of the two holds
+        self.bad(
+            2, "image.width is null where a number is wanted", "render", *SMALL, "--set", "image.width=null", "-o", "-"
+        )
         self.assertIn(b"the Milky Way that is made up stands in for it", text(alone)[b"kerrd:approximations"])
         self.assertNotIn(b"Copyright", text(alone))
 
@@ -99,8 +177,9 @@ class Pictures(Case):
 
     def test_a_picture_renders_itself_again(self):
         for depth in "8", "16":
-            self.good("render", *SMALL, "--preset", "gargantua", "--set", "image.bit_depth=" + depth, "-o",
-                      self.path("a.png"))
+            self.good(
+                "render", *SMALL, "--preset", "gargantua", "--set", "image.bit_depth=" + depth, "-o", self.path("a.png")
+            )
             self.good("render", "--from", self.path("a.png"), "-o", self.path("b.png"))
             self.assertEqual(self.read("a.png"), self.read("b.png"))
         self.assertEqual(self.good("render", "--from", "-", "-o", "-", stdin=self.read("a.png")), self.read("a.png"))
@@ -108,26 +187,38 @@ class Pictures(Case):
         self.assertIn(b'"spin":0.1,', text(other)[b"kerrd:scene"])
 
     def test_layers_are_numbers(self):
-        """NumPy's header and records, read by hand: NaN where there is no disk, and the picture's light is the layer's."""
+        """NumPy's header and records, read by hand: NaN where there is no disk, and the picture's light is the
+        layer's."""
         self.good("render", *SMALL, "--set", "image.layers=r,rgb,intensity", "-o", self.path("a.npy"))
         file = self.read("a.npy")
-        length, = struct.unpack("<H", file[8:10])
-        header = ast.literal_eval(file[10:10 + length].decode())
+        (length,) = struct.unpack("<H", file[8:10])
+        header = ast.literal_eval(file[10 : 10 + length].decode())
         self.assertEqual((file[:8], header["shape"], header["fortran_order"]), (b"\x93NUMPY\x01\x00", (36, 64), False))
         self.assertEqual(header["descr"], [("r", "<f4"), ("rgb", "<f4", (3,)), ("intensity", "<f4")])
-        rows = list(struct.iter_unpack("<5f", file[10 + length:]))
+        rows = list(struct.iter_unpack("<5f", file[10 + length :]))
         self.assertEqual(len(rows), 36 * 64)
         on = [row for row in rows if not math.isnan(row[0])]
         self.assertTrue(len(rows) / 5 < len(on) < len(rows) * 0.9 and all(1 < r < 22.001 for r, *_ in on))
         most = max(row[4] for row in rows)
-        self.assertTrue(most > 0.5 and all(abs(0.2126 * r + 0.7152 * g + 0.0722 * b - i) < 1e-5 * most for _, r, g, b, i in rows))
+        self.assertTrue(
+            most > 0.5 and all(abs(0.2126 * r + 0.7152 * g + 0.0722 * b - i) < 1e-5 * most for _, r, g, b, i in rows)
+        )
 
     def test_a_picture_of_a_layer(self):
         self.good("render", *SMALL, "--set", "image.layers=r", "-o", self.path("a.png"))
         self.good("render", *SMALL, "--set", "image.layers=g", "-o", self.path("b.png"))
         self.assertNotEqual(self.read("a.png"), self.read("b.png"))
         self.assertIn(b'"layers":["r"]', text(self.read("a.png"))[b"kerrd:scene"])
-        self.bad(2, "image.layers holds 2, allowed in a file of the format png is one", "render", *SMALL, "--set", "image.layers=g,r", "-o", self.path("c.png"))
+        self.bad(
+            2,
+            "image.layers holds 2, allowed in a file of the format png is one",
+            "render",
+            *SMALL,
+            "--set",
+            "image.layers=g,r",
+            "-o",
+            self.path("c.png"),
+        )
 
     def test_no_picture_under_a_false_name(self):
         self.bad(2, "allowed is a PNG, NPY, NPZ, FITS, EXR or STARS file", "render", *SMALL, "-o", self.path("a.JPG"))
@@ -137,11 +228,13 @@ class Pictures(Case):
     def test_damaged_pictures(self):
         self.good("render", *SMALL, "-o", self.path("a.png"))
         png = self.read("a.png")
-        self.bad(2, "damaged", "scene", "--from", self.write("b.png", png[:len(png) // 2]))
+        self.bad(2, "damaged", "scene", "--from", self.write("b.png", png[: len(png) // 2]))
         self.bad(2, "damaged", "scene", "--from", self.write("b.png", png.replace(b"kerrd:scene", b"kerrd:acene")))
         bare = png[:8] + b"".join(
             struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
-            for kind, body in chunks(png) if kind != b"tEXt")
+            for kind, body in chunks(png)
+            if kind != b"tEXt"
+        )
         self.bad(2, "holds no scene", "scene", "--from", self.write("b.png", bare))
 
     def test_stats(self):
@@ -155,7 +248,17 @@ class Pictures(Case):
         self.assertTrue(stats["approximations"])
 
     def test_stats_of_pixels_that_have_as_many_rays_as_they_need(self):
-        done = run("render", "-p", "smooth", "--size=320x180", "--set", "image.samples=auto", "--stats", "-o", self.path("a.png"))
+        done = run(
+            "render",
+            "-p",
+            "smooth",
+            "--size=320x180",
+            "--set",
+            "image.samples=auto",
+            "--stats",
+            "-o",
+            self.path("a.png"),
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
         found = json.loads(done.stderr)
         self.assertEqual(found["rays"], 320 * 180)
@@ -165,7 +268,16 @@ class Pictures(Case):
         self.assertGreater(accuracy["followed"], accuracy["refined"])
         self.assertGreater(accuracy["pixel_sampled"], 96)
         self.assertLess(accuracy["pixel_error"], 0.005)
-        finer = run("render", "--from", self.path("a.png"), "--set", "image.pixel_error=0.001", "--stats", "-o", self.path("b.png"))
+        finer = run(
+            "render",
+            "--from",
+            self.path("a.png"),
+            "--set",
+            "image.pixel_error=0.001",
+            "--stats",
+            "-o",
+            self.path("b.png"),
+        )
         self.assertGreater(json.loads(finer.stderr)["accuracy"]["between"], accuracy["between"])
         self.bad(2, "image.samples", "render", "--set", "image.samples=autos", "-o", self.path("c.png"))
 
@@ -180,23 +292,56 @@ class Pictures(Case):
         self.assertIn(f"volume_error={accuracy['volume_error']:.1e}".encode(), self.read("a.png"))
         self.good("render", *SMALL, "-o", self.path("b.png"))
         self.assertNotIn(b"volume_", self.read("b.png"))
-        self.bad(2, "accuracy.tolerance is 1e-06: light through volumes is added up in 32 bits and holds 5e-05 and above", "render", "-p", "thick-disk",
-                 "--set", "accuracy.tolerance=1e-6", "-o", self.path("c.png"))
+        self.bad(
+            2,
+            "accuracy.tolerance is 1e-06: light through volumes is added up in 32 bits and holds 5e-05 and above",
+            "render",
+            "-p",
+            "thick-disk",
+            "--set",
+            "accuracy.tolerance=1e-6",
+            "-o",
+            self.path("c.png"),
+        )
 
     def test_plan(self):
         plan = json.loads(self.good("plan", *SMALL, "--set", "image.samples=2"))
         self.assertEqual(plan["rays"], 4 * 64 * 36)
 
     def test_memory(self):
-        for size in ("", "2", "63M", "2000T", "-1G", "1G ", "1.5G", "1GiB", "G", "99999999999999999999T", "18446744073709551615K"):
+        for size in (
+            "",
+            "2",
+            "63M",
+            "2000T",
+            "-1G",
+            "1G ",
+            "1.5G",
+            "1GiB",
+            "G",
+            "99999999999999999999T",
+            "18446744073709551615K",
+        ):
             self.bad(2, "a size from 64M to 1024T", "serve", "--memory", size)
         self.bad(2, "a size from 64M to 1024T", "render", *SMALL, "-M", "0", "-o", self.path("a.png"))
         self.good("render", *SMALL, "--memory", "64M", "-o", self.path("a.png"))
-        self.bad(2, "by --memory): lower image.width", "render", "--memory", "64M", "--set", "image.width=4096", "--set", "image.height=4096",
-                 "-o", self.path("a.png"))
+        self.bad(
+            2,
+            "by --memory): lower image.width",
+            "render",
+            "--memory",
+            "64M",
+            "--set",
+            "image.width=4096",
+            "--set",
+            "image.height=4096",
+            "-o",
+            self.path("a.png"),
+        )
 
     def test_every_preset(self):
-        """Each is known by its name, and another scene than the others. That each can be rendered say tests/http/kerrd.py and the pictures."""
+        """Each is known by its name, and another scene than the others. That each can be rendered say
+        tests/http/kerrd.py and the pictures."""
         names = [line.split()[0] for line in self.good("presets").decode().splitlines()]
         plans = {self.good("plan", *SMALL, "--preset", name) for name in names}
         self.assertGreater(len(names), 10)
@@ -286,7 +431,7 @@ class Devices(Case):
         self.bad(2, "nonesuch", "render", *SMALL, "--device", "nonesuch", "-o", self.path("a.png"))
         environment = dict(os.environ, KERRD_DEVICE="nonesuch")
         self.bad(2, "nonesuch", "plan", env=environment)
-        self.good("plan", "--device", "auto", env=environment) # the option wins
+        self.good("plan", "--device", "auto", env=environment)  # the option wins
         self.bad(2, "there is no device", "plan", "--device", "99")
         self.assertEqual(os.listdir(self.folder), [])
 
@@ -299,15 +444,26 @@ class Devices(Case):
 
     def test_doctor(self):
         report = self.good("doctor").decode()
-        for words in ["device 0:", "Vulkan 1.", "choice:", "kernel cache:", "validation layer:", "render: 64 x 36",
-                      "verdict: usable"]:
+        for words in [
+            "device 0:",
+            "Vulkan 1.",
+            "choice:",
+            "kernel cache:",
+            "validation layer:",
+            "render: 64 x 36",
+            "verdict: usable",
+        ]:
             self.assertIn(words, report)
 
 
 class Serve(Case):
     def start(self, *args, **env):
-        process = subprocess.Popen([KERRD, "serve", "--port", "0", *args], stdout=subprocess.PIPE,
-                                   stderr=subprocess.PIPE, env={**os.environ, **env})
+        process = subprocess.Popen(
+            [KERRD, "serve", "--port", "0", *args],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            env={**os.environ, **env},
+        )
         self.addCleanup(process.stdout.close)
         self.addCleanup(process.stderr.close)
         self.addCleanup(process.kill)
@@ -324,7 +480,11 @@ class Serve(Case):
             self.assertEqual(process.wait(timeout=30), 0, process.stderr.read())
 
     def test_a_base_path_by_option_or_environment(self):
-        for args, env in ((("--base-path", "/some/prefix"), {}), ((), {"KERRD_BASE_PATH": "/some/prefix"}), (("--base-path", "/some/prefix"), {"KERRD_BASE_PATH": "/other"})):
+        for args, env in (
+            (("--base-path", "/some/prefix"), {}),
+            ((), {"KERRD_BASE_PATH": "/some/prefix"}),
+            (("--base-path", "/some/prefix"), {"KERRD_BASE_PATH": "/other"}),
+        ):
             process, url = self.start(*args, **env)
             self.assertTrue(url.endswith("/some/prefix/"), url)
             with urllib.request.urlopen(url + "v1/device", timeout=20) as answer:

@@ -1,4 +1,6 @@
-"""kerrd doctor --selftest: the table, the same as JSON, and its exit codes. tests/gpu/test_selftest.c: that a wrong number is seen."""
+"""kerrd doctor --selftest: the table, the same as JSON, and its exit codes. tests/gpu/test_selftest.c: that a wrong
+number is seen."""
+
 import json
 import re
 
@@ -19,8 +21,17 @@ class Selftest(Case):
         summary = re.fullmatch(r"selftest: (\d+) checks of \d+ numbers in \d+\.\d s on .+: all ok; .*", lines[-1])
         self.assertEqual(int(summary[1]), len(rows))
         print(lines[-1])
-        for words in ("3 sqrt 3", "ISCO", "deflection", "delay", "brightness", "sRGB", "frame in bands", "mino-rkn6 f32",
-                      "lens_closed"):
+        for words in (
+            "3 sqrt 3",
+            "ISCO",
+            "deflection",
+            "delay",
+            "brightness",
+            "sRGB",
+            "frame in bands",
+            "mino-rkn6 f32",
+            "lens_closed",
+        ):
             self.assertTrue(any(words in line for line in lines), words)
 
     def test_json(self):

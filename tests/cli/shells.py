@@ -1,4 +1,6 @@
-"""Completions in zsh and fish as these run them, and manual pages as mandoc and man read them. Suite `shells`: scripts/setup --shells installs the programs."""
+"""Completions in zsh and fish as these run them, and manual pages as mandoc and man read them. Suite `shells`:
+scripts/setup --shells installs the programs."""
+
 import fcntl
 import os
 import pathlib
@@ -73,7 +75,10 @@ class Completes:
         self.assertEqual(self.complete("kerrd bench a"), ["accuracy"])
         self.assertIn("auto", self.complete("kerrd render --device "))
         self.assertEqual(self.complete("kerrd render --preset gargantua-"), ["gargantua-gas"])
-        self.assertEqual(self.complete("kerrd playground --preset "), sorted(line.split()[0] for line in run("playground", "--list").stdout.decode().splitlines()))
+        self.assertEqual(
+            self.complete("kerrd playground --preset "),
+            sorted(line.split()[0] for line in run("playground", "--list").stdout.decode().splitlines()),
+        )
 
     def test_fields(self):
         self.assertEqual(self.complete("kerrd scene --set camera.incl"), ["camera.inclination_deg="])
@@ -100,13 +105,22 @@ class Zsh(Completes, Case):
         super().setUp()
         self.capture = self.write("capture", "")
         self.write(".zshrc", ZSH)
-        env = {**os.environ, "ZDOTDIR": self.folder, "CAPTURE": self.capture, "MADE": str(MADE), "HOME": self.folder, "TERM": "xterm",
-               "PATH": os.path.dirname(KERRD) + os.pathsep + os.environ["PATH"]}
+        env = {
+            **os.environ,
+            "ZDOTDIR": self.folder,
+            "CAPTURE": self.capture,
+            "MADE": str(MADE),
+            "HOME": self.folder,
+            "TERM": "xterm",
+            "PATH": os.path.dirname(KERRD) + os.pathsep + os.environ["PATH"],
+        }
         self.pid, self.fd = pty.fork()
         if not self.pid:
             os.chdir(self.folder)
             os.execvpe("zsh", ["zsh", "-o", "no_global_rcs", "-i"], env)
-        fcntl.ioctl(self.fd, termios.TIOCSWINSZ, struct.pack("HHHH", 1000, 200, 0, 0))  # or it would ask whether to show so many
+        fcntl.ioctl(
+            self.fd, termios.TIOCSWINSZ, struct.pack("HHHH", 1000, 200, 0, 0)
+        )  # or it would ask whether to show so many
         self.reader = threading.Thread(target=self.drain, daemon=True)
         self.reader.start()
         self.addCleanup(self.end)
@@ -150,8 +164,13 @@ class Fish(Completes, Case):
 
     def complete(self, line):
         env = {**os.environ, "HOME": self.folder, "PATH": os.path.dirname(KERRD) + os.pathsep + os.environ["PATH"]}
-        done = subprocess.run(["fish", "--no-config", "-c", "source $argv[1]; complete -C $argv[2]", str(MADE / "kerrd.fish"), line], cwd=self.folder, env=env,
-                              capture_output=True, timeout=60)
+        done = subprocess.run(
+            ["fish", "--no-config", "-c", "source $argv[1]; complete -C $argv[2]", str(MADE / "kerrd.fish"), line],
+            cwd=self.folder,
+            env=env,
+            capture_output=True,
+            timeout=60,
+        )
         self.assertEqual(done.stderr.decode(), "", line)
         return sorted(row.split("\t")[0] for row in done.stdout.decode().splitlines())
 
@@ -173,7 +192,13 @@ class Read(Case):
         """What both say of a page: nothing."""
         mandoc = subprocess.run(["mandoc", "-Tlint", "-W", "warning", path], capture_output=True, text=True)
         env = {**os.environ, "LC_ALL": "C.UTF-8", "MANROFFSEQ": "", "MANWIDTH": "80"}  # as Debian's lintian reads them
-        man = subprocess.run(["man", "--warnings", "-E", "UTF-8", "-l", "-Tutf8", "-Z", path], env=env, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        man = subprocess.run(
+            ["man", "--warnings", "-E", "UTF-8", "-l", "-Tutf8", "-Z", path],
+            env=env,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
         return mandoc.stdout + mandoc.stderr, man.stderr
 
     def test_pages(self):
@@ -185,7 +210,9 @@ class Read(Case):
     def test_bad_page(self):
         """Both would say something."""
         page = (MADE / "kerrd.1").read_text()
-        mandoc, man = self.lint(self.write("bad.1", page.replace(".SH OPTIONS", ".SH\n.XX\n.ft NONE\nOPTIONS\\[nothing]")))
+        mandoc, man = self.lint(
+            self.write("bad.1", page.replace(".SH OPTIONS", ".SH\n.XX\n.ft NONE\nOPTIONS\\[nothing]"))
+        )
         self.assertIn("unknown macro", mandoc)
         self.assertRegex(man, "nothing|NONE|XX")
 

@@ -1,5 +1,7 @@
-"""A photographed panorama, as scripts/sky makes it: M42, omega Cen and M31 are within a pixel of their catalogue places in it and in what kerrd shows of it, and it is aligned to the catalogue's
-stars, 37 000 of them (bench/sky_places.py, which measures it and knows where SIMBAD has them)."""
+"""A photographed panorama, as scripts/sky makes it: M42, omega Cen and M31 are within a pixel of their catalogue places
+in it and in what kerrd shows of it, and it is aligned to the catalogue's stars, 37 000 of them (bench/sky_places.py,
+which measures it and knows where SIMBAD has them)."""
+
 import importlib.util
 import os
 import pathlib
@@ -36,7 +38,8 @@ class Sky(support.Case):
                 self.assertLess(places.length(where), TEXEL, (name, off))
 
     def test_the_panorama_and_the_catalogue_are_aligned(self):
-        """Where the catalogue has stars the panorama has light, by far more than elsewhere; in the middle, as a picture of the catalogue has."""
+        """Where the catalogue has stars the panorama has light, by far more than elsewhere; in the middle, as a picture
+        of the catalogue has."""
         for row in places.aligned(self.seen, places.shown(support.KERRD, None, *places.STARS_ALONE)):
             self.assertGreater(row.peak, 10, row)
             self.assertLess(places.length(row.panorama), 0.1, row)

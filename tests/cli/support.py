@@ -1,4 +1,5 @@
 """Run the real kerrd and look at its exit code, its output and its one line of complaint."""
+
 import os
 import subprocess
 import sys

@@ -1,4 +1,6 @@
-"""Sweeps: a cube as astropy and numpy read it, to the bit what single renders give; axes, world coordinates, tables; pictures and light by axes; what is refused."""
+"""Sweeps: a cube as astropy and numpy read it, to the bit what single renders give; axes, world coordinates, tables;
+pictures and light by axes; what is refused."""
+
 import csv
 import io
 import itertools
@@ -23,8 +25,19 @@ except ImportError as missing:
 
 SCENE = [*support.SMALL, "--set", "spacetime.mass_msun=6.5e9", "--set", "spacetime.distance_pc=16.8e6"]
 LAYERS = ["rgb", "r", "g_1"]
-AXES = {"disk.outer": ["20", "30"], "camera.inclination_deg": ["30", "45", "60"], "disk.model": ["novikov-thorne", "particles"]}
-ARGUMENTS = ["-x", "disk.outer=20,30", "-x", "camera.inclination_deg=30:60:15", "-x", "disk.model=novikov-thorne,particles"]
+AXES = {
+    "disk.outer": ["20", "30"],
+    "camera.inclination_deg": ["30", "45", "60"],
+    "disk.model": ["novikov-thorne", "particles"],
+}
+ARGUMENTS = [
+    "-x",
+    "disk.outer=20,30",
+    "-x",
+    "camera.inclination_deg=30:60:15",
+    "-x",
+    "disk.model=novikov-thorne,particles",
+]
 SHAPE = (2, 3, 2)
 MADE = {}
 
@@ -45,7 +58,9 @@ class Sweep(support.Case):
             self.write(name, data)
 
     def swept(self, name, *more, layers=LAYERS, axes=ARGUMENTS):
-        done = support.run("sweep", *SCENE, "--set", "image.layers=" + ",".join(layers), *axes, *more, "-t", "-o", self.path(name))
+        done = support.run(
+            "sweep", *SCENE, "--set", "image.layers=" + ",".join(layers), *axes, *more, "-t", "-o", self.path(name)
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
         return json.loads(done.stderr)
 
@@ -58,33 +73,52 @@ class Sweep(support.Case):
         return units
 
     def test_planned(self):
-        """What a plan says of all scenes together is what the sweep then does: scenes, lens maps, and the time of those that are shared."""
+        """What a plan says of all scenes together is what the sweep then does: scenes, lens maps, and the time of those
+        that are shared."""
         plan = json.loads(self.good("plan", *SCENE, "--set", "image.layers=" + ",".join(LAYERS), *ARGUMENTS))
         self.assertEqual((plan["scenes"], plan["lens_maps"]), (self.stats["scenes"], self.stats["lens_maps_traced"]))
         self.assertEqual({path: [str(value) for value in values] for path, values in plan["axes"].items()}, AXES)
         self.assertTrue(plan["shared_ms"] > 0 and plan["estimate_ms"] > 0)
         one = json.loads(self.good("plan", *SCENE, "-x", "disk.outer=20"))
         single = json.loads(self.good("plan", *SCENE, "--set", "disk.outer=20"))
-        self.assertEqual((one["scenes"], one["lens_maps"], one["shared_ms"], one["bytes"]["device"]), (1, 1, 0, single["bytes"]["device"]))
+        self.assertEqual(
+            (one["scenes"], one["lens_maps"], one["shared_ms"], one["bytes"]["device"]),
+            (1, 1, 0, single["bytes"]["device"]),
+        )
         ten = json.loads(self.good("plan", *SCENE, "-x", "disk.outer=20:29:1"))
-        self.assertEqual((ten["scenes"], ten["lens_maps"], ten["rays"], ten["bytes"]), (10, 1, 10 * one["rays"], one["bytes"]))
+        self.assertEqual(
+            (ten["scenes"], ten["lens_maps"], ten["rays"], ten["bytes"]), (10, 1, 10 * one["rays"], one["bytes"])
+        )
         self.bad(2, "(at /axes/", "plan", *SCENE, "-x", "disk.outer=20,none")
         self.bad(2, "scene 1", "plan", *SCENE, "-x", "image.width=64,9000", "--set", "image.height=9000")
 
     def test_a_cube_is_its_scenes(self):
         """In both formats, against a file of each scene by itself."""
-        self.assertEqual((self.stats["scenes"], self.stats["lens_maps_traced"]), (12, 6))  # three inclinations, of two disks that need different things of a map
+        self.assertEqual(
+            (self.stats["scenes"], self.stats["lens_maps_traced"]), (12, 6)
+        )  # three inclinations, of two disks that need different things of a map
         units, arrays = self.opened("cube.fits"), numpy.load(self.path("cube.npz"))
         self.assertEqual([unit.header["EXTNAME"] for unit in units], [*LAYERS, *AXES, "SCENES"])
         hashes = units["SCENES"].data["hash"].reshape(SHAPE)
         for at in itertools.product(*(range(n) for n in SHAPE)):
             chosen = [f"{path}={values[i]}" for (path, values), i in zip(AXES.items(), at)]
-            self.good("render", *SCENE, *(part for text in chosen for part in ("--set", text)), "--set", "image.layers=" + ",".join(LAYERS), "-o", self.path("b.npz"))
+            self.good(
+                "render",
+                *SCENE,
+                *(part for text in chosen for part in ("--set", text)),
+                "--set",
+                "image.layers=" + ",".join(LAYERS),
+                "-o",
+                self.path("b.npz"),
+            )
             alone = numpy.load(self.path("b.npz"))
             for name in LAYERS:
                 self.assertTrue(numpy.array_equal(bits(arrays[name][at]), bits(alone[name])), (name, chosen))
                 rows = units[name].data[at][..., ::-1, :]
-                self.assertTrue(numpy.array_equal(bits(numpy.moveaxis(rows, 0, -1) if name == "rgb" else rows), bits(alone[name])), (name, chosen))
+                self.assertTrue(
+                    numpy.array_equal(bits(numpy.moveaxis(rows, 0, -1) if name == "rgb" else rows), bits(alone[name])),
+                    (name, chosen),
+                )
             notes = json.loads(alone["notes.json"])
             self.assertEqual((hashes[at], arrays["scene_hash"][at].decode()), (notes["hash"], notes["hash"]))
             self.assertIn("sampled=", arrays["scene_accuracy"][at].decode())
@@ -103,7 +137,10 @@ class Sweep(support.Case):
             self.assertEqual([*arrays[path]], expected)
         self.assertEqual(units["camera.inclination_deg"].columns["value"].unit, "deg")
         told = json.loads(arrays["notes.json"])
-        self.assertEqual(told["axes"], {"disk.outer": [20, 30], "camera.inclination_deg": [30, 45, 60], "disk.model": AXES["disk.model"]})
+        self.assertEqual(
+            told["axes"],
+            {"disk.outer": [20, 30], "camera.inclination_deg": [30, 45, 60], "disk.model": AXES["disk.model"]},
+        )
         header = units[0].header
         self.assertEqual((json.loads(header["KDAXES"]), json.loads(header["KDSCENE"])), (told["axes"], told["scene"]))
         self.assertEqual((header["SPIN"], "CAM_INCL" in header), (0.7, False))
@@ -112,7 +149,9 @@ class Sweep(support.Case):
         for name in "cube.fits", "b.fits":
             world = WCS(self.opened(name)["r"].header)
             types = [*world.wcs.ctype]
-            self.assertEqual(types[2:], ["INDEX", *(["camera.inclination_deg"] if name == "cube.fits" else []), "disk.outer"])
+            self.assertEqual(
+                types[2:], ["INDEX", *(["camera.inclination_deg"] if name == "cube.fits" else []), "disk.outer"]
+            )
             self.assertEqual(world.wcs.cname[2], "disk.model")
             pixel = [0, 35, 0, 2, 1] if name == "cube.fits" else [0, 35, 0, 1]
             at = world.all_pix2world([pixel], 0)[0]
@@ -126,12 +165,25 @@ class Sweep(support.Case):
         self.assertIn("differ from scene to scene", str(header["COMMENT"]))
 
     def radio(self, name, *more, layers="brightness_temperature"):
-        done = support.run("sweep", "-p", "riaf", "--size", "12x12", "--set", "image.layers=" + layers, *more, "-t", "-o", self.path(name))
+        done = support.run(
+            "sweep",
+            "-p",
+            "riaf",
+            "--size",
+            "12x12",
+            "--set",
+            "image.layers=" + layers,
+            *more,
+            "-t",
+            "-o",
+            self.path(name),
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
         return json.loads(done.stderr)
 
     def test_frequencies(self):
-        """Maps at a list of frequencies: each plane is the picture at its frequency, astropy finds the frequency of each, and each has its flux."""
+        """Maps at a list of frequencies: each plane is the picture at its frequency, astropy finds the frequency of
+        each, and each has its flux."""
         layers, given = ["rgb", "brightness_temperature", "specific_intensity"], [345, 86, 230]
         axes = ["-x", "camera.inclination_deg=30,60", "-x", "volume.frequency_ghz=" + ",".join(map(str, given))]
         stats = self.radio("a.fits", *axes, layers=",".join(layers))
@@ -143,7 +195,18 @@ class Sweep(support.Case):
         self.assertTrue(numpy.array_equal(fluxes, arrays["scene_flux_jy"]))
         self.assertNotIn("FREQ", units[0].header)
         for at, (i, j) in enumerate(itertools.product(range(2), range(3))):
-            scene = ["-p", "riaf", "--size", "12x12", "--set", "image.layers=" + ",".join(layers), "--set", f"camera.inclination_deg={30 + 30 * i}", "--set", f"volume.frequency_ghz={given[j]}"]
+            scene = [
+                "-p",
+                "riaf",
+                "--size",
+                "12x12",
+                "--set",
+                "image.layers=" + ",".join(layers),
+                "--set",
+                f"camera.inclination_deg={30 + 30 * i}",
+                "--set",
+                f"volume.frequency_ghz={given[j]}",
+            ]
             self.good("render", *scene, "-o", self.path("b.fits"))
             alone = self.opened("b.fits")
             self.assertEqual((alone[0].header["FREQ"], alone[0].header["FLUX_JY"]), (given[j] * 1e9, fluxes[i, j]))
@@ -151,7 +214,11 @@ class Sweep(support.Case):
                 self.assertTrue(numpy.array_equal(bits(alone[name].data), bits(units[name].data[i, j])), (name, at))
         # the mean of I_nu times the solid angle is the flux: by the plane's own frequency, and nothing else
         pixel = units["specific_intensity"].header["CDELT2"] * numpy.pi / 180
-        self.assertTrue(numpy.allclose(numpy.nansum(units["specific_intensity"].data.astype(float), axis=(2, 3)) * pixel ** 2, fluxes, rtol=1e-5))
+        self.assertTrue(
+            numpy.allclose(
+                numpy.nansum(units["specific_intensity"].data.astype(float), axis=(2, 3)) * pixel**2, fluxes, rtol=1e-5
+            )
+        )
         for name in layers:
             world = WCS(units[name].header, fobj=units, key="F")
             axis = 3 if name == "rgb" else 2
@@ -165,13 +232,26 @@ class Sweep(support.Case):
 
     def test_frequencies_that_are_even(self):
         """They are an axis FREQ in Hz of the usual world coordinates; a sweep of other pictures has no flux."""
-        for text, expected in (("86:230:72", [86e9, 158e9, 230e9]), ("230", [230e9]), ("0.1:0.3/3", [0.1e9, 0.2e9, 0.3e9]), ("345:115/2", [345e9, 115e9])):
+        for text, expected in (
+            ("86:230:72", [86e9, 158e9, 230e9]),
+            ("230", [230e9]),
+            ("0.1:0.3/3", [0.1e9, 0.2e9, 0.3e9]),
+            ("345:115/2", [345e9, 115e9]),
+        ):
             self.radio("a.fits", "-x", "volume.frequency_ghz=" + text)
             units = self.opened("a.fits")
             header = units[0].header
-            self.assertEqual((header["CTYPE3"], header["CUNIT3"], header["CNAME3"]), ("FREQ", "Hz", "volume.frequency_ghz"))
-            self.assertTrue(numpy.allclose(WCS(header).spectral.all_pix2world(numpy.arange(len(expected)), 0)[0], expected, rtol=1e-14, atol=0))
-            self.assertEqual([unit.header["EXTNAME"] for unit in units], ["brightness_temperature", "volume.frequency_ghz", "SCENES"])
+            self.assertEqual(
+                (header["CTYPE3"], header["CUNIT3"], header["CNAME3"]), ("FREQ", "Hz", "volume.frequency_ghz")
+            )
+            self.assertTrue(
+                numpy.allclose(
+                    WCS(header).spectral.all_pix2world(numpy.arange(len(expected)), 0)[0], expected, rtol=1e-14, atol=0
+                )
+            )
+            self.assertEqual(
+                [unit.header["EXTNAME"] for unit in units], ["brightness_temperature", "volume.frequency_ghz", "SCENES"]
+            )
             self.assertEqual(units["volume.frequency_ghz"].columns["value"].unit, "GHz")
         self.assertNotIn("flux_jy", self.opened("cube.fits")["SCENES"].columns.names)
         self.assertNotIn("scene_flux_jy", numpy.load(self.path("cube.npz")))
@@ -185,10 +265,26 @@ class Sweep(support.Case):
         """Of two photographs of the sky, each by somebody else; one name is long."""
         names = ["Ada " + "of Somewhere " * 12, "Bo"]
         for name, text, grey in zip("ab", names, (90, 200)):
-            parts = ((b"IHDR", struct.pack(">IIBBBBB", 32, 16, 8, 0, 0, 0, 0)), (b"tEXt", b"Author\0" + text.strip().encode()), (b"IDAT", zlib.compress((b"\0" + bytes([grey] * 32)) * 16)),
-                     (b"IEND", b""))
-            self.write(name + ".png", b"\x89PNG\r\n\x1a\n" + b"".join(struct.pack(">I", len(d)) + k + d + struct.pack(">I", zlib.crc32(k + d)) for k, d in parts))
-        sky = ["--set", "sky.model=image", "--set", "sky.image=a", *(part for n in "ab" for part in ("--asset", f"{n}={self.path(n)}.png")), "-x", "sky.image=a,b"]
+            parts = (
+                (b"IHDR", struct.pack(">IIBBBBB", 32, 16, 8, 0, 0, 0, 0)),
+                (b"tEXt", b"Author\0" + text.strip().encode()),
+                (b"IDAT", zlib.compress((b"\0" + bytes([grey] * 32)) * 16)),
+                (b"IEND", b""),
+            )
+            self.write(
+                name + ".png",
+                b"\x89PNG\r\n\x1a\n"
+                + b"".join(struct.pack(">I", len(d)) + k + d + struct.pack(">I", zlib.crc32(k + d)) for k, d in parts),
+            )
+        sky = [
+            "--set",
+            "sky.model=image",
+            "--set",
+            "sky.image=a",
+            *(part for n in "ab" for part in ("--asset", f"{n}={self.path(n)}.png")),
+            "-x",
+            "sky.image=a,b",
+        ]
         self.swept("a.fits", layers=["rgb"], axes=sky)
         self.swept("a.npz", layers=["rgb"], axes=sky)
         units = self.opened("a.fits")
@@ -197,7 +293,16 @@ class Sweep(support.Case):
                 self.assertIn(name.strip(), text)
         self.assertTrue(all(len(value) == 64 for value in units["sky.image"].data["value"]))
         self.assertEqual(units["rgb"].data.shape, (2, 3, 36, 64))
-        self.bad(2, "--asset b: no field of the scene names it", "sweep", *SCENE, *sky[:-1], "sky.image=a", "-o", self.path("b.fits"))
+        self.bad(
+            2,
+            "--asset b: no field of the scene names it",
+            "sweep",
+            *SCENE,
+            *sky[:-1],
+            "sky.image=a",
+            "-o",
+            self.path("b.fits"),
+        )
 
     def test_the_standard(self):
         if not shutil.which("fitsverify"):
@@ -228,7 +333,9 @@ class Sweep(support.Case):
             self.assertEqual(pictures.namelist(), ["index.json", *index["files"]])
             self.assertEqual(index["files"][4], "000004 exposure=1 spin=0.5.png")
             self.write("one.png", pictures.read(index["files"][4]))
-        self.good("render", *SCENE, "--set", "style.exposure=1", "--set", "spacetime.spin=0.5", "-o", self.path("alone.png"))
+        self.good(
+            "render", *SCENE, "--set", "style.exposure=1", "--set", "spacetime.spin=0.5", "-o", self.path("alone.png")
+        )
         self.assertEqual(self.read("one.png"), self.read("alone.png"))
 
     def test_light(self):
@@ -238,18 +345,35 @@ class Sweep(support.Case):
         rows = [*csv.DictReader(io.StringIO(self.read("a.csv").decode()))]
         self.assertEqual([*rows[0]][:4], ["frame", "disk.model", "camera.inclination_deg", "t"])
         told = json.loads(self.read("a.json"))["frames"]
-        self.assertEqual([(r["disk.model"], float(r["camera.inclination_deg"]), float(r["flux"])) for r in rows],
-                         [(r["disk.model"], r["camera.inclination_deg"], r["flux"]) for r in told])
-        self.good("light-curve", *SCENE, "--set", "camera.inclination_deg=70", "-n", "2", "-b", "1", "-o", self.path("b.json"))
+        self.assertEqual(
+            [(r["disk.model"], float(r["camera.inclination_deg"]), float(r["flux"])) for r in rows],
+            [(r["disk.model"], r["camera.inclination_deg"], r["flux"]) for r in told],
+        )
+        self.good(
+            "light-curve", *SCENE, "--set", "camera.inclination_deg=70", "-n", "2", "-b", "1", "-o", self.path("b.json")
+        )
         self.assertEqual(told[1]["flux"], json.loads(self.read("b.json"))["frames"][0]["flux"])
         self.assertEqual([r["flux"] for r in told[2:]], [0, 0])
 
     def test_what_is_refused(self):
         out = ["-o", self.path("a.fits")]
-        for words, *arguments in (("--axis is missing", *out), ("-o FILE is missing", "-x", "time=0,1"), ("allowed is a name that ends in", "-x", "time=0,1", "-o", "a.png"),
-                                  ("spacetime.spin is 2, allowed", "-x", "spacetime.spin=0,2", *out), ("no cube has pictures of several sizes", "-x", "image.width=32,64", *out),
-                                  ("with spacetime.spin 0 and disk.inner 2: disk.inner is 2 M", "-x", "spacetime.spin=0.998,0", "-x", "disk.inner=2", *out),
-                                  ("an axis is \"spin\"", "-x", "spin", *out), ("holds 0.5 twice", "-x", "spacetime.spin=0.5,0.50", *out)):
+        for words, *arguments in (
+            ("--axis is missing", *out),
+            ("-o FILE is missing", "-x", "time=0,1"),
+            ("allowed is a name that ends in", "-x", "time=0,1", "-o", "a.png"),
+            ("spacetime.spin is 2, allowed", "-x", "spacetime.spin=0,2", *out),
+            ("no cube has pictures of several sizes", "-x", "image.width=32,64", *out),
+            (
+                "with spacetime.spin 0 and disk.inner 2: disk.inner is 2 M",
+                "-x",
+                "spacetime.spin=0.998,0",
+                "-x",
+                "disk.inner=2",
+                *out,
+            ),
+            ('an axis is "spin"', "-x", "spin", *out),
+            ("holds 0.5 twice", "-x", "spacetime.spin=0.5,0.50", *out),
+        ):
             with self.subTest(words):
                 self.bad(2, words, "sweep", *SCENE, *arguments)
 

@@ -1,4 +1,5 @@
 """kerrd rays --trace: one ray step by step and as a path, the same in every form; the case of its roots by numpy."""
+
 import csv
 import io
 import json
@@ -6,14 +7,30 @@ import math
 
 from support import Case, main
 
-RAY = ["rays", "--trace", "--ray=-3.75,1", "--spin", "0.9", "--inclination-deg", "70", "--precision", "f32", "--steps", "8",
-       "--orders", "2"]
+RAY = [
+    "rays",
+    "--trace",
+    "--ray=-3.75,1",
+    "--spin",
+    "0.9",
+    "--inclination-deg",
+    "70",
+    "--precision",
+    "f32",
+    "--steps",
+    "8",
+    "--orders",
+    "2",
+]
 
 
 class Trace(Case):
     def test_the_same_in_every_form(self):
-        for engine, columns in ("mino-rkn6", "time,r,w,dw,u,du,n_x,n_y,phi,delay,res_w,res_u,res_n,res_dn,res_l"), \
-                ("mino-rkn4", None), ("ks-rk4", "time,r,u,phi,x,y,z,p_x,p_y,p_z,res_null,res_l"):
+        for engine, columns in (
+            ("mino-rkn6", "time,r,w,dw,u,du,n_x,n_y,phi,delay,res_w,res_u,res_n,res_dn,res_l"),
+            ("mino-rkn4", None),
+            ("ks-rk4", "time,r,u,phi,x,y,z,p_x,p_y,p_z,res_null,res_l"),
+        ):
             with self.subTest(engine):
                 found = json.loads(self.good(*RAY, "--engine", engine, "--format", "json"))
                 text = self.good(*RAY, "--engine", engine, "-o", "-", "--format", "csv").decode()
@@ -27,16 +44,40 @@ class Trace(Case):
                 lines = self.good(*RAY, "--engine", engine).decode().splitlines()
                 self.assertEqual(len(lines), len(rows) + 7)
                 self.assertIn("bit for bit", lines[-1])
-                self.assertEqual([line.split()[:3] for line in lines[4:-3]],
-                                 [[row["number"], row["stage"], row["order"]] for row in rows])
+                self.assertEqual(
+                    [line.split()[:3] for line in lines[4:-3]],
+                    [[row["number"], row["stage"], row["order"]] for row in rows],
+                )
 
     def test_the_case_of_its_roots(self):
-        """R(r) = (r^2 + a^2 - a lambda)^2 - Delta K, by its residues at the roots that are told; theta by the polar potential's own zeros."""
+        """R(r) = (r^2 + a^2 - a lambda)^2 - Delta K, by its residues at the roots that are told; theta by the polar
+        potential's own zeros."""
         cases = set()
-        for a, i, alpha, beta in ((0.9, 70, -3.75, 1), (0.9, 70, 6, 2), (0.9, 70, -1, 0.5), (0.9, 30, 0.2, -0.1), (0.99, 5, 0.3, 0.02), (0, 60, 3, 4), (0.5, 120, 2, -9), (0.9, 90, -1.2, 0.01)):
-            told = json.loads(self.good("rays", "--trace", f"--ray={alpha},{beta}", "--spin", str(a), "--inclination-deg", str(i), "--format", "json"))
+        for a, i, alpha, beta in (
+            (0.9, 70, -3.75, 1),
+            (0.9, 70, 6, 2),
+            (0.9, 70, -1, 0.5),
+            (0.9, 30, 0.2, -0.1),
+            (0.99, 5, 0.3, 0.02),
+            (0, 60, 3, 4),
+            (0.5, 120, 2, -9),
+            (0.9, 90, -1.2, 0.01),
+        ):
+            told = json.loads(
+                self.good(
+                    "rays",
+                    "--trace",
+                    f"--ray={alpha},{beta}",
+                    "--spin",
+                    str(a),
+                    "--inclination-deg",
+                    str(i),
+                    "--format",
+                    "json",
+                )
+            )
             sine, cosine = math.sin(math.radians(i)), math.cos(math.radians(i))
-            lam, eta = -alpha * sine, (alpha ** 2 - a ** 2) * cosine ** 2 + beta ** 2
+            lam, eta = -alpha * sine, (alpha**2 - a**2) * cosine**2 + beta**2
             self.assertAlmostEqual(told["lambda"], lam, delta=1e-14 * (1 + abs(lam)))
             self.assertAlmostEqual(told["eta"], eta, delta=1e-13 * (1 + abs(eta)))
             carter = eta + (lam - a) ** 2
@@ -52,11 +93,18 @@ class Trace(Case):
             self.assertEqual(told["radial"]["case"], {4: "I" if outside == 2 else "II", 2: "III", 0: "IV"}[len(real)])
             cases.add(told["radial"]["case"])
             polar = told["polar"]
-            thetas = [math.radians(i), *(point[told["path"]["columns"].index("theta")] for point in told["path"]["points"])]
+            thetas = [
+                math.radians(i),
+                *(point[told["path"]["columns"].index("theta")] for point in told["path"]["points"]),
+            ]
             self.assertTrue(all(polar["theta"][0] - 1e-6 <= t <= polar["theta"][1] + 1e-6 for t in thetas))
             self.assertEqual(polar["case"], "ordinary" if eta > 0 else "vortical")
             for theta in polar["theta"]:
-                self.assertAlmostEqual(eta + (a * a - eta - lam ** 2) * math.cos(theta) ** 2 - a * a * math.cos(theta) ** 4, 0, delta=1e-12 * (1 + eta + lam ** 2))
+                self.assertAlmostEqual(
+                    eta + (a * a - eta - lam**2) * math.cos(theta) ** 2 - a * a * math.cos(theta) ** 4,
+                    0,
+                    delta=1e-12 * (1 + eta + lam**2),
+                )
             r = [point[told["path"]["columns"].index("r")] for point in told["path"]["points"]]
             turns = told["radial"]["turning_r"]
             self.assertEqual(turns is not None, told["fate"] == "escaped")
@@ -84,7 +132,9 @@ class Trace(Case):
         across = math.sqrt(at["r"] ** 2 + 0.81) * math.sin(at["theta"])
         self.assertAlmostEqual(at["x"], across * math.cos(at["phi"]), delta=1e-12 * at["r"])
         self.assertAlmostEqual(at["z"], at["r"] * math.cos(at["theta"]), delta=1e-12 * at["r"])
-        plain = json.loads(self.good(*[word for word in RAY if word not in ("--trace", "--precision", "f32", "--steps", "8")]))["rays"][0]
+        plain = json.loads(
+            self.good(*[word for word in RAY if word not in ("--trace", "--precision", "f32", "--steps", "8")])
+        )["rays"][0]
         first = [dict(zip(columns, p)) for p in points if abs(p[columns.index("z")]) < 1e-7][0]
         for name in "r", "phi", "delay":
             self.assertAlmostEqual(first[name], plain["crossings"][0][name], delta=1e-8)
@@ -92,7 +142,9 @@ class Trace(Case):
     def test_ends_as_without(self):
         plain = json.loads(self.good(*[word for word in RAY if word != "--trace"], "--engine", "mino-rkn6"))["rays"][0]
         told = json.loads(self.good(*RAY, "-o", "-", "--format", "json"))
-        self.assertEqual((told["fate"], told["crossings"], told["error"]), (plain["fate"], len(plain["crossings"]), plain["error"]))
+        self.assertEqual(
+            (told["fate"], told["crossings"], told["error"]), (plain["fate"], len(plain["crossings"]), plain["error"])
+        )
         crossings = [step for step in told["steps"] if step["stage"] == "crossing"]
         for step, crossing in zip(crossings, plain["crossings"]):
             for name in "order", "r", "phi", "delay":

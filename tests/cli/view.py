@@ -1,4 +1,6 @@
-"""kerrd view in a terminal of our own, which answers as kitty does, as one with sixel, as neither, or not at all; what it is sent is decoded again."""
+"""kerrd view in a terminal of our own, which answers as kitty does, as one with sixel, as neither, or not at all; what
+it is sent is decoded again."""
+
 import base64
 import fcntl
 import json
@@ -32,7 +34,15 @@ class Terminal:
             fcntl.ioctl(slave, termios.TIOCSCTTY, 0)
 
         begun = time.monotonic()
-        program = subprocess.Popen([KERRD, "view", *args], stdin=slave, stdout=slave, stderr=subprocess.PIPE, preexec_fn=own, env=env or os.environ, cwd=cwd)
+        program = subprocess.Popen(
+            [KERRD, "view", *args],
+            stdin=slave,
+            stdout=slave,
+            stderr=subprocess.PIPE,
+            preexec_fn=own,
+            env=env or os.environ,
+            cwd=cwd,
+        )
         reader = threading.Thread(target=self.talk, args=(master,))
         reader.start()
         self.stderr = program.communicate(timeout=120)[1].decode()
@@ -65,7 +75,11 @@ def kitty(sent):
         last = i + 1 == len(commands)
         assert controls.endswith(b"m=0" if last else b"m=1"), controls
         assert len(text) == 4096 or last and 0 < len(text) <= 4096
-    return commands[0][0], base64.b64decode(b"".join(text for _, text in commands), validate=True), re.sub(rb"\x1b_G[^\x1b]*\x1b\\", b"", sent)
+    return (
+        commands[0][0],
+        base64.b64decode(b"".join(text for _, text in commands), validate=True),
+        re.sub(rb"\x1b_G[^\x1b]*\x1b\\", b"", sent),
+    )
 
 
 def sixel(sent):
@@ -75,7 +89,8 @@ def sixel(sent):
     width, height = int(head[1]), int(head[2])
     rows, colours, now, x, y = [[None] * width for _ in range(height + 6)], {}, None, 0, 0
     for define, n, red, green, blue, select, many, what, back, down in re.findall(
-            rb"(#(\d+);2;(\d+);(\d+);(\d+))|#(\d+)|(?:!(\d+))?([?-~])|(\$)|(-)", body[head.end():]):
+        rb"(#(\d+);2;(\d+);(\d+);(\d+))|#(\d+)|(?:!(\d+))?([?-~])|(\$)|(-)", body[head.end() :]
+    ):
         if define:
             now = int(n)
             colours[now] = tuple(round(int(part) * 2.55) for part in (red, green, blue))
@@ -96,19 +111,19 @@ def pixels(png):
     """Those of an 8-bit RGB file, and its size."""
     at, data = 8, b""
     while at < len(png):
-        length, kind = struct.unpack(">I4s", png[at:at + 8])
+        length, kind = struct.unpack(">I4s", png[at : at + 8])
         if kind == b"IHDR":
-            width, height = struct.unpack(">II", png[at + 8:at + 16])
-        data += png[at + 8:at + 8 + length] if kind == b"IDAT" else b""
+            width, height = struct.unpack(">II", png[at + 8 : at + 16])
+        data += png[at + 8 : at + 8 + length] if kind == b"IDAT" else b""
         at += 12 + length
     data, rows, above = zlib.decompress(data), [], bytes(3 * width)
     for y in range(height):
-        kind, row = data[y * (3 * width + 1)], bytearray(data[y * (3 * width + 1) + 1:(y + 1) * (3 * width + 1)])
+        kind, row = data[y * (3 * width + 1)], bytearray(data[y * (3 * width + 1) + 1 : (y + 1) * (3 * width + 1)])
         for i in range(3 * width):
             a, b, c = row[i - 3] if i > 2 else 0, above[i], above[i - 3] if i > 2 else 0
             near = min((a, b, c), key=lambda value: abs(a + b - c - value))
             row[i] = row[i] + (0, a, b, (a + b) // 2, near)[kind] & 255
-        rows.append([tuple(row[i:i + 3]) for i in range(0, 3 * width, 3)])
+        rows.append([tuple(row[i : i + 3]) for i in range(0, 3 * width, 3)])
         above = row
     return width, height, rows
 
@@ -146,16 +161,25 @@ class View(Case):
         self.assertEqual((width, height, rest), (192, 108, b"\n"))
         _, _, wanted = pixels(self.rendered("--size", "192x108"))
         self.assertNotIn(None, [pixel for row in rows for pixel in row])
-        # 256 colours of the picture's own, in steps of a hundredth, dithered: 2.55 / 2 from the steps, the rest from the palette.
+        # 256 colours of the picture's own, in steps of a hundredth, dithered: 2.55 / 2 from the steps, the rest from
+        # the palette.
         errors = [abs(a - b) for mean, want in zip(block_means(rows), block_means(wanted)) for a, b in zip(mean, want)]
         self.assertLess(max(errors), 12)
         self.assertLess(sum(errors) / len(errors), 2)
 
     def test_neither(self):
-        for answer, seconds in (NEITHER, 0), (b"", 2), (b"\x1b[?6", 2), (b"\x1b_Gi=31;ENOTSUPPORTED\x1b\\" + NEITHER, 0):
+        for answer, seconds in (
+            (NEITHER, 0),
+            (b"", 2),
+            (b"\x1b[?6", 2),
+            (b"\x1b_Gi=31;ENOTSUPPORTED\x1b\\" + NEITHER, 0),
+        ):
             shown = Terminal(*SMALL, answer=answer)
             self.assertEqual((shown.code, shown.sent), (1, b""), answer)
-            self.assertIn("this terminal can show no picture, neither by kitty's graphics nor as sixel: `kerrd render -o FILE.png`", shown.stderr)
+            self.assertIn(
+                "this terminal can show no picture, neither by kitty's graphics nor as sixel: `kerrd render -o FILE.png`",
+                shown.stderr,
+            )
             self.assertEqual(shown.stderr.count("\n"), 1)
             self.assertTrue(shown.kept)
             self.assertGreaterEqual(shown.seconds, seconds)
@@ -186,20 +210,37 @@ class View(Case):
         wide = ["--size", "320x180"]
         self.assertEqual(self.size(*wide, answer=KITTY), (320, 180))  # there is room
         self.assertEqual(self.size(*wide, answer=KITTY, pixels=(160, 384)), (160, 90))
-        self.assertEqual(self.size(*wide, answer=KITTY, pixels=(640, 96)), (163, 92))  # of 24 lines one is left for what comes next
+        self.assertEqual(
+            self.size(*wide, answer=KITTY, pixels=(640, 96)), (163, 92)
+        )  # of 24 lines one is left for what comes next
         self.assertEqual(self.size(*wide, answer=KITTY, pixels=(640, 384), columns=0, rows=0), (320, 180))
         self.assertEqual(self.size(*SMALL, "--enlarge", answer=KITTY, pixels=(128, 384)), (128, 72))
         self.assertEqual(self.size("--size", "100x1", answer=KITTY, pixels=(20, 384)), (20, 1))
-        shown = Terminal(*wide, answer=b"\x1b[4;384;80t" + NEITHER, pixels=(0, 0))  # it tells what the system does not know
+        shown = Terminal(
+            *wide, answer=b"\x1b[4;384;80t" + NEITHER, pixels=(0, 0)
+        )  # it tells what the system does not know
         self.assertIn(b"\x1b[14t", shown.queries)
         self.assertEqual(self.size(*wide, answer=KITTY[:12] + b"\x1b[4;384;80t" + NEITHER, pixels=(0, 0)), (80, 45))
         self.assertEqual(self.size(*wide, answer=KITTY, pixels=(0, 0)), (320, 180))
         self.assertNotIn(b"\x1b[14t", Terminal(*SMALL, answer=KITTY).queries)
 
     def test_picture(self):
-        given = ["--preset", "gargantua", "--size", "96x54", "--set", "camera.roll_deg=20", "--set", "spots.0.r=9", "--set", "spots.1.brightness=1"]
+        given = [
+            "--preset",
+            "gargantua",
+            "--size",
+            "96x54",
+            "--set",
+            "camera.roll_deg=20",
+            "--set",
+            "spots.0.r=9",
+            "--set",
+            "spots.1.brightness=1",
+        ]
         png = self.rendered(*given)
-        shown = Terminal("same.png", answer=KITTY, cwd=self.folder, env={**os.environ, "VK_DRIVER_FILES": "/dev/null"})  # no device is needed
+        shown = Terminal(
+            "same.png", answer=KITTY, cwd=self.folder, env={**os.environ, "VK_DRIVER_FILES": "/dev/null"}
+        )  # no device is needed
         self.assertEqual((shown.code, shown.stderr), (0, ""))
         controls, sent, rest = kitty(shown.sent)
         self.assertEqual(sent, png)
@@ -208,34 +249,53 @@ class View(Case):
         self.assertIn("camera.roll_deg=20", said)
         again = [word for pair in said.split() for word in ("--set", pair)]
         self.assertEqual(self.good("scene", "--hash", *again), self.good("scene", "--hash", *given))
-        self.assertEqual(self.good("view", self.path("same.png"), "--protocol", "kitty").partition(b"\n")[2].decode(), f"{self.folder}/same.png, 96 x 54: {said}\n")
+        self.assertEqual(
+            self.good("view", self.path("same.png"), "--protocol", "kitty").partition(b"\n")[2].decode(),
+            f"{self.folder}/same.png, 96 x 54: {said}\n",
+        )
 
     def test_picture_does_not_fit(self):
         self.rendered(*SMALL)
         small = {"answer": KITTY, "cwd": self.folder, "pixels": (32, 384), "columns": 8}
         self.assertIn(b",c=8,", kitty(Terminal("same.png", **small).sent)[0])
         self.assertEqual(sixel(Terminal("same.png", **{**small, "answer": SIXEL}).sent)[:2], (32, 18))
-        self.assertIn(b",c=78,", kitty(Terminal("same.png", "--enlarge", answer=KITTY, cwd=self.folder).sent)[0])  # 22 of 24 lines high
+        self.assertIn(
+            b",c=78,", kitty(Terminal("same.png", "--enlarge", answer=KITTY, cwd=self.folder).sent)[0]
+        )  # 22 of 24 lines high
 
     def test_bits(self):
         """16 bits a channel, as sixel: the same picture but for rounding."""
-        low, high = (sixel(self.good("view", *SMALL, "--set", f"image.bit_depth={bits}", "--protocol", "sixel"))[2] for bits in (8, 16))
+        low, high = (
+            sixel(self.good("view", *SMALL, "--set", f"image.bit_depth={bits}", "--protocol", "sixel"))[2]
+            for bits in (8, 16)
+        )
         errors = [abs(a - b) for one, other in zip(block_means(low), block_means(high)) for a, b in zip(one, other)]
         self.assertLess(sum(errors) / len(errors), 2)
 
     def test_bad_pictures(self):
         png = self.rendered(*SMALL)
         self.bad(2, "give it by --from", "view", self.path("same.png"), "--set", "camera.r=30", "--protocol", "kitty")
-        chunk = lambda kind, data: struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-        plain = b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 1, 1, 8, 2, 0, 0, 0)) + chunk(b"IDAT", zlib.compress(bytes(4))) + chunk(b"IEND", b"")
+        chunk = lambda kind, data: (
+            struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+        )
+        plain = (
+            b"\x89PNG\r\n\x1a\n"
+            + chunk(b"IHDR", struct.pack(">IIBBBBB", 1, 1, 8, 2, 0, 0, 0))
+            + chunk(b"IDAT", zlib.compress(bytes(4)))
+            + chunk(b"IEND", b"")
+        )
         self.bad(2, "plain.png: ", "view", self.write("plain.png", plain), "--protocol", "kitty")
         self.bad(2, "cut.png: ", "view", self.write("cut.png", png[:-20]), "--protocol", "kitty")
         self.bad(2, "No such file", "view", self.path("none.png"), "--protocol", "kitty")
-        self.good("view", self.write("scene.json", json.dumps({"image": {"width": 16, "height": 9}})), "--protocol", "kitty")
+        self.good(
+            "view", self.write("scene.json", json.dumps({"image": {"width": 16, "height": 9}})), "--protocol", "kitty"
+        )
 
     def test_default_scene_is_said(self):
         self.rendered()
-        self.assertTrue(self.good("view", self.path("same.png"), "--protocol", "kitty").endswith(b"1280 x 720: the default scene\n"))
+        self.assertTrue(
+            self.good("view", self.path("same.png"), "--protocol", "kitty").endswith(b"1280 x 720: the default scene\n")
+        )
 
 
 if __name__ == "__main__":

@@ -1,4 +1,6 @@
-"""kerrd visibility and kerrd spectrum of a scene: beside a Fourier transform of the map that kerrd render writes, the universal signature of photon rings, and fluxes in closed form."""
+"""kerrd visibility and kerrd spectrum of a scene: beside a Fourier transform of the map that kerrd render writes, the
+universal signature of photon rings, and fluxes in closed form."""
+
 import cmath
 import csv
 import io
@@ -27,84 +29,207 @@ class Visibility(Case):
 
     def test_a_fourier_transform_of_the_same_map(self):
         n, step = 32, 8
-        self.good("render", "-p", "riaf", "--size", f"{n}x{n}", "--set", "image.layers=specific_intensity", "-o", self.path("a.npy"))
+        self.good(
+            "render",
+            "-p",
+            "riaf",
+            "--size",
+            f"{n}x{n}",
+            "--set",
+            "image.layers=specific_intensity",
+            "-o",
+            self.path("a.npy"),
+        )
         file = self.read("a.npy")
         start = 10 + struct.unpack("<H", file[8:10])[0]
         light = struct.unpack(f"<{n * n}f", file[start:])
         pixel = 39.11063 / n * 4.3e6 / 8300 * M_UAS * math.radians(1) / 3.6e9
         # rows, then columns; index k is k/(n pixel) wavelengths, and the first pixel is 15.5 pixels from the middle
-        rows = [fft([complex(x) for x in light[n * j:n * (j + 1)]]) for j in range(n)]
+        rows = [fft([complex(x) for x in light[n * j : n * (j + 1)]]) for j in range(n)]
         columns = [fft([row[k] for row in rows]) for k in range(n)]
         ks = [(a, b) for a in range(0, n // 2, step // 2) for b in range(0, n // 2, step // 2)]
         unit = 1 / (n * pixel) * 1e-9
-        options = ["-p", "riaf", "--pixels", str(n), "--check", "none", "--u", ",".join(repr(-unit * a) for a, b in ks), "--v", ",".join(repr(-unit * b) for a, b in ks)]
+        options = [
+            "-p",
+            "riaf",
+            "--pixels",
+            str(n),
+            "--check",
+            "none",
+            "--u",
+            ",".join(repr(-unit * a) for a, b in ks),
+            "--v",
+            ",".join(repr(-unit * b) for a, b in ks),
+        ]
         told = self.told(*options)
-        flux = sum(light) * pixel ** 2
+        flux = sum(light) * pixel**2
         self.assertAlmostEqual(told["values"]["flux_jy"] / flux, 1, delta=1e-6)
         for (a, b), re, im in zip(ks, told["columns"]["re"], told["columns"]["im"]):
             # indices grow to the right and down, x and y to the left and up: so u and v are below 0
-            want = columns[a][b] * pixel ** 2 * cmath.exp(2j * math.pi * (a + b) * (n - 1) / 2 / n)
+            want = columns[a][b] * pixel**2 * cmath.exp(2j * math.pi * (a + b) * (n - 1) / 2 / n)
             self.assertLess(abs(complex(re, im) - want), 1e-6 * flux, (a, b))
         rows = list(csv.DictReader(io.StringIO(self.good("visibility", *options, "-f", "csv").decode())))
         self.assertEqual([float(row["amplitude"]) for row in rows], told["columns"]["amplitude"])
 
     def test_rings_ring(self):
-        """Of a ring of diameter d the visibility goes as J0(pi d u): it has zeros 1/d apart (Johnson et al. 2020). Light of order 2 about a hole without spin has d = 2 sqrt(27) M, within half a percent."""
-        document = {"preset": "smooth", "scene": {"spacetime": {"spin": 0, "mass_msun": 6.5e9, "distance_pc": 16.8e6}, "camera": {"r": "infinity", "inclination_deg": 0, "field_m": 12}, "image": {"width": 64, "height": 64}},
-                    "pixels": 384, "orders": 3, "check": "none", "angles_deg": [0], "length_max": 60, "baselines": 241}
+        """Of a ring of diameter d the visibility goes as J0(pi d u): it has zeros 1/d apart (Johnson et al. 2020).
+        Light of order 2 about a hole without spin has d = 2 sqrt(27) M, within half a percent."""
+        document = {
+            "preset": "smooth",
+            "scene": {
+                "spacetime": {"spin": 0, "mass_msun": 6.5e9, "distance_pc": 16.8e6},
+                "camera": {"r": "infinity", "inclination_deg": 0, "field_m": 12},
+                "image": {"width": 64, "height": 64},
+            },
+            "pixels": 384,
+            "orders": 3,
+            "check": "none",
+            "angles_deg": [0],
+            "length_max": 60,
+            "baselines": 241,
+        }
         told = self.told(self.write("ring.json", json.dumps(document)))
-        rows = [(q, re) for q, order, re in zip(*(told["columns"][name] for name in ("length_gl", "order", "re"))) if order == 2]
+        rows = [
+            (q, re)
+            for q, order, re in zip(*(told["columns"][name] for name in ("length_gl", "order", "re")))
+            if order == 2
+        ]
         zeros = [q - re * (later - q) / (more - re) for (q, re), (later, more) in zip(rows, rows[1:]) if re * more < 0]
         d = 2 * math.sqrt(27) * 6.5e9 / 16.8e6 * M_UAS * GIGA_UAS
         self.assertEqual(len(zeros), 11)
         self.assertAlmostEqual((zeros[-1] - zeros[0]) / (len(zeros) - 1) * d, 1, delta=0.01)
         self.assertAlmostEqual(zeros[0] * d, 2.404825557695773 / math.pi, delta=0.02)
-        parts = [sum(z) for z in zip(*[[re for re, order in zip(told["columns"]["re"], told["columns"]["order"]) if order == n] for n in (0, 1, 2)])]
-        for part, all_ in zip(parts, [re for re, order in zip(told["columns"]["re"], told["columns"]["order"]) if order == -1]):
+        parts = [
+            sum(z)
+            for z in zip(
+                *[
+                    [re for re, order in zip(told["columns"]["re"], told["columns"]["order"]) if order == n]
+                    for n in (0, 1, 2)
+                ]
+            )
+        ]
+        for part, all_ in zip(
+            parts, [re for re, order in zip(told["columns"]["re"], told["columns"]["order"]) if order == -1]
+        ):
             self.assertAlmostEqual(part, all_, delta=1e-5)
 
     def test_spectra(self):
-        """A picture's flux, and that of a sphere in flat space: R = 100 GM/c^2, too small a hole to bend its light, far too thin to absorb: F = j V/D^2, as Pandya's fit has j."""
-        self.good("render", "-p", "riaf", "--size", "48x48", "-o", self.path("a.png"), "--set", "camera.inclination_deg=45")
-        rows = list(csv.DictReader(io.StringIO(self.good("spectrum", "--from", self.path("a.png"), "--pixels", "48", "--frequencies-hz", "1e11,223.005e9", "-f", "csv").decode())))
+        """A picture's flux, and that of a sphere in flat space: R = 100 GM/c^2, too small a hole to bend its light, far
+        too thin to absorb: F = j V/D^2, as Pandya's fit has j."""
+        self.good(
+            "render", "-p", "riaf", "--size", "48x48", "-o", self.path("a.png"), "--set", "camera.inclination_deg=45"
+        )
+        rows = list(
+            csv.DictReader(
+                io.StringIO(
+                    self.good(
+                        "spectrum",
+                        "--from",
+                        self.path("a.png"),
+                        "--pixels",
+                        "48",
+                        "--frequencies-hz",
+                        "1e11,223.005e9",
+                        "-f",
+                        "csv",
+                    ).decode()
+                )
+            )
+        )
         told = json.loads(run("render", "--from", self.path("a.png"), "--stats", "-o", self.path("b.png")).stderr)
         self.assertAlmostEqual(float(rows[1]["flux_jy"]) / told["flux_jy"], 1, delta=1e-5)
         self.assertLess(float(rows[1]["error"]), 0.02)
         radius, n = 1e4 * 147662.5 * 4.1e4, 1e-5 / (6.6524587321e-25 * 1e4 * 147662.5 * 4.1e4)
-        magnetisation = 2 * 9.1093837015e-28 * (1.67262192369e-24 + 9.1093837015e-28) / 1.67262192369e-24 ** 2
+        magnetisation = 2 * 9.1093837015e-28 * (1.67262192369e-24 + 9.1093837015e-28) / 1.67262192369e-24**2
         field = math.sqrt(8 * math.pi * magnetisation * n * 1.67262192369e-24) * 2.99792458e10
-        changes = {"spacetime.spin": 0, "spacetime.mass_msun": 4.1e4, "camera.inclination_deg": 90, "camera.field_m": 20400, "volume.inner": "horizon", "volume.outer": 10000, "volume.density_cm3": n,
-                   "volume.density_index": 0, "volume.electron_temperature_k": 10 * 5.92989658e9, "volume.temperature_index": 0, "volume.height": 0, "volume.magnetisation": magnetisation,
-                   "volume.magnetisation_index": 0, "volume.field": "vertical", "volume.flow": "rest"}
+        changes = {
+            "spacetime.spin": 0,
+            "spacetime.mass_msun": 4.1e4,
+            "camera.inclination_deg": 90,
+            "camera.field_m": 20400,
+            "volume.inner": "horizon",
+            "volume.outer": 10000,
+            "volume.density_cm3": n,
+            "volume.density_index": 0,
+            "volume.electron_temperature_k": 10 * 5.92989658e9,
+            "volume.temperature_index": 0,
+            "volume.height": 0,
+            "volume.magnetisation": magnetisation,
+            "volume.magnetisation_index": 0,
+            "volume.field": "vertical",
+            "volume.flow": "rest",
+        }
         settings = [word for name, value in changes.items() for word in ("--set", f"{name}={value}")]
-        told = json.loads(self.good("spectrum", "-p", "riaf", *settings, "--frequencies-hz", "1e12,3e12,1e13", "--pixels", "64", "--check", "none"))
+        told = json.loads(
+            self.good(
+                "spectrum",
+                "-p",
+                "riaf",
+                *settings,
+                "--frequencies-hz",
+                "1e12,3e12,1e13",
+                "--pixels",
+                "64",
+                "--check",
+                "none",
+            )
+        )
         for hz, jy in zip(told["columns"]["frequency_hz"], told["columns"]["flux_jy"]):
             self.assertAlmostEqual(jy / self.thin_sphere(radius, n, field, hz), 1, delta=0.01)
 
     def test_a_spectrum_of_a_given_flux(self):
-        """The density that gives 2 Jy at the scene's own 223 GHz is the matter at all frequencies: the spectrum is that of a scene which has it."""
+        """The density that gives 2 Jy at the scene's own 223 GHz is the matter at all frequencies: the spectrum is that
+        of a scene which has it."""
         settings = ("--set", "camera.inclination_deg=45", "--set", "volume.normalise_to_jy=2")
-        told = json.loads(run("render", "-p", "riaf", "--size", "48x48", *settings, "--stats", "-o", self.path("n.png")).stderr)
+        told = json.loads(
+            run("render", "-p", "riaf", "--size", "48x48", *settings, "--stats", "-o", self.path("n.png")).stderr
+        )
         self.assertAlmostEqual(told["flux_jy"], 2, delta=0.05)
         asked = ("--pixels", "48", "--frequencies-hz", "1e11,223.005e9", "--check", "none")
         rows = json.loads(self.good("spectrum", "-p", "riaf", *settings, *asked))["columns"]["flux_jy"]
         self.assertAlmostEqual(rows[1] / told["flux_jy"], 1, delta=1e-5)
         density = json.loads(self.good("scene", "-p", "riaf"))["volume"]["density_cm3"] * told["density_scale"]
-        there = json.loads(self.good("spectrum", "-p", "riaf", "--set", "camera.inclination_deg=45", "--set", f"volume.density_cm3={density!r}", *asked))["columns"]["flux_jy"]
+        there = json.loads(
+            self.good(
+                "spectrum",
+                "-p",
+                "riaf",
+                "--set",
+                "camera.inclination_deg=45",
+                "--set",
+                f"volume.density_cm3={density!r}",
+                *asked,
+            )
+        )["columns"]["flux_jy"]
         for mine, its in zip(rows, there):
             self.assertAlmostEqual(mine / its, 1, delta=1e-6)
         self.assertGreater(abs(rows[0] / rows[1] - 1), 0.05)
 
     @staticmethod
     def thin_sphere(radius, n, field, hz):
-        """Pandya et al. 2016, table 4: j = n e^2 nu_c/c exp(-X^(1/3)) sqrt(2) pi/27 sin (X^(1/2) + 2^(11/12) X^(1/6))^2, X = nu/nu_s, nu_s = 2/9 nu_c Theta^2 sin, at a right angle to the field. Jy at 8300 pc."""
-        e2, turn = 4.80320471e-10 ** 2, 4.80320471e-10 * field / (2 * math.pi * 9.1093837015e-28 * 2.99792458e10)
+        """Pandya et al. 2016, table 4: j = n e^2 nu_c/c exp(-X^(1/3)) sqrt(2) pi/27 sin (X^(1/2) + 2^(11/12)
+        X^(1/6))^2, X = nu/nu_s, nu_s = 2/9 nu_c Theta^2 sin, at a right angle to the field. Jy at 8300 pc."""
+        e2, turn = 4.80320471e-10**2, 4.80320471e-10 * field / (2 * math.pi * 9.1093837015e-28 * 2.99792458e10)
         x = hz / (2 / 9 * turn * 100)
-        j = n * e2 * turn / 2.99792458e10 * math.exp(-x ** (1 / 3)) * math.sqrt(2) * math.pi / 27 * (x ** 0.5 + 2 ** (11 / 12) * x ** (1 / 6)) ** 2
-        return j * 4 / 3 * math.pi * radius ** 3 / (8300 * 3.0856775814913673e18) ** 2 * 1e23
+        j = (
+            n
+            * e2
+            * turn
+            / 2.99792458e10
+            * math.exp(-(x ** (1 / 3)))
+            * math.sqrt(2)
+            * math.pi
+            / 27
+            * (x**0.5 + 2 ** (11 / 12) * x ** (1 / 6)) ** 2
+        )
+        return j * 4 / 3 * math.pi * radius**3 / (8300 * 3.0856775814913673e18) ** 2 * 1e23
 
     def test_refused(self):
-        for args, words in ((["-p", "riaf", "--spin", "0"], "there is no field spin"), (["--set", "time=1"], "(at /scene/volume/model)"), (["-p", "riaf", "--frequencies", "300"], "2 to 200")):
+        for args, words in (
+            (["-p", "riaf", "--spin", "0"], "there is no field spin"),
+            (["--set", "time=1"], "(at /scene/volume/model)"),
+            (["-p", "riaf", "--frequencies", "300"], "2 to 200"),
+        ):
             self.bad(2, words, "spectrum", *args)
         ring = self.write("a.json", json.dumps({"preset": "m87"}))
         self.bad(2, "beside a file that has a scene", "visibility", ring, "-p", "riaf")

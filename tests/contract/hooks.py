@@ -1,4 +1,6 @@
-"""Hooks of schemathesis for kerrd: cases are made cheap, what they make is deleted again, answers are counted, and a check of our own sees headers that openapi.json does not name."""
+"""Hooks of schemathesis for kerrd: cases are made cheap, what they make is deleted again, answers are counted, and a
+check of our own sees headers that openapi.json does not name."""
+
 import atexit
 import collections
 import copy
@@ -20,11 +22,26 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import cheap  # noqa: E402
 import known  # noqa: E402
 
-KEPT = 24  # sessions, playgrounds, jobs and assets each that are left alive, so that stateful cases find what they have made
-ENDLESS = ('multipart/x-mixed-replace', 'application/x-kerrd-frames')
+# sessions, playgrounds, jobs and assets each that are left alive, so that stateful cases find what they have made
+KEPT = 24
+ENDLESS = ("multipart/x-mixed-replace", "application/x-kerrd-frames")
 # Headers of HTTP itself, of caches, proxies and browsers, that any answer may have: openapi.json names the others.
-OF_ANY = {'date', 'connection', 'keep-alive', 'transfer-encoding', 'content-length', 'content-type', 'content-encoding', 'vary', 'cache-control', 'x-content-type-options',
-          'cross-origin-resource-policy', 'referrer-policy', 'content-security-policy', 'x-accel-buffering'}
+OF_ANY = {
+    "date",
+    "connection",
+    "keep-alive",
+    "transfer-encoding",
+    "content-length",
+    "content-type",
+    "content-encoding",
+    "vary",
+    "cache-control",
+    "x-content-type-options",
+    "cross-origin-resource-policy",
+    "referrer-policy",
+    "content-security-policy",
+    "x-accel-buffering",
+}
 
 lock = threading.Lock()
 counts = collections.Counter()
@@ -39,8 +56,8 @@ plain_send = HTTPAdapter.send
 
 def send(self, request, **more):
     """Streams that end with their client are read to their first bytes."""
-    response = plain_send(self, request, **{**more, 'stream': True})
-    if response.headers.get('Content-Type', '').startswith(ENDLESS):
+    response = plain_send(self, request, **{**more, "stream": True})
+    if response.headers.get("Content-Type", "").startswith(ENDLESS):
         response._content = response.raw.read1(65536)
         response.raw.close()  # first: a connection whose stream goes on is of no use to others
         response._content_consumed = True
@@ -54,7 +71,7 @@ HTTPAdapter.send = send
 def before_call(context, case, kwargs):
     path = case.operation.path
     modes = case.meta.components if case.meta else {}
-    body = [component.mode for location, component in modes.items() if location.value == 'body']
+    body = [component.mode for location, component in modes.items() if location.value == "body"]
     if isinstance(case.body, dict):
         case.body = copy.deepcopy(case.body)
         cheap.body(path, case.body, all(mode.is_positive for mode in body))
@@ -66,17 +83,17 @@ def before_call(context, case, kwargs):
 def kind_of(sentence):
     """A refusal without its numbers and quoted words."""
     sentence = re.sub(r"'[^']*'|\"[^\"]*\"", "'…'", sentence)
-    return re.sub(r'[-+]?\d[\d.]*(e[-+]?\d+)?', '#', sentence)[:130]
+    return re.sub(r"[-+]?\d[\d.]*(e[-+]?\d+)?", "#", sentence)[:130]
 
 
 def delete(base, path, token):
     where = urllib.parse.urlsplit(base)
     connection = http.client.HTTPConnection(where.hostname, where.port, timeout=60)
     try:
-        headers = {'Authorization': 'Bearer ' + token}
-        if os.environ.get('KERRD_CONTRACT_ACCESS'):
-            headers['Kerrd-Access'] = os.environ['KERRD_CONTRACT_ACCESS']
-        connection.request('DELETE', path, headers=headers)
+        headers = {"Authorization": "Bearer " + token}
+        if os.environ.get("KERRD_CONTRACT_ACCESS"):
+            headers["Kerrd-Access"] = os.environ["KERRD_CONTRACT_ACCESS"]
+        connection.request("DELETE", path, headers=headers)
         connection.getresponse().read()
     finally:
         connection.close()
@@ -86,7 +103,7 @@ def remember(case, response):
     """Deletes the oldest of a kind that there are more than enough of."""
     try:
         one = response.json()
-        path = f'{case.operation.path}/{one.get("id") or one["sha256"]}', one['token']
+        path = f"{case.operation.path}/{one.get('id') or one['sha256']}", one["token"]
     except (ValueError, KeyError, AttributeError, TypeError):
         return
     with lock:
@@ -99,18 +116,18 @@ def remember(case, response):
 
 @schemathesis.hook
 def after_call(context, case, response):
-    mode = 'positive' if case.meta and case.meta.generation.mode.is_positive else 'negative'
+    mode = "positive" if case.meta and case.meta.generation.mode.is_positive else "negative"
     method, label = response.request.method, case.operation.label
     with lock:
-        counts[label if label.startswith(method + ' ') else f'{label} ({method})', response.status_code] += 1
+        counts[label if label.startswith(method + " ") else f"{label} ({method})", response.status_code] += 1
         seconds[label] += response.elapsed
-        if mode == 'positive' and response.status_code in (400, 406, 413, 415, 422):
+        if mode == "positive" and response.status_code in (400, 406, 413, 415, 422):
             try:
-                key = label, response.status_code, kind_of(response.json()['detail'])
+                key = label, response.status_code, kind_of(response.json()["detail"])
             except (ValueError, KeyError):
-                key = label, response.status_code, '?'
+                key = label, response.status_code, "?"
             refused[key] += 1
-            examples.setdefault(key, f'{response.request.url} {(response.request.body or b"")[:300]!r}')
+            examples.setdefault(key, f"{response.request.url} {(response.request.body or b'')[:300]!r}")
     if response.status_code in (201, 202):
         remember(case, response)
 
@@ -121,7 +138,7 @@ def filter_failure(context, failure, case, response):
     reason = known.why(failure, case, response)
     if reason:
         with lock:
-            excused[f'{response.status_code}, {case.operation.label}: {reason}'] += 1
+            excused[f"{response.status_code}, {case.operation.label}: {reason}"] += 1
     return not reason
 
 
@@ -131,21 +148,30 @@ class UndocumentedHeader(Failure):
 
 @schemathesis.check
 def headers_are_documented(context, response, case):
-    if not case.operation.label.startswith(response.request.method + ' '):
+    if not case.operation.label.startswith(response.request.method + " "):
         return
     definition = case.operation.responses.find_by_status_code(response.status_code)
     known = {name.lower() for name, _ in definition.headers.items()} if definition and definition.headers else set()
     more = {name.lower() for name in response.headers} - known - OF_ANY
     if more:
-        raise UndocumentedHeader(operation=case.operation.label, title='Undocumented header', message=f'{response.status_code} has {", ".join(sorted(more))}')
+        raise UndocumentedHeader(
+            operation=case.operation.label,
+            title="Undocumented header",
+            message=f"{response.status_code} has {', '.join(sorted(more))}",
+        )
 
 
 @atexit.register
 def write():
-    out = os.environ.get('KERRD_CONTRACT_COUNTS')
+    out = os.environ.get("KERRD_CONTRACT_COUNTS")
     if out:
-        pathlib.Path(out).write_text(json.dumps({
-            'answers': [[*key, n] for key, n in sorted(counts.items())],
-            'known': excused,
-            'seconds': {label: round(s, 3) for label, s in sorted(seconds.items())},
-            'refused': [[*key, n, examples[key]] for key, n in refused.most_common()]}))
+        pathlib.Path(out).write_text(
+            json.dumps(
+                {
+                    "answers": [[*key, n] for key, n in sorted(counts.items())],
+                    "known": excused,
+                    "seconds": {label: round(s, 3) for label, s in sorted(seconds.items())},
+                    "refused": [[*key, n, examples[key]] for key, n in refused.most_common()],
+                }
+            )
+        )

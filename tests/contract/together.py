@@ -1,299 +1,405 @@
-"""Refusals of values that are sound each by itself and do not go together, so that no schema of OpenAPI 3.1 can say so: their sentences, by the operations that give them, as they stand in the source.
+"""Refusals of values that are sound each by itself and do not go together, so that no schema of OpenAPI 3.1 can say so:
+their sentences, by the operations that give them, as they stand in the source.
 
-A sentence is a format of the C source as it is written there; in front of a bar, if there is one, stands the format round it. The test contract_sentences sees that each is in the source. What a schema
-can say (a bound, a word, a member that another one takes or excludes) has no place here: a case that fits the document and is refused for it has found a mistake of the document."""
+A sentence is a format of the C source as it is written there; in front of a bar, if there is one, stands the format
+round it. The test contract_sentences sees that each is in the source. What a schema can say (a bound, a word, a member
+that another one takes or excludes) has no place here: a case that fits the document and is refused for it has found a
+mistake of the document."""
 
-# Fields of a scene beside each other. A document lies over a preset, and a patch over the scene that there is, so that a member which is not in the request has a value all the same, which decides.
+# Fields of a scene beside each other. A document lies over a preset, and a patch over the scene that there is, so that
+# a member which is not in the request has a value all the same, which decides.
 SCENE = (
-    'there is no %s.%zu: the list has %zu element%s, and the next free index is %zu',
-    '%s is an old name of %s.%zu, and %s is given too; allowed is one of them',
+    "there is no %s.%zu: the list has %zu element%s, and the next free index is %zu",
+    "%s is an old name of %s.%zu, and %s is given too; allowed is one of them",
     '%s is "%.64s", which is no SHA-256, and no name of an asset that is known here',
     '%s is "%s", and there is no such asset here; allowed are %s',
     'camera.projection is "%s" with camera.r "infinity"; it needs a finite camera.r, at infinity use "plane"',
     'camera.projection is "plane" with camera.r %s M; parallel rays need camera.r "infinity", at a finite radius use "pinhole"',
     'camera.projection is "ring" with camera.r %s M, allowed is "infinity"',
-    'camera.%s is %s, allowed is 0 in the %s projection, which is aimed with %s',
-    'camera.ring_decades_min is %s, allowed is less than camera.ring_decades_max, %s',
-    'camera.r is %s M, allowed is more than %s M, the horizon of spacetime.spin %s',
+    "camera.%s is %s, allowed is 0 in the %s projection, which is aimed with %s",
+    "camera.ring_decades_min is %s, allowed is less than camera.ring_decades_max, %s",
+    "camera.r is %s M, allowed is more than %s M, the horizon of spacetime.spin %s",
     'camera.r is %s M, allowed for camera.observer "infall" is more than %s M, the inner horizon, where the model ends',
     'camera.r is %s M, allowed for camera.observer "%s" at this inclination is more than %s M, %s; camera.observer %s can be inside',
-    'camera.velocity_r, velocity_theta and velocity_phi make a speed of %s, allowed is less than 1, that of light',
+    "camera.velocity_r, velocity_theta and velocity_phi make a speed of %s, allowed is less than 1, that of light",
     'camera.infall_energy is %s with camera.infall_from %s M, allowed is "rest"',
-    'camera.infall_from is %s M, allowed is at least camera.r, %s M',
-    'camera.infall_energy is %s, allowed at camera.r %s M with this angular momentum is at least %s',
-    'camera.infall_momentum is %s M, with which the observer turns outside camera.r %s M; allowed are those nearer to 0',
+    "camera.infall_from is %s M, allowed is at least camera.r, %s M",
+    "camera.infall_energy is %s, allowed at camera.r %s M with this angular momentum is at least %s",
+    "camera.infall_momentum is %s M, with which the observer turns outside camera.r %s M; allowed are those nearer to 0",
     'camera.%s is %s, allowed is %s unless camera.observer is "%s" at a finite camera.r',
-    'motion.proper_time_rate is %s, allowed is 0 unless camera.observer stays, goes round in the equatorial plane or falls without leaving its latitude, from a finite camera.r',
-    'disk.slow_light is true, allowed is false with motion.proper_time_rate %s of one who falls: the way leads into the ergosphere, where there is none',
+    "motion.proper_time_rate is %s, allowed is 0 unless camera.observer stays, goes round in the equatorial plane or falls without leaving its latitude, from a finite camera.r",
+    "disk.slow_light is true, allowed is false with motion.proper_time_rate %s of one who falls: the way leads into the ergosphere, where there is none",
     "motion.%s is %s, allowed is 0 with motion.proper_time_rate %s: time and azimuth go on as they do on the observer's way",
     'camera.stereo is "pair", allowed is "none" but from a finite camera.r in pinhole projection',
-    'camera.eye_distance is %s M, with which an eye would be where camera.observer cannot be; allowed are smaller ones',
+    "camera.eye_distance is %s M, with which an eye would be where camera.observer cannot be; allowed are smaller ones",
     'disk.inner is %s M, allowed is at least %s M, the ISCO of spacetime.spin %s, or "isco"',
-    'disk.outer is %s M, allowed is more than the inner edge, %s M%s',
+    "disk.outer is %s M, allowed is more than the inner edge, %s M%s",
     'disk.height is %s, allowed where disk.model is "particles" is 0',
-    'volume.torus_radius is %s M, allowed is more than the ISCO, %s M',
-    'volume.inner is %s%s M, allowed for a torus is less than volume.torus_radius, %s M, and more than the orbit of light, %s M',
-    'volume.torus_radius is %s M with the inner edge at %s M: gas that goes round like that has no outer edge; allowed is less, or an inner edge further out',
-    'volume.gamma_max is %s, allowed is more than volume.gamma_min, %s',
-    'volume.normalise_to_jy is %s Jy, allowed is 0 but where a volume at a radio frequency shines alone, in the plane and pinhole projections',
-    'volume.normalise_to_jy is %s Jy, allowed for a pair of eyes is 0: each would see another density',
-    'volume.outer is %s M, allowed is more than the inner edge, %s M',
-    'jets.falloff is %s, with which light grows more than 2^60 times from %s to %s M, allowed is at least %s',
-    'jets.outer is %s M, allowed is more than the inner edge, %s M',
-    '%s is %s M, allowed is at least %s M, the ISCO of spacetime.spin %s',
-    '%s is %s, allowed is |at least %s M, a twentieth outside the horizon',
+    "volume.torus_radius is %s M, allowed is more than the ISCO, %s M",
+    "volume.inner is %s%s M, allowed for a torus is less than volume.torus_radius, %s M, and more than the orbit of light, %s M",
+    "volume.torus_radius is %s M with the inner edge at %s M: gas that goes round like that has no outer edge; allowed is less, or an inner edge further out",
+    "volume.gamma_max is %s, allowed is more than volume.gamma_min, %s",
+    "volume.normalise_to_jy is %s Jy, allowed is 0 but where a volume at a radio frequency shines alone, in the plane and pinhole projections",
+    "volume.normalise_to_jy is %s Jy, allowed for a pair of eyes is 0: each would see another density",
+    "volume.outer is %s M, allowed is more than the inner edge, %s M",
+    "jets.falloff is %s, with which light grows more than 2^60 times from %s to %s M, allowed is at least %s",
+    "jets.outer is %s M, allowed is more than the inner edge, %s M",
+    "%s is %s M, allowed is at least %s M, the ISCO of spacetime.spin %s",
+    "%s is %s, allowed is |at least %s M, a twentieth outside the horizon",
     '%s is %s, allowed is |90 with motion "%s", which is an orbit in the disk\'s plane',
     '%s is %s, allowed is |more than %s M, %s, with motion "%s": inside %s',
-    '%s is %s, allowed is |a velocity of at most 0.999 together with the other two components',
+    "%s is %s, allowed is |a velocity of at most 0.999 together with the other two components",
     '%s is %s, allowed is |0 unless motion is "velocity"',
-    'style.ringdown is %s, allowed is 0 with spacetime.spin %s: beyond %s the modes of a hole crowd and none of them rings alone',
-    'style.beam_uas is %s, allowed is 0 but in the plane and pinhole projections: in the others pixels are not of one angle',
-    'style.beam_uas is %s microarcseconds, allowed are up to %s, %d times the width of the picture at this spacetime.mass_msun and spacetime.distance_pc',
+    "style.ringdown is %s, allowed is 0 with spacetime.spin %s: beyond %s the modes of a hole crowd and none of them rings alone",
+    "style.beam_uas is %s, allowed is 0 but in the plane and pinhole projections: in the others pixels are not of one angle",
+    "style.beam_uas is %s microarcseconds, allowed are up to %s, %d times the width of the picture at this spacetime.mass_msun and spacetime.distance_pc",
     'style.colour_bar is true, allowed is false unless style.palette is "heat" and style.tone_map "srgb": else brightness has no one colour, or no even scale',
-    'image.tile.width is %d and image.tile.height %d pixels, allowed are both above 0, or both 0: the whole picture',
-    'image.tile.left is %d and image.tile.top %d pixels, allowed are 0 without image.tile.width and image.tile.height',
-    'image.tile.width is %d pixels from column %d on, allowed are up to %d in a picture of image.width %d',
-    'image.tile.height is %d pixels from row %d on, allowed are up to %d in a picture of image.height %d',
+    "image.tile.width is %d and image.tile.height %d pixels, allowed are both above 0, or both 0: the whole picture",
+    "image.tile.left is %d and image.tile.top %d pixels, allowed are 0 without image.tile.width and image.tile.height",
+    "image.tile.width is %d pixels from column %d on, allowed are up to %d in a picture of image.width %d",
+    "image.tile.height is %d pixels from row %d on, allowed are up to %d in a picture of image.height %d",
     'polarization.model is "transfer", allowed where volume.model has electrons in a magnetic field: "riaf", "torus", "grid"',
     'volume.kappa is %s, allowed with polarization.model "transfer" is 3.5 to 5, for which Faraday rotation is known',
     'polarization.model is "transfer", allowed where nothing but the volume shines: disk.model and sky.model "none", no jets, spots or bodies',
     'polarization.model is "transfer", allowed is "none" with camera.projection "ring", where a picture has no up',
-    'volume.grid is matter round a hole of the spin %s, and spacetime.spin is %s; allowed is the same',
+    "volume.grid is matter round a hole of the spin %s, and spacetime.spin is %s; allowed is the same",
     # what a plan of the scene finds
-    'image.layers holds %s, allowed are image orders below accuracy.orders, %d',
-    'image.layers holds %s, allowed where there are volumes or bodies is %.*s: their light is between the crossings',
+    "image.layers holds %s, allowed are image orders below accuracy.orders, %d",
+    "image.layers holds %s, allowed where there are volumes or bodies is %.*s: their light is between the crossings",
     'image.layers holds %s with polarization.model "none", where no light is polarised: allowed are the other words of it',
     'image.layers holds stokes_v, allowed with polarization.model "transfer": other light is not polarised circularly',
     'image.layers holds %s with camera.projection "ring", where a picture has no up: allowed are the others',
     'image.layers holds %s, allowed where nothing but a volume at a radio frequency shines: volume.model "gold", "riaf" or "torus", disk.model and sky.model "none", no jets, spots or bodies',
-    'image.layers holds %s, which is of the place where a thin disk is crossed, with disk.height %.9g: allowed is 0',
-    'image.layers holds %s, which is that of one crossing, allowed where there are no volumes',
+    "image.layers holds %s, which is of the place where a thin disk is crossed, with disk.height %.9g: allowed is 0",
+    "image.layers holds %s, which is that of one crossing, allowed where there are no volumes",
     'image.layers holds %s with disk.model "none", where nothing has a temperature',
-    'image.layer_min is %.9g, allowed is less than image.layer_max, %.9g',
-    'image.layer_min is %.9g, allowed is more than 0: %s is shown on a logarithmic scale',
-    'image.layer_max is %.9g, allowed is more than 0: %s is shown on a logarithmic scale',
-    'accuracy.tolerance is %.3g: a picture keeps radii in 32 bits and holds %.3g and above; lists of rays (POST /v1/rays, kerrd rays) hold %.3g%s',
-    'accuracy.tolerance is %.3g: light through volumes is added up in 32 bits and holds %.3g and above',
+    "image.layer_min is %.9g, allowed is less than image.layer_max, %.9g",
+    "image.layer_min is %.9g, allowed is more than 0: %s is shown on a logarithmic scale",
+    "image.layer_max is %.9g, allowed is more than 0: %s is shown on a logarithmic scale",
+    "accuracy.tolerance is %.3g: a picture keeps radii in 32 bits and holds %.3g and above; lists of rays (POST /v1/rays, kerrd rays) hold %.3g%s",
+    "accuracy.tolerance is %.3g: light through volumes is added up in 32 bits and holds %.3g and above",
     'accuracy.engine is "%s" in %s, allowed inside the ergosphere, camera.r %.9g, are "auto", "closed" and the Mino engines in f32; or move the camera out of %.9g M',
     'accuracy.precision is "f32", allowed in the ring projection are "f64" and "auto"',
-    'disk.slow_light is true, allowed within the horizon, camera.r %.9g, is false: no far clock tells when light of the gas arrives there',
+    "disk.slow_light is true, allowed within the horizon, camera.r %.9g, is false: no far clock tells when light of the gas arrives there",
     'accuracy.engine is "%s" in %s, allowed within the horizon, camera.r %.9g, are the Mino engines in f32, and no delay of light',
-    'the closed form in f32 is for an observer beyond %.9g M, outside the orbits of light, and knows no delay of light: allowed is f64',
-    'image.layers holds delay, which is not known inside the ergosphere, camera.r %.9g',
-    'disk.slow_light is true, allowed inside the ergosphere, camera.r %.9g, is false',
+    "the closed form in f32 is for an observer beyond %.9g M, outside the orbits of light, and knows no delay of light: allowed is f64",
+    "image.layers holds delay, which is not known inside the ergosphere, camera.r %.9g",
+    "disk.slow_light is true, allowed inside the ergosphere, camera.r %.9g, is false",
     'camera.projection is "ring", whose rays are listed, where light is followed through volumes and to bodies: allowed are the others',
     'image.layer_%s is "auto", allowed in a tile are numbers: its own would not be those of the whole picture',
-    'image.legend is true, allowed in a tile is false: the bar stands in a corner of the whole picture',
+    "image.legend is true, allowed in a tile is false: the bar stands in a corner of the whole picture",
     'style.exposure is "auto", allowed in a tile is a number: its own would not be that of the whole picture; a small picture of the same scene tells one',
-    'style.bloom is %.9g, allowed in a tile is 0: a lens spreads light over the whole picture',
-    'style.beam_uas is %.9g, allowed in a tile is 0: a beam spreads light over the whole picture',
-    'style.colour_bar is true, allowed in a tile is false: the bar stands in a corner of the whole picture',
+    "style.bloom is %.9g, allowed in a tile is 0: a lens spreads light over the whole picture",
+    "style.beam_uas is %.9g, allowed in a tile is 0: a beam spreads light over the whole picture",
+    "style.colour_bar is true, allowed in a tile is false: the bar stands in a corner of the whole picture",
     'camera.stereo is "pair", allowed in a tile is "none"',
     'camera.projection is "ring", allowed in a tile are the others',
     'image.samples is "auto", allowed in a tile are 1 to 8: rays are chosen by what the whole picture shows',
-    'camera is where a ray next to the critical curve does not escape: no stars can be sought there',
+    "camera is where a ray next to the critical curve does not escape: no stars can be sought there",
     'accuracy.tolerance is %.3g: the ring projection needs f64, which this device has not; allowed is "profile"',
-    'volume.normalise_to_jy is %.9g Jy, at which no density was found: %s %.4g Jy; allowed are 0, and what this matter shines with at some density',
+    "volume.normalise_to_jy is %.9g Jy, at which no density was found: %s %.4g Jy; allowed are 0, and what this matter shines with at some density",
     'volume.grid is "%s", and the bytes of this asset are not here; allowed are %s',
     'sky.image is "%s", and the bytes of this asset are not here; allowed are %s',
 )
 # Of a device, or of the table of a driver: by the engine and its precision.
 ENGINE = (
     'the closed engine works in double precision: allowed is "f64", or another engine',
-    'the closed engine takes no steps: allowed is 0, or another engine',
-    'steps is %u beside a tolerance, which chooses them: allowed is 0',
+    "the closed engine takes no steps: allowed is 0, or another engine",
+    "steps is %u beside a tolerance, which chooses them: allowed is 0",
     'tolerance is %.9g beside the engine "closed", which has one accuracy, that of its precision',
-    'steps is %u, allowed for %s are multiples of 4 up to %u, and 0 for the engine\'s default',
+    "steps is %u, allowed for %s are multiples of 4 up to %u, and 0 for the engine's default",
     'precision is f64, which this device has not: allowed are f32, and the engine "closed"',
-    'the accuracy table of this device has no row that can be relied on for what was asked; `kerrd bench accuracy` makes a new one',
+    "the accuracy table of this device has no row that can be relied on for what was asked; `kerrd bench accuracy` makes a new one",
 )
 # A scene as one format, or another, has it.
 PICTURE = (
-    'image.layers holds %d, allowed in a file of the format %s is one; fits, exr, npz and npy hold all',
+    "image.layers holds %d, allowed in a file of the format %s is one; fits, exr, npz and npy hold all",
     'sky.model is not "catalogue": the stars of no other sky have names',
     'camera.projection is "ring", which has no stars to name: allowed are the others',
-    'image.tile.width is %d, allowed is 0 where stars are named: places are those of the whole picture',
+    "image.tile.width is %d, allowed is 0 where stars are named: places are those of the whole picture",
     'camera.stereo is "pair", allowed is "none" where stars are named: places in a picture are those of one eye',
     'camera.stereo is "pair", whose stars are not named: allowed is "none"',
 )
 TIMELINE = (
-    'look_at is given, allowed with a finite camera.r alone',
-    'look_at is the place of the camera itself, allowed is any other',
-    'proper_time is %.9g M, allowed is 0 unless camera.observer stays, goes round in the equatorial plane or falls without leaving its latitude, from a finite camera.r',
-    '%s follows a keyframe at %.9g, the last place that there may be',
-    '%s is given with motion.proper_time_rate, allowed is one of them',
-    'keyframes/%zu/at is %s, allowed is |a number %s %.9g to %.9g',  # each behind the one before it
-    'keyframes/%zu/frame is %s, allowed is |a whole number from %u to %u',
-    'frames is %s, allowed is |a whole number from %u to %u',
+    "look_at is given, allowed with a finite camera.r alone",
+    "look_at is the place of the camera itself, allowed is any other",
+    "proper_time is %.9g M, allowed is 0 unless camera.observer stays, goes round in the equatorial plane or falls without leaving its latitude, from a finite camera.r",
+    "%s follows a keyframe at %.9g, the last place that there may be",
+    "%s is given with motion.proper_time_rate, allowed is one of them",
+    "keyframes/%zu/at is %s, allowed is |a number %s %.9g to %.9g",  # each behind the one before it
+    "keyframes/%zu/frame is %s, allowed is |a whole number from %u to %u",
+    "frames is %s, allowed is |a whole number from %u to %u",
     'keyframes/%zu/proper_time is %s, allowed is |0 to 1000000000000 M, or "horizon" or "end" of an observer that falls from further out without leaving its latitude',
-    'keyframes/%zu/proper_time is %s, allowed is |0 unless camera.observer stays, goes round in the equatorial plane or falls without leaving its latitude, from a finite camera.r',
+    "keyframes/%zu/proper_time is %s, allowed is |0 unless camera.observer stays, goes round in the equatorial plane or falls without leaving its latitude, from a finite camera.r",
 )
 RADII = (
     'inner is %.9g, within the ISCO of this spin, %.9g M; allowed are that and larger radii, and "isco"',
-    'outer is %.9g and inner is %.9g; allowed are larger radii than that',
+    "outer is %.9g and inner is %.9g; allowed are larger radii than that",
     "spin is %.17g: double precision does not follow the disk's image at inclination_deg %.9g so near an extremal hole",
 )
-SESSION = ('image.layers holds %zu, allowed in a session, which shows a picture, is one', 'image.tile.width is %u, allowed is 0 in a session, which shows whole pictures of any size')
+SESSION = (
+    "image.layers holds %zu, allowed in a session, which shows a picture, is one",
+    "image.tile.width is %u, allowed is 0 in a session, which shows whole pictures of any size",
+)
 
-OF_SCENES = '(GET|POST) /v1/(render|pixel)$|POST /v1/(plan|sessions|jobs|playground|visibility|spectrum)$|PATCH /v1/(sessions|playground)/{id}(/frame)?$|POST /v1/sessions/{id}/path$'
+OF_SCENES = "(GET|POST) /v1/(render|pixel)$|POST /v1/(plan|sessions|jobs|playground|visibility|spectrum)$|PATCH /v1/(sessions|playground)/{id}(/frame)?$|POST /v1/sessions/{id}/path$"
 
 # (operations, their sentences)
 TOGETHER = [
     (OF_SCENES, SCENE + ENGINE),
-    ('(GET|POST) /v1/render|POST /v1/jobs', PICTURE),
-    ('(GET|POST) /v1/pixel', ('at is "%s", allowed is X,Y: pixels from the upper left corner, below %u across and %u down',)),
-    ('(POST|PATCH) /v1/playground', SESSION),
-    ('POST /v1/sessions|PATCH /v1/sessions/{id}(/frame)?|POST /v1/sessions/{id}/path', SESSION + ('patience_ms stands without least, whose width it is the patience for',)),
-    ('POST /v1/sessions/{id}/path|POST /v1/jobs', TIMELINE),
-    ('POST /v1/sessions/{id}/path', (
-        'the last keyframe is at 0 s, allowed is later',
-        'keyframe %zu changes motion, which stays what it is along a path',
-        "proper_time is given, allowed with motion.time_rate and motion.azimuth_rate_deg 0 alone: time and azimuth go on as they do on the observer's way",
-    )),
-    ('GET /v1/sessions/{id}/particles', (
-        'disk.model is "%.*s", allowed for a list of particles is "particles"',
-        "%s is %s, allowed are whole numbers from %g to %.0f of the scene's %u particles",
-        'count is %zu, allowed are 1 to %zu: from the %u particles, first %u, stride %u',
-        'count is %zu with %zu bytes a particle, allowed are 1 to %llu: the rest with first, or fewer with stride',
-    )),
+    ("(GET|POST) /v1/render|POST /v1/jobs", PICTURE),
+    (
+        "(GET|POST) /v1/pixel",
+        ('at is "%s", allowed is X,Y: pixels from the upper left corner, below %u across and %u down',),
+    ),
+    ("(POST|PATCH) /v1/playground", SESSION),
+    (
+        "POST /v1/sessions|PATCH /v1/sessions/{id}(/frame)?|POST /v1/sessions/{id}/path",
+        SESSION + ("patience_ms stands without least, whose width it is the patience for",),
+    ),
+    ("POST /v1/sessions/{id}/path|POST /v1/jobs", TIMELINE),
+    (
+        "POST /v1/sessions/{id}/path",
+        (
+            "the last keyframe is at 0 s, allowed is later",
+            "keyframe %zu changes motion, which stays what it is along a path",
+            "proper_time is given, allowed with motion.time_rate and motion.azimuth_rate_deg 0 alone: time and azimuth go on as they do on the observer's way",
+        ),
+    ),
+    (
+        "GET /v1/sessions/{id}/particles",
+        (
+            'disk.model is "%.*s", allowed for a list of particles is "particles"',
+            "%s is %s, allowed are whole numbers from %g to %.0f of the scene's %u particles",
+            "count is %zu, allowed are 1 to %zu: from the %u particles, first %u, stride %u",
+            "count is %zu with %zu bytes a particle, allowed are 1 to %llu: the rest with first, or fewer with stride",
+        ),
+    ),
     # what there is of a job
-    ('GET /v1/jobs/{id}/result', (
-        'frame is the number of a frame of this job, from 0 on',
-        'rate is a whole number of frames a second, from 1 to 120, of format=mp4 or webm',
-        'format is %s|, which hold%s all, or %s or %s, both with frame=NUMBER if wanted',
-        'format is %s: the frames of this job are %s',
-        'frame goes with pictures; a %s comes whole',
-    )),
-    ('GET /v1/jobs/{id}/preview.png', ('the frames of this job are %s: there is nothing to look at',)),
-    ('POST /v1/line', RADII + (
-        '%s is %.9g after %.9g; allowed are numbers that grow',
-        'height is %.9g, allowed are %.9g, 1.05 times the horizon of this spin, and more',
-        'energy_max is %.9g and energy_min %.9g; allowed are larger values than that',
-        'height is %.9g: its light is not found on the whole disk',
-        'spin is %.17g: the sum is no number, so near an extremal hole',
-    )),
-    ('POST /v1/transfer-function', RADII + (
-        'a radius is %.9g, allowed are %.9g to %.9g, from inner to outer',
-        '%zu radii with %zu g* are more than %u places',
-        'a radius is %.9g, whose ends of g were not found at this inclination; allowed are inclinations further from face on and edge on',
-        'a radius is %.9g, whose place of g* %.9g was not found',
-    )),
-    ('POST /v1/spectrum', RADII + (
-        '%s is %.9g after %.9g; allowed are numbers that grow',
-        'frequency_max_hz is %.9g and frequency_min_hz %.9g; allowed are larger values than that',
-        'spin is %.17g: the sum is no number at %.9g Hz, so near an extremal hole',
-        'volume.model has no light of one frequency in physical units, which a spectrum is of; allowed are those with volume.frequency_ghz, '
-        'such as gold and riaf; without scene and preset the spectrum is that of a thin disk',
-        'something shines beside the volume, whose light has no frequency: disk.model and sky.model must be "none", without jets, spots and bodies',
-        'camera.projection has no areas to scale, by which flux is measured; allowed are plane and pinhole',
-    )),
-    ('POST /v1/visibility', (
-        'u has %zu numbers and v has %zu; allowed are as many of each',
-        '%zu lengths at %zu angles are more than %u baselines',
-        '%zu baselines with %u orders are more than %u rows',
-        'orders is %u, and there is no disk whose image orders could be told apart; allowed is 0',
-        'orders is %u, allowed are 0 to %d, accuracy.orders of the scene',
-        'camera sees no flat map from far away, which visibilities are of; allowed are camera.r "infinity" and the projections auto and plane',
-        'nothing shines in the picture of %u x %u pixels, whose visibility was asked for',
-    )),
+    (
+        "GET /v1/jobs/{id}/result",
+        (
+            "frame is the number of a frame of this job, from 0 on",
+            "rate is a whole number of frames a second, from 1 to 120, of format=mp4 or webm",
+            "format is %s|, which hold%s all, or %s or %s, both with frame=NUMBER if wanted",
+            "format is %s: the frames of this job are %s",
+            "frame goes with pictures; a %s comes whole",
+        ),
+    ),
+    ("GET /v1/jobs/{id}/preview.png", ("the frames of this job are %s: there is nothing to look at",)),
+    (
+        "POST /v1/line",
+        RADII
+        + (
+            "%s is %.9g after %.9g; allowed are numbers that grow",
+            "height is %.9g, allowed are %.9g, 1.05 times the horizon of this spin, and more",
+            "energy_max is %.9g and energy_min %.9g; allowed are larger values than that",
+            "height is %.9g: its light is not found on the whole disk",
+            "spin is %.17g: the sum is no number, so near an extremal hole",
+        ),
+    ),
+    (
+        "POST /v1/transfer-function",
+        RADII
+        + (
+            "a radius is %.9g, allowed are %.9g to %.9g, from inner to outer",
+            "%zu radii with %zu g* are more than %u places",
+            "a radius is %.9g, whose ends of g were not found at this inclination; allowed are inclinations further from face on and edge on",
+            "a radius is %.9g, whose place of g* %.9g was not found",
+        ),
+    ),
+    (
+        "POST /v1/spectrum",
+        RADII
+        + (
+            "%s is %.9g after %.9g; allowed are numbers that grow",
+            "frequency_max_hz is %.9g and frequency_min_hz %.9g; allowed are larger values than that",
+            "spin is %.17g: the sum is no number at %.9g Hz, so near an extremal hole",
+            "volume.model has no light of one frequency in physical units, which a spectrum is of; allowed are those with volume.frequency_ghz, "
+            "such as gold and riaf; without scene and preset the spectrum is that of a thin disk",
+            'something shines beside the volume, whose light has no frequency: disk.model and sky.model must be "none", without jets, spots and bodies',
+            "camera.projection has no areas to scale, by which flux is measured; allowed are plane and pinhole",
+        ),
+    ),
+    (
+        "POST /v1/visibility",
+        (
+            "u has %zu numbers and v has %zu; allowed are as many of each",
+            "%zu lengths at %zu angles are more than %u baselines",
+            "%zu baselines with %u orders are more than %u rows",
+            "orders is %u, and there is no disk whose image orders could be told apart; allowed is 0",
+            "orders is %u, allowed are 0 to %d, accuracy.orders of the scene",
+            'camera sees no flat map from far away, which visibilities are of; allowed are camera.r "infinity" and the projections auto and plane',
+            "nothing shines in the picture of %u x %u pixels, whose visibility was asked for",
+        ),
+    ),
     # pictures whose light is measured
-    ('POST /v1/(spectrum|visibility|jobs)', (
-        'camera.stereo is "pair", allowed is "none" where light is measured: there is one flux for each eye',
-        'camera.projection is "ring", "equirectangular" or "fulldome", allowed are "plane" and "pinhole" where light is measured: areas of the others are not to scale',
-        'image.tile.width is %d, allowed is 0 where light is measured: it is that of the whole picture',
-    )),
-    ('POST /v1/rays', ENGINE + (
-        'the query may hold parameters beside a body of application/x-npy| only; in JSON they belong to the document',  # OpenAPI's parameters are those of all bodies of an operation
-        'r is %.16g, allowed are "infinity" and radii above that of the horizon, %.9g at this spin, up to %g',
-        'no light with the constants of ray %zu, alpha = %.9g and beta = %.9g, reaches an observer at r = %.9g',
-    )),
-    ('POST /v1/orbits', (
-        '%u samples of %zu orbits are more than %u in all',
-        'energy %s and angular_momentum %s lead to the unstable circle at r = %.9g, so closely that double precision does not tell how long the body whirls there, '
-        'and whether it falls or returns: allowed are values that differ from these by some parts in 1e12',
-        'observer_r is %.9g, allowed are radii outside the horizon, r = %.9g',
-        'observer_r is %.9g, where there is no observer %s; allowed there are %s',
-        'steps is %u, too few to find the end of this path',
-        'this path cannot be followed to its end in double precision',
-        'periods belong to a bound orbit, and this one is to %s: leave the duration out, or give or_end beside it, to follow it to its end, or give a time',
-        'method is "closed", which follows bound orbits only, and this one is to %s',
-        'the duration takes %.3g steps, allowed are %.0f',
-        'r_max is %g, too far for the steps that a path with a whirl like this one is followed in',
-        'r is %.16g, allowed is above the horizon at %.9g',
-        'r is %.16g, where a particle of these constants cannot be',
-        'energy is %.16g: no particle outside the horizon has these constants',
-        '%s at r = %.16g, inside %s, which ends at %.9g here: use %s',
-        'the speed is %.16g, allowed is below 1, that of light',
-        'the motion from r = %.16g cannot be followed in double precision',
-        'p is %.16g, allowed is above the horizon at %.9g',
-        'p is %.16g; with this spin, e and inclination_deg an orbit has its turning points there only above %.9g, the separatrix',
-    )),
-    ('GET /v1/physics/(disk-flux|flamm|frame-dragging|potential|kerr|tidal|infall)$', ('%s is %s, |inside the horizon at %.9g M; allowed is outside',)),
-    ('GET /v1/physics/(deflection|redshift|ring-image|shadow|sky|photon-rings|infall)$', (
-        'velocity_r, velocity_theta and velocity_phi are %.9g together, allowed is less than 1, the speed of light',
-        '%s is %s, |allowed is rest with infall_from %.9g',
-        '%s is %s, |allowed is at least observer_r, %.9g',
-        '%s is %s, |allowed is more than %.9g at observer_r with this infall_momentum',
-        '%s is %s, |with which it turns outside observer_r; allowed are those nearer to 0',
-        '%s is %s, |not outside the horizon at %.9g M',
-        '%s is %s, |in %s, where %s; allowed is outside %.9g M, or observer %s',
-    )),
-    ('GET /v1/physics/infall$', (
-        '%s is %s, |not outside %.9g M, where the model ends',
-        '%s is %s, |where it would not stay at this latitude; allowed with spin are 0, 90 and 180, or what falls from rest at infinity',
-    )),
-    ('GET /v1/physics/inspiral$', ('%s is %s, |which is a = %.6g M: the orbit comes inside 6 M, where nothing of this holds; allowed are longer periods',)),
-    ('GET /v1/physics/photon-rings$', ('%s is %s, |inside the horizon at %.9g M; allowed is outside', '%s is %s, |allowed is more than inner, %.9g M')),
-    ('GET /v1/physics/qnm$', (
-        '%s is %s, |and l is %g; allowed is -%g to %g',
-        '%s is %s, |where the iteration for this mode does not settle',
-        '%s is a range of %zu values, allowed in a sound is one',
-        't is %g, allowed is 0: a sound holds all times',
-        'mass_msun is %g, which rings at %.3g Hz with this shift_octaves; heard are %g to %g Hz: allowed are masses from %.4g to %.4g solar masses, or shift_octaves %.0f to %.0f for this one',
-        'stretch is %g, which makes the sound fade by e in %.3g s; allowed for this one is 1 to %.4g, which is %g s',
-    )),
-    ('GET /v1/physics/redshift$', ('%s is %s, |so near the horizon that its image was not found; allowed are larger ones',)),
-    ('GET /v1/physics/(redshift|ring-image)$', (
-        '%s is %s, |where the ring is a line; allowed are 0 to 89.9 and 90.1 to 180',
-        '%s is %s, |not outside the horizon at %.9g M',
-    )),
-    ('GET /v1/physics/ring-image$', ('%s is %s, |too near the horizon for its image to be found; allowed are larger radii', '%s is %s, |inside the horizon at %.9g M; allowed is outside')),
-    ('GET /v1/physics/scale$', ('mass_msun is "hole", and hole is "none": one of them must be given', 'distance_pc is "hole", and hole is "none": one of them must be given')),
-    ('GET /v1/physics/(shadow|sky)$', ('there is no critical curve for this observer',)),
-    ('GET /v1/physics/', ('the ranges make more than %d points together',)),
+    (
+        "POST /v1/(spectrum|visibility|jobs)",
+        (
+            'camera.stereo is "pair", allowed is "none" where light is measured: there is one flux for each eye',
+            'camera.projection is "ring", "equirectangular" or "fulldome", allowed are "plane" and "pinhole" where light is measured: areas of the others are not to scale',
+            "image.tile.width is %d, allowed is 0 where light is measured: it is that of the whole picture",
+        ),
+    ),
+    (
+        "POST /v1/rays",
+        ENGINE
+        + (
+            # OpenAPI's parameters are those of all bodies of an operation
+            "the query may hold parameters beside a body of application/x-npy| only; in JSON they belong to the document",
+            'r is %.16g, allowed are "infinity" and radii above that of the horizon, %.9g at this spin, up to %g',
+            "no light with the constants of ray %zu, alpha = %.9g and beta = %.9g, reaches an observer at r = %.9g",
+        ),
+    ),
+    (
+        "POST /v1/orbits",
+        (
+            "%u samples of %zu orbits are more than %u in all",
+            "energy %s and angular_momentum %s lead to the unstable circle at r = %.9g, so closely that double precision does not tell how long the body whirls there, "
+            "and whether it falls or returns: allowed are values that differ from these by some parts in 1e12",
+            "observer_r is %.9g, allowed are radii outside the horizon, r = %.9g",
+            "observer_r is %.9g, where there is no observer %s; allowed there are %s",
+            "steps is %u, too few to find the end of this path",
+            "this path cannot be followed to its end in double precision",
+            "periods belong to a bound orbit, and this one is to %s: leave the duration out, or give or_end beside it, to follow it to its end, or give a time",
+            'method is "closed", which follows bound orbits only, and this one is to %s',
+            "the duration takes %.3g steps, allowed are %.0f",
+            "r_max is %g, too far for the steps that a path with a whirl like this one is followed in",
+            "r is %.16g, allowed is above the horizon at %.9g",
+            "r is %.16g, where a particle of these constants cannot be",
+            "energy is %.16g: no particle outside the horizon has these constants",
+            "%s at r = %.16g, inside %s, which ends at %.9g here: use %s",
+            "the speed is %.16g, allowed is below 1, that of light",
+            "the motion from r = %.16g cannot be followed in double precision",
+            "p is %.16g, allowed is above the horizon at %.9g",
+            "p is %.16g; with this spin, e and inclination_deg an orbit has its turning points there only above %.9g, the separatrix",
+        ),
+    ),
+    (
+        "GET /v1/physics/(disk-flux|flamm|frame-dragging|potential|kerr|tidal|infall)$",
+        ("%s is %s, |inside the horizon at %.9g M; allowed is outside",),
+    ),
+    (
+        "GET /v1/physics/(deflection|redshift|ring-image|shadow|sky|photon-rings|infall)$",
+        (
+            "velocity_r, velocity_theta and velocity_phi are %.9g together, allowed is less than 1, the speed of light",
+            "%s is %s, |allowed is rest with infall_from %.9g",
+            "%s is %s, |allowed is at least observer_r, %.9g",
+            "%s is %s, |allowed is more than %.9g at observer_r with this infall_momentum",
+            "%s is %s, |with which it turns outside observer_r; allowed are those nearer to 0",
+            "%s is %s, |not outside the horizon at %.9g M",
+            "%s is %s, |in %s, where %s; allowed is outside %.9g M, or observer %s",
+        ),
+    ),
+    (
+        "GET /v1/physics/infall$",
+        (
+            "%s is %s, |not outside %.9g M, where the model ends",
+            "%s is %s, |where it would not stay at this latitude; allowed with spin are 0, 90 and 180, or what falls from rest at infinity",
+        ),
+    ),
+    (
+        "GET /v1/physics/inspiral$",
+        (
+            "%s is %s, |which is a = %.6g M: the orbit comes inside 6 M, where nothing of this holds; allowed are longer periods",
+        ),
+    ),
+    (
+        "GET /v1/physics/photon-rings$",
+        (
+            "%s is %s, |inside the horizon at %.9g M; allowed is outside",
+            "%s is %s, |allowed is more than inner, %.9g M",
+        ),
+    ),
+    (
+        "GET /v1/physics/qnm$",
+        (
+            "%s is %s, |and l is %g; allowed is -%g to %g",
+            "%s is %s, |where the iteration for this mode does not settle",
+            "%s is a range of %zu values, allowed in a sound is one",
+            "t is %g, allowed is 0: a sound holds all times",
+            "mass_msun is %g, which rings at %.3g Hz with this shift_octaves; heard are %g to %g Hz: allowed are masses from %.4g to %.4g solar masses, or shift_octaves %.0f to %.0f for this one",
+            "stretch is %g, which makes the sound fade by e in %.3g s; allowed for this one is 1 to %.4g, which is %g s",
+        ),
+    ),
+    (
+        "GET /v1/physics/redshift$",
+        ("%s is %s, |so near the horizon that its image was not found; allowed are larger ones",),
+    ),
+    (
+        "GET /v1/physics/(redshift|ring-image)$",
+        (
+            "%s is %s, |where the ring is a line; allowed are 0 to 89.9 and 90.1 to 180",
+            "%s is %s, |not outside the horizon at %.9g M",
+        ),
+    ),
+    (
+        "GET /v1/physics/ring-image$",
+        (
+            "%s is %s, |too near the horizon for its image to be found; allowed are larger radii",
+            "%s is %s, |inside the horizon at %.9g M; allowed is outside",
+        ),
+    ),
+    (
+        "GET /v1/physics/scale$",
+        (
+            'mass_msun is "hole", and hole is "none": one of them must be given',
+            'distance_pc is "hole", and hole is "none": one of them must be given',
+        ),
+    ),
+    ("GET /v1/physics/(shadow|sky)$", ("there is no critical curve for this observer",)),
+    ("GET /v1/physics/", ("the ranges make more than %d points together",)),
     # A scene of a sweep, or between two keyframes, is one of its own.
-    ('POST /v1/(jobs|plan)', (
-        'the axes make %.6g scenes, allowed are up to %d',
-        '%s is given twice',
-        '%s is "%s", allowed are a list of values, and a range that leads from its start to its stop: "10:80:15", start:stop:step, or "10:80/15", start:stop/how many',
-        '%s holds %s twice',
-    )),
-    ('POST /v1/jobs', (
-        '%s is an axis, and no cube has pictures of several sizes or layers; allowed are files of their own, as "pictures" or "fits"',
-        'scene %u is %u x %u pixels and scene 0 is %u x %u, and no cube has pictures of several sizes',
-        'scene %u has other layers than scene 0, and no cube has pictures of several kinds',
-        'camera.stereo is "pair", allowed with motion_blur is "none"',
-        'image.tile.width is %u, allowed with motion_blur is 0: the whole picture',
-        'image.layers names numbers, allowed with motion_blur is "rgb": only light has a mean that can be seen',
-        "the picture is of another size or kind at the end of the shutter's opening than at its begin: motion_blur takes one",
-    )),
-    ('(POST|PATCH) /v1/playground|POST /v1/jobs', (
-        "spacetime.spin is %.9g, allowed is %.9g: the playground's bodies move round a hole of that spin",
-        'velocity is %.9g c, allowed is %s',
-        "position is %.9g M from the hole, allowed is more than %g M: closer in all is the hole's",
-        "there is no such body in a snapshot: it is the hole's, or faster than c",
-        'name is no string of up to %zu bytes',  # a schema counts characters
-        'r is %.16g, allowed is above the horizon at %.9g',  # this and what follows: of gravity kerr
-        '%s at r = %.16g, inside %s, which ends at %.9g here: use %s',
-        'the motion from r = %.16g cannot be followed in double precision',
-    )),
-    ('PATCH /v1/playground/{id}', (
-        'there is no body %.0f, or it is there no more',
-        'there is no body with this id, or it is there no more',
-        'gravity is chosen when a playground is made, and stays',
-        'spin is chosen when a playground is made, and stays',
-    )),
-    ('POST /v1/sessions/{id}/ringdown', ('motion.time_rate is %s, allowed for a hole to be struck is more than 0 M per second: what rings, rings as time goes on',)),
+    (
+        "POST /v1/(jobs|plan)",
+        (
+            "the axes make %.6g scenes, allowed are up to %d",
+            "%s is given twice",
+            '%s is "%s", allowed are a list of values, and a range that leads from its start to its stop: "10:80:15", start:stop:step, or "10:80/15", start:stop/how many',
+            "%s holds %s twice",
+        ),
+    ),
+    (
+        "POST /v1/jobs",
+        (
+            '%s is an axis, and no cube has pictures of several sizes or layers; allowed are files of their own, as "pictures" or "fits"',
+            "scene %u is %u x %u pixels and scene 0 is %u x %u, and no cube has pictures of several sizes",
+            "scene %u has other layers than scene 0, and no cube has pictures of several kinds",
+            'camera.stereo is "pair", allowed with motion_blur is "none"',
+            "image.tile.width is %u, allowed with motion_blur is 0: the whole picture",
+            'image.layers names numbers, allowed with motion_blur is "rgb": only light has a mean that can be seen',
+            "the picture is of another size or kind at the end of the shutter's opening than at its begin: motion_blur takes one",
+        ),
+    ),
+    (
+        "(POST|PATCH) /v1/playground|POST /v1/jobs",
+        (
+            "spacetime.spin is %.9g, allowed is %.9g: the playground's bodies move round a hole of that spin",
+            "velocity is %.9g c, allowed is %s",
+            "position is %.9g M from the hole, allowed is more than %g M: closer in all is the hole's",
+            "there is no such body in a snapshot: it is the hole's, or faster than c",
+            "name is no string of up to %zu bytes",  # a schema counts characters
+            "r is %.16g, allowed is above the horizon at %.9g",  # this and what follows: of gravity kerr
+            "%s at r = %.16g, inside %s, which ends at %.9g here: use %s",
+            "the motion from r = %.16g cannot be followed in double precision",
+        ),
+    ),
+    (
+        "PATCH /v1/playground/{id}",
+        (
+            "there is no body %.0f, or it is there no more",
+            "there is no body with this id, or it is there no more",
+            "gravity is chosen when a playground is made, and stays",
+            "spin is chosen when a playground is made, and stays",
+        ),
+    ),
+    (
+        "POST /v1/sessions/{id}/ringdown",
+        (
+            "motion.time_rate is %s, allowed for a hole to be struck is more than 0 M per second: what rings, rings as time goes on",
+        ),
+    ),
 ]
 # A scene of several is named in front of its sentence.
-AMONG = ('scene %u: ', 'frame %u: ', 'with %s: ', 'between keyframes, frame %.9g is no valid scene: ')
+AMONG = ("scene %u: ", "frame %u: ", "with %s: ", "between keyframes, frame %.9g is no valid scene: ")

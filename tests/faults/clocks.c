@@ -1,5 +1,5 @@
-/* Preloaded: clocks are ahead, as a test says (control.h), for the program and the libraries that it is linked with. Who waits for a time of such a clock waits as long as if
- * nothing were wrong with it. */
+/* Preloaded: clocks are ahead, as a test says (control.h), for the program and the libraries that it is linked with.
+ * Who waits for a time of such a clock waits as long as if nothing were wrong with it. */
 #include "control.h"
 
 #include <dlfcn.h>
@@ -19,8 +19,12 @@ static int64_t ahead_ms(clockid_t clock, const void *caller)
     const bool steady = clock == CLOCK_MONOTONIC || clock == CLOCK_MONOTONIC_COARSE || clock == CLOCK_BOOTTIME;
     if ((!steady && clock != CLOCK_REALTIME) || !kd_fault_ours(caller, &where))
         return 0;
-    atomic_fetch_add(&kd_faults->looks, atomic_load(&kd_faults->wall_s) && !steady ? 1 : steady && (atomic_load(&kd_faults->steady_ms) || atomic_load(&kd_faults->steady_step_ms)));
-    return steady ? atomic_fetch_add(&kd_faults->steady_ms, atomic_load(&kd_faults->steady_step_ms)) : 1000 * atomic_load(&kd_faults->wall_s);
+    atomic_fetch_add(&kd_faults->looks,
+                     atomic_load(&kd_faults->wall_s) && !steady
+                         ? 1
+                         : steady && (atomic_load(&kd_faults->steady_ms) || atomic_load(&kd_faults->steady_step_ms)));
+    return steady ? atomic_fetch_add(&kd_faults->steady_ms, atomic_load(&kd_faults->steady_step_ms))
+                  : 1000 * atomic_load(&kd_faults->wall_s);
 }
 
 int clock_gettime(clockid_t clock, struct timespec *out)
@@ -41,9 +45,11 @@ time_t time(time_t *out)
     return t.tv_sec;
 }
 
-int pthread_cond_clockwait(pthread_cond_t *condition, pthread_mutex_t *lock, clockid_t clock, const struct timespec *until)
+int pthread_cond_clockwait(pthread_cond_t *condition, pthread_mutex_t *lock, clockid_t clock,
+                           const struct timespec *until)
 {
-    KD_FAULT_REAL(int, "pthread_cond_clockwait", pthread_cond_t *, pthread_mutex_t *, clockid_t, const struct timespec *);
+    KD_FAULT_REAL(int, "pthread_cond_clockwait", pthread_cond_t *, pthread_mutex_t *, clockid_t,
+                  const struct timespec *);
     struct timespec t = *until;
     put(&t, -ahead_ms(clock, __builtin_return_address(0)));
     return real(condition, lock, clock, &t);

@@ -1,9 +1,12 @@
-"""Files that are not as they were left, and disks of a real size: what a server keeps, cut off, emptied, zeroed or full of noise; a small tmpfs that fills up and one that is read-only.
+"""Files that are not as they were left, and disks of a real size: what a server keeps, cut off, emptied, zeroed or full
+of noise; a small tmpfs that fills up and one that is read-only.
 
     damage.py FAULTS SERVER                 a file of each kind
     KD_WHOLE=1 damage.py FAULTS SERVER      every file
 
-A disk of its own takes a mount namespace, which not every machine lets a user have: then that part says so and is left out."""
+A disk of its own takes a mount namespace, which not every machine lets a user have: then that part says so and is left
+out."""
+
 import collections
 import os
 import random
@@ -19,11 +22,11 @@ import state
 from job_case import SCENE
 
 NEW = {
-    'cut off': lambda data, dice: data[:len(data) // 2],
-    'emptied': lambda data, dice: b'',
-    'zeroed': lambda data, dice: bytes(len(data)),
-    'noise': lambda data, dice: dice.randbytes(len(data)),
-    'a bit': lambda data, dice: data[:len(data) // 2] + bytes([data[len(data) // 2] ^ 1]) + data[len(data) // 2 + 1:],
+    "cut off": lambda data, dice: data[: len(data) // 2],
+    "emptied": lambda data, dice: b"",
+    "zeroed": lambda data, dice: bytes(len(data)),
+    "noise": lambda data, dice: dice.randbytes(len(data)),
+    "a bit": lambda data, dice: data[: len(data) // 2] + bytes([data[len(data) // 2] ^ 1]) + data[len(data) // 2 + 1 :],
 }
 
 
@@ -34,87 +37,107 @@ class Damage(state.Case):
         super().setUp()
         self.kept = os.path.dirname(self.jobs)
         server = self.start()
-        self.done = [self.make({'scenes': [{**SCENE, 'time': t} for t in (1, 2, 3)]}, server=server) for _ in range(2)]
-        self.done.append(self.make({'scene': SCENE, 'axes': {'style.exposure': '0:2:1'}, 'output': 'light-curve'}, server=server))
+        self.done = [self.make({"scenes": [{**SCENE, "time": t} for t in (1, 2, 3)]}, server=server) for _ in range(2)]
+        self.done.append(
+            self.make({"scene": SCENE, "axes": {"style.exposure": "0:2:1"}, "output": "light-curve"}, server=server)
+        )
         for job in self.done:
-            self.until(job, 'done', server)
+            self.until(job, "done", server)
         self.put = [assets.png(seed=i) for i in range(2)]
-        self.hashes = [server.request('PUT', '/v1/assets', data, {'Content-Type': 'image/png'}).json()['sha256'] for data in self.put]
-        self.results = [server.get(self.at(job, '/result')).body for job in self.done]
+        self.hashes = [
+            server.request("PUT", "/v1/assets", data, {"Content-Type": "image/png"}).json()["sha256"]
+            for data in self.put
+        ]
+        self.results = [server.get(self.at(job, "/result")).body for job in self.done]
         self.assertEqual(server.stop(), 0)
-        shutil.copytree(self.kept, self.kept + '.good')
+        shutil.copytree(self.kept, self.kept + ".good")
 
     def restore(self):
         shutil.rmtree(self.kept)
-        shutil.copytree(self.kept + '.good', self.kept)
+        shutil.copytree(self.kept + ".good", self.kept)
 
     def test_each_file(self):
         outcomes = collections.defaultdict(collections.Counter)
-        names = sorted(os.path.relpath(os.path.join(at, name), self.kept) for at, _, found in os.walk(self.kept) for name in found)
+        names = sorted(
+            os.path.relpath(os.path.join(at, name), self.kept) for at, _, found in os.walk(self.kept) for name in found
+        )
         if not faults.WHOLE:
             kinds = {}
             for name in names:
-                kinds.setdefault(os.path.splitext(os.path.basename(name))[0 if 'job' in name or 'request' in name else 1] + name.split('/')[0], name)
+                kinds.setdefault(
+                    os.path.splitext(os.path.basename(name))[0 if "job" in name or "request" in name else 1]
+                    + name.split("/")[0],
+                    name,
+                )
             names = sorted(kinds.values())
         for name in names:
             for word, change in NEW.items():
-                with self.subTest(f'{name} {word}'):
+                with self.subTest(f"{name} {word}"):
                     self.restore()
                     path = os.path.join(self.kept, name)
-                    with open(path, 'rb') as f:
+                    with open(path, "rb") as f:
                         data = f.read()
                     if not data:
                         continue
-                    with open(path, 'wb') as f:
+                    with open(path, "wb") as f:
                         f.write(change(data, random.Random(name)))
-                    kind = 'a frame' if os.path.basename(name)[:4] == '0000' else 'bytes of an asset' if name.endswith('.png') else 'the record of an asset' if name[:3] == 'ass' else os.path.basename(name)
-                    row = self.done[-1]['id'] in name and kind == 'a frame'
-                    kind = 'a row of a table' if row else kind
-                    unseen = kind == 'a frame' and word == 'a bit' or row and word in ('zeroed', 'noise', 'a bit')
+                    kind = (
+                        "a frame"
+                        if os.path.basename(name)[:4] == "0000"
+                        else "bytes of an asset"
+                        if name.endswith(".png")
+                        else "the record of an asset"
+                        if name[:3] == "ass"
+                        else os.path.basename(name)
+                    )
+                    row = self.done[-1]["id"] in name and kind == "a frame"
+                    kind = "a row of a table" if row else kind
+                    unseen = kind == "a frame" and word == "a bit" or row and word in ("zeroed", "noise", "a bit")
                     found = self.outcome(name, unseen)
                     outcomes[kind][found] += 1
-                    if kind in ('a frame', 'a row of a table') and not unseen:
-                        self.assertEqual(found, 'made again')
+                    if kind in ("a frame", "a row of a table") and not unseen:
+                        self.assertEqual(found, "made again")
         for kind, found in sorted(outcomes.items()):
-            faults.record('damage', kind, found)
+            faults.record("damage", kind, found)
 
     def told(self):
-        with open(os.path.join(self.folder, 'told'), encoding='utf-8') as f:
+        with open(os.path.join(self.folder, "told"), encoding="utf-8") as f:
             return f.read()
 
     def outcome(self, name, unseen):
-        """What becomes of what the file belongs to; all else is as it was. Unseen: what is wrong with it only its reader can find, as by the checksums of a PNG."""
-        with open(os.path.join(self.folder, 'told'), 'wb') as told:
-            server = self.start(by=lambda *options: daemon.Daemon('--log', 1, *options, stderr=told))
-        word = 'whole'
+        """What becomes of what the file belongs to; all else is as it was. Unseen: what is wrong with it only its
+        reader can find, as by the checksums of a PNG."""
+        with open(os.path.join(self.folder, "told"), "wb") as told:
+            server = self.start(by=lambda *options: daemon.Daemon("--log", 1, *options, stderr=told))
+        word = "whole"
         for job, result in zip(self.done, self.results):
             answer = server.get(self.at(job))
-            mine = job['id'] in name
+            mine = job["id"] in name
             if mine and answer.status == 404:
-                word = 'set aside'
+                word = "set aside"
                 continue
             self.assertEqual(answer.status, 200)
-            if mine and (answer.json()['state'] != 'done' or 'is damaged' in self.told()):
-                self.until(job, 'done', server, 20)
-                word = 'made again'
-            got = server.get(self.at(job, '/result'))
-            if mine and name.endswith('request.json') and got.status == 200 and got.body != result:
+            if mine and (answer.json()["state"] != "done" or "is damaged" in self.told()):
+                self.until(job, "done", server, 20)
+                word = "made again"
+            got = server.get(self.at(job, "/result"))
+            if mine and name.endswith("request.json") and got.status == 200 and got.body != result:
                 self.assertIs(job, self.done[-1])  # whose table has columns for what the request varies
-                word = 'whole, without the columns of its axes'
+                word = "whole, without the columns of its axes"
                 continue
             if mine and unseen:
                 self.assertEqual(got.status, 200)
-                word = 'sent as it lies'
+                word = "sent as it lies"
                 continue
             self.assertEqual((got.status, got.body), (200, result), name)
         for data, asset in zip(self.put, self.hashes):
-            got = server.get('/v1/assets/' + asset)
+            got = server.get("/v1/assets/" + asset)
             if asset in name and got.status == 404:
-                word = 'set aside'
+                word = "set aside"
             else:
                 self.assertEqual((got.status, got.body), (200, data), name)
-        job = self.make({'scene': SCENE}, server=server)
-        self.until(job, 'done', server)
+        job = self.make({"scene": SCENE}, server=server)
+        self.until(job, "done", server)
         self.assertEqual(server.stop(), 0)
         return word
 
@@ -124,56 +147,68 @@ class Disk(state.Case):
 
     def in_a_namespace(self, script, *options):
         """A server after a line of shell, in a mount namespace of its own; None where there is none to be had."""
-        wrap = ['unshare', '--mount', '--propagation', 'private'] if os.geteuid() == 0 else ['unshare', '--mount', '--map-root-user']
-        if subprocess.run([*wrap, 'mount', '-t', 'tmpfs', 'none', self.folder], stderr=subprocess.DEVNULL).returncode:
-            print('left out: there is no mount namespace to be had here', flush=True)
+        wrap = (
+            ["unshare", "--mount", "--propagation", "private"]
+            if os.geteuid() == 0
+            else ["unshare", "--mount", "--map-root-user"]
+        )
+        if subprocess.run([*wrap, "mount", "-t", "tmpfs", "none", self.folder], stderr=subprocess.DEVNULL).returncode:
+            print("left out: there is no mount namespace to be had here", flush=True)
             return None
-        command = [*wrap, 'sh', '-c', script + ' && exec "$@"', 'sh', *daemon.COMMAND]
-        with unittest.mock.patch.object(daemon, 'COMMAND', command):
-            server = daemon.Daemon('--drain-ms', 10, *options, stderr=subprocess.DEVNULL)
+        command = [*wrap, "sh", "-c", script + ' && exec "$@"', "sh", *daemon.COMMAND]
+        with unittest.mock.patch.object(daemon, "COMMAND", command):
+            server = daemon.Daemon("--drain-ms", 10, *options, stderr=subprocess.DEVNULL)
         self.addCleanup(lambda: server.process.poll() is None and (server.process.kill(), server.wait()))
         return server
 
     def test_it_fills_up(self):
         """Jobs wait, new ones and assets are refused, others are answered; all goes on when there is room again."""
-        server = self.in_a_namespace(f'mount -t tmpfs -o size=512k none {self.folder}', '--state', self.folder + '/state')
+        server = self.in_a_namespace(
+            f"mount -t tmpfs -o size=512k none {self.folder}", "--state", self.folder + "/state"
+        )
         if not server:
             return
-        ballast = f'/proc/{server.process.pid}/root{self.folder}/ballast'
-        job = self.make({'scenes': [{**SCENE, 'time': 100}] * 6}, server=server)
-        self.assertTrue(daemon.eventually(lambda: self.status(job, server)['finished']))
-        with self.assertRaises(OSError), open(ballast, 'wb', buffering=0) as f:
+        ballast = f"/proc/{server.process.pid}/root{self.folder}/ballast"
+        job = self.make({"scenes": [{**SCENE, "time": 100}] * 6}, server=server)
+        self.assertTrue(daemon.eventually(lambda: self.status(job, server)["finished"]))
+        with self.assertRaises(OSError), open(ballast, "wb", buffering=0) as f:
             while True:
                 self.assertGreater(f.write(bytes(4096)), 0)
-        self.assertTrue(daemon.eventually(lambda: 'delayed' in self.status(job, server)), self.status(job, server))
-        self.assertIn('No space left', self.status(job, server)['delayed'])
-        for answer in (server.post('/v1/jobs', {'scene': SCENE}), server.request('PUT', '/v1/assets', assets.png(), {'Content-Type': 'image/png'})):
-            self.assertEqual((answer.status, answer.json()['type']), (507, 'urn:kerrd:problem:disk-full'))
-            self.assertGreater(int(answer.header('Retry-After')), 0)
-        self.assertEqual(server.get('/v1/render?' + daemon.SMALL).status, 200)
+        self.assertTrue(daemon.eventually(lambda: "delayed" in self.status(job, server)), self.status(job, server))
+        self.assertIn("No space left", self.status(job, server)["delayed"])
+        for answer in (
+            server.post("/v1/jobs", {"scene": SCENE}),
+            server.request("PUT", "/v1/assets", assets.png(), {"Content-Type": "image/png"}),
+        ):
+            self.assertEqual((answer.status, answer.json()["type"]), (507, "urn:kerrd:problem:disk-full"))
+            self.assertGreater(int(answer.header("Retry-After")), 0)
+        self.assertEqual(server.get("/v1/render?" + daemon.SMALL).status, 200)
         os.remove(ballast)
-        self.until(job, 'done', server)
-        self.assertEqual(server.post('/v1/jobs', {'scene': SCENE}).status, 202)
-        faults.record('ENOSPC', 'a tmpfs of 512 KiB that is filled', ['waits, and is done afterwards', '507', '507'])
+        self.until(job, "done", server)
+        self.assertEqual(server.post("/v1/jobs", {"scene": SCENE}).status, 202)
+        faults.record("ENOSPC", "a tmpfs of 512 KiB that is filled", ["waits, and is done afterwards", "507", "507"])
         self.assertEqual(server.stop(), 0)
 
     def test_it_is_read_only(self):
-        """A folder that cannot be written is no state folder, and a start says so; without one a server serves, and refuses jobs until it can keep them."""
-        script = f'mount -t tmpfs none {self.folder} && mkdir {self.folder}/state && mount -o remount,ro none {self.folder}'
+        """A folder that cannot be written is no state folder, and a start says so; without one a server serves, and
+        refuses jobs until it can keep them."""
+        script = (
+            f"mount -t tmpfs none {self.folder} && mkdir {self.folder}/state && mount -o remount,ro none {self.folder}"
+        )
         server = self.in_a_namespace(script)
         if not server:
             return
         self.assertEqual(server.stop(), 0)
         with self.assertRaises(RuntimeError):
-            self.in_a_namespace(script, '--state', self.folder + '/state')
+            self.in_a_namespace(script, "--state", self.folder + "/state")
         with unittest.mock.patch.dict(os.environ, TMPDIR=self.folder):
             server = self.in_a_namespace(script)
-        answer = server.post('/v1/jobs', {'scene': SCENE})
-        self.assertEqual((answer.status, answer.json()['type']), (500, 'urn:kerrd:problem:internal'))
-        self.assertEqual(server.get('/v1/render?' + daemon.SMALL).status, 200)
-        faults.record('EROFS', 'a tmpfs that is read-only', ['refused with a reason', '500'])
+        answer = server.post("/v1/jobs", {"scene": SCENE})
+        self.assertEqual((answer.status, answer.json()["type"]), (500, "urn:kerrd:problem:internal"))
+        self.assertEqual(server.get("/v1/render?" + daemon.SMALL).status, 200)
+        faults.record("EROFS", "a tmpfs that is read-only", ["refused with a reason", "500"])
         self.assertEqual(server.stop(), 0)
 
 
-if __name__ == '__main__':
+if __name__ == "__main__":
     faults.main()

@@ -1,8 +1,10 @@
-"""The program itself, on a device: memory and files fail it as a server and as `kerrd render`, its caches are damaged, its pipes are closed, its clocks jump. What a Vulkan driver
-wants of memory for itself is given to it: docs/faults-vulkan.md has faults of drivers.
+"""The program itself, on a device: memory and files fail it as a server and as `kerrd render`, its caches are damaged,
+its pipes are closed, its clocks jump. What a Vulkan driver wants of memory for itself is given to it:
+docs/faults-vulkan.md has faults of drivers.
 
     device.py FAULTS KERRD serve                 some of each series
     KD_WHOLE=1 device.py FAULTS KERRD serve      all of them"""
+
 import collections
 import concurrent.futures
 import errno
@@ -19,61 +21,80 @@ import sweep
 import daemon
 import damage
 
-SCENE = {'image': {'width': 32, 'height': 18}}
-DRAW = ['--set', 'image.width=32', '--set', 'image.height=18']
+SCENE = {"image": {"width": 32, "height": 18}}
+DRAW = ["--set", "image.width=32", "--set", "image.height=18"]
 CHANGES = faults.CREATE | faults.WRITE | faults.SYNC | faults.RENAME | faults.CLOSE
 CACHES = tempfile.TemporaryDirectory()
 
 
 class Memory(sweep.Case):
-    options = ('--jobs', 60)
+    options = ("--jobs", 60)
     most = 5
 
     def test_pictures(self):
-        self.sweep(lambda: self.ask('POST', '/v1/render', SCENE), 200, 'POST /v1/render on a device')
-        self.sweep(lambda: self.ask('POST', '/v1/render', {**SCENE, 'sky': {'model': 'stars'}, 'style': {'exposure': 'auto'}}), 200, 'stars, on a device')
+        self.sweep(lambda: self.ask("POST", "/v1/render", SCENE), 200, "POST /v1/render on a device")
+        self.sweep(
+            lambda: self.ask("POST", "/v1/render", {**SCENE, "sky": {"model": "stars"}, "style": {"exposure": "auto"}}),
+            200,
+            "stars, on a device",
+        )
 
     def test_rays(self):
-        self.sweep(lambda: self.ask('POST', '/v1/rays', {'spin': 0.5, 'rays': [[5, 1], [2, -3]], 'accuracy': {'engine': 'ks-rk4', 'precision': 'f32'}}), 200, 'POST /v1/rays on a device')
+        self.sweep(
+            lambda: self.ask(
+                "POST",
+                "/v1/rays",
+                {"spin": 0.5, "rays": [[5, 1], [2, -3]], "accuracy": {"engine": "ks-rk4", "precision": "f32"}},
+            ),
+            200,
+            "POST /v1/rays on a device",
+        )
 
     def test_a_session(self):
         def ask():
-            answer = self.ask('POST', '/v1/sessions', SCENE)
+            answer = self.ask("POST", "/v1/sessions", SCENE)
             if answer.status != 201:
                 return answer
             one = answer.json()
-            at, owner = f'/v1/sessions/{one["id"]}', {'Authorization': 'Bearer ' + one['token']}
+            at, owner = f"/v1/sessions/{one['id']}", {"Authorization": "Bearer " + one["token"]}
             try:
-                if (answer := self.ask('PATCH', at, {'camera': {'inclination_deg': 60}}, owner)).status == 200:
-                    answer = self.ask('GET', at + '/frame.png?wait_ms=20000')
-                    answer.body = answer.body if answer.status != 200 else answer.body[:16]  # how fine it is depends on the time it took
+                if (answer := self.ask("PATCH", at, {"camera": {"inclination_deg": 60}}, owner)).status == 200:
+                    answer = self.ask("GET", at + "/frame.png?wait_ms=20000")
+                    answer.body = (
+                        answer.body if answer.status != 200 else answer.body[:16]
+                    )  # how fine it is depends on the time it took
             finally:
                 self.faults.mend()
-                self.assertEqual(self.server.request('DELETE', at, headers=owner).status, 204)
+                self.assertEqual(self.server.request("DELETE", at, headers=owner).status, 204)
             return answer
-        self.sweep(ask, 200, 'a session, a change and a frame, on a device')
+
+        self.sweep(ask, 200, "a session, a change and a frame, on a device")
 
     def test_a_job(self):
         def ask():
-            answer = self.ask('POST', '/v1/jobs', {'scenes': [SCENE]})
+            answer = self.ask("POST", "/v1/jobs", {"scenes": [SCENE]})
             if answer.status != 202:
                 return answer
             job = answer.json()
-            at = '/v1/jobs/' + job['id']
+            at = "/v1/jobs/" + job["id"]
 
             def state():
                 try:
                     told = self.server.get(at)
-                    return told.json()['state'] if told.status == 200 else None
+                    return told.json()["state"] if told.status == 200 else None
                 except (OSError, daemon.http.client.HTTPException):
                     return None
-            self.assertTrue(daemon.eventually(lambda: state() in ('done', 'failed'), 30))
+
+            self.assertTrue(daemon.eventually(lambda: state() in ("done", "failed"), 30))
             self.faults.mend()
-            self.assertEqual(state(), 'done', self.server.get(at).body)
-            result = self.server.get(at + '/result')
-            self.assertEqual(self.server.request('DELETE', at, headers={'Authorization': 'Bearer ' + job['token']}).status, 204)
+            self.assertEqual(state(), "done", self.server.get(at).body)
+            result = self.server.get(at + "/result")
+            self.assertEqual(
+                self.server.request("DELETE", at, headers={"Authorization": "Bearer " + job["token"]}).status, 204
+            )
             return result
-        self.sweep(ask, 200, 'a job from POST to its result, on a device')
+
+        self.sweep(ask, 200, "a job from POST to its result, on a device")
 
 
 class Drawing:
@@ -82,42 +103,56 @@ class Drawing:
     def __init__(self, case):
         folder = tempfile.TemporaryDirectory()
         case.addCleanup(folder.cleanup)
-        self.case, self.folder, self.out = case, folder.name, os.path.join(folder.name, 'a.png')
+        self.case, self.folder, self.out = case, folder.name, os.path.join(folder.name, "a.png")
         self.faults = faults.Faults()
         case.addCleanup(self.faults.close)
         case.assertEqual(self.draw().returncode, 0)  # what it learns of the device, it knows from now on
         self.calm = self.faults.live  # blocks that it does not free
-        with open(self.out, 'rb') as f:
+        with open(self.out, "rb") as f:
             self.good = f.read()
 
     def draw(self, *options, wrap=(), **more):
         self.faults.forget()
-        wrap = [*wrap, 'env', *(f'{name}={value}' for name, value in self.faults.environment().items())]  # of kerrd alone
-        return subprocess.run([*wrap, daemon.COMMAND[0], 'render', *DRAW, *(options or ('-o', self.out))], stderr=subprocess.PIPE, timeout=300, **more)
+        wrap = [
+            *wrap,
+            "env",
+            *(f"{name}={value}" for name, value in self.faults.environment().items()),
+        ]  # of kerrd alone
+        return subprocess.run(
+            [*wrap, daemon.COMMAND[0], "render", *DRAW, *(options or ("-o", self.out))],
+            stderr=subprocess.PIPE,
+            timeout=300,
+            **more,
+        )
 
     def judge(self, done, n):
-        """A word for how it ended: the old file is as it was, or the new one is whole, there is nothing else, and no memory was left behind."""
+        """A word for how it ended: the old file is as it was, or the new one is whole, there is nothing else, and no
+        memory was left behind."""
         case = self.case
-        case.assertEqual(os.listdir(self.folder), ['a.png'], n)
-        with open(self.out, 'rb') as f:
+        case.assertEqual(os.listdir(self.folder), ["a.png"], n)
+        with open(self.out, "rb") as f:
             case.assertEqual(f.read(), self.good, n)
-        case.assertLessEqual(self.faults.live, self.calm, (n, collections.Counter(faults.where(place) for place in self.faults.blocks().values()), done.stderr))
+        case.assertLessEqual(
+            self.faults.live,
+            self.calm,
+            (n, collections.Counter(faults.where(place) for place in self.faults.blocks().values()), done.stderr),
+        )
         if done.returncode == 0:
-            return 'whole picture'
-        lines = [line for line in done.stderr.decode().splitlines() if not line.startswith('kerrd: warning:')]
+            return "whole picture"
+        lines = [line for line in done.stderr.decode().splitlines() if not line.startswith("kerrd: warning:")]
         case.assertEqual((done.returncode, len(lines)), (1, 1), (n, faults.where(self.faults.failed_from), done.stderr))
-        case.assertTrue(lines[0].startswith('kerrd'), (n, lines))
-        return 'exit code 1 with a reason'
+        case.assertTrue(lines[0].startswith("kerrd"), (n, lines))
+        return "exit code 1 with a reason"
 
     def memory(self, stack, n, count=1):
         """What has come of it when the n-th allocation that is asked for by this stack fails; stack 0: of all."""
         failed = self.faults.failed
-        self.faults.set('by_stack', stack)
+        self.faults.set("by_stack", stack)
         self.faults.memory(n, count)
         done = self.draw()
         self.faults.mend()
         word = self.judge(done, (stack, n))
-        return word if self.faults.failed > failed else 'not reached'
+        return word if self.faults.failed > failed else "not reached"
 
     def files(self, mask, number, n=0, count=faults.ALWAYS):
         failed = self.faults.files_failed
@@ -125,7 +160,7 @@ class Drawing:
         done = self.draw()
         self.faults.mend()
         word = self.judge(done, n)
-        return word if self.faults.files_failed > failed else 'not reached'
+        return word if self.faults.files_failed > failed else "not reached"
 
 
 class CommandMemory(unittest.TestCase):
@@ -133,13 +168,18 @@ class CommandMemory(unittest.TestCase):
         self.one = Drawing(self)
 
     def test_memory(self):
-        """Most of the allocations come from a few places, over and over: each place fails when it is called for the first, the second and the last time. A place is a stack of calls."""
-        self.one.faults.set('by_stack', 1)
+        """Most of the allocations come from a few places, over and over: each place fails when it is called for the
+        first, the second and the last time. A place is a stack of calls."""
+        self.one.faults.set("by_stack", 1)
         self.one.draw()
         stacks = self.one.faults.stacks()
         points = [(stack, n) for stack, count in stacks.items() for n in sorted({0, min(1, count - 1), count - 1})]
         every = sum(stacks.values())
-        for_good = [(0, n, faults.ALWAYS) for n in faults.some(every, 3)] if not faults.WHOLE else [(0, round(i * every / 60), faults.ALWAYS) for i in range(60)]
+        for_good = (
+            [(0, n, faults.ALWAYS) for n in faults.some(every, 3)]
+            if not faults.WHOLE
+            else [(0, round(i * every / 60), faults.ALWAYS) for i in range(60)]
+        )
         tried = points if faults.WHOLE else [points[i] for i in faults.some(len(points), 4)]
         spare, workers = [self.one], 2 if faults.WHOLE else 1
         spare += [Drawing(self) for _ in range(workers - 1)]
@@ -150,10 +190,16 @@ class CommandMemory(unittest.TestCase):
                 return drawing.memory(*point)
             finally:
                 spare.append(drawing)
+
         with concurrent.futures.ThreadPoolExecutor(workers) as pool:
             outcomes, after = (collections.Counter(pool.map(attempt, some)) for some in (tried, for_good))
-        faults.record('memory', f'kerrd render: the first, the second and the last of each place, of {every} allocations', outcomes, len(points))
-        faults.record('memory', 'kerrd render: one allocation and all after it', after, every)
+        faults.record(
+            "memory",
+            f"kerrd render: the first, the second and the last of each place, of {every} allocations",
+            outcomes,
+            len(points),
+        )
+        faults.record("memory", "kerrd render: one allocation and all after it", after, every)
 
 
 class Command(unittest.TestCase):
@@ -161,7 +207,12 @@ class Command(unittest.TestCase):
         self.one = Drawing(self)
 
     def test_files(self):
-        for number, mask in ((errno.ENOSPC, CHANGES), (errno.EIO, CHANGES | faults.OPEN | faults.READ), (errno.EMFILE, faults.OPEN | faults.CREATE), (errno.EROFS, faults.CREATE | faults.RENAME)):
+        for number, mask in (
+            (errno.ENOSPC, CHANGES),
+            (errno.EIO, CHANGES | faults.OPEN | faults.READ),
+            (errno.EMFILE, faults.OPEN | faults.CREATE),
+            (errno.EROFS, faults.CREATE | faults.RENAME),
+        ):
             with self.subTest(errno.errorcode[number]):
                 one = self.one.faults
                 one.files(mask, number, faults.ALWAYS)
@@ -171,65 +222,86 @@ class Command(unittest.TestCase):
                 self.assertGreater(count, 2)
                 outcomes = collections.Counter(self.one.files(mask, number, n, 1) for n in faults.some(count, 3))
                 outcomes[self.one.files(mask, number)] += 1
-                faults.record(errno.errorcode[number], 'kerrd render', outcomes, count + 1)
+                faults.record(errno.errorcode[number], "kerrd render", outcomes, count + 1)
 
     def test_a_cache_that_is_read_only(self):
-        """What is learnt of a device is not kept, and is no worse for that. A disk of its own takes a mount namespace, which not every machine lets a user have."""
-        wrap = ['unshare', '--mount', '--propagation', 'private'] if os.geteuid() == 0 else ['unshare', '--mount', '--map-root-user']
+        """What is learnt of a device is not kept, and is no worse for that. A disk of its own takes a mount namespace,
+        which not every machine lets a user have."""
+        wrap = (
+            ["unshare", "--mount", "--propagation", "private"]
+            if os.geteuid() == 0
+            else ["unshare", "--mount", "--map-root-user"]
+        )
         with tempfile.TemporaryDirectory() as caches:
-            if subprocess.run([*wrap, 'mount', '-t', 'tmpfs', 'none', caches], stderr=subprocess.DEVNULL).returncode:
-                self.skipTest('there is no mount namespace to be had here')
-            wrap += ['sh', '-c', f'mount -t tmpfs -o ro none {caches} && exec env XDG_CACHE_HOME={caches} "$@"', 'sh']
+            if subprocess.run([*wrap, "mount", "-t", "tmpfs", "none", caches], stderr=subprocess.DEVNULL).returncode:
+                self.skipTest("there is no mount namespace to be had here")
+            wrap += ["sh", "-c", f'mount -t tmpfs -o ro none {caches} && exec env XDG_CACHE_HOME={caches} "$@"', "sh"]
             done = self.one.draw(wrap=wrap)
-            self.assertEqual(self.one.judge(done, caches), 'whole picture', done.stderr)
+            self.assertEqual(self.one.judge(done, caches), "whole picture", done.stderr)
             self.assertEqual(os.listdir(caches), [])
-        faults.record('EROFS', 'kerrd render, caches of a device', ['whole picture'])
+        faults.record("EROFS", "kerrd render, caches of a device", ["whole picture"])
 
     def test_a_machine_that_was_held(self):
         """Ten minutes between any two looks at the steady clock are no lost device."""
         clocks = self.one.faults
-        clocks.set('steady_step_ms', 600_000)
-        self.assertEqual(self.one.judge(self.one.draw(), 'held'), 'whole picture')
-        clocks.set('steady_step_ms', 0)
+        clocks.set("steady_step_ms", 600_000)
+        self.assertEqual(self.one.judge(self.one.draw(), "held"), "whole picture")
+        clocks.set("steady_step_ms", 0)
         self.assertGreater(clocks.steady_ms, 6_000_000)
-        faults.record('clocks', 'the steady one, by 10 minutes each time that kerrd render looks', ['whole picture'] * (clocks.steady_ms // 600_000))
+        faults.record(
+            "clocks",
+            "the steady one, by 10 minutes each time that kerrd render looks",
+            ["whole picture"] * (clocks.steady_ms // 600_000),
+        )
 
     def test_pipes(self):
-        """Nobody reads the picture: it ends by SIGPIPE without a word, as other tools do. Nobody reads what it says: the picture is made."""
+        """Nobody reads the picture: it ends by SIGPIPE without a word, as other tools do. Nobody reads what it says:
+        the picture is made."""
         read, write = os.pipe()
         os.close(read)
-        done = self.one.draw('-o', '-', stdout=write)
+        done = self.one.draw("-o", "-", stdout=write)
         os.close(write)
-        self.assertEqual((done.returncode, done.stderr), (-signal.SIGPIPE, b''))
+        self.assertEqual((done.returncode, done.stderr), (-signal.SIGPIPE, b""))
         script = '"$@" {}'
-        for closed, code in (('2>&-', 0), ('>&-', 0), ('<&- >&- 2>&-', 0)):
-            command = [daemon.COMMAND[0], 'render', *DRAW, '--stats', '-o', self.one.out]
-            self.assertEqual(subprocess.run(['sh', '-c', script.format(closed), 'sh', *command], timeout=60, stderr=subprocess.DEVNULL).returncode, code, closed)
-            with open(self.one.out, 'rb') as f:
+        for closed, code in (("2>&-", 0), (">&-", 0), ("<&- >&- 2>&-", 0)):
+            command = [daemon.COMMAND[0], "render", *DRAW, "--stats", "-o", self.one.out]
+            self.assertEqual(
+                subprocess.run(
+                    ["sh", "-c", script.format(closed), "sh", *command], timeout=60, stderr=subprocess.DEVNULL
+                ).returncode,
+                code,
+                closed,
+            )
+            with open(self.one.out, "rb") as f:
                 self.assertEqual(f.read(), self.one.good, closed)
-        faults.record('EPIPE', 'kerrd render', ['ends by SIGPIPE: the picture into a closed pipe'] + ['whole picture: standard streams that are not open'] * 3)
+        faults.record(
+            "EPIPE",
+            "kerrd render",
+            ["ends by SIGPIPE: the picture into a closed pipe"]
+            + ["whole picture: standard streams that are not open"] * 3,
+        )
 
     def test_caches(self):
         """What is kept of a device is no more than that: damaged, it is made again."""
-        folder = os.path.join(CACHES.name, 'kerrd')
+        folder = os.path.join(CACHES.name, "kerrd")
         names = sorted(os.listdir(folder))
-        self.assertTrue([name for name in names if name.endswith('.pipelines')], names)
+        self.assertTrue([name for name in names if name.endswith(".pipelines")], names)
         good = {}
         for name in names:
-            with open(os.path.join(folder, name), 'rb') as f:
+            with open(os.path.join(folder, name), "rb") as f:
                 good[name] = f.read()
         outcomes = collections.Counter()
         for name in names:
             for word, change in damage.NEW.items():
-                if not good[name] or not (faults.WHOLE or word in ('cut off', 'noise')):
+                if not good[name] or not (faults.WHOLE or word in ("cut off", "noise")):
                     continue
-                with open(os.path.join(folder, name), 'wb') as f:
+                with open(os.path.join(folder, name), "wb") as f:
                     f.write(change(good[name], random.Random(name)))
                 outcomes[self.one.judge(self.one.draw(), (name, word))] += 1
         for name, data in good.items():
-            with open(os.path.join(folder, name), 'wb') as f:
+            with open(os.path.join(folder, name), "wb") as f:
                 f.write(data)
-        faults.record('damage', 'caches of a device', outcomes)
+        faults.record("damage", "caches of a device", outcomes)
 
 
 class Streams(unittest.TestCase):
@@ -237,43 +309,65 @@ class Streams(unittest.TestCase):
         """Closed pipes behind its standard output and error, with all that it logs."""
         read, write = os.pipe()
         os.close(read)
-        server = daemon.Daemon('--log-level', 'debug', stderr=write)
+        server = daemon.Daemon("--log-level", "debug", stderr=write)
         os.close(write)
         server.process.stdout.close()
-        self.assertEqual(server.post('/v1/render', SCENE).status, 200)
-        self.assertEqual(server.get('/v1/render?spacetime.spin=2').status, 422)
+        self.assertEqual(server.post("/v1/render", SCENE).status, 200)
+        self.assertEqual(server.get("/v1/render?spacetime.spin=2").status, 422)
         server.terminate()
         self.assertEqual(server.process.wait(60), 0)
-        faults.record('EPIPE', "a server's standard output and error", ['serves'])
+        faults.record("EPIPE", "a server's standard output and error", ["serves"])
 
     def test_streams_that_are_not_open(self):
         """Neither a client nor a file of the state folder stands where it says what it has to say."""
         port = daemon.free_port()
         with tempfile.TemporaryDirectory() as folder:
-            process = subprocess.Popen(['sh', '-c', 'exec "$@" <&- >&- 2>&-', 'sh', *daemon.COMMAND, '--port', str(port), '--state', folder, '--log-level', 'debug'])
+            process = subprocess.Popen(
+                [
+                    "sh",
+                    "-c",
+                    'exec "$@" <&- >&- 2>&-',
+                    "sh",
+                    *daemon.COMMAND,
+                    "--port",
+                    str(port),
+                    "--state",
+                    folder,
+                    "--log-level",
+                    "debug",
+                ]
+            )
             server = daemon.Daemon.__new__(daemon.Daemon)
             server.process, server.port = process, port
             try:
+
                 def ready():
                     try:
-                        return server.get('/readyz').status == 200
+                        return server.get("/readyz").status == 200
                     except (OSError, daemon.http.client.HTTPException):
                         return False
+
                 self.assertTrue(daemon.eventually(ready, 60))
-                job = server.post('/v1/jobs', {'scene': SCENE}).json()
-                self.assertTrue(daemon.eventually(lambda: server.get('/v1/jobs/' + job['id']).json()['state'] == 'done', 60))
-                open_now = {os.readlink(f'/proc/{process.pid}/fd/{n}') for n in range(3) if os.path.exists(f'/proc/{process.pid}/fd/{n}')}
-                self.assertEqual(open_now, {'/dev/null'})
+                job = server.post("/v1/jobs", {"scene": SCENE}).json()
+                self.assertTrue(
+                    daemon.eventually(lambda: server.get("/v1/jobs/" + job["id"]).json()["state"] == "done", 60)
+                )
+                open_now = {
+                    os.readlink(f"/proc/{process.pid}/fd/{n}")
+                    for n in range(3)
+                    if os.path.exists(f"/proc/{process.pid}/fd/{n}")
+                }
+                self.assertEqual(open_now, {"/dev/null"})
             finally:
                 process.terminate()
                 self.assertEqual(process.wait(60), 0)
-        faults.record('EPIPE', 'a server without standard streams', ['serves'])
+        faults.record("EPIPE", "a server without standard streams", ["serves"])
 
 
-if __name__ == '__main__':
-    daemon_command = os.path.abspath(__import__('sys').argv[2])
-    if 'devices: none' in subprocess.run([daemon_command, 'doctor'], capture_output=True, text=True, timeout=60).stdout:
-        print('skipped: there is no device')
+if __name__ == "__main__":
+    daemon_command = os.path.abspath(__import__("sys").argv[2])
+    if "devices: none" in subprocess.run([daemon_command, "doctor"], capture_output=True, text=True, timeout=60).stdout:
+        print("skipped: there is no device")
         raise SystemExit(77)
-    os.environ['XDG_CACHE_HOME'] = CACHES.name
+    os.environ["XDG_CACHE_HOME"] = CACHES.name
     faults.main()

@@ -1,7 +1,9 @@
-"""Disks that are full, fail, or are slow, in front of a renderer without a device: what was accepted is done when there is room again, what was refused has left nothing.
+"""Disks that are full, fail, or are slow, in front of a renderer without a device: what was accepted is done when there
+is room again, what was refused has left nothing.
 
-    disk.py FAULTS SERVER                 some operations of each series
-    KD_WHOLE=1 disk.py FAULTS SERVER      all of them"""
+disk.py FAULTS SERVER                 some operations of each series
+KD_WHOLE=1 disk.py FAULTS SERVER      all of them"""
+
 import collections
 import errno
 import os
@@ -13,9 +15,20 @@ import daemon
 import state
 from job_case import SCENE
 
-REASONS = {errno.ENOSPC: (507, 'disk-full'), errno.EDQUOT: (507, 'disk-full'), errno.EMFILE: (503, 'out-of-memory'), errno.EIO: (500, 'internal'), errno.EROFS: (500, 'internal')}
+REASONS = {
+    errno.ENOSPC: (507, "disk-full"),
+    errno.EDQUOT: (507, "disk-full"),
+    errno.EMFILE: (503, "out-of-memory"),
+    errno.EIO: (500, "internal"),
+    errno.EROFS: (500, "internal"),
+}
 CHANGES = faults.CREATE | faults.WRITE | faults.SYNC | faults.RENAME | faults.CLOSE
-FAULTS = ((errno.ENOSPC, CHANGES), (errno.EIO, CHANGES | faults.OPEN | faults.READ), (errno.EROFS, faults.CREATE | faults.RENAME), (errno.EMFILE, faults.CREATE | faults.OPEN))
+FAULTS = (
+    (errno.ENOSPC, CHANGES),
+    (errno.EIO, CHANGES | faults.OPEN | faults.READ),
+    (errno.EROFS, faults.CREATE | faults.RENAME),
+    (errno.EMFILE, faults.CREATE | faults.OPEN),
+)
 
 
 class Case(state.Case):
@@ -23,42 +36,44 @@ class Case(state.Case):
         super().setUp()
         self.faults = faults.Faults()
         self.addCleanup(self.faults.close)
-        self.assets = os.path.join(os.path.dirname(self.jobs), 'assets')
+        self.assets = os.path.join(os.path.dirname(self.jobs), "assets")
 
     def half_written(self):
         """Files of the state folder that are not under their names yet."""
-        return [name for at, _, names in os.walk(os.path.dirname(self.jobs)) for name in names if name.count('.') > 1]
+        return [name for at, _, names in os.walk(os.path.dirname(self.jobs)) for name in names if name.count(".") > 1]
 
     def job(self, server):
-        return server.post('/v1/jobs', {'scenes': [{**SCENE, 'time': 1}, {**SCENE, 'time': 2}]})
+        return server.post("/v1/jobs", {"scenes": [{**SCENE, "time": 1}, {**SCENE, "time": 2}]})
 
     def outcome(self, answer, number, good):
         """A word for an answer to a request whose operations on files have failed with this number."""
         if answer.status in good:
-            return 'whole'
+            return "whole"
         problem = self.assertProblem(answer, *REASONS[number])
-        self.assertNotIn(self.folder, problem['detail'])
+        self.assertNotIn(self.folder, problem["detail"])
         if number in (errno.ENOSPC, errno.EMFILE):
-            self.assertGreater(int(answer.header('Retry-After')), 0)
+            self.assertGreater(int(answer.header("Retry-After")), 0)
         return str(answer.status)
 
-
     def reached(self, word, failed):
-        """The word for an outcome, if so many failures were before and there are more now. Without one all is as it always is."""
+        """The word for an outcome, if so many failures were before and there are more now. Without one all is as it
+        always is."""
         if self.faults.files_failed > failed:
             return word
-        self.assertIn(word, ('whole', 'started'))
-        return 'not reached'
+        self.assertIn(word, ("whole", "started"))
+        return "not reached"
 
 
 class Operations(Case):
-    """The n-th operation on files fails, and only that: a disk that is full for a moment, or a sector that cannot be written."""
+    """The n-th operation on files fails, and only that: a disk that is full for a moment, or a sector that cannot be
+    written."""
 
     def sweep(self, scenario, number, mask, ask):
-        """ask(server, number) returns a word; what it is told of a failure that has no part in the answer stands in the log, or else the failure was overlooked."""
-        told = open(os.path.join(self.folder, 'told'), 'w+', encoding='utf-8')
+        """ask(server, number) returns a word; what it is told of a failure that has no part in the answer stands in the
+        log, or else the failure was overlooked."""
+        told = open(os.path.join(self.folder, "told"), "w+", encoding="utf-8")
         self.addCleanup(told.close)
-        server = self.start('--log', 1, by=lambda *options: self.faults.start(*options, stderr=told))
+        server = self.start("--log", 1, by=lambda *options: self.faults.start(*options, stderr=told))
         ask(server)
         self.faults.files(mask, number, faults.ALWAYS)
         before = self.faults.files_count
@@ -70,13 +85,20 @@ class Operations(Case):
             failed, said = self.faults.files_failed, os.fstat(told.fileno()).st_size
             self.faults.files(mask, number, n, 1)
             word = self.reached(ask(server, number), failed)
-            if word == 'whole':
+            if word == "whole":
                 told.seek(said)
-                self.assertIn(os.strerror(number), told.read(), f'operation {n} has failed, and nobody was told; asked for at {faults.where(self.faults.failed_from)}')
-                word = 'whole, and the log says what failed'
+                self.assertIn(
+                    os.strerror(number),
+                    told.read(),
+                    f"operation {n} has failed, and nobody was told; asked for at {faults.where(self.faults.failed_from)}",
+                )
+                word = "whole, and the log says what failed"
             outcomes[word] += 1
-            self.assertEqual(ask(server), 'whole')
-            self.assertTrue(daemon.eventually(lambda: server.open_files() <= files, 10), f'operation {n} leaves a descriptor: {server.open_files()}, before {files}')
+            self.assertEqual(ask(server), "whole")
+            self.assertTrue(
+                daemon.eventually(lambda: server.open_files() <= files, 10),
+                f"operation {n} leaves a descriptor: {server.open_files()}, before {files}",
+            )
         faults.record(errno.errorcode[number], scenario, outcomes, count)
         return server
 
@@ -85,17 +107,23 @@ class Operations(Case):
 
         def put(server, number=0):
             seed[0] += 1
-            answer = server.request('PUT', '/v1/assets', assets.png(seed=seed[0]), {'Content-Type': 'image/png'})
+            answer = server.request("PUT", "/v1/assets", assets.png(seed=seed[0]), {"Content-Type": "image/png"})
             self.faults.mend()
             word = self.outcome(answer, number, (201,))
-            if word == 'whole':
+            if word == "whole":
                 made = answer.json()
-                self.assertEqual(server.request('DELETE', '/v1/assets/' + made['sha256'], headers={'Authorization': 'Bearer ' + made['token']}).status, 204)
-            self.assertEqual((server.get('/v1/assets').json()['assets'], os.listdir(self.assets)), (0, []))
+                self.assertEqual(
+                    server.request(
+                        "DELETE", "/v1/assets/" + made["sha256"], headers={"Authorization": "Bearer " + made["token"]}
+                    ).status,
+                    204,
+                )
+            self.assertEqual((server.get("/v1/assets").json()["assets"], os.listdir(self.assets)), (0, []))
             return word
+
         for number, mask in FAULTS:
             with self.subTest(errno.errorcode[number]):
-                self.assertEqual(self.sweep('PUT /v1/assets', number, mask, put).stop(), 0)
+                self.assertEqual(self.sweep("PUT /v1/assets", number, mask, put).stop(), 0)
 
     def test_a_job_to_its_end(self):
         """Once it is accepted it ends with its bytes, and is there with them after a restart."""
@@ -109,30 +137,37 @@ class Operations(Case):
                         self.faults.mend()
                         return self.outcome(answer, number, ())
                     job = answer.json()
-                    self.assertTrue(daemon.eventually(lambda: self.status(job, server)['state'] in ('done', 'failed'), 30), self.status(job, server))
+                    self.assertTrue(
+                        daemon.eventually(lambda: self.status(job, server)["state"] in ("done", "failed"), 30),
+                        self.status(job, server),
+                    )
                     self.faults.mend()
-                    self.assertEqual(self.status(job, server)['state'], 'done', self.status(job, server))
+                    self.assertEqual(self.status(job, server)["state"], "done", self.status(job, server))
                     frames = self.frames_of(job, server)
                     good or good.append(frames)
                     self.assertEqual(frames, good[0])
                     accepted.append(job)
-                    return 'whole'
-                server = self.sweep('a job from POST to its result', number, mask, run)
+                    return "whole"
+
+                server = self.sweep("a job from POST to its result", number, mask, run)
                 self.assertEqual(server.stop(), 0)
                 server = self.start()
                 for job in accepted[-60:]:  # of 64 that are kept
-                    self.assertEqual((self.status(job, server)['state'], self.frames_of(job, server)), ('done', good[0]))
+                    self.assertEqual(
+                        (self.status(job, server)["state"], self.frames_of(job, server)), ("done", good[0])
+                    )
                 for job in accepted:
                     self.delete(job, server)
                 self.assertEqual(server.stop(), 0)
                 self.assertEqual(self.half_written(), [])
 
     def test_a_restart(self):
-        """A start that cannot read or write says so and ends, or sets aside what it cannot read: whatever it was, the next one has it all."""
+        """A start that cannot read or write says so and ends, or sets aside what it cannot read: whatever it was, the
+        next one has it all."""
         server = self.start()
         job = self.job(server).json()
-        self.until(job, 'done', server)
-        asset = server.request('PUT', '/v1/assets', assets.png(seed=1), {'Content-Type': 'image/png'}).json()
+        self.until(job, "done", server)
+        asset = server.request("PUT", "/v1/assets", assets.png(seed=1), {"Content-Type": "image/png"}).json()
         frames = self.frames_of(job, server)
         self.assertEqual(server.stop(), 0)
         for number, mask in FAULTS:
@@ -147,23 +182,25 @@ class Operations(Case):
                     outcomes[self.reached(self.starts(), failed)] += 1
                     self.faults.mend()
                     server = self.start()
-                    self.assertEqual((self.status(job, server)['state'], self.frames_of(job, server)), ('done', frames), n)
-                    self.assertEqual(server.get('/v1/assets/' + asset['sha256']).status, 200, n)
+                    self.assertEqual(
+                        (self.status(job, server)["state"], self.frames_of(job, server)), ("done", frames), n
+                    )
+                    self.assertEqual(server.get("/v1/assets/" + asset["sha256"]).status, 200, n)
                     self.assertEqual(server.stop(), 0)
-                faults.record(errno.errorcode[number], 'a start with what is kept', outcomes, count)
+                faults.record(errno.errorcode[number], "a start with what is kept", outcomes, count)
 
     def starts(self):
-        errors = os.path.join(self.folder, 'errors')
-        with open(errors, 'wb') as stderr:
+        errors = os.path.join(self.folder, "errors")
+        with open(errors, "wb") as stderr:
             try:
-                server = self.start('--log', 1, by=lambda *options: self.faults.start(*options, stderr=stderr))
+                server = self.start("--log", 1, by=lambda *options: self.faults.start(*options, stderr=stderr))
             except RuntimeError:
-                with open(errors, encoding='utf-8') as f:
-                    self.assertRegex(f.read(), 'fake_server: .{10,}')
-                return 'refused with a reason'
-        self.assertEqual(server.get('/healthz').status, 200)
+                with open(errors, encoding="utf-8") as f:
+                    self.assertRegex(f.read(), "fake_server: .{10,}")
+                return "refused with a reason"
+        self.assertEqual(server.get("/healthz").status, 200)
         self.assertEqual(server.stop(), 0)
-        return 'started'
+        return "started"
 
 
 class Scarce(Case):
@@ -171,121 +208,142 @@ class Scarce(Case):
 
     def refused(self, server, status, word):
         problem = self.assertProblem(self.job(server), status, word)
-        self.assertNotIn(self.folder, problem['detail'])
+        self.assertNotIn(self.folder, problem["detail"])
 
     def test_an_asset_without_a_place(self):
         """What could not be written is not there, not counted, and has left nothing; later it can be."""
         server = self.start(by=self.faults.start)
-        put = lambda: server.request('PUT', '/v1/assets', assets.png(seed=1), {'Content-Type': 'image/png'})
+        put = lambda: server.request("PUT", "/v1/assets", assets.png(seed=1), {"Content-Type": "image/png"})
         for number, mask in ((errno.ENOSPC, faults.WRITE), (errno.EMFILE, faults.OPEN | faults.CREATE)):
             self.faults.files(mask, number)
             self.assertEqual(self.outcome(put(), number, ()), str(REASONS[number][0]))
             self.faults.mend()
-            told = server.get('/v1/assets').json()
-            self.assertEqual((told['assets'], told['bytes'], os.listdir(self.assets)), (0, 0, []), number)
+            told = server.get("/v1/assets").json()
+            self.assertEqual((told["assets"], told["bytes"], os.listdir(self.assets)), (0, 0, []), number)
         self.assertEqual(put().status, 201)
         self.assertEqual(len(os.listdir(self.assets)), 2)
         self.assertEqual(server.stop(), 0)
 
     def test_what_runs_out_comes_back(self):
         """The running job waits and says why, others are refused; then all goes on."""
-        for number, mask in ((errno.ENOSPC, faults.WRITE), (errno.EMFILE, faults.OPEN | faults.CREATE), (errno.EIO, CHANGES), (errno.EROFS, faults.CREATE | faults.RENAME)):
+        for number, mask in (
+            (errno.ENOSPC, faults.WRITE),
+            (errno.EMFILE, faults.OPEN | faults.CREATE),
+            (errno.EIO, CHANGES),
+            (errno.EROFS, faults.CREATE | faults.RENAME),
+        ):
             with self.subTest(errno.errorcode[number]):
                 server = self.start(by=self.faults.start)
-                job = self.make({'scenes': [{**SCENE, 'time': 100}] * 6}, server=server)
-                self.assertTrue(daemon.eventually(lambda: self.status(job, server)['finished']))
+                job = self.make({"scenes": [{**SCENE, "time": 100}] * 6}, server=server)
+                self.assertTrue(daemon.eventually(lambda: self.status(job, server)["finished"]))
                 self.faults.files(mask, number)
-                self.assertTrue(daemon.eventually(lambda: 'delayed' in self.status(job, server)), self.status(job, server))
+                self.assertTrue(
+                    daemon.eventually(lambda: "delayed" in self.status(job, server)), self.status(job, server)
+                )
                 told = self.status(job, server)
-                self.assertEqual((told['state'], told['remaining_s']), ('waiting', None))
-                self.assertIn(os.strerror(number), told['delayed'])
-                self.assertNotIn(self.folder, told['delayed'])
+                self.assertEqual((told["state"], told["remaining_s"]), ("waiting", None))
+                self.assertIn(os.strerror(number), told["delayed"])
+                self.assertNotIn(self.folder, told["delayed"])
                 self.refused(server, *REASONS[number])
                 self.faults.mend()
-                self.until(job, 'done', server)
+                self.until(job, "done", server)
                 self.assertEqual(len(self.frames_of(job, server)), 6)
-                faults.record(errno.errorcode[number], 'while a job runs, for a second', ['waits, and is done afterwards'])
+                faults.record(
+                    errno.errorcode[number], "while a job runs, for a second", ["waits, and is done afterwards"]
+                )
                 self.assertEqual(server.stop(), 0)
                 self.assertEqual(self.half_written(), [])
 
     def test_several_jobs_wait(self):
-        """A disk that is full long enough for a second attempt, with three jobs behind one another; deleting one is possible meanwhile."""
+        """A disk that is full long enough for a second attempt, with three jobs behind one another; deleting one is
+        possible meanwhile."""
         server = self.start(by=self.faults.start)
-        jobs = [self.make({'scenes': [{**SCENE, 'time': 30}] * 4}, server=server) for _ in range(3)]
+        jobs = [self.make({"scenes": [{**SCENE, "time": 30}] * 4}, server=server) for _ in range(3)]
         self.faults.files(faults.WRITE, errno.ENOSPC)
-        self.assertTrue(daemon.eventually(lambda: all('delayed' in self.status(job, server) for job in jobs)))
+        self.assertTrue(daemon.eventually(lambda: all("delayed" in self.status(job, server) for job in jobs)))
         self.assertEqual(self.delete(jobs[1], server).status, 204)
         failed = self.faults.files_failed
         self.assertTrue(daemon.eventually(lambda: self.faults.files_failed > failed + 2))
-        self.assertEqual([self.status(job, server)['state'] for job in jobs[::2]], ['waiting'] * 2)
+        self.assertEqual([self.status(job, server)["state"] for job in jobs[::2]], ["waiting"] * 2)
         self.faults.mend()
         for job in jobs[::2]:
-            self.until(job, 'done', server)
+            self.until(job, "done", server)
             self.assertEqual(len(self.frames_of(job, server)), 4)
-        faults.record('ENOSPC', 'three jobs, for several attempts', ['waits, and is done afterwards'] * 2 + ['deleted meanwhile'])
+        faults.record(
+            "ENOSPC", "three jobs, for several attempts", ["waits, and is done afterwards"] * 2 + ["deleted meanwhile"]
+        )
         self.assertEqual(server.stop(), 0)
 
     def test_a_stop_while_a_disk_is_full(self):
         """What waits when the server is told to stop, or is killed, goes on after the next start."""
-        for end in ('stop', 'kill'):
+        for end in ("stop", "kill"):
             server = self.start(by=self.faults.start)
-            job = self.make({'scenes': [{**SCENE, 'time': 20}] * 4}, server=server)
+            job = self.make({"scenes": [{**SCENE, "time": 20}] * 4}, server=server)
             self.faults.files(CHANGES, errno.ENOSPC)
-            self.assertTrue(daemon.eventually(lambda: 'delayed' in self.status(job, server)))
-            if end == 'stop':
+            self.assertTrue(daemon.eventually(lambda: "delayed" in self.status(job, server)))
+            if end == "stop":
                 self.assertEqual(server.stop(), 0)
             else:
                 server.process.kill()
                 server.wait()
             self.faults.mend()
             server = self.start(by=self.faults.start)
-            self.until(job, 'done', server)
+            self.until(job, "done", server)
             self.assertEqual(len(self.frames_of(job, server)), 4)
-            faults.record('ENOSPC', f'a server that is ended ({end}) while a job waits', ['done after the restart'])
+            faults.record("ENOSPC", f"a server that is ended ({end}) while a job waits", ["done after the restart"])
             self.assertEqual(server.stop(), 0)
 
     def test_one_exposure_is_kept_before_it_is_used(self):
-        """All frames of a film have one exposure, which is measured first: while its record cannot be written the job waits, or those after a restart might have another."""
+        """All frames of a film have one exposure, which is measured first: while its record cannot be written the job
+        waits, or those after a restart might have another."""
         server = self.start(by=self.faults.start)
-        scene = {'image': SCENE['image'], 'time': 20, 'style': {'exposure': 'auto'}}
+        scene = {"image": SCENE["image"], "time": 20, "style": {"exposure": "auto"}}
         self.faults.files(faults.RENAME, errno.ENOSPC, 4)  # three for the job that is accepted, one for its strike
-        job = self.make({'scene': scene, 'keyframes': [{'frame': 5, 'scene': {'time': 25}}]}, server=server)
-        self.assertTrue(daemon.eventually(lambda: 'delayed' in self.status(job, server), 20), self.status(job, server))
+        job = self.make({"scene": scene, "keyframes": [{"frame": 5, "scene": {"time": 25}}]}, server=server)
+        self.assertTrue(daemon.eventually(lambda: "delayed" in self.status(job, server), 20), self.status(job, server))
         told = self.status(job, server)
-        self.assertEqual((told['finished'], told.get('exposure'), self.faults.files_failed), (0, None, 1))
+        self.assertEqual((told["finished"], told.get("exposure"), self.faults.files_failed), (0, None, 1))
         self.faults.mend()
-        self.until(job, 'done', server)
-        self.assertEqual(self.status(job, server)['exposure'], self.record(job)['exposure'])
-        faults.record('ENOSPC', 'the record of a measured exposure', ['waits, and is done afterwards'])
+        self.until(job, "done", server)
+        self.assertEqual(self.status(job, server)["exposure"], self.record(job)["exposure"])
+        faults.record("ENOSPC", "the record of a measured exposure", ["waits, and is done afterwards"])
         self.assertEqual(server.stop(), 0)
 
     def test_files_that_are_slow(self):
-        """A cube is looked through, and a table read, by a worker: others are answered while a disk keeps it waiting."""
+        """A cube is looked through, and a table read, by a worker: others are answered while a disk keeps it
+        waiting."""
         server = self.start(by=self.faults.start)
-        scene = {'image': {'width': 8, 'height': 4, 'layers': ['rgb']}}
-        for asked, query in (({'output': 'cube'}, '?format=npz'), ({'output': 'cube'}, '?format=fits'), ({'output': 'light-curve'}, '')):
-            with self.subTest(f'{asked} {query}'):
-                job = self.make({'scene': scene, 'axes': {'style.exposure': '0:4:1'}, **asked}, server=server)
-                self.until(job, 'done', server)
-                path = self.at(job, '/result' + query)
+        scene = {"image": {"width": 8, "height": 4, "layers": ["rgb"]}}
+        for asked, query in (
+            ({"output": "cube"}, "?format=npz"),
+            ({"output": "cube"}, "?format=fits"),
+            ({"output": "light-curve"}, ""),
+        ):
+            with self.subTest(f"{asked} {query}"):
+                job = self.make({"scene": scene, "axes": {"style.exposure": "0:4:1"}, **asked}, server=server)
+                self.until(job, "done", server)
+                path = self.at(job, "/result" + query)
                 at_once = server.get(path)
-                self.faults.set('files_slow', 1)
+                self.faults.set("files_slow", 1)
                 with server.connect() as late, server.connect() as gone:
                     for reader in (late, gone):
-                        reader.sendall(f'GET {path} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n'.encode())
+                        reader.sendall(f"GET {path} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n".encode())
                     self.assertTrue(daemon.eventually(lambda: self.faults.files_waiting > 0))
                     for _ in range(3):
-                        self.assertEqual(server.get('/v1/device').status, 200)
+                        self.assertEqual(server.get("/v1/device").status, 200)
                     self.assertGreater(self.faults.files_waiting, 0)
                     daemon.vanish(gone)
-                    self.faults.set('files_slow', 0)
+                    self.faults.set("files_slow", 0)
                     answer = daemon.read_answer(late)
                 self.assertEqual((answer.status, answer.body), (200, at_once.body))
-                self.assertTrue(daemon.eventually(lambda: server.metrics()['kerrd_turns_unfinished'] == 0))
-                os.remove(os.path.join(self.jobs, job['id'], '000003.png'))
-                self.assertRegex(self.assertProblem(server.get(path), 500, 'internal')['detail'], 'file of (frame|scene) 3 cannot be read')
+                self.assertTrue(daemon.eventually(lambda: server.metrics()["kerrd_turns_unfinished"] == 0))
+                os.remove(os.path.join(self.jobs, job["id"], "000003.png"))
+                self.assertRegex(
+                    self.assertProblem(server.get(path), 500, "internal")["detail"],
+                    "file of (frame|scene) 3 cannot be read",
+                )
         self.assertEqual(server.stop(), 0)
 
 
-if __name__ == '__main__':
+if __name__ == "__main__":
     faults.main()

@@ -1,7 +1,9 @@
-"""Programs under test whose memory, files, descriptors and clocks fail when a test says so (control.h), and a ledger of what has come of it.
+"""Programs under test whose memory, files, descriptors and clocks fail when a test says so (control.h), and a ledger of
+what has come of it.
 
-KD_WHOLE=1 lets each n of a series fail instead of some; KD_LEDGER=FILE appends what has been tried, a JSON object a line, for run.py. KD_FAULTS_TELL=1 lets the
-program say where an allocation has failed."""
+KD_WHOLE=1 lets each n of a series fail instead of some; KD_LEDGER=FILE appends what has been tried, a JSON object a
+line, for run.py. KD_FAULTS_TELL=1 lets the program say where an allocation has failed."""
+
 import collections
 import json
 import mmap
@@ -12,16 +14,36 @@ import subprocess
 import sys
 import tempfile
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / 'http'))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "http"))
 import daemon  # noqa: E402
 
 LIBRARY = []
-FIELDS = ('fail_at', 'fail_for', 'allocations', 'failed', 'by_stack', 'by_library', 'failed_from', 'files_mask', 'files_at', 'files_for', 'files_errno', 'files_count', 'files_failed',
-          'files_slow', 'files_waiting', 'wall_s', 'steady_ms', 'steady_step_ms', 'looks', 'live')
+FIELDS = (
+    "fail_at",
+    "fail_for",
+    "allocations",
+    "failed",
+    "by_stack",
+    "by_library",
+    "failed_from",
+    "files_mask",
+    "files_at",
+    "files_for",
+    "files_errno",
+    "files_count",
+    "files_failed",
+    "files_slow",
+    "files_waiting",
+    "wall_s",
+    "steady_ms",
+    "steady_step_ms",
+    "looks",
+    "live",
+)
 BLOCKS, STACKS = 1 << 16, 1 << 12
 OPEN, CREATE, WRITE, READ, SYNC, RENAME, CLOSE = (1 << i for i in range(7))
 ALWAYS = 1 << 60
-WHOLE = bool(os.environ.get('KD_WHOLE'))
+WHOLE = bool(os.environ.get("KD_WHOLE"))
 
 
 class Faults:
@@ -35,56 +57,61 @@ class Faults:
         self.mend()
 
     def __getattr__(self, name):
-        return struct.unpack_from('<q', self.map, 8 * FIELDS.index(name))[0]
+        return struct.unpack_from("<q", self.map, 8 * FIELDS.index(name))[0]
 
     def set(self, name, value):
-        struct.pack_into('<q', self.map, 8 * FIELDS.index(name), value)
+        struct.pack_into("<q", self.map, 8 * FIELDS.index(name), value)
 
     def memory(self, n, count=1):
         """The n-th allocation from now on, from 0, fails, and those after it, `count` in all."""
-        self.set('fail_at', -1)
-        self.set('fail_for', count)
+        self.set("fail_at", -1)
+        self.set("fail_for", count)
         self.before, self.counted = self.allocations, None
-        self.set('fail_at', n)
+        self.set("fail_at", n)
 
     def files(self, mask, errno, n=0, count=ALWAYS):
         """Likewise of operations on files."""
-        self.set('files_at', -1)
-        self.set('files_mask', mask)
-        self.set('files_errno', errno)
-        self.set('files_for', count)
-        self.set('files_at', n)
+        self.set("files_at", -1)
+        self.set("files_mask", mask)
+        self.set("files_errno", errno)
+        self.set("files_for", count)
+        self.set("files_at", n)
 
     def mend(self):
-        """Nothing fails any more. The first after `memory` says in `counted` how many allocations there were to fail."""
+        """Nothing fails any more. The first after `memory` says in `counted` how many allocations there were to
+        fail."""
         if self.counted is None:
             self.counted = self.allocations - self.before
-        self.set('fail_at', -1)
-        self.set('files_at', -1)
+        self.set("fail_at", -1)
+        self.set("files_at", -1)
 
     def blocks(self):
         """Blocks of the program's that are not freed: where they are -> where they were asked for."""
-        words = struct.unpack_from(f'<{2 * BLOCKS}Q', self.map, 8 * len(FIELDS))
+        words = struct.unpack_from(f"<{2 * BLOCKS}Q", self.map, 8 * len(FIELDS))
         return {at: place for at, place in zip(words[::2], words[1::2]) if at}
 
     def forget(self):
         """Before another program is started with it: it has no blocks yet."""
-        self.set('live', 0)
-        self.map[8 * len(FIELDS):8 * len(FIELDS) + 16 * BLOCKS] = bytes(16 * BLOCKS)
+        self.set("live", 0)
+        self.map[8 * len(FIELDS) : 8 * len(FIELDS) + 16 * BLOCKS] = bytes(16 * BLOCKS)
 
     def stacks(self):
         """Those by which allocations were asked for while by_stack was 1: stack -> how many."""
-        words = struct.unpack_from(f'<{3 * STACKS}q', self.map, 8 * len(FIELDS) + 16 * BLOCKS)
+        words = struct.unpack_from(f"<{3 * STACKS}q", self.map, 8 * len(FIELDS) + 16 * BLOCKS)
         return {stack: count for stack, count in zip(words[::3], words[2::3]) if stack}
 
     def environment(self):
-        return {'KD_FAULTS': self.file.name, 'LD_PRELOAD': LIBRARY[0], 'ASAN_OPTIONS': ':'.join(filter(None, (os.environ.get('ASAN_OPTIONS'), 'verify_asan_link_order=0')))}
+        return {
+            "KD_FAULTS": self.file.name,
+            "LD_PRELOAD": LIBRARY[0],
+            "ASAN_OPTIONS": ":".join(filter(None, (os.environ.get("ASAN_OPTIONS"), "verify_asan_link_order=0"))),
+        }
 
     def start(self, *options, **more):
         before = dict(os.environ)
         os.environ.update(self.environment())
         try:
-            return daemon.Daemon('--drain-ms', 10, *options, **more) if fake() else daemon.Daemon(*options, **more)
+            return daemon.Daemon("--drain-ms", 10, *options, **more) if fake() else daemon.Daemon(*options, **more)
         finally:
             os.environ.clear()
             os.environ.update(before)
@@ -96,30 +123,41 @@ class Faults:
 
 def fake():
     """The server under test is the one without a device, which has options of its own."""
-    return 'fake_server' in daemon.COMMAND[0]
+    return "fake_server" in daemon.COMMAND[0]
 
 
 def where(place):
     """The line of a place that control.h calls `from`; of a library its number."""
     if place >> 48:
-        return f'library {place >> 48}+{place & (1 << 48) - 1:#x}'
-    done = subprocess.run(['addr2line', '-fpe', daemon.COMMAND[0], hex((place & (1 << 48) - 1) - 1)], capture_output=True, text=True)
+        return f"library {place >> 48}+{place & (1 << 48) - 1:#x}"
+    done = subprocess.run(
+        ["addr2line", "-fpe", daemon.COMMAND[0], hex((place & (1 << 48) - 1) - 1)], capture_output=True, text=True
+    )
     return done.stdout.strip() if not done.returncode else hex(place)
 
 
 def some(count, most):
     """Numbers from 0 below count: all of them where the whole is asked for, else at most so many, evenly."""
-    return range(count) if WHOLE or count <= most else sorted({round(i * (count - 1) / (most - 1)) for i in range(most)})
+    return (
+        range(count) if WHOLE or count <= most else sorted({round(i * (count - 1) / (most - 1)) for i in range(most)})
+    )
 
 
 def record(kind, scenario, outcomes, points=None):
     """Notes what has come of faults: outcomes counts words; points: how many there were to choose from."""
     outcomes = collections.Counter(outcomes)
     tried = sum(outcomes.values())
-    print(f'{kind}, {scenario}: {tried} of {points or tried}: ' + ', '.join(f'{n} {word}' for word, n in sorted(outcomes.items())), flush=True)
-    if 'KD_LEDGER' in os.environ:
-        with open(os.environ['KD_LEDGER'], 'a', encoding='utf-8') as f:
-            print(json.dumps({'kind': kind, 'scenario': scenario, 'points': points or tried, 'outcomes': outcomes}), file=f)
+    print(
+        f"{kind}, {scenario}: {tried} of {points or tried}: "
+        + ", ".join(f"{n} {word}" for word, n in sorted(outcomes.items())),
+        flush=True,
+    )
+    if "KD_LEDGER" in os.environ:
+        with open(os.environ["KD_LEDGER"], "a", encoding="utf-8") as f:
+            print(
+                json.dumps({"kind": kind, "scenario": scenario, "points": points or tried, "outcomes": outcomes}),
+                file=f,
+            )
 
 
 def main():

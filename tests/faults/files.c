@@ -54,25 +54,28 @@ static int open_at(int folder, const char *path, int flags, unsigned mode, const
     return real(folder, path, flags, mode);
 }
 
-static unsigned mode_of(int flags, va_list arguments) { return flags & (O_CREAT | O_TMPFILE) ? va_arg(arguments, unsigned) : 0; }
+static unsigned mode_of(int flags, va_list arguments)
+{
+    return flags & (O_CREAT | O_TMPFILE) ? va_arg(arguments, unsigned) : 0;
+}
 
-#define OPEN(name)                                                                                                           \
-    int name(const char *path, int flags, ...)                                                                               \
-    {                                                                                                                        \
-        va_list arguments;                                                                                                   \
-        va_start(arguments, flags);                                                                                          \
-        unsigned mode = mode_of(flags, arguments);                                                                           \
-        va_end(arguments);                                                                                                   \
-        return open_at(AT_FDCWD, path, flags, mode, HERE);                                                                   \
+#define OPEN(name) \
+    int name(const char *path, int flags, ...) \
+    { \
+        va_list arguments; \
+        va_start(arguments, flags); \
+        unsigned mode = mode_of(flags, arguments); \
+        va_end(arguments); \
+        return open_at(AT_FDCWD, path, flags, mode, HERE); \
     }
-#define OPENAT(name)                                                                                                         \
-    int name(int folder, const char *path, int flags, ...)                                                                   \
-    {                                                                                                                        \
-        va_list arguments;                                                                                                   \
-        va_start(arguments, flags);                                                                                          \
-        unsigned mode = mode_of(flags, arguments);                                                                           \
-        va_end(arguments);                                                                                                   \
-        return open_at(folder, path, flags, mode, HERE);                                                                     \
+#define OPENAT(name) \
+    int name(int folder, const char *path, int flags, ...) \
+    { \
+        va_list arguments; \
+        va_start(arguments, flags); \
+        unsigned mode = mode_of(flags, arguments); \
+        va_end(arguments); \
+        return open_at(folder, path, flags, mode, HERE); \
     }
 OPEN(open)
 OPEN(open64)
@@ -129,7 +132,9 @@ DIR *fdopendir(int fd)
 ssize_t write(int fd, const void *data, size_t size)
 {
     KD_FAULT_REAL(ssize_t, "write", int, const void *, size_t);
-    return atomic_load(&kd_faults->files_mask) & KD_FAULT_WRITE && is_file(fd) && fails(KD_FAULT_WRITE, HERE) ? -1 : real(fd, data, size);
+    return atomic_load(&kd_faults->files_mask) & KD_FAULT_WRITE && is_file(fd) && fails(KD_FAULT_WRITE, HERE)
+               ? -1
+               : real(fd, data, size);
 }
 
 ssize_t pwrite64(int fd, const void *data, size_t size, off64_t at)
@@ -141,7 +146,9 @@ ssize_t pwrite64(int fd, const void *data, size_t size, off64_t at)
 ssize_t read(int fd, void *data, size_t size)
 {
     KD_FAULT_REAL(ssize_t, "read", int, void *, size_t);
-    return atomic_load(&kd_faults->files_mask) & KD_FAULT_READ && is_file(fd) && fails(KD_FAULT_READ, HERE) ? -1 : real(fd, data, size);
+    return atomic_load(&kd_faults->files_mask) & KD_FAULT_READ && is_file(fd) && fails(KD_FAULT_READ, HERE)
+               ? -1
+               : real(fd, data, size);
 }
 
 ssize_t pread64(int fd, void *data, size_t size, off64_t at)
@@ -174,11 +181,13 @@ static bool is_written(int fd)
     return flags >= 0 && (flags & O_ACCMODE) != O_RDONLY && is_file(fd);
 }
 
-/* The descriptor is gone all the same, as where a file system at the far end of a network reports late. To close what was only read has nothing to report. */
+/* The descriptor is gone all the same, as where a file system at the far end of a network reports late. To close
+ * what was only read has nothing to report. */
 int close(int fd)
 {
     KD_FAULT_REAL(int, "close", int);
-    const bool late = atomic_load(&kd_faults->files_mask) & KD_FAULT_CLOSE && is_written(fd) && fails(KD_FAULT_CLOSE, HERE);
+    const bool late =
+        atomic_load(&kd_faults->files_mask) & KD_FAULT_CLOSE && is_written(fd) && fails(KD_FAULT_CLOSE, HERE);
     const int cause = errno, result = real(fd);
     if (late)
         errno = cause;

@@ -1,6 +1,8 @@
-"""Clocks that jump: the one on the wall by hours and days, back and forth, and the one that nobody sets by ten minutes, as it does where a virtual machine was held.
+"""Clocks that jump: the one on the wall by hours and days, back and forth, and the one that nobody sets by ten minutes,
+as it does where a virtual machine was held.
 
-    jumps.py FAULTS SERVER"""
+jumps.py FAULTS SERVER"""
+
 import time
 
 import faults
@@ -19,77 +21,87 @@ class Jumps(state.Case):
         self.addCleanup(self.faults.close)
 
     def make_by(self, hours, server):
-        """A job of its own that is done and deleted, and has the time of the clock that is ahead: else the other ones would prove nothing."""
-        made = self.make({'scene': SCENE}, server=server)
-        self.assertAlmostEqual(self.until(made, 'done', server)['created'], time.time() + hours * 3600, delta=60)
+        """A job of its own that is done and deleted, and has the time of the clock that is ahead: else the other ones
+        would prove nothing."""
+        made = self.make({"scene": SCENE}, server=server)
+        self.assertAlmostEqual(self.until(made, "done", server)["created"], time.time() + hours * 3600, delta=60)
         self.assertEqual(self.delete(made, server).status, 204)
 
     def test_the_clock_on_the_wall(self):
         """Finished jobs are kept for a day by the other clock, whatever this one says, and over restarts."""
         server = self.start(by=self.faults.start)
-        job = self.make({'scene': SCENE}, server=server)
-        self.until(job, 'done', server)
+        job = self.make({"scene": SCENE}, server=server)
+        self.until(job, "done", server)
         hours = (5, -5, 240, -240)
         for n in hours:
-            self.faults.set('wall_s', n * 3600)
+            self.faults.set("wall_s", n * 3600)
             time.sleep(0.4)  # it sweeps ten times a second
             self.make_by(n, server)
             self.assertEqual(server.get(self.at(job)).status, 200, n)
-            self.assertEqual(server.get('/v1/render?' + daemon.SMALL).status, 200)
+            self.assertEqual(server.get("/v1/render?" + daemon.SMALL).status, 200)
         for n in hours:
             self.assertEqual(server.stop(), 0)
-            self.faults.set('wall_s', n * 3600)
+            self.faults.set("wall_s", n * 3600)
             server = self.start(by=self.faults.start)
             time.sleep(0.4)
             self.make_by(n, server)
             self.assertEqual(server.get(self.at(job)).status, 200, n)
-        faults.record('clocks', 'the one on the wall, while a server runs', ['nothing is lost'] * len(hours))
-        faults.record('clocks', 'the one on the wall, over a restart', ['nothing is lost'] * len(hours))
+        faults.record("clocks", "the one on the wall, while a server runs", ["nothing is lost"] * len(hours))
+        faults.record("clocks", "the one on the wall, over a restart", ["nothing is lost"] * len(hours))
         self.assertEqual(server.stop(), 0)
 
     def test_the_wall_while_a_job_runs(self):
         server = self.start(by=self.faults.start)
-        job = self.make({'scenes': [{**SCENE, 'time': 50}] * 40}, server=server)
+        job = self.make({"scenes": [{**SCENE, "time": 50}] * 40}, server=server)
         for n in (5, -5, 0) * 3:
-            self.faults.set('wall_s', n * 3600)
+            self.faults.set("wall_s", n * 3600)
             self.make_by(n, server)
-        told = self.until(job, 'done', server, 60)
+        told = self.until(job, "done", server, 60)
         self.assertEqual(len(self.frames_of(job, server)), 40)
-        self.assertAlmostEqual(told['created'], time.time(), delta=600)
-        faults.record('clocks', 'the one on the wall, while a job runs', ['nothing is lost'] * 9)
+        self.assertAlmostEqual(told["created"], time.time(), delta=600)
+        faults.record("clocks", "the one on the wall, while a job runs", ["nothing is lost"] * 9)
         self.assertEqual(server.stop(), 0)
 
     def test_a_machine_that_was_held(self):
-        """What was under way may have been given up for lateness, with an answer that says so; jobs, sessions that somebody watches, and connections in use go on."""
-        server = self.start('--sessions', 4, by=self.faults.start)
-        session = server.post('/v1/sessions', {**SCENE, 'sky': {'model': 'grid'}, 'motion': {'azimuth_rate_deg': 10}}).json()
-        job = self.make({'scenes': [{**SCENE, 'time': 300}] * 6}, server=server)
+        """What was under way may have been given up for lateness, with an answer that says so; jobs, sessions that
+        somebody watches, and connections in use go on."""
+        server = self.start("--sessions", 4, by=self.faults.start)
+        session = server.post(
+            "/v1/sessions", {**SCENE, "sky": {"model": "grid"}, "motion": {"azimuth_rate_deg": 10}}
+        ).json()
+        job = self.make({"scenes": [{**SCENE, "time": 300}] * 6}, server=server)
         with server.connect(20) as stream, server.connect(20) as render:
-            stream.sendall(f'GET /v1/sessions/{session["id"]}/frames HTTP/1.1\r\nHost: localhost\r\n\r\n'.encode())
+            stream.sendall(f"GET /v1/sessions/{session['id']}/frames HTTP/1.1\r\nHost: localhost\r\n\r\n".encode())
             self.assertTrue(stream.recv(1000))
-            render.sendall(b'GET /v1/render?image.width=64&image.height=36&time=1500 HTTP/1.1\r\nHost: localhost\r\n\r\n')
+            render.sendall(
+                b"GET /v1/render?image.width=64&image.height=36&time=1500 HTTP/1.1\r\nHost: localhost\r\n\r\n"
+            )
             time.sleep(0.5)
             looks = self.faults.looks
-            self.faults.set('steady_ms', HELD_MS)
+            self.faults.set("steady_ms", HELD_MS)
             answer = daemon.read_answer(render)
             self.assertIsNotNone(answer)
             self.assertIn(answer.status, (200, 413, 422, 503), answer.body)
-            render_word = 'whole answer' if answer.status == 200 else f'{answer.status}'
+            render_word = "whole answer" if answer.status == 200 else f"{answer.status}"
             got = 0
             while got < 20000:  # the stream goes on
                 n = len(stream.recv(10000))
-                self.assertTrue(n, 'the stream of a session has ended')
+                self.assertTrue(n, "the stream of a session has ended")
                 got += n
-        self.until(job, 'done', server, 30)
-        self.assertGreater(self.faults.looks, looks + 10, 'nobody has looked at the clock')
+        self.until(job, "done", server, 30)
+        self.assertGreater(self.faults.looks, looks + 10, "nobody has looked at the clock")
         self.assertEqual(len(self.frames_of(job, server)), 6)
-        self.faults.set('steady_ms', 2 * HELD_MS)
-        self.assertEqual(self.status(job, server)['state'], 'done')
-        again = self.make({'scene': SCENE}, server=server)
-        self.until(again, 'done', server, 20)
-        faults.record('clocks', 'the steady one, by 10 minutes', ['goes on: a job', 'goes on: a session that is watched', render_word + ': a picture under way'])
+        self.faults.set("steady_ms", 2 * HELD_MS)
+        self.assertEqual(self.status(job, server)["state"], "done")
+        again = self.make({"scene": SCENE}, server=server)
+        self.until(again, "done", server, 20)
+        faults.record(
+            "clocks",
+            "the steady one, by 10 minutes",
+            ["goes on: a job", "goes on: a session that is watched", render_word + ": a picture under way"],
+        )
         self.assertEqual(server.stop(), 0)
 
 
-if __name__ == '__main__':
+if __name__ == "__main__":
     faults.main()

@@ -1,5 +1,6 @@
-/* Preloaded: memory is not there when a test says so (control.h), for the program and the libraries that it is linked with, not for what a Vulkan driver or the C library's
- * loader wants for itself. A thread that cannot be started counts as an allocation that fails. */
+/* Preloaded: memory is not there when a test says so (control.h), for the program and the libraries that it is
+ * linked with, not for what a Vulkan driver or the C library's loader wants for itself. A thread that cannot be
+ * started counts as an allocation that fails. */
 #include "control.h"
 
 #include <dlfcn.h>
@@ -49,7 +50,10 @@ static void resolve(void)
     real_malloc = (void *(*)(size_t))(uintptr_t)dlsym(RTLD_NEXT, "malloc");
 }
 
-static bool is_early(const void *block) { return (const unsigned char *)block >= early && (const unsigned char *)block < early + EARLY; }
+static bool is_early(const void *block)
+{
+    return (const unsigned char *)block >= early && (const unsigned char *)block < early + EARLY;
+}
 
 static void *early_block(size_t size)
 {
@@ -60,7 +64,8 @@ static void *early_block(size_t size)
 /* Those that are there before main: a driver comes later. */
 static int note(struct dl_phdr_info *info, size_t size, void *unused_user)
 {
-    static const char *const others[] = { "libc.so", "ld-linux", "libstdc++", "libgcc_s", "libasan", "libubsan", "libfaults", "linux-vdso" };
+    static const char *const others[] = { "libc.so", "ld-linux", "libstdc++", "libgcc_s",
+                                          "libasan", "libubsan", "libfaults", "linux-vdso" };
     struct object *o = &objects[n_objects];
     (void)size, (void)unused_user;
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
@@ -68,7 +73,9 @@ static int note(struct dl_phdr_info *info, size_t size, void *unused_user)
             return 0;
     if (n_objects == OBJECTS)
         return 1;
-    *o = (struct object) { .begin = UINTPTR_MAX, .base = info->dlpi_addr, .library = strstr(info->dlpi_name, "libmicrohttpd") };
+    *o = (struct object) { .begin = UINTPTR_MAX,
+                           .base = info->dlpi_addr,
+                           .library = strstr(info->dlpi_name, "libmicrohttpd") };
     for (int i = 0; i < info->dlpi_phnum; i++)
         if (info->dlpi_phdr[i].p_type == PT_LOAD && info->dlpi_phdr[i].p_flags & PF_X) {
             o->begin = info->dlpi_addr + info->dlpi_phdr[i].p_vaddr;
@@ -177,7 +184,8 @@ static void *counted(void *block, uint64_t where)
     return block;
 }
 
-/* Searches as far as blocks stray from their slots where a quarter of all is taken. True: it was counted, from where. */
+/* Searches as far as blocks stray from their slots where a quarter of all is taken. True: it was counted, from
+ * where. */
 static bool uncount(const void *block, uint64_t *where)
 {
     for (uint64_t i = slot_of(block), n = 0; n < 64; n++) {
@@ -226,7 +234,10 @@ void *realloc(void *old, size_t size)
     if (is_early(old) || !real_malloc) {
         void *block = malloc(size);
         if (block && old)
-            memcpy(block, old, size < (size_t)(early + EARLY - (unsigned char *)old) ? size : (size_t)(early + EARLY - (unsigned char *)old));
+            memcpy(block, old,
+                   size < (size_t)(early + EARLY - (unsigned char *)old)
+                       ? size
+                       : (size_t)(early + EARLY - (unsigned char *)old));
         return block;
     }
     const bool ours = n_objects && kd_fault_ours(__builtin_return_address(0), &where);

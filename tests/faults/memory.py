@@ -1,36 +1,53 @@
-"""Every allocation of a request fails once, in front of a renderer without a device: the answer is a problem of 5xx or the whole document, nothing leaks, the server
-lives and answers the same request as before.
+"""Every allocation of a request fails once, in front of a renderer without a device: the answer is a problem of 5xx or
+the whole document, nothing leaks, the server lives and answers the same request as before.
 
     memory.py FAULTS SERVER                 some allocations of each request
     KD_WHOLE=1 memory.py FAULTS SERVER      all of them"""
+
 import faults
 import sweep
 
 import assets
 import daemon
 
-IMAGE = {'image': {'width': 32, 'height': 18}}
-RING = {'spin': 0.5, 'rays': [[5.0, 1.0], [2.0, -3.0]]}
+IMAGE = {"image": {"width": 32, "height": 18}}
+RING = {"spin": 0.5, "rays": [[5.0, 1.0], [2.0, -3.0]]}
 
 
 class Memory(sweep.Case):
     def owned(self, kind):
         """Make one and end it; the answer to making it."""
+
         def ask():
-            answer = self.post(kind, {'scene': IMAGE} if kind == '/v1/jobs' else IMAGE)()
+            answer = self.post(kind, {"scene": IMAGE} if kind == "/v1/jobs" else IMAGE)()
             self.faults.mend()
             if answer.status in (201, 202):
                 self.end_one(kind, answer.json())
             return answer
+
         return ask
 
     def end_one(self, kind, one):
-        self.assertEqual(self.server.request('DELETE', f'{kind}/{one["id"]}', headers={'Authorization': 'Bearer ' + one['token']}).status, 204)
+        self.assertEqual(
+            self.server.request(
+                "DELETE", f"{kind}/{one['id']}", headers={"Authorization": "Bearer " + one["token"]}
+            ).status,
+            204,
+        )
 
     def test_documents(self):
-        for target in ('/healthz', '/v1/presets', '/v1/presets/face-on', '/v1/schema', '/openapi.json', '/v1/device', '/v1/physics', '/v1/physics/kerr?spin=0.5'):
+        for target in (
+            "/healthz",
+            "/v1/presets",
+            "/v1/presets/face-on",
+            "/v1/schema",
+            "/openapi.json",
+            "/v1/device",
+            "/v1/physics",
+            "/v1/physics/kerr?spin=0.5",
+        ):
             with self.subTest(target):
-                self.sweep(self.get(target), 200, 'GET ' + target)
+                self.sweep(self.get(target), 200, "GET " + target)
 
     def test_a_new_connection(self):
         """Whoever has just come may have to go, with a word where there is memory for that; others stay."""
@@ -38,60 +55,73 @@ class Memory(sweep.Case):
 
         def ask():
             self.connection.close()
-            return self.ask('GET', '/v1/presets')
-        self.sweep(ask, 200, 'a new connection')
+            return self.ask("GET", "/v1/presets")
+
+        self.sweep(ask, 200, "a new connection")
 
     def test_refusals(self):
-        for target, status in (('/v1/render?spacetime.spin=2', 422), ('/nothing', 404)):
+        for target, status in (("/v1/render?spacetime.spin=2", 422), ("/nothing", 404)):
             with self.subTest(target):
-                self.sweep(self.get(target), status, 'GET ' + target)
+                self.sweep(self.get(target), status, "GET " + target)
 
     def test_scene(self):
         """A scene is checked by whoever plans it, and merged over a preset."""
-        self.sweep(self.post('/v1/plan', IMAGE), 200, 'POST /v1/plan')
-        self.sweep(self.post('/v1/plan?preset=hot-spot', {'camera': {'inclination_deg': 50}, 'spots': [{'brightness': 1}, {'r': 9}]}), 200, 'a patch merged over a preset')
-        self.sweep(self.post('/v1/plan', {'camera': {'inclination_deg': 999}}), 422, 'a scene that is refused')
+        self.sweep(self.post("/v1/plan", IMAGE), 200, "POST /v1/plan")
+        self.sweep(
+            self.post(
+                "/v1/plan?preset=hot-spot", {"camera": {"inclination_deg": 50}, "spots": [{"brightness": 1}, {"r": 9}]}
+            ),
+            200,
+            "a patch merged over a preset",
+        )
+        self.sweep(self.post("/v1/plan", {"camera": {"inclination_deg": 999}}), 422, "a scene that is refused")
 
     def test_render(self):
-        self.sweep(self.get('/v1/render?' + daemon.SMALL), 200, 'GET /v1/render')
-        self.sweep(self.post('/v1/render', IMAGE), 200, 'POST /v1/render')
+        self.sweep(self.get("/v1/render?" + daemon.SMALL), 200, "GET /v1/render")
+        self.sweep(self.post("/v1/render", IMAGE), 200, "POST /v1/render")
 
     def test_rays_and_orbits(self):
-        self.sweep(self.post('/v1/rays', RING), 200, 'POST /v1/rays')
-        self.sweep(self.post('/v1/orbits', {'spin': 0.5, 'orbit': {'p': 10, 'e': 0.2}, 'samples': 5}), 200, 'POST /v1/orbits')
+        self.sweep(self.post("/v1/rays", RING), 200, "POST /v1/rays")
+        self.sweep(
+            self.post("/v1/orbits", {"spin": 0.5, "orbit": {"p": 10, "e": 0.2}, "samples": 5}), 200, "POST /v1/orbits"
+        )
 
     def test_integrals(self):
-        self.sweep(self.post('/v1/line', {'bins': 4}), 200, 'POST /v1/line')
-        self.sweep(self.post('/v1/transfer-function', {'rings': 1, 'g_stars': 1}), 200, 'POST /v1/transfer-function')
-        self.sweep(self.post('/v1/spectrum', {'frequencies': 2}), 200, 'POST /v1/spectrum')
-        self.sweep(self.post('/v1/visibility', {'baselines': 2, 'pixels': 16, 'check': 'none'}), 200, 'POST /v1/visibility')
+        self.sweep(self.post("/v1/line", {"bins": 4}), 200, "POST /v1/line")
+        self.sweep(self.post("/v1/transfer-function", {"rings": 1, "g_stars": 1}), 200, "POST /v1/transfer-function")
+        self.sweep(self.post("/v1/spectrum", {"frequencies": 2}), 200, "POST /v1/spectrum")
+        self.sweep(
+            self.post("/v1/visibility", {"baselines": 2, "pixels": 16, "check": "none"}), 200, "POST /v1/visibility"
+        )
 
     def test_jobs(self):
-        self.sweep(self.owned('/v1/jobs'), 202, 'POST /v1/jobs')
+        self.sweep(self.owned("/v1/jobs"), 202, "POST /v1/jobs")
 
     def test_sessions(self):
-        self.sweep(self.owned('/v1/sessions'), 201, 'POST /v1/sessions')
+        self.sweep(self.owned("/v1/sessions"), 201, "POST /v1/sessions")
 
     def test_a_change_of_a_session(self):
-        """A change that was answered is there; one that was refused is there as a whole or not at all: the answer may be what there was no memory for."""
-        session = self.server.post('/v1/sessions', {**IMAGE, 'time': 1}).json()
-        at, owner = f'/v1/sessions/{session["id"]}', {'Authorization': 'Bearer ' + session['token']}
+        """A change that was answered is there; one that was refused is there as a whole or not at all: the answer may
+        be what there was no memory for."""
+        session = self.server.post("/v1/sessions", {**IMAGE, "time": 1}).json()
+        at, owner = f"/v1/sessions/{session['id']}", {"Authorization": "Bearer " + session["token"]}
         turn = [20]
 
         def inclination():
-            return self.server.get(at).json()['scene']['camera']['inclination_deg']
+            return self.server.get(at).json()["scene"]["camera"]["inclination_deg"]
 
         def change():
             before = inclination()
             turn[0] = 41 - turn[0]  # critical curves are kept by camera: of two cameras no more than two
             try:
-                answer = self.ask('PATCH', at, {'camera': {'inclination_deg': turn[0]}}, owner)
+                answer = self.ask("PATCH", at, {"camera": {"inclination_deg": turn[0]}}, owner)
             finally:
                 self.faults.mend()
             self.assertIn(inclination(), (turn[0],) if answer.status == 200 else (turn[0], before))
             return answer
-        self.sweep(change, 200, 'PATCH /v1/sessions/{id}')
-        self.sweep(self.get(at + '/frame.png'), 200, 'GET /v1/sessions/{id}/frame.png')
+
+        self.sweep(change, 200, "PATCH /v1/sessions/{id}")
+        self.sweep(self.get(at + "/frame.png"), 200, "GET /v1/sessions/{id}/frame.png")
 
     def test_an_asset(self):
         """Each attempt puts other bytes, which are found afterwards if they were taken, and only then."""
@@ -101,39 +131,43 @@ class Memory(sweep.Case):
             seed[0] += 1
             data = assets.png(seed=seed[0])
             try:
-                answer = self.ask('PUT', '/v1/assets', data, {'Content-Type': 'image/png'})
+                answer = self.ask("PUT", "/v1/assets", data, {"Content-Type": "image/png"})
             finally:
                 self.faults.mend()
-            told = self.server.get('/v1/assets').json()
-            self.assertEqual(told['assets'], int(answer.status == 201))
+            told = self.server.get("/v1/assets").json()
+            self.assertEqual(told["assets"], int(answer.status == 201))
             if answer.status == 201:
-                self.assertEqual(self.server.get('/v1/assets/' + answer.json()['sha256']).body, data)
-                self.end_one('/v1/assets', {'id': answer.json()['sha256'], 'token': answer.json()['token']})
+                self.assertEqual(self.server.get("/v1/assets/" + answer.json()["sha256"]).body, data)
+                self.end_one("/v1/assets", {"id": answer.json()["sha256"], "token": answer.json()["token"]})
             return answer
-        self.sweep(put, 201, 'PUT /v1/assets')
+
+        self.sweep(put, 201, "PUT /v1/assets")
 
     def test_a_job_to_its_end(self):
         """A job that was accepted ends with the bytes that it has without a failure, if need be after a wait."""
+
         def ask():
-            answer = self.post('/v1/jobs', {'scenes': [{**IMAGE, 'time': 1}, {**IMAGE, 'time': 2}]})()
+            answer = self.post("/v1/jobs", {"scenes": [{**IMAGE, "time": 1}, {**IMAGE, "time": 2}]})()
             if answer.status != 202:
                 return answer
             job = answer.json()
 
             def state():
                 try:
-                    told = self.server.get('/v1/jobs/' + job['id'])
-                    return told.json()['state'] if told.status == 200 else None
+                    told = self.server.get("/v1/jobs/" + job["id"])
+                    return told.json()["state"] if told.status == 200 else None
                 except (OSError, daemon.http.client.HTTPException):
                     return None
-            self.assertTrue(daemon.eventually(lambda: state() in ('done', 'failed'), 30))
+
+            self.assertTrue(daemon.eventually(lambda: state() in ("done", "failed"), 30))
             self.faults.mend()
-            self.assertEqual(state(), 'done')
-            result = self.server.get(f'/v1/jobs/{job["id"]}/result')
-            self.end_one('/v1/jobs', job)
+            self.assertEqual(state(), "done")
+            result = self.server.get(f"/v1/jobs/{job['id']}/result")
+            self.end_one("/v1/jobs", job)
             return result
-        self.sweep(ask, 200, 'a job from POST to its result', 20)
+
+        self.sweep(ask, 200, "a job from POST to its result", 20)
 
 
-if __name__ == '__main__':
+if __name__ == "__main__":
     faults.main()

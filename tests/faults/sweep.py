@@ -1,4 +1,6 @@
-"""Lets each allocation of a request fail once, and looks at the answer, at what is left behind, and at the answer to the same request afterwards."""
+"""Lets each allocation of a request fail once, and looks at the answer, at what is left behind, and at the answer to
+the same request afterwards."""
+
 import collections
 import http.client
 import json
@@ -7,25 +9,41 @@ import unittest
 import faults  # first: it knows where daemon is
 import daemon
 
-PROBLEM = {'type', 'title', 'status', 'detail'}
+PROBLEM = {"type", "title", "status", "detail"}
 
 
 def shape(document):
     """A document without its numbers and texts: a hole in it shows."""
     if isinstance(document, dict):
         return {k: shape(v) for k, v in document.items()}
-    return [shape(v) for v in document] if isinstance(document, list) else None if document is None else type(document) is bool
+    return (
+        [shape(v) for v in document]
+        if isinstance(document, list)
+        else None
+        if document is None
+        else type(document) is bool
+    )
 
 
 def plain(answer):
     """Without what a job or a session says of its frame, which may have had no memory, or be done already."""
     document = answer.json()
-    return {k: v for k, v in document.items() if k not in ('remaining_s', 'delayed', 'ended', 'rendering', 'lens_maps_traced', 'error')} if isinstance(document, dict) else document
+    return (
+        {
+            k: v
+            for k, v in document.items()
+            if k not in ("remaining_s", "delayed", "ended", "rendering", "lens_maps_traced", "error")
+        }
+        if isinstance(document, dict)
+        else document
+    )
 
 
 class Case(unittest.TestCase):
-    """Each test has a server of its own, which has no leak in the end, under a sanitizer that looks for them as well."""
-    options = ('--jobs', 100, '--sessions', 100)
+    """Each test has a server of its own, which has no leak in the end, under a sanitizer that looks for them as
+    well."""
+
+    options = ("--jobs", 100, "--sessions", 100)
     most = 12  # failures of each request where not the whole is asked for
     armed = None  # the allocation that fails once something is asked
     closes = False  # whether a connection may be closed without a word, because it is new
@@ -34,7 +52,7 @@ class Case(unittest.TestCase):
         self.faults = faults.Faults()
         self.addCleanup(self.faults.close)
         self.server = self.faults.start(*self.options)
-        self.connection = http.client.HTTPConnection('127.0.0.1', self.server.port, timeout=240)
+        self.connection = http.client.HTTPConnection("127.0.0.1", self.server.port, timeout=240)
         self.addCleanup(self.end)
 
     def end(self):
@@ -42,14 +60,14 @@ class Case(unittest.TestCase):
         if self.server.process.poll() is None:
             self.server.terminate()
         try:
-            self.assertEqual(self.server.wait(60), 0, 'how the server ends')
+            self.assertEqual(self.server.wait(60), 0, "how the server ends")
         finally:
             if self.server.process.poll() is None:
                 self.server.process.kill()
 
     def ask(self, method, target, body=None, headers=None):
         if body is not None and not isinstance(body, bytes):
-            body, headers = json.dumps(body), {'Content-Type': 'application/json', **(headers or {})}
+            body, headers = json.dumps(body), {"Content-Type": "application/json", **(headers or {})}
         if self.armed is not None:
             self.faults.memory(self.armed)
             self.armed = None
@@ -58,18 +76,19 @@ class Case(unittest.TestCase):
         return daemon.Answer(got.status, got.getheaders(), got.read(), target)
 
     def get(self, target):
-        return lambda: self.ask('GET', target)
+        return lambda: self.ask("GET", target)
 
     def post(self, target, body):
-        return lambda: self.ask('POST', target, body)
+        return lambda: self.ask("POST", target, body)
 
     def connect(self):
         """A new connection that has carried a request: those who accept it have all they need."""
         self.connection.close()
-        self.assertEqual(self.get('/v1/schema')().status, 200)
+        self.assertEqual(self.get("/v1/schema")().status, 200)
 
     def with_failure(self, ask, n):
-        """The answer, None for a closed connection. Counted from the first that it asks of us, until it mends the memory or has come to its end."""
+        """The answer, None for a closed connection. Counted from the first that it asks of us, until it mends the
+        memory or has come to its end."""
         self.connect()
         self.armed = n
         try:
@@ -93,27 +112,29 @@ class Case(unittest.TestCase):
         return min(grown), begin
 
     def new_blocks(self, before):
-        return collections.Counter(faults.where(place) for at, place in self.faults.blocks().items() if at not in before)
+        return collections.Counter(
+            faults.where(place) for at, place in self.faults.blocks().items() if at not in before
+        )
 
     def judge(self, n, answer, good, by_library):
         """A word for what has come of the n-th failure."""
-        at = lambda: f'allocation {n}, asked for at {faults.where(self.faults.failed_from)}'
+        at = lambda: f"allocation {n}, asked for at {faults.where(self.faults.failed_from)}"
         if answer is None:
             if self.closes:
-                return 'closed'
-            self.assertGreater(self.faults.by_library, by_library, f'no answer; {at()}')
-            return 'closed by the library'
+                return "closed"
+            self.assertGreater(self.faults.by_library, by_library, f"no answer; {at()}")
+            return "closed by the library"
         if answer.status == good.status:
-            if 'json' not in good.header('Content-Type'):
+            if "json" not in good.header("Content-Type"):
                 self.assertEqual(answer.body, good.body, at())
             elif answer.status >= 400:
-                self.assertEqual(answer.json()['type'], good.json()['type'], at())
+                self.assertEqual(answer.json()["type"], good.json()["type"], at())
             else:
                 self.assertEqual(shape(plain(answer)), shape(plain(good)), at())
-            return 'whole answer'
+            return "whole answer"
         self.assertIn(answer.status, (500, 503, 507), (answer.body, at()))
-        self.assertEqual(answer.header('Content-Type'), 'application/problem+json', at())
-        self.assertEqual(set(answer.json()) - {'pointer', 'offered', 'request_id'}, PROBLEM, (answer.body, at()))
+        self.assertEqual(answer.header("Content-Type"), "application/problem+json", at())
+        self.assertEqual(set(answer.json()) - {"pointer", "offered", "request_id"}, PROBLEM, (answer.body, at()))
         return str(answer.status)
 
     def sweep(self, ask, status, scenario, most=None):
@@ -123,21 +144,28 @@ class Case(unittest.TestCase):
         self.assertEqual(good.status, status, good.body)
         self.with_failure(ask, faults.ALWAYS)
         count, outcomes = self.faults.counted, collections.Counter()
-        self.assertGreater(count, 0, 'is the library loaded?')
+        self.assertGreater(count, 0, "is the library loaded?")
         files = self.server.open_files()
         for n in faults.some(count, most or self.most):
-            live, by_library, failed = self.settled(0 if n == 0 else self.faults.live), self.faults.by_library, self.faults.failed
+            live, by_library, failed = (
+                self.settled(0 if n == 0 else self.faults.live),
+                self.faults.by_library,
+                self.faults.failed,
+            )
             outcome = self.judge(n, self.with_failure(ask, n), good, by_library)
             if self.faults.failed == failed:
-                self.assertEqual(outcome, 'whole answer', f'allocation {n}, which did not fail')
-                outcome = 'not reached'
+                self.assertEqual(outcome, "whole answer", f"allocation {n}, which did not fail")
+                outcome = "not reached"
             outcomes[outcome] += 1
             if self.settled(live) > live:
                 grown, begin = self.leaks(ask, n)
                 if grown > 0:
-                    self.fail(f'allocation {n} leaks {grown} blocks: {self.new_blocks(begin)}')
+                    self.fail(f"allocation {n} leaks {grown} blocks: {self.new_blocks(begin)}")
             self.connect()
-            self.assertEqual(self.judge(n, ask(), good, 0), 'whole answer', 'the same request afterwards')
-        self.assertTrue(daemon.eventually(lambda: self.server.open_files() <= files, 10), f'descriptors are left: {self.server.open_files()}, before {files}')
-        faults.record('memory', scenario, outcomes, count)
-        self.assertEqual(self.server.get('/healthz').status, 200)
+            self.assertEqual(self.judge(n, ask(), good, 0), "whole answer", "the same request afterwards")
+        self.assertTrue(
+            daemon.eventually(lambda: self.server.open_files() <= files, 10),
+            f"descriptors are left: {self.server.open_files()}, before {files}",
+        )
+        faults.record("memory", scenario, outcomes, count)
+        self.assertEqual(self.server.get("/healthz").status, 200)

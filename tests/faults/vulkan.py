@@ -1,16 +1,21 @@
-"""Calls of Vulkan that fail, one by one, beneath a running server (vulkan_table.c): each ends in a clear error, in the same bytes as without it, or in exit code 3.
+"""Calls of Vulkan that fail, one by one, beneath a running server (vulkan_table.c): each ends in a clear error, in the
+same bytes as without it, or in exit code 3.
 
     python3 vulkan.py build/tests/faults/kerrd_vulkan_faults --full [OPTION...]
 
-tries every call of every entry point with every code, a fresh server for each: hours. It writes docs/faults-vulkan.md. vulkan_first.py has the tests of the suite.
+tries every call of every entry point with every code, a fresh server for each: hours. It writes docs/faults-vulkan.md.
+vulkan_first.py has the tests of the suite.
 
-    --rotate       of the codes that the specification allows one a call, by turns: every call and every code, a third of the faults; of calls that name objects every eighth
+    --rotate       of the codes that the specification allows one a call, by turns: every call and every code, a third
+                   of the faults; of calls that name objects every eighth
     --whole NAME   a scenario for which --rotate does not count; may be repeated
     --minutes N    as many of the faults as that takes, drawn by chance
     --only NAME    a scenario: start, render, session, job, rays, reopen, incoherent; may be repeated
     --workers N    servers at once (default 2)
-    --keep FILE    what was tried is noted there, a line each: the next run with this file goes on from it, and its table has what both have found
+    --keep FILE    what was tried is noted there, a line each: the next run with this file goes on from it, and its
+                   table has what both have found
     --table FILE   instead of docs/faults-vulkan.md; - for standard output"""
+
 import argparse
 import collections
 import concurrent.futures
@@ -25,38 +30,91 @@ import sys
 import tempfile
 import time
 
-sys.path[:0] = [str(pathlib.Path(__file__).resolve().parent), str(pathlib.Path(__file__).resolve().parent.parent / 'http')]
+sys.path[:0] = [
+    str(pathlib.Path(__file__).resolve().parent),
+    str(pathlib.Path(__file__).resolve().parent.parent / "http"),
+]
 import daemon
 from vulkan_report import Kept, table
 
 HOST, DEVICE, INITIALIZATION, LOST, MAP, LAYER, EXTENSION, FEATURE, DRIVER, MANY, FRAGMENTED, POOL, FRAGMENTATION = (
-    -1, -2, -3, -4, -5, -6, -7, -8, -9, -10, -12, -1000069000, -1000161000)
-CODES = {HOST: 'OUT_OF_HOST_MEMORY', DEVICE: 'OUT_OF_DEVICE_MEMORY', INITIALIZATION: 'INITIALIZATION_FAILED', LOST: 'DEVICE_LOST', MAP: 'MEMORY_MAP_FAILED',
-         LAYER: 'LAYER_NOT_PRESENT', EXTENSION: 'EXTENSION_NOT_PRESENT', FEATURE: 'FEATURE_NOT_PRESENT', DRIVER: 'INCOMPATIBLE_DRIVER', MANY: 'TOO_MANY_OBJECTS',
-         FRAGMENTED: 'FRAGMENTED_POOL', POOL: 'OUT_OF_POOL_MEMORY', FRAGMENTATION: 'FRAGMENTATION'}
+    -1,
+    -2,
+    -3,
+    -4,
+    -5,
+    -6,
+    -7,
+    -8,
+    -9,
+    -10,
+    -12,
+    -1000069000,
+    -1000161000,
+)
+CODES = {
+    HOST: "OUT_OF_HOST_MEMORY",
+    DEVICE: "OUT_OF_DEVICE_MEMORY",
+    INITIALIZATION: "INITIALIZATION_FAILED",
+    LOST: "DEVICE_LOST",
+    MAP: "MEMORY_MAP_FAILED",
+    LAYER: "LAYER_NOT_PRESENT",
+    EXTENSION: "EXTENSION_NOT_PRESENT",
+    FEATURE: "FEATURE_NOT_PRESENT",
+    DRIVER: "INCOMPATIBLE_DRIVER",
+    MANY: "TOO_MANY_OBJECTS",
+    FRAGMENTED: "FRAGMENTED_POOL",
+    POOL: "OUT_OF_POOL_MEMORY",
+    FRAGMENTATION: "FRAGMENTATION",
+}
 MEMORY = (HOST, DEVICE)
 # In the order of vulkan_table.c, with what the specification of Vulkan 1.2 lets each return.
 ENTRIES = {
-    'EnumerateInstanceVersion': (HOST,), 'EnumerateInstanceLayerProperties': MEMORY, 'EnumerateInstanceExtensionProperties': (*MEMORY, LAYER),
-    'CreateInstance': (*MEMORY, INITIALIZATION, LAYER, EXTENSION, DRIVER), 'EnumeratePhysicalDevices': (*MEMORY, INITIALIZATION),
-    'EnumerateDeviceExtensionProperties': (*MEMORY, LAYER), 'CreateDevice': (*MEMORY, INITIALIZATION, EXTENSION, FEATURE, MANY, LOST),
-    'SetDebugUtilsObjectNameEXT': MEMORY, 'DeviceWaitIdle': (*MEMORY, LOST), 'AllocateMemory': MEMORY, 'MapMemory': (*MEMORY, MAP),
-    'FlushMappedMemoryRanges': MEMORY, 'InvalidateMappedMemoryRanges': MEMORY, 'CreateBuffer': MEMORY, 'BindBufferMemory': MEMORY, 'CreateBufferView': MEMORY,
-    'CreateShaderModule': MEMORY, 'CreateDescriptorSetLayout': MEMORY, 'CreatePipelineLayout': MEMORY, 'CreateComputePipelines': MEMORY,
-    'CreatePipelineCache': MEMORY, 'GetPipelineCacheData': MEMORY, 'CreateDescriptorPool': (*MEMORY, FRAGMENTATION),
-    'AllocateDescriptorSets': (*MEMORY, FRAGMENTED, POOL), 'CreateCommandPool': MEMORY, 'ResetCommandPool': MEMORY, 'AllocateCommandBuffers': MEMORY,
-    'BeginCommandBuffer': MEMORY, 'EndCommandBuffer': MEMORY, 'CreateSemaphore': MEMORY, 'GetSemaphoreCounterValue': (*MEMORY, LOST),
-    'WaitSemaphores': (*MEMORY, LOST), 'QueueSubmit': (*MEMORY, LOST), 'CreateQueryPool': MEMORY, 'GetQueryPoolResults': (*MEMORY, LOST),
+    "EnumerateInstanceVersion": (HOST,),
+    "EnumerateInstanceLayerProperties": MEMORY,
+    "EnumerateInstanceExtensionProperties": (*MEMORY, LAYER),
+    "CreateInstance": (*MEMORY, INITIALIZATION, LAYER, EXTENSION, DRIVER),
+    "EnumeratePhysicalDevices": (*MEMORY, INITIALIZATION),
+    "EnumerateDeviceExtensionProperties": (*MEMORY, LAYER),
+    "CreateDevice": (*MEMORY, INITIALIZATION, EXTENSION, FEATURE, MANY, LOST),
+    "SetDebugUtilsObjectNameEXT": MEMORY,
+    "DeviceWaitIdle": (*MEMORY, LOST),
+    "AllocateMemory": MEMORY,
+    "MapMemory": (*MEMORY, MAP),
+    "FlushMappedMemoryRanges": MEMORY,
+    "InvalidateMappedMemoryRanges": MEMORY,
+    "CreateBuffer": MEMORY,
+    "BindBufferMemory": MEMORY,
+    "CreateBufferView": MEMORY,
+    "CreateShaderModule": MEMORY,
+    "CreateDescriptorSetLayout": MEMORY,
+    "CreatePipelineLayout": MEMORY,
+    "CreateComputePipelines": MEMORY,
+    "CreatePipelineCache": MEMORY,
+    "GetPipelineCacheData": MEMORY,
+    "CreateDescriptorPool": (*MEMORY, FRAGMENTATION),
+    "AllocateDescriptorSets": (*MEMORY, FRAGMENTED, POOL),
+    "CreateCommandPool": MEMORY,
+    "ResetCommandPool": MEMORY,
+    "AllocateCommandBuffers": MEMORY,
+    "BeginCommandBuffer": MEMORY,
+    "EndCommandBuffer": MEMORY,
+    "CreateSemaphore": MEMORY,
+    "GetSemaphoreCounterValue": (*MEMORY, LOST),
+    "WaitSemaphores": (*MEMORY, LOST),
+    "QueueSubmit": (*MEMORY, LOST),
+    "CreateQueryPool": MEMORY,
+    "GetQueryPoolResults": (*MEMORY, LOST),
 }
 NAMES = list(ENTRIES)
-MAKERS = ['AllocateMemory', *(name for name in NAMES if name.startswith('Create'))]
-FIELDS = ('entry', 'countdown', 'code', 'injected', 'lost', 'dead', 'hang', 'incoherent')
-PROBLEMS = ((500, 'device-lost'), (503, 'out-of-memory'))
+MAKERS = ["AllocateMemory", *(name for name in NAMES if name.startswith("Create"))]
+FIELDS = ("entry", "countdown", "code", "injected", "lost", "dead", "hang", "incoherent")
+PROBLEMS = ((500, "device-lost"), (503, "out-of-memory"))
 EXIT_DEVICE = 3
 PATIENCE_S = 240  # in which each request is answered; longer: it hangs
-RENDER = '/v1/render?image.width=48&image.height=27'
-IMAGE = {'width': 48, 'height': 27}
-SCENE = {'image': IMAGE, 'disk': {'gas': {'amplitude': 0}}}
+RENDER = "/v1/render?image.width=48&image.height=27"
+IMAGE = {"width": 48, "height": 27}
+SCENE = {"image": IMAGE, "disk": {"gas": {"amplitude": 0}}}
 
 
 class Faults:
@@ -65,16 +123,16 @@ class Faults:
     def __init__(self):
         self.file = tempfile.NamedTemporaryFile()
         self.size = 8 * (len(FIELDS) + 2 * len(NAMES))
-        self.file.write(struct.pack('<2q', -1, -1) + bytes(self.size - 16))
+        self.file.write(struct.pack("<2q", -1, -1) + bytes(self.size - 16))
         self.file.flush()
         self.map = mmap.mmap(self.file.fileno(), self.size)
 
     def get(self, field):
-        return struct.unpack_from('<q', self.map, 8 * FIELDS.index(field))[0]
+        return struct.unpack_from("<q", self.map, 8 * FIELDS.index(field))[0]
 
     def set(self, **fields):
         for field, value in fields.items():
-            struct.pack_into('<q', self.map, 8 * FIELDS.index(field), value)
+            struct.pack_into("<q", self.map, 8 * FIELDS.index(field), value)
 
     def arm(self, name, n, code):
         """The n-th call from now, counted from 0."""
@@ -85,11 +143,11 @@ class Faults:
         self.set(countdown=-1, entry=-1)
 
     def calls(self):
-        return dict(zip(NAMES, struct.unpack_from(f'<{len(NAMES)}q', self.map, 8 * len(FIELDS))))
+        return dict(zip(NAMES, struct.unpack_from(f"<{len(NAMES)}q", self.map, 8 * len(FIELDS))))
 
     def objects(self):
         """Objects of Vulkan that are not destroyed, by the entry point that made them."""
-        made = dict(zip(NAMES, struct.unpack_from(f'<{len(NAMES)}q', self.map, 8 * (len(FIELDS) + len(NAMES)))))
+        made = dict(zip(NAMES, struct.unpack_from(f"<{len(NAMES)}q", self.map, 8 * (len(FIELDS) + len(NAMES)))))
         return {name: made[name] for name in MAKERS if made[name]}
 
     def close(self):
@@ -100,13 +158,17 @@ class Faults:
 class Server(daemon.Daemon):
     def __init__(self, faults, *options):
         self.log = tempfile.TemporaryFile()
-        super().__init__('--device-reopenings', 1000, *options, stderr=self.log,
-                         env={**os.environ, 'KD_VULKAN_FAULTS': faults.file.name, 'XDG_CACHE_HOME': CACHE.name})
+        super().__init__(
+            "--device-reopenings",
+            1000,
+            *options,
+            stderr=self.log,
+            env={**os.environ, "KD_VULKAN_FAULTS": faults.file.name, "XDG_CACHE_HOME": CACHE.name},
+        )
 
     def said(self):
         self.log.seek(0)
-        return self.log.read().decode(errors='replace')
-
+        return self.log.read().decode(errors="replace")
 
 
 class Refused(Exception):
@@ -122,56 +184,74 @@ def wanted(answer, statuses=(200,)):
         return answer
     try:
         problem = answer.json()
-        clear = problem['type'].startswith('urn:kerrd:problem:') and problem['detail'] and problem['status'] == answer.status
+        clear = (
+            problem["type"].startswith("urn:kerrd:problem:")
+            and problem["detail"]
+            and problem["status"] == answer.status
+        )
     except (ValueError, KeyError):
         clear = False
-    if not clear or (answer.status, problem['type'].rsplit(':', 1)[1]) not in PROBLEMS:
-        raise Broken(f'no clear answer: {answer.status} {answer.body[:200]}')
-    raise Refused(f'{answer.status} {problem["type"].rsplit(":", 1)[1]}: {problem["detail"]}')
+    if not clear or (answer.status, problem["type"].rsplit(":", 1)[1]) not in PROBLEMS:
+        raise Broken(f"no clear answer: {answer.status} {answer.body[:200]}")
+    raise Refused(f"{answer.status} {problem['type'].rsplit(':', 1)[1]}: {problem['detail']}")
 
 
 # Each scenario returns what is compared: bytes. The server is new, and its device has done nothing but be opened.
 
+
 def render(server):
-    return wanted(server.request('GET', RENDER, timeout=PATIENCE_S)).body
+    return wanted(server.request("GET", RENDER, timeout=PATIENCE_S)).body
 
 
 def last_frame(server, session, after):
     """Of a picture that does not move: the one behind which nothing finer follows. With its number."""
     for _ in range(60):
-        answer = wanted(server.request('GET', f'/v1/sessions/{session["id"]}/frame.png?after={after}&wait_ms=20000', timeout=PATIENCE_S), (200, 204))
+        answer = wanted(
+            server.request(
+                "GET", f"/v1/sessions/{session['id']}/frame.png?after={after}&wait_ms=20000", timeout=PATIENCE_S
+            ),
+            (200, 204),
+        )
         if answer.status == 204:
-            raise Broken('no frame for 20 s')
-        after = int(answer.header('Kerrd-Frame'))
-        if 'final=1' in answer.header('Kerrd-Quality'):
+            raise Broken("no frame for 20 s")
+        after = int(answer.header("Kerrd-Frame"))
+        if "final=1" in answer.header("Kerrd-Quality"):
             return answer.body, after
-    raise Broken('no last frame')
+    raise Broken("no last frame")
 
 
 def session(server):
-    made = wanted(server.request('POST', '/v1/sessions', json.dumps(SCENE), timeout=PATIENCE_S), (201,)).json()
+    made = wanted(server.request("POST", "/v1/sessions", json.dumps(SCENE), timeout=PATIENCE_S), (201,)).json()
     first, number = last_frame(server, made, 0)
-    change = json.dumps({'camera': {'inclination_deg': 71}})
-    owner = {'Authorization': 'Bearer ' + made['token']}
-    wanted(server.request('PATCH', f'/v1/sessions/{made["id"]}', change, headers=owner, timeout=PATIENCE_S))
+    change = json.dumps({"camera": {"inclination_deg": 71}})
+    owner = {"Authorization": "Bearer " + made["token"]}
+    wanted(server.request("PATCH", f"/v1/sessions/{made['id']}", change, headers=owner, timeout=PATIENCE_S))
     second, _ = last_frame(server, made, number)
-    wanted(server.request('DELETE', f'/v1/sessions/{made["id"]}', headers=owner), (204,))
+    wanted(server.request("DELETE", f"/v1/sessions/{made['id']}", headers=owner), (204,))
     return first + second
 
 
 def begin_job(server):
-    return wanted(server.request('POST', '/v1/jobs', json.dumps({'scenes': [SCENE, {**SCENE, 'camera': {'azimuth_deg': 30}}]}), timeout=PATIENCE_S), (202,)).json()
+    return wanted(
+        server.request(
+            "POST",
+            "/v1/jobs",
+            json.dumps({"scenes": [SCENE, {**SCENE, "camera": {"azimuth_deg": 30}}]}),
+            timeout=PATIENCE_S,
+        ),
+        (202,),
+    ).json()
 
 
 def finish_job(server, job):
-    at, until = f'/v1/jobs/{job["id"]}', time.monotonic() + PATIENCE_S
-    while (state := wanted(server.request('GET', at)).json())['state'] in ('waiting', 'running'):
+    at, until = f"/v1/jobs/{job['id']}", time.monotonic() + PATIENCE_S
+    while (state := wanted(server.request("GET", at)).json())["state"] in ("waiting", "running"):
         if time.monotonic() > until:
-            raise Broken(f'the job hangs: {state}')
+            raise Broken(f"the job hangs: {state}")
         time.sleep(0.02)
-    if state['state'] != 'done':
-        raise Broken(f'accepted work is lost: {state}')
-    return wanted(server.request('GET', at + '/result?format=stream')).body
+    if state["state"] != "done":
+        raise Broken(f"accepted work is lost: {state}")
+    return wanted(server.request("GET", at + "/result?format=stream")).body
 
 
 def job(server):
@@ -179,22 +259,48 @@ def job(server):
 
 
 def rays(server):
-    body = {'spin': 0.9, 'observer': {'r': 'infinity', 'inclination_deg': 60}, 'accuracy': {'engine': 'mino-rkn4', 'precision': 'f32'},
-            'rays': [[3 + 0.01 * i, 4] for i in range(600)]}
-    return wanted(server.request('POST', '/v1/rays', json.dumps(body), {'Accept': 'application/x-npy'}, timeout=PATIENCE_S)).body
+    body = {
+        "spin": 0.9,
+        "observer": {"r": "infinity", "inclination_deg": 60},
+        "accuracy": {"engine": "mino-rkn4", "precision": "f32"},
+        "rays": [[3 + 0.01 * i, 4] for i in range(600)],
+    }
+    return wanted(
+        server.request("POST", "/v1/rays", json.dumps(body), {"Accept": "application/x-npy"}, timeout=PATIENCE_S)
+    ).body
 
 
 # at_start: the fault is in the start. loses: the device is lost besides. only: of these entry points.
-Scenario = collections.namedtuple('Scenario', 'run at_start loses incoherent only', defaults=(False, False, False, NAMES))
-OPENING = ('EnumerateInstanceVersion', 'EnumerateInstanceLayerProperties', 'EnumerateInstanceExtensionProperties', 'CreateInstance', 'EnumeratePhysicalDevices',
-           'EnumerateDeviceExtensionProperties', 'CreateDevice', 'DeviceWaitIdle', 'CreatePipelineCache', 'CreateCommandPool', 'AllocateCommandBuffers', 'CreateSemaphore')
-SCENARIOS = {'start': Scenario(render, at_start=True), 'render': Scenario(render), 'session': Scenario(session), 'job': Scenario(job), 'rays': Scenario(rays),
-             'reopen': Scenario(render, loses=True, only=OPENING),
-             'incoherent': Scenario(render, incoherent=True, only=('FlushMappedMemoryRanges', 'InvalidateMappedMemoryRanges'))}
+Scenario = collections.namedtuple(
+    "Scenario", "run at_start loses incoherent only", defaults=(False, False, False, NAMES)
+)
+OPENING = (
+    "EnumerateInstanceVersion",
+    "EnumerateInstanceLayerProperties",
+    "EnumerateInstanceExtensionProperties",
+    "CreateInstance",
+    "EnumeratePhysicalDevices",
+    "EnumerateDeviceExtensionProperties",
+    "CreateDevice",
+    "DeviceWaitIdle",
+    "CreatePipelineCache",
+    "CreateCommandPool",
+    "AllocateCommandBuffers",
+    "CreateSemaphore",
+)
+SCENARIOS = {
+    "start": Scenario(render, at_start=True),
+    "render": Scenario(render),
+    "session": Scenario(session),
+    "job": Scenario(job),
+    "rays": Scenario(rays),
+    "reopen": Scenario(render, loses=True, only=OPENING),
+    "incoherent": Scenario(render, incoherent=True, only=("FlushMappedMemoryRanges", "InvalidateMappedMemoryRanges")),
+}
 
 
 def reopened(server):
-    return int(server.metrics()['kerrd_device_reopened_total'])
+    return int(server.metrics()["kerrd_device_reopened_total"])
 
 
 def stop(server):
@@ -205,7 +311,7 @@ def stop(server):
     except subprocess.TimeoutExpired:
         server.process.kill()
         server.wait()
-        raise Broken('it does not stop') from None
+        raise Broken("it does not stop") from None
 
 
 def live(server, scenario, faults, fault, same):
@@ -217,20 +323,20 @@ def live(server, scenario, faults, fault, same):
     try:
         got, outcome = scenario.run(server), None
     except Refused as refused:
-        got, outcome = None, f'error {refused}'
-    if faults.get('injected'):
+        got, outcome = None, f"error {refused}"
+    if faults.get("injected"):
         faults.disarm()  # else it may come when it stops
     if same is not None and got is not None and got != same:
-        raise Broken('other bytes than without the fault')
+        raise Broken("other bytes than without the fault")
     if outcome:  # the next is as if nothing had been
         try:
             again = scenario.run(server)
         except Refused as refused:
-            raise Broken(f'{outcome}; and afterwards {refused}') from None
+            raise Broken(f"{outcome}; and afterwards {refused}") from None
         if same is not None and again != same:
-            raise Broken('other bytes after the fault')
+            raise Broken("other bytes after the fault")
     else:
-        outcome = 'recovered' if reopened(server) else 'same'
+        outcome = "recovered" if reopened(server) else "same"
     return outcome, got
 
 
@@ -243,12 +349,12 @@ def to_its_end(server, scenario, faults, fault, same):
         try:
             code = server.wait(PATIENCE_S)
         except subprocess.TimeoutExpired:
-            raise Broken(f'it hangs: {gone!r}') from None
+            raise Broken(f"it hangs: {gone!r}") from None
         if code != EXIT_DEVICE:
-            raise Broken(f'{gone!r}, and it ends with {code}: {server.said()[-3000:]}') from None
-        return 'exit 3', None
+            raise Broken(f"{gone!r}, and it ends with {code}: {server.said()[-3000:]}") from None
+        return "exit 3", None
     if code:
-        raise Broken(f'it ends with {code}: {server.said()[-3000:]}')
+        raise Broken(f"it ends with {code}: {server.said()[-3000:]}")
     no_objects(faults)
     return outcome, got
 
@@ -256,16 +362,21 @@ def to_its_end(server, scenario, faults, fault, same):
 def no_objects(faults):
     """Whoever ends with a device that works has destroyed what was made."""
     if left := faults.objects():
-        raise Broken(f'objects are left: {left}')
+        raise Broken(f"objects are left: {left}")
 
 
 def starts_not(faults):
     """The one line that says why."""
-    done = subprocess.run([*daemon.COMMAND, '--port', '0'], capture_output=True, text=True, timeout=PATIENCE_S,
-                          env={**os.environ, 'KD_VULKAN_FAULTS': faults.file.name, 'XDG_CACHE_HOME': CACHE.name})
+    done = subprocess.run(
+        [*daemon.COMMAND, "--port", "0"],
+        capture_output=True,
+        text=True,
+        timeout=PATIENCE_S,
+        env={**os.environ, "KD_VULKAN_FAULTS": faults.file.name, "XDG_CACHE_HOME": CACHE.name},
+    )
     lines = done.stderr.splitlines()
-    if done.returncode != 1 or not lines or not lines[-1].startswith('kerrd: '):
-        raise Broken(f'its start ends with {done.returncode}: {done.stderr[-3000:]}')
+    if done.returncode != 1 or not lines or not lines[-1].startswith("kerrd: "):
+        raise Broken(f"its start ends with {done.returncode}: {done.stderr[-3000:]}")
     no_objects(faults)
     return lines[-1]
 
@@ -280,14 +391,14 @@ def one(scenario, fault=None, same=None):
         try:
             server = Server(faults)
         except RuntimeError:
-            injected = faults.get('injected')
+            injected = faults.get("injected")
             faults.arm(*fault)
-            return 'error: ' + starts_not(faults), None, injected, None
+            return "error: " + starts_not(faults), None, injected, None
         begun = faults.calls()
         outcome, got = to_its_end(server, scenario, faults, fault, same)
         after = faults.calls()
         calls = begun if scenario.at_start else {name: after[name] - begun[name] for name in NAMES}
-        return outcome, got, faults.get('injected'), calls
+        return outcome, got, faults.get("injected"), calls
     finally:
         if server:
             if server.process.poll() is None:
@@ -303,24 +414,24 @@ CACHE = tempfile.TemporaryDirectory()  # of pipelines; and what the device is kn
 def kind_of(scenario, fault, outcome, injected):
     """A word for an outcome, if it is one that this fault may have."""
     name, _, code = fault
-    word = 'error' if outcome.startswith('error') else outcome
+    word = "error" if outcome.startswith("error") else outcome
     if not injected:
-        if word != ('recovered' if scenario.loses else 'same'):
-            raise Broken(f'without a fault: {outcome}')
-        return 'not reached'
-    if word == 'error' and f'vk{name}' not in outcome and code != DRIVER:  # there is no driver, it says
-        raise Broken(f'this does not say what has failed: {outcome}')
-    if word == 'error' and code == LOST and not scenario.at_start:
-        raise Broken(f'the device was lost and could have been opened again: {outcome}')
-    if word == 'exit 3' and code != LOST and not scenario.loses:
-        raise Broken('it ends, and the device is not lost')
+        if word != ("recovered" if scenario.loses else "same"):
+            raise Broken(f"without a fault: {outcome}")
+        return "not reached"
+    if word == "error" and f"vk{name}" not in outcome and code != DRIVER:  # there is no driver, it says
+        raise Broken(f"this does not say what has failed: {outcome}")
+    if word == "error" and code == LOST and not scenario.at_start:
+        raise Broken(f"the device was lost and could have been opened again: {outcome}")
+    if word == "exit 3" and code != LOST and not scenario.loses:
+        raise Broken("it ends, and the device is not lost")
     return word
 
 
 def faults_of(scenario, calls, rotate):
     for name in scenario.only:
         codes = ENTRIES[name]
-        for n in range(0, calls[name], 8 if rotate and name == 'SetDebugUtilsObjectNameEXT' else 1):
+        for n in range(0, calls[name], 8 if rotate and name == "SetDebugUtilsObjectNameEXT" else 1):
             for code in codes if not rotate or not n and calls[name] < len(codes) else (codes[n % len(codes)],):
                 yield name, n, code
 
@@ -332,15 +443,18 @@ def attempt(scenario, fault, same, until):
         outcome, _, injected, _ = one(scenario, fault, same)
         return kind_of(scenario, fault, outcome, injected), outcome
     except Broken as broken:
-        return 'BROKEN', str(broken)
+        return "BROKEN", str(broken)
 
 
 def sweep(name, rotate, workers, until, kept):
-    """A row for each entry point that the scenario calls: name, calls, how many faults there may be, and how many came to what. Adds to what is kept."""
+    """A row for each entry point that the scenario calls: name, calls, how many faults there may be, and how many came
+    to what. Adds to what is kept."""
     scenario = SCENARIOS[name]
     _, same, _, calls = one(scenario)
     with concurrent.futures.ThreadPoolExecutor(workers) as pool:
-        faults = [fault for fault in faults_of(scenario, calls, rotate) if kept.get((name, *fault), 'BROKEN') == 'BROKEN']
+        faults = [
+            fault for fault in faults_of(scenario, calls, rotate) if kept.get((name, *fault), "BROKEN") == "BROKEN"
+        ]
         random.Random(1).shuffle(faults)
         doing = {pool.submit(attempt, scenario, fault, same, until): fault for fault in faults}
         for done in concurrent.futures.as_completed(doing):
@@ -349,7 +463,7 @@ def sweep(name, rotate, workers, until, kept):
             if not kind:
                 continue
             kept.note((name, entry, n, code), kind)
-            print(f'{name}: {entry} {n} {CODES[code]}: {kind}: {said}', file=sys.stderr, flush=True)
+            print(f"{name}: {entry} {n} {CODES[code]}: {kind}: {said}", file=sys.stderr, flush=True)
     rows = {entry: collections.Counter() for entry in scenario.only if calls[entry]}
     for (of, entry, n, _), kind in kept.items():
         if of == name and entry in rows:
@@ -359,31 +473,33 @@ def sweep(name, rotate, workers, until, kept):
 
 
 def full(arguments):
-    parser = argparse.ArgumentParser(prog='vulkan.py --full')
-    parser.add_argument('--full', action='store_true', required=True)
-    parser.add_argument('--rotate', action='store_true')
-    parser.add_argument('--whole', action='append', choices=SCENARIOS, default=[])
-    parser.add_argument('--minutes', type=float)
-    parser.add_argument('--only', action='append', choices=SCENARIOS)
-    parser.add_argument('--workers', type=int, default=2)
-    parser.add_argument('--keep')
-    parser.add_argument('--table', default=str(pathlib.Path(__file__).resolve().parents[2] / 'docs' / 'faults-vulkan.md'))
+    parser = argparse.ArgumentParser(prog="vulkan.py --full")
+    parser.add_argument("--full", action="store_true", required=True)
+    parser.add_argument("--rotate", action="store_true")
+    parser.add_argument("--whole", action="append", choices=SCENARIOS, default=[])
+    parser.add_argument("--minutes", type=float)
+    parser.add_argument("--only", action="append", choices=SCENARIOS)
+    parser.add_argument("--workers", type=int, default=2)
+    parser.add_argument("--keep")
+    parser.add_argument(
+        "--table", default=str(pathlib.Path(__file__).resolve().parents[2] / "docs" / "faults-vulkan.md")
+    )
     options = parser.parse_args(arguments)
-    one(SCENARIOS['render'])  # meets the device for the first time, which is tested then
+    one(SCENARIOS["render"])  # meets the device for the first time, which is tested then
     names = [name for name in SCENARIOS if not options.only or name in options.only]
     begun, results, kept = time.monotonic(), {}, Kept(options.keep)
     for i, name in enumerate(names):  # each has its share of what time is left
         now = time.monotonic()
-        until = now + (60 * options.minutes - (now - begun)) / (len(names) - i) if options.minutes else float('inf')
+        until = now + (60 * options.minutes - (now - begun)) / (len(names) - i) if options.minutes else float("inf")
         results[name] = sweep(name, options.rotate and name not in options.whole, options.workers, until, kept)
     text = table(results)
-    if options.table == '-':
-        print(text, end='')
+    if options.table == "-":
+        print(text, end="")
     else:
         pathlib.Path(options.table).write_text(text)
-    return any(counts['BROKEN'] for rows in results.values() for _, _, _, counts in rows)
+    return any(counts["BROKEN"] for rows in results.values() for _, _, _, counts in rows)
 
 
-if __name__ == '__main__':
-    daemon.COMMAND[:] = [os.path.abspath(sys.argv[1]), 'serve']
+if __name__ == "__main__":
+    daemon.COMMAND[:] = [os.path.abspath(sys.argv[1]), "serve"]
     sys.exit(full(sys.argv[2:]))

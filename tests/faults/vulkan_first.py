@@ -1,4 +1,6 @@
-"""First calls of Vulkan that fail, devices beyond repair, and devices and drivers that hang; vulkan.py has all calls."""
+"""First calls of Vulkan that fail, devices beyond repair, and devices and drivers that hang; vulkan.py has all
+calls."""
+
 import concurrent.futures
 import contextlib
 import os
@@ -7,7 +9,24 @@ import tempfile
 import time
 import unittest
 
-from vulkan import (ENTRIES, EXIT_DEVICE, HOST, LOST, PATIENCE_S, RENDER, Faults, Server, begin_job, daemon, finish_job, job, rays, reopened, session, wanted)
+from vulkan import (
+    ENTRIES,
+    EXIT_DEVICE,
+    HOST,
+    LOST,
+    PATIENCE_S,
+    RENDER,
+    Faults,
+    Server,
+    begin_job,
+    daemon,
+    finish_job,
+    job,
+    rays,
+    reopened,
+    session,
+    wanted,
+)
 
 UNKNOWN = -13  # VK_ERROR_UNKNOWN: a failure that says nothing of memory, nor that the device is lost
 
@@ -28,32 +47,59 @@ class Vulkan(Case):
     def test_first_calls(self):
         """One server: each request comes as far as the entry point that fails it."""
         server, told = self.start(), {}
-        for name in ('CreateBuffer', 'BindBufferMemory', 'CreateShaderModule', 'CreateDescriptorSetLayout', 'CreatePipelineLayout', 'CreateComputePipelines',
-                     'ResetCommandPool', 'BeginCommandBuffer', 'CreateDescriptorPool', 'AllocateDescriptorSets', 'CreateBufferView', 'EndCommandBuffer',
-                     'QueueSubmit', 'GetSemaphoreCounterValue', 'WaitSemaphores'):
+        for name in (
+            "CreateBuffer",
+            "BindBufferMemory",
+            "CreateShaderModule",
+            "CreateDescriptorSetLayout",
+            "CreatePipelineLayout",
+            "CreateComputePipelines",
+            "ResetCommandPool",
+            "BeginCommandBuffer",
+            "CreateDescriptorPool",
+            "AllocateDescriptorSets",
+            "CreateBufferView",
+            "EndCommandBuffer",
+            "QueueSubmit",
+            "GetSemaphoreCounterValue",
+            "WaitSemaphores",
+        ):
             self.faults.arm(name, 0, ENTRIES[name][1])
             answer = server.get(RENDER)
-            if self.faults.get('injected'):
+            if self.faults.get("injected"):
                 told[name] = answer.status
                 problem = answer.json()
-                self.assertEqual((answer.status, problem['type']), (503, 'urn:kerrd:problem:out-of-memory'), problem)
-                self.assertIn('vk' + name, problem['detail'])
+                self.assertEqual((answer.status, problem["type"]), (503, "urn:kerrd:problem:out-of-memory"), problem)
+                self.assertIn("vk" + name, problem["detail"])
         self.assertGreater(len(told), 12, told)
         self.faults.disarm()
         same = wanted(server.get(RENDER)).body
-        for n, name in enumerate(('QueueSubmit', 'GetSemaphoreCounterValue')):
+        for n, name in enumerate(("QueueSubmit", "GetSemaphoreCounterValue")):
             self.faults.arm(name, 0, LOST)
             self.assertEqual(wanted(server.get(RENDER)).body, same, name)
-            self.assertEqual(self.faults.get('injected'), 1, name)
+            self.assertEqual(self.faults.get("injected"), 1, name)
             self.assertEqual(reopened(server), n + 1)
         self.assertEqual(server.stop(), 0, server.said())
 
     def test_starts_that_fail(self):
-        for name in ('CreateInstance', 'EnumeratePhysicalDevices', 'CreateDevice', 'CreatePipelineCache', 'CreateCommandPool', 'AllocateCommandBuffers', 'CreateSemaphore'):
+        for name in (
+            "CreateInstance",
+            "EnumeratePhysicalDevices",
+            "CreateDevice",
+            "CreatePipelineCache",
+            "CreateCommandPool",
+            "AllocateCommandBuffers",
+            "CreateSemaphore",
+        ):
             self.faults.arm(name, 0, HOST)
-            done = subprocess.run([*daemon.COMMAND, '--port', '0'], capture_output=True, env={**os.environ, 'KD_VULKAN_FAULTS': self.faults.file.name}, timeout=PATIENCE_S)
+            done = subprocess.run(
+                [*daemon.COMMAND, "--port", "0"],
+                capture_output=True,
+                env={**os.environ, "KD_VULKAN_FAULTS": self.faults.file.name},
+                timeout=PATIENCE_S,
+            )
             self.assertEqual(done.returncode, 1, done.stderr)
-            self.assertIn(f'vk{name}: VK_ERROR_OUT_OF_HOST_MEMORY', done.stderr.decode())
+            self.assertIn(f"vk{name}: VK_ERROR_OUT_OF_HOST_MEMORY", done.stderr.decode())
 
     def test_all_go_on_when_the_device_is_opened_again(self):
         """A session, a job and a list of rays that were under way when a render lost the device."""
@@ -62,66 +108,67 @@ class Vulkan(Case):
         for n in (1, 3):
             with concurrent.futures.ThreadPoolExecutor(4) as pool:
                 under_way = [pool.submit(work, server) for work in (session, job, rays)]
-                self.faults.arm('QueueSubmit', n, LOST)
-                wanted(server.get(RENDER + f'&camera.azimuth_deg={time.monotonic() % 300}'))
+                self.faults.arm("QueueSubmit", n, LOST)
+                wanted(server.get(RENDER + f"&camera.azimuth_deg={time.monotonic() % 300}"))
                 self.assertEqual(tuple(one.result() for one in under_way), calm)
         self.assertEqual(reopened(server), 2)
         self.assertEqual(server.stop(), 0, server.said())
 
     def test_often(self):
         """No more than so many times; and the job that was accepted is there after the next start."""
-        for how, options in (('often', ('--device-reopenings', 1)), ('dead', ())):
+        for how, options in (("often", ("--device-reopenings", 1)), ("dead", ())):
             with self.subTest(how), tempfile.TemporaryDirectory() as state:
-                server = self.start('--state', state, *options)
+                server = self.start("--state", state, *options)
                 accepted = begin_job(server)
-                self.faults.set(dead=how == 'dead')
-                for _ in range(2 if how == 'often' else 1):
-                    self.faults.arm('QueueSubmit', 0, LOST)
+                self.faults.set(dead=how == "dead")
+                for _ in range(2 if how == "often" else 1):
+                    self.faults.arm("QueueSubmit", 0, LOST)
                     try:
-                        server.get(RENDER + f'&camera.azimuth_deg={time.monotonic() % 300}')
+                        server.get(RENDER + f"&camera.azimuth_deg={time.monotonic() % 300}")
                     except (OSError, daemon.http.client.HTTPException):
                         break
                 self.assertEqual(server.wait(60), EXIT_DEVICE, server.said())
                 self.faults.disarm()
                 self.faults.set(dead=0, lost=0)
-                server = self.start('--state', state)
+                server = self.start("--state", state)
                 self.assertEqual(finish_job(server, accepted), job(server))
                 self.assertEqual(server.stop(), 0, server.said())
 
     def test_a_device_that_hangs(self):
         """Whoever waits is told, and the process ends."""
-        server = self.start('--device-timeout', 4)
+        server = self.start("--device-timeout", 4)
         self.faults.set(hang=1)
         answer = server.get(RENDER)
-        self.assertEqual((answer.status, answer.json()['type']), (500, 'urn:kerrd:problem:device-lost'))
-        self.assertIn('missed its deadline of 4000 ms', answer.body.decode())
+        self.assertEqual((answer.status, answer.json()["type"]), (500, "urn:kerrd:problem:device-lost"))
+        self.assertIn("missed its deadline of 4000 ms", answer.body.decode())
         self.assertEqual(server.wait(30), EXIT_DEVICE)
-        self.assertIn('deadline', server.said())
+        self.assertIn("deadline", server.said())
 
 
 class Long(Case):
     """A call that does not return: nobody can be told but by the end of the process."""
 
     def test_a_driver_that_hangs(self):
-        server = self.start('--device-timeout', 1)
+        server = self.start("--device-timeout", 1)
         self.faults.set(hang=2)
         with self.assertRaises((OSError, daemon.http.client.HTTPException)):
             server.get(RENDER)
         self.assertEqual(server.wait(60), EXIT_DEVICE)
-        self.assertIn('no sign of life', server.said())
+        self.assertIn("no sign of life", server.said())
 
     def test_a_device_that_fails_while_it_hangs_is_not_opened_beside_itself(self):
-        """Its first piece of work never ends, and the second cannot be begun: what hangs cannot be closed, so there is no other."""
-        server = self.start('--device-timeout', 1)
-        self.faults.arm('BeginCommandBuffer', 1, UNKNOWN)
+        """Its first piece of work never ends, and the second cannot be begun: what hangs cannot be closed, so there is
+        no other."""
+        server = self.start("--device-timeout", 1)
+        self.faults.arm("BeginCommandBuffer", 1, UNKNOWN)
         self.faults.set(hang=1)
         with contextlib.suppress(OSError, daemon.http.client.HTTPException):
             self.assertEqual(server.get(RENDER).status, 500)
         self.assertEqual(server.wait(60), EXIT_DEVICE)
-        self.assertEqual(self.faults.get('injected'), 1)
-        self.assertNotIn('opened again', server.said())
-        self.assertEqual(self.faults.calls()['CreateDevice'], 1)
+        self.assertEqual(self.faults.get("injected"), 1)
+        self.assertNotIn("opened again", server.said())
+        self.assertEqual(self.faults.calls()["CreateDevice"], 1)
 
 
-if __name__ == '__main__':
+if __name__ == "__main__":
     daemon.main()

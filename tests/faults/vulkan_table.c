@@ -1,5 +1,5 @@
-/* Linked into a kerrd under test (vulkan.py): the table of Vulkan entry points, whose calls fail as a file in KD_VULKAN_FAULTS says, which the test has
- * mapped too. Without that file it is the kerrd that it would be. */
+/* Linked into a kerrd under test (vulkan.py): the table of Vulkan entry points, whose calls fail as a file in
+ * KD_VULKAN_FAULTS says, which the test has mapped too. Without that file it is the kerrd that it would be. */
 #include "vk/functions.h"
 
 #include <dlfcn.h>
@@ -17,62 +17,71 @@
 #define CREATES_AS(X, object, info) \
     X(Create##object, (VkDevice a, const Vk##info *b, const VkAllocationCallbacks *c, Vk##object *d), (a, b, c, d))
 #define RANGES(X, name) X(name, (VkDevice a, uint32_t b, const VkMappedMemoryRange *c), (a, b, c))
-#define ENTRIES(X)                                                                                                                        \
-    X(EnumerateInstanceVersion, (uint32_t * a), (a))                                                                                      \
-    X(EnumerateInstanceLayerProperties, (uint32_t * a, VkLayerProperties * b), (a, b))                                                    \
-    X(EnumerateInstanceExtensionProperties, (const char *a, uint32_t *b, VkExtensionProperties *c), (a, b, c))                            \
-    X(CreateInstance, (const VkInstanceCreateInfo *a, const VkAllocationCallbacks *b, VkInstance *c), (a, b, c))                          \
-    X(EnumeratePhysicalDevices, (VkInstance a, uint32_t * b, VkPhysicalDevice * c), (a, b, c))                                            \
-    X(EnumerateDeviceExtensionProperties, (VkPhysicalDevice a, const char *b, uint32_t *c, VkExtensionProperties *d), (a, b, c, d))       \
-    X(CreateDevice, (VkPhysicalDevice a, const VkDeviceCreateInfo *b, const VkAllocationCallbacks *c, VkDevice *d), (a, b, c, d))         \
-    X(SetDebugUtilsObjectNameEXT, (VkDevice a, const VkDebugUtilsObjectNameInfoEXT *b), (a, b))                                           \
-    X(DeviceWaitIdle, (VkDevice a), (a))                                                                                                  \
-    X(AllocateMemory, (VkDevice a, const VkMemoryAllocateInfo *b, const VkAllocationCallbacks *c, VkDeviceMemory *d), (a, b, c, d))       \
-    X(MapMemory, (VkDevice a, VkDeviceMemory b, VkDeviceSize c, VkDeviceSize d, VkMemoryMapFlags e, void **f), (a, b, c, d, e, f))        \
-    RANGES(X, FlushMappedMemoryRanges)                                                                                                    \
-    RANGES(X, InvalidateMappedMemoryRanges)                                                                                               \
-    CREATES(X, Buffer)                                                                                                                    \
-    X(BindBufferMemory, (VkDevice a, VkBuffer b, VkDeviceMemory c, VkDeviceSize d), (a, b, c, d))                                         \
-    CREATES(X, BufferView)                                                                                                                \
-    CREATES(X, ShaderModule)                                                                                                              \
-    CREATES(X, DescriptorSetLayout)                                                                                                       \
-    CREATES(X, PipelineLayout)                                                                                                            \
-    X(CreateComputePipelines,                                                                                                             \
-      (VkDevice a, VkPipelineCache b, uint32_t c, const VkComputePipelineCreateInfo *d, const VkAllocationCallbacks *e, VkPipeline *f),   \
-      (a, b, c, d, e, f))                                                                                                                 \
-    CREATES(X, PipelineCache)                                                                                                             \
-    X(GetPipelineCacheData, (VkDevice a, VkPipelineCache b, size_t * c, void *d), (a, b, c, d))                                           \
-    CREATES(X, DescriptorPool)                                                                                                            \
-    X(AllocateDescriptorSets, (VkDevice a, const VkDescriptorSetAllocateInfo *b, VkDescriptorSet *c), (a, b, c))                          \
-    CREATES(X, CommandPool)                                                                                                               \
-    X(ResetCommandPool, (VkDevice a, VkCommandPool b, VkCommandPoolResetFlags c), (a, b, c))                                              \
-    X(AllocateCommandBuffers, (VkDevice a, const VkCommandBufferAllocateInfo *b, VkCommandBuffer *c), (a, b, c))                          \
-    X(BeginCommandBuffer, (VkCommandBuffer a, const VkCommandBufferBeginInfo *b), (a, b))                                                 \
-    X(EndCommandBuffer, (VkCommandBuffer a), (a))                                                                                         \
-    CREATES(X, Semaphore)                                                                                                                 \
-    X(GetSemaphoreCounterValue, (VkDevice a, VkSemaphore b, uint64_t * c), (a, b, c))                                                     \
-    X(WaitSemaphores, (VkDevice a, const VkSemaphoreWaitInfo *b, uint64_t c), (a, b, c))                                                  \
-    X(QueueSubmit, (VkQueue a, uint32_t b, const VkSubmitInfo *c, VkFence d), (a, b, c, d))                                               \
-    CREATES(X, QueryPool)                                                                                                                 \
-    X(GetQueryPoolResults, (VkDevice a, VkQueryPool b, uint32_t c, uint32_t d, size_t e, void *f, VkDeviceSize g, VkQueryResultFlags h),  \
+#define ENTRIES(X) \
+    X(EnumerateInstanceVersion, (uint32_t *a), (a)) \
+    X(EnumerateInstanceLayerProperties, (uint32_t *a, VkLayerProperties *b), (a, b)) \
+    X(EnumerateInstanceExtensionProperties, (const char *a, uint32_t *b, VkExtensionProperties *c), (a, b, c)) \
+    X(CreateInstance, (const VkInstanceCreateInfo *a, const VkAllocationCallbacks *b, VkInstance *c), (a, b, c)) \
+    X(EnumeratePhysicalDevices, (VkInstance a, uint32_t *b, VkPhysicalDevice *c), (a, b, c)) \
+    X(EnumerateDeviceExtensionProperties, (VkPhysicalDevice a, const char *b, uint32_t *c, VkExtensionProperties *d), \
+      (a, b, c, d)) \
+    X(CreateDevice, (VkPhysicalDevice a, const VkDeviceCreateInfo *b, const VkAllocationCallbacks *c, VkDevice *d), \
+      (a, b, c, d)) \
+    X(SetDebugUtilsObjectNameEXT, (VkDevice a, const VkDebugUtilsObjectNameInfoEXT *b), (a, b)) \
+    X(DeviceWaitIdle, (VkDevice a), (a)) \
+    X(AllocateMemory, (VkDevice a, const VkMemoryAllocateInfo *b, const VkAllocationCallbacks *c, VkDeviceMemory *d), \
+      (a, b, c, d)) \
+    X(MapMemory, (VkDevice a, VkDeviceMemory b, VkDeviceSize c, VkDeviceSize d, VkMemoryMapFlags e, void **f), \
+      (a, b, c, d, e, f)) \
+    RANGES(X, FlushMappedMemoryRanges) \
+    RANGES(X, InvalidateMappedMemoryRanges) \
+    CREATES(X, Buffer) \
+    X(BindBufferMemory, (VkDevice a, VkBuffer b, VkDeviceMemory c, VkDeviceSize d), (a, b, c, d)) \
+    CREATES(X, BufferView) \
+    CREATES(X, ShaderModule) \
+    CREATES(X, DescriptorSetLayout) \
+    CREATES(X, PipelineLayout) \
+    X(CreateComputePipelines, \
+      (VkDevice a, VkPipelineCache b, uint32_t c, const VkComputePipelineCreateInfo *d, \
+       const VkAllocationCallbacks *e, VkPipeline *f), \
+      (a, b, c, d, e, f)) \
+    CREATES(X, PipelineCache) \
+    X(GetPipelineCacheData, (VkDevice a, VkPipelineCache b, size_t *c, void *d), (a, b, c, d)) \
+    CREATES(X, DescriptorPool) \
+    X(AllocateDescriptorSets, (VkDevice a, const VkDescriptorSetAllocateInfo *b, VkDescriptorSet *c), (a, b, c)) \
+    CREATES(X, CommandPool) \
+    X(ResetCommandPool, (VkDevice a, VkCommandPool b, VkCommandPoolResetFlags c), (a, b, c)) \
+    X(AllocateCommandBuffers, (VkDevice a, const VkCommandBufferAllocateInfo *b, VkCommandBuffer *c), (a, b, c)) \
+    X(BeginCommandBuffer, (VkCommandBuffer a, const VkCommandBufferBeginInfo *b), (a, b)) \
+    X(EndCommandBuffer, (VkCommandBuffer a), (a)) \
+    CREATES(X, Semaphore) \
+    X(GetSemaphoreCounterValue, (VkDevice a, VkSemaphore b, uint64_t *c), (a, b, c)) \
+    X(WaitSemaphores, (VkDevice a, const VkSemaphoreWaitInfo *b, uint64_t c), (a, b, c)) \
+    X(QueueSubmit, (VkQueue a, uint32_t b, const VkSubmitInfo *c, VkFence d), (a, b, c, d)) \
+    CREATES(X, QueryPool) \
+    X(GetQueryPoolResults, \
+      (VkDevice a, VkQueryPool b, uint32_t c, uint32_t d, size_t e, void *f, VkDeviceSize g, VkQueryResultFlags h), \
       (a, b, c, d, e, f, g, h))
 
-/* Those that destroy what one of the former has made, object by object: name, parameters, arguments, the object, the entry point that made it. */
-#define DESTROYS(X, object) X(Destroy##object, (VkDevice a, Vk##object b, const VkAllocationCallbacks *c), (a, b, c), b, Create##object)
-#define ENDS(X)                                                                                                                           \
-    X(DestroyInstance, (VkInstance a, const VkAllocationCallbacks *b), (a, b), a, CreateInstance)                                         \
-    X(DestroyDevice, (VkDevice a, const VkAllocationCallbacks *b), (a, b), a, CreateDevice)                                               \
-    X(FreeMemory, (VkDevice a, VkDeviceMemory b, const VkAllocationCallbacks *c), (a, b, c), b, AllocateMemory)                           \
-    X(DestroyPipeline, (VkDevice a, VkPipeline b, const VkAllocationCallbacks *c), (a, b, c), b, CreateComputePipelines)                  \
-    DESTROYS(X, Buffer)                                                                                                                   \
-    DESTROYS(X, BufferView)                                                                                                               \
-    DESTROYS(X, ShaderModule)                                                                                                             \
-    DESTROYS(X, DescriptorSetLayout)                                                                                                      \
-    DESTROYS(X, PipelineLayout)                                                                                                           \
-    DESTROYS(X, PipelineCache)                                                                                                            \
-    DESTROYS(X, DescriptorPool)                                                                                                           \
-    DESTROYS(X, CommandPool)                                                                                                              \
-    DESTROYS(X, Semaphore)                                                                                                                \
+/* Those that destroy what one of the former has made, object by object: name, parameters, arguments, the object, the
+ * entry point that made it. */
+#define DESTROYS(X, object) \
+    X(Destroy##object, (VkDevice a, Vk##object b, const VkAllocationCallbacks *c), (a, b, c), b, Create##object)
+#define ENDS(X) \
+    X(DestroyInstance, (VkInstance a, const VkAllocationCallbacks *b), (a, b), a, CreateInstance) \
+    X(DestroyDevice, (VkDevice a, const VkAllocationCallbacks *b), (a, b), a, CreateDevice) \
+    X(FreeMemory, (VkDevice a, VkDeviceMemory b, const VkAllocationCallbacks *c), (a, b, c), b, AllocateMemory) \
+    X(DestroyPipeline, (VkDevice a, VkPipeline b, const VkAllocationCallbacks *c), (a, b, c), b, \
+      CreateComputePipelines) \
+    DESTROYS(X, Buffer) \
+    DESTROYS(X, BufferView) \
+    DESTROYS(X, ShaderModule) \
+    DESTROYS(X, DescriptorSetLayout) \
+    DESTROYS(X, PipelineLayout) \
+    DESTROYS(X, PipelineCache) \
+    DESTROYS(X, DescriptorPool) \
+    DESTROYS(X, CommandPool) \
+    DESTROYS(X, Semaphore) \
     DESTROYS(X, QueryPool)
 
 #define NAME(name, parameters, arguments) AT_##name,
@@ -81,18 +90,21 @@ enum { ENTRIES(NAME) N_ENTRIES };
 
 /* vulkan.py knows this layout: 64-bit words. */
 struct control {
-    _Atomic int64_t entry, countdown, code; /* the call of this entry before which the countdown is 0 returns the code, and is not made; below 0: none does */
+    _Atomic int64_t entry, countdown, code; /* the call of this entry before which the countdown is 0 returns the code,
+                                               and is not made; below 0: none does */
     _Atomic int64_t injected;               /* how many have */
-    _Atomic int64_t lost;                   /* a device that has told so does so at every call that can, until there is another one */
-    _Atomic int64_t dead;                   /* 1: from the next lost device on none can be created */
-    _Atomic int64_t hang;                   /* 1: what is submitted never ends; 2: the next submission itself does not return */
-    _Atomic int64_t incoherent;             /* 1 at the start: memory as on devices whose host has to flush it */
+    _Atomic int64_t lost; /* a device that has told so does so at every call that can, until there is another one */
+    _Atomic int64_t dead; /* 1: from the next lost device on none can be created */
+    _Atomic int64_t hang; /* 1: what is submitted never ends; 2: the next submission itself does not return */
+    _Atomic int64_t incoherent; /* 1 at the start: memory as on devices whose host has to flush it */
     _Atomic int64_t calls[N_ENTRIES];
-    _Atomic int64_t objects[N_ENTRIES];     /* that it has made and that are not destroyed; of entry points that make none: calls that did not fail */
+    _Atomic int64_t objects[N_ENTRIES]; /* that it has made and that are not destroyed; of entry points that make none:
+                                           calls that did not fail */
 };
 static struct control unused = { .entry = -1 }, *control = &unused;
 
-/* The driver's own: the same for all devices of one time. The loader takes the driver out with the last of them, and it may come to lie elsewhere. */
+/* The driver's own: the same for all devices of one time. The loader takes the driver out with the last of them, and
+ * it may come to lie elsewhere. */
 #define REAL(name, parameters, arguments) static _Atomic(PFN_vk##name) real_##name;
 ENTRIES(REAL)
 #define REAL_END(name, parameters, arguments, object, maker) static _Atomic(PFN_vk##name) real_##name;
@@ -120,14 +132,16 @@ static VkResult hanging_wait(uint64_t timeout)
 
 static bool tells_of_loss(int entry)
 {
-    return entry == AT_DeviceWaitIdle || entry == AT_GetSemaphoreCounterValue || entry == AT_WaitSemaphores || entry == AT_QueueSubmit || entry == AT_GetQueryPoolResults;
+    return entry == AT_DeviceWaitIdle || entry == AT_GetSemaphoreCounterValue || entry == AT_WaitSemaphores ||
+           entry == AT_QueueSubmit || entry == AT_GetQueryPoolResults;
 }
 
 /* What the call returns instead of what it would; VK_SUCCESS: what it would. */
 static VkResult fault(int entry)
 {
     atomic_fetch_add(&control->calls[entry], 1);
-    if (atomic_load(&control->entry) == entry && atomic_load(&control->countdown) >= 0 && atomic_fetch_sub(&control->countdown, 1) == 0) {
+    if (atomic_load(&control->entry) == entry && atomic_load(&control->countdown) >= 0 &&
+        atomic_fetch_sub(&control->countdown, 1) == 0) {
         const VkResult code = (VkResult)atomic_load(&control->code);
         atomic_fetch_add(&control->injected, 1);
         if (code == VK_ERROR_DEVICE_LOST)
@@ -152,38 +166,40 @@ static VkResult before(int entry)
 
 static bool hangs(void) { return atomic_load(&control->hang) == 1; }
 
-#define DEFINE(name, parameters, arguments)                                                                    \
-    static VKAPI_ATTR VkResult VKAPI_CALL faulty_##name parameters                                             \
-    {                                                                                                          \
-        const VkResult result = before(AT_##name);                                                             \
-        if (AT_##name == AT_DeviceWaitIdle) { /* a lost device, too, has come to rest when this returns */     \
-            const VkResult real = atomic_load(&real_##name) arguments;                                         \
-            return result ? result : real;                                                                     \
-        }                                                                                                      \
-        const VkResult made = result ? result : atomic_load(&real_##name) arguments;                           \
-        if (!made)                                                                                             \
-            atomic_fetch_add(&control->objects[AT_##name], 1); /* pipelines are made one by one */             \
-        return made;                                                                                           \
+#define DEFINE(name, parameters, arguments) \
+    static VKAPI_ATTR VkResult VKAPI_CALL faulty_##name parameters \
+    { \
+        const VkResult result = before(AT_##name); \
+        if (AT_##name == AT_DeviceWaitIdle) { /* a lost device, too, has come to rest when this returns */ \
+            const VkResult real = atomic_load(&real_##name) arguments; \
+            return result ? result : real; \
+        } \
+        const VkResult made = result ? result : atomic_load(&real_##name) arguments; \
+        if (!made) \
+            atomic_fetch_add(&control->objects[AT_##name], 1); /* pipelines are made one by one */ \
+        return made; \
     }
 ENTRIES(DEFINE)
 #undef DEFINE
 
-#define DEFINE_END(name, parameters, arguments, object, maker)                                                 \
-    static VKAPI_ATTR void VKAPI_CALL counting_##name parameters                                               \
-    {                                                                                                          \
-        if (object)                                                                                            \
-            atomic_fetch_sub(&control->objects[AT_##maker], 1);                                                \
-        atomic_load(&real_##name) arguments;                                                                   \
+#define DEFINE_END(name, parameters, arguments, object, maker) \
+    static VKAPI_ATTR void VKAPI_CALL counting_##name parameters \
+    { \
+        if (object) \
+            atomic_fetch_sub(&control->objects[AT_##maker], 1); \
+        atomic_load(&real_##name) arguments; \
     }
 ENDS(DEFINE_END)
 #undef DEFINE_END
 
-static VKAPI_ATTR VkResult VKAPI_CALL hanging_WaitSemaphores(VkDevice device, const VkSemaphoreWaitInfo *info, uint64_t timeout)
+static VKAPI_ATTR VkResult VKAPI_CALL hanging_WaitSemaphores(VkDevice device, const VkSemaphoreWaitInfo *info,
+                                                             uint64_t timeout)
 {
     return hangs() ? hanging_wait(timeout) : faulty_WaitSemaphores(device, info, timeout);
 }
 
-static VKAPI_ATTR VkResult VKAPI_CALL hanging_GetSemaphoreCounterValue(VkDevice device, VkSemaphore semaphore, uint64_t *value)
+static VKAPI_ATTR VkResult VKAPI_CALL hanging_GetSemaphoreCounterValue(VkDevice device, VkSemaphore semaphore,
+                                                                       uint64_t *value)
 {
     if (!hangs())
         return faulty_GetSemaphoreCounterValue(device, semaphore, value);
@@ -191,14 +207,16 @@ static VKAPI_ATTR VkResult VKAPI_CALL hanging_GetSemaphoreCounterValue(VkDevice 
     return VK_SUCCESS;
 }
 
-static VKAPI_ATTR void VKAPI_CALL incoherent_GetPhysicalDeviceMemoryProperties(VkPhysicalDevice device, VkPhysicalDeviceMemoryProperties *out)
+static VKAPI_ATTR void VKAPI_CALL incoherent_GetPhysicalDeviceMemoryProperties(VkPhysicalDevice device,
+                                                                               VkPhysicalDeviceMemoryProperties *out)
 {
-    atomic_load(&real_GetPhysicalDeviceMemoryProperties)(device, out);
+    atomic_load (&real_GetPhysicalDeviceMemoryProperties)(device, out);
     for (uint32_t i = 0; i < out->memoryTypeCount; i++)
         out->memoryTypes[i].propertyFlags &= ~(VkMemoryPropertyFlags)VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 }
 
-/* Under a sanitizer the driver stays where it is when its last device is gone: leaks are looked for at the end, and its own are known by its name. */
+/* Under a sanitizer the driver stays where it is when its last device is gone: leaks are looked for at the end, and
+ * its own are known by its name. */
 static void keep_driver(const struct kd_vk_functions *fn)
 {
 #ifdef __SANITIZE_ADDRESS__
@@ -215,10 +233,10 @@ static void keep_driver(const struct kd_vk_functions *fn)
 /* After each of the three steps: members that are still ours have been copied from a table of an earlier one. */
 static void plant(struct kd_vk_functions *fn)
 {
-#define PLANT(name, parameters, arguments)                                          \
-    if (fn->name && fn->name != faulty_##name)                                      \
-        atomic_store(&real_##name, fn->name);                                       \
-    if (fn->name)                                                                   \
+#define PLANT(name, parameters, arguments) \
+    if (fn->name && fn->name != faulty_##name) \
+        atomic_store(&real_##name, fn->name); \
+    if (fn->name) \
         fn->name = faulty_##name;
     if (fn->CreateBuffer != faulty_CreateBuffer)
         keep_driver(fn);
@@ -228,10 +246,10 @@ static void plant(struct kd_vk_functions *fn)
     }
     ENTRIES(PLANT)
 #undef PLANT
-#define PLANT_END(name, parameters, arguments, object, maker)                       \
-    if (fn->name && fn->name != counting_##name)                                    \
-        atomic_store(&real_##name, fn->name);                                       \
-    if (fn->name)                                                                   \
+#define PLANT_END(name, parameters, arguments, object, maker) \
+    if (fn->name && fn->name != counting_##name) \
+        atomic_store(&real_##name, fn->name); \
+    if (fn->name) \
         fn->name = counting_##name;
     ENDS(PLANT_END)
 #undef PLANT_END

@@ -23,7 +23,8 @@ int kd_fuzz_access(const uint8_t *data, size_t size)
         const size_t length = strlen(word);
         found += visitor != NULL;
         CHECK(!visitor || (length >= KD_ACCESS_TOKEN_MIN && length <= KD_ACCESS_TOKEN_MAX), "%s is a token", word);
-        CHECK(!visitor || ((visitor->role == KD_ROLE_VIEW || visitor->role == KD_ROLE_RENDER) && *visitor->name), "a token is of nobody");
+        CHECK(!visitor || ((visitor->role == KD_ROLE_VIEW || visitor->role == KD_ROLE_RENDER) && *visitor->name),
+              "a token is of nobody");
     }
     CHECK(found || memchr(data, '#', size), "a token file that was read holds no token");
     CHECK(!kd_access_find(access, ""), "no token is one");

@@ -1,7 +1,9 @@
-/* This looks at an asset, as a server does before it keeps one, and reads it as a renderer does: a picture of the sky, or a grid of matter.
+/* This looks at an asset, as a server does before it keeps one, and reads it as a renderer does: a picture of the
+ * sky, or a grid of matter.
  *
- * Sums that a random change would break are made good first: those of a PNG's chunks. What begins with "grid" becomes an NPZ file: records of a number of the list of names, two bytes of
- * length and an array's bytes, or for a header its text alone. */
+ * Sums that a random change would break are made good first: those of a PNG's chunks. What begins with "grid"
+ * becomes an NPZ file: records of a number of the list of names, two bytes of length and an array's bytes, or for a
+ * header its text alone. */
 #include "fuzz.h"
 
 #include "image/npy.h"
@@ -15,16 +17,21 @@
 
 #define PIXELS (1u << 16) /* of a picture that is decoded too */
 
-static const char *const names[] = { "header", "r", "theta", "phi", "density", "temperature", "u_con_r", "u_con_theta", "u_cov_phi", "u_con_t", "b_con_r", "b_con_theta", "b_cov_phi" };
+static const char *const names[] = { "header",      "r",           "theta",       "phi",       "density",
+                                     "temperature", "u_con_r",     "u_con_theta", "u_cov_phi", "u_con_t",
+                                     "b_con_r",     "b_con_theta", "b_cov_phi" };
 enum { NAMES = sizeof names / sizeof *names };
 
 static void add(struct kd_zip *zip, const char *name, const uint8_t *data, size_t size)
 {
     struct kd_buffer bytes = { 0 };
     char file[40];
-    const struct kd_npy text = { .fields = { { "", KD_NPY_U1, 0 } }, .n_fields = 1, .shape = { size }, .n_dimensions = 1 };
+    const struct kd_npy text = {
+        .fields = { { "", KD_NPY_U1, 0 } }, .n_fields = 1, .shape = { size }, .n_dimensions = 1
+    };
     snprintf(file, sizeof file, "%s.npy", name);
-    CHECK(!(size && *data == '{' && kd_npy_write_header(&text, &bytes)) && !kd_buffer_append(&bytes, data, size), "out of memory");
+    CHECK(!(size && *data == '{' && kd_npy_write_header(&text, &bytes)) && !kd_buffer_append(&bytes, data, size),
+          "out of memory");
     CHECK(!kd_zip_add(zip, file, bytes.data ? (void *)bytes.data : "", bytes.size), "a member cannot be added");
     kd_buffer_finish(&bytes);
 }
@@ -48,14 +55,18 @@ static void check_grid(const void *data, size_t size, const struct kd_asset_abou
     struct kd_matter_grid grid;
     struct kd_error error = { 0 };
     const enum kd_status status = kd_matter_grid_read(data, size, &grid, &error);
-    CHECK(!status == !looked, "a grid is looked at as %s and read as %s", kd_status_name(looked), kd_status_name(status));
+    CHECK(!status == !looked, "a grid is looked at as %s and read as %s", kd_status_name(looked),
+          kd_status_name(status));
     if (status) {
         kd_fuzz_refused(status, &error);
         return;
     }
-    CHECK(grid.rows == about->nodes[0] && grid.columns == about->nodes[1] && grid.layers == about->nodes[2] && grid.spin == about->spin, "a grid is another one than it was looked at");
+    CHECK(grid.rows == about->nodes[0] && grid.columns == about->nodes[1] && grid.layers == about->nodes[2] &&
+              grid.spin == about->spin,
+          "a grid is another one than it was looked at");
     for (size_t i = 0; i < (size_t)grid.rows * grid.columns * grid.layers * KD_MATTER_FLOATS; i++)
-        CHECK(isfinite(grid.nodes[i]), "number %zu of node %zu is %g", i % KD_MATTER_FLOATS, i / KD_MATTER_FLOATS, (double)grid.nodes[i]);
+        CHECK(isfinite(grid.nodes[i]), "number %zu of node %zu is %g", i % KD_MATTER_FLOATS, i / KD_MATTER_FLOATS,
+              (double)grid.nodes[i]);
     kd_matter_grid_finish(&grid);
 }
 
@@ -70,7 +81,8 @@ static void check_sky(const void *data, size_t size)
         return;
     }
     kd_fuzz_shown(credit);
-    CHECK(picture.height && !(picture.height & (picture.height - 1)) && picture.width == 2 * picture.height, "a sky has %u x %u texels", picture.width, picture.height);
+    CHECK(picture.height && !(picture.height & (picture.height - 1)) && picture.width == 2 * picture.height,
+          "a sky has %u x %u texels", picture.width, picture.height);
     for (size_t i = 0; i < (size_t)3 * picture.width * picture.height; i++)
         CHECK(picture.texels[i] >= 0 && picture.texels[i] <= 1.000001f, "a texel is %g", (double)picture.texels[i]);
     kd_sky_picture_finish(&picture);

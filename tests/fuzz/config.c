@@ -1,5 +1,6 @@
-/* This reads the options of `kerrd serve`: the document of a --config file, a line "---" and variables of the environment, a line each. What is read has values that the table allows,
- * the environment counts before the file, and a file that is written of what counts reads as the same. The list of --cors-origin is read as origins, too. */
+/* This reads the options of `kerrd serve`: the document of a --config file, a line "---" and variables of the
+ * environment, a line each. What is read has values that the table allows, the environment counts before the file,
+ * and a file that is written of what counts reads as the same. The list of --cors-origin is read as origins, too. */
 #include "fuzz.h"
 
 #include "base/utf8.h"
@@ -16,9 +17,11 @@ static void check_value(const struct kd_cli_setting *setting, const char *text)
     char *end;
     if (setting->kind == KD_SETTING_NUMBER) {
         const unsigned long long number = strtoull(text, &end, 10);
-        CHECK(*text >= '0' && *text <= '9' && !*end && number >= setting->least && number <= setting->most, "%s is \"%s\"", setting->name, text);
+        CHECK(*text >= '0' && *text <= '9' && !*end && number >= setting->least && number <= setting->most,
+              "%s is \"%s\"", setting->name, text);
     } else if (setting->kind == KD_SETTING_SWITCH)
-        CHECK(strstr(" no yes false true 0 1 ", text) && *text && !strchr(text, ' '), "%s is \"%s\"", setting->name, text);
+        CHECK(strstr(" no yes false true 0 1 ", text) && *text && !strchr(text, ' '), "%s is \"%s\"", setting->name,
+              text);
     else if (setting->kind == KD_SETTING_WORDS) {
         const char *found = strstr(setting->argument, text);
         CHECK(found && *text && !strchr(text, '|'), "%s is \"%s\"", setting->name, text);
@@ -42,13 +45,16 @@ static void check_origins(const char *const *texts)
 static void check_values(const struct kd_settings *settings)
 {
     for (size_t i = 0; i < settings->n; i++) {
-        const struct kd_setting_values *values = &settings->values[i * KD_SETTING_SOURCES], *from = values[KD_BY_ENVIRONMENT].n ? &values[KD_BY_ENVIRONMENT] : &values[KD_BY_FILE];
+        const struct kd_setting_values *values = &settings->values[i * KD_SETTING_SOURCES],
+                                       *from = values[KD_BY_ENVIRONMENT].n ? &values[KD_BY_ENVIRONMENT]
+                                                                           : &values[KD_BY_FILE];
         CHECK(!values[KD_BY_FLAG].n, "there are no flags, and %s has one", settings->table[i].name);
         for (size_t k = 0; k < values[KD_BY_FILE].n; k++)
             check_value(&settings->table[i], values[KD_BY_FILE].texts[k]);
         for (size_t k = 0; k < values[KD_BY_ENVIRONMENT].n; k++)
             check_value(&settings->table[i], values[KD_BY_ENVIRONMENT].texts[k]);
-        CHECK(!from->n || kd_settings_text(settings, i) == from->texts[0], "the file counts before the environment, for %s", settings->table[i].name);
+        CHECK(!from->n || kd_settings_text(settings, i) == from->texts[0],
+              "the file counts before the environment, for %s", settings->table[i].name);
     }
     check_origins(kd_settings_list(settings, KD_SERVE_CORS_ORIGIN));
 }
@@ -57,7 +63,8 @@ static cJSON *item_of(const struct kd_cli_setting *setting, const char *text)
 {
     if (setting->kind == KD_SETTING_NUMBER)
         return cJSON_CreateNumber(strtod(text, NULL));
-    return setting->kind == KD_SETTING_SWITCH ? cJSON_CreateBool(strchr("yt1", *text) != NULL) : cJSON_CreateString(text);
+    return setting->kind == KD_SETTING_SWITCH ? cJSON_CreateBool(strchr("yt1", *text) != NULL)
+                                              : cJSON_CreateString(text);
 }
 
 /* As a file: malloc'd. */
@@ -70,7 +77,8 @@ static char *write_file(const struct kd_settings *settings)
         cJSON *item = !list ? NULL : setting->kind == KD_SETTING_LIST ? cJSON_CreateArray() : item_of(setting, list[0]);
         for (size_t k = 0; list && list[k] && setting->kind == KD_SETTING_LIST; k++)
             cJSON_AddItemToArray(item, cJSON_CreateString(list[k]));
-        CHECK(!list || setting->where == KD_SETTING_ANYWHERE || cJSON_IsString(item), "%s stands in a file", setting->name);
+        CHECK(!list || setting->where == KD_SETTING_ANYWHERE || cJSON_IsString(item), "%s stands in a file",
+              setting->name);
         if (item && setting->where != KD_SETTING_ANYWHERE)
             cJSON_Delete(item);
         else if (item)
@@ -113,11 +121,14 @@ static void read_again(const struct kd_settings *settings)
         const char *one = kd_settings_text(settings, i), *other = kd_settings_text(&back, i);
         const bool in_file = settings->table[i].where == KD_SETTING_ANYWHERE;
         if (settings->table[i].kind == KD_SETTING_NUMBER && in_file)
-            CHECK(kd_settings_number(settings, i) == kd_settings_number(&back, i), "%s became %s in %s", settings->table[i].name, other, text);
+            CHECK(kd_settings_number(settings, i) == kd_settings_number(&back, i), "%s became %s in %s",
+                  settings->table[i].name, other, text);
         else if (settings->table[i].kind == KD_SETTING_SWITCH && in_file)
-            CHECK(kd_settings_switch(settings, i) == kd_settings_switch(&back, i), "%s became %s in %s", settings->table[i].name, other, text);
+            CHECK(kd_settings_switch(settings, i) == kd_settings_switch(&back, i), "%s became %s in %s",
+                  settings->table[i].name, other, text);
         else if (in_file)
-            CHECK(!one == !other && (!one || !strcmp(one, other)), "%s became %s in %s", settings->table[i].name, other, text);
+            CHECK(!one == !other && (!one || !strcmp(one, other)), "%s became %s in %s", settings->table[i].name, other,
+                  text);
     }
     kd_settings_finish(&back);
     free(text);

@@ -17,12 +17,18 @@ static void read_array(const struct kd_fuzz_text *bytes)
     if (status)
         kd_fuzz_refused(status, &error);
     else {
-        CHECK(array.header_size + array.items * array.item_size == bytes->size, "an array of %llu items has %zu bytes", (unsigned long long)array.items, bytes->size);
-        CHECK(!kd_npy_write_header(&array, &out) && !kd_buffer_append(&out, bytes->at + array.header_size, bytes->size - array.header_size), "an array cannot be written");
+        CHECK(array.header_size + array.items * array.item_size == bytes->size, "an array of %llu items has %zu bytes",
+              (unsigned long long)array.items, bytes->size);
+        CHECK(!kd_npy_write_header(&array, &out) &&
+                  !kd_buffer_append(&out, bytes->at + array.header_size, bytes->size - array.header_size),
+              "an array cannot be written");
         CHECK(!kd_npy_read(out.data, out.size, &again, &error), "an array that was written: %s", error.message);
-        CHECK(again.items == array.items && again.item_size == array.item_size && again.n_dimensions == array.n_dimensions && !memcmp(again.shape, array.shape, sizeof array.shape),
+        CHECK(again.items == array.items && again.item_size == array.item_size &&
+                  again.n_dimensions == array.n_dimensions && !memcmp(again.shape, array.shape, sizeof array.shape),
               "an array became one of another shape");
-        CHECK(again.n_fields == array.n_fields && !memcmp(again.fields, array.fields, array.n_fields * sizeof *array.fields), "an array became one of other fields");
+        CHECK(again.n_fields == array.n_fields &&
+                  !memcmp(again.fields, array.fields, array.n_fields * sizeof *array.fields),
+              "an array became one of other fields");
     }
     status = kd_npy_read_text(bytes->at, bytes->size, &text, &error);
     if (status)
@@ -68,13 +74,16 @@ static void write_header(const struct kd_fuzz_text *text)
         if (*c < ' ' || *c > '~')
             *c = '?';
     size_t n = strlen(plain);
-    while (n && (plain[n - 1] == ' ' || plain[n - 1] == '&')) /* FITS 4.0, 4.2.1: trailing blanks mean nothing, and "&" that there is more */
+    while (n && (plain[n - 1] == ' ' ||
+                 plain[n - 1] == '&')) /* FITS 4.0, 4.2.1: trailing blanks mean nothing, and "&" that there is more */
         plain[--n] = 0;
-    CHECK(!kd_fits_text(&cards, "SCENE", plain, NULL) && !kd_fits_image(&file, true, &array, &cards), "a header cannot be written");
+    CHECK(!kd_fits_text(&cards, "SCENE", plain, NULL) && !kd_fits_image(&file, true, &array, &cards),
+          "a header cannot be written");
     const enum kd_status status = kd_fits_find(file.data, file.size, "SCENE", &back);
     while (back.size && back.data[back.size - 1] == ' ')
         back.size--;
-    CHECK(!status && back.size == n && !memcmp(back.data ? (char *)back.data : "", plain, n), "the text \"%s\" became \"%.*s\"", plain, (int)back.size, (char *)back.data);
+    CHECK(!status && back.size == n && !memcmp(back.data ? (char *)back.data : "", plain, n),
+          "the text \"%s\" became \"%.*s\"", plain, (int)back.size, (char *)back.data);
     kd_buffer_finish(&cards);
     kd_buffer_finish(&file);
     kd_buffer_finish(&back);
@@ -103,11 +112,13 @@ static void read_base64(const struct kd_fuzz_text *text)
 
 int kd_fuzz_files(const uint8_t *data, size_t size)
 {
-    static void (*const read[])(const struct kd_fuzz_text *) = { read_array, read_members, read_header, write_header, read_base64, read_exr };
+    static void (*const read[])(const struct kd_fuzz_text *) = { read_array,   read_members, read_header,
+                                                                 write_header, read_base64,  read_exr };
     if (!size)
         return 0;
     const unsigned which = *data % 6;
-    struct kd_fuzz_text bytes = which == 3 || which == 4 ? kd_fuzz_copy(data + 1, size - 1) : kd_fuzz_bare(data + 1, size - 1);
+    struct kd_fuzz_text bytes =
+        which == 3 || which == 4 ? kd_fuzz_copy(data + 1, size - 1) : kd_fuzz_bare(data + 1, size - 1);
     read[which](&bytes);
     free(bytes.at);
     return 0;

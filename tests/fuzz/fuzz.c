@@ -75,7 +75,8 @@ void kd_fuzz_shown(const char *text)
 
 void kd_fuzz_refused(enum kd_status status, const struct kd_error *error)
 {
-    CHECK(status == error->status, "the status is %s, that of the error %s: %s", kd_status_name(status), kd_status_name(error->status), error->message);
+    CHECK(status == error->status, "the status is %s, that of the error %s: %s", kd_status_name(status),
+          kd_status_name(error->status), error->message);
     CHECK(strlen(error->message) >= 8, "a refusal says no more than \"%s\"", error->message);
     CHECK(!strchr(error->message, '\n'), "a refusal has two lines: %s", error->message);
     CHECK(!*error->pointer || *error->pointer == '/', "\"%s\" is no JSON pointer: %s", error->pointer, error->message);
@@ -92,7 +93,8 @@ void kd_fuzz_json(const struct kd_buffer *text)
     cJSON_Delete(root);
 }
 
-/* As kd_field_holds does for the parser, which is what is judged here: once more, from what scene/table.h says of a row. */
+/* As kd_field_holds does for the parser, which is what is judged here: once more, from what scene/table.h says of a
+ * row. */
 static bool allows(const struct kd_field *field, double value)
 {
     double most = field->maximum;
@@ -104,7 +106,8 @@ static bool allows(const struct kd_field *field, double value)
             most++;
     }
     const double least = field->kind == KD_FIELD_ENUM ? 0 : field->minimum;
-    return !isnan(value) && !(value < least) && !(value > most) && (field->kind == KD_FIELD_REAL || field->kind == KD_FIELD_WORD || fmod(value, 1) == 0);
+    return !isnan(value) && !(value < least) && !(value > most) &&
+           (field->kind == KD_FIELD_REAL || field->kind == KD_FIELD_WORD || fmod(value, 1) == 0);
 }
 
 void kd_fuzz_fields(const struct kd_scene *scene)
@@ -116,18 +119,24 @@ void kd_fuzz_fields(const struct kd_scene *scene)
         for (size_t index = 0; index < n; index++)
             for (size_t k = section->first; k < section->first + section->count; k++) {
                 const double value = kd_field_get(scene, &kd_fields[k], index);
-                CHECK(kd_fields[k].kind == KD_FIELD_ASSET || kd_fields[k].kind == KD_FIELD_WORDS || allows(&kd_fields[k], value), "%s.%s holds %g, which its row does not allow",
-                      section->name, kd_fields[k].name, value);
+                CHECK(kd_fields[k].kind == KD_FIELD_ASSET || kd_fields[k].kind == KD_FIELD_WORDS ||
+                          allows(&kd_fields[k], value),
+                      "%s.%s holds %g, which its row does not allow", section->name, kd_fields[k].name, value);
             }
     }
 }
 
 struct kd_capacity kd_fuzz_device(void)
 {
-    return (struct kd_capacity) { .max_binding_bytes = 128u << 20, .memory_bytes = 1u << 30, .float64 = true, .cores = 2, .accuracy = kd_accuracy_built_in() };
+    return (struct kd_capacity) { .max_binding_bytes = 128u << 20,
+                                  .memory_bytes = 1u << 30,
+                                  .float64 = true,
+                                  .cores = 2,
+                                  .accuracy = kd_accuracy_built_in() };
 }
 
-/* The scene itself, or one whose names of assets are put away: nobody has resolved them, so that they have no identity. */
+/* The scene itself, or one whose names of assets are put away: nobody has resolved them, so that they have no
+ * identity. */
 static struct kd_scene without_names(const struct kd_scene *scene)
 {
     struct kd_scene known = *scene;
@@ -145,10 +154,13 @@ static void check_text(const struct kd_scene *scene)
     char hash[65], hash_again[65];
     CHECK(!kd_scene_to_json(scene, &text), "a scene that was read has no document");
     kd_scene_defaults(&back);
-    CHECK(!kd_scene_from_json(&back, (const char *)text.data, text.size, &error), "%s: %s, in its own document %s", error.pointer, error.message, (char *)text.data);
-    CHECK(!kd_scene_to_json(&back, &again) && again.size == text.size && !memcmp(again.data, text.data, text.size), "%s became %s", (char *)text.data, (char *)again.data);
+    CHECK(!kd_scene_from_json(&back, (const char *)text.data, text.size, &error), "%s: %s, in its own document %s",
+          error.pointer, error.message, (char *)text.data);
+    CHECK(!kd_scene_to_json(&back, &again) && again.size == text.size && !memcmp(again.data, text.data, text.size),
+          "%s became %s", (char *)text.data, (char *)again.data);
     CHECK(!memcmp(scene, &back, sizeof back), "a scene that was read back is another one: %s", (char *)text.data);
-    CHECK(!kd_scene_hash(scene, hash) && !kd_scene_hash(&back, hash_again) && !strcmp(hash, hash_again), "the hash of one scene is %s and %s", hash, hash_again);
+    CHECK(!kd_scene_hash(scene, hash) && !kd_scene_hash(&back, hash_again) && !strcmp(hash, hash_again),
+          "the hash of one scene is %s and %s", hash, hash_again);
     kd_buffer_finish(&text);
     kd_buffer_finish(&again);
 }
@@ -193,7 +205,10 @@ const char *kd_fuzz_folder(int *out)
 
 void kd_fuzz_file(const char *name, const void *data, size_t size)
 {
-    static struct { char name[40]; int fd; } open_files[4]; /* they stay open: to make one anew takes longer than to read it */
+    static struct {
+        char name[40];
+        int fd;
+    } open_files[4]; /* they stay open: to make one anew takes longer than to read it */
     size_t i = 0;
     int fd;
     kd_fuzz_folder(&fd);
@@ -205,5 +220,6 @@ void kd_fuzz_file(const char *name, const void *data, size_t size)
         open_files[i].fd = openat(fd, name, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
     }
     fd = open_files[i].fd;
-    CHECK(fd >= 0 && !ftruncate(fd, (off_t)size) && pwrite(fd, data, size, 0) == (ssize_t)size, "%s cannot be written", name);
+    CHECK(fd >= 0 && !ftruncate(fd, (off_t)size) && pwrite(fd, data, size, 0) == (ssize_t)size, "%s cannot be written",
+          name);
 }

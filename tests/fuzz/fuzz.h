@@ -36,7 +36,8 @@ void kd_fuzz_refused(enum kd_status status, const struct kd_error *error);
 
 /* Checks that each field of the scene holds a value that its row of the table allows. */
 void kd_fuzz_fields(const struct kd_scene *scene);
-/* Checks that as well, that its canonical document reads back as the same scene, with the same hash, and that it has a plan or a refusal. */
+/* Checks that as well, that its canonical document reads back as the same scene, with the same hash, and that it has
+ * a plan or a refusal. */
 void kd_fuzz_sound(const struct kd_scene *scene);
 
 /* A device to plan for, as there are many. */
@@ -47,7 +48,8 @@ void kd_fuzz_json(const struct kd_buffer *text);
 /* Checks that a text is UTF-8 without control characters but for line feeds. */
 void kd_fuzz_shown(const char *text);
 
-/* A folder that exists as long as the process: its path, and in *out (NULL: not wanted) its descriptor. Puts a regular file of these bytes in it, under one of up to four names. */
+/* A folder that exists as long as the process: its path, and in *out (NULL: not wanted) its descriptor. Puts a
+ * regular file of these bytes in it, under one of up to four names. */
 const char *kd_fuzz_folder(int *out);
 void kd_fuzz_file(const char *name, const void *data, size_t size);
 

@@ -1,4 +1,5 @@
-/* This reads the head of a request, line by line: target, base path, Accept, Accept-Encoding, If-None-Match, Content-Type, Host, X-Request-Id, Last-Event-ID. No line is needed. */
+/* This reads the head of a request, line by line: target, base path, Accept, Accept-Encoding, If-None-Match,
+ * Content-Type, Host, X-Request-Id, Last-Event-ID. No line is needed. */
 #include "fuzz.h"
 
 #include "base/utf8.h"
@@ -19,9 +20,11 @@ static void check_target(const char *raw, const struct kd_base_path *base)
     if (status)
         kd_fuzz_refused(status, &error);
     else {
-        CHECK(kd_utf8_valid(target.path) && target.n_pairs <= KD_TARGET_PAIRS, "a target that was read is none: %s", raw);
+        CHECK(kd_utf8_valid(target.path) && target.n_pairs <= KD_TARGET_PAIRS, "a target that was read is none: %s",
+              raw);
         for (size_t i = 0; i < target.n_pairs; i++)
-            CHECK(kd_utf8_valid(target.pairs[i].name) && kd_target_value(&target, target.pairs[i].name), "a pair of %s is not there", raw);
+            CHECK(kd_utf8_valid(target.pairs[i].name) && kd_target_value(&target, target.pairs[i].name),
+                  "a pair of %s is not there", raw);
         if (kd_target_whole(&target, "order", 7, 1000, &number))
             CHECK(number <= 1000, "order is %llu", (unsigned long long)number);
         if ((status = kd_target_only(&target, known, &error)))
@@ -30,7 +33,8 @@ static void check_target(const char *raw, const struct kd_base_path *base)
         struct kd_problem problem = { 0 };
         struct kd_request request = { .server = &server, .target = target, .method = methods[strlen(raw) % 7] };
         const bool found = kd_route_find(&request, &problem);
-        CHECK(found ? request.route && request.rest : problem.detail && *problem.detail, "what is not found says nothing");
+        CHECK(found ? request.route && request.rest : problem.detail && *problem.detail,
+              "what is not found says nothing");
         struct kd_buffer text = { 0 };
         CHECK(found || !kd_problem_to_json(&problem, &text), "a problem cannot be written");
         if (!found)
@@ -51,7 +55,8 @@ static void check_begins(const char *raw, const struct kd_base_path *base)
         CHECK(part == whole || part == KD_BEGINS_UNCLEAR, "%zu bytes of %s begin otherwise than all", n, raw);
     }
     if (!strchr(raw, ' '))
-        CHECK((whole == KD_BEGINS_HEALTH) == kd_route_is_health(base, raw), "%s is of health by one, and not by the other", raw);
+        CHECK((whole == KD_BEGINS_HEALTH) == kd_route_is_health(base, raw),
+              "%s is of health by one, and not by the other", raw);
     kd_buffer_finish(&line);
 }
 
@@ -64,7 +69,8 @@ static void check_accept(const char *accept, const char *encoding)
     CHECK(best <= 4, "the type %zu is best", best);
     if (accept[strspn(accept, " \t")] && !strchr(accept, '"')) {
         CHECK(!kd_buffer_printf(&wide, " ,%s\t, ,", accept), "out of memory");
-        CHECK(kd_accept_best((char *)wide.data, 4, kd_accept_string, types) == best, "\"%s\" is otherwise with blanks", accept);
+        CHECK(kd_accept_best((char *)wide.data, 4, kd_accept_string, types) == best, "\"%s\" is otherwise with blanks",
+              accept);
     }
     CHECK(kd_accept_best(NULL, 4, kd_accept_string, types) == 0, "nothing asked for is not the first");
     kd_accepts_coding(encoding, "gzip");
@@ -90,7 +96,8 @@ static void check_others(const char *etag, const char *type, const char *host)
     if (*etag && !strpbrk(etag, "\",*\\ \t")) {
         char quoted[100];
         snprintf(quoted, sizeof quoted, "\"%.90s\"", etag);
-        CHECK(kd_etag_listed(quoted, quoted) && kd_etag_listed("*", quoted) && !kd_etag_listed(NULL, quoted), "%s does not list itself", quoted);
+        CHECK(kd_etag_listed(quoted, quoted) && kd_etag_listed("*", quoted) && !kd_etag_listed(NULL, quoted),
+              "%s does not list itself", quoted);
     }
     kd_etag_listed(etag, "\"abc-1\"");
     kd_media_type_is(type, "application/json");
@@ -98,18 +105,21 @@ static void check_others(const char *etag, const char *type, const char *host)
     CHECK(!kd_host_listed("", hosts), "no host is one");
 }
 
-/* A request's own identity is taken where a log and a header can hold it, else another one is made; a number is one where it is written as such. */
+/* A request's own identity is taken where a log and a header can hold it, else another one is made; a number is one
+ * where it is written as such. */
 static void check_numbers(const char *id, const char *event)
 {
     static const char letters[] = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz-._+/=";
     char chosen[KD_REQUEST_ID_MAX + 1];
     uint64_t number = 0;
     kd_request_id_choose(id, chosen);
-    CHECK(*chosen && strlen(chosen) <= KD_REQUEST_ID_MAX && chosen[strspn(chosen, letters)] == 0, "\"%s\" is who asks, by \"%s\"", chosen, id);
+    CHECK(*chosen && strlen(chosen) <= KD_REQUEST_ID_MAX && chosen[strspn(chosen, letters)] == 0,
+          "\"%s\" is who asks, by \"%s\"", chosen, id);
     if (kd_target_number(event, UINT64_MAX, &number)) {
         char text[32];
         snprintf(text, sizeof text, "%llu", (unsigned long long)number);
-        CHECK(!strcmp(text, event + strspn(event, "0") - (number == 0 && *event)), "\"%s\" is the number %s", event, text);
+        CHECK(!strcmp(text, event + strspn(event, "0") - (number == 0 && *event)), "\"%s\" is the number %s", event,
+              text);
     }
 }
 

@@ -47,7 +47,8 @@ static void read_lines(enum kd_integral what, const uint8_t *data, size_t size)
 
 int kd_fuzz_integrals(const uint8_t *data, size_t size)
 {
-    static const enum kd_integral known[] = { KD_INTEGRAL_LINE, KD_INTEGRAL_TRANSFER, KD_INTEGRAL_SPECTRUM, KD_INTEGRAL_VISIBILITY };
+    static const enum kd_integral known[] = { KD_INTEGRAL_LINE, KD_INTEGRAL_TRANSFER, KD_INTEGRAL_SPECTRUM,
+                                              KD_INTEGRAL_VISIBILITY };
     if (!size)
         return 0;
     const enum kd_integral what = known[*data % 4];

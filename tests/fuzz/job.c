@@ -1,4 +1,5 @@
-/* This reads the specification of a job. Scenes of its first, middle and last frame are valid, or say between which keyframes they are not. */
+/* This reads the specification of a job. Scenes of its first, middle and last frame are valid, or say between which
+ * keyframes they are not. */
 #include "fuzz.h"
 
 #include "job/exposure.h"
@@ -26,7 +27,8 @@ int kd_fuzz_job(const uint8_t *data, size_t size)
     struct kd_job_spec spec;
     struct kd_error error = { 0 };
     unsigned measured[KD_JOB_EXPOSURE_FRAMES];
-    const enum kd_status status = kd_job_spec_parse(text.at, text.size, &(struct kd_job_base) { 0 }, NULL, &spec, &error);
+    const enum kd_status status =
+        kd_job_spec_parse(text.at, text.size, &(struct kd_job_base) { 0 }, NULL, &spec, &error);
     free(text.at);
     if (status) {
         kd_fuzz_refused(status, &error);
@@ -39,7 +41,8 @@ int kd_fuzz_job(const uint8_t *data, size_t size)
     const unsigned n = kd_job_exposure_frames(&spec, measured);
     CHECK(n <= KD_JOB_EXPOSURE_FRAMES, "the exposure of %u frames is measured", n);
     for (unsigned i = 0; i < n; i++)
-        CHECK(measured[i] < spec.frames && (!i || measured[i] > measured[i - 1]), "the exposure of frame %u of %u is measured", measured[i], spec.frames);
+        CHECK(measured[i] < spec.frames && (!i || measured[i] > measured[i - 1]),
+              "the exposure of frame %u of %u is measured", measured[i], spec.frames);
     kd_job_spec_finish(&spec);
     return 0;
 }

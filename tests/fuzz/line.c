@@ -1,5 +1,5 @@
-/* This reads what a command line says of a scene, a word a line: PATH=VALUE, WIDTHxHEIGHT, WIDTHxHEIGHT+LEFT+TOP, and behind "axis " an axis of a sweep. The line that tells the
- * scene makes the same scene again. */
+/* This reads what a command line says of a scene, a word a line: PATH=VALUE, WIDTHxHEIGHT, WIDTHxHEIGHT+LEFT+TOP,
+ * and behind "axis " an axis of a sweep. The line that tells the scene makes the same scene again. */
 #include "fuzz.h"
 
 #include "cli/scene_line.h"
@@ -78,7 +78,8 @@ static void tell(const struct kd_scene *scene)
     /* The style first: it sets other fields, as a document's does. */
     for (int style = 1; style >= 0; style--) {
         strcpy(text, (const char *)line.data);
-        for (char *word = strcmp(text, "the default scene") ? strtok_r(text, " ", &rest) : NULL; word; word = strtok_r(NULL, " ", &rest)) {
+        for (char *word = strcmp(text, "the default scene") ? strtok_r(text, " ", &rest) : NULL; word;
+             word = strtok_r(NULL, " ", &rest)) {
             char *value = strchr(word, '=');
             CHECK(value, "\"%s\" of a line has no value: %s", word, (char *)line.data);
             *value++ = 0;
@@ -108,7 +109,8 @@ int kd_fuzz_line(const uint8_t *data, size_t size)
         tell(&scene);
         read_axes(&words, &scene);
     }
-    CHECK(!kd_scene_options_merge(&(struct kd_scene_options) { 0 }, &before, &error), "no options change a scene: %s", error.message);
+    CHECK(!kd_scene_options_merge(&(struct kd_scene_options) { 0 }, &before, &error), "no options change a scene: %s",
+          error.message);
     for (size_t i = 0; i < words.n; i++)
         free(words.texts[i].at);
     kd_scene_options_finish(&words.options);

@@ -1,4 +1,5 @@
-/* Formats with sums of their bytes refuse whatever a random change has made: these make the sums good again, so that what lies behind is reached. */
+/* Formats with sums of their bytes refuse whatever a random change has made: these make the sums good again, so that
+ * what lies behind is reached. */
 #ifndef KD_FUZZ_MEND_H
 #define KD_FUZZ_MEND_H
 

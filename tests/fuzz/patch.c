@@ -1,13 +1,13 @@
-/* This reads a scene, a line "---" and a merge patch (RFC 7396) of it. A patch that is applied twice is the same as once, gives what the
- * document gives when that is patched, and one that is refused changes nothing. */
+/* This reads a scene, a line "---" and a merge patch (RFC 7396) of it. A patch that is applied twice is the same as
+ * once, gives what the document gives when that is patched, and one that is refused changes nothing. */
 #include "fuzz.h"
 
 #include "scene/table.h"
 
 #include <cjson/cJSON.h>
 
-/* Whether a patch has members that mean something else than RFC 7396 says: a style sets other fields, an object over a list its elements, and what a list's element was called before is an
- * object of its own. */
+/* Whether a patch has members that mean something else than RFC 7396 says: a style sets other fields, an object over
+ * a list its elements, and what a list's element was called before is an object of its own. */
 static bool is_special(const cJSON *patch)
 {
     bool special = false;
@@ -31,7 +31,9 @@ static void merge(cJSON *target, const cJSON *patch)
             merge(old, item);
         else {
             cJSON_DeleteItemFromObjectCaseSensitive(target, item->string);
-            cJSON *new = cJSON_IsNull(item) ? NULL : cJSON_IsObject(item) ? cJSON_AddObjectToObject(target, item->string) : cJSON_Duplicate(item, true);
+            cJSON *new = cJSON_IsNull(item)     ? NULL
+                         : cJSON_IsObject(item) ? cJSON_AddObjectToObject(target, item->string)
+                                                : cJSON_Duplicate(item, true);
             if (cJSON_IsObject(item))
                 merge(new, item);
             else if (new)
@@ -49,7 +51,8 @@ static bool has_asset(const struct kd_scene *scene)
 }
 
 /* A scene that was patched is the one that its document makes when that was patched. */
-static void check_document(const struct kd_scene *before, const struct kd_scene *after, const struct kd_fuzz_text *patch)
+static void check_document(const struct kd_scene *before, const struct kd_scene *after,
+                           const struct kd_fuzz_text *patch)
 {
     struct kd_buffer text = { 0 };
     struct kd_scene scene;
@@ -64,7 +67,8 @@ static void check_document(const struct kd_scene *before, const struct kd_scene 
         char *merged = cJSON_PrintUnformatted(document);
         CHECK(merged, "out of memory");
         kd_scene_defaults(&scene);
-        CHECK(!kd_scene_from_json(&scene, merged, strlen(merged), &error), "%s: %s, in the merged document %s", error.pointer, error.message, merged);
+        CHECK(!kd_scene_from_json(&scene, merged, strlen(merged), &error), "%s: %s, in the merged document %s",
+              error.pointer, error.message, merged);
         CHECK(!memcmp(&scene, after, sizeof scene), "a scene that was patched is another one than %s", merged);
         cJSON_free(merged);
         cJSON_Delete(document);
@@ -85,7 +89,8 @@ int kd_fuzz_patch(const uint8_t *data, size_t size)
         status = kd_scene_patch(&once, patch.at, patch.size, &error);
     if (status) {
         kd_fuzz_refused(status, &error);
-        CHECK(!memcmp(&once, &before, sizeof once), "a patch that was refused has changed the scene: %s", error.message);
+        CHECK(!memcmp(&once, &before, sizeof once), "a patch that was refused has changed the scene: %s",
+              error.message);
     } else {
         twice = once;
         status = kd_scene_patch(&twice, patch.at, patch.size, &error);

@@ -1,5 +1,5 @@
-/* This reads the scene out of a picture: PNG, FITS, OpenEXR or NPZ, as --from does; and a PNG's pixels and texts, which are written and read again as the same. What is no picture
- * is put into one as its scene. */
+/* This reads the scene out of a picture: PNG, FITS, OpenEXR or NPZ, as --from does; and a PNG's pixels and texts,
+ * which are written and read again as the same. What is no picture is put into one as its scene. */
 #include "fuzz.h"
 
 #include "image/png.h"
@@ -19,17 +19,27 @@ static void check_png(const void *data, size_t size)
         return;
     }
     if (!kd_png_look(data, size, &about, NULL))
-        CHECK(about.width == picture.width && about.height == picture.height, "a picture of %u x %u pixels was %u x %u at a look", picture.width, picture.height, about.width, about.height);
-    const struct kd_png_params params = { picture.width, picture.height, picture.bit_depth, 1, picture.pixels, picture.text, picture.n_text };
+        CHECK(about.width == picture.width && about.height == picture.height,
+              "a picture of %u x %u pixels was %u x %u at a look", picture.width, picture.height, about.width,
+              about.height);
+    const struct kd_png_params params = { picture.width,  picture.height, picture.bit_depth, 1,
+                                          picture.pixels, picture.text,   picture.n_text };
     status = kd_png_encode(&params, &out, &error);
     if (status)
         kd_fuzz_refused(status, &error); /* texts with keys that are not ours to write */
     else {
-        CHECK(!kd_png_decode(out.data, out.size, &again, &error), "a picture that was written cannot be read: %s", error.message);
-        CHECK(again.width == picture.width && again.height == picture.height && again.bit_depth == picture.bit_depth && again.n_text == picture.n_text, "a picture became another one");
-        CHECK(!memcmp(again.pixels, picture.pixels, (size_t)3 * picture.width * picture.height * ((size_t)picture.bit_depth / 8)), "pixels became others");
+        CHECK(!kd_png_decode(out.data, out.size, &again, &error), "a picture that was written cannot be read: %s",
+              error.message);
+        CHECK(again.width == picture.width && again.height == picture.height && again.bit_depth == picture.bit_depth &&
+                  again.n_text == picture.n_text,
+              "a picture became another one");
+        CHECK(!memcmp(again.pixels, picture.pixels,
+                      (size_t)3 * picture.width * picture.height * ((size_t)picture.bit_depth / 8)),
+              "pixels became others");
         for (size_t i = 0; i < picture.n_text; i++)
-            CHECK(!strcmp(again.text[i].key, picture.text[i].key) && !strcmp(again.text[i].value, picture.text[i].value), "a text of %s became another one", picture.text[i].key);
+            CHECK(!strcmp(again.text[i].key, picture.text[i].key) &&
+                      !strcmp(again.text[i].value, picture.text[i].value),
+                  "a text of %s became another one", picture.text[i].key);
         kd_png_finish(&again);
     }
     kd_buffer_finish(&out);
@@ -50,7 +60,8 @@ static void wrap(const char *text, size_t size, struct kd_buffer *out)
             kd_fuzz_refused(status, &error);
         return;
     }
-    CHECK(!kd_zip_create(out, true, &zip) && !kd_zip_add(zip, "notes.json", text + 1, size - 1) && !kd_zip_close(zip), "a ZIP file cannot be made");
+    CHECK(!kd_zip_create(out, true, &zip) && !kd_zip_add(zip, "notes.json", text + 1, size - 1) && !kd_zip_close(zip),
+          "a ZIP file cannot be made");
     kd_zip_destroy(zip);
 }
 

@@ -1,4 +1,5 @@
-/* This reads a document of a playground, a line "---", a patch of it, another line "---" and the body of a step. A snapshot, and the moved one's, read back as the same to the bit. */
+/* This reads a document of a playground, a line "---", a patch of it, another line "---" and the body of a step. A
+ * snapshot, and the moved one's, read back as the same to the bit. */
 #include "fuzz.h"
 
 #include "playground/json.h"
@@ -15,9 +16,11 @@ static void check_snapshot(struct kd_playground *p)
     struct kd_playground *back = NULL;
     struct kd_error error = { 0 };
     CHECK(!kd_playground_write(p, true, &text), "a playground cannot be written");
-    CHECK(!kd_playground_read((const char *)text.data, text.size, &back, &error), "%s: %s, in its own snapshot %.*s", error.pointer, error.message, (int)text.size, (char *)text.data);
+    CHECK(!kd_playground_read((const char *)text.data, text.size, &back, &error), "%s: %s, in its own snapshot %.*s",
+          error.pointer, error.message, (int)text.size, (char *)text.data);
     CHECK(!kd_playground_write(back, true, &again), "a playground cannot be written again");
-    CHECK(again.size == text.size && !memcmp(again.data, text.data, text.size), "%s became %s", (char *)text.data, (char *)again.data);
+    CHECK(again.size == text.size && !memcmp(again.data, text.data, text.size), "%s became %s", (char *)text.data,
+          (char *)again.data);
     kd_playground_destroy(back);
     kd_buffer_finish(&text);
     kd_buffer_finish(&again);
@@ -35,7 +38,10 @@ static void check_status(struct kd_playground *p)
     kd_buffer_finish(&text);
 }
 
-static bool is_small(const struct kd_playground *p) { return p->n <= BODIES && p->debris.capacity <= PIECES && p->params.debris_per_body <= PIECES; }
+static bool is_small(const struct kd_playground *p)
+{
+    return p->n <= BODIES && p->debris.capacity <= PIECES && p->params.debris_per_body <= PIECES;
+}
 
 static void check(struct kd_playground *p)
 {
@@ -43,7 +49,8 @@ static void check(struct kd_playground *p)
     struct kd_error error = { 0 };
     for (size_t i = 0; i < p->n; i++)
         for (int k = 0; k < 3; k++)
-            CHECK(isfinite(p->bodies[i].x[k]) && isfinite(p->bodies[i].v[k]), "body %zu is at %g, with %g", i, p->bodies[i].x[k], p->bodies[i].v[k]);
+            CHECK(isfinite(p->bodies[i].x[k]) && isfinite(p->bodies[i].v[k]), "body %zu is at %g, with %g", i,
+                  p->bodies[i].x[k], p->bodies[i].v[k]);
     if (!is_small(p))
         return;
     check_status(p);
@@ -80,12 +87,14 @@ static void step(struct kd_playground *p, const struct kd_fuzz_text *text)
         return;
     kd_playground_begin(p, by, &run);
     run.left = run.left < STEPS ? run.left : STEPS;
-    while (kd_playground_go_on(p, &run, STEPS)) {}
+    while (kd_playground_go_on(p, &run, STEPS)) {
+    }
 }
 
 int kd_fuzz_playground(const uint8_t *data, size_t size)
 {
-    struct kd_fuzz_text document = kd_fuzz_part(&data, &size), patch = kd_fuzz_part(&data, &size), by = kd_fuzz_copy(data, size);
+    struct kd_fuzz_text document = kd_fuzz_part(&data, &size), patch = kd_fuzz_part(&data, &size),
+                        by = kd_fuzz_copy(data, size);
     struct kd_playground *p = NULL;
     struct kd_error error = { 0 };
     const enum kd_status status = kd_playground_read(document.at, document.size, &p, &error);

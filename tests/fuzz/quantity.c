@@ -1,4 +1,5 @@
-/* This asks for a quantity, and for orbits, rays and particles by names: a line with its name, then NAME=VALUE a line. Quantities that take little time are computed. */
+/* This asks for a quantity, and for orbits, rays and particles by names: a line with its name, then NAME=VALUE a
+ * line. Quantities that take little time are computed. */
 #include "fuzz.h"
 
 #include "orbit/request.h"
@@ -111,7 +112,9 @@ static void ask_particles(const uint8_t *data, size_t size)
     struct kd_fuzz_text line;
     char *value;
     kd_scene_defaults(&scene);
-    CHECK(!kd_scene_set(&scene, "disk.model", "particles", &error) && !kd_scene_set(&scene, "disk.particles", "1000", &error), "%s", error.message);
+    CHECK(!kd_scene_set(&scene, "disk.model", "particles", &error) &&
+              !kd_scene_set(&scene, "disk.particles", "1000", &error),
+          "%s", error.message);
     enum kd_status status = kd_particle_list_init(&list, &scene, &error);
     CHECK(!status, "a scene of particles has none: %s", error.message);
     while (!status && next(&data, &size, &line, &value)) {
@@ -123,7 +126,8 @@ static void ask_particles(const uint8_t *data, size_t size)
     if (status)
         kd_fuzz_refused(status, &error);
     else
-        CHECK(list.n && list.n_columns && list.n * kd_particle_list_row(&list) <= 1 << 20, "a list has %zu rows of %zu bytes", list.n, kd_particle_list_row(&list));
+        CHECK(list.n && list.n_columns && list.n * kd_particle_list_row(&list) <= 1 << 20,
+              "a list has %zu rows of %zu bytes", list.n, kd_particle_list_row(&list));
 }
 
 int kd_fuzz_quantity(const uint8_t *data, size_t size)

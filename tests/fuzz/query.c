@@ -1,4 +1,5 @@
-/* This reads a scene from a request as the server does: a target, and behind a line "---" the body of a POST. What is read is a valid scene. */
+/* This reads a scene from a request as the server does: a target, and behind a line "---" the body of a POST. What
+ * is read is a valid scene. */
 #include "fuzz.h"
 
 #include "server/asset/store.h"
@@ -22,7 +23,10 @@ int kd_fuzz_query(const uint8_t *data, size_t size)
     struct kd_scene scene;
     begin();
     struct kd_server server = { .assets = store };
-    struct kd_request request = { .server = &server, .route = &get, .method = body.size ? "POST" : "GET", .body = { (uint8_t *)body.at, body.size, body.size } };
+    struct kd_request request = { .server = &server,
+                                  .route = &get,
+                                  .method = body.size ? "POST" : "GET",
+                                  .body = { (uint8_t *)body.at, body.size, body.size } };
     enum kd_status status = kd_target_parse(&request.target, raw.at, &error);
     if (status)
         kd_fuzz_refused(status, &error);

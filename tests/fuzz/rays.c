@@ -1,4 +1,5 @@
-/* This reads a request for rays: a JSON document or an NPY array. Closed form, so that it needs no device: what is read is followed too, a few rays of it. */
+/* This reads a request for rays: a JSON document or an NPY array. Closed form, so that it needs no device: what is
+ * read is followed too, a few rays of it. */
 #include "fuzz.h"
 
 #include "image/npy.h"
@@ -10,13 +11,16 @@
 
 enum { FOLLOWED = 3 };
 
-static void check_end(const struct kd_rays_params *params, const struct kd_ray_end *end, const struct kd_ray_crossing *crossings)
+static void check_end(const struct kd_rays_params *params, const struct kd_ray_end *end,
+                      const struct kd_ray_crossing *crossings)
 {
-    CHECK(end->n_crossings <= params->orders, "a ray crosses %u times, asked for are %u", end->n_crossings, params->orders);
+    CHECK(end->n_crossings <= params->orders, "a ray crosses %u times, asked for are %u", end->n_crossings,
+          params->orders);
     for (uint32_t i = 0; i < end->n_crossings; i++)
-        CHECK(isfinite(crossings[i].r) && isfinite(crossings[i].phi) && isfinite(crossings[i].delay), "crossing %u is at r %g, phi %g, delay %g", i, crossings[i].r, crossings[i].phi,
-              crossings[i].delay);
-    CHECK(end->fate != KD_RAY_ESCAPED || (isfinite(end->theta) && isfinite(end->phi)), "a ray escapes towards theta %g, phi %g", end->theta, end->phi);
+        CHECK(isfinite(crossings[i].r) && isfinite(crossings[i].phi) && isfinite(crossings[i].delay),
+              "crossing %u is at r %g, phi %g, delay %g", i, crossings[i].r, crossings[i].phi, crossings[i].delay);
+    CHECK(end->fate != KD_RAY_ESCAPED || (isfinite(end->theta) && isfinite(end->phi)),
+          "a ray escapes towards theta %g, phi %g", end->theta, end->phi);
 }
 
 static void follow(const struct kd_rays_request *request)
@@ -29,7 +33,8 @@ static void follow(const struct kd_rays_request *request)
     params.engine = KD_ENGINE_CLOSED;
     params.precision = KD_PRECISION_F64;
     params.steps = 0;
-    const enum kd_status status = kd_rays_trace(NULL, &params, request->alpha_beta, n, crossings, ends, NULL, NULL, &error);
+    const enum kd_status status =
+        kd_rays_trace(NULL, &params, request->alpha_beta, n, crossings, ends, NULL, NULL, &error);
     if (status)
         kd_fuzz_refused(status, &error);
     for (size_t i = 0; i < n && !status; i++)
@@ -39,14 +44,19 @@ static void follow(const struct kd_rays_request *request)
 /* A list that was read from JSON is the same as an NPY array. */
 static void check_array(const struct kd_rays_request *request)
 {
-    const struct kd_npy array = { .fields = { { "", KD_NPY_F8, 0 } }, .n_fields = 1, .shape = { request->n, 2 }, .n_dimensions = 2 };
+    const struct kd_npy array = {
+        .fields = { { "", KD_NPY_F8, 0 } }, .n_fields = 1, .shape = { request->n, 2 }, .n_dimensions = 2
+    };
     struct kd_buffer bytes = { 0 };
     struct kd_rays_request other;
     struct kd_error error = { 0 };
-    CHECK(!kd_npy_write_header(&array, &bytes) && !kd_buffer_append(&bytes, request->alpha_beta, 2 * sizeof(double) * request->n), "an array cannot be written");
+    CHECK(!kd_npy_write_header(&array, &bytes) &&
+              !kd_buffer_append(&bytes, request->alpha_beta, 2 * sizeof(double) * request->n),
+          "an array cannot be written");
     kd_rays_request_init(&other);
     CHECK(!kd_rays_request_npy(&other, bytes.data, bytes.size, &error), "%s: %s", error.pointer, error.message);
-    CHECK(other.n == request->n && !memcmp(other.alpha_beta, request->alpha_beta, 2 * sizeof(double) * other.n), "an array reads back as another one");
+    CHECK(other.n == request->n && !memcmp(other.alpha_beta, request->alpha_beta, 2 * sizeof(double) * other.n),
+          "an array reads back as another one");
     kd_rays_request_finish(&other);
     kd_buffer_finish(&bytes);
 }
@@ -59,7 +69,8 @@ int kd_fuzz_rays(const uint8_t *data, size_t size)
     struct kd_rays_request request;
     struct kd_error error = { 0 };
     kd_rays_request_init(&request);
-    enum kd_status status = npy ? kd_rays_request_npy(&request, text.at, text.size, &error) : kd_rays_request_json(&request, text.at, text.size, &error);
+    enum kd_status status = npy ? kd_rays_request_npy(&request, text.at, text.size, &error)
+                                : kd_rays_request_json(&request, text.at, text.size, &error);
     if (!status && request.n && request.alpha_beta)
         check_array(&request);
     if (!status)

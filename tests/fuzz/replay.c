@@ -1,9 +1,13 @@
-/* This gives every file of some folders to a target, once each, in the order of their names: kd_fuzz_replay TARGET FOLDER... It says how many they were, and fails where there are none. */
+/* This gives every file of some folders to a target, once each, in the order of their names: kd_fuzz_replay TARGET
+ * FOLDER... It says how many they were, and fails where there are none. */
 #include "fuzz.h"
 
 #include <dirent.h>
 
-static const struct { const char *name; int (*run)(const uint8_t *, size_t); } targets[] = {
+static const struct {
+    const char *name;
+    int (*run)(const uint8_t *, size_t);
+} targets[] = {
 #define TARGET(name) { #name, kd_fuzz_##name },
     KD_FUZZ_TARGETS(TARGET)
 #undef TARGET

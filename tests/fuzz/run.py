@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
-"""Runs programs of libFuzzer side by side, each over its own corpus, and ends all of them at the first failure. scripts/fuzz calls it; its arguments are that script's.
+"""Runs programs of libFuzzer side by side, each over its own corpus, and ends all of them at the first failure.
+scripts/fuzz calls it; its arguments are that script's.
 
     run.py BUILD SECONDS JOBS RESULT TARGET...     RESULT: FILE.json, or nothing
 
-An input that takes longer than 25 s, or a gigabyte and a half of memory, fails as well. Exit 1: a target has failed; what it said and how to see it again is printed.
+An input that takes longer than 25 s, or a gigabyte and a half of memory, fails as well. Exit 1: a target has failed;
+what it said and how to see it again is printed.
 """
+
 import collections
 import datetime
 import json
@@ -19,7 +22,15 @@ import time
 HERE = pathlib.Path(__file__).parent
 TOTAL = re.compile(r"^stat::number_of_executed_units:\s+(\d+)", re.M)
 COVERED = re.compile(r"^#\d+\s.*?cov: (\d+) ft: (\d+) corp: (\d+)/", re.M)
-OPTIONS = ["-timeout=25", "-rss_limit_mb=2560", "-malloc_limit_mb=1536", "-print_final_stats=1", "-use_value_profile=0", "-reload=0", "-close_fd_mask=1"]
+OPTIONS = [
+    "-timeout=25",
+    "-rss_limit_mb=2560",
+    "-malloc_limit_mb=1536",
+    "-print_final_stats=1",
+    "-use_value_profile=0",
+    "-reload=0",
+    "-close_fd_mask=1",
+]
 
 
 class Target:
@@ -31,12 +42,25 @@ class Target:
         self.program = build / "tests/fuzz" / f"fuzz_{name}"
         seeds = [build / "tests/fuzz/seeds" / name, HERE / "corpus" / name, HERE / "regressions" / name]
         dictionary = build / "tests/fuzz/seeds" / f"{name}.dict"
-        command = [self.program, *OPTIONS, f"-max_total_time={seconds}", f"-max_len={longest}", f"-artifact_prefix={build}/crash/{name}-",
-                   *([f"-dict={dictionary}"] if dictionary.exists() else []), self.corpus, *(folder for folder in seeds if folder.is_dir())]
-        environment = os.environ | {"ASAN_OPTIONS": "detect_leaks=1:allocator_may_return_null=1:handle_abort=1", "UBSAN_OPTIONS": "print_stacktrace=1:halt_on_error=1"}
+        command = [
+            self.program,
+            *OPTIONS,
+            f"-max_total_time={seconds}",
+            f"-max_len={longest}",
+            f"-artifact_prefix={build}/crash/{name}-",
+            *([f"-dict={dictionary}"] if dictionary.exists() else []),
+            self.corpus,
+            *(folder for folder in seeds if folder.is_dir()),
+        ]
+        environment = os.environ | {
+            "ASAN_OPTIONS": "detect_leaks=1:allocator_may_return_null=1:handle_abort=1",
+            "UBSAN_OPTIONS": "print_stacktrace=1:halt_on_error=1",
+        }
         self.begun = time.monotonic()
         with self.log.open("wb") as log:
-            self.process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT, env=environment)
+            self.process = subprocess.Popen(
+                command, stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT, env=environment
+            )
 
     def measured(self):
         """What its log says of a run that is over."""
@@ -44,11 +68,22 @@ class Target:
         seconds, total, covered = time.monotonic() - self.begun, TOTAL.search(text), COVERED.findall(text)
         edges, features, inputs = map(int, covered[-1]) if covered else (0, 0, 0)
         count = int(total[1]) if total else 0
-        return {"target": self.name, "inputs": count, "seconds": round(seconds, 1), "per_second": round(count / seconds), "edges": edges, "features": features, "corpus": inputs}
+        return {
+            "target": self.name,
+            "inputs": count,
+            "seconds": round(seconds, 1),
+            "per_second": round(count / seconds),
+            "edges": edges,
+            "features": features,
+            "corpus": inputs,
+        }
 
     def failure(self):
         lines = self.log.read_text(encoding="utf-8", errors="replace").splitlines()
-        where = next((i for i, line in enumerate(lines) if re.search(r"ERROR:|runtime error|^\S+\.[ch]:\d+: |SUMMARY", line)), max(0, len(lines) - 30))
+        where = next(
+            (i for i, line in enumerate(lines) if re.search(r"ERROR:|runtime error|^\S+\.[ch]:\d+: |SUMMARY", line)),
+            max(0, len(lines) - 30),
+        )
         found = sorted(self.log.parent.glob(f"{self.name}-*"), key=lambda path: path.stat().st_mtime)
         return "\n".join(lines[max(0, where - 3) : where + 30]), found[-1] if found else None
 
@@ -60,7 +95,9 @@ def longest_of(name):
 
 def revision():
     try:
-        return subprocess.run(["git", "rev-parse", "--short", "HEAD"], capture_output=True, text=True, check=True).stdout.strip()
+        return subprocess.run(
+            ["git", "rev-parse", "--short", "HEAD"], capture_output=True, text=True, check=True
+        ).stdout.strip()
     except (OSError, subprocess.CalledProcessError):
         return ""
 
@@ -73,18 +110,35 @@ def processor():
 def write(path, rows, seconds, jobs):
     """Adds this run to what the file has: inputs and seconds of a target add up, coverage is the latest."""
     path = pathlib.Path(path)
-    known = {row["target"]: row for row in json.loads(path.read_text(encoding="utf-8"))["targets"]} if path.exists() else {}
+    known = (
+        {row["target"]: row for row in json.loads(path.read_text(encoding="utf-8"))["targets"]} if path.exists() else {}
+    )
     for row in rows:
         before = known.get(row["target"], {"inputs": 0, "seconds": 0})
         total, time_taken = before["inputs"] + row["inputs"], round(before["seconds"] + row["seconds"], 1)
         known[row["target"]] = row | {"inputs": total, "seconds": time_taken, "per_second": round(total / time_taken)}
     rows = [known[name] for name in sorted(known)]
-    about = {"date": datetime.date.today().isoformat(), "command": f"scripts/fuzz --seconds {seconds} --jobs {jobs} --result {path}", "revision": revision(),
-             "machine": f"{processor()}, {os.cpu_count()} cores", "inputs": sum(row["inputs"] for row in rows), "targets": rows}
+    about = {
+        "date": datetime.date.today().isoformat(),
+        "command": f"scripts/fuzz --seconds {seconds} --jobs {jobs} --result {path}",
+        "revision": revision(),
+        "machine": f"{processor()}, {os.cpu_count()} cores",
+        "inputs": sum(row["inputs"] for row in rows),
+        "targets": rows,
+    }
     path.write_text(json.dumps(about, indent=1) + "\n", encoding="utf-8")
-    lines = ["# Fuzzing", "", f"`{about['command']}`, {about['date']}, kerrd {about['revision']}, {about['machine']}, clang's address and undefined-behaviour sanitizers; runs into this file add up.",
-             "", "| target | inputs | s | inputs a second | edges | corpus |", "|---|---|---|---|---|---|"]
-    lines += [f"| {row['target']} | {row['inputs']} | {row['seconds']:.0f} | {row['per_second']} | {row['edges']} | {row['corpus']} |" for row in rows]
+    lines = [
+        "# Fuzzing",
+        "",
+        f"`{about['command']}`, {about['date']}, kerrd {about['revision']}, {about['machine']}, clang's address and undefined-behaviour sanitizers; runs into this file add up.",
+        "",
+        "| target | inputs | s | inputs a second | edges | corpus |",
+        "|---|---|---|---|---|---|",
+    ]
+    lines += [
+        f"| {row['target']} | {row['inputs']} | {row['seconds']:.0f} | {row['per_second']} | {row['edges']} | {row['corpus']} |"
+        for row in rows
+    ]
     lines += [f"| all | {about['inputs']} | {sum(row['seconds'] for row in rows):.0f} | | | |"]
     path.with_suffix(".md").write_text("\n".join(lines) + "\n", encoding="utf-8")
 
@@ -102,7 +156,10 @@ def main():
                 running.remove(target)
                 rows.append(target.measured())
                 row = rows[-1]
-                print(f"{row['target']:12} {row['inputs']:>10} inputs in {row['seconds']:.0f} s, {row['per_second']} a second, {row['edges']} edges, {row['corpus']} kept", flush=True)
+                print(
+                    f"{row['target']:12} {row['inputs']:>10} inputs in {row['seconds']:.0f} s, {row['per_second']} a second, {row['edges']} edges, {row['corpus']} kept",
+                    flush=True,
+                )
                 failed = failed or (target if target.process.returncode else None)
     finally:
         for target in running:

@@ -1,4 +1,5 @@
-/* This reads a scene: JSON over the default one, and over the preset "smooth". A refusal leaves the scene as it was; what is read is written and read again as the same. */
+/* This reads a scene: JSON over the default one, and over the preset "smooth". A refusal leaves the scene as it was;
+ * what is read is written and read again as the same. */
 #include "fuzz.h"
 
 static void read_over(const struct kd_scene *before, const struct kd_fuzz_text *text)

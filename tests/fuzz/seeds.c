@@ -1,5 +1,6 @@
-/* This writes seeds and dictionaries of the targets, made of kerrd's own tables and by its own writers, so that they follow these: kd_fuzz_seeds OUT makes files OUT/TARGET/NAME and
- * OUT/TARGET.dict. The same each time. What cannot be made of tables is in tests/fuzz/corpus. */
+/* This writes seeds and dictionaries of the targets, made of kerrd's own tables and by its own writers, so that they
+ * follow these: kd_fuzz_seeds OUT makes files OUT/TARGET/NAME and OUT/TARGET.dict. The same each time. What cannot
+ * be made of tables is in tests/fuzz/corpus. */
 #include "fuzz.h"
 
 #include "cli/scene_line.h"
@@ -63,7 +64,8 @@ static void words(FILE *dict, const char *const *texts, size_t n)
     for (size_t i = 0; i < n; i++)
         word(dict, texts[i], strlen(texts[i]));
 }
-#define WORDS(dict, ...) words(dict, (const char *const[]) { __VA_ARGS__ }, sizeof((const char *const[]) { __VA_ARGS__ }) / sizeof(char *))
+#define WORDS(dict, ...) \
+    words(dict, (const char *const[]) { __VA_ARGS__ }, sizeof((const char *const[]) { __VA_ARGS__ }) / sizeof(char *))
 
 /* "a|b|c" */
 static void alternatives(FILE *dict, const char *text)
@@ -74,7 +76,11 @@ static void alternatives(FILE *dict, const char *text)
     }
 }
 
-static void json_words(FILE *dict) { WORDS(dict, "null", "true", "false", "\":", "\":{", "\":[", "},\"", "],\"", "1e308", "-0.0", "1e-320", "2147483648", "4294967296", "\\u0000", "\\ud83d\\ude00"); }
+static void json_words(FILE *dict)
+{
+    WORDS(dict, "null", "true", "false", "\":", "\":{", "\":[", "},\"", "],\"", "1e308", "-0.0", "1e-320", "2147483648",
+          "4294967296", "\\u0000", "\\ud83d\\ude00");
+}
 
 static void scene_words(FILE *dict, bool paths)
 {
@@ -95,7 +101,8 @@ static void scene_words(FILE *dict, bool paths)
 
 static void write_scene_dictionaries(void)
 {
-    static const char *const documents[] = { "scene", "patch", "job", "pictures", "playground", "state", "integrals" }, *const texts[] = { "query", "line" };
+    static const char *const documents[] = { "scene", "patch", "job", "pictures", "playground", "state", "integrals" },
+                             *const texts[] = { "query", "line" };
     for (size_t i = 0; i < sizeof documents / sizeof *documents + sizeof texts / sizeof *texts; i++) {
         const bool paths = i >= sizeof documents / sizeof *documents;
         const char *name = paths ? texts[i - sizeof documents / sizeof *documents] : documents[i];
@@ -108,8 +115,10 @@ static void write_scene_dictionaries(void)
         if (!strcmp(name, "line"))
             WORDS(dict, "axis ", "=", "+", "x", ":", "/", "spots.0.on=true");
         if (!strcmp(name, "job") || !strcmp(name, "state"))
-            WORDS(dict, "scenes", "keyframes", "frame", "frames", "scene", "axes", "output", "playground", "every", "exposure", "one", "each", "motion_blur", "samples", "shutter", "interpolation", "smooth",
-                  "catmull-rom", "linear", "distances", "geometric", "angles", "shorter", "ease", "in-out", "look_at", "hole", "free", "theta_deg", "phi_deg", "proper_time", "horizon", "end", "at", "light-curve",
+            WORDS(dict, "scenes", "keyframes", "frame", "frames", "scene", "axes", "output", "playground", "every",
+                  "exposure", "one", "each", "motion_blur", "samples", "shutter", "interpolation", "smooth",
+                  "catmull-rom", "linear", "distances", "geometric", "angles", "shorter", "ease", "in-out", "look_at",
+                  "hole", "free", "theta_deg", "phi_deg", "proper_time", "horizon", "end", "at", "light-curve",
                   "format", "request", "device", "version", "rows", "sets", "engine", "precision");
         if (!strcmp(name, "playground") || !strcmp(name, "job")) {
             for (size_t k = 0; k < kd_playground_n_settings; k++) {
@@ -120,7 +129,8 @@ static void write_scene_dictionaries(void)
                 word(dict, kd_playground_body_fields[k].name, strlen(kd_playground_body_fields[k].name));
             for (size_t k = 0; k < kd_playground_n_presets; k++)
                 word(dict, kd_playground_presets[k].name, strlen(kd_playground_presets[k].name));
-            WORDS(dict, "preset", "bodies", "state", "position", "velocity", "name", "id", "add", "change", "remove", "by");
+            WORDS(dict, "preset", "bodies", "state", "position", "velocity", "name", "id", "add", "change", "remove",
+                  "by");
         }
         for (size_t k = 0; k < kd_n_integral_fields && !strcmp(name, "integrals"); k++) {
             word(dict, kd_integral_fields[k].name, strlen(kd_integral_fields[k].name));
@@ -151,7 +161,8 @@ static void write_other_dictionaries(void)
     dict = open_file("rays", "");
     json_words(dict);
     for (size_t i = 0; i < KD_RAYS_FIELDS; i++)
-        WORDS(dict, kd_rays_fields[i].name, kd_rays_fields[i].section, kd_rays_fields[i].word ? kd_rays_fields[i].word : "f64");
+        WORDS(dict, kd_rays_fields[i].name, kd_rays_fields[i].section,
+              kd_rays_fields[i].word ? kd_rays_fields[i].word : "f64");
     WORDS(dict, "rays", "closed", "high", "auto", "'descr': '<f8'", "'fortran_order': False", "'shape': (1, 2)");
     fclose(dict);
 
@@ -167,22 +178,27 @@ static void write_other_dictionaries(void)
         WORDS(dict, kd_particle_column_name((enum kd_particle_column)i));
     orbit_words(dict, kd_orbit_settings, KD_ORBIT_N_SETTINGS);
     orbit_words(dict, kd_orbit_fields, KD_ORBIT_N_FIELDS);
-    WORDS(dict, "digits", "fields=", "first=", "stride=", "count=", "time=", "0:1:3", "orbit\n", "rays\n", "particles\n");
+    WORDS(dict, "digits", "fields=", "first=", "stride=", "count=", "time=", "0:1:3", "orbit\n", "rays\n",
+          "particles\n");
     fclose(dict);
 
     dict = open_file("http", "");
     for (size_t i = 0; i < kd_n_routes; i++)
         WORDS(dict, kd_routes[i].path);
-    WORDS(dict, "/healthz", "?order=1", "&since=", "%2e", "%c3%a9", "image/png", "image/*", "*/*", ";q=0.5", ", ", "gzip", "W/\"", "localhost:8080", "[::1]:80", "application/json; charset=utf-8");
+    WORDS(dict, "/healthz", "?order=1", "&since=", "%2e", "%c3%a9", "image/png", "image/*", "*/*", ";q=0.5", ", ",
+          "gzip", "W/\"", "localhost:8080", "[::1]:80", "application/json; charset=utf-8");
     fclose(dict);
 
     dict = open_file("files", "");
-    WORDS(dict, "\x93NUMPY\x01", "'descr': '<f8'", "'|u1'", "'<U12'", "[('a', '<f4', (3,))]", "'fortran_order': False", "'shape': (2, 3)", "SIMPLE  =                    T", "CONTINUE  '", "NAXIS   =",
-          "END", "PK\x05\x06", "PK\x01\x02", "SCENE");
+    WORDS(dict, "\x93NUMPY\x01", "'descr': '<f8'", "'|u1'", "'<U12'", "[('a', '<f4', (3,))]", "'fortran_order': False",
+          "'shape': (2, 3)", "SIMPLE  =                    T", "CONTINUE  '", "NAXIS   =", "END", "PK\x05\x06",
+          "PK\x01\x02", "SCENE");
     fclose(dict);
 
     dict = open_file("assets", "");
-    WORDS(dict, "IHDR", "IDAT", "IEND", "tEXt", "iTXt", "zTXt", "PLTE", "tRNS", "\x89PNG\r\n\x1a\n", "{\"format\":\"kerrd-grid\",\"version\":1,\"spin\":", "boyer-lindquist", "kerr-schild", "units", "'<f4'", "'shape': (2, 3)");
+    WORDS(dict, "IHDR", "IDAT", "IEND", "tEXt", "iTXt", "zTXt", "PLTE", "tRNS", "\x89PNG\r\n\x1a\n",
+          "{\"format\":\"kerrd-grid\",\"version\":1,\"spin\":", "boyer-lindquist", "kerr-schild", "units", "'<f4'",
+          "'shape': (2, 3)");
     fclose(dict);
 
     dict = open_file("access", "");
@@ -199,7 +215,8 @@ static void write_scenes(void)
         const char *name = kd_presets[i].name, *json = kd_presets[i].json;
         CHECK(!kd_scene_preset(&scene, name, NULL), "%s is no preset", name);
         put_text("scene", name, json);
-        put("patch", name, i % 2 ? "{\"camera\":{\"r\":60},\"spots\":[{\"on\":true}]}\n---\n" : "{}\n---\n", json, strlen(json));
+        put("patch", name, i % 2 ? "{\"camera\":{\"r\":60},\"spots\":[{\"on\":true}]}\n---\n" : "{}\n---\n", json,
+            strlen(json));
         put("pictures", name, i % 2 ? "!" : "", json, strlen(json));
         snprintf(query, sizeof query, "/v1/render?preset=%s&image.width=64", name);
         put_text("query", name, query);
@@ -225,7 +242,8 @@ static void write_playgrounds(void)
         struct kd_playground_progress progress;
         struct kd_buffer text = { 0 };
         char document[120];
-        snprintf(document, sizeof document, "{\"preset\":\"%s\",\"debris_capacity\":64,\"debris_per_body\":16}", kd_playground_presets[i].name);
+        snprintf(document, sizeof document, "{\"preset\":\"%s\",\"debris_capacity\":64,\"debris_per_body\":16}",
+                 kd_playground_presets[i].name);
         put("playground", kd_playground_presets[i].name, document, "\n---\n{}\n---\n{\"by\":10}", 22);
         CHECK(!kd_playground_read(document, strlen(document), &p, NULL), "%s is no playground", document);
         if (p->n <= 8) {
@@ -245,13 +263,16 @@ static void write_quantities(void)
         struct kd_buffer text = { 0 };
         CHECK(!kd_buffer_printf(&text, "%s\n", kd_quantities[i]->name), "out of memory");
         for (size_t k = 0; k < kd_quantities[i]->n_parameters; k++)
-            CHECK(!kd_buffer_printf(&text, "%s=%s\n", kd_quantities[i]->parameters[k].name, kd_quantities[i]->parameters[k].initial), "out of memory");
+            CHECK(!kd_buffer_printf(&text, "%s=%s\n", kd_quantities[i]->parameters[k].name,
+                                    kd_quantities[i]->parameters[k].initial),
+                  "out of memory");
         put("quantity", kd_quantities[i]->name, "", text.data, text.size);
         kd_buffer_finish(&text);
     }
 }
 
-static void add_array(struct kd_zip *zip, struct kd_buffer *records, unsigned number, const char *name, const uint64_t *shape, size_t dimensions, const double *data)
+static void add_array(struct kd_zip *zip, struct kd_buffer *records, unsigned number, const char *name,
+                      const uint64_t *shape, size_t dimensions, const double *data)
 {
     struct kd_npy array = { .fields = { { "", KD_NPY_F8, 0 } }, .n_fields = 1, .n_dimensions = dimensions };
     struct kd_buffer bytes = { 0 };
@@ -260,7 +281,9 @@ static void add_array(struct kd_zip *zip, struct kd_buffer *records, unsigned nu
     for (size_t i = 0; i < dimensions; i++)
         n *= array.shape[i] = shape[i];
     snprintf(file, sizeof file, "%s.npy", name);
-    CHECK(!kd_npy_write_header(&array, &bytes) && !kd_buffer_append(&bytes, data, 8 * n) && !kd_zip_add(zip, file, bytes.data, bytes.size), "out of memory");
+    CHECK(!kd_npy_write_header(&array, &bytes) && !kd_buffer_append(&bytes, data, 8 * n) &&
+              !kd_zip_add(zip, file, bytes.data, bytes.size),
+          "out of memory");
     const uint8_t head[3] = { (uint8_t)number, (uint8_t)bytes.size, (uint8_t)(bytes.size >> 8) };
     CHECK(!kd_buffer_append(records, head, 3) && !kd_buffer_append(records, bytes.data, bytes.size), "out of memory");
     kd_buffer_finish(&bytes);
@@ -269,17 +292,26 @@ static void add_array(struct kd_zip *zip, struct kd_buffer *records, unsigned nu
 /* The smallest grid of matter, as a file and as records of the target's. */
 static void write_grid(void)
 {
-    static const char header[] = "{\"format\":\"kerrd-grid\",\"version\":1,\"spin\":0.5,\"azimuth\":\"kerr-schild\",\"units\":{\"r\":\"M\",\"theta\":\"rad\",\"density\":\"cm^-3\",\"temperature\":\"K\","
-                                 "\"u_con_r\":\"c\",\"u_con_theta\":\"c/M\",\"u_cov_phi\":\"c M\",\"b_con_r\":\"G\",\"b_con_theta\":\"G/M\",\"b_cov_phi\":\"G M\"}}";
-    static const char *const kinds[] = { "density", "temperature", "u_con_r", "u_con_theta", "u_cov_phi", "", "b_con_r", "b_con_theta", "b_cov_phi" };
-    const double r[2] = { 6, 20 }, theta[3] = { M_PI / 6, M_PI / 2, 5 * M_PI / 6 }, none[6] = { 0 }, some[6] = { 1e6, 2e6, 1e6, 0, 2e6, 1e6 };
-    const struct kd_npy text = { .fields = { { "", KD_NPY_U1, 0 } }, .n_fields = 1, .shape = { sizeof header - 1 }, .n_dimensions = 1 };
+    static const char header[] = "{\"format\":\"kerrd-grid\",\"version\":1,\"spin\":0.5,\"azimuth\":\"kerr-schild\","
+                                 "\"units\":{\"r\":\"M\",\"theta\":\"rad\",\"density\":\"cm^-3\",\"temperature\":\"K\","
+                                 "\"u_con_r\":\"c\",\"u_con_theta\":\"c/M\",\"u_cov_phi\":\"c "
+                                 "M\",\"b_con_r\":\"G\",\"b_con_theta\":\"G/M\",\"b_cov_phi\":\"G M\"}}";
+    static const char *const kinds[] = { "density", "temperature", "u_con_r",     "u_con_theta", "u_cov_phi",
+                                         "",        "b_con_r",     "b_con_theta", "b_cov_phi" };
+    const double r[2] = { 6, 20 }, theta[3] = { M_PI / 6, M_PI / 2, 5 * M_PI / 6 }, none[6] = { 0 },
+                 some[6] = { 1e6, 2e6, 1e6, 0, 2e6, 1e6 };
+    const struct kd_npy text = {
+        .fields = { { "", KD_NPY_U1, 0 } }, .n_fields = 1, .shape = { sizeof header - 1 }, .n_dimensions = 1
+    };
     struct kd_buffer file = { 0 }, records = { 0 }, bytes = { 0 };
     struct kd_zip *zip;
-    CHECK(!kd_zip_create(&file, false, &zip) && !kd_npy_write_header(&text, &bytes) && !kd_buffer_append(&bytes, header, sizeof header - 1) &&
-              !kd_zip_add(zip, "header.npy", bytes.data, bytes.size), "out of memory");
+    CHECK(!kd_zip_create(&file, false, &zip) && !kd_npy_write_header(&text, &bytes) &&
+              !kd_buffer_append(&bytes, header, sizeof header - 1) &&
+              !kd_zip_add(zip, "header.npy", bytes.data, bytes.size),
+          "out of memory");
     const uint8_t head[3] = { 0, (uint8_t)(sizeof header - 1), (uint8_t)((sizeof header - 1) >> 8) };
-    CHECK(!kd_buffer_append(&records, head, 3) && !kd_buffer_append(&records, header, sizeof header - 1), "out of memory");
+    CHECK(!kd_buffer_append(&records, head, 3) && !kd_buffer_append(&records, header, sizeof header - 1),
+          "out of memory");
     add_array(zip, &records, 1, "r", (const uint64_t[]) { 2 }, 1, r);
     add_array(zip, &records, 2, "theta", (const uint64_t[]) { 3 }, 1, theta);
     for (unsigned i = 0; i < sizeof kinds / sizeof *kinds; i++)
@@ -298,7 +330,8 @@ static void write_grid(void)
 
 static void write_pictures(void)
 {
-    const struct kd_png_text texts[] = { { "kerrd:scene", "{\"camera\":{\"r\":40}}" }, { "Copyright", "\xc3\xa9 ESA" } };
+    const struct kd_png_text texts[] = { { "kerrd:scene", "{\"camera\":{\"r\":40}}" },
+                                         { "Copyright", "\xc3\xa9 ESA" } };
     uint16_t pixels[32 * 16 * 3];
     for (size_t i = 0; i < sizeof pixels / sizeof *pixels; i++)
         pixels[i] = (uint16_t)(i * 2654435761u >> 8);
@@ -315,7 +348,9 @@ static void write_pictures(void)
 static void write_arrays(void)
 {
     const double rays[] = { -5, 0, 2.5, 1e-3 };
-    const struct kd_npy array = { .fields = { { "", KD_NPY_F8, 0 } }, .n_fields = 1, .shape = { 2, 2 }, .n_dimensions = 2 };
+    const struct kd_npy array = {
+        .fields = { { "", KD_NPY_F8, 0 } }, .n_fields = 1, .shape = { 2, 2 }, .n_dimensions = 2
+    };
     struct kd_buffer bytes = { 0 };
     CHECK(!kd_npy_write_header(&array, &bytes) && !kd_buffer_append(&bytes, rays, sizeof rays), "out of memory");
     put("rays", "list.npy", "", bytes.data, bytes.size);
@@ -339,7 +374,8 @@ static void write_accuracy(void)
 /* A file with every option that has a default, and the same options as variables. */
 static void write_settings(void)
 {
-    FILE *dict = open_file("config", ""), *file = open_file("config", "defaults"), *variables = open_file("config", "variables");
+    FILE *dict = open_file("config", ""), *file = open_file("config", "defaults"),
+         *variables = open_file("config", "variables");
     bool first = true;
     json_words(dict);
     WORDS(dict, "\n---\n", "KERRD_", "=", ",", "yes", "https://example.org", "http://[::1]:8080", "1536M", "2G");
@@ -353,7 +389,11 @@ static void write_settings(void)
         if (!s->initial || s->where != KD_SETTING_ANYWHERE)
             continue;
         const char *quote = s->kind == KD_SETTING_NUMBER || s->kind == KD_SETTING_SWITCH ? "" : "\"";
-        fprintf(file, "%c\"%s\":%s%s%s", first ? '{' : ',', s->name, quote, s->kind != KD_SETTING_SWITCH ? s->initial : !strcmp(s->initial, "yes") ? "true" : "false", quote);
+        fprintf(file, "%c\"%s\":%s%s%s", first ? '{' : ',', s->name, quote,
+                s->kind != KD_SETTING_SWITCH ? s->initial
+                : !strcmp(s->initial, "yes") ? "true"
+                                             : "false",
+                quote);
         fprintf(variables, "\n%s=%s", name, s->initial);
         first = false;
     }
@@ -361,7 +401,9 @@ static void write_settings(void)
     fclose(dict);
     fclose(file);
     fclose(variables);
-    put_text("config", "lists", "{\"host\":[\"a.example\",\"b.example\"],\"cors-origin\":[\"https://example.org,http://localhost:8888\",\"null\"],\"memory\":\"2G\"}\n---\nKERRD_HOST=c.example");
+    put_text("config", "lists",
+             "{\"host\":[\"a.example\",\"b.example\"],\"cors-origin\":[\"https://example.org,http://"
+             "localhost:8888\",\"null\"],\"memory\":\"2G\"}\n---\nKERRD_HOST=c.example");
 }
 
 static void write_targets(void)
@@ -369,7 +411,9 @@ static void write_targets(void)
     for (size_t i = 0; i < kd_n_routes; i++) {
         char name[40], head[400];
         snprintf(name, sizeof name, "route-%02zu", i);
-        snprintf(head, sizeof head, "/some/prefix%s?order=1&since=%%31\n/some/prefix\n%s, image/*;q=0.5, */*;q=0.1\ngzip;q=0.5, *\nW/\"abc-1\", *\napplication/json; charset=utf-8\nlocalhost:8080\nabc-1.2\n17",
+        snprintf(head, sizeof head,
+                 "/some/prefix%s?order=1&since=%%31\n/some/prefix\n%s, image/*;q=0.5, */*;q=0.1\ngzip;q=0.5, "
+                 "*\nW/\"abc-1\", *\napplication/json; charset=utf-8\nlocalhost:8080\nabc-1.2\n17",
                  kd_routes[i].path, kd_routes[i].answer ? kd_routes[i].answer : "image/png");
         put_text("http", name, head);
     }

@@ -1,5 +1,5 @@
-/* This reads what kerrd keeps between its starts: the state of a film, a table of accuracy, the record of a job, a line "---" and its request; and a timeline as a session's path has
- * it. The first byte says which. */
+/* This reads what kerrd keeps between its starts: the state of a film, a table of accuracy, the record of a job, a
+ * line "---" and its request; and a timeline as a session's path has it. The first byte says which. */
 #include "fuzz.h"
 
 #include "base/log.h"
@@ -43,8 +43,12 @@ static void read_accuracy(const struct kd_fuzz_text *text)
         kd_fuzz_refused(status, &error);
     else {
         CHECK(table->n <= KD_ACCURACY_ROWS, "a table has %u rows", table->n);
-        CHECK(!kd_accuracy_to_json(table, &first) && !kd_accuracy_from_json((char *)first.data, first.size, back, &error), "a table that was written: %s", error.message);
-        CHECK(!kd_accuracy_to_json(back, &again) && again.size == first.size && !memcmp(again.data, first.data, first.size), "%s became %s", (char *)first.data, (char *)again.data);
+        CHECK(!kd_accuracy_to_json(table, &first) &&
+                  !kd_accuracy_from_json((char *)first.data, first.size, back, &error),
+              "a table that was written: %s", error.message);
+        CHECK(!kd_accuracy_to_json(back, &again) && again.size == first.size &&
+                  !memcmp(again.data, first.data, first.size),
+              "%s became %s", (char *)first.data, (char *)again.data);
         if ((status = kd_accuracy_choose(table, 1e-4, NULL, &choice, &error)))
             kd_fuzz_refused(status, &error);
         else
@@ -59,7 +63,9 @@ static void read_accuracy(const struct kd_fuzz_text *text)
 static void found(void *user, const struct kd_job_record *record, struct kd_buffer *request)
 {
     (void)user;
-    CHECK(!strcmp(record->id, JOB) && strlen(record->token) == KD_SECRET_TOKEN - 1 && record->series && record->state <= KD_JOB_FAILED, "the record of a job is none");
+    CHECK(!strcmp(record->id, JOB) && strlen(record->token) == KD_SECRET_TOKEN - 1 && record->series &&
+              record->state <= KD_JOB_FAILED,
+          "the record of a job is none");
     CHECK(record->frames <= KD_SWEEP_MOST, "a job has %u frames", record->frames);
     kd_buffer_finish(request);
 }

@@ -1,13 +1,17 @@
-/* These are the targets of fuzzing, a file each; what each of them reads stands at the head of its file. meson.build has the same list. */
+/* These are the targets of fuzzing, a file each; what each of them reads stands at the head of its file. meson.build
+ * has the same list. */
 #ifndef KD_FUZZ_TARGETS_H
 #define KD_FUZZ_TARGETS_H
 
 #include <stddef.h>
 #include <stdint.h>
 
+/* clang-format off */
 #define KD_FUZZ_TARGETS(TARGET) \
-    TARGET(access) TARGET(assets) TARGET(config) TARGET(files) TARGET(http) TARGET(integrals) TARGET(job) TARGET(line) TARGET(orbits) TARGET(patch) TARGET(pictures) \
+    TARGET(access) TARGET(assets) TARGET(config) TARGET(files) TARGET(http) TARGET(integrals) TARGET(job) \
+    TARGET(line) TARGET(orbits) TARGET(patch) TARGET(pictures) \
     TARGET(playground) TARGET(quantity) TARGET(query) TARGET(rays) TARGET(scene) TARGET(state)
+/* clang-format on */
 
 /* Reads an input; ends the process by abort() where what it reads is not as it should be. Always 0. */
 #define KD_FUZZ_DECLARE(name) int kd_fuzz_##name(const uint8_t *data, size_t size);

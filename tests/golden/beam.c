@@ -1,4 +1,5 @@
-/* M87* through a beam of 20 microarcseconds: the ring's diameter, beside that of the picture without a beam, convolved here in double. */
+/* M87* through a beam of 20 microarcseconds: the ring's diameter, beside that of the picture without a beam,
+ * convolved here in double. */
 #include "studio.h"
 
 #include <math.h>
@@ -60,8 +61,8 @@ static double at(double p[H][W], double x, double y)
 
 struct ring { double diameter, scatter; };
 
-/* The mean over directions of the radius of largest brightness about a place, twice, and its scatter (EHT Collaboration 2019, ApJL 875, L4,
- * section 9). */
+/* The mean over directions of the radius of largest brightness about a place, twice, and its scatter (EHT
+ * Collaboration 2019, ApJL 875, L4, section 9). */
 static struct ring about(double p[H][W], double x0, double y0)
 {
     enum { DIRECTIONS = 90 };
@@ -99,7 +100,8 @@ static struct ring ring_of(double p[H][W])
 static void the_ring_has_its_diameter(void **state)
 {
     (void)state;
-    static const char *const look = "{\"style\":{\"name\":\"raw\",\"exposure\":%d,\"beam_uas\":%g},\"image\":{\"width\":320,\"height\":180,\"bit_depth\":16}}";
+    static const char *const look = "{\"style\":{\"name\":\"raw\",\"exposure\":%d,\"beam_uas\":%g},\"image\":{"
+                                    "\"width\":320,\"height\":180,\"bit_depth\":16}}";
     char json[240];
     snprintf(json, sizeof json, look, 1, 0.0);
     struct kd_scene scene = studio_scene("m87", json);
@@ -111,8 +113,8 @@ static void the_ring_has_its_diameter(void **state)
     read_light(&blurred, found);
     convolve(20 / sqrt(8 * log(2)) / PIXEL_UAS);
     const struct ring is = ring_of(found), should = ring_of(wanted), before = ring_of(unblurred);
-    printf("M87*, 20 uas: a ring of %.2f uas, scatter %.2f; convolved by hand %.2f; without a beam %.2f\n", is.diameter * PIXEL_UAS,
-           is.scatter * PIXEL_UAS, should.diameter * PIXEL_UAS, before.diameter * PIXEL_UAS);
+    printf("M87*, 20 uas: a ring of %.2f uas, scatter %.2f; convolved by hand %.2f; without a beam %.2f\n",
+           is.diameter * PIXEL_UAS, is.scatter * PIXEL_UAS, should.diameter * PIXEL_UAS, before.diameter * PIXEL_UAS);
     assert_true(fabs(is.diameter / should.diameter - 1) < 0.002);
     double worst = 0, most = 0;
     for (int i = 0; i < W * H; i++) {
@@ -125,11 +127,13 @@ static void the_ring_has_its_diameter(void **state)
     kd_frame_finish(&blurred);
 }
 
-/* The style's picture is that in false colour: the same brightness by the lightness L* of its colours (CIE 1976), 100 of which is white. */
+/* The style's picture is that in false colour: the same brightness by the lightness L* of its colours (CIE 1976),
+ * 100 of which is white. */
 static void the_style_shows_it_by_lightness(void **state)
 {
     (void)state;
-    struct kd_scene scene = studio_scene("m87", "{\"style\":{\"name\":\"eht\",\"colour_bar\":false,\"dither\":false},\"image\":{\"width\":320,\"height\":180,\"bit_depth\":16}}");
+    struct kd_scene scene = studio_scene("m87", "{\"style\":{\"name\":\"eht\",\"colour_bar\":false,\"dither\":false},"
+                                                "\"image\":{\"width\":320,\"height\":180,\"bit_depth\":16}}");
     struct kd_frame f = studio_render(&scene);
     double worst = 0, most = 0;
     for (uint32_t i = 0; i < W * H; i++) {
@@ -148,7 +152,8 @@ static void the_style_shows_it_by_lightness(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(the_ring_has_its_diameter), cmocka_unit_test(the_style_shows_it_by_lightness) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(the_ring_has_its_diameter),
+                                        cmocka_unit_test(the_style_shows_it_by_lightness) };
     int status = studio_open();
     if (status)
         return status;

@@ -26,7 +26,8 @@ static struct kd_frame shot(const struct kd_scene *base, int samples, int critic
 struct distance { double rms, mean, elsewhere; }; /* at the curve; elsewhere the largest */
 
 /* Compares linear light with another picture's. */
-static struct distance distance(const struct kd_frame *a, const struct kd_frame *b, const struct kd_critical_pixels *list)
+static struct distance distance(const struct kd_frame *a, const struct kd_frame *b,
+                                const struct kd_critical_pixels *list)
 {
     struct distance d = { 0 };
     size_t next = 0;
@@ -52,28 +53,37 @@ static struct distance distance(const struct kd_frame *a, const struct kd_frame 
 static struct kd_scene view(const char *json, double exposure)
 {
     char text[1024];
-    snprintf(text, sizeof text, "{%s,\"image\":{\"width\":%d,\"height\":%d,\"bit_depth\":16},"
-             "\"style\":{\"exposure\":%g,\"tone_map\":\"srgb\",\"dither\":false}}", json, WIDTH, HEIGHT, exposure);
+    snprintf(text, sizeof text,
+             "{%s,\"image\":{\"width\":%d,\"height\":%d,\"bit_depth\":16},"
+             "\"style\":{\"exposure\":%g,\"tone_map\":\"srgb\",\"dither\":false}}",
+             json, WIDTH, HEIGHT, exposure);
     return studio_scene(NULL, text);
 }
 
-#define NEAR "\"camera\":{\"r\":25,\"inclination_deg\":75,\"fov_deg\":60,\"yaw_deg\":4,\"pitch_deg\":-3,\"roll_deg\":20}"
+#define NEAR \
+    "\"camera\":{\"r\":25,\"inclination_deg\":75,\"fov_deg\":60,\"yaw_deg\":4,\"pitch_deg\":-3,\"roll_deg\":20}"
 #define FAST "\"spacetime\":{\"spin\":0.998}"
 
-/* By each way that a lens map is made. A rim has rays at a few distances from the curve, or at many: the error of a pixel goes with
- * one over their number rather than its root. */
+/* By each way that a lens map is made. A rim has rays at a few distances from the curve, or at many: the error of a
+ * pixel goes with one over their number rather than its root. */
 static void against_many_rays(void **state)
 {
     (void)state;
-    static const struct { const char *what; double exposure; const char *json; } views[] = {
+    static const struct {
+        const char *what;
+        double exposure;
+        const char *json;
+    } views[] = {
         { "radii", -1.5, "\"camera\":{\"inclination_deg\":80,\"field_m\":30}" },
         { "radii, fast", 4, FAST ",\"camera\":{\"inclination_deg\":70,\"field_m\":24,\"roll_deg\":30}" },
-        { "rolled a quarter, glass", -1, "\"camera\":{\"inclination_deg\":40,\"field_m\":24,\"roll_deg\":90},\"disk\":{\"opacity\":0.6}" },
+        { "rolled a quarter, glass", -1,
+          "\"camera\":{\"inclination_deg\":40,\"field_m\":24,\"roll_deg\":90},\"disk\":{\"opacity\":0.6}" },
         { "near", -1, NEAR },
         { "before a sky", 3, FAST "," NEAR ",\"sky\":{\"model\":\"grid\",\"brightness\":1}" },
         { "particles", -1, NEAR ",\"disk\":{\"model\":\"particles\",\"plunging\":0.3}" },
-        { "a spot and slow light", -1.5, "\"camera\":{\"inclination_deg\":60,\"field_m\":30},\"disk\":{\"slow_light\":true},"
-                                   "\"spots\":[{\"brightness\":2,\"r\":8,\"size\":2}]" },
+        { "a spot and slow light", -1.5,
+          "\"camera\":{\"inclination_deg\":60,\"field_m\":30},\"disk\":{\"slow_light\":true},"
+          "\"spots\":[{\"brightness\":2,\"r\":8,\"size\":2}]" },
         { "double precision", -1, NEAR ",\"accuracy\":{\"precision\":\"f64\",\"engine\":\"closed\"}" },
     };
     for (size_t i = 0; i < sizeof views / sizeof *views; i++) {
@@ -81,12 +91,16 @@ static void against_many_rays(void **state)
         struct kd_critical_pixels list;
         struct kd_error error;
         assert_int_equal(kd_critical_pixels_of(&scene, &list, &error), KD_OK);
-        struct kd_frame many = shot(&scene, 8, 1), one = shot(&scene, 1, 1), four = shot(&scene, 1, 4), all = shot(&scene, 1, 16);
-        struct distance d1 = distance(&one, &many, &list), d4 = distance(&four, &many, &list), d16 = distance(&all, &many, &list);
-        printf("%-24s %4zu pixels at the curve: one ray off by %.4f rms, 16 by %.4f, 256 by %.4f; on average %+.5f, %+.5f, %+.5f\n",
+        struct kd_frame many = shot(&scene, 8, 1), one = shot(&scene, 1, 1), four = shot(&scene, 1, 4),
+                        all = shot(&scene, 1, 16);
+        struct distance d1 = distance(&one, &many, &list), d4 = distance(&four, &many, &list),
+                        d16 = distance(&all, &many, &list);
+        printf("%-24s %4zu pixels at the curve: one ray off by %.4f rms, 16 by %.4f, 256 by %.4f; on average %+.5f, "
+               "%+.5f, %+.5f\n",
                views[i].what, list.n, d1.rms, d4.rms, d16.rms, d1.mean, d4.mean, d16.mean);
         if (!(d1.rms > 0.005 && d4.rms < 0.4 * d1.rms && d16.rms < 0.12 * d1.rms && fabs(d16.mean) < 5e-4))
-            fail_msg("%s: one ray is off by %g, 16 by %g, 256 by %g, on average %g", views[i].what, d1.rms, d4.rms, d16.rms, d16.mean);
+            fail_msg("%s: one ray is off by %g, 16 by %g, 256 by %g, on average %g", views[i].what, d1.rms, d4.rms,
+                     d16.rms, d16.mean);
         if (distance(&four, &one, &list).elsewhere != 0)
             fail_msg("%s: other pixels than those at the curve differ", views[i].what);
         kd_frame_finish(&many);
@@ -101,7 +115,10 @@ static void against_many_rays(void **state)
 static void off(void **state)
 {
     (void)state;
-    static const struct { const char *what, *json; int samples, critical; } views[] = {
+    static const struct {
+        const char *what, *json;
+        int samples, critical;
+    } views[] = {
         { "none asked", "\"camera\":{\"field_m\":30}", 2, 1 },
         { "the direct image alone", "\"camera\":{\"field_m\":30},\"accuracy\":{\"orders\":1}", 1, 4 },
         { "no hole in the picture", "\"camera\":{\"field_m\":3,\"centre_alpha\":12}", 1, 4 },
@@ -110,7 +127,8 @@ static void off(void **state)
     for (size_t i = 0; i < sizeof views / sizeof *views; i++) {
         struct kd_scene scene = view(views[i].json, 0);
         scene.image.width = 40, scene.image.height = 30;
-        struct kd_frame with = shot(&scene, views[i].samples, views[i].critical), without = shot(&scene, views[i].samples, 1);
+        struct kd_frame with = shot(&scene, views[i].samples, views[i].critical),
+                        without = shot(&scene, views[i].samples, 1);
         if (memcmp(kd_frame_pixels(&with), kd_frame_pixels(&without), 40 * 30 * 6) != 0)
             fail_msg("%s: the picture is another one", views[i].what);
         kd_frame_finish(&with);

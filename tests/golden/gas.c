@@ -1,5 +1,5 @@
-/* What is seen of the gas: the angle at which its light leaves it, against Kerr-Schild geodesics and the metric; that its turbulence
- * keeps the flux; that it turns as gas on orbits does; that one seed is one picture. */
+/* What is seen of the gas: the angle at which its light leaves it, against Kerr-Schild geodesics and the metric;
+ * that its turbulence keeps the flux; that it turns as gas on orbits does; that one seed is one picture. */
 #include "photon.h"
 #include "studio.h"
 
@@ -17,8 +17,8 @@
 
 #include <cmocka.h>
 
-/* -1/g^2 of u^t = 1 at this angular velocity: g_tt + 2 Omega g_tphi + Omega^2 g_phiphi in the plane; and Omega where its slope in r
- * vanishes, which is a circular geodesic. */
+/* -1/g^2 of u^t = 1 at this angular velocity: g_tt + 2 Omega g_tphi + Omega^2 g_phiphi in the plane; and Omega where
+ * its slope in r vanishes, which is a circular geodesic. */
 static double line(double a, double r, double omega)
 {
     return -(1 - 2 / r) - 4 * a / r * omega + (r * r + a * a + 2 * a * a / r) * omega * omega;
@@ -34,7 +34,8 @@ static double orbit_omega(double a, double r)
     return 0.5 * (low + high);
 }
 
-/* The cosine of the angle to the normal of the plane, by the momentum along it over the energy, both in the gas's frame. */
+/* The cosine of the angle to the normal of the plane, by the momentum along it over the energy, both in the gas's
+ * frame. */
 static double cosine(const struct ks_photon *p, const struct ks_path *path)
 {
     double r = path->r[0], omega = orbit_omega(p->a, r);
@@ -43,8 +44,8 @@ static double cosine(const struct ks_photon *p, const struct ks_path *path)
 
 #define DEPTH 3.0
 
-/* A disk of that optical depth over one that is opaque shows how much each crossing takes: 1 - exp(-depth F/F_max/cos). 16 bits of the
- * dimmest pixels looked at are worth 1e-3. */
+/* A disk of that optical depth over one that is opaque shows how much each crossing takes: 1 - exp(-depth
+ * F/F_max/cos). 16 bits of the dimmest pixels looked at are worth 1e-3. */
 static void emission_angle(void **state)
 {
     (void)state;
@@ -52,13 +53,17 @@ static void emission_angle(void **state)
         "\"spacetime\":{\"spin\":0.9},\"camera\":{\"inclination_deg\":60,\"field_m\":30},\"style\":{\"exposure\":-1,",
         "\"spacetime\":{\"spin\":0.3},\"camera\":{\"inclination_deg\":84,\"field_m\":30},\"style\":{\"exposure\":-2,",
         "\"spacetime\":{\"spin\":-0.6},\"camera\":{\"inclination_deg\":110,\"field_m\":40},\"style\":{\"exposure\":-1,",
-        "\"spacetime\":{\"spin\":0.7},\"camera\":{\"r\":25,\"inclination_deg\":75,\"fov_deg\":60},\"style\":{\"exposure\":-2,",
+        "\"spacetime\":{\"spin\":0.7},\"camera\":{\"r\":25,\"inclination_deg\":75,\"fov_deg\":60},\"style\":{"
+        "\"exposure\":-2,",
     };
     double worst = 0, least = 1, most = 0;
     for (size_t v = 0; v < sizeof views / sizeof *views; v++) {
         char json[600];
-        snprintf(json, sizeof json, "{%s\"tone_map\":\"srgb\",\"dither\":false},\"disk\":{\"outer\":14,\"taper\":0},\"accuracy\":{\"orders\":1,"
-                 "\"profile\":\"high\"},\"image\":{\"width\":48,\"height\":36,\"bit_depth\":16,\"critical_factor\":1}}", views[v]);
+        snprintf(
+            json, sizeof json,
+            "{%s\"tone_map\":\"srgb\",\"dither\":false},\"disk\":{\"outer\":14,\"taper\":0},\"accuracy\":{\"orders\":1,"
+            "\"profile\":\"high\"},\"image\":{\"width\":48,\"height\":36,\"bit_depth\":16,\"critical_factor\":1}}",
+            views[v]);
         struct kd_scene scene = studio_scene(NULL, json);
         struct kd_frame opaque = studio_render(&scene);
         scene.disk.emission_opacity = DEPTH;
@@ -76,7 +81,8 @@ static void emission_angle(void **state)
             double tilt = cosine(&photon, &path), depth = DEPTH * kd_disk_flux_page_thorne(a, path.r[0]) / peak;
             double off = fabs(seen / all - (1 - exp(-depth / tilt)));
             if (!(off < 1.5e-3))
-                fail_msg("view %zu, (%u, %u), r %g: %g of the light, expected %g", v, x, y, path.r[0], seen / all, 1 - exp(-depth / tilt));
+                fail_msg("view %zu, (%u, %u), r %g: %g of the light, expected %g", v, x, y, path.r[0], seen / all,
+                         1 - exp(-depth / tilt));
             worst = fmax(worst, off);
             least = fmin(least, tilt);
             most = fmax(most, tilt);
@@ -104,15 +110,17 @@ static double sum_of(const struct kd_scene *scene)
     return sum;
 }
 
-/* The mean over seeds of an opaque disk's light is that of the smooth one: turbulence moves light about, and neither adds nor takes any.
- * So it is for each number of octaves. Each seed is off by some percent; the mean by so much less, which their scatter says. */
+/* The mean over seeds of an opaque disk's light is that of the smooth one: turbulence moves light about, and neither
+ * adds nor takes any. So it is for each number of octaves. Each seed is off by some percent; the mean by so much
+ * less, which their scatter says. */
 static void flux_is_kept(void **state)
 {
     (void)state;
     enum { SEEDS = 60 };
-    struct kd_scene scene = studio_scene(NULL, "{\"camera\":{\"inclination_deg\":30,\"field_m\":50},\"accuracy\":{\"orders\":1},\"style\":"
-                                         "{\"exposure\":-5,\"tone_map\":\"srgb\",\"dither\":false},\"image\":{\"width\":96,\"height\":72,"
-                                         "\"bit_depth\":16}}");
+    struct kd_scene scene = studio_scene(
+        NULL, "{\"camera\":{\"inclination_deg\":30,\"field_m\":50},\"accuracy\":{\"orders\":1},\"style\":"
+              "{\"exposure\":-5,\"tone_map\":\"srgb\",\"dither\":false},\"image\":{\"width\":96,\"height\":72,"
+              "\"bit_depth\":16}}");
     double smooth = sum_of(&scene);
     scene.gas.amplitude = 0.8;
     for (scene.gas.octaves = 1; scene.gas.octaves <= 7; scene.gas.octaves += 3) {
@@ -123,7 +131,8 @@ static void flux_is_kept(void **state)
             square += ratio * ratio / SEEDS;
         }
         double scatter = sqrt((square - mean * mean) / SEEDS);
-        printf("flux with %d octaves: %.4f of the smooth disk's, scatter of the mean %.4f\n", scene.gas.octaves, mean, scatter);
+        printf("flux with %d octaves: %.4f of the smooth disk's, scatter of the mean %.4f\n", scene.gas.octaves, mean,
+               scatter);
         assert_true(scatter > 1e-4 && scatter < 0.01);
         assert_true(fabs(mean - 1) < 3 * scatter + 2e-3);
     }
@@ -138,11 +147,13 @@ static bool same_pixels(const struct kd_scene *a, const struct kd_scene *b)
     return same;
 }
 
-/* One scene is one picture, whatever was rendered before it; another seed or time is another one; and what is off does nothing. */
+/* One scene is one picture, whatever was rendered before it; another seed or time is another one; and what is off
+ * does nothing. */
 static void one_scene_one_picture(void **state)
 {
     (void)state;
-    struct kd_scene smooth = studio_scene(NULL, "{\"image\":{\"width\":96,\"height\":54}}"), off = smooth, gas = smooth, other;
+    struct kd_scene smooth = studio_scene(NULL, "{\"image\":{\"width\":96,\"height\":54}}"), off = smooth, gas = smooth,
+                    other;
     off.gas.octaves = 3;
     off.gas.scale = 1;
     off.gas.seed = 9;
@@ -160,7 +171,8 @@ static void one_scene_one_picture(void **state)
     assert_true(same_pixels(&other, &other));
 }
 
-/* Brightness over that of the smooth disk, less 1: a map of the pattern, 0 in the mean over seeds. Its side is a power of nothing. */
+/* Brightness over that of the smooth disk, less 1: a map of the pattern, 0 in the mean over seeds. Its side is a
+ * power of nothing. */
 enum { SIDE = 60, BANDS = 6 };
 struct map { double at[SIDE][SIDE]; };
 
@@ -206,7 +218,8 @@ static void power_of(const struct map *m, double out[SIDE][SIDE])
         }
 }
 
-/* The band of a wave number, 0 to BANDS - 1; waves along the axes of the picture, where a lattice would show, are a band of their own. */
+/* The band of a wave number, 0 to BANDS - 1; waves along the axes of the picture, where a lattice would show, are a
+ * band of their own. */
 static int band_of(int l, int k)
 {
     int y = l > SIDE / 2 ? SIDE - l : l, x = k > SIDE / 2 ? SIDE - k : k;
@@ -218,14 +231,16 @@ static int band_of(int l, int k)
 
 static struct kd_scene from_above(void)
 {
-    return studio_scene(NULL, "{\"camera\":{\"inclination_deg\":0,\"field_m\":44},\"accuracy\":{\"orders\":1},\"style\":"
-                              "{\"exposure\":-4,\"tone_map\":\"srgb\",\"dither\":false},\"disk\":{\"gas\":{\"amplitude\":0.8,\"octaves\":5}},"
-                              "\"image\":{\"width\":60,\"height\":60,\"samples\":2,\"bit_depth\":16}}");
+    return studio_scene(
+        NULL,
+        "{\"camera\":{\"inclination_deg\":0,\"field_m\":44},\"accuracy\":{\"orders\":1},\"style\":"
+        "{\"exposure\":-4,\"tone_map\":\"srgb\",\"dither\":false},\"disk\":{\"gas\":{\"amplitude\":0.8,\"octaves\":5}},"
+        "\"image\":{\"width\":60,\"height\":60,\"samples\":2,\"bit_depth\":16}}");
 }
 
-/* Two hundred seeds are two hundred independent patterns: of their mean, each wave has a two-hundredth of the power that they have. A ring,
- * a seam or a lattice that they had in common would stay. Over n waves the ratio scatters by sqrt(1/n), those of a real map being there
- * twice and neighbours being alike by some 4. */
+/* Two hundred seeds are two hundred independent patterns: of their mean, each wave has a two-hundredth of the power
+ * that they have. A ring, a seam or a lattice that they had in common would stay. Over n waves the ratio scatters by
+ * sqrt(1/n), those of a real map being there twice and neighbours being alike by some 4. */
 static void nothing_in_common(void **state)
 {
     (void)state;
@@ -272,8 +287,8 @@ static void nothing_in_common(void **state)
             fail_msg("at radius %d the mean is off by %g, its scatter is %g", k, profile[k], sqrt(scatter[k] / SEEDS));
 }
 
-/* The power of the pattern's waves in bands, and how much it changes from a pixel to the next along a radius, which is what winding up would
- * raise: the same at any time, within what patterns differ by. */
+/* The power of the pattern's waves in bands, and how much it changes from a pixel to the next along a radius, which
+ * is what winding up would raise: the same at any time, within what patterns differ by. */
 static void nothing_winds_up(void **state)
 {
     (void)state;
@@ -291,7 +306,8 @@ static void nothing_winds_up(void **state)
             for (int i = 0; i < SIDE * SIDE; i++)
                 of[band_of(i / SIDE, i % SIDE)] += (&power[0][0])[i];
             for (int x = 0; x + 1 < SIDE; x++)
-                of[BANDS] += pow(m.at[SIDE / 2][x + 1] - m.at[SIDE / 2][x], 2) + pow(m.at[x + 1][SIDE / 2] - m.at[x][SIDE / 2], 2);
+                of[BANDS] += pow(m.at[SIDE / 2][x + 1] - m.at[SIDE / 2][x], 2) +
+                             pow(m.at[x + 1][SIDE / 2] - m.at[x][SIDE / 2], 2);
             for (int k = 0; k < MEASURES; k++) {
                 mean[t][k] += log(of[k]) / SEEDS;
                 square[t][k] += pow(log(of[k]), 2) / SEEDS;
@@ -305,15 +321,17 @@ static void nothing_winds_up(void **state)
         }
 }
 
-/* Seen almost from its plane, the gas varies as much from seed to seed with one ray a pixel as with 64: what a ray cannot resolve has
- * faded to its mean. Without that it is more than half as much again. */
+/* Seen almost from its plane, the gas varies as much from seed to seed with one ray a pixel as with 64: what a ray
+ * cannot resolve has faded to its mean. Without that it is more than half as much again. */
 static void one_ray_varies_as_many(void **state)
 {
     (void)state;
     enum { SEEDS = 24, WIDTH = 64, HEIGHT = 36 };
-    struct kd_scene scene = studio_scene(NULL, "{\"camera\":{\"inclination_deg\":85,\"field_m\":4.6},\"accuracy\":{\"orders\":1},\"style\":{\"exposure\":-6.5,"
-                                         "\"tone_map\":\"srgb\",\"dither\":false},\"disk\":{\"gas\":{\"amplitude\":0.8}},\"image\":"
-                                         "{\"width\":64,\"height\":36,\"bit_depth\":16,\"critical_factor\":1}}");
+    struct kd_scene scene = studio_scene(
+        NULL,
+        "{\"camera\":{\"inclination_deg\":85,\"field_m\":4.6},\"accuracy\":{\"orders\":1},\"style\":{\"exposure\":-6.5,"
+        "\"tone_map\":\"srgb\",\"dither\":false},\"disk\":{\"gas\":{\"amplitude\":0.8}},\"image\":"
+        "{\"width\":64,\"height\":36,\"bit_depth\":16,\"critical_factor\":1}}");
     double variance[2] = { 0 };
     for (int v = 0; v < 4; v++) { /* a tenth of the picture: beside the hole, and above it */
         int k = v % 2;
@@ -343,12 +361,9 @@ static void one_ray_varies_as_many(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(emission_angle),
-        cmocka_unit_test(flux_is_kept),
-        cmocka_unit_test(nothing_in_common),
-        cmocka_unit_test(nothing_winds_up),
-        cmocka_unit_test(one_ray_varies_as_many),
-        cmocka_unit_test(one_scene_one_picture),
+        cmocka_unit_test(emission_angle),         cmocka_unit_test(flux_is_kept),
+        cmocka_unit_test(nothing_in_common),      cmocka_unit_test(nothing_winds_up),
+        cmocka_unit_test(one_ray_varies_as_many), cmocka_unit_test(one_scene_one_picture),
     };
     int status = studio_open();
     if (status)

@@ -1,7 +1,7 @@
-/* In slow light of gas each pixel shows the turbulence of the time at which its light left; its delay is by Kerr-Schild geodesics. */
+/* In slow light of gas each pixel shows the turbulence of the time at which its light left; its delay is by
+ * Kerr-Schild geodesics. */
 #include "photon.h"
 #include "studio.h"
-
 
 #include <math.h>
 #include <setjmp.h>
@@ -18,14 +18,18 @@ static struct kd_scene view(double spin, double inclination_deg, double r)
 {
     char json[700];
     snprintf(json, sizeof json,
-             "{\"time\":%g,\"spacetime\":{\"spin\":%g},\"camera\":{%s\"inclination_deg\":%g,\"field_m\":40,\"fov_deg\":70},\"style\":{\"exposure\":-1,"
-             "\"tone_map\":\"srgb\",\"dither\":false},\"disk\":{\"outer\":16,\"slow_light\":true,\"gas\":{\"amplitude\":0.8,\"octaves\":3}},"
-             "\"accuracy\":{\"profile\":\"high\"},\"image\":{\"width\":%d,\"height\":%d,\"bit_depth\":16,\"critical_factor\":1}}",
+             "{\"time\":%g,\"spacetime\":{\"spin\":%g},\"camera\":{%s\"inclination_deg\":%g,\"field_m\":40,\"fov_deg\":"
+             "70},\"style\":{\"exposure\":-1,"
+             "\"tone_map\":\"srgb\",\"dither\":false},\"disk\":{\"outer\":16,\"slow_light\":true,\"gas\":{"
+             "\"amplitude\":0.8,\"octaves\":3}},"
+             "\"accuracy\":{\"profile\":\"high\"},\"image\":{\"width\":%d,\"height\":%d,\"bit_depth\":16,\"critical_"
+             "factor\":1}}",
              TIME, spin, isinf(r) ? "" : "\"r\":25,", inclination_deg, WIDTH, HEIGHT);
     return studio_scene(NULL, json);
 }
 
-/* The disk is opaque: what a pixel shows is its first crossing. 16 bits of the dimmest pixels looked at are worth 1e-3. */
+/* The disk is opaque: what a pixel shows is its first crossing. 16 bits of the dimmest pixels looked at are worth
+ * 1e-3. */
 static void pixels_show_when_their_light_left(void **state)
 {
     (void)state;
@@ -56,8 +60,9 @@ static void pixels_show_when_their_light_left(void **state)
             most = fmax(most, path.delay[0]);
             n++;
         }
-        printf("view %zu: %d pixels off by %.1e at most, by %.2f in the mean from the picture of one time; delays from %.1f to %.1f\n", v, n, worst, of_now / n,
-               least, most);
+        printf("view %zu: %d pixels off by %.1e at most, by %.2f in the mean from the picture of one time; delays from "
+               "%.1f to %.1f\n",
+               v, n, worst, of_now / n, least, most);
         assert_true(n == LOOKED_AT && of_now / n > 0.05 && most - least > 10);
         kd_frame_finish(&slow);
         kd_frame_finish(&now);

@@ -61,32 +61,40 @@ static const struct shot {
     { "companions", "companions", "{\"image\":{\"width\":160,\"height\":90}}" },
     { "hot-spot", "hot-spot", "{\"time\":130," SIZE "}" },
     { "spots", NULL,
-      "{\"spacetime\":{\"spin\":0.9},\"camera\":{\"r\":40,\"inclination_deg\":75},\"disk\":{\"model\":\"none\",\"slow_light\":true},"
+      "{\"spacetime\":{\"spin\":0.9},\"camera\":{\"r\":40,\"inclination_deg\":75},\"disk\":{\"model\":\"none\",\"slow_"
+      "light\":true},"
       "\"spot1\":{\"brightness\":1,\"r\":3,\"size\":0.5,\"phase_deg\":200,\"temperature_k\":4000},"
       "\"spot2\":{\"brightness\":0.5,\"r\":7,\"size\":1.5,\"phase_deg\":100},"
-      "\"spot3\":{\"brightness\":0.3,\"r\":12,\"phase_deg\":-20,\"index\":-1},\"time\":70,\"style\":{\"exposure\":0}," SIZE "}" },
+      "\"spot3\":{\"brightness\":0.3,\"r\":12,\"phase_deg\":-20,\"index\":-1},\"time\":70,\"style\":{\"exposure\":0}"
+      "," SIZE "}" },
     { "plunging", NULL,
       "{\"time\":1000,\"spacetime\":{\"spin\":0.3},\"camera\":{\"inclination_deg\":40,\"field_m\":18},"
-      "\"disk\":{\"model\":\"particles\",\"outer\":18,\"plunging_temperature\":0.9},\"style\":{\"exposure\":1}," SIZE "}" },
+      "\"disk\":{\"model\":\"particles\",\"outer\":18,\"plunging_temperature\":0.9},\"style\":{\"exposure\":1}," SIZE
+      "}" },
     { "retrograde", NULL, "{\"spacetime\":{\"spin\":-0.9}," SIZE "}" },
     { "zamo", NULL,
       "{\"spacetime\":{\"spin\":0.9},\"camera\":{\"r\":15,\"observer\":\"zamo\",\"inclination_deg\":70,"
       "\"fov_deg\":100,\"yaw_deg\":-10,\"pitch_deg\":5,\"roll_deg\":20}," SIZE "}" },
     { "equirectangular", NULL,
-      "{\"spacetime\":{\"spin\":0.9},\"camera\":{\"r\":8,\"observer\":\"zamo\",\"inclination_deg\":75,\"projection\":\"equirectangular\"},"
+      "{\"spacetime\":{\"spin\":0.9},\"camera\":{\"r\":8,\"observer\":\"zamo\",\"inclination_deg\":75,\"projection\":"
+      "\"equirectangular\"},"
       "\"disk\":{\"outer\":7,\"opacity\":0.7,\"gas\":{\"amplitude\":0}},\"sky\":{\"model\":\"grid\"}," SIZE "}" },
     { "fulldome", NULL,
-      "{\"spacetime\":{\"spin\":0.9},\"camera\":{\"r\":5,\"observer\":\"zamo\",\"inclination_deg\":80,\"projection\":\"fulldome\",\"pitch_deg\":20,"
+      "{\"spacetime\":{\"spin\":0.9},\"camera\":{\"r\":5,\"observer\":\"zamo\",\"inclination_deg\":80,\"projection\":"
+      "\"fulldome\",\"pitch_deg\":20,"
       "\"roll_deg\":10},\"disk\":{\"outer\":12,\"gas\":{\"amplitude\":0}},\"sky\":{\"model\":\"grid\"}," SIZE "}" },
     { "grid", NULL,
       "{\"camera\":{\"field_m\":40,\"inclination_deg\":60},\"disk\":{\"model\":\"none\"},"
       "\"sky\":{\"model\":\"grid\",\"brightness\":0.7},\"style\":{\"exposure\":0}," SIZE "}" },
     { "milky-way", "milky-way", "{" SIZE "}" },
     { "stars", NULL,
-      "{\"camera\":{\"field_m\":60,\"inclination_deg\":70},\"sky\":{\"model\":\"stars\",\"seed\":3,\"brightness\":0.03},\"style\":{\"exposure\":0.5}," SIZE "}" },
+      "{\"camera\":{\"field_m\":60,\"inclination_deg\":70},\"sky\":{\"model\":\"stars\",\"seed\":3,\"brightness\":0.03}"
+      ",\"style\":{\"exposure\":0.5}," SIZE "}" },
     { "real-stars", NULL,
-      "{\"spacetime\":{\"spin\":0.9},\"camera\":{\"r\":6,\"observer\":\"zamo\",\"inclination_deg\":80,\"projection\":\"equirectangular\"},"
-      "\"disk\":{\"model\":\"none\",\"band\":\"visible\"},\"sky\":{\"model\":\"catalogue\",\"milky_way\":0,\"limit_mag\":7,\"brightness\":0.02,\"orientation\":\"equatorial\"},"
+      "{\"spacetime\":{\"spin\":0.9},\"camera\":{\"r\":6,\"observer\":\"zamo\",\"inclination_deg\":80,\"projection\":"
+      "\"equirectangular\"},"
+      "\"disk\":{\"model\":\"none\",\"band\":\"visible\"},\"sky\":{\"model\":\"catalogue\",\"milky_way\":0,\"limit_"
+      "mag\":7,\"brightness\":0.02,\"orientation\":\"equatorial\"},"
       "\"style\":{\"exposure\":1}," SIZE "}" },
     { "translucent", NULL, "{\"disk\":{\"opacity\":0.4},\"sky\":{\"model\":\"grid\"}," SIZE "}" },
     { "no-doppler", NULL, "{\"disk\":{\"doppler\":false,\"redshift\":false}," SIZE "}" },
@@ -97,22 +105,33 @@ static const struct shot {
       "{\"image\":{\"width\":160,\"height\":90,\"samples\":4,\"bit_depth\":16},"
       "\"style\":{\"tone_map\":\"srgb\"}}" },
     { "torn-star", NULL,
-      "{\"camera\":{\"inclination_deg\":30,\"field_m\":300,\"centre_beta\":20},\"disk\":{\"outer\":20},\"spacetime\":{\"spin\":0},\"style\":{\"exposure\":1}," SIZE "}", "{\"preset\":\"white-dwarf\",\"debris_per_body\":20000}", 1800 },
+      "{\"camera\":{\"inclination_deg\":30,\"field_m\":300,\"centre_beta\":20},\"disk\":{\"outer\":20},\"spacetime\":{"
+      "\"spin\":0},\"style\":{\"exposure\":1}," SIZE "}",
+      "{\"preset\":\"white-dwarf\",\"debris_per_body\":20000}", 1800 },
 };
 #define SHOTS (sizeof shots / sizeof *shots)
 
 /* Each sky as each observer sees it: aberrated, shifted, and in coordinates of its own where the observer falls. */
 #define SKY(name, model, fields) { name, "{\"model\":\"" model "\"," fields "}" }
-static const struct { const char *name, *json; } skies[] = {
+static const struct {
+    const char *name, *json;
+} skies[] = {
     SKY("grid", "grid", "\"brightness\":0.25"),
     SKY("stars", "stars", "\"brightness\":0.06,\"seed\":3"),
     SKY("catalogue", "catalogue", "\"brightness\":0.06,\"orientation\":\"sgra\""),
     SKY("image", "image", "\"brightness\":0.35,\"orientation\":\"sgra\",\"image\":\"" STUDIO_SKY "\""),
-    SKY("image-stars", "catalogue", "\"brightness\":0.2,\"milky_way\":0.7,\"limit_mag\":5,\"orientation\":\"equatorial\",\"image\":\"" STUDIO_SKY "\""),
+    SKY("image-stars", "catalogue",
+        "\"brightness\":0.2,\"milky_way\":0.7,\"limit_mag\":5,\"orientation\":\"equatorial\",\"image\":\"" STUDIO_SKY
+        "\""),
 };
 #define OBSERVER(word, fields) { word, "\"observer\":\"" word "\"" fields }
-static const struct { const char *name, *json; } observers[] = {
-    OBSERVER("static", ""), OBSERVER("zamo", ""), OBSERVER("keplerian", ""), OBSERVER("infall", ""),
+static const struct {
+    const char *name, *json;
+} observers[] = {
+    OBSERVER("static", ""),
+    OBSERVER("zamo", ""),
+    OBSERVER("keplerian", ""),
+    OBSERVER("infall", ""),
     OBSERVER("velocity", ",\"velocity_r\":-0.3,\"velocity_theta\":0.2,\"velocity_phi\":0.4"),
 };
 enum { SKIES = sizeof skies / sizeof *skies, OBSERVERS = sizeof observers / sizeof *observers };
@@ -121,8 +140,10 @@ static void sky_shot(size_t i, char name[64], char json[640], struct shot *out)
 {
     snprintf(name, 64, "sky-%s-%s", skies[i / OBSERVERS].name, observers[i % OBSERVERS].name);
     snprintf(json, 640,
-             "{\"spacetime\":{\"spin\":0.9},\"camera\":{\"r\":7,\"inclination_deg\":90,\"fov_deg\":120,\"pitch_deg\":10,%s},\"disk\":{\"model\":\"none\"},"
-             "\"sky\":%s,\"style\":{\"exposure\":1},\"image\":{\"width\":144,\"height\":81,\"samples\":2}}", observers[i % OBSERVERS].json, skies[i / OBSERVERS].json);
+             "{\"spacetime\":{\"spin\":0.9},\"camera\":{\"r\":7,\"inclination_deg\":90,\"fov_deg\":120,\"pitch_deg\":"
+             "10,%s},\"disk\":{\"model\":\"none\"},"
+             "\"sky\":%s,\"style\":{\"exposure\":1},\"image\":{\"width\":144,\"height\":81,\"samples\":2}}",
+             observers[i % OBSERVERS].json, skies[i / OBSERVERS].json);
     *out = (struct shot) { .name = name, .json = json };
 }
 
@@ -197,7 +218,8 @@ static enum kd_status read_reference(const char *path, struct kd_frame *out, str
     if (!status) {
         *out = (struct kd_frame) { .width = png.width,
                                    .height = png.height,
-                                   .layers = { { "rgb", 3, png.bit_depth == 16 ? KD_LAYER_U16 : KD_LAYER_U8, png.pixels } },
+                                   .layers = { { "rgb", 3, png.bit_depth == 16 ? KD_LAYER_U16 : KD_LAYER_U8,
+                                                 png.pixels } },
                                    .n_layers = 1,
                                    .exposure = scene.style.exposure };
         png.pixels = NULL;
@@ -209,7 +231,8 @@ static enum kd_status read_reference(const char *path, struct kd_frame *out, str
 
 static bool same_picture(const char *name, const struct kd_frame *got, const struct kd_frame *want)
 {
-    if (got->width != want->width || got->height != want->height || kd_frame_bit_depth(got) != kd_frame_bit_depth(want)) {
+    if (got->width != want->width || got->height != want->height ||
+        kd_frame_bit_depth(got) != kd_frame_bit_depth(want)) {
         printf("%s: another size or depth\n", name);
         return false;
     }
@@ -280,7 +303,9 @@ static bool takes_long(const struct shot *shot)
 {
     struct kd_scene scene = studio_scene(shot->preset, shot->json);
     const struct kd_body *bodies[KD_SCENE_BODIES];
-    return scene.sky.model == KD_SKY_STARS || scene.sky.model == KD_SKY_CATALOGUE || scene.jets.brightness > 0 || !strncmp(shot->name, "gold-", 5) || !strcmp(shot->name, "riaf") || !strcmp(shot->name, "torus") || kd_scene_bodies(&scene, bodies);
+    return scene.sky.model == KD_SKY_STARS || scene.sky.model == KD_SKY_CATALOGUE || scene.jets.brightness > 0 ||
+           !strncmp(shot->name, "gold-", 5) || !strcmp(shot->name, "riaf") || !strcmp(shot->name, "torus") ||
+           kd_scene_bodies(&scene, bodies);
 }
 
 int main(int argc, char **argv)

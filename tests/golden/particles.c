@@ -28,22 +28,29 @@ static double ring(const struct kd_frame *f, double from, double to)
 static struct kd_frame shoot(const char *model, int seed, double epicycles, double index)
 {
     return studio_shoot("{\"time\":2000,\"spacetime\":{\"spin\":0.9},\"camera\":{\"inclination_deg\":0,\"field_m\":%g},"
-                        "\"disk\":{\"model\":\"%s\",\"inner\":8,\"outer\":14,\"taper\":0,\"seed\":%d,\"epicycles\":%g,\"density_index\":%g},"
+                        "\"disk\":{\"model\":\"%s\",\"inner\":8,\"outer\":14,\"taper\":0,\"seed\":%d,\"epicycles\":%g,"
+                        "\"density_index\":%g},"
                         "\"image\":{\"width\":%d,\"height\":%d,\"samples\":4,\"bit_depth\":16},"
                         "\"style\":{\"exposure\":-2,\"tone_map\":\"srgb\",\"dither\":false}}",
                         FIELD, model, seed, epicycles, index, PIXELS, PIXELS);
 }
 
 /* The disk from 8 to 14 M is seen directly at 9 to 15 M and by light that
- * went round the back at 5.2 to 6.5. A ring that shows the share s of 300 000 particles has a Poisson error of 1/sqrt(300 000 s): for
- * the quarters of the direct image 0.4 %, for order 1, where the whole disk is seen, 0.2 %. Three of these. (Enough rays must
- * fall on order 1, eight pixels wide, to see all particles: sixteen a pixel. For order 2 they are too few.) */
+ * went round the back at 5.2 to 6.5. A ring that shows the share s of 300 000 particles has a Poisson error of
+ * 1/sqrt(300 000 s): for the quarters of the direct image 0.4 %, for order 1, where the whole disk is seen, 0.2 %.
+ * Three of these. (Enough rays must fall on order 1, eight pixels wide, to see all particles: sixteen a pixel. For
+ * order 2 they are too few.) */
 static void the_mean_is_the_smooth_disk(void **state)
 {
     (void)state;
-    static const struct { const char *what; double from, to, share; } rings[] = {
-        { "order 0, first quarter", 9.5, 10.5, 0.2 }, { "order 0, second quarter", 10.5, 12, 0.2 },
-        { "order 0, third quarter", 12, 13.5, 0.2 }, { "order 0, last quarter", 13.5, 14.8, 0.15 },
+    static const struct {
+        const char *what;
+        double from, to, share;
+    } rings[] = {
+        { "order 0, first quarter", 9.5, 10.5, 0.2 },
+        { "order 0, second quarter", 10.5, 12, 0.2 },
+        { "order 0, third quarter", 12, 13.5, 0.2 },
+        { "order 0, last quarter", 13.5, 14.8, 0.15 },
         { "order 1", 5.2, 8, 1 },
     };
     struct kd_frame smooth = shoot("novikov-thorne", 0, 0, 0);

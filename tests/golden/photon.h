@@ -1,4 +1,5 @@
-/* This is the photon that a pixel of a picture of one ray a pixel sees, for the Kerr-Schild oracle: of a plane camera, or of a static observer's pinhole. */
+/* This is the photon that a pixel of a picture of one ray a pixel sees, for the Kerr-Schild oracle: of a plane
+ * camera, or of a static observer's pinhole. */
 #ifndef KD_TESTS_GOLDEN_PHOTON_H
 #define KD_TESTS_GOLDEN_PHOTON_H
 
@@ -9,10 +10,12 @@
 
 static inline struct ks_photon photon_of(const struct kd_scene *scene, uint32_t x, uint32_t y)
 {
-    double theta = scene->camera.inclination_deg * (M_PI / 180), width = scene->image.width, height = scene->image.height;
+    double theta = scene->camera.inclination_deg * (M_PI / 180), width = scene->image.width,
+           height = scene->image.height;
     bool far = isinf(scene->camera.r);
     double step = far ? scene->camera.field_m / width : 2 * tan(scene->camera.fov_deg * (M_PI / 360)) / width;
-    double right = step * (x - 0.5 * (width - 1)), up = -step * (y - 0.5 * (height - 1)), n = sqrt(1 + right * right + up * up);
+    double right = step * (x - 0.5 * (width - 1)), up = -step * (y - 0.5 * (height - 1)),
+           n = sqrt(1 + right * right + up * up);
     const double k[3] = { -1 / n, -up / n, right / n };
     return far ? ks_from_infinity(scene->spacetime.spin, cos(theta), right, up)
                : ks_from_camera(scene->spacetime.spin, scene->camera.r, theta, false, k);

@@ -1,5 +1,6 @@
-/* What is seen of the gas that falls from the ISCO: how much of it there is, its redshift, and the delay of its light. Rays by
- * the closed form in double, redshift by contraction with the metric, densities from the flow of particles. */
+/* What is seen of the gas that falls from the ISCO: how much of it there is, its redshift, and the delay of its
+ * light. Rays by the closed form in double, redshift by contraction with the metric, densities from the flow of
+ * particles. */
 #include "studio.h"
 
 #include "contraction.h"
@@ -18,7 +19,11 @@
 
 #include <cmocka.h>
 
-struct ray { struct kd_camera_label label; double lambda, eta; struct kd_null_path path; };
+struct ray {
+    struct kd_camera_label label;
+    double lambda, eta;
+    struct kd_null_path path;
+};
 
 static struct ray ray_of(const struct kd_scene *scene, uint32_t x, uint32_t y)
 {
@@ -30,8 +35,14 @@ static struct ray ray_of(const struct kd_scene *scene, uint32_t x, uint32_t y)
     ray.lambda = -alpha * sin(i);
     ray.eta = (alpha - a) * (alpha + a) * c * c + beta * beta;
     const struct kd_null_ray null = {
-        .spin = a, .radius = scene->camera.r, .cos_theta = c, .sin_theta = sin(i), .alpha = alpha, .beta = beta,
-        .outward = ray.label.outward, .orders = 1,
+        .spin = a,
+        .radius = scene->camera.r,
+        .cos_theta = c,
+        .sin_theta = sin(i),
+        .alpha = alpha,
+        .beta = beta,
+        .outward = ray.label.outward,
+        .orders = 1,
     };
     ray.path = kd_null_trace_fast(&null);
     return ray;
@@ -50,23 +61,28 @@ static struct kd_frame shot(struct kd_scene *scene, bool doppler, bool redshift)
     return studio_render(scene);
 }
 
-#define AMONG_IT "\"spacetime\":{\"spin\":0.3}," \
-                 "\"camera\":{\"r\":3.2,\"observer\":\"zamo\",\"inclination_deg\":75,\"fov_deg\":120,\"yaw_deg\":180}"
+#define AMONG_IT \
+    "\"spacetime\":{\"spin\":0.3}," \
+    "\"camera\":{\"r\":3.2,\"observer\":\"zamo\",\"inclination_deg\":75,\"fov_deg\":120,\"yaw_deg\":180}"
 
-/* The same pixel with and without the factors of g: brightness goes as g^4 whatever the gas is like there. To far away most
- * light leaves the gas outwards, to an observer within it it comes inwards as well. 16 bits: the fourth root of a luminance of
- * 0.01 is known to 1e-4. */
+/* The same pixel with and without the factors of g: brightness goes as g^4 whatever the gas is like there. To far
+ * away most light leaves the gas outwards, to an observer within it it comes inwards as well. 16 bits: the fourth
+ * root of a luminance of 0.01 is known to 1e-4. */
 static void redshift_of_light(void **state)
 {
     (void)state;
-    static const struct { const char *what, *json, *accuracy; } views[] = {
+    static const struct {
+        const char *what, *json, *accuracy;
+    } views[] = {
         { "from afar", "\"spacetime\":{\"spin\":0.3},\"camera\":{\"inclination_deg\":60,\"field_m\":14}", "" },
         { "from afar, fast", "\"spacetime\":{\"spin\":0.95},\"camera\":{\"inclination_deg\":40,\"field_m\":8}", "" },
         { "retrograde", "\"spacetime\":{\"spin\":-0.7},\"camera\":{\"inclination_deg\":75,\"field_m\":20}", "" },
         { "closed", "\"spacetime\":{\"spin\":-0.7},\"camera\":{\"inclination_deg\":75,\"field_m\":20}",
           ",\"engine\":\"closed\",\"precision\":\"f64\"" },
         { "near",
-          "\"spacetime\":{\"spin\":0.3},\"camera\":{\"r\":12,\"observer\":\"zamo\",\"inclination_deg\":70,\"fov_deg\":60}", "" },
+          "\"spacetime\":{\"spin\":0.3},\"camera\":{\"r\":12,\"observer\":\"zamo\",\"inclination_deg\":70,\"fov_deg\":"
+          "60}",
+          "" },
         { "from among it", AMONG_IT, "" },
         { "from among it, listed", AMONG_IT, ",\"precision\":\"f64\"" },
     };
@@ -77,20 +93,24 @@ static void redshift_of_light(void **state)
         bool wide = strstr(views[v].accuracy, "f64") && !strstr(views[v].accuracy, "closed");
         if (wide && !studio_has_float64(views[v].what))
             continue;
-        snprintf(json, sizeof json, "{%s,"
-                 "\"disk\":{\"model\":\"particles\",\"plunging\":0.5,\"plunging_temperature\":1,\"density_index\":0},"
-                 "\"image\":{\"width\":160,\"height\":120,\"samples\":1,\"bit_depth\":16},\"accuracy\":{\"orders\":1%s},"
-                 "\"style\":{\"exposure\":-2,\"tone_map\":\"srgb\",\"dither\":false}}", views[v].json, views[v].accuracy);
+        snprintf(
+            json, sizeof json,
+            "{%s,"
+            "\"disk\":{\"model\":\"particles\",\"plunging\":0.5,\"plunging_temperature\":1,\"density_index\":0},"
+            "\"image\":{\"width\":160,\"height\":120,\"samples\":1,\"bit_depth\":16},\"accuracy\":{\"orders\":1%s},"
+            "\"style\":{\"exposure\":-2,\"tone_map\":\"srgb\",\"dither\":false}}",
+            views[v].json, views[v].accuracy);
         struct kd_scene scene = studio_scene(NULL, json);
         double a = scene.spacetime.spin;
-        struct kd_frame plain = shot(&scene, false, false), slowed = shot(&scene, false, true), full = shot(&scene, true, true),
-                        moved = shot(&scene, true, false);
+        struct kd_frame plain = shot(&scene, false, false), slowed = shot(&scene, false, true),
+                        full = shot(&scene, true, true), moved = shot(&scene, true, false);
         const struct kd_plunge plunge = kd_plunge_of(a);
         for (uint32_t y = 0; y < 120; y++)
             for (uint32_t x = 0; x < 160; x++) {
                 struct ray ray = ray_of(&scene, x, y);
                 double base = studio_luminance(&plain, x, y);
-                const double light[] = { studio_luminance(&slowed, x, y), studio_luminance(&full, x, y), studio_luminance(&moved, x, y) };
+                const double light[] = { studio_luminance(&slowed, x, y), studio_luminance(&full, x, y),
+                                         studio_luminance(&moved, x, y) };
                 if (!meets_the_plunge(&scene, &ray) || base < 0.01)
                     continue;
                 double r = ray.path.crossing[0].r; /* the near observer's own redshift is in every picture */
@@ -102,15 +122,17 @@ static void redshift_of_light(void **state)
                         continue;
                     double off = fabs(pow(light[k] / base, 0.25) / want[k] - 1);
                     if (!(off < 2e-3))
-                        fail_msg("%s, pixel %u %u, r = %g: g %g, not %g", views[v].what, x, y, r, pow(light[k] / base, 0.25),
-                                 want[k]);
+                        fail_msg("%s, pixel %u %u, r = %g: g %g, not %g", views[v].what, x, y, r,
+                                 pow(light[k] / base, 0.25), want[k]);
                     worst[k] = fmax(worst[k], off);
                     judged[sense > 0][k]++;
                 }
             }
-        printf("%s: so far light outwards, inwards: 1/u^t of %d and %d pixels within %.2g, g of %d and %d within %.2g, g u^t "
-               "of %d and %d within %.2g\n", views[v].what, judged[1][0], judged[0][0], worst[0], judged[1][1], judged[0][1],
-               worst[1], judged[1][2], judged[0][2], worst[2]);
+        printf("%s: so far light outwards, inwards: 1/u^t of %d and %d pixels within %.2g, g of %d and %d within %.2g, "
+               "g u^t "
+               "of %d and %d within %.2g\n",
+               views[v].what, judged[1][0], judged[0][0], worst[0], judged[1][1], judged[0][1], worst[1], judged[1][2],
+               judged[0][2], worst[2]);
         kd_frame_finish(&plain);
         kd_frame_finish(&slowed);
         kd_frame_finish(&full);
@@ -121,10 +143,10 @@ static void redshift_of_light(void **state)
             assert_true(judged[sense][k] > 500);
 }
 
-/* Face-on, without redshift: the optical depth of thin gas, ring by ring, is that of the flow: so many particles a time through
- * a circle of 2 pi r at u^r, over the particles per area of the disk where it ends. The parcels are few: their Poisson error,
- * 10 000 of them for each seed. Where the depth is below 0.05, for a clumpy gas shines less than an even one: by half the
- * depth. */
+/* Face-on, without redshift: the optical depth of thin gas, ring by ring, is that of the flow: so many particles a
+ * time through a circle of 2 pi r at u^r, over the particles per area of the disk where it ends. The parcels are
+ * few: their Poisson error, 10 000 of them for each seed. Where the depth is below 0.05, for a clumpy gas shines
+ * less than an even one: by half the depth. */
 static void surface_density(void **state)
 {
     (void)state;
@@ -132,17 +154,21 @@ static void surface_density(void **state)
     double got[RINGS] = { 0 }, want[RINGS] = { 0 };
     for (int seed = 0; seed < SEEDS; seed++) {
         char json[1024];
-        snprintf(json, sizeof json, "{\"time\":%d,\"spacetime\":{\"spin\":0.5},\"camera\":{\"inclination_deg\":0,\"field_m\":12},"
-                 "\"disk\":{\"model\":\"particles\",\"particles\":10000000,\"plunging\":0.001,\"plunging_temperature\":1,"
-                 "\"seed\":%d,\"doppler\":false,\"redshift\":false,\"density_index\":1},"
-                 "\"image\":{\"width\":%d,\"height\":%d,\"samples\":1,\"bit_depth\":16},\"accuracy\":{\"orders\":1},"
-                 "\"style\":{\"exposure\":1,\"tone_map\":\"srgb\",\"dither\":false}}", 1000 * seed - 1500, seed, PIXELS, PIXELS);
+        snprintf(
+            json, sizeof json,
+            "{\"time\":%d,\"spacetime\":{\"spin\":0.5},\"camera\":{\"inclination_deg\":0,\"field_m\":12},"
+            "\"disk\":{\"model\":\"particles\",\"particles\":10000000,\"plunging\":0.001,\"plunging_temperature\":1,"
+            "\"seed\":%d,\"doppler\":false,\"redshift\":false,\"density_index\":1},"
+            "\"image\":{\"width\":%d,\"height\":%d,\"samples\":1,\"bit_depth\":16},\"accuracy\":{\"orders\":1},"
+            "\"style\":{\"exposure\":1,\"tone_map\":\"srgb\",\"dither\":false}}",
+            1000 * seed - 1500, seed, PIXELS, PIXELS);
         struct kd_scene scene = studio_scene(NULL, json);
         struct kd_frame frame = studio_render(&scene);
         const struct kd_plunging p = kd_plunging_of(&scene);
         double isco = p.curve.isco, n = 1e7, step = 1e-4;
         /* circles hold (1 - plunging) n; their share per radius at the ISCO, from the radii of shares */
-        double circling = (1 - 0.001) * n * step / (kd_particle_radius(&scene, 0.02 + step) - kd_particle_radius(&scene, 0.02));
+        double circling =
+            (1 - 0.001) * n * step / (kd_particle_radius(&scene, 0.02 + step) - kd_particle_radius(&scene, 0.02));
         double r_there = kd_particle_radius(&scene, 0.02 + step / 2);
         circling *= pow(isco / r_there, 1 - scene.disk.density_index); /* dN/dr goes as r^(1 - p) */
         double edge = circling / (2 * M_PI * isco * kd_kerr_ut(0.5, isco));
@@ -168,17 +194,20 @@ static void surface_density(void **state)
     }
 }
 
-/* Slow light: a pixel of the stream is as in a fast picture of the time at which its light left, for far and near observers;
- * not to the last step, for parcels that lie otherwise between the nodes of the grid are blurred another way. */
+/* Slow light: a pixel of the stream is as in a fast picture of the time at which its light left, for far and near
+ * observers; not to the last step, for parcels that lie otherwise between the nodes of the grid are blurred another
+ * way. */
 static void delay_of_light(void **state)
 {
     (void)state;
     for (int near = 0; near < 2; near++) {
         struct kd_scene scene = studio_scene(NULL, "{\"time\":700,\"spacetime\":{\"spin\":0.3},"
-            "\"camera\":{\"inclination_deg\":65,\"field_m\":16,\"fov_deg\":30},"
-            "\"image\":{\"width\":160,\"height\":90,\"samples\":1},"
-            "\"disk\":{\"model\":\"particles\",\"particles\":20000,\"plunging\":0.5,\"plunging_temperature\":1,\"doppler\":false,"
-            "\"redshift\":false,\"slow_light\":true},\"style\":{\"exposure\":-1,\"tone_map\":\"srgb\",\"dither\":false}}");
+                                                   "\"camera\":{\"inclination_deg\":65,\"field_m\":16,\"fov_deg\":30},"
+                                                   "\"image\":{\"width\":160,\"height\":90,\"samples\":1},"
+                                                   "\"disk\":{\"model\":\"particles\",\"particles\":20000,\"plunging\":"
+                                                   "0.5,\"plunging_temperature\":1,\"doppler\":false,"
+                                                   "\"redshift\":false,\"slow_light\":true},\"style\":{\"exposure\":-1,"
+                                                   "\"tone_map\":\"srgb\",\"dither\":false}}");
         if (near)
             scene.camera.r = 30;
         struct kd_frame slow = studio_render(&scene);

@@ -22,8 +22,7 @@ static double difference(const struct kd_frame *a, const struct kd_frame *b, int
     for (uint32_t y = 0; y < a->height; y++)
         for (uint32_t x = 0; x < a->width; x++)
             for (int c = 0; c < 3; c++) {
-                uint32_t bx = flip & FLIP_X ? a->width - 1 - x : x,
-                         by = flip & FLIP_Y ? a->height - 1 - y : y;
+                uint32_t bx = flip & FLIP_X ? a->width - 1 - x : x, by = flip & FLIP_Y ? a->height - 1 - y : y;
                 worst = fmax(worst, fabs(studio_value(a, x, y, c) - studio_value(b, bx, by, c)));
             }
     return 255 * worst;
@@ -49,8 +48,8 @@ static void the_approaching_side_is_left(void **state)
                                     "\"r\":40,\"fov_deg\":60,\"inclination_deg\":75,\"observer\":\"zamo\"" };
     for (int k = 0; k < 12; k++) {
         double a = (k % 3 - 1) * 0.9;
-        struct kd_frame f = studio_shoot(
-            "{\"spacetime\":{\"spin\":%g},\"camera\":{%s}," SIZE(96, 54) "," LINEAR "}", a, cameras[k / 3]);
+        struct kd_frame f = studio_shoot("{\"spacetime\":{\"spin\":%g},\"camera\":{%s}," SIZE(96, 54) "," LINEAR "}", a,
+                                         cameras[k / 3]);
         double left = light_between(&f, 0, 48), right = light_between(&f, 48, 96);
         if (!(left > 2 * right && right > 0))
             fail_msg("a = %g, {%s}: %g on the left, %g on the right", a, cameras[k / 3], left, right);
@@ -63,36 +62,30 @@ static void the_approaching_side_is_left(void **state)
 static void symmetries(void **state)
 {
     (void)state;
-    const struct { const char *what, *one, *other; int flip; } pairs[] = {
-        { "left and right without spin and Doppler shift",
-          "\"spacetime\":{\"spin\":0},\"disk\":{\"doppler\":false}",
+    const struct {
+        const char *what, *one, *other;
+        int flip;
+    } pairs[] = {
+        { "left and right without spin and Doppler shift", "\"spacetime\":{\"spin\":0},\"disk\":{\"doppler\":false}",
           "\"spacetime\":{\"spin\":0},\"disk\":{\"doppler\":false}", FLIP_X },
         { "left and right edge-on without spin",
           "\"spacetime\":{\"spin\":0},\"camera\":{\"inclination_deg\":90},\"disk\":{\"doppler\":false}",
           "\"spacetime\":{\"spin\":0},\"camera\":{\"inclination_deg\":90},\"disk\":{\"doppler\":false}", FLIP_X },
-        { "above and below the plane",
-          "\"camera\":{\"inclination_deg\":70}",
-          "\"camera\":{\"inclination_deg\":110}", FLIP_Y },
-        { "above and below, retrograde",
-          "\"spacetime\":{\"spin\":-0.8},\"camera\":{\"inclination_deg\":25}",
+        { "above and below the plane", "\"camera\":{\"inclination_deg\":70}", "\"camera\":{\"inclination_deg\":110}",
+          FLIP_Y },
+        { "above and below, retrograde", "\"spacetime\":{\"spin\":-0.8},\"camera\":{\"inclination_deg\":25}",
           "\"spacetime\":{\"spin\":-0.8},\"camera\":{\"inclination_deg\":155}", FLIP_Y },
-        { "above and below, near",
-          "\"camera\":{\"r\":30,\"inclination_deg\":60}",
+        { "above and below, near", "\"camera\":{\"r\":30,\"inclination_deg\":60}",
           "\"camera\":{\"r\":30,\"inclination_deg\":120}", FLIP_Y },
-        { "roll by half a turn",
-          "\"camera\":{\"inclination_deg\":70}",
+        { "roll by half a turn", "\"camera\":{\"inclination_deg\":70}",
           "\"camera\":{\"inclination_deg\":70,\"roll_deg\":180}", FLIP_X | FLIP_Y },
-        { "roll by half a turn, near",
-          "\"camera\":{\"r\":30,\"observer\":\"zamo\"}",
+        { "roll by half a turn, near", "\"camera\":{\"r\":30,\"observer\":\"zamo\"}",
           "\"camera\":{\"r\":30,\"observer\":\"zamo\",\"roll_deg\":-180}", FLIP_X | FLIP_Y },
-        { "roll by a whole turn, looking aside",
-          "\"camera\":{\"r\":30,\"yaw_deg\":5,\"pitch_deg\":3}",
+        { "roll by a whole turn, looking aside", "\"camera\":{\"r\":30,\"yaw_deg\":5,\"pitch_deg\":3}",
           "\"camera\":{\"r\":30,\"yaw_deg\":5,\"pitch_deg\":3,\"roll_deg\":360}", 0 },
-        { "azimuth, of which the disk knows nothing",
-          "\"camera\":{\"azimuth_deg\":0}",
+        { "azimuth, of which the disk knows nothing", "\"camera\":{\"azimuth_deg\":0}",
           "\"camera\":{\"azimuth_deg\":77}", 0 },
-        { "mass and rate, of which a chosen temperature knows nothing",
-          "\"disk\":{\"mdot_edd\":0.1}",
+        { "mass and rate, of which a chosen temperature knows nothing", "\"disk\":{\"mdot_edd\":0.1}",
           "\"disk\":{\"mdot_edd\":3},\"spacetime\":{\"mass_msun\":10}", 0 },
     };
     for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
@@ -120,8 +113,7 @@ static void a_quarter_turn(void **state)
         for (uint32_t y = 0; y < 96; y++)
             for (uint32_t x = 0; x < 96; x++)
                 for (int c = 0; c < 3; c++)
-                    if (!(fabs(studio_value(&rolled, x, y, c) - studio_value(&level, 95 - y, x, c)) <=
-                          1.0 / 255))
+                    if (!(fabs(studio_value(&rolled, x, y, c) - studio_value(&level, 95 - y, x, c)) <= 1.0 / 255))
                         fail_msg("{%s}: (%u, %u) is not what was at (%u, %u)", cameras[k], x, y, 95 - y, x);
         kd_frame_finish(&level);
         kd_frame_finish(&rolled);
@@ -144,21 +136,18 @@ static void asymmetries(void **state)
 static void samples_are_averages(void **state)
 {
     (void)state;
-    const char *const cameras[] = { "\"inclination_deg\":80",
-                                    "\"r\":25,\"inclination_deg\":80,\"roll_deg\":10" };
+    const char *const cameras[] = { "\"inclination_deg\":80", "\"r\":25,\"inclination_deg\":80,\"roll_deg\":10" };
     for (int k = 0; k < 2; k++) {
-        struct kd_frame f = studio_shoot(
-            "{\"camera\":{%s},\"image\":{\"width\":60,\"height\":40,\"bit_depth\":16,\"samples\":2,\"critical_factor\":1}," LINEAR
-            "}",
-            cameras[k]);
+        struct kd_frame f = studio_shoot("{\"camera\":{%s},\"image\":{\"width\":60,\"height\":40,\"bit_depth\":16,"
+                                         "\"samples\":2,\"critical_factor\":1}," LINEAR "}",
+                                         cameras[k]);
         struct kd_frame big = studio_shoot("{\"camera\":{%s}," SIZE(120, 80) "," LINEAR "}", cameras[k]);
         for (uint32_t y = 0; y < 40; y++)
             for (uint32_t x = 0; x < 60; x++)
                 for (int c = 0; c < 3; c++) {
-                    double mean = 0.25 * (studio_light(&big, 2 * x, 2 * y, c) +
-                                          studio_light(&big, 2 * x + 1, 2 * y, c) +
-                                          studio_light(&big, 2 * x, 2 * y + 1, c) +
-                                          studio_light(&big, 2 * x + 1, 2 * y + 1, c));
+                    double mean =
+                        0.25 * (studio_light(&big, 2 * x, 2 * y, c) + studio_light(&big, 2 * x + 1, 2 * y, c) +
+                                studio_light(&big, 2 * x, 2 * y + 1, c) + studio_light(&big, 2 * x + 1, 2 * y + 1, c));
                     double got = studio_light(&f, x, y, c);
                     if (!(fabs(got - mean) < 8e-5))
                         fail_msg("{%s}: pixel (%u, %u): %g, not %g", cameras[k], x, y, got, mean);
@@ -172,8 +161,7 @@ static void samples_are_averages(void **state)
 static void a_stop_is_a_factor_of_two(void **state)
 {
     (void)state;
-    const char *scene =
-        "{\"style\":{\"exposure\":%d,\"tone_map\":\"srgb\",\"dither\":false}," SIZE(80, 45) "}";
+    const char *scene = "{\"style\":{\"exposure\":%d,\"tone_map\":\"srgb\",\"dither\":false}," SIZE(80, 45) "}";
     struct kd_frame dim = studio_shoot(scene, -5), bright = studio_shoot(scene, -4);
     int counted = 0;
     for (uint32_t y = 0; y < 45; y++)
@@ -196,11 +184,9 @@ static void a_stop_is_a_factor_of_two(void **state)
 static void the_same_bytes(void **state)
 {
     (void)state;
-    const char *const scenes[] = {
-        "{\"image\":{\"width\":161,\"height\":91}}",
-        "{\"camera\":{\"r\":12},\"sky\":{\"model\":\"grid\"},\"disk\":{\"opacity\":0.5},"
-        "\"image\":{\"width\":161,\"height\":91,\"bit_depth\":16}}"
-    };
+    const char *const scenes[] = { "{\"image\":{\"width\":161,\"height\":91}}",
+                                   "{\"camera\":{\"r\":12},\"sky\":{\"model\":\"grid\"},\"disk\":{\"opacity\":0.5},"
+                                   "\"image\":{\"width\":161,\"height\":91,\"bit_depth\":16}}" };
     for (int k = 0; k < 2; k++) {
         struct kd_frame first = studio_shoot("%s", scenes[k]), kept = studio_shoot("%s", scenes[k]);
         size_t size = 161 * 91 * 3 * (size_t)kd_frame_bit_depth(&first) / 8;
@@ -218,9 +204,7 @@ static void the_same_bytes(void **state)
 }
 
 /* Area, centre and extent of what is lit, in pixels. */
-struct shape {
-    double area, x, y, xx, yy;
-};
+struct shape { double area, x, y, xx, yy; };
 static struct shape shape_of(const struct kd_frame *f)
 {
     struct shape s = { 0 };
@@ -250,17 +234,17 @@ static void far_away_is_infinity(void **state)
     double fov = 2 * atan(0.5 * 46 / 1000) * 180 / M_PI;
     for (int k = 0; k < 6; k++) {
         double a = k % 3 * 0.45;
-        struct kd_frame near = studio_shoot(
-            "{\"spacetime\":{\"spin\":%g},\"camera\":{\"r\":1000,\"fov_deg\":%.9g,\"observer\":\"%s\","
-            "\"inclination_deg\":70},%s}",
-            a, fov, k < 3 ? "static" : "zamo", disk);
+        struct kd_frame near =
+            studio_shoot("{\"spacetime\":{\"spin\":%g},\"camera\":{\"r\":1000,\"fov_deg\":%.9g,\"observer\":\"%s\","
+                         "\"inclination_deg\":70},%s}",
+                         a, fov, k < 3 ? "static" : "zamo", disk);
         struct kd_frame far = studio_shoot(
             "{\"spacetime\":{\"spin\":%g},\"camera\":{\"field_m\":46,\"inclination_deg\":70},%s}", a, disk);
         struct shape p = shape_of(&near), q = shape_of(&far);
-        if (!(fabs(p.area / q.area - 1) < 0.03 && fabs(p.xx / q.xx - 1) < 0.03 &&
-              fabs(p.yy / q.yy - 1) < 0.03 && fabs(p.x - q.x) < 0.5 && fabs(p.y - q.y) < 0.03 * q.yy + 0.5))
-            fail_msg("a = %g: area %g, centre (%g, %g), extent (%g, %g), at infinity %g, (%g, %g), (%g, %g)",
-                     a, p.area, p.x, p.y, p.xx, p.yy, q.area, q.x, q.y, q.xx, q.yy);
+        if (!(fabs(p.area / q.area - 1) < 0.03 && fabs(p.xx / q.xx - 1) < 0.03 && fabs(p.yy / q.yy - 1) < 0.03 &&
+              fabs(p.x - q.x) < 0.5 && fabs(p.y - q.y) < 0.03 * q.yy + 0.5))
+            fail_msg("a = %g: area %g, centre (%g, %g), extent (%g, %g), at infinity %g, (%g, %g), (%g, %g)", a, p.area,
+                     p.x, p.y, p.xx, p.yy, q.area, q.x, q.y, q.xx, q.yy);
         double ratio = light_between(&near, 0, 200) / light_between(&far, 0, 200);
         assert_true(fabs(ratio - 1) < 0.03);
         kd_frame_finish(&near);
@@ -276,10 +260,8 @@ static void a_transparent_disk(void **state)
     const char *scene = "{\"disk\":{%s},\"sky\":{\"model\":\"grid\",\"brightness\":1},\"style\":{"
                         "\"exposure\":-2,\"tone_map\":\"srgb\","
                         "\"dither\":false}," SIZE(120, 80) "}";
-    struct kd_frame none = studio_shoot(scene, "\"model\":\"none\""),
-                    clear = studio_shoot(scene, "\"opacity\":0");
-    struct kd_frame thin = studio_shoot(scene, "\"opacity\":0.01"),
-                    thick = studio_shoot(scene, "\"opacity\":1");
+    struct kd_frame none = studio_shoot(scene, "\"model\":\"none\""), clear = studio_shoot(scene, "\"opacity\":0");
+    struct kd_frame thin = studio_shoot(scene, "\"opacity\":0.01"), thick = studio_shoot(scene, "\"opacity\":1");
     int off = 0;
     double change[2] = { 0 };
     for (uint32_t y = 0; y < 80; y++)

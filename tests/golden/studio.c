@@ -23,15 +23,21 @@ enum { ROWS = 256 };
 
 static void sky_pixel(double l, double b, uint8_t rgb[3])
 {
-    static const struct { double l, b; uint8_t rgb[3]; } discs[] = {
-        { 0, 0, { 255, 150, 30 } }, { 90, 0, { 230, 20, 20 } }, { 180, 0, { 20, 200, 40 } }, { 270, 0, { 30, 60, 255 } }, { 0, 90, { 255, 255, 255 } },
+    static const struct {
+        double l, b;
+        uint8_t rgb[3];
+    } discs[] = {
+        { 0, 0, { 255, 150, 30 } },  { 90, 0, { 230, 20, 20 } },   { 180, 0, { 20, 200, 40 } },
+        { 270, 0, { 30, 60, 255 } }, { 0, 90, { 255, 255, 255 } },
     };
     const double degree = M_PI / 180;
     const bool line = fabs(remainder(l, 30)) * cos(b * degree) < 0.7 || fabs(remainder(b, 30)) < 0.7;
     for (int c = 0; c < 3; c++)
         rgb[c] = (uint8_t)(line ? 150 : 60 + 40 * cos((l - 120 * c) * degree));
     for (size_t i = 0; i < sizeof discs / sizeof *discs; i++)
-        if (sin(b * degree) * sin(discs[i].b * degree) + cos(b * degree) * cos(discs[i].b * degree) * cos((l - discs[i].l) * degree) > cos(12 * degree))
+        if (sin(b * degree) * sin(discs[i].b * degree) +
+                cos(b * degree) * cos(discs[i].b * degree) * cos((l - discs[i].l) * degree) >
+            cos(12 * degree))
             memcpy(rgb, discs[i].rgb, 3);
 }
 
@@ -43,8 +49,11 @@ static bool take(void *user, const char *hash, struct kd_asset_bytes *out)
     if (strcmp(hash, STUDIO_SKY))
         return false;
     for (size_t i = 0; i < (size_t)2 * ROWS * ROWS && !sky.size; i++)
-        sky_pixel(180 - 180 * ((double)(i % (2 * ROWS)) + 0.5) / ROWS, 90 - 180 * ((double)(i / (2 * ROWS)) + 0.5) / ROWS, &pixels[3 * i]);
-    if (!sky.size && kd_png_encode(&(struct kd_png_params) { .width = 2 * ROWS, .height = ROWS, .bit_depth = 8, .pixels = pixels }, &sky, &error))
+        sky_pixel(180 - 180 * ((double)(i % (2 * ROWS)) + 0.5) / ROWS,
+                  90 - 180 * ((double)(i / (2 * ROWS)) + 0.5) / ROWS, &pixels[3 * i]);
+    if (!sky.size &&
+        kd_png_encode(&(struct kd_png_params) { .width = 2 * ROWS, .height = ROWS, .bit_depth = 8, .pixels = pixels },
+                      &sky, &error))
         stop("the sky", &error);
     *out = (struct kd_asset_bytes) { sky.data, sky.size, NULL };
     return true;
@@ -93,8 +102,8 @@ struct kd_scene studio_scene(const char *preset, const char *json)
     struct kd_scene scene;
     struct kd_error error = { 0 };
     kd_scene_smooth(&scene);
-    if ((preset && kd_scene_preset(&scene, preset, &error)) ||
-        kd_scene_from_json(&scene, json, strlen(json), &error) || kd_scene_validate(&scene, &error))
+    if ((preset && kd_scene_preset(&scene, preset, &error)) || kd_scene_from_json(&scene, json, strlen(json), &error) ||
+        kd_scene_validate(&scene, &error))
         stop(json, &error);
     return scene;
 }
@@ -106,8 +115,7 @@ struct kd_frame studio_render(const struct kd_scene *scene)
     struct kd_frame frame;
     struct kd_error error = { 0 };
     kd_renderer_capacity(renderer, &capacity);
-    if (kd_plan_make(scene, &capacity, &plan, &error) ||
-        kd_render(renderer, scene, &plan, NULL, NULL, &frame, &error))
+    if (kd_plan_make(scene, &capacity, &plan, &error) || kd_render(renderer, scene, &plan, NULL, NULL, &frame, &error))
         stop("render", &error);
     return frame;
 }
@@ -127,7 +135,7 @@ double studio_value(const struct kd_frame *f, uint32_t x, uint32_t y, int c)
 {
     size_t at = 3 * ((size_t)y * f->width + x) + (size_t)c;
     return kd_frame_bit_depth(f) == 16 ? ((const uint16_t *)kd_frame_pixels(f))[at] / 65535.0
-                              : ((const uint8_t *)kd_frame_pixels(f))[at] / 255.0;
+                                       : ((const uint8_t *)kd_frame_pixels(f))[at] / 255.0;
 }
 
 double studio_light(const struct kd_frame *f, uint32_t x, uint32_t y, int c)

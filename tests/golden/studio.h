@@ -16,8 +16,8 @@ void studio_close(void);
 /* Whether kernels can compute in double precision here; if not, a line says that `what` is left out. */
 bool studio_has_float64(const char *what);
 
-/* A picture of the sky, for sky.image: longitude as colour, a net each 30 degrees, discs of 12 degrees: orange at l = 0, red at 90, green at 180, blue
- * at 270, white at the north pole. No bytes of that hash are known. */
+/* A picture of the sky, for sky.image: longitude as colour, a net each 30 degrees, discs of 12 degrees: orange at l
+ * = 0, red at 90, green at 180, blue at 270, white at the north pole. No bytes of that hash are known. */
 #define STUDIO_SKY "736b792d6f662d7468652d73747564696f2d0000000000000000000000000001"
 
 /* A preset (NULL: "smooth") with a JSON document merged over it. A scene that is not valid ends the

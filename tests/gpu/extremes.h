@@ -1,4 +1,5 @@
-/* The parts of the suite of extremes share this: the table, the measure of an error, and the parts themselves. One thread. */
+/* The parts of the suite of extremes share this: the table, the measure of an error, and the parts themselves. One
+ * thread. */
 #ifndef KD_TEST_EXTREMES_H
 #define KD_TEST_EXTREMES_H
 
@@ -19,11 +20,11 @@ struct extreme_row {
     size_t unsure;              /* rays of which the answer says that it does not hold them */
     double unsure_most;         /* fraction of the rays that may be so */
     size_t loose;               /* rays that are off by more than the error that they come with */
-    size_t broken;              /* rays with a number that is not finite, or a wrong fate or crossing of which nothing warns */
+    size_t broken; /* rays with a number that is not finite, or a wrong fate or crossing of which nothing warns */
 };
 
-/* Print a row, the first one under its heading. It breaks if `broken` is not 0, a worst error exceeds its bound, more rays are
- * unsure than may be, or more than one in a hundred is loose. */
+/* Print a row, the first one under its heading. It breaks if `broken` is not 0, a worst error exceeds its bound,
+ * more rays are unsure than may be, or more than one in a hundred is loose. */
 void extreme_row(const struct extreme_row *row);
 /* Rows so far; of them, those that broke. */
 size_t extreme_rows(size_t *broken);
@@ -31,9 +32,9 @@ size_t extreme_rows(size_t *broken);
 /* Sorts, and fills in median, most and worst; NaN without any. */
 void extreme_spread(double *errors, size_t n, struct extreme_row *row);
 
-/* Condition numbers of the crossings of `path`, measured on the closed form: the sum of |d ln r/d ln x|, or |d phi/d ln x|, over
- * alpha, beta, spin, cos(theta) and radius, each times its weight (NULL: 1). INFINITY where a fraction `step` makes it another
- * ray. */
+/* Condition numbers of the crossings of `path`, measured on the closed form: the sum of |d ln r/d ln x|, or |d phi/d
+ * ln x|, over alpha, beta, spin, cos(theta) and radius, each times its weight (NULL: 1). INFINITY where a fraction
+ * `step` makes it another ray. */
 enum { EXTREME_INPUTS = 5 };
 void extreme_condition(const struct kd_null_ray *ray, const struct kd_null_path *path, double step,
                        const double weight[EXTREME_INPUTS], double *r, double *phi);

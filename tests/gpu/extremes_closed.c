@@ -1,5 +1,5 @@
-/* The closed form at the extremes against Taylor series to 20 digits (tests/oracle/null_reference.py extremes): it is what the
- * kernels are judged by. */
+/* The closed form at the extremes against Taylor series to 20 digits (tests/oracle/null_reference.py extremes): it
+ * is what the kernels are judged by. */
 #include "extremes.h"
 
 #include "physics/kerr.h"
@@ -13,17 +13,26 @@
 
 enum { COUNT = sizeof null_extremes / sizeof *null_extremes, ORDERS = 8 };
 
-struct tally { double r[COUNT * ORDERS], phi; size_t n; };
+struct tally {
+    double r[COUNT * ORDERS], phi;
+    size_t n;
+};
 
 static void judge(const struct null_extreme *e, struct tally *t, struct extreme_row *row)
 {
-    struct kd_null_ray ray = { .spin = e->spin, .radius = e->radius, .cos_theta = e->cos_theta, .alpha = e->alpha, .beta = e->beta,
-                               .outward = e->outward, .orders = ORDERS };
+    struct kd_null_ray ray = { .spin = e->spin,
+                               .radius = e->radius,
+                               .cos_theta = e->cos_theta,
+                               .alpha = e->alpha,
+                               .beta = e->beta,
+                               .outward = e->outward,
+                               .orders = ORDERS };
     struct kd_null_path p = kd_null_trace(&ray);
     double gain[ORDERS], phi_gain[ORDERS];
     bool over = false, told = p.status == KD_NULL_CRITICAL;
     row->rays++;
-    row->broken += !told && (p.crossings != e->crossings || p.fate != (e->captured ? KD_NULL_CAPTURED : KD_NULL_ESCAPED));
+    row->broken +=
+        !told && (p.crossings != e->crossings || p.fate != (e->captured ? KD_NULL_CAPTURED : KD_NULL_ESCAPED));
     extreme_condition(&ray, &p, 1e-14, NULL, gain, phi_gain);
     for (int n = 0; n < p.crossings && n < e->crossings; n++) {
         const struct kd_null_crossing *x = &p.crossing[n];

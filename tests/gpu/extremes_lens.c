@@ -1,8 +1,9 @@
-/* The lens maps of pictures at the extremes: every plane finite, radii, azimuths and fates against the closed form, for cameras at
- * infinity and at rest in a locally non-rotating frame next to the horizon.
+/* The lens maps of pictures at the extremes: every plane finite, radii, azimuths and fates against the closed form,
+ * for cameras at infinity and at rest in a locally non-rotating frame next to the horizon.
  *
- * A picture's ray knows its labels as well as a float does: those of a finite camera are differences, E = e_t + e_phi m_phi and L
- * likewise, and cost the digits that cancel there. Rays that are others when all inputs move by a few roundings are unsure. */
+ * A picture's ray knows its labels as well as a float does: those of a finite camera are differences, E = e_t +
+ * e_phi m_phi and L likewise, and cost the digits that cancel there. Rays that are others when all inputs move by a
+ * few roundings are unsure. */
 #include "extremes.h"
 
 #include "physics/kerr.h"
@@ -24,7 +25,8 @@ struct kernel {
     double bound, phi_bound;
 };
 
-/* What docs/accuracy.md says of them; the closed form's series starts at an eighth of the time and loses a digit at order 7. */
+/* What docs/accuracy.md says of them; the closed form's series starts at an eighth of the time and loses a digit at
+ * order 7. */
 static const struct kernel kernels[] = {
     { "lens_closed", { .quantities = KD_LENS_W }, 0, 5e-6, INFINITY },
     { "lens_closed", { .quantities = KD_LENS_W | KD_LENS_PHI | KD_LENS_SKY }, 0, 5e-6, 2e-6 },
@@ -32,7 +34,10 @@ static const struct kernel kernels[] = {
     { "lens_map 16", { .quantities = KD_LENS_W | KD_LENS_PHI | KD_LENS_SKY }, 16, 5e-6, 2e-6 },
 };
 
-struct camera { const char *what; double spin, inclination, r, field, beta, yaw; };
+struct camera {
+    const char *what;
+    double spin, inclination, r, field, beta, yaw;
+};
 
 static struct kd_scene scene_of(const struct camera *v, int steps)
 {
@@ -51,21 +56,28 @@ static struct kd_scene scene_of(const struct camera *v, int steps)
     return scene;
 }
 
-/* The ray of a pixel with the kernel's own arithmetic, and how much more its labels are off than one rounding; false for E <= 0,
- * which the closed form does not know. */
-static bool ray_of(const struct camera *v, const struct kd_camera_block *c, int pixel, struct kd_null_ray *ray, double *weight)
+/* The ray of a pixel with the kernel's own arithmetic, and how much more its labels are off than one rounding; false
+ * for E <= 0, which the closed form does not know. */
+static bool ray_of(const struct camera *v, const struct kd_camera_block *c, int pixel, struct kd_null_ray *ray,
+                   double *weight)
 {
     float x = (float)(pixel % GRID) - c->middle_x, y = c->middle_y - (float)(pixel / GRID);
     float kx = c->c0x + x * c->cxx + y * c->cyx, ky = c->c0y + x * c->cxy + y * c->cyy;
     double i = v->inclination;
-    *ray = (struct kd_null_ray) { .spin = v->spin, .radius = v->r, .cos_theta = extreme_cos_deg(i),
-                                  .sin_theta = extreme_sin_deg(i), .alpha = kx, .beta = ky, .orders = ORDERS };
+    *ray = (struct kd_null_ray) { .spin = v->spin,
+                                  .radius = v->r,
+                                  .cos_theta = extreme_cos_deg(i),
+                                  .sin_theta = extreme_sin_deg(i),
+                                  .alpha = kx,
+                                  .beta = ky,
+                                  .orders = ORDERS };
     for (int k = 0; k < EXTREME_INPUTS; k++)
         weight[k] = 1;
     if (isinf(v->r))
         return true;
     float kz = c->c0z + x * c->cxz + y * c->cyz, n = 1 / sqrtf(kx * kx + ky * ky + kz * kz);
-    double m_phi = -kz * n, energy = c->e_t + c->e_phi * m_phi, l = c->l_t + c->l_phi * m_phi; /* of one who does not fall */
+    double m_phi = -kz * n, energy = c->e_t + c->e_phi * m_phi,
+           l = c->l_t + c->l_phi * m_phi; /* of one who does not fall */
     ray->alpha = -l / energy;
     ray->beta = -c->p_theta * ky * n / energy;
     ray->outward = kx > 0;
@@ -75,7 +87,10 @@ static bool ray_of(const struct camera *v, const struct kd_camera_block *c, int 
     return energy > 1e-6;
 }
 
-struct tally { double r[RAYS * ORDERS], phi; size_t n; };
+struct tally {
+    double r[RAYS * ORDERS], phi;
+    size_t n;
+};
 
 static double turn(double x) { return fabs(remainder(x, 2 * M_PI)); }
 
@@ -104,7 +119,8 @@ static void judge(const struct camera *v, const struct kd_plan *plan, const floa
         row->unsure++;
         return;
     }
-    row->broken += found != p.crossings || (kd_plan_holds(plan, KD_LENS_SKY) && (*fate == (float)KD_FATE_ESCAPED) != (p.fate == KD_NULL_ESCAPED));
+    row->broken += found != p.crossings || (kd_plan_holds(plan, KD_LENS_SKY) &&
+                                            (*fate == (float)KD_FATE_ESCAPED) != (p.fate == KD_NULL_ESCAPED));
     for (int n = 0; n < p.crossings && n < found; n++) {
         const struct kd_null_crossing *x = &p.crossing[n];
         double w = map[(uint64_t)n * plan->rays];
@@ -116,8 +132,8 @@ static void judge(const struct camera *v, const struct kd_plan *plan, const floa
     }
 }
 
-/* A thousandth of M at the edge of the shadow: nothing is sure. In the throat of an extremal hole all rays that come to infinity
- * have L = 2E within 1e-4: half their digits are lost with the labels. */
+/* A thousandth of M at the edge of the shadow: nothing is sure. In the throat of an extremal hole all rays that come
+ * to infinity have L = 2E within 1e-4: half their digits are lost with the labels. */
 static double unsure_most(const struct camera *v)
 {
     return v->field < 1e-4 && isinf(v->r) ? 1 : fabs(v->spin) > 0.999 && v->r < 1.001 ? 0.5 : 0.1;
@@ -127,7 +143,10 @@ static void look(struct kd_renderer *renderer, const struct camera *v, const str
 {
     static struct tally t;
     static float planes[PLANES * RAYS];
-    struct extreme_row row = { .engine = kernel->name, .rays = RAYS, .bound = kernel->bound, .phi_bound = kernel->phi_bound,
+    struct extreme_row row = { .engine = kernel->name,
+                               .rays = RAYS,
+                               .bound = kernel->bound,
+                               .phi_bound = kernel->phi_bound,
                                .unsure_most = unsure_most(v) };
     struct kd_scene scene = scene_of(v, kernel->steps);
     struct kd_camera_block camera = kd_camera_block(&scene);
@@ -184,21 +203,29 @@ void extreme_lenses(struct kd_renderer *renderer)
     };
     for (size_t k = 0; k < sizeof far / sizeof *far; k++)
         look_with_all(renderer, &far[k]);
-    static const struct { const char *name; double a; } spins[] = { { "a 0", 0 }, { "a 0.9", 0.9 }, { "a 1-1e-12", 0.999999999999 },
-                                                                    { "a -1+1e-12", -0.999999999999 } };
+    static const struct {
+        const char *name;
+        double a;
+    } spins[] = { { "a 0", 0 }, { "a 0.9", 0.9 }, { "a 1-1e-12", 0.999999999999 }, { "a -1+1e-12", -0.999999999999 } };
     for (int a = 0; a < 4; a++) {
         double spin = spins[a].a;
-        const struct { const char *name; double r, fov, yaw; } places[] = {
-            { "1.0001 r+", 1.0001 * kd_kerr_horizon(spin), 120, 180 }, { "r photon", kd_kerr_photon_orbit(spin), 120, 90 },
-            { "r photon, retrograde", kd_kerr_photon_orbit(-spin), 120, 90 }, { "r 1e6", 1e6, 2e-3, 0 },
+        const struct {
+            const char *name;
+            double r, fov, yaw;
+        } places[] = {
+            { "1.0001 r+", 1.0001 * kd_kerr_horizon(spin), 120, 180 },
+            { "r photon", kd_kerr_photon_orbit(spin), 120, 90 },
+            { "r photon, retrograde", kd_kerr_photon_orbit(-spin), 120, 90 },
+            { "r 1e6", 1e6, 2e-3, 0 },
         };
         for (int k = 0; k < 8; k++) {
             char what[48];
-            if (places[k / 2].r < 1.000001 * kd_kerr_horizon(spin)) /* a prograde photon orbit that a float does not part from it */
+            if (places[k / 2].r <
+                1.000001 * kd_kerr_horizon(spin)) /* a prograde photon orbit that a float does not part from it */
                 continue;
             snprintf(what, sizeof what, "%s, i %d, %s", spins[a].name, k % 2 ? 90 : 60, places[k / 2].name);
-            look_with_all(renderer, &(struct camera) { what, spin, k % 2 ? 90 : 60, places[k / 2].r, places[k / 2].fov, 0,
-                                                        places[k / 2].yaw });
+            look_with_all(renderer, &(struct camera) { what, spin, k % 2 ? 90 : 60, places[k / 2].r, places[k / 2].fov,
+                                                       0, places[k / 2].yaw });
         }
     }
 }

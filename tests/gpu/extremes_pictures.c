@@ -1,6 +1,6 @@
-/* Whole pictures at the extremes, from JSON to pixels: of one pixel, of one row or column, in many bands, of a strange shape; with
- * denormal numbers and zeros of either sign; next to the horizon. Radiance and the report finite, radiance not negative, nothing
- * written behind the last pixel's place, and light where light must be. */
+/* Whole pictures at the extremes, from JSON to pixels: of one pixel, of one row or column, in many bands, of a
+ * strange shape; with denormal numbers and zeros of either sign; next to the horizon. Radiance and the report
+ * finite, radiance not negative, nothing written behind the last pixel's place, and light where light must be. */
 #include "extremes.h"
 
 #include "render/device/internal.h"
@@ -12,8 +12,8 @@
 
 struct picture {
     const char *what, *json;
-    bool lit;          /* some pixel must shine */
-    uint64_t binding;  /* bytes of a buffer at most, for many bands; 0: the device's */
+    bool lit;         /* some pixel must shine */
+    uint64_t binding; /* bytes of a buffer at most, for many bands; 0: the device's */
 };
 
 #define SMALL "\"image\":{\"width\":48,\"height\":27}"
@@ -26,36 +26,47 @@ static const struct picture pictures[] = {
     { "500 x 1", "{\"image\":{\"width\":500,\"height\":1},\"sky\":{\"model\":\"grid\"}}", true, 0 },
     { "32768 x 1", "{\"image\":{\"width\":32768,\"height\":1}}", true, 0 },
     { "1 x 32768, sky",
-      "{\"image\":{\"width\":1,\"height\":32768},\"camera\":{\"field_m\":1e-3},\"sky\":{\"model\":\"grid\"}}", true, 0 },
+      "{\"image\":{\"width\":1,\"height\":32768},\"camera\":{\"field_m\":1e-3},\"sky\":{\"model\":\"grid\"}}", true,
+      0 },
     { "3 x 2, 64 rays a pixel", "{\"image\":{\"width\":3,\"height\":2,\"samples\":8}}", true, 0 },
     { "700 x 500 in bands", "{\"image\":{\"width\":700,\"height\":500}}", true, 1 << 20 },
-    { "700 x 500 in bands, sky", "{\"image\":{\"width\":700,\"height\":500},\"sky\":{\"model\":\"grid\"}}", true, 1 << 20 },
+    { "700 x 500 in bands, sky", "{\"image\":{\"width\":700,\"height\":500},\"sky\":{\"model\":\"grid\"}}", true,
+      1 << 20 },
     { "denormal spin", "{\"spacetime\":{\"spin\":1e-310}," SMALL "}", true, 0 },
     { "least spin", "{\"spacetime\":{\"spin\":-5e-324},\"sky\":{\"model\":\"grid\"}," SMALL "}", true, 0 },
     { "spin -0",
-      "{\"spacetime\":{\"spin\":-0.0},\"camera\":{\"inclination_deg\":-0.0,\"azimuth_deg\":-0.0},\"time\":-0.0," SMALL "}",
+      "{\"spacetime\":{\"spin\":-0.0},\"camera\":{\"inclination_deg\":-0.0,\"azimuth_deg\":-0.0},\"time\":-0.0," SMALL
+      "}",
       true, 0 },
-    { "denormal angles and time", "{\"camera\":{\"inclination_deg\":4e-320,\"azimuth_deg\":-5e-324,\"roll_deg\":1e-310,"
-      "\"centre_alpha\":1e-315,\"centre_beta\":-1e-40},\"time\":5e-324," SMALL "}", true, 0 },
+    { "denormal angles and time",
+      "{\"camera\":{\"inclination_deg\":4e-320,\"azimuth_deg\":-5e-324,\"roll_deg\":1e-310,"
+      "\"centre_alpha\":1e-315,\"centre_beta\":-1e-40},\"time\":5e-324," SMALL "}",
+      true, 0 },
     { "an ulp above the plane", "{\"camera\":{\"inclination_deg\":89.99999999999999}," SMALL "}", true, 0 },
     { "an ulp below the plane, sky",
       "{\"camera\":{\"inclination_deg\":90.00000000000001},\"sky\":{\"model\":\"grid\"}," SMALL "}", true, 0 },
     { "the plane, a middle row",
-      "{\"camera\":{\"inclination_deg\":90},\"sky\":{\"model\":\"grid\"},\"image\":{\"width\":49,\"height\":27}}", true, 0 },
+      "{\"camera\":{\"inclination_deg\":90},\"sky\":{\"model\":\"grid\"},\"image\":{\"width\":49,\"height\":27}}", true,
+      0 },
     { "the axis, a middle pixel",
-      "{\"camera\":{\"inclination_deg\":180},\"sky\":{\"model\":\"grid\"},\"image\":{\"width\":49,\"height\":27}}", true, 0 },
+      "{\"camera\":{\"inclination_deg\":180},\"sky\":{\"model\":\"grid\"},\"image\":{\"width\":49,\"height\":27}}",
+      true, 0 },
     { "field 1e-6 M", "{\"camera\":{\"field_m\":1e-6,\"centre_alpha\":-8}," SMALL "}", true, 0 },
-    { "field 1e7 M", "{\"camera\":{\"field_m\":1e7},\"disk\":{\"outer\":1e6},\"sky\":{\"model\":\"grid\"}," SMALL "}", true, 0 },
+    { "field 1e7 M", "{\"camera\":{\"field_m\":1e7},\"disk\":{\"outer\":1e6},\"sky\":{\"model\":\"grid\"}," SMALL "}",
+      true, 0 },
     { "opacity denormal", "{\"disk\":{\"opacity\":1e-310}," SMALL "}", false, 0 },
     { "opacity 1e-40", "{\"disk\":{\"opacity\":1e-40}," SMALL "}", false, 0 },
     { "opacity 1e-30", "{\"disk\":{\"opacity\":1e-30}," SMALL "}", true, 0 },
     { "sky 1e-310 bright", "{\"sky\":{\"model\":\"grid\",\"brightness\":1e-310}," SMALL "}", true, 0 },
     { "exposure -40", "{\"style\":{\"exposure\":-40}," SMALL "}", true, 0 },
-    { "exposure 40, 16 bits", "{\"style\":{\"exposure\":40},\"image\":{\"width\":48,\"height\":27,\"bit_depth\":16}}", true, 0 },
-    { "1e9 K, visible", "{\"disk\":{\"peak_temperature_k\":1e9,\"hardening\":3,\"band\":\"visible\"}," SMALL "}", true, 0 },
+    { "exposure 40, 16 bits", "{\"style\":{\"exposure\":40},\"image\":{\"width\":48,\"height\":27,\"bit_depth\":16}}",
+      true, 0 },
+    { "1e9 K, visible", "{\"disk\":{\"peak_temperature_k\":1e9,\"hardening\":3,\"band\":\"visible\"}," SMALL "}", true,
+      0 },
     { "300 K, visible", "{\"disk\":{\"peak_temperature_k\":300,\"band\":\"visible\"}," SMALL "}", true, 0 },
     { "accretion, 1e-12 of 1e12 suns",
-      "{\"spacetime\":{\"mass_msun\":1e12},\"disk\":{\"colour\":\"accretion\",\"mdot_edd\":1e-12}," SMALL "}", true, 0 },
+      "{\"spacetime\":{\"mass_msun\":1e12},\"disk\":{\"colour\":\"accretion\",\"mdot_edd\":1e-12}," SMALL "}", true,
+      0 },
     { "accretion, 1e3 of 1e-3 suns",
       "{\"spacetime\":{\"mass_msun\":1e-3},\"disk\":{\"colour\":\"accretion\",\"mdot_edd\":1e3}," SMALL "}", true, 0 },
     { "a 1-1e-12", "{" NEAR_EXTREMAL ",\"sky\":{\"model\":\"grid\"},\"accuracy\":{\"orders\":8}," SMALL "}", true, 0 },
@@ -63,26 +74,36 @@ static const struct picture pictures[] = {
       "{\"spacetime\":{\"spin\":-0.999999999999},\"camera\":{\"r\":1e6,\"fov_deg\":2e-3}," SMALL "}", true, 0 },
     { "a 1-1e-12, at 1.0001 r+",
       "{" NEAR_EXTREMAL ",\"camera\":{\"r\":1.000101414,\"observer\":\"zamo\",\"yaw_deg\":180,\"fov_deg\":150,"
-      "\"inclination_deg\":60},\"sky\":{\"model\":\"grid\"}," SMALL "}", true, 0 },
-    { "a 1-1e-12, next to the horizon", "{" NEAR_EXTREMAL ",\"camera\":{\"r\":1.0000014143,\"observer\":\"zamo\",\"yaw_deg\":180,"
-      "\"inclination_deg\":90},\"sky\":{\"model\":\"grid\"}," SMALL "}", false, 0 },
+      "\"inclination_deg\":60},\"sky\":{\"model\":\"grid\"}," SMALL "}",
+      true, 0 },
+    { "a 1-1e-12, next to the horizon",
+      "{" NEAR_EXTREMAL ",\"camera\":{\"r\":1.0000014143,\"observer\":\"zamo\",\"yaw_deg\":180,"
+      "\"inclination_deg\":90},\"sky\":{\"model\":\"grid\"}," SMALL "}",
+      false, 0 },
     { "a 0, next to the horizon",
       "{\"spacetime\":{\"spin\":0},\"camera\":{\"r\":2.0000000000000004,\"observer\":\"zamo\",\"yaw_deg\":180},"
-      "\"sky\":{\"model\":\"grid\"}," SMALL "}", false, 0 },
+      "\"sky\":{\"model\":\"grid\"}," SMALL "}",
+      false, 0 },
     { "a 0.9, at the photon orbit",
-      "{\"spacetime\":{\"spin\":0.9},\"camera\":{\"r\":1.5578546274,\"observer\":\"zamo\",\"yaw_deg\":90,\"inclination_deg\":90,"
-      "\"fov_deg\":179},\"sky\":{\"model\":\"grid\"}," SMALL "}", true, 0 },
-    /* a = 0, r = L^(2/3) = 2.4957 M: E (r^(3/2) + a) - L, which g of an orbit there is divided by, vanishes in 32 bits in some thirty pixels. */
+      "{\"spacetime\":{\"spin\":0.9},\"camera\":{\"r\":1.5578546274,\"observer\":\"zamo\",\"yaw_deg\":90,\"inclination_"
+      "deg\":90,"
+      "\"fov_deg\":179},\"sky\":{\"model\":\"grid\"}," SMALL "}",
+      true, 0 },
+    /* a = 0, r = L^(2/3) = 2.4957 M: E (r^(3/2) + a) - L, which g of an orbit there is divided by, vanishes in 32
+     * bits in some thirty pixels. */
     { "inside the orbit of light, E = Omega L",
-      "{\"spacetime\":{\"spin\":0},\"camera\":{\"inclination_deg\":80,\"centre_alpha\":-4,\"centre_beta\":2.2892487,\"field_m\":5e-5},"
-      "\"image\":{\"width\":96,\"height\":96}}", false, 0 },
+      "{\"spacetime\":{\"spin\":0},\"camera\":{\"inclination_deg\":80,\"centre_alpha\":-4,\"centre_beta\":2.2892487,"
+      "\"field_m\":5e-5},"
+      "\"image\":{\"width\":96,\"height\":96}}",
+      false, 0 },
     { "1e7 M away, a millionth of a degree",
       "{\"camera\":{\"r\":1e7,\"fov_deg\":1e-6},\"disk\":{\"model\":\"none\"},\"sky\":{\"model\":\"grid\"}," SMALL "}",
       false, 0 },
 };
 
 /* The first floats of a buffer of the device. */
-static enum kd_status read_back(struct kd_vk *vk, struct kd_vk_buffer *from, uint64_t bytes, float *to, struct kd_error *error)
+static enum kd_status read_back(struct kd_vk *vk, struct kd_vk_buffer *from, uint64_t bytes, float *to,
+                                struct kd_error *error)
 {
     struct kd_vk_buffer *host = NULL;
     enum kd_status status = kd_vk_buffer_create(vk, bytes, KD_VK_READBACK, "radiance on the host", &host, error);
@@ -103,9 +124,11 @@ static size_t wrong_light(struct kd_renderer *renderer, const struct kd_plan *pl
 {
     size_t wrong = 0;
     for (uint32_t band = 0, row = 0; band < plan->bands; band++, row += plan->band_rows) {
-        uint64_t rows = plan->height - row < plan->band_rows ? plan->height - row : plan->band_rows, n = 3 * rows * plan->width;
+        uint64_t rows = plan->height - row < plan->band_rows ? plan->height - row : plan->band_rows,
+                 n = 3 * rows * plan->width;
         float *light = malloc(n * sizeof *light);
-        if (!light || read_back(renderer->vk, renderer->store.radiance.buffers[band], n * sizeof *light, light, error)) {
+        if (!light ||
+            read_back(renderer->vk, renderer->store.radiance.buffers[band], n * sizeof *light, light, error)) {
             free(light);
             return plan->width * plan->height;
         }
@@ -120,8 +143,9 @@ static size_t wrong_light(struct kd_renderer *renderer, const struct kd_plan *pl
 
 static void draw(struct kd_renderer *renderer, const struct picture *picture)
 {
-    struct extreme_row row = { .engine = "picture", .median = NAN, .most = NAN, .worst = NAN, .phi = NAN, .bound = NAN,
-                               .phi_bound = NAN };
+    struct extreme_row row = {
+        .engine = "picture", .median = NAN, .most = NAN, .worst = NAN, .phi = NAN, .bound = NAN, .phi_bound = NAN
+    };
     struct kd_scene scene;
     struct kd_capacity capacity;
     struct kd_plan plan;
@@ -134,7 +158,8 @@ static void draw(struct kd_renderer *renderer, const struct picture *picture)
     if (picture->binding)
         capacity.max_binding_bytes = picture->binding;
     if (kd_scene_from_json(&scene, picture->json, strlen(picture->json), &error) || kd_scene_validate(&scene, &error) ||
-        kd_plan_make(&scene, &capacity, &plan, &error) || kd_render(renderer, &scene, &plan, NULL, NULL, &frame, &error)) {
+        kd_plan_make(&scene, &capacity, &plan, &error) ||
+        kd_render(renderer, &scene, &plan, NULL, NULL, &frame, &error)) {
         printf("%s: %s\n", picture->what, error.message);
         row.broken = 1;
         extreme_row(&row);

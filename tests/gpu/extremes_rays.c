@@ -1,6 +1,6 @@
-/* Listed rays at the extremes, by the engine in Mino time in both precisions: what it says of them against the closed form, and
- * what it says of itself. The engine may be wrong about a ray if it says so: undecided, or an error that admits it. From a finite
- * radius every second ray starts outwards. */
+/* Listed rays at the extremes, by the engine in Mino time in both precisions: what it says of them against the
+ * closed form, and what it says of itself. The engine may be wrong about a ray if it says so: undecided, or an error
+ * that admits it. From a finite radius every second ray starts outwards. */
 #include "extremes.h"
 
 #include "physics/kerr.h"
@@ -35,16 +35,24 @@ static struct kd_null_ray ray_of(const struct view *v, const double *alpha_beta)
 {
     double i = v->inclination;
     return (struct kd_null_ray) {
-        .spin = v->spin, .radius = v->r, .cos_theta = extreme_cos_deg(i),
-        .sin_theta = extreme_sin_deg(i), .alpha = alpha_beta[0],
-        .beta = alpha_beta[1], .orders = ORDERS,
+        .spin = v->spin,
+        .radius = v->r,
+        .cos_theta = extreme_cos_deg(i),
+        .sin_theta = extreme_sin_deg(i),
+        .alpha = alpha_beta[0],
+        .beta = alpha_beta[1],
+        .orders = ORDERS,
     };
 }
 
 static struct kd_rays_params params_of(const struct view *v, enum kd_precision precision)
 {
     return (struct kd_rays_params) {
-        .spin = v->spin, .r = v->r, .inclination_deg = v->inclination, .orders = ORDERS, .engine = KD_ENGINE_MINO_RKN6,
+        .spin = v->spin,
+        .r = v->r,
+        .inclination_deg = v->inclination,
+        .orders = ORDERS,
+        .engine = KD_ENGINE_MINO_RKN6,
         .precision = precision,
     };
 }
@@ -72,8 +80,8 @@ static void near_critical(const struct view *v, double t, double distance, doubl
 /* Evenly over the image, with a sixth of the rays on its axes, next to them, or far out. */
 static void make(const struct view *v, struct list *list)
 {
-    static const double special[] = { 0, -0.0, 1e-12, -1e-12, 1e-310, 5e-324, -1e-40, 1e-25, 1e7, -1e7, 2, -2, 7,
-                                      5.196152422706632 };
+    static const double special[] = { 0,     -0.0, 1e-12, -1e-12, 1e-310, 5e-324, -1e-40,
+                                      1e-25, 1e7,  -1e7,  2,      -2,     7,      5.196152422706632 };
     enum { SPECIAL = sizeof special / sizeof *special };
     struct kd_rays_params params = params_of(v, KD_PRECISION_F64);
     double half = v->r < 3 ? 6 : 9;
@@ -97,17 +105,22 @@ static void make(const struct view *v, struct list *list)
 static bool all_finite(const struct kd_ray_end *e, const struct kd_ray_crossing *c)
 {
     bool told = e->n_crossings || e->fate == KD_RAY_ESCAPED; /* a ray that tells no number may have no error either */
-    bool ok = (isnan(e->error) ? !told : isfinite(e->error) && e->error >= 0) && (e->fate != KD_RAY_ESCAPED || (isfinite(e->theta) && isfinite(e->phi)));
+    bool ok = (isnan(e->error) ? !told : isfinite(e->error) && e->error >= 0) &&
+              (e->fate != KD_RAY_ESCAPED || (isfinite(e->theta) && isfinite(e->phi)));
     for (uint32_t n = 0; n < e->n_crossings; n++)
         ok = ok && isfinite(c[n].r) && isfinite(c[n].phi) && isfinite(c[n].delay) && isfinite(c[n].g) && c[n].g >= 0;
     return ok;
 }
 
-struct tally { double r[RAYS * ORDERS], phi; size_t n; };
+struct tally {
+    double r[RAYS * ORDERS], phi;
+    size_t n;
+};
 
 /* The crossings of one ray that the answer claims to hold. `fault`: what the reference itself may be off by. */
 static void judge_crossings(const struct view *v, const struct kd_null_path *p, const struct kd_ray_end *e,
-                            const struct kd_ray_crossing *c, const double *gain, const double *phi_gain, struct tally *t)
+                            const struct kd_ray_crossing *c, const double *gain, const double *phi_gain,
+                            struct tally *t)
 {
     for (int n = 0; n < p->crossings && n < (int)e->n_crossings; n++) {
         const struct kd_null_crossing *x = &p->crossing[n];
@@ -152,7 +165,8 @@ static enum kd_status run(struct kd_renderer *renderer, const struct kd_rays_par
                           struct kd_error *error)
 {
     if (isinf(params->r))
-        return kd_rays_trace(renderer, params, list->alpha_beta, list->n, list->crossings, list->ends, NULL, NULL, error);
+        return kd_rays_trace(renderer, params, list->alpha_beta, list->n, list->crossings, list->ends, NULL, NULL,
+                             error);
     struct kd_ray_labels labels = { list->alpha_beta, list->outward, list->n };
     enum kd_status status = kd_rays_device(renderer, params, &labels, list->crossings, list->ends, NULL, NULL, error);
     for (size_t i = 0; i < list->n * ORDERS; i++) /* which only kd_rays_trace fills in */
@@ -166,8 +180,11 @@ static void trace(struct kd_renderer *renderer, const struct view *v, const char
     static struct tally t;
     bool wide = precision == KD_PRECISION_F64;
     struct kd_rays_params params = params_of(v, precision);
-    struct extreme_row row = { .engine = wide ? "mino-rkn6 f64" : "mino-rkn6 f32", .rays = list->n, .bound = wide ? 1e-11 : 2e-6,
-                               .phi_bound = wide ? 1e-9 : 2e-6, .unsure_most = 0.05 };
+    struct extreme_row row = { .engine = wide ? "mino-rkn6 f64" : "mino-rkn6 f32",
+                               .rays = list->n,
+                               .bound = wide ? 1e-11 : 2e-6,
+                               .phi_bound = wide ? 1e-9 : 2e-6,
+                               .unsure_most = 0.05 };
     struct kd_error error = { 0 };
     /* From next to the horizon a half turn leads far out or back in, with no more steps than elsewhere. */
     if (v->r < 1.1 * kd_kerr_horizon(v->spin)) {
@@ -202,18 +219,33 @@ static void both(struct kd_renderer *renderer, const char *what, struct view v)
         trace(renderer, &v, what, &list, KD_PRECISION_F64);
 }
 
-static const struct { const char *name; double a; } spins[] = {
-    { "a 0", 0 }, { "a 5e-324", 5e-324 }, { "a 0.9", 0.9 }, { "a 1-1e-7", 0.9999999 }, { "a 1-1e-12", 0.999999999999 },
+static const struct {
+    const char *name;
+    double a;
+} spins[] = {
+    { "a 0", 0 },
+    { "a 5e-324", 5e-324 },
+    { "a 0.9", 0.9 },
+    { "a 1-1e-7", 0.9999999 },
+    { "a 1-1e-12", 0.999999999999 },
     { "a -1+1e-12", -0.999999999999 },
 };
 enum { SPINS = sizeof spins / sizeof *spins };
 
 static void inclinations(struct kd_renderer *renderer)
 {
-    const struct { const char *name; double i; } angles[] = {
-        { "i 0", 0 }, { "i 0+", 5e-324 }, { "i 45", 45 }, { "i 90-", nextafter(90, 0) }, { "i 90", 90 },
+    const struct {
+        const char *name;
+        double i;
+    } angles[] = {
+        { "i 0", 0 },
+        { "i 0+", 5e-324 },
+        { "i 45", 45 },
+        { "i 90-", nextafter(90, 0) },
+        { "i 90", 90 },
         { "i 90+", nextafter(90, 91) },
-        { "i 180-", nextafter(180, 0) }, { "i 180", 180 },
+        { "i 180-", nextafter(180, 0) },
+        { "i 180", 180 },
     };
     for (int a = 0; a < SPINS; a++)
         for (int i = 0; i < 8; i++) {
@@ -227,9 +259,14 @@ static void observers(struct kd_renderer *renderer)
 {
     for (int a = 0; a < SPINS; a++) {
         double spin = spins[a].a;
-        const struct { const char *name; double r; } places[] = {
-            { "1.0001 r+", 1.0001 * kd_kerr_horizon(spin) }, { "r photon", kd_kerr_photon_orbit(spin) },
-            { "r photon, retrograde", kd_kerr_photon_orbit(-spin) }, { "r 1e6", 1e6 },
+        const struct {
+            const char *name;
+            double r;
+        } places[] = {
+            { "1.0001 r+", 1.0001 * kd_kerr_horizon(spin) },
+            { "r photon", kd_kerr_photon_orbit(spin) },
+            { "r photon, retrograde", kd_kerr_photon_orbit(-spin) },
+            { "r 1e6", 1e6 },
         };
         for (int k = 0; k < 8; k++) {
             char what[48];

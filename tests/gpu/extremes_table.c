@@ -40,8 +40,8 @@ static bool holds(const struct extreme_row *r)
 void extreme_row(const struct extreme_row *r)
 {
     if (!rows++)
-        printf("%-34s  %-13s  %6s  %7s  %7s  %7s  %7s  %7s  %7s  %6s  %5s  %6s\n", "case", "engine", "rays", "r: med", "99 %",
-               "worst", "bound", "phi", "bound", "unsure", "loose", "broken");
+        printf("%-34s  %-13s  %6s  %7s  %7s  %7s  %7s  %7s  %7s  %6s  %5s  %6s\n", "case", "engine", "rays", "r: med",
+               "99 %", "worst", "bound", "phi", "bound", "unsure", "loose", "broken");
     broken_rows += !holds(r);
     printf("%-34s  %-13s  %6zu", r->what, r->engine, r->rays);
     number(r->median);

@@ -1,5 +1,5 @@
-/* A device that no driver here shows: lower limits, memory that is not coherent, a device that is lost. It stands between the
- * layer and a real driver, in the table of functions, from `fake_device_on` on. One thread. */
+/* A device that no driver here shows: lower limits, memory that is not coherent, a device that is lost. It stands
+ * between the layer and a real driver, in the table of functions, from `fake_device_on` on. One thread. */
 #ifndef KD_TEST_FAKE_DEVICE_H
 #define KD_TEST_FAKE_DEVICE_H
 
@@ -13,8 +13,8 @@ struct fake_device {
     uint64_t binding, allocation, heap; /* bytes */
     uint64_t budget;                    /* of each heap; the device then has VK_EXT_memory_budget */
     uint32_t texels, uniform;           /* texels and bytes of a binding */
-    bool incoherent;                    /* no memory is coherent: the host sees a copy, which only flushes and invalidations move */
-    int lost_at;                        /* the submission, counted from 1, that loses the device */
+    bool incoherent; /* no memory is coherent: the host sees a copy, which only flushes and invalidations move */
+    int lost_at;     /* the submission, counted from 1, that loses the device */
 };
 
 static struct fake_device fake;
@@ -89,7 +89,8 @@ static VKAPI_ATTR void VKAPI_CALL fake_Memory2(VkPhysicalDevice device, VkPhysic
                 ((VkPhysicalDeviceMemoryBudgetPropertiesEXT *)s)->heapBudget[i] = fake.budget ? fake.budget : fake.heap;
 }
 
-static VKAPI_ATTR VkResult VKAPI_CALL fake_Extensions(VkPhysicalDevice device, const char *layer, uint32_t *n, VkExtensionProperties *out)
+static VKAPI_ATTR VkResult VKAPI_CALL fake_Extensions(VkPhysicalDevice device, const char *layer, uint32_t *n,
+                                                      VkExtensionProperties *out)
 {
     uint32_t room = *n;
     VkResult result = fake_real.EnumerateDeviceExtensionProperties(device, layer, n, out);
@@ -127,7 +128,8 @@ static VKAPI_ATTR VkResult VKAPI_CALL fake_Allocate(VkDevice device, const VkMem
     return result;
 }
 
-static VKAPI_ATTR void VKAPI_CALL fake_Free(VkDevice device, VkDeviceMemory memory, const VkAllocationCallbacks *allocator)
+static VKAPI_ATTR void VKAPI_CALL fake_Free(VkDevice device, VkDeviceMemory memory,
+                                            const VkAllocationCallbacks *allocator)
 {
     struct fake_memory *m = memory ? fake_find(memory) : NULL;
     if (m) {
@@ -137,8 +139,8 @@ static VKAPI_ATTR void VKAPI_CALL fake_Free(VkDevice device, VkDeviceMemory memo
     fake_real.FreeMemory(device, memory, allocator);
 }
 
-static VKAPI_ATTR VkResult VKAPI_CALL fake_Map(VkDevice device, VkDeviceMemory memory, VkDeviceSize offset, VkDeviceSize size,
-                                               VkMemoryMapFlags flags, void **out)
+static VKAPI_ATTR VkResult VKAPI_CALL fake_Map(VkDevice device, VkDeviceMemory memory, VkDeviceSize offset,
+                                               VkDeviceSize size, VkMemoryMapFlags flags, void **out)
 {
     VkResult result = fake_real.MapMemory(device, memory, offset, size, flags, out);
     struct fake_memory *m = result ? NULL : fake_find(memory);
@@ -191,10 +193,10 @@ static VKAPI_ATTR VkResult VKAPI_CALL fake_Submit(VkQueue queue, uint32_t n, con
     return fake_real.QueueSubmit(queue, n, infos, fence);
 }
 
-#define FAKE_REPLACE(name, by)                                                                                                   \
-    if (fn->name && fn->name != (by)) {                                                                                          \
-        fake_real.name = fn->name;                                                                                               \
-        fn->name = (by);                                                                                                         \
+#define FAKE_REPLACE(name, by) \
+    if (fn->name && fn->name != (by)) { \
+        fake_real.name = fn->name; \
+        fn->name = (by); \
     }
 
 /* Called when the instance's functions are there, and again when the device's are. */

@@ -3,7 +3,12 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_EXT_scalar_block_layout : require
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0, std430) uniform Block { uint n; float scale; float table[6]; };
+layout(set = 0, binding = 0, std430) uniform Block
+{
+    uint n;
+    float scale;
+    float table[6];
+};
 layout(set = 0, binding = 1) uniform textureBuffer singles;
 layout(set = 0, binding = 2) uniform textureBuffer fours;
 layout(set = 0, binding = 3) buffer Y { float y[]; };
@@ -16,7 +21,8 @@ void main()
     if (i >= n)
         return;
     vec4 four = texelFetch(fours, int(i));
-    y[i] = y[i] * scale + table[i % 6] + 10 * texelFetch(singles, int(i)).x + four.x + 2 * four.y + 3 * four.z + 4 * four.w;
+    y[i] = y[i] * scale + table[i % 6] + 10 * texelFetch(singles, int(i)).x + four.x + 2 * four.y + 3 * four.z +
+           4 * four.w;
     uvec2 pair = texelFetch(pairs, int(i)).rg;
     y[i] += float(texelFetch(words, int(i)).r) + 2 * float(pair.x) + 3 * float(pair.y);
 }

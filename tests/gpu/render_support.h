@@ -19,8 +19,9 @@ static inline int open_renderer(void)
         return skip;
     struct kd_error error = { 0 };
     const char *device = getenv("KERRD_TEST_DEVICE");
-    struct kd_renderer_params params = { .device = device ? device : "auto", .validate = true, .assets = renderer_assets,
-                                          .passing = true }; /* what a test makes of the costs is not kept for others */
+    struct kd_renderer_params params = {
+        .device = device ? device : "auto", .validate = true, .assets = renderer_assets, .passing = true
+    }; /* what a test makes of the costs is not kept for others */
     if (!kd_renderer_create(&params, &renderer, &error))
         return 0;
     fprintf(stderr, "%s\n", error.message);

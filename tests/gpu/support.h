@@ -24,22 +24,22 @@
 #define SKIPPED 77
 
 /* Assert success, printing the sentence if not. */
-#define OK(call)                                                                                             \
-    do {                                                                                                     \
-        struct kd_error error = { 0 };                                                                       \
-        enum kd_status got = (call);                                                                         \
-        if (got)                                                                                             \
-            fail_msg("%s: %s: %s", #call, kd_status_name(got), error.message);                               \
+#define OK(call) \
+    do { \
+        struct kd_error error = { 0 }; \
+        enum kd_status got = (call); \
+        if (got) \
+            fail_msg("%s: %s: %s", #call, kd_status_name(got), error.message); \
     } while (0)
 
 /* Assert this status and a message that contains `part`. */
-#define FAILS(status_, part, call)                                                                           \
-    do {                                                                                                     \
-        struct kd_error error = { 0 };                                                                       \
-        enum kd_status got = (call);                                                                         \
-        if (got != (status_) || error.status != (status_) || !strstr(error.message, part))                   \
-            fail_msg("%s: got %s: '%s'", #call, kd_status_name(got), error.message);                         \
-        assert_null(strchr(error.message, '\n'));                                                            \
+#define FAILS(status_, part, call) \
+    do { \
+        struct kd_error error = { 0 }; \
+        enum kd_status got = (call); \
+        if (got != (status_) || error.status != (status_) || !strstr(error.message, part)) \
+            fail_msg("%s: got %s: '%s'", #call, kd_status_name(got), error.message); \
+        assert_null(strchr(error.message, '\n')); \
     } while (0)
 
 /* Keep drivers and layers loaded until the end: with an instance gone the loader unloads them, and a leak
@@ -71,14 +71,12 @@ static inline struct kd_vk *open_device(bool validate)
     struct kd_vk *vk = NULL;
     const char *device = getenv("KERRD_TEST_DEVICE");
     OK(kd_vk_create(
-        &(struct kd_vk_params) { .device = device ? device : "auto", .cache_dir = "", .validate = validate },
-        &vk, &error));
+        &(struct kd_vk_params) { .device = device ? device : "auto", .cache_dir = "", .validate = validate }, &vk,
+        &error));
     return vk;
 }
 
-struct mix_push {
-    uint32_t n, mul;
-};
+struct mix_push { uint32_t n, mul; };
 #define MIX_GROUP 64
 
 static inline struct kd_vk_pipeline *make_mix(struct kd_vk *vk, uint32_t bias)
@@ -102,14 +100,13 @@ static inline void mix(struct kd_vk *vk, const struct kd_vk_pipeline *pipeline, 
                        struct kd_vk_buffer *y, uint32_t n, uint32_t mul)
 {
     const struct mix_push push = { n, mul };
-    OK(kd_vk_dispatch(
-        vk,
-        &(struct kd_vk_dispatch) { .pass = "mix",
-                                   .pipeline = pipeline,
-                                   .bindings = { { .buffer = x }, { .buffer = y, .write = true } },
-                                   .push = &push,
-                                   .groups = { (n + MIX_GROUP - 1) / MIX_GROUP } },
-        &error));
+    OK(kd_vk_dispatch(vk,
+                      &(struct kd_vk_dispatch) { .pass = "mix",
+                                                 .pipeline = pipeline,
+                                                 .bindings = { { .buffer = x }, { .buffer = y, .write = true } },
+                                                 .push = &push,
+                                                 .groups = { (n + MIX_GROUP - 1) / MIX_GROUP } },
+                      &error));
 }
 
 /* kinds.comp: a uniform block, texels of one float, texels of four, storage, texels of one word, texels of two. */
@@ -117,22 +114,21 @@ struct kinds_block {
     uint32_t n;
     float scale, table[6];
 };
-#define KINDS_PARAMS                                                                                         \
-    { .name = "kinds",                                                                                       \
-      .spirv = kinds_spv,                                                                                    \
-      .spirv_bytes = sizeof kinds_spv,                                                                       \
-      .n_buffers = 6,                                                                                        \
-      .kinds = { KD_VK_UNIFORM, KD_VK_TEXELS_R, KD_VK_TEXELS_RGBA, KD_VK_STORAGE, KD_VK_TEXELS_WORD, KD_VK_TEXELS_PAIR } }
+#define KINDS_PARAMS \
+    { \
+        .name = "kinds", .spirv = kinds_spv, .spirv_bytes = sizeof kinds_spv, \
+        .n_buffers = 6, .kinds = { KD_VK_UNIFORM, KD_VK_TEXELS_R,    KD_VK_TEXELS_RGBA, \
+                                   KD_VK_STORAGE, KD_VK_TEXELS_WORD, KD_VK_TEXELS_PAIR } \
+    }
 
 static inline struct kd_vk_pipeline *make_kinds(struct kd_vk *vk)
 {
     struct kd_vk_pipeline *pipeline = NULL;
-    OK(kd_vk_pipeline_create(vk, &(struct kd_vk_pipeline_params) KINDS_PARAMS, &pipeline, &error));
+    OK(kd_vk_pipeline_create(vk, &(struct kd_vk_pipeline_params)KINDS_PARAMS, &pipeline, &error));
     return pipeline;
 }
 
-static inline struct kd_vk_buffer *make_buffer(struct kd_vk *vk, uint32_t n, enum kd_vk_memory memory,
-                                               const char *name)
+static inline struct kd_vk_buffer *make_buffer(struct kd_vk *vk, uint32_t n, enum kd_vk_memory memory, const char *name)
 {
     struct kd_vk_buffer *buffer = NULL;
     OK(kd_vk_buffer_create(vk, (uint64_t)n * 4, memory, name, &buffer, &error));

@@ -1,12 +1,13 @@
-/* A telescope's beam, and brightness in false colour: pictures of light that the tests make up, through the passes beam, expose, bloom and post.
- * The oracle adds up a Gaussian over all pixels of the picture, in double. */
+/* A telescope's beam, and brightness in false colour: pictures of light that the tests make up, through the passes
+ * beam, expose, bloom and post. The oracle adds up a Gaussian over all pixels of the picture, in double. */
 #include "made_up_light.h"
 
 #include "image/colour_map.h"
 
 #include <math.h>
 
-/* sigma: of the beam, in pixels; 0: none. rows: of a band, 0: as many as there are; lit: rows whose light is there, 0: all. */
+/* sigma: of the beam, in pixels; 0: none. rows: of a band, 0: as many as there are; lit: rows whose light is there,
+ * 0: all. */
 struct look {
     int width, height, rows, lit;
     double sigma, bloom, exposure;
@@ -25,7 +26,8 @@ static struct kd_scene scene_of(const struct look *look)
     scene.style.dither = false;
     scene.style.bloom = look->bloom;
     scene.style.palette = look->heat ? KD_PALETTE_HEAT : KD_PALETTE_COLOUR;
-    /* A hole of a solar mass is 1476.6250385 m, a parsec 3.0856775814913673e16 m: a width of 100 M is 987 uas at a thousandth of a parsec. */
+    /* A hole of a solar mass is 1476.6250385 m, a parsec 3.0856775814913673e16 m: a width of 100 M is 987 uas at a
+     * thousandth of a parsec. */
     scene.spacetime.mass_msun = 1;
     scene.spacetime.distance_pc = 1e-3;
     scene.camera.field_m = 100;
@@ -90,15 +92,17 @@ static double convolved(const struct look *look, int at, int channel)
     return sum;
 }
 
-/* Beams from far below a pixel to wider than the picture, in pictures that no cell divides: to 4e-4 of the largest, of which a coarse grid
- * has 3e-4 where all light is within a cell, and 16 bits 3e-5. Corners and edges are among the pixels that are looked at. */
+/* Beams from far below a pixel to wider than the picture, in pictures that no cell divides: to 4e-4 of the largest,
+ * of which a coarse grid has 3e-4 where all light is within a cell, and 16 bits 3e-5. Corners and edges are among
+ * the pixels that are looked at. */
 static void it_is_a_convolution(void **state)
 {
     (void)state;
     static const struct look looks[] = {
-        { 157, 90, .sigma = 0.3 },   { 157, 90, .sigma = 0.8 },    { 401, 233, .sigma = 2.5 }, { 401, 233, .sigma = 7.999 }, { 401, 233, .sigma = 8.001 },
-        { 400, 233, .sigma = 12.5 }, { 401, 233, .sigma = 31 },    { 97, 301, .sigma = 20 },   { 97, 61, .sigma = 150 },     { 600, 3, .sigma = 25 },
-        { 3, 2, .sigma = 1 },        { 1, 1, .sigma = 4 },
+        { 157, 90, .sigma = 0.3 },    { 157, 90, .sigma = 0.8 },    { 401, 233, .sigma = 2.5 },
+        { 401, 233, .sigma = 7.999 }, { 401, 233, .sigma = 8.001 }, { 400, 233, .sigma = 12.5 },
+        { 401, 233, .sigma = 31 },    { 97, 301, .sigma = 20 },     { 97, 61, .sigma = 150 },
+        { 600, 3, .sigma = 25 },      { 3, 2, .sigma = 1 },         { 1, 1, .sigma = 4 },
     };
     for (size_t k = 0; k < sizeof looks / sizeof *looks; k++) {
         struct look look = looks[k];
@@ -116,7 +120,8 @@ static void it_is_a_convolution(void **state)
         show(&look, pixels);
         for (int i = 0; i < count; i++)
             worst = fmax(worst, fabs(shown(pixels, 3 * places[i] + i % 3) * exp2(-look.exposure) - want[i]));
-        printf("beam of %g pixels in %d x %d: off by %.1e of %.3g\n", look.sigma, look.width, look.height, worst / most, most);
+        printf("beam of %g pixels in %d x %d: off by %.1e of %.3g\n", look.sigma, look.width, look.height, worst / most,
+               most);
         assert_true(worst < 4e-4 * most);
     }
 }
@@ -138,9 +143,10 @@ static void a_point_stays_where_it_is(void **state)
             sum += v, x += v * dx, y += v * dy, xx += v * dx * dx, yy += v * dy * dy, xy += v * dx * dy;
         }
         const double variance = look.sigma * look.sigma;
-        if (fabs(sum / 1000 - 1) > 1e-3 || hypot(x, y) / sum > 0.02 || fabs(xx / sum / variance - 1) > 3e-3 || fabs(yy / sum / variance - 1) > 3e-3 ||
-            fabs(xy / sum / variance) > 1e-3)
-            fail_msg("at %d: sum %.6f, at (%.4f, %.4f), variances %.3f %.3f %.3f", shift, sum / 1000, x / sum, y / sum, xx / sum, yy / sum, xy / sum);
+        if (fabs(sum / 1000 - 1) > 1e-3 || hypot(x, y) / sum > 0.02 || fabs(xx / sum / variance - 1) > 3e-3 ||
+            fabs(yy / sum / variance - 1) > 3e-3 || fabs(xy / sum / variance) > 1e-3)
+            fail_msg("at %d: sum %.6f, at (%.4f, %.4f), variances %.3f %.3f %.3f", shift, sum / 1000, x / sum, y / sum,
+                     xx / sum, yy / sum, xy / sum);
     }
 }
 
@@ -148,7 +154,10 @@ static void a_point_stays_where_it_is(void **state)
 static void bands_and_readers(void **state)
 {
     (void)state;
-    static const struct look looks[] = { { 401, 233, .sigma = 14, .heat = true }, { 157, 90, .sigma = 0.7 }, { 320, 400, .sigma = 30, .bloom = 0.5 }, { 320, 400, .bloom = 0.5, .heat = true } };
+    static const struct look looks[] = { { 401, 233, .sigma = 14, .heat = true },
+                                         { 157, 90, .sigma = 0.7 },
+                                         { 320, 400, .sigma = 30, .bloom = 0.5 },
+                                         { 320, 400, .bloom = 0.5, .heat = true } };
     struct kd_vk_info *info = (struct kd_vk_info *)kd_vk_info(renderer->vk);
     const uint64_t texels = info->max_texels;
     for (size_t k = 0; k < sizeof looks / sizeof *looks; k++) {
@@ -168,7 +177,8 @@ static void bands_and_readers(void **state)
     }
 }
 
-/* The rest of a picture under way is dark: what is lit looks as it would then, and a beam leaves light as it was for the next look. */
+/* The rest of a picture under way is dark: what is lit looks as it would then, and a beam leaves light as it was for
+ * the next look. */
 static void what_is_not_lit_is_dark(void **state)
 {
     (void)state;
@@ -219,8 +229,9 @@ static void exposure_is_of_what_the_beam_sees(void **state)
     }
 }
 
-/* Each level of brightness has its colour of the map, also behind a curve and where light has a colour of its own: it is luminance that
- * counts. A table of 1024 is linear between its entries; beyond white and below black the ends stay. */
+/* Each level of brightness has its colour of the map, also behind a curve and where light has a colour of its own:
+ * it is luminance that counts. A table of 1024 is linear between its entries; beyond white and below black the ends
+ * stay. */
 static void brightness_has_the_colour_of_the_map(void **state)
 {
     (void)state;
@@ -235,7 +246,8 @@ static void brightness_has_the_colour_of_the_map(void **state)
         show(&look, pixels);
         show(&grey, others);
         for (int i = 0; i < W * H; i++) {
-            const double y = 0.2126 * (double)light[3 * i] + 0.7152 * (double)light[3 * i + 1] + 0.0722 * (double)light[3 * i + 2];
+            const double y =
+                0.2126 * (double)light[3 * i] + 0.7152 * (double)light[3 * i + 1] + 0.0722 * (double)light[3 * i + 2];
             const struct kd_map_colour want = kd_colour_map_at(KD_MAP_HEAT, film ? shown(others, 3 * i) : y);
             const double w[] = { want.r, want.g, want.b };
             for (int c = 0; c < 3; c++)
@@ -288,10 +300,14 @@ int main(void)
     if (skip)
         return skip;
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(it_is_a_convolution),       cmocka_unit_test(a_point_stays_where_it_is),
-        cmocka_unit_test(bands_and_readers),         cmocka_unit_test(what_is_not_lit_is_dark),
-        cmocka_unit_test(no_numbers_are_no_light),   cmocka_unit_test(exposure_is_of_what_the_beam_sees),
-        cmocka_unit_test(brightness_has_the_colour_of_the_map), cmocka_unit_test(none_is_nothing),
+        cmocka_unit_test(it_is_a_convolution),
+        cmocka_unit_test(a_point_stays_where_it_is),
+        cmocka_unit_test(bands_and_readers),
+        cmocka_unit_test(what_is_not_lit_is_dark),
+        cmocka_unit_test(no_numbers_are_no_light),
+        cmocka_unit_test(exposure_is_of_what_the_beam_sees),
+        cmocka_unit_test(brightness_has_the_colour_of_the_map),
+        cmocka_unit_test(none_is_nothing),
         cmocka_unit_test(too_many_cells_are_refused),
     };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));

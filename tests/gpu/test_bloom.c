@@ -1,5 +1,5 @@
-/* The glare of a lens: pictures of light that the tests make up, through the passes bloom and post. The oracle adds up Gaussians of the
- * stated widths, mirrored at the edges, in double. */
+/* The glare of a lens: pictures of light that the tests make up, through the passes bloom and post. The oracle adds
+ * up Gaussians of the stated widths, mirrored at the edges, in double. */
 #include "made_up_light.h"
 
 #include <math.h>
@@ -31,7 +31,9 @@ static void show(int width, int height, double bloom, int rows, uint16_t *out)
 /* Dim light with bright places up to white, one of them in a corner. */
 static void make_light(int width, int height)
 {
-    static const double places[][4] = { { 0.3, 0.4, 0.05, 1 }, { 0.31, 0.6, 0.004, 0.98 }, { 0.98, 0.02, 0.03, 0.95 }, { 0.7, 0.9, 0.02, 0.9 } };
+    static const double places[][4] = {
+        { 0.3, 0.4, 0.05, 1 }, { 0.31, 0.6, 0.004, 0.98 }, { 0.98, 0.02, 0.03, 0.95 }, { 0.7, 0.9, 0.02, 0.9 }
+    };
     for (int i = 0; i < width * height; i++) {
         double x = (i % width + 0.5) / height, y = (i / width + 0.5) / height, sum = 0;
         for (int k = 0; k < 4; k++) {
@@ -45,13 +47,13 @@ static void make_light(int width, int height)
     }
 }
 
-/* What a lens spreads leaves its place and arrives elsewhere: the sum stays, of each channel, also where the picture ends in the middle of
- * it, in sizes that no grid divides. Pixels are rounded to 16 bits, 1e-5 in the mean. */
+/* What a lens spreads leaves its place and arrives elsewhere: the sum stays, of each channel, also where the picture
+ * ends in the middle of it, in sizes that no grid divides. Pixels are rounded to 16 bits, 1e-5 in the mean. */
 static void energy(void **state)
 {
     (void)state;
-    static const int sizes[][2] = { { 640, 360 }, { 401, 333 },  { 157, 90 }, { 97, 640 }, { 600, 17 }, { 200, 1000 },
-                                  { 199, 1001 }, { 600, 9 }, { 2000, 3 }, { 9, 900 }, { 3, 2 },   { 1, 1 } };
+    static const int sizes[][2] = { { 640, 360 },  { 401, 333 }, { 157, 90 }, { 97, 640 }, { 600, 17 }, { 200, 1000 },
+                                    { 199, 1001 }, { 600, 9 },   { 2000, 3 }, { 9, 900 },  { 3, 2 },    { 1, 1 } };
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
         const int width = sizes[s][0], height = sizes[s][1], n = width * height;
         make_light(width, height);
@@ -74,10 +76,7 @@ static void energy(void **state)
 }
 
 /* Which light is spread, as docs/physics says: of a luminance y of white over 0.6, with a knee from 0.2 to 1. */
-static double taken(double y)
-{
-    return y <= 0.2 ? 0 : y >= 1 ? y - 0.6 : (y - 0.2) * (y - 0.2) / 1.6;
-}
+static double taken(double y) { return y <= 0.2 ? 0 : y >= 1 ? y - 0.6 : (y - 0.2) * (y - 0.2) / 1.6; }
 
 /* One dimension of a Gaussian over n pixels, of what is at `from`, light beyond the edges mirrored. */
 static double gauss(double from, double at, int n, double sigma)
@@ -118,8 +117,8 @@ static void convolve(const double *in, double *out, int width, int height, doubl
         }
 }
 
-/* Splines of one width each are near to Gaussians of their variance: to 4 % of the largest brightness that is spread, of which about a third
- * is the narrowest of them, and nowhere of another sign. White light on black. */
+/* Splines of one width each are near to Gaussians of their variance: to 4 % of the largest brightness that is
+ * spread, of which about a third is the narrowest of them, and nowhere of another sign. White light on black. */
 static void widths(void **state)
 {
     (void)state;
@@ -151,8 +150,9 @@ static void widths(void **state)
     assert_true(worst < 0.04 * most);
 }
 
-/* One point of light is seen as a disk of light that falls off from its middle outwards, the same in all directions to a quarter, where brightness
- * falls off steeply: its lines are circles to a few hundredths. The point is moved within its cell, and on to others. */
+/* One point of light is seen as a disk of light that falls off from its middle outwards, the same in all directions
+ * to a quarter, where brightness falls off steeply: its lines are circles to a few hundredths. The point is moved
+ * within its cell, and on to others. */
 static void a_point(void **state)
 {
     (void)state;
@@ -171,7 +171,8 @@ static void a_point(void **state)
                 int ix = (int)floor(x), iy = (int)floor(y);
                 double fx = x - ix, fy = y - iy, v = 0;
                 for (int q = 0; q < 4; q++)
-                    v += shown(pixels, 3 * ((iy + q / 2) * W + ix + q % 2)) * (q % 2 ? fx : 1 - fx) * (q / 2 ? fy : 1 - fy);
+                    v += shown(pixels, 3 * ((iy + q / 2) * W + ix + q % 2)) * (q % 2 ? fx : 1 - fx) *
+                         (q / 2 ? fy : 1 - fy);
                 least = fmin(least, v);
                 most = fmax(most, v);
             }
@@ -182,12 +183,15 @@ static void a_point(void **state)
     }
 }
 
-/* What a point of light gives lies round it: its middle is displaced by half a pixel at most, where two pixels are added up first, and by a
- * pixel and a half of four; the widest part meets its mirror image. */
+/* What a point of light gives lies round it: its middle is displaced by half a pixel at most, where two pixels are
+ * added up first, and by a pixel and a half of four; the widest part meets its mirror image. */
 static void a_point_stays(void **state)
 {
     (void)state;
-    static const struct { int width, height; double most; } sizes[] = { { 384, 256, 0.01 }, { 640, 360, 0.51 }, { 320, 720, 1.6 } };
+    static const struct {
+        int width, height;
+        double most;
+    } sizes[] = { { 384, 256, 0.01 }, { 640, 360, 0.51 }, { 320, 720, 1.6 } };
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++)
         for (int at = 0; at < 5; at++) {
             const int w = sizes[s].width, h = sizes[s].height, px = w / 2 + at, py = h / 2 + 3 * at;
@@ -197,7 +201,9 @@ static void a_point_stays(void **state)
                 light[3 * (py * w + px) + c] = 60;
             show(w, h, 1, 0, pixels);
             for (int i = 0; i < w * h; i++) {
-                const double v = i == py * w + px ? 0 : shown(pixels, 3 * i); /* the point itself is clipped: its mirror image is near */
+                const double v = i == py * w + px
+                                     ? 0
+                                     : shown(pixels, 3 * i); /* the point itself is clipped: its mirror image is near */
                 sum += v;
                 x += v * (i % w - px);
                 y += v * (i / w - py);
@@ -211,7 +217,9 @@ static void a_point_stays(void **state)
 static void bands_and_readers(void **state)
 {
     (void)state;
-    static const int sizes[][2] = { { 401, 333 }, { 157, 90 }, { 320, 700 }, { 640, 360 }, { 200, 1000 }, { 199, 1001 } };
+    static const int sizes[][2] = {
+        { 401, 333 }, { 157, 90 }, { 320, 700 }, { 640, 360 }, { 200, 1000 }, { 199, 1001 }
+    };
     struct kd_vk_info *info = (struct kd_vk_info *)kd_vk_info(renderer->vk);
     const uint64_t texels = info->max_texels;
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
@@ -265,7 +273,8 @@ static void any_size(void **state)
     double worst = 0;
     for (int i = 0; i < W * H; i++) {
         int at = 3 * (i / W * 2 * 2 * W + i % W * 2);
-        double mean = (shown(others, at) + shown(others, at + 3) + shown(others, at + 6 * W) + shown(others, at + 6 * W + 3)) / 4;
+        double mean =
+            (shown(others, at) + shown(others, at + 3) + shown(others, at + 6 * W) + shown(others, at + 6 * W + 3)) / 4;
         worst = fmax(worst, fabs(mean - shown(pixels, 3 * i)));
     }
     printf("bloom at half the size: worst %.2g of white\n", worst);
@@ -278,8 +287,13 @@ int main(void)
     if (skip)
         return skip;
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(energy),            cmocka_unit_test(widths),          cmocka_unit_test(a_point),
-        cmocka_unit_test(a_point_stays),             cmocka_unit_test(bands_and_readers), cmocka_unit_test(others_unharmed), cmocka_unit_test(any_size),
+        cmocka_unit_test(energy),
+        cmocka_unit_test(widths),
+        cmocka_unit_test(a_point),
+        cmocka_unit_test(a_point_stays),
+        cmocka_unit_test(bands_and_readers),
+        cmocka_unit_test(others_unharmed),
+        cmocka_unit_test(any_size),
     };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -1,5 +1,6 @@
-/* Bodies met along rays: where their images are, by the Kerr-Schild oracle, which knows no Mino time, and measures how far a ray passes a place by an interval
- * on a wave front; their light; what hides them and what they hide; and numbers without measure. */
+/* Bodies met along rays: where their images are, by the Kerr-Schild oracle, which knows no Mino time, and measures
+ * how far a ray passes a place by an interval on a wave front; their light; what hides them and what they hide; and
+ * numbers without measure. */
 #include "render_support.h"
 
 #include "kerr_schild.h"
@@ -29,7 +30,8 @@ static struct ks_photon photon_of(const struct kd_scene *scene, double px, doubl
     const double step = far ? scene->camera.field_m / WIDTH : 2 * tan(scene->camera.fov_deg * M_PI / 360) / WIDTH;
     double x = step * (px - 0.5 * WIDTH), y = -step * (py - 0.5 * HEIGHT);
     if (far)
-        return ks_from_infinity(scene->spacetime.spin, cos(theta), x + scene->camera.centre_alpha, y + scene->camera.centre_beta);
+        return ks_from_infinity(scene->spacetime.spin, cos(theta), x + scene->camera.centre_alpha,
+                                y + scene->camera.centre_beta);
     const double length = sqrt(1 + x * x + y * y), k[3] = { -1 / length, -y / length, x / length };
     return ks_from_camera(scene->spacetime.spin, scene->camera.r, theta, scene->camera.observer == KD_OBSERVER_ZAMO, k);
 }
@@ -39,7 +41,8 @@ static struct ks_near first_of(const struct kd_scene *scene, double px, double p
 {
     const struct kd_body *b = &scene->bodies.at[0];
     struct ks_near at[MOST];
-    const int n = ks_passes(photon_of(scene, px, py), b->r, cos(b->inclination_deg * M_PI / 180), b->phase_deg * M_PI / 180, 4 * b->radius, MOST, at);
+    const int n = ks_passes(photon_of(scene, px, py), b->r, cos(b->inclination_deg * M_PI / 180),
+                            b->phase_deg * M_PI / 180, 4 * b->radius, MOST, at);
     for (int i = 0; i < n; i++)
         if (at[i].b < b->radius)
             return at[i];
@@ -53,28 +56,57 @@ static const float *intensity(const struct kd_frame *frame)
     return layer->data;
 }
 
-/* Images of order 0 and 1, and of those that have gone round; from infinity, and from near; so many pixels show one at least. */
-static const struct view { const char *json; int lit; } views[] = {
-    { "{\"camera\":{\"inclination_deg\":80,\"field_m\":5,\"centre_alpha\":2.73,\"centre_beta\":9.95},\"spacetime\":{\"spin\":0.7},\"bodies\":[{\"radius\":0.5,\"r\":15,\"phase_deg\":175}]}", 12 },
-    { "{\"camera\":{\"inclination_deg\":80,\"field_m\":4.4,\"centre_alpha\":-0.72,\"centre_beta\":-8.22},\"spacetime\":{\"spin\":0.7},\"bodies\":[{\"radius\":0.5,\"r\":15,\"phase_deg\":175}]}", 12 },
-    { "{\"camera\":{\"inclination_deg\":60,\"field_m\":2.2,\"centre_alpha\":6.15,\"centre_beta\":4.58},\"spacetime\":{\"spin\":0.95},\"bodies\":[{\"radius\":0.5,\"r\":6,\"phase_deg\":140,\"motion\":\"retrograde\"}]}", 12 },
-    { "{\"camera\":{\"inclination_deg\":60,\"field_m\":1.8,\"centre_alpha\":-2.77,\"centre_beta\":-4.16},\"spacetime\":{\"spin\":0.95},\"bodies\":[{\"radius\":0.5,\"r\":6,\"phase_deg\":140,\"motion\":\"retrograde\"}]}", 12 },
-    { "{\"camera\":{\"inclination_deg\":88,\"field_m\":4,\"centre_alpha\":6.4,\"centre_beta\":4.19},\"spacetime\":{\"spin\":-0.9},\"bodies\":[{\"radius\":0.25,\"r\":12,\"phase_deg\":-178}]}", 12 },
-    { "{\"camera\":{\"inclination_deg\":88,\"field_m\":0.2,\"centre_alpha\":2.96,\"centre_beta\":-0.35},\"spacetime\":{\"spin\":-0.9},\"bodies\":[{\"radius\":0.25,\"r\":12,\"phase_deg\":-178}]}", 12 },
-    { "{\"camera\":{\"inclination_deg\":30,\"field_m\":0.9,\"centre_alpha\":-2.31,\"centre_beta\":-3.64},\"spacetime\":{\"spin\":0.998},\"bodies\":[{\"radius\":0.3,\"r\":3,\"phase_deg\":60,\"inclination_deg\":50,\"motion\":\"zamo\"}]}", 12 },
-    { "{\"camera\":{\"inclination_deg\":30,\"field_m\":1,\"centre_alpha\":2.48,\"centre_beta\":0.34},\"spacetime\":{\"spin\":0.998},\"bodies\":[{\"radius\":0.3,\"r\":3,\"phase_deg\":60,\"inclination_deg\":50,\"motion\":\"zamo\"}]}", 12 },
-    { "{\"camera\":{\"inclination_deg\":60,\"field_m\":3,\"centre_alpha\":10.12,\"centre_beta\":-8.75},\"spacetime\":{\"spin\":0.7},\"bodies\":[{\"radius\":1,\"r\":20,\"phase_deg\":30,\"motion\":\"velocity\",\"velocity_phi\":0.9}]}", 12 },
-    { "{\"camera\":{\"inclination_deg\":70,\"r\":25,\"fov_deg\":60},\"bodies\":[{\"radius\":2,\"r\":12,\"phase_deg\":160,\"inclination_deg\":100,\"motion\":\"static\"}]}", 12 },
+/* Images of order 0 and 1, and of those that have gone round; from infinity, and from near; so many pixels show one
+ * at least. */
+static const struct view {
+    const char *json;
+    int lit;
+} views[] = {
+    { "{\"camera\":{\"inclination_deg\":80,\"field_m\":5,\"centre_alpha\":2.73,\"centre_beta\":9.95},\"spacetime\":{"
+      "\"spin\":0.7},\"bodies\":[{\"radius\":0.5,\"r\":15,\"phase_deg\":175}]}",
+      12 },
+    { "{\"camera\":{\"inclination_deg\":80,\"field_m\":4.4,\"centre_alpha\":-0.72,\"centre_beta\":-8.22},\"spacetime\":"
+      "{\"spin\":0.7},\"bodies\":[{\"radius\":0.5,\"r\":15,\"phase_deg\":175}]}",
+      12 },
+    { "{\"camera\":{\"inclination_deg\":60,\"field_m\":2.2,\"centre_alpha\":6.15,\"centre_beta\":4.58},\"spacetime\":{"
+      "\"spin\":0.95},\"bodies\":[{\"radius\":0.5,\"r\":6,\"phase_deg\":140,\"motion\":\"retrograde\"}]}",
+      12 },
+    { "{\"camera\":{\"inclination_deg\":60,\"field_m\":1.8,\"centre_alpha\":-2.77,\"centre_beta\":-4.16},\"spacetime\":"
+      "{\"spin\":0.95},\"bodies\":[{\"radius\":0.5,\"r\":6,\"phase_deg\":140,\"motion\":\"retrograde\"}]}",
+      12 },
+    { "{\"camera\":{\"inclination_deg\":88,\"field_m\":4,\"centre_alpha\":6.4,\"centre_beta\":4.19},\"spacetime\":{"
+      "\"spin\":-0.9},\"bodies\":[{\"radius\":0.25,\"r\":12,\"phase_deg\":-178}]}",
+      12 },
+    { "{\"camera\":{\"inclination_deg\":88,\"field_m\":0.2,\"centre_alpha\":2.96,\"centre_beta\":-0.35},\"spacetime\":{"
+      "\"spin\":-0.9},\"bodies\":[{\"radius\":0.25,\"r\":12,\"phase_deg\":-178}]}",
+      12 },
+    { "{\"camera\":{\"inclination_deg\":30,\"field_m\":0.9,\"centre_alpha\":-2.31,\"centre_beta\":-3.64},\"spacetime\":"
+      "{\"spin\":0.998},\"bodies\":[{\"radius\":0.3,\"r\":3,\"phase_deg\":60,\"inclination_deg\":50,\"motion\":"
+      "\"zamo\"}]}",
+      12 },
+    { "{\"camera\":{\"inclination_deg\":30,\"field_m\":1,\"centre_alpha\":2.48,\"centre_beta\":0.34},\"spacetime\":{"
+      "\"spin\":0.998},\"bodies\":[{\"radius\":0.3,\"r\":3,\"phase_deg\":60,\"inclination_deg\":50,\"motion\":\"zamo\"}"
+      "]}",
+      12 },
+    { "{\"camera\":{\"inclination_deg\":60,\"field_m\":3,\"centre_alpha\":10.12,\"centre_beta\":-8.75},\"spacetime\":{"
+      "\"spin\":0.7},\"bodies\":[{\"radius\":1,\"r\":20,\"phase_deg\":30,\"motion\":\"velocity\",\"velocity_phi\":0.9}]"
+      "}",
+      12 },
+    { "{\"camera\":{\"inclination_deg\":70,\"r\":25,\"fov_deg\":60},\"bodies\":[{\"radius\":2,\"r\":12,\"phase_deg\":"
+      "160,\"inclination_deg\":100,\"motion\":\"static\"}]}",
+      12 },
 };
 
-/* How far an image's edge is from where it should be, in pixels: where the picture and the oracle differ about a pixel, by how b changes there. */
+/* How far an image's edge is from where it should be, in pixels: where the picture and the oracle differ about a
+ * pixel, by how b changes there. */
 static double off_by(const struct kd_scene *scene, int x, int y)
 {
     const double radius = scene->bodies.at[0].radius;
     const bool inside = first_of(scene, x + 0.5, y + 0.5).b < radius;
     for (double reach = 0.02; reach < 1; reach += 0.02)
         for (int k = 0; k < 16; k++)
-            if ((first_of(scene, x + 0.5 + reach * cos(k * M_PI / 8), y + 0.5 + reach * sin(k * M_PI / 8)).b < radius) != inside)
+            if ((first_of(scene, x + 0.5 + reach * cos(k * M_PI / 8), y + 0.5 + reach * sin(k * M_PI / 8)).b <
+                 radius) != inside)
                 return reach;
     return 1;
 }
@@ -88,7 +120,8 @@ static void test_places(void **state)
         int lit = 0, differ = 0;
         double worst = 0;
         for (int i = 0; i < PIXELS; i++) {
-            const bool seen = intensity(&frame)[i] > 0, there = first_of(&scene, i % WIDTH + 0.5, i / WIDTH + 0.5).b < scene.bodies.at[0].radius;
+            const bool seen = intensity(&frame)[i] > 0,
+                       there = first_of(&scene, i % WIDTH + 0.5, i / WIDTH + 0.5).b < scene.bodies.at[0].radius;
             lit += there;
             differ += seen != there;
             if (seen != there)
@@ -100,15 +133,16 @@ static void test_places(void **state)
     }
 }
 
-
 /* The metric at a place of the scene's first body: -g_tt, g_tphi, g_phiphi, all that a motion along phi asks for. */
 struct metric { double tt, tp, pp; };
 
 static struct metric metric_of(const struct kd_scene *scene)
 {
     const struct kd_body *b = &scene->bodies.at[0];
-    const double a = scene->spacetime.spin, r = b->r, u = cos(b->inclination_deg * M_PI / 180), s2 = 1 - u * u, sigma = r * r + a * a * u * u;
-    return (struct metric) { 1 - 2 * r / sigma, -2 * a * r * s2 / sigma, (r * r + a * a + 2 * a * a * r * s2 / sigma) * s2 };
+    const double a = scene->spacetime.spin, r = b->r, u = cos(b->inclination_deg * M_PI / 180), s2 = 1 - u * u,
+                 sigma = r * r + a * a * u * u;
+    return (struct metric) { 1 - 2 * r / sigma, -2 * a * r * s2 / sigma,
+                             (r * r + a * a + 2 * a * a * r * s2 / sigma) * s2 };
 }
 
 /* 1/g of what turns with Omega, or of what moves along phi past what has no angular momentum. */
@@ -116,7 +150,8 @@ static double shift_of(const struct kd_scene *scene, const struct ks_photon *p)
 {
     const struct kd_body *b = &scene->bodies.at[0];
     const struct metric g = metric_of(scene);
-    const double a = scene->spacetime.spin, dragging = -g.tp / g.pp, lapse = sqrt(g.tt + g.tp * g.tp / g.pp), v = b->velocity_phi;
+    const double a = scene->spacetime.spin, dragging = -g.tp / g.pp, lapse = sqrt(g.tt + g.tp * g.tp / g.pp),
+                 v = b->velocity_phi;
     double omega = 0;
     switch (b->motion) {
     case KD_OBSERVER_ZAMO: omega = dragging; break;
@@ -133,12 +168,18 @@ static void test_light(void **state)
 {
     (void)state;
     static const char *const motions[] = {
-        "{\"motion\":\"keplerian\"}", "{\"motion\":\"retrograde\"}", "{\"motion\":\"static\"}", "{\"motion\":\"zamo\",\"inclination_deg\":60}",
+        "{\"motion\":\"keplerian\"}",
+        "{\"motion\":\"retrograde\"}",
+        "{\"motion\":\"static\"}",
+        "{\"motion\":\"zamo\",\"inclination_deg\":60}",
         "{\"motion\":\"velocity\",\"velocity_phi\":-0.7,\"limb_darkening\":0,\"brightness\":3}",
     };
     for (size_t k = 0; k < sizeof motions / sizeof *motions; k++) {
         char json[512];
-        snprintf(json, sizeof json, "{\"camera\":{\"inclination_deg\":70,\"field_m\":26},\"spacetime\":{\"spin\":0.9},\"bodies\":[{\"radius\":1.2,\"r\":8,\"phase_deg\":40,%s]}", motions[k] + 1);
+        snprintf(json, sizeof json,
+                 "{\"camera\":{\"inclination_deg\":70,\"field_m\":26},\"spacetime\":{\"spin\":0.9},\"bodies\":[{"
+                 "\"radius\":1.2,\"r\":8,\"phase_deg\":40,%s]}",
+                 motions[k] + 1);
         const struct kd_scene scene = scene_of(json);
         const struct kd_body *b = &scene.bodies.at[0];
         struct kd_frame frame = rendered(&scene);
@@ -151,7 +192,8 @@ static void test_light(void **state)
             const double x = first_of(&scene, i % WIDTH + 0.5, i / WIDTH + 0.5).b / b->radius, c = b->limb_darkening;
             if (x > 0.9)
                 continue; /* the limb falls steeply: its place is judged elsewhere */
-            const double t = b->temperature_k / scene.disk.peak_temperature_k / shift_of(&scene, &photon), limb = (1 - c * (1 - sqrt(1 - x * x))) / (1 - c / 3);
+            const double t = b->temperature_k / scene.disk.peak_temperature_k / shift_of(&scene, &photon),
+                         limb = (1 - c * (1 - sqrt(1 - x * x))) / (1 - c / 3);
             worst = fmax(worst, fabs(intensity(&frame)[i] / (b->brightness * limb * t * t * t * t) - 1));
             lit++;
         }
@@ -166,9 +208,11 @@ static void test_order(void **state)
 {
     (void)state;
     static const char *const json[] = {
-        "{\"camera\":{\"inclination_deg\":75,\"field_m\":40},\"disk\":{\"model\":\"novikov-thorne\",\"outer\":22,\"taper\":0},"
+        "{\"camera\":{\"inclination_deg\":75,\"field_m\":40},\"disk\":{\"model\":\"novikov-thorne\",\"outer\":22,"
+        "\"taper\":0},"
         "\"bodies\":[{\"radius\":3,\"r\":14,\"phase_deg\":150,\"inclination_deg\":65,\"motion\":\"static\"}]}",
-        "{\"camera\":{\"inclination_deg\":75,\"field_m\":40},\"disk\":{\"model\":\"novikov-thorne\",\"outer\":22,\"taper\":0},"
+        "{\"camera\":{\"inclination_deg\":75,\"field_m\":40},\"disk\":{\"model\":\"novikov-thorne\",\"outer\":22,"
+        "\"taper\":0},"
         "\"bodies\":[{\"radius\":3,\"r\":14,\"phase_deg\":-160,\"inclination_deg\":115,\"motion\":\"static\"}]}",
     };
     for (int k = 0; k < 2; k++) {
@@ -187,13 +231,15 @@ static void test_order(void **state)
             for (int n = 0; n < path.crossings; n++) {
                 const bool on = path.r[n] > 3.4 && path.r[n] < 22;
                 hidden |= on && path.delay[n] < at.delay;
-                near |= fabs(path.delay[n] - at.delay) < 3.5 || fabs(path.r[n] - 3.4) < 0.1 || fabs(path.r[n] - 22) < 0.1;
+                near |=
+                    fabs(path.delay[n] - at.delay) < 3.5 || fabs(path.r[n] - 3.4) < 0.1 || fabs(path.r[n] - 22) < 0.1;
             }
             if (near)
                 continue;
             const double want = hidden ? intensity(&bare)[i] : intensity(&alone)[i];
             if (fabs(intensity(&all)[i] - want) > 1e-5 * want)
-                fail_msg("scene %d, pixel %d, %s: %g, not %g", k, i, hidden ? "behind the disk" : "before it", intensity(&all)[i], want);
+                fail_msg("scene %d, pixel %d, %s: %g, not %g", k, i, hidden ? "behind the disk" : "before it",
+                         intensity(&all)[i], want);
             front += !hidden;
             behind += hidden;
         }
@@ -260,7 +306,9 @@ static void test_volumes(void **state)
     (void)state;
     double opacity = 0.05;
     for (int behind = 0; behind < 2; behind++) {
-        struct kd_scene scene = scene_of("{\"camera\":{\"inclination_deg\":60,\"field_m\":16,\"centre_beta\":-7},\"bodies\":[{\"radius\":2,\"r\":15}]}"), bare;
+        struct kd_scene scene = scene_of("{\"camera\":{\"inclination_deg\":60,\"field_m\":16,\"centre_beta\":-7},"
+                                         "\"bodies\":[{\"radius\":2,\"r\":15}]}"),
+                        bare;
         bare = scene;
         OK(kd_scene_set(&scene, "volume.model", "uniform", &error));
         scene.volume.redshift = false;
@@ -273,10 +321,12 @@ static void test_volumes(void **state)
         for (int i = 0; i < PIXELS; i++) {
             if (!(intensity(&plain)[i] > 0))
                 continue;
-            const struct ks_light front = ks_along(photon_of(&scene, i % WIDTH + 0.5, i / WIDTH + 0.5), 20, 30, true, shell, &opacity);
+            const struct ks_light front =
+                ks_along(photon_of(&scene, i % WIDTH + 0.5, i / WIDTH + 0.5), 20, 30, true, shell, &opacity);
             const double want = intensity(&plain)[i] * (behind ? 1 : exp(-front.depth));
             if (fabs(intensity(&dimmed)[i] / want - 1) > 1e-4)
-                fail_msg("shell %s, pixel %d: %g, not %g", behind ? "behind" : "before", i, intensity(&dimmed)[i], want);
+                fail_msg("shell %s, pixel %d: %g, not %g", behind ? "behind" : "before", i, intensity(&dimmed)[i],
+                         want);
             lit++;
         }
         assert_true(lit > 20);
@@ -296,12 +346,15 @@ static double layer_at(const struct kd_frame *frame, const char *name, int pixel
 static void test_layers(void **state)
 {
     (void)state;
-    struct kd_scene scene = scene_of("{\"camera\":{\"inclination_deg\":60,\"field_m\":16,\"centre_beta\":-7},\"spacetime\":{\"spin\":0.5},\"disk\":{\"outer\":10},\"bodies\":[{\"radius\":2,\"r\":15}]}");
+    struct kd_scene scene =
+        scene_of("{\"camera\":{\"inclination_deg\":60,\"field_m\":16,\"centre_beta\":-7},\"spacetime\":{\"spin\":0.5},"
+                 "\"disk\":{\"outer\":10},\"bodies\":[{\"radius\":2,\"r\":15}]}");
     OK(kd_scene_set(&scene, "image.layers", "intensity,g,temperature,r,phi,order,emission_angle", &error));
     struct kd_frame frame = rendered(&scene);
     int lit = 0;
     for (int i = 0; i < PIXELS; i++) {
-        if (!(intensity(&frame)[i] > 0) || layer_at(&frame, "r", i) <= 10) /* or the plane before it, between the disk's edges */
+        if (!(intensity(&frame)[i] > 0) ||
+            layer_at(&frame, "r", i) <= 10) /* or the plane before it, between the disk's edges */
             continue;
         const struct ks_photon photon = photon_of(&scene, i % WIDTH + 0.5, i / WIDTH + 0.5);
         const double x = first_of(&scene, i % WIDTH + 0.5, i / WIDTH + 0.5).b / 2;
@@ -335,16 +388,23 @@ static void test_adversarial(void **state)
         "{\"bodies\":[{\"radius\":1e6,\"r\":15},{\"radius\":1e-30,\"r\":15},{\"radius\":2,\"r\":15,\"brightness\":0}]}",
         /* over the horizon */
         "{\"bodies\":[{\"radius\":1,\"r\":1.81,\"motion\":\"zamo\",\"brightness\":1e9,\"temperature_k\":1e9}]}",
-        "{\"spacetime\":{\"spin\":0.999999999999},\"bodies\":[{\"radius\":0.5,\"r\":1.06,\"motion\":\"zamo\"},{\"radius\":0.5,\"r\":1.5,\"motion\":\"infall\"}]}",
-        "{\"spacetime\":{\"spin\":-0.999},\"camera\":{\"inclination_deg\":0},\"bodies\":[{\"radius\":1,\"r\":6,\"inclination_deg\":0,\"motion\":\"static\"},"
+        "{\"spacetime\":{\"spin\":0.999999999999},\"bodies\":[{\"radius\":0.5,\"r\":1.06,\"motion\":\"zamo\"},{"
+        "\"radius\":0.5,\"r\":1.5,\"motion\":\"infall\"}]}",
+        "{\"spacetime\":{\"spin\":-0.999},\"camera\":{\"inclination_deg\":0},\"bodies\":[{\"radius\":1,\"r\":6,"
+        "\"inclination_deg\":0,\"motion\":\"static\"},"
         "{\"radius\":1,\"r\":6,\"inclination_deg\":180,\"motion\":\"velocity\",\"velocity_phi\":0.999}]}",
-        "{\"bodies\":[{\"radius\":1,\"r\":6,\"motion\":\"velocity\",\"velocity_r\":0.999},{\"radius\":1,\"r\":6,\"motion\":\"velocity\",\"velocity_r\":-0.999},"
+        "{\"bodies\":[{\"radius\":1,\"r\":6,\"motion\":\"velocity\",\"velocity_r\":0.999},{\"radius\":1,\"r\":6,"
+        "\"motion\":\"velocity\",\"velocity_r\":-0.999},"
         "{\"radius\":1,\"r\":6,\"motion\":\"velocity\",\"velocity_theta\":0.999}]}",
-        "{\"camera\":{\"r\":1.5,\"inclination_deg\":90,\"observer\":\"zamo\"},\"spacetime\":{\"spin\":0.9},\"bodies\":[{\"radius\":3,\"r\":8},{\"radius\":0.3,\"r\":1.6,\"motion\":\"zamo\"}]}",
+        "{\"camera\":{\"r\":1.5,\"inclination_deg\":90,\"observer\":\"zamo\"},\"spacetime\":{\"spin\":0.9},\"bodies\":["
+        "{\"radius\":3,\"r\":8},{\"radius\":0.3,\"r\":1.6,\"motion\":\"zamo\"}]}",
         /* from within the horizon */
-        "{\"camera\":{\"r\":1.2,\"inclination_deg\":75,\"observer\":\"infall\"},\"spacetime\":{\"spin\":0.5},\"bodies\":[{\"radius\":3,\"r\":8}]}",
-        "{\"camera\":{\"r\":3,\"inclination_deg\":75,\"observer\":\"infall\"},\"spacetime\":{\"spin\":0.5},\"bodies\":[{\"radius\":1,\"r\":8,\"phase_deg\":180}]}",
-        "{\"bodies\":[{\"radius\":1},{\"radius\":1},{\"radius\":1},{\"radius\":1},{\"radius\":1},{\"radius\":1},{\"radius\":1},{\"radius\":1}]}",
+        "{\"camera\":{\"r\":1.2,\"inclination_deg\":75,\"observer\":\"infall\"},\"spacetime\":{\"spin\":0.5},"
+        "\"bodies\":[{\"radius\":3,\"r\":8}]}",
+        "{\"camera\":{\"r\":3,\"inclination_deg\":75,\"observer\":\"infall\"},\"spacetime\":{\"spin\":0.5},\"bodies\":["
+        "{\"radius\":1,\"r\":8,\"phase_deg\":180}]}",
+        "{\"bodies\":[{\"radius\":1},{\"radius\":1},{\"radius\":1},{\"radius\":1},{\"radius\":1},{\"radius\":1},{"
+        "\"radius\":1},{\"radius\":1}]}",
     };
     for (size_t k = 0; k < sizeof hard / sizeof *hard; k++) {
         const struct kd_scene scene = scene_of(hard[k]);
@@ -365,12 +425,8 @@ static void test_adversarial(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_places),
-        cmocka_unit_test(test_light),
-        cmocka_unit_test(test_order),
-        cmocka_unit_test(test_tree),
-        cmocka_unit_test(test_volumes),
-        cmocka_unit_test(test_layers),
+        cmocka_unit_test(test_places),      cmocka_unit_test(test_light),   cmocka_unit_test(test_order),
+        cmocka_unit_test(test_tree),        cmocka_unit_test(test_volumes), cmocka_unit_test(test_layers),
         cmocka_unit_test(test_adversarial),
     };
     int code = open_renderer();

@@ -1,5 +1,5 @@
-/* Two ways of the transfer kernel through the same rays give the same light: pixels of one ray in columns, which pass over crossings that
- * no emitter reaches, and pixels of several rays, which look at each crossing. */
+/* Two ways of the transfer kernel through the same rays give the same light: pixels of one ray in columns, which
+ * pass over crossings that no emitter reaches, and pixels of several rays, which look at each crossing. */
 #include "render/device/internal.h"
 #include "render/render.h"
 
@@ -34,7 +34,8 @@ static void assert_same_light(struct kd_scene scene)
                     sum += shown(b, 3 * (size_t)((2 * y + i / 2) * 2 * w + 2 * x + i % 2) + (size_t)c);
                 lit += one;
                 if (fabs(one - sum / 4) > 2e-5 + 1e-4 * one) /* half a step of 16 bits is at most 1.7e-5 here */
-                    fail_msg("pixel (%d, %d), channel %d: %.7f by four rays, %.7f by four pixels", x, y, c, one, sum / 4);
+                    fail_msg("pixel (%d, %d), channel %d: %.7f by four rays, %.7f by four pixels", x, y, c, one,
+                             sum / 4);
             }
     assert_true(lit > 1);
     kd_frame_finish(&coarse);
@@ -54,19 +55,22 @@ static void test_disk(void **state)
     (void)state;
     assert_same_light(scene_of("{\"disk\":{\"opacity\":0.6}}"));
     assert_same_light(scene_of("{\"disk\":{\"opacity\":0.6},\"sky\":{\"model\":\"grid\"}}"));
-    assert_same_light(scene_of("{\"disk\":{\"inner\":12,\"outer\":15,\"taper\":0},\"camera\":{\"r\":20,\"inclination_deg\":60}}"));
+    assert_same_light(
+        scene_of("{\"disk\":{\"inner\":12,\"outer\":15,\"taper\":0},\"camera\":{\"r\":20,\"inclination_deg\":60}}"));
 }
 
 static void test_spots(void **state)
 {
     (void)state;
-    assert_same_light(scene_of("{\"disk\":{\"model\":\"none\"},\"spots\":[{\"brightness\":3,\"size\":2},{\"brightness\":1,\"r\":15,\"phase_deg\":120}]}"));
+    assert_same_light(scene_of("{\"disk\":{\"model\":\"none\"},\"spots\":[{\"brightness\":3,\"size\":2},{"
+                               "\"brightness\":1,\"r\":15,\"phase_deg\":120}]}"));
 }
 
 static void test_plunging(void **state)
 {
     (void)state;
-    assert_same_light(scene_of("{\"spacetime\":{\"spin\":0},\"camera\":{\"inclination_deg\":50,\"field_m\":20},\"disk\":{\"model\":\"particles\","
+    assert_same_light(scene_of("{\"spacetime\":{\"spin\":0},\"camera\":{\"inclination_deg\":50,\"field_m\":20},"
+                               "\"disk\":{\"model\":\"particles\","
                                "\"plunging\":0.3,\"particles\":50000,\"opacity\":0.9},\"sky\":{\"model\":\"grid\"}}"));
 }
 
@@ -101,8 +105,9 @@ static void assert_same_readers(struct kd_scene scene)
     kd_frame_finish(&of_storage);
 }
 
-/* Footprints and light are the same to the byte where the lens map, and what emitters have on the device, are read as texels and as storage: on the grid
- * and on the pixels at the critical curve; of crossings, of the sky, of stars before others and alone, and of particles. */
+/* Footprints and light are the same to the byte where the lens map, and what emitters have on the device, are read
+ * as texels and as storage: on the grid and on the pixels at the critical curve; of crossings, of the sky, of stars
+ * before others and alone, and of particles. */
 static void test_readers(void **state)
 {
     (void)state;
@@ -128,7 +133,8 @@ int main(void)
     if (status)
         return status;
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_disk), cmocka_unit_test(test_spots), cmocka_unit_test(test_plunging), cmocka_unit_test(test_nothing_but_sky),
+        cmocka_unit_test(test_disk),     cmocka_unit_test(test_spots),
+        cmocka_unit_test(test_plunging), cmocka_unit_test(test_nothing_but_sky),
         cmocka_unit_test(test_readers),
     };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));

@@ -1,5 +1,6 @@
-/* A playground in pictures: where the images of its bodies are, and which of them hides which, by the Kerr-Schild oracle; that one of its bodies is seen
- * as one of a scene is, before and behind the disk and the hole; the light of its debris; and crowds that cannot be. */
+/* A playground in pictures: where the images of its bodies are, and which of them hides which, by the Kerr-Schild
+ * oracle; that one of its bodies is seen as one of a scene is, before and behind the disk and the hole; the light of
+ * its debris; and crowds that cannot be. */
 #include "render_support.h"
 
 #include "kerr_schild.h"
@@ -48,20 +49,26 @@ static struct kd_playground *many(double spin)
     params.spin = spin;
     OK(kd_playground_create(&params, &p, &error));
     for (int i = 0; i < MANY;) {
-        const double r = 7.5 + 12.5 * chance(), u = 1.8 * chance() - 0.9, s = sqrt(1 - u * u), phi = 2 * M_PI * chance();
-        struct kd_playground_body body = { .mass = 1e-9, .radius = RADIUS, .temperature_k = LEAST_K + 2 * i,
-                                           .x = { r * s * cos(phi), r * s * sin(phi), r * u }, .v = { -0.3 * sin(phi), 0.3 * cos(phi), 0 } };
+        const double r = 7.5 + 12.5 * chance(), u = 1.8 * chance() - 0.9, s = sqrt(1 - u * u),
+                     phi = 2 * M_PI * chance();
+        struct kd_playground_body body = { .mass = 1e-9,
+                                           .radius = RADIUS,
+                                           .temperature_k = LEAST_K + 2 * i,
+                                           .x = { r * s * cos(phi), r * s * sin(phi), r * u },
+                                           .v = { -0.3 * sin(phi), 0.3 * cos(phi), 0 } };
         struct kd_error none; /* some motions are as good as on the edge between two kinds: others are drawn */
         i += !kd_playground_add(p, &body, NULL, &none);
     }
     return p;
 }
 
-static double pass(const struct kd_scene *scene, const struct kd_seen_body *b, double alpha, double beta, double within, double *delay)
+static double pass(const struct kd_scene *scene, const struct kd_seen_body *b, double alpha, double beta, double within,
+                   double *delay)
 {
     struct ks_near at[MOST];
     const double theta = scene->camera.inclination_deg * M_PI / 180;
-    const int n = ks_passes(ks_from_infinity(scene->spacetime.spin, cos(theta), alpha, beta), b->r, b->u, b->phi, within, MOST, at);
+    const int n = ks_passes(ks_from_infinity(scene->spacetime.spin, cos(theta), alpha, beta), b->r, b->u, b->phi,
+                            within, MOST, at);
     double least = INFINITY;
     for (int i = 0; i < n; i++) /* the first that meets it, else the nearest */
         if (least > RADIUS && at[i].b < least) {
@@ -78,7 +85,8 @@ static double image_near(const struct kd_scene *scene, const struct kd_seen_body
     for (int tries = 0; tries < 60 && least > 0.1 * RADIUS; tries++) {
         double best[2] = { at[0], at[1] };
         for (int k = 0; k < 8; k++) {
-            const double x = at[0] + step * cos(k * M_PI / 4), y = at[1] + step * sin(k * M_PI / 4), off = pass(scene, b, x, y, 8, &delay);
+            const double x = at[0] + step * cos(k * M_PI / 4), y = at[1] + step * sin(k * M_PI / 4),
+                         off = pass(scene, b, x, y, 8, &delay);
             if (off < least) {
                 least = off;
                 best[0] = x;
@@ -98,10 +106,14 @@ static double image_near(const struct kd_scene *scene, const struct kd_seen_body
     return far;
 }
 
-struct judged { int shown, hidden, images; double worst; };
+struct judged {
+    int shown, hidden, images;
+    double worst;
+};
 
 /* A picture of one image: each pixel shows the body where the oracle says so, or one that the ray met before. */
-static void judge(struct kd_scene scene, const struct kd_crowd *crowd, uint32_t which, const double at[2], double size, struct judged *sum)
+static void judge(struct kd_scene scene, const struct kd_crowd *crowd, uint32_t which, const double at[2], double size,
+                  struct judged *sum)
 {
     char set[64];
     const double field = 5 * size, step = field / WIDTH;
@@ -113,7 +125,8 @@ static void judge(struct kd_scene scene, const struct kd_crowd *crowd, uint32_t 
     const float *kelvin = layer_of(&frame, "temperature");
     int lit = 0;
     for (int i = 0; i < PIXELS; i++) {
-        const double x = at[0] + step * (i % WIDTH + 0.5 - 0.5 * WIDTH), y = at[1] - step * (i / WIDTH + 0.5 - 0.5 * HEIGHT);
+        const double x = at[0] + step * (i % WIDTH + 0.5 - 0.5 * WIDTH),
+                     y = at[1] - step * (i / WIDTH + 0.5 - 0.5 * HEIGHT);
         double delay, before;
         const bool there = pass(&scene, &crowd->bodies[which], x, y, 4, &delay) < RADIUS;
         const long seen = isnan(kelvin[i]) ? -1 : lround((kelvin[i] - LEAST_K) / 2);
@@ -127,11 +140,13 @@ static void judge(struct kd_scene scene, const struct kd_crowd *crowd, uint32_t 
         sum->shown += there && seen == which;
         for (double reach = 0.02; !right && reach < 1; reach += 0.02)
             for (int k = 0; k < 12 && !right; k++) {
-                right = (pass(&scene, &crowd->bodies[which], x + reach * step * cos(k * M_PI / 6), y + reach * step * sin(k * M_PI / 6), 4, &delay) < RADIUS) == (seen == which);
+                right = (pass(&scene, &crowd->bodies[which], x + reach * step * cos(k * M_PI / 6),
+                              y + reach * step * sin(k * M_PI / 6), 4, &delay) < RADIUS) == (seen == which);
                 sum->worst = fmax(sum->worst, reach);
             }
         if (!right)
-            fail_msg("body %u, pixel %d: the picture has %ld, the oracle %s", which, i, seen, there ? "this one" : "another or none");
+            fail_msg("body %u, pixel %d: the picture has %ld, the oracle %s", which, i, seen,
+                     there ? "this one" : "another or none");
     }
     sum->images += lit >= 4;
     kd_frame_finish(&frame);
@@ -140,7 +155,8 @@ static void judge(struct kd_scene scene, const struct kd_crowd *crowd, uint32_t 
 static void test_places(void **state)
 {
     (void)state;
-    struct kd_scene scene = scene_of("{\"camera\":{\"inclination_deg\":70},\"spacetime\":{\"spin\":0.7},\"disk\":{\"inner\":5,\"outer\":5.001},\"image\":{\"layers\":[\"rgb\",\"temperature\"]}}");
+    struct kd_scene scene = scene_of("{\"camera\":{\"inclination_deg\":70},\"spacetime\":{\"spin\":0.7},\"disk\":{"
+                                     "\"inner\":5,\"outer\":5.001},\"image\":{\"layers\":[\"rgb\",\"temperature\"]}}");
     struct kd_playground *p = many(scene.spacetime.spin);
     struct kd_crowd *crowd;
     struct judged first = { 0 }, second = { 0 };
@@ -153,7 +169,8 @@ static void test_places(void **state)
         const struct kd_seen_body *b = &crowd->bodies[which];
         const double theta = scene.camera.inclination_deg * M_PI / 180, c = cos(theta), s = sin(theta);
         const double x[3] = { b->r * b->s * cos(b->phi), b->r * b->s * sin(b->phi), b->r * b->u };
-        const double ahead = s * x[0] + c * x[2], across[2] = { x[1], s * x[2] - c * x[0] }, impact = hypot(across[0], across[1]);
+        const double ahead = s * x[0] + c * x[2], across[2] = { x[1], s * x[2] - c * x[0] },
+                     impact = hypot(across[0], across[1]);
         double at[2] = { across[0], across[1] }, size;
         if (ahead < 0 || impact > 6) { /* light that comes by the hole is bent */
             const double more = impact < 8 && ahead < 0 ? sqrt(impact * impact + 4 * -ahead) : impact + 1;
@@ -169,8 +186,10 @@ static void test_places(void **state)
         if (size > 0 && hypot(other[0] - at[0], other[1] - at[1]) > 1)
             judge(scene, crowd, which, other, size, &second);
     }
-    printf("%d images of order 0: %d pixels, %d behind others, edges off by %.2g pixels; %d of order 1: %d pixels, %d behind others, %.2g\n", first.images, first.shown,
-           first.hidden, first.worst, second.images, second.shown, second.hidden, second.worst);
+    printf("%d images of order 0: %d pixels, %d behind others, edges off by %.2g pixels; %d of order 1: %d pixels, %d "
+           "behind others, %.2g\n",
+           first.images, first.shown, first.hidden, first.worst, second.images, second.shown, second.hidden,
+           second.worst);
     assert_true(first.images >= 30 && second.images >= 5 && first.worst < 0.5 && second.worst < 0.5);
     kd_crowd_release(crowd);
 }
@@ -184,19 +203,30 @@ static struct kd_crowd *one(const struct kd_seen_body *body, size_t n)
     return crowd;
 }
 
-/* What a scene's own body shows, hides and is hidden by is judged in test_bodies.c: one of a playground is the same to the bit. */
+/* What a scene's own body shows, hides and is hidden by is judged in test_bodies.c: one of a playground is the same
+ * to the bit. */
 static void test_as_a_scene_has_it(void **state)
 {
     (void)state;
     static const double phases[] = { 20, 150, -170 };
     for (int k = 0; k < 3; k++) {
         char json[256];
-        snprintf(json, sizeof json, "{\"camera\":{\"inclination_deg\":75,\"field_m\":40},\"disk\":{\"model\":\"novikov-thorne\"},\"image\":{\"layers\":[\"rgb\",\"intensity\"]},"
-                 "\"bodies\":[{\"radius\":3,\"r\":14,\"phase_deg\":%g,\"inclination_deg\":65,\"motion\":\"zamo\"}]}", phases[k]);
+        snprintf(json, sizeof json,
+                 "{\"camera\":{\"inclination_deg\":75,\"field_m\":40},\"disk\":{\"model\":\"novikov-thorne\"},"
+                 "\"image\":{\"layers\":[\"rgb\",\"intensity\"]},"
+                 "\"bodies\":[{\"radius\":3,\"r\":14,\"phase_deg\":%g,\"inclination_deg\":65,\"motion\":\"zamo\"}]}",
+                 phases[k]);
         struct kd_scene own = scene_of(json), other = own;
         const struct kd_body *b = &own.bodies.at[0];
-        struct kd_crowd *crowd = one(&(struct kd_seen_body) { .r = b->r, .u = cos(65 * M_PI / 180), .s = sin(65 * M_PI / 180), .phi = phases[k] * M_PI / 180,
-                                                             .radius = b->radius, .temperature_k = b->temperature_k, .brightness = 1, .limb_darkening = b->limb_darkening }, 1);
+        struct kd_crowd *crowd = one(&(struct kd_seen_body) { .r = b->r,
+                                                              .u = cos(65 * M_PI / 180),
+                                                              .s = sin(65 * M_PI / 180),
+                                                              .phi = phases[k] * M_PI / 180,
+                                                              .radius = b->radius,
+                                                              .temperature_k = b->temperature_k,
+                                                              .brightness = 1,
+                                                              .limb_darkening = b->limb_darkening },
+                                     1);
         other.bodies.at[0].radius = 0;
         kd_scene_show(&other, crowd);
         struct kd_frame a = rendered(&own), c = rendered(&other);
@@ -215,16 +245,24 @@ static void test_as_a_scene_has_it(void **state)
     }
 }
 
-/* A body of temperature 0 is as dark as one of brightness 0: it hides what lies behind it, disk and other bodies, is told with its temperature, and leaves no NaN. One
- * without a radius is told. */
+/* A body of temperature 0 is as dark as one of brightness 0: it hides what lies behind it, disk and other bodies, is
+ * told with its temperature, and leaves no NaN. One without a radius is told. */
 static void test_dark(void **state)
 {
     (void)state;
-    struct kd_scene scene = scene_of("{\"camera\":{\"inclination_deg\":75,\"field_m\":40},\"disk\":{\"model\":\"novikov-thorne\",\"outer\":60},\"image\":{\"layers\":[\"rgb\",\"intensity\",\"temperature\"]}}");
+    struct kd_scene scene =
+        scene_of("{\"camera\":{\"inclination_deg\":75,\"field_m\":40},\"disk\":{\"model\":\"novikov-thorne\",\"outer\":"
+                 "60},\"image\":{\"layers\":[\"rgb\",\"intensity\",\"temperature\"]}}");
     struct kd_frame bare = rendered(&scene), frames[3];
     for (int k = 0; k < 3; k++) {
-        const struct kd_seen_body body = { .r = 14, .u = cos(65 * M_PI / 180), .s = sin(65 * M_PI / 180), .phi = 1.2, .radius = k == 2 ? 0 : 3,
-                                           .temperature_k = k == 1 ? 0 : 6000, .brightness = k == 1 ? 1 : 0, .limb_darkening = 0.6 };
+        const struct kd_seen_body body = { .r = 14,
+                                           .u = cos(65 * M_PI / 180),
+                                           .s = sin(65 * M_PI / 180),
+                                           .phi = 1.2,
+                                           .radius = k == 2 ? 0 : 3,
+                                           .temperature_k = k == 1 ? 0 : 6000,
+                                           .brightness = k == 1 ? 1 : 0,
+                                           .limb_darkening = 0.6 };
         struct kd_crowd *crowd = one(&body, 1);
         struct kd_capacity c;
         struct kd_plan plan;
@@ -240,7 +278,8 @@ static void test_dark(void **state)
     }
     int hidden = 0;
     for (int i = 0; i < PIXELS; i++) {
-        const float before = layer_of(&bare, "intensity")[i], by_brightness = layer_of(&frames[0], "intensity")[i], by_kelvin = layer_of(&frames[1], "intensity")[i];
+        const float before = layer_of(&bare, "intensity")[i], by_brightness = layer_of(&frames[0], "intensity")[i],
+                    by_kelvin = layer_of(&frames[1], "intensity")[i];
         const bool is_body = layer_of(&frames[1], "temperature")[i] == 0;
         assert_true(by_kelvin == by_brightness && layer_of(&frames[2], "intensity")[i] == before);
         assert_true(!is_body || by_kelvin == 0);
@@ -253,13 +292,18 @@ static void test_dark(void **state)
     kd_frame_finish(&bare);
 }
 
-/* 1/g of what moves with (v_r, v_phi) past the observer of zero angular momentum, by the photon's own components, in the equatorial plane. */
+/* 1/g of what moves with (v_r, v_phi) past the observer of zero angular momentum, by the photon's own components, in
+ * the equatorial plane. */
 static double shift_of(double a, double r, const struct ks_photon *p, double p_z, bool falls, const double v[2])
 {
-    const double delta = r * r - 2 * r + a * a, area = (r * r + a * a) * (r * r + a * a) - a * a * delta, k = p->momentum - a * p->energy;
-    const double w = (r * r + a * a) * p->energy - a * p->momentum, radial = sqrt(fmax(w * w - delta * (k * k + r * r * p_z * p_z), 0)) / delta;
-    const double p_r = falls ? -radial : radial, omega = 2 * a * r / area, lapse = r * sqrt(delta / area), gamma = 1 / sqrt(1 - v[0] * v[0] - v[1] * v[1]);
-    return gamma * ((p->energy - omega * p->momentum) / lapse - v[0] * p_r * sqrt(delta) / r - v[1] * p->momentum * r / sqrt(area));
+    const double delta = r * r - 2 * r + a * a, area = (r * r + a * a) * (r * r + a * a) - a * a * delta,
+                 k = p->momentum - a * p->energy;
+    const double w = (r * r + a * a) * p->energy - a * p->momentum,
+                 radial = sqrt(fmax(w * w - delta * (k * k + r * r * p_z * p_z), 0)) / delta;
+    const double p_r = falls ? -radial : radial, omega = 2 * a * r / area, lapse = r * sqrt(delta / area),
+                 gamma = 1 / sqrt(1 - v[0] * v[0] - v[1] * v[1]);
+    return gamma * ((p->energy - omega * p->momentum) / lapse - v[0] * p_r * sqrt(delta) / r -
+                    v[1] * p->momentum * r / sqrt(area));
 }
 
 static void test_debris(void **state)
@@ -267,7 +311,9 @@ static void test_debris(void **state)
     (void)state;
     static const double velocities[][2] = { { 0, 0 }, { -0.4, 0.3 }, { 0.5, -0.2 } };
     for (int k = 0; k < 3; k++) {
-        struct kd_scene scene = scene_of("{\"camera\":{\"inclination_deg\":60,\"field_m\":44},\"spacetime\":{\"spin\":0.8},\"accuracy\":{\"orders\":1},\"image\":{\"layers\":[\"rgb\",\"intensity\"]}}");
+        struct kd_scene scene =
+            scene_of("{\"camera\":{\"inclination_deg\":60,\"field_m\":44},\"spacetime\":{\"spin\":0.8},\"accuracy\":{"
+                     "\"orders\":1},\"image\":{\"layers\":[\"rgb\",\"intensity\"]}}");
         const double cell = 2 * M_PI / 512, worth = 3e-5, kelvin = 5000, *v = velocities[k];
         const int32_t from = (int32_t)floor(log(4) / cell);
         struct kd_crowd *crowd;
@@ -288,10 +334,12 @@ static void test_debris(void **state)
         int lit = 0;
         double worst = 0;
         for (int i = 0; i < PIXELS; i++) {
-            const double step = 44.0 / WIDTH, x = step * (i % WIDTH + 0.5 - 0.5 * WIDTH), y = -step * (i / WIDTH + 0.5 - 0.5 * HEIGHT);
+            const double step = 44.0 / WIDTH, x = step * (i % WIDTH + 0.5 - 0.5 * WIDTH),
+                         y = -step * (i / WIDTH + 0.5 - 0.5 * HEIGHT);
             const struct ks_photon photon = ks_from_infinity(0.8, 0.5, x, y);
             const struct ks_path path = ks_trace(photon, 1);
-            const double inner = exp(from * cell), outer = exp((from + rows - 1.0) * cell), r = path.crossings ? path.r[0] : 0;
+            const double inner = exp(from * cell), outer = exp((from + rows - 1.0) * cell),
+                         r = path.crossings ? path.r[0] : 0;
             const float seen = layer_of(&frame, "intensity")[i];
             if (fabs(r - inner) < 0.01 * inner || fabs(r - outer) < 0.01 * outer)
                 continue;
@@ -300,7 +348,9 @@ static void test_debris(void **state)
                 continue;
             }
             const double depth = 1000 * worth * (1 + 0.5 * sin(path.phi[0])) / (cell * cell * r * r);
-            const double t = kelvin / scene.disk.peak_temperature_k / shift_of(0.8, r, &photon, path.p_z[0], path.falls[0], v), want = (1 - exp(-depth)) * t * t * t * t;
+            const double t = kelvin / scene.disk.peak_temperature_k /
+                             shift_of(0.8, r, &photon, path.p_z[0], path.falls[0], v),
+                         want = (1 - exp(-depth)) * t * t * t * t;
             worst = fmax(worst, fabs(seen / want - 1));
             lit++;
         }
@@ -311,11 +361,12 @@ static void test_debris(void **state)
     }
 }
 
-/* A dark body far from the hole throws back what falls on the side that is seen: the whole integral over the disk, by places ten times as many and with the
- * cosine itself, where light is straight. */
+/* A dark body far from the hole throws back what falls on the side that is seen: the whole integral over the disk,
+ * by places ten times as many and with the cosine itself, where light is straight. */
 static double falls_on(const struct kd_scene *scene, const double at[3], const double normal[3])
 {
-    const double inner = kd_disk_inner(scene), outer = scene->disk.outer, radius = sqrt(at[0] * at[0] + at[1] * at[1] + at[2] * at[2]);
+    const double inner = kd_disk_inner(scene), outer = scene->disk.outer,
+                 radius = sqrt(at[0] * at[0] + at[1] * at[1] + at[2] * at[2]);
     static double heat[FINE]; /* of this scene's disk, whichever body is looked at */
     double sum = 0;
     for (int i = 0; i < FINE; i++)
@@ -323,34 +374,47 @@ static double falls_on(const struct kd_scene *scene, const double at[3], const d
             const double r = inner + (outer - inner) * (i + 0.5) / FINE, phi = 2 * M_PI * (k + 0.5) / FINE;
             heat[i] = heat[i] > 0 ? heat[i] : kd_disk_heat(scene, r);
             const double t = heat[i];
-            const double d[3] = { r * cos(phi) - at[0], r * sin(phi) - at[1], -at[2] }, d2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2], length = sqrt(d2);
-            const double cosine = (normal[0] * d[0] + normal[1] * d[1] + normal[2] * d[2]) / length, v = 1 / sqrt(r - 2); /* of a circle in Schwarzschild's metric, past one at rest */
-            const double towards = v * (sin(phi) * d[0] - cos(phi) * d[1]) / length, g = sqrt((1 - 2 / r) / (1 - 2 / radius)) * sqrt(1 - v * v) / (1 - towards);
-            sum += cosine > 0 ? t * t * t * t * g * g * g * g * cosine * fabs(at[2]) / length / d2 * r * (outer - inner) / FINE * 2 * M_PI / FINE : 0;
+            const double d[3] = { r * cos(phi) - at[0], r * sin(phi) - at[1], -at[2] },
+                         d2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2], length = sqrt(d2);
+            const double cosine = (normal[0] * d[0] + normal[1] * d[1] + normal[2] * d[2]) / length,
+                         v = 1 / sqrt(r - 2); /* of a circle in Schwarzschild's metric, past one at rest */
+            const double towards = v * (sin(phi) * d[0] - cos(phi) * d[1]) / length,
+                         g = sqrt((1 - 2 / r) / (1 - 2 / radius)) * sqrt(1 - v * v) / (1 - towards);
+            sum += cosine > 0 ? t * t * t * t * g * g * g * g * cosine * fabs(at[2]) / length / d2 * r *
+                                    (outer - inner) / FINE * 2 * M_PI / FINE
+                              : 0;
         }
     return sum;
 }
 
-/* What falls on one that moves: light by light carried over into its frame by the matrix of the boost, a photon's four components at a time. */
+/* What falls on one that moves: light by light carried over into its frame by the matrix of the boost, a photon's
+ * four components at a time. */
 static void test_lit_moving(void **state)
 {
     (void)state;
     static const double velocities[][3] = { { 0.4, 0, 0 }, { -0.3, 0.2, 0.5 }, { 0, -0.6, 0.1 } };
-    struct kd_scene scene = scene_of("{\"spacetime\":{\"spin\":0},\"disk\":{\"model\":\"novikov-thorne\",\"outer\":25,\"taper\":0}}");
+    struct kd_scene scene =
+        scene_of("{\"spacetime\":{\"spin\":0},\"disk\":{\"model\":\"novikov-thorne\",\"outer\":25,\"taper\":0}}");
     const double r = 60, u = 0.6, s = 0.8, inner = kd_disk_inner(&scene), dr = (25 - inner) / FINE;
     struct kd_lit lit;
     assert_true(kd_lit_of(&scene, &lit));
     for (int k = 0; k < 3; k++) {
         const double *v = velocities[k], v2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2], gamma = 1 / sqrt(1 - v2);
-        const struct kd_seen_body body = { .r = r, .u = u, .s = s, .phi = 1, .velocity = { v[0], v[1], v[2] }, .radius = 1, .albedo = 1 };
+        const struct kd_seen_body body = {
+            .r = r, .u = u, .s = s, .phi = 1, .velocity = { v[0], v[1], v[2] }, .radius = 1, .albedo = 1
+        };
         double sums[10] = { 0 };
         float got[12];
         kd_lit_body(&lit, &body, sqrt(1 - 2 / r), got);
         for (int i = 0; i < FINE * FINE; i++) {
-            const double at = inner + dr * (i / FINE + 0.5), phi = 2 * M_PI * (i % FINE + 0.5) / FINE, t = kd_disk_heat(&scene, at);
-            const double d[3] = { at * cos(phi) - r * s, at * sin(phi), -r * u }, length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), gas = 1 / sqrt(at - 2);
-            /* The photon flies along -d; by the gas it has the energy gamma (1 + v.d), by the body the components of the boost. */
-            const double k4[4] = { 1, -(s * d[0] + u * d[2]) / length, -(u * d[0] - s * d[2]) / length, -d[1] / length };
+            const double at = inner + dr * (i / FINE + 0.5), phi = 2 * M_PI * (i % FINE + 0.5) / FINE,
+                         t = kd_disk_heat(&scene, at);
+            const double d[3] = { at * cos(phi) - r * s, at * sin(phi), -r * u },
+                         length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), gas = 1 / sqrt(at - 2);
+            /* The photon flies along -d; by the gas it has the energy gamma (1 + v.d), by the body the components of
+             * the boost. */
+            const double k4[4] = { 1, -(s * d[0] + u * d[2]) / length, -(u * d[0] - s * d[2]) / length,
+                                   -d[1] / length };
             const double emitted = (1 + gas * (-sin(phi) * d[0] + cos(phi) * d[1]) / length) / sqrt(1 - gas * gas);
             double seen[4] = { gamma * k4[0], 0, 0, 0 };
             for (int m = 0; m < 3; m++) {
@@ -359,10 +423,20 @@ static void test_lit_moving(void **state)
                 for (int n = 0; n < 3; n++)
                     seen[m + 1] += (gamma - 1) * v[m] * v[n] / v2 * k4[n + 1];
             }
-            const double g = seen[0] / emitted * sqrt((1 - 2 / at) / (1 - 2 / r)), from[3] = { -seen[1] / seen[0], -seen[2] / seen[0], -seen[3] / seen[0] };
-            const double solid = at * dr * (2 * M_PI / FINE) * r * u / (length * length * length), f = pow(t * g, 4) * solid / (seen[0] * seen[0]) / M_PI;
-            const double all[10] = { f, f * from[0], f * from[1], f * from[2], f * from[0] * from[0], f * from[1] * from[1], f * from[2] * from[2],
-                                     f * from[0] * from[1], f * from[0] * from[2], f * from[1] * from[2] };
+            const double g = seen[0] / emitted * sqrt((1 - 2 / at) / (1 - 2 / r)),
+                         from[3] = { -seen[1] / seen[0], -seen[2] / seen[0], -seen[3] / seen[0] };
+            const double solid = at * dr * (2 * M_PI / FINE) * r * u / (length * length * length),
+                         f = pow(t * g, 4) * solid / (seen[0] * seen[0]) / M_PI;
+            const double all[10] = { f,
+                                     f * from[0],
+                                     f * from[1],
+                                     f * from[2],
+                                     f * from[0] * from[0],
+                                     f * from[1] * from[1],
+                                     f * from[2] * from[2],
+                                     f * from[0] * from[1],
+                                     f * from[0] * from[2],
+                                     f * from[1] * from[2] };
             for (int m = 0; m < 10; m++)
                 sums[m] += all[m];
         }
@@ -379,28 +453,40 @@ static void test_lit(void **state)
     (void)state;
     static const double polar[] = { 20, 60, 140 };
     for (int k = 0; k < 3; k++) {
-        struct kd_scene scene = scene_of("{\"camera\":{\"inclination_deg\":70,\"field_m\":30},\"spacetime\":{\"spin\":0},\"disk\":{\"model\":\"novikov-thorne\",\"outer\":25,\"taper\":0},"
+        struct kd_scene scene = scene_of("{\"camera\":{\"inclination_deg\":70,\"field_m\":30},\"spacetime\":{\"spin\":"
+                                         "0},\"disk\":{\"model\":\"novikov-thorne\",\"outer\":25,\"taper\":0},"
                                          "\"image\":{\"layers\":[\"rgb\",\"intensity\"]}}");
         const double theta = polar[k] * M_PI / 180, phi = 2.6, r = 150, i = 70 * M_PI / 180, step = 30.0 / WIDTH;
         const double at[3] = { r * sin(theta) * cos(phi), r * sin(theta) * sin(phi), r * cos(theta) };
-        struct kd_crowd *crowd = one(&(struct kd_seen_body) { .r = r, .u = cos(theta), .s = sin(theta), .phi = phi, .radius = 6, .temperature_k = 5000, .albedo = 0.5 }, 1);
+        struct kd_crowd *crowd = one(&(struct kd_seen_body) { .r = r,
+                                                              .u = cos(theta),
+                                                              .s = sin(theta),
+                                                              .phi = phi,
+                                                              .radius = 6,
+                                                              .temperature_k = 5000,
+                                                              .albedo = 0.5 },
+                                     1);
         /* Weakly bent: where it is seen, to a first guess that the picture is wide enough for. */
         double image[2] = { at[1], sin(i) * at[2] - cos(i) * at[0] };
-        const double ahead = sin(i) * at[0] + cos(i) * at[2], impact = hypot(image[0], image[1]), more = ahead < 0 ? 4 * -ahead / impact / impact : 0;
+        const double ahead = sin(i) * at[0] + cos(i) * at[2], impact = hypot(image[0], image[1]),
+                     more = ahead < 0 ? 4 * -ahead / impact / impact : 0;
         scene.camera.centre_alpha = image[0] * (1 + more);
         scene.camera.centre_beta = image[1] * (1 + more);
         kd_scene_show(&scene, crowd);
         struct kd_frame frame = rendered(&scene);
         double sum = 0, want = 0, most = 0;
         for (int p = 0; p < PIXELS; p++) {
-            const double x = step * (p % WIDTH + 0.5 - 0.5 * WIDTH) / 6, y = -step * (p / WIDTH + 0.5 - 0.5 * HEIGHT) / 6, z = sqrt(fmax(1 - x * x - y * y, 0));
+            const double x = step * (p % WIDTH + 0.5 - 0.5 * WIDTH) / 6,
+                         y = -step * (p / WIDTH + 0.5 - 0.5 * HEIGHT) / 6, z = sqrt(fmax(1 - x * x - y * y, 0));
             const double normal[3] = { z * sin(i) - y * cos(i), x, z * cos(i) + y * sin(i) };
             most = fmax(most, layer_of(&frame, "intensity")[p]);
             sum += layer_of(&frame, "intensity")[p];
             if (x * x + y * y < 1)
-                want += 0.5 / M_PI * falls_on(&scene, at, normal) * pow(1 - 2 / r, 2); /* and by its own redshift, ^4 of the square root */
+                want += 0.5 / M_PI * falls_on(&scene, at, normal) *
+                        pow(1 - 2 / r, 2); /* and by its own redshift, ^4 of the square root */
         }
-        printf("polar angle %g: %.4g of light, %.4g by the whole integral, brightest %.2g\n", polar[k], sum, want, most);
+        printf("polar angle %g: %.4g of light, %.4g by the whole integral, brightest %.2g\n", polar[k], sum, want,
+               most);
         assert_true(want > 0 && fabs(sum / want - 1) < 0.1);
         kd_frame_finish(&frame);
         kd_crowd_release(crowd);
@@ -413,14 +499,15 @@ static void test_adversarial(void **state)
     (void)state;
     const struct kd_seen_body plain = { .r = 12, .s = 1, .radius = 1, .temperature_k = 6000, .brightness = 1 };
     for (int k = 0; k < 8; k++) {
-        struct kd_scene scene = scene_of("{\"camera\":{\"inclination_deg\":75,\"field_m\":40},\"disk\":{\"model\":\"novikov-thorne\"},\"image\":{\"layers\":[\"rgb\",\"intensity\"]}}");
+        struct kd_scene scene = scene_of("{\"camera\":{\"inclination_deg\":75,\"field_m\":40},\"disk\":{\"model\":"
+                                         "\"novikov-thorne\"},\"image\":{\"layers\":[\"rgb\",\"intensity\"]}}");
         struct kd_seen_body body = plain;
         body.r = k == 1 ? 1.2 : k == 2 ? NAN : k == 3 ? 0 : body.r;
         body.velocity[0] = k == 4 ? 1 : k == 5 ? -0.9999999 : 0;
         body.radius = k == 6 ? INFINITY : body.radius;
         body.temperature_k = k == 7 ? 1e300 : body.temperature_k;
         struct kd_crowd *crowd = one(&body, k == 5 ? 64 : MANY); /* what moves so is long: none of them is passed by */
-        for (size_t i = 0; k == 7 && i < MANY; i++) { /* everywhere, and everything */
+        for (size_t i = 0; k == 7 && i < MANY; i++) {            /* everywhere, and everything */
             crowd->bodies[i].r = 1 + 1e4 * chance() * chance() * chance();
             crowd->bodies[i].phi = 1e3 * chance();
             crowd->bodies[i].radius = 1e3 * pow(chance(), 9);
@@ -430,7 +517,8 @@ static void test_adversarial(void **state)
         for (int i = 0; i < PIXELS; i++)
             if (!(layer_of(&frame, "intensity")[i] >= 0 && isfinite(layer_of(&frame, "intensity")[i])))
                 fail_msg("crowd %d, pixel %d: %g", k, i, layer_of(&frame, "intensity")[i]);
-        printf("crowd %d: march %.3g ms, %llu given up\n", k, timing_of(&frame, "march"), (unsigned long long)frame.accuracy.undecided);
+        printf("crowd %d: march %.3g ms, %llu given up\n", k, timing_of(&frame, "march"),
+               (unsigned long long)frame.accuracy.undecided);
         kd_frame_finish(&frame);
         kd_crowd_release(crowd);
     }
@@ -457,14 +545,10 @@ static void test_off(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_places),
-        cmocka_unit_test(test_as_a_scene_has_it),
-        cmocka_unit_test(test_dark),
-        cmocka_unit_test(test_debris),
-        cmocka_unit_test(test_lit),
-        cmocka_unit_test(test_lit_moving),
-        cmocka_unit_test(test_adversarial),
-        cmocka_unit_test(test_off),
+        cmocka_unit_test(test_places),      cmocka_unit_test(test_as_a_scene_has_it),
+        cmocka_unit_test(test_dark),        cmocka_unit_test(test_debris),
+        cmocka_unit_test(test_lit),         cmocka_unit_test(test_lit_moving),
+        cmocka_unit_test(test_adversarial), cmocka_unit_test(test_off),
     };
     int code = open_renderer();
     return code ? code : close_renderer(cmocka_run_group_tests(tests, NULL, NULL));

@@ -1,5 +1,5 @@
-/* Pictures, lists and particles on devices that differ from the one at hand: with low limits, with memory that is not coherent,
- * and lost in the middle. What they answer is to the byte what the device answers by itself. */
+/* Pictures, lists and particles on devices that differ from the one at hand: with low limits, with memory that is
+ * not coherent, and lost in the middle. What they answer is to the byte what the device answers by itself. */
 #include "fake_device.h"
 
 #include "render/output/particle_list.h"
@@ -19,7 +19,9 @@ struct answers {
 
 static enum kd_status open(struct kd_renderer **out, struct kd_error *error)
 {
-    const struct kd_renderer_params params = { .device = getenv("KERRD_TEST_DEVICE"), .cache_dir = "", .validate = true };
+    const struct kd_renderer_params params = { .device = getenv("KERRD_TEST_DEVICE"),
+                                               .cache_dir = "",
+                                               .validate = true };
     return kd_renderer_create(&params, out, error);
 }
 
@@ -59,8 +61,12 @@ static enum kd_status draw(struct kd_renderer *renderer, int k, struct kd_frame 
 static void ask(struct kd_renderer *renderer, struct answers *out)
 {
     static double rays[2 * RAYS];
-    const struct kd_rays_params params = { .spin = 0.9, .r = INFINITY, .inclination_deg = 60, .orders = ORDERS,
-                                           .engine = KD_ENGINE_MINO_RKN6, .precision = KD_PRECISION_F32 };
+    const struct kd_rays_params params = { .spin = 0.9,
+                                           .r = INFINITY,
+                                           .inclination_deg = 60,
+                                           .orders = ORDERS,
+                                           .engine = KD_ENGINE_MINO_RKN6,
+                                           .precision = KD_PRECISION_F32 };
     for (int i = 0; i < RAYS; i++) {
         rays[2 * i] = -8 + 16.0 * i / RAYS;
         rays[2 * i + 1] = -8 + fmod(7.3 * i, 16);
@@ -75,7 +81,8 @@ static void same(const struct answers *a, const struct answers *b)
     for (int k = 0; k < 3; k++) {
         const struct kd_frame *x = &a->frames[k], *y = &b->frames[k];
         assert_true(x->width == y->width && x->height == y->height && x->exposure == y->exposure);
-        assert_memory_equal(kd_frame_pixels(x), kd_frame_pixels(y), (size_t)x->width * x->height * (kd_frame_bit_depth(x) == 16 ? 6 : 3));
+        assert_memory_equal(kd_frame_pixels(x), kd_frame_pixels(y),
+                            (size_t)x->width * x->height * (kd_frame_bit_depth(x) == 16 ? 6 : 3));
         assert_true(x->light.measured == y->light.measured);
         if (x->light.measured)
             assert_true(fabs(x->light.all.flux / y->light.all.flux - 1) < 1e-6); /* summed in another order */
@@ -130,7 +137,8 @@ static void test_binding(void **state)
 static void test_texels(void **state)
 {
     (void)state;
-    answer_as(&(struct fake_device) { .texels = 8192 }); /* the tables of the emitters are 4608, and 18000 pixels are 13500 */
+    answer_as(
+        &(struct fake_device) { .texels = 8192 }); /* the tables of the emitters are 4608, and 18000 pixels are 13500 */
 }
 
 static void test_incoherent(void **state)
@@ -143,7 +151,8 @@ static void test_incoherent(void **state)
 void __lsan_disable(void) __attribute__((weak));
 void __lsan_enable(void) __attribute__((weak));
 
-/* All that a renderer does when its n-th submission loses the device: an error that says so, whatever it was for, and no crash. */
+/* All that a renderer does when its n-th submission loses the device: an error that says so, whatever it was for,
+ * and no crash. */
 static void test_lost(void **state)
 {
     (void)state;
@@ -211,8 +220,11 @@ static void test_large_pictures(void **state)
     capacity.max_allocation_bytes = UINT32_MAX;
     capacity.memory_bytes = 80ull << 30;
     capacity.max_groups_x = capacity.max_groups_y = 65535;
-    static const struct { int width, height, samples; } sizes[] = {
-        { 4096, 4096, 1 }, { 16384, 12288, 1 }, { 32768, 32768, 1 }, { 4096, 4096, 8 }, { 1, 32768, 8 }, { 32768, 1, 8 },
+    static const struct {
+        int width, height, samples;
+    } sizes[] = {
+        { 4096, 4096, 1 }, { 16384, 12288, 1 }, { 32768, 32768, 1 },
+        { 4096, 4096, 8 }, { 1, 32768, 8 },     { 32768, 1, 8 },
     };
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
         for (int k = 0; k < 3; k++) {
@@ -228,10 +240,10 @@ static void test_large_pictures(void **state)
                 continue;
             assert_int_equal(status, KD_OK);
             uint64_t pixels = (uint64_t)plan.width * plan.band_rows, at_curve = plan.critical_part * plan.critical;
-            assert_true((pixels + 3) / 4 <= 65535ull * 64);                              /* post */
-            assert_true((uint64_t)plan.band_rows * plan.side <= 65535);                  /* trace: its rows */
+            assert_true((pixels + 3) / 4 <= 65535ull * 64);             /* post */
+            assert_true((uint64_t)plan.band_rows * plan.side <= 65535); /* trace: its rows */
             assert_true((uint64_t)plan.width * plan.side <= 65535ull * 64);
-            assert_true((at_curve + 63) / 64 <= 65535);                                  /* trace at the critical curve */
+            assert_true((at_curve + 63) / 64 <= 65535); /* trace at the critical curve */
             assert_true(4ull * plan.planes * pixels * plan.side * plan.side + 16 <= UINT32_MAX);
             assert_true(kd_plan_pixel_bytes(&plan) * pixels <= UINT32_MAX);
             assert_true((uint64_t)plan.bands * plan.band_rows >= plan.height);
@@ -254,8 +266,8 @@ int main(void)
     kd_renderer_destroy(renderer);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_large_pictures), cmocka_unit_test(test_groups), cmocka_unit_test(test_allocation),
-        cmocka_unit_test(test_binding),        cmocka_unit_test(test_texels), cmocka_unit_test(test_incoherent), cmocka_unit_test(test_heap),
-        cmocka_unit_test(test_budget), cmocka_unit_test(test_lost),
+        cmocka_unit_test(test_binding),        cmocka_unit_test(test_texels), cmocka_unit_test(test_incoherent),
+        cmocka_unit_test(test_heap),           cmocka_unit_test(test_budget), cmocka_unit_test(test_lost),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     forget(&real);

@@ -1,5 +1,5 @@
-/* A device is tested when kerrd meets it, and not again; another driver, another kerrd, a damaged file are as a first time; a device
- * that computes wrongly is said to, loudly, and tested again at each start. */
+/* A device is tested when kerrd meets it, and not again; another driver, another kerrd, a damaged file are as a
+ * first time; a device that computes wrongly is said to, loudly, and tested again at each start. */
 #include "render_support.h"
 
 #include "render/selftest/first_start.h"
@@ -13,7 +13,9 @@ static struct kd_renderer *start(bool prove)
 {
     struct kd_renderer *r = NULL;
     const char *device = getenv("KERRD_TEST_DEVICE");
-    const struct kd_renderer_params params = { .device = device ? device : "auto", .cache_dir = folder, .prove = prove ? kd_first_start : NULL };
+    const struct kd_renderer_params params = { .device = device ? device : "auto",
+                                               .cache_dir = folder,
+                                               .prove = prove ? kd_first_start : NULL };
     OK(kd_renderer_create(&params, &r, &error));
     return r;
 }
@@ -142,7 +144,8 @@ int main(void)
     snprintf(folder, sizeof folder, "/tmp/kerrd-first-start-XXXXXX");
     if (!mkdtemp(folder))
         return 1;
-    const struct CMUnitTest tests[] = { cmocka_unit_test(test_once), cmocka_unit_test(test_not_this_one), cmocka_unit_test(test_failed) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_once), cmocka_unit_test(test_not_this_one),
+                                        cmocka_unit_test(test_failed) };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     char command[100];
     snprintf(command, sizeof command, "rm -r %s", folder);

@@ -1,5 +1,6 @@
-/* Footprints of the lens map against the derivative of the map by the Kerr-Schild oracle, which traces rays a thousandth of a step
- * apart in double precision (tests/oracle). They share no formula: here the singular value comes from the angle that maximises it. */
+/* Footprints of the lens map against the derivative of the map by the Kerr-Schild oracle, which traces rays a
+ * thousandth of a step apart in double precision (tests/oracle). They share no formula: here the singular value
+ * comes from the angle that maximises it. */
 #include "kerr_schild.h"
 #include "physics/kerr.h"
 #include "render/device/internal.h"
@@ -15,7 +16,8 @@
 #define WIDTH 160
 #define HEIGHT 90
 #define ORDERS 3
-#define NUDGE 1e-3 /* of a step: its square is what the oracle's own differences are off by; 1e-12 over it, their rounding */
+#define NUDGE \
+    1e-3 /* of a step: its square is what the oracle's own differences are off by; 1e-12 over it, their rounding */
 
 struct view {
     const char *name;
@@ -106,7 +108,10 @@ static struct ks_photon photon(const struct view *v, const struct kd_scene *scen
     return ks_from_camera(v->a, v->r, theta, false, k);
 }
 
-struct spot { double x, y, z; bool there; };
+struct spot {
+    double x, y, z;
+    bool there;
+};
 
 /* Where a ray comes to, in M from the middle or as a direction. */
 static struct spot spot_of(const struct ks_path *p, int n)
@@ -131,7 +136,9 @@ static struct change change_of(const struct ks_path *p, const struct ks_path *q,
 }
 
 /* The footprints of all orders and of the sky at one place; NAN where there is none. */
-struct sizes { double of[ORDERS + 1], share[ORDERS + 1], tilt[ORDERS + 1]; }; /* and of J J^T: rr over the trace; rf over sqrt(rr ff) */
+struct sizes {
+    double of[ORDERS + 1], share[ORDERS + 1], tilt[ORDERS + 1];
+}; /* and of J J^T: rr over the trace; rf over sqrt(rr ff) */
 
 static struct sizes sizes_at(const struct view *v, const struct kd_scene *scene, double x, double y)
 {
@@ -146,7 +153,8 @@ static struct sizes sizes_at(const struct view *v, const struct kd_scene *scene,
         out.of[n] = 0;
         for (int k = 0; k < 720; k++) { /* the longest image of a unit vector */
             double c = cos(k * M_PI / 720), s = sin(k * M_PI / 720);
-            out.of[n] = fmax(out.of[n], sqrt(pow(c * i.x + s * j.x, 2) + pow(c * i.y + s * j.y, 2) + pow(c * i.z + s * j.z, 2)));
+            out.of[n] = fmax(out.of[n],
+                             sqrt(pow(c * i.x + s * j.x, 2) + pow(c * i.y + s * j.y, 2) + pow(c * i.z + s * j.z, 2)));
         }
         double rr = i.x * i.x + j.x * j.x, ff = i.y * i.y + j.y * j.y;
         out.share[n] = rr / (rr + ff);
@@ -157,8 +165,8 @@ static struct sizes sizes_at(const struct view *v, const struct kd_scene *scene,
     return out;
 }
 
-/* The least and the largest size here and at the four neighbours; NAN where one of them is missing. A difference over a step is the
- * derivative somewhere on that step: a footprint lies between the two. */
+/* The least and the largest size here and at the four neighbours; NAN where one of them is missing. A difference
+ * over a step is the derivative somewhere on that step: a footprint lies between the two. */
 struct range { struct sizes own, least, most; };
 
 static struct range range_at(const struct view *v, const struct kd_scene *scene, double x, double y, double way)
@@ -177,7 +185,10 @@ static struct range range_at(const struct view *v, const struct kd_scene *scene,
     return out;
 }
 
-struct tally { int n, outside, edges; double errors[WIDTH * HEIGHT], shapes[WIDTH * HEIGHT]; };
+struct tally {
+    int n, outside, edges;
+    double errors[WIDTH * HEIGHT], shapes[WIDTH * HEIGHT];
+};
 
 /* noise: of the map's own arithmetic, over the size. */
 static void judge(struct tally *t, const struct range *range, int n, double got, double slack, double noise)
@@ -190,7 +201,8 @@ static void judge(struct tally *t, const struct range *range, int n, double got,
         return;
     }
     t->errors[t->n++] = fabs(got / own - 1);
-    /* The ends are samples, the long axis turns on the way, and the second difference is counted in, which is of second order as well. */
+    /* The ends are samples, the long axis turns on the way, and the second difference is counted in, which is of
+     * second order as well. */
     if (got < least * (1 - slack - noise) || got > most * (1 + slack + noise)) {
         t->outside++;
         print_message("  order %d: %.6g, the oracle's %.6g between %.6g and %.6g\n", n, got, own, least, most);
@@ -201,15 +213,17 @@ static void judge(struct tally *t, const struct range *range, int n, double got,
 static void judge_shape(struct tally *t, const struct sizes *own, int n, float packed)
 {
     long bits = lround(((double)packed - 1) * 8388608);
-    t->shapes[t->n - 1] = fmax(fabs((double)(bits % 2048) / 2047 - own->share[n]), fabs((double)(bits / 2048) * 2 / 2047 - 1 - own->tilt[n]));
+    t->shapes[t->n - 1] = fmax(fabs((double)(bits % 2048) / 2047 - own->share[n]),
+                               fabs((double)(bits / 2048) * 2 / 2047 - 1 - own->tilt[n]));
 }
 
 static void report(const char *name, struct tally *t)
 {
     for (int n = 0; n <= ORDERS; n++) {
         qsort(t[n].errors, (size_t)t[n].n, sizeof *t[n].errors, by_value);
-        print_message("%-34s %s %d: %3d rays, median %.1e, 90 %% %.1e, at edges %d, out of range %d\n", name, n < ORDERS ? "order" : "sky  ",
-                      n, t[n].n, t[n].n ? t[n].errors[t[n].n / 2] : 0, t[n].n ? t[n].errors[t[n].n * 9 / 10] : 0, t[n].edges, t[n].outside);
+        print_message("%-34s %s %d: %3d rays, median %.1e, 90 %% %.1e, at edges %d, out of range %d\n", name,
+                      n < ORDERS ? "order" : "sky  ", n, t[n].n, t[n].n ? t[n].errors[t[n].n / 2] : 0,
+                      t[n].n ? t[n].errors[t[n].n * 9 / 10] : 0, t[n].edges, t[n].outside);
     }
 }
 
@@ -227,13 +241,16 @@ static void test_grid(void **state)
         memset(t, 0, sizeof t);
         for (uint32_t y = 0; y < HEIGHT; y += 11)
             for (uint32_t x = 0; x < WIDTH; x += 13) {
-                if (v->ring && 2 * y + 2 == HEIGHT) /* the way to the next row leads across the curve: the map has a crease there */
+                if (v->ring &&
+                    2 * y + 2 ==
+                        HEIGHT) /* the way to the next row leads across the curve: the map has a crease there */
                     continue;
                 size_t at = y * WIDTH + x;
                 const struct range range = range_at(v, &scene, x, y, 1);
                 for (int n = 0; n <= ORDERS; n++) {
                     bool sky = n == ORDERS;
-                    double size = plane(&plan, planes, sky ? KD_LENS_SKY_FOOTPRINT : KD_LENS_FOOTPRINT, sky ? 0 : (uint32_t)n)[at];
+                    double size = plane(&plan, planes, sky ? KD_LENS_SKY_FOOTPRINT : KD_LENS_FOOTPRINT,
+                                        sky ? 0 : (uint32_t)n)[at];
                     double r = sky ? 1 : 1 / (double)plane(&plan, planes, KD_LENS_W, (uint32_t)n)[at];
                     if (isfinite(r) && r < 1000)
                         judge(&t[n], &range, n, size, 0.02, 1e-5 * r / size);
@@ -244,11 +261,13 @@ static void test_grid(void **state)
         report(v->name, t);
         for (int n = 0; n <= ORDERS; n++)
             assert_true(t[n].outside == 0 && t[n].edges == 0);
-        /* What a picture of many pixels is about: half of the direct image within a two-hundredth, nine tenths within a thirtieth. */
+        /* What a picture of many pixels is about: half of the direct image within a two-hundredth, nine tenths
+         * within a thirtieth. */
         assert_true(t[0].n > 50 && t[0].errors[t[0].n / 2] < 5e-3 && t[0].errors[t[0].n * 9 / 10] < 0.03);
         assert_true(t[1].n > 5 && t[ORDERS].n > 5);
         qsort(t[0].shapes, (size_t)t[0].n, sizeof *t[0].shapes, by_value);
-        print_message("%-34s shape of order 0: median %.1e, 90 %% %.1e\n", v->name, t[0].shapes[t[0].n / 2], t[0].shapes[t[0].n * 9 / 10]);
+        print_message("%-34s shape of order 0: median %.1e, 90 %% %.1e\n", v->name, t[0].shapes[t[0].n / 2],
+                      t[0].shapes[t[0].n * 9 / 10]);
         assert_true(t[0].shapes[t[0].n / 2] < 5e-3 && t[0].shapes[t[0].n * 9 / 10] < 0.05);
         test_free(planes);
     }
@@ -300,7 +319,8 @@ static void test_slices(void **state)
     test_free(whole);
 }
 
-/* Bands end where a buffer does. Beside their ends footprints come from rays on one side, by a formula of the same order. */
+/* Bands end where a buffer does. Beside their ends footprints come from rays on one side, by a formula of the same
+ * order. */
 static void test_bands(void **state)
 {
     (void)state;
@@ -320,8 +340,8 @@ static void test_bands(void **state)
                 t.errors[t.n++] = fabs(y / x - 1);
         }
     qsort(t.errors, (size_t)t.n, sizeof *t.errors, by_value);
-    print_message("beside the ends of bands: %d crossings, median %.1e, 90 %% %.1e, 99 %% %.1e, worst %.1e\n", t.n, t.errors[t.n / 2],
-                  t.errors[t.n * 9 / 10], t.errors[t.n * 99 / 100], t.errors[t.n - 1]);
+    print_message("beside the ends of bands: %d crossings, median %.1e, 90 %% %.1e, 99 %% %.1e, worst %.1e\n", t.n,
+                  t.errors[t.n / 2], t.errors[t.n * 9 / 10], t.errors[t.n * 99 / 100], t.errors[t.n - 1]);
     /* What fades with a footprint would show a line where it is wrong by a tenth. */
     assert_true(t.n > 1000 && t.errors[t.n / 2] < 0.01 && t.errors[t.n * 9 / 10] < 0.04);
     test_free(a);
@@ -351,10 +371,13 @@ static void test_listed_pixels(void **state)
         for (size_t k = 0; k < map->pixels.n; k += 11) {
             uint32_t ray = (uint32_t)(k % plan.critical);
             const struct kd_pixel step = kd_critical_place(&lattice, map->pixels.pixels[k], ray);
-            struct range range = range_at(v, &scene, (step.x + 0.5) / plan.critical - 0.5, (step.y + 0.5) / plan.critical - 0.5, 1.5 / side);
+            struct range range = range_at(v, &scene, (step.x + 0.5) / plan.critical - 0.5,
+                                          (step.y + 0.5) / plan.critical - 0.5, 1.5 / side);
             for (int n = 0; n <= ORDERS; n++) {
                 bool sky = n == ORDERS;
-                uint32_t first = kd_lens_plane(plan.quantities, plan.orders, sky ? KD_LENS_SKY_FOOTPRINT : KD_LENS_FOOTPRINT) + (sky ? 0 : (uint32_t)n);
+                uint32_t first =
+                    kd_lens_plane(plan.quantities, plan.orders, sky ? KD_LENS_SKY_FOOTPRINT : KD_LENS_FOOTPRINT) +
+                    (sky ? 0 : (uint32_t)n);
                 double got = planes[first * stride + k * plan.critical + ray];
                 range.own.of[n] /= side;
                 range.least.of[n] /= side;
@@ -363,7 +386,8 @@ static void test_listed_pixels(void **state)
             }
         }
         report(v->name, t);
-        for (int n = 0; n <= ORDERS; n++) /* of four rays a pixel those that have none beside them know one direction only */
+        for (int n = 0; n <= ORDERS;
+             n++) /* of four rays a pixel those that have none beside them know one direction only */
             assert_true(10 * t[n].outside <= (factors[i] == 2 ? t[n].n : 0));
         assert_true(t[0].n > 40 && t[1].n > 15 && t[ORDERS].n > 10);
         assert_true(t[0].errors[t[0].n / 2] < 0.06 && t[1].errors[t[1].n / 2] < 0.1);
@@ -380,7 +404,8 @@ static void test_plan(void **state)
     struct kd_capacity capacity;
     struct kd_plan off;
     kd_renderer_capacity(renderer, &capacity);
-    OK(kd_plan_make_for(&scene, &(struct kd_needs) { .quantities = KD_LENS_PHI | KD_LENS_SKY }, &capacity, &off, &error));
+    OK(kd_plan_make_for(&scene, &(struct kd_needs) { .quantities = KD_LENS_PHI | KD_LENS_SKY }, &capacity, &off,
+                        &error));
     const struct kd_plan on = plan_of(&scene, 0);
     assert_int_equal(on.planes, off.planes + 2 * ORDERS + 1);
     assert_int_equal(on.n_passes, off.n_passes + 1);
@@ -395,8 +420,8 @@ int main(void)
     if (status)
         return status;
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_plan), cmocka_unit_test(test_slices), cmocka_unit_test(test_bands), cmocka_unit_test(test_grid),
-        cmocka_unit_test(test_listed_pixels),
+        cmocka_unit_test(test_plan), cmocka_unit_test(test_slices),        cmocka_unit_test(test_bands),
+        cmocka_unit_test(test_grid), cmocka_unit_test(test_listed_pixels),
     };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -1,4 +1,5 @@
-/* A frame runs the passes of its plan, under their names, and no other; and what they take is what the next plan estimates. */
+/* A frame runs the passes of its plan, under their names, and no other; and what they take is what the next plan
+ * estimates. */
 #include "render_support.h"
 
 #include "render/device/internal.h"
@@ -63,12 +64,13 @@ static void test_names(void **state)
     }
 }
 
-/* Fifteen frames draw a figure that is far off to what their passes take; one that no pass of theirs is measured by stays.
- * The time of a frame has that in it for which others had the cores, what is learned has not. */
+/* Fifteen frames draw a figure that is far off to what their passes take; one that no pass of theirs is measured by
+ * stays. The time of a frame has that in it for which others had the cores, what is learned has not. */
 static void test_learned(void **state)
 {
     (void)state;
-    static const char *const scene = "{\"image\": {\"width\": 192, \"height\": 108}, \"disk\": {\"model\": \"particles\", \"particles\": 100000}}";
+    static const char *const scene =
+        "{\"image\": {\"width\": 192, \"height\": 108}, \"disk\": {\"model\": \"particles\", \"particles\": 100000}}";
     struct kd_plan plan;
     struct kd_frame frame;
     bool learns[KD_FIGURE_COUNT + 1] = { false };
@@ -76,19 +78,23 @@ static void test_learned(void **state)
     for (int i = 0; i < KD_FIGURE_COUNT; i++)
         renderer->capacity.ns[i] = 1e5;
     for (int k = 0; k < 15; k++) {
-        renderer->store.maps[0].key[0] = renderer->store.maps[1].key[0] = renderer->store.maps[2].key[0] = renderer->store.maps[3].key[0] = 0;
+        renderer->store.maps[0].key[0] = renderer->store.maps[1].key[0] = renderer->store.maps[2].key[0] =
+            renderer->store.maps[3].key[0] = 0;
         frame = drawn(scene, &plan);
         for (size_t i = 0; i < plan.n_passes; i++) {
             learns[plan.passes[i].figure] = true;
             if (plan.passes[i].figure != KD_NS_NONE)
-                last[plan.passes[i].figure] = timing_of(&frame, plan.passes[i].name) * 1e6 / (double)plan.passes[i].invocations;
+                last[plan.passes[i].figure] =
+                    timing_of(&frame, plan.passes[i].name) * 1e6 / (double)plan.passes[i].invocations;
         }
         kd_frame_finish(&frame);
     }
     for (int i = 0; i < KD_FIGURE_COUNT; i++)
-        if (learns[i] ? !(renderer->capacity.ns[i] < 1e4 && renderer->capacity.ns[i] > 0.01 * last[i]) : renderer->capacity.ns[i] != 1e5)
+        if (learns[i] ? !(renderer->capacity.ns[i] < 1e4 && renderer->capacity.ns[i] > 0.01 * last[i])
+                      : renderer->capacity.ns[i] != 1e5)
             fail_msg("\"%s\" is %g ns, the last frame took %g", kd_figures[i].word, renderer->capacity.ns[i], last[i]);
-    assert_true(learns[KD_NS_RAY_FULL] && learns[KD_NS_SAMPLE_TRANSFER] && learns[KD_NS_PIXEL_POST] && learns[KD_NS_PARTICLE] && !learns[KD_NS_RAY_RADIUS]);
+    assert_true(learns[KD_NS_RAY_FULL] && learns[KD_NS_SAMPLE_TRANSFER] && learns[KD_NS_PIXEL_POST] &&
+                learns[KD_NS_PARTICLE] && !learns[KD_NS_RAY_RADIUS]);
 }
 
 int main(void)

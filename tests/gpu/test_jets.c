@@ -1,6 +1,6 @@
-/* Light of jets against integrals along paths of the Kerr-Schild oracle, which knows no Mino time, with the energy that their matter sees from the
- * metric in Boyer-Lindquist coordinates; far from the hole against integrals along straight lines, and the ratio of a jet and its counterjet against
- * special relativity's. */
+/* Light of jets against integrals along paths of the Kerr-Schild oracle, which knows no Mino time, with the energy
+ * that their matter sees from the metric in Boyer-Lindquist coordinates; far from the hole against integrals along
+ * straight lines, and the ratio of a jet and its counterjet against special relativity's. */
 #include "render_support.h"
 
 #include "kerr_schild.h"
@@ -43,18 +43,22 @@ static double emitted(const struct kd_jets *j, double r, double u)
     if (!(x < 1) || (u < 0 && !j->counterjet))
         return 0;
     const double across = (1 - x * x) * (1 - x * x) * (1 - j->sheath + j->sheath * 27 / 4 * x * x);
-    return j->brightness * across * pow(r / j->inner, -j->falloff) * ramp((r - j->inner) / (0.5 * j->inner)) * ramp((j->outer - r) / (0.3 * j->outer));
+    return j->brightness * across * pow(r / j->inner, -j->falloff) * ramp((r - j->inner) / (0.5 * j->inner)) *
+           ramp((j->outer - r) / (0.3 * j->outer));
 }
 
-/* Along a straight line to an observer at the scene's inclination: place = alpha e_right + beta e_up + l n, and D = 1/(Gamma (1 - beta_v cos)). */
+/* Along a straight line to an observer at the scene's inclination: place = alpha e_right + beta e_up + l n, and D =
+ * 1/(Gamma (1 - beta_v cos)). */
 static double straight(const struct kd_scene *scene, double alpha, double beta)
 {
     const struct kd_jets *j = &scene->jets;
-    const double i = scene->camera.inclination_deg * M_PI / 180, v = sqrt(1 - 1 / (j->lorentz * j->lorentz)), most = j->outer;
+    const double i = scene->camera.inclination_deg * M_PI / 180, v = sqrt(1 - 1 / (j->lorentz * j->lorentz)),
+                 most = j->outer;
     const int n = 400000;
     double sum = 0;
     for (int k = 0; k < n; k++) {
-        const double l = most * (2 * (k + 0.5) / n - 1), z = beta * sin(i) + l * cos(i), r = sqrt(alpha * alpha + beta * beta + l * l);
+        const double l = most * (2 * (k + 0.5) / n - 1), z = beta * sin(i) + l * cos(i),
+                     r = sqrt(alpha * alpha + beta * beta + l * l);
         const double light = r > j->inner && r < j->outer ? emitted(j, r, z / r) : 0;
         if (light > 0)
             sum += light * pow(j->lorentz * (1 - v * l / r), -(2 + j->spectral_index));
@@ -68,13 +72,17 @@ static void test_far_away(void **state)
 {
     static const char *const scenes[] = {
         "{\"camera\":{\"inclination_deg\":60,\"field_m\":300000}," FAR_AWAY "\"lorentz\":2,\"opening_deg\":12}}",
-        "{\"camera\":{\"inclination_deg\":35,\"field_m\":250000}," FAR_AWAY "\"lorentz\":5,\"opening_deg\":8,\"sheath\":1,\"falloff\":0}}",
-        "{\"camera\":{\"inclination_deg\":110,\"field_m\":300000}," FAR_AWAY "\"lorentz\":1.3,\"opening_deg\":15,\"sheath\":0,\"spectral_index\":-0.5}}",
-        "{\"camera\":{\"inclination_deg\":80,\"field_m\":300000}," FAR_AWAY "\"lorentz\":3,\"opening_deg\":10,\"counterjet\":false}}",
+        "{\"camera\":{\"inclination_deg\":35,\"field_m\":250000}," FAR_AWAY
+        "\"lorentz\":5,\"opening_deg\":8,\"sheath\":1,\"falloff\":0}}",
+        "{\"camera\":{\"inclination_deg\":110,\"field_m\":300000}," FAR_AWAY
+        "\"lorentz\":1.3,\"opening_deg\":15,\"sheath\":0,\"spectral_index\":-0.5}}",
+        "{\"camera\":{\"inclination_deg\":80,\"field_m\":300000}," FAR_AWAY
+        "\"lorentz\":3,\"opening_deg\":10,\"counterjet\":false}}",
         /* it comes at us: what is seen of it is g up to 200, of a difference of 1/20000 */
         "{\"camera\":{\"inclination_deg\":0.1,\"field_m\":40000}," FAR_AWAY "\"lorentz\":100,\"opening_deg\":8}}",
         /* and so much brighter for it that g to the 12th is 2^70 */
-        "{\"camera\":{\"inclination_deg\":0.1,\"field_m\":40000}," FAR_AWAY "\"lorentz\":30,\"opening_deg\":8,\"spectral_index\":10}}",
+        "{\"camera\":{\"inclination_deg\":0.1,\"field_m\":40000}," FAR_AWAY
+        "\"lorentz\":30,\"opening_deg\":8,\"spectral_index\":10}}",
     };
     double worst = 0;
     int lit = 0;
@@ -87,7 +95,9 @@ static void test_far_away(void **state)
         for (int k = 0; k < PIXELS; k++)
             peak = fmax(peak, (double)intensity(&frame)[k]);
         for (int k = 0; k < PIXELS; k++) {
-            const double want = straight(&scene, step * (k % WIDTH - 0.5 * (WIDTH - 1)), -step * (k / WIDTH - 0.5 * (HEIGHT - 1))), got = (double)intensity(&frame)[k];
+            const double want = straight(&scene, step * (k % WIDTH - 0.5 * (WIDTH - 1)),
+                                         -step * (k / WIDTH - 0.5 * (HEIGHT - 1))),
+                         got = (double)intensity(&frame)[k];
             const double off = fabs(got - want) / (want + 0.02 * peak);
             worst = fmax(worst, off);
             lit += want > 1e-3 * peak;
@@ -100,46 +110,62 @@ static void test_far_away(void **state)
     printf("far away, %d rays: worst %.2g\n", lit, worst);
 }
 
-/* A narrow jet and its counterjet, at opposite places: ((1 + v cos i)/(1 - v cos i))^(2 + alpha) (Blandford & Konigl 1979, ApJ 232, 34). */
+/* A narrow jet and its counterjet, at opposite places: ((1 + v cos i)/(1 - v cos i))^(2 + alpha) (Blandford & Konigl
+ * 1979, ApJ 232, 34). */
 static void test_ratio(void **state)
 {
     static const double lorentz[] = { 1.1, 2, 6 }, inclination[] = { 20, 60, 85 }, index[] = { 0, 0.7, 2 };
     (void)state;
     for (int n = 0; n < 3; n++) {
         char json[300];
-        snprintf(json, sizeof json, "{\"camera\":{\"inclination_deg\":%g,\"field_m\":%g}," FAR_AWAY "\"lorentz\":%g,\"opening_deg\":2,\"spectral_index\":%g,\"sheath\":0}}",
+        snprintf(json, sizeof json,
+                 "{\"camera\":{\"inclination_deg\":%g,\"field_m\":%g}," FAR_AWAY
+                 "\"lorentz\":%g,\"opening_deg\":2,\"spectral_index\":%g,\"sheath\":0}}",
                  inclination[n], 280000 * sin(inclination[n] * M_PI / 180), lorentz[n], index[n]);
         const struct kd_scene scene = scene_of(json);
         struct kd_frame frame = rendered(&scene);
-        const double v = sqrt(1 - 1 / (lorentz[n] * lorentz[n])), c = cos(inclination[n] * M_PI / 180), want = pow((1 + v * c) / (1 - v * c), 2 + index[n]);
+        const double v = sqrt(1 - 1 / (lorentz[n] * lorentz[n])), c = cos(inclination[n] * M_PI / 180),
+                     want = pow((1 + v * c) / (1 - v * c), 2 + index[n]);
         for (int y = 0; y < 2; y++) { /* at 2.2e5 and 1.9e5 M: where light neither begins nor ends */
-            const double near = (double)intensity(&frame)[y * WIDTH + WIDTH / 2], away = (double)intensity(&frame)[(HEIGHT - 1 - y) * WIDTH + WIDTH / 2];
+            const double near = (double)intensity(&frame)[y * WIDTH + WIDTH / 2],
+                         away = (double)intensity(&frame)[(HEIGHT - 1 - y) * WIDTH + WIDTH / 2];
             if (!(fabs(near / away / want - 1) < 1e-2))
-                fail_msg("Lorentz factor %g at %g deg, row %d: %g, not %g", lorentz[n], inclination[n], y, near / away, want);
+                fail_msg("Lorentz factor %g at %g deg, row %d: %g, not %g", lorentz[n], inclination[n], y, near / away,
+                         want);
         }
         kd_frame_finish(&frame);
     }
 }
 
-/* As its matter sees it, from the metric: R(r) and the photon's constants give p_r, and whoever has no angular momentum -k.U = Gamma (e - v k_r). Above
- * the plane light of the rays that are judged comes outwards, below it inwards. */
+/* As its matter sees it, from the metric: R(r) and the photon's constants give p_r, and whoever has no angular
+ * momentum -k.U = Gamma (e - v k_r). Above the plane light of the rays that are judged comes outwards, below it
+ * inwards. */
 static void jet(void *user, const struct ks_photon *p, double r, double u, double out[2])
 {
     const struct kd_scene *scene = user;
     const struct kd_jets *j = &scene->jets;
-    const double a = p->a, s2 = 1 - u * u, sigma = r * r + a * a * u * u, delta = r * r - 2 * r + a * a, start = 1 - p->u * p->u;
-    const double carter = p->p_theta * p->p_theta + p->u * p->u * ((start > 0 ? p->momentum * p->momentum / start : 0) - a * a * p->energy * p->energy);
-    const double big = (r * r + a * a) * p->energy - a * p->momentum, radial = big * big - delta * (carter + pow(p->momentum - a * p->energy, 2));
-    const double g_tt = -(1 - 2 * r / sigma), g_tp = -2 * a * r * s2 / sigma, g_pp = (r * r + a * a + 2 * a * a * r * s2 / sigma) * s2, omega = -g_tp / g_pp;
+    const double a = p->a, s2 = 1 - u * u, sigma = r * r + a * a * u * u, delta = r * r - 2 * r + a * a,
+                 start = 1 - p->u * p->u;
+    const double carter =
+        p->p_theta * p->p_theta +
+        p->u * p->u * ((start > 0 ? p->momentum * p->momentum / start : 0) - a * a * p->energy * p->energy);
+    const double big = (r * r + a * a) * p->energy - a * p->momentum,
+                 radial = big * big - delta * (carter + pow(p->momentum - a * p->energy, 2));
+    const double g_tt = -(1 - 2 * r / sigma), g_tp = -2 * a * r * s2 / sigma,
+                 g_pp = (r * r + a * a + 2 * a * a * r * s2 / sigma) * s2, omega = -g_tp / g_pp;
     const double e = (p->energy - omega * p->momentum) / sqrt(-(g_tt + omega * (2 * g_tp + omega * g_pp)));
-    const double k = (u > 0 ? 1 : -1) * sqrt(fmax(radial, 0) / (sigma * delta)), v = sqrt(1 - 1 / (j->lorentz * j->lorentz));
+    const double k = (u > 0 ? 1 : -1) * sqrt(fmax(radial, 0) / (sigma * delta)),
+                 v = sqrt(1 - 1 / (j->lorentz * j->lorentz));
     out[0] = emitted(j, r, u) * pow(j->lorentz * (e - v * k), -(2 + j->spectral_index));
     out[1] = 0;
 }
 
 static void test_near_the_hole(void **state)
 {
-    static const struct { double spin, inclination; const char *jets; } views[] = {
+    static const struct {
+        double spin, inclination;
+        const char *jets;
+    } views[] = {
         { 0, 60, "\"lorentz\":2,\"opening_deg\":6" },
         { 0.95, 52, "\"lorentz\":3,\"opening_deg\":5,\"sheath\":0.8,\"falloff\":1" },
         { -0.8, 50, "\"lorentz\":1.5,\"opening_deg\":5,\"spectral_index\":1.5" },
@@ -149,23 +175,29 @@ static void test_near_the_hole(void **state)
     (void)state;
     for (size_t n = 0; n < sizeof views / sizeof *views; n++) {
         char json[300];
-        snprintf(json, sizeof json, "{\"spacetime\":{\"spin\":%g},\"camera\":{\"inclination_deg\":%g,\"field_m\":18},\"jets\":{\"brightness\":0.1,\"inner\":4,\"outer\":40,%s}}",
+        snprintf(json, sizeof json,
+                 "{\"spacetime\":{\"spin\":%g},\"camera\":{\"inclination_deg\":%g,\"field_m\":18},\"jets\":{"
+                 "\"brightness\":0.1,\"inner\":4,\"outer\":40,%s}}",
                  views[n].spin, views[n].inclination, views[n].jets);
         struct kd_scene scene = scene_of(json);
         struct kd_frame frame = rendered(&scene);
         for (int y = 0; y < HEIGHT; y++)
             for (int x = WIDTH / 2 - 1; x <= WIDTH / 2 + 1; x++) {
-                const double alpha = 2.0 * (x - 0.5 * (WIDTH - 1)), beta = -2.0 * (y - 0.5 * (HEIGHT - 1)), got = (double)intensity(&frame)[y * WIDTH + x];
+                const double alpha = 2.0 * (x - 0.5 * (WIDTH - 1)), beta = -2.0 * (y - 0.5 * (HEIGHT - 1)),
+                             got = (double)intensity(&frame)[y * WIDTH + x];
                 if (fabs(beta) < 7.5) /* there a jet is seen on both sides of where rays turn */
                     continue;
-                const struct ks_light want = ks_along(ks_from_infinity(views[n].spin, cos(views[n].inclination * M_PI / 180), alpha, beta), 4, 40, false, jet, &scene);
+                const struct ks_light want =
+                    ks_along(ks_from_infinity(views[n].spin, cos(views[n].inclination * M_PI / 180), alpha, beta), 4,
+                             40, false, jet, &scene);
                 if (want.light < 1e-5)
                     continue;
                 const double off = fabs(got / want.light - 1);
                 lit++;
                 worst = fmax(worst, off);
                 if (!(off < 3e-3))
-                    fail_msg("view %zu, alpha %g, beta %g: %g, not %g: off by %.2g", n, alpha, beta, got, want.light, off);
+                    fail_msg("view %zu, alpha %g, beta %g: %g, not %g: off by %.2g", n, alpha, beta, got, want.light,
+                             off);
             }
         kd_frame_finish(&frame);
     }
@@ -184,7 +216,8 @@ static void test_scaling(void **state)
     struct kd_frame one = rendered(&scene), two = rendered(&twice);
     int lit = 0;
     for (int k = 0; k < PIXELS; k++) {
-        assert_true(fabs((double)intensity(&two)[k] - 2 * (double)intensity(&one)[k]) <= 1e-5 * (double)intensity(&two)[k]);
+        assert_true(fabs((double)intensity(&two)[k] - 2 * (double)intensity(&one)[k]) <=
+                    1e-5 * (double)intensity(&two)[k]);
         lit += intensity(&one)[k] > 0;
     }
     assert_true(lit > 5);
@@ -201,10 +234,14 @@ static void test_scaling(void **state)
 static void test_adversarial(void **state)
 {
     static const char *const hard[] = {
-        "{\"spacetime\":{\"spin\":0.999999},\"camera\":{\"inclination_deg\":0},\"jets\":{\"brightness\":1e9,\"lorentz\":100,\"inner\":1,\"opening_deg\":60,\"falloff\":10}}",
-        "{\"camera\":{\"inclination_deg\":180},\"jets\":{\"brightness\":1,\"lorentz\":100,\"opening_deg\":1,\"outer\":1000000,\"falloff\":-3}}",
-        "{\"camera\":{\"inclination_deg\":1,\"r\":10,\"fov_deg\":80},\"jets\":{\"brightness\":1,\"lorentz\":50,\"spectral_index\":10}}", /* from within */
-        "{\"spacetime\":{\"spin\":0.9},\"camera\":{\"inclination_deg\":30,\"r\":1.2,\"fov_deg\":100,\"observer\":\"infall\"},\"jets\":{\"brightness\":1,\"inner\":1}}",
+        "{\"spacetime\":{\"spin\":0.999999},\"camera\":{\"inclination_deg\":0},\"jets\":{\"brightness\":1e9,"
+        "\"lorentz\":100,\"inner\":1,\"opening_deg\":60,\"falloff\":10}}",
+        "{\"camera\":{\"inclination_deg\":180},\"jets\":{\"brightness\":1,\"lorentz\":100,\"opening_deg\":1,\"outer\":"
+        "1000000,\"falloff\":-3}}",
+        "{\"camera\":{\"inclination_deg\":1,\"r\":10,\"fov_deg\":80},\"jets\":{\"brightness\":1,\"lorentz\":50,"
+        "\"spectral_index\":10}}", /* from within */
+        "{\"spacetime\":{\"spin\":0.9},\"camera\":{\"inclination_deg\":30,\"r\":1.2,\"fov_deg\":100,\"observer\":"
+        "\"infall\"},\"jets\":{\"brightness\":1,\"inner\":1}}",
     };
     (void)state;
     for (size_t s = 0; s < sizeof hard / sizeof *hard; s++) {
@@ -220,8 +257,8 @@ static void test_adversarial(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_far_away), cmocka_unit_test(test_ratio), cmocka_unit_test(test_near_the_hole), cmocka_unit_test(test_scaling),
-        cmocka_unit_test(test_adversarial),
+        cmocka_unit_test(test_far_away), cmocka_unit_test(test_ratio),       cmocka_unit_test(test_near_the_hole),
+        cmocka_unit_test(test_scaling),  cmocka_unit_test(test_adversarial),
     };
     int code = open_renderer();
     return code ? code : close_renderer(cmocka_run_group_tests_name("jets", tests, NULL, NULL));

@@ -1,4 +1,5 @@
-/* Kernels that are noted, and made together on several threads; and that what a frame notes is what it then asks for. */
+/* Kernels that are noted, and made together on several threads; and that what a frame notes is what it then asks
+ * for. */
 #include "render_support.h"
 
 #include "render/device/internal.h"
@@ -44,7 +45,9 @@ static void what_cannot_be_made_is_told_later(void **state)
 {
     (void)state;
     static const uint32_t words[5];
-    static const struct kd_vk_pipeline_params broken = { .name = "broken", .spirv = words, .spirv_bytes = sizeof words };
+    static const struct kd_vk_pipeline_params broken = { .name = "broken",
+                                                         .spirv = words,
+                                                         .spirv_bytes = sizeof words };
     struct kd_error why = { 0 };
     const struct kd_vk_pipeline *out;
     const uint32_t before = made();
@@ -57,13 +60,16 @@ static void what_cannot_be_made_is_told_later(void **state)
     assert_non_null(strstr(why.message, "broken"));
 }
 
-/* Each kernel that a first frame of a scene makes before it begins is asked for in the frame: its place in the order of use is a later one. */
+/* Each kernel that a first frame of a scene makes before it begins is asked for in the frame: its place in the order
+ * of use is a later one. */
 static void a_frame_notes_what_it_needs(void **state)
 {
     (void)state;
     static const char *const scenes[] = {
-        "{\"image\":{\"width\":64,\"height\":36},\"disk\":{\"model\":\"none\"},\"camera\":{\"r\":40},\"sky\":{\"model\":\"catalogue\",\"milky_way\":0}}",
-        "{\"image\":{\"width\":64,\"height\":36},\"camera\":{\"r\":4,\"observer\":\"infall\"},\"sky\":{\"model\":\"stars\"},\"disk\":{\"model\":\"none\"}}",
+        "{\"image\":{\"width\":64,\"height\":36},\"disk\":{\"model\":\"none\"},\"camera\":{\"r\":40},\"sky\":{"
+        "\"model\":\"catalogue\",\"milky_way\":0}}",
+        "{\"image\":{\"width\":64,\"height\":36},\"camera\":{\"r\":4,\"observer\":\"infall\"},\"sky\":{\"model\":"
+        "\"stars\"},\"disk\":{\"model\":\"none\"}}",
         "{\"image\":{\"width\":64,\"height\":36}}",
     };
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {

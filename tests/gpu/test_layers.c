@@ -1,9 +1,9 @@
-/* Layers against the Kerr-Schild oracle, which shares no equation with the kernels: it integrates the photon's momentum in Cartesian
- * coordinates, from which g and the angle to the disk's normal follow by the metric of the plane alone. And layers of light against the
- * picture's own linear light.
+/* Layers against the Kerr-Schild oracle, which shares no equation with the kernels: it integrates the photon's
+ * momentum in Cartesian coordinates, from which g and the angle to the disk's normal follow by the metric of the
+ * plane alone. And layers of light against the picture's own linear light.
  *
- * How far a number may be off: some last bits of a float, times how much it changes where the ray is changed by as much, which is
- * measured on the oracle itself. */
+ * How far a number may be off: some last bits of a float, times how much it changes where the ray is changed by as
+ * much, which is measured on the oracle itself. */
 #include "kerr_schild.h"
 #include "image/colour_map.h"
 #include "physics/disk.h"
@@ -84,7 +84,10 @@ static struct ks_path path_of(const struct kd_scene *scene, int pixel, double sc
 
 /* -(ds/dt)^2 on a circle in the plane, and where it pulls neither in nor out: g_tt = -(1 - 2/r), g_tphi = -2a/r,
  * g_phiphi = r^2 + a^2 + 2a^2/r. */
-static double line(double a, double r, double omega) { return (1 - 2 / r) + 4 * a / r * omega - (r * r + a * a + 2 * a * a / r) * omega * omega; }
+static double line(double a, double r, double omega)
+{
+    return (1 - 2 / r) + 4 * a / r * omega - (r * r + a * a + 2 * a * a / r) * omega * omega;
+}
 static double omega_of(double a, double r)
 {
     double low = 0, high = 1 / r, h = 1e-3 * r;
@@ -108,12 +111,17 @@ static void expected(const struct kd_scene *scene, const struct ks_path *path, i
     out[R] = r;
     out[PHI] = path->phi[n] + scene->camera.azimuth_deg * M_PI / 180;
     out[DELAY] = path->delay[n];
-    out[ANGLE] = acos(fmin(fabs(path->p_z[n]) / emitted, 1)); /* in the plane the unit normal is along z, which the gas does not move in */
+    out[ANGLE] = acos(fmin(fabs(path->p_z[n]) / emitted,
+                           1)); /* in the plane the unit normal is along z, which the gas does not move in */
 }
 
-static double apart(int kind, double x, double y) { return kind == PHI ? fabs(remainder(x - y, 2 * M_PI)) : fabs(x - y); }
+static double apart(int kind, double x, double y)
+{
+    return kind == PHI ? fabs(remainder(x - y, 2 * M_PI)) : fabs(x - y);
+}
 
-/* Whether a crossing is on the disk; false also where it is so close to an edge that a float may have it on either side. */
+/* Whether a crossing is on the disk; false also where it is so close to an edge that a float may have it on either
+ * side. */
 static bool on_disk(const struct kd_scene *scene, const struct ks_path *path, int n, bool *near)
 {
     double in = kd_kerr_isco(scene->spacetime.spin), out = scene->disk.outer, r = path->r[n];
@@ -122,13 +130,15 @@ static bool on_disk(const struct kd_scene *scene, const struct ks_path *path, in
     return there && r > in && r < out;
 }
 
-static void judge(const struct kd_scene *scene, const struct kd_frame *frame, const float *values[KINDS][ORDERS], bool delay)
+static void judge(const struct kd_scene *scene, const struct kd_frame *frame, const float *values[KINDS][ORDERS],
+                  bool delay)
 {
     double worst[KINDS] = { 0 };
     int compared = 0;
     for (int k = 0; k < PIXELS; k++) {
         double energy, other;
-        struct ks_path path = path_of(scene, k, 1, ORDERS, &energy), beside = path_of(scene, k, 1 + 1e-6, ORDERS, &other);
+        struct ks_path path = path_of(scene, k, 1, ORDERS, &energy),
+                       beside = path_of(scene, k, 1 + 1e-6, ORDERS, &other);
         int first = -1;
         bool unsure = false;
         for (int n = 0; n < ORDERS; n++) {
@@ -138,7 +148,8 @@ static void judge(const struct kd_scene *scene, const struct kd_frame *frame, co
             if (near || path.crossings != beside.crossings)
                 continue;
             if (isnan(values[R][n][k]) == on)
-                fail_msg("spin %g, pixel %d, order %d: %g, the oracle has %g", scene->spacetime.spin, k, n, values[R][n][k], path.r[n]);
+                fail_msg("spin %g, pixel %d, order %d: %g, the oracle has %g", scene->spacetime.spin, k, n,
+                         values[R][n][k], path.r[n]);
             if (!on)
                 continue;
             first = first < 0 ? n : first;
@@ -158,26 +169,34 @@ static void judge(const struct kd_scene *scene, const struct kd_frame *frame, co
             continue;
         assert_true(first < 0 ? isnan(orders[k]) && isnan(g[k]) : orders[k] == first && g[k] == values[G][first][k]);
     }
-    print_message("a %6.3f, i %2.0f, r %4g: %4d crossings, worst", scene->spacetime.spin, scene->camera.inclination_deg, scene->camera.r, compared);
+    print_message("a %6.3f, i %2.0f, r %4g: %4d crossings, worst", scene->spacetime.spin, scene->camera.inclination_deg,
+                  scene->camera.r, compared);
     for (int i = 0; i < KINDS; i++)
         print_message(" %s %.1e", names[i], worst[i]);
     print_message("\n");
     assert_true(compared > PIXELS / 4);
     for (int i = 0; i < KINDS; i++)
-        assert_true(worst[i] < (i == DELAY ? 2e-5 : 4e-6)); /* of g and angles ten times what is seen; delays are by the steps of the profile */
+        assert_true(worst[i] <
+                    (i == DELAY
+                         ? 2e-5
+                         : 4e-6)); /* of g and angles ten times what is seen; delays are by the steps of the profile */
 }
 
 static void test_crossings(void **state)
 {
     (void)state;
-    static const struct { double a, i, r; bool delay; } views[] = {
-        { 0, 60, INFINITY, false }, { 0.9, 75, INFINITY, false }, { 0.998, 85, INFINITY, true },
-        { -0.7, 30, INFINITY, false }, { 0.9, 70, 25, false },    { 0.5, 80, 30, true },
+    static const struct {
+        double a, i, r;
+        bool delay;
+    } views[] = {
+        { 0, 60, INFINITY, false },    { 0.9, 75, INFINITY, false }, { 0.998, 85, INFINITY, true },
+        { -0.7, 30, INFINITY, false }, { 0.9, 70, 25, false },       { 0.5, 80, 30, true },
     };
     for (size_t v = 0; v < sizeof views / sizeof *views; v++) {
-        struct kd_scene scene = scene_of(views[v].a, views[v].i, views[v].r,
-                                         views[v].delay ? "g_0,r_0,phi_0,emission_angle_0,g_1,r_1,phi_1,emission_angle_1,order,g,delay_0,delay_1"
-                                                        : "g_0,r_0,phi_0,emission_angle_0,g_1,r_1,phi_1,emission_angle_1,order,g");
+        struct kd_scene scene = scene_of(
+            views[v].a, views[v].i, views[v].r,
+            views[v].delay ? "g_0,r_0,phi_0,emission_angle_0,g_1,r_1,phi_1,emission_angle_1,order,g,delay_0,delay_1"
+                           : "g_0,r_0,phi_0,emission_angle_0,g_1,r_1,phi_1,emission_angle_1,order,g");
         struct kd_frame frame = frame_of(&scene);
         const float *values[KINDS][ORDERS];
         for (int i = 0; i < KINDS; i++)
@@ -208,9 +227,11 @@ static void test_ends(void **state)
         assert_true(isnan(theta[k]) == (path.fate != KS_ESCAPED) && isnan(phi[k]) == isnan(theta[k]));
         if (path.fate != KS_ESCAPED)
             continue;
-        double want = acos(path.u), gain = fabs(acos(beside.u) - want) / 1e-6, turn = fabs(remainder(beside.sky_phi - path.sky_phi, 2 * M_PI)) / 1e-6;
+        double want = acos(path.u), gain = fabs(acos(beside.u) - want) / 1e-6,
+               turn = fabs(remainder(beside.sky_phi - path.sky_phi, 2 * M_PI)) / 1e-6;
         assert_true(fabs(theta[k] - want) < 2e-6 * (1 + gain) / fmax(sin(want), 1e-2));
-        assert_true(fabs(remainder(phi[k] - path.sky_phi - azimuth, 2 * M_PI)) < 2e-6 * (1 + turn) / fmax(sin(want), 1e-2));
+        assert_true(fabs(remainder(phi[k] - path.sky_phi - azimuth, 2 * M_PI)) <
+                    2e-6 * (1 + turn) / fmax(sin(want), 1e-2));
         assert_true(phi[k] > -M_PI - 1e-5 && phi[k] < M_PI + 1e-5);
         compared++;
     }
@@ -220,19 +241,22 @@ static void test_ends(void **state)
 
 static double luminance(const float *rgb) { return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]; }
 
-/* Each order has the light that arrives of it; all of them and the sky are the picture's luminance, whatever rays it is the mean of. */
+/* Each order has the light that arrives of it; all of them and the sky are the picture's luminance, whatever rays it
+ * is the mean of. */
 static void test_light(void **state)
 {
     (void)state;
-    static const char *const settings[][2] = { { "image.samples", "1" }, { "image.samples", "2" }, { "image.critical_factor", "4" },
-                                               { "disk.opacity", "0.4" }, { "sky.model", "grid" }, { "disk.model", "particles" } };
+    static const char *const settings[][2] = { { "image.samples", "1" },         { "image.samples", "2" },
+                                               { "image.critical_factor", "4" }, { "disk.opacity", "0.4" },
+                                               { "sky.model", "grid" },          { "disk.model", "particles" } };
     for (size_t s = 0; s < sizeof settings / sizeof *settings; s++) {
         struct kd_scene scene = scene_of(0.9, 75, INFINITY, "rgb,intensity,intensity_0,intensity_1,intensity_2");
         scene.accuracy.orders = 3;
         OK(kd_scene_set(&scene, settings[s][0], settings[s][1], &error));
         struct kd_frame frame = frame_of(&scene);
         const float *all = layer(&frame, "intensity"), *rgb = layer(&frame, "radiance");
-        const float *parts[] = { layer(&frame, "intensity_0"), layer(&frame, "intensity_1"), layer(&frame, "intensity_2") };
+        const float *parts[] = { layer(&frame, "intensity_0"), layer(&frame, "intensity_1"),
+                                 layer(&frame, "intensity_2") };
         double most = 0, higher = 0, rest = 0;
         for (int k = 0; k < PIXELS; k++)
             most = fmax(most, all[k]);
@@ -249,11 +273,13 @@ static void test_light(void **state)
     }
 }
 
-/* What arrives of a black body is (g T)^4, T that of the flux at its radius; and an opaque crossing is infinitely deep. */
+/* What arrives of a black body is (g T)^4, T that of the flux at its radius; and an opaque crossing is infinitely
+ * deep. */
 static void test_temperature(void **state)
 {
     (void)state;
-    struct kd_scene scene = scene_of(0.9, 75, INFINITY, "r_0,g_0,temperature_0,intensity_0,optical_depth_0,intensity_1");
+    struct kd_scene scene =
+        scene_of(0.9, 75, INFINITY, "r_0,g_0,temperature_0,intensity_0,optical_depth_0,intensity_1");
     double largest = kd_disk_flux_page_thorne(0.9, kd_disk_peak_page_thorne(0.9));
     for (int clear = 0; clear < 2; clear++) {
         scene.disk.opacity = clear ? 0.25 : 1;
@@ -267,7 +293,8 @@ static void test_temperature(void **state)
                 continue;
             double want = scene.disk.peak_temperature_k * pow(kd_disk_flux_page_thorne(0.9, r[k]) / largest, 0.25);
             assert_true(fabs(t[k] / want - 1) < 2e-4); /* the table is linear between 1024 nodes */
-            assert_true(fabs(light[k] / (scene.disk.opacity * pow(g[k] * t[k] / scene.disk.peak_temperature_k, 4)) - 1) < 1e-5);
+            assert_true(
+                fabs(light[k] / (scene.disk.opacity * pow(g[k] * t[k] / scene.disk.peak_temperature_k, 4)) - 1) < 1e-5);
             assert_true(clear ? fabs(depth[k] + log(0.75)) < 1e-6 : isinf(depth[k]));
             n++;
         }
@@ -280,16 +307,19 @@ static void test_temperature(void **state)
 static double product(double a, double r, double x_t, double x_phi, double y_t, double y_phi)
 {
     double delta = r * r - 2 * r + a * a;
-    return (-(r * r + a * a + 2 * a * a / r) * x_t * y_t - 2 * a / r * (x_t * y_phi + x_phi * y_t) + (1 - 2 / r) * x_phi * y_phi) / delta;
+    return (-(r * r + a * a + 2 * a * a / r) * x_t * y_t - 2 * a / r * (x_t * y_phi + x_phi * y_t) +
+            (1 - 2 / r) * x_phi * y_phi) /
+           delta;
 }
 
-/* Gas that falls from the ISCO has a place, a temperature and a g: that of its four-velocity, which keeps the E and L it had there, its
- * radial part by u.u = -1, that of the light by p.p = 0. */
+/* Gas that falls from the ISCO has a place, a temperature and a g: that of its four-velocity, which keeps the E and
+ * L it had there, its radial part by u.u = -1, that of the light by p.p = 0. */
 static void test_plunge(void **state)
 {
     (void)state;
     const double a = 0.3, isco = kd_kerr_isco(a), omega = omega_of(a, isco), ut = 1 / sqrt(line(a, isco, omega));
-    const double u_t = ut * (-(1 - 2 / isco) - 2 * a / isco * omega), u_phi = ut * (-2 * a / isco + (isco * isco + a * a + 2 * a * a / isco) * omega);
+    const double u_t = ut * (-(1 - 2 / isco) - 2 * a / isco * omega),
+                 u_phi = ut * (-2 * a / isco + (isco * isco + a * a + 2 * a * a / isco) * omega);
     struct kd_scene scene = scene_of(a, 60, INFINITY, "r_0,g_0,temperature_0");
     scene.disk.model = KD_DISK_PARTICLES;
     scene.camera.field_m = 12;
@@ -302,7 +332,8 @@ static void test_plunge(void **state)
         double energy, p_t = -1;
         const struct ks_path path = path_of(&scene, k, 1, ORDERS, &energy);
         double x = path.r[0], l = path.momentum[0];
-        double u_r = -sqrt(fmax(-1 - product(a, x, u_t, u_phi, u_t, u_phi), 0)), p_r = sqrt(fmax(-product(a, x, p_t, l, p_t, l) - path.p_z[0] * path.p_z[0], 0));
+        double u_r = -sqrt(fmax(-1 - product(a, x, u_t, u_phi, u_t, u_phi), 0)),
+               p_r = sqrt(fmax(-product(a, x, p_t, l, p_t, l) - path.p_z[0] * path.p_z[0], 0));
         double rest = product(a, x, u_t, u_phi, p_t, l); /* both radial parts are by a unit vector */
         double want = -1 / (rest + u_r * (path.falls[0] ? -p_r : p_r));
         inside++;
@@ -353,7 +384,8 @@ static void give_up(const struct kd_plan *plan)
         if (strcmp(map->key, plan->lens_key))
             continue;
         uint32_t plane = kd_lens_plane(plan->quantities, plan->orders, KD_LENS_FATE);
-        OK(kd_vk_fill(renderer->vk, "fill", map->bands.buffers[0], 4 * plane * plan->rays, 4 * plan->rays, word, &error));
+        OK(kd_vk_fill(renderer->vk, "fill", map->bands.buffers[0], 4 * plane * plan->rays, 4 * plan->rays, word,
+                      &error));
         OK(kd_vk_submit(renderer->vk, NULL, &error));
         return;
     }
@@ -376,20 +408,24 @@ static void assert_same_picture(const char *json, const char *layers)
         assert_true(beside.lens_reused || !given_up);
         for (int i = 0; i < 2; i++)
             if (memcmp(alone.layers[i].data, beside.layers[i].data, PIXELS * kd_layer_pixel_bytes(&alone.layers[i])))
-                fail_msg("%s: another %s beside %s%s", json, alone.layers[i].name, layers, given_up ? ", of rays that are given up" : "");
+                fail_msg("%s: another %s beside %s%s", json, alone.layers[i].name, layers,
+                         given_up ? ", of rays that are given up" : "");
         kd_frame_finish(&beside);
     }
     kd_frame_finish(&alone);
     kd_store_empty(&renderer->store); /* with the maps that were changed */
 }
 
-/* The picture is the same to the bit, whatever layers lie beside it: whether they ask for more of the lens map, and rays that are given up
- * on their way to a sky that is not there. The delay alone is left out: for it rays are followed in another way. */
+/* The picture is the same to the bit, whatever layers lie beside it: whether they ask for more of the lens map, and
+ * rays that are given up on their way to a sky that is not there. The delay alone is left out: for it rays are
+ * followed in another way. */
 static void test_picture_beside(void **state)
 {
     (void)state;
     static const char *const scenes[] = {
-        "{}", "{\"accuracy\": {\"orders\": 1}, \"image\": {\"critical_factor\": 4}}", "{\"image\": {\"samples\": 2}, \"sky\": {\"model\": \"grid\"}}",
+        "{}",
+        "{\"accuracy\": {\"orders\": 1}, \"image\": {\"critical_factor\": 4}}",
+        "{\"image\": {\"samples\": 2}, \"sky\": {\"model\": \"grid\"}}",
         "{\"disk\": {\"emission_opacity\": 3, \"gas\": {\"amplitude\": 1}}, \"camera\": {\"r\": 40}}",
         "{\"disk\": {\"opacity\": 0.5}, \"spots\": [{\"brightness\": 2}]}",
     };
@@ -415,10 +451,12 @@ static void test_false_colour(void **state)
         int coloured = 0;
         kd_colour_map_fill(&table, KD_MAP_SEQUENTIAL);
         for (int k = 0; k < PIXELS; k++) {
-            struct kd_map_colour c = isnan(r[k]) ? (struct kd_map_colour) { 0, 0, 0 } : kd_map_table_at(&table, kd_map_scale_place(&scale, r[k]));
+            struct kd_map_colour c = isnan(r[k]) ? (struct kd_map_colour) { 0, 0, 0 }
+                                                 : kd_map_table_at(&table, kd_map_scale_place(&scale, r[k]));
             const double want[3] = { c.r, c.g, c.b };
             for (int i = 0; i < 3; i++) {
-                long got = depth == 16 ? ((uint16_t *)kd_frame_pixels(&frame))[3 * k + i] : ((uint8_t *)kd_frame_pixels(&frame))[3 * k + i];
+                long got = depth == 16 ? ((uint16_t *)kd_frame_pixels(&frame))[3 * k + i]
+                                       : ((uint8_t *)kd_frame_pixels(&frame))[3 * k + i];
                 assert_true(got == lround(want[i] * (depth == 16 ? 65535 : 255)));
             }
             coloured += !isnan(r[k]);
@@ -447,7 +485,8 @@ static void test_ends_beyond(void **state)
     }
 }
 
-/* Whatever layer, whatever numbers it holds: a picture with a legend comes of it, from a hole that does not turn as well. */
+/* Whatever layer, whatever numbers it holds: a picture with a legend comes of it, from a hole that does not turn as
+ * well. */
 static void test_each_is_a_picture(void **state)
 {
     (void)state;
@@ -457,10 +496,12 @@ static void test_each_is_a_picture(void **state)
             for (int legend = 1; legend >= 0; legend--) {
                 struct kd_scene scene = scene_of(turns ? 0.9 : 0, 75, INFINITY, kd_layer_kinds[kind].name);
                 scene.polarization.model = turns ? KD_POLARIZATION_SCATTERING : KD_POLARIZATION_SYNCHROTRON;
-                if (kind == KD_LAYER_brightness_temperature || kind == KD_LAYER_specific_intensity || kind == KD_LAYER_stokes_v) { /* of matter at a radio frequency, alone */
+                if (kind == KD_LAYER_brightness_temperature || kind == KD_LAYER_specific_intensity ||
+                    kind == KD_LAYER_stokes_v) { /* of matter at a radio frequency, alone */
                     scene.disk.model = KD_DISK_NONE;
                     scene.volume.model = KD_VOLUME_RIAF;
-                    scene.polarization.model = kind == KD_LAYER_stokes_v ? KD_POLARIZATION_TRANSFER : KD_POLARIZATION_NONE;
+                    scene.polarization.model =
+                        kind == KD_LAYER_stokes_v ? KD_POLARIZATION_TRANSFER : KD_POLARIZATION_NONE;
                 }
                 scene.image.width = 200;
                 scene.image.height = 120;
@@ -489,10 +530,11 @@ int main(void)
     if (status)
         return status;
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_crossings), cmocka_unit_test(test_ends),  cmocka_unit_test(test_light),       cmocka_unit_test(test_temperature),
-        cmocka_unit_test(test_plunge),    cmocka_unit_test(test_bands), cmocka_unit_test(test_false_colour),
-        cmocka_unit_test(test_picture_beside),
-        cmocka_unit_test(test_ends_beyond), cmocka_unit_test(test_each_is_a_picture),
+        cmocka_unit_test(test_crossings),    cmocka_unit_test(test_ends),
+        cmocka_unit_test(test_light),        cmocka_unit_test(test_temperature),
+        cmocka_unit_test(test_plunge),       cmocka_unit_test(test_bands),
+        cmocka_unit_test(test_false_colour), cmocka_unit_test(test_picture_beside),
+        cmocka_unit_test(test_ends_beyond),  cmocka_unit_test(test_each_is_a_picture),
     };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -1,5 +1,5 @@
-/* Lens maps from listed rays, in double, beside those of the kernels in single: two ways from a pixel to its ray, three methods from
- * a ray to its end. And what becomes of rays that were given up. */
+/* Lens maps from listed rays, in double, beside those of the kernels in single: two ways from a pixel to its ray,
+ * three methods from a ray to its end. And what becomes of rays that were given up. */
 #include "render_support.h"
 
 #include "physics/kerr.h"
@@ -55,12 +55,14 @@ static void compare(const char *what, const struct lens *a, const struct lens *b
             e[1][count[1]++] = fabs(remainder(x[(orders + k) * n] - (double)y[(orders + k) * n], 2 * M_PI));
         }
         if (!other && xs[2 * n] == KD_FATE_ESCAPED)
-            e[2][count[2]++] = hypot(xs[0] - ys[0], sqrt(fmax(0, 1 - xs[0] * xs[0])) * remainder(xs[n] - ys[n], 2 * M_PI));
+            e[2][count[2]++] =
+                hypot(xs[0] - ys[0], sqrt(fmax(0, 1 - xs[0] * xs[0])) * remainder(xs[n] - ys[n], 2 * M_PI));
     }
     assert_true(count[0] > (int)n / 4 && count[2] > (int)n / 8);
     double r = quantile(e[0], count[0], 0.5), phi = quantile(e[1], count[1], 0.5), sky = quantile(e[2], count[2], 0.5);
     double r99 = quantile(e[0], count[0], 0.99);
-    print_message("%s: r %.1e (99%% %.1e), phi %.1e, sky %.1e, %d of %llu differ\n", what, r, r99, phi, sky, differ, (unsigned long long)n);
+    print_message("%s: r %.1e (99%% %.1e), phi %.1e, sky %.1e, %d of %llu differ\n", what, r, r99, phi, sky, differ,
+                  (unsigned long long)n);
     assert_true(r < bound && phi < bound && sky < bound && r99 < 1e3 * bound && differ <= stray);
     for (int k = 0; k < 3; k++)
         test_free(e[k]);
@@ -99,10 +101,11 @@ static void test_engines_agree(void **state)
     (void)state;
     static const struct {
         int engine, precision;
-        double bound; /* of medians: single precision's on one side or on both; Kerr-Schild's start in single costs more */
-        int stray;    /* rays of 1440 on the rim of the shadow */
+        double
+            bound; /* of medians: single precision's on one side or on both; Kerr-Schild's start in single costs more */
+        int stray; /* rays of 1440 on the rim of the shadow */
     } engines[] = {
-        { KD_ENGINE_CLOSED, KD_PRECISION_F64, 5e-7, 3 },   { KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 5e-7, 3 },
+        { KD_ENGINE_CLOSED, KD_PRECISION_F64, 5e-7, 3 },    { KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 5e-7, 3 },
         { KD_ENGINE_MINO_RKN4, KD_PRECISION_F32, 5e-6, 3 }, { KD_ENGINE_MINO_RKN4, KD_PRECISION_F64, 5e-7, 3 },
         { KD_ENGINE_KS_RK4, KD_PRECISION_F64, 1e-5, 12 },
     };
@@ -110,7 +113,9 @@ static void test_engines_agree(void **state)
         struct kd_scene scene = scene_of(v);
         scene.accuracy.profile = KD_PROFILE_HIGH;
         struct lens single = trace(&scene);
-        assert_int_equal(single.plan.path, views[v].r > 1.05 * kd_kerr_photon_orbit(-fabs(scene.spacetime.spin)) ? KD_LENS_CLOSED : KD_LENS_MAP);
+        assert_int_equal(single.plan.path, views[v].r > 1.05 * kd_kerr_photon_orbit(-fabs(scene.spacetime.spin))
+                                               ? KD_LENS_CLOSED
+                                               : KD_LENS_MAP);
         for (size_t k = 0; k < sizeof engines / sizeof *engines; k++) {
             char what[120];
             bool wide = engines[k].precision == KD_PRECISION_F64 && engines[k].engine != KD_ENGINE_CLOSED;
@@ -144,7 +149,8 @@ static void test_slices(void **state)
     struct kd_capacity capacity;
     kd_renderer_capacity(renderer, &capacity);
     capacity.max_binding_bytes = 4ull * whole.plan.planes * 40 * 4 * 5 + 64;
-    OK(kd_plan_make_for(&scene, &(struct kd_needs) { .quantities = KD_LENS_W | KD_LENS_PHI | KD_LENS_SKY }, &capacity, &cut.plan, &error));
+    OK(kd_plan_make_for(&scene, &(struct kd_needs) { .quantities = KD_LENS_W | KD_LENS_PHI | KD_LENS_SKY }, &capacity,
+                        &cut.plan, &error));
     assert_true(cut.plan.bands > 5);
     cut.plan.trace_ns = 1e7; /* a slice of a row */
     cut.planes = test_malloc(sizeof(float) * cut.plan.planes * cut.plan.rays);
@@ -154,15 +160,20 @@ static void test_slices(void **state)
     test_free(cut.planes);
 }
 
-/* What the profiles promise of crossing radii over the bulk set, from the ISCO to 1000 M, against the closed form: the median, and the
- * worst. The rows of the accuracy table that they stand for hold less over all sets. */
+/* What the profiles promise of crossing radii over the bulk set, from the ISCO to 1000 M, against the closed form:
+ * the median, and the worst. The rows of the accuracy table that they stand for hold less over all sets. */
 static void test_profiles(void **state)
 {
     (void)state;
     enum { RAYS = 4096, ORDERS = KD_ACCURACY_ORDERS };
-    static const struct { int profile; double median, worst; } promises[] = {
-        { KD_PROFILE_DRAFT, 2e-6, 1e-2 },     { KD_PROFILE_BALANCED, 2e-7, 1e-4 },
-        { KD_PROFILE_HIGH, 2e-7, 1e-4 },      { KD_PROFILE_REFERENCE, 1e-12, 1e-9 },
+    static const struct {
+        int profile;
+        double median, worst;
+    } promises[] = {
+        { KD_PROFILE_DRAFT, 2e-6, 1e-2 },
+        { KD_PROFILE_BALANCED, 2e-7, 1e-4 },
+        { KD_PROFILE_HIGH, 2e-7, 1e-4 },
+        { KD_PROFILE_REFERENCE, 1e-12, 1e-9 },
     };
     static double rays[2 * RAYS], errors[RAYS * ORDERS];
     static struct kd_ray_crossing exact[RAYS * ORDERS], found[RAYS * ORDERS];
@@ -171,8 +182,12 @@ static void test_profiles(void **state)
     kd_accuracy_views(KD_ACCURACY_BULK, all);
     view = all[0];
     kd_accuracy_rays(KD_ACCURACY_BULK, 0, RAYS, rays);
-    struct kd_rays_params params = { .spin = view.spin, .r = INFINITY, .inclination_deg = view.inclination_deg, .orders = ORDERS,
-                                     .engine = KD_ENGINE_CLOSED, .precision = KD_PRECISION_F64 };
+    struct kd_rays_params params = { .spin = view.spin,
+                                     .r = INFINITY,
+                                     .inclination_deg = view.inclination_deg,
+                                     .orders = ORDERS,
+                                     .engine = KD_ENGINE_CLOSED,
+                                     .precision = KD_PRECISION_F64 };
     OK(kd_rays_trace(NULL, &params, rays, RAYS, exact, exact_ends, NULL, NULL, &error));
     struct kd_capacity capacity;
     kd_renderer_capacity(renderer, &capacity);
@@ -185,7 +200,8 @@ static void test_profiles(void **state)
         OK(kd_rays_trace(renderer, &params, rays, RAYS, found, ends, NULL, NULL, &error));
         int n = 0, differ = 0;
         for (int i = 0; i < RAYS; i++) {
-            differ += ends[i].error < 1 && (ends[i].n_crossings != exact_ends[i].n_crossings || ends[i].fate != exact_ends[i].fate);
+            differ += ends[i].error < 1 &&
+                      (ends[i].n_crossings != exact_ends[i].n_crossings || ends[i].fate != exact_ends[i].fate);
             for (uint32_t j = 0; j < ends[i].n_crossings && j < exact_ends[i].n_crossings; j++) {
                 double r = exact[i * ORDERS + (int)j].r;
                 if (r >= kd_kerr_isco(view.spin) && r <= KD_ACCURACY_FAR)
@@ -193,8 +209,8 @@ static void test_profiles(void **state)
             }
         }
         double median = quantile(errors, n, 0.5), worst = quantile(errors, n, 1);
-        print_message("profile %d, %s %s, %u steps: r %.1e, worst %.1e of %d\n", promises[k].profile, kd_engine_name(by.engine),
-                      kd_precision_name(by.precision), by.steps, median, worst, n);
+        print_message("profile %d, %s %s, %u steps: r %.1e, worst %.1e of %d\n", promises[k].profile,
+                      kd_engine_name(by.engine), kd_precision_name(by.precision), by.steps, median, worst, n);
         assert_true(n > RAYS && differ == 0 && median <= promises[k].median && worst <= promises[k].worst);
     }
 }
@@ -231,7 +247,8 @@ static void test_given_up(void **state)
     memcpy(&words[0], &given_up, 4);
     memcpy(&words[1], &undecided, 4);
     OK(kd_vk_fill(renderer->vk, "fill", map->bands.buffers[0], 4 * 40 * 3, 4 * 40, words[0], &error));
-    OK(kd_vk_fill(renderer->vk, "fill", map->bands.buffers[0], 4 * ((plan.planes - 1) * plan.rays + 40 * 20), 4 * 40, words[1], &error));
+    OK(kd_vk_fill(renderer->vk, "fill", map->bands.buffers[0], 4 * ((plan.planes - 1) * plan.rays + 40 * 20), 4 * 40,
+                  words[1], &error));
     OK(kd_vk_submit(renderer->vk, NULL, &error));
     OK(kd_render(renderer, &scene, &plan, NULL, NULL, &frame, &error));
     assert_true(frame.lens_reused);
@@ -302,8 +319,13 @@ static bool says_noise(const struct kd_plan *plan)
 static void test_noise_is_named(void **state)
 {
     (void)state;
-    static const struct { double spin, radius; bool noise; } cases[] = { /* radius: in horizons */
-        { 0.999999, 1.0001, true }, { 0.999999999, 1.001, true }, { 0.999999, 1.3, false }, { 0.9, 1.05, false }, { 0, 1.4, false },
+    static const struct {
+        double spin, radius;
+        bool noise;
+    } cases[] = {
+        /* radius: in horizons */
+        { 0.999999, 1.0001, true }, { 0.999999999, 1.001, true }, { 0.999999, 1.3, false }, { 0.9, 1.05, false },
+        { 0, 1.4, false },
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         struct kd_scene scene = scene_of(2);
@@ -326,11 +348,13 @@ static void test_noise_is_named(void **state)
                 continue;
             double s = sqrt(fmax(0, (1 - u[i] * (double)u[i]) * (1 - u[i + 1] * (double)u[i + 1])));
             pairs++;
-            apart += fate[i + 1] != KD_FATE_ESCAPED || u[i] * (double)u[i + 1] + s * cos(phi[i] - (double)phi[i + 1]) < cos(0.1);
+            apart += fate[i + 1] != KD_FATE_ESCAPED ||
+                     u[i] * (double)u[i + 1] + s * cos(phi[i] - (double)phi[i + 1]) < cos(0.1);
         }
         kd_renderer_capacity(renderer, &capacity);
         OK(kd_plan_make(&scene, &capacity, &plan, &error));
-        print_message("a %.9g, %g horizons: %d of %d neighbours on the sky are far apart\n", cases[k].spin, cases[k].radius, apart, pairs);
+        print_message("a %.9g, %g horizons: %d of %d neighbours on the sky are far apart\n", cases[k].spin,
+                      cases[k].radius, apart, pairs);
         assert_true(pairs > 100 && (2 * apart > pairs) == cases[k].noise);
         assert_int_equal(says_noise(&plan), cases[k].noise);
         scene.sky.model = KD_SKY_NONE;
@@ -343,12 +367,8 @@ static void test_noise_is_named(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_engines_agree),
-        cmocka_unit_test(test_slices),
-        cmocka_unit_test(test_profiles),
-        cmocka_unit_test(test_given_up),
-        cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_noise_is_named),
+        cmocka_unit_test(test_engines_agree), cmocka_unit_test(test_slices),  cmocka_unit_test(test_profiles),
+        cmocka_unit_test(test_given_up),      cmocka_unit_test(test_refused), cmocka_unit_test(test_noise_is_named),
     };
     int status = open_renderer();
     return status ? status : close_renderer(cmocka_run_group_tests(tests, NULL, NULL));

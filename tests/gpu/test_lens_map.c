@@ -1,8 +1,9 @@
-/* The lens map on the device against the Kerr-Schild oracle, which traces the same pixels in double precision by another
- * method (tests/oracle).
+/* The lens map on the device against the Kerr-Schild oracle, which traces the same pixels in double precision by
+ * another method (tests/oracle).
  *
- * How far a crossing may be off: the last bits of a float, times how much that crossing amplifies any change of the ray.
- * The amplification, d ln r/d ln b, is measured on the oracle itself; it reaches hundreds near the critical curve. */
+ * How far a crossing may be off: the last bits of a float, times how much that crossing amplifies any change of the
+ * ray. The amplification, d ln r/d ln b, is measured on the oracle itself; it reaches hundreds near the critical
+ * curve. */
 #include "kerr_schild.h"
 #include "physics/kerr.h"
 #include "render/render.h"
@@ -23,7 +24,10 @@ struct view {
     bool away;    /* a pinhole that looks outwards */
 };
 
-struct sample { struct ks_path path, beside; double nudge; };
+struct sample {
+    struct ks_path path, beside;
+    double nudge;
+};
 
 static struct ks_photon photon(const struct view *v, double x, double y, double scale)
 {
@@ -41,12 +45,15 @@ static struct ks_photon photon(const struct view *v, double x, double y, double 
 static struct sample sample(const struct view *v, int i, int j)
 {
     double x = (2 * i + 1.0) / GRID - 1, y = 1 - (2 * j + 1.0) / GRID;
-    return (struct sample){ ks_trace(photon(v, x, y, 1), 16), ks_trace(photon(v, x, y, 1 + 1e-6), 16), 1e-6 };
+    return (struct sample) { ks_trace(photon(v, x, y, 1), 16), ks_trace(photon(v, x, y, 1 + 1e-6), 16), 1e-6 };
 }
 
 static double turn(double x) { return fabs(remainder(x, 2 * M_PI)); }
 
-struct lens { struct kd_plan plan; float *planes; };
+struct lens {
+    struct kd_plan plan;
+    float *planes;
+};
 
 /* Whether the plan chooses the closed form: outside the orbits of light. */
 static bool has_closed_form(const struct view *v) { return v->r > 1.05 * kd_kerr_photon_orbit(-fabs(v->a)); }
@@ -75,7 +82,11 @@ static struct lens trace(const struct view *v, const struct kd_needs *needs, int
     return lens;
 }
 
-struct tally { int count, wrong; double worst; double errors[GRID * GRID]; };
+struct tally {
+    int count, wrong;
+    double worst;
+    double errors[GRID * GRID];
+};
 
 static double median(struct tally *t)
 {
@@ -83,8 +94,8 @@ static double median(struct tally *t)
     return t->count ? t->errors[t->count / 2] : 0;
 }
 
-/* A ray whose number of crossings changes when it is moved by 3e-6, or that just grazes the edge of what is kept, decides
- * nothing. */
+/* A ray whose number of crossings changes when it is moved by 3e-6, or that just grazes the edge of what is kept,
+ * decides nothing. */
 static bool undecided(const struct sample *s, int n, double inner)
 {
     if ((s->path.crossings > n) != (s->beside.crossings > n))
@@ -94,8 +105,8 @@ static bool undecided(const struct sample *s, int n, double inner)
 }
 
 /* Judge one plane of radii and, if the map has them, azimuths. Errors are divided by 1 + the amplification. */
-static void judge(const struct view *v, const struct lens *lens, const struct sample *samples, int n, struct tally *radius,
-                  struct tally *azimuth)
+static void judge(const struct view *v, const struct lens *lens, const struct sample *samples, int n,
+                  struct tally *radius, struct tally *azimuth)
 {
     double inner = kd_kerr_horizon(v->a);
     for (int k = 0; k < GRID * GRID; k++) {
@@ -105,8 +116,8 @@ static void judge(const struct view *v, const struct lens *lens, const struct sa
         bool has = s->path.crossings > n;
         if ((w > 0) != has) {
             if (!undecided(s, n, inner) && !(w > 0 && w < 1e-4)) {
-                print_message("%s: order %d at %d, %d: device r = %g, oracle %g\n", v->name, n, k % GRID, k / GRID, 1 / w,
-                              has ? s->path.r[n] : INFINITY);
+                print_message("%s: order %d at %d, %d: device r = %g, oracle %g\n", v->name, n, k % GRID, k / GRID,
+                              1 / w, has ? s->path.r[n] : INFINITY);
                 radius->wrong++;
             }
             continue;
@@ -116,7 +127,8 @@ static void judge(const struct view *v, const struct lens *lens, const struct sa
         double r = s->path.r[n], gain = fabs(log(s->beside.r[n] / r)) / s->nudge;
         radius->errors[radius->count++] = fabs(1 / (double)w / r - 1) / (1 + gain);
         radius->worst = fmax(radius->worst, radius->errors[radius->count - 1]);
-        if (!kd_plan_holds(&lens->plan, KD_LENS_PHI) || r < 1.6 * inner) /* Boyer-Lindquist azimuth diverges at the horizon */
+        if (!kd_plan_holds(&lens->plan, KD_LENS_PHI) ||
+            r < 1.6 * inner) /* Boyer-Lindquist azimuth diverges at the horizon */
             continue;
         double phi_gain = turn(s->beside.phi[n] - s->path.phi[n]) / s->nudge;
         float phi = lens->planes[(ORDERS + n) * (int)lens->plan.rays + k];
@@ -156,14 +168,15 @@ static struct sample samples[VIEWS][GRID * GRID];
 
 /* Per order: median and worst of the errors over 1 + amplification. Float arithmetic alone (6e-8 an operation, tens of
  * them) gives some 3e-7; the bounds leave a factor for other devices' square roots and divisions. */
-static void check(const struct view *v, const struct lens *lens, const struct sample *s, double worst_r, double worst_phi)
+static void check(const struct view *v, const struct lens *lens, const struct sample *s, double worst_r,
+                  double worst_phi)
 {
     for (int n = 0; n < ORDERS; n++) {
         struct tally r = { 0 }, phi = { 0 };
         judge(v, lens, s, n, &r, &phi);
         double mr = median(&r), mp = median(&phi);
-        print_message("%-34s order %d: %4d rays, r %.1e worst %.1e, phi %.1e worst %.1e\n", v->name, n, r.count, mr, r.worst, mp,
-                      phi.worst);
+        print_message("%-34s order %d: %4d rays, r %.1e worst %.1e, phi %.1e worst %.1e\n", v->name, n, r.count, mr,
+                      r.worst, mp, phi.worst);
         assert_int_equal(r.wrong, 0);
         assert_true(mr < 1e-6);
         assert_true(r.worst < worst_r);
@@ -179,7 +192,8 @@ static void test_closed_form(void **state)
         if (!has_closed_form(&views[i]))
             continue;
         for (int phi = 0; phi < 2; phi++) {
-            struct lens lens = trace(&views[i], &(struct kd_needs){ .quantities = KD_LENS_W | (phi ? KD_LENS_PHI : 0) }, ORDERS, 0);
+            struct lens lens =
+                trace(&views[i], &(struct kd_needs) { .quantities = KD_LENS_W | (phi ? KD_LENS_PHI : 0) }, ORDERS, 0);
             assert_true(lens.plan.path == KD_LENS_CLOSED);
             check(&views[i], &lens, samples[i], 5e-6, 2e-6);
             test_free(lens.planes);
@@ -191,7 +205,7 @@ static void test_integrated(void **state)
 {
     (void)state;
     for (int i = 0; i < VIEWS; i++) {
-        struct lens lens = trace(&views[i], &(struct kd_needs){ .quantities = KD_LENS_W | KD_LENS_PHI }, ORDERS, 16);
+        struct lens lens = trace(&views[i], &(struct kd_needs) { .quantities = KD_LENS_W | KD_LENS_PHI }, ORDERS, 16);
         assert_true(lens.plan.path == KD_LENS_MAP);
         check(&views[i], &lens, samples[i], 5e-6, 2e-6);
         test_free(lens.planes);
@@ -204,7 +218,8 @@ static void check_sky(int steps)
     for (int i = 0; i < VIEWS; i++) {
         if (!steps && !has_closed_form(&views[i]))
             continue;
-        struct lens lens = trace(&views[i], &(struct kd_needs){ .quantities = KD_LENS_W | KD_LENS_SKY }, ORDERS, steps);
+        struct lens lens =
+            trace(&views[i], &(struct kd_needs) { .quantities = KD_LENS_W | KD_LENS_SKY }, ORDERS, steps);
         assert_true(lens.plan.path == (steps ? KD_LENS_MAP : KD_LENS_CLOSED));
         const float *u = lens.planes + ORDERS * lens.plan.rays, *phi = u + lens.plan.rays, *fate = phi + lens.plan.rays;
         double worst = 0;
@@ -215,7 +230,8 @@ static void check_sky(int steps)
             if (p->fate != q->fate || p->fate == KS_UNDECIDED)
                 continue;
             if ((fate[k] == KD_FATE_ESCAPED) != (p->fate == KS_ESCAPED))
-                fail_msg("%s: fate at %d, %d is %g, the oracle's %d", views[i].name, k % GRID, k / GRID, fate[k], p->fate);
+                fail_msg("%s: fate at %d, %d is %g, the oracle's %d", views[i].name, k % GRID, k / GRID, fate[k],
+                         p->fate);
             if (p->fate != KS_ESCAPED)
                 continue;
             double s = sqrt(fmax(0, 1 - p->u * p->u));
@@ -259,7 +275,8 @@ static void test_in_plane(void **state)
     scene.image.width = GRID;
     scene.image.height = 1;
     kd_renderer_capacity(renderer, &capacity);
-    OK(kd_plan_make_for(&scene, &(struct kd_needs){ .quantities = KD_LENS_W | KD_LENS_PHI | KD_LENS_SKY }, &capacity, &plan, &error));
+    OK(kd_plan_make_for(&scene, &(struct kd_needs) { .quantities = KD_LENS_W | KD_LENS_PHI | KD_LENS_SKY }, &capacity,
+                        &plan, &error));
     assert_true(plan.path == KD_LENS_CLOSED && plan.planes == 9);
     OK(kd_render_lens(renderer, &scene, &plan, planes, NULL, &error));
     int escaped = 0;
@@ -288,7 +305,8 @@ static void test_promise(void **state)
         struct lens lens = trace(&views[0], &both[m], 1, 0);
         struct tally t = { 0 };
         for (int k = 0; k < GRID * GRID; k++)
-            if (samples[0][k].path.crossings && lens.planes[k] > 0 && !undecided(&samples[0][k], 0, kd_kerr_horizon(0.9)))
+            if (samples[0][k].path.crossings && lens.planes[k] > 0 &&
+                !undecided(&samples[0][k], 0, kd_kerr_horizon(0.9)))
                 t.errors[t.count++] = fabs(1 / (double)lens.planes[k] / samples[0][k].path.r[0] - 1);
         assert_true(t.count > 900);
         assert_true(median(&t) < 1e-6);
@@ -297,8 +315,8 @@ static void test_promise(void **state)
     }
 }
 
-/* The edge of a Schwarzschild shadow: the captured pixels of 1024^2 fill a disk of radius 3 sqrt(3) M. The area averages
- * over the 2 pi R/pixel = 2900 pixels of the rim, so that 0.1 % is ten times what chance leaves. */
+/* The edge of a Schwarzschild shadow: the captured pixels of 1024^2 fill a disk of radius 3 sqrt(3) M. The area
+ * averages over the 2 pi R/pixel = 2900 pixels of the rim, so that 0.1 % is ten times what chance leaves. */
 static void test_shadow(void **state)
 {
     (void)state;
@@ -311,7 +329,7 @@ static void test_shadow(void **state)
     scene.camera.field_m = 12;
     scene.image.width = scene.image.height = n;
     kd_renderer_capacity(renderer, &capacity);
-    OK(kd_plan_make_for(&scene, &(struct kd_needs){ .quantities = KD_LENS_SKY }, &capacity, &plan, &error));
+    OK(kd_plan_make_for(&scene, &(struct kd_needs) { .quantities = KD_LENS_SKY }, &capacity, &plan, &error));
     float *planes = test_malloc(sizeof(float) * plan.planes * plan.rays);
     OK(kd_render_lens(renderer, &scene, &plan, planes, NULL, &error));
     const float *fate = planes + (plan.planes - 1) * plan.rays;
@@ -341,8 +359,8 @@ int main(void)
         for (int k = 0; k < GRID * GRID; k++)
             samples[v][k] = sample(&views[v], k % GRID, k / GRID);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_promise),  cmocka_unit_test(test_closed_form), cmocka_unit_test(test_integrated),
-        cmocka_unit_test(test_sky),      cmocka_unit_test(test_sky_closed),  cmocka_unit_test(test_in_plane),
+        cmocka_unit_test(test_promise), cmocka_unit_test(test_closed_form), cmocka_unit_test(test_integrated),
+        cmocka_unit_test(test_sky),     cmocka_unit_test(test_sky_closed),  cmocka_unit_test(test_in_plane),
         cmocka_unit_test(test_shadow),
     };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));

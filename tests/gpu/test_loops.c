@@ -1,5 +1,6 @@
-/* Stokes Q and U of light curves: against the light of each ray by the Kerr-Schild oracles, which share no equation with the kernels; against the loops of a spot that is seen
- * face on, in closed form; and against the layers of the same picture. */
+/* Stokes Q and U of light curves: against the light of each ray by the Kerr-Schild oracles, which share no equation
+ * with the kernels; against the loops of a spot that is seen face on, in closed form; and against the layers of the
+ * same picture. */
 #include "kerr_schild.h"
 #include "kerr_schild_transport.h"
 #include "render/output/curve.h"
@@ -58,10 +59,12 @@ static void near(double got, double want, double scale, double bound, const char
 {
     worst = fmax(worst, fabs(got - want) / scale);
     if (!(fabs(got - want) <= bound * scale))
-        fail_msg("%s: %.9g, expected %.9g: off by %.2g, allowed %.2g", what, got, want, fabs(got - want) / scale, bound);
+        fail_msg("%s: %.9g, expected %.9g: off by %.2g, allowed %.2g", what, got, want, fabs(got - want) / scale,
+                 bound);
 }
 
-/* The circular orbit: g_tt = -(1 - 2/r), g_tphi = -2a/r, g_phiphi = r^2 + a^2 + 2a^2/r in the plane, the radial force 0 where their slopes by r are so. */
+/* The circular orbit: g_tt = -(1 - 2/r), g_tphi = -2a/r, g_phiphi = r^2 + a^2 + 2a^2/r in the plane, the radial
+ * force 0 where their slopes by r are so. */
 static double orbit_omega(double a, double r)
 {
     const double tt = -2 / (r * r), tphi = 2 * a / (r * r), phiphi = 2 * r - 2 * a * a / (r * r);
@@ -69,7 +72,11 @@ static double orbit_omega(double a, double r)
 }
 
 enum { ORDERS = 2 };
-struct oracle_ray { struct ks_path path; struct ks_polarized at[ORDERS]; bool known[ORDERS]; };
+struct oracle_ray {
+    struct ks_path path;
+    struct ks_polarized at[ORDERS];
+    bool known[ORDERS];
+};
 
 static struct ks_screen screen_of(const struct kd_scene *scene, double x, double y)
 {
@@ -81,8 +88,10 @@ static struct ks_screen screen_of(const struct kd_scene *scene, double x, double
     return ks_screen_near(&at, &frame, look, top);
 }
 
-/* I, Q and U of the spot, whose gas is that of each place's own orbit: light of nu^-index is seen times g^(3 + index), polarised by 3/4. */
-static void oracle_light(const struct kd_scene *scene, struct oracle_ray *rays, enum ks_field field, double isco, double out[3])
+/* I, Q and U of the spot, whose gas is that of each place's own orbit: light of nu^-index is seen times g^(3 +
+ * index), polarised by 3/4. */
+static void oracle_light(const struct kd_scene *scene, struct oracle_ray *rays, enum ks_field field, double isco,
+                         double out[3])
 {
     const struct kd_spot *spot = &scene->spots.at[0];
     const int width = scene->image.width, height = scene->image.height;
@@ -91,10 +100,12 @@ static void oracle_light(const struct kd_scene *scene, struct oracle_ray *rays, 
     const double centre = spot->phase_deg * RADIAN + orbit_omega(scene->spacetime.spin, spot->r) * scene->top.time;
     out[0] = out[1] = out[2] = 0;
     for (int i = 0; i < width * height; i++) {
-        const double x = step * (i % width - 0.5 * (width - 1)), y = -step * (i / width - 0.5 * (height - 1)), solid = far ? 1 : pow(1 + x * x + y * y, -1.5);
+        const double x = step * (i % width - 0.5 * (width - 1)), y = -step * (i / width - 0.5 * (height - 1)),
+                     solid = far ? 1 : pow(1 + x * x + y * y, -1.5);
         for (int k = 0; k < rays[i].path.crossings; k++) {
             const double r = rays[i].path.r[k], phi = rays[i].path.phi[k] + scene->camera.azimuth_deg * RADIAN;
-            const double dx = r * cos(phi) - spot->r * cos(centre), dy = r * sin(phi) - spot->r * sin(centre), off = (dx * dx + dy * dy) / (2 * spot->size * spot->size);
+            const double dx = r * cos(phi) - spot->r * cos(centre), dy = r * sin(phi) - spot->r * sin(centre),
+                         off = (dx * dx + dy * dy) / (2 * spot->size * spot->size);
             if (off > 12 || r < isco)
                 continue;
             if (!rays[i].known[k]) {
@@ -111,12 +122,19 @@ static void oracle_light(const struct kd_scene *scene, struct oracle_ray *rays, 
     }
 }
 
-/* At places all round the orbit, of both image orders, from infinity and from near; a sign of the field, of Q or of U that were wrong would be off by all of it. */
+/* At places all round the orbit, of both image orders, from infinity and from near; a sign of the field, of Q or of
+ * U that were wrong would be off by all of it. */
 static void test_oracle(void **state)
 {
     (void)state;
-    static const struct { double spin, isco, inclination, r; const char *name; enum ks_field field; } views[] = {
-        { 0.7, 3.3931, 55, INFINITY, "vertical", KS_VERTICAL }, { -0.5, 7.5546, 105, INFINITY, "toroidal", KS_TOROIDAL }, { 0.9, 2.3209, 35, 30, "radial", KS_RADIAL },
+    static const struct {
+        double spin, isco, inclination, r;
+        const char *name;
+        enum ks_field field;
+    } views[] = {
+        { 0.7, 3.3931, 55, INFINITY, "vertical", KS_VERTICAL },
+        { -0.5, 7.5546, 105, INFINITY, "toroidal", KS_TOROIDAL },
+        { 0.9, 2.3209, 35, 30, "radial", KS_RADIAL },
     };
     for (size_t v = 0; v < sizeof views / sizeof *views; v++) {
         struct kd_scene scene = spot_scene(views[v].spin, views[v].inclination, views[v].name);
@@ -124,16 +142,24 @@ static void test_oracle(void **state)
         scene.camera.r = views[v].r;
         scene.camera.fov_deg = 45;
         scene.camera.azimuth_deg = 77;
-        scene.spots.at[0] = (struct kd_spot) { .brightness = 1, .r = 9, .size = 1.1, .index = 0.6, .phase_deg = -50, .temperature_k = 6500 };
+        scene.spots.at[0] = (struct kd_spot) {
+            .brightness = 1, .r = 9, .size = 1.1, .index = 0.6, .phase_deg = -50, .temperature_k = 6500
+        };
         if (isfinite(scene.camera.r))
             OK(kd_scene_set(&scene, "camera.observer", "zamo", &error));
         struct oracle_ray *rays = calloc((size_t)n, sizeof *rays);
         for (int i = 0; i < n; i++) {
-            const double step = isinf(scene.camera.r) ? scene.camera.field_m / scene.image.width : 2 * tan(scene.camera.fov_deg * RADIAN / 2) / scene.image.width;
-            const double x = step * (i % scene.image.width - 0.5 * (scene.image.width - 1)), y = -step * (i / scene.image.width - 0.5 * (scene.image.height - 1));
+            const double step = isinf(scene.camera.r) ? scene.camera.field_m / scene.image.width
+                                                      : 2 * tan(scene.camera.fov_deg * RADIAN / 2) / scene.image.width;
+            const double x = step * (i % scene.image.width - 0.5 * (scene.image.width - 1)),
+                         y = -step * (i / scene.image.width - 0.5 * (scene.image.height - 1));
             const double length = sqrt(1 + x * x + y * y), k[3] = { -1 / length, -y / length, x / length };
-            rays[i].path = ks_trace(isinf(scene.camera.r) ? ks_from_infinity(scene.spacetime.spin, cos(scene.camera.inclination_deg * RADIAN), x, y)
-                                                          : ks_from_camera(scene.spacetime.spin, scene.camera.r, scene.camera.inclination_deg * RADIAN, true, k), ORDERS);
+            rays[i].path =
+                ks_trace(isinf(scene.camera.r)
+                             ? ks_from_infinity(scene.spacetime.spin, cos(scene.camera.inclination_deg * RADIAN), x, y)
+                             : ks_from_camera(scene.spacetime.spin, scene.camera.r,
+                                              scene.camera.inclination_deg * RADIAN, true, k),
+                         ORDERS);
         }
         for (int k = 0; k < 6; k++) {
             double want[3];
@@ -152,8 +178,10 @@ static void test_oracle(void **state)
     printf("against the oracle: I, Q and U within %.2g of I\n", worst);
 }
 
-/* Face on and without spin a small spot's light is polarised from outwards to +phi by 0 for a toroidal field and by atan2(cos, v sin) for a vertical one, by the light's angle to the radius and
- * the speed v of the orbit (R. Narayan et al. 2021; Z. Gelles et al. 2021): so Q and U go round twice in an orbit, the way the spot goes (GRAVITY 2018; M. Wielgus et al. 2022). */
+/* Face on and without spin a small spot's light is polarised from outwards to +phi by 0 for a toroidal field and by
+ * atan2(cos, v sin) for a vertical one, by the light's angle to the radius and the speed v of the orbit (R. Narayan
+ * et al. 2021; Z. Gelles et al. 2021): so Q and U go round twice in an orbit, the way the spot goes (GRAVITY 2018;
+ * M. Wielgus et al. 2022). */
 static void test_loops(void **state)
 {
     (void)state;
@@ -168,17 +196,20 @@ static void test_loops(void **state)
         for (int k = 0; k <= STEPS; k++) {
             scene.top.time = 2 * M_PI * pow(8, 1.5) * k / STEPS;
             const struct kd_light s = light(&scene).spots;
-            const double out = atan2(-s.x, s.y), r = 8, b = hypot(s.x, s.y), sine = b * sqrt(1 - 2 / r) / r, v = 1 / sqrt(r - 2);
+            const double out = atan2(-s.x, s.y), r = 8, b = hypot(s.x, s.y), sine = b * sqrt(1 - 2 / r) / r,
+                         v = 1 / sqrt(r - 2);
             const double want = out + (vertical ? atan2(sqrt(1 - sine * sine), v * sine) : 0), evpa = kd_light_evpa(&s);
             off = fmax(off, fabs(remainder(evpa - want, M_PI)));
-            assert_true(kd_light_fraction(&s) < 0.75 && kd_light_fraction(&s) > 0.74); /* less than one place's: it is the mean of some */
+            assert_true(kd_light_fraction(&s) < 0.75 &&
+                        kd_light_fraction(&s) > 0.74); /* less than one place's: it is the mean of some */
             turned += k ? remainder(atan2(s.u, s.q) - angle, 2 * M_PI) : 0;
             went += k ? remainder(out - place, 2 * M_PI) : 0;
             angle = atan2(s.u, s.q);
             place = out;
         }
-        printf("face on, %s: (Q, U) goes round %.3f times while the spot does %.3f times; EVPA within %.3f degrees of the closed form\n", vertical ? "vertical" : "toroidal", turned / (2 * M_PI),
-               went / (2 * M_PI), off / RADIAN);
+        printf("face on, %s: (Q, U) goes round %.3f times while the spot does %.3f times; EVPA within %.3f degrees of "
+               "the closed form\n",
+               vertical ? "vertical" : "toroidal", turned / (2 * M_PI), went / (2 * M_PI), off / RADIAN);
         assert_true(fabs(turned / went - 2) < 1e-3 && fabs(fabs(went) - 2 * M_PI) < 1e-3);
         assert_true(off < 0.3 * RADIAN); /* of order size^2/r^2 */
     }
@@ -195,11 +226,14 @@ static double sum_of(const struct kd_frame *frame, const struct kd_scene *scene,
     return sum * step * step;
 }
 
-/* What the curve has are the sums of the layers, on a grid of rays, with more of them at the critical curve, through a volume, and of one that is polarised itself; no picture changes. */
+/* What the curve has are the sums of the layers, on a grid of rays, with more of them at the critical curve, through
+ * a volume, and of one that is polarised itself; no picture changes. */
 static void test_layers(void **state)
 {
     (void)state;
-    static const char *const settings[][2] = { { "image.critical_factor", "3" }, { "volume.model", "uniform" }, { "volume.model", "riaf" } };
+    static const char *const settings[][2] = { { "image.critical_factor", "3" },
+                                               { "volume.model", "uniform" },
+                                               { "volume.model", "riaf" } };
     for (int i = 0; i < 3; i++) {
         struct kd_scene scene = spot_scene(0.6, 65, "vertical");
         if (i == 2) {
@@ -212,7 +246,9 @@ static void test_layers(void **state)
             scene.image.samples = 2;
         }
         OK(kd_scene_set(&scene, settings[i][0], settings[i][1], &error));
-        OK(kd_scene_set(&scene, "image.layers", i == 2 ? "rgb,intensity,stokes_q,stokes_u,stokes_v" : "rgb,intensity,stokes_q,stokes_u", &error));
+        OK(kd_scene_set(&scene, "image.layers",
+                        i == 2 ? "rgb,intensity,stokes_q,stokes_u,stokes_v" : "rgb,intensity,stokes_q,stokes_u",
+                        &error));
         struct kd_frame frame = frame_by(&scene, &kd_format_npz);
         const struct kd_light *all = &frame.light.all;
         near(all->flux, sum_of(&frame, &scene, "intensity"), all->flux, 3e-6, "the sum of intensity");
@@ -220,7 +256,8 @@ static void test_layers(void **state)
         near(all->u, sum_of(&frame, &scene, "stokes_u"), all->flux, 3e-6, "the sum of stokes_u");
         if (i == 2)
             near(all->v, sum_of(&frame, &scene, "stokes_v"), all->flux, 3e-6, "the sum of stokes_v");
-        assert_true(frame.light.circular == (i == 2) && fabs(all->q) > 1e-3 * all->flux && fabs(all->u) > 1e-3 * all->flux);
+        assert_true(frame.light.circular == (i == 2) && fabs(all->q) > 1e-3 * all->flux &&
+                    fabs(all->u) > 1e-3 * all->flux);
         const struct kd_light_report curve = light(&scene);
         assert_memory_equal(&curve.all, all, sizeof *all);
         if (i == 2) { /* its I is not that of unpolarised transfer */
@@ -231,7 +268,8 @@ static void test_layers(void **state)
         OK(kd_scene_set(&scene, "image.layers", "rgb", &error));
         struct kd_frame plain = frame_by(&scene, &kd_format_npz);
         assert_true(!plain.light.polarized && plain.light.all.q == 0);
-        assert_memory_equal(kd_frame_layer(&plain, "radiance")->data, kd_frame_layer(&frame, "radiance")->data, 12u * frame.width * frame.height);
+        assert_memory_equal(kd_frame_layer(&plain, "radiance")->data, kd_frame_layer(&frame, "radiance")->data,
+                            12u * frame.width * frame.height);
         kd_frame_finish(&plain);
         kd_frame_finish(&frame);
     }
@@ -255,6 +293,7 @@ int main(void)
     int status = open_renderer();
     if (status)
         return status;
-    const struct CMUnitTest tests[] = { cmocka_unit_test(test_oracle), cmocka_unit_test(test_loops), cmocka_unit_test(test_layers), cmocka_unit_test(test_no_crossing) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_oracle), cmocka_unit_test(test_loops),
+                                        cmocka_unit_test(test_layers), cmocka_unit_test(test_no_crossing) };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

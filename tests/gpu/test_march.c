@@ -1,5 +1,6 @@
-/* Light along rays through volumes: against closed forms along paths whose length the Kerr-Schild oracle measures, which knows no Mino time and no
- * Nystroem method; against integrals of emission and absorption along them; in its order with crossings of the plane; and against itself. */
+/* Light along rays through volumes: against closed forms along paths whose length the Kerr-Schild oracle measures,
+ * which knows no Mino time and no Nystroem method; against integrals of emission and absorption along them; in its
+ * order with crossings of the plane; and against itself. */
 #include "render/device/store.h"
 #include "render_support.h"
 
@@ -36,7 +37,8 @@ static struct ks_photon photon_of(const struct kd_scene *scene, int i)
     double step = far ? scene->camera.field_m / WIDTH : 2 * tan(scene->camera.fov_deg * M_PI / 360) / WIDTH;
     double x = step * (i % WIDTH - 0.5 * (WIDTH - 1)), y = -step * (i / WIDTH - 0.5 * (HEIGHT - 1));
     double length = sqrt(1 + x * x + y * y), k[3] = { -1 / length, -y / length, x / length };
-    return far ? ks_from_infinity(scene->spacetime.spin, cos(theta), x, y) : ks_from_camera(scene->spacetime.spin, scene->camera.r, theta, false, k);
+    return far ? ks_from_infinity(scene->spacetime.spin, cos(theta), x, y)
+               : ks_from_camera(scene->spacetime.spin, scene->camera.r, theta, false, k);
 }
 
 /* A uniform shell as the oracle sees it; with its shift, by observers of zero angular momentum from the metric. */
@@ -45,7 +47,8 @@ static void shell(void *user, const struct ks_photon *p, double r, double u, dou
     const struct kd_scene *scene = user;
     double a = p->a, seen = 1;
     if (scene->volume.redshift) {
-        double sigma = r * r + a * a * u * u, sin2 = 1 - u * u, g_tt = -(1 - 2 * r / sigma), g_tp = -2 * a * r * sin2 / sigma;
+        double sigma = r * r + a * a * u * u, sin2 = 1 - u * u, g_tt = -(1 - 2 * r / sigma),
+               g_tp = -2 * a * r * sin2 / sigma;
         double g_pp = (r * r + a * a + 2 * a * a * r * sin2 / sigma) * sin2, omega = -g_tp / g_pp;
         seen = (p->energy - omega * p->momentum) / sqrt(-(g_tt + omega * (2 * g_tp + omega * g_pp)));
     }
@@ -66,14 +69,19 @@ static const float *intensity(const struct kd_frame *frame)
     return layer->data;
 }
 
-static const struct view { double spin, inclination, r; const char *json; } views[] = {
+static const struct view {
+    double spin, inclination, r;
+    const char *json;
+} views[] = {
     { 0, 60, INFINITY, "{\"volume\":{\"inner\":6,\"outer\":12}}" },
     { 0.9, 80, INFINITY, "{\"volume\":{\"outer\":11,\"opacity\":0.3,\"emissivity\":1}}" },
     { -0.7, 25, INFINITY, "{\"volume\":{\"inner\":7,\"outer\":10,\"opacity\":0}}" },
     { 0.95, 88, 30, "{\"volume\":{\"outer\":9,\"opacity\":2,\"emissivity\":3}}" },
     { 0.5, 40, 7, "{\"volume\":{\"outer\":15,\"opacity\":0.01}}" }, /* from within */
     { 0.3, 40, INFINITY, "{\"volume\":{\"inner\":3,\"outer\":30000,\"opacity\":0,\"emissivity\":1e-4}}" },
-    { 0.3, 70, INFINITY, "{\"volume\":{\"inner\":18000,\"outer\":30000,\"opacity\":2e-5,\"emissivity\":2e-5},\"camera\":{\"field_m\":70000}}" }, /* straight rays */
+    { 0.3, 70, INFINITY,
+      "{\"volume\":{\"inner\":18000,\"outer\":30000,\"opacity\":2e-5,\"emissivity\":2e-5},\"camera\":{\"field_m\":"
+      "70000}}" }, /* straight rays */
 };
 enum { VIEWS = sizeof views / sizeof *views };
 
@@ -94,7 +102,8 @@ static void test_closed_form(void **state)
         scene.volume.redshift = false;
         struct kd_frame frame = rendered(&scene);
         for (int i = 0; i < PIXELS; i++) {
-            const struct ks_light path = ks_along(photon_of(&scene, i), inner_of(&scene), scene.volume.outer, false, shell, &scene);
+            const struct ks_light path =
+                ks_along(photon_of(&scene, i), inner_of(&scene), scene.volume.outer, false, shell, &scene);
             double x = scene.volume.opacity * path.length;
             double want = scene.volume.emissivity * path.length * (x > 0 ? -expm1(-x) / x : 1);
             if (x == 0 && path.length == 0) {
@@ -121,7 +130,8 @@ static void test_shift(void **state)
         struct kd_scene scene = scene_of(views[v].spin, views[v].inclination, views[v].r, views[v].json);
         struct kd_frame frame = rendered(&scene);
         for (int i = 0; i < PIXELS; i++) {
-            const struct ks_light path = ks_along(photon_of(&scene, i), inner_of(&scene), scene.volume.outer, false, shell, &scene);
+            const struct ks_light path =
+                ks_along(photon_of(&scene, i), inner_of(&scene), scene.volume.outer, false, shell, &scene);
             double off = path.length > 0 ? fabs(intensity(&frame)[i] / path.light - 1) : intensity(&frame)[i];
             worst = fmax(worst, off);
             at_most(off, 2e-4, "with its shift", v, i);
@@ -135,8 +145,9 @@ static void test_shift(void **state)
 static void test_order(void **state)
 {
     (void)state;
-    static const char *const json = "{\"disk\":{\"model\":\"novikov-thorne\",\"outer\":9,\"taper\":0,\"opacity\":1},"
-                                    "\"volume\":{\"inner\":9.5,\"outer\":14,\"emissivity\":0,\"opacity\":0.1,\"redshift\":false}}";
+    static const char *const json =
+        "{\"disk\":{\"model\":\"novikov-thorne\",\"outer\":9,\"taper\":0,\"opacity\":1},"
+        "\"volume\":{\"inner\":9.5,\"outer\":14,\"emissivity\":0,\"opacity\":0.1,\"redshift\":false}}";
     struct kd_scene scene = scene_of(0.6, 50, INFINITY, json), bare = scene;
     bare.volume.model = KD_VOLUME_NONE;
     struct kd_frame dimmed = rendered(&scene), plain = rendered(&bare);
@@ -146,7 +157,8 @@ static void test_order(void **state)
         if (intensity(&plain)[i] < 1e-6 || !path.crossings || path.r[0] > 8.9 || path.r[0] < 4)
             continue;
         const struct ks_light front = ks_along(photon_of(&scene, i), 9.5, 14, true, shell, &scene);
-        at_most(fabs(intensity(&dimmed)[i] / (intensity(&plain)[i] * exp(-front.depth)) - 1), 1e-4, "a disk behind", 0, i);
+        at_most(fabs(intensity(&dimmed)[i] / (intensity(&plain)[i] * exp(-front.depth)) - 1), 1e-4, "a disk behind", 0,
+                i);
         seen++;
     }
     assert_true(seen > 8);
@@ -177,8 +189,12 @@ static double largest(const float *light, int n)
 
 enum { THIN_WIDTH = 48, THIN_HEIGHT = 36, THIN = THIN_WIDTH * THIN_HEIGHT };
 
-/* A thick disk's light as its height goes to 0, off by the most relative to its own or to a twentieth of the brightest. */
-struct thin_errors { double worst, half, limit; int lit, off; };
+/* A thick disk's light as its height goes to 0, off by the most relative to its own or to a twentieth of the
+ * brightest. */
+struct thin_errors {
+    double worst, half, limit;
+    int lit, off;
+};
 
 static struct thin_errors thin_limit(struct kd_scene scene, double height)
 {
@@ -190,7 +206,8 @@ static struct thin_errors thin_limit(struct kd_scene scene, double height)
     struct kd_frame half = rendered(&scene);
     const double most = largest(intensity(&flat), THIN);
     for (int i = 0; i < THIN; i++) {
-        const double want = intensity(&flat)[i], per = 1 / fmax(want, 0.05 * most), a = intensity(&whole)[i], b = intensity(&half)[i];
+        const double want = intensity(&flat)[i], per = 1 / fmax(want, 0.05 * most), a = intensity(&whole)[i],
+                     b = intensity(&half)[i];
         e.lit += want > 0;
         e.off += per * fabs(b - want) > 0.01;
         e.worst = fmax(e.worst, per * fabs(a - want));
@@ -203,9 +220,10 @@ static struct thin_errors thin_limit(struct kd_scene scene, double height)
     return e;
 }
 
-/* A thick disk of next to no height is the thin one, whatever its light takes: by depth, by a chosen opacity, with its fade. Where the flux vanishes
- * steeply, at the inner edge of a disk seen nearly along its plane, what is left is the height itself, which shows the ray a place a little further in: half of
- * it with half the height, and nothing in the limit, by the line through both. */
+/* A thick disk of next to no height is the thin one, whatever its light takes: by depth, by a chosen opacity, with
+ * its fade. Where the flux vanishes steeply, at the inner edge of a disk seen nearly along its plane, what is left
+ * is the height itself, which shows the ray a place a little further in: half of it with half the height, and
+ * nothing in the limit, by the line through both. */
 static void test_thin_limit(void **state)
 {
     (void)state;
@@ -221,7 +239,9 @@ static void test_thin_limit(void **state)
         scene.image.height = THIN_HEIGHT;
         scene.accuracy.orders = 8;
         const struct thin_errors e = thin_limit(scene, 5e-5);
-        printf("thin limit, view %zu: %d pixels lit; worst %.2g, %.2g of half the height, %d beyond 1 %%; in the limit %.2g\n", v, e.lit, e.worst, e.half, e.off, e.limit);
+        printf("thin limit, view %zu: %d pixels lit; worst %.2g, %.2g of half the height, %d beyond 1 %%; in the limit "
+               "%.2g\n",
+               v, e.lit, e.worst, e.half, e.off, e.limit);
         assert_true(e.lit > 300 && e.limit < 0.01);
         assert_true(e.half < 0.6 * e.worst + 1e-3 && e.off <= e.lit / 100);
     }
@@ -241,12 +261,14 @@ static double row_of(const struct kd_frame *frame, const struct kd_frame *other,
     return sum / COLUMNS;
 }
 
-/* Seen along the plane there are no bands: the vertical profile is that of a march of 16 times as many stretches, row by row, by the row's own light. */
+/* Seen along the plane there are no bands: the vertical profile is that of a march of 16 times as many stretches,
+ * row by row, by the row's own light. */
 static void test_no_bands(void **state)
 {
     (void)state;
     for (int stirred = 0; stirred < 2; stirred++) {
-        struct kd_scene scene = scene_of(0.7, 90, INFINITY, "{\"disk\":{\"model\":\"novikov-thorne\",\"emission_opacity\":10,\"height\":0.1}}");
+        struct kd_scene scene = scene_of(
+            0.7, 90, INFINITY, "{\"disk\":{\"model\":\"novikov-thorne\",\"emission_opacity\":10,\"height\":0.1}}");
         scene.volume.model = KD_VOLUME_NONE;
         scene.gas.amplitude = stirred ? 0.8 : 0;
         scene.image.width = COLUMNS;
@@ -264,8 +286,10 @@ static void test_no_bands(void **state)
             worst = want[y] > 1e-3 * most ? fmax(worst, fabs(is[y] / want[y] - 1)) : worst;
             compared += want[y] > 1e-3 * most;
         }
-        printf("%s: %d rows, worst %.2g of their own light; %d rays left out\n", stirred ? "stirred" : "smooth", compared, worst, left_out / 2);
-        assert_true(compared == ROWS && worst < 0.005 && left_out / 2 < ROWS * COLUMNS / 4); /* lavapipe ends so long a march: 832 of 4096 rays */
+        printf("%s: %d rows, worst %.2g of their own light; %d rays left out\n", stirred ? "stirred" : "smooth",
+               compared, worst, left_out / 2);
+        assert_true(compared == ROWS && worst < 0.005 &&
+                    left_out / 2 < ROWS * COLUMNS / 4); /* lavapipe ends so long a march: 832 of 4096 rays */
         kd_frame_finish(&plain);
         kd_frame_finish(&fine);
     }
@@ -327,21 +351,34 @@ static void test_adversarial(void **state)
         { -0.999, 0, INFINITY, "{\"volume\":{\"opacity\":1,\"outer\":3e4}}" },
         { 0.9, 90, 1.45, "{\"camera\":{\"observer\":\"zamo\"},\"volume\":{\"opacity\":1}}" },
         { 0.998, 30, 1.07, "{\"camera\":{\"observer\":\"zamo\"},\"volume\":{\"opacity\":1e30}}" },
-        { 0.5, 75, 1.2, "{\"camera\":{\"observer\":\"infall\"},\"volume\":{\"opacity\":0.1}}" }, /* within the horizon */
-        { 0.9, 90, INFINITY, "{\"volume\":{\"model\":\"none\"},\"disk\":{\"model\":\"novikov-thorne\",\"height\":1e-5,\"emission_opacity\":1e6,\"gas\":{\"amplitude\":3}}}" },
-        { 0.999999999999, 88, INFINITY, "{\"volume\":{\"model\":\"none\"},\"disk\":{\"model\":\"novikov-thorne\",\"height\":0.5,\"flare\":0.5,\"outer\":1e6,\"emission_opacity\":1e-30}}" },
-        { 0.998, 90, 1.3, "{\"volume\":{\"model\":\"none\"},\"camera\":{\"observer\":\"zamo\"},\"disk\":{\"model\":\"shakura-sunyaev\",\"height\":0.3,\"gas\":{\"amplitude\":1}}}" },
-        { 0.5, 75, 1.2, "{\"volume\":{\"model\":\"none\"},\"camera\":{\"observer\":\"infall\"},\"disk\":{\"model\":\"novikov-thorne\",\"height\":0.2,\"gas\":{\"amplitude\":1}}}" },
+        { 0.5, 75, 1.2,
+          "{\"camera\":{\"observer\":\"infall\"},\"volume\":{\"opacity\":0.1}}" }, /* within the horizon */
+        { 0.9, 90, INFINITY,
+          "{\"volume\":{\"model\":\"none\"},\"disk\":{\"model\":\"novikov-thorne\",\"height\":1e-5,\"emission_"
+          "opacity\":1e6,\"gas\":{\"amplitude\":3}}}" },
+        { 0.999999999999, 88, INFINITY,
+          "{\"volume\":{\"model\":\"none\"},\"disk\":{\"model\":\"novikov-thorne\",\"height\":0.5,\"flare\":0.5,"
+          "\"outer\":1e6,\"emission_opacity\":1e-30}}" },
+        { 0.998, 90, 1.3,
+          "{\"volume\":{\"model\":\"none\"},\"camera\":{\"observer\":\"zamo\"},\"disk\":{\"model\":\"shakura-sunyaev\","
+          "\"height\":0.3,\"gas\":{\"amplitude\":1}}}" },
+        { 0.5, 75, 1.2,
+          "{\"volume\":{\"model\":\"none\"},\"camera\":{\"observer\":\"infall\"},\"disk\":{\"model\":\"novikov-"
+          "thorne\",\"height\":0.2,\"gas\":{\"amplitude\":1}}}" },
         { 0.7, 180, 40, "{\"volume\":{\"inner\":19.999,\"outer\":20}}" },
     };
     static const char *const bright[] = {
-        "{\"camera\":{\"observer\":\"zamo\",\"yaw_deg\":180,\"fov_deg\":20},\"volume\":{\"outer\":3e4,\"emissivity\":1e30,\"opacity\":0}}",
-        "{\"camera\":{\"observer\":\"zamo\",\"yaw_deg\":180,\"fov_deg\":0.5},\"volume\":{\"outer\":3e4,\"emissivity\":1e30,\"opacity\":1e-30}}",
+        "{\"camera\":{\"observer\":\"zamo\",\"yaw_deg\":180,\"fov_deg\":20},\"volume\":{\"outer\":3e4,\"emissivity\":"
+        "1e30,\"opacity\":0}}",
+        "{\"camera\":{\"observer\":\"zamo\",\"yaw_deg\":180,\"fov_deg\":0.5},\"volume\":{\"outer\":3e4,\"emissivity\":"
+        "1e30,\"opacity\":1e-30}}",
         "{\"camera\":{\"observer\":\"zamo\"},\"volume\":{\"outer\":3e4,\"emissivity\":1e30,\"opacity\":1}}",
-        "{\"camera\":{\"observer\":\"infall\",\"yaw_deg\":180},\"volume\":{\"outer\":3e4,\"emissivity\":1e30,\"opacity\":1e30}}",
+        "{\"camera\":{\"observer\":\"infall\",\"yaw_deg\":180},\"volume\":{\"outer\":3e4,\"emissivity\":1e30,"
+        "\"opacity\":1e30}}",
     };
     for (size_t v = 0; v < 3 * sizeof bright / sizeof *bright; v++) {
-        struct kd_scene scene = scene_of(0.7, 60, (1 + sqrt(0.51)) * (double[]) { 1.0001, 1.01, 1.2 }[v % 3], bright[v / 3]);
+        struct kd_scene scene =
+            scene_of(0.7, 60, (1 + sqrt(0.51)) * (double[]) { 1.0001, 1.01, 1.2 }[v % 3], bright[v / 3]);
         struct kd_frame frame = rendered(&scene);
         for (int i = 0; i < PIXELS; i++)
             if (!(intensity(&frame)[i] >= 0 && isfinite(intensity(&frame)[i])))
@@ -372,7 +409,8 @@ static struct kd_frame picture_of(int32_t width, enum kd_volume_model model)
     return rendered(&scene);
 }
 
-/* A picture is the same whatever was rendered before it: one without a volume needs the same map of rays, and has no pixels at the critical curve. */
+/* A picture is the same whatever was rendered before it: one without a volume needs the same map of rays, and has no
+ * pixels at the critical curve. */
 static void test_order_of_pictures(void **state)
 {
     (void)state;

@@ -1,5 +1,6 @@
-/* Slow light of volumes: when light left each place of a ray, against the Kerr-Schild oracle, which knows no Mino time; and what turbulent gas with a height shows
- * by it, against pictures of the times at which light left by the lens map, and by the oracle. */
+/* Slow light of volumes: when light left each place of a ray, against the Kerr-Schild oracle, which knows no Mino
+ * time; and what turbulent gas with a height shows by it, against pictures of the times at which light left by the
+ * lens map, and by the oracle. */
 #include "physics/kerr.h"
 #include "render/explain/explain.h"
 
@@ -39,7 +40,8 @@ static struct ks_photon photon_of(const struct kd_scene *scene, int x, int y)
     const double right = step * (x - 0.5 * (width - 1)), up = -step * (y - 0.5 * (height - 1));
     const double length = sqrt(1 + right * right + up * up), k[3] = { -1 / length, -up / length, right / length };
     return far ? ks_from_infinity(scene->spacetime.spin, cos(theta), right, up)
-               : ks_from_camera(scene->spacetime.spin, scene->camera.r, theta, scene->camera.observer == KD_OBSERVER_ZAMO, k);
+               : ks_from_camera(scene->spacetime.spin, scene->camera.r, theta,
+                                scene->camera.observer == KD_OBSERVER_ZAMO, k);
 }
 
 static struct kd_frame told_at(const struct kd_scene *scene, int x, int y)
@@ -59,7 +61,10 @@ static struct kd_frame told_at(const struct kd_scene *scene, int x, int y)
     return frame;
 }
 
-struct judged { int places; double worst, least, most; };
+struct judged {
+    int places;
+    double worst, least, most;
+};
 
 /* Both ends of each stretch of a ray. */
 static void judge_ray(const struct kd_scene *scene, int x, int y, struct judged *all)
@@ -72,16 +77,19 @@ static void judge_ray(const struct kd_scene *scene, int x, int y, struct judged 
         places[i][0] = 1 / (double)told->stretches[i / 2].w[i % 2];
         places[i][1] = (double)told->stretches[i / 2].u[i % 2];
     }
-    ks_delays(photon_of(scene, x, y), (const double(*)[2])places, 2 * (int)told->n_stretches, want, off);
+    ks_delays(photon_of(scene, x, y), (const double (*)[2])places, 2 * (int)told->n_stretches, want, off);
     for (size_t i = 0; i < 2 * told->n_stretches; i++) {
         const double is = (double)told->stretches[i / 2].delay[i % 2], wrong = fabs(is - want[i]);
         if (places[i][0] < near_horizon)
             continue;
         if (!(off[i] < 2e-5 * places[i][0]))
-            fail_msg("spin %g, (%d, %d): the oracle passes (r %.7g, cos %.7g) by %.2g", scene->spacetime.spin, x, y, places[i][0], places[i][1], off[i]);
+            fail_msg("spin %g, (%d, %d): the oracle passes (r %.7g, cos %.7g) by %.2g", scene->spacetime.spin, x, y,
+                     places[i][0], places[i][1], off[i]);
         if (!(wrong <= 2e-4))
-            fail_msg("spin %g, inclination %g, camera %g, (%d, %d): delay of (r %.7g, cos %.7g) is %.7g, by the oracle %.7g", scene->spacetime.spin, scene->camera.inclination_deg,
-                     scene->camera.r, x, y, places[i][0], places[i][1], is, want[i]);
+            fail_msg(
+                "spin %g, inclination %g, camera %g, (%d, %d): delay of (r %.7g, cos %.7g) is %.7g, by the oracle %.7g",
+                scene->spacetime.spin, scene->camera.inclination_deg, scene->camera.r, x, y, places[i][0], places[i][1],
+                is, want[i]);
         all->places++;
         all->worst = fmax(all->worst, wrong);
         all->least = fmin(all->least, is);
@@ -94,13 +102,16 @@ static void judge_ray(const struct kd_scene *scene, int x, int y, struct judged 
 static void test_delays(void **state)
 {
     (void)state;
-    static const struct { double spin, inclination, r; const char *json; } views[] = {
+    static const struct {
+        double spin, inclination, r;
+        const char *json;
+    } views[] = {
         { 0, 60, INFINITY, "{}" },
         { 0.9, 80, INFINITY, "{}" },
         { 0.998, 17, INFINITY, "{}" },
         { -0.7, 150, INFINITY, "{}" },
         { 0.95, 88, 60, "{}" },
-        { 0.5, 40, 7, "{}" }, /* from within */
+        { 0.5, 40, 7, "{}" },                                                     /* from within */
         { 0.9, 89, 1.9, "{\"camera\":{\"observer\":\"zamo\",\"fov_deg\":120}}" }, /* within the ergosphere */
     };
     static const int at[][2] = { { 4, 5 }, { 5, 6 }, { 6, 4 }, { 8, 7 }, { 9, 4 }, { 13, 6 } };
@@ -126,10 +137,12 @@ static const float *layer(const struct kd_frame *frame, const char *name)
 }
 
 #define TIME 5000.0
-#define GAS                                                                                                      \
-    "{\"time\":5000,\"camera\":{\"field_m\":20,\"fov_deg\":45},\"disk\":{\"outer\":16,\"slow_light\":true,\"gas\":{\"amplitude\":0.8,\"octaves\":2,\"scale\":1}}}"
+#define GAS \
+    "{\"time\":5000,\"camera\":{\"field_m\":20,\"fov_deg\":45},\"disk\":{\"outer\":16,\"slow_light\":true,\"gas\":{" \
+    "\"amplitude\":0.8,\"octaves\":2,\"scale\":1}}}"
 
-/* The delays of the crossings that pixels show: by the lens map of the thin disk; or, of a near observer, by the oracle. */
+/* The delays of the crossings that pixels show: by the lens map of the thin disk; or, of a near observer, by the
+ * oracle. */
 static void thin_delays(struct kd_scene scene, double out[PIXELS])
 {
     for (int i = 0; i < PIXELS && isfinite(scene.camera.r); i++)
@@ -144,7 +157,8 @@ static void thin_delays(struct kd_scene scene, double out[PIXELS])
     kd_frame_finish(&frame);
 }
 
-/* Opaque gas of next to no height shows what lies where the ray first crosses the plane: as a picture of the time at which its light left shows it. */
+/* Opaque gas of next to no height shows what lies where the ray first crosses the plane: as a picture of the time at
+ * which its light left shows it. */
 static void test_thin(void **state)
 {
     (void)state;
@@ -174,18 +188,22 @@ static void test_thin(void **state)
             of_now += fabs(seen / (double)layer(&now, "intensity")[i] - 1);
             n++;
         }
-        printf("view %zu: %d pixels off by %.1e at most, by %.2f in the mean from the picture of one time\n", v, n, worst, of_now / n);
+        printf("view %zu: %d pixels off by %.1e at most, by %.2f in the mean from the picture of one time\n", v, n,
+               worst, of_now / n);
         assert_true(n == 8 && of_now / n > 0.05);
         kd_frame_finish(&slow);
         kd_frame_finish(&now);
     }
 }
 
-/* Seen along the axis light of a circle left at one time, and so the circle is that of one earlier picture, all the way round. */
+/* Seen along the axis light of a circle left at one time, and so the circle is that of one earlier picture, all the
+ * way round. */
 static void test_face_on(void **state)
 {
     (void)state;
-    static const int at[][4] = { { 11, 5, 3, 5 }, { 7, 1, 7, 9 }, { 10, 2, 4, 8 }, { 4, 2, 10, 8 } }; /* two pixels opposite each other */
+    static const int at[][4] = {
+        { 11, 5, 3, 5 }, { 7, 1, 7, 9 }, { 10, 2, 4, 8 }, { 4, 2, 10, 8 }
+    }; /* two pixels opposite each other */
     struct kd_scene scene = scene_of(0.7, 0, INFINITY, GAS);
     scene.disk.height = 1e-3;
     struct kd_frame slow = rendered(&scene);
@@ -209,11 +227,15 @@ static void test_face_on(void **state)
     kd_frame_finish(&slow);
 }
 
-/* Next to the horizon, where that time has no end, and far away there is no NaN; within the horizon there is no such picture. */
+/* Next to the horizon, where that time has no end, and far away there is no NaN; within the horizon there is no such
+ * picture. */
 static void test_extremes(void **state)
 {
     (void)state;
-    static const struct { double spin, inclination, r; const char *json; } hard[] = {
+    static const struct {
+        double spin, inclination, r;
+        const char *json;
+    } hard[] = {
         { 0.999999999999, 88, INFINITY, "{}" }, /* gas all but at the horizon */
         { 0.998, 90, 1.0633, "{\"camera\":{\"observer\":\"zamo\"}}" },
         { 0.7, 60, 1.71432, "{\"camera\":{\"observer\":\"zamo\",\"yaw_deg\":180}}" },
@@ -232,7 +254,9 @@ static void test_extremes(void **state)
                 fail_msg("scene %zu, pixel %d: %g", v, i, (double)layer(&frame, "intensity")[i]);
         kd_frame_finish(&frame);
     }
-    struct kd_scene scene = scene_of(0.5, 75, 1.5, "{\"camera\":{\"observer\":\"infall\"},\"disk\":{\"slow_light\":true,\"height\":0.2,\"gas\":{\"amplitude\":1}}}");
+    struct kd_scene scene = scene_of(0.5, 75, 1.5,
+                                     "{\"camera\":{\"observer\":\"infall\"},\"disk\":{\"slow_light\":true,\"height\":0."
+                                     "2,\"gas\":{\"amplitude\":1}}}");
     struct kd_capacity c;
     struct kd_plan plan;
     struct kd_error refused;
@@ -243,7 +267,8 @@ static void test_extremes(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(test_delays), cmocka_unit_test(test_thin), cmocka_unit_test(test_face_on), cmocka_unit_test(test_extremes) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_delays), cmocka_unit_test(test_thin),
+                                        cmocka_unit_test(test_face_on), cmocka_unit_test(test_extremes) };
     int code = open_renderer();
     return code ? code : close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -1,4 +1,5 @@
-/* What a frame says of the error of its volumes is what a march of 16 times as many stretches, on 4 times as many steps, finds in all of its pixels. */
+/* What a frame says of the error of its volumes is what a march of 16 times as many stretches, on 4 times as many
+ * steps, finds in all of its pixels. */
 #include "render_support.h"
 
 #include "kerr_schild.h"
@@ -37,7 +38,8 @@ static struct kd_frame by_plan(const struct kd_scene *scene, uint32_t fine, uint
 
 static const float *intensity(const struct kd_frame *frame) { return kd_frame_layer(frame, "intensity")->data; }
 
-/* Relative to a pixel's light, or to a thousandth of the brightest: what 8, 9 and 9.6 of ten pixels with light are within, of those that differ at all, and the worst. */
+/* Relative to a pixel's light, or to a thousandth of the brightest: what 8, 9 and 9.6 of ten pixels with light are
+ * within, of those that differ at all, and the worst. */
 struct errors { double eight, nine, most, worst; };
 
 static struct errors compare(const struct kd_frame *a, const struct kd_frame *b)
@@ -56,19 +58,24 @@ static struct errors compare(const struct kd_frame *a, const struct kd_frame *b)
             off[n++] = fabs(x - y) / fmax(own, 1e-3 * most);
     }
     print_message("%d of %d rays left out\n", left_out, pixels);
-    assert_true(n > pixels / 20 && left_out < pixels / 40); /* lavapipe ends so long a march: 252 of 20 736 rays in turbulence */
+    assert_true(n > pixels / 20 &&
+                left_out < pixels / 40); /* lavapipe ends so long a march: 252 of 20 736 rays in turbulence */
     qsort(off, (size_t)n, sizeof *off, by_value);
     return (struct errors) { off[n * 8 / 10], off[n * 9 / 10], off[n * 96 / 100], off[n - 1] };
 }
 
-static const struct { const char *preset, *json; } scenes[] = {
+static const struct {
+    const char *preset, *json;
+} scenes[] = {
     { "smooth", "{\"volume\":{\"model\":\"uniform\"}}" },
-    { "thick-disk", "{\"disk\":{\"gas\":{\"amplitude\":0}},\"camera\":{\"inclination_deg\":90},\"accuracy\":{\"profile\":\"draft\"}}" },
+    { "thick-disk", "{\"disk\":{\"gas\":{\"amplitude\":0}},\"camera\":{\"inclination_deg\":90},\"accuracy\":{"
+                    "\"profile\":\"draft\"}}" },
     { "thick-disk", "{\"camera\":{\"inclination_deg\":88},\"accuracy\":{\"profile\":\"draft\"}}" },
     { "jet", "{\"disk\":{\"model\":\"none\"}}" },
 };
 
-/* Nine of ten of a hundred rays stand for 80 to 96 of a hundred pixels (two deviations), and what twice as many stretches leave is half of the error at most. */
+/* Nine of ten of a hundred rays stand for 80 to 96 of a hundred pixels (two deviations), and what twice as many
+ * stretches leave is half of the error at most. */
 static void test_said(void **state)
 {
     (void)state;
@@ -77,8 +84,9 @@ static void test_said(void **state)
         struct kd_frame plain = by_plan(&scene, 1, 1), fine = by_plan(&scene, 16, 4);
         const struct kd_accuracy_report *said = &plain.accuracy;
         const struct errors is = compare(&plain, &fine);
-        print_message("scene %zu: said %.2g, worst %.2g of %u; is %.2g to %.2g to %.2g, worst %.2g\n", s, said->volume_error, said->volume_error_worst,
-                      said->volume_sampled, is.eight, is.nine, is.most, is.worst);
+        print_message("scene %zu: said %.2g, worst %.2g of %u; is %.2g to %.2g to %.2g, worst %.2g\n", s,
+                      said->volume_error, said->volume_error_worst, said->volume_sampled, is.eight, is.nine, is.most,
+                      is.worst);
         assert_true(said->volume_sampled > 10 && said->volume_sampled < PIXELS / 100);
         assert_true(said->volume_error > 0.5 * is.eight && said->volume_error < 1.5 * is.most);
         assert_true(said->volume_error_worst >= said->volume_error && said->volume_error_worst < 2 * is.worst);
@@ -113,8 +121,11 @@ static double shell_error(struct kd_scene scene)
     struct kd_frame frame = rendered(&scene);
     for (int i = 0; i < N * N; i++) {
         const double x = step * (i % N - 0.5 * (N - 1)), y = -step * (i / N - 0.5 * (N - 1));
-        const struct ks_light way = ks_along(ks_from_infinity(scene.spacetime.spin, cos(scene.camera.inclination_deg * M_PI / 180), x, y), 4, 12, false, path, NULL);
-        const double depth = scene.volume.opacity * way.length, want = -scene.volume.emissivity * way.length * expm1(-depth) / depth;
+        const struct ks_light way =
+            ks_along(ks_from_infinity(scene.spacetime.spin, cos(scene.camera.inclination_deg * M_PI / 180), x, y), 4,
+                     12, false, path, NULL);
+        const double depth = scene.volume.opacity * way.length,
+                     want = -scene.volume.emissivity * way.length * expm1(-depth) / depth;
         if (way.length == 0)
             continue;
         worst = fmax(worst, fabs(intensity(&frame)[i] / want - 1));
@@ -130,7 +141,8 @@ static void test_profiles(void **state)
 {
     (void)state;
     static const double aims[] = KD_MARCH_ERRORS;
-    struct kd_scene scene = scene_of("thick-disk", "{\"disk\":{\"gas\":{\"amplitude\":0}},\"camera\":{\"inclination_deg\":80}}");
+    struct kd_scene scene =
+        scene_of("thick-disk", "{\"disk\":{\"gas\":{\"amplitude\":0}},\"camera\":{\"inclination_deg\":80}}");
     struct kd_frame fine = by_plan(&scene, 16, 4);
     double shells[5];
     for (int profile = 0; profile < 5; profile++) {
@@ -138,7 +150,8 @@ static void test_profiles(void **state)
         shells[profile] = shell_error(scene);
         struct kd_frame frame = rendered(&scene);
         const struct errors is = compare(&frame, &fine);
-        print_message("profile %d, aim %.0e: shell %.2g; thick disk %.2g, worst %.2g\n", profile, aims[profile], shells[profile], is.nine, is.worst);
+        print_message("profile %d, aim %.0e: shell %.2g; thick disk %.2g, worst %.2g\n", profile, aims[profile],
+                      shells[profile], is.nine, is.worst);
         assert_true(shells[profile] < aims[profile] && is.nine < aims[profile]);
         kd_frame_finish(&frame);
     }
@@ -146,7 +159,8 @@ static void test_profiles(void **state)
     kd_frame_finish(&fine);
 }
 
-/* And each of those that take less than minutes holds what it aims at in turbulence, of which the march tells no less than there is. */
+/* And each of those that take less than minutes holds what it aims at in turbulence, of which the march tells no
+ * less than there is. */
 static void test_stirred(void **state)
 {
     (void)state;
@@ -157,7 +171,8 @@ static void test_stirred(void **state)
         scene.accuracy.profile = profile;
         struct kd_frame frame = rendered(&scene);
         const struct errors is = compare(&frame, &fine);
-        print_message("profile %d, aim %.0e: turbulent disk %.2g, worst %.2g; said %.2g\n", profile, aims[profile], is.nine, is.worst, frame.accuracy.volume_error);
+        print_message("profile %d, aim %.0e: turbulent disk %.2g, worst %.2g; said %.2g\n", profile, aims[profile],
+                      is.nine, is.worst, frame.accuracy.volume_error);
         assert_true(is.nine < aims[profile] && is.nine > 0.02 * aims[profile]);
         assert_true(frame.accuracy.volume_error < aims[profile]);
         kd_frame_finish(&frame);
@@ -165,7 +180,8 @@ static void test_stirred(void **state)
     kd_frame_finish(&fine);
 }
 
-/* The closer rays are the more octaves of the noise they see, and the closer they are followed: a picture of usual size holds what balanced aims at. */
+/* The closer rays are the more octaves of the noise they see, and the closer they are followed: a picture of usual
+ * size holds what balanced aims at. */
 static void test_close_rays(void **state)
 {
     (void)state;
@@ -186,18 +202,21 @@ static void test_close_rays(void **state)
     scene.image.height = 360;
     struct kd_frame frame = rendered(&scene);
     print_message("640 x 360: said %.2g of %u rays\n", frame.accuracy.volume_error, frame.accuracy.volume_sampled);
-    assert_true(frame.accuracy.volume_sampled > 200 && frame.accuracy.volume_error < ((double[])KD_MARCH_STIRRED_ERRORS)[KD_PROFILE_BALANCED]);
+    assert_true(frame.accuracy.volume_sampled > 200 &&
+                frame.accuracy.volume_error < ((double[])KD_MARCH_STIRRED_ERRORS)[KD_PROFILE_BALANCED]);
     kd_frame_finish(&frame);
 }
 
-/* The sketch of a view that changes is said to be one, is as close as it says, and measures that; it leaves fine octaves out, and the lens map as it is. */
+/* The sketch of a view that changes is said to be one, is as close as it says, and measures that; it leaves fine
+ * octaves out, and the lens map as it is. */
 static void test_sketch(void **state)
 {
     (void)state;
     struct kd_capacity c;
     struct kd_plan plan, usual;
     struct kd_frame frame;
-    struct kd_scene scene = scene_of("thick-disk", "{\"image\":{\"width\":160,\"height\":90},\"accuracy\":{\"profile\":\"draft\"}}");
+    struct kd_scene scene =
+        scene_of("thick-disk", "{\"image\":{\"width\":160,\"height\":90},\"accuracy\":{\"profile\":\"draft\"}}");
     struct kd_needs needs = kd_needs_of(&scene);
     kd_renderer_capacity(renderer, &c);
     OK(kd_plan_make(&scene, &c, &usual, &error));
@@ -206,7 +225,8 @@ static void test_sketch(void **state)
     bool said = false;
     for (size_t i = 0; i < plan.n_approximations; i++)
         said |= !strncmp(plan.approximations[i], "volumes: a sketch", 17);
-    assert_true(said && plan.march.sketched && !usual.march.sketched && plan.n_approximations == usual.n_approximations + 1);
+    assert_true(said && plan.march.sketched && !usual.march.sketched &&
+                plan.n_approximations == usual.n_approximations + 1);
     assert_true(plan.march.fine < usual.march.fine && plan.march.weight < 0.8 * usual.march.weight);
     assert_string_equal(plan.lens_key, usual.lens_key);
     OK(kd_render(renderer, &scene, &plan, NULL, NULL, &frame, &error));
@@ -215,8 +235,10 @@ static void test_sketch(void **state)
     OK(kd_render(renderer, &scene, &plan, NULL, NULL, &fine, &error));
     struct kd_frame all = by_plan(&scene, 8, 1);
     const struct errors is = compare(&frame, &fine), left = compare(&frame, &all);
-    print_message("sketch: %.2g, worst %.2g; said %.2g of %u; with the octaves left out %.2g\n", is.nine, is.worst, frame.accuracy.volume_error, frame.accuracy.volume_sampled, left.nine);
-    assert_true(is.nine < KD_MARCH_SKETCHED && frame.accuracy.volume_sampled > 10 && frame.accuracy.volume_error < KD_MARCH_SKETCHED);
+    print_message("sketch: %.2g, worst %.2g; said %.2g of %u; with the octaves left out %.2g\n", is.nine, is.worst,
+                  frame.accuracy.volume_error, frame.accuracy.volume_sampled, left.nine);
+    assert_true(is.nine < KD_MARCH_SKETCHED && frame.accuracy.volume_sampled > 10 &&
+                frame.accuracy.volume_error < KD_MARCH_SKETCHED);
     assert_true(left.nine < 0.15 && left.nine > is.nine);
     kd_frame_finish(&frame);
     kd_frame_finish(&fine);
@@ -247,12 +269,8 @@ static void test_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_said),
-        cmocka_unit_test(test_profiles),
-        cmocka_unit_test(test_stirred),
-        cmocka_unit_test(test_close_rays),
-        cmocka_unit_test(test_sketch),
-        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_said),       cmocka_unit_test(test_profiles), cmocka_unit_test(test_stirred),
+        cmocka_unit_test(test_close_rays), cmocka_unit_test(test_sketch),   cmocka_unit_test(test_refused),
     };
     int code = open_renderer();
     return code ? code : close_renderer(cmocka_run_group_tests(tests, NULL, NULL));

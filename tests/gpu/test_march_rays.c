@@ -1,4 +1,5 @@
-/* Pixels that have several rays through a volume: their light is the mean of their rays', whatever the driver makes of many loops one after the other. */
+/* Pixels that have several rays through a volume: their light is the mean of their rays', whatever the driver makes
+ * of many loops one after the other. */
 #include "render_support.h"
 
 #include <string.h>
@@ -11,9 +12,10 @@ static struct kd_frame picture(int width, int height, const char *samples, const
     struct kd_scene scene;
     kd_scene_smooth(&scene);
     const char *set[][2] = {
-        { "spacetime.spin", "0.7" }, { "camera.inclination_deg", "86" }, { "camera.field_m", "14" }, { "camera.centre_alpha", "8" },
-        { "disk.model", "novikov-thorne" }, { "disk.emission_opacity", "3" }, { "disk.height", "0.15" }, { "disk.gas.amplitude", "0.8" },
-        { "disk.gas.scale", "0.2" }, { "image.samples", samples }, { "image.critical_factor", critical }, { "image.layers", "rgb,intensity" },
+        { "spacetime.spin", "0.7" },    { "camera.inclination_deg", "86" },    { "camera.field_m", "14" },
+        { "camera.centre_alpha", "8" }, { "disk.model", "novikov-thorne" },    { "disk.emission_opacity", "3" },
+        { "disk.height", "0.15" },      { "disk.gas.amplitude", "0.8" },       { "disk.gas.scale", "0.2" },
+        { "image.samples", samples },   { "image.critical_factor", critical }, { "image.layers", "rgb,intensity" },
     };
     for (size_t i = 0; i < sizeof set / sizeof *set; i++)
         OK(kd_scene_set(&scene, set[i][0], set[i][1], &error));
@@ -57,7 +59,8 @@ static void test_mean(void **state)
         worst_chosen = fmax(worst_chosen, fmin(by_one, by_chosen));
     }
     printf("%d pixels: worst %.2g; %d refined: worst %.2g\n", WIDTH * HEIGHT, worst, refined, worst_chosen);
-    assert_true(worst < 1e-5 && refined > WIDTH * HEIGHT / 8 && worst_chosen < 0.01); /* what a listed ray stands for is measured otherwise */
+    assert_true(worst < 1e-5 && refined > WIDTH * HEIGHT / 8 &&
+                worst_chosen < 0.01); /* what a listed ray stands for is measured otherwise */
     struct kd_frame *all[] = { &rays, &many, &one, &chosen };
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         kd_frame_finish(all[i]);

@@ -1,5 +1,6 @@
-/* Matter on a grid: each ray against the integral of emission and absorption along the path that the Kerr-Schild oracle follows, through numbers that are interpolated here
- * anew, with velocities and fields by the metric's components and emissivities in CGS; and numbers that no float holds. */
+/* Matter on a grid: each ray against the integral of emission and absorption along the path that the Kerr-Schild
+ * oracle follows, through numbers that are interpolated here anew, with velocities and fields by the metric's
+ * components and emissivities in CGS; and numbers that no float holds. */
 #include "image/npy.h"
 #include "image/zip.h"
 #include "render/emit/matter_grid.h"
@@ -13,13 +14,23 @@
 #include <math.h>
 
 enum { SIDE = 4, PIXELS = SIDE * SIDE, MOST = 24 * 16 * 8 };
-static const char *const names[] = { "density", "temperature", "u_con_r", "u_con_theta", "u_cov_phi", "b_con_r", "b_con_theta", "b_cov_phi" };
+static const char *const names[] = { "density",   "temperature", "u_con_r",     "u_con_theta",
+                                     "u_cov_phi", "b_con_r",     "b_con_theta", "b_cov_phi" };
 enum { ARRAYS = 8 };
 
 /* A grid as its file has it. */
-struct numbers { uint32_t rows, columns, layers; double a, r[2]; bool ingoing; double phi; double of[ARRAYS][MOST]; };
+struct numbers {
+    uint32_t rows, columns, layers;
+    double a, r[2];
+    bool ingoing;
+    double phi;
+    double of[ARRAYS][MOST];
+};
 
-static struct keeper { char hash[KD_ASSET_NAME]; struct kd_buffer file; } keeper;
+static struct keeper {
+    char hash[KD_ASSET_NAME];
+    struct kd_buffer file;
+} keeper;
 
 static bool take(void *user, const char *hash, struct kd_asset_bytes *out)
 {
@@ -46,7 +57,8 @@ static void add(struct kd_zip *zip, const char *name, const struct kd_npy *array
 
 static void add_line(struct kd_zip *zip, const char *name, const double *at, size_t n)
 {
-    add(zip, name, &(struct kd_npy) { .fields = { { "", KD_NPY_F8, 0 } }, .n_fields = 1, .shape = { n }, .n_dimensions = 1 }, at);
+    add(zip, name,
+        &(struct kd_npy) { .fields = { { "", KD_NPY_F8, 0 } }, .n_fields = 1, .shape = { n }, .n_dimensions = 1 }, at);
 }
 
 /* Puts the file of a grid in the place of the one before, under another hash. */
@@ -59,9 +71,16 @@ static void keep(const struct numbers *g)
     kd_buffer_finish(&keeper.file);
     snprintf(keeper.hash, sizeof keeper.hash, "%064x", ++n);
     OK(kd_zip_create(&keeper.file, true, &zip));
-    snprintf(header, sizeof header, "{\"format\":\"kerrd-grid\",\"version\":1,\"spin\":%.17g,\"azimuth\":\"%s\",\"units\":{\"r\":\"M\",\"theta\":\"rad\",\"density\":\"cm^-3\",\"temperature\":\"K\",\"u_con_r\":\"c\","
-             "\"u_con_theta\":\"c/M\",\"u_cov_phi\":\"c M\",\"b_con_r\":\"G\",\"b_con_theta\":\"G/M\",\"b_cov_phi\":\"G M\"}}", g->a, g->ingoing ? "kerr-schild" : "boyer-lindquist");
-    add(zip, "header", &(struct kd_npy) { .fields = { { "", KD_NPY_U1, 0 } }, .n_fields = 1, .shape = { strlen(header) }, .n_dimensions = 1 }, header);
+    snprintf(header, sizeof header,
+             "{\"format\":\"kerrd-grid\",\"version\":1,\"spin\":%.17g,\"azimuth\":\"%s\",\"units\":{\"r\":\"M\","
+             "\"theta\":\"rad\",\"density\":\"cm^-3\",\"temperature\":\"K\",\"u_con_r\":\"c\","
+             "\"u_con_theta\":\"c/M\",\"u_cov_phi\":\"c "
+             "M\",\"b_con_r\":\"G\",\"b_con_theta\":\"G/M\",\"b_cov_phi\":\"G M\"}}",
+             g->a, g->ingoing ? "kerr-schild" : "boyer-lindquist");
+    add(zip, "header",
+        &(struct kd_npy) {
+            .fields = { { "", KD_NPY_U1, 0 } }, .n_fields = 1, .shape = { strlen(header) }, .n_dimensions = 1 },
+        header);
     for (uint32_t i = 0; i < g->rows; i++)
         line[i] = g->r[0] * pow(g->r[1] / g->r[0], i / (g->rows - 1.0));
     add_line(zip, "r", line, g->rows);
@@ -73,7 +92,12 @@ static void keep(const struct numbers *g)
     if (g->layers > 1)
         add_line(zip, "phi", line, g->layers);
     for (int i = 0; i < ARRAYS; i++)
-        add(zip, names[i], &(struct kd_npy) { .fields = { { "", KD_NPY_F8, 0 } }, .n_fields = 1, .shape = { g->rows, g->columns, g->layers }, .n_dimensions = g->layers > 1 ? 3 : 2 }, g->of[i]);
+        add(zip, names[i],
+            &(struct kd_npy) { .fields = { { "", KD_NPY_F8, 0 } },
+                               .n_fields = 1,
+                               .shape = { g->rows, g->columns, g->layers },
+                               .n_dimensions = g->layers > 1 ? 3 : 2 },
+            g->of[i]);
     OK(kd_zip_close(zip));
     kd_zip_destroy(zip);
 }
@@ -94,7 +118,10 @@ static struct kd_scene scene_of(double spin, const char *json)
     return scene;
 }
 
-static const float *kelvin_of(const struct kd_frame *frame) { return kd_frame_layer(frame, "brightness_temperature")->data; }
+static const float *kelvin_of(const struct kd_frame *frame)
+{
+    return kd_frame_layer(frame, "brightness_temperature")->data;
+}
 
 static double random_of(uint32_t *seed) { return (double)((*seed = *seed * 1664525u + 1013904223u) >> 8) / 16777216; }
 
@@ -102,7 +129,8 @@ static double random_of(uint32_t *seed) { return (double)((*seed = *seed * 16645
 static void fill(struct numbers *g, uint32_t seed, double rough)
 {
     for (uint32_t i = 0; i < g->rows * g->columns * g->layers; i++) {
-        const double r = g->r[0] * pow(g->r[1] / g->r[0], i / g->layers / g->columns / (g->rows - 1.0)), theta = (i / g->layers % g->columns + 0.5) * M_PI / g->columns, s = sin(theta);
+        const double r = g->r[0] * pow(g->r[1] / g->r[0], i / g->layers / g->columns / (g->rows - 1.0)),
+                     theta = (i / g->layers % g->columns + 0.5) * M_PI / g->columns, s = sin(theta);
         double x[ARRAYS];
         for (int k = 0; k < ARRAYS; k++)
             x[k] = rough * (2 * random_of(&seed) - 1);
@@ -117,28 +145,39 @@ static void fill(struct numbers *g, uint32_t seed, double rough)
     }
 }
 
-/* Trilinear: what each of the eight nodes about a place has of it. Components are taken by what they are for a length of M: those of theta times r, those of phi over r sin^2 theta. */
+/* Trilinear: what each of the eight nodes about a place has of it. Components are taken by what they are for a
+ * length of M: those of theta times r, those of phi over r sin^2 theta. */
 static double between(const struct numbers *g, int which, double r, double theta, double phi)
 {
-    const double x = log(r / g->r[0]) / log(g->r[1] / g->r[0]) * (g->rows - 1), y = fmin(fmax(theta / M_PI * g->columns - 0.5, 0), g->columns - 1.0), z = (phi - g->phi) / (2 * M_PI) * g->layers;
+    const double x = log(r / g->r[0]) / log(g->r[1] / g->r[0]) * (g->rows - 1),
+                 y = fmin(fmax(theta / M_PI * g->columns - 0.5, 0), g->columns - 1.0),
+                 z = (phi - g->phi) / (2 * M_PI) * g->layers;
     const double power = which == 3 || which == 6 ? 1 : which == 4 || which == 7 ? -1 : 0;
     double sum = 0;
     const bool turns = which == 4 || which == 7;
     for (int corner = 0; corner < 8; corner++) {
-        const double i = fmin(floor(x), g->rows - 2.0) + corner % 2, j = fmin(floor(y), g->columns - 2.0) + corner / 2 % 2, k = floor(z) + corner / 4;
-        const double part = (1 - fabs(x - i)) * (1 - fabs(y - j)) * (g->layers > 1 ? 1 - fabs(z - k) : 0.5), layer = k - floor(k / g->layers) * g->layers;
-        const double value = g->of[which][((uint32_t)i * g->columns + (uint32_t)j) * g->layers + (uint32_t)layer], here = g->r[0] * pow(g->r[1] / g->r[0], i / (g->rows - 1.0));
-        sum += part * (which < 2 ? log(value) : value * pow(here, power) / (turns ? pow(sin((j + 0.5) * M_PI / g->columns), 2) : 1));
+        const double i = fmin(floor(x), g->rows - 2.0) + corner % 2,
+                     j = fmin(floor(y), g->columns - 2.0) + corner / 2 % 2, k = floor(z) + corner / 4;
+        const double part = (1 - fabs(x - i)) * (1 - fabs(y - j)) * (g->layers > 1 ? 1 - fabs(z - k) : 0.5),
+                     layer = k - floor(k / g->layers) * g->layers;
+        const double value = g->of[which][((uint32_t)i * g->columns + (uint32_t)j) * g->layers + (uint32_t)layer],
+                     here = g->r[0] * pow(g->r[1] / g->r[0], i / (g->rows - 1.0));
+        sum += part * (which < 2 ? log(value)
+                                 : value * pow(here, power) / (turns ? pow(sin((j + 0.5) * M_PI / g->columns), 2) : 1));
     }
     return which < 2 ? exp(sum) : sum * pow(r, -power) * (turns ? pow(sin(theta), 2) : 1);
 }
 
-struct view { const struct kd_scene *scene; const struct numbers *g; };
+struct view {
+    const struct kd_scene *scene;
+    const struct numbers *g;
+};
 
 /* Of a metric with g_tphi alone off the diagonal. */
 static double product(const double g[5], const double x[4], const double y[4])
 {
-    return g[0] * x[0] * y[0] + g[1] * x[1] * y[1] + g[2] * x[2] * y[2] + g[3] * x[3] * y[3] + g[4] * (x[0] * y[3] + x[3] * y[0]);
+    return g[0] * x[0] * y[0] + g[1] * x[1] * y[1] + g[2] * x[2] * y[2] + g[3] * x[3] * y[3] +
+           g[4] * (x[0] * y[3] + x[3] * y[0]);
 }
 
 /* u^t is the root of u.u = -1, u^phi follows from u_phi; b^t is that of b.u = 0. */
@@ -146,30 +185,38 @@ static void medium(void *user, const struct ks_photon *p, double r, double u, do
 {
     const struct view *view = user;
     const struct numbers *n = view->g;
-    const double a = p->a, s2 = 1 - u * u, sigma = r * r + a * a * u * u, delta = r * r - 2 * r + a * a, root = sqrt(1 - a * a), cm = GM_SUN * view->scene->spacetime.mass_msun / (C * C);
-    const double g[5] = { -(1 - 2 * r / sigma), sigma / delta, sigma, (r * r + a * a + 2 * a * a * r * s2 / sigma) * s2, -2 * a * r * s2 / sigma };
+    const double a = p->a, s2 = 1 - u * u, sigma = r * r + a * a * u * u, delta = r * r - 2 * r + a * a,
+                 root = sqrt(1 - a * a), cm = GM_SUN * view->scene->spacetime.mass_msun / (C * C);
+    const double g[5] = { -(1 - 2 * r / sigma), sigma / delta, sigma, (r * r + a * a + 2 * a * a * r * s2 / sigma) * s2,
+                          -2 * a * r * s2 / sigma };
     double theta = acos(u), phi = p->phi + view->scene->camera.azimuth_deg * M_PI / 180, at[ARRAYS];
     phi += n->ingoing ? a / (2 * root) * log((r - 1 - root) / (r - 1 + root)) : 0;
     for (int i = 0; i < ARRAYS; i++)
         at[i] = between(n, i, r, theta, phi);
     /* With u^phi = (u_phi - g_tphi u^t)/g_phiphi the norm is a quadratic in u^t without a linear term. */
-    const double rest = 1 + g[1] * at[2] * at[2] + g[2] * at[3] * at[3] + at[4] * at[4] / g[3], lapse2 = g[4] * g[4] / g[3] - g[0], time = sqrt(rest / lapse2);
+    const double rest = 1 + g[1] * at[2] * at[2] + g[2] * at[3] * at[3] + at[4] * at[4] / g[3],
+                 lapse2 = g[4] * g[4] / g[3] - g[0], time = sqrt(rest / lapse2);
     const double flow[4] = { time, at[2], at[3], (at[4] - g[4] * time) / g[3] };
     double field[4] = { 0, at[5], at[6], at[7] / g[3] }, axis[4] = { 1, 0, 0, -g[4] / g[3] };
     assert_true(fabs(product(g, flow, flow) + 1) < 1e-9);
-    const double more = -product(g, field, flow) / product(g, axis, flow); /* along the normal, whose phi component covariant is 0 */
+    const double more =
+        -product(g, field, flow) / product(g, axis, flow); /* along the normal, whose phi component covariant is 0 */
     for (int i = 0; i < 4; i++)
         field[i] += more * axis[i];
     assert_true(fabs(product(g, field, flow)) < 1e-6);
-    const double b = sqrt(product(g, field, field)) * sqrt(view->scene->volume.grid_scale), k[4] = { -p->energy, p->p_r, p->p_theta, p->momentum };
+    const double b = sqrt(product(g, field, field)) * sqrt(view->scene->volume.grid_scale),
+                 k[4] = { -p->energy, p->p_r, p->p_theta, p->momentum };
     double seen = 0, along = 0;
     for (int i = 0; i < 4; i++) {
         seen -= flow[i] * k[i];
         along += field[i] * k[i] / sqrt(product(g, field, field));
     }
-    const double density = at[0] * view->scene->volume.grid_scale, heat = K * at[1] / (ME * C * C), sine = sqrt(1 - along * along / (seen * seen));
-    const double turn = sqrt(E2) * b / (2 * M_PI * ME * C), nu = view->scene->volume.frequency_ghz * 1e9 * seen, x = nu / (2.0 / 9 * turn * heat * heat * sine);
-    const double shape = sqrt(x) + pow(2, 11.0 / 12) * pow(x, 1.0 / 6), j = density * E2 * turn / C * sqrt(2) * M_PI / 27 * sine * shape * shape * exp(-cbrt(x));
+    const double density = at[0] * view->scene->volume.grid_scale, heat = K * at[1] / (ME * C * C),
+                 sine = sqrt(1 - along * along / (seen * seen));
+    const double turn = sqrt(E2) * b / (2 * M_PI * ME * C), nu = view->scene->volume.frequency_ghz * 1e9 * seen,
+                 x = nu / (2.0 / 9 * turn * heat * heat * sine);
+    const double shape = sqrt(x) + pow(2, 11.0 / 12) * pow(x, 1.0 / 6),
+                 j = density * E2 * turn / C * sqrt(2) * M_PI / 27 * sine * shape * shape * exp(-cbrt(x));
     out[0] = cm / (seen * seen) * j;
     out[1] = cm * seen * j * expm1(H * nu / (heat * ME * C * C)) * C * C / (2 * H * nu * nu * nu);
 }
@@ -185,12 +232,17 @@ static void compare(const struct numbers *g, const char *json, double allowed)
         most = fmax(most, kelvin_of(&frame)[i]);
     assert_true(most > 1e8);
     for (int i = 0; i < PIXELS; i++) {
-        const struct ks_photon photon = ks_from_infinity(g->a, cos(scene.camera.inclination_deg * M_PI / 180), step * (i % SIDE - 0.5 * (SIDE - 1)), -step * (i / SIDE - 0.5 * (SIDE - 1)));
-        const double inner = fmax(g->r[0], isinf(scene.volume.inner) ? 0 : scene.volume.inner), want = ks_along(photon, inner, fmin(g->r[1], scene.volume.outer), false, medium, &view).light * C * C / (2 * K * nu * nu);
+        const struct ks_photon photon =
+            ks_from_infinity(g->a, cos(scene.camera.inclination_deg * M_PI / 180), step * (i % SIDE - 0.5 * (SIDE - 1)),
+                             -step * (i / SIDE - 0.5 * (SIDE - 1)));
+        const double inner = fmax(g->r[0], isinf(scene.volume.inner) ? 0 : scene.volume.inner),
+                     want = ks_along(photon, inner, fmin(g->r[1], scene.volume.outer), false, medium, &view).light * C *
+                            C / (2 * K * nu * nu);
         const double off = fabs(kelvin_of(&frame)[i] - want) / fmax(want, 1e-3 * most);
         worst = fmax(worst, off);
         if (!(off <= allowed))
-            fail_msg("%s, pixel %d: %.7g K, the oracle has %.7g, off by %.2g, allowed %.2g", json, i, (double)kelvin_of(&frame)[i], want, off, allowed);
+            fail_msg("%s, pixel %d: %.7g K, the oracle has %.7g, off by %.2g, allowed %.2g", json, i,
+                     (double)kelvin_of(&frame)[i], want, off, allowed);
     }
     printf("%u x %u x %u: worst %.2g, brightest %.3g K\n", g->rows, g->columns, g->layers, worst, most);
     kd_frame_finish(&frame);
@@ -202,13 +254,17 @@ static void compare(const struct numbers *g, const char *json, double allowed)
 static void test_rays(void **state)
 {
     (void)state;
-    static struct numbers flat = { .rows = 16, .columns = 12, .layers = 1, .a = 0.9, .r = { 2, 20 } }, round = { .rows = 12, .columns = 8, .layers = 6, .a = -0.6, .r = { 2.5, 18 }, .phi = -0.3 },
-                          ingoing = { .rows = 12, .columns = 8, .layers = 5, .a = 0.8, .r = { 2, 15 }, .phi = 0.7, .ingoing = true };
+    static struct numbers
+        flat = { .rows = 16, .columns = 12, .layers = 1, .a = 0.9, .r = { 2, 20 } },
+        round = { .rows = 12, .columns = 8, .layers = 6, .a = -0.6, .r = { 2.5, 18 }, .phi = -0.3 },
+        ingoing = { .rows = 12, .columns = 8, .layers = 5, .a = 0.8, .r = { 2, 15 }, .phi = 0.7, .ingoing = true };
     fill(&flat, 1, 0.3);
     fill(&round, 2, 0.5);
     fill(&ingoing, 3, 0.5);
     compare(&flat, "{" HIGH ",\"volume\":{\"grid_scale\":3}}", 2e-3);
-    compare(&round, "{" HIGH ",\"camera\":{\"inclination_deg\":105,\"azimuth_deg\":40},\"volume\":{\"inner\":3,\"outer\":15}}", 2e-3);
+    compare(&round,
+            "{" HIGH ",\"camera\":{\"inclination_deg\":105,\"azimuth_deg\":40},\"volume\":{\"inner\":3,\"outer\":15}}",
+            2e-3);
     compare(&ingoing, "{" HIGH ",\"camera\":{\"inclination_deg\":50,\"azimuth_deg\":-70}}", 2e-3);
 }
 
@@ -216,9 +272,24 @@ static void test_rays(void **state)
 static void test_adversarial(void **state)
 {
     (void)state;
-    static const struct { int of; double by; const char *json; } extremes[] = {
-        { 5, 0, "{}" }, { 0, 0, "{}" }, { 1, 1e-9, "{}" }, { 1, 1e6, "{}" }, { 0, 1e23, "{}" }, { 0, 1e-20, "{}" }, { 5, 1e10, "{}" }, { 5, 1e-25, "{}" }, { 2, 1e4, "{}" },
-        { 4, 0, "{\"volume\":{\"grid_scale\":0}}" }, { 2, 0, "{\"volume\":{\"frequency_ghz\":1e12}}" }, { 2, 0, "{\"volume\":{\"electrons\":\"kappa\"}}" }, { 1, 0, "{\"volume\":{\"electrons\":\"power-law\"}}" },
+    static const struct {
+        int of;
+        double by;
+        const char *json;
+    } extremes[] = {
+        { 5, 0, "{}" },
+        { 0, 0, "{}" },
+        { 1, 1e-9, "{}" },
+        { 1, 1e6, "{}" },
+        { 0, 1e23, "{}" },
+        { 0, 1e-20, "{}" },
+        { 5, 1e10, "{}" },
+        { 5, 1e-25, "{}" },
+        { 2, 1e4, "{}" },
+        { 4, 0, "{\"volume\":{\"grid_scale\":0}}" },
+        { 2, 0, "{\"volume\":{\"frequency_ghz\":1e12}}" },
+        { 2, 0, "{\"volume\":{\"electrons\":\"kappa\"}}" },
+        { 1, 0, "{\"volume\":{\"electrons\":\"power-law\"}}" },
         { 1, 0, "{\"volume\":{\"grid_scale\":1e30}}" },
     };
     for (size_t i = 0; i < 2 * sizeof extremes / sizeof *extremes; i++) {
@@ -235,7 +306,8 @@ static void test_adversarial(void **state)
         struct kd_frame frame = rendered(&scene);
         for (int p = 0; p < PIXELS; p++)
             if (!isfinite(kelvin_of(&frame)[p]) || kelvin_of(&frame)[p] < 0)
-                fail_msg("array %d by %g, %s, %s, pixel %d: %g K", of, extremes[i / 2].by, extremes[i / 2].json, i % 2 ? "polarised" : "not polarised", p, (double)kelvin_of(&frame)[p]);
+                fail_msg("array %d by %g, %s, %s, pixel %d: %g K", of, extremes[i / 2].by, extremes[i / 2].json,
+                         i % 2 ? "polarised" : "not polarised", p, (double)kelvin_of(&frame)[p]);
         if (extremes[i / 2].by == 0 && of == 0)
             for (int p = 0; p < PIXELS; p++)
                 assert_true(kelvin_of(&frame)[p] == 0);

@@ -1,6 +1,7 @@
-/* A camera that moves any way: every leg of its tetrad has every component. The lens map, by both kernels, and the labels of a pixel are
- * judged by the Kerr-Schild oracle: it follows, from a frame of its own of zero angular momentum, the directions into which aberration
- * turns those of the picture. No observer of the table moves so; this one is put in its place. */
+/* A camera that moves any way: every leg of its tetrad has every component. The lens map, by both kernels, and the
+ * labels of a pixel are judged by the Kerr-Schild oracle: it follows, from a frame of its own of zero angular
+ * momentum, the directions into which aberration turns those of the picture. No observer of the table moves so; this
+ * one is put in its place. */
 #include "kerr_schild.h"
 #include "physics/kerr.h"
 #include "physics/observer.h"
@@ -34,8 +35,8 @@ struct kd_tetrad __wrap_kd_observer_tetrad(const struct kd_observer_motion *moti
         for (int j = 0; j < 3; j++)
             x[i + 1][j + 1] = (i == j) + gamma_ * gamma_ / (gamma_ + 1) * v[i] * v[j];
     }
-    return (struct kd_tetrad) { *at, kd_tetrad_covector(&rest, x[0]), kd_tetrad_covector(&rest, x[1]), kd_tetrad_covector(&rest, x[2]),
-                                kd_tetrad_covector(&rest, x[3]) };
+    return (struct kd_tetrad) { *at, kd_tetrad_covector(&rest, x[0]), kd_tetrad_covector(&rest, x[1]),
+                                kd_tetrad_covector(&rest, x[2]), kd_tetrad_covector(&rest, x[3]) };
 }
 
 /* The photon seen at (x, y) of the picture, -1 to 1, per unit of what the moving camera measures. */
@@ -43,7 +44,8 @@ static struct ks_photon photon(const struct kd_scene *scene, double x, double y)
 {
     const struct kd_camera *c = &scene->camera;
     double t = tan(0.5 * c->fov_deg * RADIAN), n = 1 / sqrt(1 + t * t * (x * x + y * y));
-    const double m[3] = { n, t * y * n, -t * x * n }; /* it flies along m, and is looked at along -m, inwards in the middle */
+    const double m[3] = { n, t * y * n,
+                          -t * x * n }; /* it flies along m, and is looked at along -m, inwards in the middle */
     double along = v[0] * m[0] + v[1] * m[1] + v[2] * m[2], energy = gamma_ * (1 + along), k[3];
     for (int i = 0; i < 3; i++)
         k[i] = -(m[i] + v[i] * (gamma_ + gamma_ * gamma_ / (gamma_ + 1) * along)) / energy;
@@ -80,13 +82,15 @@ static void labels(const struct kd_scene *scene)
         double alpha = -want.momentum / (s * want.energy), beta = want.p_theta / fabs(want.energy);
         double bound = 1e-12 * scene->camera.r / fabs(want.energy);
         if (!(fabs(is.energy - want.energy) < 1e-12 && fabs(is.alpha - alpha) < bound * (1 + fabs(alpha)) &&
-              fabs(is.beta - beta) < bound * (1 + fabs(beta))) || is.outward != (want.p_r < 0))
-            fail_msg("ray %u: E %.17g alpha %.17g beta %.17g %d, not %.17g %.17g %.17g p_r %g", k, is.energy, is.alpha, is.beta, is.outward,
-                     want.energy, alpha, beta, want.p_r);
+              fabs(is.beta - beta) < bound * (1 + fabs(beta))) ||
+            is.outward != (want.p_r < 0))
+            fail_msg("ray %u: E %.17g alpha %.17g beta %.17g %d, not %.17g %.17g %.17g p_r %g", k, is.energy, is.alpha,
+                     is.beta, is.outward, want.energy, alpha, beta, want.p_r);
     }
 }
 
-/* Errors over what the crossing amplifies, as in test_lens_map.c. A ray that crosses more or less often when it is moved is unsure. */
+/* Errors over what the crossing amplifies, as in test_lens_map.c. A ray that crosses more or less often when it is
+ * moved is unsure. */
 static void map(const struct kd_scene *scene, enum kd_lens_path path, const char *engine)
 {
     static float planes[4 * RAYS];
@@ -100,21 +104,26 @@ static void map(const struct kd_scene *scene, enum kd_lens_path path, const char
     OK(kd_render_lens(renderer, scene, &plan, planes, NULL, &error));
     for (int k = 0; k < RAYS; k++) {
         double x = place(k % GRID), y = -place(k / GRID), nudge = 1e-6;
-        const struct ks_path want = ks_trace(photon(scene, x, y), 16), beside = ks_trace(photon(scene, x + nudge, y + nudge), 16);
+        const struct ks_path want = ks_trace(photon(scene, x, y), 16),
+                             beside = ks_trace(photon(scene, x + nudge, y + nudge), 16);
         for (int order = 0; order < ORDERS; order++) {
             double w = planes[order * RAYS + k];
             bool sure = (want.crossings > order) == (beside.crossings > order);
-            if (!sure || (want.crossings > order && (want.r[order] > 1e4 || want.r[order] < 1.001 * kd_kerr_horizon(scene->spacetime.spin))))
+            if (!sure || (want.crossings > order &&
+                          (want.r[order] > 1e4 || want.r[order] < 1.001 * kd_kerr_horizon(scene->spacetime.spin))))
                 continue;
             wrong += (w > 0) != (want.crossings > order) && !(w > 0 && w < 1e-4);
             if (w > 0 && want.crossings > order)
-                errors[n++] = fabs(1 / w / want.r[order] - 1) / (1 + fabs(log(beside.r[order] / want.r[order])) / nudge);
+                errors[n++] =
+                    fabs(1 / w / want.r[order] - 1) / (1 + fabs(log(beside.r[order] / want.r[order])) / nudge);
         }
     }
     qsort(errors, n, sizeof *errors, by_value);
-    print_message("%s: %zu crossings, error %.1e in the median, %.1e at most\n", engine, n, errors[n / 2], errors[n - 1]);
+    print_message("%s: %zu crossings, error %.1e in the median, %.1e at most\n", engine, n, errors[n / 2],
+                  errors[n - 1]);
     assert_true(wrong == 0 && n > 30); /* who looks past the hole from near by sees little of the plane */
-    assert_true(errors[n / 2] < 2e-7 && errors[n - 1] < 1e-5); /* some roundings of a float, and where turning points are near some more */
+    assert_true(errors[n / 2] < 2e-7 &&
+                errors[n - 1] < 1e-5); /* some roundings of a float, and where turning points are near some more */
 }
 
 static void moving(void **state)

@@ -1,4 +1,5 @@
-/* Every kind of observer by what its camera sees: the whole sky in six pictures, judged by frames and rays in Kerr-Schild coordinates. */
+/* Every kind of observer by what its camera sees: the whole sky in six pictures, judged by frames and rays in
+ * Kerr-Schild coordinates. */
 #include "kerr_schild.h"
 #include "physics/kerr.h"
 #include "physics/observer.h"
@@ -40,14 +41,34 @@ static const struct seer {
     { "rain", 0.9, 75, 1.43, { .observer = KD_OBSERVER_INFALL, FALL }, 1, 0 },
     { "rain", 0.9, 75, 1.2, { .observer = KD_OBSERVER_INFALL, FALL }, 1, 0 },
     { "rain", 0.9, 120, 0.7, { .observer = KD_OBSERVER_INFALL, FALL }, 1, 0 },
-    { "plunge", 0.9, 80, 1.3, { .observer = KD_OBSERVER_INFALL, .fall_from = INFINITY, .fall_energy = 0.9, .fall_momentum = 1.2 }, 0.9, 1.2 },
+    { "plunge",
+      0.9,
+      80,
+      1.3,
+      { .observer = KD_OBSERVER_INFALL, .fall_from = INFINITY, .fall_energy = 0.9, .fall_momentum = 1.2 },
+      0.9,
+      1.2 },
     { "rain", 0.9, 75, 6, { .observer = KD_OBSERVER_INFALL, FALL }, 1, 0 },
-    { "from 10 M", 0, 80, 5, { .observer = KD_OBSERVER_INFALL, .fall_from = 10, .fall_energy = INFINITY }, 0.89442719099991588, 0 }, /* sqrt(0.8) */
-    { "plunge", 0.7, 80, 3, { .observer = KD_OBSERVER_INFALL, .fall_from = INFINITY, .fall_energy = 0.95, .fall_momentum = 1.5 }, 0.95, 1.5 },
+    { "from 10 M",
+      0,
+      80,
+      5,
+      { .observer = KD_OBSERVER_INFALL, .fall_from = 10, .fall_energy = INFINITY },
+      0.89442719099991588,
+      0 }, /* sqrt(0.8) */
+    { "plunge",
+      0.7,
+      80,
+      3,
+      { .observer = KD_OBSERVER_INFALL, .fall_from = INFINITY, .fall_energy = 0.95, .fall_momentum = 1.5 },
+      0.95,
+      1.5 },
 };
 enum { SEERS = sizeof seers / sizeof *seers };
 
-static const struct { double yaw, pitch; } faces[FACES] = { { 0, 0 }, { 90, 0 }, { 180, 0 }, { -90, 0 }, { 0, 90 }, { 0, -90 } };
+static const struct {
+    double yaw, pitch;
+} faces[FACES] = { { 0, 0 }, { 90, 0 }, { 180, 0 }, { -90, 0 }, { 0, 90 }, { 0, -90 } };
 
 static struct kd_scene scene_of(const struct seer *seer, int face)
 {
@@ -75,7 +96,10 @@ static struct kd_scene scene_of(const struct seer *seer, int face)
     return scene;
 }
 
-static struct ks_place place_of(const struct seer *seer) { return (struct ks_place) { seer->spin, seer->r, seer->inclination * RADIAN }; }
+static struct ks_place place_of(const struct seer *seer)
+{
+    return (struct ks_place) { seer->spin, seer->r, seer->inclination * RADIAN };
+}
 
 static struct ks_frame frame_of(const struct seer *seer)
 {
@@ -112,8 +136,8 @@ static void photon(const struct seer *seer, int face, double x, double y, double
     ks_seen(&f, k, p);
 }
 
-/* What the kernels start from, in their arithmetic: E, which is the redshift, L, p_theta and p^r of each pixel of the whole sky, over the size
- * of the legs that they are made of. */
+/* What the kernels start from, in their arithmetic: E, which is the redshift, L, p_theta and p^r of each pixel of
+ * the whole sky, over the size of the legs that they are made of. */
 static double constants(const struct seer *seer)
 {
     const struct ks_place at = place_of(seer);
@@ -124,19 +148,23 @@ static double constants(const struct seer *seer)
         const struct kd_scene scene = scene_of(seer, face);
         const struct kd_camera_block c = kd_camera_block(&scene);
         float x = (float)i - c.middle_x, y = c.middle_y - (float)j;
-        float kx = c.c0x + x * c.cxx + y * c.cyx, ky = c.c0y + x * c.cxy + y * c.cyy, kz = c.c0z + x * c.cxz + y * c.cyz;
+        float kx = c.c0x + x * c.cxx + y * c.cyx, ky = c.c0y + x * c.cxy + y * c.cyy,
+              kz = c.c0z + x * c.cxz + y * c.cyz;
         float norm = 1 / sqrtf(kx * kx + ky * ky + kz * kz), m_r = -kx * norm, m_theta = -ky * norm, m_phi = -kz * norm;
         double p[4], want[4];
         photon(seer, face, step_of(i), -step_of(j), p);
         ks_constants(&at, p, want);
         const double is[4] = {
-            c.e_t + c.e_r * m_r + c.e_theta * m_theta + c.e_phi * m_phi, s * (c.l_t + c.l_r * m_r + c.l_theta * m_theta + c.l_phi * m_phi),
+            c.e_t + c.e_r * m_r + c.e_theta * m_theta + c.e_phi * m_phi,
+            s * (c.l_t + c.l_r * m_r + c.l_theta * m_theta + c.l_phi * m_phi),
             c.p_t + c.p_r * m_r + c.p_theta * m_theta + c.p_phi * m_phi,
             (c.dw_t + c.dw_r * m_r + c.dw_theta * m_theta + c.dw_phi * m_phi) * seer->r * seer->r,
         };
         const double size[4] = {
-            fabsf(c.e_t) + fabsf(c.e_r) + fabsf(c.e_phi), s * (fabsf(c.l_t) + fabsf(c.l_r) + fabsf(c.l_phi)),
-            fabsf(c.p_t) + fabsf(c.p_theta), seer->r * seer->r * (fabsf(c.dw_t) + fabsf(c.dw_r)),
+            fabsf(c.e_t) + fabsf(c.e_r) + fabsf(c.e_phi),
+            s * (fabsf(c.l_t) + fabsf(c.l_r) + fabsf(c.l_phi)),
+            fabsf(c.p_t) + fabsf(c.p_theta),
+            seer->r * seer->r * (fabsf(c.dw_t) + fabsf(c.dw_r)),
         };
         for (int q = 0; q < 4; q++)
             worst = fmax(worst, fabs(is[q] - want[q]) / size[q]);
@@ -161,7 +189,8 @@ static double aberration(const struct seer *seer)
         ks_constants(&at, p, c);
         const struct kd_covector light = { c[0], c[1] / where.s, c[2], c[3] };
         const struct kd_look look = kd_tetrad_look(&tetrad, &light);
-        worst = fmax(worst, fmax(fmax(fabs(look.inwards + k[0]), fabs(look.up + k[1])), fmax(fabs(look.right - k[2]), fabs(look.energy - c[0]))));
+        worst = fmax(worst, fmax(fmax(fabs(look.inwards + k[0]), fabs(look.up + k[1])),
+                                 fmax(fabs(look.right - k[2]), fabs(look.energy - c[0]))));
     }
     return worst;
 }
@@ -171,13 +200,16 @@ static void whole_sky(void **state)
     (void)state;
     for (int i = 0; i < SEERS; i++) {
         double single = constants(&seers[i]), twice = aberration(&seers[i]);
-        print_message("%s, a = %g, r = %g: constants of a pixel within %.1e, aberration and redshift within %.1e\n", seers[i].name, seers[i].spin,
-                      seers[i].r, single, twice);
+        print_message("%s, a = %g, r = %g: constants of a pixel within %.1e, aberration and redshift within %.1e\n",
+                      seers[i].name, seers[i].spin, seers[i].r, single, twice);
         assert_true(single < 1e-6 && twice < 1e-9);
     }
 }
 
-struct judged { double errors[(ORDERS + 1) * RAYS * FACES]; size_t n, wrong, sky; };
+struct judged {
+    double errors[(ORDERS + 1) * RAYS * FACES];
+    size_t n, wrong, sky;
+};
 
 /* A place has this: Boyer-Lindquist less ingoing azimuth, the integral of a/Delta from r to infinity. */
 static double twist(const struct seer *seer)
@@ -190,7 +222,8 @@ static double twist(const struct seer *seer)
 
 static double turn(double x) { return remainder(x, 2 * M_PI); }
 
-/* Errors over what the map amplifies: a ray that ends elsewhere or crosses more or less often when it is moved is unsure. */
+/* Errors over what the map amplifies: a ray that ends elsewhere or crosses more or less often when it is moved is
+ * unsure. */
 static void judge(const struct seer *seer, int face, int k, const float *planes, struct judged *o)
 {
     const struct ks_place at = place_of(seer);
@@ -208,8 +241,10 @@ static void judge(const struct seer *seer, int face, int k, const float *planes,
             continue;
         o->wrong += (w > 0) != has && !(w > 0 && w < 1e-4);
         if (w > 0 && has)
-            o->errors[o->n++] = (fabs(1 / w / want.r[order] - 1) + fabs(turn(phi - want.phi[order]))) /
-                                (1 + (fabs(log(beside.r[order] / want.r[order])) + fabs(turn(beside.phi[order] - want.phi[order]))) / nudge);
+            o->errors[o->n++] =
+                (fabs(1 / w / want.r[order] - 1) + fabs(turn(phi - want.phi[order]))) /
+                (1 + (fabs(log(beside.r[order] / want.r[order])) + fabs(turn(beside.phi[order] - want.phi[order]))) /
+                         nudge);
     }
     const float *end = planes + 2 * ORDERS * RAYS + k;
     if (want.fate != beside.fate || want.fate == KS_UNDECIDED)
@@ -217,7 +252,8 @@ static void judge(const struct seer *seer, int face, int k, const float *planes,
     o->wrong += (end[2 * RAYS] == (float)KD_FATE_ESCAPED) != (want.fate == KS_ESCAPED);
     if (want.fate != KS_ESCAPED || end[2 * RAYS] != (float)KD_FATE_ESCAPED)
         return;
-    double s = sqrt(1 - want.u * want.u), move = hypot(acos(beside.u) - acos(want.u), s * turn(beside.sky_phi - want.sky_phi)) / nudge;
+    double s = sqrt(1 - want.u * want.u),
+           move = hypot(acos(beside.u) - acos(want.u), s * turn(beside.sky_phi - want.sky_phi)) / nudge;
     o->errors[o->n++] = hypot(acos(end[0]) - acos(want.u), s * turn(end[RAYS] - want.sky_phi)) / (1 + move);
     o->sky++;
 }
@@ -235,22 +271,25 @@ static void maps(void **state)
         struct kd_plan plan;
         for (int face = 0; face < FACES; face++) {
             const struct kd_scene scene = scene_of(&seers[i], face);
-            OK(kd_plan_make_for(&scene, &(struct kd_needs) { .quantities = KD_LENS_W | KD_LENS_PHI | KD_LENS_SKY }, &capacity, &plan, &error));
+            OK(kd_plan_make_for(&scene, &(struct kd_needs) { .quantities = KD_LENS_W | KD_LENS_PHI | KD_LENS_SKY },
+                                &capacity, &plan, &error));
             OK(kd_render_lens(renderer, &scene, &plan, planes, NULL, &error));
             for (int k = 0; k < RAYS; k++)
                 judge(&seers[i], face, k, planes, &all);
         }
         qsort(all.errors, all.n, sizeof *all.errors, by_value);
-        print_message("%s, a = %g, r = %g, %s: %zu crossings and %zu places in the sky, error %.1e in the median, %.1e at most, %zu wrong\n", seers[i].name,
-                      seers[i].spin, seers[i].r, plan.path == KD_LENS_CLOSED ? "closed form" : "steps", all.n - all.sky, all.sky,
-                      all.errors[all.n / 2], all.errors[all.n - 1], all.wrong);
+        print_message("%s, a = %g, r = %g, %s: %zu crossings and %zu places in the sky, error %.1e in the median, %.1e "
+                      "at most, %zu wrong\n",
+                      seers[i].name, seers[i].spin, seers[i].r, plan.path == KD_LENS_CLOSED ? "closed form" : "steps",
+                      all.n - all.sky, all.sky, all.errors[all.n / 2], all.errors[all.n - 1], all.wrong);
         bad += !(all.wrong == 0 && all.n > 200 && all.errors[all.n / 2] < 5e-7 && all.errors[all.n - 1] < 4e-5);
     }
     assert_int_equal(bad, 0);
 }
 
-/* How far from the middle of the hole the darkness of rain in Schwarzschild ends: sqrt(27) = b = r sin/(1 - cos sqrt(2/r)), a quadratic equation of
- * the tangent of half the angle, of which light that goes inwards at the orbits of light is the one root and what goes outwards the other. */
+/* How far from the middle of the hole the darkness of rain in Schwarzschild ends: sqrt(27) = b = r sin/(1 - cos
+ * sqrt(2/r)), a quadratic equation of the tangent of half the angle, of which light that goes inwards at the orbits
+ * of light is the one root and what goes outwards the other. */
 static double dark_angle(double r)
 {
     double q = sqrt(54 / r), middle = atan2(r, q), half = acos(fmin(1, sqrt(27) / hypot(r, q)));
@@ -263,7 +302,8 @@ static void dark_disk(void **state)
     (void)state;
     enum { ROW = 64 };
     static float planes[(3 + 3) * ROW];
-    static const double radii[] = { 20, 6, 4, 3.1, 3.01, 3.0001, 3, 2.9999, 2.99, 2.9, 2.5, 2.1, 2.000002, 2, 1.999998, 1.9, 1.5, 1, 0.3, 0.1, 0.03 };
+    static const double radii[] = { 20,  6,        4, 3.1,      3.01, 3.0001, 3, 2.9999, 2.99, 2.9, 2.5,
+                                    2.1, 2.000002, 2, 1.999998, 1.9,  1.5,    1, 0.3,    0.1,  0.03 };
     struct kd_capacity capacity;
     int bad = 0;
     kd_renderer_capacity(renderer, &capacity);
@@ -287,7 +327,8 @@ static void dark_disk(void **state)
             unsure += fate[k] == (float)KD_FATE_UNDECIDED;
         }
         double off = (dark + 0.5 * unsure - 0.5 * ROW) * step;
-        print_message("r = %g: dark to %.6f degrees, within %.1e rad; %d dark, %d undecided of %d\n", radii[i], want / RADIAN, off, dark, unsure, ROW);
+        print_message("r = %g: dark to %.6f degrees, within %.1e rad; %d dark, %d undecided of %d\n", radii[i],
+                      want / RADIAN, off, dark, unsure, ROW);
         bad += !(fabs(off) < 1e-5 && dark > 0 && dark + unsure < ROW && unsure * step < 3e-5);
     }
     assert_int_equal(bad, 0);
@@ -312,13 +353,14 @@ static void look_around(double spin, double inclination, double r, float ends[FA
     }
 }
 
-/* On both sides of the horizon, and on it, one sees the same, in all directions, on the axis too: no ray is given up, none ends nowhere, and none
- * elsewhere than it does a millionth of the radius away. */
+/* On both sides of the horizon, and on it, one sees the same, in all directions, on the axis too: no ray is given
+ * up, none ends nowhere, and none elsewhere than it does a millionth of the radius away. */
 static void no_seam_at_the_horizon(void **state)
 {
     (void)state;
     static float ends[2][FACES][3 * RAYS];
-    static const double spins[] = { 0, 0.9, 0.9 }, inclinations[] = { 0, 0, 75 }, off[] = { -1e-3, -1e-6, 0, 1e-6, 1e-3 };
+    static const double spins[] = { 0, 0.9, 0.9 }, inclinations[] = { 0, 0, 75 },
+                        off[] = { -1e-3, -1e-6, 0, 1e-6, 1e-3 };
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 5; k++) {
             const double r = (spins[i] == 0 ? 2 : HORIZON) * (1 + off[k]), apart = k ? off[k] - off[k - 1] : 0;
@@ -327,7 +369,8 @@ static void no_seam_at_the_horizon(void **state)
             for (int face = 0; face < FACES; face++)
                 for (int ray = 0; ray < RAYS; ray++) {
                     const float *end = ends[k % 2][face] + ray, *before = ends[1 - k % 2][face] + ray;
-                    const bool here = end[2 * RAYS] == (float)KD_FATE_ESCAPED, there = before[2 * RAYS] == (float)KD_FATE_ESCAPED;
+                    const bool here = end[2 * RAYS] == (float)KD_FATE_ESCAPED,
+                               there = before[2 * RAYS] == (float)KD_FATE_ESCAPED;
                     assert_true(end[2 * RAYS] != (float)KD_FATE_UNDECIDED);
                     assert_true(!here || (isfinite(end[0]) && isfinite(end[RAYS]) && fabsf(end[0]) <= 1));
                     if (!k || !(here && there)) {
@@ -335,18 +378,21 @@ static void no_seam_at_the_horizon(void **state)
                         continue;
                     }
                     sky++;
-                    const double s = sqrt(1 - end[0] * end[0]), moved = hypot(acos(end[0]) - acos(before[0]), s * turn(end[RAYS] - before[RAYS]));
+                    const double s = sqrt(1 - end[0] * end[0]),
+                                 moved = hypot(acos(end[0]) - acos(before[0]), s * turn(end[RAYS] - before[RAYS]));
                     turned += moved > 1e-4 + 100 * apart;
                 }
             /* What is within 0.01 of the critical curve is moved by 100 times as much: some rays in a hundred. */
             if (turned > FACES * RAYS / 100 || (k && sky < FACES * RAYS / 3))
-                fail_msg("a = %g, inclination %g, r = %.7g: %zu of %zu rays end elsewhere than next to it", spins[i], inclinations[i], r, turned, sky);
+                fail_msg("a = %g, inclination %g, r = %.7g: %zu of %zu rays end elsewhere than next to it", spins[i],
+                         inclinations[i], r, turned, sky);
         }
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(whole_sky), cmocka_unit_test(maps), cmocka_unit_test(dark_disk), cmocka_unit_test(no_seam_at_the_horizon) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(whole_sky), cmocka_unit_test(maps),
+                                        cmocka_unit_test(dark_disk), cmocka_unit_test(no_seam_at_the_horizon) };
     int skip = open_renderer();
     return skip ? skip : close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

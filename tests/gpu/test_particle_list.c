@@ -1,5 +1,5 @@
-/* Particles as numbers: against the closed form in double, constants and the norm by physics/orbit.h and the metric, rates against
- * differences; parts of a list, and what is refused. */
+/* Particles as numbers: against the closed form in double, constants and the norm by physics/orbit.h and the metric,
+ * rates against differences; parts of a list, and what is refused. */
 #include "render/output/particle_list.h"
 
 #include "physics/kerr.h"
@@ -83,11 +83,13 @@ static void test_phase(void **state)
     assert_true(worst < 1e-6);
 }
 
-/* E, L and the norm in the metric of Kerr, from a place in the equatorial plane or off it and the rates of change there. */
+/* E, L and the norm in the metric of Kerr, from a place in the equatorial plane or off it and the rates of change
+ * there. */
 struct constants { double energy, momentum, norm; };
 static struct constants constants_of(double a, const struct row *p)
 {
-    double r = p->r, u = sin(p->latitude), sin2 = 1 - u * u, sigma = r * r + a * a * u * u, delta = r * r - 2 * r + a * a;
+    double r = p->r, u = sin(p->latitude), sin2 = 1 - u * u, sigma = r * r + a * a * u * u,
+           delta = r * r - 2 * r + a * a;
     double gtt = -(1 - 2 * r / sigma), gtp = -2 * a * r * sin2 / sigma;
     double gpp = (r * r + a * a + 2 * a * a * r * sin2 / sigma) * sin2;
     double across = p->dr * p->dr / delta + (double)p->dlatitude * p->dlatitude;
@@ -96,8 +98,8 @@ static struct constants constants_of(double a, const struct row *p)
     return (struct constants) { -ut * (gtt + gtp * p->dphi), ut * (gtp + gpp * p->dphi), norm };
 }
 
-/* Those that fall: their rates are those of a body with the ISCO's E and L, which are what the list says. Next to the horizon
- * the norm, to which both are worked out from floats, is all but 0. */
+/* Those that fall: their rates are those of a body with the ISCO's E and L, which are what the list says. Next to
+ * the horizon the norm, to which both are worked out from floats, is all but 0. */
 static void test_falling(void **state)
 {
     (void)state;
@@ -126,8 +128,8 @@ static void test_falling(void **state)
     }
 }
 
-/* The guiding orbit by physics/orbit.c; on it rates and constants are of one orbit, about it they are to first order: what is left
- * falls with the square of the epicycles. */
+/* The guiding orbit by physics/orbit.c; on it rates and constants are of one orbit, about it they are to first
+ * order: what is left falls with the square of the epicycles. */
 static void test_constants(void **state)
 {
     (void)state;
@@ -159,14 +161,15 @@ static void test_constants(void **state)
     }
 }
 
-/* Central differences over 2 M of what is listed: the third derivative of an epicycle, and floats, leave 2e-5 of the largest
- * rates. */
+/* Central differences over 2 M of what is listed: the third derivative of an epicycle, and floats, leave 2e-5 of the
+ * largest rates. */
 static void test_rates(void **state)
 {
     (void)state;
     const struct kd_scene scene = scene_of(0.5, 0.1);
     size_t n;
-    struct row *before = all_at(&scene, "9999", &n), *now = all_at(&scene, "10000", &n), *after = all_at(&scene, "10001", &n);
+    struct row *before = all_at(&scene, "9999", &n), *now = all_at(&scene, "10000", &n),
+               *after = all_at(&scene, "10001", &n);
     double worst = 0;
     for (size_t i = 0; i < n; i++) {
         if (now[i].r < 9)
@@ -208,7 +211,9 @@ static void test_parts(void **state)
 static void test_refused(void **state)
 {
     (void)state;
-    static const struct { const char *name, *text, *pointer, *fragment; } bad[] = {
+    static const struct {
+        const char *name, *text, *pointer, *fragment;
+    } bad[] = {
         { "stride", "0", "/stride", "stride is 0, allowed are whole numbers from 1 to 30000" },
         { "stride", "30001", "/stride", "30000" },
         { "first", "30000", "/first", "from 0 to 29999" },
@@ -218,7 +223,8 @@ static void test_refused(void **state)
         { "count", "nan", "/count", "count is nan" },
         { "time", "1e13", "/time", "time is 1e13, allowed are -1e12 to 1e12 M" },
         { "time", "soon", "/time", "time is soon" },
-        { "fields", "x,mass", "/fields", "fields is \"x,mass\", allowed are, each once and with commas between, x,y,z,r,phi" },
+        { "fields", "x,mass", "/fields",
+          "fields is \"x,mass\", allowed are, each once and with commas between, x,y,z,r,phi" },
         { "fields", "x,y,x", "/fields", "each once" },
         { "fields", "", "/fields", "each once" },
         { "fields", "x,", "/fields", "each once" },
@@ -255,7 +261,7 @@ int main(void)
         return code;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_phase), cmocka_unit_test(test_falling), cmocka_unit_test(test_constants),
-        cmocka_unit_test(test_rates), cmocka_unit_test(test_parts), cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_rates), cmocka_unit_test(test_parts),   cmocka_unit_test(test_refused),
     };
     return close_renderer(cmocka_run_group_tests_name("lists of particles", tests, NULL, NULL));
 }

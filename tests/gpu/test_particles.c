@@ -1,5 +1,5 @@
-/* Particles as the device computes them, against the closed form in double and against tracks: phases after long times, periods, the
- * seed; and frames that hold them. */
+/* Particles as the device computes them, against the closed form in double and against tracks: phases after long
+ * times, periods, the seed; and frames that hold them. */
 #include "render/emit/particles.h"
 
 #include "physics/orbit_bound.h"
@@ -43,9 +43,9 @@ static double radius(const struct kd_scene *scene, int i)
 
 static double angle(uint32_t turns) { return turns * (2 * M_PI / 4294967296.0); }
 
-/* Without epicycles a particle is at phi0 + t/(r^(3/2) + a), worked out here in 64 bits of mantissa; r is one of the radii that hold
- * equal shares of the disk. The float that reports r is worth 1e-7 of it, which would be 1e-4 rad after 1e4 M: the radius in
- * double is that of the share, and the float must agree. */
+/* Without epicycles a particle is at phi0 + t/(r^(3/2) + a), worked out here in 64 bits of mantissa; r is one of the
+ * radii that hold equal shares of the disk. The float that reports r is worth 1e-7 of it, which would be 1e-4 rad
+ * after 1e4 M: the radius in double is that of the share, and the float must agree. */
 static void test_phase(void **state)
 {
     (void)state;
@@ -61,7 +61,8 @@ static void test_phase(void **state)
                 double r = radius(&scene, i);
                 assert_true(fabs(then[i].r / r - 1) < 1e-6 && then[i].latitude == 0);
                 long double x = sqrtl(r), phase = times[k] / (x * x * x + spins[s]);
-                double off = remainder((double)remainderl(phase, 2 * M_PIl) - angle(then[i].phi - start[i].phi), 2 * M_PI);
+                double off =
+                    remainder((double)remainderl(phase, 2 * M_PIl) - angle(then[i].phi - start[i].phi), 2 * M_PI);
                 /* the double that holds a large phase has 1e-16 of it */
                 double bound = 1e-8 + 4e-16 * (double)fabsl(phase);
                 if (!(fabs(off) < bound))
@@ -74,7 +75,10 @@ static void test_phase(void **state)
 }
 
 /* The mean time between upward zeros of samples that are `step` apart. */
-struct period { double first, last, before; int zeros; };
+struct period {
+    double first, last, before;
+    int zeros;
+};
 static void sample(struct period *p, int i, double step, double value)
 {
     if (i && p->before < 0 && value >= 0) {
@@ -87,8 +91,8 @@ static void sample(struct period *p, int i, double step, double value)
 }
 static double period(const struct period *p) { return (p->last - p->first) / (p->zeros - 1); }
 
-/* The frequencies of small oscillations by another way: those of a bound geodesic that hardly leaves the circle, from its actions
- * (src/physics/orbit_bound.h, which shares nothing with epicyclic.c). */
+/* The frequencies of small oscillations by another way: those of a bound geodesic that hardly leaves the circle,
+ * from its actions (src/physics/orbit_bound.h, which shares nothing with epicyclic.c). */
 static struct kd_orbit_frequencies frequencies(double a, double r)
 {
     struct kd_orbit orbit;
@@ -129,7 +133,8 @@ static void test_periods(void **state)
             if (f.r < 0.1 * f.phi)
                 continue;
             judged++;
-            double off_r = period(&radial[i]) * f.r / (2 * M_PI) - 1, off_t = period(&vertical[i]) * f.theta / (2 * M_PI) - 1;
+            double off_r = period(&radial[i]) * f.r / (2 * M_PI) - 1,
+                   off_t = period(&vertical[i]) * f.theta / (2 * M_PI) - 1;
             if (!(radial[i].zeros > 8 && fabs(off_r) < 1e-4 && fabs(off_t) < 1e-4))
                 fail_msg("a = %g, r = %g: periods off by %.2g (r), %.2g (theta)", spins[s], r[i], off_r, off_t);
             worst[0] = fmax(worst[0], fabs(off_r));
@@ -149,7 +154,8 @@ static double difference(const struct kd_frame *a, const struct kd_frame *b)
     return sum / (double)n;
 }
 
-/* Time, seed, number and azimuth are free: the lens map is kept. The same scene is the same picture, whatever came between. */
+/* Time, seed, number and azimuth are free: the lens map is kept. The same scene is the same picture, whatever came
+ * between. */
 static void test_frames(void **state)
 {
     (void)state;
@@ -178,7 +184,8 @@ static void test_frames(void **state)
     kd_frame_finish(&again);
 }
 
-/* A near observer's slow light is of particles at another time than a list of the same scene: neither finds the other's. */
+/* A near observer's slow light is of particles at another time than a list of the same scene: neither finds the
+ * other's. */
 static void test_lists_between_frames(void **state)
 {
     (void)state;
@@ -194,8 +201,8 @@ static void test_lists_between_frames(void **state)
     places_at(&scene, 500, after);
     struct kd_frame again = rendered(&scene);
     for (int i = 0; i < N; i++)
-        assert_true(before[i].r == after[i].r && before[i].phi == after[i].phi && before[i].latitude == after[i].latitude &&
-                    before[i].plunging == after[i].plunging);
+        assert_true(before[i].r == after[i].r && before[i].phi == after[i].phi &&
+                    before[i].latitude == after[i].latitude && before[i].plunging == after[i].plunging);
     assert_true(again.lens_reused && difference(&first, &other) > 1 && difference(&first, &again) == 0);
     kd_frame_finish(&other);
     kd_frame_finish(&first);
@@ -233,9 +240,9 @@ static void test_turning(void **state)
     kd_frame_finish(&against);
 }
 
-/* Light that takes D to arrive shows the disk of D ago: a pixel of slow light is that of a fast-light picture at t - D, D being the
- * delay of its ray, for an observer at infinity and a near one. Not to the last step, for a grid turned by a part of a cell is
- * blurred another way. */
+/* Light that takes D to arrive shows the disk of D ago: a pixel of slow light is that of a fast-light picture at t -
+ * D, D being the delay of its ray, for an observer at infinity and a near one. Not to the last step, for a grid
+ * turned by a part of a cell is blurred another way. */
 static void test_slow_light(void **state)
 {
     (void)state;
@@ -277,8 +284,8 @@ static void test_slow_light(void **state)
             n++;
             kd_frame_finish(&then);
         }
-        printf("slow light, %s: %g of 255 from the time of emission, %g from now, %d pixels\n", near ? "near" : "far", off_then / n,
-               off_now / n, n);
+        printf("slow light, %s: %g of 255 from the time of emission, %g from now, %d pixels\n", near ? "near" : "far",
+               off_then / n, off_now / n, n);
         assert_true(n > 15 && off_now > 2 * off_then);
         free(planes);
         kd_frame_finish(&fast);
@@ -288,9 +295,9 @@ static void test_slow_light(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(test_phase), cmocka_unit_test(test_periods), cmocka_unit_test(test_frames),
-                                        cmocka_unit_test(test_lists_between_frames), cmocka_unit_test(test_turning),
-                                        cmocka_unit_test(test_slow_light) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_phase),   cmocka_unit_test(test_periods),
+                                        cmocka_unit_test(test_frames),  cmocka_unit_test(test_lists_between_frames),
+                                        cmocka_unit_test(test_turning), cmocka_unit_test(test_slow_light) };
     int code = open_renderer();
     return code ? code : close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -1,5 +1,5 @@
-/* What is told of one pixel: its light adds up to the picture's own linear light, and its crossings are those of listed rays and of layers. The
- * picture is the same whether it is told of or not. */
+/* What is told of one pixel: its light adds up to the picture's own linear light, and its crossings are those of
+ * listed rays and of layers. The picture is the same whether it is told of or not. */
 #include "physics/kerr.h"
 #include "render/emit/emitter.h"
 #include "render/explain/explain.h"
@@ -103,8 +103,8 @@ static size_t judge_sum(const struct kd_frame *frame, uint32_t x, uint32_t y)
     return n;
 }
 
-/* All rays of the pixel together are its light, each of them what its emitters gave: 0 where nothing of it is lost on the way from the kernel. Returns how many
- * rays have other light than the first. */
+/* All rays of the pixel together are its light, each of them what its emitters gave: 0 where nothing of it is lost
+ * on the way from the kernel. Returns how many rays have other light than the first. */
 static uint32_t judge_rays(const struct kd_frame *frame)
 {
     const struct kd_told *told = frame->told;
@@ -133,14 +133,19 @@ static uint32_t judge_rays(const struct kd_frame *frame)
 static void judge_crossings(const struct kd_scene *scene, const struct kd_plan *plan, const struct kd_frame *frame)
 {
     const struct kd_picture picture = { frame, scene, plan, "", 0 };
-    const struct kd_rays_params params = { .spin = scene->spacetime.spin, .r = scene->camera.r, .inclination_deg = scene->camera.inclination_deg,
-                                           .orders = (uint32_t)scene->accuracy.orders, .engine = KD_ENGINE_CLOSED, .precision = KD_PRECISION_F64 };
+    const struct kd_rays_params params = { .spin = scene->spacetime.spin,
+                                           .r = scene->camera.r,
+                                           .inclination_deg = scene->camera.inclination_deg,
+                                           .orders = (uint32_t)scene->accuracy.orders,
+                                           .engine = KD_ENGINE_CLOSED,
+                                           .precision = KD_PRECISION_F64 };
     struct kd_ray_crossing crossings[KD_RAYS_MAX_ORDERS];
     struct kd_ray_end end;
     struct kd_explained x;
     OK(kd_explain(&picture, &x, &error));
     if (!x.label.outward && x.label.energy > 0) {
-        OK(kd_rays_trace(NULL, &params, (double[]) { x.label.alpha, x.label.beta }, 1, crossings, &end, NULL, NULL, &error));
+        OK(kd_rays_trace(NULL, &params, (double[]) { x.label.alpha, x.label.beta }, 1, crossings, &end, NULL, NULL,
+                         &error));
         assert_int_equal(end.n_crossings, x.end.n_crossings);
         assert_int_equal(end.fate, x.end.fate);
         for (uint32_t n = 0; n < end.n_crossings; n++) {
@@ -164,7 +169,8 @@ static void judge_crossings(const struct kd_scene *scene, const struct kd_plan *
     if ((x.path.course.end == KD_COURSE_ESCAPED) != (x.end.fate == KD_RAY_ESCAPED) && x.end.fate != KD_RAY_UNDECIDED)
         fail_msg("the path ends otherwise");
     if (!isnan(x.path.error))
-        near("crossings of the path", x.path.error, 0, fmin(1e-9 + 1e4 * x.end.error, 1e-3)); /* both grow with how much a ray amplifies */
+        near("crossings of the path", x.path.error, 0,
+             fmin(1e-9 + 1e4 * x.end.error, 1e-3)); /* both grow with how much a ray amplifies */
     kd_explained_finish(&x);
 }
 
@@ -176,13 +182,16 @@ static void judge_picture(const struct kd_scene *scene, const struct kd_plan *pl
     silent.told.on = false;
     OK(kd_render(renderer, scene, &silent, NULL, NULL, &other, &error));
     assert_null(other.told);
-    assert_memory_equal(kd_frame_pixels(frame), kd_frame_pixels(&other), (size_t)frame->width * frame->height * kd_layer_pixel_bytes(&frame->layers[0]));
+    assert_memory_equal(kd_frame_pixels(frame), kd_frame_pixels(&other),
+                        (size_t)frame->width * frame->height * kd_layer_pixel_bytes(&frame->layers[0]));
     kd_frame_finish(&other);
 }
 
 static void judge(const struct kd_scene *scene, size_t least)
 {
-    static const uint32_t at[][2] = { { 20, 20 }, { 32, 22 }, { 41, 14 }, { 5, 3 }, { 31, 17 }, { 26, 15 }, { 50, 20 } };
+    static const uint32_t at[][2] = {
+        { 20, 20 }, { 32, 22 }, { 41, 14 }, { 5, 3 }, { 31, 17 }, { 26, 15 }, { 50, 20 }
+    };
     size_t n = 0;
     for (size_t i = 0; i < sizeof at / sizeof *at; i++) {
         struct kd_plan plan;
@@ -202,19 +211,34 @@ static void judge(const struct kd_scene *scene, size_t least)
 
 static void sums(void **state)
 {
-    const struct { const char *preset; const char *const *set; size_t least; } cases[] = {
+    const struct {
+        const char *preset;
+        const char *const *set;
+        size_t least;
+    } cases[] = {
         { NULL, NULL, 3 },
         { "gas-stars", (const char *const[]) { "image.critical_factor", "1", NULL }, 6 },
-        { "smooth", (const char *const[]) { "disk.opacity", "0.4", "sky.model", "grid", "image.critical_factor", "1", NULL }, 8 },
+        { "smooth",
+          (const char *const[]) { "disk.opacity", "0.4", "sky.model", "grid", "image.critical_factor", "1", NULL }, 8 },
         { "living-disk", (const char *const[]) { "disk.particles", "4000", "accuracy.orders", "3", NULL }, 3 },
         { "hot-spot", NULL, 3 },
         { "luminet1979", (const char *const[]) { "image.samples", "2", NULL }, 2 },
         { "falling", NULL, 2 },
-        { NULL, (const char *const[]) { "accuracy.engine", "mino-rkn6", "style.ringdown", "0.5", "time", "10", NULL }, 3 },
-        { "smooth", (const char *const[]) { "volume.model", "uniform", "disk.opacity", "0.5", "sky.model", "grid", "image.critical_factor", "1", NULL }, 8 },
-        { "smooth", (const char *const[]) { "volume.model", "uniform", "disk.model", "none", "sky.model", "none", "image.critical_factor", "1", NULL }, 0 },
-        { "smooth", (const char *const[]) { "volume.model", "uniform", "disk.model", "none", "sky.model", "grid", "volume.outer", "1000", "volume.opacity", "0.001",
-                                            "accuracy.engine", "mino-rkn6", "accuracy.steps", "400", "image.critical_factor", "1", NULL }, 3 },
+        { NULL, (const char *const[]) { "accuracy.engine", "mino-rkn6", "style.ringdown", "0.5", "time", "10", NULL },
+          3 },
+        { "smooth",
+          (const char *const[]) { "volume.model", "uniform", "disk.opacity", "0.5", "sky.model", "grid",
+                                  "image.critical_factor", "1", NULL },
+          8 },
+        { "smooth",
+          (const char *const[]) { "volume.model", "uniform", "disk.model", "none", "sky.model", "none",
+                                  "image.critical_factor", "1", NULL },
+          0 },
+        { "smooth",
+          (const char *const[]) { "volume.model", "uniform", "disk.model", "none", "sky.model", "grid", "volume.outer",
+                                  "1000", "volume.opacity", "0.001", "accuracy.engine", "mino-rkn6", "accuracy.steps",
+                                  "400", "image.critical_factor", "1", NULL },
+          3 },
         { NULL, (const char *const[]) { "image.samples", "auto", "image.bit_depth", "16", NULL }, 3 },
     };
     (void)state;
@@ -228,7 +252,8 @@ static void sums(void **state)
 static void layers(void **state)
 {
     static const char *const names[] = { "r", "g", "temperature", "emission_angle", "delay", "phi" };
-    struct kd_scene scene = scene_of("gas", (const char *const[]) { "image.critical_factor", "1", "camera.azimuth_deg", "70", NULL });
+    struct kd_scene scene =
+        scene_of("gas", (const char *const[]) { "image.critical_factor", "1", "camera.azimuth_deg", "70", NULL });
     int compared = 0;
     (void)state;
     OK(kd_scene_set(&scene, "image.layers", "r,g,temperature,emission_angle,delay,phi,rgb", &error));
@@ -265,7 +290,8 @@ static void layers(void **state)
 static void other_pictures(void **state)
 {
     static const uint32_t columns[] = { 20, WIDTH + 20 };
-    const struct kd_scene pair = scene_of(NULL, (const char *const[]) { "camera.r", "30", "camera.stereo", "pair", "image.critical_factor", "1", NULL });
+    const struct kd_scene pair = scene_of(
+        NULL, (const char *const[]) { "camera.r", "30", "camera.stereo", "pair", "image.critical_factor", "1", NULL });
     const struct kd_scene ring = scene_of("photon-rings", (const char *const[]) { "image.samples", "1", NULL });
     double alpha[2];
     (void)state;
@@ -291,11 +317,14 @@ static void other_pictures(void **state)
     kd_frame_finish(&frame);
 }
 
-/* Light of negative energy at infinity comes from gas within the ergosphere, too: there g, as the observer has it, is the picture's. */
+/* Light of negative energy at infinity comes from gas within the ergosphere, too: there g, as the observer has it,
+ * is the picture's. */
 static void negative_energies(void **state)
 {
-    const struct kd_scene scene = scene_of(NULL, (const char *const[]) { "spacetime.spin", "0.998", "camera.r", "1.6", "camera.observer", "zamo", "camera.inclination_deg", "80",
-                                                                         "camera.fov_deg", "120", "camera.yaw_deg", "90", "image.critical_factor", "1", NULL });
+    const struct kd_scene scene =
+        scene_of(NULL, (const char *const[]) { "spacetime.spin", "0.998", "camera.r", "1.6", "camera.observer", "zamo",
+                                               "camera.inclination_deg", "80", "camera.fov_deg", "120",
+                                               "camera.yaw_deg", "90", "image.critical_factor", "1", NULL });
     int below = 0, compared = 0;
     (void)state;
     struct kd_plan plan;
@@ -328,18 +357,35 @@ static void negative_energies(void **state)
     assert_true(compared > 0);
 }
 
-/* Pixels of many rays: where samples are asked for, at the critical curve, and those that "auto" chose, followed and between others. The mean of what is told of
- * each ray is the layer of the pixel's light; labels of the rays are as far apart as they are in the picture. */
+/* Pixels of many rays: where samples are asked for, at the critical curve, and those that "auto" chose, followed and
+ * between others. The mean of what is told of each ray is the layer of the pixel's light; labels of the rays are as
+ * far apart as they are in the picture. */
 static void many_rays(void **state)
 {
-    const struct { const char *preset; const char *const *set; uint32_t rays; } cases[] = {
+    const struct {
+        const char *preset;
+        const char *const *set;
+        uint32_t rays;
+    } cases[] = {
         { "gas", (const char *const[]) { "image.samples", "3", NULL }, 9 },
         { "smooth", (const char *const[]) { "sky.model", "grid", "image.critical_factor", "16", NULL }, 16 },
-        { "smooth", (const char *const[]) { "sky.model", "grid", "image.critical_factor", "16", "accuracy.engine", "mino-rkn6", "accuracy.precision", "f64", NULL }, 16 },
-        { "smooth", (const char *const[]) { "sky.model", "grid", "image.samples", "auto", "image.pixel_error", "0.002", NULL }, 2 },
-        { "smooth", (const char *const[]) { "volume.model", "uniform", "disk.opacity", "0.5", "image.critical_factor", "4", NULL }, 4 },
-        { NULL, (const char *const[]) { "camera.r", "12", "camera.projection", "equirectangular", "image.samples", "2", NULL }, 4 },
-        { NULL, (const char *const[]) { "camera.r", "12", "camera.projection", "fulldome", "image.samples", "2", NULL }, 4 },
+        { "smooth",
+          (const char *const[]) { "sky.model", "grid", "image.critical_factor", "16", "accuracy.engine", "mino-rkn6",
+                                  "accuracy.precision", "f64", NULL },
+          16 },
+        { "smooth",
+          (const char *const[]) { "sky.model", "grid", "image.samples", "auto", "image.pixel_error", "0.002", NULL },
+          2 },
+        { "smooth",
+          (const char *const[]) { "volume.model", "uniform", "disk.opacity", "0.5", "image.critical_factor", "4",
+                                  NULL },
+          4 },
+        { NULL,
+          (const char *const[]) { "camera.r", "12", "camera.projection", "equirectangular", "image.samples", "2",
+                                  NULL },
+          4 },
+        { NULL, (const char *const[]) { "camera.r", "12", "camera.projection", "fulldome", "image.samples", "2", NULL },
+          4 },
     };
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -369,24 +415,47 @@ static void many_rays(void **state)
             }
             kd_frame_finish(&frame);
         }
-        printf("%s: up to %u rays a pixel, %u unlike the first\n", cases[i].preset ? cases[i].preset : "default", most, others);
+        printf("%s: up to %u rays a pixel, %u unlike the first\n", cases[i].preset ? cases[i].preset : "default", most,
+               others);
         assert_true(most >= cases[i].rays && others > 0);
     }
 }
 
-/* From within the horizon: what double precision finds by steps, judged by unit/physics_course.c, is what the picture's own kernel has: crossings with their azimuths and
- * frequencies, the fate, and the direction in the sky; and the light adds up. */
+/* From within the horizon: what double precision finds by steps, judged by unit/physics_course.c, is what the
+ * picture's own kernel has: crossings with their azimuths and frequencies, the fate, and the direction in the sky;
+ * and the light adds up. */
 static void from_within(void **state)
 {
-    const struct { const char *spin, *r, *yaw, *projection; } cases[] = {
-        { "0.9", "1.3", "0", "pinhole" }, { "0.9", "1.3", "180", "pinhole" }, { "0", "1.2", "60", "pinhole" }, { "-0.6", "1.5", "0", "equirectangular" }, { "0.5", "0.9", "0", "fulldome" },
+    const struct {
+        const char *spin, *r, *yaw, *projection;
+    } cases[] = {
+        { "0.9", "1.3", "0", "pinhole" },          { "0.9", "1.3", "180", "pinhole" }, { "0", "1.2", "60", "pinhole" },
+        { "-0.6", "1.5", "0", "equirectangular" }, { "0.5", "0.9", "0", "fulldome" },
     };
     int crossed = 0, gas = 0, sky = 0, dark = 0;
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        const struct kd_scene scene = scene_of("smooth", (const char *const[]) { "sky.model", "grid", "disk.opacity", "0.5", "spacetime.spin", cases[i].spin, "camera.observer", "infall",
-            "camera.r", cases[i].r, "camera.yaw_deg", cases[i].yaw, "camera.projection", cases[i].projection, "camera.fov_deg", "120", "image.critical_factor", "1",
-            "camera.azimuth_deg", "40", NULL });
+        const struct kd_scene scene = scene_of("smooth", (const char *const[]) { "sky.model",
+                                                                                 "grid",
+                                                                                 "disk.opacity",
+                                                                                 "0.5",
+                                                                                 "spacetime.spin",
+                                                                                 cases[i].spin,
+                                                                                 "camera.observer",
+                                                                                 "infall",
+                                                                                 "camera.r",
+                                                                                 cases[i].r,
+                                                                                 "camera.yaw_deg",
+                                                                                 cases[i].yaw,
+                                                                                 "camera.projection",
+                                                                                 cases[i].projection,
+                                                                                 "camera.fov_deg",
+                                                                                 "120",
+                                                                                 "image.critical_factor",
+                                                                                 "1",
+                                                                                 "camera.azimuth_deg",
+                                                                                 "40",
+                                                                                 NULL });
         for (uint32_t n = 0; n < 10; n++) {
             const uint32_t at_x = (7 + 13 * n) % WIDTH, at_y = (3 + 11 * n) % HEIGHT;
             struct kd_plan plan;
@@ -400,7 +469,8 @@ static void from_within(void **state)
             if (x.told->ended && x.end.fate != KD_RAY_UNDECIDED) {
                 assert_int_equal(x.end.fate, KD_RAY_ESCAPED);
                 near("theta of the sky", (double)x.told->end_u, cos(x.end.theta), 1e-4);
-                near("phi of the sky", remainder((double)x.told->end_phi - x.end.phi, 2 * M_PI) * sin(x.end.theta), 0, 3e-4);
+                near("phi of the sky", remainder((double)x.told->end_phi - x.end.phi, 2 * M_PI) * sin(x.end.theta), 0,
+                     3e-4);
                 sky++;
             }
             dark += x.end.fate == KD_RAY_CAPTURED;
@@ -468,12 +538,13 @@ static void judge_volumes(const struct kd_told_ray *told)
     for (int c = 0; c < 3; c++)
         near("light of all volumes", sum[c], all[c], 1e-5 * all[c]);
     near("depth of all volumes", depth, -log(passes), 1e-5 * (1 + depth));
-    assert_true(told->n_stretches == 0 || (told->steps > 0 && told->samples >= 3 * told->n_stretches && told->steps <= told->samples + 12 * 16));
+    assert_true(told->n_stretches == 0 ||
+                (told->steps > 0 && told->samples >= 3 * told->n_stretches && told->steps <= told->samples + 12 * 16));
 }
 
-/* Two volumes in the same place are each told to have the depth that they have alone, and, where nothing is hidden, the light: that of a picture without
- * the other, which adds up one volume only. The shell's edges lie within the jets' bounds, where they are found to a part of the stretch: without that
- * this is 1 % off. */
+/* Two volumes in the same place are each told to have the depth that they have alone, and, where nothing is hidden,
+ * the light: that of a picture without the other, which adds up one volume only. The shell's edges lie within the
+ * jets' bounds, where they are found to a part of the stretch: without that this is 1 % off. */
 static void volumes(void **state)
 {
     static const char *const names[] = { "volume", "jets" };
@@ -481,8 +552,11 @@ static void volumes(void **state)
     int lit[2] = { 0 }, dim = 0;
     (void)state;
     for (int hides = 0; hides < 2; hides++) {
-        const struct kd_scene both = scene_of("smooth", (const char *const[]) { "disk.model", "none", "sky.model", "none", "volume.model", "uniform", "volume.outer", "15",
-            "volume.emissivity", "0.001", "volume.opacity", hides ? "0.2" : "0", "jets.brightness", "0.05", "jets.opening_deg", "20", "image.critical_factor", "1", NULL });
+        const struct kd_scene both =
+            scene_of("smooth", (const char *const[]) { "disk.model", "none", "sky.model", "none", "volume.model",
+                                                       "uniform", "volume.outer", "15", "volume.emissivity", "0.001",
+                                                       "volume.opacity", hides ? "0.2" : "0", "jets.brightness", "0.05",
+                                                       "jets.opening_deg", "20", "image.critical_factor", "1", NULL });
         for (size_t i = 0; i < sizeof at / sizeof *at; i++) {
             struct kd_plan plan;
             struct kd_frame frame = told_at(&both, at[i][0], at[i][1], &plan);
@@ -496,7 +570,8 @@ static void volumes(void **state)
                 const double depth = -log((double)alone.told->middle.through);
                 near("its depth", (double)v->depth, depth, 2e-5 + 5e-4 * depth);
                 for (int c = 0; c < 3 && !hides; c++)
-                    near("its light", (double)v->light[c], (double)alone.told->radiance[c], 5e-4 * (double)alone.told->radiance[c]);
+                    near("its light", (double)v->light[c], (double)alone.told->radiance[c],
+                         5e-4 * (double)alone.told->radiance[c]);
                 lit[k] += v->light[0] > 0;
                 dim += hides && k && v->light[0] < 0.9f * alone.told->middle.light[0]; /* behind the shell's matter */
                 kd_frame_finish(&alone);
@@ -509,8 +584,10 @@ static void volumes(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(sums), cmocka_unit_test(many_rays), cmocka_unit_test(volumes), cmocka_unit_test(layers), cmocka_unit_test(other_pictures),
-        cmocka_unit_test(negative_energies), cmocka_unit_test(from_within), cmocka_unit_test(places) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(sums),           cmocka_unit_test(many_rays),
+                                        cmocka_unit_test(volumes),        cmocka_unit_test(layers),
+                                        cmocka_unit_test(other_pictures), cmocka_unit_test(negative_energies),
+                                        cmocka_unit_test(from_within),    cmocka_unit_test(places) };
     int status = open_renderer();
     return status ? status : close_renderer(cmocka_run_group_tests_name("pixel", tests, NULL, NULL));
 }

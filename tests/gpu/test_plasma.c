@@ -1,5 +1,6 @@
-/* Matter at a radio frequency: each ray's brightness temperature against the integral of emission and absorption along the path that the Kerr-Schild oracle follows, its
- * velocities from the metric's components and its emissivities in CGS; fluxes in Jy; and numbers that no float holds. */
+/* Matter at a radio frequency: each ray's brightness temperature against the integral of emission and absorption
+ * along the path that the Kerr-Schild oracle follows, its velocities from the metric's components and its
+ * emissivities in CGS; fluxes in Jy; and numbers that no float holds. */
 #include "render_support.h"
 
 #include "cgs.h"
@@ -37,7 +38,9 @@ struct metric { double g[4][4], i[4][4]; };
 static struct metric metric_of(double a, double r, double u)
 {
     const double sigma = r * r + a * a * u * u, delta = r * r - 2 * r + a * a, s2 = 1 - u * u;
-    struct metric m = { { { -(1 - 2 * r / sigma), 0, 0, -2 * a * r * s2 / sigma }, { 0, sigma / delta, 0, 0 }, { 0, 0, sigma, 0 },
+    struct metric m = { { { -(1 - 2 * r / sigma), 0, 0, -2 * a * r * s2 / sigma },
+                          { 0, sigma / delta, 0, 0 },
+                          { 0, 0, sigma, 0 },
                           { -2 * a * r * s2 / sigma, 0, 0, (r * r + a * a + 2 * a * a * r * s2 / sigma) * s2 } } };
     const double det = m.g[0][0] * m.g[3][3] - m.g[0][3] * m.g[0][3];
     m.i[0][0] = m.g[3][3] / det;
@@ -100,9 +103,11 @@ static void flow_of(const struct kd_scene *scene, double a, double r, double u, 
 }
 
 /* Of unit length and perpendicular to v. */
-static void field_of(const struct kd_scene *scene, const struct metric *m, const double v[4], double r, double u, double out[4])
+static void field_of(const struct kd_scene *scene, const struct metric *m, const double v[4], double r, double u,
+                     double out[4])
 {
-    const double lines[3][4] = { { 0, 0, 0, 1 }, { 0, u, -sqrt(1 - u * u) / r, 0 }, { 0, 1, 0, 0 } }, *e = lines[scene->volume.field], along = dot(m->g, e, v);
+    const double lines[3][4] = { { 0, 0, 0, 1 }, { 0, u, -sqrt(1 - u * u) / r, 0 }, { 0, 1, 0, 0 } },
+                 *e = lines[scene->volume.field], along = dot(m->g, e, v);
     for (int i = 0; i < 4; i++)
         out[i] = e[i] + along * v[i];
     const double scale = 1 / sqrt(dot(m->g, out, out));
@@ -113,7 +118,8 @@ static void field_of(const struct kd_scene *scene, const struct metric *m, const
 /* Pandya et al. 2016: emissivity and absorptivity. */
 static void thermal(double n, double theta, double turn, double sine, double nu, double out[2])
 {
-    const double x = nu / (2.0 / 9 * turn * theta * theta * sine), shape = sqrt(x) + pow(2, 11.0 / 12) * pow(x, 1.0 / 6);
+    const double x = nu / (2.0 / 9 * turn * theta * theta * sine),
+                 shape = sqrt(x) + pow(2, 11.0 / 12) * pow(x, 1.0 / 6);
     out[0] = out[1] = 0;
     if (!(x < 1e6)) /* e^-100 of what there is */
         return;
@@ -123,25 +129,33 @@ static void thermal(double n, double theta, double turn, double sine, double nu,
 
 static void power_law(const struct kd_volume *v, double n, double turn, double sine, double nu, double out[2])
 {
-    const double p = v->electrons_index, share = (p - 1) / (pow(v->gamma_min, 1 - p) - pow(v->gamma_max, 1 - p)), x = nu / (turn * sine);
-    out[0] = n * E2 * turn / C * share * pow(3, p / 2) * sine / (2 * (p + 1)) * tgamma((3 * p - 1) / 12) * tgamma((3 * p + 19) / 12) * pow(x, -(p - 1) / 2);
-    out[1] = n * E2 / (nu * ME * C) * share * pow(3, (p + 1) / 2) / 4 * tgamma((3 * p + 2) / 12) * tgamma((3 * p + 22) / 12) * pow(x, -(p + 2) / 2);
+    const double p = v->electrons_index, share = (p - 1) / (pow(v->gamma_min, 1 - p) - pow(v->gamma_max, 1 - p)),
+                 x = nu / (turn * sine);
+    out[0] = n * E2 * turn / C * share * pow(3, p / 2) * sine / (2 * (p + 1)) * tgamma((3 * p - 1) / 12) *
+             tgamma((3 * p + 19) / 12) * pow(x, -(p - 1) / 2);
+    out[1] = n * E2 / (nu * ME * C) * share * pow(3, (p + 1) / 2) / 4 * tgamma((3 * p + 2) / 12) *
+             tgamma((3 * p + 22) / 12) * pow(x, -(p + 2) / 2);
 }
 
 /* The same paper's 35 to 44, the hypergeometric function by Euler's integral in ln t. */
 static void kappa_law(double kappa, double n, double theta, double turn, double sine, double nu, double out[2])
 {
-    const double w = theta * (kappa - 3) / kappa, wk = w * kappa, x = nu / (turn * wk * wk * sine), a = kappa - 1.0 / 3, b = kappa + 1, all = (kappa - 2) * (kappa - 1) * kappa;
+    const double w = theta * (kappa - 3) / kappa, wk = w * kappa, x = nu / (turn * wk * wk * sine), a = kappa - 1.0 / 3,
+                 b = kappa + 1, all = (kappa - 2) * (kappa - 1) * kappa;
     enum { PARTS = 200 };
-    double f = 0, s = 3 * pow(kappa, -1.5), low = cbrt(x) * sine * 4 * M_PI * tgamma(kappa - 4.0 / 3) / (pow(3, 7.0 / 3) * tgamma(kappa - 2));
-    double high = pow(x, -(kappa - 2) / 2) * sine * pow(3, (kappa - 1) / 2) * (kappa - 2) * (kappa - 1) / 4 * tgamma(kappa / 4 - 1.0 / 3) * tgamma(kappa / 4 + 4.0 / 3);
+    double f = 0, s = 3 * pow(kappa, -1.5),
+           low = cbrt(x) * sine * 4 * M_PI * tgamma(kappa - 4.0 / 3) / (pow(3, 7.0 / 3) * tgamma(kappa - 2));
+    double high = pow(x, -(kappa - 2) / 2) * sine * pow(3, (kappa - 1) / 2) * (kappa - 2) * (kappa - 1) / 4 *
+                  tgamma(kappa / 4 - 1.0 / 3) * tgamma(kappa / 4 + 4.0 / 3);
     for (int i = 0; i <= PARTS; i++) {
         const double h = 20.0 / PARTS, t = exp(-i * h);
         f += (i == 0 || i == PARTS ? 1 : i % 2 ? 4 : 2) * h / 3 * a * pow(t, a) * pow(1 + wk * t, -b);
     }
     out[0] = n * E2 * turn / C * pow(pow(low, -s) + pow(high, -s), -1 / s);
-    low = pow(x, -2.0 / 3) * pow(3, 1.0 / 6) * 10 / 41 * 2 * M_PI / pow(wk, 10.0 / 3 - kappa) * all / (3 * kappa - 1) * tgamma(5.0 / 3) * f;
-    high = pow(x, -(1 + kappa) / 2) * pow(M_PI, 1.5) / 3 * all / (wk * wk * wk) * (2 * tgamma(2 + kappa / 2) / (2 + kappa) - 1) * (pow(3 / kappa, 19.0 / 4) + 3.0 / 5);
+    low = pow(x, -2.0 / 3) * pow(3, 1.0 / 6) * 10 / 41 * 2 * M_PI / pow(wk, 10.0 / 3 - kappa) * all / (3 * kappa - 1) *
+          tgamma(5.0 / 3) * f;
+    high = pow(x, -(1 + kappa) / 2) * pow(M_PI, 1.5) / 3 * all / (wk * wk * wk) *
+           (2 * tgamma(2 + kappa / 2) / (2 + kappa) - 1) * (pow(3 / kappa, 19.0 / 4) + 3.0 / 5);
     s = pow(-7.0 / 4 + 8 * kappa / 5, -43.0 / 50);
     out[1] = n * E2 / (nu * ME * C) * pow(pow(low, -s) + pow(high, -s), -1 / s);
 }
@@ -150,15 +164,18 @@ static void medium(void *user, const struct ks_photon *p, double r, double u, do
 {
     const struct kd_scene *scene = user;
     const struct kd_volume *v = &scene->volume;
-    const double a = p->a, k[4] = { -p->energy, p->p_r, p->p_theta, p->momentum }, axis = r * sqrt(1 - u * u), cm = GM_SUN * scene->spacetime.mass_msun / (C * C);
+    const double a = p->a, k[4] = { -p->energy, p->p_r, p->p_theta, p->momentum }, axis = r * sqrt(1 - u * u),
+                 cm = GM_SUN * scene->spacetime.mass_msun / (C * C);
     const struct metric m = metric_of(a, r, u);
     double flow[4], field[4], seen = 0, along = 0;
     if (v->model == KD_VOLUME_GOLD) {
-        const double low[4] = { -1, 0, 0, v->gold_momentum * pow(axis, 1.5) / (1 + axis) }, scale = 1 / sqrt(-dot(m.i, low, low));
+        const double low[4] = { -1, 0, 0, v->gold_momentum * pow(axis, 1.5) / (1 + axis) },
+                     scale = 1 / sqrt(-dot(m.i, low, low));
         raise(m.i, low, flow);
         for (int i = 0; i < 4; i++)
             seen -= scale * flow[i] * k[i];
-        const double n = v->gold_emission * exp(-0.5 * (r * r / 100 + pow(v->gold_flattening * u, 2))), x = seen * v->frequency_ghz / 230;
+        const double n = v->gold_emission * exp(-0.5 * (r * r / 100 + pow(v->gold_flattening * u, 2))),
+                     x = seen * v->frequency_ghz / 230;
         out[0] = n * pow(x, -v->gold_index) * cm / (seen * seen);
         out[1] = n * v->gold_absorption * pow(x, -2.5 - v->gold_index) * cm * seen;
         return;
@@ -184,7 +201,8 @@ static void medium(void *user, const struct ks_photon *p, double r, double u, do
     }
     const double z = r * u, h = v->height * axis, share = (v->adiabatic_index - 1) / v->adiabatic_index;
     double n = v->density_cm3 * pow(r, -v->density_index) * (v->height > 0 ? exp(-z * z / (2 * h * h)) : 1);
-    double magnetic = v->magnetisation * pow(r, -v->magnetisation_index), theta = K * v->electron_temperature_k * pow(r, -v->temperature_index) / (ME * C * C);
+    double magnetic = v->magnetisation * pow(r, -v->magnetisation_index),
+           theta = K * v->electron_temperature_k * pow(r, -v->temperature_index) / (ME * C * C);
     if (v->model == KD_VOLUME_TORUS) {
         n = v->density_cm3 * pow(enthalpy / most, 1 / (v->adiabatic_index - 1));
         magnetic = share * enthalpy / v->beta;
@@ -204,21 +222,38 @@ static void medium(void *user, const struct ks_photon *p, double r, double u, do
 
 static double kelvin(const struct kd_scene *scene, int i)
 {
-    const double step = scene->camera.field_m / WIDTH, x = step * (i % WIDTH - 0.5 * (WIDTH - 1)), y = -step * (i / WIDTH - 0.5 * (HEIGHT - 1)), nu = scene->volume.frequency_ghz * 1e9;
-    const struct ks_photon photon = ks_from_infinity(scene->spacetime.spin, cos(scene->camera.inclination_deg * M_PI / 180), x, y);
-    return ks_along(photon, scene->volume.inner, scene->volume.outer, false, medium, (void *)scene).light * C * C / (2 * K * nu * nu);
+    const double step = scene->camera.field_m / WIDTH, x = step * (i % WIDTH - 0.5 * (WIDTH - 1)),
+                 y = -step * (i / WIDTH - 0.5 * (HEIGHT - 1)), nu = scene->volume.frequency_ghz * 1e9;
+    const struct ks_photon photon =
+        ks_from_infinity(scene->spacetime.spin, cos(scene->camera.inclination_deg * M_PI / 180), x, y);
+    return ks_along(photon, scene->volume.inner, scene->volume.outer, false, medium, (void *)scene).light * C * C /
+           (2 * K * nu * nu);
 }
 
-/* Inner edges are where light has none yet: the oracle's rule is not for what grows without bound. The outer ones are near, to spare time. */
-static const struct view { const char *preset, *json; double allowed; } views[] = {
+/* Inner edges are where light has none yet: the oracle's rule is not for what grows without bound. The outer ones
+ * are near, to spare time. */
+static const struct view {
+    const char *preset, *json;
+    double allowed;
+} views[] = {
     { "gold-1", "{\"volume\":{\"inner\":1.5,\"outer\":30}}", 2e-4 },
     { "gold-4", "{\"volume\":{\"inner\":1.5,\"outer\":30,\"frequency_ghz\":300}}", 2e-4 },
     { "riaf", "{\"volume\":{\"inner\":1.5,\"outer\":30}}", 4e-4 },
-    { "riaf", "{\"spacetime\":{\"spin\":-0.5},\"camera\":{\"inclination_deg\":110},\"volume\":{\"inner\":2,\"outer\":20,\"height\":0.3,\"field\":\"radial\",\"frequency_ghz\":30}}", 4e-4 },
-    { "riaf", "{\"spacetime\":{\"spin\":0.3},\"camera\":{\"inclination_deg\":35},\"volume\":{\"inner\":2.5,\"outer\":20,\"height\":0,\"field\":\"vertical\",\"flow\":\"rest\","
-              "\"electrons\":\"power-law\",\"density_cm3\":1e5,\"magnetisation\":0.3,\"gamma_max\":1e4}}", 4e-4 },
-    { "riaf", "{\"volume\":{\"inner\":4,\"outer\":12,\"height\":0.5,\"electrons\":\"kappa\",\"kappa\":3.6,\"density_cm3\":1e6}}", 1e-4 },
-    { "riaf", "{\"volume\":{\"model\":\"torus\",\"inner\":6,\"outer\":60,\"density_cm3\":1e6,\"temperature_ratio\":1}}", 1e-4 },
+    { "riaf",
+      "{\"spacetime\":{\"spin\":-0.5},\"camera\":{\"inclination_deg\":110},\"volume\":{\"inner\":2,\"outer\":20,"
+      "\"height\":0.3,\"field\":\"radial\",\"frequency_ghz\":30}}",
+      4e-4 },
+    { "riaf",
+      "{\"spacetime\":{\"spin\":0.3},\"camera\":{\"inclination_deg\":35},\"volume\":{\"inner\":2.5,\"outer\":20,"
+      "\"height\":0,\"field\":\"vertical\",\"flow\":\"rest\","
+      "\"electrons\":\"power-law\",\"density_cm3\":1e5,\"magnetisation\":0.3,\"gamma_max\":1e4}}",
+      4e-4 },
+    { "riaf",
+      "{\"volume\":{\"inner\":4,\"outer\":12,\"height\":0.5,\"electrons\":\"kappa\",\"kappa\":3.6,\"density_cm3\":1e6}"
+      "}",
+      1e-4 },
+    { "riaf", "{\"volume\":{\"model\":\"torus\",\"inner\":6,\"outer\":60,\"density_cm3\":1e6,\"temperature_ratio\":1}}",
+      1e-4 },
 };
 enum { VIEWS = sizeof views / sizeof *views };
 
@@ -236,10 +271,12 @@ static void test_rays(void **state)
             worst = fmax(worst, off);
             sum += kelvin_of(&frame)[i];
             if (!(off <= views[v].allowed))
-                fail_msg("view %zu, pixel %d: %.7g K, the oracle has %.7g, off by %.2g, allowed %.2g", v, i, (double)kelvin_of(&frame)[i], want, off, views[v].allowed);
+                fail_msg("view %zu, pixel %d: %.7g K, the oracle has %.7g, off by %.2g, allowed %.2g", v, i,
+                         (double)kelvin_of(&frame)[i], want, off, views[v].allowed);
         }
         /* Flux: the sum of 2 nu^2 k T/c^2 times the solid angle of a pixel. */
-        const double side = scene.camera.field_m / WIDTH * GM_SUN * scene.spacetime.mass_msun / (C * C) / (scene.spacetime.distance_pc * 3.0856775814913673e18);
+        const double side = scene.camera.field_m / WIDTH * GM_SUN * scene.spacetime.mass_msun / (C * C) /
+                            (scene.spacetime.distance_pc * 3.0856775814913673e18);
         const double jy = sum * 2 * K * pow(scene.volume.frequency_ghz * 1e9 / C, 2) * side * side / 1e-23;
         assert_true(fabs(kd_flux_jy(&scene, &frame) / jy - 1) < 1e-5);
         printf("%s: worst %.2g, brightest %.3g K, %.5g Jy\n", views[v].preset, worst, most, jy);
@@ -252,10 +289,17 @@ static void test_adversarial(void **state)
 {
     (void)state;
     static const char *const extremes[] = {
-        "{\"volume\":{\"magnetisation\":0}}", "{\"volume\":{\"density_cm3\":0}}", "{\"volume\":{\"electron_temperature_k\":5930}}", "{\"volume\":{\"electron_temperature_k\":5.93e15}}",
-        "{\"volume\":{\"electron_temperature_k\":1e30,\"density_cm3\":1e30,\"magnetisation\":1e12}}", "{\"volume\":{\"density_cm3\":1e30}}", "{\"volume\":{\"frequency_ghz\":1e-6}}",
-        "{\"volume\":{\"frequency_ghz\":1e12}}", "{\"volume\":{\"density_index\":-10,\"temperature_index\":10,\"magnetisation_index\":-10,\"outer\":30000}}",
-        "{\"volume\":{\"inner\":\"horizon\",\"height\":10}}", "{\"spacetime\":{\"spin\":0.999999},\"volume\":{\"inner\":\"horizon\"}}",
+        "{\"volume\":{\"magnetisation\":0}}",
+        "{\"volume\":{\"density_cm3\":0}}",
+        "{\"volume\":{\"electron_temperature_k\":5930}}",
+        "{\"volume\":{\"electron_temperature_k\":5.93e15}}",
+        "{\"volume\":{\"electron_temperature_k\":1e30,\"density_cm3\":1e30,\"magnetisation\":1e12}}",
+        "{\"volume\":{\"density_cm3\":1e30}}",
+        "{\"volume\":{\"frequency_ghz\":1e-6}}",
+        "{\"volume\":{\"frequency_ghz\":1e12}}",
+        "{\"volume\":{\"density_index\":-10,\"temperature_index\":10,\"magnetisation_index\":-10,\"outer\":30000}}",
+        "{\"volume\":{\"inner\":\"horizon\",\"height\":10}}",
+        "{\"spacetime\":{\"spin\":0.999999},\"volume\":{\"inner\":\"horizon\"}}",
     };
     for (size_t i = 0; i < sizeof extremes / sizeof *extremes; i++) {
         const struct kd_scene scene = scene_of("riaf", extremes[i]);
@@ -269,7 +313,8 @@ static void test_adversarial(void **state)
     }
 }
 
-/* What is deep shines as a black body: its temperature, shifted, whatever the density, up to where depths are no floats. */
+/* What is deep shines as a black body: its temperature, shifted, whatever the density, up to where depths are no
+ * floats. */
 static void test_deep(void **state)
 {
     (void)state;
@@ -277,13 +322,17 @@ static void test_deep(void **state)
     double first[PIXELS];
     for (size_t i = 0; i < 3; i++) {
         char json[200];
-        snprintf(json, sizeof json, "{\"volume\":{\"height\":0,\"temperature_index\":0,\"inner\":4,\"outer\":20,\"flow\":\"rest\",\"field\":\"vertical\",\"frequency_ghz\":30,\"density_cm3\":%s}}", densities[i]);
+        snprintf(json, sizeof json,
+                 "{\"volume\":{\"height\":0,\"temperature_index\":0,\"inner\":4,\"outer\":20,\"flow\":\"rest\","
+                 "\"field\":\"vertical\",\"frequency_ghz\":30,\"density_cm3\":%s}}",
+                 densities[i]);
         const struct kd_scene scene = scene_of("riaf", json);
         struct kd_frame frame = rendered(&scene);
         for (int p = 0; p < PIXELS; p++) {
             first[p] = i ? first[p] : (double)kelvin_of(&frame)[p];
             if (!(fabs(kelvin_of(&frame)[p] / first[p] - 1) < 5e-3))
-                fail_msg("density %s, pixel %d: %g K, %g K at the least of them", densities[i], p, (double)kelvin_of(&frame)[p], first[p]);
+                fail_msg("density %s, pixel %d: %g K, %g K at the least of them", densities[i], p,
+                         (double)kelvin_of(&frame)[p], first[p]);
         }
         /* At 20 M, at rest, in the middle of the picture: T sqrt(1 - 2/r) to the dragging's order. */
         assert_true(fabs(first[PIXELS / 2] / (3e11 * sqrt(0.9)) - 1) < 0.01);
@@ -291,25 +340,35 @@ static void test_deep(void **state)
     }
 }
 
-/* The sphere by which programs for such light are compared (ipole's model/sphere): R = 100 GM/c^2 of 4.1e6 suns, Theta = 10, Thomson depth 1e-5, beta 20, the field
- * along the axis. A hole of a hundredth of that mass bends next to none of its light, and it is what it is in flat space: a closed form in depth. */
+/* The sphere by which programs for such light are compared (ipole's model/sphere): R = 100 GM/c^2 of 4.1e6 suns,
+ * Theta = 10, Thomson depth 1e-5, beta 20, the field along the axis. A hole of a hundredth of that mass bends next
+ * to none of its light, and it is what it is in flat space: a closed form in depth. */
 static void test_sphere(void **state)
 {
     (void)state;
-    const double radius = 1e4 * GM_SUN * 4.1e4 / (C * C), n = 1e-5 / (6.6524587321e-25 * radius), magnetisation = 2 * ME * (MP + ME) / (MP * MP);
-    const double turn = sqrt(E2) * sqrt(8 * M_PI * magnetisation * n * MP * C * C) / (2 * M_PI * ME * C), away = 8300 * 3.0856775814913673e18;
+    const double radius = 1e4 * GM_SUN * 4.1e4 / (C * C), n = 1e-5 / (6.6524587321e-25 * radius),
+                 magnetisation = 2 * ME * (MP + ME) / (MP * MP);
+    const double turn = sqrt(E2) * sqrt(8 * M_PI * magnetisation * n * MP * C * C) / (2 * M_PI * ME * C),
+                 away = 8300 * 3.0856775814913673e18;
     char json[600];
-    snprintf(json, sizeof json, "{\"spacetime\":{\"spin\":0,\"mass_msun\":4.1e4},\"camera\":{\"inclination_deg\":90,\"field_m\":20400},\"image\":{\"width\":64,\"height\":64},"
-             "\"volume\":{\"inner\":\"horizon\",\"outer\":10000,\"density_cm3\":%.17g,\"density_index\":0,\"electron_temperature_k\":%.17g,\"temperature_index\":0,\"height\":0,"
-             "\"magnetisation\":%.17g,\"magnetisation_index\":0,\"field\":\"vertical\",\"flow\":\"rest\"}}", n, 10 * ME * C * C / K, magnetisation);
+    snprintf(json, sizeof json,
+             "{\"spacetime\":{\"spin\":0,\"mass_msun\":4.1e4},\"camera\":{\"inclination_deg\":90,\"field_m\":20400},"
+             "\"image\":{\"width\":64,\"height\":64},"
+             "\"volume\":{\"inner\":\"horizon\",\"outer\":10000,\"density_cm3\":%.17g,\"density_index\":0,\"electron_"
+             "temperature_k\":%.17g,\"temperature_index\":0,\"height\":0,"
+             "\"magnetisation\":%.17g,\"magnetisation_index\":0,\"field\":\"vertical\",\"flow\":\"rest\"}}",
+             n, 10 * ME * C * C / K, magnetisation);
     struct kd_scene scene = scene_of("riaf", json);
     for (double log_hz = 7.5; log_hz < 14; log_hz += 0.75) {
         double give[2], nu = pow(10, log_hz);
         scene.volume.frequency_ghz = nu * 1e-9;
         thermal(n, 10, turn, 1, nu, give);
         struct kd_frame frame = rendered(&scene);
-        const double x = 2 * give[1] * radius, deep = 0.5 * radius * radius - (1 - exp(-x) * (1 + x)) / (4 * give[1] * give[1]);
-        const double seen = 2 * M_PI / (away * away) * (x < 1e-3 ? give[0] * 2 * pow(radius, 3) / 3 : give[0] / give[1] * deep), jy = kd_flux_jy(&scene, &frame);
+        const double x = 2 * give[1] * radius,
+                     deep = 0.5 * radius * radius - (1 - exp(-x) * (1 + x)) / (4 * give[1] * give[1]);
+        const double seen = 2 * M_PI / (away * away) *
+                            (x < 1e-3 ? give[0] * 2 * pow(radius, 3) / 3 : give[0] / give[1] * deep),
+                     jy = kd_flux_jy(&scene, &frame);
         printf("sphere: 10^%g Hz, depth %.2g: %.5g Jy, %+.3f %%\n", log_hz, x, jy, 100 * (jy * 1e-23 / seen - 1));
         if (!(fabs(jy * 1e-23 / seen - 1) < 0.01))
             fail_msg("10^%g Hz: %g Jy, the closed form has %g", log_hz, jy, seen * 1e23);
@@ -317,33 +376,42 @@ static void test_sphere(void **state)
     }
 }
 
-/* Whole pictures beside what others have: Gold et al. 2020, table 1; the program Blacklight (White 2022); ipole's model/riaf/riaf.txt. Blacklight's rays are parallel, but
- * its observer is at rest at 1000 M: 230 GHz there are 230 sqrt(1 - 2/1000) GHz at infinity, and I/nu^3 is invariant. */
+/* Whole pictures beside what others have: Gold et al. 2020, table 1; the program Blacklight (White 2022); ipole's
+ * model/riaf/riaf.txt. Blacklight's rays are parallel, but its observer is at rest at 1000 M: 230 GHz there are 230
+ * sqrt(1 - 2/1000) GHz at infinity, and I/nu^3 is invariant. */
 static void test_published(void **state)
 {
     (void)state;
-    static const struct { const char *preset; double published, within, other, within_other; } fluxes[] = {
-        { "gold-1", 1.6465, 0.02, 1.65940, 0.003 }, { "gold-2", 1.4360, 0.02, 1.44882, 0.003 },   { "gold-3", 0.4418, 0.02, 0.446234, 0.003 },
-        { "gold-4", 0.2710, 0.02, 0.272950, 0.003 }, { "gold-5", 0.0255, 0.02, 0.0257013, 0.003 }, { "riaf", 3.0425, 0.01, 3.0402553586, 0.01 },
+    static const struct {
+        const char *preset;
+        double published, within, other, within_other;
+    } fluxes[] = {
+        { "gold-1", 1.6465, 0.02, 1.65940, 0.003 },   { "gold-2", 1.4360, 0.02, 1.44882, 0.003 },
+        { "gold-3", 0.4418, 0.02, 0.446234, 0.003 },  { "gold-4", 0.2710, 0.02, 0.272950, 0.003 },
+        { "gold-5", 0.0255, 0.02, 0.0257013, 0.003 }, { "riaf", 3.0425, 0.01, 3.0402553586, 0.01 },
     };
     for (size_t i = 0; i < sizeof fluxes / sizeof *fluxes; i++) {
         struct kd_scene scene;
         OK(kd_scene_preset(&scene, fluxes[i].preset, &error));
         scene.image.width = scene.image.height = 96;
         struct kd_frame frame = rendered(&scene);
-        const double jy = kd_flux_jy(&scene, &frame), lapse = scene.volume.model == KD_VOLUME_GOLD ? sqrt(1 - 2.0 / 1000) : 1;
+        const double jy = kd_flux_jy(&scene, &frame),
+                     lapse = scene.volume.model == KD_VOLUME_GOLD ? sqrt(1 - 2.0 / 1000) : 1;
         kd_frame_finish(&frame);
         scene.volume.frequency_ghz *= lapse;
         frame = rendered(&scene);
         const double there = kd_flux_jy(&scene, &frame) / pow(lapse, 3);
-        printf("%s: %.6f Jy, %+.2f %% of the published, %+.2f %% of another program's\n", fluxes[i].preset, jy, 100 * (jy / fluxes[i].published - 1), 100 * (there / fluxes[i].other - 1));
-        if (!(fabs(jy / fluxes[i].published - 1) <= fluxes[i].within && fabs(there / fluxes[i].other - 1) <= fluxes[i].within_other))
+        printf("%s: %.6f Jy, %+.2f %% of the published, %+.2f %% of another program's\n", fluxes[i].preset, jy,
+               100 * (jy / fluxes[i].published - 1), 100 * (there / fluxes[i].other - 1));
+        if (!(fabs(jy / fluxes[i].published - 1) <= fluxes[i].within &&
+              fabs(there / fluxes[i].other - 1) <= fluxes[i].within_other))
             fail_msg("%s: %.6f Jy, published are %.6f", fluxes[i].preset, jy, fluxes[i].published);
         kd_frame_finish(&frame);
     }
 }
 
-/* There is a flux, and layers in units of physics, where nothing else shines; else there is none, and they are refused. */
+/* There is a flux, and layers in units of physics, where nothing else shines; else there is none, and they are
+ * refused. */
 static void test_alone(void **state)
 {
     (void)state;
@@ -376,11 +444,15 @@ static double flux_of(const struct kd_scene *scene, double *scale)
     return jy;
 }
 
-/* A density that was looked for gives the flux that was asked for, and is what is told: a scene that has it by itself is the same. */
+/* A density that was looked for gives the flux that was asked for, and is what is told: a scene that has it by
+ * itself is the same. */
 static void test_normalised(void **state)
 {
     (void)state;
-    static const struct { const char *preset; double jy, ghz; } wanted[] = { { "riaf", 2.4, INFINITY }, { "gold-4", 0.35, INFINITY }, { "torus", 1, 86 } };
+    static const struct {
+        const char *preset;
+        double jy, ghz;
+    } wanted[] = { { "riaf", 2.4, INFINITY }, { "gold-4", 0.35, INFINITY }, { "torus", 1, 86 } };
     for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++) {
         struct kd_scene scene;
         double scale, again, none;
@@ -407,7 +479,8 @@ static void test_held(void **state)
 {
     (void)state;
     double first, turned, exact;
-    struct kd_scene scene = scene_of("riaf", "{\"volume\":{\"normalise_to_jy\":1.7},\"image\":{\"width\":32,\"height\":32}}");
+    struct kd_scene scene =
+        scene_of("riaf", "{\"volume\":{\"normalise_to_jy\":1.7},\"image\":{\"width\":32,\"height\":32}}");
     struct kd_needs needs = kd_needs_of(&scene);
     needs.held = true;
     double *const told[] = { &first, &turned, &exact };
@@ -432,8 +505,11 @@ static void test_held(void **state)
 static void test_not_normalised(void **state)
 {
     (void)state;
-    static const struct { const char *preset, *json, *says; } refused[] = {
-        { "gold-1", "{\"volume\":{\"gold_emission\":0,\"normalise_to_jy\":1}}", "volume.normalise_to_jy is 1 Jy, at which no density was found: there is no matter" },
+    static const struct {
+        const char *preset, *json, *says;
+    } refused[] = {
+        { "gold-1", "{\"volume\":{\"gold_emission\":0,\"normalise_to_jy\":1}}",
+          "volume.normalise_to_jy is 1 Jy, at which no density was found: there is no matter" },
         { "gold-5", "{\"volume\":{\"normalise_to_jy\":1e6}}", "as dense as may be it has" },
         { "riaf", "{\"volume\":{\"magnetisation\":0,\"normalise_to_jy\":1}}", "as dense as may be it has 0 Jy" },
     };
@@ -455,7 +531,9 @@ static void test_not_normalised(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_rays), cmocka_unit_test(test_adversarial), cmocka_unit_test(test_deep), cmocka_unit_test(test_sphere), cmocka_unit_test(test_published), cmocka_unit_test(test_alone), cmocka_unit_test(test_normalised), cmocka_unit_test(test_held), cmocka_unit_test(test_not_normalised),
+        cmocka_unit_test(test_rays),       cmocka_unit_test(test_adversarial), cmocka_unit_test(test_deep),
+        cmocka_unit_test(test_sphere),     cmocka_unit_test(test_published),   cmocka_unit_test(test_alone),
+        cmocka_unit_test(test_normalised), cmocka_unit_test(test_held),        cmocka_unit_test(test_not_normalised),
     };
     int skip = open_renderer();
     return skip ? skip : close_renderer(cmocka_run_group_tests(tests, NULL, NULL));

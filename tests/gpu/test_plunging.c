@@ -1,5 +1,5 @@
-/* Particles that fall from the ISCO, as the device places them: against geodesics integrated from the metric, at any time, and
- * against the steady stream that they are to be; and that those who are off cost nothing. */
+/* Particles that fall from the ISCO, as the device places them: against geodesics integrated from the metric, at any
+ * time, and against the steady stream that they are to be; and that those who are off cost nothing. */
 #include "render/emit/particles.h"
 
 #include "physics/kerr.h"
@@ -34,10 +34,12 @@ static void places_at(struct kd_scene *scene, double time, struct kd_particle_pl
     OK(kd_particles_places(&work, scene, 0, 1, FALLING, out, &error));
 }
 
-/* dr/dt and dphi/dt of a body with the ISCO's E and L that falls: the inverse metric raises them, u.u = -1 gives u^r. */
+/* dr/dt and dphi/dt of a body with the ISCO's E and L that falls: the inverse metric raises them, u.u = -1 gives
+ * u^r. */
 static void slopes(double a, double r, double *dr, double *dphi)
 {
-    double isco = kd_kerr_isco(a), e = kd_kerr_energy(a, isco), l = kd_kerr_momentum(a, isco), delta = r * r - 2 * r + a * a;
+    double isco = kd_kerr_isco(a), e = kd_kerr_energy(a, isco), l = kd_kerr_momentum(a, isco),
+           delta = r * r - 2 * r + a * a;
     double pp = r * r + a * a + 2 * a * a / r;
     double ut = (pp * e - 2 * a * l / r) / delta, up = (2 * a * e / r + (1 - 2 / r) * l) / delta;
     *dr = -sqrt(fmax(e * ut - l * up - 1, 0) * delta) / r / ut;
@@ -92,8 +94,8 @@ static void test_geodesics(void **state)
                 double off_r = fabs(then[i].r / r - 1);
                 double off_phi = fabs(remainder(angle(then[i].phi - start[i].phi) - phi, 2 * M_PI));
                 if (!(off_r < 1e-6 && off_phi < 2e-6))
-                    fail_msg("a = %g, t = %g, from r = %g: r %g, not %g; phi off by %.2g", spins[s], times[k], start[i].r,
-                             then[i].r, r, off_phi);
+                    fail_msg("a = %g, t = %g, from r = %g: r %g, not %g; phi off by %.2g", spins[s], times[k],
+                             start[i].r, then[i].r, r, off_phi);
                 worst[0] = fmax(worst[0], off_r);
                 worst[1] = fmax(worst[1], off_phi);
             }
@@ -105,8 +107,8 @@ static void test_geodesics(void **state)
     printf("plunges over %g M: r within %.2g, phi within %.2g rad\n", step, worst[0], worst[1]);
 }
 
-/* A steady stream, at any time: uniform in coordinate time along the curve, and in azimuth; each lap has another azimuth, and the
- * same one whenever one looks. */
+/* A steady stream, at any time: uniform in coordinate time along the curve, and in azimuth; each lap has another
+ * azimuth, and the same one whenever one looks. */
 static void test_stream(void **state)
 {
     (void)state;
@@ -135,8 +137,8 @@ static void test_stream(void **state)
     }
 }
 
-/* w' of the lens map, integrated in single, against what the constants of the ray say in double, with the sign of the closed
- * form. */
+/* w' of the lens map, integrated in single, against what the constants of the ray say in double, with the sign of
+ * the closed form. */
 static void test_slopes(void **state)
 {
     (void)state;
@@ -171,7 +173,8 @@ static void test_slopes(void **state)
         for (uint64_t at = 0; at < orders * n; at++) {
             uint64_t slope = at + 2 * orders * n;
             double w[] = { planes[0][at], planes[1][at] }, dw[] = { planes[0][slope], planes[1][slope] };
-            if (!(w[0] > 1.01 / isco && w[1] > 0 && fabs(w[0] / w[1] - 1) < 1e-4 && 1 / w[0] > 1.02 * kd_kerr_horizon(0.3)))
+            if (!(w[0] > 1.01 / isco && w[1] > 0 && fabs(w[0] / w[1] - 1) < 1e-4 &&
+                  1 / w[0] > 1.02 * kd_kerr_horizon(0.3)))
                 continue; /* not of both, or next to the critical curve */
             double off = fabs(dw[0] - dw[1]) / (fabs(dw[1]) + 0.05);
             far += off > 1e-3;
@@ -203,9 +206,11 @@ static void test_off(void **state)
     struct kd_particle_grid grids[4];
     for (int k = 0; k < 4; k++)
         grids[k] = kd_particle_grid(&scenes[k]);
-    assert_true(kd_plan_holds(&plans[0], KD_LENS_SLOPE) && grids[0].plunging == FALLING && plans[0].planes == 3 * plans[0].orders);
+    assert_true(kd_plan_holds(&plans[0], KD_LENS_SLOPE) && grids[0].plunging == FALLING &&
+                plans[0].planes == 3 * plans[0].orders);
     for (int k = 1; k < 4; k++)
-        assert_true(!kd_plan_holds(&plans[k], KD_LENS_SLOPE) && plans[k].planes == 2 * plans[k].orders && strcmp(plans[k].lens_key, plans[0].lens_key));
+        assert_true(!kd_plan_holds(&plans[k], KD_LENS_SLOPE) && plans[k].planes == 2 * plans[k].orders &&
+                    strcmp(plans[k].lens_key, plans[0].lens_key));
     assert_true(!grids[1].plunging && !grids[2].plunging && grids[3].plunging == FALLING);
     assert_true(grids[1].bytes < grids[0].bytes && !grids[1].plunge_rows);
     assert_int_equal(plans[0].device_bytes - plans[1].device_bytes,

@@ -1,5 +1,6 @@
-/* The direction of polarisation against an oracle that carries vectors along rays in Kerr-Schild coordinates (kerr_schild_transport.h), which shares no equation with
- * the kernels' constant of Walker and Penrose; and Stokes layers among themselves. */
+/* The direction of polarisation against an oracle that carries vectors along rays in Kerr-Schild coordinates
+ * (kerr_schild_transport.h), which shares no equation with the kernels' constant of Walker and Penrose; and Stokes
+ * layers among themselves. */
 #include "kerr_schild_transport.h"
 #include "physics/kerr.h"
 #include "physics/scattering.h"
@@ -29,10 +30,20 @@ static const struct view views[] = {
     { 0.998, 75, INFINITY, 0, { { "polarization.field", "radial" } }, KS_RADIAL },
     { 0.7, 130, INFINITY, 0, { { "polarization.field", "vertical" } }, KS_VERTICAL },
     { -0.6, 90, INFINITY, 0, { { "polarization.field", "toroidal" } }, KS_TOROIDAL },
-    { 0.3, 60, INFINITY, 0, { { "disk.model", "particles" }, { "polarization.field", "radial" }, { "camera.field_m", "14" } }, KS_RADIAL },
+    { 0.3,
+      60,
+      INFINITY,
+      0,
+      { { "disk.model", "particles" }, { "polarization.field", "radial" }, { "camera.field_m", "14" } },
+      KS_RADIAL },
     { 0.5, 65, INFINITY, 0, { { "polarization.model", "scattering" } }, KS_VERTICAL },
     { 0.9, 70, 25, 20, { { "camera.observer", "zamo" } }, KS_TOROIDAL },
-    { 0.9, 60, 8, 0, { { "camera.observer", "zamo" }, { "camera.projection", "equirectangular" }, { "polarization.field", "radial" } }, KS_RADIAL },
+    { 0.9,
+      60,
+      8,
+      0,
+      { { "camera.observer", "zamo" }, { "camera.projection", "equirectangular" }, { "polarization.field", "radial" } },
+      KS_RADIAL },
     { 0.7, 100, 12, 0, { { "camera.observer", "infall" }, { "polarization.field", "vertical" } }, KS_VERTICAL },
 };
 
@@ -83,7 +94,8 @@ static const float *layer(const struct kd_frame *frame, const char *name)
 /* The middle of a pixel. The oracle's observers at infinity have no roll: its screen is turned by it afterwards. */
 static struct ks_screen screen_of(const struct kd_scene *scene, int pixel)
 {
-    const double theta = scene->camera.inclination_deg * RADIAN, roll = scene->camera.roll_deg * RADIAN, c = cos(roll), s = sin(roll);
+    const double theta = scene->camera.inclination_deg * RADIAN, roll = scene->camera.roll_deg * RADIAN, c = cos(roll),
+                 s = sin(roll);
     const bool far = isinf(scene->camera.r), sphere = scene->camera.projection == KD_PROJECTION_EQUIRECTANGULAR;
     const double across = pixel % WIDTH - 0.5 * (WIDTH - 1), upwards = 0.5 * (HEIGHT - 1) - pixel / WIDTH;
     const double step = (far ? scene->camera.field_m : 2 * tan(scene->camera.fov_deg * RADIAN / 2)) / WIDTH;
@@ -99,7 +111,8 @@ static struct ks_screen screen_of(const struct kd_scene *scene, int pixel)
     }
     const struct ks_place at = { scene->spacetime.spin, scene->camera.r, theta };
     const struct ks_frame frame = scene->camera.observer == KD_OBSERVER_INFALL ? ks_rain(&at) : ks_zamo(&at);
-    double ahead = 1, n = 1 / sqrt(1 + x * x + y * y), right = n * (x * c + y * s), up = n * (y * c - x * s), look[3], top[3] = { 0, -c, s };
+    double ahead = 1, n = 1 / sqrt(1 + x * x + y * y), right = n * (x * c + y * s), up = n * (y * c - x * s), look[3],
+           top[3] = { 0, -c, s };
     if (sphere) {
         const double longitude = 2 * M_PI * across / WIDTH, latitude = M_PI * upwards / HEIGHT;
         right = cos(latitude) * sin(longitude), up = sin(latitude), ahead = cos(latitude) * cos(longitude), n = 1;
@@ -108,11 +121,13 @@ static struct ks_screen screen_of(const struct kd_scene *scene, int pixel)
     return ks_screen_near(&at, &frame, look, top);
 }
 
-/* Each place is judged where its order shines. Half a turn more round the hole multiplies what a float is off by some 20: so that of order 1 may be off by ten times as much, and its radius is what
- * says that both follow the same ray. */
+/* Each place is judged where its order shines. Half a turn more round the hole multiplies what a float is off by
+ * some 20: so that of order 1 may be off by ten times as much, and its radius is what says that both follow the same
+ * ray. */
 static void judge(const struct view *view)
 {
-    static const char *const names[] = { "evpa_0", "evpa_1" }, *const parts[] = { "polarization_fraction_0", "polarization_fraction_1" };
+    static const char *const names[] = { "evpa_0", "evpa_1" }, *const parts[] = { "polarization_fraction_0",
+                                                                                  "polarization_fraction_1" };
     struct kd_scene scene = scene_of(view, "evpa_0,evpa_1,polarization_fraction_0,polarization_fraction_1,r_0,r_1");
     struct kd_frame frame = frame_of(&scene);
     const double isco = kd_kerr_isco(view->spin);
@@ -124,12 +139,14 @@ static void judge(const struct view *view)
             const struct ks_screen screen = screen_of(&scene, k);
             if (isnan(got))
                 continue;
-            const struct ks_polarized want = ks_polarization(&screen, n, view->field, scene.disk.model == KD_DISK_PARTICLES ? isco : 0);
+            const struct ks_polarized want =
+                ks_polarization(&screen, n, view->field, scene.disk.model == KD_DISK_PARTICLES ? isco : 0);
             assert_true(want.there);
             const double off = fabs(remainder(got - want.angle, M_PI)), r = (double)layer(&frame, n ? "r_1" : "r_0")[k];
             assert_true(fabs(r / want.r - 1) < (n ? 1e-3 : 1e-5));
             if (!(DEGREES(off) < (n ? 10 * MOST : MOST)))
-                fail_msg("a %g, i %g: EVPA of order %d at pixel %d, r %.4f: %.5f degrees, by the oracle %.5f", view->spin, view->inclination, n, k, r, DEGREES(got), DEGREES(want.angle));
+                fail_msg("a %g, i %g: EVPA of order %d at pixel %d, r %.4f: %.5f degrees, by the oracle %.5f",
+                         view->spin, view->inclination, n, k, r, DEGREES(got), DEGREES(want.angle));
             if (scene.polarization.model == KD_POLARIZATION_SCATTERING) {
                 struct kd_scattered light;
                 kd_scattered_light(&want.cosine, 1, &light);
@@ -140,7 +157,8 @@ static void judge(const struct view *view)
             worst = fmax(worst, off);
             compared++, behind += n, fallen += want.falls;
         }
-    printf("a %g, i %g, r %g: %d places, %d of order 1, %d where gas falls; off by %.5f degrees at most\n", view->spin, view->inclination, view->r, compared, behind, fallen, DEGREES(worst));
+    printf("a %g, i %g, r %g: %d places, %d of order 1, %d where gas falls; off by %.5f degrees at most\n", view->spin,
+           view->inclination, view->r, compared, behind, fallen, DEGREES(worst));
     assert_true(compared >= 4 && (fallen > 0) == (scene.disk.model == KD_DISK_PARTICLES));
     kd_frame_finish(&frame);
 }
@@ -152,15 +170,21 @@ static void test_evpa(void **state)
         judge(&views[i]);
 }
 
-/* A pixel has the mean of Q and U of its rays, of which angle and fraction are made; orders add up to the whole; the march says the same of what it lights. */
+/* A pixel has the mean of Q and U of its rays, of which angle and fraction are made; orders add up to the whole; the
+ * march says the same of what it lights. */
 static void test_stokes(void **state)
 {
     (void)state;
-    static const char *const settings[][2] = { { "image.samples", "1" }, { "image.samples", "2" }, { "image.critical_factor", "4" }, { "volume.model", "uniform" } };
+    static const char *const settings[][2] = { { "image.samples", "1" },
+                                               { "image.samples", "2" },
+                                               { "image.critical_factor", "4" },
+                                               { "volume.model", "uniform" } };
     for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) {
         const bool marched = i == 3;
-        struct kd_scene scene = scene_of(&views[1], marched ? "intensity,stokes_q,stokes_u,evpa,polarization_fraction"
-                                                            : "intensity,stokes_q,stokes_u,evpa,polarization_fraction,stokes_q_0,stokes_q_1,intensity_0,stokes_u_0,stokes_u_1");
+        struct kd_scene scene =
+            scene_of(&views[1], marched ? "intensity,stokes_q,stokes_u,evpa,polarization_fraction"
+                                        : "intensity,stokes_q,stokes_u,evpa,polarization_fraction,stokes_q_0,stokes_q_"
+                                          "1,intensity_0,stokes_u_0,stokes_u_1");
         scene.polarization.order = 0.8;
         scene.image.samples = marched ? 2 : 1;
         OK(kd_scene_set(&scene, settings[i][0], settings[i][1], &error));
@@ -177,8 +201,10 @@ static void test_stokes(void **state)
             assert_true(fabs((double)part[k] * (double)light[k] / size - 1) < 1e-5);
             assert_true(fabs(remainder((double)evpa[k] - 0.5 * atan2((double)u[k], (double)q[k]), M_PI)) < 1e-6);
             if (!marched) {
-                assert_true(fabs((double)layer(&frame, "stokes_q_0")[k] + (double)layer(&frame, "stokes_q_1")[k] - (double)q[k]) < 1e-6 * (double)light[k]);
-                assert_true(fabs((double)layer(&frame, "stokes_u_0")[k] + (double)layer(&frame, "stokes_u_1")[k] - (double)u[k]) < 1e-6 * (double)light[k]);
+                assert_true(fabs((double)layer(&frame, "stokes_q_0")[k] + (double)layer(&frame, "stokes_q_1")[k] -
+                                 (double)q[k]) < 1e-6 * (double)light[k]);
+                assert_true(fabs((double)layer(&frame, "stokes_u_0")[k] + (double)layer(&frame, "stokes_u_1")[k] -
+                                 (double)u[k]) < 1e-6 * (double)light[k]);
             }
             lit++, mixed += size < 0.99 * full * (double)light[k];
         }
@@ -187,10 +213,12 @@ static void test_stokes(void **state)
     }
 }
 
-/* Face on and without spin light stays in a plane through the axis, and carries its direction across that plane and in it unchanged. By the ray's angle to the radius in the frame at rest,
- * sin = b sqrt(1 - 2/r)/r, and the aberration of the orbit, whose speed is 1/sqrt(r - 2), the electric field points from outwards to +phi by
+/* Face on and without spin light stays in a plane through the axis, and carries its direction across that plane and
+ * in it unchanged. By the ray's angle to the radius in the frame at rest, sin = b sqrt(1 - 2/r)/r, and the
+ * aberration of the orbit, whose speed is 1/sqrt(r - 2), the electric field points from outwards to +phi by
  *   a toroidal field 0,  a radial one atan2(sin, -v cos),  a vertical one atan2(cos, v sin)
- * (Narayan et al. 2021, ApJ 912, 35; Gelles et al. 2021, PRD 104, 044060), which in closed form have cos = 2/r (Beloborodov 2002): good to a part of 1/r. */
+ * (Narayan et al. 2021, ApJ 912, 35; Gelles et al. 2021, PRD 104, 044060), which in closed form have cos = 2/r
+ * (Beloborodov 2002): good to a part of 1/r. */
 static void test_face_on(void **state)
 {
     (void)state;
@@ -203,18 +231,21 @@ static void test_face_on(void **state)
         int seen = 0;
         for (int k = 0; k < PIXELS; k++) {
             const double got = (double)layer(&frame, "evpa_0")[k], r = (double)layer(&frame, "r_0")[k];
-            const double right = k % WIDTH - 0.5 * (WIDTH - 1), up = 0.5 * (HEIGHT - 1) - k / WIDTH, out = atan2(-right, up), b = hypot(right, up) * scene.camera.field_m / WIDTH;
+            const double right = k % WIDTH - 0.5 * (WIDTH - 1), up = 0.5 * (HEIGHT - 1) - k / WIDTH,
+                         out = atan2(-right, up), b = hypot(right, up) * scene.camera.field_m / WIDTH;
             if (isnan(got))
                 continue;
             for (int rule = 0; rule < 2; rule++) {
-                const double sine = rule ? sqrt(1 - 4 / (r * r)) : b * sqrt(1 - 2 / r) / r, cosine = rule ? 2 / r : sqrt(1 - sine * sine), v = 1 / sqrt(r - 2);
+                const double sine = rule ? sqrt(1 - 4 / (r * r)) : b * sqrt(1 - 2 / r) / r,
+                             cosine = rule ? 2 / r : sqrt(1 - sine * sine), v = 1 / sqrt(r - 2);
                 const double want = out + (i == 0 ? 0 : i == 1 ? atan2(sine, -v * cosine) : atan2(cosine, v * sine));
                 double *most = rule ? &by_rule : &worst;
                 *most = fmax(*most, fabs(remainder(got - want, M_PI)));
             }
             seen++;
         }
-        printf("face on, %s: %d places, off by %.5f degrees; by cos = 2/r %.2f\n", fields[i], seen, DEGREES(worst), DEGREES(by_rule));
+        printf("face on, %s: %d places, off by %.5f degrees; by cos = 2/r %.2f\n", fields[i], seen, DEGREES(worst),
+               DEGREES(by_rule));
         assert_true(seen > 100 && DEGREES(worst) < 5 * MOST && DEGREES(by_rule) < 0.5);
         kd_frame_finish(&frame);
     }
@@ -225,6 +256,7 @@ int main(void)
     int status = open_renderer();
     if (status)
         return status;
-    const struct CMUnitTest tests[] = { cmocka_unit_test(test_evpa), cmocka_unit_test(test_stokes), cmocka_unit_test(test_face_on) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_evpa), cmocka_unit_test(test_stokes),
+                                        cmocka_unit_test(test_face_on) };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

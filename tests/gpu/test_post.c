@@ -1,5 +1,5 @@
-/* The post kernels alone: the sRGB curve at every level of 16 bits against double, places and packing, the kernel that reads
- * texels against the one that reads storage. */
+/* The post kernels alone: the sRGB curve at every level of 16 bits against double, places and packing, the kernel
+ * that reads texels against the one that reads storage. */
 #include "render_support.h"
 
 #include "render/device/internal.h"
@@ -10,7 +10,8 @@
 /* IEC 61966-2-1, from an encoded value to light. */
 
 /* Radiance through a kernel; words are `out`, room for whole groups. */
-static void post_by(bool texels, const uint32_t *constants, size_t n, const float *light, struct kd_post_push push, void *out)
+static void post_by(bool texels, const uint32_t *constants, size_t n, const float *light, struct kd_post_push push,
+                    void *out)
 {
     struct kd_vk *vk = renderer->vk;
     const struct kd_vk_pipeline *pipeline;
@@ -20,9 +21,11 @@ static void post_by(bool texels, const uint32_t *constants, size_t n, const floa
     OK(kd_vk_buffer_create(vk, bytes, KD_VK_READBACK, "words", &words, &error));
     memcpy(kd_vk_buffer_map(in), light, 12ull * push.pixels);
     OK(kd_kernels_get(&renderer->kernels, vk, kd_kernel_post(texels, false, false), constants, n, &pipeline, &error));
-    const struct kd_vk_dispatch d = { .pass = "post", .pipeline = pipeline,
+    const struct kd_vk_dispatch d = { .pass = "post",
+                                      .pipeline = pipeline,
                                       .bindings = { { .buffer = in }, { .buffer = words, .write = true } },
-                                      .push = &push, .groups = { kd_post_groups(push.pixels) } };
+                                      .push = &push,
+                                      .groups = { kd_post_groups(push.pixels) } };
     OK(kd_vk_fill(vk, "fill", words, 0, bytes, 0xffffffff, &error));
     OK(kd_vk_dispatch(vk, &d, &error));
     OK(kd_vk_submit(vk, NULL, &error));
@@ -37,8 +40,9 @@ static void post(bool texels, bool film, bool wide, const float *light, struct k
     post_by(texels, (uint32_t[]) { film, wide }, 2, light, push, out);
 }
 
-/* Light a little less than half a step from each level still rounds to it. What is missing to the half step, 0.06, is 9e-7 of the
- * whole, and that is what the curve may be wrong by; a twentieth of it is the rounding of light to a float and of 65535 times the curve. */
+/* Light a little less than half a step from each level still rounds to it. What is missing to the half step, 0.06,
+ * is 9e-7 of the whole, and that is what the curve may be wrong by; a twentieth of it is the rounding of light to a
+ * float and of 65535 times the curve. */
 static void every_level(void **state)
 {
     (void)state;
@@ -57,36 +61,48 @@ static void every_level(void **state)
     }
 }
 
-/* Interleaved gradient noise (J. Jimenez 2014) in double, from -1/2 to 1/2. What fract amplifies is the kernel's own roundoff:
- * 53 times that of sums of up to a few hundred. */
+/* Interleaved gradient noise (J. Jimenez 2014) in double, from -1/2 to 1/2. What fract amplifies is the kernel's own
+ * roundoff: 53 times that of sums of up to a few hundred. */
 static double noise(double x, double y)
 {
     double inner = 0.06711056 * x + 0.00583715 * y, outer = 52.9829189 * (inner - floor(inner));
     return outer - floor(outer) - 0.5;
 }
 
-/* Dithered grey: rows, columns and channels are where they belong, in pictures of any width, from any place on; far behind 2^24, too,
- * where a place is no float any more. What follows the last pixel is zero up to whole groups. */
+/* Dithered grey: rows, columns and channels are where they belong, in pictures of any width, from any place on; far
+ * behind 2^24, too, where a place is no float any more. What follows the last pixel is zero up to whole groups. */
 static void places(void **state)
 {
     (void)state;
-    static const struct { uint32_t width, first, pixels; } cases[] = {
-        { 1, 0, 7 }, { 2, 0, 9 }, { 3, 5, 301 }, { 5, 0, 1023 }, { 157, 157 * 40, 157 * 7 }, { 320, 0, 6400 }, { 32767, 32767u * 32766, 32767 },
+    static const struct {
+        uint32_t width, first, pixels;
+    } cases[] = {
+        { 1, 0, 7 },
+        { 2, 0, 9 },
+        { 3, 5, 301 },
+        { 5, 0, 1023 },
+        { 157, 157 * 40, 157 * 7 },
+        { 320, 0, 6400 },
+        { 32767, 32767u * 32766, 32767 },
         { 32768, 32768u * 32760, 65536 },
     };
     static float light[3 * 65536];
     static uint16_t found[3 * (65536 + KD_GROUP_SIZE * KD_POST_PIXELS)];
-    const float level[3] = { 1000.5f, 30000.5f, 60000.5f }; /* dithered to the one below or above by the place's own threshold */
+    const float level[3] = { 1000.5f, 30000.5f,
+                             60000.5f }; /* dithered to the one below or above by the place's own threshold */
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
         uint32_t n = cases[c].pixels, unsure = 0;
         for (uint32_t i = 0; i < 3 * n; i++)
             light[i] = (float)decode((double)level[i % 3] / 65535) / 2;
         post(true, false, true, light,
-             (struct kd_post_push) { .gain = 2, .dither = 1, .pixels = n, .first = cases[c].first, .pixels_x = cases[c].width }, found);
+             (struct kd_post_push) {
+                 .gain = 2, .dither = 1, .pixels = n, .first = cases[c].first, .pixels_x = cases[c].width },
+             found);
         for (uint32_t i = 0; i < 3 * n; i++) {
             uint32_t at = cases[c].first + i / 3;
             double d = 0.998 * noise(at % cases[c].width, at / cases[c].width), v = level[i % 3] + 0.5 + d;
-            /* A tie, to within what curve and noise may be wrong by, may go either way; so may a noise that wraps round. */
+            /* A tie, to within what curve and noise may be wrong by, may go either way; so may a noise that wraps
+             * round. */
             bool tie = fabs(v - round(v)) < 0.1 || fabs(d) > 0.45;
             unsure += tie;
             assert_true(tie ? abs(found[i] - (int)floor((double)level[i % 3] + 0.5)) <= 1 : found[i] == (int)floor(v));
@@ -97,7 +113,8 @@ static void places(void **state)
     }
 }
 
-/* One and the same to the byte, whichever way the light is read; NaN and infinite light do no harm to the pixels beside them. */
+/* One and the same to the byte, whichever way the light is read; NaN and infinite light do no harm to the pixels
+ * beside them. */
 static void both_readers(void **state)
 {
     (void)state;
@@ -125,8 +142,8 @@ static void both_readers(void **state)
     }
 }
 
-/* Light at white and beyond stays white: no dither lifts it over the last level, nor lowers it by more than one of 16 bits, and black
- * stays black. */
+/* Light at white and beyond stays white: no dither lifts it over the last level, nor lowers it by more than one of
+ * 16 bits, and black stays black. */
 static void ends(void **state)
 {
     (void)state;
@@ -137,7 +154,8 @@ static void ends(void **state)
         bool film = k & 1, wide = k & 2, black = k & 4;
         for (int i = 0; i < 3 * N; i++)
             light[i] = black ? 0 : i / 3 % 2 || film ? 1e7f : 1;
-        post(true, film, wide, light, (struct kd_post_push) { .gain = 1, .dither = 1, .pixels = N, .pixels_x = 64 }, found);
+        post(true, film, wide, light, (struct kd_post_push) { .gain = 1, .dither = 1, .pixels = N, .pixels_x = 64 },
+             found);
         for (int i = 0; i < 3 * N; i++) {
             int level = wide ? found[i] : ((uint8_t *)found)[i];
             assert_true(black ? level == 0 : wide ? level >= 65534 : level == 255);
@@ -149,7 +167,8 @@ static void ends(void **state)
 static void khronos(const double in[3], double out[3])
 {
     const double compress = 0.8 - 0.04, desaturate = 0.15, d = 1 - compress;
-    double least = fmin(in[0], fmin(in[1], in[2])), offset = least < 0.08 ? least - 6.25 * least * least : 0.04, peak = 0;
+    double least = fmin(in[0], fmin(in[1], in[2])), offset = least < 0.08 ? least - 6.25 * least * least : 0.04,
+           peak = 0;
     for (int c = 0; c < 3; c++)
         peak = fmax(peak, out[c] = in[c] - offset);
     if (peak < compress)
@@ -169,14 +188,17 @@ static void neutral(void **state)
     srand(7);
     for (int i = 0; i < 3 * N; i++)
         light[i] = i < 30 ? 0 : exp2f(-9 + 15 * (float)rand() / (float)RAND_MAX);
-    post_by(true, (uint32_t[]) { false, true, true }, 3, light, (struct kd_post_push) { .gain = 1, .pixels = N, .pixels_x = 64 }, found);
+    post_by(true, (uint32_t[]) { false, true, true }, 3, light,
+            (struct kd_post_push) { .gain = 1, .pixels = N, .pixels_x = 64 }, found);
     for (int i = 0; i < N; i++) {
         double in[3] = { (double)light[3 * i], (double)light[3 * i + 1], (double)light[3 * i + 2] }, out[3];
         khronos(in, out);
         for (int c = 0; c < 3; c++) {
-            double want = decode(found[3 * i + c] / 65535.0), step = want - decode(fmax(found[3 * i + c] - 1, 0) / 65535.0);
+            double want = decode(found[3 * i + c] / 65535.0),
+                   step = want - decode(fmax(found[3 * i + c] - 1, 0) / 65535.0);
             if (fabs(want - fmin(fmax(out[c], 0), 1)) > 2 * fmax(step, 1e-6))
-                fail_msg("light %.6g %.6g %.6g, channel %d: %.6g instead of %.6g", in[0], in[1], in[2], c, want, out[c]);
+                fail_msg("light %.6g %.6g %.6g, channel %d: %.6g instead of %.6g", in[0], in[1], in[2], c, want,
+                         out[c]);
         }
     }
 }
@@ -186,7 +208,8 @@ int main(void)
     int skip = open_renderer();
     if (skip)
         return skip;
-    const struct CMUnitTest tests[] = { cmocka_unit_test(every_level), cmocka_unit_test(places), cmocka_unit_test(both_readers),
-                                        cmocka_unit_test(ends), cmocka_unit_test(neutral) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(every_level), cmocka_unit_test(places),
+                                        cmocka_unit_test(both_readers), cmocka_unit_test(ends),
+                                        cmocka_unit_test(neutral) };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -1,6 +1,6 @@
-/* Pictures of all directions and of half of them, from a finite radius. The direction of a pixel is made here by rotations about the axes of
- * the camera, one after the other; the Kerr-Schild oracle says where the photon from there was. Cameras of this kind look outwards too, where
- * a picture through a pinhole seldom does. */
+/* Pictures of all directions and of half of them, from a finite radius. The direction of a pixel is made here by
+ * rotations about the axes of the camera, one after the other; the Kerr-Schild oracle says where the photon from
+ * there was. Cameras of this kind look outwards too, where a picture through a pinhole seldom does. */
 #include "kerr_schild.h"
 #include "render/render.h"
 #include "render/view/camera.h"
@@ -36,7 +36,8 @@ static struct direction seen(const struct kd_scene *scene, double x, double y)
     return d;
 }
 
-/* Roll, pitch, yaw: a camera that rolls clockwise sees what was above it to its left, one that is pitched up looks above the hole. */
+/* Roll, pitch, yaw: a camera that rolls clockwise sees what was above it to its left, one that is pitched up looks
+ * above the hole. */
 static struct ks_photon photon(const struct kd_scene *scene, double x, double y)
 {
     const struct kd_camera *c = &scene->camera;
@@ -74,7 +75,8 @@ static void labels(const struct kd_scene *scene)
         kd_camera_label(&camera, k % WIDTH, k / WIDTH, &is);
         const double alpha = -want.momentum / (s * want.energy), beta = want.p_theta / fabs(want.energy);
         if (!(fabs(is.alpha - alpha) < bound && fabs(is.beta - beta) < bound && is.outward == (want.p_r < 0)))
-            fail_msg("ray %u: alpha %.17g beta %.17g %d, not %.17g %.17g p_r %g", k, is.alpha, is.beta, is.outward, alpha, beta, want.p_r);
+            fail_msg("ray %u: alpha %.17g beta %.17g %d, not %.17g %.17g p_r %g", k, is.alpha, is.beta, is.outward,
+                     alpha, beta, want.p_r);
     }
 }
 
@@ -83,8 +85,8 @@ static double apart(const struct ks_path *a, double u, double phi)
     return hypot(u - a->u, sqrt(fmax(0, 1 - a->u * a->u)) * remainder(phi - a->sky_phi, 2 * M_PI));
 }
 
-/* The angle by which directions of escape are off, over 1 + how much they change with the ray; the fates are the oracle's wherever a ray
- * beside it has the same. */
+/* The angle by which directions of escape are off, over 1 + how much they change with the ray; the fates are the
+ * oracle's wherever a ray beside it has the same. */
 static void map(const struct kd_scene *scene, enum kd_lens_path path)
 {
     static float planes[PLANES * RAYS];
@@ -100,18 +102,21 @@ static void map(const struct kd_scene *scene, enum kd_lens_path path)
     OK(kd_render_lens(renderer, scene, &plan, planes, NULL, &error));
     for (int k = 0; k < RAYS; k++) {
         const double x = k % WIDTH + 0.5, y = k / WIDTH + 0.5;
-        const struct ks_path want = ks_trace(photon(scene, x, y), 16), beside = ks_trace(photon(scene, x + nudge, y + nudge), 16);
+        const struct ks_path want = ks_trace(photon(scene, x, y), 16),
+                             beside = ks_trace(photon(scene, x + nudge, y + nudge), 16);
         if (fate[k] == KD_FATE_UNDECIDED)
             fail_msg("ray %d, %d was given up", k % WIDTH, k / WIDTH);
         if (want.fate != beside.fate || want.fate == KS_UNDECIDED)
             continue;
         assert_true((fate[k] == KD_FATE_ESCAPED) == (want.fate == KS_ESCAPED));
         if (want.fate == KS_ESCAPED) {
-            worst = fmax(worst, apart(&want, u[k], phi[k]) / (1 + apart(&want, beside.u, beside.sky_phi) / (nudge * M_PI / HEIGHT)));
+            worst = fmax(worst, apart(&want, u[k], phi[k]) /
+                                    (1 + apart(&want, beside.u, beside.sky_phi) / (nudge * M_PI / HEIGHT)));
             escaped++;
         }
     }
-    print_message("a = %g, r = %g: %d directions, off by at most %.1e\n", scene->spacetime.spin, scene->camera.r, escaped, worst);
+    print_message("a = %g, r = %g: %d directions, off by at most %.1e\n", scene->spacetime.spin, scene->camera.r,
+                  escaped, worst);
     assert_true(escaped > RAYS / 4 && worst < 2e-6);
 }
 
@@ -119,7 +124,8 @@ static void wide(void **state)
 {
     (void)state;
     for (int projection = KD_PROJECTION_EQUIRECTANGULAR; projection <= KD_PROJECTION_FULLDOME; projection++) {
-        struct kd_scene ahead = scene_of(0.9, 75, 8, projection), turned = scene_of(-0.6, 120, 25, projection), within = scene_of(0.7, 60, 2.4, projection);
+        struct kd_scene ahead = scene_of(0.9, 75, 8, projection), turned = scene_of(-0.6, 120, 25, projection),
+                        within = scene_of(0.7, 60, 2.4, projection);
         turned.camera.yaw_deg = 130;
         turned.camera.pitch_deg = 40;
         turned.camera.roll_deg = 25;
@@ -134,8 +140,9 @@ static void wide(void **state)
     }
 }
 
-/* Rays that fly outwards along the axis of the hole more than round it never meet the plane, or meet it late: Q is 0 or nearly so, and the
- * closed form of the polar motion loses the time to a crossing that there is not. At these sizes a row of pixels lies there. */
+/* Rays that fly outwards along the axis of the hole more than round it never meet the plane, or meet it late: Q is 0
+ * or nearly so, and the closed form of the polar motion loses the time to a crossing that there is not. At these
+ * sizes a row of pixels lies there. */
 static void outwards(void **state)
 {
     (void)state;
@@ -152,8 +159,8 @@ static void outwards(void **state)
     }
 }
 
-/* So it is for rays inwards, of which a picture has an ellipse full: none of them may find a crossing that the closed form in double, of another
- * source, knows nothing of. One in this picture did. */
+/* So it is for rays inwards, of which a picture has an ellipse full: none of them may find a crossing that the
+ * closed form in double, of another source, knows nothing of. One in this picture did. */
 static void inwards(void **state)
 {
     (void)state;
@@ -177,7 +184,8 @@ static void inwards(void **state)
     }
     for (int k = 0; k < ACROSS * DOWN; k++)
         if ((found[k] > 0) != (known[k] > 0))
-            fail_msg("ray %d, %d: a crossing at w = %g, not at %g", k % ACROSS, k / ACROSS, (double)found[k], (double)known[k]);
+            fail_msg("ray %d, %d: a crossing at w = %g, not at %g", k % ACROSS, k / ACROSS, (double)found[k],
+                     (double)known[k]);
 }
 
 int main(void)

@@ -1,6 +1,7 @@
-/* What each ray says of its own error, by every engine, against Taylor series in extended precision (tests/oracle/null_series.h): 999
- * rays of 1000 are within it, and no ray has another number of crossings or another fate unsaid. Evenly over the image, at the
- * critical curve, along the plane of the disk, and at the ends of the ranges of spin, inclination and radius. */
+/* What each ray says of its own error, by every engine, against Taylor series in extended precision
+ * (tests/oracle/null_series.h): 999 rays of 1000 are within it, and no ray has another number of crossings or
+ * another fate unsaid. Evenly over the image, at the critical curve, along the plane of the disk, and at the ends of
+ * the ranges of spin, inclination and radius. */
 #include "null_extremes.h"
 #include "null_reference.h"
 #include "null_series.h"
@@ -16,18 +17,45 @@
 
 enum { ORDERS = 8, RAYS = 120 };
 
-static const struct view { double spin, inclination, r; enum { EVENLY, CRITICAL, FLAT } where; } views[] = {
-    { 0.9, 70, INFINITY, EVENLY }, { 0, 45, INFINITY, EVENLY }, { 0.998, 85, INFINITY, EVENLY }, { -0.7, 20, INFINITY, EVENLY },
-    { 0.5, 135, INFINITY, EVENLY }, { 0.9, 90, INFINITY, EVENLY }, { 0.9, 0, INFINITY, EVENLY }, { 0.3, 180, INFINITY, EVENLY },
-    { 0.9, 89.99, INFINITY, EVENLY }, { 0.9, 60, 50, EVENLY },
-    { 0.9, 70, INFINITY, CRITICAL }, { 0, 45, INFINITY, CRITICAL }, { 0.998, 85, INFINITY, CRITICAL }, { -0.7, 20, INFINITY, CRITICAL },
-    { 0.5, 135, INFINITY, CRITICAL }, { 0.9, 90, INFINITY, CRITICAL }, { 0.9, 0, INFINITY, CRITICAL }, { 0.9, 89.99, INFINITY, CRITICAL },
-    { 0.9999999, 60, INFINITY, EVENLY }, { 0.999999999999, 70, INFINITY, EVENLY }, { -0.999999999999, 45, INFINITY, EVENLY },
-    { 0.9999999, 90, INFINITY, EVENLY }, { 5e-324, 30, INFINITY, EVENLY }, { 0.9, 5e-324, INFINITY, EVENLY },
-    { 0.9, 1e-3, INFINITY, EVENLY }, { 0.9, 89.99999999999999, INFINITY, EVENLY }, { 0.9, 90.00000000000001, INFINITY, EVENLY },
-    { 0.9, 60, 1e6, EVENLY }, { 0.9, 60, 3, EVENLY }, { 0, 80, 3, EVENLY }, { 0.9999999, 60, 1.2, EVENLY }, { 0.9, 60, 1.45, EVENLY },
+static const struct view {
+    double spin, inclination, r;
+    enum { EVENLY, CRITICAL, FLAT } where;
+} views[] = {
+    { 0.9, 70, INFINITY, EVENLY },
+    { 0, 45, INFINITY, EVENLY },
+    { 0.998, 85, INFINITY, EVENLY },
+    { -0.7, 20, INFINITY, EVENLY },
+    { 0.5, 135, INFINITY, EVENLY },
+    { 0.9, 90, INFINITY, EVENLY },
+    { 0.9, 0, INFINITY, EVENLY },
+    { 0.3, 180, INFINITY, EVENLY },
+    { 0.9, 89.99, INFINITY, EVENLY },
+    { 0.9, 60, 50, EVENLY },
+    { 0.9, 70, INFINITY, CRITICAL },
+    { 0, 45, INFINITY, CRITICAL },
+    { 0.998, 85, INFINITY, CRITICAL },
+    { -0.7, 20, INFINITY, CRITICAL },
+    { 0.5, 135, INFINITY, CRITICAL },
+    { 0.9, 90, INFINITY, CRITICAL },
+    { 0.9, 0, INFINITY, CRITICAL },
+    { 0.9, 89.99, INFINITY, CRITICAL },
+    { 0.9999999, 60, INFINITY, EVENLY },
+    { 0.999999999999, 70, INFINITY, EVENLY },
+    { -0.999999999999, 45, INFINITY, EVENLY },
+    { 0.9999999, 90, INFINITY, EVENLY },
+    { 5e-324, 30, INFINITY, EVENLY },
+    { 0.9, 5e-324, INFINITY, EVENLY },
+    { 0.9, 1e-3, INFINITY, EVENLY },
+    { 0.9, 89.99999999999999, INFINITY, EVENLY },
+    { 0.9, 90.00000000000001, INFINITY, EVENLY },
+    { 0.9, 60, 1e6, EVENLY },
+    { 0.9, 60, 3, EVENLY },
+    { 0, 80, 3, EVENLY },
+    { 0.9999999, 60, 1.2, EVENLY },
+    { 0.9, 60, 1.45, EVENLY },
     { -0.9, 90, 4, EVENLY },
-    { 0.9, 89.99, INFINITY, FLAT }, { 0.998, 85, INFINITY, FLAT },
+    { 0.9, 89.99, INFINITY, FLAT },
+    { 0.998, 85, INFINITY, FLAT },
 };
 enum { VIEWS = sizeof views / sizeof *views };
 
@@ -63,7 +91,10 @@ static void prepare(void)
         const struct view *v = &views[i];
         struct list *l = &lists[i];
         struct series_ray ray = { .spin = v->spin, .radius = v->r };
-        const struct kd_rays_params params = { .spin = v->spin, .r = v->r, .inclination_deg = v->inclination, .orders = ORDERS,
+        const struct kd_rays_params params = { .spin = v->spin,
+                                               .r = v->r,
+                                               .inclination_deg = v->inclination,
+                                               .orders = ORDERS,
                                                .precision = KD_PRECISION_F64 };
         series_angle(v->inclination, &ray.cosine, &ray.sine);
         const struct kd_critical curve = kd_critical_of(&(struct kd_critical_observer) {
@@ -87,7 +118,8 @@ static void test_series(void **state)
     for (size_t i = 0; i < sizeof null_reference / sizeof *null_reference; i++) {
         const struct null_reference *e = &null_reference[i];
         const long double c = e->cos_theta;
-        const struct series_path p = series_trace(&(struct series_ray) { e->spin, e->radius, c, sqrtl((1 - c) * (1 + c)), e->alpha, e->beta, e->outward }, 4);
+        const struct series_path p = series_trace(
+            &(struct series_ray) { e->spin, e->radius, c, sqrtl((1 - c) * (1 + c)), e->alpha, e->beta, e->outward }, 4);
         assert_int_equal(p.crossings, e->crossings);
         assert_int_equal(p.fate == SERIES_CAPTURED, e->captured);
         for (int k = 0; k < p.crossings; k++) {
@@ -98,7 +130,8 @@ static void test_series(void **state)
     for (size_t i = 0; i < sizeof null_extremes / sizeof *null_extremes; i++) {
         const struct null_extreme *e = &null_extremes[i];
         const long double c = e->cos_theta;
-        const struct series_path p = series_trace(&(struct series_ray) { e->spin, e->radius, c, sqrtl((1 - c) * (1 + c)), e->alpha, e->beta, e->outward }, 8);
+        const struct series_path p = series_trace(
+            &(struct series_ray) { e->spin, e->radius, c, sqrtl((1 - c) * (1 + c)), e->alpha, e->beta, e->outward }, 8);
         assert_int_equal(p.crossings, e->crossings);
         for (int k = 0; k < p.crossings; k++) /* to 1e-12 from the critical curve */
             assert_true(fabsl(p.r[k] / e->crossing[k].r - 1) < 1e-10L);
@@ -117,9 +150,13 @@ static double off_by(const struct series_path *p, const struct kd_ray_end *e, co
     return (double)(2 * asinl(sqrtl(s * s + sinl(theta) * sinl(e->theta) * t * t)));
 }
 
-struct tally { size_t rays, loose, silent, doubt; double worst; };
+struct tally {
+    size_t rays, loose, silent, doubt;
+    double worst;
+};
 
-static void judge(const struct list *l, const struct kd_ray_end *ends, const struct kd_ray_crossing *crossings, struct tally *t)
+static void judge(const struct list *l, const struct kd_ray_end *ends, const struct kd_ray_crossing *crossings,
+                  struct tally *t)
 {
     for (size_t k = 0; k < l->n; k++) {
         const struct series_path *p = &l->paths[k];
@@ -142,14 +179,20 @@ static void check(enum kd_engine engine, enum kd_precision precision, uint32_t s
     struct tally t = { 0 };
     for (int i = 0; i < VIEWS; i++) {
         const struct kd_rays_params params = {
-            .spin = views[i].spin, .r = views[i].r, .inclination_deg = views[i].inclination, .orders = ORDERS, .engine = engine,
-            .precision = precision, .steps = steps,
+            .spin = views[i].spin,
+            .r = views[i].r,
+            .inclination_deg = views[i].inclination,
+            .orders = ORDERS,
+            .engine = engine,
+            .precision = precision,
+            .steps = steps,
         };
         OK(kd_rays_trace(renderer, &params, lists[i].rays, lists[i].n, crossings, ends, NULL, NULL, &error));
         judge(&lists[i], ends, crossings, &t);
     }
-    print_message("%s %s %4u: %zu rays, %zu off by more than their error (%.2g times), %zu silent, %zu in doubt\n", kd_engine_name(engine),
-                  kd_precision_name(precision), steps, t.rays, t.loose, t.worst, t.silent, t.doubt);
+    print_message("%s %s %4u: %zu rays, %zu off by more than their error (%.2g times), %zu silent, %zu in doubt\n",
+                  kd_engine_name(engine), kd_precision_name(precision), steps, t.rays, t.loose, t.worst, t.silent,
+                  t.doubt);
     assert_true(1000 * t.loose <= t.rays);
     assert_int_equal(t.silent, 0);
 }
@@ -194,8 +237,13 @@ static void test_few_steps_at_high_order(void **state)
     static const double ray[] = { -1.6669973089626946, -3.110289181593279 };
     struct kd_ray_crossing crossings[ORDERS];
     struct kd_ray_end end;
-    const struct kd_rays_params params = { .spin = 0.998, .r = INFINITY, .inclination_deg = 85, .orders = ORDERS, .engine = KD_ENGINE_MINO_RKN6,
-                                           .precision = KD_PRECISION_F32, .steps = 4 };
+    const struct kd_rays_params params = { .spin = 0.998,
+                                           .r = INFINITY,
+                                           .inclination_deg = 85,
+                                           .orders = ORDERS,
+                                           .engine = KD_ENGINE_MINO_RKN6,
+                                           .precision = KD_PRECISION_F32,
+                                           .steps = 4 };
     OK(kd_rays_trace(renderer, &params, ray, 1, crossings, &end, NULL, NULL, &error));
     assert_true(end.n_crossings == 8 || end.error >= 1);
 }
@@ -203,7 +251,8 @@ static void test_few_steps_at_high_order(void **state)
 /* Crossings further off than a tolerance, in all lists; of them, those of rays that say that they are within it. */
 struct held { size_t crossings, off, silent, again, beyond, rays; };
 
-static void count(const struct list *l, double tolerance, const struct kd_ray_end *ends, const struct kd_ray_crossing *crossings, struct held *t)
+static void count(const struct list *l, double tolerance, const struct kd_ray_end *ends,
+                  const struct kd_ray_crossing *crossings, struct held *t)
 {
     for (size_t k = 0; k < l->n; k++) {
         const struct series_path *p = &l->paths[k];
@@ -228,8 +277,14 @@ static struct held hold(const struct kd_setting *by, double tolerance, bool agai
     struct held t = { 0 };
     for (int i = 0; i < VIEWS; i++) {
         const struct kd_rays_params params = {
-            .spin = views[i].spin, .r = views[i].r, .inclination_deg = views[i].inclination, .orders = ORDERS, .engine = by->engine,
-            .precision = by->precision, .steps = by->steps, .tolerance = again ? tolerance : 0,
+            .spin = views[i].spin,
+            .r = views[i].r,
+            .inclination_deg = views[i].inclination,
+            .orders = ORDERS,
+            .engine = by->engine,
+            .precision = by->precision,
+            .steps = by->steps,
+            .tolerance = again ? tolerance : 0,
         };
         OK(kd_rays_trace(renderer, &params, lists[i].rays, lists[i].n, crossings, ends, NULL, NULL, &error));
         count(&lists[i], tolerance, ends, crossings, &t);
@@ -248,13 +303,16 @@ static void test_tolerance(void **state)
         wish.tolerance = pow(10, -k);
         OK(kd_setting_of(&wish, kd_accuracy_built_in(), kd_vk_info(renderer->vk)->float64, &by, &error));
         const struct held once = hold(&by, wish.tolerance, false), held = hold(&by, wish.tolerance, true);
-        print_message("%.0e, %s %s %u: %zu crossings, %zu beyond at first (%.3g %%), %zu after %zu of %zu rays were followed again, %zu rays say so\n",
-                      wish.tolerance, kd_engine_name(by.engine), kd_precision_name(by.precision), by.steps, once.crossings, once.off,
-                      100.0 * (double)once.off / (double)once.crossings, held.off, held.again, held.rays, held.beyond);
+        print_message("%.0e, %s %s %u: %zu crossings, %zu beyond at first (%.3g %%), %zu after %zu of %zu rays were "
+                      "followed again, %zu rays say so\n",
+                      wish.tolerance, kd_engine_name(by.engine), kd_precision_name(by.precision), by.steps,
+                      once.crossings, once.off, 100.0 * (double)once.off / (double)once.crossings, held.off, held.again,
+                      held.rays, held.beyond);
         assert_true(by.engine == KD_ENGINE_CLOSED || held.again > 0); /* or the test proves nothing */
         assert_true(10000 * held.silent <= held.crossings);
         assert_true(1000 * held.off <= held.crossings || k > 8);
-        assert_true(10 * held.beyond <= held.rays || k > 9); /* 1 in 24 at 1e-9; in closed form alone, without f64, 1 in 19 */
+        assert_true(10 * held.beyond <= held.rays ||
+                    k > 9); /* 1 in 24 at 1e-9; in closed form alone, without f64, 1 in 19 */
     }
 }
 
@@ -264,8 +322,11 @@ int main(void)
     if (status)
         return status;
     prepare();
-    const struct CMUnitTest tests[] = { cmocka_unit_test(test_series), cmocka_unit_test(test_closed), cmocka_unit_test(test_single),
-                                        cmocka_unit_test(test_double), cmocka_unit_test(test_few_steps_at_high_order),
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_series),
+                                        cmocka_unit_test(test_closed),
+                                        cmocka_unit_test(test_single),
+                                        cmocka_unit_test(test_double),
+                                        cmocka_unit_test(test_few_steps_at_high_order),
                                         cmocka_unit_test(test_tolerance) };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -1,5 +1,5 @@
-/* Listed rays on the device, in both precisions, against the Kerr-Schild oracle: radius, azimuth, delay, direction, fate, and the
- * error that comes with each ray against the error that was made. */
+/* Listed rays on the device, in both precisions, against the Kerr-Schild oracle: radius, azimuth, delay, direction,
+ * fate, and the error that comes with each ray against the error that was made. */
 #include "kerr_schild.h"
 #include "physics/kerr.h"
 #include "render/device/internal.h"
@@ -15,7 +15,8 @@
 
 struct hole { double a, inclination, half; };
 static const struct hole holes[] = {
-    { 0.9, 70, 12 }, { 0, 45, 9 }, { 0.998, 85, 8 }, { -0.7, 20, 12 }, { 0.5, 135, 10 }, { 0.9, 90, 10 }, { 0.9, 0, 10 }, { 0.3, 180, 10 },
+    { 0.9, 70, 12 },  { 0, 45, 9 },    { 0.998, 85, 8 }, { -0.7, 20, 12 },
+    { 0.5, 135, 10 }, { 0.9, 90, 10 }, { 0.9, 0, 10 },   { 0.3, 180, 10 },
 };
 enum { HOLES = sizeof holes / sizeof *holes };
 
@@ -40,9 +41,13 @@ static void prepare(void)
 
 static double turn(double x) { return fabs(remainder(x, 2 * M_PI)); }
 
-struct tally { double r, phi, delay, sky; int rays, bounded, crossings; };
+struct tally {
+    double r, phi, delay, sky;
+    int rays, bounded, crossings;
+};
 
-/* Errors over 1 + amplification, crossings near the horizon left out: there phi and t of Boyer and Lindquist diverge. */
+/* Errors over 1 + amplification, crossings near the horizon left out: there phi and t of Boyer and Lindquist
+ * diverge. */
 static void judge_crossing(const struct hole *o, const struct ks_path *p, const struct ks_path *q, int n,
                            const struct kd_ray_crossing *c, struct tally *t)
 {
@@ -56,7 +61,8 @@ static void judge_crossing(const struct hole *o, const struct ks_path *p, const 
     t->delay = fmax(t->delay, fabs(c->delay - p->delay[n]) / (fabs(p->delay[n]) + 10 + delay_gain));
 }
 
-static void judge(int h, const struct kd_ray_crossing *crossings, const struct kd_ray_end *ends, double floor_, struct tally *t)
+static void judge(int h, const struct kd_ray_crossing *crossings, const struct kd_ray_end *ends, double floor_,
+                  struct tally *t)
 {
     for (int k = 0; k < RAYS; k++) {
         const struct ks_path *p = &paths[h][k], *q = &beside[h][k];
@@ -83,21 +89,30 @@ static void judge(int h, const struct kd_ray_crossing *crossings, const struct k
     }
 }
 
-/* The oracle is good to some 2e-11 (its start at r = 1e6 and a thousand steps); its direction, taken at r = 1e8, to 3e-7. */
-static void check(enum kd_engine engine, enum kd_precision precision, double bound_r, double bound_phi, double bound_delay, double bound_sky)
+/* The oracle is good to some 2e-11 (its start at r = 1e6 and a thousand steps); its direction, taken at r = 1e8, to
+ * 3e-7. */
+static void check(enum kd_engine engine, enum kd_precision precision, double bound_r, double bound_phi,
+                  double bound_delay, double bound_sky)
 {
     static struct kd_ray_crossing crossings[RAYS * ORDERS];
     static struct kd_ray_end ends[RAYS];
     for (int h = 0; h < HOLES; h++) {
         struct kd_rays_params params = {
-            .spin = holes[h].a, .r = INFINITY, .inclination_deg = holes[h].inclination, .orders = ORDERS,
-            .engine = engine, .precision = precision,
+            .spin = holes[h].a,
+            .r = INFINITY,
+            .inclination_deg = holes[h].inclination,
+            .orders = ORDERS,
+            .engine = engine,
+            .precision = precision,
         };
         struct tally t = { 0 };
-        OK(kd_rays_device(renderer, &params, &(struct kd_ray_labels) { lists[h], NULL, RAYS }, crossings, ends, NULL, NULL, &error));
+        OK(kd_rays_device(renderer, &params, &(struct kd_ray_labels) { lists[h], NULL, RAYS }, crossings, ends, NULL,
+                          NULL, &error));
         judge(h, crossings, ends, precision == KD_PRECISION_F64 ? 1e-10 : 0, &t);
-        print_message("%s a %6.3f i %3g %s: %4d crossings, r %.1e phi %.1e delay %.1e sky %.1e, bounded %d of %d\n", kd_engine_name(engine), holes[h].a,
-                      holes[h].inclination, precision == KD_PRECISION_F64 ? "f64" : "f32", t.crossings, t.r, t.phi, t.delay, t.sky, t.bounded, t.rays);
+        print_message("%s a %6.3f i %3g %s: %4d crossings, r %.1e phi %.1e delay %.1e sky %.1e, bounded %d of %d\n",
+                      kd_engine_name(engine), holes[h].a, holes[h].inclination,
+                      precision == KD_PRECISION_F64 ? "f64" : "f32", t.crossings, t.r, t.phi, t.delay, t.sky, t.bounded,
+                      t.rays);
         assert_true(t.r < bound_r);
         assert_true(t.phi < bound_phi);
         assert_true(t.delay < bound_delay);
@@ -131,11 +146,17 @@ static double median_error(enum kd_engine engine, uint32_t steps, int order)
     static struct kd_ray_end ends[RAYS];
     static double errors[RAYS];
     struct kd_rays_params params = {
-        .spin = holes[0].a, .r = INFINITY, .inclination_deg = holes[0].inclination, .orders = ORDERS, .engine = engine,
-        .precision = KD_PRECISION_F64, .steps = steps,
+        .spin = holes[0].a,
+        .r = INFINITY,
+        .inclination_deg = holes[0].inclination,
+        .orders = ORDERS,
+        .engine = engine,
+        .precision = KD_PRECISION_F64,
+        .steps = steps,
     };
     int n = 0;
-    OK(kd_rays_device(renderer, &params, &(struct kd_ray_labels) { lists[0], NULL, RAYS }, crossings, ends, NULL, NULL, &error));
+    OK(kd_rays_device(renderer, &params, &(struct kd_ray_labels) { lists[0], NULL, RAYS }, crossings, ends, NULL, NULL,
+                      &error));
     for (int k = 0; k < RAYS; k++)
         if ((int)ends[k].n_crossings > order && paths[0][k].crossings > order)
             errors[n++] = fabs(crossings[k * ORDERS + order].r / paths[0][k].r[order] - 1);
@@ -144,8 +165,8 @@ static double median_error(enum kd_engine engine, uint32_t steps, int order)
     return errors[n / 2];
 }
 
-/* The estimate of the error against the error itself, by the closed form, where the steps are coarse and their law does not
- * hold yet: a bound for 999 of 1000 rays, and no more than a hundred times too large for half of them. */
+/* The estimate of the error against the error itself, by the closed form, where the steps are coarse and their law
+ * does not hold yet: a bound for 999 of 1000 rays, and no more than a hundred times too large for half of them. */
 static void check_estimate(enum kd_engine engine, uint32_t steps)
 {
     static struct kd_ray_crossing crossings[RAYS * ORDERS], exact[RAYS * ORDERS];
@@ -154,8 +175,13 @@ static void check_estimate(enum kd_engine engine, uint32_t steps)
     int rays = 0, bounded = 0;
     for (int h = 0; h < HOLES; h++) {
         struct kd_rays_params params = {
-            .spin = holes[h].a, .r = INFINITY, .inclination_deg = holes[h].inclination, .orders = ORDERS,
-            .engine = engine, .precision = KD_PRECISION_F64, .steps = steps,
+            .spin = holes[h].a,
+            .r = INFINITY,
+            .inclination_deg = holes[h].inclination,
+            .orders = ORDERS,
+            .engine = engine,
+            .precision = KD_PRECISION_F64,
+            .steps = steps,
         };
         OK(kd_rays_trace(renderer, &params, lists[h], RAYS, crossings, ends, NULL, NULL, &error));
         params.engine = KD_ENGINE_CLOSED;
@@ -172,8 +198,10 @@ static void check_estimate(enum kd_engine engine, uint32_t steps)
         }
     }
     qsort(ratios, (size_t)rays, sizeof *ratios, by_value);
-    print_message("%s, %u steps: %d of %d bounded, estimate over error %.2g for 1 %%, %.2g for half, %.2g for 99 %% of the rays\n",
-                  kd_engine_name(engine), steps, bounded, rays, ratios[rays / 100], ratios[rays / 2], ratios[rays - rays / 100]);
+    print_message("%s, %u steps: %d of %d bounded, estimate over error %.2g for 1 %%, %.2g for half, %.2g for 99 %% of "
+                  "the rays\n",
+                  kd_engine_name(engine), steps, bounded, rays, ratios[rays / 100], ratios[rays / 2],
+                  ratios[rays - rays / 100]);
     assert_true(rays > 4000);
     assert_true(bounded >= 0.999 * rays);
     assert_true(ratios[rays / 2] < 100);
@@ -190,39 +218,44 @@ static void test_estimate(void **state)
     }
 }
 
-/* Each method converges by its order: twice the steps leave 1/2, 1/16, 1/64 of the error, less what the coarse end of the
- * range spoils. Mino's is judged on the second
- * crossing, where the oracle's 1e-11 does not yet show. */
+/* Each method converges by its order: twice the steps leave 1/2, 1/16, 1/64 of the error, less what the coarse end
+ * of the range spoils. Mino's is judged on the second crossing, where the oracle's 1e-11 does not yet show. */
 static void test_orders(void **state)
 {
     (void)state;
     if (!has_float64("the orders of the methods, in f64"))
         skip();
-    static const struct { enum kd_engine engine; uint32_t steps; int order; double ratio, finest; } methods[] = {
-        { KD_ENGINE_MINO_RKN6, 8, 1, 50, 1e-8 },
-        { KD_ENGINE_MINO_RKN4, 16, 1, 12, 1e-6 },
-        { KD_ENGINE_KS_EULER, 64, 0, 1.8, 2e-3 },
-        { KD_ENGINE_KS_RK4, 32, 0, 12, 2e-9 },
+    static const struct {
+        enum kd_engine engine;
+        uint32_t steps;
+        int order;
+        double ratio, finest;
+    } methods[] = {
+        { KD_ENGINE_MINO_RKN6, 8, 1, 50, 1e-8 },  { KD_ENGINE_MINO_RKN4, 16, 1, 12, 1e-6 },
+        { KD_ENGINE_KS_EULER, 64, 0, 1.8, 2e-3 }, { KD_ENGINE_KS_RK4, 32, 0, 12, 2e-9 },
         { KD_ENGINE_KS_TAO6, 128, 0, 50, 1e-8 },
     };
     for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
         double coarse = median_error(methods[i].engine, methods[i].steps, methods[i].order);
         double fine = median_error(methods[i].engine, 2 * methods[i].steps, methods[i].order);
-        print_message("engine %d: %.1e with %u steps, %.1e with twice as many\n", (int)methods[i].engine, coarse, methods[i].steps,
-                      fine);
+        print_message("engine %d: %.1e with %u steps, %.1e with twice as many\n", (int)methods[i].engine, coarse,
+                      methods[i].steps, fine);
         assert_true(coarse / fine > methods[i].ratio);
         assert_true(fine < methods[i].finest);
     }
 }
 
-/* The Kerr-Schild engines where their start is hard, against the closed form: on the axis and next to it, in the plane, an ulp from it,
- * and where rays meet it far beyond the start at 1000 M, on the way in or out; impact parameters beyond that start. */
+/* The Kerr-Schild engines where their start is hard, against the closed form: on the axis and next to it, in the
+ * plane, an ulp from it, and where rays meet it far beyond the start at 1000 M, on the way in or out; impact
+ * parameters beyond that start. */
 static void test_starts(void **state)
 {
     (void)state;
-    static const struct { double r, inclination, half; } views[] = {
-        { INFINITY, 0, 12 },     { INFINITY, 1e-3, 12 }, { INFINITY, 90, 12 }, { INFINITY, 90.00000000000001, 12 },
-        { INFINITY, 89.99, 12 }, { 1e5, 89.9999, 12 },   { 100, 90.1, 12 },    { 20, 0, 4 },
+    static const struct {
+        double r, inclination, half;
+    } views[] = {
+        { INFINITY, 0, 12 },     { INFINITY, 1e-3, 12 }, { INFINITY, 90, 12 },  { INFINITY, 90.00000000000001, 12 },
+        { INFINITY, 89.99, 12 }, { 1e5, 89.9999, 12 },   { 100, 90.1, 12 },     { 20, 0, 4 },
         { 20, 180, 4 },          { 20, 1e-3, 4 },        { INFINITY, 80, 2e3 }, { INFINITY, 80, 1e6 },
     };
     static struct kd_ray_crossing crossings[RAYS * ORDERS], exact[RAYS * ORDERS];
@@ -233,7 +266,11 @@ static void test_starts(void **state)
         bool wide = i % 2 && both;
         const size_t v = both ? i / 2 : i;
         struct kd_rays_params params = {
-            .spin = 0.9, .r = views[v].r, .inclination_deg = views[v].inclination, .orders = ORDERS, .engine = KD_ENGINE_KS_RK4,
+            .spin = 0.9,
+            .r = views[v].r,
+            .inclination_deg = views[v].inclination,
+            .orders = ORDERS,
+            .engine = KD_ENGINE_KS_RK4,
             .precision = wide ? KD_PRECISION_F64 : KD_PRECISION_F32,
         };
         for (int k = 0; k < 2 * RAYS; k++)
@@ -253,9 +290,10 @@ static void test_starts(void **state)
         }
         for (int q = 0; q < 2; q++)
             qsort(errors[q], (size_t)n, sizeof **errors, by_value);
-        print_message("r %g i %.17g +-%g %s: %d rays differ, %d crossings, r %.1e, phi %.1e for half and %.1e for 99 %%\n", views[v].r,
-                      views[v].inclination, views[v].half, wide ? "f64" : "f32", differ, n, errors[0][n / 2], errors[1][n / 2],
-                      errors[1][n - n / 100]);
+        print_message(
+            "r %g i %.17g +-%g %s: %d rays differ, %d crossings, r %.1e, phi %.1e for half and %.1e for 99 %%\n",
+            views[v].r, views[v].inclination, views[v].half, wide ? "f64" : "f32", differ, n, errors[0][n / 2],
+            errors[1][n / 2], errors[1][n - n / 100]);
         assert_true(n > RAYS / 2);
         assert_true(differ <= (wide ? 0 : 2)); /* the critical curve, in single precision */
         assert_true(errors[0][n / 2] < (wide ? 2e-7 : 3e-5));
@@ -263,14 +301,19 @@ static void test_starts(void **state)
     }
 }
 
-/* What the Kerr-Schild engines say of their errors, against the oracle: a bound for 999 of 1000 rays, 1 where fate or crossings are others. Their
- * azimuths count turns as the closed form's do. */
+/* What the Kerr-Schild engines say of their errors, against the oracle: a bound for 999 of 1000 rays, 1 where fate
+ * or crossings are others. Their azimuths count turns as the closed form's do. */
 static void check_kerr_schild(enum kd_engine engine, enum kd_precision precision, int h)
 {
     static struct kd_ray_crossing crossings[RAYS * ORDERS], exact[RAYS * ORDERS];
     static struct kd_ray_end ends[RAYS], exact_ends[RAYS];
     struct kd_rays_params params = {
-        .spin = holes[h].a, .r = INFINITY, .inclination_deg = holes[h].inclination, .orders = ORDERS, .engine = engine, .precision = precision,
+        .spin = holes[h].a,
+        .r = INFINITY,
+        .inclination_deg = holes[h].inclination,
+        .orders = ORDERS,
+        .engine = engine,
+        .precision = precision,
     };
     int rays = 0, bounded = 0, others = 0, compared = 0, turns = 0;
     OK(kd_rays_trace(renderer, &params, lists[h], RAYS, crossings, ends, NULL, NULL, &error));
@@ -300,8 +343,9 @@ static void check_kerr_schild(enum kd_engine engine, enum kd_precision precision
         rays += found > 0;
         bounded += found > 0 && worst <= ends[k].error + 1e-10 * (1 + gain) * (1 + worst);
     }
-    print_message("%s %s a %g i %g: %d of %d bounded, %d others, %d of %d azimuths a turn off\n", kd_engine_name(engine),
-                  kd_precision_name(precision), holes[h].a, holes[h].inclination, bounded, rays, others, turns, compared);
+    print_message("%s %s a %g i %g: %d of %d bounded, %d others, %d of %d azimuths a turn off\n",
+                  kd_engine_name(engine), kd_precision_name(precision), holes[h].a, holes[h].inclination, bounded, rays,
+                  others, turns, compared);
     assert_true(rays > 400 && bounded >= 0.999 * rays && others < rays / 10);
     assert_true(compared > 400 && !turns);
 }
@@ -321,7 +365,8 @@ static bool stop_at_once(void *user, double fraction)
     return false;
 }
 
-/* The costliest rays come in submissions of a few, so that a request for many can be cancelled and others have their turn. */
+/* The costliest rays come in submissions of a few, so that a request for many can be cancelled and others have their
+ * turn. */
 static void test_submissions_are_short(void **state)
 {
     (void)state;
@@ -332,21 +377,34 @@ static void test_submissions_are_short(void **state)
     struct kd_error stopped;
     double done = 0;
     const struct kd_rays_params params = {
-        .spin = 0.9, .r = INFINITY, .inclination_deg = 70, .orders = ORDERS, .engine = KD_ENGINE_KS_TAO6,
-        .precision = KD_PRECISION_F32, .steps = 64,
+        .spin = 0.9,
+        .r = INFINITY,
+        .inclination_deg = 70,
+        .orders = ORDERS,
+        .engine = KD_ENGINE_KS_TAO6,
+        .precision = KD_PRECISION_F32,
+        .steps = 64,
     };
     for (int k = 0; k < 2 * MANY; k++)
         rays[k] = lists[0][k % (2 * RAYS)];
-    assert_int_equal(kd_rays_trace(renderer, &params, rays, MANY, crossings, ends, stop_at_once, &done, &stopped), KD_ECANCELLED);
+    assert_int_equal(kd_rays_trace(renderer, &params, rays, MANY, crossings, ends, stop_at_once, &done, &stopped),
+                     KD_ECANCELLED);
     assert_true(done > 0 && done < 0.1);
 }
 
-/* The most steps that each engine takes do not run into llvmpipe's limit of 65535 rounds, past which a ray ends anywhere. */
+/* The most steps that each engine takes do not run into llvmpipe's limit of 65535 rounds, past which a ray ends
+ * anywhere. */
 static void test_most_steps(void **state)
 {
     (void)state;
-    static const struct { enum kd_engine engine; uint32_t steps; } most[] = {
-        { KD_ENGINE_MINO_RKN4, 2048 }, { KD_ENGINE_MINO_RKN6, 2048 }, { KD_ENGINE_KS_RK4, 1024 }, { KD_ENGINE_KS_TAO6, 512 },
+    static const struct {
+        enum kd_engine engine;
+        uint32_t steps;
+    } most[] = {
+        { KD_ENGINE_MINO_RKN4, 2048 },
+        { KD_ENGINE_MINO_RKN6, 2048 },
+        { KD_ENGINE_KS_RK4, 1024 },
+        { KD_ENGINE_KS_TAO6, 512 },
     };
     enum { FEW = 2 * GRID, ALL = KD_RAYS_MAX_ORDERS };
     static struct kd_ray_crossing crossings[FEW * ALL];
@@ -356,8 +414,13 @@ static void test_most_steps(void **state)
     const int from = GRID * GRID / 2; /* two rows that pass close to the hole */
     for (size_t i = 0; i < sizeof most / sizeof *most; i++) {
         struct kd_rays_params params = {
-            .spin = holes[0].a, .r = INFINITY, .inclination_deg = holes[0].inclination, .orders = ALL, .engine = most[i].engine,
-            .precision = KD_PRECISION_F64, .steps = most[i].steps,
+            .spin = holes[0].a,
+            .r = INFINITY,
+            .inclination_deg = holes[0].inclination,
+            .orders = ALL,
+            .engine = most[i].engine,
+            .precision = KD_PRECISION_F64,
+            .steps = most[i].steps,
         };
         OK(kd_rays_trace(renderer, &params, lists[0] + 2 * from, FEW, crossings, ends, NULL, NULL, &error));
         for (int k = 0; k < FEW; k++) {
@@ -372,15 +435,18 @@ static void test_most_steps(void **state)
     }
 }
 
-/* A ray that leaves the plane by less than a float holds, on either side, is told where it crosses, by each engine: on a device that
- * flushes denormal numbers too. beta = 1e-6 is as good a limit; of two tiny labels the ratio counts. */
+/* A ray that leaves the plane by less than a float holds, on either side, is told where it crosses, by each engine:
+ * on a device that flushes denormal numbers too. beta = 1e-6 is as good a limit; of two tiny labels the ratio
+ * counts. */
 static void test_tiny_labels(void **state)
 {
     (void)state;
     static const double tiny[] = { 1e-38, -1e-38, 1e-41, -1e-310, 1e-25 };
     for (int e = KD_ENGINE_MINO_RKN4; e <= KD_ENGINE_KS_TAO6; e++)
         for (size_t k = 0; k < sizeof tiny / sizeof *tiny; k++) {
-            struct kd_rays_params params = { .r = INFINITY, .inclination_deg = 90, .orders = 1, .engine = (enum kd_engine)e };
+            struct kd_rays_params params = {
+                .r = INFINITY, .inclination_deg = 90, .orders = 1, .engine = (enum kd_engine)e
+            };
             const double rays[] = { 5.5, tiny[k], 5.5, copysign(1e-6, tiny[k]) };
             struct kd_ray_crossing c[2];
             struct kd_ray_end ends[2];
@@ -389,8 +455,8 @@ static void test_tiny_labels(void **state)
                 fail_msg("%s", error.message);
             double off = fabs(c[0].r / c[1].r - 1), phi = fabs(c[0].phi - c[1].phi);
             if (ends[0].n_crossings != 1 || !(off < 2e-6) || !(phi < 4e-6))
-                fail_msg("%s, beta = %g: %u crossings, r off by %.2g, phi by %.2g", kd_engine_name(params.engine), tiny[k],
-                         ends[0].n_crossings, off, phi);
+                fail_msg("%s, beta = %g: %u crossings, r off by %.2g, phi by %.2g", kd_engine_name(params.engine),
+                         tiny[k], ends[0].n_crossings, off, phi);
         }
 }
 
@@ -400,7 +466,10 @@ static void test_nothing_to_be_wrong(void **state)
     (void)state;
     const double rays[] = { 0.5, 0.25, 12, 0.25, 5.5, 3 };
     for (int e = KD_ENGINE_CLOSED; e <= KD_ENGINE_KS_TAO6; e++) {
-        struct kd_rays_params params = { .r = INFINITY, .inclination_deg = 0, .orders = 1, .engine = (enum kd_engine)e,
+        struct kd_rays_params params = { .r = INFINITY,
+                                         .inclination_deg = 0,
+                                         .orders = 1,
+                                         .engine = (enum kd_engine)e,
                                          .precision = e == KD_ENGINE_CLOSED ? KD_PRECISION_F64 : KD_PRECISION_F32 };
         struct kd_ray_crossing c[3];
         struct kd_ray_end ends[3];
@@ -410,8 +479,8 @@ static void test_nothing_to_be_wrong(void **state)
         for (int k = 0; k < 3; k++) {
             bool tells = ends[k].n_crossings || ends[k].fate == KD_RAY_ESCAPED;
             if (tells == isnan(ends[k].error))
-                fail_msg("%s: ray %d has %u crossings, fate %d, error %g", kd_engine_name(params.engine), k, ends[k].n_crossings,
-                         ends[k].fate, ends[k].error);
+                fail_msg("%s: ray %d has %u crossings, fate %d, error %g", kd_engine_name(params.engine), k,
+                         ends[k].n_crossings, ends[k].fate, ends[k].error);
         }
         assert_true(isnan(ends[0].error) && ends[1].error > 0);
     }
@@ -423,9 +492,15 @@ int main(void)
     if (status)
         return status;
     prepare();
-    const struct CMUnitTest tests[] = { cmocka_unit_test(test_single), cmocka_unit_test(test_double),
-                                        cmocka_unit_test(test_estimate), cmocka_unit_test(test_orders),
-                                        cmocka_unit_test(test_starts), cmocka_unit_test(test_kerr_schild_errors),
-                                        cmocka_unit_test(test_tiny_labels), cmocka_unit_test(test_nothing_to_be_wrong), cmocka_unit_test(test_submissions_are_short), cmocka_unit_test(test_most_steps) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_single),
+                                        cmocka_unit_test(test_double),
+                                        cmocka_unit_test(test_estimate),
+                                        cmocka_unit_test(test_orders),
+                                        cmocka_unit_test(test_starts),
+                                        cmocka_unit_test(test_kerr_schild_errors),
+                                        cmocka_unit_test(test_tiny_labels),
+                                        cmocka_unit_test(test_nothing_to_be_wrong),
+                                        cmocka_unit_test(test_submissions_are_short),
+                                        cmocka_unit_test(test_most_steps) };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -1,5 +1,5 @@
-/* One ray step by step: the kernel that tells ends where the one that does not ends, its steps are those of the ray, and the
- * first integrals hold along them. */
+/* One ray step by step: the kernel that tells ends where the one that does not ends, its steps are those of the ray,
+ * and the first integrals hold along them. */
 #include "render/rays/steps.h"
 
 #include "render_support.h"
@@ -8,19 +8,25 @@
 
 struct ray { double spin, inclination, r, alpha, beta; };
 static const struct ray rays[] = {
-    { 0.9, 70, INFINITY, -3.75, 1 }, { 0.9, 70, INFINITY, 6.5, 0.5 }, { 0, 45, INFINITY, 5, -2.5 }, { 0.9, 0, INFINITY, 5, 3 },
-    { 0.9, 90, INFINITY, 5, 4 },     { 0.9, 90, INFINITY, 7.5, 0 },   { -0.9, 70, 50, 4, -3 },     { 0.9, 60, INFINITY, 0.25, 0.5 },
+    { 0.9, 70, INFINITY, -3.75, 1 }, { 0.9, 70, INFINITY, 6.5, 0.5 },  { 0, 45, INFINITY, 5, -2.5 },
+    { 0.9, 0, INFINITY, 5, 3 },      { 0.9, 90, INFINITY, 5, 4 },      { 0.9, 90, INFINITY, 7.5, 0 },
+    { -0.9, 70, 50, 4, -3 },         { 0.9, 60, INFINITY, 0.25, 0.5 },
 };
 enum { RAYS = sizeof rays / sizeof *rays, ORDERS = 3 };
 
 static struct kd_rays_steps steps_of(const struct ray *ray, enum kd_engine engine, enum kd_precision precision)
 {
     const struct kd_rays_params params = {
-        .spin = ray->spin, .r = ray->r, .inclination_deg = ray->inclination, .orders = ORDERS,
-        .engine = engine, .precision = precision,
+        .spin = ray->spin,
+        .r = ray->r,
+        .inclination_deg = ray->inclination,
+        .orders = ORDERS,
+        .engine = engine,
+        .precision = precision,
     };
     struct kd_rays_steps steps;
-    OK(kd_rays_steps(renderer, &params, &(struct kd_ray_labels) { (double[]) { ray->alpha, ray->beta }, NULL, 1 }, &steps, &error));
+    OK(kd_rays_steps(renderer, &params, &(struct kd_ray_labels) { (double[]) { ray->alpha, ray->beta }, NULL, 1 },
+                     &steps, &error));
     assert_true(steps.n > 1 && steps.lost == 0 && steps.same);
     assert_int_equal(steps.steps[0].stage, KD_STAGE_START);
     return steps;
@@ -65,7 +71,8 @@ static void check_crossings(const struct kd_rays_steps *steps)
     assert_int_equal(found, steps->end.n_crossings);
 }
 
-/* The ray leaves from the observer and ends at infinity or at the horizon; Mino time goes on but where steps are taken back. */
+/* The ray leaves from the observer and ends at infinity or at the horizon; Mino time goes on but where steps are
+ * taken back. */
 static void check_ends(const struct ray *ray, const struct kd_rays_steps *steps)
 {
     const struct kd_rays_step *first = &steps->steps[0], *last = &steps->steps[steps->n - 1];
@@ -85,7 +92,8 @@ static void check_engine(enum kd_engine engine, enum kd_precision precision, dou
     for (int i = 0; i < RAYS; i++) {
         struct kd_rays_steps steps = steps_of(&rays[i], engine, precision);
         for (size_t k = 0; k < steps.n; k++)
-            if (steps.steps[k].r > 0.99 * (1 + sqrt(1 - rays[i].spin * rays[i].spin)) || steps.steps[k].stage == KD_STAGE_CROSSING)
+            if (steps.steps[k].r > 0.99 * (1 + sqrt(1 - rays[i].spin * rays[i].spin)) ||
+                steps.steps[k].stage == KD_STAGE_CROSSING)
                 check_step(&steps.steps[k], bound);
         check_crossings(&steps);
         check_ends(&rays[i], &steps);
@@ -112,8 +120,8 @@ static void test_mino(void **state)
     }
 }
 
-/* The steps lie on the ray: where a coarser trace has a step, a finer one of twice the steps has one too, at the same place but for
- * what the coarser loses. */
+/* The steps lie on the ray: where a coarser trace has a step, a finer one of twice the steps has one too, at the
+ * same place but for what the coarser loses. */
 static void test_refined(void **state)
 {
     (void)state;
@@ -121,10 +129,17 @@ static void test_refined(void **state)
         struct kd_rays_steps steps[2];
         for (int k = 0; k < 2; k++) {
             const struct kd_rays_params params = {
-                .spin = rays[i].spin, .r = INFINITY, .inclination_deg = rays[i].inclination, .orders = 1,
-                .engine = KD_ENGINE_MINO_RKN6, .precision = KD_PRECISION_F32, .steps = 16u << k,
+                .spin = rays[i].spin,
+                .r = INFINITY,
+                .inclination_deg = rays[i].inclination,
+                .orders = 1,
+                .engine = KD_ENGINE_MINO_RKN6,
+                .precision = KD_PRECISION_F32,
+                .steps = 16u << k,
             };
-            OK(kd_rays_steps(renderer, &params, &(struct kd_ray_labels) { (double[]) { rays[i].alpha, rays[i].beta }, NULL, 1 }, &steps[k], &error));
+            OK(kd_rays_steps(renderer, &params,
+                             &(struct kd_ray_labels) { (double[]) { rays[i].alpha, rays[i].beta }, NULL, 1 }, &steps[k],
+                             &error));
         }
         for (size_t k = 1; k <= 16; k++) {
             assert_true(fabs(steps[0].steps[k].time - steps[1].steps[2 * k].time) < 1e-5);
@@ -136,17 +151,25 @@ static void test_refined(void **state)
     }
 }
 
-/* Time is what w' is the rate to: by the trapezoidal rule, from the step before or, where steps are taken back, the crossing. */
+/* Time is what w' is the rate to: by the trapezoidal rule, from the step before or, where steps are taken back, the
+ * crossing. */
 static void test_time(void **state)
 {
     (void)state;
     for (int i = 0; i < RAYS; i++) {
         const struct kd_rays_params params = {
-            .spin = rays[i].spin, .r = rays[i].r, .inclination_deg = rays[i].inclination, .orders = ORDERS,
-            .engine = KD_ENGINE_MINO_RKN6, .precision = KD_PRECISION_F32, .steps = 64,
+            .spin = rays[i].spin,
+            .r = rays[i].r,
+            .inclination_deg = rays[i].inclination,
+            .orders = ORDERS,
+            .engine = KD_ENGINE_MINO_RKN6,
+            .precision = KD_PRECISION_F32,
+            .steps = 64,
         };
         struct kd_rays_steps steps;
-        OK(kd_rays_steps(renderer, &params, &(struct kd_ray_labels) { (double[]) { rays[i].alpha, rays[i].beta }, NULL, 1 }, &steps, &error));
+        OK(kd_rays_steps(renderer, &params,
+                         &(struct kd_ray_labels) { (double[]) { rays[i].alpha, rays[i].beta }, NULL, 1 }, &steps,
+                         &error));
         const struct kd_rays_step *kept = &steps.steps[0];
         for (size_t k = 1; k < steps.n; k++) {
             const struct kd_rays_step *b = &steps.steps[k], *a = b - 1;
@@ -181,14 +204,20 @@ static void test_kerr_schild(void **state)
 static void test_refused(void **state)
 {
     (void)state;
-    struct kd_rays_params params = { .spin = 0.5, .r = INFINITY, .inclination_deg = 60, .orders = 1, .engine = KD_ENGINE_CLOSED,
+    struct kd_rays_params params = { .spin = 0.5,
+                                     .r = INFINITY,
+                                     .inclination_deg = 60,
+                                     .orders = 1,
+                                     .engine = KD_ENGINE_CLOSED,
                                      .precision = KD_PRECISION_F64 };
     struct kd_rays_steps steps;
-    FAILS(KD_EINVAL, "no steps", kd_rays_steps(renderer, &params, &(struct kd_ray_labels) { (double[]) { 1, 2 }, NULL, 1 }, &steps, &error));
+    FAILS(KD_EINVAL, "no steps",
+          kd_rays_steps(renderer, &params, &(struct kd_ray_labels) { (double[]) { 1, 2 }, NULL, 1 }, &steps, &error));
     kd_rays_steps_finish(&steps);
     params.engine = KD_ENGINE_MINO_RKN6;
     params.spin = 1;
-    FAILS(KD_EINVAL, "spin", kd_rays_steps(renderer, &params, &(struct kd_ray_labels) { (double[]) { 1, 2 }, NULL, 1 }, &steps, &error));
+    FAILS(KD_EINVAL, "spin",
+          kd_rays_steps(renderer, &params, &(struct kd_ray_labels) { (double[]) { 1, 2 }, NULL, 1 }, &steps, &error));
     kd_rays_steps_finish(&steps);
 }
 
@@ -198,7 +227,7 @@ int main(void)
     if (status)
         return status;
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_mino), cmocka_unit_test(test_refined), cmocka_unit_test(test_time),
+        cmocka_unit_test(test_mino),        cmocka_unit_test(test_refined), cmocka_unit_test(test_time),
         cmocka_unit_test(test_kerr_schild), cmocka_unit_test(test_refused),
     };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));

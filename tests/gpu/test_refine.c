@@ -1,4 +1,5 @@
-/* Adaptive sampling: a picture whose pixels have as many rays as they need, against those in which all have 1, 16 or 64. */
+/* Adaptive sampling: a picture whose pixels have as many rays as they need, against those in which all have 1, 16 or
+ * 64. */
 #include "render/frame/choose.h"
 #include "render/frame/residual.h"
 #include "render/render.h"
@@ -63,7 +64,9 @@ static const char *const scenes[] = {
     "{\"disk\": {\"gas\": {\"amplitude\": 0.5}}}",
     "{\"camera\": {\"inclination_deg\": 85}, \"disk\": {\"gas\": {\"amplitude\": 0.8}, \"emission_opacity\": 10}}",
     "{\"sky\": {\"model\": \"grid\"}, \"disk\": {\"model\": \"none\"}}",
-    "{\"spacetime\": {\"spin\": 0.998}, \"camera\": {\"inclination_deg\": 85}}", /* next to no edges: what is left are bends, and the map's third differences */
+    "{\"spacetime\": {\"spin\": 0.998}, \"camera\": {\"inclination_deg\": 85}}", /* next to no edges: what is left are
+                                                                                    bends, and the map's third
+                                                                                    differences */
 };
 enum { SCENES = sizeof scenes / sizeof *scenes };
 
@@ -82,7 +85,8 @@ static double neither(const struct kd_frame *a, const struct kd_frame *b, const 
     return (double)n / PIXELS;
 }
 
-/* What a frame says that is left, from some 200 pixels, is near what is left of all: of a sum of squares most is in few of them. */
+/* What a frame says that is left, from some 200 pixels, is near what is left of all: of a sum of squares most is in
+ * few of them. */
 static void residual(const struct kd_frame *adaptive, const struct kd_frame *truth)
 {
     double left = sqrt(off(adaptive, truth)), said = adaptive->accuracy.pixel_error;
@@ -91,9 +95,9 @@ static void residual(const struct kd_frame *adaptive, const struct kd_frame *tru
     assert_true(said < 4 * left && said > left / 4);
 }
 
-/* A picture within 0.5 dB of that by 16 rays, judged by that of 64, for a quarter of the rays at most: the figures that were asked for. Its
- * pixels are those of the picture by one ray or of that by 16, but for few where a ray between others falls on the other side of an
- * edge. */
+/* A picture within 0.5 dB of that by 16 rays, judged by that of 64, for a quarter of the rays at most: the figures
+ * that were asked for. Its pixels are those of the picture by one ray or of that by 16, but for few where a ray
+ * between others falls on the other side of an edge. */
 static void test_as_good(void **state)
 {
     (void)state;
@@ -102,11 +106,14 @@ static void test_as_good(void **state)
         struct kd_frame one = render(scenes[i], 1, &plans[0]), sixteen = render(scenes[i], 4, &plans[1]);
         struct kd_frame truth = render(scenes[i], 8, &plans[2]), adaptive = render(scenes[i], 0, &plans[3]);
         uint64_t rays = kd_plan_rays(&plans[3]) + adaptive.accuracy.followed;
-        double by_one = -10 * log10(off(&one, &truth)), by_sixteen = -10 * log10(off(&sixteen, &truth)), by_adaptive = -10 * log10(off(&adaptive, &truth));
+        double by_one = -10 * log10(off(&one, &truth)), by_sixteen = -10 * log10(off(&sixteen, &truth)),
+               by_adaptive = -10 * log10(off(&adaptive, &truth));
         double share = (double)rays / (double)kd_plan_rays(&plans[1]), strange = neither(&adaptive, &one, &sixteen);
-        print_message("%s: %.1f dB by one ray, %.2f dB by 16, %.2f dB adaptively with %.1f %% of their rays, %llu refined, %llu between, %.2f %% neither\n",
-                      scenes[i], by_one, by_sixteen, by_adaptive, 100 * share, (unsigned long long)adaptive.accuracy.refined,
-                      (unsigned long long)adaptive.accuracy.between, 100 * strange);
+        print_message("%s: %.1f dB by one ray, %.2f dB by 16, %.2f dB adaptively with %.1f %% of their rays, %llu "
+                      "refined, %llu between, %.2f %% neither\n",
+                      scenes[i], by_one, by_sixteen, by_adaptive, 100 * share,
+                      (unsigned long long)adaptive.accuracy.refined, (unsigned long long)adaptive.accuracy.between,
+                      100 * strange);
         assert_true(adaptive.accuracy.refined > 0 && adaptive.accuracy.between > 0);
         assert_true(by_adaptive > by_sixteen - 0.5 && by_one < by_sixteen - 5 && share <= 0.25 && strange < 0.005);
         residual(&adaptive, &truth);
@@ -141,15 +148,17 @@ static void test_target(void **state)
     kd_frame_finish(&truth);
 }
 
-/* With the lens map of before the picture is the same. In bands it is but for the rays at their edges, which are followed there; and so
- * it is by listed rays, but for those next to an edge. A look at it, and its flux, are those of all rays. */
+/* With the lens map of before the picture is the same. In bands it is but for the rays at their edges, which are
+ * followed there; and so it is by listed rays, but for those next to an edge. A look at it, and its flux, are those
+ * of all rays. */
 static void test_same(void **state)
 {
     (void)state;
     struct kd_scene scene = scene_of(scenes[3], 0);
     struct kd_plan plan;
     struct kd_frame whole = render_in(&scene, 0, &plan), again = render_in(&scene, 0, &plan);
-    assert_true(again.lens_reused && again.accuracy.refined == whole.accuracy.refined && again.accuracy.pixel_error == whole.accuracy.pixel_error);
+    assert_true(again.lens_reused && again.accuracy.refined == whole.accuracy.refined &&
+                again.accuracy.pixel_error == whole.accuracy.pixel_error);
     assert_memory_equal(kd_frame_pixels(&whole), kd_frame_pixels(&again), 6 * PIXELS);
     struct kd_frame bands = render_in(&scene, 4 * plan.planes * WIDTH * 32 + 64, &plan);
     assert_true(plan.bands > 4 && bands.accuracy.refined > whole.accuracy.refined);
@@ -172,7 +181,8 @@ static void test_same(void **state)
 static void test_shown(void **state)
 {
     (void)state;
-    static const char *const curves[] = { "{\"style\": {\"tone_map\": \"aces\"}}", "{\"style\": {\"tone_map\": \"srgb\"}}",
+    static const char *const curves[] = { "{\"style\": {\"tone_map\": \"aces\"}}",
+                                          "{\"style\": {\"tone_map\": \"srgb\"}}",
                                           "{\"style\": {\"tone_map\": \"neutral\"}}" };
     for (int i = 0; i < 3; i++) {
         struct kd_scene scene = scene_of(curves[i], 1);
@@ -212,7 +222,8 @@ static struct kd_choice bent(const uint16_t *pixels, uint64_t most)
 
 static struct kd_pixel place(const struct kd_choice *c, size_t i) { return c->list.pixels[i]; }
 
-/* A faint bend is chosen where nothing stronger is there, and so much of it as leaves next to nothing of the squares; not beside an edge. */
+/* A faint bend is chosen where nothing stronger is there, and so much of it as leaves next to nothing of the
+ * squares; not beside an edge. */
 static void test_faint(void **state)
 {
     (void)state;
@@ -247,14 +258,16 @@ static void test_choice(void **state)
     struct kd_choice choice = bent(pixels, W * H);
     assert_true(choice.list.n > 0);
     for (size_t i = 0; i < choice.list.n; i++) /* nothing inside */
-        assert_true(place(&choice, i).x == 0 || place(&choice, i).x == W - 1 || place(&choice, i).y == 0 || place(&choice, i).y == H - 1);
+        assert_true(place(&choice, i).x == 0 || place(&choice, i).x == W - 1 || place(&choice, i).y == 0 ||
+                    place(&choice, i).y == H - 1);
     kd_choice_finish(&choice);
     memset(pixels, 0, sizeof pixels);
     for (int k = 0; k < 9; k++) /* a square in one channel, by 0.03, one corner by 0.3 */
         pixels[3 * ((3 + k / 3) * W + 6 + k % 3) + 1] = k ? 1966 : 19660;
     choice = bent(pixels, W * H);
     assert_int_equal(choice.list.n, 25); /* the square and those beside it */
-    assert_true(place(&choice, 0).x == 5 && place(&choice, 0).y == 2 && place(&choice, 24).x == 9 && place(&choice, 24).y == 6);
+    assert_true(place(&choice, 0).x == 5 && place(&choice, 0).y == 2 && place(&choice, 24).x == 9 &&
+                place(&choice, 24).y == 6);
     kd_choice_finish(&choice);
     choice = bent(pixels, 9); /* the largest first: the corner and those beside it */
     assert_true(choice.list.n == 9 && place(&choice, 8).x == 7 && place(&choice, 8).y == 4);
@@ -271,7 +284,8 @@ static void test_choice(void **state)
     const struct kd_shown shown = { pixels, kinds, 1, W, H };
     kinds[4 * W + 7] = kinds[3 * W + 7] = 1;
     OK(kd_choose_beside(&shown, before, lists, 2, 0.01, &choice, &error));
-    assert_true(choice.list.n == 9 - 2 && place(&choice, 0).x == 6 && place(&choice, 0).y == 3 && place(&choice, 6).x == 8 && place(&choice, 6).y == 5);
+    assert_true(choice.list.n == 9 - 2 && place(&choice, 0).x == 6 && place(&choice, 0).y == 3 &&
+                place(&choice, 6).x == 8 && place(&choice, 6).y == 5);
     kd_choice_finish(&choice);
 }
 
@@ -281,8 +295,8 @@ int main(void)
     if (status)
         return status;
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_choice), cmocka_unit_test(test_faint), cmocka_unit_test(test_as_good), cmocka_unit_test(test_target),
-        cmocka_unit_test(test_same), cmocka_unit_test(test_shown),
+        cmocka_unit_test(test_choice), cmocka_unit_test(test_faint), cmocka_unit_test(test_as_good),
+        cmocka_unit_test(test_target), cmocka_unit_test(test_same),  cmocka_unit_test(test_shown),
     };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

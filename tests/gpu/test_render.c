@@ -1,4 +1,5 @@
-/* Frames on the device: what must not change the picture (bands, slices, the cache), what must change it, limits, cancelling. */
+/* Frames on the device: what must not change the picture (bands, slices, the cache), what must change it, limits,
+ * cancelling. */
 #include "render/render.h"
 #include "render/view/critical_pixels.h"
 
@@ -33,7 +34,10 @@ static struct kd_frame render_with(const struct kd_scene *scene, const struct kd
     return frame;
 }
 
-static size_t bytes(const struct kd_frame *f) { return (size_t)f->width * f->height * (kd_frame_bit_depth(f) == 16 ? 6 : 3); }
+static size_t bytes(const struct kd_frame *f)
+{
+    return (size_t)f->width * f->height * (kd_frame_bit_depth(f) == 16 ? 6 : 3);
+}
 
 static void assert_same(struct kd_frame *a, struct kd_frame *b)
 {
@@ -63,8 +67,8 @@ static void test_reuse(void **state)
     assert_true(first.lens_reused && ran(&first, "upload") == ran(&first, "transfer")); /* where there are timestamps */
     kd_frame_finish(&first);
 
-    double *const geometry[] = { &scene.spacetime.spin, &scene.camera.inclination_deg, &scene.camera.field_m, &scene.camera.roll_deg,
-                                 &scene.camera.centre_beta };
+    double *const geometry[] = { &scene.spacetime.spin, &scene.camera.inclination_deg, &scene.camera.field_m,
+                                 &scene.camera.roll_deg, &scene.camera.centre_beta };
     for (size_t i = 0; i < sizeof geometry / sizeof *geometry; i++) {
         *geometry[i] += 0.01;
         first = rendered(&scene);
@@ -114,7 +118,8 @@ static void test_bands(void **state)
         assert_same(&whole, &banded);
 
         whole = rendered(&scene);
-        c.memory_bytes = plan.device_bytes + (c.host_memory ? 2 * plan.host_bytes : 0) - 1; /* room for one band of the lens map only */
+        c.memory_bytes = plan.device_bytes + (c.host_memory ? 2 * plan.host_bytes : 0) -
+                         1; /* room for one band of the lens map only */
         banded = render_with(&scene, &c, &plan);
         assert_false(plan.cacheable);
         assert_same(&whole, &banded);
@@ -297,7 +302,8 @@ struct others {
     int calls;
 };
 
-/* In the middle of a picture: another long one, a short one, and more with a kernel of their own each, one after the other. */
+/* In the middle of a picture: another long one, a short one, and more with a kernel of their own each, one after the
+ * other. */
 static bool let_others(void *user, double fraction)
 {
     struct others *o = user;
@@ -332,7 +338,8 @@ static void test_asides(void **state)
     struct kd_plan plan;
     struct kd_frame beside, alone;
     scene.camera.inclination_deg = 51;
-    OK(kd_renderer_create(&(struct kd_renderer_params) { .device = "auto", .validate = true, .passing = true }, &o.r, &error));
+    OK(kd_renderer_create(&(struct kd_renderer_params) { .device = "auto", .validate = true, .passing = true }, &o.r,
+                          &error));
     o.r->kernels.kept = KEPT; /* all of the picture's make room for those that come between */
     OK(kd_plan_make(&scene, &c, &plan, &error));
     plan.trace_ns = 40e6 / 160 / 7; /* seven rows a slice */
@@ -344,7 +351,8 @@ static void test_asides(void **state)
     }
     OK(kd_render_aside(o.r, &scene, &plan, let_others, NULL, &o, &beside, &error));
     assert_true(o.calls > 10 && !beside.lens_reused);
-    assert_true(timing_of(&beside, "trace") > 0 && timing_of(&beside, "transfer") > 0 && timing_of(&beside, "total") > 0);
+    assert_true(timing_of(&beside, "trace") > 0 && timing_of(&beside, "transfer") > 0 &&
+                timing_of(&beside, "total") > 0);
     assert_true(isnan(timing_of(&beside, "particles"))); /* those were the other's */
 
     OK(kd_render(o.r, &scene, &plan, NULL, NULL, &alone, &error));
@@ -407,8 +415,8 @@ static void test_too_big(void **state)
     FAILS(KD_ETOOBIG, "row", kd_plan_make(&scene, &c, &plan, &error));
 }
 
-/* The error that an answer reports, measured in double precision: small for what is exact, larger for a draft; kept with the
- * lens map; the same for the camera at a finite radius; absent where it cannot be measured. */
+/* The error that an answer reports, measured in double precision: small for what is exact, larger for a draft; kept
+ * with the lens map; the same for the camera at a finite radius; absent where it cannot be measured. */
 static void test_audit(void **state)
 {
     (void)state;
@@ -453,14 +461,16 @@ static void test_plan(void **state)
     struct kd_capacity c = capacity();
     struct kd_plan plan;
     OK(kd_plan_make(&scene, &c, &plan, &error));
-    assert_true(plan.path == KD_LENS_CLOSED && kd_plan_is_radii(&plan) && !kd_plan_holds(&plan, KD_LENS_PHI) && !kd_plan_holds(&plan, KD_LENS_SKY) && plan.planes == 3 && plan.setting.steps == 0);
+    assert_true(plan.path == KD_LENS_CLOSED && kd_plan_is_radii(&plan) && !kd_plan_holds(&plan, KD_LENS_PHI) &&
+                !kd_plan_holds(&plan, KD_LENS_SKY) && plan.planes == 3 && plan.setting.steps == 0);
     assert_string_equal(plan.passes[3].name, "expose");
     scene.style.exposure = 0;
     OK(kd_plan_make(&scene, &c, &plan, &error));
     assert_string_equal(plan.passes[3].name, "post");
     scene.sky.model = KD_SKY_GRID;
     OK(kd_plan_make(&scene, &c, &plan, &error));
-    assert_true(plan.path == KD_LENS_CLOSED && !kd_plan_is_radii(&plan) && kd_plan_holds(&plan, KD_LENS_SKY) && plan.setting.steps == 0 && plan.planes == 6);
+    assert_true(plan.path == KD_LENS_CLOSED && !kd_plan_is_radii(&plan) && kd_plan_holds(&plan, KD_LENS_SKY) &&
+                plan.setting.steps == 0 && plan.planes == 6);
     scene.accuracy.steps = 8;
     OK(kd_plan_make(&scene, &c, &plan, &error));
     assert_true(plan.path == KD_LENS_MAP && plan.setting.engine == KD_ENGINE_MINO_RKN6 && plan.setting.steps == 8);
@@ -493,9 +503,13 @@ int main(void)
     if (status)
         return status;
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_reuse),    cmocka_unit_test(test_the_curve_is_followed_once), cmocka_unit_test(test_bands),   cmocka_unit_test(test_slices),
-        cmocka_unit_test(test_sizes),    cmocka_unit_test(test_extremes), cmocka_unit_test(test_progress),
-        cmocka_unit_test(test_glances), cmocka_unit_test(test_asides), cmocka_unit_test(test_asides_with_particles), cmocka_unit_test(test_too_big),  cmocka_unit_test(test_audit),    cmocka_unit_test(test_plan),
+        cmocka_unit_test(test_reuse),    cmocka_unit_test(test_the_curve_is_followed_once),
+        cmocka_unit_test(test_bands),    cmocka_unit_test(test_slices),
+        cmocka_unit_test(test_sizes),    cmocka_unit_test(test_extremes),
+        cmocka_unit_test(test_progress), cmocka_unit_test(test_glances),
+        cmocka_unit_test(test_asides),   cmocka_unit_test(test_asides_with_particles),
+        cmocka_unit_test(test_too_big),  cmocka_unit_test(test_audit),
+        cmocka_unit_test(test_plan),
     };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -1,5 +1,5 @@
-/* The ring projection: the edges of the orders in a lens map against the solved ones, pixel by pixel; e^-gamma read off it;
- * its light against that of a plane picture. */
+/* The ring projection: the edges of the orders in a lens map against the solved ones, pixel by pixel; e^-gamma read
+ * off it; its light against that of a plane picture. */
 #include "render_support.h"
 
 #include "physics/kerr.h"
@@ -50,18 +50,17 @@ static float *trace(const struct kd_scene *scene, struct kd_plan *plan)
     kd_renderer_capacity(renderer, &capacity);
     OK(kd_scene_validate(scene, &error));
     OK(kd_plan_make_for(scene, &needs, &capacity, plan, &error));
-    assert_true(plan->planes == ORDERS + 1 && plan->path == KD_LENS_LISTED && plan->setting.precision == KD_PRECISION_F64);
+    assert_true(plan->planes == ORDERS + 1 && plan->path == KD_LENS_LISTED &&
+                plan->setting.precision == KD_PRECISION_F64);
     float *planes = test_malloc(sizeof(float) * plan->planes * plan->rays);
     OK(kd_render_lens(renderer, scene, plan, planes, NULL, &error));
     return planes;
 }
 
-static const struct {
-    double spin, inclination_deg;
-} views[] = { { 0, 60 }, { 0.9, 60 }, { -0.998, 30 } };
+static const struct { double spin, inclination_deg; } views[] = { { 0, 60 }, { 0.9, 60 }, { -0.998, 30 } };
 
-/* Whether a pixel sees the plane nearer than `source`, and whether the edge says so. Pixels that the edge all but touches, as far as
- * alpha and beta can tell, do not count. */
+/* Whether a pixel sees the plane nearer than `source`, and whether the edge says so. Pixels that the edge all but
+ * touches, as far as alpha and beta can tell, do not count. */
 static int check_column(const struct kd_ring *ring, const struct kd_critical_point *column, int n, double source,
                         const float *w, int *skipped)
 {
@@ -95,8 +94,8 @@ static void every_edge_is_where_it_belongs(void **state)
                 for (int s = 0; s < 4; s++) {
                     int wrong = check_column(&ring, &column, n, sources[s], w + n * plan.rays + x, &skipped);
                     if (wrong)
-                        fail_msg("a = %g, column %u, order %d, source %g: %d pixels on the wrong side", views[k].spin, x, n,
-                                 sources[s], wrong);
+                        fail_msg("a = %g, column %u, order %d, source %g: %d pixels on the wrong side", views[k].spin,
+                                 x, n, sources[s], wrong);
                 }
         }
         assert_true(skipped < 20); /* of 460 800 */
@@ -127,16 +126,18 @@ static void each_order_is_a_gamma_further_in(void **state)
             const struct kd_critical_point column = kd_ring_column(&ring, x);
             double gamma = kd_shell_exponents(&column.orbit).gamma;
             for (int n = 3; n + 1 < ORDERS; n++) {
-                double apart = row * (row_of(w + (n + 1) * plan.rays + x, HEIGHT) - row_of(w + n * plan.rays + x, HEIGHT));
-                if (!(fabs(apart - gamma) < 1.05 * row + 0.02)) /* two roundings to a row; order 3 is not the limit yet */
-                    fail_msg("a = %g, column %u: orders %d and %d are e^-%.4f apart, not e^-%.4f", views[k].spin, x, n, n + 1,
-                             apart, gamma);
+                double apart =
+                    row * (row_of(w + (n + 1) * plan.rays + x, HEIGHT) - row_of(w + n * plan.rays + x, HEIGHT));
+                if (!(fabs(apart - gamma) <
+                      1.05 * row + 0.02)) /* two roundings to a row; order 3 is not the limit yet */
+                    fail_msg("a = %g, column %u: orders %d and %d are e^-%.4f apart, not e^-%.4f", views[k].spin, x, n,
+                             n + 1, apart, gamma);
                 sum += apart / gamma;
                 count++;
             }
         }
-        print_message("a = %g, i = %g: exponent read off the picture over gamma: %.4f\n", views[k].spin, views[k].inclination_deg,
-                      sum / count);
+        print_message("a = %g, i = %g: exponent read off the picture over gamma: %.4f\n", views[k].spin,
+                      views[k].inclination_deg, sum / count);
         assert_true(fabs(sum / count - 1) < 4e-3);
         test_free(w);
     }
@@ -223,7 +224,8 @@ static void same_light(const struct shown *shown)
         plane.accuracy.engine = KD_ENGINE_CLOSED + 1;
         plane.accuracy.precision = KD_PRECISION_F64 + 1;
         shoot(&plane, &one);
-        const uint8_t *a = (const uint8_t *)kd_frame_pixels(&frame) + 3 * i, *b = (const uint8_t *)kd_frame_pixels(&one) + 3 * 4;
+        const uint8_t *a = (const uint8_t *)kd_frame_pixels(&frame) + 3 * i,
+                      *b = (const uint8_t *)kd_frame_pixels(&one) + 3 * 4;
         for (int c = 0; c < 3; c++) {
             lit += a[c] > 16;
             if (abs(a[c] - b[c]) > 1)
@@ -236,7 +238,8 @@ static void same_light(const struct shown *shown)
     kd_frame_finish(&frame);
 }
 
-/* Turbulence is compared at order 0 of a fine ring: elsewhere a pixel of the ring stands for many cells, and shows their mean. */
+/* Turbulence is compared at order 0 of a fine ring: elsewhere a pixel of the ring stands for many cells, and shows
+ * their mean. */
 static void light_is_that_of_a_plane_picture(void **state)
 {
     (void)state;

@@ -125,7 +125,8 @@ static void test_paths(void **state)
     follow("the ring projection", scene);
 }
 
-/* Particles and spots, whose brightness changes from time to time by itself: the reference at the same time is without ringdown. */
+/* Particles and spots, whose brightness changes from time to time by itself: the reference at the same time is
+ * without ringdown. */
 static void test_lumps(void **state)
 {
     (void)state;
@@ -161,7 +162,8 @@ static void test_lumps(void **state)
     }
 }
 
-/* How much light a ringing hole adds to that of a disk, over all samples, and how far it is off from what another disk's has. */
+/* How much light a ringing hole adds to that of a disk, over all samples, and how far it is off from what another
+ * disk's has. */
 struct change { double sum, off; };
 
 static struct kd_frame at_time(struct kd_scene scene, double t, double amplitude)
@@ -186,7 +188,8 @@ static struct change changed(const struct kd_scene *scene, double t, double *las
     return c;
 }
 
-/* A thick disk of next to no height rings where the thin one does, as much, and all its light by one factor; one of some height by the same factor. */
+/* A thick disk of next to no height rings where the thin one does, as much, and all its light by one factor; one of
+ * some height by the same factor. */
 static void test_thick(void **state)
 {
     static const double times[] = { 0, 1, 7.5 };
@@ -201,7 +204,8 @@ static void test_thick(void **state)
     for (int high = 0; high < 2; high++) {
         scene.disk.height = high ? 0.1 : 5e-5;
         const struct change first = changed(&scene, 0, last, !high);
-        printf("height %g: %.4g of light rings, of the thin disk %.4g; apart by %.2g\n", scene.disk.height, first.sum, flat.sum, first.off / flat.sum);
+        printf("height %g: %.4g of light rings, of the thin disk %.4g; apart by %.2g\n", scene.disk.height, first.sum,
+               flat.sum, first.off / flat.sum);
         assert_true(first.sum > 1);
         assert_true(high || (fabs(first.sum / flat.sum - 1) < 0.01 && first.off < 0.02 * flat.sum));
         for (size_t k = 1; k < sizeof times / sizeof *times; k++)
@@ -235,11 +239,8 @@ int main(void)
     if (code)
         return code;
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_spins),
-        cmocka_unit_test(test_paths),
-        cmocka_unit_test(test_lumps),
-        cmocka_unit_test(test_thick),
-        cmocka_unit_test(test_said),
+        cmocka_unit_test(test_spins), cmocka_unit_test(test_paths), cmocka_unit_test(test_lumps),
+        cmocka_unit_test(test_thick), cmocka_unit_test(test_said),
     };
     return close_renderer(cmocka_run_group_tests_name("ringdown", tests, NULL, NULL));
 }

@@ -1,4 +1,5 @@
-/* The self-test passes here, and a wrong number in it is seen: a comparison that cannot fail would let every device pass. */
+/* The self-test passes here, and a wrong number in it is seen: a comparison that cannot fail would let every device
+ * pass. */
 #include "render/selftest/selftest.h"
 
 #include "render_support.h"
@@ -7,7 +8,10 @@
 
 #define ROWS 256
 
-struct table { struct kd_selftest_row rows[ROWS]; int n, failed; };
+struct table {
+    struct kd_selftest_row rows[ROWS];
+    int n, failed;
+};
 
 static bool keep(void *user, const struct kd_selftest_row *row)
 {
@@ -79,7 +83,8 @@ static void test_everything_wrong(void **state)
     for (int i = 0; i < table.n; i++) {
         bool itself = table.rows[i].bound == 0 || strstr(table.rows[i].what, "Mercury"); /* not from the table */
         if (table.rows[i].ok != itself)
-            fail_msg("%s by %s: %g, bound %g", table.rows[i].what, table.rows[i].by, table.rows[i].error, table.rows[i].bound);
+            fail_msg("%s by %s: %g, bound %g", table.rows[i].what, table.rows[i].by, table.rows[i].error,
+                     table.rows[i].bound);
     }
 }
 
@@ -157,7 +162,7 @@ int main(void)
     if (status)
         return status;
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_compare), cmocka_unit_test(test_passes), cmocka_unit_test(test_everything_wrong),
+        cmocka_unit_test(test_compare),   cmocka_unit_test(test_passes), cmocka_unit_test(test_everything_wrong),
         cmocka_unit_test(test_one_wrong), cmocka_unit_test(test_fates),
     };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));

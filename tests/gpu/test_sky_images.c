@@ -1,5 +1,5 @@
-/* sky.image: where places of a panorama are seen, how bright, over and under what, and what happens where it is not there. The panorama is made here,
- * with a mark at the place of each of some bright stars. */
+/* sky.image: where places of a panorama are seen, how bright, over and under what, and what happens where it is not
+ * there. The panorama is made here, with a mark at the place of each of some bright stars. */
 #include "image/png.h"
 #include "render/output/png.h"
 #include "render/render.h"
@@ -15,7 +15,10 @@ enum { WIDTH = 960, HEIGHT = 480, COLUMNS = 2048, ROWS = 1024, MARKS = 12 };
 
 /* Pictures that are kept here, by hashes that are none: nobody computes them anew. */
 static struct keeper {
-    struct { char hash[KD_ASSET_NAME]; struct kd_buffer png; } at[6];
+    struct {
+        char hash[KD_ASSET_NAME];
+        struct kd_buffer png;
+    } at[6];
     size_t n, held, taken;
 } keeper;
 
@@ -49,10 +52,12 @@ static const char *keep(uint32_t width, uint32_t height, const uint8_t *pixels, 
     return keeper.at[i].hash;
 }
 
-/* Galactic coordinates by spherical trigonometry (J. Meeus, Astronomical Algorithms, chapter 13, with the pole of J2000). */
+/* Galactic coordinates by spherical trigonometry (J. Meeus, Astronomical Algorithms, chapter 13, with the pole of
+ * J2000). */
 static void galactic(double ra, double dec, double *l, double *b)
 {
-    const double pole_ra = 192.85948 * DEGREE, pole_dec = 27.12825 * DEGREE, node = 122.93192 * DEGREE, x = ra - pole_ra;
+    const double pole_ra = 192.85948 * DEGREE, pole_dec = 27.12825 * DEGREE, node = 122.93192 * DEGREE,
+                 x = ra - pole_ra;
     *b = asin(sin(dec) * sin(pole_dec) + cos(dec) * cos(pole_dec) * cos(x));
     *l = node - atan2(cos(dec) * sin(x), sin(dec) * cos(pole_dec) - cos(dec) * sin(pole_dec) * cos(x));
 }
@@ -85,10 +90,12 @@ static const char *marked(void)
     for (size_t i = 0; i < n; i++) {
         double l, b;
         galactic(stars[i].ra, stars[i].dec, &l, &b);
-        const double column = (0.5 - l / (2 * M_PI) - floor(0.5 - l / (2 * M_PI))) * COLUMNS, row = (0.5 - b / M_PI) * ROWS;
+        const double column = (0.5 - l / (2 * M_PI) - floor(0.5 - l / (2 * M_PI))) * COLUMNS,
+                     row = (0.5 - b / M_PI) * ROWS;
         for (int y = (int)row - 6; y <= (int)row + 6; y++)
             for (int x = (int)column - 12; x <= (int)column + 12; x++) {
-                const double dx = (x + 0.5 - column) * cos(b), dy = y + 0.5 - row, light = exp(-(dx * dx + dy * dy) / (2 * 1.4 * 1.4));
+                const double dx = (x + 0.5 - column) * cos(b), dy = y + 0.5 - row,
+                             light = exp(-(dx * dx + dy * dy) / (2 * 1.4 * 1.4));
                 const double v = light <= 0.0031308 ? 12.92 * light : 1.055 * pow(light, 1 / 2.4) - 0.055;
                 uint8_t *p = &pixels[3 * ((size_t)y * COLUMNS + (size_t)(x + COLUMNS) % COLUMNS)];
                 p[0] = p[1] = p[2] = (uint8_t)lrint(255 * v);
@@ -148,8 +155,8 @@ static struct place centre(const struct kd_frame *frame, double x, double y, int
     return p;
 }
 
-/* Where the observer, to whom the hole stands at galactic longitude 180 and who sees longitudes grow to the left, has a place. From 1e5 M, and more
- * than 30 degrees from the hole, light is bent by less than 0.01 degrees. */
+/* Where the observer, to whom the hole stands at galactic longitude 180 and who sees longitudes grow to the left,
+ * has a place. From 1e5 M, and more than 30 degrees from the hole, light is bent by less than 0.01 degrees. */
 static struct place expected(double l, double b)
 {
     const double left = l - M_PI - 2 * M_PI * floor((l - M_PI) / (2 * M_PI) + 0.5);
@@ -185,8 +192,8 @@ static void marks_and_stars(void **state)
     kd_frame_finish(&points);
 }
 
-/* A white sky has the brightness that is asked for, through a hole as without one; near it, that of g: light of a black body at g = 1/sqrt(1 - 2/r),
- * bolometrically g^4 of it, and bluer. */
+/* A white sky has the brightness that is asked for, through a hole as without one; near it, that of g: light of a
+ * black body at g = 1/sqrt(1 - 2/r), bolometrically g^4 of it, and bluer. */
 static void white(void **state)
 {
     (void)state;
@@ -207,8 +214,10 @@ static void white(void **state)
         struct kd_frame frame = shot(&scene);
         const float *corner = light_of(&frame) + 3 * (size_t)(3 * WIDTH + 5);
         const double luminance = 0.2126 * corner[0] + 0.7152 * corner[1] + 0.0722 * corner[2];
-        printf("white from %g M: %.5f of %.5f, blue over red %.3f\n", radii[i], luminance / 1.5, pow(g, 4), corner[2] / corner[0]);
-        /* White tinted as 5600 K is to g 5600 K: its luminance is off that of the black body by the difference of the two colours. */
+        printf("white from %g M: %.5f of %.5f, blue over red %.3f\n", radii[i], luminance / 1.5, pow(g, 4),
+               corner[2] / corner[0]);
+        /* White tinted as 5600 K is to g 5600 K: its luminance is off that of the black body by the difference of
+         * the two colours. */
         assert_true(fabs(luminance / 1.5 / pow(g, 4) - 1) < (i < 2 ? 2e-3 : 0.05));
         assert_true(i < 2 ? fabs(corner[2] / corner[0] - 1) < 0.01 : corner[2] / corner[0] > 1.05);
         assert_string_equal(frame.credit, "");
@@ -216,7 +225,8 @@ static void white(void **state)
     }
 }
 
-/* An automatic exposure does not lift a sky that stands alone: looked at away from the Milky Way, most of it is black, with stars in it. */
+/* An automatic exposure does not lift a sky that stands alone: looked at away from the Milky Way, most of it is
+ * black, with stars in it. */
 static void space_is_black(void **state)
 {
     (void)state;
@@ -239,8 +249,10 @@ static void space_is_black(void **state)
         uint32_t bright = 0;
         for (int level = 128; level < 256; level++)
             bright += counts[level];
-        printf("model %d: %.3f stops, median %u of 255, %u pixels above 127\n", models[i], frame.exposure, median, bright);
-        assert_true(frame.exposure <= log2(0.25 / (i ? 1 : 0.2)) + 1e-12 && median <= 8 && (models[i] == KD_SKY_IMAGE || bright > 500));
+        printf("model %d: %.3f stops, median %u of 255, %u pixels above 127\n", models[i], frame.exposure, median,
+               bright);
+        assert_true(frame.exposure <= log2(0.25 / (i ? 1 : 0.2)) + 1e-12 && median <= 8 &&
+                    (models[i] == KD_SKY_IMAGE || bright > 500));
         kd_frame_finish(&frame);
     }
 }
@@ -282,7 +294,8 @@ static void stars_over_pictures(void **state)
     for (int model = KD_SKY_STARS; model <= KD_SKY_CATALOGUE; model++)
         for (int with = 0; with < 2; with++) {
             const char *image = with ? *state : "";
-            struct kd_scene scenes[] = { scene_of(KD_SKY_IMAGE, image), scene_of(model, image), scene_of(model, image) };
+            struct kd_scene scenes[] = { scene_of(KD_SKY_IMAGE, image), scene_of(model, image),
+                                         scene_of(model, image) };
             struct kd_frame frames[3];
             scenes[1].sky.milky_way = 0;
             for (int k = 0; k < 3; k++) {
@@ -297,7 +310,8 @@ static void stars_over_pictures(void **state)
         }
 }
 
-/* One that is not there, or is no picture, is an error at the field, after which all is as before; more of them than are kept come back the same. */
+/* One that is not there, or is no picture, is an error at the field, after which all is as before; more of them than
+ * are kept come back the same. */
 static void here_and_gone(void **state)
 {
     const char *image = *state;
@@ -306,14 +320,17 @@ static void here_and_gone(void **state)
     struct kd_frame frame;
     struct kd_error why;
     static uint8_t pixels[3 * 32 * 16];
-    struct kd_scene scene = scene_of(KD_SKY_IMAGE, image), none = scene_of(KD_SKY_IMAGE, "00000000000000000000000000000000000000000000000000000000000000ff");
+    struct kd_scene scene = scene_of(KD_SKY_IMAGE, image),
+                    none = scene_of(KD_SKY_IMAGE, "00000000000000000000000000000000000000000000000000000000000000ff");
     struct kd_frame first = shot(&scene);
     kd_renderer_capacity(renderer, &c);
     OK(kd_plan_make(&none, &c, &plan, &error));
     assert_int_equal(kd_render(renderer, &none, &plan, NULL, NULL, &frame, &why), KD_EINVAL);
     assert_string_equal(why.pointer, "/sky/image");
-    assert_string_equal(why.message, "sky.image is \"00000000000000000000000000000000000000000000000000000000000000ff\", and the bytes of this asset are "
-                                       "not here; allowed are those of this test");
+    assert_string_equal(why.message,
+                        "sky.image is \"00000000000000000000000000000000000000000000000000000000000000ff\", and the "
+                        "bytes of this asset are "
+                        "not here; allowed are those of this test");
     const char *damaged = keep(32, 16, pixels, "");
     keeper.at[keeper.n - 1].png.data[keeper.at[keeper.n - 1].png.size - 20] ^= 1;
     none = scene_of(KD_SKY_IMAGE, damaged);
@@ -345,7 +362,8 @@ static void memory(void **state)
     struct kd_capacity c;
     struct kd_plan plan;
     struct kd_error why;
-    struct kd_scene made_up = scene_of(KD_SKY_IMAGE, ""), scene = scene_of(KD_SKY_IMAGE, *state), none = scene_of(KD_SKY_GRID, *state);
+    struct kd_scene made_up = scene_of(KD_SKY_IMAGE, ""), scene = scene_of(KD_SKY_IMAGE, *state),
+                    none = scene_of(KD_SKY_GRID, *state);
     kd_renderer_capacity(renderer, &c);
     c.memory_bytes = 300u << 20;
     OK(kd_plan_make(&made_up, &c, &plan, &error));
@@ -388,8 +406,14 @@ int main(void)
         return skip;
     void *image = (void *)marked();
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_prestate(marks_and_stars, image), cmocka_unit_test(white), cmocka_unit_test(space_is_black), cmocka_unit_test(lifted_all_the_same), cmocka_unit_test_prestate(stars_over_pictures, image),
-        cmocka_unit_test_prestate(here_and_gone, image), cmocka_unit_test_prestate(credit_in_files, image), cmocka_unit_test_prestate(memory, image),
+        cmocka_unit_test_prestate(marks_and_stars, image),
+        cmocka_unit_test(white),
+        cmocka_unit_test(space_is_black),
+        cmocka_unit_test(lifted_all_the_same),
+        cmocka_unit_test_prestate(stars_over_pictures, image),
+        cmocka_unit_test_prestate(here_and_gone, image),
+        cmocka_unit_test_prestate(credit_in_files, image),
+        cmocka_unit_test_prestate(memory, image),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     for (size_t i = 0; i < keeper.n; i++)

@@ -1,5 +1,5 @@
-/* Hot spots and the light of a picture: against sums over the rays of the Kerr-Schild oracle, which shares no equation with the
- * kernels, against what holds far from the hole, and against themselves. */
+/* Hot spots and the light of a picture: against sums over the rays of the Kerr-Schild oracle, which shares no
+ * equation with the kernels, against what holds far from the hole, and against themselves. */
 #include "render_support.h"
 
 #include "kerr_schild.h"
@@ -68,8 +68,9 @@ static void same_light(const struct kd_light *a, const struct kd_light *b, doubl
     off(a->y, b->y, 1 + hypot(b->x, b->y), bound, what);
 }
 
-/* The circular orbit and g from the metric in the plane, g_tt = -(1 - 2/r), g_tphi = -2a/r, g_phiphi = r^2 + a^2 + 2a^2/r, with
- * Omega where the radial force vanishes: g_tt' + 2 Omega g_tphi' + Omega^2 g_phiphi' = 0, by differences. */
+/* The circular orbit and g from the metric in the plane, g_tt = -(1 - 2/r), g_tphi = -2a/r, g_phiphi = r^2 + a^2 +
+ * 2a^2/r, with Omega where the radial force vanishes: g_tt' + 2 Omega g_tphi' + Omega^2 g_phiphi' = 0, by
+ * differences. */
 static double line(double a, double r, double omega)
 {
     return -(1 - 2 / r) - 4 * a / r * omega + (r * r + a * a + 2 * a * a / r) * omega * omega;
@@ -77,7 +78,9 @@ static double line(double a, double r, double omega)
 static double force(double a, double r, double omega)
 {
     double h = 1e-3 * r;
-    return (8 * (line(a, r + h, omega) - line(a, r - h, omega)) - line(a, r + 2 * h, omega) + line(a, r - 2 * h, omega)) / (12 * h);
+    return (8 * (line(a, r + h, omega) - line(a, r - h, omega)) - line(a, r + 2 * h, omega) +
+            line(a, r - 2 * h, omega)) /
+           (12 * h);
 }
 static double orbit_omega(double a, double r)
 {
@@ -90,9 +93,9 @@ static double orbit_omega(double a, double r)
 }
 
 struct oracle {
-    int n;             /* rays */
-    double area;       /* of one, where all have the same */
-    double (*at)[3];   /* solid angle weight, and place in the picture's own measure */
+    int n;           /* rays */
+    double area;     /* of one, where all have the same */
+    double (*at)[3]; /* solid angle weight, and place in the picture's own measure */
     struct ks_photon *photons;
     struct ks_path *paths;
 };
@@ -169,13 +172,16 @@ static struct kd_light oracle_light(const struct kd_scene *scene, const struct o
     return (struct kd_light) { flux, atan2(x, z) * 180 / M_PI, atan2(y, hypot(x, z)) * 180 / M_PI };
 }
 
-/* At several phases, with fast and slow light, for a hole with and against its spot, from infinity and from near, behind half
- * transparent gas too. In 32 bits a ray beside the critical curve may miss a crossing: that is in the bound. The width is no
- * multiple of anything, and the spot goes over the edges of the picture. */
+/* At several phases, with fast and slow light, for a hole with and against its spot, from infinity and from near,
+ * behind half transparent gas too. In 32 bits a ray beside the critical curve may miss a crossing: that is in the
+ * bound. The width is no multiple of anything, and the spot goes over the edges of the picture. */
 static void test_oracle(void **state)
 {
     (void)state;
-    static const struct { double spin, isco, inclination, r; int model; } views[] = {
+    static const struct {
+        double spin, isco, inclination, r;
+        int model;
+    } views[] = {
         { 0.7, 3.3931, 55, INFINITY, KD_DISK_NONE },
         { -0.6, 7.8507, 100, INFINITY, KD_DISK_NONE },
         { 0.9, 2.3209, 35, 30, KD_DISK_NONE },
@@ -218,8 +224,8 @@ static void test_oracle(void **state)
     printf("against the oracle: flux within %.2g, centroid within %.2g of its distance\n", worst[0], worst[1]);
 }
 
-/* Face-on and far out, to first order in 1/r: g^2 = 1 - 3/r, and light from r is seen at r + 1 (A. M. Beloborodov 2002, ApJ 566,
- * L85, eq. 1, at 90 degrees: b^2 = (r^2 - 4)/(1 - 2/r)), so that areas are larger by 1 + 1/r. */
+/* Face-on and far out, to first order in 1/r: g^2 = 1 - 3/r, and light from r is seen at r + 1 (A. M. Beloborodov
+ * 2002, ApJ 566, L85, eq. 1, at 90 degrees: b^2 = (r^2 - 4)/(1 - 2/r)), so that areas are larger by 1 + 1/r. */
 static void test_far_out(void **state)
 {
     (void)state;
@@ -277,13 +283,14 @@ static void test_period(void **state)
         double late = upward(&scene, 1e8, step);
         off(second - first, expected, expected, 1e-4, "period");
         off(remainder(late - first, expected), 0, expected, 1e-4, "a million orbits later");
-        scene.top.time = first + 0.25 * expected; /* from below through alpha > 0 upwards: anticlockwise seen from above */
+        scene.top.time =
+            first + 0.25 * expected; /* from below through alpha > 0 upwards: anticlockwise seen from above */
         assert_true(light(&scene).spots.x > 5);
     }
 }
 
-/* With slow light the centroid of a small spot is at t + D where with fast light it is at t, D being the delay of the ray from
- * there, by the oracle. */
+/* With slow light the centroid of a small spot is at t + D where with fast light it is at t, D being the delay of
+ * the ray from there, by the oracle. */
 static void test_slow_light(void **state)
 {
     (void)state;
@@ -349,8 +356,8 @@ static void test_parts(void **state)
     }
 }
 
-/* As many as a scene may have, whatever their places in the list: their light is the sum of theirs, and dark ones between them are not there
- * at all. */
+/* As many as a scene may have, whatever their places in the list: their light is the sum of theirs, and dark ones
+ * between them are not there at all. */
 static void test_many(void **state)
 {
     (void)state;
@@ -358,8 +365,12 @@ static void test_many(void **state)
     double sum = 0, x = 0;
     scene.spots.count = KD_SPOTS;
     for (int k = 0; k < KD_SPOTS; k++) {
-        struct kd_spot spot = { .brightness = 0.2 + 0.1 * k, .r = 5 + 0.7 * k, .phase_deg = 133 * k % 360, .size = 0.5 + 0.1 * (k % 4),
-                                .index = k % 3 - 1, .temperature_k = 4000 + 500 * k };
+        struct kd_spot spot = { .brightness = 0.2 + 0.1 * k,
+                                .r = 5 + 0.7 * k,
+                                .phase_deg = 133 * k % 360,
+                                .size = 0.5 + 0.1 * (k % 4),
+                                .index = k % 3 - 1,
+                                .temperature_k = 4000 + 500 * k };
         if (k == 0 || k == 7)
             spot.brightness = 0;
         scene.spots.at[k] = single.spots.at[0] = spot;
@@ -428,7 +439,8 @@ static void test_resolution(void **state)
         scene.image.width = widths[k];
         scene.image.height = widths[k] * 3 / 4;
         struct kd_light_report coarse = light(&scene);
-        printf("%d pixels wide: flux off by %.2g, centroid by %.2g M\n", widths[k], coarse.spots.flux / fine.spots.flux - 1,
+        printf("%d pixels wide: flux off by %.2g, centroid by %.2g M\n", widths[k],
+               coarse.spots.flux / fine.spots.flux - 1,
                hypot(coarse.spots.x - fine.spots.x, coarse.spots.y - fine.spots.y));
         same_light(&coarse.spots, &fine.spots, 0.01, "coarser");
     }
@@ -463,7 +475,8 @@ static void test_plans(void **state)
     assert_true(kd_plan_holds(&plan, KD_LENS_PHI) && plan.light && plan.apart);
     scene.spots.at[0].brightness = 0;
     plan = plan_of(&scene, 0);
-    assert_true(!kd_plan_holds(&plan, KD_LENS_PHI) && !plan.light && !plan.apart && !kd_plan_holds(&plan, KD_LENS_DELAY) && plan.planes == plan.orders);
+    assert_true(!kd_plan_holds(&plan, KD_LENS_PHI) && !plan.light && !plan.apart &&
+                !kd_plan_holds(&plan, KD_LENS_DELAY) && plan.planes == plan.orders);
     scene.disk.slow_light = true; /* of what? */
     plan = plan_of(&scene, 0);
     assert_false(kd_plan_holds(&plan, KD_LENS_DELAY));
@@ -472,7 +485,8 @@ static void test_plans(void **state)
     assert_true(kd_plan_holds(&plan, KD_LENS_DELAY));
 }
 
-/* Light that is measured alone is the same to the bit, in one band and in many, and takes no pass that only a picture needs. */
+/* Light that is measured alone is the same to the bit, in one band and in many, and takes no pass that only a
+ * picture needs. */
 static void test_unseen(void **state)
 {
     (void)state;
@@ -485,18 +499,21 @@ static void test_unseen(void **state)
         struct kd_frame frames[2];
         kd_renderer_capacity(renderer, &c);
         c.max_binding_bytes = bands ? 1 << 16 : c.max_binding_bytes;
-        OK(kd_scene_set(&scene, "image.layers", bands ? "rgb" : "rgb,r,intensity_1", &error)); /* nobody sees these either */
+        OK(kd_scene_set(&scene, "image.layers", bands ? "rgb" : "rgb,r,intensity_1",
+                        &error)); /* nobody sees these either */
         for (int unseen = 0; unseen < 2; unseen++) {
             struct kd_plan plan;
             struct kd_needs needs = kd_needs_of(&scene);
             needs.unseen = unseen;
             OK(kd_plan_make_for(&scene, &needs, &c, &plan, &error));
-            assert_true(plan.light && (plan.bands > 1) == bands && (plan.host_bytes == 0) == unseen && (plan.bloom.levels == 0) == unseen);
+            assert_true(plan.light && (plan.bands > 1) == bands && (plan.host_bytes == 0) == unseen &&
+                        (plan.bloom.levels == 0) == unseen);
             OK(kd_render(renderer, &scene, &plan, NULL, NULL, &frames[unseen], &error));
             assert_int_equal(frames[unseen].n_layers, unseen ? 0 : bands ? 1 : 3);
             assert_true(ran(&frames[unseen], "light"));
             for (int i = 0; i < 4; i++)
-                assert_true(ran(&frames[unseen], (const char *[]) { "expose", "bloom", "post", "readback" }[i]) != unseen);
+                assert_true(ran(&frames[unseen], (const char *[]) { "expose", "bloom", "post", "readback" }[i]) !=
+                            unseen);
         }
         assert_true(frames[0].light.measured && frames[1].light.measured && frames[0].light.spots.flux > 0);
         assert_memory_equal(&frames[0].light.all, &frames[1].light.all, sizeof frames[0].light.all);
@@ -509,9 +526,10 @@ static void test_unseen(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_oracle),     cmocka_unit_test(test_far_out), cmocka_unit_test(test_period),
-        cmocka_unit_test(test_slow_light), cmocka_unit_test(test_parts),   cmocka_unit_test(test_many),    cmocka_unit_test(test_seams),
-        cmocka_unit_test(test_resolution), cmocka_unit_test(test_plans),  cmocka_unit_test(test_unseen),
+        cmocka_unit_test(test_oracle),     cmocka_unit_test(test_far_out),    cmocka_unit_test(test_period),
+        cmocka_unit_test(test_slow_light), cmocka_unit_test(test_parts),      cmocka_unit_test(test_many),
+        cmocka_unit_test(test_seams),      cmocka_unit_test(test_resolution), cmocka_unit_test(test_plans),
+        cmocka_unit_test(test_unseen),
     };
     int code = open_renderer();
     return code ? code : close_renderer(cmocka_run_group_tests(tests, NULL, NULL));

@@ -1,5 +1,5 @@
-/* Images of one star, Sirius: their places and their light, by the Kerr-Schild oracle and, about a hole that does not spin, by a quadrature of
- * the lens equation. The star is put where it is wanted by turning the sky. */
+/* Images of one star, Sirius: their places and their light, by the Kerr-Schild oracle and, about a hole that does
+ * not spin, by a quadrature of the lens equation. The star is put where it is wanted by turning the sky. */
 #include "kerr_schild.h"
 #include "render/render.h"
 #include "render/sky/frame.h"
@@ -16,7 +16,10 @@ enum { WIDTH = 800, HEIGHT = 401 };
 
 struct vec3 { double x, y, z; };
 static double dot(struct vec3 a, struct vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-static struct vec3 cross(struct vec3 a, struct vec3 b) { return (struct vec3) { a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x }; }
+static struct vec3 cross(struct vec3 a, struct vec3 b)
+{
+    return (struct vec3) { a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x };
+}
 
 static struct kd_scene scene_of(double spin, double inclination)
 {
@@ -103,35 +106,41 @@ static const double step = 2 * 0.83909963117728001177 / WIDTH; /* tan(40 degrees
 /* Where the ray at a place of the picture comes from, by the oracle; g of what it brings. */
 static struct vec3 from(const struct kd_scene *scene, double x, double y, double *g)
 {
-    double right = (x - 0.5 * (WIDTH - 1)) * step, up = (0.5 * (HEIGHT - 1) - y) * step, n = 1 / sqrt(1 + right * right + up * up);
+    double right = (x - 0.5 * (WIDTH - 1)) * step, up = (0.5 * (HEIGHT - 1) - y) * step,
+           n = 1 / sqrt(1 + right * right + up * up);
     const double k[] = { -n, -n * up, n * right };
-    struct ks_photon photon = ks_from_camera(scene->spacetime.spin, RADIUS, scene->camera.inclination_deg * DEGREE, false, k);
+    struct ks_photon photon =
+        ks_from_camera(scene->spacetime.spin, RADIUS, scene->camera.inclination_deg * DEGREE, false, k);
     const struct ks_path path = ks_trace(photon, 8);
     double s = sqrt(1 - path.u * path.u);
     *g = path.fate == KS_ESCAPED ? 1 / photon.energy : 0; /* 0: it looks into the shadow */
     return (struct vec3) { s * cos(path.sky_phi), s * sin(path.sky_phi), path.u };
 }
 
-/* The solid angle of the sky that a pixel is mapped to there: central differences of the oracle's rays, extrapolated. */
+/* The solid angle of the sky that a pixel is mapped to there: central differences of the oracle's rays,
+ * extrapolated. */
 static double patch(const struct kd_scene *scene, double x, double y, double step_)
 {
     double g, area[2];
     for (int k = 0; k < 2; k++) {
         double h = k ? step_ : 2 * step_;
-        struct vec3 a = from(scene, x + h, y, &g), b = from(scene, x - h, y, &g), c = from(scene, x, y + h, &g), d = from(scene, x, y - h, &g), n = from(scene, x, y, &g);
+        struct vec3 a = from(scene, x + h, y, &g), b = from(scene, x - h, y, &g), c = from(scene, x, y + h, &g),
+                    d = from(scene, x, y - h, &g), n = from(scene, x, y, &g);
         struct vec3 i = { a.x - b.x, a.y - b.y, a.z - b.z }, j = { c.x - d.x, c.y - d.y, c.z - d.z };
         area[k] = fabs(dot(n, cross(i, j))) / (4 * h * h);
     }
     return (4 * area[1] - area[0]) / 3;
 }
 
-/* Place after place of the picture, the last ones next to the critical curve of the primary image, where light diverges. */
+/* Place after place of the picture, the last ones next to the critical curve of the primary image, where light
+ * diverges. */
 static void by_rays(double spin, double inclination, double *worst_light, double *worst_place)
 {
     struct kd_scene scene = scene_of(spin, inclination);
     const double flux = kd_star_flux(kd_catalogue_star(0).magnitude);
     for (int k = 0; k < 24; k++) {
-        double angle = 2.399963 * k, rho = 0.2 + 0.018 * k, x = 0.5 * (WIDTH - 1) + rho * cos(angle) / step, y = 0.5 * (HEIGHT - 1) - rho * sin(angle) / step, g;
+        double angle = 2.399963 * k, rho = 0.2 + 0.018 * k, x = 0.5 * (WIDTH - 1) + rho * cos(angle) / step,
+               y = 0.5 * (HEIGHT - 1) - rho * sin(angle) / step, g;
         if (x < 4 || y < 4 || x > WIDTH - 5 || y > HEIGHT - 5)
             continue;
         struct vec3 n = from(&scene, x, y, &g);
@@ -139,9 +148,11 @@ static void by_rays(double spin, double inclination, double *worst_light, double
             continue;
         struct kd_frame frame = seen(&scene);
         const struct blob b = blob_at(&frame, x, y, 2);
-        double want = flux * g * g * g * g / patch(&scene, x, y, 0.02), light = fabs(b.light / want - 1), place = hypot(b.x - x, b.y - y);
+        double want = flux * g * g * g * g / patch(&scene, x, y, 0.02), light = fabs(b.light / want - 1),
+               place = hypot(b.x - x, b.y - y);
         if (light > 0.01 || place > 0.01)
-            printf("spin %g: at %.2f, %.2f light %.5f of %.5g, place off by %.3f pixels\n", spin, x, y, b.light / want, want, place);
+            printf("spin %g: at %.2f, %.2f light %.5f of %.5g, place off by %.3f pixels\n", spin, x, y, b.light / want,
+                   want, place);
         *worst_light = fmax(*worst_light, light);
         *worst_place = fmax(*worst_place, place);
         kd_frame_finish(&frame);
@@ -155,13 +166,15 @@ static void images_by_the_oracle(void **state)
     for (size_t i = 0; i < sizeof holes / sizeof *holes; i++) {
         double light = 0, place = 0;
         by_rays(holes[i].spin, holes[i].inclination, &light, &place);
-        printf("spin %g, inclination %g: light within %.4f, places within %.3f pixels\n", holes[i].spin, holes[i].inclination, light, place);
+        printf("spin %g, inclination %g: light within %.4f, places within %.3f pixels\n", holes[i].spin,
+               holes[i].inclination, light, place);
         assert_true(light > 0 && light < 0.01 && place < 0.01); /* a B-spline's centre is where it is put */
     }
 }
 
-/* The azimuth that a ray sweeps from the observer at R to infinity, by b: w = 1/r, dphi = dw / sqrt(1/b^2 - w^2 + 2 w^3), in to the turning
- * point and out. With w = w_t sin^2 the root's zero there is taken out. Midpoints: the integrands are smooth, and even at both ends. */
+/* The azimuth that a ray sweeps from the observer at R to infinity, by b: w = 1/r, dphi = dw / sqrt(1/b^2 - w^2 + 2
+ * w^3), in to the turning point and out. With w = w_t sin^2 the root's zero there is taken out. Midpoints: the
+ * integrands are smooth, and even at both ends. */
 static double swept(double b)
 {
     double low = 0, high = 1.0 / 3, sum = 0;
@@ -193,7 +206,8 @@ static double looking(double azimuth)
     return 0.5 * (low + high);
 }
 
-/* The star is beta behind the hole, on the side of it that is `turned` from the picture's horizontal plane; its images lie there in the picture, and opposite. */
+/* The star is beta behind the hole, on the side of it that is `turned` from the picture's horizontal plane; its
+ * images lie there in the picture, and opposite. */
 static bool behind_by(struct kd_scene *scene, double beta, double turned)
 {
     *scene = scene_of(0, 90);
@@ -205,17 +219,21 @@ static bool in_the_picture(const struct blob *b, int margin)
     return b->x > margin && b->y > margin && b->x < WIDTH - 1 - margin && b->y < HEIGHT - 1 - margin;
 }
 
-/* By the lens equation: where the image is, the one on the star's side or the other, that has gone round the hole `rounds` times more, and its light. */
+/* By the lens equation: where the image is, the one on the star's side or the other, that has gone round the hole
+ * `rounds` times more, and its light. */
 static struct blob by_the_lens_equation(double beta, double turned, int side, int rounds)
 {
-    const double flux = kd_star_flux(kd_catalogue_star(0).magnitude), g = 1 / sqrt(1 - 2 / RADIUS), h = rounds ? 1e-3 : 1e-4;
+    const double flux = kd_star_flux(kd_catalogue_star(0).magnitude), g = 1 / sqrt(1 - 2 / RADIUS),
+                 h = rounds ? 1e-3 : 1e-4;
     const double azimuth = (2 * rounds + 1) * M_PI + (side ? beta : -beta), theta = looking(azimuth);
-    const double slope = (looking(azimuth + h) - looking(azimuth - h)) / (2 * h), off = (side ? -1 : 1) * tan(theta) / step;
+    const double slope = (looking(azimuth + h) - looking(azimuth - h)) / (2 * h),
+                 off = (side ? -1 : 1) * tan(theta) / step;
     return (struct blob) { flux * pow(g, 4) * sin(theta) * fabs(slope) / sin(beta) / (step * step * pow(cos(theta), 3)),
                            0.5 * (WIDTH - 1) + off * cos(turned), 0.5 * (HEIGHT - 1) - off * sin(turned) };
 }
 
-/* Each image of a star behind the hole, and both together, however near to the caustic: all around it, that no place on the grid of rays is left out. */
+/* Each image of a star behind the hole, and both together, however near to the caustic: all around it, that no place
+ * on the grid of rays is left out. */
 static void behind(const double *betas, size_t n, int rounds)
 {
     static const double turns[] = { 0, 0.3, 0.9, 2.1, 3.7, 5 };
@@ -243,7 +261,9 @@ static void behind(const double *betas, size_t n, int rounds)
                 both = fmax(both, fabs(is / all - 1));
             kd_frame_finish(&frame);
         }
-        printf("beta %g, %d rounds more: %d images, each within %.5f of its light, both together within %.5f, places within %.4f pixels\n", betas[i], rounds, images, single, both, place);
+        printf("beta %g, %d rounds more: %d images, each within %.5f of its light, both together within %.5f, places "
+               "within %.4f pixels\n",
+               betas[i], rounds, images, single, both, place);
         assert_true(images >= (!rounds ? 9 : betas[i] > 1 ? 3 : betas[i] == 1 ? 8 : 12));
         assert_true(single < 0.01 && both < 0.01 && place < 0.02);
     }
@@ -264,7 +284,8 @@ static void round_the_hole(void **state)
     behind(betas, sizeof betas / sizeof *betas, 1);
 }
 
-/* A small picture of a place next to the curve, at a distance from the middle of a plane that is square to the way inwards; `angle` from the right. */
+/* A small picture of a place next to the curve, at a distance from the middle of a plane that is square to the way
+ * inwards; `angle` from the right. */
 enum { CLOSE_WIDTH = 160, CLOSE_HEIGHT = 91 };
 #define CLOSE_FIELD 1.6
 struct close { double rho, angle; };
@@ -273,13 +294,19 @@ struct close { double rho, angle; };
 static struct vec3 seen_by(const struct kd_scene *scene, struct vec3 d, double *g)
 {
     const double n = 1 / sqrt(dot(d, d)), k[] = { -n * d.z, -n * d.y, n * d.x };
-    const struct ks_path path = ks_trace(ks_from_camera(scene->spacetime.spin, RADIUS, scene->camera.inclination_deg * DEGREE, false, k), 8);
-    const double s = sqrt(1 - path.u * path.u), e = ks_from_camera(scene->spacetime.spin, RADIUS, scene->camera.inclination_deg * DEGREE, false, k).energy;
+    const struct ks_path path =
+        ks_trace(ks_from_camera(scene->spacetime.spin, RADIUS, scene->camera.inclination_deg * DEGREE, false, k), 8);
+    const double s = sqrt(1 - path.u * path.u),
+                 e = ks_from_camera(scene->spacetime.spin, RADIUS, scene->camera.inclination_deg * DEGREE, false, k)
+                         .energy;
     *g = path.fate == KS_ESCAPED ? 1 / e : 0;
     return (struct vec3) { s * cos(path.sky_phi), s * sin(path.sky_phi), path.u };
 }
 
-static struct vec3 towards(const struct close *c, double further) { return (struct vec3) { (c->rho + further) * cos(c->angle), (c->rho + further) * sin(c->angle), 1 }; }
+static struct vec3 towards(const struct close *c, double further)
+{
+    return (struct vec3) { (c->rho + further) * cos(c->angle), (c->rho + further) * sin(c->angle), 1 };
+}
 
 /* The distance at which rays begin to escape, by the oracle. */
 static double edge(const struct kd_scene *scene, double angle)
@@ -293,14 +320,18 @@ static double edge(const struct kd_scene *scene, double angle)
     return high;
 }
 
-/* The solid angle of the sky that a pixel of the small picture's middle is mapped to: to the fourth order, by steps outwards and along the curve, which are longer,
- * for there the oracle's rays, so near to it, are not exact enough for short ones, and it bends by the step's square. */
+/* The solid angle of the sky that a pixel of the small picture's middle is mapped to: to the fourth order, by steps
+ * outwards and along the curve, which are longer, for there the oracle's rays, so near to it, are not exact enough
+ * for short ones, and it bends by the step's square. */
 static double patch_close(const struct kd_scene *scene, const struct close *c, double off, double curve)
 {
-    const double ahead = c->angle + 1e-3, behind = c->angle - 1e-3, far = edge(scene, ahead), near = edge(scene, behind);
-    const double tx = far * cos(ahead) - near * cos(behind), ty = far * sin(ahead) - near * sin(behind), length = hypot(tx, ty);
+    const double ahead = c->angle + 1e-3, behind = c->angle - 1e-3, far = edge(scene, ahead),
+                 near = edge(scene, behind);
+    const double tx = far * cos(ahead) - near * cos(behind), ty = far * sin(ahead) - near * sin(behind),
+                 length = hypot(tx, ty);
     const bool fast = fabs(scene->spacetime.spin) > 0.9; /* the sky goes by faster */
-    const double outwards = (fast ? 0.003 : 0.01) * fmin(off, 0.1) * curve, along_ = (fast ? 0.001 : 0.03) * sqrt(fmin(off, 0.1)) * curve;
+    const double outwards = (fast ? 0.003 : 0.01) * fmin(off, 0.1) * curve,
+                 along_ = (fast ? 0.001 : 0.03) * sqrt(fmin(off, 0.1)) * curve;
     static const double weights[] = { 8.0 / 12, -1.0 / 12 };
     const double pixel = 2 * tan(0.5 * scene->camera.fov_deg * DEGREE) / CLOSE_WIDTH;
     const struct vec3 middle = towards(c, 0);
@@ -310,7 +341,10 @@ static double patch_close(const struct kd_scene *scene, const struct close *c, d
         for (int sign = -1; sign <= 1; sign += 2) {
             const double step_ = sign * (k + 1), w = sign * weights[k] / outwards, v = sign * weights[k] / along_;
             const struct vec3 out = seen_by(scene, towards(c, step_ * outwards), &g);
-            const struct vec3 along = seen_by(scene, (struct vec3) { middle.x + step_ * along_ * tx / length, middle.y + step_ * along_ * ty / length, 1 }, &g);
+            const struct vec3 along = seen_by(
+                scene,
+                (struct vec3) { middle.x + step_ * along_ * tx / length, middle.y + step_ * along_ * ty / length, 1 },
+                &g);
             i = (struct vec3) { i.x + w * out.x, i.y + w * out.y, i.z + w * out.z };
             j = (struct vec3) { j.x + v * along.x, j.y + v * along.y, j.z + v * along.z };
         }
@@ -332,7 +366,8 @@ static void look_at(struct kd_scene *scene, const struct close *c, double field_
     scene->image.critical_factor = 1;
 }
 
-/* Ever nearer to the curve of a hole that spins, where images of ever higher orders are: each image that is above the threshold. */
+/* Ever nearer to the curve of a hole that spins, where images of ever higher orders are: each image that is above
+ * the threshold. */
 static void next_to_the_curve(void **state)
 {
     (void)state;
@@ -356,24 +391,29 @@ static void next_to_the_curve(void **state)
         const double x = 0.5 * (CLOSE_WIDTH - 1), y = 0.5 * (CLOSE_HEIGHT - 1);
         const struct blob b = blob_at(&frame, x, y, 1); /* all of it, and next to nothing of the star's other images */
         if (fabs(b.light / want - 1) > 0.003 || hypot(b.x - x, b.y - y) > 0.003)
-            printf("spin 0.9, %g from the curve at angle %.2f: light %.4g, off by %+.5f, place by %.4f\n", off, angle, want, b.light / want - 1, hypot(b.x - x, b.y - y));
+            printf("spin 0.9, %g from the curve at angle %.2f: light %.4g, off by %+.5f, place by %.4f\n", off, angle,
+                   want, b.light / want - 1, hypot(b.x - x, b.y - y));
         worst = fmax(worst, fabs(b.light / want - 1));
         off_most = fmax(off_most, hypot(b.x - x, b.y - y));
         faintest = fmin(faintest, want);
         n++;
         kd_frame_finish(&frame);
     }
-    printf("spin 0.9: %d images of %d places, down to %.3g: light within %.5f, places within %.4f pixels\n", n, tried, faintest, worst, off_most);
+    printf("spin 0.9: %d images of %d places, down to %.3g: light within %.5f, places within %.4f pixels\n", n, tried,
+           faintest, worst, off_most);
     assert_true(n == 39 && tried == 41 && worst < 0.005 && off_most < 0.02);
 }
 
-/* The same of fast holes, seen from beside them or not, on the side that comes towards the observer: there each image is but some hundredths nearer to the curve than the last, and
- * the picture is so small that the one in the middle is `AWAY` pixels from the curve. */
+/* The same of fast holes, seen from beside them or not, on the side that comes towards the observer: there each
+ * image is but some hundredths nearer to the curve than the last, and the picture is so small that the one in the
+ * middle is `AWAY` pixels from the curve. */
 #define AWAY 100
 static void next_to_the_curve_of_fast_holes(void **state)
 {
     (void)state;
-    static const struct { double spin, inclination; } holes[] = { { 0.95, 90 }, { 0.998, 85 }, { 0.9999, 90 }, { -0.9999, 100 } };
+    static const struct {
+        double spin, inclination;
+    } holes[] = { { 0.95, 90 }, { 0.998, 85 }, { 0.9999, 90 }, { -0.9999, 100 } };
     static const double offs[] = { 0.1, 0.03, 0.01 };
     const double flux = kd_star_flux(kd_catalogue_star(0).magnitude);
     for (size_t h = 0; h < sizeof holes / sizeof *holes; h++) {
@@ -381,7 +421,8 @@ static void next_to_the_curve_of_fast_holes(void **state)
         int n = 0;
         for (int k = 0; k < 6; k++) {
             struct kd_scene scene = scene_of(holes[h].spin, holes[h].inclination);
-            const double angle = (holes[h].spin > 0 ? M_PI : 0) + (k % 2 ? 0.3 : -0.9) + 0.05 * k, off = offs[k / 2], curve = edge(&scene, angle);
+            const double angle = (holes[h].spin > 0 ? M_PI : 0) + (k % 2 ? 0.3 : -0.9) + 0.05 * k, off = offs[k / 2],
+                         curve = edge(&scene, angle);
             const struct close at = { curve * (1 + off), angle };
             double g;
             if (!aim(&scene, seen_by(&scene, towards(&at, 0), &g)))
@@ -394,15 +435,19 @@ static void next_to_the_curve_of_fast_holes(void **state)
             const double x = 0.5 * (CLOSE_WIDTH - 1), y = 0.5 * (CLOSE_HEIGHT - 1);
             const struct blob b = blob_at(&frame, x, y, 1);
             if (!(fabs(b.light / want - 1) < 0.005 && hypot(b.x - x, b.y - y) < 0.02))
-                printf("spin %g, inclination %g, %g from the curve at angle %.2f: light %.4g, off by %+.5f, place by %.4f\n", holes[h].spin, holes[h].inclination, off, angle, want, b.light / want - 1,
+                printf("spin %g, inclination %g, %g from the curve at angle %.2f: light %.4g, off by %+.5f, place by "
+                       "%.4f\n",
+                       holes[h].spin, holes[h].inclination, off, angle, want, b.light / want - 1,
                        hypot(b.x - x, b.y - y));
             worst = fmax(worst, fabs(b.light / want - 1));
             off_most = fmax(off_most, hypot(b.x - x, b.y - y));
             n++;
             kd_frame_finish(&frame);
         }
-        printf("spin %g, inclination %g: %d images, light within %.5f, places within %.4f pixels\n", holes[h].spin, holes[h].inclination, n, worst, off_most);
-        assert_true(n >= 4 && worst < 0.005 && off_most < 0.03); /* most are within 0.002 pixels; one next to a caustic of 0.9999, in pixels of 1e-5 rad, is 0.02 off */
+        printf("spin %g, inclination %g: %d images, light within %.5f, places within %.4f pixels\n", holes[h].spin,
+               holes[h].inclination, n, worst, off_most);
+        assert_true(n >= 4 && worst < 0.005 && off_most < 0.03); /* most are within 0.002 pixels; one next to a caustic
+                                                                    of 0.9999, in pixels of 1e-5 rad, is 0.02 off */
     }
 }
 
@@ -459,8 +504,8 @@ static struct kd_plan plan_of(const struct kd_scene *scene, const struct kd_capa
     return plan;
 }
 
-/* The light of a picture in bands that is made aside, while others under another sky are made, is not taken for light of theirs: that sky, by the same
- * lens map, is then the same as by a map of its own. */
+/* The light of a picture in bands that is made aside, while others under another sky are made, is not taken for
+ * light of theirs: that sky, by the same lens map, is then the same as by a map of its own. */
 static void another_sky_meanwhile(void **state)
 {
     (void)state;
@@ -500,14 +545,15 @@ static bool was_run(const struct kd_frame *frame, const char *pass)
     return false;
 }
 
-/* The light of stars is kept with the lens map. A frame with one thing changed, and the map reused, is the same as with a map of its own, which the
- * number of rays at the curve makes it, where only one ray a pixel is seen. */
+/* The light of stars is kept with the lens map. A frame with one thing changed, and the map reused, is the same as
+ * with a map of its own, which the number of rays at the curve makes it, where only one ray a pixel is seen. */
 static void kept_and_made_anew(void **state)
 {
     (void)state;
     static const char *const changes[][2] = {
-        { "camera.azimuth_deg", "3" }, { "sky.turn_deg", "5" },         { "sky.tilt_deg", "-20" },  { "sky.brightness", "2" }, { "sky.limit_mag", "6" },
-        { "sky.orientation", "m87" },  { "sky.model", "stars" },        { "disk.band", "visible" }, { "time", "10" },
+        { "camera.azimuth_deg", "3" }, { "sky.turn_deg", "5" },    { "sky.tilt_deg", "-20" },
+        { "sky.brightness", "2" },     { "sky.limit_mag", "6" },   { "sky.orientation", "m87" },
+        { "sky.model", "stars" },      { "disk.band", "visible" }, { "time", "10" },
     };
     struct kd_scene base = scene_of(0.9, 75);
     base.sky.limit_mag = 8;
@@ -530,8 +576,8 @@ static void kept_and_made_anew(void **state)
     }
 }
 
-/* Bright images alone: those that are bright enough by half are there, with their light, at their places to a fifth of a ray; many are not; the plan says so; and the map
- * is one without footprints. */
+/* Bright images alone: those that are bright enough by half are there, with their light, at their places to a fifth
+ * of a ray; many are not; the plan says so; and the map is one without footprints. */
 static void bright_images(void **state)
 {
     (void)state;
@@ -552,9 +598,11 @@ static void bright_images(void **state)
     struct kd_frame all = seen(&scene);
     OK(kd_render(renderer, &scene, &plan, NULL, NULL, &bright, &error));
     struct kd_frame again = seen(&scene);
-    assert_true(was_run(&bright, "stars") && !bright.lens_reused && !was_run(&again, "stars") && again.lens_reused); /* each has a map of its own */
+    assert_true(was_run(&bright, "stars") && !bright.lens_reused && !was_run(&again, "stars") &&
+                again.lens_reused); /* each has a map of its own */
     assert_memory_equal(again.layers[1].data, all.layers[1].data, 12ull * WIDTH * HEIGHT);
-    const double radius = 0.5 * WIDTH * tan(asin(sqrt(27) / RADIUS)) / tan(0.5 * scene.camera.fov_deg * DEGREE); /* of the curve, about */
+    const double radius =
+        0.5 * WIDTH * tan(asin(sqrt(27) / RADIUS)) / tan(0.5 * scene.camera.fov_deg * DEGREE); /* of the curve, about */
     int images = 0, faint = 0, lost = 0, off = 0; /* light of faint ones within a pixel is missing too */
     for (int y = 4; y < HEIGHT - 4; y++)
         for (int x = 4; x < WIDTH - 4; x++) {
@@ -573,15 +621,16 @@ static void bright_images(void **state)
             lost += fabs(is.light / want.light - 1) > 0.1;
             off += !(place < 0.2);
         }
-    printf("%d bright images, %d of other light, %d off their places; %d pixels of faint ones are dark\n", images, lost, off, faint);
+    printf("%d bright images, %d of other light, %d off their places; %d pixels of faint ones are dark\n", images, lost,
+           off, faint);
     assert_true(images > 30 && lost <= images / 30 && off <= images / 60 && faint > 500);
     kd_frame_finish(&all);
     kd_frame_finish(&bright);
     kd_frame_finish(&again);
 }
 
-/* Where light is spread over the sky as well, bright images alone are sought in the same lens map, which then has footprints: light of one kind is not taken for
- * that of the other. */
+/* Where light is spread over the sky as well, bright images alone are sought in the same lens map, which then has
+ * footprints: light of one kind is not taken for that of the other. */
 static void bright_images_before_spread_light(void **state)
 {
     (void)state;
@@ -605,7 +654,8 @@ static void bright_images_before_spread_light(void **state)
     kd_frame_finish(&again);
 }
 
-/* Where light is spread over the sky, however faint, each pixel is lit by itself; where only points are, columns of pixels go from crossing to crossing. */
+/* Where light is spread over the sky, however faint, each pixel is lit by itself; where only points are, columns of
+ * pixels go from crossing to crossing. */
 static void points_behind_a_disk(void **state)
 {
     (void)state;
@@ -646,9 +696,17 @@ int main(int argc, char **argv)
     if (argc > 1)
         cmocka_set_test_filter(argv[1]);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bright_images), cmocka_unit_test(bright_images_before_spread_light), cmocka_unit_test(points_behind_a_disk),
-        cmocka_unit_test(kept_and_made_anew), cmocka_unit_test(another_sky_meanwhile),
-        cmocka_unit_test(behind_the_hole), cmocka_unit_test(round_the_hole), cmocka_unit_test(next_to_the_curve), cmocka_unit_test(next_to_the_curve_of_fast_holes), cmocka_unit_test(images_by_the_oracle), cmocka_unit_test(whole_skies),
+        cmocka_unit_test(bright_images),
+        cmocka_unit_test(bright_images_before_spread_light),
+        cmocka_unit_test(points_behind_a_disk),
+        cmocka_unit_test(kept_and_made_anew),
+        cmocka_unit_test(another_sky_meanwhile),
+        cmocka_unit_test(behind_the_hole),
+        cmocka_unit_test(round_the_hole),
+        cmocka_unit_test(next_to_the_curve),
+        cmocka_unit_test(next_to_the_curve_of_fast_holes),
+        cmocka_unit_test(images_by_the_oracle),
+        cmocka_unit_test(whole_skies),
     };
     int skip = open_renderer();
     if (skip)

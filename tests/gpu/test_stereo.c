@@ -1,4 +1,5 @@
-/* Pairs of pictures: each half is the picture of that eye, to the byte; and where the hole stands in it is what Euclid says of two eyes. */
+/* Pairs of pictures: each half is the picture of that eye, to the byte; and where the hole stands in it is what
+ * Euclid says of two eyes. */
 #include "render_support.h"
 
 static struct kd_scene pair_from(double spin, double r, double distance)
@@ -78,7 +79,8 @@ static void test_by_hand(void **state)
     kd_frame_finish(&one);
 }
 
-/* From far away the dark disk stands to the side by half of the distance over the radius; pixels of the tangent plane. */
+/* From far away the dark disk stands to the side by half of the distance over the radius; pixels of the tangent
+ * plane. */
 static void test_parallax(void **state)
 {
     (void)state;
@@ -115,7 +117,8 @@ static void test_parallax(void **state)
                 }
         assert_true(n > 500);
         if (!(fabs(x / n - (side ? -expected : expected)) < 0.3 && fabs(y / n) < 0.3))
-            fail_msg("eye %d: the dark disk stands at %g, %g, Euclid has it at %g", side, x / n, y / n, side ? -expected : expected);
+            fail_msg("eye %d: the dark disk stands at %g, %g, Euclid has it at %g", side, x / n, y / n,
+                     side ? -expected : expected);
     }
     kd_frame_finish(&frame);
 }
@@ -130,7 +133,8 @@ static void test_plan(void **state)
     OK(kd_plan_make(&scene, &c, &plan, &error));
     one = kd_scene_eye(&scene, -1);
     OK(kd_plan_make(&one, &c, &single, &error));
-    assert_true(plan.eyes == 2 && single.eyes == 0 && plan.estimate_ms > 1.8 * single.estimate_ms && plan.estimate_ms < 2.2 * single.estimate_ms);
+    assert_true(plan.eyes == 2 && single.eyes == 0 && plan.estimate_ms > 1.8 * single.estimate_ms &&
+                plan.estimate_ms < 2.2 * single.estimate_ms);
     assert_int_equal(plan.n_approximations, single.n_approximations + 1);
     scene.image.width++;
     struct kd_plan other;

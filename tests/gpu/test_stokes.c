@@ -1,6 +1,7 @@
-/* Polarised light of a volume at a radio frequency: Stokes I, Q, U and V of rays against an integration that shares no step with the march: the ray and the vectors across it carried
- * in Kerr-Schild coordinates by Runge and Kutta (tests/oracle/kerr_schild_transport.c), coefficients in CGS with Bessel's functions by quadrature, and the transfer equation by
- * Runge and Kutta's method with the 4 x 4 matrix in each place, from the far end on. */
+/* Polarised light of a volume at a radio frequency: Stokes I, Q, U and V of rays against an integration that shares
+ * no step with the march: the ray and the vectors across it carried in Kerr-Schild coordinates by Runge and Kutta
+ * (tests/oracle/kerr_schild_transport.c), coefficients in CGS with Bessel's functions by quadrature, and the
+ * transfer equation by Runge and Kutta's method with the 4 x 4 matrix in each place, from the far end on. */
 #include "render_support.h"
 
 #include "kerr_schild_transport.h"
@@ -34,7 +35,11 @@ static const float *layer_of(const struct kd_frame *frame, const char *name)
 /* One ray: its places, from the observer on. */
 enum { PLACES = 120000 };
 struct place { double step, j[4], k[4][4]; };
-static struct ray { const struct kd_scene *scene; int n; struct place at[PLACES]; } ray;
+static struct ray {
+    const struct kd_scene *scene;
+    int n;
+    struct place at[PLACES];
+} ray;
 
 static void dot_all(double g[4][4], const double x[4], double out[4])
 {
@@ -60,10 +65,13 @@ static void boyer_lindquist(double a, double r, double u, double g[4][4])
     g[3][3] = (r * r + a * a + 2 * a * a * r * s2 / sigma) * s2;
 }
 
-/* Goes round with the circular orbit's angular velocity, or is at rest for observers of zero angular momentum: the scenes below have their inner edge outside the ISCO, or matter at rest. */
+/* Goes round with the circular orbit's angular velocity, or is at rest for observers of zero angular momentum: the
+ * scenes below have their inner edge outside the ISCO, or matter at rest. */
 static void flow_of(const struct kd_scene *scene, double a, double r, double g[4][4], double v[4])
 {
-    const double turns[4] = { 1, 0, 0, scene->volume.flow == KD_VOLUME_REST ? -g[0][3] / g[3][3] : 1 / (pow(r, 1.5) + a) }, size = 1 / sqrt(-dot(g, turns, turns));
+    const double turns[4] = { 1, 0, 0,
+                              scene->volume.flow == KD_VOLUME_REST ? -g[0][3] / g[3][3] : 1 / (pow(r, 1.5) + a) },
+                 size = 1 / sqrt(-dot(g, turns, turns));
     for (int i = 0; i < 4; i++)
         v[i] = size * turns[i];
 }
@@ -86,7 +94,8 @@ static void take(void *user, const struct ks_carried *at)
 {
     struct ray *to = user;
     const struct kd_volume *v = &to->scene->volume;
-    const double a = at->a, r = at->r, u = at->x[3] / r, sine = sqrt(1 - u * u), cm = GM_SUN * to->scene->spacetime.mass_msun / (C * C);
+    const double a = at->a, r = at->r, u = at->x[3] / r, sine = sqrt(1 - u * u),
+                 cm = GM_SUN * to->scene->spacetime.mass_msun / (C * C);
     double g[4][4], flow[4], field[4], lines[3][4] = { { 0, 0, 0, 1 }, { 0, u, -sine / r, 0 }, { 0, 1, 0, 0 } }, low[4];
     boyer_lindquist(a, r, u, g);
     double enthalpy = 0, most = 0;
@@ -99,34 +108,43 @@ static void take(void *user, const struct ks_carried *at)
     const double along = ks_carried_product(at, field, flow);
     for (int i = 0; i < 4; i++)
         field[i] += along * flow[i];
-    const double size = sqrt(ks_carried_product(at, field, field)), seen = -ks_carried_product(at, at->k, flow), c = ks_carried_product(at, at->k, field) / (size * seen), s = sqrt(1 - c * c);
-    /* The field across the ray: what it has along the direction of the light in the frame of the matter is taken away. */
+    const double size = sqrt(ks_carried_product(at, field, field)), seen = -ks_carried_product(at, at->k, flow),
+                 c = ks_carried_product(at, at->k, field) / (size * seen), s = sqrt(1 - c * c);
+    /* The field across the ray: what it has along the direction of the light in the frame of the matter is taken
+     * away. */
     double across[4];
     for (int i = 0; i < 4; i++)
         across[i] = field[i] / size - c * (at->k[i] / seen - flow[i]);
-    const double x = ks_carried_product(at, across, at->right), y = ks_carried_product(at, across, at->up), angle = atan2(-x, y) + M_PI / 2; /* of the electric field, from up to the left */
+    const double x = ks_carried_product(at, across, at->right), y = ks_carried_product(at, across, at->up),
+                 angle = atan2(-x, y) + M_PI / 2; /* of the electric field, from up to the left */
     const double z = r * u, h = v->height * r * sine, share = (v->adiabatic_index - 1) / v->adiabatic_index;
     double n = v->density_cm3 * pow(r, -v->density_index) * (v->height > 0 ? exp(-z * z / (2 * h * h)) : 1);
-    double magnetic = v->magnetisation * pow(r, -v->magnetisation_index), theta = K * v->electron_temperature_k * pow(r, -v->temperature_index) / (ME * C * C);
+    double magnetic = v->magnetisation * pow(r, -v->magnetisation_index),
+           theta = K * v->electron_temperature_k * pow(r, -v->temperature_index) / (ME * C * C);
     if (v->model == KD_VOLUME_TORUS) {
         n = enthalpy > 0 && r > v->inner ? v->density_cm3 * pow(enthalpy / most, 1 / (v->adiabatic_index - 1)) : 0;
         magnetic = share * enthalpy / v->beta;
         theta = MP / ME * share * enthalpy / (1 + v->temperature_ratio);
     }
-    const double b = sqrt(8 * M_PI * magnetic * n * MP * C * C), turn = sqrt(E2) * b / (2 * M_PI * ME * C), nu = v->frequency_ghz * 1e9 * seen;
+    const double b = sqrt(8 * M_PI * magnetic * n * MP * C * C), turn = sqrt(E2) * b / (2 * M_PI * ME * C),
+                 nu = v->frequency_ghz * 1e9 * seen;
     if (to->n == PLACES)
         fail_msg("more places than there is room for");
     struct place *p = &to->at[to->n++];
     *p = (struct place) { .step = at->step };
     if (n < 1e-12)
         return;
-    const struct coefficients o = v->electrons == KD_VOLUME_POWER_LAW ? power_law(v->electrons_index, v->gamma_min, v->gamma_max, n, turn, s, c, nu)
-                                : v->electrons == KD_VOLUME_KAPPA     ? kappa_law(v->kappa, n, theta, turn, s, c, nu)
-                                                                      : thermal(n, theta, turn, s, c, nu);
+    const struct coefficients o = v->electrons == KD_VOLUME_POWER_LAW
+                                      ? power_law(v->electrons_index, v->gamma_min, v->gamma_max, n, turn, s, c, nu)
+                                  : v->electrons == KD_VOLUME_KAPPA ? kappa_law(v->kappa, n, theta, turn, s, c, nu)
+                                                                    : thermal(n, theta, turn, s, c, nu);
     const double q = cos(2 * angle), w = sin(2 * angle), light = cm / (seen * seen), depth = cm * seen;
     const double j[4] = { o.j[0], o.j[1] * q, o.j[1] * w, o.j[2] }, t[4] = { o.a[0], o.a[1] * q, o.a[1] * w, o.a[2] };
     const double rho[3] = { o.rho[0] * q, o.rho[0] * w, o.rho[1] };
-    const double m[4][4] = { { t[0], t[1], t[2], t[3] }, { t[1], t[0], rho[2], -rho[1] }, { t[2], -rho[2], t[0], rho[0] }, { t[3], rho[1], -rho[0], t[0] } };
+    const double m[4][4] = { { t[0], t[1], t[2], t[3] },
+                             { t[1], t[0], rho[2], -rho[1] },
+                             { t[2], -rho[2], t[0], rho[0] },
+                             { t[3], rho[1], -rho[0], t[0] } };
     for (int i = 0; i < 4; i++) {
         p->j[i] = light * j[i];
         for (int k = 0; k < 4; k++)
@@ -164,8 +182,11 @@ static void integrate(double s[4])
 /* In the picture's brightness: 1e10 K. */
 static void wanted(const struct kd_scene *scene, int i, double s[4])
 {
-    const double step = scene->camera.field_m / WIDTH /* pixels are square */, x = step * (i % WIDTH - 0.5 * (WIDTH - 1)), y = -step * (i / WIDTH - 0.5 * (HEIGHT - 1)), nu = scene->volume.frequency_ghz * 1e9;
-    const struct ks_screen screen = ks_screen_far(scene->spacetime.spin, scene->camera.inclination_deg * M_PI / 180, x, y);
+    const double step = scene->camera.field_m / WIDTH /* pixels are square */,
+                 x = step * (i % WIDTH - 0.5 * (WIDTH - 1)), y = -step * (i / WIDTH - 0.5 * (HEIGHT - 1)),
+                 nu = scene->volume.frequency_ghz * 1e9;
+    const struct ks_screen screen =
+        ks_screen_far(scene->spacetime.spin, scene->camera.inclination_deg * M_PI / 180, x, y);
     ray.scene = scene;
     ray.n = 0;
     ks_carry(&screen, fmin(scene->volume.inner, INSIDE), scene->volume.outer, 0.008, take, &ray);
@@ -174,13 +195,24 @@ static void wanted(const struct kd_scene *scene, int i, double s[4])
         s[k] *= C * C / (2 * K * nu * nu) / 1e10;
 }
 
-static const struct view { const char *json; double allowed; } views[] = {
+static const struct view {
+    const char *json;
+    double allowed;
+} views[] = {
     { "{\"camera\":{\"field_m\":20},\"volume\":{\"inner\":2.5,\"outer\":20}}", 1e-3 },
-    { "{\"spacetime\":{\"spin\":-0.5},\"camera\":{\"inclination_deg\":110,\"field_m\":24},\"volume\":{\"inner\":2.2,\"outer\":18,\"height\":0.3,\"field\":\"radial\",\"flow\":\"rest\",\"frequency_ghz\":100}}", 1e-3 },
-    { "{\"spacetime\":{\"spin\":0.3},\"camera\":{\"inclination_deg\":35,\"field_m\":22},\"volume\":{\"inner\":2.5,\"outer\":20,\"height\":0,\"field\":\"vertical\",\"flow\":\"rest\","
-      "\"electrons\":\"power-law\",\"density_cm3\":1e5,\"magnetisation\":0.3,\"gamma_max\":1e4}}", 1e-3 },
-    { "{\"camera\":{\"field_m\":30},\"volume\":{\"model\":\"torus\",\"inner\":6,\"outer\":40,\"density_cm3\":1e6,\"temperature_ratio\":1}}", 1e-3 },
-    { "{\"camera\":{\"field_m\":20,\"inclination_deg\":50},\"volume\":{\"inner\":2.5,\"outer\":15,\"height\":0.5,\"field\":\"vertical\",\"electrons\":\"kappa\",\"kappa\":4.2,\"density_cm3\":3e5}}", 1e-3 },
+    { "{\"spacetime\":{\"spin\":-0.5},\"camera\":{\"inclination_deg\":110,\"field_m\":24},\"volume\":{\"inner\":2.2,"
+      "\"outer\":18,\"height\":0.3,\"field\":\"radial\",\"flow\":\"rest\",\"frequency_ghz\":100}}",
+      1e-3 },
+    { "{\"spacetime\":{\"spin\":0.3},\"camera\":{\"inclination_deg\":35,\"field_m\":22},\"volume\":{\"inner\":2.5,"
+      "\"outer\":20,\"height\":0,\"field\":\"vertical\",\"flow\":\"rest\","
+      "\"electrons\":\"power-law\",\"density_cm3\":1e5,\"magnetisation\":0.3,\"gamma_max\":1e4}}",
+      1e-3 },
+    { "{\"camera\":{\"field_m\":30},\"volume\":{\"model\":\"torus\",\"inner\":6,\"outer\":40,\"density_cm3\":1e6,"
+      "\"temperature_ratio\":1}}",
+      1e-3 },
+    { "{\"camera\":{\"field_m\":20,\"inclination_deg\":50},\"volume\":{\"inner\":2.5,\"outer\":15,\"height\":0.5,"
+      "\"field\":\"vertical\",\"electrons\":\"kappa\",\"kappa\":4.2,\"density_cm3\":3e5}}",
+      1e-3 },
 };
 enum { VIEWS = sizeof views / sizeof *views };
 
@@ -203,18 +235,21 @@ static void test_rays(void **state)
                 const double off = fabs(got[k] - want[k]) / fmax(want[0], 1e-3 * most);
                 worst[k] = fmax(worst[k], off);
                 if (!(off <= views[v].allowed))
-                    fail_msg("view %zu, pixel %d, %s: %.7g, the oracle has %.7g of I = %.7g, off by %.2g, allowed %.2g", v, i, names[k], got[k], want[k], want[0], off, views[v].allowed);
+                    fail_msg("view %zu, pixel %d, %s: %.7g, the oracle has %.7g of I = %.7g, off by %.2g, allowed %.2g",
+                             v, i, names[k], got[k], want[k], want[0], off, views[v].allowed);
             }
             if (hypot(want[1], want[2]) > 0.02 * want[0] && want[0] > 1e-3 * most) {
                 const double apart = 0.5 * (atan2(got[2], got[1]) - atan2(want[2], want[1]));
                 turned = fmax(turned, fabs(remainder(apart, M_PI)));
             }
         }
-        printf("view %zu: off by %.1e, %.1e, %.1e, %.1e of I; EVPA by %.3f deg; Q %.3f, U %.3f, V %.4f of I\n", v, worst[0], worst[1], worst[2], worst[3], turned * 180 / M_PI,
-               sums[1] / sums[0], sums[2] / sums[0], sums[3] / sums[0]);
+        printf("view %zu: off by %.1e, %.1e, %.1e, %.1e of I; EVPA by %.3f deg; Q %.3f, U %.3f, V %.4f of I\n", v,
+               worst[0], worst[1], worst[2], worst[3], turned * 180 / M_PI, sums[1] / sums[0], sums[2] / sums[0],
+               sums[3] / sums[0]);
         if (!(turned * 180 / M_PI <= 0.5))
             fail_msg("view %zu: EVPA is off by %g degrees", v, turned * 180 / M_PI);
-        assert_true(hypot(sums[1], sums[2]) > 0.01 * sums[0] && fabs(sums[3]) > 1e-4 * sums[0]); /* there is something to be off */
+        assert_true(hypot(sums[1], sums[2]) > 0.01 * sums[0] &&
+                    fabs(sums[3]) > 1e-4 * sums[0]); /* there is something to be off */
         kd_frame_finish(&frame);
     }
 }
@@ -223,41 +258,62 @@ static void test_adversarial(void **state)
 {
     (void)state;
     static const char *const extremes[] = {
-        "{\"volume\":{\"magnetisation\":0}}", "{\"volume\":{\"density_cm3\":0}}", "{\"volume\":{\"electron_temperature_k\":5930}}", "{\"volume\":{\"electron_temperature_k\":5.93e15}}",
-        "{\"volume\":{\"electron_temperature_k\":1e30,\"density_cm3\":1e30,\"magnetisation\":1e12}}", "{\"volume\":{\"density_cm3\":1e30}}", "{\"volume\":{\"frequency_ghz\":1e-6}}",
-        "{\"volume\":{\"frequency_ghz\":1e12}}", "{\"volume\":{\"density_cm3\":3e9,\"electron_temperature_k\":6e9,\"magnetisation\":3}}",
-        "{\"volume\":{\"density_index\":-10,\"temperature_index\":10,\"magnetisation_index\":-10,\"outer\":30000}}", "{\"spacetime\":{\"spin\":0.999999},\"volume\":{\"inner\":\"horizon\"}}",
-        "{\"volume\":{\"model\":\"torus\",\"inner\":6,\"outer\":100,\"beta\":1e12,\"density_cm3\":1e30}}", "{\"volume\":{\"model\":\"torus\",\"inner\":6,\"outer\":100,\"density_cm3\":0}}",
-        "{\"volume\":{\"model\":\"torus\",\"inner\":6,\"outer\":100,\"beta\":1e-6,\"temperature_ratio\":1e6,\"electrons\":\"kappa\",\"kappa\":5}}",
-        "{\"volume\":{\"electrons\":\"kappa\",\"electron_temperature_k\":5930}}", "{\"volume\":{\"electrons\":\"kappa\",\"kappa\":3.5,\"electron_temperature_k\":5.93e15}}",
-        "{\"volume\":{\"electrons\":\"kappa\",\"magnetisation\":0}}", "{\"volume\":{\"electrons\":\"kappa\",\"density_cm3\":1e30,\"frequency_ghz\":1e-6}}",
-        "{\"volume\":{\"electrons\":\"kappa\",\"density_cm3\":1e12,\"electron_temperature_k\":6e9,\"magnetisation\":3}}", "{\"volume\":{\"electrons\":\"kappa\",\"frequency_ghz\":1e12}}",
+        "{\"volume\":{\"magnetisation\":0}}",
+        "{\"volume\":{\"density_cm3\":0}}",
+        "{\"volume\":{\"electron_temperature_k\":5930}}",
+        "{\"volume\":{\"electron_temperature_k\":5.93e15}}",
+        "{\"volume\":{\"electron_temperature_k\":1e30,\"density_cm3\":1e30,\"magnetisation\":1e12}}",
+        "{\"volume\":{\"density_cm3\":1e30}}",
+        "{\"volume\":{\"frequency_ghz\":1e-6}}",
+        "{\"volume\":{\"frequency_ghz\":1e12}}",
+        "{\"volume\":{\"density_cm3\":3e9,\"electron_temperature_k\":6e9,\"magnetisation\":3}}",
+        "{\"volume\":{\"density_index\":-10,\"temperature_index\":10,\"magnetisation_index\":-10,\"outer\":30000}}",
+        "{\"spacetime\":{\"spin\":0.999999},\"volume\":{\"inner\":\"horizon\"}}",
+        "{\"volume\":{\"model\":\"torus\",\"inner\":6,\"outer\":100,\"beta\":1e12,\"density_cm3\":1e30}}",
+        "{\"volume\":{\"model\":\"torus\",\"inner\":6,\"outer\":100,\"density_cm3\":0}}",
+        "{\"volume\":{\"model\":\"torus\",\"inner\":6,\"outer\":100,\"beta\":1e-6,\"temperature_ratio\":1e6,"
+        "\"electrons\":\"kappa\",\"kappa\":5}}",
+        "{\"volume\":{\"electrons\":\"kappa\",\"electron_temperature_k\":5930}}",
+        "{\"volume\":{\"electrons\":\"kappa\",\"kappa\":3.5,\"electron_temperature_k\":5.93e15}}",
+        "{\"volume\":{\"electrons\":\"kappa\",\"magnetisation\":0}}",
+        "{\"volume\":{\"electrons\":\"kappa\",\"density_cm3\":1e30,\"frequency_ghz\":1e-6}}",
+        "{\"volume\":{\"electrons\":\"kappa\",\"density_cm3\":1e12,\"electron_temperature_k\":6e9,\"magnetisation\":3}"
+        "}",
+        "{\"volume\":{\"electrons\":\"kappa\",\"frequency_ghz\":1e12}}",
         "{\"accuracy\":{\"profile\":\"high\"},\"volume\":{\"electron_temperature_k\":1e10,\"density_cm3\":1e12}}",
         "{\"accuracy\":{\"profile\":\"reference\"},\"volume\":{\"electron_temperature_k\":1e10,\"density_cm3\":1e12}}",
-        "{\"accuracy\":{\"profile\":\"high\"},\"volume\":{\"model\":\"torus\",\"inner\":6,\"outer\":100,\"density_cm3\":1e12,\"temperature_ratio\":1e4}}",
+        "{\"accuracy\":{\"profile\":\"high\"},\"volume\":{\"model\":\"torus\",\"inner\":6,\"outer\":100,\"density_"
+        "cm3\":1e12,\"temperature_ratio\":1e4}}",
         "{\"camera\":{\"r\":1.5,\"observer\":\"zamo\"}}",
-        "{\"volume\":{\"electrons\":\"power-law\",\"electrons_index\":10,\"gamma_min\":1e9,\"gamma_max\":1e12,\"density_cm3\":1e30}}",
+        "{\"volume\":{\"electrons\":\"power-law\",\"electrons_index\":10,\"gamma_min\":1e9,\"gamma_max\":1e12,"
+        "\"density_cm3\":1e30}}",
     };
     for (size_t i = 0; i < sizeof extremes / sizeof *extremes; i++) {
         const struct kd_scene scene = scene_of(extremes[i], WIDTH, HEIGHT);
         struct kd_frame frame = rendered(&scene);
         for (int p = 0; p < PIXELS; p++) {
-            const double s[4] = { layer_of(&frame, "intensity")[p], layer_of(&frame, "stokes_q")[p], layer_of(&frame, "stokes_u")[p], layer_of(&frame, "stokes_v")[p] };
+            const double s[4] = { layer_of(&frame, "intensity")[p], layer_of(&frame, "stokes_q")[p],
+                                  layer_of(&frame, "stokes_u")[p], layer_of(&frame, "stokes_v")[p] };
             if (!(isfinite(s[0]) && s[0] >= 0 && hypot(hypot(s[1], s[2]), s[3]) <= s[0] * (1 + 1e-5)))
                 fail_msg("%s, pixel %d: %g %g %g %g", extremes[i], p, s[0], s[1], s[2], s[3]);
-            /* The part and the angle are those of the numbers beside them, however dim or bright these are: of another kernel, whose rounding Faraday rotation carries along. Below
-             * 1e-30 light has fewer than 24 bits on its way. */
-            const double part = hypot(s[1], s[2]) / s[0], told = layer_of(&frame, "polarization_fraction")[p], angle = layer_of(&frame, "evpa")[p];
+            /* The part and the angle are those of the numbers beside them, however dim or bright these are: of
+             * another kernel, whose rounding Faraday rotation carries along. Below 1e-30 light has fewer than 24
+             * bits on its way. */
+            const double part = hypot(s[1], s[2]) / s[0], told = layer_of(&frame, "polarization_fraction")[p],
+                         angle = layer_of(&frame, "evpa")[p];
             if (s[0] > 1e-30 && !(fabs(told - part) <= 1e-3))
-                fail_msg("%s, pixel %d: %g %g %g %g are said to be polarised by %g, which is %g", extremes[i], p, s[0], s[1], s[2], s[3], told, part);
+                fail_msg("%s, pixel %d: %g %g %g %g are said to be polarised by %g, which is %g", extremes[i], p, s[0],
+                         s[1], s[2], s[3], told, part);
             if (s[0] > 1e-30 && part > 0.1 && !(fabs(remainder(angle - 0.5 * atan2(s[2], s[1]), M_PI)) <= 1e-2))
-                fail_msg("%s, pixel %d: Q %g and U %g are said to have the angle %g", extremes[i], p, s[1], s[2], angle);
+                fail_msg("%s, pixel %d: Q %g and U %g are said to have the angle %g", extremes[i], p, s[1], s[2],
+                         angle);
         }
         kd_frame_finish(&frame);
     }
 }
 
-/* Plasma so dense and cold that light turns by up to 1e6 radians in it: what is polarised there is mixed, and I is what light without polarisation has, whatever the profile. */
+/* Plasma so dense and cold that light turns by up to 1e6 radians in it: what is polarised there is mixed, and I is
+ * what light without polarisation has, whatever the profile. */
 static void test_mixed(void **state)
 {
     (void)state;
@@ -282,14 +338,19 @@ static void test_mixed(void **state)
                     sums[polarised] += layer_of(&frame, "intensity")[p];
                 kd_frame_finish(&frame);
             }
-            printf("%s, %s: I is %+.3f %% of what it is unpolarised (%g)\n", mixing[i], profiles[k], 100 * (sums[1] / sums[0] - 1), sums[0]);
+            printf("%s, %s: I is %+.3f %% of what it is unpolarised (%g)\n", mixing[i], profiles[k],
+                   100 * (sums[1] / sums[0] - 1), sums[0]);
             if (!(fabs(sums[1] / sums[0] - 1) <= 0.01))
                 fail_msg("%s, %s: I is %g, unpolarised %g", mixing[i], profiles[k], sums[1], sums[0]);
         }
 }
 
-/* The energies of a kappa distribution, n(gamma), but for a factor; and what one electron's light of I and Q (K. C. Westfold 1959) and of V (M. P. C. Legg & K. C. Westfold 1968) is by its energy. */
-static double kappa_number(double kappa, double w, double g) { return g * sqrt(g * g - 1) * pow(1 + (g - 1) / (kappa * w), -(kappa + 1)); }
+/* The energies of a kappa distribution, n(gamma), but for a factor; and what one electron's light of I and Q (K. C.
+ * Westfold 1959) and of V (M. P. C. Legg & K. C. Westfold 1968) is by its energy. */
+static double kappa_number(double kappa, double w, double g)
+{
+    return g * sqrt(g * g - 1) * pow(1 + (g - 1) / (kappa * w), -(kappa + 1));
+}
 
 static void one_electron(double x, double out[3])
 {
@@ -304,16 +365,19 @@ static void one_electron(double x, double out[3])
     }
 }
 
-/* Integrals over all energies of those, and of what is taken, by -d(n/gamma^2)/dgamma; and rotativities of a mixture of thermal electrons with 1/Theta = lambda/(kappa w), whose weights are lambda^kappa
- * exp(-lambda): a kappa distribution is the Laplace transform of that. */
+/* Integrals over all energies of those, and of what is taken, by -d(n/gamma^2)/dgamma; and rotativities of a mixture
+ * of thermal electrons with 1/Theta = lambda/(kappa w), whose weights are lambda^kappa exp(-lambda): a kappa
+ * distribution is the Laplace transform of that. */
 static struct coefficients kappa_integrals(double kappa, double w, double turn, double s, double c, double nu)
 {
     struct coefficients o = { 0 };
     enum { POINTS = 500 };
     double all = 0, mixed = 0;
     for (int i = 0; i < POINTS; i++) {
-        const double h = log(1e6) / POINTS, g = exp((i + 0.5) * h), n = kappa_number(kappa, w, g) * g * h, up = g * 1.0001, down = fmax(g / 1.0001, 1);
-        const double less = -(kappa_number(kappa, w, up) / (up * up) - kappa_number(kappa, w, down) / (down * down)) / (up - down) * g * g * g * h;
+        const double h = log(1e6) / POINTS, g = exp((i + 0.5) * h), n = kappa_number(kappa, w, g) * g * h,
+                     up = g * 1.0001, down = fmax(g / 1.0001, 1);
+        const double less = -(kappa_number(kappa, w, up) / (up * up) - kappa_number(kappa, w, down) / (down * down)) /
+                            (up - down) * g * g * g * h;
         double e[3];
         one_electron(nu / (1.5 * turn * g * g * s), e);
         e[2] *= 4 * c / s / (3 * g);
@@ -328,7 +392,8 @@ static struct coefficients kappa_integrals(double kappa, double w, double turn, 
         o.a[k] *= E2 * turn / (ME * C * nu * nu) * sqrt(3) / 4 * s / all;
     }
     for (int i = 0; i < POINTS; i++) {
-        const double l = exp(-14 + 18.0 * (i + 0.5) / POINTS), heat = kappa * w / l, weight = pow(l, kappa + 1) * exp(-l) * heat * bessel(2, l / (kappa * w));
+        const double l = exp(-14 + 18.0 * (i + 0.5) / POINTS), heat = kappa * w / l,
+                     weight = pow(l, kappa + 1) * exp(-l) * heat * bessel(2, l / (kappa * w));
         const struct coefficients of = thermal(1, heat, turn, s, c, nu);
         mixed += weight;
         o.rho[0] += weight * of.rho[0];
@@ -339,7 +404,8 @@ static struct coefficients kappa_integrals(double kappa, double w, double turn, 
     return o;
 }
 
-/* The fits of a kappa distribution against integrals that know none: within a quarter for light (a third for V), and for what turns it as far as thermal fits know. */
+/* The fits of a kappa distribution against integrals that know none: within a quarter for light (a third for V), and
+ * for what turns it as far as thermal fits know. */
 static void test_kappa_fits(void **state)
 {
     (void)state;
@@ -348,18 +414,25 @@ static void test_kappa_fits(void **state)
     for (size_t k = 0; k < 4; k++)
         for (double w = 10; w < 50; w *= 4)
             for (double x = 1; x < 2e3; x *= 10) {
-                const double kappa = kappas[k], angle = 1, s = sin(angle), c = cos(angle), turn = 1e8, nu = x * turn * pow(kappa * w, 2) * s;
-                const struct coefficients got = kappa_law(kappa, 1, w * kappa / (kappa - 3), turn, s, c, nu), want = kappa_integrals(kappa, w, turn, s, c, nu);
-                const double both[8][2] = { { got.j[0], want.j[0] }, { got.j[1], want.j[1] }, { got.j[2], want.j[2] }, { got.a[0], want.a[0] }, { got.a[1], want.a[1] }, { got.a[2], want.a[2] },
+                const double kappa = kappas[k], angle = 1, s = sin(angle), c = cos(angle), turn = 1e8,
+                             nu = x * turn * pow(kappa * w, 2) * s;
+                const struct coefficients got = kappa_law(kappa, 1, w * kappa / (kappa - 3), turn, s, c, nu),
+                                          want = kappa_integrals(kappa, w, turn, s, c, nu);
+                const double both[8][2] = { { got.j[0], want.j[0] },     { got.j[1], want.j[1] },
+                                            { got.j[2], want.j[2] },     { got.a[0], want.a[0] },
+                                            { got.a[1], want.a[1] },     { got.a[2], want.a[2] },
                                             { got.rho[0], want.rho[0] }, { got.rho[1], want.rho[1] } };
-                for (int i = 0; i < 8 && !(i == 6 && x > 200); i++) { /* far out conversion is next to nothing, and the fit is not made for it */
+                for (int i = 0; i < 8 && !(i == 6 && x > 200);
+                     i++) { /* far out conversion is next to nothing, and the fit is not made for it */
                     const double off = fabs(both[i][0] / both[i][1] - 1);
                     worst[i] = fmax(worst[i], off);
                     if (!(off <= allowed[i]))
-                        print_error("kappa %g, w %g, X %g, coefficient %d: %g, the integral is %g\n", kappa, w, x, i, both[i][0], both[i][1]);
+                        print_error("kappa %g, w %g, X %g, coefficient %d: %g, the integral is %g\n", kappa, w, x, i,
+                                    both[i][0], both[i][1]);
                 }
             }
-    printf("fits of kappa are off by j %.3f %.3f %.3f, alpha %.3f %.3f %.3f, rho %.3f %.3f\n", worst[0], worst[1], worst[2], worst[3], worst[4], worst[5], worst[6], worst[7]);
+    printf("fits of kappa are off by j %.3f %.3f %.3f, alpha %.3f %.3f %.3f, rho %.3f %.3f\n", worst[0], worst[1],
+           worst[2], worst[3], worst[4], worst[5], worst[6], worst[7]);
     for (int i = 0; i < 8; i++)
         assert_true(worst[i] <= allowed[i]);
 }
@@ -368,7 +441,10 @@ static void test_kappa_fits(void **state)
 static void test_published(void **state)
 {
     (void)state;
-    static const struct { const char *json; double jy; } fluxes[] = {
+    static const struct {
+        const char *json;
+        double jy;
+    } fluxes[] = {
         { "{}", 2.6534246703175217 },
     };
     for (size_t i = 0; i < sizeof fluxes / sizeof *fluxes; i++) {
@@ -385,7 +461,9 @@ static void test_published(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(test_kappa_fits), cmocka_unit_test(test_rays), cmocka_unit_test(test_adversarial), cmocka_unit_test(test_mixed), cmocka_unit_test(test_published) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_kappa_fits), cmocka_unit_test(test_rays),
+                                        cmocka_unit_test(test_adversarial), cmocka_unit_test(test_mixed),
+                                        cmocka_unit_test(test_published) };
     int skip = open_renderer();
     return skip ? skip : close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -1,5 +1,6 @@
-/* A length of matter that gives, takes and turns polarised light, against exponentials of matrices in 40 digits (tests/oracle/stokes_reference.py): from nothing to depths of 1e6 and
- * Faraday depths of 1e6, and where both characteristic lengths vanish. */
+/* A length of matter that gives, takes and turns polarised light, against exponentials of matrices in 40 digits
+ * (tests/oracle/stokes_reference.py): from nothing to depths of 1e6 and Faraday depths of 1e6, and where both
+ * characteristic lengths vanish. */
 #include "support.h"
 
 #include "stokes_reference.h"
@@ -8,17 +9,34 @@
 #include <math.h>
 
 enum { CASES = sizeof stokes_references / sizeof *stokes_references, IN = 10, OUT = 8 };
-struct push { uint32_t n; float q, u, v; };
+struct push {
+    uint32_t n;
+    float q, u, v;
+};
 
 static void go(struct kd_vk *vk, const float *in, uint32_t n, float *out)
 {
     const double behind[] = STOKES_BEHIND;
     struct kd_vk_pipeline *pipeline = NULL;
-    OK(kd_vk_pipeline_create(vk, &(struct kd_vk_pipeline_params) { .name = "stokes", .spirv = stokes_spv, .spirv_bytes = sizeof stokes_spv, .n_buffers = 2, .push_bytes = sizeof(struct push) }, &pipeline, &error));
-    struct kd_vk_buffer *x = make_buffer(vk, n * IN, KD_VK_UPLOAD, "x"), *y = make_buffer(vk, n * OUT, KD_VK_DEVICE, "y"), *back = make_buffer(vk, n * OUT, KD_VK_READBACK, "back");
+    OK(kd_vk_pipeline_create(vk,
+                             &(struct kd_vk_pipeline_params) { .name = "stokes",
+                                                               .spirv = stokes_spv,
+                                                               .spirv_bytes = sizeof stokes_spv,
+                                                               .n_buffers = 2,
+                                                               .push_bytes = sizeof(struct push) },
+                             &pipeline, &error));
+    struct kd_vk_buffer *x = make_buffer(vk, n * IN, KD_VK_UPLOAD, "x"),
+                        *y = make_buffer(vk, n * OUT, KD_VK_DEVICE, "y"),
+                        *back = make_buffer(vk, n * OUT, KD_VK_READBACK, "back");
     memcpy(words(x), in, (size_t)n * IN * sizeof *in);
     const struct push push = { n, (float)behind[1], (float)behind[2], (float)behind[3] };
-    OK(kd_vk_dispatch(vk, &(struct kd_vk_dispatch) { .pass = "stokes", .pipeline = pipeline, .bindings = { { .buffer = x }, { .buffer = y, .write = true } }, .push = &push, .groups = { (n + 63) / 64 } }, &error));
+    OK(kd_vk_dispatch(vk,
+                      &(struct kd_vk_dispatch) { .pass = "stokes",
+                                                 .pipeline = pipeline,
+                                                 .bindings = { { .buffer = x }, { .buffer = y, .write = true } },
+                                                 .push = &push,
+                                                 .groups = { (n + 63) / 64 } },
+                      &error));
     OK(kd_vk_copy(vk, "readback", back, 0, y, 0, (uint64_t)n * OUT * 4, &error));
     finish(vk);
     memcpy(out, words(back), (size_t)n * OUT * sizeof *out);
@@ -40,7 +58,8 @@ static void test_cases(void **state)
     float in[CASES * IN], out[CASES * OUT];
     for (size_t i = 0; i < CASES; i++) {
         const struct stokes_reference *r = &stokes_references[i];
-        const double of[IN] = { r->light[0], r->light[1], r->light[2], r->depth, r->takes[0], r->takes[1], r->takes[2], r->turns[0], r->turns[1], r->turns[2] };
+        const double of[IN] = { r->light[0], r->light[1], r->light[2], r->depth,    r->takes[0],
+                                r->takes[1], r->takes[2], r->turns[0], r->turns[1], r->turns[2] };
         for (size_t k = 0; k < IN; k++)
             in[i * IN + k] = (float)of[k];
     }
@@ -54,11 +73,14 @@ static void test_cases(void **state)
         sound(passes, "light from behind", i);
         sound(gives, "its own light", i);
         for (int k = 0; k < 4; k++) {
-            const double off = fabs(passes[k] - r->passes[k]) / fmax(r->passes[0], 1e-30), own = fabs(gives[k] - r->gives[k]) / r->gives[0];
+            const double off = fabs(passes[k] - r->passes[k]) / fmax(r->passes[0], 1e-30),
+                         own = fabs(gives[k] - r->gives[k]) / r->gives[0];
             worst = fmax(worst, fmax(r->passes[0] > 1e-20 ? off / (1 + turn) : 0, own));
             if (!(r->passes[0] < 1e-20 || off <= allowed * (1 + r->depth)) || !(own <= 6e-6))
-                fail_msg("case %zu, component %d: depth %g, turns %g: light from behind %.8g, want %.8g, off by %.2g; its own %.8g, want %.8g, off by %.2g", i, k, r->depth, turn,
-                         (double)passes[k], r->passes[k], off, (double)gives[k], r->gives[k], own);
+                fail_msg("case %zu, component %d: depth %g, turns %g: light from behind %.8g, want %.8g, off by %.2g; "
+                         "its own %.8g, want %.8g, off by %.2g",
+                         i, k, r->depth, turn, (double)passes[k], r->passes[k], off, (double)gives[k], r->gives[k],
+                         own);
         }
     }
     printf("%d lengths, off by at most %.2g\n", CASES, worst);

@@ -1,12 +1,14 @@
-/* Tiles are the same to the byte as there in the whole picture, for each thing that shines and each way to look, and so are the strips that a picture is made of which
- * does not fit in one. */
+/* Tiles are the same to the byte as there in the whole picture, for each thing that shines and each way to look, and
+ * so are the strips that a picture is made of which does not fit in one. */
 #include "render/output/format.h"
 
 #include "render_support.h"
 
 enum { WIDTH = 203, HEIGHT = 117, ACROSS = 3, DOWN = 2, STRIPS_W = 64, STRIPS_H = 300 };
 
-static const struct { const char *name, *document; } scenes[] = {
+static const struct {
+    const char *name, *document;
+} scenes[] = {
     { "gas", "{}" },
     { "samples", "{\"image\":{\"samples\":2,\"bit_depth\":16}}" },
     { "spots", "{\"spots\":[{\"brightness\":4}]}" },
@@ -16,7 +18,8 @@ static const struct { const char *name, *document; } scenes[] = {
     { "listed rays", "{\"disk\":{\"slow_light\":true}}" },
     { "volume", "{\"disk\":{\"model\":\"none\"},\"volume\":{\"model\":\"uniform\"}}" },
     { "stars", "{\"disk\":{\"model\":\"none\"},\"sky\":{\"model\":\"stars\"}}" },
-    { "catalogue", "{\"sky\":{\"model\":\"catalogue\"},\"camera\":{\"r\":15,\"projection\":\"fulldome\"},\"style\":{\"exposure\":6}}" },
+    { "catalogue", "{\"sky\":{\"model\":\"catalogue\"},\"camera\":{\"r\":15,\"projection\":\"fulldome\"},\"style\":{"
+                   "\"exposure\":6}}" },
 };
 
 static struct kd_scene scene_of(const char *document, int width, int height)
@@ -30,7 +33,8 @@ static struct kd_scene scene_of(const char *document, int width, int height)
     return scene;
 }
 
-static struct kd_frame by_format(struct kd_scene scene, const struct kd_format *format, uint64_t memory_bytes, uint32_t *strips)
+static struct kd_frame by_format(struct kd_scene scene, const struct kd_format *format, uint64_t memory_bytes,
+                                 uint32_t *strips)
 {
     struct kd_capacity c;
     struct kd_plan plan;
@@ -44,7 +48,8 @@ static struct kd_frame by_format(struct kd_scene scene, const struct kd_format *
     return frame;
 }
 
-/* Counts the bytes of a tile that are not those of the whole picture there; of numbers, the picture as it is shown is none of the file's. */
+/* Counts the bytes of a tile that are not those of the whole picture there; of numbers, the picture as it is shown
+ * is none of the file's. */
 static size_t off(const struct kd_frame *whole, const struct kd_frame *tile, uint32_t left, uint32_t top)
 {
     size_t n = 0;
@@ -65,8 +70,10 @@ static void compare(const char *name, const struct kd_scene *scene, const struct
     struct kd_frame whole = by_format(*scene, format, 0, &none);
     size_t different = 0;
     for (uint32_t k = 0; k < ACROSS * DOWN; k++) {
-        const uint32_t x[] = { k % ACROSS * WIDTH / ACROSS, (k % ACROSS + 1) * WIDTH / ACROSS }, y[] = { k / ACROSS * HEIGHT / DOWN, (k / ACROSS + 1) * HEIGHT / DOWN };
-        struct kd_frame tile = by_format(kd_scene_tile(scene, (struct kd_window) { x[0], y[0], x[1] - x[0], y[1] - y[0] }), format, 0, &none);
+        const uint32_t x[] = { k % ACROSS * WIDTH / ACROSS, (k % ACROSS + 1) * WIDTH / ACROSS },
+                       y[] = { k / ACROSS * HEIGHT / DOWN, (k / ACROSS + 1) * HEIGHT / DOWN };
+        struct kd_frame tile = by_format(
+            kd_scene_tile(scene, (struct kd_window) { x[0], y[0], x[1] - x[0], y[1] - y[0] }), format, 0, &none);
         assert_int_equal(tile.width, x[1] - x[0]);
         assert_int_equal(tile.height, y[1] - y[0]);
         different += off(&whole, &tile, x[0], y[0]);
@@ -90,7 +97,9 @@ static void test_tiles_of_pictures(void **state)
 static void test_tiles_of_numbers(void **state)
 {
     (void)state;
-    struct kd_scene scene = scene_of("{\"style\":{\"exposure\":\"auto\",\"bloom\":0.4},\"image\":{\"layers\":[\"rgb\",\"g\",\"sky_theta\",\"footprint\"]}}", WIDTH, HEIGHT);
+    struct kd_scene scene = scene_of("{\"style\":{\"exposure\":\"auto\",\"bloom\":0.4},\"image\":{\"layers\":[\"rgb\","
+                                     "\"g\",\"sky_theta\",\"footprint\"]}}",
+                                     WIDTH, HEIGHT);
     compare("numbers", &scene, &kd_format_npy);
 }
 
@@ -102,7 +111,8 @@ static void test_strips(void **state)
     uint32_t none, strips;
     struct kd_frame whole = by_format(scene, &kd_format_png, 0, &none), made;
     uint64_t bytes = 64ull << 20;
-    for (made = by_format(scene, &kd_format_png, bytes, &strips); !strips; made = by_format(scene, &kd_format_png, bytes, &strips)) {
+    for (made = by_format(scene, &kd_format_png, bytes, &strips); !strips;
+         made = by_format(scene, &kd_format_png, bytes, &strips)) {
         kd_frame_finish(&made);
         bytes = bytes / 10 * 9;
     }
@@ -116,7 +126,8 @@ static void test_strips(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(test_tiles_of_pictures), cmocka_unit_test(test_tiles_of_numbers), cmocka_unit_test(test_strips) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_tiles_of_pictures),
+                                        cmocka_unit_test(test_tiles_of_numbers), cmocka_unit_test(test_strips) };
     int closed = open_renderer();
     return closed ? closed : close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -5,9 +5,7 @@
 
 enum { size = 4096, unit = 16, most = 64 };
 
-struct taken {
-    uint64_t offset, size;
-};
+struct taken { uint64_t offset, size; };
 
 static void check(const struct kd_vk_arena *arena, const struct taken *taken, size_t n)
 {
@@ -39,8 +37,7 @@ static void random_use(void **state)
         int refused = 0;
         assert_true(kd_vk_arena_init(&arena, size));
         for (int step = 0; step < 400; step++) {
-            uint64_t bytes = (uint64_t)unit * (1 + (unsigned)rand() % 24),
-                     align = (uint64_t)unit << rand() % 4;
+            uint64_t bytes = (uint64_t)unit * (1 + (unsigned)rand() % 24), align = (uint64_t)unit << rand() % 4;
             if (n < most && rand() % 3) {
                 if (kd_vk_arena_take(&arena, bytes, align, &taken[n].offset)) {
                     assert_int_equal(taken[n].offset % align, 0);

@@ -50,8 +50,7 @@ static void oversized(void **state)
     size_t n = 0;
     FAILS(KD_EINVAL, "no bytes", kd_vk_buffer_create(vk, 0, KD_VK_DEVICE, "empty", &none, &error));
     FAILS(KD_ENOMEM, "'huge'", kd_vk_buffer_create(vk, UINT64_MAX, KD_VK_DEVICE, "huge", &none, &error));
-    FAILS(KD_ENOMEM, "MiB",
-          kd_vk_buffer_create(vk, UINT64_C(1) << 50, KD_VK_READBACK, "huge", &none, &error));
+    FAILS(KD_ENOMEM, "MiB", kd_vk_buffer_create(vk, UINT64_C(1) << 50, KD_VK_READBACK, "huge", &none, &error));
     assert_null(none);
     assert_int_equal(kd_vk_allocated(vk), 0);
     /* A heap can be filled, says so, and is whole again afterwards. Pretend that it is small: the real one
@@ -77,8 +76,7 @@ static void destroyed_in_flight(void **state)
     enum { n = 4096 };
     struct kd_vk_buffer *back = make_buffer(vk, n, KD_VK_READBACK, "back");
     struct kd_vk_pipeline *pipeline = make_mix(vk, 1);
-    struct kd_vk_buffer *x = make_buffer(vk, n, KD_VK_UPLOAD, "x"),
-                        *y = make_buffer(vk, n, KD_VK_DEVICE, "y");
+    struct kd_vk_buffer *x = make_buffer(vk, n, KD_VK_UPLOAD, "x"), *y = make_buffer(vk, n, KD_VK_DEVICE, "y");
     for (uint32_t i = 0; i < n; i++)
         words(x)[i] = i;
     OK(kd_vk_fill(vk, "fill", y, 0, n * 4, 2, &error));

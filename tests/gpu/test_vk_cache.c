@@ -29,8 +29,8 @@ static void live(const char *dir, bool pipeline)
 {
     struct kd_vk *vk;
     OK(kd_vk_create(
-        &(struct kd_vk_params) { .device = getenv("KERRD_TEST_DEVICE"), .cache_dir = dir, .validate = true },
-        &vk, &error));
+        &(struct kd_vk_params) { .device = getenv("KERRD_TEST_DEVICE"), .cache_dir = dir, .validate = true }, &vk,
+        &error));
     if (pipeline)
         kd_vk_pipeline_destroy(vk, make_mix(vk, 1));
     assert_int_equal(kd_vk_validation_messages(vk), 0);

@@ -55,14 +55,20 @@ static void among_equals(void **state)
         { .index = 2, .name = "f64, four lanes", .type = KD_VK_CPU, .float64 = true, .subgroup_size = 4 },
         { .index = 3, .name = "f64, eight lanes", .type = KD_VK_CPU, .float64 = true, .subgroup_size = 8 },
         { .index = 4, .name = "f64, eight again", .type = KD_VK_CPU, .float64 = true, .subgroup_size = 8 },
-        { .index = 5, .name = "f64, broken", .type = KD_VK_CPU, .float64 = true, .subgroup_size = 16, .missing = "all" },
+        { .index = 5,
+          .name = "f64, broken",
+          .type = KD_VK_CPU,
+          .float64 = true,
+          .subgroup_size = 16,
+          .missing = "all" },
         { .index = 6, .name = "a GPU without", .type = KD_VK_INTEGRATED, .subgroup_size = 1 },
     };
     static const struct {
         size_t n;
         const char *wish;
         size_t index;
-    } cases[] = { { 1, "auto", 0 }, { 2, "auto", 1 }, { 3, "auto", 2 }, { 6, "auto", 3 }, { 7, "auto", 6 }, { 7, "lanes", 3 } };
+    } cases[] = { { 1, "auto", 0 }, { 2, "auto", 1 }, { 3, "auto", 2 },
+                  { 6, "auto", 3 }, { 7, "auto", 6 }, { 7, "lanes", 3 } };
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         size_t index = 99;
@@ -78,8 +84,7 @@ static void refused(void **state)
     char why[640];
     (void)state;
     FAILS(KD_EINVAL, "there is no device 5, only 0: llvmpipe", choose(5, "5", &index, why, &error));
-    FAILS(KD_EINVAL, "there is no device 99999999999999999999",
-          choose(5, "99999999999999999999", &index, why, &error));
+    FAILS(KD_EINVAL, "there is no device 99999999999999999999", choose(5, "99999999999999999999", &index, why, &error));
     FAILS(KD_EINVAL, "1: Ancient GPU (unusable)", choose(5, "radeon", &index, why, &error));
     FAILS(KD_EDEVICE, "device 1 (Ancient GPU) lacks Vulkan 1.2", choose(5, "1", &index, why, &error));
     FAILS(KD_EDEVICE, "lacks Vulkan 1.2", choose(5, "gpu", &index, why, &error));
@@ -106,7 +111,10 @@ static void memory_types(void **state)
           { 1, 3, 4 } },
         { "integrated", { L, L | V | C, L | V | C | K }, true, { 1, 1, 2 } },
         { "CPU", { L | V | C | K }, true, { 0, 0, 0 } },
-        { "cached but not coherent", { L, V | K, V | C }, false, { 0, 2, 1 } }, /* reading back is worth an invalidation */
+        { "cached but not coherent",
+          { L, V | K, V | C },
+          false,
+          { 0, 2, 1 } }, /* reading back is worth an invalidation */
         { "nothing coherent", { L, V, V | K, L | V }, false, { 0, 1, 2 } },
         { "not local", { V | C }, false, { -1, 0, 0 } },
         { "not visible", { L }, false, { 0, -1, -1 } },
@@ -127,7 +135,7 @@ static void memory_types(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(chosen), cmocka_unit_test(among_equals), cmocka_unit_test(refused),
-                                        cmocka_unit_test(memory_types) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(chosen), cmocka_unit_test(among_equals),
+                                        cmocka_unit_test(refused), cmocka_unit_test(memory_types) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

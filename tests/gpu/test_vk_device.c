@@ -18,9 +18,8 @@ static void listed(void **state)
         print_message("%zu: %s (%s), %s %s, Vulkan %u.%u, %.0f MiB, subgroup %u%s%s%s\n", i, info->name,
                       kd_vk_type_name(info->type), info->driver, info->driver_info,
                       VK_API_VERSION_MAJOR(info->api_version), VK_API_VERSION_MINOR(info->api_version),
-                      (double)info->heap_bytes / 0x1p20, info->subgroup_size,
-                      info->float64 ? ", float64" : "", info->timestamps ? ", timestamps" : "",
-                      info->missing[0] ? ", unusable" : "");
+                      (double)info->heap_bytes / 0x1p20, info->subgroup_size, info->float64 ? ", float64" : "",
+                      info->timestamps ? ", timestamps" : "", info->missing[0] ? ", unusable" : "");
         assert_int_equal(info->index, i);
         assert_true(info->name[0]);
         if (info->missing[0])

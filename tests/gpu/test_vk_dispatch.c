@@ -9,8 +9,7 @@ static void sizes(void **state)
     for (size_t c = 0; c < sizeof counts / sizeof *counts; c++) {
         uint32_t n = counts[c], bias = 7 + (uint32_t)c, mul = 3;
         struct kd_vk_pipeline *pipeline = make_mix(vk, bias);
-        struct kd_vk_buffer *x = make_buffer(vk, n, KD_VK_UPLOAD, "x"),
-                            *y = make_buffer(vk, n, KD_VK_DEVICE, "y");
+        struct kd_vk_buffer *x = make_buffer(vk, n, KD_VK_UPLOAD, "x"), *y = make_buffer(vk, n, KD_VK_DEVICE, "y");
         struct kd_vk_buffer *back = make_buffer(vk, n, KD_VK_READBACK, "back");
         for (uint32_t i = 0; i < n; i++)
             words(x)[i] = i * 2654435761u;
@@ -34,29 +33,24 @@ static void ranges(void **state)
     struct kd_vk *vk = *state;
     enum { n = 1024, part = 256 };
     struct kd_vk_pipeline *pipeline = make_mix(vk, 0);
-    struct kd_vk_buffer *x = make_buffer(vk, n, KD_VK_UPLOAD, "x"),
-                        *y = make_buffer(vk, n, KD_VK_READBACK, "y");
+    struct kd_vk_buffer *x = make_buffer(vk, n, KD_VK_UPLOAD, "x"), *y = make_buffer(vk, n, KD_VK_READBACK, "y");
     const struct mix_push push = { part, 10 };
     for (uint32_t i = 0; i < n; i++)
         words(x)[i] = i;
     OK(kd_vk_fill(vk, "fill", y, 0, n * 4, 1, &error));
     OK(kd_vk_fill(vk, "fill", y, 512 * 4, 4, 5, &error));
     OK(kd_vk_copy(vk, NULL, y, 768 * 4, x, 100 * 4, 8, &error));
-    OK(kd_vk_dispatch(vk,
-                      &(struct kd_vk_dispatch) {
-                          .pipeline = pipeline,
-                          .bindings = { { .buffer = x, .offset = 512 * 4, .size = part * 4 },
-                                        { .buffer = y, .offset = 256 * 4, .size = part * 4, .write = true } },
-                          .push = &push,
-                          .groups = { part / MIX_GROUP } },
-                      &error));
+    OK(kd_vk_dispatch(
+        vk,
+        &(struct kd_vk_dispatch) { .pipeline = pipeline,
+                                   .bindings = { { .buffer = x, .offset = 512 * 4, .size = part * 4 },
+                                                 { .buffer = y, .offset = 256 * 4, .size = part * 4, .write = true } },
+                                   .push = &push,
+                                   .groups = { part / MIX_GROUP } },
+        &error));
     finish(vk);
     for (uint32_t i = 0; i < n; i++) {
-        uint32_t want = i >= 256 && i < 512 ? 10 + i + 256
-                        : i == 512          ? 5
-                        : i == 768          ? 100
-                        : i == 769          ? 101
-                                            : 1;
+        uint32_t want = i >= 256 && i < 512 ? 10 + i + 256 : i == 512 ? 5 : i == 768 ? 100 : i == 769 ? 101 : 1;
         assert_int_equal(words(y)[i], want);
     }
     kd_vk_buffer_destroy(vk, x);
@@ -68,8 +62,7 @@ static void refused(void **state)
 {
     struct kd_vk *vk = *state;
     struct kd_vk_pipeline *pipeline = make_mix(vk, 0), *none;
-    struct kd_vk_buffer *x = make_buffer(vk, 64, KD_VK_UPLOAD, "x"),
-                        *y = make_buffer(vk, 64, KD_VK_DEVICE, "y");
+    struct kd_vk_buffer *x = make_buffer(vk, 64, KD_VK_UPLOAD, "x"), *y = make_buffer(vk, 64, KD_VK_DEVICE, "y");
     const struct mix_push push = { 64, 1 };
     const struct kd_vk_dispatch good = { .pass = "bad",
                                          .pipeline = pipeline,
@@ -95,9 +88,7 @@ static void refused(void **state)
     FAILS(KD_EINVAL, "multiples of 4", kd_vk_fill(vk, "fill", y, 2, 4, 0, &error));
     FAILS(KD_EINVAL, "no submission", kd_vk_wait(vk, UINT64_MAX, &error));
 
-    struct kd_vk_pipeline_params params = { .name = "p",
-                                            .spirv = mix_spv,
-                                            .spirv_bytes = sizeof mix_spv - 1 };
+    struct kd_vk_pipeline_params params = { .name = "p", .spirv = mix_spv, .spirv_bytes = sizeof mix_spv - 1 };
     FAILS(KD_EINVAL, "not SPIR-V", kd_vk_pipeline_create(vk, &params, &none, &error));
     params.spirv_bytes++, params.n_buffers = KD_VK_MAX_BINDINGS + 1;
     FAILS(KD_EINVAL, "13 buffers, at most 12", kd_vk_pipeline_create(vk, &params, &none, &error));
@@ -123,8 +114,7 @@ static void wide_binding(void **state)
     const struct mix_push push = { 1, 1 };
     struct kd_vk_dispatch d = { .pass = "wide",
                                 .pipeline = pipeline,
-                                .bindings = { { .buffer = big },
-                                              { .buffer = big, .size = 256, .write = true } },
+                                .bindings = { { .buffer = big }, { .buffer = big, .size = 256, .write = true } },
                                 .push = &push };
     FAILS(KD_ETOOBIG, "binds at most", kd_vk_dispatch(vk, &d, &error));
     kd_vk_buffer_destroy(vk, big);
@@ -133,7 +123,7 @@ static void wide_binding(void **state)
 
 int main(void)
 {
-    struct CMUnitTest tests[] = { cmocka_unit_test(sizes), cmocka_unit_test(ranges),
-                                  cmocka_unit_test(refused), cmocka_unit_test(wide_binding) };
+    struct CMUnitTest tests[] = { cmocka_unit_test(sizes), cmocka_unit_test(ranges), cmocka_unit_test(refused),
+                                  cmocka_unit_test(wide_binding) };
     return RUN_ON_DEVICE(tests);
 }

@@ -19,57 +19,50 @@ static bool trips(const char *name)
     return true;
 }
 
-#define FAULTS(X)                                                                                            \
-    X(EnumeratePhysicalDevices, (VkInstance a, uint32_t * b, VkPhysicalDevice * c), (a, b, c))               \
-    X(CreateDevice,                                                                                          \
-      (VkPhysicalDevice a, const VkDeviceCreateInfo *b, const VkAllocationCallbacks *c, VkDevice *d),        \
-      (a, b, c, d))                                                                                          \
-    CREATES(X, Buffer, BufferCreateInfo)                                                                     \
-    CREATES(X, BufferView, BufferViewCreateInfo)                                                             \
-    CREATES(X, ShaderModule, ShaderModuleCreateInfo)                                                         \
-    CREATES(X, DescriptorSetLayout, DescriptorSetLayoutCreateInfo)                                           \
-    CREATES(X, PipelineLayout, PipelineLayoutCreateInfo)                                                     \
-    CREATES(X, PipelineCache, PipelineCacheCreateInfo)                                                       \
-    CREATES(X, DescriptorPool, DescriptorPoolCreateInfo)                                                     \
-    CREATES(X, CommandPool, CommandPoolCreateInfo)                                                           \
-    CREATES(X, Semaphore, SemaphoreCreateInfo)                                                               \
-    CREATES(X, QueryPool, QueryPoolCreateInfo)                                                               \
-    X(AllocateMemory,                                                                                        \
-      (VkDevice a, const VkMemoryAllocateInfo *b, const VkAllocationCallbacks *c, VkDeviceMemory *d),        \
-      (a, b, c, d))                                                                                          \
-    X(MapMemory,                                                                                             \
-      (VkDevice a, VkDeviceMemory b, VkDeviceSize c, VkDeviceSize d, VkMemoryMapFlags e, void **f),          \
-      (a, b, c, d, e, f))                                                                                    \
-    X(BindBufferMemory, (VkDevice a, VkBuffer b, VkDeviceMemory c, VkDeviceSize d), (a, b, c, d))            \
-    X(CreateComputePipelines,                                                                                \
-      (VkDevice a, VkPipelineCache b, uint32_t c, const VkComputePipelineCreateInfo *d,                      \
-       const VkAllocationCallbacks *e, VkPipeline *f),                                                       \
-      (a, b, c, d, e, f))                                                                                    \
-    X(AllocateDescriptorSets, (VkDevice a, const VkDescriptorSetAllocateInfo *b, VkDescriptorSet *c),        \
-      (a, b, c))                                                                                             \
-    X(AllocateCommandBuffers, (VkDevice a, const VkCommandBufferAllocateInfo *b, VkCommandBuffer *c),        \
-      (a, b, c))                                                                                             \
-    X(ResetCommandPool, (VkDevice a, VkCommandPool b, VkCommandPoolResetFlags c), (a, b, c))                 \
-    X(BeginCommandBuffer, (VkCommandBuffer a, const VkCommandBufferBeginInfo *b), (a, b))                    \
-    X(EndCommandBuffer, (VkCommandBuffer a), (a))                                                            \
-    X(QueueSubmit, (VkQueue a, uint32_t b, const VkSubmitInfo *c, VkFence d), (a, b, c, d))                  \
-    X(GetSemaphoreCounterValue, (VkDevice a, VkSemaphore b, uint64_t * c), (a, b, c))                        \
+#define FAULTS(X) \
+    X(EnumeratePhysicalDevices, (VkInstance a, uint32_t *b, VkPhysicalDevice *c), (a, b, c)) \
+    X(CreateDevice, (VkPhysicalDevice a, const VkDeviceCreateInfo *b, const VkAllocationCallbacks *c, VkDevice *d), \
+      (a, b, c, d)) \
+    CREATES(X, Buffer, BufferCreateInfo) \
+    CREATES(X, BufferView, BufferViewCreateInfo) \
+    CREATES(X, ShaderModule, ShaderModuleCreateInfo) \
+    CREATES(X, DescriptorSetLayout, DescriptorSetLayoutCreateInfo) \
+    CREATES(X, PipelineLayout, PipelineLayoutCreateInfo) \
+    CREATES(X, PipelineCache, PipelineCacheCreateInfo) \
+    CREATES(X, DescriptorPool, DescriptorPoolCreateInfo) \
+    CREATES(X, CommandPool, CommandPoolCreateInfo) \
+    CREATES(X, Semaphore, SemaphoreCreateInfo) \
+    CREATES(X, QueryPool, QueryPoolCreateInfo) \
+    X(AllocateMemory, (VkDevice a, const VkMemoryAllocateInfo *b, const VkAllocationCallbacks *c, VkDeviceMemory *d), \
+      (a, b, c, d)) \
+    X(MapMemory, (VkDevice a, VkDeviceMemory b, VkDeviceSize c, VkDeviceSize d, VkMemoryMapFlags e, void **f), \
+      (a, b, c, d, e, f)) \
+    X(BindBufferMemory, (VkDevice a, VkBuffer b, VkDeviceMemory c, VkDeviceSize d), (a, b, c, d)) \
+    X(CreateComputePipelines, \
+      (VkDevice a, VkPipelineCache b, uint32_t c, const VkComputePipelineCreateInfo *d, \
+       const VkAllocationCallbacks *e, VkPipeline *f), \
+      (a, b, c, d, e, f)) \
+    X(AllocateDescriptorSets, (VkDevice a, const VkDescriptorSetAllocateInfo *b, VkDescriptorSet *c), (a, b, c)) \
+    X(AllocateCommandBuffers, (VkDevice a, const VkCommandBufferAllocateInfo *b, VkCommandBuffer *c), (a, b, c)) \
+    X(ResetCommandPool, (VkDevice a, VkCommandPool b, VkCommandPoolResetFlags c), (a, b, c)) \
+    X(BeginCommandBuffer, (VkCommandBuffer a, const VkCommandBufferBeginInfo *b), (a, b)) \
+    X(EndCommandBuffer, (VkCommandBuffer a), (a)) \
+    X(QueueSubmit, (VkQueue a, uint32_t b, const VkSubmitInfo *c, VkFence d), (a, b, c, d)) \
+    X(GetSemaphoreCounterValue, (VkDevice a, VkSemaphore b, uint64_t *c), (a, b, c)) \
     X(WaitSemaphores, (VkDevice a, const VkSemaphoreWaitInfo *b, uint64_t c), (a, b, c))
-#define CREATES(X, object, info)                                                                             \
-    X(Create##object, (VkDevice a, const Vk##info *b, const VkAllocationCallbacks *c, Vk##object *d),        \
-      (a, b, c, d))
+#define CREATES(X, object, info) \
+    X(Create##object, (VkDevice a, const Vk##info *b, const VkAllocationCallbacks *c, Vk##object *d), (a, b, c, d))
 
-#define DEFINE(name, parameters, arguments)                                                                  \
-    static VKAPI_ATTR VkResult VKAPI_CALL faulty_##name parameters                                           \
-    {                                                                                                        \
-        return trips(#name) ? injected : real.name arguments;                                                \
+#define DEFINE(name, parameters, arguments) \
+    static VKAPI_ATTR VkResult VKAPI_CALL faulty_##name parameters \
+    { \
+        return trips(#name) ? injected : real.name arguments; \
     }
 FAULTS(DEFINE)
 
 static VKAPI_ATTR VkBool32 VKAPI_CALL count_message(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
                                                     VkDebugUtilsMessageTypeFlagsEXT types,
-                                                    const VkDebugUtilsMessengerCallbackDataEXT *data,
-                                                    void *user)
+                                                    const VkDebugUtilsMessengerCallbackDataEXT *data, void *user)
 {
     (void)severity, (void)types, (void)user;
     print_message("%s\n", data->pMessage);
@@ -79,8 +72,7 @@ static VKAPI_ATTR VkBool32 VKAPI_CALL count_message(VkDebugUtilsMessageSeverityF
 
 /* Ours instead of the device's own: it goes on counting while the device is destroyed, when objects that were
  * left behind are reported. */
-static VKAPI_ATTR VkResult VKAPI_CALL listen(VkInstance instance,
-                                             const VkDebugUtilsMessengerCreateInfoEXT *info,
+static VKAPI_ATTR VkResult VKAPI_CALL listen(VkInstance instance, const VkDebugUtilsMessengerCreateInfoEXT *info,
                                              const VkAllocationCallbacks *allocator,
                                              VkDebugUtilsMessengerEXT *messenger)
 {
@@ -92,8 +84,8 @@ static VKAPI_ATTR VkResult VKAPI_CALL listen(VkInstance instance,
 static void plant(struct kd_vk_functions *fn)
 {
     real = *fn;
-#define REPLACE(name, parameters, arguments)                                                                 \
-    if (fn->name)                                                                                            \
+#define REPLACE(name, parameters, arguments) \
+    if (fn->name) \
         fn->name = faulty_##name;
     if (fn->CmdFillBuffer) { /* the last step: everything is loaded */
         FAULTS(REPLACE)
@@ -126,8 +118,8 @@ static enum kd_status life(struct kd_error *error)
     const struct kd_vk_spec spec = { 0, MIX_GROUP };
     const struct mix_push push = { n, 1 };
     enum kd_status status = kd_vk_create(
-        &(struct kd_vk_params) { .device = getenv("KERRD_TEST_DEVICE"), .cache_dir = "", .validate = true },
-        &vk, error);
+        &(struct kd_vk_params) { .device = getenv("KERRD_TEST_DEVICE"), .cache_dir = "", .validate = true }, &vk,
+        error);
     if (!status)
         status = kd_vk_buffer_create(vk, n * 4, KD_VK_UPLOAD, "x", &x, error);
     if (!status)
@@ -143,24 +135,28 @@ static enum kd_status life(struct kd_error *error)
                                                                          .n_spec = 1 },
                                        &pipeline, error);
     if (!status)
-        status = kd_vk_pipeline_create(vk, &(struct kd_vk_pipeline_params) KINDS_PARAMS, &kinds, error);
+        status = kd_vk_pipeline_create(vk, &(struct kd_vk_pipeline_params)KINDS_PARAMS, &kinds, error);
     if (!status)
         memset(kd_vk_buffer_map(x), 0, n * 4); /* a block of no elements */
     if (!status)
         status = kd_vk_dispatch(vk,
                                 &(struct kd_vk_dispatch) { .pass = "kinds",
                                                            .pipeline = kinds,
-                                                           .bindings = { { .buffer = x }, { .buffer = x }, { .buffer = x },
-                                                                         { .buffer = y, .write = true }, { .buffer = x }, { .buffer = x } } },
+                                                           .bindings = { { .buffer = x },
+                                                                         { .buffer = x },
+                                                                         { .buffer = x },
+                                                                         { .buffer = y, .write = true },
+                                                                         { .buffer = x },
+                                                                         { .buffer = x } } },
                                 error);
     for (int i = 0; i < 7 && !status; i++) { /* more than may be in flight */
-        status = kd_vk_dispatch(
-            vk,
-            &(struct kd_vk_dispatch) { .pass = "mix",
-                                       .pipeline = pipeline,
-                                       .bindings = { { .buffer = x }, { .buffer = y, .write = true } },
-                                       .push = &push },
-            error);
+        status =
+            kd_vk_dispatch(vk,
+                           &(struct kd_vk_dispatch) { .pass = "mix",
+                                                      .pipeline = pipeline,
+                                                      .bindings = { { .buffer = x }, { .buffer = y, .write = true } },
+                                                      .push = &push },
+                           error);
         if (!status)
             status = kd_vk_submit(vk, NULL, error);
     }
@@ -190,8 +186,8 @@ static void sweep(VkResult result, enum kd_status expected)
         if (!tripped)
             break;
         /* Timing is a nicety whose failure goes unnoticed, as is the retry of a smaller block. */
-        bool harmless = !strcmp(tripped, "CreateQueryPool") || !strcmp(tripped, "AllocateMemory") ||
-                        !strcmp(tripped, "MapMemory");
+        bool harmless =
+            !strcmp(tripped, "CreateQueryPool") || !strcmp(tripped, "AllocateMemory") || !strcmp(tripped, "MapMemory");
         if (status ? status != expected || !error.message[0] : !harmless)
             fail_msg("call %d, %s: %s, '%s'", n, tripped, kd_status_name(status), error.message);
     }
@@ -220,9 +216,9 @@ static void device_lost(void **state)
         __lsan_enable();
 }
 
-static int waits;      /* calls of hang */
-static bool busy;      /* it has the processor meanwhile */
-static bool finishes;  /* its third call ends well */
+static int waits;     /* calls of hang */
+static bool busy;     /* it has the processor meanwhile */
+static bool finishes; /* its third call ends well */
 static VKAPI_ATTR VkResult VKAPI_CALL hang(VkDevice device, const VkSemaphoreWaitInfo *info, uint64_t timeout)
 {
     (void)device, (void)info;
@@ -259,8 +255,7 @@ static void deadline(void **state)
     buffer = make_buffer(vk, 64, KD_VK_READBACK, "b");
     OK(kd_vk_fill(vk, "fill", buffer, 0, 256, 1, &error));
     OK(kd_vk_submit(vk, &ticket, &error));
-    OK(kd_vk_wait(vk, ticket,
-                  &error)); /* in truth idle, so that nothing runs on behind the back of the test */
+    OK(kd_vk_wait(vk, ticket, &error)); /* in truth idle, so that nothing runs on behind the back of the test */
     vk->fn.WaitSemaphores = hang;
     vk->fn.GetSemaphoreCounterValue = unfinished;
     vk->fn.DeviceWaitIdle = idle_called;
@@ -276,7 +271,8 @@ static void deadline(void **state)
         OK(kd_vk_fill(vk, "fill", buffer, 0, 256, 2, &error));
         OK(kd_vk_submit(vk, &ticket, &error));
     }
-    finishes = false, busy = true, waits = 0; /* one that had it is lost, after the second that whoever looks has to come to himself */
+    finishes = false, busy = true,
+    waits = 0; /* one that had it is lost, after the second that whoever looks has to come to himself */
     FAILS(KD_EDEVICE, "missed its deadline of 1500 ms", kd_vk_wait(vk, ticket, &error));
     assert_int_equal(waits, 2);
 

@@ -12,9 +12,7 @@ static struct kd_vk_barrier barrier;
 
 static bool add(uint64_t buffer, uint64_t begin, uint64_t end, VkPipelineStageFlags stage, bool write)
 {
-    const struct kd_vk_access access = {
-        .buffer = buffer, .begin = begin, .end = end, .stage = stage, .write = write
-    };
+    const struct kd_vk_access access = { .buffer = buffer, .begin = begin, .end = end, .stage = stage, .write = write };
     return kd_vk_hazards_add(&table, &access, 1, &barrier);
 }
 
@@ -44,10 +42,10 @@ static void pairs(void **state)
                                                      : stages[a] == COMPUTE ? VK_ACCESS_SHADER_WRITE_BIT
                                                                             : VK_ACCESS_TRANSFER_WRITE_BIT);
                 assert_true(barrier.dst_stages & stages[b]);
-                assert_true(barrier.dst_access & (stages[b] == COMPUTE ? second ? VK_ACCESS_SHADER_WRITE_BIT
-                                                                                : VK_ACCESS_SHADER_READ_BIT
-                                                  : second             ? VK_ACCESS_TRANSFER_WRITE_BIT
-                                                                       : VK_ACCESS_TRANSFER_READ_BIT));
+                assert_true(barrier.dst_access &
+                            (stages[b] == COMPUTE ? second ? VK_ACCESS_SHADER_WRITE_BIT : VK_ACCESS_SHADER_READ_BIT
+                             : second             ? VK_ACCESS_TRANSFER_WRITE_BIT
+                                                  : VK_ACCESS_TRANSFER_READ_BIT));
                 if (stages[b] == COMPUTE && !second) /* texels are read as storage is, uniform blocks are not */
                     assert_true(barrier.dst_access & VK_ACCESS_UNIFORM_READ_BIT);
             }

@@ -1,5 +1,5 @@
-/* Bindings that are not storage: a uniform block, texels of one float and of four, of one word and of two; what of them is refused, and how long the views
- * that they need live. */
+/* Bindings that are not storage: a uniform block, texels of one float and of four, of one word and of two; what of
+ * them is refused, and how long the views that they need live. */
 #include "support.h"
 
 #include "fake_device.h"
@@ -8,9 +8,7 @@
 enum { MOST = 3000 };
 
 /* The buffers of one dispatch of kinds.comp, contents by a rule, whole numbers so that sums are exact. */
-struct set {
-    struct kd_vk_buffer *block, *singles, *fours, *y, *single_words, *pairs;
-};
+struct set { struct kd_vk_buffer *block, *singles, *fours, *y, *single_words, *pairs; };
 
 static float single_of(uint32_t i) { return (float)(i * 7 % 1013); }
 static float four_of(uint32_t i) { return (float)(i * 5 % 811); } /* i: float by float */
@@ -29,9 +27,9 @@ static float expected(uint32_t i, float y, float scale)
 
 static struct set make_set(struct kd_vk *vk, uint32_t n, float scale)
 {
-    struct set set = { make_buffer(vk, 8, KD_VK_UPLOAD, "block"), make_buffer(vk, n, KD_VK_UPLOAD, "singles"),
+    struct set set = { make_buffer(vk, 8, KD_VK_UPLOAD, "block"),     make_buffer(vk, n, KD_VK_UPLOAD, "singles"),
                        make_buffer(vk, 4 * n, KD_VK_UPLOAD, "fours"), make_buffer(vk, n, KD_VK_READBACK, "y"),
-                       make_buffer(vk, n, KD_VK_UPLOAD, "words"), make_buffer(vk, 2 * n, KD_VK_UPLOAD, "pairs") };
+                       make_buffer(vk, n, KD_VK_UPLOAD, "words"),     make_buffer(vk, 2 * n, KD_VK_UPLOAD, "pairs") };
     struct kinds_block *block = kd_vk_buffer_map(set.block);
     float *singles = kd_vk_buffer_map(set.singles), *fours = kd_vk_buffer_map(set.fours);
     *block = (struct kinds_block) { .n = n, .scale = scale };
@@ -92,8 +90,8 @@ static void values(void **state)
     assert_int_equal(kd_vk_allocated(vk), 0);
 }
 
-/* Parts of buffers: texels and members of a block are counted from where the binding begins. A buffer that ends within a texel is
- * bound up to there. */
+/* Parts of buffers: texels and members of a block are counted from where the binding begins. A buffer that ends
+ * within a texel is bound up to there. */
 static void ranges(void **state)
 {
     struct kd_vk *vk = *state;
@@ -234,8 +232,8 @@ static unsigned views_of(const struct kd_vk_buffer *buffer)
     return n;
 }
 
-/* One view for what is bound again and again; of many, those in use and a few more; none outlives its buffer, which may be
- * destroyed while the device reads through them. */
+/* One view for what is bound again and again; of many, those in use and a few more; none outlives its buffer, which
+ * may be destroyed while the device reads through them. */
 static void views(void **state)
 {
     struct kd_vk *vk = *state;
@@ -279,7 +277,7 @@ static void views(void **state)
 
 int main(void)
 {
-    struct CMUnitTest tests[] = { cmocka_unit_test(values), cmocka_unit_test(ranges), cmocka_unit_test(order),
+    struct CMUnitTest tests[] = { cmocka_unit_test(values),  cmocka_unit_test(ranges), cmocka_unit_test(order),
                                   cmocka_unit_test(refused), cmocka_unit_test(limits), cmocka_unit_test(views) };
     return RUN_ON_DEVICE(tests);
 }

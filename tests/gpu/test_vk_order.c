@@ -6,11 +6,10 @@ enum { n = 2048 };
 static PFN_vkCmdPipelineBarrier real_barrier;
 static int barriers;
 
-static VKAPI_ATTR void VKAPI_CALL counting(VkCommandBuffer commands, VkPipelineStageFlags src,
-                                           VkPipelineStageFlags dst, VkDependencyFlags flags,
-                                           uint32_t n_memory, const VkMemoryBarrier *memory,
-                                           uint32_t n_buffer, const VkBufferMemoryBarrier *buffer,
-                                           uint32_t n_image, const VkImageMemoryBarrier *image)
+static VKAPI_ATTR void VKAPI_CALL counting(VkCommandBuffer commands, VkPipelineStageFlags src, VkPipelineStageFlags dst,
+                                           VkDependencyFlags flags, uint32_t n_memory, const VkMemoryBarrier *memory,
+                                           uint32_t n_buffer, const VkBufferMemoryBarrier *buffer, uint32_t n_image,
+                                           const VkImageMemoryBarrier *image)
 {
     barriers += dst != VK_PIPELINE_STAGE_HOST_BIT;
     real_barrier(commands, src, dst, flags, n_memory, memory, n_buffer, buffer, n_image, image);
@@ -72,8 +71,7 @@ static void counted(void **state)
 static void random_command(struct kd_vk *vk, const struct kd_vk_pipeline *pipeline, struct kd_vk_buffer *b[4],
                            uint32_t model[4][n])
 {
-    uint32_t from = (uint32_t)rand() % 4, to = (from + 1 + (uint32_t)rand() % 3) % 4,
-             value = (uint32_t)rand();
+    uint32_t from = (uint32_t)rand() % 4, to = (from + 1 + (uint32_t)rand() % 3) % 4, value = (uint32_t)rand();
     uint32_t at = (uint32_t)rand() % (n / 64) * 64, words_left = n - at;
     uint32_t count = 64 * (1 + (uint32_t)rand() % (words_left / 64));
     const struct mix_push push = { count, value | 1 };
@@ -89,12 +87,12 @@ static void random_command(struct kd_vk *vk, const struct kd_vk_pipeline *pipeli
         break;
     default:
         OK(kd_vk_dispatch(vk,
-                          &(struct kd_vk_dispatch) { .pass = "mix",
-                                                     .pipeline = pipeline,
-                                                     .bindings = { { b[from], at * 4, count * 4, false },
-                                                                   { b[to], at * 4, count * 4, true } },
-                                                     .push = &push,
-                                                     .groups = { count / MIX_GROUP } },
+                          &(struct kd_vk_dispatch) {
+                              .pass = "mix",
+                              .pipeline = pipeline,
+                              .bindings = { { b[from], at * 4, count * 4, false }, { b[to], at * 4, count * 4, true } },
+                              .push = &push,
+                              .groups = { count / MIX_GROUP } },
                           &error));
         for (uint32_t i = 0; i < count; i++)
             model[to][at + i] = model[to][at + i] * push.mul + model[from][at + i] + 3;

@@ -23,8 +23,7 @@ static void many(void **state)
     struct kd_vk *vk = *state;
     enum { n = 64, submissions = 1000, each = 3 };
     struct kd_vk_pipeline *pipeline = make_mix(vk, 1);
-    struct kd_vk_buffer *x = make_buffer(vk, n, KD_VK_UPLOAD, "x"),
-                        *y = make_buffer(vk, n, KD_VK_READBACK, "y");
+    struct kd_vk_buffer *x = make_buffer(vk, n, KD_VK_UPLOAD, "x"), *y = make_buffer(vk, n, KD_VK_READBACK, "y");
     uint64_t first, last = 0, held = kd_vk_allocated(vk);
     size_t settled = 0;
     memset(words(x), 0, n * 4);
@@ -58,8 +57,7 @@ static void one_large(void **state)
     struct kd_vk *vk = *state;
     enum { n = 64, dispatches = 1000 };
     struct kd_vk_pipeline *pipeline = make_mix(vk, 1);
-    struct kd_vk_buffer *x = make_buffer(vk, n, KD_VK_UPLOAD, "x"),
-                        *y = make_buffer(vk, n, KD_VK_READBACK, "y");
+    struct kd_vk_buffer *x = make_buffer(vk, n, KD_VK_UPLOAD, "x"), *y = make_buffer(vk, n, KD_VK_READBACK, "y");
     memset(words(x), 0, n * 4);
     OK(kd_vk_fill(vk, "fill", y, 0, n * 4, 0, &error));
     for (int i = 0; i < dispatches; i++)
@@ -104,8 +102,7 @@ static void cost(void **state)
     enum { n = 64, dispatches = 2000, submissions = 500 };
     struct kd_vk *vk = open_device(false);
     struct kd_vk_pipeline *pipeline = make_mix(vk, 1);
-    struct kd_vk_buffer *x = make_buffer(vk, n, KD_VK_DEVICE, "x"),
-                        *y = make_buffer(vk, n, KD_VK_DEVICE, "y");
+    struct kd_vk_buffer *x = make_buffer(vk, n, KD_VK_DEVICE, "x"), *y = make_buffer(vk, n, KD_VK_DEVICE, "y");
     mix(vk, pipeline, x, y, n, 1);
     finish(vk); /* drivers compile at the first dispatch */
     double start = now_us();

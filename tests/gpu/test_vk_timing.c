@@ -4,9 +4,7 @@
 #include <time.h>
 
 enum { n = 1 << 16 };
-struct spin_push {
-    uint32_t n, rounds;
-};
+struct spin_push { uint32_t n, rounds; };
 
 static double now_ms(void)
 {
@@ -28,8 +26,8 @@ static struct kd_vk_pipeline *make_spin(struct kd_vk *vk)
     return pipeline;
 }
 
-static void spin(struct kd_vk *vk, const char *pass, struct kd_vk_pipeline *pipeline,
-                 struct kd_vk_buffer *buffer, uint32_t rounds)
+static void spin(struct kd_vk *vk, const char *pass, struct kd_vk_pipeline *pipeline, struct kd_vk_buffer *buffer,
+                 uint32_t rounds)
 {
     const struct spin_push push = { n, rounds };
     OK(kd_vk_dispatch(vk,
@@ -94,8 +92,7 @@ static void many(void **state)
     struct kd_vk_time times[KD_VK_MAX_PASSES];
     if (!kd_vk_info(vk)->timestamps)
         return;
-    struct kd_vk_buffer *a = make_buffer(vk, 64, KD_VK_DEVICE, "a"),
-                        *b = make_buffer(vk, 64, KD_VK_DEVICE, "b");
+    struct kd_vk_buffer *a = make_buffer(vk, 64, KD_VK_DEVICE, "a"), *b = make_buffer(vk, 64, KD_VK_DEVICE, "b");
     kd_vk_times_reset(vk);
     for (int i = 0; i < 300; i++)
         OK(kd_vk_copy(vk, i % 2 ? "odd" : "even", i % 2 ? a : b, 0, i % 2 ? b : a, 0, 256, &error));
@@ -112,8 +109,7 @@ static void many(void **state)
     size_t count = kd_vk_times(vk, times);
     for (size_t i = 0; i < count; i++)
         sum += times[i].dispatches;
-    assert_int_equal(count,
-                     KD_VK_MAX_PASSES - 3); /* "warm", "short" and "long" have none, "other" has many */
+    assert_int_equal(count, KD_VK_MAX_PASSES - 3); /* "warm", "short" and "long" have none, "other" has many */
     assert_int_equal(sum, 300 + 2 * KD_VK_MAX_PASSES);
     assert_true(time_of(vk, "other").dispatches > 1);
     kd_vk_buffer_destroy(vk, a);
@@ -156,7 +152,7 @@ static void wrapping(void **state)
 
 int main(void)
 {
-    struct CMUnitTest tests[] = { cmocka_unit_test(plausible), cmocka_unit_test(many),
-                                  cmocka_unit_test(lesser_devices), cmocka_unit_test(wrapping) };
+    struct CMUnitTest tests[] = { cmocka_unit_test(plausible), cmocka_unit_test(many), cmocka_unit_test(lesser_devices),
+                                  cmocka_unit_test(wrapping) };
     return RUN_ON_DEVICE(tests);
 }

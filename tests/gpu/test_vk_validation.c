@@ -5,10 +5,10 @@
 #include "vk/submit.h"
 
 static VKAPI_ATTR void VKAPI_CALL no_barrier(VkCommandBuffer commands, VkPipelineStageFlags src,
-                                             VkPipelineStageFlags dst, VkDependencyFlags flags,
-                                             uint32_t n_memory, const VkMemoryBarrier *memory,
-                                             uint32_t n_buffer, const VkBufferMemoryBarrier *buffer,
-                                             uint32_t n_image, const VkImageMemoryBarrier *image)
+                                             VkPipelineStageFlags dst, VkDependencyFlags flags, uint32_t n_memory,
+                                             const VkMemoryBarrier *memory, uint32_t n_buffer,
+                                             const VkBufferMemoryBarrier *buffer, uint32_t n_image,
+                                             const VkImageMemoryBarrier *image)
 {
     (void)commands, (void)src, (void)dst, (void)flags, (void)n_memory, (void)memory, (void)n_buffer;
     (void)buffer, (void)n_image, (void)image;
@@ -19,8 +19,7 @@ static uint32_t fill_then_add(bool barriers)
 {
     struct kd_vk *vk = open_device(true);
     struct kd_vk_pipeline *pipeline = make_mix(vk, 0);
-    struct kd_vk_buffer *x = make_buffer(vk, 64, KD_VK_DEVICE, "x"),
-                        *y = make_buffer(vk, 64, KD_VK_DEVICE, "y");
+    struct kd_vk_buffer *x = make_buffer(vk, 64, KD_VK_DEVICE, "x"), *y = make_buffer(vk, 64, KD_VK_DEVICE, "y");
     if (!barriers)
         vk->fn.CmdPipelineBarrier = no_barrier;
     OK(kd_vk_fill(vk, "fill", x, 0, 256, 1, &error));
@@ -35,19 +34,24 @@ static uint32_t fill_then_add(bool barriers)
     return messages;
 }
 
-/* Messages from a fill of what a kernel then reads through binding k: a uniform block, texels of one float, of four; of one word, of two. */
+/* Messages from a fill of what a kernel then reads through binding k: a uniform block, texels of one float, of four;
+ * of one word, of two. */
 static uint32_t fill_then_read(int k, bool barriers)
 {
     struct kd_vk *vk = open_device(true);
     struct kd_vk_pipeline *pipeline = make_kinds(vk);
-    struct kd_vk_buffer *still = make_buffer(vk, 256, KD_VK_UPLOAD, "still"), *x = make_buffer(vk, 256, KD_VK_DEVICE, "x"),
-                        *y = make_buffer(vk, 256, KD_VK_DEVICE, "y");
+    struct kd_vk_buffer *still = make_buffer(vk, 256, KD_VK_UPLOAD, "still"),
+                        *x = make_buffer(vk, 256, KD_VK_DEVICE, "x"), *y = make_buffer(vk, 256, KD_VK_DEVICE, "y");
     memset(words(still), 0, 1024);
     if (!barriers)
         vk->fn.CmdPipelineBarrier = no_barrier;
     struct kd_vk_dispatch d = { .pipeline = pipeline,
-                                .bindings = { { .buffer = still }, { .buffer = still }, { .buffer = still },
-                                              { .buffer = y, .write = true }, { .buffer = still }, { .buffer = still } } };
+                                .bindings = { { .buffer = still },
+                                              { .buffer = still },
+                                              { .buffer = still },
+                                              { .buffer = y, .write = true },
+                                              { .buffer = still },
+                                              { .buffer = still } } };
     d.bindings[k].buffer = x;
     OK(kd_vk_fill(vk, "fill", x, 0, 1024, 0, &error));
     OK(kd_vk_dispatch(vk, &d, &error));
@@ -115,10 +119,7 @@ static VKAPI_ATTR VkResult VKAPI_CALL no_layers(uint32_t *count, VkLayerProperti
     return VK_SUCCESS;
 }
 
-static void hide_layers(struct kd_vk_functions *fn)
-{
-    fn->EnumerateInstanceLayerProperties = no_layers;
-}
+static void hide_layers(struct kd_vk_functions *fn) { fn->EnumerateInstanceLayerProperties = no_layers; }
 
 static void layer_missing(void **state)
 {

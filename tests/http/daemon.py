@@ -1,4 +1,5 @@
 """A server process under test and ways to talk to it, down to single bytes."""
+
 import atexit
 import http.client
 import importlib
@@ -15,13 +16,13 @@ import unittest
 import urllib.parse
 
 COMMAND = []  # the server's command line, from ours; set by main()
-SMALL = 'image.width=64&image.height=36'
+SMALL = "image.width=64&image.height=36"
 
 
 class Answer:
     """A parsed HTTP answer."""
 
-    def __init__(self, status, headers, body, target=''):
+    def __init__(self, status, headers, body, target=""):
         self.status, self.headers, self.body, self.target = status, headers, body, target
 
     def header(self, name):
@@ -33,33 +34,36 @@ class Answer:
 
     def location(self):
         """The path of what has been made, or of where it has gone: Location is relative to the request's."""
-        return urllib.parse.urljoin(self.target, self.header('Location'))
+        return urllib.parse.urljoin(self.target, self.header("Location"))
 
 
 class Daemon:
     def __init__(self, *options, stderr=None, env=None):
-        self.process = subprocess.Popen([*COMMAND, '--port', '0', *map(str, options)], stdout=subprocess.PIPE, stderr=stderr, env=env)
-        atexit.register(self.process.kill)  # what a failed test has left would keep whoever waits for our output waiting; no effect on one that has ended
+        self.process = subprocess.Popen(
+            [*COMMAND, "--port", "0", *map(str, options)], stdout=subprocess.PIPE, stderr=stderr, env=env
+        )
+        # What a failed test has left would keep whoever waits for our output waiting; no effect on one that has ended.
+        atexit.register(self.process.kill)
         line = self.process.stdout.readline().decode()
-        match = re.fullmatch(r'kerrd: listening on http://127\.0\.0\.1:(\d+)(\S*)/\n', line)
+        match = re.fullmatch(r"kerrd: listening on http://127\.0\.0\.1:(\d+)(\S*)/\n", line)
         if not match:
             self.process.kill()
             self.wait()
-            raise RuntimeError(f'no announcement but {line!r}')
+            raise RuntimeError(f"no announcement but {line!r}")
         self.port, self.base = int(match[1]), match[2]
 
-    def connect(self, timeout=60, source='127.0.0.1'):
-        return socket.create_connection(('127.0.0.1', self.port), timeout, source_address=(source, 0))
+    def connect(self, timeout=60, source="127.0.0.1"):
+        return socket.create_connection(("127.0.0.1", self.port), timeout, source_address=(source, 0))
 
     def request(self, method, target, body=None, headers=None, timeout=240):
-        connection = http.client.HTTPConnection('127.0.0.1', self.port, timeout=timeout)
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=timeout)
         try:
             connection.putrequest(method, target, skip_accept_encoding=True)
             headers = dict(headers or {})
             if body is not None:
                 body = body.encode() if isinstance(body, str) else body
-                headers.setdefault('Content-Type', 'application/json')
-                headers.setdefault('Content-Length', str(len(body)))
+                headers.setdefault("Content-Type", "application/json")
+                headers.setdefault("Content-Length", str(len(body)))
             for name, value in headers.items():
                 connection.putheader(name, value)
             connection.endheaders()
@@ -74,11 +78,11 @@ class Daemon:
             connection.close()
 
     def get(self, target, **headers):
-        return self.request('GET', target, headers={k.replace('_', '-'): v for k, v in headers.items()})
+        return self.request("GET", target, headers={k.replace("_", "-"): v for k, v in headers.items()})
 
     def post(self, target, body, **headers):
         body = body if isinstance(body, (str, bytes)) else json.dumps(body)
-        return self.request('POST', target, body, {k.replace('_', '-'): v for k, v in headers.items()})
+        return self.request("POST", target, body, {k.replace("_", "-"): v for k, v in headers.items()})
 
     def raw(self, data, timeout=60):
         """Send bytes, read until the server closes or the answer is complete; None when there is no answer."""
@@ -90,11 +94,11 @@ class Daemon:
             return read_answer(s)
 
     def metrics(self):
-        lines = self.get('/metrics').body.decode().splitlines()
-        return {name: float(value) for name, value in (line.rsplit(' ', 1) for line in lines if line[0] != '#')}
+        lines = self.get("/metrics").body.decode().splitlines()
+        return {name: float(value) for name, value in (line.rsplit(" ", 1) for line in lines if line[0] != "#")}
 
     def open_files(self):
-        return len(os.listdir(f'/proc/{self.process.pid}/fd'))
+        return len(os.listdir(f"/proc/{self.process.pid}/fd"))
 
     def terminate(self):
         self.process.send_signal(signal.SIGTERM)
@@ -122,7 +126,7 @@ def read_answer(s):
 
 def vanish(s):
     """A client that is gone from one moment to the next, without a last word."""
-    s.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack('ii', 1, 0))
+    s.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
     s.close()
 
 
@@ -131,13 +135,13 @@ def needed(name):
     try:
         return importlib.import_module(name)
     except ImportError as missing:
-        print(f'skipped: {missing}; scripts/setup --browser installs it')
+        print(f"skipped: {missing}; scripts/setup --browser installs it")
         sys.exit(77)
 
 
 def free_port():
     with socket.socket() as one:
-        one.bind(('127.0.0.1', 0))
+        one.bind(("127.0.0.1", 0))
         return one.getsockname()[1]
 
 
@@ -152,37 +156,39 @@ def eventually(condition, timeout=240):
 
 class Case(unittest.TestCase):
     """Tests that share one daemon, which must be alive after each and exit with 0 after all."""
+
     options = ()
 
     @classmethod
     def setUpClass(cls):
-        cls.daemon = Daemon('--drain-ms', 10, *cls.options)
+        cls.daemon = Daemon("--drain-ms", 10, *cls.options)
 
     @classmethod
     def tearDownClass(cls):
         code = cls.daemon.stop()
         if code:
-            raise AssertionError(f'the daemon exited with {code}')
+            raise AssertionError(f"the daemon exited with {code}")
 
     def tearDown(self):
-        self.assertEqual(self.daemon.get('/healthz').status, 200)
+        self.assertEqual(self.daemon.get("/healthz").status, 200)
 
     def assertProblem(self, answer, status, word=None, pointer=None):
-        self.assertIsNotNone(answer, 'no answer')
+        self.assertIsNotNone(answer, "no answer")
         self.assertEqual(answer.status, status, answer.body)
-        self.assertEqual(answer.header('Content-Type'), 'application/problem+json')
+        self.assertEqual(answer.header("Content-Type"), "application/problem+json")
         problem = answer.json()
-        self.assertEqual(problem['status'], status)
-        self.assertTrue(problem['title'] and problem['detail'], problem)
+        self.assertEqual(problem["status"], status)
+        self.assertTrue(problem["title"] and problem["detail"], problem)
         if word:
-            self.assertEqual(problem['type'], 'urn:kerrd:problem:' + word, problem)
+            self.assertEqual(problem["type"], "urn:kerrd:problem:" + word, problem)
         if pointer is not None:
-            self.assertEqual(problem.get('pointer'), pointer, problem)
+            self.assertEqual(problem.get("pointer"), pointer, problem)
         return problem
 
 
 class Owned(Case):
     """Tests of what lives on the server under an address, belongs to who has its token, and goes with the test."""
+
     kind = made = None  # '/v1/sessions'; the status of having made one
 
     def setUp(self):
@@ -193,45 +199,47 @@ class Owned(Case):
             self.delete(one)
         super().tearDown()
 
-    def make(self, body, query='', server=None):
+    def make(self, body, query="", server=None):
         answer = (server or self.daemon).post(self.kind + query, body)
         self.assertEqual(answer.status, self.made, answer.body)
         one = answer.json()
-        self.assertRegex(one['id'], '^[0-9a-f]{16}$')
-        self.assertRegex(one['token'], '^[0-9a-f]{32}$')
-        self.assertEqual(answer.location(), f'{self.kind}/{one["id"]}')
+        self.assertRegex(one["id"], "^[0-9a-f]{16}$")
+        self.assertRegex(one["token"], "^[0-9a-f]{32}$")
+        self.assertEqual(answer.location(), f"{self.kind}/{one['id']}")
         if not server:
             self.opened.append(one)
         return one
 
     def delete(self, one, server=None):
-        return (server or self.daemon).request('DELETE', self.at(one), headers=self.owner(one))
+        return (server or self.daemon).request("DELETE", self.at(one), headers=self.owner(one))
 
-    def at(self, one, rest=''):
-        return f'{self.kind}/{one["id"]}{rest}'
+    def at(self, one, rest=""):
+        return f"{self.kind}/{one['id']}{rest}"
 
     @staticmethod
     def owner(one):
-        return {'Authorization': 'Bearer ' + one['token']}
+        return {"Authorization": "Bearer " + one["token"]}
 
     def status(self, one, server=None):
         return (server or self.daemon).get(self.at(one)).json()
 
-    def stream(self, one, rest, accept='*/*', timeout=20):
+    def stream(self, one, rest, accept="*/*", timeout=20):
         s = self.daemon.connect(timeout)
-        s.sendall(f'GET {self.at(one, rest)} HTTP/1.1\r\nHost: localhost\r\nAccept: {accept}\r\nConnection: close\r\n\r\n'.encode())
+        s.sendall(
+            f"GET {self.at(one, rest)} HTTP/1.1\r\nHost: localhost\r\nAccept: {accept}\r\nConnection: close\r\n\r\n".encode()
+        )
         return s
 
 
 def need_device():
-    doctor = subprocess.run([sys.argv[1], 'doctor'], capture_output=True, text=True, timeout=60)
-    if 'devices: none' in doctor.stdout:
-        print('skipped:', doctor.stdout)
+    doctor = subprocess.run([sys.argv[1], "doctor"], capture_output=True, text=True, timeout=60)
+    if "devices: none" in doctor.stdout:
+        print("skipped:", doctor.stdout)
         sys.exit(77)
 
 
 def main():
     COMMAND.append(sys.argv.pop(1))
-    while len(sys.argv) > 1 and sys.argv[1] != '--':
+    while len(sys.argv) > 1 and sys.argv[1] != "--":
         COMMAND.append(sys.argv.pop(1))
     unittest.main(argv=[sys.argv[0], *sys.argv[2:]], verbosity=2)

@@ -1,12 +1,13 @@
 /* render/render.h without a device, for tests of what stands in front of it. Plans and pictures are the real
  * ones.
  *
- * The scene's time chooses what happens: t >= 0 takes t milliseconds, in slices of 10, and 30 times as long with several rays a
- * pixel; -1 loses the device, which on one called "mends" can be opened again, -1.5 only the first time,
- * -2 runs out of memory, -3 fails. The exposure that is "auto" is 1 stop and -1 by turns. Rays on the device cross once, at
- * 10 + |alpha| with the azimuth beta; with steps 8 there is no double precision, with steps 12 each takes a millisecond.
- * The picture of a sky of seed 4711 is under way until another picture is rendered. A device called "compiles" is busy with a small picture of a
- * preset, as with a kernel, until five other pictures have been rendered meanwhile; it fails after a minute without them. */
+ * The scene's time chooses what happens: t >= 0 takes t milliseconds, in slices of 10, and 30 times as long with
+ * several rays a pixel; -1 loses the device, which on one called "mends" can be opened again, -1.5 only the first
+ * time, -2 runs out of memory, -3 fails. The exposure that is "auto" is 1 stop and -1 by turns. Rays on the device
+ * cross once, at 10 + |alpha| with the azimuth beta; with steps 8 there is no double precision, with steps 12 each
+ * takes a millisecond. The picture of a sky of seed 4711 is under way until another picture is rendered. A device
+ * called "compiles" is busy with a small picture of a preset, as with a kernel, until five other pictures have been
+ * rendered meanwhile; it fails after a minute without them. */
 #include "base/clock.h"
 #include "render/device/accuracy_store.h"
 #include "render/rays/device.h"
@@ -48,17 +49,19 @@ enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struc
     return *out ? KD_OK : KD_ENOMEM;
 }
 
-void kd_renderer_destroy(struct kd_renderer *renderer)
-{
-    free(renderer);
-}
+void kd_renderer_destroy(struct kd_renderer *renderer) { free(renderer); }
 
 enum kd_status kd_renderer_reopen(struct kd_renderer *renderer, struct kd_error *error)
 {
-    return renderer->params.device && !strcmp(renderer->params.device, "mends") ? KD_OK : kd_error_set(error, KD_EDEVICE, "the device missed its deadline");
+    return renderer->params.device && !strcmp(renderer->params.device, "mends")
+               ? KD_OK
+               : kd_error_set(error, KD_EDEVICE, "the device missed its deadline");
 }
 
-bool kd_renderer_hangs(const struct kd_renderer *renderer) { return !renderer->params.device || strcmp(renderer->params.device, "mends"); }
+bool kd_renderer_hangs(const struct kd_renderer *renderer)
+{
+    return !renderer->params.device || strcmp(renderer->params.device, "mends");
+}
 
 bool kd_renderer_sky_begin(struct kd_renderer *renderer, const struct kd_scene *scene)
 {
@@ -91,7 +94,8 @@ enum kd_status kd_renderer_device_json(struct kd_renderer *renderer, struct kd_b
 }
 
 /* A device called "measured" has a table, one called "slow" is in no hurry to say that it has none. */
-enum kd_status kd_renderer_accuracy_json(const struct kd_renderer *renderer, struct kd_buffer *out, struct kd_error *error)
+enum kd_status kd_renderer_accuracy_json(const struct kd_renderer *renderer, struct kd_buffer *out,
+                                         struct kd_error *error)
 {
     if (renderer->slow)
         nanosleep(&(struct timespec) { .tv_sec = 5 }, NULL);
@@ -179,23 +183,34 @@ static struct kd_told *tell(const struct kd_plan *plan)
     struct kd_told *told = plan->told.on ? calloc(1, sizeof *told) : NULL;
     if (!told)
         return NULL;
-    *told = (struct kd_told) { .x = plan->told.x, .y = plan->told.y, .rays = side * side, .radiance = { 0.25f, 0.25f, 0.25f } };
+    *told = (struct kd_told) {
+        .x = plan->told.x, .y = plan->told.y, .rays = side * side, .radiance = { 0.25f, 0.25f, 0.25f }
+    };
     told->each = malloc(told->rays * sizeof *told->each);
     for (uint32_t i = 0; told->each && i < told->rays; i++)
         told->each[i] = (struct kd_told_ray) {
-            .steps_a_pixel = side, .x = told->x * side + i % side, .y = told->y * side + i / side, .light = { 0.25f, 0.25f, 0.25f },
+            .steps_a_pixel = side,
+            .x = told->x * side + i % side,
+            .y = told->y * side + i / side,
+            .light = { 0.25f, 0.25f, 0.25f },
         };
     told->rays = told->each ? told->rays : 0;
     if (plan->told.steps && (told->steps = calloc(1, sizeof *told->steps))) { /* a start and nothing behind it */
-        *told->steps = (struct kd_rays_steps) { .params = { .engine = plan->setting.engine, .steps = plan->setting.steps }, .n = 1, .steps = calloc(1, sizeof *told->steps->steps), .same = true };
+        *told->steps =
+            (struct kd_rays_steps) { .params = { .engine = plan->setting.engine, .steps = plan->setting.steps },
+                                     .n = 1,
+                                     .steps = calloc(1, sizeof *told->steps->steps),
+                                     .same = true };
         told->steps->n = told->steps->steps != NULL;
     }
     told->middle = told->each ? told->each[0] : (struct kd_told_ray) { .steps_a_pixel = side };
     return told;
 }
 
-/* Linear light that is black, and maps of one brightness: 1, and half of that of image order 1; with three samples a side they are black too. */
-static enum kd_status add_numbers(const struct kd_scene *scene, const struct kd_plan *plan, struct kd_frame *out, struct kd_error *error)
+/* Linear light that is black, and maps of one brightness: 1, and half of that of image order 1; with three samples a
+ * side they are black too. */
+static enum kd_status add_numbers(const struct kd_scene *scene, const struct kd_plan *plan, struct kd_frame *out,
+                                  struct kd_error *error)
 {
     enum kd_status status = plan->radiance ? kd_frame_add_layer(out, "radiance", 3, KD_LAYER_F32, error) : KD_OK;
     for (size_t i = 0; i < plan->n_layers && !status; i++) {
@@ -210,9 +225,8 @@ static enum kd_status add_numbers(const struct kd_scene *scene, const struct kd_
     return status;
 }
 
-enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *scene,
-                         const struct kd_plan *plan, kd_progress_fn progress, void *user,
-                         struct kd_frame *out, struct kd_error *error)
+enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
+                         kd_progress_fn progress, void *user, struct kd_frame *out, struct kd_error *error)
 {
     const double begun = kd_clock_ms();
     enum kd_status status = mishap(scene->top.time, error);
@@ -226,11 +240,12 @@ enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *sc
         status = compile(progress, user, error);
     if (status)
         return status;
-    *out = (struct kd_frame) { .width = plan->width,
-                               .height = plan->height,
-                               .told = tell(plan),
-                               .exposure = isinf(scene->style.exposure) ? kd_plan_exposure(plan, renderer->bright ? -1 : 1)
-                                                                        : scene->style.exposure };
+    *out =
+        (struct kd_frame) { .width = plan->width,
+                            .height = plan->height,
+                            .told = tell(plan),
+                            .exposure = isinf(scene->style.exposure) ? kd_plan_exposure(plan, renderer->bright ? -1 : 1)
+                                                                     : scene->style.exposure };
     if (kd_frame_add_layer(out, "rgb", 3, scene->image.bit_depth > 8 ? KD_LAYER_U16 : KD_LAYER_U8, error))
         return KD_ENOMEM;
     size_t size = (size_t)plan->width * plan->height * kd_layer_pixel_bytes(&out->layers[0]);
@@ -247,14 +262,17 @@ enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *sc
     const double t = scene->top.time; /* at 0 it is dark */
     if (plan->light)
         out->light = (struct kd_light_report) {
-            .measured = true, .all = { t, t > 0 ? 0.5 * t : NAN, -t, 0, 0, 0 }, .spots = { t / 4, t > 0 ? 3 : NAN, t > 0 ? 0.25 : NAN, 0, 0, 0 },
+            .measured = true,
+            .all = { t, t > 0 ? 0.5 * t : NAN, -t, 0, 0, 0 },
+            .spots = { t / 4, t > 0 ? 3 : NAN, t > 0 ? 0.25 : NAN, 0, 0, 0 },
         };
     out->lens_reused = !strcmp(renderer->lens_key, plan->lens_key);
     memcpy(renderer->lens_key, plan->lens_key, sizeof renderer->lens_key);
     if (!out->lens_reused)
         out->timings[out->n_timings++] = (struct kd_timing) { "trace", scene->top.time };
     out->timings[out->n_timings++] = (struct kd_timing) { "total", scene->top.time };
-    out->timings[out->n_timings++] = (struct kd_timing) { "slept", kd_clock_ms() - begun }; /* what it took: a busy machine wakes it late */
+    out->timings[out->n_timings++] =
+        (struct kd_timing) { "slept", kd_clock_ms() - begun }; /* what it took: a busy machine wakes it late */
     atomic_fetch_add(&drawn, 1);
     return KD_OK;
 }
@@ -285,19 +303,21 @@ static bool go_on(void *user, double fraction)
 }
 
 enum kd_status kd_render_aside(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
-                               kd_progress_fn progress, const struct kd_glance *glance, void *user, struct kd_frame *out,
-                               struct kd_error *error)
+                               kd_progress_fn progress, const struct kd_glance *glance, void *user,
+                               struct kd_frame *out, struct kd_error *error)
 {
     struct aside aside = { progress, glance, user, plan };
     return kd_render(renderer, scene, plan, go_on, &aside, out, error);
 }
 
 /* Nothing is made of the light of the others: it is black, as the picture's own. */
-enum kd_status kd_render_mean(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan, const struct kd_light_sum *others, bool aside,
-                              kd_progress_fn progress, const struct kd_glance *glance, void *user, struct kd_frame *out, struct kd_error *error)
+enum kd_status kd_render_mean(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
+                              const struct kd_light_sum *others, bool aside, kd_progress_fn progress,
+                              const struct kd_glance *glance, void *user, struct kd_frame *out, struct kd_error *error)
 {
     (void)others;
-    return aside ? kd_render_aside(renderer, scene, plan, progress, glance, user, out, error) : kd_render(renderer, scene, plan, progress, user, out, error);
+    return aside ? kd_render_aside(renderer, scene, plan, progress, glance, user, out, error)
+                 : kd_render(renderer, scene, plan, progress, user, out, error);
 }
 
 enum kd_status kd_rays_device(struct kd_renderer *renderer, const struct kd_rays_params *params,

@@ -17,7 +17,8 @@ static void on_signal(int number)
     kd_server_stop(server);
 }
 
-static int set(struct kd_server_params *params, const char *hosts[2], const char *origins[2], const char *name, const char *value)
+static int set(struct kd_server_params *params, const char *hosts[2], const char *origins[2], const char *name,
+               const char *value)
 {
     struct {
         const char *name;
@@ -79,7 +80,8 @@ int main(int argc, char **argv)
         return fprintf(stderr, "fake_server: %s\n", error.message), 1;
     signal(SIGTERM, on_signal);
     signal(SIGINT, on_signal);
-    printf("kerrd: listening on http://127.0.0.1:%u%s/\n", kd_server_port(server), params.base_path ? params.base_path : "");
+    printf("kerrd: listening on http://127.0.0.1:%u%s/\n", kd_server_port(server),
+           params.base_path ? params.base_path : "");
     fflush(stdout);
     enum kd_status status = kd_server_wait(server, &error);
     if (status) {

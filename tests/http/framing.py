@@ -1,4 +1,5 @@
 """The header guard, limits on bodies, and deadlines, with bytes that no proper client sends."""
+
 import re
 import shutil
 import subprocess
@@ -7,114 +8,149 @@ import unittest
 
 import daemon
 
-SCENE = b'POST /v1/render HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n'
+SCENE = b"POST /v1/render HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
 MOST_S = 8  # of the one or two that the server gives a client, on a busy machine
-POST = b'POST /v1/plan HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n'
+POST = b"POST /v1/plan HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
 
 
-def get(*headers, version=b'1.1', path=b'/healthz'):
-    return b'GET ' + path + b' HTTP/' + version + b'\r\n' + b''.join(h + b'\r\n' for h in headers) + b'\r\n'
+def get(*headers, version=b"1.1", path=b"/healthz"):
+    return b"GET " + path + b" HTTP/" + version + b"\r\n" + b"".join(h + b"\r\n" for h in headers) + b"\r\n"
 
 
 class Guard(daemon.Case):
-    options = ('--host', 'holes.example', '--header-ms', 1000, '--body-ms', 1000)
+    options = ("--host", "holes.example", "--header-ms", 1000, "--body-ms", 1000)
 
     def assertRefused(self, answer, status, word):
         """Or, where libmicrohttpd 1.0 sees to it before it asks us, as what is no HTTP."""
-        self.assertIsNotNone(answer, 'no answer')
+        self.assertIsNotNone(answer, "no answer")
         if answer.status == 400:
-            status, word = 400, 'bad-request'
+            status, word = 400, "bad-request"
         self.assertProblem(answer, status, word)
 
     def test_hosts(self):
-        for host in (b'localhost', b'LOCALHOST:80', b'127.0.0.1', b'127.0.0.1:65535', b'[::1]', b'[::1]:8080',
-                     b'holes.example', b'Holes.Example:443'):
+        for host in (
+            b"localhost",
+            b"LOCALHOST:80",
+            b"127.0.0.1",
+            b"127.0.0.1:65535",
+            b"[::1]",
+            b"[::1]:8080",
+            b"holes.example",
+            b"Holes.Example:443",
+        ):
             with self.subTest(host):
-                self.assertEqual(self.daemon.raw(get(b'Host: ' + host)).status, 200)
-        for host in (b'', b'evil.example', b'localhost.evil.example', b'localhost@evil', b'127.0.0.1:x', b'[::1',
-                     b'[::1]x', b'localhost:', b'localhost:123456', b'127.0.0.1.', b'::1', b'localhost, localhost'):
+                self.assertEqual(self.daemon.raw(get(b"Host: " + host)).status, 200)
+        for host in (
+            b"",
+            b"evil.example",
+            b"localhost.evil.example",
+            b"localhost@evil",
+            b"127.0.0.1:x",
+            b"[::1",
+            b"[::1]x",
+            b"localhost:",
+            b"localhost:123456",
+            b"127.0.0.1.",
+            b"::1",
+            b"localhost, localhost",
+        ):
             with self.subTest(host):
-                answer = self.daemon.raw(get(b'Host: ' + host))
-                if host != b'localhost:':  # an empty port is the default one (RFC 3986, 3.2.3)
-                    self.assertProblem(answer, 421, 'misdirected')
-        self.assertProblem(self.daemon.raw(get(b'Host: localhost', b'Host: localhost')), 421, 'misdirected')
-        self.assertProblem(self.daemon.raw(get(b'Host: localhost', b'Host: evil')), 421, 'misdirected')
-        self.assertRefused(self.daemon.raw(get()), 421, 'misdirected')
+                answer = self.daemon.raw(get(b"Host: " + host))
+                if host != b"localhost:":  # an empty port is the default one (RFC 3986, 3.2.3)
+                    self.assertProblem(answer, 421, "misdirected")
+        self.assertProblem(self.daemon.raw(get(b"Host: localhost", b"Host: localhost")), 421, "misdirected")
+        self.assertProblem(self.daemon.raw(get(b"Host: localhost", b"Host: evil")), 421, "misdirected")
+        self.assertRefused(self.daemon.raw(get()), 421, "misdirected")
 
     def test_bodies_of_uncertain_length(self):
         for framing, rest in (
-                (b'Content-Length: 2\r\nContent-Length: 2\r\n', b'{}'),
-                (b'Content-Length: 2\r\nContent-Length: 40\r\n', b'{}'),
-                (b'Content-Length: 2\r\nTransfer-Encoding: chunked\r\n', b'2\r\n{}\r\n0\r\n\r\n'),
-                (b'Transfer-Encoding: chunked\r\nContent-Length: 2\r\n', b'2\r\n{}\r\n0\r\n\r\n'),
-                (b'Transfer-Encoding: chunked\r\nTransfer-Encoding: chunked\r\n', b'2\r\n{}\r\n0\r\n\r\n'),
-                (b'Transfer-Encoding: gzip, chunked\r\n', b'2\r\n{}\r\n0\r\n\r\n'),
-                (b'Transfer-Encoding: identity\r\n', b'{}'), (b'Transfer-Encoding: \x0bchunked\r\n', b'{}')):
+            (b"Content-Length: 2\r\nContent-Length: 2\r\n", b"{}"),
+            (b"Content-Length: 2\r\nContent-Length: 40\r\n", b"{}"),
+            (b"Content-Length: 2\r\nTransfer-Encoding: chunked\r\n", b"2\r\n{}\r\n0\r\n\r\n"),
+            (b"Transfer-Encoding: chunked\r\nContent-Length: 2\r\n", b"2\r\n{}\r\n0\r\n\r\n"),
+            (b"Transfer-Encoding: chunked\r\nTransfer-Encoding: chunked\r\n", b"2\r\n{}\r\n0\r\n\r\n"),
+            (b"Transfer-Encoding: gzip, chunked\r\n", b"2\r\n{}\r\n0\r\n\r\n"),
+            (b"Transfer-Encoding: identity\r\n", b"{}"),
+            (b"Transfer-Encoding: \x0bchunked\r\n", b"{}"),
+        ):
             with self.subTest(framing), self.daemon.connect() as s:
-                s.sendall(POST + framing + b'\r\n' + rest + get(b'Host: localhost'))
-                self.assertRefused(daemon.read_answer(s), 400, 'bad-request')
-                self.assertIsNone(daemon.read_answer(s), 'the connection must end')
+                s.sendall(POST + framing + b"\r\n" + rest + get(b"Host: localhost"))
+                self.assertRefused(daemon.read_answer(s), 400, "bad-request")
+                self.assertIsNone(daemon.read_answer(s), "the connection must end")
 
     def test_lengths_that_are_no_numbers(self):
-        for length in (b'-1', b'+2', b'2, 2', b'0x2', b'2 2', b'', b'99999999999999999999', b'18446744073709551618'):
+        for length in (b"-1", b"+2", b"2, 2", b"0x2", b"2 2", b"", b"99999999999999999999", b"18446744073709551618"):
             with self.subTest(length):
-                answer = self.daemon.raw(POST + b'Content-Length: ' + length + b'\r\n\r\n{}')
+                answer = self.daemon.raw(POST + b"Content-Length: " + length + b"\r\n\r\n{}")
                 self.assertIn(answer.status, (400, 413))
 
     def test_a_body_where_none_belongs_is_not_the_next_request(self):
-        inner = get(b'Host: localhost')
-        for method in (b'GET', b'HEAD', b'DELETE', b'PUT', b'POST', b'OPTIONS'):
+        inner = get(b"Host: localhost")
+        for method in (b"GET", b"HEAD", b"DELETE", b"PUT", b"POST", b"OPTIONS"):
             with self.subTest(method), self.daemon.connect() as s:
-                s.sendall(method + b' /healthz HTTP/1.1\r\nHost: localhost\r\nContent-Length: %d\r\n\r\n' % len(inner) + inner)
+                s.sendall(
+                    method + b" /healthz HTTP/1.1\r\nHost: localhost\r\nContent-Length: %d\r\n\r\n" % len(inner) + inner
+                )
                 answer = s.recv(65536)
-                self.assertTrue(answer.startswith(b'HTTP/1.1 40'), answer)
+                self.assertTrue(answer.startswith(b"HTTP/1.1 40"), answer)
                 while more := s.recv(65536):
                     answer += more
-                self.assertEqual(answer.count(b'HTTP/1.1'), 1)
+                self.assertEqual(answer.count(b"HTTP/1.1"), 1)
 
     def test_answers_without_a_body_end_with_their_header(self):
-        render = b'/v1/render?' + daemon.SMALL.encode()
-        tag = self.daemon.get(render.decode()).header('ETag').encode()
-        for line, more in ((b'HEAD ' + render, b''), (b'GET ' + render, b'If-None-Match: ' + tag + b'\r\n'), (b'HEAD /web/app.js', b''),
-                           (b'GET /web/app.js', b'If-None-Match: *\r\n')):
+        render = b"/v1/render?" + daemon.SMALL.encode()
+        tag = self.daemon.get(render.decode()).header("ETag").encode()
+        for line, more in (
+            (b"HEAD " + render, b""),
+            (b"GET " + render, b"If-None-Match: " + tag + b"\r\n"),
+            (b"HEAD /web/app.js", b""),
+            (b"GET /web/app.js", b"If-None-Match: *\r\n"),
+        ):
             with self.subTest(line + more), self.daemon.connect() as s:
-                s.sendall(line + b' HTTP/1.1\r\nHost: localhost\r\n' + more + b'\r\n')
+                s.sendall(line + b" HTTP/1.1\r\nHost: localhost\r\n" + more + b"\r\n")
                 s.settimeout(1)
-                got = b''
+                got = b""
                 try:
                     while part := s.recv(65536):
                         got += part
                 except TimeoutError:
                     pass  # kept alive
-                self.assertTrue(got.startswith(b'HTTP/1.1 '), got[:100])
-                self.assertEqual(got.split(b'\r\n\r\n', 1)[1], b'')
+                self.assertTrue(got.startswith(b"HTTP/1.1 "), got[:100])
+                self.assertEqual(got.split(b"\r\n\r\n", 1)[1], b"")
 
     def test_names_with_blanks(self):
-        for line in (b'Content-Length : 2', b'Transfer-Encoding : chunked', b'Ho st: x', b'(x): 1'):
+        for line in (b"Content-Length : 2", b"Transfer-Encoding : chunked", b"Ho st: x", b"(x): 1"):
             with self.subTest(line):
-                answer = self.daemon.raw(get(b'Host: localhost', line))
+                answer = self.daemon.raw(get(b"Host: localhost", line))
                 self.assertTrue(answer is None or answer.status == 400, answer and answer.status)
 
     def test_versions(self):
-        for version in (b'2.0', b'1.2', b'0.9', b'1.10', b'x'):
+        for version in (b"2.0", b"1.2", b"0.9", b"1.10", b"x"):
             with self.subTest(version):
-                answer = self.daemon.raw(get(b'Host: localhost', version=version))
+                answer = self.daemon.raw(get(b"Host: localhost", version=version))
                 self.assertTrue(answer is None or answer.status in (400, 505), answer and answer.status)
 
     def test_header_too_large(self):
-        answer = self.daemon.raw(get(b'Host: localhost', b'X: ' + b'x' * 100000))
+        answer = self.daemon.raw(get(b"Host: localhost", b"X: " + b"x" * 100000))
         self.assertTrue(answer is None or answer.status in (413, 431))
-        answer = self.daemon.raw(get(b'Host: localhost', path=b'/' + b'x' * 100000))
+        answer = self.daemon.raw(get(b"Host: localhost", path=b"/" + b"x" * 100000))
         self.assertTrue(answer is None or answer.status in (413, 414, 431))
 
     def test_chunked(self):
-        answer = self.daemon.raw(POST + b'Transfer-Encoding: chunked\r\n\r\n1\r\n{\r\n1\r\n}\r\n0\r\n\r\n')
+        answer = self.daemon.raw(POST + b"Transfer-Encoding: chunked\r\n\r\n1\r\n{\r\n1\r\n}\r\n0\r\n\r\n")
         self.assertEqual(answer.status, 200)
 
     def test_nonsense(self):
-        for data in (b'\r\n\r\n', b'\0' * 1000, b'GET\r\n\r\n', b'\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03', b'GET / HTTP/1.1',
-                     b'GET /' + b'%' * 200 + b' HTTP/1.1\r\nHost: localhost\r\n\r\n',
-                     POST + b'Transfer-Encoding: chunked\r\n\r\nzz\r\n', POST + b'Content-Length: 5\r\n\r\n{}'):
+        for data in (
+            b"\r\n\r\n",
+            b"\0" * 1000,
+            b"GET\r\n\r\n",
+            b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03",
+            b"GET / HTTP/1.1",
+            b"GET /" + b"%" * 200 + b" HTTP/1.1\r\nHost: localhost\r\n\r\n",
+            POST + b"Transfer-Encoding: chunked\r\n\r\nzz\r\n",
+            POST + b"Content-Length: 5\r\n\r\n{}",
+        ):
             with self.subTest(data[:30]), self.daemon.connect(2) as s:
                 s.sendall(data)
                 s.shutdown(1)
@@ -122,81 +158,83 @@ class Guard(daemon.Case):
 
 
 def own_addresses(family):
-    text = subprocess.run(['ip', '-o', 'addr'], capture_output=True, text=True).stdout if shutil.which('ip') else ''
-    found = re.findall(family + r' ([0-9a-f.:]+)/\d+ .*scope global', text)
-    if not found and family == 'inet':
-        text = subprocess.run(['hostname', '-I'], capture_output=True, text=True).stdout
-        found = [a for a in text.split() if ':' not in a]
+    text = subprocess.run(["ip", "-o", "addr"], capture_output=True, text=True).stdout if shutil.which("ip") else ""
+    found = re.findall(family + r" ([0-9a-f.:]+)/\d+ .*scope global", text)
+    if not found and family == "inet":
+        text = subprocess.run(["hostname", "-I"], capture_output=True, text=True).stdout
+        found = [a for a in text.split() if ":" not in a]
     return found
 
 
 class EveryAddress(daemon.Case):
-    options = ('--listen', '0.0.0.0')
+    options = ("--listen", "0.0.0.0")
 
     def test_own_addresses_are_answered_to(self):
-        own = own_addresses('inet')
+        own = own_addresses("inet")
         if not own:
-            self.skipTest('this machine has no address besides loopback')
+            self.skipTest("this machine has no address besides loopback")
         for address in own:
-            self.assertEqual(self.daemon.raw(get(f'Host: {address}:80'.encode())).status, 200)
-        for host in ('192.0.2.7', '192.0.2.7:8080', 'evil.example'):
-            problem = self.assertProblem(self.daemon.raw(get(f'Host: {host}'.encode())), 421, 'misdirected')
-            self.assertIn('--host ' + host.split(':')[0], problem['detail'])
-            self.assertIn(f'"{host}"', problem['detail'])
-        self.assertIn('--host NAME', self.daemon.raw(get(b'Host: $(x)')).json()['detail'])
+            self.assertEqual(self.daemon.raw(get(f"Host: {address}:80".encode())).status, 200)
+        for host in ("192.0.2.7", "192.0.2.7:8080", "evil.example"):
+            problem = self.assertProblem(self.daemon.raw(get(f"Host: {host}".encode())), 421, "misdirected")
+            self.assertIn("--host " + host.split(":")[0], problem["detail"])
+            self.assertIn(f'"{host}"', problem["detail"])
+        self.assertIn("--host NAME", self.daemon.raw(get(b"Host: $(x)")).json()["detail"])
 
 
 class Sizes(daemon.Case):
     def test_length_over_the_limit_is_refused_by_the_header(self):
         with self.daemon.connect() as s:
-            s.sendall(SCENE + b'Content-Length: 104857600\r\nExpect: 100-continue\r\n\r\n')
-            self.assertProblem(daemon.read_answer(s), 413, 'body-too-large')
-            self.assertEqual(s.recv(1), b'')
+            s.sendall(SCENE + b"Content-Length: 104857600\r\nExpect: 100-continue\r\n\r\n")
+            self.assertProblem(daemon.read_answer(s), 413, "body-too-large")
+            self.assertEqual(s.recv(1), b"")
 
     def test_a_refusal_reaches_a_client_that_sends_first_and_reads_then(self):
         for size in ((1 << 20) + 1, 8 << 20):
             with self.subTest(size), self.daemon.connect() as s:
-                s.sendall(SCENE + b'Content-Length: %d\r\n\r\n' % size + b' ' * size)
-                self.assertProblem(daemon.read_answer(s), 413, 'body-too-large')
+                s.sendall(SCENE + b"Content-Length: %d\r\n\r\n" % size + b" " * size)
+                self.assertProblem(daemon.read_answer(s), 413, "body-too-large")
 
     def test_100_mb_body_does_not_get_through(self):
         with self.daemon.connect() as s:
             sent = 0
             try:
-                s.sendall(SCENE + b'Content-Length: 104857600\r\n\r\n')
+                s.sendall(SCENE + b"Content-Length: 104857600\r\n\r\n")
                 while sent < 104857600:
-                    sent += s.send(b' ' * 65536)
+                    sent += s.send(b" " * 65536)
             except OSError:
                 pass
         self.assertLess(sent, 64 << 20)
 
     def test_chunks_over_the_limit(self):
-        chunk = b'10000\r\n' + b' ' * 65536 + b'\r\n'
+        chunk = b"10000\r\n" + b" " * 65536 + b"\r\n"
         with self.daemon.connect() as s:
-            s.sendall(SCENE + b'Transfer-Encoding: chunked\r\n\r\n' + chunk * 15)
-            s.sendall(b'10001\r\n' + b' ' * 65537)
-            self.assertProblem(daemon.read_answer(s), 413, 'body-too-large')
+            s.sendall(SCENE + b"Transfer-Encoding: chunked\r\n\r\n" + chunk * 15)
+            s.sendall(b"10001\r\n" + b" " * 65537)
+            self.assertProblem(daemon.read_answer(s), 413, "body-too-large")
             try:
-                self.assertEqual(s.recv(1), b'')
+                self.assertEqual(s.recv(1), b"")
             except ConnectionResetError:
                 pass
 
     def test_a_body_of_just_the_limit(self):
         """Of a scene; that of a job, which POST /v1/plan takes too, may be four times as large."""
         small = '{"image": {"width": 2, "height": 2}}'
-        self.assertEqual(self.daemon.post('/v1/render', small + ' ' * ((1 << 20) - len(small))).status, 200)
-        self.assertProblem(self.daemon.post('/v1/render', '{}' + ' ' * ((1 << 20) - 1)), 413, 'body-too-large')
+        self.assertEqual(self.daemon.post("/v1/render", small + " " * ((1 << 20) - len(small))).status, 200)
+        self.assertProblem(self.daemon.post("/v1/render", "{}" + " " * ((1 << 20) - 1)), 413, "body-too-large")
         sweep = '{"axes": {"time": [0]}}'
-        self.assertEqual(self.daemon.post('/v1/plan', sweep + ' ' * ((4 << 20) - len(sweep))).status, 200)
-        self.assertProblem(self.daemon.post('/v1/plan', sweep + ' ' * ((4 << 20) - len(sweep) + 1)), 413, 'body-too-large')
+        self.assertEqual(self.daemon.post("/v1/plan", sweep + " " * ((4 << 20) - len(sweep))).status, 200)
+        self.assertProblem(
+            self.daemon.post("/v1/plan", sweep + " " * ((4 << 20) - len(sweep) + 1)), 413, "body-too-large"
+        )
 
 
 class Deadlines(daemon.Case):
-    options = ('--header-ms', 400, '--body-ms', 700)
+    options = ("--header-ms", 400, "--body-ms", 700)
 
     def trickle(self, start, byte):
         """Seconds until the connection ends while a byte is sent now and then, and what came back."""
-        begun, got = time.monotonic(), b''
+        begun, got = time.monotonic(), b""
         with self.daemon.connect() as s:
             s.sendall(start)
             s.settimeout(0.1)
@@ -214,29 +252,29 @@ class Deadlines(daemon.Case):
         return time.monotonic() - begun, got
 
     def test_slow_request_line(self):
-        seconds, _ = self.trickle(b'GET /', b'x')
+        seconds, _ = self.trickle(b"GET /", b"x")
         self.assertLess(seconds, MOST_S)
 
     def test_slow_header(self):
-        seconds, got = self.trickle(b'GET /healthz HTTP/1.1\r\nHost: localhost\r\nX: ', b'x')
+        seconds, got = self.trickle(b"GET /healthz HTTP/1.1\r\nHost: localhost\r\nX: ", b"x")
         self.assertLess(seconds, MOST_S)
-        self.assertTrue(got.startswith(b'HTTP/1.1 408 '), got)
+        self.assertTrue(got.startswith(b"HTTP/1.1 408 "), got)
 
     def test_slow_body(self):
-        seconds, got = self.trickle(POST + b'Content-Length: 1000\r\n\r\n', b' ')
+        seconds, got = self.trickle(POST + b"Content-Length: 1000\r\n\r\n", b" ")
         self.assertGreater(seconds, 0.6)
         self.assertLess(seconds, MOST_S)
-        self.assertIn(b'HTTP/1.1 408 ', got)
+        self.assertIn(b"HTTP/1.1 408 ", got)
 
     def test_silence(self):
         with self.daemon.connect() as s:
             begun = time.monotonic()
-            self.assertEqual(s.recv(1), b'')
+            self.assertEqual(s.recv(1), b"")
             self.assertLess(time.monotonic() - begun, MOST_S)
 
     def test_a_render_may_take_longer_than_either(self):
-        self.assertEqual(self.daemon.get('/v1/render?time=1500&' + daemon.SMALL).status, 200)
+        self.assertEqual(self.daemon.get("/v1/render?time=1500&" + daemon.SMALL).status, 200)
 
 
-if __name__ == '__main__':
+if __name__ == "__main__":
     daemon.main()

@@ -1,4 +1,6 @@
-"""POST /v1/orbits: what is asked, what is refused, in which form it comes back, and that long integrations disturb nobody."""
+"""POST /v1/orbits: what is asked, what is refused, in which form it comes back, and that long integrations disturb
+nobody."""
+
 import csv
 import io
 import json
@@ -9,19 +11,20 @@ import time
 
 import daemon
 
-ORBITS = '/v1/orbits'
-GENERIC = {'spin': 0.9, 'orbit': {'p': 6, 'e': 0.5, 'inclination_deg': 30}}
-LONG = {'orbit': {'p': 8, 'e': 0.5}, 'duration': {'periods': 100000}, 'steps': 320, 'samples': 2} # some ten seconds
+ORBITS = "/v1/orbits"
+GENERIC = {"spin": 0.9, "orbit": {"p": 6, "e": 0.5, "inclination_deg": 30}}
+LONG = {"orbit": {"p": 8, "e": 0.5}, "duration": {"periods": 100000}, "steps": 320, "samples": 2}  # some ten seconds
 
 
 def strict(body):
     def refuse(word):
-        raise AssertionError(f'{word} in the answer')
+        raise AssertionError(f"{word} in the answer")
+
     return json.loads(body, parse_constant=refuse)
 
 
 class Orbits(daemon.Case):
-    options = ('--queue', 4)
+    options = ("--queue", 4)
 
     def post(self, document, **headers):
         return self.daemon.post(ORBITS, document, **headers)
@@ -35,105 +38,153 @@ class Orbits(daemon.Case):
         """A socket on which the answer comes."""
         body = json.dumps(document).encode()
         s = self.daemon.connect(60)
-        s.sendall(b'POST /v1/orbits HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: application/json\r\nAccept: application/x-ndjson\r\n'
-                  b'Content-Length: %d\r\n\r\n' % len(body) + body)
+        s.sendall(
+            b"POST /v1/orbits HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: application/json\r\nAccept: application/x-ndjson\r\n"
+            b"Content-Length: %d\r\n\r\n" % len(body) + body
+        )
         return s
 
     def test_steps_of_which_nothing_comes(self):
         """From 5e19 M on a fall of 10000 M is no way at all: the search for its end is given up."""
-        answer = self.post({'orbit': {'position': {'r': 5.528809622814662e+19}}, 'spin': 0.0355, 'steps': 64, 'duration': {'time': 1e4}, 'r_max': 688835, 'method': 'rkn6'})
-        self.assertEqual((answer.status, answer.json()['pointer']), (422, '/steps'))
+        answer = self.post(
+            {
+                "orbit": {"position": {"r": 5.528809622814662e19}},
+                "spin": 0.0355,
+                "steps": 64,
+                "duration": {"time": 1e4},
+                "r_max": 688835,
+                "method": "rkn6",
+            }
+        )
+        self.assertEqual((answer.status, answer.json()["pointer"]), (422, "/steps"))
 
     def test_seen(self):
-        """In every form the same; a circle seen from its axis is a circle; of a fall the end next to the horizon has no image."""
-        circle = {'orbit': {'p': 10, 'e': 0}, 'duration': {'periods': 1}, 'samples': 9, 'seen': {'observer_inclination_deg': 0}}
-        series = strict(self.good(circle).body)['series']
-        rows = [dict(zip(series['columns'], row)) for row in series['rows']]
-        self.assertEqual(list(rows[0])[-7:], ['alpha', 'beta', 'right', 'up', 'inwards', 'delay', 'off'])
-        sizes = [math.hypot(row['alpha'], row['beta']) for row in rows]
+        """In every form the same; a circle seen from its axis is a circle; of a fall the end next to the horizon has no
+        image."""
+        circle = {
+            "orbit": {"p": 10, "e": 0},
+            "duration": {"periods": 1},
+            "samples": 9,
+            "seen": {"observer_inclination_deg": 0},
+        }
+        series = strict(self.good(circle).body)["series"]
+        rows = [dict(zip(series["columns"], row)) for row in series["rows"]]
+        self.assertEqual(list(rows[0])[-7:], ["alpha", "beta", "right", "up", "inwards", "delay", "off"])
+        sizes = [math.hypot(row["alpha"], row["beta"]) for row in rows]
         self.assertLess(max(sizes) - min(sizes), 1e-5)
         self.assertTrue(10.5 < sizes[0] < 11.5, sizes[0])  # r + 1 M, and some, as light is bent
-        self.assertIsNone(rows[0]['right'])
-        text = self.good(circle, Accept='text/csv').body.decode().splitlines()
-        self.assertEqual([float(row['alpha']) for row in csv.DictReader(text)], [row['alpha'] for row in rows])
-        self.assertIn(b"'off'", self.good(circle, Accept='application/x-npy').body[:900])
-        fall = strict(self.good({'orbit': {'case': 'plunge'}, 'samples': 60, 'seen': {'observer_inclination_deg': 60, 'observer_r': 25, 'observer': 'zamo'}}).body)
-        off = [row[-1] for row in fall['series']['rows']]
+        self.assertIsNone(rows[0]["right"])
+        text = self.good(circle, Accept="text/csv").body.decode().splitlines()
+        self.assertEqual([float(row["alpha"]) for row in csv.DictReader(text)], [row["alpha"] for row in rows])
+        self.assertIn(b"'off'", self.good(circle, Accept="application/x-npy").body[:900])
+        fall = strict(
+            self.good(
+                {
+                    "orbit": {"case": "plunge"},
+                    "samples": 60,
+                    "seen": {"observer_inclination_deg": 60, "observer_r": 25, "observer": "zamo"},
+                }
+            ).body
+        )
+        off = [row[-1] for row in fall["series"]["rows"]]
         self.assertTrue(off[0] < 1e-4 and off[-1] is None)
-        self.assertTrue(any('one image of each point' in sentence for sentence in fall['result']['approximations']))
+        self.assertTrue(any("one image of each point" in sentence for sentence in fall["result"]["approximations"]))
 
     def test_not_json(self):
-        for body in '', '{', '{"orbit":{"p":8,"e":0}}x', '{"orbit":{"p":NaN,"e":0}}', b'{"\xff":1}':
-            self.assertProblem(self.post(body), 400, 'malformed-json')
-        self.assertProblem(self.post('[' + ' ' * (4 << 20) + ']'), 413, 'body-too-large')
+        for body in "", "{", '{"orbit":{"p":8,"e":0}}x', '{"orbit":{"p":NaN,"e":0}}', b'{"\xff":1}':
+            self.assertProblem(self.post(body), 400, "malformed-json")
+        self.assertProblem(self.post("[" + " " * (4 << 20) + "]"), 413, "body-too-large")
 
     def test_refused(self):
         for document, pointer in [
-                ([], ''), ({}, '/orbit'), ({'orbit': {'p': 8, 'e': 1}}, '/orbit/e'), ({'orbit': {'p': 8, 'e': 0.5}, 'spin': 1.01}, '/spin'),
-                ({'orbit': {'p': 6.5, 'e': 0.5}}, '/orbit/p'), ({'orbit': {'position': {'r': 1.9}}}, '/orbit/position/r'),
-                ({'orbits': [{'case': 'isco'}, {'p': 6.5, 'e': 0.5}]}, '/orbits/1/p'), ({'orbits': [{'case': 'isco'}] * 10001}, '/orbits'),
-                ({**GENERIC, 'samples': 200001}, '/samples'), ({**GENERIC, 'colour': 'red'}, '/colour'),
-                ({**GENERIC, 'duration': {'periods': 1e9}}, '/duration')]:
+            ([], ""),
+            ({}, "/orbit"),
+            ({"orbit": {"p": 8, "e": 1}}, "/orbit/e"),
+            ({"orbit": {"p": 8, "e": 0.5}, "spin": 1.01}, "/spin"),
+            ({"orbit": {"p": 6.5, "e": 0.5}}, "/orbit/p"),
+            ({"orbit": {"position": {"r": 1.9}}}, "/orbit/position/r"),
+            ({"orbits": [{"case": "isco"}, {"p": 6.5, "e": 0.5}]}, "/orbits/1/p"),
+            ({"orbits": [{"case": "isco"}] * 10001}, "/orbits"),
+            ({**GENERIC, "samples": 200001}, "/samples"),
+            ({**GENERIC, "colour": "red"}, "/colour"),
+            ({**GENERIC, "duration": {"periods": 1e9}}, "/duration"),
+        ]:
             problem = self.assertProblem(self.post(document), 400 if document == [] else 422)
-            self.assertEqual(problem.get('pointer', ''), pointer, problem)
-        from_above = {'observer_inclination_deg': 20}
+            self.assertEqual(problem.get("pointer", ""), pointer, problem)
+        from_above = {"observer_inclination_deg": 20}
         for seen, document, pointer in [
-                ({'observer_r': 30}, GENERIC, '/seen/observer_inclination_deg'), ({**from_above, 'observer_r': 1.2}, GENERIC, '/seen/observer_r'),
-                ({'observer_inclination_deg': 90, 'observer_r': 1.9}, GENERIC, '/seen/observer_r'), ({**from_above, 'observer': 'me'}, GENERIC, '/seen/observer'),
-                (from_above, {'orbits': [{'case': 'isco'}]}, '/seen'), (from_above, {**GENERIC, 'samples': 1001}, '/samples')]:
-            problem = self.assertProblem(self.post({**document, 'seen': seen}), 422)
-            self.assertEqual(problem.get('pointer', ''), pointer, problem)
-        self.assertProblem(self.daemon.post(ORBITS + '?spin=0', GENERIC), 422, 'invalid-orbit')
-        self.assertProblem(self.post(GENERIC, Accept='image/png'), 406, 'not-acceptable')
-        self.assertProblem(self.post({'orbits': [GENERIC['orbit']]}, Accept='application/x-ndjson'), 422, 'invalid-orbit', '/orbits')
+            ({"observer_r": 30}, GENERIC, "/seen/observer_inclination_deg"),
+            ({**from_above, "observer_r": 1.2}, GENERIC, "/seen/observer_r"),
+            ({"observer_inclination_deg": 90, "observer_r": 1.9}, GENERIC, "/seen/observer_r"),
+            ({**from_above, "observer": "me"}, GENERIC, "/seen/observer"),
+            (from_above, {"orbits": [{"case": "isco"}]}, "/seen"),
+            (from_above, {**GENERIC, "samples": 1001}, "/samples"),
+        ]:
+            problem = self.assertProblem(self.post({**document, "seen": seen}), 422)
+            self.assertEqual(problem.get("pointer", ""), pointer, problem)
+        self.assertProblem(self.daemon.post(ORBITS + "?spin=0", GENERIC), 422, "invalid-orbit")
+        self.assertProblem(self.post(GENERIC, Accept="image/png"), 406, "not-acceptable")
+        self.assertProblem(
+            self.post({"orbits": [GENERIC["orbit"]]}, Accept="application/x-ndjson"), 422, "invalid-orbit", "/orbits"
+        )
         self.assertProblem(self.daemon.get(ORBITS), 405)
 
     def test_forms(self):
-        answer = self.good({**GENERIC, 'samples': 300})
-        self.assertIn('integrate;dur=', answer.header('Server-Timing'))
+        answer = self.good({**GENERIC, "samples": 300})
+        self.assertIn("integrate;dur=", answer.header("Server-Timing"))
         whole = strict(answer.body)
-        names, rows = whole['series']['columns'], whole['series']['rows']
+        names, rows = whole["series"]["columns"], whole["series"]["rows"]
         self.assertEqual(len(rows), 300)
-        by_csv = list(csv.DictReader(io.StringIO(self.good({**GENERIC, 'samples': 300}, Accept='text/csv').body.decode())))
+        by_csv = list(
+            csv.DictReader(io.StringIO(self.good({**GENERIC, "samples": 300}, Accept="text/csv").body.decode()))
+        )
         self.assertEqual([[float(row[name]) for name in names] for row in by_csv], rows)
-        data = self.good({**GENERIC, 'samples': 300}, Accept='application/x-npy').body
-        start = 10 + struct.unpack('<H', data[8:10])[0]
-        self.assertEqual([list(row) for row in struct.iter_unpack('<10d', data[start:])], rows)
-        answer = self.good({**GENERIC, 'samples': 300}, Accept='application/x-ndjson')
-        self.assertEqual(answer.header('Transfer-Encoding'), 'chunked')
+        data = self.good({**GENERIC, "samples": 300}, Accept="application/x-npy").body
+        start = 10 + struct.unpack("<H", data[8:10])[0]
+        self.assertEqual([list(row) for row in struct.iter_unpack("<10d", data[start:])], rows)
+        answer = self.good({**GENERIC, "samples": 300}, Accept="application/x-ndjson")
+        self.assertEqual(answer.header("Transfer-Encoding"), "chunked")
         lines = [strict(line) for line in answer.body.splitlines()]
-        self.assertEqual([row for line in lines for row in line.get('rows', [])], rows)
-        self.assertEqual(lines[-1]['result'], whole['result'])
+        self.assertEqual([row for line in lines for row in line.get("rows", [])], rows)
+        self.assertEqual(lines[-1]["result"], whole["result"])
 
     def test_numbers(self):
         """Numbers of the orbit itself follow from what is known of it."""
-        answer = strict(self.good({'orbit': {'p': 8, 'e': 0.5}, 'duration': {'periods': 1000}, 'steps': 320, 'samples': 1001}).body)
-        self.assertAlmostEqual(answer['constants']['energy'], math.sqrt((36 - 1) / (8 * (8 - 3 - 0.25))), delta=1e-14)
-        self.assertAlmostEqual(answer['constants']['angular_momentum'], 8 / math.sqrt(8 - 3 - 0.25), delta=1e-14)
-        self.assertLess(answer['result']['drift']['energy'], 1e-13)
-        self.assertLess(answer['result']['drift']['binet_c'], 1e-12)
-        for row in answer['series']['rows']:  # at every periastron again
+        answer = strict(
+            self.good({"orbit": {"p": 8, "e": 0.5}, "duration": {"periods": 1000}, "steps": 320, "samples": 1001}).body
+        )
+        self.assertAlmostEqual(answer["constants"]["energy"], math.sqrt((36 - 1) / (8 * (8 - 3 - 0.25))), delta=1e-14)
+        self.assertAlmostEqual(answer["constants"]["angular_momentum"], 8 / math.sqrt(8 - 3 - 0.25), delta=1e-14)
+        self.assertLess(answer["result"]["drift"]["energy"], 1e-13)
+        self.assertLess(answer["result"]["drift"]["binet_c"], 1e-12)
+        for row in answer["series"]["rows"]:  # at every periastron again
             self.assertAlmostEqual(row[3], 8 / 1.5, delta=1e-9)
-        mercury = strict(self.good({'orbit': {'case': 'mercury'}, 'samples': 0}).body)
-        self.assertEqual(f"{mercury['advance']['periastron_arcsec_per_century']:.2f}", '42.98')
-        self.assertNotIn('series', mercury)
-        fall = strict(self.good({'spin': 0.5, 'orbit': {'case': 'plunge'}, 'samples': 10}).body)
-        self.assertEqual((fall['fate'], fall['result']['end']), ('plunge', 'horizon'))
-        self.assertEqual(fall['series']['rows'][-1][2], None)  # t at the horizon
+        mercury = strict(self.good({"orbit": {"case": "mercury"}, "samples": 0}).body)
+        self.assertEqual(f"{mercury['advance']['periastron_arcsec_per_century']:.2f}", "42.98")
+        self.assertNotIn("series", mercury)
+        fall = strict(self.good({"spin": 0.5, "orbit": {"case": "plunge"}, "samples": 10}).body)
+        self.assertEqual((fall["fate"], fall["result"]["end"]), ("plunge", "horizon"))
+        self.assertEqual(fall["series"]["rows"][-1][2], None)  # t at the horizon
 
     def test_many(self):
-        orbits = [{'spin': i / 10, 'p': 9 + i, 'e': 0.3, 'inclination_deg': 10 * i} for i in range(9)] + [{'case': 'plunge'}]
-        answers = strict(self.good({'orbits': orbits, 'samples': 5, 'series': True}).body)['orbits']
+        orbits = [{"spin": i / 10, "p": 9 + i, "e": 0.3, "inclination_deg": 10 * i} for i in range(9)] + [
+            {"case": "plunge"}
+        ]
+        answers = strict(self.good({"orbits": orbits, "samples": 5, "series": True}).body)["orbits"]
         for orbit, answer in zip(orbits, answers):
-            self.assertEqual(answer, strict(self.good({'orbit': orbit, 'samples': 5}).body))
-        orbits = [{'spin': 0.9 * i / 2000, 'p': 10, 'e': 0.3} for i in range(2000)]
-        rows = list(csv.DictReader(io.StringIO(self.good({'orbits': orbits, 'duration': {'periods': 1}}, Accept='text/csv').body.decode())))
-        self.assertEqual([float(row['spin']) for row in rows], [orbit['spin'] for orbit in orbits])
-        self.assertLess(max(float(row['energy_drift']) for row in rows), 1e-12)
+            self.assertEqual(answer, strict(self.good({"orbit": orbit, "samples": 5}).body))
+        orbits = [{"spin": 0.9 * i / 2000, "p": 10, "e": 0.3} for i in range(2000)]
+        rows = list(
+            csv.DictReader(
+                io.StringIO(self.good({"orbits": orbits, "duration": {"periods": 1}}, Accept="text/csv").body.decode())
+            )
+        )
+        self.assertEqual([float(row["spin"]) for row in rows], [orbit["spin"] for orbit in orbits])
+        self.assertLess(max(float(row["energy_drift"]) for row in rows), 1e-12)
 
     def test_a_stream_comes_while_it_is_made(self):
-        with self.stream({**LONG, 'duration': {'periods': 60000}}) as s:
-            start, text, told = time.monotonic(), b'', 0
+        with self.stream({**LONG, "duration": {"periods": 60000}}) as s:
+            start, text, told = time.monotonic(), b"", 0
             while b'"result"' not in text:
                 piece = s.recv(65536)
                 self.assertTrue(piece)
@@ -147,7 +198,7 @@ class Orbits(daemon.Case):
     def test_others_are_served_meanwhile(self):
         streams = [self.stream(LONG) for _ in range(3)]
         start = time.monotonic()
-        self.good({**GENERIC, 'samples': 10})
+        self.good({**GENERIC, "samples": 10})
         self.assertLess(time.monotonic() - start, 5)
         for s in streams:
             s.close()
@@ -162,12 +213,12 @@ class Orbits(daemon.Case):
         self.assertTrue(daemon.eventually(lambda: self.post(GENERIC).status == 200))
 
     def test_a_slow_client_holds_nobody_up(self):
-        many = {'orbit': {'p': 8, 'e': 0.5}, 'duration': {'periods': 1000}, 'samples': 200000}
+        many = {"orbit": {"p": 8, "e": 0.5}, "duration": {"periods": 1000}, "samples": 200000}
         with self.stream(many) as slow:
             self.good(GENERIC)
             time.sleep(0.5)
             self.good(GENERIC)
-            text = b''
+            text = b""
             while b'"result"' not in text[-4096:]:
                 piece = slow.recv(1 << 20)
                 self.assertTrue(piece)
@@ -178,34 +229,43 @@ class Orbits(daemon.Case):
         def leave(document, after):
             with self.stream(document) as s:
                 time.sleep(after)
+
         threads = [threading.Thread(target=leave, args=(LONG, 0.03 * i)) for i in range(4)]
         for t in threads:
             t.start()
         for t in threads:
             t.join()
-        body = json.dumps({'orbits': [{'p': 8, 'e': 0.5}] * 3000, 'duration': {'periods': 1000}}).encode()
+        body = json.dumps({"orbits": [{"p": 8, "e": 0.5}] * 3000, "duration": {"periods": 1000}}).encode()
         with self.daemon.connect(60) as s:  # waits for the whole, then does not
-            s.sendall(b'POST /v1/orbits HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: application/json\r\nContent-Length: %d\r\n\r\n' % len(body) + body)
+            s.sendall(
+                b"POST /v1/orbits HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: application/json\r\nContent-Length: %d\r\n\r\n"
+                % len(body)
+                + body
+            )
             time.sleep(0.3)
         self.assertTrue(daemon.eventually(lambda: all(self.post(GENERIC).status == 200 for _ in range(4))))
 
 
 class Limits(daemon.Case):
-    options = ('--longest-s', 1)
+    options = ("--longest-s", 1)
 
     def test_an_integration_may_take_so_long(self):
-        problem = self.assertProblem(self.daemon.post(ORBITS, {**LONG, 'duration': {'periods': 1000000}}), 422, 'too-large')
-        self.assertIn('1 s', problem['detail'])
-        answer = self.daemon.post(ORBITS, {**LONG, 'duration': {'periods': 1000000}}, Accept='application/x-ndjson')
+        problem = self.assertProblem(
+            self.daemon.post(ORBITS, {**LONG, "duration": {"periods": 1000000}}), 422, "too-large"
+        )
+        self.assertIn("1 s", problem["detail"])
+        answer = self.daemon.post(ORBITS, {**LONG, "duration": {"periods": 1000000}}, Accept="application/x-ndjson")
         last = json.loads(answer.body.splitlines()[-1])
-        self.assertEqual(last['problem']['status'], 422)
+        self.assertEqual(last["problem"]["status"], 422)
 
 
 class Way(daemon.Case):
     def test_stopping_waits_for_what_was_accepted(self):
-        other = daemon.Daemon('--drain-ms', 10)
+        other = daemon.Daemon("--drain-ms", 10)
         found = []
-        thread = threading.Thread(target=lambda: found.append(other.post(ORBITS, {**LONG, 'duration': {'periods': 10000}})))
+        thread = threading.Thread(
+            target=lambda: found.append(other.post(ORBITS, {**LONG, "duration": {"periods": 10000}}))
+        )
         thread.start()
         time.sleep(0.3)
         self.assertEqual(other.stop(), 0)

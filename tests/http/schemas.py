@@ -1,4 +1,5 @@
 """Real answers are held against what openapi.json says of them."""
+
 import jsonschema
 
 
@@ -8,21 +9,22 @@ class Schemas:
 
     def wrong(self, schema, value):
         """What is wrong with it: sentences."""
-        judge = jsonschema.Draft202012Validator({**schema, 'components': self.document['components']})
-        return [f'{"/".join(map(str, e.absolute_path))}: {e.message[:300]}' for e in judge.iter_errors(value)]
+        judge = jsonschema.Draft202012Validator({**schema, "components": self.document["components"]})
+        return [f"{'/'.join(map(str, e.absolute_path))}: {e.message[:300]}" for e in judge.iter_errors(value)]
 
     def of(self, method, path, status=200):
-        """The schema of an answer as JSON; of DELETE and the like there is none. A bare {"type": "object"} says nothing, and is refused."""
-        schema = self.document['paths'][path][method]['responses'][str(status)]['content']['application/json']['schema']
-        assert schema != {'type': 'object'}, f'{method} {path} has no schema'
+        """The schema of an answer as JSON; of DELETE and the like there is none. A bare {"type": "object"} says
+        nothing, and is refused."""
+        schema = self.document["paths"][path][method]["responses"][str(status)]["content"]["application/json"]["schema"]
+        assert schema != {"type": "object"}, f"{method} {path} has no schema"
         return schema
 
     def check(self, method, path, answer):
         """Of an answer to a request of this template, which is given back as JSON."""
         wrong = self.wrong(self.of(method, path, answer.status), answer.json())
-        assert not wrong, f'{method} {path}: {wrong[:5]}'
+        assert not wrong, f"{method} {path}: {wrong[:5]}"
         return answer.json()
 
     def component(self, name, value):
-        wrong = self.wrong({'$ref': '#/components/schemas/' + name}, value)
-        assert not wrong, f'{name}: {wrong[:5]}'
+        wrong = self.wrong({"$ref": "#/components/schemas/" + name}, value)
+        assert not wrong, f"{name}: {wrong[:5]}"

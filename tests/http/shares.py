@@ -1,4 +1,5 @@
 """What one client may make another one wait or be refused. 127.0.0.1 and 127.0.0.2 are two clients."""
+
 import http.client
 import json
 import re
@@ -9,42 +10,42 @@ import unittest
 
 import daemon
 
-RENDER = '/v1/render?' + daemon.SMALL
+RENDER = "/v1/render?" + daemon.SMALL
 # What this renderer says of them is 1 us a ray, 6.6 s; what they take is `time`, in slices of 10 ms.
-LONG = '/v1/render?image.width=1280&image.height=1280&image.samples=2&time=%d'
+LONG = "/v1/render?image.width=1280&image.height=1280&image.samples=2&time=%d"
 
 
 class Case(daemon.Case):
     def ask(self, source, method, target, body=None, headers=None):
-        connection = http.client.HTTPConnection('127.0.0.1', self.daemon.port, timeout=60, source_address=(source, 0))
+        connection = http.client.HTTPConnection("127.0.0.1", self.daemon.port, timeout=60, source_address=(source, 0))
         try:
             headers = dict(headers or {})
             if body is not None:
-                headers['Content-Type'] = 'application/json'
+                headers["Content-Type"] = "application/json"
             connection.request(method, target, json.dumps(body) if isinstance(body, dict) else body, headers)
             got = connection.getresponse()
             return daemon.Answer(got.status, got.getheaders(), got.read())
         finally:
             connection.close()
 
-    def begin(self, target, source='127.0.0.1'):
+    def begin(self, target, source="127.0.0.1"):
         s = self.daemon.connect(source=source)
-        s.sendall(f'GET {target} HTTP/1.1\r\nHost: localhost\r\n\r\n'.encode())
+        s.sendall(f"GET {target} HTTP/1.1\r\nHost: localhost\r\n\r\n".encode())
         self.addCleanup(s.close)
         return s
 
 
 class Device(Case):
-    options = ('--queue', 16, '--client-share', 50)
+    options = ("--queue", 16, "--client-share", 50)
 
     def test_a_long_picture_holds_nobody(self):
         """Small ones wait for a few of its slices of 10 ms, and not for the 4 s that it takes."""
         long = self.begin(LONG % 4000)
         time.sleep(0.3)
-        for source in ('127.0.0.1', '127.0.0.2'):
-            answer = self.ask(source, 'GET', RENDER + '&time=20')
+        for source in ("127.0.0.1", "127.0.0.2"):
+            answer = self.ask(source, "GET", RENDER + "&time=20")
             self.assertEqual(answer.status, 200)
-            waited = float(re.search(r'queue;dur=([0-9.]+)', answer.header('Server-Timing'))[1])
+            waited = float(re.search(r"queue;dur=([0-9.]+)", answer.header("Server-Timing"))[1])
             self.assertLess(waited, 1500)
         long.setblocking(False)
         self.assertRaises(BlockingIOError, long.recv, 1)  # not yet
@@ -52,198 +53,256 @@ class Device(Case):
     def test_long_pictures_of_two_clients_go_on_side_by_side(self):
         first = self.begin(LONG % 60000)
         time.sleep(0.3)
-        self.assertEqual(self.ask('127.0.0.2', 'GET', LONG % 100).status, 200)
+        self.assertEqual(self.ask("127.0.0.2", "GET", LONG % 100).status, 200)
         first.setblocking(False)
         self.assertRaises(BlockingIOError, first.recv, 1)
 
     def test_beside_living_sessions_a_picture_has_its_turn(self):
         """And of a job a frame, though sessions of the same client want all there is."""
-        sessions = [self.daemon.post('/v1/sessions', {'image': {'width': 32, 'height': 18}, 'time': 30, 'motion': {'time_rate': 0.001},
-                                                      'disk': {'model': 'particles'}}).json() for _ in range(2)]
+        sessions = [
+            self.daemon.post(
+                "/v1/sessions",
+                {
+                    "image": {"width": 32, "height": 18},
+                    "time": 30,
+                    "motion": {"time_rate": 0.001},
+                    "disk": {"model": "particles"},
+                },
+            ).json()
+            for _ in range(2)
+        ]
         over = threading.Event()
 
         def watch(session):
             frame = 0
             while not over.is_set():
-                answer = self.daemon.get(f'/v1/sessions/{session["id"]}/frame.png?after={frame}&wait_ms=2000')
-                frame = int(answer.header('Kerrd-Frame') or frame)
+                answer = self.daemon.get(f"/v1/sessions/{session['id']}/frame.png?after={frame}&wait_ms=2000")
+                frame = int(answer.header("Kerrd-Frame") or frame)
+
         threads = [threading.Thread(target=watch, args=(s,)) for s in sessions]
         for t in threads:
             t.start()
         try:
-            job = self.daemon.post('/v1/jobs', {'scene': {'image': {'width': 32, 'height': 18}, 'time': 20}}).json()
-            before = self.daemon.metrics()['kerrd_session_frames_total']
+            job = self.daemon.post("/v1/jobs", {"scene": {"image": {"width": 32, "height": 18}, "time": 20}}).json()
+            before = self.daemon.metrics()["kerrd_session_frames_total"]
             for _ in range(5):
-                self.assertEqual(self.daemon.get(RENDER + '&time=20').status, 200)
-            self.assertTrue(daemon.eventually(lambda: self.daemon.get('/v1/jobs/' + job['id']).json()['state'] == 'done'))
-            # Between six works of 20 ms there are some frames, and not hundreds: counted, for a clock would judge the machine.
-            frames = self.daemon.metrics()['kerrd_session_frames_total'] - before
+                self.assertEqual(self.daemon.get(RENDER + "&time=20").status, 200)
+            self.assertTrue(
+                daemon.eventually(lambda: self.daemon.get("/v1/jobs/" + job["id"]).json()["state"] == "done")
+            )
+            # Between six works of 20 ms there are some frames, and not hundreds: counted, for a clock would judge the
+            # machine.
+            frames = self.daemon.metrics()["kerrd_session_frames_total"] - before
             self.assertGreater(frames, 1)
         finally:
             over.set()
             for t in threads:
                 t.join()
             for s in sessions:
-                self.daemon.request('DELETE', '/v1/sessions/' + s['id'], headers={'Authorization': 'Bearer ' + s['token']})
+                self.daemon.request(
+                    "DELETE", "/v1/sessions/" + s["id"], headers={"Authorization": "Bearer " + s["token"]}
+                )
 
     def test_waiting_renders_of_one_client(self):
-        held = [self.begin(RENDER + '&time=1500')]
+        held = [self.begin(RENDER + "&time=1500")]
         time.sleep(0.2)
-        held += [self.begin(RENDER + '&time=1') for _ in range(8)]
+        held += [self.begin(RENDER + "&time=1") for _ in range(8)]
         time.sleep(0.2)
-        problem = self.ask('127.0.0.1', 'GET', RENDER)
-        self.assertIn('8 of your renders', self.assertProblem(problem, 429, 'quota')['detail'])
-        self.assertTrue(problem.header('Retry-After'))
-        self.assertEqual(self.ask('127.0.0.2', 'GET', RENDER).status, 200)
+        problem = self.ask("127.0.0.1", "GET", RENDER)
+        self.assertIn("8 of your renders", self.assertProblem(problem, 429, "quota")["detail"])
+        self.assertTrue(problem.header("Retry-After"))
+        self.assertEqual(self.ask("127.0.0.2", "GET", RENDER).status, 200)
 
 
 class Allowance(Case):
-    """Of the device's time a client may use a second a minute here: one of what it has taken, and of what is accepted by estimate."""
-    options = ('--client-device-seconds', 1, '--queue', 16, '--client-share', 50)
-    SMALL = {'image': {'width': 32, 'height': 18}}
+    """Of the device's time a client may use a second a minute here: one of what it has taken, and of what is accepted
+    by estimate."""
+
+    options = ("--client-device-seconds", 1, "--queue", 16, "--client-share", 50)
+    SMALL = {"image": {"width": 32, "height": 18}}
 
     def refused(self, source, method, target, body=None):
         """The seconds after which the client is told to try again."""
         answer = self.ask(source, method, target, body)
-        detail = self.assertProblem(answer, 429, 'quota')['detail']
-        seconds = int(answer.header('Retry-After'))
-        self.assertIn(f"as much of the device's time as one client may use, 1 s a minute; in {seconds} s more is taken", detail)
+        detail = self.assertProblem(answer, 429, "quota")["detail"]
+        seconds = int(answer.header("Retry-After"))
+        self.assertIn(
+            f"as much of the device's time as one client may use, 1 s a minute; in {seconds} s more is taken", detail
+        )
         return seconds
 
     def test_what_it_has_used(self):
-        tag = self.ask('127.0.0.1', 'GET', RENDER + '&time=1500').header('ETag')
-        for method, target, body in (('GET', RENDER, None), ('POST', '/v1/render', {}), ('GET', '/v1/pixel?at=1,1', None), ('POST', '/v1/sessions', self.SMALL),
-                                     ('POST', '/v1/jobs', {'scene': self.SMALL}), ('POST', '/v1/rays', {'rays': [[5, 1]], 'accuracy': {'engine': 'mino-rkn6'}}), ('POST', '/v1/visibility', {'scene': self.SMALL})):
-            with self.subTest(f'{method} {target}'):
-                self.assertTrue(5 < self.refused('127.0.0.1', method, target, body) <= 120)
-                self.assertIn(self.ask('127.0.0.2', method, target, body).status, (200, 201, 202))
-        for method, target, body in (('GET', '/v1/presets', None), ('POST', '/v1/plan', {}), ('POST', '/v1/rays', {'rays': [[5, 1]]}), ('GET', '/v1/physics/kerr?spin=0.5', None)):
-            self.assertEqual(self.ask('127.0.0.1', method, target, body).status, 200, 'what takes no device')
-        self.assertEqual(self.ask('127.0.0.1', 'GET', RENDER + '&time=1500', headers={'If-None-Match': tag}).status, 304)
+        tag = self.ask("127.0.0.1", "GET", RENDER + "&time=1500").header("ETag")
+        for method, target, body in (
+            ("GET", RENDER, None),
+            ("POST", "/v1/render", {}),
+            ("GET", "/v1/pixel?at=1,1", None),
+            ("POST", "/v1/sessions", self.SMALL),
+            ("POST", "/v1/jobs", {"scene": self.SMALL}),
+            ("POST", "/v1/rays", {"rays": [[5, 1]], "accuracy": {"engine": "mino-rkn6"}}),
+            ("POST", "/v1/visibility", {"scene": self.SMALL}),
+        ):
+            with self.subTest(f"{method} {target}"):
+                self.assertTrue(5 < self.refused("127.0.0.1", method, target, body) <= 120)
+                self.assertIn(self.ask("127.0.0.2", method, target, body).status, (200, 201, 202))
+        for method, target, body in (
+            ("GET", "/v1/presets", None),
+            ("POST", "/v1/plan", {}),
+            ("POST", "/v1/rays", {"rays": [[5, 1]]}),
+            ("GET", "/v1/physics/kerr?spin=0.5", None),
+        ):
+            self.assertEqual(self.ask("127.0.0.1", method, target, body).status, 200, "what takes no device")
+        self.assertEqual(
+            self.ask("127.0.0.1", "GET", RENDER + "&time=1500", headers={"If-None-Match": tag}).status, 304
+        )
 
     def test_what_is_accepted_counts_by_its_estimate(self):
-        self.begin(LONG % 60000, '127.0.0.3')
+        self.begin(LONG % 60000, "127.0.0.3")
         time.sleep(0.3)
-        self.assertGreater(self.refused('127.0.0.3', 'GET', RENDER), 60 * 4)
+        self.assertGreater(self.refused("127.0.0.3", "GET", RENDER), 60 * 4)
 
     def test_a_job_waits_and_leaves_a_half(self):
         """The bucket of a second is emptied to a half by a few of 40 frames, and fills for one more in 9 s."""
-        own, at = '127.0.0.4', '/v1/jobs/'
-        made = self.ask(own, 'POST', '/v1/jobs', {'scenes': [{**self.SMALL, 'time': 150 + i / 100} for i in range(40)]})
+        own, at = "127.0.0.4", "/v1/jobs/"
+        made = self.ask(own, "POST", "/v1/jobs", {"scenes": [{**self.SMALL, "time": 150 + i / 100} for i in range(40)]})
         self.assertEqual(made.status, 202, made.body)
         job = made.json()
-        finished = lambda: self.ask(own, 'GET', at + job['id']).json()['finished']
+        finished = lambda: self.ask(own, "GET", at + job["id"]).json()["finished"]
         self.assertTrue(daemon.eventually(lambda: finished() >= 3))
         time.sleep(1.5)
         self.assertLess(finished(), 8)
-        self.assertEqual(self.ask(own, 'GET', RENDER).status, 200)
-        one = {'Authorization': 'Bearer ' + job['token']}
-        self.assertEqual(self.ask(own, 'DELETE', at + job['id'], headers=one).status, 204)
-        self.assertTrue(daemon.eventually(lambda: self.ask(own, 'GET', at + job['id']).status == 404, 5))
+        self.assertEqual(self.ask(own, "GET", RENDER).status, 200)
+        one = {"Authorization": "Bearer " + job["token"]}
+        self.assertEqual(self.ask(own, "DELETE", at + job["id"], headers=one).status, 204)
+        self.assertTrue(daemon.eventually(lambda: self.ask(own, "GET", at + job["id"]).status == 404, 5))
 
     def test_a_session_waits(self):
-        own = '127.0.0.5'
-        session = self.ask(own, 'POST', '/v1/sessions', self.SMALL).json()
-        at, token = '/v1/sessions/' + session['id'], {'Authorization': 'Bearer ' + session['token']}
-        frame = self.ask(own, 'GET', at + '/frame.png?wait_ms=20000')
+        own = "127.0.0.5"
+        session = self.ask(own, "POST", "/v1/sessions", self.SMALL).json()
+        at, token = "/v1/sessions/" + session["id"], {"Authorization": "Bearer " + session["token"]}
+        frame = self.ask(own, "GET", at + "/frame.png?wait_ms=20000")
         self.assertEqual(frame.status, 200)
-        self.assertEqual(self.ask(own, 'GET', RENDER + '&time=2000').status, 200)
-        self.assertEqual(self.ask(own, 'PATCH', at, {'camera': {'inclination_deg': 33}}, token).status, 200)
+        self.assertEqual(self.ask(own, "GET", RENDER + "&time=2000").status, 200)
+        self.assertEqual(self.ask(own, "PATCH", at, {"camera": {"inclination_deg": 33}}, token).status, 200)
         time.sleep(0.2)
-        newest = self.ask(own, 'GET', at + '/frame.png')
-        self.assertEqual(self.ask(own, 'GET', at + f'/frame.png?after={newest.header("Kerrd-Frame")}&wait_ms=1000').status, 204)
-        self.assertEqual(self.ask(own, 'DELETE', at, headers=token).status, 204)
+        newest = self.ask(own, "GET", at + "/frame.png")
+        self.assertEqual(
+            self.ask(own, "GET", at + f"/frame.png?after={newest.header('Kerrd-Frame')}&wait_ms=1000").status, 204
+        )
+        self.assertEqual(self.ask(own, "DELETE", at, headers=token).status, 204)
 
 
 class Tasks(Case):
     """What workers answer by turns."""
-    options = ('--queue', 8, '--client-share', 50)
 
-    def fill(self, n, method, target, body=b''):
+    options = ("--queue", 8, "--client-share", 50)
+
+    def fill(self, n, method, target, body=b""):
         for _ in range(n):
             s = self.daemon.connect()
             self.addCleanup(s.close)
-            s.sendall(f'{method} {target} HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n'
-                      f'Content-Length: {len(body)}\r\n\r\n'.encode() + body)
+            s.sendall(
+                f"{method} {target} HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
+                f"Content-Length: {len(body)}\r\n\r\n".encode()
+                + body
+            )
 
     def look(self, unfinished, method, target, body=None):
         """One client has filled its share of four: it is told so, and another one is served."""
-        self.assertTrue(daemon.eventually(lambda: self.daemon.metrics()['kerrd_' + unfinished] == 4))
-        problem = self.ask('127.0.0.1', method, target, body)
-        self.assertIn('4 such requests of yours', self.assertProblem(problem, 429, 'quota')['detail'])
-        self.assertTrue(problem.header('Retry-After'))
-        self.assertEqual(self.ask('127.0.0.2', method, target, body).status, 200)
+        self.assertTrue(daemon.eventually(lambda: self.daemon.metrics()["kerrd_" + unfinished] == 4))
+        problem = self.ask("127.0.0.1", method, target, body)
+        self.assertIn("4 such requests of yours", self.assertProblem(problem, 429, "quota")["detail"])
+        self.assertTrue(problem.header("Retry-After"))
+        self.assertEqual(self.ask("127.0.0.2", method, target, body).status, 200)
 
     def test_rays(self):
-        slow = {'rays': [[5, i * 1e-3] for i in range(20000)], 'accuracy': {'engine': 'mino-rkn6', 'steps': 12}}  # 1 ms each
-        self.fill(4, 'POST', '/v1/rays', json.dumps(slow).encode())
-        self.look('rays_unfinished', 'POST', '/v1/rays', {'rays': [[5, 1]]})
+        slow = {
+            "rays": [[5, i * 1e-3] for i in range(20000)],
+            "accuracy": {"engine": "mino-rkn6", "steps": 12},
+        }  # 1 ms each
+        self.fill(4, "POST", "/v1/rays", json.dumps(slow).encode())
+        self.look("rays_unfinished", "POST", "/v1/rays", {"rays": [[5, 1]]})
 
     def test_quantities_and_orbits(self):
-        self.fill(4, 'GET', '/v1/physics/redshift?r=6:60:100000&phi_deg=0')
-        self.look('turns_unfinished', 'GET', '/v1/physics/qnm?spin=0:0.9:10')
-        orbit = {'orbit': {'case': 'isco'}, 'samples': 2, 'duration': {'periods': 1}}
-        self.look('turns_unfinished', 'POST', '/v1/orbits', orbit)
+        self.fill(4, "GET", "/v1/physics/redshift?r=6:60:100000&phi_deg=0")
+        self.look("turns_unfinished", "GET", "/v1/physics/qnm?spin=0:0.9:10")
+        orbit = {"orbit": {"case": "isco"}, "samples": 2, "duration": {"periods": 1}}
+        self.look("turns_unfinished", "POST", "/v1/orbits", orbit)
 
     def test_the_whole_before_the_share(self):
-        long = 'GET /v1/physics/redshift?r=6:60:100000&phi_deg=0 HTTP/1.1\r\nHost: localhost\r\n\r\n'.encode()
-        for source in ('127.0.0.1', '127.0.0.2'):
+        long = "GET /v1/physics/redshift?r=6:60:100000&phi_deg=0 HTTP/1.1\r\nHost: localhost\r\n\r\n".encode()
+        for source in ("127.0.0.1", "127.0.0.2"):
             for _ in range(4):
                 s = self.daemon.connect(source=source)
                 self.addCleanup(s.close)
                 s.sendall(long)
-        self.assertTrue(daemon.eventually(lambda: self.daemon.metrics()['kerrd_turns_unfinished'] == 8))
-        for source in ('127.0.0.1', '127.0.0.3'):
-            self.assertProblem(self.ask(source, 'GET', '/v1/physics/qnm?spin=0:0.9:10'), 503, 'queue-full')
+        self.assertTrue(daemon.eventually(lambda: self.daemon.metrics()["kerrd_turns_unfinished"] == 8))
+        for source in ("127.0.0.1", "127.0.0.3"):
+            self.assertProblem(self.ask(source, "GET", "/v1/physics/qnm?spin=0:0.9:10"), 503, "queue-full")
 
 
 class Unread(Case):
-    """Answers that wait for a client who does not take them: 128 MiB a client here, of 512, and 16 of 64 more for small ones."""
-    options = ('--client-share', 25)
+    """Answers that wait for a client who does not take them: 128 MiB a client here, of 512, and 16 of 64 more for small
+    ones."""
+
+    options = ("--client-share", 25)
 
     def test_answers_of_one_client(self):
-        large = {'orders': 8, 'accuracy': {'engine': 'mino-rkn6'}, 'rays': [[5, 1]] * 500000}  # 145 MiB: who has nothing may have one
+        large = {
+            "orders": 8,
+            "accuracy": {"engine": "mino-rkn6"},
+            "rays": [[5, 1]] * 500000,
+        }  # 145 MiB: who has nothing may have one
         text = json.dumps(large).encode()
         s = self.daemon.connect()
         self.addCleanup(s.close)
-        s.sendall(b'POST /v1/rays HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n'
-                  b'Content-Length: %d\r\n\r\n' % len(text) + text)
+        s.sendall(
+            b"POST /v1/rays HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
+            b"Content-Length: %d\r\n\r\n" % len(text) + text
+        )
         self.assertTrue(s.recv(1))
-        small = {'rays': [[5, 1]] * 20000}
-        for method, target, body in (('POST', '/v1/rays', small), ('GET', RENDER, None),
-                                     ('GET', '/v1/physics/kerr?spin=0.5', None),
-                                     ('POST', '/v1/orbits', {'orbit': {'case': 'isco'}, 'samples': 200000, 'duration': {'periods': 1}})):
-            problem = self.ask('127.0.0.1', method, target, body)
-            self.assertIn('one client', self.assertProblem(problem, 429, 'quota')['detail'])
-            self.assertTrue(problem.header('Retry-After'))
-            self.assertEqual(self.ask('127.0.0.2', method, target, body).status, 200, target)
+        small = {"rays": [[5, 1]] * 20000}
+        for method, target, body in (
+            ("POST", "/v1/rays", small),
+            ("GET", RENDER, None),
+            ("GET", "/v1/physics/kerr?spin=0.5", None),
+            ("POST", "/v1/orbits", {"orbit": {"case": "isco"}, "samples": 200000, "duration": {"periods": 1}}),
+        ):
+            problem = self.ask("127.0.0.1", method, target, body)
+            self.assertIn("one client", self.assertProblem(problem, 429, "quota")["detail"])
+            self.assertTrue(problem.header("Retry-After"))
+            self.assertEqual(self.ask("127.0.0.2", method, target, body).status, 200, target)
 
 
 class Sessions(Case):
-    options = ('--sessions', 4, '--jobs', 4, '--client-share', 50)
+    options = ("--sessions", 4, "--jobs", 4, "--client-share", 50)
 
     def test_sessions_and_jobs_of_one_client(self):
-        scene = {'image': {'width': 32, 'height': 18}, 'time': 5}
-        for path, body, made in (('/v1/sessions', scene, 201), ('/v1/jobs', {'scene': {**scene, 'time': 60000}}, 202)):
-            own = [self.ask('127.0.0.1', 'POST', path, body) for _ in range(2)]
+        scene = {"image": {"width": 32, "height": 18}, "time": 5}
+        for path, body, made in (("/v1/sessions", scene, 201), ("/v1/jobs", {"scene": {**scene, "time": 60000}}, 202)):
+            own = [self.ask("127.0.0.1", "POST", path, body) for _ in range(2)]
             self.assertEqual([a.status for a in own], [made, made])
-            refused = self.ask('127.0.0.1', 'POST', path, body)
-            self.assertProblem(refused, 429, 'quota')
-            self.assertTrue(refused.header('Retry-After'))
-            own += [self.ask('127.0.0.2', 'POST', path, body) for _ in range(2)]
+            refused = self.ask("127.0.0.1", "POST", path, body)
+            self.assertProblem(refused, 429, "quota")
+            self.assertTrue(refused.header("Retry-After"))
+            own += [self.ask("127.0.0.2", "POST", path, body) for _ in range(2)]
             self.assertEqual([a.status for a in own], [made] * 4)
-            self.assertProblem(self.ask('127.0.0.3', 'POST', path, body), 503, 'queue-full')
+            self.assertProblem(self.ask("127.0.0.3", "POST", path, body), 503, "queue-full")
             for answer in own:
                 one = answer.json()
-                self.daemon.request('DELETE', f'{path}/{one["id"]}', headers={'Authorization': 'Bearer ' + one['token']})
+                self.daemon.request(
+                    "DELETE", f"{path}/{one['id']}", headers={"Authorization": "Bearer " + one["token"]}
+                )
 
 
 class Announced(Case):
-    def announce(self, sent, source='127.0.0.1'):
+    def announce(self, sent, source="127.0.0.1"):
         s = self.daemon.connect(source=source)
         self.addCleanup(s.close)
-        s.sendall(b'POST /v1/rays HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 67108864\r\n\r\n')
-        s.sendall(b' ' * sent)
+        s.sendall(
+            b"POST /v1/rays HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 67108864\r\n\r\n"
+        )
+        s.sendall(b" " * sent)
         return s
 
 
@@ -254,47 +313,60 @@ class Bodies(Announced):
                 self.announce(46000000)
             except OSError:
                 pass  # refused before all of it was sent
-        self.assertTrue(daemon.eventually(lambda: self.daemon.metrics()['kerrd_bodies_bytes'] > 90e6))
-        self.assertLessEqual(self.daemon.metrics()['kerrd_bodies_bytes'], 96 << 20)
-        body = b'{"spin":0.9,"observer":{"inclination_deg":60},"rays":[' + b' ' * (8 << 20) + b'[5,0]]}'
-        answer = self.ask('127.0.0.2', 'POST', '/v1/rays', body)
+        self.assertTrue(daemon.eventually(lambda: self.daemon.metrics()["kerrd_bodies_bytes"] > 90e6))
+        self.assertLessEqual(self.daemon.metrics()["kerrd_bodies_bytes"], 96 << 20)
+        body = b'{"spin":0.9,"observer":{"inclination_deg":60},"rays":[' + b" " * (8 << 20) + b"[5,0]]}"
+        answer = self.ask("127.0.0.2", "POST", "/v1/rays", body)
         self.assertEqual(answer.status, 200, answer.body)
-        self.assertEqual(self.ask('127.0.0.2', 'POST', '/v1/plan', b'{}').status, 200)
+        self.assertEqual(self.ask("127.0.0.2", "POST", "/v1/plan", b"{}").status, 200)
 
 
 class Dawdling(Announced):
-    options = ('--body-ms', 1500)
+    options = ("--body-ms", 1500)
 
     def test_a_body_that_dawdles_is_cut(self):
         """However much it has announced, and sent: within the time for a small one."""
         s = self.announce(3000000)
         answer = daemon.read_answer(s)
-        self.assertProblem(answer, 408, 'timeout')
+        self.assertProblem(answer, 408, "timeout")
 
 
 class Sites(Case):
     def test_pages_of_other_sites(self):
-        foreign = {'Sec-Fetch-Site': 'cross-site', 'Sec-Fetch-Mode': 'no-cors', 'Sec-Fetch-Dest': 'image'}
-        for target in (RENDER, '/v1/physics/kerr?spin=0.5', '/v1/sessions/0123456789abcdef/frame.png'):
-            answer = self.ask('127.0.0.1', 'GET', target, headers=foreign)
-            self.assertIn('--allow-cross-site', self.assertProblem(answer, 403, 'cross-site')['detail'])
-            self.assertEqual(answer.header('Cross-Origin-Resource-Policy'), 'same-site')
-        self.assertProblem(self.ask('127.0.0.1', 'POST', '/v1/render', {}, foreign), 403, 'cross-site')
+        foreign = {"Sec-Fetch-Site": "cross-site", "Sec-Fetch-Mode": "no-cors", "Sec-Fetch-Dest": "image"}
+        for target in (RENDER, "/v1/physics/kerr?spin=0.5", "/v1/sessions/0123456789abcdef/frame.png"):
+            answer = self.ask("127.0.0.1", "GET", target, headers=foreign)
+            self.assertIn("--allow-cross-site", self.assertProblem(answer, 403, "cross-site")["detail"])
+            self.assertEqual(answer.header("Cross-Origin-Resource-Policy"), "same-site")
+        self.assertProblem(self.ask("127.0.0.1", "POST", "/v1/render", {}, foreign), 403, "cross-site")
         # a frame in a foreign page is no visit
-        self.assertProblem(self.ask('127.0.0.1', 'GET', RENDER, headers={**foreign, 'Sec-Fetch-Mode': 'navigate', 'Sec-Fetch-Dest': 'iframe'}),
-                           403, 'cross-site')
+        self.assertProblem(
+            self.ask(
+                "127.0.0.1",
+                "GET",
+                RENDER,
+                headers={**foreign, "Sec-Fetch-Mode": "navigate", "Sec-Fetch-Dest": "iframe"},
+            ),
+            403,
+            "cross-site",
+        )
 
     def test_visits_and_others(self):
-        for headers in ({}, {'Sec-Fetch-Site': 'same-origin'}, {'Sec-Fetch-Site': 'same-site'}, {'Sec-Fetch-Site': 'none'},
-                        {'Sec-Fetch-Site': 'cross-site', 'Sec-Fetch-Mode': 'navigate', 'Sec-Fetch-Dest': 'document'}):
-            answer = self.ask('127.0.0.1', 'GET', RENDER, headers=headers)
+        for headers in (
+            {},
+            {"Sec-Fetch-Site": "same-origin"},
+            {"Sec-Fetch-Site": "same-site"},
+            {"Sec-Fetch-Site": "none"},
+            {"Sec-Fetch-Site": "cross-site", "Sec-Fetch-Mode": "navigate", "Sec-Fetch-Dest": "document"},
+        ):
+            answer = self.ask("127.0.0.1", "GET", RENDER, headers=headers)
             self.assertEqual(answer.status, 200, headers)
-            self.assertEqual(answer.header('Cross-Origin-Resource-Policy'), 'same-site')
-        self.assertEqual(self.ask('127.0.0.1', 'GET', '/healthz', headers={'Sec-Fetch-Site': 'cross-site'}).status, 200)
+            self.assertEqual(answer.header("Cross-Origin-Resource-Policy"), "same-site")
+        self.assertEqual(self.ask("127.0.0.1", "GET", "/healthz", headers={"Sec-Fetch-Site": "cross-site"}).status, 200)
 
 
 class Connections(Case):
-    options = ('--connections', 40, '--client-share', 75, '--header-ms', 60000)
+    options = ("--connections", 40, "--client-share", 75, "--header-ms", 60000)
 
     def hold(self, begin, n=200):
         held = [self.daemon.connect() for _ in range(n)]
@@ -307,28 +379,29 @@ class Connections(Case):
         time.sleep(0.3)
 
     def refused(self):
-        answer = self.ask('127.0.0.1', 'GET', '/v1/presets')
+        answer = self.ask("127.0.0.1", "GET", "/v1/presets")
         if answer.status == 429:
-            self.assertProblem(answer, 429, 'quota')
-            self.assertTrue(answer.header('Retry-After'))
+            self.assertProblem(answer, 429, "quota")
+            self.assertTrue(answer.header("Retry-After"))
         return answer.status == 429
 
     def test_a_client_that_has_all_its_connections_shuts_nobody_else_out(self):
         """This holds for connections that have begun a request, and for those that are kept alive after one."""
-        for begin in (b'GET /v1/presets HTTP/1.1\r\nHost: loc', b'GET /v1/presets HTTP/1.1\r\nHost: localhost\r\n\r\n'):
+        for begin in (b"GET /v1/presets HTTP/1.1\r\nHost: loc", b"GET /v1/presets HTTP/1.1\r\nHost: localhost\r\n\r\n"):
             with self.subTest(begin):
                 before = self.daemon.open_files()
                 self.hold(begin)
-                self.assertEqual({self.ask('127.0.0.2', 'GET', '/v1/presets').status for _ in range(20)}, {200})
-                # Some of 200 at once are turned away as one too many before they count as his: he asks until he has all that he may have.
+                self.assertEqual({self.ask("127.0.0.2", "GET", "/v1/presets").status for _ in range(20)}, {200})
+                # Some of 200 at once are turned away as one too many before they count as his: he asks until he has all
+                # that he may have.
                 self.assertTrue(daemon.eventually(lambda: self.hold(begin, 20) or self.refused()))
                 self.doCleanups()
                 self.assertTrue(daemon.eventually(lambda: self.daemon.open_files() <= before))
 
     def test_nor_does_one_whose_connections_are_silent(self):
-        self.hold(b'')
-        self.assertEqual({self.ask('127.0.0.2', 'GET', '/v1/presets').status for _ in range(20)}, {200})
+        self.hold(b"")
+        self.assertEqual({self.ask("127.0.0.2", "GET", "/v1/presets").status for _ in range(20)}, {200})
 
 
-if __name__ == '__main__':
+if __name__ == "__main__":
     daemon.main()

@@ -1,4 +1,6 @@
-"""The state folder: what a start finds there, stops and strikes, what is left behind. Full disks and clocks that jump: tests/faults."""
+"""The state folder: what a start finds there, stops and strikes, what is left behind. Full disks and clocks that jump:
+tests/faults."""
+
 import io
 import json
 import os
@@ -31,83 +33,89 @@ class Case(job_case.Case):
     def setUp(self):
         self.folder = tempfile.mkdtemp()
         self.addCleanup(shutil.rmtree, self.folder)
-        self.jobs = os.path.join(self.folder, 'state', 'jobs')
+        self.jobs = os.path.join(self.folder, "state", "jobs")
 
     def tearDown(self):
         pass
 
     def start(self, *options, by=daemon.Daemon, state=True):
-        server = by(*(('--state', os.path.dirname(self.jobs)) if state else ()), *options)
+        server = by(*(("--state", os.path.dirname(self.jobs)) if state else ()), *options)
         self.addCleanup(lambda: server.process.poll() is None and (server.process.kill(), server.wait()))
         return server
 
     def record(self, job):
-        with open(os.path.join(self.jobs, job['id'], 'job.json'), encoding='ascii') as f:
+        with open(os.path.join(self.jobs, job["id"], "job.json"), encoding="ascii") as f:
             return json.load(f)
 
     def write(self, job, name, text):
-        with open(os.path.join(self.jobs, job['id'], name), 'w', encoding='ascii') as f:
+        with open(os.path.join(self.jobs, job["id"], name), "w", encoding="ascii") as f:
             f.write(text)
 
     def frames_of(self, job, server):
-        with zipfile.ZipFile(io.BytesIO(server.get(self.at(job, '/result')).body)) as z:
+        with zipfile.ZipFile(io.BytesIO(server.get(self.at(job, "/result")).body)) as z:
             return [z.read(n) for n in z.namelist()]
 
 
 class Stops(Case):
     def test_a_clean_stop_is_no_strike(self):
         server = self.start()
-        job = self.make({'scene': SLOW}, server=server)
+        job = self.make({"scene": SLOW}, server=server)
         for number in (signal.SIGTERM, signal.SIGINT, signal.SIGTERM, signal.SIGTERM):
-            self.assertTrue(daemon.eventually(lambda: self.status(job, server)['fraction'] > 0))
+            self.assertTrue(daemon.eventually(lambda: self.status(job, server)["fraction"] > 0))
             server.process.send_signal(number)
             self.assertEqual(server.wait(), 0)
-            self.assertEqual(self.record(job)['attempts'], 0)
+            self.assertEqual(self.record(job)["attempts"], 0)
             server = self.start()
-        self.assertEqual(self.status(job, server)['state'], 'running')
+        self.assertEqual(self.status(job, server)["state"], "running")
 
     def test_strikes_put_a_job_last_and_make_it_wait(self):
         server = self.start()
-        first = self.make({'scene': SLOW}, server=server)
-        second = self.make({'scenes': [SCENE] * 2}, server=server)
-        self.assertTrue(daemon.eventually(lambda: self.status(first, server)['fraction'] > 0))
+        first = self.make({"scene": SLOW}, server=server)
+        second = self.make({"scenes": [SCENE] * 2}, server=server)
+        self.assertTrue(daemon.eventually(lambda: self.status(first, server)["fraction"] > 0))
         server.process.kill()
         server.wait()
         server = self.start()
-        self.until(second, 'done', server)  # it has gone first
-        self.assertEqual(self.status(first, server)['state'], 'running')
+        self.until(second, "done", server)  # it has gone first
+        self.assertEqual(self.status(first, server)["state"], "running")
         self.assertEqual(server.stop(), 0)
-        self.write(first, 'job.json', json.dumps({**self.record(first), 'attempts': 7}))
+        self.write(first, "job.json", json.dumps({**self.record(first), "attempts": 7}))
         server = self.start()
-        third = self.make({'scenes': [SCENE] * 2}, server=server)
-        self.until(third, 'done', server)
+        third = self.make({"scenes": [SCENE] * 2}, server=server)
+        self.until(third, "done", server)
         waiting = self.status(first, server)
-        self.assertEqual(waiting['state'], 'waiting')
-        self.assertIn('ended 7 times', waiting['delayed'])
+        self.assertEqual(waiting["state"], "waiting")
+        self.assertIn("ended 7 times", waiting["delayed"])
         self.assertEqual(self.delete(first, server).status, 204)
         self.assertEqual(server.stop(), 0)
 
     def test_the_frames_of_a_large_sweep_are_put_in_order_first(self):
         """Which takes a while after a start, in which the job says so and the server serves."""
         server = self.start()
-        axes = {'camera.inclination_deg': '1:100:1', 'spacetime.spin': '0:0.95:0.05', 'style.exposure': '0:4:1'}
-        job = self.make({'scene': {'image': {'width': 2, 'height': 2}, 'time': 30000}, 'axes': axes}, server=server)
-        self.until(job, 'running', server)
+        axes = {"camera.inclination_deg": "1:100:1", "spacetime.spin": "0:0.95:0.05", "style.exposure": "0:4:1"}
+        job = self.make({"scene": {"image": {"width": 2, "height": 2}, "time": 30000}, "axes": axes}, server=server)
+        self.until(job, "running", server)
         server.process.kill()
         server.wait()
         server = self.start()
         status = self.status(job, server)
-        self.assertEqual((status['state'], status.get('delayed'), status['remaining_s']), ('waiting', 'its frames are put in order', None), status)
-        self.assertNotIn('delayed', self.until(job, 'running', server, 60))
+        self.assertEqual(
+            (status["state"], status.get("delayed"), status["remaining_s"]),
+            ("waiting", "its frames are put in order", None),
+            status,
+        )
+        self.assertNotIn("delayed", self.until(job, "running", server, 60))
         self.assertEqual(self.delete(job, server).status, 204)
         self.assertEqual(server.stop(), 0)
 
     def test_beside_a_stream_that_nobody_reads(self):
         server = self.start(state=False)
-        answer = server.post('/v1/sessions', {'image': {'width': 640, 'height': 360, 'samples': 2}, 'motion': {'time_rate': 10}})
+        answer = server.post(
+            "/v1/sessions", {"image": {"width": 640, "height": 360, "samples": 2}, "motion": {"time_rate": 10}}
+        )
         self.assertEqual(answer.status, 201)
         with server.connect() as s:
-            s.sendall(f'GET /v1/sessions/{answer.json()["id"]}/frames HTTP/1.1\r\nHost: localhost\r\n\r\n'.encode())
+            s.sendall(f"GET /v1/sessions/{answer.json()['id']}/frames HTTP/1.1\r\nHost: localhost\r\n\r\n".encode())
             time.sleep(2)  # until the buffers of both sides are full
             begun = time.monotonic()
             self.assertEqual(server.stop(), 0)
@@ -116,27 +124,27 @@ class Stops(Case):
 
 class Descriptors(Case):
     def limited(self, limits):
-        with unittest.mock.patch.object(daemon, 'COMMAND', ['prlimit', f'--nofile={limits}', *daemon.COMMAND]):
+        with unittest.mock.patch.object(daemon, "COMMAND", ["prlimit", f"--nofile={limits}", *daemon.COMMAND]):
             return self.start(state=False)
 
     def test_the_soft_limit_is_raised(self):
-        server = self.limited('64:')
-        with open(f'/proc/{server.process.pid}/limits', encoding='ascii') as f:
-            soft, hard = next(line.split()[3:5] for line in f if line.startswith('Max open files'))
-        self.assertEqual(soft, hard if hard != 'unlimited' and int(hard) < 65536 else '65536')
+        server = self.limited("64:")
+        with open(f"/proc/{server.process.pid}/limits", encoding="ascii") as f:
+            soft, hard = next(line.split()[3:5] for line in f if line.startswith("Max open files"))
+        self.assertEqual(soft, hard if hard != "unlimited" and int(hard) < 65536 else "65536")
         self.assertEqual(server.stop(), 0)
 
     def test_files_are_left_beside_many_connections(self):
-        server = self.limited('320:320')
+        server = self.limited("320:320")
         held = [server.connect() for _ in range(300)]
         for s in held:
-            s.sendall(b'GET /v1/presets HTTP/1.1\r\nHost: localhost\r\n')
+            s.sendall(b"GET /v1/presets HTTP/1.1\r\nHost: localhost\r\n")
         time.sleep(0.3)
         self.assertLess(server.open_files(), 320 - 20)
         for s in held:
             daemon.vanish(s)
-        self.assertTrue(daemon.eventually(lambda: server.get('/v1/presets').status == 200))
-        self.until(self.make({'scene': SCENE}, server=server), 'done', server)
+        self.assertTrue(daemon.eventually(lambda: server.get("/v1/presets").status == 200))
+        self.until(self.make({"scene": SCENE}, server=server), "done", server)
         self.assertEqual(server.stop(), 0)
 
 
@@ -151,7 +159,7 @@ class Foreign(Case):
                 if stat.S_ISLNK(mode):
                     found[path] = os.readlink(path)
                 elif stat.S_ISREG(mode):
-                    with open(path, 'rb') as f:
+                    with open(path, "rb") as f:
                         found[path] = os.path.getsize(path), f.read(4096)
                 else:
                     found[path] = stat.S_IFMT(mode)
@@ -159,128 +167,135 @@ class Foreign(Case):
 
     def test_nothing_foreign_is_touched(self):
         server = self.start()
-        kept = [self.make({'scenes': [SCENE] * 2}, server=server) for _ in range(8)]
+        kept = [self.make({"scenes": [SCENE] * 2}, server=server) for _ in range(8)]
         for job in kept:
-            self.until(job, 'done', server)
+            self.until(job, "done", server)
         self.assertEqual(server.stop(), 0)
-        precious = os.path.join(self.folder, 'precious')
+        precious = os.path.join(self.folder, "precious")
         os.mkdir(precious)
-        for name in ('000000.png', 'job.json', 'request.json', 'letter.txt'):
-            with open(os.path.join(precious, name), 'w', encoding='ascii') as f:
-                f.write('dear ' + name)
+        for name in ("000000.png", "job.json", "request.json", "letter.txt"):
+            with open(os.path.join(precious, name), "w", encoding="ascii") as f:
+                f.write("dear " + name)
         good = kept.pop()
         version, torn, pipe, link, huge, request, none = kept
 
         def path(job, *name):
-            return os.path.join(self.jobs, job['id'], *name)
+            return os.path.join(self.jobs, job["id"], *name)
 
         def instead(job, name):
             os.unlink(path(job, name))
             return path(job, name)
-        self.write(version, 'job.json', json.dumps({**self.record(version), 'format': 2}))
-        self.write(torn, 'job.json', '{"format":1')
-        os.mkfifo(instead(pipe, 'job.json'))
-        os.symlink(os.path.join(precious, 'job.json'), instead(link, 'job.json'))
-        with open(path(huge, 'job.json'), 'ab') as f:
+
+        self.write(version, "job.json", json.dumps({**self.record(version), "format": 2}))
+        self.write(torn, "job.json", '{"format":1')
+        os.mkfifo(instead(pipe, "job.json"))
+        os.symlink(os.path.join(precious, "job.json"), instead(link, "job.json"))
+        with open(path(huge, "job.json"), "ab") as f:
             f.truncate(3 << 30)
-        os.mkfifo(instead(request, 'request.json'))
-        instead(none, 'job.json'), instead(none, 'request.json')
-        os.symlink(precious, os.path.join(self.jobs, '0123456789abcdef'))
-        os.mkdir(os.path.join(self.jobs, '0123456789abcdee'))
-        shutil.copytree(precious, os.path.join(self.jobs, '0123456789abcded'))
-        shutil.copytree(precious, os.path.join(self.jobs, 'notes'))
-        with open(os.path.join(self.jobs, '0123456789abcdec'), 'w', encoding='ascii') as f:
-            f.write('a file')
+        os.mkfifo(instead(request, "request.json"))
+        instead(none, "job.json"), instead(none, "request.json")
+        os.symlink(precious, os.path.join(self.jobs, "0123456789abcdef"))
+        os.mkdir(os.path.join(self.jobs, "0123456789abcdee"))
+        shutil.copytree(precious, os.path.join(self.jobs, "0123456789abcded"))
+        shutil.copytree(precious, os.path.join(self.jobs, "notes"))
+        with open(os.path.join(self.jobs, "0123456789abcdec"), "w", encoding="ascii") as f:
+            f.write("a file")
         before = self.snapshot()
         for _ in range(2):
             server = self.start()
-            self.assertEqual(self.status(good, server)['state'], 'done')
+            self.assertEqual(self.status(good, server)["state"], "done")
             self.assertEqual(server.stop(), 0)
         self.assertEqual(self.snapshot(), before)
 
     def test_what_is_beside_a_deleted_job_stays(self):
         server = self.start()
-        job = self.make({'scenes': [SCENE] * 2}, server=server)
-        self.until(job, 'done', server)
-        for name in ('mine.txt', '000000.png.bak', '0000001.png', 'job.json.orig'):
-            self.write(job, name, 'x')
-        self.write(job, '000001.png.aB3dEf', 'what a kill has left')
+        job = self.make({"scenes": [SCENE] * 2}, server=server)
+        self.until(job, "done", server)
+        for name in ("mine.txt", "000000.png.bak", "0000001.png", "job.json.orig"):
+            self.write(job, name, "x")
+        self.write(job, "000001.png.aB3dEf", "what a kill has left")
         self.assertEqual(self.delete(job, server).status, 204)
-        left = ['0000001.png', '000000.png.bak', 'job.json.orig', 'mine.txt']
-        self.assertTrue(daemon.eventually(lambda: sorted(os.listdir(os.path.join(self.jobs, job['id']))) == sorted(left)))
+        left = ["0000001.png", "000000.png.bak", "job.json.orig", "mine.txt"]
+        self.assertTrue(
+            daemon.eventually(lambda: sorted(os.listdir(os.path.join(self.jobs, job["id"]))) == sorted(left))
+        )
         self.assertEqual(server.stop(), 0)
 
     def test_what_was_never_accepted_goes(self):
-        os.makedirs(os.path.join(self.jobs, '0123456789abcdef.new'))
-        for name in ('job.json.AAAAAA', 'job.json', 'request.json.123456'):
-            self.write({'id': '0123456789abcdef.new'}, name, '{')
+        os.makedirs(os.path.join(self.jobs, "0123456789abcdef.new"))
+        for name in ("job.json.AAAAAA", "job.json", "request.json.123456"):
+            self.write({"id": "0123456789abcdef.new"}, name, "{")
         server = self.start()
-        self.assertEqual(os.listdir(self.jobs), ['lock'])
+        self.assertEqual(os.listdir(self.jobs), ["lock"])
         self.assertEqual(server.stop(), 0)
 
     def test_links_in_the_way(self):
-        os.makedirs(os.path.join(self.folder, 'state'))
-        os.mkdir(os.path.join(self.folder, 'elsewhere'))
-        os.symlink('../elsewhere', self.jobs)
-        second = subprocess.run([*daemon.COMMAND, '--port', '0', '--state', os.path.dirname(self.jobs)], capture_output=True, text=True,
-                                timeout=20)
+        os.makedirs(os.path.join(self.folder, "state"))
+        os.mkdir(os.path.join(self.folder, "elsewhere"))
+        os.symlink("../elsewhere", self.jobs)
+        second = subprocess.run(
+            [*daemon.COMMAND, "--port", "0", "--state", os.path.dirname(self.jobs)],
+            capture_output=True,
+            text=True,
+            timeout=20,
+        )
         self.assertEqual(second.returncode, 1)
-        self.assertIn('jobs cannot be kept', second.stderr)
-        self.assertEqual(os.listdir(os.path.join(self.folder, 'elsewhere')), [])
+        self.assertIn("jobs cannot be kept", second.stderr)
+        self.assertEqual(os.listdir(os.path.join(self.folder, "elsewhere")), [])
 
     def test_a_request_of_another_version(self):
         server = self.start()
-        done = self.make({'scenes': [SCENE] * 2}, server=server)
-        self.until(done, 'done', server)
+        done = self.make({"scenes": [SCENE] * 2}, server=server)
+        self.until(done, "done", server)
         frames = self.frames_of(done, server)
-        running = self.make({'scene': SLOW}, server=server)
+        running = self.make({"scene": SLOW}, server=server)
         self.assertEqual(server.stop(), 0)
-        with open(os.path.join(self.jobs, running['id'], 'request.json'), encoding='ascii') as f:
+        with open(os.path.join(self.jobs, running["id"], "request.json"), encoding="ascii") as f:
             asked = f.read()
-        self.write(done, 'request.json', '{"tomorrow": 1}')
-        self.write(running, 'request.json', '{"tomorrow": 1}')
+        self.write(done, "request.json", '{"tomorrow": 1}')
+        self.write(running, "request.json", '{"tomorrow": 1}')
         server = self.start()
         self.assertEqual(self.frames_of(done, server), frames)
         waiting = self.status(running, server)
-        self.assertEqual(waiting['state'], 'waiting', waiting)
-        self.assertIn('cannot read the request', waiting['delayed'])
-        self.until(self.make({'scene': SCENE}, server=server), 'done', server)  # it holds up nobody
+        self.assertEqual(waiting["state"], "waiting", waiting)
+        self.assertIn("cannot read the request", waiting["delayed"])
+        self.until(self.make({"scene": SCENE}, server=server), "done", server)  # it holds up nobody
         self.assertEqual(server.stop(), 0)
-        self.write(running, 'request.json', asked)
+        self.write(running, "request.json", asked)
         server = self.start()
-        self.assertEqual(self.status(running, server)['state'], 'running')
+        self.assertEqual(self.status(running, server)["state"], "running")
         server.stop()
 
     def test_what_a_job_makes_is_in_its_record(self):
         """As "output"; records of versions before have "curve"; one that is not known here is left alone."""
         server = self.start()
-        job = self.make({'scene': SCENE, 'output': 'light-curve'}, server=server)
-        self.until(job, 'done', server)
-        rows = server.get(self.at(job, '/result?format=csv')).body
+        job = self.make({"scene": SCENE, "output": "light-curve"}, server=server)
+        self.until(job, "done", server)
+        rows = server.get(self.at(job, "/result?format=csv")).body
         self.assertEqual(server.stop(), 0)
-        self.write(job, 'request.json', '{"tomorrow": 1}')  # which says nothing of it
+        self.write(job, "request.json", '{"tomorrow": 1}')  # which says nothing of it
         record = self.record(job)
-        self.assertEqual(record.pop('output'), 'light-curve')
-        for known in ({'output': 'light-curve'}, {'curve': True}):
-            self.write(job, 'job.json', json.dumps({**record, **known}))
+        self.assertEqual(record.pop("output"), "light-curve")
+        for known in ({"output": "light-curve"}, {"curve": True}):
+            self.write(job, "job.json", json.dumps({**record, **known}))
             server = self.start()
-            self.assertEqual(self.status(job, server)['output'], 'light-curve')
-            self.assertEqual(server.get(self.at(job, '/result?format=csv')).body, rows)
+            self.assertEqual(self.status(job, server)["output"], "light-curve")
+            self.assertEqual(server.get(self.at(job, "/result?format=csv")).body, rows)
             self.assertEqual(server.stop(), 0)
-        self.write(job, 'job.json', json.dumps({**record, 'curve': True, 'output': 'visibility'}))
+        self.write(job, "job.json", json.dumps({**record, "curve": True, "output": "visibility"}))
         server = self.start()
         self.assertEqual(server.get(self.at(job)).status, 404)
         self.assertEqual(server.stop(), 0)
-        self.assertEqual(self.record(job)['output'], 'visibility')
+        self.assertEqual(self.record(job)["output"], "visibility")
 
 
 class Scarce(Case):
     def test_device_memory_runs_out(self):
         server = self.start()
-        job = self.make({'scene': {**SCENE, 'time': -2}}, server=server)
-        self.assertTrue(daemon.eventually(lambda: 'delayed' in self.status(job, server)))
-        self.until(self.make({'scene': SCENE}, server=server), 'done', server)
-        self.assertEqual(self.status(job, server)['state'], 'waiting')
+        job = self.make({"scene": {**SCENE, "time": -2}}, server=server)
+        self.assertTrue(daemon.eventually(lambda: "delayed" in self.status(job, server)))
+        self.until(self.make({"scene": SCENE}, server=server), "done", server)
+        self.assertEqual(self.status(job, server)["state"], "waiting")
         server.stop()
 
 
@@ -289,30 +304,30 @@ class Remains(Case):
 
     def setUp(self):
         super().setUp()
-        before = os.environ.get('TMPDIR')
-        os.environ['TMPDIR'] = self.folder
-        self.addCleanup(lambda: os.environ.update(TMPDIR=before) if before else os.environ.pop('TMPDIR'))
+        before = os.environ.get("TMPDIR")
+        os.environ["TMPDIR"] = self.folder
+        self.addCleanup(lambda: os.environ.update(TMPDIR=before) if before else os.environ.pop("TMPDIR"))
 
     def test_of_killed_servers_and_of_living_ones(self):
-        os.mkdir(os.path.join(self.folder, 'kerrd-jobs-ABCDEF'))
-        with open(os.path.join(self.folder, 'kerrd-jobs-ABCDEF', 'mine.txt'), 'w', encoding='ascii') as f:
-            f.write('x')
+        os.mkdir(os.path.join(self.folder, "kerrd-jobs-ABCDEF"))
+        with open(os.path.join(self.folder, "kerrd-jobs-ABCDEF", "mine.txt"), "w", encoding="ascii") as f:
+            f.write("x")
         living = self.start(state=False)
-        job = self.make({'scene': SCENE}, server=living)
-        self.until(job, 'done', living)
+        job = self.make({"scene": SCENE}, server=living)
+        self.until(job, "done", living)
         others = set(os.listdir(self.folder))
         killed = self.start(state=False)
-        self.until(self.make({'scenes': [SCENE] * 3}, server=killed), 'done', killed)
+        self.until(self.make({"scenes": [SCENE] * 3}, server=killed), "done", killed)
         self.assertEqual(len(os.listdir(self.folder)), len(others) + 1)
         killed.process.kill()
         killed.wait()
         third = self.start(state=False)
         self.assertEqual(set(os.listdir(self.folder)), others)
-        self.assertEqual(living.get(self.at(job, '/result')).status, 200)
+        self.assertEqual(living.get(self.at(job, "/result")).status, 200)
         self.assertEqual(third.stop(), 0)
         self.assertEqual(living.stop(), 0)
-        self.assertEqual(os.listdir(self.folder), ['kerrd-jobs-ABCDEF'])
+        self.assertEqual(os.listdir(self.folder), ["kerrd-jobs-ABCDEF"])
 
 
-if __name__ == '__main__':
+if __name__ == "__main__":
     daemon.main()

@@ -1,4 +1,5 @@
 """SIGTERM under load, a lost device, and starts that fail."""
+
 import subprocess
 import threading
 import time
@@ -6,7 +7,7 @@ import unittest
 
 import daemon
 
-RENDER = '/v1/render?' + daemon.SMALL
+RENDER = "/v1/render?" + daemon.SMALL
 
 
 def in_background(function, *arguments):
@@ -18,76 +19,87 @@ def in_background(function, *arguments):
 
 class Stop(unittest.TestCase):
     def test_sequence(self):
-        server = daemon.Daemon('--drain-ms', 600, '--queue', 4)
-        running = in_background(server.get, RENDER + '&time=2000')
+        server = daemon.Daemon("--drain-ms", 600, "--queue", 4)
+        running = in_background(server.get, RENDER + "&time=2000")
         time.sleep(0.1)
-        queued = in_background(server.get, RENDER + '&time=100')
+        queued = in_background(server.get, RENDER + "&time=100")
         time.sleep(0.1)
-        self.assertEqual(server.get('/readyz').status, 200)
+        self.assertEqual(server.get("/readyz").status, 200)
         server.terminate()
-        self.assertTrue(daemon.eventually(lambda: server.get('/readyz').status == 503, 0.5))
-        self.assertEqual(server.get('/healthz').status, 200)
-        late = in_background(server.get, RENDER + '&time=1')  # still accepted while balancers notice
+        self.assertTrue(daemon.eventually(lambda: server.get("/readyz").status == 503, 0.5))
+        self.assertEqual(server.get("/healthz").status, 200)
+        late = in_background(server.get, RENDER + "&time=1")  # still accepted while balancers notice
         time.sleep(0.8)
         refused = server.get(RENDER)
         self.assertEqual(refused.status, 503)
-        self.assertEqual(refused.json()['type'], 'urn:kerrd:problem:stopping')
-        self.assertTrue(refused.header('Retry-After'))
-        self.assertEqual(server.get('/healthz').status, 200)
+        self.assertEqual(refused.json()["type"], "urn:kerrd:problem:stopping")
+        self.assertTrue(refused.header("Retry-After"))
+        self.assertEqual(server.get("/healthz").status, 200)
         self.assertEqual([a().status for a in (running, queued, late)], [200, 200, 200])
         self.assertEqual(server.wait(10), 0)
 
     def test_idle(self):
-        server = daemon.Daemon('--drain-ms', 100)
+        server = daemon.Daemon("--drain-ms", 100)
         with server.connect():  # nobody waits for a connection without a request
             started = time.monotonic()
             self.assertEqual(server.stop(), 0)
             self.assertLess(time.monotonic() - started, 3)
 
     def test_again_and_again(self):
-        server = daemon.Daemon('--drain-ms', 300)
+        server = daemon.Daemon("--drain-ms", 300)
         for _ in range(20):
             server.terminate()
         self.assertEqual(server.wait(10), 0)
 
     def test_lost_device(self):
-        server = daemon.Daemon('--drain-ms', 60000)
+        server = daemon.Daemon("--drain-ms", 60000)
         behind = None
-        ahead = in_background(server.get, RENDER + '&time=500')
+        ahead = in_background(server.get, RENDER + "&time=500")
         time.sleep(0.1)
-        lost = in_background(server.get, RENDER + '&time=-1')
+        lost = in_background(server.get, RENDER + "&time=-1")
         time.sleep(0.1)
-        behind = in_background(server.get, RENDER + '&time=100')
+        behind = in_background(server.get, RENDER + "&time=100")
         self.assertEqual(ahead().status, 200)
         for answer in (lost(), behind()):
             self.assertEqual(answer.status, 500)
-            self.assertEqual(answer.json()['type'], 'urn:kerrd:problem:device-lost')
+            self.assertEqual(answer.json()["type"], "urn:kerrd:problem:device-lost")
         self.assertEqual(server.wait(10), 1)
 
     def test_a_device_that_is_opened_again(self):
-        server = daemon.Daemon('--device', 'mends', '--drain-ms', 10)
-        beside = in_background(server.get, RENDER + '&time=1000&image.samples=2')  # in slices: what is half done begins once more
-        self.assertTrue(daemon.eventually(lambda: server.metrics()['kerrd_renders_unfinished']))
-        session = server.post('/v1/sessions', {'image': {'width': 64, 'height': 36}, 'time': 5}).json()
-        job = server.post('/v1/jobs', {'scenes': [{'image': {'width': 64, 'height': 36}, 'time': t} for t in (100, 100, 100)]}).json()
-        self.assertEqual(server.get(RENDER + '&time=-1.5').status, 200)
-        self.assertEqual(server.metrics()['kerrd_device_reopened_total'], 1)
+        server = daemon.Daemon("--device", "mends", "--drain-ms", 10)
+        beside = in_background(
+            server.get, RENDER + "&time=1000&image.samples=2"
+        )  # in slices: what is half done begins once more
+        self.assertTrue(daemon.eventually(lambda: server.metrics()["kerrd_renders_unfinished"]))
+        session = server.post("/v1/sessions", {"image": {"width": 64, "height": 36}, "time": 5}).json()
+        job = server.post(
+            "/v1/jobs", {"scenes": [{"image": {"width": 64, "height": 36}, "time": t} for t in (100, 100, 100)]}
+        ).json()
+        self.assertEqual(server.get(RENDER + "&time=-1.5").status, 200)
+        self.assertEqual(server.metrics()["kerrd_device_reopened_total"], 1)
         self.assertEqual(beside().status, 200)
-        self.assertEqual(server.get(f'/v1/sessions/{session["id"]}/frame.png?after=0').status, 200)
-        self.assertTrue(daemon.eventually(lambda: server.get(f'/v1/jobs/{job["id"]}').json()['state'] == 'done'))
-        for told in ('missed its deadline', 'opened again 3 times'):  # what fails it twice is told so; and the fourth time is once too often
-            answer = server.get(RENDER + '&time=-1')
-            self.assertEqual((answer.status, answer.json()['type']), (500, 'urn:kerrd:problem:device-lost'))
-            self.assertIn(told, answer.json()['detail'])
-            if told == 'missed its deadline':
-                self.assertEqual([server.get(target).status for target in (RENDER + '&time=1', '/readyz')], [200, 200])
-                self.assertEqual(server.metrics()['kerrd_device_reopened_total'], 3)
+        self.assertEqual(server.get(f"/v1/sessions/{session['id']}/frame.png?after=0").status, 200)
+        self.assertTrue(daemon.eventually(lambda: server.get(f"/v1/jobs/{job['id']}").json()["state"] == "done"))
+        for told in (
+            "missed its deadline",
+            "opened again 3 times",
+        ):  # what fails it twice is told so; and the fourth time is once too often
+            answer = server.get(RENDER + "&time=-1")
+            self.assertEqual((answer.status, answer.json()["type"]), (500, "urn:kerrd:problem:device-lost"))
+            self.assertIn(told, answer.json()["detail"])
+            if told == "missed its deadline":
+                self.assertEqual([server.get(target).status for target in (RENDER + "&time=1", "/readyz")], [200, 200])
+                self.assertEqual(server.metrics()["kerrd_device_reopened_total"], 3)
         self.assertEqual(server.wait(10), 1)
 
     def test_starts_that_fail(self):
-        server = daemon.Daemon('--drain-ms', 10)
-        for options, said in ((('--port', server.port), 'cannot listen'), (('--listen', 'localhost'), 'not a numeric'),
-                              (('--listen', '203.0.113.1'), 'cannot listen'), (('--device', 'none'), 'no device')):
+        server = daemon.Daemon("--drain-ms", 10)
+        for options, said in (
+            (("--port", server.port), "cannot listen"),
+            (("--listen", "localhost"), "not a numeric"),
+            (("--listen", "203.0.113.1"), "cannot listen"),
+            (("--device", "none"), "no device"),
+        ):
             with self.subTest(options):
                 done = subprocess.run([*daemon.COMMAND, *map(str, options)], capture_output=True, timeout=20)
                 self.assertEqual(done.returncode, 1)
@@ -95,5 +107,5 @@ class Stop(unittest.TestCase):
         self.assertEqual(server.stop(), 0)
 
 
-if __name__ == '__main__':
+if __name__ == "__main__":
     daemon.main()

@@ -1,4 +1,6 @@
-"""The proxies of docs/examples/tls, as they stand there but for ports and certificates: pictures, streams as they are sent, a session's token beside the access token, the cookie."""
+"""The proxies of docs/examples/tls, as they stand there but for ports and certificates: pictures, streams as they are
+sent, a session's token beside the access token, the cookie."""
+
 import http.client
 import json
 import pathlib
@@ -12,53 +14,88 @@ import unittest
 
 import daemon
 
-EXAMPLES = pathlib.Path(__file__).resolve().parents[2] / 'docs/examples/tls'
-TOKEN = 'render-0123456789abc'
-SCENE = {'image': {'width': 64, 'height': 36}}
+EXAMPLES = pathlib.Path(__file__).resolve().parents[2] / "docs/examples/tls"
+TOKEN = "render-0123456789abc"
+SCENE = {"image": {"width": 64, "height": 36}}
 
 
 def find(name):
-    return shutil.which(name) or shutil.which(name, path='/usr/sbin')
+    return shutil.which(name) or shutil.which(name, path="/usr/sbin")
 
 
 def free_port():
     with socket.socket() as one:
-        one.bind(('127.0.0.1', 0))
+        one.bind(("127.0.0.1", 0))
         return one.getsockname()[1]
 
 
 class Proxies:
     """For each proxy a class of its own below."""
+
     file = program = ()
 
     def setUp(self):
-        self.assertTrue(find(self.program[0]), f'{self.program[0]} is not here; scripts/setup --proxy installs it')
+        self.assertTrue(find(self.program[0]), f"{self.program[0]} is not here; scripts/setup --proxy installs it")
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
-        certificate, key, both = (self.folder / f'kerrd.{end}' for end in ('crt', 'key', 'pem'))
-        subprocess.run(['openssl', 'req', '-x509', '-newkey', 'rsa:2048', '-nodes', '-days', '1', '-subj', '/CN=localhost', '-addext', 'subjectAltName=DNS:localhost', '-keyout', key, '-out', certificate],
-                       check=True, capture_output=True)
+        certificate, key, both = (self.folder / f"kerrd.{end}" for end in ("crt", "key", "pem"))
+        subprocess.run(
+            [
+                "openssl",
+                "req",
+                "-x509",
+                "-newkey",
+                "rsa:2048",
+                "-nodes",
+                "-days",
+                "1",
+                "-subj",
+                "/CN=localhost",
+                "-addext",
+                "subjectAltName=DNS:localhost",
+                "-keyout",
+                key,
+                "-out",
+                certificate,
+            ],
+            check=True,
+            capture_output=True,
+        )
         both.write_text(certificate.read_text() + key.read_text())
-        tokens = self.folder / 'tokens'
-        tokens.write_text(f'ann render {TOKEN}\n')
+        tokens = self.folder / "tokens"
+        tokens.write_text(f"ann render {TOKEN}\n")
         tokens.chmod(0o600)
-        self.server = daemon.Daemon('--token-file', tokens)
+        self.server = daemon.Daemon("--token-file", tokens)
         self.addCleanup(self.end_server)
         self.port = free_port()
         text = (EXAMPLES / self.file).read_text()
-        for old, new in ((':8443', f':{self.port}'), ('listen 8443', f'listen {self.port}'), ('127.0.0.1:8080', f'127.0.0.1:{self.server.port}'), ('/etc/ssl/', f'{self.folder}/'),
-                         ('/tmp/kerrd-nginx', f'{self.folder}/nginx')):
+        for old, new in (
+            (":8443", f":{self.port}"),
+            ("listen 8443", f"listen {self.port}"),
+            ("127.0.0.1:8080", f"127.0.0.1:{self.server.port}"),
+            ("/etc/ssl/", f"{self.folder}/"),
+            ("/tmp/kerrd-nginx", f"{self.folder}/nginx"),
+        ):
             text = text.replace(old, new)
         configuration = self.folder / self.file
         configuration.write_text(text)
-        self.log = open(self.folder / 'log', 'wb')
+        self.log = open(self.folder / "log", "wb")
         self.addCleanup(self.log.close)
-        self.proxy = subprocess.Popen([find(self.program[0]), *[part.format(configuration) for part in self.program[1:]]], stdout=self.log, stderr=self.log,
-                                      env={'PATH': '/usr/sbin:/usr/bin:/bin', 'HOME': str(self.folder), 'XDG_DATA_HOME': str(self.folder), 'XDG_CONFIG_HOME': str(self.folder)})
+        self.proxy = subprocess.Popen(
+            [find(self.program[0]), *[part.format(configuration) for part in self.program[1:]]],
+            stdout=self.log,
+            stderr=self.log,
+            env={
+                "PATH": "/usr/sbin:/usr/bin:/bin",
+                "HOME": str(self.folder),
+                "XDG_DATA_HOME": str(self.folder),
+                "XDG_CONFIG_HOME": str(self.folder),
+            },
+        )
         self.addCleanup(self.end_proxy)
         self.context = ssl.create_default_context(cafile=certificate)
-        self.assertTrue(daemon.eventually(self.answers), (self.folder / 'log').read_text())
+        self.assertTrue(daemon.eventually(self.answers), (self.folder / "log").read_text())
 
     def end_server(self):
         self.server.process.terminate()
@@ -74,45 +111,68 @@ class Proxies:
             self.proxy.wait()
 
     def connection(self):
-        return http.client.HTTPSConnection('localhost', self.port, timeout=60, context=self.context)
+        return http.client.HTTPSConnection("localhost", self.port, timeout=60, context=self.context)
 
     def answers(self):
         try:
-            return self.ask('GET', '/readyz')[0] == 200
+            return self.ask("GET", "/readyz")[0] == 200
         except OSError:
             return False
 
     def ask(self, method, path, document=None, **headers):
         connection = self.connection()
         try:
-            connection.request(method, path, None if document is None else json.dumps(document), {'Content-Type': 'application/json', **{k.replace('_', '-'): v for k, v in headers.items()}})
+            connection.request(
+                method,
+                path,
+                None if document is None else json.dumps(document),
+                {"Content-Type": "application/json", **{k.replace("_", "-"): v for k, v in headers.items()}},
+            )
             answer = connection.getresponse()
             return answer.status, dict(answer.getheaders()), answer.read()
         finally:
             connection.close()
 
     def test_pictures_and_refusals(self):
-        status, headers, body = self.ask('POST', '/v1/render', SCENE, Authorization=f'Bearer {TOKEN}')
-        self.assertEqual((status, body[:4]), (200, b'\x89PNG'), body[:300])
-        self.assertIn('max-age', headers.get('Strict-Transport-Security', headers.get('strict-transport-security', '')))
-        self.assertEqual(body, self.server.request('POST', '/v1/render', json.dumps(SCENE), {'Authorization': f'Bearer {TOKEN}'}).body)
-        self.assertEqual(self.ask('POST', '/v1/render', SCENE)[0], 401)
+        status, headers, body = self.ask("POST", "/v1/render", SCENE, Authorization=f"Bearer {TOKEN}")
+        self.assertEqual((status, body[:4]), (200, b"\x89PNG"), body[:300])
+        self.assertIn("max-age", headers.get("Strict-Transport-Security", headers.get("strict-transport-security", "")))
+        self.assertEqual(
+            body,
+            self.server.request("POST", "/v1/render", json.dumps(SCENE), {"Authorization": f"Bearer {TOKEN}"}).body,
+        )
+        self.assertEqual(self.ask("POST", "/v1/render", SCENE)[0], 401)
 
     def test_streams_come_as_they_are_sent(self):
-        status, headers, body = self.ask('POST', '/v1/sessions', SCENE, Kerrd_Access=TOKEN)
+        status, headers, body = self.ask("POST", "/v1/sessions", SCENE, Kerrd_Access=TOKEN)
         self.assertEqual(status, 201, body)
         session = json.loads(body)
         connection = self.connection()
         self.addCleanup(connection.close)
-        connection.request('GET', f'/v1/sessions/{session["id"]}/events', headers={'Authorization': f'Bearer {TOKEN}', 'Accept': 'text/event-stream'})
+        connection.request(
+            "GET",
+            f"/v1/sessions/{session['id']}/events",
+            headers={"Authorization": f"Bearer {TOKEN}", "Accept": "text/event-stream"},
+        )
         answer = connection.getresponse()
         self.assertEqual(answer.status, 200)
-        self.assertTrue(self.line(answer, b'event:'), 'the first event')
+        self.assertTrue(self.line(answer, b"event:"), "the first event")
         began = time.monotonic()
-        self.assertEqual(self.ask('PATCH', f'/v1/sessions/{session["id"]}', {'camera': {'inclination_deg': 50}}, Kerrd_Access=TOKEN, Authorization=f'Bearer {session["token"]}')[0], 200)
-        self.assertTrue(self.line(answer, b'"revision":2'), 'the event of a change')
+        self.assertEqual(
+            self.ask(
+                "PATCH",
+                f"/v1/sessions/{session['id']}",
+                {"camera": {"inclination_deg": 50}},
+                Kerrd_Access=TOKEN,
+                Authorization=f"Bearer {session['token']}",
+            )[0],
+            200,
+        )
+        self.assertTrue(self.line(answer, b'"revision":2'), "the event of a change")
         self.assertLess(time.monotonic() - began, 20)
-        self.assertEqual(self.ask('DELETE', f'/v1/sessions/{session["id"]}?token={session["token"]}', Kerrd_Access=TOKEN)[0], 204)
+        self.assertEqual(
+            self.ask("DELETE", f"/v1/sessions/{session['id']}?token={session['token']}", Kerrd_Access=TOKEN)[0], 204
+        )
 
     def line(self, answer, words):
         """Whether a line of the stream that has these comes; the socket's timeout ends a wait in vain."""
@@ -125,25 +185,25 @@ class Proxies:
         return False
 
     def test_the_cookie_is_secure(self):
-        status, headers, _ = self.ask('GET', f'/?access={TOKEN}')
-        cookie = {name.lower(): value for name, value in headers.items()}['set-cookie']
+        status, headers, _ = self.ask("GET", f"/?access={TOKEN}")
+        cookie = {name.lower(): value for name, value in headers.items()}["set-cookie"]
         self.assertEqual(status, 303)
-        self.assertRegex(cookie, r'(?i)\bsecure\b')
-        self.assertRegex(cookie, r'(?i)\bhttponly\b')
-        self.assertEqual(self.ask('GET', '/', Cookie=cookie.split(';')[0])[0], 200)
+        self.assertRegex(cookie, r"(?i)\bsecure\b")
+        self.assertRegex(cookie, r"(?i)\bhttponly\b")
+        self.assertEqual(self.ask("GET", "/", Cookie=cookie.split(";")[0])[0], 200)
 
 
 class Nginx(Proxies, unittest.TestCase):
-    file, program = 'nginx.conf', ('nginx', '-c', '{}', '-g', 'daemon off;')
+    file, program = "nginx.conf", ("nginx", "-c", "{}", "-g", "daemon off;")
 
 
 class Caddy(Proxies, unittest.TestCase):
-    file, program = 'Caddyfile', ('caddy', 'run', '--config', '{}', '--adapter', 'caddyfile')
+    file, program = "Caddyfile", ("caddy", "run", "--config", "{}", "--adapter", "caddyfile")
 
 
 class Haproxy(Proxies, unittest.TestCase):
-    file, program = 'haproxy.cfg', ('haproxy', '-f', '{}')
+    file, program = "haproxy.cfg", ("haproxy", "-f", "{}")
 
 
-if __name__ == '__main__':
+if __name__ == "__main__":
     daemon.main()

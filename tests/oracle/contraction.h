@@ -13,8 +13,7 @@ static inline double redshift_of_plunge(double a, double r, double lambda, doubl
     double isco = kd_kerr_isco(a), e = kd_kerr_energy(a, isco), l = kd_kerr_momentum(a, isco);
     double delta = r * r - 2 * r + a * a, pp = r * r + a * a + 2 * a * a / r;
     double itt = -pp / delta, itp = -2 * a / (r * delta), ipp = (1 - 2 / r) / delta, irr = delta / (r * r);
-    double ut = -itt * e + itp * l, up = -itp * e + ipp * l,
-           energy2 = -itt * e * e + 2 * itp * e * l - ipp * l * l;
+    double ut = -itt * e + itp * l, up = -itp * e + ipp * l, energy2 = -itt * e * e + 2 * itp * e * l - ipp * l * l;
     double ur_down = -sqrt((energy2 - 1) / irr); /* inwards; k_theta^2 = eta at the equator */
     double null = -itt + 2 * itp * lambda - ipp * lambda * lambda - eta / (r * r);
     double kr_down = sign * sqrt(null / irr);

@@ -3,13 +3,14 @@
 
     python3 tests/oracle/critical_reference.py > tests/oracle/critical_reference.h          (needs mpmath; some minutes)
 
-No formula of spherical photon orbits is used. A point of the curve is where, along a line in the image plane, the least value
-of the radial potential R(r) = (r^2 + a^2 - a lambda)^2 - Delta (eta + (lambda - a)^2) outside the horizon passes through
-zero. The exponents are quadratures over one half oscillation in latitude, of the equations of motion in Mino time, with R'' by
-differences. The edge of a band of order n is where the time to the n-th crossing of the plane, by quadrature in the latitude,
-is that to reach the source radius, by quadrature in r between the roots of R. Distances from the curve down to 1e-14 need no care:
-the working precision is 60 digits.
+No formula of spherical photon orbits is used. A point of the curve is where, along a line in the image plane, the least
+value of the radial potential R(r) = (r^2 + a^2 - a lambda)^2 - Delta (eta + (lambda - a)^2) outside the horizon passes
+through zero. The exponents are quadratures over one half oscillation in latitude, of the equations of motion in Mino
+time, with R'' by differences. The edge of a band of order n is where the time to the n-th crossing of the plane, by
+quadrature in the latitude, is that to reach the source radius, by quadrature in r between the roots of R. Distances
+from the curve down to 1e-14 need no care: the working precision is 60 digits.
 """
+
 from mpmath import mp, mpf, sqrt, quad, findroot, polyroots, asinh, sinh, cos, sin, pi, inf, diff, atan2
 
 mp.dps = 60
@@ -21,19 +22,19 @@ def constants(a, u, alpha, beta):
 
 
 def potential(a, lam, eta):
-    return lambda r: (r * r + a * a - a * lam)**2 - (r * r - 2 * r + a * a) * (eta + (lam - a)**2)
+    return lambda r: (r * r + a * a - a * lam) ** 2 - (r * r - 2 * r + a * a) * (eta + (lam - a) ** 2)
 
 
 def lowest(a, lam, eta):
     """r and R(r) at the outermost minimum: R' = 4r^3 + 2Ar + 2K by Newton's method from outside."""
-    A, K = a * a - eta - lam * lam, eta + (lam - a)**2
+    A, K = a * a - eta - lam * lam, eta + (lam - a) ** 2
     r = mpf(12)
     for _ in range(200):
         step = (4 * r**3 + 2 * A * r + 2 * K) / (12 * r * r + 2 * A)
         r -= step
-        if abs(step) < mpf(10)**(5 - mp.dps):
+        if abs(step) < mpf(10) ** (5 - mp.dps):
             break
-    return (r, potential(a, lam, eta)(r)) if r > 1 else (r, mpf(1)) # no minimum outside: nothing turns the ray
+    return (r, potential(a, lam, eta)(r)) if r > 1 else (r, mpf(1))  # no minimum outside: nothing turns the ray
 
 
 def on_line(a, u, start, direction, bound):
@@ -43,7 +44,7 @@ def on_line(a, u, start, direction, bound):
     while high - low > mpf(1) / 1000:
         middle = (low + high) / 2
         low, high = (middle, high) if value(middle) > 0 else (low, middle)
-    return findroot(value, (low, high), solver="anderson", tol=mpf(10)**(-90))
+    return findroot(value, (low, high), solver="anderson", tol=mpf(10) ** (-90))
 
 
 class Curve:
@@ -70,10 +71,11 @@ def exponents(a, lam, eta):
     z = 2 * eta / (-A + sqrt(A * A + 4 * a * a * eta))
     n = eta / z
 
-    def over(f): # the half oscillation, u = sqrt(z) sin x
-        return 2 * quad(lambda x: f(z * sin(x)**2) / sqrt(n + a * a * z * sin(x)**2), mp.linspace(0, pi / 2, 5))
+    def over(f):  # the half oscillation, u = sqrt(z) sin x
+        return 2 * quad(lambda x: f(z * sin(x) ** 2) / sqrt(n + a * a * z * sin(x) ** 2), mp.linspace(0, pi / 2, 5))
+
     mino = over(lambda v: mpf(1))
-    about = over(lambda v: lam / (1 - v)) if lam != 0 else pi # over the axis: the limit lambda -> 0+
+    about = over(lambda v: lam / (1 - v)) if lam != 0 else pi  # over the axis: the limit lambda -> 0+
     azimuth = about + a * ((r * r + a * a - a * lam) / delta - 1) * mino
     time = over(lambda v: a * (lam - a * (1 - v))) + (r * r + a * a) * (r * r + a * a - a * lam) / delta * mino
     return r, mino, sqrt(bend) * mino, azimuth, time
@@ -84,7 +86,7 @@ def polar_time(a, u, alpha, beta, order):
     A = a * a - eta - lam * lam
     z = 2 * eta / (-A + sqrt(A * A + 4 * a * a * eta))
     n = eta / z
-    f = lambda x: 1 / sqrt(n + a * a * z * sin(x)**2)
+    f = lambda x: 1 / sqrt(n + a * a * z * sin(x) ** 2)
     quarter, start = quad(f, [0, pi / 4, pi / 2]), quad(f, [0, mp.asin(u / sqrt(z))])
     return 2 * order * quarter + (start if beta < 0 else 2 * quarter - start)
 
@@ -92,20 +94,20 @@ def polar_time(a, u, alpha, beta, order):
 def radial_time(a, u, alpha, beta, source):
     """From infinity to the source radius: straight in if nothing turns the ray, else on the way out again."""
     lam, eta = constants(a, u, alpha, beta)
-    A, K = a * a - eta - lam * lam, eta + (lam - a)**2
+    A, K = a * a - eta - lam * lam, eta + (lam - a) ** 2
     roots = polyroots([1, 0, A, 2 * K, -a * a * eta], maxsteps=500, extraprec=400)
-    real = sorted(mp.re(x) for x in roots if abs(mp.im(x)) < mpf(10)**(-45))
-    pieces = list(range(0, 80, 4)) + [120, 160] # the integrand falls as exp(-t) from |t| = ln(1/distance) on
-    if len(real) == 4 and real[3] > 1 + sqrt(1 - a * a): # r = r4 + r43 sinh^2 t
+    real = sorted(mp.re(x) for x in roots if abs(mp.im(x)) < mpf(10) ** (-45))
+    pieces = list(range(0, 80, 4)) + [120, 160]  # the integrand falls as exp(-t) from |t| = ln(1/distance) on
+    if len(real) == 4 and real[3] > 1 + sqrt(1 - a * a):  # r = r4 + r43 sinh^2 t
         r1, r2, r3, r4 = real
-        leg = lambda t: 2 / sqrt((r4 + (r4 - r3) * sinh(t)**2 - r1) * (r4 + (r4 - r3) * sinh(t)**2 - r2))
+        leg = lambda t: 2 / sqrt((r4 + (r4 - r3) * sinh(t) ** 2 - r1) * (r4 + (r4 - r3) * sinh(t) ** 2 - r2))
         out = sum(quad(leg, [x, y]) for x, y in zip(pieces, pieces[1:]))
         if source == inf:
             return 2 * out
         return out + quad(leg, mp.linspace(0, asinh(sqrt((source - r4) / (r4 - r3))), 12))
-    pair = [x for x in roots if mp.im(x) > mpf(10)**(-45)]
+    pair = [x for x in roots if mp.im(x) > mpf(10) ** (-45)]
     assert len(pair) == 1, roots
-    m, v = mp.re(pair[0]), mp.im(pair[0]) # r = m + v sinh t
+    m, v = mp.re(pair[0]), mp.im(pair[0])  # r = m + v sinh t
     r1, r2 = real
     leg = lambda t: 1 / sqrt((m + v * sinh(t) - r1) * (m + v * sinh(t) - r2))
     begin = asinh((source - m) / v)
@@ -114,12 +116,14 @@ def radial_time(a, u, alpha, beta, source):
 
 def edge(curve, angle, rho, order, source, guess):
     """delta, where rho (1 + delta) is the edge."""
+
     def late(s):
         point = curve.point(angle, rho * (1 + (1 if guess > 0 else -1) * mp.e**s))
         return polar_time(curve.a, curve.u, *point, order) - radial_time(curve.a, curve.u, *point, source)
+
     before = mp.log(abs(guess))
     s, f = before + mpf(1) / 8, late(before)
-    while abs(s - before) > mpf(10)**(-25): # secants: time is all but linear in the logarithm
+    while abs(s - before) > mpf(10) ** (-25):  # secants: time is all but linear in the logarithm
         g = late(s)
         before, s, f = s, s - g * (s - before) / (g - f), g
     return (1 if guess > 0 else -1) * mp.e**s
@@ -134,19 +138,41 @@ def cosine(degrees):
 
 
 # spin, inclination, angles in degrees
-CURVES = [(0.0, 0, (40,)), (0.0, 60, (40, 80, 150)), (1e-9, 60, (20, 135)), (0.3, 1, (10, 100)), (0.5, 45, (45, 120, 170)),
-          (0.9, 0, (30,)), (0.9, 60, (1, 60, 135, 179)), (0.9, 90, (30, 120)), (0.998, 30, (60, 160)), (0.998, 90, (10, 90, 160)),
-          (1 - 1e-12, 17, (50, 170)), (1 - 1e-12, 90, (20, 110, 170))]
+CURVES = [
+    (0.0, 0, (40,)),
+    (0.0, 60, (40, 80, 150)),
+    (1e-9, 60, (20, 135)),
+    (0.3, 1, (10, 100)),
+    (0.5, 45, (45, 120, 170)),
+    (0.9, 0, (30,)),
+    (0.9, 60, (1, 60, 135, 179)),
+    (0.9, 90, (30, 120)),
+    (0.998, 30, (60, 160)),
+    (0.998, 90, (10, 90, 160)),
+    (1 - 1e-12, 17, (50, 170)),
+    (1 - 1e-12, 90, (20, 110, 170)),
+]
 # spin, inclination, angle, orders
-BANDS = [(0.0, 0, 90, (1, 2, 3, 6, 8)), (0.0, 60, -30, (1, 2, 6)), (0.9, 60, 20, (1, 4, 8)), (0.9, 60, 160, (1, 2, 6, 8)),
-         (0.9, 60, -100, (1, 3, 6)), (0.998, 80, 170, (2, 6)), (1 - 1e-6, 60, 160, (2, 6))]
+BANDS = [
+    (0.0, 0, 90, (1, 2, 3, 6, 8)),
+    (0.0, 60, -30, (1, 2, 6)),
+    (0.9, 60, 20, (1, 4, 8)),
+    (0.9, 60, 160, (1, 2, 6, 8)),
+    (0.9, 60, -100, (1, 3, 6)),
+    (0.998, 80, 170, (2, 6)),
+    (1 - 1e-6, 60, 160, (2, 6)),
+]
 
 
 def main():
-    print("/* Made by tests/oracle/critical_reference.py; do not edit. Critical curve, exponents and lensing bands of Kerr. */")
+    print(
+        "/* Made by tests/oracle/critical_reference.py; do not edit. Critical curve, exponents and lensing bands of Kerr. */"
+    )
     print("#ifndef KD_TESTS_CRITICAL_REFERENCE_H\n#define KD_TESTS_CRITICAL_REFERENCE_H\n\n#include <math.h>\n")
-    print("/* Angle in degrees about the centre; delta and tau per half orbit. */\n"
-          "struct critical_reference {\n    double spin, cos_theta, left, right, angle, rho, r, mino, gamma, delta, tau;\n};\n")
+    print(
+        "/* Angle in degrees about the centre; delta and tau per half orbit. */\n"
+        "struct critical_reference {\n    double spin, cos_theta, left, right, angle, rho, r, mino, gamma, delta, tau;\n};\n"
+    )
     print("static const struct critical_reference critical_reference[] = {")
     kept = {}
     for a, i, angles in CURVES:
@@ -156,10 +182,18 @@ def main():
             rho = curve.rho(angle)
             row = exponents(curve.a, *constants(curve.a, curve.u, *curve.point(angle, rho)))
             values = [curve.left, curve.right, degrees, rho, *row]
-            print(f"    {{ {float(a).hex()}, {float(curve.u).hex()}, /* a = {a!r}, i = {i} */\n      "
-                  + ", ".join(map(number, values[:5])) + ",\n      " + ", ".join(map(number, values[5:])) + " },", flush=True)
-    print("};\n\n/* Edges of band `order`: distance from the curve over rho of it; of the image of `source`. */\n"
-          "struct band_reference {\n    double spin, cos_theta, angle;\n    int order;\n    double source, distance;\n};\n")
+            print(
+                f"    {{ {float(a).hex()}, {float(curve.u).hex()}, /* a = {a!r}, i = {i} */\n      "
+                + ", ".join(map(number, values[:5]))
+                + ",\n      "
+                + ", ".join(map(number, values[5:]))
+                + " },",
+                flush=True,
+            )
+    print(
+        "};\n\n/* Edges of band `order`: distance from the curve over rho of it; of the image of `source`. */\n"
+        "struct band_reference {\n    double spin, cos_theta, angle;\n    int order;\n    double source, distance;\n};\n"
+    )
     print("static const struct band_reference band_reference[] = {")
     for a, i, degrees, orders in BANDS:
         curve = kept.get((a, i)) or Curve(a, cosine(i))
@@ -169,7 +203,7 @@ def main():
         for source in (float(1 + sqrt(1 - curve.a**2)), 6.0, inf):
             guess = mpf(-0.8) if source < 3 else mpf(4 if source == inf else 1)
             for order in orders:
-                first = min(guess * mp.e**(-gamma * order), mpf("0.1"))
+                first = min(guess * mp.e ** (-gamma * order), mpf("0.1"))
                 value = edge(curve, angle, rho, order, mpf(source), first)
                 head = f"{float(a).hex()}, {float(curve.u).hex()}, {degrees}, {order}"
                 far = "INFINITY" if source == inf else repr(source)

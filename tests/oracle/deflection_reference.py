@@ -7,13 +7,14 @@ From the metric alone: dphi/dr is the ratio of two components of g^-1 p with p =
 largest root of g^-1 p p = 0 at p_r = 0, and the angle twice the integral from there to infinity less pi, by quadrature
 to 40 digits. The critical b is where that root is double, by bisection on the radius.
 """
+
 from mpmath import mp, mpf, pi, polyroots, quad, sqrt
 
 from kerr_reference import c, metric
 
 mp.dps = 50
 SPINS = [0.0, 0.5, -0.5, 0.9, -0.9, 0.99, 0.9999, -0.9999]
-EXCESS = [1e-9, 1e-6, 1e-3, 0.1, 0.9]        # b over the critical one, less 1
+EXCESS = [1e-9, 1e-6, 1e-3, 0.1, 0.9]  # b over the critical one, less 1
 FAR = [12.0, 19.5, 20.5, 30.0, 1e3, 1e6, 1e12]
 
 
@@ -31,8 +32,9 @@ def impact(a, r):
 
 
 def critical(a):
-    """The smallest b that turns, by golden section over its radius: the minimum is flat, b is good to twice its digits."""
-    low, high, golden = 1 + sqrt(1 - a * a) + mpf(10)**-9, mpf(6), (sqrt(mpf(5)) - 1) / 2
+    """The smallest b that turns, by golden section over its radius: the minimum is flat, b is good to twice its
+    digits."""
+    low, high, golden = 1 + sqrt(1 - a * a) + mpf(10) ** -9, mpf(6), (sqrt(mpf(5)) - 1) / 2
     for _ in range(130):
         x, y = high - golden * (high - low), low + golden * (high - low)
         if impact(a, x) < impact(a, y):
@@ -45,25 +47,28 @@ def critical(a):
 def bending(a, b):
     """And the closest approach."""
     # r^3 times the radial equation, written out: r^3 + (a^2 - b^2) r + 2 (a - b)^2
-    r0 = max((x.real for x in polyroots([1, 0, a * a - b * b, 2 * (a - b)**2], maxsteps=200, extraprec=200)))
+    r0 = max((x.real for x in polyroots([1, 0, a * a - b * b, 2 * (a - b) ** 2], maxsteps=200, extraprec=200)))
     tt, tp, pp, _ = inverse(a, r0)
-    assert abs(tt - 2 * b * tp + b * b * pp) < mpf(10)**-25 * abs(tt)
+    assert abs(tt - 2 * b * tp + b * b * pp) < mpf(10) ** -25 * abs(tt)
 
     def rate(x):
         """dphi/dx, r = r0/(1 - x^2): the root at the turning point is gone."""
         r = r0 / (1 - x * x)
         tt, tp, pp, rr = inverse(a, r)
         radial = -(tt - 2 * b * tp + b * b * pp) * rr
-        return (b * pp - tp) / sqrt(radial) * 2 * x * r0 / (1 - x * x)**2
+        return (b * pp - tp) / sqrt(radial) * 2 * x * r0 / (1 - x * x) ** 2
+
     # close to the critical ray all happens near x = 0
-    edges = [mpf(0)] + [mpf(10)**-k for k in range(5, 0, -1)] + [mpf("0.4"), mpf("0.7"), mpf(1)]
+    edges = [mpf(0)] + [mpf(10) ** -k for k in range(5, 0, -1)] + [mpf("0.4"), mpf("0.7"), mpf(1)]
     return 2 * quad(rate, edges, method="gauss-legendre") - pi, r0
 
 
 def main():
     print("/* Made by tests/oracle/deflection_reference.py; do not edit. Quadrature from the metric. */")
     print("#ifndef KD_TESTS_DEFLECTION_REFERENCE_H\n#define KD_TESTS_DEFLECTION_REFERENCE_H\n")
-    print("struct critical_reference { double a, b; };\nstruct bending_reference { double a, b, excess, angle, closest; };\n")
+    print(
+        "struct critical_reference { double a, b; };\nstruct bending_reference { double a, b, excess, angle, closest; };\n"
+    )
     limits = {a: critical(mpf(a)) for a in SPINS}
     print("static const struct critical_reference critical_reference[] = {")
     for a in SPINS:

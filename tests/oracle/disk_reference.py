@@ -7,9 +7,10 @@ Flux: the defining integral of Page & Thorne 1974 (eqs 11b and 12), by quadratur
 
     F/Mdot = 1/(4 pi r)  (-dW/dr) (E - W L)^-2  Integral from ISCO to r of (E - W L) dL/dr dr
 
-Their closed form 15n is nowhere used. Peak: where this flux has no slope, by bisection. Temperature: in cgs units, from G
-and the mass of the sun in grams instead of their product.
+Their closed form 15n is nowhere used. Peak: where this flux has no slope, by bisection. Temperature: in cgs units, from
+G and the mass of the sun in grams instead of their product.
 """
+
 from mpmath import findroot, mp, mpf, pi, quad
 
 from kerr_reference import c, metric, orbit, orbits
@@ -32,18 +33,24 @@ def flux(a, r, isco):
     def share(x):
         w, energy, momentum, _ = orbit(a, x)
         return (energy - w * momentum) * slopes(a, x)[1]
+
     # in ln r, in pieces: the integrand turns quickly near the ISCO and slowly far out
-    edges = [isco * (r / isco)**(mpf(i) / 4) for i in range(5)]
-    total = quad(lambda y: share(mp.e**y) * mp.e**y, [mp.log(x) for x in edges], method='gauss-legendre')
+    edges = [isco * (r / isco) ** (mpf(i) / 4) for i in range(5)]
+    total = quad(lambda y: share(mp.e**y) * mp.e**y, [mp.log(x) for x in edges], method="gauss-legendre")
     w, energy, momentum, _ = orbit(a, r)
-    return -slopes(a, r)[0] / (energy - w * momentum)**2 * total / (4 * pi * r)
+    return -slopes(a, r)[0] / (energy - w * momentum) ** 2 * total / (4 * pi * r)
 
 
 def peak(a, isco):
     """The slope by differences, to some 1e-16 of the radius."""
-    f, h = lambda r: flux(a, r, isco), mpf(10)**-9
-    top = findroot(lambda r: f(r * (1 + h)) / f(r * (1 - h)) - 1, (isco * mpf("1.15"), isco * mpf("2.1")), solver="anderson", tol=mpf(10)**-28,
-                   verify=False)
+    f, h = lambda r: flux(a, r, isco), mpf(10) ** -9
+    top = findroot(
+        lambda r: f(r * (1 + h)) / f(r * (1 - h)) - 1,
+        (isco * mpf("1.15"), isco * mpf("2.1")),
+        solver="anderson",
+        tol=mpf(10) ** -28,
+        verify=False,
+    )
     return top, flux(a, top, isco)
 
 
@@ -55,7 +62,7 @@ def temperature(a, r, mass, mdot):
     eddington = 4 * pi * G * mass * sun * proton * light / thomson  # erg/s
     rate = mdot * eddington / ((1 - orbit(a, isco)[1]) * light**2)  # g/s
     length = G * mass * sun / light**2
-    return (flux(a, r, isco) * rate * light**2 / length**2 / stefan)**mpf("0.25")
+    return (flux(a, r, isco) * rate * light**2 / length**2 / stefan) ** mpf("0.25")
 
 
 def main():

@@ -3,11 +3,12 @@
 
     python3 tests/oracle/equator_reference.py > tests/oracle/equator_reference.h      (needs mpmath)
 
-None of the formulas that kerrd uses: epicyclic frequencies from the second derivatives of Carter's radial and polar potentials
-at the circular orbit, over u^t; the effective potential as the root of g^ab p_a p_b = -mu^2 with the metric inverted
-numerically; its extrema where its derivative (by differences in 60 digits) changes sign; frame dragging and the cone of light
-from the metric at any polar angle.
+None of the formulas that kerrd uses: epicyclic frequencies from the second derivatives of Carter's radial and polar
+potentials at the circular orbit, over u^t; the effective potential as the root of g^ab p_a p_b = -mu^2 with the metric
+inverted numerically; its extrema where its derivative (by differences in 60 digits) changes sign; frame dragging and
+the cone of light from the metric at any polar angle.
 """
+
 from mpmath import diff, matrix, mp, mpf, sqrt
 
 from kerr_reference import SPINS, c, curvature, metric, orbit, orbits
@@ -25,7 +26,7 @@ def epicyclic(a, r):
 
 def potential(a, momentum, mu2, r):
     tt, tp, pp = metric(a, r)[0]
-    up = matrix([[tt, tp], [tp, pp]])**-1
+    up = matrix([[tt, tp], [tp, pp]]) ** -1
     # up_tt E^2 - 2 up_tp E L + up_pp L^2 + mu2 = 0
     half, rest = up[0, 1] * momentum, up[1, 1] * momentum**2 + mu2
     return (half - sqrt(half**2 - up[0, 0] * rest)) / up[0, 0]
@@ -33,9 +34,9 @@ def potential(a, momentum, mu2, r):
 
 def turning(f, low, high, sign):
     """Where the slope of f changes from sign to -sign."""
-    while high - low > mpf(10)**-28 * high:
+    while high - low > mpf(10) ** -28 * high:
         middle = (low + high) / 2
-        if sign * diff(f, middle, h=mpf(10)**-30) > 0:
+        if sign * diff(f, middle, h=mpf(10) ** -30) > 0:
             low = middle
         else:
             high = middle
@@ -79,15 +80,30 @@ def main():
     rows = []
     for spin in (-0.9, 0.0, 0.5, 0.998, 1 - 1e-12):
         for momentum in (-6.0, 0.0, 2.5, 40.0):
-            horizon = 1 + sqrt(1 - mpf(spin)**2)
-            for r in (float(horizon * (1 + mpf(10)**-6)), 2.5, 10.0, 1e5):
+            horizon = 1 + sqrt(1 - mpf(spin) ** 2)
+            for r in (float(horizon * (1 + mpf(10) ** -6)), 2.5, 10.0, 1e5):
                 rows.append(((spin, momentum, r), [potential(mpf(spin), mpf(momentum), mu2, mpf(r)) for mu2 in (1, 0)]))
     table("potential_reference", "potential_reference", ["a", "l", "r", "matter", "light"], rows)
-    rows = [((spin, momentum), extrema(mpf(spin), mpf(momentum)))
-            for spin, momentum in ((0.0, 4.0), (0.0, -3.75), (0.5, 3.0), (0.5, -5.0), (-0.9, 5.0), (0.998, 1.5), (0.998, 20.0),
-                                   (1 - 1e-12, 1.25), (0.9, -1000.0))]
-    table("extrema_reference", "extrema_reference",
-          ["a", "l", "r_max", "v_max", "r_min", "v_min", "r_light", "v_light"], rows)
+    rows = [
+        ((spin, momentum), extrema(mpf(spin), mpf(momentum)))
+        for spin, momentum in (
+            (0.0, 4.0),
+            (0.0, -3.75),
+            (0.5, 3.0),
+            (0.5, -5.0),
+            (-0.9, 5.0),
+            (0.998, 1.5),
+            (0.998, 20.0),
+            (1 - 1e-12, 1.25),
+            (0.9, -1000.0),
+        )
+    ]
+    table(
+        "extrema_reference",
+        "extrema_reference",
+        ["a", "l", "r_max", "v_max", "r_min", "v_min", "r_light", "v_light"],
+        rows,
+    )
     rows = []
     for spin in (-0.9, 1e-9, 0.5, 0.998, 1 - 1e-12):
         for r in (2.25, 10.0, 1e6):

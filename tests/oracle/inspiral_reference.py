@@ -3,22 +3,31 @@
 
     python3 tests/oracle/inspiral_reference.py > tests/oracle/inspiral_reference.h      (needs mpmath)
 
-From the two rates alone (Peters 1964, eqs 5.6 and 5.7, which tests/unit/physics_inspiral.c derives anew): ln a along the
-way down in e is the integral of their ratio, by quadrature, and so is the time. Neither a(e) nor T in closed form is used.
+From the two rates alone (Peters 1964, eqs 5.6 and 5.7, which tests/unit/physics_inspiral.c derives anew): ln a along
+the way down in e is the integral of their ratio, by quadrature, and so is the time. Neither a(e) nor T in closed form
+is used.
 """
+
 from mpmath import exp, log, mp, mpf, nstr
 from mpmath.calculus.quadrature import GaussLegendre
 
 mp.dps = 25
-CASES = [(0.25, 100.0, 1e-3), (0.25, 100.0, 0.1), (0.25, 1e4, 0.5), (0.2, 1e6, 0.9), (0.01, 50.0, 0.99), (0.1, 1e5, 0.9999)]
+CASES = [
+    (0.25, 100.0, 1e-3),
+    (0.25, 100.0, 0.1),
+    (0.25, 1e4, 0.5),
+    (0.2, 1e6, 0.9),
+    (0.01, 50.0, 0.99),
+    (0.1, 1e5, 0.9999),
+]
 
 
 def axis_rate(a, e):
-    return -mpf(64) / 5 / a**3 / (1 - e * e)**3.5 * (1 + mpf(73) / 24 * e**2 + mpf(37) / 96 * e**4)
+    return -mpf(64) / 5 / a**3 / (1 - e * e) ** 3.5 * (1 + mpf(73) / 24 * e**2 + mpf(37) / 96 * e**4)
 
 
 def eccentricity_rate(a, e):
-    return -mpf(304) / 15 * e / a**4 / (1 - e * e)**2.5 * (1 + mpf(121) / 304 * e**2)
+    return -mpf(304) / 15 * e / a**4 / (1 - e * e) ** 2.5 * (1 + mpf(121) / 304 * e**2)
 
 
 NODES = [(x, w) for x, w in GaussLegendre(mp).calc_nodes(4, 120)]  # 24 points a piece
@@ -43,11 +52,13 @@ def time(eta, a0, e0):
 
     total, fallen, edges = mpf(0), mpf(0), pieces(e0)
     for low, high in reversed(list(zip(edges, edges[1:]))):
+
         def speed(x):
             """dt/dx, e = x^19: powers of e in 19ths are smooth then."""
             e = x**19
             lna = log(a0) - fallen - gauss(slope, e, high) + mpf(12) / 19 * log(e / e0)
             return -19 * x**18 / eccentricity_rate(exp(lna), e)
+
         root = mpf(1) / 19
         start, width = low**root, (high**root - low**root) / 4
         total += sum(gauss(speed, start + k * width, start + (k + 1) * width) for k in range(4))

@@ -4,11 +4,12 @@
     python3 tests/oracle/kerr_reference.py > tests/oracle/kerr_reference.h      (needs mpmath)
 
 Nothing here is a formula of Bardeen, Press & Teukolsky. Everything follows from the metric alone: the angular velocity
-from the geodesic equation of a circle (the r-derivative of the metric contracted with u vanishes), u^t from u.u = -1, the
-photon orbit where u.u = 0, the marginally bound orbit where -u_t = 1, and the ISCO where the radial potential
-R = (E(r^2 + a^2) - aL)^2 - Delta (r^2 + (L - aE)^2) has R = R' = R'' = 0. Roots by bisection on a sign, so that a
-triple root near a = 1 costs digits of nothing but the working precision.
+from the geodesic equation of a circle (the r-derivative of the metric contracted with u vanishes), u^t from u.u = -1,
+the photon orbit where u.u = 0, the marginally bound orbit where -u_t = 1, and the ISCO where the radial potential R =
+(E(r^2 + a^2) - aL)^2 - Delta (r^2 + (L - aE)^2) has R = R' = R'' = 0. Roots by bisection on a sign, so that a triple
+root near a = 1 costs digits of nothing but the working precision.
 """
+
 from mpmath import mp, mpf, sqrt
 
 mp.dps = 60
@@ -17,8 +18,10 @@ SPINS = [-(1 - 1e-12), -0.998, -0.9, -0.5, -2e-4, -1e-9, 0.0, 1e-9, 2e-4, 0.5, 0
 
 def metric(a, r):
     """g_tt, g_tphi, g_phiphi in the plane, and their r-derivatives (Boyer-Lindquist)."""
-    return ((-1 + 2 / r, -2 * a / r, r * r + a * a + 2 * a * a / r),
-            (-2 / r**2, 2 * a / r**2, 2 * r - 2 * a * a / r**2))
+    return (
+        (-1 + 2 / r, -2 * a / r, r * r + a * a + 2 * a * a / r),
+        (-2 / r**2, 2 * a / r**2, 2 * r - 2 * a * a / r**2),
+    )
 
 
 def omega(a, r):
@@ -43,16 +46,19 @@ def orbit(a, r):
 
 def curvature(a, r, energy, momentum):
     """R, R', R'' of the radial potential as a polynomial c4 r^4 + 2 r^3 + c2 r^2 + c1 r."""
-    k = (momentum - a * energy)**2
+    k = (momentum - a * energy) ** 2
     c4, c2, c1 = energy**2 - 1, a * a * (energy**2 - 1) - momentum**2, 2 * k
-    return (c4 * r**4 + 2 * r**3 + c2 * r**2 + c1 * r, 4 * c4 * r**3 + 6 * r**2 + 2 * c2 * r + c1,
-            12 * c4 * r**2 + 12 * r + 2 * c2)
+    return (
+        c4 * r**4 + 2 * r**3 + c2 * r**2 + c1 * r,
+        4 * c4 * r**3 + 6 * r**2 + 2 * c2 * r + c1,
+        12 * c4 * r**2 + 12 * r + 2 * c2,
+    )
 
 
 def bisect(f, low, high):
     """Where f changes from positive (low side) to negative."""
     assert f(high) < 0, (low, high)
-    while (high - low) > mpf(10)**(15 - mp.dps) * high:
+    while (high - low) > mpf(10) ** (15 - mp.dps) * high:
         middle = (low + high) / 2
         if f(middle) > 0:
             low = middle
@@ -68,7 +74,7 @@ def orbits(a):
     bound = bisect(lambda r: orbit(a, r)[1] - 1, photon, mpf(20))
     isco = bisect(lambda r: curvature(a, r, *orbit(a, r)[1:3])[2], photon, mpf(20))
     residual = curvature(a, isco, *orbit(a, isco)[1:3])
-    assert max(abs(x) for x in residual) < mpf(10)**(25 - mp.dps), residual
+    assert max(abs(x) for x in residual) < mpf(10) ** (25 - mp.dps), residual
     return photon, bound, isco
 
 
@@ -77,9 +83,13 @@ def c(x):
 
 
 def main():
-    print("/* Made by tests/oracle/kerr_reference.py; do not edit. Circular equatorial orbits from the metric alone. */")
+    print(
+        "/* Made by tests/oracle/kerr_reference.py; do not edit. Circular equatorial orbits from the metric alone. */"
+    )
     print("#ifndef KD_TESTS_KERR_REFERENCE_H\n#define KD_TESTS_KERR_REFERENCE_H\n")
-    print("struct kerr_reference { double a, horizon, photon, bound, isco, isco_energy, isco_momentum, isco_omega; };\n")
+    print(
+        "struct kerr_reference { double a, horizon, photon, bound, isco, isco_energy, isco_momentum, isco_omega; };\n"
+    )
     print("static const struct kerr_reference kerr_reference[] = {")
     for spin in SPINS:
         a = mpf(spin)

@@ -14,7 +14,8 @@ static double radius(double a, const double *x)
     return sqrt(rho2 > 0 ? 0.5 * (rho2 + root) : 2 * a * a * x[2] * x[2] / (root - rho2));
 }
 
-/* H = (p.p - E^2 - f (E + l.p)^2)/2, f = 2r^3/(r^4 + a^2 z^2), l = ((rx + ay)/(r^2 + a^2), (ry - ax)/(r^2 + a^2), z/r). */
+/* H = (p.p - E^2 - f (E + l.p)^2)/2, f = 2r^3/(r^4 + a^2 z^2), l = ((rx + ay)/(r^2 + a^2), (ry - ax)/(r^2 + a^2),
+ * z/r). */
 static void derivative(const struct system *s, const double *y, double *d)
 {
     double a = s->a, x = y[0], yy = y[1], z = y[2], px = y[3], py = y[4], pz = y[5];
@@ -160,8 +161,9 @@ static void land(const struct system *s, const double *y, double h, double *out)
     }
 }
 
-/* Follows the Hamiltonian flow from y. mirrored: azimuth and time run the other way, and the horizon is reached in finite parameter.
- * Otherwise it is that in the past, at which these coordinates stall and momenta grow without end, and the start may lie within the other. */
+/* Follows the Hamiltonian flow from y. mirrored: azimuth and time run the other way, and the horizon is reached in
+ * finite parameter. Otherwise it is that in the past, at which these coordinates stall and momenta grow without end,
+ * and the start may lie within the other. */
 static struct ks_path run(const struct system s, state y, bool mirrored, int max_crossings)
 {
     struct ks_path path = { .fate = KS_UNDECIDED };
@@ -193,7 +195,8 @@ static struct ks_path run(const struct system s, state y, bool mirrored, int max
         }
         memcpy(y, next, sizeof next);
         r = radius(s.a, y);
-        bool falls = mirrored ? r < horizon * (1 + 1e-9) : fabs(r / horizon - 1) < 1e-3 && v > 1e6 * (1 + fabs(s.energy));
+        bool falls =
+            mirrored ? r < horizon * (1 + 1e-9) : fabs(r / horizon - 1) < 1e-3 && v > 1e6 * (1 + fabs(s.energy));
         if (falls || path.crossings >= max_crossings) {
             path.fate = falls ? KS_CAPTURED : KS_UNDECIDED;
             return path;
@@ -282,16 +285,24 @@ struct ks_photon ks_from_camera(double a, double r, double theta, bool zamo, con
     for (int i = 0; i < 4; i++)
         for (int j = 0; j < 4; j++)
             low[i] += g[i][j] * p[j];
-    return (struct ks_photon){ a, r, c, -low[0], low[3], low[1], low[2], 0, 0 };
+    return (struct ks_photon) { a, r, c, -low[0], low[3], low[1], low[2], 0, 0 };
 }
 
-struct along { struct system system; const struct ks_photon *photon; double inner, outer; ks_medium *medium; void *user; struct ks_light sum; };
+struct along {
+    struct system system;
+    const struct ks_photon *photon;
+    double inner, outer;
+    ks_medium *medium;
+    void *user;
+    struct ks_light sum;
+};
 
 static void medium_at(const struct along *w, const double *from, double t, double out[2])
 {
     state y;
     extrapolate(&w->system, from, t, y);
-    const double a = w->system.a, r = radius(a, y), u = y[2] / r, s = sqrt((1 - u) * (1 + u)), q = r * r + a * a, delta = r * r - 2 * r + a * a;
+    const double a = w->system.a, r = radius(a, y), u = y[2] / r, s = sqrt((1 - u) * (1 + u)), q = r * r + a * a,
+                 delta = r * r - 2 * r + a * a;
     /* Traced back it is mirrored; t and phi of ingoing Kerr-Schild coordinates grow with r by 2r/Delta and a/Delta. */
     const double p_r = ((r * y[0] + a * y[1]) * y[3] + (r * y[1] - a * y[0]) * y[4]) / q + u * y[5];
     struct ks_photon at = *w->photon;
@@ -310,7 +321,8 @@ static void add_stretch(struct along *w, const double *from, double t0, double t
     medium_at(w, from, t0, a);
     medium_at(w, from, 0.5 * (t0 + t1), b);
     medium_at(w, from, t1, c);
-    double middle = w->sum.depth + h * (5 * a[1] + 8 * b[1] - c[1]) / 24, end = w->sum.depth + h * (a[1] + 4 * b[1] + c[1]) / 6;
+    double middle = w->sum.depth + h * (5 * a[1] + 8 * b[1] - c[1]) / 24,
+           end = w->sum.depth + h * (a[1] + 4 * b[1] + c[1]) / 6;
     w->sum.light += h / 6 * (a[0] * exp(-w->sum.depth) + 4 * b[0] * exp(-middle) + c[0] * exp(-end));
     w->sum.depth = end;
     w->sum.length += h;
@@ -340,7 +352,8 @@ static void add_inside(struct along *w, const double *from, double t0, double t1
         add_stretch(w, from, first ? t0 : high, first ? low : t1);
 }
 
-struct ks_light ks_along(struct ks_photon photon, double inner, double outer, bool to_plane, ks_medium *medium, void *user)
+struct ks_light ks_along(struct ks_photon photon, double inner, double outer, bool to_plane, ks_medium *medium,
+                         void *user)
 {
     enum { PARTS = 16 };
     struct along w = { { photon.a, photon.energy }, &photon, inner, outer, medium, user, { 0 } };
@@ -381,8 +394,11 @@ struct target { double at[3], f, l[3]; };
 /* Azimuths are mirrored, as of the path. */
 static struct target target_of(double a, double r, double u, double phi)
 {
-    const double psi = -phi + atan2(a, r) - twist(a, r), s = sqrt((1 - u) * (1 + u)) * sqrt(r * r + a * a), x = s * cos(psi), y = s * sin(psi), q = r * r + a * a;
-    return (struct target) { { x, y, r * u }, 2 * r * r * r / (r * r * r * r + a * a * r * r * u * u), { (r * x + a * y) / q, (r * y - a * x) / q, u } };
+    const double psi = -phi + atan2(a, r) - twist(a, r), s = sqrt((1 - u) * (1 + u)) * sqrt(r * r + a * a),
+                 x = s * cos(psi), y = s * sin(psi), q = r * r + a * a;
+    return (struct target) { { x, y, r * u },
+                             2 * r * r * r / (r * r * r * r + a * a * r * r * u * u),
+                             { (r * x + a * y) / q, (r * y - a * x) / q, u } };
 }
 
 /* Which way it goes there: below 0 towards it. */
@@ -403,7 +419,8 @@ static struct ks_near near_of(const struct system *s, const struct target *c, co
         x2 += d * d;
         along += c->l[i] * d;
     }
-    return (struct ks_near) { sqrt(fmax(x2 - t * t + c->f * (t + along) * (t + along), 0)), y[6] - slow(s->a, radius(s->a, y)) };
+    return (struct ks_near) { sqrt(fmax(x2 - t * t + c->f * (t + along) * (t + along), 0)),
+                              y[6] - slow(s->a, radius(s->a, y)) };
 }
 
 int ks_passes(struct ks_photon photon, double r, double u, double phi, double within, int most, struct ks_near *out)
@@ -416,7 +433,8 @@ int ks_passes(struct ks_photon photon, double r, double u, double phi, double wi
     start(&photon, y);
     double h = 0.05 * radius(photon.a, y);
     for (int step = 0; step < 20000 && n < most; step++) {
-        double at = radius(photon.a, y), v = sqrt(y[3] * y[3] + y[4] * y[4] + y[5] * y[5]) + 2 * fabs(photon.energy) / at;
+        double at = radius(photon.a, y),
+               v = sqrt(y[3] * y[3] + y[4] * y[4] + y[5] * y[5]) + 2 * fabs(photon.energy) / at;
         bool outwards = y[0] * y[3] + y[1] * y[4] + y[2] * y[5] > 0;
         if (at < horizon * (1 + 1e-9) || (at > 2 * r && at > 20 && outwards))
             break;
@@ -445,7 +463,10 @@ int ks_passes(struct ks_photon photon, double r, double u, double phi, double wi
 
 /* Where a path is, by distances from the axis and the plane; and its nearest part to each place so far. */
 struct meridian { double x, z; };
-struct nearest { state from; double low, high, off; };
+struct nearest {
+    state from;
+    double low, high, off;
+};
 
 static struct meridian meridian_after(const struct system *s, const double *from, double t)
 {
@@ -464,8 +485,10 @@ static double part_of(struct meridian a, struct meridian b, struct meridian c, d
     return t;
 }
 
-/* Takes the part of it from `low` to `high` after a state that is nearest to the place, if it is nearer than what was found. */
-static void look(const struct system *s, const double *from, double low, double high, struct meridian place, struct nearest *best)
+/* Takes the part of it from `low` to `high` after a state that is nearest to the place, if it is nearer than what
+ * was found. */
+static void look(const struct system *s, const double *from, double low, double high, struct meridian place,
+                 struct nearest *best)
 {
     enum { PARTS = 8 };
     struct meridian a = meridian_after(s, from, low);
@@ -489,7 +512,8 @@ static double delay_at(const struct system *s, struct nearest *best, struct meri
         best->off = INFINITY;
         look(s, was.from, was.low, was.high, place, best);
     }
-    const double t = part_of(meridian_after(s, best->from, best->low), meridian_after(s, best->from, best->high), place, &best->off);
+    const double t =
+        part_of(meridian_after(s, best->from, best->low), meridian_after(s, best->from, best->high), place, &best->off);
     state y;
     extrapolate(s, best->from, best->low + t * (best->high - best->low), y);
     return y[6] - slow(s->a, radius(s->a, y));
@@ -505,11 +529,13 @@ void ks_delays(struct ks_photon photon, const double (*places)[2], int n, double
     start(&photon, y);
     for (int i = 0; i < n; i++) {
         best[i].off = INFINITY;
-        at[i] = (struct meridian) { places[i][0] * sqrt(fmax((1 - places[i][1]) * (1 + places[i][1]), 0)), places[i][0] * places[i][1] };
+        at[i] = (struct meridian) { places[i][0] * sqrt(fmax((1 - places[i][1]) * (1 + places[i][1]), 0)),
+                                    places[i][0] * places[i][1] };
     }
     double h = 0.05 * radius(photon.a, y);
     for (int step = 0; step < 20000; step++) {
-        const double r = radius(photon.a, y), v = sqrt(y[3] * y[3] + y[4] * y[4] + y[5] * y[5]) + 2 * fabs(photon.energy) / r;
+        const double r = radius(photon.a, y),
+                     v = sqrt(y[3] * y[3] + y[4] * y[4] + y[5] * y[5]) + 2 * fabs(photon.energy) / r;
         if (r < horizon * (1 + 1e-9) || (r > 200 && y[0] * y[3] + y[1] * y[4] + y[2] * y[5] > 0))
             break;
         h = fmin(h, 0.1 * r / v);

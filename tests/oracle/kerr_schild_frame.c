@@ -34,9 +34,11 @@ void ks_inwards(const struct ks_place *at, double mass, double energy, double mo
     double g[4][4];
     inverse(at, g);
     double half = -g[T][R] * energy + g[R][PHI] * momentum, a = g[R][R];
-    double rest = g[T][T] * energy * energy + g[PHI][PHI] * momentum * momentum + g[THETA][THETA] * p_theta * p_theta + mass * mass;
+    double rest = g[T][T] * energy * energy + g[PHI][PHI] * momentum * momentum + g[THETA][THETA] * p_theta * p_theta +
+                  mass * mass;
     p[T] = -energy, p[THETA] = p_theta, p[PHI] = momentum;
-    double root = sqrt(fmax(0, half * half - a * rest)); /* a p_r^2 + 2 half p_r + rest = 0, where p^r = a p_r + half = -root */
+    double root =
+        sqrt(fmax(0, half * half - a * rest)); /* a p_r^2 + 2 half p_r + rest = 0, where p^r = a p_r + half = -root */
     p[R] = half < 0 ? rest / (root - half) : -(half + root) / a;
 }
 
@@ -49,7 +51,8 @@ static void scale(double p[4], double by)
 /* The covector of d/dphi, by the line element. */
 static void turning(const struct ks_place *at, double p[4])
 {
-    double a = at->a, r = at->r, s2 = sin(at->theta) * sin(at->theta), sigma = r * r + a * a * (1 - s2), f = 2 * r / sigma;
+    double a = at->a, r = at->r, s2 = sin(at->theta) * sin(at->theta), sigma = r * r + a * a * (1 - s2),
+           f = 2 * r / sigma;
     p[T] = -f * a * s2, p[R] = -a * s2 * (1 + f), p[THETA] = 0, p[PHI] = s2 * (r * r + a * a + f * a * a * s2);
 }
 

@@ -125,23 +125,30 @@ static void light_like(double a, const double *x, const double n[3], double k[4]
 struct ks_screen ks_screen_far(double a, double theta, double alpha, double beta)
 {
     const double far = 1e6, s = sin(theta), c = cos(theta), n[3] = { s, 0, c };
-    struct ks_screen o = { .a = a, .x = { 0, far * s - beta * c, alpha, far * c + beta * s }, .right = { 0, 0, 1, 0 }, .up = { 0, -c, 0, s } };
+    struct ks_screen o = { .a = a,
+                           .x = { 0, far * s - beta * c, alpha, far * c + beta * s },
+                           .right = { 0, 0, 1, 0 },
+                           .up = { 0, -c, 0, s } };
     light_like(a, o.x, n, o.k);
     return o;
 }
 
-/* A covector of (t, r, theta, phi) as a vector of (t, x, y, z), at azimuth 0 of the spherical coordinates: x + i y = (r + i a) sin(theta). */
+/* A covector of (t, r, theta, phi) as a vector of (t, x, y, z), at azimuth 0 of the spherical coordinates: x + i y =
+ * (r + i a) sin(theta). */
 static void to_cartesian(const struct ks_place *at, const double *x, const double p[4], double out[4])
 {
     const double s = sin(at->theta), c = cos(at->theta), a = at->a, r = at->r;
-    double dx[4][4] = { { 1, 0, 0, 0 }, { 0, s, 0, c }, { 0, r * c, a * c, -r * s }, { 0, -a * s, r * s, 0 } }; /* d(x)/d(spherical) */
+    double dx[4][4] = {
+        { 1, 0, 0, 0 }, { 0, s, 0, c }, { 0, r * c, a * c, -r * s }, { 0, -a * s, r * s, 0 }
+    }; /* d(x)/d(spherical) */
     double low[4], g[4][4];
     solve(dx, p, low);
     metric(a, x, g);
     solve(g, low, out);
 }
 
-struct ks_screen ks_screen_near(const struct ks_place *at, const struct ks_frame *f, const double look[3], const double up[3])
+struct ks_screen ks_screen_near(const struct ks_place *at, const struct ks_frame *f, const double look[3],
+                                const double up[3])
 {
     const double s = sin(at->theta);
     struct ks_screen o = { .a = at->a, .x = { 0, at->r * s, at->a * s, at->r * cos(at->theta) } };
@@ -190,7 +197,8 @@ static double omega_of(double a, double r)
 {
     double low = 0, high = 1 / r, h = 1e-3 * r;
     for (int i = 0; i < 60; i++) {
-        double w = 0.5 * (low + high), pull = 8 * (line(a, r + h, w) - line(a, r - h, w)) - line(a, r + 2 * h, w) + line(a, r - 2 * h, w);
+        double w = 0.5 * (low + high),
+               pull = 8 * (line(a, r + h, w) - line(a, r - h, w)) - line(a, r + 2 * h, w) + line(a, r - 2 * h, w);
         *(pull < 0 ? &low : &high) = w;
     }
     return 0.5 * (low + high);
@@ -208,17 +216,20 @@ static void gas(double a, const double *x, double r_isco, double u[4])
             u[i] = norm * (t[i] + omega * turn[i]);
         return;
     }
-    double there[4][4], y[4] = { 0, sqrt(at * at + a * a), 0, 0 }, v[4] = { norm, 0, norm * omega * y[1], 0 }, round[4] = { 0, 0, y[1], 0 };
+    double there[4][4], y[4] = { 0, sqrt(at * at + a * a), 0, 0 }, v[4] = { norm, 0, norm * omega * y[1], 0 },
+                        round[4] = { 0, 0, y[1], 0 };
     metric(a, y, there);
     const double want[2] = { product(there, v, t), product(there, v, round) };
     /* u = c t + d turn + e out, whose products with t and turn are those; e by the length. */
     double out[4] = { 0, x[1], x[2], 0 }, basis[2][4], c[2] = { 0 };
     memcpy(basis[0], t, sizeof t);
     memcpy(basis[1], turn, sizeof turn);
-    const double m00 = product(g, t, t), m01 = product(g, t, turn), m11 = product(g, turn, turn), det = m00 * m11 - m01 * m01;
+    const double m00 = product(g, t, t), m01 = product(g, t, turn), m11 = product(g, turn, turn),
+                 det = m00 * m11 - m01 * m01;
     for (int i = 0; i < 2; i++)
         c[i] = i ? (m00 * want[1] - m01 * want[0]) / det : (m11 * want[0] - m01 * want[1]) / det;
-    double o0 = product(g, out, t), o1 = product(g, out, turn), d0 = (m11 * o0 - m01 * o1) / det, d1 = (m00 * o1 - m01 * o0) / det;
+    double o0 = product(g, out, t), o1 = product(g, out, turn), d0 = (m11 * o0 - m01 * o1) / det,
+           d1 = (m00 * o1 - m01 * o0) / det;
     for (int i = 0; i < 4; i++)
         out[i] -= d0 * t[i] + d1 * turn[i];
     for (int i = 0; i < 4; i++)
@@ -318,7 +329,8 @@ double ks_carried_product(const struct ks_carried *at, const double p[4], const 
 /* Ingoing: t + 2 r/Delta dr, phi + a/Delta dr; and x + i y = (r + i a) sin(theta) exp(i phi). */
 void ks_carried_vector(const struct ks_carried *at, const double v[4], double out[4])
 {
-    const double a = at->a, r = at->r, delta = r * r - 2 * r + a * a, c = at->x[3] / r, s = sqrt(1 - c * c), turn = v[3] + a / delta * v[1];
+    const double a = at->a, r = at->r, delta = r * r - 2 * r + a * a, c = at->x[3] / r, s = sqrt(1 - c * c),
+                 turn = v[3] + a / delta * v[1];
     const double azimuth = atan2(at->x[2], at->x[1]) - atan2(a, r), ca = cos(azimuth), sa = sin(azimuth);
     const double x = s * v[1] + r * c * v[2] - a * s * turn, y = a * c * v[2] + r * s * turn;
     out[0] = v[0] + 2 * r / delta * v[1];
@@ -363,7 +375,8 @@ void ks_carry(const struct ks_screen *screen, double inner, double outer, double
     memcpy(s.v[2], screen->up, sizeof s.v[2]);
     bool within = false;
     for (int n = 0; n < 200000; n++) {
-        const double r = radius(a, s.x), speed = sqrt(s.v[0][1] * s.v[0][1] + s.v[0][2] * s.v[0][2] + s.v[0][3] * s.v[0][3]);
+        const double r = radius(a, s.x),
+                     speed = sqrt(s.v[0][1] * s.v[0][1] + s.v[0][2] * s.v[0][2] + s.v[0][3] * s.v[0][3]);
         double h = (within ? fine : 0.01) * fmin(r, 8 * (r - horizon)) / speed;
         struct state next = s;
         step(a, &next, h);

@@ -1,6 +1,8 @@
-/* An oracle for line profiles: a ray of its own for each place of the disk's image, where the profile has a table that it interpolates; triangles over which g is linear and light is even, where the
- * profile has cells with moments; and two such sums, of which what they tend to is taken. g is written out (Bardeen, Press & Teukolsky 1972, ApJ 178, 347, eqs. 2.16, 5.4a). The rays themselves are
- * judged by tests/oracle/kerr_schild.h. The cumulative share is good to about a tenth of `apart`: 1e-5 to 1e-4 with 1024 directions. */
+/* An oracle for line profiles: a ray of its own for each place of the disk's image, where the profile has a table
+ * that it interpolates; triangles over which g is linear and light is even, where the profile has cells with
+ * moments; and two such sums, of which what they tend to is taken. g is written out (Bardeen, Press & Teukolsky
+ * 1972, ApJ 178, 347, eqs. 2.16, 5.4a). The rays themselves are judged by tests/oracle/kerr_schild.h. The cumulative
+ * share is good to about a tenth of `apart`: 1e-5 to 1e-4 with 1024 directions. */
 #ifndef KD_TESTS_LINE_TRIANGLES_H
 #define KD_TESTS_LINE_TRIANGLES_H
 
@@ -10,9 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-struct lt_place {
-    double alpha, beta, g, light;
-};
+struct lt_place { double alpha, beta, g, light; };
 
 struct lt_sum {
     const double *edges;
@@ -26,13 +26,17 @@ static inline double lt_below(const double g[3], double x)
         return 0;
     if (x >= g[2])
         return 1;
-    return x < g[1] ? (x - g[0]) * (x - g[0]) / ((g[2] - g[0]) * (g[1] - g[0])) : 1 - (g[2] - x) * (g[2] - x) / ((g[2] - g[0]) * (g[2] - g[1]));
+    return x < g[1] ? (x - g[0]) * (x - g[0]) / ((g[2] - g[0]) * (g[1] - g[0]))
+                    : 1 - (g[2] - x) * (g[2] - x) / ((g[2] - g[0]) * (g[2] - g[1]));
 }
 
-static inline void lt_add(struct lt_sum *s, const struct lt_place *a, const struct lt_place *b, const struct lt_place *c)
+static inline void lt_add(struct lt_sum *s, const struct lt_place *a, const struct lt_place *b,
+                          const struct lt_place *c)
 {
-    double area = 0.5 * fabs((b->alpha - a->alpha) * (c->beta - a->beta) - (c->alpha - a->alpha) * (b->beta - a->beta)), light = area * (a->light + b->light + c->light) / 3;
-    double low = fmin(fmin(a->g, b->g), c->g), high = fmax(fmax(a->g, b->g), c->g), g[3] = { low, fmin(fmax(a->g + b->g + c->g - low - high, low), high), high };
+    double area = 0.5 * fabs((b->alpha - a->alpha) * (c->beta - a->beta) - (c->alpha - a->alpha) * (b->beta - a->beta)),
+           light = area * (a->light + b->light + c->light) / 3;
+    double low = fmin(fmin(a->g, b->g), c->g), high = fmax(fmax(a->g, b->g), c->g),
+           g[3] = { low, fmin(fmax(a->g + b->g + c->g - low - high, low), high), high };
     int first = 0, last = s->bins - 1;
     while (first < last) { /* the bin that the least g is in */
         int middle = (first + last + 1) / 2;
@@ -47,13 +51,17 @@ static inline void lt_add(struct lt_sum *s, const struct lt_place *a, const stru
     s->total += light;
 }
 
-/* cumulative[i]: of photons below edges[i + 1], edges grow, of a line r^-index from the ISCO to `outer`; n directions, m rings, both even. Returns by how much the two sums differ, the most of all edges; less than 0: a place was not found. */
-static inline double lt_profile(const struct kd_disk_image *image, double index, double outer, int n, int m, const double *edges, int bins, double *cumulative)
+/* cumulative[i]: of photons below edges[i + 1], edges grow, of a line r^-index from the ISCO to `outer`; n
+ * directions, m rings, both even. Returns by how much the two sums differ, the most of all edges; less than 0: a
+ * place was not found. */
+static inline double lt_profile(const struct kd_disk_image *image, double index, double outer, int n, int m,
+                                const double *edges, int bins, double *cumulative)
 {
     struct lt_place *at = malloc((size_t)n * (size_t)(m + 1) * sizeof *at);
     double *in = calloc((size_t)bins * 2, sizeof *in), apart = 0, a = image->spin;
     for (int i = 0; i <= m && apart >= 0; i++) {
-        double part = (double)i / m, r = i == m ? outer : image->isco * pow(outer / image->isco, part * (0.4 + 0.6 * part)), q = pow(r, -1.5);
+        double part = (double)i / m,
+               r = i == m ? outer : image->isco * pow(outer / image->isco, part * (0.4 + 0.6 * part)), q = pow(r, -1.5);
         for (int j = 0; j < n; j++) {
             struct lt_place *p = &at[i * n + j];
             if (!kd_disk_image_place(image, r, 2 * M_PI * j / n, &p->alpha, &p->beta))

@@ -11,10 +11,11 @@ direction in the spheroidal angles,
     w'' = A w + 3K w^2 + 2C w^3        n'' = a^2 n_z z - (eta + lambda^2 + 2 a^2 n_z^2) n
     chi' = a (2r - a lambda)/Delta     t' = r^2 + 2r + 4 + ((8 - 2 a lambda) r - 4a^2)/Delta + a^2 n_z^2
 
-are summed as Taylor series (no turning point and no axis is special), and a crossing is a root of the series of n_z. What
-is integrated is S = t +- (r + 2 ln r), + on the way in and - on the way out, which stays finite at infinity. The
+are summed as Taylor series (no turning point and no axis is special), and a crossing is a root of the series of n_z.
+What is integrated is S = t +- (r + 2 ln r), + on the way in and - on the way out, which stays finite at infinity. The
 radial first integral is checked after each step. The elliptic integrals are quadratures of their definitions.
 """
+
 import sys
 from multiprocessing import Pool
 from mpmath import mp, mpf, sqrt, log, atan2, pi, cos, inf, quad, findroot, polyval, asinh
@@ -36,7 +37,7 @@ def divide(x, y):
 
 def series(a, lam, eta, state, side):
     """Taylor coefficients about a point of (w, n_x, n_y, n_z, chi, S)."""
-    A, K, C = a * a - eta - lam * lam, eta + (lam - a)**2, -a * a * eta
+    A, K, C = a * a - eta - lam * lam, eta + (lam - a) ** 2, -a * a * eta
     w, dw, n, dn, chi, S = state
     W = [w, dw]
     N = [[n[i], dn[i]] for i in range(3)]
@@ -50,7 +51,7 @@ def series(a, lam, eta, state, side):
             for i in range(3):
                 pull = (eta + lam * lam) * N[i][k] + 2 * a * a * mul(Z2, N[i], k)
                 N[i].append(((a * a * N[2][k] if i == 2 else 0) - pull) / ((k + 1) * (k + 2)))
-    V = [(k + 1) * W[k + 1] for k in range(len(W) - 1)] # w'
+    V = [(k + 1) * W[k + 1] for k in range(len(W) - 1)]  # w'
     # chi' = a w (2 - a lam w)/(1 - 2w + a^2 w^2); the last terms of t' = w (8 - 2 a lam - 4 a^2 w)/(same);
     # (1 - side w')(1/w^2 + 2/w) = -(A + 2K w + C w^2)(1 + 2w)/(1 + side w')
     count = len(V)
@@ -77,19 +78,19 @@ def trace(a, u, radius, alpha, beta, outward, orders):
     a, u, alpha, beta = mpf(a), mpf(u), mpf(alpha), mpf(beta)
     s = sqrt((1 - u) * (1 + u))
     lam, eta = -alpha * s, (alpha**2 - a * a) * u * u + beta**2
-    A, K, C = a * a - eta - lam * lam, eta + (lam - a)**2, -a * a * eta
+    A, K, C = a * a - eta - lam * lam, eta + (lam - a) ** 2, -a * a * eta
     w = mpf(0) if radius == inf else 1 / mpf(radius)
     dw = sqrt(1 + A * w * w + 2 * K * w**3 + C * w**4) * (-1 if outward else 1)
     n, dn = [s, mpf(0), u], [-beta * u, alpha, beta * s]
     phi = mpf(0)
-    if s == 0: # azimuths count from the image's: turn the frame so that the ray sets out along +x
+    if s == 0:  # azimuths count from the image's: turn the frame so that the ray sets out along +x
         phi = atan2(alpha, -beta * u)
         dn = [sqrt(alpha**2 + beta**2), mpf(0), mpf(0)]
     side = -1 if outward else 1
     S = side * (1 / w - 2 * log(w)) if w else mpf(0)  # at infinity r + 2 ln r is what is taken off
     state = (w, dw, n, dn, mpf(0), S)
     horizon = 1 / (1 + sqrt(1 - a * a))
-    turn = mpf(0) # of n about the axis, unwound
+    turn = mpf(0)  # of n about the axis, unwound
     found = []
     scale = 1 / sqrt(1 + eta + lam * lam + a * a)
     for _ in range(4000):
@@ -98,19 +99,21 @@ def trace(a, u, radius, alpha, beta, outward, orders):
             state = state[:5] + (state[5] + side * 2 * (1 / w - 2 * log(w)),)
         W, N, X, T = series(a, lam, eta, state, side)
         # the radius of convergence from the last coefficients
-        rho = min((max(abs(c[k]) for c in (W, X, T) for k in (j, j - 1)) + mpf(10)**-60)**(mpf(-1) / j)
-                  for j in (ORDER - 4, ORDER - 12))
+        rho = min(
+            (max(abs(c[k]) for c in (W, X, T) for k in (j, j - 1)) + mpf(10) ** -60) ** (mpf(-1) / j)
+            for j in (ORDER - 4, ORDER - 12)
+        )
         h = min(rho / 6, scale)
         here = N[2][0]
         ends = None
         w1 = at(W, h)
         if w1 <= 0:
-            ends = findroot(lambda x: at(W, x), (mpf(0), h), solver="anderson", tol=mpf(10)**-60)
+            ends = findroot(lambda x: at(W, x), (mpf(0), h), solver="anderson", tol=mpf(10) ** -60)
             h = ends
-        elif w1 >= horizon * (1 - mpf(10)**-8) or (w > horizon * (1 - mpf(10)**-8) and dw > 0):
-            return found, True, None # the azimuth is infinite at the horizon: steps shrink
+        elif w1 >= horizon * (1 - mpf(10) ** -8) or (w > horizon * (1 - mpf(10) ** -8) and dw > 0):
+            return found, True, None  # the azimuth is infinite at the horizon: steps shrink
         if here != 0 and here * at(N[2], h) < 0:
-            x = findroot(lambda x: at(N[2], x), (mpf(0), h), solver="anderson", tol=mpf(10)**-60)
+            x = findroot(lambda x: at(N[2], x), (mpf(0), h), solver="anderson", tol=mpf(10) ** -60)
             if len(found) < orders:
                 rotation = turned(N, x)
                 r = 1 / at(W, x)
@@ -118,10 +121,17 @@ def trace(a, u, radius, alpha, beta, outward, orders):
                 found.append((r, phi + turn + rotation - at(X, x), delay, 1 if slope(W, x) > 0 else -1))
         rotation = turned(N, h)
         turn += rotation
-        state = (at(W, h), slope(W, h), [at(N[i], h) for i in range(3)], [slope(N[i], h) for i in range(3)], at(X, h), at(T, h))
+        state = (
+            at(W, h),
+            slope(W, h),
+            [at(N[i], h) for i in range(3)],
+            [slope(N[i], h) for i in range(3)],
+            at(X, h),
+            at(T, h),
+        )
         w, dw = state[0], state[1]
         check = dw * dw - (1 + A * w * w + 2 * K * w**3 + C * w**4)
-        if abs(check) > mpf(10)**-24:
+        if abs(check) > mpf(10) ** -24:
             raise ArithmeticError(f"first integral {check}")
         if ends is not None:
             return found, False, (state[2][2], phi + turn - state[4])
@@ -142,40 +152,95 @@ def cosine(i):
 
 
 INF = inf
-RAYS = [ # spin, inclination, radius, alpha, beta, outward
+RAYS = [  # spin, inclination, radius, alpha, beta, outward
     # Schwarzschild, direct and lensed
-    (0.0, 0, INF, 8.0, 0.0, 0), (0.0, 0, INF, 3.0, 4.5, 0), (0.0, 17, INF, -6.0, 1.5, 0), (0.0, 45, INF, 5.0, -2.5, 0),
-    (0.0, 70, INF, -5.2, 0.25, 0), (0.0, 90, INF, 5.25, 0.125, 0), (0.0, 135, INF, 4.0, 5.0, 0), (0.0, 180, INF, 0.0, 5.5, 0),
+    (0.0, 0, INF, 8.0, 0.0, 0),
+    (0.0, 0, INF, 3.0, 4.5, 0),
+    (0.0, 17, INF, -6.0, 1.5, 0),
+    (0.0, 45, INF, 5.0, -2.5, 0),
+    (0.0, 70, INF, -5.2, 0.25, 0),
+    (0.0, 90, INF, 5.25, 0.125, 0),
+    (0.0, 135, INF, 4.0, 5.0, 0),
+    (0.0, 180, INF, 0.0, 5.5, 0),
     # turning on by degrees: 1e-9, 1e-4, both signs
-    (1e-9, 45, INF, 5.0, -2.5, 0), (-1e-9, 45, INF, 5.0, -2.5, 0), (1e-4, 70, INF, -5.2, 0.25, 0),
+    (1e-9, 45, INF, 5.0, -2.5, 0),
+    (-1e-9, 45, INF, 5.0, -2.5, 0),
+    (1e-4, 70, INF, -5.2, 0.25, 0),
     # moderate and fast spin, all inclinations
-    (0.5, 17, INF, 3.0, 5.0, 0), (0.5, 45, INF, -5.5, -3.0, 0), (0.5, 70, INF, 5.5, 1.0, 0), (0.5, 135, INF, 5.0, 3.0, 0),
-    (0.9, 0, INF, 5.0, 3.0, 0), (0.9, 0, INF, 0.0, 6.0, 0), (0.9, 0, INF, -4.0, 0.0, 0), (0.9, 180, INF, 5.0, 3.0, 0),
-    (0.9, 17, INF, -4.9, 0.5, 0), (0.9, 45, INF, -3.0, 4.0, 0), (0.9, 45, INF, 6.0, -1.0, 0), (0.9, 70, INF, -3.75, 1.0, 0),
-    (0.9, 70, INF, 12.0, 3.0, 0), (0.9, 70, INF, 6.5, 0.5, 0), (0.9, 70, INF, 2.0, -5.0, 0), (0.9, 90, INF, 5.0, 4.0, 0),
-    (0.9, 90, INF, 6.0, -2.0, 0), (0.9, 90, INF, -3.0, -1.0, 0), (0.9, 135, INF, -4.0, 3.0, 0), (0.9, 135, INF, 1.0, -6.0, 0),
+    (0.5, 17, INF, 3.0, 5.0, 0),
+    (0.5, 45, INF, -5.5, -3.0, 0),
+    (0.5, 70, INF, 5.5, 1.0, 0),
+    (0.5, 135, INF, 5.0, 3.0, 0),
+    (0.9, 0, INF, 5.0, 3.0, 0),
+    (0.9, 0, INF, 0.0, 6.0, 0),
+    (0.9, 0, INF, -4.0, 0.0, 0),
+    (0.9, 180, INF, 5.0, 3.0, 0),
+    (0.9, 17, INF, -4.9, 0.5, 0),
+    (0.9, 45, INF, -3.0, 4.0, 0),
+    (0.9, 45, INF, 6.0, -1.0, 0),
+    (0.9, 70, INF, -3.75, 1.0, 0),
+    (0.9, 70, INF, 12.0, 3.0, 0),
+    (0.9, 70, INF, 6.5, 0.5, 0),
+    (0.9, 70, INF, 2.0, -5.0, 0),
+    (0.9, 90, INF, 5.0, 4.0, 0),
+    (0.9, 90, INF, 6.0, -2.0, 0),
+    (0.9, 90, INF, -3.0, -1.0, 0),
+    (0.9, 135, INF, -4.0, 3.0, 0),
+    (0.9, 135, INF, 1.0, -6.0, 0),
     # the turning point of theta, the axis and its neighbourhood
-    (0.9, 70, INF, 6.0, 0.0, 0), (0.9, 110, INF, -4.5, 0.0, 0), (0.9, 45, INF, 0.0, 5.5, 0), (0.9, 70, INF, 0.0, -5.0, 0),
-    (0.9, 70, INF, 1e-3, 5.0, 0), (0.9, 70, INF, -1e-7, 5.0, 0), (-0.9, 135, INF, 0.0, -6.0, 0),
+    (0.9, 70, INF, 6.0, 0.0, 0),
+    (0.9, 110, INF, -4.5, 0.0, 0),
+    (0.9, 45, INF, 0.0, 5.5, 0),
+    (0.9, 70, INF, 0.0, -5.0, 0),
+    (0.9, 70, INF, 1e-3, 5.0, 0),
+    (0.9, 70, INF, -1e-7, 5.0, 0),
+    (-0.9, 135, INF, 0.0, -6.0, 0),
     # retrograde
-    (-0.9, 17, INF, 6.0, 2.0, 0), (-0.9, 70, INF, -6.0, 1.0, 0), (-0.9, 70, INF, 4.0, -3.0, 0), (-0.9, 90, INF, 3.5, 2.0, 0),
+    (-0.9, 17, INF, 6.0, 2.0, 0),
+    (-0.9, 70, INF, -6.0, 1.0, 0),
+    (-0.9, 70, INF, 4.0, -3.0, 0),
+    (-0.9, 90, INF, 3.5, 2.0, 0),
     # near maximal
-    (0.998, 45, INF, -1.8, 1.1, 0), (0.998, 70, INF, -2.5, 1.25, 0), (0.9999, 70, INF, -2.25, 1.0, 0), (0.9999, 17, INF, 4.0, 3.0, 0),
-    (0.9999, 90, INF, 6.0, 3.0, 0), (0.9999, 135, INF, 5.0, -3.0, 0),
+    (0.998, 45, INF, -1.8, 1.1, 0),
+    (0.998, 70, INF, -2.5, 1.25, 0),
+    (0.9999, 70, INF, -2.25, 1.0, 0),
+    (0.9999, 17, INF, 4.0, 3.0, 0),
+    (0.9999, 90, INF, 6.0, 3.0, 0),
+    (0.9999, 135, INF, 5.0, -3.0, 0),
     # far off the hole; all but edge on
-    (0.5, 70, INF, 300.0, 200.0, 0), (0.9, 89, INF, 5.0, -4.0, 0), (0.9, 60, INF, -40.0, -25.0, 0),
+    (0.5, 70, INF, 300.0, 200.0, 0),
+    (0.9, 89, INF, 5.0, -4.0, 0),
+    (0.9, 60, INF, -40.0, -25.0, 0),
     # eta just above 0, and vortical: no crossing
-    (0.9, 60, INF, 0.25, 0.5, 0), (0.9, 60, INF, 0.875, 0.125, 0), (0.9, 45, INF, 0.125, 0.25, 0),
+    (0.9, 60, INF, 0.25, 0.5, 0),
+    (0.9, 60, INF, 0.875, 0.125, 0),
+    (0.9, 45, INF, 0.125, 0.25, 0),
     # in the plane
     (0.9, 90, INF, 7.5, 0.0, 0),
     # an observer nearby, tracing inwards
-    (0.9, 70, 50.0, 6.0, 2.0, 0), (0.9, 70, 1000.0, -5.0, -3.0, 0), (0.0, 45, 20.0, 5.0, 3.0, 0), (0.9999, 17, 6.0, 2.0, 4.0, 0),
-    (-0.9, 90, 12.0, 3.0, -5.0, 0), (0.9, 0, 10.0, 4.0, 3.0, 0), (0.5, 120, 1e6, 4.0, 4.0, 0),
+    (0.9, 70, 50.0, 6.0, 2.0, 0),
+    (0.9, 70, 1000.0, -5.0, -3.0, 0),
+    (0.0, 45, 20.0, 5.0, 3.0, 0),
+    (0.9999, 17, 6.0, 2.0, 4.0, 0),
+    (-0.9, 90, 12.0, 3.0, -5.0, 0),
+    (0.9, 0, 10.0, 4.0, 3.0, 0),
+    (0.5, 120, 1e6, 4.0, 4.0, 0),
     # outwards: escaping, and turned back below the photon sphere
-    (0.9, 70, 4.0, 1.0, 3.0, 1), (0.5, 45, 10.0, 5.0, -4.0, 1), (0.0, 60, 2.5, 4.0, 3.5, 1), (0.9, 70, 2.25, 4.5, 3.75, 1),
-    (0.0, 60, 2.5, 4.0, 3.5, 0), (0.9, 70, 2.25, 4.5, 3.75, 0), (0.9, 60, 5.0, 0.25, 0.125, 1), (0.5, 0, 3.0, 1.0, 1.0, 1),
-    (0.9, 80, 8.0, 0.0, 0.125, 1), (0.9, 70, 3.0, 6.5, 0.5, 1), (0.9, 70, 3.0, 6.5, 0.5, 0), (-0.9, 110, 3.125, -6.5, 0.75, 1),
-    (0.9, 60, 5.0, -0.375, 0.25, 1), (0.9, 60, 5.0, -0.5, -0.125, 1), (0.998, 20, 1.5, 0.25, -0.25, 1),
+    (0.9, 70, 4.0, 1.0, 3.0, 1),
+    (0.5, 45, 10.0, 5.0, -4.0, 1),
+    (0.0, 60, 2.5, 4.0, 3.5, 1),
+    (0.9, 70, 2.25, 4.5, 3.75, 1),
+    (0.0, 60, 2.5, 4.0, 3.5, 0),
+    (0.9, 70, 2.25, 4.5, 3.75, 0),
+    (0.9, 60, 5.0, 0.25, 0.125, 1),
+    (0.5, 0, 3.0, 1.0, 1.0, 1),
+    (0.9, 80, 8.0, 0.0, 0.125, 1),
+    (0.9, 70, 3.0, 6.5, 0.5, 1),
+    (0.9, 70, 3.0, 6.5, 0.5, 0),
+    (-0.9, 110, 3.125, -6.5, 0.75, 1),
+    (0.9, 60, 5.0, -0.375, 0.25, 1),
+    (0.9, 60, 5.0, -0.5, -0.125, 1),
+    (0.998, 20, 1.5, 0.25, -0.25, 1),
     # 1e-3, 1e-6, 1e-10 inside and outside the critical curve
     (0.0, 45, INF, 4.1527650162271401, 3.1145737621703553, 0),
     (0.0, 45, INF, 4.1610788601034701, 3.1208091450776028, 0),
@@ -195,32 +260,58 @@ RAYS = [ # spin, inclination, radius, alpha, beta, outward
 
 
 def critical(a, i, r, distance):
-    """The image of the bound orbit of radius r (Bardeen 1973, eqs. 48, 49), the more distant from the middle by a fraction."""
+    """The image of the bound orbit of radius r (Bardeen 1973, eqs. 48, 49), the more distant from the middle by a
+    fraction."""
     a, r, u = mpf(a), mpf(r), cosine(i)
     s, delta = sqrt(1 - u * u), r * r - 2 * r + a * a
     if a == 0:
         alpha, beta = 3, sqrt(mpf(18))
     else:
         lam = a + r / a * (r - 2 * delta / (r - 1))
-        eta = r**3 / a**2 * (4 * delta / (r - 1)**2 - r)
+        eta = r**3 / a**2 * (4 * delta / (r - 1) ** 2 - r)
         alpha, beta = -lam / s, sqrt(eta + u * u * (a * a - lam * lam / s**2))
     return a, i, INF, float(alpha * (1 + mpf(distance))), float(beta * (1 + mpf(distance))), 0
 
 
 def extremes():
-    """Eight orders: spins and inclinations at the end of their ranges, observers from next to the horizon to a million M away, and
-    rays 1e-3 to 1e-12 from the critical curve."""
+    """Eight orders: spins and inclinations at the end of their ranges, observers from next to the horizon to a million
+    M away, and rays 1e-3 to 1e-12 from the critical curve."""
     below, above = 89.99999999999999, 90.00000000000001
     rays = []
     for what, a in (("a 1-1e-7", 1 - 1e-7), ("a 1-1e-12", 1 - 1e-12), ("a -1+1e-12", 1e-12 - 1)):
-        horizon = float((1 + sqrt(1 - mpf(a)**2)) * mpf("1.0001"))
-        rays += [(what, ray) for ray in (
-                 (a, 45, INF, 3.0, 4.0, 0), (a, below, INF, -3.0, 2.0, 0), (a, above, INF, 6.0, -2.0, 0), (a, 0, INF, 5.0, 3.0, 0),
-                 (a, 60, horizon, 0.25, 0.25, 1), (a, 60, horizon, -1.5, 0.5, 1), (a, 60, horizon, 1.5, 0.5, 0),
-                 (a, 60, 4.0, 3.0, 3.0, 0), (a, 60, 4.0, 3.0, -3.0, 1), (a, 60, 1e6, 4.0, -3.0, 0), (a, 90, 1e6, -6.0, 1.0, 0))]
-    rays += [("i 90-, 90+", ray) for ray in ((5e-324, 45, INF, 5.0, -2.5, 0), (5e-324, below, INF, 4.0, 4.0, 0), (0.9, above, INF, -4.0, 2.0, 0))]
+        horizon = float((1 + sqrt(1 - mpf(a) ** 2)) * mpf("1.0001"))
+        rays += [
+            (what, ray)
+            for ray in (
+                (a, 45, INF, 3.0, 4.0, 0),
+                (a, below, INF, -3.0, 2.0, 0),
+                (a, above, INF, 6.0, -2.0, 0),
+                (a, 0, INF, 5.0, 3.0, 0),
+                (a, 60, horizon, 0.25, 0.25, 1),
+                (a, 60, horizon, -1.5, 0.5, 1),
+                (a, 60, horizon, 1.5, 0.5, 0),
+                (a, 60, 4.0, 3.0, 3.0, 0),
+                (a, 60, 4.0, 3.0, -3.0, 1),
+                (a, 60, 1e6, 4.0, -3.0, 0),
+                (a, 90, 1e6, -6.0, 1.0, 0),
+            )
+        ]
+    rays += [
+        ("i 90-, 90+", ray)
+        for ray in ((5e-324, 45, INF, 5.0, -2.5, 0), (5e-324, below, INF, 4.0, 4.0, 0), (0.9, above, INF, -4.0, 2.0, 0))
+    ]
     for d in (1e-3, -1e-6, 1e-9, -1e-12):
-        rays += [(f"b/bc 1{d:+.0e}", critical(a, i, r, d)) for a, i, r in ((0.0, 60, 3), (0.9, 60, 2.5), (1 - 1e-7, 60, 2), (1 - 1e-12, 60, 2), (1 - 1e-12, 80, 1.25), (1e-12 - 1, 75, 3))]
+        rays += [
+            (f"b/bc 1{d:+.0e}", critical(a, i, r, d))
+            for a, i, r in (
+                (0.0, 60, 3),
+                (0.9, 60, 2.5),
+                (1 - 1e-7, 60, 2),
+                (1 - 1e-12, 60, 2),
+                (1 - 1e-12, 80, 1.25),
+                (1e-12 - 1, 75, 3),
+            )
+        ]
     return rays
 
 
@@ -238,15 +329,19 @@ def ray_line(spec, orders=4):
     found, captured, sky = trace(a, u, radius, alpha, beta, outward, orders)
     sky = sky or (mpf("nan"), mpf("nan"))
     rows = ",\n        ".join(f"{{ {number(r)}, {number(f)}, {number(t)}, {s} }}" for r, f, t, s in found)
-    head = f"{float(a)!r}, {number(radius)}, {float(u).hex()}, {float(alpha)!r}, {float(beta)!r}, {outward}, /* i = {i} */"
+    head = (
+        f"{float(a)!r}, {number(radius)}, {float(u).hex()}, {float(alpha)!r}, {float(beta)!r}, {outward}, /* i = {i} */"
+    )
     body = f"\n      {len(found)}, {{ {rows} }}," if found else "\n      0, { { 0 } },"
     return f"    {{ {head}{body}\n      {int(captured)}, {number(sky[0])}, {number(sky[1])} }},"
 
 
 def cross_table():
-    print("struct null_reference_crossing { double r, phi, delay; int sense; };\n"
-          "struct null_reference {\n    double spin, radius, cos_theta, alpha, beta;\n    int outward, crossings;\n"
-          "    struct null_reference_crossing crossing[4];\n    int captured;\n    double sky_u, sky_phi;\n};\n")
+    print(
+        "struct null_reference_crossing { double r, phi, delay; int sense; };\n"
+        "struct null_reference {\n    double spin, radius, cos_theta, alpha, beta;\n    int outward, crossings;\n"
+        "    struct null_reference_crossing crossing[4];\n    int captured;\n    double sky_u, sky_phi;\n};\n"
+    )
     print("static const struct null_reference null_reference[] = {")
     with Pool(2) as pool:
         for line in pool.imap(ray_line, RAYS):
@@ -255,9 +350,11 @@ def cross_table():
 
 
 def extreme_table():
-    print("struct null_extreme {\n    const char *what;\n    double spin, radius, cos_theta, alpha, beta;\n    int outward, crossings;\n"
-          "    struct { double r, phi, delay; int sense; } crossing[8];\n"
-          "    int captured;\n    double sky_u, sky_phi;\n};\n")
+    print(
+        "struct null_extreme {\n    const char *what;\n    double spin, radius, cos_theta, alpha, beta;\n    int outward, crossings;\n"
+        "    struct { double r, phi, delay; int sense; } crossing[8];\n"
+        "    int captured;\n    double sky_u, sky_phi;\n};\n"
+    )
     print("static const struct null_extreme null_extremes[] = {")
     with Pool(2) as pool:
         for line in pool.imap(extreme_line, extremes()):
@@ -279,30 +376,49 @@ def rj(x, y, z, p):
 
 
 def carlson_table():
-    triples = [(1, 2, 3), (0.5, 1, 0), (2, 3, 4), (1e-6, 1, 2), (1, 1, 1), (1e-3, 1e3, 1), (0.25, 0.25, 8), (1e-10, 2e-10, 1)]
-    print("/* R_F(x, y, z), R_D(x, y, z), R_J(x, y, z, p). */\n"
-          "struct carlson_reference { double x, y, z, p, rf, rd, rj; };\n\nstatic const struct carlson_reference carlson_reference[] = {")
+    triples = [
+        (1, 2, 3),
+        (0.5, 1, 0),
+        (2, 3, 4),
+        (1e-6, 1, 2),
+        (1, 1, 1),
+        (1e-3, 1e3, 1),
+        (0.25, 0.25, 8),
+        (1e-10, 2e-10, 1),
+    ]
+    print(
+        "/* R_F(x, y, z), R_D(x, y, z), R_J(x, y, z, p). */\n"
+        "struct carlson_reference { double x, y, z, p, rf, rd, rj; };\n\nstatic const struct carlson_reference carlson_reference[] = {"
+    )
     for x, y, z in triples:
         for p in (0.125, 1.0, 5.0, 1e4):
             X, Y, Z, P = mpf(x), mpf(y), mpf(z), mpf(p)
             rd = inf if z == 0 else rj(X, Y, Z, Z)
-            print(f"    {{ {float(x)!r}, {float(y)!r}, {float(z)!r}, {p!r}, {number(rf(X, Y, Z))}, {number(rd)}, {number(rj(X, Y, Z, P))} }},")
-    print("};\n\n/* The same for x and y +- i v: R_F(x, y +- iv), R_J(x, y +- iv, p), R_D(y +- iv, x). */\n"
-          "static const struct { double x, y, v, p, rf, rj, rd; } carlson_pairs[] = {")
+            print(
+                f"    {{ {float(x)!r}, {float(y)!r}, {float(z)!r}, {p!r}, {number(rf(X, Y, Z))}, {number(rd)}, {number(rj(X, Y, Z, P))} }},"
+            )
+    print(
+        "};\n\n/* The same for x and y +- i v: R_F(x, y +- iv), R_J(x, y +- iv, p), R_D(y +- iv, x). */\n"
+        "static const struct { double x, y, v, p, rf, rj, rd; } carlson_pairs[] = {"
+    )
     for x, y, v in [(1, 2, 3), (0.5, -1, 2), (3, -2, 0.01), (1, 1, 1e-8), (1e-4, 1, 5), (2, 0, 1)]:
         for p in (0.25, 3.0, 200.0):
             X, V, P = mpf(x), mpf(v), mpf(p)
-            pair = lambda t, Y=mpf(y), V=V: sqrt((t + Y)**2 + V * V)
+            pair = lambda t, Y=mpf(y), V=V: sqrt((t + Y) ** 2 + V * V)
             f = half_line2(lambda t: 1 / (sqrt(t + X) * pair(t)), -y, v) / 2
             j = 3 * half_line2(lambda t: 1 / ((t + P) * sqrt(t + X) * pair(t)), -y, v) / 2
             d = 3 * half_line2(lambda t: 1 / ((t + X) * sqrt(t + X) * pair(t)), -y, v) / 2
             print(f"    {{ {float(x)!r}, {float(y)!r}, {float(v)!r}, {p!r}, {number(f)}, {number(j)}, {number(d)} }},")
     print("};\n")
-    print("/* R_J with a complex p = q + i v. */\n"
-          "static const struct { double x, y, z, q, v, re, im; } carlson_complex[] = {")
+    print(
+        "/* R_J with a complex p = q + i v. */\n"
+        "static const struct { double x, y, z, q, v, re, im; } carlson_complex[] = {"
+    )
     for x, y, z, q, v in [(1, 2, 3, 1, 1), (0.5, 1, 4, 0.25, 3), (2, 2, 3, 0.01, -2), (1, 5, 9, 30, 40)]:
         j = rj(mpf(x), mpf(y), mpf(z), mp.mpc(q, v))
-        print(f"    {{ {float(x)!r}, {float(y)!r}, {float(z)!r}, {float(q)!r}, {float(v)!r}, {number(j.real)}, {number(j.imag)} }},")
+        print(
+            f"    {{ {float(x)!r}, {float(y)!r}, {float(z)!r}, {float(q)!r}, {float(v)!r}, {number(j.real)}, {number(j.imag)} }},"
+        )
     print("};\n")
 
 
@@ -316,21 +432,32 @@ def half_line2(f, near, width):
 
 
 def legendre_table():
-    print("/* F, E and Pi of (n; phi|m); sn, cn, dn of (u|m) as functions of their inverse. */\n"
-          "static const struct { double n, phi, m, f, e, pi; } legendre_reference[] = {")
-    for n, phi, m in [(0.5, 0.5, 0.5), (-3.0, 1.0, 0.75), (0.25, 1.5, -8.0), (0.875, 1.25, 0.9990234375), (-0.5, 4.0, 0.25), (0.5, -1.0, 0.0)]:
+    print(
+        "/* F, E and Pi of (n; phi|m); sn, cn, dn of (u|m) as functions of their inverse. */\n"
+        "static const struct { double n, phi, m, f, e, pi; } legendre_reference[] = {"
+    )
+    for n, phi, m in [
+        (0.5, 0.5, 0.5),
+        (-3.0, 1.0, 0.75),
+        (0.25, 1.5, -8.0),
+        (0.875, 1.25, 0.9990234375),
+        (-0.5, 4.0, 0.25),
+        (0.5, -1.0, 0.0),
+    ]:
         N, X, M = mpf(n), mpf(phi), mpf(m)
-        f = quad(lambda x: 1 / sqrt(1 - M * mp.sin(x)**2), mp.linspace(0, X, 9))
-        e = quad(lambda x: sqrt(1 - M * mp.sin(x)**2), mp.linspace(0, X, 9))
-        p = quad(lambda x: 1 / ((1 - N * mp.sin(x)**2) * sqrt(1 - M * mp.sin(x)**2)), mp.linspace(0, X, 9))
+        f = quad(lambda x: 1 / sqrt(1 - M * mp.sin(x) ** 2), mp.linspace(0, X, 9))
+        e = quad(lambda x: sqrt(1 - M * mp.sin(x) ** 2), mp.linspace(0, X, 9))
+        p = quad(lambda x: 1 / ((1 - N * mp.sin(x) ** 2) * sqrt(1 - M * mp.sin(x) ** 2)), mp.linspace(0, X, 9))
         print(f"    {{ {n!r}, {phi!r}, {m!r}, {number(f)}, {number(e)}, {number(p)} }},")
     print("};\n")
 
 
 def main(what):
-    guard, about = {"rays": ("NULL", "Null geodesics of Kerr by Taylor series"),
-                    "extremes": ("NULL_EXTREMES", "Null geodesics of Kerr at the extremes by Taylor series"),
-                    "integrals": ("CARLSON", "Elliptic integrals by quadrature")}[what]
+    guard, about = {
+        "rays": ("NULL", "Null geodesics of Kerr by Taylor series"),
+        "extremes": ("NULL_EXTREMES", "Null geodesics of Kerr at the extremes by Taylor series"),
+        "integrals": ("CARLSON", "Elliptic integrals by quadrature"),
+    }[what]
     print(f"/* Made by tests/oracle/null_reference.py {what}; do not edit. {about}. */")
     print(f"#ifndef KD_TESTS_{guard}_REFERENCE_H\n#define KD_TESTS_{guard}_REFERENCE_H\n\n#include <math.h>\n")
     if what == "rays":

@@ -13,7 +13,8 @@ struct series { number w[ORDER + 1], n[3][ORDER + 1], chi[ORDER + 1]; };
 
 void series_angle(double degrees, long double *cosine, long double *sine)
 {
-    const number unit = 3.14159265358979323846264338327950288L / 180, from = degrees > 90 ? 180.0L - degrees : (number)degrees;
+    const number unit = 3.14159265358979323846264338327950288L / 180,
+                 from = degrees > 90 ? 180.0L - degrees : (number)degrees;
     *cosine = from > 45 ? sinl((90 - from) * unit) : cosl(from * unit);
     *cosine = degrees > 90 ? -*cosine : *cosine;
     *sine = from > 45 ? cosl((90 - from) * unit) : sinl(from * unit);
@@ -49,7 +50,8 @@ static void expand(const struct motion *m, const struct place *at, struct series
         s->w[k + 2] = (m->A * s->w[k] + 3 * m->K * w2[k] + 2 * m->C * w3[k]) * share;
         for (int i = 0; i < 3; i++)
             s->n[i][k + 2] = ((i == 2 ? a2 * s->n[2][k] : 0) - (m->eta + m->lambda * m->lambda) * s->n[i][k] -
-                              2 * a2 * product(z2, s->n[i], k)) * share;
+                              2 * a2 * product(z2, s->n[i], k)) *
+                             share;
     }
 }
 

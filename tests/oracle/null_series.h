@@ -1,9 +1,12 @@
-/* Null geodesics of Kerr by Taylor series in extended precision (long double: 64 bits of significand on x86, 113 on aarch64): where
- * rays cross the equatorial plane, known to 1e-3 of what double precision can tell, some tenths of a millisecond each.
+/* Null geodesics of Kerr by Taylor series in extended precision (long double: 64 bits of significand on x86, 113 on
+ * aarch64): where rays cross the equatorial plane, known to 1e-3 of what double precision can tell, some tenths of a
+ * millisecond each.
  *
- * Neither elliptic functions nor steps of a fixed order: the equations in Mino time of tests/oracle/null_reference.py,
+ * Neither elliptic functions nor steps of a fixed order: the equations in Mino time of
+ * tests/oracle/null_reference.py,
  *
- *     w'' = A w + 3K w^2 + 2C w^3        n'' = a^2 n_z z - (eta + lambda^2 + 2 a^2 n_z^2) n        chi' = a (2r - a lambda)/Delta
+ *     w'' = A w + 3K w^2 + 2C w^3        n'' = a^2 n_z z - (eta + lambda^2 + 2 a^2 n_z^2) n        chi' = a (2r - a
+ *                                        lambda)/Delta
  *
  * w = 1/r and n the unit vector of the direction, which do not single out turning points or the axis. Labels as in
  * physics/null_geodesic.h; azimuths source minus observer. Pure; any thread. */

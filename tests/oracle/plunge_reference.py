@@ -3,9 +3,10 @@
 
     python3 tests/oracle/plunge_reference.py > tests/oracle/plunge_reference.h      (needs mpmath)
 
-The metric alone: the ISCO is where the energy of circular orbits is least, u^t and u^phi come from raising (-E, L), u^r from u.u =
--1, and coordinate time and azimuth from quadrature of u^t/u^r and u^phi/u^r over r.
+The metric alone: the ISCO is where the energy of circular orbits is least, u^t and u^phi come from raising (-E, L), u^r
+from u.u = -1, and coordinate time and azimuth from quadrature of u^t/u^r and u^phi/u^r over r.
 """
+
 from mpmath import mp, mpf, nstr, quad, sqrt
 
 mp.dps = 40
@@ -29,9 +30,9 @@ def circle(a, r):
 
 def isco(a):
     """Where dE/dr = 0, by bisection from the marginally bound orbit, E = 1, outwards."""
-    step = mpf(10)**-16
+    step = mpf(10) ** -16
     slope = lambda r: circle(a, r * (1 + step))[0] - circle(a, r * (1 - step))[0]
-    low, high = (1 + sqrt(1 - a))**2, mpf(10)
+    low, high = (1 + sqrt(1 - a)) ** 2, mpf(10)
     for _ in range(110):
         middle = (low + high) / 2
         low, high = (middle, high) if slope(middle) < 0 else (low, middle)
@@ -60,7 +61,9 @@ def main():
         for place in PLACES:
             r = mpf(float(edge - place * (edge - horizon)))
             middle = (start + r) / 2
-            rate = lambda k: quad(lambda x: velocity(a, x, energy, l)[k] / velocity(a, x, energy, l)[2], [start, middle, r])
+            rate = lambda k: quad(
+                lambda x: velocity(a, x, energy, l)[k] / velocity(a, x, energy, l)[2], [start, middle, r]
+            )
             numbers = [rate(0), rate(1), *velocity(a, r, energy, l)]
             print(f"    {{ {float(a).hex()}, {float(start).hex()}, {float(r).hex()}, /* {spin}, {float(r):.6g} */")
             print(f"      {', '.join(nstr(x, 20) for x in numbers)} }},")

@@ -3,33 +3,51 @@
 
     python3 tests/oracle/qnm_reference.py > tests/oracle/qnm_reference.h      (needs mpmath and numpy; a few minutes)
 
-No continued fraction. Radial: Teukolsky's equation in r itself. The wave into the horizon is a power series in r - r+, the
-outgoing wave an asymptotic series in 1/r far out along the ray arg r = pi/2 - arg omega, where it decays. That one is
-continued by Taylor series through the upper half plane to r = 10 and on to r+ + (r+ - r-)/4, where the two have to agree.
-Angular: the eigenvalue in the basis of spin-weighted spherical harmonics (Cook & Zalutskiy 2014, Phys. Rev. D 90, 124021,
-section II.C). Modes are followed from a = 0 in small steps, from Schwarzschild values in print to four digits (Leaver 1985, table 1;
-l = 4: Iyer 1987, Phys. Rev. D 35, 3632).
+No continued fraction. Radial: Teukolsky's equation in r itself. The wave into the horizon is a power series in r - r+,
+the outgoing wave an asymptotic series in 1/r far out along the ray arg r = pi/2 - arg omega, where it decays. That one
+is continued by Taylor series through the upper half plane to r = 10 and on to r+ + (r+ - r-)/4, where the two have to
+agree. Angular: the eigenvalue in the basis of spin-weighted spherical harmonics (Cook & Zalutskiy 2014, Phys. Rev. D
+90, 124021, section II.C). Modes are followed from a = 0 in small steps, from Schwarzschild values in print to four
+digits (Leaver 1985, table 1; l = 4: Iyer 1987, Phys. Rev. D 35, 3632).
 """
+
 import cmath
 
 import numpy as np
 from mpmath import exp, eye, log, lu_solve, matrix, mp, mpc, mpf, nstr, sqrt
 
 S = -2
-SEEDS = {(2, 0): 0.3737 - 0.0890j, (2, 1): 0.3467 - 0.2739j, (2, 2): 0.3011 - 0.4783j, (2, 3): 0.2515 - 0.7051j,
-         (3, 0): 0.5993 - 0.0927j, (3, 1): 0.5824 - 0.2814j, (4, 0): 0.8092 - 0.0942j}
+SEEDS = {
+    (2, 0): 0.3737 - 0.0890j,
+    (2, 1): 0.3467 - 0.2739j,
+    (2, 2): 0.3011 - 0.4783j,
+    (2, 3): 0.2515 - 0.7051j,
+    (3, 0): 0.5993 - 0.0927j,
+    (3, 1): 0.5824 - 0.2814j,
+    (4, 0): 0.8092 - 0.0942j,
+}
 SPINS = [0.0, 0.2, 0.5, 0.8, 0.95, 0.99, 0.999]
 EXTREME = [(2, 2, 0), (2, 2, 1), (2, 0, 0)]  # up to 0.9999
-MODES = [(2, m, n) for n in (0, 1) for m in range(-2, 3)] + \
-        [(2, 2, 2), (2, -2, 3), (2, 0, 3), (2, 1, 2), (3, 3, 0), (3, 3, 1), (3, -1, 1), (4, 4, 0)]
+MODES = [(2, m, n) for n in (0, 1) for m in range(-2, 3)] + [
+    (2, 2, 2),
+    (2, -2, 3),
+    (2, 0, 3),
+    (2, 1, 2),
+    (3, 3, 0),
+    (3, 3, 1),
+    (3, -1, 1),
+    (4, 4, 0),
+]
 
 
 def angular_matrix(m, c, number):
     """-A as the matrix of the angular equation, cos(theta) being three-diagonal in the harmonics l."""
     first, size = max(abs(m), -S), 18
     ls = [first + k for k in range(size + 1)]
-    step = [number(((l + 1)**2 - m * m) * ((l + 1)**2 - S * S)) / ((2 * l + 1) * (2 * l + 3) * (l + 1)**2) for l in ls]
-    up = [x**(number(1) / 2) for x in step]
+    step = [
+        number(((l + 1) ** 2 - m * m) * ((l + 1) ** 2 - S * S)) / ((2 * l + 1) * (2 * l + 3) * (l + 1) ** 2) for l in ls
+    ]
+    up = [x ** (number(1) / 2) for x in step]
     cos = [[number(0)] * (size + 1) for _ in ls]
     for k, l in enumerate(ls):
         cos[k][k] = number(-m * S) / (l * (l + 1))
@@ -38,7 +56,9 @@ def angular_matrix(m, c, number):
     out = [[number(0) * c] * size for _ in range(size)]
     for i in range(size):
         for j in range(max(0, i - 2), min(size, i + 3)):
-            square = sum(cos[i][k] * cos[k][j] for k in range(max(0, i - 1, j - 1), min(size, i + 1, j + 1) + 1) if k <= size)
+            square = sum(
+                cos[i][k] * cos[k][j] for k in range(max(0, i - 1, j - 1), min(size, i + 1, j + 1) + 1) if k <= size
+            )
             out[i][j] = -c * c * square + 2 * c * S * cos[i][j]
         out[i][i] += ls[i] * (ls[i] + 1) - S * (S + 1)
     return out
@@ -53,7 +73,7 @@ def separation(m, c, near, exact):
     rows = matrix(angular_matrix(m, c, mpf))
     v, value = matrix([mpc(complex(x)) for x in vectors[:, k]]), mpc(complex(values[k]))
     for _ in range(2):
-        v = lu_solve(rows - (value + mpf(10)**-20) * eye(len(v)), v)
+        v = lu_solve(rows - (value + mpf(10) ** -20) * eye(len(v)), v)
         v /= max(abs(x) for x in v)
         value = (v.T * rows * v)[0] / (v.T * v)[0]
     return value
@@ -61,12 +81,14 @@ def separation(m, c, near, exact):
 
 def polynomials(a, m, omega, lam, at):
     """Delta^2 R'' + p1 R' + p0 R = 0, as coefficients of powers of r - at."""
+
     def times(x, y):
         out = [0 * at] * (len(x) + len(y) - 1)
         for i, u in enumerate(x):
             for j, v in enumerate(y):
                 out[i + j] += u * v
         return out
+
     delta, half = [at * at - 2 * at + a * a, 2 * at - 2, 1], [at - 1, 1]
     k = [(at * at + a * a) * omega - a * m, 2 * at * omega, omega]
     p2, p1 = times(delta, delta), [2 * (S + 1) * x for x in times(half, delta)]
@@ -98,12 +120,16 @@ def horizon(a, m, omega, lam, outer, gap, to, terms):
     rho = -S - 1j * ((outer**2 + a * a) * omega - a * m) / gap
     c = [1 + 0 * omega]
     for k in range(1, terms):
-        total = sum((p2[j] * (k - j + rho) * (k - j + rho - 1) if j < 3 else 0) * c[k - j] +
-                    (p1[j] * (k - j + rho) if j < 3 else 0) * c[k - j] + p0[j] * c[k - j] for j in range(1, min(k, 4) + 1))
+        total = sum(
+            (p2[j] * (k - j + rho) * (k - j + rho - 1) if j < 3 else 0) * c[k - j]
+            + (p1[j] * (k - j + rho) if j < 3 else 0) * c[k - j]
+            + p0[j] * c[k - j]
+            for j in range(1, min(k, 4) + 1)
+        )
         c.append(-total / (p2[0] * (k + rho) * (k + rho - 1) + p1[0] * (k + rho) + p0[0]))
     x = to - outer
     y = sum(v * x**k for k, v in enumerate(c))
-    return y, sum(v * (k + rho) * x**(k - 1) for k, v in enumerate(c))
+    return y, sum(v * (k + rho) * x ** (k - 1) for k, v in enumerate(c))
 
 
 def infinity(a, m, omega, lam, r, terms):
@@ -114,8 +140,15 @@ def infinity(a, m, omega, lam, r, terms):
     def factor(i, k):
         """The factor of r^(4 - i) in what the equation makes of the k-th term."""
         mu, get = nu - k, lambda p, n: p[n] if 0 <= n < len(p) else 0
-        return get(p2, i) * -omega**2 + get(p2, i - 1) * 2j * omega * mu + get(p2, i - 2) * mu * (mu - 1) + \
-            get(p1, i) * 1j * omega + get(p1, i - 1) * mu + get(p0, i)
+        return (
+            get(p2, i) * -(omega**2)
+            + get(p2, i - 1) * 2j * omega * mu
+            + get(p2, i - 2) * mu * (mu - 1)
+            + get(p1, i) * 1j * omega
+            + get(p1, i - 1) * mu
+            + get(p0, i)
+        )
+
     c, last = [1 + 0 * omega], abs(r)
     for k in range(1, terms):
         new = -sum(factor(k + 1 - j, j) * c[j] for j in range(max(0, k - 6), k)) / factor(1, k)
@@ -149,7 +182,7 @@ def mode(m, a, omega, sep, final):
     exact = final or a > 0.6 or omega.imag < -0.4  # what overtones leave of 16 digits is not enough either
     mp.dps = (26 if final else 16) + int(0.5 * abs((2 + gap) * omega - a * m) / gap)
     terms, reach = (4 * mp.dps, 2.5 * mp.dps) if exact else (50, 25)
-    small, start = (mpf(10)**-12, mpf(10)**-8) if final else (1e-6, 1e-4)
+    small, start = (mpf(10) ** -12, mpf(10) ** -8) if final else (1e-6, 1e-4)
     far = 1j * reach / omega  # one for all steps: the function has to be analytic in omega
     if exact:
         a, omega, far = mpf(a), mpc(omega), mpc(far)
@@ -160,6 +193,7 @@ def mode(m, a, omega, sep, final):
         # what infinity() left out, e^(i w r) r^nu, or else the function has the root but hardly a slope
         left = (exp if exact else cmath.exp)(1j * (w - omega) * (far + 2 * (log if exact else cmath.log)(far)))
         return left * wronskian(a, m, w, sep + a * a * w * w - 2 * a * m * w, far, terms)
+
     x0, x1 = omega, omega * (1 + start)
     f0 = at(x0)
     for _ in range(12):

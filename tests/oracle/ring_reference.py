@@ -1,16 +1,18 @@
 #!/usr/bin/env python3
-"""Reference numbers for lensed rings round a hole without spin, and for embedded planes, as the C table ring_reference.h.
+"""Reference numbers for lensed rings round a hole without spin, and for embedded planes, as the C table
+ring_reference.h.
 
     python3 tests/oracle/ring_reference.py > tests/oracle/ring_reference.h      (needs mpmath)
 
-Ring: a ray stays in a plane, in which (du/dpsi)^2 = 1/b^2 - u^2 + 2u^3, u = 1/r (Darwin 1959). The emitter at (r, phi) lies at
-the angle psi0 from the observer's direction, cos psi0 = sin i cos phi; the ray to its image of order 0 turns by psi = psi0, of
-order 1 by 2 pi - psi0 round the other side. b follows by bisection on that angle, a quadrature in 30 digits, on either branch
-(before or after the turning point u_t). From b: alpha = +-b sin phi/sin psi0, beta = -+b cos i cos phi/sin psi0 and
-g = sqrt(1 - 3/r)/(1 + r^(-3/2) alpha sin i).
+Ring: a ray stays in a plane, in which (du/dpsi)^2 = 1/b^2 - u^2 + 2u^3, u = 1/r (Darwin 1959). The emitter at (r, phi)
+lies at the angle psi0 from the observer's direction, cos psi0 = sin i cos phi; the ray to its image of order 0 turns by
+psi = psi0, of order 1 by 2 pi - psi0 round the other side. b follows by bisection on that angle, a quadrature in 30
+digits, on either branch (before or after the turning point u_t). From b: alpha = +-b sin phi/sin psi0, beta = -+b cos i
+cos phi/sin psi0 and g = sqrt(1 - 3/r)/(1 + r^(-3/2) alpha sin i).
 
 Embedding: dz and dl integrated from the metric of Boyer & Lindquist, by quadrature in sqrt(r - r+).
 """
+
 from mpmath import acos, cos, diff, mp, mpf, pi, polyroots, quad, sin, sqrt
 
 from kerr_reference import c
@@ -20,24 +22,32 @@ mp.dps = 30
 
 def turned(b, u, beyond):
     """Angle from u = 0 to u, with the turning point in between if beyond. w = sqrt(u_t - u) removes the root there."""
-    roots = sorted((x.real for x in polyroots([2, -1, 0, 1 / b**2], maxsteps=200, extraprec=200) if abs(x.imag) < 1e-15))
+    roots = sorted(
+        (x.real for x in polyroots([2, -1, 0, 1 / b**2], maxsteps=200, extraprec=200) if abs(x.imag) < 1e-15)
+    )
     if b * b > 27:
         low, top, far = roots
         share = lambda w: 2 / sqrt(2 * (far - top + w * w) * (top - low - w * w))
         to_u, all_of_it = quad(share, [sqrt(max(0, top - u)), sqrt(top)]), quad(share, [0, sqrt(top)])
         return 2 * all_of_it - to_u if beyond else to_u
-    return quad(lambda x: 1 / sqrt(1 / b**2 - x * x + 2 * x**3), [0, min(u, mpf(1) / 3), u] if u > mpf(1) / 3 else [0, u])
+    return quad(
+        lambda x: 1 / sqrt(1 / b**2 - x * x + 2 * x**3), [0, min(u, mpf(1) / 3), u] if u > mpf(1) / 3 else [0, u]
+    )
 
 
 def impact(u, psi):
     """b of the ray that comes from u having turned by psi."""
     edge = 1 / (u * sqrt(1 - 2 * u))  # the turning point lies at u
     if u >= mpf(1) / 3:
-        low, high, rising = mpf(10)**-9, sqrt(mpf(27)) * (1 - mpf(10)**-20), lambda b: turned(b, u, False)
-    elif turned(edge * (1 - mpf(10)**-25), u, False) >= psi:
-        low, high, rising = mpf(10)**-9, edge * (1 - mpf(10)**-25), lambda b: turned(b, u, False)
+        low, high, rising = mpf(10) ** -9, sqrt(mpf(27)) * (1 - mpf(10) ** -20), lambda b: turned(b, u, False)
+    elif turned(edge * (1 - mpf(10) ** -25), u, False) >= psi:
+        low, high, rising = mpf(10) ** -9, edge * (1 - mpf(10) ** -25), lambda b: turned(b, u, False)
     else:  # the farther it turns the nearer it passes
-        low, high, rising = edge * (1 - mpf(10)**-25), sqrt(mpf(27)) * (1 + mpf(10)**-20), lambda b: turned(b, u, True)
+        low, high, rising = (
+            edge * (1 - mpf(10) ** -25),
+            sqrt(mpf(27)) * (1 + mpf(10) ** -20),
+            lambda b: turned(b, u, True),
+        )
     for _ in range(62):
         middle = (low + high) / 2
         if rising(middle) < psi:
@@ -52,7 +62,7 @@ def ring(i, r, phi, order):
     psi0, side = acos(sin(i) * cos(phi)), 1 if order == 0 else -1
     b = impact(u, psi0 if order == 0 else 2 * pi - psi0)
     alpha, beta = side * b * sin(phi) / sin(psi0), -side * b * cos(i) * cos(phi) / sin(psi0)
-    return alpha, beta, sqrt(1 - 3 * u) / (1 + u**mpf(1.5) * alpha * sin(i)) if r > 3 else mpf(0)
+    return alpha, beta, sqrt(1 - 3 * u) / (1 + u ** mpf(1.5) * alpha * sin(i)) if r > 3 else mpf(0)
 
 
 def embedding(a, r):
@@ -63,12 +73,14 @@ def embedding(a, r):
 
     def height(y):  # r = r+ + y^2
         x = top + y * y
-        slope = diff(radius, x, h=mpf(10)**-14)
-        return sqrt(4 * x * x / (x - inner) - (2 * y * slope)**2)
+        slope = diff(radius, x, h=mpf(10) ** -14)
+        return sqrt(4 * x * x / (x - inner) - (2 * y * slope) ** 2)
 
-    length = lambda y: sqrt(4 * (top + y * y)**2 / (top + y * y - inner))
+    length = lambda y: sqrt(4 * (top + y * y) ** 2 / (top + y * y - inner))
     end = sqrt(r - top)
-    edges = [0] + [end * mpf(2)**-k for k in range(int(mp.log(end / sqrt(top - inner), 2)) + 3 if inner else 3, -1, -1)]
+    edges = [0] + [
+        end * mpf(2) ** -k for k in range(int(mp.log(end / sqrt(top - inner), 2)) + 3 if inner else 3, -1, -1)
+    ]
     return radius(r), quad(height, edges), quad(length, edges)
 
 
@@ -77,8 +89,18 @@ def main():
     print("#ifndef KD_TESTS_RING_REFERENCE_H\n#define KD_TESTS_RING_REFERENCE_H\n")
     print("struct ring_reference { double inclination_deg, r, phi_deg; int order; double alpha, beta, g; };")
     print("static const struct ring_reference ring_reference[] = {")
-    for i, r, phi in ((60, 6, 90), (60, 6, 180), (60, 6, 30), (75, 6, 200), (75, 10, 270), (30, 20, 10), (85, 3, 100), (85, 30, 179),
-                      (45, 2.5, 300), (20, 1000, 45)):
+    for i, r, phi in (
+        (60, 6, 90),
+        (60, 6, 180),
+        (60, 6, 30),
+        (75, 6, 200),
+        (75, 10, 270),
+        (30, 20, 10),
+        (85, 3, 100),
+        (85, 30, 179),
+        (45, 2.5, 300),
+        (20, 1000, 45),
+    ):
         for order in (0, 1):
             print("    { %s, %s, %s, %d, %s }," % (i, r, phi, order, ", ".join(map(c, ring(i, r, phi, order)))))
     print("};\n\nstruct embedding_reference { double a, r, radius, z, distance; };")

@@ -3,13 +3,14 @@
 
     python3 tests/oracle/selftest_reference.py > src/render/selftest/reference.c      (needs mpmath; some minutes)
 
-Nothing here is a formula of src/ or shaders/. Circular orbits come from the metric alone (kerr_reference.py), the others and the
-disk's flux by quadrature (orbit_reference.py, disk_reference.py), rays from Taylor series of the equations of motion
-(null_reference.py), deflections from quadrature of dphi/dw, checked against the series of Keeton & Petters 2005 where the field
-is weak, points of the critical curve from R = R' = 0, redshifts from the metric contracted with photon and gas, the directions of
-cameras from tetrads by Gram-Schmidt. A gain is the sum of |x df/dx| over what a ray is given by: x = alpha, beta, spin,
-inclination, radius; by differences in 38 digits.
+Nothing here is a formula of src/ or shaders/. Circular orbits come from the metric alone (kerr_reference.py), the
+others and the disk's flux by quadrature (orbit_reference.py, disk_reference.py), rays from Taylor series of the
+equations of motion (null_reference.py), deflections from quadrature of dphi/dw, checked against the series of Keeton &
+Petters 2005 where the field is weak, points of the critical curve from R = R' = 0, redshifts from the metric contracted
+with photon and gas, the directions of cameras from tetrads by Gram-Schmidt. A gain is the sum of |x df/dx| over what a
+ray is given by: x = alpha, beta, spin, inclination, radius; by differences in 38 digits.
 """
+
 import sys
 from multiprocessing import Pool
 from mpmath import mp, mpf, sqrt, cos, sin, pi, inf, quad, findroot, log, acos, asin
@@ -24,23 +25,37 @@ mp.dps = 38
 ORDERS = 3
 
 RAYS = [  # set, spin, inclination, radius, alpha, beta
-    ("bulk", 0.0, 45, INF, 5.0, -2.5), ("bulk", 0.5, 17, INF, 3.0, 5.0), ("bulk", 0.5, 135, INF, 5.0, 3.0),
-    ("bulk", 0.9, 70, INF, -3.75, 1.0), ("bulk", 0.9, 70, INF, 6.5, 0.5), ("bulk", 0.9, 70, INF, 12.0, 3.0),
+    ("bulk", 0.0, 45, INF, 5.0, -2.5),
+    ("bulk", 0.5, 17, INF, 3.0, 5.0),
+    ("bulk", 0.5, 135, INF, 5.0, 3.0),
+    ("bulk", 0.9, 70, INF, -3.75, 1.0),
+    ("bulk", 0.9, 70, INF, 6.5, 0.5),
+    ("bulk", 0.9, 70, INF, 12.0, 3.0),
     ("bulk", -0.9, 70, INF, 4.0, -3.0),
-    ("near the axis", 0.9, 0, INF, 5.0, 3.0), ("near the axis", 0.9, 1e-3, INF, 5.0, 3.0),
-    ("near the axis", 0.9, 70, INF, 1e-3, 5.0), ("near the axis", 0.9, 45, INF, -1e-7, 5.5),
-    ("edge-on", 0.9, 90, INF, 5.0, 4.0), ("edge-on", 0.9, 89, INF, 5.0, -4.0), ("edge-on", 0.0, 90, INF, 5.25, 0.125),
-    ("nearly extremal", 0.998, 70, INF, -2.5, 1.25), ("nearly extremal", 0.9999, 17, INF, 4.0, 3.0),
+    ("near the axis", 0.9, 0, INF, 5.0, 3.0),
+    ("near the axis", 0.9, 1e-3, INF, 5.0, 3.0),
+    ("near the axis", 0.9, 70, INF, 1e-3, 5.0),
+    ("near the axis", 0.9, 45, INF, -1e-7, 5.5),
+    ("edge-on", 0.9, 90, INF, 5.0, 4.0),
+    ("edge-on", 0.9, 89, INF, 5.0, -4.0),
+    ("edge-on", 0.0, 90, INF, 5.25, 0.125),
+    ("nearly extremal", 0.998, 70, INF, -2.5, 1.25),
+    ("nearly extremal", 0.9999, 17, INF, 4.0, 3.0),
     ("nearly extremal", 0.999999, 60, INF, 5.0, -3.0),
-    ("1e-3 from critical", 0.9, 70, INF, 5.83385, -2.916925), ("1e-3 from critical", 0.9, 70, INF, 5.84555, -2.922775),
+    ("1e-3 from critical", 0.9, 70, INF, 5.83385, -2.916925),
+    ("1e-3 from critical", 0.9, 70, INF, 5.84555, -2.922775),
     ("1e-3 from critical", -0.9, 120, INF, 1.814, 3.628),
-    ("observer nearby", 0.9, 70, 50.0, 6.0, 2.0), ("observer nearby", 0.9999, 17, 6.0, 2.0, 4.0),
+    ("observer nearby", 0.9, 70, 50.0, 6.0, 2.0),
+    ("observer nearby", 0.9999, 17, 6.0, 2.0, 4.0),
     ("observer nearby", -0.9, 90, 12.0, 3.0, -5.0),
 ]
 CAMERAS = [  # spin, inclination, radius, observer, velocity, yaw, pitch
-    (0.9, 75, 20.0, "static", (0, 0, 0), 8.0, -6.0), (0.9, 60, 4.0, "zamo", (0, 0, 0), -25.0, -40.0),
-    (-0.7, 150, 6.0, "static", (0, 0, 0), 140.0, 10.0), (0.9, 75, 8.0, "keplerian", (0, 0, 0), 30.0, -20.0),
-    (0.9, 70, 6.0, "retrograde", (0, 0, 0), -20.0, -15.0), (0.9, 60, 2.5, "infall", (0, 0, 0), 25.0, -30.0),
+    (0.9, 75, 20.0, "static", (0, 0, 0), 8.0, -6.0),
+    (0.9, 60, 4.0, "zamo", (0, 0, 0), -25.0, -40.0),
+    (-0.7, 150, 6.0, "static", (0, 0, 0), 140.0, 10.0),
+    (0.9, 75, 8.0, "keplerian", (0, 0, 0), 30.0, -20.0),
+    (0.9, 70, 6.0, "retrograde", (0, 0, 0), -20.0, -15.0),
+    (0.9, 60, 2.5, "infall", (0, 0, 0), 25.0, -30.0),
     (-0.5, 110, 5.0, "velocity", (-0.5, 0.25, 0.5), 60.0, 5.0),
 ]
 
@@ -48,13 +63,19 @@ CAMERAS = [  # spin, inclination, radius, observer, velocity, yaw, pitch
 def angles(i):
     """Cosine and sine of a polar angle in degrees, exact at the quarter turns."""
     i = mpf(i)
-    return (mpf(1) if i == 0 else mpf(0) if i == 90 else mpf(-1) if i == 180 else cos(i * pi / 180))
+    return mpf(1) if i == 0 else mpf(0) if i == 90 else mpf(-1) if i == 180 else cos(i * pi / 180)
 
 
 def metric(a, r, u):
     """g_tt, g_tphi, g_phiphi, g_rr, g_thetatheta (Boyer-Lindquist)."""
     s2, sigma, delta = 1 - u * u, r * r + a * a * u * u, r * r - 2 * r + a * a
-    return (-1 + 2 * r / sigma, -2 * a * r * s2 / sigma, (r * r + a * a + 2 * a * a * r * s2 / sigma) * s2, sigma / delta, sigma)
+    return (
+        -1 + 2 * r / sigma,
+        -2 * a * r * s2 / sigma,
+        (r * r + a * a + 2 * a * a * r * s2 / sigma) * s2,
+        sigma / delta,
+        sigma,
+    )
 
 
 def redshift(a, r, lam, eta, sense):
@@ -79,7 +100,7 @@ def quantities(ray):
     outward = ray[5] if len(ray) > 5 else 0
     u = angles(i)
     found, captured, sky = null_reference.trace(a, u, radius, alpha, beta, outward, ORDERS)
-    lam, eta = -mpf(alpha) * sqrt((1 - u) * (1 + u)), (mpf(alpha)**2 - mpf(a)**2) * u * u + mpf(beta)**2
+    lam, eta = -mpf(alpha) * sqrt((1 - u) * (1 + u)), (mpf(alpha) ** 2 - mpf(a) ** 2) * u * u + mpf(beta) ** 2
     rows = [(r, phi, t, redshift(mpf(a), r, lam, eta, sense)) for r, phi, t, sense in found]
     return rows, captured, (acos(sky[0]), sky[1]) if sky else None
 
@@ -90,7 +111,7 @@ def changes(of, x):
     for k, value in enumerate(x):
         if value == 0 or value == inf or (k == 1 and value in (90, 180)):
             continue
-        h = mpf(10)**-14
+        h = mpf(10) ** -14
         there = of([mpf(y) * (1 + h) if j == k else mpf(y) for j, y in enumerate(x)])
         step = [abs(p - q) / h for p, q in zip(there, here)]
         total = step if total is None else [p + q for p, q in zip(total, step)]
@@ -122,10 +143,13 @@ def ray_text(job):
     rows, captured, sky, gains = with_gains(ray)
     given = ", ".join(repr(x) if isinstance(x, float) and x != inf else number(x) for x in ray[:5])
     text = f'      {{ "{name}", {given}, {int(captured)},\n        '
-    text += ", ".join(number(x) for x in sky or (mpf("nan"),) * 2) + f", {short(max(gains[-2:])) if sky else 0}, {len(rows)},"
+    text += (
+        ", ".join(number(x) for x in sky or (mpf("nan"),) * 2)
+        + f", {short(max(gains[-2:])) if sky else 0}, {len(rows)},"
+    )
     for k, row in enumerate(rows):
         text += f"\n        {'{ ' if k == 0 else '  '}{{ {', '.join(map(number, row))},\n            "
-        text += ", ".join(map(short, gains[4 * k:4 * k + 4])) + " }" + ("," if k + 1 < len(rows) else " }")
+        text += ", ".join(map(short, gains[4 * k : 4 * k + 4])) + " }" + ("," if k + 1 < len(rows) else " }")
     return text + (" }" if rows else " { { 0 } } }")
 
 
@@ -161,11 +185,11 @@ def frame(a, r, u, observer, velocity):
     legs = [legs[0], legs[3], legs[2], legs[1]]
     if observer in ("keplerian", "retrograde"):  # no force along r on what goes round
         d = [mp.diff(lambda x: metric(a, x, u)[k], r) for k in range(3)]
-        root = sqrt(d[1]**2 - d[0] * d[2])
+        root = sqrt(d[1] ** 2 - d[0] * d[2])
         w = (-d[1] + (root if observer == "keplerian" else -root)) / d[2]
         goes = orthonormal(g, [[1, 0, 0, w]])[0]
     elif observer == "velocity":
-        gamma = 1 / sqrt(1 - sum(mpf(v)**2 for v in velocity))
+        gamma = 1 / sqrt(1 - sum(mpf(v) ** 2 for v in velocity))
         goes = [gamma * (legs[0][i] + sum(mpf(v) * legs[k + 1][i] for k, v in enumerate(velocity))) for i in range(4)]
     else:
         return legs
@@ -192,25 +216,32 @@ def camera_ray(spin, i, r, observer, velocity, yaw, pitch):
 
 def in_plane(a, b):
     """Azimuth swept by a ray in the equatorial plane, lambda = b: 2 Int dphi/dw dw to the turning point w0."""
-    P = lambda w: 1 + (a * a - b * b) * w * w + 2 * (b - a)**2 * w**3
+    P = lambda w: 1 + (a * a - b * b) * w * w + 2 * (b - a) ** 2 * w**3
     # the smallest positive root of the cubic
-    roots = mp.polyroots([2 * (b - a)**2, a * a - b * b, 0, 1], maxsteps=200, extraprec=200)
-    w0 = min(mp.re(x) for x in roots if mp.re(x) > 0 and abs(mp.im(x)) < mpf(10)**-20)
+    roots = mp.polyroots([2 * (b - a) ** 2, a * a - b * b, 0, 1], maxsteps=200, extraprec=200)
+    w0 = min(mp.re(x) for x in roots if mp.re(x) > 0 and abs(mp.im(x)) < mpf(10) ** -20)
     # P(w) = (w0 - w) G(w); w = w0 (1 - y^2)
-    c3, c2 = 2 * (b - a)**2, a * a - b * b
+    c3, c2 = 2 * (b - a) ** 2, a * a - b * b
     G = lambda w: -(c3 * (w * w + w * w0 + w0 * w0) + c2 * (w + w0))
     rate = lambda w: (b - 2 * w * (b - a)) / (1 - 2 * w + a * a * w * w)
     total = 2 * quad(lambda y: 2 * sqrt(w0) * rate(w0 * (1 - y * y)) / sqrt(G(w0 * (1 - y * y))), mp.linspace(0, 1, 5))
-    assert abs(P(w0)) < mpf(10)**-25
+    assert abs(P(w0)) < mpf(10) ** -25
     return total
 
 
 def deflections():
-    weak = sum(k / mpf(1000)**(n + 1) for n, k in enumerate(
-        (4, 15 * pi / 4, mpf(128) / 3, 3465 * pi / 64, mpf(3584) / 5, 255255 * pi / 256)))
-    assert abs(in_plane(mpf(0), mpf(1000)) - pi - weak) < mpf(10)**-15, "Keeton & Petters 2005"
-    for name, a, b in (("b = 1000, a = 0", 0.0, 1000.0), ("b = 6, a = 0", 0.0, 6.0), ("b = 5.25, a = 0", 0.0, 5.25),
-                       ("b = 3.25, a = 0.9", 0.9, 3.25), ("b = -7.5, a = 0.9", 0.9, -7.5)):
+    weak = sum(
+        k / mpf(1000) ** (n + 1)
+        for n, k in enumerate((4, 15 * pi / 4, mpf(128) / 3, 3465 * pi / 64, mpf(3584) / 5, 255255 * pi / 256))
+    )
+    assert abs(in_plane(mpf(0), mpf(1000)) - pi - weak) < mpf(10) ** -15, "Keeton & Petters 2005"
+    for name, a, b in (
+        ("b = 1000, a = 0", 0.0, 1000.0),
+        ("b = 6, a = 0", 0.0, 6.0),
+        ("b = 5.25, a = 0", 0.0, 5.25),
+        ("b = 3.25, a = 0.9", 0.9, 3.25),
+        ("b = -7.5, a = 0.9", 0.9, -7.5),
+    ):
         here, gain = changes(lambda x: [in_plane(x[0], x[2])], [mpf(a), mpf(90), mpf(b)])
         yield f'      {{ "{name}", {number(a)}, {number(b)}, {number(here[0])}, {short(gain[0])} }},'
 
@@ -218,9 +249,9 @@ def deflections():
 def critical():
     def spherical(a, r):
         """lambda and eta of the bound orbit at r: R = R' = 0."""
-        R = lambda x, l, q: (x * x + a * a - a * l)**2 - (x * x - 2 * x + a * a) * (q + (l - a)**2)
-        dR = lambda x, l, q: 4 * x * (x * x + a * a - a * l) - (2 * x - 2) * (q + (l - a)**2)
-        return findroot(lambda l, q: (R(r, l, q), dR(r, l, q)), (mpf(0), mpf(25)), tol=mpf(10)**-60)
+        R = lambda x, l, q: (x * x + a * a - a * l) ** 2 - (x * x - 2 * x + a * a) * (q + (l - a) ** 2)
+        dR = lambda x, l, q: 4 * x * (x * x + a * a - a * l) - (2 * x - 2) * (q + (l - a) ** 2)
+        return findroot(lambda l, q: (R(r, l, q), dR(r, l, q)), (mpf(0), mpf(25)), tol=mpf(10) ** -60)
 
     b = 3 * sqrt(mpf(3))
     yield "a = 0: 3 sqrt 3", 0.0, 45, b * mpf("0.8"), b * mpf("0.6")
@@ -242,14 +273,21 @@ def orbit_rows():
         a = mpf(spin)
         photon, bound, isco = kerr_reference.orbits(a)
         _, energy, _, _ = kerr_reference.orbit(a, isco)
-        yield (f"      {{ {spin!r}, {number(1 + sqrt((1 - a) * (1 + a)))}, {number(photon)}, {number(bound)}, {number(isco)}, "
-               f"{number(1 - energy)} }},")
+        yield (
+            f"      {{ {spin!r}, {number(1 + sqrt((1 - a) * (1 + a)))}, {number(photon)}, {number(bound)}, {number(isco)}, "
+            f"{number(1 - energy)} }},"
+        )
 
 
 def bound_rows():
     """Constants of motion, and frequencies in Mino time."""
-    for spin, p, e, x in ((0.0, 8.0, 0.5, 1.0), (0.9, 6.0, 0.5, 0.75), (0.9, 10.0, 0.25, -1.0), (0.998, 3.0, 0.25, 0.875),
-                          (-0.7, 10.0, 0.375, 0.25)):
+    for spin, p, e, x in (
+        (0.0, 8.0, 0.5, 1.0),
+        (0.9, 6.0, 0.5, 0.75),
+        (0.9, 10.0, 0.25, -1.0),
+        (0.998, 3.0, 0.25, 0.875),
+        (-0.7, 10.0, 0.375, 0.25),
+    ):
         o = orbit_reference.Orbit(mpf(spin), mpf(p), mpf(e), mpf(x))
         half = [orbit_reference.integral(o.by_radius, pi, i) for i in range(4)]
         swing = [orbit_reference.integral(o.by_theta, pi, i) for i in range(4)]
@@ -287,16 +325,19 @@ OUT_OF = [["1.60475", "-0.53108", "-0.07367"], ["-0.10208", "1.10813", "-0.00605
 
 
 def film(x):
-    return (x * (x + mpf("0.0245786")) - mpf("0.000090537")) / (x * (mpf("0.983729") * x + mpf("0.4329510")) + mpf("0.238081"))
+    return (x * (x + mpf("0.0245786")) - mpf("0.000090537")) / (
+        x * (mpf("0.983729") * x + mpf("0.4329510")) + mpf("0.238081")
+    )
 
 
 def srgb(x):
     c = min(max(x, mpf(0)), mpf(1))
-    return 12.92 * c if c <= mpf("0.0031308") else mpf("1.055") * c**(1 / mpf("2.4")) - mpf("0.055")
+    return 12.92 * c if c <= mpf("0.0031308") else mpf("1.055") * c ** (1 / mpf("2.4")) - mpf("0.055")
 
 
 def grey_rows():
-    """Linear, as sRGB (IEC 61966-2-1), and through S. Hill's fit of ACES first, whose matrices keep grey grey to 1e-4."""
+    """Linear, as sRGB (IEC 61966-2-1), and through S. Hill's fit of ACES first, whose matrices keep grey grey to
+    1e-4."""
     for c in (0.0, 0.0009765625, 0.0031308, 0.01, 0.18, 0.5, 0.75, 1.0, 4.0):
         seen = mp.matrix(OUT_OF) * mp.matrix([film(x) for x in mp.matrix(INTO) * mp.matrix([c, c, c])])
         yield f"      {{ {c!r}, {number(srgb(mpf(c)))}, {{ {', '.join(number(srgb(x)) for x in seen)} }} }},"
@@ -323,10 +364,18 @@ def main():
             alpha, beta, outward = camera_ray(spin, i, r, observer, velocity, yaw, pitch)
             jobs.append((f"{observer} at {r:g}", [spin, i, r, alpha, beta, outward]))
         texts = pool.imap(ray_text, jobs)
-        table("cameras", (f"      {{ KD_OBSERVER_{c[3].upper()}, {{ {', '.join(map(str, c[4]))} }}, {c[5]}, {c[6]},\n{text} }},"
-                          for c, text in zip(CAMERAS, texts)))
+        table(
+            "cameras",
+            (
+                f"      {{ KD_OBSERVER_{c[3].upper()}, {{ {', '.join(map(str, c[4]))} }}, {c[5]}, {c[6]},\n{text} }},"
+                for c, text in zip(CAMERAS, texts)
+            ),
+        )
     table("deflections", deflections())
-    table("criticals", (f'      {{ "{n}", {a!r}, {number(i)}, {number(x)}, {number(y)} }},' for n, a, i, x, y in critical()))
+    table(
+        "criticals",
+        (f'      {{ "{n}", {a!r}, {number(i)}, {number(x)}, {number(y)} }},' for n, a, i, x, y in critical()),
+    )
     table("bounds", bound_rows())
     table("fluxes", flux_rows())
     table("pixels", pixel_rows())

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Reference values for bodies in the equatorial plane that come to whirl at an unstable circle: Carter's equations in 1/r by
-quadrature in 30 digits, with nodes crowded where the radial motion all but stops. E and L are rounded to double first: what
-follows is the motion of these very numbers.
+"""Reference values for bodies in the equatorial plane that come to whirl at an unstable circle: Carter's equations in
+1/r by quadrature in 30 digits, with nodes crowded where the radial motion all but stops. E and L are rounded to double
+first: what follows is the motion of these very numbers.
 
     whirl_reference.py > whirl_reference.h
 """
+
 from mpmath import mp, mpf, sqrt, quad, findroot, polyroots, im
 
 mp.dps = 30
@@ -17,7 +18,7 @@ FAR = mpf(1) / 100
 
 def quartic(a, energy, l):
     b = 1 - energy**2
-    return [2 * (l - a * energy)**2, -(a * a * b + l * l), mpf(2), -b]  # Q = 0: a cubic
+    return [2 * (l - a * energy) ** 2, -(a * a * b + l * l), mpf(2), -b]  # Q = 0: a cubic
 
 
 def value(c, w):
@@ -47,14 +48,16 @@ def rates(a, energy, l, w):
 
 def crowded(low, high, at):
     """Nodes between low and high that crowd towards `at`."""
-    steps = [at + side * mpf(10)**-k for side in (1, -1) for k in range(1, 9)]
+    steps = [at + side * mpf(10) ** -k for side in (1, -1) for k in range(1, 9)]
     return sorted({low, high, *[x for x in steps if low < x < high], *([at] if low < at < high else [])})
 
 
 def inwards(a, energy, l, low, high, middle):
     """From low to the horizon, over the minimum of W at `middle`: Mino and proper time."""
     c = quartic(a, energy, l)
-    return [quad(lambda w: rates(a, energy, l, w)[i] / sqrt(value(c, w)), crowded(low, high, middle)) for i in range(2)] + [mpf(0)] * 2
+    return [
+        quad(lambda w: rates(a, energy, l, w)[i] / sqrt(value(c, w)), crowded(low, high, middle)) for i in range(2)
+    ] + [mpf(0)] * 2
 
 
 def to_turn(a, energy, l, start, turn, others):
@@ -81,16 +84,16 @@ def row(a, energy_text, beside):
     w, l = whirl(a, energy)
     l = mpf(float(l * (1 + mpf(beside))))
     c = quartic(a, energy, l)
-    minimum = (-2 * c[1] + sqrt(4 * c[1]**2 - 12 * c[0] * c[2])) / (6 * c[0])
+    minimum = (-2 * c[1] + sqrt(4 * c[1] ** 2 - 12 * c[0] * c[2])) / (6 * c[0])
     horizon = 1 / (1 + sqrt(1 - a * a))
-    roots = sorted(x.real for x in polyroots(c, maxsteps=1000, extraprec=400) if abs(im(x)) < mpf(10)**-25)
+    roots = sorted(x.real for x in polyroots(c, maxsteps=1000, extraprec=400) if abs(im(x)) < mpf(10) ** -25)
     low = [x for x in roots if x > 0 and x < minimum] if energy < 1 else []
     start = FAR if not low or low[0] < FAR else low[0]
     if value(c, minimum) > 0:  # falls in; from the outer turning point if that is within 100
         if start == FAR:
             sums = inwards(a, energy, l, FAR, horizon, minimum)
         else:
-            others = [x for x in polyroots(c, maxsteps=1000, extraprec=400) if abs(x - start) > mpf(10)**-22]
+            others = [x for x in polyroots(c, maxsteps=1000, extraprec=400) if abs(x - start) > mpf(10) ** -22]
             middle = 1 / (1 / start - 1)
             first = to_turn(a, energy, l, middle, start, others)
             second = inwards(a, energy, l, middle, horizon, minimum)
@@ -112,10 +115,14 @@ def row(a, energy_text, beside):
 
 def main():
     print("/* Made by tests/oracle/whirl_reference.py; do not edit. Bodies that come to whirl, by quadrature. */")
-    print("#ifndef KD_TESTS_WHIRL_REFERENCE_H\n#define KD_TESTS_WHIRL_REFERENCE_H\n\n#include \"physics/orbit.h\"\n")
-    print("/* beside: how far L is from that of the whirl, relative. From r = `from` to the horizon (t and phi infinite, given as 0), back to\n"
-          " * r = 100, or, bound, a radial period. */")
-    print("struct whirl_reference {\n    double spin, energy, momentum, beside, from;\n    enum kd_orbit_fate fate;\n    double mino, proper, t, phi;\n};\n")
+    print('#ifndef KD_TESTS_WHIRL_REFERENCE_H\n#define KD_TESTS_WHIRL_REFERENCE_H\n\n#include "physics/orbit.h"\n')
+    print(
+        "/* beside: how far L is from that of the whirl, relative. From r = `from` to the horizon (t and phi infinite, given as 0), back to\n"
+        " * r = 100, or, bound, a radial period. */"
+    )
+    print(
+        "struct whirl_reference {\n    double spin, energy, momentum, beside, from;\n    enum kd_orbit_fate fate;\n    double mino, proper, t, phi;\n};\n"
+    )
     print("static const struct whirl_reference whirl_reference[] = {")
     for a in SPINS:
         for energy in ENERGIES:

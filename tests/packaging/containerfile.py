@@ -1,4 +1,6 @@
-"""packaging/Containerfile as buildah and docker would read it: nothing that was built here goes in, and it runs with what the program is linked with. containerfile.py SOURCE KERRD"""
+"""packaging/Containerfile as buildah and docker would read it: nothing that was built here goes in, and it runs with
+what the program is linked with. containerfile.py SOURCE KERRD"""
+
 import fnmatch
 import pathlib
 import re
@@ -7,35 +9,83 @@ import sys
 import unittest
 
 SOURCE, KERRD = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
-TEXT = (SOURCE / 'packaging/Containerfile').read_text()
+TEXT = (SOURCE / "packaging/Containerfile").read_text()
 
 
 class Containerfile(unittest.TestCase):
     def test_what_is_built_here_stays_out(self):
-        """`COPY .` takes all that the file of ignored names leaves. podman reads either name of it, docker this one alone."""
-        self.assertFalse((SOURCE / '.containerignore').exists(), 'podman would read it in the place of .dockerignore')
-        patterns = (SOURCE / '.dockerignore').read_text().split()
-        for name in ('build', 'build-asan', 'build-package', 'venv', 'venv-jupyter', '.git'):
+        """`COPY .` takes all that the file of ignored names leaves. podman reads either name of it, docker this one
+        alone."""
+        self.assertFalse((SOURCE / ".containerignore").exists(), "podman would read it in the place of .dockerignore")
+        patterns = (SOURCE / ".dockerignore").read_text().split()
+        for name in ("build", "build-asan", "build-package", "venv", "venv-jupyter", ".git"):
             self.assertTrue(any(fnmatch.fnmatch(name, pattern) for pattern in patterns), name)
-        taken = {path.name for path in SOURCE.iterdir() if not any(fnmatch.fnmatch(path.name, pattern) for pattern in patterns)}
-        self.assertLessEqual({'meson.build', 'meson_options.txt', 'LICENSE', 'NEWS', 'clients', 'data', 'docs', 'packaging', 'scripts', 'shaders', 'src'}, taken)
+        taken = {
+            path.name
+            for path in SOURCE.iterdir()
+            if not any(fnmatch.fnmatch(path.name, pattern) for pattern in patterns)
+        }
+        self.assertLessEqual(
+            {
+                "meson.build",
+                "meson_options.txt",
+                "LICENSE",
+                "NEWS",
+                "clients",
+                "data",
+                "docs",
+                "packaging",
+                "scripts",
+                "shaders",
+                "src",
+            },
+            taken,
+        )
 
     def test_it_is_nobody_in_particular(self):
-        stages = re.split(r'^FROM .* AS (\w+)$', TEXT, flags=re.M)[1:]
-        users = {name: re.findall(r'^USER (\S+)$', stage, re.M) for name, stage in zip(stages[::2], stages[1::2])}
-        self.assertEqual({name: last[-1] for name, last in users.items() if last}, {'server': '10001', 'worker': '10001'})
+        stages = re.split(r"^FROM .* AS (\w+)$", TEXT, flags=re.M)[1:]
+        users = {name: re.findall(r"^USER (\S+)$", stage, re.M) for name, stage in zip(stages[::2], stages[1::2])}
+        self.assertEqual(
+            {name: last[-1] for name, last in users.items() if last}, {"server": "10001", "worker": "10001"}
+        )
 
-    @unittest.skipUnless(re.search(r'VERSION_CODENAME=bookworm', pathlib.Path('/etc/os-release').read_text()), 'libraries have the names of Debian 12 there')
+    @unittest.skipUnless(
+        re.search(r"VERSION_CODENAME=bookworm", pathlib.Path("/etc/os-release").read_text()),
+        "libraries have the names of Debian 12 there",
+    )
     def test_it_has_the_libraries_of_the_program_and_no_others(self):
-        """Those that the program itself names, by package, against those that the stage `server` installs; what they need in turn apt knows."""
-        needed = re.findall(r'NEEDED.*\[(.+)\]', subprocess.run(['readelf', '-d', KERRD], capture_output=True, text=True, check=True).stdout)
-        said = subprocess.run(['dpkg', '-S', *(str(path) for root in ('/lib', '/usr/lib') for name in needed for path in pathlib.Path(root).glob(f'*-linux-gnu*/{name}'))], capture_output=True, text=True).stdout
-        linked = set(re.findall(r'^([^:\s]+):', said, re.M))
+        """Those that the program itself names, by package, against those that the stage `server` installs; what they
+        need in turn apt knows."""
+        needed = re.findall(
+            r"NEEDED.*\[(.+)\]",
+            subprocess.run(["readelf", "-d", KERRD], capture_output=True, text=True, check=True).stdout,
+        )
+        said = subprocess.run(
+            [
+                "dpkg",
+                "-S",
+                *(
+                    str(path)
+                    for root in ("/lib", "/usr/lib")
+                    for name in needed
+                    for path in pathlib.Path(root).glob(f"*-linux-gnu*/{name}")
+                ),
+            ],
+            capture_output=True,
+            text=True,
+        ).stdout
+        linked = set(re.findall(r"^([^:\s]+):", said, re.M))
         self.assertGreater(len(linked), 8, said)
-        installed = set(re.search(r'AS server\nRUN .*?--no-install-recommends \\\n\s+(.*?) \\\n', TEXT, re.S)[1].split())
-        of_every_program = re.compile(r'lib(c6|gcc-s1|[a-z]+san\d+)$')
+        installed = set(
+            re.search(r"AS server\nRUN .*?--no-install-recommends \\\n\s+(.*?) \\\n", TEXT, re.S)[1].split()
+        )
+        of_every_program = re.compile(r"lib(c6|gcc-s1|[a-z]+san\d+)$")
         self.assertEqual({name for name in linked - installed if not of_every_program.match(name)}, set())
-        self.assertEqual({name for name in installed - linked if name.startswith('lib')} - {'libvulkan1', 'libisal2'}, set(), 'the one is loaded by name, the other a choice of the build')
+        self.assertEqual(
+            {name for name in installed - linked if name.startswith("lib")} - {"libvulkan1", "libisal2"},
+            set(),
+            "the one is loaded by name, the other a choice of the build",
+        )
 
 
 unittest.main(argv=sys.argv[:1], verbosity=2)

@@ -1,4 +1,5 @@
 """The Python client against the real server, whose answers are read here by other means. client.py KERRD FOLDER"""
+
 import asyncio
 import http.client
 import http.server
@@ -17,24 +18,29 @@ import unittest
 import zipfile
 
 KERRD, FOLDER = sys.argv[1], pathlib.Path(sys.argv[2])
-sys.path.insert(0, str(FOLDER / 'src'))
+sys.path.insert(0, str(FOLDER / "src"))
 try:
     import httpx
     import numpy as np
     from PIL import Image
 except ImportError as missing:
-    print(f'skipped: {missing}; scripts/setup --browser installs it')
+    print(f"skipped: {missing}; scripts/setup --browser installs it")
     sys.exit(77)
 import kerrd
 
-SIZE = {'width': 48, 'height': 27}
+SIZE = {"width": 48, "height": 27}
 
 
-def raw(url, method, path, document=None, accept='*/*'):
+def raw(url, method, path, document=None, accept="*/*"):
     """An answer's status, headers and bytes, without the client."""
     connection = http.client.HTTPConnection(httpx.URL(url).host, httpx.URL(url).port, timeout=120)
     try:
-        connection.request(method, path, None if document is None else json.dumps(document), {'Content-Type': 'application/json', 'Accept': accept})
+        connection.request(
+            method,
+            path,
+            None if document is None else json.dumps(document),
+            {"Content-Type": "application/json", "Accept": accept},
+        )
         answer = connection.getresponse()
         return answer.status, answer.headers, answer.read()
     finally:
@@ -57,178 +63,240 @@ class Case(unittest.TestCase):
 
 
 class Said(Case):
-    """Values of numpy and dataclasses wherever a document may have them, and words for what is wrong before anything is sent."""
+    """Values of numpy and dataclasses wherever a document may have them, and words for what is wrong before anything is
+    sent."""
 
     def test_numbers_of_numpy(self):
-        at = self.hole.pixel(np.int64(3), np.float32(4), {'image': SIZE})
-        self.assertEqual(at['pixel'], [3, 4])
-        self.assertEqual(len(self.hole.orbits({'p': np.float64(8), 'e': 0.5}, samples=np.int64(9))['series']['t']), 9)
-        with self.hole.job({'scene': kerrd.Scene(image=kerrd.Image(**SIZE)), 'axes': {'spacetime.spin': np.linspace(0, 0.9, 3)}}) as job:
-            self.assertEqual(job.status()['frames'], 3)
-        self.assertEqual(self.hole.render(kerrd.Scene(image=kerrd.Image(**SIZE), accuracy=kerrd.Accuracy(profile='high'))).scene['accuracy']['profile'], 'high')
+        at = self.hole.pixel(np.int64(3), np.float32(4), {"image": SIZE})
+        self.assertEqual(at["pixel"], [3, 4])
+        self.assertEqual(len(self.hole.orbits({"p": np.float64(8), "e": 0.5}, samples=np.int64(9))["series"]["t"]), 9)
+        with self.hole.job(
+            {"scene": kerrd.Scene(image=kerrd.Image(**SIZE)), "axes": {"spacetime.spin": np.linspace(0, 0.9, 3)}}
+        ) as job:
+            self.assertEqual(job.status()["frames"], 3)
+        self.assertEqual(
+            self.hole.render(kerrd.Scene(image=kerrd.Image(**SIZE), accuracy=kerrd.Accuracy(profile="high"))).scene[
+                "accuracy"
+            ]["profile"],
+            "high",
+        )
 
     def test_what_is_wrong_is_named(self):
         for words, wrong, call in (
-                (r'shape \(2, 8\)', ValueError, lambda: self.hole.rays(np.zeros((2, 8)))),
-                ('frames is 1', ValueError, lambda: self.hole.light_curve(times=(0, 1), frames=1)),
-                ("layers is 'rgb'", TypeError, lambda: self.hole.layers(None, 'rgb')),
-                ("layers is 'rgb'", TypeError, lambda: self.hole.sweep(None, {'spacetime.spin': [0]}, layers='rgb')),
-                ('spots.x.r: x is no place in a list of 0', KeyError, lambda: self.hole.render({'spots': []}, **{'spots.x.r': 1})),
-                ('spots.1.r: 1 is no place in a list of 1, allowed are 0 to 0', KeyError, lambda: self.hole.render({'spots': [{}]}, **{'spots.1.r': 1})),
-                ('image.width.x: width is 3', KeyError, lambda: self.hole.render({'image': {'width': 3}}, **{'image.width.x': 1})),
-                ('tile is 0', ValueError, lambda: self.hole.stitched({'image': SIZE}, tile=0))):
+            (r"shape \(2, 8\)", ValueError, lambda: self.hole.rays(np.zeros((2, 8)))),
+            ("frames is 1", ValueError, lambda: self.hole.light_curve(times=(0, 1), frames=1)),
+            ("layers is 'rgb'", TypeError, lambda: self.hole.layers(None, "rgb")),
+            ("layers is 'rgb'", TypeError, lambda: self.hole.sweep(None, {"spacetime.spin": [0]}, layers="rgb")),
+            (
+                "spots.x.r: x is no place in a list of 0",
+                KeyError,
+                lambda: self.hole.render({"spots": []}, **{"spots.x.r": 1}),
+            ),
+            (
+                "spots.1.r: 1 is no place in a list of 1, allowed are 0 to 0",
+                KeyError,
+                lambda: self.hole.render({"spots": [{}]}, **{"spots.1.r": 1}),
+            ),
+            (
+                "image.width.x: width is 3",
+                KeyError,
+                lambda: self.hole.render({"image": {"width": 3}}, **{"image.width.x": 1}),
+            ),
+            ("tile is 0", ValueError, lambda: self.hole.stitched({"image": SIZE}, tile=0)),
+        ):
             with self.assertRaisesRegex(wrong, words):
                 call()
 
     def test_a_proxy_of_the_environment_is_not_asked_for_the_own_machine(self):
         code = 'import kerrd, sys\nwith kerrd.local(binary=sys.argv[1]) as hole: print(hole.device()["name"] != "")'
-        env = {**os.environ, 'http_proxy': 'http://127.0.0.1:9', 'PYTHONPATH': os.pathsep.join([str(FOLDER / 'src'), os.environ.get('PYTHONPATH', '')])}
-        env.pop('no_proxy', None)
-        done = subprocess.run([sys.executable, '-c', code, KERRD], env=env, capture_output=True, text=True, timeout=60)
-        self.assertEqual((done.stdout, done.stderr), ('True\n', ''))
+        env = {
+            **os.environ,
+            "http_proxy": "http://127.0.0.1:9",
+            "PYTHONPATH": os.pathsep.join([str(FOLDER / "src"), os.environ.get("PYTHONPATH", "")]),
+        }
+        env.pop("no_proxy", None)
+        done = subprocess.run([sys.executable, "-c", code, KERRD], env=env, capture_output=True, text=True, timeout=60)
+        self.assertEqual((done.stdout, done.stderr), ("True\n", ""))
 
     def test_a_view_that_nothing_moves_in_ends(self):
-        with self.hole.session({'disk': {'model': 'none'}, 'sky': {'model': 'grid'}, 'image': SIZE, 'motion': {'time_rate': 10}}) as session:
+        with self.hole.session(
+            {"disk": {"model": "none"}, "sky": {"model": "grid"}, "image": SIZE, "motion": {"time_rate": 10}}
+        ) as session:
             session.frame_wait = 1
             self.assertTrue([frame.final for frame in session][-1])
 
     def test_a_job_that_is_gone_is_closed(self):
-        with self.hole.job({'scene': {'image': SIZE}}) as job:
-            raw(self.hole.url, 'DELETE', f'/v1/jobs/{job.id}?token={job.token}')
+        with self.hole.job({"scene": {"image": SIZE}}) as job:
+            raw(self.hole.url, "DELETE", f"/v1/jobs/{job.id}?token={job.token}")
 
 
 class Blocking(Case):
     def test_a_picture_and_its_numbers(self):
-        frame = self.hole.render({'image': SIZE}, camera__inclination_deg=60, layers=['g', 'rgb'])
-        scene = {'camera': {'inclination_deg': 60}, 'image': SIZE}
-        headers, png = self.raw('POST', '/v1/render', scene, accept='image/png')
+        frame = self.hole.render({"image": SIZE}, camera__inclination_deg=60, layers=["g", "rgb"])
+        scene = {"camera": {"inclination_deg": 60}, "image": SIZE}
+        headers, png = self.raw("POST", "/v1/render", scene, accept="image/png")
         self.assertEqual(frame.png, png)
         self.assertEqual(frame._repr_png_(), png)
         self.assertEqual(frame.array.shape, (27, 48, 3))
         self.assertTrue(np.array_equal(frame.array, np.asarray(Image.open(io.BytesIO(png)))))
-        self.assertEqual(frame.scene['camera']['inclination_deg'], 60)
-        self.assertEqual(frame.etag, headers['ETag'])
-        self.assertEqual(frame.accuracy['rays'], 48 * 27)
-        self.assertEqual([s for s in frame.approximations if '%' in s or '"' in s], [])
-        self.assertEqual(frame.approximations, Image.open(io.BytesIO(png)).text['kerrd:approximations'].split('\n'))
-        self.assertGreater(frame.timing['total'], 0)
-        _, npz = self.raw('POST', '/v1/render', {**scene, 'image': {**SIZE, 'layers': ['g', 'rgb']}}, accept='application/x-npz')
+        self.assertEqual(frame.scene["camera"]["inclination_deg"], 60)
+        self.assertEqual(frame.etag, headers["ETag"])
+        self.assertEqual(frame.accuracy["rays"], 48 * 27)
+        self.assertEqual([s for s in frame.approximations if "%" in s or '"' in s], [])
+        self.assertEqual(frame.approximations, Image.open(io.BytesIO(png)).text["kerrd:approximations"].split("\n"))
+        self.assertGreater(frame.timing["total"], 0)
+        _, npz = self.raw(
+            "POST", "/v1/render", {**scene, "image": {**SIZE, "layers": ["g", "rgb"]}}, accept="application/x-npz"
+        )
         with zipfile.ZipFile(io.BytesIO(npz)) as file:
-            for name in ('g', 'rgb'):
-                self.assertTrue(np.array_equal(frame.layers[name], np.load(io.BytesIO(file.read(name + '.npy'))), equal_nan=True), name)
-        self.assertEqual(set(frame.layers), {'g', 'rgb'})
+            for name in ("g", "rgb"):
+                self.assertTrue(
+                    np.array_equal(frame.layers[name], np.load(io.BytesIO(file.read(name + ".npy"))), equal_nan=True),
+                    name,
+                )
+        self.assertEqual(set(frame.layers), {"g", "rgb"})
 
     def test_scenes_are_said_in_any_way(self):
-        ways = [self.hole.render({'image': SIZE, 'camera': {'inclination_deg': 70}, 'spots': [{'r': 9}]}),
-                self.hole.render(kerrd.Scene(image=kerrd.Image(**SIZE), camera=kerrd.Camera(inclination_deg=70), spots=[kerrd.Spot(r=9)])),
-                self.hole.render({'spots': [{'r': 12}]}, size=(48, 27), camera={'inclination_deg': np.float64(70)}, **{'spots.0.r': 9}),
-                self.hole.render(image=SIZE, camera__inclination_deg=70, spots=({'r': np.int64(9)},))]
-        self.assertEqual({way.headers['kerrd-scene-hash'] for way in ways}, {ways[0].headers['kerrd-scene-hash']})
-        self.assertNotEqual(self.hole.render(preset='gargantua', size=(48, 27)).etag, ways[0].etag)
-        with self.assertRaisesRegex(KeyError, 'spots.1.r'):
-            self.hole.render({'spots': [{'r': 12}]}, **{'spots.1.r': 9})
+        ways = [
+            self.hole.render({"image": SIZE, "camera": {"inclination_deg": 70}, "spots": [{"r": 9}]}),
+            self.hole.render(
+                kerrd.Scene(image=kerrd.Image(**SIZE), camera=kerrd.Camera(inclination_deg=70), spots=[kerrd.Spot(r=9)])
+            ),
+            self.hole.render(
+                {"spots": [{"r": 12}]}, size=(48, 27), camera={"inclination_deg": np.float64(70)}, **{"spots.0.r": 9}
+            ),
+            self.hole.render(image=SIZE, camera__inclination_deg=70, spots=({"r": np.int64(9)},)),
+        ]
+        self.assertEqual({way.headers["kerrd-scene-hash"] for way in ways}, {ways[0].headers["kerrd-scene-hash"]})
+        self.assertNotEqual(self.hole.render(preset="gargantua", size=(48, 27)).etag, ways[0].etag)
+        with self.assertRaisesRegex(KeyError, "spots.1.r"):
+            self.hole.render({"spots": [{"r": 12}]}, **{"spots.1.r": 9})
 
     def test_a_refusal_names_the_field(self):
         with self.assertRaises(kerrd.Problem) as caught:
-            self.hole.render(image={'width': -4})
+            self.hole.render(image={"width": -4})
         problem = caught.exception
-        self.assertEqual((problem.status, problem.pointer), (422, '/image/width'))
-        self.assertEqual(problem.allowed, 'whole numbers from 1 to 32768 pixels')
-        self.assertIn('-4', str(problem))
+        self.assertEqual((problem.status, problem.pointer), (422, "/image/width"))
+        self.assertEqual(problem.allowed, "whole numbers from 1 to 32768 pixels")
+        self.assertIn("-4", str(problem))
         again = pickle.loads(pickle.dumps(problem))
-        self.assertEqual((again.status, again.pointer, str(again)), (422, '/image/width', str(problem)))
+        self.assertEqual((again.status, again.pointer, str(again)), (422, "/image/width", str(problem)))
         with self.assertRaises(kerrd.Problem) as caught:
-            self.hole.preset('no-such')
+            self.hole.preset("no-such")
         self.assertEqual(caught.exception.status, 404)
         with self.assertRaises(ValueError):
-            self.hole.render(camera__inclination_deg=float('nan'))
+            self.hole.render(camera__inclination_deg=float("nan"))
 
     def test_rays_orbits_numbers(self):
         pairs = np.array([[5, 1], [6, -3], [-2, 8]])
         ends = self.hole.rays(pairs, spin=0.9, inclination_deg=60, orders=2)
-        told = json.loads(self.raw('POST', '/v1/rays', {'spin': 0.9, 'observer': {'inclination_deg': 60}, 'orders': 2, 'rays': pairs.tolist()})[1])
-        for end, ray in zip(ends, told['rays'], strict=True):
-            self.assertEqual([float(r) for r in end['r'] if not np.isnan(r)], [crossing['r'] for crossing in ray['crossings']])
-            self.assertEqual(['captured', 'escaped', 'undecided'][end['fate']], ray['fate'])
-        orbit = self.hole.orbits({'p': 6, 'e': 0.5}, spin=0.9, samples=9)
-        told = json.loads(self.raw('POST', '/v1/orbits', {'spin': 0.9, 'orbit': {'p': 6, 'e': 0.5}, 'samples': 9})[1])
-        self.assertEqual(orbit['series']['phi'].tolist(), [row[told['series']['columns'].index('phi')] for row in told['series']['rows']])
-        self.assertTrue(np.isnan(self.hole.orbits({'case': 'plunge'}, samples=5)['series']['t'][-1]))
-        kerr = self.hole.physics('kerr', spin='0:0.9:3', r='6:10:2')['values']
-        self.assertEqual(kerr['isco'].shape, (3, 2))
-        np.testing.assert_allclose(kerr['isco'][0], 6, rtol=1e-15)
+        told = json.loads(
+            self.raw(
+                "POST",
+                "/v1/rays",
+                {"spin": 0.9, "observer": {"inclination_deg": 60}, "orders": 2, "rays": pairs.tolist()},
+            )[1]
+        )
+        for end, ray in zip(ends, told["rays"], strict=True):
+            self.assertEqual(
+                [float(r) for r in end["r"] if not np.isnan(r)], [crossing["r"] for crossing in ray["crossings"]]
+            )
+            self.assertEqual(["captured", "escaped", "undecided"][end["fate"]], ray["fate"])
+        orbit = self.hole.orbits({"p": 6, "e": 0.5}, spin=0.9, samples=9)
+        told = json.loads(self.raw("POST", "/v1/orbits", {"spin": 0.9, "orbit": {"p": 6, "e": 0.5}, "samples": 9})[1])
+        self.assertEqual(
+            orbit["series"]["phi"].tolist(),
+            [row[told["series"]["columns"].index("phi")] for row in told["series"]["rows"]],
+        )
+        self.assertTrue(np.isnan(self.hole.orbits({"case": "plunge"}, samples=5)["series"]["t"][-1]))
+        kerr = self.hole.physics("kerr", spin="0:0.9:3", r="6:10:2")["values"]
+        self.assertEqual(kerr["isco"].shape, (3, 2))
+        np.testing.assert_allclose(kerr["isco"][0], 6, rtol=1e-15)
         line = self.hole.line(spin=0.9, inclination_deg=40, bins=50)
-        self.assertEqual({column.shape for column in line['columns'].values()}, {(50,)})
-        self.assertAlmostEqual(line['columns']['share'].sum(), 1, delta=0.01)
-        self.assertIn('crossings', self.hole.pixel(3, 4, image=SIZE))
-        self.assertGreater(self.hole.plan(image=SIZE)['estimate_ms'], 0)
-        self.assertIn('gargantua', [preset['name'] for preset in self.hole.presets()])
+        self.assertEqual({column.shape for column in line["columns"].values()}, {(50,)})
+        self.assertAlmostEqual(line["columns"]["share"].sum(), 1, delta=0.01)
+        self.assertIn("crossings", self.hole.pixel(3, 4, image=SIZE))
+        self.assertGreater(self.hole.plan(image=SIZE)["estimate_ms"], 0)
+        self.assertIn("gargantua", [preset["name"] for preset in self.hole.presets()])
 
     def test_a_sweep_is_its_scenes(self):
-        axes = {'spacetime.spin': [0, 0.9], 'disk.model': ['novikov-thorne', 'none'], 'camera.inclination_deg': '20:60/3'}
-        sweep = self.hole.sweep({'image': SIZE}, axes, layers=['r', 'rgb'])
-        self.assertEqual((sweep['r'].shape, sweep['rgb'].shape, sweep.hashes.shape), ((2, 2, 3, 27, 48), (2, 2, 3, 27, 48, 3), (2, 2, 3)))
-        self.assertEqual(sweep.axes['camera.inclination_deg'].tolist(), [20, 40, 60])
-        one = self.hole.layers({'image': SIZE}, ['r'], spacetime__spin=0.9, disk__model='novikov-thorne', camera__inclination_deg=40)['r']
-        self.assertTrue(np.array_equal(sweep['r'][1, 0, 1], one, equal_nan=True))
+        axes = {
+            "spacetime.spin": [0, 0.9],
+            "disk.model": ["novikov-thorne", "none"],
+            "camera.inclination_deg": "20:60/3",
+        }
+        sweep = self.hole.sweep({"image": SIZE}, axes, layers=["r", "rgb"])
+        self.assertEqual(
+            (sweep["r"].shape, sweep["rgb"].shape, sweep.hashes.shape),
+            ((2, 2, 3, 27, 48), (2, 2, 3, 27, 48, 3), (2, 2, 3)),
+        )
+        self.assertEqual(sweep.axes["camera.inclination_deg"].tolist(), [20, 40, 60])
+        one = self.hole.layers(
+            {"image": SIZE}, ["r"], spacetime__spin=0.9, disk__model="novikov-thorne", camera__inclination_deg=40
+        )["r"]
+        self.assertTrue(np.array_equal(sweep["r"][1, 0, 1], one, equal_nan=True))
 
     def test_a_light_curve(self):
-        curve = self.hole.light_curve(preset='hot-spot', times=(0, 60), frames=5, size=(32, 18))
-        self.assertEqual(curve['t'].tolist(), [0, 15, 30, 45, 60])
-        self.assertGreater(curve['flux'].min(), 0)
+        curve = self.hole.light_curve(preset="hot-spot", times=(0, 60), frames=5, size=(32, 18))
+        self.assertEqual(curve["t"].tolist(), [0, 15, 30, 45, 60])
+        self.assertGreater(curve["flux"].min(), 0)
 
     def test_a_session(self):
-        with self.hole.session({'image': {'width': 320, 'height': 180}}) as live:
+        with self.hole.session({"image": {"width": 320, "height": 180}}) as live:
             frames = list(live)
             self.assertTrue(frames[-1].final)
             self.assertEqual(frames[-1].image.size, (320, 180))
             revision = live.patch(camera__azimuth_deg=20, disk__inner=7)
             after = list(live)
-            self.assertEqual((after[-1].revision, live.scene['camera']['azimuth_deg']), (revision, 20))
+            self.assertEqual((after[-1].revision, live.scene["camera"]["azimuth_deg"]), (revision, 20))
             self.assertTrue(all(a.number < b.number for a, b in zip(frames + after, (frames + after)[1:])))
             self.assertTrue(np.array_equal(after[-1].array, self.hole.render(live.scene).array))
             self.assertIsNone(live.frame(wait=0.1))
-            self.assertEqual(list(live), [], 'there is nothing more to come')
+            self.assertEqual(list(live), [], "there is nothing more to come")
             name = live.id
-        self.assertEqual(raw(self.hole.url, 'GET', f'/v1/sessions/{name}')[0], 404)
+        self.assertEqual(raw(self.hole.url, "GET", f"/v1/sessions/{name}")[0], 404)
 
     def test_a_job_that_is_not_done(self):
-        with self.hole.job({'scene': {'image': {'width': 3000, 'height': 2000, 'samples': 4}}}) as job:
+        with self.hole.job({"scene": {"image": {"width": 3000, "height": 2000, "samples": 4}}}) as job:
             with self.assertRaises(kerrd.Problem) as caught:
                 job.result()
             self.assertEqual(caught.exception.status, 409)
             name = job.id
-        self.assertEqual(raw(self.hole.url, 'GET', f'/v1/jobs/{name}')[0], 404)
+        self.assertEqual(raw(self.hole.url, "GET", f"/v1/jobs/{name}")[0], 404)
 
 
 class Async(Case):
     def test_the_same_by_asyncio(self):
         async def all_of_it():
             async with kerrd.AsyncClient(self.hole.url) as hole:
-                frames = await asyncio.gather(*(hole.render({'image': SIZE}, camera__inclination_deg=i) for i in (30, 50, 70)))
-                sweep = await hole.sweep({'image': SIZE}, {'spacetime.spin': [0, 0.5]}, layers=['r'])
-                async with await hole.session({'image': SIZE}) as live:
+                frames = await asyncio.gather(
+                    *(hole.render({"image": SIZE}, camera__inclination_deg=i) for i in (30, 50, 70))
+                )
+                sweep = await hole.sweep({"image": SIZE}, {"spacetime.spin": [0, 0.5]}, layers=["r"])
+                async with await hole.session({"image": SIZE}) as live:
                     last = [frame async for frame in live][-1]
                 return frames, sweep, last
+
         frames, sweep, last = asyncio.run(all_of_it())
         for inclination, frame in zip((30, 50, 70), frames):
-            self.assertEqual(frame.png, self.hole.render({'image': SIZE}, camera__inclination_deg=inclination).png)
-        self.assertEqual(sweep['r'].shape, (2, 27, 48))
+            self.assertEqual(frame.png, self.hole.render({"image": SIZE}, camera__inclination_deg=inclination).png)
+        self.assertEqual(sweep["r"].shape, (2, 27, 48))
         self.assertTrue(last.final)
 
 
 class Busy(http.server.BaseHTTPRequestHandler):
     """Is busy twice, then answers."""
+
     asked = 0
 
     def do_GET(self):
         type(self).asked += 1
         busy = self.asked < 3
-        body = json.dumps({'title': 'The queue is full', 'detail': 'later'} if busy else {'presets': []}).encode()
+        body = json.dumps({"title": "The queue is full", "detail": "later"} if busy else {"presets": []}).encode()
         self.send_response(503 if busy else 200)
         if busy:
-            self.send_header('Retry-After', '0.1')
-        self.send_header('Content-Length', str(len(body)))
+            self.send_header("Retry-After", "0.1")
+        self.send_header("Content-Length", str(len(body)))
         self.end_headers()
         self.wfile.write(body)
 
@@ -239,9 +307,9 @@ class Busy(http.server.BaseHTTPRequestHandler):
 class Patience(unittest.TestCase):
     def setUp(self):
         Busy.asked = 0
-        self.server = http.server.HTTPServer(('127.0.0.1', 0), Busy)
+        self.server = http.server.HTTPServer(("127.0.0.1", 0), Busy)
         threading.Thread(target=self.server.serve_forever, daemon=True).start()
-        self.url = f'http://127.0.0.1:{self.server.server_port}/'
+        self.url = f"http://127.0.0.1:{self.server.server_port}/"
 
     def tearDown(self):
         self.server.shutdown()
@@ -273,49 +341,51 @@ class Local(unittest.TestCase):
         self.assertTrue(self.gone(pid))
 
     def test_below_a_base_path(self):
-        with kerrd.local(binary=KERRD, args=['--base-path', '/some/prefix']) as hole:
-            self.assertTrue(hole.url.endswith('/some/prefix/'), hole.url)
-            self.assertEqual(hole.render({'image': SIZE}).image.size, (48, 27))
-            with hole.session({'image': SIZE}) as live:
+        with kerrd.local(binary=KERRD, args=["--base-path", "/some/prefix"]) as hole:
+            self.assertTrue(hole.url.endswith("/some/prefix/"), hole.url)
+            self.assertEqual(hole.render({"image": SIZE}).image.size, (48, 27))
+            with hole.session({"image": SIZE}) as live:
                 self.assertEqual(live.patch(camera__azimuth_deg=5), 2)
                 self.assertEqual(list(live)[-1].revision, 2)
 
     def test_an_access_token(self):
         """Beside the tokens of a session and a job, which are others."""
         with tempfile.TemporaryDirectory() as folder:
-            file = pathlib.Path(folder, 'tokens')
-            file.write_text('ann view ann-0123456789abcdef\nbob render bob-0123456789abcdef\n')
+            file = pathlib.Path(folder, "tokens")
+            file.write_text("ann view ann-0123456789abcdef\nbob render bob-0123456789abcdef\n")
             file.chmod(0o600)
-            with kerrd.local(binary=KERRD, args=['--token-file', str(file)]) as own:
-                for access, status in ((None, 401), ('wrong', 401)):
+            with kerrd.local(binary=KERRD, args=["--token-file", str(file)]) as own:
+                for access, status in ((None, 401), ("wrong", 401)):
                     with self.assertRaises(kerrd.Problem) as caught:
                         kerrd.Client(own.url, access=access, trust_env=False).presets()
                     self.assertEqual(caught.exception.status, status)
-                viewer = kerrd.Client(own.url, access='ann-0123456789abcdef', trust_env=False)
-                self.assertEqual(viewer.render({'image': SIZE}).image.size, (48, 27))
+                viewer = kerrd.Client(own.url, access="ann-0123456789abcdef", trust_env=False)
+                self.assertEqual(viewer.render({"image": SIZE}).image.size, (48, 27))
                 with self.assertRaises(kerrd.Problem) as caught:
-                    viewer.session({'image': SIZE})
+                    viewer.session({"image": SIZE})
                 self.assertEqual(caught.exception.status, 403)
-                hole = kerrd.Client(own.url, access='bob-0123456789abcdef', trust_env=False)
-                with hole.session({'image': SIZE}) as live:
+                hole = kerrd.Client(own.url, access="bob-0123456789abcdef", trust_env=False)
+                with hole.session({"image": SIZE}) as live:
                     self.assertEqual(live.patch(camera__azimuth_deg=5), 2)
                     self.assertEqual(list(live)[-1].revision, 2)
-                with hole.job({'scene': {'image': SIZE}}) as job:
-                    self.assertTrue(job.wait().result().startswith(b'\x89PNG'))
+                with hole.job({"scene": {"image": SIZE}}) as job:
+                    self.assertTrue(job.wait().result().startswith(b"\x89PNG"))
                 self.assertEqual(asyncio.run(self.presets_of(own.url)), hole.presets())
 
     async def presets_of(self, url):
-        async with kerrd.AsyncClient(url, access='ann-0123456789abcdef', trust_env=False) as hole:
+        async with kerrd.AsyncClient(url, access="ann-0123456789abcdef", trust_env=False) as hole:
             return await hole.presets()
 
     def test_it_ends_with_the_interpreter(self):
-        code = f'import sys; sys.path.insert(0, {str(FOLDER / "src")!r}); import kerrd; print(kerrd.local(binary={KERRD!r}).process.pid)'
-        done = subprocess.run([sys.executable, '-c', code], capture_output=True, text=True, timeout=60, check=True)
+        code = f"import sys; sys.path.insert(0, {str(FOLDER / 'src')!r}); import kerrd; print(kerrd.local(binary={KERRD!r}).process.pid)"
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=True)
         self.assertTrue(self.gone(int(done.stdout)))
 
     def test_it_ends_with_an_interpreter_that_is_killed(self):
-        code = f'import sys; sys.path.insert(0, {str(FOLDER / "src")!r}); import kerrd; print(kerrd.local(binary={KERRD!r}).process.pid, flush=True); sys.stdin.read()'
-        with subprocess.Popen([sys.executable, '-c', code], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as python:
+        code = f"import sys; sys.path.insert(0, {str(FOLDER / 'src')!r}); import kerrd; print(kerrd.local(binary={KERRD!r}).process.pid, flush=True); sys.stdin.read()"
+        with subprocess.Popen(
+            [sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+        ) as python:
             pid = int(python.stdout.readline())
             self.assertFalse(self.gone(pid))
             python.kill()
@@ -326,7 +396,7 @@ class Local(unittest.TestCase):
 
     def test_an_interrupt_does_not_stop_it(self):
         """Jupyter's interrupts go to the kernel's whole group of processes, as Ctrl+C does."""
-        code = f'''
+        code = f"""
 import os, signal, sys, time
 sys.path.insert(0, {str(FOLDER / "src")!r})
 import kerrd
@@ -337,17 +407,19 @@ try:
 except KeyboardInterrupt:
     time.sleep(3)
 print(len(hole.presets()))
-'''
-        done = subprocess.run([sys.executable, '-c', code], capture_output=True, text=True, timeout=100, start_new_session=True)
+"""
+        done = subprocess.run(
+            [sys.executable, "-c", code], capture_output=True, text=True, timeout=100, start_new_session=True
+        )
         self.assertGreater(int(done.stdout or 0), 3, done.stderr)
 
     def test_what_does_not_start(self):
-        with self.assertRaisesRegex(kerrd.KerrdError, 'did not start'):
-            kerrd.local(binary=KERRD, args=['--listen', 'nowhere'])
-        with self.assertRaisesRegex(kerrd.NoBinary, 'no-such-program'):
-            kerrd.local(binary='no-such-program')
+        with self.assertRaisesRegex(kerrd.KerrdError, "did not start"):
+            kerrd.local(binary=KERRD, args=["--listen", "nowhere"])
+        with self.assertRaisesRegex(kerrd.NoBinary, "no-such-program"):
+            kerrd.local(binary="no-such-program")
 
 
-if __name__ == '__main__':
+if __name__ == "__main__":
     signal.alarm(280)
     unittest.main(argv=sys.argv[:1], verbosity=2)

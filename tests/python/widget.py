@@ -1,7 +1,9 @@
-"""The widget's Python side against the real server; the browser's side is played here by its messages. widget.py KERRD FOLDER
+"""The widget's Python side against the real server; the browser's side is played here by its messages. widget.py KERRD
+FOLDER
 
 In a browser: notebook.py (scripts/matrix jupyter).
 """
+
 import io
 import os
 import pathlib
@@ -14,7 +16,7 @@ import time
 import unittest
 
 KERRD, FOLDER = sys.argv[1], pathlib.Path(sys.argv[2])
-sys.path.insert(0, str(FOLDER / 'src'))
+sys.path.insert(0, str(FOLDER / "src"))
 try:
     import anywidget
     import comm
@@ -23,7 +25,7 @@ try:
     from comm.base_comm import BaseComm
     from PIL import Image
 except ImportError as missing:
-    print(f'skipped: {missing}; scripts/setup --browser installs it')
+    print(f"skipped: {missing}; scripts/setup --browser installs it")
     sys.exit(77)
 import kerrd
 import kerrd.follow
@@ -36,6 +38,7 @@ PATIENCE_S = 60
 
 class Comm(BaseComm):
     """Keeps what would go to the browser."""
+
     def __init__(self, *args, **keys):
         self.sent = []
         super().__init__(*args, **keys)
@@ -49,28 +52,35 @@ comm.create_comm = Comm
 
 class Page:
     """A view of the widget, as widget.js would be."""
-    def __init__(self, widget, name='one'):
+
+    def __init__(self, widget, name="one"):
         self.widget, self.name = widget, name
-        self.say(kind='watch', anew=True)
+        self.say(kind="watch", anew=True)
 
     def say(self, **content):
-        self.widget.comm.handle_msg({'content': {'data': {'method': 'custom', 'content': {'view': self.name, **content}}}, 'buffers': []})
+        self.widget.comm.handle_msg(
+            {"content": {"data": {"method": "custom", "content": {"view": self.name, **content}}}, "buffers": []}
+        )
 
     def change(self, **values):
-        self.say(kind='change', values={name.replace('__', '.'): value for name, value in values.items()})
+        self.say(kind="change", values={name.replace("__", "."): value for name, value in values.items()})
 
     def told(self, kind):
-        return [(data['content'], buffers) for _, data, buffers in list(self.widget.comm.sent) if data.get('method') == 'custom' and data['content']['kind'] == kind]
+        return [
+            (data["content"], buffers)
+            for _, data, buffers in list(self.widget.comm.sent)
+            if data.get("method") == "custom" and data["content"]["kind"] == kind
+        ]
 
     def state(self, name):
         """The last value of a trait that the browser was told."""
-        values = [data['state'][name] for _, data, _ in list(self.widget.comm.sent) if name in data.get('state', {})]
+        values = [data["state"][name] for _, data, _ in list(self.widget.comm.sent) if name in data.get("state", {})]
         return values[-1] if values else None
 
     def show(self):
         """Acknowledges the newest frame and returns it."""
-        content, buffers = self.told('frame')[-1]
-        self.say(kind='shown', serial=content['serial'])
+        content, buffers = self.told("frame")[-1]
+        self.say(kind="shown", serial=content["serial"])
         return content, buffers[0]
 
 
@@ -78,12 +88,12 @@ def until(condition, what):
     end = time.monotonic() + PATIENCE_S
     while not condition():
         if time.monotonic() > end:
-            raise AssertionError(f'in {PATIENCE_S} s there was not: {what}')
+            raise AssertionError(f"in {PATIENCE_S} s there was not: {what}")
         time.sleep(0.01)
 
 
 def pixels(data):
-    return np.asarray(Image.open(io.BytesIO(data)).convert('RGB'))
+    return np.asarray(Image.open(io.BytesIO(data)).convert("RGB"))
 
 
 class Case(unittest.TestCase):
@@ -102,63 +112,84 @@ class Case(unittest.TestCase):
 
     def there(self, widget, hole=None):
         """Whether the widget's session is."""
-        return httpx.get(f'{(hole or self.hole).url}v1/sessions/{widget._follower._session.id}').status_code == 200
+        return httpx.get(f"{(hole or self.hole).url}v1/sessions/{widget._follower._session.id}").status_code == 200
 
     def rested(self, page):
         """Shows frames until the last one of the scene; returns it."""
+
         def last():
-            frames = page.told('frame')
+            frames = page.told("frame")
             if not frames:
                 return False
             page.show()
             session = page.widget._follower._session
-            return frames[-1][0]['final'] and page.widget._follower._frame.revision == session.revision
-        until(last, 'a finest frame')
-        return page.told('frame')[-1][1][0]
+            return frames[-1][0]["final"] and page.widget._follower._frame.revision == session.revision
+
+        until(last, "a finest frame")
+        return page.told("frame")[-1][1][0]
 
 
 class Names(Case):
     def test_fields_by_name(self):
         fields = Fields(self.hole.schema())
-        self.assertEqual([fields.path(name) for name in ('spin', 'inclination_deg', 'disk__outer', 'disk.gas.scale', 'spots.3.r', 'camera', 'time')],
-                         ['spacetime.spin', 'camera.inclination_deg', 'disk.outer', 'disk.gas.scale', 'spots.3.r', 'camera', 'time'])
-        for name, said in {'outer': 'disk.outer, volume.outer, jets.outer', 'spinn': 'near it: spin', 'nothing_like_it_': 'no field'}.items():
+        self.assertEqual(
+            [
+                fields.path(name)
+                for name in ("spin", "inclination_deg", "disk__outer", "disk.gas.scale", "spots.3.r", "camera", "time")
+            ],
+            ["spacetime.spin", "camera.inclination_deg", "disk.outer", "disk.gas.scale", "spots.3.r", "camera", "time"],
+        )
+        for name, said in {
+            "outer": "disk.outer, volume.outer, jets.outer",
+            "spinn": "near it: spin",
+            "nothing_like_it_": "no field",
+        }.items():
             with self.assertRaisesRegex(kerrd.KerrdError, said):
                 fields.path(name)
-        for name, said in {'image.layers': 'no number', 'camera': 'is a section'}.items():
+        for name, said in {"image.layers": "no number", "camera": "is a section"}.items():
             with self.assertRaisesRegex(kerrd.KerrdError, said):
                 fields.control(name)
 
     def test_a_slider_has_the_range_of_the_schema(self):
         fields = Fields(self.hole.schema())
-        spin = self.hole.schema()['properties']['spacetime']['properties']['spin']
-        control = fields.control('spin').control()
-        self.assertEqual((control['low'], control['high'], control['unit'], control['help']), (spin['minimum'], spin['maximum'], spin['x-unit'], spin['description']))
-        self.assertEqual([control['positions'][0], control['positions'][-1]], spin['x-span'])
-        self.assertIn(0.9, control['positions'])
-        self.assertEqual(fields.control('camera.r').control()['word'], 'infinity')
-        self.assertEqual(fields.control('disk.model').control()['choices'], self.hole.schema()['properties']['disk']['properties']['model']['enum'])
+        spin = self.hole.schema()["properties"]["spacetime"]["properties"]["spin"]
+        control = fields.control("spin").control()
+        self.assertEqual(
+            (control["low"], control["high"], control["unit"], control["help"]),
+            (spin["minimum"], spin["maximum"], spin["x-unit"], spin["description"]),
+        )
+        self.assertEqual([control["positions"][0], control["positions"][-1]], spin["x-span"])
+        self.assertIn(0.9, control["positions"])
+        self.assertEqual(fields.control("camera.r").control()["word"], "infinity")
+        self.assertEqual(
+            fields.control("disk.model").control()["choices"],
+            self.hole.schema()["properties"]["disk"]["properties"]["model"]["enum"],
+        )
         for path in fields.paths:
-            path = path.replace('*', '0')
+            path = path.replace("*", "0")
             try:
                 field = fields.control(path)
             except kerrd.KerrdError:
-                self.assertIn(path, ('sky.image', 'volume.grid', 'image.layers'))
+                self.assertIn(path, ("sky.image", "volume.grid", "image.layers"))
                 continue
-            if field.kind in ('number', 'integer'):
+            if field.kind in ("number", "integer"):
                 stops = field.positions()
                 self.assertEqual((stops[0], stops[-1]), field.span, path)
                 self.assertEqual(stops, sorted(set(stops)), path)
                 self.assertTrue(1 < len(stops) <= 405, (path, len(stops)))
-                steps = [b / a for a, b in zip(stops, stops[1:]) if a > 0 and stops[0] > 0 and field.unit != 'degrees' and stops[-1] / stops[0] > 30]
+                steps = [
+                    b / a
+                    for a, b in zip(stops, stops[1:])
+                    if a > 0 and stops[0] > 0 and field.unit != "degrees" and stops[-1] / stops[0] > 30
+                ]
                 self.assertLess(max(steps, default=1), 2.1, path)  # an integer goes from 1 to 2
 
     def test_controls_that_cannot_be(self):
-        with self.assertRaisesRegex(kerrd.KerrdError, 'spinn'):
-            self.open(controls=['spinn'])
-        with self.assertRaisesRegex(KeyError, 'spots.0.r: 0 is no place in a list of 0'):
-            self.open(controls=['spots.0.r'])
-        with self.assertRaisesRegex(kerrd.KerrdError, 'client is a int'):
+        with self.assertRaisesRegex(kerrd.KerrdError, "spinn"):
+            self.open(controls=["spinn"])
+        with self.assertRaisesRegex(KeyError, "spots.0.r: 0 is no place in a list of 0"):
+            self.open(controls=["spots.0.r"])
+        with self.assertRaisesRegex(kerrd.KerrdError, "client is a int"):
             kerrd.widget(client=3)
 
 
@@ -166,28 +197,31 @@ class Browser(Case):
     def test_frames_wait_for_the_browser(self):
         widget = self.open()
         page = Page(widget)
-        until(lambda: page.told('frame'), 'a first frame')
+        until(lambda: page.told("frame"), "a first frame")
         for k in range(12):
             page.change(camera__azimuth_deg=10.0 + k, camera__inclination_deg=50.0 + k)
-            until(lambda: len(page.told('took')) == k + 1, 'an answer')
+            until(lambda: len(page.told("took")) == k + 1, "an answer")
             time.sleep(0.1)
-        self.assertLessEqual(len(page.told('frame')), 2, 'no more than two are on their way')
+        self.assertLessEqual(len(page.told("frame")), 2, "no more than two are on their way")
         last = self.rested(page)
-        self.assertLess(len(page.told('frame')), 12)
-        self.assertTrue(np.array_equal(pixels(last), self.hole.render(widget.scene).array), 'the last one is of the scene as it is now')
+        self.assertLess(len(page.told("frame")), 12)
+        self.assertTrue(
+            np.array_equal(pixels(last), self.hole.render(widget.scene).array),
+            "the last one is of the scene as it is now",
+        )
         self.assertEqual((widget.scene.camera.azimuth_deg, widget.scene.camera.inclination_deg), (21, 61))
 
     def test_a_loop_in_a_cell_is_seen(self):
         """During which the kernel hears no acknowledgment."""
         widget = self.open()
         page = Page(widget)
-        until(lambda: page.told('frame'), 'a first frame')
+        until(lambda: page.told("frame"), "a first frame")
         begun = time.monotonic()
         for k in range(20):
             widget.set(inclination_deg=50.0 + k)
             time.sleep(0.1)
-        self.assertGreater(len(page.told('frame')), 4)
-        self.assertLessEqual(len(page.told('frame')), 2 + (time.monotonic() - begun) / kerrd.follow.DEAF_S * 2)
+        self.assertGreater(len(page.told("frame")), 4)
+        self.assertLessEqual(len(page.told("frame")), 2 + (time.monotonic() - begun) / kerrd.follow.DEAF_S * 2)
 
     def test_nothing_is_fetched_for_nobody(self):
         widget = self.open()
@@ -195,66 +229,73 @@ class Browser(Case):
         self.assertIsNone(widget._follower._frame)
         page = Page(widget)
         self.rested(page)
-        page.say(kind='leave')
-        before, fetched = len(page.told('frame')), widget._follower._serial
+        page.say(kind="leave")
+        before, fetched = len(page.told("frame")), widget._follower._serial
         for k in range(5):
             widget.set(spin=0.1 * k)
             time.sleep(0.4)
-        self.assertEqual(len(page.told('frame')), before)
-        self.assertLessEqual(widget._follower._serial, fetched + 1, 'one was asked for before')
-        again = Page(widget, 'two')
-        until(lambda: len(again.told('frame')) > before, 'the frame that it is shown at once')
+        self.assertEqual(len(page.told("frame")), before)
+        self.assertLessEqual(widget._follower._serial, fetched + 1, "one was asked for before")
+        again = Page(widget, "two")
+        until(lambda: len(again.told("frame")) > before, "the frame that it is shown at once")
 
     def test_a_drag(self):
         widget, changes = self.open(), []
         page = Page(widget)
         self.rested(page)
-        widget.observe(lambda change: changes.append(change.new.camera.azimuth_deg), 'scene')
+        widget.observe(lambda change: changes.append(change.new.camera.azimuth_deg), "scene")
         revision = widget._follower._session.revision
         with widget._follower._patching:  # the server is slow
             for k in range(50):
                 page.change(camera__azimuth_deg=float(k), camera__inclination_deg=80 - k / 10)
-        until(lambda: len(page.told('took')) == 50, 'answers')
+        until(lambda: len(page.told("took")) == 50, "answers")
         self.assertEqual((widget.scene.camera.azimuth_deg, widget.scene.camera.inclination_deg), (49, 75.1))
-        self.assertEqual((page.told('took')[-1][0]['scene']['camera']['azimuth_deg'], page.state('scene')['camera']['azimuth_deg']), (49, 49))
+        self.assertEqual(
+            (page.told("took")[-1][0]["scene"]["camera"]["azimuth_deg"], page.state("scene")["camera"]["azimuth_deg"]),
+            (49, 49),
+        )
         self.assertEqual(changes[-1], 49)
-        self.assertLessEqual(widget._follower._session.revision, revision + 2, 'those that are outdated are not told the server')
+        self.assertLessEqual(
+            widget._follower._session.revision, revision + 2, "those that are outdated are not told the server"
+        )
         self.assertTrue(np.array_equal(pixels(self.rested(page)), self.hole.render(widget.scene).array))
 
     def test_jpeg_while_it_moves_and_png_at_rest(self):
-        widget = self.open(size=(640, 360), **{'motion.azimuth_rate_deg': 30, 'sky.model': 'stars'})
+        widget = self.open(size=(640, 360), **{"motion.azimuth_rate_deg": 30, "sky.model": "stars"})
         page = Page(widget)
-        until(lambda: page.told('frame'), 'a frame')
+        until(lambda: page.told("frame"), "a frame")
         for _ in range(3):
-            before = page.show()[0]['serial']
-            until(lambda: page.told('frame')[-1][0]['serial'] > before, 'the next')
-        self.assertEqual(page.told('frame')[-1][0]['type'], 'image/jpeg')
-        until(lambda: page.show() and widget.scene.camera.azimuth_deg > 5, 'an azimuth that goes on')
-        self.assertGreater(page.state('scene')['camera']['azimuth_deg'], 0)
-        self.assertEqual(widget.png[:4], b'\x89PNG')
+            before = page.show()[0]["serial"]
+            until(lambda: page.told("frame")[-1][0]["serial"] > before, "the next")
+        self.assertEqual(page.told("frame")[-1][0]["type"], "image/jpeg")
+        until(lambda: page.show() and widget.scene.camera.azimuth_deg > 5, "an azimuth that goes on")
+        self.assertGreater(page.state("scene")["camera"]["azimuth_deg"], 0)
+        self.assertEqual(widget.png[:4], b"\x89PNG")
         widget.set(azimuth_rate_deg=0)
         self.rested(page)
-        self.assertEqual(page.told('frame')[-1][0]['type'], 'image/png')
+        self.assertEqual(page.told("frame")[-1][0]["type"], "image/png")
 
     def test_a_refusal(self):
         widget = self.open()
         page = Page(widget)
         before = widget.scene
         page.change(spacetime__spin=7)
-        until(lambda: page.told('took'), 'an answer')
-        self.assertEqual((widget.scene, page.told('took')[0][0]['scene']['spacetime']['spin']), (before, before.spacetime.spin))
-        self.assertRegex(page.state('error'), r'spacetime.spin is 7, allowed are ')
+        until(lambda: page.told("took"), "an answer")
+        self.assertEqual(
+            (widget.scene, page.told("took")[0][0]["scene"]["spacetime"]["spin"]), (before, before.spacetime.spin)
+        )
+        self.assertRegex(page.state("error"), r"spacetime.spin is 7, allowed are ")
         page.change(spacetime__spin=0.5)
-        until(lambda: page.state('error') == '' and len(page.told('took')) == 2, 'an end of the error')
+        until(lambda: page.state("error") == "" and len(page.told("took")) == 2, "an end of the error")
         page.change(spots__0__r=9)
-        until(lambda: len(page.told('took')) == 3, 'an answer')
-        self.assertRegex(page.state('error'), '0 is no place in a list of 0')
-        with self.assertRaisesRegex(kerrd.Problem, 'spacetime.spin is 7'):
+        until(lambda: len(page.told("took")) == 3, "an answer")
+        self.assertRegex(page.state("error"), "0 is no place in a list of 0")
+        with self.assertRaisesRegex(kerrd.Problem, "spacetime.spin is 7"):
             widget.set(spin=7)
-        self.assertRegex(widget.error, r'spacetime.spin is 7, allowed are ')
+        self.assertRegex(widget.error, r"spacetime.spin is 7, allowed are ")
         with self.assertRaisesRegex(kerrd.Problem, 'camera.r is "near"'):
-            widget.scene = {'camera': {'r': 'near'}}
-        with self.assertRaisesRegex(kerrd.KerrdError, 'disk.outer, volume.outer'):
+            widget.scene = {"camera": {"r": "near"}}
+        with self.assertRaisesRegex(kerrd.KerrdError, "disk.outer, volume.outer"):
             widget.set(outer=9)
         self.assertEqual(widget.scene.spacetime.spin, 0.5)
 
@@ -266,16 +307,16 @@ class FromPython(Case):
         scene = widget.scene
         self.assertEqual((scene.spacetime.spin, scene.image.width, type(scene)), (0.9, SIZE[0], kerrd.Scene))
         scene.camera.inclination_deg = 30
-        self.assertNotEqual(widget.scene.camera.inclination_deg, 30, 'what is read is a copy')
+        self.assertNotEqual(widget.scene.camera.inclination_deg, 30, "what is read is a copy")
         widget.scene = scene
-        self.assertEqual((widget.scene, page.state('scene')['camera']['inclination_deg']), (scene, 30))
-        widget.set(spots=[{'r': 8, 'brightness': 2}, {'r': 12}], camera={'roll_deg': 5})
-        widget.set(**{'spots.1.r': 14})
+        self.assertEqual((widget.scene, page.state("scene")["camera"]["inclination_deg"]), (scene, 30))
+        widget.set(spots=[{"r": 8, "brightness": 2}, {"r": 12}], camera={"roll_deg": 5})
+        widget.set(**{"spots.1.r": 14})
         self.assertEqual([spot.r for spot in widget.scene.spots], [8, 14])
-        document = {'style': {'name': 'eht'}, 'disk': {'model': 'none'}}
+        document = {"style": {"name": "eht"}, "disk": {"model": "none"}}
         widget.scene = document
         with self.hole.session(document, size=SIZE) as live:
-            self.assertEqual(page.state('scene'), live.scene, 'the others are at their defaults, the size stays')
+            self.assertEqual(page.state("scene"), live.scene, "the others are at their defaults, the size stays")
         widget.scene = kerrd.Scene(image=kerrd.Image(width=64, height=64))
         self.assertEqual(widget.frame.image.width, 64)
         self.assertTrue(np.array_equal(pixels(self.rested(page)), self.hole.render(size=(64, 64)).array))
@@ -286,8 +327,10 @@ class FromPython(Case):
         image = kerrd.widget(client=self.hole.url)
         self.addCleanup(image.close)
         self.assertEqual((image.scene.image.width, image.scene.image.height), (640, 360))
-        preset = self.open(preset='gargantua')
-        self.assertEqual(preset.scene.disk, kerrd.document.dataclass_of(self.hole.preset('gargantua'), kerrd.Scene).disk)
+        preset = self.open(preset="gargantua")
+        self.assertEqual(
+            preset.scene.disk, kerrd.document.dataclass_of(self.hole.preset("gargantua"), kerrd.Scene).disk
+        )
 
     def test_pictures(self):
         widget = self.open()
@@ -296,14 +339,14 @@ class FromPython(Case):
         whole = self.hole.render(widget.scene)
         self.assertTrue(np.array_equal(pixels(widget.png), whole.array))
         with tempfile.TemporaryDirectory() as folder:
-            widget.save(f'{folder}/a.png')
-            self.assertEqual(pathlib.Path(folder, 'a.png').read_bytes(), whole.png, 'it carries its scene')
-            with self.assertRaisesRegex(kerrd.KerrdError, 'a.jpg'):
-                widget.save(f'{folder}/a.jpg')
+            widget.save(f"{folder}/a.png")
+            self.assertEqual(pathlib.Path(folder, "a.png").read_bytes(), whole.png, "it carries its scene")
+            with self.assertRaisesRegex(kerrd.KerrdError, "a.jpg"):
+                widget.save(f"{folder}/a.jpg")
         bundle = widget._repr_mimebundle_()
         bundle = bundle[0] if isinstance(bundle, tuple) else bundle
-        self.assertIn('application/vnd.jupyter.widget-view+json', bundle)
-        self.assertEqual(pixels(bundle['image/jpeg']).shape, (SIZE[1], SIZE[0], 3))
+        self.assertIn("application/vnd.jupyter.widget-view+json", bundle)
+        self.assertEqual(pixels(bundle["image/jpeg"]).shape, (SIZE[1], SIZE[0], 3))
 
 
 class Ends(Case):
@@ -315,22 +358,28 @@ class Ends(Case):
         self.assertEqual([thread for thread in widget._follower._threads if thread.is_alive()], [])
 
     def test_so_does_the_end_of_python(self):
-        code = f'''
+        code = f"""
 import sys
 sys.path.insert(0, {str(FOLDER / "src")!r})
 import kerrd
 widget = kerrd.widget(client={self.hole.url!r}, size=(64, 36))
 print(widget._follower._session.id, widget.png[:4])
-'''
-        done = subprocess.run([sys.executable, '-c', code], capture_output=True, text=True, timeout=100)
-        self.assertEqual((done.returncode, done.stderr), (0, ''))
-        self.assertEqual(httpx.get(f'{self.hole.url}v1/sessions/{done.stdout.split()[0]}').status_code, 404)
+"""
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=100)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(httpx.get(f"{self.hole.url}v1/sessions/{done.stdout.split()[0]}").status_code, 404)
 
     def test_of_a_server_of_its_own(self):
-        code = f'import sys; sys.path.insert(0, {str(FOLDER / "src")!r}); import kerrd; widget = kerrd.widget(size=(64, 36)); widget.frame; print(kerrd.jupyter._own.process.pid)'
-        done = subprocess.run([sys.executable, '-c', code], capture_output=True, text=True, timeout=100, env={**os.environ, 'KERRD': KERRD})
-        self.assertEqual((done.returncode, done.stderr), (0, ''))
-        self.assertFalse(pathlib.Path(f'/proc/{int(done.stdout)}').exists())
+        code = f"import sys; sys.path.insert(0, {str(FOLDER / 'src')!r}); import kerrd; widget = kerrd.widget(size=(64, 36)); widget.frame; print(kerrd.jupyter._own.process.pid)"
+        done = subprocess.run(
+            [sys.executable, "-c", code],
+            capture_output=True,
+            text=True,
+            timeout=100,
+            env={**os.environ, "KERRD": KERRD},
+        )
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertFalse(pathlib.Path(f"/proc/{int(done.stdout)}").exists())
 
     def test_a_session_that_has_ended_is_opened_anew(self):
         widget = self.open(spin=0.4)
@@ -340,33 +389,38 @@ print(widget._follower._session.id, widget.png[:4])
             before = widget._follower._session
             before.close()
             change()
-            until(lambda: widget._follower._session is not before and widget.scene.camera.inclination_deg >= 40, 'another session')
+            until(
+                lambda: widget._follower._session is not before and widget.scene.camera.inclination_deg >= 40,
+                "another session",
+            )
             self.rested(page)
-            self.assertEqual((widget.scene.spacetime.spin, widget.error), (0.4, ''))
+            self.assertEqual((widget.scene.spacetime.spin, widget.error), (0.4, ""))
         self.assertEqual(widget.scene.camera.inclination_deg, 50)
 
     def test_a_server_that_is_gone_and_comes_again(self):
-        command = [KERRD, 'serve', '--until-eof', '--port']
-        with subprocess.Popen([*command, '0'], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as server:
-            url = re.search(r'http://\S+', server.stdout.readline())[0]
+        command = [KERRD, "serve", "--until-eof", "--port"]
+        with subprocess.Popen([*command, "0"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as server:
+            url = re.search(r"http://\S+", server.stdout.readline())[0]
             widget, other = self.open(client=url, spin=0.4), self.open(client=url)
             page = Page(widget)
             shown = self.rested(page)
             server.kill()
-        until(lambda: page.state('error'), 'an error')
-        self.assertIn(f'the server at {url} does not answer', page.state('error'))
+        until(lambda: page.state("error"), "an error")
+        self.assertIn(f"the server at {url} does not answer", page.state("error"))
         with self.assertRaises(httpx.TransportError):
             widget.set(spin=0.6)
         page.change(spacetime__spin=0.7)
-        until(lambda: page.told('took'), 'an answer')
-        with self.assertRaisesRegex(kerrd.KerrdError, 'does not answer'):
+        until(lambda: page.told("took"), "an answer")
+        with self.assertRaisesRegex(kerrd.KerrdError, "does not answer"):
             other.frame
-        self.assertEqual((widget.scene.spacetime.spin, widget.frame.data), (0.4, shown), 'what there was is there')
-        with subprocess.Popen([*command, url.split(':')[2].strip('/')], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as server:
+        self.assertEqual((widget.scene.spacetime.spin, widget.frame.data), (0.4, shown), "what there was is there")
+        with subprocess.Popen(
+            [*command, url.split(":")[2].strip("/")], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+        ) as server:
             server.stdout.readline()
-            before = len(page.told('frame'))
+            before = len(page.told("frame"))
             widget.set(inclination_deg=33)
-            until(lambda: len(page.told('frame')) > before and page.state('error') == '', 'a frame of the new one')
+            until(lambda: len(page.told("frame")) > before and page.state("error") == "", "a frame of the new one")
             self.assertEqual((widget.scene.spacetime.spin, widget.scene.camera.inclination_deg), (0.4, 33))
             widget.close()
             server.stdin.close()
@@ -375,10 +429,10 @@ print(widget._follower._session.id, widget.png[:4])
 class Without(unittest.TestCase):
     def test_without_anywidget(self):
         code = f'import sys; sys.path.insert(0, {str(FOLDER / "src")!r}); sys.modules["anywidget"] = None; import kerrd; kerrd.widget()'
-        done = subprocess.run([sys.executable, '-c', code], capture_output=True, text=True, timeout=100)
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=100)
         self.assertRegex(done.stderr.splitlines()[-1], r"^ImportError: .*anywidget.*pip install 'kerrd\[jupyter\]'$")
 
 
-if __name__ == '__main__':
+if __name__ == "__main__":
     signal.alarm(880)
     unittest.main(argv=sys.argv[:1], verbosity=2)

@@ -16,7 +16,8 @@
 static struct kd_accuracy_table table, again;
 static struct kd_error error;
 
-static struct kd_accuracy_row *add(enum kd_engine engine, enum kd_precision precision, uint32_t steps, double speed, double median)
+static struct kd_accuracy_row *add(enum kd_engine engine, enum kd_precision precision, uint32_t steps, double speed,
+                                   double median)
 {
     struct kd_accuracy_row *row = &table.rows[table.n++];
     *row = (struct kd_accuracy_row) { .engine = engine, .precision = precision, .steps = steps };
@@ -35,14 +36,21 @@ static struct kd_accuracy_row *add(enum kd_engine engine, enum kd_precision prec
 static int made_up(void **state)
 {
     (void)state;
-    table = (struct kd_accuracy_table) { .version = "1.2.3", .date = "2026-01-02T03:04:05Z", .command = "kerrd bench accuracy",
-                                         .machine = "a \"machine\"", .device = "a device", .skipped = "nothing", .cores = 2,
-                                         .device_clock = true, .quick = true, .seconds = 0.25 };
+    table = (struct kd_accuracy_table) { .version = "1.2.3",
+                                         .date = "2026-01-02T03:04:05Z",
+                                         .command = "kerrd bench accuracy",
+                                         .machine = "a \"machine\"",
+                                         .device = "a device",
+                                         .skipped = "nothing",
+                                         .cores = 2,
+                                         .device_clock = true,
+                                         .quick = true,
+                                         .seconds = 0.25 };
     error = (struct kd_error) { 0 };
     add(KD_ENGINE_CLOSED, KD_PRECISION_F64, 0, 1e9, NAN);
     add(KD_ENGINE_MINO_RKN6, KD_PRECISION_F32, 4, 4e6, 0.25e-5);
     add(KD_ENGINE_MINO_RKN6, KD_PRECISION_F32, 8, 2e6, 0.25e-6);
-    add(KD_ENGINE_MINO_RKN6, KD_PRECISION_F32, 16, 1e6, 0.5e-6); /* rounding has taken over */
+    add(KD_ENGINE_MINO_RKN6, KD_PRECISION_F32, 16, 1e6, 0.5e-6);   /* rounding has taken over */
     add(KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 8, 2.5e6, 0.25e-8); /* a device quicker in double */
     add(KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 16, 1e5, 0.25e-11);
     add(KD_ENGINE_KS_RK4, KD_PRECISION_F32, 64, 3e6, 0.25e-4);
@@ -186,8 +194,10 @@ static void no_table(void **state)
     assert_int_equal(kd_accuracy_to_json(&table, &text), KD_OK);
     for (size_t n = 0; n + 2 < text.size; n += 7)
         assert_int_equal(kd_accuracy_from_json((const char *)text.data, n, &again, &error), KD_EINVAL);
-    static const struct { const char *from, *to; } damage[] = {
-        { "\"format\": 1", "\"format\": 2" }, { "mino-rkn6", "mino-rkn7" }, { "\"f32\"", "\"f16\"" },
+    static const struct {
+        const char *from, *to;
+    } damage[] = {
+        { "\"format\": 1", "\"format\": 2" }, { "mino-rkn6", "mino-rkn7" },       { "\"f32\"", "\"f16\"" },
         { "\"steps\": 8", "\"steps\": .8" },  { "\"rays\": 10", "\"rays\": -1" }, { "\"differ\": 0", "\"differ\": \"" },
     };
     for (size_t i = 0; i < sizeof damage / sizeof *damage; i++) {
@@ -248,8 +258,9 @@ static void markdown(void **state)
     kd_buffer_finish(&text);
 }
 
-/* On the critical curve the radial potential R = (r^2 + a^2 - a l)^2 - Delta (eta + (l - a)^2) has a double root outside the
- * horizon, and beside it none or two (Bardeen 1973): its least value there, which is looked for by trying. */
+/* On the critical curve the radial potential R = (r^2 + a^2 - a l)^2 - Delta (eta + (l - a)^2) has a double root
+ * outside the horizon, and beside it none or two (Bardeen 1973): its least value there, which is looked for by
+ * trying. */
 static double least_potential(double a, double inclination_deg, const double *x)
 {
     double s = sin(inclination_deg * M_PI / 180), u2 = 1 - s * s;
@@ -261,7 +272,8 @@ static double least_potential(double a, double inclination_deg, const double *x)
     return least;
 }
 
-/* The near-critical set lies on both sides of the critical curve in turn, at the distances it is said to; no other set comes near. */
+/* The near-critical set lies on both sides of the critical curve in turn, at the distances it is said to; no other
+ * set comes near. */
 static void critical_curve(void **state)
 {
     (void)state;
@@ -274,7 +286,8 @@ static void critical_curve(void **state)
     for (int k = 0; k < N; k++) {
         int decade = k / 2 % 5 + 2;
         double least = least_potential(a, i, rays + 2 * k), scale = fabs(least) * 0.2 * pow(10, decade);
-        /* R grows with the distance from the curve, some tens of M^4 a unit of it: beyond 1e-4 its least value has been found. */
+        /* R grows with the distance from the curve, some tens of M^4 a unit of it: beyond 1e-4 its least value has
+         * been found. */
         if ((k % 2 ? least > 0 : least < 0) || (decade <= 4 && !(scale > 5 && scale < 500)))
             fail_msg("ray %d: R is %g at least, 5e-%d from the curve", k, least, decade);
     }

@@ -1,4 +1,5 @@
-/* A process that runs for long gives large blocks back, and its threads do not have a heap each: seen by what the C library says of itself. */
+/* A process that runs for long gives large blocks back, and its threads do not have a heap each: seen by what the C
+ * library says of itself. */
 #include "base/allocator.h"
 #include "base/cores.h"
 
@@ -84,7 +85,8 @@ static void threads_share_heaps(void **state) { (void)state, skip(); }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(large_blocks_are_the_kernels_again), cmocka_unit_test(threads_share_heaps) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(large_blocks_are_the_kernels_again),
+                                        cmocka_unit_test(threads_share_heaps) };
     unsetenv("MALLOC_ARENA_MAX"), unsetenv("MALLOC_MMAP_THRESHOLD_"), unsetenv("GLIBC_TUNABLES");
     kd_allocator_for_long();
     return cmocka_run_group_tests(tests, NULL, NULL);

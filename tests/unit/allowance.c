@@ -87,8 +87,10 @@ static void test_the_fullest_gives_way(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup(test_no_limit, fresh), cmocka_unit_test_setup(test_it_fills_at_its_rate_and_no_further, fresh),
-        cmocka_unit_test_setup(test_what_is_owed_is_waited_for, fresh), cmocka_unit_test_setup(test_patient_work_leaves_a_half, fresh),
+        cmocka_unit_test_setup(test_no_limit, fresh),
+        cmocka_unit_test_setup(test_it_fills_at_its_rate_and_no_further, fresh),
+        cmocka_unit_test_setup(test_what_is_owed_is_waited_for, fresh),
+        cmocka_unit_test_setup(test_patient_work_leaves_a_half, fresh),
         cmocka_unit_test_setup(test_the_fullest_gives_way, fresh),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""Arrows point one way: base <- physics <- scene <- render -> vk, image; scene <- quantity; server and the command line on top.
+"""Arrows point one way: base <- physics <- scene <- render -> vk, image; scene <- quantity; server and the command line
+on top.
 
-    arrows.py SRC     exit 1 naming every #include in SRC that points the wrong way, after proving that it finds some
+arrows.py SRC     exit 1 naming every #include in SRC that points the wrong way, after proving that it finds some
 """
+
 import pathlib
 import re
 import sys
@@ -22,12 +24,39 @@ MODULES = {
     "render": {"base", "physics", "scene", "image", "vk"},
     "job": {"base", "scene", "playground", "render"},  # of render: what frames become
     "server": {"base", "physics", "scene", "quantity", "orbit", "integral", "playground", "image", "render", "job"},
-    "cli": {"base", "physics", "scene", "quantity", "orbit", "integral", "playground", "image", "vk", "render", "job", "server"},
+    "cli": {
+        "base",
+        "physics",
+        "scene",
+        "quantity",
+        "orbit",
+        "integral",
+        "playground",
+        "image",
+        "vk",
+        "render",
+        "job",
+        "server",
+    },
     "main.c": {"base", "cli"},
 }
 # Inside the large modules a folder may know those before it; what lies in none of them, the top, knows all.
 FOLDERS = {
-    "render": ["view", "accuracy", "sky", "emit", "plan", "device", "rays", "lens", "frame", "output", "explain", "live", "selftest"],
+    "render": [
+        "view",
+        "accuracy",
+        "sky",
+        "emit",
+        "plan",
+        "device",
+        "rays",
+        "lens",
+        "frame",
+        "output",
+        "explain",
+        "live",
+        "selftest",
+    ],
     "server": ["http", "asset", "render", "session", "playground", "job", "openapi", "answers"],
 }
 # Headers of other projects, and who may include them.
@@ -88,17 +117,30 @@ def wrong(src):
 def self_test():
     """Each kind of wrong arrow is found, a right one is not."""
     faults = {
-        "base/a.c": '#include "physics/kerr.h"', "physics/a.h": "#include <vulkan/vulkan.h>",
-        "physics/b.c": "# include <cjson/cJSON.h>", "scene/a.c": '#include "render/plan/plan.h"',
-        "vk/a.c": '#include "scene/scene.h"', "vk/b.c": "#include <microhttpd.h>",
-        "image/a.c": '#include "scene/scene.h"', "server/a.c": '#include "vk/vk.h"',
-        "server/b.c": "#include <vk/vk.h>", "render/a.c": '#include "server/server.h"',
-        "server/c.c": '#include "post.spv.h"', "render/b.c": '#include "plan.h"',
-        "quantity/a.c": '#include "render/plan/plan.h"', "scene/b.c": '#include "quantity/quantity.h"', "news/a.c": "",
-        "render/view/a.c": '#include "render/plan/plan.h"', "render/rays/a.h": '#include "render/render.h"',
-        "server/http/a.c": '#include "server/job/jobs.h"', "render/new/a.c": '#include "render/view/camera.h"',
+        "base/a.c": '#include "physics/kerr.h"',
+        "physics/a.h": "#include <vulkan/vulkan.h>",
+        "physics/b.c": "# include <cjson/cJSON.h>",
+        "scene/a.c": '#include "render/plan/plan.h"',
+        "vk/a.c": '#include "scene/scene.h"',
+        "vk/b.c": "#include <microhttpd.h>",
+        "image/a.c": '#include "scene/scene.h"',
+        "server/a.c": '#include "vk/vk.h"',
+        "server/b.c": "#include <vk/vk.h>",
+        "render/a.c": '#include "server/server.h"',
+        "server/c.c": '#include "post.spv.h"',
+        "render/b.c": '#include "plan.h"',
+        "quantity/a.c": '#include "render/plan/plan.h"',
+        "scene/b.c": '#include "quantity/quantity.h"',
+        "news/a.c": "",
+        "render/view/a.c": '#include "render/plan/plan.h"',
+        "render/rays/a.h": '#include "render/render.h"',
+        "server/http/a.c": '#include "server/job/jobs.h"',
+        "render/new/a.c": '#include "render/view/camera.h"',
     }
-    right = {"render/c.c": '#include "vk/vk.h"\n#include "post.spv.h"\n#include <math.h>', "server/d.c": '#include "render/plan/plan.h"'}
+    right = {
+        "render/c.c": '#include "vk/vk.h"\n#include "post.spv.h"\n#include <math.h>',
+        "server/d.c": '#include "render/plan/plan.h"',
+    }
     with tempfile.TemporaryDirectory() as folder:
         src = pathlib.Path(folder)
         for name, text in {**faults, **right}.items():

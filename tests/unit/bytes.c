@@ -113,10 +113,8 @@ static void test_many_clients(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_shares),
-        cmocka_unit_test(test_room_for_small_ones),
-        cmocka_unit_test(test_a_lone_one),
-        cmocka_unit_test(test_what_is_there_already),
+        cmocka_unit_test(test_shares),       cmocka_unit_test(test_room_for_small_ones),
+        cmocka_unit_test(test_a_lone_one),   cmocka_unit_test(test_what_is_there_already),
         cmocka_unit_test(test_many_clients),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

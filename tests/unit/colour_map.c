@@ -1,4 +1,5 @@
-/* Colour maps, judged by the lightness and hue of what a screen shows: sRGB decoded, XYZ by the standard's own matrix, CIELAB. */
+/* Colour maps, judged by the lightness and hue of what a screen shows: sRGB decoded, XYZ by the standard's own
+ * matrix, CIELAB. */
 #include "image/colour_map.h"
 
 #include <math.h>
@@ -18,12 +19,16 @@ static double cube_root(double t) { return t > 216.0 / 24389 ? cbrt(t) : (24389.
 static struct lab lab_of(struct kd_map_colour c)
 {
     double r = decode(c.r), g = decode(c.g), b = decode(c.b);
-    double x = cube_root((0.4124 * r + 0.3576 * g + 0.1805 * b) / 0.9505), y = cube_root(0.2126 * r + 0.7152 * g + 0.0722 * b);
+    double x = cube_root((0.4124 * r + 0.3576 * g + 0.1805 * b) / 0.9505),
+           y = cube_root(0.2126 * r + 0.7152 * g + 0.0722 * b);
     double z = cube_root((0.0193 * r + 0.1192 * g + 0.9505 * b) / 1.0890);
     return (struct lab) { 116 * y - 16, 500 * (x - y), 200 * (y - z) };
 }
 
-static double distance(struct lab p, struct lab q) { return sqrt(pow(p.l - q.l, 2) + pow(p.a - q.a, 2) + pow(p.b - q.b, 2)); }
+static double distance(struct lab p, struct lab q)
+{
+    return sqrt(pow(p.l - q.l, 2) + pow(p.a - q.a, 2) + pow(p.b - q.b, 2));
+}
 
 static void assert_near(double value, double wanted, double within)
 {
@@ -37,8 +42,12 @@ enum { STEPS = 400 };
 static void lightness_rises_at_a_constant_rate(void **state)
 {
     (void)state;
-    static const struct { enum kd_colour_map map; double low, high; } maps[] = {
-        { KD_MAP_SEQUENTIAL, 8, 94 }, { KD_MAP_HEAT, 0, 100 },
+    static const struct {
+        enum kd_colour_map map;
+        double low, high;
+    } maps[] = {
+        { KD_MAP_SEQUENTIAL, 8, 94 },
+        { KD_MAP_HEAT, 0, 100 },
     };
     for (size_t k = 0; k < 2; k++) {
         struct lab last = lab_of(kd_colour_map_at(maps[k].map, 0));
@@ -61,7 +70,8 @@ static void a_diverging_map_has_a_white_middle_and_equal_sides(void **state)
     assert_near(hypot(middle.a, middle.b), 0, 0.1);
     for (int i = 1; i <= STEPS; i++) {
         double x = 0.5 + 0.5 * i / STEPS;
-        struct lab up = lab_of(kd_colour_map_at(KD_MAP_DIVERGING, x)), down = lab_of(kd_colour_map_at(KD_MAP_DIVERGING, 1 - x));
+        struct lab up = lab_of(kd_colour_map_at(KD_MAP_DIVERGING, x)),
+                   down = lab_of(kd_colour_map_at(KD_MAP_DIVERGING, 1 - x));
         assert_near(up.l, down.l, 0.02);
         assert_near(up.l, 94 - 58.0 * i / STEPS, 0.02);
         assert_true(up.b < 0 && down.a > 0); /* blue; red */
@@ -88,7 +98,8 @@ static void classes_differ(void **state)
     (void)state;
     for (int i = 0; i < 8; i++)
         for (int j = 0; j < i; j++)
-            assert_true(distance(lab_of(kd_colour_map_at(KD_MAP_CATEGORICAL, i)), lab_of(kd_colour_map_at(KD_MAP_CATEGORICAL, j))) > 25);
+            assert_true(distance(lab_of(kd_colour_map_at(KD_MAP_CATEGORICAL, i)),
+                                 lab_of(kd_colour_map_at(KD_MAP_CATEGORICAL, j))) > 25);
 }
 
 static void a_table_is_the_map(void **state)
@@ -115,7 +126,8 @@ static void a_table_is_the_map(void **state)
 static void scales_place_numbers(void **state)
 {
     (void)state;
-    const struct kd_map_scale linear = { -2, 6, false }, logarithmic = { 0.1, 1000, true }, down = { 1, 0, false }, none = { 3, 3, false };
+    const struct kd_map_scale linear = { -2, 6, false }, logarithmic = { 0.1, 1000, true }, down = { 1, 0, false },
+                              none = { 3, 3, false };
     assert_near(kd_map_scale_place(&linear, 0), 0.25, 1e-15);
     assert_near(kd_map_scale_place(&linear, 7), 1.125, 1e-15);
     assert_near(kd_map_scale_place(&logarithmic, 1), 0.25, 1e-15);

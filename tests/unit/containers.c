@@ -1,5 +1,6 @@
-/* Files of numbers, read back: texts of any length in FITS cards, the checksum by its definition, members of a ZIP file, attributes of an EXR
- * file; and each of them cut short. tests/cli/files.py has other people's readers judge them. */
+/* Files of numbers, read back: texts of any length in FITS cards, the checksum by its definition, members of a ZIP
+ * file, attributes of an EXR file; and each of them cut short. tests/cli/files.py has other people's readers judge
+ * them. */
 #include "image/exr.h"
 #include "image/fits.h"
 #include "image/zip.h"
@@ -33,7 +34,8 @@ static struct kd_buffer file_with(const char *text)
 static bool found(const struct kd_buffer *file, const char *key, const char *expected)
 {
     struct kd_buffer text = { 0 };
-    bool same = !kd_fits_find(file->data, file->size, key, &text) && text.size == strlen(expected) && !memcmp(text.data, expected, text.size);
+    bool same = !kd_fits_find(file->data, file->size, key, &text) && text.size == strlen(expected) &&
+                !memcmp(text.data, expected, text.size);
     kd_buffer_finish(&text);
     return same;
 }
@@ -70,7 +72,8 @@ static void checksums(void **state)
         uint64_t all = 0, data = 0;
         assert_int_equal(file.size, 2 * KD_FITS_BLOCK);
         for (size_t i = 0; i < file.size; i += 4) {
-            uint32_t word = (uint32_t)file.data[i] << 24 | (uint32_t)file.data[i + 1] << 16 | (uint32_t)file.data[i + 2] << 8 | file.data[i + 3];
+            uint32_t word = (uint32_t)file.data[i] << 24 | (uint32_t)file.data[i + 1] << 16 |
+                            (uint32_t)file.data[i + 2] << 8 | file.data[i + 3];
             all = (all + word) % 0xffffffffu; /* ones' complement is arithmetic modulo 2^32 - 1 */
             data = i < KD_FITS_BLOCK ? 0 : (data + word) % 0xffffffffu;
         }
@@ -87,10 +90,13 @@ static void checksums(void **state)
 static void numbers(void **state)
 {
     (void)state;
-    static const double values[] = { 0, 1, -1, 0.1, 1.0 / 3, 6.5e9, 1e-300, -1.7976931348623157e308, 123456789012345678.0 };
+    static const double values[] = {
+        0, 1, -1, 0.1, 1.0 / 3, 6.5e9, 1e-300, -1.7976931348623157e308, 123456789012345678.0
+    };
     for (size_t i = 0; i < sizeof values / sizeof *values; i++) {
         struct kd_buffer cards = { 0 };
-        OK(kd_fits_real(&cards, "NUMBER", values[i], "a comment that is longer than there is room for, so that it is cut at the end"));
+        OK(kd_fits_real(&cards, "NUMBER", values[i],
+                        "a comment that is longer than there is room for, so that it is cut at the end"));
         assert_int_equal(cards.size, KD_FITS_CARD);
         char card[KD_FITS_CARD + 1] = "";
         memcpy(card, cards.data, KD_FITS_CARD);
@@ -155,7 +161,7 @@ static void exr_texts(void **state)
     assert_true(got.size == 13 && !memcmp(got.data, "{\"version\":1}", 13));
     assert_int_equal(kd_exr_find_text(file.data + 6, file.size - 6, "kerrd:none", &got, &error), KD_EINVAL);
     for (size_t size = 0; size < 300; size += 7) { /* in its header */
-        uint8_t *cut = malloc(size + 1); /* of its own size, so that a sanitizer sees a byte too far */
+        uint8_t *cut = malloc(size + 1);           /* of its own size, so that a sanitizer sees a byte too far */
         memcpy(cut, file.data + 6, size);
         assert_int_equal(kd_exr_find_text(cut, size, "kerrd:scene", &got, &error), KD_EINVAL);
         assert_memory_equal(error.message, "EXR: ", 5);
@@ -168,8 +174,8 @@ static void exr_texts(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(texts_of_any_length), cmocka_unit_test(checksums), cmocka_unit_test(numbers), cmocka_unit_test(first_row_is_the_lowest),
-        cmocka_unit_test(zip_members), cmocka_unit_test(exr_texts),
+        cmocka_unit_test(texts_of_any_length),     cmocka_unit_test(checksums),   cmocka_unit_test(numbers),
+        cmocka_unit_test(first_row_is_the_lowest), cmocka_unit_test(zip_members), cmocka_unit_test(exr_texts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,5 @@
-/* The list of a camera is made once, is that of kd_critical_pixels_of whatever was kept before, and is not kept for good. */
+/* The list of a camera is made once, is that of kd_critical_pixels_of whatever was kept before, and is not kept for
+ * good. */
 #include "render/view/critical_kept.h"
 
 #include "scene/table.h"
@@ -55,7 +56,8 @@ static void made_once(void **state)
     assert_int_equal(check(&scene), 0);
 }
 
-/* Every field of the document that moves the curve in the picture is part of the key: after each change the list is right. */
+/* Every field of the document that moves the curve in the picture is part of the key: after each change the list is
+ * right. */
 static void every_field_counts(void **state)
 {
     (void)state;
@@ -120,7 +122,8 @@ static void *many(void *wrong)
         struct kd_critical_pixels kept, fresh;
         if (kd_critical_kept(&scene, &kept, NULL) || kd_critical_pixels_of(&scene, &fresh, NULL))
             return wrong;
-        bool same = kept.n == fresh.n && (!fresh.n || !memcmp(kept.pixels, fresh.pixels, fresh.n * sizeof *fresh.pixels));
+        bool same =
+            kept.n == fresh.n && (!fresh.n || !memcmp(kept.pixels, fresh.pixels, fresh.n * sizeof *fresh.pixels));
         kd_critical_pixels_finish(&kept);
         kd_critical_pixels_finish(&fresh);
         if (!same)
@@ -145,11 +148,8 @@ static void threads_share_it(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(made_once),
-        cmocka_unit_test(every_field_counts),
-        cmocka_unit_test(the_oldest_goes),
-        cmocka_unit_test(long_lists_are_few),
-        cmocka_unit_test(threads_share_it),
+        cmocka_unit_test(made_once),          cmocka_unit_test(every_field_counts), cmocka_unit_test(the_oldest_goes),
+        cmocka_unit_test(long_lists_are_few), cmocka_unit_test(threads_share_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-/* Which pixels the critical curve passes: judged by the fates of rays in closed form, which know nothing of the curve. And where
- * the rays on such a pixel stand. */
+/* Which pixels the critical curve passes: judged by the fates of rays in closed form, which know nothing of the
+ * curve. And where the rays on such a pixel stand. */
 #include "render/view/critical_pixels.h"
 
 #include "physics/null_geodesic.h"
@@ -38,8 +38,13 @@ static void fates(const struct kd_scene *scene, bool *captured)
             struct kd_camera_label label;
             kd_camera_label(&camera, x, y, &label);
             const struct kd_null_ray ray = {
-                .spin = scene->spacetime.spin, .radius = scene->camera.r, .cos_theta = camera.u, .sin_theta = camera.s,
-                .alpha = label.alpha, .beta = label.beta, .outward = label.outward,
+                .spin = scene->spacetime.spin,
+                .radius = scene->camera.r,
+                .cos_theta = camera.u,
+                .sin_theta = camera.s,
+                .alpha = label.alpha,
+                .beta = label.beta,
+                .outward = label.outward,
             };
             captured[y * 2 * WIDTH + x] = kd_null_trace_fast(&ray).fate == KD_NULL_CAPTURED;
         }
@@ -56,7 +61,8 @@ static bool mixed(const bool *captured, int x, int y, int reach)
     return some[0] && some[1];
 }
 
-/* All pixels that the edge of the shadow is seen to pass are listed, and none that is far from it. Returns how many are listed. */
+/* All pixels that the edge of the shadow is seen to pass are listed, and none that is far from it. Returns how many
+ * are listed. */
 static size_t judge(const struct kd_scene *scene, const char *what)
 {
     static bool captured[4 * WIDTH * HEIGHT];
@@ -71,7 +77,8 @@ static size_t judge(const struct kd_scene *scene, const char *what)
         assert_true(list.pixels[i].x < WIDTH && list.pixels[i].y < HEIGHT && (!i || at > before));
         listed[before = at] = true;
     }
-    /* What lies beyond the picture is not judged: near its edge a listed pixel may be there for a curve that is not in it. */
+    /* What lies beyond the picture is not judged: near its edge a listed pixel may be there for a curve that is not
+     * in it. */
     const int far = (int)KD_CRITICAL_NEAR + 2;
     for (int y = 0; y < HEIGHT; y++)
         for (int x = 0; x < WIDTH; x++) {
@@ -113,7 +120,13 @@ static void from_infinity(void **state)
 static void from_nearby(void **state)
 {
     (void)state;
-    static const struct { const char *what; double spin, r, inclination, fov, yaw, pitch, roll; int observer; bool some; int projection; } views[] = {
+    static const struct {
+        const char *what;
+        double spin, r, inclination, fov, yaw, pitch, roll;
+        int observer;
+        bool some;
+        int projection;
+    } views[] = {
         { "r = 30", 0.9, 30, 60, 30, 0, 0, 0, KD_OBSERVER_STATIC, true },
         { "r = 30, aside", 0.9, 30, 60, 40, 6, -4, 30, KD_OBSERVER_ZAMO, true },
         { "r = 6, wide", 0, 6, 40, 140, 10, 10, 77, KD_OBSERVER_STATIC, true },
@@ -124,9 +137,12 @@ static void from_nearby(void **state)
         { "behind one's back", 0.5, 40, 80, 90, 180, 0, 0, KD_OBSERVER_STATIC, false },
         { "a sphere", 0.9, 8, 60, 50, 0, 0, 0, KD_OBSERVER_STATIC, true, KD_PROJECTION_EQUIRECTANGULAR },
         { "a sphere, turned", 0.9, 4, 60, 50, 120, 20, 30, KD_OBSERVER_ZAMO, true, KD_PROJECTION_EQUIRECTANGULAR },
-        { "a sphere, the hole behind", 0.9, 8, 60, 50, 180, 0, 0, KD_OBSERVER_ZAMO, true, KD_PROJECTION_EQUIRECTANGULAR },
-        { "a sphere, the hole at its pole", 0.9, 8, 60, 50, 0, -90, 0, KD_OBSERVER_ZAMO, true, KD_PROJECTION_EQUIRECTANGULAR },
-        { "a sphere, much of it black", 0.2, 2.3, 60, 50, 0, 0, 0, KD_OBSERVER_ZAMO, true, KD_PROJECTION_EQUIRECTANGULAR },
+        { "a sphere, the hole behind", 0.9, 8, 60, 50, 180, 0, 0, KD_OBSERVER_ZAMO, true,
+          KD_PROJECTION_EQUIRECTANGULAR },
+        { "a sphere, the hole at its pole", 0.9, 8, 60, 50, 0, -90, 0, KD_OBSERVER_ZAMO, true,
+          KD_PROJECTION_EQUIRECTANGULAR },
+        { "a sphere, much of it black", 0.2, 2.3, 60, 50, 0, 0, 0, KD_OBSERVER_ZAMO, true,
+          KD_PROJECTION_EQUIRECTANGULAR },
         { "a dome", 0.9, 5, 60, 50, 0, 0, 0, KD_OBSERVER_ZAMO, true, KD_PROJECTION_FULLDOME },
         { "a dome, turned", 0.9, 5, 60, 50, 40, 30, 60, KD_OBSERVER_ZAMO, true, KD_PROJECTION_FULLDOME },
         { "a dome, the hole behind", 0.5, 40, 80, 50, 180, 0, 0, KD_OBSERVER_STATIC, false, KD_PROJECTION_FULLDOME },
@@ -183,7 +199,8 @@ void *__wrap_calloc(size_t n, size_t size)
     return __real_calloc(n, size);
 }
 
-/* Whoever plans the largest picture waits for the length of the curve, and not for its 2^30 pixels: a bit for each is 128 MiB. */
+/* Whoever plans the largest picture waits for the length of the curve, and not for its 2^30 pixels: a bit for each
+ * is 128 MiB. */
 static void the_largest_picture(void **state)
 {
     (void)state;
@@ -199,8 +216,8 @@ static void the_largest_picture(void **state)
     kd_critical_pixels_finish(&list);
 }
 
-/* The rays of a pixel: one in each column and row, and opposite to each another; how far apart they are, next to the closest packing
- * of points there is, sqrt(2/sqrt 3) over the root of their number. */
+/* The rays of a pixel: one in each column and row, and opposite to each another; how far apart they are, next to the
+ * closest packing of points there is, sqrt(2/sqrt 3) over the root of their number. */
 static void places(void **state)
 {
     (void)state;
@@ -232,11 +249,8 @@ static void places(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(from_infinity),
-        cmocka_unit_test(from_nearby),
-        cmocka_unit_test(sizes),
-        cmocka_unit_test(the_largest_picture),
-        cmocka_unit_test(places),
+        cmocka_unit_test(from_infinity),       cmocka_unit_test(from_nearby), cmocka_unit_test(sizes),
+        cmocka_unit_test(the_largest_picture), cmocka_unit_test(places),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

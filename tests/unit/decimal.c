@@ -19,12 +19,28 @@ static void known_values(void **state)
         double value;
         const char *text;
     } table[] = {
-        { 0, "0" },           { -0.0, "-0" },     { 1, "1" },         { -2.5, "-2.5" },     { 0.1, "0.1" },
-        { 100, "100" },       { 0.00001, "0.00001" }, { 1e-6, "1e-6" }, { 0.000012345, "0.000012345" },
-        { 1e16, "10000000000000000" }, { 1e17, "1e17" }, { 1.5e300, "1.5e300" }, { 1e22, "1e22" }, { 1e23, "1e23" },
-        { 5e-324, "5e-324" }, { 2.2250738585072014e-308, "2.2250738585072014e-308" },
-        { 1.7976931348623157e308, "1.7976931348623157e308" }, { -1.7976931348623157e-300, "-1.7976931348623157e-300" },
-        { 9007199254740993.0, "9007199254740992" }, { 2e-44, "2e-44" }, { 0.3, "0.3" }, { 1.0 / 3, "0.3333333333333333" },
+        { 0, "0" },
+        { -0.0, "-0" },
+        { 1, "1" },
+        { -2.5, "-2.5" },
+        { 0.1, "0.1" },
+        { 100, "100" },
+        { 0.00001, "0.00001" },
+        { 1e-6, "1e-6" },
+        { 0.000012345, "0.000012345" },
+        { 1e16, "10000000000000000" },
+        { 1e17, "1e17" },
+        { 1.5e300, "1.5e300" },
+        { 1e22, "1e22" },
+        { 1e23, "1e23" },
+        { 5e-324, "5e-324" },
+        { 2.2250738585072014e-308, "2.2250738585072014e-308" },
+        { 1.7976931348623157e308, "1.7976931348623157e308" },
+        { -1.7976931348623157e-300, "-1.7976931348623157e-300" },
+        { 9007199254740993.0, "9007199254740992" },
+        { 2e-44, "2e-44" },
+        { 0.3, "0.3" },
+        { 1.0 / 3, "0.3333333333333333" },
     };
     for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
         char out[KD_DECIMAL_SIZE];
@@ -100,7 +116,8 @@ static void rounded(void **state)
     (void)state;
     uint64_t seed = 362436069362436069u;
     for (int i = 0; i < 400000; i++) {
-        const double value = i % 2 ? ldexp((double)(int64_t)next(&seed), -(int)(next(&seed) % 240)) : 1e-3 * (double)(int64_t)(next(&seed) % 2000001) - 1000;
+        const double value = i % 2 ? ldexp((double)(int64_t)next(&seed), -(int)(next(&seed) % 240))
+                                   : 1e-3 * (double)(int64_t)(next(&seed) % 2000001) - 1000;
         const int digits = 1 + (int)(next(&seed) % 17);
         char text[64], shown[KD_DECIMAL_SIZE];
         snprintf(text, sizeof text, "%.*e", digits - 1, value);
@@ -112,7 +129,8 @@ static void rounded(void **state)
             fail_msg("%.17g in %d digits is %.17g, not %.17g", value, digits, got, want);
     }
     assert_true(isnan(kd_decimal_round(NAN, 3)) && isinf(kd_decimal_round(INFINITY, 3)) && kd_decimal_round(0, 3) == 0);
-    assert_true(kd_decimal_round(9.9996, 4) == 10 && kd_decimal_round(-0.00012345678, 3) == -0.000123 && kd_decimal_round(1.23456e-200, 2) == 1.2e-200);
+    assert_true(kd_decimal_round(9.9996, 4) == 10 && kd_decimal_round(-0.00012345678, 3) == -0.000123 &&
+                kd_decimal_round(1.23456e-200, 2) == 1.2e-200);
 }
 
 int main(void)

@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
-"""What the documents name exists: links, their headings, and the files and folders that stand in backquotes; and docs/web.md names each module of the page.
+"""What the documents name exists: links, their headings, and the files and folders that stand in backquotes; and
+docs/web.md names each module of the page.
 
     documents.py ROOT     exit 1 naming each document and what it names in vain
 
-A name in backquotes is one of a file if it begins with a folder of ROOT or ends as a source does; `job/run.c` may stand for
-src/server/job/run.c, and stars and braces are those of a shell. What
-a build or a benchmark makes, in build/ and with a DATE, need not be there.
+A name in backquotes is one of a file if it begins with a folder of ROOT or ends as a source does; `job/run.c` may stand
+for src/server/job/run.c, and stars and braces are those of a shell. What a build or a benchmark makes, in build/ and
+with a DATE, need not be there.
 """
+
 import os
 import pathlib
 import re
@@ -29,7 +31,11 @@ def braces(name):
 
 def anchors(text):
     """The names that headings of a document have in links to them."""
-    return {re.sub(r"[^\w\- ]", "", line.lstrip("#").strip().lower()).replace(" ", "-") for line in text.splitlines() if line.startswith("#")}
+    return {
+        re.sub(r"[^\w\- ]", "", line.lstrip("#").strip().lower()).replace(" ", "-")
+        for line in text.splitlines()
+        if line.startswith("#")
+    }
 
 
 def tree(root):
@@ -59,7 +65,11 @@ def wrong(root):
     """Sentences, one for each name of nothing."""
     paths = list(tree(root))
     tops = {path for path in paths if "/" not in path}
-    for document in [path for path in paths if path.endswith(".md") and not path.startswith(("bench/results/", "clients/web/vendor/"))]:
+    for document in [
+        path
+        for path in paths
+        if path.endswith(".md") and not path.startswith(("bench/results/", "clients/web/vendor/"))
+    ]:
         text = CODE.sub("", (root / document).read_text(encoding="utf-8"))
         for link in LINK.findall(text):
             target, _, anchor = link.partition("#")
@@ -79,7 +89,11 @@ def untold(root):
     """Modules of the page that its document does not name."""
     folder, document = root / "clients/web", root / "docs/web.md"
     told = set(re.findall(r"[\w-]+\.js", document.read_text(encoding="utf-8"))) if document.exists() else set()
-    yield from (f"docs/web.md does not name clients/web/{module.name}" for module in sorted(folder.glob("*.js")) if module.name not in told)
+    yield from (
+        f"docs/web.md does not name clients/web/{module.name}"
+        for module in sorted(folder.glob("*.js"))
+        if module.name not in told
+    )
 
 
 def self_test():
@@ -98,7 +112,11 @@ def self_test():
             (pathlib.Path(folder) / name).parent.mkdir(parents=True, exist_ok=True)
             (pathlib.Path(folder) / name).write_text(text)
         missed = list(untold(pathlib.Path(folder)))
-    if len(found) != 5 or not all(line.startswith("docs/wrong.md") for line in found) or missed != ["docs/web.md does not name clients/web/b-c.js"]:
+    if (
+        len(found) != 5
+        or not all(line.startswith("docs/wrong.md") for line in found)
+        or missed != ["docs/web.md does not name clients/web/b-c.js"]
+    ):
         print("its own example is judged wrongly:", *found, sep="\n  ")
         return True
     return False

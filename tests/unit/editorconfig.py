@@ -1,29 +1,56 @@
 #!/usr/bin/env python3
-"""Every text of the tree is as .editorconfig says: UTF-8, LF, no blanks at the ends of lines, no tabs, one newline at the end.
+"""Every text of the tree is as .editorconfig says: UTF-8, LF, no blanks at the ends of lines, no tabs, one newline at
+the end.
 
-    editorconfig.py ROOT     exit 1 naming each file and line that is otherwise
+editorconfig.py ROOT     exit 1 naming each file and line that is otherwise
 """
+
 import os
 import pathlib
 import sys
 import tempfile
 
-SUFFIXES = {".c", ".h", ".comp", ".glsl", ".py", ".md", ".js", ".html", ".css", ".json", ".ini", ".txt", ".build", ".supp", ""}
+SUFFIXES = {
+    ".c",
+    ".h",
+    ".comp",
+    ".glsl",
+    ".py",
+    ".md",
+    ".js",
+    ".html",
+    ".css",
+    ".json",
+    ".ini",
+    ".txt",
+    ".build",
+    ".supp",
+    "",
+}
 # Not ours to write: other people's files, results that a program wrote, and what git or a build makes.
 LEFT_OUT = ("clients/web/vendor", "bench/results", "venv")
 
 
 def texts(root):
-    """The files of ROOT that people write, without hidden folders and those of builds, which git leaves out by their names or which have a build.ninja."""
+    """The files of ROOT that people write, without hidden folders and those of builds, which git leaves out by their
+    names or which have a build.ninja."""
     for folder, folders, names in os.walk(root):
         where = pathlib.Path(folder).relative_to(root).as_posix()
         if where in LEFT_OUT or "build.ninja" in names or "pyvenv.cfg" in names:
             folders.clear()
             continue
-        folders[:] = sorted(name for name in folders if name == ".ci" or not name.startswith((".", "__", "build")) and not name.endswith(".egg-info"))
+        folders[:] = sorted(
+            name
+            for name in folders
+            if name == ".ci" or not name.startswith((".", "__", "build")) and not name.endswith(".egg-info")
+        )
         for name in sorted(names):
             path = pathlib.Path(folder) / name
-            if path.suffix in SUFFIXES and (not name.startswith(".") or name in {".editorconfig", ".gitignore"}) and not path.is_symlink():
+            if (
+                path.suffix in SUFFIXES
+                and (not name.startswith(".") or name in {".editorconfig", ".gitignore"})
+                and not path.is_symlink()
+            ):
                 yield path
 
 
@@ -42,14 +69,30 @@ def wrong(root):
         for number, line in enumerate(data.split(b"\n"), 1):
             if line.rstrip() != line:
                 yield f"{where}:{number}: blanks or CR at the end"
-            if b"\t" in line and not (number > 1 and line.startswith(b"\t") and data.startswith(b"#!/usr/bin/make ")):  # which asks for them
+            if b"\t" in line and not (
+                number > 1 and line.startswith(b"\t") and data.startswith(b"#!/usr/bin/make ")
+            ):  # which asks for them
                 yield f"{where}:{number}: a tab"
 
 
 def self_test():
     """Each kind of fault is found, a right text is not."""
-    faults = {"a.c": b"int a; \n", "b.py": b"if 1:\n\tpass\n", "c.md": b"text", "d.md": b"text\n\n", "e.h": b"int a;\r\n", "f.js": b"\xff\n"}
-    right = {"g.c": b"int a;\n", "empty.py": b"", "rules": b"#!/usr/bin/make -f\na:\n\ttrue\n", "build/h.c": b"int a; \n", "build/build.ninja": b"", ".git/i.c": b"int a; \n"}
+    faults = {
+        "a.c": b"int a; \n",
+        "b.py": b"if 1:\n\tpass\n",
+        "c.md": b"text",
+        "d.md": b"text\n\n",
+        "e.h": b"int a;\r\n",
+        "f.js": b"\xff\n",
+    }
+    right = {
+        "g.c": b"int a;\n",
+        "empty.py": b"",
+        "rules": b"#!/usr/bin/make -f\na:\n\ttrue\n",
+        "build/h.c": b"int a; \n",
+        "build/build.ninja": b"",
+        ".git/i.c": b"int a; \n",
+    }
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder)
         for name, data in {**faults, **right}.items():

@@ -22,7 +22,8 @@ static void all_are_there(void **state)
         assert_non_null(kd_emitters[i]->title);
         assert_non_null(kd_emitters[i]->present);
         assert_true(kd_emitters[i]->n_sentences > 0); /* each approximates something */
-        assert_true(!kd_emitters[i]->fill || kd_emitters[i]->depends[0].size); /* or it would be filled once and for all */
+        assert_true(!kd_emitters[i]->fill ||
+                    kd_emitters[i]->depends[0].size); /* or it would be filled once and for all */
     }
 }
 
@@ -34,7 +35,10 @@ static void sentences_have_room(void **state)
     assert_true(kd_emit_sentence_count() > 20);
 }
 
-struct said { size_t n; const char *text[64]; };
+struct said {
+    size_t n;
+    const char *text[64];
+};
 static void take(void *user, const char *text)
 {
     struct said *said = user;
@@ -77,14 +81,18 @@ static void what_is_off_says_and_needs_nothing(void **state)
     if (traits[number]) \
         assert_memory_equal(&one->data.emission.name, &fresh->data.emission.name, sizeof one->data.emission.name);
 
-static const char BASE[] = "{\"disk\": {\"model\": \"particles\", \"slow_light\": true, \"band\": \"visible\"}, \"sky\": {\"model\": \"grid\"}, "
-                           "\"spots\": [{\"brightness\": 1}], \"style\": {\"ringdown\": 0.5}, \"time\": 7, \"camera\": {\"r\": 40}}";
+static const char BASE[] =
+    "{\"disk\": {\"model\": \"particles\", \"slow_light\": true, \"band\": \"visible\"}, \"sky\": {\"model\": "
+    "\"grid\"}, "
+    "\"spots\": [{\"brightness\": 1}], \"style\": {\"ringdown\": 0.5}, \"time\": 7, \"camera\": {\"r\": 40}}";
 
-static const char STARS[] = "{\"disk\": {\"model\": \"none\"}, \"sky\": {\"model\": \"stars\", \"orientation\": \"sgra\", \"turn_deg\": 3, \"tilt_deg\": 4}, "
+static const char STARS[] = "{\"disk\": {\"model\": \"none\"}, \"sky\": {\"model\": \"stars\", \"orientation\": "
+                            "\"sgra\", \"turn_deg\": 3, \"tilt_deg\": 4}, "
                             "\"camera\": {\"r\": 40}}";
 
-static const char GAS[] = "{\"disk\": {\"slow_light\": true, \"emission_opacity\": 10, \"gas\": {\"amplitude\": 1}}, \"time\": 7, "
-                          "\"camera\": {\"r\": 40}}";
+static const char GAS[] =
+    "{\"disk\": {\"slow_light\": true, \"emission_opacity\": 10, \"gas\": {\"amplitude\": 1}}, \"time\": 7, "
+    "\"camera\": {\"r\": 40}}";
 
 /* Numbers are those of the scene at hand, whatever was filled before, in any order. */
 static void numbers_follow_the_scene(void **state)
@@ -187,7 +195,8 @@ static void gas_replaces_the_disk(void **state)
     kd_emit_traits(&scene, traits);
     assert_true(!traits[KD_EMITTER_disk] && traits[KD_EMITTER_gas] && kd_emit_at_crossings(&scene));
     assert_int_equal(kd_emit_needs(&scene), KD_LENS_W);
-    assert_true(says(&scene, "gas: the optical depth") && says(&scene, "disk: geometrically thin") && !says(&scene, "gas: turbulence"));
+    assert_true(says(&scene, "gas: the optical depth") && says(&scene, "disk: geometrically thin") &&
+                !says(&scene, "gas: turbulence"));
     scene.motion.time_rate = 1;
     assert_false(kd_emit_moves(&scene));
     scene.gas.amplitude = 0.5;
@@ -211,14 +220,17 @@ static void gas_replaces_the_disk(void **state)
     assert_int_equal(kd_emit_needs(&scene), 0);
 }
 
-/* An emitter has no variant but those that its GLSL lists, which do not overlap: a check at compile time sees to that. */
+/* An emitter has no variant but those that its GLSL lists, which do not overlap: a check at compile time sees to
+ * that. */
 #define LISTED(trait) | KD_TRAIT_##trait
 #define WORD(number, name) [number] = KD_TRAIT_PRESENT KD_TRAITS_##name(LISTED),
 static void traits_are_listed(void **state)
 {
     (void)state;
     static const uint32_t listed[KD_EMITTER_COUNT] = { KD_EMITTERS(WORD, WORD, WORD, WORD, WORD, WORD) };
-    static const char *const documents[] = { "{}", BASE, GAS, "{\"disk\": {\"doppler\": false, \"gas\": {\"amplitude\": 1, \"octaves\": 8}}}" };
+    static const char *const documents[] = {
+        "{}", BASE, GAS, "{\"disk\": {\"doppler\": false, \"gas\": {\"amplitude\": 1, \"octaves\": 8}}}"
+    };
     for (size_t k = 0; k < sizeof documents / sizeof *documents; k++) {
         struct kd_scene scene;
         struct kd_error error;
@@ -250,11 +262,13 @@ static void what_shines_is_told(void **state)
                         "{\"name\":\"spots\",\"title\":\"spots\",\"at\":\"crossing\",\"apart\":true,"
                         "\"sentence\":\"Hot spots going round at 9 M.\"},"
                         "{\"name\":\"ringdown\",\"title\":\"ringdown\",\"at\":\"\",\"apart\":false},"
-                        "{\"name\":\"sky\",\"title\":\"sky\",\"at\":\"end\",\"apart\":false,\"sentence\":\"A celestial grid behind.\"}]");
+                        "{\"name\":\"sky\",\"title\":\"sky\",\"at\":\"end\",\"apart\":false,\"sentence\":\"A celestial "
+                        "grid behind.\"}]");
     kd_buffer_finish(&json);
 }
 
-/* Stars are a pass of their own, the light between them none; without either there is no sky to speak of, but for its blackness. */
+/* Stars are a pass of their own, the light between them none; without either there is no sky to speak of, but for
+ * its blackness. */
 static void skies(void **state)
 {
     (void)state;
@@ -263,17 +277,20 @@ static void skies(void **state)
     kd_scene_smooth(&scene);
     assert_false(kd_emit_points(&scene));
     scene.sky.model = KD_SKY_GRID;
-    assert_true(!kd_emit_points(&scene) && !kd_emit_device_bytes(&scene) && says(&scene, "sky: a drawn") && !says(&scene, "sky: the light between"));
+    assert_true(!kd_emit_points(&scene) && !kd_emit_device_bytes(&scene) && says(&scene, "sky: a drawn") &&
+                !says(&scene, "sky: the light between"));
     scene.sky.model = KD_SKY_STARS;
     assert_true(kd_emit_points(&scene) && kd_emit_needs(&scene) == (KD_LENS_W | KD_LENS_SKY | KD_LENS_SKY_FOOTPRINT));
-    assert_true(says(&scene, "sky: stars are made up") && says(&scene, "sky: the light between the stars is a Milky Way") && !says(&scene, "sky: a drawn"));
+    assert_true(says(&scene, "sky: stars are made up") &&
+                says(&scene, "sky: the light between the stars is a Milky Way") && !says(&scene, "sky: a drawn"));
     assert_false(says(&scene, "sky: the light between the stars is shifted"));
     scene.camera.r = 40;
     assert_true(says(&scene, "sky: the light between the stars is shifted"));
     uint64_t bytes = kd_emit_device_bytes(&scene);
     scene.sky.milky_way = 0;
     scene.sky.model = KD_SKY_CATALOGUE;
-    assert_true(says(&scene, "sky: stars of the Hipparcos") && !says(&scene, "sky: the light between") && kd_emit_device_bytes(&scene) < bytes - 11000000); /* 2048 x 1024 words, and a third of that */
+    assert_true(says(&scene, "sky: stars of the Hipparcos") && !says(&scene, "sky: the light between") &&
+                kd_emit_device_bytes(&scene) < bytes - 11000000); /* 2048 x 1024 words, and a third of that */
     kd_emit_traits(&scene, traits);
     uint32_t bolometric = traits[KD_EMITTER_sky];
     scene.disk.band = KD_BAND_VISIBLE;
@@ -314,11 +331,14 @@ static void pictures_of_the_sky(void **state)
     scene.sky.model = KD_SKY_IMAGE;
     scene.camera.r = 40;
     assert_true(!kd_emit_points(&scene) && kd_emit_needs(&scene) == (KD_LENS_W | KD_LENS_SKY | KD_LENS_SKY_FOOTPRINT));
-    assert_true(says(&scene, "sky: sky.model is \"image\" and sky.image names none") && says(&scene, "sky: the light between the stars is a Milky Way"));
+    assert_true(says(&scene, "sky: sky.model is \"image\" and sky.image names none") &&
+                says(&scene, "sky: the light between the stars is a Milky Way"));
     uint64_t stands_in = kd_emit_device_bytes(&scene);
     strcpy(scene.sky.image, hash);
-    assert_true(!says(&scene, "sky: sky.model is \"image\"") && !says(&scene, "sky: the light between the stars is a Milky Way"));
-    assert_true(says(&scene, "sky: the light between the stars is a picture") && says(&scene, "sky: a picture of three colours has no spectrum"));
+    assert_true(!says(&scene, "sky: sky.model is \"image\"") &&
+                !says(&scene, "sky: the light between the stars is a Milky Way"));
+    assert_true(says(&scene, "sky: the light between the stars is a picture") &&
+                says(&scene, "sky: a picture of three colours has no spectrum"));
     assert_true(kd_emit_device_bytes(&scene) > 3 * stands_in);
     scene.sky.milky_way = 0; /* nothing at all */
     assert_true(!says(&scene, "sky:") && kd_emit_needs(&scene) == KD_LENS_W && !kd_emit_device_bytes(&scene));

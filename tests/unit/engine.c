@@ -36,7 +36,8 @@ static void refuse(struct kd_wish wish, bool float64, const char *pointer, const
 static void words_are_names(void **state)
 {
     (void)state;
-    const struct kd_field *engine = kd_field_find("accuracy", "engine"), *precision = kd_field_find("accuracy", "precision");
+    const struct kd_field *engine = kd_field_find("accuracy", "engine"),
+                          *precision = kd_field_find("accuracy", "precision");
     assert_int_equal(kd_field_word_count(engine), KD_ENGINE_COUNT + 1);
     for (int i = 0; i < KD_ENGINE_COUNT; i++)
         assert_int_equal(kd_field_word_index(engine, kd_engine_name((enum kd_engine)i)), i + 1);

@@ -1,5 +1,5 @@
-/* The table of formats with one more in it, for tests: "fake" is a line of text with what kd_encode was given, then the scene. It needs
- * the light of a frame and not its picture, and keeps a count of its files. */
+/* The table of formats with one more in it, for tests: "fake" is a line of text with what kd_encode was given, then
+ * the scene. It needs the light of a frame and not its picture, and keeps a count of its files. */
 #include "fake_formats.h"
 
 #include <stdio.h>
@@ -8,8 +8,8 @@
 
 int fake_memories;
 
-static enum kd_status encode(const struct kd_picture *picture, enum kd_effort effort, void **memory, struct kd_buffer *out,
-                             struct kd_error *error)
+static enum kd_status encode(const struct kd_picture *picture, enum kd_effort effort, void **memory,
+                             struct kd_buffer *out, struct kd_error *error)
 {
     unsigned *count = *memory;
     if (!count) {
@@ -18,8 +18,9 @@ static enum kd_status encode(const struct kd_picture *picture, enum kd_effort ef
     }
     if (!count)
         return kd_error_set(error, KD_ENOMEM, "no memory for a count");
-    enum kd_status status = kd_buffer_printf(out, "FAKE %ux%u effort=%d number=%u file=%u flux=%g\n", picture->frame->width,
-                                             picture->frame->height, effort, picture->number, ++*count, picture->frame->light.all.flux);
+    enum kd_status status =
+        kd_buffer_printf(out, "FAKE %ux%u effort=%d number=%u file=%u flux=%g\n", picture->frame->width,
+                         picture->frame->height, effort, picture->number, ++*count, picture->frame->light.all.flux);
     return status ? status : kd_scene_to_json(picture->scene, out);
 }
 
@@ -38,7 +39,12 @@ static enum kd_status scene(const void *data, size_t size, struct kd_scene *out,
 }
 
 const struct kd_format fake_format = {
-    .name = "fake", .media_type = "application/x-fake", .magic = "FAKE", .carries = KD_CARRIES_LIGHT, .encode = encode, .forget = forget,
+    .name = "fake",
+    .media_type = "application/x-fake",
+    .magic = "FAKE",
+    .carries = KD_CARRIES_LIGHT,
+    .encode = encode,
+    .forget = forget,
     .scene = scene,
 };
 

@@ -1,5 +1,5 @@
-/* A format is found by its name, its media type, the end of a path and its first bytes, and one that is added to the table needs nothing
- * else. */
+/* A format is found by its name, its media type, the end of a path and its first bytes, and one that is added to the
+ * table needs nothing else. */
 #include "fake_formats.h"
 
 #include "render/accuracy/table.h"
@@ -46,9 +46,12 @@ static void found_by_bytes(void **state)
 }
 
 static uint8_t pixels[3 * 4 * 2];
-static const struct kd_frame frame = { .width = 4, .height = 2, .layers = { { "rgb", 3, KD_LAYER_U8, pixels } }, .n_layers = 1 };
+static const struct kd_frame frame = {
+    .width = 4, .height = 2, .layers = { { "rgb", 3, KD_LAYER_U8, pixels } }, .n_layers = 1
+};
 
-static struct kd_buffer encoded(const struct kd_format *format, const struct kd_scene *scene, enum kd_effort effort, struct kd_encoder *encoder)
+static struct kd_buffer encoded(const struct kd_format *format, const struct kd_scene *scene, enum kd_effort effort,
+                                struct kd_encoder *encoder)
 {
     const struct kd_plan plan = { 0 };
     const struct kd_picture picture = { &frame, scene, &plan, "none", 7 };
@@ -66,9 +69,16 @@ static void memory_is_kept_and_forgotten(void **state)
     struct kd_encoder encoder = { 0 };
     struct kd_scene scene;
     kd_scene_defaults(&scene);
-    const struct { const struct kd_format *format; enum kd_effort effort; const char *begins; int memories; } steps[] = {
-        { &fake_format, KD_EFFORT_QUICK, "FAKE 4x2 effort=1 number=7 file=1 ", 1 }, { &fake_format, KD_EFFORT_KEEP, "FAKE 4x2 effort=2 number=7 file=2 ", 1 },
-        { &kd_format_png, KD_EFFORT_LIVE, "\x89PNG", 0 }, { &kd_format_png, KD_EFFORT_LIVE, "\x89PNG", 0 },
+    const struct {
+        const struct kd_format *format;
+        enum kd_effort effort;
+        const char *begins;
+        int memories;
+    } steps[] = {
+        { &fake_format, KD_EFFORT_QUICK, "FAKE 4x2 effort=1 number=7 file=1 ", 1 },
+        { &fake_format, KD_EFFORT_KEEP, "FAKE 4x2 effort=2 number=7 file=2 ", 1 },
+        { &kd_format_png, KD_EFFORT_LIVE, "\x89PNG", 0 },
+        { &kd_format_png, KD_EFFORT_LIVE, "\x89PNG", 0 },
         { &fake_format, KD_EFFORT_QUICK, "FAKE 4x2 effort=1 number=7 file=1 ", 1 },
     };
     for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
@@ -104,7 +114,9 @@ static void a_scene_comes_back_from_any_format(void **state)
 
 static struct kd_plan planned(const struct kd_format *format, struct kd_scene *scene)
 {
-    const struct kd_capacity capacity = { .max_binding_bytes = 128u << 20, .memory_bytes = 1u << 30, .accuracy = kd_accuracy_built_in() };
+    const struct kd_capacity capacity = { .max_binding_bytes = 128u << 20,
+                                          .memory_bytes = 1u << 30,
+                                          .accuracy = kd_accuracy_built_in() };
     struct kd_plan plan;
     struct kd_error error = { 0 };
     if (kd_format_plan(format, scene, &capacity, &plan, &error))
@@ -122,7 +134,8 @@ static int shows(const struct kd_plan *plan)
     return n;
 }
 
-/* A picture is exposed, made and read back, and its light left alone; what needs the light alone has it measured, and no picture. */
+/* A picture is exposed, made and read back, and its light left alone; what needs the light alone has it measured,
+ * and no picture. */
 static void a_plan_is_for_what_is_carried(void **state)
 {
     (void)state;

@@ -10,15 +10,9 @@
 
 static const double targets[] = { 8, 16.7, 33, 66, 100 };
 
-static struct kd_governor_params with_target(double ms)
-{
-    return *kd_governor_params(.target_ms = ms);
-}
+static struct kd_governor_params with_target(double ms) { return *kd_governor_params(.target_ms = ms); }
 
-static uint32_t last_rung(const struct simulation *s)
-{
-    return (uint32_t)s->governor.ladder.n_rungs - 1;
-}
+static uint32_t last_rung(const struct simulation *s) { return (uint32_t)s->governor.ladder.n_rungs - 1; }
 
 /* The ladder */
 
@@ -56,7 +50,8 @@ static void assert_order(const struct kd_quality *before, const struct kd_qualit
     bool scale = after->scale < before->scale, samples = rank(after->samples) < rank(before->samples);
     bool orders = after->orders < before->orders, profile = after->profile != before->profile;
     assert_int_equal(scale + samples + orders + profile + after->sketch, 1);
-    assert_true(after->scale <= before->scale && rank(after->samples) <= rank(before->samples) && after->orders <= before->orders);
+    assert_true(after->scale <= before->scale && rank(after->samples) <= rank(before->samples) &&
+                after->orders <= before->orders);
 }
 
 static void check_ladder(const struct kd_scene *asked, const struct kd_ladder_bounds *bounds)
@@ -121,9 +116,20 @@ static void ladders_go_down_in_order_and_up_to_what_is_asked(void **state)
     struct kd_ladder ladder;
     asked.image.samples = 2;
     kd_ladder_make(&asked, &bounds, &ladder);
-    static const struct { double scale; int samples, orders, profile; } expected[] = {
-        { 1, 2, 3, -1 }, { 1, 1, 3, -1 }, { .75, 1, 3, -1 }, { .625, 1, 3, -1 }, { .5, 1, 3, -1 }, { .375, 1, 3, -1 },
-        { .25, 1, 3, -1 }, { .25, 1, 2, -1 }, { .25, 1, 2, KD_PROFILE_INTERACTIVE }, { .25, 1, 2, KD_PROFILE_DRAFT },
+    static const struct {
+        double scale;
+        int samples, orders, profile;
+    } expected[] = {
+        { 1, 2, 3, -1 },
+        { 1, 1, 3, -1 },
+        { .75, 1, 3, -1 },
+        { .625, 1, 3, -1 },
+        { .5, 1, 3, -1 },
+        { .375, 1, 3, -1 },
+        { .25, 1, 3, -1 },
+        { .25, 1, 2, -1 },
+        { .25, 1, 2, KD_PROFILE_INTERACTIVE },
+        { .25, 1, 2, KD_PROFILE_DRAFT },
     };
     assert_int_equal(ladder.n_rungs, sizeof expected / sizeof *expected);
     for (size_t i = 0; i < ladder.n_rungs; i++) {
@@ -134,7 +140,8 @@ static void ladders_go_down_in_order_and_up_to_what_is_asked(void **state)
     }
     assert_int_equal(ladder.rungs[4].quality.width, 640);
     assert_int_equal(ladder.rungs[4].quality.height, 360);
-    asked.camera.projection = KD_PROJECTION_RING; /* photon rings, one above the other: as many of them as are asked for */
+    asked.camera.projection =
+        KD_PROJECTION_RING; /* photon rings, one above the other: as many of them as are asked for */
     asked.accuracy.orders = 7;
     kd_ladder_make(&asked, &bounds, &ladder);
     for (size_t i = 0; i < ladder.n_rungs; i++)
@@ -151,8 +158,8 @@ static void ladders_go_down_in_order_and_up_to_what_is_asked(void **state)
     assert_true(ladder.rungs[without].quality.sketch && ladder.rungs[without].quality.profile == KD_PROFILE_DRAFT);
 }
 
-/* A view whose pixels have as many rays as they need moves with one each where that is too slow, and comes to rest on all; a small scale
- * is not given for it. */
+/* A view whose pixels have as many rays as they need moves with one each where that is too slow, and comes to rest
+ * on all; a small scale is not given for it. */
 static void adaptive_pictures_move_with_one_ray(void **state)
 {
     (void)state;
@@ -276,8 +283,14 @@ static void what_cannot_be_mended_costs_no_resolution(void **state)
     struct simulation s;
     for (enum pattern pattern = PLAY; pattern <= DRAG; pattern++)
         for (int noisy = 0; noisy < 2; noisy++) {
-            const struct truth truth = { .traced = 25, .reused = 8, .pixels = 4, .hidden = 3, .fixed = 220,
-                                         .noise = noisy ? 0.25 : 0, .spikes = noisy ? 0.05 : 0, .spike = 3 };
+            const struct truth truth = { .traced = 25,
+                                         .reused = 8,
+                                         .pixels = 4,
+                                         .hidden = 3,
+                                         .fixed = 220,
+                                         .noise = noisy ? 0.25 : 0,
+                                         .spikes = noisy ? 0.05 : 0,
+                                         .spike = 3 };
             const struct kd_frame_cost guess = { .fixed_ms = 220, .rays_ms = 25, .pixels_ms = 4, .total_ms = 249 };
             begin(&s, kd_governor_params(), 640, 360, truth);
             change(&s, true);
@@ -294,7 +307,8 @@ static void what_can_be_mended_is(void **state)
     (void)state;
     struct simulation s;
     for (double fixed = 0; fixed < 1000; fixed = 1.5 * fixed + 5) {
-        begin(&s, kd_governor_params(), 1280, 720, (struct truth) { .traced = 200, .reused = 80, .pixels = 20, .fixed = fixed });
+        begin(&s, kd_governor_params(), 1280, 720,
+              (struct truth) { .traced = 200, .reused = 80, .pixels = 20, .fixed = fixed });
         run(&s, DRAG, 30e3);
         double mean = mean_over(&s, DRAG, 30e3);
         assert_true(mean - fixed <= 1.1 * (may_take(33, fixed) - fixed));
@@ -326,13 +340,15 @@ static void recovers_from_a_slow_beginning(void **state)
     }
 }
 
-/* Time goes on, for minutes; a drag; and it goes on at full size when the drag is over, however long after the last change. */
+/* Time goes on, for minutes; a drag; and it goes on at full size when the drag is over, however long after the last
+ * change. */
 static void a_drag_is_soon_forgotten(void **state)
 {
     (void)state;
     struct simulation s;
     for (double before = 500; before < 60e3; before *= 2) {
-        begin(&s, kd_governor_params(), 640, 360, (struct truth) { .traced = 100, .reused = 8, .pixels = 3, .fixed = 4 });
+        begin(&s, kd_governor_params(), 640, 360,
+              (struct truth) { .traced = 100, .reused = 8, .pixels = 3, .fixed = 4 });
         run(&s, PLAY, before);
         run(&s, DRAG, 3e3);
         assert_true(s.last.scale < 1);
@@ -341,7 +357,8 @@ static void a_drag_is_soon_forgotten(void **state)
     }
 }
 
-/* Ten million particles that became as many thousand; a sky that was taken away: what was too slow then says nothing now. */
+/* Ten million particles that became as many thousand; a sky that was taken away: what was too slow then says nothing
+ * now. */
 static void another_kind_of_scene_begins_anew(void **state)
 {
     (void)state;
@@ -361,7 +378,8 @@ static void another_kind_of_scene_begins_anew(void **state)
     }
 }
 
-/* Nothing moves while a smooth disk rings: the picture keeps its size on any machine, and gets it back where it had lost it. */
+/* Nothing moves while a smooth disk rings: the picture keeps its size on any machine, and gets it back where it had
+ * lost it. */
 static void what_only_rings_keeps_its_size(void **state)
 {
     (void)state;
@@ -418,7 +436,8 @@ static void what_refinement_measured_is_believed(void **state)
     /* And one that was much too cheap. */
     begin(&s, kd_governor_params(), 640, 360, (struct truth) { .traced = 180, .reused = 6, .pixels = 4 });
     change(&s, true);
-    s.now += 1000; /* nothing was drawn while the camera moved: that frames trace is learnt from one that misses its lens map */
+    s.now += 1000; /* nothing was drawn while the camera moved: that frames trace is learnt from one that misses its
+                      lens map */
     frame(&s);
     change(&s, true);
     frame(&s);
@@ -510,8 +529,10 @@ static struct kd_frame_cost telegraph(const struct simulation *s, const struct k
     bool slow = fmod(s->now, 2 * s->truth.spike) > s->truth.spike;
     struct kd_frame_cost c = truthful(s, scene, reused);
     double factor = slow ? 5 : 1;
-    return (struct kd_frame_cost) { .fixed_ms = factor * c.fixed_ms, .rays_ms = factor * c.rays_ms,
-                                    .pixels_ms = factor * c.pixels_ms, .total_ms = factor * c.total_ms };
+    return (struct kd_frame_cost) { .fixed_ms = factor * c.fixed_ms,
+                                    .rays_ms = factor * c.rays_ms,
+                                    .pixels_ms = factor * c.pixels_ms,
+                                    .total_ms = factor * c.total_ms };
 }
 
 /* Says that what it takes is fixed as soon as the picture is small, and goes with its size when it is large. */
@@ -519,7 +540,8 @@ static struct kd_frame_cost liar(const struct simulation *s, const struct kd_sce
 {
     (void)reused;
     bool large = rays_of(scene) > 0.3 * rays_of(&s->asked);
-    return (struct kd_frame_cost) { .fixed_ms = large ? 0 : 70, .rays_ms = large ? 80 : 1, .total_ms = large ? 80 : 71 };
+    return (
+        struct kd_frame_cost) { .fixed_ms = large ? 0 : 70, .rays_ms = large ? 80 : 1, .total_ms = large ? 80 : 71 };
 }
 
 /* Its fixed part comes and goes. */
@@ -532,8 +554,8 @@ static struct kd_frame_cost restless(const struct simulation *s, const struct kd
     return c;
 }
 
-/* Climbs that were in vain, by the doubling of the wait after each: 3 s (2^n - 1) <= T, those that came before the first wait
- * besides, one a rung; each between a descent and a climb of the whole ladder at most. */
+/* Climbs that were in vain, by the doubling of the wait after each: 3 s (2^n - 1) <= T, those that came before the
+ * first wait besides, one a rung; each between a descent and a climb of the whole ladder at most. */
 static void assert_settles(machine *adversary, struct truth truth, int hours)
 {
     struct simulation s;
@@ -546,8 +568,8 @@ static void assert_settles(machine *adversary, struct truth truth, int hours)
     run(&s, DRAG, (hours - 1) * 3600e3);
     assert_true(s.changes - hour <= 8 * n); /* log2(10) more tries at most */
     assert_true(s.least_pause >= 1000);
-    print_message("%llu changes in an hour, %llu in %d more\n", (unsigned long long)hour, (unsigned long long)(s.changes - hour),
-                  hours - 1);
+    print_message("%llu changes in an hour, %llu in %d more\n", (unsigned long long)hour,
+                  (unsigned long long)(s.changes - hour), hours - 1);
 }
 
 static void adversaries_are_outwaited(void **state)
@@ -629,7 +651,8 @@ static void the_end_of_a_drag_is_no_stall(void **state)
         assert_true(longest <= 1.1 * 500);
         uint32_t rung = s.governor.paces[0].rung;
         assert_true(full > 0.7 * 500 ? true_cost(&s, rung, false) <= 1.1 * 500 : s.last.final);
-        /* And no less than that, as far as can be told: orders and steps cost less on this machine than the governor believes. */
+        /* And no less than that, as far as can be told: orders and steps cost less on this machine than the governor
+         * believes. */
         assert_true(rung == 0 || true_cost(&s, rung - 1, false) > 0.4 * 500);
     }
 }
@@ -641,7 +664,8 @@ static void mixed_changes_do_not_flicker(void **state)
     for (enum pattern pattern = 0; pattern < PATTERNS; pattern++) {
         struct simulation s;
         uint64_t seen = 0;
-        begin(&s, kd_governor_params(), 1280, 720, (struct truth) { .traced = 300, .reused = 12, .pixels = 10, .noise = 0.1 });
+        begin(&s, kd_governor_params(), 1280, 720,
+              (struct truth) { .traced = 300, .reused = 12, .pixels = 10, .noise = 0.1 });
         run(&s, pattern, 30e3);
         for (double last = s.last.scale; s.now < 90e3; last = s.last.scale) {
             run(&s, pattern, 1);
@@ -685,7 +709,8 @@ static double refine_to_rest(struct simulation *s, int *n)
         }
         s->now += turn.wait_ms; /* until it says so, and not a moment longer */
         assert_true(frame(s));
-        assert_true(s->last.scale >= before.scale && (s->last.samples >= before.samples || s->last.scale > before.scale));
+        assert_true(s->last.scale >= before.scale &&
+                    (s->last.samples >= before.samples || s->last.scale > before.scale));
         before = s->last;
     }
     return s->now;
@@ -710,7 +735,9 @@ static void rest_refines_to_what_is_asked_and_then_costs_nothing(void **state)
             assert_int_equal(turn.quality.width, s.last.width);
             assert_int_equal(turn.quality.samples, s.last.samples);
         }
-        assert_true(final ? isinf(turn.wait_ms) : fabs(turn.wait_ms - fmax(changed + 150 - s.now, 50)) < 1e-9); /* who has waited for a slow frame has time for a change */
+        assert_true(final ? isinf(turn.wait_ms)
+                          : fabs(turn.wait_ms - fmax(changed + 150 - s.now, 50)) <
+                                1e-9); /* who has waited for a slow frame has time for a change */
         refine_to_rest(&s, &frames);
         assert_true(final ? frames == 0 : frames >= 1 && frames <= KD_LADDER_STEPS);
         assert_true(s.last.final);
@@ -725,11 +752,14 @@ static void rest_refines_to_what_is_asked_and_then_costs_nothing(void **state)
 /* Member by member: bytes between members are anything. */
 static void assert_same_pace(const struct kd_pace *a, const struct kd_pace *b)
 {
-    assert_true(a->rung == b->rung && a->ceiling == b->ceiling && a->count == b->count && a->climbed == b->climbed && a->held == b->held && a->tried == b->tried);
+    assert_true(a->rung == b->rung && a->ceiling == b->ceiling && a->count == b->count && a->climbed == b->climbed &&
+                a->held == b->held && a->tried == b->tried);
     for (uint32_t i = 0; i < a->count && i < KD_PACE_FRAMES; i++)
         assert_memory_equal(&a->costs[i].fixed_ms, &b->costs[i].fixed_ms, 4 * sizeof(double));
-    const double *numbers[][2] = { { &a->changed_at, &b->changed_at }, { &a->failed_at, &b->failed_at }, { &a->retry_ms, &b->retry_ms }, { &a->widest, &b->widest },
-        { &a->failed_target, &b->failed_target }, { &a->held_target, &b->held_target }, { &a->other_ms, &b->other_ms }, { &a->stays, &b->stays } };
+    const double *numbers[][2] = { { &a->changed_at, &b->changed_at },       { &a->failed_at, &b->failed_at },
+                                   { &a->retry_ms, &b->retry_ms },           { &a->widest, &b->widest },
+                                   { &a->failed_target, &b->failed_target }, { &a->held_target, &b->held_target },
+                                   { &a->other_ms, &b->other_ms },           { &a->stays, &b->stays } };
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
         assert_memory_equal(numbers[i][0], numbers[i][1], sizeof(double));
 }
@@ -744,7 +774,8 @@ static void a_change_breaks_into_refinement(void **state)
     run(&s, DRAG, 1e8);
     s.now += 200;
     struct kd_turn turn = kd_governor_turn(&s.governor, s.now);
-    assert_true(turn.refining && turn.wait_ms == 0 && turn.quality.samples == 1 && turn.quality.profile == KD_PROFILE_BALANCED);
+    assert_true(turn.refining && turn.wait_ms == 0 && turn.quality.samples == 1 &&
+                turn.quality.profile == KD_PROFILE_BALANCED);
     /* Not reported: it is offered again. */
     assert_true(kd_governor_turn(&s.governor, s.now + 50).refining);
     change(&s, true);
@@ -763,7 +794,8 @@ static void a_change_breaks_into_refinement(void **state)
     assert_true(isinf(kd_governor_turn(&s.governor, s.now).wait_ms));
 }
 
-/* The rays next to the critical curve and the stars are fewer in a drag, on any rung but the first, and all are there while time goes on and at rest. */
+/* The rays next to the critical curve and the stars are fewer in a drag, on any rung but the first, and all are
+ * there while time goes on and at rest. */
 static void a_drag_has_fewer_rays_at_the_curve(void **state)
 {
     (void)state;
@@ -773,7 +805,8 @@ static void a_drag_has_fewer_rays_at_the_curve(void **state)
         struct simulation s;
         struct kd_scene scene;
         int frames;
-        begin(&s, kd_governor_params(), 1280, 720, (struct truth) { .traced = k & 1 ? 200 : 5, .reused = k & 1 ? 200 : 5, .pixels = 5 });
+        begin(&s, kd_governor_params(), 1280, 720,
+              (struct truth) { .traced = k & 1 ? 200 : 5, .reused = k & 1 ? 200 : 5, .pixels = 5 });
         s.asked.image.critical_factor = asked[k / 4];
         run(&s, patterns[k / 2 % 2], 5e3);
         const bool fewer = patterns[k / 2 % 2] == DRAG && (k & 1) && asked[k / 4] > 2;
@@ -807,9 +840,12 @@ static void what_measures_nothing_is_not_counted(void **state)
     assert_true(s.changes >= 1);
     struct kd_pace pace = s.governor.paces[1];
     struct kd_turn turn = kd_governor_turn(&s.governor, s.now);
-    const struct kd_frame_cost fine = { .total_ms = 9e5 }, bad[] = { { .total_ms = NAN }, { .total_ms = INFINITY },
-        { .total_ms = -1 }, { .rays_ms = NAN, .total_ms = 1 }, { .pixels_ms = -1, .total_ms = 1 },
-        { .fixed_ms = INFINITY, .total_ms = 1 } };
+    const struct kd_frame_cost fine = { .total_ms = 9e5 }, bad[] = { { .total_ms = NAN },
+                                                                     { .total_ms = INFINITY },
+                                                                     { .total_ms = -1 },
+                                                                     { .rays_ms = NAN, .total_ms = 1 },
+                                                                     { .pixels_ms = -1, .total_ms = 1 },
+                                                                     { .fixed_ms = INFINITY, .total_ms = 1 } };
     kd_governor_frame(&s.governor, s.now, &first, &fine);
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
         kd_governor_frame(&s.governor, s.now, &turn, &bad[i]);
@@ -844,8 +880,11 @@ static void whatever_happens_the_answer_is_sound(void **state)
             assert_true(turn.wait_ms >= 0);
             assert_true(turn.wait_ms == 0 || turn.wait_ms <= 150 || isinf(turn.wait_ms));
             assert_true(s.governor.paces[0].rung <= last_rung(&s) && s.governor.paces[1].rung <= last_rung(&s));
-            struct kd_frame_cost cost = { .fixed_ms = 200 * uniform() * uniform() * uniform(), .rays_ms = 100 * uniform(),
-                                          .pixels_ms = 100 * uniform(), .total_ms = 150 * uniform(), .lens_reused = uniform() < 0.5 };
+            struct kd_frame_cost cost = { .fixed_ms = 200 * uniform() * uniform() * uniform(),
+                                          .rays_ms = 100 * uniform(),
+                                          .pixels_ms = 100 * uniform(),
+                                          .total_ms = 150 * uniform(),
+                                          .lens_reused = uniform() < 0.5 };
             if (uniform() < 0.02)
                 cost.total_ms = (double[]) { NAN, INFINITY, -1, 0 }[k % 4];
             s.now += 200 * uniform() * uniform();
@@ -861,12 +900,16 @@ static void whatever_happens_the_answer_is_sound(void **state)
     }
 }
 
-/* A starry view whose azimuth turns: of what goes with rays, by the frames of a session, 7.2 ms stay whatever the picture's size is, and nobody says so. It
- * was too slow for a while, as others had the machine; then it has the size again that is in time. */
+/* A starry view whose azimuth turns: of what goes with rays, by the frames of a session, 7.2 ms stay whatever the
+ * picture's size is, and nobody says so. It was too slow for a while, as others had the machine; then it has the
+ * size again that is in time. */
 static struct kd_frame_cost starry(const struct simulation *s, const struct kd_scene *scene, bool reused)
 {
-    const double pixels = 1e-3 * scene->image.width * scene->image.height, noise = s->load * (1 + 0.1 * (2 * uniform() - 1));
-    struct kd_frame_cost c = { .fixed_ms = 0.1 * noise, .rays_ms = noise * ((reused ? 7.2 : 10) + (reused ? 0.16 : 0.3) * pixels), .pixels_ms = noise * (0.8 + 0.012 * pixels) };
+    const double pixels = 1e-3 * scene->image.width * scene->image.height,
+                 noise = s->load * (1 + 0.1 * (2 * uniform() - 1));
+    struct kd_frame_cost c = { .fixed_ms = 0.1 * noise,
+                               .rays_ms = noise * ((reused ? 7.2 : 10) + (reused ? 0.16 : 0.3) * pixels),
+                               .pixels_ms = noise * (0.8 + 0.012 * pixels) };
     c.total_ms = c.fixed_ms + c.rays_ms + c.pixels_ms;
     return c;
 }
@@ -887,21 +930,24 @@ static void what_stays_at_any_size_is_learned(void **state)
         run(&s, patterns[k], 30e3);
         const uint64_t changes = s.changes;
         const double mean = mean_over(&s, patterns[k], 60e3);
-        print_message("from scale %g to %g: %.1f ms, %llu changes more\n", slow, s.last.scale, mean, (unsigned long long)(s.changes - changes));
+        print_message("from scale %g to %g: %.1f ms, %llu changes more\n", slow, s.last.scale, mean,
+                      (unsigned long long)(s.changes - changes));
         assert_true(slow == 0.25 && s.last.scale >= least[k]);
         assert_true(mean <= 1.1 * 33 && s.changes - changes <= 2);
     }
 }
 
-/* The same view in a session that its first frame, for which kernels were made, has told to begin on the lowest rung: it has been on no other, by which it
- * could tell what stays. */
+/* The same view in a session that its first frame, for which kernels were made, has told to begin on the lowest
+ * rung: it has been on no other, by which it could tell what stays. */
 static void who_began_low_finds_out(void **state)
 {
     (void)state;
     static const enum pattern patterns[] = { PLAY, DRAG };
     static const double least[] = { 0.5, 0.375 };
     for (int k = 0; k < 2; k++) {
-        const struct kd_frame_cost first = { .rays_ms = 1900, .pixels_ms = 90, .total_ms = 2000, .lens_reused = patterns[k] == PLAY };
+        const struct kd_frame_cost first = {
+            .rays_ms = 1900, .pixels_ms = 90, .total_ms = 2000, .lens_reused = patterns[k] == PLAY
+        };
         struct simulation s;
         begin(&s, kd_governor_params(), 640, 360, (struct truth) { 0 });
         s.cost = starry;
@@ -912,7 +958,8 @@ static void who_began_low_finds_out(void **state)
         run(&s, patterns[k], 20e3);
         const uint64_t changes = s.changes;
         const double mean = mean_over(&s, patterns[k], 60e3);
-        print_message("from scale %g to %g: %.1f ms, %llu changes more\n", began, s.last.scale, mean, (unsigned long long)(s.changes - changes));
+        print_message("from scale %g to %g: %.1f ms, %llu changes more\n", began, s.last.scale, mean,
+                      (unsigned long long)(s.changes - changes));
         assert_true(began == 0.25 && s.last.scale >= least[k]);
         assert_true(mean <= 1.1 * 33 && s.changes - changes <= 2);
     }
@@ -960,14 +1007,17 @@ static void no_frame_is_less_than_the_least(void **state)
             seen = fmin(seen, turn.quality.scale);
             const double rays_ms = 400 * turn.quality.scale * turn.quality.scale;
             now += 1 + rays_ms;
-            kd_governor_frame(&governor, now, &turn, &(struct kd_frame_cost) { .rays_ms = rays_ms, .total_ms = 1 + rays_ms });
+            kd_governor_frame(&governor, now, &turn,
+                              &(struct kd_frame_cost) { .rays_ms = rays_ms, .total_ms = 1 + rays_ms });
         }
         assert_true(seen == narrowest[k]);
     }
 }
 
-/* Frames whose rays take `stays_ms` at any size, and `full_ms` more at full size. Returns the width of the last one, as a part of what is asked. */
-static double after_frames_of(struct kd_governor *governor, const struct kd_scene *scene, double *now, double stays_ms, double full_ms, int frames)
+/* Frames whose rays take `stays_ms` at any size, and `full_ms` more at full size. Returns the width of the last one,
+ * as a part of what is asked. */
+static double after_frames_of(struct kd_governor *governor, const struct kd_scene *scene, double *now, double stays_ms,
+                              double full_ms, int frames)
 {
     double scale = 1;
     for (int frame = 0; frame < frames; frame++) {
@@ -976,17 +1026,20 @@ static double after_frames_of(struct kd_governor *governor, const struct kd_scen
         scale = turn.quality.scale;
         const double rays_ms = stays_ms + full_ms * scale * scale;
         *now += 1 + rays_ms;
-        kd_governor_frame(governor, *now, &turn, &(struct kd_frame_cost) { .rays_ms = rays_ms, .total_ms = 1 + rays_ms });
+        kd_governor_frame(governor, *now, &turn,
+                          &(struct kd_frame_cost) { .rays_ms = rays_ms, .total_ms = 1 + rays_ms });
     }
     return scale;
 }
 
-static double after_frames(struct kd_governor *governor, const struct kd_scene *scene, double *now, double full_ms, int frames)
+static double after_frames(struct kd_governor *governor, const struct kd_scene *scene, double *now, double full_ms,
+                           int frames)
 {
     return after_frames_of(governor, scene, now, 0, full_ms, frames);
 }
 
-/* Where much of a frame takes its time at any size, half the width is had again as soon as the machine has time for it, and not before. */
+/* Where much of a frame takes its time at any size, half the width is had again as soon as the machine has time for
+ * it, and not before. */
 static void wide_frames_come_back_where_much_stays(void **state)
 {
     (void)state;
@@ -1008,7 +1061,8 @@ static void wide_frames_come_back_where_much_stays(void **state)
     assert_true(after_frames_of(&governor, &scene, &now, 20, 140, 300) == 0.5);
 }
 
-/* Half the width is kept as long as such a frame takes no longer than the patience; it is kept again when it would not any more, and when the scene is another. */
+/* Half the width is kept as long as such a frame takes no longer than the patience; it is kept again when it would
+ * not any more, and when the scene is another. */
 static void wide_frames_give_way_to_slowness(void **state)
 {
     (void)state;
@@ -1047,9 +1101,8 @@ static void recorded_frames_settle(void **state)
                 double mean = mean_over(&s, pattern, 120e3);
                 print_message("%s, %s, target %.0f ms: %.1f ms at scale %g, %llu changes, then %llu\n",
                               (const char *[]) { "default", "sky", "particles" }[recorded_scene],
-                              pattern == DRAG ? "dragged" : "played", targets[k], mean,
-                              s.last.scale, (unsigned long long)changes,
-                              (unsigned long long)(s.changes - changes));
+                              pattern == DRAG ? "dragged" : "played", targets[k], mean, s.last.scale,
+                              (unsigned long long)changes, (unsigned long long)(s.changes - changes));
                 assert_true(s.changes - changes <= 4);
                 assert_true(mean <= 1.25 * targets[k] || s.governor.paces[pattern].rung == last_rung(&s));
             }
@@ -1084,9 +1137,12 @@ int main(void)
         cmocka_unit_test(a_drag_has_fewer_rays_at_the_curve),
         cmocka_unit_test(what_measures_nothing_is_not_counted),
         cmocka_unit_test(whatever_happens_the_answer_is_sound),
-        cmocka_unit_test(what_stays_at_any_size_is_learned), cmocka_unit_test(who_began_low_finds_out),
-        cmocka_unit_test(no_frame_is_less_than_the_least), cmocka_unit_test(wide_frames_give_way_to_slowness),
-        cmocka_unit_test(wide_frames_come_back_where_much_stays), cmocka_unit_test(recorded_frames_settle),
+        cmocka_unit_test(what_stays_at_any_size_is_learned),
+        cmocka_unit_test(who_began_low_finds_out),
+        cmocka_unit_test(no_frame_is_less_than_the_least),
+        cmocka_unit_test(wide_frames_give_way_to_slowness),
+        cmocka_unit_test(wide_frames_come_back_where_much_stays),
+        cmocka_unit_test(recorded_frames_settle),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

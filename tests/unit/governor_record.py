@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""Frame times for the simulations of governor.c: kd_bench_frame at each resolution of the ladder, on whatever machine this is.
+"""Frame times for the simulations of governor.c: kd_bench_frame at each resolution of the ladder, on whatever machine
+this is.
 
-    governor_record.py BUILD > governor_recorded.h
+governor_record.py BUILD > governor_recorded.h
 """
+
 import json
 import pathlib
 import subprocess
@@ -23,8 +25,16 @@ def costs(frame):
 
 
 def record(build, scale, scene):
-    command = [build / "bench/kd_bench_frame", "--width", str(round(640 * scale)), "--height", str(round(360 * scale)),
-               "--repeat", str(FRAMES), *scene]
+    command = [
+        build / "bench/kd_bench_frame",
+        "--width",
+        str(round(640 * scale)),
+        "--height",
+        str(round(360 * scale)),
+        "--repeat",
+        str(FRAMES),
+        *scene,
+    ]
     return json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
 
 
@@ -42,7 +52,7 @@ def main():
             for run in scene:
                 cells = [costs(f) for f in run[kind]]
                 assert all(f["lens_reused"] == (kind == "reused") for f in run[kind])
-                lines = [" ".join(cells[i:i + NUMBERS_A_LINE]) for i in range(0, FRAMES, NUMBERS_A_LINE)]
+                lines = [" ".join(cells[i : i + NUMBERS_A_LINE]) for i in range(0, FRAMES, NUMBERS_A_LINE)]
                 print("    {", *lines, "},", sep="\n      ")
             print("},")
         print("},")

@@ -59,7 +59,10 @@ static void alone_is_as_it_was(void **state)
     }
 }
 
-struct summary { double least, most, gap, used; uint64_t seen, hasty; };
+struct summary {
+    double least, most, gap, used;
+    uint64_t seen, hasty;
+};
 
 static struct summary look_at(const struct device *d, int first, int n, double ms)
 {
@@ -78,12 +81,13 @@ static struct summary look_at(const struct device *d, int first, int n, double m
 
 static void tell(const char *what, int n, const struct device *d, const struct summary *sum)
 {
-    print_message("%s %d: %.1f to %.1f frames/s, %.0f ms apart at most, scale %g, device %.0f %%, %llu changes seen\n", what, n, sum->least,
-                  sum->most, sum->gap, d->sharers[0].sim.last.scale, 100 * sum->used, (unsigned long long)sum->seen);
+    print_message("%s %d: %.1f to %.1f frames/s, %.0f ms apart at most, scale %g, device %.0f %%, %llu changes seen\n",
+                  what, n, sum->least, sum->most, sum->gap, d->sharers[0].sim.last.scale, 100 * sum->used,
+                  (unsigned long long)sum->seen);
 }
 
-/* Who is told nothing keeps a picture that takes 30 ms and loses frames: 4 a second of eight. Told, each has the same number, none
- * falls below 12 of eight, and what is in force stays in force. */
+/* Who is told nothing keeps a picture that takes 30 ms and loses frames: 4 a second of eight. Told, each has the
+ * same number, none falls below 12 of eight, and what is in force stays in force. */
 static void many_keep_moving(void **state)
 {
     (void)state;
@@ -123,7 +127,8 @@ static void noise_divides_nobody(void **state)
     }
 }
 
-/* On any machine, with any pause: each gets its part, and what it does with it is as near to its target as that of one alone. */
+/* On any machine, with any pause: each gets its part, and what it does with it is as near to its target as that of
+ * one alone. */
 static void parts_are_equal_on_any_machine(void **state)
 {
     (void)state;
@@ -141,10 +146,12 @@ static void parts_are_equal_on_any_machine(void **state)
         struct summary sum = look_at(&d, 0, n, 30e3);
         seen += sum.seen;
         const struct sharer *s = &d.sharers[0];
-        double share = s->sim.governor.share, period = fmax(33, fmin(33 / sqrt(share), 60)), cost = s->used / (double)s->moved;
+        double share = s->sim.governor.share, period = fmax(33, fmin(33 / sqrt(share), 60)),
+               cost = s->used / (double)s->moved;
         for (int i = 0; i < n; i++)
             assert_true(d.sharers[i].sim.governor.share >= 0.999 / n);
-        if (rung(s) + 1 < s->sim.governor.ladder.n_rungs && sum.used > 0.9) { /* else it is too slow at its least, or idle */
+        if (rung(s) + 1 < s->sim.governor.ladder.n_rungs &&
+            sum.used > 0.9) { /* else it is too slow at its least, or idle */
             assert_true(cost <= 1.1001 * may_take(period * share, truth.fixed));
             assert_true(sum.most <= 1.25 * sum.least);
             reached++;
@@ -190,7 +197,8 @@ static void a_ceiling_of_less_is_none(void **state)
     assert_true(s.last.final);
 }
 
-/* However often others come: no climb was in vain that they ended, and the wait before the next does not grow with them. */
+/* However often others come: no climb was in vain that they ended, and the wait before the next does not grow with
+ * them. */
 static void climbs_that_others_end_are_not_in_vain(void **state)
 {
     (void)state;
@@ -226,7 +234,8 @@ static void a_stall_is_shared(void **state)
 
 /* Coming and going */
 
-/* What it had alone it has again within two seconds and a half, and in the seconds after they come all have their frames. */
+/* What it had alone it has again within two seconds and a half, and in the seconds after they come all have their
+ * frames. */
 static void others_come_and_go(void **state)
 {
     (void)state;
@@ -289,8 +298,8 @@ static void who_asks_for_little_gets_little(void **state)
         count_anew(&d);
         go_on(&d, 60e3);
         const struct sharer *one = &d.sharers[0];
-        print_message("another asks after %.0f ms: %.1f and %.1f frames/s, a share of %.2f, scale %g\n", pause, rate(one, 60e3),
-                      rate(&d.sharers[1], 60e3), one->sim.governor.share, one->sim.last.scale);
+        print_message("another asks after %.0f ms: %.1f and %.1f frames/s, a share of %.2f, scale %g\n", pause,
+                      rate(one, 60e3), rate(&d.sharers[1], 60e3), one->sim.governor.share, one->sim.last.scale);
         assert_true(rate(one, 60e3) > 22 && one->seen <= 2 && one->sim.governor.share > 0.55);
         assert_true(pause < 200 || one->sim.last.scale == 0.625); /* as it has alone */
     }
@@ -320,7 +329,8 @@ static void clients_share_before_sessions(void **state)
 
 /* Refinement */
 
-/* A picture that takes long to refine makes way for those that move: it has a fifth of their client's time, or its own client's half. */
+/* A picture that takes long to refine makes way for those that move: it has a fifth of their client's time, or its
+ * own client's half. */
 static void refinement_makes_way(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* A session round a governor, on a machine made of formulas: who asks what and when, what frames cost, what was done about it. */
+/* A session round a governor, on a machine made of formulas: who asks what and when, what frames cost, what was done
+ * about it. */
 #ifndef KD_TESTS_GOVERNOR_SIMULATION_H
 #define KD_TESTS_GOVERNOR_SIMULATION_H
 
@@ -27,9 +28,9 @@ typedef struct kd_frame_cost machine(const struct simulation *s, const struct kd
 struct truth {
     double traced, reused, pixels; /* ms of the scene as asked: of rays traced, of rays with their lens map, ... */
     double fixed, hidden;          /* at any size; that it tells; that it does not */
-    double noise;                         /* relative; uniform */
-    double spikes, spike;                 /* how often, how many times as long */
-    bool silent;                          /* tells only the total */
+    double noise;                  /* relative; uniform */
+    double spikes, spike;          /* how often, how many times as long */
+    bool silent;                   /* tells only the total */
 };
 
 struct simulation {
@@ -38,13 +39,13 @@ struct simulation {
     struct truth truth;
     machine *cost;
     double now;
-    uint64_t frames, changes, climbs; /* changes of rung, of both kinds of frames; those upwards */
+    uint64_t frames, changes, climbs;           /* changes of rung, of both kinds of frames; those upwards */
     double last_change, sum, load, least_pause; /* of a climb after the change before */
     uint64_t summed;
-    uint32_t lens;                     /* of the scene: counts */
-    uint32_t kept[4][3], next;         /* lens maps: lens, width, samples */
-    struct kd_quality last;            /* of the last frame rendered */
-    bool forgets;                      /* no lens map is ever kept */
+    uint32_t lens;             /* of the scene: counts */
+    uint32_t kept[4][3], next; /* lens maps: lens, width, samples */
+    struct kd_quality last;    /* of the last frame rendered */
+    bool forgets;              /* no lens map is ever kept */
 };
 
 static double rays_of(const struct kd_scene *scene)
@@ -63,9 +64,10 @@ static inline struct kd_frame_cost truthful(const struct simulation *s, const st
 {
     const struct truth *t = &s->truth;
     double rays = rays_of(scene) / rays_of(&s->asked), pixels = rays * s->asked.image.samples * s->asked.image.samples /
-                  (scene->image.samples * scene->image.samples);
+                                                                (scene->image.samples * scene->image.samples);
     rays *= ray_weight(scene) / ray_weight(&s->asked);
-    struct kd_frame_cost c = { .fixed_ms = t->fixed, .rays_ms = rays * (reused ? t->reused : t->traced),
+    struct kd_frame_cost c = { .fixed_ms = t->fixed,
+                               .rays_ms = rays * (reused ? t->reused : t->traced),
                                .pixels_ms = pixels * t->pixels };
     double factor = s->load * (1 + t->noise * (2 * uniform() - 1)) * (uniform() < t->spikes ? t->spike : 1);
     c.fixed_ms *= factor;
@@ -88,7 +90,8 @@ static bool lens_kept(struct simulation *s, const struct kd_scene *scene)
     return false;
 }
 
-static inline void begin(struct simulation *s, const struct kd_governor_params *params, int width, int height, struct truth truth)
+static inline void begin(struct simulation *s, const struct kd_governor_params *params, int width, int height,
+                         struct truth truth)
 {
     *s = (struct simulation) { .truth = truth, .cost = truthful, .load = 1, .least_pause = INFINITY };
     kd_scene_smooth(&s->asked);
@@ -185,7 +188,10 @@ static inline struct truth some_truth(void)
     double all = exp(log(3) + uniform() * log(1000)); /* 3 ms to 3 s, as asked */
     double fixed = uniform() < 0.5 ? 0 : exp(7 * uniform()), hidden = uniform() < 0.5 ? 0 : 30 * uniform() * uniform();
     double rays = all * (0.3 + 0.6 * uniform());
-    return (struct truth) { .traced = rays, .reused = rays * (0.05 + 0.5 * uniform()), .pixels = all - rays, .fixed = fixed,
+    return (struct truth) { .traced = rays,
+                            .reused = rays * (0.05 + 0.5 * uniform()),
+                            .pixels = all - rays,
+                            .fixed = fixed,
                             .hidden = hidden };
 }
 

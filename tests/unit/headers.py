@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Every header compiles alone: it includes what it uses.
 
-    headers.py SRC COMPILER... -- FLAG...
+headers.py SRC COMPILER... -- FLAG...
 """
+
 import concurrent.futures
 import os
 import pathlib
@@ -14,14 +15,31 @@ def compile_alone(header, compiler, flags):
     """The compiler's complaint, empty if there is none."""
     # Twice, for the guard as well.
     text = f'#include "{header}"\n#include "{header}"\ntypedef int not_empty;\n'
-    done = subprocess.run([*compiler, "-x", "c", "-std=gnu11", "-D_GNU_SOURCE", "-Wall", "-Wextra", "-Werror", *flags,
-                           "-fsyntax-only", "-"], input=text, capture_output=True, text=True, check=False)
+    done = subprocess.run(
+        [
+            *compiler,
+            "-x",
+            "c",
+            "-std=gnu11",
+            "-D_GNU_SOURCE",
+            "-Wall",
+            "-Wextra",
+            "-Werror",
+            *flags,
+            "-fsyntax-only",
+            "-",
+        ],
+        input=text,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     return done.stderr if done.returncode else ""
 
 
 def main():
     at = sys.argv.index("--")
-    src, compiler, flags = pathlib.Path(sys.argv[1]), sys.argv[2:at], sys.argv[at + 1:]
+    src, compiler, flags = pathlib.Path(sys.argv[1]), sys.argv[2:at], sys.argv[at + 1 :]
     headers = sorted(str(path.relative_to(src)) for path in src.rglob("*.h"))
     assert compile_alone("no/such/header.h", compiler, flags), "the compiler accepts anything"
     with concurrent.futures.ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:

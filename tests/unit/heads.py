@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 """What a file is for stands at its head: the first sentence there has a verb, and does not begin with "Of".
 
-    heads.py ROOT     exit 1 naming every file under src/ and shaders/ whose first comment, at its very beginning, is none
+    heads.py ROOT     exit 1 naming every file under src/ and shaders/ whose first comment, at its very beginning, is
+                      none
 
-A verb is judged by its word: a form of to be, to have or to do, a modal, or a word of VERBS below, plain or with an s. A sentence whose
-verb is none of these says so here once; a noun that looks like a verb is let pass.
+A verb is judged by its word: a form of to be, to have or to do, a modal, or a word of VERBS below, plain or with an s.
+A sentence whose verb is none of these says so here once; a noun that looks like a verb is let pass.
 """
+
 import pathlib
 import re
 import sys
@@ -18,7 +20,11 @@ look lose make map mark mean measure mix move name need open order oscillate par
 replace report reserve resolve respond return ring rotate run save say score search see seek sell send serve set share shine show sign sort speak
 spiral spread stand start stop store submit sum supply swing take talk tell test think tie time trace track transform try turn use wait
 wake walk want watch work write""".split()
-KNOWN = set(PLAIN) | {form for verb in VERBS for form in (verb, verb + "s", verb + "es", verb[:-1] + "ies" if verb.endswith("y") else verb)}
+KNOWN = set(PLAIN) | {
+    form
+    for verb in VERBS
+    for form in (verb, verb + "s", verb + "es", verb[:-1] + "ies" if verb.endswith("y") else verb)
+}
 HEAD = re.compile(r"\s*/\*(.*?)\*/", re.S)
 
 

@@ -31,8 +31,10 @@ static void test_buckets(void **state)
     assert_false(kd_histogram_is_empty(&one));
     const char *text = shown(&out);
     static const char *const lines[] = {
-        "t_bucket{a=\"b\",le=\"0.001\"} 3\n", "t_bucket{a=\"b\",le=\"0.0025\"} 5\n", "t_bucket{a=\"b\",le=\"0.05\"} 5\n", "t_bucket{a=\"b\",le=\"0.1\"} 7\n",
-        "t_bucket{a=\"b\",le=\"600\"} 8\n",   "t_bucket{a=\"b\",le=\"+Inf\"} 10\n",  "t_sum{a=\"b\"} 11200.2054", "t_count{a=\"b\"} 10\n",
+        "t_bucket{a=\"b\",le=\"0.001\"} 3\n", "t_bucket{a=\"b\",le=\"0.0025\"} 5\n",
+        "t_bucket{a=\"b\",le=\"0.05\"} 5\n",  "t_bucket{a=\"b\",le=\"0.1\"} 7\n",
+        "t_bucket{a=\"b\",le=\"600\"} 8\n",   "t_bucket{a=\"b\",le=\"+Inf\"} 10\n",
+        "t_sum{a=\"b\"} 11200.2054",          "t_count{a=\"b\"} 10\n",
     };
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++)
         if (!strstr(text, lines[i]))

@@ -1,4 +1,5 @@
-/* Visibilities of maps whose transform is known: a uniform disk's is 2 J1(x)/x, a thin ring's J0(x), a Gaussian's a Gaussian (Thompson, Moran & Swenson 2017, table 2.1), and a point's a turn. */
+/* Visibilities of maps whose transform is known: a uniform disk's is 2 J1(x)/x, a thin ring's J0(x), a Gaussian's a
+ * Gaussian (Thompson, Moran & Swenson 2017, table 2.1), and a point's a turn. */
 #include "integral/fourier.h"
 #include "integral/pictures.h"
 #include "integral/request.h"
@@ -45,7 +46,8 @@ static double a_disk(double x, double y) { return hypot(x, y) < 21 ? 1 : 0; }
 static double a_ring(double x, double y) { return exp(-pow((hypot(x, y) - 24) / 1.5, 2) / 2); }
 static double a_gaussian(double x, double y) { return exp(-(x * x / (2 * 49.) + y * y / (2 * 144.))); }
 
-/* Of one pulled wide by the pixels over which it is averaged: sinc(u pixel) sinc(v pixel), which a sum over points in their middles has besides. */
+/* Of one pulled wide by the pixels over which it is averaged: sinc(u pixel) sinc(v pixel), which a sum over points
+ * in their middles has besides. */
 static double pixel_turns(double u, double v)
 {
     const double a = M_PI * u * 1e9 * UAS, b = M_PI * v * 1e9 * UAS;
@@ -80,7 +82,9 @@ static double transform(int shape, double u, double v)
 static void test_transforms_are_the_closed_forms(void **state)
 {
     static light_of *const shapes[] = { a_disk, a_ring, a_gaussian };
-    static const double bounds[] = { 3e-3, 1e-5, 1e-5 }; /* a disk's edge is that of a fifteenth of a pixel; the others are smooth */
+    static const double bounds[] = {
+        3e-3, 1e-5, 1e-5
+    }; /* a disk's edge is that of a fifteenth of a pixel; the others are smooth */
     static const double away[][2] = { { 0, 0 }, { 8.5, -5.25 } };
     static float map[WIDTH * HEIGHT];
     double scratch[2 * WIDTH], worst[3] = { 0 };
@@ -94,10 +98,12 @@ static void test_transforms_are_the_closed_forms(void **state)
             kd_fourier(&grid, maps, 1, 0, 0, scratch, zero);
             for (double q = 0; q < 30; q += 1.3)
                 for (double angle = 0; angle < 6; angle += 0.7) {
-                    const double u = q * sin(angle), v = q * cos(angle), turned = -2 * M_PI * 1e9 * UAS * (u * east + v * north);
+                    const double u = q * sin(angle), v = q * cos(angle),
+                                 turned = -2 * M_PI * 1e9 * UAS * (u * east + v * north);
                     const double want = transform(shape, u, v) * pixel_turns(u, v);
                     kd_fourier(&grid, maps, 1, u, v, scratch, sum);
-                    const double off = hypot(sum[0][0] / zero[0][0] - want * cos(turned), sum[0][1] / zero[0][0] - want * sin(turned));
+                    const double off =
+                        hypot(sum[0][0] / zero[0][0] - want * cos(turned), sum[0][1] / zero[0][0] - want * sin(turned));
                     worst[shape] = fmax(worst[shape], off);
                     if (!(off < bounds[shape]))
                         fail_msg("shape %d, u %g, v %g: off by %g", shape, u, v, off);
@@ -106,7 +112,8 @@ static void test_transforms_are_the_closed_forms(void **state)
     print_message("visibilities off by at most: disk %.1e, ring %.1e, Gaussian %.1e\n", worst[0], worst[1], worst[2]);
 }
 
-/* East is to the left, north at the top: a point there turns by exp(-2 pi i (u x + v y)). Several maps are summed at once. */
+/* East is to the left, north at the top: a point there turns by exp(-2 pi i (u x + v y)). Several maps are summed at
+ * once. */
 static void test_a_point_turns(void **state)
 {
     static float left[WIDTH * HEIGHT], top[WIDTH * HEIGHT];
@@ -116,7 +123,8 @@ static void test_a_point_turns(void **state)
     left[80 * WIDTH + 40] = 2; /* 50.5 east, 3.25 north */
     top[10 * WIDTH + 90] = 1;  /* 0.5 east, 73.25 north */
     for (int k = 0; k < 50; k++) {
-        const double u = 3.7 * k - 60, v = 100 - 5.3 * k, a = -2 * M_PI * 1e9 * UAS * (u * 50.5 + v * 3.25), b = -2 * M_PI * 1e9 * UAS * (u * 0.5 + v * 73.25);
+        const double u = 3.7 * k - 60, v = 100 - 5.3 * k, a = -2 * M_PI * 1e9 * UAS * (u * 50.5 + v * 3.25),
+                     b = -2 * M_PI * 1e9 * UAS * (u * 0.5 + v * 73.25);
         kd_fourier(&grid, maps, 2, u, v, scratch, sum);
         near(sum[0][0], 2 * cos(a), 1e-9);
         near(sum[0][1], 2 * sin(a), 1e-9);
@@ -144,23 +152,29 @@ static void test_baselines(void **state)
     near(r.u.at[8], -4, 1e-12);
     near(r.v.at[8], 8 * sqrt(0.75), 1e-12);
     const struct kd_scene coarse = kd_integral_scene(&r, 0), fine = kd_integral_scene(&r, 1);
-    assert_true(coarse.image.width == 256 && coarse.image.height == 144 && fine.image.width == 384 && fine.image.height == 216 && coarse.style.beam_uas == 0);
+    assert_true(coarse.image.width == 256 && coarse.image.height == 144 && fine.image.width == 384 &&
+                fine.image.height == 216 && coarse.style.beam_uas == 0);
     kd_integral_request_finish(&r);
     ask(&r, KD_INTEGRAL_VISIBILITY, "{\"u\":[1,2],\"v\":[3,4],\"check\":\"none\"}");
     assert_int_equal(kd_integral_pictures(&r), 1);
     assert_int_equal(kd_integral_rows(&r), 2);
     kd_integral_request_finish(&r);
     /* A scene makes a spectrum that of its volume. */
-    ask(&r, KD_INTEGRAL_SPECTRUM, "{\"frequencies_hz\":[1e11,2e11,3e11],\"preset\":\"riaf\",\"scene\":{\"camera\":{\"inclination_deg\":30}}}");
+    ask(&r, KD_INTEGRAL_SPECTRUM,
+        "{\"frequencies_hz\":[1e11,2e11,3e11],\"preset\":\"riaf\",\"scene\":{\"camera\":{\"inclination_deg\":30}}}");
     assert_int_equal(r.what, KD_INTEGRAL_VOLUME);
     assert_int_equal(kd_integral_pictures(&r), 6);
     near(kd_integral_scene(&r, 3).volume.frequency_ghz, 200, 1e-9);
     kd_integral_request_finish(&r);
     /* Matter of a given flux has it at the scene's frequency, and is the same matter at all others. */
-    ask(&r, KD_INTEGRAL_SPECTRUM, "{\"frequencies_hz\":[1e11,2e11],\"preset\":\"riaf\",\"scene\":{\"volume\":{\"normalise_to_jy\":2,\"frequency_ghz\":230}}}");
+    ask(&r, KD_INTEGRAL_SPECTRUM,
+        "{\"frequencies_hz\":[1e11,2e11],\"preset\":\"riaf\",\"scene\":{\"volume\":{\"normalise_to_jy\":2,\"frequency_"
+        "ghz\":230}}}");
     near(kd_integral_scene(&r, 3).volume.normalise_ghz, 230, 1e-9);
     kd_integral_request_finish(&r);
-    ask(&r, KD_INTEGRAL_SPECTRUM, "{\"frequencies_hz\":[1e11,2e11],\"preset\":\"riaf\",\"scene\":{\"volume\":{\"normalise_to_jy\":2,\"normalise_ghz\":86}}}");
+    ask(&r, KD_INTEGRAL_SPECTRUM,
+        "{\"frequencies_hz\":[1e11,2e11],\"preset\":\"riaf\",\"scene\":{\"volume\":{\"normalise_to_jy\":2,\"normalise_"
+        "ghz\":86}}}");
     near(kd_integral_scene(&r, 3).volume.normalise_ghz, 86, 1e-9);
     kd_integral_request_finish(&r);
     ask(&r, KD_INTEGRAL_SPECTRUM, "{\"frequencies\":7}");
@@ -179,7 +193,8 @@ static void test_frequencies_of_volumes_are_those_of_scenes(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(test_transforms_are_the_closed_forms), cmocka_unit_test(test_a_point_turns), cmocka_unit_test(test_baselines),
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_transforms_are_the_closed_forms),
+                                        cmocka_unit_test(test_a_point_turns), cmocka_unit_test(test_baselines),
                                         cmocka_unit_test(test_frequencies_of_volumes_are_those_of_scenes) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -124,8 +124,7 @@ static void same(const struct spirv *s, const char *block, const struct field *f
             fail_msg("%s: %s has no %s", s->kernel, block, fields[i].name);
         uint32_t offset = member_offset(s, id, member);
         if (offset != fields[i].offset)
-            fail_msg("%s: %s.%s is at %u, C has it at %zu", s->kernel, block, fields[i].name, offset,
-                     fields[i].offset);
+            fail_msg("%s: %s.%s is at %u, C has it at %zu", s->kernel, block, fields[i].name, offset, fields[i].offset);
         if (!is_scalar(s, member_type(s, id, member, &count), fields[i].opcode))
             fail_msg("%s: %s.%s is of another type than in C", s->kernel, block, fields[i].name);
     }
@@ -199,15 +198,15 @@ static const struct field particles_fields[] = { KD_PARTICLES_FIELDS_(F, U) };
 #define U(name) { #name, offsetof(struct kd_guide, name), OP_TYPE_INT },
 static const struct field guide_fields[] = { KD_GUIDE_FIELDS_(F, U) };
 
-static const struct spirv transfer = SPIRV(transfer), post = SPIRV(post), bloom_bright = SPIRV(bloom_bright), bloom_gather = SPIRV(bloom_gather), particles = SPIRV(particles),
-                          light = SPIRV(photometry), footprint = SPIRV(footprint), between = SPIRV(between);
+static const struct spirv transfer = SPIRV(transfer), post = SPIRV(post), bloom_bright = SPIRV(bloom_bright),
+                          bloom_gather = SPIRV(bloom_gather), particles = SPIRV(particles), light = SPIRV(photometry),
+                          footprint = SPIRV(footprint), between = SPIRV(between);
 
 static void camera(void **state)
 {
     (void)state;
     const struct spirv kernels[] = { SPIRV(lens_closed), SPIRV(lens_map), transfer };
-    for (size_t i = 0; i < COUNT(kernels); i++)
-        {
+    for (size_t i = 0; i < COUNT(kernels); i++) {
         same(&kernels[i], "kd_camera_block", camera_fields, COUNT(camera_fields), 0);
         same(&kernels[i], "kd_slice", slice_fields, COUNT(slice_fields), 0);
     }
@@ -229,7 +228,8 @@ static void post_push(void **state)
 static void beam_push(void **state)
 {
     (void)state;
-    const struct spirv bands[] = { SPIRV(beam_gather), SPIRV(beam_spread) }, spline = SPIRV(beam_spline), blur = SPIRV(beam_blur);
+    const struct spirv bands[] = { SPIRV(beam_gather), SPIRV(beam_spread) }, spline = SPIRV(beam_spline),
+                       blur = SPIRV(beam_blur);
     for (size_t i = 0; i < COUNT(bands); i++)
         same(&bands[i], "Push", beam_fields, COUNT(beam_fields), 0);
     same(&spline, "Push", beam_spline_fields, COUNT(beam_spline_fields), 0);
@@ -269,8 +269,8 @@ static void particles_kernel(void **state)
     assert_int_equal(sizeof(struct kd_guide), 4 * COUNT(guide_fields));
 }
 
-/* The blocks of all emitters: their members, and where the blocks themselves lie. A list in one, which ends in an element of no name
- * here, may be empty but for arrays; their elements are looked at by themselves. */
+/* The blocks of all emitters: their members, and where the blocks themselves lie. A list in one, which ends in an
+ * element of no name here, may be empty but for arrays; their elements are looked at by themselves. */
 #undef F
 #undef U
 #define F(name) { #name, offsetof(BLOCK, name), OP_TYPE_FLOAT },
@@ -278,13 +278,13 @@ static void particles_kernel(void **state)
 #define A(type, name, count)
 #define NONE(name)
 #define ONE(type, name, count) +1
-#define SAME(number, name)                                                                                     \
-    static void same_##name(void)                                                                              \
-    {                                                                                                          \
-        typedef struct kd_##name##_block BLOCK;                                                                \
-        _Static_assert(sizeof(BLOCK), "it has members");                                                       \
-        const struct field fields[] = { KD_BLOCK_##name(F, U, A) { NULL, 0, 0 } };                             \
-        if (COUNT(fields) > 1)                                                                                 \
+#define SAME(number, name) \
+    static void same_##name(void) \
+    { \
+        typedef struct kd_##name##_block BLOCK; \
+        _Static_assert(sizeof(BLOCK), "it has members"); \
+        const struct field fields[] = { KD_BLOCK_##name(F, U, A) { NULL, 0, 0 } }; \
+        if (COUNT(fields) > 1) \
             same(&transfer, "kd_" #name "_block", fields, COUNT(fields) - 1, 0 KD_BLOCK_##name(NONE, NONE, ONE)); \
     }
 KD_EMIT_BLOCKS(SAME)
@@ -296,22 +296,19 @@ static void emission(void **state)
     const struct field spot[] = { KD_BLOCK_spot(F, U) };
     same(&transfer, "kd_spot_block", spot, COUNT(spot), 0);
     uint32_t id = struct_called(&transfer, "Emission");
-#define WHERE(number, name)                                                                                    \
-    same_##name();                                                                                             \
-    assert_int_equal(member_offset(&transfer, id, member_called(&transfer, id, #name)), offsetof(struct kd_emission, name));
+#define WHERE(number, name) \
+    same_##name(); \
+    assert_int_equal(member_offset(&transfer, id, member_called(&transfer, id, #name)), \
+                     offsetof(struct kd_emission, name));
     KD_EMIT_BLOCKS(WHERE)
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(camera),
-        cmocka_unit_test(post_push),
-        cmocka_unit_test(beam_push), cmocka_unit_test(light_push),
-        cmocka_unit_test(footprint_push),
-        cmocka_unit_test(between_push),
-        cmocka_unit_test(particles_kernel),
-        cmocka_unit_test(emission),
+        cmocka_unit_test(camera),           cmocka_unit_test(post_push),      cmocka_unit_test(beam_push),
+        cmocka_unit_test(light_push),       cmocka_unit_test(footprint_push), cmocka_unit_test(between_push),
+        cmocka_unit_test(particles_kernel), cmocka_unit_test(emission),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

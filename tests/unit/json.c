@@ -46,7 +46,8 @@ static enum kd_status write_all(struct kd_json *json)
     return kd_json_finish(json);
 }
 
-static const char head[] = "{\"number\":0.1,\"whole\":4294967296,\"zero\":0,\"none\":null,\"text\":\"a\\\"\\\\\\u000a\\u0001\xc3\xa9\",\"empty\":[],"
+static const char head[] = "{\"number\":0.1,\"whole\":4294967296,\"zero\":0,\"none\":null,\"text\":"
+                           "\"a\\\"\\\\\\u000a\\u0001\xc3\xa9\",\"empty\":[],"
                            "\"list\":[true,null,{},{\"raw\":1}],\"again\":0,";
 
 static void test_document(void **state)

@@ -1,7 +1,7 @@
-/* What a kernel may leave to the driver. Vulkan 1.2 lets it fuse, reorder and multiply out floating-point operations unless they
- * are decorated NoContraction, and lets it behave as if NaN and infinity did not exist (no kernel asks for
- * SignedZeroInfNanPreserve). No test by pictures shows that on a driver that does neither, so the SPIR-V is read: as glslangValidator wrote it, with
- * its functions, and as drivers have it, without (shaders/compile.py). */
+/* What a kernel may leave to the driver. Vulkan 1.2 lets it fuse, reorder and multiply out floating-point operations
+ * unless they are decorated NoContraction, and lets it behave as if NaN and infinity did not exist (no kernel asks
+ * for SignedZeroInfNanPreserve). No test by pictures shows that on a driver that does neither, so the SPIR-V is
+ * read: as glslangValidator wrote it, with its functions, and as drivers have it, without (shaders/compile.py). */
 #include <stdint.h>
 
 #define KD_SPIRV_PLAIN
@@ -24,8 +24,16 @@
 
 /* SPIR-V 1.5 specification, section 3. */
 enum {
-    OP_NAME = 5, OP_FUNCTION = 54, OP_FUNCTION_END = 56, OP_DECORATE = 71, OP_FADD = 129, OP_FSUB = 131, OP_FMUL = 133,
-    OP_IS_NAN = 156, OP_IS_INF = 157, NO_CONTRACTION = 42,
+    OP_NAME = 5,
+    OP_FUNCTION = 54,
+    OP_FUNCTION_END = 56,
+    OP_DECORATE = 71,
+    OP_FADD = 129,
+    OP_FSUB = 131,
+    OP_FMUL = 133,
+    OP_IS_NAN = 156,
+    OP_IS_INF = 157,
+    NO_CONTRACTION = 42,
 };
 
 struct spirv {
@@ -36,9 +44,11 @@ struct spirv {
 };
 #define PLAIN(name, motion) { #name, kd_spv_##name##_plain, sizeof kd_spv_##name##_plain / 4, motion },
 #define FINAL(name, motion) { #name, kd_spv_##name, sizeof kd_spv_##name / 4, motion },
-#define KERNELS_OF(X)                                                                                                         \
-    X(lens_closed, false) X(lens_map, true) X(rays, true) X(rays_f64, true) X(rays_kerr_schild, false)                        \
+/* clang-format off */
+#define KERNELS_OF(X) \
+    X(lens_closed, false) X(lens_map, true) X(rays, true) X(rays_f64, true) X(rays_kerr_schild, false) \
     X(rays_kerr_schild_f64, false) X(transfer, false) X(photometry, false)
+/* clang-format on */
 static const struct spirv kernels[] = { KERNELS_OF(PLAIN) }, as_made[] = { KERNELS_OF(FINAL) };
 enum { KERNELS = sizeof kernels / sizeof *kernels };
 
@@ -101,13 +111,17 @@ static void count(const struct spirv *s, const char *name, int *all, int *precis
     }
 }
 
-/* Delta and what the barrier is judged by: every operation. Nystroem's steps: those that end in y and v, six at least in each of
- * the two orders. */
+/* Delta and what the barrier is judged by: every operation. Nystroem's steps: those that end in y and v, six at
+ * least in each of the two orders. */
 static void what_must_not_be_reordered(void **state)
 {
     (void)state;
-    static const struct { const char *function; int least; } functions[] = {
-        { "kd_delta(", 0 }, { "kd_fall_squared(", 0 }, { "kd_full_step(", 12 }, { "kd_path_step(", 12 }, { "kd_radial_step(", 12 },
+    static const struct {
+        const char *function;
+        int least;
+    } functions[] = {
+        { "kd_delta(", 0 },      { "kd_fall_squared(", 0 }, { "kd_full_step(", 12 },
+        { "kd_path_step(", 12 }, { "kd_radial_step(", 12 },
     };
     int found = 0;
     for (size_t k = 0; k < KERNELS; k++)
@@ -115,7 +129,8 @@ static void what_must_not_be_reordered(void **state)
             int all, precise;
             count(&kernels[k], functions[i].function, &all, &precise);
             if (all && precise < (functions[i].least ? functions[i].least : all))
-                fail_msg("%s, %s): %d of %d operations are precise", kernels[k].kernel, functions[i].function, precise, all);
+                fail_msg("%s, %s): %d of %d operations are precise", kernels[k].kernel, functions[i].function, precise,
+                         all);
             found += all > 0 && kernels[k].motion;
         }
     assert_true(found >= 10); /* the names are still those */
@@ -147,7 +162,8 @@ static void what_is_precise_stays_so(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(no_kernel_asks_for_nan), cmocka_unit_test(what_must_not_be_reordered),
+    const struct CMUnitTest tests[] = { cmocka_unit_test(no_kernel_asks_for_nan),
+                                        cmocka_unit_test(what_must_not_be_reordered),
                                         cmocka_unit_test(what_is_precise_stays_so) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

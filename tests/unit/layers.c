@@ -1,5 +1,5 @@
-/* Layers by name: the words of image.layers and the table agree, what cannot be is refused where it is asked for, and NPY has the
- * numbers. */
+/* Layers by name: the words of image.layers and the table agree, what cannot be is refused where it is asked for,
+ * and NPY has the numbers. */
 #include "scene_support.h"
 
 #include "image/npy.h"
@@ -20,7 +20,9 @@ static struct kd_scene scene_of(const char *json)
 
 static struct kd_capacity device(void)
 {
-    struct kd_capacity c = { .max_binding_bytes = 128u << 20, .memory_bytes = 1u << 30, .accuracy = kd_accuracy_built_in() };
+    struct kd_capacity c = { .max_binding_bytes = 128u << 20,
+                             .memory_bytes = 1u << 30,
+                             .accuracy = kd_accuracy_built_in() };
     for (int i = 0; i < KD_FIGURE_COUNT; i++)
         c.ns[i] = 10;
     return c;
@@ -40,7 +42,9 @@ static void words_are_the_layers(void **state)
         assert_non_null(kind->name);
         assert_string_equal(name, kind->name);
         kd_words_length(field(), i, &numbered);
-        assert_int_equal(numbered, i != KD_LAYER_order && i != KD_LAYER_brightness_temperature && i != KD_LAYER_specific_intensity && i != KD_LAYER_stokes_v && (kind->of == KD_OF_CROSSING || kind->of == KD_OF_LIGHT));
+        assert_int_equal(numbered, i != KD_LAYER_order && i != KD_LAYER_brightness_temperature &&
+                                       i != KD_LAYER_specific_intensity && i != KD_LAYER_stokes_v &&
+                                       (kind->of == KD_OF_CROSSING || kind->of == KD_OF_LIGHT));
         assert_non_null(kind->unit);
         assert_true(kind->of != KD_OF_CROSSING || kind->needs & KD_LENS_W);
         assert_true(kind->of != KD_OF_RAY || kind->needs);
@@ -50,9 +54,12 @@ static void words_are_the_layers(void **state)
 static void words_are_kept_in_order(void **state)
 {
     (void)state;
-    static const struct { const char *json, *text, *canonical; } same[] = {
+    static const struct {
+        const char *json, *text, *canonical;
+    } same[] = {
         { "[\"r\"]", "r", "[\"r\"]" },
-        { "[\"phi_2\",\"rgb\",\"phi\",\"phi_0\",\"order\"]", "phi_2,rgb,phi,phi_0,order", "[\"phi_2\",\"rgb\",\"phi\",\"phi_0\",\"order\"]" },
+        { "[\"phi_2\",\"rgb\",\"phi\",\"phi_0\",\"order\"]", "phi_2,rgb,phi,phi_0,order",
+          "[\"phi_2\",\"rgb\",\"phi\",\"phi_0\",\"order\"]" },
         { "[\"g_12\"]", "g_12", "[\"g_12\"]" },
     };
     for (size_t i = 0; i < sizeof same / sizeof *same; i++) {
@@ -82,11 +89,26 @@ static void words_are_kept_in_order(void **state)
 static void other_words_are_refused(void **state)
 {
     (void)state;
-    static const struct { const char *json, *text; } bad[] = {
-        { "[]", "" },           { "[\"G\"]", "G" },       { "[\"g\",\"g\"]", "g,g" }, { "[\"g_\"]", "g_" },         { "[\"g_01\"]", "g_01" },
-        { "[\"g_100\"]", "g_100" }, { "[\"g_-1\"]", "g_-1" }, { "[\"order_1\"]", "order_1" }, { "[\"rgb_0\"]", "rgb_0" }, { "[\"g,r\"]", "g,,r" },
-        { "[\"\"]", ",g" },     { "[1]", "1" },           { "\"g\"", "g," },          { "{\"0\":\"g\"}", "[g]" },   { "[[\"g\"]]", "g r" },
-        { "[\"g\",\"r\",\"phi\",\"g_0\",\"g_1\",\"g_2\",\"r_0\",\"r_1\",\"r_2\",\"phi_0\",\"phi_1\",\"phi_2\",\"rgb\",\"fate\",\"order\",\"g_3\",\"g_4\"]",
+    static const struct {
+        const char *json, *text;
+    } bad[] = {
+        { "[]", "" },
+        { "[\"G\"]", "G" },
+        { "[\"g\",\"g\"]", "g,g" },
+        { "[\"g_\"]", "g_" },
+        { "[\"g_01\"]", "g_01" },
+        { "[\"g_100\"]", "g_100" },
+        { "[\"g_-1\"]", "g_-1" },
+        { "[\"order_1\"]", "order_1" },
+        { "[\"rgb_0\"]", "rgb_0" },
+        { "[\"g,r\"]", "g,,r" },
+        { "[\"\"]", ",g" },
+        { "[1]", "1" },
+        { "\"g\"", "g," },
+        { "{\"0\":\"g\"}", "[g]" },
+        { "[[\"g\"]]", "g r" },
+        { "[\"g\",\"r\",\"phi\",\"g_0\",\"g_1\",\"g_2\",\"r_0\",\"r_1\",\"r_2\",\"phi_0\",\"phi_1\",\"phi_2\",\"rgb\","
+          "\"fate\",\"order\",\"g_3\",\"g_4\"]",
           "g,r,phi,g_0,g_1,g_2,r_0,r_1,r_2,phi_0,phi_1,phi_2,rgb,fate,order,g_3,g_4" },
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
@@ -97,7 +119,8 @@ static void other_words_are_refused(void **state)
             kd_scene_smooth(&scene);
             before = scene;
             snprintf(document, sizeof document, "{\"image\":{\"layers\":%s}}", bad[i].json);
-            enum kd_status status = way ? kd_scene_set(&scene, "image.layers", bad[i].text, &error) : support_parse(&scene, document, &error);
+            enum kd_status status = way ? kd_scene_set(&scene, "image.layers", bad[i].text, &error)
+                                        : support_parse(&scene, document, &error);
             if (status != KD_EINVAL)
                 fail_msg("%s is taken", way ? bad[i].text : bad[i].json);
             assert_string_equal(error.pointer, "/image/layers");
@@ -110,8 +133,15 @@ static void by_hand_they_are_checked_again(void **state)
 {
     (void)state;
     static const struct kd_words bad[] = {
-        { 0 }, { -1, { { 0, -1 } } }, { 17, { { 0, -1 } } }, { 1, { { -7, -1 } } }, { 1, { { KD_LAYER_COUNT, -1 } } }, { 1, { { 0, 0 } } },
-        { 1, { { KD_LAYER_g, -2 } } }, { 1, { { KD_LAYER_g, 100 } } }, { 2, { { KD_LAYER_g, 1 }, { KD_LAYER_g, 1 } } },
+        { 0 },
+        { -1, { { 0, -1 } } },
+        { 17, { { 0, -1 } } },
+        { 1, { { -7, -1 } } },
+        { 1, { { KD_LAYER_COUNT, -1 } } },
+        { 1, { { 0, 0 } } },
+        { 1, { { KD_LAYER_g, -2 } } },
+        { 1, { { KD_LAYER_g, 100 } } },
+        { 2, { { KD_LAYER_g, 1 }, { KD_LAYER_g, 1 } } },
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         struct kd_scene scene = scene_of("{}");
@@ -128,11 +158,16 @@ static void by_hand_they_are_checked_again(void **state)
 static void what_cannot_be_is_refused(void **state)
 {
     (void)state;
-    static const struct { const char *json, *pointer, *says; } bad[] = {
+    static const struct {
+        const char *json, *pointer, *says;
+    } bad[] = {
         { "{\"image\":{\"layers\":[\"r_3\"]}}", "/image/layers", "below accuracy.orders, 3" },
-        { "{\"image\":{\"layers\":[\"r\",\"intensity_1\"]},\"accuracy\":{\"orders\":1}}", "/image/layers", "holds intensity_1" },
-        { "{\"image\":{\"layers\":[\"temperature\"]},\"disk\":{\"model\":\"none\"}}", "/image/layers", "where nothing has a temperature" },
-        { "{\"image\":{\"layers\":[\"r\"],\"layer_min\":5,\"layer_max\":5}}", "/image/layer_min", "less than image.layer_max" },
+        { "{\"image\":{\"layers\":[\"r\",\"intensity_1\"]},\"accuracy\":{\"orders\":1}}", "/image/layers",
+          "holds intensity_1" },
+        { "{\"image\":{\"layers\":[\"temperature\"]},\"disk\":{\"model\":\"none\"}}", "/image/layers",
+          "where nothing has a temperature" },
+        { "{\"image\":{\"layers\":[\"r\"],\"layer_min\":5,\"layer_max\":5}}", "/image/layer_min",
+          "less than image.layer_max" },
         { "{\"image\":{\"layers\":[\"g\"],\"layer_min\":0}}", "/image/layer_min", "logarithmic" },
         { "{\"image\":{\"layers\":[\"g\"],\"layer_max\":-1}}", "/image/layer_max", "logarithmic" },
     };
@@ -154,7 +189,8 @@ static void formats_take_what_they_hold(void **state)
 {
     (void)state;
     const struct kd_capacity c = device();
-    struct kd_scene two = scene_of("{\"image\":{\"layers\":[\"rgb\",\"r_1\"]}}"), one = scene_of("{\"image\":{\"layers\":[\"r_1\"]}}");
+    struct kd_scene two = scene_of("{\"image\":{\"layers\":[\"rgb\",\"r_1\"]}}"),
+                    one = scene_of("{\"image\":{\"layers\":[\"r_1\"]}}");
     struct kd_plan plan;
     struct kd_error error = { 0 };
     assert_int_equal(kd_format_plan(&kd_format_png, &two, &c, &plan, &error), KD_EINVAL);
@@ -174,7 +210,8 @@ static void plans_have_what_is_asked_for(void **state)
 {
     (void)state;
     const struct kd_capacity c = device();
-    struct kd_scene none = scene_of("{}"), some = scene_of("{\"image\":{\"layers\":[\"phi\",\"sky_theta\",\"footprint_2\"]}}");
+    struct kd_scene none = scene_of("{}"),
+                    some = scene_of("{\"image\":{\"layers\":[\"phi\",\"sky_theta\",\"footprint_2\"]}}");
     struct kd_plan plan, more;
     assert_int_equal(kd_plan_make(&none, &c, &plan, NULL), KD_OK);
     assert_int_equal(kd_plan_make(&some, &c, &more, NULL), KD_OK);
@@ -197,7 +234,8 @@ static void npy_has_the_numbers(void **state)
     struct kd_error error = { 0 };
     static const char *const names[] = { "rgb", "radiance", "g", "r_1" };
     for (int i = 0; i < 4; i++)
-        assert_int_equal(kd_frame_add_layer(&frame, names[i], i < 2 ? 3 : 1, i ? KD_LAYER_F32 : KD_LAYER_U8, &error), KD_OK);
+        assert_int_equal(kd_frame_add_layer(&frame, names[i], i < 2 ? 3 : 1, i ? KD_LAYER_F32 : KD_LAYER_U8, &error),
+                         KD_OK);
     for (int i = 1; i < 4; i++)
         for (uint32_t k = 0; k < 6 * frame.layers[i].channels; k++)
             ((float *)frame.layers[i].data)[k] = i == 2 && k == 4 ? NAN : (float)(100 * i + (int)k);
@@ -216,7 +254,8 @@ static void npy_has_the_numbers(void **state)
     for (int k = 0; k < 6; k++) {
         float record[5];
         memcpy(record, file.data + array.header_size + 20 * (size_t)k, sizeof record);
-        assert_true(record[0] == 300 + k && record[1] == 100 + 3 * k && record[2] == 101 + 3 * k && record[3] == 102 + 3 * k);
+        assert_true(record[0] == 300 + k && record[1] == 100 + 3 * k && record[2] == 101 + 3 * k &&
+                    record[3] == 102 + 3 * k);
         assert_true(k == 4 ? isnan(record[4]) : record[4] == 200 + k);
     }
     kd_buffer_finish(&file);

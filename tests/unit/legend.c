@@ -21,7 +21,8 @@ static void letters_have_shapes(void **state)
         for (const char *d = all; d < c; d++) {
             int differ = 0;
             for (int i = 0; i < KD_FONT_WIDTH * KD_FONT_HEIGHT; i++)
-                differ += kd_font_dot(*c, i % KD_FONT_WIDTH, i / KD_FONT_WIDTH) != kd_font_dot(*d, i % KD_FONT_WIDTH, i / KD_FONT_WIDTH);
+                differ += kd_font_dot(*c, i % KD_FONT_WIDTH, i / KD_FONT_WIDTH) !=
+                          kd_font_dot(*d, i % KD_FONT_WIDTH, i / KD_FONT_WIDTH);
             if (!differ)
                 fail_msg("%c looks like %c", *c, *d);
         }
@@ -73,14 +74,16 @@ static void numbers_fit(void **state)
             x[i] = (seed = seed * 1664525u + 1013904223u) / 4294967296.0;
         bool logarithmic = round % 2;
         double low = pow(10, 12 * x[0] - 6), length = pow(10, 6 * x[1] - 3);
-        const struct kd_map_scale scale = { logarithmic ? low : low - 20, logarithmic ? low * (1 + length) : low - 20 + length, logarithmic };
+        const struct kd_map_scale scale = { logarithmic ? low : low - 20,
+                                            logarithmic ? low * (1 + length) : low - 20 + length, logarithmic };
         double room = 16 + 20 * x[2], end = -1;
         struct kd_tick ticks[KD_LEGEND_TICKS];
         size_t n = kd_legend_ticks(&scale, room, ticks);
         if (n < 1 || n > KD_LEGEND_TICKS)
             fail_msg("%zu numbers from %.17g to %.17g", n, scale.low, scale.high);
         for (size_t i = 0; i < n; i++) {
-            double place = kd_map_scale_place(&scale, ticks[i].value), half = 0.5 * (double)strlen(ticks[i].label) / room;
+            double place = kd_map_scale_place(&scale, ticks[i].value),
+                   half = 0.5 * (double)strlen(ticks[i].label) / room;
             assert_true(place > -1e-6 && place < 1 + 1e-6);
             assert_true(!i || place - half > end);
             assert_true(fabs(atof(ticks[i].label) - ticks[i].value) <= 0.51e-3 * fabs(ticks[i].value) + 1e-12);
@@ -92,7 +95,8 @@ static void numbers_fit(void **state)
 static struct kd_canvas canvas_of(uint32_t width, uint32_t height, int depth, int value)
 {
     size_t bytes = (size_t)3 * width * height * (depth == 16 ? 2 : 1);
-    struct kd_canvas canvas = { malloc(bytes), width, height, depth }; /* of exact size, so that a sanitizer sees a pixel too far */
+    struct kd_canvas canvas = { malloc(bytes), width, height,
+                                depth }; /* of exact size, so that a sanitizer sees a pixel too far */
     assert_non_null(canvas.pixels);
     memset(canvas.pixels, value, bytes);
     return canvas;
@@ -172,7 +176,8 @@ static void classes_have_boxes(void **state)
     assert_true(kd_legend_draw(&canvas, &legend));
     uint32_t y = 200 - (37 + 4) + 4 + 7 + 3 + 3;
     for (uint32_t i = 0; i < 3; i++)
-        assert_int_equal(channel(&canvas, 20 + i * (112 / 3) + 10, y, 0), lround(255 * kd_colour_map_at(KD_MAP_CATEGORICAL, i).r));
+        assert_int_equal(channel(&canvas, 20 + i * (112 / 3) + 10, y, 0),
+                         lround(255 * kd_colour_map_at(KD_MAP_CATEGORICAL, i).r));
     free(canvas.pixels);
 }
 

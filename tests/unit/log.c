@@ -44,9 +44,20 @@ static const char *written(void)
 
 static void test_print(void **state)
 {
-    static const struct { const char *given, *printed; } all[] = {
-        { "plain \"and\" \\", "plain \"and\" \\" }, { "a\nb\r\tc", "a\\x0ab\\x0d\\x09c" }, { "\x1b[31m\x7f", "\\x1b[31m\\x7f" }, { "\xc2\x9b" "31m", "\\xc2\\x9b" "31m" },
-        { "\xc2\xa0ü€𝄞", "\xc2\xa0ü€𝄞" }, { "\xff\xc3(", "\\xff\\xc3(" }, { "\xe2\x82", "\\xe2\\x82" }, { "", "" },
+    static const struct {
+        const char *given, *printed;
+    } all[] = {
+        { "plain \"and\" \\", "plain \"and\" \\" },
+        { "a\nb\r\tc", "a\\x0ab\\x0d\\x09c" },
+        { "\x1b[31m\x7f", "\\x1b[31m\\x7f" },
+        { "\xc2\x9b"
+          "31m",
+          "\\xc2\\x9b"
+          "31m" },
+        { "\xc2\xa0ü€𝄞", "\xc2\xa0ü€𝄞" },
+        { "\xff\xc3(", "\\xff\\xc3(" },
+        { "\xe2\x82", "\\xe2\\x82" },
+        { "", "" },
     };
     char out[64];
     (void)state;
@@ -113,6 +124,7 @@ static void test_json(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(test_print), cmocka_unit_test(test_text), cmocka_unit_test(test_json) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_print), cmocka_unit_test(test_text),
+                                        cmocka_unit_test(test_json) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

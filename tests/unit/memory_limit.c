@@ -1,4 +1,5 @@
-/* How much memory a process may take, from made-up /proc and /sys: what those of real machines and containers look like. */
+/* How much memory a process may take, from made-up /proc and /sys: what those of real machines and containers look
+ * like. */
 #include "base/memory_limit.h"
 
 #include <setjmp.h>
@@ -12,7 +13,8 @@
 #include <cmocka.h>
 
 #define MIB (UINT64_C(1) << 20)
-#define STATUS "Name:\tkerrd\nVmRSS:\t  300000 kB\nRssAnon:\t    8192 kB\nRssFile:\t  100000 kB\nRssShmem:\t    2048 kB\n"
+#define STATUS \
+    "Name:\tkerrd\nVmRSS:\t  300000 kB\nRssAnon:\t    8192 kB\nRssFile:\t  100000 kB\nRssShmem:\t    2048 kB\n"
 #define V2 "30 23 0:26 / /sys/fs/cgroup rw,nosuid shared:9 - cgroup2 cgroup2 rw,nsdelegate\n"
 #define V1 "35 31 0:32 / /sys/fs/cgroup/memory rw shared:12 - cgroup cgroup rw,memory\n"
 
@@ -47,10 +49,7 @@ static int make_root(void **state)
     return mkdtemp(root) ? 0 : 1;
 }
 
-static int remove_root(void **state)
-{
-    return clear(state) || remove(root);
-}
+static int remove_root(void **state) { return clear(state) || remove(root); }
 
 static void machine(const char *mounts, const char *groups)
 {
@@ -98,7 +97,8 @@ static void version_2(void **state)
     put("/sys/fs/cgroup/a/b/memory.current", "1073741824\n");
     assert_int_equal(limit().left, 1024 * MIB);
     assert_string_equal(limit().by, "the memory.max of a control group");
-    put("/sys/fs/cgroup/a/b/memory.stat", "anon 5\nfile 9\nworkingset_inactive_file 1\ninactive_file 536870912\nactive_file 3\n");
+    put("/sys/fs/cgroup/a/b/memory.stat",
+        "anon 5\nfile 9\nworkingset_inactive_file 1\ninactive_file 536870912\nactive_file 3\n");
     assert_int_equal(limit().left, 1536 * MIB);
     put("/sys/fs/cgroup/a/memory.max", "1073741824\n"); /* a group above may be the tighter one */
     put("/sys/fs/cgroup/a/memory.current", "943718400\n");
@@ -131,19 +131,23 @@ static void version_1(void **state)
     assert_string_equal(limit().by, "the memory.limit_in_bytes of a control group");
 }
 
-/* Docker without a namespace for groups: the mount shows the container's group alone, the path names the host's way to it. */
+/* Docker without a namespace for groups: the mount shows the container's group alone, the path names the host's way
+ * to it. */
 static void a_mount_of_a_part(void **state)
 {
     (void)state;
-    machine("35 31 0:32 /docker/c0ffee /sys/fs/cgroup/memory ro - cgroup cgroup rw,memory\n", "4:memory:/docker/c0ffee\n");
+    machine("35 31 0:32 /docker/c0ffee /sys/fs/cgroup/memory ro - cgroup cgroup rw,memory\n",
+            "4:memory:/docker/c0ffee\n");
     put("/sys/fs/cgroup/memory/memory.limit_in_bytes", "1073741824\n");
     assert_int_equal(limit().left, 1024 * MIB);
-    machine("35 31 0:32 /docker/c0ffee /sys/fs/cgroup/memory ro - cgroup cgroup rw,memory\n", "4:memory:/docker/c0ffee/inner\n");
+    machine("35 31 0:32 /docker/c0ffee /sys/fs/cgroup/memory ro - cgroup cgroup rw,memory\n",
+            "4:memory:/docker/c0ffee/inner\n");
     put("/sys/fs/cgroup/memory/inner/memory.limit_in_bytes", "536870912\n");
     assert_int_equal(limit().left, 512 * MIB);
-    machine("35 31 0:32 /docker/c0ffee /sys/fs/cgroup/memory ro - cgroup cgroup rw,memory\n", "4:memory:/docker/c0ffee00\n");
+    machine("35 31 0:32 /docker/c0ffee /sys/fs/cgroup/memory ro - cgroup cgroup rw,memory\n",
+            "4:memory:/docker/c0ffee00\n");
     assert_int_equal(limit().left, 1024 * MIB); /* another group of whose name this one's is the beginning */
-    machine(V2, "0::/../../user.slice\n"); /* outside of the namespace */
+    machine(V2, "0::/../../user.slice\n");      /* outside of the namespace */
     put("/sys/fs/cgroup/memory.max", "805306368\n");
     assert_int_equal(limit().left, 768 * MIB);
 }
@@ -159,9 +163,12 @@ static void this_machine(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_teardown(nothing_known, clear),           cmocka_unit_test_teardown(a_machine_without_groups, clear),
-        cmocka_unit_test_teardown(version_2, clear),               cmocka_unit_test_teardown(the_root_of_a_namespace, clear),
-        cmocka_unit_test_teardown(version_1, clear),               cmocka_unit_test_teardown(a_mount_of_a_part, clear),
+        cmocka_unit_test_teardown(nothing_known, clear),
+        cmocka_unit_test_teardown(a_machine_without_groups, clear),
+        cmocka_unit_test_teardown(version_2, clear),
+        cmocka_unit_test_teardown(the_root_of_a_namespace, clear),
+        cmocka_unit_test_teardown(version_1, clear),
+        cmocka_unit_test_teardown(a_mount_of_a_part, clear),
         cmocka_unit_test(this_machine),
     };
     return cmocka_run_group_tests(tests, make_root, remove_root);

@@ -13,12 +13,20 @@
 
 static struct kd_capacity device(uint64_t bytes, bool host_memory)
 {
-    return (struct kd_capacity) { .max_binding_bytes = 128 << 20, .max_allocation_bytes = GIB, .memory_bytes = bytes, .host_memory = host_memory,
-                                  .ns[KD_NS_RAY_RADIUS] = 30, .ns[KD_NS_RAY_FULL] = 150, .ns[KD_NS_SAMPLE_TRANSFER] = 20, .ns[KD_NS_PIXEL_POST] = 30,
+    return (struct kd_capacity) { .max_binding_bytes = 128 << 20,
+                                  .max_allocation_bytes = GIB,
+                                  .memory_bytes = bytes,
+                                  .host_memory = host_memory,
+                                  .ns[KD_NS_RAY_RADIUS] = 30,
+                                  .ns[KD_NS_RAY_FULL] = 150,
+                                  .ns[KD_NS_SAMPLE_TRANSFER] = 20,
+                                  .ns[KD_NS_PIXEL_POST] = 30,
                                   .accuracy = kd_accuracy_built_in() };
 }
 
-static const struct kd_memory_limit container = { .left = 2 * GIB, .own = GIB / 8, .by = "the memory.max of a control group" };
+static const struct kd_memory_limit container = { .left = 2 * GIB,
+                                                  .own = GIB / 8,
+                                                  .by = "the memory.max of a control group" };
 
 static void a_device_that_is_the_host(void **state)
 {
@@ -120,8 +128,11 @@ static void the_watch_reads_this_machine(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_device_that_is_the_host), cmocka_unit_test(what_is_held_counts_once),
-        cmocka_unit_test(a_card_has_memory_of_its_own), cmocka_unit_test(plans_keep_to_it), cmocka_unit_test(frames_count),
+        cmocka_unit_test(a_device_that_is_the_host),
+        cmocka_unit_test(what_is_held_counts_once),
+        cmocka_unit_test(a_card_has_memory_of_its_own),
+        cmocka_unit_test(plans_keep_to_it),
+        cmocka_unit_test(frames_count),
         cmocka_unit_test(the_watch_reads_this_machine),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -76,7 +76,8 @@ static void records(void **state)
     (void)state;
     struct kd_npy array;
     struct kd_error error = { 0 };
-    const char *text = "{'descr': [('fate', '|u1'), ('r', '<f8', (3,)), ('x_1', '<f8', )], 'fortran_order': False, 'shape': (2,), }";
+    const char *text =
+        "{'descr': [('fate', '|u1'), ('r', '<f8', (3,)), ('x_1', '<f8', )], 'fortran_order': False, 'shape': (2,), }";
     if (read_text(1, text, 2 * 33, &array, &error))
         fail_msg("%s", error.message);
     assert_int_equal(array.n_fields, 3);
@@ -182,7 +183,9 @@ static void written(void **state)
 {
     (void)state;
     struct kd_buffer out = { 0 };
-    const struct kd_npy plain = { .fields = { { "", KD_NPY_F8, 0 } }, .n_fields = 1, .shape = { 3, 2 }, .n_dimensions = 2 };
+    const struct kd_npy plain = {
+        .fields = { { "", KD_NPY_F8, 0 } }, .n_fields = 1, .shape = { 3, 2 }, .n_dimensions = 2
+    };
     assert_int_equal(kd_npy_write_header(&plain, &out), KD_OK);
     assert_int_equal(out.size, 128);
     const char *want = "\x93NUMPY\x01";
@@ -193,7 +196,9 @@ static void written(void **state)
 
     const struct kd_npy structured = {
         .fields = { { "fate", KD_NPY_U1, 0 }, { "r", KD_NPY_F8, 16 }, { "error", KD_NPY_F8, 0 } },
-        .n_fields = 3, .shape = { 1 }, .n_dimensions = 1,
+        .n_fields = 3,
+        .shape = { 1 },
+        .n_dimensions = 1,
     };
     struct kd_npy back;
     uint8_t zeros[137] = { 0 };
@@ -215,12 +220,22 @@ static void written(void **state)
 static void texts(void **state)
 {
     (void)state;
-    static const struct { const char *type, *shape; const void *bytes; size_t size; const char *wanted; } table[] = {
-        { "<U3", "()", "a\0\0\0\xe9\0\0\0\0\0\0\0", 12, "a\xc3\xa9" },  { "<U1", "()", "\x00\xf6\x01\0", 4, "\xf0\x9f\x98\x80" },
-        { "<U1", "()", "\xac\x20\0\0", 4, "\xe2\x82\xac" },          { "|S4", "()", "{}\0\0", 4, "{}" },
-        { "|u1", "(3,)", "abc", 3, "abc" },                         { "<U1", "()", "\0\xd8\0\0", 4, NULL },
-        { "<U1", "()", "\0\0\x11\0", 4, NULL },                     { "<f8", "(1,)", "12345678", 8, NULL },
-        { "<U0", "()", "", 0, NULL },                               { "<U2", "(1,)", "a\0\0\0b\0\0\0", 8, NULL },
+    static const struct {
+        const char *type, *shape;
+        const void *bytes;
+        size_t size;
+        const char *wanted;
+    } table[] = {
+        { "<U3", "()", "a\0\0\0\xe9\0\0\0\0\0\0\0", 12, "a\xc3\xa9" },
+        { "<U1", "()", "\x00\xf6\x01\0", 4, "\xf0\x9f\x98\x80" },
+        { "<U1", "()", "\xac\x20\0\0", 4, "\xe2\x82\xac" },
+        { "|S4", "()", "{}\0\0", 4, "{}" },
+        { "|u1", "(3,)", "abc", 3, "abc" },
+        { "<U1", "()", "\0\xd8\0\0", 4, NULL },
+        { "<U1", "()", "\0\0\x11\0", 4, NULL },
+        { "<f8", "(1,)", "12345678", 8, NULL },
+        { "<U0", "()", "", 0, NULL },
+        { "<U2", "(1,)", "a\0\0\0b\0\0\0", 8, NULL },
         { "<U2", "()", "a\0\0\0", 4, NULL },
     };
     for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
@@ -228,7 +243,8 @@ static void texts(void **state)
         struct kd_buffer out = { 0 };
         struct kd_error error = { 0 };
         struct kd_npy array;
-        snprintf(header, sizeof header, "{'descr': '%s', 'fortran_order': False, 'shape': %s, }\n", table[i].type, table[i].shape);
+        snprintf(header, sizeof header, "{'descr': '%s', 'fortran_order': False, 'shape': %s, }\n", table[i].type,
+                 table[i].shape);
         struct file file = file_of(1, header, table[i].size);
         memcpy(file.data + file.size - table[i].size, table[i].bytes, table[i].size);
         enum kd_status status = kd_npy_read_text(file.data, file.size, &out, &error);

@@ -15,7 +15,8 @@
 #define COUNT(x) (sizeof(x) / sizeof *(x))
 
 /* The copy is of exact size, so that a sanitizer sees a byte too far. */
-static enum kd_status read_exact(const char *text, size_t length, struct kd_orbit_request *request, struct kd_error *error)
+static enum kd_status read_exact(const char *text, size_t length, struct kd_orbit_request *request,
+                                 struct kd_error *error)
 {
     char *copy = malloc(length ? length : 1);
     assert_non_null(copy);
@@ -27,18 +28,13 @@ static enum kd_status read_exact(const char *text, size_t length, struct kd_orbi
 }
 
 /* Read, solved and prepared. */
-static enum kd_status try(const char *text, struct kd_error *error)
-{
-    struct kd_orbit_request request;
-    struct kd_buffer out = { 0 };
-    struct kd_orbit_feed *feed = calloc(1, sizeof *feed);
+static enum kd_status try (const char *text, struct kd_error *error) {
+    struct kd_orbit_request request; struct kd_buffer out = { 0 }; struct kd_orbit_feed *feed = calloc(1, sizeof *feed);
     assert_non_null(feed);
     *error = (struct kd_error) { 0 };
     enum kd_status status = read_exact(text, strlen(text), &request, error);
-    if (!status)
-        status = kd_orbit_feed_init(feed, &request, KD_ORBIT_JSON, error);
-    while (!status && !kd_orbit_feed_done(feed))
-        status = kd_orbit_feed_more(feed, &out, error);
+    if (!status) status = kd_orbit_feed_init(feed, &request, KD_ORBIT_JSON, error);
+    while (!status && !kd_orbit_feed_done(feed)) status = kd_orbit_feed_more(feed, &out, error);
     kd_orbit_feed_finish(feed);
     kd_buffer_finish(&out);
     kd_orbit_request_finish(&request);
@@ -67,7 +63,8 @@ static void refusals(void **state)
         { "{\"orbit\":{\"p\":9,\"e\":\"0.5\"}}", "/orbit/e", "\"0.5\", a string where a number is wanted" },
         { "{\"orbit\":{\"p\":9,\"e\":.5}}", "", "not valid JSON" },
         { "{\"orbit\":{\"p\":9,\"e\":0,\"energy\":0.9}}", "/orbit", "energy is given beside p; an orbit is given by" },
-        { "{\"orbit\":{\"case\":\"mercury\",\"p\":6}}", "/orbit", "case is given beside p; an orbit is given by p, e and" },
+        { "{\"orbit\":{\"case\":\"mercury\",\"p\":6}}", "/orbit",
+          "case is given beside p; an orbit is given by p, e and" },
         { "{\"orbit\":{\"p\":9,\"e\":0,\"E\":0.9}}", "/orbit/E", "did you mean e? Known are spin, p, e" },
         { "{\"orbit\":{\"p\":9,\"e\":0,\"spin\":-1}}", "/orbit/spin", "above -1" },
         { "{\"spin\":1,\"orbit\":{\"p\":9,\"e\":0}}", "/spin", "below 1" },
@@ -78,9 +75,10 @@ static void refusals(void **state)
         { "{\"orbit\":{\"position\":{\"r\":1.5}}}", "/orbit/position/r", "horizon" },
         { "{\"orbit\":{\"position\":{\"r\":5},\"velocity\":{\"v_r\":0.9,\"v_phi\":0.9}}}", "/orbit/velocity", "light" },
         { "{\"orbit\":{\"position\":{\"r\":5},\"velocity\":{\"frame\":\"free\"}}}", "/orbit/velocity/frame", "static" },
-        { "{\"spin\":0.9,\"orbit\":{\"position\":{\"r\":1.8},\"velocity\":{\"frame\":\"static\"}}}", "/orbit/velocity/frame",
-          "ergosphere" },
-        { "{\"orbit\":{\"position\":{\"theta\":5}}}", "/orbit/position/theta", "did you mean theta_deg? Known are r, theta_deg, phi_deg" },
+        { "{\"spin\":0.9,\"orbit\":{\"position\":{\"r\":1.8},\"velocity\":{\"frame\":\"static\"}}}",
+          "/orbit/velocity/frame", "ergosphere" },
+        { "{\"orbit\":{\"position\":{\"theta\":5}}}", "/orbit/position/theta",
+          "did you mean theta_deg? Known are r, theta_deg, phi_deg" },
         { "{\"orbit\":{\"case\":\"venus\"}}", "/orbit/case", "mercury" },
         { "{\"orbit\":{\"case\":\"isco\"},\"samples\":1}", "/samples", "2 or more" },
         { "{\"orbit\":{\"case\":\"isco\"},\"samples\":2.5}", "/samples", "whole" },
@@ -92,11 +90,14 @@ static void refusals(void **state)
         { "{\"orbit\":{\"case\":\"plunge\"},\"duration\":{\"periods\":3}}", "/duration/periods", "plunge" },
         { "{\"orbit\":{\"case\":\"plunge\"},\"method\":\"closed\"}", "/method", "plunge" },
         { "{\"orbits\":[{\"case\":\"isco\"},{\"case\":\"plunge\"}],\"method\":\"closed\"}", "/method", "plunge" },
-        { "{\"orbits\":[{\"case\":\"isco\"},{\"case\":\"isco\"}],\"series\":true,\"samples\":200000}", "/samples", "in all" },
+        { "{\"orbits\":[{\"case\":\"isco\"},{\"case\":\"isco\"}],\"series\":true,\"samples\":200000}", "/samples",
+          "in all" },
     };
     for (size_t i = 0; i < COUNT(rows); i++) {
         struct kd_error error;
-        enum kd_status status = try(rows[i].text, &error);
+        enum kd_status status =
+        try
+            (rows[i].text, &error);
         if (status != KD_EINVAL || strcmp(error.pointer, rows[i].pointer) || !strstr(error.message, rows[i].words))
             fail_msg("%s: status %d at %s: %s", rows[i].text, status, error.pointer, error.message);
     }
@@ -117,7 +118,8 @@ static void every_cut(void **state)
 }
 
 /* Followed to its end in pieces of `steps`; returns the samples. */
-static struct kd_orbit_sample *follow(const char *text, uint64_t steps, struct kd_orbit_request *request, struct kd_orbit_run *run)
+static struct kd_orbit_sample *follow(const char *text, uint64_t steps, struct kd_orbit_request *request,
+                                      struct kd_orbit_run *run)
 {
     struct kd_error error = { 0 };
     if (read_exact(text, strlen(text), request, &error) || kd_orbit_run_init(run, request, 0, &error) ||
@@ -139,7 +141,8 @@ static void assert_same_samples(const struct kd_orbit_sample *a, const struct kd
         assert_memory_equal(&a[i], &b[i], offsetof(struct kd_orbit_sample, image.outward));
         assert_true(a[i].image.outward == b[i].image.outward);
         assert_memory_equal(&a[i].image.look, &b[i].image.look, sizeof a[i].image.look);
-        assert_memory_equal(&a[i].image.delay, &b[i].image.delay, sizeof *a - offsetof(struct kd_orbit_sample, image.delay));
+        assert_memory_equal(&a[i].image.delay, &b[i].image.delay,
+                            sizeof *a - offsetof(struct kd_orbit_sample, image.delay));
     }
 }
 
@@ -152,7 +155,8 @@ static void pieces_change_nothing(void **state)
         struct kd_orbit_run run[2];
         char text[200];
         snprintf(text, sizeof text,
-                 "{\"spin\":0.9,\"orbit\":{\"p\":6,\"e\":0.5,\"inclination_deg\":30},\"samples\":50,\"method\":\"%s\"}", ways[i]);
+                 "{\"spin\":0.9,\"orbit\":{\"p\":6,\"e\":0.5,\"inclination_deg\":30},\"samples\":50,\"method\":\"%s\"}",
+                 ways[i]);
         struct kd_orbit_sample *whole = follow(text, UINT64_MAX, &request[0], &run[0]),
                                *cut = follow(text, 7, &request[1], &run[1]);
         assert_same_samples(whole, cut, 50);
@@ -169,9 +173,15 @@ static void to_its_end_instead(void **state)
     (void)state;
 #define PLUNGE "{\"samples\":20,\"orbit\":{\"case\":\"plunge\"}"
 #define ESCAPE "{\"samples\":20,\"orbit\":{\"position\":{\"r\":10},\"velocity\":{\"v_r\":0.9}}"
-#define WHIRL "{\"samples\":20,\"method\":\"rkn6\",\"orbit\":{\"energy\":1,\"angular_momentum\":3.9999999}" /* it goes round twice and more: L = 4 does so for ever */
+#define WHIRL \
+    "{\"samples\":20,\"method\":\"rkn6\",\"orbit\":{\"energy\":1,\"angular_momentum\":3.9999999}" /* it goes round \
+                                                                                                     twice and more: L \
+                                                                                                     = 4 does so for \
+                                                                                                     ever */
 #define PERIODS ",\"duration\":{\"periods\":1,\"or_end\":true}}"
-    static const char *const bodies[][2] = { { PLUNGE "}", PLUNGE PERIODS }, { ESCAPE "}", ESCAPE PERIODS }, { WHIRL "}", WHIRL PERIODS } };
+    static const char *const bodies[][2] = { { PLUNGE "}", PLUNGE PERIODS },
+                                             { ESCAPE "}", ESCAPE PERIODS },
+                                             { WHIRL "}", WHIRL PERIODS } };
     for (size_t i = 0; i < COUNT(bodies); i++) {
         struct kd_orbit_request request[2];
         struct kd_orbit_run run[2];
@@ -186,8 +196,10 @@ static void to_its_end_instead(void **state)
     }
     struct kd_orbit_request request;
     struct kd_orbit_run run;
-    struct kd_orbit_sample *samples = follow("{\"samples\":3,\"orbit\":{\"p\":8,\"e\":0.5},\"duration\":{\"periods\":2,\"or_end\":true}}", UINT64_MAX, &request, &run);
-    assert_float_equal(samples[0].place.r, 16. / 3, 1e-6); /* the periapsis */
+    struct kd_orbit_sample *samples =
+        follow("{\"samples\":3,\"orbit\":{\"p\":8,\"e\":0.5},\"duration\":{\"periods\":2,\"or_end\":true}}", UINT64_MAX,
+               &request, &run);
+    assert_float_equal(samples[0].place.r, 16. / 3, 1e-6);            /* the periapsis */
     assert_float_equal(samples[1].place.r, samples[2].place.r, 1e-6); /* a period, and another */
     kd_orbit_request_finish(&request);
     free(samples);
@@ -222,7 +234,8 @@ static void methods_agree(void **state)
                 double off = fmax(fabs(a->r / b->r - 1), fmax(fabs(a->theta - b->theta), fabs(a->phi - b->phi)));
                 off = fmax(off, fmax(fabs(a->t - b->t) / (1 + b->t), fabs(a->proper - b->proper) / (1 + b->proper)));
                 if (!(off < (k == KD_WAY_RKN6 ? 1e-9 : 1e-10))) /* whose errors grow with the square of time */
-                    fail_msg("%s by %s, sample %d: off by %.2g", orbits[i], kd_orbit_way_name((enum kd_orbit_way)k), n, off);
+                    fail_msg("%s by %s, sample %d: off by %.2g", orbits[i], kd_orbit_way_name((enum kd_orbit_way)k), n,
+                             off);
             }
         double measured = kd_orbit_run_advance_measured(&run[0]), exact = kd_orbit_periastron_advance(&run[2].bound);
         if (!run[0].orbit.circular && run[0].orbit.carter == 0 && !(fabs(measured / exact - 1) < 1e-6))
@@ -252,7 +265,8 @@ static void ends(void **state)
         { "{\"orbit\":{\"energy\":1,\"angular_momentum\":5}}", KD_ORBIT_ESCAPE, KD_END_FAR },
         { "{\"orbit\":{\"energy\":1.1,\"angular_momentum\":3}}", KD_ORBIT_PLUNGE, KD_END_HORIZON },
         { "{\"orbit\":{\"energy\":1.1,\"angular_momentum\":0,\"r\":3,\"outward\":true}}", KD_ORBIT_ESCAPE, KD_END_FAR },
-        { "{\"orbit\":{\"energy\":1.1,\"angular_momentum\":0,\"r\":300,\"outward\":true}}", KD_ORBIT_ESCAPE, KD_END_FAR },
+        { "{\"orbit\":{\"energy\":1.1,\"angular_momentum\":0,\"r\":300,\"outward\":true}}", KD_ORBIT_ESCAPE,
+          KD_END_FAR },
         { "{\"orbit\":{\"position\":{\"r\":10}}}", KD_ORBIT_PLUNGE, KD_END_HORIZON },
         { "{\"orbit\":{\"position\":{\"r\":10,\"theta_deg\":0}},\"spin\":0.9}", KD_ORBIT_PLUNGE, KD_END_HORIZON },
         { "{\"orbit\":{\"p\":5.9,\"e\":0}}", KD_ORBIT_PLUNGE, KD_END_HORIZON },
@@ -263,14 +277,15 @@ static void ends(void **state)
     for (size_t i = 0; i < COUNT(rows); i++) {
         struct kd_orbit_request request;
         struct kd_orbit_run run;
-        struct kd_orbit_sample *samples = follow(rows[i].text, 100000, &request, &run), *last = &samples[run.samples - 1];
+        struct kd_orbit_sample *samples = follow(rows[i].text, 100000, &request, &run),
+                               *last = &samples[run.samples - 1];
         if (run.orbit.fate != rows[i].fate || run.end != rows[i].end)
             fail_msg("%s: %s, %s", rows[i].text, kd_orbit_fate_name(run.orbit.fate), kd_orbit_end_name(run.end));
         if (!isnan(request.params.time))
             assert_true(fabs(last->place.t / request.params.time - 1) < 1e-9);
         if (run.end == KD_END_HORIZON)
-            assert_true(fabs(last->place.r / kd_kerr_horizon(run.orbit.a) - 1) < 1e-13 && isfinite(last->place.proper) &&
-                        !(last->place.t < last[-1].place.t));
+            assert_true(fabs(last->place.r / kd_kerr_horizon(run.orbit.a) - 1) < 1e-13 &&
+                        isfinite(last->place.proper) && !(last->place.t < last[-1].place.t));
         if (run.end == KD_END_FAR)
             assert_true(last->place.r >= 99.9999 && last[-1].place.r < last->place.r);
         if (!(run.worst.energy < 1e-10 && run.worst.carter < 1e-10))
@@ -280,8 +295,8 @@ static void ends(void **state)
     }
 }
 
-/* From rest at r0 to the horizon of Schwarzschild's hole: the cycloid, tau = sqrt(r0^3/8) (eta + sin eta), r = r0 (1 + cos eta)/2
- * (Misner, Thorne & Wheeler 1973, eq. 25.28). */
+/* From rest at r0 to the horizon of Schwarzschild's hole: the cycloid, tau = sqrt(r0^3/8) (eta + sin eta), r = r0 (1
+ * + cos eta)/2 (Misner, Thorne & Wheeler 1973, eq. 25.28). */
 static void a_stone_falls(void **state)
 {
     (void)state;
@@ -300,8 +315,9 @@ static void a_stone_falls(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(refusals),      cmocka_unit_test(every_cut), cmocka_unit_test(pieces_change_nothing), cmocka_unit_test(to_its_end_instead),
-        cmocka_unit_test(methods_agree), cmocka_unit_test(ends),      cmocka_unit_test(a_stone_falls),
+        cmocka_unit_test(refusals),           cmocka_unit_test(every_cut),     cmocka_unit_test(pieces_change_nothing),
+        cmocka_unit_test(to_its_end_instead), cmocka_unit_test(methods_agree), cmocka_unit_test(ends),
+        cmocka_unit_test(a_stone_falls),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

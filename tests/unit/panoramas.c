@@ -16,7 +16,10 @@
 #include <cmocka.h>
 
 /* Assets are all the same picture; one that is named "none" is not there. */
-struct shelf { struct kd_buffer file; atomic_int taken; };
+struct shelf {
+    struct kd_buffer file;
+    atomic_int taken;
+};
 
 static bool take(void *user, const char *hash, struct kd_asset_bytes *out)
 {
@@ -30,7 +33,9 @@ static bool take(void *user, const char *hash, struct kd_asset_bytes *out)
 static void give_back(void *user, struct kd_asset_bytes *bytes) { (void)user, (void)bytes; }
 
 static struct shelf shelf;
-static const struct kd_assets assets = { .take = take, .give_back = give_back, .allowed = "names of this test", .user = &shelf };
+static const struct kd_assets assets = {
+    .take = take, .give_back = give_back, .allowed = "names of this test", .user = &shelf
+};
 
 static int fill_shelf(void **state)
 {
@@ -147,8 +152,8 @@ static void put(const char *path, long at, uint8_t byte)
 /* Says where in a file the first word of a texel is. */
 static long place(uint32_t row, uint32_t column) { return 32 + 4 * ((long)row * KD_MILKY_WAY_WIDTH + column); }
 
-/* A Milky Way that was kept is the one that was made, to the bit; one that is of another seed, damaged, cut short or made otherwise is made anew, and then
- * it is that which is kept. */
+/* A Milky Way that was kept is the one that was made, to the bit; one that is of another seed, damaged, cut short or
+ * made otherwise is made anew, and then it is that which is kept. */
 static void what_is_kept_is_what_was_made(void **state)
 {
     (void)state;
@@ -195,8 +200,10 @@ static void nowhere_to_keep_it(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(what_is_kept_is_what_was_made), cmocka_unit_test(nowhere_to_keep_it),
-                                        cmocka_unit_test(is_there_when_it_is_asked_for), cmocka_unit_test(has_a_free_place_only),
+    const struct CMUnitTest tests[] = { cmocka_unit_test(what_is_kept_is_what_was_made),
+                                        cmocka_unit_test(nowhere_to_keep_it),
+                                        cmocka_unit_test(is_there_when_it_is_asked_for),
+                                        cmocka_unit_test(has_a_free_place_only),
                                         cmocka_unit_test(what_fails_is_tried_again) };
     return cmocka_run_group_tests(tests, fill_shelf, empty_shelf);
 }

@@ -19,7 +19,8 @@ static void spread(const struct kd_scene *scene, const struct kd_particle_grid *
     for (uint32_t i = 0; i <= grid->rows; i++)
         out[i] = 0;
     for (uint32_t k = 0; k < n; k++) {
-        double row = grid->rows * log(kd_particle_radius(scene, (k + 0.5) / n) / inner) / log(scene->disk.outer / inner);
+        double row =
+            grid->rows * log(kd_particle_radius(scene, (k + 0.5) / n) / inner) / log(scene->disk.outer / inner);
         if (row < 0 || row > grid->rows)
             continue;
         uint32_t i = (uint32_t)fmin(row, grid->rows - 1);
@@ -44,14 +45,16 @@ static void no_row_shows_single_radii(void **state)
             scene.disk.density_index = indices[s];
             scene.disk.epicycles = 0;
             const struct kd_particle_grid grid = kd_particle_grid(&scene);
-            double *got = malloc((grid.rows + 1) * sizeof *got), *want = malloc((grid.rows + 1) * sizeof *want), worst = 0;
+            double *got = malloc((grid.rows + 1) * sizeof *got), *want = malloc((grid.rows + 1) * sizeof *want),
+                   worst = 0;
             assert_non_null(got);
             assert_non_null(want);
             spread(&scene, &grid, grid.radii, got);
             spread(&scene, &grid, 1 << 18, want);
             for (uint32_t i = 1; i < grid.rows; i++)
                 worst = fmax(worst, fabs(got[i] / want[i] - 1));
-            printf("%d particles as r^-%g: %u radii in %u rows, off by %.2g\n", counts[c], indices[s], grid.radii, grid.rows, worst);
+            printf("%d particles as r^-%g: %u radii in %u rows, off by %.2g\n", counts[c], indices[s], grid.radii,
+                   grid.rows, worst);
             assert_true(grid.radii <= grid.count - grid.plunging && worst < 0.01);
             free(got);
             free(want);

@@ -1,5 +1,5 @@
-/* The list of passes holds together: none is left out of plans, and each figure of cost is one that some pass is measured by. So do
- * the emitters that have one. */
+/* The list of passes holds together: none is left out of plans, and each figure of cost is one that some pass is
+ * measured by. So do the emitters that have one. */
 #include "render/accuracy/table.h"
 #include "render/emit/emitter.h"
 #include "render/frame/frame.h"
@@ -14,7 +14,9 @@
 
 static struct kd_capacity device(void)
 {
-    struct kd_capacity c = { .max_binding_bytes = 128u << 20, .memory_bytes = 1u << 30, .accuracy = kd_accuracy_built_in() };
+    struct kd_capacity c = { .max_binding_bytes = 128u << 20,
+                             .memory_bytes = 1u << 30,
+                             .accuracy = kd_accuracy_built_in() };
     for (int i = 0; i < KD_FIGURE_COUNT; i++)
         c.ns[i] = 10 * (i + 1);
     return c;
@@ -26,7 +28,8 @@ static struct kd_plan planned(const char *json, const struct kd_capacity *c)
     struct kd_plan plan;
     struct kd_error error = { 0 };
     kd_scene_smooth(&scene);
-    if (kd_scene_from_json(&scene, json, strlen(json), &error) || kd_scene_validate(&scene, &error) || kd_plan_make(&scene, c, &plan, &error))
+    if (kd_scene_from_json(&scene, json, strlen(json), &error) || kd_scene_validate(&scene, &error) ||
+        kd_plan_make(&scene, c, &plan, &error))
         fail_msg("%s: %s", json, error.message);
     return plan;
 }
@@ -54,7 +57,7 @@ static void names_are_names(void **state)
 {
     (void)state;
     for (int i = 0; i < KD_PASS_COUNT; i++) {
-        assert_true(*kd_passes[i].name && strlen(kd_passes[i].name) < sizeof ((struct kd_timing *)0)->name);
+        assert_true(*kd_passes[i].name && strlen(kd_passes[i].name) < sizeof((struct kd_timing *)0)->name);
         assert_ptr_equal(kd_pass_find(kd_passes[i].name), &kd_passes[i]); /* once each */
         assert_non_null(kd_passes[i].invocations);
     }
@@ -65,7 +68,9 @@ static void names_are_names(void **state)
 static void words_stay(void **state)
 {
     (void)state;
-    const char *const relied_on[] = { "ray_radius", "ray_full", "sample_transfer", "pixel_post", "ray_march", "particle" };
+    const char *const relied_on[] = {
+        "ray_radius", "ray_full", "sample_transfer", "pixel_post", "ray_march", "particle"
+    };
     for (size_t i = 0; i < sizeof relied_on / sizeof *relied_on; i++)
         assert_string_equal(kd_figures[i].word, relied_on[i]);
     for (int i = 0; i < KD_FIGURE_COUNT; i++)
@@ -79,7 +84,8 @@ static struct kd_plan with_footprints(const struct kd_capacity *c)
     struct kd_plan plan;
     struct kd_error error = { 0 };
     kd_scene_smooth(&scene);
-    if (kd_scene_validate(&scene, &error) || kd_plan_make_for(&scene, &(struct kd_needs) { .quantities = KD_LENS_FOOTPRINT }, c, &plan, &error))
+    if (kd_scene_validate(&scene, &error) ||
+        kd_plan_make_for(&scene, &(struct kd_needs) { .quantities = KD_LENS_FOOTPRINT }, c, &plan, &error))
         fail_msg("%s", error.message);
     return plan;
 }
@@ -121,7 +127,8 @@ static void emitters_are_prepared(void **state)
         const struct kd_emitter *e = kd_emitters[i];
         assert_true(!e->device_bytes == !e->own && (e->own || !e->invocations));
         assert_true(!e->invocations == !kd_pass_find(e->name));
-        assert_true(!e->own || (e->own->bytes && e->own->prepare && e->own->buffers && e->own->forget && e->own->finish));
+        assert_true(!e->own ||
+                    (e->own->bytes && e->own->prepare && e->own->buffers && e->own->forget && e->own->finish));
     }
     kd_scene_smooth(&scene);
     assert_true(!kd_emit_device_bytes(&scene) && !kd_emit_invocations(&scene, KD_EMITTER_particles));
@@ -137,9 +144,12 @@ static void estimates_are_figures(void **state)
     (void)state;
     const struct kd_capacity c = device();
     const struct kd_plan plan = planned("{\"image\": {\"width\": 100, \"height\": 50, \"critical_factor\": 1}}", &c);
-    const struct { const char *name; double ms; } expected[] = {
-        { "trace", 5000 * 10e-6 }, { "audit", 768 * 4e-3 },      { "transfer", 5000 * 30e-6 }, { "expose", 5000 * 0.25 * 40e-6 },
-        { "post", 5000 * 40e-6 },  { "readback", 5000 * 4e-6 },
+    const struct {
+        const char *name;
+        double ms;
+    } expected[] = {
+        { "trace", 5000 * 10e-6 },         { "audit", 768 * 4e-3 },  { "transfer", 5000 * 30e-6 },
+        { "expose", 5000 * 0.25 * 40e-6 }, { "post", 5000 * 40e-6 }, { "readback", 5000 * 4e-6 },
     };
     assert_int_equal(plan.n_passes, sizeof expected / sizeof *expected);
     for (size_t i = 0; i < plan.n_passes; i++) {

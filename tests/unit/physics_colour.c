@@ -18,9 +18,7 @@ static void near(const char *what, double temperature, double got, double want, 
                  fabs(got - want), allowed);
 }
 
-struct xy {
-    double x, y;
-};
+struct xy { double x, y; };
 
 static struct xy chromaticity(struct kd_colour_xyz c)
 {
@@ -170,8 +168,7 @@ static void the_matrix_of_srgb(void **state)
     };
     for (int i = 0; i < 4; i++) {
         double x = primaries[i].x, y = primaries[i].y, l = primaries[i].luminance / y;
-        struct kd_colour_rgb c =
-            kd_colour_xyz_to_srgb((struct kd_colour_xyz) { l * x, l * y, l * (1 - x - y) });
+        struct kd_colour_rgb c = kd_colour_xyz_to_srgb((struct kd_colour_xyz) { l * x, l * y, l * (1 - x - y) });
         near("red", 0, c.r, i == 0 || i == 3, 5e-4);
         near("green", 0, c.g, i == 1 || i == 3, 5e-4);
         near("blue", 0, c.b, i == 2 || i == 3, 1e-3); /* 0.0722 has three digits */
@@ -182,7 +179,9 @@ static void the_matrix_of_srgb(void **state)
 static void the_printed_matrix(void **state)
 {
     (void)state;
-    static const double printed[3][3] = { { 3.2406, -0.9689, 0.0557 }, { -1.5372, 1.8758, -0.2040 }, { -0.4986, 0.0415, 1.0570 } };
+    static const double printed[3][3] = { { 3.2406, -0.9689, 0.0557 },
+                                          { -1.5372, 1.8758, -0.2040 },
+                                          { -0.4986, 0.0415, 1.0570 } };
     for (int i = 0; i < 3; i++) {
         struct kd_colour_rgb c = kd_colour_xyz_to_srgb((struct kd_colour_xyz) { i == 0, i == 1, i == 2 });
         near("red", 0, c.r, printed[i][0], 5.1e-5);
@@ -209,8 +208,7 @@ static void unit_colours(void **state)
             fail_msg("%g K: redder than the cooler body before it", t);
         last = c.r;
     }
-    struct kd_colour_rgb white =
-        kd_colour_blackbody_unit(6600); /* the Planckian nearest to grey in red and blue */
+    struct kd_colour_rgb white = kd_colour_blackbody_unit(6600); /* the Planckian nearest to grey in red and blue */
     near("red of the whitest", 6600, white.r, 1, 0.06);
     near("green of the whitest", 6600, white.g, 1, 0.06);
     near("blue of the whitest", 6600, white.b, 1, 0.06);
@@ -238,16 +236,22 @@ static void encoding(void **state)
         near("decoded", c, back, c, 1e-15);
     }
     near("middle grey", 0.5, kd_colour_srgb_encode(0.5), 0.7353569830524495, 1e-15);
-    near("where the pieces meet", 0, kd_colour_srgb_encode(0.0031308 * (1 + 1e-12)), kd_colour_srgb_encode(0.0031308), 1e-7);
+    near("where the pieces meet", 0, kd_colour_srgb_encode(0.0031308 * (1 + 1e-12)), kd_colour_srgb_encode(0.0031308),
+         1e-7);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_standard_observer), cmocka_unit_test(published_chromaticities),
-        cmocka_unit_test(along_the_locus),       cmocka_unit_test(stefan_and_boltzmann),
-        cmocka_unit_test(luminous_efficacy),     cmocka_unit_test(the_matrix_of_srgb), cmocka_unit_test(the_printed_matrix),
-        cmocka_unit_test(unit_colours),          cmocka_unit_test(unit_colours_inside_the_gamut),
+        cmocka_unit_test(the_standard_observer),
+        cmocka_unit_test(published_chromaticities),
+        cmocka_unit_test(along_the_locus),
+        cmocka_unit_test(stefan_and_boltzmann),
+        cmocka_unit_test(luminous_efficacy),
+        cmocka_unit_test(the_matrix_of_srgb),
+        cmocka_unit_test(the_printed_matrix),
+        cmocka_unit_test(unit_colours),
+        cmocka_unit_test(unit_colours_inside_the_gamut),
         cmocka_unit_test(encoding),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

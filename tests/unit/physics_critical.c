@@ -34,14 +34,11 @@ static struct kd_critical curve_of(double spin, double cos_theta, double radius,
 static void near(double got, double want, double allowed, const char *what, double spin, double where)
 {
     if (!(fabs(got - want) <= allowed))
-        fail_msg("a = %.17g, at %g: %s %.17g, not %.17g: off by %.2g, allowed %.2g", spin, where, what, got,
-                 want, got - want, allowed);
+        fail_msg("a = %.17g, at %g: %s %.17g, not %.17g: off by %.2g, allowed %.2g", spin, where, what, got, want,
+                 got - want, allowed);
 }
 
-static double relative(double bound, double value)
-{
-    return bound * fabs(value);
-}
+static double relative(double bound, double value) { return bound * fabs(value); }
 
 static void against_the_oracle(void **state)
 {
@@ -105,8 +102,7 @@ static void equatorial_orbits_keep_time(void **state)
     for (size_t i = 0; i < COUNT(spins); i++) {
         double a = spins[i];
         struct kd_shell s = kd_shell_of(a);
-        struct kd_shell_orbit pro = kd_shell_orbit_at(&s, s.prograde),
-                              retro = kd_shell_orbit_at(&s, s.retrograde);
+        struct kd_shell_orbit pro = kd_shell_orbit_at(&s, s.prograde), retro = kd_shell_orbit_at(&s, s.retrograde);
         struct kd_shell_exponents p = kd_shell_exponents(&pro), q = kd_shell_exponents(&retro);
         near(pro.r, kd_kerr_photon_orbit(a), 2e-15, "prograde orbit", a, 0);
         near(retro.r, kd_kerr_photon_orbit(-a), 4e-15, "retrograde orbit", a, 0);
@@ -167,8 +163,7 @@ static void symmetric_and_continuous(void **state)
         near(kd_critical_at(&slow, angle).rho, kd_critical_at(&still, angle).rho, 1e-12, "rho", 1e-13, angle);
         struct kd_critical axis = curve_of(0.9, 1, INFINITY, KD_OBSERVER_STATIC);
         struct kd_critical near_axis = curve_of(0.9, 1 - 1e-15, INFINITY, KD_OBSERVER_STATIC);
-        near(kd_critical_at(&near_axis, angle).rho, kd_critical_at(&axis, angle).rho, 1e-6, "rho", 0.9,
-             angle);
+        near(kd_critical_at(&near_axis, angle).rho, kd_critical_at(&axis, angle).rho, 1e-6, "rho", 0.9, angle);
     }
 }
 
@@ -207,8 +202,7 @@ static void synges_angle(void **state)
             struct kd_critical c = curve_of(0, 0.3, r, zamo ? KD_OBSERVER_ZAMO : KD_OBSERVER_STATIC);
             struct kd_critical_measures m = kd_critical_measure(&c);
             near(m.mean_radius, angle, 3e-8 * (r == 3) + relative(1e-13, angle), "angle", 0, r);
-            near(m.area, 4 * M_PI * half * half, 1e-7 * (r == 3) + relative(1e-12, m.area), "solid angle", 0,
-                 r);
+            near(m.area, 4 * M_PI * half * half, 1e-7 * (r == 3) + relative(1e-12, m.area), "solid angle", 0, r);
             near(m.asymmetry, 0, 1e-12, "asymmetry", 0, r);
             near(m.displacement, 0, 1e-14, "displacement", 0, r);
         }
@@ -245,8 +239,8 @@ static void the_edge_from_nearby(void **state)
                                            .beta = photon.polar / photon.energy };
                 enum kd_null_fate want = side > 0 ? KD_NULL_ESCAPED : KD_NULL_CAPTURED;
                 if (kd_null_trace_fast(&ray).fate != want)
-                    fail_msg("a = %g, u = %g, r = %g, zamo %d, angle %g, rho %g, side %d", a, u, r, zamo,
-                             angle, p.rho, side);
+                    fail_msg("a = %g, u = %g, r = %g, zamo %d, angle %g, rho %g, side %d", a, u, r, zamo, angle, p.rho,
+                             side);
             }
         }
     }
@@ -337,8 +331,8 @@ static void drawn(void **state)
                     near(q.up, p.up, 1e-6, "up", spins[i], cosines[k]);
                     near(q.inwards, p.inwards, 1e-6, "inwards", spins[i], cosines[k]);
                     if (!(q.angle <= before))
-                        fail_msg("a = %.17g, u = %g, r = %g: the angle goes from %g to %g", spins[i], cosines[k], radii[n], before,
-                                 q.angle);
+                        fail_msg("a = %.17g, u = %g, r = %g: the angle goes from %g to %g", spins[i], cosines[k],
+                                 radii[n], before, q.angle);
                     before = q.angle;
                 }
                 near(kd_critical_upper(&c, 0).angle, M_PI, 1e-5, "left end", spins[i], cosines[k]);

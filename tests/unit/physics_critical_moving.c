@@ -1,5 +1,6 @@
-/* The critical curve of observers within the horizon, and of those that move in latitude: light a microradian on either side of it, followed back in
- * Kerr-Schild coordinates from frames that are made there, comes from the sky on the one side and from the hole on the other. */
+/* The critical curve of observers within the horizon, and of those that move in latitude: light a microradian on
+ * either side of it, followed back in Kerr-Schild coordinates from frames that are made there, comes from the sky on
+ * the one side and from the hole on the other. */
 #include "kerr_schild.h"
 #include "physics/critical.h"
 
@@ -30,7 +31,8 @@ static const struct seer {
 
 static struct ks_frame frame_of(const struct seer *seer, const struct ks_place *at)
 {
-    const double *v = seer->motion.velocity, gamma = 1 / sqrt(1 - (v[0] * v[0] + v[1] * v[1] + v[2] * v[2])), x[4] = { 1, v[0], v[1], v[2] };
+    const double *v = seer->motion.velocity, gamma = 1 / sqrt(1 - (v[0] * v[0] + v[1] * v[1] + v[2] * v[2])),
+                 x[4] = { 1, v[0], v[1], v[2] };
     const bool falls = seer->motion.observer == KD_OBSERVER_INFALL;
     const struct ks_frame base = falls ? ks_rain(at) : ks_zamo(at);
     double u[4] = { 0 };
@@ -85,7 +87,8 @@ static void the_edge_is_where_it_is_seen(void **state)
                 for (int j = 0; j < 3; j++)
                     to[j] = m[j] + side * delta * across[j] / sqrt(length);
                 if (comes_from_the_sky(&at, &frame, to) != (side > 0))
-                    fail_msg("a = %g, r = %g, observer %d, angle %g: the edge is not there, side %d", s->spin, s->r, (int)s->motion.observer, angle, side);
+                    fail_msg("a = %g, r = %g, observer %d, angle %g: the edge is not there, side %d", s->spin, s->r,
+                             (int)s->motion.observer, angle, side);
             }
         }
     }

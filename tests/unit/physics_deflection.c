@@ -38,8 +38,8 @@ static void critical(void **state)
     close_to("critical", -1, 0, kd_deflection_critical(-most), 7, 1e-14);
 }
 
-/* The errors that the header promises. The closest approach is a root that is double on the critical ray: there it moves with
- * the square root. */
+/* The errors that the header promises. The closest approach is a root that is double on the critical ray: there it
+ * moves with the square root. */
 static void angles(void **state)
 {
     (void)state;
@@ -51,8 +51,8 @@ static void angles(void **state)
     }
 }
 
-/* Where light turns V = 1/b, by the effective potential of Bardeen, Press & Teukolsky, which knows no roots of R; and for a = 0 the
- * middle root of r^3 - b^2 r + 2 b^2 = 0 by Vieta's formula. */
+/* Where light turns V = 1/b, by the effective potential of Bardeen, Press & Teukolsky, which knows no roots of R;
+ * and for a = 0 the middle root of r^3 - b^2 r + 2 b^2 = 0 by Vieta's formula. */
 static void farthest(void **state)
 {
     (void)state;
@@ -169,9 +169,15 @@ static void quadrature(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(critical),   cmocka_unit_test(angles),       cmocka_unit_test(farthest),     cmocka_unit_test(the_sun),
-        cmocka_unit_test(weak_field), cmocka_unit_test(strong_limit), cmocka_unit_test(smooth_and_monotone),
-        cmocka_unit_test(quadrature), cmocka_unit_test(outside_the_domain),
+        cmocka_unit_test(critical),
+        cmocka_unit_test(angles),
+        cmocka_unit_test(farthest),
+        cmocka_unit_test(the_sun),
+        cmocka_unit_test(weak_field),
+        cmocka_unit_test(strong_limit),
+        cmocka_unit_test(smooth_and_monotone),
+        cmocka_unit_test(quadrature),
+        cmocka_unit_test(outside_the_domain),
     };
     return cmocka_run_group_tests_name("physics_deflection", tests, NULL, NULL);
 }

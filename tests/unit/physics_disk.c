@@ -18,8 +18,8 @@
 static void close_to(const char *what, double a, double r, double got, double want, double relative)
 {
     if (!(fabs(got - want) <= relative * fabs(want)))
-        fail_msg("%s at a = %.17g, r = %.17g: %.17g, not %.17g: off by %.2g, allowed %.2g", what, a, r, got,
-                 want, fabs(got / want - 1), relative);
+        fail_msg("%s at a = %.17g, r = %.17g: %.17g, not %.17g: off by %.2g, allowed %.2g", what, a, r, got, want,
+                 fabs(got / want - 1), relative);
 }
 
 /* The bound of the header; the nearest radius here is 0.001 r_isco outside the ISCO. */
@@ -48,10 +48,7 @@ static double luminosity(function flux, function weight, double a)
     return sum / (3.0 * n); /* both ends are zero: F at the ISCO, y at infinity */
 }
 
-static double one(double a, double r)
-{
-    return (void)a, (void)r, 1;
-}
+static double one(double a, double r) { return (void)a, (void)r, 1; }
 
 /* What both faces radiate, E times the energy in the gas's frame, is what the gas loses on its way in: 1 -
  * E(ISCO) (Page & Thorne 1974, eq. 10b). The bound is the quadrature's: at a = 0.9999 the flux rises within
@@ -62,10 +59,10 @@ static void luminosity_is_the_efficiency(void **state)
     const double spins[] = { -0.9999, -0.9, -0.5, 0, 1e-9, 0.3, 0.5, 0.9, 0.99, 0.998, 0.9999 };
     for (size_t i = 0; i < COUNT(spins); i++) {
         double a = spins[i];
-        close_to("luminosity", a, 0, luminosity(kd_disk_flux_page_thorne, kd_kerr_energy, a),
-                 kd_kerr_efficiency(a), 1e-8);
-        close_to("Newtonian luminosity", a, 0, luminosity(kd_disk_flux_shakura_sunyaev, one, a),
-                 0.5 / kd_kerr_isco(a), 1e-8);
+        close_to("luminosity", a, 0, luminosity(kd_disk_flux_page_thorne, kd_kerr_energy, a), kd_kerr_efficiency(a),
+                 1e-8);
+        close_to("Newtonian luminosity", a, 0, luminosity(kd_disk_flux_shakura_sunyaev, one, a), 0.5 / kd_kerr_isco(a),
+                 1e-8);
     }
 }
 
@@ -96,8 +93,8 @@ static void far_away_it_is_newtonian(void **state)
     }
 }
 
-/* The table's radius is where the slope of the flux vanishes, by differences in 30 digits. Newtonian: a maximum to the digits that
- * values have next to one. */
+/* The table's radius is where the slope of the flux vanishes, by differences in 30 digits. Newtonian: a maximum to
+ * the digits that values have next to one. */
 static void peak_of_the_flux(void **state)
 {
     (void)state;
@@ -108,7 +105,8 @@ static void peak_of_the_flux(void **state)
         close_to("peak flux", p->a, r, kd_disk_flux_page_thorne(p->a, r), p->flux, 1e-10);
         r = kd_disk_peak_shakura_sunyaev(p->a);
         double top = kd_disk_flux_shakura_sunyaev(p->a, r);
-        assert_true(top > kd_disk_flux_shakura_sunyaev(p->a, r * (1 + 1e-6)) && top > kd_disk_flux_shakura_sunyaev(p->a, r * (1 - 1e-6)));
+        assert_true(top > kd_disk_flux_shakura_sunyaev(p->a, r * (1 + 1e-6)) &&
+                    top > kd_disk_flux_shakura_sunyaev(p->a, r * (1 - 1e-6)));
     }
 }
 
@@ -118,8 +116,7 @@ static void redshift_without_spin(void **state)
     (void)state;
     for (double r = 6; r < 1e5; r *= 1.3)
         for (double lambda = -5; lambda <= 5; lambda += 0.5)
-            close_to("g", 0, r, kd_disk_redshift(0, r, lambda),
-                     sqrt(1 - 3 / r) / (1 - lambda / (r * sqrt(r))), 1e-14);
+            close_to("g", 0, r, kd_disk_redshift(0, r, lambda), sqrt(1 - 3 / r) / (1 - lambda / (r * sqrt(r))), 1e-14);
 }
 
 /* g = 1/(-k.u) with k_t = -1, k_phi = lambda and u = u^t (1, 0, 0, Omega): Omega where the r-derivative of
@@ -199,10 +196,10 @@ static void temperature_in_kelvin(void **state)
         double flux = kd_disk_flux_page_thorne(t->a, t->r);
         double got = kd_disk_temperature(flux, t->a, t->mass_msun, t->mdot_edd);
         close_to("temperature", t->a, t->r, got, t->kelvin, 1e-5);
-        close_to("sixteen times the mass", t->a, t->r,
-                 kd_disk_temperature(flux, t->a, 16 * t->mass_msun, t->mdot_edd), got / 2, 1e-14);
-        close_to("sixteen times the rate", t->a, t->r,
-                 kd_disk_temperature(flux, t->a, t->mass_msun, 16 * t->mdot_edd), got * 2, 1e-14);
+        close_to("sixteen times the mass", t->a, t->r, kd_disk_temperature(flux, t->a, 16 * t->mass_msun, t->mdot_edd),
+                 got / 2, 1e-14);
+        close_to("sixteen times the rate", t->a, t->r, kd_disk_temperature(flux, t->a, t->mass_msun, 16 * t->mdot_edd),
+                 got * 2, 1e-14);
     }
 }
 

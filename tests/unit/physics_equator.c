@@ -1,5 +1,5 @@
-/* Epicyclic frequencies, effective potentials and frame dragging against numbers worked out from the metric and Carter's
- * potentials (tests/oracle/equator_reference.py). */
+/* Epicyclic frequencies, effective potentials and frame dragging against numbers worked out from the metric and
+ * Carter's potentials (tests/oracle/equator_reference.py). */
 #include "physics/epicyclic.h"
 #include "physics/kerr.h"
 #include "physics/orbit_bound.h"
@@ -45,8 +45,9 @@ static void frequencies(void **state)
         within("kappa", 0, r, kd_epicyclic_radial(0, r), sqrt(1 - 6 / r) / (r * sqrt(r)), 1e-14 * pow(r, -1.5));
 }
 
-/* Along geodesics of small eccentricity, by elliptic functions: the azimuth runs ahead of its mean by the shear. From periastron
- * r = r0 (1 - e cos kappa t), so that phi is behind by shear r0 e sin(kappa t)/kappa. To first order in e over the distance to the ISCO. */
+/* Along geodesics of small eccentricity, by elliptic functions: the azimuth runs ahead of its mean by the shear.
+ * From periastron r = r0 (1 - e cos kappa t), so that phi is behind by shear r0 e sin(kappa t)/kappa. To first order
+ * in e over the distance to the ISCO. */
 static void shear(void **state)
 {
     (void)state;
@@ -75,11 +76,14 @@ static void potentials(void **state)
     (void)state;
     for (size_t i = 0; i < COUNT(potential_reference); i++) {
         const struct potential_reference *p = &potential_reference[i];
-        /* Where a L < 0 two terms cancel: their size counts. Next to the horizon sqrt(r - r+) is known to 1e-16 of r+. */
+        /* Where a L < 0 two terms cancel: their size counts. Next to the horizon sqrt(r - r+) is known to 1e-16 of
+         * r+. */
         double near = 1e-15 / (p->r - kd_kerr_horizon(p->a)), drag = fabs(kd_kerr_dragging(p->a, p->r, 0) * p->l);
         double loss = 2e-15 + fmin(near, 1e-9);
-        within("V of matter", p->a, p->r, kd_potential(p->a, p->l, 1, p->r), p->matter, loss * (2 * drag + fabs(p->matter)));
-        within("V of light", p->a, p->r, kd_potential(p->a, p->l, 0, p->r), p->light, loss * (2 * drag + fabs(p->light)));
+        within("V of matter", p->a, p->r, kd_potential(p->a, p->l, 1, p->r), p->matter,
+               loss * (2 * drag + fabs(p->matter)));
+        within("V of light", p->a, p->r, kd_potential(p->a, p->l, 0, p->r), p->light,
+               loss * (2 * drag + fabs(p->light)));
     }
 }
 
@@ -126,8 +130,8 @@ static void dragging(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(frequencies), cmocka_unit_test(shear), cmocka_unit_test(potentials),
-                                        cmocka_unit_test(turning_points), cmocka_unit_test(no_orbit),
-                                        cmocka_unit_test(dragging) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(frequencies), cmocka_unit_test(shear),
+                                        cmocka_unit_test(potentials),  cmocka_unit_test(turning_points),
+                                        cmocka_unit_test(no_orbit),    cmocka_unit_test(dragging) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -23,12 +23,10 @@ static void close_to(const char *what, double a, double e, double got, double wa
                  fabs(got / want - 1), relative);
 }
 
-/* Third derivatives of the ellipse's quadrupole moments by differences of its 40 nearest points would be noisy: the equation
- * of motion x'' = -x/r^3 gives them exactly, d3(x_i x_j) = -(4/r^3)(x_i v_j + v_i x_j) + (6 r v/r^5) x_i x_j, and
- * d2(x_i x_j) = 2 v_i v_j - 2 x_i x_j/r^3. Traces are taken out. */
-struct loss {
-    double energy, momentum; /* d/dt, for eta = 1 */
-};
+/* Third derivatives of the ellipse's quadrupole moments by differences of its 40 nearest points would be noisy: the
+ * equation of motion x'' = -x/r^3 gives them exactly, d3(x_i x_j) = -(4/r^3)(x_i v_j + v_i x_j) + (6 r v/r^5) x_i
+ * x_j, and d2(x_i x_j) = 2 v_i v_j - 2 x_i x_j/r^3. Traces are taken out. */
+struct loss { double energy, momentum; /* d/dt, for eta = 1 */ };
 
 static struct loss radiated(double a, double e)
 {
@@ -75,7 +73,8 @@ static void rates(void **state)
         }
         close_to("dP/dt", a, e, kd_inspiral_period_rate(eta, a, e), 3 * M_PI * sqrt(a) * da, 1e-12);
     }
-    close_to("enhancement", 1, 0.617131, kd_inspiral_enhancement(0.617131), 11.857, 1e-4); /* Hulse and Taylor's pulsar: 11.86 */
+    close_to("enhancement", 1, 0.617131, kd_inspiral_enhancement(0.617131), 11.857,
+             1e-4); /* Hulse and Taylor's pulsar: 11.86 */
 }
 
 static void time_by_quadrature(void **state)
@@ -96,7 +95,8 @@ static void limits(void **state)
     close_to("circle", a, 0, kd_inspiral_time(eta, a, 0), circle, 1e-14);
     for (double d = 1e-4; d > 1e-12; d /= 10) {
         double e = 1 - d, flat = (1 - e) * (1 + e);
-        close_to("nearly parabolic", a, e, kd_inspiral_time(eta, a, e), circle * 768.0 / 425 * pow(flat, 3.5), 2.5 * sqrt(d));
+        close_to("nearly parabolic", a, e, kd_inspiral_time(eta, a, e), circle * 768.0 / 425 * pow(flat, 3.5),
+                 2.5 * sqrt(d));
     }
 }
 
@@ -116,9 +116,10 @@ static void axis_and_time_agree(void **state)
     assert_true(kd_inspiral_axis(a0, e0, e0) == a0 && kd_inspiral_axis(a0, e0, 0) == 0);
 }
 
-/* PSR B1913+16 as Weisberg, Nice & Taylor 2010, ApJ 722, 1030, table 2 give it: masses 1.4398 and 1.3886, P = 0.322997448911 d,
- * e = 0.6171334, and from them -2.402531e-12 +- 14. "300 million years" to the merger: Taylor & Weisberg 1989. The double
- * pulsar: Kramer et al. 2006, Science 314, 97: 1.3381 and 1.2489, 0.10225156248 d, 0.0877775, 1.24787e-12 (13) and 85 Myr. */
+/* PSR B1913+16 as Weisberg, Nice & Taylor 2010, ApJ 722, 1030, table 2 give it: masses 1.4398 and 1.3886, P =
+ * 0.322997448911 d, e = 0.6171334, and from them -2.402531e-12 +- 14. "300 million years" to the merger: Taylor &
+ * Weisberg 1989. The double pulsar: Kramer et al. 2006, Science 314, 97: 1.3381 and 1.2489, 0.10225156248 d,
+ * 0.0877775, 1.24787e-12 (13) and 85 Myr. */
 static void pulsars(void **state)
 {
     (void)state;
@@ -136,8 +137,9 @@ static void pulsars(void **state)
     }
 }
 
-/* f' = 96/5 pi^(8/3) Mc^(5/3) f^(11/3), and round numbers: 4.4 kHz for the last stable orbit of one solar mass, 134 Hz a second
- * of 1.21 solar masses before the end (Maggiore 4.20), 2.8 % more than the wave of a circle at the same time has by Kepler. */
+/* f' = 96/5 pi^(8/3) Mc^(5/3) f^(11/3), and round numbers: 4.4 kHz for the last stable orbit of one solar mass, 134
+ * Hz a second of 1.21 solar masses before the end (Maggiore 4.20), 2.8 % more than the wave of a circle at the same
+ * time has by Kepler. */
 static void chirp(void **state)
 {
     (void)state;
@@ -149,8 +151,10 @@ static void chirp(void **state)
             close_to("df/dt", tau, 0, slope, want, 1e-5);
             double a = pow(M_PI * f, -2.0 / 3);
             close_to("tau", a, 0, kd_inspiral_time(eta, a, 0), tau, 1e-13);
-            /* Isaacson's flux, 2 (pi f h)^2/(32 pi) each for h+ and hx face-on, (1 + c^2)^2/4 + c^2 averages to 4/5 of 2 */
-            double strain = kd_inspiral_strain(eta, f, 1e9), flux = pow(2 * M_PI * f * strain, 2) / (32 * M_PI) * 2 * 0.4;
+            /* Isaacson's flux, 2 (pi f h)^2/(32 pi) each for h+ and hx face-on, (1 + c^2)^2/4 + c^2 averages to 4/5
+             * of 2 */
+            double strain = kd_inspiral_strain(eta, f, 1e9),
+                   flux = pow(2 * M_PI * f * strain, 2) / (32 * M_PI) * 2 * 0.4;
             close_to("power", a, 0, flux * 4 * M_PI * 1e18, kd_inspiral_power(eta, a, 0), 1e-12);
         }
     close_to("last stable", 6, 0, kd_inspiral_frequency_isco() / sun_s, 4397, 1e-3);
@@ -164,16 +168,22 @@ static void chirp(void **state)
 static void outside_the_domain(void **state)
 {
     (void)state;
-    assert_true(isnan(kd_inspiral_time(0.26, 10, 0)) && isnan(kd_inspiral_time(0.2, 10, 1)) && isnan(kd_inspiral_time(0.2, -1, 0)));
-    assert_true(isnan(kd_inspiral_axis(10, 0, 0)) && isnan(kd_inspiral_eta(0)) && isnan(kd_inspiral_strain(0.2, 0.1, 0)));
+    assert_true(isnan(kd_inspiral_time(0.26, 10, 0)) && isnan(kd_inspiral_time(0.2, 10, 1)) &&
+                isnan(kd_inspiral_time(0.2, -1, 0)));
+    assert_true(isnan(kd_inspiral_axis(10, 0, 0)) && isnan(kd_inspiral_eta(0)) &&
+                isnan(kd_inspiral_strain(0.2, 0.1, 0)));
     assert_true(isnan(kd_inspiral_enhancement(1)) && isnan(kd_inspiral_period_rate(0.2, 10, -0.1)));
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rates),   cmocka_unit_test(time_by_quadrature), cmocka_unit_test(limits),
-        cmocka_unit_test(pulsars), cmocka_unit_test(axis_and_time_agree), cmocka_unit_test(chirp),
+        cmocka_unit_test(rates),
+        cmocka_unit_test(time_by_quadrature),
+        cmocka_unit_test(limits),
+        cmocka_unit_test(pulsars),
+        cmocka_unit_test(axis_and_time_agree),
+        cmocka_unit_test(chirp),
         cmocka_unit_test(outside_the_domain),
     };
     return cmocka_run_group_tests_name("physics_inspiral", tests, NULL, NULL);

@@ -17,8 +17,8 @@
 static void close_to(const char *what, double a, double r, double got, double want, double relative)
 {
     if (!(fabs(got - want) <= relative * fabs(want)))
-        fail_msg("%s at a = %.17g, r = %.17g: %.17g, not %.17g: off by %.2g, allowed %.2g", what, a, r, got,
-                 want, fabs(got / want - 1), relative);
+        fail_msg("%s at a = %.17g, r = %.17g: %.17g, not %.17g: off by %.2g, allowed %.2g", what, a, r, got, want,
+                 fabs(got / want - 1), relative);
 }
 
 /* The header promises 1e-14 for the ISCO and a few ulp for the horizon; the others are one or two elementary
@@ -98,8 +98,7 @@ static void the_isco_is_the_minimum(void **state)
         double r = kd_kerr_isco(a), gap = r - kd_kerr_photon_orbit(a), step = 0.05 * gap;
         double (*const functions[])(double, double) = { kd_kerr_energy, kd_kerr_momentum };
         for (int i = 0; i < 2; i++) {
-            double at = functions[i](a, r), left = functions[i](a, r - step),
-                   right = functions[i](a, r + step);
+            double at = functions[i](a, r), left = functions[i](a, r - step), right = functions[i](a, r + step);
             if (!(left > at && right > at))
                 fail_msg("a = %g: no minimum of %s at the ISCO", a, i ? "L" : "E");
             double h = 1e-3 * gap, slope = (functions[i](a, r + h) - functions[i](a, r - h)) / (2 * h);
@@ -117,7 +116,8 @@ static void hardly_any_spin(void **state)
     (void)state;
     for (double a = 1e-5; a > 1e-320; a *= a > 1e-12 ? 0.997 : 0.01)
         for (int sign = -1; sign <= 1; sign += 2)
-            close_to("ISCO", sign * a, 0, kd_kerr_isco(sign * a), 6 - sign * a * 4 * sqrt(2. / 3) - 7. / 18 * a * a, 1e-15);
+            close_to("ISCO", sign * a, 0, kd_kerr_isco(sign * a), 6 - sign * a * 4 * sqrt(2. / 3) - 7. / 18 * a * a,
+                     1e-15);
 }
 
 /* 2000 spins crowding towards +-1: continuous, ordered, monotone. */
@@ -127,8 +127,7 @@ static void order_of_the_radii(void **state)
     double last = 9.01;
     for (int i = -1000; i <= 1000; i++) {
         double a = copysign(-expm1(-abs(i) * 0.0276), i); /* |a| up to 1 - 1e-12 */
-        double horizon = kd_kerr_horizon(a), photon = kd_kerr_photon_orbit(a),
-               bound = kd_kerr_marginally_bound(a);
+        double horizon = kd_kerr_horizon(a), photon = kd_kerr_photon_orbit(a), bound = kd_kerr_marginally_bound(a);
         double isco = kd_kerr_isco(a);
         if (!(horizon <= photon && photon < bound && bound < isco && isco < last))
             fail_msg("a = %.17g: %g, %g, %g, %g after %g", a, horizon, photon, bound, isco, last);

@@ -64,8 +64,7 @@ static void rays_agree(void **state)
     const double spins[] = { 0, 0.5, 0.9, -0.9, 0.998 }, cosines[] = { 1, 0.5, 0.1, -0.7 },
                  sources[] = { 1.9999, 3, 6, 40 };
     for (int k = 0; k < 5 * 4 * 4 * 3 * 5; k++) {
-        double a = spins[k % 5], u = cosines[k / 5 % 4], source = sources[k / 20 % 4],
-               angle = 0.7 + 2 * (k / 80 % 3);
+        double a = spins[k % 5], u = cosines[k / 5 % 4], source = sources[k / 20 % 4], angle = 0.7 + 2 * (k / 80 % 3);
         int n = 1 + k / 240;
         struct kd_critical c = curve_of(a, u);
         struct kd_critical_point p = kd_critical_at(&c, angle);
@@ -84,9 +83,8 @@ static void rays_agree(void **state)
         /* what is left of d in alpha and beta, times d ln r/d ln d */
         double r = path.crossing[n].r, allowed = 1e-12 + 100 * 1e-15 / fabs(d);
         if (!(fabs(r / source - 1) < allowed))
-            fail_msg(
-                "a = %g, u = %g, angle %g, n = %d, source %g: d = %g sees %.15g, off by %.2g, allowed %.2g",
-                a, u, angle, n, source, d, r, r / source - 1, allowed);
+            fail_msg("a = %g, u = %g, angle %g, n = %d, source %g: d = %g sees %.15g, off by %.2g, allowed %.2g", a, u,
+                     angle, n, source, d, r, r / source - 1, allowed);
     }
 }
 
@@ -102,14 +100,12 @@ static void demagnification(void **state)
         double source = k / 60 == 0 ? kd_kerr_horizon(a) : k / 60 == 1 ? 8 : INFINITY;
         struct kd_critical c = curve_of(a, u);
         struct kd_critical_point p = kd_critical_at(&c, angle);
-        double gamma = kd_shell_exponents(&p.orbit).gamma, last = NAN, last_off = 1,
-               floor = 1e-13 / sqrt(1 - a);
+        double gamma = kd_shell_exponents(&p.orbit).gamma, last = NAN, last_off = 1, floor = 1e-13 / sqrt(1 - a);
         for (int n = 2; n <= 30; n++) {
             double d = kd_lensing_edge(&c, &p, n, source), off = d / last * exp(gamma) - 1;
             assert_true(d < 0 ? source < 2.1 : source > 2.1);
             if (n > 2) {
-                if (!(fabs(off) < fmax(1.7 * last_off * exp(-gamma), 100 * fabs(last)) + floor) && n > 4 &&
-                    a < 0.999)
+                if (!(fabs(off) < fmax(1.7 * last_off * exp(-gamma), 100 * fabs(last)) + floor) && n > 4 && a < 0.999)
                     fail_msg("a = %.17g, u = %g, angle %g, source %g, n = %d: d = %g, ratio %.15g, not %.15g "
                              "(%g, before %g)",
                              a, u, angle, source, n, d, d / last, exp(-gamma), off, last_off);
@@ -118,8 +114,8 @@ static void demagnification(void **state)
             last = d;
         }
         if (!(last_off < 1e4 * fabs(last) + floor))
-            fail_msg("a = %.17g, u = %g, angle %g, source %g: d = %g, still off by %g", a, u, angle, source,
-                     last, last_off);
+            fail_msg("a = %.17g, u = %g, angle %g, source %g: d = %g, still off by %g", a, u, angle, source, last,
+                     last_off);
     }
 }
 
@@ -142,10 +138,7 @@ static double cubic(const void *root, double x)
     return y * y * y;
 }
 
-static double step(const void *root, double x)
-{
-    return x < *(const double *)root ? -1 : 1;
-}
+static double step(const void *root, double x) { return x < *(const double *)root ? -1 : 1; }
 
 static void roots(void **state)
 {

@@ -1,5 +1,6 @@
-/* Line profiles and spectra of disks against sums over rays of the image plane, transfer functions against rays integrated in Kerr-Schild coordinates, lamps against rays of a lamp in flat space and against Schwarzschild's, and the image of the disk against rays integrated
- * in Kerr-Schild coordinates (tests/oracle/kerr_schild.h). */
+/* Line profiles and spectra of disks against sums over rays of the image plane, transfer functions against rays
+ * integrated in Kerr-Schild coordinates, lamps against rays of a lamp in flat space and against Schwarzschild's, and
+ * the image of the disk against rays integrated in Kerr-Schild coordinates (tests/oracle/kerr_schild.h). */
 #include "physics/disk.h"
 #include "physics/disk_image.h"
 #include "physics/disk_spectrum.h"
@@ -29,12 +30,15 @@ static struct kd_disk_image image;
 static void within(const char *what, double a, double i, double got, double want, double bound)
 {
     if (!(fabs(got - want) <= bound))
-        fail_msg("%s at a = %g, i = %g: %.12g, not %.12g: off by %.2g, allowed %.2g", what, a, i, got, want, fabs(got - want), bound);
+        fail_msg("%s at a = %g, i = %g: %.12g, not %.12g: off by %.2g, allowed %.2g", what, a, i, got, want,
+                 fabs(got - want), bound);
 }
 
-/* Light of a ring reaches the image plane where a ray that is integrated there starts in the ring, with that redshift and off the normal by that angle: |p_z| of the oracle over the
- * energy for the gas. Interpolation leaves 3e-4 of r at 75 degrees and a = 0.998, and next to nothing elsewhere; mu = g sqrt(eta)/r has that error of r and, where light grazes the disk,
- * twice that of beta. g knows the place by alpha alone, which the oracle gets too: rounding is left. */
+/* Light of a ring reaches the image plane where a ray that is integrated there starts in the ring, with that
+ * redshift and off the normal by that angle: |p_z| of the oracle over the energy for the gas. Interpolation leaves
+ * 3e-4 of r at 75 degrees and a = 0.998, and next to nothing elsewhere; mu = g sqrt(eta)/r has that error of r and,
+ * where light grazes the disk, twice that of beta. g knows the place by alpha alone, which the oracle gets too:
+ * rounding is left. */
 static void test_rings_are_where_rays_lead(void **state)
 {
     static const double spins[] = { 0, 0.9, 0.998, -0.7 }, inclinations[] = { 10, 60, 75 }, radii[] = { 1.02, 2.5, 30 };
@@ -61,7 +65,8 @@ static void test_rings_are_where_rays_lead(void **state)
         }
 }
 
-/* The table's nodes lie where rays lead to their ring, though most of them come from one ray and a step that is not looked at: within 5e-7 of r up to 80 degrees, 3e-6 at 85. Next to edge on they are within 2e-5. */
+/* The table's nodes lie where rays lead to their ring, though most of them come from one ray and a step that is not
+ * looked at: within 5e-7 of r up to 80 degrees, 3e-6 at 85. Next to edge on they are within 2e-5. */
 static void test_nodes(void **state)
 {
     static const double spins[] = { 0, 0.9, 0.998, 0.99999, -0.998 }, inclinations[] = { 0, 40, 72, 80, 85, 86.9 };
@@ -75,7 +80,10 @@ static void test_nodes(void **state)
                 double r = image.origin + (image.isco - image.origin) * pow((double)KD_DISK_IMAGE_RINGS / ring, 4);
                 kd_disk_image_ring(&image, r, 1, image.angles, alpha, beta);
                 for (int j = 0; j < image.angles; j++)
-                    within("node", a, i, kd_disk_image_radius(&image, alpha[j], beta[j]) / r, 1, i > 85 ? 2e-5 : i > 80 ? 3e-6 : 5e-7);
+                    within("node", a, i, kd_disk_image_radius(&image, alpha[j], beta[j]) / r, 1,
+                           i > 85   ? 2e-5
+                           : i > 80 ? 3e-6
+                                    : 5e-7);
             }
         }
 }
@@ -100,18 +108,22 @@ enum { EDGES = 60 };
 static void sum_over_rays(double a, double i, double outer, const double *edges, double *in)
 {
     const int across = 500, around = 400;
-    double squeeze = cos(i) + 0.15, isco = kd_kerr_isco(a), first = log(0.9), last = log(1.25 * outer), step = (last - first) / across, all = 0;
+    double squeeze = cos(i) + 0.15, isco = kd_kerr_isco(a), first = log(0.9), last = log(1.25 * outer),
+           step = (last - first) / across, all = 0;
     memset(in, 0, EDGES * sizeof *in);
     for (int k = 0; k < across; k++)
         for (int j = 0; j < around; j++) {
             /* Each direction begins elsewhere, so that no edge of the disk runs along the grid. */
             double rho = exp(first + (k + fmod(0.6180339887498949 * j, 1)) * step), chi = 2 * M_PI * (j + 0.5) / around;
-            struct kd_null_ray ray = { .spin = a, .radius = INFINITY, .cos_theta = cos(i), .sin_theta = sin(i), .orders = 1 };
+            struct kd_null_ray ray = {
+                .spin = a, .radius = INFINITY, .cos_theta = cos(i), .sin_theta = sin(i), .orders = 1
+            };
             ray.alpha = rho * cos(chi), ray.beta = squeeze * rho * sin(chi);
             struct kd_null_path path = kd_null_trace_fast(&ray);
             if (!path.crossings || path.crossing[0].r < isco || path.crossing[0].r > outer)
                 continue;
-            double r = path.crossing[0].r, g = kd_disk_redshift(a, r, -ray.alpha * sin(i)), light = g * g * g / (r * r * r) * rho * rho;
+            double r = path.crossing[0].r, g = kd_disk_redshift(a, r, -ray.alpha * sin(i)),
+                   light = g * g * g / (r * r * r) * rho * rho;
             all += light;
             for (int e = 0; e < EDGES; e++)
                 in[e] += g < edges[e] ? light : 0;
@@ -120,8 +132,10 @@ static void sum_over_rays(double a, double i, double outer, const double *edges,
         in[e] /= all;
 }
 
-/* A sum that may err as much as is asked for, and not many times less: within that of the rays' sum, its total within a fifth of a part in a thousand of the closest one's. */
-static void tolerated(double a, double i, const struct kd_line_params *closest, const double *edges, const double *in, double total)
+/* A sum that may err as much as is asked for, and not many times less: within that of the rays' sum, its total
+ * within a fifth of a part in a thousand of the closest one's. */
+static void tolerated(double a, double i, const struct kd_line_params *closest, const double *edges, const double *in,
+                      double total)
 {
     struct kd_line_params params = *closest;
     struct kd_line_profile profile;
@@ -138,12 +152,11 @@ static void tolerated(double a, double i, const struct kd_line_params *closest, 
     within("total", a, i, profile.total / total, 1, 2e-4);
 }
 
-/* 200 000 rays: the sum itself is off by up to 5e-4, which 36 times as many rays bring to 1e-4. The profile's estimate of its error has to hold, and be below the 0.3 % that is asked for. */
+/* 200 000 rays: the sum itself is off by up to 5e-4, which 36 times as many rays bring to 1e-4. The profile's
+ * estimate of its error has to hold, and be below the 0.3 % that is asked for. */
 static void test_cumulative_share(void **state)
 {
-    static const struct {
-        double a, i;
-    } cases[] = { { 0, 30 }, { 0.5, 60 }, { 0.998, 30 }, { 0.998, 80 } };
+    static const struct { double a, i; } cases[] = { { 0, 30 }, { 0.5, 60 }, { 0.998, 30 }, { 0.998, 80 } };
     double edges[EDGES + 1] = { 0 }, in[EDGES], share[EDGES];
     const double outer = 100;
     (void)state;
@@ -170,7 +183,8 @@ static void test_cumulative_share(void **state)
     }
 }
 
-/* Beside triangles between rays (tests/oracle/line_triangles.h), where the horns are sharpest and the light falls steeply: what is told is more than the error, within what is asked for, and not ten times too much. */
+/* Beside triangles between rays (tests/oracle/line_triangles.h), where the horns are sharpest and the light falls
+ * steeply: what is told is more than the error, within what is asked for, and not ten times too much. */
 static void test_told_error(void **state)
 {
     static const struct {
@@ -188,7 +202,9 @@ static void test_told_error(void **state)
         double apart = lt_profile(&image, cases[k].index, 400, 512, 256, edges, BINS, want);
         assert_true(apart >= 0);
         for (size_t t = COUNT(tolerances); t-- > 0;) {
-            const struct kd_line_params params = { .inner = image.isco, .outer = 400, .index = cases[k].index, .tolerance = tolerances[t] };
+            const struct kd_line_params params = {
+                .inner = image.isco, .outer = 400, .index = cases[k].index, .tolerance = tolerances[t]
+            };
             struct kd_line_profile profile;
             struct kd_error error;
             double sum = 0, worst = 0;
@@ -198,9 +214,12 @@ static void test_told_error(void **state)
                 sum += share[e];
                 worst = fmax(worst, fabs(sum - want[e]));
             }
-            print_message("a = %g, i = %g, r^-%g, tolerance %g: off by %.1e, told %.1e; the triangles %.1e\n", a, i, cases[k].index, tolerances[t], worst, profile.error, apart);
-            if (worst > profile.error + 0.1 * apart || profile.error > fmax(tolerances[t], 7e-4) || worst > 1e-3 || profile.error > 10 * worst + apart)
-                fail_msg("a = %g, i = %g, r^-%g, tolerance %g: off by %.2g, told %.2g", a, i, cases[k].index, tolerances[t], worst, profile.error);
+            print_message("a = %g, i = %g, r^-%g, tolerance %g: off by %.1e, told %.1e; the triangles %.1e\n", a, i,
+                          cases[k].index, tolerances[t], worst, profile.error, apart);
+            if (worst > profile.error + 0.1 * apart || profile.error > fmax(tolerances[t], 7e-4) || worst > 1e-3 ||
+                profile.error > 10 * worst + apart)
+                fail_msg("a = %g, i = %g, r^-%g, tolerance %g: off by %.2g, told %.2g", a, i, cases[k].index,
+                         tolerances[t], worst, profile.error);
             total = tolerances[t] == 0 ? profile.total : total;
             within("total", a, i, profile.total / total, 1, 2e-4);
         }
@@ -215,7 +234,13 @@ static void test_bins_add_up(void **state)
     struct kd_error error;
     (void)state;
     assert_true(kd_disk_image_init(&image, 0.9, 40 * RADIAN));
-    const struct kd_line_params params = { .inner = 3, .outer = 50, .emissivity = KD_LINE_BROKEN, .index = 5, .outer_index = 2, .break_r = 8, .limb = KD_LIMB_LAOR };
+    const struct kd_line_params params = { .inner = 3,
+                                           .outer = 50,
+                                           .emissivity = KD_LINE_BROKEN,
+                                           .index = 5,
+                                           .outer_index = 2,
+                                           .break_r = 8,
+                                           .limb = KD_LIMB_LAOR };
     for (int e = 0; e <= 80; e++)
         fine[e] = 0.4 + 0.8 * e / 80, coarse[e / 2] = fine[e & ~1];
     assert_int_equal(kd_line_profile(&image, &params, coarse, 40, few, &profile, &error), KD_OK);
@@ -224,7 +249,8 @@ static void test_bins_add_up(void **state)
         within("bin", 0.9, fine[2 * e], many[2 * e] + many[2 * e + 1], few[e], 1e-12);
 }
 
-/* The laws of limb darkening and emissivity, and energies for photons, face on, where all that a ring sends has one energy. */
+/* The laws of limb darkening and emissivity, and energies for photons, face on, where all that a ring sends has one
+ * energy. */
 static void test_face_on(void **state)
 {
     double edges[] = { 0.1, 0.6, 0.7, 0.8, 0.9, 0.99 }, share[5];
@@ -243,7 +269,8 @@ static void test_face_on(void **state)
                 double middle = 0.5 * (low + high), at = kd_disk_image_radius(&image, middle, 0);
                 *(at < r ? &low : &high) = middle;
             }
-            double mid = r * pow(200. / 6, -0.5 / 4000), g = sqrt(1 - 3 / mid), light = pow(mid, -2.5) * pow(g, energy ? 4 : 3) * (low * low - b2);
+            double mid = r * pow(200. / 6, -0.5 / 4000), g = sqrt(1 - 3 / mid),
+                   light = pow(mid, -2.5) * pow(g, energy ? 4 : 3) * (low * low - b2);
             b2 = low * low;
             for (int e = 0; e < 5 && k; e++)
                 in[e] += g >= edges[e] && g < edges[e + 1] ? light : 0;
@@ -258,14 +285,16 @@ static void test_face_on(void **state)
     within("even", 0, 0, kd_line_limb(KD_LIMB_ISOTROPIC, 0.5), 1, 0);
 }
 
-/* A ray of Schwarzschild from r = h on the axis at delta, integrated in its plane: u'' + u = 3u^2, u = 1/r, over a quarter turn by Runge and Kutta. */
+/* A ray of Schwarzschild from r = h on the axis at delta, integrated in its plane: u'' + u = 3u^2, u = 1/r, over a
+ * quarter turn by Runge and Kutta. */
 static double quarter_turn(double h, double delta)
 {
     enum { STEPS = 4000 };
     double u = 1 / h, v = u * sqrt(1 - 2 / h) / tan(delta), s = M_PI / 2 / STEPS;
     for (int k = 0; k < STEPS && u > 0 && u < 0.5; k++) {
         double k1 = 3 * u * u - u, u2 = u + 0.5 * s * v, v2 = v + 0.5 * s * k1, k2 = 3 * u2 * u2 - u2;
-        double u3 = u + 0.5 * s * v2, v3 = v + 0.5 * s * k2, k3 = 3 * u3 * u3 - u3, u4 = u + s * v3, v4 = v + s * k3, k4 = 3 * u4 * u4 - u4;
+        double u3 = u + 0.5 * s * v2, v3 = v + 0.5 * s * k2, k3 = 3 * u3 * u3 - u3, u4 = u + s * v3, v4 = v + s * k3,
+               k4 = 3 * u4 * u4 - u4;
         u += s * (v + 2 * v2 + 2 * v3 + v4) / 6, v += s * (k1 + 2 * k2 + 2 * k3 + k4) / 6;
     }
     return 1 / u;
@@ -283,11 +312,13 @@ static void test_lamp(void **state)
     for (double h = 3; h < 50; h *= 2.3) {
         assert_true(kd_lamppost_init(&lamp, 0, h, 1.7, 6, 1000));
         for (double delta = 0.7; delta < 1.5; delta += 0.2) {
-            double r = quarter_turn(h, delta), slope = (quarter_turn(h, delta + 1e-4) - quarter_turn(h, delta - 1e-4)) / 2e-4;
+            double r = quarter_turn(h, delta),
+                   slope = (quarter_turn(h, delta + 1e-4) - quarter_turn(h, delta - 1e-4)) / 2e-4;
             if (r < 6 || r > 900)
                 continue;
             within("reach", h, delta, kd_lamppost_reach(0, h, delta) / r, 1, 1e-7);
-            double ut = 1 / sqrt(1 - 3 / r), g = ut * sqrt(1 - 2 / h), want = sin(delta) / slope * pow(g, 1.7) / (4 * M_PI * r * ut);
+            double ut = 1 / sqrt(1 - 3 / r), g = ut * sqrt(1 - 2 / h),
+                   want = sin(delta) / slope * pow(g, 1.7) / (4 * M_PI * r * ut);
             within("lamp", h, delta, kd_lamppost_at(&lamp, r) / want, 1, 1e-4);
         }
     }
@@ -314,9 +345,7 @@ static void test_lamp(void **state)
 }
 
 /* Where a ray of the oracle starts in the plane, and with which redshift. */
-struct start {
-    double r, g;
-};
+struct start { double r, g; };
 
 static struct start start_of(double a, double u, double alpha, double beta)
 {
@@ -329,7 +358,8 @@ static struct start start_of(double a, double u, double alpha, double beta)
 static double slopes_of(double a, double u, double alpha, double beta)
 {
     const double h = 2e-3;
-    struct start l = start_of(a, u, alpha - h, beta), r = start_of(a, u, alpha + h, beta), d = start_of(a, u, alpha, beta - h), t = start_of(a, u, alpha, beta + h);
+    struct start l = start_of(a, u, alpha - h, beta), r = start_of(a, u, alpha + h, beta),
+                 d = start_of(a, u, alpha, beta - h), t = start_of(a, u, alpha, beta + h);
     return ((r.g - l.g) * (t.r - d.r) - (t.g - d.g) * (r.r - l.r)) / (4 * h * h);
 }
 
@@ -337,7 +367,8 @@ static void test_transfer_function(void **state)
 {
     static const struct {
         double a, i, r;
-    } cases[] = { { 0, 30, 8 }, { 0.998, 30, 1.3 }, { 0.998, 75, 4 }, { 0.7, 60, 20 }, { -0.9, 80, 12 }, { 0.998, 87, 60 }, { -0.998, 87, 31.9 }, { 0, 2, 10 } };
+    } cases[] = { { 0, 30, 8 },     { 0.998, 30, 1.3 }, { 0.998, 75, 4 },     { 0.7, 60, 20 },
+                  { -0.9, 80, 12 }, { 0.998, 87, 60 },  { -0.998, 87, 31.9 }, { 0, 2, 10 } };
     static const double g_stars[] = { 0.1, 0.5, 0.93 };
     (void)state;
     for (size_t k = 0; k < COUNT(cases); k++) {
@@ -345,7 +376,8 @@ static void test_transfer_function(void **state)
         struct kd_transfer_ring ring;
         assert_true(kd_disk_image_init(&image, a, i * RADIAN));
         assert_true(kd_transfer_ring_of(&image, r, &ring));
-        /* At its ends g does not change along the ring, so that its slope is that of r, but for a factor; the ends are those of the oracle's rays. */
+        /* At its ends g does not change along the ring, so that its slope is that of r, but for a factor; the ends
+         * are those of the oracle's rays. */
         for (int end = 0; end < 2; end++) {
             alpha = ring.alpha[end], beta = ring.beta[end];
             within("end", a, i, start_of(a, u, alpha, beta).g, end ? ring.g_max : ring.g_min, 1e-8);
@@ -361,7 +393,8 @@ static void test_transfer_function(void **state)
                 struct start start = start_of(a, u, at.alpha, at.beta);
                 within("radius", a, i, start.r / r, 1, 1e-8);
                 within("g*", a, i, (start.g - ring.g_min) / (ring.g_max - ring.g_min), s, 1e-7);
-                double f = start.g * sqrt(s * (1 - s)) * (ring.g_max - ring.g_min) / (M_PI * r * fabs(slopes_of(a, u, at.alpha, at.beta)));
+                double f = start.g * sqrt(s * (1 - s)) * (ring.g_max - ring.g_min) /
+                           (M_PI * r * fabs(slopes_of(a, u, at.alpha, at.beta)));
                 within("f", a, i, at.f / f, 1, 1e-4);
             }
         }
@@ -371,7 +404,8 @@ static void test_transfer_function(void **state)
     assert_false(kd_transfer_ring_of(&image, 10, &ring));
 }
 
-/* Page & Thorne's eq. 12 by itself: -Omega'/(4 pi r (E - Omega L)^2) Int (E - Omega L) L' dr from the ISCO, with E, L and Omega of Bardeen, Press & Teukolsky, by trapezia. */
+/* Page & Thorne's eq. 12 by itself: -Omega'/(4 pi r (E - Omega L)^2) Int (E - Omega L) L' dr from the ISCO, with E,
+ * L and Omega of Bardeen, Press & Teukolsky, by trapezia. */
 enum { TABLE = 40000 };
 static double table_r[TABLE + 1], table_flux[TABLE + 1];
 
@@ -379,7 +413,8 @@ static void fill_table(double a, double inner, double outer)
 {
     double sum = 0, before = 0, l_before = 0;
     for (int k = 0; k <= TABLE; k++) {
-        double r = inner * pow(outer / inner, (double)k / TABLE), root = sqrt(r), d = sqrt(r * r - 3 * r + 2 * a * root), omega = 1 / (r * root + a);
+        double r = inner * pow(outer / inner, (double)k / TABLE), root = sqrt(r),
+               d = sqrt(r * r - 3 * r + 2 * a * root), omega = 1 / (r * root + a);
         double e = (r - 2 + a / root) / d, l = root * (r - 2 * a / root + a * a / r) / d, here = e - omega * l;
         sum += k ? 0.5 * (here + before) * (l - l_before) : 0;
         before = here, l_before = l;
@@ -389,38 +424,51 @@ static void fill_table(double a, double inner, double outer)
 
 static void test_spectrum(void **state)
 {
-    static const struct {
-        double a, i;
-    } cases[] = { { 0, 30 }, { 0.9, 60 }, { 0.998, 75 } };
+    static const struct { double a, i; } cases[] = { { 0, 30 }, { 0.9, 60 }, { 0.998, 75 } };
     enum { FREQUENCIES = 6, ACROSS = 500, AROUND = 400 };
     const double outer = 200, mass = 12, distance = 3e3, rate = 0.2, hardening = 1.6;
     (void)state;
     for (size_t k = 0; k < COUNT(cases); k++) {
-        double a = cases[k].a, i = cases[k].i, c = cos(i * RADIAN), s = sin(i * RADIAN), isco = kd_kerr_isco(a), squeeze = c + 0.15, sum[FREQUENCIES] = { 0 }, flux[FREQUENCIES];
+        double a = cases[k].a, i = cases[k].i, c = cos(i * RADIAN), s = sin(i * RADIAN), isco = kd_kerr_isco(a),
+               squeeze = c + 0.15, sum[FREQUENCIES] = { 0 }, flux[FREQUENCIES];
         double frequencies[FREQUENCIES], off, step = log(1.25 * outer / 0.9) / ACROSS;
         /* M and Mdot in SI: L = mdot 4 pi G M m_p c/sigma_T, and Mdot c^2 is that over 1 - E at the ISCO */
-        double m = 1476.625 * mass, root = sqrt(isco), efficiency = 1 - (isco - 2 + a / root) / sqrt(isco * isco - 3 * isco + 2 * a * root);
+        double m = 1476.625 * mass, root = sqrt(isco),
+               efficiency = 1 - (isco - 2 + a / root) / sqrt(isco * isco - 3 * isco + 2 * a * root);
         double power = rate * 1.2571e31 * mass / efficiency;
         fill_table(a, isco, outer);
         for (int f = 0; f < FREQUENCIES; f++)
             frequencies[f] = 1e16 * pow(300, f / (FREQUENCIES - 1.));
         for (int n = 0; n < ACROSS * AROUND; n++) {
-            double rho = 0.9 * exp((n / AROUND + fmod(0.6180339887498949 * (n % AROUND), 1)) * step), chi = 2 * M_PI * (n % AROUND + 0.5) / AROUND;
-            struct kd_null_ray ray = { .spin = a, .radius = INFINITY, .cos_theta = c, .sin_theta = s, .orders = 1, .alpha = rho * cos(chi), .beta = squeeze * rho * sin(chi) };
+            double rho = 0.9 * exp((n / AROUND + fmod(0.6180339887498949 * (n % AROUND), 1)) * step),
+                   chi = 2 * M_PI * (n % AROUND + 0.5) / AROUND;
+            struct kd_null_ray ray = { .spin = a,
+                                       .radius = INFINITY,
+                                       .cos_theta = c,
+                                       .sin_theta = s,
+                                       .orders = 1,
+                                       .alpha = rho * cos(chi),
+                                       .beta = squeeze * rho * sin(chi) };
             struct kd_null_path path = kd_null_trace_fast(&ray);
             if (!path.crossings || path.crossing[0].r < isco || path.crossing[0].r > outer)
                 continue;
             double r = path.crossing[0].r, at = TABLE * log(r / isco) / log(outer / isco);
             int low = (int)fmin(at, TABLE - 1);
-            double flat = table_flux[low] + (table_flux[low + 1] - table_flux[low]) * (r - table_r[low]) / (table_r[low + 1] - table_r[low]);
-            double t = hardening * pow(flat * power / (m * m) / 5.670374419e-8, 0.25), g = kd_disk_redshift(a, r, -ray.alpha * s);
-            double area = rho * rho * squeeze * step * 2 * M_PI / AROUND * m * m / pow(distance * 3.0856775815e16 * hardening * hardening, 2);
+            double flat = table_flux[low] + (table_flux[low + 1] - table_flux[low]) * (r - table_r[low]) /
+                                                (table_r[low + 1] - table_r[low]);
+            double t = hardening * pow(flat * power / (m * m) / 5.670374419e-8, 0.25),
+                   g = kd_disk_redshift(a, r, -ray.alpha * s);
+            double area = rho * rho * squeeze * step * 2 * M_PI / AROUND * m * m /
+                          pow(distance * 3.0856775815e16 * hardening * hardening, 2);
             for (int f = 0; f < FREQUENCIES && t > 0; f++) {
                 double there = frequencies[f] / g;
-                sum[f] += g * g * g * area * 2 * 6.62607015e-34 * pow(there, 3) / 8.987551787368e16 / expm1(6.62607015e-34 * there / (1.380649e-23 * t));
+                sum[f] += g * g * g * area * 2 * 6.62607015e-34 * pow(there, 3) / 8.987551787368e16 /
+                          expm1(6.62607015e-34 * there / (1.380649e-23 * t));
             }
         }
-        const struct kd_disk_spectrum_params params = { isco, outer, mass, distance, rate, hardening, KD_LIMB_ISOTROPIC };
+        const struct kd_disk_spectrum_params params = {
+            isco, outer, mass, distance, rate, hardening, KD_LIMB_ISOTROPIC
+        };
         struct kd_error error;
         assert_true(kd_disk_image_init(&image, a, i * RADIAN));
         assert_int_equal(kd_disk_spectrum(&image, &params, frequencies, FREQUENCIES, flux, &off, &error), KD_OK);
@@ -433,10 +481,16 @@ static void test_spectrum(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_rings_are_where_rays_lead), cmocka_unit_test(test_nodes), cmocka_unit_test(test_inclinations), cmocka_unit_test(test_cumulative_share),
+        cmocka_unit_test(test_rings_are_where_rays_lead),
+        cmocka_unit_test(test_nodes),
+        cmocka_unit_test(test_inclinations),
+        cmocka_unit_test(test_cumulative_share),
         cmocka_unit_test(test_told_error),
-        cmocka_unit_test(test_bins_add_up), cmocka_unit_test(test_face_on), cmocka_unit_test(test_lamp),
-        cmocka_unit_test(test_transfer_function), cmocka_unit_test(test_spectrum),
+        cmocka_unit_test(test_bins_add_up),
+        cmocka_unit_test(test_face_on),
+        cmocka_unit_test(test_lamp),
+        cmocka_unit_test(test_transfer_function),
+        cmocka_unit_test(test_spectrum),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

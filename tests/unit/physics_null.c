@@ -107,12 +107,10 @@ static void mirrors(void **state)
         flipped.cos_theta = -ray.cos_theta, flipped.beta = -ray.beta;
         turned.spin = -ray.spin, turned.alpha = -ray.alpha;
         struct kd_null_path p = kd_null_trace(&ray), f = kd_null_trace(&flipped), t = kd_null_trace(&turned);
-        assert_true(p.crossings == f.crossings && p.crossings == t.crossings && p.fate == f.fate &&
-                    p.fate == t.fate);
+        assert_true(p.crossings == f.crossings && p.crossings == t.crossings && p.fate == f.fate && p.fate == t.fate);
         for (int n = 0; n < p.crossings; n++) {
             const struct kd_null_crossing *x = &p.crossing[n];
-            assert_true(x->r == f.crossing[n].r && x->phi == f.crossing[n].phi &&
-                        x->delay == f.crossing[n].delay);
+            assert_true(x->r == f.crossing[n].r && x->phi == f.crossing[n].phi && x->delay == f.crossing[n].delay);
             assert_true(x->r == t.crossing[n].r && x->delay == t.crossing[n].delay);
             within(i, n, "phi turned over", azimuth_off(&ray, -x->phi, t.crossing[n].phi), 0);
         }
@@ -144,14 +142,13 @@ static void continuity(void **state)
                     double allowed = j < 2 ? 1e-11 : 1e-6; /* the axis: sqrt(2e-15) in the inclination */
                     within(k, n, "r nearby", fabs(q.crossing[n].r / p.crossing[n].r - 1), allowed);
                     within(k, n, "phi nearby", fabs(q.crossing[n].phi - p.crossing[n].phi), allowed);
-                    within(k, n, "delay nearby", fabs(q.crossing[n].delay - p.crossing[n].delay),
-                           allowed * 100);
+                    within(k, n, "delay nearby", fabs(q.crossing[n].delay - p.crossing[n].delay), allowed * 100);
                 }
             }
         }
     /* Through beta = 0, where the start is a turning point. */
-    struct kd_null_ray turn = { .spin = 0.9, .radius = INFINITY, .cos_theta = 0.5, .alpha = 8, .orders = 1 },
-                       up = turn, down = turn;
+    struct kd_null_ray turn = { .spin = 0.9, .radius = INFINITY, .cos_theta = 0.5, .alpha = 8, .orders = 1 }, up = turn,
+                       down = turn;
     up.beta = 1e-13, down.beta = -1e-13;
     double r = kd_null_trace(&turn).crossing[0].r;
     within(0, 0, "r above beta = 0", fabs(kd_null_trace(&up).crossing[0].r / r - 1), 1e-12);
@@ -178,32 +175,26 @@ static void the_axis(void **state)
 static void observers_along_a_ray(void **state)
 {
     (void)state;
-    struct kd_null_ray far = {
-        .spin = 0.9, .radius = INFINITY, .cos_theta = 0, .alpha = -7, .beta = 3, .orders = 2
-    };
+    struct kd_null_ray far = { .spin = 0.9, .radius = INFINITY, .cos_theta = 0, .alpha = -7, .beta = 3, .orders = 2 };
     struct kd_null_path p = kd_null_trace(&far);
     far.radius = 1e7;
     struct kd_null_path q = kd_null_trace(&far);
     assert_true(p.crossings == q.crossings && p.crossings > 0);
     for (int n = 0; n < p.crossings; n++) { /* what is left of the way beyond 1e7 is b^2/2r */
         within(0, n, "r from 1e7", fabs(p.crossing[n].r / q.crossing[n].r - 1), 2e-5);
-        within(0, n, "delay from 1e7", fabs(q.crossing[n].delay - 1e7 - 2 * log(1e7) - p.crossing[n].delay),
-               1e-4);
+        within(0, n, "delay from 1e7", fabs(q.crossing[n].delay - 1e7 - 2 * log(1e7) - p.crossing[n].delay), 1e-4);
     }
 }
 
 static void degenerate_input(void **state)
 {
     (void)state;
-    const struct kd_null_ray good = {
-        .spin = 0.9, .radius = 10, .cos_theta = 0.5, .alpha = 3, .beta = 3, .orders = 2
-    };
+    const struct kd_null_ray good = { .spin = 0.9, .radius = 10, .cos_theta = 0.5, .alpha = 3, .beta = 3, .orders = 2 };
     assert_int_equal(kd_null_trace(&good).status, KD_NULL_OK);
     struct kd_null_ray bad[9];
     for (size_t i = 0; i < COUNT(bad); i++)
         bad[i] = good;
-    bad[0].spin = 1, bad[1].spin = NAN, bad[2].radius = 1.4, bad[3].radius = NAN,
-    bad[4].cos_theta = 1.0000001;
+    bad[0].spin = 1, bad[1].spin = NAN, bad[2].radius = 1.4, bad[3].radius = NAN, bad[4].cos_theta = 1.0000001;
     bad[5].alpha = INFINITY, bad[6].beta = NAN, bad[7].orders = KD_NULL_ORDERS + 1, bad[8].orders = -1;
     for (size_t i = 0; i < COUNT(bad); i++) {
         struct kd_null_path p = kd_null_trace(&bad[i]);
@@ -267,8 +258,8 @@ static void many_orders(void **state)
         assert_true(isnan(p.crossing[n].error_r) == 0 && p.crossing[n].error_r > 0);
     }
     for (int n = 2; n < 5; n++) /* 3 M per radian: pi sqrt(27) */
-        within(0, n, "delay of half a turn",
-               fabs(p.crossing[n].delay - p.crossing[n - 1].delay - M_PI * sqrt(27)), 0.1);
+        within(0, n, "delay of half a turn", fabs(p.crossing[n].delay - p.crossing[n - 1].delay - M_PI * sqrt(27)),
+               0.1);
     assert_true(p.crossing[4].error_r > 100 * p.crossing[2].error_r);
 }
 
@@ -289,12 +280,9 @@ static double critical_scale(struct kd_null_ray ray, double x, double y)
 static void neighbours(void **state)
 {
     (void)state;
-    static const double spins[] = { 0, 0.5, 0.9, -0.9, 0.998 },
-                        off[] = { 1e-3, 1e-6, 1e-10, -1e-3, -1e-6, -1e-10 };
+    static const double spins[] = { 0, 0.5, 0.9, -0.9, 0.998 }, off[] = { 1e-3, 1e-6, 1e-10, -1e-3, -1e-6, -1e-10 };
     for (size_t i = 0; i < COUNT(spins) * COUNT(off) * 6; i++) {
-        struct kd_null_ray ray = {
-            .spin = spins[i % COUNT(spins)], .radius = INFINITY, .cos_theta = 0.6, .orders = 4
-        };
+        struct kd_null_ray ray = { .spin = spins[i % COUNT(spins)], .radius = INFINITY, .cos_theta = 0.6, .orders = 4 };
         double angle = 1 + (double)(i / COUNT(spins) / COUNT(off)), x = cos(angle), y = sin(angle);
         double b = critical_scale(ray, x, y) * (1 + off[i / COUNT(spins) % COUNT(off)]);
         ray.alpha = b * x, ray.beta = b * y;

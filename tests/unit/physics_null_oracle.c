@@ -24,10 +24,7 @@ static double random_unit(uint64_t *seed) /* splitmix64: the same rays on every 
     return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
 }
 
-static double pick(uint64_t *seed, const double *list, int count)
-{
-    return list[(int)(random_unit(seed) * count)];
-}
+static double pick(uint64_t *seed, const double *list, int count) { return list[(int)(random_unit(seed) * count)]; }
 
 static const double spins[] = { 0, 1e-6, 0.3, -0.5, 0.9, -0.9, 0.99, 0.998, 0.9999 };
 static const double cosines[] = { 1, 0.9563, 0.7071, 0.342, 0.01, 0, -0.5, -0.9, -1 };
@@ -44,14 +41,13 @@ static struct kd_null_ray random_ray(uint64_t *seed, double field)
     return ray;
 }
 
-static void say(const struct kd_null_ray *ray, const char *what, int n, double got, double want,
-                double allowed)
+static void say(const struct kd_null_ray *ray, const char *what, int n, double got, double want, double allowed)
 {
     fail_msg("a = %.17g, r = %.17g%s, cos = %.17g, alpha = %.17g, beta = %.17g: %s %d: %.17g, not %.17g: off "
              "by %.2g, "
              "allowed %.2g",
-             ray->spin, ray->radius, ray->outward ? " outwards" : "", ray->cos_theta, ray->alpha, ray->beta,
-             what, n, got, want, fabs(got - want), allowed);
+             ray->spin, ray->radius, ray->outward ? " outwards" : "", ray->cos_theta, ray->alpha, ray->beta, what, n,
+             got, want, fabs(got - want), allowed);
 }
 
 /* The oracle holds 1e-12 a step in a coordinate of 1e6 at first, some 1e-11 on arrival, and its errors grow
@@ -104,8 +100,7 @@ static void from_infinity(void **state)
  * loses 1/Delta to the change of coordinates. */
 static bool photon_of(const struct kd_null_ray *ray, struct ks_photon *photon)
 {
-    double a = ray->spin, u = ray->cos_theta, r = ray->radius, s = sqrt((1 - u) * (1 + u)),
-           lambda = -ray->alpha * s;
+    double a = ray->spin, u = ray->cos_theta, r = ray->radius, s = sqrt((1 - u) * (1 + u)), lambda = -ray->alpha * s;
     double eta = (ray->alpha * ray->alpha - a * a) * u * u + ray->beta * ray->beta;
     double delta = r * r - 2 * r + a * a, w = r * r + a * a - a * lambda;
     double big = w * w - delta * (eta + (lambda - a) * (lambda - a));

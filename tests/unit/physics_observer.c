@@ -1,5 +1,6 @@
-/* Every row of the table of observers against a metric that is written down here, in the form of its line element (Boyer & Lindquist
- * 1967, J. Math. Phys. 8, 265) and inverted by elimination in extended precision; constants of motion against the oracle's own frames. */
+/* Every row of the table of observers against a metric that is written down here, in the form of its line element
+ * (Boyer & Lindquist 1967, J. Math. Phys. 8, 265) and inverted by elimination in extended precision; constants of
+ * motion against the oracle's own frames. */
 #include "kerr_schild.h"
 #include "kerr_schild_frame.h"
 #include "physics/kerr.h"
@@ -18,7 +19,8 @@
 enum { T, R, THETA, PHI };
 typedef long double vector[4], matrix[4][4];
 
-/* ds^2 = -(Delta/Sigma) (dt - a sin^2 dphi)^2 + (sin^2/Sigma) ((r^2 + a^2) dphi - a dt)^2 + (Sigma/Delta) dr^2 + Sigma dtheta^2 */
+/* ds^2 = -(Delta/Sigma) (dt - a sin^2 dphi)^2 + (sin^2/Sigma) ((r^2 + a^2) dphi - a dt)^2 + (Sigma/Delta) dr^2 +
+ * Sigma dtheta^2 */
 static void metric(const struct kd_vantage *at, matrix g)
 {
     long double a = at->spin, r = at->r, u = at->u, s = at->s, sigma = r * r + a * a * u * u;
@@ -72,7 +74,8 @@ static void lower(const struct kd_vantage *at, const struct kd_covector *p, vect
     out[PHI] = (long double)p->momentum * at->s;
 }
 
-static const double spins[] = { 0, 1e-9, 0.3, -0.7, 0.9, -0.998, 0.999999 }, angles[] = { 1e-6, 0.01, 0.4, 1.1, M_PI / 2, 2, 3.1 },
+static const double spins[] = { 0, 1e-9, 0.3, -0.7, 0.9, -0.998, 0.999999 },
+                    angles[] = { 1e-6, 0.01, 0.4, 1.1, M_PI / 2, 2, 3.1 },
                     heights[] = { 1e-7, 1e-3, 0.02, 0.3, 1, 3, 20, 1e3, 1e6 };
 
 /* Motions of every kind. L is made small where the axis is near, and fall_from is given as a share of the radius. */
@@ -100,7 +103,8 @@ static void everywhere(check *each)
         size_t k = n / COUNT(spins) / COUNT(angles) / COUNT(heights);
         struct kd_observer_motion m = motions[k];
         struct kd_vantage at = { .spin = a, .u = cos(theta), .s = sin(theta) };
-        at.r = fmax(kd_observers[m.observer].outside(a, at.u), kd_kerr_horizon(a)) * (1 + height); /* these coordinates end there */
+        at.r = fmax(kd_observers[m.observer].outside(a, at.u), kd_kerr_horizon(a)) *
+               (1 + height); /* these coordinates end there */
         m.fall_momentum *= at.s;
         m.fall_from *= at.r;
         assert_true(kd_observer_exists(m.observer, &at));
@@ -116,20 +120,23 @@ static void everywhere(check *each)
         assert_true(seen[k] > (int)(COUNT(spins) * COUNT(angles) * COUNT(heights)) / 2);
 }
 
-/* Rounding of Delta or of g_tt, which vanish at the edge, is that of r, or of cos(theta) as far as it moves the edge, over the distance
- * to there. */
+/* Rounding of Delta or of g_tt, which vanish at the edge, is that of r, or of cos(theta) as far as it moves the
+ * edge, over the distance to there. */
 static double rounding(const struct kd_observer_motion *m, const struct kd_vantage *at)
 {
-    double edge = fmax(kd_observers[m->observer].outside(at->spin, at->u), kd_kerr_horizon(at->spin)), inner = fabs(at->r - kd_kerr_horizon(at->spin));
+    double edge = fmax(kd_observers[m->observer].outside(at->spin, at->u), kd_kerr_horizon(at->spin)),
+           inner = fabs(at->r - kd_kerr_horizon(at->spin));
     double moves = at->spin * at->spin / fabs(edge - 1);
-    return (m->observer > KD_OBSERVER_ZAMO ? 100 : 8) * 2.2e-16 * ((at->r + moves) / (at->r - edge) + at->r / inner + 1);
+    return (m->observer > KD_OBSERVER_ZAMO ? 100 : 8) * 2.2e-16 *
+           ((at->r + moves) / (at->r - edge) + at->r / inner + 1);
 }
 
-static void near(double is, double wanted, double bound, const char *what, const struct kd_observer_motion *m, const struct kd_vantage *at)
+static void near(double is, double wanted, double bound, const char *what, const struct kd_observer_motion *m,
+                 const struct kd_vantage *at)
 {
     if (!(fabs(is - wanted) <= bound))
-        fail_msg("%s is %.17g, not %.17g within %.3g: %s, a = %g, r = %.17g, u = %g", what, is, wanted, bound, kd_observers[m->observer].word,
-                 at->spin, at->r, at->u);
+        fail_msg("%s is %.17g, not %.17g within %.3g: %s, a = %g, r = %.17g, u = %g", what, is, wanted, bound,
+                 kd_observers[m->observer].word, at->spin, at->r, at->u);
 }
 
 /* The derivative of the metric by r, by differences. */
@@ -159,7 +166,8 @@ static double force(const struct kd_vantage *at, const vector up)
     return (double)(sum / size);
 }
 
-/* E of what is at rest at r but for its angular momentum: the root of g^tt E^2 - 2 g^tphi E L + g^phiphi L^2 = -1 by the inverse metric. */
+/* E of what is at rest at r but for its angular momentum: the root of g^tt E^2 - 2 g^tphi E L + g^phiphi L^2 = -1 by
+ * the inverse metric. */
 static double energy_at_rest(const struct kd_vantage *at, double momentum)
 {
     matrix g;
@@ -171,7 +179,8 @@ static double energy_at_rest(const struct kd_vantage *at, double momentum)
     return (double)((-mixed - sqrtl(mixed * mixed - tt * rest)) / tt);
 }
 
-static void circular_orbit(const struct kd_observer_motion *m, const struct kd_vantage *at, const vector down, const vector up)
+static void circular_orbit(const struct kd_observer_motion *m, const struct kd_vantage *at, const vector down,
+                           const vector up)
 {
     int sense = m->observer == KD_OBSERVER_KEPLERIAN ? 1 : -1;
     near((double)up[R], 0, 0, "fall", m, at);
@@ -180,15 +189,19 @@ static void circular_orbit(const struct kd_observer_motion *m, const struct kd_v
     if (fabs(at->u) < 1e-9) { /* Bardeen, Press & Teukolsky's circular orbits */
         double a = sense * at->spin, bound = 4 * rounding(m, at);
         near((double)-down[T], kd_kerr_energy(a, at->r), bound * kd_kerr_energy(a, at->r), "E", m, at);
-        near((double)down[PHI], sense * kd_kerr_momentum(a, at->r), bound * fabs(kd_kerr_momentum(a, at->r)), "L", m, at);
+        near((double)down[PHI], sense * kd_kerr_momentum(a, at->r), bound * fabs(kd_kerr_momentum(a, at->r)), "L", m,
+             at);
     }
 }
 
-static void free_fall(const struct kd_observer_motion *m, const struct kd_vantage *at, const vector down, const vector up)
+static void free_fall(const struct kd_observer_motion *m, const struct kd_vantage *at, const vector down,
+                      const vector up)
 {
     struct kd_vantage from = *at;
     from.r = m->fall_from;
-    double energy = isfinite(m->fall_energy) ? m->fall_energy : isfinite(from.r) ? energy_at_rest(&from, m->fall_momentum) : 1;
+    double energy = isfinite(m->fall_energy) ? m->fall_energy
+                    : isfinite(from.r)       ? energy_at_rest(&from, m->fall_momentum)
+                                             : 1;
     near((double)-down[T], energy, 1e-14 * fabs(energy) + rounding(m, at) * 1e-2, "E", m, at);
     near((double)down[PHI], m->fall_momentum, 1e-14 * fabs(m->fall_momentum), "L", m, at);
     near((double)down[THETA], 0, 0, "way down", m, at);
@@ -213,7 +226,8 @@ static void velocity(const struct kd_observer_motion *m, const struct kd_vantage
         near(x[i + 1] / x[0], m->velocity[i], rounding(m, at), "velocity", m, at);
 }
 
-static void what_it_is_called_after(const struct kd_observer_motion *m, const struct kd_vantage *at, matrix g, const vector down, const vector up)
+static void what_it_is_called_after(const struct kd_observer_motion *m, const struct kd_vantage *at, matrix g,
+                                    const vector down, const vector up)
 {
     switch (m->observer) {
     case KD_OBSERVER_STATIC:
@@ -239,10 +253,13 @@ static double cancelled(const struct kd_observer_motion *m, const struct kd_vant
     long double size = 0;
     for (int i = 0; i < 4; i++)
         size += fabsl(p[i] * x[i]);
-    return m->observer == KD_OBSERVER_INFALL ? 16 * 2.2e-16 * (double)size * (1 + at->r / (at->r - kd_kerr_horizon(at->spin))) : 0;
+    return m->observer == KD_OBSERVER_INFALL
+               ? 16 * 2.2e-16 * (double)size * (1 + at->r / (at->r - kd_kerr_horizon(at->spin)))
+               : 0;
 }
 
-static void orthonormal_at(const struct kd_observer_motion *m, const struct kd_vantage *at, const struct kd_tetrad *frame)
+static void orthonormal_at(const struct kd_observer_motion *m, const struct kd_vantage *at,
+                           const struct kd_tetrad *frame)
 {
     const struct kd_covector *const legs[] = { &frame->t, &frame->r, &frame->theta, &frame->phi };
     matrix g;
@@ -254,8 +271,13 @@ static void orthonormal_at(const struct kd_observer_motion *m, const struct kd_v
     }
     for (int i = 0; i < 4; i++)
         for (int j = 0; j < 4; j++)
-            near((double)dot(down[i], up[j]), i != j ? 0 : i ? 1 : -1, rounding(m, at) + cancelled(m, at, down[i], up[j]), "product", m, at);
-    /* Towards the future, and outwards, away from the north pole, along the rotation: what is carried along by a boost. */
+            near((double)dot(down[i], up[j]),
+                 i != j ? 0
+                 : i    ? 1
+                        : -1,
+                 rounding(m, at) + cancelled(m, at, down[i], up[j]), "product", m, at);
+    /* Towards the future, and outwards, away from the north pole, along the rotation: what is carried along by a
+     * boost. */
     const struct kd_observer_motion zamo = kd_observer_motion_of(KD_OBSERVER_ZAMO);
     const struct kd_tetrad rest = kd_observer_tetrad(&zamo, at);
     const struct kd_covector *const still[] = { &rest.t, &rest.r, &rest.theta, &rest.phi };
@@ -273,10 +295,12 @@ static void orthonormal(void **state)
     everywhere(orthonormal_at);
 }
 
-static const double directions[][3] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { 0, 0, -1 }, { 0.48, -0.6, 0.64 }, { -0.64, 0.48, -0.6 } };
+static const double directions[][3] = { { 1, 0, 0 },  { 0, 1, 0 },          { 0, 0, 1 },
+                                        { 0, 0, -1 }, { 0.48, -0.6, 0.64 }, { -0.64, 0.48, -0.6 } };
 
 /* The frame of an observer in Kerr-Schild coordinates, from its constants of motion or its velocity. */
-static struct ks_frame frame_by_oracle(const struct kd_observer_motion *m, const struct kd_vantage *v, const struct kd_tetrad *frame)
+static struct ks_frame frame_by_oracle(const struct kd_observer_motion *m, const struct kd_vantage *v,
+                                       const struct kd_tetrad *frame)
 {
     const struct ks_place at = { v->spin, v->r, atan2(v->s, v->u) };
     struct ks_frame base = m->observer == KD_OBSERVER_INFALL ? ks_rain(&at) : ks_zamo(&at);
@@ -289,7 +313,8 @@ static struct ks_frame frame_by_oracle(const struct kd_observer_motion *m, const
             u[k] += gamma * x[i] * base.e[i][k];
     if (m->observer == KD_OBSERVER_ZAMO)
         return base;
-    if (m->observer != KD_OBSERVER_INFALL && m->observer != KD_OBSERVER_VELOCITY) { /* in circles: E and L are judged elsewhere, and p^r = 0 */
+    if (m->observer != KD_OBSERVER_INFALL &&
+        m->observer != KD_OBSERVER_VELOCITY) { /* in circles: E and L are judged elsewhere, and p^r = 0 */
         double delta = at.r * at.r - 2 * at.r + at.a * at.a;
         u[0] = -frame->t.energy, u[3] = frame->t.momentum * v->s, u[1] = -(2 * at.r * u[0] + at.a * u[3]) / delta;
     }
@@ -326,7 +351,8 @@ static void at_rest_at(const struct kd_observer_motion *m, const struct kd_vanta
         return;
     for (size_t i = 0; i < COUNT(directions); i++) {
         const double *k = directions[i];
-        struct ks_photon want = ks_from_camera(at->spin, at->r, theta, m->observer == KD_OBSERVER_ZAMO, (double[]) { -k[0], -k[1], -k[2] });
+        struct ks_photon want =
+            ks_from_camera(at->spin, at->r, theta, m->observer == KD_OBSERVER_ZAMO, (double[]) { -k[0], -k[1], -k[2] });
         struct kd_covector is = kd_tetrad_covector(frame, (double[]) { 1, k[0], k[1], k[2] });
         double size = fabs(frame->phi.momentum) + fabs(frame->t.momentum);
         near(is.energy, want.energy, bound * (fabs(frame->t.energy) + fabs(frame->phi.energy)), "E", m, at);
@@ -343,7 +369,8 @@ static void constants(void **state)
 }
 
 /* This is the speed of the observer past one of zero angular momentum. */
-static double square_gamma(const struct kd_observer_motion *m, const struct kd_vantage *at, const struct kd_tetrad *frame)
+static double square_gamma(const struct kd_observer_motion *m, const struct kd_vantage *at,
+                           const struct kd_tetrad *frame)
 {
     const struct kd_observer_motion zamo = kd_observer_motion_of(KD_OBSERVER_ZAMO);
     double lapse = kd_observer_tetrad(&zamo, at).t.energy;
@@ -352,13 +379,16 @@ static double square_gamma(const struct kd_observer_motion *m, const struct kd_v
 }
 
 /* Components are given back, and a photon is seen where it comes from; a frame that mixes everything is one too. */
-static void back_and_forth_at(const struct kd_observer_motion *m, const struct kd_vantage *at, const struct kd_tetrad *frame)
+static void back_and_forth_at(const struct kd_observer_motion *m, const struct kd_vantage *at,
+                              const struct kd_tetrad *frame)
 {
     static const double v[] = { 0.3, -0.2, 0.5 };
     const double gamma = 1 / sqrt(1 - (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
-    const struct kd_tetrad moving = kd_tetrad_boosted(frame, (double[]) { gamma, gamma * v[0], gamma * v[1], gamma * v[2] });
+    const struct kd_tetrad moving =
+        kd_tetrad_boosted(frame, (double[]) { gamma, gamma * v[0], gamma * v[1], gamma * v[2] });
     /* The answer's conditioning: E and L of a frame next to an edge are all but proportional. */
-    double bound = 300 * 2.2e-16 * (1 + frame->phi.momentum / fabs(at->r * frame->t.energy)) * (1 + at->r / fabs(frame->phi.momentum));
+    double bound = 300 * 2.2e-16 * (1 + frame->phi.momentum / fabs(at->r * frame->t.energy)) *
+                   (1 + at->r / fabs(frame->phi.momentum));
     bound *= 4 * square_gamma(m, at, frame);
     for (size_t i = 0; i < 2 * COUNT(directions); i++) {
         const double *k = directions[i / 2], x[] = { 1, k[0], k[1], k[2] };
@@ -417,16 +447,18 @@ static void words(void **state)
     assert_string_equal(kd_observers[KD_OBSERVER_ZAMO].word, "zamo");
     assert_string_equal(kd_observer_others(&far, text),
                         "\"static\" or \"zamo\" or \"keplerian\" or \"retrograde\" or \"infall\" or \"velocity\"");
-    assert_string_equal(kd_observer_others(&ergosphere, text), "\"zamo\" or \"keplerian\" or \"infall\" or \"velocity\"");
+    assert_string_equal(kd_observer_others(&ergosphere, text),
+                        "\"zamo\" or \"keplerian\" or \"infall\" or \"velocity\"");
     assert_string_equal(kd_observer_others(&hole, text), "\"infall\"");
-    assert_true(!kd_observer_exists(KD_OBSERVER_STATIC, &ergosphere) && kd_observer_exists(KD_OBSERVER_ZAMO, &ergosphere));
+    assert_true(!kd_observer_exists(KD_OBSERVER_STATIC, &ergosphere) &&
+                kd_observer_exists(KD_OBSERVER_ZAMO, &ergosphere));
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(orthonormal), cmocka_unit_test(constants), cmocka_unit_test(back_and_forth),
-        cmocka_unit_test(outgoing), cmocka_unit_test(words),
+        cmocka_unit_test(outgoing),    cmocka_unit_test(words),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

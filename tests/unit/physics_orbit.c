@@ -1,5 +1,5 @@
-/* Timelike geodesics against quadrature (tests/oracle/orbit_reference.py), against each other, and against what is known of them.
- */
+/* Timelike geodesics against quadrature (tests/oracle/orbit_reference.py), against each other, and against what is
+ * known of them. / */
 #include "physics/kerr.h"
 #include "physics/orbit_lanes.h"
 
@@ -19,7 +19,8 @@
 static void close_to(size_t row, const char *what, double got, double want, double bound)
 {
     if (!(fabs(got - want) <= bound))
-        fail_msg("row %zu: %s is %.17g, not %.17g: off by %.2g, allowed %.2g", row, what, got, want, fabs(got - want), bound);
+        fail_msg("row %zu: %s is %.17g, not %.17g: off by %.2g, allowed %.2g", row, what, got, want, fabs(got - want),
+                 bound);
 }
 
 static struct kd_orbit shape(double a, double p, double e, double x)
@@ -143,9 +144,7 @@ static void falls_are_the_quadratures(void **state)
         }
 }
 
-struct line {
-    double worst, slope; /* of |drift| per orbit; slope per orbit by least squares */
-};
+struct line { double worst, slope; /* of |drift| per orbit; slope per orbit by least squares */ };
 
 static struct line energy_drift(enum kd_orbit_method method, int steps, int orbits)
 {
@@ -175,7 +174,8 @@ static void yoshida_does_not_drift(void **state)
 {
     (void)state;
     struct line yoshida = energy_drift(KD_ORBIT_YOSHIDA6, 320, 1000), nystroem = energy_drift(KD_ORBIT_RKN6, 160, 1000);
-    print_message("E over 1000 orbits of p = 8, e = 0.5: Yoshida, 320 steps an orbit: %.2e at most, slope %.2e an orbit; RKN, 160 "
+    print_message("E over 1000 orbits of p = 8, e = 0.5: Yoshida, 320 steps an orbit: %.2e at most, slope %.2e an "
+                  "orbit; RKN, 160 "
                   "steps: %.2e, slope %.2e\n",
                   yoshida.worst, yoshida.slope, nystroem.worst, nystroem.slope);
     assert_true(yoshida.worst <= 1e-13);
@@ -213,7 +213,8 @@ static void first_integrals_stay(void **state)
 static void mercury_advances(void **state)
 {
     (void)state;
-    const double axis_m = 57.909050e9, e = 0.205630, gm_m = 1.32712440018e20 / (299792458. * 299792458.), days = 87.9691;
+    const double axis_m = 57.909050e9, e = 0.205630, gm_m = 1.32712440018e20 / (299792458. * 299792458.),
+                 days = 87.9691;
     double p = axis_m * (1 - e * e) / gm_m;
     struct kd_orbit o = shape(0, p, e, 1);
     struct kd_orbit_bound b = bound_of(&o);
@@ -289,7 +290,8 @@ static void constants_and_back(void **state)
         if (e->e > 0 && e->p < 100) {
             double inner = 0.5 * (1 / o.w_high + kd_kerr_horizon(e->spin));
             struct kd_orbit_bound b = bound_of(&o);
-            if (inner < b.r[2] && !kd_orbit_from_constants(e->spin, o.energy, o.momentum, o.carter, inner, &back, &error))
+            if (inner < b.r[2] &&
+                !kd_orbit_from_constants(e->spin, o.energy, o.momentum, o.carter, inner, &back, &error))
                 assert_int_equal(back.fate, KD_ORBIT_PLUNGE);
         }
     }
@@ -309,7 +311,8 @@ static void states_are_what_is_seen(void **state)
         struct kd_orbit o;
         struct kd_orbit_state s;
         struct kd_error error = { 0 };
-        if (kd_orbit_from_state(a, at[0], at[1] * (180 / M_PI), zamo ? KD_OBSERVER_ZAMO : KD_OBSERVER_STATIC, v, &o, &s, &error))
+        if (kd_orbit_from_state(a, at[0], at[1] * (180 / M_PI), zamo ? KD_OBSERVER_ZAMO : KD_OBSERVER_STATIC, v, &o, &s,
+                                &error))
             fail_msg("row %zu: %s", i, error.message);
         double r = at[0], sine2 = sin(at[1]) * sin(at[1]), u = cos(at[1]);
         double sigma = r * r + a * a * u * u, delta = r * r - 2 * r + a * a;
@@ -323,7 +326,8 @@ static void states_are_what_is_seen(void **state)
         double p_theta = -s.u_rate / sin(at[1]);
         close_to(i, "v_r", p_r * sqrt(delta / sigma), gamma * v[0], 1e-13 * gamma);
         close_to(i, "v_theta", p_theta / sqrt(sigma), gamma * v[1], 1e-13 * gamma);
-        double inverse = (g_pp * o.energy * o.energy + 2 * g_tp * o.energy * o.momentum + g_tt * o.momentum * o.momentum) / block;
+        double inverse =
+            (g_pp * o.energy * o.energy + 2 * g_tp * o.energy * o.momentum + g_tt * o.momentum * o.momentum) / block;
         close_to(i, "norm", inverse + p_r * p_r * delta / sigma + p_theta * p_theta / sigma, -1, 1e-12 * gamma * gamma);
         assert_true((o.momentum > 0) == (v[2] > 0) || !zamo);
         struct kd_orbit_path path;
@@ -358,23 +362,26 @@ static void from_any_phase(void **state)
     }
 }
 
-/* The azimuth without its pole, against the sum of L/(1 - u^2) itself: E > 1 too, and motions that stay on one side of the equator.
- */
+/* The azimuth without its pole, against the sum of L/(1 - u^2) itself: E > 1 too, and motions that stay on one side
+ * of the equator. / */
 static void azimuth_has_no_pole(void **state)
 {
     (void)state;
     static const struct {
         double theta, v[3];
         bool vortical;
-    } rows[] = { { 1.2, { 0.2, 0.3, 0.4 }, false },      { 0.8, { 0.1, -0.2, -0.3 }, false }, { 0.9, { 0.6, 0.01, 0.02 }, true },
-                 { 0.6, { -0.75, -0.03, -0.02 }, true }, { 1.5, { 0.7, 0.1, 0.001 }, false }, { 0.5, { 0.1, 0.3, 1e-3 }, false } };
+    } rows[] = { { 1.2, { 0.2, 0.3, 0.4 }, false },   { 0.8, { 0.1, -0.2, -0.3 }, false },
+                 { 0.9, { 0.6, 0.01, 0.02 }, true },  { 0.6, { -0.75, -0.03, -0.02 }, true },
+                 { 1.5, { 0.7, 0.1, 0.001 }, false }, { 0.5, { 0.1, 0.3, 1e-3 }, false } };
     for (size_t i = 0; i < COUNT(rows); i++)
         for (int method = 0; method < 2; method++) {
             struct kd_orbit o;
             struct kd_orbit_state s;
             struct kd_orbit_path path;
             double sum = 0, drag = 0, h = 1e-4, end = 0.6;
-            assert_int_equal(kd_orbit_from_state(0.98, 12, rows[i].theta * (180 / M_PI), KD_OBSERVER_ZAMO, rows[i].v, &o, &s, NULL), KD_OK);
+            assert_int_equal(
+                kd_orbit_from_state(0.98, 12, rows[i].theta * (180 / M_PI), KD_OBSERVER_ZAMO, rows[i].v, &o, &s, NULL),
+                KD_OK);
             assert_int_equal(o.carter < 0, rows[i].vortical);
             kd_orbit_path_init(&path, &o, &s, (enum kd_orbit_method)method);
             for (int k = 0; k < (int)(end / h); k++) { /* Simpson's rule over pairs of steps */
@@ -415,9 +422,10 @@ static void see(void *user, int lane)
 static void lanes_are_paths(void **state)
 {
     (void)state;
-    static const double shapes[KD_ORBIT_LANES][4] = { { 0, 8, 0.5, 1 },     { 0.9, 6, 0.5, 0.75 }, { -0.5, 30, 0.75, -0.25 },
-                                                      { 0.998, 5, 0, 0.5 }, { 0.3, 12, 0.1, -1 },  { 0, 1e7, 0.2, 0.3 },
-                                                      { 0.9, 2.9, 0.5, 1 }, { 0.7, 9, 0.3, 0.01 } };
+    static const double shapes[KD_ORBIT_LANES][4] = { { 0, 8, 0.5, 1 },          { 0.9, 6, 0.5, 0.75 },
+                                                      { -0.5, 30, 0.75, -0.25 }, { 0.998, 5, 0, 0.5 },
+                                                      { 0.3, 12, 0.1, -1 },      { 0, 1e7, 0.2, 0.3 },
+                                                      { 0.9, 2.9, 0.5, 1 },      { 0.7, 9, 0.3, 0.01 } };
     struct kd_orbit_path path[KD_ORBIT_LANES];
     struct kd_orbit_drift worst[KD_ORBIT_LANES] = { { 0 } };
     struct kd_orbit_lanes lanes = { .periastron = see };
@@ -462,8 +470,8 @@ static void lanes_are_paths(void **state)
     }
 }
 
-/* p = 6 + 2e about Schwarzschild's hole (C. Cutler, D. Kennefick & E. Poisson 1994, Phys. Rev. D 50, 3816), r_isco for circles,
- * 2 r_mb for parabolas. */
+/* p = 6 + 2e about Schwarzschild's hole (C. Cutler, D. Kennefick & E. Poisson 1994, Phys. Rev. D 50, 3816), r_isco
+ * for circles, 2 r_mb for parabolas. */
 static void separatrix(void **state)
 {
     (void)state;

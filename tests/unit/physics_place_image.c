@@ -1,5 +1,5 @@
-/* Places as they are seen: in the equatorial plane of a hole that spins against rays in closed form, which cross it there; off the plane, of a hole that does
- * not spin, against the same rays in a plane turned to be the equator's. */
+/* Places as they are seen: in the equatorial plane of a hole that spins against rays in closed form, which cross it
+ * there; off the plane, of a hole that does not spin, against the same rays in a plane turned to be the equator's. */
 #include "physics/null_geodesic.h"
 #include "physics/place_image.h"
 
@@ -26,7 +26,14 @@ static double turn(double phi) { return remainder(phi, 2 * M_PI); }
 static int crosses(const struct kd_place_view *view, const struct kd_place_image *image, double r, double phi)
 {
     const struct kd_vantage *v = &view->frame.at;
-    const struct kd_null_ray ray = { .spin = v->spin, .radius = v->r, .cos_theta = v->u, .sin_theta = v->s, .alpha = image->alpha, .beta = image->beta, .outward = image->outward, .orders = 4 };
+    const struct kd_null_ray ray = { .spin = v->spin,
+                                     .radius = v->r,
+                                     .cos_theta = v->u,
+                                     .sin_theta = v->s,
+                                     .alpha = image->alpha,
+                                     .beta = image->beta,
+                                     .outward = image->outward,
+                                     .orders = 4 };
     const struct kd_null_path path = kd_null_trace(&ray);
     double least = INFINITY;
     for (int n = 0; n < path.crossings; n++) {
@@ -39,7 +46,8 @@ static int crosses(const struct kd_place_view *view, const struct kd_place_image
             return n;
         }
     }
-    fail_msg("a = %g, from %g: no crossing of (%.9g, %.9g) is at r = %g, phi = %g: the nearest %.3g off, told %.3g", v->spin, v->r, image->alpha, image->beta, r, phi, least, image->off);
+    fail_msg("a = %g, from %g: no crossing of (%.9g, %.9g) is at r = %g, phi = %g: the nearest %.3g off, told %.3g",
+             v->spin, v->r, image->alpha, image->beta, r, phi, least, image->off);
     return -1;
 }
 
@@ -60,8 +68,8 @@ static void test_the_plane_of_a_hole_that_spins(void **state)
     }
 }
 
-/* A hole without spin has no equator: what is theta, phi from an observer in the plane is at the angle psi from the line to it, in a plane through it, and
- * is seen at (right, up) = b (cos, sin) of where that plane lies. */
+/* A hole without spin has no equator: what is theta, phi from an observer in the plane is at the angle psi from the
+ * line to it, in a plane through it, and is seen at (right, up) = b (cos, sin) of where that plane lies. */
 static void test_off_the_plane_without_spin(void **state)
 {
     (void)state;
@@ -71,11 +79,13 @@ static void test_off_the_plane_without_spin(void **state)
         const double n[3] = { sin(theta) * cos(phi), sin(theta) * sin(phi), cos(theta) };
         struct kd_place_image here, there;
         assert_true(kd_place_image_seen(&view, r, cos(theta), phi, NULL, true, &here));
-        /* The place in a plane that is tilted by 60 degrees, which is this observer's equator: psi is kept, the ray's b too. */
+        /* The place in a plane that is tilted by 60 degrees, which is this observer's equator: psi is kept, the
+         * ray's b too. */
         const double psi = acos(n[0]), b = hypot(here.alpha, here.beta);
         const double side = atan2(n[2], n[1]);
         assert_true(fabs(turn(atan2(here.beta, here.alpha) - side)) < 1e-6);
-        /* Of the equator seen at 60 degrees, the place at that angle from the line of sight: cos(psi) = sin(60) cos(phi'). */
+        /* Of the equator seen at 60 degrees, the place at that angle from the line of sight: cos(psi) = sin(60)
+         * cos(phi'). */
         const double c = cos(psi) / sin(60 * RADIAN);
         if (fabs(c) > 1)
             continue;
@@ -98,7 +108,8 @@ static void test_a_neighbour_leads_to_the_same(void **state)
         assert_true(kd_place_image_seen(&view, r, u, phi, &before, false, &next));
         assert_true(kd_place_image_seen(&view, r, u, phi, NULL, true, &alone));
         if (!(hypot(alone.alpha - next.alpha, alone.beta - next.beta) < 1e-5))
-            fail_msg("at phi = %g: (%.9g, %.9g) alone, (%.9g, %.9g) from its neighbour", phi, alone.alpha, alone.beta, next.alpha, next.beta);
+            fail_msg("at phi = %g: (%.9g, %.9g) alone, (%.9g, %.9g) from its neighbour", phi, alone.alpha, alone.beta,
+                     next.alpha, next.beta);
         before = next;
     }
     assert_false(kd_place_image_seen(&view, 1.2, 0, 0, NULL, true, &next)); /* within the horizon */

@@ -1,5 +1,5 @@
-/* The plunge from the ISCO: closed forms against quadratures from the metric (tests/oracle/plunge_reference.py), print, and what is
- * conserved. */
+/* The plunge from the ISCO: closed forms against quadratures from the metric (tests/oracle/plunge_reference.py),
+ * print, and what is conserved. */
 #include "physics/plunge.h"
 
 #include "physics/kerr.h"
@@ -21,7 +21,8 @@ static double within(const char *what, double a, double r, double got, double wa
 {
     double off = fabs(got / want - 1);
     if (!(off <= bound))
-        fail_msg("%s at a = %.17g, r = %.17g: %.17g, not %.17g: off by %.2g, allowed %.2g", what, a, r, got, want, off, bound);
+        fail_msg("%s at a = %.17g, r = %.17g: %.17g, not %.17g: off by %.2g, allowed %.2g", what, a, r, got, want, off,
+                 bound);
     return off;
 }
 
@@ -36,7 +37,10 @@ static void from_the_metric(void **state)
         struct kd_plunge plunge = kd_plunge_of(p->a);
         struct kd_plunge_event from = kd_plunge_at(&plunge, p->r0), to = kd_plunge_at(&plunge, p->r);
         struct kd_plunge_velocity u = kd_plunge_velocity(&plunge, p->r);
-        const double pairs[][2] = { { to.t - from.t, p->t }, { to.phi - from.phi, p->phi }, { u.ut, p->ut }, { u.uphi, p->uphi },
+        const double pairs[][2] = { { to.t - from.t, p->t },
+                                    { to.phi - from.phi, p->phi },
+                                    { u.ut, p->ut },
+                                    { u.uphi, p->uphi },
                                     { u.ur, p->ur } };
         bool fast = p->a > 0.999;
         for (int k = 0; k < 5; k++) {
@@ -68,14 +72,16 @@ static void conserved(void **state)
         struct kd_plunge plunge = kd_plunge_of(a);
         double isco = kd_kerr_isco(a), gap = isco - kd_kerr_horizon(a);
         for (double x = 0.02; x < 0.99; x += 0.02) {
-            double r = isco - x * gap, h = 1e-3 * gap * fmin(x, 1 - x), ur = kd_plunge_velocity(&plunge, r).ur, ut = 0, up = 0;
+            double r = isco - x * gap, h = 1e-3 * gap * fmin(x, 1 - x), ur = kd_plunge_velocity(&plunge, r).ur, ut = 0,
+                   up = 0;
             for (int k = -2; k <= 2; k++) { /* fourth order */
                 static const double weights[] = { 1 / 12.0, -2 / 3.0, 0, 2 / 3.0, -1 / 12.0 };
                 struct kd_plunge_event e = kd_plunge_at(&plunge, r + k * h);
                 ut += weights[k + 2] * e.t / h * ur;
                 up += weights[k + 2] * e.phi / h * ur;
             }
-            double tt = -1 + 2 / r, tp = -2 * a / r, pp = r * r + a * a + 2 * a * a / r, rr = r * r / (r * r - 2 * r + a * a);
+            double tt = -1 + 2 / r, tp = -2 * a / r, pp = r * r + a * a + 2 * a * a / r,
+                   rr = r * r / (r * r - 2 * r + a * a);
             double norm = tt * ut * ut + 2 * tp * ut * up + pp * up * up + rr * ur * ur;
             double size = fabs(tt * ut * ut) + fabs(2 * tp * ut * up) + pp * up * up + rr * ur * ur;
             within("u.u", a, r, norm + size, size - 1, 1e-9);
@@ -92,7 +98,8 @@ static void leaves_the_circle(void **state)
     for (double a = -0.9; a < 1; a += 0.3) {
         struct kd_plunge plunge = kd_plunge_of(a);
         double isco = kd_kerr_isco(a);
-        struct kd_plunge_event one = kd_plunge_at(&plunge, isco * (1 - 1e-8)), two = kd_plunge_at(&plunge, isco * (1 - 2e-8));
+        struct kd_plunge_event one = kd_plunge_at(&plunge, isco * (1 - 1e-8)),
+                               two = kd_plunge_at(&plunge, isco * (1 - 2e-8));
         struct kd_plunge_velocity u = kd_plunge_velocity(&plunge, isco);
         within("dphi/dt", a, isco, (two.phi - one.phi) / (two.t - one.t), kd_kerr_omega(a, isco), 1e-7);
         within("u^t", a, isco, u.ut, kd_kerr_ut(a, isco), 1e-12);

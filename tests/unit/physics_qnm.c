@@ -1,5 +1,5 @@
-/* Quasi-normal modes against Teukolsky's equation solved in another way (tests/oracle/qnm_reference.py), against numbers in
- * print, and against what must hold for any of them. */
+/* Quasi-normal modes against Teukolsky's equation solved in another way (tests/oracle/qnm_reference.py), against
+ * numbers in print, and against what must hold for any of them. */
 #include "physics/qnm.h"
 #include "physics/ringdown.h"
 
@@ -63,7 +63,8 @@ static void leaver_schwarzschild(void **state)
     }
 }
 
-/* Leaver 1985, l = 2, m = 0, fundamental (2M = 1; a in his units, half of ours), as LALSuite's lalsim-bh-qnmode reprints it. */
+/* Leaver 1985, l = 2, m = 0, fundamental (2M = 1; a in his units, half of ours), as LALSuite's lalsim-bh-qnmode
+ * reprints it. */
 static void leaver_kerr(void **state)
 {
     (void)state;
@@ -97,8 +98,9 @@ static void public_tables(void **state)
     close_to("omega", 2, 2, 0, 0.68, found(2, 2, 0, 0.68).omega, 0.5239751042900845 - 0.08151262363119974 * I, 1e-13);
 }
 
-/* Everywhere in the domain there is one curve for each mode, without a jump on to a neighbour: a walk in fine steps, which has
- * no room to go astray, passes every place that is found on its own; and a walk back returns. Most neighbours are 1e-2 away. */
+/* Everywhere in the domain there is one curve for each mode, without a jump on to a neighbour: a walk in fine steps,
+ * which has no room to go astray, passes every place that is found on its own; and a walk back returns. Most
+ * neighbours are 1e-2 away. */
 static void one_branch(void **state)
 {
     (void)state;
@@ -141,15 +143,16 @@ static void symmetry_and_domain(void **state)
     static const struct {
         int l, m, n;
         double a;
-    } outside[] = { { 1, 0, 0, 0 },  { 5, 0, 0, 0 },  { 2, 3, 0, 0 },      { 2, -3, 0, 0 },  { 2, 2, -1, 0 },
-                    { 2, 2, 4, 0 },  { 2, 2, 0, 1 },  { 2, 2, 0, 0.99991 }, { 2, 2, 0, -1 }, { 2, 2, 0, NAN } };
+    } outside[] = { { 1, 0, 0, 0 }, { 5, 0, 0, 0 }, { 2, 3, 0, 0 },       { 2, -3, 0, 0 }, { 2, 2, -1, 0 },
+                    { 2, 2, 4, 0 }, { 2, 2, 0, 1 }, { 2, 2, 0, 0.99991 }, { 2, 2, 0, -1 }, { 2, 2, 0, NAN } };
     for (size_t i = 0; i < COUNT(outside); i++) {
         assert_false(kd_qnm_find(outside[i].l, outside[i].m, outside[i].n, outside[i].a, &mode));
         assert_true(isnan(creal(mode.omega)) && isnan(creal(mode.separation)));
     }
 }
 
-/* The errors that the header states, within a tenth; and of Berti, Cardoso & Will their own for n = 0: 1.85 and 0.88 %. */
+/* The errors that the header states, within a tenth; and of Berti, Cardoso & Will their own for n = 0: 1.85 and 0.88
+ * %. */
 static void fits(void **state)
 {
     (void)state;
@@ -198,9 +201,11 @@ static void damped_oscillation(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(another_method),   cmocka_unit_test(leaver_schwarzschild), cmocka_unit_test(leaver_kerr),
-        cmocka_unit_test(public_tables),    cmocka_unit_test(one_branch),           cmocka_unit_test(nearly_extremal),
-        cmocka_unit_test(symmetry_and_domain), cmocka_unit_test(fits),              cmocka_unit_test(damped_oscillation),
+        cmocka_unit_test(another_method),      cmocka_unit_test(leaver_schwarzschild),
+        cmocka_unit_test(leaver_kerr),         cmocka_unit_test(public_tables),
+        cmocka_unit_test(one_branch),          cmocka_unit_test(nearly_extremal),
+        cmocka_unit_test(symmetry_and_domain), cmocka_unit_test(fits),
+        cmocka_unit_test(damped_oscillation),
     };
     return cmocka_run_group_tests_name("physics_qnm", tests, NULL, NULL);
 }

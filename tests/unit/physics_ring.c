@@ -1,5 +1,5 @@
-/* The lensed image of a ring, and embedded planes: against quadratures (tests/oracle/ring_reference.py) and, with spin, against
- * rays integrated in Kerr-Schild coordinates (tests/oracle/kerr_schild.h). */
+/* The lensed image of a ring, and embedded planes: against quadratures (tests/oracle/ring_reference.py) and, with
+ * spin, against rays integrated in Kerr-Schild coordinates (tests/oracle/kerr_schild.h). */
 #include "physics/disk.h"
 #include "physics/embedding.h"
 #include "physics/kerr.h"
@@ -32,7 +32,8 @@ static struct kd_ring_image_point image_of(double a, double i_deg, double r, dou
     struct kd_ring_image ring;
     struct kd_ring_image_point point = { 0 };
     if (!kd_ring_image_init(&ring, a, i_deg * RADIAN, r, order) || !kd_ring_image_find(&ring, phi_deg * RADIAN, &point))
-        fail_msg("no image of order %d of a ring at %.17g, %.17g degrees, a = %.17g, i = %.17g", order, r, phi_deg, a, i_deg);
+        fail_msg("no image of order %d of a ring at %.17g, %.17g degrees, a = %.17g, i = %.17g", order, r, phi_deg, a,
+                 i_deg);
     return point;
 }
 
@@ -52,13 +53,15 @@ static void without_spin(void **state)
     }
 }
 
-/* The oracle's ray of the image meets the plane where the ring is. Its own start is worth 1e-9 (r = 1e6 stands for infinity,
- * with the first terms beyond); an error of alpha is magnified on the way, by 25 or so each half turn. */
+/* The oracle's ray of the image meets the plane where the ring is. Its own start is worth 1e-9 (r = 1e6 stands for
+ * infinity, with the first terms beyond); an error of alpha is magnified on the way, by 25 or so each half turn. */
 static void with_spin(void **state)
 {
-    static const double cases[][4] = { /* a, i, r, phi */
-        { 0.9, 60, 6, 90 },    { 0.9, 60, 6, 200 },   { 0.9, 60, 2.5, 20 },    { 0.998, 80, 1.5, 300 }, { -0.7, 30, 12, 150 },
-        { 0.5, 85, 4.5, 5 },   { 0.99, 10, 3, 250 },  { 0.999999, 45, 2, 120 }, { 0.3, 70, 100, 181 },   { -0.95, 75, 9, 330 },
+    static const double cases[][4] = {
+        /* a, i, r, phi */
+        { 0.9, 60, 6, 90 },    { 0.9, 60, 6, 200 },   { 0.9, 60, 2.5, 20 }, { 0.998, 80, 1.5, 300 },
+        { -0.7, 30, 12, 150 }, { 0.5, 85, 4.5, 5 },   { 0.99, 10, 3, 250 }, { 0.999999, 45, 2, 120 },
+        { 0.3, 70, 100, 181 }, { -0.95, 75, 9, 330 },
     };
     (void)state;
     for (size_t k = 0; k < COUNT(cases); k++)
@@ -73,8 +76,8 @@ static void with_spin(void **state)
         }
 }
 
-/* Every point of every ring has its images, an odd number of them, as across a caustic two are born or vanish. Several occur at
- * high inclination alone, of order 0 nearly edge-on. */
+/* Every point of every ring has its images, an odd number of them, as across a caustic two are born or vanish.
+ * Several occur at high inclination alone, of order 0 nearly edge-on. */
 static void everywhere(void **state)
 {
     static const double spins[] = { 0, 0.5, -0.9, 0.998 }, inclinations[] = { 0, 0.01, 20, 60, 80, 89 };
@@ -90,10 +93,11 @@ static void everywhere(void **state)
                         fail_msg("order %d, a = %g, i = %g, r = %.17g", order, spins[s], inclinations[i], r);
                     for (double phi = 0; phi < 2 * M_PI; phi += 0.7) {
                         if (!kd_ring_image_find(&ring, phi, &p))
-                            fail_msg("order %d, a = %g, i = %g, r = %.17g, phi = %g", order, spins[s], inclinations[i], r, phi);
+                            fail_msg("order %d, a = %g, i = %g, r = %.17g, phi = %g", order, spins[s], inclinations[i],
+                                     r, phi);
                         if (p.images % 2 == 0 || (p.images > 1 && inclinations[i] < (order ? 50 : 85)))
-                            fail_msg("%d images of order %d, a = %g, i = %g, r = %.17g, phi = %g", p.images, order, spins[s],
-                                     inclinations[i], r, phi);
+                            fail_msg("%d images of order %d, a = %g, i = %g, r = %.17g, phi = %g", p.images, order,
+                                     spins[s], inclinations[i], r, phi);
                         several += p.images > 1;
                     }
                 }
@@ -117,6 +121,6 @@ static void embedding(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(without_spin), cmocka_unit_test(with_spin),
-                                                                                cmocka_unit_test(everywhere), cmocka_unit_test(embedding) };
+                                        cmocka_unit_test(everywhere), cmocka_unit_test(embedding) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-/* Rings as they are seen from within them, from next to the hole and from beyond the horizon: against rays integrated in ingoing Kerr-Schild coordinates, in
- * frames made in these (tests/oracle/kerr_schild.h). */
+/* Rings as they are seen from within them, from next to the hole and from beyond the horizon: against rays
+ * integrated in ingoing Kerr-Schild coordinates, in frames made in these (tests/oracle/kerr_schild.h). */
 #include "physics/kerr.h"
 #include "physics/ring_view.h"
 
@@ -19,7 +19,8 @@
 static void within(const char *what, double a, double x, double got, double want, double bound)
 {
     if (!(fabs(got - want) <= bound))
-        fail_msg("%s at a = %.17g, %.17g: %.17g, not %.17g: off by %.2g, allowed %.2g", what, a, x, got, want, fabs(got - want), bound);
+        fail_msg("%s at a = %.17g, %.17g: %.17g, not %.17g: off by %.2g, allowed %.2g", what, a, x, got, want,
+                 fabs(got - want), bound);
 }
 
 static struct kd_vantage vantage(double a, double i_deg, double r)
@@ -39,9 +40,10 @@ static struct ks_frame oracle_frame(const struct kd_observer_motion *m, const st
     return ks_boost(&at, &rain, u);
 }
 
-/* Light that is seen there comes from the ring. magnified: an error of its direction grows so much on its way, by 25 or so each half turn, and by what light
- * that lingers at the horizon does. */
-static void comes_from(const struct kd_observer_motion *m, const struct kd_vantage *v, double r, int order, double chi, double magnified)
+/* Light that is seen there comes from the ring. magnified: an error of its direction grows so much on its way, by 25
+ * or so each half turn, and by what light that lingers at the horizon does. */
+static void comes_from(const struct kd_observer_motion *m, const struct kd_vantage *v, double r, int order, double chi,
+                       double magnified)
 {
     const struct kd_ring_view view = kd_ring_view_of(m, v, r, order);
     const struct ks_place at = { v->spin, v->r, atan2(v->s, v->u) };
@@ -59,10 +61,13 @@ static void comes_from(const struct kd_observer_motion *m, const struct kd_vanta
     within("r", v->spin, v->r, path.r[order], r, 1e-10 * magnified * r);
 }
 
-static const double rings[][4] = { /* a, i, the observer's radius, the ring's */
-    { 0, 60, 1.2, 3 },      { 0, 75, 2, 6 },         { 0, 30, 2.5, 3 },      { 0, 120, 1.9, 40 },    { 0.9, 60, 1.3, 1.5578 }, { 0.9, 60, 1.436, 2.32 },
-    { 0.9, 20, 0.8, 3.91 }, { 0.9, 80, 1.2, 2 },     { 0.5, 80, 2.2, 6 },    { 0.9, 60, 6, 20 },     { 0.998, 85, 1.05, 1.2 }, { 0.998, 70, 1.5, 2 },
-    { -0.7, 45, 1.5, 10 },  { 0.9, 3, 1.4, 100 },    { 0.7, 100, 3, 3.01 },  { 0.3, 60, 40, 6 },     { 0.9, 70, 1000, 2.5 },   { 0.9, 70, 1.6, 1e4 },
+static const double rings[][4] = {
+    /* a, i, the observer's radius, the ring's */
+    { 0, 60, 1.2, 3 },        { 0, 75, 2, 6 },          { 0, 30, 2.5, 3 },        { 0, 120, 1.9, 40 },
+    { 0.9, 60, 1.3, 1.5578 }, { 0.9, 60, 1.436, 2.32 }, { 0.9, 20, 0.8, 3.91 },   { 0.9, 80, 1.2, 2 },
+    { 0.5, 80, 2.2, 6 },      { 0.9, 60, 6, 20 },       { 0.998, 85, 1.05, 1.2 }, { 0.998, 70, 1.5, 2 },
+    { -0.7, 45, 1.5, 10 },    { 0.9, 3, 1.4, 100 },     { 0.7, 100, 3, 3.01 },    { 0.3, 60, 40, 6 },
+    { 0.9, 70, 1000, 2.5 },   { 0.9, 70, 1.6, 1e4 },
 };
 
 static void from_free_fall(void **state)
@@ -84,9 +89,11 @@ static void from_free_fall(void **state)
 /* One that does not fall, from outside the horizon, whose azimuths and times the oracle knows, too. */
 static void from_nearby(void **state)
 {
-    static const double cases[][5] = { /* a, i, observer's r, r, chi */
-        { 0.9, 60, 20, 6, 90 },   { 0.9, 60, 6, 20, 200 },    { 0.9, 60, 12, 2.5, 20 },   { 0.998, 80, 30, 1.5, 300 }, { -0.7, 30, 9, 22, 150 }, { 0.5, 85, 3.2, 22, 5 },
-        { 0.99, 10, 2.5, 3, 250 }, { 0.3, 70, 500, 100, 181 }, { 0, 45, 2.8, 18.7, 33 },  { 0.999, 84, 74.1, 9.26, 1 }, { 0.7, 98, 26, 22, 271 },  { 0.9, 3, 15, 9, 77 },
+    static const double cases[][5] = {
+        /* a, i, observer's r, r, chi */
+        { 0.9, 60, 20, 6, 90 },   { 0.9, 60, 6, 20, 200 },      { 0.9, 60, 12, 2.5, 20 },  { 0.998, 80, 30, 1.5, 300 },
+        { -0.7, 30, 9, 22, 150 }, { 0.5, 85, 3.2, 22, 5 },      { 0.99, 10, 2.5, 3, 250 }, { 0.3, 70, 500, 100, 181 },
+        { 0, 45, 2.8, 18.7, 33 }, { 0.999, 84, 74.1, 9.26, 1 }, { 0.7, 98, 26, 22, 271 },  { 0.9, 3, 15, 9, 77 },
     };
     (void)state;
     for (size_t k = 0; k < 2 * COUNT(cases); k++)
@@ -98,8 +105,10 @@ static void from_nearby(void **state)
             const struct kd_ring_view view = kd_ring_view_of(&m, &v, c[3], order);
             struct kd_ring_view_point p;
             if (!kd_ring_view_seen(&view, c[4] * RADIAN, &p))
-                fail_msg("no image of order %d of a ring at %g, direction %g, a = %g, i = %g, from %g", order, c[3], c[4], c[0], c[1], c[2]);
-            const struct ks_photon photon = ks_from_camera(c[0], c[2], c[1] * RADIAN, zamo, (double[]) { -p.look.inwards, -p.look.up, p.look.right });
+                fail_msg("no image of order %d of a ring at %g, direction %g, a = %g, i = %g, from %g", order, c[3],
+                         c[4], c[0], c[1], c[2]);
+            const struct ks_photon photon = ks_from_camera(c[0], c[2], c[1] * RADIAN, zamo,
+                                                           (double[]) { -p.look.inwards, -p.look.up, p.look.right });
             const struct ks_path path = ks_trace(photon, order + 1);
             const double bound = 1e-10 * (order ? 1e3 : 30);
             assert_int_equal(path.crossings, order + 1);
@@ -110,7 +119,8 @@ static void from_nearby(void **state)
         }
 }
 
-/* No ring outside the horizon is missed by one who falls, wherever. What there is no azimuth or time for is not told. */
+/* No ring outside the horizon is missed by one who falls, wherever. What there is no azimuth or time for is not
+ * told. */
 static void everywhere(void **state)
 {
     static const double spins[] = { 0, 0.5, -0.9, 0.998 }, inclinations[] = { 0, 60, 89, 130 };
@@ -127,8 +137,8 @@ static void everywhere(void **state)
                             const struct kd_ring_view view = kd_ring_view_of(&m, &v, plus * out, order);
                             struct kd_ring_view_point p;
                             if (!kd_ring_view_seen(&view, chi, &p))
-                                fail_msg("order %d, a = %g, i = %g, ring at %g, from %.17g, chi = %g: off by %g", order, a, inclinations[i], plus * out, v.r,
-                                         chi, p.residual);
+                                fail_msg("order %d, a = %g, i = %g, ring at %g, from %.17g, chi = %g: off by %g", order,
+                                         a, inclinations[i], plus * out, v.r, chi, p.residual);
                             assert_true(isfinite(p.look.right + p.look.up + p.look.inwards));
                             assert_true(isfinite(p.phi) == (v.r > plus && p.look.energy > 0));
                         }
@@ -137,6 +147,7 @@ static void everywhere(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(from_free_fall), cmocka_unit_test(from_nearby), cmocka_unit_test(everywhere) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(from_free_fall), cmocka_unit_test(from_nearby),
+                                        cmocka_unit_test(everywhere) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

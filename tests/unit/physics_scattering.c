@@ -8,10 +8,14 @@
 
 #include <cmocka.h>
 
-/* Table XXIV, I_l + I_r over F and the fraction polarised in per cent, at mu = 0, 0.1, 0.2 ... of Radiative Transfer (1960). */
-static const struct { double mu, light, per_cent; } table[] = {
-    { 0, 0.41441, 11.713 },  { 0.1, 0.52397, 7.448 }, { 0.2, 0.61439, 5.410 }, { 0.3, 0.70029, 4.041 }, { 0.4, 0.78398, 3.033 },
-    { 0.5, 0.86637, 2.252 }, { 0.6, 0.94789, 1.627 }, { 0.7, 1.02882, 1.113 }, { 0.8, 1.10931, 0.682 }, { 1, 1.26938, 0 },
+/* Table XXIV, I_l + I_r over F and the fraction polarised in per cent, at mu = 0, 0.1, 0.2 ... of Radiative Transfer
+ * (1960). */
+static const struct {
+    double mu, light, per_cent;
+} table[] = {
+    { 0, 0.41441, 11.713 },  { 0.1, 0.52397, 7.448 }, { 0.2, 0.61439, 5.410 }, { 0.3, 0.70029, 4.041 },
+    { 0.4, 0.78398, 3.033 }, { 0.5, 0.86637, 2.252 }, { 0.6, 0.94789, 1.627 }, { 0.7, 1.02882, 1.113 },
+    { 0.8, 1.10931, 0.682 }, { 1, 1.26938, 0 },
 };
 
 static void as_printed(void **state)
@@ -20,8 +24,10 @@ static void as_printed(void **state)
     for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
         struct kd_scattered light;
         kd_scattered_light(&table[i].mu, 1, &light);
-        if (!(fabs(light.across + light.along - table[i].light) < 1.2e-5 && fabs(100 * kd_scattered_fraction(&light) - table[i].per_cent) < 1.2e-3))
-            fail_msg("mu = %g: %.6f, %.5f %%", table[i].mu, light.across + light.along, 100 * kd_scattered_fraction(&light));
+        if (!(fabs(light.across + light.along - table[i].light) < 1.2e-5 &&
+              fabs(100 * kd_scattered_fraction(&light) - table[i].per_cent) < 1.2e-3))
+            fail_msg("mu = %g: %.6f, %.5f %%", table[i].mu, light.across + light.along,
+                     100 * kd_scattered_fraction(&light));
     }
 }
 

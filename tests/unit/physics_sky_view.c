@@ -1,5 +1,5 @@
-/* What observers see of the sky, against frames and rays in Kerr-Schild coordinates: which directions are dark, how light of the others is shifted, the
- * least and the largest shift, and how large the dark disk is. */
+/* What observers see of the sky, against frames and rays in Kerr-Schild coordinates: which directions are dark, how
+ * light of the others is shifted, the least and the largest shift, and how large the dark disk is. */
 #include "kerr_schild.h"
 #include "physics/kerr.h"
 #include "physics/sky_view.h"
@@ -29,24 +29,46 @@ static const struct seer {
     { "zamo", 0.9, 80, 1.6, { .observer = KD_OBSERVER_ZAMO }, 0, 0 },
     { "velocity", 0.9, 70, 12, { .observer = KD_OBSERVER_VELOCITY, .velocity = { -0.5, 0.3, 0.6 } }, 0, 0 },
     { "velocity", -0.6, 120, 2.5, { .observer = KD_OBSERVER_VELOCITY, .velocity = { 0.2, -0.4, -0.3 } }, 0, 0 },
-    { "keplerian", 0, 90, 6, { .observer = KD_OBSERVER_KEPLERIAN }, 0.94280904158206336, 3.4641016151377544 }, /* sqrt(8/9), sqrt(12) */
+    { "keplerian",
+      0,
+      90,
+      6,
+      { .observer = KD_OBSERVER_KEPLERIAN },
+      0.94280904158206336,
+      3.4641016151377544 }, /* sqrt(8/9), sqrt(12) */
     { "rain", 0, 75, 20, { .observer = KD_OBSERVER_INFALL, FALL }, 1, 0 },
     { "rain", 0.9, 110, 2, { .observer = KD_OBSERVER_INFALL, FALL }, 1, 0 },
     { "rain", 0.9, 75, HORIZON, { .observer = KD_OBSERVER_INFALL, FALL }, 1, 0 },
     { "rain", 0.9, 75, 1.2, { .observer = KD_OBSERVER_INFALL, FALL }, 1, 0 },
     { "rain", 0, 75, 0.3, { .observer = KD_OBSERVER_INFALL, FALL }, 1, 0 },
-    { "plunge", 0.9, 80, 1.3, { .observer = KD_OBSERVER_INFALL, .fall_from = INFINITY, .fall_energy = 0.9, .fall_momentum = 1.2 }, 0.9, 1.2 },
-    { "from 10 M", 0, 80, 5, { .observer = KD_OBSERVER_INFALL, .fall_from = 10, .fall_energy = INFINITY }, 0.89442719099991588, 0 }, /* sqrt(0.8) */
+    { "plunge",
+      0.9,
+      80,
+      1.3,
+      { .observer = KD_OBSERVER_INFALL, .fall_from = INFINITY, .fall_energy = 0.9, .fall_momentum = 1.2 },
+      0.9,
+      1.2 },
+    { "from 10 M",
+      0,
+      80,
+      5,
+      { .observer = KD_OBSERVER_INFALL, .fall_from = 10, .fall_energy = INFINITY },
+      0.89442719099991588,
+      0 }, /* sqrt(0.8) */
 };
 enum { SEERS = sizeof seers / sizeof *seers };
 
-static struct ks_place place_of(const struct seer *s) { return (struct ks_place) { s->spin, s->r, s->inclination * RADIAN }; }
+static struct ks_place place_of(const struct seer *s)
+{
+    return (struct ks_place) { s->spin, s->r, s->inclination * RADIAN };
+}
 
 static struct ks_frame frame_of(const struct seer *s)
 {
     const struct ks_place at = place_of(s);
     const struct ks_frame base = s->motion.observer == KD_OBSERVER_INFALL ? ks_rain(&at) : ks_zamo(&at);
-    const double *v = s->motion.velocity, x[4] = { 1, v[0], v[1], v[2] }, gamma = 1 / sqrt(1 - (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
+    const double *v = s->motion.velocity, x[4] = { 1, v[0], v[1], v[2] },
+                 gamma = 1 / sqrt(1 - (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
     double u[4] = { 0 };
     if (s->energy > 0)
         ks_inwards(&at, 1, s->energy, s->momentum, 0, u);
@@ -62,8 +84,11 @@ static struct ks_frame frame_of(const struct seer *s)
 
 static struct kd_sky_view view_of(const struct seer *s)
 {
-    struct kd_sky_view view = kd_sky_view_of(&(struct kd_critical_observer) {
-        .spin = s->spin, .radius = s->r, .cos_theta = cos(s->inclination * RADIAN), .sin_theta = sin(s->inclination * RADIAN), .motion = s->motion });
+    struct kd_sky_view view = kd_sky_view_of(&(struct kd_critical_observer) { .spin = s->spin,
+                                                                              .radius = s->r,
+                                                                              .cos_theta = cos(s->inclination * RADIAN),
+                                                                              .sin_theta = sin(s->inclination * RADIAN),
+                                                                              .motion = s->motion });
     assert_int_equal(view.status, KD_CRITICAL_OK);
     return view;
 }
@@ -107,21 +132,22 @@ static void directions(void **state)
             least = fmin(least, want), greatest = fmax(greatest, want);
             seen++;
         }
-        print_message("%s, a = %g, r = %g: %d of %d directions see the sky, g from %.6g to %.6g, off by %.1e\n", seers[i].name, seers[i].spin, seers[i].r, seen, N,
-                      least, greatest, worst);
+        print_message("%s, a = %g, r = %g: %d of %d directions see the sky, g from %.6g to %.6g, off by %.1e\n",
+                      seers[i].name, seers[i].spin, seers[i].r, seen, N, least, greatest, worst);
         assert_true(wrong == 0 && worst < 1e-9 && seen > 10);
         assert_true(least >= view.least * (1 - 1e-9) && greatest <= view.greatest * (1 + 1e-9));
     }
 }
 
-/* Directions of one g are a circle about the axis along which E changes most; where g is a part in 100 000 beyond an extreme all of it is dark, or there is
- * none, and where it is that much short of it some is seen. */
+/* Directions of one g are a circle about the axis along which E changes most; where g is a part in 100 000 beyond an
+ * extreme all of it is dark, or there is none, and where it is that much short of it some is seen. */
 static bool circle_is_seen(const struct seer *s, const struct ks_frame *f, double g, int directions)
 {
     static const double axes[3][3] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
     double mean = 0, slope[3], size = 0, across[3], third[3];
     for (int i = 0; i < 3; i++) {
-        double there = oracle_energy(s, f, axes[i], NULL), back = oracle_energy(s, f, (double[]) { -axes[i][0], -axes[i][1], -axes[i][2] }, NULL);
+        double there = oracle_energy(s, f, axes[i], NULL),
+               back = oracle_energy(s, f, (double[]) { -axes[i][0], -axes[i][1], -axes[i][2] }, NULL);
         mean = 0.5 * (there + back), slope[i] = 0.5 * (there - back), size += slope[i] * slope[i];
     }
     size = sqrt(size);
@@ -159,16 +185,18 @@ static void extremes(void **state)
             assert_true(fabs(v.least / want - 1) < 1e-12 && fabs(v.greatest / want - 1) < 1e-12);
             continue;
         }
-        bool low = circle_is_seen(&seers[i], &f, v.least * (1 + step), 800), lower = circle_is_seen(&seers[i], &f, v.least * (1 - step), 100);
-        bool high = circle_is_seen(&seers[i], &f, v.greatest * (1 - step), 800), higher = circle_is_seen(&seers[i], &f, v.greatest * (1 + step), 100);
+        bool low = circle_is_seen(&seers[i], &f, v.least * (1 + step), 800),
+             lower = circle_is_seen(&seers[i], &f, v.least * (1 - step), 100);
+        bool high = circle_is_seen(&seers[i], &f, v.greatest * (1 - step), 800),
+             higher = circle_is_seen(&seers[i], &f, v.greatest * (1 + step), 100);
         if (!low || lower || !high || higher)
-            fail_msg("%s, a = %g, r = %g: g from %.9g (%d, not %d) to %.9g (%d, not %d)", seers[i].name, seers[i].spin, seers[i].r, v.least, low, lower,
-                     v.greatest, high, higher);
+            fail_msg("%s, a = %g, r = %g: g from %.9g (%d, not %d) to %.9g (%d, not %d)", seers[i].name, seers[i].spin,
+                     seers[i].r, v.least, low, lower, v.greatest, high, higher);
     }
 }
 
-/* The dark disk of rain in Schwarzschild: r sin = b (1 - cos sqrt(2/r)), b = sqrt(27), a quadratic equation of the tangent of half the angle; of one at rest
- * sin = b sqrt(1 - 2/r)/r (Synge 1966). */
+/* The dark disk of rain in Schwarzschild: r sin = b (1 - cos sqrt(2/r)), b = sqrt(27), a quadratic equation of the
+ * tangent of half the angle; of one at rest sin = b sqrt(1 - 2/r)/r (Synge 1966). */
 static void round_disks(void **state)
 {
     (void)state;
@@ -189,7 +217,8 @@ static void round_disks(void **state)
     }
 }
 
-/* The solid angle against the integral of its distance from a middle, where that is simple, and against counted directions. */
+/* The solid angle against the integral of its distance from a middle, where that is simple, and against counted
+ * directions. */
 static void solid_angles(void **state)
 {
     (void)state;
@@ -204,21 +233,25 @@ static void solid_angles(void **state)
         }
         double counted = 4 * M_PI * dark / N, exact = kd_critical_measure(&v.edge).area;
         if (!(fabs(counted - v.dark) < 1e-2) || (!v.edge.is_skew && !(fabs(exact / v.dark - 1) < 1e-9)))
-            fail_msg("%s, a = %g, r = %g: the dark disk has %.12g, counted %.6g, integrated %.12g", seers[i].name, seers[i].spin, seers[i].r, v.dark, counted, exact);
+            fail_msg("%s, a = %g, r = %g: the dark disk has %.12g, counted %.6g, integrated %.12g", seers[i].name,
+                     seers[i].spin, seers[i].r, v.dark, counted, exact);
     }
 }
 
 static void none(void **state)
 {
     (void)state;
-    assert_int_equal(kd_sky_view_of(&(struct kd_critical_observer) { .radius = INFINITY, .cos_theta = 1 }).status, KD_CRITICAL_BAD_INPUT);
-    assert_int_equal(kd_sky_view_of(&(struct kd_critical_observer) { .radius = 1.9, .sin_theta = 1 }).status, KD_CRITICAL_BAD_INPUT);
+    assert_int_equal(kd_sky_view_of(&(struct kd_critical_observer) { .radius = INFINITY, .cos_theta = 1 }).status,
+                     KD_CRITICAL_BAD_INPUT);
+    assert_int_equal(kd_sky_view_of(&(struct kd_critical_observer) { .radius = 1.9, .sin_theta = 1 }).status,
+                     KD_CRITICAL_BAD_INPUT);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(directions), cmocka_unit_test(extremes), cmocka_unit_test(round_disks), cmocka_unit_test(solid_angles), cmocka_unit_test(none),
+        cmocka_unit_test(directions),   cmocka_unit_test(extremes), cmocka_unit_test(round_disks),
+        cmocka_unit_test(solid_angles), cmocka_unit_test(none),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

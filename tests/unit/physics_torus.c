@@ -1,4 +1,5 @@
-/* The torus of Fishbone & Moncrief against the equation of motion: the gas is held by its pressure, d ln h = g_ab,r u^a u^b dr/2, integrated from the inner edge. */
+/* The torus of Fishbone & Moncrief against the equation of motion: the gas is held by its pressure, d ln h = g_ab,r
+ * u^a u^b dr/2, integrated from the inner edge. */
 #include "physics/torus.h"
 
 #include <math.h>
@@ -52,7 +53,9 @@ static void enthalpy_holds_the_gas(void **state)
         enum { PARTS = 400 };
         double sum = 0, h = (most - inner) / PARTS;
         for (int k = 0; k < PARTS; k++)
-            sum += h / 6 * (slope(a, t.l, inner + k * h) + 4 * slope(a, t.l, inner + (k + 0.5) * h) + slope(a, t.l, inner + (k + 1) * h));
+            sum += h / 6 *
+                   (slope(a, t.l, inner + k * h) + 4 * slope(a, t.l, inner + (k + 0.5) * h) +
+                    slope(a, t.l, inner + (k + 1) * h));
         if (!(fabs(sum / t.log_most - 1) < 1e-6))
             fail_msg("a = %g, from %g to %g M: ln h = %.9g, integrated %.9g", a, inner, most, t.log_most, sum);
         /* There it is largest: the gas needs no pressure. */

@@ -1,5 +1,6 @@
-/* Observers that go on by their own clock, against the equations of Hamilton in ingoing Kerr-Schild coordinates: Runge and Kutta's method of
- * fourth order, with derivatives of the metric by differences, through the horizon. Nothing is separated, nothing integrated in r. */
+/* Observers that go on by their own clock, against the equations of Hamilton in ingoing Kerr-Schild coordinates:
+ * Runge and Kutta's method of fourth order, with derivatives of the metric by differences, through the horizon.
+ * Nothing is separated, nothing integrated in r. */
 #include "kerr_schild_frame.h"
 #include "physics/infall.h"
 #include "physics/kerr.h"
@@ -63,9 +64,9 @@ static void step(const struct body *b, double h, double *y)
 static const struct fall {
     double a, theta_deg, r, from, energy, momentum; /* from, energy: INFINITY as in kd_observer_motion */
 } falls[] = {
-    { 0, 90, 8, INFINITY, INFINITY, 0 },     { 0, 30, 5, 9, INFINITY, 0 },          { 0.7, 82, 6, INFINITY, INFINITY, 0 },
-    { -0.9, 40, 5, INFINITY, INFINITY, 0 },  { 0.9, 90, 5, 5.5, INFINITY, 1.2 },    { 0.6, 90, 6, INFINITY, 1.3, -2.5 },
-    { 0.95, 0, 4, INFINITY, 1.1, 0 },        { 0.5, 90, 1.7, INFINITY, 0.4, 0.3 },
+    { 0, 90, 8, INFINITY, INFINITY, 0 },    { 0, 30, 5, 9, INFINITY, 0 },         { 0.7, 82, 6, INFINITY, INFINITY, 0 },
+    { -0.9, 40, 5, INFINITY, INFINITY, 0 }, { 0.9, 90, 5, 5.5, INFINITY, 1.2 },   { 0.6, 90, 6, INFINITY, 1.3, -2.5 },
+    { 0.95, 0, 4, INFINITY, 1.1, 0 },       { 0.5, 90, 1.7, INFINITY, 0.4, 0.3 },
 };
 
 static struct kd_observer_motion motion_of(const struct fall *f)
@@ -81,7 +82,8 @@ static void near(const char *what, const struct fall *f, double proper_time, dou
         fail_msg("spin %g from %g M, after %g M: %s %.15g, wanted %.15g", f->a, f->r, proper_time, what, got, wanted);
 }
 
-/* The oracle is good to some 1e-10; next to r = 0 its steps are too long, which is why it stops where half of the way to the end is left. */
+/* The oracle is good to some 1e-10; next to r = 0 its steps are too long, which is why it stops where half of the
+ * way to the end is left. */
 static void what_falls_is_where_its_clock_says(void **state)
 {
     (void)state;
@@ -89,13 +91,16 @@ static void what_falls_is_where_its_clock_says(void **state)
         const struct fall *f = &falls[i];
         const struct kd_observer_motion m = motion_of(f);
         const double theta = f->theta_deg * (M_PI / 180);
-        const struct kd_vantage at = { f->a, f->r, f->theta_deg == 90 ? 0 : cos(theta), f->theta_deg == 0 ? 0 : sin(theta) };
+        const struct kd_vantage at = { f->a, f->r, f->theta_deg == 90 ? 0 : cos(theta),
+                                       f->theta_deg == 0 ? 0 : sin(theta) };
         const struct body body = { f->a, kd_observer_energy(&m, &at), f->momentum };
         const struct ks_place place = { f->a, f->r, fmax(theta, 1e-7) };
         double y[STATE] = { [R] = f->r, [THETA] = place.theta }, p[4];
         ks_inwards(&place, 1, body.energy, body.momentum, 0, p);
         y[P_R] = p[1];
-        const double horizon = kd_kerr_horizon(f->a), all = kd_infall_proper_time(&m, &at, fmin(0.7 * horizon + 0.3 * kd_kerr_inner_horizon(f->a), f->r));
+        const double horizon = kd_kerr_horizon(f->a),
+                     all =
+                         kd_infall_proper_time(&m, &at, fmin(0.7 * horizon + 0.3 * kd_kerr_inner_horizon(f->a), f->r));
         assert_true(kd_worldline_is_known(&m, &at));
         enum { STEPS = 4000, LOOKS = 8 };
         for (int n = 1; n <= STEPS; n++) {
@@ -125,7 +130,8 @@ static void azimuth_on_the_axis_is_the_limit(void **state)
     assert_true(fabs(on.azimuth - off.azimuth) < 1e-9 && fabs(on.azimuth) > 0.01);
 }
 
-/* Rain in Schwarzschild: r^(3/2) falls evenly, and with x = sqrt(r/2) the ingoing null coordinate grows by 4 (x^3/3 - x^2/2 + x - ln(1 + x)). */
+/* Rain in Schwarzschild: r^(3/2) falls evenly, and with x = sqrt(r/2) the ingoing null coordinate grows by 4 (x^3/3
+ * - x^2/2 + x - ln(1 + x)). */
 static double advanced(double r)
 {
     double x = sqrt(r / 2);
@@ -184,7 +190,8 @@ static void it_ends_where_a_camera_can_be_at_last(void **state)
 static void others_stay_and_go_round(void **state)
 {
     (void)state;
-    static const enum kd_observer kinds[] = { KD_OBSERVER_STATIC, KD_OBSERVER_ZAMO, KD_OBSERVER_KEPLERIAN, KD_OBSERVER_RETROGRADE };
+    static const enum kd_observer kinds[] = { KD_OBSERVER_STATIC, KD_OBSERVER_ZAMO, KD_OBSERVER_KEPLERIAN,
+                                              KD_OBSERVER_RETROGRADE };
     for (double a = -0.9; a < 1; a += 0.45)
         for (double r = 5; r < 100; r *= 3)
             for (int i = 0; i < 8; i++) {
@@ -196,8 +203,10 @@ static void others_stay_and_go_round(void **state)
                 if (!known)
                     continue;
                 const struct kd_worldline_place got = kd_worldline_after(&m, &at, 3);
-                const double tt = -1 + 2 * r / sigma, tp = -2 * a * r * s2 / sigma, pp = (r * r + a * a) * s2 - a * s2 * tp, t = got.time, p = got.azimuth;
-                const double turning[] = { p, tp * t + pp * p, p / t * (pow(r, 1.5) + a) - 1, p / t * (pow(r, 1.5) - a) + 1 };
+                const double tt = -1 + 2 * r / sigma, tp = -2 * a * r * s2 / sigma,
+                             pp = (r * r + a * a) * s2 - a * s2 * tp, t = got.time, p = got.azimuth;
+                const double turning[] = { p, tp * t + pp * p, p / t * (pow(r, 1.5) + a) - 1,
+                                           p / t * (pow(r, 1.5) - a) + 1 };
                 assert_true(fabs(tt * t * t + 2 * tp * t * p + pp * p * p + 9) < 1e-11 && t > 3);
                 assert_true(fabs(turning[i / 2]) < 1e-11);
                 assert_true(got.r == r && got.far_time == got.time && !got.ended);
@@ -224,9 +233,12 @@ static void some_have_no_path_that_is_known(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_falls_is_where_its_clock_says), cmocka_unit_test(azimuth_on_the_axis_is_the_limit),
-        cmocka_unit_test(rain_in_schwarzschild),              cmocka_unit_test(it_ends_where_a_camera_can_be_at_last),
-        cmocka_unit_test(others_stay_and_go_round),           cmocka_unit_test(some_have_no_path_that_is_known),
+        cmocka_unit_test(what_falls_is_where_its_clock_says),
+        cmocka_unit_test(azimuth_on_the_axis_is_the_limit),
+        cmocka_unit_test(rain_in_schwarzschild),
+        cmocka_unit_test(it_ends_where_a_camera_can_be_at_last),
+        cmocka_unit_test(others_stay_and_go_round),
+        cmocka_unit_test(some_have_no_path_that_is_known),
     };
     return cmocka_run_group_tests_name("observers that go on", tests, NULL, NULL);
 }

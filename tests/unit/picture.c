@@ -11,7 +11,9 @@
 static void encode(const struct kd_scene *scene, const struct kd_plan *plan, struct kd_buffer *file)
 {
     static uint16_t pixels[3 * 4 * 2] = { 1, 2, 3, 65535 };
-    const struct kd_frame frame = { .width = 4, .height = 2, .layers = { { "rgb", 3, KD_LAYER_U16, pixels } }, .n_layers = 1 };
+    const struct kd_frame frame = {
+        .width = 4, .height = 2, .layers = { { "rgb", 3, KD_LAYER_U16, pixels } }, .n_layers = 1
+    };
     struct kd_error error = { 0 };
     const struct kd_picture picture = { &frame, scene, plan, "llvmpipe, 256 bits", 0 };
     if (kd_encode(&kd_format_png, &picture, KD_EFFORT_KEEP, NULL, file, &error))
@@ -42,7 +44,10 @@ static void the_file_says_how_it_was_made(void **state)
 {
     (void)state;
     const struct kd_plan plan = {
-        .rays = 12, .setting = { KD_ENGINE_KS_RK4, KD_PRECISION_F64, 64, NAN }, .approximations = { "first", "second" }, .n_approximations = 2,
+        .rays = 12,
+        .setting = { KD_ENGINE_KS_RK4, KD_PRECISION_F64, 64, NAN },
+        .approximations = { "first", "second" },
+        .n_approximations = 2,
     };
     struct kd_scene scene;
     struct kd_buffer file = { 0 };
@@ -58,7 +63,8 @@ static void the_file_says_how_it_was_made(void **state)
     assert_string_equal(kd_png_text_find(&png, "kerrd:version"), KD_VERSION);
     assert_string_equal(kd_png_text_find(&png, "kerrd:approximations"), "first\nsecond");
     assert_string_equal(kd_png_text_find(&png, "kerrd:device"), "llvmpipe, 256 bits");
-    assert_string_equal(kd_png_text_find(&png, "kerrd:accuracy"), "rays=12 engine=ks-rk4 precision=f64 steps=64 critical_rays=0 undecided=0 sampled=0");
+    assert_string_equal(kd_png_text_find(&png, "kerrd:accuracy"),
+                        "rays=12 engine=ks-rk4 precision=f64 steps=64 critical_rays=0 undecided=0 sampled=0");
     assert_string_equal(kd_png_text_find(&png, "Software"), "kerrd " KD_VERSION);
     kd_png_finish(&png);
     kd_buffer_finish(&file);

@@ -1,5 +1,5 @@
-/* Test bodies of gravity "kerr" against the closed form of bound orbits (physics/orbit_bound.h), which is no integration; and snapshots, which start again to the
- * bit. */
+/* Test bodies of gravity "kerr" against the closed form of bound orbits (physics/orbit_bound.h), which is no
+ * integration; and snapshots, which start again to the bit. */
 #include "playground_support.h"
 
 #include "physics/orbit_bound.h"
@@ -7,13 +7,19 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* A body that begins with the velocity v that an observer of zero angular momentum sees, for a hundred radial periods: where it is at each of a thousand times is where
- * the closed form has it when its time is that, found by bisection. */
+/* A body that begins with the velocity v that an observer of zero angular momentum sees, for a hundred radial
+ * periods: where it is at each of a thousand times is where the closed form has it when its time is that, found by
+ * bisection. */
 static void test_bodies_follow_the_closed_form(void **state)
 {
     (void)state;
-    static const struct { double spin, x[3], v[3]; } cases[] = {
-        { 0.9, { 10, 0, 0 }, { 0, 0.36, 0 } }, { 0.9, { 6, 0, 2 }, { 0.1, 0.4, 0.2 } }, { -0.5, { 0, 20, 3 }, { -0.22, 0.02, 0.1 } }, { 0, { 12, 3, 0 }, { 0, 0.34, 0.1 } },
+    static const struct {
+        double spin, x[3], v[3];
+    } cases[] = {
+        { 0.9, { 10, 0, 0 }, { 0, 0.36, 0 } },
+        { 0.9, { 6, 0, 2 }, { 0.1, 0.4, 0.2 } },
+        { -0.5, { 0, 20, 3 }, { -0.22, 0.02, 0.1 } },
+        { 0, { 12, 3, 0 }, { 0, 0.34, 0.1 } },
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct kd_playground_params params = playground_quiet();
@@ -29,7 +35,8 @@ static void test_bodies_follow_the_closed_form(void **state)
         const struct kd_playground_spherical from = kd_playground_spherical(body.x, body.v);
         struct kd_orbit orbit;
         struct kd_orbit_state start;
-        if (kd_orbit_from_state(params.spin, from.r, from.theta * 180 / M_PI, KD_OBSERVER_ZAMO, from.v, &orbit, &start, &error))
+        if (kd_orbit_from_state(params.spin, from.r, from.theta * 180 / M_PI, KD_OBSERVER_ZAMO, from.v, &orbit, &start,
+                                &error))
             fail_msg("%s", error.message);
         assert_int_equal(orbit.fate, KD_ORBIT_BOUND);
         const struct kd_orbit_bound bound = kd_orbit_bound_of(&orbit, &start);
@@ -45,7 +52,8 @@ static void test_bodies_follow_the_closed_form(void **state)
             }
             mino = high;
             const struct kd_orbit_place at = kd_orbit_bound_at(&bound, mino);
-            const double phi = from.phi + at.phi, s = at.r * sin(at.theta), want[3] = { s * cos(phi), s * sin(phi), at.r * cos(at.theta) };
+            const double phi = from.phi + at.phi, s = at.r * sin(at.theta),
+                         want[3] = { s * cos(phi), s * sin(phi), at.r * cos(at.theta) };
             for (int n = 0; n < 3; n++)
                 worst = fmax(worst, fabs(p->bodies[0].x[n] - want[n]) / at.r);
         }
@@ -59,7 +67,8 @@ static void test_bodies_follow_the_closed_form(void **state)
 static void the_velocity_told_begins_the_same_motion(void **state)
 {
     (void)state;
-    struct kd_playground *p = playground_read("{\"gravity\":\"kerr\",\"spin\":0.8,\"h_max\":1,\"bodies\":[{\"position\":[9,1,2],\"velocity\":[-0.05,0.3,0.1]}]}");
+    struct kd_playground *p = playground_read("{\"gravity\":\"kerr\",\"spin\":0.8,\"h_max\":1,\"bodies\":[{"
+                                              "\"position\":[9,1,2],\"velocity\":[-0.05,0.3,0.1]}]}");
     playground_advance(p, 137);
     struct kd_playground *q = playground_read("{\"gravity\":\"kerr\",\"spin\":0.8,\"h_max\":1}");
     playground_put(q, p->bodies[0]);
@@ -75,8 +84,10 @@ static void the_velocity_told_begins_the_same_motion(void **state)
 static void who_leaves_is_told(void **state)
 {
     (void)state;
-    struct kd_playground *p = playground_read("{\"gravity\":\"kerr\",\"spin\":0.5,\"h_max\":1e5,\"budget\":10000000,\"bodies\":[{\"position\":[9,0,0],\"velocity\":[-0.5,0,0]},"
-                                              "{\"position\":[0,30,0],\"velocity\":[0,0.9,0]},{\"position\":[0,0,40],\"velocity\":[0.1,0.01,0]}]}");
+    struct kd_playground *p = playground_read(
+        "{\"gravity\":\"kerr\",\"spin\":0.5,\"h_max\":1e5,\"budget\":10000000,\"bodies\":[{\"position\":[9,0,0],"
+        "\"velocity\":[-0.5,0,0]},"
+        "{\"position\":[0,30,0],\"velocity\":[0,0.9,0]},{\"position\":[0,0,40],\"velocity\":[0.1,0.01,0]}]}");
     struct kd_error error = { 0 };
     playground_advance(p, 3e6);
     assert_int_equal(p->n, 1);
@@ -93,8 +104,9 @@ static void who_leaves_is_told(void **state)
     kd_playground_destroy(p);
 }
 
-/* Nobody who begins on a circle, or next to one, or at a turning point by rounding, is refused; and the middle of the motion is where W has its maximum: that fixes how
- * fast it goes round. W is even about the middle but for its cubic part, a share of the width squared. */
+/* Nobody who begins on a circle, or next to one, or at a turning point by rounding, is refused; and the middle of
+ * the motion is where W has its maximum: that fixes how fast it goes round. W is even about the middle but for its
+ * cubic part, a share of the width squared. */
 static void circles_are_no_refusals(void **state)
 {
     (void)state;
@@ -103,14 +115,16 @@ static void circles_are_no_refusals(void **state)
     for (int k = 0; k < 8000; k++) {
         for (int i = 0; i < 6; i++)
             u[i] = (seed = seed * 1664525u + 1013904223u) * 0x1p-32;
-        const double spin = 1.99 * u[0] - 0.995, r = k % 3 ? 8 + 30 * u[1] : 12, phi = 2 * M_PI * u[2], tilt = M_PI * u[3];
+        const double spin = 1.99 * u[0] - 0.995, r = k % 3 ? 8 + 30 * u[1] : 12, phi = 2 * M_PI * u[2],
+                     tilt = M_PI * u[3];
         const double v = k % 5 ? (1 + (k % 2) * pow(10, -1 - 14 * u[4])) / sqrt(r - 2) : 0.3;
         const double x[3] = { r * cos(phi), r * sin(phi) * cos(tilt), r * sin(phi) * sin(tilt) };
         const double to[3] = { -v * sin(phi), v * cos(phi) * cos(tilt), v * cos(phi) * sin(tilt) };
         struct kd_playground_geodesic g;
         struct kd_error error = { 0 };
         if (kd_geodesic_begin(&g, spin, x, to, 0, &error))
-            fail_msg("spin %.17g, x %.17g %.17g %.17g, v %.17g %.17g %.17g: %s", spin, x[0], x[1], x[2], to[0], to[1], to[2], error.message);
+            fail_msg("spin %.17g, x %.17g %.17g %.17g, v %.17g %.17g %.17g: %s", spin, x[0], x[1], x[2], to[0], to[1],
+                     to[2], error.message);
         const struct kd_orbit *o = &g.path.orbit;
         const double middle = 0.5 * (o->w_low + o->w_high), width = (o->w_high - o->w_low) / middle;
         if (o->fate == KD_ORBIT_BOUND && width < 1e-6)
@@ -120,11 +134,13 @@ static void circles_are_no_refusals(void **state)
     assert_true(worst < 1e-11);
 }
 
-/* On Schwarzschild's circle of r = 12 the azimuth is t/12^(3/2), also at the very times at which steps end, 256 of them a turn. */
+/* On Schwarzschild's circle of r = 12 the azimuth is t/12^(3/2), also at the very times at which steps end, 256 of
+ * them a turn. */
 static void circles_go_round_evenly(void **state)
 {
     (void)state;
-    struct kd_playground *p = playground_read("{\"gravity\":\"kerr\",\"h_max\":100,\"bodies\":[{\"position\":[12,0,0],\"velocity\":[0,0.31622776601683794,0]}]}");
+    struct kd_playground *p = playground_read("{\"gravity\":\"kerr\",\"h_max\":100,\"bodies\":[{\"position\":[12,0,0],"
+                                              "\"velocity\":[0,0.31622776601683794,0]}]}");
     const double rate = pow(12, -1.5), step = 2 * M_PI / rate / 256;
     for (int k = 1; k <= 400; k++) {
         playground_advance(p, k * step - p->t);
@@ -133,13 +149,16 @@ static void circles_go_round_evenly(void **state)
     kd_playground_destroy(p);
 }
 
-/* Where the budget ends in a stride all bodies are where they were at its begin, at one time; and the next advances bring them where one with all it takes does, to the bit,
- * through a snapshot as well. A piece of an advance is no more than so many steps, however long a stride is. */
+/* Where the budget ends in a stride all bodies are where they were at its begin, at one time; and the next advances
+ * bring them where one with all it takes does, to the bit, through a snapshot as well. A piece of an advance is no
+ * more than so many steps, however long a stride is. */
 static void bodies_are_at_one_time(void **state)
 {
     (void)state;
-    const char *text = "{\"gravity\":\"kerr\",\"spin\":0.9,\"h_max\":500,\"budget\":100000000,\"bodies\":[{\"position\":[9,1,2],\"velocity\":[-0.05,0.3,0.1]},"
-                       "{\"position\":[0,12,0],\"velocity\":[-0.3,-0.05,0.1]},{\"position\":[0,0,30],\"velocity\":[0.1,0.15,0]}]}";
+    const char *text =
+        "{\"gravity\":\"kerr\",\"spin\":0.9,\"h_max\":500,\"budget\":100000000,\"bodies\":[{\"position\":[9,1,2],"
+        "\"velocity\":[-0.05,0.3,0.1]},"
+        "{\"position\":[0,12,0],\"velocity\":[-0.3,-0.05,0.1]},{\"position\":[0,0,30],\"velocity\":[0.1,0.15,0]}]}";
     struct kd_playground *p = playground_read(text), *q = playground_read(text), *single[3];
     struct kd_playground_progress progress;
     struct kd_error error = { 0 };
@@ -166,7 +185,8 @@ static void bodies_are_at_one_time(void **state)
             kd_buffer_finish(&out);
         }
     }
-    struct kd_playground_run run; /* a stride that is left in the middle, and then less of it asked for: that goes no farther */
+    struct kd_playground_run
+        run; /* a stride that is left in the middle, and then less of it asked for: that goes no farther */
     const double before = q->t;
     q->params.budget = 100000000;
     kd_playground_begin(q, 500, &run);
@@ -182,7 +202,8 @@ static void bodies_are_at_one_time(void **state)
         kd_playground_destroy(begun);
         playground_advance(single[i], q->t);
         for (int k = 0; k < 3; k++)
-            assert_true(p->bodies[i].x[k] == q->bodies[i].x[k] && p->bodies[i].x[k] == single[i]->bodies[0].x[k] && p->bodies[i].v[k] == q->bodies[i].v[k]);
+            assert_true(p->bodies[i].x[k] == q->bodies[i].x[k] && p->bodies[i].x[k] == single[i]->bodies[0].x[k] &&
+                        p->bodies[i].v[k] == q->bodies[i].v[k]);
         kd_playground_destroy(single[i]);
     }
     unsigned pieces = 1;
@@ -198,7 +219,10 @@ static void bodies_are_at_one_time(void **state)
 static void time_has_an_end(void **state)
 {
     (void)state;
-    static const char *const texts[] = { "{\"h_max\":1000000}", "{\"h_max\":1000000,\"gravity\":\"kerr\",\"bodies\":[{\"position\":[900000,0,0],\"velocity\":[0,0.00105,0]}]}" };
+    static const char *const texts[] = {
+        "{\"h_max\":1000000}",
+        "{\"h_max\":1000000,\"gravity\":\"kerr\",\"bodies\":[{\"position\":[900000,0,0],\"velocity\":[0,0.00105,0]}]}"
+    };
     for (int i = 0; i < 2; i++) {
         struct kd_playground *p = playground_read(texts[i]), *q;
         struct kd_playground_progress progress;
@@ -207,7 +231,8 @@ static void time_has_an_end(void **state)
         if (i)
             p->geodesics[0].from_t = p->t;
         kd_playground_advance(p, 1e12, &progress);
-        assert_true(progress.slowed && progress.ended && p->t >= KD_PLAYGROUND_TIME && p->t <= KD_PLAYGROUND_TIME + 1e6);
+        assert_true(progress.slowed && progress.ended && p->t >= KD_PLAYGROUND_TIME &&
+                    p->t <= KD_PLAYGROUND_TIME + 1e6);
         struct kd_buffer out = { 0 };
         assert_int_equal(kd_playground_write(p, true, &out), KD_OK);
         assert_int_equal(kd_playground_read((const char *)out.data, out.size, &q, &error), KD_OK);
@@ -230,16 +255,23 @@ static struct kd_buffer snapshot(struct kd_playground *p)
     return out;
 }
 
-/* Snapshot, go on, snapshot; read the first, go on, snapshot: the same bytes. In the middle of shedding, of an inspiral, of geodesics. */
+/* Snapshot, go on, snapshot; read the first, go on, snapshot: the same bytes. In the middle of shedding, of an
+ * inspiral, of geodesics. */
 static void snapshots_start_again_to_the_bit(void **state)
 {
     (void)state;
-    static const struct { const char *text; double first, then; } cases[] = {
+    static const struct {
+        const char *text;
+        double first, then;
+    } cases[] = {
         { "{\"preset\":\"disruption\",\"debris_per_body\":300,\"debris_capacity\":250}", 2600, 400 },
-        { "{\"preset\":\"disruption\",\"debris_per_body\":200000,\"debris_capacity\":200000,\"h_max\":100}", 2760, 60 }, /* debris bounds the step */
+        { "{\"preset\":\"disruption\",\"debris_per_body\":200000,\"debris_capacity\":200000,\"h_max\":100}", 2760,
+          60 }, /* debris bounds the step */
         { "{\"preset\":\"binary\"}", 3000, 4000 },
         { "{\"preset\":\"system\",\"waves\":true,\"amplification\":10}", 100, 100 },
-        { "{\"gravity\":\"kerr\",\"spin\":0.9,\"bodies\":[{\"position\":[9,1,2],\"velocity\":[-0.05,0.3,0.1]},{\"position\":[0,12,0],\"velocity\":[-0.4,-0.25,0.1]}]}", 25, 40 },
+        { "{\"gravity\":\"kerr\",\"spin\":0.9,\"bodies\":[{\"position\":[9,1,2],\"velocity\":[-0.05,0.3,0.1]},{"
+          "\"position\":[0,12,0],\"velocity\":[-0.4,-0.25,0.1]}]}",
+          25, 40 },
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct kd_playground *p = playground_read(cases[i].text), *q;
@@ -269,7 +301,8 @@ static void snapshots_start_again_to_the_bit(void **state)
 static void damaged_snapshots_do_no_harm(void **state)
 {
     (void)state;
-    struct kd_playground *p = playground_read("{\"preset\":\"disruption\",\"debris_per_body\":100,\"debris_capacity\":90}");
+    struct kd_playground *p =
+        playground_read("{\"preset\":\"disruption\",\"debris_per_body\":100,\"debris_capacity\":90}");
     playground_advance(p, 2600);
     struct kd_buffer whole = snapshot(p);
     unsigned read = 0;
@@ -296,7 +329,8 @@ static void damaged_snapshots_do_no_harm(void **state)
 static void refuse(struct kd_playground **p, const char *text, const char *pointer)
 {
     struct kd_error error = { 0 };
-    const enum kd_status status = *p ? kd_playground_patch(p, text, strlen(text), &error) : kd_playground_read(text, strlen(text), p, &error);
+    const enum kd_status status =
+        *p ? kd_playground_patch(p, text, strlen(text), &error) : kd_playground_read(text, strlen(text), p, &error);
     assert_int_equal(status, KD_EINVAL);
     assert_string_equal(error.pointer, pointer);
 }
@@ -322,17 +356,20 @@ static void documents_are_checked_and_changes_are_whole(void **state)
     refuse(&p, "{\"spin\":0.5}", "/spin");
     assert_int_equal(p->n, 6);
     assert_false(p->params.waves);
-    const char *good = "{\"waves\":true,\"add\":[{\"position\":[40,0,0],\"name\":\"new\"}],\"change\":[{\"id\":2,\"mass\":0.5}],\"remove\":[1]}";
+    const char *good = "{\"waves\":true,\"add\":[{\"position\":[40,0,0],\"name\":\"new\"}],\"change\":[{\"id\":2,"
+                       "\"mass\":0.5}],\"remove\":[1]}";
     assert_int_equal(kd_playground_patch(&p, good, strlen(good), &error), KD_OK);
     assert_int_equal(p->n, 6);
     assert_true(p->params.waves && kd_playground_find(p, 2)->mass == 0.5 && !kd_playground_find(p, 1));
     assert_string_equal(kd_playground_find(p, 7)->name, "new");
     kd_playground_destroy(p);
-    /* A star in its pass that is given another temperature goes on with it; the books of a snapshot know what was given. */
+    /* A star in its pass that is given another temperature goes on with it; the books of a snapshot know what was
+     * given. */
     p = playground_read("{\"preset\":\"disruption\",\"debris_per_body\":1000}");
     playground_advance(p, 2600);
     const double shed = p->bodies[0].shed;
-    const char *warm = "{\"change\":[{\"id\":1,\"temperature_k\":9000}]}", *more = "{\"add\":[{\"position\":[500,0,0],\"mass\":0.001}]}";
+    const char *warm = "{\"change\":[{\"id\":1,\"temperature_k\":9000}]}",
+               *more = "{\"add\":[{\"position\":[500,0,0],\"mass\":0.001}]}";
     assert_int_equal(kd_playground_patch(&p, warm, strlen(warm), &error), KD_OK);
     assert_true(shed > 0 && p->bodies[0].shed == shed && p->bodies[0].whole_mass == 1e-6);
     assert_int_equal(kd_playground_patch(&p, more, strlen(more), &error), KD_OK);

@@ -1,4 +1,5 @@
-/* Bodies of the playground move as they must: against what is known of their orbits, which shares no equation with the stepping. */
+/* Bodies of the playground move as they must: against what is known of their orbits, which shares no equation with
+ * the stepping. */
 #include "playground_support.h"
 
 static void add(struct kd_playground *p, double mass, double x, double y, double vx, double vy)
@@ -6,8 +7,8 @@ static void add(struct kd_playground *p, double mass, double x, double y, double
     playground_put(p, (struct kd_playground_body) { .mass = mass, .x = { x, y, 0 }, .v = { vx, vy, 0 } });
 }
 
-/* A bound ellipse round the hole and a bound pair, a thousand turns of each: the energy's error swings, and its mean over the last tenth is that of
- * the first within a hundredth of the swing. */
+/* A bound ellipse round the hole and a bound pair, a thousand turns of each: the energy's error swings, and its mean
+ * over the last tenth is that of the first within a hundredth of the swing. */
 static void energy_has_no_trend_over_a_thousand_orbits(void **state)
 {
     (void)state;
@@ -35,15 +36,16 @@ static void energy_has_no_trend_over_a_thousand_orbits(void **state)
             low = fmin(low, error);
             high = fmax(high, error);
         }
-        print_message("pair %d: swing %.3g, first %.6g, last %.6g, steps %llu\n", pair, high - low, sum[0], sum[9], (unsigned long long)p->steps);
+        print_message("pair %d: swing %.3g, first %.6g, last %.6g, steps %llu\n", pair, high - low, sum[0], sum[9],
+                      (unsigned long long)p->steps);
         assert_true(high - low < 2e-3);
         assert_true(fabs(sum[9] - sum[0]) < 0.01 * (high - low));
         kd_playground_destroy(p);
     }
 }
 
-/* B. Paczynski & P. Wiita 1980: the last stable orbit is at 6, the marginally bound one at 4. Pushed inwards by a thousandth, a circle outside 6 swings, one
- * inside plunges. */
+/* B. Paczynski & P. Wiita 1980: the last stable orbit is at 6, the marginally bound one at 4. Pushed inwards by a
+ * thousandth, a circle outside 6 swings, one inside plunges. */
 static void circles_stay_outside_six_and_plunge_inside(void **state)
 {
     (void)state;
@@ -71,7 +73,8 @@ static void circles_stay_outside_six_and_plunge_inside(void **state)
     }
 }
 
-/* From rest far away: with the angular momentum 4 of the marginally bound circle, times 1.001 it turns, times 0.999 it is taken. */
+/* From rest far away: with the angular momentum 4 of the marginally bound circle, times 1.001 it turns, times 0.999
+ * it is taken. */
 static void the_marginally_bound_orbit_is_at_four(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* What pictures are made of: bodies of a playground by the metric's coordinates, and its debris on a grid, which holds as much as the pieces. */
+/* What pictures are made of: bodies of a playground by the metric's coordinates, and its debris on a grid, which
+ * holds as much as the pieces. */
 #include "playground_support.h"
 
 #include "playground/debris.h"
@@ -21,18 +22,25 @@ static void bodies(void **state)
 {
     (void)state;
     struct kd_playground *p = playground_make(playground_quiet());
-    playground_put(p, (struct kd_playground_body) { .mass = 1e-6, .radius = 0.3, .temperature_k = 4000, .x = { 0, 3, 4 }, .v = { -0.6, 0, 0.5 } });
-    playground_put(p, (struct kd_playground_body) { .mass = 1e-6, .radius = 0.2, .temperature_k = 9000, .x = { 2.5, 0, 0 }, .v = { -1, 0, 0 } });
+    playground_put(p,
+                   (struct kd_playground_body) {
+                       .mass = 1e-6, .radius = 0.3, .temperature_k = 4000, .x = { 0, 3, 4 }, .v = { -0.6, 0, 0.5 } });
+    playground_put(p, (struct kd_playground_body) {
+                          .mass = 1e-6, .radius = 0.2, .temperature_k = 9000, .x = { 2.5, 0, 0 }, .v = { -1, 0, 0 } });
     struct kd_crowd *crowd = shown(p);
     const struct kd_seen_body *b = &crowd->bodies[0];
     double v2 = 0;
     for (int k = 0; k < 3; k++)
         v2 += b->velocity[k] * b->velocity[k];
-    assert_true(fabs(b->r - 5) < 1e-12 && fabs(b->u - 0.8) < 1e-12 && fabs(b->s - 0.6) < 1e-12 && fabs(b->phi - M_PI / 2) < 1e-12);
+    assert_true(fabs(b->r - 5) < 1e-12 && fabs(b->u - 0.8) < 1e-12 && fabs(b->s - 0.6) < 1e-12 &&
+                fabs(b->phi - M_PI / 2) < 1e-12);
     assert_true(fabs(v2 / (1 - v2) - 0.61) < 1e-12);
-    assert_true(fabs(b->velocity[0] / b->velocity[2] - 0.4 / 0.6) < 1e-9 && fabs(b->velocity[1] / b->velocity[2] + 0.3 / 0.6) < 1e-9);
-    assert_true(b->radius == 0.3 && b->temperature_k == 4000 && b->brightness == 1 && b->which == 0 && crowd->bodies[1].which == 1);
-    assert_true(fabs(crowd->bodies[1].velocity[0] + M_SQRT1_2) < 1e-12 && crowd->approximate && crowd->time == 0 && !crowd->debris.rows);
+    assert_true(fabs(b->velocity[0] / b->velocity[2] - 0.4 / 0.6) < 1e-9 &&
+                fabs(b->velocity[1] / b->velocity[2] + 0.3 / 0.6) < 1e-9);
+    assert_true(b->radius == 0.3 && b->temperature_k == 4000 && b->brightness == 1 && b->which == 0 &&
+                crowd->bodies[1].which == 1);
+    assert_true(fabs(crowd->bodies[1].velocity[0] + M_SQRT1_2) < 1e-12 && crowd->approximate && crowd->time == 0 &&
+                !crowd->debris.rows);
     kd_crowd_release(crowd);
     kd_playground_destroy(p);
 
@@ -40,7 +48,8 @@ static void bodies(void **state)
     kerr.gravity = KD_GRAVITY_KERR;
     kerr.spin = 0.9;
     p = playground_make(kerr);
-    playground_put(p, (struct kd_playground_body) { .mass = 1e-6, .radius = 0.3, .temperature_k = 4000, .x = { 9, 0, 0 }, .v = { 0.1, 0.4, 0 } });
+    playground_put(p, (struct kd_playground_body) {
+                          .mass = 1e-6, .radius = 0.3, .temperature_k = 4000, .x = { 9, 0, 0 }, .v = { 0.1, 0.4, 0 } });
     crowd = shown(p);
     assert_true(!crowd->approximate && crowd->bodies[0].velocity[0] == 0.1 && crowd->bodies[0].velocity[2] == 0.4);
     struct kd_scene scene;
@@ -186,8 +195,8 @@ static void a_star_is_shown(void **state)
     assert_int_equal(kd_playground_set(p, &looks, &error), KD_OK);
     struct kd_crowd *crowd = shown(p);
     const struct sums s = sums_of(&crowd->debris);
-    printf("%u pieces on %u rows of %u of %u a turn, %g of the star, |z|/r %.2g\n", crowd->debris.pieces, crowd->debris.rows, crowd->debris.columns, crowd->debris.turn, s.worth,
-           crowd->debris.thick);
+    printf("%u pieces on %u rows of %u of %u a turn, %g of the star, |z|/r %.2g\n", crowd->debris.pieces,
+           crowd->debris.rows, crowd->debris.columns, crowd->debris.turn, s.worth, crowd->debris.thick);
     assert_int_equal(crowd->debris.pieces, p->debris.alive);
     assert_true(fabs(s.worth - p->debris.alive / 50000.0) < 1e-4 && s.worth > 0.4 && s.worth < 0.7);
     assert_true(crowd->debris.depth == 3 && crowd->debris.temperature_k == 7000 && crowd->time == p->t);
@@ -204,7 +213,8 @@ static double width_of(const struct kd_playground *p)
     return scene.camera.field_m;
 }
 
-/* A view is as wide as bodies are far out, and debris where there is more of it: nine pieces in ten are within half of it. */
+/* A view is as wide as bodies are far out, and debris where there is more of it: nine pieces in ten are within half
+ * of it. */
 static void a_view_is_as_wide_as_what_there_is(void **state)
 {
     (void)state;
@@ -226,13 +236,14 @@ static void a_view_is_as_wide_as_what_there_is(void **state)
         within += p->debris.pieces[i].stage != KD_DEBRIS_FREE && r <= 1;
         nearer += p->debris.pieces[i].stage != KD_DEBRIS_FREE && r <= 0.985;
     }
-    printf("a view of a torn star is %.4g M wide, and %.3f of it are within 1/2.4 of that, %.3f within 0.985 of it\n", width, (double)within / p->debris.alive,
-           (double)nearer / p->debris.alive);
+    printf("a view of a torn star is %.4g M wide, and %.3f of it are within 1/2.4 of that, %.3f within 0.985 of it\n",
+           width, (double)within / p->debris.alive, (double)nearer / p->debris.alive);
     assert_true(width > 2 * usual.camera.field_m && within >= 0.9 * p->debris.alive && nearer < 0.9 * p->debris.alive);
     kd_playground_destroy(p);
 }
 
-/* What is torn off already keeps its worth, whatever bodies are to fall into from now on: here, and in a snapshot. Of two stars each has its own. */
+/* What is torn off already keeps its worth, whatever bodies are to fall into from now on: here, and in a snapshot.
+ * Of two stars each has its own. */
 static void a_piece_keeps_its_worth(void **state)
 {
     (void)state;
@@ -249,7 +260,8 @@ static void a_piece_keeps_its_worth(void **state)
     assert_true(fabs(sums_of(&crowd->debris).worth - first) < 1e-4 && first > 0.9);
     kd_crowd_release(crowd);
     const uint32_t before = p->debris.alive;
-    playground_put(p, (struct kd_playground_body) { .mass = 1e-6, .radius = 0.47, .x = { 0, 60, 0 }, .v = { 0.15, -0.03, 0 } });
+    playground_put(
+        p, (struct kd_playground_body) { .mass = 1e-6, .radius = 0.47, .x = { 0, 60, 0 }, .v = { 0.15, -0.03, 0 } });
     for (int i = 0; p->n && i < 300; i++)
         playground_advance(p, 5);
     assert_int_equal(p->debris.last_source, 2);
@@ -271,7 +283,9 @@ static void a_piece_keeps_its_worth(void **state)
 static void nowhere(void **state)
 {
     (void)state;
-    struct kd_debris_piece pieces[7] = { piece(10, 1, 0, 0, 0), piece(20, 2, 0, 0, 0), piece(1, 0, 0, 0, 0), piece(5, 0, 0, 0, 0), piece(6, 0, 0, 0, 0), piece(7, 0, 0, 0, 0), piece(1e-9, 0, 0, 0, 0) };
+    struct kd_debris_piece pieces[7] = { piece(10, 1, 0, 0, 0),  piece(20, 2, 0, 0, 0), piece(1, 0, 0, 0, 0),
+                                         piece(5, 0, 0, 0, 0),   piece(6, 0, 0, 0, 0),  piece(7, 0, 0, 0, 0),
+                                         piece(1e-9, 0, 0, 0, 0) };
     pieces[2].x[0] = pieces[2].x[1] = 0; /* on the axis */
     pieces[3].x[1] = NAN;
     pieces[4].x[0] = INFINITY;
@@ -285,8 +299,13 @@ static void nowhere(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bodies), cmocka_unit_test(debris_is_all_there), cmocka_unit_test(a_piece_is_at_its_place), cmocka_unit_test(a_star_is_shown), cmocka_unit_test(a_piece_keeps_its_worth),
-        cmocka_unit_test(nowhere), cmocka_unit_test(a_view_is_as_wide_as_what_there_is),
+        cmocka_unit_test(bodies),
+        cmocka_unit_test(debris_is_all_there),
+        cmocka_unit_test(a_piece_is_at_its_place),
+        cmocka_unit_test(a_star_is_shown),
+        cmocka_unit_test(a_piece_keeps_its_worth),
+        cmocka_unit_test(nowhere),
+        cmocka_unit_test(a_view_is_as_wide_as_what_there_is),
     };
     return cmocka_run_group_tests_name("playground_show", tests, NULL, NULL);
 }

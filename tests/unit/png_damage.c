@@ -11,10 +11,7 @@
 #include <zlib.h>
 
 static uint32_t seed = 99;
-static uint32_t random_bits(void)
-{
-    return (seed = seed * 1664525u + 1013904223u) >> 8;
-}
+static uint32_t random_bits(void) { return (seed = seed * 1664525u + 1013904223u) >> 8; }
 
 static void sample(struct kd_buffer *file, int depth)
 {
@@ -200,9 +197,15 @@ static void text_is_limited(void **state)
 static void no_text_is_lost_in_silence(void **state)
 {
     (void)state;
-    static const struct { const char *type, *body; uint32_t length; } chunks[] = {
-        { "zTXt", "key\0\0not a stream of zlib", 23 }, { "zTXt", "key\0\7unknown method", 19 },
-        { "iTXt", "key\0\2\0\0\0flag", 12 },           { "iTXt", "key\0\1\0\0\0stream", 14 }, { "iTXt", "key", 3 },
+    static const struct {
+        const char *type, *body;
+        uint32_t length;
+    } chunks[] = {
+        { "zTXt", "key\0\0not a stream of zlib", 23 },
+        { "zTXt", "key\0\7unknown method", 19 },
+        { "iTXt", "key\0\2\0\0\0flag", 12 },
+        { "iTXt", "key\0\1\0\0\0stream", 14 },
+        { "iTXt", "key", 3 },
     };
     for (size_t i = 0; i < sizeof chunks / sizeof *chunks; i++)
         if (with_chunk(chunks[i].type, chunks[i].body, chunks[i].length) != KD_EINVAL)

@@ -1,4 +1,5 @@
-/* Live frames, by every engine that was built in: pixel for pixel what libpng decodes; each chunk and checksum judged by zlib. */
+/* Live frames, by every engine that was built in: pixel for pixel what libpng decodes; each chunk and checksum
+ * judged by zlib. */
 #include "image/png.h"
 #include "image/png_live.h"
 
@@ -14,10 +15,7 @@
 #include <zlib.h>
 
 static uint32_t seed = 2024;
-static uint32_t random_bits(void)
-{
-    return (seed = seed * 1664525u + 1013904223u) >> 8;
-}
+static uint32_t random_bits(void) { return (seed = seed * 1664525u + 1013904223u) >> 8; }
 
 enum content { BLACK, FLAT, RANDOM, SMOOTH, DITHERED, CHECKS, SPARSE, CONTENTS };
 
@@ -50,7 +48,8 @@ static uint32_t big_endian(const uint8_t *p)
     return (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | p[3];
 }
 
-/* The file is these four chunks and nothing else, each with its own CRC; zlib checks its own sum, and nothing is left over. */
+/* The file is these four chunks and nothing else, each with its own CRC; zlib checks its own sum, and nothing is
+ * left over. */
 static void check_strictly(const uint8_t *file, size_t size, uint32_t width, uint32_t height)
 {
     static const char *const types[] = { "IHDR", "sRGB", "IDAT", "IEND" };
@@ -119,7 +118,7 @@ static struct kd_png_live *encoder(enum kd_deflate_engine engine)
 static void pixels_survive(void **state)
 {
     (void)state;
-    static const uint32_t sides[][2] = { { 640, 360 }, { 1, 1 }, { 1, 97 }, { 97, 1 },  { 3, 2 },
+    static const uint32_t sides[][2] = { { 640, 360 }, { 1, 1 }, { 1, 97 },    { 97, 1 },    { 3, 2 },
                                          { 641, 37 },  { 2, 1 }, { 32768, 2 }, { 1, 32768 }, { 1280, 720 } };
     for (enum kd_deflate_engine engine = 0; engine < KD_DEFLATE_COUNT; engine++) {
         if (!kd_deflate_has(engine)) {
@@ -206,15 +205,19 @@ static void bad_sides_are_refused(void **state)
         enum kd_status status;
         const char *word;
     } cases[] = {
-        { 0, 2, KD_EINVAL, "0 x 2" },           { 2, 0, KD_EINVAL, "2 x 0" },
-        { 32769, 1, KD_EINVAL, "1 to 32768" },  { 1, 4294967295u, KD_EINVAL, "4294967295" },
-        { 32768, 32768, KD_ETOOBIG, "3.00 GiB" }, { 32768, 10923, KD_ETOOBIG, "at most 1" },
+        { 0, 2, KD_EINVAL, "0 x 2" },
+        { 2, 0, KD_EINVAL, "2 x 0" },
+        { 32769, 1, KD_EINVAL, "1 to 32768" },
+        { 1, 4294967295u, KD_EINVAL, "4294967295" },
+        { 32768, 32768, KD_ETOOBIG, "3.00 GiB" },
+        { 32768, 10923, KD_ETOOBIG, "at most 1" },
     };
     struct kd_png_live *live = encoder(kd_deflate_fastest());
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct kd_buffer out = { 0 };
         struct kd_error error = { 0 };
-        assert_int_equal(kd_png_live_encode(live, cases[i].width, cases[i].height, pixel, &out, &error), cases[i].status);
+        assert_int_equal(kd_png_live_encode(live, cases[i].width, cases[i].height, pixel, &out, &error),
+                         cases[i].status);
         assert_non_null(strstr(error.message, cases[i].word));
         assert_int_equal(out.size, 0);
         kd_buffer_finish(&out);

@@ -20,22 +20,10 @@ void *__wrap_calloc(size_t n, size_t size);
 
 static int countdown = -1; /* allocations until the one that fails; negative: none does */
 
-static int fails(void)
-{
-    return countdown >= 0 && countdown-- == 0;
-}
-void *__wrap_malloc(size_t size)
-{
-    return fails() ? NULL : __real_malloc(size);
-}
-void *__wrap_realloc(void *old, size_t size)
-{
-    return fails() ? NULL : __real_realloc(old, size);
-}
-void *__wrap_calloc(size_t n, size_t size)
-{
-    return fails() ? NULL : __real_calloc(n, size);
-}
+static int fails(void) { return countdown >= 0 && countdown-- == 0; }
+void *__wrap_malloc(size_t size) { return fails() ? NULL : __real_malloc(size); }
+void *__wrap_realloc(void *old, size_t size) { return fails() ? NULL : __real_realloc(old, size); }
+void *__wrap_calloc(size_t n, size_t size) { return fails() ? NULL : __real_calloc(n, size); }
 
 enum { SIDE = 64 };
 

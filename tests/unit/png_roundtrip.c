@@ -14,10 +14,7 @@
 #include <png.h>
 
 static uint32_t seed = 12345;
-static uint32_t random_bits(void)
-{
-    return seed = seed * 1664525u + 1013904223u;
-}
+static uint32_t random_bits(void) { return seed = seed * 1664525u + 1013904223u; }
 
 static void fill_random(void *to, size_t size)
 {
@@ -81,7 +78,9 @@ static void large_pictures_survive(void **state)
     assert_non_null(pixels);
     for (size_t i = 0; i < size / 2; i += 997)
         pixels[i] = (uint16_t)i;
-    const struct kd_png_params params = { .width = WIDTH, .height = HEIGHT, .bit_depth = 16, .compression = 1, .pixels = pixels };
+    const struct kd_png_params params = {
+        .width = WIDTH, .height = HEIGHT, .bit_depth = 16, .compression = 1, .pixels = pixels
+    };
     assert_true(kd_png_filtered_bytes(&params) > KD_PNG_WHOLE);
     assert_int_equal(kd_png_encode(&params, &file, &error), KD_OK);
     assert_int_equal(kd_png_decode(file.data, file.size, &png, &error), KD_OK);
@@ -91,7 +90,8 @@ static void large_pictures_survive(void **state)
     free(pixels);
 }
 
-/* Rows that go on downwards, or by the mean of left and above, are small by the filter that says so alone: noise takes all of its bytes by another. */
+/* Rows that go on downwards, or by the mean of left and above, are small by the filter that says so alone: noise
+ * takes all of its bytes by another. */
 static void each_row_has_the_filter_that_suits_it(void **state)
 {
     (void)state;
@@ -102,7 +102,10 @@ static void each_row_has_the_filter_that_suits_it(void **state)
         for (int y = 1; y < N; y++)
             for (int i = 0; i < STRIDE; i++) {
                 const uint8_t *above = pixels + (y - 1) * STRIDE, *row = pixels + y * STRIDE;
-                pixels[y * STRIDE + i] = kind == 0 ? above[i] : kind == 1 ? (uint8_t)(((i < 3 ? 0 : row[i - 3]) + above[i]) / 2) : i < 3 ? above[i] : row[i - 3];
+                pixels[y * STRIDE + i] = kind == 0   ? above[i]
+                                         : kind == 1 ? (uint8_t)(((i < 3 ? 0 : row[i - 3]) + above[i]) / 2)
+                                         : i < 3     ? above[i]
+                                                     : row[i - 3];
             }
         struct kd_png_params params = { .width = N, .height = N, .bit_depth = 8, .compression = 5, .pixels = pixels };
         struct kd_buffer file = { 0 };
@@ -169,9 +172,7 @@ static void appends_the_same_bytes(void **state)
     (void)state;
     uint8_t pixels[3 * 16 * 9];
     fill_random(pixels, sizeof pixels);
-    struct kd_png_params params = {
-        .width = 16, .height = 9, .bit_depth = 8, .compression = 1, .pixels = pixels
-    };
+    struct kd_png_params params = { .width = 16, .height = 9, .bit_depth = 8, .compression = 1, .pixels = pixels };
     struct kd_buffer a = { 0 }, b = { 0 };
     struct kd_error error = { 0 };
 
@@ -202,8 +203,7 @@ static void bad_parameters_are_refused(void **state)
 {
     (void)state;
     static const uint8_t pixels[12];
-#define WITH(...)                                                                                            \
-    ((struct kd_png_params) { .width = 2, .height = 2, .bit_depth = 8, .pixels = pixels, __VA_ARGS__ })
+#define WITH(...) ((struct kd_png_params) { .width = 2, .height = 2, .bit_depth = 8, .pixels = pixels, __VA_ARGS__ })
     refused(WITH(.width = 0), "0 x 2");
     refused(WITH(.height = 0), "2 x 0");
     refused(WITH(.width = 32769), "32769");
@@ -231,7 +231,8 @@ static void bad_parameters_are_refused(void **state)
 #undef WITH
 }
 
-/* As much text as may be written is read back: in one piece, of either kind of chunk, and in as many as there may be. */
+/* As much text as may be written is read back: in one piece, of either kind of chunk, and in as many as there may
+ * be. */
 static void all_text_comes_back(void **state)
 {
     (void)state;
@@ -252,8 +253,12 @@ static void all_text_comes_back(void **state)
         const struct kd_png_text one = { "key", value };
         if (kind == 1)
             memcpy(value, "\xc3\xa4", 2); /* not ASCII: an iTXt chunk */
-        struct kd_png_params params = { .width = 1, .height = 1, .bit_depth = 8, .pixels = pixel,
-                                        .text = kind < 2 ? &one : texts, .n_text = kind < 2 ? 1 : PIECES };
+        struct kd_png_params params = { .width = 1,
+                                        .height = 1,
+                                        .bit_depth = 8,
+                                        .pixels = pixel,
+                                        .text = kind < 2 ? &one : texts,
+                                        .n_text = kind < 2 ? 1 : PIECES };
         assert_int_equal(kd_png_encode(&params, &file, NULL), KD_OK);
         assert_int_equal(kd_png_decode(file.data, file.size, &png, NULL), KD_OK);
         assert_int_equal(png.n_text, params.n_text);
@@ -276,8 +281,7 @@ static void write_other(struct kd_buffer *file, int type, int depth, int interla
     png_infop info = png_create_info_struct(png);
     assert_false(setjmp(png_jmpbuf(png)));
     png_init_io(png, stream);
-    png_set_IHDR(png, info, 13, 11, depth, type, interlace, PNG_COMPRESSION_TYPE_DEFAULT,
-                 PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(png, info, 13, 11, depth, type, interlace, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_color palette[2] = { { 10, 20, 30 }, { 200, 210, 220 } };
     if (type == PNG_COLOR_TYPE_PALETTE)
         png_set_PLTE(png, info, palette, 2);
@@ -381,7 +385,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(all_text_comes_back),
-        cmocka_unit_test(pixels_survive), cmocka_unit_test(large_pictures_survive), cmocka_unit_test(each_row_has_the_filter_that_suits_it),
+        cmocka_unit_test(pixels_survive),
+        cmocka_unit_test(large_pictures_survive),
+        cmocka_unit_test(each_row_has_the_filter_that_suits_it),
         cmocka_unit_test(text_survives),
         cmocka_unit_test(sixteen_bits_are_big_endian),
         cmocka_unit_test(appends_the_same_bytes),

@@ -1,5 +1,5 @@
-/* Quantities by name: every table is sound, requests are read or refused with the reason, ranges nest, and the forms of an
- * answer say the same. */
+/* Quantities by name: every table is sound, requests are read or refused with the reason, ranges nest, and the forms
+ * of an answer say the same. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -143,14 +143,29 @@ static void points_stand_alone(void **state)
 static void bad_requests(void **state)
 {
     (void)state;
-    static const struct { const char *name, *text, *pointer, *words; } cases[] = {
-        { "spin", "1", "/spin", "above -1 and below 1" }, { "spin", "-1", "/spin", "\"-1\"" }, { "spin", "", "/spin", "spin" },
-        { "spin", "nan", "/spin", "\"nan\"" }, { "spin", "1e999", "/spin", "1e999" }, { "spin", " 0.5", "/spin", "spin" },
-        { "spin", "0.5x", "/spin", "0.5x" }, { "spin", "0:0.5", "/spin", "first:last:count" }, { "spin", "0:0.5:1", "/spin", "2" },
-        { "spin", "0:0.5:2.5", "/spin", "2.5" }, { "spin", "0:0.5:100001", "/spin", "100000" }, { "spin", "0:1:5", "/spin", "0:1:5" },
-        { "spin", "0:0.5:2:2", "/spin", "spin" }, { "spin", "isco", "/spin", "isco" }, { "r", "0.5", "/r", "\"isco\"" },
-        { "r", "isco:10:2", "/r", "isco" }, { "mass", "1", "/mass", "known are spin, theta_deg, r" },
-        { "a/b~", "1", "/a~1b~0", "a/b~" }, { "digits", "0", "/digits", "1 to 17" }, { "digits", "2.5", "/digits", "\"2.5\"" },
+    static const struct {
+        const char *name, *text, *pointer, *words;
+    } cases[] = {
+        { "spin", "1", "/spin", "above -1 and below 1" },
+        { "spin", "-1", "/spin", "\"-1\"" },
+        { "spin", "", "/spin", "spin" },
+        { "spin", "nan", "/spin", "\"nan\"" },
+        { "spin", "1e999", "/spin", "1e999" },
+        { "spin", " 0.5", "/spin", "spin" },
+        { "spin", "0.5x", "/spin", "0.5x" },
+        { "spin", "0:0.5", "/spin", "first:last:count" },
+        { "spin", "0:0.5:1", "/spin", "2" },
+        { "spin", "0:0.5:2.5", "/spin", "2.5" },
+        { "spin", "0:0.5:100001", "/spin", "100000" },
+        { "spin", "0:1:5", "/spin", "0:1:5" },
+        { "spin", "0:0.5:2:2", "/spin", "spin" },
+        { "spin", "isco", "/spin", "isco" },
+        { "r", "0.5", "/r", "\"isco\"" },
+        { "r", "isco:10:2", "/r", "isco" },
+        { "mass", "1", "/mass", "known are spin, theta_deg, r" },
+        { "a/b~", "1", "/a~1b~0", "a/b~" },
+        { "digits", "0", "/digits", "1 to 17" },
+        { "digits", "2.5", "/digits", "\"2.5\"" },
         { "digits", "2:6:3", "/digits", "whole numbers" },
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -195,7 +210,8 @@ static void ranges_nest(void **state)
     assert_true(value(&answer, 6, "horizon") < 1.5 && value(&answer, 11, "ergosphere") == 2);
     assert_true(value(&answer, 6, "ergosphere") < value(&answer, 8, "ergosphere"));
     assert_true(value(&answer, 10, "omega_phi") > 2 * value(&answer, 11, "omega_phi"));
-    cJSON *json = parsed(&answer), *shape = cJSON_GetObjectItem(json, "shape"), *ranges = cJSON_GetObjectItem(json, "ranges");
+    cJSON *json = parsed(&answer), *shape = cJSON_GetObjectItem(json, "shape"),
+          *ranges = cJSON_GetObjectItem(json, "ranges");
     assert_int_equal(cJSON_GetArraySize(shape), 3);
     assert_int_equal(cJSON_GetArrayItem(shape, 1)->valueint, 3);
     assert_string_equal(cJSON_GetArrayItem(ranges, 0)->valuestring, "spin");
@@ -230,7 +246,8 @@ static void json_of_a_curve(void **state)
 static void separatrix_by_known_ones(void **state)
 {
     (void)state;
-    struct kd_quantity_answer still = ASK("separatrix", "spin", "0", "inclination_deg", "0:180:3", "e", "0:0.9:4"), turns = ASK("separatrix", "spin", "0.9");
+    struct kd_quantity_answer still = ASK("separatrix", "spin", "0", "inclination_deg", "0:180:3", "e", "0:0.9:4"),
+                              turns = ASK("separatrix", "spin", "0.9");
     struct kd_buffer text = { 0 };
     double spin, inclination, e, p, r_min, r_max;
     assert_int_equal(kd_quantity_csv(&still, &text), KD_OK);
@@ -253,24 +270,31 @@ static void separatrix_by_known_ones(void **state)
     kd_quantity_answer_finish(&turns);
 }
 
-/* Against closed forms for spin 0.9: of the retrograde ISCO; of a parabola, whose p is twice the marginally bound radius 2 - a + 2 sqrt(1 - a) (Bardeen, Press & Teukolsky
- * 1972), a < 0 for the retrograde one; of the orbits of light in the equator (there) and over the poles (Teo 2003, Gen. Rel. Grav. 35, 1909). */
+/* Against closed forms for spin 0.9: of the retrograde ISCO; of a parabola, whose p is twice the marginally bound
+ * radius 2 - a + 2 sqrt(1 - a) (Bardeen, Press & Teukolsky 1972), a < 0 for the retrograde one; of the orbits of
+ * light in the equator (there) and over the poles (Teo 2003, Gen. Rel. Grav. 35, 1909). */
 static void separatrix_of_a_spinning_hole(void **state)
 {
     (void)state;
     const double a = 0.9, pole = 1 + 2 * sqrt(1 - a * a / 3) * cos(acos((1 - a * a) / pow(1 - a * a / 3, 1.5)) / 3);
-    const struct { const char *inclination, *e; double p, circle, off; } all[] = {
+    const struct {
+        const char *inclination, *e;
+        double p, circle, off;
+    } all[] = {
         { "180", "0", 8.717352279606489, 2 * (1 + cos(2. / 3 * acos(a))), 1e-12 },
         { "0", "0.999999", 2 * (2 - a + 2 * sqrt(1 - a)), 2 * (1 + cos(2. / 3 * acos(-a))), 1e-5 },
         { "180", "0.999999", 2 * (2 + a + 2 * sqrt(1 + a)), 2 * (1 + cos(2. / 3 * acos(a))), 1e-5 },
         { "90", "0", NAN, pole, NAN },
     };
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
-        struct kd_quantity_answer answer = ASK("separatrix", "spin", "0.9", "inclination_deg", all[i].inclination, "e", all[i].e);
+        struct kd_quantity_answer answer =
+            ASK("separatrix", "spin", "0.9", "inclination_deg", all[i].inclination, "e", all[i].e);
         struct kd_buffer text = { 0 };
         double in[3], p, r_min, r_max, circle;
         assert_int_equal(kd_quantity_csv(&answer, &text), KD_OK);
-        assert_int_equal(sscanf(strchr((char *)text.data, '\n') + 1, "%lf,%lf,%lf,%lf,%lf,%lf,%lf", &in[0], &in[1], &in[2], &p, &r_min, &r_max, &circle), 7);
+        assert_int_equal(sscanf(strchr((char *)text.data, '\n') + 1, "%lf,%lf,%lf,%lf,%lf,%lf,%lf", &in[0], &in[1],
+                                &in[2], &p, &r_min, &r_max, &circle),
+                         7);
         if (!isnan(all[i].p))
             assert_float_equal(p, all[i].p, all[i].off);
         assert_float_equal(circle, all[i].circle, 1e-9);
@@ -282,7 +306,8 @@ static void separatrix_of_a_spinning_hole(void **state)
 static void csv_has_a_line_a_point(void **state)
 {
     (void)state;
-    struct kd_quantity_answer answer = ASK("frame-dragging", "spin", "0.5:0.75:2", "r", "2:10:3", "theta_deg", "0:90:2");
+    struct kd_quantity_answer answer =
+        ASK("frame-dragging", "spin", "0.5:0.75:2", "r", "2:10:3", "theta_deg", "0:90:2");
     struct kd_buffer text = { 0 };
     assert_int_equal(kd_quantity_csv(&answer, &text), KD_OK);
     char *line = strtok((char *)text.data, "\n");
@@ -291,7 +316,8 @@ static void csv_has_a_line_a_point(void **state)
         double spin, theta, r, omega;
         line = strtok(NULL, "\n");
         assert_int_equal(sscanf(line, "%lf,%lf,%lf,%lf", &spin, &theta, &r, &omega), 4);
-        assert_true(spin == (point < 6 ? 0.5 : 0.75) && theta == (point % 6 < 3 ? 0 : 90) && r == 2 + 4 * (double)(point % 3));
+        assert_true(spin == (point < 6 ? 0.5 : 0.75) && theta == (point % 6 < 3 ? 0 : 90) &&
+                    r == 2 + 4 * (double)(point % 3));
         assert_true(omega == value(&answer, point, "omega"));
         assert_int_equal(strstr(line, ",,,") != NULL, point % 6 < 3); /* on the axis there is no cone */
     }
@@ -304,9 +330,11 @@ static void csv_has_a_line_a_point(void **state)
 static void digits_of_lists(void **state)
 {
     (void)state;
-    struct kd_quantity_answer all = ASK("frame-dragging", "spin", "0.7", "r", "2:10:7"), few = ASK("frame-dragging", "spin", "0.7", "r", "2:10:7", "digits", "4");
+    struct kd_quantity_answer all = ASK("frame-dragging", "spin", "0.7", "r", "2:10:7"),
+                              few = ASK("frame-dragging", "spin", "0.7", "r", "2:10:7", "digits", "4");
     cJSON *whole = parsed(&all), *cut = parsed(&few);
-    const cJSON *omega = cJSON_GetObjectItem(cJSON_GetObjectItem(cut, "values"), "omega"), *r = cJSON_GetObjectItem(cJSON_GetObjectItem(cut, "parameters"), "r");
+    const cJSON *omega = cJSON_GetObjectItem(cJSON_GetObjectItem(cut, "values"), "omega"),
+                *r = cJSON_GetObjectItem(cJSON_GetObjectItem(cut, "parameters"), "r");
     for (int i = 0; i < 7; i++) {
         char want[32];
         snprintf(want, sizeof want, "%.3e", value(&all, (size_t)i, "omega"));
@@ -314,7 +342,8 @@ static void digits_of_lists(void **state)
     }
     assert_true(cJSON_GetArrayItem(r, 1)->valuedouble == 3.333);
     const char *alone = "horizon_omega";
-    assert_true(cJSON_GetObjectItem(cJSON_GetObjectItem(cut, "values"), alone)->valuedouble == cJSON_GetObjectItem(cJSON_GetObjectItem(whole, "values"), alone)->valuedouble);
+    assert_true(cJSON_GetObjectItem(cJSON_GetObjectItem(cut, "values"), alone)->valuedouble ==
+                cJSON_GetObjectItem(cJSON_GetObjectItem(whole, "values"), alone)->valuedouble);
     struct kd_buffer text = { 0 };
     assert_int_equal(kd_quantity_csv(&few, &text), KD_OK);
     assert_non_null(strstr((const char *)text.data, "\n0.7,90,3.333,"));
@@ -366,10 +395,13 @@ static void the_page_is_up_to_date(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(tables_are_sound), cmocka_unit_test(defaults_answer), cmocka_unit_test(points_stand_alone),
-        cmocka_unit_test(bad_requests), cmocka_unit_test(outside_the_domain), cmocka_unit_test(ranges_nest),
-        cmocka_unit_test(json_of_a_curve), cmocka_unit_test(csv_has_a_line_a_point), cmocka_unit_test(separatrix_by_known_ones), cmocka_unit_test(separatrix_of_a_spinning_hole), cmocka_unit_test(digits_of_lists), cmocka_unit_test(words_are_kept),
-        cmocka_unit_test(the_list_parses), cmocka_unit_test(the_page_is_up_to_date),
+        cmocka_unit_test(tables_are_sound),         cmocka_unit_test(defaults_answer),
+        cmocka_unit_test(points_stand_alone),       cmocka_unit_test(bad_requests),
+        cmocka_unit_test(outside_the_domain),       cmocka_unit_test(ranges_nest),
+        cmocka_unit_test(json_of_a_curve),          cmocka_unit_test(csv_has_a_line_a_point),
+        cmocka_unit_test(separatrix_by_known_ones), cmocka_unit_test(separatrix_of_a_spinning_hole),
+        cmocka_unit_test(digits_of_lists),          cmocka_unit_test(words_are_kept),
+        cmocka_unit_test(the_list_parses),          cmocka_unit_test(the_page_is_up_to_date),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

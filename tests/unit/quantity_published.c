@@ -52,39 +52,52 @@ static void figures(void **state)
     (void)state;
     published("solar mass in seconds, Damour & Taylor 1991", ASK("scale", "m_s", "mass_msun=1"), 4.925490947e-6, 1e-14);
     published("M of M87*, EHT 2019, ApJL 875, L1", ASK("scale", "m_uas", "hole=m87"), 3.8, 0.4);
-    published("GRAVITY 2022, A&A 657, L12, abstract: mass of Sgr A*, within 0.25 %", ASK("scale", "mass", "hole=sgra"), 4.30e6, 1.1e4);
+    published("GRAVITY 2022, A&A 657, L12, abstract: mass of Sgr A*, within 0.25 %", ASK("scale", "mass", "hole=sgra"),
+              4.30e6, 1.1e4);
     published("GRAVITY 2021, arXiv:2101.12098: 8275 +- 9 pc to it", ASK("scale", "distance", "hole=sgra"), 8275, 9);
     published("radius of the horizon of one solar mass", ASK("scale", "horizon_km", "mass_msun=1"), 2.95325, 5e-6);
-    published("Thorne 1974, ApJ 191, 507: efficiency at a = 0.998", ASK("kerr", "efficiency", "spin=0.998"), 0.321, 5e-4);
+    published("Thorne 1974, ApJ 191, 507: efficiency at a = 0.998", ASK("kerr", "efficiency", "spin=0.998"), 0.321,
+              5e-4);
     published("Thorne 1974: ISCO at a = 0.998", ASK("kerr", "isco", "spin=0.998"), 1.237, 5e-4);
-    published("Wien's displacement law, CODATA 2018", ASK("blackbody", "peak_nm", "temperature_k=1000"), 2897.771955, 5e-7);
+    published("Wien's displacement law, CODATA 2018", ASK("blackbody", "peak_nm", "temperature_k=1000"), 2897.771955,
+              5e-7);
     published("CIE 15: illuminant A, 2855.5 K, x", ASK("blackbody", "x", "temperature_k=2855.5"), 0.44758, 3e-5);
     published("CIE 15: illuminant A, y", ASK("blackbody", "y", "temperature_k=2855.5"), 0.40745, 3e-5);
-    published("Page & Thorne 1974, Luminet 1979: the flux of a = 0 is largest at 9.55", ASK("disk-flux", "r_peak", "spin=0"), 9.55, 5e-3);
-    published("Chandrasekhar 1983, ch. 7: b_c of a = 0", 1 / ASK("potential", "v_max_light", "l=1"), 5.196152422706632, 1e-14);
-    published("Misner, Thorne & Wheeler 1973, box 25.6: L = 4 is marginally bound", ASK("potential", "v_max_matter", "l=4"), 1, 1e-14);
+    published("Page & Thorne 1974, Luminet 1979: the flux of a = 0 is largest at 9.55",
+              ASK("disk-flux", "r_peak", "spin=0"), 9.55, 5e-3);
+    published("Chandrasekhar 1983, ch. 7: b_c of a = 0", 1 / ASK("potential", "v_max_light", "l=1"), 5.196152422706632,
+              1e-14);
+    published("Misner, Thorne & Wheeler 1973, box 25.6: L = 4 is marginally bound",
+              ASK("potential", "v_max_matter", "l=4"), 1, 1e-14);
     published("12.69 million km, Sgr A*'s horizon for its mass", ASK("scale", "horizon_km", "hole=sgra"), 1.269e7, 5e3);
 }
 
-/* The lensing ring and the photon ring of a hole without spin seen face on: S. E. Gralla, D. E. Holz & R. M. Wald 2019, section III: b from 5.02 to 6.17
- * and from 5.19 to 5.23; each further one thinner by e^pi; M. D. Johnson et al. 2020: gamma is least where the light goes with the spin. */
+/* The lensing ring and the photon ring of a hole without spin seen face on: S. E. Gralla, D. E. Holz & R. M. Wald
+ * 2019, section III: b from 5.02 to 6.17 and from 5.19 to 5.23; each further one thinner by e^pi; M. D. Johnson et
+ * al. 2020: gamma is least where the light goes with the spin. */
 static void rings(void **state)
 {
     (void)state;
     const double rho = ASK("photon-rings", "rho", "spin=0", "inclination_deg=0");
     published("critical curve", rho, sqrt(27), 1e-13);
-    published("lensing ring", rho * (1 + ASK("photon-rings", "inner_edge", "spin=0", "inclination_deg=0", "order=1")), 5.02, 5e-3);
-    published("lensing ring", rho * (1 + ASK("photon-rings", "outer_edge", "spin=0", "inclination_deg=0", "order=1")), 6.17, 5e-3);
-    published("photon ring", rho * (1 + ASK("photon-rings", "inner_edge", "spin=0", "inclination_deg=0", "order=2")), 5.19, 5e-3);
-    published("photon ring", rho * (1 + ASK("photon-rings", "outer_edge", "spin=0", "inclination_deg=0", "order=2")), 5.23, 5e-3);
+    published("lensing ring", rho * (1 + ASK("photon-rings", "inner_edge", "spin=0", "inclination_deg=0", "order=1")),
+              5.02, 5e-3);
+    published("lensing ring", rho * (1 + ASK("photon-rings", "outer_edge", "spin=0", "inclination_deg=0", "order=1")),
+              6.17, 5e-3);
+    published("photon ring", rho * (1 + ASK("photon-rings", "inner_edge", "spin=0", "inclination_deg=0", "order=2")),
+              5.19, 5e-3);
+    published("photon ring", rho * (1 + ASK("photon-rings", "outer_edge", "spin=0", "inclination_deg=0", "order=2")),
+              5.23, 5e-3);
     published("gamma of a = 0", ASK("photon-rings", "gamma", "spin=0"), M_PI, 1e-14);
     for (int k = 0; k < 4; k++) {
         const char *const angles[] = { "angle_deg=0", "angle_deg=70", "angle_deg=160", "angle_deg=250" };
-        double fifth = ASK("photon-rings", "width", "order=5", angles[k]), sixth = ASK("photon-rings", "width", "order=6", angles[k]);
+        double fifth = ASK("photon-rings", "width", "order=5", angles[k]),
+               sixth = ASK("photon-rings", "width", "order=6", angles[k]);
         published("a ring over the one before", log(fifth / sixth), ASK("photon-rings", "gamma", angles[k]), 1e-3);
         /* upside down from below */
         const char *const mirrored[] = { "angle_deg=0", "angle_deg=-70", "angle_deg=-160", "angle_deg=-250" };
-        published("from below", ASK("photon-rings", "width", "order=3", "inclination_deg=120", mirrored[k]), ASK("photon-rings", "width", "order=3", angles[k]), 1e-16);
+        published("from below", ASK("photon-rings", "width", "order=3", "inclination_deg=120", mirrored[k]),
+                  ASK("photon-rings", "width", "order=3", angles[k]), 1e-16);
     }
     assert_true(ASK("photon-rings", "gamma", "angle_deg=180") < ASK("photon-rings", "gamma", "angle_deg=0"));
     assert_true(isnan(ASK("photon-rings", "width", "inclination_deg=90")));
@@ -105,12 +118,14 @@ static void constants(void **state)
     published("parsec", KD_PARSEC_M / (648000 / M_PI * KD_AU_M), 1, 1e-15);
     published("microarcsecond", KD_MICROARCSECOND_RAD / (M_PI / 6.48e11), 1, 1e-15);
     published("mass of the sun, kg, IAU 2015 B3 with CODATA 2014", KD_GM_SUN_SI / KD_G_SI, 1.98848e30, 1e26);
-    published("Thomson: 8 pi/3 r_e^2, r_e of CODATA 2018", KD_THOMSON_M2 / (8 * M_PI / 3 * pow(2.8179403262e-15, 2)), 1, 1e-9);
+    published("Thomson: 8 pi/3 r_e^2, r_e of CODATA 2018", KD_THOMSON_M2 / (8 * M_PI / 3 * pow(2.8179403262e-15, 2)), 1,
+              1e-9);
     published("astronomical unit over the radius of the sun", KD_AU_M / KD_R_SUN_M, 215.032, 5e-4);
 }
 
-/* What reaches infinity is 1 - E(ISCO) a unit of accreted mass: F is a proper flux a proper area, r dr dphi on both faces,
- * and -u_t of what it carries is E. In x = sqrt(r_isco/r), where both are smooth and vanish at the ends, by Simpson's rule. */
+/* What reaches infinity is 1 - E(ISCO) a unit of accreted mass: F is a proper flux a proper area, r dr dphi on both
+ * faces, and -u_t of what it carries is E. In x = sqrt(r_isco/r), where both are smooth and vanish at the ends, by
+ * Simpson's rule. */
 static void energy_is_conserved(void **state)
 {
     (void)state;
@@ -122,14 +137,16 @@ static void energy_is_conserved(void **state)
             char r_text[40];
             double x = (double)i / N, r = isco / (x * x), dr = 2 * r / x;
             snprintf(r_text, sizeof r_text, "r=%.17g", r);
-            double share = 4 * M_PI * r * ASK("disk-flux", "page_thorne", spins[s], r_text) * ASK("kerr", "energy", spins[s], r_text) * dr;
+            double share = 4 * M_PI * r * ASK("disk-flux", "page_thorne", spins[s], r_text) *
+                           ASK("kerr", "energy", spins[s], r_text) * dr;
             sum += share * (i % 2 ? 4 : 2) / (3. * N);
         }
         published("luminosity of the disk", sum, ASK("disk-flux", "efficiency", spins[s]), 1e-8);
     }
 }
 
-/* A face-on ring of a = 0 has g = sqrt(1 - 3/r) all round; the flat formula agrees there, and lensing makes no difference. */
+/* A face-on ring of a = 0 has g = sqrt(1 - 3/r) all round; the flat formula agrees there, and lensing makes no
+ * difference. */
 static void face_on(void **state)
 {
     (void)state;
@@ -138,15 +155,18 @@ static void face_on(void **state)
     published("g of order 1", ASK("redshift", "g_1", "spin=0", "inclination_deg=0", "r=6", "phi_deg=70"), want, 1e-15);
     published("g_flat", ASK("redshift", "g_flat", "spin=0", "inclination_deg=0", "r=6", "phi_deg=70"), want, 1e-15);
     /* From below everything is seen upside down with the same colours. */
-    double above = ASK("redshift", "g", "inclination_deg=70", "phi_deg=200"), below = ASK("redshift", "g", "inclination_deg=110", "phi_deg=200");
+    double above = ASK("redshift", "g", "inclination_deg=70", "phi_deg=200"),
+           below = ASK("redshift", "g", "inclination_deg=110", "phi_deg=200");
     published("g from below", below, above, 1e-12);
     published("beta from below", ASK("redshift", "beta", "inclination_deg=110", "phi_deg=200"),
               -ASK("redshift", "beta", "inclination_deg=70", "phi_deg=200"), 1e-11);
 }
 
-/* sqrt(r^3/2) (eta + sin eta)/2 with r cos^2(eta/2) from rest at r (Misner, Thorne & Wheeler 1973, eq. 31.10): pi/2 sqrt(r^3/2) in all. */
-/* How far rain from r turns until the inner horizon: the azimuth of C. Doran 2000, eq. 16 and 18, stays, and differs from that of ingoing Kerr and Schild
- * by the integral of -a/((r^2 + a^2) (1 + (2r/(r^2 + a^2))^(1/2))) dr; by Simpson's rule. */
+/* sqrt(r^3/2) (eta + sin eta)/2 with r cos^2(eta/2) from rest at r (Misner, Thorne & Wheeler 1973, eq. 31.10): pi/2
+ * sqrt(r^3/2) in all. */
+/* How far rain from r turns until the inner horizon: the azimuth of C. Doran 2000, eq. 16 and 18, stays, and differs
+ * from that of ingoing Kerr and Schild by the integral of -a/((r^2 + a^2) (1 + (2r/(r^2 + a^2))^(1/2))) dr; by
+ * Simpson's rule. */
 static double rain_turns(double a, double r)
 {
     enum { PARTS = 2000 };
@@ -161,31 +181,45 @@ static double rain_turns(double a, double r)
 static void fall(void **state)
 {
     (void)state;
-    double seconds = KD_M_SUN_S * 4.3e6, rain = 0, steps = 20000, end = 0.81 / 1.4358898943540673, span = sqrt(3) - sqrt(end);
+    double seconds = KD_M_SUN_S * 4.3e6, rain = 0, steps = 20000, end = 0.81 / 1.4358898943540673,
+           span = sqrt(3) - sqrt(end);
     published("rain, horizon to singularity", ASK("infall", "proper_time_to_end", "r=2"), 4.0 / 3, 1e-9);
-    published("rain, 8 M to the horizon", ASK("infall", "proper_time_to_horizon", "r=8"), sqrt(2) / 3 * (pow(8, 1.5) - pow(2, 1.5)), 1e-12);
-    published("the longest time within", ASK("infall", "proper_time_to_end", "r=1", "infall_energy=0"), 0.5 * M_PI - 1, 1e-12); /* pi from 2 M on */
-    published("from rest", ASK("infall", "proper_time_to_end", "r=10", "infall_from=10"), 0.5 * M_PI * sqrt(500), 1e-10);
-    published("halfway", ASK("infall", "proper_time_to_end", "r=5", "infall_from=10"), 0.5 * sqrt(500) * (0.5 * M_PI - 1), 1e-10);
-    /* Rain in the coordinates of Painleve and Gullstrand: E of light inwards over what rain measures of it is 1 + its velocity, sqrt(2/r). */
+    published("rain, 8 M to the horizon", ASK("infall", "proper_time_to_horizon", "r=8"),
+              sqrt(2) / 3 * (pow(8, 1.5) - pow(2, 1.5)), 1e-12);
+    published("the longest time within", ASK("infall", "proper_time_to_end", "r=1", "infall_energy=0"), 0.5 * M_PI - 1,
+              1e-12); /* pi from 2 M on */
+    published("from rest", ASK("infall", "proper_time_to_end", "r=10", "infall_from=10"), 0.5 * M_PI * sqrt(500),
+              1e-10);
+    published("halfway", ASK("infall", "proper_time_to_end", "r=5", "infall_from=10"),
+              0.5 * sqrt(500) * (0.5 * M_PI - 1), 1e-10);
+    /* Rain in the coordinates of Painleve and Gullstrand: E of light inwards over what rain measures of it is 1 +
+     * its velocity, sqrt(2/r). */
     published("starlight behind rain", ASK("infall", "g_behind", "r=8"), 2.0 / 3, 1e-14);
     published("starlight behind rain at the horizon", ASK("infall", "g_behind", "r=2"), 0.5, 1e-14);
     published("starlight behind rain within", ASK("infall", "g_behind", "r=0.5"), 1.0 / 3, 1e-14);
-    /* t of ingoing Kerr-Schild coordinates is, without spin, that of Painleve and Gullstrand, rain's own, less 2 (2r)^(1/2) - 4 ln(1 + (r/2)^(1/2)). */
+    /* t of ingoing Kerr-Schild coordinates is, without spin, that of Painleve and Gullstrand, rain's own, less 2
+     * (2r)^(1/2) - 4 ln(1 + (r/2)^(1/2)). */
     published("rain's coordinate time", ASK("infall", "time_to_end", "r=8"), 32.0 / 3 + 8 - 4 * log(3), 1e-10);
-    published("rain's turn", ASK("infall", "azimuth_to_end_deg", "spin=0.9", "r=10"), rain_turns(0.9, 10) * (180 / M_PI), 1e-7);
-    published("rain's turn on the axis", ASK("infall", "azimuth_to_end_deg", "spin=-0.5", "r=3", "inclination_deg=0"), rain_turns(-0.5, 3) * (180 / M_PI), 1e-7);
-    published("seconds of Sgr A*", ASK("infall", "proper_time_to_end_s", "r=2", "mass_msun=4.3e6"), 4.0 / 3 * seconds, 1e-6);
+    published("rain's turn", ASK("infall", "azimuth_to_end_deg", "spin=0.9", "r=10"),
+              rain_turns(0.9, 10) * (180 / M_PI), 1e-7);
+    published("rain's turn on the axis", ASK("infall", "azimuth_to_end_deg", "spin=-0.5", "r=3", "inclination_deg=0"),
+              rain_turns(-0.5, 3) * (180 / M_PI), 1e-7);
+    published("seconds of Sgr A*", ASK("infall", "proper_time_to_end_s", "r=2", "mass_msun=4.3e6"), 4.0 / 3 * seconds,
+              1e-6);
     published("velocity", ASK("infall", "velocity", "r=8"), 0.5, 1e-14);
     for (int i = 0; i <= steps; i++) { /* Simpson's rule for r^2/sqrt(2r (r^2 + a^2)), in sqrt(r) */
         double x = sqrt(end) + span * i / steps, r = x * x;
-        rain += (i == 0 || i == steps ? 1 : i % 2 ? 4 : 2) * 2 * x * r * r / sqrt(2 * r * (r * r + 0.81)) * span / steps / 3;
+        rain += (i == 0 || i == steps ? 1
+                 : i % 2              ? 4
+                                      : 2) *
+                2 * x * r * r / sqrt(2 * r * (r * r + 0.81)) * span / steps / 3;
     }
     published("rain into Kerr", ASK("infall", "proper_time_to_end", "spin=0.9", "r=3"), rain, 1e-10);
 }
 
-/* Rain in Schwarzschild looks: what comes from behind is as above, what comes from the side, L = 0 = p^r of its own, unshifted, and the dark disk at the horizon
- * has the radius 2 atan(2/sqrt(27)), on whose edge E = 1/(1 - cos sqrt(2/r)). */
+/* Rain in Schwarzschild looks: what comes from behind is as above, what comes from the side, L = 0 = p^r of its own,
+ * unshifted, and the dark disk at the horizon has the radius 2 atan(2/sqrt(27)), on whose edge E = 1/(1 - cos
+ * sqrt(2/r)). */
 static void sky_of_rain(void **state)
 {
     (void)state;
@@ -194,21 +228,31 @@ static void sky_of_rain(void **state)
     published("behind", ASK("sky", "g_behind", RAIN, "observer_r=8"), 2.0 / 3, 1e-14);
     published("the least is behind", ASK("sky", "g_least", RAIN, "observer_r=8"), 2.0 / 3, 1e-14);
     published("overhead", ASK("sky", "g_above", RAIN, "observer_r=0.7"), 1, 1e-14);
-    published("30 degrees from straight behind", ASK("sky", "g", RAIN, "observer_r=8", "yaw_deg=150"), 1 / (1 + 0.5 * cos(M_PI / 6)), 1e-14);
-    published("the same upwards", ASK("sky", "g", RAIN, "observer_r=8", "yaw_deg=180", "pitch_deg=30"), 1 / (1 + 0.5 * cos(M_PI / 6)), 1e-14);
-    published("the dark disk at the horizon", ASK("sky", "dark_radius_deg", RAIN, "observer_r=2"), 2 * atan(half) * (180 / M_PI), 1e-9);
+    published("30 degrees from straight behind", ASK("sky", "g", RAIN, "observer_r=8", "yaw_deg=150"),
+              1 / (1 + 0.5 * cos(M_PI / 6)), 1e-14);
+    published("the same upwards", ASK("sky", "g", RAIN, "observer_r=8", "yaw_deg=180", "pitch_deg=30"),
+              1 / (1 + 0.5 * cos(M_PI / 6)), 1e-14);
+    published("the dark disk at the horizon", ASK("sky", "dark_radius_deg", RAIN, "observer_r=2"),
+              2 * atan(half) * (180 / M_PI), 1e-9);
     published("its edge", ASK("sky", "g_greatest", RAIN, "observer_r=2"), 1 / (1 - cosine), 1e-12);
     assert_true(isnan(ASK("sky", "g_ahead", RAIN, "observer_r=2")));
     published("far away", ASK("sky", "g_greatest", "observer_r=infinity"), 1, 0);
-    /* One at rest at 6 M sees 1/sqrt(2/3) of it, from where the orbit, of v = 1/2, leads away sqrt((1 - v)/(1 + v)) of that. */
-    published("from behind one that goes round", ASK("sky", "g_left", "spin=0", "observer=keplerian", "observer_r=6", "inclination_deg=90"), sqrt(0.5), 1e-14);
-    published("and from before it", ASK("sky", "g_right", "spin=0", "observer=keplerian", "observer_r=6", "inclination_deg=90"), 3 * sqrt(0.5), 1e-14);
+    /* One at rest at 6 M sees 1/sqrt(2/3) of it, from where the orbit, of v = 1/2, leads away sqrt((1 - v)/(1 + v))
+     * of that. */
+    published("from behind one that goes round",
+              ASK("sky", "g_left", "spin=0", "observer=keplerian", "observer_r=6", "inclination_deg=90"), sqrt(0.5),
+              1e-14);
+    published("and from before it",
+              ASK("sky", "g_right", "spin=0", "observer=keplerian", "observer_r=6", "inclination_deg=90"),
+              3 * sqrt(0.5), 1e-14);
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(figures), cmocka_unit_test(constants),
-                                        cmocka_unit_test(energy_is_conserved), cmocka_unit_test(face_on), cmocka_unit_test(rings), cmocka_unit_test(fall),
-                                        cmocka_unit_test(sky_of_rain) };
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(figures),    cmocka_unit_test(constants), cmocka_unit_test(energy_is_conserved),
+        cmocka_unit_test(face_on),    cmocka_unit_test(rings),     cmocka_unit_test(fall),
+        cmocka_unit_test(sky_of_rain)
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""The model of bench/queueing.py against closed forms of queues: M/M/1, M/D/1, Erlang's C, weights of shares.h, and what limits refuse.
+"""The model of bench/queueing.py against closed forms of queues: M/M/1, M/D/1, Erlang's C, weights of shares.h, and
+what limits refuse.
 
 queueing.py BENCH
 """
+
 import math
 import pathlib
 import random
@@ -17,7 +19,7 @@ try:
 
     import queueing
 except ImportError as missing:
-    print(f'skipped: {missing}; scripts/setup --browser installs it')
+    print(f"skipped: {missing}; scripts/setup --browser installs it")
     sys.exit(77)
 
 MEAN = 0.02  # seconds of a work
@@ -34,12 +36,17 @@ def erlang_c(n, load):
 
 
 def waits(n, load, count, draw, seed, maxconn=1, limit=10**9, retries=5, patience=math.inf):
-    """Seconds that works waited beyond their own time, by number, and what was answered. All of one estimate: the scheduler cannot know which is short."""
+    """Seconds that works waited beyond their own time, by number, and what was answered. All of one estimate: the
+    scheduler cannot know which is short."""
     rng, env = random.Random(seed), simpy.Environment()
     servers = [queueing.Server(env, limit) for _ in range(n)]
     balancer, log = queueing.Balancer(env, servers, maxconn, patience, retries), []
     takes = [draw(rng) for _ in range(count)]
-    env.process(queueing.open_renders(env, balancer, queueing.poisson(rng, load * n / MEAN, count), lambda k: queueing.Work(takes[k], 0.05), log))
+    env.process(
+        queueing.open_renders(
+            env, balancer, queueing.poisson(rng, load * n / MEAN, count), lambda k: queueing.Work(takes[k], 0.05), log
+        )
+    )
     env.run()
     log.sort()
     return [took - takes[k] for k, _, took, status in log if status == 200], [status for *_, status in log]
@@ -51,9 +58,10 @@ def exponential(rng):
 
 class Queues(unittest.TestCase):
     def near(self, found, expected):
-        """Within four standard errors of the mean, by the means of thirty batches: waits that follow each other are alike. The error is small, or this would say nothing."""
+        """Within four standard errors of the mean, by the means of thirty batches: waits that follow each other are
+        alike. The error is small, or this would say nothing."""
         size = len(found) // 30
-        batches = [statistics.mean(found[k * size:(k + 1) * size]) for k in range(30)]
+        batches = [statistics.mean(found[k * size : (k + 1) * size]) for k in range(30)]
         error = statistics.stdev(batches) / math.sqrt(len(batches))
         self.assertLess(error, 0.15 * expected)
         self.assertLess(abs(statistics.mean(found) - expected), 4 * error)
@@ -89,7 +97,7 @@ class Queues(unittest.TestCase):
         """M/M/1/K: of one device, so many who wait, and no retries."""
         limit, load = 3, 1.2
         k = limit + 1
-        expected = load**k * (1 - load) / (1 - load**(k + 1))
+        expected = load**k * (1 - load) / (1 - load ** (k + 1))
         _, statuses = waits(1, load, 20000, exponential, 2, maxconn=10**6, limit=limit, retries=0)
         self.assertLess(abs(statuses.count(503) / len(statuses) - expected), 0.02)
 
@@ -109,6 +117,7 @@ class Shares(unittest.TestCase):
             while True:
                 yield server.submit(queueing.Work(takes, takes, 0, kind, client))
                 had[k] += takes
+
         for k, work in enumerate(works):
             env.process(one(k, *work))
         env.run(seconds)
@@ -116,14 +125,16 @@ class Shares(unittest.TestCase):
 
     def test_classes_by_their_weights(self):
         """Two that go on for ever in each class: device time as 8 : 4 : 2."""
-        had = self.served([(kind, takes, 'a') for kind in ('live', 'picture', 'refinement') for takes in (0.010, 0.013)], 30)
-        live, picture, refinement = (sum(had[k:k + 2]) for k in (0, 2, 4))
+        had = self.served(
+            [(kind, takes, "a") for kind in ("live", "picture", "refinement") for takes in (0.010, 0.013)], 30
+        )
+        live, picture, refinement = (sum(had[k : k + 2]) for k in (0, 2, 4))
         self.assertAlmostEqual(live / picture, 2, delta=0.1)
         self.assertAlmostEqual(picture / refinement, 2, delta=0.1)
 
     def test_clients_have_the_same(self):
         """However much one of them wants."""
-        had = self.served([('picture', 0.02, 'a')] * 5 + [('picture', 0.01, 'b')] * 2, 40)
+        had = self.served([("picture", 0.02, "a")] * 5 + [("picture", 0.01, "b")] * 2, 40)
         self.assertAlmostEqual(sum(had[:5]) / sum(had[5:]), 1, delta=0.05)
 
     def test_a_long_picture_lets_short_ones_by(self):
@@ -134,11 +145,12 @@ class Shares(unittest.TestCase):
             yield env.timeout(at)
             yield server.submit(queueing.Work(takes, takes))
             ended[name] = env.now
-        env.process(one('long', 0, 2.0))
-        env.process(one('short', 0.5, 0.03))
+
+        env.process(one("long", 0, 2.0))
+        env.process(one("short", 0.5, 0.03))
         env.run()
-        self.assertAlmostEqual(ended['short'], 0.5 + 0.03, delta=queueing.SLICE + 1e-9)
-        self.assertAlmostEqual(ended['long'], 2.03, delta=1e-6)
+        self.assertAlmostEqual(ended["short"], 0.5 + 0.03, delta=queueing.SLICE + 1e-9)
+        self.assertAlmostEqual(ended["long"], 2.03, delta=1e-6)
 
     def test_a_frame_is_as_the_governor_says(self):
         """The figures of governor.h: alone 33 ms, of two each 23 every 47, of eight each 7.5 every 60."""
@@ -152,11 +164,16 @@ class Lost(unittest.TestCase):
         rng, env = random.Random(8), simpy.Environment()
         servers = [queueing.Server(env) for _ in range(3)]
         balancer, log = queueing.Balancer(env, servers), []
-        env.process(queueing.open_renders(env, balancer, queueing.poisson(rng, 0.6 * 3 / MEAN, 3000), lambda k: queueing.Work(MEAN, MEAN), log))
+        env.process(
+            queueing.open_renders(
+                env, balancer, queueing.poisson(rng, 0.6 * 3 / MEAN, 3000), lambda k: queueing.Work(MEAN, MEAN), log
+            )
+        )
 
         def dies():
             yield env.timeout(10)
             servers[1].kill()
+
         env.process(dies())
         env.run()
         self.assertEqual({status for *_, status in log}, {200})
@@ -164,5 +181,5 @@ class Lost(unittest.TestCase):
         self.assertLess(servers[1].busy, 10)
 
 
-if __name__ == '__main__':
+if __name__ == "__main__":
     unittest.main(argv=sys.argv, verbosity=2)

@@ -1,4 +1,5 @@
-/* Two threads add to one number without a lock. It is there for the thread sanitizer alone, which must end it with an error. */
+/* Two threads add to one number without a lock. It is there for the thread sanitizer alone, which must end it with
+ * an error. */
 #include <pthread.h>
 #include <stddef.h>
 

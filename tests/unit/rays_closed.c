@@ -18,8 +18,12 @@
 
 static struct kd_rays_params params_of(double spin, double inclination_deg)
 {
-    return (struct kd_rays_params) { .spin = spin, .r = INFINITY, .inclination_deg = inclination_deg, .orders = ORDERS,
-                                     .engine = KD_ENGINE_CLOSED, .precision = KD_PRECISION_F64 };
+    return (struct kd_rays_params) { .spin = spin,
+                                     .r = INFINITY,
+                                     .inclination_deg = inclination_deg,
+                                     .orders = ORDERS,
+                                     .engine = KD_ENGINE_CLOSED,
+                                     .precision = KD_PRECISION_F64 };
 }
 
 static void trace_one(const struct kd_rays_params *params, double alpha, double beta, struct kd_ray_crossing *crossings,
@@ -31,10 +35,7 @@ static void trace_one(const struct kd_rays_params *params, double alpha, double 
         fail_msg("%s (at %s)", error.message, error.pointer);
 }
 
-static bool same_azimuth(double a, double b, double bound)
-{
-    return fabs(remainder(a - b, 2 * M_PI)) < bound;
-}
+static bool same_azimuth(double a, double b, double bound) { return fabs(remainder(a - b, 2 * M_PI)) < bound; }
 
 /* The oracle starts at 1e6 M by a series, good to 1e-9 or so; that grows by up to 23 an order. */
 static void against_the_oracle(void **state)
@@ -96,9 +97,9 @@ static void redshift(void **state)
     assert_true(inside && outside && step > 0 && step < 2e-3);
 }
 
-/* Radii fall until the turning point and rise after it: so where the next crossing is nearer, the ray is still on its way in
- * (the photon leaves outwards), and where the last one was nearer, it is on its way out. Rays close to the critical curve
- * cross the plane on both, all inside the ISCO at a = 0. */
+/* Radii fall until the turning point and rise after it: so where the next crossing is nearer, the ray is still on
+ * its way in (the photon leaves outwards), and where the last one was nearer, it is on its way out. Rays close to
+ * the critical curve cross the plane on both, all inside the ISCO at a = 0. */
 static void redshift_knows_the_turning_point(void **state)
 {
     (void)state;
@@ -171,21 +172,30 @@ static void refused(void **state)
 {
     (void)state;
     const struct kd_rays_params good = params_of(0.5, 60);
-    const double fine[4] = { 1, 2, 3, 4 }, nan[4] = { 1, 2, 3, NAN }, far[4] = { 1, 2, 3e7, 4 }, out[4] = { 1, 2, 90, 0 };
+    const double fine[4] = { 1, 2, 3, 4 }, nan[4] = { 1, 2, 3, NAN }, far[4] = { 1, 2, 3e7, 4 },
+                 out[4] = { 1, 2, 90, 0 };
     struct {
         struct kd_rays_params p;
         const double *rays;
         size_t n;
         const char *pointer;
     } table[] = {
-        { good, fine, 0, "/rays" },      { good, fine, KD_RAYS_MAX + 1, "/rays" },
-        { good, nan, 2, "/rays/1/1" },   { good, far, 2, "/rays/1/0" },
-        { good, out, 2, "/rays/1" },     { good, fine, 2, "/spin" },
-        { good, fine, 2, "/spin" },      { good, fine, 2, "/observer/r" },
-        { good, fine, 2, "/observer/r" }, { good, fine, 2, "/observer/r" },
-        { good, fine, 2, "/observer/inclination_deg" }, { good, fine, 2, "/orders" },
-        { good, fine, 2, "/orders" },    { good, fine, 2, "/accuracy/precision" },
-        { good, fine, 2, "/accuracy/steps" }, { good, fine, 2, "/accuracy/engine" },
+        { good, fine, 0, "/rays" },
+        { good, fine, KD_RAYS_MAX + 1, "/rays" },
+        { good, nan, 2, "/rays/1/1" },
+        { good, far, 2, "/rays/1/0" },
+        { good, out, 2, "/rays/1" },
+        { good, fine, 2, "/spin" },
+        { good, fine, 2, "/spin" },
+        { good, fine, 2, "/observer/r" },
+        { good, fine, 2, "/observer/r" },
+        { good, fine, 2, "/observer/r" },
+        { good, fine, 2, "/observer/inclination_deg" },
+        { good, fine, 2, "/orders" },
+        { good, fine, 2, "/orders" },
+        { good, fine, 2, "/accuracy/precision" },
+        { good, fine, 2, "/accuracy/steps" },
+        { good, fine, 2, "/accuracy/engine" },
         { good, fine, 2, "/accuracy" },
     };
     table[4].p.r = 10;
@@ -200,7 +210,8 @@ static void refused(void **state)
         struct kd_ray_crossing c[2 * ORDERS];
         struct kd_ray_end ends[2];
         struct kd_error error = { 0 };
-        assert_int_equal(kd_rays_trace(NULL, &table[i].p, table[i].rays, table[i].n, c, ends, NULL, NULL, &error), KD_EINVAL);
+        assert_int_equal(kd_rays_trace(NULL, &table[i].p, table[i].rays, table[i].n, c, ends, NULL, NULL, &error),
+                         KD_EINVAL);
         assert_string_equal(error.pointer, table[i].pointer);
     }
 }
@@ -208,8 +219,11 @@ static void refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(against_the_oracle), cmocka_unit_test(redshift), cmocka_unit_test(redshift_knows_the_turning_point),
-        cmocka_unit_test(many),               cmocka_unit_test(refused),
+        cmocka_unit_test(against_the_oracle),
+        cmocka_unit_test(redshift),
+        cmocka_unit_test(redshift_knows_the_turning_point),
+        cmocka_unit_test(many),
+        cmocka_unit_test(refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

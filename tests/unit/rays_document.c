@@ -12,12 +12,13 @@
 
 #include <cmocka.h>
 
-static const char document[] =
-    " { \"spin\" : -0.5 , \"note\\u0041\":1, \"observer\":{\"r\":40,\"inclination_deg\":3e1},\"rays\":[[1,2],\n[-3.5,4e-1] , [0,0]],"
-    "\"orders\":5,\"accuracy\":{\"engine\":\"ks-rk4\",\"precision\":\"f32\",\"steps\":16}}";
+static const char document[] = " { \"spin\" : -0.5 , \"note\\u0041\":1, "
+                               "\"observer\":{\"r\":40,\"inclination_deg\":3e1},\"rays\":[[1,2],\n[-3.5,4e-1] , [0,0]],"
+                               "\"orders\":5,\"accuracy\":{\"engine\":\"ks-rk4\",\"precision\":\"f32\",\"steps\":16}}";
 
 /* The copy is of exact size, so that a sanitizer sees a byte too far. */
-static enum kd_status read_exact(const char *text, size_t length, struct kd_rays_request *request, struct kd_error *error)
+static enum kd_status read_exact(const char *text, size_t length, struct kd_rays_request *request,
+                                 struct kd_error *error)
 {
     char *copy = malloc(length + 1);
     assert_non_null(copy);
@@ -111,9 +112,10 @@ static struct kd_rays_answer some_answer(uint32_t orders)
     for (size_t i = 0; i < 3 * orders; i++)
         answer.crossings[i] = (struct kd_ray_crossing) { NAN, NAN, NAN, NAN };
     for (uint32_t n = 0; n < orders; n++)
-        answer.crossings[n] = (struct kd_ray_crossing) { 1.2345678901234567e-300, -1.2345678901234567e-300, -9.876543210987654e200,
-                                                         -1.7976931348623157e308 };
-    answer.ends[0] = (struct kd_ray_end) { KD_RAY_ESCAPED, orders, 1.2345678901234567e-300, -1.2345678901234567e-300, 1.2345678901234567e-300 };
+        answer.crossings[n] = (struct kd_ray_crossing) { 1.2345678901234567e-300, -1.2345678901234567e-300,
+                                                         -9.876543210987654e200, -1.7976931348623157e308 };
+    answer.ends[0] = (struct kd_ray_end) { KD_RAY_ESCAPED, orders, 1.2345678901234567e-300, -1.2345678901234567e-300,
+                                           1.2345678901234567e-300 };
     answer.ends[1] = (struct kd_ray_end) { KD_RAY_UNDECIDED, 0, NAN, NAN, NAN };
     answer.crossings[2 * orders] = (struct kd_ray_crossing) { 7, 0.5, NAN, 1 };
     answer.ends[2] = (struct kd_ray_end) { KD_RAY_CAPTURED, 1, NAN, NAN, INFINITY };
@@ -178,8 +180,10 @@ static void what_does_not_exist_is_left_out(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_document),     cmocka_unit_test(every_cut_and_change),
-        cmocka_unit_test(fields_by_name), cmocka_unit_test(pieces_of_any_size),
+        cmocka_unit_test(a_document),
+        cmocka_unit_test(every_cut_and_change),
+        cmocka_unit_test(fields_by_name),
+        cmocka_unit_test(pieces_of_any_size),
         cmocka_unit_test(what_does_not_exist_is_left_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -20,7 +20,8 @@
 
 static char folder[] = "/tmp/kerrd-replace-XXXXXX";
 
-/* What was called, in order: "file", "rename" and "folder" of the two kinds of fsync. The linker leads the calls here. */
+/* What was called, in order: "file", "rename" and "folder" of the two kinds of fsync. The linker leads the calls
+ * here. */
 static char calls[200];
 static int folder_sync_errno; /* of fsync of a folder; 0: it succeeds */
 int __real_fsync(int fd);
@@ -69,7 +70,8 @@ static void expect(const char *name, const char *text)
     assert_string_equal(found, text);
 }
 
-/* After a power cut there is the old file or the new one: the bytes before the name, and the name before success is said. */
+/* After a power cut there is the old file or the new one: the bytes before the name, and the name before success is
+ * said. */
 static void test_order(void **state)
 {
     (void)state;
@@ -109,10 +111,15 @@ static bool there(const char *name) { return !access(path_of(name), F_OK); }
 static void test_leftovers(void **state)
 {
     (void)state;
-    static const struct { const char *name; int64_t age_s; bool stays; } files[] = {
-        { "cache.abcdef", 7200, false }, { "cache.Zz09Aa", 86400, false }, { "cache.ghijkl", 60, true }, { "cache.abcde", 7200, true },
-        { "cache.abcdefg", 7200, true }, { "cache.abc-ef", 7200, true },   { "cache-abcdef", 7200, true }, { "other.abcdef", 7200, true },
-        { "cache.", 7200, true },        { "xcache.abcdef", 7200, true },
+    static const struct {
+        const char *name;
+        int64_t age_s;
+        bool stays;
+    } files[] = {
+        { "cache.abcdef", 7200, false }, { "cache.Zz09Aa", 86400, false }, { "cache.ghijkl", 60, true },
+        { "cache.abcde", 7200, true },   { "cache.abcdefg", 7200, true },  { "cache.abc-ef", 7200, true },
+        { "cache-abcdef", 7200, true },  { "other.abcdef", 7200, true },   { "cache.", 7200, true },
+        { "xcache.abcdef", 7200, true },
     };
     for (size_t i = 0; i < sizeof files / sizeof *files; i++)
         make(files[i].name, files[i].age_s);

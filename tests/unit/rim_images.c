@@ -1,4 +1,5 @@
-/* Images of stars in the rim of the shadow: against the lens equation of Schwarzschild, and against rays of the Kerr-Schild oracle. */
+/* Images of stars in the rim of the shadow: against the lens equation of Schwarzschild, and against rays of the
+ * Kerr-Schild oracle. */
 #include "kerr_schild.h"
 #include "render/sky/rim_images.h"
 #include "render/view/camera.h"
@@ -44,8 +45,8 @@ static void look(double spin, double inclination)
 
 static const double step = 2 * 0.36397023426620236135 / WIDTH; /* tan(20 degrees) */
 
-/* The azimuth that a ray sweeps from RADIUS to infinity, by b: w = 1/r, dphi = dw / sqrt(1/b^2 - w^2 + 2 w^3), in to the turning point w_t and out; w = w_t sin^2
- * takes the root's zero out. Midpoints. */
+/* The azimuth that a ray sweeps from RADIUS to infinity, by b: w = 1/r, dphi = dw / sqrt(1/b^2 - w^2 + 2 w^3), in to
+ * the turning point w_t and out; w = w_t sin^2 takes the root's zero out. Midpoints. */
 static double swept(double b)
 {
     double low = 0, high = 1.0 / 3, sum = 0;
@@ -85,20 +86,23 @@ static double above_of(double azimuth)
     return 0.5 * (low + high);
 }
 
-/* A star lies cos(psi) along the way to the observer and sin(psi) to its side, at `angle` from the picture's right: this finds all of its images within the rim, by how
- * much their rays sweep. */
+/* A star lies cos(psi) along the way to the observer and sin(psi) to its side, at `angle` from the picture's right:
+ * this finds all of its images within the rim, by how much their rays sweep. */
 static size_t judge(double psi, double angle, double *place, double *area)
 {
     size_t images = 0;
     for (int k = 0; k < 6; k++) {
-        const double azimuth = k & 1 ? 2 * M_PI * (k / 2 + 1) - psi : 2 * M_PI * (k / 2) + psi, side = k & 1 ? -1 : 1, h = 1e-4;
+        const double azimuth = k & 1 ? 2 * M_PI * (k / 2 + 1) - psi : 2 * M_PI * (k / 2) + psi, side = k & 1 ? -1 : 1,
+                     h = 1e-4;
         if (azimuth < 2)
             continue;
         const double above = above_of(azimuth), t = tangent(exp(above)), off = t / tangent(0) - 1;
         if (off > 0.98 * rim.none || off < 1.02 * rim.last)
             continue;
-        const double x = 0.5 * (WIDTH - 1) + side * t / step * cos(angle), y = 0.5 * (HEIGHT - 1) - side * t / step * sin(angle);
-        const double slope = (swept(closest * (1 + exp(above + h))) - swept(closest * (1 + exp(above - h)))) / (atan(tangent(exp(above + h))) - atan(tangent(exp(above - h))));
+        const double x = 0.5 * (WIDTH - 1) + side * t / step * cos(angle),
+                     y = 0.5 * (HEIGHT - 1) - side * t / step * sin(angle);
+        const double slope = (swept(closest * (1 + exp(above + h))) - swept(closest * (1 + exp(above - h)))) /
+                             (atan(tangent(exp(above + h))) - atan(tangent(exp(above - h))));
         const double want = step * step * pow(1 + t * t, -1.5) * sin(psi) * fabs(slope) / sin(atan(t));
         if (want > KD_RIM_BRIGHTEST / KD_STAR_LEAST) /* no star is bright enough */
             continue;
@@ -107,11 +111,13 @@ static size_t judge(double psi, double angle, double *place, double *area)
             if (!best || hypot(seen[i].x - x, seen[i].y - y) < hypot(best->x - x, best->y - y))
                 best = &seen[i];
         if (!best || hypot(best->x - x, best->y - y) > 0.01)
-            fail_msg("psi %g: no image at %.4f, %.4f, %g from the curve, but %.4f, %.4f", psi, x, y, off, best ? best->x : NAN, best ? best->y : NAN);
+            fail_msg("psi %g: no image at %.4f, %.4f, %g from the curve, but %.4f, %.4f", psi, x, y, off,
+                     best ? best->x : NAN, best ? best->y : NAN);
         *place = fmax(*place, hypot(best->x - x, best->y - y));
         *area = fmax(*area, fabs(best->solid_angle / want - 1));
         if (best->mirrored != (k & 1))
-            fail_msg("psi %g: the image at %.4f, %.4f that sweeps %g is%s mirrored", psi, x, y, azimuth, best->mirrored ? "" : " not");
+            fail_msg("psi %g: the image at %.4f, %.4f that sweeps %g is%s mirrored", psi, x, y, azimuth,
+                     best->mirrored ? "" : " not");
         images++;
     }
     return images;
@@ -148,7 +154,10 @@ static double shown(double u, double off)
     for (int q = 0; q < 3; q++)
         a[q] = n[1][q] - n[0][q], b[q] = n[2][q] - n[0][q];
     const double area = (at[1][0] - at[0][0]) * (at[2][1] - at[0][1]) - (at[1][1] - at[0][1]) * (at[2][0] - at[0][0]);
-    return step * step * fabs((n[0][0] * (a[1] * b[2] - a[2] * b[1]) + n[0][1] * (a[2] * b[0] - a[0] * b[2]) + n[0][2] * (a[0] * b[1] - a[1] * b[0])) / area);
+    return step * step *
+           fabs((n[0][0] * (a[1] * b[2] - a[2] * b[1]) + n[0][1] * (a[2] * b[0] - a[0] * b[2]) +
+                 n[0][2] * (a[0] * b[1] - a[1] * b[0])) /
+                area);
 }
 
 /* A place next to the curve, and the star where the oracle's ray from there ends. */
@@ -173,7 +182,11 @@ static void by_the_oracle(void **state)
 {
     (void)state;
     enum { PLACES = 40 };
-    static const struct { double spin, inclination; } cases[] = { { 0.5, 35 }, { 0.9, 85 }, { -0.9, 120 }, { 0.97, 60 }, { 0.99, 90 }, { 0.9999, 90 }, { -0.9999, 85 } };
+    static const struct {
+        double spin, inclination;
+    } cases[] = {
+        { 0.5, 35 }, { 0.9, 85 }, { -0.9, 120 }, { 0.97, 60 }, { 0.99, 90 }, { 0.9999, 90 }, { -0.9999, 85 }
+    };
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
         struct place places[PLACES];
         struct kd_vec stars[PLACES];
@@ -181,7 +194,9 @@ static void by_the_oracle(void **state)
         double worst = 0;
         look(cases[c].spin, cases[c].inclination);
         for (int i = 0; i < PLACES; i++) {
-            places[n] = (struct place) { .u = fmod(53.37 * i, KD_RIM_ANGLES), .off = rim.none * pow(rim.last / rim.none, 0.02 + 0.6 * fmod(0.618034 * i, 1)) };
+            places[n] =
+                (struct place) { .u = fmod(53.37 * i, KD_RIM_ANGLES),
+                                 .off = rim.none * pow(rim.last / rim.none, 0.02 + 0.6 * fmod(0.618034 * i, 1)) };
             if (shown(places[n].u, places[n].off) > KD_RIM_BRIGHTEST / KD_STAR_LEAST)
                 continue;
             stars[n] = star_of(cases[c].spin, cases[c].inclination, &places[n]);
@@ -191,12 +206,15 @@ static void by_the_oracle(void **state)
         for (size_t i = 0; i < n; i++) {
             double nearest = INFINITY;
             for (size_t k = 0; k < n_seen; k++)
-                nearest = seen[k].star == i ? fmin(nearest, hypot(seen[k].x - places[i].x, seen[k].y - places[i].y)) : nearest;
+                nearest = seen[k].star == i ? fmin(nearest, hypot(seen[k].x - places[i].x, seen[k].y - places[i].y))
+                                            : nearest;
             if (!(nearest < 1e-3))
-                fail_msg("spin %g: no image at %.4f, %.4f, turn %g, %g from the curve; the nearest is %g off", cases[c].spin, places[i].x, places[i].y, places[i].u, places[i].off, nearest);
+                fail_msg("spin %g: no image at %.4f, %.4f, turn %g, %g from the curve; the nearest is %g off",
+                         cases[c].spin, places[i].x, places[i].y, places[i].u, places[i].off, nearest);
             worst = fmax(worst, nearest);
         }
-        printf("spin %g, inclination %g: %zu places within %.1e pixels of the oracle's\n", cases[c].spin, cases[c].inclination, n, worst);
+        printf("spin %g, inclination %g: %zu places within %.1e pixels of the oracle's\n", cases[c].spin,
+               cases[c].inclination, n, worst);
         assert_true(n >= 15);
     }
 }
@@ -205,8 +223,14 @@ static void by_the_oracle(void **state)
 static void seeing_is_looking(void **state)
 {
     (void)state;
-    static const struct { enum kd_projection projection; double r; } cases[] = {
-        { KD_PROJECTION_PINHOLE, 20 }, { KD_PROJECTION_EQUIRECTANGULAR, 20 }, { KD_PROJECTION_FULLDOME, 20 }, { KD_PROJECTION_PLANE, INFINITY },
+    static const struct {
+        enum kd_projection projection;
+        double r;
+    } cases[] = {
+        { KD_PROJECTION_PINHOLE, 20 },
+        { KD_PROJECTION_EQUIRECTANGULAR, 20 },
+        { KD_PROJECTION_FULLDOME, 20 },
+        { KD_PROJECTION_PLANE, INFINITY },
     };
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
         look(0.5, 60);
@@ -229,6 +253,7 @@ static void seeing_is_looking(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(by_the_lens_equation), cmocka_unit_test(by_the_oracle), cmocka_unit_test(seeing_is_looking) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(by_the_lens_equation), cmocka_unit_test(by_the_oracle),
+                                        cmocka_unit_test(seeing_is_looking) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,9 +3,7 @@
 
 #include "scene/scan.h"
 
-struct bad {
-    const char *text, *pointer, *fragment;
-};
+struct bad { const char *text, *pointer, *fragment; };
 
 static void expect_refused(const char *text, size_t length, const char *pointer, const char *fragment)
 {
@@ -22,8 +20,7 @@ static void expect_refused(const char *text, size_t length, const char *pointer,
     if (status != KD_EINVAL || error.status != KD_EINVAL)
         fail_msg("accepted (%d): %.200s", status, text);
     if (strcmp(error.pointer, pointer) || !strstr(error.message, fragment))
-        fail_msg("%.200s gave \"%s\" \"%s\", not \"%s\" \"%s\"", text, error.pointer, error.message, pointer,
-                 fragment);
+        fail_msg("%.200s gave \"%s\" \"%s\", not \"%s\" \"%s\"", text, error.pointer, error.message, pointer, fragment);
     assert_memory_equal(&scene, &before, sizeof before);
 }
 
@@ -55,8 +52,7 @@ static const struct bad syntax[] = {
     { "{\"time\":0x10}", "", "unknown word x" },
     { "{\"time\":1.2.3}", "", "malformed number" },
     { "{\"time\":True}", "", "unknown word True" },
-    { "{\"time\":1.0000000000000000000000000000000000000000000000000000000000001}", "",
-      "more than 60 characters" },
+    { "{\"time\":1.0000000000000000000000000000000000000000000000000000000000001}", "", "more than 60 characters" },
     { "{\"time\":\v1}", "", "unexpected character" },
     { "\xef\xbb\xbf{}", "", "unexpected character at byte 0" },
     { "{\"a\nb\":1}", "", "control character in a string at byte 3" },
@@ -87,8 +83,7 @@ static const struct bad fields[] = {
     { "{\"camera\":{},\"disk\":{},\"camera\":{}}", "/camera", "camera is given twice" },
     { "{\"camera\":{\"r\":9,\"r\":9}}", "/camera/r", "camera.r is given twice" },
     { "{\"camera\":{\"r\":9,\"\\u0072\":9}}", "/camera/r", "camera.r is given twice" },
-    { "{\"camera\":{\"r\":9},\"disk\":{\"outer\":0}}", "/disk/outer",
-      "disk.outer is 0, allowed are 1 to 1000000 M" },
+    { "{\"camera\":{\"r\":9},\"disk\":{\"outer\":0}}", "/disk/outer", "disk.outer is 0, allowed are 1 to 1000000 M" },
     { "{\"camera\":5}", "/camera", "camera is 5, allowed is an object" },
     { "{\"camera\":null}", "/camera", "camera is null" },
     { "{\"camera\":[]}", "/camera", "camera is an array" },
@@ -105,15 +100,16 @@ static const struct bad fields[] = {
     { "{\"\\u001b[31m\":1}", "/\x1b[31m", "unknown field ?[31m" },
     { "{\"spacetime\":{\"spin\":1.0000001}}", "/spacetime/spin",
       "spacetime.spin is 1.0000001, allowed are -0.999999999999 to 0.999999999999 M" },
-    { "{\"spacetime\":{\"spin\":\"0.9\"}}", "/spacetime/spin", "spacetime.spin is \"0.9\", a string where a number is wanted, allowed" },
+    { "{\"spacetime\":{\"spin\":\"0.9\"}}", "/spacetime/spin",
+      "spacetime.spin is \"0.9\", a string where a number is wanted, allowed" },
     { "{\"spacetime\":{\"spin\":true}}", "/spacetime/spin", "spacetime.spin is true where a number is wanted" },
     { "{\"spacetime\":{\"spin\":null}}", "/spacetime/spin", "spacetime.spin is null" },
     { "{\"spacetime\":{\"mass_msun\":1e999}}", "/spacetime/mass_msun", "is a number beyond 1e308" },
-    { "{\"camera\":{\"r\":1e999}}", "/camera/r",
-      "beyond 1e308, allowed are 0.01 to 10000000 M, and \"infinity\"" },
+    { "{\"camera\":{\"r\":1e999}}", "/camera/r", "beyond 1e308, allowed are 0.01 to 10000000 M, and \"infinity\"" },
     { "{\"camera\":{\"r\":\"Infinity\"}}", "/camera/r", "camera.r is \"Infinity\", allowed are" },
     { "{\"camera\":{\"r\":\"50\"}}", "/camera/r", "camera.r is \"50\", a string where a number is wanted" },
-    { "{\"camera\":{\"observer\":\"zam\"}}", "/camera/observer", "allowed are \"static\", \"zamo\", \"keplerian\", \"retrograde\", \"infall\" and \"velocity\"" },
+    { "{\"camera\":{\"observer\":\"zam\"}}", "/camera/observer",
+      "allowed are \"static\", \"zamo\", \"keplerian\", \"retrograde\", \"infall\" and \"velocity\"" },
     { "{\"image\":{\"width\":0}}", "/image/width",
       "image.width is 0, allowed are whole numbers from 1 to 32768 pixels" },
     { "{\"image\":{\"width\":1e9}}", "/image/width", "image.width is 1000000000" },
@@ -125,22 +121,26 @@ static const struct bad fields[] = {
     { "{\"spots\":null}", "/spots", "spots is null, allowed is an array" },
     { "{\"spots\":[5]}", "/spots/0", "spots.0 is 5, allowed is an object with fields" },
     { "{\"spots\":[{},null]}", "/spots/1", "spots.1 is null, allowed is an object with fields" },
-    { "{\"spots\":[{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}]}", "/spots/16", "spots has 17 elements, allowed are at most 16" },
+    { "{\"spots\":[{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}]}", "/spots/16",
+      "spots has 17 elements, allowed are at most 16" },
     { "{\"spots\":[{},{},{},{\"r\":0.5}]}", "/spots/3/r", "spots.3.r is 0.5, allowed are 1 to 1000000 M" },
     { "{\"spots\":[{},{\"r\":2,\"r\":2}]}", "/spots/1/r", "spots.1.r is given twice" },
     { "{\"spots\":[{},{\"q\":2}]}", "/spots/1/q", "unknown field spots.1.q" },
     { "{\"spots\":[{},{\"brightnes\":2}]}", "/spots/1/brightnes", "did you mean spots.1.brightness?" },
     { "{\"spots\":[],\"spots\":[]}", "/spots", "spots is given twice" },
-    { "{\"spots\":{\"r\":9}}", "/spots/r", "there is no spots.r: spots is a list, whose elements are spots.0 to spots.15" },
+    { "{\"spots\":{\"r\":9}}", "/spots/r",
+      "there is no spots.r: spots is a list, whose elements are spots.0 to spots.15" },
     { "{\"spots\":{\"0\":{},\"0\":{}}}", "/spots/0", "spots.0 is given twice" },
-    { "{\"spots\":{\"0\":{},\"3\":{},\"1\":{}}}", "/spots/3", "there is no spots.3: the list has 2 elements, and the next free index is 2" },
+    { "{\"spots\":{\"0\":{},\"3\":{},\"1\":{}}}", "/spots/3",
+      "there is no spots.3: the list has 2 elements, and the next free index is 2" },
     { "{\"spots\":{\"16\":{}}}", "/spots/16", "there is no spots.16" },
     { "{\"spots\":{\"01\":{}}}", "/spots/01", "there is no spots.01" },
     { "{\"spots\":{\"0\":null}}", "/spots/0", "spots.0 is null, allowed is an object with fields" },
     { "{\"spot1\":null}", "/spots/0", "spots.0 is null" },
     { "{\"spot2\":{\"r\":0}}", "/spots/1/r", "spots.1.r is 0, allowed are 1 to 1000000 M" },
     { "{\"spot2\":{},\"spot2\":{}}", "/spot2", "spot2 is given twice" },
-    { "{\"spots\":[],\"spot2\":{}}", "/spot2", "spot2 is an old name of spots.1, and spots is given too; allowed is one of them" },
+    { "{\"spots\":[],\"spot2\":{}}", "/spot2",
+      "spot2 is an old name of spots.1, and spots is given too; allowed is one of them" },
     { "{\"spot2\":{},\"spots\":{\"0\":{}}}", "/spot2", "spot2 is an old name of spots.1" },
     { "{\"spot4\":{}}", "/spot4", "did you mean spots?" },
     { "{\"style\":{\"dither\":1}}", "/style/dither", "style.dither is 1, allowed are true and false" },
@@ -216,10 +216,27 @@ static void depth_limit_is_exact(void **state)
 static void names_are_found(void **state)
 {
     (void)state;
-    static const struct { const char *text; bool there; } cases[] = {
-        { "{\"axes\":1}", true }, { " {\"a\":{\"b\":[1,\"}\"]}, \"axes\"\n:\t{}}", true }, { "{\"\\u0061x\\u0065s\":1}", true }, { "{\"a\":\"\\\\\",\"axes\":1}", true },
-        { "{\"a\":{\"axes\":1}}", false }, { "{\"a\":\"axes\"}", false }, { "{\"a\":[\"axes\"]}", false }, { "[\"axes\"]", false }, { "{\"axe\":1}", false },
-        { "{\"axess\":1}", false }, { "{\"\\u0161xes\":1}", false }, { "{\"a\":\"\\\"axes\\\":\"}", false }, { "", false }, { "{\"axes\"", false }, { "{\"axes", false }, { "{\"\\", false }, { "{\"\\u00", false },
+    static const struct {
+        const char *text;
+        bool there;
+    } cases[] = {
+        { "{\"axes\":1}", true },
+        { " {\"a\":{\"b\":[1,\"}\"]}, \"axes\"\n:\t{}}", true },
+        { "{\"\\u0061x\\u0065s\":1}", true },
+        { "{\"a\":\"\\\\\",\"axes\":1}", true },
+        { "{\"a\":{\"axes\":1}}", false },
+        { "{\"a\":\"axes\"}", false },
+        { "{\"a\":[\"axes\"]}", false },
+        { "[\"axes\"]", false },
+        { "{\"axe\":1}", false },
+        { "{\"axess\":1}", false },
+        { "{\"\\u0161xes\":1}", false },
+        { "{\"a\":\"\\\"axes\\\":\"}", false },
+        { "", false },
+        { "{\"axes\"", false },
+        { "{\"axes", false },
+        { "{\"\\", false },
+        { "{\"\\u00", false },
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         size_t length = strlen(cases[i].text);
@@ -338,11 +355,10 @@ static void random_damage_is_harmless(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(syntax_is_strict),          cmocka_unit_test(fields_are_strict),
-        cmocka_unit_test(every_prefix_is_refused),   cmocka_unit_test(bombs_are_refused),
-        cmocka_unit_test(depth_limit_is_exact),      cmocka_unit_test(names_are_found),
-        cmocka_unit_test(long_names_are_cut),
-        cmocka_unit_test(random_damage_is_harmless),
+        cmocka_unit_test(syntax_is_strict),        cmocka_unit_test(fields_are_strict),
+        cmocka_unit_test(every_prefix_is_refused), cmocka_unit_test(bombs_are_refused),
+        cmocka_unit_test(depth_limit_is_exact),    cmocka_unit_test(names_are_found),
+        cmocka_unit_test(long_names_are_cut),      cmocka_unit_test(random_damage_is_harmless),
     };
     return cmocka_run_group_tests_name("scene refusals", tests, NULL, NULL);
 }

@@ -8,8 +8,7 @@
 #include <limits.h>
 
 /* value, as JSON text and as text on a command line, is taken by both ways in or by neither. */
-static void expect(const struct kd_field *field, const char *json, const char *text, bool accepted,
-                   double stored)
+static void expect(const struct kd_field *field, const char *json, const char *text, bool accepted, double stored)
 {
     struct kd_scene a, b, before;
     struct kd_error error = { 0 };
@@ -22,8 +21,7 @@ static void expect(const struct kd_field *field, const char *json, const char *t
     for (int way = 0; way < 2; way++) {
         struct kd_scene *scene = way ? &b : &a;
         memset(&error, 0, sizeof error);
-        enum kd_status status =
-            way ? kd_scene_set(scene, path, text, &error) : support_parse(scene, document, &error);
+        enum kd_status status = way ? kd_scene_set(scene, path, text, &error) : support_parse(scene, document, &error);
         if ((status == KD_OK) != accepted)
             fail_msg("%s = %s by way %d: status %d, %s", path, json, way, status, error.message);
         if (accepted) {
@@ -60,7 +58,8 @@ static void bounds_are_inclusive(void **state)
     for (size_t i = 0; i < KD_FIELD_COUNT; i++) {
         const struct kd_field *field = &kd_fields[i];
         bool whole = field->kind == KD_FIELD_INT;
-        if (field->kind == KD_FIELD_BOOL || field->kind == KD_FIELD_ENUM || field->kind == KD_FIELD_WORDS || field->kind == KD_FIELD_ASSET)
+        if (field->kind == KD_FIELD_BOOL || field->kind == KD_FIELD_ENUM || field->kind == KD_FIELD_WORDS ||
+            field->kind == KD_FIELD_ASSET)
             continue;
         expect_number(field, field->minimum, true);
         expect_number(field, field->maximum, true);
@@ -127,8 +126,15 @@ static void assets_have_names(void **state)
 {
     (void)state;
     static const char *const hash = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad", *const bad[] = {
-        "1", "-", ".png", "a b", "a/b", "\xc3\xa9t\xc3\xa9", "BA7816BF8F01CFEA414140DE5DAE2223B00361A396177A9CB410FF61F20015AD",
-        "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad0", "http://example.org/sky.png",
+        "1",
+        "-",
+        ".png",
+        "a b",
+        "a/b",
+        "\xc3\xa9t\xc3\xa9",
+        "BA7816BF8F01CFEA414140DE5DAE2223B00361A396177A9CB410FF61F20015AD",
+        "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad0",
+        "http://example.org/sky.png",
     };
     size_t n = 0;
     for (size_t i = 0; i < KD_FIELD_COUNT; i++) {
@@ -151,12 +157,13 @@ static void assets_have_names(void **state)
 static void set_reads_numbers(void **state)
 {
     (void)state;
-    static const char *const bad[] = { "nan", "inf", "-inf", "NAN", "0x10", " 1", "1 ", "+1", "01", "1,5",
+    static const char *const bad[] = { "nan", "inf", "-inf", "NAN", "0x10", " 1",  "1 ",  "+1",  "01",  "1,5",
                                        "1e",  "-",   "",     ".",   "-.",   ".e1", ".5.", ".5e", "00.5" };
     static const struct {
         const char *text;
         double value;
-    } good[] = { { "-1.25e2", -125 }, { ".5", 0.5 }, { "-.5", -0.5 }, { "5.", 5 }, { "-5.e-1", -0.5 }, { ".5e1", 5 }, { "0.", 0 } };
+    } good[] = { { "-1.25e2", -125 }, { ".5", 0.5 }, { "-.5", -0.5 }, { "5.", 5 },
+                 { "-5.e-1", -0.5 },  { ".5e1", 5 }, { "0.", 0 } };
     struct kd_scene scene;
     struct kd_error error;
     kd_scene_defaults(&scene);
@@ -280,7 +287,8 @@ static void schema_names_each_field(void **state)
             const cJSON *section = schema_of(root, field->section);
             if (field->stride) {
                 assert_string_equal(cJSON_GetObjectItemCaseSensitive(section, "type")->valuestring, "array");
-                assert_int_equal(cJSON_GetObjectItemCaseSensitive(section, "maxItems")->valuedouble, kd_section_find(field->section)->most);
+                assert_int_equal(cJSON_GetObjectItemCaseSensitive(section, "maxItems")->valuedouble,
+                                 kd_section_find(field->section)->most);
                 section = cJSON_GetObjectItemCaseSensitive(section, "items");
             }
             assert_true(cJSON_IsFalse(cJSON_GetObjectItemCaseSensitive(section, "additionalProperties")));
@@ -290,8 +298,10 @@ static void schema_names_each_field(void **state)
         assert_non_null(row);
         assert_string_equal(cJSON_GetObjectItemCaseSensitive(row, "description")->valuestring, field->help);
         assert_non_null(cJSON_GetObjectItemCaseSensitive(row, "default"));
-        assert_string_equal(cJSON_GetObjectItemCaseSensitive(row, "x-nature")->valuestring, kd_natures[field->nature].word);
-        assert_int_equal(cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(row, "x-front")), field->place == KD_FIELD_FRONT);
+        assert_string_equal(cJSON_GetObjectItemCaseSensitive(row, "x-nature")->valuestring,
+                            kd_natures[field->nature].word);
+        assert_int_equal(cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(row, "x-front")),
+                         field->place == KD_FIELD_FRONT);
         if (field->kind == KD_FIELD_REAL)
             assert_true(cJSON_GetObjectItemCaseSensitive(row, "maximum")->valuedouble == field->maximum);
     }
@@ -299,14 +309,16 @@ static void schema_names_each_field(void **state)
         const cJSON *old = cJSON_GetObjectItemCaseSensitive(root, kd_old_names[i].name);
         const cJSON *list = cJSON_GetObjectItemCaseSensitive(root, kd_old_names[i].section);
         assert_true(cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(old, "deprecated")));
-        assert_true(cJSON_Compare(cJSON_GetObjectItemCaseSensitive(old, "properties"),
-                                  cJSON_GetObjectItemCaseSensitive(cJSON_GetObjectItemCaseSensitive(list, "items"), "properties"), true));
+        assert_true(cJSON_Compare(
+            cJSON_GetObjectItemCaseSensitive(old, "properties"),
+            cJSON_GetObjectItemCaseSensitive(cJSON_GetObjectItemCaseSensitive(list, "items"), "properties"), true));
     }
     cJSON_Delete(schema);
     kd_buffer_finish(&text);
 }
 
-/* Some fields of each group of the page stand in front, so that none opens on nothing; and what is known to be of a nature is. */
+/* Some fields of each group of the page stand in front, so that none opens on nothing; and what is known to be of a
+ * nature is. */
 static void natures_and_groups(void **state)
 {
     (void)state;
@@ -330,7 +342,8 @@ static void controls_are_of_fields(void **state)
         const struct kd_control *c = &kd_controls[k];
         const struct kd_field *of = NULL;
         for (int i = 0; i < KD_FIELD_COUNT; i++)
-            for (const struct kd_control *found = kd_control_find(&kd_fields[i], c->kind); found; found = kd_control_next(&kd_fields[i], found))
+            for (const struct kd_control *found = kd_control_find(&kd_fields[i], c->kind); found;
+                 found = kd_control_next(&kd_fields[i], found))
                 if (found == c)
                     of = &kd_fields[i];
         if (!of)
@@ -343,7 +356,8 @@ static void controls_are_of_fields(void **state)
         if (c->kind == KD_CONTROL_FIRST || c->kind == KD_CONTROL_BUTTON)
             assert_true(kd_field_holds(of, c->a) && c->a != of->initial);
         if (c->kind == KD_CONTROL_WITH)
-            assert_true(kd_field_find(of->section, c->text) && kd_field_holds(kd_field_find(of->section, c->text), c->a));
+            assert_true(kd_field_find(of->section, c->text) &&
+                        kd_field_holds(kd_field_find(of->section, c->text), c->a));
     }
     assert_true(kd_control_count > 30);
 }
@@ -369,10 +383,11 @@ static void reference_is_current(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bounds_are_inclusive),    cmocka_unit_test(words_are_exact),
-        cmocka_unit_test(types_are_strict), cmocka_unit_test(assets_have_names),        cmocka_unit_test(set_reads_numbers),
-        cmocka_unit_test(set_names_unknown_paths), cmocka_unit_test(defaults_are_valid),
-        cmocka_unit_test(schema_names_each_field), cmocka_unit_test(natures_and_groups), cmocka_unit_test(controls_are_of_fields),
+        cmocka_unit_test(bounds_are_inclusive), cmocka_unit_test(words_are_exact),
+        cmocka_unit_test(types_are_strict),     cmocka_unit_test(assets_have_names),
+        cmocka_unit_test(set_reads_numbers),    cmocka_unit_test(set_names_unknown_paths),
+        cmocka_unit_test(defaults_are_valid),   cmocka_unit_test(schema_names_each_field),
+        cmocka_unit_test(natures_and_groups),   cmocka_unit_test(controls_are_of_fields),
         cmocka_unit_test(reference_is_current),
     };
     return cmocka_run_group_tests_name("scene fields", tests, NULL, NULL);

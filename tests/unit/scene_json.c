@@ -43,8 +43,7 @@ static void random_scenes_round_trip(void **state)
 static void empty_document_is_the_default(void **state)
 {
     (void)state;
-    static const char *const same[] = { "{}", " { } \n", "{\"version\":1}", "{\"camera\":{}}",
-                                        "{\"version\":1.0}" };
+    static const char *const same[] = { "{}", " { } \n", "{\"version\":1}", "{\"camera\":{}}", "{\"version\":1.0}" };
     struct kd_scene scene, defaults;
     kd_scene_defaults(&defaults);
     for (size_t i = 0; i < sizeof same / sizeof *same; i++) {
@@ -59,10 +58,8 @@ static void documents_merge(void **state)
     (void)state;
     struct kd_scene scene;
     kd_scene_defaults(&scene);
-    assert_int_equal(support_parse(&scene, "{\"spacetime\":{\"spin\":0.5},\"camera\":{\"r\":30}}", NULL),
-                     KD_OK);
-    assert_int_equal(support_parse(&scene, "{\"camera\":{\"inclination_deg\":1}, \"time\": -0.0}", NULL),
-                     KD_OK);
+    assert_int_equal(support_parse(&scene, "{\"spacetime\":{\"spin\":0.5},\"camera\":{\"r\":30}}", NULL), KD_OK);
+    assert_int_equal(support_parse(&scene, "{\"camera\":{\"inclination_deg\":1}, \"time\": -0.0}", NULL), KD_OK);
     assert_true(scene.spacetime.spin == 0.5 && scene.camera.r == 30 && scene.camera.inclination_deg == 1);
     assert_false(signbit(scene.top.time));
     assert_int_equal(support_parse(&scene, "{\"camera\":{\"r\":\"infin\\u0069ty\"}}", NULL), KD_OK);
@@ -82,11 +79,13 @@ static void patches(void **state)
     scene.top.time = 7;
     const char *text = "{\"camera\":{\"r\":null},\"disk\":null,\"time\":null,\"spacetime\":{\"spin\":0.25}}";
     assert_int_equal(kd_scene_patch(&scene, text, strlen(text), &error), KD_OK);
-    assert_true(isinf(scene.camera.r) && scene.camera.inclination_deg == 10 && scene.disk.outer == 22 && scene.top.time == 0);
+    assert_true(isinf(scene.camera.r) && scene.camera.inclination_deg == 10 && scene.disk.outer == 22 &&
+                scene.top.time == 0);
     assert_true(scene.spacetime.spin == 0.25);
     before = scene;
-    static const char *const wrong[] = { "{\"camera\":{\"x\":null}}", "{\"nothing\":null}", "{\"disk\":null,\"disk\":null}",
-                                         "{\"time\":1,\"camera\":{\"r\":\"far\"}}", "null" };
+    static const char *const wrong[] = { "{\"camera\":{\"x\":null}}", "{\"nothing\":null}",
+                                         "{\"disk\":null,\"disk\":null}", "{\"time\":1,\"camera\":{\"r\":\"far\"}}",
+                                         "null" };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         assert_int_equal(kd_scene_patch(&scene, wrong[i], strlen(wrong[i]), &error), KD_EINVAL);
         assert_memory_equal(&scene, &before, sizeof scene);
@@ -120,13 +119,15 @@ static void expect_spots(const struct kd_scene *scene, size_t count, const doubl
         assert_true(scene->spots.at[i].r == 9 && scene->spots.at[i].brightness == 0);
 }
 
-/* An array is the whole list, and what its objects do not name is at its default; an object names elements by their index. */
+/* An array is the whole list, and what its objects do not name is at its default; an object names elements by their
+ * index. */
 static void lists_merge(void **state)
 {
     (void)state;
     struct kd_scene scene = of("{\"spots\":[{\"r\":10,\"brightness\":1},{\"r\":11},{}]}");
     expect_spots(&scene, 3, (double[]) { 10, 11, 9 });
-    assert_int_equal(support_parse(&scene, "{\"spots\":{\"3\":{\"r\":13},\"1\":{\"size\":2},\"4\":{\"r\":14}}}", NULL), KD_OK);
+    assert_int_equal(support_parse(&scene, "{\"spots\":{\"3\":{\"r\":13},\"1\":{\"size\":2},\"4\":{\"r\":14}}}", NULL),
+                     KD_OK);
     expect_spots(&scene, 5, (double[]) { 10, 11, 9, 13, 14 });
     assert_true(scene.spots.at[0].brightness == 1 && scene.spots.at[1].size == 2);
     assert_int_equal(support_parse(&scene, "{\"spots\":{}}", NULL), KD_OK);
@@ -147,30 +148,45 @@ static void lists_merge(void **state)
 
 /* The preset hot-spot as pictures of it held it inside when spots had names. */
 static const char hot_spot[] =
-    "{\"version\":1,\"spacetime\":{\"spin\":0.5,\"mass_msun\":4300000},\"camera\":{\"r\":\"infinity\",\"inclination_deg\":155,"
-    "\"azimuth_deg\":0,\"observer\":\"static\",\"projection\":\"auto\",\"field_m\":50,\"fov_deg\":50,\"centre_alpha\":0,"
+    "{\"version\":1,\"spacetime\":{\"spin\":0.5,\"mass_msun\":4300000},\"camera\":{\"r\":\"infinity\",\"inclination_"
+    "deg\":155,"
+    "\"azimuth_deg\":0,\"observer\":\"static\",\"projection\":\"auto\",\"field_m\":50,\"fov_deg\":50,\"centre_alpha\":"
+    "0,"
     "\"centre_beta\":0,\"yaw_deg\":0,\"pitch_deg\":0,\"roll_deg\":0,\"ring_decades_max\":0,\"ring_decades_min\":-10},"
-    "\"disk\":{\"model\":\"novikov-thorne\",\"inner\":\"isco\",\"outer\":16,\"taper\":0.7,\"opacity\":0.3,\"colour\":\"peak\","
-    "\"peak_temperature_k\":4500,\"mdot_edd\":0.1,\"hardening\":1,\"band\":\"bolometric\",\"doppler\":true,\"redshift\":true,"
-    "\"particles\":300000,\"seed\":1,\"density_index\":2,\"plunging\":0.02,\"plunging_temperature\":0.7,\"epicycles\":0.02,"
-    "\"slow_light\":false},\"spot1\":{\"brightness\":4,\"r\":9,\"phase_deg\":0,\"size\":1.2,\"index\":1,\"temperature_k\":9000},"
-    "\"spot2\":{\"brightness\":0,\"r\":9,\"phase_deg\":0,\"size\":1,\"index\":1,\"temperature_k\":9000},\"spot3\":{\"brightness\":0,"
-    "\"r\":9,\"phase_deg\":0,\"size\":1,\"index\":1,\"temperature_k\":9000},\"sky\":{\"model\":\"none\",\"brightness\":0.2,"
+    "\"disk\":{\"model\":\"novikov-thorne\",\"inner\":\"isco\",\"outer\":16,\"taper\":0.7,\"opacity\":0.3,\"colour\":"
+    "\"peak\","
+    "\"peak_temperature_k\":4500,\"mdot_edd\":0.1,\"hardening\":1,\"band\":\"bolometric\",\"doppler\":true,"
+    "\"redshift\":true,"
+    "\"particles\":300000,\"seed\":1,\"density_index\":2,\"plunging\":0.02,\"plunging_temperature\":0.7,\"epicycles\":"
+    "0.02,"
+    "\"slow_light\":false},\"spot1\":{\"brightness\":4,\"r\":9,\"phase_deg\":0,\"size\":1.2,\"index\":1,\"temperature_"
+    "k\":9000},"
+    "\"spot2\":{\"brightness\":0,\"r\":9,\"phase_deg\":0,\"size\":1,\"index\":1,\"temperature_k\":9000},\"spot3\":{"
+    "\"brightness\":0,"
+    "\"r\":9,\"phase_deg\":0,\"size\":1,\"index\":1,\"temperature_k\":9000},\"sky\":{\"model\":\"none\",\"brightness\":"
+    "0.2,"
     "\"grid_deg\":15},\"image\":{\"width\":1280,\"height\":720,\"samples\":1,\"critical_factor\":4,\"bit_depth\":8},"
-    "\"style\":{\"name\":\"none\",\"exposure\":-0.5,\"tone_map\":\"aces\",\"bloom\":0,\"dither\":true,\"ringdown\":0,\"ringdown_time\":0},"
-    "\"motion\":{\"azimuth_rate_deg\":0,\"time_rate\":10},\"accuracy\":{\"profile\":\"balanced\",\"tolerance\":\"profile\","
+    "\"style\":{\"name\":\"none\",\"exposure\":-0.5,\"tone_map\":\"aces\",\"bloom\":0,\"dither\":true,\"ringdown\":0,"
+    "\"ringdown_time\":0},"
+    "\"motion\":{\"azimuth_rate_deg\":0,\"time_rate\":10},\"accuracy\":{\"profile\":\"balanced\",\"tolerance\":"
+    "\"profile\","
     "\"engine\":\"auto\",\"precision\":\"auto\",\"steps\":0,\"orders\":3},\"time\":0}";
 
 /* Documents from before there were lists: pictures with such a document inside, links, scripts. */
 static void old_names_are_read(void **state)
 {
     (void)state;
-    static const struct { const char *old, *now; } same[] = {
+    static const struct {
+        const char *old, *now;
+    } same[] = {
         { "{\"spot1\":{\"brightness\":1}}", "{\"spots\":[{\"brightness\":1}]}" },
-        { "{\"spot2\":{\"brightness\":1,\"r\":12},\"spot1\":{\"size\":2}}", "{\"spots\":[{\"size\":2},{\"brightness\":1,\"r\":12}]}" },
+        { "{\"spot2\":{\"brightness\":1,\"r\":12},\"spot1\":{\"size\":2}}",
+          "{\"spots\":[{\"size\":2},{\"brightness\":1,\"r\":12}]}" },
         { "{\"spot3\":{\"index\":2}}", "{\"spots\":[{},{},{\"index\":2}]}" },
         /* as they were written in full: without spots, and with the second alone */
-        { "{\"spot1\":{\"brightness\":0,\"r\":9,\"phase_deg\":0,\"size\":1,\"index\":1,\"temperature_k\":9000},\"spot2\":{},\"spot3\":{}}", "{}" },
+        { "{\"spot1\":{\"brightness\":0,\"r\":9,\"phase_deg\":0,\"size\":1,\"index\":1,\"temperature_k\":9000},"
+          "\"spot2\":{},\"spot3\":{}}",
+          "{}" },
         { "{\"spot1\":{\"brightness\":0},\"spot2\":{\"r\":7},\"spot3\":{\"size\":1}}", "{\"spots\":[{},{\"r\":7}]}" },
     };
     for (size_t i = 0; i < sizeof same / sizeof *same; i++) {
@@ -186,7 +202,7 @@ static void old_names_are_read(void **state)
     assert_int_equal(support_parse(&picture, hot_spot, NULL), KD_OK);
     assert_int_equal(kd_scene_preset(&preset, "hot-spot", NULL), KD_OK);
     picture.spacetime.distance_pc = preset.spacetime.distance_pc; /* no field of then */
-    picture.sky.brightness = preset.sky.brightness; /* nor this word */
+    picture.sky.brightness = preset.sky.brightness;               /* nor this word */
     assert_memory_equal(&picture, &preset, sizeof picture);
     struct kd_scene scene = of("{\"spots\":[{\"r\":10},{\"r\":11},{\"r\":12},{\"r\":13}]}");
     patched(&scene, "{\"spot2\":{\"r\":20},\"spot3\":null,\"spot1\":{\"size\":2}}");
@@ -224,8 +240,10 @@ static void elements_are_set(void **state)
     kd_scene_defaults(&scene);
     assert_int_equal(kd_scene_set(&scene, "spot2.brightness", "0", &error), KD_OK); /* what it was anyway */
     assert_int_equal(scene.spots.count, 0);
-    assert_true(kd_scene_same_path("spot2.r", "spots.1.r") && kd_scene_same_path("spots.0.r", "spot1.r") && kd_scene_same_path("time", "time"));
-    assert_false(kd_scene_same_path("spot2.r", "spots.0.r") || kd_scene_same_path("spot2.r", "spots.1.size") || kd_scene_same_path("spot2", "spots.1"));
+    assert_true(kd_scene_same_path("spot2.r", "spots.1.r") && kd_scene_same_path("spots.0.r", "spot1.r") &&
+                kd_scene_same_path("time", "time"));
+    assert_false(kd_scene_same_path("spot2.r", "spots.0.r") || kd_scene_same_path("spot2.r", "spots.1.size") ||
+                 kd_scene_same_path("spot2", "spots.1"));
 }
 
 /* A file from an earlier version must go on meaning the same. */
@@ -242,7 +260,8 @@ static void sections_stand_in_sections(void **state)
     assert_int_equal(kd_scene_set(&scene, "disk.gas.octaves", "3", &error), KD_OK);
     assert_int_equal(scene.gas.octaves, 3);
     char *text = support_canonical(&scene);
-    const char *disk = strstr(text, "\"disk\":{"), *gas = strstr(text, ",\"gas\":{\"amplitude\":0.5,\"octaves\":3,"), *next = strstr(text, "\"spots\":");
+    const char *disk = strstr(text, "\"disk\":{"), *gas = strstr(text, ",\"gas\":{\"amplitude\":0.5,\"octaves\":3,"),
+               *next = strstr(text, "\"spots\":");
     assert_true(disk && gas && next && disk < gas && gas < next && next[-2] == '}' && next[-3] == '}');
     free(text);
     patched(&scene, "{\"disk\":{\"gas\":{\"seed\":null}}}");
@@ -253,7 +272,9 @@ static void sections_stand_in_sections(void **state)
     patched(&scene, "{\"disk\":null}");
     assert_memory_equal(&scene, &defaults, sizeof scene);
 
-    static const struct { const char *text, *pointer, *says; } bad[] = {
+    static const struct {
+        const char *text, *pointer, *says;
+    } bad[] = {
         { "{\"gas\":{}}", "/gas", "did you mean disk.gas?" },
         { "{\"disk.gas\":{}}", "/disk.gas", "unknown field disk.gas" },
         { "{\"disk\":{\"gas\":3}}", "/disk/gas", "disk.gas is 3, allowed is an object" },
@@ -284,9 +305,12 @@ static void canonical_form_is_stable(void **state)
     char *text = support_canonical(&scene);
     const char *start = "{\"version\":1,\"spacetime\":{\"spin\":0.7,\"mass_msun\":100000000,\"distance_pc\":260000},"
                         "\"camera\":{\"r\":\"infinity\",\"inclination_deg\":82,\"azimuth_deg\":-1e-7,";
-    const char *middle = ",\"spots\":[{\"brightness\":0,\"r\":10,\"phase_deg\":0,\"size\":1,\"index\":1,\"temperature_k\":9000},"
-                         "{\"brightness\":0,\"r\":9,\"phase_deg\":0,\"size\":1,\"index\":1,\"temperature_k\":9000}],\"bodies\":[],\"volume\":{";
-    const char *end = "\"accuracy\":{\"profile\":\"balanced\",\"tolerance\":\"profile\",\"engine\":\"auto\",\"precision\":\"auto\",\"steps\":0,\"orders\":3},\"time\":0.30000000000000004}";
+    const char *middle =
+        ",\"spots\":[{\"brightness\":0,\"r\":10,\"phase_deg\":0,\"size\":1,\"index\":1,\"temperature_k\":9000},"
+        "{\"brightness\":0,\"r\":9,\"phase_deg\":0,\"size\":1,\"index\":1,\"temperature_k\":9000}],\"bodies\":[],"
+        "\"volume\":{";
+    const char *end = "\"accuracy\":{\"profile\":\"balanced\",\"tolerance\":\"profile\",\"engine\":\"auto\","
+                      "\"precision\":\"auto\",\"steps\":0,\"orders\":3},\"time\":0.30000000000000004}";
     assert_memory_equal(text, start, strlen(start));
     assert_true(strlen(text) > strlen(end));
     assert_string_equal(text + strlen(text) - strlen(end), end);
@@ -413,8 +437,7 @@ static void hash_is_sha256(void **state)
 static void locale_does_not_matter(void **state)
 {
     (void)state;
-    static const char *const commas[] = { "de_DE.UTF-8", "de_DE", "fr_FR.UTF-8", "cs_CZ.UTF-8",
-                                          "ru_RU.UTF-8" };
+    static const char *const commas[] = { "de_DE.UTF-8", "de_DE", "fr_FR.UTF-8", "cs_CZ.UTF-8", "ru_RU.UTF-8" };
     const char *found = NULL;
     for (size_t i = 0; i < sizeof commas / sizeof *commas && !found; i++)
         found = setlocale(LC_ALL, commas[i]);
@@ -438,11 +461,19 @@ static void locale_does_not_matter(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(random_scenes_round_trip), cmocka_unit_test(empty_document_is_the_default),
-        cmocka_unit_test(documents_merge), cmocka_unit_test(patches),
-        cmocka_unit_test(lists_merge), cmocka_unit_test(old_names_are_read), cmocka_unit_test(sections_stand_in_sections), cmocka_unit_test(elements_are_set), cmocka_unit_test(canonical_form_is_stable),
-        cmocka_unit_test(numbers_are_short),        cmocka_unit_test(invalid_scenes_have_no_text),
-        cmocka_unit_test(hash_feels_each_field),    cmocka_unit_test(hash_is_sha256),
+        cmocka_unit_test(random_scenes_round_trip),
+        cmocka_unit_test(empty_document_is_the_default),
+        cmocka_unit_test(documents_merge),
+        cmocka_unit_test(patches),
+        cmocka_unit_test(lists_merge),
+        cmocka_unit_test(old_names_are_read),
+        cmocka_unit_test(sections_stand_in_sections),
+        cmocka_unit_test(elements_are_set),
+        cmocka_unit_test(canonical_form_is_stable),
+        cmocka_unit_test(numbers_are_short),
+        cmocka_unit_test(invalid_scenes_have_no_text),
+        cmocka_unit_test(hash_feels_each_field),
+        cmocka_unit_test(hash_is_sha256),
         cmocka_unit_test(locale_does_not_matter),
     };
     return cmocka_run_group_tests_name("scene documents", tests, NULL, NULL);

@@ -62,8 +62,8 @@ static void rings_move_while_time_does(void **state)
     assert_false(kd_emit_moves(&scene));
 }
 
-/* The slope of the sRGB curve at white is 0.44: less than half of one of 255 steps is left when the motion ends, and motion does not go
- * on for a fortieth of one. Decay by another method's numbers. */
+/* The slope of the sRGB curve at white is 0.44: less than half of one of 255 steps is left when the motion ends, and
+ * motion does not go on for a fortieth of one. Decay by another method's numbers. */
 static void it_ends_when_it_cannot_be_seen(void **state)
 {
     (void)state;
@@ -87,7 +87,8 @@ static void it_ends_when_it_cannot_be_seen(void **state)
     }
 }
 
-/* What falls moves whatever there is to see, until it is where a camera can be at last; what goes round turns before what is not alike all round. */
+/* What falls moves whatever there is to see, until it is where a camera can be at last; what goes round turns before
+ * what is not alike all round. */
 static void an_observer_goes_on_by_its_own_clock(void **state)
 {
     (void)state;
@@ -100,7 +101,8 @@ static void an_observer_goes_on_by_its_own_clock(void **state)
     scene.camera.r = 8;
     scene.camera.observer = KD_OBSERVER_INFALL;
     scene.motion.proper_time_rate = 2;
-    assert_true(kd_emit_moves(&scene) && !kd_emit_only_dims(&scene) && kd_scene_falls(&scene) && kd_scene_time_goes_on(&scene));
+    assert_true(kd_emit_moves(&scene) && !kd_emit_only_dims(&scene) && kd_scene_falls(&scene) &&
+                kd_scene_time_goes_on(&scene));
     const double second = 4.925490947e-6 * 4.3e6, whole = sqrt(2) / 3 * pow(8, 1.5); /* GM/c^3 of the Sun */
     for (double s = 0; s < 6; s += 0.7) {
         later = scene;
@@ -114,7 +116,8 @@ static void an_observer_goes_on_by_its_own_clock(void **state)
     }
     scene.motion.proper_time_rate = 0;
     assert_false(kd_emit_moves(&scene) || kd_scene_time_goes_on(&scene));
-    scene.camera = (struct kd_camera) { .r = 10, .observer = KD_OBSERVER_KEPLERIAN, .inclination_deg = 90, .fov_deg = 50 };
+    scene.camera =
+        (struct kd_camera) { .r = 10, .observer = KD_OBSERVER_KEPLERIAN, .inclination_deg = 90, .fov_deg = 50 };
     scene.motion.proper_time_rate = 1;
     assert_false(kd_emit_moves(&scene) || kd_scene_falls(&scene));
     scene.sky.model = KD_SKY_GRID;

@@ -1,5 +1,6 @@
-/* The eyes of a pair against Euclid, with cameras and places of its own in Cartesian coordinates: far away, where space is flat; and in the
- * space of rain in Schwarzschild, which is flat at any radius (Painleve 1921, Gullstrand 1922). */
+/* The eyes of a pair against Euclid, with cameras and places of its own in Cartesian coordinates: far away, where
+ * space is flat; and in the space of rain in Schwarzschild, which is flat at any radius (Painleve 1921, Gullstrand
+ * 1922). */
 #include "scene_support.h"
 
 #include "render/output/wcs.h"
@@ -11,7 +12,8 @@ struct eye { double place[3], ahead[3], right[3], up[3]; };
 static struct eye eye_of(const struct kd_scene *scene)
 {
     const struct kd_camera_exact c = kd_camera_exact(scene);
-    const double theta = scene->camera.inclination_deg * (M_PI / 180), phi = scene->camera.azimuth_deg * (M_PI / 180), r = scene->camera.r;
+    const double theta = scene->camera.inclination_deg * (M_PI / 180), phi = scene->camera.azimuth_deg * (M_PI / 180),
+                 r = scene->camera.r;
     const double legs[3][3] = { { sin(theta) * cos(phi), sin(theta) * sin(phi), cos(theta) },
                                 { cos(theta) * cos(phi), cos(theta) * sin(phi), -sin(theta) },
                                 { -sin(phi), cos(phi), 0 } };
@@ -38,31 +40,48 @@ static void compare(const struct kd_scene *scene, double bound)
         assert_int_equal(kd_scene_validate(&one, NULL), KD_OK);
         assert_int_equal(one.camera.stereo, KD_STEREO_NONE);
         for (int i = 0; i < 3; i++) {
-            const double off[] = { (got.place[i] - middle.place[i] - half * middle.right[i]) / scene->camera.eye_distance, got.ahead[i] - middle.ahead[i],
-                                   got.right[i] - middle.right[i], got.up[i] - middle.up[i] };
+            const double off[] = { (got.place[i] - middle.place[i] - half * middle.right[i]) /
+                                       scene->camera.eye_distance,
+                                   got.ahead[i] - middle.ahead[i], got.right[i] - middle.right[i],
+                                   got.up[i] - middle.up[i] };
             for (int k = 0; k < 4; k++)
                 if (!(fabs(off[k]) <= bound))
-                    fail_msg("from %g M, eye %d: %s is off by %g", scene->camera.r, side, (const char *[]) { "the place", "the axis", "right", "up" }[k], off[k]);
+                    fail_msg("from %g M, eye %d: %s is off by %g", scene->camera.r, side,
+                             (const char *[]) { "the place", "the axis", "right", "up" }[k], off[k]);
         }
     }
 }
 
-static const double aims[][5] = { /* inclination, azimuth, yaw, pitch, roll */
-    { 90, 0, 0, 0, 0 }, { 60, 30, 10, 0, 0 }, { 82, -170, -100, 35, 0 }, { 20, 100, 170, -60, 40 }, { 140, 10, 5, 5, -120 }, { 0, 0, 12, 0, 0 }, { 180, 50, 0, 20, 300 },
+static const double aims[][5] = {
+    /* inclination, azimuth, yaw, pitch, roll */
+    { 90, 0, 0, 0, 0 },      { 60, 30, 10, 0, 0 }, { 82, -170, -100, 35, 0 }, { 20, 100, 170, -60, 40 },
+    { 140, 10, 5, 5, -120 }, { 0, 0, 12, 0, 0 },   { 180, 50, 0, 20, 300 },
 };
 
 static void far_away_eyes_are_euclids(void **state)
 {
     (void)state;
-    static const enum kd_observer kinds[] = { KD_OBSERVER_STATIC, KD_OBSERVER_ZAMO, KD_OBSERVER_KEPLERIAN, KD_OBSERVER_INFALL };
+    static const enum kd_observer kinds[] = { KD_OBSERVER_STATIC, KD_OBSERVER_ZAMO, KD_OBSERVER_KEPLERIAN,
+                                              KD_OBSERVER_INFALL };
     for (size_t i = 0; i < sizeof aims / sizeof *aims; i++)
         for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
             struct kd_scene scene;
             kd_scene_smooth(&scene);
             scene.spacetime.spin = 0.9;
-            scene.camera = (struct kd_camera) { .r = 1e6, .inclination_deg = aims[i][0], .azimuth_deg = aims[i][1], .yaw_deg = aims[i][2], .pitch_deg = aims[i][3],
-                                                .roll_deg = aims[i][4], .observer = kinds[k], .fov_deg = 50, .infall_from = INFINITY, .infall_energy = INFINITY,
-                                                .stereo = KD_STEREO_PAIR, .eye_distance = 3e5, .field_m = 46, .ring_decades_min = -10 };
+            scene.camera = (struct kd_camera) { .r = 1e6,
+                                                .inclination_deg = aims[i][0],
+                                                .azimuth_deg = aims[i][1],
+                                                .yaw_deg = aims[i][2],
+                                                .pitch_deg = aims[i][3],
+                                                .roll_deg = aims[i][4],
+                                                .observer = kinds[k],
+                                                .fov_deg = 50,
+                                                .infall_from = INFINITY,
+                                                .infall_energy = INFINITY,
+                                                .stereo = KD_STEREO_PAIR,
+                                                .eye_distance = 3e5,
+                                                .field_m = 46,
+                                                .ring_decades_min = -10 };
             assert_false(kd_wcs_of(&scene).known);
             compare(&scene, k == 3 ? 3e-6 : 2e-6); /* M/r, and half as much of what falls */
         }
@@ -77,14 +96,26 @@ static void rain_sees_flat_space(void **state)
             struct kd_scene scene;
             kd_scene_smooth(&scene);
             scene.spacetime.spin = 0;
-            scene.camera = (struct kd_camera) { .r = radii[k], .inclination_deg = aims[i][0], .azimuth_deg = aims[i][1], .yaw_deg = aims[i][2], .pitch_deg = aims[i][3],
-                                                .roll_deg = aims[i][4], .observer = KD_OBSERVER_INFALL, .fov_deg = 50, .infall_from = INFINITY,
-                                                .infall_energy = INFINITY, .stereo = KD_STEREO_PAIR, .eye_distance = 0.5, .field_m = 46, .ring_decades_min = -10 };
+            scene.camera = (struct kd_camera) { .r = radii[k],
+                                                .inclination_deg = aims[i][0],
+                                                .azimuth_deg = aims[i][1],
+                                                .yaw_deg = aims[i][2],
+                                                .pitch_deg = aims[i][3],
+                                                .roll_deg = aims[i][4],
+                                                .observer = KD_OBSERVER_INFALL,
+                                                .fov_deg = 50,
+                                                .infall_from = INFINITY,
+                                                .infall_energy = INFINITY,
+                                                .stereo = KD_STEREO_PAIR,
+                                                .eye_distance = 0.5,
+                                                .field_m = 46,
+                                                .ring_decades_min = -10 };
             compare(&scene, 1e-12);
         }
 }
 
-/* Lengths along the legs: dr = sqrt(Delta/Sigma), dphi = 1/sqrt(g_phiphi) of one of zero angular momentum in the equatorial plane. */
+/* Lengths along the legs: dr = sqrt(Delta/Sigma), dphi = 1/sqrt(g_phiphi) of one of zero angular momentum in the
+ * equatorial plane. */
 static void near_eyes_are_as_far_apart_as_they_say(void **state)
 {
     (void)state;
@@ -104,7 +135,8 @@ static void near_eyes_are_as_far_apart_as_they_say(void **state)
             assert_true(fabs(eye.camera.r - r * hypot(1, turn)) < 1e-12 && eye.camera.yaw_deg > 0);
             scene.camera.yaw_deg = 90; /* to the right is outwards */
             eye = kd_scene_eye(&scene, 1);
-            assert_true(fabs(eye.camera.r - r - 0.1 * sqrt(1 - 2 / r + a * a / (r * r))) < 1e-12 && fabs(eye.camera.azimuth_deg) < 1e-12);
+            assert_true(fabs(eye.camera.r - r - 0.1 * sqrt(1 - 2 / r + a * a / (r * r))) < 1e-12 &&
+                        fabs(eye.camera.azimuth_deg) < 1e-12);
         }
 }
 

@@ -19,7 +19,10 @@ static struct kd_scene of(const char *json)
     return parsed(&defaults, json, false);
 }
 
-static double value(const struct kd_scene *scene, const struct kd_style_row *row) { return kd_field_get(scene, kd_field_find(row->section, row->name), 0); }
+static double value(const struct kd_scene *scene, const struct kd_style_row *row)
+{
+    return kd_field_get(scene, kd_field_find(row->section, row->name), 0);
+}
 
 /* Each style sets its rows, and nothing else; some leave some alone. */
 static void each_sets_its_fields(void **state)
@@ -115,8 +118,9 @@ static void by_paths_in_order(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(each_sets_its_fields), cmocka_unit_test(what_the_document_sets_stays),
-                                        cmocka_unit_test(the_name_alone_does_nothing_later), cmocka_unit_test(by_paths_in_order),
-                                        cmocka_unit_test(the_default_is_a_style) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(each_sets_its_fields),
+                                        cmocka_unit_test(what_the_document_sets_stays),
+                                        cmocka_unit_test(the_name_alone_does_nothing_later),
+                                        cmocka_unit_test(by_paths_in_order), cmocka_unit_test(the_default_is_a_style) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

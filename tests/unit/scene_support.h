@@ -23,10 +23,7 @@ static inline uint64_t support_random(uint64_t *state)
     return *state * 0x2545f4914f6cdd1dull;
 }
 
-static inline double support_uniform(uint64_t *state)
-{
-    return (double)(support_random(state) >> 11) * 0x1p-53;
-}
+static inline double support_uniform(uint64_t *state) { return (double)(support_random(state) >> 11) * 0x1p-53; }
 
 /* {"section":{"name":value}}, {"list":[{"name":value}]} or {"name":value} */
 static inline void support_document(char out[256], const struct kd_field *field, const char *value)
@@ -34,9 +31,11 @@ static inline void support_document(char out[256], const struct kd_field *field,
     bool list = field->stride;
     const char *dot = strchr(field->section, '.'); /* a section in another one */
     if (dot)
-        snprintf(out, 256, "{\"%.*s\":{\"%s\":{\"%s\":%s}}}", (int)(dot - field->section), field->section, dot + 1, field->name, value);
+        snprintf(out, 256, "{\"%.*s\":{\"%s\":{\"%s\":%s}}}", (int)(dot - field->section), field->section, dot + 1,
+                 field->name, value);
     else if (*field->section)
-        snprintf(out, 256, "{\"%s\":%s{\"%s\":%s}%s}", field->section, list ? "[" : "", field->name, value, list ? "]" : "");
+        snprintf(out, 256, "{\"%s\":%s{\"%s\":%s}%s}", field->section, list ? "[" : "", field->name, value,
+                 list ? "]" : "");
     else
         snprintf(out, 256, "{\"%s\":%s}", field->name, value);
 }

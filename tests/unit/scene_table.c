@@ -1,5 +1,5 @@
-/* The scene's machinery over another table of fields (table/scene/fields.h): what it does for spots it does for any list, and assets are
- * names until they are resolved. */
+/* The scene's machinery over another table of fields (table/scene/fields.h): what it does for spots it does for any
+ * list, and assets are names until they are resolved. */
 #include "cli/asset_options.h"
 #include "cli/cli.h"
 #include "image/png.h"
@@ -14,7 +14,10 @@
 #include <cjson/cJSON.h>
 
 /* This scene has no volumes, */
-enum kd_status kd_asset_check_grid(double spin, const struct kd_scene *scene, struct kd_error *error) { return (void)spin, (void)scene, (void)error, KD_OK; }
+enum kd_status kd_asset_check_grid(double spin, const struct kd_scene *scene, struct kd_error *error)
+{
+    return (void)spin, (void)scene, (void)error, KD_OK;
+}
 /* no rules and no presets. */
 const struct kd_rule kd_rules[1];
 const size_t kd_rule_count = 0;
@@ -48,10 +51,14 @@ static void canonical_form(void **state)
     (void)state;
     struct kd_scene scene = of("{}");
     expect_text(&scene, "{\"version\":1,\"bodies\":[],\"place\":{\"width\":2,\"map\":null},\"stops\":[]," REST);
-    scene = of("{\"bodies\":[{},{\"r\":4,\"shape\":\"ring\",\"moons\":0,\"dark\":false,\"texture\":\"" ABC "\"}],\"finish\":{\"time\":1},\"film\":null}");
-    expect_text(&scene, "{\"version\":1,\"bodies\":[" BODY ",{\"dark\":false,\"shape\":\"ring\",\"texture\":\"" ABC "\",\"moons\":0,\"r\":4}],"
-                        "\"place\":{\"width\":2,\"map\":null},\"stops\":[{\"time\":0.5,\"sound\":null},{\"time\":0.5,\"sound\":null},"
-                        "{\"time\":1,\"sound\":null}]," REST);
+    scene = of("{\"bodies\":[{},{\"r\":4,\"shape\":\"ring\",\"moons\":0,\"dark\":false,\"texture\":\"" ABC
+               "\"}],\"finish\":{\"time\":1},\"film\":null}");
+    expect_text(
+        &scene,
+        "{\"version\":1,\"bodies\":[" BODY ",{\"dark\":false,\"shape\":\"ring\",\"texture\":\"" ABC
+        "\",\"moons\":0,\"r\":4}],"
+        "\"place\":{\"width\":2,\"map\":null},\"stops\":[{\"time\":0.5,\"sound\":null},{\"time\":0.5,\"sound\":null},"
+        "{\"time\":1,\"sound\":null}]," REST);
     char *text = support_canonical(&scene);
     struct kd_scene back = of(text);
     assert_memory_equal(&back, &scene, sizeof scene);
@@ -61,16 +68,20 @@ static void canonical_form(void **state)
 static void lists_of_any_kind(void **state)
 {
     (void)state;
-    struct kd_scene scene = of("{\"bodies\":{\"1\":{\"moons\":5},\"0\":{\"dark\":false}},\"stops\":[{\"time\":-1},{}]}");
+    struct kd_scene scene =
+        of("{\"bodies\":{\"1\":{\"moons\":5},\"0\":{\"dark\":false}},\"stops\":[{\"time\":-1},{}]}");
     struct kd_error error;
-    assert_true(scene.bodies.count == 2 && scene.stops.count == 2 && scene.bodies.at[1].moons == 5 && !scene.bodies.at[0].dark);
-    assert_true(scene.bodies.at[1].dark && scene.bodies.at[1].shape == 1 && isinf(scene.bodies.at[1].r) && scene.stops.at[1].time == 0.5);
+    assert_true(scene.bodies.count == 2 && scene.stops.count == 2 && scene.bodies.at[1].moons == 5 &&
+                !scene.bodies.at[0].dark);
+    assert_true(scene.bodies.at[1].dark && scene.bodies.at[1].shape == 1 && isinf(scene.bodies.at[1].r) &&
+                scene.stops.at[1].time == 0.5);
     assert_int_equal(kd_scene_set(&scene, "bodies.2.shape", "ball", &error), KD_OK);
     assert_int_equal(kd_scene_set(&scene, "stops.2.time", "0.25", &error), KD_OK);
     assert_int_equal(kd_scene_set(&scene, "stops.3.time", "0.25", &error), KD_EINVAL);
     assert_string_equal(error.message, "there is no stops.3: stops is a list, whose elements are stops.0 to stops.2");
     assert_int_equal(kd_scene_set(&scene, "start.time", "0.75", &error), KD_OK);
-    assert_true(scene.bodies.count == 3 && scene.bodies.at[2].shape == 0 && scene.stops.at[2].time == 0.25 && scene.stops.at[0].time == 0.75);
+    assert_true(scene.bodies.count == 3 && scene.bodies.at[2].shape == 0 && scene.stops.at[2].time == 0.25 &&
+                scene.stops.at[0].time == 0.75);
     assert_int_equal(support_parse(&scene, "{\"bodies\":{\"19\":{}}}", &error), KD_EINVAL);
     assert_string_equal(error.message, "there is no bodies.19: the list has 3 elements, and the next free index is 3");
     assert_int_equal(support_parse(&scene, "{\"stops\":[{},{},{},{}]}", &error), KD_EINVAL);
@@ -108,8 +119,10 @@ static bool find(void *user, const char *name, struct kd_asset_found *out)
 static void assets_are_resolved(void **state)
 {
     (void)state;
-    struct kd_scene scene = of("{\"place\":{\"map\":\"sky\"},\"bodies\":[{},{\"texture\":\"sky\"},{\"texture\":\"" ABC "\"}],\"film\":\"sky\"}");
-    struct kd_scene same = of("{\"place\":{\"map\":\"" ABC "\"},\"bodies\":[{},{\"texture\":\"" ABC "\"},{\"texture\":\"" ABC "\"}],\"film\":\"" ABC "\"}");
+    struct kd_scene scene = of("{\"place\":{\"map\":\"sky\"},\"bodies\":[{},{\"texture\":\"sky\"},{\"texture\":\"" ABC
+                               "\"}],\"film\":\"sky\"}");
+    struct kd_scene same = of("{\"place\":{\"map\":\"" ABC "\"},\"bodies\":[{},{\"texture\":\"" ABC
+                              "\"},{\"texture\":\"" ABC "\"}],\"film\":\"" ABC "\"}");
     struct kd_buffer text = { 0 };
     struct kd_error error;
     char hashes[2][65];
@@ -120,7 +133,8 @@ static void assets_are_resolved(void **state)
     assert_int_equal(kd_scene_hash(&scene, hashes[0]), KD_EINVAL);
     assert_int_equal(kd_scene_validate(&scene, &error), KD_EINVAL);
     assert_string_equal(error.pointer, "/bodies/1/texture");
-    assert_string_equal(error.message, "bodies.1.texture is \"sky\", which is no SHA-256, and no name of an asset that is known here");
+    assert_string_equal(error.message,
+                        "bodies.1.texture is \"sky\", which is no SHA-256, and no name of an asset that is known here");
     assert_int_equal(kd_scene_resolve(&scene, &assets, &error), KD_OK);
     assert_int_equal(asked, 4);
     assert_memory_equal(&scene, &same, sizeof scene);
@@ -133,7 +147,8 @@ static void assets_are_resolved(void **state)
     same = scene;
     assert_int_equal(kd_scene_resolve(&scene, &assets, &error), KD_EINVAL);
     assert_string_equal(error.pointer, "/bodies/0/texture");
-    assert_string_equal(error.message, "bodies.0.texture is \"ground\", and there is no such asset here; allowed are null and sky");
+    assert_string_equal(error.message,
+                        "bodies.0.texture is \"ground\", and there is no such asset here; allowed are null and sky");
     assert_memory_equal(&scene, &same, sizeof scene);
     assert_int_equal(kd_scene_set(&scene, "bodies.0.texture", "", &error), KD_OK); /* none */
     assert_int_equal(kd_scene_resolve(&scene, &assets, &error), KD_OK);
@@ -167,7 +182,10 @@ static void assets_on_a_command_line(void **state)
     int fd = mkstemp(path);
     assert_true(fd >= 0);
     fclose(fdopen(fd, "wb"));
-    assert_int_equal(kd_png_encode(&(struct kd_png_params) { .width = 2, .height = 2, .bit_depth = 8, .pixels = pixels }, &png, &error), KD_OK);
+    assert_int_equal(
+        kd_png_encode(&(struct kd_png_params) { .width = 2, .height = 2, .bit_depth = 8, .pixels = pixels }, &png,
+                      &error),
+        KD_OK);
     write_file(path, &png);
     kd_sha256(png.data, png.size, hash);
     snprintf(texts[0], sizeof texts[0], "sky=%s", path);
@@ -201,13 +219,28 @@ static void assets_on_a_command_line(void **state)
 static void assets_have_names(void **state)
 {
     (void)state;
-    static const struct { const char *json; bool good; } cases[] = {
-        { "null", true }, { "\"sky\"", true }, { "\"Sky.2-b_c\"", true }, { "\"" ABC "\"", true },
+    static const struct {
+        const char *json;
+        bool good;
+    } cases[] = {
+        { "null", true },
+        { "\"sky\"", true },
+        { "\"Sky.2-b_c\"", true },
+        { "\"" ABC "\"", true },
         { "\"abcdefghijabcdefghijabcdefghijabcdefghijabcdefghijabcdefghijabc\"", true },   /* 63 */
         { "\"abcdefghijabcdefghijabcdefghijabcdefghijabcdefghijabcdefghijabcg\"", false }, /* 64, and no hash */
-        { "\"BA7816BF8F01CFEA414140DE5DAE2223B00361A396177A9CB410FF61F20015AD\"", false }, { "\"" ABC "0\"", false }, { "\"2sky\"", false },
-        { "\".sky\"", false }, { "\"a/b\"", false }, { "\"a b\"", false }, { "\"\xc3\xa9\"", false }, { "1", false }, { "true", false }, { "{}", false },
-        { "[]", false }, { "\"http://a/b.png\"", false },
+        { "\"BA7816BF8F01CFEA414140DE5DAE2223B00361A396177A9CB410FF61F20015AD\"", false },
+        { "\"" ABC "0\"", false },
+        { "\"2sky\"", false },
+        { "\".sky\"", false },
+        { "\"a/b\"", false },
+        { "\"a b\"", false },
+        { "\"\xc3\xa9\"", false },
+        { "1", false },
+        { "true", false },
+        { "{}", false },
+        { "[]", false },
+        { "\"http://a/b.png\"", false },
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct kd_scene scene;
@@ -220,7 +253,8 @@ static void assets_have_names(void **state)
         if (cases[i].good)
             continue;
         assert_string_equal(error.pointer, "/stops/0/sound");
-        assert_non_null(strstr(error.message, "allowed are null, the SHA-256 of an asset as 64 hexadecimal digits, and a name: a letter"));
+        assert_non_null(strstr(
+            error.message, "allowed are null, the SHA-256 of an asset as 64 hexadecimal digits, and a name: a letter"));
     }
 }
 
@@ -237,9 +271,13 @@ static void schema_has_natures_places_and_groups(void **state)
     assert_int_equal(kd_scene_schema(&text), KD_OK);
     cJSON *schema = cJSON_Parse((const char *)text.data);
     const cJSON *all = cJSON_GetObjectItemCaseSensitive(schema, "properties");
-    const cJSON *bodies = cJSON_GetObjectItemCaseSensitive(all, "bodies"), *film = cJSON_GetObjectItemCaseSensitive(all, "film");
-    const cJSON *rows = cJSON_GetObjectItemCaseSensitive(cJSON_GetObjectItemCaseSensitive(bodies, "items"), "properties");
-    const char *natures[][2] = { { "dark", "look" }, { "shape", "model" }, { "texture", "look" }, { "moons", "physics" }, { "r", "model" } };
+    const cJSON *bodies = cJSON_GetObjectItemCaseSensitive(all, "bodies"),
+                *film = cJSON_GetObjectItemCaseSensitive(all, "film");
+    const cJSON *rows =
+        cJSON_GetObjectItemCaseSensitive(cJSON_GetObjectItemCaseSensitive(bodies, "items"), "properties");
+    const char *natures[][2] = {
+        { "dark", "look" }, { "shape", "model" }, { "texture", "look" }, { "moons", "physics" }, { "r", "model" }
+    };
     for (size_t i = 0; i < sizeof natures / sizeof *natures; i++) {
         const cJSON *row = cJSON_GetObjectItemCaseSensitive(rows, natures[i][0]);
         assert_string_equal(word_of(row, "x-nature"), natures[i][1]);
@@ -265,7 +303,8 @@ static void schema_has_natures_places_and_groups(void **state)
 static void schema_has_controls(void **state)
 {
     (void)state;
-    static const char *const all[] = { "time", "bodies.r", "bodies.dark", "bodies.moons", "bodies.texture", "bodies.texture", "stops.time", "bodies.shape" };
+    static const char *const all[] = { "time",           "bodies.r",       "bodies.dark", "bodies.moons",
+                                       "bodies.texture", "bodies.texture", "stops.time",  "bodies.shape" };
     struct kd_buffer text = { 0 };
     assert_int_equal(kd_scene_schema(&text), KD_OK);
     const char *json = (const char *)text.data;
@@ -289,14 +328,18 @@ static void schema_and_reference(void **state)
     assert_int_equal(kd_scene_schema(&text), KD_OK);
     cJSON *schema = cJSON_Parse((const char *)text.data);
     const cJSON *all = cJSON_GetObjectItemCaseSensitive(schema, "properties");
-    const cJSON *bodies = cJSON_GetObjectItemCaseSensitive(all, "bodies"), *stops = cJSON_GetObjectItemCaseSensitive(all, "stops");
+    const cJSON *bodies = cJSON_GetObjectItemCaseSensitive(all, "bodies"),
+                *stops = cJSON_GetObjectItemCaseSensitive(all, "stops");
     assert_int_equal(cJSON_GetObjectItemCaseSensitive(bodies, "maxItems")->valuedouble, 20);
     assert_int_equal(cJSON_GetObjectItemCaseSensitive(stops, "maxItems")->valuedouble, 3);
-    const cJSON *rows = cJSON_GetObjectItemCaseSensitive(cJSON_GetObjectItemCaseSensitive(stops, "items"), "properties");
-    const cJSON *sound = cJSON_GetObjectItemCaseSensitive(rows, "sound"), *kinds = cJSON_GetObjectItemCaseSensitive(sound, "anyOf");
+    const cJSON *rows =
+        cJSON_GetObjectItemCaseSensitive(cJSON_GetObjectItemCaseSensitive(stops, "items"), "properties");
+    const cJSON *sound = cJSON_GetObjectItemCaseSensitive(rows, "sound"),
+                *kinds = cJSON_GetObjectItemCaseSensitive(sound, "anyOf");
     assert_true(cJSON_IsNull(cJSON_GetObjectItemCaseSensitive(sound, "default")));
     assert_string_equal(cJSON_GetObjectItemCaseSensitive(cJSON_GetArrayItem(kinds, 0), "type")->valuestring, "null");
-    assert_non_null(strstr(cJSON_GetObjectItemCaseSensitive(cJSON_GetArrayItem(kinds, 1), "pattern")->valuestring, "[0-9a-f]{64}"));
+    assert_non_null(
+        strstr(cJSON_GetObjectItemCaseSensitive(cJSON_GetArrayItem(kinds, 1), "pattern")->valuestring, "[0-9a-f]{64}"));
     assert_non_null(cJSON_GetObjectItemCaseSensitive(all, "finish"));
     cJSON_Delete(schema);
     text.size = 0;
@@ -321,9 +364,15 @@ static void sha256(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(canonical_form),    cmocka_unit_test(lists_of_any_kind),    cmocka_unit_test(assets_are_resolved),
-        cmocka_unit_test(assets_on_a_command_line), cmocka_unit_test(assets_have_names), cmocka_unit_test(schema_and_reference),
-        cmocka_unit_test(schema_has_natures_places_and_groups), cmocka_unit_test(schema_has_controls), cmocka_unit_test(sha256),
+        cmocka_unit_test(canonical_form),
+        cmocka_unit_test(lists_of_any_kind),
+        cmocka_unit_test(assets_are_resolved),
+        cmocka_unit_test(assets_on_a_command_line),
+        cmocka_unit_test(assets_have_names),
+        cmocka_unit_test(schema_and_reference),
+        cmocka_unit_test(schema_has_natures_places_and_groups),
+        cmocka_unit_test(schema_has_controls),
+        cmocka_unit_test(sha256),
     };
     return cmocka_run_group_tests_name("scene table", tests, NULL, NULL);
 }

@@ -1,6 +1,7 @@
-/* Sessions that share a device: each with a governor and a viewer who asks for the next frame a while after the last; the budget
- * divides the device's time among them, shares.h says whose turn it is, and the machine is that of governor_simulation.h. Events in
- * the order of their times; a frame has the device until it is done, a refinement for 40 ms at a time. */
+/* Sessions that share a device: each with a governor and a viewer who asks for the next frame a while after the
+ * last; the budget divides the device's time among them, shares.h says whose turn it is, and the machine is that of
+ * governor_simulation.h. Events in the order of their times; a frame has the device until it is done, a refinement
+ * for 40 ms at a time. */
 #ifndef KD_TESTS_SHARED_DEVICE_H
 #define KD_TESTS_SHARED_DEVICE_H
 
@@ -18,14 +19,15 @@ struct sharer {
     double stroke, lift;   /* for so long, and then not for so long; 0: without a break */
     bool still;            /* what moves reuses its lens map, as time that goes on does */
     /* the simulation's own */
-    double due;            /* of the next request; INFINITY: a frame is in the queue */
+    double due; /* of the next request; INFINITY: a frame is in the queue */
     struct kd_turn turn;
     struct kd_frame_cost cost;
-    double left;           /* ms of the device that the frame still needs */
-    double latest, gap;    /* the newest frame that was no refinement; the longest time between two in a drag */
+    double left;             /* ms of the device that the frame still needs */
+    double latest, gap;      /* the newest frame that was no refinement; the longest time between two in a drag */
     uint64_t moved, refined; /* frames */
-    double used;           /* ms of the device, refinement left out */
-    uint64_t seen, hasty;  /* changes of scale; frames of a drag after which the server would refine before it hears from the hand */
+    double used;             /* ms of the device, refinement left out */
+    uint64_t seen, hasty; /* changes of scale; frames of a drag after which the server would refine before it hears from
+                             the hand */
 };
 
 struct device {
@@ -45,7 +47,8 @@ static void open_device(struct device *d, struct sharer *sharers, int n)
 }
 
 /* It is there from the beginning, and rests until `from`. */
-static struct sharer *join(struct device *d, int i, const char *client, struct truth truth, double pause, double from, double to)
+static struct sharer *join(struct device *d, int i, const char *client, struct truth truth, double pause, double from,
+                           double to)
 {
     struct sharer *s = &d->sharers[i];
     begin(&s->sim, kd_governor_params(), 640, 360, truth);
@@ -88,8 +91,11 @@ static void request(struct device *d, struct sharer *s)
     if (first || dragged(s, d->now))
         change(sim, first || !s->still);
     if (first) /* as the server tells it by the plan */
-        kd_governor_expect(&sim->governor, &(struct kd_frame_cost) { .fixed_ms = sim->truth.fixed, .rays_ms = sim->truth.traced,
-                               .pixels_ms = sim->truth.pixels, .total_ms = sim->truth.fixed + sim->truth.traced + sim->truth.pixels });
+        kd_governor_expect(&sim->governor, &(struct kd_frame_cost) { .fixed_ms = sim->truth.fixed,
+                                                                     .rays_ms = sim->truth.traced,
+                                                                     .pixels_ms = sim->truth.pixels,
+                                                                     .total_ms = sim->truth.fixed + sim->truth.traced +
+                                                                                 sim->truth.pixels });
     s->turn = kd_governor_turn(&sim->governor, d->now);
     if (s->turn.wait_ms > 0) {
         double next = next_drag(s, d->now);

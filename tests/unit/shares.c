@@ -29,7 +29,9 @@ struct bench {
 static struct work *come(struct bench *b, const char *client, enum kd_class class, double ms)
 {
     struct work *w = &b->works[b->n++];
-    *w = (struct work) { .claim = { .class = class, .left_ms = ms }, .left = ms, .came = b->now, .began = NAN, .ended = NAN, .here = true };
+    *w = (struct work) {
+        .claim = { .class = class, .left_ms = ms }, .left = ms, .came = b->now, .began = NAN, .ended = NAN, .here = true
+    };
     snprintf(w->claim.client, sizeof w->claim.client, "%s", client);
     kd_shares_add(&b->shares, &w->claim);
     return w;
@@ -168,7 +170,8 @@ static void short_first(void **state)
         turn(&b);
     }
     assert_false(isnan(long_one->began));
-    assert_true(long_one->began >= 5000 && long_one->began <= 4 * 5000); /* not before its length, nor after that of four */
+    assert_true(long_one->began >= 5000 &&
+                long_one->began <= 4 * 5000); /* not before its length, nor after that of four */
 }
 
 /* Nobody saves time up, neither by being away nor by being barred, and nobody pays for having been alone. */
@@ -243,9 +246,15 @@ static void wrong_estimates(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_small_one_beside_any_load), cmocka_unit_test(shares_are_by_client), cmocka_unit_test(classes_of_a_client),
-        cmocka_unit_test(a_picture_beside_living_sessions), cmocka_unit_test(short_first), cmocka_unit_test(no_savings_and_no_debts),
-        cmocka_unit_test(coming_and_going), cmocka_unit_test(more_clients_than_places), cmocka_unit_test(wrong_estimates),
+        cmocka_unit_test(a_small_one_beside_any_load),
+        cmocka_unit_test(shares_are_by_client),
+        cmocka_unit_test(classes_of_a_client),
+        cmocka_unit_test(a_picture_beside_living_sessions),
+        cmocka_unit_test(short_first),
+        cmocka_unit_test(no_savings_and_no_debts),
+        cmocka_unit_test(coming_and_going),
+        cmocka_unit_test(more_clients_than_places),
+        cmocka_unit_test(wrong_estimates),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,5 @@
-/* Skies: the catalogue and its counts, frames by places of the literature, stars that are made up, the panorama and its packing. */
+/* Skies: the catalogue and its counts, frames by places of the literature, stars that are made up, the panorama and
+ * its packing. */
 #include "render/sky/frame.h"
 #include "render/sky/panorama.h"
 #include "render/sky/star.h"
@@ -14,17 +15,22 @@
 #define DEGREE (M_PI / 180)
 #define NEAR(x, y, by) assert_true(fabs((x) - (y)) <= (by))
 
-/* How many stars there are of each magnitude, as counted in the package by other means; ESA, The Hipparcos Catalogue, of Sirius and Canopus. */
+/* How many stars there are of each magnitude, as counted in the package by other means; ESA, The Hipparcos
+ * Catalogue, of Sirius and Canopus. */
 static void the_catalogue_is_whole(void **state)
 {
     (void)state;
-    static const struct { double magnitude; size_t n; } counts[] = { { 6, 4995 }, { 6.5, 8789 }, { 7.5, 25503 }, { 9, 83037 }, { 11, 115416 }, { 14, 118216 } };
+    static const struct {
+        double magnitude;
+        size_t n;
+    } counts[] = { { 6, 4995 }, { 6.5, 8789 }, { 7.5, 25503 }, { 9, 83037 }, { 11, 115416 }, { 14, 118216 } };
     size_t k = 0;
     double before = -9;
     for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) {
         while (k < KD_STARS_CATALOGUE && kd_catalogue_star(k).magnitude < counts[i].magnitude) {
             const struct kd_catalogue_star s = kd_catalogue_star(k++);
-            assert_true(s.magnitude >= before && s.ra >= 0 && s.ra < 2 * M_PI && fabs(s.dec) <= M_PI / 2 && s.colour >= -0.4 && s.colour <= 3);
+            assert_true(s.magnitude >= before && s.ra >= 0 && s.ra < 2 * M_PI && fabs(s.dec) <= M_PI / 2 &&
+                        s.colour >= -0.4 && s.colour <= 3);
             before = s.magnitude;
         }
         assert_int_equal(k, counts[i].n);
@@ -38,8 +44,8 @@ static void the_catalogue_is_whole(void **state)
     NEAR(canopus.dec / DEGREE, -52.6957, 2e-3);
 }
 
-/* Flux by hand: five magnitudes are a factor of 100; a square arcsecond is 2.350443e-11 sr. The Sun's colour, 0.65, is that of 5770 K
- * (Ballesteros 2012, whose fit gives 5778 K for 0.648). */
+/* Flux by hand: five magnitudes are a factor of 100; a square arcsecond is 2.350443e-11 sr. The Sun's colour, 0.65,
+ * is that of 5770 K (Ballesteros 2012, whose fit gives 5778 K for 0.648). */
 static void light_and_colour(void **state)
 {
     (void)state;
@@ -53,9 +59,12 @@ static void light_and_colour(void **state)
 static void galactic_places(void **state)
 {
     (void)state;
-    static const struct { double ra, dec, l, b; } places[] = {
-        { 83.82208, -5.39111, 209.0137, -19.3816 }, { 201.69683, -47.47958, 309.1017, 14.9684 }, { 10.68479, 41.26906, 121.1743, -21.5733 },
-        { 266.41684, -29.00781, 359.94423, -0.04616 }, { 187.70593, 12.39112, 283.7777, 74.4912 },
+    static const struct {
+        double ra, dec, l, b;
+    } places[] = {
+        { 83.82208, -5.39111, 209.0137, -19.3816 }, { 201.69683, -47.47958, 309.1017, 14.9684 },
+        { 10.68479, 41.26906, 121.1743, -21.5733 }, { 266.41684, -29.00781, 359.94423, -0.04616 },
+        { 187.70593, 12.39112, 283.7777, 74.4912 },
     };
     const struct kd_rotation r = kd_rotation_galactic();
     for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
@@ -67,8 +76,9 @@ static void galactic_places(void **state)
 
 static double determinant(const struct kd_rotation *r)
 {
-    const double(*m)[3] = r->m;
-    return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) + m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+    const double (*m)[3] = r->m;
+    return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+           m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
 }
 
 /* No orientation mirrors the sky. What it is called after lies where it should, whatever the inclination. */
@@ -84,8 +94,10 @@ static void orientations(void **state)
             scene.camera.inclination_deg = inclination;
             const struct kd_rotation r = kd_sky_rotation(&scene);
             const double i = inclination * DEGREE;
-            const struct kd_vec behind = kd_rotate(&r, (struct kd_vec) { -sin(i), 0, -cos(i) }), pole = kd_rotate(&r, (struct kd_vec) { 0, 0, 1 });
-            const struct kd_vec above = kd_rotate(&r, (struct kd_vec) { -cos(i), 0, sin(i) }), right = kd_rotate(&r, (struct kd_vec) { 0, 1, 0 });
+            const struct kd_vec behind = kd_rotate(&r, (struct kd_vec) { -sin(i), 0, -cos(i) }),
+                                pole = kd_rotate(&r, (struct kd_vec) { 0, 0, 1 });
+            const struct kd_vec above = kd_rotate(&r, (struct kd_vec) { -cos(i), 0, sin(i) }),
+                                right = kd_rotate(&r, (struct kd_vec) { 0, 1, 0 });
             NEAR(determinant(&r), 1, 1e-12);
             struct kd_vec want = { 0, 0, 1 };
             if (o == KD_SKY_EQUATORIAL)
@@ -114,11 +126,13 @@ static struct kd_stars stars_of(int model, int seed, double limit)
     return stars;
 }
 
-/* As many as the catalogue has where it is complete, a quarter more or less; the same of one seed, others of another. */
+/* As many as the catalogue has where it is complete, a quarter more or less; the same of one seed, others of
+ * another. */
 static void made_up_stars(void **state)
 {
     (void)state;
-    struct kd_stars one = stars_of(KD_SKY_STARS, 1, 14), same = stars_of(KD_SKY_STARS, 1, 14), other = stars_of(KD_SKY_STARS, 2, 14);
+    struct kd_stars one = stars_of(KD_SKY_STARS, 1, 14), same = stars_of(KD_SKY_STARS, 1, 14),
+                    other = stars_of(KD_SKY_STARS, 2, 14);
     struct kd_stars few = stars_of(KD_SKY_STARS, 1, 6), real = stars_of(KD_SKY_CATALOGUE, 1, 14);
     assert_true(one.n == same.n && one.n <= KD_STARS_MADE_UP && one.n > KD_STARS_MADE_UP - 100);
     assert_memory_equal(one.at, same.at, one.n * sizeof *one.at);
@@ -133,7 +147,9 @@ static void made_up_stars(void **state)
         assert_true((double)a > 0.75 * (double)b && (double)a < 1.33 * (double)b);
     }
     for (size_t i = 0; i < one.n; i++)
-        assert_true(fabsf(one.at[i].x * one.at[i].x + one.at[i].y * one.at[i].y + one.at[i].z * one.at[i].z - 1) < 1e-5f && one.at[i].kelvin > 2000 && one.at[i].kelvin < 1e5f);
+        assert_true(fabsf(one.at[i].x * one.at[i].x + one.at[i].y * one.at[i].y + one.at[i].z * one.at[i].z - 1) <
+                        1e-5f &&
+                    one.at[i].kelvin > 2000 && one.at[i].kelvin < 1e5f);
     kd_stars_finish(&one);
     kd_stars_finish(&same);
     kd_stars_finish(&other);
@@ -146,7 +162,9 @@ static void packing(void **state)
 {
     (void)state;
     for (int i = 0; i < 20000; i++) {
-        const float scale = ldexpf(1, i % 29 - 14), in[3] = { scale * (float)(i % 97) / 96, scale * (float)(i % 89) / 88, scale * (float)(i % 83) / 82 };
+        const float scale = ldexpf(1, i % 29 - 14),
+                    in[3] = { scale * (float)(i % 97) / 96, scale * (float)(i % 89) / 88,
+                              scale * (float)(i % 83) / 82 };
         float out[3], most = fmaxf(fmaxf(in[0], in[1]), in[2]);
         kd_panorama_unpack(kd_panorama_pack(in), out);
         for (int c = 0; c < 3; c++)
@@ -154,7 +172,8 @@ static void packing(void **state)
     }
 }
 
-/* Black space at the poles, the plane some 22 magnitudes a square arcsecond in the mean, and none of it below 0; the coarsest level is the mean. */
+/* Black space at the poles, the plane some 22 magnitudes a square arcsecond in the mean, and none of it below 0; the
+ * coarsest level is the mean. */
 static void the_milky_way(void **state)
 {
     (void)state;
@@ -178,7 +197,8 @@ static void the_milky_way(void **state)
     plane /= one.width * 64;
     assert_true(polar < 3e-3 && plane > 0.1 && plane < 1);
     for (uint32_t y = 0; y < one.height; y++) /* no seam where l is 180 degrees */
-        NEAR(one.texels[3 * ((size_t)y * one.width)], one.texels[3 * ((size_t)y * one.width + one.width - 1)], 0.2 * one.texels[3 * ((size_t)y * one.width)] + 0.02);
+        NEAR(one.texels[3 * ((size_t)y * one.width)], one.texels[3 * ((size_t)y * one.width + one.width - 1)],
+             0.2 * one.texels[3 * ((size_t)y * one.width)] + 0.02);
     const size_t words = kd_panorama_words(one.width, one.height);
     uint32_t *word = malloc(words * sizeof *word);
     float last[3], sum[3] = { 0 };
@@ -199,8 +219,9 @@ static void the_milky_way(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_catalogue_is_whole), cmocka_unit_test(light_and_colour), cmocka_unit_test(galactic_places), cmocka_unit_test(orientations),
-        cmocka_unit_test(made_up_stars), cmocka_unit_test(packing), cmocka_unit_test(the_milky_way),
+        cmocka_unit_test(the_catalogue_is_whole), cmocka_unit_test(light_and_colour), cmocka_unit_test(galactic_places),
+        cmocka_unit_test(orientations),           cmocka_unit_test(made_up_stars),    cmocka_unit_test(packing),
+        cmocka_unit_test(the_milky_way),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -13,7 +13,8 @@
 
 #define NEAR(x, y, by) assert_true(fabs((x) - (y)) <= (by))
 
-static struct kd_buffer file(uint32_t width, uint32_t height, int depth, const void *pixels, const struct kd_png_text *text, size_t n)
+static struct kd_buffer file(uint32_t width, uint32_t height, int depth, const void *pixels,
+                             const struct kd_png_text *text, size_t n)
 {
     struct kd_buffer out = { 0 };
     struct kd_error error;
@@ -31,7 +32,8 @@ static struct kd_sky_picture read_it(const struct kd_buffer *png, char credit[KD
     return picture;
 }
 
-/* Values of IEC 61966-2-1, computed elsewhere: 188 of 255 is 0.502886 of white, 10 is 0.00303527; 30000 of 65535 is 0.177015. */
+/* Values of IEC 61966-2-1, computed elsewhere: 188 of 255 is 0.502886 of white, 10 is 0.00303527; 30000 of 65535 is
+ * 0.177015. */
 static void light(void **state)
 {
     (void)state;
@@ -62,7 +64,11 @@ static void light(void **state)
 static void sizes(void **state)
 {
     (void)state;
-    static const struct { uint32_t height, rows; } cases[] = { { 16, 16 }, { 17, 16 }, { 22, 32 }, { 40, 32 }, { 50, 64 }, { 64, 64 }, { 500, 512 }, { 1200, 1024 } };
+    static const struct {
+        uint32_t height, rows;
+    } cases[] = {
+        { 16, 16 }, { 17, 16 }, { 22, 32 }, { 40, 32 }, { 50, 64 }, { 64, 64 }, { 500, 512 }, { 1200, 1024 }
+    };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const uint32_t h = cases[i].height, w = 2 * h;
         uint8_t *pixels = calloc(3 * (size_t)w, h);
@@ -110,8 +116,11 @@ static void bad_files(void **state)
 {
     (void)state;
     static const uint8_t pixels[3 * 64 * 32];
-    struct kd_buffer square = file(32, 32, 8, pixels, NULL, 0), flat = file(14, 7, 8, pixels, NULL, 0), off = file(33, 16, 8, pixels, NULL, 0), good = file(64, 32, 8, pixels, NULL, 0);
-    refuse(square.data, square.size, "a picture of 32 x 32 pixels; allowed is one of the whole sky, twice as wide as it is high, of 16 to 4096 rows");
+    struct kd_buffer square = file(32, 32, 8, pixels, NULL, 0), flat = file(14, 7, 8, pixels, NULL, 0),
+                     off = file(33, 16, 8, pixels, NULL, 0), good = file(64, 32, 8, pixels, NULL, 0);
+    refuse(square.data, square.size,
+           "a picture of 32 x 32 pixels; allowed is one of the whole sky, twice as wide as it is high, of 16 to 4096 "
+           "rows");
     refuse(flat.data, flat.size, "14 x 7 pixels");
     refuse(off.data, off.size, "33 x 16 pixels");
     refuse("text", 4, "not a PNG file");
@@ -131,7 +140,11 @@ static void credits(void **state)
     char credit[KD_SKY_CREDIT], long_one[1000];
     memset(long_one, 'x', sizeof long_one - 1);
     long_one[sizeof long_one - 1] = 0;
-    const struct { struct kd_png_text text[2]; size_t n; const char *credit; } cases[] = {
+    const struct {
+        struct kd_png_text text[2];
+        size_t n;
+        const char *credit;
+    } cases[] = {
         { { { "Author", "Somebody" }, { "Copyright", "\xc3\x89lise, CC BY" } }, 2, "\xc3\x89lise, CC BY" },
         { { { "Author", "Somebody" } }, 1, "Somebody" },
         { { { "Comment", "no" } }, 1, "" },
@@ -151,7 +164,8 @@ static void credits(void **state)
 
 enum { WIDTH = 512, HEIGHT = 256 };
 
-/* What is left of meridians, a wave of so many texels, in the row that a latitude has at a level: its amplitude, and the row's mean. */
+/* What is left of meridians, a wave of so many texels, in the row that a latitude has at a level: its amplitude, and
+ * the row's mean. */
 static void wave(bool even, double period, double latitude, int level, double *amplitude, double *mean)
 {
     struct kd_sky_picture p = { WIDTH, HEIGHT, malloc(3 * sizeof(float) * WIDTH * HEIGHT), even };
@@ -178,7 +192,8 @@ static void wave(bool even, double period, double latitude, int level, double *a
     free(words);
 }
 
-/* At 86 degrees 32 texels are 2.2 of the equator's: none of it is left where texels are of 4, of both where they are not narrower. */
+/* At 86 degrees 32 texels are 2.2 of the equator's: none of it is left where texels are of 4, of both where they are
+ * not narrower. */
 static void poles(void **state)
 {
     (void)state;
@@ -197,7 +212,8 @@ static void poles(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(light), cmocka_unit_test(sizes), cmocka_unit_test(bad_files), cmocka_unit_test(credits), cmocka_unit_test(poles),
+        cmocka_unit_test(light),   cmocka_unit_test(sizes), cmocka_unit_test(bad_files),
+        cmocka_unit_test(credits), cmocka_unit_test(poles),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

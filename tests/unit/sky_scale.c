@@ -14,7 +14,8 @@
 static struct kd_canvas canvas_of(uint32_t width, uint32_t height, int depth, int value)
 {
     const size_t bytes = (size_t)3 * width * height * (depth == 16 ? 2 : 1);
-    struct kd_canvas canvas = { malloc(bytes), width, height, depth }; /* of exact size, so that a sanitizer sees a pixel too far */
+    struct kd_canvas canvas = { malloc(bytes), width, height,
+                                depth }; /* of exact size, so that a sanitizer sees a pixel too far */
     assert_non_null(canvas.pixels);
     memset(canvas.pixels, value, bytes);
     return canvas;
@@ -31,18 +32,27 @@ static void bars_are_round_and_fit(void **state)
     (void)state;
     for (double uas = 1e-9; uas < 1e9; uas *= 1.37) {
         const struct kd_sky_scale scale = { uas, 0 };
-        const double bar = kd_sky_scale_bar(&scale, 1000), most = 250 * uas, first = bar / pow(10, floor(log10(bar) + 1e-9));
+        const double bar = kd_sky_scale_bar(&scale, 1000), most = 250 * uas,
+                     first = bar / pow(10, floor(log10(bar) + 1e-9));
         assert_true(bar <= most * (1 + 1e-12) && bar > most * 0.39); /* from 2 to 5 it is farthest */
         assert_true(fabs(first - 1) < 1e-9 || fabs(first - 2) < 1e-9 || fabs(first - 5) < 1e-9);
     }
 }
 
-/* The highest line of ink is the bar, between its ends; the disk is as wide, and as high, as its diameter, to a pixel. Nothing else is touched. */
+/* The highest line of ink is the bar, between its ends; the disk is as wide, and as high, as its diameter, to a
+ * pixel. Nothing else is touched. */
 static void lengths_are_to_scale(void **state)
 {
     (void)state;
-    static const struct { uint32_t width, height; int depth; double pixel_uas, beam_uas, bar_uas; } cases[] = {
-        { 960, 540, 8, 0.2227, 20, 50 }, { 320, 180, 16, 0.668, 20, 50 }, { 640, 640, 8, 1, 100, 100 }, { 2000, 1500, 8, 0.01, 2, 5 },
+    static const struct {
+        uint32_t width, height;
+        int depth;
+        double pixel_uas, beam_uas, bar_uas;
+    } cases[] = {
+        { 960, 540, 8, 0.2227, 20, 50 },
+        { 320, 180, 16, 0.668, 20, 50 },
+        { 640, 640, 8, 1, 100, 100 },
+        { 2000, 1500, 8, 0.01, 2, 5 },
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         struct kd_canvas c = canvas_of(cases[k].width, cases[k].height, cases[k].depth, 0);
@@ -96,7 +106,8 @@ static void what_has_no_room_is_left_out(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(bars_are_round_and_fit), cmocka_unit_test(lengths_are_to_scale),
+    const struct CMUnitTest tests[] = { cmocka_unit_test(bars_are_round_and_fit),
+                                        cmocka_unit_test(lengths_are_to_scale),
                                         cmocka_unit_test(what_has_no_room_is_left_out) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -15,7 +15,10 @@
 enum { WIDTH = 160, HEIGHT = 90, STARS = 400 };
 
 struct sky { struct kd_vec rays[WIDTH * HEIGHT], stars[STARS]; };
-struct seen { struct kd_star_image of[4 * STARS]; size_t n; };
+struct seen {
+    struct kd_star_image of[4 * STARS];
+    size_t n;
+};
 
 static enum kd_status keep(void *user, const struct kd_star_image *image)
 {
@@ -25,10 +28,12 @@ static enum kd_status keep(void *user, const struct kd_star_image *image)
     return KD_OK;
 }
 
-/* A pinhole camera that looks along x, y to the left, z upwards, `wide` from the middle to the edge; side -1: in a mirror. */
+/* A pinhole camera that looks along x, y to the left, z upwards, `wide` from the middle to the edge; side -1: in a
+ * mirror. */
 static struct kd_vec seen_at(double x, double y, double wide, int side)
 {
-    const double unit = tan(wide) / (WIDTH / 2.0), right = side * (x - WIDTH / 2.0) * unit, up = (HEIGHT / 2.0 - y) * unit, n = 1 / sqrt(1 + right * right + up * up);
+    const double unit = tan(wide) / (WIDTH / 2.0), right = side * (x - WIDTH / 2.0) * unit,
+                 up = (HEIGHT / 2.0 - y) * unit, n = 1 / sqrt(1 + right * right + up * up);
     return (struct kd_vec) { n, -n * right, n * up };
 }
 
@@ -39,20 +44,27 @@ static void fill(struct sky *sky, double wide, int side)
             sky->rays[y * WIDTH + x] = seen_at(x + 0.5, y + 0.5, wide, side);
 }
 
-static void row_of(const void *of, uint32_t y, struct kd_vec *out) { memcpy(out, ((const struct sky *)of)->rays + y * WIDTH, WIDTH * sizeof *out); }
+static void row_of(const void *of, uint32_t y, struct kd_vec *out)
+{
+    memcpy(out, ((const struct sky *)of)->rays + y * WIDTH, WIDTH * sizeof *out);
+}
 
 static struct kd_sky_map map_of(const struct sky *sky)
 {
     return (struct kd_sky_map) { .width = WIDTH, .height = HEIGHT, .coarse = 0.15, .of = sky, .row = row_of };
 }
 
-/* Each star that stands in the picture has one image, where the camera has it, of the pixel's own solid angle, cos^3 over the square of the
- * distance; left is left, but for a mirror. Where the observer goes round, it goes by as the star that is turned back. */
+/* Each star that stands in the picture has one image, where the camera has it, of the pixel's own solid angle, cos^3
+ * over the square of the distance; left is left, but for a mirror. Where the observer goes round, it goes by as the
+ * star that is turned back. */
 static void a_plain_camera(void **state)
 {
     (void)state;
     static struct sky sky;
-    static const struct { double wide; int side; } cases[] = { { 0.3, 1 }, { 0.3, -1 }, { 1.0, 1 } };
+    static const struct {
+        double wide;
+        int side;
+    } cases[] = { { 0.3, 1 }, { 0.3, -1 }, { 1.0, 1 } };
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
         double places[STARS][2];
         static struct seen seen;
@@ -74,19 +86,22 @@ static void a_plain_camera(void **state)
             const double unit = tan(cases[c].wide) / (WIDTH / 2.0), x = s->x + 0.5, y = s->y + 0.5, turn = 1e-6;
             assert_int_equal(found[s->star]++, 0);
             if (fabs(x - places[s->star][0]) > 0.01 || fabs(y - places[s->star][1]) > 0.01)
-                fail_msg("star %zu is at %.3f, %.3f instead of %.3f, %.3f", s->star, x, y, places[s->star][0], places[s->star][1]);
+                fail_msg("star %zu is at %.3f, %.3f instead of %.3f, %.3f", s->star, x, y, places[s->star][0],
+                         places[s->star][1]);
             assert_true(fabs(s->solid_angle / (unit * unit * n.x * n.x * n.x) - 1) < 0.03);
             assert_int_equal(s->mirrored, cases[c].side < 0);
             const struct kd_vec back = { n.x + turn * n.y, n.y - turn * n.x, n.z };
-            const double by_x = (back.y / back.x - n.y / n.x) / turn * -cases[c].side / unit, by_y = (n.z / n.x - back.z / back.x) / turn / unit;
+            const double by_x = (back.y / back.x - n.y / n.x) / turn * -cases[c].side / unit,
+                         by_y = (n.z / n.x - back.z / back.x) / turn / unit;
             if (hypot(s->x_by_azimuth - by_x, s->y_by_azimuth - by_y) > 0.03 * hypot(by_x, by_y))
-                fail_msg("star %zu goes by %g, %g a radian instead of %g, %g", s->star, s->x_by_azimuth, s->y_by_azimuth, by_x, by_y);
+                fail_msg("star %zu goes by %g, %g a radian instead of %g, %g", s->star, s->x_by_azimuth,
+                         s->y_by_azimuth, by_x, by_y);
         }
     }
 }
 
-/* A map that takes two halves of the picture to the same sky shows each star twice, the second time mirrored; behind rays that do not escape, and
- * between those that are too far apart, there are none. */
+/* A map that takes two halves of the picture to the same sky shows each star twice, the second time mirrored; behind
+ * rays that do not escape, and between those that are too far apart, there are none. */
 static void doubles_and_holes(void **state)
 {
     (void)state;
@@ -101,7 +116,8 @@ static void doubles_and_holes(void **state)
     sky.stars[0] = seen_at(30.2, 40.7, 0.3, 1);
     assert_int_equal(kd_star_images(&map, sky.stars, 1, keep, &seen), KD_OK);
     assert_int_equal(seen.n, 2);
-    assert_true(fabs(seen.of[0].x - 29.7) < 0.01 && !seen.of[0].mirrored && fabs(seen.of[1].x - (WIDTH - 30.7)) < 0.01 && seen.of[1].mirrored);
+    assert_true(fabs(seen.of[0].x - 29.7) < 0.01 && !seen.of[0].mirrored &&
+                fabs(seen.of[1].x - (WIDTH - 30.7)) < 0.01 && seen.of[1].mirrored);
     for (int i = 0; i < 2; i++) /* the triangle that it lies in */
         sky.rays[(40 + i) * WIDTH + 30].x = NAN;
     seen.n = 0;
@@ -117,11 +133,13 @@ static void doubles_and_holes(void **state)
     assert_int_equal(seen.n, 1);
 }
 
-/* A sky folded along the column FOLD: x is bent as (x - FOLD)^2, so that a star so far on one side of the caustic has two images at the root of it, and none on the other. */
+/* A sky folded along the column FOLD: x is bent as (x - FOLD)^2, so that a star so far on one side of the caustic
+ * has two images at the root of it, and none on the other. */
 #define FOLD 70.37
 static struct kd_vec folded(double x, double y)
 {
-    const double right = 1e-3 * (x - FOLD) * (x - FOLD), up = 0.01 * (HEIGHT / 2.0 - y), n = 1 / sqrt(1 + right * right + up * up);
+    const double right = 1e-3 * (x - FOLD) * (x - FOLD), up = 0.01 * (HEIGHT / 2.0 - y),
+                 n = 1 / sqrt(1 + right * right + up * up);
     return (struct kd_vec) { n, -n * right, n * up };
 }
 static bool folded_exactly(const void *of, double x, double y, struct kd_vec *out)
@@ -144,7 +162,8 @@ static void pairs_that_merge(void **state)
     for (double half = 3; half > 0.01; half *= 0.8)
         for (double y = 20.1; y < 21; y += 0.13) {
             sky.stars[0] = folded(FOLD + half, y);
-            const double right = -1e-3 * half * half, up = 0.01 * (HEIGHT / 2.0 - y), n = 1 / sqrt(1 + right * right + up * up);
+            const double right = -1e-3 * half * half, up = 0.01 * (HEIGHT / 2.0 - y),
+                         n = 1 / sqrt(1 + right * right + up * up);
             sky.stars[1] = (struct kd_vec) { n, -n * right, n * up };
             seen.n = 0;
             assert_int_equal(kd_star_images(&map, sky.stars, 2, keep, &seen), KD_OK);
@@ -164,10 +183,14 @@ static void pairs_that_merge(void **state)
 static void names_are_of_their_stars(void **state)
 {
     (void)state;
-    static const struct { const char *name, *designation; double ra, dec; } known[] = {
-        { "Sirius", "α CMa", 101.2872, -16.7161 }, { "Vega", "α Lyr", 279.2347, 38.7837 }, { "Polaris", "α UMi", 37.9546, 89.2641 },
-        { "Betelgeuse", "α Ori", 88.7929, 7.4071 }, { "Deneb", "α Cyg", 310.3580, 45.2803 }, { "Acrux", "α¹ Cru", 186.6496, -63.0991 },
-        { "Mizar", "ζ UMa", 200.9814, 54.9254 }, { "Alcor", "g UMa", 201.3064, 54.9880 },
+    static const struct {
+        const char *name, *designation;
+        double ra, dec;
+    } known[] = {
+        { "Sirius", "α CMa", 101.2872, -16.7161 }, { "Vega", "α Lyr", 279.2347, 38.7837 },
+        { "Polaris", "α UMi", 37.9546, 89.2641 },  { "Betelgeuse", "α Ori", 88.7929, 7.4071 },
+        { "Deneb", "α Cyg", 310.3580, 45.2803 },   { "Acrux", "α¹ Cru", 186.6496, -63.0991 },
+        { "Mizar", "ζ UMa", 200.9814, 54.9254 },   { "Alcor", "g UMa", 201.3064, 54.9880 },
     };
     const char *text = NULL;
     struct kd_star_name name;
@@ -180,7 +203,8 @@ static void names_are_of_their_stars(void **state)
         for (size_t i = 0; i < sizeof known / sizeof *known; i++)
             if (!strcmp(known[i].name, name.name)) {
                 assert_string_equal(name.designation, known[i].designation);
-                assert_true(fabs(star.ra / DEGREE - known[i].ra) < 5e-3 && fabs(star.dec / DEGREE - known[i].dec) < 2e-3);
+                assert_true(fabs(star.ra / DEGREE - known[i].ra) < 5e-3 &&
+                            fabs(star.dec / DEGREE - known[i].dec) < 2e-3);
                 found++;
             }
     }

@@ -1,4 +1,5 @@
-/* Steps that can fail: each is taken once, none after the first that fails, and what is held is let go of either way. */
+/* Steps that can fail: each is taken once, none after the first that fails, and what is held is let go of either
+ * way. */
 #include "base/error.h"
 
 #include <setjmp.h>
@@ -110,7 +111,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_once_until_one_fails),
-        cmocka_unit_test(errors_can_be_shown), cmocka_unit_test(pointers_are_cut_between_escapes), cmocka_unit_test(without_an_error_to_fill),
+        cmocka_unit_test(errors_can_be_shown),
+        cmocka_unit_test(pointers_are_cut_between_escapes),
+        cmocka_unit_test(without_an_error_to_fill),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,5 @@
-/* Axes of a sweep: values, ranges, the order of scenes, names, refusals; which scenes follow one another for the sake of their lens maps. */
+/* Axes of a sweep: values, ranges, the order of scenes, names, refusals; which scenes follow one another for the
+ * sake of their lens maps. */
 #include "render/accuracy/table.h"
 #include "render/output/gather.h"
 #include "render/plan/plan.h"
@@ -38,7 +39,8 @@ static struct kd_sweep *good(const char *text)
 
 static void the_last_axis_is_the_fastest(void **state)
 {
-    struct kd_sweep *s = good("{\"spacetime.spin\": [0, 0.5], \"camera.inclination_deg\": \"10:80:15\", \"disk.model\": [\"novikov-thorne\", \"particles\", \"none\"]}");
+    struct kd_sweep *s = good("{\"spacetime.spin\": [0, 0.5], \"camera.inclination_deg\": \"10:80:15\", "
+                              "\"disk.model\": [\"novikov-thorne\", \"particles\", \"none\"]}");
     (void)state;
     assert_int_equal(s->scenes, 2 * 5 * 3);
     for (unsigned i = 0; i < s->scenes; i++) {
@@ -57,10 +59,19 @@ static void the_last_axis_is_the_fastest(void **state)
 /* Values as they are typed, by hand. */
 static void ranges(void **state)
 {
-    static const struct { const char *range, *values; } table[] = {
-        { "10:80:15", "10 25 40 55 70" }, { "10:70:15", "10 25 40 55 70" }, { "0:0.9:0.1", "0 0.1 0.2 0.3 0.4 0.5 0.6 0.7 0.8 0.9" },
-        { "80:10:-35", "80 45 10" }, { "30:30:1", "30" }, { "1:2/3", "1 1.5 2" }, { "0:1/4", "0 0.333333333333333 0.666666666666667 1" }, { ".5:1.5:.5", "0.5 1 1.5" },
-        { "90:0/2", "90 0" }, { "1e1:2e1:1e1", "10 20" },
+    static const struct {
+        const char *range, *values;
+    } table[] = {
+        { "10:80:15", "10 25 40 55 70" },
+        { "10:70:15", "10 25 40 55 70" },
+        { "0:0.9:0.1", "0 0.1 0.2 0.3 0.4 0.5 0.6 0.7 0.8 0.9" },
+        { "80:10:-35", "80 45 10" },
+        { "30:30:1", "30" },
+        { "1:2/3", "1 1.5 2" },
+        { "0:1/4", "0 0.333333333333333 0.666666666666667 1" },
+        { ".5:1.5:.5", "0.5 1 1.5" },
+        { "90:0/2", "90 0" },
+        { "1e1:2e1:1e1", "10 20" },
     };
     (void)state;
     for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
@@ -76,34 +87,47 @@ static void ranges(void **state)
 
 static void what_is_refused(void **state)
 {
-    static const struct { const char *axes, *pointer, *words; } table[] = {
-        { "{}", "/axes", "" }, { "[1]", "/axes", "" }, { "{\"spacetime.spin\": 0.5}", "/axes/spacetime.spin", "a list of values, or a range" },
-        { "{\"spacetime.spin\": []}", "/axes/spacetime.spin", "a list of none" }, { "{\"spacetime.spin\": [0, 2]}", "/axes/spacetime.spin/1", "spacetime.spin is 2, allowed" },
-        { "{\"spacetime.spin\": [\"0.5\"]}", "/axes/spacetime.spin/0", "allowed" }, { "{\"spacetime.spin\": [0, 0.5, 0]}", "/axes/spacetime.spin", "holds 0 twice" },
-        { "{\"spacetime.spin\": [null]}", "/axes/spacetime.spin/0", "null" }, { "{\"spacetime.spni\": [0]}", "/axes/spacetime.spni", "unknown field" },
-        { "{\"spacetime\": [0]}", "/axes/spacetime", "is a section" }, { "{\"disk.model\": [\"thin\"]}", "/axes/disk.model/0", "\"novikov-thorne\"" },
+    static const struct {
+        const char *axes, *pointer, *words;
+    } table[] = {
+        { "{}", "/axes", "" },
+        { "[1]", "/axes", "" },
+        { "{\"spacetime.spin\": 0.5}", "/axes/spacetime.spin", "a list of values, or a range" },
+        { "{\"spacetime.spin\": []}", "/axes/spacetime.spin", "a list of none" },
+        { "{\"spacetime.spin\": [0, 2]}", "/axes/spacetime.spin/1", "spacetime.spin is 2, allowed" },
+        { "{\"spacetime.spin\": [\"0.5\"]}", "/axes/spacetime.spin/0", "allowed" },
+        { "{\"spacetime.spin\": [0, 0.5, 0]}", "/axes/spacetime.spin", "holds 0 twice" },
+        { "{\"spacetime.spin\": [null]}", "/axes/spacetime.spin/0", "null" },
+        { "{\"spacetime.spni\": [0]}", "/axes/spacetime.spni", "unknown field" },
+        { "{\"spacetime\": [0]}", "/axes/spacetime", "is a section" },
+        { "{\"disk.model\": [\"thin\"]}", "/axes/disk.model/0", "\"novikov-thorne\"" },
         { "{\"camera.inclination_deg\": \"10:80\"}", "/axes/camera.inclination_deg", "start:stop:step" },
         { "{\"camera.inclination_deg\": \"10:80:0\"}", "/axes/camera.inclination_deg", "leads from its start" },
         { "{\"camera.inclination_deg\": \"80:10:5\"}", "/axes/camera.inclination_deg", "leads from its start" },
         { "{\"camera.inclination_deg\": \"10:80/1\"}", "/axes/camera.inclination_deg", "leads from its start" },
         { "{\"camera.inclination_deg\": \"10:80/2.5\"}", "/axes/camera.inclination_deg", "leads from its start" },
-        { "{\"camera.inclination_deg\": \"0:180:1e-9\"}", "/axes/camera.inclination_deg", "1.8e+11 scenes, allowed are up to 100000" },
+        { "{\"camera.inclination_deg\": \"0:180:1e-9\"}", "/axes/camera.inclination_deg",
+          "1.8e+11 scenes, allowed are up to 100000" },
         { "{\"camera.inclination_deg\": \"100:200:50\"}", "/axes/camera.inclination_deg", "is 200" },
-        { "{\"accuracy.orders\": \"1:2:0.5\"}", "/axes/accuracy.orders", "1.5" }, { "{\"spots.1.r\": [10]}", "/axes/spots.1.r/0", "spots" },
+        { "{\"accuracy.orders\": \"1:2:0.5\"}", "/axes/accuracy.orders", "1.5" },
+        { "{\"spots.1.r\": [10]}", "/axes/spots.1.r/0", "spots" },
         { "{\"spot1.r\": [10, 11], \"spots.0.r\": [10, 12]}", "/axes/spots.0.r", "given twice" },
-        { "{\"camera.inclination_deg\": \"0:179:1\", \"camera.azimuth_deg\": \"0:359:0.5\"}", "/axes/camera.azimuth_deg", "129420 scenes" },
+        { "{\"camera.inclination_deg\": \"0:179:1\", \"camera.azimuth_deg\": \"0:359:0.5\"}",
+          "/axes/camera.azimuth_deg", "129420 scenes" },
         { "{\"image.layers\": [[\"g\", \"nix\"]]}", "/axes/image.layers/0", "nix" },
     };
     (void)state;
     for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
         struct kd_error error;
         struct kd_sweep *s = read(table[i].axes, &error);
-        if (s || error.status != KD_EINVAL || strcmp(error.pointer, table[i].pointer) || !strstr(error.message, table[i].words))
+        if (s || error.status != KD_EINVAL || strcmp(error.pointer, table[i].pointer) ||
+            !strstr(error.message, table[i].words))
             fail_msg("%s: %d at %s: %s", table[i].axes, error.status, error.pointer, error.message);
     }
 }
 
-/* A value may be good and a combination not; a style is set before what it sets; an axis makes the element that it is of. */
+/* A value may be good and a combination not; a style is set before what it sets; an axis makes the element that it
+ * is of. */
 static void combinations(void **state)
 {
     struct kd_scene scene;
@@ -116,7 +140,8 @@ static void combinations(void **state)
     assert_string_equal(error.pointer, "/axes");
     assert_non_null(strstr(error.message, "with spacetime.spin 0 and disk.inner 2: disk.inner is 2 M"));
     kd_sweep_free(s);
-    s = good("{\"style.exposure\": [0.25], \"style.name\": [\"film\", \"starless\"], \"spots.0.r\": [9, 10], \"disk.doppler\": [false, true]}");
+    s = good("{\"style.exposure\": [0.25], \"style.name\": [\"film\", \"starless\"], \"spots.0.r\": [9, 10], "
+             "\"disk.doppler\": [false, true]}");
     for (unsigned i = 0; i < 8; i++) {
         assert_int_equal(kd_sweep_scene(s, i, &scene, NULL), KD_OK);
         assert_true(scene.style.exposure == 0.25);
@@ -132,14 +157,17 @@ static void names_and_documents(void **state)
     struct kd_buffer text = { 0 };
     struct kd_error error = { 0 };
     struct kd_scene base;
-    struct kd_sweep *typed = NULL, *s = good("{\"spacetime.spin\": \"0:0.5:0.25\", \"image.layers\": [[\"rgb\", \"g\"], [\"r_1\"]], \"disk.doppler\": [true]}");
+    struct kd_sweep *typed = NULL, *s = good("{\"spacetime.spin\": \"0:0.5:0.25\", \"image.layers\": [[\"rgb\", "
+                                             "\"g\"], [\"r_1\"]], \"disk.doppler\": [true]}");
     (void)state;
     kd_sweep_name(s, 4, name);
     assert_string_equal(name, "000004 spin=0.5 layers=rgb_g doppler=true");
     struct kd_json json = kd_json_begin(&text);
     kd_sweep_axes_json(s, &json, NULL);
     assert_int_equal(kd_json_finish(&json), KD_OK);
-    assert_string_equal((const char *)text.data, "{\"spacetime.spin\":[0,0.25,0.5],\"image.layers\":[\"rgb,g\",\"r_1\"],\"disk.doppler\":[true]}");
+    assert_string_equal(
+        (const char *)text.data,
+        "{\"spacetime.spin\":[0,0.25,0.5],\"image.layers\":[\"rgb,g\",\"r_1\"],\"disk.doppler\":[true]}");
     kd_scene_defaults(&base);
     const char *const axes[] = { "spacetime.spin=0:0.5:0.25", "disk.model=none,novikov-thorne" };
     assert_int_equal(kd_sweep_typed(axes, 2, &base, NULL, &typed, &error), KD_OK);
@@ -154,7 +182,8 @@ static void names_and_documents(void **state)
 /* Places that have the same lens map, one after the other, of a sweep whose outermost axes leave it alone. */
 static void those_that_share_a_lens_map_follow_one_another(void **state)
 {
-    struct kd_sweep *s = good("{\"style.exposure\": [0, 1], \"camera.inclination_deg\": [10, 20, 30], \"camera.azimuth_deg\": [0, 40], \"spacetime.spin\": [0, 0.5]}");
+    struct kd_sweep *s = good("{\"style.exposure\": [0, 1], \"camera.inclination_deg\": [10, 20, 30], "
+                              "\"camera.azimuth_deg\": [0, 40], \"spacetime.spin\": [0, 0.5]}");
     struct kd_sweep_order order = { 0 };
     unsigned changes = 0;
     char seen[24] = "";
@@ -193,11 +222,16 @@ static void what_is_shared(void **state)
 static void groups_are_those_of_lens_maps(void **state)
 {
     static const char *const changes[][2] = {
-        { "style.exposure", "1" }, { "camera.azimuth_deg", "50" }, { "disk.outer", "30" }, { "camera.inclination_deg", "50" }, { "spacetime.spin", "0.3" },
-        { "image.width", "80" }, { "image.samples", "2" }, { "disk.model", "particles" }, { "image.layers", "r,delay" }, { "accuracy.orders", "1" }, { "camera.roll_deg", "3" },
-        { "sky.model", "grid" }, { "accuracy.profile", "high" }, { "disk.gas.seed", "7" }, { "time", "30" }, { "image.critical_factor", "1" },
+        { "style.exposure", "1" },          { "camera.azimuth_deg", "50" }, { "disk.outer", "30" },
+        { "camera.inclination_deg", "50" }, { "spacetime.spin", "0.3" },    { "image.width", "80" },
+        { "image.samples", "2" },           { "disk.model", "particles" },  { "image.layers", "r,delay" },
+        { "accuracy.orders", "1" },         { "camera.roll_deg", "3" },     { "sky.model", "grid" },
+        { "accuracy.profile", "high" },     { "disk.gas.seed", "7" },       { "time", "30" },
+        { "image.critical_factor", "1" },
     };
-    struct kd_capacity capacity = { .max_binding_bytes = 128u << 20, .memory_bytes = 1u << 30, .float64 = true, .accuracy = kd_accuracy_built_in() };
+    struct kd_capacity capacity = {
+        .max_binding_bytes = 128u << 20, .memory_bytes = 1u << 30, .float64 = true, .accuracy = kd_accuracy_built_in()
+    };
     struct kd_scene base, scene;
     struct kd_plan first, plan;
     uint64_t one, other;
@@ -210,7 +244,8 @@ static void groups_are_those_of_lens_maps(void **state)
     for (size_t i = 0; i < sizeof changes / sizeof *changes; i++) {
         struct kd_error error = { 0 };
         scene = base;
-        if (kd_scene_set(&scene, changes[i][0], changes[i][1], &error) || kd_plan_make(&scene, &capacity, &plan, &error))
+        if (kd_scene_set(&scene, changes[i][0], changes[i][1], &error) ||
+            kd_plan_make(&scene, &capacity, &plan, &error))
             fail_msg("%s: %s", changes[i][0], error.message);
         assert_int_equal(kd_plan_lens_group(&scene, &other), KD_OK);
         const bool key = !strcmp(plan.lens_key, first.lens_key);
@@ -252,9 +287,15 @@ static void a_cube_has_one_shape(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_last_axis_is_the_fastest), cmocka_unit_test(ranges), cmocka_unit_test(what_is_refused), cmocka_unit_test(combinations),
-        cmocka_unit_test(names_and_documents), cmocka_unit_test(those_that_share_a_lens_map_follow_one_another), cmocka_unit_test(what_is_shared),
-        cmocka_unit_test(groups_are_those_of_lens_maps), cmocka_unit_test(a_cube_has_one_shape),
+        cmocka_unit_test(the_last_axis_is_the_fastest),
+        cmocka_unit_test(ranges),
+        cmocka_unit_test(what_is_refused),
+        cmocka_unit_test(combinations),
+        cmocka_unit_test(names_and_documents),
+        cmocka_unit_test(those_that_share_a_lens_map_follow_one_another),
+        cmocka_unit_test(what_is_shared),
+        cmocka_unit_test(groups_are_those_of_lens_maps),
+        cmocka_unit_test(a_cube_has_one_shape),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

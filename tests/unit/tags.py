@@ -3,9 +3,11 @@
 
     tags.py SRC SHADERS     exit 1 naming every tag that has two meanings in C and GLSL together
 
-A tag is the name of a struct, enum or union. The same text behind it is one meaning: C and GLSL expand the lists of interface.h alike.
-A function may have the name of a tag that its own declaration mentions, as one that makes such a struct does.
+A tag is the name of a struct, enum or union. The same text behind it is one meaning: C and GLSL expand the lists of
+interface.h alike. A function may have the name of a tag that its own declaration mentions, as one that makes such a
+struct does.
 """
+
 import collections
 import pathlib
 import re
@@ -14,7 +16,9 @@ import tempfile
 
 COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.S)
 TAG = re.compile(r"\b(?:struct|enum|union)\s+(kd_\w+)\s*\{")
-FUNCTION = re.compile(r"^(?!#|return\b|else\b)(?P<result>\w[\w \t*]*?)\b(?P<name>kd_\w+)\((?P<arguments>[^;{}]*?)\)\s*\{", re.M)
+FUNCTION = re.compile(
+    r"^(?!#|return\b|else\b)(?P<result>\w[\w \t*]*?)\b(?P<name>kd_\w+)\((?P<arguments>[^;{}]*?)\)\s*\{", re.M
+)
 
 
 def body(text, start):

@@ -1,4 +1,5 @@
-/* Scenes between keyframes, in what is not a matter of jobs or of sessions alone: paths of observers, distances by ratios, what is refused. */
+/* Scenes between keyframes, in what is not a matter of jobs or of sessions alone: paths of observers, distances by
+ * ratios, what is refused. */
 #include "scene_support.h"
 
 #include "scene/timeline.h"
@@ -7,7 +8,8 @@
 
 static const struct kd_timeline_form seconds = { "at", 100, false };
 
-static enum kd_status read(const char *scene, const char *keyframes, const char *how, struct kd_timeline *out, struct kd_error *error)
+static enum kd_status read(const char *scene, const char *keyframes, const char *how, struct kd_timeline *out,
+                           struct kd_error *error)
 {
     struct kd_scene first;
     cJSON *keys = cJSON_Parse(keyframes), *word = how ? cJSON_CreateString(how) : NULL;
@@ -46,12 +48,18 @@ static struct kd_scene at(const struct kd_timeline *t, double where)
 static void free_fall_by_proper_time(void **state)
 {
     (void)state;
-    struct kd_timeline t = made(RAIN, "[{\"at\":4,\"proper_time\":2},{\"at\":6,\"proper_time\":\"horizon\"},{\"at\":16.5,\"proper_time\":\"end\"}]", NULL);
+    struct kd_timeline t = made(
+        RAIN,
+        "[{\"at\":4,\"proper_time\":2},{\"at\":6,\"proper_time\":\"horizon\"},{\"at\":16.5,\"proper_time\":\"end\"}]",
+        NULL);
     const double whole = sqrt(2) / 3 * pow(8, 1.5), horizon = whole - 4. / 3;
     for (double s = 0; s <= 20; s += 0.25) {
         const struct kd_scene scene = at(&t, s);
         const double last = whole - sqrt(2) / 3 * 1e-3; /* at 0.01 M */
-        const double tau = s < 4 ? s / 2 : s < 6 ? 2 + (horizon - 2) * (s - 4) / 2 : s < 16.5 ? horizon + (last - horizon) * (s - 6) / 10.5 : last;
+        const double tau = s < 4      ? s / 2
+                           : s < 6    ? 2 + (horizon - 2) * (s - 4) / 2
+                           : s < 16.5 ? horizon + (last - horizon) * (s - 6) / 10.5
+                                      : last;
         const double r = pow(3 / sqrt(2) * (whole - tau), 2. / 3);
         if (!(fabs(scene.camera.r / r - 1) < 1e-10))
             fail_msg("after %g s: r %.15g, wanted %.15g", s, scene.camera.r, r);
@@ -67,7 +75,8 @@ static void free_fall_by_proper_time(void **state)
 static void an_orbit_by_proper_time(void **state)
 {
     (void)state;
-    const char *scene = "{\"spacetime\":{\"spin\":0},\"camera\":{\"r\":10,\"observer\":\"keplerian\",\"inclination_deg\":90}}";
+    const char *scene =
+        "{\"spacetime\":{\"spin\":0},\"camera\":{\"r\":10,\"observer\":\"keplerian\",\"inclination_deg\":90}}";
     struct kd_timeline t = made(scene, "[{\"at\":10,\"proper_time\":80}]", "smooth");
     const double root = sqrt(0.7), turned = 80 / (pow(10, 1.5) * root) * (180 / M_PI);
     assert_true(fabs(at(&t, 10).camera.azimuth_deg - remainder(turned, 360)) < 1e-10);
@@ -80,9 +89,11 @@ static void an_orbit_by_proper_time(void **state)
 static void an_approach_by_ratios(void **state)
 {
     (void)state;
-    const char *keys = "[{\"at\":2,\"scene\":{\"camera\":{\"r\":10,\"fov_deg\":90}}},{\"at\":4,\"scene\":{\"camera\":{\"r\":40}}}]";
+    const char *keys =
+        "[{\"at\":2,\"scene\":{\"camera\":{\"r\":10,\"fov_deg\":90}}},{\"at\":4,\"scene\":{\"camera\":{\"r\":40}}}]";
     struct kd_timeline t = made("{\"camera\":{\"r\":1000,\"fov_deg\":30}}", keys, "geometric");
-    assert_true(fabs(at(&t, 0).camera.r - 1000) < 1e-9 && fabs(at(&t, 1).camera.r - 100) < 1e-11 && fabs(at(&t, 3).camera.r - 20) < 1e-11);
+    assert_true(fabs(at(&t, 0).camera.r - 1000) < 1e-9 && fabs(at(&t, 1).camera.r - 100) < 1e-11 &&
+                fabs(at(&t, 3).camera.r - 20) < 1e-11);
     assert_true(at(&t, 2).camera.r == 10 && at(&t, 4).camera.r == 40 && at(&t, 9).camera.r == 40);
     assert_true(fabs(at(&t, 1).camera.fov_deg - 60) < 1e-12); /* an angle is none */
     kd_timeline_finish(&t);
@@ -97,17 +108,25 @@ static void an_approach_by_ratios(void **state)
 static void what_is_no_path_is_refused(void **state)
 {
     (void)state;
-    static const struct { const char *scene, *keys, *pointer, *says; } wrong[] = {
-        { "{}", "[{\"at\":1,\"proper_time\":1}]", "/keyframes/0/proper_time", "is 1, allowed is 0 unless camera.observer stays" },
-        { "{\"camera\":{\"r\":9}}", "[{\"at\":1,\"proper_time\":\"end\"}]", "/keyframes/0/proper_time", "of an observer that falls" },
+    static const struct {
+        const char *scene, *keys, *pointer, *says;
+    } wrong[] = {
+        { "{}", "[{\"at\":1,\"proper_time\":1}]", "/keyframes/0/proper_time",
+          "is 1, allowed is 0 unless camera.observer stays" },
+        { "{\"camera\":{\"r\":9}}", "[{\"at\":1,\"proper_time\":\"end\"}]", "/keyframes/0/proper_time",
+          "of an observer that falls" },
         { RAIN, "[{\"at\":1,\"proper_time\":\"soon\"}]", "/keyframes/0/proper_time", "\"horizon\" or \"end\"" },
         { RAIN, "[{\"at\":1,\"proper_time\":-1}]", "/keyframes/0/proper_time", "is -1, allowed is 0 to" },
-        { RAIN, "[{\"at\":1,\"scene\":{\"camera\":{\"r\":1}},\"proper_time\":\"horizon\"}]", "/keyframes/0/proper_time", "from further out" },
-        { RAIN, "[{\"at\":1,\"scene\":{\"motion\":{\"proper_time_rate\":1}},\"proper_time\":1}]", "/keyframes/0/proper_time", "one of them" },
+        { RAIN, "[{\"at\":1,\"scene\":{\"camera\":{\"r\":1}},\"proper_time\":\"horizon\"}]", "/keyframes/0/proper_time",
+          "from further out" },
+        { RAIN, "[{\"at\":1,\"scene\":{\"motion\":{\"proper_time_rate\":1}},\"proper_time\":1}]",
+          "/keyframes/0/proper_time", "one of them" },
         { RAIN, "[{\"at\":1,\"scene\":{}},{\"at\":1,\"scene\":{}}]", "/keyframes/1/at", "a number above 1 to 100" },
-        { RAIN, "[{\"at\":100,\"scene\":{}},{\"at\":100,\"scene\":{}}]", "/keyframes/1/at", "follows a keyframe at 100, the last place" },
+        { RAIN, "[{\"at\":100,\"scene\":{}},{\"at\":100,\"scene\":{}}]", "/keyframes/1/at",
+          "follows a keyframe at 100, the last place" },
         { RAIN, "[{\"at\":101,\"scene\":{}}]", "/keyframes/0/at", "0 to 100" },
-        { RAIN, "[{\"at\":1,\"frame\":2,\"scene\":{}}]", "/keyframes/0/frame", "known are at, scene, proper_time, ease, look_at" },
+        { RAIN, "[{\"at\":1,\"frame\":2,\"scene\":{}}]", "/keyframes/0/frame",
+          "known are at, scene, proper_time, ease, look_at" },
         { RAIN, "[{\"at\":1}]", "/keyframes/0", "a scene, a proper_time or a look_at" },
         { RAIN, "[{\"at\":1,\"scene\":{\"camera\":{\"r\":0}}}]", "/keyframes/0/scene/camera/r", "allowed" },
     };
@@ -120,7 +139,10 @@ static void what_is_no_path_is_refused(void **state)
         assert_null(t.keys);
     }
     /* Between keyframes: from a fall onto an orbit that is none with that clock. */
-    struct kd_timeline t = made(RAIN, "[{\"at\":1,\"proper_time\":2},{\"at\":2,\"scene\":{\"camera\":{\"observer\":\"velocity\"}},\"proper_time\":0}]", NULL);
+    struct kd_timeline t = made(RAIN,
+                                "[{\"at\":1,\"proper_time\":2},{\"at\":2,\"scene\":{\"camera\":{\"observer\":"
+                                "\"velocity\"}},\"proper_time\":0}]",
+                                NULL);
     struct kd_scene scene;
     struct kd_error error = { 0 };
     assert_int_equal(kd_timeline_scene(&t, 1.5, &scene, &error), KD_OK);
@@ -132,7 +154,8 @@ static void what_is_no_path_is_refused(void **state)
 
 enum { MANY = 10000, SOME = 1000, FEW = 20 };
 
-/* A turn of the camera in uneven steps, of up to 170 degrees each; turned[k]: its azimuth at key k, all turns counted. */
+/* A turn of the camera in uneven steps, of up to 170 degrees each; turned[k]: its azimuth at key k, all turns
+ * counted. */
 static struct kd_timeline turning(size_t n, enum kd_interpolation by, double *turned)
 {
     struct kd_timeline t = { .keys = calloc(n, sizeof *t.keys), .n_keys = n, .interpolation = by, .shorter = true };
@@ -164,7 +187,8 @@ static double seconds_of(const struct kd_timeline *t, int frames)
     return least;
 }
 
-/* Angles that go the shorter way add up turns from the first key on, and yet a frame looks at the keys beside it alone. */
+/* Angles that go the shorter way add up turns from the first key on, and yet a frame looks at the keys beside it
+ * alone. */
 static void a_great_many_keys(void **state)
 {
     (void)state;
@@ -174,7 +198,8 @@ static void a_great_many_keys(void **state)
     assert_true(fabs(turned[MANY - 1]) > 720 || fabs(turned[MANY / 2]) > 720);
     for (size_t k = 0; k + 1 < MANY; k += k % 5 + 1)
         for (int i = 0; i < 4; i++) {
-            const double s = 0.25 * i, place = t.keys[k].at + s * (t.keys[k + 1].at - t.keys[k].at), found = at(&t, place).camera.azimuth_deg;
+            const double s = 0.25 * i, place = t.keys[k].at + s * (t.keys[k + 1].at - t.keys[k].at),
+                         found = at(&t, place).camera.azimuth_deg;
             const double wanted = turned[k] + s * (turned[k + 1] - turned[k]);
             if (!(fabs(remainder(found - wanted, 360)) < 1e-9 && fabs(found) <= 360))
                 fail_msg("at %g: %.15g, wanted %.15g", place, found, wanted);
@@ -209,12 +234,9 @@ static void curves_are_local(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(free_fall_by_proper_time),
-        cmocka_unit_test(an_orbit_by_proper_time),
-        cmocka_unit_test(an_approach_by_ratios),
-        cmocka_unit_test(a_great_many_keys),
-        cmocka_unit_test(curves_are_local),
-        cmocka_unit_test(what_is_no_path_is_refused),
+        cmocka_unit_test(free_fall_by_proper_time), cmocka_unit_test(an_orbit_by_proper_time),
+        cmocka_unit_test(an_approach_by_ratios),    cmocka_unit_test(a_great_many_keys),
+        cmocka_unit_test(curves_are_local),         cmocka_unit_test(what_is_no_path_is_refused),
     };
     return cmocka_run_group_tests_name("timeline", tests, NULL, NULL);
 }

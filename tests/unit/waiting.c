@@ -1,5 +1,5 @@
-/* Two threads that never sleep, on one core, wait half of the time each: what the kernel says of that is what passes' costs are
- * freed of. */
+/* Two threads that never sleep, on one core, wait half of the time each: what the kernel says of that is what
+ * passes' costs are freed of. */
 #include "base/waiting.h"
 
 #include <pthread.h>

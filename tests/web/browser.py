@@ -1,5 +1,7 @@
-"""The page in a headless browser, in front of the program itself. Each view's tests are a file: FILE.py KERRD FOLDER, where
-screenshots go. They are skipped, with the reason, where Playwright for Python, Chromium or a Vulkan device is missing."""
+"""The page in a headless browser, in front of the program itself. Each view's tests are a file: FILE.py KERRD FOLDER,
+where screenshots go. They are skipped, with the reason, where Playwright for Python, Chromium or a Vulkan device is
+missing."""
+
 import json
 import os
 import pathlib
@@ -10,7 +12,7 @@ import unittest
 import urllib.parse
 import urllib.request
 
-sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / 'http'))
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "http"))
 import daemon  # noqa: E402
 
 try:
@@ -19,56 +21,73 @@ except ImportError:
     sync_playwright = None
 
 PATIENCE_MS = 240_000  # after which what is waited for is taken not to come; a busy machine is slow
-AT_REST = '#stage[data-final=true]'
+AT_REST = "#stage[data-final=true]"
 FINE = '#stage[data-final=true][data-samples="2"]'
-VIEWS = ('lensing', 'orbits', 'playground', 'physics', 'scale')
-READY = {'lensing': AT_REST, 'orbits': '#orbit-picture .front', 'playground': '#play-plane[data-bodies]', 'physics': '#curves .card:last-child canvas', 'scale': '#scale-rows tr'}
-KERRD, SHOTS = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv.pop(2)) / 'screenshots'
-# KERRD_SLOW="4 400": scripts of every page run at a quarter of their speed, and every answer comes 400 ms late (docs/web.md).
-SLOW, LATE_MS = map(float, os.environ.get('KERRD_SLOW', '1 0').split())
-CHROMIUM = shutil.which('chromium') or shutil.which('chromium-browser')
+VIEWS = ("lensing", "orbits", "playground", "physics", "scale")
+READY = {
+    "lensing": AT_REST,
+    "orbits": "#orbit-picture .front",
+    "playground": "#play-plane[data-bodies]",
+    "physics": "#curves .card:last-child canvas",
+    "scale": "#scale-rows tr",
+}
+KERRD, SHOTS = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv.pop(2)) / "screenshots"
+# KERRD_SLOW="4 400": scripts of every page run at a quarter of their speed, and every answer comes 400 ms late
+# (docs/web.md).
+SLOW, LATE_MS = map(float, os.environ.get("KERRD_SLOW", "1 0").split())
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 # No GPU and no WebGL: the page must need neither.
-FLAGS = ['--no-sandbox', '--disable-gpu', '--disable-3d-apis', '--disable-quic', '--no-first-run', '--disable-background-networking',
-         '--disable-component-update', '--disable-sync']
+FLAGS = [
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-3d-apis",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+]
 
 
 def value(cell):
     """The value of a number as the page writes it in English: 1,234.5 or 6.3 × 10⁻⁵."""
-    superscripts = str.maketrans('⁰¹²³⁴⁵⁶⁷⁸⁹⁻', '0123456789-')
-    return float(cell.replace(',', '').replace('−', '-').replace(' × 10', 'e').translate(superscripts))
+    superscripts = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
+    return float(cell.replace(",", "").replace("−", "-").replace(" × 10", "e").translate(superscripts))
 
 
-def rows(schema, before='', group=None):
+def rows(schema, before="", group=None):
     """(path, row, group) of each field of a schema; of a list the rows of its first element."""
-    for name, spec in schema['properties'].items():
-        if before + name == 'image.tile':
+    for name, spec in schema["properties"].items():
+        if before + name == "image.tile":
             continue  # the page shows whole pictures
-        if 'x-nature' in spec:
-            yield before + name, spec, spec.get('x-group', group)
-        elif 'properties' in spec and 'deprecated' not in spec:
-            yield from rows(spec, f'{before}{name}.', spec['x-group'])
-        elif 'items' in spec:
-            yield from rows(spec['items'], f'{before}{name}.0.', spec['x-group'])
+        if "x-nature" in spec:
+            yield before + name, spec, spec.get("x-group", group)
+        elif "properties" in spec and "deprecated" not in spec:
+            yield from rows(spec, f"{before}{name}.", spec["x-group"])
+        elif "items" in spec:
+            yield from rows(spec["items"], f"{before}{name}.0.", spec["x-group"])
 
 
-def paths(document, before=''):
+def paths(document, before=""):
     """(path, value) of each value of a scene."""
     for name, value in document.items():
         if isinstance(value, dict):
-            yield from paths(value, before + name + '.')
+            yield from paths(value, before + name + ".")
         else:
             yield before + name, value
 
 
-SMOOTH = 'disk.gas.amplitude=0&disk.emission_opacity=0&style.bloom=0'  # in a link: a disk that rests, and light that stays where it is
+# in a link: a disk that rests, and light that stays where it is
+SMOOTH = "disk.gas.amplitude=0&disk.emission_opacity=0&style.bloom=0"
 
 
 class Browser(unittest.TestCase):
     """Tests that share a server and a browser; each page has a context of its own."""
+
     @classmethod
     def setUpClass(cls, *options):
         cls.daemon = daemon.Daemon(*options)
-        cls.base = f'http://127.0.0.1:{cls.daemon.port}{cls.daemon.base}/'
+        cls.base = f"http://127.0.0.1:{cls.daemon.port}{cls.daemon.base}/"
         cls.playwright = sync_playwright().start()
         cls.browser = cls.playwright.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
 
@@ -78,37 +97,45 @@ class Browser(unittest.TestCase):
         cls.playwright.stop()
         code = cls.daemon.stop()
         if code:
-            raise AssertionError(f'kerrd exited with {code}')
+            raise AssertionError(f"kerrd exited with {code}")
 
     def setUp(self):
-        self.complaints, self.requests, self.frames, self.contexts, self.expected = [], [], [], [], ''
+        self.complaints, self.requests, self.frames, self.contexts, self.expected = [], [], [], [], ""
 
     def tearDown(self):
         # Before the pages close: what a browser says of requests that a closing page drops is no complaint.
         for context in self.contexts:
             for page in context.pages:
-                page.evaluate('0')
+                page.evaluate("0")
         complaints, requests = list(self.complaints), list(self.requests)
         for context in self.contexts:
             context.close()
         self.assertEqual([c for c in complaints if not self.expected or self.expected not in c], [])
         for request in requests:
-            self.assertTrue(request.url.startswith((self.base, f'blob:{urllib.parse.urljoin(self.base, "/")}')), request.url)
+            self.assertTrue(
+                request.url.startswith((self.base, f"blob:{urllib.parse.urljoin(self.base, '/')}")), request.url
+            )
 
-    def open(self, fragment='lang=en', wait=AT_REST, **options):
+    def open(self, fragment="lang=en", wait=AT_REST, **options):
         page = self.page(self.context(**options))
-        page.goto(self.base + '#' + ('' if 'pace=' in fragment else 'pace=fast&') + (fragment if 'preset=' in fragment else 'preset=default&' + fragment))  # whatever the first view is
-        page.wait_for_selector(wait, timeout=PATIENCE_MS, state='attached')
+        page.goto(
+            self.base
+            + "#"
+            + ("" if "pace=" in fragment else "pace=fast&")
+            + (fragment if "preset=" in fragment else "preset=default&" + fragment)
+        )  # whatever the first view is
+        page.wait_for_selector(wait, timeout=PATIENCE_MS, state="attached")
         return page
 
     def context(self, gallery=False, **options):
-        """Small pictures of presets are asked for where gallery says so: they would come at any moment, and beside what a test counts."""
-        options.setdefault('viewport', {'width': 1000, 'height': 640})
+        """Small pictures of presets are asked for where gallery says so: they would come at any moment, and beside what
+        a test counts."""
+        options.setdefault("viewport", {"width": 1000, "height": 640})
         context = self.browser.new_context(**options)
         if not gallery:
-            context.add_init_script('''window.IntersectionObserver = class extends IntersectionObserver {
+            context.add_init_script("""window.IntersectionObserver = class extends IntersectionObserver {
                 observe(node) { if (this.root?.id !== 'gallery') super.observe(node); }
-            };''')
+            };""")
         context.set_default_timeout(PATIENCE_MS)
         self.contexts.append(context)
         return context
@@ -117,20 +144,31 @@ class Browser(unittest.TestCase):
         page = context.new_page()
         if SLOW > 1 or LATE_MS:
             devtools = context.new_cdp_session(page)
-            devtools.send('Emulation.setCPUThrottlingRate', {'rate': SLOW})
-            devtools.send('Network.emulateNetworkConditions', {'offline': False, 'latency': LATE_MS, 'downloadThroughput': -1, 'uploadThroughput': -1})
-        page.on('console', lambda m: self.complaints.append(f'{m.type}: {m.text}') if m.type in ('error', 'warning') else None)
-        page.on('pageerror', lambda e: self.complaints.append(str(e)))
-        page.on('request', lambda r: self.requests.append(r))
-        page.on('response', lambda r: self.frames.append(r) if '/frame' in r.url and r.status == 200 and 'kerrd-frame' in r.headers else None)
+            devtools.send("Emulation.setCPUThrottlingRate", {"rate": SLOW})
+            devtools.send(
+                "Network.emulateNetworkConditions",
+                {"offline": False, "latency": LATE_MS, "downloadThroughput": -1, "uploadThroughput": -1},
+            )
+        page.on(
+            "console",
+            lambda m: self.complaints.append(f"{m.type}: {m.text}") if m.type in ("error", "warning") else None,
+        )
+        page.on("pageerror", lambda e: self.complaints.append(str(e)))
+        page.on("request", lambda r: self.requests.append(r))
+        page.on(
+            "response",
+            lambda r: (
+                self.frames.append(r) if "/frame" in r.url and r.status == 200 and "kerrd-frame" in r.headers else None
+            ),
+        )
         return page
 
     def shot(self, page, name, **options):
         SHOTS.mkdir(parents=True, exist_ok=True)
-        page.screenshot(path=SHOTS / f'{name}.png', **options)
+        page.screenshot(path=SHOTS / f"{name}.png", **options)
 
     def pixels(self, page):
-        return page.evaluate('''async () => {
+        return page.evaluate("""async () => {
             const moving = document.getElementById('moving'), shown = moving && !moving.hidden && !moving.classList.contains('leaving');
             const picture = shown ? moving : document.getElementById('picture');
             const [width, height] = shown ? [moving.width, moving.height] : [picture.naturalWidth, picture.naturalHeight];
@@ -138,10 +176,10 @@ class Browser(unittest.TestCase):
             context.drawImage(picture, 0, 0);
             const hash = await crypto.subtle.digest('SHA-256', context.getImageData(0, 0, width, height).data);
             return `${width}x${height} ` + [...new Uint8Array(hash)].map(b => b.toString(16).padStart(2, '0')).join('');
-        }''')
+        }""")
 
     def drawn(self, page, canvas):
-        return page.locator(canvas).evaluate('''canvas => {
+        return page.locator(canvas).evaluate("""canvas => {
             const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext('2d');
             copy.drawImage(canvas, 0, 0);
             const { data } = copy.getImageData(0, 0, canvas.width, canvas.height);
@@ -152,14 +190,14 @@ class Browser(unittest.TestCase):
                 hash = (hash * 31 + r + 7 * g + 13 * b) % 1000003;
             }
             return { coloured, hash };
-        }''')
+        }""")
 
     def field(self, page, path):
         return page.locator(f'[data-path="{path}"] input[type=number]').input_value()
 
     def drag(self, page, right, down):
-        box = page.locator('#stage').bounding_box()
-        x, y = box['x'] + box['width'] / 2, box['y'] + box['height'] / 2
+        box = page.locator("#stage").bounding_box()
+        x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
         page.mouse.move(x, y)
         page.mouse.down()
         for step in range(1, 9):
@@ -169,47 +207,53 @@ class Browser(unittest.TestCase):
 
     def there(self, page, words, selector):
         """Waits for words that come after what brings them."""
-        self.assertTrue(daemon.eventually(lambda: words in page.inner_text(selector)), f'{words!r} in {page.inner_text(selector)!r}')
+        self.assertTrue(
+            daemon.eventually(lambda: words in page.inner_text(selector)), f"{words!r} in {page.inner_text(selector)!r}"
+        )
 
     def linked(self, page, *parts):
         """The address follows a moment after what is done."""
-        self.assertTrue(daemon.eventually(lambda: page.evaluate('0') or all(part in page.url for part in parts)), page.url)
+        self.assertTrue(
+            daemon.eventually(lambda: page.evaluate("0") or all(part in page.url for part in parts)), page.url
+        )
 
     def quiet(self, page, ms=500):
         """Waits until a page has asked for nothing for so long."""
+
         def still():
             before = len(self.requests)
             page.wait_for_timeout(ms)
             return len(self.requests) == before
+
         self.assertTrue(daemon.eventually(still))
 
     def open_groups(self, page):
         page.evaluate('() => { for (const d of document.querySelectorAll("details")) d.open = true; }')
 
     def clock(self, page):
-        return float(page.inner_text('#clock').split()[2].replace(',', ''))
+        return float(page.inner_text("#clock").split()[2].replace(",", ""))
 
     def schema(self):
-        with urllib.request.urlopen(self.base + 'v1/schema') as answer:
+        with urllib.request.urlopen(self.base + "v1/schema") as answer:
             return json.load(answer)
 
     def physics(self, name, **parameters):
-        query = '&'.join(f'{k}={v}' for k, v in parameters.items())
-        with urllib.request.urlopen(f'{self.base}v1/physics/{name}?{query}') as answer:
-            return json.load(answer)['values']
+        query = "&".join(f"{k}={v}" for k, v in parameters.items())
+        with urllib.request.urlopen(f"{self.base}v1/physics/{name}?{query}") as answer:
+            return json.load(answer)["values"]
 
 
 def skip(reason):
-    print('skipped:', reason)
+    print("skipped:", reason)
     sys.exit(77)
 
 
 def main():
     if not sync_playwright:
-        skip('Playwright for Python is not installed')
+        skip("Playwright for Python is not installed")
     if not CHROMIUM:
-        skip('there is no chromium')
-    if 'devices: none' in subprocess.run([KERRD, 'doctor'], capture_output=True, text=True, timeout=60).stdout:
-        skip('no Vulkan device')
-    sys.argv.insert(2, 'serve')
+        skip("there is no chromium")
+    if "devices: none" in subprocess.run([KERRD, "doctor"], capture_output=True, text=True, timeout=60).stdout:
+        skip("no Vulkan device")
+    sys.argv.insert(2, "serve")
     daemon.main()

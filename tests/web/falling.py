@@ -1,180 +1,235 @@
 """A near camera: the fall through the horizon, looking around, names of stars: falling.py KERRD FOLDER (browser.py)."""
+
 import json
 import math
 
 from browser import AT_REST, SMOOTH, Browser, main, value
 import daemon
 
-SKY = SMOOTH + '&lang=en&disk.model=none&sky.model=catalogue&sky.milky_way=0&spacetime.spin=0&camera.fov_deg=90'
+SKY = SMOOTH + "&lang=en&disk.model=none&sky.model=catalogue&sky.milky_way=0&spacetime.spin=0&camera.fov_deg=90"
 
 
 class Falling(Browser):
     def told(self, page, name):
-        return page.inner_text('#fall-' + name)
+        return page.inner_text("#fall-" + name)
 
     def camera_r(self, page):
-        return float(self.field(page, 'camera.r'))
+        return float(self.field(page, "camera.r"))
 
     def patched(self, page):
-        return [json.loads(q.post_data) for q in self.requests if q.method == 'PATCH']
+        return [json.loads(q.post_data) for q in self.requests if q.method == "PATCH"]
 
     def named(self, page):
-        """Images of stars, which the page asks for when a pointer moves over the picture; not before it has what it takes."""
+        """Images of stars, which the page asks for when a pointer moves over the picture; not before it has what it
+        takes."""
+
         def asked():
             for x in (100, 120):
                 page.mouse.move(x, x)
             page.wait_for_timeout(600)  # it asks once a pointer rests
-            return next((q for q in self.requests if q.url.endswith('/v1/render')), None)
+            return next((q for q in self.requests if q.url.endswith("/v1/render")), None)
+
         self.assertTrue(daemon.eventually(asked))
-        return asked().response().json()['images']
+        return asked().response().json()["images"]
 
     def rain_time(self, r):
-        """Ingoing Kerr-Schild time of rain without spin, from r on, but for its end: dt = dT + dr/(1 + (r/2)^(1/2)), where Painleve's T is its own."""
+        """Ingoing Kerr-Schild time of rain without spin, from r on, but for its end: dt = dT + dr/(1 + (r/2)^(1/2)),
+        where Painleve's T is its own."""
         x = math.sqrt(r / 2)
-        return 4 * x ** 3 / 3 + 4 * x - 4 * math.log(1 + x)
+        return 4 * x**3 / 3 + 4 * x - 4 * math.log(1 + x)
 
     def test_the_fall_and_its_clock(self):
-        """By the closed form of rain without spin: 2^(1/2)/3 r^(3/2) to the end, starlight from behind at 1/(1 + (2/r)^(1/2))."""
-        page = self.open(SMOOTH + '&lang=en&spacetime.spin=0&spacetime.mass_msun=1e6&look=0', viewport={'width': 500, 'height': 400})
-        page.click('#fall-in')
-        self.assertTrue(daemon.eventually(lambda: page.is_visible('#fall') and self.told(page, 'r') != '20 M'))
-        page.click('#fall-play')
-        self.assertEqual(page.inner_text('#fall-play'), 'Go on')
-        self.assertTrue(daemon.eventually(lambda: self.told(page, 'r') == f'{self.camera_r(page):.3g} M'), 'a picture of where it stopped')
+        """By the closed form of rain without spin: 2^(1/2)/3 r^(3/2) to the end, starlight from behind at 1/(1 +
+        (2/r)^(1/2))."""
+        page = self.open(
+            SMOOTH + "&lang=en&spacetime.spin=0&spacetime.mass_msun=1e6&look=0", viewport={"width": 500, "height": 400}
+        )
+        page.click("#fall-in")
+        self.assertTrue(daemon.eventually(lambda: page.is_visible("#fall") and self.told(page, "r") != "20 M"))
+        page.click("#fall-play")
+        self.assertEqual(page.inner_text("#fall-play"), "Go on")
+        self.assertTrue(
+            daemon.eventually(lambda: self.told(page, "r") == f"{self.camera_r(page):.3g} M"),
+            "a picture of where it stopped",
+        )
         page.wait_for_selector(AT_REST)
         r = self.camera_r(page)
-        self.assertEqual(self.told(page, 'where'), 'Falling freely')
-        end, seconds = self.told(page, 'end').split(' = ')
-        self.assertAlmostEqual(value(end.split()[0]) / (math.sqrt(2) / 3 * r ** 1.5), 1, delta=0.006)
-        self.assertAlmostEqual(value(seconds.split()[0]) / (value(end.split()[0]) * 4.9254909), 1, delta=0.01) if seconds.endswith(' s') else self.assertIn('minutes', seconds)
-        self.assertAlmostEqual(value(self.told(page, 'horizon').split()[0]) / (math.sqrt(2) / 3 * (r ** 1.5 - 2 ** 1.5)), 1, delta=0.006)
-        self.assertTrue(daemon.eventually(lambda: abs(value(self.told(page, 'behind').split()[1]) - 1 / (1 + math.sqrt(2 / r))) < 2e-3))
-        self.assertAlmostEqual(float(self.field(page, 'time')), self.rain_time(20) - self.rain_time(r), delta=0.02)
-        placed = [p['camera'] for p in self.patched(page) if {'r', 'observer', 'field_m'} & set(p.get('camera') or {})]
-        self.assertEqual([camera.get('observer') for camera in placed], ['infall'], 'the session lets it fall')
-        page.locator('#fall-at').fill('1000')
-        self.assertTrue(daemon.eventually(lambda: (self.told(page, 'where'), self.told(page, 'horizon')) == ('The singularity: the end', 'behind')))
-        self.assertEqual(page.inner_text('#fall-play'), 'Again')
-        self.assertTrue(daemon.eventually(lambda: self.told(page, 'disk') not in ('', '–')))
+        self.assertEqual(self.told(page, "where"), "Falling freely")
+        end, seconds = self.told(page, "end").split(" = ")
+        self.assertAlmostEqual(value(end.split()[0]) / (math.sqrt(2) / 3 * r**1.5), 1, delta=0.006)
+        self.assertAlmostEqual(
+            value(seconds.split()[0]) / (value(end.split()[0]) * 4.9254909), 1, delta=0.01
+        ) if seconds.endswith(" s") else self.assertIn("minutes", seconds)
+        self.assertAlmostEqual(
+            value(self.told(page, "horizon").split()[0]) / (math.sqrt(2) / 3 * (r**1.5 - 2**1.5)), 1, delta=0.006
+        )
+        self.assertTrue(
+            daemon.eventually(
+                lambda: abs(value(self.told(page, "behind").split()[1]) - 1 / (1 + math.sqrt(2 / r))) < 2e-3
+            )
+        )
+        self.assertAlmostEqual(float(self.field(page, "time")), self.rain_time(20) - self.rain_time(r), delta=0.02)
+        placed = [p["camera"] for p in self.patched(page) if {"r", "observer", "field_m"} & set(p.get("camera") or {})]
+        self.assertEqual([camera.get("observer") for camera in placed], ["infall"], "the session lets it fall")
+        page.locator("#fall-at").fill("1000")
+        self.assertTrue(
+            daemon.eventually(
+                lambda: (self.told(page, "where"), self.told(page, "horizon")) == ("The singularity: the end", "behind")
+            )
+        )
+        self.assertEqual(page.inner_text("#fall-play"), "Again")
+        self.assertTrue(daemon.eventually(lambda: self.told(page, "disk") not in ("", "–")))
         page.wait_for_selector(AT_REST)
         self.assertLess(self.camera_r(page), 0.1)
-        page.click('#fall-back')
-        self.assertFalse(page.is_visible('#fall'))
-        self.assertTrue(page.is_checked('[data-path="camera.r"] input[type=checkbox]'), 'it is far again')
-        self.assertEqual(page.input_value('[data-path="sky.model"] select'), 'none')
+        page.click("#fall-back")
+        self.assertFalse(page.is_visible("#fall"))
+        self.assertTrue(page.is_checked('[data-path="camera.r"] input[type=checkbox]'), "it is far again")
+        self.assertEqual(page.input_value('[data-path="sky.model"] select'), "none")
 
     def test_the_disk_at_the_horizon(self):
-        """Light at the edge of the disk has b = 27^(1/2) M; rain, of velocity v = (2/r)^(1/2) past flat slices, sees it at an angle from straight ahead
-        with r sin = b (1 - v cos): 42.1 degrees at r = 2. Starlight comes from there at 1/(1 - v cos) of its frequency."""
-        page = self.open(SKY + '&camera.observer=infall&camera.r=2.001', viewport={'width': 400, 'height': 300}, reduced_motion='reduce')
-        page.click('#fall-in')
-        self.assertTrue(daemon.eventually(lambda: self.told(page, 'disk') not in ('', '–')))
-        self.assertEqual(page.inner_text('#fall-play'), 'Go on', 'who wants no motion has none')
-        wide, part = self.told(page, 'disk').split('° wide, ')
+        """Light at the edge of the disk has b = 27^(1/2) M; rain, of velocity v = (2/r)^(1/2) past flat slices, sees it
+        at an angle from straight ahead with r sin = b (1 - v cos): 42.1 degrees at r = 2. Starlight comes from there at
+        1/(1 - v cos) of its frequency."""
+        page = self.open(
+            SKY + "&camera.observer=infall&camera.r=2.001",
+            viewport={"width": 400, "height": 300},
+            reduced_motion="reduce",
+        )
+        page.click("#fall-in")
+        self.assertTrue(daemon.eventually(lambda: self.told(page, "disk") not in ("", "–")))
+        self.assertEqual(page.inner_text("#fall-play"), "Go on", "who wants no motion has none")
+        wide, part = self.told(page, "disk").split("° wide, ")
         self.assertAlmostEqual(value(wide), 2 * 42.1, delta=0.15)
         speed, half = math.sqrt(2 / 2.001), math.radians(value(wide) / 2)
-        self.assertAlmostEqual(value(part.split(' %')[0]), 50 * (1 - math.cos(half)), delta=0.55)
-        least, most = (value(word) for word in self.told(page, 'sky')[2:].split(' to '))
+        self.assertAlmostEqual(value(part.split(" %")[0]), 50 * (1 - math.cos(half)), delta=0.55)
+        least, most = (value(word) for word in self.told(page, "sky")[2:].split(" to "))
         self.assertAlmostEqual(least, 1 / (1 + speed), delta=1e-3)  # from behind
         self.assertAlmostEqual(most, 1 / (1 - speed * math.cos(half)), delta=0.02)  # next to the disk
-        self.assertEqual(self.told(page, 'where'), 'Falling freely')
-        page.focus('#fall-at')
-        page.keyboard.press('ArrowRight')
-        self.assertTrue(daemon.eventually(lambda: self.told(page, 'where') == 'Within the horizon'))
-        self.expected = '422'  # nothing stays where it is there
+        self.assertEqual(self.told(page, "where"), "Falling freely")
+        page.focus("#fall-at")
+        page.keyboard.press("ArrowRight")
+        self.assertTrue(daemon.eventually(lambda: self.told(page, "where") == "Within the horizon"))
+        self.expected = "422"  # nothing stays where it is there
         self.open_groups(page)
-        page.select_option('[data-path="camera.observer"] select', 'static')
-        self.assertFalse(page.is_visible('#fall'), 'who changes the observer has the camera')
+        page.select_option('[data-path="camera.observer"] select', "static")
+        self.assertFalse(page.is_visible("#fall"), "who changes the observer has the camera")
 
     def test_a_fall_that_the_server_goes_on_with(self):
         """It stands and goes on by the button; what is said, linked and saved is of the place that is seen."""
-        page = self.open('lang=en&preset=infall', '#stage[data-final]', viewport={'width': 400, 'height': 400})
+        page = self.open("lang=en&preset=infall", "#stage[data-final]", viewport={"width": 400, "height": 400})
         page.wait_for_selector('#play:has-text("Pause")')
         self.assertTrue(daemon.eventually(lambda: self.camera_r(page) < 19))
-        self.assertTrue(daemon.eventually(lambda: 'to the horizon' in page.inner_text('#status')))
-        page.click('#play')
+        self.assertTrue(daemon.eventually(lambda: "to the horizon" in page.inner_text("#status")))
+        page.click("#play")
         page.wait_for_selector(AT_REST)
         r = self.camera_r(page)
-        self.assertAlmostEqual(float(self.frames[-1].headers['kerrd-clock'].split()[0][2:]) / r, 1, delta=1e-6)
-        self.assertTrue(daemon.eventually(lambda: f'camera.r={r:.3f}'[:12] in page.evaluate('location.hash')))
+        self.assertAlmostEqual(float(self.frames[-1].headers["kerrd-clock"].split()[0][2:]) / r, 1, delta=1e-6)
+        self.assertTrue(daemon.eventually(lambda: f"camera.r={r:.3f}"[:12] in page.evaluate("location.hash")))
         stood = len(self.frames)
-        page.click('#play')
-        self.assertTrue(daemon.eventually(lambda: self.camera_r(page) < r - 0.5), 'it goes on from there')
-        places = [float(frame.headers['kerrd-clock'].split()[0][2:]) for frame in self.frames[stood:]]
+        page.click("#play")
+        self.assertTrue(daemon.eventually(lambda: self.camera_r(page) < r - 0.5), "it goes on from there")
+        places = [float(frame.headers["kerrd-clock"].split()[0][2:]) for frame in self.frames[stood:]]
         self.assertGreater(places[0], r - 4)
         self.assertEqual(places, sorted(places, reverse=True))
         self.assertFalse(page.evaluate('document.getElementById("status").dataset.wrong'))
         self.open_groups(page)
-        page.fill('[data-path="camera.r"] input[type=number]', '20')
-        page.keyboard.press('Enter')
-        self.assertTrue(daemon.eventually(lambda: 15 < self.camera_r(page) <= 20), 'and from where it is put')
+        page.fill('[data-path="camera.r"] input[type=number]', "20")
+        page.keyboard.press("Enter")
+        self.assertTrue(daemon.eventually(lambda: 15 < self.camera_r(page) <= 20), "and from where it is put")
 
     def test_a_near_camera_looks_around(self):
-        page = self.open(SKY + '&camera.r=8', viewport={'width': 640, 'height': 480})
-        camera = lambda: [float(self.field(page, 'camera.' + name)) for name in ('yaw_deg', 'pitch_deg', 'azimuth_deg', 'inclination_deg')]
-        self.assertEqual(page.get_attribute('#look', 'aria-pressed'), 'true')
+        page = self.open(SKY + "&camera.r=8", viewport={"width": 640, "height": 480})
+        camera = lambda: [
+            float(self.field(page, "camera." + name))
+            for name in ("yaw_deg", "pitch_deg", "azimuth_deg", "inclination_deg")
+        ]
+        self.assertEqual(page.get_attribute("#look", "aria-pressed"), "true")
         self.drag(page, 100, 50)
         yaw, pitch, azimuth, tilt = camera()
         wide = page.evaluate('document.getElementById("stage").clientWidth')
-        self.assertAlmostEqual(yaw, -100 * 2 / wide * 180 / math.pi, delta=0.02)  # 90 degrees across: a tangent of 1 at the edge
+        self.assertAlmostEqual(
+            yaw, -100 * 2 / wide * 180 / math.pi, delta=0.02
+        )  # 90 degrees across: a tangent of 1 at the edge
         self.assertAlmostEqual(pitch, 50 * 2 / wide * 180 / math.pi, delta=0.02)
         self.assertEqual((azimuth, tilt), (0, 82))
-        page.keyboard.press('Shift+ArrowUp')
-        page.keyboard.press('ArrowLeft')
+        page.keyboard.press("Shift+ArrowUp")
+        page.keyboard.press("ArrowLeft")
         self.assertEqual([round(a - b, 2) for a, b in zip(camera(), (yaw, pitch, 0, 82))], [-2, 10, 0, 0])
-        page.keyboard.press('-')
-        self.assertEqual((float(self.field(page, 'camera.fov_deg')), self.camera_r(page)), (99, 8))
-        page.keyboard.press('0')
+        page.keyboard.press("-")
+        self.assertEqual((float(self.field(page, "camera.fov_deg")), self.camera_r(page)), (99, 8))
+        page.keyboard.press("0")
         self.assertEqual(camera(), [0, 0, 0, 82])
-        page.keyboard.press('l')
-        self.assertEqual(page.get_attribute('#look', 'aria-pressed'), 'false')
-        page.keyboard.press('ArrowLeft')
+        page.keyboard.press("l")
+        self.assertEqual(page.get_attribute("#look", "aria-pressed"), "false")
+        page.keyboard.press("ArrowLeft")
         self.assertEqual(camera(), [0, 0, -2, 82])
-        self.assertTrue(daemon.eventually(lambda: 'look=0' in page.evaluate('location.hash')))
-        page.click('#look')
-        self.assertTrue(daemon.eventually(lambda: 'look=' not in page.evaluate('location.hash')))
-        self.assertFalse(self.open('lang=en').is_visible('#look'), 'from far there is nothing to look around at')
+        self.assertTrue(daemon.eventually(lambda: "look=0" in page.evaluate("location.hash")))
+        page.click("#look")
+        self.assertTrue(daemon.eventually(lambda: "look=" not in page.evaluate("location.hash")))
+        self.assertFalse(self.open("lang=en").is_visible("#look"), "from far there is nothing to look around at")
 
     def test_a_star_says_its_name(self):
-        """Where the server says that an image is, the picture has its brightest point; the pointer there is told its name."""
-        page = self.open(SKY + '&camera.r=60&camera.inclination_deg=90&sky.orientation=equatorial', viewport={'width': 640, 'height': 480})
+        """Where the server says that an image is, the picture has its brightest point; the pointer there is told its
+        name."""
+        page = self.open(
+            SKY + "&camera.r=60&camera.inclination_deg=90&sky.orientation=equatorial",
+            viewport={"width": 640, "height": 480},
+        )
         images = self.named(page)
-        wide, high = page.evaluate('[document.getElementById("stage").clientWidth, document.getElementById("stage").clientHeight]')
-        at = next(i for i in images if i['name'] and 20 < i['x'] < wide - 80 and 20 < i['y'] < high - 20)
-        box = page.locator('#stage').bounding_box()
-        page.mouse.move(box['x'] + at['x'] + 3, box['y'] + at['y'])
-        page.wait_for_selector('#star:not([hidden])')
-        self.there(page, at['name'], '#star')
-        self.there(page, at['designation'], '#star')
-        marks = sum(i['designation'] == at['designation'] for i in images if i['through'] > 0.02)
-        self.assertTrue(daemon.eventually(lambda: page.locator('#star-marks circle').count() == marks))
-        asked = len([r for r in self.requests if r.url.endswith('/v1/render')])
-        page.hover('#reset')
-        self.assertTrue(daemon.eventually(lambda: page.is_hidden('#star')))
-        self.assertEqual(len([r for r in self.requests if r.url.endswith('/v1/render')]), asked, 'once is enough')
+        wide, high = page.evaluate(
+            '[document.getElementById("stage").clientWidth, document.getElementById("stage").clientHeight]'
+        )
+        at = next(i for i in images if i["name"] and 20 < i["x"] < wide - 80 and 20 < i["y"] < high - 20)
+        box = page.locator("#stage").bounding_box()
+        page.mouse.move(box["x"] + at["x"] + 3, box["y"] + at["y"])
+        page.wait_for_selector("#star:not([hidden])")
+        self.there(page, at["name"], "#star")
+        self.there(page, at["designation"], "#star")
+        marks = sum(i["designation"] == at["designation"] for i in images if i["through"] > 0.02)
+        self.assertTrue(daemon.eventually(lambda: page.locator("#star-marks circle").count() == marks))
+        asked = len([r for r in self.requests if r.url.endswith("/v1/render")])
+        page.hover("#reset")
+        self.assertTrue(daemon.eventually(lambda: page.is_hidden("#star")))
+        self.assertEqual(len([r for r in self.requests if r.url.endswith("/v1/render")]), asked, "once is enough")
         self.open_groups(page)
-        page.check('#over-names')  # for who has no pointer
-        self.assertTrue(daemon.eventually(lambda: page.locator('#overlay text').count() == 16))
-        self.there(page, images[0]['name'], '#over-names-words')
-        words = page.inner_text('#over-names-words')
-        self.assertTrue(words.startswith(images[0]['name']) and at['designation'] in words, words)
-        self.shot(page, 'stars')
+        page.check("#over-names")  # for who has no pointer
+        self.assertTrue(daemon.eventually(lambda: page.locator("#overlay text").count() == 16))
+        self.there(page, images[0]["name"], "#over-names-words")
+        words = page.inner_text("#over-names-words")
+        self.assertTrue(words.startswith(images[0]["name"]) and at["designation"] in words, words)
+        self.shot(page, "stars")
 
     def test_a_name_stays_while_the_picture_turns(self):
         """The pointer rests where a star comes by: its mark goes with it, at the pace of the picture."""
-        page = self.open(SKY + '&camera.r=60&camera.inclination_deg=90&sky.orientation=equatorial&motion.azimuth_rate_deg=0.5', wait='#stage[data-final]', viewport={'width': 640, 'height': 480})
+        page = self.open(
+            SKY + "&camera.r=60&camera.inclination_deg=90&sky.orientation=equatorial&motion.azimuth_rate_deg=0.5",
+            wait="#stage[data-final]",
+            viewport={"width": 640, "height": 480},
+        )
         images = self.named(page)
-        wide, high = page.evaluate('[document.getElementById("stage").clientWidth, document.getElementById("stage").clientHeight]')
-        at = next(i for i in images if 60 < i['x'] < wide - 60 and 60 < i['y'] < high - 60 and math.hypot(i['x_by_azimuth'], i['y_by_azimuth']) > 3)
-        box = page.locator('#stage').bounding_box()
-        page.mouse.move(box['x'] + at['x'], box['y'] + at['y'])
-        page.wait_for_selector('#star:not([hidden])')
-        mark = lambda: page.evaluate("(n => n && [+n.getAttribute('cx'), +n.getAttribute('cy'), document.getElementById('star').innerText])(document.querySelector('#star-marks .this'))")
+        wide, high = page.evaluate(
+            '[document.getElementById("stage").clientWidth, document.getElementById("stage").clientHeight]'
+        )
+        at = next(
+            i
+            for i in images
+            if 60 < i["x"] < wide - 60
+            and 60 < i["y"] < high - 60
+            and math.hypot(i["x_by_azimuth"], i["y_by_azimuth"]) > 3
+        )
+        box = page.locator("#stage").bounding_box()
+        page.mouse.move(box["x"] + at["x"], box["y"] + at["y"])
+        page.wait_for_selector("#star:not([hidden])")
+        mark = lambda: page.evaluate(
+            "(n => n && [+n.getAttribute('cx'), +n.getAttribute('cy'), document.getElementById('star').innerText])(document.querySelector('#star-marks .this'))"
+        )
         first = mark()
-        on = lambda now: now and now[:2] != first[:2] and now[2]  # in one look: the star goes past the pointer, and then there is no name
-        self.assertTrue(daemon.eventually(lambda: on(mark())), 'it goes on, with its name')
-        self.shot(page, 'stars-turn')
+        on = lambda now: (
+            now and now[:2] != first[:2] and now[2]
+        )  # in one look: the star goes past the pointer, and then there is no name
+        self.assertTrue(daemon.eventually(lambda: on(mark())), "it goes on, with its name")
+        self.shot(page, "stars-turn")
 
 
-if __name__ == '__main__':
+if __name__ == "__main__":
     main()

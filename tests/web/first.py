@@ -1,4 +1,5 @@
 """The first view: a preset, where a link says nothing of the scene: first.py KERRD FOLDER (browser.py)."""
+
 import json
 import re
 
@@ -7,42 +8,58 @@ import daemon
 
 
 class First(Browser):
-    def opened(self, first, fragment, wait='#stage[data-final]'):
+    def opened(self, first, fragment, wait="#stage[data-final]"):
         """A page whose first view is that preset."""
         page = self.page(self.context())
 
         def answer(route):
             text = route.fetch().text()
-            changed, n = re.subn(r"""(first_view ?= ?)(['"])[^'"]*\2""", rf'\1"{first}"', text)  # as it is written or shortened
+            changed, n = re.subn(
+                r"""(first_view ?= ?)(['"])[^'"]*\2""", rf'\1"{first}"', text
+            )  # as it is written or shortened
             self.assertEqual(n, 1)
-            route.fulfill(body=changed, content_type='text/javascript')
+            route.fulfill(body=changed, content_type="text/javascript")
 
-        page.route('**/web/ahead.js', answer)
-        page.goto(self.base + '#' + fragment)
-        page.wait_for_selector(wait, timeout=PATIENCE_MS, state='attached')
-        page.wait_for_selector('#preset option:nth-child(3)', state='attached')
+        page.route("**/web/ahead.js", answer)
+        page.goto(self.base + "#" + fragment)
+        page.wait_for_selector(wait, timeout=PATIENCE_MS, state="attached")
+        page.wait_for_selector("#preset option:nth-child(3)", state="attached")
         return page
 
     def test_it_is_gas_that_turns_before_stars(self):
-        """As it comes: stars between which it is black, a disk, and more of another when it has turned; one at rest has all pixels of the window."""
-        for lang, width, height in (('en', 1440, 900), ('it', 390, 844)):
-            page = self.page(self.context(viewport={'width': width, 'height': height}))
-            page.goto(self.base + f'#lang={lang}')
-            page.wait_for_selector('#stage[data-final]', timeout=PATIENCE_MS, state='attached')
-            self.assertTrue(daemon.eventually(lambda: page.input_value('#preset') == 'gas-stars'))
-            self.assertTrue(daemon.eventually(lambda: page.inner_text('#clock') and float(page.inner_text('#clock').split()[2].replace(',', '.')) > 1))
-            linked = lambda: float((re.search(r'camera\.azimuth_deg=([-\d.]+)', page.evaluate('location.hash')) or [0, '0'])[1])
-            self.assertTrue(daemon.eventually(lambda: linked() > 0.5), 'the camera drifts, and the link with it')
-            page.click('#play') # the first touch
+        """As it comes: stars between which it is black, a disk, and more of another when it has turned; one at rest has
+        all pixels of the window."""
+        for lang, width, height in (("en", 1440, 900), ("it", 390, 844)):
+            page = self.page(self.context(viewport={"width": width, "height": height}))
+            page.goto(self.base + f"#lang={lang}")
+            page.wait_for_selector("#stage[data-final]", timeout=PATIENCE_MS, state="attached")
+            self.assertTrue(daemon.eventually(lambda: page.input_value("#preset") == "gas-stars"))
+            self.assertTrue(
+                daemon.eventually(
+                    lambda: (
+                        page.inner_text("#clock") and float(page.inner_text("#clock").split()[2].replace(",", ".")) > 1
+                    )
+                )
+            )
+            linked = lambda: float(
+                (re.search(r"camera\.azimuth_deg=([-\d.]+)", page.evaluate("location.hash")) or [0, "0"])[1]
+            )
+            self.assertTrue(daemon.eventually(lambda: linked() > 0.5), "the camera drifts, and the link with it")
+            page.click("#play")  # the first touch
             page.wait_for_selector(AT_REST)
             seen = page.evaluate("import('./web/link.js').then(({ get }) => Number(get('camera.azimuth_deg')))")
-            self.assertEqual((float(self.field(page, 'camera.azimuth_deg')), page.is_disabled('#undo'), page.input_value('#preset')), (seen, True, 'gas-stars'))
-            page.click('#nearer')
-            page.click('#undo')
-            self.assertEqual(float(self.field(page, 'camera.azimuth_deg')), seen, 'undo goes back to where it was touched')
+            self.assertEqual(
+                (float(self.field(page, "camera.azimuth_deg")), page.is_disabled("#undo"), page.input_value("#preset")),
+                (seen, True, "gas-stars"),
+            )
+            page.click("#nearer")
+            page.click("#undo")
+            self.assertEqual(
+                float(self.field(page, "camera.azimuth_deg")), seen, "undo goes back to where it was touched"
+            )
             page.wait_for_selector(AT_REST)
-            self.shot(page, f'first-{lang}')
-            bright, black, wide = page.evaluate('''() => {
+            self.shot(page, f"first-{lang}")
+            bright, black, wide = page.evaluate("""() => {
                 const picture = document.getElementById('picture'), { naturalWidth: width, naturalHeight: height } = picture;
                 const context = new OffscreenCanvas(width, height).getContext('2d');
                 context.drawImage(picture, 0, 0);
@@ -54,62 +71,80 @@ class First(Browser):
                     black += most < 8;
                 }
                 return [(400 * bright) / data.length, (400 * black) / data.length, width];
-            }''')
+            }""")
             self.assertEqual(wide, page.evaluate('document.getElementById("stage").clientWidth'))
             self.assertGreater(bright, 0.05)
             self.assertGreater(black, 80)
 
     def test_its_picture_is_ahead_of_the_page(self):
-        """Its session is opened, and its picture shown, before the rest of the page is there, which then goes on with both; in a window that widens it not."""
-        context = self.context(viewport={'width': 800, 'height': 600})
+        """Its session is opened, and its picture shown, before the rest of the page is there, which then goes on with
+        both; in a window that widens it not."""
+        context = self.context(viewport={"width": 800, "height": 600})
         page, opened, held = self.page(context), [], []
-        page.on('request', lambda r: '/v1/sessions' in r.url and r.method != 'GET' and opened.append((r.method, r.url, r.post_data)))
-        page.route('**/web/app.js', lambda route: held.append(route))
-        page.goto(self.base + '#lang=en', wait_until='commit')
+        page.on(
+            "request",
+            lambda r: "/v1/sessions" in r.url and r.method != "GET" and opened.append((r.method, r.url, r.post_data)),
+        )
+        page.route("**/web/app.js", lambda route: held.append(route))
+        page.goto(self.base + "#lang=en", wait_until="commit")
         page.wait_for_function('() => document.getElementById("picture")?.naturalWidth > 0', timeout=PATIENCE_MS)
-        self.assertTrue(daemon.eventually(lambda: page.evaluate('0') or held))
+        self.assertTrue(daemon.eventually(lambda: page.evaluate("0") or held))
         held.pop().continue_()
-        page.wait_for_selector('#stage[data-final]', timeout=PATIENCE_MS, state='attached')
-        self.assertIn('preset=gas-stars', opened[0][1])
-        self.assertEqual([method for method, _, _ in opened].count('POST'), 1, 'source.js goes on with it')
-        self.assertTrue(daemon.eventually(lambda: page.input_value('#preset') == 'gas-stars'))
-        page.set_viewport_size({'width': 1600, 'height': 400})
+        page.wait_for_selector("#stage[data-final]", timeout=PATIENCE_MS, state="attached")
+        self.assertIn("preset=gas-stars", opened[0][1])
+        self.assertEqual([method for method, _, _ in opened].count("POST"), 1, "source.js goes on with it")
+        self.assertTrue(daemon.eventually(lambda: page.input_value("#preset") == "gas-stars"))
+        page.set_viewport_size({"width": 1600, "height": 400})
         opened.clear()
-        page.unroute('**/web/app.js')
+        page.unroute("**/web/app.js")
         page.reload()
-        page.wait_for_selector('#stage[data-final]', timeout=PATIENCE_MS, state='attached')
-        posts = [(url, json.loads(body)) for method, url, body in opened if method == 'POST']
+        page.wait_for_selector("#stage[data-final]", timeout=PATIENCE_MS, state="attached")
+        posts = [(url, json.loads(body)) for method, url, body in opened if method == "POST"]
         self.assertEqual(len(posts), 1)
-        self.assertNotIn('preset=', posts[0][0])
-        usual = self.daemon.get('/v1/presets/gas-stars').json()['camera']['field_m']
-        self.assertGreater(posts[0][1]['camera']['field_m'], usual)
+        self.assertNotIn("preset=", posts[0][0])
+        usual = self.daemon.get("/v1/presets/gas-stars").json()["camera"]["field_m"]
+        self.assertGreater(posts[0][1]["camera"]["field_m"], usual)
 
     def test_it_is_a_preset_that_moves(self):
-        page = self.opened('living-disk', 'lang=en')
-        self.assertTrue(daemon.eventually(lambda: page.inner_text('#clock') and self.clock(page) > 1))
-        self.assertEqual((page.input_value('#preset'), page.inner_text('#play'), page.locator('#link-fault').inner_text()), ('living-disk', 'Pause', ''))
-        page.keyboard.press('f')
-        page.keyboard.press('Space')
-        self.assertTrue(daemon.eventually(lambda: page.text_content('#play') == 'Play'))
+        page = self.opened("living-disk", "lang=en")
+        self.assertTrue(daemon.eventually(lambda: page.inner_text("#clock") and self.clock(page) > 1))
+        self.assertEqual(
+            (page.input_value("#preset"), page.inner_text("#play"), page.locator("#link-fault").inner_text()),
+            ("living-disk", "Pause", ""),
+        )
+        page.keyboard.press("f")
+        page.keyboard.press("Space")
+        self.assertTrue(daemon.eventually(lambda: page.text_content("#play") == "Play"))
 
     def test_a_preset_after_another_has_its_own_colours(self):
         """A style that is named sets its colours anew at the server: those that both scenes have are said again."""
         page = self.open()
-        names = [preset['name'] for preset in self.daemon.get('/v1/presets').json()['presets']]
-        scenes = {name: self.daemon.get('/v1/presets/' + name).json() for name in names}
-        left_out = page.evaluate('''async scenes => {
+        names = [preset["name"] for preset in self.daemon.get("/v1/presets").json()["presets"]]
+        scenes = {name: self.daemon.get("/v1/presets/" + name).json() for name in names}
+        left_out = page.evaluate(
+            """async scenes => {
             const { mergePatch } = await import('./web/merge.js'), all = Object.entries(scenes);
             return all.flatMap(([from, before]) => all.filter(([, after]) => {
                 const { style } = mergePatch(before, after);
                 return style?.name !== undefined && Object.entries(after.style).some(([key, value]) => JSON.stringify(style[key]) !== JSON.stringify(value));
-            }).map(([to]) => [from, to])); }''', scenes)
+            }).map(([to]) => [from, to])); }""",
+            scenes,
+        )
         self.assertEqual(left_out, [])
-        self.assertEqual(page.evaluate('async ([before, after]) => (await import("./web/merge.js")).mergePatch(before, after).style.palette', [scenes['polarised-ring'], scenes['riaf']]), 'heat')
+        self.assertEqual(
+            page.evaluate(
+                'async ([before, after]) => (await import("./web/merge.js")).mergePatch(before, after).style.palette',
+                [scenes["polarised-ring"], scenes["riaf"]],
+            ),
+            "heat",
+        )
 
     def test_the_quality_of_pictures_follows_the_line(self):
-        """A simulated line of so many bytes a second, on which one picture follows the other, of sizes that were measured of the default at 670 x 500."""
+        """A simulated line of so many bytes a second, on which one picture follows the other, of sizes that were
+        measured of the default at 670 x 500."""
         page = self.open()
-        paces = page.evaluate('''async lines => {
+        paces = page.evaluate(
+            """async lines => {
             const { buildLine } = await import('./web/line.js'), kB = { 90: 58, 75: 26, 60: 18, 45: 15, 30: 12 }, real = performance.now, paces = [];
             let clock = 0;
             performance.now = () => clock;
@@ -127,78 +162,119 @@ class First(Browser):
                 }
             } finally { performance.now = real; }
             return paces;
-        }''', [{'trip': trip, 'rate': rate, 'server': server} for trip, rate, server in ((300, 0.125, 26), (300, 10, 26), (1, 10, 26), (300, 0.16, 400), (300, 0.25, 26))])
+        }""",
+            [
+                {"trip": trip, "rate": rate, "server": server}
+                for trip, rate, server in (
+                    (300, 0.125, 26),
+                    (300, 10, 26),
+                    (1, 10, 26),
+                    (300, 0.16, 400),
+                    (300, 0.25, 26),
+                )
+            ],
+        )
         slow, far, near, busy, half = paces
-        self.assertEqual(slow['quality'], 30)
-        self.assertGreater(slow['fps'], 9)
-        self.assertLess(slow['settled'], 2000)
-        self.assertEqual((far['quality'], near['quality']), (90, 90))
-        self.assertEqual(busy['quality'], 60, 'where it is the server that takes long')
-        self.assertGreaterEqual(half['fps'], 8)
+        self.assertEqual(slow["quality"], 30)
+        self.assertGreater(slow["fps"], 9)
+        self.assertLess(slow["settled"], 2000)
+        self.assertEqual((far["quality"], near["quality"]), (90, 90))
+        self.assertEqual(busy["quality"], 60, "where it is the server that takes long")
+        self.assertGreaterEqual(half["fps"], 8)
 
     def test_presets_are_a_strip_of_pictures(self):
-        page = self.open('lang=it&preset=smooth', viewport={'width': 390, 'height': 844}, gallery=True)
+        page = self.open("lang=it&preset=smooth", viewport={"width": 390, "height": 844}, gallery=True)
         card = lambda name: page.locator(f'#gallery [data-preset="{name}"]')
-        came = lambda name: card(name).locator('img').evaluate('image => image.complete && image.naturalWidth')
-        self.assertTrue(daemon.eventually(lambda: card('smooth').count() and card('smooth').get_attribute('aria-pressed') == 'true'))
-        self.assertEqual((card('edge-on').locator('b').inner_text(), card('edge-on').get_attribute('title')), ('Di taglio', 'Visto lungo il suo piano, il disco è tutto luce deviata'))
-        self.assertEqual(page.locator('#gallery [tabindex="0"]').count(), 1, 'one stop of the tab key')
-        card('smooth').focus()
-        page.keyboard.press('ArrowLeft') # the one before it: smooth is the last
-        there = lambda: page.evaluate('document.activeElement.dataset.preset')
-        self.assertTrue(daemon.eventually(lambda: there() not in (None, 'smooth')))
+        came = lambda name: card(name).locator("img").evaluate("image => image.complete && image.naturalWidth")
+        self.assertTrue(
+            daemon.eventually(lambda: card("smooth").count() and card("smooth").get_attribute("aria-pressed") == "true")
+        )
+        self.assertEqual(
+            (card("edge-on").locator("b").inner_text(), card("edge-on").get_attribute("title")),
+            ("Di taglio", "Visto lungo il suo piano, il disco è tutto luce deviata"),
+        )
+        self.assertEqual(page.locator('#gallery [tabindex="0"]').count(), 1, "one stop of the tab key")
+        card("smooth").focus()
+        page.keyboard.press("ArrowLeft")  # the one before it: smooth is the last
+        there = lambda: page.evaluate("document.activeElement.dataset.preset")
+        self.assertTrue(daemon.eventually(lambda: there() not in (None, "smooth")))
         name = there()
-        page.keyboard.press('Enter')
-        self.assertTrue(daemon.eventually(lambda: page.input_value('#preset') == name and card(name).get_attribute('aria-pressed') == 'true'))
-        self.assertTrue(daemon.eventually(lambda: came('smooth') == 192, 500), 'it is painted with a tenth of the weight of all else')
-        self.assertFalse(card('m87').locator('img').get_attribute('src'), 'what is not in sight is not asked for')
-        words = page.evaluate('''async () => { const { presets } = await (await fetch('v1/presets')).json(), it = await import('./web/it.js'), captions = (await import('./web/captions.js')).default;
-            return presets.filter(({ name }) => !it.labels[name] || captions[name]?.length !== 2).map(({ name }) => name); }''')
-        self.assertEqual(words, [], 'presets without a caption, or without Italian')
+        page.keyboard.press("Enter")
+        self.assertTrue(
+            daemon.eventually(
+                lambda: page.input_value("#preset") == name and card(name).get_attribute("aria-pressed") == "true"
+            )
+        )
+        self.assertTrue(
+            daemon.eventually(lambda: came("smooth") == 192, 500),
+            "it is painted with a tenth of the weight of all else",
+        )
+        self.assertFalse(card("m87").locator("img").get_attribute("src"), "what is not in sight is not asked for")
+        words = page.evaluate("""async () => { const { presets } = await (await fetch('v1/presets')).json(), it = await import('./web/it.js'), captions = (await import('./web/captions.js')).default;
+            return presets.filter(({ name }) => !it.labels[name] || captions[name]?.length !== 2).map(({ name }) => name); }""")
+        self.assertEqual(words, [], "presets without a caption, or without Italian")
         self.assertEqual(self.cut(page), [])
-        self.shot(page, 'gallery-it')
-        page = self.open('lang=en&preset=smooth', gallery=True)
-        page.wait_for_selector('#gallery [aria-pressed=true]')
+        self.shot(page, "gallery-it")
+        page = self.open("lang=en&preset=smooth", gallery=True)
+        page.wait_for_selector("#gallery [aria-pressed=true]")
         self.assertEqual(self.cut(page), [])
 
     def cut(self, page):
         """Words of cards that are not seen whole."""
-        return page.evaluate('''() => [...document.querySelectorAll('#gallery :is(b, span)')].filter(({ scrollHeight, clientHeight, scrollWidth, clientWidth }) =>
-            scrollHeight > clientHeight + 1 || scrollWidth > clientWidth).map(node => node.textContent)''')
+        return page.evaluate("""() => [...document.querySelectorAll('#gallery :is(b, span)')].filter(({ scrollHeight, clientHeight, scrollWidth, clientWidth }) =>
+            scrollHeight > clientHeight + 1 || scrollWidth > clientWidth).map(node => node.textContent)""")
 
     def test_a_link_goes_before_it(self):
-        for fragment, name, tilt in (('lang=en&camera.inclination_deg=60', 'own', '60'), ('lang=en&preset=edge-on', 'edge-on', '90'), ('lang=en&preset=default', '', '82')):
-            page = self.opened('living-disk', fragment, AT_REST)
-            self.assertEqual((page.input_value('#preset'), self.field(page, 'camera.inclination_deg'), page.locator('#link-fault').inner_text()), (name, tilt, ''))
+        for fragment, name, tilt in (
+            ("lang=en&camera.inclination_deg=60", "own", "60"),
+            ("lang=en&preset=edge-on", "edge-on", "90"),
+            ("lang=en&preset=default", "", "82"),
+        ):
+            page = self.opened("living-disk", fragment, AT_REST)
+            self.assertEqual(
+                (
+                    page.input_value("#preset"),
+                    self.field(page, "camera.inclination_deg"),
+                    page.locator("#link-fault").inner_text(),
+                ),
+                (name, tilt, ""),
+            )
 
     def test_the_default_scene_stays_it_over_a_reload(self):
-        page = self.opened('living-disk', 'lang=en')
-        page.select_option('#preset', '')
+        page = self.opened("living-disk", "lang=en")
+        page.select_option("#preset", "")
         page.wait_for_selector(AT_REST)
-        self.assertTrue(daemon.eventually(lambda: 'preset=default' in page.evaluate('location.hash')))
+        self.assertTrue(daemon.eventually(lambda: "preset=default" in page.evaluate("location.hash")))
         page.reload()
         page.wait_for_selector(AT_REST)
-        self.assertTrue(daemon.eventually(lambda: page.locator('#preset option').count() > 3))
-        self.assertEqual((page.input_value('#preset'), self.field(page, 'camera.inclination_deg')), ('', '82'))
+        self.assertTrue(daemon.eventually(lambda: page.locator("#preset option").count() > 3))
+        self.assertEqual((page.input_value("#preset"), self.field(page, "camera.inclination_deg")), ("", "82"))
 
     def test_start_again_goes_back_to_it(self):
-        for first, tilt in (('living-disk', '76'), ('', '82')):
-            page = self.opened(first, 'lang=en&camera.inclination_deg=60', AT_REST)
-            page.click('#reset')
-            self.assertTrue(daemon.eventually(lambda: self.field(page, 'camera.inclination_deg') == tilt))
-            self.assertTrue(daemon.eventually(lambda: page.input_value('#preset') == first), first)
+        for first, tilt in (("living-disk", "76"), ("", "82")):
+            page = self.opened(first, "lang=en&camera.inclination_deg=60", AT_REST)
+            page.click("#reset")
+            self.assertTrue(daemon.eventually(lambda: self.field(page, "camera.inclination_deg") == tilt))
+            self.assertTrue(daemon.eventually(lambda: page.input_value("#preset") == first), first)
 
     def test_who_wants_no_motion_has_none(self):
-        context = self.context(reduced_motion='reduce')
+        context = self.context(reduced_motion="reduce")
         page = self.page(context)
-        page.goto(self.base + '#lang=en&preset=living-disk')
+        page.goto(self.base + "#lang=en&preset=living-disk")
         page.wait_for_selector(AT_REST)
-        self.assertEqual(page.inner_text('#play'), 'Play')
-        page.goto('about:blank')
-        page.goto(self.base + '#lang=en')
+        self.assertEqual(page.inner_text("#play"), "Play")
+        page.goto("about:blank")
+        page.goto(self.base + "#lang=en")
         page.wait_for_selector(AT_REST)
-        self.assertEqual((page.inner_text('#play'), page.locator('#welcome').is_visible(), float(self.field(page, 'camera.azimuth_deg'))), ('Play', True, 0))
+        self.assertEqual(
+            (
+                page.inner_text("#play"),
+                page.locator("#welcome").is_visible(),
+                float(self.field(page, "camera.azimuth_deg")),
+            ),
+            ("Play", True, 0),
+        )
 
 
-if __name__ == '__main__':
+if __name__ == "__main__":
     main()

@@ -1,5 +1,7 @@
-"""A page of another origin in a headless browser (browser.py): where the server names it, its scripts render, see answers' headers and errors, and drag a session; elsewhere they see nothing.
-It stands at localhost, the server at 127.0.0.1, which is another site to a browser. The server has a token file."""
+"""A page of another origin in a headless browser (browser.py): where the server names it, its scripts render, see
+answers' headers and errors, and drag a session; elsewhere they see nothing. It stands at localhost, the server at
+127.0.0.1, which is another site to a browser. The server has a token file."""
+
 import http.server
 import pathlib
 import tempfile
@@ -9,9 +11,9 @@ import unittest
 import browser
 import daemon
 
-TOKEN = 'render-0123456789abcdef'
+TOKEN = "render-0123456789abcdef"
 # What the page's scripts do, by the server's address and an access token: an object that says what they have seen.
-SCRIPT = '''async ([server, token]) => {
+SCRIPT = """async ([server, token]) => {
   const seen = {}, headers = { Authorization: `Bearer ${token}`, 'Content-Type': 'application/json' };
   const scene = { image: { width: 64, height: 36 } };
   const ask = async (name, path, options) => {
@@ -41,7 +43,7 @@ SCRIPT = '''async ([server, token]) => {
     await ask('end', at, { method: 'DELETE', headers: own });
   }
   return seen;
-}'''
+}"""
 
 
 class Page(http.server.SimpleHTTPRequestHandler):
@@ -49,9 +51,9 @@ class Page(http.server.SimpleHTTPRequestHandler):
 
     def do_GET(self):
         self.send_response(200)
-        self.send_header('Content-Type', 'text/html')
+        self.send_header("Content-Type", "text/html")
         self.end_headers()
-        self.wfile.write(b'<!doctype html><title>notebook</title>')
+        self.wfile.write(b"<!doctype html><title>notebook</title>")
 
     def log_message(self, *_):
         pass
@@ -60,17 +62,17 @@ class Page(http.server.SimpleHTTPRequestHandler):
 class Origins(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        site = http.server.ThreadingHTTPServer(('127.0.0.1', 0), Page)
-        cls.origin = f'http://localhost:{site.server_port}'
+        site = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Page)
+        cls.origin = f"http://localhost:{site.server_port}"
         threading.Thread(target=site.serve_forever, daemon=True).start()
         cls.addClassCleanup(site.server_close)
         cls.addClassCleanup(site.shutdown)
         cls.folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.folder.cleanup)
-        tokens = pathlib.Path(cls.folder.name) / 'tokens'
-        tokens.write_text(f'notebook render {TOKEN}\n')
+        tokens = pathlib.Path(cls.folder.name) / "tokens"
+        tokens.write_text(f"notebook render {TOKEN}\n")
         tokens.chmod(0o600)
-        cls.options = ('--token-file', tokens)
+        cls.options = ("--token-file", tokens)
         playwright = browser.sync_playwright().start()
         cls.addClassCleanup(playwright.stop)
         cls.chromium = playwright.chromium.launch(executable_path=browser.CHROMIUM, args=browser.FLAGS)
@@ -82,31 +84,35 @@ class Origins(unittest.TestCase):
         page.set_default_timeout(browser.PATIENCE_MS)
         try:
             page.goto(self.origin)
-            return page.evaluate(SCRIPT, [f'http://127.0.0.1:{server.port}', TOKEN])
+            return page.evaluate(SCRIPT, [f"http://127.0.0.1:{server.port}", TOKEN])
         finally:
             page.close()
             self.assertEqual(server.stop(), 0)
 
     def test_one_that_is_named(self):
-        seen = self.see('--cors-origin', 'https://elsewhere.example', '--cors-origin', self.origin)
-        self.assertEqual((seen['render']['status'], seen['width']), (200, 64))
-        self.assertIn('engine=', seen['render']['accuracy'])
-        self.assertTrue(seen['render']['etag'])
-        self.assertEqual(seen['wrong']['status'], 422)
-        self.assertIn('x', seen['detail'])
-        self.assertEqual(seen['stranger']['status'], 401)
-        self.assertEqual(seen['cookie'], 'TypeError', 'no answer allows credentials')
-        self.assertEqual(seen['delete'], 'TypeError', 'the preflight names other methods')
-        self.assertEqual([seen[name]['status'] for name in ('open', 'patch', 'frame', 'end')], [201, 200, 200, 204], seen)
-        self.assertTrue(seen['location'])
-        self.assertGreater(seen['number'], 0)
+        seen = self.see("--cors-origin", "https://elsewhere.example", "--cors-origin", self.origin)
+        self.assertEqual((seen["render"]["status"], seen["width"]), (200, 64))
+        self.assertIn("engine=", seen["render"]["accuracy"])
+        self.assertTrue(seen["render"]["etag"])
+        self.assertEqual(seen["wrong"]["status"], 422)
+        self.assertIn("x", seen["detail"])
+        self.assertEqual(seen["stranger"]["status"], 401)
+        self.assertEqual(seen["cookie"], "TypeError", "no answer allows credentials")
+        self.assertEqual(seen["delete"], "TypeError", "the preflight names other methods")
+        self.assertEqual(
+            [seen[name]["status"] for name in ("open", "patch", "frame", "end")], [201, 200, 200, 204], seen
+        )
+        self.assertTrue(seen["location"])
+        self.assertGreater(seen["number"], 0)
 
     def test_one_that_is_not(self):
-        for options in ((), ('--cors-origin', 'https://elsewhere.example'), ('--allow-cross-site',)):
+        for options in ((), ("--cors-origin", "https://elsewhere.example"), ("--allow-cross-site",)):
             with self.subTest(options):
                 seen = self.see(*options)
-                self.assertEqual(seen, dict.fromkeys(('render', 'wrong', 'stranger', 'cookie', 'delete', 'open'), 'TypeError'))
+                self.assertEqual(
+                    seen, dict.fromkeys(("render", "wrong", "stranger", "cookie", "delete", "open"), "TypeError")
+                )
 
 
-if __name__ == '__main__':
+if __name__ == "__main__":
     browser.main()

@@ -1,5 +1,7 @@
-"""The page in Firefox or in WebKit: others.py KERRD firefox|webkit, from scripts/matrix. One flow for both: what it needs of a browser is in the two classes below. Firefox is
-spoken to by Marionette, WebKitGTK by its WebDriver; what a driver cannot do (forced colours in WebKit) is said and left out."""
+"""The page in Firefox or in WebKit: others.py KERRD firefox|webkit, from scripts/matrix. One flow for both: what it
+needs of a browser is in the two classes below. Firefox is spoken to by Marionette, WebKitGTK by its WebDriver; what a
+driver cannot do (forced colours in WebKit) is said and left out."""
+
 import asyncio
 import atexit
 import contextlib
@@ -13,12 +15,18 @@ import threading
 import time
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / 'http'))
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "http"))
 import daemon  # noqa: E402
 
-AT_REST = '#stage[data-final=true]'
-READY = {'lensing': AT_REST, 'orbits': '#orbit-picture .front', 'playground': '#play-plane[data-bodies]', 'physics': '#curves .card:last-child canvas', 'scale': '#scale-rows tr'}
-KEYS = {'right': '\ue014', 'space': ' '}
+AT_REST = "#stage[data-final=true]"
+READY = {
+    "lensing": AT_REST,
+    "orbits": "#orbit-picture .front",
+    "playground": "#play-plane[data-bodies]",
+    "physics": "#curves .card:last-child canvas",
+    "scale": "#scale-rows tr",
+}
+KEYS = {"right": "\ue014", "space": " "}
 
 
 class Firefox:
@@ -26,8 +34,11 @@ class Firefox:
 
     def __init__(self, size, forced=False):
         from marionette_driver.marionette import Marionette
-        prefs = {'ui.useAccessibilityTheme': 1, 'browser.display.document_color_use': 2} if forced else {}
-        self.driver = Marionette(bin=shutil.which('firefox-esr') or shutil.which('firefox'), headless=True, prefs=prefs, startup_timeout=120)
+
+        prefs = {"ui.useAccessibilityTheme": 1, "browser.display.document_color_use": 2} if forced else {}
+        self.driver = Marionette(
+            bin=shutil.which("firefox-esr") or shutil.which("firefox"), headless=True, prefs=prefs, startup_timeout=120
+        )
         self.driver.start_session()
         self.driver.timeout.script = 60
         self.resize(*size)
@@ -40,24 +51,25 @@ class Firefox:
         self.driver.cleanup()
 
     def go(self, url):
-        self.driver.navigate('about:blank')
+        self.driver.navigate("about:blank")
         self.driver.navigate(url)
 
     def js(self, script, *arguments):
         return self.driver.execute_script(script, list(arguments), sandbox=None, new_sandbox=False)
 
     def mouse(self, places):
-        chain = self.driver.actions.sequence('pointer', 'mouse', {'pointerType': 'mouse'})
+        chain = self.driver.actions.sequence("pointer", "mouse", {"pointerType": "mouse"})
         chain.pointer_move(*places[0]).pointer_down()
         for place in places[1:]:
             chain.pointer_move(*place, duration=50)
         chain.pointer_up().perform()
 
     def key(self, key):
-        self.driver.actions.sequence('key', 'keys').key_down(KEYS[key]).key_up(KEYS[key]).perform()
+        self.driver.actions.sequence("key", "keys").key_down(KEYS[key]).key_up(KEYS[key]).perform()
 
     def picture(self):
         import base64
+
         return base64.b64decode(self.driver.screenshot(full=False))
 
 
@@ -66,10 +78,13 @@ class WebKit:
 
     def __init__(self, size, forced=False):
         from selenium import webdriver
+
         options = webdriver.WebKitGTKOptions()
-        options.binary_location = next(str(p) for p in pathlib.Path('/usr/lib').glob('*/webkit2gtk-4.*/MiniBrowser'))
-        options.add_argument('--automation')
-        self.driver = webdriver.WebKitGTK(options=options, service=webdriver.WebKitGTKService('/usr/bin/WebKitWebDriver'))
+        options.binary_location = next(str(p) for p in pathlib.Path("/usr/lib").glob("*/webkit2gtk-4.*/MiniBrowser"))
+        options.add_argument("--automation")
+        self.driver = webdriver.WebKitGTK(
+            options=options, service=webdriver.WebKitGTKService("/usr/bin/WebKitWebDriver")
+        )
         self.driver.set_window_size(*size)
 
     def resize(self, width, height):
@@ -79,7 +94,7 @@ class WebKit:
         self.driver.quit()
 
     def go(self, url):
-        self.driver.get('about:blank')
+        self.driver.get("about:blank")
         self.driver.get(url)
 
     def js(self, script, *arguments):
@@ -87,6 +102,7 @@ class WebKit:
 
     def mouse(self, places):
         from selenium.webdriver.common.action_chains import ActionChains
+
         chain = ActionChains(self.driver, duration=50)
         chain.w3c_actions.pointer_action.move_to_location(*places[0]).pointer_down()
         for place in places[1:]:
@@ -96,6 +112,7 @@ class WebKit:
 
     def key(self, key):
         from selenium.webdriver.common.action_chains import ActionChains
+
         ActionChains(self.driver).send_keys(KEYS[key]).perform()
 
     def picture(self):
@@ -104,6 +121,7 @@ class WebKit:
 
 class SlowLine(threading.Thread):
     """A line to a port of this machine: 150 ms each way, and so many bytes a second for all connections together."""
+
     late_s, bytes_s = 0.15, 1e6 / 8
 
     def __init__(self, to):
@@ -116,20 +134,21 @@ class SlowLine(threading.Thread):
         asyncio.run(self.serve())
 
     async def serve(self):
-        server = await asyncio.start_server(self.connect, '127.0.0.1', 0)
+        server = await asyncio.start_server(self.connect, "127.0.0.1", 0)
         self.port = server.sockets[0].getsockname()[1]
         self.ready.set()
         await server.serve_forever()
 
     async def connect(self, reader, writer):
         try:
-            far_reader, far_writer = await asyncio.open_connection('127.0.0.1', self.to)
+            far_reader, far_writer = await asyncio.open_connection("127.0.0.1", self.to)
         except OSError:
             return writer.close()
         await asyncio.gather(self.carry(reader, far_writer), self.carry(far_reader, writer), return_exceptions=True)
 
     async def carry(self, reader, writer):
-        """Bytes leave in the order in which they came, each piece once the line is free and its way is done; what is on its way holds up nothing that follows."""
+        """Bytes leave in the order in which they came, each piece once the line is free and its way is done; what is on
+        its way holds up nothing that follows."""
         way = asyncio.Queue(64)
 
         async def arrive():
@@ -148,7 +167,7 @@ class SlowLine(threading.Thread):
                 try:
                     piece = await reader.read(4096)
                 except OSError:  # the browser has dropped it
-                    piece = b''
+                    piece = b""
                 self.free = max(self.free, time.monotonic()) + len(piece) / self.bytes_s
                 await way.put((self.free + self.late_s, piece))
                 if not piece:
@@ -171,66 +190,78 @@ class Others(unittest.TestCase):
         self.addCleanup(self.browser.close)
 
     def open(self, fragment, ready=AT_REST, port=None):
-        self.browser.go(f'http://127.0.0.1:{port or self.daemon.port}/#{fragment}')
+        self.browser.go(f"http://127.0.0.1:{port or self.daemon.port}/#{fragment}")
         self.wait(f"return !!document.querySelector('{ready}')")
 
     def wait(self, script):
-        self.assertTrue(daemon.eventually(lambda: self.browser.js(script), 240), script + ': ' + str(self.browser.js('return document.body.innerText.slice(0, 400)')))
+        self.assertTrue(
+            daemon.eventually(lambda: self.browser.js(script), 240),
+            script + ": " + str(self.browser.js("return document.body.innerText.slice(0, 400)")),
+        )
 
     def shot(self, name):
-        folder = pathlib.Path(os.environ.get('KERRD_SHOTS', tempfile.gettempdir()))
-        (folder / f'{self.kind.__name__.lower()}-{name}.png').write_bytes(self.browser.picture())
+        folder = pathlib.Path(os.environ.get("KERRD_SHOTS", tempfile.gettempdir()))
+        (folder / f"{self.kind.__name__.lower()}-{name}.png").write_bytes(self.browser.picture())
 
     def test_views_in_both_languages(self):
         self.start()
-        for lang in ('en', 'it'):
+        for lang in ("en", "it"):
             for view, ready in READY.items():
                 with self.subTest(view=view, lang=lang):
-                    self.open(f'lang={lang}&view={view}&pause=1&play.paused=1', ready)
-                    self.assertEqual(self.browser.js('return document.documentElement.lang'), lang)
-                    self.wait('return document.documentElement.scrollWidth <= innerWidth')
-                    self.assertEqual(self.browser.js("return [...document.querySelectorAll('.fault')].map(n => n.textContent).join('')"), '')
-                    self.shot(f'{view}-{lang}')
+                    self.open(f"lang={lang}&view={view}&pause=1&play.paused=1", ready)
+                    self.assertEqual(self.browser.js("return document.documentElement.lang"), lang)
+                    self.wait("return document.documentElement.scrollWidth <= innerWidth")
+                    self.assertEqual(
+                        self.browser.js(
+                            "return [...document.querySelectorAll('.fault')].map(n => n.textContent).join('')"
+                        ),
+                        "",
+                    )
+                    self.shot(f"{view}-{lang}")
 
     def test_drag_and_keyboard(self):
         self.start()
-        self.open('lang=en&pause=1')
+        self.open("lang=en&pause=1")
         self.drag_and_press()
 
     def test_a_slow_line(self):
         line = SlowLine(self.daemon.port)
         self.start((1024, 700))
         begun = time.monotonic()
-        self.open('lang=en&pause=1', port=line.port)
-        self.assertGreater(time.monotonic() - begun, 4 * line.late_s, 'the line is slow')
+        self.open("lang=en&pause=1", port=line.port)
+        self.assertGreater(time.monotonic() - begun, 4 * line.late_s, "the line is slow")
         self.drag_and_press()
-        for view in ('orbits', 'playground'):
-            self.open(f'lang=en&view={view}', READY[view], port=line.port)
+        for view in ("orbits", "playground"):
+            self.open(f"lang=en&view={view}", READY[view], port=line.port)
 
     def drag_and_press(self):
-        middle = self.browser.js("const r = document.getElementById('stage').getBoundingClientRect(); return [r.x + r.width / 2, r.y + r.height / 2].map(Math.round)")
+        middle = self.browser.js(
+            "const r = document.getElementById('stage').getBoundingClientRect(); return [r.x + r.width / 2, r.y + r.height / 2].map(Math.round)"
+        )
         self.browser.mouse([middle] + [[middle[0] + 20 * k, middle[1] + 5 * k] for k in range(1, 6)])
         self.wait("return location.hash.includes('camera.azimuth_deg')")
         self.wait(f"return !!document.querySelector('{AT_REST}')")
-        before = self.browser.js('return location.hash')
+        before = self.browser.js("return location.hash")
         self.browser.js("document.getElementById('stage').focus()")
-        self.browser.key('right')
+        self.browser.key("right")
         self.wait(f"return location.hash !== {before!r} && !!document.querySelector('{AT_REST}')")
-        self.browser.key('space')
+        self.browser.key("space")
         self.wait("return !location.hash.includes('pause=1')")
 
     def test_the_server_begins_again(self):
         self.start()
         for view, ready in READY.items():
             with self.subTest(view):
-                self.open(f'lang=en&view={view}&pause=1', ready)
+                self.open(f"lang=en&view={view}&pause=1", ready)
                 port = self.daemon.port
                 self.daemon.stop()
                 time.sleep(1)
-                self.daemon = daemon.Daemon('--port', port)
+                self.daemon = daemon.Daemon("--port", port)
                 self.wait(f"return !!document.querySelector('{ready}')")
-                if view == 'lensing':
-                    self.browser.js("const box = document.querySelector('[data-path=\"spacetime.spin\"] input[type=number]'); box.value = '0.5'; box.dispatchEvent(new Event('change', { bubbles: true }))")
+                if view == "lensing":
+                    self.browser.js(
+                        "const box = document.querySelector('[data-path=\"spacetime.spin\"] input[type=number]'); box.value = '0.5'; box.dispatchEvent(new Event('change', { bubbles: true }))"
+                    )
                 self.wait("return [...document.querySelectorAll('.fault')].every(n => !n.textContent)")
                 self.wait(f"return !!document.querySelector('{ready}')")
 
@@ -241,26 +272,33 @@ class Others(unittest.TestCase):
             self.browser.resize(*size)
             for view, ready in READY.items():
                 with self.subTest(view=view, size=size):
-                    self.open(f'lang=it&view={view}&pause=1&play.paused=1', ready)
-                    self.wait('return document.documentElement.scrollWidth <= innerWidth')
-                    self.shot(f'{view}-{size[0]}')
+                    self.open(f"lang=it&view={view}&pause=1&play.paused=1", ready)
+                    self.wait("return document.documentElement.scrollWidth <= innerWidth")
+                    self.shot(f"{view}-{size[0]}")
 
     def test_forced_colours(self):
         if not self.kind.forced:
-            print('left out: this driver cannot force colours')
+            print("left out: this driver cannot force colours")
             return
         self.start(forced=True)
-        self.open('lang=en&view=playground&play.paused=1', READY['playground'])
+        self.open("lang=en&view=playground&play.paused=1", READY["playground"])
         self.assertTrue(self.browser.js("return matchMedia('(forced-colors: active)').matches"))
-        self.shot('forced')
+        self.shot("forced")
 
 
-if __name__ == '__main__':
-    Others.kind = {'firefox': Firefox, 'webkit': WebKit}[sys.argv.pop(2)]
-    if Others.kind is WebKit and not os.environ.get('DISPLAY'):
-        screen = subprocess.Popen(['Xvfb', '-displayfd', '1', '-screen', '0', '1600x1000x24'], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
-        os.environ['DISPLAY'] = ':' + screen.stdout.readline().strip()
+if __name__ == "__main__":
+    Others.kind = {"firefox": Firefox, "webkit": WebKit}[sys.argv.pop(2)]
+    if Others.kind is WebKit and not os.environ.get("DISPLAY"):
+        screen = subprocess.Popen(
+            ["Xvfb", "-displayfd", "1", "-screen", "0", "1600x1000x24"],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            text=True,
+        )
+        os.environ["DISPLAY"] = ":" + screen.stdout.readline().strip()
         atexit.register(screen.terminate)
-        os.environ.update(WEBKIT_DISABLE_COMPOSITING_MODE='1', LIBGL_ALWAYS_SOFTWARE='1', LC_ALL='C.UTF-8')  # there is no GPU
-    daemon.COMMAND[:] = [os.path.abspath(sys.argv[1]), 'serve']
-    unittest.main(argv=[sys.argv[0], *sys.argv[2:], '-v'])
+        os.environ.update(
+            WEBKIT_DISABLE_COMPOSITING_MODE="1", LIBGL_ALWAYS_SOFTWARE="1", LC_ALL="C.UTF-8"
+        )  # there is no GPU
+    daemon.COMMAND[:] = [os.path.abspath(sys.argv[1]), "serve"]
+    unittest.main(argv=[sys.argv[0], *sys.argv[2:], "-v"])

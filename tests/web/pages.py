@@ -1,4 +1,5 @@
 """What all views share: two languages, small windows, Back, who reads by ear: pages.py KERRD FOLDER (browser.py)."""
+
 import json
 import pathlib
 import re
@@ -8,7 +9,7 @@ import daemon
 
 
 # Controls that stick out of the page, and buttons that lie over one another.
-CROWDED = '''() => {
+CROWDED = """() => {
     const shown = [...document.querySelectorAll('button, a.button, select, summary, label, input')].filter(n => n.checkVisibility() && !n.closest('[aria-hidden=true]'));
     const box = n => n.getBoundingClientRect(), text = n => n.outerHTML.slice(0, 80);
     const wide = shown.filter(n => box(n).width && (box(n).right > innerWidth + 1 || box(n).left < -1) && !n.closest('[role=toolbar], nav, .scroll')).map(text);
@@ -18,186 +19,297 @@ CROWDED = '''() => {
         if (across > 2 && down > 2 && a.closest('#panel, header, .scene, section.page, #playground') === b.closest('#panel, header, .scene, section.page, #playground')) wide.push(text(a) + ' over ' + text(b));
     }
     return wide;
-}'''
+}"""
 
 
 class Pages(Browser):
     def test_both_languages(self):
-        english, italian = self.open(), self.open('lang=it')
-        self.assertEqual([p.get_attribute('html', 'lang') for p in (english, italian)], ['en', 'it'])
-        self.assertEqual(english.inner_text('nav [aria-current]'), 'Lensing')
-        self.assertEqual(italian.inner_text('nav [aria-current]'), 'Lente')
+        english, italian = self.open(), self.open("lang=it")
+        self.assertEqual([p.get_attribute("html", "lang") for p in (english, italian)], ["en", "it"])
+        self.assertEqual(english.inner_text("nav [aria-current]"), "Lensing")
+        self.assertEqual(italian.inner_text("nav [aria-current]"), "Lente")
         self.open_groups(italian)
-        self.assertIn('doppia precisione', italian.inner_text('#accuracy-words'))
-        left = italian.locator('#lensing [lang=en]').all_inner_texts()
-        self.assertEqual(left, [], 'what the server says and it.js does not translate')
-        labels = [p.locator('#fields .head > label').all_text_contents() for p in (english, italian)]
+        self.assertIn("doppia precisione", italian.inner_text("#accuracy-words"))
+        left = italian.locator("#lensing [lang=en]").all_inner_texts()
+        self.assertEqual(left, [], "what the server says and it.js does not translate")
+        labels = [p.locator("#fields .head > label").all_text_contents() for p in (english, italian)]
         self.assertGreater(len(set(labels[1]) - set(labels[0])), 25)
-        italian.click('[data-lang=en]')
-        italian.wait_for_selector('html[lang=en]')
-        self.shot(self.open('lang=it&over=shadow,flamm&camera.inclination_deg=75', FINE), 'lensing-it')
+        italian.click("[data-lang=en]")
+        italian.wait_for_selector("html[lang=en]")
+        self.shot(self.open("lang=it&over=shadow,flamm&camera.inclination_deg=75", FINE), "lensing-it")
 
     def test_each_choice_has_its_word(self):
-        """Of each field with choices, in Italian; in English nothing stands as a program writes it: with an underscore, or a name of letters and numbers with a hyphen."""
+        """Of each field with choices, in Italian; in English nothing stands as a program writes it: with an underscore,
+        or a name of letters and numbers with a hyphen."""
         schema = self.schema()
-        choices = [(path, word) for path, row, _ in rows(schema) for word in row.get('enum', row.get('items', {}).get('enum', []))]
+        choices = [
+            (path, word)
+            for path, row, _ in rows(schema)
+            for word in row.get("enum", row.get("items", {}).get("enum", []))
+        ]
         self.assertGreater(len(choices), 60)
-        page = self.open('lang=it')
-        left = page.evaluate('async all => { const { values } = await import("./web/it.js"); return all.filter(([path, word]) => !values[`${path} ${word}`] && !values[word]); }', choices)
+        page = self.open("lang=it")
+        left = page.evaluate(
+            'async all => { const { values } = await import("./web/it.js"); return all.filter(([path, word]) => !values[`${path} ${word}`] && !values[word]); }',
+            choices,
+        )
         self.assertEqual(left, [])
-        told = self.open('lang=en').evaluate('async all => { const { word } = await import("./web/i18n.js"); return all.map(([path, name]) => word(name, path)).filter(text => text.includes("_") || /^[a-z]+-[a-z]+\\d/.test(text)); }', choices)
+        told = self.open("lang=en").evaluate(
+            'async all => { const { word } = await import("./web/i18n.js"); return all.map(([path, name]) => word(name, path)).filter(text => text.includes("_") || /^[a-z]+-[a-z]+\\d/.test(text)); }',
+            choices,
+        )
         self.assertEqual(told, [])
 
     def test_refusals_are_told_in_italian(self):
-        page = self.open('lang=it')
-        wrong = ('disk.inner=1', 'camera.r=1.5', 'spacetime.spin=2', 'spacetime.spin=abc', 'disk.outer=3', 'disk.model=foo', 'camera.projection=pinhole',
-                 'camera.projection=ring&camera.r=50', 'camera.r=40&camera.projection=plane', 'spots.0.brightness=1&spots.0.r=2', 'spots.1.r=9', 'spots.0.r=9&spots.2.r=9', 'disk.particles=1e10',
-                 'style.ringdown=1&spacetime.spin=0.99995', 'camera.observer=static&camera.r=1.8&spacetime.spin=0.9', 'camera.observer=keplerian&camera.r=2.5&spacetime.spin=0',
-                 'camera.observer=velocity&camera.r=9&camera.velocity_r=0.8&camera.velocity_phi=0.8', 'camera.observer=infall&camera.r=9&camera.infall_from=8',
-                 'camera.observer=infall&camera.r=9&camera.infall_from=10&camera.infall_energy=1', 'camera.observer=infall&camera.r=3&camera.infall_momentum=5',
-                 'camera.observer=infall&camera.r=9&camera.infall_energy=0.1', 'camera.observer=infall&camera.r=0.2&spacetime.spin=0.9', 'camera.velocity_phi=0.1', 'camera.infall_from=10', 'motion.proper_time_rate=1', 'camera.stereo=pair', 'camera.stereo=pair&camera.r=9&camera.eye_distance=9', 'camera.r=9&motion.proper_time_rate=1&motion.time_rate=2',
-                 'accuracy.steps=7', 'style.beam_uas=20&camera.projection=ring', 'style.beam_uas=1e9', 'style.colour_bar=true',
-                 'disk.mdot_edd=1e9&disk.colour=accretion', 'camera.inclination_deg=200', 'spacetime.mass_msun=0')
+        page = self.open("lang=it")
+        wrong = (
+            "disk.inner=1",
+            "camera.r=1.5",
+            "spacetime.spin=2",
+            "spacetime.spin=abc",
+            "disk.outer=3",
+            "disk.model=foo",
+            "camera.projection=pinhole",
+            "camera.projection=ring&camera.r=50",
+            "camera.r=40&camera.projection=plane",
+            "spots.0.brightness=1&spots.0.r=2",
+            "spots.1.r=9",
+            "spots.0.r=9&spots.2.r=9",
+            "disk.particles=1e10",
+            "style.ringdown=1&spacetime.spin=0.99995",
+            "camera.observer=static&camera.r=1.8&spacetime.spin=0.9",
+            "camera.observer=keplerian&camera.r=2.5&spacetime.spin=0",
+            "camera.observer=velocity&camera.r=9&camera.velocity_r=0.8&camera.velocity_phi=0.8",
+            "camera.observer=infall&camera.r=9&camera.infall_from=8",
+            "camera.observer=infall&camera.r=9&camera.infall_from=10&camera.infall_energy=1",
+            "camera.observer=infall&camera.r=3&camera.infall_momentum=5",
+            "camera.observer=infall&camera.r=9&camera.infall_energy=0.1",
+            "camera.observer=infall&camera.r=0.2&spacetime.spin=0.9",
+            "camera.velocity_phi=0.1",
+            "camera.infall_from=10",
+            "motion.proper_time_rate=1",
+            "camera.stereo=pair",
+            "camera.stereo=pair&camera.r=9&camera.eye_distance=9",
+            "camera.r=9&motion.proper_time_rate=1&motion.time_rate=2",
+            "accuracy.steps=7",
+            "style.beam_uas=20&camera.projection=ring",
+            "style.beam_uas=1e9",
+            "style.colour_bar=true",
+            "disk.mdot_edd=1e9&disk.colour=accretion",
+            "camera.inclination_deg=200",
+            "spacetime.mass_msun=0",
+        )
         answers = []
-        for query in [f'render?{q}' for q in wrong] + ['physics/qnm?l=2&m=3', 'physics/redshift?r=1.2&spin=0.5', 'physics/ring-image?r=1&spin=0.5', 'physics/kerr?spin=2']:
-            answers.append(self.daemon.request('GET', '/v1/' + query))
+        for query in [f"render?{q}" for q in wrong] + [
+            "physics/qnm?l=2&m=3",
+            "physics/redshift?r=1.2&spin=0.5",
+            "physics/ring-image?r=1&spin=0.5",
+            "physics/kerr?spin=2",
+        ]:
+            answers.append(self.daemon.request("GET", "/v1/" + query))
         for spin, p, e in ((2, 6, 0), (0.9, 6, 1), (0.9, 2, 0.5)):
-            answers.append(self.daemon.request('POST', '/v1/orbits', json.dumps({'spin': spin, 'orbit': {'p': p, 'e': e}})))
+            answers.append(
+                self.daemon.request("POST", "/v1/orbits", json.dumps({"spin": spin, "orbit": {"p": p, "e": e}}))
+            )
         for answer in answers:
             self.assertEqual(answer.status, 422)
-            detail = answer.json()['detail']
+            detail = answer.json()["detail"]
             told = page.evaluate('async detail => (await import("./web/it.js")).refusal(detail)', detail)
-            self.assertNotRegex(told or 'allowed', r'allowed|\{|undefined| is | of |degrees|masses', detail)
-        self.assertEqual(page.evaluate('async () => (await import("./web/it.js")).refusal("what is this, allowed are none")'), None)
+            self.assertNotRegex(told or "allowed", r"allowed|\{|undefined| is | of |degrees|masses", detail)
+        self.assertEqual(
+            page.evaluate('async () => (await import("./web/it.js")).refusal("what is this, allowed are none")'), None
+        )
 
     def test_what_shines_is_told_in_italian(self):
         """Whatever emitter there is: what it is called, what is seen of it, and what a button of its is called."""
-        page, seen = self.open('lang=it'), []
-        buttons = [spec['x-button']['title'] for _, spec, _ in rows(self.schema()) if 'x-button' in spec]
-        for scene in ({'sky': {'model': 'grid'}}, {'disk': {'inner': 8}, 'style': {'ringdown': 1}}, {'disk': {'gas': {'amplitude': 1}}},
-                      {'disk': {'model': 'particles'}, 'spots': [{'brightness': 1}, {'brightness': 1}]}, {'bodies': [{'radius': 1}]}):
-            session = self.daemon.request('POST', '/v1/sessions', json.dumps(scene)).json()
-            seen += [text for emitter in session['emitters'] for text in (emitter['title'], emitter.get('sentence')) if text]
-            self.daemon.request('DELETE', f'/v1/sessions/{session["id"]}?token={session["token"]}')
+        page, seen = self.open("lang=it"), []
+        buttons = [spec["x-button"]["title"] for _, spec, _ in rows(self.schema()) if "x-button" in spec]
+        for scene in (
+            {"sky": {"model": "grid"}},
+            {"disk": {"inner": 8}, "style": {"ringdown": 1}},
+            {"disk": {"gas": {"amplitude": 1}}},
+            {"disk": {"model": "particles"}, "spots": [{"brightness": 1}, {"brightness": 1}]},
+            {"bodies": [{"radius": 1}]},
+        ):
+            session = self.daemon.request("POST", "/v1/sessions", json.dumps(scene)).json()
+            seen += [
+                text for emitter in session["emitters"] for text in (emitter["title"], emitter.get("sentence")) if text
+            ]
+            self.daemon.request("DELETE", f"/v1/sessions/{session['id']}?token={session['token']}")
         for text in seen + buttons:
-            told = page.evaluate('async text => { const it = await import("./web/it.js"); return it.sentences[text] ?? it.refusal(text); }', text)
+            told = page.evaluate(
+                'async text => { const it = await import("./web/it.js"); return it.sentences[text] ?? it.refusal(text); }',
+                text,
+            )
             self.assertTrue(told, text)
-            self.assertNotIn('{', told)
+            self.assertNotIn("{", told)
         self.assertGreater(len(seen), 11)
         self.assertGreaterEqual(len(buttons), 4)
 
     def test_each_approximation_has_its_italian(self):
-        page = self.open('lang=it')
-        text = (pathlib.Path(__file__).resolve().parents[2] / 'docs/approximations.md').read_text()
-        sentences = re.findall(r'^\| ([a-z]+: .*?) \| ', text, re.M)
+        page = self.open("lang=it")
+        text = (pathlib.Path(__file__).resolve().parents[2] / "docs/approximations.md").read_text()
+        sentences = re.findall(r"^\| ([a-z]+: .*?) \| ", text, re.M)
         self.assertGreater(len(sentences), 40)
-        left = page.evaluate('async all => { const { sentences } = await import("./web/it.js"); return all.filter(text => !sentences[text]); }', sentences)
+        left = page.evaluate(
+            'async all => { const { sentences } = await import("./web/it.js"); return all.filter(text => !sentences[text]); }',
+            sentences,
+        )
         self.assertEqual(left, [])
 
     def test_phone_and_twice_the_size(self):
-        phone = {'viewport': {'width': 390, 'height': 844}, 'device_scale_factor': 2, 'has_touch': True, 'is_mobile': True}
+        phone = {
+            "viewport": {"width": 390, "height": 844},
+            "device_scale_factor": 2,
+            "has_touch": True,
+            "is_mobile": True,
+        }
         for view in VIEWS:
             with self.subTest(view):
-                page = self.open(f'lang=it&view={view}', READY[view], **phone)
+                page = self.open(f"lang=it&view={view}", READY[view], **phone)
                 self.open_groups(page)
-                self.assertLessEqual(page.evaluate('() => document.documentElement.scrollWidth'), 390)
-                small = page.evaluate('''() => [...document.querySelectorAll('button, a.button, select, summary, input:not([type=range]):not([type=checkbox])')]
-                    .filter(n => n.offsetParent && Math.min(n.offsetWidth, n.offsetHeight) < 24).map(n => n.outerHTML.slice(0, 80))''')
+                self.assertLessEqual(page.evaluate("() => document.documentElement.scrollWidth"), 390)
+                small = page.evaluate("""() => [...document.querySelectorAll('button, a.button, select, summary, input:not([type=range]):not([type=checkbox])')]
+                    .filter(n => n.offsetParent && Math.min(n.offsetWidth, n.offsetHeight) < 24).map(n => n.outerHTML.slice(0, 80))""")
                 self.assertEqual(small, [])
-                self.shot(page, 'phone-' + view)
-                page.set_viewport_size({'width': 720, 'height': 450})  # a window of 1440 x 900 where everything is shown at 200 %
-                self.assertTrue(daemon.eventually(lambda: page.evaluate('() => document.documentElement.scrollWidth') <= 720))
+                self.shot(page, "phone-" + view)
+                page.set_viewport_size(
+                    {"width": 720, "height": 450}
+                )  # a window of 1440 x 900 where everything is shown at 200 %
+                self.assertTrue(
+                    daemon.eventually(lambda: page.evaluate("() => document.documentElement.scrollWidth") <= 720)
+                )
                 self.assertTrue(daemon.eventually(lambda: not page.evaluate(CROWDED)), page.evaluate(CROWDED))
-                self.shot(page, 'twice-' + view)
-                if view == 'lensing':
+                self.shot(page, "twice-" + view)
+                if view == "lensing":
                     whole = '() => document.getElementById("picture").naturalWidth === 2 * document.getElementById("stage").clientWidth'
-                    self.assertTrue(daemon.eventually(lambda: page.evaluate(whole)), 'a picture at rest has all pixels of the device')
+                    self.assertTrue(
+                        daemon.eventually(lambda: page.evaluate(whole)),
+                        "a picture at rest has all pixels of the device",
+                    )
 
     def test_colours_of_the_system(self):
         """Where they are forced, what is chosen still looks other than what is not, and a chart keeps its ground."""
-        page = self.open('lang=en&view=playground&play.paused=1', READY['playground'], forced_colors='active')
-        ground = lambda of: page.locator(of).first.evaluate('node => getComputedStyle(node).backgroundColor')
-        for chosen, other in (('#play-show-plan', '#play-show-both'), ('nav [aria-current]', 'nav [data-view=scale]'), ('[data-lang=en]', '[data-lang=it]')):
+        page = self.open("lang=en&view=playground&play.paused=1", READY["playground"], forced_colors="active")
+        ground = lambda of: page.locator(of).first.evaluate("node => getComputedStyle(node).backgroundColor")
+        for chosen, other in (
+            ("#play-show-plan", "#play-show-both"),
+            ("nav [aria-current]", "nav [data-view=scale]"),
+            ("[data-lang=en]", "[data-lang=it]"),
+        ):
             self.assertNotEqual(ground(chosen), ground(other), chosen)
-        self.assertEqual(ground('#play-charts .chart'), 'rgb(20, 18, 16)')
-        self.shot(page, 'forced-playground')
+        self.assertEqual(ground("#play-charts .chart"), "rgb(20, 18, 16)")
+        self.shot(page, "forced-playground")
 
     def test_narrow(self):
-        for view in ('lensing', 'physics', 'orbits'):
-            page = self.open(f'lang=it&view={view}', READY[view], viewport={'width': 320, 'height': 640})
-            self.assertLessEqual(page.evaluate('() => document.documentElement.scrollWidth'), 320, view)
-            self.assertEqual(page.evaluate('() => new Set([...document.querySelectorAll("nav button")].map(({ offsetTop }) => offsetTop)).size'), 1, 'one row of views')
-            self.assertLessEqual(*page.evaluate('() => [document.querySelector("nav").scrollWidth, document.querySelector("nav").clientWidth]'), 'and all of it is seen')
+        for view in ("lensing", "physics", "orbits"):
+            page = self.open(f"lang=it&view={view}", READY[view], viewport={"width": 320, "height": 640})
+            self.assertLessEqual(page.evaluate("() => document.documentElement.scrollWidth"), 320, view)
+            self.assertEqual(
+                page.evaluate(
+                    '() => new Set([...document.querySelectorAll("nav button")].map(({ offsetTop }) => offsetTop)).size'
+                ),
+                1,
+                "one row of views",
+            )
+            self.assertLessEqual(
+                *page.evaluate(
+                    '() => [document.querySelector("nav").scrollWidth, document.querySelector("nav").clientWidth]'
+                ),
+                "and all of it is seen",
+            )
 
     def test_low(self):
-        page = self.open(viewport={'width': 1100, 'height': 420})
+        page = self.open(viewport={"width": 1100, "height": 420})
         self.open_groups(page)
-        self.assertEqual(page.evaluate('() => document.documentElement.scrollHeight'), 420, 'the panel scrolls, the page does not')
-        page = self.open(viewport={'width': 500, 'height': 320}, device_scale_factor=2)  # a small window, and twice the size
-        box = page.locator('#stage').bounding_box()
-        self.assertLess(box['y'] + box['height'], 300)
-        page = self.open('lang=it', viewport={'width': 844, 'height': 390}, has_touch=True)
-        self.assertLess(page.locator('header').bounding_box()['height'], 60)
-        box = page.locator('#stage').bounding_box()
-        panel = page.locator('#panel').bounding_box()
-        self.assertLessEqual(box['x'] + box['width'], panel['x'], 'the controls stand beside the picture')
-        self.assertLessEqual(panel['y'] + panel['height'], 390)
-        self.assertGreater(box['width'], 400)
+        self.assertEqual(
+            page.evaluate("() => document.documentElement.scrollHeight"), 420, "the panel scrolls, the page does not"
+        )
+        page = self.open(
+            viewport={"width": 500, "height": 320}, device_scale_factor=2
+        )  # a small window, and twice the size
+        box = page.locator("#stage").bounding_box()
+        self.assertLess(box["y"] + box["height"], 300)
+        page = self.open("lang=it", viewport={"width": 844, "height": 390}, has_touch=True)
+        self.assertLess(page.locator("header").bounding_box()["height"], 60)
+        box = page.locator("#stage").bounding_box()
+        panel = page.locator("#panel").bounding_box()
+        self.assertLessEqual(box["x"] + box["width"], panel["x"], "the controls stand beside the picture")
+        self.assertLessEqual(panel["y"] + panel["height"], 390)
+        self.assertGreater(box["width"], 400)
 
     def test_back_goes_from_view_to_view(self):
         page = self.open()
-        for view in ('physics', 'scale'):
-            page.click(f'nav [data-view={view}]')
-        loaded = len([r for r in self.requests if r.url.endswith('/app.js')])
-        self.linked(page, 'view=scale')
+        for view in ("physics", "scale"):
+            page.click(f"nav [data-view={view}]")
+        loaded = len([r for r in self.requests if r.url.endswith("/app.js")])
+        self.linked(page, "view=scale")
         page.go_back()
-        page.wait_for_selector('body[data-view=physics]')
-        page.fill('#in-qnm-spin', '0.9')
-        page.keyboard.press('Tab')
+        page.wait_for_selector("body[data-view=physics]")
+        page.fill("#in-qnm-spin", "0.9")
+        page.keyboard.press("Tab")
         page.go_back()
-        page.wait_for_selector('body[data-view=lensing]')
-        self.assertTrue(daemon.eventually(lambda: (lambda hash: 'view=' not in hash and 'qnm.spin=0.9' in hash)(page.evaluate('location.hash'))), 'what was changed stays')
+        page.wait_for_selector("body[data-view=lensing]")
+        self.assertTrue(
+            daemon.eventually(
+                lambda: (lambda hash: "view=" not in hash and "qnm.spin=0.9" in hash)(page.evaluate("location.hash"))
+            ),
+            "what was changed stays",
+        )
         page.go_forward()
-        page.wait_for_selector('body[data-view=physics]')
-        self.assertTrue(daemon.eventually(lambda: page.input_value('#in-qnm-spin') == '0.9'))
-        self.assertEqual(len([r for r in self.requests if r.url.endswith('/app.js')]), loaded, 'without a new load')
+        page.wait_for_selector("body[data-view=physics]")
+        self.assertTrue(daemon.eventually(lambda: page.input_value("#in-qnm-spin") == "0.9"))
+        self.assertEqual(len([r for r in self.requests if r.url.endswith("/app.js")]), loaded, "without a new load")
         page.evaluate('() => { location.hash = "lang=it&spacetime.spin=0.5"; }')  # as if typed
-        page.wait_for_selector('html[lang=it] ' + AT_REST)
-        self.assertTrue(daemon.eventually(lambda: self.field(page, 'spacetime.spin') == '0.5'))
+        page.wait_for_selector("html[lang=it] " + AT_REST)
+        self.assertTrue(daemon.eventually(lambda: self.field(page, "spacetime.spin") == "0.5"))
         page.go_back()
-        page.wait_for_selector('html[lang=en] body[data-view=physics]')
+        page.wait_for_selector("html[lang=en] body[data-view=physics]")
 
     def test_axe(self):
         try:
             from axe_playwright_python.sync_playwright import Axe
         except ImportError:
-            self.skipTest('axe-playwright-python is not installed')
-        scenes = [(view, f'view={view}&over=shadow&play.paused=1', READY[view]) for view in VIEWS] + [('spot', 'preset=hot-spot&pause=1', '#light .body')]
+            self.skipTest("axe-playwright-python is not installed")
+        scenes = [(view, f"view={view}&over=shadow&play.paused=1", READY[view]) for view in VIEWS] + [
+            ("spot", "preset=hot-spot&pause=1", "#light .body")
+        ]
         for view, fragment, there in scenes:
-            for lang in ('en', 'it'):
+            for lang in ("en", "it"):
                 with self.subTest(view=view, lang=lang):
-                    page = self.open(f'lang={lang}&{fragment}', there)
+                    page = self.open(f"lang={lang}&{fragment}", there)
                     self.open_groups(page)
-                    results = Axe().run(page, options={'runOnly': ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice']})
-                    self.assertGreater(len(results.response['passes']), 15)
-                    found = [f'{v["id"]}: {v["help"]}: {[n["html"][:120] for n in v["nodes"]][:3]}' for v in results.response['violations']]
+                    results = Axe().run(
+                        page,
+                        options={"runOnly": ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"]},
+                    )
+                    self.assertGreater(len(results.response["passes"]), 15)
+                    found = [
+                        f"{v['id']}: {v['help']}: {[n['html'][:120] for n in v['nodes']][:3]}"
+                        for v in results.response["violations"]
+                    ]
                     self.assertEqual(found, [])
-                    if view in ('orbits', 'physics', 'scale', 'playground'):
+                    if view in ("orbits", "physics", "scale", "playground"):
                         self.every_field_speaks(page, view)
 
     def every_field_speaks(self, page, view):
-        page.wait_for_function('view => [...document.querySelectorAll(`#${view} .badge`)].every(badge => badge.title)', arg=view)
-        count, bare = page.evaluate(r'''view => {
+        page.wait_for_function(
+            "view => [...document.querySelectorAll(`#${view} .badge`)].every(badge => badge.title)", arg=view
+        )
+        count, bare = page.evaluate(
+            r"""view => {
             const fields = [...document.querySelectorAll(`#${view} :is(.inputs .field:has(.head), [data-setting])`)];
             const wrong = field => {
                 const control = field.querySelector('input:not([tabindex]), select'), told = control.getAttribute('aria-describedby').split(' ').map(id => document.getElementById(id));
                 return told.length !== 2 || !told.every(Boolean) || told[0].textContent.length < 8 || told[0].lang === 'en' || !told[1].matches('.badge');
             };
             return [fields.length, fields.filter(wrong).map(field => field.textContent)];
-        }''', view)
+        }""",
+            view,
+        )
         self.assertGreater(count, 4)  # real scale has five
         self.assertEqual(bare, [])
 
 
-if __name__ == '__main__':
+if __name__ == "__main__":
     main()

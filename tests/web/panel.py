@@ -1,169 +1,234 @@
 """The panel: controls in groups, what each of them changes: panel.py KERRD FOLDER (browser.py)."""
+
 import re
 
 from browser import AT_REST, Browser, main, rows
 import daemon
 
 
-GROUPS = ('look', 'gas', 'hole', 'camera', 'more')
+GROUPS = ("look", "gas", "hole", "camera", "more")
 SIZES = ((390, 844), (1024, 700), (1440, 900))
 
 
 class Panel(Browser):
     def test_numbers_beside_a_word_have_their_bounds(self):
         """What may be a word too is a number all the same: "infinity" or 0.01 to 1e7."""
-        told = self.open().evaluate('''async () => { const { Scene } = await import("./web/scene.js"), scene = await Scene.load();
-            return [...scene.fields.values()].filter(f => f.word).map(f => [f.path, f.type, f.minimum, f.maximum, f.word]); }''')
-        wanted = {path: [(part['type'], part['minimum'], part['maximum']) for part in spec['anyOf'] if 'minimum' in part] for path, spec, _ in rows(self.schema()) if 'anyOf' in spec}
+        told = self.open().evaluate("""async () => { const { Scene } = await import("./web/scene.js"), scene = await Scene.load();
+            return [...scene.fields.values()].filter(f => f.word).map(f => [f.path, f.type, f.minimum, f.maximum, f.word]); }""")
+        wanted = {
+            path: [(part["type"], part["minimum"], part["maximum"]) for part in spec["anyOf"] if "minimum" in part]
+            for path, spec, _ in rows(self.schema())
+            if "anyOf" in spec
+        }
         self.assertGreater(len(told), 8)
         for path, kind, least, most, word in told:
             if word.__class__ is str and path in wanted and wanted[path]:
                 self.assertEqual((kind, least, most), wanted[path][0], path)
-        self.assertIn(['camera.r', 'number', 0.01, 1e7, 'infinity'], told)
+        self.assertIn(["camera.r", "number", 0.01, 1e7, "infinity"], told)
 
     def test_each_field_stands_in_its_group(self):
-        """In front where the field table says so, else behind a summary; what starts and stops time has its fields beside it."""
+        """In front where the field table says so, else behind a summary; what starts and stops time has its fields
+        beside it."""
         page, schema = self.open(), self.schema()
-        self.assertEqual(tuple(schema['x-groups']), GROUPS)
-        there = page.evaluate('''() => Object.fromEntries([...document.querySelectorAll('[data-path]')].map(node => [node.dataset.path,
-            [node.closest('.group')?.id ?? '', Boolean(node.closest('.rest'))]]))''')
-        wanted = {path: [f'group-{group}', 'x-front' not in row] for path, row, group in rows(schema)}
-        for path in ('time', 'motion.time_rate'):
-            wanted[path] = ['', False]
-        for path in ('image.width', 'image.height'):
+        self.assertEqual(tuple(schema["x-groups"]), GROUPS)
+        there = page.evaluate("""() => Object.fromEntries([...document.querySelectorAll('[data-path]')].map(node => [node.dataset.path,
+            [node.closest('.group')?.id ?? '', Boolean(node.closest('.rest'))]]))""")
+        wanted = {path: [f"group-{group}", "x-front" not in row] for path, row, group in rows(schema)}
+        for path in ("time", "motion.time_rate"):
+            wanted[path] = ["", False]
+        for path in ("image.width", "image.height"):
             del wanted[path]
         self.assertEqual(there, wanted)
-        for lang, titles in (('en', ['Look', 'Gas', 'Hole', 'Camera', 'More']), ('it', ['Aspetto', 'Gas', 'Buco', 'Camera', 'Altro'])):
-            self.assertEqual(self.open('lang=' + lang).locator('#fields > details > summary').all_inner_texts(), titles)
+        for lang, titles in (
+            ("en", ["Look", "Gas", "Hole", "Camera", "More"]),
+            ("it", ["Aspetto", "Gas", "Buco", "Camera", "Altro"]),
+        ):
+            self.assertEqual(self.open("lang=" + lang).locator("#fields > details > summary").all_inner_texts(), titles)
 
     def test_a_newcomer_is_not_drowned(self):
         page = self.open()
-        self.assertEqual([d for d in page.locator('#panel details[open]').evaluate_all('all => all.map(n => n.id)')], ['group-hole'])
-        self.assertLessEqual(page.locator('#panel [data-path]:visible').count(), 3)
+        self.assertEqual(
+            [d for d in page.locator("#panel details[open]").evaluate_all("all => all.map(n => n.id)")], ["group-hole"]
+        )
+        self.assertLessEqual(page.locator("#panel [data-path]:visible").count(), 3)
         for group in GROUPS:
-            page.evaluate('id => { for (const d of document.querySelectorAll("#panel details")) d.open = d.id === id; }', 'group-' + group)
-            self.assertLessEqual(page.locator('#panel [data-path]:visible').count(), 8, group)
+            page.evaluate(
+                'id => { for (const d of document.querySelectorAll("#panel details")) d.open = d.id === id; }',
+                "group-" + group,
+            )
+            self.assertLessEqual(page.locator("#panel [data-path]:visible").count(), 8, group)
 
     def test_what_is_open_outlives_a_reload(self):
         page = self.open()
-        page.focus('#group-gas > summary')
-        page.keyboard.press('Enter')
-        page.focus('#rest-disk > summary')
-        page.keyboard.press('Space')
-        page.click('#group-hole > summary')
+        page.focus("#group-gas > summary")
+        page.keyboard.press("Enter")
+        page.focus("#rest-disk > summary")
+        page.keyboard.press("Space")
+        page.click("#group-hole > summary")
         page.wait_for_selector('[data-path="disk.hardening"] input >> nth=0')
         address = page.url
         page.reload()
         page.wait_for_selector(AT_REST)
-        self.assertEqual(page.locator('#panel details[open]').evaluate_all('all => all.map(n => n.id)'), ['group-gas', 'rest-disk'])
-        self.assertTrue(daemon.eventually(lambda: page.evaluate('0') or page.url == address), 'a link is of the scene')
+        self.assertEqual(
+            page.locator("#panel details[open]").evaluate_all("all => all.map(n => n.id)"), ["group-gas", "rest-disk"]
+        )
+        self.assertTrue(daemon.eventually(lambda: page.evaluate("0") or page.url == address), "a link is of the scene")
 
     def test_help_names_no_paths(self):
         """A help calls other fields by their labels, and points to no file of the source."""
-        for lang, quoted in (('en', '“'), ('it', '«')):
-            page = self.open('lang=' + lang)
-            helps = page.locator('#fields [data-path] > .help').all_text_contents()
+        for lang, quoted in (("en", "“"), ("it", "«")):
+            page = self.open("lang=" + lang)
+            helps = page.locator("#fields [data-path] > .help").all_text_contents()
             self.assertGreater(len(helps), 80)
-            self.assertEqual([text for text in helps if re.search(r'docs/|\b(spacetime|camera|disk|sky|image|style|accuracy|motion|spots|bodies|volume|jets)\.[a-z]', text)], [])
+            self.assertEqual(
+                [
+                    text
+                    for text in helps
+                    if re.search(
+                        r"docs/|\b(spacetime|camera|disk|sky|image|style|accuracy|motion|spots|bodies|volume|jets)\.[a-z]",
+                        text,
+                    )
+                ],
+                [],
+            )
             self.assertGreater(sum(quoted in text for text in helps), 5)
 
     def test_each_control_says_what_it_changes(self):
         schema = self.schema()
-        words = {'en': {'physics': 'physics', 'model': 'model', 'look': 'look'}, 'it': {'physics': 'fisica', 'model': 'modello', 'look': 'aspetto'}}
+        words = {
+            "en": {"physics": "physics", "model": "model", "look": "look"},
+            "it": {"physics": "fisica", "model": "modello", "look": "aspetto"},
+        }
         for lang in words:
-            page = self.open('lang=' + lang)
-            marks = page.evaluate('''() => Object.fromEntries([...document.querySelectorAll('[data-path]')].map(node => {
+            page = self.open("lang=" + lang)
+            marks = page.evaluate("""() => Object.fromEntries([...document.querySelectorAll('[data-path]')].map(node => {
                 const control = node.querySelector('input, select'), ids = control.getAttribute('aria-describedby').split(' ');
                 const badge = node.querySelector('.badge');
                 return [node.dataset.path, [badge.textContent, badge.title, ids.includes(badge.id)]];
-            }))''')
-            legend = dict(page.locator('#natures div').evaluate_all('all => all.map(n => [...n.children].map(c => c.textContent))'))
+            }))""")
+            legend = dict(
+                page.locator("#natures div").evaluate_all(
+                    "all => all.map(n => [...n.children].map(c => c.textContent))"
+                )
+            )
             self.assertEqual(list(legend), list(words[lang].values()))
             for path, row, _ in rows(schema):
                 if path in marks:
-                    word = words[lang][row['x-nature']]
+                    word = words[lang][row["x-nature"]]
                     self.assertEqual(marks[path], [word, legend[word], True], path)
-            for nature, help_ in schema['x-natures'].items():
+            for nature, help_ in schema["x-natures"].items():
                 same = legend[words[lang][nature]].lower() == help_.lower()
-                self.assertEqual(same, lang == 'en', nature)
+                self.assertEqual(same, lang == "en", nature)
 
     def test_a_refusal_opens_what_it_stands_in(self):
-        self.expected = '422'
-        page = self.open('lang=en&disk.inner=1', '#status[data-wrong]')
+        self.expected = "422"
+        page = self.open("lang=en&disk.inner=1", "#status[data-wrong]")
         page.wait_for_selector('[data-path="disk.inner"] .fault >> text=the ISCO')
-        page.wait_for_selector('#group-gas[open] #rest-disk[open]')
+        page.wait_for_selector("#group-gas[open] #rest-disk[open]")
 
     def test_what_means_nothing_is_not_there(self):
         page = self.open()
         self.open_groups(page)
         seen = lambda path: page.is_visible(f'[data-path="{path}"]')
-        self.assertEqual([seen(p) for p in ('sky.brightness', 'spots.0.r', 'disk.particles', 'camera.fov_deg', 'camera.field_m')], [False] * 4 + [True])
-        self.assertFalse(page.is_visible('#rest-sky'), 'nothing is behind it')
-        page.select_option('[data-path="sky.model"] select', 'grid')
-        page.select_option('[data-path="disk.model"] select', 'particles')
+        self.assertEqual(
+            [seen(p) for p in ("sky.brightness", "spots.0.r", "disk.particles", "camera.fov_deg", "camera.field_m")],
+            [False] * 4 + [True],
+        )
+        self.assertFalse(page.is_visible("#rest-sky"), "nothing is behind it")
+        page.select_option('[data-path="sky.model"] select', "grid")
+        page.select_option('[data-path="disk.model"] select', "particles")
         page.uncheck('[data-path="camera.r"] input[type=checkbox]')
-        self.assertEqual([seen(p) for p in ('sky.brightness', 'spots.0.r', 'disk.particles', 'camera.fov_deg', 'camera.field_m')],
-                         [True, False, True, True, False])
-        self.assertTrue(page.is_visible('#rest-sky'))
-        pairs = ('disk.peak_temperature_k', 'disk.mdot_edd'), ('disk.height', 'disk.flare'), ('style.ringdown', 'style.ringdown_time'), ('image.layers', 'image.layer_min')
+        self.assertEqual(
+            [seen(p) for p in ("sky.brightness", "spots.0.r", "disk.particles", "camera.fov_deg", "camera.field_m")],
+            [True, False, True, True, False],
+        )
+        self.assertTrue(page.is_visible("#rest-sky"))
+        pairs = (
+            ("disk.peak_temperature_k", "disk.mdot_edd"),
+            ("disk.height", "disk.flare"),
+            ("style.ringdown", "style.ringdown_time"),
+            ("image.layers", "image.layer_min"),
+        )
         self.assertEqual([[seen(p) for p in pair] for pair in pairs], [[True, False]] * 4)
-        page.select_option('[data-path="disk.model"] select', 'novikov-thorne')
-        page.select_option('[data-path="disk.colour"] select', 'accretion')
-        page.select_option('[data-path="image.layers"] select', 'fate')
-        page.fill('[data-path="disk.height"] input[type=number]', '0.1')
-        page.keyboard.press('Enter')
-        self.assertEqual([[seen(p) for p in pair] for pair in pairs], [[False, True], [True, True], [True, False], [True, True]])
-        page.select_option('[data-path="disk.model"] select', 'none')
-        self.assertEqual([seen(p) for p in ('disk.outer', 'disk.opacity', 'disk.gas.amplitude', 'disk.flare')], [True] + [False] * 3, 'a map counts crossings as far as there')
-        page.select_option('[data-path="image.layers"] select', 'rgb')
-        self.assertFalse(seen('disk.outer'), 'no disk')
-        self.assertFalse(seen('image.pixel_error'))
+        page.select_option('[data-path="disk.model"] select', "novikov-thorne")
+        page.select_option('[data-path="disk.colour"] select', "accretion")
+        page.select_option('[data-path="image.layers"] select', "fate")
+        page.fill('[data-path="disk.height"] input[type=number]', "0.1")
+        page.keyboard.press("Enter")
+        self.assertEqual(
+            [[seen(p) for p in pair] for pair in pairs], [[False, True], [True, True], [True, False], [True, True]]
+        )
+        page.select_option('[data-path="disk.model"] select', "none")
+        self.assertEqual(
+            [seen(p) for p in ("disk.outer", "disk.opacity", "disk.gas.amplitude", "disk.flare")],
+            [True] + [False] * 3,
+            "a map counts crossings as far as there",
+        )
+        page.select_option('[data-path="image.layers"] select', "rgb")
+        self.assertFalse(seen("disk.outer"), "no disk")
+        self.assertFalse(seen("image.pixel_error"))
         page.check('[data-path="image.samples"] input[type=checkbox]')
-        self.assertTrue(seen('image.pixel_error'))
+        self.assertTrue(seen("image.pixel_error"))
         self.assertTrue(page.is_disabled('[data-path="image.samples"] input[type=range]'))
 
     def test_a_sky_and_an_observer_have_their_own_fields(self):
         """And a sentence that says what is chosen, in each language another one."""
-        page, told = self.open('lang=en&camera.r=30&sky.model=grid&pause=1'), {}
+        page, told = self.open("lang=en&camera.r=30&sky.model=grid&pause=1"), {}
         self.open_groups(page)
-        sky = {'grid': ['brightness', 'grid_deg'], 'stars': ['brightness', 'milky_way', 'image', 'limit_mag', 'seed', 'orientation', 'turn_deg', 'tilt_deg'], 'none': []}
-        sky['catalogue'], sky['image'] = sky['stars'], [name for name in sky['stars'] if name != 'limit_mag']
-        observer = {'static': [], 'zamo': [], 'keplerian': [], 'retrograde': [], 'infall': ['infall_from', 'infall_energy', 'infall_momentum'],
-                    'velocity': ['velocity_r', 'velocity_theta', 'velocity_phi']}
-        for path, own in (('sky.model', sky), ('camera.observer', observer)):
-            home = path.split('.')[0]
+        sky = {
+            "grid": ["brightness", "grid_deg"],
+            "stars": ["brightness", "milky_way", "image", "limit_mag", "seed", "orientation", "turn_deg", "tilt_deg"],
+            "none": [],
+        }
+        sky["catalogue"], sky["image"] = sky["stars"], [name for name in sky["stars"] if name != "limit_mag"]
+        observer = {
+            "static": [],
+            "zamo": [],
+            "keplerian": [],
+            "retrograde": [],
+            "infall": ["infall_from", "infall_energy", "infall_momentum"],
+            "velocity": ["velocity_r", "velocity_theta", "velocity_phi"],
+        }
+        for path, own in (("sky.model", sky), ("camera.observer", observer)):
+            home = path.split(".")[0]
             every = {name for names in own.values() for name in names}
             select = page.locator(f'[data-path="{path}"] select')
-            self.assertEqual(select.locator('option').evaluate_all('all => all.map(o => o.value).sort()'), sorted(own))
+            self.assertEqual(select.locator("option").evaluate_all("all => all.map(o => o.value).sort()"), sorted(own))
             for choice, names in own.items():
                 select.select_option(choice)
-                shown = {name for name in every if page.locator(f'[data-path="{home}.{name}"]').evaluate('node => !node.hidden')}
+                shown = {
+                    name
+                    for name in every
+                    if page.locator(f'[data-path="{home}.{name}"]').evaluate("node => !node.hidden")
+                }
                 self.assertEqual(shown, set(names), choice)
                 told[choice] = page.inner_text(f'[data-path="{path}"] .help')
         self.assertEqual(len(set(told.values())), len(told))
-        italian = self.open('lang=it&camera.r=30&sky.model=grid&camera.observer=zamo')
+        italian = self.open("lang=it&camera.r=30&sky.model=grid&camera.observer=zamo")
         self.open_groups(italian)
-        for path, choice in (('sky.model', 'grid'), ('camera.observer', 'zamo')):
-            self.assertNotIn(italian.inner_text(f'[data-path="{path}"] .help'), ('', told[choice]))
+        for path, choice in (("sky.model", "grid"), ("camera.observer", "zamo")):
+            self.assertNotIn(italian.inner_text(f'[data-path="{path}"] .help'), ("", told[choice]))
 
     def test_each_pass_has_a_name(self):
-        page = self.open('lang=it&pause=1&disk.gas.amplitude=1&style.bloom=0.3&spots.0.brightness=1')
+        page = self.open("lang=it&pause=1&disk.gas.amplitude=1&style.bloom=0.3&spots.0.brightness=1")
         self.open_groups(page)
-        shown = page.locator('#timings th').all_inner_texts()
-        passes = {entry.strip().split(';')[0] for r in self.frames for entry in r.headers['server-timing'].split(',')}
-        self.assertGreater(len(passes & {'trace', 'transfer', 'post', 'light', 'bloom', 'footprint'}), 4, passes)
+        shown = page.locator("#timings th").all_inner_texts()
+        passes = {entry.strip().split(";")[0] for r in self.frames for entry in r.headers["server-timing"].split(",")}
+        self.assertGreater(len(passes & {"trace", "transfer", "post", "light", "bloom", "footprint"}), 4, passes)
         self.assertEqual(passes & set(shown), set())
 
     def test_layouts(self):
         """At no size does anything stand over anything else, or out of the window."""
         for width, height in SIZES:
-            for lang in ('en', 'it'):
+            for lang in ("en", "it"):
                 with self.subTest(width=width, lang=lang):
-                    page = self.open(f'lang={lang}&spots.0.brightness=4&pause=1', viewport={'width': width, 'height': height})
-                    self.shot(page, f'panel-{width}-{lang}')
+                    page = self.open(
+                        f"lang={lang}&spots.0.brightness=4&pause=1", viewport={"width": width, "height": height}
+                    )
+                    self.shot(page, f"panel-{width}-{lang}")
                     self.open_groups(page)
-                    self.assertLessEqual(page.evaluate('() => document.documentElement.scrollWidth'), width)
-                    wrong = page.evaluate('''() => {
+                    self.assertLessEqual(page.evaluate("() => document.documentElement.scrollWidth"), width)
+                    wrong = page.evaluate("""() => {
                         const wrong = [], panel = document.getElementById('panel').getBoundingClientRect();
                         for (const head of document.querySelectorAll('.head')) {
                             if (!head.offsetParent) continue;
@@ -171,10 +236,10 @@ class Panel(Browser):
                             if (label.right > badge.left || badge.bottom > below.top + 1 || badge.right > panel.right) wrong.push(head.textContent);
                         }
                         return wrong;
-                    }''')
+                    }""")
                     self.assertEqual(wrong, [])
-                    self.shot(page, f'panel-{width}-{lang}-open', full_page=width < 500)
+                    self.shot(page, f"panel-{width}-{lang}-open", full_page=width < 500)
 
 
-if __name__ == '__main__':
+if __name__ == "__main__":
     main()

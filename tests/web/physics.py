@@ -1,4 +1,5 @@
 """The curves, the sound of a ringdown, and the view of real scale: physics.py KERRD FOLDER (browser.py)."""
+
 import pathlib
 import re
 
@@ -8,230 +9,275 @@ import daemon
 
 class Physics(Browser):
     def test_physics(self):
-        page = self.open('lang=en&view=physics', '#curves .card:last-child canvas')
-        cards = page.locator('.card')
+        page = self.open("lang=en&view=physics", "#curves .card:last-child canvas")
+        cards = page.locator(".card")
         self.assertGreaterEqual(cards.count(), 9)
         for i in range(cards.count()):
-            name = cards.nth(i).get_attribute('id')
-            self.assertTrue(daemon.eventually(lambda: self.drawn(page, f'#{name} canvas')['coloured'] > 300), name)
-            page.click(f'#{name} summary >> nth=0')
-            page.wait_for_selector(f'#{name} tbody tr >> nth=5')
-            self.assertEqual(cards.nth(i).locator('.fault').inner_text(), '')
-            self.assertEqual(cards.nth(i).locator('math').count(), 1)
-        self.shot(page, 'physics', full_page=True)
-        last = page.locator('#curve-kerr tbody tr').first.inner_text().split()
-        self.assertEqual(last, ['0', '3', '3', '6', '6', '2'])
-        before = self.drawn(page, '#curve-qnm canvas')
-        page.fill('#in-qnm-spin', '0.95')
-        page.keyboard.press('Tab')
-        self.assertTrue(daemon.eventually(lambda: self.drawn(page, '#curve-qnm canvas')['hash'] != before['hash']))
-        self.linked(page, 'qnm.spin=0.95')
+            name = cards.nth(i).get_attribute("id")
+            self.assertTrue(daemon.eventually(lambda: self.drawn(page, f"#{name} canvas")["coloured"] > 300), name)
+            page.click(f"#{name} summary >> nth=0")
+            page.wait_for_selector(f"#{name} tbody tr >> nth=5")
+            self.assertEqual(cards.nth(i).locator(".fault").inner_text(), "")
+            self.assertEqual(cards.nth(i).locator("math").count(), 1)
+        self.shot(page, "physics", full_page=True)
+        last = page.locator("#curve-kerr tbody tr").first.inner_text().split()
+        self.assertEqual(last, ["0", "3", "3", "6", "6", "2"])
+        before = self.drawn(page, "#curve-qnm canvas")
+        page.fill("#in-qnm-spin", "0.95")
+        page.keyboard.press("Tab")
+        self.assertTrue(daemon.eventually(lambda: self.drawn(page, "#curve-qnm canvas")["hash"] != before["hash"]))
+        self.linked(page, "qnm.spin=0.95")
 
     def test_what_a_scene_adds_up_to(self):
-        """Line, spectrum and visibilities of the scene that is shown: asked for when one is chosen, again when the scene has changed, and kept as CSV."""
-        page = self.open(SMOOTH + '&lang=en&spacetime.spin=0.5&camera.inclination_deg=40')
-        page.click('#integrals > summary')
-        figure = '#integral-plot figure'
+        """Line, spectrum and visibilities of the scene that is shown: asked for when one is chosen, again when the
+        scene has changed, and kept as CSV."""
+        page = self.open(SMOOTH + "&lang=en&spacetime.spin=0.5&camera.inclination_deg=40")
+        page.click("#integrals > summary")
+        figure = "#integral-plot figure"
 
         def choose(kind, words):
-            page.select_option('#integral', kind)
-            page.wait_for_selector(f'#integral-plot[data-state={kind}]')
+            page.select_option("#integral", kind)
+            page.wait_for_selector(f"#integral-plot[data-state={kind}]")
             page.wait_for_selector(f'{figure} figcaption:has-text("{words}")')
-            self.assertTrue(daemon.eventually(lambda: self.drawn(page, f'{figure} canvas')['coloured'] > 100), kind)
+            self.assertTrue(daemon.eventually(lambda: self.drawn(page, f"{figure} canvas")["coloured"] > 100), kind)
 
         def numbers():
             with page.expect_download() as download:
-                page.click(f'{figure} a[download]')
-            return [[float(cell) for cell in line.split(',')] for line in pathlib.Path(download.value.path()).read_text().splitlines()[1:]]
+                page.click(f"{figure} a[download]")
+            return [
+                [float(cell) for cell in line.split(",")]
+                for line in pathlib.Path(download.value.path()).read_text().splitlines()[1:]
+            ]
 
-        self.assertEqual(page.locator('#integral-plot *').count(), 0, 'nothing is asked for before')
-        choose('line', 'Line profile')
-        page.click(f'{figure} summary')
+        self.assertEqual(page.locator("#integral-plot *").count(), 0, "nothing is asked for before")
+        choose("line", "Line profile")
+        page.click(f"{figure} summary")
         rows = numbers()
         self.assertEqual(len(rows), 300)
         self.assertAlmostEqual(sum(y for _, y in rows) * 8 / 300, 1, delta=0.01)  # the share between 2 and 10 keV
-        self.there(page, 'Estimated error', figure)
-        with page.expect_request('**/v1/line') as asked:
-            page.fill('#in-line-index', '2')
-            page.keyboard.press('Tab')
-        self.assertEqual(asked.value.post_data_json, {'spin': 0.5, 'inclination_deg': 40, 'outer': 22, 'index': 2, 'rest_energy': 6.4, 'energy_min': 2, 'energy_max': 10, 'bins': 300})
-        with page.expect_request('**/v1/line') as asked:
-            page.evaluate('() => { for (const name of ["hole", "camera"]) document.getElementById("group-" + name).open = true; }')
-            page.fill('[data-path="spacetime.spin"] input[type=number]', '0.7')
-            page.keyboard.press('Tab')
-        self.assertEqual(asked.value.post_data_json['spin'], 0.7)
-        choose('visibility', 'Visibility by baseline')
-        self.there(page, 'share of all light', figure)
-        self.assertTrue(daemon.eventually(lambda: [round(y, 6) for y in numbers()[0][1:3]] == [1, 1]), 'without a baseline it is all light')
-        self.shot(page, 'integrals-visibility', full_page=True)
-        choose('spectrum', 'Spectrum')
-        self.there(page, 'thin disk of black bodies', figure)
+        self.there(page, "Estimated error", figure)
+        with page.expect_request("**/v1/line") as asked:
+            page.fill("#in-line-index", "2")
+            page.keyboard.press("Tab")
+        self.assertEqual(
+            asked.value.post_data_json,
+            {
+                "spin": 0.5,
+                "inclination_deg": 40,
+                "outer": 22,
+                "index": 2,
+                "rest_energy": 6.4,
+                "energy_min": 2,
+                "energy_max": 10,
+                "bins": 300,
+            },
+        )
+        with page.expect_request("**/v1/line") as asked:
+            page.evaluate(
+                '() => { for (const name of ["hole", "camera"]) document.getElementById("group-" + name).open = true; }'
+            )
+            page.fill('[data-path="spacetime.spin"] input[type=number]', "0.7")
+            page.keyboard.press("Tab")
+        self.assertEqual(asked.value.post_data_json["spin"], 0.7)
+        choose("visibility", "Visibility by baseline")
+        self.there(page, "share of all light", figure)
+        self.assertTrue(
+            daemon.eventually(lambda: [round(y, 6) for y in numbers()[0][1:3]] == [1, 1]),
+            "without a baseline it is all light",
+        )
+        self.shot(page, "integrals-visibility", full_page=True)
+        choose("spectrum", "Spectrum")
+        self.there(page, "thin disk of black bodies", figure)
         self.axe(page)
-        page.click('#integrals > summary')
-        page.fill('[data-path="spacetime.spin"] input[type=number]', '0.6')
-        page.keyboard.press('Tab')
+        page.click("#integrals > summary")
+        page.fill('[data-path="spacetime.spin"] input[type=number]', "0.6")
+        page.keyboard.press("Tab")
         page.wait_for_selector(AT_REST)
-        with page.expect_request('**/v1/spectrum') as asked:
-            page.click('#integrals > summary')
-        self.assertEqual(asked.value.post_data_json['spin'], 0.6, 'what has changed while it was folded')
-        self.expected = '422'
-        page.fill('[data-path="camera.inclination_deg"] input[type=number]', '90')
-        page.keyboard.press('Tab')
+        with page.expect_request("**/v1/spectrum") as asked:
+            page.click("#integrals > summary")
+        self.assertEqual(asked.value.post_data_json["spin"], 0.6, "what has changed while it was folded")
+        self.expected = "422"
+        page.fill('[data-path="camera.inclination_deg"] input[type=number]', "90")
+        page.keyboard.press("Tab")
         page.wait_for_selector('#integral-plot .fault:has-text("edge on")')
-        page.wait_for_selector(figure, state='hidden')
-        page.select_option('#integral', '')
-        page.wait_for_selector('#integral-plot .fault', state='hidden')
+        page.wait_for_selector(figure, state="hidden")
+        page.select_option("#integral", "")
+        page.wait_for_selector("#integral-plot .fault", state="hidden")
 
     def test_flux_of_a_volume(self):
         """In the caption of the picture, and as a spectrum of small pictures."""
-        page = self.open('lang=it&preset=riaf&pace=fast&accuracy.profile=draft', '#stage[data-final]', viewport={'width': 400, 'height': 420})
-        self.there(page, 'Jy, 223', '#status')
-        page.click('#integrals > summary')
-        page.select_option('#integral', 'spectrum')
+        page = self.open(
+            "lang=it&preset=riaf&pace=fast&accuracy.profile=draft",
+            "#stage[data-final]",
+            viewport={"width": 400, "height": 420},
+        )
+        self.there(page, "Jy, 223", "#status")
+        page.click("#integrals > summary")
+        page.select_option("#integral", "spectrum")
         page.wait_for_selector('#integral-plot[data-state=spectrum] figcaption:has-text("Spettro")')
-        self.there(page, 'Del volume della scena, 48 pixel', '#integral-plot figure')
-        page.select_option('#integral', 'visibility')
+        self.there(page, "Del volume della scena, 48 pixel", "#integral-plot figure")
+        page.select_option("#integral", "visibility")
         page.wait_for_selector('#integral-plot[data-state=visibility] figcaption:has-text("Visibilità per base")')
-        self.there(page, 'Flusso dell’immagine: ', '#integral-plot figure')
+        self.there(page, "Flusso dell’immagine: ", "#integral-plot figure")
         self.axe(page)
-        self.shot(page, 'integrals-riaf', full_page=True)
+        self.shot(page, "integrals-riaf", full_page=True)
 
     def axe(self, page):
         try:
             from axe_playwright_python.sync_playwright import Axe
         except ImportError:
             return
-        results = Axe().run(page, options={'runOnly': ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice']})
-        self.assertEqual([f'{v["id"]}: {v["help"]}: {[n["html"][:120] for n in v["nodes"]][:3]}' for v in results.response['violations']], [])
+        results = Axe().run(
+            page, options={"runOnly": ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"]}
+        )
+        self.assertEqual(
+            [
+                f"{v['id']}: {v['help']}: {[n['html'][:120] for n in v['nodes']][:3]}"
+                for v in results.response["violations"]
+            ],
+            [],
+        )
 
     def test_a_ringdown_is_heard(self):
-        page = self.open('lang=en&view=physics&qnm.mass_msun=4e6', '#curve-qnm a[href*=wav]')
-        self.there(page, '16 octaves higher', '#curve-qnm')
-        self.assertEqual(page.input_value('#in-qnm-octaves'), '16', 'the field shows those in force')
-        for button, stretched in (('Hear it', True), ('As short as it is', False)):
-            with page.expect_response('**/v1/physics/qnm*format=wav') as answer:
+        page = self.open("lang=en&view=physics&qnm.mass_msun=4e6", "#curve-qnm a[href*=wav]")
+        self.there(page, "16 octaves higher", "#curve-qnm")
+        self.assertEqual(page.input_value("#in-qnm-octaves"), "16", "the field shows those in force")
+        for button, stretched in (("Hear it", True), ("As short as it is", False)):
+            with page.expect_response("**/v1/physics/qnm*format=wav") as answer:
                 page.click(f'#curve-qnm button:has-text("{button}")')
             answer = answer.value
-            self.assertEqual((answer.status, answer.headers['content-type']), (206 if 'content-range' in answer.headers else 200, 'audio/wav'))
-            self.assertEqual(float(re.search('stretch=([^&]*)', answer.url)[1]) > 50, stretched)
-        self.assertRegex(page.inner_text('#curve-qnm'), r'fading stretched [\d,]+ times, by e in [45]\d\d ms')
-        page.fill('#in-qnm-mass_msun', '60')
-        page.keyboard.press('Tab')
+            self.assertEqual(
+                (answer.status, answer.headers["content-type"]),
+                (206 if "content-range" in answer.headers else 200, "audio/wav"),
+            )
+            self.assertEqual(float(re.search("stretch=([^&]*)", answer.url)[1]) > 50, stretched)
+        self.assertRegex(page.inner_text("#curve-qnm"), r"fading stretched [\d,]+ times, by e in [45]\d\d ms")
+        page.fill("#in-qnm-mass_msun", "60")
+        page.keyboard.press("Tab")
         page.wait_for_function('() => document.getElementById("in-qnm-octaves").value === "0"')
-        self.assertTrue(daemon.eventually(lambda: 'octaves' not in page.evaluate('location.hash')))
+        self.assertTrue(daemon.eventually(lambda: "octaves" not in page.evaluate("location.hash")))
         with page.expect_download() as download:
-            page.click('#curve-qnm a[href*=wav]')
-        self.assertEqual(pathlib.Path(download.value.path()).read_bytes()[:4], b'RIFF')
+            page.click("#curve-qnm a[href*=wav]")
+        self.assertEqual(pathlib.Path(download.value.path()).read_bytes()[:4], b"RIFF")
 
     def test_a_ringdown_is_shifted_by_hand(self):
-        page = self.open('lang=en&view=physics&qnm.octaves=-3', '#curve-qnm a[href*=wav]')
-        self.assertIn('3 octaves lower', page.inner_text('#curve-qnm'))
-        self.assertIn('shift_octaves=-3', page.get_attribute('#curve-qnm a[href*=wav]', 'href'))
-        page.fill('#in-qnm-octaves', '-6')
-        page.keyboard.press('Tab')
-        page.wait_for_selector('#curve-qnm >> text=/No ear hears 4.48 Hz/')
-        self.assertEqual(page.locator('#curve-qnm a[href*=wav]').count(), 0)
+        page = self.open("lang=en&view=physics&qnm.octaves=-3", "#curve-qnm a[href*=wav]")
+        self.assertIn("3 octaves lower", page.inner_text("#curve-qnm"))
+        self.assertIn("shift_octaves=-3", page.get_attribute("#curve-qnm a[href*=wav]", "href"))
+        page.fill("#in-qnm-octaves", "-6")
+        page.keyboard.press("Tab")
+        page.wait_for_selector("#curve-qnm >> text=/No ear hears 4.48 Hz/")
+        self.assertEqual(page.locator("#curve-qnm a[href*=wav]").count(), 0)
 
     def test_each_curve_is_explained(self):
         """In both languages: three to six sentences or so under each, and how it follows, folded."""
         told = {}
-        for lang in ('en', 'it'):
-            page = self.open(f'lang={lang}&view=physics', '#curves .card:last-child canvas')
-            told[lang] = dict(zip(page.locator('.card').evaluate_all('all => all.map(n => n.id)'), page.locator('.card .reading').all_inner_texts()))
-            self.assertEqual(len(told[lang]), page.locator('.card').count())
-            page.click('#curve-kerr .derivation summary')
-            page.wait_for_selector('#curve-kerr .derivation li >> nth=2')
-            self.assertEqual(page.locator('.derivation').count(), len(told[lang]))
-        for name, text in told['en'].items():
-            self.assertIn(len(re.findall(r'[.?:](?= |$)', text)), range(4, 12), name)
-            self.assertNotEqual(text, told['it'][name])
-            self.assertLess(abs(len(text) / len(told['it'][name]) - 1), 0.35, name)
+        for lang in ("en", "it"):
+            page = self.open(f"lang={lang}&view=physics", "#curves .card:last-child canvas")
+            told[lang] = dict(
+                zip(
+                    page.locator(".card").evaluate_all("all => all.map(n => n.id)"),
+                    page.locator(".card .reading").all_inner_texts(),
+                )
+            )
+            self.assertEqual(len(told[lang]), page.locator(".card").count())
+            page.click("#curve-kerr .derivation summary")
+            page.wait_for_selector("#curve-kerr .derivation li >> nth=2")
+            self.assertEqual(page.locator(".derivation").count(), len(told[lang]))
+        for name, text in told["en"].items():
+            self.assertIn(len(re.findall(r"[.?:](?= |$)", text)), range(4, 12), name)
+            self.assertNotEqual(text, told["it"][name])
+            self.assertLess(abs(len(text) / len(told["it"][name]) - 1), 0.35, name)
 
     def test_what_turns_light_back(self):
-        page = self.open('lang=en&view=physics&null-potential.b=6', '#curve-null-potential canvas')
-        note = page.locator('#curve-null-potential .plot > .help')
-        self.assertIn('turns at r = 4.453 M', note.inner_text())  # Vieta's formula for r^3 - 36 r + 72 = 0
-        self.assertIn('gets to 2.37 M', note.inner_text())
-        page.fill('#in-null-potential-b', '5')
-        page.keyboard.press('Tab')
-        page.wait_for_selector('#curve-null-potential >> text=/less than 5.196 M, falls in/')
-        page.wait_for_selector('#curve-photon-rings canvas')
-        page.fill('#in-photon-rings-spin', '0')
-        page.keyboard.press('Tab')
-        page.wait_for_selector('#curve-photon-rings >> text=/γ = 3.142, .* 23.1 times thinner/')
+        page = self.open("lang=en&view=physics&null-potential.b=6", "#curve-null-potential canvas")
+        note = page.locator("#curve-null-potential .plot > .help")
+        self.assertIn("turns at r = 4.453 M", note.inner_text())  # Vieta's formula for r^3 - 36 r + 72 = 0
+        self.assertIn("gets to 2.37 M", note.inner_text())
+        page.fill("#in-null-potential-b", "5")
+        page.keyboard.press("Tab")
+        page.wait_for_selector("#curve-null-potential >> text=/less than 5.196 M, falls in/")
+        page.wait_for_selector("#curve-photon-rings canvas")
+        page.fill("#in-photon-rings-spin", "0")
+        page.keyboard.press("Tab")
+        page.wait_for_selector("#curve-photon-rings >> text=/γ = 3.142, .* 23.1 times thinner/")
 
     def test_plots_are_read_by_keyboard(self):
-        page = self.open('lang=en&view=physics', '#curves .card:last-child canvas')
-        chart = page.locator('#curve-kerr .chart')
+        page = self.open("lang=en&view=physics", "#curves .card:last-child canvas")
+        chart = page.locator("#curve-kerr .chart")
         chart.focus()
-        page.keyboard.press('Home')
-        self.assertEqual(page.locator('#curve-kerr .legend b').all_inner_texts(), ['3', '3', '6', '6', '2'])
-        self.assertTrue(chart.get_attribute('aria-valuetext').startswith('spin a / M: 0; photon, with the spin: 3;'))
-        page.keyboard.press('ArrowRight')
-        page.keyboard.press('PageUp')
-        self.assertAlmostEqual(float(chart.get_attribute('aria-valuenow')), 11 * 0.999 / 74, places=12)
-        before = self.drawn(page, '#curve-kerr canvas')
-        button = page.locator('#curve-kerr .legend button').first
+        page.keyboard.press("Home")
+        self.assertEqual(page.locator("#curve-kerr .legend b").all_inner_texts(), ["3", "3", "6", "6", "2"])
+        self.assertTrue(chart.get_attribute("aria-valuetext").startswith("spin a / M: 0; photon, with the spin: 3;"))
+        page.keyboard.press("ArrowRight")
+        page.keyboard.press("PageUp")
+        self.assertAlmostEqual(float(chart.get_attribute("aria-valuenow")), 11 * 0.999 / 74, places=12)
+        before = self.drawn(page, "#curve-kerr canvas")
+        button = page.locator("#curve-kerr .legend button").first
         button.focus()
-        page.keyboard.press('Space')
-        self.assertEqual(button.get_attribute('aria-pressed'), 'false')
-        self.assertLess(self.drawn(page, '#curve-kerr canvas')['coloured'], before['coloured'] - 200)
+        page.keyboard.press("Space")
+        self.assertEqual(button.get_attribute("aria-pressed"), "false")
+        self.assertLess(self.drawn(page, "#curve-kerr canvas")["coloured"], before["coloured"] - 200)
 
     def test_a_browser_that_has_no_language(self):
         """WebKit under LANG=C says "c", which Intl refuses."""
-        for view in ('physics', 'orbits'):
+        for view in ("physics", "orbits"):
             context = self.context()
             context.add_init_script('Object.defineProperty(Navigator.prototype, "language", { get: () => "c" })')
             page = self.page(context)
-            page.goto(f'{self.base}#preset=default&view={view}')
+            page.goto(f"{self.base}#preset=default&view={view}")
             page.wait_for_selector(READY[view])
             self.assertRaises(Exception, page.evaluate, 'new Intl.NumberFormat("c")')
 
     def test_real_scale(self):
-        page = self.open('lang=en&view=scale', '#scale-rows tr')
-        self.there(page, '42 µas', '#scale-rows')
-        self.assertEqual(page.locator('#scale math').count(), 3)
-        self.assertEqual(page.title(), 'Real scale: M87* – kerrd')
-        for hole in ('m87', 'sgra'):
-            page.wait_for_selector(f'#sky-{hole} .beam:not([hidden])')
-        self.shot(page, 'scale')
-        self.assertIn('a ring 42 ± 3 µas across', page.get_attribute('#sky-m87 .sky-stack', 'aria-label'))
-        self.assertIn('a ring 51.8 ± 2.3 µas across', page.get_attribute('#sky-sgra .sky-stack', 'aria-label'))
+        page = self.open("lang=en&view=scale", "#scale-rows tr")
+        self.there(page, "42 µas", "#scale-rows")
+        self.assertEqual(page.locator("#scale math").count(), 3)
+        self.assertEqual(page.title(), "Real scale: M87* – kerrd")
+        for hole in ("m87", "sgra"):
+            page.wait_for_selector(f"#sky-{hole} .beam:not([hidden])")
+        self.shot(page, "scale")
+        self.assertIn("a ring 42 ± 3 µas across", page.get_attribute("#sky-m87 .sky-stack", "aria-label"))
+        self.assertIn("a ring 51.8 ± 2.3 µas across", page.get_attribute("#sky-sgra .sky-stack", "aria-label"))
         # To scale: the ring's diameter and its error over the panel's width, and the same bar, in both.
-        drawn = page.evaluate('''() => ['m87', 'sgra'].map(hole => {
+        drawn = page.evaluate("""() => ['m87', 'sgra'].map(hole => {
             const of = name => document.querySelector(`#sky-${hole} ${name}`), wide = of('.sky-stack').clientWidth;
             const ring = of('.sky-ring').getBoundingClientRect(), band = of('.sky-ring-width').getBBox();
             return [(ring.width - 1.5) / wide, Number(of('.sky-ring-width').getAttribute('stroke-width')) / band.width, of('.bar').getBoundingClientRect().width / wide];
-        })''')
+        })""")
         for (ring, error, bar), (wide, off) in zip(drawn, ((42, 3), (51.8, 2.3))):
             self.assertAlmostEqual(ring, wide / 150, delta=0.012)
             self.assertAlmostEqual(error, off / wide, places=3)
             self.assertAlmostEqual(bar, 50 / 150, delta=0.012)
-        page.select_option('#in-scale-hole', 'sgra')
-        page.wait_for_selector('#scale-rows >> text=51.8 µas')
-        page.wait_for_selector('#sky-sgra[data-chosen]')
-        self.assertEqual(page.input_value('#in-scale-inclination_deg'), '30', 'that of the hole')
-        page.select_option('#in-scale-hole', 'none')
-        page.fill('#in-scale-mass_msun', '1e9')
-        page.keyboard.press('Tab')
-        page.wait_for_selector('#sky-none .sharp:not([hidden])')
-        self.assertTrue(daemon.eventually(lambda: 'measured' not in page.inner_text('#scale-rows')))
-        self.assertTrue(page.is_hidden('#beside'))
+        page.select_option("#in-scale-hole", "sgra")
+        page.wait_for_selector("#scale-rows >> text=51.8 µas")
+        page.wait_for_selector("#sky-sgra[data-chosen]")
+        self.assertEqual(page.input_value("#in-scale-inclination_deg"), "30", "that of the hole")
+        page.select_option("#in-scale-hole", "none")
+        page.fill("#in-scale-mass_msun", "1e9")
+        page.keyboard.press("Tab")
+        page.wait_for_selector("#sky-none .sharp:not([hidden])")
+        self.assertTrue(daemon.eventually(lambda: "measured" not in page.inner_text("#scale-rows")))
+        self.assertTrue(page.is_hidden("#beside"))
 
     def test_from_our_picture_to_the_measured_ring(self):
-        page = self.open('lang=en&view=scale', '#sky-sgra .beam:not([hidden])')
-        shown = lambda: page.evaluate('''() => ['.sharp', '.beam', '.sky-ring-width'].map(part => Number(getComputedStyle(document.querySelector('#sky-m87 ' + part)).opacity))''')
-        self.assertEqual(shown()[1:], [1, 0], 'as a telescope sees it, at first')
-        page.focus('#beside')
-        page.keyboard.press('Home')
-        self.assertEqual((shown(), page.get_attribute('#beside', 'aria-valuetext')), ([1, 0, 0], 'our picture'))
+        page = self.open("lang=en&view=scale", "#sky-sgra .beam:not([hidden])")
+        shown = lambda: page.evaluate(
+            """() => ['.sharp', '.beam', '.sky-ring-width'].map(part => Number(getComputedStyle(document.querySelector('#sky-m87 ' + part)).opacity))"""
+        )
+        self.assertEqual(shown()[1:], [1, 0], "as a telescope sees it, at first")
+        page.focus("#beside")
+        page.keyboard.press("Home")
+        self.assertEqual((shown(), page.get_attribute("#beside", "aria-valuetext")), ([1, 0, 0], "our picture"))
         page.click('.beside button:has-text("ring")')
-        self.assertEqual(page.get_attribute('.beside button:has-text("ring")', 'aria-pressed'), 'true')
+        self.assertEqual(page.get_attribute('.beside button:has-text("ring")', "aria-pressed"), "true")
         self.assertEqual([shown()[0], shown()[2]], [0, 1])
         page.wait_for_function('() => location.hash.includes("scale.beside=2")')
-        asked = [r.url for r in self.requests if '/v1/render?' in r.url]
-        self.assertEqual((len(asked), sum('beam_uas=20' in url for url in asked)), (4, 2), 'the slider asks for nothing')
+        asked = [r.url for r in self.requests if "/v1/render?" in r.url]
+        self.assertEqual(
+            (len(asked), sum("beam_uas=20" in url for url in asked)), (4, 2), "the slider asks for nothing"
+        )
 
 
-if __name__ == '__main__':
+if __name__ == "__main__":
     main()

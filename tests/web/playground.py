@@ -1,4 +1,5 @@
 """The playground's view: playground.py KERRD FOLDER (browser.py)."""
+
 import json
 import math
 import struct
@@ -7,35 +8,44 @@ import subprocess
 from browser import KERRD, Browser, main, value
 import daemon
 
-THERE = '#play-plane[data-bodies]'
+THERE = "#play-plane[data-bodies]"
 ARROW_PX = 90  # of the speed of a circle, clients/web/hands.js
 
 
 class Playground(Browser):
-    def open_play(self, fragment='lang=en&play.preset=system', **options):
-        options.setdefault('viewport', {'width': 1200, 'height': 900})
-        return self.open('view=playground&' + fragment, THERE, **options)
+    def open_play(self, fragment="lang=en&play.preset=system", **options):
+        options.setdefault("viewport", {"width": 1200, "height": 900})
+        return self.open("view=playground&" + fragment, THERE, **options)
 
     def address(self):
         """Of the newest playground that a page has begun."""
-        return [r.response().json()['id'] for r in self.requests if r.method == 'POST' and r.url.endswith('/v1/playground') and r.response().status == 201][-1]
+        return [
+            r.response().json()["id"]
+            for r in self.requests
+            if r.method == "POST" and r.url.endswith("/v1/playground") and r.response().status == 201
+        ][-1]
 
     def state(self):
-        return self.daemon.request('GET', '/v1/playground/' + self.address()).json()
+        return self.daemon.request("GET", "/v1/playground/" + self.address()).json()
 
     def bodies(self):
         """By id: place, velocity, mass, radius, temperature, from the packed rows."""
-        packed = self.daemon.request('GET', f'/v1/playground/{self.address()}/bodies').body
-        n, words = struct.unpack_from('<II', packed)
-        return {struct.unpack_from('<I', packed, 32 + 4 * words * i)[0]: struct.unpack_from('<9f', packed, 36 + 4 * words * i) for i in range(n)}
+        packed = self.daemon.request("GET", f"/v1/playground/{self.address()}/bodies").body
+        n, words = struct.unpack_from("<II", packed)
+        return {
+            struct.unpack_from("<I", packed, 32 + 4 * words * i)[0]: struct.unpack_from(
+                "<9f", packed, 36 + 4 * words * i
+            )
+            for i in range(n)
+        }
 
     def pause(self, page):
-        page.click('#play-pause')
-        self.assertTrue(daemon.eventually(lambda: page.inner_text('#play-pause') == 'Go on'))
+        page.click("#play-pause")
+        self.assertTrue(daemon.eventually(lambda: page.inner_text("#play-pause") == "Go on"))
 
     def stage(self, page):
-        box = page.locator('#play-stage').bounding_box()
-        return box['x'] + box['width'] / 2, box['y'] + box['height'] / 2
+        box = page.locator("#play-stage").bounding_box()
+        return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
 
     def pull(self, page, start, end):
         page.mouse.move(*start)
@@ -44,43 +54,50 @@ class Playground(Browser):
             page.mouse.move(*(a + (b - a) * step / 5 for a, b in zip(start, end)))
 
     def numbers(self, page, what):
-        return [float(page.input_value(f'#play-{what}-{axis}')) for axis in 'xyz']
+        return [float(page.input_value(f"#play-{what}-{axis}")) for axis in "xyz"]
 
     def test_a_body_is_thrown_by_a_drag(self):
-        """It is where the drag began with the velocity that the arrow is long; what the page foretells is where the server has it later."""
+        """It is where the drag began with the velocity that the arrow is long; what the page foretells is where the
+        server has it later."""
         page = self.open_play()
         self.pause(page)
         before, (x, y) = self.bodies(), self.stage(page)
         self.pull(page, (x + 120, y + 20), (x + 110, y - 70))
-        self.assertTrue(daemon.eventually(lambda: int(page.get_attribute('#play-plane', 'data-path') or 0) > 20))
-        place, velocity = self.numbers(page, 'at'), self.numbers(page, 'v')
-        self.shot(page, 'playground-throw')
+        self.assertTrue(daemon.eventually(lambda: int(page.get_attribute("#play-plane", "data-path") or 0) > 20))
+        place, velocity = self.numbers(page, "at"), self.numbers(page, "v")
+        self.shot(page, "playground-throw")
         page.mouse.up()
         self.assertTrue(daemon.eventually(lambda: len(self.bodies()) == len(before) + 1))
         (got,) = (body for i, body in self.bodies().items() if i not in before)
         for a, b in zip(got[:6], place + velocity):
             self.assertAlmostEqual(a, b, delta=2e-4 * max(abs(b), 0.01))
-        # The arrow: 10 pixels to the left, 90 up, of which ARROW_PX are a circle's speed in the potential of Paczynski and Wiita.
+        # The arrow: 10 pixels to the left, 90 up, of which ARROW_PX are a circle's speed in the potential of Paczynski
+        # and Wiita.
         r = math.hypot(*place)
         circle = math.sqrt(r) / (r - 2)
         self.assertAlmostEqual(velocity[0], -10 / ARROW_PX * circle, delta=0.03 * circle)
         self.assertAlmostEqual(velocity[1], 90 / ARROW_PX * circle, delta=0.03 * circle)
-        page.wait_for_selector('#play-said >> text=goes at')
+        page.wait_for_selector("#play-said >> text=goes at")
 
         state = self.state()
-        thrown = {'x': place, 'v': velocity, 'mass': 1e-6}
-        others = [{'x': b['position'], 'v': b['velocity'], 'mass': b['mass']} for b in state['bodies'] if b['id'] in before]
-        path = page.evaluate('async ([thrown, others, settings]) => (await import("./web/predict.js")).predict(thrown, others, settings, 1e4).points', [thrown, others, state['settings']])
+        thrown = {"x": place, "v": velocity, "mass": 1e-6}
+        others = [
+            {"x": b["position"], "v": b["velocity"], "mass": b["mass"]} for b in state["bodies"] if b["id"] in before
+        ]
+        path = page.evaluate(
+            'async ([thrown, others, settings]) => (await import("./web/predict.js")).predict(thrown, others, settings, 1e4).points',
+            [thrown, others, state["settings"]],
+        )
         for _ in range(6):
-            t = self.state()['t']
-            page.click('#play-step')
+            t = self.state()["t"]
+            page.click("#play-step")
             page.wait_for_function('t => Number(document.getElementById("play-clock").dataset.t) > t', arg=t)
         page.evaluate('by => document.getElementById("play-rate").value = by', 8000)
-        page.dispatch_event('#play-rate', 'change')
-        self.assertTrue(daemon.eventually(lambda: self.state()['rate'] == 8000))
-        page.click('#play-step')
-        self.assertTrue(daemon.eventually(lambda: self.state()['t'] > state['t'] + 400))
-        (now,) = (b['position'] for b in self.state()['bodies'] if b['id'] not in before)
+        page.dispatch_event("#play-rate", "change")
+        self.assertTrue(daemon.eventually(lambda: self.state()["rate"] == 8000))
+        page.click("#play-step")
+        self.assertTrue(daemon.eventually(lambda: self.state()["t"] > state["t"] + 400))
+        (now,) = (b["position"] for b in self.state()["bodies"] if b["id"] not in before)
         self.assertGreater(math.dist(now, place), 5)
         near = min(self.beside(now, a, b) for a, b in zip(path, path[1:]))
         self.assertLess(near, 0.004 * r)
@@ -93,243 +110,332 @@ class Playground(Browser):
         return math.dist(p, [x + share * d for x, d in zip(a, along)])
 
     def test_a_body_is_thrown_anew_changed_and_removed(self):
-        page = self.open_play('lang=en&play.preset=emri&play.paused=1')  # what moves is elsewhere in the page than on the server
+        page = self.open_play(
+            "lang=en&play.preset=emri&play.paused=1"
+        )  # what moves is elsewhere in the page than on the server
         ((only, body),) = self.bodies().items()
         x, y = self.stage(page)
-        scale = page.evaluate('document.getElementById("play-stage").clientHeight') / 2 / (1.1 * 16)  # fitted: 16 M, and a tenth
+        scale = (
+            page.evaluate('document.getElementById("play-stage").clientHeight') / 2 / (1.1 * 16)
+        )  # fitted: 16 M, and a tenth
         at = (x + body[0] * scale, y - body[1] * scale)
         self.pull(page, at, (at[0] + 45, at[1]))
         page.mouse.up()
         self.assertTrue(daemon.eventually(lambda: self.bodies()[only][3] > 0.1 and abs(self.bodies()[only][4]) < 0.02))
-        self.assertTrue(daemon.eventually(lambda: page.input_value('#play-body') == str(only)))  # the server has it first: its answer has a way to go
-        page.fill('#play-body-mass', '0.002')
-        page.press('#play-body-mass', 'Tab')
+        self.assertTrue(
+            daemon.eventually(lambda: page.input_value("#play-body") == str(only))
+        )  # the server has it first: its answer has a way to go
+        page.fill("#play-body-mass", "0.002")
+        page.press("#play-body-mass", "Tab")
         self.assertTrue(daemon.eventually(lambda: abs(self.bodies()[only][6] - 0.002) < 1e-9))
-        page.click('#play-remove')
+        page.click("#play-remove")
         self.assertTrue(daemon.eventually(lambda: not self.bodies()))
-        self.assertTrue(daemon.eventually(lambda: page.get_attribute('#play-plane', 'data-bodies') == '0'))
+        self.assertTrue(daemon.eventually(lambda: page.get_attribute("#play-plane", "data-bodies") == "0"))
 
     def test_keys(self):
         page = self.open_play()
-        page.focus('#play-stage')
-        page.keyboard.press('Space')
-        self.assertTrue(daemon.eventually(lambda: self.state()['paused']))
+        page.focus("#play-stage")
+        page.keyboard.press("Space")
+        self.assertTrue(daemon.eventually(lambda: self.state()["paused"]))
         before = self.bodies()
-        start = self.numbers(page, 'at')
-        for key in ['ArrowRight'] * 3 + ['ArrowUp'] + ['i'] * 10 + ['j'] * 2:
+        start = self.numbers(page, "at")
+        for key in ["ArrowRight"] * 3 + ["ArrowUp"] + ["i"] * 10 + ["j"] * 2:
             page.keyboard.press(key)
-        place, velocity = self.numbers(page, 'at'), self.numbers(page, 'v')
+        place, velocity = self.numbers(page, "at"), self.numbers(page, "v")
         self.assertGreater(place[0], start[0])
         self.assertGreater(place[1], start[1])
         self.assertGreater(math.hypot(*velocity), 0.01)
-        page.keyboard.press('Enter')
+        page.keyboard.press("Enter")
         self.assertTrue(daemon.eventually(lambda: len(self.bodies()) == len(before) + 1))
         ((new, got),) = ((i, b) for i, b in self.bodies().items() if i not in before)
         for a, b in zip(got[:6], place + velocity):
             self.assertAlmostEqual(a, b, delta=2e-4 * max(abs(b), 0.01))
-        self.assertTrue(daemon.eventually(lambda: page.input_value('#play-body') == str(new)))
-        page.keyboard.press('n')
-        self.assertTrue(daemon.eventually(lambda: page.input_value('#play-body') == str(min(before))))
-        page.keyboard.press('Delete')
+        self.assertTrue(daemon.eventually(lambda: page.input_value("#play-body") == str(new)))
+        page.keyboard.press("n")
+        self.assertTrue(daemon.eventually(lambda: page.input_value("#play-body") == str(min(before))))
+        page.keyboard.press("Delete")
         self.assertTrue(daemon.eventually(lambda: min(before) not in self.bodies()))
-        t = self.state()['t']
-        page.keyboard.press('.')
-        self.assertTrue(daemon.eventually(lambda: self.state()['t'] > t))
-        page.keyboard.press('Escape')
-        self.assertEqual(page.input_value('#play-body'), '')
+        t = self.state()["t"]
+        page.keyboard.press(".")
+        self.assertTrue(daemon.eventually(lambda: self.state()["t"] > t))
+        page.keyboard.press("Escape")
+        self.assertEqual(page.input_value("#play-body"), "")
 
     def test_refusals_are_told(self):
-        self.expected = '422'
-        page = self.open_play('lang=it&play.preset=emri')
-        page.fill('#play-at-x', '1')
-        page.press('#play-at-x', 'Tab')
-        page.fill('#play-v-y', '0.1')
-        page.press('#play-v-y', 'Tab')
-        page.click('#play-throw')
-        page.wait_for_selector('#play-fault >> text=/ammesso è più di/')
+        self.expected = "422"
+        page = self.open_play("lang=it&play.preset=emri")
+        page.fill("#play-at-x", "1")
+        page.press("#play-at-x", "Tab")
+        page.fill("#play-v-y", "0.1")
+        page.press("#play-v-y", "Tab")
+        page.click("#play-throw")
+        page.wait_for_selector("#play-fault >> text=/ammesso è più di/")
 
     def test_switches_speed_and_charts(self):
-        page = self.open_play('lang=en&play.preset=system&play.rate=400')
-        self.assertFalse(self.state()['settings']['waves'])
-        self.assertFalse(page.is_visible('#play-amplification'))
-        page.check('[data-setting=waves] input')
-        page.wait_for_selector('#play-amplification')
-        page.fill('#play-amplification', '50')
-        page.press('#play-amplification', 'Tab')
-        page.wait_for_selector('#play-waves-told >> text=exaggerated 50 times')
-        page.uncheck('[data-setting=tides] input')
-        self.assertTrue(daemon.eventually(lambda: (lambda s: s['waves'] and not s['tides'] and s['amplification'] == 50)(self.state()['settings'])))
-        page.fill('#play-rate', '1000000')
-        page.press('#play-rate', 'Tab')
-        page.wait_for_selector('#play-clock[data-slowed=true]')
-        told = page.inner_text('#play-clock')
-        self.assertRegex(told, r'M a second; asked for 10⁶: more it cannot compute')
-        self.assertLess(value(told.split('· ')[1].split(' M')[0]), 9.7e5)
+        page = self.open_play("lang=en&play.preset=system&play.rate=400")
+        self.assertFalse(self.state()["settings"]["waves"])
+        self.assertFalse(page.is_visible("#play-amplification"))
+        page.check("[data-setting=waves] input")
+        page.wait_for_selector("#play-amplification")
+        page.fill("#play-amplification", "50")
+        page.press("#play-amplification", "Tab")
+        page.wait_for_selector("#play-waves-told >> text=exaggerated 50 times")
+        page.uncheck("[data-setting=tides] input")
+        self.assertTrue(
+            daemon.eventually(
+                lambda: (lambda s: s["waves"] and not s["tides"] and s["amplification"] == 50)(self.state()["settings"])
+            )
+        )
+        page.fill("#play-rate", "1000000")
+        page.press("#play-rate", "Tab")
+        page.wait_for_selector("#play-clock[data-slowed=true]")
+        told = page.inner_text("#play-clock")
+        self.assertRegex(told, r"M a second; asked for 10⁶: more it cannot compute")
+        self.assertLess(value(told.split("· ")[1].split(" M")[0]), 9.7e5)
         for chart in range(4):
-            self.assertTrue(daemon.eventually(lambda: self.drawn(page, f'#play-charts .plot:not([hidden]) canvas >> nth={chart}')['coloured'] > 100), chart)
-        self.shot(page, 'playground', full_page=True)
+            self.assertTrue(
+                daemon.eventually(
+                    lambda: (
+                        self.drawn(page, f"#play-charts .plot:not([hidden]) canvas >> nth={chart}")["coloured"] > 100
+                    )
+                ),
+                chart,
+            )
+        self.shot(page, "playground", full_page=True)
 
     def test_a_star_was_torn_and_falls_back(self):
         """And a snapshot from the command line goes on in the page, with what has come back until then."""
-        made = subprocess.run([KERRD, 'playground', '--preset', 'disruption', '--set', 'debris_per_body=2000', '--set', 'h_max=10000', '--set', 'budget=1000000',
-                               '--time', '1e6', '-o', '-'], capture_output=True, timeout=120, check=True).stdout
-        page = self.open_play('lang=en&play.preset=disruption&play.rate=3000')
-        page.wait_for_selector('[data-kind=disruption]')
-        page.wait_for_selector('#play-events >> text=The tide has torn star apart')
+        made = subprocess.run(
+            [
+                KERRD,
+                "playground",
+                "--preset",
+                "disruption",
+                "--set",
+                "debris_per_body=2000",
+                "--set",
+                "h_max=10000",
+                "--set",
+                "budget=1000000",
+                "--time",
+                "1e6",
+                "-o",
+                "-",
+            ],
+            capture_output=True,
+            timeout=120,
+            check=True,
+        ).stdout
+        page = self.open_play("lang=en&play.preset=disruption&play.rate=3000")
+        page.wait_for_selector("[data-kind=disruption]")
+        page.wait_for_selector("#play-events >> text=The tide has torn star apart")
         page.wait_for_selector('#play-plane[data-debris]:not([data-debris="0"])')
         self.open_groups(page)
-        page.set_input_files('#play-load', files=[{'name': 'torn.json', 'mimeType': 'application/json', 'buffer': made}])
+        page.set_input_files(
+            "#play-load", files=[{"name": "torn.json", "mimeType": "application/json", "buffer": made}]
+        )
         page.wait_for_selector('#play-charts .plot:has-text("What falls back") canvas')
-        self.assertTrue(daemon.eventually(lambda: self.drawn(page, '#play-charts .plot:has-text("What falls back") canvas')['coloured'] > 100))
-        self.shot(page, 'playground-disruption', full_page=True)
+        self.assertTrue(
+            daemon.eventually(
+                lambda: self.drawn(page, '#play-charts .plot:has-text("What falls back") canvas')["coloured"] > 100
+            )
+        )
+        self.shot(page, "playground-disruption", full_page=True)
 
     def test_it_can_be_taken_away_and_brought_back(self):
-        page = self.open_play('lang=en&play.preset=emri')
+        page = self.open_play("lang=en&play.preset=emri")
         self.pause(page)
         self.open_groups(page)
         with page.expect_download() as download:
-            page.click('#play-csv')
-        self.assertIn(b't,bodies,energy,', open(download.value.path(), 'rb').read())
+            page.click("#play-csv")
+        self.assertIn(b"t,bodies,energy,", open(download.value.path(), "rb").read())
         with page.expect_download() as download:
-            page.click('#play-npy')
-        self.assertEqual(open(download.value.path(), 'rb').read(6), b'\x93NUMPY')
+            page.click("#play-npy")
+        self.assertEqual(open(download.value.path(), "rb").read(6), b"\x93NUMPY")
         with page.expect_download() as download:
-            page.click('#play-snapshot')
+            page.click("#play-snapshot")
         path, was = download.value.path(), self.state()
-        page.select_option('#play-preset', 'system')
-        self.assertTrue(daemon.eventually(lambda: page.get_attribute('#play-plane', 'data-bodies') == '6'))
+        page.select_option("#play-preset", "system")
+        self.assertTrue(daemon.eventually(lambda: page.get_attribute("#play-plane", "data-bodies") == "6"))
         first = self.address()
-        page.set_input_files('#play-load', files=[{'name': 'a.json', 'mimeType': 'application/json', 'buffer': open(path, 'rb').read()}])
-        self.assertTrue(daemon.eventually(lambda: self.address() != first and page.get_attribute('#play-plane', 'data-bodies') == '1'))
-        again = json.loads(self.daemon.request('GET', f'/v1/playground/{self.address()}/snapshot').body)
-        self.assertGreaterEqual(again['t'] if 't' in again else again['state']['t'], was['t'])
+        page.set_input_files(
+            "#play-load", files=[{"name": "a.json", "mimeType": "application/json", "buffer": open(path, "rb").read()}]
+        )
+        self.assertTrue(
+            daemon.eventually(
+                lambda: self.address() != first and page.get_attribute("#play-plane", "data-bodies") == "1"
+            )
+        )
+        again = json.loads(self.daemon.request("GET", f"/v1/playground/{self.address()}/snapshot").body)
+        self.assertGreaterEqual(again["t"] if "t" in again else again["state"]["t"], was["t"])
 
     def test_the_chirp_is_heard_where_somebody_wants_it(self):
         """No sound before a gesture; what was switched on stays on, and so does the silence."""
-        count = 'window.opened = 0; { const Real = AudioContext; window.AudioContext = class extends Real { constructor() { super(); window.opened++; } }; }'
-        context = self.context(viewport={'width': 1200, 'height': 900})
+        count = "window.opened = 0; { const Real = AudioContext; window.AudioContext = class extends Real { constructor() { super(); window.opened++; } }; }"
+        context = self.context(viewport={"width": 1200, "height": 900})
         context.add_init_script(count)
         page = self.page(context)
-        page.goto(self.base + '#view=playground&lang=en&play.preset=emri&play.rate=1000')
+        page.goto(self.base + "#view=playground&lang=en&play.preset=emri&play.rate=1000")
         page.wait_for_selector(THERE)
-        self.assertEqual((page.get_attribute('#play-sound', 'aria-pressed'), page.evaluate('opened')), ('false', 0))
-        page.click('#play-sound')
-        page.wait_for_selector('#play-sound[data-hz]')
-        self.assertEqual(page.evaluate('opened'), 1)
-        self.assertIn('Heard as with a hole of', page.inner_text('#play-heard'))
-        begin = float(page.get_attribute('#play-sound', 'data-hz'))
+        self.assertEqual((page.get_attribute("#play-sound", "aria-pressed"), page.evaluate("opened")), ("false", 0))
+        page.click("#play-sound")
+        page.wait_for_selector("#play-sound[data-hz]")
+        self.assertEqual(page.evaluate("opened"), 1)
+        self.assertIn("Heard as with a hole of", page.inner_text("#play-heard"))
+        begin = float(page.get_attribute("#play-sound", "data-hz"))
         self.assertTrue(90 < begin < 400, begin)  # it rises while a busy machine comes to say it
         page.wait_for_function('hz => Number(document.getElementById("play-sound").dataset.hz) > 1.1 * hz', arg=begin)
         page.reload()
         page.wait_for_selector(THERE)
         page.wait_for_timeout(500)
-        self.assertEqual((page.get_attribute('#play-sound', 'aria-pressed'), page.evaluate('opened')), ('true', 0), 'nothing is heard before a gesture')
-        page.keyboard.press('Tab')
-        page.wait_for_selector('#play-sound[data-hz]')
-        page.click('#play-sound')
-        self.assertIsNone(page.get_attribute('#play-sound', 'data-hz'))
+        self.assertEqual(
+            (page.get_attribute("#play-sound", "aria-pressed"), page.evaluate("opened")),
+            ("true", 0),
+            "nothing is heard before a gesture",
+        )
+        page.keyboard.press("Tab")
+        page.wait_for_selector("#play-sound[data-hz]")
+        page.click("#play-sound")
+        self.assertIsNone(page.get_attribute("#play-sound", "data-hz"))
         page.reload()
         page.wait_for_selector(THERE)
-        self.assertEqual(page.get_attribute('#play-sound', 'aria-pressed'), 'false')
+        self.assertEqual(page.get_attribute("#play-sound", "aria-pressed"), "false")
 
     def test_in_italian_nothing_stays_english(self):
-        page = self.open_play('lang=it&play.preset=binary')
+        page = self.open_play("lang=it&play.preset=binary")
         self.open_groups(page)
-        page.wait_for_selector('#play-approximations li')
-        self.assertEqual(page.locator('#playground [lang=en]').all_inner_texts(), [])
-        self.assertEqual(page.title(), 'Laboratorio: Binaria – kerrd')
-        known = self.daemon.request('GET', '/v1/playground').json()
-        texts = [row['help'] for row in known['settings'] + known['body'] if row.get('help')] + [preset['title'] for preset in known['presets']]
-        for document in ({'gravity': 'kerr'}, {'preset': 'swarm', 'waves': True, 'amplification': 3}):
-            answer = self.daemon.request('POST', '/v1/playground', json.dumps({**document, 'paused': True})).json()
-            texts += answer['approximations'] + [body['name'] for body in answer['bodies']][:2]
-            self.daemon.request('DELETE', f'/v1/playground/{answer["id"]}?token={answer["token"]}')
-        left = page.evaluate('async all => { const { said } = await import("./web/i18n.js"); return all.filter(text => said(text).lang); }', texts)
+        page.wait_for_selector("#play-approximations li")
+        self.assertEqual(page.locator("#playground [lang=en]").all_inner_texts(), [])
+        self.assertEqual(page.title(), "Laboratorio: Binaria – kerrd")
+        known = self.daemon.request("GET", "/v1/playground").json()
+        texts = [row["help"] for row in known["settings"] + known["body"] if row.get("help")] + [
+            preset["title"] for preset in known["presets"]
+        ]
+        for document in ({"gravity": "kerr"}, {"preset": "swarm", "waves": True, "amplification": 3}):
+            answer = self.daemon.request("POST", "/v1/playground", json.dumps({**document, "paused": True})).json()
+            texts += answer["approximations"] + [body["name"] for body in answer["bodies"]][:2]
+            self.daemon.request("DELETE", f"/v1/playground/{answer['id']}?token={answer['token']}")
+        left = page.evaluate(
+            'async all => { const { said } = await import("./web/i18n.js"); return all.filter(text => said(text).lang); }',
+            texts,
+        )
         self.assertEqual(left, [])
         self.assertGreater(len(texts), 30)
 
     def test_what_one_sees_is_said(self):
-        """Of each preset, in both languages; without a link both pictures are shown where there is room, and time goes on at once."""
-        for lang in ('en', 'it'):
-            page = self.open('view=playground&lang=' + lang, '#play-plane[data-bodies]', viewport={'width': 1440, 'height': 900})
-            page.wait_for_selector('#play-lensed img[src]')
-            self.assertEqual(page.get_attribute('#play-show-both', 'aria-pressed'), 'true')
-            self.assertTrue(daemon.eventually(lambda: float(page.get_attribute('#play-clock', 'data-t') or 0) > 0))
-            names = page.locator('#play-preset option:not([hidden])').evaluate_all('all => all.map(o => o.value)')
-            told = page.evaluate('async names => { const { seenOf } = await import("./web/play-seen.js"); return names.map(seenOf); }', names)
+        """Of each preset, in both languages; without a link both pictures are shown where there is room, and time goes
+        on at once."""
+        for lang in ("en", "it"):
+            page = self.open(
+                "view=playground&lang=" + lang, "#play-plane[data-bodies]", viewport={"width": 1440, "height": 900}
+            )
+            page.wait_for_selector("#play-lensed img[src]")
+            self.assertEqual(page.get_attribute("#play-show-both", "aria-pressed"), "true")
+            self.assertTrue(daemon.eventually(lambda: float(page.get_attribute("#play-clock", "data-t") or 0) > 0))
+            names = page.locator("#play-preset option:not([hidden])").evaluate_all("all => all.map(o => o.value)")
+            told = page.evaluate(
+                'async names => { const { seenOf } = await import("./web/play-seen.js"); return names.map(seenOf); }',
+                names,
+            )
             self.assertEqual([name for name, text in zip(names, told) if len(text) < 60], [])
-            self.assertIn(page.inner_text('#play-words'), told)
+            self.assertIn(page.inner_text("#play-words"), told)
 
     def test_as_light_shows_it(self):
-        page = self.open_play('lang=en&play.preset=disruption&play.paused=1&play.show=both')
-        page.wait_for_selector('#play-lensed img[src]')
-        lit = page.evaluate('''() => {
+        page = self.open_play("lang=en&play.preset=disruption&play.paused=1&play.show=both")
+        page.wait_for_selector("#play-lensed img[src]")
+        lit = page.evaluate("""() => {
             const image = document.querySelector('#play-lensed img'), { naturalWidth: w, naturalHeight: h } = image, c = new OffscreenCanvas(w, h).getContext('2d');
             c.drawImage(image, 0, 0);
             return c.getImageData(0, 0, w, h).data.filter((v, i) => i % 4 === 0 && v > 60).length;
-        }''')
+        }""")
         self.assertGreater(lit, 50)
-        camera = lambda: self.state()['scene']['camera']['inclination_deg']
-        before, shown = camera(), page.get_attribute('#play-lensed img', 'src')
-        page.focus('#play-lensed')
-        page.keyboard.press('ArrowUp')
+        camera = lambda: self.state()["scene"]["camera"]["inclination_deg"]
+        before, shown = camera(), page.get_attribute("#play-lensed img", "src")
+        page.focus("#play-lensed")
+        page.keyboard.press("ArrowUp")
         self.assertTrue(daemon.eventually(lambda: abs(camera() - (before - 5)) < 1e-9))
-        self.assertTrue(daemon.eventually(lambda: page.get_attribute('#play-lensed img', 'src') != shown))
-        self.assertEqual(page.inner_text('#play-lensed'), '')
-        self.shot(page, 'playground-both')
-        page.click('#play-show-lensed')
-        self.assertFalse(page.is_visible('#play-stage'))
-        page.click('#play-show-plan')
-        self.assertFalse(page.is_visible('#play-lensed'))
+        self.assertTrue(daemon.eventually(lambda: page.get_attribute("#play-lensed img", "src") != shown))
+        self.assertEqual(page.inner_text("#play-lensed"), "")
+        self.shot(page, "playground-both")
+        page.click("#play-show-lensed")
+        self.assertFalse(page.is_visible("#play-stage"))
+        page.click("#play-show-plan")
+        self.assertFalse(page.is_visible("#play-lensed"))
 
     def test_what_was_left_goes_on(self):
         """A playground that nobody watches ends; who comes back finds it as it was left."""
-        self.expected = '404'
-        page = self.open_play('lang=en&play.preset=emri&play.paused=1')
-        page.fill('#play-at-y', '15')
-        page.press('#play-at-y', 'Tab')
-        page.fill('#play-v-x', '0.2')
-        page.press('#play-v-x', 'Tab')
-        page.click('#play-throw')
+        self.expected = "404"
+        page = self.open_play("lang=en&play.preset=emri&play.paused=1")
+        page.fill("#play-at-y", "15")
+        page.press("#play-at-y", "Tab")
+        page.fill("#play-v-x", "0.2")
+        page.press("#play-v-x", "Tab")
+        page.click("#play-throw")
         self.assertTrue(daemon.eventually(lambda: len(self.bodies()) == 2))
-        page.evaluate('''() => {
+        page.evaluate("""() => {
             const { json } = Response.prototype;
             Response.prototype.json = async function () {
                 const got = await json.call(this);
                 if (this.url.endsWith('/snapshot')) setTimeout(() => (window.kept = true));
                 return got;
             };
-        }''')
-        page.click('nav [data-view=scale]')
-        page.wait_for_function('() => window.kept')
-        (begun,) = (r.response().json() for r in self.requests if r.method == 'POST' and r.url.endswith('/v1/playground'))
-        self.assertEqual(self.daemon.request('DELETE', f'/v1/playground/{begun["id"]}?token={begun["token"]}').status, 204)
-        page.click('nav [data-view=playground]')
-        page.wait_for_selector('#play-said >> text=goes on from where it was')
-        self.assertTrue(daemon.eventually(lambda: self.address() != begun['id'] and len(self.bodies()) == 2 and self.state()['paused']))
+        }""")
+        page.click("nav [data-view=scale]")
+        page.wait_for_function("() => window.kept")
+        (begun,) = (
+            r.response().json() for r in self.requests if r.method == "POST" and r.url.endswith("/v1/playground")
+        )
+        self.assertEqual(
+            self.daemon.request("DELETE", f"/v1/playground/{begun['id']}?token={begun['token']}").status, 204
+        )
+        page.click("nav [data-view=playground]")
+        page.wait_for_selector("#play-said >> text=goes on from where it was")
+        self.assertTrue(
+            daemon.eventually(
+                lambda: self.address() != begun["id"] and len(self.bodies()) == 2 and self.state()["paused"]
+            )
+        )
 
     def test_a_server_that_is_started_anew(self):
-        self.expected = 'Failed to load resource'
-        page = self.open_play('lang=en&play.preset=emri')
+        self.expected = "Failed to load resource"
+        page = self.open_play("lang=en&play.preset=emri")
         first, port = self.address(), self.daemon.port
         self.daemon.process.kill()
         self.daemon.process.wait()
-        page.wait_for_selector('#play-fault >> text=trying again')
-        type(self).daemon = daemon.Daemon('--port', port)
-        page.wait_for_selector('#play-said >> text=it begins again')
+        page.wait_for_selector("#play-fault >> text=trying again")
+        type(self).daemon = daemon.Daemon("--port", port)
+        page.wait_for_selector("#play-said >> text=it begins again")
         self.assertTrue(daemon.eventually(lambda: self.address() != first))
-        self.assertTrue(daemon.eventually(lambda: page.get_attribute('#play-plane', 'data-bodies') == '1' and not page.inner_text('#play-fault')))
+        self.assertTrue(
+            daemon.eventually(
+                lambda: page.get_attribute("#play-plane", "data-bodies") == "1" and not page.inner_text("#play-fault")
+            )
+        )
 
     def test_a_playground_that_ends_and_does_not_begin_at_once(self):
-        self.expected = 'Failed to load resource'
-        page = self.open_play('lang=en&play.preset=emri')
-        own = next(r.response().json() for r in self.requests if r.method == 'POST' and r.url.endswith('/v1/playground'))
-        page.route('**/v1/playground', lambda route: route.abort())
-        self.daemon.request('DELETE', '/v1/playground/' + own['id'], headers={'Authorization': 'Bearer ' + own['token']})
-        page.wait_for_selector('#play-fault >> text=trying again')
-        page.unroute('**/v1/playground')
-        self.assertTrue(daemon.eventually(lambda: not page.inner_text('#play-fault') and sum(r.method == 'POST' and r.url.endswith('/v1/playground') and not r.failure for r in self.requests) > 1))
+        self.expected = "Failed to load resource"
+        page = self.open_play("lang=en&play.preset=emri")
+        own = next(
+            r.response().json() for r in self.requests if r.method == "POST" and r.url.endswith("/v1/playground")
+        )
+        page.route("**/v1/playground", lambda route: route.abort())
+        self.daemon.request(
+            "DELETE", "/v1/playground/" + own["id"], headers={"Authorization": "Bearer " + own["token"]}
+        )
+        page.wait_for_selector("#play-fault >> text=trying again")
+        page.unroute("**/v1/playground")
+        self.assertTrue(
+            daemon.eventually(
+                lambda: (
+                    not page.inner_text("#play-fault")
+                    and sum(
+                        r.method == "POST" and r.url.endswith("/v1/playground") and not r.failure for r in self.requests
+                    )
+                    > 1
+                )
+            )
+        )
 
 
-if __name__ == '__main__':
+if __name__ == "__main__":
     main()

@@ -74,7 +74,8 @@ void kd_write_tables(struct kd_writer *w)
 void kd_completions_bash(struct kd_writer *w)
 {
     struct kd_context context;
-    kd_write(w, "# Completions of kerrd for bash. Made of its option tables when it is built: src/cli/reference.\n\n_kerrd_commands='");
+    kd_write(w, "# Completions of kerrd for bash. Made of its option tables when it is built: "
+                "src/cli/reference.\n\n_kerrd_commands='");
     for (size_t i = 0; i < kd_n_commands; i++)
         kd_write(w, "%s ", kd_commands[i].name);
     kd_write(w, "help'\n");
@@ -82,10 +83,12 @@ void kd_completions_bash(struct kd_writer *w)
     write_words(w, "_kerrd_playgrounds", KD_ARGUMENT_PLAYGROUND);
     write_words(w, "_kerrd_quantities", KD_ARGUMENT_QUANTITY);
     kd_write_tables(w);
-    kd_write(w, "\n# The options of $1, a command.\n_kerrd_options() {\n    case $1 in\n        '') options='-? --help --usage -V --version' ;;\n");
+    kd_write(w, "\n# The options of $1, a command.\n_kerrd_options() {\n    case $1 in\n        '') options='-? --help "
+                "--usage -V --version' ;;\n");
     for (size_t i = 0; kd_context_at(i, &context); i++)
         write_options(w, &context);
-    kd_write(w, "    esac\n}\n\n# What option $2 of $1 takes, or what stands there without one.\n_kerrd_takes() {\n    optional= takes=\n    case \"$1 $2\" in\n");
+    kd_write(w, "    esac\n}\n\n# What option $2 of $1 takes, or what stands there without one.\n_kerrd_takes() {\n    "
+                "optional= takes=\n    case \"$1 $2\" in\n");
     for (size_t i = 0; kd_context_at(i, &context); i++)
         write_arguments(w, &context);
     kd_write(w, "    esac\n}\n\n");

@@ -1,5 +1,6 @@
-/* Completions of kerrd are tables for a shell, which are made here, and the functions that read them, which stand in completion.bash, completion.zsh and
- * completion.fish: the file that the shell reads is the tables and then the functions. One thread. */
+/* Completions of kerrd are tables for a shell, which are made here, and the functions that read them, which stand in
+ * completion.bash, completion.zsh and completion.fish: the file that the shell reads is the tables and then the
+ * functions. One thread. */
 #ifndef KD_CLI_REFERENCE_COMPLETIONS_H
 #define KD_CLI_REFERENCE_COMPLETIONS_H
 

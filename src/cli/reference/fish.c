@@ -1,4 +1,5 @@
-/* This writes the completions for fish: a line for each option, and tables that the functions of completion.fish read. */
+/* This writes the completions for fish: a line for each option, and tables that the functions of completion.fish
+ * read. */
 #include "cli/commands.h"
 #include "cli/reference/completions.h"
 #include "cli/reference/options.h"
@@ -80,8 +81,9 @@ static void write_named(struct kd_writer *w, const char *name, const char *words
 void kd_completions_fish(struct kd_writer *w)
 {
     struct kd_context context;
-    kd_write(w, "# Completions of kerrd for fish. Made of its option tables when it is built: src/cli/reference.\n\n"
-                "# NAME=, and the words that may follow; after a comma they are a list of these.\nset -g __kerrd_fields");
+    kd_write(w,
+             "# Completions of kerrd for fish. Made of its option tables when it is built: src/cli/reference.\n\n"
+             "# NAME=, and the words that may follow; after a comma they are a list of these.\nset -g __kerrd_fields");
     kd_argument_fields(write_named, w);
     kd_write(w, "\nset -g __kerrd_settings");
     kd_argument_settings(write_named, w);
@@ -90,7 +92,8 @@ void kd_completions_fish(struct kd_writer *w)
     kd_write(w, "\n\ncomplete -c kerrd -f\n");
     for (size_t i = 0; kd_context_at(i, &context); i++) {
         const bool command = i < kd_n_commands;
-        kd_write(w, "complete -c kerrd -n '%s' -a %s -d '", command ? "__kerrd_is" : "__kerrd_is physics", command ? context.name : strchr(context.name, ' ') + 1);
+        kd_write(w, "complete -c kerrd -n '%s' -a %s -d '", command ? "__kerrd_is" : "__kerrd_is physics",
+                 command ? context.name : strchr(context.name, ' ') + 1);
         write_text(w, context.help);
         kd_write(w, "'\n");
         if (command)

@@ -7,9 +7,10 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char usage[] = "kd_cli_reference bash|zsh|fish FILE   completions for that shell: tables, and the functions of FILE\n"
-                            "kd_cli_reference man [COMMAND]        the manual page of kerrd, or of one of its commands\n"
-                            "kd_cli_reference options              docs/options.md\n";
+static const char usage[] =
+    "kd_cli_reference bash|zsh|fish FILE   completions for that shell: tables, and the functions of FILE\n"
+    "kd_cli_reference man [COMMAND]        the manual page of kerrd, or of one of its commands\n"
+    "kd_cli_reference options              docs/options.md\n";
 static const struct {
     const char *name;
     void (*write)(struct kd_writer *w);
@@ -37,7 +38,9 @@ int main(int argc, char **argv)
     const bool options = !strcmp(what, "options") && argc == 2;
     if (options)
         kd_settings_page(&writer);
-    const bool known = options ? true : !strcmp(what, "man") ? argc < 4 && kd_manual_page(&writer, argv[2]) : argc == 3 && write_shell(&writer, what, argv[2]);
+    const bool known = options                ? true
+                       : !strcmp(what, "man") ? argc < 4 && kd_manual_page(&writer, argv[2])
+                                              : argc == 3 && write_shell(&writer, what, argv[2]);
     if (!known)
         fputs(usage, stderr);
     int failed = !known || writer.status || fwrite(page.data, 1, page.size, stdout) != page.size || fflush(stdout);

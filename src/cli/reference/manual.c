@@ -130,7 +130,8 @@ static void write_settings(struct kd_writer *w)
         gap = ", ";
     }
     kd_write(w, "\n");
-    write_text(w, "the options of these names, where no flag gives them; a switch is yes or no, several --host have commas between");
+    write_text(w, "the options of these names, where no flag gives them; a switch is yes or no, several --host have "
+                  "commas between");
     kd_write(w, "\n");
 }
 
@@ -176,7 +177,8 @@ static void write_exit_status(struct kd_writer *w)
                 ".TP\n.B 2\nThe input or the usage is bad.\n"
                 ".TP\n.B 3\nThe device was lost or hangs: the same command may do it when it is given again.\n"
                 ".PP\nWhere the reader of a pipe has left, SIGPIPE ends it without a word.\n"
-                "Complaints are one line on standard error, which names what is wrong, and its JSON pointer where it has one.\n");
+                "Complaints are one line on standard error, which names what is wrong, and its JSON pointer where it "
+                "has one.\n");
 }
 
 /* Whether any text of the page names `kerrd NAME`. */
@@ -280,7 +282,8 @@ static void write_program_page(struct kd_writer *w)
     struct kd_options options;
     const struct argp none = { 0 };
     write_head(w, NULL);
-    kd_write(w, ".SH NAME\nkerrd \\- pictures of black holes\n.SH SYNOPSIS\n\\fBkerrd\\fR \\fICOMMAND\\fR [\\fIOPTION\\fR...]\n.SH DESCRIPTION\n");
+    kd_write(w, ".SH NAME\nkerrd \\- pictures of black holes\n.SH SYNOPSIS\n\\fBkerrd\\fR \\fICOMMAND\\fR "
+                "[\\fIOPTION\\fR...]\n.SH DESCRIPTION\n");
     write_text(w, KD_CLI_ABOUT);
     kd_write(w, "\n.SH COMMANDS\n");
     for (size_t i = 0; i < kd_n_commands; i++) {

@@ -6,11 +6,12 @@
 
 #include <stdbool.h>
 
-/* The page of a subcommand, or with NULL that of kerrd. Its date is that of SOURCE_DATE_EPOCH, else today. False: there is no such command. */
+/* The page of a subcommand, or with NULL that of kerrd. Its date is that of SOURCE_DATE_EPOCH, else today. False:
+ * there is no such command. */
 bool kd_manual_page(struct kd_writer *w, const char *command);
 
-/* What a page says besides what the option tables do: examples, which tests/cli/manual.py runs, in an empty folder and in this order; and what of the
- * environment is read. */
+/* What a page says besides what the option tables do: examples, which tests/cli/manual.py runs, in an empty folder
+ * and in this order; and what of the environment is read. */
 struct kd_example {
     const char *command; /* on whose page it stands */
     const char *line;    /* as it is typed; one that begins with # is not run by the test */

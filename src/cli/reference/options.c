@@ -40,7 +40,8 @@ static bool add_alias(struct kd_options *out, const struct argp_option *o)
     return true;
 }
 
-/* `group` goes on from option to option: one of group 0 is of the same as that before it, and a heading begins the next. */
+/* `group` goes on from option to option: one of group 0 is of the same as that before it, and a heading begins the
+ * next. */
 static bool add(struct kd_options *out, const struct argp_option *o, int *group)
 {
     const bool heading = !o->name && !letter_of(o);
@@ -80,7 +81,8 @@ static bool add_all(const struct argp *argp, struct kd_options *out)
         if (!add(out, o, &group))
             return false;
     for (const struct argp_child *child = argp->children; child && child->argp; child++)
-        if ((child->header && *child->header && !add_heading(out, child->header, child->group)) || !add_all(child->argp, out))
+        if ((child->header && *child->header && !add_heading(out, child->header, child->group)) ||
+            !add_all(child->argp, out))
             return false;
     return true;
 }
@@ -127,7 +129,8 @@ bool kd_context_at(size_t i, struct kd_context *out)
     return true;
 }
 
-void kd_options_texts(const struct argp *argp, bool after, void (*one)(struct kd_writer *w, const char *text, size_t length), struct kd_writer *w)
+void kd_options_texts(const struct argp *argp, bool after,
+                      void (*one)(struct kd_writer *w, const char *text, size_t length), struct kd_writer *w)
 {
     const char *doc = argp->doc ? argp->doc : "", *end = strchrnul(doc, '\v');
     if (after && *end)

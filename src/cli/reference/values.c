@@ -11,7 +11,8 @@
 #include <string.h>
 
 const char *const kd_argument_names[KD_ARGUMENT_KINDS] = {
-    "nothing", "anything", "file", "folder", "named-file", "words", "list", "device", "preset", "field", "axis", "playground", "setting", "quantity",
+    "nothing", "anything", "file",  "folder", "named-file", "words",   "list",
+    "device",  "preset",   "field", "axis",   "playground", "setting", "quantity",
 };
 
 /* Whole arguments that mean a kind. */
@@ -19,9 +20,15 @@ static const struct {
     const char *argument;
     enum kd_argument takes;
 } kinds[] = {
-    { "DIR", KD_ARGUMENT_FOLDER },        { "NAME=FILE", KD_ARGUMENT_NAMED_FILE },  { "COLUMN,...", KD_ARGUMENT_LIST },
-    { "DEVICE", KD_ARGUMENT_DEVICE },     { "PRESET", KD_ARGUMENT_PRESET },         { "PATH=VALUE", KD_ARGUMENT_FIELD },
-    { "FIELD=VALUES", KD_ARGUMENT_AXIS }, { "PLAYGROUND", KD_ARGUMENT_PLAYGROUND }, { "SETTING=VALUE", KD_ARGUMENT_SETTING },
+    { "DIR", KD_ARGUMENT_FOLDER },
+    { "NAME=FILE", KD_ARGUMENT_NAMED_FILE },
+    { "COLUMN,...", KD_ARGUMENT_LIST },
+    { "DEVICE", KD_ARGUMENT_DEVICE },
+    { "PRESET", KD_ARGUMENT_PRESET },
+    { "PATH=VALUE", KD_ARGUMENT_FIELD },
+    { "FIELD=VALUES", KD_ARGUMENT_AXIS },
+    { "PLAYGROUND", KD_ARGUMENT_PLAYGROUND },
+    { "SETTING=VALUE", KD_ARGUMENT_SETTING },
     { "QUANTITY", KD_ARGUMENT_QUANTITY },
 };
 
@@ -41,7 +48,8 @@ static bool is_file(const char *text, size_t length)
 {
     const char *dot = memchr(text, '.', length);
     const size_t stem = dot ? (size_t)(dot - text) : length;
-    return is_placeholder(text, stem) && ((stem == 4 && !memcmp(text, "FILE", 4)) || (dot && islower((unsigned char)dot[1])));
+    return is_placeholder(text, stem) &&
+           ((stem == 4 && !memcmp(text, "FILE", 4)) || (dot && islower((unsigned char)dot[1])));
 }
 
 enum kd_argument kd_argument_of(const char *argument)
@@ -111,7 +119,8 @@ static void words_of(const struct kd_field *field, char *out, size_t size)
         for (int i = 0; i < kd_field_word_count(field); i++) {
             const size_t used = strlen(out);
             bool numbered = false;
-            const int length = field->kind == KD_FIELD_WORDS ? kd_words_length(field, i, &numbered) : kd_field_word(field, i).length;
+            const int length =
+                field->kind == KD_FIELD_WORDS ? kd_words_length(field, i, &numbered) : kd_field_word(field, i).length;
             snprintf(out + used, size - used, "%s%.*s", i ? "|" : "", length, kd_field_word(field, i).text);
         }
 }
@@ -130,6 +139,10 @@ void kd_argument_settings(kd_named_value_fn one, struct kd_writer *w)
 {
     for (size_t i = 0; i < kd_playground_n_settings; i++) {
         const struct kd_playground_setting *s = &kd_playground_settings[i];
-        one(w, s->name, s->kind == KD_SETTING_WORD ? s->words : s->kind == KD_SETTING_TRUTH ? "true|false" : "", false, s->help);
+        one(w, s->name,
+            s->kind == KD_SETTING_WORD    ? s->words
+            : s->kind == KD_SETTING_TRUTH ? "true|false"
+                                          : "",
+            false, s->help);
     }
 }

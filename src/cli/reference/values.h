@@ -1,5 +1,5 @@
-/* What the argument of an option may be is told by how --help calls it: FILE is a file, DIR a folder, "json|csv" one of these words. Constant data and pure
- * functions, any thread. */
+/* What the argument of an option may be is told by how --help calls it: FILE is a file, DIR a folder, "json|csv" one
+ * of these words. Constant data and pure functions, any thread. */
 #ifndef KD_CLI_REFERENCE_VALUES_H
 #define KD_CLI_REFERENCE_VALUES_H
 
@@ -29,12 +29,15 @@ enum kd_argument kd_argument_of(const char *argument); /* NULL: nothing */
 /* The same of an argument without an option, by argp's args_doc: "[SCENE.json|-]". */
 enum kd_argument kd_argument_positional(const char *args_doc);
 
-/* The words that may stand there, as "a b c": those that are spelt out, columns, presets, playgrounds, quantities; nothing for other kinds. */
+/* The words that may stand there, as "a b c": those that are spelt out, columns, presets, playgrounds, quantities;
+ * nothing for other kinds. */
 void kd_argument_words(enum kd_argument takes, const char *argument, struct kd_writer *w);
 
-/* Calls `one` for each field of a scene, or setting of a playground, with its name and the words that it takes, "a|b", or "" for a number; list: several
- * of them, with commas between. A field of a list of things has the index 0. */
-typedef void (*kd_named_value_fn)(struct kd_writer *w, const char *name, const char *words, bool list, const char *help);
+/* Calls `one` for each field of a scene, or setting of a playground, with its name and the words that it takes,
+ * "a|b", or "" for a number; list: several of them, with commas between. A field of a list of things has the index
+ * 0. */
+typedef void (*kd_named_value_fn)(struct kd_writer *w, const char *name, const char *words, bool list,
+                                  const char *help);
 void kd_argument_fields(kd_named_value_fn one, struct kd_writer *w);
 void kd_argument_settings(kd_named_value_fn one, struct kd_writer *w);
 

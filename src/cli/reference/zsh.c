@@ -1,4 +1,5 @@
-/* This writes the completions for zsh: for each command what _arguments takes, and tables that the functions of completion.zsh read. */
+/* This writes the completions for zsh: for each command what _arguments takes, and tables that the functions of
+ * completion.zsh read. */
 #include "cli/commands.h"
 #include "cli/reference/completions.h"
 #include "cli/reference/options.h"
@@ -12,7 +13,8 @@ static void write_text(struct kd_writer *w, const char *text, const char *specia
         kd_write(w, *text == '\'' ? "'\\''" : strchr(special, *text) ? "\\%c" : "%c", *text);
 }
 
-/* ":ARGUMENT:ACTION", as _arguments has them: with a space before it an action is called as it stands, without options of compadd. */
+/* ":ARGUMENT:ACTION", as _arguments has them: with a space before it an action is called as it stands, without
+ * options of compadd. */
 static void write_action(struct kd_writer *w, enum kd_argument takes, const char *argument, const char *colons)
 {
     static const char *const actions[KD_ARGUMENT_KINDS] = {
@@ -92,7 +94,8 @@ static void write_context(struct kd_writer *w, const struct kd_context *context)
 void kd_completions_zsh(struct kd_writer *w)
 {
     struct kd_context context;
-    kd_write(w, "#compdef kerrd\n# Completions of kerrd for zsh. Made of its option tables when it is built: src/cli/reference.\n\n");
+    kd_write(w, "#compdef kerrd\n# Completions of kerrd for zsh. Made of its option tables when it is built: "
+                "src/cli/reference.\n\n");
     kd_write_tables(w);
     kd_write(w, "_kerrd_commands=(\n");
     for (size_t i = 0; kd_context_at(i, &context); i++) {
@@ -104,7 +107,9 @@ void kd_completions_zsh(struct kd_writer *w)
         write_text(w, context.help, ":\\");
         kd_write(w, "'\n");
     }
-    kd_write(w, ")\n\n# The options of $1, a command, or \"physics\" and a quantity.\n_kerrd_arguments() {\n    case $1 in\n");
+    kd_write(
+        w,
+        ")\n\n# The options of $1, a command, or \"physics\" and a quantity.\n_kerrd_arguments() {\n    case $1 in\n");
     for (size_t i = 0; kd_context_at(i, &context); i++)
         write_context(w, &context);
     kd_write(w, "    esac\n}\n\n");

@@ -23,18 +23,16 @@ const char *kd_engine_name(enum kd_engine engine)
     return (unsigned)engine < KD_ENGINE_COUNT ? engines[engine].name : "unknown";
 }
 
-const char *kd_precision_name(enum kd_precision precision)
-{
-    return precision == KD_PRECISION_F32 ? "f32" : "f64";
-}
+const char *kd_precision_name(enum kd_precision precision) { return precision == KD_PRECISION_F32 ? "f32" : "f64"; }
 
 uint32_t kd_engine_steps(enum kd_engine engine, enum kd_precision precision)
 {
     return engines[engine].steps[precision];
 }
 
-/* llvmpipe leaves a kernel's loops after 65535 rounds, all together, and silently. In Mino time no ray takes more than
- * 12 + KD_RAYS_MAX_ORDERS half periods; rays_kerr_schild.comp says what the others take, of which Tao's has an inner loop. */
+/* llvmpipe leaves a kernel's loops after 65535 rounds, all together, and silently. In Mino time no ray takes more
+ * than 12 + KD_RAYS_MAX_ORDERS half periods; rays_kerr_schild.comp says what the others take, of which Tao's has an
+ * inner loop. */
 uint32_t kd_engine_most_steps(enum kd_engine engine)
 {
     return engine == KD_ENGINE_KS_TAO6 ? 512 : engine >= KD_ENGINE_KS_EULER ? 1024 : KD_STEPS_MAX;
@@ -42,7 +40,8 @@ uint32_t kd_engine_most_steps(enum kd_engine engine)
 
 enum kd_status kd_engine_steps_error(enum kd_engine engine, uint32_t steps, struct kd_error *error)
 {
-    return kd_error_field(error, "/accuracy/steps", "steps is %u, allowed for %s are multiples of 4 up to %u, and 0 for the engine's default",
+    return kd_error_field(error, "/accuracy/steps",
+                          "steps is %u, allowed for %s are multiples of 4 up to %u, and 0 for the engine's default",
                           steps, kd_engine_name(engine), kd_engine_most_steps(engine));
 }
 
@@ -63,16 +62,21 @@ static enum kd_status by_tolerance(const struct kd_wish *wish, const struct kd_a
 {
     struct kd_accuracy_choice choice;
     if (wish->steps)
-        return kd_error_field(error, "/accuracy/steps", "steps is %u beside a tolerance, which chooses them: allowed is 0", wish->steps);
+        return kd_error_field(error, "/accuracy/steps",
+                              "steps is %u beside a tolerance, which chooses them: allowed is 0", wish->steps);
     if (wish->engine == KD_ENGINE_CLOSED)
-        return kd_error_field(error, "/accuracy/tolerance",
-                              "tolerance is %.9g beside the engine \"closed\", which has one accuracy, that of its precision", wish->tolerance);
+        return kd_error_field(
+            error, "/accuracy/tolerance",
+            "tolerance is %.9g beside the engine \"closed\", which has one accuracy, that of its precision",
+            wish->tolerance);
     const struct kd_accuracy_limits limits = { wish->engine, float64 ? wish->precision : KD_PRECISION_F32 };
     enum kd_status status = kd_accuracy_choose(table, wish->tolerance, &limits, &choice, error);
     if (!status)
         *out = (struct kd_setting) { choice.engine, choice.precision, choice.steps, choice.error };
-    if (status == KD_EINVAL && wish->engine < 0 && wish->precision != KD_PRECISION_F32 && wish->tolerance >= KD_CLOSED_HOLDS && wish->tolerance < 1) {
-        *out = (struct kd_setting) { .engine = KD_ENGINE_CLOSED, .precision = KD_PRECISION_F64, .holds = KD_CLOSED_HOLDS };
+    if (status == KD_EINVAL && wish->engine < 0 && wish->precision != KD_PRECISION_F32 &&
+        wish->tolerance >= KD_CLOSED_HOLDS && wish->tolerance < 1) {
+        *out =
+            (struct kd_setting) { .engine = KD_ENGINE_CLOSED, .precision = KD_PRECISION_F64, .holds = KD_CLOSED_HOLDS };
         return KD_OK;
     }
     return status;
@@ -83,15 +87,15 @@ static struct kd_setting by_profile(const struct kd_wish *wish, bool float64)
     bool named = wish->profile >= 0, fine = !named || wish->profile == KD_PROFILE_REFERENCE;
     struct kd_setting s = { .holds = NAN };
     s.engine = wish->engine >= 0 ? (enum kd_engine)wish->engine : named ? KD_ENGINE_MINO_RKN6 : KD_ENGINE_CLOSED;
-    s.precision = wish->precision >= 0                       ? (enum kd_precision)wish->precision
+    s.precision = wish->precision >= 0                   ? (enum kd_precision)wish->precision
                   : s.engine == KD_ENGINE_CLOSED || fine ? KD_PRECISION_F64
-                                                             : KD_PRECISION_F32;
+                                                         : KD_PRECISION_F32;
     /* A precision and an engine that were not named may give way. */
     if (s.precision == KD_PRECISION_F64 && !float64 && wish->precision < 0 && wish->engine < 0 && !wish->steps)
         s.engine = KD_ENGINE_CLOSED;
-    s.steps = wish->steps                  ? wish->steps
-              : named ? engines[s.engine].profile[s.precision][wish->profile]
-                      : engines[s.engine].steps[s.precision];
+    s.steps = wish->steps ? wish->steps
+              : named     ? engines[s.engine].profile[s.precision][wish->profile]
+                          : engines[s.engine].steps[s.precision];
     return s;
 }
 
@@ -104,10 +108,12 @@ enum kd_status kd_setting_of(const struct kd_wish *wish, const struct kd_accurac
     else
         *out = by_profile(wish, float64);
     if (!status && out->precision == KD_PRECISION_F64 && !float64 && out->engine != KD_ENGINE_CLOSED)
-        return kd_error_field(error, "/accuracy/precision", "precision is f64, which this device has not: allowed are f32, and "
+        return kd_error_field(error, "/accuracy/precision",
+                              "precision is f64, which this device has not: allowed are f32, and "
                               "the engine \"closed\"");
     if (!status && out->engine == KD_ENGINE_CLOSED && wish->steps)
-        return kd_error_field(error, "/accuracy/steps", "the closed engine takes no steps: allowed is 0, or another engine");
+        return kd_error_field(error, "/accuracy/steps",
+                              "the closed engine takes no steps: allowed is 0, or another engine");
     if (!status && (wish->steps % 4 || wish->steps > kd_engine_most_steps(out->engine)))
         return kd_engine_steps_error(out->engine, wish->steps, error);
     return status;

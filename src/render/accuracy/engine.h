@@ -10,7 +10,8 @@
 #include <stdint.h>
 
 enum kd_engine {
-    KD_ENGINE_CLOSED,    /* elliptic functions: in double on the CPU, the reference; in single on the device, outside the orbits of light */
+    KD_ENGINE_CLOSED, /* elliptic functions: in double on the CPU, the reference; in single on the device, outside the
+                         orbits of light */
     KD_ENGINE_MINO_RKN4, /* Mino time on the device: Nystroem's method of order 4, */
     KD_ENGINE_MINO_RKN6, /* Albrecht's of order 6 */
     KD_ENGINE_KS_EULER,  /* the Kerr-Schild Hamiltonian on the device: symplectic Euler, */
@@ -20,7 +21,8 @@ enum kd_engine {
 };
 enum kd_precision { KD_PRECISION_F32, KD_PRECISION_F64 };
 
-const char *kd_engine_name(enum kd_engine engine);       /* "closed", "mino-rkn4", "mino-rkn6", "ks-euler", "ks-rk4", "ks-tao6" */
+const char *kd_engine_name(
+    enum kd_engine engine); /* "closed", "mino-rkn4", "mino-rkn6", "ks-euler", "ks-rk4", "ks-tao6" */
 const char *kd_precision_name(enum kd_precision precision); /* "f32", "f64" */
 
 #define KD_STEPS_MAX 2048 /* of any engine; some take fewer */
@@ -45,12 +47,12 @@ struct kd_wish {
 struct kd_setting {
     enum kd_engine engine;
     enum kd_precision precision;
-    uint32_t steps;  /* closed: 0 */
-    double holds;    /* relative error of crossing radii that the table says it holds; NaN: none was asked for */
+    uint32_t steps; /* closed: 0 */
+    double holds;   /* relative error of crossing radii that the table says it holds; NaN: none was asked for */
 };
 
-/* The tolerance that 99 of 100 rays by the closed form are within by their own error (docs/accuracy.md); the closed form is
- * used where no row of the table holds a tolerance. */
+/* The tolerance that 99 of 100 rays by the closed form are within by their own error (docs/accuracy.md); the closed
+ * form is used where no row of the table holds a tolerance. */
 #define KD_CLOSED_HOLDS 1e-12
 
 #define KD_WISH_NONE { .profile = -1, .engine = -1, .precision = -1, .tolerance = INFINITY }
@@ -60,11 +62,12 @@ struct kd_wish kd_wish_of(const struct kd_scene *scene);
 /* Whether the wish depends on the device; false: the closed form fulfils it, whatever the device. */
 bool kd_wish_needs_device(const struct kd_wish *wish);
 
-/* A tolerance gets the fastest row of the table that holds it, among the engines and precisions allowed, and no steps may be
- * named with it. Otherwise each of engine, precision and steps that is not named comes from the profile; without a profile the
- * closed form and double precision are meant. float64: whether the device has it; a profile that means it gets the closed form
- * where it has not, and so does a tolerance that no row holds. KD_EINVAL at /accuracy/... for what contradicts itself, cannot be held, or is not to be had on this device. table
- * may be NULL if no tolerance is asked for. */
+/* A tolerance gets the fastest row of the table that holds it, among the engines and precisions allowed, and no
+ * steps may be named with it. Otherwise each of engine, precision and steps that is not named comes from the
+ * profile; without a profile the closed form and double precision are meant. float64: whether the device has it; a
+ * profile that means it gets the closed form where it has not, and so does a tolerance that no row holds. KD_EINVAL
+ * at /accuracy/... for what contradicts itself, cannot be held, or is not to be had on this device. table may be
+ * NULL if no tolerance is asked for. */
 enum kd_status kd_setting_of(const struct kd_wish *wish, const struct kd_accuracy_table *table, bool float64,
                              struct kd_setting *out, struct kd_error *error);
 

@@ -116,7 +116,8 @@ static bool entry_from_json(const cJSON *o, struct kd_accuracy_entry *e)
     e->differ = whole(o, "differ");
     for (int q = 0; q < KD_ACCURACY_QUANTITIES; q++) {
         const cJSON *errors = cJSON_GetObjectItemCaseSensitive(o, kd_accuracy_quantity_names[q]);
-        e->of[q] = (struct kd_accuracy_errors) { figure(errors, "median"), figure(errors, "p99"), figure(errors, "worst") };
+        e->of[q] =
+            (struct kd_accuracy_errors) { figure(errors, "median"), figure(errors, "p99"), figure(errors, "worst") };
     }
     return e->rays < UINT32_MAX && e->crossings < UINT32_MAX && e->differ <= e->rays;
 }
@@ -132,7 +133,9 @@ static bool row_from_json(const cJSON *o, struct kd_accuracy_row *row)
     bool wide = !strcmp(precision, kd_precision_name(KD_PRECISION_F64));
     if (found < 0 || (!wide && strcmp(precision, kd_precision_name(KD_PRECISION_F32))))
         return false;
-    *row = (struct kd_accuracy_row) { (enum kd_engine)found, wide ? KD_PRECISION_F64 : KD_PRECISION_F32, whole(o, "steps"), { { 0 } } };
+    *row = (struct kd_accuracy_row) {
+        (enum kd_engine)found, wide ? KD_PRECISION_F64 : KD_PRECISION_F32, whole(o, "steps"), { { 0 } }
+    };
     const cJSON *sets = cJSON_GetObjectItemCaseSensitive(o, "sets");
     for (int k = 0; k < KD_ACCURACY_SETS; k++) {
         const cJSON *entry = cJSON_GetObjectItemCaseSensitive(sets, kd_accuracy_set_names[k]);
@@ -146,7 +149,8 @@ static bool head_from_json(const cJSON *root, struct kd_accuracy_table *t)
 {
     char clock[8];
     bool good = whole(root, "format") == FORMAT && text_of(root, "kerrd", t->version, sizeof t->version) &&
-                text_of(root, "date", t->date, sizeof t->date) && text_of(root, "command", t->command, sizeof t->command) &&
+                text_of(root, "date", t->date, sizeof t->date) &&
+                text_of(root, "command", t->command, sizeof t->command) &&
                 text_of(root, "machine", t->machine, sizeof t->machine) &&
                 text_of(root, "device", t->device, sizeof t->device) && text_of(root, "clock", clock, sizeof clock) &&
                 text_of(root, "skipped", t->skipped, sizeof t->skipped);
@@ -166,8 +170,8 @@ enum kd_status kd_accuracy_from_json(const char *text, size_t length, struct kd_
     *out = (struct kd_accuracy_table) { 0 };
     bool good = head_from_json(root, out);
     const cJSON *item, *rows = cJSON_GetObjectItemCaseSensitive(root, "rows");
-    cJSON_ArrayForEach(item, rows)
-        good = good && out->n < KD_ACCURACY_ROWS && row_from_json(item, &out->rows[out->n++]);
+    cJSON_ArrayForEach(item, rows) good =
+        good && out->n < KD_ACCURACY_ROWS && row_from_json(item, &out->rows[out->n++]);
     cJSON_Delete(root);
     return good && out->n ? KD_OK : kd_error_set(error, KD_EINVAL, "this is no accuracy table of format %d", FORMAT);
 }

@@ -31,13 +31,14 @@ done:
 
 static enum kd_status add_set(struct kd_buffer *out, const struct kd_accuracy_table *table, enum kd_accuracy_set set)
 {
-    enum kd_status status = kd_buffer_printf(
-        out,
-        "\n**%s**: %s\n\n"
-        "| engine | precision | steps | Mray/s%s | r: median | 99 %% | worst | φ: median | 99 %% | worst | delay: median | 99 %% | worst "
-        "| g: median | 99 %% | worst | differ |\n"
-        "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
-        kd_accuracy_set_names[set], kd_accuracy_set_rays[set], table->cores ? "/core" : "");
+    enum kd_status status =
+        kd_buffer_printf(out,
+                         "\n**%s**: %s\n\n"
+                         "| engine | precision | steps | Mray/s%s | r: median | 99 %% | worst | φ: median | 99 %% | "
+                         "worst | delay: median | 99 %% | worst "
+                         "| g: median | 99 %% | worst | differ |\n"
+                         "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
+                         kd_accuracy_set_names[set], kd_accuracy_set_rays[set], table->cores ? "/core" : "");
     for (uint32_t i = 0; i < table->n && !status; i++)
         status = add_row(out, table, &table->rows[i], set);
     return status;
@@ -45,9 +46,9 @@ static enum kd_status add_set(struct kd_buffer *out, const struct kd_accuracy_ta
 
 enum kd_status kd_accuracy_to_markdown(const struct kd_accuracy_table *table, struct kd_buffer *out)
 {
-    enum kd_status status = kd_buffer_printf(
-        out, "kerrd %s, %s, %s, %s: `%s`.%s%s\n", table->version, table->date, table->machine, table->device, table->command,
-        table->skipped[0] ? " Skipped: " : "", table->skipped);
+    enum kd_status status =
+        kd_buffer_printf(out, "kerrd %s, %s, %s, %s: `%s`.%s%s\n", table->version, table->date, table->machine,
+                         table->device, table->command, table->skipped[0] ? " Skipped: " : "", table->skipped);
     for (int k = 0; k < KD_ACCURACY_SETS && !status; k++)
         status = add_set(out, table, (enum kd_accuracy_set)k);
     return status;

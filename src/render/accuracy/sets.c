@@ -6,15 +6,19 @@
 #include <stdbool.h>
 
 const char *const kd_accuracy_set_names[KD_ACCURACY_SETS] = {
-    [KD_ACCURACY_BULK] = "bulk",           [KD_ACCURACY_NEAR_CRITICAL] = "near-critical",
-    [KD_ACCURACY_NEAR_AXIS] = "near-axis", [KD_ACCURACY_EDGE_ON] = "edge-on",
+    [KD_ACCURACY_BULK] = "bulk",
+    [KD_ACCURACY_NEAR_CRITICAL] = "near-critical",
+    [KD_ACCURACY_NEAR_AXIS] = "near-axis",
+    [KD_ACCURACY_EDGE_ON] = "edge-on",
     [KD_ACCURACY_NEAR_EXTREMAL] = "near-extremal",
 };
 
 const char *const kd_accuracy_set_rays[KD_ACCURACY_SETS] = {
     [KD_ACCURACY_BULK] = "a = 0.9, i = 70°, ±12 M",
-    [KD_ACCURACY_NEAR_CRITICAL] = "a = 0.9, i = 70°, |ρ/ρ_c - 1| = 5e-2, 5e-3, ... 5e-6 on both sides of the critical curve",
-    [KD_ACCURACY_NEAR_AXIS] = "a = 0.9: half i = 0.001°, ±12 M; half i = 70°, α = 0, ±1e-12, ... ±1e-2 M, β within ±12 M",
+    [KD_ACCURACY_NEAR_CRITICAL] =
+        "a = 0.9, i = 70°, |ρ/ρ_c - 1| = 5e-2, 5e-3, ... 5e-6 on both sides of the critical curve",
+    [KD_ACCURACY_NEAR_AXIS] =
+        "a = 0.9: half i = 0.001°, ±12 M; half i = 70°, α = 0, ±1e-12, ... ±1e-2 M, β within ±12 M",
     [KD_ACCURACY_EDGE_ON] = "a = 0.9: half i = 90°, half i = 89.99°, ±12 M",
     [KD_ACCURACY_NEAR_EXTREMAL] = "a = 0.9999, i = 70°, ±12 M",
 };
@@ -49,8 +53,10 @@ static double second_of(size_t k) { return fraction(k, 0.5698402909980532); }
 static struct kd_critical curve_of(const struct kd_accuracy_view *view)
 {
     double i = view->inclination_deg * (M_PI / 180);
-    return kd_critical_of(&(struct kd_critical_observer) {
-        .spin = view->spin, .radius = INFINITY, .cos_theta = view->inclination_deg == 90 ? 0 : cos(i), .sin_theta = sin(i) });
+    return kd_critical_of(&(struct kd_critical_observer) { .spin = view->spin,
+                                                           .radius = INFINITY,
+                                                           .cos_theta = view->inclination_deg == 90 ? 0 : cos(i),
+                                                           .sin_theta = sin(i) });
 }
 
 static void near_critical(const struct kd_critical *curve, size_t k, double *out)

@@ -23,20 +23,21 @@ double kd_accuracy_holds(const struct kd_accuracy_row *row)
     return out;
 }
 
-static enum kd_status refuse(const struct kd_accuracy_table *table, const struct kd_accuracy_row *best, double tolerance,
-                             struct kd_error *error)
+static enum kd_status refuse(const struct kd_accuracy_table *table, const struct kd_accuracy_row *best,
+                             double tolerance, struct kd_error *error)
 {
     bool stands_in = table == kd_accuracy_built_in();
     if (!best)
-        return kd_error_field(error, "/accuracy/tolerance", "the accuracy table of this device has no row that can be relied on "
+        return kd_error_field(error, "/accuracy/tolerance",
+                              "the accuracy table of this device has no row that can be relied on "
                               "for what was asked; `kerrd bench accuracy` makes a new one");
     /* Rounded up: whoever asks for this number gets it. */
     return kd_error_field(error, "/accuracy/tolerance",
                           "tolerance is %.3g, %s was measured to hold %.3g and above (%s %s with %u steps); the engine "
                           "\"closed\" is what it was measured against",
                           tolerance, stands_in ? "llvmpipe, whose table stands in for this device's," : "this device",
-                          1.01 * kd_accuracy_holds(best), kd_engine_name(best->engine), kd_precision_name(best->precision),
-                          best->steps);
+                          1.01 * kd_accuracy_holds(best), kd_engine_name(best->engine),
+                          kd_precision_name(best->precision), best->steps);
 }
 
 static bool within(const struct kd_accuracy_limits *limits, const struct kd_accuracy_row *row)
@@ -45,12 +46,14 @@ static bool within(const struct kd_accuracy_limits *limits, const struct kd_accu
                        (limits->precision < 0 || limits->precision == (int)row->precision));
 }
 
-enum kd_status kd_accuracy_choose(const struct kd_accuracy_table *table, double tolerance, const struct kd_accuracy_limits *limits,
-                                  struct kd_accuracy_choice *out, struct kd_error *error)
+enum kd_status kd_accuracy_choose(const struct kd_accuracy_table *table, double tolerance,
+                                  const struct kd_accuracy_limits *limits, struct kd_accuracy_choice *out,
+                                  struct kd_error *error)
 {
     const struct kd_accuracy_row *found = NULL, *best = NULL;
     if (!(tolerance > 0 && tolerance < 1))
-        return kd_error_field(error, "/accuracy/tolerance", "tolerance is %.9g, allowed are numbers above 0 and below 1", tolerance);
+        return kd_error_field(error, "/accuracy/tolerance",
+                              "tolerance is %.9g, allowed are numbers above 0 and below 1", tolerance);
     for (uint32_t i = 0; i < table->n; i++) {
         const struct kd_accuracy_row *row = &table->rows[i];
         if (!within(limits, row) || isinf(kd_accuracy_holds(row)))

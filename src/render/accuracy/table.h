@@ -1,9 +1,11 @@
-/* The table of accuracy says what each engine, precision and number of steps costs on one device, and how wrong it is: the one that `kerrd bench
- * accuracy` measures, GET /v1/accuracy serves and a tolerance is looked up in. Plain values; any thread.
+/* The table of accuracy says what each engine, precision and number of steps costs on one device, and how wrong it
+ * is: the one that `kerrd bench accuracy` measures, GET /v1/accuracy serves and a tolerance is looked up in. Plain
+ * values; any thread.
  *
- * Errors are those of render/rays/rays.h against KD_ENGINE_CLOSED on named sets of rays (render/accuracy/sets.h), all orders
- * together, over the crossings that both have from the ISCO to KD_ACCURACY_FAR: relative ones of r and g, absolute ones of
- * phi (radians) and delay (M). A ray with another fate or another number of crossings is counted in `differ`. */
+ * Errors are those of render/rays/rays.h against KD_ENGINE_CLOSED on named sets of rays (render/accuracy/sets.h),
+ * all orders together, over the crossings that both have from the ISCO to KD_ACCURACY_FAR: relative ones of r and g,
+ * absolute ones of phi (radians) and delay (M). A ray with another fate or another number of crossings is counted in
+ * `differ`. */
 #ifndef KD_RENDER_ACCURACY_TABLE_H
 #define KD_RENDER_ACCURACY_TABLE_H
 
@@ -14,9 +16,10 @@
 #define KD_ACCURACY_ORDERS 3
 #define KD_ACCURACY_FAR 1e3 /* M: w = 1/r is what is computed, its error absolute, so that of r grows as r */
 #define KD_ACCURACY_ROWS 64
-/* What a row is said to hold: what 99 % of the crossings of the bulk set are within, or the median of any other set if that is
- * larger: few steps lose more edge-on. Near the critical curve no number of steps helps, so that set is left out. It is the first
- * choice only: of a list of rays, those that are beyond a tolerance by their own error are followed again (rays/hold.h). */
+/* What a row is said to hold: what 99 % of the crossings of the bulk set are within, or the median of any other set
+ * if that is larger: few steps lose more edge-on. Near the critical curve no number of steps helps, so that set is
+ * left out. It is the first choice only: of a list of rays, those that are beyond a tolerance by their own error are
+ * followed again (rays/hold.h). */
 #define KD_ACCURACY_STRAY 0.01 /* a row of which more rays than this differ in one of these sets holds nothing */
 
 enum kd_accuracy_quantity { KD_ACCURACY_R, KD_ACCURACY_PHI, KD_ACCURACY_DELAY, KD_ACCURACY_G, KD_ACCURACY_QUANTITIES };
@@ -61,14 +64,13 @@ double kd_accuracy_holds(const struct kd_accuracy_row *row);
 
 /* The fastest row within the limits (NULL: all) that holds a relative error of the crossing radius. KD_EINVAL at
  * "/accuracy/tolerance", saying what this device can hold, if none does. */
-struct kd_accuracy_limits {
-    int engine, precision; /* -1: any */
-};
-enum kd_status kd_accuracy_choose(const struct kd_accuracy_table *table, double tolerance, const struct kd_accuracy_limits *limits,
-                                  struct kd_accuracy_choice *out, struct kd_error *error);
+struct kd_accuracy_limits { int engine, precision; /* -1: any */ };
+enum kd_status kd_accuracy_choose(const struct kd_accuracy_table *table, double tolerance,
+                                  const struct kd_accuracy_limits *limits, struct kd_accuracy_choice *out,
+                                  struct kd_error *error);
 
-/* The table that a tolerance is looked up in until this device has its own: of llvmpipe, from bench/results. Errors are much the
- * same everywhere, speeds are not. Any thread; never freed; NULL if memory is short. */
+/* The table that a tolerance is looked up in until this device has its own: of llvmpipe, from bench/results. Errors
+ * are much the same everywhere, speeds are not. Any thread; never freed; NULL if memory is short. */
 const struct kd_accuracy_table *kd_accuracy_built_in(void);
 
 /* The document of GET /v1/accuracy, appended, and back: KD_EINVAL for text that is no such document. */

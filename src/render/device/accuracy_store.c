@@ -44,13 +44,16 @@ static enum kd_status read_file(const char *path, struct kd_buffer *out, struct 
 }
 
 /* The file's bytes, once they have been understood. */
-static enum kd_status load(const char *path, struct kd_buffer *text, struct kd_accuracy_table *table, struct kd_error *error)
+static enum kd_status load(const char *path, struct kd_buffer *text, struct kd_accuracy_table *table,
+                           struct kd_error *error)
 {
     if (!path)
-        return kd_error_set(error, KD_EIO, "there is nowhere to keep an accuracy table: neither XDG_CACHE_HOME nor HOME is set");
+        return kd_error_set(error, KD_EIO,
+                            "there is nowhere to keep an accuracy table: neither XDG_CACHE_HOME nor HOME is set");
     enum kd_status status = read_file(path, text, error);
     if (!status && kd_accuracy_from_json((const char *)text->data, text->size, table, NULL))
-        status = kd_error_set(error, KD_EINVAL, "the accuracy table of this device is damaged or of another version: " MAKE);
+        status =
+            kd_error_set(error, KD_EINVAL, "the accuracy table of this device is damaged or of another version: " MAKE);
     return status;
 }
 
@@ -62,7 +65,8 @@ enum kd_status kd_accuracy_load(const char *path, struct kd_accuracy_table *out,
     return status;
 }
 
-enum kd_status kd_renderer_accuracy_json(const struct kd_renderer *renderer, struct kd_buffer *out, struct kd_error *error)
+enum kd_status kd_renderer_accuracy_json(const struct kd_renderer *renderer, struct kd_buffer *out,
+                                         struct kd_error *error)
 {
     struct kd_accuracy_table *table = malloc(sizeof *table);
     struct kd_buffer text = { 0 };

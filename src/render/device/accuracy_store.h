@@ -1,4 +1,5 @@
-/* The accuracy table of a device is kept on disk, beside its pipeline cache, which is written anew with every driver. */
+/* The accuracy table of a device is kept on disk, beside its pipeline cache, which is written anew with every
+ * driver. */
 #ifndef KD_RENDER_DEVICE_ACCURACY_STORE_H
 #define KD_RENDER_DEVICE_ACCURACY_STORE_H
 
@@ -11,11 +12,12 @@ char *kd_accuracy_path(const struct kd_renderer *renderer);
 /* Replaces the table kept there, in one step. */
 enum kd_status kd_accuracy_save(const struct kd_accuracy_table *table, const char *path, struct kd_error *error);
 
-/* KD_EIO where there is none or it cannot be read, KD_EINVAL where it is damaged or of another format: the message says how
- * to make one. path may be NULL. Any thread. */
+/* KD_EIO where there is none or it cannot be read, KD_EINVAL where it is damaged or of another format: the message
+ * says how to make one. path may be NULL. Any thread. */
 enum kd_status kd_accuracy_load(const char *path, struct kd_accuracy_table *out, struct kd_error *error);
 
 /* The document of GET /v1/accuracy, appended; errors as kd_accuracy_load. Any thread. */
-enum kd_status kd_renderer_accuracy_json(const struct kd_renderer *renderer, struct kd_buffer *out, struct kd_error *error);
+enum kd_status kd_renderer_accuracy_json(const struct kd_renderer *renderer, struct kd_buffer *out,
+                                         struct kd_error *error);
 
 #endif

@@ -16,12 +16,15 @@ struct own {
 
 static bool is_grid(const struct kd_scene *scene) { return scene->volume.model == KD_VOLUME_GRID; }
 
-static enum kd_status read_asset(const struct kd_assets *assets, const char *hash, struct kd_matter_grid *out, struct kd_error *error)
+static enum kd_status read_asset(const struct kd_assets *assets, const char *hash, struct kd_matter_grid *out,
+                                 struct kd_error *error)
 {
     struct kd_asset_bytes bytes;
     struct kd_error why = { 0 };
     if (!assets || !assets->take(assets->user, hash, &bytes))
-        return kd_error_field(error, "/volume/grid", "volume.grid is \"%s\", and the bytes of this asset are not here; allowed are %s", hash, assets ? assets->allowed : "none where there are no assets");
+        return kd_error_field(error, "/volume/grid",
+                              "volume.grid is \"%s\", and the bytes of this asset are not here; allowed are %s", hash,
+                              assets ? assets->allowed : "none where there are no assets");
     enum kd_status status = kd_matter_grid_read(bytes.data, bytes.size, out, &why);
     assets->give_back(assets->user, &bytes);
     if (status == KD_EINVAL)
@@ -40,7 +43,8 @@ static struct kd_kept_grid *kept_of(struct kd_grids *all, const char *hash)
 }
 
 /* Finds the scene's grid, with its nodes where they are asked for: reads it unless it is there. */
-static enum kd_status grid_of(struct kd_renderer *r, const struct kd_scene *scene, bool nodes, struct kd_matter_grid **out, struct kd_error *error)
+static enum kd_status grid_of(struct kd_renderer *r, const struct kd_scene *scene, bool nodes,
+                              struct kd_matter_grid **out, struct kd_error *error)
 {
     struct kd_kept_grid *at = kept_of(&r->grids, hash_of(scene));
     enum kd_status status = KD_OK;
@@ -49,7 +53,8 @@ static enum kd_status grid_of(struct kd_renderer *r, const struct kd_scene *scen
             at = &r->grids.kept[r->grids.n++ % KD_GRIDS];
         kd_matter_grid_finish(&at->grid);
         *at->of = 0;
-        KD_TRY(*scene->volume.grid ? read_asset(r->panoramas.assets, scene->volume.grid, &at->grid, error) : kd_matter_grid_none(scene->spacetime.spin, &at->grid, error));
+        KD_TRY(*scene->volume.grid ? read_asset(r->panoramas.assets, scene->volume.grid, &at->grid, error)
+                                   : kd_matter_grid_none(scene->spacetime.spin, &at->grid, error));
         snprintf(at->of, sizeof at->of, "%s", hash_of(scene));
     }
     *out = &at->grid;
@@ -90,7 +95,8 @@ done:
 }
 
 /* Where its nodes are, and between which radii: those of the scene, and of the grid. */
-static enum kd_status tell(struct kd_renderer *r, const struct kd_scene *scene, struct kd_emission *out, char *credit, size_t size, struct kd_error *error)
+static enum kd_status tell(struct kd_renderer *r, const struct kd_scene *scene, struct kd_emission *out, char *credit,
+                           size_t size, struct kd_error *error)
 {
     struct kd_matter_grid *g;
     struct kd_plasma_block *to = &out->plasma;
@@ -121,7 +127,10 @@ static enum kd_status tell(struct kd_renderer *r, const struct kd_scene *scene, 
     return KD_OK;
 }
 
-static void buffers(const void *own, struct kd_vk_buffer *out[KD_OWN_COUNT]) { out[KD_OWN_plasma_grid] = ((const struct own *)own)->nodes; }
+static void buffers(const void *own, struct kd_vk_buffer *out[KD_OWN_COUNT])
+{
+    out[KD_OWN_plasma_grid] = ((const struct own *)own)->nodes;
+}
 
 static void forget(void *own) { ((struct own *)own)->there = false; }
 

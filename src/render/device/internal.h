@@ -27,25 +27,34 @@ struct kd_aside {
 
 struct kd_renderer {
     struct kd_vk *vk; /* NULL: it was lost, and could not be opened again */
-    struct kd_opening { char *device, *cache_dir; bool validate; uint32_t deadline_ms; } opening; /* how it was opened, */
+    struct kd_opening {
+        char *device, *cache_dir;
+        bool validate;
+        uint32_t deadline_ms;
+    } opening;                /* how it was opened, */
     struct kd_vk_info opened; /* and what it is */
-    char *files; /* kd_vk_cache_file without a suffix; NULL: there is no folder */
+    char *files;              /* kd_vk_cache_file without a suffix; NULL: there is no folder */
     struct kd_kernels kernels;
     struct kd_store store;
     struct kd_prepared prepared;
     struct kd_aside asides[KD_ASIDES];
     uint64_t asides_used;
-    struct kd_vk_buffer *rays[2][3]; /* a list, its ends, and those on the host: rays/device.c's, kept for the next list */
-    struct kd_rays_pace { enum kd_engine engine; enum kd_precision precision; uint32_t steps, orders, size; } rays_pace;
+    struct kd_vk_buffer
+        *rays[2][3]; /* a list, its ends, and those on the host: rays/device.c's, kept for the next list */
+    struct kd_rays_pace {
+        enum kd_engine engine;
+        enum kd_precision precision;
+        uint32_t steps, orders, size;
+    } rays_pace;
     bool passing;               /* as kd_renderer_params */
     struct kd_emit_state *emit; /* numbers and tables of the emitters, as of the last frame */
     struct kd_panoramas panoramas;
     struct kd_grids grids;
     struct kd_normalised normalised;
-    pthread_mutex_t lock; /* guards capacity and memory */
+    pthread_mutex_t lock;        /* guards capacity and memory */
     struct kd_capacity capacity; /* but for what the host leaves, which kd_renderer_capacity sees to */
     struct kd_memory_watch memory;
-    _Atomic uint64_t held; /* bytes of device buffers, as of the last frame */
+    _Atomic uint64_t held;              /* bytes of device buffers, as of the last frame */
     struct kd_accuracy_table *accuracy; /* of this device, as on disk when the renderer was made; NULL: none */
     struct kd_verdict verdict;
     struct kd_capacity kept; /* as it is in the file */
@@ -54,6 +63,5 @@ struct kd_renderer {
     char name[800];          /* both of what follows */
     char device[256], driver[520];
 };
-
 
 #endif

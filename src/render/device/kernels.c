@@ -75,93 +75,226 @@ _Static_assert(KD_OWN_BINDING + KD_OWN_COUNT <= KD_VK_MAX_BINDINGS && 2 + KD_OWN
 #define KD_B(number, type, member) [KD_OWN_BINDING + (number)] = KD_KIND_##type,
 
 static const struct kd_vk_pipeline_params sources[] = {
-    [KD_KERNEL_LENS_CLOSED] = { "lens_closed", kd_spv_lens_closed, sizeof kd_spv_lens_closed, 3, sizeof(struct kd_slice), { [2] = KD_VK_UNIFORM } },
-    [KD_KERNEL_LENS_MAP] = { "lens_map", kd_spv_lens_map, sizeof kd_spv_lens_map, 3, sizeof(struct kd_slice), { [2] = KD_VK_UNIFORM } },
-    [KD_KERNEL_FOOTPRINT] = { "footprint", kd_spv_footprint, sizeof kd_spv_footprint, 1, sizeof(struct kd_footprint_push) },
-    [KD_KERNEL_FOOTPRINT_TEXELS] = { "footprint, texels", kd_spv_footprint_texels, sizeof kd_spv_footprint_texels, 2, sizeof(struct kd_footprint_push), { [1] = KD_VK_TEXELS_R } },
+    [KD_KERNEL_LENS_CLOSED] = { "lens_closed",
+                                kd_spv_lens_closed,
+                                sizeof kd_spv_lens_closed,
+                                3,
+                                sizeof(struct kd_slice),
+                                { [2] = KD_VK_UNIFORM } },
+    [KD_KERNEL_LENS_MAP] = { "lens_map",
+                             kd_spv_lens_map,
+                             sizeof kd_spv_lens_map,
+                             3,
+                             sizeof(struct kd_slice),
+                             { [2] = KD_VK_UNIFORM } },
+    [KD_KERNEL_FOOTPRINT] = { "footprint", kd_spv_footprint, sizeof kd_spv_footprint, 1,
+                              sizeof(struct kd_footprint_push) },
+    [KD_KERNEL_FOOTPRINT_TEXELS] = { "footprint, texels",
+                                     kd_spv_footprint_texels,
+                                     sizeof kd_spv_footprint_texels,
+                                     2,
+                                     sizeof(struct kd_footprint_push),
+                                     { [1] = KD_VK_TEXELS_R } },
     [KD_KERNEL_BETWEEN] = { "between", kd_spv_between, sizeof kd_spv_between, 2, sizeof(struct kd_between_push) },
     [KD_KERNEL_RAYS_F32] = { "rays", kd_spv_rays, sizeof kd_spv_rays, 2, 8 },
     [KD_KERNEL_RAYS_F64] = { "rays f64", kd_spv_rays_f64, sizeof kd_spv_rays_f64, 2, 8 },
     [KD_KERNEL_RAYS_KS_F32] = { "rays Kerr-Schild", kd_spv_rays_kerr_schild, sizeof kd_spv_rays_kerr_schild, 2, 8 },
-    [KD_KERNEL_RAYS_KS_F64] = { "rays Kerr-Schild f64", kd_spv_rays_kerr_schild_f64, sizeof kd_spv_rays_kerr_schild_f64, 2, 8 },
+    [KD_KERNEL_RAYS_KS_F64] = { "rays Kerr-Schild f64", kd_spv_rays_kerr_schild_f64, sizeof kd_spv_rays_kerr_schild_f64,
+                                2, 8 },
     [KD_KERNEL_RAYS_TRACE_F32] = { "rays, told", kd_spv_rays_trace, sizeof kd_spv_rays_trace, 3, 8 },
     [KD_KERNEL_RAYS_TRACE_F64] = { "rays f64, told", kd_spv_rays_f64_trace, sizeof kd_spv_rays_f64_trace, 3, 8 },
-    [KD_KERNEL_RAYS_KS_TRACE_F32] = { "rays Kerr-Schild, told", kd_spv_rays_kerr_schild_trace, sizeof kd_spv_rays_kerr_schild_trace,
-                                      3, 8 },
+    [KD_KERNEL_RAYS_KS_TRACE_F32] = { "rays Kerr-Schild, told", kd_spv_rays_kerr_schild_trace,
+                                      sizeof kd_spv_rays_kerr_schild_trace, 3, 8 },
     [KD_KERNEL_RAYS_KS_TRACE_F64] = { "rays Kerr-Schild f64, told", kd_spv_rays_kerr_schild_f64_trace,
                                       sizeof kd_spv_rays_kerr_schild_f64_trace, 3, 8 },
-    [KD_KERNEL_STAR_TILES] = { "star tiles", kd_spv_star_tiles, sizeof kd_spv_star_tiles, 11, sizeof(struct kd_stars_push),
+    [KD_KERNEL_STAR_TILES] = { "star tiles",
+                               kd_spv_star_tiles,
+                               sizeof kd_spv_star_tiles,
+                               11,
+                               sizeof(struct kd_stars_push),
                                { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [8] = KD_VK_UNIFORM } },
-    [KD_KERNEL_STAR_TILES_TEXELS] = { "star tiles, texels", kd_spv_star_tiles_texels, sizeof kd_spv_star_tiles_texels, 11,
-                                      sizeof(struct kd_stars_push), { KD_VK_TEXELS_R, [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_TEXELS_RGBA, [5] = KD_VK_TEXELS_WORD, [8] = KD_VK_UNIFORM } },
-    [KD_KERNEL_STAR_SEARCH] = { "star search", kd_spv_star_search, sizeof kd_spv_star_search, 9, sizeof(struct kd_stars_push),
+    [KD_KERNEL_STAR_TILES_TEXELS] = { "star tiles, texels",
+                                      kd_spv_star_tiles_texels,
+                                      sizeof kd_spv_star_tiles_texels,
+                                      11,
+                                      sizeof(struct kd_stars_push),
+                                      { KD_VK_TEXELS_R, [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA,
+                                        [4] = KD_VK_TEXELS_RGBA, [5] = KD_VK_TEXELS_WORD, [8] = KD_VK_UNIFORM } },
+    [KD_KERNEL_STAR_SEARCH] = { "star search",
+                                kd_spv_star_search,
+                                sizeof kd_spv_star_search,
+                                9,
+                                sizeof(struct kd_stars_push),
                                 { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [8] = KD_VK_UNIFORM } },
-    [KD_KERNEL_STAR_SEARCH_TEXELS] = { "star search, texels", kd_spv_star_search_texels, sizeof kd_spv_star_search_texels, 9,
-                                       sizeof(struct kd_stars_push), { KD_VK_TEXELS_R, [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_TEXELS_RGBA, [5] = KD_VK_TEXELS_WORD, [8] = KD_VK_UNIFORM } },
-    [KD_KERNEL_STAR_IMAGES] = { "star images", kd_spv_star_images, sizeof kd_spv_star_images, 8, sizeof(struct kd_stars_push),
+    [KD_KERNEL_STAR_SEARCH_TEXELS] = { "star search, texels",
+                                       kd_spv_star_search_texels,
+                                       sizeof kd_spv_star_search_texels,
+                                       9,
+                                       sizeof(struct kd_stars_push),
+                                       { KD_VK_TEXELS_R, [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA,
+                                         [4] = KD_VK_TEXELS_RGBA, [5] = KD_VK_TEXELS_WORD, [8] = KD_VK_UNIFORM } },
+    [KD_KERNEL_STAR_IMAGES] = { "star images",
+                                kd_spv_star_images,
+                                sizeof kd_spv_star_images,
+                                8,
+                                sizeof(struct kd_stars_push),
                                 { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [5] = KD_VK_UNIFORM } },
-    [KD_KERNEL_TRANSFER] = { "transfer", kd_spv_transfer, sizeof kd_spv_transfer, KD_OWN_BINDING + KD_OWN_COUNT, sizeof(struct kd_slice),
+    [KD_KERNEL_TRANSFER] = { "transfer",
+                             kd_spv_transfer,
+                             sizeof kd_spv_transfer,
+                             KD_OWN_BINDING + KD_OWN_COUNT,
+                             sizeof(struct kd_slice),
                              { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM } },
-    [KD_KERNEL_TRANSFER_TEXELS] = { "transfer, texels", kd_spv_transfer_texels, sizeof kd_spv_transfer_texels, KD_OWN_BINDING + KD_OWN_COUNT, sizeof(struct kd_slice),
-                             { KD_VK_TEXELS_R, [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM, KD_EMIT_BUFFERS } },
-    [KD_KERNEL_TRANSFER_TELL] = { "transfer, told", kd_spv_transfer_tell, sizeof kd_spv_transfer_tell, KD_OWN_BINDING + KD_OWN_COUNT, sizeof(struct kd_slice),
+    [KD_KERNEL_TRANSFER_TEXELS] = { "transfer, texels",
+                                    kd_spv_transfer_texels,
+                                    sizeof kd_spv_transfer_texels,
+                                    KD_OWN_BINDING + KD_OWN_COUNT,
+                                    sizeof(struct kd_slice),
+                                    { KD_VK_TEXELS_R, [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM,
+                                      KD_EMIT_BUFFERS } },
+    [KD_KERNEL_TRANSFER_TELL] = { "transfer, told",
+                                  kd_spv_transfer_tell,
+                                  sizeof kd_spv_transfer_tell,
+                                  KD_OWN_BINDING + KD_OWN_COUNT,
+                                  sizeof(struct kd_slice),
                                   { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM } },
-    [KD_KERNEL_MARCH_TELL] = { "march, told", kd_spv_transfer_march_tell, sizeof kd_spv_transfer_march_tell, KD_OWN_BINDING + KD_OWN_COUNT,
-                               sizeof(struct kd_slice), { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM } },
-    [KD_KERNEL_LAYERS] = { "layers", kd_spv_layers, sizeof kd_spv_layers, KD_OWN_BINDING + KD_OWN_COUNT, sizeof(struct kd_slice),
+    [KD_KERNEL_MARCH_TELL] = { "march, told",
+                               kd_spv_transfer_march_tell,
+                               sizeof kd_spv_transfer_march_tell,
+                               KD_OWN_BINDING + KD_OWN_COUNT,
+                               sizeof(struct kd_slice),
+                               { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM } },
+    [KD_KERNEL_LAYERS] = { "layers",
+                           kd_spv_layers,
+                           sizeof kd_spv_layers,
+                           KD_OWN_BINDING + KD_OWN_COUNT,
+                           sizeof(struct kd_slice),
                            { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM } },
-    [KD_KERNEL_MARCH] = { "march", kd_spv_transfer_march, sizeof kd_spv_transfer_march, KD_OWN_BINDING + KD_OWN_COUNT, sizeof(struct kd_slice),
+    [KD_KERNEL_MARCH] = { "march",
+                          kd_spv_transfer_march,
+                          sizeof kd_spv_transfer_march,
+                          KD_OWN_BINDING + KD_OWN_COUNT,
+                          sizeof(struct kd_slice),
                           { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM } },
-    [KD_KERNEL_LAYERS_MARCH] = { "layers, march", kd_spv_layers_march, sizeof kd_spv_layers_march, KD_OWN_BINDING + KD_OWN_COUNT, sizeof(struct kd_slice),
+    [KD_KERNEL_LAYERS_MARCH] = { "layers, march",
+                                 kd_spv_layers_march,
+                                 sizeof kd_spv_layers_march,
+                                 KD_OWN_BINDING + KD_OWN_COUNT,
+                                 sizeof(struct kd_slice),
                                  { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM } },
-    [KD_KERNEL_PHOTOMETRY] = { "photometry", kd_spv_photometry, sizeof kd_spv_photometry, 2, sizeof(struct kd_light_push) },
+    [KD_KERNEL_PHOTOMETRY] = { "photometry", kd_spv_photometry, sizeof kd_spv_photometry, 2,
+                               sizeof(struct kd_light_push) },
     [KD_KERNEL_EXPOSE] = { "expose", kd_spv_expose, sizeof kd_spv_expose, 2, 8 },
     [KD_KERNEL_POST] = { "post", kd_spv_post, sizeof kd_spv_post, 2, sizeof(struct kd_post_push) },
-    [KD_KERNEL_POST_TEXELS] = { "post, texels", kd_spv_post_texels, sizeof kd_spv_post_texels, 2, sizeof(struct kd_post_push),
+    [KD_KERNEL_POST_TEXELS] = { "post, texels",
+                                kd_spv_post_texels,
+                                sizeof kd_spv_post_texels,
+                                2,
+                                sizeof(struct kd_post_push),
                                 { KD_VK_TEXELS_RGBA } },
-    [KD_KERNEL_POST_BLOOM] = { "post, bloom", kd_spv_post_bloom, sizeof kd_spv_post_bloom, 3, sizeof(struct kd_post_push) },
-    [KD_KERNEL_POST_BLOOM_TEXELS] = { "post, bloom, texels", kd_spv_post_bloom_texels, sizeof kd_spv_post_bloom_texels, 3,
-                                      sizeof(struct kd_post_push), { KD_VK_TEXELS_RGBA, [2] = KD_VK_TEXELS_RGBA } },
-    [KD_KERNEL_POST_HEAT] = { "post, heat", kd_spv_post_heat, sizeof kd_spv_post_heat, 3, sizeof(struct kd_post_push), { [2] = KD_VK_TEXELS_RGBA } },
-    [KD_KERNEL_POST_HEAT_TEXELS] = { "post, heat, texels", kd_spv_post_heat_texels, sizeof kd_spv_post_heat_texels, 3, sizeof(struct kd_post_push),
+    [KD_KERNEL_POST_BLOOM] = { "post, bloom", kd_spv_post_bloom, sizeof kd_spv_post_bloom, 3,
+                               sizeof(struct kd_post_push) },
+    [KD_KERNEL_POST_BLOOM_TEXELS] = { "post, bloom, texels",
+                                      kd_spv_post_bloom_texels,
+                                      sizeof kd_spv_post_bloom_texels,
+                                      3,
+                                      sizeof(struct kd_post_push),
+                                      { KD_VK_TEXELS_RGBA, [2] = KD_VK_TEXELS_RGBA } },
+    [KD_KERNEL_POST_HEAT] = { "post, heat",
+                              kd_spv_post_heat,
+                              sizeof kd_spv_post_heat,
+                              3,
+                              sizeof(struct kd_post_push),
+                              { [2] = KD_VK_TEXELS_RGBA } },
+    [KD_KERNEL_POST_HEAT_TEXELS] = { "post, heat, texels",
+                                     kd_spv_post_heat_texels,
+                                     sizeof kd_spv_post_heat_texels,
+                                     3,
+                                     sizeof(struct kd_post_push),
                                      { KD_VK_TEXELS_RGBA, [2] = KD_VK_TEXELS_RGBA } },
-    [KD_KERNEL_POST_BLOOM_HEAT] = { "post, bloom, heat", kd_spv_post_bloom_heat, sizeof kd_spv_post_bloom_heat, 4, sizeof(struct kd_post_push),
+    [KD_KERNEL_POST_BLOOM_HEAT] = { "post, bloom, heat",
+                                    kd_spv_post_bloom_heat,
+                                    sizeof kd_spv_post_bloom_heat,
+                                    4,
+                                    sizeof(struct kd_post_push),
                                     { [3] = KD_VK_TEXELS_RGBA } },
-    [KD_KERNEL_POST_BLOOM_HEAT_TEXELS] = { "post, bloom, heat, texels", kd_spv_post_bloom_heat_texels, sizeof kd_spv_post_bloom_heat_texels, 4,
-                                           sizeof(struct kd_post_push), { KD_VK_TEXELS_RGBA, [2] = KD_VK_TEXELS_RGBA, [3] = KD_VK_TEXELS_RGBA } },
-    [KD_KERNEL_BEAM_GATHER] = { "beam, gather", kd_spv_beam_gather, sizeof kd_spv_beam_gather, 2, sizeof(struct kd_beam_push) },
-    [KD_KERNEL_BEAM_GATHER_TEXELS] = { "beam, gather, texels", kd_spv_beam_gather_texels, sizeof kd_spv_beam_gather_texels, 2,
-                                       sizeof(struct kd_beam_push), { KD_VK_TEXELS_RGBA } },
-    [KD_KERNEL_BEAM_SPLINE] = { "beam, spline", kd_spv_beam_spline, sizeof kd_spv_beam_spline, 2, sizeof(struct kd_beam_spline_push) },
-    [KD_KERNEL_BEAM_SPLINE_TEXELS] = { "beam, spline, texels", kd_spv_beam_spline_texels, sizeof kd_spv_beam_spline_texels, 2, sizeof(struct kd_beam_spline_push),
-                                          { KD_VK_TEXELS_RGBA } },
-    [KD_KERNEL_BEAM_BLUR] = { "beam, blur", kd_spv_beam_blur, sizeof kd_spv_beam_blur, 2, sizeof(struct kd_beam_blur_push) },
-    [KD_KERNEL_BEAM_BLUR_TEXELS] = { "beam, blur, texels", kd_spv_beam_blur_texels, sizeof kd_spv_beam_blur_texels, 2, sizeof(struct kd_beam_blur_push),
+    [KD_KERNEL_POST_BLOOM_HEAT_TEXELS] = { "post, bloom, heat, texels",
+                                           kd_spv_post_bloom_heat_texels,
+                                           sizeof kd_spv_post_bloom_heat_texels,
+                                           4,
+                                           sizeof(struct kd_post_push),
+                                           { KD_VK_TEXELS_RGBA, [2] = KD_VK_TEXELS_RGBA, [3] = KD_VK_TEXELS_RGBA } },
+    [KD_KERNEL_BEAM_GATHER] = { "beam, gather", kd_spv_beam_gather, sizeof kd_spv_beam_gather, 2,
+                                sizeof(struct kd_beam_push) },
+    [KD_KERNEL_BEAM_GATHER_TEXELS] = { "beam, gather, texels",
+                                       kd_spv_beam_gather_texels,
+                                       sizeof kd_spv_beam_gather_texels,
+                                       2,
+                                       sizeof(struct kd_beam_push),
+                                       { KD_VK_TEXELS_RGBA } },
+    [KD_KERNEL_BEAM_SPLINE] = { "beam, spline", kd_spv_beam_spline, sizeof kd_spv_beam_spline, 2,
+                                sizeof(struct kd_beam_spline_push) },
+    [KD_KERNEL_BEAM_SPLINE_TEXELS] = { "beam, spline, texels",
+                                       kd_spv_beam_spline_texels,
+                                       sizeof kd_spv_beam_spline_texels,
+                                       2,
+                                       sizeof(struct kd_beam_spline_push),
+                                       { KD_VK_TEXELS_RGBA } },
+    [KD_KERNEL_BEAM_BLUR] = { "beam, blur", kd_spv_beam_blur, sizeof kd_spv_beam_blur, 2,
+                              sizeof(struct kd_beam_blur_push) },
+    [KD_KERNEL_BEAM_BLUR_TEXELS] = { "beam, blur, texels",
+                                     kd_spv_beam_blur_texels,
+                                     sizeof kd_spv_beam_blur_texels,
+                                     2,
+                                     sizeof(struct kd_beam_blur_push),
+                                     { KD_VK_TEXELS_RGBA } },
+    [KD_KERNEL_BEAM_SPREAD] = { "beam, spread", kd_spv_beam_spread, sizeof kd_spv_beam_spread, 2,
+                                sizeof(struct kd_beam_push) },
+    [KD_KERNEL_BEAM_SPREAD_TEXELS] = { "beam, spread, texels",
+                                       kd_spv_beam_spread_texels,
+                                       sizeof kd_spv_beam_spread_texels,
+                                       2,
+                                       sizeof(struct kd_beam_push),
+                                       { KD_VK_TEXELS_RGBA } },
+    [KD_KERNEL_BLOOM_BRIGHT] = { "bloom, bright", kd_spv_bloom_bright, sizeof kd_spv_bloom_bright, 2,
+                                 sizeof(struct kd_bloom_bright_push) },
+    [KD_KERNEL_BLOOM_BRIGHT_TEXELS] = { "bloom, bright, texels",
+                                        kd_spv_bloom_bright_texels,
+                                        sizeof kd_spv_bloom_bright_texels,
+                                        2,
+                                        sizeof(struct kd_bloom_bright_push),
                                         { KD_VK_TEXELS_RGBA } },
-    [KD_KERNEL_BEAM_SPREAD] = { "beam, spread", kd_spv_beam_spread, sizeof kd_spv_beam_spread, 2, sizeof(struct kd_beam_push) },
-    [KD_KERNEL_BEAM_SPREAD_TEXELS] = { "beam, spread, texels", kd_spv_beam_spread_texels, sizeof kd_spv_beam_spread_texels, 2,
-                                       sizeof(struct kd_beam_push), { KD_VK_TEXELS_RGBA } },
-    [KD_KERNEL_BLOOM_BRIGHT] = { "bloom, bright", kd_spv_bloom_bright, sizeof kd_spv_bloom_bright, 2, sizeof(struct kd_bloom_bright_push) },
-    [KD_KERNEL_BLOOM_BRIGHT_TEXELS] = { "bloom, bright, texels", kd_spv_bloom_bright_texels, sizeof kd_spv_bloom_bright_texels, 2,
-                                        sizeof(struct kd_bloom_bright_push), { KD_VK_TEXELS_RGBA } },
-    [KD_KERNEL_BLOOM_GATHER] = { "bloom, gather", kd_spv_bloom_gather, sizeof kd_spv_bloom_gather, 2, sizeof(struct kd_bloom_gather_push) },
-    [KD_KERNEL_BLOOM_GATHER_TEXELS] = { "bloom, gather, texels", kd_spv_bloom_gather_texels, sizeof kd_spv_bloom_gather_texels, 2,
-                                        sizeof(struct kd_bloom_gather_push), { KD_VK_TEXELS_RGBA } },
+    [KD_KERNEL_BLOOM_GATHER] = { "bloom, gather", kd_spv_bloom_gather, sizeof kd_spv_bloom_gather, 2,
+                                 sizeof(struct kd_bloom_gather_push) },
+    [KD_KERNEL_BLOOM_GATHER_TEXELS] = { "bloom, gather, texels",
+                                        kd_spv_bloom_gather_texels,
+                                        sizeof kd_spv_bloom_gather_texels,
+                                        2,
+                                        sizeof(struct kd_bloom_gather_push),
+                                        { KD_VK_TEXELS_RGBA } },
     [KD_KERNEL_BLOOM_DOWN] = { "bloom, down", kd_spv_bloom_down, sizeof kd_spv_bloom_down, 2, 16 },
-    [KD_KERNEL_BLOOM_DOWN_TEXELS] = { "bloom, down, texels", kd_spv_bloom_down_texels, sizeof kd_spv_bloom_down_texels, 2, 16,
+    [KD_KERNEL_BLOOM_DOWN_TEXELS] = { "bloom, down, texels",
+                                      kd_spv_bloom_down_texels,
+                                      sizeof kd_spv_bloom_down_texels,
+                                      2,
+                                      16,
                                       { KD_VK_TEXELS_RGBA } },
     [KD_KERNEL_BLOOM_UP] = { "bloom, up", kd_spv_bloom_up, sizeof kd_spv_bloom_up, 3, 16 },
-    [KD_KERNEL_BLOOM_UP_TEXELS] = { "bloom, up, texels", kd_spv_bloom_up_texels, sizeof kd_spv_bloom_up_texels, 3, 16,
+    [KD_KERNEL_BLOOM_UP_TEXELS] = { "bloom, up, texels",
+                                    kd_spv_bloom_up_texels,
+                                    sizeof kd_spv_bloom_up_texels,
+                                    3,
+                                    16,
                                     { KD_VK_TEXELS_RGBA, KD_VK_TEXELS_RGBA } },
 };
 
-static enum kd_status make(struct kd_vk *vk, const struct kd_vk_pipeline_params *source, const uint32_t *constants, size_t n,
-                           struct kd_vk_pipeline **out, struct kd_error *error)
+static enum kd_status make(struct kd_vk *vk, const struct kd_vk_pipeline_params *source, const uint32_t *constants,
+                           size_t n, struct kd_vk_pipeline **out, struct kd_error *error)
 {
     struct kd_vk_spec spec[KD_KERNEL_MAX_CONSTANTS];
     struct kd_vk_pipeline_params params = *source;
     for (size_t i = 0; i < n; i++)
-        spec[i] = (struct kd_vk_spec){ (uint32_t)i, constants[i] };
+        spec[i] = (struct kd_vk_spec) { (uint32_t)i, constants[i] };
     params.spec = spec;
     params.n_spec = n;
     return kd_vk_pipeline_create(vk, &params, out, error);
@@ -177,7 +310,8 @@ enum kd_status kd_kernels_get(struct kd_kernels *kernels, struct kd_vk *vk, enum
 static size_t room_of(const struct kd_kernels *kernels) { return kernels->kept ? kernels->kept : KD_KERNELS_KEPT; }
 
 /* The entry of a kernel; NULL: there is none. */
-static struct kd_kernel_entry *find(struct kd_kernels *kernels, const struct kd_vk_pipeline_params *source, const uint32_t key[KD_KERNEL_MAX_CONSTANTS])
+static struct kd_kernel_entry *find(struct kd_kernels *kernels, const struct kd_vk_pipeline_params *source,
+                                    const uint32_t key[KD_KERNEL_MAX_CONSTANTS])
 {
     for (struct kd_kernel_entry *e = kernels->entries; e < kernels->entries + room_of(kernels); e++)
         if (e->pipeline && e->source == source && !memcmp(e->constants, key, sizeof e->constants))
@@ -185,8 +319,8 @@ static struct kd_kernel_entry *find(struct kd_kernels *kernels, const struct kd_
     return NULL;
 }
 
-static void keep(struct kd_kernels *kernels, struct kd_vk *vk, const struct kd_vk_pipeline_params *source, const uint32_t key[KD_KERNEL_MAX_CONSTANTS],
-                 struct kd_vk_pipeline *pipeline)
+static void keep(struct kd_kernels *kernels, struct kd_vk *vk, const struct kd_vk_pipeline_params *source,
+                 const uint32_t key[KD_KERNEL_MAX_CONSTANTS], struct kd_vk_pipeline *pipeline)
 {
     struct kd_kernel_entry *oldest = kernels->entries;
     for (struct kd_kernel_entry *e = kernels->entries; e < kernels->entries + room_of(kernels); e++)
@@ -196,10 +330,12 @@ static void keep(struct kd_kernels *kernels, struct kd_vk *vk, const struct kd_v
     memcpy(oldest->constants, key, sizeof oldest->constants);
 }
 
-static void wish(struct kd_kernels *kernels, const struct kd_vk_pipeline_params *source, const uint32_t key[KD_KERNEL_MAX_CONSTANTS], size_t n)
+static void wish(struct kd_kernels *kernels, const struct kd_vk_pipeline_params *source,
+                 const uint32_t key[KD_KERNEL_MAX_CONSTANTS], size_t n)
 {
     for (size_t i = 0; i < kernels->n_wishes; i++)
-        if (kernels->wishes[i].source == source && !memcmp(kernels->wishes[i].constants, key, sizeof kernels->wishes[i].constants))
+        if (kernels->wishes[i].source == source &&
+            !memcmp(kernels->wishes[i].constants, key, sizeof kernels->wishes[i].constants))
             return;
     struct kd_kernel_entry *known = find(kernels, source, key);
     if (known)
@@ -211,8 +347,9 @@ static void wish(struct kd_kernels *kernels, const struct kd_vk_pipeline_params 
     memcpy(w->constants, key, sizeof w->constants);
 }
 
-enum kd_status kd_kernels_get_of(struct kd_kernels *kernels, struct kd_vk *vk, const struct kd_vk_pipeline_params *source,
-                                 const uint32_t *constants, size_t n, const struct kd_vk_pipeline **out, struct kd_error *error)
+enum kd_status kd_kernels_get_of(struct kd_kernels *kernels, struct kd_vk *vk,
+                                 const struct kd_vk_pipeline_params *source, const uint32_t *constants, size_t n,
+                                 const struct kd_vk_pipeline **out, struct kd_error *error)
 {
     uint32_t key[KD_KERNEL_MAX_CONSTANTS] = { 0 };
     for (size_t i = 0; i < n; i++) /* constants is NULL when there are none */
@@ -265,7 +402,8 @@ static void *make_wishes(void *user)
 /* The longest text takes longest: last, one thread would make it while the others have nothing to do. */
 static int longer_first(const void *a, const void *b)
 {
-    const size_t x = ((const struct kd_kernel_wish *)a)->source->spirv_bytes, y = ((const struct kd_kernel_wish *)b)->source->spirv_bytes;
+    const size_t x = ((const struct kd_kernel_wish *)a)->source->spirv_bytes,
+                 y = ((const struct kd_kernel_wish *)b)->source->spirv_bytes;
     return (x < y) - (x > y);
 }
 
@@ -277,7 +415,8 @@ void kd_kernels_make(struct kd_kernels *kernels, struct kd_vk *vk)
     size_t n = 0;
     kernels->noting = false;
     qsort(kernels->wishes, kernels->n_wishes, sizeof *kernels->wishes, longer_first);
-    while (n < MAKERS - 1 && n + 1 < (size_t)processors && n + 1 < kernels->n_wishes && !pthread_create(&threads[n], NULL, make_wishes, &m))
+    while (n < MAKERS - 1 && n + 1 < (size_t)processors && n + 1 < kernels->n_wishes &&
+           !pthread_create(&threads[n], NULL, make_wishes, &m))
         n++;
     make_wishes(&m); /* alone, too, where no thread could be had */
     for (size_t i = 0; i < n; i++)
@@ -291,9 +430,15 @@ void kd_kernels_make(struct kd_kernels *kernels, struct kd_vk *vk)
 
 bool kd_kernels_texels_of(const struct kd_vk *vk, uint64_t bytes) { return bytes <= 16 * kd_vk_info(vk)->max_texels; }
 
-bool kd_kernels_texels(const struct kd_vk *vk, uint64_t pixels) { return kd_kernels_texels_of(vk, kd_post_radiance_bytes(pixels)); }
+bool kd_kernels_texels(const struct kd_vk *vk, uint64_t pixels)
+{
+    return kd_kernels_texels_of(vk, kd_post_radiance_bytes(pixels));
+}
 
-bool kd_kernels_map_as_texels(const struct kd_vk *vk) { return kd_vk_info(vk)->max_binding_bytes <= 4 * kd_vk_info(vk)->max_texels; }
+bool kd_kernels_map_as_texels(const struct kd_vk *vk)
+{
+    return kd_vk_info(vk)->max_binding_bytes <= 4 * kd_vk_info(vk)->max_texels;
+}
 
 bool kd_kernels_cells_as_texels(const struct kd_vk *vk, const struct kd_bloom *bloom)
 {

@@ -26,7 +26,7 @@ enum kd_kernel {
     KD_KERNEL_STAR_IMAGES,
     KD_KERNEL_TRANSFER,
     KD_KERNEL_TRANSFER_TEXELS, /* likewise */
-    KD_KERNEL_TRANSFER_TELL, /* of one ray, emitter by emitter; and in volumes */
+    KD_KERNEL_TRANSFER_TELL,   /* of one ray, emitter by emitter; and in volumes */
     KD_KERNEL_MARCH_TELL,
     KD_KERNEL_LAYERS,
     KD_KERNEL_MARCH, /* the same two where there are volumes */
@@ -91,22 +91,27 @@ enum kd_status kd_kernels_get(struct kd_kernels *kernels, struct kd_vk *vk, enum
                               const uint32_t *constants, size_t n, const struct kd_vk_pipeline **out,
                               struct kd_error *error);
 /* The same of a kernel that is not in the list: emitters have their own (render/emit/own.h). */
-enum kd_status kd_kernels_get_of(struct kd_kernels *kernels, struct kd_vk *vk, const struct kd_vk_pipeline_params *source,
-                                 const uint32_t *constants, size_t n, const struct kd_vk_pipeline **out, struct kd_error *error);
-/* From the first of these on kd_kernels_get makes no kernel: it notes those that are not there, up to KD_KERNEL_WISHES, and *out is NULL for all. The second
- * makes them, on as many threads as there are processors, four at most, and ends that. A kernel that cannot be made is left to whoever asks for it, and is
- * then told why. */
+enum kd_status kd_kernels_get_of(struct kd_kernels *kernels, struct kd_vk *vk,
+                                 const struct kd_vk_pipeline_params *source, const uint32_t *constants, size_t n,
+                                 const struct kd_vk_pipeline **out, struct kd_error *error);
+/* From the first of these on kd_kernels_get makes no kernel: it notes those that are not there, up to
+ * KD_KERNEL_WISHES, and *out is NULL for all. The second makes them, on as many threads as there are processors,
+ * four at most, and ends that. A kernel that cannot be made is left to whoever asks for it, and is then told why. */
 void kd_kernels_note(struct kd_kernels *kernels);
 void kd_kernels_make(struct kd_kernels *kernels, struct kd_vk *vk);
-/* Whether a device reads the radiance of so many pixels as texels of four floats: software does so in a third of the time, but how
- * many it binds differs. The kernel that post takes there. */
+/* Whether a device reads the radiance of so many pixels as texels of four floats: software does so in a third of the
+ * time, but how many it binds differs. The kernel that post takes there. */
 bool kd_kernels_texels(const struct kd_vk *vk, uint64_t pixels);
 bool kd_kernels_texels_of(const struct kd_vk *vk, uint64_t bytes); /* and of so many bytes of anything */
-bool kd_kernels_map_as_texels(const struct kd_vk *vk); /* and of any lens map, a texel a number: software reads those in less than half the time */
+bool kd_kernels_map_as_texels(const struct kd_vk *vk); /* and of any lens map, a texel a number: software reads those in
+                                                          less than half the time */
 bool kd_kernels_cells_as_texels(const struct kd_vk *vk, const struct kd_bloom *bloom);
 static inline enum kd_kernel kd_kernel_post(bool texels, bool bloom, bool heat)
 {
-    return (heat ? bloom ? KD_KERNEL_POST_BLOOM_HEAT : KD_KERNEL_POST_HEAT : bloom ? KD_KERNEL_POST_BLOOM : KD_KERNEL_POST) + (texels ? 1 : 0);
+    return (heat    ? bloom ? KD_KERNEL_POST_BLOOM_HEAT : KD_KERNEL_POST_HEAT
+            : bloom ? KD_KERNEL_POST_BLOOM
+                    : KD_KERNEL_POST) +
+           (texels ? 1 : 0);
 }
 void kd_kernels_finish(struct kd_kernels *kernels, struct kd_vk *vk);
 

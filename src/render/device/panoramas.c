@@ -7,11 +7,13 @@
 #include <string.h>
 
 /* Looks for the bytes of an asset. */
-static enum kd_status take(const struct kd_assets *assets, const char *hash, struct kd_asset_bytes *out, struct kd_error *error)
+static enum kd_status take(const struct kd_assets *assets, const char *hash, struct kd_asset_bytes *out,
+                           struct kd_error *error)
 {
     if (assets && assets->take(assets->user, hash, out))
         return KD_OK;
-    return kd_error_field(error, "/sky/image", "sky.image is \"%s\", and the bytes of this asset are not here; allowed are %s", hash,
+    return kd_error_field(error, "/sky/image",
+                          "sky.image is \"%s\", and the bytes of this asset are not here; allowed are %s", hash,
                           assets ? assets->allowed : "none where there are no assets");
 }
 
@@ -20,10 +22,12 @@ static enum kd_status fill(struct kd_panorama *p, struct kd_sky_picture *picture
     p->columns = picture->width;
     p->rows = picture->height;
     p->words = malloc(kd_panorama_words(p->columns, p->rows) * sizeof *p->words);
-    return p->words ? kd_panorama_fill(picture, p->words, error) : kd_error_set(error, KD_ENOMEM, "out of memory for a panorama");
+    return p->words ? kd_panorama_fill(picture, p->words, error)
+                    : kd_error_set(error, KD_ENOMEM, "out of memory for a panorama");
 }
 
-static enum kd_status paint(const struct kd_assets *assets, const struct kd_sky *sky, struct kd_sky_picture *picture, char *credit, struct kd_error *error)
+static enum kd_status paint(const struct kd_assets *assets, const struct kd_sky *sky, struct kd_sky_picture *picture,
+                            char *credit, struct kd_error *error)
 {
     struct kd_asset_bytes bytes;
     if (!*sky->image)
@@ -51,7 +55,8 @@ static bool recall(const char *file, const struct kd_panorama_key *key, struct k
     return false;
 }
 
-static enum kd_status make(const struct kd_assets *assets, const struct kd_panorama_key *key, struct kd_panorama *out, struct kd_error *error)
+static enum kd_status make(const struct kd_assets *assets, const struct kd_panorama_key *key, struct kd_panorama *out,
+                           struct kd_error *error)
 {
     struct kd_sky_picture picture = { 0 };
     enum kd_status status = paint(assets, &key->sky, &picture, out->credit, error);
@@ -70,7 +75,8 @@ static bool goes_before(const struct kd_panorama *a, const struct kd_panorama *b
     return promised != other ? !promised : a->used < b->used;
 }
 
-/* The place of the one that was asked for longest ago, emptied. Place is made before a panorama is: memory for four is not for three. */
+/* The place of the one that was asked for longest ago, emptied. Place is made before a panorama is: memory for four
+ * is not for three. */
 static struct kd_panorama *room(struct kd_panoramas *all)
 {
     struct kd_panorama *oldest = all->given == all->at ? all->at + 1 : all->at;
@@ -168,7 +174,10 @@ static struct kd_panorama_key *asked(struct kd_panoramas *all, const char *of)
 }
 
 /* Bytes of a hash never change: what is no sound picture never will be one. */
-static bool is_broken(const struct kd_panoramas *all, const char *of) { return all->why.status == KD_EINVAL && !strcmp(all->broken, of); }
+static bool is_broken(const struct kd_panoramas *all, const char *of)
+{
+    return all->why.status == KD_EINVAL && !strcmp(all->broken, of);
+}
 
 /* With the lock. Without memory for a thread nothing is begun. */
 static void begin(struct kd_panoramas *all, const struct kd_panorama_key *key)
@@ -233,7 +242,8 @@ static struct kd_panorama *wait_for(struct kd_panoramas *all, const struct kd_pa
     return kept(all, key->of);
 }
 
-enum kd_status kd_panorama_of(struct kd_panoramas *all, const struct kd_scene *scene, const struct kd_panorama **out, struct kd_error *error)
+enum kd_status kd_panorama_of(struct kd_panoramas *all, const struct kd_scene *scene, const struct kd_panorama **out,
+                              struct kd_error *error)
 {
     const struct kd_panorama_key key = key_of(scene);
     struct kd_error why = { 0 };

@@ -4,20 +4,21 @@
 
 #include <stdlib.h>
 
-enum kd_status kd_own_at_least(const struct kd_own_work *work, struct kd_vk_buffer **buffer, uint64_t bytes, enum kd_vk_memory memory,
-                               const char *name, struct kd_error *error)
+enum kd_status kd_own_at_least(const struct kd_own_work *work, struct kd_vk_buffer **buffer, uint64_t bytes,
+                               enum kd_vk_memory memory, const char *name, struct kd_error *error)
 {
     return kd_store_at_least(work->vk, buffer, bytes, memory, name, error);
 }
 
-enum kd_status kd_own_kernel(const struct kd_own_work *work, const struct kd_vk_pipeline_params *kernel, const uint32_t *constants, size_t n,
-                             const struct kd_vk_pipeline **out, struct kd_error *error)
+enum kd_status kd_own_kernel(const struct kd_own_work *work, const struct kd_vk_pipeline_params *kernel,
+                             const uint32_t *constants, size_t n, const struct kd_vk_pipeline **out,
+                             struct kd_error *error)
 {
     return kd_kernels_get_of(&work->renderer->kernels, work->vk, kernel, constants, n, out, error);
 }
 
-static enum kd_status work_of(struct kd_renderer *r, struct kd_prepared *prepared, enum kd_emitter_number number, const struct kd_capacity *c,
-                              struct kd_own_work *out, struct kd_error *error)
+static enum kd_status work_of(struct kd_renderer *r, struct kd_prepared *prepared, enum kd_emitter_number number,
+                              const struct kd_capacity *c, struct kd_own_work *out, struct kd_error *error)
 {
     const struct kd_emitter *e = kd_emitters[number];
     const struct kd_pass *pass = kd_pass_find(e->name);
@@ -29,7 +30,8 @@ static enum kd_status work_of(struct kd_renderer *r, struct kd_prepared *prepare
     return KD_OK;
 }
 
-enum kd_status kd_prepare_asked(struct kd_renderer *r, enum kd_emitter_number number, struct kd_own_work *out, struct kd_error *error)
+enum kd_status kd_prepare_asked(struct kd_renderer *r, enum kd_emitter_number number, struct kd_own_work *out,
+                                struct kd_error *error)
 {
     return work_of(r, &r->prepared, number, &r->capacity, out, error);
 }
@@ -41,8 +43,8 @@ void kd_prepare_begin(struct kd_renderer *r, const struct kd_scene *scene, const
             kd_emitters[i]->own->begin(r, scene);
 }
 
-enum kd_status kd_prepare_tell(struct kd_renderer *r, const struct kd_scene *scene, const struct kd_plan *plan, struct kd_emission *out,
-                               char *credit, size_t size, struct kd_error *error)
+enum kd_status kd_prepare_tell(struct kd_renderer *r, const struct kd_scene *scene, const struct kd_plan *plan,
+                               struct kd_emission *out, char *credit, size_t size, struct kd_error *error)
 {
     enum kd_status status = KD_OK;
     for (int i = 0; i < KD_EMITTER_COUNT; i++)
@@ -52,8 +54,8 @@ done:
     return status;
 }
 
-enum kd_status kd_prepare(struct kd_renderer *r, struct kd_prepared *prepared, const struct kd_scene *scene, const struct kd_plan *plan,
-                          const struct kd_capacity *c, struct kd_error *error)
+enum kd_status kd_prepare(struct kd_renderer *r, struct kd_prepared *prepared, const struct kd_scene *scene,
+                          const struct kd_plan *plan, const struct kd_capacity *c, struct kd_error *error)
 {
     struct kd_own_work work;
     enum kd_status status = KD_OK;
@@ -67,7 +69,8 @@ done:
     return status;
 }
 
-void kd_prepared_buffers(const struct kd_prepared *prepared, const struct kd_plan *plan, struct kd_vk_buffer *out[KD_OWN_COUNT])
+void kd_prepared_buffers(const struct kd_prepared *prepared, const struct kd_plan *plan,
+                         struct kd_vk_buffer *out[KD_OWN_COUNT])
 {
     for (int i = 0; i < KD_OWN_COUNT; i++)
         out[i] = NULL;

@@ -1,5 +1,5 @@
-/* Emitters make things on the device before light is: buffers of their own, which the transfer pass reads (render/emit/own.h). Frames fold over the
- * emitters' table here and know no names. Render thread only. */
+/* Emitters make things on the device before light is: buffers of their own, which the transfer pass reads
+ * (render/emit/own.h). Frames fold over the emitters' table here and know no names. Render thread only. */
 #ifndef KD_RENDER_DEVICE_PREPARE_H
 #define KD_RENDER_DEVICE_PREPARE_H
 
@@ -19,15 +19,18 @@ struct kd_prepared { void *own[KD_EMITTER_COUNT]; };
 /* Begins what emitters make on the host, on threads of their own. */
 void kd_prepare_begin(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan);
 /* Tells of all emitters that the plan's scene has, after kd_emit_update. */
-enum kd_status kd_prepare_tell(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan, struct kd_emission *out,
-                               char *credit, size_t size, struct kd_error *error);
+enum kd_status kd_prepare_tell(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
+                               struct kd_emission *out, char *credit, size_t size, struct kd_error *error);
 /* Prepares all emitters that the plan's scene has. */
 enum kd_status kd_prepare(struct kd_renderer *renderer, struct kd_prepared *prepared, const struct kd_scene *scene,
                           const struct kd_plan *plan, const struct kd_capacity *capacity, struct kd_error *error);
-/* Gives what an emitter that has buffers works with, those of the renderer, to whoever asks the emitter for more than frames do. */
-enum kd_status kd_prepare_asked(struct kd_renderer *renderer, enum kd_emitter_number number, struct kd_own_work *out, struct kd_error *error);
+/* Gives what an emitter that has buffers works with, those of the renderer, to whoever asks the emitter for more
+ * than frames do. */
+enum kd_status kd_prepare_asked(struct kd_renderer *renderer, enum kd_emitter_number number, struct kd_own_work *out,
+                                struct kd_error *error);
 /* Buffers for the kernels of light, by their numbers; NULL: of emitters that the scene has not. */
-void kd_prepared_buffers(const struct kd_prepared *prepared, const struct kd_plan *plan, struct kd_vk_buffer *out[KD_OWN_COUNT]);
+void kd_prepared_buffers(const struct kd_prepared *prepared, const struct kd_plan *plan,
+                         struct kd_vk_buffer *out[KD_OWN_COUNT]);
 void kd_prepared_forget(struct kd_prepared *prepared);
 void kd_prepared_finish(struct kd_prepared *prepared, struct kd_vk *vk);
 

@@ -66,7 +66,10 @@ static char *milky_way_file(const struct kd_vk *vk)
 
 static enum kd_status open_device(struct kd_renderer *r, struct kd_error *error)
 {
-    const struct kd_vk_params vk = { .device = r->opening.device, .cache_dir = r->opening.cache_dir, .validate = r->opening.validate, .deadline_ms = r->opening.deadline_ms };
+    const struct kd_vk_params vk = { .device = r->opening.device,
+                                     .cache_dir = r->opening.cache_dir,
+                                     .validate = r->opening.validate,
+                                     .deadline_ms = r->opening.deadline_ms };
     enum kd_status status = kd_vk_create(&vk, &r->vk, error);
     if (status)
         return status;
@@ -98,7 +101,8 @@ static void close_device(struct kd_renderer *r)
 static bool remember_opening(struct kd_renderer *r, const struct kd_renderer_params *params)
 {
     r->opening = (struct kd_opening) { .validate = params->validate, .deadline_ms = params->deadline_ms };
-    return (!params->device || (r->opening.device = strdup(params->device))) && (!params->cache_dir || (r->opening.cache_dir = strdup(params->cache_dir)));
+    return (!params->device || (r->opening.device = strdup(params->device))) &&
+           (!params->cache_dir || (r->opening.cache_dir = strdup(params->cache_dir)));
 }
 
 enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struct kd_renderer **out,
@@ -115,7 +119,9 @@ enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struc
     r->passing = params->passing;
     pthread_mutex_init(&r->lock, NULL);
     kd_panoramas_init(&r->panoramas, params->assets, params->sky_made, params->sky_user);
-    enum kd_status status = remember_opening(r, params) ? open_device(r, error) : kd_error_set(error, KD_ENOMEM, "out of memory for the renderer");
+    enum kd_status status = remember_opening(r, params)
+                                ? open_device(r, error)
+                                : kd_error_set(error, KD_ENOMEM, "out of memory for the renderer");
     if (status) {
         kd_renderer_destroy(r);
         return status;
@@ -164,7 +170,8 @@ void kd_renderer_destroy(struct kd_renderer *renderer)
 /* With another version of the driver, too, pictures may be others, and what is known of the device no more true. */
 static bool is_same(const struct kd_vk_info *a, const struct kd_vk_info *b)
 {
-    return !memcmp(a->uuid, b->uuid, sizeof a->uuid) && a->driver_version == b->driver_version && !strcmp(a->name, b->name) && !strcmp(a->driver, b->driver);
+    return !memcmp(a->uuid, b->uuid, sizeof a->uuid) && a->driver_version == b->driver_version &&
+           !strcmp(a->name, b->name) && !strcmp(a->driver, b->driver);
 }
 
 bool kd_renderer_hangs(const struct kd_renderer *renderer) { return renderer->vk && kd_vk_hangs(renderer->vk); }
@@ -172,14 +179,16 @@ bool kd_renderer_hangs(const struct kd_renderer *renderer) { return renderer->vk
 enum kd_status kd_renderer_reopen(struct kd_renderer *r, struct kd_error *error)
 {
     if (r->vk)
-        kd_vk_wait(r->vk, 0, NULL); /* what has been submitted may hang only now; then the device cannot be closed, and there are never two */
+        kd_vk_wait(r->vk, 0, NULL); /* what has been submitted may hang only now; then the device cannot be closed, and
+                                       there are never two */
     if (kd_renderer_hangs(r))
         return kd_error_set(error, KD_EDEVICE, "%s hangs: a submission missed its deadline", r->opened.name);
     close_device(r);
     enum kd_status status = open_device(r, error);
     if (status || is_same(kd_vk_info(r->vk), &r->opened))
         return status;
-    kd_error_set(error, KD_EDEVICE, "%.200s is gone, and %.200s answers in its place", r->opened.name, kd_vk_info(r->vk)->name);
+    kd_error_set(error, KD_EDEVICE, "%.200s is gone, and %.200s answers in its place", r->opened.name,
+                 kd_vk_info(r->vk)->name);
     close_device(r);
     return KD_EDEVICE;
 }
@@ -189,7 +198,10 @@ bool kd_renderer_sky_begin(struct kd_renderer *renderer, const struct kd_scene *
     return *scene->sky.image && kd_panorama_begin(&renderer->panoramas, scene);
 }
 
-void kd_renderer_sky_ahead(struct kd_renderer *renderer, const char *hash) { kd_panorama_ahead(&renderer->panoramas, hash); }
+void kd_renderer_sky_ahead(struct kd_renderer *renderer, const char *hash)
+{
+    kd_panorama_ahead(&renderer->panoramas, hash);
+}
 
 void kd_renderer_sky_stop(struct kd_renderer *renderer) { kd_panoramas_stop(&renderer->panoramas); }
 

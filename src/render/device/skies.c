@@ -12,7 +12,8 @@
 #include <string.h>
 
 /* A buffer that holds these bytes from now on. */
-static enum kd_status upload(struct kd_renderer *r, struct kd_vk_buffer **to, const void *data, size_t bytes, const char *name, struct kd_error *error)
+static enum kd_status upload(struct kd_renderer *r, struct kd_vk_buffer **to, const void *data, size_t bytes,
+                             const char *name, struct kd_error *error)
 {
     struct kd_vk_buffer *staging = NULL;
     enum kd_status status;
@@ -38,7 +39,8 @@ static int64_t cell_on(const struct kd_star *s, int face, int side)
     return ((int64_t)face * side + y) * side + x;
 }
 
-/* Where each cell begins, as sort wants it: one number too late; places are taken from `from` on. The last number is where they end. */
+/* Where each cell begins, as sort wants it: one number too late; places are taken from `from` on. The last number is
+ * where they end. */
 static void count(const struct kd_stars *stars, int side, uint32_t from, uint32_t *cells)
 {
     const size_t n = (size_t)KD_FACE_TABLE(side) - 2;
@@ -54,8 +56,9 @@ static void count(const struct kd_stars *stars, int side, uint32_t from, uint32_
         cells[i] += cells[i - 1];
 }
 
-/* Puts stars into their places, in order, so that each cell has its brightest first. As it goes, cells[c + 1] moves from the beginning of cell c to
- * its end, which is where the next one begins. all: places, behind which temperatures are. */
+/* Puts stars into their places, in order, so that each cell has its brightest first. As it goes, cells[c + 1] moves
+ * from the beginning of cell c to its end, which is where the next one begins. all: places, behind which
+ * temperatures are. */
 static void sort(const struct kd_stars *stars, int side, uint32_t *cells, size_t all, float *rows)
 {
     for (size_t i = 0; i < stars->n; i++)
@@ -72,7 +75,8 @@ static void sort(const struct kd_stars *stars, int side, uint32_t *cells, size_t
 }
 
 /* The tables of fine and of coarse cells are one behind the other, and so are the places that they tell. */
-static enum kd_status send_stars(struct kd_renderer *r, struct kd_sky_buffers *b, const struct kd_scene *scene, struct kd_error *error)
+static enum kd_status send_stars(struct kd_renderer *r, struct kd_sky_buffers *b, const struct kd_scene *scene,
+                                 struct kd_error *error)
 {
     const size_t words = KD_FACE_TABLE(KD_FACE_FINE) + KD_FACE_TABLE(KD_FACE_COARSE);
     struct kd_stars stars = { 0 };
@@ -99,12 +103,16 @@ done:
     return status;
 }
 
-static bool is_spread(const struct kd_scene *scene) { return scene->sky.model != KD_SKY_GRID && scene->sky.milky_way > 0; }
+static bool is_spread(const struct kd_scene *scene)
+{
+    return scene->sky.model != KD_SKY_GRID && scene->sky.milky_way > 0;
+}
 
 static bool is_current(const struct kd_sky_buffers *b, const struct kd_scene *scene)
 {
-    return b->there && b->of.model == scene->sky.model && b->of.seed == scene->sky.seed && b->of.limit_mag == scene->sky.limit_mag &&
-           (b->of.milky_way > 0) == (scene->sky.milky_way > 0) && !strcmp(b->of.image, scene->sky.image);
+    return b->there && b->of.model == scene->sky.model && b->of.seed == scene->sky.seed &&
+           b->of.limit_mag == scene->sky.limit_mag && (b->of.milky_way > 0) == (scene->sky.milky_way > 0) &&
+           !strcmp(b->of.image, scene->sky.image);
 }
 
 static enum kd_status prepare(const struct kd_own_work *work, const struct kd_scene *scene, struct kd_error *error)
@@ -120,7 +128,8 @@ static enum kd_status prepare(const struct kd_own_work *work, const struct kd_sc
     if (is_spread(scene)) {
         const struct kd_panorama *p;
         KD_TRY(kd_panorama_of(&r->panoramas, scene, &p, error));
-        KD_TRY(upload(r, &b->panorama, p->words, kd_panorama_words(p->columns, p->rows) * sizeof *p->words, "panorama", error));
+        KD_TRY(upload(r, &b->panorama, p->words, kd_panorama_words(p->columns, p->rows) * sizeof *p->words, "panorama",
+                      error));
     }
     KD_TRY(kd_vk_submit(r->vk, NULL, error));
     b->of = scene->sky;
@@ -132,7 +141,8 @@ done:
 static void begin(struct kd_renderer *r, const struct kd_scene *scene) { kd_panorama_begin(&r->panoramas, scene); }
 
 /* The panorama's size, and whose it is. */
-static enum kd_status tell(struct kd_renderer *r, const struct kd_scene *scene, struct kd_emission *out, char *credit, size_t size, struct kd_error *error)
+static enum kd_status tell(struct kd_renderer *r, const struct kd_scene *scene, struct kd_emission *out, char *credit,
+                           size_t size, struct kd_error *error)
 {
     const struct kd_panorama *p;
     if (!is_spread(scene))
@@ -148,7 +158,10 @@ static enum kd_status tell(struct kd_renderer *r, const struct kd_scene *scene, 
     return KD_OK;
 }
 
-static void buffers(const void *own, struct kd_vk_buffer *out[KD_OWN_COUNT]) { out[KD_OWN_panorama] = ((const struct kd_sky_buffers *)own)->panorama; }
+static void buffers(const void *own, struct kd_vk_buffer *out[KD_OWN_COUNT])
+{
+    out[KD_OWN_panorama] = ((const struct kd_sky_buffers *)own)->panorama;
+}
 
 static void forget(void *own) { ((struct kd_sky_buffers *)own)->there = false; }
 

@@ -13,7 +13,7 @@ static void bands_finish(struct kd_bands *bands, struct kd_vk *vk)
     for (uint32_t i = 0; i < bands->count; i++)
         kd_vk_buffer_destroy(vk, bands->buffers[i]);
     free(bands->buffers);
-    *bands = (struct kd_bands){ 0 };
+    *bands = (struct kd_bands) { 0 };
 }
 
 static enum kd_status bands_init(struct kd_bands *bands, struct kd_vk *vk, uint32_t count, uint64_t bytes,
@@ -40,7 +40,8 @@ static uint64_t bytes_of_bands(const struct kd_bands *bands) { return bands->cou
 static uint64_t bytes_of(const struct kd_vk_buffer *buffer) { return buffer ? kd_vk_buffer_size(buffer) : 0; }
 static uint64_t bytes_of_map(const struct kd_lens_map *map)
 {
-    return bytes_of_bands(&map->bands) + bytes_of_bands(&map->critical) + bytes_of_bands(&map->star_light) + bytes_of(map->rim_lens);
+    return bytes_of_bands(&map->bands) + bytes_of_bands(&map->critical) + bytes_of_bands(&map->star_light) +
+           bytes_of(map->rim_lens);
 }
 
 /* The light of stars, and the rim that has some of them. */
@@ -104,7 +105,8 @@ bool kd_store_has(const struct kd_store *store, const struct kd_plan *plan)
 }
 
 /* Room for the light of stars. New buffers hold none yet. */
-static enum kd_status make_star_light(struct kd_store *store, const struct kd_plan *plan, struct kd_lens_map *map, struct kd_error *error)
+static enum kd_status make_star_light(struct kd_store *store, const struct kd_plan *plan, struct kd_lens_map *map,
+                                      struct kd_error *error)
 {
     struct kd_bands *light = &map->star_light;
     if (!plan->points || (light->count == plan->bands && light->band_bytes == kd_plan_star_bytes(plan)))
@@ -172,8 +174,8 @@ void kd_store_hand_over(struct kd_store *from, struct kd_store *to, const struct
     *map = (struct kd_lens_map) { 0 };
 }
 
-enum kd_status kd_store_at_least(struct kd_vk *vk, struct kd_vk_buffer **buffer, uint64_t size, enum kd_vk_memory memory,
-                                 const char *name, struct kd_error *error)
+enum kd_status kd_store_at_least(struct kd_vk *vk, struct kd_vk_buffer **buffer, uint64_t size,
+                                 enum kd_vk_memory memory, const char *name, struct kd_error *error)
 {
     if (*buffer && kd_vk_buffer_size(*buffer) >= size && kd_vk_buffer_size(*buffer) <= 4 * size + (1 << 20))
         return KD_OK;
@@ -183,8 +185,8 @@ enum kd_status kd_store_at_least(struct kd_vk *vk, struct kd_vk_buffer **buffer,
 }
 
 /* *buffer (NULL: none yet) is made once, and stays. */
-static enum kd_status once(struct kd_vk *vk, struct kd_vk_buffer **buffer, uint64_t size, enum kd_vk_memory memory, const char *name,
-                           struct kd_error *error)
+static enum kd_status once(struct kd_vk *vk, struct kd_vk_buffer **buffer, uint64_t size, enum kd_vk_memory memory,
+                           const char *name, struct kd_error *error)
 {
     return *buffer ? KD_OK : kd_vk_buffer_create(vk, size, memory, name, buffer, error);
 }
@@ -211,8 +213,10 @@ static enum kd_status make_beam(struct kd_store *store, const struct kd_plan *pl
         bands_finish(&store->beamed, store->vk);
         return KD_OK;
     }
-    KD_TRY(bands_init(&store->beamed, store->vk, plan->bands, kd_post_radiance_bytes((uint64_t)plan->width * plan->band_rows), "light by the beam", error));
-    KD_TRY(kd_store_at_least(store->vk, &store->beam_lines, kd_beam_lines_bytes(beam), KD_VK_DEVICE, "rows of cells", error));
+    KD_TRY(bands_init(&store->beamed, store->vk, plan->bands,
+                      kd_post_radiance_bytes((uint64_t)plan->width * plan->band_rows), "light by the beam", error));
+    KD_TRY(kd_store_at_least(store->vk, &store->beam_lines, kd_beam_lines_bytes(beam), KD_VK_DEVICE, "rows of cells",
+                             error));
     KD_TRY(kd_store_at_least(store->vk, &store->beam_grids, kd_beam_grids_bytes(beam), KD_VK_DEVICE, "cells", error));
 done:
     return status;
@@ -222,28 +226,35 @@ enum kd_status kd_store_frame(struct kd_store *store, const struct kd_plan *plan
 {
     struct kd_vk *vk = store->vk;
     const uint64_t pixels = (uint64_t)plan->width * plan->band_rows, layers = kd_plan_readback_bytes(plan);
-    const uint64_t words = kd_post_bytes(pixels, bit_depth), light = kd_plan_pixel_bytes(plan) * pixels, read = kd_post_radiance_bytes(pixels);
+    const uint64_t words = kd_post_bytes(pixels, bit_depth), light = kd_plan_pixel_bytes(plan) * pixels,
+                   read = kd_post_radiance_bytes(pixels);
     enum kd_status status;
     KD_TRY(make_small(store, error));
     KD_TRY(bands_init(&store->radiance, vk, plan->bands, light > read ? light : read, "radiance", error));
     KD_TRY(kd_store_at_least(vk, &store->words, words, KD_VK_DEVICE, "pixels", error));
-    KD_TRY(kd_store_at_least(vk, &store->readback, layers > words ? layers : words, KD_VK_READBACK, "pixels on the host", error));
+    KD_TRY(kd_store_at_least(vk, &store->readback, layers > words ? layers : words, KD_VK_READBACK,
+                             "pixels on the host", error));
     if (!plan->n_layers)
         bands_finish(&store->layers, vk);
     else
-        KD_TRY(bands_init(&store->layers, vk, plan->bands, plan->n_layers * kd_plan_layer_bytes(plan), "layers", error));
+        KD_TRY(
+            bands_init(&store->layers, vk, plan->bands, plan->n_layers * kd_plan_layer_bytes(plan), "layers", error));
     if (plan->bloom.levels)
         KD_TRY(kd_store_at_least(vk, &store->bloom, plan->bloom.bytes, KD_VK_DEVICE, "spread light", error));
     KD_TRY(make_beam(store, plan, error));
     if (plan->listed_bytes)
-        KD_TRY(kd_store_at_least(vk, &store->listed, plan->listed_bytes, KD_VK_DEVICE, "lens map of listed pixels", error));
+        KD_TRY(kd_store_at_least(vk, &store->listed, plan->listed_bytes, KD_VK_DEVICE, "lens map of listed pixels",
+                                 error));
     if (plan->light) {
         KD_TRY(kd_store_at_least(vk, &store->light, kd_light_bytes(plan), KD_VK_DEVICE, "light", error));
-        KD_TRY(kd_store_at_least(vk, &store->light_host, kd_light_bytes(plan), KD_VK_READBACK, "light on the host", error));
+        KD_TRY(kd_store_at_least(vk, &store->light_host, kd_light_bytes(plan), KD_VK_READBACK, "light on the host",
+                                 error));
     }
     if (plan->points) {
-        KD_TRY(kd_store_at_least(vk, &store->star_pairs, kd_plan_pair_bytes(), KD_VK_DEVICE, "pairs of rays and stars", error));
-        KD_TRY(kd_store_at_least(vk, &store->star_rays, kd_plan_star_ray_bytes(plan), KD_VK_DEVICE, "rays that seek stars", error));
+        KD_TRY(kd_store_at_least(vk, &store->star_pairs, kd_plan_pair_bytes(), KD_VK_DEVICE, "pairs of rays and stars",
+                                 error));
+        KD_TRY(kd_store_at_least(vk, &store->star_rays, kd_plan_star_ray_bytes(plan), KD_VK_DEVICE,
+                                 "rays that seek stars", error));
     }
 done:
     return status;
@@ -280,7 +291,8 @@ done:
     return status;
 }
 
-enum kd_status kd_store_send_cameras(struct kd_store *store, const struct kd_camera_block cameras[KD_CAMERAS], struct kd_error *error)
+enum kd_status kd_store_send_cameras(struct kd_store *store, const struct kd_camera_block cameras[KD_CAMERAS],
+                                     struct kd_error *error)
 {
     enum kd_status status = make_cameras(store, error);
     const size_t bytes = sizeof store->sent_cameras;
@@ -289,7 +301,8 @@ enum kd_status kd_store_send_cameras(struct kd_store *store, const struct kd_cam
     memcpy(store->sent_cameras, cameras, bytes);
     for (int i = 0; i < KD_CAMERAS; i++)
         memcpy((char *)kd_vk_buffer_map(store->cameras_host) + i * KD_CAMERA_BYTES, &cameras[i], sizeof cameras[i]);
-    status = kd_vk_copy(store->vk, "upload", store->cameras, 0, store->cameras_host, 0, KD_CAMERAS * KD_CAMERA_BYTES, error);
+    status =
+        kd_vk_copy(store->vk, "upload", store->cameras, 0, store->cameras_host, 0, KD_CAMERAS * KD_CAMERA_BYTES, error);
     store->cameras_sent = !status;
     return status;
 }
@@ -302,15 +315,17 @@ void kd_store_give_up(struct kd_store *store)
         forget_stars(&store->maps[i]);
 }
 
-
 uint64_t kd_store_bytes(const struct kd_store *store)
 {
-    uint64_t sum = bytes_of_bands(&store->radiance) + bytes_of_bands(&store->layers) + bytes_of(store->words) + bytes_of(store->readback) + bytes_of(store->transfer);
+    uint64_t sum = bytes_of_bands(&store->radiance) + bytes_of_bands(&store->layers) + bytes_of(store->words) +
+                   bytes_of(store->readback) + bytes_of(store->transfer);
     for (int i = 0; i < KD_LENS_MAPS_KEPT; i++)
         sum += bytes_of_map(&store->maps[i]);
-    sum += bytes_of_bands(&store->beamed) + bytes_of(store->beam_lines) + bytes_of(store->beam_grids) + bytes_of(store->palette);
+    sum += bytes_of_bands(&store->beamed) + bytes_of(store->beam_lines) + bytes_of(store->beam_grids) +
+           bytes_of(store->palette);
     sum += bytes_of(store->star_pairs) + bytes_of(store->star_rays);
-    return sum + bytes_of(store->listed) + bytes_of(store->bloom) + bytes_of(store->light) + bytes_of(store->light_host);
+    return sum + bytes_of(store->listed) + bytes_of(store->bloom) + bytes_of(store->light) +
+           bytes_of(store->light_host);
 }
 
 void kd_store_empty(struct kd_store *store)

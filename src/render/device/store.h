@@ -32,15 +32,18 @@ struct kd_star_key {
 struct kd_lens_map {
     char key[65]; /* "" while empty or half made */
     struct kd_bands bands;
-    struct kd_bands critical; /* the same of the pixels at the critical curve, part by part, each with their list behind it */
+    struct kd_bands
+        critical; /* the same of the pixels at the critical curve, part by part, each with their list behind it */
     struct kd_critical_pixels pixels;
-    struct kd_bands star_light;  /* of the pixels of a band, KD_STAR_LIGHT words each, as the map shows points of light; none: no frame had any */
-    struct kd_rim rim;           /* where stars have images of high orders, of the map's camera, if there is any, and it was asked for, */
+    struct kd_bands star_light; /* of the pixels of a band, KD_STAR_LIGHT words each, as the map shows points of light;
+                                   none: no frame had any */
+    struct kd_rim
+        rim; /* where stars have images of high orders, of the map's camera, if there is any, and it was asked for, */
     struct kd_rim_grids rim_grids;
-    bool rim_known;              /* if not */
+    bool rim_known; /* if not */
     bool rim_traced;
     struct kd_vk_buffer *rim_lens; /* where its rays come from, and its tables (frame/rim.c); NULL: never was any */
-    struct kd_star_key star_key; /* what that was made of, "" lens: it was not, or not to its end */
+    struct kd_star_key star_key;   /* what that was made of, "" lens: it was not, or not to its end */
     struct kd_accuracy_report accuracy;
     uint64_t used;
 };
@@ -54,22 +57,24 @@ struct kd_store {
     struct kd_bands radiance;
     struct kd_bands layers; /* maps of numbers, kd_plan_layer_bytes each, one after the other; none: no frame had any */
     struct kd_vk_buffer *words, *readback; /* packed pixels of one band, on the device and on the host */
-    struct kd_vk_buffer *transfer, *staging; /* parameters and tables: read at each crossing, so on the device, by way of the other */
-    struct kd_emit_data *sent;           /* what is there; NULL: nothing yet */
-    bool sent_whole;                         /* false: nothing of it, a frame was given up */
+    struct kd_vk_buffer *transfer,
+        *staging;              /* parameters and tables: read at each crossing, so on the device, by way of the other */
+    struct kd_emit_data *sent; /* what is there; NULL: nothing yet */
+    bool sent_whole;           /* false: nothing of it, a frame was given up */
     struct kd_vk_buffer *cameras, *cameras_host; /* KD_CAMERA_BYTES each, by way of the other; NULL: none yet */
     struct kd_camera_block sent_cameras[KD_CAMERAS];
     bool cameras_sent; /* that is what is there */
     struct kd_vk_buffer *histogram, *counts;
     struct kd_vk_buffer *light, *light_host; /* its sums; NULL: never measured */
-    struct kd_vk_buffer *bloom;            /* grids of light that a lens spreads; NULL: never was any */
-    struct kd_bands beamed;                /* radiance as a telescope's beam sees it; none: the plan has no beam */
-    struct kd_vk_buffer *beam_lines, *beam_grids; /* rows of cells, and grids of them, on the way there; NULL: never was any */
-    struct kd_vk_buffer *palette;          /* colours of style.palette, KD_MAP_ENTRIES of four floats; NULL: never was any */
-    struct kd_vk_buffer *star_pairs;       /* rays, and stars that they may see; NULL: no frame had points of light */
-    struct kd_vk_buffer *star_rays;        /* rays whose stars are sought one by one */
-    struct kd_vk_buffer *listed;           /* lens map of listed pixels, part by part: nothing is kept in it */
-    struct kd_vk_buffer *undecided;        /* rays that lens_map.comp gave up: a counter */
+    struct kd_vk_buffer *bloom;              /* grids of light that a lens spreads; NULL: never was any */
+    struct kd_bands beamed;                  /* radiance as a telescope's beam sees it; none: the plan has no beam */
+    struct kd_vk_buffer *beam_lines,
+        *beam_grids;                 /* rows of cells, and grids of them, on the way there; NULL: never was any */
+    struct kd_vk_buffer *palette;    /* colours of style.palette, KD_MAP_ENTRIES of four floats; NULL: never was any */
+    struct kd_vk_buffer *star_pairs; /* rays, and stars that they may see; NULL: no frame had points of light */
+    struct kd_vk_buffer *star_rays;  /* rays whose stars are sought one by one */
+    struct kd_vk_buffer *listed;     /* lens map of listed pixels, part by part: nothing is kept in it */
+    struct kd_vk_buffer *undecided;  /* rays that lens_map.comp gave up: a counter */
 };
 
 /* The lens map of the plan: *reused says that it is complete. Otherwise its buffers are there to be written, and
@@ -82,12 +87,14 @@ void kd_store_commit(struct kd_store *store, struct kd_lens_map *map, const stru
 enum kd_status kd_store_frame(struct kd_store *store, const struct kd_plan *plan, int bit_depth,
                               struct kd_error *error);
 /* *buffer (NULL: none yet) becomes one of at least this size; a larger one is kept unless it is much too large. */
-enum kd_status kd_store_at_least(struct kd_vk *vk, struct kd_vk_buffer **buffer, uint64_t size, enum kd_vk_memory memory,
-                                 const char *name, struct kd_error *error);
-/* Record copies that bring the transfer buffer up to date: of the parameters and of the tables, each if it has changed. */
+enum kd_status kd_store_at_least(struct kd_vk *vk, struct kd_vk_buffer **buffer, uint64_t size,
+                                 enum kd_vk_memory memory, const char *name, struct kd_error *error);
+/* Record copies that bring the transfer buffer up to date: of the parameters and of the tables, each if it has
+ * changed. */
 enum kd_status kd_store_send(struct kd_store *store, const struct kd_emit_data *tables, struct kd_error *error);
 /* It does the same for the cameras, in a buffer that is made when first there are any. */
-enum kd_status kd_store_send_cameras(struct kd_store *store, const struct kd_camera_block cameras[KD_CAMERAS], struct kd_error *error);
+enum kd_status kd_store_send_cameras(struct kd_store *store, const struct kd_camera_block cameras[KD_CAMERAS],
+                                     struct kd_error *error);
 /* A frame is given up: what it was to bring may be lost. */
 void kd_store_give_up(struct kd_store *store);
 /* Counts the bytes that it holds of the device's memory, about. */

@@ -62,15 +62,18 @@ static void understand(struct kd_renderer *r, const char *text, size_t size)
     struct kd_capacity *c = &r->capacity;
     char name[1024];
     cJSON *root = cJSON_ParseWithLength(text, size);
-    const cJSON *format = cJSON_GetObjectItemCaseSensitive(root, "format"), *of = cJSON_GetObjectItemCaseSensitive(root, "of");
+    const cJSON *format = cJSON_GetObjectItemCaseSensitive(root, "format"),
+                *of = cJSON_GetObjectItemCaseSensitive(root, "of");
     const cJSON *checks = cJSON_GetObjectItemCaseSensitive(root, "checks");
     const cJSON *seconds = cJSON_GetObjectItemCaseSensitive(root, "seconds");
     const cJSON *speed = cJSON_GetObjectItemCaseSensitive(root, "ns_per_item");
     name_of(r, name, sizeof name);
-    bool known = cJSON_IsNumber(format) && format->valuedouble == FORMAT && cJSON_IsString(of) && !strcmp(of->valuestring, name) &&
-                 cJSON_IsNumber(checks) && checks->valuedouble >= 1 && checks->valuedouble < 1e6 && cJSON_IsNumber(seconds);
+    bool known = cJSON_IsNumber(format) && format->valuedouble == FORMAT && cJSON_IsString(of) &&
+                 !strcmp(of->valuestring, name) && cJSON_IsNumber(checks) && checks->valuedouble >= 1 &&
+                 checks->valuedouble < 1e6 && cJSON_IsNumber(seconds);
     if (known)
-        r->verdict = (struct kd_verdict) { KD_PASSED, false, (unsigned)checks->valuedouble, 0, seconds->valuedouble, "" };
+        r->verdict =
+            (struct kd_verdict) { KD_PASSED, false, (unsigned)checks->valuedouble, 0, seconds->valuedouble, "" };
     for (int i = 0; i < KD_FIGURE_COUNT && known; i++) {
         const cJSON *ns = cJSON_GetObjectItemCaseSensitive(speed, kd_figures[i].word);
         if (cJSON_IsNumber(ns) && ns->valuedouble > 1e-6 && ns->valuedouble < 1e9)

@@ -1,5 +1,5 @@
-/* The verdict says whether a device computes what it should, and how fast: it is found out by the self-test at the first start
- * (selftest/first_start.h), and kept in the cache folder. Thread of the renderer. */
+/* The verdict says whether a device computes what it should, and how fast: it is found out by the self-test at the
+ * first start (selftest/first_start.h), and kept in the cache folder. Thread of the renderer. */
 #ifndef KD_RENDER_DEVICE_VERDICT_H
 #define KD_RENDER_DEVICE_VERDICT_H
 
@@ -10,10 +10,10 @@ struct kd_renderer;
 
 struct kd_verdict {
     enum { KD_UNTESTED, KD_PASSED, KD_FAILED } result;
-    bool now;                 /* in this process, not in one before */
+    bool now; /* in this process, not in one before */
     unsigned checks, failed;
-    double seconds;           /* that it took */
-    char worst[160];          /* the first check that failed, "" if none has */
+    double seconds;  /* that it took */
+    char worst[160]; /* the first check that failed, "" if none has */
 };
 
 /* A new renderer is told what is known of its device, and what its passes cost when it was last used. */

@@ -52,8 +52,13 @@ size_t kd_bodies_of(const struct kd_scene *scene, struct kd_seen_body *out)
         struct kd_seen_body *b = &out[i];
         *b = (struct kd_seen_body) {
             .which = (uint32_t)(on[i] - scene->bodies.at),
-            .r = at.r, .u = at.u, .s = at.s, .radius = on[i]->radius,
-            .temperature_k = on[i]->temperature_k, .brightness = on[i]->brightness, .limb_darkening = on[i]->limb_darkening,
+            .r = at.r,
+            .u = at.u,
+            .s = at.s,
+            .radius = on[i]->radius,
+            .temperature_k = on[i]->temperature_k,
+            .brightness = on[i]->brightness,
+            .limb_darkening = on[i]->limb_darkening,
         };
         b->phi = on[i]->phase_deg * (M_PI / 180) + remainder(motion_of(on[i], &at, b->velocity) * time, 2 * M_PI);
     }
@@ -65,7 +70,6 @@ size_t kd_bodies_of(const struct kd_scene *scene, struct kd_seen_body *out)
 }
 
 static bool present(const struct kd_scene *scene) { return kd_bodies_count(scene); }
-
 
 static unsigned varies(const struct kd_scene *scene)
 {
@@ -91,15 +95,20 @@ static void tell(const struct kd_scene *scene, char out[KD_EMIT_TOLD])
     const size_t n = kd_scene_bodies(scene, on), others = kd_bodies_count(scene) - n;
     size_t used = n ? (size_t)snprintf(out, KD_EMIT_TOLD, "%s at ", n > 1 ? "Bodies" : "A body") : 0;
     for (size_t i = 0; i < n && used < KD_EMIT_TOLD; i++)
-        used += (size_t)snprintf(out + used, KD_EMIT_TOLD - used, "%s%.6g M%s", i ? ", " : "", on[i]->r, i + 1 == n ? "." : "");
+        used += (size_t)snprintf(out + used, KD_EMIT_TOLD - used, "%s%.6g M%s", i ? ", " : "", on[i]->r,
+                                 i + 1 == n ? "." : "");
     if (others && used < KD_EMIT_TOLD)
-        used += (size_t)snprintf(out + used, KD_EMIT_TOLD - used, "%s%zu %s of a playground at %.6g M of its time.", n ? " " : "", others, others > 1 ? "bodies" : "body",
-                                 scene->crowd.at->time);
+        used += (size_t)snprintf(out + used, KD_EMIT_TOLD - used, "%s%zu %s of a playground at %.6g M of its time.",
+                                 n ? " " : "", others, others > 1 ? "bodies" : "body", scene->crowd.at->time);
     if (unseen_of(scene) && used < KD_EMIT_TOLD)
-        snprintf(out + used, KD_EMIT_TOLD - used, " Not shown, as they have no radius or are at the horizon: %zu.", unseen_of(scene));
+        snprintf(out + used, KD_EMIT_TOLD - used, " Not shown, as they have no radius or are at the horizon: %zu.",
+                 unseen_of(scene));
 }
 
-static uint64_t device_bytes(const struct kd_scene *scene) { return sizeof(float) * kd_bodies_words(kd_bodies_count(scene)); }
+static uint64_t device_bytes(const struct kd_scene *scene)
+{
+    return sizeof(float) * kd_bodies_words(kd_bodies_count(scene));
+}
 
 /* All of them, n; to be freed. NULL: no memory. */
 static struct kd_seen_body *listed(const struct kd_scene *scene, size_t *n)
@@ -121,12 +130,14 @@ static bool is_lit(const struct kd_scene *scene)
 
 static uint32_t traits(const struct kd_scene *scene)
 {
-    return KD_TRAIT_AZIMUTH | (scene->disk.band == KD_BAND_VISIBLE ? KD_TRAIT_VISIBLE : 0) | (is_lit(scene) ? KD_TRAIT_LIT : 0);
+    return KD_TRAIT_AZIMUTH | (scene->disk.band == KD_BAND_VISIBLE ? KD_TRAIT_VISIBLE : 0) |
+           (is_lit(scene) ? KD_TRAIT_LIT : 0);
 }
 
 static struct kd_bodies_view view_of(const struct kd_scene *scene)
 {
-    return (struct kd_bodies_view) { scene->spacetime.spin, scene->camera.azimuth_deg * (M_PI / 180), kd_disk_peak_temperature(scene) * scene->disk.hardening, NULL };
+    return (struct kd_bodies_view) { scene->spacetime.spin, scene->camera.azimuth_deg * (M_PI / 180),
+                                     kd_disk_peak_temperature(scene) * scene->disk.hardening, NULL };
 }
 
 static void fill(struct kd_emission *out, const struct kd_scene *scene)
@@ -134,7 +145,8 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
     const struct kd_bodies_view view = view_of(scene);
     size_t n;
     struct kd_seen_body *bodies = listed(scene, &n);
-    out->bodies = (struct kd_bodies_block) { .least = 1, .leaves = 1 }; /* without memory `prepare` fails, and says so */
+    out->bodies =
+        (struct kd_bodies_block) { .least = 1, .leaves = 1 }; /* without memory `prepare` fails, and says so */
     if (bodies)
         kd_bodies_bound(bodies, n, &view, &out->bodies);
     free(bodies);
@@ -183,7 +195,8 @@ static enum kd_status prepare(const struct kd_own_work *work, const struct kd_sc
     if (is_lit(scene) && kd_lit_of(scene, &lit))
         view.lit = &lit;
     float *words = malloc(kd_bodies_words(n) * sizeof *words);
-    enum kd_status status = bodies && words ? kd_bodies_pack(bodies, n, &view, words, error) : kd_error_set(error, KD_ENOMEM, "out of memory for bodies");
+    enum kd_status status = bodies && words ? kd_bodies_pack(bodies, n, &view, words, error)
+                                            : kd_error_set(error, KD_ENOMEM, "out of memory for bodies");
     if (!status)
         status = send(work, &words, kd_bodies_words(n), error);
     free(bodies);
@@ -191,7 +204,10 @@ static enum kd_status prepare(const struct kd_own_work *work, const struct kd_sc
     return status;
 }
 
-static void buffers(const void *own, struct kd_vk_buffer *out[KD_OWN_COUNT]) { out[KD_OWN_bodies] = ((const struct own *)own)->device; }
+static void buffers(const void *own, struct kd_vk_buffer *out[KD_OWN_COUNT])
+{
+    out[KD_OWN_bodies] = ((const struct own *)own)->device;
+}
 
 static void finish(void *own, struct kd_vk *vk)
 {
@@ -202,7 +218,9 @@ static void finish(void *own, struct kd_vk *vk)
     *o = (struct own) { 0 };
 }
 
-const struct kd_own kd_own_bodies = { .bytes = sizeof(struct own), .prepare = prepare, .buffers = buffers, .forget = forget, .finish = finish };
+const struct kd_own kd_own_bodies = {
+    .bytes = sizeof(struct own), .prepare = prepare, .buffers = buffers, .forget = forget, .finish = finish
+};
 
 /* It has a velocity, and its place is that of the scene's time alone. */
 static bool stands(const struct kd_scene *scene, const struct kd_setting *rays)
@@ -228,26 +246,44 @@ static bool large(const struct kd_scene *scene, const struct kd_setting *rays)
     return false;
 }
 
-static bool shown(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, scene->crowd.at && scene->crowd.at->n; }
+static bool shown(const struct kd_scene *scene, const struct kd_setting *rays)
+{
+    return (void)rays, scene->crowd.at && scene->crowd.at->n;
+}
 static bool lit_ones(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, is_lit(scene); }
 static bool dark(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, !is_lit(scene); }
-static bool by_potential(const struct kd_scene *scene, const struct kd_setting *rays) { return shown(scene, rays) && scene->crowd.at->approximate; }
+static bool by_potential(const struct kd_scene *scene, const struct kd_setting *rays)
+{
+    return shown(scene, rays) && scene->crowd.at->approximate;
+}
 
-#define WHEN(name, condition)                                                                                  \
+#define WHEN(name, condition) \
     static bool name(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, condition; }
 WHEN(bolometric, scene->disk.band == KD_BAND_BOLOMETRIC)
 WHEN(unseen, unseen_of(scene))
 
 static const struct kd_sentence sentences[] = {
-    { "bodies: opaque spheres in their own frames; space is flat, and light straight, within the scale of one: no tides, no own gravity, no shadows", NULL },
+    { "bodies: opaque spheres in their own frames; space is flat, and light straight, within the scale of one: no "
+      "tides, no own gravity, no shadows",
+      NULL },
     { "bodies: no light of the disk falls on them", dark },
-    { "bodies: they throw back light of a smooth disk that nothing hides, straight from 16 rings of 24 places, evenly to all sides; three moments of its direction are kept", lit_ones },
-    { "bodies: one whose radius is more than a tenth of its distance from the hole is drawn in the flat space of its centre, where a body has another shape", large },
+    { "bodies: they throw back light of a smooth disk that nothing hides, straight from 16 rings of 24 places, evenly "
+      "to all sides; three moments of its direction are kept",
+      lit_ones },
+    { "bodies: one whose radius is more than a tenth of its distance from the hole is drawn in the flat space of its "
+      "centre, where a body has another shape",
+      large },
     { "bodies: they shine as black bodies of one temperature, with a chosen linear law of limb darkening", NULL },
     { "bodies: fast light: shown where they are at one coordinate time, whatever the light's delay", NULL },
-    { "bodies: those that fall or have a velocity of their own stay where they are put: it shifts their light and no more", stands },
-    { "bodies: those of a playground are where they are at its time, and move past an observer of zero angular momentum", shown },
-    { "bodies: those of a playground move in a potential: its r stands for Boyer and Lindquist's, its velocity for gamma v", by_potential },
+    { "bodies: those that fall or have a velocity of their own stay where they are put: it shifts their light and no "
+      "more",
+      stands },
+    { "bodies: those of a playground are where they are at its time, and move past an observer of zero angular "
+      "momentum",
+      shown },
+    { "bodies: those of a playground move in a potential: its r stands for Boyer and Lindquist's, its velocity for "
+      "gamma v",
+      by_potential },
     { "bodies: some of a playground are not shown: they have no radius, or are at the horizon", unseen },
     { "bodies: brightness is bolometric (g^4), colour is that of the visible part of the spectrum", bolometric },
     { "bodies: one that is smaller than a pixel may lie between its rays", NULL },
@@ -263,7 +299,8 @@ const struct kd_emitter kd_emit_bodies = {
     .own = &kd_own_bodies,
     .device_bytes = device_bytes,
     .fill = fill,
-    .depends = { KD_SCENE_PART(spacetime), KD_SCENE_PART(camera), KD_SCENE_PART(disk), KD_SCENE_PART(bodies), KD_SCENE_PART(top), KD_SCENE_PART(crowd) },
+    .depends = { KD_SCENE_PART(spacetime), KD_SCENE_PART(camera), KD_SCENE_PART(disk), KD_SCENE_PART(bodies),
+                 KD_SCENE_PART(top), KD_SCENE_PART(crowd) },
     .sentences = sentences,
     .n_sentences = sizeof sentences / sizeof *sentences,
     .reads = &kd_emit_disk,

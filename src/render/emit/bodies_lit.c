@@ -1,11 +1,13 @@
-/* This is the light of the disk that falls on bodies. It flies straight, from a smooth thin disk of KD_LIT_RINGS rings of KD_LIT_PLACES places each, evenly spaced in ln r and
- * azimuth, that nothing hides. A place of area dA and brightness I, as far as d from the centre of a body in the direction n, whose height over the plane is z, brings
+/* This is the light of the disk that falls on bodies. It flies straight, from a smooth thin disk of KD_LIT_RINGS
+ * rings of KD_LIT_PLACES places each, evenly spaced in ln r and azimuth, that nothing hides. A place of area dA and
+ * brightness I, as far as d from the centre of a body in the direction n, whose height over the plane is z, brings
  *
  *   dF = I g^4 (z/d) dA/d^2 / D^2,   g = D (lapse there/lapse here)/(gamma' (1 + v'.n)),   D = gamma (1 + v.n),
  *
- * v' and v being the velocities of gas and body past observers of zero angular momentum, whose frames are taken for parallel; by the frame of the body what
- * shines has a solid angle 1/D^2 as large, and lies along n' = (n + gamma v (1 + gamma/(gamma + 1) v.n))/D. Of all that a body keeps
- * the sums of dF, dF n' and dF n'n': what falls on each side of it follows to the second order (shaders/emit/bodies.glsl). */
+ * v' and v being the velocities of gas and body past observers of zero angular momentum, whose frames are taken for
+ * parallel; by the frame of the body what shines has a solid angle 1/D^2 as large, and lies along n' = (n + gamma v
+ * (1 + gamma/(gamma + 1) v.n))/D. Of all that a body keeps the sums of dF, dF n' and dF n'n': what falls on each
+ * side of it follows to the second order (shaders/emit/bodies.glsl). */
 #include "render/emit/bodies.h"
 
 #include "physics/kerr.h"
@@ -16,14 +18,19 @@
 
 bool kd_lit_of(const struct kd_scene *scene, struct kd_lit *out)
 {
-    const double a = scene->spacetime.spin, inner = kd_disk_inner(scene), outer = scene->disk.outer, step = log(outer / inner) / KD_LIT_RINGS;
+    const double a = scene->spacetime.spin, inner = kd_disk_inner(scene), outer = scene->disk.outer,
+                 step = log(outer / inner) / KD_LIT_RINGS;
     if (scene->disk.model == KD_DISK_NONE || scene->disk.height > 0)
         return false;
     for (int i = 0; i < KD_LIT_RINGS; i++) {
-        const double r = inner * exp(step * (i + 0.5)), delta = r * r - 2 * r + a * a, area = (r * r + a * a) * (r * r + a * a) - a * a * delta;
+        const double r = inner * exp(step * (i + 0.5)), delta = r * r - 2 * r + a * a,
+                     area = (r * r + a * a) * (r * r + a * a) - a * a * delta;
         const double t = kd_disk_heat(scene, r), along = sqrt(area) / r, lapse = r * sqrt(delta / area);
         out->rings[i] = (struct kd_lit_ring) {
-            .r = r, .t = t, .light = t * t * t * t * r * r * step * (2 * M_PI / KD_LIT_PLACES), .lapse = lapse,
+            .r = r,
+            .t = t,
+            .light = t * t * t * t * r * r * step * (2 * M_PI / KD_LIT_PLACES),
+            .lapse = lapse,
             .velocity = (kd_kerr_omega(a, r) - kd_kerr_dragging(a, r, 0)) * along / lapse,
         };
     }
@@ -35,16 +42,32 @@ static void add(const struct kd_lit_ring *ring, double turn, const struct kd_see
 {
     const double c = cos(turn), s = sin(turn), x = ring->r * c, y = ring->r * s, height = b->r * b->u;
     /* The body is at azimuth 0 of these. */
-    const double to[3] = { x - b->r * b->s, y, -height }, d2 = fmax(to[0] * to[0] + y * y + height * height, b->radius * b->radius), d = sqrt(d2);
+    const double to[3] = { x - b->r * b->s, y, -height },
+                 d2 = fmax(to[0] * to[0] + y * y + height * height, b->radius * b->radius), d = sqrt(d2);
     double n[3] = { (b->s * to[0] + b->u * to[2]) / d, (b->u * to[0] - b->s * to[2]) / d, y / d };
-    const double v2 = b->velocity[0] * b->velocity[0] + b->velocity[1] * b->velocity[1] + b->velocity[2] * b->velocity[2];
-    const double nears = b->velocity[0] * n[0] + b->velocity[1] * n[1] + b->velocity[2] * n[2], comes = -ring->velocity * (-s * to[0] + c * y) / d;
-    const double gamma = 1 / sqrt(1 - v2), doppler = gamma * (1 + nears), more = gamma * (1 + gamma / (gamma + 1) * nears);
-    const double g = doppler * ring->lapse / lapse * sqrt(1 - ring->velocity * ring->velocity) / (1 - comes), g2 = g * g / doppler;
+    const double v2 =
+        b->velocity[0] * b->velocity[0] + b->velocity[1] * b->velocity[1] + b->velocity[2] * b->velocity[2];
+    const double nears = b->velocity[0] * n[0] + b->velocity[1] * n[1] + b->velocity[2] * n[2],
+                 comes = -ring->velocity * (-s * to[0] + c * y) / d;
+    const double gamma = 1 / sqrt(1 - v2), doppler = gamma * (1 + nears),
+                 more = gamma * (1 + gamma / (gamma + 1) * nears);
+    const double g = doppler * ring->lapse / lapse * sqrt(1 - ring->velocity * ring->velocity) / (1 - comes),
+                 g2 = g * g / doppler;
     const double f = g2 * g2 * ring->light * fabs(height) / (d * d2);
     for (int i = 0; i < 3; i++)
         n[i] = (n[i] + more * b->velocity[i]) / doppler;
-    const double sums[12] = { f, f * n[0], f * n[1], f * n[2], f * n[0] * n[0], f * n[1] * n[1], f * n[2] * n[2], f * g * ring->t, f * n[0] * n[1], f * n[0] * n[2], f * n[1] * n[2], 0 };
+    const double sums[12] = { f,
+                              f * n[0],
+                              f * n[1],
+                              f * n[2],
+                              f * n[0] * n[0],
+                              f * n[1] * n[1],
+                              f * n[2] * n[2],
+                              f * g * ring->t,
+                              f * n[0] * n[1],
+                              f * n[0] * n[2],
+                              f * n[1] * n[2],
+                              0 };
     for (int i = 0; i < 12; i++)
         out[i] += (float)sums[i];
 }

@@ -7,10 +7,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SINE 1e-4    /* on the axis azimuths stand for nothing */
+#define SINE 1e-4 /* on the axis azimuths stand for nothing */
 
 /* A body with its ball. */
-struct ball { double at[3], reach; size_t body; };
+struct ball {
+    double at[3], reach;
+    size_t body;
+};
 
 static uint32_t leaves_of(size_t n)
 {
@@ -22,33 +25,46 @@ static uint32_t leaves_of(size_t n)
 
 size_t kd_bodies_words(size_t n) { return (8 + KD_BODY_WORDS) * (size_t)leaves_of(n); }
 
-/* What the metric says at its centre (Bardeen, Press & Teukolsky 1972): lapse, sqrt of g_rr, g_thetatheta, g_phiphi/sin^2, and the dragging. */
+/* What the metric says at its centre (Bardeen, Press & Teukolsky 1972): lapse, sqrt of g_rr, g_thetatheta,
+ * g_phiphi/sin^2, and the dragging. */
 struct metric { double lapse, r, theta, phi, omega; };
 
 static struct metric metric_at(double a, const struct kd_seen_body *b)
 {
-    const double r = b->r, sigma = r * r + a * a * b->u * b->u, delta = (r - kd_kerr_horizon(a)) * (r - kd_kerr_inner_horizon(a));
+    const double r = b->r, sigma = r * r + a * a * b->u * b->u,
+                 delta = (r - kd_kerr_horizon(a)) * (r - kd_kerr_inner_horizon(a));
     const double w2 = r * r + a * a, big = w2 * w2 - a * a * delta * b->s * b->s;
-    return (struct metric) { sqrt(sigma * delta / big), sqrt(sigma / delta), sqrt(sigma), sqrt(big / sigma), kd_kerr_dragging(a, r, b->u) };
+    return (struct metric) { sqrt(sigma * delta / big), sqrt(sigma / delta), sqrt(sigma), sqrt(big / sigma),
+                             kd_kerr_dragging(a, r, b->u) };
 }
 
-static double speed2(const struct kd_seen_body *b) { return b->velocity[0] * b->velocity[0] + b->velocity[1] * b->velocity[1] + b->velocity[2] * b->velocity[2]; }
+static double speed2(const struct kd_seen_body *b)
+{
+    return b->velocity[0] * b->velocity[0] + b->velocity[1] * b->velocity[1] + b->velocity[2] * b->velocity[2];
+}
 
 bool kd_bodies_seen(const struct kd_seen_body *b, double spin)
 {
-    return b->radius > 0 && b->r >= KD_BODIES_CLEAR * kd_kerr_horizon(spin) && b->r <= 1e12 && fabs(b->u) <= 1 && b->s >= 0 && b->s <= 1 && isfinite(b->phi) &&
-           speed2(b) < 1 && isfinite(b->radius) && b->albedo >= 0 && b->albedo <= 1 && b->temperature_k >= 0 && b->brightness >= 0;
+    return b->radius > 0 && b->r >= KD_BODIES_CLEAR * kd_kerr_horizon(spin) && b->r <= 1e12 && fabs(b->u) <= 1 &&
+           b->s >= 0 && b->s <= 1 && isfinite(b->phi) && speed2(b) < 1 && isfinite(b->radius) && b->albedo >= 0 &&
+           b->albedo <= 1 && b->temperature_k >= 0 && b->brightness >= 0;
 }
 
-static double turn_of(const struct metric *g, const struct kd_seen_body *b) { return g->phi * b->s * g->omega / g->lapse; }
+static double turn_of(const struct metric *g, const struct kd_seen_body *b)
+{
+    return g->phi * b->s * g->omega / g->lapse;
+}
 
-/* Azimuths are mirrored, as the path that is traced has them. What is met of a body at one time of the observer's is longer than it is wide. */
+/* Azimuths are mirrored, as the path that is traced has them. What is met of a body at one time of the observer's is
+ * longer than it is wide. */
 static struct ball ball_of(const struct kd_seen_body *b, size_t body, const struct kd_bodies_view *view)
 {
     const struct metric g = metric_at(view->spin, b);
     const double phi = b->phi - view->azimuth, v2 = speed2(b);
     const double longer = (1 + sqrt(v2)) / sqrt(fmax(1 - v2, 1e-12)) * (1 + fabs(turn_of(&g, b)));
-    return (struct ball) { { b->r * b->s * cos(phi), -b->r * b->s * sin(phi), b->r * b->u }, fmin(b->radius * longer, 1e9), body };
+    return (struct ball) { { b->r * b->s * cos(phi), -b->r * b->s * sin(phi), b->r * b->u },
+                           fmin(b->radius * longer, 1e9),
+                           body };
 }
 
 static void fill(float *w, const struct kd_seen_body *b, const struct kd_bodies_view *view)
@@ -56,12 +72,25 @@ static void fill(float *w, const struct kd_seen_body *b, const struct kd_bodies_
     const struct metric g = metric_at(view->spin, b);
     const double phi = b->phi - view->azimuth, c = cos(phi), s = sin(phi), sine = fmax(b->s, SINE);
     const double axes[3][3] = { { b->s * c, -b->s * s, b->u }, { b->u * c, -b->u * s, -b->s }, { -s, -c, 0 } };
-    const double stretch[3] = { g.r, g.theta / b->r, g.phi / b->r }, *v = b->velocity, gamma = 1 / sqrt(fmax(1 - speed2(b), 1e-12));
+    const double stretch[3] = { g.r, g.theta / b->r, g.phi / b->r }, *v = b->velocity,
+                 gamma = 1 / sqrt(fmax(1 - speed2(b), 1e-12));
     const double rest[] = {
-        v[0], v[1], v[2], gamma,
-        turn_of(&g, b), fmin(b->radius, 1e9), b->limb_darkening, b->brightness,
-        gamma / g.lapse, gamma * (g.omega / g.lapse + v[2] / (g.phi * sine)), gamma * v[0] / g.r, gamma * v[1] / g.theta,
-        b->temperature_k / view->peak_k, b->which, 0, 0,
+        v[0],
+        v[1],
+        v[2],
+        gamma,
+        turn_of(&g, b),
+        fmin(b->radius, 1e9),
+        b->limb_darkening,
+        b->brightness,
+        gamma / g.lapse,
+        gamma * (g.omega / g.lapse + v[2] / (g.phi * sine)),
+        gamma * v[0] / g.r,
+        gamma * v[1] / g.theta,
+        b->temperature_k / view->peak_k,
+        b->which,
+        0,
+        0,
     };
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k < 3; k++)
@@ -128,9 +157,15 @@ static struct ball round_all(const struct ball *balls, size_t n, int *axis)
     return all;
 }
 
-struct tree { const struct kd_seen_body *bodies; const struct kd_bodies_view *view; float *words; uint32_t leaves; };
+struct tree {
+    const struct kd_seen_body *bodies;
+    const struct kd_bodies_view *view;
+    float *words;
+    uint32_t leaves;
+};
 
-/* Balls go to the leaves below a node, half of them to either side. A leaf without a body is at the hole and of no size, where no ray is near. */
+/* Balls go to the leaves below a node, half of them to either side. A leaf without a body is at the hole and of no
+ * size, where no ray is near. */
 static void grow(const struct tree *t, uint32_t node, struct ball *balls, size_t n)
 {
     int axis = 0;
@@ -141,7 +176,8 @@ static void grow(const struct tree *t, uint32_t node, struct ball *balls, size_t
         t->words[4 * node + (uint32_t)k] = (float)all.at[k];
     t->words[4 * node + 3] = (float)(all.reach * (1 + 1e-6));
     if (node >= t->leaves) {
-        fill(t->words + 8 * (size_t)t->leaves + (size_t)KD_BODY_WORDS * (node - t->leaves), &t->bodies[balls[0].body], t->view);
+        fill(t->words + 8 * (size_t)t->leaves + (size_t)KD_BODY_WORDS * (node - t->leaves), &t->bodies[balls[0].body],
+             t->view);
         return;
     }
     part(balls, n, (n + 1) / 2, axis);
@@ -150,7 +186,8 @@ static void grow(const struct tree *t, uint32_t node, struct ball *balls, size_t
 }
 
 /* The balls of those that are seen; they are so many. */
-static size_t seen_of(const struct kd_seen_body *bodies, size_t n, const struct kd_bodies_view *view, struct ball *balls)
+static size_t seen_of(const struct kd_seen_body *bodies, size_t n, const struct kd_bodies_view *view,
+                      struct ball *balls)
 {
     size_t seen = 0;
     for (size_t i = 0; i < n; i++)
@@ -159,7 +196,8 @@ static size_t seen_of(const struct kd_seen_body *bodies, size_t n, const struct 
     return seen;
 }
 
-enum kd_status kd_bodies_pack(const struct kd_seen_body *bodies, size_t n, const struct kd_bodies_view *view, float *words, struct kd_error *error)
+enum kd_status kd_bodies_pack(const struct kd_seen_body *bodies, size_t n, const struct kd_bodies_view *view,
+                              float *words, struct kd_error *error)
 {
     struct ball *balls = malloc((n ? n : 1) * sizeof *balls);
     const struct tree tree = { bodies, view, words, leaves_of(n) };
@@ -171,7 +209,8 @@ enum kd_status kd_bodies_pack(const struct kd_seen_body *bodies, size_t n, const
     return KD_OK;
 }
 
-void kd_bodies_bound(const struct kd_seen_body *bodies, size_t n, const struct kd_bodies_view *view, struct kd_bodies_block *out)
+void kd_bodies_bound(const struct kd_seen_body *bodies, size_t n, const struct kd_bodies_view *view,
+                     struct kd_bodies_block *out)
 {
     double low[3] = { 0 }, high[3] = { 0 }, outermost = 1, reach = 0;
     size_t seen = 0;
@@ -194,7 +233,8 @@ void kd_bodies_bound(const struct kd_seen_body *bodies, size_t n, const struct k
         if (!kd_bodies_seen(&bodies[i], view->spin))
             continue;
         const struct ball ball = ball_of(&bodies[i], i, view);
-        reach = fmax(reach, hypot(hypot(ball.at[0] - middle[0], ball.at[1] - middle[1]), ball.at[2] - middle[2]) + ball.reach);
+        reach = fmax(reach,
+                     hypot(hypot(ball.at[0] - middle[0], ball.at[1] - middle[1]), ball.at[2] - middle[2]) + ball.reach);
     }
     out->x = (float)middle[0];
     out->y = (float)middle[1];

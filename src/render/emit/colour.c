@@ -6,7 +6,10 @@
 #include <string.h>
 
 /* This is the temperature of a node of both tables. */
-static double kelvin(int i) { return ldexp(KD_COLOUR_LEAST * (1 + (double)(i % KD_COLOUR_NODES) / KD_COLOUR_NODES), i / KD_COLOUR_NODES); }
+static double kelvin(int i)
+{
+    return ldexp(KD_COLOUR_LEAST * (1 + (double)(i % KD_COLOUR_NODES) / KD_COLOUR_NODES), i / KD_COLOUR_NODES);
+}
 
 void kd_colour_tables(struct kd_emit_tables *out)
 {

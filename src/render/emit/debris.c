@@ -11,11 +11,17 @@
 static const struct kd_crowd_debris *of(const struct kd_scene *scene) { return &scene->crowd.at->debris; }
 
 static bool present(const struct kd_scene *scene) { return scene->crowd.at && of(scene)->rows && of(scene)->depth > 0; }
-static uint32_t traits(const struct kd_scene *scene) { return scene->disk.band == KD_BAND_VISIBLE ? KD_TRAIT_VISIBLE : 0; }
+static uint32_t traits(const struct kd_scene *scene)
+{
+    return scene->disk.band == KD_BAND_VISIBLE ? KD_TRAIT_VISIBLE : 0;
+}
 static uint32_t needs(const struct kd_scene *scene) { return (void)scene, KD_LENS_W | KD_LENS_PHI | KD_LENS_SLOPE; }
 static unsigned varies(const struct kd_scene *scene) { return (void)scene, KD_MOVES_WITH_AZIMUTH; }
 
-static double radius(const struct kd_crowd_debris *d, double row) { return exp((d->first_row + row) * (2 * M_PI / d->turn)); }
+static double radius(const struct kd_crowd_debris *d, double row)
+{
+    return exp((d->first_row + row) * (2 * M_PI / d->turn));
+}
 
 static void reach(const struct kd_scene *scene, double radii[2])
 {
@@ -30,7 +36,10 @@ static void tell(const struct kd_scene *scene, char out[KD_EMIT_TOLD])
 }
 
 static size_t words(const struct kd_crowd_debris *d) { return KD_CROWD_NODE * (size_t)d->rows * d->columns; }
-static uint64_t device_bytes(const struct kd_scene *scene) { return 2 * sizeof(float) * words(of(scene)); } /* and on their way */
+static uint64_t device_bytes(const struct kd_scene *scene)
+{
+    return 2 * sizeof(float) * words(of(scene));
+} /* and on their way */
 
 /* The area of a node is r^2 (2 pi/turn)^2. */
 static void fill(struct kd_emission *out, const struct kd_scene *scene)
@@ -38,8 +47,13 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
     const struct kd_crowd_debris *d = of(scene);
     const double cell = 2 * M_PI / d->turn;
     out->debris = (struct kd_debris_block) {
-        .turn = d->turn, .rows = d->rows, .columns = d->columns, .first_row = (float)d->first_row, .first_column = (float)d->first_column,
-        .rows_octave = (float)(M_LN2 / cell), .depth = (float)fmin(REFERENCE * d->depth / (cell * cell), 1e30),
+        .turn = d->turn,
+        .rows = d->rows,
+        .columns = d->columns,
+        .first_row = (float)d->first_row,
+        .first_column = (float)d->first_column,
+        .rows_octave = (float)(M_LN2 / cell),
+        .depth = (float)fmin(REFERENCE * d->depth / (cell * cell), 1e30),
         .temperature = (float)(d->temperature_k / (kd_disk_peak_temperature(scene) * scene->disk.hardening)),
     };
 }
@@ -69,7 +83,10 @@ done:
     return status;
 }
 
-static void buffers(const void *own, struct kd_vk_buffer *out[KD_OWN_COUNT]) { out[KD_OWN_debris] = ((const struct own *)own)->device; }
+static void buffers(const void *own, struct kd_vk_buffer *out[KD_OWN_COUNT])
+{
+    out[KD_OWN_debris] = ((const struct own *)own)->device;
+}
 
 static void finish(void *own, struct kd_vk *vk)
 {
@@ -79,9 +96,11 @@ static void finish(void *own, struct kd_vk *vk)
     *o = (struct own) { 0 };
 }
 
-static const struct kd_own own = { .bytes = sizeof(struct own), .prepare = prepare, .buffers = buffers, .forget = forget, .finish = finish };
+static const struct kd_own own = {
+    .bytes = sizeof(struct own), .prepare = prepare, .buffers = buffers, .forget = forget, .finish = finish
+};
 
-#define WHEN(name, condition)                                                                                  \
+#define WHEN(name, condition) \
     static bool name(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, condition; }
 WHEN(thick, of(scene)->thick > 0.02)
 WHEN(hidden, of(scene)->hidden)
@@ -89,12 +108,19 @@ WHEN(by_potential, scene->crowd.at->approximate)
 WHEN(bolometric, scene->disk.band == KD_BAND_BOLOMETRIC)
 
 static const struct kd_sentence sentences[] = {
-    { "debris: put on the plane of the disk at its r and azimuth, as a density of its pieces on a grid: streams are as wide as a cell at least", NULL },
+    { "debris: put on the plane of the disk at its r and azimuth, as a density of its pieces on a grid: streams are as "
+      "wide as a cell at least",
+      NULL },
     { "debris: it moves off that plane, by more than a fiftieth of r in the mean: its height is not shown", thick },
-    { "debris: a black body of one chosen temperature; its optical depth is a chosen number times its column, at any angle", NULL },
-    { "debris: the mean velocity of a place shifts its light, without that across the plane; no heat of shocks, no spread of velocities", NULL },
+    { "debris: a black body of one chosen temperature; its optical depth is a chosen number times its column, at any "
+      "angle",
+      NULL },
+    { "debris: the mean velocity of a place shifts its light, without that across the plane; no heat of shocks, no "
+      "spread of velocities",
+      NULL },
     { "debris: fast light: shown where it is at one coordinate time, whatever the light's delay", NULL },
-    { "debris: it moves in a potential: its r stands for Boyer and Lindquist's, its velocity for gamma v", by_potential },
+    { "debris: it moves in a potential: its r stands for Boyer and Lindquist's, its velocity for gamma v",
+      by_potential },
     { "debris: some pieces are beyond the grid, and not shown", hidden },
     { "debris: brightness is bolometric (g^4), colour is that of the visible part of the spectrum", bolometric },
 };

@@ -14,17 +14,18 @@
 /* Commands are timed under this. */
 static const char PASS[] = "particles";
 
-static const struct kd_vk_pipeline_params particles = { "particles", kd_spv_particles, sizeof kd_spv_particles, 2, sizeof(struct kd_particles_push) };
+static const struct kd_vk_pipeline_params particles = { "particles", kd_spv_particles, sizeof kd_spv_particles, 2,
+                                                        sizeof(struct kd_particles_push) };
 static const struct kd_vk_pipeline_params density = { "density", kd_spv_density, sizeof kd_spv_density, 3, 4 };
 
 struct own {
     struct kd_vk_buffer *guides, *staging, *grid, *density, *list; /* made when first needed, and kept */
-    struct kd_scene of; /* what is in `guides`, */
-    double time;        /* at this time: slices of a list, and frames that refine, find it there */
+    struct kd_scene of;                                            /* what is in `guides`, */
+    double time; /* at this time: slices of a list, and frames that refine, find it there */
 };
 
-static enum kd_status guides(const struct kd_own_work *w, const struct kd_scene *scene, const struct kd_particle_grid *grid, double time,
-                             struct kd_error *error)
+static enum kd_status guides(const struct kd_own_work *w, const struct kd_scene *scene,
+                             const struct kd_particle_grid *grid, double time, struct kd_error *error)
 {
     struct own *p = w->own;
     uint64_t bytes = kd_particle_tables_bytes(grid);
@@ -45,21 +46,21 @@ static void forget(void *own) { ((struct own *)own)->time = NAN; }
 static uint32_t groups(uint32_t n) { return (n + KD_GROUP_SIZE - 1) / KD_GROUP_SIZE; }
 
 /* The particles from push->first up to `end`, which fall or do not: lavapipe takes both ways where a kernel has two. */
-static enum kd_status share_out(const struct kd_own_work *w, const struct kd_scene *scene, bool plunge, struct kd_particles_push *push,
-                                uint32_t end, struct kd_error *error)
+static enum kd_status share_out(const struct kd_own_work *w, const struct kd_scene *scene, bool plunge,
+                                struct kd_particles_push *push, uint32_t end, struct kd_error *error)
 {
     const struct own *p = w->own;
     const struct kd_vk_pipeline *kernel;
     const struct kd_spec_particles spec = { .SWING = scene->disk.epicycles > 0, .PLUNGE = plunge };
     enum kd_status status;
-    double slice = fmax(KD_GROUP_SIZE, fmin(SLICE_MS * 1e6 / fmax(w->ns, 1e-3), (double)kd_vk_info(w->vk)->max_groups_x * KD_GROUP_SIZE));
+    double slice = fmax(KD_GROUP_SIZE, fmin(SLICE_MS * 1e6 / fmax(w->ns, 1e-3),
+                                            (double)kd_vk_info(w->vk)->max_groups_x * KD_GROUP_SIZE));
     KD_TRY(kd_own_kernel(w, &particles, &spec.SWING, sizeof spec / 4, &kernel, error));
     for (; push->first < end; push->first += push->count) {
         uint32_t left = end - push->first;
         push->count = left < slice ? left : (uint32_t)slice;
         const struct kd_vk_dispatch d = {
-            PASS, kernel, { { p->guides, 0, 0, false }, { p->grid, 0, 0, true } }, push,
-            { groups(push->count) },
+            PASS, kernel, { { p->guides, 0, 0, false }, { p->grid, 0, 0, true } }, push, { groups(push->count) },
         };
         KD_TRY(kd_vk_dispatch(w->vk, &d, error));
         KD_TRY(kd_vk_submit(w->vk, NULL, error));
@@ -68,8 +69,10 @@ done:
     return status;
 }
 
-/* Makes densities of weights, on one of the grids: from byte `at` of both, what its rows expect from byte `expected`. */
-static enum kd_status divide(const struct kd_own_work *w, uint64_t at, uint64_t expected, uint32_t rows, uint32_t columns, struct kd_error *error)
+/* Makes densities of weights, on one of the grids: from byte `at` of both, what its rows expect from byte
+ * `expected`. */
+static enum kd_status divide(const struct kd_own_work *w, uint64_t at, uint64_t expected, uint32_t rows,
+                             uint32_t columns, struct kd_error *error)
 {
     const struct own *p = w->own;
     const struct kd_vk_pipeline *kernel;
@@ -77,11 +80,11 @@ static enum kd_status divide(const struct kd_own_work *w, uint64_t at, uint64_t 
     if (status)
         return status;
     const struct kd_vk_dispatch d = {
-        PASS, kernel,
-        { { p->grid, at, 0, false },
-          { p->guides, expected, 0, false },
-          { p->density, at, 0, true } },
-        &columns, { groups(columns), rows + 1 },
+        PASS,
+        kernel,
+        { { p->grid, at, 0, false }, { p->guides, expected, 0, false }, { p->density, at, 0, true } },
+        &columns,
+        { groups(columns), rows + 1 },
     };
     return kd_vk_dispatch(w->vk, &d, error);
 }
@@ -104,32 +107,38 @@ static enum kd_status prepare(const struct kd_own_work *w, const struct kd_scene
     KD_TRY(share_out(w, scene, false, &push, grid.count, error));
     KD_TRY(divide(w, 0, expected, grid.rows, grid.columns, error));
     if (grid.plunging)
-        KD_TRY(divide(w, 4 * words, expected + KD_PARTICLE_EXPECTED_BYTES, grid.plunge_rows, grid.plunge_columns, error));
+        KD_TRY(
+            divide(w, 4 * words, expected + KD_PARTICLE_EXPECTED_BYTES, grid.plunge_rows, grid.plunge_columns, error));
     KD_TRY(kd_vk_submit(w->vk, NULL, error));
 done:
     return status;
 }
 
-static void buffers(const void *own, struct kd_vk_buffer *out[KD_OWN_COUNT]) { out[KD_OWN_density] = ((const struct own *)own)->density; }
+static void buffers(const void *own, struct kd_vk_buffer *out[KD_OWN_COUNT])
+{
+    out[KD_OWN_density] = ((const struct own *)own)->density;
+}
 
-enum kd_status kd_particles_places(const struct kd_own_work *w, const struct kd_scene *scene, uint32_t first, uint32_t stride,
-                                   size_t n, struct kd_particle_place *out, struct kd_error *error)
+enum kd_status kd_particles_places(const struct kd_own_work *w, const struct kd_scene *scene, uint32_t first,
+                                   uint32_t stride, size_t n, struct kd_particle_place *out, struct kd_error *error)
 {
     struct own *p = w->own;
     const struct kd_particle_grid grid = kd_particle_grid(scene);
     const struct kd_vk_pipeline *kernel = NULL;
-    const struct kd_spec_particles spec = { .SWING = scene->disk.epicycles > 0, .LIST = true, .PLUNGE = grid.plunging > 0 };
+    const struct kd_spec_particles spec = { .SWING = scene->disk.epicycles > 0,
+                                            .LIST = true,
+                                            .PLUNGE = grid.plunging > 0 };
     struct kd_particles_push push = kd_particle_push(scene, &grid, scene->top.time);
     push.first = first;
     push.stride = stride;
     push.count = (uint32_t)n;
     enum kd_status status;
     KD_TRY(guides(w, scene, &grid, scene->top.time, error));
-    KD_TRY(kd_own_at_least(w, &p->list, n * sizeof(struct kd_particle_listed), KD_VK_READBACK, "places of particles", error));
+    KD_TRY(kd_own_at_least(w, &p->list, n * sizeof(struct kd_particle_listed), KD_VK_READBACK, "places of particles",
+                           error));
     KD_TRY(kd_own_kernel(w, &particles, &spec.SWING, sizeof spec / 4, &kernel, error));
     const struct kd_vk_dispatch d = {
-        PASS, kernel, { { p->guides, 0, 0, false }, { p->list, 0, 0, true } }, &push,
-        { groups(push.count) },
+        PASS, kernel, { { p->guides, 0, 0, false }, { p->list, 0, 0, true } }, &push, { groups(push.count) },
     };
     KD_TRY(kd_vk_dispatch(w->vk, &d, error));
     KD_TRY(kd_vk_submit(w->vk, NULL, error));

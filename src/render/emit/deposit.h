@@ -1,4 +1,5 @@
-/* The device finds how many particles (render/emit/particles.h) are where on their grids, and where some of them are. Render thread only. */
+/* The device finds how many particles (render/emit/particles.h) are where on their grids, and where some of them
+ * are. Render thread only. */
 #ifndef KD_RENDER_EMIT_DEPOSIT_H
 #define KD_RENDER_EMIT_DEPOSIT_H
 
@@ -11,7 +12,7 @@ extern const struct kd_own kd_own_particles;
 
 /* Places of the particles first, first + stride, ..., n of them, at scene->top.time, as the device
  * computes them: Boyer-Lindquist r in M and phi in turns of 2^32, latitude in radians. */
-enum kd_status kd_particles_places(const struct kd_own_work *work, const struct kd_scene *scene, uint32_t first, uint32_t stride,
-                                   size_t n, struct kd_particle_place *out, struct kd_error *error);
+enum kd_status kd_particles_places(const struct kd_own_work *work, const struct kd_scene *scene, uint32_t first,
+                                   uint32_t stride, size_t n, struct kd_particle_place *out, struct kd_error *error);
 
 #endif

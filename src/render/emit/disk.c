@@ -46,8 +46,11 @@ double kd_disk_peak_temperature(const struct kd_scene *scene)
 
 double kd_disk_heat(const struct kd_scene *scene, double r)
 {
-    const double f = fmin(fmax((scene->disk.outer - r) / fmax(scene->disk.outer * scene->disk.taper, 1e-6), 0), 1), fade = f * f * (3 - 2 * f);
-    return r > kd_kerr_isco(scene->spacetime.spin) ? pow(scene->disk.opacity * fade * flux_of(scene)(scene->spacetime.spin, r) / largest_flux(scene), 0.25) : 0;
+    const double f = fmin(fmax((scene->disk.outer - r) / fmax(scene->disk.outer * scene->disk.taper, 1e-6), 0), 1),
+                 fade = f * f * (3 - 2 * f);
+    return r > kd_kerr_isco(scene->spacetime.spin)
+               ? pow(scene->disk.opacity * fade * flux_of(scene)(scene->spacetime.spin, r) / largest_flux(scene), 0.25)
+               : 0;
 }
 
 double kd_disk_inner(const struct kd_scene *scene)
@@ -99,7 +102,7 @@ static void tables(struct kd_emit_tables *out, const struct kd_scene *scene)
     }
 }
 
-#define WHEN(name, condition)                                                                                  \
+#define WHEN(name, condition) \
     static bool name(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, condition; }
 WHEN(thin, scene->disk.height == 0)
 WHEN(newtonian, scene->disk.model == KD_DISK_SHAKURA_SUNYAEV)
@@ -111,8 +114,10 @@ WHEN(fades, scene->disk.taper > 0)
 WHEN(seen_through, scene->disk.opacity < 1)
 
 static const struct kd_sentence sentences[] = {
-    { "disk: geometrically thin, in the equatorial plane, gas on circular Kerr orbits that ends at the inner edge", thin },
-    { "disk: each element shines as an isotropic black body; no limb darkening, no irradiation by returning light", NULL },
+    { "disk: geometrically thin, in the equatorial plane, gas on circular Kerr orbits that ends at the inner edge",
+      thin },
+    { "disk: each element shines as an isotropic black body; no limb darkening, no irradiation by returning light",
+      NULL },
     { "disk: Newtonian thin-disk flux cut at the ISCO instead of the Page-Thorne integral", newtonian },
     { "disk: the peak temperature is chosen to be seen, not computed from a mass and an accretion rate", chosen_peak },
     { "disk: brightness is bolometric (g^4), colour is that of the visible part of the spectrum", bolometric },

@@ -10,7 +10,8 @@
 #define F(name) float name;
 #define U(name) uint32_t name;
 #define A(type, name, count) struct type name[count];
-#define BLOCK(number, name) struct kd_##name##_block { KD_BLOCK_##name(F, U, A) };
+#define BLOCK(number, name) \
+    struct kd_##name##_block { KD_BLOCK_##name(F, U, A) };
 #define MEMBER(number, name) _Alignas(16) struct kd_##name##_block name;
 struct kd_spot_block { KD_BLOCK_spot(F, U) };
 KD_EMIT_BLOCKS(BLOCK)
@@ -29,14 +30,16 @@ typedef float kd_table_row[4];
 struct kd_emit_tables { KD_EMIT_TABLES };
 #undef KD_T
 #define KD_T(table, rows) +(rows)
-_Static_assert(sizeof(struct kd_emit_tables) == sizeof(kd_table_row) * (0 KD_EMIT_TABLES), "no gaps: the kernels count rows");
+_Static_assert(sizeof(struct kd_emit_tables) == sizeof(kd_table_row) * (0 KD_EMIT_TABLES),
+               "no gaps: the kernels count rows");
 #undef KD_T
 
 /* In no word do two variants share a bit: else the sum of all is more than all of them together. */
 #define ADDED(trait) +(uint64_t)KD_TRAIT_##trait
 #define JOINED(trait) | KD_TRAIT_##trait
-#define DISJOINT(number, name)                                                                                  \
-    _Static_assert(KD_TRAIT_PRESENT KD_TRAITS_##name(ADDED) == (KD_TRAIT_PRESENT KD_TRAITS_##name(JOINED)), "bits of the traits of " #name);
+#define DISJOINT(number, name) \
+    _Static_assert(KD_TRAIT_PRESENT KD_TRAITS_##name(ADDED) == (KD_TRAIT_PRESENT KD_TRAITS_##name(JOINED)), \
+                   "bits of the traits of " #name);
 KD_EMITTERS(DISJOINT, DISJOINT, DISJOINT, DISJOINT, DISJOINT, DISJOINT)
 #undef ADDED
 #undef JOINED

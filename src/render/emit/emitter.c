@@ -9,7 +9,8 @@
 #define DECLARE(number, name) extern const struct kd_emitter kd_emit_##name;
 KD_EMITTERS(DECLARE, DECLARE, DECLARE, DECLARE, DECLARE, DECLARE)
 #define ENTRY(number, name) [number] = &kd_emit_##name,
-const struct kd_emitter *const kd_emitters[KD_EMITTER_COUNT] = { KD_EMITTERS(ENTRY, ENTRY, ENTRY, ENTRY, ENTRY, ENTRY) };
+const struct kd_emitter *const kd_emitters[KD_EMITTER_COUNT] = { KD_EMITTERS(ENTRY, ENTRY, ENTRY, ENTRY, ENTRY,
+                                                                             ENTRY) };
 
 /* Where the list has them. */
 enum kind { AT_CROSSING = 1, PART = 2, OVER = 4, AT_END = 8, ALONG = 16, MET = 32 };
@@ -19,7 +20,8 @@ enum kind { AT_CROSSING = 1, PART = 2, OVER = 4, AT_END = 8, ALONG = 16, MET = 3
 #define IS_AT_END(number, name) [number] = AT_END,
 #define IS_ALONG(number, name) [number] = ALONG,
 #define IS_MET(number, name) [number] = MET,
-static const enum kind kinds[KD_EMITTER_COUNT] = { KD_EMITTERS(IS_AT_CROSSING, IS_PART, IS_OVER, IS_AT_END, IS_ALONG, IS_MET) };
+static const enum kind kinds[KD_EMITTER_COUNT] = { KD_EMITTERS(IS_AT_CROSSING, IS_PART, IS_OVER, IS_AT_END, IS_ALONG,
+                                                               IS_MET) };
 
 bool kd_emit_has(const struct kd_scene *scene, const struct kd_emitter *emitter)
 {
@@ -56,15 +58,9 @@ static bool any(const struct kd_scene *scene, enum kind kind)
     return false;
 }
 
-bool kd_emit_at_crossings(const struct kd_scene *scene)
-{
-    return any(scene, AT_CROSSING);
-}
+bool kd_emit_at_crossings(const struct kd_scene *scene) { return any(scene, AT_CROSSING); }
 
-bool kd_emit_along(const struct kd_scene *scene)
-{
-    return any(scene, ALONG);
-}
+bool kd_emit_along(const struct kd_scene *scene) { return any(scene, ALONG); }
 
 bool kd_emit_slow_along(const struct kd_scene *scene)
 {
@@ -75,15 +71,9 @@ bool kd_emit_slow_along(const struct kd_scene *scene)
     return all & KD_TRAIT_SLOW;
 }
 
-bool kd_emit_met(const struct kd_scene *scene)
-{
-    return any(scene, MET);
-}
+bool kd_emit_met(const struct kd_scene *scene) { return any(scene, MET); }
 
-bool kd_emit_at_ends(const struct kd_scene *scene)
-{
-    return any(scene, AT_END);
-}
+bool kd_emit_at_ends(const struct kd_scene *scene) { return any(scene, AT_END); }
 
 static uint32_t all_traits(const struct kd_scene *scene)
 {
@@ -121,8 +111,8 @@ uint64_t kd_emit_invocations(const struct kd_scene *scene, enum kd_emitter_numbe
     return e->invocations && e->present(scene) ? e->invocations(scene) : 0;
 }
 
-void kd_emit_sentences(const struct kd_scene *scene, const struct kd_setting *rays, void (*take)(void *user, const char *text),
-                       void *user)
+void kd_emit_sentences(const struct kd_scene *scene, const struct kd_setting *rays,
+                       void (*take)(void *user, const char *text), void *user)
 {
     for (int i = 0; i < KD_EMITTER_COUNT; i++)
         for (const struct kd_emitter *e = kd_emit_has(scene, kd_emitters[i]) ? kd_emitters[i] : NULL; e; e = e->kind)
@@ -161,7 +151,8 @@ bool kd_emit_only_dims(const struct kd_scene *scene) { return going_on(scene) ==
 static bool is_read(const struct kd_emitter *e, const struct kd_scene *scene)
 {
     for (int i = 0; i < KD_EMITTER_COUNT; i++)
-        for (const struct kd_emitter *of = kd_emit_has(scene, kd_emitters[i]) ? kd_emitters[i] : NULL; of; of = of->reads)
+        for (const struct kd_emitter *of = kd_emit_has(scene, kd_emitters[i]) ? kd_emitters[i] : NULL; of;
+             of = of->reads)
             if (of == e)
                 return true;
     return false;

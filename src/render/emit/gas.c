@@ -6,12 +6,14 @@
 
 #include <math.h>
 
-/* By its cells' width an octave is displaced by this at one standard deviation of the one before: streaks bend, and do not tear. */
+/* By its cells' width an octave is displaced by this at one standard deviation of the one before: streaks bend, and
+ * do not tear. */
 #define WARP 0.2
-/* Mean square of the slope of both noises along an axis, a cell: displacements stretch what they displace by so much. */
+/* Mean square of the slope of both noises along an axis, a cell: displacements stretch what they displace by so
+ * much. */
 #define STEEPNESS 16.6
-/* Each octave's part of the logarithm over that of the one before: cells are KD_GAS_FINER times as many, and Kolmogorov's spectrum
- * falls as the third root of that. */
+/* Each octave's part of the logarithm over that of the one before: cells are KD_GAS_FINER times as many, and
+ * Kolmogorov's spectrum falls as the third root of that. */
 #define PERSISTENCE 0.72
 
 static bool present(const struct kd_scene *scene)
@@ -25,7 +27,8 @@ static bool stirs(const struct kd_scene *scene) { return scene->gas.amplitude > 
 
 static uint32_t traits(const struct kd_scene *scene)
 {
-    return kd_disk_traits(scene) | (scene->disk.slow_light ? KD_TRAIT_SLOW : 0) | (scene->disk.emission_opacity > 0 ? KD_TRAIT_GAS_DEEP : 0) |
+    return kd_disk_traits(scene) | (scene->disk.slow_light ? KD_TRAIT_SLOW : 0) |
+           (scene->disk.emission_opacity > 0 ? KD_TRAIT_GAS_DEEP : 0) |
            (stirs(scene) ? (uint32_t)scene->gas.octaves << KD_TRAIT_GAS_SHIFT : 0);
 }
 
@@ -93,7 +96,8 @@ static void next_rings(struct kd_emit_tables *out, const struct kd_scene *scene)
 {
     for (int j = 0; j + 1 < KD_GAS_RINGS; j++) {
         float *row = out->gas[j * (KD_GAS_OCTAVES + 1)];
-        const double turn = (double)row[0] - out->gas[(j + 1) * (KD_GAS_OCTAVES + 1)][0] - scene->gas.shear * KD_GAS_RING;
+        const double turn =
+            (double)row[0] - out->gas[(j + 1) * (KD_GAS_OCTAVES + 1)][0] - scene->gas.shear * KD_GAS_RING;
         row[2] = (float)(exp(-KD_GAS_RING) * cos(turn));
         row[3] = (float)(exp(-KD_GAS_RING) * sin(turn));
     }
@@ -104,9 +108,10 @@ static void tables(struct kd_emit_tables *out, const struct kd_scene *scene)
     double r_in = inner_radius(scene), time = scene->top.time - kd_particle_delay(scene);
     uint64_t n = 0, seed = (uint64_t)scene->gas.seed;
     for (int j = 0; j < KD_GAS_RINGS; j++) {
-        float(*row)[4] = &out->gas[j * (KD_GAS_OCTAVES + 1)];
+        float (*row)[4] = &out->gas[j * (KD_GAS_OCTAVES + 1)];
         double omega = kd_kerr_omega(scene->spacetime.spin, r_in * exp(KD_GAS_RING * j)), turned = omega * time;
-        double phase = 2 * M_PI * random_of(seed, ++n) + remainder(turned, 2 * M_PI) - scene->camera.azimuth_deg * (M_PI / 180);
+        double phase =
+            2 * M_PI * random_of(seed, ++n) + remainder(turned, 2 * M_PI) - scene->camera.azimuth_deg * (M_PI / 180);
         row[0][0] = (float)remainder(phase, 2 * M_PI);
         row[0][1] = (float)omega;
         for (int k = 0; k < KD_GAS_OCTAVES; k++) {
@@ -118,22 +123,29 @@ static void tables(struct kd_emit_tables *out, const struct kd_scene *scene)
     next_rings(out, scene);
 }
 
-#define WHEN(name, condition)                                                                                  \
+#define WHEN(name, condition) \
     static bool name(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, condition; }
 WHEN(turbulent, stirs(scene))
 WHEN(deep, scene->disk.emission_opacity > 0 && scene->disk.height == 0)
 WHEN(fast, stirs(scene) && !scene->disk.slow_light)
 
 static const struct kd_sentence sentences[] = {
-    { "gas: turbulence is procedural noise, no solution of magnetohydrodynamics; it multiplies the flux, and with it temperature and "
-      "colour, and the optical depth where that is in force", turbulent },
-    { "gas: the pattern turns on rigid rings, each with the angular velocity of its middle, which pass into each other; it drifts, and does "
-      "not shear", turbulent },
+    { "gas: turbulence is procedural noise, no solution of magnetohydrodynamics; it multiplies the flux, and with it "
+      "temperature and "
+      "colour, and the optical depth where that is in force",
+      turbulent },
+    { "gas: the pattern turns on rigid rings, each with the angular velocity of its middle, which pass into each "
+      "other; it drifts, and does "
+      "not shear",
+      turbulent },
     { "gas: an octave finer than what a ray stands for on the disk fades to its mean: in time the light varies by a "
-      "tenth less than that of 64 rays a pixel, at most", turbulent },
+      "tenth less than that of 64 rays a pixel, at most",
+      turbulent },
     { "gas: fast light: shown at one coordinate time, whatever the light's delay", fast },
-    { "gas: the optical depth of the disk is as its flux, a chosen number at the brightest radius, and grey; each crossing absorbs by its "
-      "depth over the cosine of the angle of emission", deep },
+    { "gas: the optical depth of the disk is as its flux, a chosen number at the brightest radius, and grey; each "
+      "crossing absorbs by its "
+      "depth over the cosine of the angle of emission",
+      deep },
 };
 
 const struct kd_emitter kd_emit_gas = {
@@ -147,7 +159,8 @@ const struct kd_emitter kd_emit_gas = {
     .reach = kd_disk_reach,
     .fill = fill,
     .tables = tables,
-    .depends = { KD_SCENE_PART(spacetime), KD_SCENE_PART(camera), KD_SCENE_PART(disk), KD_SCENE_PART(gas), KD_SCENE_PART(top) },
+    .depends = { KD_SCENE_PART(spacetime), KD_SCENE_PART(camera), KD_SCENE_PART(disk), KD_SCENE_PART(gas),
+                 KD_SCENE_PART(top) },
     .sentences = sentences,
     .n_sentences = sizeof sentences / sizeof *sentences,
     .kind = &kd_emit_disk,

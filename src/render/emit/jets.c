@@ -10,7 +10,10 @@
 
 static bool present(const struct kd_scene *scene) { return scene->jets.brightness > 0; }
 
-static double inner(const struct kd_scene *scene) { return fmax(scene->jets.inner, CLEAR * kd_kerr_horizon(scene->spacetime.spin)); }
+static double inner(const struct kd_scene *scene)
+{
+    return fmax(scene->jets.inner, CLEAR * kd_kerr_horizon(scene->spacetime.spin));
+}
 
 static void reach(const struct kd_scene *scene, double radii[2])
 {
@@ -22,8 +25,8 @@ static double hollow(const struct kd_scene *scene) { return cos(scene->jets.open
 
 static void tell(const struct kd_scene *scene, char out[KD_EMIT_TOLD])
 {
-    snprintf(out, KD_EMIT_TOLD, "%s along the axis, %.4g degrees wide, with a Lorentz factor of %.4g.", scene->jets.counterjet ? "Two jets" : "A jet",
-             2 * scene->jets.opening_deg, scene->jets.lorentz);
+    snprintf(out, KD_EMIT_TOLD, "%s along the axis, %.4g degrees wide, with a Lorentz factor of %.4g.",
+             scene->jets.counterjet ? "Two jets" : "A jet", 2 * scene->jets.opening_deg, scene->jets.lorentz);
 }
 
 static void fill(struct kd_emission *out, const struct kd_scene *scene)
@@ -47,8 +50,11 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
 }
 
 static const struct kd_sentence sentences[] = {
-    { "jets: stylised, cones of optically thin light along the spin axis that flies outwards along the radius at one speed, past observers of zero angular "
-      "momentum; no magnetic field, no synchrotron spectrum: brightness goes as g^(2 + index), colour is that of a chosen temperature and is not shifted", NULL },
+    { "jets: stylised, cones of optically thin light along the spin axis that flies outwards along the radius at one "
+      "speed, past observers of zero angular "
+      "momentum; no magnetic field, no synchrotron spectrum: brightness goes as g^(2 + index), colour is that of a "
+      "chosen temperature and is not shifted",
+      NULL },
 };
 
 const struct kd_emitter kd_emit_jets = {

@@ -12,21 +12,27 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define NEVER -1e6       /* log2 of nothing */
-#define COLD -24.0       /* log2 of k T/(m_e c^2), below which no fit holds: 354 K */
-#define EMPTY 40.0       /* octaves that a node without matter has less than the fullest: light falls to nothing within a cell */
-#define EVEN 1e-3        /* of a step: so far from their places rows may be */
-#define AXIS 1e-9        /* sin^2(theta), below which no azimuth is known */
-#define UNIT 1e-2        /* of 1: so far from it u.u may be */
-#define FINEST 1024      /* rows where r grows by a factor of e: a stretch of the march is two cells */
-#define PARTS 64         /* of a turn, one of which a grid may be */
+#define NEVER -1e6 /* log2 of nothing */
+#define COLD -24.0 /* log2 of k T/(m_e c^2), below which no fit holds: 354 K */
+#define EMPTY \
+    40.0 /* octaves that a node without matter has less than the fullest: light falls to nothing within a cell */
+#define EVEN 1e-3   /* of a step: so far from their places rows may be */
+#define AXIS 1e-9   /* sin^2(theta), below which no azimuth is known */
+#define UNIT 1e-2   /* of 1: so far from it u.u may be */
+#define FINEST 1024 /* rows where r grows by a factor of e: a stretch of the march is two cells */
+#define PARTS 64    /* of a turn, one of which a grid may be */
 #define HEADER_MOST 65536
 
 /* Arrays by their places in a node; `scale`: times r to this power. */
-static const struct { const char *name, *unit; double least, most; int scale; } kinds[] = {
-    { "density", "cm^-3", 0, 1e30, 0 },        { "temperature", "K", 0, 1e30, 0 },
-    { "u_con_r", "c", -1e6, 1e6, 0 },          { "u_con_theta", "c/M", -1e6, 1e6, 1 },   { "u_cov_phi", "c M", -1e6, 1e6, -1 },
-    { "b_con_r", "G", -1e15, 1e15, 0 },        { "b_con_theta", "G/M", -1e15, 1e15, 1 }, { "b_cov_phi", "G M", -1e15, 1e15, -1 },
+static const struct {
+    const char *name, *unit;
+    double least, most;
+    int scale;
+} kinds[] = {
+    { "density", "cm^-3", 0, 1e30, 0 },       { "temperature", "K", 0, 1e30, 0 },
+    { "u_con_r", "c", -1e6, 1e6, 0 },         { "u_con_theta", "c/M", -1e6, 1e6, 1 },
+    { "u_cov_phi", "c M", -1e6, 1e6, -1 },    { "b_con_r", "G", -1e15, 1e15, 0 },
+    { "b_con_theta", "G/M", -1e15, 1e15, 1 }, { "b_cov_phi", "G M", -1e15, 1e15, -1 },
 };
 enum { DENSITY, TEMPERATURE, VELOCITY, FIELD = 5 };
 _Static_assert(sizeof kinds / sizeof *kinds == KD_MATTER_FLOATS, "a float for each");
@@ -40,19 +46,30 @@ struct reader {
 };
 
 /* An array of doubles, whatever it was. */
-struct array { double *at; uint64_t shape[4]; size_t n, dimensions; };
+struct array {
+    double *at;
+    uint64_t shape[4];
+    size_t n, dimensions;
+};
 
 bool kd_matter_grid_is(const void *data, size_t size) { return size > 4 && !memcmp(data, "PK\3\4", 4); }
 
-/* A ZIP file ends with the record of its directory, of 22 bytes without a comment: libarchive reads what has lost that, too. */
-static bool is_whole(const void *data, size_t size) { return size >= 22 && !memcmp((const uint8_t *)data + size - 22, "PK\5\6", 4); }
+/* A ZIP file ends with the record of its directory, of 22 bytes without a comment: libarchive reads what has lost
+ * that, too. */
+static bool is_whole(const void *data, size_t size)
+{
+    return size >= 22 && !memcmp((const uint8_t *)data + size - 22, "PK\5\6", 4);
+}
 
 static enum kd_status refuse(struct reader *r, const char *name, const char *what)
 {
     return kd_error_set(r->error, KD_EINVAL, "a grid of matter is an NPZ file of arrays: %s %s", name, what);
 }
 
-static enum kd_status no_memory(struct reader *r) { return kd_error_set(r->error, KD_ENOMEM, "out of memory for a grid of matter"); }
+static enum kd_status no_memory(struct reader *r)
+{
+    return kd_error_set(r->error, KD_ENOMEM, "out of memory for a grid of matter");
+}
 
 static enum kd_status member(struct reader *r, const char *name, size_t most, struct kd_buffer *out)
 {
@@ -82,7 +99,8 @@ static enum kd_status take(struct reader *r, const char *name, size_t most, stru
         return status;
     if (kd_npy_read(bytes.data, bytes.size, &npy, &why))
         status = refuse(r, name, why.message);
-    else if (npy.n_fields != 1 || npy.fields[0].name[0] || npy.fields[0].type > KD_NPY_F4 || !npy.items || npy.items > most)
+    else if (npy.n_fields != 1 || npy.fields[0].name[0] || npy.fields[0].type > KD_NPY_F4 || !npy.items ||
+             npy.items > most)
         status = refuse(r, name, "has no plain numbers <f8 or <f4, or has none, or too many of them");
     else if (!(out->at = malloc(npy.items * sizeof *out->at)))
         status = no_memory(r);
@@ -114,11 +132,13 @@ static enum kd_status check_units(struct reader *r, const cJSON *units)
     static const char *const others[][2] = { { "r", "M" }, { "theta", "rad" } };
     char name[60], what[200];
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds + 2; i++) {
-        const char *of = i < 2 ? others[i][0] : kinds[i - 2].name, *unit = i < 2 ? others[i][1] : kinds[i - 2].unit, *is = text_of(units, of);
+        const char *of = i < 2 ? others[i][0] : kinds[i - 2].name, *unit = i < 2 ? others[i][1] : kinds[i - 2].unit,
+                   *is = text_of(units, of);
         if (!strcmp(is, unit))
             continue;
         snprintf(name, sizeof name, "header.units.%s", of);
-        snprintf(what, sizeof what, "%s%.60s%s, allowed is \"%s\"", *is ? "is \"" : "is missing", is, *is ? "\"" : "", unit);
+        snprintf(what, sizeof what, "%s%.60s%s, allowed is \"%s\"", *is ? "is \"" : "is missing", is, *is ? "\"" : "",
+                 unit);
         return refuse(r, name, what);
     }
     return KD_OK;
@@ -126,7 +146,8 @@ static enum kd_status check_units(struct reader *r, const cJSON *units)
 
 static enum kd_status check_header(struct reader *r, const cJSON *header)
 {
-    const cJSON *spin = cJSON_GetObjectItemCaseSensitive(header, "spin"), *version = cJSON_GetObjectItemCaseSensitive(header, "version");
+    const cJSON *spin = cJSON_GetObjectItemCaseSensitive(header, "spin"),
+                *version = cJSON_GetObjectItemCaseSensitive(header, "version");
     const char *azimuth = text_of(header, "azimuth");
     if (strcmp(text_of(header, "format"), "kerrd-grid") || !cJSON_IsNumber(version) || version->valuedouble != 1)
         return refuse(r, "header", "has not the format \"kerrd-grid\" of version 1");
@@ -156,17 +177,21 @@ static enum kd_status take_header(struct reader *r)
 }
 
 /* Checks that places grow in even steps, by their logarithm where they are to. */
-static enum kd_status check_even(struct reader *r, const char *name, const struct array *a, bool logarithmic, double least, double most)
+static enum kd_status check_even(struct reader *r, const char *name, const struct array *a, bool logarithmic,
+                                 double least, double most)
 {
     char what[200];
-    const double first = logarithmic ? log(a->at[0]) : a->at[0], last = logarithmic ? log(a->at[a->n - 1]) : a->at[a->n - 1], step = (last - first) / (double)(a->n - 1);
+    const double first = logarithmic ? log(a->at[0]) : a->at[0],
+                 last = logarithmic ? log(a->at[a->n - 1]) : a->at[a->n - 1],
+                 step = (last - first) / (double)(a->n - 1);
     if (a->dimensions != 1 || a->n < 2)
         return refuse(r, name, "is no list of 2 numbers or more");
     for (size_t i = 0; i < a->n; i++) {
         const double at = logarithmic ? log(a->at[i]) : a->at[i], want = first + step * (double)i;
         if (a->at[i] >= least && a->at[i] <= most && fabs(at - want) <= EVEN * step)
             continue;
-        snprintf(what, sizeof what, "%zu is %.9g, allowed are numbers from %.4g to %.4g in even steps%s, here %.9g", i, a->at[i], least, most, logarithmic ? " of their logarithm" : "", logarithmic ? exp(want) : want);
+        snprintf(what, sizeof what, "%zu is %.9g, allowed are numbers from %.4g to %.4g in even steps%s, here %.9g", i,
+                 a->at[i], least, most, logarithmic ? " of their logarithm" : "", logarithmic ? exp(want) : want);
         return refuse(r, name, what);
     }
     return step > 0 ? KD_OK : refuse(r, name, "does not grow");
@@ -185,7 +210,9 @@ static enum kd_status take_round(struct reader *r)
     KD_TRY(check_even(r, "phi", &a, false, -4 * M_PI, 4 * M_PI));
     const double turn = (a.at[a.n - 1] - a.at[0]) / (double)(a.n - 1) * (double)a.n, parts = rint(2 * M_PI / turn);
     if (!(parts >= 1 && parts <= PARTS && fabs(turn * parts / (2 * M_PI) - 1) < EVEN))
-        KD_TRY(refuse(r, "phi", "does not go round once, nor a whole part of that, down to a 64th: its last is a step before the first again"));
+        KD_TRY(refuse(r, "phi",
+                      "does not go round once, nor a whole part of that, down to a 64th: its last is a step before the "
+                      "first again"));
     g->layers = (uint32_t)a.n;
     g->phi = a.at[0];
     g->turn = 2 * M_PI / parts;
@@ -209,11 +236,13 @@ static enum kd_status take_places(struct reader *r)
     g->theta[0] = angles.at[0], g->theta[1] = angles.at[angles.n - 1];
     const double step = (g->theta[1] - g->theta[0]) / (double)(angles.n - 1);
     if (g->theta[0] > 1.001 * step || g->theta[1] < M_PI - 1.001 * step)
-        KD_TRY(refuse(r, "theta", "does not go from pole to pole: its first is more than a step from 0, or its last from pi"));
+        KD_TRY(refuse(r, "theta",
+                      "does not go from pole to pole: its first is more than a step from 0, or its last from pi"));
     KD_TRY(take_round(r));
     if ((uint64_t)g->rows * g->columns * g->layers > KD_MATTER_NODES) {
         char what[120];
-        snprintf(what, sizeof what, "x theta x phi is %u x %u x %u nodes, allowed are %d in all", g->rows, g->columns, g->layers, KD_MATTER_NODES);
+        snprintf(what, sizeof what, "x theta x phi is %u x %u x %u nodes, allowed are %d in all", g->rows, g->columns,
+                 g->layers, KD_MATTER_NODES);
         KD_TRY(refuse(r, "r", what));
     }
     if ((g->rows - 1) / log(g->r[1] / g->r[0]) > FINEST)
@@ -235,8 +264,9 @@ static enum kd_status check_shape(struct reader *r, const char *name, const stru
     char what[200];
     if ((flat || round) && a->shape[0] == g->rows && a->shape[1] == g->columns)
         return KD_OK;
-    snprintf(what, sizeof what, "has %zu numbers in %zu dimensions, allowed is the shape (%u, %u%s%.0u) of r, theta%s", a->n, a->dimensions, g->rows, g->columns, g->layers > 1 ? ", " : "",
-             g->layers > 1 ? g->layers : 0, g->layers > 1 ? " and phi" : "");
+    snprintf(what, sizeof what, "has %zu numbers in %zu dimensions, allowed is the shape (%u, %u%s%.0u) of r, theta%s",
+             a->n, a->dimensions, g->rows, g->columns, g->layers > 1 ? ", " : "", g->layers > 1 ? g->layers : 0,
+             g->layers > 1 ? " and phi" : "");
     return refuse(r, name, what);
 }
 
@@ -263,9 +293,15 @@ static enum kd_status take_kind(struct reader *r, size_t kind)
     KD_TRY(take(r, kinds[kind].name, KD_MATTER_NODES, &a));
     KD_TRY(check_shape(r, kinds[kind].name, &a));
     for (size_t i = 0; i < a.n; i++) {
-        const double radius = r->r[i / g->layers / g->columns], value = a.at[i] * (kinds[kind].scale > 0 ? radius : kinds[kind].scale < 0 ? 1 / radius : 1);
+        const double radius = r->r[i / g->layers / g->columns], value = a.at[i] * (kinds[kind].scale > 0   ? radius
+                                                                                   : kinds[kind].scale < 0 ? 1 / radius
+                                                                                                           : 1);
         if (!(value >= kinds[kind].least && value <= kinds[kind].most)) {
-            snprintf(allowed, sizeof allowed, "are %.4g to %.4g %s%s", kinds[kind].least, kinds[kind].most, kinds[kind].unit, kinds[kind].scale > 0 ? " over r" : kinds[kind].scale < 0 ? " times r" : "");
+            snprintf(allowed, sizeof allowed, "are %.4g to %.4g %s%s", kinds[kind].least, kinds[kind].most,
+                     kinds[kind].unit,
+                     kinds[kind].scale > 0   ? " over r"
+                     : kinds[kind].scale < 0 ? " times r"
+                                             : "");
             KD_TRY(refuse_number(r, kinds[kind].name, i, a.at[i], allowed));
         }
         g->nodes[KD_MATTER_FLOATS * i + kind] = (float)value;
@@ -275,7 +311,8 @@ done:
     return status;
 }
 
-/* -lapse^2 (u^t)^2 + U^2 = -1 past observers of zero angular momentum (Bardeen, Press & Teukolsky 1972), outside the horizon. */
+/* -lapse^2 (u^t)^2 + U^2 = -1 past observers of zero angular momentum (Bardeen, Press & Teukolsky 1972), outside the
+ * horizon. */
 static enum kd_status check_velocity(struct reader *r)
 {
     const struct kd_matter_grid *g = r->grid;
@@ -287,25 +324,36 @@ static enum kd_status check_velocity(struct reader *r)
     KD_TRY(take(r, "u_con_t", KD_MATTER_NODES, &t));
     KD_TRY(check_shape(r, "u_con_t", &t));
     for (size_t i = 0; i < t.n; i++) {
-        const double radius = r->r[i / g->layers / g->columns], theta = r->theta[i / g->layers % g->columns], s2 = sin(theta) * sin(theta), r2 = radius * radius;
-        const double sigma = r2 + a * a * (1 - s2), delta = r2 - 2 * radius + a * a, area = (r2 + a * a) * (r2 + a * a) - a * a * delta * s2;
+        const double radius = r->r[i / g->layers / g->columns], theta = r->theta[i / g->layers % g->columns],
+                     s2 = sin(theta) * sin(theta), r2 = radius * radius;
+        const double sigma = r2 + a * a * (1 - s2), delta = r2 - 2 * radius + a * a,
+                     area = (r2 + a * a) * (r2 + a * a) - a * a * delta * s2;
         const float *n = g->nodes + KD_MATTER_FLOATS * i;
         const double out = n[VELOCITY], down = n[VELOCITY + 1] / radius, round = n[VELOCITY + 2] * radius;
-        const double norm = out * out * sigma / delta + down * down * sigma + round * round * sigma / (area * s2) - t.at[i] * t.at[i] * sigma * delta / area;
+        const double norm = out * out * sigma / delta + down * down * sigma + round * round * sigma / (area * s2) -
+                            t.at[i] * t.at[i] * sigma * delta / area;
         if (radius > edge && s2 > AXIS && !(fabs(norm + 1) <= UNIT))
-            KD_TRY(refuse_number(r, "the velocity's u.u at u_con_t", i, norm, "is -1 within a hundredth: it is timelike, of unit length, and in the components that are told"));
+            KD_TRY(refuse_number(
+                r, "the velocity's u.u at u_con_t", i, norm,
+                "is -1 within a hundredth: it is timelike, of unit length, and in the components that are told"));
     }
 done:
     free(t.at);
     return status;
 }
 
-/* The temperature of an empty node is none: it is the mean of its neighbours' that are not empty, so that what is next to it has its own up to the edge. */
+/* The temperature of an empty node is none: it is the mean of its neighbours' that are not empty, so that what is
+ * next to it has its own up to the edge. */
 static float filled(const struct kd_matter_grid *g, const float *nodes, size_t i)
 {
-    const size_t layers = g->layers, row = i / layers / g->columns, column = i / layers % g->columns, layer = i % layers, stride = layers * g->columns;
-    const size_t beside[] = { row ? i - stride : i, row + 1 < g->rows ? i + stride : i, column ? i - layers : i, column + 1 < g->columns ? i + layers : i,
-                              i - layer + (layer + layers - 1) % layers, i - layer + (layer + 1) % layers };
+    const size_t layers = g->layers, row = i / layers / g->columns, column = i / layers % g->columns,
+                 layer = i % layers, stride = layers * g->columns;
+    const size_t beside[] = { row ? i - stride : i,
+                              row + 1 < g->rows ? i + stride : i,
+                              column ? i - layers : i,
+                              column + 1 < g->columns ? i + layers : i,
+                              i - layer + (layer + layers - 1) % layers,
+                              i - layer + (layer + 1) % layers };
     double sum = 0;
     int n = 0;
     for (size_t k = 0; k < 6; k++)
@@ -381,7 +429,8 @@ done:
     return status;
 }
 
-enum kd_status kd_matter_grid_look(const void *data, size_t size, uint32_t nodes[3], double *spin, struct kd_error *error)
+enum kd_status kd_matter_grid_look(const void *data, size_t size, uint32_t nodes[3], double *spin,
+                                   struct kd_error *error)
 {
     struct kd_matter_grid grid;
     enum kd_status status = kd_matter_grid_read(data, size, &grid, error);
@@ -397,7 +446,9 @@ enum kd_status kd_matter_grid_look(const void *data, size_t size, uint32_t nodes
 
 enum kd_status kd_matter_grid_none(double spin, struct kd_matter_grid *out, struct kd_error *error)
 {
-    *out = (struct kd_matter_grid) { .rows = 2, .columns = 2, .layers = 1, .spin = spin, .r = { 0.1, 1e6 }, .theta = { 0, M_PI }, .turn = 2 * M_PI };
+    *out = (struct kd_matter_grid) {
+        .rows = 2, .columns = 2, .layers = 1, .spin = spin, .r = { 0.1, 1e6 }, .theta = { 0, M_PI }, .turn = 2 * M_PI
+    };
     out->nodes = calloc(4 * KD_MATTER_FLOATS, sizeof *out->nodes);
     if (!out->nodes)
         return kd_error_set(error, KD_ENOMEM, "out of memory for a grid of matter");

@@ -1,12 +1,16 @@
-/* Matter on a grid is read here from an NPZ file, as numpy.savez writes it, for volume.model "grid". docs/physics/volume.md says what is in the file. Pure, any thread.
+/* Matter on a grid is read here from an NPZ file, as numpy.savez writes it, for volume.model "grid".
+ * docs/physics/volume.md says what is in the file. Pure, any thread.
  *
- *   header        JSON: {"format": "kerrd-grid", "version": 1, "spin": a, "azimuth": "boyer-lindquist" or "kerr-schild", "units": {array: unit}}
- *   r theta phi   of rows, columns and layers: even in log r, in theta and in phi; phi, which goes round once or a whole part of that, may be missing
- *   density temperature u_con_r u_con_theta u_cov_phi b_con_r b_con_theta b_cov_phi   (rows, columns) or (rows, columns, layers)
+ *   header        JSON: {"format": "kerrd-grid", "version": 1, "spin": a, "azimuth": "boyer-lindquist" or
+ *                 "kerr-schild", "units": {array: unit}}
+ *   r theta phi   of rows, columns and layers: even in log r, in theta and in phi; phi, which goes round once or a
+ *                 whole part of that, may be missing
+ *   density temperature u_con_r u_con_theta u_cov_phi b_con_r b_con_theta b_cov_phi   (rows, columns) or (rows,
+ *     columns, layers)
  *   u_con_t       may be missing; where it is there the velocity must be a unit vector
  *
- * Components are of Boyer and Lindquist's coordinates, con contravariant and cov covariant: those that are finite at the horizon. u^t follows from the norm, and b^t, b
- * being the field in the frame of the matter, from b.u = 0. */
+ * Components are of Boyer and Lindquist's coordinates, con contravariant and cov covariant: those that are finite at
+ * the horizon. u^t follows from the norm, and b^t, b being the field in the frame of the matter, from b.u = 0. */
 #ifndef KD_RENDER_EMIT_MATTER_GRID_H
 #define KD_RENDER_EMIT_MATTER_GRID_H
 
@@ -17,9 +21,9 @@
 #include <stdint.h>
 
 enum {
-    KD_MATTER_SIDE = 4096,      /* rows, columns or layers at most, */
-    KD_MATTER_NODES = 1 << 21,  /* and nodes: 256 x 128 x 64 */
-    KD_MATTER_FLOATS = 8,       /* of a node */
+    KD_MATTER_SIDE = 4096,     /* rows, columns or layers at most, */
+    KD_MATTER_NODES = 1 << 21, /* and nodes: 256 x 128 x 64 */
+    KD_MATTER_FLOATS = 8,      /* of a node */
 };
 #define KD_MATTER_TYPE "application/x-npz"
 
@@ -30,8 +34,9 @@ struct kd_matter_grid {
     double phi, turn;      /* of the first layer; radians of all of them together, one turn or a whole part of it */
     bool ingoing;          /* phi is that of Kerr and Schild's ingoing coordinates, else Boyer and Lindquist's */
     double field;          /* the largest component of the field, gauss; 1 where there is none */
-    /* Of each node, layers next to one another: log2 of density in cm^-3 and of k T/(m_e c^2), u^r, r u^theta, u_phi/(r sin^2 theta), and b^r, r b^theta and
-     * b_phi/(r sin^2 theta) over `field`: numbers that change little from node to node, and are finite on the axis. */
+    /* Of each node, layers next to one another: log2 of density in cm^-3 and of k T/(m_e c^2), u^r, r u^theta,
+     * u_phi/(r sin^2 theta), and b^r, r b^theta and b_phi/(r sin^2 theta) over `field`: numbers that change little
+     * from node to node, and are finite on the axis. */
     float *nodes;
 };
 
@@ -40,7 +45,8 @@ bool kd_matter_grid_is(const void *data, size_t size);
 /* Reads a file and checks all of it. KD_EINVAL says what is wrong, and what is allowed; KD_ENOMEM. */
 enum kd_status kd_matter_grid_read(const void *data, size_t size, struct kd_matter_grid *out, struct kd_error *error);
 /* The same, of which only the number of nodes in r, theta and phi and the spin are kept. */
-enum kd_status kd_matter_grid_look(const void *data, size_t size, uint32_t nodes[3], double *spin, struct kd_error *error);
+enum kd_status kd_matter_grid_look(const void *data, size_t size, uint32_t nodes[3], double *spin,
+                                   struct kd_error *error);
 void kd_matter_grid_finish(struct kd_matter_grid *grid);
 /* Makes a grid of no matter at all, as of a scene that names none. */
 enum kd_status kd_matter_grid_none(double spin, struct kd_matter_grid *out, struct kd_error *error);

@@ -7,8 +7,8 @@
 #include <stdbool.h>
 
 enum kd_varies {
-    KD_MOVES_WITH_TIME = 1,  /* something is elsewhere a moment later */
-    KD_DIMS_WITH_TIME = 2,   /* light alone changes: each pixel keeps what it shows */
+    KD_MOVES_WITH_TIME = 1, /* something is elsewhere a moment later */
+    KD_DIMS_WITH_TIME = 2,  /* light alone changes: each pixel keeps what it shows */
     KD_MOVES_WITH_AZIMUTH = 4,
     KD_MOVES_BY_FALL = 8, /* the camera's radius does, whatever there is to see */
 };

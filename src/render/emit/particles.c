@@ -18,7 +18,8 @@ static double inner(const struct kd_scene *scene)
     return isinf(scene->disk.inner) ? kd_kerr_isco(scene->spacetime.spin) : scene->disk.inner;
 }
 
-/* Guiding orbits reach beyond the edges of the disk by as much as their particles swing, so that as many come in as go out. */
+/* Guiding orbits reach beyond the edges of the disk by as much as their particles swing, so that as many come in as
+ * go out. */
 struct span { double low, high, s; };
 static struct span span_of(const struct kd_scene *scene)
 {
@@ -45,10 +46,10 @@ static double density(const struct kd_scene *scene, double r)
     return o.s == 0 ? 1 / all : o.s * exp(o.s * log(r / o.low)) / expm1(o.s * all);
 }
 
-/* Parcels of the gas that falls hold one particle each, and are three times as many round the ISCO as from start to end: about
- * as wide as long where they are half-way. Light that took long to arrive shows parcels that are on their way no more, and what
- * leaves the near side of the disk those that are to come: by so many M, at most, on a delay of a turn more for each two
- * orders. */
+/* Parcels of the gas that falls hold one particle each, and are three times as many round the ISCO as from start to
+ * end: about as wide as long where they are half-way. Light that took long to arrive shows parcels that are on their
+ * way no more, and what leaves the near side of the disk those that are to come: by so many M, at most, on a delay
+ * of a turn more for each two orders. */
 #define EARLY 20.0
 #define LATE 50.0
 #define LATE_PER_ORDER 25.0
@@ -72,9 +73,9 @@ static void plunge_grid(struct kd_particle_grid *g, const struct kd_scene *scene
     g->plunge_rows = (uint32_t)fmin(g->lead_rows + g->lap_rows + more, KD_PARTICLE_ROWS);
 }
 
-/* In each row of the grid there are five radii at least: as evenly spread as they are, a node gets what it expects within 1 %, the
- * Poisson error of the 10 000 particles that a row has at most. The thinnest row is at one of the edges. Each radius has a particle
- * at least. */
+/* In each row of the grid there are five radii at least: as evenly spread as they are, a node gets what it expects
+ * within 1 %, the Poisson error of the 10 000 particles that a row has at most. The thinnest row is at one of the
+ * edges. Each radius has a particle at least. */
 static uint32_t radii_of(const struct kd_particle_grid *g, const struct kd_scene *scene)
 {
     double all = log(scene->disk.outer / inner(scene));
@@ -83,9 +84,16 @@ static uint32_t radii_of(const struct kd_particle_grid *g, const struct kd_scene
     return (uint32_t)fmin(radii, g->count - g->plunging);
 }
 
-/* These lie in one buffer, each at a multiple of 256: the guiding orbits, what the rows of the grid expect, and those of the plunge. */
-uint64_t kd_particle_guides_bytes(const struct kd_particle_grid *g) { return (g->radii * sizeof(struct kd_guide) + 255) / 256 * 256; }
-uint64_t kd_particle_tables_bytes(const struct kd_particle_grid *g) { return kd_particle_guides_bytes(g) + 2 * KD_PARTICLE_EXPECTED_BYTES; }
+/* These lie in one buffer, each at a multiple of 256: the guiding orbits, what the rows of the grid expect, and
+ * those of the plunge. */
+uint64_t kd_particle_guides_bytes(const struct kd_particle_grid *g)
+{
+    return (g->radii * sizeof(struct kd_guide) + 255) / 256 * 256;
+}
+uint64_t kd_particle_tables_bytes(const struct kd_particle_grid *g)
+{
+    return kd_particle_guides_bytes(g) + 2 * KD_PARTICLE_EXPECTED_BYTES;
+}
 
 /* Each grid has so many words. */
 uint64_t kd_particle_words(const struct kd_particle_grid *g) { return (g->rows + 1ull) * g->columns; }
@@ -106,7 +114,8 @@ struct kd_particle_grid kd_particle_grid(const struct kd_scene *scene)
     g.rows = (uint32_t)fmax(4, fmin(g.count / (PER_CELL * g.columns), KD_PARTICLE_ROWS));
     plunge_grid(&g, scene);
     g.radii = radii_of(&g, scene);
-    /* Particles are scattered at random: twice the mean of the fullest row and sixty-four more are never on one node. */
+    /* Particles are scattered at random: twice the mean of the fullest row and sixty-four more are never on one
+     * node. */
     double fullest = fmax(density(scene, inner(scene)), density(scene, scene->disk.outer)) * all;
     double unit = 65535 / (2 * fullest * g.count / ((double)g.rows * g.columns) + 64);
     g.unit = (uint32_t)fmax(1, fmin(unit, 1024));
@@ -129,7 +138,10 @@ struct kd_particle_orbit kd_particle_orbit(const struct kd_scene *scene, uint32_
 {
     double a = scene->spacetime.spin, r = kd_particle_radius(scene, (k + 0.5) / radii);
     struct kd_particle_orbit o = {
-        .r = r, .omega = kd_kerr_omega(a, r), .kappa = kd_epicyclic_radial(a, r), .vertical = kd_epicyclic_vertical(a, r),
+        .r = r,
+        .omega = kd_kerr_omega(a, r),
+        .kappa = kd_epicyclic_radial(a, r),
+        .vertical = kd_epicyclic_vertical(a, r),
     };
     double share = o.kappa / o.omega, reach = scene->disk.epicycles * r * share * share;
     o.swing_r = reach / r;
@@ -152,8 +164,10 @@ struct kd_particle_swing kd_particle_swing(const struct kd_scene *scene, uint32_
     uint32_t key = key_of(scene), random = hash(particle ^ key);
     uint32_t radial = hash(random + 0x9e3779b9u), vertical = hash(random + 0x3c6ef372u);
     return (struct kd_particle_swing) {
-        .radial = sqrt((hash(radial ^ key) >> 8) * 0x1p-24), .radial_phase = radial * (2 * M_PI / 4294967296.0),
-        .vertical = sqrt((hash(vertical ^ key) >> 8) * 0x1p-24), .vertical_phase = vertical * (2 * M_PI / 4294967296.0),
+        .radial = sqrt((hash(radial ^ key) >> 8) * 0x1p-24),
+        .radial_phase = radial * (2 * M_PI / 4294967296.0),
+        .vertical = sqrt((hash(vertical ^ key) >> 8) * 0x1p-24),
+        .vertical_phase = vertical * (2 * M_PI / 4294967296.0),
     };
 }
 
@@ -169,7 +183,8 @@ static double rows_of(const struct kd_scene *scene, const struct kd_particle_gri
     return grid->rows / log(scene->disk.outer / inner(scene));
 }
 
-static void fill_guides(struct kd_guide *out, const struct kd_scene *scene, const struct kd_particle_grid *grid, double time)
+static void fill_guides(struct kd_guide *out, const struct kd_scene *scene, const struct kd_particle_grid *grid,
+                        double time)
 {
     double rows = rows_of(scene, grid), r_in = inner(scene);
     for (uint32_t k = 0; k < grid->radii; k++) {
@@ -185,7 +200,8 @@ static void fill_guides(struct kd_guide *out, const struct kd_scene *scene, cons
     }
 }
 
-/* Fills in one over the weight that a node of each row expects. Particles within a row of it count, less by their distance. */
+/* Fills in one over the weight that a node of each row expects. Particles within a row of it count, less by their
+ * distance. */
 static void fill_expected(float *out, const struct kd_scene *scene, const struct kd_particle_grid *grid)
 {
     enum { PARTS = 8 }; /* of the hat on each side */
@@ -209,12 +225,13 @@ static void fill_plunge_expected(float *out, const struct kd_particle_grid *grid
         out[i] = (float)((i == 0 || i == grid->plunge_rows ? 2 : 1) / weight);
 }
 
-/* A stream of N particles in a time P is one of N/(P 2 pi r |u^r|) particles per area in their own frame; n of them per ln r on
- * circles, n/(2 pi r^2 u^t). */
+/* A stream of N particles in a time P is one of N/(P 2 pi r |u^r|) particles per area in their own frame; n of them
+ * per ln r on circles, n/(2 pi r^2 u^t). */
 double kd_particle_plunge_depth(const struct kd_scene *scene)
 {
     double a = scene->spacetime.spin, isco = kd_kerr_isco(a), share = scene->disk.plunging;
-    return share / (1 - share) * isco * isco * kd_kerr_ut(a, isco) / (density(scene, isco) * kd_plunging_of(scene).time);
+    return share / (1 - share) * isco * isco * kd_kerr_ut(a, isco) /
+           (density(scene, isco) * kd_plunging_of(scene).time);
 }
 
 double kd_particle_delay(const struct kd_scene *scene)
@@ -231,7 +248,8 @@ void kd_particle_tables_fill(void *out, const struct kd_scene *scene, const stru
         fill_plunge_expected((float *)(expected + KD_PARTICLE_EXPECTED_BYTES), grid);
 }
 
-struct kd_particles_push kd_particle_push(const struct kd_scene *scene, const struct kd_particle_grid *grid, double time)
+struct kd_particles_push kd_particle_push(const struct kd_scene *scene, const struct kd_particle_grid *grid,
+                                          double time)
 {
     struct kd_particles_push push = {
         .key = key_of(scene),
@@ -258,8 +276,9 @@ struct kd_particles_push kd_particle_push(const struct kd_scene *scene, const st
     return push;
 }
 
-void kd_particle_places_of(const struct kd_scene *scene, const struct kd_particle_grid *grid, const struct kd_particle_listed *got, uint32_t first,
-                      uint32_t stride, size_t n, struct kd_particle_place *out)
+void kd_particle_places_of(const struct kd_scene *scene, const struct kd_particle_grid *grid,
+                           const struct kd_particle_listed *got, uint32_t first, uint32_t stride, size_t n,
+                           struct kd_particle_place *out)
 {
     double rows = rows_of(scene, grid), edge = inner(scene);
     struct kd_plunging_path path;
@@ -270,7 +289,9 @@ void kd_particle_places_of(const struct kd_scene *scene, const struct kd_particl
     for (size_t i = 0; i < n; i++) {
         struct kd_particle_place *o = &out[i];
         *o = (struct kd_particle_place) {
-            .phi = got[i].phi, .latitude = got[i].latitude, .plunging = first + i * stride < grid->plunging,
+            .phi = got[i].phi,
+            .latitude = got[i].latitude,
+            .plunging = first + i * stride < grid->plunging,
         };
         if (o->plunging) {
             double turned, r = kd_plunging_radius(&path, got[i].phase / 4294967296.0, &turned);
@@ -310,12 +331,20 @@ static void tell(const struct kd_scene *scene, char out[KD_EMIT_TOLD])
 static uint64_t device_bytes(const struct kd_scene *scene) { return kd_particle_grid(scene).bytes; }
 static uint64_t invocations(const struct kd_scene *scene) { return kd_particle_grid(scene).count; }
 
-static bool fast(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, !scene->disk.slow_light; }
-static bool slow(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, scene->disk.slow_light; }
+static bool fast(const struct kd_scene *scene, const struct kd_setting *rays)
+{
+    return (void)rays, !scene->disk.slow_light;
+}
+static bool slow(const struct kd_scene *scene, const struct kd_setting *rays)
+{
+    return (void)rays, scene->disk.slow_light;
+}
 
 static const struct kd_sentence sentences[] = {
-    { "particles: brightness is that of the smooth disk times their number over the mean; opacity stays as it is", NULL },
-    { "particles: epicycles to first order about circular orbits, a chosen number a radius; no pressure, no collisions", NULL },
+    { "particles: brightness is that of the smooth disk times their number over the mean; opacity stays as it is",
+      NULL },
+    { "particles: epicycles to first order about circular orbits, a chosen number a radius; no pressure, no collisions",
+      NULL },
     { "particles: fast light: the whole disk is shown at one coordinate time, whatever the light's delay", fast },
     { "particles: over the delay of light they go round on their guiding circles", slow },
 };

@@ -11,13 +11,13 @@
 #include <math.h>
 #include <stdio.h>
 
-#define NEVER -1e6       /* log2 of nothing */
+#define NEVER -1e6 /* log2 of nothing */
 #define GHZ 1e9
-#define GOLD_GHZ 230     /* the frequency that the analytic model's numbers are of */
-#define ERG_CM3 0.1      /* W m^-3 of an erg/(s cm^3) */
-#define PER_CM 100       /* 1/m of a 1/cm */
+#define GOLD_GHZ 230 /* the frequency that the analytic model's numbers are of */
+#define ERG_CM3 0.1  /* W m^-3 of an erg/(s cm^3) */
+#define PER_CM 100   /* 1/m of a 1/cm */
 #define CM3 1e6
-#define GAUSS 1e-4       /* tesla */
+#define GAUSS 1e-4 /* tesla */
 #define EPSILON_0 KD_EPSILON_0
 
 static bool present(const struct kd_scene *scene) { return kd_scene_is_radio(scene); }
@@ -27,10 +27,15 @@ static uint32_t traits(const struct kd_scene *scene)
     const struct kd_volume *v = &scene->volume;
     if (v->model == KD_VOLUME_GOLD)
         return KD_TRAIT_PLASMA_GOLD;
-    const uint32_t kind = v->model == KD_VOLUME_TORUS ? KD_TRAIT_PLASMA_TORUS : v->model == KD_VOLUME_GRID ? KD_TRAIT_PLASMA_GRID | KD_TRAIT_AZIMUTH : 0;
+    const uint32_t kind = v->model == KD_VOLUME_TORUS  ? KD_TRAIT_PLASMA_TORUS
+                          : v->model == KD_VOLUME_GRID ? KD_TRAIT_PLASMA_GRID | KD_TRAIT_AZIMUTH
+                                                       : 0;
     return kind | (v->electrons == KD_VOLUME_KAPPA ? KD_TRAIT_PLASMA_KAPPA : 0) |
-           (v->field == KD_VOLUME_VERTICAL ? KD_TRAIT_PLASMA_VERTICAL : v->field == KD_VOLUME_RADIAL ? KD_TRAIT_PLASMA_RADIAL : 0) |
-           (v->flow == KD_VOLUME_REST && v->model == KD_VOLUME_RIAF ? KD_TRAIT_PLASMA_REST : 0) | (v->electrons == KD_VOLUME_POWER_LAW ? KD_TRAIT_PLASMA_POWER : 0);
+           (v->field == KD_VOLUME_VERTICAL ? KD_TRAIT_PLASMA_VERTICAL
+            : v->field == KD_VOLUME_RADIAL ? KD_TRAIT_PLASMA_RADIAL
+                                           : 0) |
+           (v->flow == KD_VOLUME_REST && v->model == KD_VOLUME_RIAF ? KD_TRAIT_PLASMA_REST : 0) |
+           (v->electrons == KD_VOLUME_POWER_LAW ? KD_TRAIT_PLASMA_POWER : 0);
 }
 
 static void reach(const struct kd_scene *scene, double radii[2])
@@ -50,7 +55,8 @@ static double height(const struct kd_scene *scene)
     if (v->model == KD_VOLUME_GRID)
         return 1;
     if (v->model == KD_VOLUME_TORUS)
-        return fmin(1.01 * kd_torus_of(scene->spacetime.spin, kd_scene_volume_inner(scene), v->torus_radius).height + 1e-3, 1);
+        return fmin(
+            1.01 * kd_torus_of(scene->spacetime.spin, kd_scene_volume_inner(scene), v->torus_radius).height + 1e-3, 1);
     return v->height > 0 ? KD_PLASMA_SEEN * v->height / hypot(1, KD_PLASMA_SEEN * v->height) : 1;
 }
 
@@ -65,24 +71,39 @@ static double knot(const struct kd_scene *scene)
 static bool is_grid(const struct kd_scene *scene) { return scene->volume.model == KD_VOLUME_GRID; }
 static bool has_no_grid(const struct kd_scene *scene) { return is_grid(scene) && !*scene->volume.grid; }
 
-/* The scene does not say how large its grid is: as large as may be. On the host there are its file and its arrays besides. */
+/* The scene does not say how large its grid is: as large as may be. On the host there are its file and its arrays
+ * besides. */
 static uint64_t device_bytes(const struct kd_scene *scene)
 {
-    return has_no_grid(scene) ? 4 * KD_MATTER_FLOATS * sizeof(float) : is_grid(scene) ? (uint64_t)KD_MATTER_NODES * KD_MATTER_FLOATS * sizeof(float) : 0;
+    return has_no_grid(scene) ? 4 * KD_MATTER_FLOATS * sizeof(float)
+           : is_grid(scene)   ? (uint64_t)KD_MATTER_NODES * KD_MATTER_FLOATS * sizeof(float)
+                              : 0;
 }
-static uint64_t making_bytes(const struct kd_scene *scene) { return is_grid(scene) && *scene->volume.grid ? (uint64_t)KD_MATTER_NODES * (2 * KD_MATTER_FLOATS * sizeof(float) + 3 * sizeof(double)) : 0; } /* its numbers as they are read, and as they are sent */
+static uint64_t making_bytes(const struct kd_scene *scene)
+{
+    return is_grid(scene) && *scene->volume.grid
+               ? (uint64_t)KD_MATTER_NODES * (2 * KD_MATTER_FLOATS * sizeof(float) + 3 * sizeof(double))
+               : 0;
+} /* its numbers as they are read, and as they are sent */
 
-/* A picture from another azimuth is another one, unless the grid is the same all round, which the scene does not say. */
-static unsigned varies(const struct kd_scene *scene) { return is_grid(scene) && *scene->volume.grid ? KD_MOVES_WITH_AZIMUTH : 0; }
+/* A picture from another azimuth is another one, unless the grid is the same all round, which the scene does not
+ * say. */
+static unsigned varies(const struct kd_scene *scene)
+{
+    return is_grid(scene) && *scene->volume.grid ? KD_MOVES_WITH_AZIMUTH : 0;
+}
 
 static void tell(const struct kd_scene *scene, char out[KD_EMIT_TOLD])
 {
-    static const char *const names[] = { [KD_VOLUME_GOLD] = "The matter of Gold et al. 2020", [KD_VOLUME_RIAF] = "Hot electrons in a magnetic field", [KD_VOLUME_TORUS] = "A torus of hot gas",
+    static const char *const names[] = { [KD_VOLUME_GOLD] = "The matter of Gold et al. 2020",
+                                         [KD_VOLUME_RIAF] = "Hot electrons in a magnetic field",
+                                         [KD_VOLUME_TORUS] = "A torus of hot gas",
                                          [KD_VOLUME_GRID] = "Matter from a grid of numbers" };
     if (has_no_grid(scene))
         snprintf(out, KD_EMIT_TOLD, "No matter: no file is chosen.");
     else
-        snprintf(out, KD_EMIT_TOLD, "%s from %.6g M to %.6g M, at %.6g GHz.", names[scene->volume.model], kd_scene_volume_inner(scene), scene->volume.outer, scene->volume.frequency_ghz);
+        snprintf(out, KD_EMIT_TOLD, "%s from %.6g M to %.6g M, at %.6g GHz.", names[scene->volume.model],
+                 kd_scene_volume_inner(scene), scene->volume.outer, scene->volume.frequency_ghz);
 }
 
 static double log2_of(double x) { return x > 0 ? fmax(log2(x), NEVER) : NEVER; }
@@ -91,7 +112,8 @@ static void fill_gold(struct kd_plasma_block *out, const struct kd_volume *v, do
 {
     const double up = log2(v->frequency_ghz / GOLD_GHZ);
     out->gold_light = (float)(log2_of(v->gold_emission) + log2(ERG_CM3 * metre / unit) - v->gold_index * up);
-    out->gold_depth = (float)(log2_of(v->gold_emission) + log2_of(v->gold_absorption) + log2(PER_CM * metre) - (2.5 + v->gold_index) * up);
+    out->gold_depth = (float)(log2_of(v->gold_emission) + log2_of(v->gold_absorption) + log2(PER_CM * metre) -
+                              (2.5 + v->gold_index) * up);
     out->gold_index = (float)v->gold_index;
     out->gold_flat = (float)v->gold_flattening;
     out->gold_momentum = (float)v->gold_momentum;
@@ -101,7 +123,8 @@ static void fill_gold(struct kd_plasma_block *out, const struct kd_volume *v, do
 static void fill_electrons(struct kd_plasma_block *out, const struct kd_volume *v)
 {
     const double theta = KD_K_J_K / (KD_ELECTRON_KG * KD_C_M_S * KD_C_M_S);
-    const struct kd_synchrotron_power power = kd_synchrotron_power(v->electrons_index, v->gamma_min, fmax(v->gamma_max, 1.001 * v->gamma_min));
+    const struct kd_synchrotron_power power =
+        kd_synchrotron_power(v->electrons_index, v->gamma_min, fmax(v->gamma_max, 1.001 * v->gamma_min));
     out->density = (float)log2_of(v->density_cm3);
     out->density_index = (float)v->density_index;
     out->heat = (float)log2(theta * v->electron_temperature_k);
@@ -176,25 +199,59 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
         to->density = (float)log2_of(scene->volume.grid_scale); /* the rest is device/grids.c's */
 }
 
-static bool is_gold(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, scene->volume.model == KD_VOLUME_GOLD; }
-static bool is_hot(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, scene->volume.model != KD_VOLUME_GOLD; }
-static bool is_powers(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, scene->volume.model == KD_VOLUME_RIAF; }
-static bool is_torus(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, scene->volume.model == KD_VOLUME_TORUS; }
-static bool is_from_grid(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, is_grid(scene) && *scene->volume.grid; }
-static bool is_missing(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, has_no_grid(scene); }
-static bool is_unpolarised(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, scene->polarization.model != KD_POLARIZATION_TRANSFER; }
-static bool is_beside(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, !kd_scene_is_radio_alone(scene); }
+static bool is_gold(const struct kd_scene *scene, const struct kd_setting *rays)
+{
+    return (void)rays, scene->volume.model == KD_VOLUME_GOLD;
+}
+static bool is_hot(const struct kd_scene *scene, const struct kd_setting *rays)
+{
+    return (void)rays, scene->volume.model != KD_VOLUME_GOLD;
+}
+static bool is_powers(const struct kd_scene *scene, const struct kd_setting *rays)
+{
+    return (void)rays, scene->volume.model == KD_VOLUME_RIAF;
+}
+static bool is_torus(const struct kd_scene *scene, const struct kd_setting *rays)
+{
+    return (void)rays, scene->volume.model == KD_VOLUME_TORUS;
+}
+static bool is_from_grid(const struct kd_scene *scene, const struct kd_setting *rays)
+{
+    return (void)rays, is_grid(scene) && *scene->volume.grid;
+}
+static bool is_missing(const struct kd_scene *scene, const struct kd_setting *rays)
+{
+    return (void)rays, has_no_grid(scene);
+}
+static bool is_unpolarised(const struct kd_scene *scene, const struct kd_setting *rays)
+{
+    return (void)rays, scene->polarization.model != KD_POLARIZATION_TRANSFER;
+}
+static bool is_beside(const struct kd_scene *scene, const struct kd_setting *rays)
+{
+    return (void)rays, !kd_scene_is_radio_alone(scene);
+}
 
 static const struct kd_sentence sentences[] = {
     { "volume: light of one frequency, without scattering; brightness 1 is a brightness temperature of 1e10 K", NULL },
     { "volume: all polarisations of light are absorbed alike: none is told", is_unpolarised },
     { "volume: the analytic model of Gold et al. 2020, made up to compare programs; it ends at its edges", is_gold },
-    { "volume: electrons and magnetic field by power laws of r that solve no equation of motion; they end at their edges, and 7 scale heights from the plane", is_powers },
-    { "volume: the torus of Fishbone & Moncrief 1976, in equilibrium without its magnetic field, which is put in by its pressure alone; ions and electrons have temperatures of one ratio", is_torus },
-    { "volume: matter between the nodes of a grid by way of its neighbours, density and temperature by their logarithms; it stands still, as it was at one time, while light passes", is_from_grid },
+    { "volume: electrons and magnetic field by power laws of r that solve no equation of motion; they end at their "
+      "edges, and 7 scale heights from the plane",
+      is_powers },
+    { "volume: the torus of Fishbone & Moncrief 1976, in equilibrium without its magnetic field, which is put in by "
+      "its pressure alone; ions and electrons have temperatures of one ratio",
+      is_torus },
+    { "volume: matter between the nodes of a grid by way of its neighbours, density and temperature by their "
+      "logarithms; it stands still, as it was at one time, while light passes",
+      is_from_grid },
     { "volume: no file of a grid is named: there is no matter", is_missing },
-    { "volume: synchrotron light by the fits of Pandya et al. 2016, good to a few percent where they hold; electrons move in all directions alike", is_hot },
-    { "volume: light at a radio frequency beside light of other kinds, whose brightness 1 is another one; the picture has no flux", is_beside },
+    { "volume: synchrotron light by the fits of Pandya et al. 2016, good to a few percent where they hold; electrons "
+      "move in all directions alike",
+      is_hot },
+    { "volume: light at a radio frequency beside light of other kinds, whose brightness 1 is another one; the picture "
+      "has no flux",
+      is_beside },
 };
 
 const struct kd_emitter kd_emit_plasma = {

@@ -14,7 +14,8 @@ static bool present(const struct kd_scene *scene)
 
 static uint32_t needs(const struct kd_scene *scene) { return kd_orbit_needs(scene) | KD_LENS_SLOPE; }
 
-/* Both t and phi of the plunge are smooth in log (r_isco - r)/(r - r+): powers near one end, logarithms at the other. */
+/* Both t and phi of the plunge are smooth in log (r_isco - r)/(r - r+): powers near one end, logarithms at the
+ * other. */
 struct range { double first, last; };
 static struct range range_of(const struct kd_plunging *p)
 {
@@ -66,8 +67,10 @@ static void reach(const struct kd_scene *scene, double radii[2])
 }
 
 static const struct kd_sentence sentences[] = {
-    { "particles: inside the ISCO gas falls freely on its E and L; grey, of one chosen temperature, of an optical depth that is "
-      "its surface density over the disk's at the ISCO; no stress, no heating", NULL },
+    { "particles: inside the ISCO gas falls freely on its E and L; grey, of one chosen temperature, of an optical "
+      "depth that is "
+      "its surface density over the disk's at the ISCO; no stress, no heating",
+      NULL },
 };
 
 const struct kd_emitter kd_emit_plunge = {

@@ -31,7 +31,10 @@ struct kd_plunging_place kd_plunging_at(const struct kd_plunging *o, double r)
     return (struct kd_plunging_place) { t / o->time, (e.phi - o->first.phi - o->omega * t) / (2 * M_PI) };
 }
 
-struct wanted { const struct kd_plunging *plunging; double phase; };
+struct wanted {
+    const struct kd_plunging *plunging;
+    double phase;
+};
 static double off(const void *user, double r)
 {
     const struct wanted *w = user;
@@ -62,6 +65,7 @@ double kd_plunging_radius(const struct kd_plunging_path *path, double phase, dou
 {
     double x = phase * (KD_PLUNGING_POINTS - 1);
     int i = (int)fmin(fmax(x, 0), KD_PLUNGING_POINTS - 2);
-    *turns = cubic(path->at[i].turns, path->at[i].turns_slope, path->at[i + 1].turns, path->at[i + 1].turns_slope, x - i);
+    *turns =
+        cubic(path->at[i].turns, path->at[i].turns_slope, path->at[i + 1].turns, path->at[i + 1].turns_slope, x - i);
     return cubic(path->at[i].r, path->at[i].r_slope, path->at[i + 1].r, path->at[i + 1].r_slope, x - i);
 }

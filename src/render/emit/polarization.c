@@ -7,7 +7,8 @@
 
 static bool present(const struct kd_scene *scene)
 {
-    return scene->polarization.model != KD_POLARIZATION_NONE && scene->polarization.model != KD_POLARIZATION_TRANSFER && kd_emit_at_crossings(scene);
+    return scene->polarization.model != KD_POLARIZATION_NONE && scene->polarization.model != KD_POLARIZATION_TRANSFER &&
+           kd_emit_at_crossings(scene);
 }
 
 static bool scatters(const struct kd_scene *scene) { return scene->polarization.model == KD_POLARIZATION_SCATTERING; }
@@ -16,7 +17,9 @@ static uint32_t traits(const struct kd_scene *scene)
 {
     if (scatters(scene))
         return KD_TRAIT_SCATTERED;
-    return scene->polarization.field == KD_FIELD_RADIAL ? KD_TRAIT_RADIAL : scene->polarization.field == KD_FIELD_VERTICAL ? KD_TRAIT_VERTICAL : 0;
+    return scene->polarization.field == KD_FIELD_RADIAL     ? KD_TRAIT_RADIAL
+           : scene->polarization.field == KD_FIELD_VERTICAL ? KD_TRAIT_VERTICAL
+                                                            : 0;
 }
 
 static uint32_t needs(const struct kd_scene *scene) { return (void)scene, KD_LENS_W | KD_LENS_SLOPE; }
@@ -26,7 +29,8 @@ static void reach(const struct kd_scene *scene, double radii[2]) { (void)scene, 
 
 static void fill(struct kd_emission *out, const struct kd_scene *scene)
 {
-    const double p = scene->polarization.electron_index, whole = scatters(scene) ? 1 : (p + 1) / (p + 7. / 3); /* Rybicki & Lightman 1979, equation 6.38b */
+    const double p = scene->polarization.electron_index,
+                 whole = scatters(scene) ? 1 : (p + 1) / (p + 7. / 3); /* Rybicki & Lightman 1979, equation 6.38b */
     out->polarization.fraction = (float)(scene->polarization.order * whole);
 }
 
@@ -44,17 +48,29 @@ static void tables(struct kd_emit_tables *out, const struct kd_scene *scene)
             out->scattering[i][k] = (float)kd_scattered_fraction(&light[i + k]);
 }
 
-static bool by_field(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, !scatters(scene); }
-static bool by_electrons(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, scatters(scene); }
+static bool by_field(const struct kd_scene *scene, const struct kd_setting *rays)
+{
+    return (void)rays, !scatters(scene);
+}
+static bool by_electrons(const struct kd_scene *scene, const struct kd_setting *rays)
+{
+    return (void)rays, scatters(scene);
+}
 static bool beside(const struct kd_scene *scene, const struct kd_setting *rays)
 {
     return (void)rays, kd_emit_along(scene) || kd_emit_met(scene) || kd_emit_at_ends(scene);
 }
 
 static const struct kd_sentence sentences[] = {
-    { "polarization: of all light from the plane alike, by the field in the frame of the gas; nothing on its way changes it: no Faraday rotation", NULL },
-    { "polarization: synchrotron: direction and fraction alone are those of the field; brightness and colour are the disk's, whatever the angle to the field", by_field },
-    { "polarization: scattering: the fraction is that of a deep, plane atmosphere of electrons (Chandrasekhar 1960); its limb darkening, and light that returns to the disk, are left out", by_electrons },
+    { "polarization: of all light from the plane alike, by the field in the frame of the gas; nothing on its way "
+      "changes it: no Faraday rotation",
+      NULL },
+    { "polarization: synchrotron: direction and fraction alone are those of the field; brightness and colour are the "
+      "disk's, whatever the angle to the field",
+      by_field },
+    { "polarization: scattering: the fraction is that of a deep, plane atmosphere of electrons (Chandrasekhar 1960); "
+      "its limb darkening, and light that returns to the disk, are left out",
+      by_electrons },
     { "polarization: light of volumes, bodies and the sky is unpolarised", beside },
 };
 

@@ -12,6 +12,7 @@ double kd_radio_unit(const struct kd_scene *scene)
 
 double kd_radio_jansky(const struct kd_scene *scene, double flux)
 {
-    const double m = scene->spacetime.mass_msun * KD_M_SUN_M / (scene->spacetime.distance_pc * KD_PARSEC_M), r = isfinite(scene->camera.r) ? scene->camera.r : 1;
+    const double m = scene->spacetime.mass_msun * KD_M_SUN_M / (scene->spacetime.distance_pc * KD_PARSEC_M),
+                 r = isfinite(scene->camera.r) ? scene->camera.r : 1;
     return flux * r * r * m * m * kd_radio_unit(scene) / KD_JANSKY_SI;
 }

@@ -13,7 +13,8 @@ static bool present(const struct kd_scene *scene)
     return scene->style.ringdown > 0 && (kd_emit_at_crossings(scene) || kd_emit_along(scene));
 }
 
-/* Says whether the rings still change with time. The fit decays up to a fifth too fast beyond a = 0.99: a third of a step, then. */
+/* Says whether the rings still change with time. The fit decays up to a fifth too fast beyond a = 0.99: a third of a
+ * step, then. */
 static unsigned varies(const struct kd_scene *scene)
 {
     double since = scene->top.time - scene->style.ringdown_time;
@@ -29,12 +30,18 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
     out->ringdown.factor = (float)(kd_scene_ringdown(scene, &wave) ? 1 + scene->style.ringdown * wave : 1);
 }
 
-static bool along(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, kd_emit_along(scene); }
+static bool along(const struct kd_scene *scene, const struct kd_setting *rays)
+{
+    return (void)rays, kd_emit_along(scene);
+}
 
 static const struct kd_sentence sentences[] = {
-    { "ringdown: an illustration: a struck hole's metric rings; here only the light of orders 1 and up does, all of it at the picture's time",
+    { "ringdown: an illustration: a struck hole's metric rings; here only the light of orders 1 and up does, all of it "
+      "at the picture's time",
       NULL },
-    { "ringdown: light of volumes has the order of the crossing of the plane that is nearest on its ray, from where cos(theta) turns before it to where it turns behind it", along },
+    { "ringdown: light of volumes has the order of the crossing of the plane that is nearest on its ray, from where "
+      "cos(theta) turns before it to where it turns behind it",
+      along },
 };
 
 const struct kd_emitter kd_emit_ringdown = {

@@ -1,4 +1,5 @@
-/* This is the sky as an emitter: a drawn celestial grid, or stars and the light that is spread between them (shaders/emit/sky.glsl). */
+/* This is the sky as an emitter: a drawn celestial grid, or stars and the light that is spread between them
+ * (shaders/emit/sky.glsl). */
 #include "render/emit/emitter.h"
 
 #include "faces.h"
@@ -19,13 +20,14 @@ static bool is_picture(const struct kd_scene *scene) { return is_spread(scene) &
 
 static bool present(const struct kd_scene *scene)
 {
-    return scene->sky.model != KD_SKY_NONE && kd_scene_sky_brightness(scene) > 0 && (is_grid(scene) || has_stars(scene) || is_spread(scene));
+    return scene->sky.model != KD_SKY_NONE && kd_scene_sky_brightness(scene) > 0 &&
+           (is_grid(scene) || has_stars(scene) || is_spread(scene));
 }
 
 static uint32_t traits(const struct kd_scene *scene)
 {
-    return (is_grid(scene) ? KD_TRAIT_SKY_GRID : 0) | (is_spread(scene) ? KD_TRAIT_SKY_SPREAD : 0) | (has_stars(scene) ? KD_TRAIT_POINTS : 0) |
-           (is_grid(scene) || is_spread(scene) ? KD_TRAIT_SPREAD : 0) |
+    return (is_grid(scene) ? KD_TRAIT_SKY_GRID : 0) | (is_spread(scene) ? KD_TRAIT_SKY_SPREAD : 0) |
+           (has_stars(scene) ? KD_TRAIT_POINTS : 0) | (is_grid(scene) || is_spread(scene) ? KD_TRAIT_SPREAD : 0) |
            (scene->disk.band == KD_BAND_VISIBLE && !is_grid(scene) ? KD_TRAIT_VISIBLE : 0);
 }
 
@@ -44,20 +46,23 @@ static void tell(const struct kd_scene *scene, char out[KD_EMIT_TOLD])
 {
     static const char *const stars[] = { "", "A celestial grid", "Stars", "The stars of the Hipparcos catalogue", "" };
     const char *spread = !is_spread(scene) ? "" : is_picture(scene) ? "a picture of the sky" : "a Milky Way";
-    const char *before = stars[scene->sky.model], *and = *before && *spread ? is_picture(scene) ? " over " : " and " : "";
+    const char *before = stars[scene->sky.model],
+               *and = *before && *spread ? is_picture(scene) ? " over " : " and " : "";
     const bool begins = !*before; /* the sentence, with what is spread */
     snprintf(out, KD_EMIT_TOLD, "%s%s%s%s behind.", before, and, begins ? "A" : "", begins ? spread + 1 : spread);
 }
 
 static uint64_t device_bytes(const struct kd_scene *scene)
 {
-    const uint64_t cells = KD_FACE_TABLE(KD_FACE_FINE) + KD_FACE_TABLE(KD_FACE_COARSE), places = 6ull * kd_stars_most(scene);
+    const uint64_t cells = KD_FACE_TABLE(KD_FACE_FINE) + KD_FACE_TABLE(KD_FACE_COARSE),
+                   places = 6ull * kd_stars_most(scene);
     const uint32_t rows = is_picture(scene) ? KD_SKY_IMAGE_ROWS : KD_MILKY_WAY_HEIGHT; /* at most */
     return (is_spread(scene) ? 4ull * kd_panorama_words(2 * rows, rows) : 0) +
            (has_stars(scene) ? 4 * (5 * places + cells) : 0);
 }
 
-/* Light of the panorama before it is packed; and before that all pixels of a picture, of which the scene does not say how many they are. */
+/* Light of the panorama before it is packed; and before that all pixels of a picture, of which the scene does not
+ * say how many they are. */
 static uint64_t making_bytes(const struct kd_scene *scene)
 {
     const uint64_t rows = is_picture(scene) ? KD_SKY_IMAGE_ROWS : KD_MILKY_WAY_HEIGHT, most = KD_PANORAMA_MOST;
@@ -71,9 +76,15 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
         .brightness = (float)kd_scene_sky_brightness(scene),
         .spacing = (float)(scene->sky.grid_deg * (M_PI / 180)),
         .spread = (float)(kd_scene_sky_brightness(scene) * scene->sky.milky_way),
-        .xx = (float)r.m[0][0], .xy = (float)r.m[0][1], .xz = (float)r.m[0][2],
-        .yx = (float)r.m[1][0], .yy = (float)r.m[1][1], .yz = (float)r.m[1][2],
-        .zx = (float)r.m[2][0], .zy = (float)r.m[2][1], .zz = (float)r.m[2][2],
+        .xx = (float)r.m[0][0],
+        .xy = (float)r.m[0][1],
+        .xz = (float)r.m[0][2],
+        .yx = (float)r.m[1][0],
+        .yy = (float)r.m[1][1],
+        .yz = (float)r.m[1][2],
+        .zx = (float)r.m[2][0],
+        .zy = (float)r.m[2][1],
+        .zz = (float)r.m[2][2],
     };
 }
 
@@ -89,7 +100,7 @@ static bool is_thinned(const struct kd_scene *scene)
     return kd_rim_of(scene, &rim) && kd_rim_is_thinned(scene, &rim);
 }
 
-#define WHEN(name, condition)                                                                                  \
+#define WHEN(name, condition) \
     static bool name(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, condition; }
 WHEN(drawn, is_grid(scene))
 WHEN(starry, has_stars(scene))
@@ -104,27 +115,47 @@ WHEN(picture, is_picture(scene))
 WHEN(shifted, is_spread(scene) && !is_picture(scene) && isfinite(scene->camera.r))
 WHEN(picture_shifted, is_picture(scene) && isfinite(scene->camera.r))
 
-static bool noise(const struct kd_scene *scene, const struct kd_setting *rays) { return kd_sky_is_noise(scene, rays->precision); }
+static bool noise(const struct kd_scene *scene, const struct kd_setting *rays)
+{
+    return kd_sky_is_noise(scene, rays->precision);
+}
 
 static const struct kd_sentence sentences[] = {
     { "sky: a drawn celestial grid; its lensing is exact, its brightness carries no redshift", drawn },
-    { "sky: from so near the horizon it is noise: for most pixels that see it the next one, or the last digit of the ray's constants, leads "
-      "more than 0.1 rad away", noise },
+    { "sky: from so near the horizon it is noise: for most pixels that see it the next one, or the last digit of the "
+      "ray's constants, leads "
+      "more than 0.1 rad away",
+      noise },
     { "sky: stars are made up, as many of each magnitude as there are in truth", made_up },
-    { "sky: stars of the Hipparcos catalogue, all at infinity; nearly complete to magnitude 8 alone, and without those that it lacks", listed },
-    { "sky: stars shine as black bodies of the temperature that their colour stands for, and each image is spread over some 1.2 pixels", starry },
+    { "sky: stars of the Hipparcos catalogue, all at infinity; nearly complete to magnitude 8 alone, and without those "
+      "that it lacks",
+      listed },
+    { "sky: stars shine as black bodies of the temperature that their colour stands for, and each image is spread over "
+      "some 1.2 pixels",
+      starry },
     { "sky: images of stars that would brighten their pixel by less than 0.03 of sky.brightness are left out", starry },
-    { "sky: images of stars are left out that are nearer to the critical curve than 3e-5 of its radius; in pixels so fine that Sirius would be seen there, "
-      "those nearer than where it would be, or than 1e-7", rimmed },
-    { "sky: next to the critical curve of so fast a hole, in so fine a picture, more rays would be needed than are followed (524288): images of stars are left "
-      "out where the sky is so small that only a few of the brightest would be seen", thinned },
-    { "sky: images of stars next to the critical curve are left out, in pixels whose rays stand for more than 0.15 rad of the sky", rimless },
+    { "sky: images of stars are left out that are nearer to the critical curve than 3e-5 of its radius; in pixels so "
+      "fine that Sirius would be seen there, "
+      "those nearer than where it would be, or than 1e-7",
+      rimmed },
+    { "sky: next to the critical curve of so fast a hole, in so fine a picture, more rays would be needed than are "
+      "followed (524288): images of stars are left "
+      "out where the sky is so small that only a few of the brightest would be seen",
+      thinned },
+    { "sky: images of stars next to the critical curve are left out, in pixels whose rays stand for more than 0.15 rad "
+      "of the sky",
+      rimless },
     { "sky: the light between the stars is a Milky Way that is made up; no place in it is a place in the sky", milky },
-    { "sky: sky.model is \"image\" and sky.image names none: the Milky Way that is made up stands in for it", stands_in },
-    { "sky: the light between the stars is a picture, photographic and not calibrated: its white is taken for 21 magnitudes a square arcsecond, and "
-      "stars that it shows are spread as light", picture },
+    { "sky: sky.model is \"image\" and sky.image names none: the Milky Way that is made up stands in for it",
+      stands_in },
+    { "sky: the light between the stars is a picture, photographic and not calibrated: its white is taken for 21 "
+      "magnitudes a square arcsecond, and "
+      "stars that it shows are spread as light",
+      picture },
     { "sky: the light between the stars is shifted as that of black bodies of 5600 K", shifted },
-    { "sky: a picture of three colours has no spectrum: its light is made brighter and tinted as that of black bodies of 5600 K is", picture_shifted },
+    { "sky: a picture of three colours has no spectrum: its light is made brighter and tinted as that of black bodies "
+      "of 5600 K is",
+      picture_shifted },
 };
 
 const struct kd_emitter kd_emit_sky = {
@@ -139,8 +170,8 @@ const struct kd_emitter kd_emit_sky = {
     .device_bytes = device_bytes,
     .making_bytes = making_bytes,
     .fill = fill,
-    .depends = { KD_SCENE_PART(sky), KD_SCENE_PART(camera), KD_SCENE_PART(disk), KD_SCENE_PART(spots), KD_SCENE_PART(volume), KD_SCENE_PART(jets),
-                 KD_SCENE_PART(bodies) },
+    .depends = { KD_SCENE_PART(sky), KD_SCENE_PART(camera), KD_SCENE_PART(disk), KD_SCENE_PART(spots),
+                 KD_SCENE_PART(volume), KD_SCENE_PART(jets), KD_SCENE_PART(bodies) },
     .sentences = sentences,
     .n_sentences = sizeof sentences / sizeof *sentences,
 };

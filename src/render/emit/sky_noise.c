@@ -9,11 +9,16 @@
 
 enum { COLUMNS = 12, ROWS = 8 };
 
-static struct kd_null_path path_of(const struct kd_camera_exact *c, double r, const struct kd_camera_label *label, double rounding)
+static struct kd_null_path path_of(const struct kd_camera_exact *c, double r, const struct kd_camera_label *label,
+                                   double rounding)
 {
-    return kd_null_trace_fast(&(struct kd_null_ray) {
-        .spin = c->spin, .radius = r, .cos_theta = c->u, .sin_theta = c->s, .alpha = label->alpha * (1 + rounding),
-        .beta = label->beta * (1 - rounding), .outward = label->outward });
+    return kd_null_trace_fast(&(struct kd_null_ray) { .spin = c->spin,
+                                                      .radius = r,
+                                                      .cos_theta = c->u,
+                                                      .sin_theta = c->s,
+                                                      .alpha = label->alpha * (1 + rounding),
+                                                      .beta = label->beta * (1 - rounding),
+                                                      .outward = label->outward });
 }
 
 static bool sees_the_sky(const struct kd_null_path *p) { return p->status == KD_NULL_OK && p->fate == KD_NULL_ESCAPED; }
@@ -35,17 +40,20 @@ bool kd_sky_is_noise(const struct kd_scene *scene, enum kd_precision precision)
         return false;
     const struct kd_scene whole = kd_scene_whole(scene);
     const struct kd_camera_exact camera = kd_camera_exact(&whole);
-    uint32_t width = (uint32_t)(scene->image.width * kd_scene_side(scene)), height = (uint32_t)(scene->image.height * kd_scene_side(scene));
+    uint32_t width = (uint32_t)(scene->image.width * kd_scene_side(scene)),
+             height = (uint32_t)(scene->image.height * kd_scene_side(scene));
     unsigned seen = 0, lost = 0;
     for (uint32_t k = 0; k < COLUMNS * ROWS; k++) {
-        uint32_t x = (uint32_t)((k % COLUMNS + 0.5) / COLUMNS * width), y = (uint32_t)((double)(k / COLUMNS + 0.5) / ROWS * height);
+        uint32_t x = (uint32_t)((k % COLUMNS + 0.5) / COLUMNS * width),
+                 y = (uint32_t)((double)(k / COLUMNS + 0.5) / ROWS * height);
         struct kd_camera_label here, next;
         kd_camera_label(&camera, x, y, &here);
         kd_camera_label(&camera, x + 1 < width ? x + 1 : x, y, &next);
         const struct kd_null_path path = path_of(&camera, r, &here, 0);
         if (!sees_the_sky(&path))
             continue;
-        const struct kd_null_path beside = path_of(&camera, r, &next, 0), rounded = path_of(&camera, r, &here, rounding);
+        const struct kd_null_path beside = path_of(&camera, r, &next, 0),
+                                  rounded = path_of(&camera, r, &here, rounding);
         seen++;
         lost += elsewhere(&path, &beside) || elsewhere(&path, &rounded);
     }

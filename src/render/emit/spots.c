@@ -51,7 +51,8 @@ static void tell(const struct kd_scene *scene, char out[KD_EMIT_TOLD])
     const struct kd_spot *on[KD_SPOTS];
     size_t n = kd_scene_spots(scene, on), used = (size_t)snprintf(out, KD_EMIT_TOLD, "Hot spots going round at ");
     for (size_t i = 0; i < n && used < KD_EMIT_TOLD; i++)
-        used += (size_t)snprintf(out + used, KD_EMIT_TOLD - used, "%s%.6g M%s", i ? ", " : "", on[i]->r, i + 1 == n ? "." : "");
+        used += (size_t)snprintf(out + used, KD_EMIT_TOLD - used, "%s%.6g M%s", i ? ", " : "", on[i]->r,
+                                 i + 1 == n ? "." : "");
 }
 
 static void reach(const struct kd_scene *scene, double radii[2])
@@ -67,14 +68,15 @@ static void reach(const struct kd_scene *scene, double radii[2])
     radii[0] = fmax(radii[0], kd_kerr_isco(scene->spacetime.spin));
 }
 
-#define WHEN(name, condition)                                                                                  \
+#define WHEN(name, condition) \
     static bool name(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, condition; }
 WHEN(without_shift, scene->disk.model == KD_DISK_NONE && (!scene->disk.doppler || !scene->disk.redshift))
 WHEN(fast, !scene->disk.slow_light)
 
 static const struct kd_sentence sentences[] = {
     { "spots: drawn Gaussians in r and phi that go round with their centre's orbit and do not shear; they shine in "
-      "the equatorial plane, outside the ISCO alone, as a power law with the g of the gas at each place", NULL },
+      "the equatorial plane, outside the ISCO alone, as a power law with the g of the gas at each place",
+      NULL },
     { "spots: their brightness and colour are chosen, not computed; they absorb nothing", NULL },
     { "spots: the Doppler shift or the gravitational redshift of the gas is switched off", without_shift },
     { "spots: fast light: shown where they are at one coordinate time, whatever the light's delay", fast },
@@ -90,7 +92,8 @@ const struct kd_emitter kd_emit_spots = {
     .varies = kd_orbit_varies,
     .reach = reach,
     .fill = fill,
-    .depends = { KD_SCENE_PART(spacetime), KD_SCENE_PART(camera), KD_SCENE_PART(disk), KD_SCENE_PART(spots), KD_SCENE_PART(top) },
+    .depends = { KD_SCENE_PART(spacetime), KD_SCENE_PART(camera), KD_SCENE_PART(disk), KD_SCENE_PART(spots),
+                 KD_SCENE_PART(top) },
     .sentences = sentences,
     .n_sentences = sizeof sentences / sizeof *sentences,
 };

@@ -1,4 +1,5 @@
-/* This is how light of a volume at a radio frequency is polarised, and what becomes of that on its way: shaders/emit/stokes.glsl. It shines nowhere itself. */
+/* This is how light of a volume at a radio frequency is polarised, and what becomes of that on its way:
+ * shaders/emit/stokes.glsl. It shines nowhere itself. */
 #include "render/emit/emitter.h"
 
 #include "physics/synchrotron.h"
@@ -7,7 +8,10 @@
 
 static bool present(const struct kd_scene *scene) { return scene->polarization.model == KD_POLARIZATION_TRANSFER; }
 
-static uint32_t traits(const struct kd_scene *scene) { return scene->polarization.faraday ? KD_TRAIT_STOKES_FARADAY : 0; }
+static uint32_t traits(const struct kd_scene *scene)
+{
+    return scene->polarization.faraday ? KD_TRAIT_STOKES_FARADAY : 0;
+}
 
 #define KAPPA_FIRST 3.5 /* of Marszewski et al. 2021, who have one for each half up to 5 */
 #define KAPPA_INTERVALS 3
@@ -15,7 +19,8 @@ static uint32_t traits(const struct kd_scene *scene) { return scene->polarizatio
 static void fill_kappa(struct kd_stokes_block *out, double kappa)
 {
     const struct kd_synchrotron_kappa_polarised k = kd_synchrotron_kappa_polarised(kappa);
-    const double place = fmin(fmax(2 * (kappa - KAPPA_FIRST), 0), KAPPA_INTERVALS), node = fmin(floor(place), KAPPA_INTERVALS - 1);
+    const double place = fmin(fmax(2 * (kappa - KAPPA_FIRST), 0), KAPPA_INTERVALS),
+                 node = fmin(floor(place), KAPPA_INTERVALS - 1);
     out->kappa_light_q = (float)k.light_q_high;
     out->kappa_light_q_sharp = (float)k.light_q_sharp;
     out->kappa_light_v_low = (float)k.light_v_low;
@@ -32,7 +37,8 @@ static void fill_kappa(struct kd_stokes_block *out, double kappa)
 /* Nowhere. */
 static void reach(const struct kd_scene *scene, double radii[2]) { (void)scene, radii[0] = INFINITY, radii[1] = 0; }
 
-/* Jones & O'Dell 1977: of electrons gamma^-p, by the share (p - 1)/(gamma_min^(1 - p) - gamma_max^(1 - p)) of them at gamma = 1. */
+/* Jones & O'Dell 1977: of electrons gamma^-p, by the share (p - 1)/(gamma_min^(1 - p) - gamma_max^(1 - p)) of them
+ * at gamma = 1. */
 static void fill(struct kd_emission *out, const struct kd_scene *scene)
 {
     const struct kd_volume *v = &scene->volume;
@@ -45,24 +51,61 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
     fill_kappa(&out->stokes, v->kappa);
 }
 
-static bool turns(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, scene->polarization.faraday; }
-static bool turns_not(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, !scene->polarization.faraday; }
-static bool is_thermal(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, scene->volume.electrons == KD_VOLUME_THERMAL; }
-static bool is_power(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, scene->volume.electrons == KD_VOLUME_POWER_LAW; }
-static bool is_kappa(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, scene->volume.electrons == KD_VOLUME_KAPPA; }
-static bool turns_kappa(const struct kd_scene *scene, const struct kd_setting *rays) { return turns(scene, rays) && is_kappa(scene, rays); }
-static bool turns_others(const struct kd_scene *scene, const struct kd_setting *rays) { return turns(scene, rays) && !is_kappa(scene, rays); }
-static bool is_disordered(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, scene->polarization.order < 1; }
+static bool turns(const struct kd_scene *scene, const struct kd_setting *rays)
+{
+    return (void)rays, scene->polarization.faraday;
+}
+static bool turns_not(const struct kd_scene *scene, const struct kd_setting *rays)
+{
+    return (void)rays, !scene->polarization.faraday;
+}
+static bool is_thermal(const struct kd_scene *scene, const struct kd_setting *rays)
+{
+    return (void)rays, scene->volume.electrons == KD_VOLUME_THERMAL;
+}
+static bool is_power(const struct kd_scene *scene, const struct kd_setting *rays)
+{
+    return (void)rays, scene->volume.electrons == KD_VOLUME_POWER_LAW;
+}
+static bool is_kappa(const struct kd_scene *scene, const struct kd_setting *rays)
+{
+    return (void)rays, scene->volume.electrons == KD_VOLUME_KAPPA;
+}
+static bool turns_kappa(const struct kd_scene *scene, const struct kd_setting *rays)
+{
+    return turns(scene, rays) && is_kappa(scene, rays);
+}
+static bool turns_others(const struct kd_scene *scene, const struct kd_setting *rays)
+{
+    return turns(scene, rays) && !is_kappa(scene, rays);
+}
+static bool is_disordered(const struct kd_scene *scene, const struct kd_setting *rays)
+{
+    return (void)rays, scene->polarization.order < 1;
+}
 
 static const struct kd_sentence sentences[] = {
-    { "polarization: Stokes I, Q, U and V of the volume together, in coefficients that are the same over each short stretch; I is not that of unpolarised transfer", NULL },
-    { "polarization: thermal synchrotron light by the fits of Pandya et al. 2016 and Dexter 2016 (V); where the field lies along the ray, and where electrons are not hot, V is held to what leaves 99 % of I polarised", is_thermal },
+    { "polarization: Stokes I, Q, U and V of the volume together, in coefficients that are the same over each short "
+      "stretch; I is not that of unpolarised transfer",
+      NULL },
+    { "polarization: thermal synchrotron light by the fits of Pandya et al. 2016 and Dexter 2016 (V); where the field "
+      "lies along the ray, and where electrons are not hot, V is held to what leaves 99 % of I polarised",
+      is_thermal },
     { "polarization: synchrotron light of a power law by the fits of Pandya et al. 2016, held to 99 % of I", is_power },
-    { "polarization: synchrotron light of a kappa distribution by the fits of Pandya et al. 2016, V for electrons that are hot; held to 99 % of I", is_kappa },
-    { "polarization: Faraday rotation and conversion of those electrons alone (Shcherbakov 2008, Dexter 2016; Jones & O'Dell 1977): none is cold", turns_others },
-    { "polarization: Faraday rotation and conversion of a kappa distribution alone by the fits of Marszewski et al. 2021, made for frequencies above 100 gyrofrequencies and a tenth of (kappa w)^2 of them times sin(theta); in between kappa 3.5, 4, 4.5 and 5, by the way to each", turns_kappa },
+    { "polarization: synchrotron light of a kappa distribution by the fits of Pandya et al. 2016, V for electrons that "
+      "are hot; held to 99 % of I",
+      is_kappa },
+    { "polarization: Faraday rotation and conversion of those electrons alone (Shcherbakov 2008, Dexter 2016; Jones & "
+      "O'Dell 1977): none is cold",
+      turns_others },
+    { "polarization: Faraday rotation and conversion of a kappa distribution alone by the fits of Marszewski et al. "
+      "2021, made for frequencies above 100 gyrofrequencies and a tenth of (kappa w)^2 of them times sin(theta); in "
+      "between kappa 3.5, 4, 4.5 and 5, by the way to each",
+      turns_kappa },
     { "polarization: Faraday rotation and conversion are left out", turns_not },
-    { "polarization: disorder of the field makes linear polarisation less where it is made, where it is absorbed and where it is converted; Faraday rotation is that of a field in order", is_disordered },
+    { "polarization: disorder of the field makes linear polarisation less where it is made, where it is absorbed and "
+      "where it is converted; Faraday rotation is that of a field in order",
+      is_disordered },
 };
 
 const struct kd_emitter kd_emit_stokes = {

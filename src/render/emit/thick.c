@@ -16,7 +16,9 @@ static bool stirs(const struct kd_scene *scene) { return scene->gas.amplitude > 
 static uint32_t traits(const struct kd_scene *scene)
 {
     return kd_disk_traits(scene) | (scene->disk.emission_opacity > 0 ? KD_TRAIT_GAS_DEEP : 0) |
-           (stirs(scene) ? KD_TRAIT_AZIMUTH | (scene->disk.slow_light ? KD_TRAIT_SLOW : 0) | (uint32_t)scene->gas.octaves << KD_TRAIT_GAS_SHIFT : 0);
+           (stirs(scene) ? KD_TRAIT_AZIMUTH | (scene->disk.slow_light ? KD_TRAIT_SLOW : 0) |
+                               (uint32_t)scene->gas.octaves << KD_TRAIT_GAS_SHIFT
+                         : 0);
 }
 
 /* Crossings are looked for even of a smooth one: where they are thin, at the critical curve, so is its light. */
@@ -37,7 +39,8 @@ static double height(const struct kd_scene *scene)
     return most / sqrt(1 + most * most);
 }
 
-/* Here the outer fade begins. What is deep lets e^-depth through before and, at once behind, as much as has faded: its depth there goes as a logarithm. */
+/* Here the outer fade begins. What is deep lets e^-depth through before and, at once behind, as much as has faded:
+ * its depth there goes as a logarithm. */
 static double knot(const struct kd_scene *scene)
 {
     const double r = scene->disk.outer * (1 - scene->disk.taper);
@@ -59,15 +62,26 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
     };
 }
 
-static bool by_profile(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, stirs(scene) && !isfinite(scene->accuracy.tolerance); }
+static bool by_profile(const struct kd_scene *scene, const struct kd_setting *rays)
+{
+    return (void)rays, stirs(scene) && !isfinite(scene->accuracy.tolerance);
+}
 
 static const struct kd_sentence sentences[] = {
-    { "thick disk: a chosen height, Gaussian, with the thin disk's temperature, flux and optical depth at each distance from the axis; no torus in equilibrium, and it "
-      "ends at 4.5 heights", NULL },
-    { "thick disk: its gas goes round with the angular velocity of the circular orbit in the plane at its distance from the axis, at whatever height", NULL },
-    { "thick disk: the sum of emission and absorption along each ray, without scattering; what it emits is that of a black body of the thin disk's temperature, from top to "
-      "bottom", NULL },
-    { "thick disk: light through its turbulence is found to 2e-2, 1e-2, 1e-3, 1e-4 or 5e-5 by accuracy.profile, from draft to reference: coarser than through smooth volumes", by_profile },
+    { "thick disk: a chosen height, Gaussian, with the thin disk's temperature, flux and optical depth at each "
+      "distance from the axis; no torus in equilibrium, and it "
+      "ends at 4.5 heights",
+      NULL },
+    { "thick disk: its gas goes round with the angular velocity of the circular orbit in the plane at its distance "
+      "from the axis, at whatever height",
+      NULL },
+    { "thick disk: the sum of emission and absorption along each ray, without scattering; what it emits is that of a "
+      "black body of the thin disk's temperature, from top to "
+      "bottom",
+      NULL },
+    { "thick disk: light through its turbulence is found to 2e-2, 1e-2, 1e-3, 1e-4 or 5e-5 by accuracy.profile, from "
+      "draft to reference: coarser than through smooth volumes",
+      by_profile },
 };
 
 const struct kd_emitter kd_emit_thick = {

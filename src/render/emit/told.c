@@ -14,8 +14,9 @@ static enum kd_status one(const struct kd_scene *scene, int number, bool first, 
     const struct kd_emitter *e = kd_emitters[number];
     char sentence[KD_EMIT_TOLD];
     enum kd_status status;
-    KD_TRY(kd_buffer_printf(out, "%s{\"name\":\"%s\",\"title\":\"%s\",\"at\":\"%s\",\"apart\":%s", first ? "" : ",", e->name, e->title,
-                            places[number], e->traits && e->traits(scene) & KD_TRAIT_APART ? "true" : "false"));
+    KD_TRY(kd_buffer_printf(out, "%s{\"name\":\"%s\",\"title\":\"%s\",\"at\":\"%s\",\"apart\":%s", first ? "" : ",",
+                            e->name, e->title, places[number],
+                            e->traits && e->traits(scene) & KD_TRAIT_APART ? "true" : "false"));
     if (e->tell) {
         e->tell(scene, sentence);
         KD_TRY(kd_buffer_printf(out, ",\"sentence\":\"%s\"", sentence));

@@ -19,7 +19,8 @@ static void reach(const struct kd_scene *scene, double radii[2])
 
 static void tell(const struct kd_scene *scene, char out[KD_EMIT_TOLD])
 {
-    snprintf(out, KD_EMIT_TOLD, "Matter all round from %.6g M to %.6g M.", kd_scene_volume_inner(scene), scene->volume.outer);
+    snprintf(out, KD_EMIT_TOLD, "Matter all round from %.6g M to %.6g M.", kd_scene_volume_inner(scene),
+             scene->volume.outer);
 }
 
 static void fill(struct kd_emission *out, const struct kd_scene *scene)
@@ -34,12 +35,19 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
     };
 }
 
-static bool unshifted(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, !scene->volume.redshift; }
+static bool unshifted(const struct kd_scene *scene, const struct kd_setting *rays)
+{
+    return (void)rays, !scene->volume.redshift;
+}
 
 static const struct kd_sentence sentences[] = {
-    { "volume: made up, the same everywhere between its edges, at rest for observers of zero angular momentum; it ends a hundredth outside the horizon; "
-      "grey, its colour that of a chosen temperature, and its light bolometric, whatever disk.band says", NULL },
-    { "volume: the frequency shift of its matter is switched off, and lengths are those of the observer's affine parameter", unshifted },
+    { "volume: made up, the same everywhere between its edges, at rest for observers of zero angular momentum; it ends "
+      "a hundredth outside the horizon; "
+      "grey, its colour that of a chosen temperature, and its light bolometric, whatever disk.band says",
+      NULL },
+    { "volume: the frequency shift of its matter is switched off, and lengths are those of the observer's affine "
+      "parameter",
+      unshifted },
 };
 
 const struct kd_emitter kd_emit_volume = {

@@ -7,7 +7,10 @@
 #include <math.h>
 #include <stdio.h>
 
-static double luminance(const float light[3]) { return 0.2126 * (double)light[0] + 0.7152 * (double)light[1] + 0.0722 * (double)light[2]; }
+static double luminance(const float light[3])
+{
+    return 0.2126 * (double)light[0] + 0.7152 * (double)light[1] + 0.0722 * (double)light[2];
+}
 
 static void put_rgb(struct kd_json *json, const char *name, const float light[3], double times)
 {
@@ -18,11 +21,18 @@ static void put_rgb(struct kd_json *json, const char *name, const float light[3]
 }
 
 /* null: it is infinite, nothing comes through. */
-static void put_depth(struct kd_json *json, double through) { kd_json_number(json, "optical_depth", through > 0 ? 0 - log(through) : INFINITY); }
+static void put_depth(struct kd_json *json, double through)
+{
+    kd_json_number(json, "optical_depth", through > 0 ? 0 - log(through) : INFINITY);
+}
 
-static double passed(const struct kd_told_stretch *s) { return s->through[0] > 0 ? (double)s->through[1] / (double)s->through[0] : 1; }
+static double passed(const struct kd_told_stretch *s)
+{
+    return s->through[0] > 0 ? (double)s->through[1] / (double)s->through[0] : 1;
+}
 
-static void put_at(struct kd_json *json, const char *name, const struct kd_picture *picture, const struct kd_explained *x)
+static void put_at(struct kd_json *json, const char *name, const struct kd_picture *picture,
+                   const struct kd_explained *x)
 {
     double at[2];
     kd_explained_ray_at(picture, x, at);
@@ -326,7 +336,8 @@ static void put_ray(struct kd_json *json, const struct kd_picture *picture, cons
     kd_json_end(json);
 }
 
-static enum kd_status put_each(struct kd_json *json, const struct kd_picture *picture, const struct kd_told *pixel, struct kd_error *error)
+static enum kd_status put_each(struct kd_json *json, const struct kd_picture *picture, const struct kd_told *pixel,
+                               struct kd_error *error)
 {
     enum kd_status status = KD_OK;
     kd_json_array(json, "each_ray");
@@ -354,7 +365,8 @@ static void put_trace(struct kd_json *json, const struct kd_picture *picture, co
     kd_json_end(json);
 }
 
-static enum kd_status write(const struct kd_picture *picture, const struct kd_explained *x, struct kd_buffer *out, struct kd_error *error)
+static enum kd_status write(const struct kd_picture *picture, const struct kd_explained *x, struct kd_buffer *out,
+                            struct kd_error *error)
 {
     struct kd_json json = kd_json_begin(out);
     kd_json_object(&json, NULL);
@@ -383,7 +395,8 @@ static enum kd_status write(const struct kd_picture *picture, const struct kd_ex
     return status || !written ? status : kd_error_set(error, KD_ENOMEM, "out of memory for what is told of a pixel");
 }
 
-static enum kd_status encode(const struct kd_picture *picture, enum kd_effort effort, void **memory, struct kd_buffer *out, struct kd_error *error)
+static enum kd_status encode(const struct kd_picture *picture, enum kd_effort effort, void **memory,
+                             struct kd_buffer *out, struct kd_error *error)
 {
     struct kd_explained x;
     (void)effort, (void)memory;
@@ -405,5 +418,10 @@ static enum kd_status draws(struct kd_scene *scene, struct kd_error *error)
 }
 
 const struct kd_format kd_format_pixel = {
-    .name = "json", .media_type = "application/json", .magic = "", .carries = KD_CARRIES_PICTURE, .draws = draws, .encode = encode,
+    .name = "json",
+    .media_type = "application/json",
+    .magic = "",
+    .carries = KD_CARRIES_PICTURE,
+    .draws = draws,
+    .encode = encode,
 };

@@ -15,22 +15,34 @@ static struct kd_null_ray null_ray(const struct kd_explained *x)
 {
     const struct kd_vantage at = kd_scene_vantage(&x->scene);
     return (struct kd_null_ray) {
-        .spin = at.spin, .radius = at.r, .cos_theta = at.u, .sin_theta = at.s, .alpha = x->label.alpha, .beta = x->label.beta,
-        .outward = x->label.outward && isfinite(at.r), .orders = x->scene.accuracy.orders,
+        .spin = at.spin,
+        .radius = at.r,
+        .cos_theta = at.u,
+        .sin_theta = at.s,
+        .alpha = x->label.alpha,
+        .beta = x->label.beta,
+        .outward = x->label.outward && isfinite(at.r),
+        .orders = x->scene.accuracy.orders,
     };
 }
 
-/* Crossings and end, with the azimuths and frequencies of the scene. A ray of negative energy goes round the other way (view/camera.h). */
+/* Crossings and end, with the azimuths and frequencies of the scene. A ray of negative energy goes round the other
+ * way (view/camera.h). */
 static enum kd_status find_crossings(struct kd_explained *x, struct kd_error *error)
 {
     const struct kd_rays_params params = {
-        .spin = x->scene.spacetime.spin, .r = x->scene.camera.r, .inclination_deg = x->scene.camera.inclination_deg,
-        .orders = (uint32_t)x->scene.accuracy.orders, .engine = KD_ENGINE_CLOSED, .precision = KD_PRECISION_F64,
+        .spin = x->scene.spacetime.spin,
+        .r = x->scene.camera.r,
+        .inclination_deg = x->scene.camera.inclination_deg,
+        .orders = (uint32_t)x->scene.accuracy.orders,
+        .engine = KD_ENGINE_CLOSED,
+        .precision = KD_PRECISION_F64,
     };
     const double alpha_beta[] = { x->label.alpha, x->label.beta };
     const struct kd_ray_labels ray = { alpha_beta, &x->label.outward, 1 };
-    enum kd_status status = x->motion.within ? kd_ray_within(&x->motion, x->frame.reversed, x->crossings, &x->end, error)
-                                             : kd_rays_closed(&params, &ray, true, x->crossings, &x->end, NULL, NULL, error);
+    enum kd_status status = x->motion.within
+                                ? kd_ray_within(&x->motion, x->frame.reversed, x->crossings, &x->end, error)
+                                : kd_rays_closed(&params, &ray, true, x->crossings, &x->end, NULL, NULL, error);
     for (uint32_t n = 0; n < x->end.n_crossings && !status; n++) {
         struct kd_ray_crossing *c = &x->crossings[n];
         c->phi = kd_ray_path_phi(&x->frame, c->phi);
@@ -91,7 +103,8 @@ static void find_shown(const struct kd_picture *picture, struct kd_explained *x)
     const uint32_t column = picture->plan->told.x, row = picture->plan->told.y;
     const size_t at = 3 * ((size_t)row * f->width + column);
     for (size_t i = 0; i < 3; i++)
-        x->shown[i] = kd_frame_bit_depth(f) == 16 ? ((const uint16_t *)kd_frame_pixels(f))[at + i] / 65535.0 : ((const uint8_t *)kd_frame_pixels(f))[at + i] / 255.0;
+        x->shown[i] = kd_frame_bit_depth(f) == 16 ? ((const uint16_t *)kd_frame_pixels(f))[at + i] / 65535.0
+                                                  : ((const uint8_t *)kd_frame_pixels(f))[at + i] / 255.0;
 }
 
 /* Labels are those of the camera that counts its pixels in the steps of the ray. */
@@ -103,19 +116,26 @@ static void find_label(const struct kd_picture *picture, struct kd_explained *x)
 }
 
 /* Everything but the path. */
-static enum kd_status explain(const struct kd_picture *picture, const struct kd_told_ray *ray, struct kd_explained *x, struct kd_error *error)
+static enum kd_status explain(const struct kd_picture *picture, const struct kd_told_ray *ray, struct kd_explained *x,
+                              struct kd_error *error)
 {
     const bool pair = picture->plan->eyes == 2, right = pair && picture->plan->told.x >= picture->frame->width / 2;
     *x = (struct kd_explained) {
-        .pixel = picture->frame->told, .told = ray, .eye = !pair ? NULL : right ? "right" : "left",
+        .pixel = picture->frame->told,
+        .told = ray,
+        .eye = !pair   ? NULL
+               : right ? "right"
+                       : "left",
         .scene = pair ? kd_scene_eye(picture->scene, right ? 1 : -1) : *picture->scene,
     };
     for (uint32_t i = 0; i < x->pixel->rays; i++)
-        if (x->pixel->each[i].steps_a_pixel == ray->steps_a_pixel && x->pixel->each[i].x == ray->x && x->pixel->each[i].y == ray->y)
+        if (x->pixel->each[i].steps_a_pixel == ray->steps_a_pixel && x->pixel->each[i].x == ray->x &&
+            x->pixel->each[i].y == ray->y)
             x->weight = 1.0 / x->pixel->rays;
     find_label(picture, x);
     const struct kd_null_ray labels = null_ray(x);
-    x->frame = (struct kd_ray_path_frame) { x->scene.camera.azimuth_deg * (M_PI / 180), kd_camera_twist(&x->scene), x->label.energy < 0 };
+    x->frame = (struct kd_ray_path_frame) { x->scene.camera.azimuth_deg * (M_PI / 180), kd_camera_twist(&x->scene),
+                                            x->label.energy < 0 };
     x->motion = kd_ray_motion_of(&labels);
     enum kd_status status = find_crossings(x, error);
     if (status)
@@ -138,7 +158,8 @@ done:
     return status;
 }
 
-enum kd_status kd_explain_each(const struct kd_picture *picture, uint32_t number, struct kd_explained *x, struct kd_error *error)
+enum kd_status kd_explain_each(const struct kd_picture *picture, uint32_t number, struct kd_explained *x,
+                               struct kd_error *error)
 {
     return explain(picture, &picture->frame->told->each[number], x, error);
 }
@@ -163,7 +184,10 @@ double kd_explained_sum_error(const struct kd_told *pixel)
     return off > 0 ? off / size : 0;
 }
 
-static double luminance(const float light[3]) { return 0.2126 * (double)light[0] + 0.7152 * (double)light[1] + 0.0722 * (double)light[2]; }
+static double luminance(const float light[3])
+{
+    return 0.2126 * (double)light[0] + 0.7152 * (double)light[1] + 0.0722 * (double)light[2];
+}
 
 int kd_explained_stokes(const struct kd_told_ray *ray, double out[KD_EXPLAINED_STOKES])
 {
@@ -196,10 +220,7 @@ double kd_explained_along_delay(const struct kd_explained *x)
     return light > 0 && !x->motion.within ? sum / light : NAN;
 }
 
-void kd_explained_finish(struct kd_explained *x)
-{
-    kd_ray_path_finish(&x->path);
-}
+void kd_explained_finish(struct kd_explained *x) { kd_ray_path_finish(&x->path); }
 
 const struct kd_told_place *kd_explained_place(const struct kd_explained *x, uint32_t order)
 {
@@ -226,13 +247,16 @@ double kd_explained_azimuth(const struct kd_explained *x, double phi)
 enum kd_status kd_explain_at(const char *text, struct kd_plan *plan, struct kd_error *error)
 {
     const uint32_t width = plan->width * (plan->eyes == 2 ? 2 : 1);
-    const size_t n = kd_number_span_typed(text, strlen(text)), m = text[n] == ',' ? kd_number_span_typed(text + n + 1, strlen(text + n + 1)) : 0;
+    const size_t n = kd_number_span_typed(text, strlen(text)),
+                 m = text[n] == ',' ? kd_number_span_typed(text + n + 1, strlen(text + n + 1)) : 0;
     const double x = n && m ? kd_number_parse(text) : NAN, y = n && m ? kd_number_parse(text + n + 1) : NAN;
-    if (!(x >= 0 && x < width && y >= 0 && y < plan->height) || text[n + 1 + m])
-    {
+    if (!(x >= 0 && x < width && y >= 0 && y < plan->height) || text[n + 1 + m]) {
         char shown[64];
         kd_text_clip(shown, sizeof shown, text);
-        return kd_error_field(error, "/at", "at is \"%s\", allowed is X,Y: pixels from the upper left corner, below %u across and %u down", shown, width, plan->height);
+        return kd_error_field(
+            error, "/at",
+            "at is \"%s\", allowed is X,Y: pixels from the upper left corner, below %u across and %u down", shown,
+            width, plan->height);
     }
     plan->told.on = true;
     plan->told.x = (uint32_t)x;
@@ -245,7 +269,8 @@ enum kd_status kd_explain_trace(const char *text, struct kd_plan *plan, struct k
     char shown[64];
     kd_text_clip(shown, sizeof shown, text);
     if (strcmp(text, "steps"))
-        return kd_error_field(error, "/trace", "trace is \"%s\", allowed is \"steps\": those of the engine along the ray", shown);
+        return kd_error_field(error, "/trace",
+                              "trace is \"%s\", allowed is \"steps\": those of the engine along the ray", shown);
     plan->told.steps = true;
     return KD_OK;
 }

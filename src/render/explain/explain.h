@@ -1,7 +1,9 @@
-/* This explains the light of one pixel. Each of its rays is followed by closed form; what each emitter gave that ray is told by the picture's own kernel
- * (frame/tell.h). The document has both, how far they are apart, and the middle ray's path for drawing. The plan of the picture names the pixel (kd_plan.told). Any thread.
+/* This explains the light of one pixel. Each of its rays is followed by closed form; what each emitter gave that ray
+ * is told by the picture's own kernel (frame/tell.h). The document has both, how far they are apart, and the middle
+ * ray's path for drawing. The plan of the picture names the pixel (kd_plan.told). Any thread.
  *
- * Lengths and times in M, angles in radians, frequencies by those that the observer measures. docs/pixel.md says what the document holds. */
+ * Lengths and times in M, angles in radians, frequencies by those that the observer measures. docs/pixel.md says
+ * what the document holds. */
 #ifndef KD_RENDER_EXPLAIN_EXPLAIN_H
 #define KD_RENDER_EXPLAIN_EXPLAIN_H
 
@@ -19,31 +21,34 @@ struct kd_explained {
     struct kd_scene scene;          /* that of this eye */
     struct kd_camera_label label;   /* energy: E at infinity by what the observer measures */
     struct kd_ray_motion motion;
-    struct kd_ray_crossing crossings[KD_RAYS_MAX_ORDERS]; /* by closed form, as the scene has azimuths, and g as the observer measures it */
+    struct kd_ray_crossing crossings[KD_RAYS_MAX_ORDERS]; /* by closed form, as the scene has azimuths, and g as the
+                                                             observer measures it */
     struct kd_ray_end end;
     struct kd_ray_path_frame frame;
-    struct kd_ray_path path;        /* of the middle ray; of others it has no places */
-    double picture_error;           /* of the picture's, likewise; 1: it has another number of them */
-    double shown[3];                /* the pixel as it is shown, 0 to 1 */
-    char why[240];                  /* where the ray ends and why, a sentence */
+    struct kd_ray_path path; /* of the middle ray; of others it has no places */
+    double picture_error;    /* of the picture's, likewise; 1: it has another number of them */
+    double shown[3];         /* the pixel as it is shown, 0 to 1 */
+    char why[240];           /* where the ray ends and why, a sentence */
 };
 
-/* The middle ray; or one of those that the pixel's light is the mean of, without its path. KD_EINVAL for a ray without a course in closed form. Finish *out in
- * any case. */
+/* The middle ray; or one of those that the pixel's light is the mean of, without its path. KD_EINVAL for a ray
+ * without a course in closed form. Finish *out in any case. */
 enum kd_status kd_explain(const struct kd_picture *picture, struct kd_explained *out, struct kd_error *error);
-enum kd_status kd_explain_each(const struct kd_picture *picture, uint32_t number, struct kd_explained *out, struct kd_error *error);
+enum kd_status kd_explain_each(const struct kd_picture *picture, uint32_t number, struct kd_explained *out,
+                               struct kd_error *error);
 /* Where the ray goes through the picture, in pixels. */
 void kd_explained_ray_at(const struct kd_picture *picture, const struct kd_explained *explained, double out[2]);
 /* How far the mean of the rays' light is off the pixel's, relative to that. */
 double kd_explained_sum_error(const struct kd_told *pixel);
-/* Stokes I, Q, U and V of a ray as it arrives, I the luminance of all its light; how many of them are known, without V where only light of the plane is polarised; 0: none is in the scene. */
+/* Stokes I, Q, U and V of a ray as it arrives, I the luminance of all its light; how many of them are known, without
+ * V where only light of the plane is polarised; 0: none is in the scene. */
 enum { KD_EXPLAINED_STOKES = 4 };
 int kd_explained_stokes(const struct kd_told_ray *ray, double out[KD_EXPLAINED_STOKES]);
 /* The angle of the electric field, and the part of the light that is polarised; NAN where there is none. */
 double kd_explained_evpa(const double stokes[3]);
 double kd_explained_polarized(const double stokes[3]);
-/* The delay of light from volumes, their mean over what arrives; NAN: there is no light of any, or the observer is within the horizon, where a far clock tells
- * no time. */
+/* The delay of light from volumes, their mean over what arrives; NAN: there is no light of any, or the observer is
+ * within the horizon, where a far clock tells no time. */
 double kd_explained_along_delay(const struct kd_explained *explained);
 void kd_explained_finish(struct kd_explained *explained);
 
@@ -59,7 +64,8 @@ enum kd_status kd_explain_text(const struct kd_picture *picture, struct kd_buffe
 
 /* The document of POST /v1/pixel: not among kd_formats, for it is of one pixel. */
 extern const struct kd_format kd_format_pixel;
-/* Names the pixel at a place "X,Y" of the picture, in pixels from its upper left corner, in a plan of it. KD_EINVAL for what is no place of it. */
+/* Names the pixel at a place "X,Y" of the picture, in pixels from its upper left corner, in a plan of it. KD_EINVAL
+ * for what is no place of it. */
 enum kd_status kd_explain_at(const char *text, struct kd_plan *plan, struct kd_error *error);
 /* What else is told, by a word: "steps", those of the engine along the middle ray. KD_EINVAL for another. */
 enum kd_status kd_explain_trace(const char *text, struct kd_plan *plan, struct kd_error *error);

@@ -12,10 +12,14 @@
 #define NEAR 0.01    /* of the horizon's radius: as near as it comes to it */
 #define DEGREES (180 / M_PI)
 
-static const char *const radial_cases[] = { "I", "II", "III", "IV" }, *const polar_cases[] = { "ordinary", "vortical", "fixed" };
+static const char *const radial_cases[] = { "I", "II", "III", "IV" }, *const polar_cases[] = { "ordinary", "vortical",
+                                                                                               "fixed" };
 enum { ORDINARY, VORTICAL, FIXED };
 
-const char *kd_ray_radial_case(size_t i) { return i < sizeof radial_cases / sizeof *radial_cases ? radial_cases[i] : NULL; }
+const char *kd_ray_radial_case(size_t i)
+{
+    return i < sizeof radial_cases / sizeof *radial_cases ? radial_cases[i] : NULL;
+}
 const char *kd_ray_polar_case(size_t i) { return i < sizeof polar_cases / sizeof *polar_cases ? polar_cases[i] : NULL; }
 
 /* Roots in the order of Gralla & Lupsasca 2020, and the number of the case, arXiv:1910.12881, section IV. */
@@ -52,7 +56,8 @@ static void name_polar(struct kd_ray_motion *m, const struct kd_null_motion *con
 struct kd_ray_motion kd_ray_motion_of(const struct kd_null_ray *ray)
 {
     struct kd_ray_motion m = { .ray = *ray, .horizon = kd_kerr_horizon(ray->spin), .turning_r = NAN };
-    const struct kd_null_motion constants = kd_null_motion_of(ray->spin, ray->cos_theta, ray->sin_theta, ray->alpha, ray->beta);
+    const struct kd_null_motion constants =
+        kd_null_motion_of(ray->spin, ray->cos_theta, ray->sin_theta, ray->alpha, ray->beta);
     m.within = !(ray->radius > m.horizon);
     m.lambda = constants.lambda, m.eta = constants.eta;
     m.roots = kd_null_roots_of(&constants);
@@ -71,31 +76,42 @@ struct kd_ray_motion kd_ray_motion_of(const struct kd_null_ray *ray)
 static int why_from_within(const struct kd_ray_motion *m, enum kd_ray_fate fate, char *out, size_t size)
 {
     if (fate == KD_RAY_ESCAPED)
-        return snprintf(out, size, "Followed back it leaves the hole through the horizon, as it came in, and escapes to the sky.");
+        return snprintf(out, size,
+                        "Followed back it leaves the hole through the horizon, as it came in, and escapes to the sky.");
     if (isfinite(m->turning_r))
-        return snprintf(out, size, "Followed back it leaves the hole through the horizon, rises to r = %.6g M, turns, and falls to the horizon of the hole's past.", m->turning_r);
-    return snprintf(out, size, "Followed back it stays within up to the horizon of the hole's past: nothing outside has sent it.");
+        return snprintf(out, size,
+                        "Followed back it leaves the hole through the horizon, rises to r = %.6g M, turns, and falls "
+                        "to the horizon of the hole's past.",
+                        m->turning_r);
+    return snprintf(out, size,
+                    "Followed back it stays within up to the horizon of the hole's past: nothing outside has sent it.");
 }
 
 int kd_ray_motion_why(const struct kd_ray_motion *m, enum kd_ray_fate fate, char *out, size_t size)
 {
     if (fate == KD_RAY_UNDECIDED)
-        return snprintf(out, size, "Followed back it is so close to the critical curve that double precision does not tell whether it escapes.");
+        return snprintf(out, size,
+                        "Followed back it is so close to the critical curve that double precision does not tell "
+                        "whether it escapes.");
     if (m->within)
         return why_from_within(m, fate, out, size);
     if (fate == KD_RAY_ESCAPED && isfinite(m->turning_r))
         return snprintf(out, size, "Followed back it turns at r = %.6g M and escapes to the sky.", m->turning_r);
     if (fate == KD_RAY_ESCAPED)
-        return snprintf(out, size, "Followed back it leaves the observer outwards, and escapes to the sky without a turning point.");
+        return snprintf(
+            out, size,
+            "Followed back it leaves the observer outwards, and escapes to the sky without a turning point.");
     if (isfinite(m->turning_r))
-        return snprintf(out, size, "Followed back it rises to r = %.6g M, turns, and falls to the horizon.", m->turning_r);
+        return snprintf(out, size, "Followed back it rises to r = %.6g M, turns, and falls to the horizon.",
+                        m->turning_r);
     if (!m->ray.outward)
         return snprintf(out, size, "Followed back it falls to the horizon: it has no turning point outside of it.");
     return snprintf(out, size, "Followed back it ends at the horizon.");
 }
 
-enum kd_status kd_ray_path_draw(const struct kd_ray_motion *m, const struct kd_ray_path_frame *frame, const struct kd_ray_crossing *crossings, size_t n,
-                            struct kd_ray_path *path, struct kd_error *error)
+enum kd_status kd_ray_path_draw(const struct kd_ray_motion *m, const struct kd_ray_path_frame *frame,
+                                const struct kd_ray_crossing *crossings, size_t n, struct kd_ray_path *path,
+                                struct kd_error *error)
 {
     double far = isfinite(m->ray.radius) ? fmax(FAR, 2 * m->ray.radius) : FAR, near = NEAR * m->horizon;
     for (size_t i = 0; i < n; i++) {
@@ -127,7 +143,8 @@ double kd_ray_path_delay(const struct kd_ray_path_frame *f, double delay) { retu
 
 void kd_ray_path_at(const struct kd_ray_path *path, const struct kd_null_place *p, double out[3])
 {
-    const double a = path->spin, phi = kd_ray_path_phi(&path->frame, p->phi) + path->frame.azimuth, across = sqrt((p->r * p->r + a * a) * (1 - p->u) * (1 + p->u));
+    const double a = path->spin, phi = kd_ray_path_phi(&path->frame, p->phi) + path->frame.azimuth,
+                 across = sqrt((p->r * p->r + a * a) * (1 - p->u) * (1 + p->u));
     out[0] = across * cos(phi);
     out[1] = across * sin(phi);
     out[2] = p->r * p->u;
@@ -146,7 +163,10 @@ void kd_ray_path_row(const struct kd_ray_path *path, size_t i, double out[KD_PAT
     out[7] = p->order;
 }
 
-static int real_roots(const struct kd_ray_motion *m) { return m->roots.kind == KD_NULL_FOUR_REAL ? 4 : m->roots.kind == KD_NULL_TWO_REAL ? 2 : 0; }
+static int real_roots(const struct kd_ray_motion *m)
+{
+    return m->roots.kind == KD_NULL_FOUR_REAL ? 4 : m->roots.kind == KD_NULL_TWO_REAL ? 2 : 0;
+}
 
 void kd_ray_motion_json(struct kd_json *json, const struct kd_ray_motion *m)
 {
@@ -206,9 +226,10 @@ enum kd_status kd_ray_motion_text(const struct kd_ray_motion *m, struct kd_buffe
     enum kd_status status;
     KD_TRY(kd_buffer_printf(out, "radial case %s, roots", m->radial_case));
     for (int i = 0; i < 4; i++)
-        KD_TRY(m->root[i][1] != 0 ? kd_buffer_printf(out, " %.6g%+.6gi", m->root[i][0], m->root[i][1]) : kd_buffer_printf(out, " %.6g", m->root[i][0]));
-    KD_TRY(kd_buffer_printf(out, "; horizon %.6g\npolar motion %s, theta %.4f to %.4f deg, cos^2 theta roots %.6g", m->horizon, m->polar_case,
-                            DEGREES * m->theta[0], DEGREES * m->theta[1], m->polar_root[0]));
+        KD_TRY(m->root[i][1] != 0 ? kd_buffer_printf(out, " %.6g%+.6gi", m->root[i][0], m->root[i][1])
+                                  : kd_buffer_printf(out, " %.6g", m->root[i][0]));
+    KD_TRY(kd_buffer_printf(out, "; horizon %.6g\npolar motion %s, theta %.4f to %.4f deg, cos^2 theta roots %.6g",
+                            m->horizon, m->polar_case, DEGREES * m->theta[0], DEGREES * m->theta[1], m->polar_root[0]));
     if (isfinite(m->polar_root[1]))
         KD_TRY(kd_buffer_printf(out, " %.6g", m->polar_root[1]));
     KD_TRY(kd_buffer_printf(out, "\n"));

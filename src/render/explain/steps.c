@@ -3,10 +3,11 @@
 #include <math.h>
 
 #define C(name) { #name, offsetof(struct kd_rays_step, name) }
-static const struct kd_steps_column mino[] = { C(time), C(r), C(w), C(dw), C(u), C(du), C(n_x), C(n_y), C(phi), C(delay), C(res_w), C(res_u),
+static const struct kd_steps_column mino[] = { C(time),  C(r),      C(w),     C(dw),    C(u),     C(du),
+                                               C(n_x),   C(n_y),    C(phi),   C(delay), C(res_w), C(res_u),
                                                C(res_n), C(res_dn), C(res_l), { 0 } };
-static const struct kd_steps_column kerr_schild[] = { C(time), C(r), C(u), C(phi), C(x), C(y), C(z), C(p_x), C(p_y), C(p_z), C(res_null),
-                                                      C(res_l), { 0 } };
+static const struct kd_steps_column kerr_schild[] = { C(time), C(r),   C(u),   C(phi),      C(x),     C(y), C(z),
+                                                      C(p_x),  C(p_y), C(p_z), C(res_null), C(res_l), { 0 } };
 #undef C
 
 const struct kd_steps_column *kd_steps_columns(const struct kd_rays_steps *steps)

@@ -1,4 +1,5 @@
-/* Steps that the device takes along a ray (rays/steps.h), as names, columns and numbers for whoever writes them. Pure, any thread. */
+/* Steps that the device takes along a ray (rays/steps.h), as names, columns and numbers for whoever writes them.
+ * Pure, any thread. */
 #ifndef KD_RENDER_EXPLAIN_STEPS_H
 #define KD_RENDER_EXPLAIN_STEPS_H
 
@@ -7,7 +8,10 @@
 
 #include <stddef.h>
 
-struct kd_steps_column { const char *name; size_t at; };
+struct kd_steps_column {
+    const char *name;
+    size_t at;
+};
 /* Those of its engine; behind the last one without a name. */
 const struct kd_steps_column *kd_steps_columns(const struct kd_rays_steps *steps);
 double kd_steps_value(const struct kd_rays_step *step, const struct kd_steps_column *column);

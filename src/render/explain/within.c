@@ -1,4 +1,5 @@
-/* This follows a ray of an observer within the horizon, where closed forms end: by the steps of physics/null_course.h in ingoing coordinates. */
+/* This follows a ray of an observer within the horizon, where closed forms end: by the steps of
+ * physics/null_course.h in ingoing coordinates. */
 #include "render/explain/motion.h"
 
 #include "physics/disk.h"
@@ -13,33 +14,42 @@
 static double redshift(const struct kd_ray_motion *m, double r, bool outwards)
 {
     const double a = m->ray.spin;
-    return r >= kd_kerr_isco(a) ? kd_disk_redshift(a, r, m->lambda) : kd_disk_redshift_plunging(a, r, m->lambda, m->eta, outwards);
+    return r >= kd_kerr_isco(a) ? kd_disk_redshift(a, r, m->lambda)
+                                : kd_disk_redshift_plunging(a, r, m->lambda, m->eta, outwards);
 }
 
 /* Azimuth and time stay ingoing within the horizon, where a crossing has no gas to have a g of. */
-static struct kd_ray_crossing crossing_of(const struct kd_ray_motion *m, bool reversed, const struct kd_null_place *p, bool inwards)
+static struct kd_ray_crossing crossing_of(const struct kd_ray_motion *m, bool reversed, const struct kd_null_place *p,
+                                          bool inwards)
 {
     const bool outside = p->r > m->horizon;
     const double twist = outside ? kd_kerr_twist(m->ray.spin, p->r) : 0;
     return (struct kd_ray_crossing) {
-        .r = p->r, .phi = p->phi + (reversed ? -twist : twist), .delay = p->delay, .g = outside ? redshift(m, p->r, inwards) : NAN,
+        .r = p->r,
+        .phi = p->phi + (reversed ? -twist : twist),
+        .delay = p->delay,
+        .g = outside ? redshift(m, p->r, inwards) : NAN,
     };
 }
 
 static void find_end(const struct kd_null_course *course, const struct kd_null_place *places, struct kd_ray_end *end)
 {
-    end->fate = course->end == KD_COURSE_ESCAPED ? KD_RAY_ESCAPED : course->end == KD_COURSE_CAPTURED ? KD_RAY_CAPTURED : KD_RAY_UNDECIDED;
+    end->fate = course->end == KD_COURSE_ESCAPED    ? KD_RAY_ESCAPED
+                : course->end == KD_COURSE_CAPTURED ? KD_RAY_CAPTURED
+                                                    : KD_RAY_UNDECIDED;
     end->theta = end->fate == KD_RAY_ESCAPED ? acos(places[course->n - 1].u) : NAN;
     end->phi = end->fate == KD_RAY_ESCAPED ? remainder(places[course->n - 1].phi, 2 * M_PI) : NAN;
     end->error = NAN;
 }
 
-enum kd_status kd_ray_within(const struct kd_ray_motion *m, bool reversed, struct kd_ray_crossing *crossings, struct kd_ray_end *end, struct kd_error *error)
+enum kd_status kd_ray_within(const struct kd_ray_motion *m, bool reversed, struct kd_ray_crossing *crossings,
+                             struct kd_ray_end *end, struct kd_error *error)
 {
     struct kd_null_place *places = malloc(KD_PATH_PLACES * sizeof *places);
     if (!places)
         return kd_error_set(error, KD_ENOMEM, "out of memory for the path of a ray");
-    const struct kd_null_course course = kd_null_course_ingoing(&m->ray, reversed, INFINITY, NEAR * m->horizon, places, KD_PATH_PLACES);
+    const struct kd_null_course course =
+        kd_null_course_ingoing(&m->ray, reversed, INFINITY, NEAR * m->horizon, places, KD_PATH_PLACES);
     *end = (struct kd_ray_end) { 0 };
     for (size_t i = 0; i + 1 < course.n; i++)
         if (places[i].crossing >= 0 && places[i].crossing < m->ray.orders) {

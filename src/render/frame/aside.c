@@ -1,4 +1,5 @@
-/* This finds where a frame is rendered: in the renderer's own buffers, or aside, in some that it shares with no other. */
+/* This finds where a frame is rendered: in the renderer's own buffers, or aside, in some that it shares with no
+ * other. */
 #include "render/frame/job.h"
 #include "render/frame/normalise.h"
 #include "render/frame/parts.h"
@@ -12,7 +13,8 @@ static struct kd_aside *aside_with(struct kd_renderer *r, const struct kd_plan *
     return NULL;
 }
 
-static enum kd_status render_here(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan, const struct kd_light_sum *others,
+static enum kd_status render_here(struct kd_renderer *renderer, const struct kd_scene *scene,
+                                  const struct kd_plan *plan, const struct kd_light_sum *others,
                                   kd_progress_fn progress, void *user, struct kd_frame *out, struct kd_error *error)
 {
     if (kd_plan_is_parted(plan))
@@ -24,9 +26,15 @@ static enum kd_status render_here(struct kd_renderer *renderer, const struct kd_
         return status;
     struct kd_aside *found = kd_store_has(&renderer->store, plan) ? NULL : aside_with(renderer, plan);
     struct kd_frame_job job = {
-        .r = renderer, .store = found ? &found->store : &renderer->store,
-        .prepared = found ? &found->prepared : &renderer->prepared, .scene = &scaled, .plan = plan, .others = others,
-        .progress = progress, .user = user, .error = error,
+        .r = renderer,
+        .store = found ? &found->store : &renderer->store,
+        .prepared = found ? &found->prepared : &renderer->prepared,
+        .scene = &scaled,
+        .plan = plan,
+        .others = others,
+        .progress = progress,
+        .user = user,
+        .error = error,
     };
     status = kd_frame_run(&job, out);
     if (!status)
@@ -71,8 +79,10 @@ static struct kd_aside *enter_aside(struct kd_renderer *r, const struct kd_plan 
     return a;
 }
 
-static enum kd_status render_aside(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan, const struct kd_light_sum *others,
-                                   kd_progress_fn progress, const struct kd_glance *glance, void *user, struct kd_frame *out, struct kd_error *error)
+static enum kd_status render_aside(struct kd_renderer *renderer, const struct kd_scene *scene,
+                                   const struct kd_plan *plan, const struct kd_light_sum *others,
+                                   kd_progress_fn progress, const struct kd_glance *glance, void *user,
+                                   struct kd_frame *out, struct kd_error *error)
 {
     if (kd_plan_is_parted(plan))
         return kd_frame_parted(&(struct kd_parted) { renderer, scene, plan, true, progress, user }, out, error);
@@ -83,10 +93,20 @@ static enum kd_status render_aside(struct kd_renderer *renderer, const struct kd
         return found;
     struct kd_aside *a = enter_aside(renderer, plan);
     if (!a)
-        return kd_error_set(error, KD_EBUSY, "%u pictures are being rendered beside others, as many as can be", KD_ASIDES);
+        return kd_error_set(error, KD_EBUSY, "%u pictures are being rendered beside others, as many as can be",
+                            KD_ASIDES);
     struct kd_frame_job job = {
-        .r = renderer, .store = &a->store, .prepared = &a->prepared, .aside = true, .scene = &scaled, .plan = plan, .others = others,
-        .progress = progress, .glance = glance, .user = user, .error = error,
+        .r = renderer,
+        .store = &a->store,
+        .prepared = &a->prepared,
+        .aside = true,
+        .scene = &scaled,
+        .plan = plan,
+        .others = others,
+        .progress = progress,
+        .glance = glance,
+        .user = user,
+        .error = error,
     };
     enum kd_status status = kd_frame_run(&job, out);
     a->busy = false;
@@ -102,14 +122,16 @@ enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *sc
 }
 
 enum kd_status kd_render_aside(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
-                               kd_progress_fn progress, const struct kd_glance *glance, void *user, struct kd_frame *out,
-                               struct kd_error *error)
+                               kd_progress_fn progress, const struct kd_glance *glance, void *user,
+                               struct kd_frame *out, struct kd_error *error)
 {
     return render_aside(renderer, scene, plan, NULL, progress, glance, user, out, error);
 }
 
-enum kd_status kd_render_mean(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan, const struct kd_light_sum *others, bool aside,
-                              kd_progress_fn progress, const struct kd_glance *glance, void *user, struct kd_frame *out, struct kd_error *error)
+enum kd_status kd_render_mean(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
+                              const struct kd_light_sum *others, bool aside, kd_progress_fn progress,
+                              const struct kd_glance *glance, void *user, struct kd_frame *out, struct kd_error *error)
 {
-    return aside ? render_aside(renderer, scene, plan, others, progress, glance, user, out, error) : render_here(renderer, scene, plan, others, progress, user, out, error);
+    return aside ? render_aside(renderer, scene, plan, others, progress, glance, user, out, error)
+                 : render_here(renderer, scene, plan, others, progress, user, out, error);
 }

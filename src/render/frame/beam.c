@@ -6,28 +6,39 @@
 /* Weights that one submission adds up at most: some 40 ms of a small device. */
 #define SUBMISSION 2e7
 
-static struct kd_vk_binding lines(struct kd_frame_job *j, bool write) { return (struct kd_vk_binding) { j->store->beam_lines, 0, kd_beam_lines_bytes(&j->plan->beam), write }; }
+static struct kd_vk_binding lines(struct kd_frame_job *j, bool write)
+{
+    return (struct kd_vk_binding) { j->store->beam_lines, 0, kd_beam_lines_bytes(&j->plan->beam), write };
+}
 
 static struct kd_vk_binding grid(struct kd_frame_job *j, int number, bool write)
 {
     const uint64_t bytes = kd_beam_cells_bytes(&j->plan->beam);
-    return (struct kd_vk_binding) { j->store->beam_grids, (uint64_t)number * ((bytes + 255) / 256 * 256), bytes, write };
+    return (struct kd_vk_binding) { j->store->beam_grids, (uint64_t)number * ((bytes + 255) / 256 * 256), bytes,
+                                    write };
 }
 
 /* A kernel between a band of pixels and rows of cells, or its twin that reads texels, which is the next one. */
-static enum kd_status band(struct kd_frame_job *j, uint32_t number, enum kd_kernel kernel, bool texels, uint64_t invocations,
-                           struct kd_vk_binding from, struct kd_vk_binding to)
+static enum kd_status band(struct kd_frame_job *j, uint32_t number, enum kd_kernel kernel, bool texels,
+                           uint64_t invocations, struct kd_vk_binding from, struct kd_vk_binding to)
 {
     const struct kd_beam_grid *b = &j->plan->beam;
     const struct kd_spec_beam spec = { .COARSE = b->cell > 1 };
     const struct kd_beam_push push = {
-        .pixels_x = j->plan->width, .row0 = kd_frame_band_first(j, number), .rows = kd_frame_band_lit(j, number), .columns = b->columns,
-        .cell = b->cell, .cells = (float)(1.0 / b->cell),
+        .pixels_x = j->plan->width,
+        .row0 = kd_frame_band_first(j, number),
+        .rows = kd_frame_band_lit(j, number),
+        .columns = b->columns,
+        .cell = b->cell,
+        .cells = (float)(1.0 / b->cell),
     };
     const struct kd_vk_pipeline *pipeline;
     enum kd_status status;
-    KD_TRY(kd_kernels_get(&j->r->kernels, j->r->vk, kernel + (texels ? 1 : 0), &spec.COARSE, sizeof spec / 4, &pipeline, j->error));
-    const struct kd_vk_dispatch d = { kd_passes[KD_PASS_BEAM].name, pipeline, { from, to }, &push, { kd_frame_groups(invocations) } };
+    KD_TRY(kd_kernels_get(&j->r->kernels, j->r->vk, kernel + (texels ? 1 : 0), &spec.COARSE, sizeof spec / 4, &pipeline,
+                          j->error));
+    const struct kd_vk_dispatch d = {
+        kd_passes[KD_PASS_BEAM].name, pipeline, { from, to }, &push, { kd_frame_groups(invocations) }
+    };
     KD_TRY(kd_vk_dispatch(j->r->vk, &d, j->error));
     if (j->plan->bands == 1)
         return KD_OK;
@@ -44,9 +55,11 @@ static enum kd_status gather(struct kd_frame_job *j)
     const uint64_t pixels = (uint64_t)p->width * p->band_rows, bytes = kd_post_radiance_bytes(pixels);
     enum kd_status status = KD_OK;
     if (j->lit < p->height) /* rows that nothing is written to */
-        KD_TRY(kd_vk_fill(j->r->vk, kd_passes[KD_PASS_BEAM].name, j->store->beam_lines, 0, kd_beam_lines_bytes(&p->beam), 0, j->error));
+        KD_TRY(kd_vk_fill(j->r->vk, kd_passes[KD_PASS_BEAM].name, j->store->beam_lines, 0,
+                          kd_beam_lines_bytes(&p->beam), 0, j->error));
     for (uint32_t i = 0; i < p->bands && kd_frame_band_lit(j, i); i++)
-        KD_TRY(band(j, i, KD_KERNEL_BEAM_GATHER, kd_kernels_texels(j->r->vk, pixels), (uint64_t)p->beam.columns * kd_frame_band_lit(j, i),
+        KD_TRY(band(j, i, KD_KERNEL_BEAM_GATHER, kd_kernels_texels(j->r->vk, pixels),
+                    (uint64_t)p->beam.columns * kd_frame_band_lit(j, i),
                     (struct kd_vk_binding) { j->store->radiance.buffers[i], 0, bytes, false }, lines(j, true)));
 done:
     return status;
@@ -59,17 +72,18 @@ static enum kd_status spread(struct kd_frame_job *j)
     const bool texels = kd_kernels_texels_of(j->r->vk, kd_beam_lines_bytes(&p->beam));
     enum kd_status status = KD_OK;
     for (uint32_t i = 0; i < p->bands && kd_frame_band_lit(j, i); i++)
-        KD_TRY(band(j, i, KD_KERNEL_BEAM_SPREAD, texels, ((uint64_t)p->width * kd_frame_band_lit(j, i) + 3) / 4, lines(j, false),
-                    (struct kd_vk_binding) { j->store->beamed.buffers[i], 0, 0, true }));
+        KD_TRY(band(j, i, KD_KERNEL_BEAM_SPREAD, texels, ((uint64_t)p->width * kd_frame_band_lit(j, i) + 3) / 4,
+                    lines(j, false), (struct kd_vk_binding) { j->store->beamed.buffers[i], 0, 0, true }));
 done:
     return status;
 }
 
 /* One of the kernels that make a grid from another, or its twin. */
-static enum kd_status grid_kernel(struct kd_frame_job *j, enum kd_kernel kernel, const uint32_t *constants, size_t n, const struct kd_vk_binding *from,
-                                  const struct kd_vk_pipeline **out)
+static enum kd_status grid_kernel(struct kd_frame_job *j, enum kd_kernel kernel, const uint32_t *constants, size_t n,
+                                  const struct kd_vk_binding *from, const struct kd_vk_pipeline **out)
 {
-    return kd_kernels_get(&j->r->kernels, j->r->vk, kernel + (kd_kernels_texels_of(j->r->vk, from->size) ? 1 : 0), constants, n, out, j->error);
+    return kd_kernels_get(&j->r->kernels, j->r->vk, kernel + (kd_kernels_texels_of(j->r->vk, from->size) ? 1 : 0),
+                          constants, n, out, j->error);
 }
 
 /* A slice of rows, the last of them if it is all. */
@@ -86,7 +100,10 @@ done:
 }
 
 /* Rows that one submission makes, each with so many weights: a multiple of four. */
-static uint32_t rows_at_once(double weights, uint32_t rows) { return 4 * (uint32_t)fmin(fmax(SUBMISSION / weights / 4, 1), (rows + 3) / 4); }
+static uint32_t rows_at_once(double weights, uint32_t rows)
+{
+    return 4 * (uint32_t)fmin(fmax(SUBMISSION / weights / 4, 1), (rows + 3) / 4);
+}
 
 static enum kd_status blur(struct kd_frame_job *j, bool rows, struct kd_vk_binding from, struct kd_vk_binding to)
 {
@@ -99,14 +116,20 @@ static enum kd_status blur(struct kd_frame_job *j, bool rows, struct kd_vk_bindi
     for (int k = -(int)b->reach; k <= (int)b->reach; k++)
         sum += exp(-narrow * k * k);
     struct kd_beam_blur_push push = {
-        .columns = b->columns, .length_ = rows ? b->rows : b->columns, .reach = b->reach, .narrow = (float)narrow, .weight = (float)(1 / sum),
+        .columns = b->columns,
+        .length_ = rows ? b->rows : b->columns,
+        .reach = b->reach,
+        .narrow = (float)narrow,
+        .weight = (float)(1 / sum),
     };
     KD_TRY(grid_kernel(j, KD_KERNEL_BEAM_BLUR, &spec.ROWS, sizeof spec / 4, &from, &pipeline));
     for (push.row0 = 0; push.row0 < b->rows; push.row0 += step) {
         const uint32_t n = b->rows - push.row0 < step ? b->rows - push.row0 : step;
         push.lines = rows ? (n + 3) / 4 : n;
         const uint64_t invocations = (uint64_t)push.lines * (rows ? b->columns : (b->columns + 3) / 4);
-        const struct kd_vk_dispatch d = { kd_passes[KD_PASS_BEAM].name, pipeline, { from, to }, &push, { kd_frame_groups(invocations) } };
+        const struct kd_vk_dispatch d = {
+            kd_passes[KD_PASS_BEAM].name, pipeline, { from, to }, &push, { kd_frame_groups(invocations) }
+        };
         KD_TRY(slice(j, &d, step >= b->rows));
     }
 done:
@@ -114,7 +137,8 @@ done:
 }
 
 /* push: but for columns and slice. rows: of what is made. */
-static enum kd_status spline(struct kd_frame_job *j, struct kd_beam_spline_push push, uint32_t rows, struct kd_vk_binding from, struct kd_vk_binding to)
+static enum kd_status spline(struct kd_frame_job *j, struct kd_beam_spline_push push, uint32_t rows,
+                             struct kd_vk_binding from, struct kd_vk_binding to)
 {
     const uint32_t columns = j->plan->beam.columns, step = rows_at_once((double)columns * push.count, rows);
     const struct kd_vk_pipeline *pipeline;
@@ -123,20 +147,32 @@ static enum kd_status spline(struct kd_frame_job *j, struct kd_beam_spline_push 
     KD_TRY(grid_kernel(j, KD_KERNEL_BEAM_SPLINE, NULL, 0, &from, &pipeline));
     for (push.row0 = 0; push.row0 < rows; push.row0 += step) {
         push.rows = rows - push.row0 < step ? rows - push.row0 : step;
-        const struct kd_vk_dispatch d = { kd_passes[KD_PASS_BEAM].name, pipeline, { from, to }, &push, { kd_frame_groups((uint64_t)columns * push.rows) } };
+        const struct kd_vk_dispatch d = { kd_passes[KD_PASS_BEAM].name,
+                                          pipeline,
+                                          { from, to },
+                                          &push,
+                                          { kd_frame_groups((uint64_t)columns * push.rows) } };
         KD_TRY(slice(j, &d, step >= rows));
     }
 done:
     return status;
 }
 
-/* Rows of cells, one for each of pixels, to the grid: cell i of it begins (i - 1) cells below the upper edge of the picture. */
+/* Rows of cells, one for each of pixels, to the grid: cell i of it begins (i - 1) cells below the upper edge of the
+ * picture. */
 static enum kd_status down(struct kd_frame_job *j, struct kd_vk_binding from, struct kd_vk_binding to)
 {
     const struct kd_beam_grid *b = &j->plan->beam;
     const struct kd_beam_spline_push push = {
-        .length_ = b->height, .first_times = b->cell, .first_over = 1, .before = 2 * b->cell, .count = 3 * b->cell,
-        .from_scale = (float)(1.0 / b->cell), .to_scale = 1, .shift = -1, .weight = (float)(1.0 / b->cell),
+        .length_ = b->height,
+        .first_times = b->cell,
+        .first_over = 1,
+        .before = 2 * b->cell,
+        .count = 3 * b->cell,
+        .from_scale = (float)(1.0 / b->cell),
+        .to_scale = 1,
+        .shift = -1,
+        .weight = (float)(1.0 / b->cell),
     };
     return spline(j, push, b->rows, from, to);
 }
@@ -145,7 +181,13 @@ static enum kd_status up(struct kd_frame_job *j, struct kd_vk_binding from, stru
 {
     const struct kd_beam_grid *b = &j->plan->beam;
     const struct kd_beam_spline_push push = {
-        .length_ = b->rows, .first_times = 1, .first_over = b->cell, .count = 3, .from_scale = 1, .to_scale = (float)(1.0 / b->cell), .shift = 1,
+        .length_ = b->rows,
+        .first_times = 1,
+        .first_over = b->cell,
+        .count = 3,
+        .from_scale = 1,
+        .to_scale = (float)(1.0 / b->cell),
+        .shift = 1,
         .weight = 1,
     };
     return spline(j, push, b->height, from, to);

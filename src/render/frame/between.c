@@ -5,21 +5,31 @@
 
 #include <string.h>
 
-bool kd_frame_has_between(const struct kd_frame_job *j) { return j->plan->side == 1 && (j->plan->cacheable || j->plan->bands == 1); }
+bool kd_frame_has_between(const struct kd_frame_job *j)
+{
+    return j->plan->side == 1 && (j->plan->cacheable || j->plan->bands == 1);
+}
 
-static enum kd_status dispatch(struct kd_frame_job *j, uint32_t band, uint32_t side, struct kd_vk_buffer *listed, struct kd_between_push *push)
+static enum kd_status dispatch(struct kd_frame_job *j, uint32_t band, uint32_t side, struct kd_vk_buffer *listed,
+                               struct kd_between_push *push)
 {
     const struct kd_plan *p = j->plan;
-    const struct kd_spec_between spec = { .QUANTITIES = p->quantities, .ORDERS = p->orders, .SIDE = side ? side : 1, .MARK = !side };
+    const struct kd_spec_between spec = {
+        .QUANTITIES = p->quantities, .ORDERS = p->orders, .SIDE = side ? side : 1, .MARK = !side
+    };
     struct kd_vk_dispatch d = {
-        kd_passes[KD_PASS_REFINE].name, NULL, { { listed, 0, 0, true }, { kd_frame_band_lens(j, band), 0, 0, false } }, push,
+        kd_passes[KD_PASS_REFINE].name,
+        NULL,
+        { { listed, 0, 0, true }, { kd_frame_band_lens(j, band), 0, 0, false } },
+        push,
         { kd_frame_groups(push->count), 1 },
     };
     push->width = p->width;
     push->row0 = kd_frame_band_first(j, band);
     push->map_rows = kd_frame_band_rows(j, band);
     push->map_stride = p->width * p->band_rows;
-    enum kd_status status = kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_BETWEEN, &spec.QUANTITIES, sizeof spec / 4, &d.pipeline, j->error);
+    enum kd_status status = kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_BETWEEN, &spec.QUANTITIES,
+                                           sizeof spec / 4, &d.pipeline, j->error);
     return status ? status : kd_vk_dispatch(j->r->vk, &d, j->error);
 }
 
@@ -34,7 +44,10 @@ enum kd_status kd_frame_between(struct kd_frame_job *j, const struct kd_frame_pa
         const uint32_t step = kd_frame_slice(j->plan->trace_ns * part->list->lattice.rays, (uint32_t)part->n);
         for (; from < to; from += step) {
             struct kd_between_push push = {
-                .first = (uint32_t)from, .count = (uint32_t)(to - from < step ? to - from : step), .stride = part->push.stride, .list = part->push.list,
+                .first = (uint32_t)from,
+                .count = (uint32_t)(to - from < step ? to - from : step),
+                .stride = part->push.stride,
+                .list = part->push.list,
             };
             KD_TRY(dispatch(j, band, side, part->lens, &push));
             KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error));
@@ -46,18 +59,22 @@ done:
 }
 
 /* As many pixels as one buffer holds with their words, which come to the host. */
-static enum kd_status mark_part(struct kd_frame_job *j, const struct kd_frame_part *part, struct kd_vk_buffer *host, uint8_t *marks)
+static enum kd_status mark_part(struct kd_frame_job *j, const struct kd_frame_part *part, struct kd_vk_buffer *host,
+                                uint8_t *marks)
 {
     enum kd_status status = kd_frame_upload_pixels(j, part);
     for (uint32_t band = 0; band < j->plan->bands && !status; band++) {
         uint64_t from, to;
         kd_frame_part_in_band(j, part, band, &from, &to);
-        struct kd_between_push push = { .first = (uint32_t)from, .count = (uint32_t)(to - from), .list = part->push.list, .marks = (uint32_t)part->n };
+        struct kd_between_push push = {
+            .first = (uint32_t)from, .count = (uint32_t)(to - from), .list = part->push.list, .marks = (uint32_t)part->n
+        };
         if (from < to)
             status = dispatch(j, band, 0, part->lens, &push);
     }
     KD_TRY(status);
-    KD_TRY(kd_vk_copy(j->r->vk, kd_passes[KD_PASS_REFINE].name, host, 0, part->lens, 8 * part->n, 4 * part->n, j->error));
+    KD_TRY(
+        kd_vk_copy(j->r->vk, kd_passes[KD_PASS_REFINE].name, host, 0, part->lens, 8 * part->n, 4 * part->n, j->error));
     KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error));
     KD_TRY(kd_vk_wait(j->r->vk, 0, j->error));
     const float *words = kd_vk_buffer_map(host);
@@ -79,7 +96,8 @@ enum kd_status kd_frame_mark_between(struct kd_frame_job *j, const struct kd_cri
     if (!kd_frame_has_between(j) || !pixels->n)
         return KD_OK;
     const struct kd_frame_list list = { .pixels = pixels, .most = most, .buffers = &j->store->listed, .again = true };
-    KD_TRY(kd_vk_buffer_create(j->r->vk, 4 * (pixels->n < most ? pixels->n : most), KD_VK_READBACK, "which pixels lie between rays", &host, j->error));
+    KD_TRY(kd_vk_buffer_create(j->r->vk, 4 * (pixels->n < most ? pixels->n : most), KD_VK_READBACK,
+                               "which pixels lie between rays", &host, j->error));
     for (uint64_t k = 0; k * most < pixels->n; k++) {
         struct kd_frame_part part = kd_frame_part_of(j, &list, k);
         part.push.list = 0;

@@ -13,20 +13,33 @@ static enum kd_status brighten_band(struct kd_frame_job *j, uint32_t band)
 {
     const struct kd_plan *p = j->plan;
     const struct kd_bloom *b = &p->bloom;
-    const uint32_t first = kd_frame_band_first(j, band), rows = kd_frame_band_lit(j, band), wide = b->block_x < 4 ? 4 : b->block_x;
-    const struct kd_spec_bloom_bright spec = { .BLOCK_X = b->block_x, .BLOCK_Y = b->block_y, .BEGUN = first % b->block_y != 0 };
+    const uint32_t first = kd_frame_band_first(j, band), rows = kd_frame_band_lit(j, band),
+                   wide = b->block_x < 4 ? 4 : b->block_x;
+    const struct kd_spec_bloom_bright spec = { .BLOCK_X = b->block_x,
+                                               .BLOCK_Y = b->block_y,
+                                               .BEGUN = first % b->block_y != 0 };
     const struct kd_bloom_bright_push push = {
-        .gain = (float)exp2(j->frame->exposure), .strength = (float)b->strength, .pixels_x = p->width, .row0 = first, .rows = rows,
-        .blocks_x = b->blocks_x, .block_row0 = first / b->block_y,
-        .block_rows = (first + rows + b->block_y - 1) / b->block_y - first / b->block_y, .across = (p->width + wide - 1) / wide,
+        .gain = (float)exp2(j->frame->exposure),
+        .strength = (float)b->strength,
+        .pixels_x = p->width,
+        .row0 = first,
+        .rows = rows,
+        .blocks_x = b->blocks_x,
+        .block_row0 = first / b->block_y,
+        .block_rows = (first + rows + b->block_y - 1) / b->block_y - first / b->block_y,
+        .across = (p->width + wide - 1) / wide,
     };
     const uint64_t band_pixels = (uint64_t)p->width * p->band_rows;
     const bool texels = p->width % 4 == 0 && kd_kernels_texels(j->r->vk, band_pixels);
     const struct kd_vk_pipeline *pipeline;
-    enum kd_status status = kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_BLOOM_BRIGHT + (texels ? 1 : 0), &spec.BLOCK_X, sizeof spec / 4, &pipeline, j->error);
+    enum kd_status status = kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_BLOOM_BRIGHT + (texels ? 1 : 0),
+                                           &spec.BLOCK_X, sizeof spec / 4, &pipeline, j->error);
     const struct kd_vk_dispatch d = {
-        kd_passes[KD_PASS_BLOOM].name, pipeline,
-        { { kd_frame_band_light(j, band), 0, kd_post_radiance_bytes(band_pixels), false }, range(j, b->blocks, kd_bloom_blocks(b), true) }, &push,
+        kd_passes[KD_PASS_BLOOM].name,
+        pipeline,
+        { { kd_frame_band_light(j, band), 0, kd_post_radiance_bytes(band_pixels), false },
+          range(j, b->blocks, kd_bloom_blocks(b), true) },
+        &push,
         { kd_frame_groups((uint64_t)push.across * push.block_rows) },
     };
     return status ? status : kd_vk_dispatch(j->r->vk, &d, j->error);
@@ -38,7 +51,8 @@ static enum kd_status brighten(struct kd_frame_job *j)
     const struct kd_plan *p = j->plan;
     enum kd_status status = KD_OK;
     if (j->lit < p->height) /* blocks that nothing is written to */
-        KD_TRY(kd_vk_fill(j->r->vk, kd_passes[KD_PASS_BLOOM].name, j->store->bloom, p->bloom.blocks, 16 * kd_bloom_blocks(&p->bloom), 0, j->error));
+        KD_TRY(kd_vk_fill(j->r->vk, kd_passes[KD_PASS_BLOOM].name, j->store->bloom, p->bloom.blocks,
+                          16 * kd_bloom_blocks(&p->bloom), 0, j->error));
     for (uint32_t band = 0; band < p->bands && kd_frame_band_lit(j, band); band++) {
         KD_TRY(brighten_band(j, band));
         if (p->bands == 1)
@@ -50,8 +64,12 @@ done:
     return status;
 }
 
-/* Blocks along an axis that two cells may see: of four cells, and where the last one is narrow of those that stand closer there. */
-static uint32_t taps(uint32_t pixels, uint32_t cells, uint32_t block) { return 4 * pixels / (cells * block) + (pixels % block ? 3 : 1); }
+/* Blocks along an axis that two cells may see: of four cells, and where the last one is narrow of those that stand
+ * closer there. */
+static uint32_t taps(uint32_t pixels, uint32_t cells, uint32_t block)
+{
+    return 4 * pixels / (cells * block) + (pixels % block ? 3 : 1);
+}
 
 /* Blocks as cells of the finest grid. */
 static enum kd_status gather(struct kd_frame_job *j)
@@ -59,35 +77,53 @@ static enum kd_status gather(struct kd_frame_job *j)
     const struct kd_plan *p = j->plan;
     const struct kd_bloom *b = &p->bloom;
     const struct kd_bloom_gather_push push = {
-        .pixels_x = p->width, .pixels_y = p->height, .blocks_x = b->blocks_x, .blocks_y = b->blocks_y, .cells_x = b->columns, .cells_y = b->rows,
-        .block_x = b->block_x, .block_y = b->block_y,
+        .pixels_x = p->width,
+        .pixels_y = p->height,
+        .blocks_x = b->blocks_x,
+        .blocks_y = b->blocks_y,
+        .cells_x = b->columns,
+        .cells_y = b->rows,
+        .block_x = b->block_x,
+        .block_y = b->block_y,
     };
     const struct kd_spec_bloom_gather spec = {
-        .TAPS_X = taps(p->width, b->columns, b->block_x), .TAPS_Y = taps(p->height, b->rows, b->block_y),
+        .TAPS_X = taps(p->width, b->columns, b->block_x),
+        .TAPS_Y = taps(p->height, b->rows, b->block_y),
         .RAGGED = p->width % b->block_x || p->height % b->block_y,
     };
     const struct kd_vk_pipeline *pipeline;
     const enum kd_kernel kernel = KD_KERNEL_BLOOM_GATHER + (kd_kernels_cells_as_texels(j->r->vk, b) ? 1 : 0);
-    enum kd_status status = kd_kernels_get(&j->r->kernels, j->r->vk, kernel, &spec.TAPS_X, sizeof spec / 4, &pipeline, j->error);
+    enum kd_status status =
+        kd_kernels_get(&j->r->kernels, j->r->vk, kernel, &spec.TAPS_X, sizeof spec / 4, &pipeline, j->error);
     const struct kd_vk_dispatch d = {
-        kd_passes[KD_PASS_BLOOM].name, pipeline, { range(j, b->blocks, kd_bloom_blocks(b), false), range(j, b->light[0], kd_bloom_cells(b, 0), true) },
-        &push, { kd_frame_groups((uint64_t)((b->columns + 1) / 2) * ((b->rows + 1) / 2)) },
+        kd_passes[KD_PASS_BLOOM].name,
+        pipeline,
+        { range(j, b->blocks, kd_bloom_blocks(b), false), range(j, b->light[0], kd_bloom_cells(b, 0), true) },
+        &push,
+        { kd_frame_groups((uint64_t)((b->columns + 1) / 2) * ((b->rows + 1) / 2)) },
     };
     return status ? status : kd_vk_dispatch(j->r->vk, &d, j->error);
 }
 
 /* A kernel that makes all cells of a grid. Its twin that reads cells as texels is the next one. */
-static enum kd_status make(struct kd_frame_job *j, enum kd_kernel kernel, uint32_t level, float share, float coarse_share,
-                           const struct kd_vk_binding bindings[3])
+static enum kd_status make(struct kd_frame_job *j, enum kd_kernel kernel, uint32_t level, float share,
+                           float coarse_share, const struct kd_vk_binding bindings[3])
 {
     const struct kd_bloom *b = &j->plan->bloom;
     const struct kd_vk_pipeline *pipeline;
-    const struct { uint32_t columns, rows; float share, coarse_share; } push = { b->columns >> level, b->rows >> level, share, coarse_share };
+    const struct {
+        uint32_t columns, rows;
+        float share, coarse_share;
+    } push = { b->columns >> level, b->rows >> level, share, coarse_share };
     const uint32_t side = kernel == KD_KERNEL_BLOOM_UP ? 2 : 1; /* cells along it of an invocation */
     const uint64_t invocations = (uint64_t)((push.columns + side - 1) / side) * ((push.rows + side - 1) / side);
     kernel += kd_kernels_cells_as_texels(j->r->vk, b) ? 1 : 0;
     enum kd_status status = kd_kernels_get(&j->r->kernels, j->r->vk, kernel, NULL, 0, &pipeline, j->error);
-    const struct kd_vk_dispatch d = { kd_passes[KD_PASS_BLOOM].name, pipeline, { bindings[0], bindings[1], bindings[2] }, &push, { kd_frame_groups(invocations) } };
+    const struct kd_vk_dispatch d = { kd_passes[KD_PASS_BLOOM].name,
+                                      pipeline,
+                                      { bindings[0], bindings[1], bindings[2] },
+                                      &push,
+                                      { kd_frame_groups(invocations) } };
     return status ? status : kd_vk_dispatch(j->r->vk, &d, j->error);
 }
 
@@ -100,13 +136,15 @@ static enum kd_status down(struct kd_frame_job *j, uint32_t level)
     return make(j, KD_KERNEL_BLOOM_DOWN, level, 0, 0, bindings);
 }
 
-/* The sum of a grid and all coarser ones. Behind the coarsest there is none: its own light, which is finite, counts nothing there. */
+/* The sum of a grid and all coarser ones. Behind the coarsest there is none: its own light, which is finite, counts
+ * nothing there. */
 static enum kd_status up(struct kd_frame_job *j, uint32_t level)
 {
     const struct kd_bloom *b = &j->plan->bloom;
     const bool last = level + 1 == b->levels;
     const uint64_t n = kd_bloom_cells(b, level);
-    const struct kd_vk_binding bindings[3] = { last ? range(j, b->light[level], n, false) : range(j, b->sums[level + 1], n / 4, false),
+    const struct kd_vk_binding bindings[3] = { last ? range(j, b->light[level], n, false)
+                                                    : range(j, b->sums[level + 1], n / 4, false),
                                                range(j, b->light[level], n, false), range(j, b->sums[level], n, true) };
     return make(j, KD_KERNEL_BLOOM_UP, level, (float)b->share, last ? 0 : 1, bindings);
 }

@@ -13,23 +13,34 @@ static void bring_light(struct kd_plan *plan)
     plan->device_bytes += 2 * kd_plan_readback_bytes(plan);
 }
 
-enum kd_status kd_blur_plan(unsigned samples, double shutter, const struct kd_capacity *capacity, struct kd_plan *plan, struct kd_error *error)
+enum kd_status kd_blur_plan(unsigned samples, double shutter, const struct kd_capacity *capacity, struct kd_plan *plan,
+                            struct kd_error *error)
 {
     if (plan->eyes == 2)
-        return kd_error_field(error, "/camera/stereo", "camera.stereo is \"pair\", allowed with motion_blur is \"none\"");
+        return kd_error_field(error, "/camera/stereo",
+                              "camera.stereo is \"pair\", allowed with motion_blur is \"none\"");
     if (plan->cut.width)
-        return kd_error_field(error, "/image/tile/width", "image.tile.width is %u, allowed with motion_blur is 0: the whole picture", plan->cut.width);
+        return kd_error_field(error, "/image/tile/width",
+                              "image.tile.width is %u, allowed with motion_blur is 0: the whole picture",
+                              plan->cut.width);
     if (plan->strips)
-        return kd_error_set(error, KD_ETOOBIG, "the picture does not fit on the device in one, only in %u strips, which motion_blur does not take: lower image.width and image.height", plan->strips);
+        return kd_error_set(error, KD_ETOOBIG,
+                            "the picture does not fit on the device in one, only in %u strips, which motion_blur does "
+                            "not take: lower image.width and image.height",
+                            plan->strips);
     if (!plan->picture || plan->n_layers)
-        return kd_error_field(error, "/image/layers", "image.layers names numbers, allowed with motion_blur is \"rgb\": only light has a mean that can be seen");
+        return kd_error_field(
+            error, "/image/layers",
+            "image.layers names numbers, allowed with motion_blur is \"rgb\": only light has a mean that can be seen");
     bring_light(plan);
     plan->blur.samples = samples;
     plan->blur.shutter = shutter;
     plan->host_bytes += (uint64_t)(SUM + LIGHT) * plan->width * plan->height;
     plan->estimate_ms *= samples;
     if (capacity->host_bytes && plan->host_bytes > capacity->host_bytes)
-        return kd_error_set(error, KD_ETOOBIG, "the picture and the light that its motion blur adds up take %.3g GB of this machine's memory, of which %.3g GB are left",
+        return kd_error_set(error, KD_ETOOBIG,
+                            "the picture and the light that its motion blur adds up take %.3g GB of this machine's "
+                            "memory, of which %.3g GB are left",
                             1e-9 * (double)plan->host_bytes, 1e-9 * (double)capacity->host_bytes);
     return KD_OK;
 }
@@ -47,7 +58,10 @@ static bool go_on(void *user, double fraction)
     return !b->progress || b->progress(b->user, (part->done + fraction) / b->blur->samples);
 }
 
-static bool wanted(void *user) { return ((const struct part *)user)->blurred->glance->wanted(((const struct part *)user)->blurred->user); }
+static bool wanted(void *user)
+{
+    return ((const struct part *)user)->blurred->glance->wanted(((const struct part *)user)->blurred->user);
+}
 
 static void seen(void *user, const struct kd_frame *frame, uint32_t rows)
 {
@@ -55,7 +69,8 @@ static void seen(void *user, const struct kd_frame *frame, uint32_t rows)
     b->glance->seen(b->user, frame, rows);
 }
 
-static enum kd_status add(const struct kd_blurred *b, struct part *part, unsigned sample, struct kd_light_sum *sum, struct kd_error *error)
+static enum kd_status add(const struct kd_blurred *b, struct part *part, unsigned sample, struct kd_light_sum *sum,
+                          struct kd_error *error)
 {
     struct kd_scene scene;
     struct kd_capacity capacity;
@@ -65,12 +80,17 @@ static enum kd_status add(const struct kd_blurred *b, struct part *part, unsigne
     kd_renderer_capacity(b->renderer, &capacity);
     KD_TRY(b->blur->scene(b->blur, sample, &scene, error));
     KD_TRY(kd_plan_make(&scene, &capacity, &plan, error));
-    if (plan.width != b->plan->width || plan.height != b->plan->height || plan.eyes != b->plan->eyes || !plan.picture || plan.n_layers)
-        KD_TRY(kd_error_field(error, "/image", "the picture is of another size or kind at the end of the shutter's opening than at its begin: motion_blur takes one"));
+    if (plan.width != b->plan->width || plan.height != b->plan->height || plan.eyes != b->plan->eyes || !plan.picture ||
+        plan.n_layers)
+        KD_TRY(kd_error_field(error, "/image",
+                              "the picture is of another size or kind at the end of the shutter's opening than at its "
+                              "begin: motion_blur takes one"));
     if (plan.strips || plan.cut.width)
-        KD_TRY(kd_error_set(error, KD_ETOOBIG, "a picture of the blurred frame does not fit on the device in one any more"));
+        KD_TRY(kd_error_set(error, KD_ETOOBIG,
+                            "a picture of the blurred frame does not fit on the device in one any more"));
     bring_light(&plan);
-    KD_TRY(b->aside ? kd_render_aside(b->renderer, &scene, &plan, go_on, NULL, part, &frame, error) : kd_render(b->renderer, &scene, &plan, go_on, part, &frame, error));
+    KD_TRY(b->aside ? kd_render_aside(b->renderer, &scene, &plan, go_on, NULL, part, &frame, error)
+                    : kd_render(b->renderer, &scene, &plan, go_on, part, &frame, error));
     const float *light = frame.layers[1].data;
     for (size_t i = 0; i < (size_t)3 * frame.width * frame.height; i++)
         sum->sum[i] += light[i];
@@ -87,11 +107,13 @@ enum kd_status kd_render_blurred(const struct kd_blurred *b, struct kd_frame *ou
     struct part part = { b, 0 };
     const unsigned n = b->blur->samples;
     struct kd_light_sum others = { calloc((size_t)b->plan->width * b->plan->height, SUM) };
-    enum kd_status status = others.sum ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for the light of a blurred picture");
+    enum kd_status status =
+        others.sum ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for the light of a blurred picture");
     for (; part.done < n - 1 && !status; part.done++)
         status = add(b, &part, n - 1 - part.done, &others, error);
     if (!status)
-        status = kd_render_mean(b->renderer, b->scene, b->plan, &others, b->aside, go_on, b->glance ? &looks : NULL, &part, out, error);
+        status = kd_render_mean(b->renderer, b->scene, b->plan, &others, b->aside, go_on, b->glance ? &looks : NULL,
+                                &part, out, error);
     if (!status)
         out->others_traced = others.traced;
     free(others.sum);

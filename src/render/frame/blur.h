@@ -1,5 +1,6 @@
-/* Motion blur: the light of a picture is the mean of that of several, at times while a shutter is open; exposure, glare and tone curve come after. It is linear light that is
- * averaged, of each pixel, on the host, in double precision. The thread that has the renderer. */
+/* Motion blur: the light of a picture is the mean of that of several, at times while a shutter is open; exposure,
+ * glare and tone curve come after. It is linear light that is averaged, of each pixel, on the host, in double
+ * precision. The thread that has the renderer. */
 #ifndef KD_RENDER_FRAME_BLUR_H
 #define KD_RENDER_FRAME_BLUR_H
 
@@ -15,9 +16,11 @@ struct kd_blur {
     enum kd_status (*scene)(const struct kd_blur *blur, unsigned sample, struct kd_scene *out, struct kd_error *error);
 };
 
-/* Makes a picture's plan one of its mean with others: bytes, time, and what its file says of it. KD_EINVAL at a field of a scene that cannot be blurred, a pair of eyes or a map of
- * numbers; KD_ETOOBIG: the host has no memory for the light. */
-enum kd_status kd_blur_plan(unsigned samples, double shutter, const struct kd_capacity *capacity, struct kd_plan *plan, struct kd_error *error);
+/* Makes a picture's plan one of its mean with others: bytes, time, and what its file says of it. KD_EINVAL at a
+ * field of a scene that cannot be blurred, a pair of eyes or a map of numbers; KD_ETOOBIG: the host has no memory
+ * for the light. */
+enum kd_status kd_blur_plan(unsigned samples, double shutter, const struct kd_capacity *capacity, struct kd_plan *plan,
+                            struct kd_error *error);
 
 /* How kd_render and kd_render_aside (aside; glance: of sample 0, which comes last, without the others) are called. */
 struct kd_blurred {

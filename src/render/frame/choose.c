@@ -38,7 +38,8 @@ static int bend(const uint16_t *above, const uint16_t *row, const uint16_t *belo
     for (size_t c = CHANNELS * (size_t)x; c < CHANNELS * (size_t)x + CHANNELS; c++) {
 #define AT(line, side) ((side) ? (line)[(ptrdiff_t)c + (side)] : 0)
         const int twice = 2 * row[c];
-        const int ends[] = { AT(row, left) + AT(row, right), above[c] + below[c], AT(above, left) + AT(below, right), AT(above, right) + AT(below, left) };
+        const int ends[] = { AT(row, left) + AT(row, right), above[c] + below[c], AT(above, left) + AT(below, right),
+                             AT(above, right) + AT(below, left) };
         for (int k = 0; k < 4; k++)
             most = abs(ends[k] - twice) > most ? abs(ends[k] - twice) : most;
     }
@@ -46,13 +47,15 @@ static int bend(const uint16_t *above, const uint16_t *row, const uint16_t *belo
 }
 
 /* The pixels from a bend of `floor` on; *sum: of the squares of all bends, theirs and the others'. */
-static enum kd_status bends(const struct kd_shown *now, int floor, struct kd_choice *out, double *sum, struct kd_error *error)
+static enum kd_status bends(const struct kd_shown *now, int floor, struct kd_choice *out, double *sum,
+                            struct kd_error *error)
 {
     const size_t row = CHANNELS * (size_t)now->width;
     uint16_t *dark = calloc(row, sizeof *dark);
     enum kd_status status = dark ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for a row of pixels");
     for (uint32_t y = 0; y < now->height && !status; y++) {
-        const uint16_t *own = now->pixels + y * row, *above = y ? own - row : dark, *below = y + 1 < now->height ? own + row : dark;
+        const uint16_t *own = now->pixels + y * row, *above = y ? own - row : dark,
+                       *below = y + 1 < now->height ? own + row : dark;
         for (uint32_t x = 0; x < now->width && !status; x++) {
             if (now->kinds[y * (size_t)now->width + x] >= now->done)
                 continue;
@@ -66,7 +69,8 @@ static enum kd_status bends(const struct kd_shown *now, int floor, struct kd_cho
     return status;
 }
 
-/* The bend below which pixels are left out: at most `least`, and so low that what is left out sums to KD_CHOOSE_LEFT of the squares at most. */
+/* The bend below which pixels are left out: at most `least`, and so low that what is left out sums to KD_CHOOSE_LEFT
+ * of the squares at most. */
 static double threshold(const struct kd_choice *c, double floor, double least, double sum)
 {
     double squares[BINS] = { 0 }, left = sum;
@@ -82,7 +86,8 @@ static double threshold(const struct kd_choice *c, double floor, double least, d
     return floor + (least - floor) * bin / BINS;
 }
 
-enum kd_status kd_choose_bent(const struct kd_shown *now, double pixel_error, struct kd_choice *out, struct kd_error *error)
+enum kd_status kd_choose_bent(const struct kd_shown *now, double pixel_error, struct kd_choice *out,
+                              struct kd_error *error)
 {
     const double least = fmax(ceil(2 * pixel_error * WHITE), 1), floor = fmax(ceil(least * KD_CHOOSE_FLOOR), 1);
     double sum = 0;
@@ -123,12 +128,14 @@ static void mark_round(const struct kd_shown *now, struct kd_pixel p, uint32_t s
         }
 }
 
-enum kd_status kd_choose_beside(const struct kd_shown *now, const uint16_t *before, const struct kd_critical_pixels *lists, size_t n,
-                                double pixel_error, struct kd_choice *out, struct kd_error *error)
+enum kd_status kd_choose_beside(const struct kd_shown *now, const uint16_t *before,
+                                const struct kd_critical_pixels *lists, size_t n, double pixel_error,
+                                struct kd_choice *out, struct kd_error *error)
 {
     const uint32_t least = (uint32_t)fmax(ceil(pixel_error * WHITE), 1);
     uint16_t *marks = calloc((size_t)now->width * now->height, sizeof *marks);
-    enum kd_status status = marks ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for the pixels that need more rays");
+    enum kd_status status =
+        marks ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for the pixels that need more rays");
     *out = (struct kd_choice) { 0 };
     for (const struct kd_critical_pixels *list = lists; list < lists + n && !status; list++)
         for (size_t i = 0; i < list->n; i++) {
@@ -139,7 +146,8 @@ enum kd_status kd_choose_beside(const struct kd_shown *now, const uint16_t *befo
         }
     for (size_t at = 0; !status && at < (size_t)now->width * now->height; at++)
         if (marks[at])
-            status = kd_choice_add(out, (struct kd_pixel) { (uint32_t)(at % now->width), (uint32_t)(at / now->width) }, marks[at], error);
+            status = kd_choice_add(out, (struct kd_pixel) { (uint32_t)(at % now->width), (uint32_t)(at / now->width) },
+                                   marks[at], error);
     free(marks);
     if (status)
         kd_choice_finish(out);

@@ -17,11 +17,16 @@ static enum kd_status measure(struct kd_frame_job *j)
         const uint32_t push[] = { pixels, pixels > 1 << 17 ? 7 : 1 };
         uint32_t n = kd_frame_groups(pixels / push[1] / 64 + 1); /* each invocation counts some 64 pixels */
         const struct kd_vk_dispatch d = {
-            kd_passes[KD_PASS_EXPOSE].name, expose, { { kd_frame_band_light(j, band), 0, 0, false }, { s->histogram, 0, 0, true } }, push, { n },
+            kd_passes[KD_PASS_EXPOSE].name,
+            expose,
+            { { kd_frame_band_light(j, band), 0, 0, false }, { s->histogram, 0, 0, true } },
+            push,
+            { n },
         };
         KD_TRY(kd_vk_dispatch(vk, &d, j->error));
     }
-    KD_TRY(kd_vk_copy(vk, kd_passes[KD_PASS_EXPOSE].name, s->counts, 0, s->histogram, 0, 4 * KD_HISTOGRAM_BINS, j->error));
+    KD_TRY(
+        kd_vk_copy(vk, kd_passes[KD_PASS_EXPOSE].name, s->counts, 0, s->histogram, 0, 4 * KD_HISTOGRAM_BINS, j->error));
     KD_TRY(kd_vk_submit(vk, NULL, j->error));
     KD_TRY(kd_vk_wait(vk, 0, j->error));
 done:
@@ -62,7 +67,8 @@ enum kd_status kd_frame_expose(struct kd_frame_job *j)
         return KD_OK;
     enum kd_status status = measure(j);
     if (!status) {
-        const double stops = auto_exposure(kd_vk_buffer_map(j->store->counts), scene->style.tone_map, j->plan->beam.cell);
+        const double stops =
+            auto_exposure(kd_vk_buffer_map(j->store->counts), scene->style.tone_map, j->plan->beam.cell);
         j->frame->exposure = kd_plan_exposure(j->plan, fmin(stops, kd_scene_exposure_most(scene)));
     }
     return status;

@@ -42,10 +42,12 @@ done:
     return status;
 }
 
-/* Kernels that are not there yet are made at once, those that take longest, and while emitters make something on the host. */
+/* Kernels that are not there yet are made at once, those that take longest, and while emitters make something on the
+ * host. */
 static enum kd_status make_kernels(struct kd_frame_job *j)
 {
-    const struct kd_critical_lattice lattices[] = { { 0 }, kd_critical_lattice(j->plan->critical ? j->plan->critical : 1) };
+    const struct kd_critical_lattice lattices[] = { { 0 },
+                                                    kd_critical_lattice(j->plan->critical ? j->plan->critical : 1) };
     const struct kd_vk_pipeline *later;
     const bool traces = j->plan->planes && !kd_store_has(j->store, j->plan);
     enum kd_status status = KD_OK;

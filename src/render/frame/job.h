@@ -12,7 +12,7 @@ struct kd_frame_job {
     struct kd_renderer *r;
     struct kd_store *store;
     struct kd_prepared *prepared;
-    bool aside; /* progress may render */
+    bool aside;                                /* progress may render */
     struct kd_vk_time times[KD_VK_MAX_PASSES]; /* of an aside: of what is done, */
     size_t n_times;
     double away_ms; /* and what its progress took */
@@ -23,29 +23,33 @@ struct kd_frame_job {
     struct kd_lens_map *lens;
     struct kd_star_key star_key; /* what the light of stars is made of in this frame, */
     bool stars_kept;             /* and whether it is there already */
-    uint64_t undecided;  /* listed rays that an engine gave up */
-    double listed_ms, audit_ms; /* the host's time for them, and for the audit */
+    uint64_t undecided;          /* listed rays that an engine gave up */
+    double listed_ms, audit_ms;  /* the host's time for them, and for the audit */
     kd_progress_fn progress;
     const struct kd_glance *glance;
     void *user;
-    double done, weight; /* rows so far, of all passes */
-    uint32_t lit;        /* rows of pixels from the top whose light is there */
-    bool looking;        /* they are being looked at */
-    uint8_t *kinds;      /* of each pixel, KD_REFINED_...; NULL unless image.samples is "auto" */
-    bool teaches;               /* what passes cost, */
-    struct kd_waiting waiting;  /* but for the time that its threads waited for a core */
+    double done, weight;       /* rows so far, of all passes */
+    uint32_t lit;              /* rows of pixels from the top whose light is there */
+    bool looking;              /* they are being looked at */
+    uint8_t *kinds;            /* of each pixel, KD_REFINED_...; NULL unless image.samples is "auto" */
+    bool teaches;              /* what passes cost, */
+    struct kd_waiting waiting; /* but for the time that its threads waited for a core */
     struct kd_frame *frame;
     struct kd_error *error;
 };
 
-/* Learn from the device times of a frame: nanoseconds an item as they are when nothing else wants the cores, smoothed. */
+/* Learn from the device times of a frame: nanoseconds an item as they are when nothing else wants the cores,
+ * smoothed. */
 void kd_frame_learn_begin(struct kd_frame_job *job);
 void kd_frame_learn(struct kd_frame_job *job, const struct kd_frame *frame);
 
 /* So many rows more are done. Cancelled: KD_ECANCELLED. */
 enum kd_status kd_frame_report(struct kd_frame_job *job, double rows);
 
-static inline uint32_t kd_frame_band_first(const struct kd_frame_job *j, uint32_t band) { return band * j->plan->band_rows; }
+static inline uint32_t kd_frame_band_first(const struct kd_frame_job *j, uint32_t band)
+{
+    return band * j->plan->band_rows;
+}
 static inline uint32_t kd_frame_band_rows(const struct kd_frame_job *j, uint32_t band)
 {
     uint32_t left = j->plan->height - kd_frame_band_first(j, band);
@@ -66,7 +70,10 @@ static inline struct kd_vk_buffer *kd_frame_band_lens(const struct kd_frame_job 
 {
     return j->lens->bands.buffers[j->plan->cacheable ? band : 0];
 }
-static inline uint32_t kd_frame_groups(uint64_t items) { return (uint32_t)((items + KD_GROUP_SIZE - 1) / KD_GROUP_SIZE); }
+static inline uint32_t kd_frame_groups(uint64_t items)
+{
+    return (uint32_t)((items + KD_GROUP_SIZE - 1) / KD_GROUP_SIZE);
+}
 
 /* Render by job's scene and plan, into *out. */
 enum kd_status kd_frame_run(struct kd_frame_job *job, struct kd_frame *out);
@@ -79,7 +86,8 @@ void kd_frame_collect_timings(struct kd_frame_job *job, struct kd_frame *frame, 
 enum kd_status kd_frame_send_cameras(struct kd_frame_job *job);
 /* The lens map, unless it is reused, and from it the radiance of all bands. */
 enum kd_status kd_frame_light(struct kd_frame_job *job, bool reused);
-/* Light of listed pixels, row by row in the list, by so many rays each (view/critical_pixels.h); what they had before is lost. */
+/* Light of listed pixels, row by row in the list, by so many rays each (view/critical_pixels.h); what they had
+ * before is lost. */
 struct kd_frame_list {
     const struct kd_critical_pixels *pixels;
     struct kd_critical_lattice lattice;  /* where each has how many, */
@@ -87,14 +95,14 @@ struct kd_frame_list {
     uint64_t most;                       /* pixels that one buffer holds the lens map of */
     struct kd_vk_buffer *const *buffers; /* for the first `most` of them, the next, ... */
     bool again;                          /* or one for all, in turn: nothing is kept */
-    bool between;                        /* their rays are not followed, but interpolated; on pixels where that is right (frame/lens.h) */
-    bool layers;                         /* layers of light likewise, or of the picture alone */
-    const char *pass;                    /* that their time counts for; NULL: as that of the others */
+    bool between;     /* their rays are not followed, but interpolated; on pixels where that is right (frame/lens.h) */
+    bool layers;      /* layers of light likewise, or of the picture alone */
+    const char *pass; /* that their time counts for; NULL: as that of the others */
 };
 /* needed: the lens map is not there yet. */
 enum kd_status kd_frame_light_list(struct kd_frame_job *job, const struct kd_frame_list *list, bool needed);
-/* Footprints of rows of rays of a buffer, or of a range of rays on listed pixels, all of which are traced with those next to them.
- * Recorded, not submitted. Nothing where the plan has none. */
+/* Footprints of rows of rays of a buffer, or of a range of rays on listed pixels, all of which are traced with those
+ * next to them. Recorded, not submitted. Nothing where the plan has none. */
 struct kd_footprint_area {
     struct kd_vk_buffer *lens;
     const struct kd_critical_lattice *lattice; /* NULL: the grid */
@@ -102,55 +110,72 @@ struct kd_footprint_area {
 };
 enum kd_status kd_frame_footprint(struct kd_frame_job *job, const struct kd_footprint_area *area);
 /* Its kernel; lattice: of listed pixels, NULL: of the grid. *out is NULL where no light needs footprints. */
-enum kd_status kd_frame_footprint_kernel(struct kd_frame_job *job, const struct kd_critical_lattice *lattice, const struct kd_vk_pipeline **out);
-/* Spreads the points of light that the rays of a band see, and of the rows next to it where the whole map is kept, over its pixels; nothing where
- * that light is there from the frame before. Its map must be whole. The bands of a frame from the first to the last. */
+enum kd_status kd_frame_footprint_kernel(struct kd_frame_job *job, const struct kd_critical_lattice *lattice,
+                                         const struct kd_vk_pipeline **out);
+/* Spreads the points of light that the rays of a band see, and of the rows next to it where the whole map is kept,
+ * over its pixels; nothing where that light is there from the frame before. Its map must be whole. The bands of a
+ * frame from the first to the last. */
 enum kd_status kd_frame_stars(struct kd_frame_job *job, uint32_t band);
 /* All of its kernels. */
 enum kd_status kd_frame_star_kernels(struct kd_frame_job *job);
 /* Whether that light is there: to be told as soon as the emitters are. */
 void kd_frame_begin_stars(struct kd_frame_job *job);
-/* Where the rim of the job's lens map is, if it has one (view/rim.h); and its rays, if they were not followed before. */
+/* Where the rim of the job's lens map is, if it has one (view/rim.h); and its rays, if they were not followed
+ * before. */
 void kd_frame_find_rim(struct kd_frame_job *job);
 enum kd_status kd_frame_trace_rim(struct kd_frame_job *job);
-/* Layers of light that the march has brought, of what it left in the radiance (kd_plan_gathers): as far as there is light. Recorded, not submitted. */
+/* Layers of light that the march has brought, of what it left in the radiance (kd_plan_gathers): as far as there is
+ * light. Recorded, not submitted. */
 enum kd_status kd_frame_gather(struct kd_frame_job *job);
 /* Rays of the whole map that were given up. */
 enum kd_status kd_frame_undecided(struct kd_frame_job *job, uint64_t *out);
 
-/* Tells the light of the plan's pixel, if it lies in this band, whose lens map must be there; and, when all light is, what became of it. */
+/* Tells the light of the plan's pixel, if it lies in this band, whose lens map must be there; and, when all light
+ * is, what became of it. */
 enum kd_status kd_frame_tell(struct kd_frame_job *job, uint32_t band);
 enum kd_status kd_frame_tell_pixel(struct kd_frame_job *job);
 
-/* Follows rays through volumes once more on a sample of this band's pixels, as the picture has them and more closely, and, when all have been, says in the frame's
- * accuracy how far apart these are. Nothing where there are no volumes. */
+/* Follows rays through volumes once more on a sample of this band's pixels, as the picture has them and more
+ * closely, and, when all have been, says in the frame's accuracy how far apart these are. Nothing where there are no
+ * volumes. */
 enum kd_status kd_frame_sample_march(struct kd_frame_job *job, uint32_t band);
 enum kd_status kd_frame_march_error(struct kd_frame_job *job);
 
-/* Adds up the light of all bands, and sends the sums to the host; waits for them, and makes the frame's flux and centroid of them. */
+/* Adds up the light of all bands, and sends the sums to the host; waits for them, and makes the frame's flux and
+ * centroid of them. */
 enum kd_status kd_frame_add_light(struct kd_frame_job *job);
 enum kd_status kd_frame_read_light(struct kd_frame_job *job);
 /* The light of all bands becomes the mean with j->others; waits for the device. */
 enum kd_status kd_frame_mean(struct kd_frame_job *job);
-/* Light as a telescope's beam sees what is lit, which the passes behind it take for light; nothing where the plan has no beam. */
+/* Light as a telescope's beam sees what is lit, which the passes behind it take for light; nothing where the plan
+ * has no beam. */
 enum kd_status kd_frame_beam(struct kd_frame_job *job);
 /* The exposure of what is lit; waits for the device where it is "auto". */
 enum kd_status kd_frame_expose(struct kd_frame_job *job);
-/* More rays for the pixels that need them, at the frame's exposure: into j->kinds which have what. And how far off the picture is then, into the
- * frame's accuracy; what is lit is no longer right afterwards. */
-enum { KD_REFINED_NOT, KD_REFINED_NOT_AT_CURVE, KD_REFINED_AT_CURVE, KD_REFINED_FOLLOWED, KD_REFINED_BETWEEN, KD_REFINED_KINDS };
+/* More rays for the pixels that need them, at the frame's exposure: into j->kinds which have what. And how far off
+ * the picture is then, into the frame's accuracy; what is lit is no longer right afterwards. */
+enum {
+    KD_REFINED_NOT,
+    KD_REFINED_NOT_AT_CURVE,
+    KD_REFINED_AT_CURVE,
+    KD_REFINED_FOLLOWED,
+    KD_REFINED_BETWEEN,
+    KD_REFINED_KINDS
+};
 enum kd_status kd_frame_refine(struct kd_frame_job *job);
 enum kd_status kd_frame_residual(struct kd_frame_job *job);
-/* The picture as it is shown, at 16 bits without dither, glare, beam or palette, row by row to the host; waits for the device. */
+/* The picture as it is shown, at 16 bits without dither, glare, beam or palette, row by row to the host; waits for
+ * the device. */
 enum kd_status kd_frame_bare(struct kd_frame_job *job, uint16_t *to);
-/* What a lens spreads of what is lit, in j->store->bloom, at the frame's exposure; nothing where the plan has no bloom. */
+/* What a lens spreads of what is lit, in j->store->bloom, at the frame's exposure; nothing where the plan has no
+ * bloom. */
 enum kd_status kd_frame_bloom(struct kd_frame_job *job);
 /* Pixels of what is lit, on the host. */
 enum kd_status kd_frame_post(struct kd_frame_job *job);
 /* All of these one after the other: from light to pixels. */
 enum kd_status kd_frame_show(struct kd_frame_job *job);
-/* Room for the layers of a plan behind the picture; and they, as far as there is light, on the host. One that is asked for alone takes
- * the place of the picture, in false colour. */
+/* Room for the layers of a plan behind the picture; and they, as far as there is light, on the host. One that is
+ * asked for alone takes the place of the picture, in false colour. */
 enum kd_status kd_frame_add_layers(struct kd_frame *frame, const struct kd_plan *plan, struct kd_error *error);
 enum kd_status kd_frame_layers(struct kd_frame_job *job);
 

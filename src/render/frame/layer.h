@@ -1,6 +1,7 @@
 /* A frame holds layers, each a value or a few for every pixel. The first is "rgb", the picture as it is shown,
- * which is the one map that is asked for in false colour; behind it may be "radiance", linear sRGB in units of the brightest surface
- * brightness of the disk at g = 1, and maps by their names (plan/layer_kinds.h), where NaN stands for nothing. */
+ * which is the one map that is asked for in false colour; behind it may be "radiance", linear sRGB in units of the
+ * brightest surface brightness of the disk at g = 1, and maps by their names (plan/layer_kinds.h), where NaN stands
+ * for nothing. */
 #ifndef KD_RENDER_FRAME_LAYER_H
 #define KD_RENDER_FRAME_LAYER_H
 
@@ -29,7 +30,8 @@ struct kd_frame;
 /* Adds one more layer of the frame's size, its data not yet set. KD_ENOMEM. */
 enum kd_status kd_frame_add_layer(struct kd_frame *frame, const char *name, uint32_t channels, enum kd_layer_type type,
                                   struct kd_error *error);
-const struct kd_layer *kd_frame_layer(const struct kd_frame *frame, const char *name); /* NULL: it has none of that name */
-void kd_frame_drop_layers(struct kd_frame *frame); /* all else is still there */
+const struct kd_layer *kd_frame_layer(const struct kd_frame *frame,
+                                      const char *name); /* NULL: it has none of that name */
+void kd_frame_drop_layers(struct kd_frame *frame);       /* all else is still there */
 
 #endif

@@ -22,7 +22,8 @@ enum kd_status kd_frame_add_layers(struct kd_frame *frame, const struct kd_plan 
 }
 
 /* Reads one band of a layer, as far as there is light. */
-static enum kd_status read_band(struct kd_frame_job *j, uint32_t band, struct kd_vk_buffer *from, uint64_t offset, const struct kd_layer *to)
+static enum kd_status read_band(struct kd_frame_job *j, uint32_t band, struct kd_vk_buffer *from, uint64_t offset,
+                                const struct kd_layer *to)
 {
     struct kd_vk *vk = j->r->vk;
     size_t pixel = kd_layer_pixel_bytes(to), bytes = pixel * j->plan->width * kd_frame_band_lit(j, band);
@@ -45,12 +46,14 @@ static enum kd_status read_all(struct kd_frame_job *j)
         if (p->radiance)
             status = read_band(j, band, j->store->radiance.buffers[band], 0, layer);
         for (size_t i = 0; i < p->n_layers && !status; i++)
-            status = read_band(j, band, j->store->layers.buffers[band], i * kd_plan_layer_bytes(p), &layer[i + (p->radiance ? 1 : 0)]);
+            status = read_band(j, band, j->store->layers.buffers[band], i * kd_plan_layer_bytes(p),
+                               &layer[i + (p->radiance ? 1 : 0)]);
     }
     return status;
 }
 
-/* Finds the least and largest of the numbers, of a logarithmic scale those above 0; 0 and 1, or 1 and 10, where there are none. */
+/* Finds the least and largest of the numbers, of a logarithmic scale those above 0; 0 and 1, or 1 and 10, where
+ * there are none. */
 static struct kd_map_scale extent_of(const float *values, size_t n, bool logarithmic)
 {
     struct kd_map_scale extent = { INFINITY, -INFINITY, false };
@@ -63,20 +66,23 @@ static struct kd_map_scale extent_of(const float *values, size_t n, bool logarit
     return extent.low <= extent.high ? extent : (struct kd_map_scale) { logarithmic, logarithmic ? 10 : 1, false };
 }
 
-/* What the field table has says, else the kind, else the picture. A diverging map has its middle at 1 where it is logarithmic, else at 0,
- * so that its ends are as far from there. */
-static struct kd_map_scale scale_of(const struct kd_scene *scene, const struct kd_layer_kind *kind, const float *values, size_t n)
+/* What the field table has says, else the kind, else the picture. A diverging map has its middle at 1 where it is
+ * logarithmic, else at 0, so that its ends are as far from there. */
+static struct kd_map_scale scale_of(const struct kd_scene *scene, const struct kd_layer_kind *kind, const float *values,
+                                    size_t n)
 {
     const struct kd_map_scale extent = extent_of(values, n, kind->scale.logarithmic);
     struct kd_map_scale scale = kind->scale;
     double most = fmax(extent.high, 1 / fmax(extent.low, 1e-3));
-    bool about_one = kind->map == KD_MAP_DIVERGING && scale.logarithmic, about_zero = kind->map == KD_MAP_DIVERGING && !scale.logarithmic;
+    bool about_one = kind->map == KD_MAP_DIVERGING && scale.logarithmic,
+         about_zero = kind->map == KD_MAP_DIVERGING && !scale.logarithmic;
     double far = fmax(fmax(extent.high, -extent.low), 1e-30);
     scale.low = !isnan(scale.low) ? scale.low : about_one ? 1 / fmax(most, 1.01) : about_zero ? -far : extent.low;
     scale.high = !isnan(scale.high) ? scale.high : about_one ? fmax(most, 1.01) : about_zero ? far : extent.high;
     scale.low = isfinite(scene->image.layer_min) ? scene->image.layer_min : scale.low;
     scale.high = isfinite(scene->image.layer_max) ? scene->image.layer_max : scale.high;
-    /* One end that was set may lie beyond all numbers: then they are all at that end of the colours, which do not turn round. */
+    /* One end that was set may lie beyond all numbers: then they are all at that end of the colours, which do not
+     * turn round. */
     if (scale.low > scale.high && isfinite(scene->image.layer_min))
         scale.high = scale.low + fabs(scale.low) + 1;
     else if (scale.low > scale.high)
@@ -84,15 +90,17 @@ static struct kd_map_scale scale_of(const struct kd_scene *scene, const struct k
     return scale;
 }
 
-static void paint(const struct kd_canvas *to, uint32_t rows, const float *values, const struct kd_legend *legend, const struct kd_map_table *table)
+static void paint(const struct kd_canvas *to, uint32_t rows, const float *values, const struct kd_legend *legend,
+                  const struct kd_map_table *table)
 {
     for (uint32_t y = 0; y < rows; y++)
         for (uint32_t x = 0; x < to->width; x++) {
             double value = values[(size_t)y * to->width + x];
             struct kd_map_colour c = { 0, 0, 0 };
             if (!isnan(value))
-                c = legend->map == KD_MAP_CATEGORICAL ? table->at[(size_t)fmin(value, KD_MAP_ENTRIES - 1)]
-                                                      : kd_map_table_at(table, kd_map_scale_place(&legend->scale, value));
+                c = legend->map == KD_MAP_CATEGORICAL
+                        ? table->at[(size_t)fmin(value, KD_MAP_ENTRIES - 1)]
+                        : kd_map_table_at(table, kd_map_scale_place(&legend->scale, value));
             kd_canvas_put(to, x, y, c);
         }
 }
@@ -101,7 +109,8 @@ static enum kd_status show(struct kd_frame_job *j)
 {
     const struct kd_layer *layer = &j->frame->layers[1];
     const struct kd_layer_kind *kind = &kd_layer_kinds[j->plan->layers[0].kind];
-    const struct kd_canvas canvas = { kd_frame_pixels(j->frame), j->frame->width, j->frame->height, kd_frame_bit_depth(j->frame) };
+    const struct kd_canvas canvas = { kd_frame_pixels(j->frame), j->frame->width, j->frame->height,
+                                      kd_frame_bit_depth(j->frame) };
     struct kd_map_table *table = malloc(sizeof *table);
     char title[KD_LAYER_NAME + 16];
     size_t n = (size_t)canvas.width * j->lit;
@@ -109,7 +118,10 @@ static enum kd_status show(struct kd_frame_job *j)
         return kd_error_set(j->error, KD_ENOMEM, "out of memory for the colours of a layer");
     snprintf(title, sizeof title, *kind->unit ? "%s (%s)" : "%s", layer->name, kind->unit);
     const struct kd_legend legend = {
-        .title = title, .map = kind->map, .scale = scale_of(j->scene, kind, layer->data, n), .names = kind->classes,
+        .title = title,
+        .map = kind->map,
+        .scale = scale_of(j->scene, kind, layer->data, n),
+        .names = kind->classes,
         .classes = kind->n_classes ? kind->n_classes : (uint32_t)extent_of(layer->data, n, false).high + 1,
     };
     kd_colour_map_fill(table, kind->map);

@@ -18,16 +18,17 @@ static double timing(const struct kd_frame *frame, const char *pass)
     return 0;
 }
 
-/* A device that is the host's processor is slowed down by whatever else runs there. What a pass costs is kept over starts, and
- * planned by: an hour of load must not make a picture too dear for an idle machine. To look at every thread takes 0.1 to 0.3 ms,
- * so that of short frames one in eight teaches. */
+/* A device that is the host's processor is slowed down by whatever else runs there. What a pass costs is kept over
+ * starts, and planned by: an hour of load must not make a picture too dear for an idle machine. To look at every
+ * thread takes 0.1 to 0.3 ms, so that of short frames one in eight teaches. */
 static bool on_the_host(const struct kd_renderer *r) { return kd_vk_info(r->vk)->type == KD_VK_CPU; }
 
 void kd_frame_learn_begin(struct kd_frame_job *job)
 {
     enum { OFTEN = 8 };
     const double LONG_MS = 100;
-    job->teaches = !on_the_host(job->r) || job->r->probing || job->plan->estimate_ms > LONG_MS || job->r->frames++ % OFTEN == 0;
+    job->teaches =
+        !on_the_host(job->r) || job->r->probing || job->plan->estimate_ms > LONG_MS || job->r->frames++ % OFTEN == 0;
     if (job->teaches && on_the_host(job->r))
         job->waiting = kd_waiting_now();
 }
@@ -43,7 +44,9 @@ void kd_frame_learn(struct kd_frame_job *job, const struct kd_frame *frame)
     pthread_mutex_lock(&renderer->lock);
     for (size_t i = 0; i < plan->n_passes; i++) {
         const struct kd_plan_pass *pass = &plan->passes[i];
-        if (pass->figure != KD_NS_NONE && !(pass->figure == KD_NS_RAY_MARCH && job->scene->volume.model == KD_VOLUME_GRID)) /* takes what its cells ask for */
+        if (pass->figure != KD_NS_NONE &&
+            !(pass->figure == KD_NS_RAY_MARCH &&
+              job->scene->volume.model == KD_VOLUME_GRID)) /* takes what its cells ask for */
             smooth(&c->ns[pass->figure], renderer->probing, share * timing(frame, pass->name), pass->invocations);
     }
     c->measured = c->measured || (uint64_t)plan->width * plan->height >= 4096;

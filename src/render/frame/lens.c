@@ -1,4 +1,5 @@
-/* This part of a frame follows rays: it makes the lens map and the light that it brings, band by band, in short submissions. */
+/* This part of a frame follows rays: it makes the lens map and the light that it brings, band by band, in short
+ * submissions. */
 #include "render/frame/lens.h"
 
 #include "render/view/camera.h"
@@ -24,7 +25,8 @@ uint32_t kd_frame_slice(double ns_per_row, uint32_t rows)
 }
 
 /* NULL where no kernel is run for it. l: of the listed pixels; all 0: for the grid. */
-enum kd_status kd_frame_trace_kernel(struct kd_frame_job *j, const struct kd_critical_lattice *l, const struct kd_vk_pipeline **out)
+enum kd_status kd_frame_trace_kernel(struct kd_frame_job *j, const struct kd_critical_lattice *l,
+                                     const struct kd_vk_pipeline **out)
 {
     const struct kd_plan *p = j->plan;
     *out = NULL;
@@ -32,25 +34,41 @@ enum kd_status kd_frame_trace_kernel(struct kd_frame_job *j, const struct kd_cri
         return KD_OK;
     if (p->path == KD_LENS_CLOSED) {
         const struct kd_spec_lens_closed spec = {
-            .QUANTITIES = p->quantities, .ORDERS = p->orders, .SIGHT = kd_camera_sight(j->scene),
-            .CRITICAL = l->rays, .GENERATOR = l->generator, .SHIFT = l->shift,
+            .QUANTITIES = p->quantities,
+            .ORDERS = p->orders,
+            .SIGHT = kd_camera_sight(j->scene),
+            .CRITICAL = l->rays,
+            .GENERATOR = l->generator,
+            .SHIFT = l->shift,
         };
-        return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_LENS_CLOSED, &spec.QUANTITIES, sizeof spec / 4, out, j->error);
+        return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_LENS_CLOSED, &spec.QUANTITIES, sizeof spec / 4, out,
+                              j->error);
     }
     const struct kd_spec_lens_map spec = {
-        .QUANTITIES = p->quantities, .ORDERS = p->orders, .STEPS = p->setting.steps,
-        .METHOD = p->setting.engine == KD_ENGINE_MINO_RKN4 ? 4 : 6, .SIGHT = kd_camera_sight(j->scene),
-        .CRITICAL = l->rays, .GENERATOR = l->generator, .SHIFT = l->shift, .INGOING = p->ingoing,
+        .QUANTITIES = p->quantities,
+        .ORDERS = p->orders,
+        .STEPS = p->setting.steps,
+        .METHOD = p->setting.engine == KD_ENGINE_MINO_RKN4 ? 4 : 6,
+        .SIGHT = kd_camera_sight(j->scene),
+        .CRITICAL = l->rays,
+        .GENERATOR = l->generator,
+        .SHIFT = l->shift,
+        .INGOING = p->ingoing,
     };
-    return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_LENS_MAP, &spec.QUANTITIES, sizeof spec / 4, out, j->error);
+    return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_LENS_MAP, &spec.QUANTITIES, sizeof spec / 4, out,
+                          j->error);
 }
 
-static bool is_layer_of(const struct kd_plan *p, int makes, enum kd_layer_of of) { return makes >= 0 && kd_layer_kinds[p->layers[makes].kind].of == of; }
+static bool is_layer_of(const struct kd_plan *p, int makes, enum kd_layer_of of)
+{
+    return makes >= 0 && kd_layer_kinds[p->layers[makes].kind].of == of;
+}
 
 /* Says whether that is made by the march; numbers of a crossing are where a body may hide it. */
 static bool marches(const struct kd_plan *p, int makes)
 {
-    return p->march.steps && makes != KD_MAKES_RAYS && (makes < 0 || is_layer_of(p, makes, KD_OF_LIGHT) || (p->meets && is_layer_of(p, makes, KD_OF_CROSSING)));
+    return p->march.steps && makes != KD_MAKES_RAYS &&
+           (makes < 0 || is_layer_of(p, makes, KD_OF_LIGHT) || (p->meets && is_layer_of(p, makes, KD_OF_CROSSING)));
 }
 
 uint32_t kd_frame_turns(const struct kd_plan *plan, uint32_t rays, int makes)
@@ -58,17 +76,24 @@ uint32_t kd_frame_turns(const struct kd_plan *plan, uint32_t rays, int makes)
     return makes < 0 && marches(plan, makes) ? rays : 1; /* of layers one ray, or none, is followed */
 }
 
-enum kd_status kd_frame_light_kernel(struct kd_frame_job *j, const struct kd_critical_lattice *l, int makes, const struct kd_vk_pipeline **out)
+enum kd_status kd_frame_light_kernel(struct kd_frame_job *j, const struct kd_critical_lattice *l, int makes,
+                                     const struct kd_vk_pipeline **out)
 {
     const struct kd_plan *p = j->plan;
     const bool march = marches(p, makes);
-    const enum kd_kernel kernel = makes == KD_MAKES_TOLD ? march ? KD_KERNEL_MARCH_TELL : KD_KERNEL_TRANSFER_TELL
-                                  : makes < 0            ? march ? KD_KERNEL_MARCH : KD_KERNEL_TRANSFER + (kd_kernels_map_as_texels(j->r->vk) ? 1 : 0)
-                                  : march                ? KD_KERNEL_LAYERS_MARCH
-                                                         : KD_KERNEL_LAYERS;
+    const enum kd_kernel kernel =
+        makes == KD_MAKES_TOLD ? march ? KD_KERNEL_MARCH_TELL : KD_KERNEL_TRANSFER_TELL
+        : makes < 0 ? march ? KD_KERNEL_MARCH : KD_KERNEL_TRANSFER + (kd_kernels_map_as_texels(j->r->vk) ? 1 : 0)
+        : march     ? KD_KERNEL_LAYERS_MARCH
+                    : KD_KERNEL_LAYERS;
     struct kd_spec_transfer spec = {
-        .QUANTITIES = p->quantities, .ORDERS = p->orders, .SIDE = p->side, .SIGHT = kd_camera_sight(j->scene),
-        .CRITICAL = l->rays, .GENERATOR = l->generator, .SHIFT = l->shift,
+        .QUANTITIES = p->quantities,
+        .ORDERS = p->orders,
+        .SIDE = p->side,
+        .SIGHT = kd_camera_sight(j->scene),
+        .CRITICAL = l->rays,
+        .GENERATOR = l->generator,
+        .SHIFT = l->shift,
         .ORDER = KD_NO_ORDER,
     };
     if (march)
@@ -95,13 +120,15 @@ static bool in_columns(const struct kd_plan *p)
 enum kd_status kd_frame_send_cameras(struct kd_frame_job *j)
 {
     const struct kd_scene critical = kd_critical_camera(j->scene, j->plan->critical ? j->plan->critical : 1);
-    const struct kd_scene dense = kd_critical_camera(j->scene, KD_PLAN_ADAPTIVE_SIDE), truth = kd_critical_camera(j->scene, KD_PLAN_TRUTH_SIDE);
-    const struct kd_scene dense_critical = kd_critical_camera(j->scene, j->plan->critical_dense ? j->plan->critical_dense : 1);
+    const struct kd_scene dense = kd_critical_camera(j->scene, KD_PLAN_ADAPTIVE_SIDE),
+                          truth = kd_critical_camera(j->scene, KD_PLAN_TRUTH_SIDE);
+    const struct kd_scene dense_critical =
+        kd_critical_camera(j->scene, j->plan->critical_dense ? j->plan->critical_dense : 1);
     const struct kd_scene whole = kd_scene_whole(j->scene);
     const struct kd_camera_block cameras[] = {
         [KD_CAMERA_GRID] = kd_camera_block(j->scene), [KD_CAMERA_CRITICAL] = kd_camera_block(&critical),
-        [KD_CAMERA_DENSE] = kd_camera_block(&dense), [KD_CAMERA_DENSE_CRITICAL] = kd_camera_block(&dense_critical),
-        [KD_CAMERA_TRUTH] = kd_camera_block(&truth), [KD_CAMERA_WHOLE] = kd_camera_block(&whole),
+        [KD_CAMERA_DENSE] = kd_camera_block(&dense),  [KD_CAMERA_DENSE_CRITICAL] = kd_camera_block(&dense_critical),
+        [KD_CAMERA_TRUTH] = kd_camera_block(&truth),  [KD_CAMERA_WHOLE] = kd_camera_block(&whole),
     };
     return kd_store_send_cameras(j->store, cameras, j->error);
 }
@@ -117,9 +144,14 @@ static enum kd_status record(struct kd_frame_job *j, const struct slice *s, stru
     const bool rays = makes == KD_MAKES_RAYS, columns = makes == KD_MAKES_PICTURE && in_columns(j->plan);
     const struct kd_plan *p = j->plan;
     struct kd_slice push = {
-        .row0 = s->first * p->side, .rows = s->count * p->side, .band0 = kd_frame_band_first(j, s->band) * p->side,
+        .row0 = s->first * p->side,
+        .rows = s->count * p->side,
+        .band0 = kd_frame_band_first(j, s->band) * p->side,
         .stride = p->width * p->side * p->band_rows * p->side,
-        .steps = p->march.steps, .fine = p->march.fine, .opaque = (float)p->march.opaque, .unseen = (float)p->march.unseen,
+        .steps = p->march.steps,
+        .fine = p->march.fine,
+        .opaque = (float)p->march.opaque,
+        .unseen = (float)p->march.unseen,
     };
     d->push = &push;
     d->groups[0] = kd_frame_groups(rays ? (uint64_t)p->width * p->side : p->width);
@@ -132,7 +164,8 @@ static enum kd_status record(struct kd_frame_job *j, const struct slice *s, stru
 
 enum kd_status kd_frame_list_rays(struct kd_frame_job *j, const struct kd_lens_rows *rows)
 {
-    enum kd_status status = j->plan->march.steps ? kd_vk_wait(j->r->vk, 0, j->error) : KD_OK; /* a march takes long: its time is not these rays' */
+    enum kd_status status = j->plan->march.steps ? kd_vk_wait(j->r->vk, 0, j->error)
+                                                 : KD_OK; /* a march takes long: its time is not these rays' */
     double start = kd_clock_ms();
     if (!status)
         status = kd_lens_listed(j->r, j->scene, j->plan, rows, &j->undecided, j->error);
@@ -145,14 +178,17 @@ static enum kd_status list_slice(struct kd_frame_job *j, const struct slice *s)
     const struct kd_plan *p = j->plan;
     uint64_t width = (uint64_t)p->width * p->side;
     const struct kd_lens_rows rows = {
-        .first = s->first * p->side, .count = s->count * p->side, .to = kd_frame_band_lens(j, s->band),
-        .offset = (s->first - kd_frame_band_first(j, s->band)) * p->side * width, .stride = width * p->band_rows * p->side,
+        .first = s->first * p->side,
+        .count = s->count * p->side,
+        .to = kd_frame_band_lens(j, s->band),
+        .offset = (s->first - kd_frame_band_first(j, s->band)) * p->side * width,
+        .stride = width * p->band_rows * p->side,
     };
     return kd_frame_list_rays(j, &rows);
 }
 
-struct kd_vk_dispatch kd_frame_trace(const struct kd_frame_job *j, const struct kd_vk_pipeline *pipeline, struct kd_vk_buffer *lens,
-                                     int camera)
+struct kd_vk_dispatch kd_frame_trace(const struct kd_frame_job *j, const struct kd_vk_pipeline *pipeline,
+                                     struct kd_vk_buffer *lens, int camera)
 {
     return (struct kd_vk_dispatch) {
         kd_passes[KD_PASS_TRACE].name,
@@ -172,8 +208,8 @@ static enum kd_status trace_slice(struct kd_frame_job *j, const struct slice *s,
     return record(j, s, &d, KD_MAKES_RAYS);
 }
 
-struct kd_vk_dispatch kd_frame_transfer(const struct kd_frame_job *j, const struct kd_vk_pipeline *pipeline, struct kd_vk_buffer *lens,
-                                        uint32_t band, int camera, int makes)
+struct kd_vk_dispatch kd_frame_transfer(const struct kd_frame_job *j, const struct kd_vk_pipeline *pipeline,
+                                        struct kd_vk_buffer *lens, uint32_t band, int camera, int makes)
 {
     struct kd_vk_buffer *own[KD_OWN_COUNT];
     struct kd_vk_dispatch d = {
@@ -188,8 +224,9 @@ struct kd_vk_dispatch kd_frame_transfer(const struct kd_frame_job *j, const stru
         { 0 },
     };
     kd_prepared_buffers(j->prepared, j->plan, own);
-    own[KD_OWN_point_light] = j->plan->points ? j->lens->star_light.buffers[band] : NULL; /* stars.c has made it, band by band */
-    for (int i = 0; i < KD_OWN_COUNT; i++) /* something must be bound where nothing is read */
+    own[KD_OWN_point_light] =
+        j->plan->points ? j->lens->star_light.buffers[band] : NULL; /* stars.c has made it, band by band */
+    for (int i = 0; i < KD_OWN_COUNT; i++)                          /* something must be bound where nothing is read */
         d.bindings[KD_OWN_BINDING + i].buffer = own[i] ? own[i] : j->store->transfer;
     if (makes >= 0) {
         d.bindings[3].buffer = j->store->layers.buffers[band];
@@ -201,8 +238,8 @@ struct kd_vk_dispatch kd_frame_transfer(const struct kd_frame_job *j, const stru
     return d;
 }
 
-/* Some rows of a slice that was just traced can be finished. Footprints need the row of rays below too, and two at the upper edge:
- * they are held back by so much, until the band ends. */
+/* Some rows of a slice that was just traced can be finished. Footprints need the row of rays below too, and two at
+ * the upper edge: they are held back by so much, until the band ends. */
 static struct slice complete(const struct kd_frame_job *j, const struct slice *s)
 {
     if (!kd_plan_has_footprints(j->plan))
@@ -218,8 +255,11 @@ static enum kd_status footprint_slice(struct kd_frame_job *j, const struct slice
     const uint32_t row0 = s->first - kd_frame_band_first(j, s->band), width = p->width * p->side;
     const struct kd_footprint_area area = {
         .lens = kd_frame_band_lens(j, s->band),
-        .push = { .width = width, .rows = kd_frame_band_rows(j, s->band) * p->side, .first = row0 * p->side,
-                  .end = (row0 + s->count) * p->side, .stride = width * p->band_rows * p->side },
+        .push = { .width = width,
+                  .rows = kd_frame_band_rows(j, s->band) * p->side,
+                  .first = row0 * p->side,
+                  .end = (row0 + s->count) * p->side,
+                  .stride = width * p->band_rows * p->side },
     };
     return kd_frame_footprint(j, &area);
 }
@@ -239,15 +279,18 @@ static enum kd_status darken(struct kd_frame_job *j, const struct slice *s)
 {
     const struct kd_plan *p = j->plan;
     struct kd_vk_buffer *radiance = j->store->radiance.buffers[s->band];
-    uint64_t first = (uint64_t)p->width * (s->first - kd_frame_band_first(j, s->band)), n = (uint64_t)p->width * s->count;
+    uint64_t first = (uint64_t)p->width * (s->first - kd_frame_band_first(j, s->band)),
+             n = (uint64_t)p->width * s->count;
     enum kd_status status = KD_OK;
     if (!in_columns(p) || !s->count)
         return KD_OK;
     KD_TRY(kd_vk_fill(j->r->vk, "transfer", radiance, 12 * first, 12 * n, 0, j->error));
     if (p->apart)
-        KD_TRY(kd_vk_fill(j->r->vk, "transfer", radiance, 12ull * p->width * p->band_rows + 4 * first, 4 * n, 0, j->error));
+        KD_TRY(kd_vk_fill(j->r->vk, "transfer", radiance, 12ull * p->width * p->band_rows + 4 * first, 4 * n, 0,
+                          j->error));
     for (uint32_t i = 0; i < p->stokes_words; i++)
-        KD_TRY(kd_vk_fill(j->r->vk, "transfer", radiance, 4ull * ((p->apart ? 4 : 3) + i) * p->width * p->band_rows + 4 * first, 4 * n, 0, j->error));
+        KD_TRY(kd_vk_fill(j->r->vk, "transfer", radiance,
+                          4ull * ((p->apart ? 4 : 3) + i) * p->width * p->band_rows + 4 * first, 4 * n, 0, j->error));
 done:
     return status;
 }
@@ -263,7 +306,8 @@ static enum kd_status light_slice(struct kd_frame_job *j, const struct slice *s)
         status = kd_frame_light_kernel(j, &on_grid, makes, &transfer);
         if (status)
             break;
-        struct kd_vk_dispatch d = kd_frame_transfer(j, transfer, kd_frame_band_lens(j, s->band), s->band, KD_CAMERA_GRID, makes);
+        struct kd_vk_dispatch d =
+            kd_frame_transfer(j, transfer, kd_frame_band_lens(j, s->band), s->band, KD_CAMERA_GRID, makes);
         status = record(j, s, &d, makes);
     }
     return status ? status : kd_vk_submit(j->r->vk, NULL, j->error);
@@ -280,7 +324,8 @@ enum kd_status kd_frame_gather(struct kd_frame_job *j)
         KD_TRY(kd_frame_light_kernel(j, &on_grid, makes, &pipeline));
         for (uint32_t band = 0; band < p->bands && kd_frame_band_lit(j, band); band++) {
             const struct slice s = { band, kd_frame_band_first(j, band), kd_frame_band_lit(j, band) };
-            struct kd_vk_dispatch d = kd_frame_transfer(j, pipeline, kd_frame_band_lens(j, band), band, KD_CAMERA_GRID, makes);
+            struct kd_vk_dispatch d =
+                kd_frame_transfer(j, pipeline, kd_frame_band_lens(j, band), band, KD_CAMERA_GRID, makes);
             KD_TRY(record(j, &s, &d, makes));
         }
     }
@@ -317,7 +362,11 @@ static enum kd_status light_at_curve(struct kd_frame_job *j, bool needed)
         status = kd_critical_kept(j->scene, &j->lens->pixels, j->error);
     }
     const struct kd_frame_list list = {
-        .pixels = &j->lens->pixels, .camera = KD_CAMERA_CRITICAL, .lattice = kd_critical_lattice(j->plan->critical), .most = j->plan->critical_part, .buffers = j->lens->critical.buffers,
+        .pixels = &j->lens->pixels,
+        .camera = KD_CAMERA_CRITICAL,
+        .lattice = kd_critical_lattice(j->plan->critical),
+        .most = j->plan->critical_part,
+        .buffers = j->lens->critical.buffers,
         .layers = true,
     };
     return status ? status : kd_frame_light_list(j, &list, needed);
@@ -325,7 +374,8 @@ static enum kd_status light_at_curve(struct kd_frame_job *j, bool needed)
 
 static enum kd_status forget_undecided(struct kd_frame_job *j)
 {
-    return j->plan->path != KD_LENS_LISTED ? kd_vk_fill(j->r->vk, "trace", j->store->undecided, 0, 16, 0, j->error) : KD_OK;
+    return j->plan->path != KD_LENS_LISTED ? kd_vk_fill(j->r->vk, "trace", j->store->undecided, 0, 16, 0, j->error)
+                                           : KD_OK;
 }
 
 /* The map of a band alone. */
@@ -408,7 +458,8 @@ static enum kd_status read_band(struct kd_frame_job *j, uint32_t band, struct kd
     uint64_t first = row * kd_frame_band_first(j, band), rays = row * kd_frame_band_rows(j, band);
     enum kd_status status = KD_OK;
     for (uint32_t plane = 0; plane < p->planes; plane++) {
-        KD_TRY(kd_vk_copy(vk, "readback", host, 0, kd_frame_band_lens(j, band), 4 * plane * stride, 4 * rays, j->error));
+        KD_TRY(
+            kd_vk_copy(vk, "readback", host, 0, kd_frame_band_lens(j, band), 4 * plane * stride, 4 * rays, j->error));
         KD_TRY(kd_vk_submit(vk, NULL, j->error));
         KD_TRY(kd_vk_wait(vk, 0, j->error));
         memcpy(planes + plane * p->rays + first, kd_vk_buffer_map(host), 4 * rays);
@@ -421,22 +472,28 @@ enum kd_status kd_render_lens(struct kd_renderer *renderer, const struct kd_scen
                               float *planes, double *trace_ms, struct kd_error *error)
 {
     struct kd_frame_job job = {
-        .r = renderer, .store = &renderer->store, .scene = scene, .plan = plan, .weight = 1, .error = error,
+        .r = renderer,
+        .store = &renderer->store,
+        .scene = scene,
+        .plan = plan,
+        .weight = 1,
+        .error = error,
     };
     struct kd_vk_buffer *host = NULL;
     bool reused;
     kd_vk_times_reset(renderer->vk);
     enum kd_status status;
     KD_TRY(kd_store_lens_map(&renderer->store, plan, &job.lens, &reused, error));
-    KD_TRY(kd_vk_buffer_create(renderer->vk, 4ull * plan->width * plan->side * plan->side * plan->band_rows, KD_VK_READBACK,
-                               "lens map on the host", &host, error));
+    KD_TRY(kd_vk_buffer_create(renderer->vk, 4ull * plan->width * plan->side * plan->side * plan->band_rows,
+                               KD_VK_READBACK, "lens map on the host", &host, error));
     KD_TRY(kd_frame_send_cameras(&job));
     KD_TRY(forget_undecided(&job));
     for (uint32_t band = 0; band < plan->bands; band++) {
         uint32_t rows = kd_frame_band_rows(&job, band);
         uint32_t step = kd_frame_slice(plan->trace_ns * plan->width * plan->side * plan->side, rows);
         for (uint32_t done = 0; done < rows && !status; done += step) {
-            const struct slice s = { band, kd_frame_band_first(&job, band) + done, rows - done < step ? rows - done : step };
+            const struct slice s = { band, kd_frame_band_first(&job, band) + done,
+                                     rows - done < step ? rows - done : step };
             const struct slice whole = complete(&job, &s);
             KD_TRY(map_slice(&job, &s, &whole));
             KD_TRY(kd_vk_submit(renderer->vk, NULL, error));

@@ -1,14 +1,20 @@
-/* This gives pixels more rays than the others have: by the kernels of the grid once more, over a list of pixels, whose light is written anew. */
+/* This gives pixels more rays than the others have: by the kernels of the grid once more, over a list of pixels,
+ * whose light is written anew. */
 #include "render/frame/lens.h"
 
 #include "render/lens/listed.h"
 
-static const char *pass_of(const struct kd_frame_part *part, enum kd_pass_id id) { return part->list->pass ? part->list->pass : kd_passes[id].name; }
+static const char *pass_of(const struct kd_frame_part *part, enum kd_pass_id id)
+{
+    return part->list->pass ? part->list->pass : kd_passes[id].name;
+}
 
 struct kd_frame_part kd_frame_part_of(const struct kd_frame_job *j, const struct kd_frame_list *list, uint64_t number)
 {
     struct kd_frame_part part = {
-        .list = list, .first = number * list->most, .n = list->most,
+        .list = list,
+        .first = number * list->most,
+        .n = list->most,
         .lens = list->buffers[list->again ? 0 : number],
     };
     if (part.n > list->pixels->n - part.first)
@@ -22,7 +28,8 @@ struct kd_frame_part kd_frame_part_of(const struct kd_frame_job *j, const struct
     return part;
 }
 
-void kd_frame_part_in_band(const struct kd_frame_job *j, const struct kd_frame_part *part, uint32_t band, uint64_t *from, uint64_t *to)
+void kd_frame_part_in_band(const struct kd_frame_job *j, const struct kd_frame_part *part, uint32_t band,
+                           uint64_t *from, uint64_t *to)
 {
     const uint32_t row = kd_frame_band_first(j, band);
     const uint64_t first = part->first, a = kd_critical_pixels_above(part->list->pixels, row);
@@ -31,8 +38,8 @@ void kd_frame_part_in_band(const struct kd_frame_job *j, const struct kd_frame_p
     *to = b < first ? 0 : b - first < part->n ? b - first : part->n;
 }
 
-/* Run the kernel that makes something over pixels `from` to `to` of a part in slices: rays are an invocation each, else pixels are. base:
- * the dispatch but for its pipeline and size. */
+/* Run the kernel that makes something over pixels `from` to `to` of a part in slices: rays are an invocation each,
+ * else pixels are. base: the dispatch but for its pipeline and size. */
 static enum kd_status run_part(struct kd_frame_job *j, const struct kd_frame_part *part, uint64_t from, uint64_t to,
                                const struct kd_vk_dispatch *base, int makes, double ns_per_ray)
 {
@@ -49,7 +56,8 @@ static enum kd_status run_part(struct kd_frame_job *j, const struct kd_frame_par
         d.groups[1] = 1;
         KD_TRY(rays ? kd_frame_trace_kernel(j, &part->list->lattice, &d.pipeline)
                     : kd_frame_light_kernel(j, &part->list->lattice, makes, &d.pipeline));
-        for (const uint32_t turns = kd_frame_turns(j->plan, part->list->lattice.rays, makes); push.ray < turns; push.ray++)
+        for (const uint32_t turns = kd_frame_turns(j->plan, part->list->lattice.rays, makes); push.ray < turns;
+             push.ray++)
             KD_TRY(kd_vk_dispatch(j->r->vk, &d, j->error));
         KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error));
         KD_TRY(kd_frame_report(j, 0));
@@ -82,8 +90,13 @@ static enum kd_status list_part(struct kd_frame_job *j, const struct kd_frame_pa
     enum kd_status status = KD_OK;
     for (uint64_t from = 0; from < part->n; from += step) {
         const struct kd_lens_rows rows = {
-            .first = (uint32_t)(part->first + from), .count = (uint32_t)(part->n - from < step ? part->n - from : step),
-            .pixels = part->list->pixels->pixels, .lattice = &part->list->lattice, .to = part->lens, .offset = from * rays, .stride = part->push.stride,
+            .first = (uint32_t)(part->first + from),
+            .count = (uint32_t)(part->n - from < step ? part->n - from : step),
+            .pixels = part->list->pixels->pixels,
+            .lattice = &part->list->lattice,
+            .to = part->lens,
+            .offset = from * rays,
+            .stride = part->push.stride,
         };
         KD_TRY(kd_frame_list_rays(j, &rows));
         KD_TRY(kd_frame_report(j, 0));
@@ -96,10 +109,12 @@ done:
 static enum kd_status footprint_part(struct kd_frame_job *j, const struct kd_frame_part *part)
 {
     struct kd_footprint_area area = {
-        .lens = part->lens, .lattice = &part->list->lattice,
+        .lens = part->lens,
+        .lattice = &part->list->lattice,
         .push = { .rows = (uint32_t)part->n, .list = part->push.list, .stride = part->push.stride },
     };
-    const uint32_t rays = (uint32_t)(part->n * part->list->lattice.rays), step = kd_frame_slice(j->plan->trace_ns, rays);
+    const uint32_t rays = (uint32_t)(part->n * part->list->lattice.rays),
+                   step = kd_frame_slice(j->plan->trace_ns, rays);
     enum kd_status status = KD_OK;
     for (uint32_t from = 0; kd_plan_has_footprints(j->plan) && from < rays; from += step) {
         area.push.first = from;
@@ -153,7 +168,8 @@ enum kd_status kd_frame_light_list(struct kd_frame_job *j, const struct kd_frame
             KD_TRY(footprint_part(j, &part));
         }
         for (int makes = KD_MAKES_PICTURE; makes < (list->layers ? (int)j->plan->n_layers : 0); makes++)
-            if (makes == KD_MAKES_PICTURE || (kd_layer_kinds[j->plan->layers[makes].kind].of == KD_OF_LIGHT && !j->plan->march.steps))
+            if (makes == KD_MAKES_PICTURE ||
+                (kd_layer_kinds[j->plan->layers[makes].kind].of == KD_OF_LIGHT && !j->plan->march.steps))
                 KD_TRY(transfer_part(j, &part, makes, kd_plan_light_ns(j->plan, &c)));
         KD_TRY(kd_frame_tell_listed(j, &part));
     }

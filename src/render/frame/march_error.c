@@ -1,5 +1,5 @@
-/* This measures how far off the light of volumes is: the first ray of each pixel of a lattice is followed once more as the picture has it, and KD_MARCH_FINER
- * times as closely, by the same kernel into a buffer of its own. */
+/* This measures how far off the light of volumes is: the first ray of each pixel of a lattice is followed once more
+ * as the picture has it, and KD_MARCH_FINER times as closely, by the same kernel into a buffer of its own. */
 #include "render/frame/lens.h"
 
 #include <math.h>
@@ -20,18 +20,29 @@ static enum kd_status sample(struct kd_frame_job *j, uint32_t band, const struct
     static const struct kd_critical_lattice on_grid; /* none */
     const struct kd_plan *p = j->plan;
     const struct kd_march_sample *s = &p->march.sample;
-    const uint32_t first = kd_frame_band_first(j, band), from = above(s, first), rows = above(s, first + kd_frame_band_rows(j, band)) - from;
+    const uint32_t first = kd_frame_band_first(j, band), from = above(s, first),
+                   rows = above(s, first + kd_frame_band_rows(j, band)) - from;
     const struct kd_slice push = {
-        .row0 = (s->first[1] + from * s->every[1]) * p->side, .band0 = first * p->side, .stride = p->width * p->side * p->band_rows * p->side,
-        .steps = march->steps, .fine = march->fine, .opaque = (float)march->opaque, .unseen = (float)march->unseen,
-        .first = s->first[0], .every_x = s->every[0], .every_y = s->every[1], .columns = s->columns, .to = to + from * s->columns,
+        .row0 = (s->first[1] + from * s->every[1]) * p->side,
+        .band0 = first * p->side,
+        .stride = p->width * p->side * p->band_rows * p->side,
+        .steps = march->steps,
+        .fine = march->fine,
+        .opaque = (float)march->opaque,
+        .unseen = (float)march->unseen,
+        .first = s->first[0],
+        .every_x = s->every[0],
+        .every_y = s->every[1],
+        .columns = s->columns,
+        .to = to + from * s->columns,
     };
     const struct kd_vk_pipeline *pipeline;
     enum kd_status status;
     if (!rows)
         return KD_OK;
     KD_TRY(kd_frame_light_kernel(j, &on_grid, KD_MAKES_PICTURE, &pipeline));
-    struct kd_vk_dispatch d = kd_frame_transfer(j, pipeline, kd_frame_band_lens(j, band), band, KD_CAMERA_GRID, KD_MAKES_PICTURE);
+    struct kd_vk_dispatch d =
+        kd_frame_transfer(j, pipeline, kd_frame_band_lens(j, band), band, KD_CAMERA_GRID, KD_MAKES_PICTURE);
     d.pass = kd_passes[KD_PASS_MARCH_ERROR].name;
     d.bindings[3] = (struct kd_vk_binding) { j->marched, 0, 0, true };
     d.push = &push;
@@ -50,7 +61,8 @@ enum kd_status kd_frame_sample_march(struct kd_frame_job *j, uint32_t band)
     if (!march->steps || !n)
         return KD_OK;
     if (!j->marched)
-        KD_TRY(kd_vk_buffer_create(j->r->vk, 2 * n * sizeof(float[3]), KD_VK_READBACK, "a sample of the light of volumes", &j->marched, j->error));
+        KD_TRY(kd_vk_buffer_create(j->r->vk, 2 * n * sizeof(float[3]), KD_VK_READBACK,
+                                   "a sample of the light of volumes", &j->marched, j->error));
     KD_TRY(sample(j, band, march, 0));
     KD_TRY(sample(j, band, &finer, n));
     KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error));
@@ -69,7 +81,8 @@ static int by_size(const void *a, const void *b)
 /* Light that is a number, of a ray that was not given up, whose is -1. */
 static bool right(const float c[3]) { return isfinite(c[0] + c[1] + c[2]) && c[0] >= 0 && c[1] >= 0 && c[2] >= 0; }
 
-/* Relative differences of n rays' light, where there is any, in order; how many: rays that meet no volume have none. Rays without a right one are off by 1. */
+/* Relative differences of n rays' light, where there is any, in order; how many: rays that meet no volume have none.
+ * Rays without a right one are off by 1. */
 static uint32_t compare(const float *light, const float *finer, uint32_t n, double off[KD_MARCH_SAMPLED])
 {
     double most = 0;
@@ -77,7 +90,8 @@ static uint32_t compare(const float *light, const float *finer, uint32_t n, doub
     for (uint32_t i = 0; i < n; i++)
         most = right(finer + 3 * i) ? fmax(most, brightest(finer + 3 * i)) : most;
     for (uint32_t i = 0; i < n; i++) {
-        const float *a = light + 3 * i, *b = finer + 3 * i, apart[3] = { fabsf(a[0] - b[0]), fabsf(a[1] - b[1]), fabsf(a[2] - b[2]) };
+        const float *a = light + 3 * i, *b = finer + 3 * i,
+                    apart[3] = { fabsf(a[0] - b[0]), fabsf(a[1] - b[1]), fabsf(a[2] - b[2]) };
         const double own = fmax(brightest(a), brightest(b));
         if (!right(a) || !right(b))
             off[lit++] = 1;

@@ -19,7 +19,8 @@ enum kd_status kd_frame_mean(struct kd_frame_job *j)
     for (uint32_t band = 0; band < j->plan->bands; band++) {
         const uint64_t n = row * kd_frame_band_rows(j, band);
         float *light = kd_vk_buffer_map(staging);
-        KD_TRY(kd_vk_copy(vk, "readback", j->store->readback, 0, j->store->radiance.buffers[band], 0, sizeof(float) * n, j->error));
+        KD_TRY(kd_vk_copy(vk, "readback", j->store->readback, 0, j->store->radiance.buffers[band], 0, sizeof(float) * n,
+                          j->error));
         KD_TRY(kd_vk_submit(vk, NULL, j->error));
         KD_TRY(kd_vk_wait(vk, 0, j->error));
         memcpy(light, kd_vk_buffer_map(j->store->readback), sizeof(float) * n);

@@ -7,12 +7,12 @@
 #include <string.h>
 
 enum { FIRST = 48, CLOSE = 128, MOST = 60 }; /* pixels of a side, pictures */
-#define NEAR 1e-3     /* of the flux: what pictures of 48 pixels are closer to those of 128 than */
-#define HELD 5e-5     /* and what is left; a flux is a sum of floats, good to 1e-6 */
-#define THIN 2.0      /* light goes as the density times the field, which goes as its root or more */
-#define LONGEST 6.9   /* a factor of a thousand at once */
-#define MARGIN 0.05   /* of a bracket: a guess nearer to its ends is none */
-#define DENSEST 1e30  /* as the fields' range */
+#define NEAR 1e-3    /* of the flux: what pictures of 48 pixels are closer to those of 128 than */
+#define HELD 5e-5    /* and what is left; a flux is a sum of floats, good to 1e-6 */
+#define THIN 2.0     /* light goes as the density times the field, which goes as its root or more */
+#define LONGEST 6.9  /* a factor of a thousand at once */
+#define MARGIN 0.05  /* of a bracket: a guess nearer to its ends is none */
+#define DENSEST 1e30 /* as the fields' range */
 
 struct search {
     struct kd_renderer *r;
@@ -27,7 +27,9 @@ struct search {
 static double *density_of(struct kd_scene *scene)
 {
     struct kd_volume *v = &scene->volume;
-    return v->model == KD_VOLUME_GOLD ? &v->gold_emission : v->model == KD_VOLUME_GRID ? &v->grid_scale : &v->density_cm3;
+    return v->model == KD_VOLUME_GOLD   ? &v->gold_emission
+           : v->model == KD_VOLUME_GRID ? &v->grid_scale
+                                        : &v->density_cm3;
 }
 
 static enum kd_status flux_at(struct search *s, int side, double log_scale, double *jy)
@@ -54,10 +56,14 @@ done:
 
 static enum kd_status refuse(const struct search *s, const char *why, double jy)
 {
-    return kd_error_field(s->error, "/volume/normalise_to_jy", "volume.normalise_to_jy is %.9g Jy, at which no density was found: %s %.4g Jy; allowed are 0, and what this matter shines with at some density", s->target, why, jy);
+    return kd_error_field(s->error, "/volume/normalise_to_jy",
+                          "volume.normalise_to_jy is %.9g Jy, at which no density was found: %s %.4g Jy; allowed are "
+                          "0, and what this matter shines with at some density",
+                          s->target, why, jy);
 }
 
-/* The next guess: by the line through the ends of a bracket, or by the slope; in the middle where that is next to an end. */
+/* The next guess: by the line through the ends of a bracket, or by the slope; in the middle where that is next to an
+ * end. */
 static double guess(const struct search *s, double x, double y, const double at[2], const double off[2])
 {
     if (!isfinite(at[0]) || !isfinite(at[1]))
@@ -66,7 +72,8 @@ static double guess(const struct search *s, double x, double y, const double at[
     return at[0] + (part > MARGIN && part < 1 - MARGIN ? part : 0.5) * (at[1] - at[0]);
 }
 
-/* Finds *x, ln of the scale, from where it is. Regula falsi in ln flux by ln scale, the end that stays being believed half as much each time (Dowell & Jarratt 1971, BIT 11, 168). */
+/* Finds *x, ln of the scale, from where it is. Regula falsi in ln flux by ln scale, the end that stays being
+ * believed half as much each time (Dowell & Jarratt 1971, BIT 11, 168). */
 static enum kd_status find(struct search *s, int side, double within, double *x)
 {
     double at[2] = { -INFINITY, INFINITY }, off[2] = { 0 }, last = NAN, before = NAN, jy = 0;
@@ -121,7 +128,8 @@ static struct kd_scene bare(const struct kd_scene *scene)
     bare.camera.stereo = KD_STEREO_NONE;
     bare.volume.normalise_to_jy = 0;
     bare.volume.normalise_ghz = INFINITY;
-    bare.volume.frequency_ghz = isfinite(scene->volume.normalise_ghz) ? scene->volume.normalise_ghz : scene->volume.frequency_ghz;
+    bare.volume.frequency_ghz =
+        isfinite(scene->volume.normalise_ghz) ? scene->volume.normalise_ghz : scene->volume.frequency_ghz;
     bare.top.time = isfinite(scene->camera.r) ? scene->top.time : 0;
     return bare;
 }
@@ -160,14 +168,21 @@ static double known(const struct kd_normalised *kept, const struct kd_normal *wa
     return of_matter;
 }
 
-enum kd_status kd_frame_normalise(struct kd_renderer *renderer, struct kd_scene *scene, bool held, kd_progress_fn progress, void *user, double *scale, struct kd_error *error)
+enum kd_status kd_frame_normalise(struct kd_renderer *renderer, struct kd_scene *scene, bool held,
+                                  kd_progress_fn progress, void *user, double *scale, struct kd_error *error)
 {
     struct kd_normalised *kept = &renderer->normalised;
     struct kd_normal found;
     *scale = 1;
     if (!(scene->volume.normalise_to_jy > 0))
         return KD_OK;
-    struct search s = { .r = renderer, .scene = bare(scene), .target = scene->volume.normalise_to_jy, .slope = THIN, .progress = progress, .user = user, .error = error };
+    struct search s = { .r = renderer,
+                        .scene = bare(scene),
+                        .target = scene->volume.normalise_to_jy,
+                        .slope = THIN,
+                        .progress = progress,
+                        .user = user,
+                        .error = error };
     enum kd_status status;
     if (!(*density_of(scene) > 0))
         return refuse(&s, "there is no matter, which has", 0);

@@ -17,7 +17,8 @@ static bool go_on(void *user, double fraction)
 }
 
 /* The right eye has the exposure of the left one. */
-static enum kd_status render_eye(const struct kd_parted *pair, int side, double exposure, struct kd_frame *out, struct kd_error *error)
+static enum kd_status render_eye(const struct kd_parted *pair, int side, double exposure, struct kd_frame *out,
+                                 struct kd_error *error)
 {
     struct kd_scene eye = kd_scene_eye(pair->scene, side);
     struct kd_needs needs = kd_needs_of(&eye);

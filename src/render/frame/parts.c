@@ -19,10 +19,21 @@ static void add_timings(struct kd_frame *to, const struct kd_frame *from)
 static struct kd_accuracy_report both(const struct kd_accuracy_report *l, const struct kd_accuracy_report *r)
 {
     return (struct kd_accuracy_report) {
-        l->undecided + r->undecided, l->sampled + r->sampled, l->crossings + r->crossings, l->differ + r->differ, fmax(l->median, r->median),
-        fmax(l->worst, r->worst), l->followed + r->followed, l->refined + r->refined, l->between + r->between, l->pixel_sampled + r->pixel_sampled,
-        fmax(l->pixel_error, r->pixel_error), fmax(l->pixel_error_worst, r->pixel_error_worst),
-        l->volume_sampled + r->volume_sampled, fmax(l->volume_error, r->volume_error), fmax(l->volume_error_worst, r->volume_error_worst),
+        l->undecided + r->undecided,
+        l->sampled + r->sampled,
+        l->crossings + r->crossings,
+        l->differ + r->differ,
+        fmax(l->median, r->median),
+        fmax(l->worst, r->worst),
+        l->followed + r->followed,
+        l->refined + r->refined,
+        l->between + r->between,
+        l->pixel_sampled + r->pixel_sampled,
+        fmax(l->pixel_error, r->pixel_error),
+        fmax(l->pixel_error_worst, r->pixel_error_worst),
+        l->volume_sampled + r->volume_sampled,
+        fmax(l->volume_error, r->volume_error),
+        fmax(l->volume_error_worst, r->volume_error_worst),
     };
 }
 
@@ -33,10 +44,11 @@ void kd_frame_tell_both(struct kd_frame *to, const struct kd_frame *from)
     add_timings(to, from);
 }
 
-enum kd_status kd_frame_render_part(const struct kd_parted *p, const struct kd_scene *scene, const struct kd_plan *plan, kd_progress_fn progress, void *user, struct kd_frame *out,
-                             struct kd_error *error)
+enum kd_status kd_frame_render_part(const struct kd_parted *p, const struct kd_scene *scene, const struct kd_plan *plan,
+                                    kd_progress_fn progress, void *user, struct kd_frame *out, struct kd_error *error)
 {
-    return p->aside ? kd_render_aside(p->renderer, scene, plan, progress, NULL, user, out, error) : kd_render(p->renderer, scene, plan, progress, user, out, error);
+    return p->aside ? kd_render_aside(p->renderer, scene, plan, progress, NULL, user, out, error)
+                    : kd_render(p->renderer, scene, plan, progress, user, out, error);
 }
 
 enum kd_status kd_frame_parted(const struct kd_parted *p, struct kd_frame *out, struct kd_error *error)

@@ -1,4 +1,5 @@
-/* Pictures that are made of parts, one render after the other (render/plan/parts.c): a pair of eyes, a tile with its margin, strips. Render thread only. */
+/* Pictures that are made of parts, one render after the other (render/plan/parts.c): a pair of eyes, a tile with its
+ * margin, strips. Render thread only. */
 #ifndef KD_RENDER_FRAME_PARTS_H
 #define KD_RENDER_FRAME_PARTS_H
 
@@ -14,15 +15,21 @@ struct kd_parted {
     void *user;
 };
 
-/* Says whether a plan is of parts, and renders it: *out is the whole picture. Of a pair the left eye's picture is on the left, and both have the exposure of that one. */
-static inline bool kd_plan_is_parted(const struct kd_plan *plan) { return plan->eyes == 2 || plan->cut.width || plan->strips; }
+/* Says whether a plan is of parts, and renders it: *out is the whole picture. Of a pair the left eye's picture is on
+ * the left, and both have the exposure of that one. */
+static inline bool kd_plan_is_parted(const struct kd_plan *plan)
+{
+    return plan->eyes == 2 || plan->cut.width || plan->strips;
+}
 enum kd_status kd_frame_parted(const struct kd_parted *parted, struct kd_frame *out, struct kd_error *error);
 
 /* Renders one part, by a plan for it. */
-enum kd_status kd_frame_render_part(const struct kd_parted *parted, const struct kd_scene *scene, const struct kd_plan *plan, kd_progress_fn progress, void *user, struct kd_frame *out,
-                             struct kd_error *error);
+enum kd_status kd_frame_render_part(const struct kd_parted *parted, const struct kd_scene *scene,
+                                    const struct kd_plan *plan, kd_progress_fn progress, void *user,
+                                    struct kd_frame *out, struct kd_error *error);
 
-/* Adds to what a part tells of itself, its times, its accuracy, whether its lens map was there, what another one tells: counts of both, and of errors the larger one. */
+/* Adds to what a part tells of itself, its times, its accuracy, whether its lens map was there, what another one
+ * tells: counts of both, and of errors the larger one. */
 void kd_frame_tell_both(struct kd_frame *to, const struct kd_frame *from);
 
 enum kd_status kd_frame_pair(const struct kd_parted *parted, struct kd_frame *out, struct kd_error *error);

@@ -11,11 +11,15 @@ enum kd_status kd_frame_add_light(struct kd_frame_job *j)
     const struct kd_plan *p = j->plan;
     const struct kd_vk_pipeline *light;
     bool finite = !isinf(j->scene->camera.r);
-    const uint64_t sums = kd_light_bytes(p) / p->bands; /* bound band by band: all together may be more than a binding holds */
-    const struct kd_spec_photometry spec = { .APART = p->apart, .FINITE = finite, .STOKES = p->stokes_words > 0, .STOKES_APART = kd_plan_stokes_apart(p) };
+    const uint64_t sums =
+        kd_light_bytes(p) / p->bands; /* bound band by band: all together may be more than a binding holds */
+    const struct kd_spec_photometry spec = {
+        .APART = p->apart, .FINITE = finite, .STOKES = p->stokes_words > 0, .STOKES_APART = kd_plan_stokes_apart(p)
+    };
     const uint32_t per_band = kd_light_groups(p->width * p->band_rows);
     enum kd_status status;
-    KD_TRY(kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_PHOTOMETRY, &spec.APART, sizeof spec / 4, &light, j->error));
+    KD_TRY(
+        kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_PHOTOMETRY, &spec.APART, sizeof spec / 4, &light, j->error));
     for (uint32_t band = 0; band < p->bands; band++) {
         const struct kd_light_push push = {
             .pixels_x = p->width,
@@ -29,12 +33,16 @@ enum kd_status kd_frame_add_light(struct kd_frame_job *j)
             .step_ = (float)(finite ? kd_camera_pixel(j->scene) : 0),
         };
         const struct kd_vk_dispatch d = {
-            kd_passes[KD_PASS_LIGHT].name, light, { { j->store->radiance.buffers[band], 0, 0, false }, { j->store->light, band * sums, sums, true } }, &push,
+            kd_passes[KD_PASS_LIGHT].name,
+            light,
+            { { j->store->radiance.buffers[band], 0, 0, false }, { j->store->light, band * sums, sums, true } },
+            &push,
             { per_band }, /* of the last, smaller band too: they write zeros */
         };
         KD_TRY(kd_vk_dispatch(j->r->vk, &d, j->error));
     }
-    KD_TRY(kd_vk_copy(j->r->vk, kd_passes[KD_PASS_LIGHT].name, j->store->light_host, 0, j->store->light, 0, kd_light_bytes(p), j->error));
+    KD_TRY(kd_vk_copy(j->r->vk, kd_passes[KD_PASS_LIGHT].name, j->store->light_host, 0, j->store->light, 0,
+                      kd_light_bytes(p), j->error));
     KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error));
 done:
     return status;

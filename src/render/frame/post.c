@@ -12,9 +12,11 @@
 static enum kd_status make_palette(struct kd_frame_job *j)
 {
     struct kd_map_table *table = malloc(sizeof *table);
-    enum kd_status status = table ? KD_OK : kd_error_set(j->error, KD_ENOMEM, "out of memory for the colours of a palette");
+    enum kd_status status =
+        table ? KD_OK : kd_error_set(j->error, KD_ENOMEM, "out of memory for the colours of a palette");
     if (!status)
-        status = kd_vk_buffer_create(j->r->vk, 16 * KD_MAP_ENTRIES, KD_VK_UPLOAD, "palette", &j->store->palette, j->error);
+        status =
+            kd_vk_buffer_create(j->r->vk, 16 * KD_MAP_ENTRIES, KD_VK_UPLOAD, "palette", &j->store->palette, j->error);
     if (!status) {
         float *to = kd_vk_buffer_map(j->store->palette);
         kd_colour_map_fill(table, KD_MAP_HEAT);
@@ -32,16 +34,22 @@ static void draw_scales(struct kd_frame_job *j)
 {
     const struct kd_frame *frame = j->frame;
     const struct kd_canvas canvas = { kd_frame_pixels(frame), frame->width, frame->height, kd_frame_bit_depth(frame) };
-    const struct kd_legend legend = { .title = "I / I_max of the disk", .map = KD_MAP_HEAT, .scale = { 0, exp2(-frame->exposure), false } };
+    const struct kd_legend legend = { .title = "I / I_max of the disk",
+                                      .map = KD_MAP_HEAT,
+                                      .scale = { 0, exp2(-frame->exposure), false } };
     const double width = kd_scene_width_uas(j->scene);
     kd_legend_draw(&canvas, &legend);
     if (!isnan(width))
         kd_sky_scale_draw(&canvas, &(struct kd_sky_scale) { width / frame->width, j->scene->style.beam_uas });
 }
 
-/* What is made of light: pixels of so many bits, dithered or not, with what a lens spreads or without. bare: of what is lit, without a beam
- * and a palette; else they are those that were asked for. */
-struct look { bool wide, dither, bare; const struct kd_bloom *bloom; void *to; };
+/* What is made of light: pixels of so many bits, dithered or not, with what a lens spreads or without. bare: of what
+ * is lit, without a beam and a palette; else they are those that were asked for. */
+struct look {
+    bool wide, dither, bare;
+    const struct kd_bloom *bloom;
+    void *to;
+};
 
 /* Post and read back what is lit, one band at a time. */
 static enum kd_status post_as(struct kd_frame_job *j, const struct look *look)
@@ -55,13 +63,16 @@ static enum kd_status post_as(struct kd_frame_job *j, const struct look *look)
     const size_t pixel_bytes = look->wide ? 6 : 3;
     const struct kd_bloom *bloom = look->bloom;
     const struct kd_spec_post spec = {
-        .ACES = scene->style.tone_map == KD_TONE_ACES, .NEUTRAL = scene->style.tone_map == KD_TONE_NEUTRAL, .WIDE = look->wide,
+        .ACES = scene->style.tone_map == KD_TONE_ACES,
+        .NEUTRAL = scene->style.tone_map == KD_TONE_NEUTRAL,
+        .WIDE = look->wide,
         .TOGETHER = kd_bloom_together(bloom, j->plan->width),
     };
     const bool heat = !look->bare && scene->style.palette == KD_PALETTE_HEAT;
     const struct kd_vk_binding cells = { s->bloom, bloom->sums[0], 16ull * kd_bloom_cells(bloom, 0), false };
     const uint64_t band_pixels = (uint64_t)j->plan->width * j->plan->band_rows;
-    const enum kd_kernel kernel = kd_kernel_post(kd_kernels_texels(vk, band_pixels) && kd_kernels_cells_as_texels(vk, bloom), bloom->levels, heat);
+    const enum kd_kernel kernel = kd_kernel_post(
+        kd_kernels_texels(vk, band_pixels) && kd_kernels_cells_as_texels(vk, bloom), bloom->levels, heat);
     enum kd_status status = KD_OK;
     if (heat && !s->palette)
         KD_TRY(make_palette(j));
@@ -85,15 +96,19 @@ static enum kd_status post_as(struct kd_frame_job *j, const struct look *look)
         };
         const struct kd_vk_binding colours = { s->palette, 0, 0, false };
         const struct kd_vk_dispatch d = {
-            kd_passes[KD_PASS_POST].name, post,
-            { { look->bare ? s->radiance.buffers[band] : kd_frame_band_light(j, band), 0, kd_post_radiance_bytes(band_pixels), false },
+            kd_passes[KD_PASS_POST].name,
+            post,
+            { { look->bare ? s->radiance.buffers[band] : kd_frame_band_light(j, band), 0,
+                kd_post_radiance_bytes(band_pixels), false },
               { s->words, 0, 0, true },
               bloom->levels ? cells : colours,
               colours },
-            &push, { kd_post_groups(pixels) },
+            &push,
+            { kd_post_groups(pixels) },
         };
         KD_TRY(kd_vk_dispatch(vk, &d, j->error));
-        KD_TRY(kd_vk_copy(vk, kd_passes[KD_PASS_READBACK].name, s->readback, 0, s->words, 0, (pixels * pixel_bytes + 3) / 4 * 4, j->error));
+        KD_TRY(kd_vk_copy(vk, kd_passes[KD_PASS_READBACK].name, s->readback, 0, s->words, 0,
+                          (pixels * pixel_bytes + 3) / 4 * 4, j->error));
         KD_TRY(kd_vk_submit(vk, NULL, j->error));
         KD_TRY(kd_vk_wait(vk, 0, j->error));
         memcpy((char *)look->to + first * pixel_bytes, kd_vk_buffer_map(s->readback), pixels * pixel_bytes);
@@ -107,7 +122,8 @@ done:
 
 enum kd_status kd_frame_post(struct kd_frame_job *j)
 {
-    const struct look look = { kd_frame_bit_depth(j->frame) == 16, j->scene->style.dither, false, &j->plan->bloom, kd_frame_pixels(j->frame) };
+    const struct look look = { kd_frame_bit_depth(j->frame) == 16, j->scene->style.dither, false, &j->plan->bloom,
+                               kd_frame_pixels(j->frame) };
     return post_as(j, &look);
 }
 

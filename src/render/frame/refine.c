@@ -1,13 +1,15 @@
 /* This follows more rays where one was not enough, in rounds.
  *
- * One ray a pixel is off by up to half of what changes across it. Where the picture is straight from pixel to pixel, a ray in the middle
- * of each is right whatever the slope: what counts is the second difference of what is shown. Pixels where that is large come first;
- * in the next rounds those beside pixels that came out otherwise than one ray had it, until there are none: a line or a rim that one ray
- * in each pixel met here and there is so followed to its end.
+ * One ray a pixel is off by up to half of what changes across it. Where the picture is straight from pixel to pixel,
+ * a ray in the middle of each is right whatever the slope: what counts is the second difference of what is shown.
+ * Pixels where that is large come first; in the next rounds those beside pixels that came out otherwise than one ray
+ * had it, until there are none: a line or a rim that one ray in each pixel met here and there is so followed to its
+ * end.
  *
- * A pixel that is chosen has a square grid of rays. Where the lens map is smooth around it they are taken from between the rays
- * that there are, and no light is followed; at edges of orders and fates they are traced, in no more than a quarter of the
- * rays that 16 in every pixel would be. At the critical curve pixels have more rays already (view/critical_pixels.h). */
+ * A pixel that is chosen has a square grid of rays. Where the lens map is smooth around it they are taken from
+ * between the rays that there are, and no light is followed; at edges of orders and fates they are traced, in no
+ * more than a quarter of the rays that 16 in every pixel would be. At the critical curve pixels have more rays
+ * already (view/critical_pixels.h). */
 #include "render/frame/choose.h"
 #include "render/frame/lens.h"
 
@@ -30,7 +32,9 @@ static enum kd_status init(struct kd_frame_job *j, struct work *w)
     const size_t pixels = (size_t)j->plan->width * j->plan->height;
     *w = (struct work) { malloc(6 * pixels), malloc(6 * pixels) };
     j->kinds = calloc(pixels, 1);
-    return w->now && w->before && j->kinds ? KD_OK : kd_error_set(j->error, KD_ENOMEM, "out of memory for the pixels that need more rays");
+    return w->now && w->before && j->kinds
+               ? KD_OK
+               : kd_error_set(j->error, KD_ENOMEM, "out of memory for the pixels that need more rays");
 }
 
 static void take(struct kd_frame_job *j, const struct kd_critical_pixels *list, uint8_t kind)
@@ -39,8 +43,8 @@ static void take(struct kd_frame_job *j, const struct kd_critical_pixels *list, 
         j->kinds[list->pixels[i].y * (size_t)j->plan->width + list->pixels[i].x] = kind;
 }
 
-/* The pixels of a round by where their rays come from, row by row: those that have more already, at the critical curve; those that are
- * followed; those whose rays lie between others. */
+/* The pixels of a round by where their rays come from, row by row: those that have more already, at the critical
+ * curve; those that are followed; those whose rays lie between others. */
 enum { AT_CURVE, FOLLOWED, BETWEEN, WAYS };
 static const uint8_t kind_of[WAYS] = { KD_REFINED_AT_CURVE, KD_REFINED_FOLLOWED, KD_REFINED_BETWEEN };
 struct ways { struct kd_choice of[WAYS]; };
@@ -55,8 +59,14 @@ static enum kd_status light(struct kd_frame_job *j, int way, const struct kd_cri
 {
     const struct kd_plan *p = j->plan;
     struct kd_frame_list list = {
-        .pixels = pixels, .lattice = kd_critical_grid(KD_PLAN_ADAPTIVE_SIDE), .camera = KD_CAMERA_DENSE,
-        .buffers = &j->store->listed, .again = true, .between = way == BETWEEN, .layers = true, .pass = kd_passes[KD_PASS_REFINE].name,
+        .pixels = pixels,
+        .lattice = kd_critical_grid(KD_PLAN_ADAPTIVE_SIDE),
+        .camera = KD_CAMERA_DENSE,
+        .buffers = &j->store->listed,
+        .again = true,
+        .between = way == BETWEEN,
+        .layers = true,
+        .pass = kd_passes[KD_PASS_REFINE].name,
     };
     if (way == AT_CURVE) {
         list.lattice = kd_critical_lattice(p->critical_dense);
@@ -78,11 +88,13 @@ static enum kd_status part(struct kd_frame_job *j, const struct kd_choice *c, co
     return status;
 }
 
-/* Give the chosen pixels their rays. *left: how many more may be followed; where they do not suffice, half are for the critical curve. */
+/* Give the chosen pixels their rays. *left: how many more may be followed; where they do not suffice, half are for
+ * the critical curve. */
 static enum kd_status one_round(struct kd_frame_job *j, const struct kd_choice *c, struct ways *by, uint64_t *left)
 {
     uint8_t *marks = malloc(c->list.n);
-    enum kd_status status = marks ? KD_OK : kd_error_set(j->error, KD_ENOMEM, "out of memory for the pixels that need more rays");
+    enum kd_status status =
+        marks ? KD_OK : kd_error_set(j->error, KD_ENOMEM, "out of memory for the pixels that need more rays");
     KD_TRY(status);
     KD_TRY(kd_frame_mark_between(j, &c->list, marks));
     KD_TRY(part(j, c, marks, by));

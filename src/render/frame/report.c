@@ -41,7 +41,7 @@ static void keep_times(struct kd_frame_job *j)
 enum kd_status kd_frame_report(struct kd_frame_job *j, double rows)
 {
     j->done += j->looking ? 0 : rows; /* none of the picture's own */
-    if (j->aside) { /* who comes next need not wait, or measure, what is under way here */
+    if (j->aside) {                   /* who comes next need not wait, or measure, what is under way here */
         enum kd_status status = kd_vk_wait(j->r->vk, 0, j->error);
         if (status)
             return status;
@@ -59,7 +59,8 @@ enum kd_status kd_frame_report(struct kd_frame_job *j, double rows)
     return part && j->glance->wanted(j->user) ? glance(j) : KD_OK;
 }
 
-_Static_assert(KD_FRAME_MAX_TIMINGS >= KD_VK_MAX_PASSES + 3, "those of the device; listed rays and audit on the host; the total");
+_Static_assert(KD_FRAME_MAX_TIMINGS >= KD_VK_MAX_PASSES + 3,
+               "those of the device; listed rays and audit on the host; the total");
 _Static_assert(KD_VK_MAX_PASSES >= KD_PASS_COUNT + 4, "all passes, copies, fills, what is of no pass");
 
 static void add_timing(struct kd_frame *frame, const char *name, double ms)

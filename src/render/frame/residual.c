@@ -1,8 +1,8 @@
-/* This measures how far off the pixels of a picture are, on a sample of them against the picture in which each has 64 rays. The last pass of all:
- * the light of the sample is that of those rays afterwards.
+/* This measures how far off the pixels of a picture are, on a sample of them against the picture in which each has
+ * 64 rays. The last pass of all: the light of the sample is that of those rays afterwards.
  *
- * Kinds of pixels are sampled alike, however few they are, and each counts by its number. At the critical curve more rays than 64
- * are followed in that picture too: those that have them count as right. */
+ * Kinds of pixels are sampled alike, however few they are, and each counts by its number. At the critical curve more
+ * rays than 64 are followed in that picture too: those that have them count as right. */
 #include "render/frame/residual.h"
 
 #include "render/frame/lens.h"
@@ -13,13 +13,22 @@
 enum { AT_CURVE, ELSEWHERE, PLACES };
 enum { OF_EACH = KD_PLAN_SAMPLED_OF_EACH, KINDS = KD_REFINED_KINDS };
 
-/* The pixels of the sample at the critical curve or elsewhere, row by row, and how many of the picture each stands for. */
-struct sample { struct kd_pixel pixels[KINDS * OF_EACH]; double weights[KINDS * OF_EACH]; size_t n; };
+/* The pixels of the sample at the critical curve or elsewhere, row by row, and how many of the picture each stands
+ * for. */
+struct sample {
+    struct kd_pixel pixels[KINDS * OF_EACH];
+    double weights[KINDS * OF_EACH];
+    size_t n;
+};
 
 static void film(double c[3])
 {
-    static const double into[3][3] = { { 0.59719, 0.35458, 0.04823 }, { 0.07600, 0.90834, 0.01566 }, { 0.02840, 0.13383, 0.83777 } };
-    static const double outof[3][3] = { { 1.60475, -0.53108, -0.07367 }, { -0.10208, 1.10813, -0.00605 }, { -0.00327, -0.07276, 1.07602 } };
+    static const double into[3][3] = { { 0.59719, 0.35458, 0.04823 },
+                                       { 0.07600, 0.90834, 0.01566 },
+                                       { 0.02840, 0.13383, 0.83777 } };
+    static const double outof[3][3] = { { 1.60475, -0.53108, -0.07367 },
+                                        { -0.10208, 1.10813, -0.00605 },
+                                        { -0.00327, -0.07276, 1.07602 } };
     double d[3];
     for (int i = 0; i < 3; i++) {
         double x = into[i][0] * fmin(c[0], 1e6) + into[i][1] * fmin(c[1], 1e6) + into[i][2] * fmin(c[2], 1e6);
@@ -104,8 +113,10 @@ static enum kd_status read_sample(struct kd_frame_job *j, const struct sample *s
     enum kd_status status = KD_OK;
     for (size_t i = 0; i < s->n && !status; i++) {
         const uint32_t band = s->pixels[i].y / j->plan->band_rows;
-        const uint64_t at = 12 * ((uint64_t)(s->pixels[i].y - kd_frame_band_first(j, band)) * j->plan->width + s->pixels[i].x);
-        status = kd_vk_copy(j->r->vk, kd_passes[KD_PASS_REFINE].name, host, 12 * i, j->store->radiance.buffers[band], at, 12, j->error);
+        const uint64_t at =
+            12 * ((uint64_t)(s->pixels[i].y - kd_frame_band_first(j, band)) * j->plan->width + s->pixels[i].x);
+        status = kd_vk_copy(j->r->vk, kd_passes[KD_PASS_REFINE].name, host, 12 * i, j->store->radiance.buffers[band],
+                            at, 12, j->error);
     }
     if (!status)
         status = kd_vk_submit(j->r->vk, NULL, j->error);
@@ -116,8 +127,12 @@ static enum kd_status light_sample(struct kd_frame_job *j, const struct sample *
 {
     const struct kd_critical_pixels pixels = { (struct kd_pixel *)(uintptr_t)s->pixels, s->n };
     struct kd_frame_list truth = {
-        .pixels = &pixels, .lattice = kd_critical_grid(KD_PLAN_TRUTH_SIDE), .camera = KD_CAMERA_TRUTH,
-        .buffers = &j->store->listed, .again = true, .pass = kd_passes[KD_PASS_REFINE].name,
+        .pixels = &pixels,
+        .lattice = kd_critical_grid(KD_PLAN_TRUTH_SIDE),
+        .camera = KD_CAMERA_TRUTH,
+        .buffers = &j->store->listed,
+        .again = true,
+        .pass = kd_passes[KD_PASS_REFINE].name,
     };
     if (place == AT_CURVE) {
         truth.lattice = kd_critical_lattice(j->plan->critical_dense);
@@ -128,7 +143,8 @@ static enum kd_status light_sample(struct kd_frame_job *j, const struct sample *
 }
 
 /* Adds up squares of differences by their weights. */
-static double compare(const struct kd_frame_job *j, const struct sample *s, const float *had, const float *truth, double *worst)
+static double compare(const struct kd_frame_job *j, const struct sample *s, const float *had, const float *truth,
+                      double *worst)
 {
     double gain = exp2(j->frame->exposure), sum = 0;
     const int32_t tone_map = j->scene->style.tone_map;
@@ -153,7 +169,8 @@ enum kd_status kd_frame_residual(struct kd_frame_job *j)
     enum kd_status status = KD_OK;
     draw(j, samples);
     for (int i = 0; i < 2; i++)
-        KD_TRY(kd_vk_buffer_create(j->r->vk, sizeof(float[3]) * KINDS * OF_EACH, KD_VK_READBACK, "a sample of the light", &host[i], j->error));
+        KD_TRY(kd_vk_buffer_create(j->r->vk, sizeof(float[3]) * KINDS * OF_EACH, KD_VK_READBACK,
+                                   "a sample of the light", &host[i], j->error));
     for (int place = 0; place < PLACES; place++) {
         const struct sample *s = &samples[place];
         if (!s->n)

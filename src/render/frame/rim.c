@@ -1,4 +1,5 @@
-/* This brings the rim of the shadow to the device, where stars are sought on it too (view/rim.h): where its rays come from, and tables that say where it is. */
+/* This brings the rim of the shadow to the device, where stars are sought on it too (view/rim.h): where its rays
+ * come from, and tables that say where it is. */
 #include "render/frame/job.h"
 
 #include "render/view/rim_sky.h"

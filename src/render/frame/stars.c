@@ -8,10 +8,12 @@
 #include <math.h>
 #include <string.h>
 
-#define LIST_GROUPS 128   /* of kernels whose invocations share a list out, */
-#define LIST_GROUPS_CORE 4 /* and for each core where cores are the device: there a group that finds the list done costs 15 us all the same, and a rim has some grids */
-#define RIM_TILE 3      /* rays along a side of a small tile, and of those of the rim */
-#define SPILL 2u        /* rows of pixels that an image may reach into the next band */
+#define LIST_GROUPS 128 /* of kernels whose invocations share a list out, */
+#define LIST_GROUPS_CORE \
+    4 /* and for each core where cores are the device: there a group that finds the list done costs 15 us all the \
+         same, and a rim has some grids */
+#define RIM_TILE 3 /* rays along a side of a small tile, and of those of the rim */
+#define SPILL 2u   /* rows of pixels that an image may reach into the next band */
 
 /* Stars are sought on this: rays of a lens map, a few rows of them, or those of a grid of the rim. */
 struct part {
@@ -27,26 +29,40 @@ enum rays { NO_RIM, BESIDE_RIM, OF_RIM };
 /* Bright images are sought without. */
 static bool has_rim(const struct kd_frame_job *j) { return j->lens->rim.there && !j->plan->bright; }
 
-static enum rays rays_of(const struct kd_frame_job *j, const struct part *part) { return part->rim ? OF_RIM : has_rim(j) ? BESIDE_RIM : NO_RIM; }
+static enum rays rays_of(const struct kd_frame_job *j, const struct part *part)
+{
+    return part->rim ? OF_RIM : has_rim(j) ? BESIDE_RIM : NO_RIM;
+}
 
-static enum kd_status kernel(struct kd_frame_job *j, enum rays rays, enum kd_kernel kernel, uint32_t tile, const struct kd_vk_pipeline **out)
+static enum kd_status kernel(struct kd_frame_job *j, enum rays rays, enum kd_kernel kernel, uint32_t tile,
+                             const struct kd_vk_pipeline **out)
 {
     const struct kd_plan *p = j->plan;
     const struct kd_spec_stars spec = {
-        .QUANTITIES = p->quantities, .ORDERS = p->orders, .SIDE = p->side,
-        .SIGHT = kd_camera_sight(j->scene), .VISIBLE = j->scene->disk.band == KD_BAND_VISIBLE, .TILE = tile, .RIM = rays, .BRIGHT = p->bright && (kernel == KD_KERNEL_STAR_TILES || kernel == KD_KERNEL_STAR_TILES_TEXELS),
+        .QUANTITIES = p->quantities,
+        .ORDERS = p->orders,
+        .SIDE = p->side,
+        .SIGHT = kd_camera_sight(j->scene),
+        .VISIBLE = j->scene->disk.band == KD_BAND_VISIBLE,
+        .TILE = tile,
+        .RIM = rays,
+        .BRIGHT = p->bright && (kernel == KD_KERNEL_STAR_TILES || kernel == KD_KERNEL_STAR_TILES_TEXELS),
     };
     return kd_kernels_get(&j->r->kernels, j->r->vk, kernel, &spec.QUANTITIES, sizeof spec / 4, out, j->error);
 }
 
 /* In software that takes a third of the time. */
-static bool reads_texels(const struct kd_frame_job *j, uint64_t stars) { return stars <= kd_vk_info(j->r->vk)->max_texels && kd_kernels_map_as_texels(j->r->vk); }
+static bool reads_texels(const struct kd_frame_job *j, uint64_t stars)
+{
+    return stars <= kd_vk_info(j->r->vk)->max_texels && kd_kernels_map_as_texels(j->r->vk);
+}
 
 /* How many stars there are is not known yet: as many as the catalogue has, or fewer. */
 enum kd_status kd_frame_star_kernels(struct kd_frame_job *j)
 {
     const bool rim = kd_rim_may_be(j->scene) && !j->plan->bright, texels = reads_texels(j, 1u << 17);
-    const enum kd_kernel tiles = texels ? KD_KERNEL_STAR_TILES_TEXELS : KD_KERNEL_STAR_TILES, find = texels ? KD_KERNEL_STAR_SEARCH_TEXELS : KD_KERNEL_STAR_SEARCH;
+    const enum kd_kernel tiles = texels ? KD_KERNEL_STAR_TILES_TEXELS : KD_KERNEL_STAR_TILES,
+                         find = texels ? KD_KERNEL_STAR_SEARCH_TEXELS : KD_KERNEL_STAR_SEARCH;
     const enum rays picture = rim ? BESIDE_RIM : NO_RIM;
     const struct kd_vk_pipeline *later;
     enum kd_status status;
@@ -70,7 +86,8 @@ static uint32_t list_groups(const struct kd_frame_job *j)
 
 static struct kd_vk_binding camera(const struct kd_frame_job *j)
 {
-    return (struct kd_vk_binding) { j->store->cameras, (uint64_t)KD_CAMERA_WHOLE * KD_CAMERA_BYTES, KD_CAMERA_BYTES, false };
+    return (struct kd_vk_binding) { j->store->cameras, (uint64_t)KD_CAMERA_WHOLE * KD_CAMERA_BYTES, KD_CAMERA_BYTES,
+                                    false };
 }
 
 /* Something must be bound where there is none. */
@@ -84,10 +101,12 @@ static uint32_t along(uint32_t rays, uint32_t tile) { return (rays + tile - 1) /
 /* Where a part's rays come from. */
 static struct kd_vk_binding lens_of(const struct part *part)
 {
-    return (struct kd_vk_binding) { part->lens, part->rim ? 4ull * part->rim->first : 0, part->rim ? 12ull * kd_rim_grid_rays(part->rim) : 0, false };
+    return (struct kd_vk_binding) { part->lens, part->rim ? 4ull * part->rim->first : 0,
+                                    part->rim ? 12ull * kd_rim_grid_rays(part->rim) : 0, false };
 }
 
-/* Pairs of rays and stars: of large tiles, then of small ones and of rays that are listed; on the rim of small tiles and of rays. */
+/* Pairs of rays and stars: of large tiles, then of small ones and of rays that are listed; on the rim of small tiles
+ * and of rays. */
 static enum kd_status search(struct kd_frame_job *j, const struct part *part)
 {
     struct kd_store *s = j->store;
@@ -95,7 +114,8 @@ static enum kd_status search(struct kd_frame_job *j, const struct part *part)
     const bool texels = reads_texels(j, sky->n + 1);
     const enum kd_kernel tiles = texels ? KD_KERNEL_STAR_TILES_TEXELS : KD_KERNEL_STAR_TILES;
     struct kd_vk_dispatch d = {
-        kd_passes[KD_PASS_STARS].name, NULL,
+        kd_passes[KD_PASS_STARS].name,
+        NULL,
         { lens_of(part),
           { s->transfer, 0, sizeof(struct kd_emission), false },
           { s->transfer, offsetof(struct kd_emit_data, tables), sizeof(struct kd_emit_tables), false },
@@ -107,7 +127,8 @@ static enum kd_status search(struct kd_frame_job *j, const struct part *part)
           camera(j),
           { part->light, 0, 0, true },
           { sky->stars, 0, 0, false } },
-        &part->push, { list_groups(j) },
+        &part->push,
+        { list_groups(j) },
     };
     const uint32_t tile = part->rim ? RIM_TILE : KD_STAR_TILE;
     const enum rays rays = rays_of(j, part);
@@ -135,7 +156,8 @@ static enum kd_status stars_of(struct kd_frame_job *j, const struct part *part)
     struct kd_store *s = j->store;
     const struct kd_sky_buffers *sky = j->prepared->own[KD_EMITTER_sky];
     struct kd_vk_dispatch images = {
-        kd_passes[KD_PASS_STARS].name, NULL,
+        kd_passes[KD_PASS_STARS].name,
+        NULL,
         { lens_of(part),
           { s->transfer, 0, sizeof(struct kd_emission), false },
           { s->transfer, offsetof(struct kd_emit_data, tables), sizeof(struct kd_emit_tables), false },
@@ -144,7 +166,8 @@ static enum kd_status stars_of(struct kd_frame_job *j, const struct part *part)
           camera(j),
           { part->light, 0, 0, true },
           rim(j) },
-        &part->push, { list_groups(j) },
+        &part->push,
+        { list_groups(j) },
     };
     enum kd_status status;
     KD_TRY(search(j, part));
@@ -169,16 +192,26 @@ static struct kd_stars_push push_of(const struct kd_frame_job *j)
     const struct kd_rim *r = &j->lens->rim;
     const struct kd_sky_buffers *sky = j->prepared->own[KD_EMITTER_sky];
     return (struct kd_stars_push) {
-        .room = KD_PLAN_PAIRS, .tiles = kd_plan_star_tiles(j->plan), .stars = sky->n,
+        .room = KD_PLAN_PAIRS,
+        .tiles = kd_plan_star_tiles(j->plan),
+        .stars = sky->n,
         .least = j->plan->bright ? (float)KD_STAR_LEAST_BRIGHT : (float)KD_STAR_LEAST,
-        .none = (float)r->none, .full = (float)r->full,
-        .ahead_x = (float)r->ahead[0], .ahead_y = (float)r->ahead[1], .ahead_z = (float)r->ahead[2],
-        .right_x = (float)r->right[0], .right_y = (float)r->right[1], .right_z = (float)r->right[2],
-        .up_x = (float)r->up[0], .up_y = (float)r->up[1], .up_z = (float)r->up[2],
+        .none = (float)r->none,
+        .full = (float)r->full,
+        .ahead_x = (float)r->ahead[0],
+        .ahead_y = (float)r->ahead[1],
+        .ahead_z = (float)r->ahead[2],
+        .right_x = (float)r->right[0],
+        .right_y = (float)r->right[1],
+        .right_z = (float)r->right[2],
+        .up_x = (float)r->up[0],
+        .up_y = (float)r->up[1],
+        .up_z = (float)r->up[2],
     };
 }
 
-/* Images have places in the picture, whatever tile of it this is, so that they come out the same: this leads from there to the light of a band. */
+/* Images have places in the picture, whatever tile of it this is, so that they come out the same: this leads from
+ * there to the light of a band. */
 static void set_light(struct kd_stars_push *push, const struct kd_frame_job *j, uint32_t band)
 {
     const struct kd_window window = kd_scene_window(j->scene);
@@ -193,7 +226,9 @@ static enum kd_status rows_of(struct kd_frame_job *j, uint32_t from, uint32_t fi
     const struct kd_plan *p = j->plan;
     const uint32_t width = p->width * p->side;
     const struct kd_window window = kd_scene_window(j->scene);
-    struct part part = { .lens = kd_frame_band_lens(j, from), .push = push_of(j), .light = j->lens->star_light.buffers[to] };
+    struct part part = { .lens = kd_frame_band_lens(j, from),
+                         .push = push_of(j),
+                         .light = j->lens->star_light.buffers[to] };
     part.push.width = width;
     part.push.rows = kd_frame_band_rows(j, from) * p->side;
     part.push.stride = width * p->band_rows * p->side;
@@ -215,7 +250,9 @@ done:
 
 static enum kd_status grid_of(struct kd_frame_job *j, const struct kd_rim_grid *grid, uint32_t to)
 {
-    struct part part = { .lens = j->lens->rim_lens, .rim = grid, .push = push_of(j), .light = j->lens->star_light.buffers[to] };
+    struct part part = {
+        .lens = j->lens->rim_lens, .rim = grid, .push = push_of(j), .light = j->lens->star_light.buffers[to]
+    };
     part.push.width = grid->columns;
     part.push.rows = part.push.end = grid->rows;
     part.push.stride = kd_rim_grid_rays(grid);
@@ -249,15 +286,19 @@ static enum kd_status spread_over(struct kd_frame_job *j, uint32_t band)
     const struct kd_plan *p = j->plan;
     const uint32_t rows = kd_frame_band_rows(j, band);
     enum kd_status status;
-    KD_TRY(kd_vk_fill(j->r->vk, kd_passes[KD_PASS_STARS].name, j->lens->star_light.buffers[band], 0, 24ull * p->width * rows, 0, j->error));
+    KD_TRY(kd_vk_fill(j->r->vk, kd_passes[KD_PASS_STARS].name, j->lens->star_light.buffers[band], 0,
+                      24ull * p->width * rows, 0, j->error));
     if (has_rim(j))
         KD_TRY(kd_frame_trace_rim(j));
     KD_TRY(rim_of(j, band));
     KD_TRY(rows_of(j, band, 0, rows, band));
     if (p->cacheable && band > 0)
-        KD_TRY(rows_of(j, band - 1, kd_frame_band_rows(j, band - 1) > SPILL ? kd_frame_band_rows(j, band - 1) - SPILL : 0, kd_frame_band_rows(j, band - 1), band));
+        KD_TRY(rows_of(j, band - 1,
+                       kd_frame_band_rows(j, band - 1) > SPILL ? kd_frame_band_rows(j, band - 1) - SPILL : 0,
+                       kd_frame_band_rows(j, band - 1), band));
     if (p->cacheable && band + 1 < p->bands)
-        KD_TRY(rows_of(j, band + 1, 0, kd_frame_band_rows(j, band + 1) < SPILL ? kd_frame_band_rows(j, band + 1) : SPILL, band));
+        KD_TRY(rows_of(j, band + 1, 0,
+                       kd_frame_band_rows(j, band + 1) < SPILL ? kd_frame_band_rows(j, band + 1) : SPILL, band));
 done:
     return status;
 }

@@ -9,32 +9,50 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { RECORDS = 8192 }; /* some 360 kB: a march makes two for each part of each step, 6144 at most, and emitters theirs */
+enum {
+    RECORDS = 8192
+}; /* some 360 kB: a march makes two for each part of each step, 6144 at most, and emitters theirs */
 struct record { float of, a[4], b[4], c[2]; };
 #define SIZE (sizeof(float) + (KD_TELL_SUMS + RECORDS) * sizeof(struct record))
 _Static_assert(sizeof(struct record) == KD_TELL_RECORD * sizeof(float), "the record of interface.h");
 
-static void add_glow(struct kd_told_glow *glows, size_t *n, size_t most, const struct record *r, float opacity, float through)
+static void add_glow(struct kd_told_glow *glows, size_t *n, size_t most, const struct record *r, float opacity,
+                     float through)
 {
     if (*n == most)
         return;
     glows[(*n)++] = (struct kd_told_glow) {
-        .emitter = (uint32_t)r->a[0], .light = { r->a[1], r->a[2], r->a[3] }, .opacity = opacity, .through = through, .points = r->of == (float)KD_TELL_OF_POINTS,
+        .emitter = (uint32_t)r->a[0],
+        .light = { r->a[1], r->a[2], r->a[3] },
+        .opacity = opacity,
+        .through = through,
+        .points = r->of == (float)KD_TELL_OF_POINTS,
     };
 }
 
 static struct kd_told_place place_of(const struct record *r)
 {
     return (struct kd_told_place) {
-        .order = (uint32_t)r->a[0], .w = r->a[1], .phi = r->a[2], .slope = r->a[3], .footprint = r->b[0], .g = r->b[1], .temperature = r->b[2],
-        .angle = r->b[3], .through = r->c[0],
+        .order = (uint32_t)r->a[0],
+        .w = r->a[1],
+        .phi = r->a[2],
+        .slope = r->a[3],
+        .footprint = r->b[0],
+        .g = r->b[1],
+        .temperature = r->b[2],
+        .angle = r->b[3],
+        .through = r->c[0],
     };
 }
 
 static struct kd_told_stretch stretch_of(const struct record *r, uint32_t behind)
 {
     return (struct kd_told_stretch) {
-        .order = behind, .w = { r->a[0], r->a[1] }, .u = { r->a[2], r->a[3] }, .light = { r->b[0], r->b[1], r->b[2] }, .through = { r->b[3], r->c[0] },
+        .order = behind,
+        .w = { r->a[0], r->a[1] },
+        .u = { r->a[2], r->a[3] },
+        .light = { r->b[0], r->b[1], r->b[2] },
+        .through = { r->b[3], r->c[0] },
         .delay = { NAN, NAN },
     };
 }
@@ -48,7 +66,8 @@ static void join(struct kd_told_ray *told)
         s[n] = s[i];
         if (i + 1 < told->n_stretches && s[i + 1].order == s[i].order) {
             const struct kd_told_stretch *next = &s[++i];
-            s[n].w[1] = next->w[1], s[n].u[1] = next->u[1], s[n].delay[1] = next->delay[1], s[n].through[1] = next->through[1];
+            s[n].w[1] = next->w[1], s[n].u[1] = next->u[1], s[n].delay[1] = next->delay[1],
+            s[n].through[1] = next->through[1];
             for (int c = 0; c < 3; c++)
                 s[n].light[c] += next->light[c];
         }
@@ -71,8 +90,13 @@ static void take_met(struct kd_told_met *met, const struct record *r)
 {
     if (r->of == (float)KD_TELL_MET)
         *met = (struct kd_told_met) {
-            .met = true, .emitter = (uint32_t)r->a[0], .which = (uint32_t)r->b[0], .order = (uint32_t)r->b[1], .cosine = r->b[2],
-            .light = { r->a[1], r->a[2], r->a[3] }, .through = r->b[3],
+            .met = true,
+            .emitter = (uint32_t)r->a[0],
+            .which = (uint32_t)r->b[0],
+            .order = (uint32_t)r->b[1],
+            .cosine = r->b[2],
+            .light = { r->a[1], r->a[2], r->a[3] },
+            .through = r->b[3],
         };
     else
         met->w = r->a[0], met->u = r->a[1], met->phi = r->a[2], met->g = r->a[3];
@@ -100,7 +124,8 @@ static void take(struct kd_told_ray *told, const struct record *r)
         last->polarized = true, last->stokes[0] = r->a[0], last->stokes[1] = r->a[1];
     else if (r->of == (float)KD_TELL_ALONG)
         take_stretch(told, stretch_of(r, last ? last->order + 1 : 0));
-    else if (r->of == (float)KD_TELL_ALONG_AT && told->n_stretches && isnan(told->stretches[told->n_stretches - 1].delay[0]))
+    else if (r->of == (float)KD_TELL_ALONG_AT && told->n_stretches &&
+             isnan(told->stretches[told->n_stretches - 1].delay[0]))
         memcpy(told->stretches[told->n_stretches - 1].delay, r->a, sizeof told->stretches[0].delay);
     else if (r->of == (float)KD_TELL_AT)
         told->lost++;
@@ -109,7 +134,8 @@ static void take(struct kd_told_ray *told, const struct record *r)
     else if (r->of == (float)KD_TELL_OF_END || r->of == (float)KD_TELL_OF_POINTS)
         add_glow(told->ends, &told->n_ends, 2 * KD_PLAN_EMITTERS, r, 0, told->through);
     else if (r->of == (float)KD_TELL_OF_VOLUME && told->n_volumes < KD_PLAN_EMITTERS)
-        told->volumes[told->n_volumes++] = (struct kd_told_volume) { (uint32_t)r->a[0], { r->a[1], r->a[2], r->a[3] }, r->b[0] };
+        told->volumes[told->n_volumes++] =
+            (struct kd_told_volume) { (uint32_t)r->a[0], { r->a[1], r->a[2], r->a[3] }, r->b[0] };
     else if (r->of == (float)KD_TELL_MET || r->of == (float)KD_TELL_MET_AT)
         take_met(&told->met, r);
     else if (r->of == (float)KD_TELL_LOST)
@@ -194,9 +220,16 @@ enum kd_status kd_frame_tell(struct kd_frame_job *j, uint32_t band)
     if (!p->told.on || p->told.y < first || p->told.y >= first + kd_frame_band_rows(j, band))
         return KD_OK;
     struct source s = {
-        .lattice = &on_grid, .lens = kd_frame_band_lens(j, band), .band = band, .camera = KD_CAMERA_GRID,
-        .push = { .band0 = first * p->side, .stride = p->width * p->side * p->band_rows * p->side, .steps = p->march.steps, .fine = p->march.fine,
-                  .opaque = (float)p->march.opaque, .unseen = (float)p->march.unseen },
+        .lattice = &on_grid,
+        .lens = kd_frame_band_lens(j, band),
+        .band = band,
+        .camera = KD_CAMERA_GRID,
+        .push = { .band0 = first * p->side,
+                  .stride = p->width * p->side * p->band_rows * p->side,
+                  .steps = p->march.steps,
+                  .fine = p->march.fine,
+                  .opaque = (float)p->march.opaque,
+                  .unseen = (float)p->march.unseen },
     };
     enum kd_status status = KD_OK;
     if (!j->frame->told && !(j->frame->told = calloc(1, sizeof *j->frame->told)))
@@ -213,7 +246,8 @@ done:
 static uint64_t listed_at(const struct kd_frame_part *part, const struct kd_told *told)
 {
     uint64_t i = 0;
-    while (i < part->n && (part->list->pixels->pixels[part->first + i].x != told->x || part->list->pixels->pixels[part->first + i].y != told->y))
+    while (i < part->n && (part->list->pixels->pixels[part->first + i].x != told->x ||
+                           part->list->pixels->pixels[part->first + i].y != told->y))
         i++;
     return i;
 }
@@ -225,7 +259,11 @@ enum kd_status kd_frame_tell_listed(struct kd_frame_job *j, const struct kd_fram
     const uint64_t at = told && !told->whole ? listed_at(part, told) : part->n;
     if (at == part->n)
         return KD_OK;
-    struct source s = { .lattice = lattice, .lens = part->lens, .band = told->y / j->plan->band_rows, .camera = part->list->camera, .push = part->push };
+    struct source s = { .lattice = lattice,
+                        .lens = part->lens,
+                        .band = told->y / j->plan->band_rows,
+                        .camera = part->list->camera,
+                        .push = part->push };
     s.push.row0 = (uint32_t)at;
     s.push.rows = 1;
     s.push.band0 = kd_frame_band_first(j, s.band);
@@ -254,23 +292,33 @@ static enum kd_status tell_steps(struct kd_frame_job *j)
 {
     struct kd_told *told = j->frame->told;
     const struct kd_setting *by = &j->plan->setting;
-    const struct kd_scene *scene = j->scene, counted = told->middle.steps_a_pixel == j->plan->side ? *scene : kd_critical_camera(scene, told->middle.steps_a_pixel);
+    const struct kd_scene *scene = j->scene, counted = told->middle.steps_a_pixel == j->plan->side
+                                                           ? *scene
+                                                           : kd_critical_camera(scene, told->middle.steps_a_pixel);
     const struct kd_rays_params params = {
-        .spin = scene->spacetime.spin, .r = scene->camera.r, .inclination_deg = scene->camera.inclination_deg, .orders = (uint32_t)scene->accuracy.orders,
-        .engine = by->engine, .precision = by->precision, .steps = by->steps,
+        .spin = scene->spacetime.spin,
+        .r = scene->camera.r,
+        .inclination_deg = scene->camera.inclination_deg,
+        .orders = (uint32_t)scene->accuracy.orders,
+        .engine = by->engine,
+        .precision = by->precision,
+        .steps = by->steps,
     };
     struct kd_camera_label label;
     struct kd_error error = { 0 };
     if (by->engine == KD_ENGINE_CLOSED)
-        return say_no_steps(told, "the picture's engine is the closed form, which takes no steps: accuracy.engine chooses another");
+        return say_no_steps(
+            told, "the picture's engine is the closed form, which takes no steps: accuracy.engine chooses another");
     if (scene->camera.r <= kd_kerr_horizon(scene->spacetime.spin))
-        return say_no_steps(told, "the observer is within the horizon, where lists of rays have no labels: the path has its own steps");
+        return say_no_steps(
+            told, "the observer is within the horizon, where lists of rays have no labels: the path has its own steps");
     kd_lens_label(&counted, j->plan, told->middle.x, told->middle.y, &label);
     const double alpha_beta[] = { label.alpha, label.beta };
     const bool outward = label.outward && isfinite(scene->camera.r);
     if (!(told->steps = calloc(1, sizeof *told->steps)))
         return kd_error_set(j->error, KD_ENOMEM, "out of memory for the steps of a ray");
-    enum kd_status status = kd_rays_steps(j->r, &params, &(struct kd_ray_labels) { alpha_beta, &outward, 1 }, told->steps, &error);
+    enum kd_status status =
+        kd_rays_steps(j->r, &params, &(struct kd_ray_labels) { alpha_beta, &outward, 1 }, told->steps, &error);
     if (!status)
         return KD_OK;
     kd_rays_steps_finish(told->steps);
@@ -294,7 +342,8 @@ enum kd_status kd_frame_tell_pixel(struct kd_frame_job *j)
     const uint64_t pixel = (uint64_t)(told->y - kd_frame_band_first(j, band)) * j->plan->width + told->x;
     told->whole = true;
     KD_TRY(kd_vk_buffer_create(j->r->vk, sizeof told->radiance, KD_VK_READBACK, "light of a pixel", &host, j->error));
-    KD_TRY(kd_vk_copy(j->r->vk, "readback", host, 0, j->store->radiance.buffers[band], 12 * pixel, sizeof told->radiance, j->error));
+    KD_TRY(kd_vk_copy(j->r->vk, "readback", host, 0, j->store->radiance.buffers[band], 12 * pixel,
+                      sizeof told->radiance, j->error));
     KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error));
     KD_TRY(kd_vk_wait(j->r->vk, 0, j->error));
     memcpy(told->radiance, kd_vk_buffer_map(host), sizeof told->radiance);

@@ -1,4 +1,5 @@
-/* This renders a tile of a picture, with a margin that is cut off again, and a picture that does not fit in strips of itself (render/plan/tile.h). */
+/* This renders a tile of a picture, with a margin that is cut off again, and a picture that does not fit in strips
+ * of itself (render/plan/tile.h). */
 #include "render/frame/parts.h"
 
 #include "render/plan/tile.h"
@@ -43,7 +44,8 @@ static bool go_on(void *user, double fraction)
 }
 
 /* first: its first row in the picture. */
-static enum kd_status render_strip(const struct kd_parted *p, const struct kd_scene *strip, uint32_t first, const struct share *share, struct kd_frame *out, struct kd_error *error)
+static enum kd_status render_strip(const struct kd_parted *p, const struct kd_scene *strip, uint32_t first,
+                                   const struct share *share, struct kd_frame *out, struct kd_error *error)
 {
     struct kd_needs needs = kd_needs_of(strip);
     struct kd_capacity capacity;
@@ -72,7 +74,8 @@ static enum kd_status begin(const struct kd_frame *strip, uint32_t height, struc
     frame.told = NULL;
     memset(frame.layers, 0, sizeof frame.layers);
     for (size_t i = 0; i < strip->n_layers && !status; i++)
-        status = kd_frame_add_layer(&frame, strip->layers[i].name, strip->layers[i].channels, strip->layers[i].type, error);
+        status =
+            kd_frame_add_layer(&frame, strip->layers[i].name, strip->layers[i].channels, strip->layers[i].type, error);
     *out = frame;
     return status;
 }

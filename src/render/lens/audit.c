@@ -112,7 +112,7 @@ enum kd_status kd_audit(struct kd_renderer *renderer, const struct kd_scene *sce
                         const struct kd_lens_map *map, struct kd_accuracy_report *out, struct kd_error *error)
 {
     struct sample s = { .width = plan->width * plan->side, .height = plan->height * plan->side };
-    *out = (struct kd_accuracy_report){ 0 };
+    *out = (struct kd_accuracy_report) { 0 };
     if (!plan->audit)
         return KD_OK;
     s.rows = s.height < ROWS ? s.height : ROWS;
@@ -126,7 +126,8 @@ enum kd_status kd_audit(struct kd_renderer *renderer, const struct kd_scene *sce
     enum kd_status status;
     if (!s.rays || !s.crossings || !s.ends || !s.errors)
         KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory for the audit"));
-    KD_TRY(kd_vk_buffer_create(renderer->vk, 4ull * s.rows * s.planes * s.width, KD_VK_READBACK, "audited rows", &s.host, error));
+    KD_TRY(kd_vk_buffer_create(renderer->vk, 4ull * s.rows * s.planes * s.width, KD_VK_READBACK, "audited rows",
+                               &s.host, error));
     KD_TRY(run(renderer, scene, plan, map, &s, out, error));
 done:
     kd_vk_buffer_destroy(renderer->vk, s.host);

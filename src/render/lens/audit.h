@@ -1,14 +1,15 @@
-/* The audit finds how wrong a lens map is: a sample of its rays is traced again in closed form, in double on the CPU, and radii of crossings and
- * fates are compared. Costs some 3 ms whenever a new map is traced; the finding is kept with the map. Of a map that the closed form in double made
- * it finds the rounding to 32 bits alone. Render thread. */
+/* The audit finds how wrong a lens map is: a sample of its rays is traced again in closed form, in double on the
+ * CPU, and radii of crossings and fates are compared. Costs some 3 ms whenever a new map is traced; the finding is
+ * kept with the map. Of a map that the closed form in double made it finds the rounding to 32 bits alone. Render
+ * thread. */
 #ifndef KD_RENDER_LENS_AUDIT_H
 #define KD_RENDER_LENS_AUDIT_H
 
 #include "render/device/internal.h"
 #include "render/rays/rays.h"
 
-/* map: complete. Without plan->audit out->sampled is 0. Radii from the ISCO to 1000 M count: closer in the gas is gone, further
- * out it is dark. */
+/* map: complete. Without plan->audit out->sampled is 0. Radii from the ISCO to 1000 M count: closer in the gas is
+ * gone, further out it is dark. */
 enum kd_status kd_audit(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
                         const struct kd_lens_map *map, struct kd_accuracy_report *out, struct kd_error *error);
 

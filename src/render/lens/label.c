@@ -5,12 +5,14 @@
 
 #include <math.h>
 
-/* The labels of a pixel's ray as the kernel makes them, in its own arithmetic: what it loses there is a shift of some 1e-7 of the
- * picture and no error of the map. */
-static void label_in_single(const struct kd_camera_block *c, bool finite, uint32_t px, uint32_t py, struct kd_camera_label *out)
+/* The labels of a pixel's ray as the kernel makes them, in its own arithmetic: what it loses there is a shift of
+ * some 1e-7 of the picture and no error of the map. */
+static void label_in_single(const struct kd_camera_block *c, bool finite, uint32_t px, uint32_t py,
+                            struct kd_camera_label *out)
 {
     double off_x = (float)px - c->middle_x, off_y = c->middle_y - (float)py;
-    const float ahead = (float)kd_camera_ahead(c->sight, c->turn_x, c->turn_y, &off_x, &off_y), x = (float)off_x, y = (float)off_y;
+    const float ahead = (float)kd_camera_ahead(c->sight, c->turn_x, c->turn_y, &off_x, &off_y), x = (float)off_x,
+                y = (float)off_y;
     float kx = ahead * c->c0x + x * c->cxx + y * c->cyx, ky = ahead * c->c0y + x * c->cxy + y * c->cyy;
     *out = (struct kd_camera_label) { .alpha = kx, .beta = ky, .energy = 1 };
     if (!finite)
@@ -23,7 +25,8 @@ static void label_in_single(const struct kd_camera_block *c, bool finite, uint32
                        c->dw_t - (c->dw_r * kx + c->dw_theta * ky + c->dw_phi * kz) * n < 0, out);
 }
 
-void kd_lens_label(const struct kd_scene *scene, const struct kd_plan *plan, uint32_t x, uint32_t y, struct kd_camera_label *out)
+void kd_lens_label(const struct kd_scene *scene, const struct kd_plan *plan, uint32_t x, uint32_t y,
+                   struct kd_camera_label *out)
 {
     if (plan->ring) {
         const struct kd_ring ring = kd_ring_of(scene);

@@ -31,7 +31,8 @@ static void finish(struct work *w)
     free(w->ends);
 }
 
-static enum kd_status init(struct work *w, const struct kd_scene *scene, const struct kd_plan *plan, size_t n, struct kd_error *error)
+static enum kd_status init(struct work *w, const struct kd_scene *scene, const struct kd_plan *plan, size_t n,
+                           struct kd_error *error)
 {
     uint32_t orders = plan->orders ? plan->orders : 1; /* the engines want one */
     *w = (struct work) { .plan = plan, .n = n, .twist = kd_camera_twist(scene) };
@@ -46,17 +47,23 @@ static enum kd_status init(struct work *w, const struct kd_scene *scene, const s
     return kd_error_set(error, KD_ENOMEM, "out of memory for %zu rays", n);
 }
 
-static struct kd_rays_params params_of(const struct kd_scene *scene, const struct kd_plan *plan, const struct kd_setting *by)
+static struct kd_rays_params params_of(const struct kd_scene *scene, const struct kd_plan *plan,
+                                       const struct kd_setting *by)
 {
     return (struct kd_rays_params) {
-        .spin = scene->spacetime.spin, .r = scene->camera.r, .inclination_deg = scene->camera.inclination_deg,
-        .orders = plan->orders ? plan->orders : 1, .engine = by->engine, .precision = by->precision, .steps = by->steps,
+        .spin = scene->spacetime.spin,
+        .r = scene->camera.r,
+        .inclination_deg = scene->camera.inclination_deg,
+        .orders = plan->orders ? plan->orders : 1,
+        .engine = by->engine,
+        .precision = by->precision,
+        .steps = by->steps,
     };
 }
 
 enum kd_status kd_lens_trace(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
-                             const struct kd_setting *by, const struct kd_ray_labels *rays, struct kd_ray_crossing *crossings,
-                             struct kd_ray_end *ends, struct kd_error *error)
+                             const struct kd_setting *by, const struct kd_ray_labels *rays,
+                             struct kd_ray_crossing *crossings, struct kd_ray_end *ends, struct kd_error *error)
 {
     const struct kd_rays_params params = params_of(scene, plan, by);
     if (by->engine == KD_ENGINE_CLOSED)
@@ -96,8 +103,9 @@ static void fill_slopes(const struct work *w, const struct kd_scene *scene, uint
     for (size_t i = 0; i < w->n; i++) {
         const struct kd_ray_end *end = &w->ends[i];
         double r = w->crossings[i * w->plan->orders + order].r;
-        to[i] = order < end->n_crossings
-                    ? (float)(fabs(w->energy[i]) * kd_rays_slope(&params, w->alpha_beta + 2 * i, w->outward[i], end, order, r)) : 0;
+        to[i] = order < end->n_crossings ? (float)(fabs(w->energy[i]) * kd_rays_slope(&params, w->alpha_beta + 2 * i,
+                                                                                      w->outward[i], end, order, r))
+                                         : 0;
     }
 }
 
@@ -108,7 +116,9 @@ static void fill_sky(const struct work *w, float *u, float *phi, float *fate)
         bool escaped = end->fate == KD_RAY_ESCAPED;
         u[i] = escaped ? (float)cos(end->theta) : 0;
         phi[i] = escaped ? (float)(end->phi + w->twist) : 0;
-        fate[i] = escaped ? (float)KD_FATE_ESCAPED : end->fate == KD_RAY_CAPTURED ? (float)KD_FATE_CAPTURED : (float)KD_FATE_UNDECIDED;
+        fate[i] = escaped                        ? (float)KD_FATE_ESCAPED
+                  : end->fate == KD_RAY_CAPTURED ? (float)KD_FATE_CAPTURED
+                                                 : (float)KD_FATE_UNDECIDED;
     }
 }
 
@@ -141,12 +151,14 @@ static enum kd_status upload(struct kd_renderer *r, const struct kd_scene *scene
 {
     struct kd_vk_buffer *staging;
     uint64_t bytes = 4 * (uint64_t)w->n;
-    enum kd_status status = kd_vk_buffer_create(r->vk, bytes * w->plan->planes, KD_VK_UPLOAD, "listed lens map", &staging, error);
+    enum kd_status status =
+        kd_vk_buffer_create(r->vk, bytes * w->plan->planes, KD_VK_UPLOAD, "listed lens map", &staging, error);
     if (status)
         return status;
     fill(w, scene, kd_vk_buffer_map(staging));
     for (uint32_t k = 0; k < w->plan->planes; k++)
-        KD_TRY(kd_vk_copy(r->vk, "upload", rows->to, 4 * (rows->offset + k * rows->stride), staging, k * bytes, bytes, error));
+        KD_TRY(kd_vk_copy(r->vk, "upload", rows->to, 4 * (rows->offset + k * rows->stride), staging, k * bytes, bytes,
+                          error));
     KD_TRY(kd_vk_submit(r->vk, NULL, error));
     KD_TRY(kd_vk_wait(r->vk, 0, error));
 done:
@@ -178,7 +190,8 @@ static void make_critical(const struct kd_scene *scene, const struct kd_lens_row
     const struct kd_camera_exact camera = kd_camera_exact(&steps);
     struct kd_camera_label label;
     for (size_t i = 0; i < w->n; i++) {
-        const struct kd_pixel step = kd_critical_place(rows->lattice, rows->pixels[rows->first + i / rays], (uint32_t)(i % rays));
+        const struct kd_pixel step =
+            kd_critical_place(rows->lattice, rows->pixels[rows->first + i / rays], (uint32_t)(i % rays));
         kd_camera_label(&camera, step.x, step.y, &label);
         keep(w, i, &label);
     }

@@ -4,30 +4,33 @@
 #include <math.h>
 #include <string.h>
 
-/* These numbers were chosen by the simulations of tests/unit/governor.c, with noise of 25 % and one frame in twenty ten times as
- * long. */
-static const double OVER = 1.1, FAR_OVER = 1.5, CLIMB_BELOW = 0.8; /* of the room: noise does not carry from the last to first */
-static const double MORE = 1.1; /* a target so much larger or smaller is another: parts of a device that is shared waver a little */
+/* These numbers were chosen by the simulations of tests/unit/governor.c, with noise of 25 % and one frame in twenty
+ * ten times as long. */
+static const double OVER = 1.1, FAR_OVER = 1.5,
+                    CLIMB_BELOW = 0.8; /* of the room: noise does not carry from the last to first */
+static const double MORE =
+    1.1; /* a target so much larger or smaller is another: parts of a device that is shared waver a little */
 static const double LEAST_ROOM = 0.5, LEAST_SHARE = 0.25; /* of the target, of what is fixed */
-static const double COOLDOWN_MS = 1000;                /* before a climb */
-static const double RETRY_MS = 3000;                   /* before one to what was too slow; doubled */
-static const double SETTLE_MS = 50;                     /* from a frame to the next change of a hand that saw it */
-static const double HOLD_MS = 400, HOLD_MAX_MS = 2000; /* a hand that pauses in a drag; two drags */
-static const double BLIND_MS = 2000;                   /* a guess; doubled */
-static const double NARROWEST = 0.25;                  /* of the asked width, whatever was asked to be kept of it */
-static const double PATIENT_AGAIN = 0.6;               /* of the patience: frames as wide as was asked for are tried again */
+static const double COOLDOWN_MS = 1000;                   /* before a climb */
+static const double RETRY_MS = 3000;                      /* before one to what was too slow; doubled */
+static const double SETTLE_MS = 50;                       /* from a frame to the next change of a hand that saw it */
+static const double HOLD_MS = 400, HOLD_MAX_MS = 2000;    /* a hand that pauses in a drag; two drags */
+static const double BLIND_MS = 2000;                      /* a guess; doubled */
+static const double NARROWEST = 0.25;                     /* of the asked width, whatever was asked to be kept of it */
+static const double PATIENT_AGAIN = 0.6; /* of the patience: frames as wide as was asked for are tried again */
 enum {
     MOVING_AUDIT = 4,     /* of frames that are not the last word */
     DRAGGED_CRITICAL = 2, /* image.critical_factor of a picture that is gone when the eye has found it: 4 rays of 16 */
-    FEW = 4,    /* spikes in a row are load */
-    ENOUGH = 8, /* two spikes among them are outside the middle half */
-    MISSES = 3, /* a lens map may be missed once, when the rung changes */
+    FEW = 4,              /* spikes in a row are load */
+    ENOUGH = 8,           /* two spikes among them are outside the middle half */
+    MISSES = 3,           /* a lens map may be missed once, when the rung changes */
 };
 
 /* A pace forgets all that it has measured, and stays on its rung. */
 static void begin_anew(struct kd_pace *pace)
 {
-    *pace = (struct kd_pace) { .rung = pace->rung, .changed_at = -INFINITY, .failed_at = -INFINITY, .retry_ms = RETRY_MS };
+    *pace =
+        (struct kd_pace) { .rung = pace->rung, .changed_at = -INFINITY, .failed_at = -INFINITY, .retry_ms = RETRY_MS };
 }
 
 void kd_governor_init(struct kd_governor *governor, const struct kd_governor_params *params)
@@ -42,10 +45,7 @@ void kd_governor_init(struct kd_governor *governor, const struct kd_governor_par
 
 /* What frames cost */
 
-static uint32_t at_most(uint32_t n, uint32_t limit)
-{
-    return n < limit ? n : limit;
-}
+static uint32_t at_most(uint32_t n, uint32_t limit) { return n < limit ? n : limit; }
 
 static const struct kd_frame_cost *latest(const struct kd_pace *pace, uint32_t back)
 {
@@ -60,8 +60,8 @@ static void add(struct kd_frame_cost *sum, const struct kd_frame_cost *cost, dou
     sum->total_ms += weight * cost->total_ms;
 }
 
-/* The cheapest of the latest frames tells the cost best while there are few: a kernel that is compiled, and load, only ever make
- * one dearer. */
+/* The cheapest of the latest frames tells the cost best while there are few: a kernel that is compiled, and load,
+ * only ever make one dearer. */
 static struct kd_frame_cost cheapest_of_latest(const struct kd_pace *pace, uint32_t n)
 {
     const struct kd_frame_cost *least = latest(pace, 0);
@@ -71,8 +71,8 @@ static struct kd_frame_cost cheapest_of_latest(const struct kd_pace *pace, uint3
     return *least;
 }
 
-/* The mean is taken over the middle half of the window, by total: neither a spike nor a frame that had nothing to do moves it.
- * Where two kinds of frames take turns it lies between them, and a median would be one or the other. */
+/* The mean is taken over the middle half of the window, by total: neither a spike nor a frame that had nothing to do
+ * moves it. Where two kinds of frames take turns it lies between them, and a median would be one or the other. */
 static struct kd_frame_cost mean_of_middle(const struct kd_pace *pace)
 {
     const struct kd_frame_cost *sorted[KD_PACE_FRAMES];
@@ -90,10 +90,7 @@ static struct kd_frame_cost mean_of_middle(const struct kd_pace *pace)
 }
 
 /* This part of a frame's time may change with its size. */
-static double varying(const struct kd_frame_cost *cost)
-{
-    return cost->total_ms - cost->fixed_ms;
-}
+static double varying(const struct kd_frame_cost *cost) { return cost->total_ms - cost->fixed_ms; }
 
 /* A frame may take its session's share of the time from one frame to the next. */
 static double target(const struct kd_governor *g)
@@ -107,16 +104,17 @@ static double room(const struct kd_governor *g, const struct kd_frame_cost *cost
     return fmax(all - cost->fixed_ms, fmax(LEAST_ROOM * all, LEAST_SHARE * cost->fixed_ms));
 }
 
-/* Predicts the varying time of a frame on another rung. The rest, which is in neither the rays nor the pixels, either stays or
- * grows with the pixels. */
-static double predict(const struct kd_frame_cost *cost, const struct kd_rung *from, const struct kd_rung *to, bool rest_stays)
+/* Predicts the varying time of a frame on another rung. The rest, which is in neither the rays nor the pixels,
+ * either stays or grows with the pixels. */
+static double predict(const struct kd_frame_cost *cost, const struct kd_rung *from, const struct kd_rung *to,
+                      bool rest_stays)
 {
     double pixels = to->pixels / from->pixels, rest = varying(cost) - cost->rays_ms - cost->pixels_ms;
     return cost->rays_ms * to->rays / from->rays + cost->pixels_ms * pixels + (rest_stays ? rest : rest * pixels);
 }
 
-/* Finds the lowest rung that a pace may take. Where nothing moves, and light alone changes, one picture at full size is worth more
- * than many small ones. */
+/* Finds the lowest rung that a pace may take. Where nothing moves, and light alone changes, one picture at full size
+ * is worth more than many small ones. */
 static uint32_t last_rung(const struct kd_governor *g, const struct kd_pace *pace)
 {
     uint32_t last = (uint32_t)g->ladder.n_rungs - 1;
@@ -125,8 +123,8 @@ static uint32_t last_rung(const struct kd_governor *g, const struct kd_pace *pac
     return last;
 }
 
-static uint32_t first_that_fits(const struct kd_governor *g, const struct kd_pace *pace, const struct kd_frame_cost *cost,
-                                const struct kd_rung *from, uint32_t first)
+static uint32_t first_that_fits(const struct kd_governor *g, const struct kd_pace *pace,
+                                const struct kd_frame_cost *cost, const struct kd_rung *from, uint32_t first)
 {
     uint32_t last = last_rung(g, pace), to = at_most(first, last);
     while (to < last && predict(cost, from, &g->ladder.rungs[to], false) > room(g, cost))
@@ -148,7 +146,8 @@ static void hold(struct kd_pace *pace, bool narrower)
 }
 
 /* cost: of frames on the rung that is left, NULL: nobody knows. */
-static void move(const struct kd_governor *g, struct kd_pace *pace, const struct kd_frame_cost *cost, uint32_t rung, bool up, double now)
+static void move(const struct kd_governor *g, struct kd_pace *pace, const struct kd_frame_cost *cost, uint32_t rung,
+                 bool up, double now)
 {
     if (cost) {
         pace->other = g->ladder.rungs[pace->rung];
@@ -185,8 +184,8 @@ static bool traceable(const struct kd_governor *g, const struct kd_pace *pace, c
     return pace != &g->paces[0] || g->traced_on.rays == 0 || predict(&g->traced, &g->traced_on, rung, true) <= limit;
 }
 
-static bool may_climb(const struct kd_governor *g, const struct kd_pace *pace, const struct kd_frame_cost *cost, uint32_t to,
-                      bool rest_stays)
+static bool may_climb(const struct kd_governor *g, const struct kd_pace *pace, const struct kd_frame_cost *cost,
+                      uint32_t to, bool rest_stays)
 {
     const struct kd_rung *rungs = g->ladder.rungs;
     return predict(cost, &rungs[pace->rung], &rungs[to], rest_stays) <= CLIMB_BELOW * room(g, cost) &&
@@ -197,7 +196,8 @@ static bool may_climb(const struct kd_governor *g, const struct kd_pace *pace, c
 static uint32_t known_good(const struct kd_governor *g, const struct kd_pace *pace)
 {
     bool enough = pace->held_target > 0 && MORE * target(g) >= pace->held_target;
-    return enough && pace->held < pace->rung && traceable(g, pace, &g->ladder.rungs[pace->held], g->share * g->params.stall_ms)
+    return enough && pace->held < pace->rung &&
+                   traceable(g, pace, &g->ladder.rungs[pace->held], g->share * g->params.stall_ms)
                ? pace->held
                : pace->rung;
 }
@@ -208,8 +208,9 @@ static uint32_t ceiling_of(const struct kd_governor *g, const struct kd_pace *pa
     return now - pace->failed_at < pace->retry_ms && target(g) <= MORE * pace->failed_target ? pace->ceiling : 0;
 }
 
-/* Finds which part of what rays take on this rung stays at any size: on the line through what they took at another size a moment ago, and take now. A line
- * that falls tells that the machine has other things to do now than then, and nothing else. */
+/* Finds which part of what rays take on this rung stays at any size: on the line through what they took at another
+ * size a moment ago, and take now. A line that falls tells that the machine has other things to do now than then,
+ * and nothing else. */
 static void learn(const struct kd_governor *g, struct kd_pace *pace, const struct kd_frame_cost *cost)
 {
     const struct kd_rung *here = &g->ladder.rungs[pace->rung], *other = &pace->other;
@@ -223,7 +224,8 @@ static void learn(const struct kd_governor *g, struct kd_pace *pace, const struc
 }
 
 /* Says whether one rung up is in time if that part of what rays take stays. */
-static bool may_climb_if(const struct kd_governor *g, const struct kd_pace *pace, const struct kd_frame_cost *cost, double part)
+static bool may_climb_if(const struct kd_governor *g, const struct kd_pace *pace, const struct kd_frame_cost *cost,
+                         double part)
 {
     const struct kd_rung *rungs = g->ladder.rungs, *here = &rungs[pace->rung], *to = here - 1;
     const double stays = part * cost->rays_ms;
@@ -234,14 +236,15 @@ static bool may_climb_if(const struct kd_governor *g, const struct kd_pace *pace
            traceable(g, pace, to, CLIMB_BELOW * g->share * g->params.stall_ms);
 }
 
-/* Climbs as far as is safe, or else one rung on the better assumption: if that is wrong the rung is left again, and not climbed to
- * soon. */
+/* Climbs as far as is safe, or else one rung on the better assumption: if that is wrong the rung is left again, and
+ * not climbed to soon. */
 static void climb(const struct kd_governor *g, struct kd_pace *pace, const struct kd_frame_cost *cost, double now)
 {
     uint32_t ceiling = ceiling_of(g, pace, now), to = known_good(g, pace);
     while (to > ceiling && may_climb(g, pace, cost, to - 1, false))
         to--;
-    if (to == pace->rung && to > ceiling && (may_climb(g, pace, cost, to - 1, true) || may_climb_if(g, pace, cost, pace->stays))) {
+    if (to == pace->rung && to > ceiling &&
+        (may_climb(g, pace, cost, to - 1, true) || may_climb_if(g, pace, cost, pace->stays))) {
         to--;
     } else if (to == pace->rung && to > ceiling && !pace->tried && may_climb_if(g, pace, cost, 1)) {
         pace->tried = true;
@@ -292,7 +295,8 @@ static void give_way(struct kd_governor *g, const struct kd_pace *pace, bool whe
         change_ladder(g, &g->asked);
 }
 
-/* Frames of this pace are too slow as wide as was asked for: what they take is kept, to be compared with that of the narrower ones that come now. */
+/* Frames of this pace are too slow as wide as was asked for: what they take is kept, to be compared with that of the
+ * narrower ones that come now. */
 static void give_up_width(struct kd_governor *g, const struct kd_pace *pace, const struct kd_frame_cost *cost)
 {
     const struct kd_rung wide = g->ladder.rungs[pace->rung];
@@ -301,7 +305,8 @@ static void give_up_width(struct kd_governor *g, const struct kd_pace *pace, con
     g->wide = wide;
 }
 
-/* Finds which part of what narrow frames take is the same at any size, once, by the first of them: the machine does then what it did just before. */
+/* Finds which part of what narrow frames take is the same at any size, once, by the first of them: the machine does
+ * then what it did just before. */
 static void compare_with_wide(struct kd_governor *g, const struct kd_frame_cost *cost, const struct kd_rung *here)
 {
     if (!(g->wide_ms > 0) || !(varying(cost) > 0) || here->rays >= g->wide.rays)
@@ -313,20 +318,24 @@ static void compare_with_wide(struct kd_governor *g, const struct kd_frame_cost 
 }
 
 /* Predicts what frames vary by on a rung of the wide ladder. */
-static double predict_wide(const struct kd_governor *g, const struct kd_frame_cost *cost, const struct kd_rung *here, const struct kd_rung *wide)
+static double predict_wide(const struct kd_governor *g, const struct kd_frame_cost *cost, const struct kd_rung *here,
+                           const struct kd_rung *wide)
 {
     const double stays = g->stays * g->stays_of, shrinks = 1 - g->stays, now = stays + shrinks * here->rays;
-    return g->stays_of > 0 && now > 0 ? varying(cost) * (stays + shrinks * wide->rays) / now : predict(cost, here, wide, false);
+    return g->stays_of > 0 && now > 0 ? varying(cost) * (stays + shrinks * wide->rays) / now
+                                      : predict(cost, here, wide, false);
 }
 
-/* Says whether frames as wide as was asked for would be well within the patience by now, by what one takes on a narrower rung. */
+/* Says whether frames as wide as was asked for would be well within the patience by now, by what one takes on a
+ * narrower rung. */
 static bool is_quick_as_asked(const struct kd_governor *g, const struct kd_frame_cost *cost, const struct kd_rung *here)
 {
     struct kd_ladder_bounds bounds = g->params.bounds;
     struct kd_ladder ladder;
     bounds.scale = g->least;
     kd_ladder_make(&g->asked, &bounds, &ladder);
-    return cost->fixed_ms + predict_wide(g, cost, here, &ladder.rungs[ladder.n_rungs - 1]) <= PATIENT_AGAIN * g->share * g->patience_ms;
+    return cost->fixed_ms + predict_wide(g, cost, here, &ladder.rungs[ladder.n_rungs - 1]) <=
+           PATIENT_AGAIN * g->share * g->patience_ms;
 }
 
 static void decide(struct kd_governor *g, struct kd_pace *pace, double now)
@@ -373,16 +382,17 @@ static bool same_ladder(const struct kd_scene *a, const struct kd_scene *b)
     const struct kd_image *i = &a->image, *j = &b->image;
     const struct kd_accuracy *p = &a->accuracy, *q = &b->accuracy;
     return i->width == j->width && i->height == j->height && i->samples == j->samples && p->profile == q->profile &&
-           p->tolerance == q->tolerance && p->engine == q->engine && p->precision == q->precision && p->steps == q->steps &&
-           p->orders == q->orders && kd_emit_along(a) == kd_emit_along(b);
+           p->tolerance == q->tolerance && p->engine == q->engine && p->precision == q->precision &&
+           p->steps == q->steps && p->orders == q->orders && kd_emit_along(a) == kd_emit_along(b);
 }
 
 /* Says whether frames of both scenes cost about the same but for their size. */
 static bool same_work(const struct kd_scene *a, const struct kd_scene *b)
 {
     const struct kd_disk *d = &a->disk, *e = &b->disk;
-    return d->model == e->model && d->particles == e->particles && d->slow_light == e->slow_light && a->sky.model == b->sky.model &&
-           a->camera.projection == b->camera.projection && isinf(a->camera.r) == isinf(b->camera.r);
+    return d->model == e->model && d->particles == e->particles && d->slow_light == e->slow_light &&
+           a->sky.model == b->sky.model && a->camera.projection == b->camera.projection &&
+           isinf(a->camera.r) == isinf(b->camera.r);
 }
 
 void kd_governor_least(struct kd_governor *g, double scale, double patience_ms)
@@ -399,14 +409,16 @@ static bool motion_alone(const struct kd_scene *a, const struct kd_scene *b)
 {
     struct kd_scene still = *b;
     still.motion = a->motion;
-    return !memcmp(a, &still, sizeof still) && memcmp(a, b, sizeof still); /* equal scenes are equal bytes: kd_scene_defaults */
+    return !memcmp(a, &still, sizeof still) &&
+           memcmp(a, b, sizeof still); /* equal scenes are equal bytes: kd_scene_defaults */
 }
 
 void kd_governor_changed(struct kd_governor *g, double now, const struct kd_scene *asked, bool lens)
 {
-    /* The picture that is shown is right already if only the motion of a scene that does not move was changed: it is then told once
-     * more. */
-    bool told_again = g->ladders && !lens && g->shown_revision == g->revision && motion_alone(&g->asked, asked) && !kd_emit_moves(asked);
+    /* The picture that is shown is right already if only the motion of a scene that does not move was changed: it is
+     * then told once more. */
+    bool told_again = g->ladders && !lens && g->shown_revision == g->revision && motion_alone(&g->asked, asked) &&
+                      !kd_emit_moves(asked);
     if (g->gave_way && !(same_ladder(&g->asked, asked) && same_work(&g->asked, asked)))
         give_way(g, &g->paces[1], false); /* another kind of scene has its own try */
     if (!g->ladders || !same_ladder(&g->asked, asked))
@@ -469,7 +481,9 @@ static struct kd_turn next_step(const struct kd_governor *g, struct kd_turn turn
 struct kd_turn kd_governor_turn(const struct kd_governor *g, double now)
 {
     bool traced = now - g->lens_at < g->hold_ms || now < g->blind_until;
-    struct kd_turn turn = { .traced = traced, .ladder = g->ladders, .rung = g->paces[traced].rung, .revision = g->revision };
+    struct kd_turn turn = {
+        .traced = traced, .ladder = g->ladders, .rung = g->paces[traced].rung, .revision = g->revision
+    };
     turn.quality = g->ladder.rungs[turn.rung].quality;
     turn.quality.bright = traced && turn.rung;
     turn.quality.critical = turn.quality.bright ? DRAGGED_CRITICAL : 0;
@@ -477,7 +491,8 @@ struct kd_turn kd_governor_turn(const struct kd_governor *g, double now)
     turn.audit = turn.quality.final && g->share >= 1 ? 1 : MOVING_AUDIT;
     if (g->shown_revision != g->revision)
         return turn;
-    double since = g->share < 1 ? fmax(g->changed_at, g->shown_at) : g->changed_at, left = fmax(g->params.rest_ms - (now - since), SETTLE_MS - (now - g->shown_at));
+    double since = g->share < 1 ? fmax(g->changed_at, g->shown_at) : g->changed_at,
+           left = fmax(g->params.rest_ms - (now - since), SETTLE_MS - (now - g->shown_at));
     if (!g->shown.final && left < 1e-3) /* rounded sums of waits end a little early */
         return next_step(g, turn);
     turn.quality = g->shown;
@@ -485,8 +500,8 @@ struct kd_turn kd_governor_turn(const struct kd_governor *g, double now)
     return turn;
 }
 
-/* Counts lens maps that should have been there. One may be missing after a change of rung. If none is kept, as where it does not
- * fit, the frames of a scene whose time alone goes on trace all the same. */
+/* Counts lens maps that should have been there. One may be missing after a change of rung. If none is kept, as where
+ * it does not fit, the frames of a scene whose time alone goes on trace all the same. */
 static void miss(struct kd_governor *g, double now)
 {
     if (++g->missed < MISSES)
@@ -498,7 +513,8 @@ static void miss(struct kd_governor *g, double now)
 
 static bool is_sane(const struct kd_frame_cost *c)
 {
-    return c->fixed_ms >= 0 && c->rays_ms >= 0 && c->pixels_ms >= 0 && c->total_ms >= 0 && isfinite(c->total_ms + c->fixed_ms);
+    return c->fixed_ms >= 0 && c->rays_ms >= 0 && c->pixels_ms >= 0 && c->total_ms >= 0 &&
+           isfinite(c->total_ms + c->fixed_ms);
 }
 
 void kd_governor_frame(struct kd_governor *g, double now, const struct kd_turn *turn, const struct kd_frame_cost *cost)

@@ -27,8 +27,8 @@ static bool by_profile(const struct kd_accuracy *a)
     return !isfinite(a->tolerance) && !a->steps && a->precision == KD_PRECISION_WORD_AUTO;
 }
 
-/* Estimates what a ray costs: the steps that a profile means, and one turn of the transfer pass for each order. Only ratios matter,
- * and where they are wrong the governor measures and moves on. reference is double precision. */
+/* Estimates what a ray costs: the steps that a profile means, and one turn of the transfer pass for each order. Only
+ * ratios matter, and where they are wrong the governor measures and moves on. reference is double precision. */
 static double ray_cost(const struct kd_quality *quality, const struct kd_scene *asked)
 {
     static const double profile[] = { 0.6, 0.7, 1, 1.6, 12 };
@@ -39,7 +39,8 @@ static double ray_cost(const struct kd_quality *quality, const struct kd_scene *
 
 #define ADAPTIVE_RAYS 2.5 /* of a pixel, about, where each has as many as it needs */
 
-static struct kd_rung make_rung(const struct kd_scene *asked, double scale, int32_t samples, int32_t orders, int32_t profile)
+static struct kd_rung make_rung(const struct kd_scene *asked, double scale, int32_t samples, int32_t orders,
+                                int32_t profile)
 {
     struct kd_rung r = { .quality = { .scale = scale, .samples = samples, .orders = orders, .profile = profile } };
     r.quality.width = (uint32_t)fmax(1, round(asked->image.width * scale));

@@ -1,5 +1,5 @@
-/* This says how much of a scene a live frame shows, and the ladder of such qualities from all of it downwards. Plain values, pure functions;
- * any thread. Which rung is in force is governor.h's to say. */
+/* This says how much of a scene a live frame shows, and the ladder of such qualities from all of it downwards. Plain
+ * values, pure functions; any thread. Which rung is in force is governor.h's to say. */
 #ifndef KD_RENDER_LIVE_QUALITY_H
 #define KD_RENDER_LIVE_QUALITY_H
 
@@ -21,8 +21,8 @@ struct kd_quality {
     bool final;             /* everything is as asked */
 };
 
-/* Makes the scene to render: *asked at this quality. It is valid if *asked is; with quality.final it is *asked itself, byte for
- * byte. */
+/* Makes the scene to render: *asked at this quality. It is valid if *asked is; with quality.final it is *asked
+ * itself, byte for byte. */
 void kd_quality_apply(const struct kd_quality *quality, const struct kd_scene *asked, struct kd_scene *out);
 
 struct kd_rung {
@@ -41,13 +41,13 @@ struct kd_ladder_bounds {
 enum { KD_LADDER_RUNGS = 20, KD_LADDER_STEPS = 8 };
 
 struct kd_ladder {
-    /* Makes the ladder downwards from what is asked. It gives up samples first, for what moves needs its pixels more than smooth
-     * edges, then resolution, then orders (of the projection "ring" none), then the steps along a ray, and last, where there are volumes, the
-     * steps through them. Each is less work than the one before. */
+    /* Makes the ladder downwards from what is asked. It gives up samples first, for what moves needs its pixels more
+     * than smooth edges, then resolution, then orders (of the projection "ring" none), then the steps along a ray,
+     * and last, where there are volumes, the steps through them. Each is less work than the one before. */
     struct kd_rung rungs[KD_LADDER_RUNGS];
     size_t n_rungs;
-    /* Makes the ladder upwards, for a scene that rests: full resolution with one ray a pixel, then more, all by at most the profile
-     * "balanced"; last, what is asked. Each is more work than the one before. */
+    /* Makes the ladder upwards, for a scene that rests: full resolution with one ray a pixel, then more, all by at
+     * most the profile "balanced"; last, what is asked. Each is more work than the one before. */
     struct kd_rung steps[KD_LADDER_STEPS];
     size_t n_steps;
 };

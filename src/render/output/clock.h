@@ -5,12 +5,12 @@
 #include "base/json.h"
 #include "scene/scene.h"
 
-/* Writes {"proper_time_to_horizon", "proper_time_to_end", "proper_time_to_horizon_s", "proper_time_to_end_s"}, in M and in
- * seconds; to the horizon null within. */
+/* Writes {"proper_time_to_horizon", "proper_time_to_end", "proper_time_to_horizon_s", "proper_time_to_end_s"}, in M
+ * and in seconds; to the horizon null within. */
 void kd_fall_clock_json(const struct kd_fall_clock *clock, struct kd_json *json, const char *name);
 
-/* One line: "r=6 azimuth_deg=0 proper_time_to_end=... proper_time_to_end_s=... proper_time_to_horizon=... proper_time_to_horizon_s=...", without those to the
- * horizon within; "" where kd_scene_clock has none. */
+/* One line: "r=6 azimuth_deg=0 proper_time_to_end=... proper_time_to_end_s=... proper_time_to_horizon=...
+ * proper_time_to_horizon_s=...", without those to the horizon within; "" where kd_scene_clock has none. */
 #define KD_CLOCK_TEXT 240
 void kd_fall_clock_text(const struct kd_scene *scene, char out[KD_CLOCK_TEXT]);
 

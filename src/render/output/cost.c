@@ -20,12 +20,13 @@ static double file_bytes(const struct kd_series *series, const struct kd_scene *
     const struct kd_words *layers = &scene->image.layers;
     double numbers = 0;
     for (int i = 0; i < layers->count && series && series->frame->carries & KD_CARRIES_LAYERS; i++)
-        numbers += (layers->at[i].word == KD_LAYER_rgb ? 3. : 1.) * kd_plan_shown_width(plan) * kd_plan_shown_height(plan);
+        numbers +=
+            (layers->at[i].word == KD_LAYER_rgb ? 3. : 1.) * kd_plan_shown_width(plan) * kd_plan_shown_height(plan);
     return 4 * numbers;
 }
 
-enum kd_status kd_cost_add(struct kd_cost *cost, const struct kd_series *series, const struct kd_sweep *sweep, const struct kd_scene *scene,
-                           const struct kd_plan *plan, struct kd_error *error)
+enum kd_status kd_cost_add(struct kd_cost *cost, const struct kd_series *series, const struct kd_sweep *sweep,
+                           const struct kd_scene *scene, const struct kd_plan *plan, struct kd_error *error)
 {
     const uint64_t host = plan->host_bytes + plan->making_bytes;
     uint64_t group;
@@ -48,21 +49,23 @@ enum kd_status kd_cost_add(struct kd_cost *cost, const struct kd_series *series,
 
 enum kd_status kd_cost_end(struct kd_cost *cost, struct kd_error *error)
 {
-    return kd_sweep_order_end(&cost->order, &cost->shared_ms) ? kd_error_set(error, KD_ENOMEM, "out of memory for the order of %u frames", cost->frames)
-                                                               : KD_OK;
+    return kd_sweep_order_end(&cost->order, &cost->shared_ms)
+               ? kd_error_set(error, KD_ENOMEM, "out of memory for the order of %u frames", cost->frames)
+               : KD_OK;
 }
 
 void kd_cost_finish(struct kd_cost *cost) { kd_sweep_order_finish(&cost->order); }
 
-static enum kd_status plan_scene(struct kd_cost *cost, const struct kd_series *series, const struct kd_sweep *sweep, const struct kd_capacity *capacity,
-                                 struct kd_error *error)
+static enum kd_status plan_scene(struct kd_cost *cost, const struct kd_series *series, const struct kd_sweep *sweep,
+                                 const struct kd_capacity *capacity, struct kd_error *error)
 {
     struct kd_scene scene;
     struct kd_plan plan;
     struct kd_error inner = { 0 };
     enum kd_status status;
     KD_TRY(kd_sweep_scene(sweep, cost->frames, &scene, error));
-    status = series ? kd_format_plan(series->frame, &scene, capacity, &plan, &inner) : kd_plan_make(&scene, capacity, &plan, &inner);
+    status = series ? kd_format_plan(series->frame, &scene, capacity, &plan, &inner)
+                    : kd_plan_make(&scene, capacity, &plan, &inner);
     if (status) {
         kd_error_field(error, "/axes", "scene %u: %.440s", cost->frames, inner.message);
         return error->status = status;
@@ -72,8 +75,8 @@ done:
     return status;
 }
 
-enum kd_status kd_cost_sweep(struct kd_cost *cost, const struct kd_series *series, const struct kd_sweep *sweep, const struct kd_capacity *capacity,
-                             double until_ms, struct kd_error *error)
+enum kd_status kd_cost_sweep(struct kd_cost *cost, const struct kd_series *series, const struct kd_sweep *sweep,
+                             const struct kd_capacity *capacity, double until_ms, struct kd_error *error)
 {
     enum kd_status status = KD_OK;
     while (cost->frames < sweep->scenes) {

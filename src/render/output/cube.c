@@ -19,47 +19,63 @@ static enum kd_status unreadable(unsigned scene, struct kd_error *error)
     return kd_error_set(error, KD_EIO, "the file of scene %u cannot be read, or is not as the others are", scene);
 }
 
-static enum kd_status no_memory(struct kd_error *error) { return kd_error_set(error, KD_ENOMEM, "out of memory for a cube"); }
+static enum kd_status no_memory(struct kd_error *error)
+{
+    return kd_error_set(error, KD_ENOMEM, "out of memory for a cube");
+}
 
 enum kd_status kd_cube_check(const struct kd_sweep *sweep, struct kd_error *error)
 {
-    static const char *const shapes[] = { "image.width", "image.height", "image.tile.width", "image.tile.height", "image.layers", "camera.stereo" };
+    static const char *const shapes[] = { "image.width",       "image.height", "image.tile.width",
+                                          "image.tile.height", "image.layers", "camera.stereo" };
     char pointer[100];
     for (size_t i = 0; i < sweep->n_axes; i++)
         for (size_t k = 0; k < sizeof shapes / sizeof *shapes; k++)
             if (kd_scene_same_path(sweep->axes[i].path, shapes[k])) {
                 snprintf(pointer, sizeof pointer, "/axes/%s", shapes[k]);
-                return kd_error_field(error, pointer, "%s is an axis, and no cube has pictures of several sizes or layers; allowed are files of their own, as "
-                                      "\"pictures\" or \"fits\"", shapes[k]);
+                return kd_error_field(error, pointer,
+                                      "%s is an axis, and no cube has pictures of several sizes or layers; allowed are "
+                                      "files of their own, as "
+                                      "\"pictures\" or \"fits\"",
+                                      shapes[k]);
             }
     return KD_OK;
 }
 
-enum kd_status kd_cube_compare(struct kd_cube_shape *shape, unsigned number, const struct kd_scene *scene, const struct kd_plan *plan, struct kd_error *error)
+enum kd_status kd_cube_compare(struct kd_cube_shape *shape, unsigned number, const struct kd_scene *scene,
+                               const struct kd_plan *plan, struct kd_error *error)
 {
     const struct kd_words *layers = &scene->image.layers;
     const unsigned width = kd_plan_shown_width(plan), height = kd_plan_shown_height(plan);
     if (!number)
         *shape = (struct kd_cube_shape) { width, height, *layers };
     if (shape->width != width || shape->height != height)
-        return kd_error_field(error, "/axes", "scene %u is %u x %u pixels and scene 0 is %u x %u, and no cube has pictures of several sizes", number, width, height,
-                              shape->width, shape->height);
+        return kd_error_field(
+            error, "/axes",
+            "scene %u is %u x %u pixels and scene 0 is %u x %u, and no cube has pictures of several sizes", number,
+            width, height, shape->width, shape->height);
     bool same = layers->count == shape->layers.count;
     for (int i = 0; i < layers->count && same; i++)
         same = layers->at[i].word == shape->layers.at[i].word && layers->at[i].number == shape->layers.at[i].number;
-    return same ? KD_OK : kd_error_field(error, "/axes", "scene %u has other layers than scene 0, and no cube has pictures of several kinds", number);
+    return same ? KD_OK
+                : kd_error_field(error, "/axes",
+                                 "scene %u has other layers than scene 0, and no cube has pictures of several kinds",
+                                 number);
 }
 
 size_t kd_cube_holds(const struct kd_gather_source *source)
 {
     const struct kd_sweep *sweep = source->sweep;
-    return sweep->scenes * (KD_CUBE_ROW + sizeof *(struct kd_cube) { 0 }.places * (size_t)sweep->base.image.layers.count);
+    return sweep->scenes *
+           (KD_CUBE_ROW + sizeof *(struct kd_cube) { 0 }.places * (size_t)sweep->base.image.layers.count);
 }
 
 enum kd_status kd_cube_open(const struct kd_gather_source *source, struct kd_cube *out, struct kd_error *error)
 {
     *out = (struct kd_cube) { .source = source };
-    return source->sweep && source->n == source->sweep->scenes ? KD_OK : kd_error_set(error, KD_EINVAL, "only the scenes of a sweep make a cube");
+    return source->sweep && source->n == source->sweep->scenes
+               ? KD_OK
+               : kd_error_set(error, KD_EINVAL, "only the scenes of a sweep make a cube");
 }
 
 void kd_cube_finish(struct kd_cube *cube)
@@ -75,7 +91,8 @@ void kd_cube_finish(struct kd_cube *cube)
 }
 
 /* The header of a unit at a place of a scene's file. */
-static enum kd_status read_head(struct kd_cube *cube, unsigned scene, uint64_t at, struct kd_buffer *head, size_t *size, struct kd_error *error)
+static enum kd_status read_head(struct kd_cube *cube, unsigned scene, uint64_t at, struct kd_buffer *head, size_t *size,
+                                struct kd_error *error)
 {
     const struct kd_gather_source *s = cube->source;
     uint8_t block[8 * KD_FITS_BLOCK];
@@ -115,18 +132,22 @@ static bool read_unit(const struct kd_buffer *head, size_t size, struct unit *ou
 {
     char sum[24];
     long long axes = 0, channels = 1;
-    bool good = kd_fits_number(head->data, size, "NAXIS", &axes) && (axes == 2 || axes == 3) && kd_fits_number(head->data, size, "NAXIS1", &out->width) &&
-                kd_fits_number(head->data, size, "NAXIS2", &out->height) && (axes == 2 || kd_fits_number(head->data, size, "NAXIS3", &channels));
+    bool good = kd_fits_number(head->data, size, "NAXIS", &axes) && (axes == 2 || axes == 3) &&
+                kd_fits_number(head->data, size, "NAXIS1", &out->width) &&
+                kd_fits_number(head->data, size, "NAXIS2", &out->height) &&
+                (axes == 2 || kd_fits_number(head->data, size, "NAXIS3", &channels));
     text_of(head, size, "EXTNAME", out->layer.name, sizeof out->layer.name);
     text_of(head, size, "BUNIT", out->layer.unit, sizeof out->layer.unit);
     text_of(head, size, "DATASUM", sum, sizeof sum);
     out->layer.channels = (unsigned)channels;
     out->layer.sum = (uint32_t)strtoul(sum, NULL, 10);
-    return good && *sum && out->width > 0 && out->width <= 1 << 20 && out->height > 0 && out->height <= 1 << 20 && channels > 0 && channels <= 4;
+    return good && *sum && out->width > 0 && out->width <= 1 << 20 && out->height > 0 && out->height <= 1 << 20 &&
+           channels > 0 && channels <= 4;
 }
 
 /* The first scene says what all have. */
-static enum kd_status enter(struct kd_cube *cube, size_t layer, const struct unit *unit, unsigned scene, struct kd_error *error)
+static enum kd_status enter(struct kd_cube *cube, size_t layer, const struct unit *unit, unsigned scene,
+                            struct kd_error *error)
 {
     if (scene == 0 && layer < KD_WORDS_MOST) {
         cube->layers[layer] = unit->layer;
@@ -135,8 +156,8 @@ static enum kd_status enter(struct kd_cube *cube, size_t layer, const struct uni
         cube->height = layer ? cube->height : (unsigned)unit->height;
     }
     struct kd_cube_layer *known = &cube->layers[layer];
-    if (layer >= cube->n_layers || strcmp(known->name, unit->layer.name) || known->channels != unit->layer.channels || cube->width != (unsigned)unit->width ||
-        cube->height != (unsigned)unit->height)
+    if (layer >= cube->n_layers || strcmp(known->name, unit->layer.name) || known->channels != unit->layer.channels ||
+        cube->width != (unsigned)unit->width || cube->height != (unsigned)unit->height)
         return unreadable(scene, error);
     if (scene)
         known->sum = kd_fits_add_sums(known->sum, unit->layer.sum);
@@ -144,7 +165,8 @@ static enum kd_status enter(struct kd_cube *cube, size_t layer, const struct uni
 }
 
 /* Keeps the text of a card if it is not known yet. *there: there is one. */
-static enum kd_status keep_text(struct kd_cube_texts *texts, const struct kd_buffer *head, size_t size, const char *key, bool *there, struct kd_error *error)
+static enum kd_status keep_text(struct kd_cube_texts *texts, const struct kd_buffer *head, size_t size, const char *key,
+                                bool *there, struct kd_error *error)
 {
     struct kd_buffer text = { 0 };
     enum kd_status status = kd_fits_find(head->data, size, key, &text);
@@ -158,7 +180,9 @@ static enum kd_status keep_text(struct kd_cube_texts *texts, const struct kd_buf
         if (!strcmp(texts->at[i], (const char *)text.data))
             goto done;
     if (*there && texts->n == KD_CUBE_TEXTS)
-        KD_TRY(kd_error_set(error, KD_ETOOBIG, "the scenes tell more than %d different texts in %.6s, allowed are as many", KD_CUBE_TEXTS, key));
+        KD_TRY(kd_error_set(error, KD_ETOOBIG,
+                            "the scenes tell more than %d different texts in %.6s, allowed are as many", KD_CUBE_TEXTS,
+                            key));
     char *copy = *there ? strdup((const char *)text.data) : NULL;
     if (*there && !copy)
         KD_TRY(no_memory(error));
@@ -181,14 +205,15 @@ static bool same_axes(const struct kd_wcs_axis a[2], const struct kd_wcs_axis b[
 {
     bool same = true;
     for (int i = 0; i < 2; i++)
-        same = same && a[i].type == b[i].type && a[i].pixel == b[i].pixel && a[i].value == b[i].value && a[i].step == b[i].step;
+        same = same && a[i].type == b[i].type && a[i].pixel == b[i].pixel && a[i].value == b[i].value &&
+               a[i].step == b[i].step;
     return same;
 }
 
 static bool same_world(const struct kd_wcs *a, const struct kd_wcs *b)
 {
-    return a->known == b->known && a->far == b->far && same_axes(a->at, b->at) && (!a->far || same_axes(a->impact, b->impact)) &&
-           !memcmp(a->turn, b->turn, sizeof a->turn);
+    return a->known == b->known && a->far == b->far && same_axes(a->at, b->at) &&
+           (!a->far || same_axes(a->impact, b->impact)) && !memcmp(a->turn, b->turn, sizeof a->turn);
 }
 
 static enum kd_status compare_worlds(struct kd_cube *cube, unsigned number, struct kd_error *error)
@@ -202,9 +227,11 @@ static enum kd_status compare_worlds(struct kd_cube *cube, unsigned number, stru
     return status;
 }
 
-static enum kd_status look_at_notes(struct kd_cube *cube, unsigned scene, const struct kd_buffer *head, size_t size, struct kd_error *error)
+static enum kd_status look_at_notes(struct kd_cube *cube, unsigned scene, const struct kd_buffer *head, size_t size,
+                                    struct kd_error *error)
 {
-    char key[16], hash[KD_CUBE_HASH + 1], accuracy[KD_CUBE_ACCURACY + 1], *row = cube->rows + (size_t)scene * KD_CUBE_ROW;
+    char key[16], hash[KD_CUBE_HASH + 1], accuracy[KD_CUBE_ACCURACY + 1],
+        *row = cube->rows + (size_t)scene * KD_CUBE_ROW;
     bool there = true;
     enum kd_status status;
     KD_TRY(compare_worlds(cube, scene, error));
@@ -276,10 +303,13 @@ enum kd_status kd_cube_look(struct kd_cube *cube, bool *over, struct kd_error *e
     return cube->piece ? KD_OK : no_memory(error);
 }
 
-enum kd_status kd_cube_read(struct kd_cube *cube, unsigned scene, size_t layer, uint64_t at, void *to, size_t size, struct kd_error *error)
+enum kd_status kd_cube_read(struct kd_cube *cube, unsigned scene, size_t layer, uint64_t at, void *to, size_t size,
+                            struct kd_error *error)
 {
     const struct kd_gather_source *s = cube->source;
-    return s->read(s->user, scene, cube->places[scene * cube->n_layers + layer] + at, to, size) ? KD_OK : unreadable(scene, error);
+    return s->read(s->user, scene, cube->places[scene * cube->n_layers + layer] + at, to, size)
+               ? KD_OK
+               : unreadable(scene, error);
 }
 
 void kd_cube_put_double(uint8_t to[8], double value)

@@ -13,22 +13,35 @@
 #define TABLE "FREQ"
 #define COLUMN "hz"
 
-static bool is_frequency(const struct kd_sweep_axis *axis) { return axis->numeric && kd_scene_same_path(axis->path, FREQUENCY); }
+static bool is_frequency(const struct kd_sweep_axis *axis)
+{
+    return axis->numeric && kd_scene_same_path(axis->path, FREQUENCY);
+}
 
 bool kd_cube_has_frequencies(const struct kd_sweep_axis *axis) { return is_frequency(axis) && !axis->even; }
 
 /* In Hz; the field's unit is GHz. */
-static double world_of(const struct kd_sweep_axis *axis, size_t i) { return axis->values[i].number * (is_frequency(axis) ? 1e9 : 1); }
+static double world_of(const struct kd_sweep_axis *axis, size_t i)
+{
+    return axis->values[i].number * (is_frequency(axis) ? 1e9 : 1);
+}
 
 /* As the standard spells it (section 4.3); M = G m/c^2 and stops are none that it knows. */
 static const char *unit_of(const struct kd_sweep_axis *axis)
 {
-    return !strcmp(axis->unit, "degrees") ? "deg" : !strcmp(axis->unit, "solar masses") ? "solMass" : strcmp(axis->unit, "1") ? axis->unit : "";
+    return !strcmp(axis->unit, "degrees")        ? "deg"
+           : !strcmp(axis->unit, "solar masses") ? "solMass"
+           : strcmp(axis->unit, "1")             ? axis->unit
+                                                 : "";
 }
 
-enum kd_status kd_cube_put_line(struct kd_buffer *cards, unsigned number, const char *alternate, double first, double step)
+enum kd_status kd_cube_put_line(struct kd_buffer *cards, unsigned number, const char *alternate, double first,
+                                double step)
 {
-    const struct { const char *key; double value; } lines[] = { { "CRPIX", 1 }, { "CRVAL", first }, { "CDELT", step } };
+    const struct {
+        const char *key;
+        double value;
+    } lines[] = { { "CRPIX", 1 }, { "CRVAL", first }, { "CDELT", step } };
     char key[16];
     enum kd_status status;
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
@@ -40,7 +53,8 @@ done:
     return status;
 }
 
-static enum kd_status put_text(struct kd_buffer *cards, const char *name, unsigned number, const char *rest, const char *value, const char *comment)
+static enum kd_status put_text(struct kd_buffer *cards, const char *name, unsigned number, const char *rest,
+                               const char *value, const char *comment)
 {
     char key[16];
     snprintf(key, sizeof key, "%s%u%s", name, number, rest);
@@ -63,13 +77,20 @@ done:
     return status;
 }
 
-enum kd_status kd_cube_put_axis(struct kd_buffer *cards, const struct kd_sweep_axis *axis, unsigned number, const struct kd_wcs *wcs)
+enum kd_status kd_cube_put_axis(struct kd_buffer *cards, const struct kd_sweep_axis *axis, unsigned number,
+                                const struct kd_wcs *wcs)
 {
     const double first = axis->even ? world_of(axis, 0) : 1;
-    const double step = axis->even && axis->n > 1 ? (world_of(axis, axis->n - 1) - first) / (double)(axis->n - 1) : axis->even && is_frequency(axis) ? 1e9 : 1;
+    const double step = axis->even && axis->n > 1 ? (world_of(axis, axis->n - 1) - first) / (double)(axis->n - 1)
+                        : axis->even && is_frequency(axis) ? 1e9
+                                                           : 1;
     const bool hz = is_frequency(axis) && axis->even;
     enum kd_status status;
-    KD_TRY(put_text(cards, "CTYPE", number, "", hz ? "FREQ" : axis->even ? axis->path : "INDEX", axis->even ? NULL : "of the values in the table of that name"));
+    KD_TRY(put_text(cards, "CTYPE", number, "",
+                    hz           ? "FREQ"
+                    : axis->even ? axis->path
+                                 : "INDEX",
+                    axis->even ? NULL : "of the values in the table of that name"));
     KD_TRY(put_text(cards, "CNAME", number, "", axis->path, NULL));
     KD_TRY(kd_cube_put_line(cards, number, "", first, step));
     if (hz || (axis->even && !strcmp(unit_of(axis), "deg")))
@@ -81,8 +102,9 @@ done:
 }
 
 /* A table of one column; its data are whole words, whose sum zeros behind do not change. */
-static enum kd_status put_table(const char *name, const char *comment, const char *column, const char *form, const char *unit, uint64_t row, uint64_t rows,
-                                const struct kd_buffer *more, struct kd_buffer *data, struct kd_buffer *out)
+static enum kd_status put_table(const char *name, const char *comment, const char *column, const char *form,
+                                const char *unit, uint64_t row, uint64_t rows, const struct kd_buffer *more,
+                                struct kd_buffer *data, struct kd_buffer *out)
 {
     static const uint8_t zeros[KD_FITS_BLOCK];
     const struct kd_fits_shape shape = { .table = true, .columns = 1, .n_axes = 2, .axes = { row, rows } };
@@ -127,7 +149,8 @@ enum kd_status kd_cube_put_values(const struct kd_sweep_axis *axis, struct kd_bu
         snprintf(form, sizeof form, "%zuA", row);
     enum kd_status status = put_rows(axis, row, &values);
     if (!status)
-        status = put_table(axis->path, "field of the scene", "value", form, axis->numeric ? unit_of(axis) : "", row, axis->n, &(struct kd_buffer) { 0 }, &values, out);
+        status = put_table(axis->path, "field of the scene", "value", form, axis->numeric ? unit_of(axis) : "", row,
+                           axis->n, &(struct kd_buffer) { 0 }, &values, out);
     kd_buffer_finish(&values);
     return status;
 }

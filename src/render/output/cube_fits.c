@@ -1,6 +1,7 @@
-/* This writes a cube as FITS: kd_gather_fits. An image a layer, named as it is, the first one with what is told of all; a table for each axis, named by its field, with
- * its values in the column "value"; and the table SCENES with the hash, the accuracy and, where pictures have one, the flux of each scene, in their order. An axis
- * is one of world coordinates too (cube_axes.h). */
+/* This writes a cube as FITS: kd_gather_fits. An image a layer, named as it is, the first one with what is told of
+ * all; a table for each axis, named by its field, with its values in the column "value"; and the table SCENES with
+ * the hash, the accuracy and, where pictures have one, the flux of each scene, in their order. An axis is one of
+ * world coordinates too (cube_axes.h). */
 #include "render/output/cube.h"
 
 #include "image/fits.h"
@@ -19,7 +20,10 @@ struct writer {
     uint64_t at, written;
 };
 
-static enum kd_status no_memory(struct kd_error *error) { return kd_error_set(error, KD_ENOMEM, "out of memory for a FITS cube"); }
+static enum kd_status no_memory(struct kd_error *error)
+{
+    return kd_error_set(error, KD_ENOMEM, "out of memory for a FITS cube");
+}
 
 static enum kd_status open_cube(const struct kd_gather_source *source, void **state, struct kd_error *error)
 {
@@ -136,7 +140,8 @@ static enum kd_status go_on_with_layer(struct writer *w, struct kd_buffer *out, 
 /* Bytes of a scene's row: the flux is left out where none has one. */
 static size_t row_bytes(const struct kd_cube *cube) { return cube->flux ? KD_CUBE_ROW : KD_CUBE_TEXT; }
 
-static enum kd_status put_column(struct kd_buffer *cards, unsigned number, const char *name, unsigned count, char letter)
+static enum kd_status put_column(struct kd_buffer *cards, unsigned number, const char *name, unsigned count,
+                                 char letter)
 {
     char key[16], form[24];
     enum kd_status status;
@@ -151,7 +156,9 @@ done:
 
 static enum kd_status begin_scenes(const struct kd_cube *cube, struct kd_buffer *out)
 {
-    const struct kd_fits_shape shape = { .table = true, .columns = cube->flux ? 3 : 2, .n_axes = 2, .axes = { row_bytes(cube), cube->source->n } };
+    const struct kd_fits_shape shape = {
+        .table = true, .columns = cube->flux ? 3 : 2, .n_axes = 2, .axes = { row_bytes(cube), cube->source->n }
+    };
     struct kd_buffer cards = { 0 };
     enum kd_status status;
     KD_TRY(kd_fits_text(&cards, "EXTNAME", "SCENES", "in the order of the cube"));
@@ -161,7 +168,8 @@ static enum kd_status begin_scenes(const struct kd_cube *cube, struct kd_buffer 
         KD_TRY(put_column(&cards, 3, "flux_jy", 1, 'D'));
         KD_TRY(kd_fits_text(&cards, "TUNIT3", "Jy", NULL));
     }
-    KD_TRY(kd_fits_head(out, &shape, &cards, cube->flux ? kd_fits_add_sums(cube->texts_sum, cube->fluxes_sum) : cube->texts_sum));
+    KD_TRY(kd_fits_head(out, &shape, &cards,
+                        cube->flux ? kd_fits_add_sums(cube->texts_sum, cube->fluxes_sum) : cube->texts_sum));
 done:
     kd_buffer_finish(&cards);
     return status;
@@ -169,7 +177,8 @@ done:
 
 static enum kd_status put_scenes(struct writer *w, struct kd_buffer *out)
 {
-    const unsigned left = w->cube.source->n - w->scene, fit = KD_GATHER_PIECE / KD_CUBE_ROW, n = left < fit ? left : fit;
+    const unsigned left = w->cube.source->n - w->scene, fit = KD_GATHER_PIECE / KD_CUBE_ROW,
+                   n = left < fit ? left : fit;
     const size_t row = row_bytes(&w->cube);
     enum kd_status status = KD_OK;
     for (unsigned i = 0; i < n && !status; i++)
@@ -209,5 +218,11 @@ static enum kd_status next_piece(void *state, struct kd_buffer *out, bool *over,
 }
 
 const struct kd_gather_format kd_gather_fits = {
-    .name = "fits", .media_type = "application/fits", .of = &kd_format_fits, .holds = kd_cube_holds, .open = open_cube, .next = next_piece, .close = close_cube,
+    .name = "fits",
+    .media_type = "application/fits",
+    .of = &kd_format_fits,
+    .holds = kd_cube_holds,
+    .open = open_cube,
+    .next = next_piece,
+    .close = close_cube,
 };

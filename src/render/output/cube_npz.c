@@ -1,6 +1,6 @@
-/* This writes a cube as numpy.savez does: kd_gather_npz. An array for each axis of the sweep, by the name of its field, float64 or text; an array of each layer,
- * float32, of the shape (axes..., height, width[, 3]); scene_hash, scene_accuracy and, where pictures have a flux, scene_flux_jy, of the shape (axes...); and
- * notes.json. */
+/* This writes a cube as numpy.savez does: kd_gather_npz. An array for each axis of the sweep, by the name of its
+ * field, float64 or text; an array of each layer, float32, of the shape (axes..., height, width[, 3]); scene_hash,
+ * scene_accuracy and, where pictures have a flux, scene_flux_jy, of the shape (axes...); and notes.json. */
 #include "render/output/cube.h"
 
 #include "image/npy.h"
@@ -14,13 +14,16 @@ struct writer {
     struct kd_cube cube;
     struct kd_zip *zip;     /* NULL: not begun */
     struct kd_buffer bytes; /* that it has made */
-    size_t member;          /* axes, layers, scene_hash, scene_accuracy, scene_flux_jy, notes.json: one after the other */
+    size_t member; /* axes, layers, scene_hash, scene_accuracy, scene_flux_jy, notes.json: one after the other */
     bool begun;
-    unsigned scene, row;    /* what comes next of it; rows from the top */
-    float *rows;            /* as many as fit a piece */
+    unsigned scene, row; /* what comes next of it; rows from the top */
+    float *rows;         /* as many as fit a piece */
 };
 
-static enum kd_status no_memory(struct kd_error *error) { return kd_error_set(error, KD_ENOMEM, "out of memory for an NPZ cube"); }
+static enum kd_status no_memory(struct kd_error *error)
+{
+    return kd_error_set(error, KD_ENOMEM, "out of memory for an NPZ cube");
+}
 
 static enum kd_status open_cube(const struct kd_gather_source *source, void **state, struct kd_error *error)
 {
@@ -43,7 +46,9 @@ static void close_cube(void *state)
 static struct kd_npy array_of(const struct writer *w, enum kd_npy_type type, uint32_t count)
 {
     const struct kd_sweep *sweep = w->cube.source->sweep;
-    struct kd_npy array = { .n_fields = 1, .fields = { { .type = type, .count = count } }, .n_dimensions = sweep->n_axes };
+    struct kd_npy array = { .n_fields = 1,
+                            .fields = { { .type = type, .count = count } },
+                            .n_dimensions = sweep->n_axes };
     for (size_t i = 0; i < sweep->n_axes; i++)
         array.shape[i] = sweep->axes[i].n;
     return array;
@@ -87,23 +92,29 @@ static enum kd_status put_text(struct writer *w, const char *text, size_t room)
 static enum kd_status put_axis(struct writer *w, const struct kd_sweep_axis *axis)
 {
     const size_t longest = axis->numeric ? 0 : kd_cube_longest(axis);
-    const struct kd_npy array = { .n_fields = 1, .fields = { { .type = axis->numeric ? KD_NPY_F8 : KD_NPY_TEXT, .count = (uint32_t)longest } },
-                                  .shape = { axis->n }, .n_dimensions = 1 };
+    const struct kd_npy array = { .n_fields = 1,
+                                  .fields = { { .type = axis->numeric ? KD_NPY_F8 : KD_NPY_TEXT,
+                                                .count = (uint32_t)longest } },
+                                  .shape = { axis->n },
+                                  .n_dimensions = 1 };
     enum kd_status status = begin_array(w, axis->path, &array);
     for (size_t i = 0; i < axis->n && !status; i++)
-        status = axis->numeric ? kd_zip_append(w->zip, &axis->values[i].number, 8) : put_text(w, axis->values[i].text, longest);
+        status = axis->numeric ? kd_zip_append(w->zip, &axis->values[i].number, 8)
+                               : put_text(w, axis->values[i].text, longest);
     end_member(w);
     return status;
 }
 
-/* Some rows of a scene: FITS has them from the lowest one, each number the other way round, and each channel by itself. */
+/* Some rows of a scene: FITS has them from the lowest one, each number the other way round, and each channel by
+ * itself. */
 static enum kd_status read_rows(struct writer *w, size_t layer, unsigned rows, struct kd_error *error)
 {
     struct kd_cube *cube = &w->cube;
     const unsigned width = cube->width, channels = cube->layers[layer].channels, from = cube->height - w->row - rows;
     enum kd_status status = KD_OK;
     for (unsigned c = 0; c < channels && !status; c++) {
-        status = kd_cube_read(cube, w->scene, layer, 4ull * width * ((uint64_t)c * cube->height + from), cube->piece, 4ull * width * rows, error);
+        status = kd_cube_read(cube, w->scene, layer, 4ull * width * ((uint64_t)c * cube->height + from), cube->piece,
+                              4ull * width * rows, error);
         for (size_t i = 0; i < (size_t)width * rows && !status; i++) {
             const uint8_t *b = cube->piece + 4 * i;
             const uint32_t bits = (uint32_t)b[0] << 24 | (uint32_t)b[1] << 16 | (uint32_t)b[2] << 8 | b[3];
@@ -126,7 +137,8 @@ static enum kd_status go_on_with_layer(struct writer *w, size_t layer, struct kd
             array.shape[array.n_dimensions++] = l->channels;
         return begin_array(w, l->name, &array) ? no_memory(error) : KD_OK;
     }
-    const unsigned fit = (unsigned)(cube->piece_bytes / (16ull * cube->width)), left = cube->height - w->row, rows = left < fit ? left : fit;
+    const unsigned fit = (unsigned)(cube->piece_bytes / (16ull * cube->width)), left = cube->height - w->row,
+                   rows = left < fit ? left : fit;
     enum kd_status status = read_rows(w, layer, rows, error);
     if (!status && kd_zip_append(w->zip, w->rows, 4ull * l->channels * cube->width * rows))
         return no_memory(error);
@@ -237,5 +249,11 @@ static enum kd_status next_piece(void *state, struct kd_buffer *out, bool *over,
 }
 
 const struct kd_gather_format kd_gather_npz = {
-    .name = "npz", .media_type = "application/x-npz", .of = &kd_format_fits, .holds = kd_cube_holds, .open = open_cube, .next = next_piece, .close = close_cube,
+    .name = "npz",
+    .media_type = "application/x-npz",
+    .of = &kd_format_fits,
+    .holds = kd_cube_holds,
+    .open = open_cube,
+    .next = next_piece,
+    .close = close_cube,
 };

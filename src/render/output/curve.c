@@ -7,25 +7,45 @@
 struct kd_curve_row kd_curve_row_of(unsigned number, const struct kd_scene *scene, const struct kd_frame *frame)
 {
     const struct kd_light *all = &frame->light.all, *spots = &frame->light.spots;
-    const bool linear = frame->light.polarized, circular = frame->light.circular, apart = linear && !circular; /* nothing but a volume shines there */
+    const bool linear = frame->light.polarized, circular = frame->light.circular,
+               apart = linear && !circular; /* nothing but a volume shines there */
     return (struct kd_curve_row) {
-        .frame = number, .t = scene->top.time, .flux = all->flux, .centroid_x = all->x, .centroid_y = all->y,
-        .spots_flux = spots->flux, .spots_centroid_x = spots->x, .spots_centroid_y = spots->y,
-        .width = frame->width, .height = frame->height,
-        .stokes_q = linear ? all->q : NAN, .stokes_u = linear ? all->u : NAN, .stokes_v = circular ? all->v : NAN,
-        .polarization_fraction = linear ? kd_light_fraction(all) : NAN, .evpa = linear ? kd_light_evpa(all) : NAN,
-        .spots_stokes_q = apart ? spots->q : NAN, .spots_stokes_u = apart ? spots->u : NAN,
-        .spots_polarization_fraction = apart ? kd_light_fraction(spots) : NAN, .spots_evpa = apart ? kd_light_evpa(spots) : NAN,
+        .frame = number,
+        .t = scene->top.time,
+        .flux = all->flux,
+        .centroid_x = all->x,
+        .centroid_y = all->y,
+        .spots_flux = spots->flux,
+        .spots_centroid_x = spots->x,
+        .spots_centroid_y = spots->y,
+        .width = frame->width,
+        .height = frame->height,
+        .stokes_q = linear ? all->q : NAN,
+        .stokes_u = linear ? all->u : NAN,
+        .stokes_v = circular ? all->v : NAN,
+        .polarization_fraction = linear ? kd_light_fraction(all) : NAN,
+        .evpa = linear ? kd_light_evpa(all) : NAN,
+        .spots_stokes_q = apart ? spots->q : NAN,
+        .spots_stokes_u = apart ? spots->u : NAN,
+        .spots_polarization_fraction = apart ? kd_light_fraction(spots) : NAN,
+        .spots_evpa = apart ? kd_light_evpa(spots) : NAN,
     };
 }
 
 #define NAME(name) #name,
 #define ONE(name) +1
-static const char *const names[] = { KD_CURVE_COLUMNS_(NAME) KD_CURVE_STOKES_(NAME) KD_CURVE_CIRCULAR_(NAME) KD_CURVE_SPOTS_(NAME) };
-enum { ALWAYS = KD_CURVE_COLUMNS_(ONE), CIRCULAR = ALWAYS KD_CURVE_STOKES_(ONE), OF_SPOTS = CIRCULAR KD_CURVE_CIRCULAR_(ONE), COLUMNS = sizeof names / sizeof *names };
+static const char *const names[] = { KD_CURVE_COLUMNS_(NAME) KD_CURVE_STOKES_(NAME) KD_CURVE_CIRCULAR_(NAME)
+                                         KD_CURVE_SPOTS_(NAME) };
+enum {
+    ALWAYS = KD_CURVE_COLUMNS_(ONE),
+    CIRCULAR = ALWAYS KD_CURVE_STOKES_(ONE),
+    OF_SPOTS = CIRCULAR KD_CURVE_CIRCULAR_(ONE),
+    COLUMNS = sizeof names / sizeof *names
+};
 _Static_assert(sizeof(struct kd_curve_row) == COLUMNS * sizeof(double), "a row is its columns");
 
-/* Which columns a table has: those of polarised light by the first of their group, which is a number in each row that has the group. */
+/* Which columns a table has: those of polarised light by the first of their group, which is a number in each row
+ * that has the group. */
 struct columns { bool has[COLUMNS]; };
 static struct columns columns_of(const double *rows, size_t n)
 {
@@ -69,7 +89,8 @@ done:
     return status;
 }
 
-static enum kd_status write_row(const double *values, const struct columns *columns, const struct kd_sweep *sweep, bool csv, bool last, struct kd_buffer *out)
+static enum kd_status write_row(const double *values, const struct columns *columns, const struct kd_sweep *sweep,
+                                bool csv, bool last, struct kd_buffer *out)
 {
     enum kd_status status = KD_OK;
     for (int i = 0; i < COLUMNS; i++) {
@@ -118,8 +139,8 @@ done:
     return status;
 }
 
-static enum kd_status encode(const struct kd_picture *picture, enum kd_effort effort, void **memory, struct kd_buffer *out,
-                             struct kd_error *error)
+static enum kd_status encode(const struct kd_picture *picture, enum kd_effort effort, void **memory,
+                             struct kd_buffer *out, struct kd_error *error)
 {
     const struct kd_curve_row row = kd_curve_row_of(picture->number, picture->scene, picture->frame);
     (void)effort, (void)memory;
@@ -127,7 +148,11 @@ static enum kd_status encode(const struct kd_picture *picture, enum kd_effort ef
 }
 
 static const struct kd_format one_row = {
-    .name = "row", .media_type = "application/octet-stream", .magic = "", .carries = KD_CARRIES_LIGHT, .encode = encode,
+    .name = "row",
+    .media_type = "application/octet-stream",
+    .magic = "",
+    .carries = KD_CARRIES_LIGHT,
+    .encode = encode,
 };
 
 static const struct kd_table_format tables[] = {
@@ -136,6 +161,11 @@ static const struct kd_table_format tables[] = {
 };
 
 const struct kd_series kd_light_curve = {
-    .name = "light-curve", .noun = "light curve", .each = "the rows of a light curve", .frame = &one_row, .row_bytes = sizeof(struct kd_curve_row), .tables = tables,
+    .name = "light-curve",
+    .noun = "light curve",
+    .each = "the rows of a light curve",
+    .frame = &one_row,
+    .row_bytes = sizeof(struct kd_curve_row),
+    .tables = tables,
     .n_tables = sizeof tables / sizeof *tables,
 };

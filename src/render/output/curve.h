@@ -5,21 +5,31 @@
 #include "render/output/series.h"
 
 /* COLUMN(name); NAN where there is no centroid. Plain numbers: a file may hold rows. */
-#define KD_CURVE_COLUMNS_(COLUMN)                                                                                          \
-    COLUMN(frame) COLUMN(t) COLUMN(flux) COLUMN(centroid_x) COLUMN(centroid_y) COLUMN(spots_flux) COLUMN(spots_centroid_x) \
+/* clang-format off */
+#define KD_CURVE_COLUMNS_(COLUMN) \
+    COLUMN(frame) COLUMN(t) COLUMN(flux) COLUMN(centroid_x) COLUMN(centroid_y) COLUMN(spots_flux) \
+    COLUMN(spots_centroid_x) \
     COLUMN(spots_centroid_y) COLUMN(width) COLUMN(height)
-/* Of polarised light, in three groups: of all light, of all where it is polarised circularly too, and of the spots'. NAN where there is none. */
+/* clang-format on */
+/* Of polarised light, in three groups: of all light, of all where it is polarised circularly too, and of the spots'.
+ * NAN where there is none. */
 #define KD_CURVE_STOKES_(COLUMN) COLUMN(stokes_q) COLUMN(stokes_u) COLUMN(polarization_fraction) COLUMN(evpa)
 #define KD_CURVE_CIRCULAR_(COLUMN) COLUMN(stokes_v)
-#define KD_CURVE_SPOTS_(COLUMN) COLUMN(spots_stokes_q) COLUMN(spots_stokes_u) COLUMN(spots_polarization_fraction) COLUMN(spots_evpa)
+/* clang-format off */
+#define KD_CURVE_SPOTS_(COLUMN) \
+    COLUMN(spots_stokes_q) COLUMN(spots_stokes_u) COLUMN(spots_polarization_fraction) COLUMN(spots_evpa)
+/* clang-format on */
 #define KD_CURVE_MEMBER(name) double name;
 struct kd_curve_row {
-    KD_CURVE_COLUMNS_(KD_CURVE_MEMBER) KD_CURVE_STOKES_(KD_CURVE_MEMBER) KD_CURVE_CIRCULAR_(KD_CURVE_MEMBER) KD_CURVE_SPOTS_(KD_CURVE_MEMBER)
+    KD_CURVE_COLUMNS_(KD_CURVE_MEMBER)
+    KD_CURVE_STOKES_(KD_CURVE_MEMBER) KD_CURVE_CIRCULAR_(KD_CURVE_MEMBER) KD_CURVE_SPOTS_(KD_CURVE_MEMBER)
 };
 #undef KD_CURVE_MEMBER
 
-/* This series takes frames that carry light, whether the scene has spots or not. "csv" has a line of names, "json" is {"frames": [{name: value, ...},
- * ...]}: what is not there is empty, or null; a group of columns of polarised light that no row has is left out. Of a sweep the values of its axes stand behind the frame's number, by their fields. */
+/* This series takes frames that carry light, whether the scene has spots or not. "csv" has a line of names, "json"
+ * is {"frames": [{name: value, ...}, ...]}: what is not there is empty, or null; a group of columns of polarised
+ * light that no row has is left out. Of a sweep the values of its axes stand behind the frame's number, by their
+ * fields. */
 extern const struct kd_series kd_light_curve;
 
 struct kd_curve_row kd_curve_row_of(unsigned number, const struct kd_scene *scene, const struct kd_frame *frame);

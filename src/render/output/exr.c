@@ -1,5 +1,5 @@
-/* This writes a frame's layers as an OpenEXR file: kd_format_exr. "rgb" is the channels R, G and B, any other word a channel of its name, 32-bit
- * numbers all; attributes tell what the text of a PNG tells, and units. */
+/* This writes a frame's layers as an OpenEXR file: kd_format_exr. "rgb" is the channels R, G and B, any other word a
+ * channel of its name, 32-bit numbers all; attributes tell what the text of a PNG tells, and units. */
 #include "render/output/format.h"
 
 #include "image/exr.h"
@@ -32,8 +32,8 @@ static enum kd_status units_of(const struct kd_numbers *numbers, struct kd_buffe
     return status;
 }
 
-static enum kd_status encode(const struct kd_picture *picture, enum kd_effort effort, void **memory, struct kd_buffer *out,
-                             struct kd_error *error)
+static enum kd_status encode(const struct kd_picture *picture, enum kd_effort effort, void **memory,
+                             struct kd_buffer *out, struct kd_error *error)
 {
     struct kd_exr_channel channels[KD_WORDS_MOST + 2];
     struct kd_buffer units = { 0 };
@@ -46,9 +46,13 @@ static enum kd_status encode(const struct kd_picture *picture, enum kd_effort ef
     if ((status = units_of(&numbers, &units)))
         goto done;
     struct kd_exr_text texts[9] = {
-        { "kerrd:scene", (const char *)notes.scene.data }, { "kerrd:hash", notes.hash }, { "kerrd:version", KD_VERSION },
-        { "kerrd:approximations", (const char *)notes.approximations.data }, { "kerrd:accuracy", notes.accuracy },
-        { "kerrd:device", picture->device }, { "kerrd:units", (const char *)units.data },
+        { "kerrd:scene", (const char *)notes.scene.data },
+        { "kerrd:hash", notes.hash },
+        { "kerrd:version", KD_VERSION },
+        { "kerrd:approximations", (const char *)notes.approximations.data },
+        { "kerrd:accuracy", notes.accuracy },
+        { "kerrd:device", picture->device },
+        { "kerrd:units", (const char *)units.data },
     };
     size_t n_texts = 7;
     if (*picture->frame->credit)
@@ -58,8 +62,12 @@ static enum kd_status encode(const struct kd_picture *picture, enum kd_effort ef
     if (*notes.flux)
         texts[n_texts++] = (struct kd_exr_text) { "kerrd:flux", notes.flux };
     const struct kd_exr image = {
-        .width = picture->frame->width, .height = picture->frame->height, .channels = channels, .n_channels = channels_of(&numbers, channels),
-        .texts = texts, .n_texts = n_texts,
+        .width = picture->frame->width,
+        .height = picture->frame->height,
+        .channels = channels,
+        .n_channels = channels_of(&numbers, channels),
+        .texts = texts,
+        .n_texts = n_texts,
     };
     status = kd_exr_encode(&image, out, error);
 done:
@@ -79,5 +87,10 @@ static enum kd_status scene_in(const void *data, size_t size, struct kd_scene *o
 }
 
 const struct kd_format kd_format_exr = {
-    .name = "exr", .media_type = "image/x-exr", .magic = "\x76\x2f\x31\x01", .carries = KD_CARRIES_LAYERS, .encode = encode, .scene = scene_in,
+    .name = "exr",
+    .media_type = "image/x-exr",
+    .magic = "\x76\x2f\x31\x01",
+    .carries = KD_CARRIES_LAYERS,
+    .encode = encode,
+    .scene = scene_in,
 };

@@ -1,5 +1,6 @@
-/* The program ffmpeg encodes the pictures of all frames as a film: H.264 in an MP4 file, or VP9 in a WebM file. It writes a file without a name, since the index of
- * an MP4 belongs before its pictures, and what is in it is given when it is done. */
+/* The program ffmpeg encodes the pictures of all frames as a film: H.264 in an MP4 file, or VP9 in a WebM file. It
+ * writes a file without a name, since the index of an MP4 belongs before its pictures, and what is in it is given
+ * when it is done. */
 #include "base/program.h"
 #include "image/png.h"
 #include "render/output/gather.h"
@@ -11,36 +12,41 @@
 #include <string.h>
 #include <unistd.h>
 
-#define PICTURE_MAX (32u << 20)  /* bytes of one frame's file: of 4K twice over */
-#define MORE (1u << 20)          /* bytes that a film may have beyond those of its pictures: its head */
-#define SCENE_MAX 100000         /* bytes of its text: an argument of a program may be 128 KiB */
-#define HEAD 24                  /* bytes of a PNG file until its width and height have been told */
+#define PICTURE_MAX (32u << 20) /* bytes of one frame's file: of 4K twice over */
+#define MORE (1u << 20)         /* bytes that a film may have beyond those of its pictures: its head */
+#define SCENE_MAX 100000        /* bytes of its text: an argument of a program may be 128 KiB */
+#define HEAD 24                 /* bytes of a PNG file until its width and height have been told */
 
 struct film {
     const struct kd_gather_source *source;
     const char *const *codec; /* its options, NULL at the end */
     const char *container;
     struct kd_program program;
-    int fd;                   /* of what it writes, -1: it has not begun */
+    int fd; /* of what it writes, -1: it has not begun */
     bool done;
     struct kd_buffer picture; /* of frame `next`, from `at` on to be handed over; at == size: none is */
     size_t at;
     unsigned next;
-    uint8_t size[8];          /* of frame 0: width and height as a PNG file has them */
-    uint64_t given;           /* bytes of the film */
+    uint8_t size[8]; /* of frame 0: width and height as a PNG file has them */
+    uint64_t given;  /* bytes of the film */
 };
 
 /* Quality that is not told from the pictures by eye: a black sky shows bands before anything else. */
-static const char *const h264[] = { "-c:v", "libx264", "-preset", "medium", "-crf", "17", "-movflags", "+faststart", NULL };
-static const char *const vp9[] = { "-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-row-mt", "1", "-deadline", "good", "-cpu-used", "4", NULL };
+static const char *const h264[] = { "-c:v", "libx264",   "-preset",    "medium", "-crf",
+                                    "17",   "-movflags", "+faststart", NULL };
+static const char *const vp9[] = { "-c:v", "libvpx-vp9", "-crf", "24",        "-b:v", "0", "-row-mt",
+                                   "1",    "-deadline",  "good", "-cpu-used", "4",    NULL };
 
-static enum kd_status open_film(const struct kd_gather_source *source, const char *const *codec, const char *container, void **state, struct kd_error *error)
+static enum kd_status open_film(const struct kd_gather_source *source, const char *const *codec, const char *container,
+                                void **state, struct kd_error *error)
 {
     struct film *f = calloc(1, sizeof *f);
     *state = f;
     if (!f)
         return kd_error_set(error, KD_ENOMEM, "out of memory for a film");
-    *f = (struct film) { .source = source, .codec = codec, .container = container, .program = KD_PROGRAM_NONE, .fd = -1 };
+    *f = (struct film) {
+        .source = source, .codec = codec, .container = container, .program = KD_PROGRAM_NONE, .fd = -1
+    };
     return KD_OK;
 }
 
@@ -54,7 +60,10 @@ static enum kd_status open_webm(const struct kd_gather_source *source, void **st
     return open_film(source, vp9, "webm", state, error);
 }
 
-static uint32_t be32(const uint8_t *at) { return (uint32_t)at[0] << 24 | (uint32_t)at[1] << 16 | (uint32_t)at[2] << 8 | at[3]; }
+static uint32_t be32(const uint8_t *at)
+{
+    return (uint32_t)at[0] << 24 | (uint32_t)at[1] << 16 | (uint32_t)at[2] << 8 | at[3];
+}
 
 /* The next frame's file, whole: a picture is some hundred kilobytes. */
 static enum kd_status load(struct film *f, struct kd_error *error)
@@ -67,7 +76,9 @@ static enum kd_status load(struct film *f, struct kd_error *error)
     if (!source->size(source->user, f->next, &size) || size < HEAD)
         return kd_error_set(error, KD_EIO, "the file of frame %u cannot be read", f->next);
     if (size > PICTURE_MAX)
-        return kd_error_set(error, KD_ETOOBIG, "the picture of frame %u has %.0f MB, more than the %u that a film takes", f->next, 1e-6 * (double)size, PICTURE_MAX >> 20);
+        return kd_error_set(error, KD_ETOOBIG,
+                            "the picture of frame %u has %.0f MB, more than the %u that a film takes", f->next,
+                            1e-6 * (double)size, PICTURE_MAX >> 20);
     for (uint64_t left = size; left && !status; left -= left < sizeof zeros ? left : sizeof zeros)
         status = kd_buffer_append(&f->picture, zeros, left < sizeof zeros ? (size_t)left : sizeof zeros);
     if (status)
@@ -78,8 +89,9 @@ static enum kd_status load(struct film *f, struct kd_error *error)
     if (!f->next)
         memcpy(f->size, here, sizeof f->size);
     if (memcmp(f->size, here, sizeof f->size))
-        return kd_error_field(error, "/format", "frame %u is %u x %u pixels and frame 0 %u x %u: a film has one size, a zip holds any", f->next, be32(here), be32(here + 4),
-                              be32(f->size), be32(f->size + 4));
+        return kd_error_field(error, "/format",
+                              "frame %u is %u x %u pixels and frame 0 %u x %u: a film has one size, a zip holds any",
+                              f->next, be32(here), be32(here + 4), be32(f->size), be32(f->size + 4));
     return KD_OK;
 }
 
@@ -106,15 +118,19 @@ static uint64_t bytes_of(const struct kd_gather_source *source)
     return all;
 }
 
-/* The scene of frame 0, as the picture has it, goes into the film. Colours: of the picture sRGB, which players show alike where BT.709 is named; the
- * conversion to Y'CbCr is BT.709's, in the range of video. Two pixels share a colour, so odd sides are filled up. */
+/* The scene of frame 0, as the picture has it, goes into the film. Colours: of the picture sRGB, which players show
+ * alike where BT.709 is named; the conversion to Y'CbCr is BT.709's, in the range of video. Two pixels share a
+ * colour, so odd sides are filled up. */
 static enum kd_status begin(struct film *f, struct kd_error *error)
 {
-    static const char filter[] = "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int+full_chroma_inp,format=yuv420p";
+    static const char filter[] = "pad=ceil(iw/2)*2:ceil(ih/"
+                                 "2)*2,scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int+"
+                                 "full_chroma_inp,format=yuv420p";
     struct kd_buffer comment = { 0 };
     struct kd_png shown = { 0 };
     char rate[16], titled[80];
-    const char *argv[48] = { "ffmpeg", "-nostdin", "-hide_banner", "-loglevel", "error", "-f", "image2pipe", "-c:v", "png", "-framerate", rate, "-i", "pipe:0", "-vf", filter };
+    const char *argv[48] = { "ffmpeg", "-nostdin",   "-hide_banner", "-loglevel", "error",  "-f",  "image2pipe", "-c:v",
+                             "png",    "-framerate", rate,           "-i",        "pipe:0", "-vf", filter };
     size_t n = 15;
     enum kd_status status;
     KD_TRY(load(f, error));
@@ -122,7 +138,10 @@ static enum kd_status begin(struct film *f, struct kd_error *error)
     const char *scene = kd_png_text_find(&shown, "kerrd:scene");
     if (!scene || strlen(scene) > SCENE_MAX) {
         status = !scene ? kd_error_set(error, KD_EIO, "the picture of frame 0 holds no scene")
-                        : kd_error_set(error, KD_ETOOBIG, "the scene is a text of %zu bytes, and the head of a film holds %d: a zip keeps it in each picture", strlen(scene), SCENE_MAX);
+                        : kd_error_set(error, KD_ETOOBIG,
+                                       "the scene is a text of %zu bytes, and the head of a film holds %d: a zip keeps "
+                                       "it in each picture",
+                                       strlen(scene), SCENE_MAX);
         goto done;
     }
     KD_TRY(kd_buffer_printf(&comment, "comment=%s", scene));
@@ -130,15 +149,33 @@ static enum kd_status begin(struct film *f, struct kd_error *error)
     snprintf(titled, sizeof titled, "title=kerrd %s, %u frames", KD_VERSION, f->source->n);
     for (const char *const *option = f->codec; *option; option++)
         argv[n++] = *option;
-    const char *const rest[] = { "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709", "-color_range", "tv", "-metadata", (const char *)comment.data,
-                                 "-metadata", titled, "-f", f->container, "-y", "/dev/fd/3", NULL };
+    const char *const rest[] = { "-colorspace",
+                                 "bt709",
+                                 "-color_primaries",
+                                 "bt709",
+                                 "-color_trc",
+                                 "bt709",
+                                 "-color_range",
+                                 "tv",
+                                 "-metadata",
+                                 (const char *)comment.data,
+                                 "-metadata",
+                                 titled,
+                                 "-f",
+                                 f->container,
+                                 "-y",
+                                 "/dev/fd/3",
+                                 NULL };
     memcpy(argv + n, rest, sizeof rest);
     if ((f->fd = nameless()) < 0)
-        status = kd_error_set(error, errno == ENOSPC ? KD_EFULL : KD_EIO, "there is no room for a film: %s", strerror(errno));
+        status = kd_error_set(error, errno == ENOSPC ? KD_EFULL : KD_EIO, "there is no room for a film: %s",
+                              strerror(errno));
     else
         status = kd_program_start(argv, f->fd, bytes_of(f->source) + MORE, &f->program, error);
     if (status == KD_EABSENT)
-        kd_error_set(error, KD_EABSENT, "films are encoded by the program ffmpeg, which is not found on the PATH; a zip holds the numbered pictures");
+        kd_error_set(error, KD_EABSENT,
+                     "films are encoded by the program ffmpeg, which is not found on the PATH; a zip holds the "
+                     "numbered pictures");
 done:
     if (status == KD_ENOMEM)
         kd_error_set(error, KD_ENOMEM, "out of memory for a film");
@@ -153,7 +190,8 @@ static enum kd_status feed(struct film *f, struct kd_error *error)
     enum kd_status status = KD_OK;
     int code;
     while (f->next < f->source->n && !status) {
-        size_t left = f->picture.size - f->at, taken = kd_program_write(&f->program, (const char *)f->picture.data + f->at, left);
+        size_t left = f->picture.size - f->at,
+               taken = kd_program_write(&f->program, (const char *)f->picture.data + f->at, left);
         f->at += taken;
         if (taken < left)
             break;
@@ -171,8 +209,11 @@ static enum kd_status feed(struct film *f, struct kd_error *error)
     while (end && strchr("\n\r ", f->program.said[end - 1]))
         f->program.said[--end] = 0;
     const char *line = strrchr(f->program.said, '\n');
-    return kd_error_set(error, strstr(f->program.said, "No space left") ? KD_EFULL : KD_EIO, "ffmpeg failed at frame %u: %.300s", f->next,
-                        !*f->program.said ? "it did not say why" : line ? line + 1 : f->program.said);
+    return kd_error_set(error, strstr(f->program.said, "No space left") ? KD_EFULL : KD_EIO,
+                        "ffmpeg failed at frame %u: %.300s", f->next,
+                        !*f->program.said ? "it did not say why"
+                        : line            ? line + 1
+                                          : f->program.said);
 }
 
 static enum kd_status give(struct film *f, struct kd_buffer *out, bool *over, struct kd_error *error)
@@ -181,7 +222,8 @@ static enum kd_status give(struct film *f, struct kd_buffer *out, bool *over, st
     ssize_t n = pread(f->fd, piece, sizeof piece, (off_t)f->given);
     *over = n == 0;
     if (n < 0 || (*over && !f->given))
-        return kd_error_set(error, KD_EIO, "the film cannot be read: %s", n < 0 ? strerror(errno) : "ffmpeg wrote nothing");
+        return kd_error_set(error, KD_EIO, "the film cannot be read: %s",
+                            n < 0 ? strerror(errno) : "ffmpeg wrote nothing");
     f->given += (uint64_t)n;
     return kd_buffer_append(out, piece, (size_t)n) ? kd_error_set(error, KD_ENOMEM, "out of memory for a film") : KD_OK;
 }
@@ -216,8 +258,22 @@ static size_t holds(const struct kd_gather_source *source)
 }
 
 const struct kd_gather_format kd_gather_mp4 = {
-    .name = "mp4", .media_type = "video/mp4", .of = &kd_format_png, .holds = holds, .waits = true, .open = open_mp4, .next = next_piece, .close = close_film,
+    .name = "mp4",
+    .media_type = "video/mp4",
+    .of = &kd_format_png,
+    .holds = holds,
+    .waits = true,
+    .open = open_mp4,
+    .next = next_piece,
+    .close = close_film,
 };
 const struct kd_gather_format kd_gather_webm = {
-    .name = "webm", .media_type = "video/webm", .of = &kd_format_png, .holds = holds, .waits = true, .open = open_webm, .next = next_piece, .close = close_film,
+    .name = "webm",
+    .media_type = "video/webm",
+    .of = &kd_format_png,
+    .holds = holds,
+    .waits = true,
+    .open = open_webm,
+    .next = next_piece,
+    .close = close_film,
 };

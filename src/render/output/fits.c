@@ -1,6 +1,6 @@
-/* This writes a frame's layers as a FITS file: kd_format_fits. The first word of image.layers is the primary array, each more an IMAGE extension of
- * that name; "rgb" has a third axis. The primary header tells the scene, the hole, the observer, accuracy, and each approximation in force;
- * all have world coordinates. */
+/* This writes a frame's layers as a FITS file: kd_format_fits. The first word of image.layers is the primary array,
+ * each more an IMAGE extension of that name; "rgb" has a third axis. The primary header tells the scene, the hole,
+ * the observer, accuracy, and each approximation in force; all have world coordinates. */
 #include "render/output/format.h"
 
 #include "image/fits.h"
@@ -30,7 +30,8 @@ static enum kd_status put_notes(struct kd_buffer *cards, const struct kd_picture
     if (*notes->clock)
         KD_TRY(kd_fits_text(cards, "KDCLOCK", notes->clock, NULL));
     if (*notes->flux) {
-        KD_TRY(kd_fits_real(cards, KD_FITS_FLUX, kd_flux_jy(picture->scene, picture->frame), "Jy; of the whole picture"));
+        KD_TRY(
+            kd_fits_real(cards, KD_FITS_FLUX, kd_flux_jy(picture->scene, picture->frame), "Jy; of the whole picture"));
         KD_TRY(kd_fits_text(cards, "KDFLUX", notes->flux, NULL));
     }
     KD_TRY(kd_fits_text(cards, "KDSCENE", (const char *)notes->scene.data, NULL));
@@ -38,11 +39,13 @@ done:
     return status;
 }
 
-static enum kd_status put_unit(struct kd_buffer *out, const struct kd_picture *picture, const struct kd_number_layer *layer, const struct kd_notes *notes)
+static enum kd_status put_unit(struct kd_buffer *out, const struct kd_picture *picture,
+                               const struct kd_number_layer *layer, const struct kd_notes *notes)
 {
     struct kd_buffer cards = { 0 };
     const struct kd_wcs wcs = kd_wcs_of(picture->scene);
-    const struct kd_fits_array array = { picture->frame->width, picture->frame->height, layer->layer->channels, layer->layer->data };
+    const struct kd_fits_array array = { picture->frame->width, picture->frame->height, layer->layer->channels,
+                                         layer->layer->data };
     enum kd_status status;
     KD_TRY(kd_fits_put_layer(&cards, layer->name, layer->unit, layer->layer->channels > 1, &wcs));
     if (notes)
@@ -53,8 +56,8 @@ done:
     return status;
 }
 
-static enum kd_status encode(const struct kd_picture *picture, enum kd_effort effort, void **memory, struct kd_buffer *out,
-                             struct kd_error *error)
+static enum kd_status encode(const struct kd_picture *picture, enum kd_effort effort, void **memory,
+                             struct kd_buffer *out, struct kd_error *error)
 {
     struct kd_numbers numbers;
     struct kd_notes notes = { 0 };
@@ -75,12 +78,18 @@ static enum kd_status scene_in(const void *data, size_t size, struct kd_scene *o
 {
     struct kd_buffer text = { 0 };
     enum kd_status status = kd_fits_find(data, size, "KDSCENE", &text);
-    status = status ? kd_error_set(error, status, "the FITS file holds no scene: its primary header has no whole card KDSCENE")
+    status = status ? kd_error_set(error, status,
+                                   "the FITS file holds no scene: its primary header has no whole card KDSCENE")
                     : kd_notes_scene((const char *)text.data, text.size, out, error);
     kd_buffer_finish(&text);
     return status;
 }
 
 const struct kd_format kd_format_fits = {
-    .name = "fits", .media_type = "application/fits", .magic = "SIMPLE  =", .carries = KD_CARRIES_LAYERS, .encode = encode, .scene = scene_in,
+    .name = "fits",
+    .media_type = "application/fits",
+    .magic = "SIMPLE  =",
+    .carries = KD_CARRIES_LAYERS,
+    .encode = encode,
+    .scene = scene_in,
 };

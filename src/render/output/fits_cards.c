@@ -10,7 +10,8 @@
 #include <stdio.h>
 #include <string.h>
 
-enum kd_status kd_fits_put_world_axes(struct kd_buffer *cards, const struct kd_wcs *wcs, const struct kd_wcs_axis axes[2], const char *alternate)
+enum kd_status kd_fits_put_world_axes(struct kd_buffer *cards, const struct kd_wcs *wcs,
+                                      const struct kd_wcs_axis axes[2], const char *alternate)
 {
     static const char *const names[] = { "CTYPE", "CRPIX", "CRVAL", "CDELT", "CUNIT" };
     enum kd_status status;
@@ -55,7 +56,8 @@ done:
     return status;
 }
 
-enum kd_status kd_fits_put_layer(struct kd_buffer *cards, const char *name, const char *unit, bool rgb, const struct kd_wcs *wcs)
+enum kd_status kd_fits_put_layer(struct kd_buffer *cards, const char *name, const char *unit, bool rgb,
+                                 const struct kd_wcs *wcs)
 {
     enum kd_status status;
     KD_TRY(kd_fits_text(cards, "EXTNAME", name, "word of image.layers"));
@@ -75,7 +77,10 @@ static enum kd_status put_number(struct kd_buffer *cards, const char *key, doubl
     return isfinite(value) ? kd_fits_real(cards, key, value, comment) : kd_fits_text(cards, key, "infinity", comment);
 }
 
-static double microarcseconds(const struct kd_scene *s) { return kd_scale_microarcseconds(s->spacetime.mass_msun, s->spacetime.distance_pc); }
+static double microarcseconds(const struct kd_scene *s)
+{
+    return kd_scale_microarcseconds(s->spacetime.mass_msun, s->spacetime.distance_pc);
+}
 
 static bool varies(const struct kd_sweep *sweep, const char *path)
 {
@@ -87,11 +92,18 @@ static bool varies(const struct kd_sweep *sweep, const char *path)
 
 enum kd_status kd_fits_put_scene(struct kd_buffer *cards, const struct kd_scene *s, const struct kd_sweep *sweep)
 {
-    const struct { const char *key; double value; const char *comment, *of[2]; } numbers[] = {
+    const struct {
+        const char *key;
+        double value;
+        const char *comment, *of[2];
+    } numbers[] = {
         { "SPIN", s->spacetime.spin, "a/M", { "spacetime.spin" } },
         { "MASS", s->spacetime.mass_msun, "solar masses", { "spacetime.mass_msun" } },
         { "DISTANCE", s->spacetime.distance_pc, "pc", { "spacetime.distance_pc" } },
-        { "M_UAS", microarcseconds(s), "M on the sky, microarcseconds", { "spacetime.mass_msun", "spacetime.distance_pc" } },
+        { "M_UAS",
+          microarcseconds(s),
+          "M on the sky, microarcseconds",
+          { "spacetime.mass_msun", "spacetime.distance_pc" } },
         { "CAM_R", s->camera.r, "M; Boyer-Lindquist radius of the observer", { "camera.r" } },
         { "CAM_INCL", s->camera.inclination_deg, "deg; from the axis of spin", { "camera.inclination_deg" } },
         { "CAM_AZIM", s->camera.azimuth_deg, "deg", { "camera.azimuth_deg" } },

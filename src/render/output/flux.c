@@ -8,7 +8,8 @@
 
 double kd_flux_jy(const struct kd_scene *scene, const struct kd_frame *frame)
 {
-    return frame->light.measured && kd_scene_is_radio_alone(scene) ? kd_radio_jansky(scene, frame->light.all.flux) : NAN;
+    return frame->light.measured && kd_scene_is_radio_alone(scene) ? kd_radio_jansky(scene, frame->light.all.flux)
+                                                                   : NAN;
 }
 
 void kd_flux_text(const struct kd_scene *scene, const struct kd_frame *frame, char out[KD_FLUX_TEXT])

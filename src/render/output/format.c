@@ -43,12 +43,14 @@ static enum kd_status check_layers(const struct kd_format *format, const struct 
 {
     if (scene->image.layers.count <= 1 || format->carries & KD_CARRIES_LAYERS)
         return KD_OK;
-    return kd_error_field(error, "/image/layers", "image.layers holds %d, allowed in a file of the format %s is one; fits, exr, npz and npy hold all", scene->image.layers.count,
-                          format->name);
+    return kd_error_field(
+        error, "/image/layers",
+        "image.layers holds %d, allowed in a file of the format %s is one; fits, exr, npz and npy hold all",
+        scene->image.layers.count, format->name);
 }
 
-enum kd_status kd_format_plan(const struct kd_format *format, struct kd_scene *scene, const struct kd_capacity *capacity,
-                              struct kd_plan *out, struct kd_error *error)
+enum kd_status kd_format_plan(const struct kd_format *format, struct kd_scene *scene,
+                              const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error)
 {
     const unsigned shows = KD_CARRIES_PICTURE | KD_CARRIES_LAYERS;
     const bool told = format->carries & shows && format->scene; /* in the file, as it was asked for */

@@ -1,5 +1,5 @@
-/* A format is what a frame can become: bytes of a media type. One table, from which renders, jobs, sessions and the command line pick: by the name
- * of a format, by what a client accepts, by the end of a file's name. Any thread.
+/* A format is what a frame can become: bytes of a media type. One table, from which renders, jobs, sessions and the
+ * command line pick: by the name of a format, by what a client accepts, by the end of a file's name. Any thread.
  *
  * A format is one C file that defines kd_format_NAME, and its name in KD_FORMATS. */
 #ifndef KD_RENDER_OUTPUT_FORMAT_H
@@ -19,14 +19,18 @@ struct kd_picture {
 };
 
 enum kd_effort {
-    KD_EFFORT_LIVE,  /* one of many a second, of 8 bits a channel: as fast as can be, and without what is told of it elsewhere */
+    KD_EFFORT_LIVE,  /* one of many a second, of 8 bits a channel: as fast as can be, and without what is told of it
+                        elsewhere */
     KD_EFFORT_QUICK, /* somebody waits for it */
     KD_EFFORT_KEEP,  /* a file that stays: smaller */
 };
 
 /* What a frame must carry for a format, bits. */
-enum { KD_CARRIES_PICTURE = 1 /* layer "rgb" */, KD_CARRIES_LIGHT = 2 /* frame->light */,
-       KD_CARRIES_LAYERS = 4 /* whatever image.layers names, as numbers: of the picture its linear light */ };
+enum {
+    KD_CARRIES_PICTURE = 1 /* layer "rgb" */,
+    KD_CARRIES_LIGHT = 2 /* frame->light */,
+    KD_CARRIES_LAYERS = 4 /* whatever image.layers names, as numbers: of the picture its linear light */
+};
 
 struct kd_format {
     const char *name;       /* "png": of `format=`, and behind the last dot of a file's name; lower case */
@@ -34,13 +38,14 @@ struct kd_format {
     const char *magic;      /* with which every file begins; "": none has a beginning of its own */
     const char *end;        /* with which every file ends; NULL: none has an end of its own */
     unsigned carries;
-    bool live;              /* KD_EFFORT_LIVE is for it */
-    /* Makes a scene one of which a frame carries what the format needs; NULL: any is. KD_EINVAL at a field of one that has nothing to tell. */
+    bool live; /* KD_EFFORT_LIVE is for it */
+    /* Makes a scene one of which a frame carries what the format needs; NULL: any is. KD_EINVAL at a field of one
+     * that has nothing to tell. */
     enum kd_status (*draws)(struct kd_scene *scene, struct kd_error *error);
-    /* Append a file to *out. *memory: of this thread's earlier calls, NULL at first; `forget` frees it. Errors: KD_ENOMEM, or
-     * KD_EINVAL and KD_ETOOBIG for what the format cannot hold. */
-    enum kd_status (*encode)(const struct kd_picture *picture, enum kd_effort effort, void **memory, struct kd_buffer *out,
-                             struct kd_error *error);
+    /* Append a file to *out. *memory: of this thread's earlier calls, NULL at first; `forget` frees it. Errors:
+     * KD_ENOMEM, or KD_EINVAL and KD_ETOOBIG for what the format cannot hold. */
+    enum kd_status (*encode)(const struct kd_picture *picture, enum kd_effort effort, void **memory,
+                             struct kd_buffer *out, struct kd_error *error);
     void (*forget)(void *memory); /* NULL: it keeps none */
     /* The scene inside a file of this format, *out as it was on error; NULL: it carries none. */
     enum kd_status (*scene)(const void *data, size_t size, struct kd_scene *out, struct kd_error *error);
@@ -58,16 +63,16 @@ extern const struct kd_format kd_format_jpeg;
 extern const struct kd_format *const kd_formats[];
 extern const size_t kd_n_formats;
 
-const struct kd_format *kd_format_named(const char *name);                       /* NULL: there is none */
-const struct kd_format *kd_format_of_path(const char *path);                     /* by its end, in either case; NULL: none */
-const struct kd_format *kd_format_of_bytes(const void *data, size_t size);       /* by its beginning; NULL: none */
-const struct kd_format *kd_format_live(void);                                    /* what live views are made of */
+const struct kd_format *kd_format_named(const char *name);                 /* NULL: there is none */
+const struct kd_format *kd_format_of_path(const char *path);               /* by its end, in either case; NULL: none */
+const struct kd_format *kd_format_of_bytes(const void *data, size_t size); /* by its beginning; NULL: none */
+const struct kd_format *kd_format_live(void);                              /* what live views are made of */
 
-/* The plan of a frame that carries what the format needs. What would show in none of it, and is in no scene that the file carries,
- * auto exposure and layers, is taken from the scene. Errors as kd_plan_make and the format's `draws`, and KD_EINVAL at /image/layers for
- * more of them than the format holds. */
-enum kd_status kd_format_plan(const struct kd_format *format, struct kd_scene *scene, const struct kd_capacity *capacity,
-                              struct kd_plan *out, struct kd_error *error);
+/* The plan of a frame that carries what the format needs. What would show in none of it, and is in no scene that the
+ * file carries, auto exposure and layers, is taken from the scene. Errors as kd_plan_make and the format's `draws`,
+ * and KD_EINVAL at /image/layers for more of them than the format holds. */
+enum kd_status kd_format_plan(const struct kd_format *format, struct kd_scene *scene,
+                              const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error);
 
 /* The scene inside a picture, of whatever format; KD_EINVAL if there is none. */
 enum kd_status kd_format_scene(const void *data, size_t size, struct kd_scene *out, struct kd_error *error);

@@ -6,7 +6,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum kd_status kd_gather_open(const struct kd_gather_format *format, const struct kd_gather_source *source, struct kd_gather *out, struct kd_error *error)
+enum kd_status kd_gather_open(const struct kd_gather_format *format, const struct kd_gather_source *source,
+                              struct kd_gather *out, struct kd_error *error)
 {
     *out = (struct kd_gather) { .format = format };
     return format->open(source, &out->state, error);
@@ -26,7 +27,7 @@ void kd_gather_close(struct kd_gather *gather)
 
 struct files {
     const struct kd_gather_source *source;
-    struct kd_zip *zip; /* NULL: nothing is written yet */
+    struct kd_zip *zip;     /* NULL: nothing is written yet */
     struct kd_buffer bytes; /* that it has made */
     unsigned next;
     uint64_t at, size; /* of the file under way; at == size: none is */
@@ -135,5 +136,9 @@ static void close_files(void *state)
 }
 
 const struct kd_gather_format kd_gather_zip = {
-    .name = "zip", .media_type = "application/zip", .open = open_files, .next = next_file, .close = close_files,
+    .name = "zip",
+    .media_type = "application/zip",
+    .open = open_files,
+    .next = next_file,
+    .close = close_files,
 };

@@ -1,16 +1,24 @@
-/* Moving frames as JPEG, for those who take them: no file that stays, and none that carries its scene, so that the table of formats has it not. */
+/* Moving frames as JPEG, for those who take them: no file that stays, and none that carries its scene, so that the
+ * table of formats has it not. */
 #include "image/jpeg.h"
 #include "render/output/format.h"
 
-static enum kd_status encode(const struct kd_picture *picture, enum kd_effort effort, void **memory, struct kd_buffer *out, struct kd_error *error)
+static enum kd_status encode(const struct kd_picture *picture, enum kd_effort effort, void **memory,
+                             struct kd_buffer *out, struct kd_error *error)
 {
     const struct kd_frame *frame = picture->frame;
     (void)effort, (void)memory;
     if (kd_frame_bit_depth(frame) != 8)
-        return kd_error_set(error, KD_EINVAL, "a live frame has %d bits a channel, allowed are 8", kd_frame_bit_depth(frame));
+        return kd_error_set(error, KD_EINVAL, "a live frame has %d bits a channel, allowed are 8",
+                            kd_frame_bit_depth(frame));
     return kd_jpeg_encode(frame->width, frame->height, kd_frame_pixels(frame), picture->lossy, out, error);
 }
 
 const struct kd_format kd_format_jpeg = {
-    .name = "jpg", .media_type = "image/jpeg", .magic = "\xff\xd8\xff", .carries = KD_CARRIES_PICTURE, .live = true, .encode = encode,
+    .name = "jpg",
+    .media_type = "image/jpeg",
+    .magic = "\xff\xd8\xff",
+    .carries = KD_CARRIES_PICTURE,
+    .live = true,
+    .encode = encode,
 };

@@ -9,23 +9,27 @@
 
 void kd_accuracy_text(const struct kd_accuracy_report *report, const struct kd_plan *plan, char out[KD_ACCURACY_TEXT])
 {
-    int n = snprintf(out, KD_ACCURACY_TEXT, "rays=%llu engine=%s precision=%s steps=%u critical_rays=%llu undecided=%llu sampled=%u",
-                     (unsigned long long)plan->rays, kd_engine_name(plan->setting.engine),
-                     kd_precision_name(plan->setting.precision), plan->setting.steps, (unsigned long long)(kd_plan_rays(plan) - plan->rays),
-                     (unsigned long long)report->undecided,
-                     report->sampled);
+    int n = snprintf(
+        out, KD_ACCURACY_TEXT, "rays=%llu engine=%s precision=%s steps=%u critical_rays=%llu undecided=%llu sampled=%u",
+        (unsigned long long)plan->rays, kd_engine_name(plan->setting.engine),
+        kd_precision_name(plan->setting.precision), plan->setting.steps,
+        (unsigned long long)(kd_plan_rays(plan) - plan->rays), (unsigned long long)report->undecided, report->sampled);
     if (report->sampled)
-        n += snprintf(out + n, KD_ACCURACY_TEXT - (size_t)n, " crossings=%u differ=%u median=%.1e worst=%.1e", report->crossings,
-                 report->differ, report->median, report->worst);
+        n += snprintf(out + n, KD_ACCURACY_TEXT - (size_t)n, " crossings=%u differ=%u median=%.1e worst=%.1e",
+                      report->crossings, report->differ, report->median, report->worst);
     if (report->pixel_sampled)
-        n += snprintf(out + n, KD_ACCURACY_TEXT - (size_t)n, " followed=%llu refined=%llu between=%llu pixel_sampled=%u pixel_error=%.1e pixel_error_worst=%.1e",
-                 (unsigned long long)report->followed, (unsigned long long)report->refined, (unsigned long long)report->between, report->pixel_sampled, report->pixel_error, report->pixel_error_worst);
+        n += snprintf(
+            out + n, KD_ACCURACY_TEXT - (size_t)n,
+            " followed=%llu refined=%llu between=%llu pixel_sampled=%u pixel_error=%.1e pixel_error_worst=%.1e",
+            (unsigned long long)report->followed, (unsigned long long)report->refined,
+            (unsigned long long)report->between, report->pixel_sampled, report->pixel_error, report->pixel_error_worst);
     if (report->volume_sampled)
-        snprintf(out + n, KD_ACCURACY_TEXT - (size_t)n, " volume_sampled=%u volume_error=%.1e volume_error_worst=%.1e", report->volume_sampled, report->volume_error,
-                 report->volume_error_worst);
+        snprintf(out + n, KD_ACCURACY_TEXT - (size_t)n, " volume_sampled=%u volume_error=%.1e volume_error_worst=%.1e",
+                 report->volume_sampled, report->volume_error, report->volume_error_worst);
 }
 
-void kd_accuracy_members(struct kd_json *json, const struct kd_accuracy_report *report, const char *median, const char *worst)
+void kd_accuracy_members(struct kd_json *json, const struct kd_accuracy_report *report, const char *median,
+                         const char *worst)
 {
     kd_json_number(json, "undecided", (double)report->undecided);
     kd_json_number(json, "sampled", report->sampled);
@@ -59,7 +63,8 @@ static enum kd_status join_approximations(const struct kd_plan *plan, struct kd_
     return status;
 }
 
-/* The canonical scene; of a picture that shows a playground it is no scene that can be read again, and says of what state it was made. */
+/* The canonical scene; of a picture that shows a playground it is no scene that can be read again, and says of what
+ * state it was made. */
 static enum kd_status put_scene(const struct kd_scene *scene, struct kd_buffer *out)
 {
     const struct kd_crowd *crowd = scene->crowd.at;
@@ -67,7 +72,8 @@ static enum kd_status put_scene(const struct kd_scene *scene, struct kd_buffer *
     if (status || !crowd)
         return status;
     out->size--; /* the last brace */
-    return kd_buffer_printf(out, ",\"" PLAYGROUND "\":{\"t\":%.17g,\"bodies\":%zu,\"debris\":%u,\"snapshot\":\"%s\"}}", crowd->time, crowd->n, crowd->debris.pieces, crowd->snapshot);
+    return kd_buffer_printf(out, ",\"" PLAYGROUND "\":{\"t\":%.17g,\"bodies\":%zu,\"debris\":%u,\"snapshot\":\"%s\"}}",
+                            crowd->time, crowd->n, crowd->debris.pieces, crowd->snapshot);
 }
 
 enum kd_status kd_notes_of(const struct kd_picture *picture, struct kd_notes *out, struct kd_error *error)
@@ -77,13 +83,16 @@ enum kd_status kd_notes_of(const struct kd_picture *picture, struct kd_notes *ou
     kd_fall_clock_text(picture->scene, out->clock);
     kd_flux_text(picture->scene, picture->frame, out->flux);
     if (picture->plan->blur.samples)
-        snprintf(out->blur, sizeof out->blur, "samples=%u shutter=%.9g", picture->plan->blur.samples, picture->plan->blur.shutter);
+        snprintf(out->blur, sizeof out->blur, "samples=%u shutter=%.9g", picture->plan->blur.samples,
+                 picture->plan->blur.shutter);
     enum kd_status status;
     KD_TRY(put_scene(picture->scene, &out->scene));
     KD_TRY(kd_scene_hash(picture->scene, out->hash));
     KD_TRY(join_approximations(picture->plan, &out->approximations));
 done:
-    return status ? kd_error_set(error, status, "cannot describe the scene inside its picture: %s", kd_status_name(status)) : KD_OK;
+    return status
+               ? kd_error_set(error, status, "cannot describe the scene inside its picture: %s", kd_status_name(status))
+               : KD_OK;
 }
 
 void kd_notes_finish(struct kd_notes *notes)
@@ -95,9 +104,11 @@ void kd_notes_finish(struct kd_notes *notes)
 enum kd_status kd_notes_scene(const char *text, size_t length, struct kd_scene *out, struct kd_error *error)
 {
     if (length && memmem(text, length, ",\"" PLAYGROUND "\":{", sizeof PLAYGROUND + 4))
-        return kd_error_set(error, KD_EINVAL, "the picture shows a playground, which its scene does not hold: make it again of the playground's snapshot, by "
-                                              "kerrd playground SNAPSHOT.json --picture FILE");
-    struct kd_scene scene; /* *out stays as it was when the document is refused */
+        return kd_error_set(error, KD_EINVAL,
+                            "the picture shows a playground, which its scene does not hold: make it again of the "
+                            "playground's snapshot, by "
+                            "kerrd playground SNAPSHOT.json --picture FILE");
+    struct kd_scene scene;   /* *out stays as it was when the document is refused */
     kd_scene_smooth(&scene); /* the document is whole: what it lacks was not there when it was written */
     enum kd_status status = kd_scene_from_json(&scene, text, length, error);
     if (!status)

@@ -1,4 +1,5 @@
-/* Notes are what a file tells of its picture, whatever its format: enough to render it again, and how it was made. Any thread. */
+/* Notes are what a file tells of its picture, whatever its format: enough to render it again, and how it was made.
+ * Any thread. */
 #ifndef KD_RENDER_OUTPUT_NOTES_H
 #define KD_RENDER_OUTPUT_NOTES_H
 
@@ -7,18 +8,21 @@
 #include "render/output/flux.h"
 #include "render/output/format.h"
 
-/* One line: "rays=921600 engine=mino-rkn6 precision=f32 steps=8 undecided=0 sampled=768 crossings=927 differ=0 median=1.6e-07
- * worst=2.0e-05"; without the last four where nothing was sampled. */
+/* One line: "rays=921600 engine=mino-rkn6 precision=f32 steps=8 undecided=0 sampled=768 crossings=927 differ=0
+ * median=1.6e-07 worst=2.0e-05"; without the last four where nothing was sampled. */
 #define KD_ACCURACY_TEXT 384
 void kd_accuracy_text(const struct kd_accuracy_report *report, const struct kd_plan *plan, char out[KD_ACCURACY_TEXT]);
-/* Writes the same as members of an object, but for the rays and what traced them. The names of the two errors of radii are the caller's. */
-void kd_accuracy_members(struct kd_json *json, const struct kd_accuracy_report *report, const char *median, const char *worst);
+/* Writes the same as members of an object, but for the rays and what traced them. The names of the two errors of
+ * radii are the caller's. */
+void kd_accuracy_members(struct kd_json *json, const struct kd_accuracy_report *report, const char *median,
+                         const char *worst);
 
-/* "samples=16 shutter=0.5": the light is the mean of 16 pictures, at equal steps of time within half of a frame's (render/frame/blur.h). */
+/* "samples=16 shutter=0.5": the light is the mean of 16 pictures, at equal steps of time within half of a frame's
+ * (render/frame/blur.h). */
 #define KD_BLUR_TEXT 48
 
 struct kd_notes {
-    struct kd_buffer scene;          /* canonical JSON */
+    struct kd_buffer scene; /* canonical JSON */
     char hash[65];
     struct kd_buffer approximations; /* one a line */
     char accuracy[KD_ACCURACY_TEXT];

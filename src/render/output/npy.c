@@ -1,6 +1,6 @@
-/* This writes a frame's layers as numbers: kd_format_npy. One NumPy array of the shape (height, width) whose elements are records with a field for
- * each word of image.layers, in its order, float32: a number, NaN where there is none, or of "rgb" three, linear sRGB in units of the
- * brightest surface brightness of the disk at g = 1. */
+/* This writes a frame's layers as numbers: kd_format_npy. One NumPy array of the shape (height, width) whose
+ * elements are records with a field for each word of image.layers, in its order, float32: a number, NaN where there
+ * is none, or of "rgb" three, linear sRGB in units of the brightest surface brightness of the disk at g = 1. */
 #include "render/output/format.h"
 
 #include "image/npy.h"
@@ -32,8 +32,8 @@ static void interleave(const struct kd_numbers *numbers, size_t first, size_t wi
         }
 }
 
-static enum kd_status encode(const struct kd_picture *picture, enum kd_effort effort, void **memory, struct kd_buffer *out,
-                             struct kd_error *error)
+static enum kd_status encode(const struct kd_picture *picture, enum kd_effort effort, void **memory,
+                             struct kd_buffer *out, struct kd_error *error)
 {
     const struct kd_frame *frame = picture->frame;
     struct kd_numbers numbers;
@@ -53,5 +53,9 @@ static enum kd_status encode(const struct kd_picture *picture, enum kd_effort ef
 }
 
 const struct kd_format kd_format_npy = {
-    .name = "npy", .media_type = "application/x-npy", .magic = "\x93NUMPY", .carries = KD_CARRIES_LAYERS, .encode = encode,
+    .name = "npy",
+    .media_type = "application/x-npy",
+    .magic = "\x93NUMPY",
+    .carries = KD_CARRIES_LAYERS,
+    .encode = encode,
 };

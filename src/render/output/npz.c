@@ -1,5 +1,6 @@
-/* This writes a frame's layers as numpy.savez does: kd_format_npz. A member NAME.npy for each word of image.layers, of the shape (height, width), or
- * of "rgb" (height, width, 3), float32; and notes.json with what the text of a PNG tells, and units. */
+/* This writes a frame's layers as numpy.savez does: kd_format_npz. A member NAME.npy for each word of image.layers,
+ * of the shape (height, width), or of "rgb" (height, width, 3), float32; and notes.json with what the text of a PNG
+ * tells, and units. */
 #include "render/output/format.h"
 
 #include "base/json.h"
@@ -16,7 +17,10 @@ static enum kd_status put_array(struct kd_zip *zip, const struct kd_frame *frame
 {
     const uint32_t channels = layer->layer->channels;
     const struct kd_npy array = {
-        .n_fields = 1, .fields = { { .type = KD_NPY_F4 } }, .shape = { frame->height, frame->width, channels }, .n_dimensions = channels > 1 ? 3 : 2,
+        .n_fields = 1,
+        .fields = { { .type = KD_NPY_F4 } },
+        .shape = { frame->height, frame->width, channels },
+        .n_dimensions = channels > 1 ? 3 : 2,
     };
     struct kd_buffer file = { 0 };
     char name[KD_LAYER_NAME + 8];
@@ -30,7 +34,8 @@ done:
     return status;
 }
 
-static enum kd_status put_notes(struct kd_zip *zip, const struct kd_picture *picture, const struct kd_notes *notes, const struct kd_numbers *numbers)
+static enum kd_status put_notes(struct kd_zip *zip, const struct kd_picture *picture, const struct kd_notes *notes,
+                                const struct kd_numbers *numbers)
 {
     struct kd_buffer text = { 0 };
     struct kd_json json = kd_json_begin(&text);
@@ -62,8 +67,8 @@ static enum kd_status put_notes(struct kd_zip *zip, const struct kd_picture *pic
     return status;
 }
 
-static enum kd_status encode(const struct kd_picture *picture, enum kd_effort effort, void **memory, struct kd_buffer *out,
-                             struct kd_error *error)
+static enum kd_status encode(const struct kd_picture *picture, enum kd_effort effort, void **memory,
+                             struct kd_buffer *out, struct kd_error *error)
 {
     struct kd_numbers numbers;
     struct kd_notes notes = { 0 };
@@ -104,5 +109,10 @@ static enum kd_status scene_in(const void *data, size_t size, struct kd_scene *o
 }
 
 const struct kd_format kd_format_npz = {
-    .name = "npz", .media_type = "application/x-npz", .magic = "PK\x03\x04", .carries = KD_CARRIES_LAYERS, .encode = encode, .scene = scene_in,
+    .name = "npz",
+    .media_type = "application/x-npz",
+    .magic = "PK\x03\x04",
+    .carries = KD_CARRIES_LAYERS,
+    .encode = encode,
+    .scene = scene_in,
 };

@@ -7,9 +7,10 @@
 
 struct kd_numbers {
     struct kd_number_layer {
-        char name[KD_LAYER_NAME]; /* the word: "rgb", "g", "r_1" */
-        const char *unit;         /* "M"; "": a pure number */
-        const struct kd_layer *layer; /* of rgb three channels: linear sRGB in units of the brightest surface brightness of the disk at g = 1 */
+        char name[KD_LAYER_NAME];     /* the word: "rgb", "g", "r_1" */
+        const char *unit;             /* "M"; "": a pure number */
+        const struct kd_layer *layer; /* of rgb three channels: linear sRGB in units of the brightest surface brightness
+                                         of the disk at g = 1 */
     } at[KD_WORDS_MOST];
     size_t n;
 };

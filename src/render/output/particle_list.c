@@ -26,17 +26,22 @@ struct guide {
 
 const char *kd_particle_column_name(enum kd_particle_column column) { return names[column]; }
 
-enum kd_status kd_particle_list_init(struct kd_particle_list *list, const struct kd_scene *scene, struct kd_error *error)
+enum kd_status kd_particle_list_init(struct kd_particle_list *list, const struct kd_scene *scene,
+                                     struct kd_error *error)
 {
     *list = (struct kd_particle_list) {
-        .scene = *scene, .grid = kd_particle_grid(scene), .stride = 1,
-        .columns = { KD_PARTICLE_x, KD_PARTICLE_y, KD_PARTICLE_z }, .n_columns = 3,
+        .scene = *scene,
+        .grid = kd_particle_grid(scene),
+        .stride = 1,
+        .columns = { KD_PARTICLE_x, KD_PARTICLE_y, KD_PARTICLE_z },
+        .n_columns = 3,
     };
     if (list->grid.count)
         return KD_OK;
     const struct kd_word word = kd_field_word(kd_field_find("disk", "model"), scene->disk.model);
-    return kd_error_field(error, "/disk/model", "disk.model is \"%.*s\", allowed for a list of particles is \"particles\"",
-                          word.length, word.text);
+    return kd_error_field(error, "/disk/model",
+                          "disk.model is \"%.*s\", allowed for a list of particles is \"particles\"", word.length,
+                          word.text);
 }
 
 static bool number(const char *text, double *out)
@@ -64,8 +69,8 @@ static enum kd_status set_fields(struct kd_particle_list *list, const char *text
                 every.columns[k] = (enum kd_particle_column)k;
             kd_particle_list_names(&every, all);
             kd_text_clip(name, sizeof name, text);
-            return kd_error_field(error, "/fields", "fields is \"%s\", allowed are, each once and with commas between, %s", name,
-                                  all);
+            return kd_error_field(error, "/fields",
+                                  "fields is \"%s\", allowed are, each once and with commas between, %s", name, all);
         }
         list->columns[list->n_columns++] = (enum kd_particle_column)k;
         at += n;
@@ -74,7 +79,8 @@ static enum kd_status set_fields(struct kd_particle_list *list, const char *text
     }
 }
 
-enum kd_status kd_particle_list_set(struct kd_particle_list *list, const char *name, const char *text, struct kd_error *error)
+enum kd_status kd_particle_list_set(struct kd_particle_list *list, const char *name, const char *text,
+                                    struct kd_error *error)
 {
     const bool first = !strcmp(name, "first"), stride = !strcmp(name, "stride"), count = !strcmp(name, "count");
     char given[40], pointer[sizeof error->pointer] = "";
@@ -91,10 +97,12 @@ enum kd_status kd_particle_list_set(struct kd_particle_list *list, const char *n
     kd_text_pointer(pointer, sizeof pointer, name);
     if (!first && !stride && !count) {
         kd_text_clip(given, sizeof given, name);
-        return kd_error_field(error, pointer, "there is no parameter %s here; known are first, stride, count, fields, time", given);
+        return kd_error_field(error, pointer,
+                              "there is no parameter %s here; known are first, stride, count, fields, time", given);
     }
     if (!number(text, &value) || !(value >= least && value <= most) || value != floor(value))
-        return kd_error_field(error, pointer, "%s is %s, allowed are whole numbers from %g to %.0f of the scene's %u particles", name,
+        return kd_error_field(error, pointer,
+                              "%s is %s, allowed are whole numbers from %g to %.0f of the scene's %u particles", name,
                               given, least, most, list->grid.count);
     if (count)
         list->n = (size_t)value;
@@ -116,11 +124,14 @@ enum kd_status kd_particle_list_settle(struct kd_particle_list *list, uint64_t m
     size_t there = (list->grid.count - list->first + list->stride - 1) / list->stride, row = kd_particle_list_row(list);
     list->n = list->n ? list->n : there;
     if (list->n > there)
-        return kd_error_field(error, "/count", "count is %zu, allowed are 1 to %zu: from the %u particles, first %u, stride %u",
-                              list->n, there, list->grid.count, list->first, list->stride);
+        return kd_error_field(error, "/count",
+                              "count is %zu, allowed are 1 to %zu: from the %u particles, first %u, stride %u", list->n,
+                              there, list->grid.count, list->first, list->stride);
     if (most && list->n * row > most)
-        return kd_error_field(error, "/count", "count is %zu with %zu bytes a particle, allowed are 1 to %llu: the rest with first, or "
-                              "fewer with stride", list->n, row, (unsigned long long)(most / row));
+        return kd_error_field(error, "/count",
+                              "count is %zu with %zu bytes a particle, allowed are 1 to %llu: the rest with first, or "
+                              "fewer with stride",
+                              list->n, row, (unsigned long long)(most / row));
     list->orbits = needs_orbits(list);
     if (list->orbits)
         list->plunge = kd_plunge_of(list->scene.spacetime.spin);
@@ -140,10 +151,12 @@ void kd_particle_list_names(const struct kd_particle_list *list, char out[KD_PAR
 }
 
 /* The derivatives of what stands in particles.h. */
-static void fill_rates(double *row, const struct kd_particle_list *list, uint32_t particle, const struct kd_particle_orbit *o)
+static void fill_rates(double *row, const struct kd_particle_list *list, uint32_t particle,
+                       const struct kd_particle_orbit *o)
 {
     const struct kd_particle_swing s = kd_particle_swing(&list->scene, particle);
-    double t = list->scene.top.time, radial = o->kappa * t + s.radial_phase, vertical = o->vertical * t + s.vertical_phase;
+    double t = list->scene.top.time, radial = o->kappa * t + s.radial_phase,
+           vertical = o->vertical * t + s.vertical_phase;
     row[KD_PARTICLE_dr_dt] = -row[KD_PARTICLE_r] * o->swing_r * s.radial * o->kappa * sin(radial);
     row[KD_PARTICLE_dphi_dt] = o->omega + o->swing_phi * s.radial * o->kappa * cos(radial);
     row[KD_PARTICLE_dlatitude_dt] = -list->scene.disk.epicycles * s.vertical * o->vertical * sin(vertical);
@@ -169,8 +182,8 @@ static void find_guide(struct guide *guide, const struct kd_particle_list *list,
     *guide = (struct guide) { number, o, kd_kerr_energy(a, o.r), kd_kerr_momentum(a, o.r) };
 }
 
-static void fill_row(double *row, const struct kd_particle_list *list, uint32_t particle, const struct kd_particle_place *place,
-                     struct guide *guide)
+static void fill_row(double *row, const struct kd_particle_list *list, uint32_t particle,
+                     const struct kd_particle_place *place, struct guide *guide)
 {
     double r = place->r, phi = place->phi * (2 * M_PI / 4294967296.0), a = list->scene.spacetime.spin;
     double around = sqrt(r * r + a * a) * cos(place->latitude);
@@ -192,8 +205,8 @@ static void fill_row(double *row, const struct kd_particle_list *list, uint32_t 
     fill_rates(row, list, particle, &guide->orbit);
 }
 
-enum kd_status kd_particle_list_fill(struct kd_renderer *renderer, const struct kd_particle_list *list, size_t from, size_t n,
-                                     float *rows, struct kd_error *error)
+enum kd_status kd_particle_list_fill(struct kd_renderer *renderer, const struct kd_particle_list *list, size_t from,
+                                     size_t n, float *rows, struct kd_error *error)
 {
     struct kd_particle_place *places = malloc(n * sizeof *places);
     if (!places)

@@ -7,8 +7,8 @@
  *     for (size_t i = 0; i < list.n; i += n)
  *         kd_particle_list_fill(renderer, &list, i, n = ..., rows, &error);
  *
- * Boyer-Lindquist t, r, theta, phi; x = sqrt(r^2 + a^2) cos(latitude) cos(phi), y likewise with sin(phi), z = r sin(latitude), the
- * ellipsoidal coordinates that BL's become for M -> 0. Any thread but for _fill. */
+ * Boyer-Lindquist t, r, theta, phi; x = sqrt(r^2 + a^2) cos(latitude) cos(phi), y likewise with sin(phi), z = r
+ * sin(latitude), the ellipsoidal coordinates that BL's become for M -> 0. Any thread but for _fill. */
 #ifndef KD_RENDER_OUTPUT_PARTICLE_LIST_H
 #define KD_RENDER_OUTPUT_PARTICLE_LIST_H
 
@@ -17,24 +17,24 @@
 #include "render/device/renderer.h"
 
 /* COLUMN(name, unit, help) */
-#define KD_PARTICLE_COLUMNS(COLUMN)                                                                            \
-    COLUMN(x, "M", "sqrt(r^2 + a^2) cos(latitude) cos(phi)")                                                   \
-    COLUMN(y, "M", "sqrt(r^2 + a^2) cos(latitude) sin(phi)")                                                   \
-    COLUMN(z, "M", "r sin(latitude)")                                                                          \
-    COLUMN(r, "M", "Boyer-Lindquist radius")                                                                   \
-    COLUMN(phi, "radians", "azimuth, 0 to 2 pi")                                                               \
-    COLUMN(latitude, "radians", "pi/2 - theta")                                                                \
-    COLUMN(energy, "1", "E of its guiding orbit, or of the ISCO that it fell from, a constant")                      \
-    COLUMN(angular_momentum, "M", "L of its guiding orbit, or of the ISCO that it fell from, a constant")            \
-    COLUMN(dr_dt, "1", "by coordinate time")                                                                   \
-    COLUMN(dphi_dt, "1/M", "by coordinate time")                                                               \
+#define KD_PARTICLE_COLUMNS(COLUMN) \
+    COLUMN(x, "M", "sqrt(r^2 + a^2) cos(latitude) cos(phi)") \
+    COLUMN(y, "M", "sqrt(r^2 + a^2) cos(latitude) sin(phi)") \
+    COLUMN(z, "M", "r sin(latitude)") \
+    COLUMN(r, "M", "Boyer-Lindquist radius") \
+    COLUMN(phi, "radians", "azimuth, 0 to 2 pi") \
+    COLUMN(latitude, "radians", "pi/2 - theta") \
+    COLUMN(energy, "1", "E of its guiding orbit, or of the ISCO that it fell from, a constant") \
+    COLUMN(angular_momentum, "M", "L of its guiding orbit, or of the ISCO that it fell from, a constant") \
+    COLUMN(dr_dt, "1", "by coordinate time") \
+    COLUMN(dphi_dt, "1/M", "by coordinate time") \
     COLUMN(dlatitude_dt, "1/M", "by coordinate time")
 
 enum kd_particle_column {
 #define COLUMN(name, ...) KD_PARTICLE_##name,
     KD_PARTICLE_COLUMNS(COLUMN)
 #undef COLUMN
-    KD_PARTICLE_N_COLUMNS
+        KD_PARTICLE_N_COLUMNS
 };
 const char *kd_particle_column_name(enum kd_particle_column column);
 
@@ -52,9 +52,11 @@ struct kd_particle_list {
 };
 
 /* KD_EINVAL at /disk/model: the scene has no particles. */
-enum kd_status kd_particle_list_init(struct kd_particle_list *list, const struct kd_scene *scene, struct kd_error *error);
+enum kd_status kd_particle_list_init(struct kd_particle_list *list, const struct kd_scene *scene,
+                                     struct kd_error *error);
 /* KD_EINVAL with "/name", the value and what is allowed. */
-enum kd_status kd_particle_list_set(struct kd_particle_list *list, const char *name, const char *text, struct kd_error *error);
+enum kd_status kd_particle_list_set(struct kd_particle_list *list, const char *name, const char *text,
+                                    struct kd_error *error);
 /* KD_EINVAL for more rows than there are, and for more bytes than `most` (0: any). */
 enum kd_status kd_particle_list_settle(struct kd_particle_list *list, uint64_t most, struct kd_error *error);
 
@@ -64,7 +66,7 @@ enum { KD_PARTICLE_NAMES = 120 };
 void kd_particle_list_names(const struct kd_particle_list *list, char out[KD_PARTICLE_NAMES]);
 
 /* Render thread only: n <= KD_PARTICLE_LIST_SLICE rows from row `from` on. */
-enum kd_status kd_particle_list_fill(struct kd_renderer *renderer, const struct kd_particle_list *list, size_t from, size_t n,
-                                     float *rows, struct kd_error *error);
+enum kd_status kd_particle_list_fill(struct kd_renderer *renderer, const struct kd_particle_list *list, size_t from,
+                                     size_t n, float *rows, struct kd_error *error);
 
 #endif

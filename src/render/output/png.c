@@ -6,7 +6,8 @@
 
 #include <string.h>
 
-enum kd_status kd_png_of_picture(const struct kd_picture *picture, int compression, struct kd_buffer *out, struct kd_error *error)
+enum kd_status kd_png_of_picture(const struct kd_picture *picture, int compression, struct kd_buffer *out,
+                                 struct kd_error *error)
 {
     const struct kd_frame *frame = picture->frame;
     struct kd_notes notes;
@@ -44,11 +45,13 @@ enum kd_status kd_png_of_picture(const struct kd_picture *picture, int compressi
     return status;
 }
 
-static enum kd_status encode_live(const struct kd_frame *frame, void **memory, struct kd_buffer *out, struct kd_error *error)
+static enum kd_status encode_live(const struct kd_frame *frame, void **memory, struct kd_buffer *out,
+                                  struct kd_error *error)
 {
     struct kd_png_live *live = *memory;
     if (kd_frame_bit_depth(frame) != 8)
-        return kd_error_set(error, KD_EINVAL, "a live frame has %d bits a channel, allowed are 8", kd_frame_bit_depth(frame));
+        return kd_error_set(error, KD_EINVAL, "a live frame has %d bits a channel, allowed are 8",
+                            kd_frame_bit_depth(frame));
     enum kd_status status = live ? KD_OK : kd_png_live_create(kd_deflate_fastest(), &live, error);
     if (status)
         return status;
@@ -56,8 +59,8 @@ static enum kd_status encode_live(const struct kd_frame *frame, void **memory, s
     return kd_png_live_encode(live, frame->width, frame->height, kd_frame_pixels(frame), out, error);
 }
 
-static enum kd_status encode(const struct kd_picture *picture, enum kd_effort effort, void **memory, struct kd_buffer *out,
-                             struct kd_error *error)
+static enum kd_status encode(const struct kd_picture *picture, enum kd_effort effort, void **memory,
+                             struct kd_buffer *out, struct kd_error *error)
 {
     if (effort == KD_EFFORT_LIVE)
         return encode_live(picture->frame, memory, out, error);
@@ -86,6 +89,13 @@ static enum kd_status scene_in(const void *data, size_t size, struct kd_scene *o
 }
 
 const struct kd_format kd_format_png = {
-    .name = "png", .media_type = "image/png", .magic = "\x89PNG", .end = "IEND\xae\x42\x60\x82", .carries = KD_CARRIES_PICTURE, .live = true,
-    .encode = encode, .forget = forget, .scene = scene_in,
+    .name = "png",
+    .media_type = "image/png",
+    .magic = "\x89PNG",
+    .end = "IEND\xae\x42\x60\x82",
+    .carries = KD_CARRIES_PICTURE,
+    .live = true,
+    .encode = encode,
+    .forget = forget,
+    .scene = scene_in,
 };

@@ -1,13 +1,15 @@
 /* kd_format_png makes of a frame a PNG file that can be rendered again from itself. Any thread.
  *
  * Text chunks: "kerrd:scene" (canonical JSON), "kerrd:hash", "kerrd:version", "kerrd:approximations"
- * (one a line), "kerrd:accuracy" (as kd_accuracy_text), "kerrd:device", "Software", and "Copyright" where others' work is in it. None with KD_EFFORT_LIVE. */
+ * (one a line), "kerrd:accuracy" (as kd_accuracy_text), "kerrd:device", "Software", and "Copyright" where others'
+ * work is in it. None with KD_EFFORT_LIVE. */
 #ifndef KD_RENDER_OUTPUT_PNG_H
 #define KD_RENDER_OUTPUT_PNG_H
 
 #include "render/output/format.h"
 
 /* The same with a compression of one's own, as kd_png_params has it. */
-enum kd_status kd_png_of_picture(const struct kd_picture *picture, int compression, struct kd_buffer *out, struct kd_error *error);
+enum kd_status kd_png_of_picture(const struct kd_picture *picture, int compression, struct kd_buffer *out,
+                                 struct kd_error *error);
 
 #endif

@@ -1,6 +1,7 @@
-/* This writes which stars are where in a picture: kd_format_stars, a JSON document of the images of stars that have names, the one that gives its
- * pixels most light first (docs/physics/sky.md). They are sought between the rays of the lens map, one a pixel, and in the rim of the shadow; their places are those of the rays that end at
- * stars; brightness is of one star's image alone. */
+/* This writes which stars are where in a picture: kd_format_stars, a JSON document of the images of stars that have
+ * names, the one that gives its pixels most light first (docs/physics/sky.md). They are sought between the rays of
+ * the lens map, one a pixel, and in the rim of the shadow; their places are those of the rays that end at stars;
+ * brightness is of one star's image alone. */
 #include "render/output/format.h"
 
 #include "base/json.h"
@@ -14,21 +15,26 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#define COARSE 0.15  /* rad: neighbouring rays of the picture that lead further apart, next to the critical curve, tell nothing */
-#define INNER 0.9    /* of the rim's width: what is nearer to the curve is the rim's alone */
-#define APART 0.05  /* in pixels: an image of both grids is there once */
+#define COARSE \
+    0.15 /* rad: neighbouring rays of the picture that lead further apart, next to the critical curve, tell nothing */
+#define INNER 0.9  /* of the rim's width: what is nearer to the curve is the rim's alone */
+#define APART 0.05 /* in pixels: an image of both grids is there once */
 
 enum { MOST = 400 }; /* images in a file: those beyond give less light */
 
 /* How the picture sees one. light: the mean radiance that it gives a pixel, in units of kd_star_flux. */
-struct image { struct kd_star_image at; double magnification, g, through, light; };
+struct image {
+    struct kd_star_image at;
+    double magnification, g, through, light;
+};
 
 struct list {
     const struct kd_picture *picture;
     struct kd_sky_rays rays;
     struct kd_star_name names[KD_STAR_NAMES];
-    double most[KD_STAR_NAMES];          /* of the sky that a pixel may be, sr, for them to be seen */
-    struct kd_vec places[KD_STAR_NAMES]; /* directions from which their light comes to the hole, in the frame of the lens map */
+    double most[KD_STAR_NAMES]; /* of the sky that a pixel may be, sr, for them to be seen */
+    struct kd_vec
+        places[KD_STAR_NAMES]; /* directions from which their light comes to the hole, in the frame of the lens map */
     size_t n_stars;
     struct image *images;
     size_t n, room, n_rim; /* images; those of the rim come first */
@@ -39,20 +45,29 @@ static enum kd_status draws(struct kd_scene *scene, struct kd_error *error)
 {
     const bool disk = scene->disk.model != KD_DISK_NONE;
     if (scene->sky.model != KD_SKY_CATALOGUE)
-        return kd_error_field(error, "/sky/model", "sky.model is not \"catalogue\": the stars of no other sky have names");
+        return kd_error_field(error, "/sky/model",
+                              "sky.model is not \"catalogue\": the stars of no other sky have names");
     if (scene->camera.projection == KD_PROJECTION_RING)
-        return kd_error_field(error, "/camera/projection", "camera.projection is \"ring\", which has no stars to name: allowed are the others");
+        return kd_error_field(error, "/camera/projection",
+                              "camera.projection is \"ring\", which has no stars to name: allowed are the others");
     if (kd_scene_has_tile(scene))
-        return kd_error_field(error, "/image/tile/width", "image.tile.width is %d, allowed is 0 where stars are named: places are those of the whole picture", scene->tile.width);
+        return kd_error_field(
+            error, "/image/tile/width",
+            "image.tile.width is %d, allowed is 0 where stars are named: places are those of the whole picture",
+            scene->tile.width);
     if (scene->camera.stereo == KD_STEREO_PAIR)
-        return kd_error_field(error, "/camera/stereo", "camera.stereo is \"pair\", allowed is \"none\" where stars are named: places in a picture are those of one eye");
+        return kd_error_field(error, "/camera/stereo",
+                              "camera.stereo is \"pair\", allowed is \"none\" where stars are named: places in a "
+                              "picture are those of one eye");
     if (scene->camera.stereo != KD_STEREO_NONE)
-        return kd_error_field(error, "/camera/stereo", "camera.stereo is \"pair\", whose stars are not named: allowed is \"none\"");
+        return kd_error_field(error, "/camera/stereo",
+                              "camera.stereo is \"pair\", whose stars are not named: allowed is \"none\"");
     scene->image.samples = 1;
     scene->image.critical_factor = 1;
     scene->image.layers = (struct kd_words) { 2, { { KD_LAYER_sky_theta, -1 }, { KD_LAYER_sky_phi, -1 } } };
     for (int order = 0; disk && order < scene->accuracy.orders; order++)
-        scene->image.layers.at[scene->image.layers.count++] = (struct kd_numbered_word) { KD_LAYER_optical_depth, (int16_t)order };
+        scene->image.layers.at[scene->image.layers.count++] =
+            (struct kd_numbered_word) { KD_LAYER_optical_depth, (int16_t)order };
     return KD_OK;
 }
 
@@ -78,7 +93,8 @@ static void name_stars(struct list *list)
     }
 }
 
-/* Solid angle of a pixel, by the directions of its corners' neighbours. NAN at infinity, where parallel rays have none. */
+/* Solid angle of a pixel, by the directions of its corners' neighbours. NAN at infinity, where parallel rays have
+ * none. */
 static double pixel_angle(const struct kd_camera_exact *camera, double x, double y)
 {
     double a[3], b[3], c[3];
@@ -87,7 +103,8 @@ static double pixel_angle(const struct kd_camera_exact *camera, double x, double
     kd_camera_direction(camera, x - 0.5, y - 0.5, a);
     kd_camera_direction(camera, x + 0.5, y - 0.5, b);
     kd_camera_direction(camera, x - 0.5, y + 0.5, c);
-    return fabs(a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]));
+    return fabs(a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
+                a[2] * (b[0] * c[1] - b[1] * c[0]));
 }
 
 /* The part of light from behind that the disk lets through there, at all crossings of the nearest ray. */
@@ -120,7 +137,8 @@ static enum kd_status add(void *user, const struct kd_star_image *found)
     struct list *list = user;
     const uint32_t width = list->picture->frame->width, height = list->picture->frame->height;
     const double flux = kd_star_flux(kd_catalogue_star(list->names[found->star].place).magnitude), edge = 0.5;
-    if (!(found->x >= -edge && found->x < width - edge && found->y >= -edge && found->y < height - edge) || found->solid_angle > list->most[found->star] || is_there(list, found))
+    if (!(found->x >= -edge && found->x < width - edge && found->y >= -edge && found->y < height - edge) ||
+        found->solid_angle > list->most[found->star] || is_there(list, found))
         return KD_OK;
     const uint32_t x = (uint32_t)(found->x + edge), y = (uint32_t)(found->y + edge);
     struct kd_camera_label label;
@@ -134,7 +152,9 @@ static enum kd_status add(void *user, const struct kd_star_image *found)
     }
     kd_camera_label(&list->rays.camera, x, y, &label);
     struct image image = {
-        .at = *found, .magnification = pixel_angle(&list->rays.camera, found->x, found->y) / found->solid_angle, .g = 1 / label.energy,
+        .at = *found,
+        .magnification = pixel_angle(&list->rays.camera, found->x, found->y) / found->solid_angle,
+        .g = 1 / label.energy,
         .through = through(list->picture, (size_t)y * width + x),
     };
     const double g2 = image.g * image.g;
@@ -150,7 +170,13 @@ static int brighter(const void *a, const void *b)
 }
 
 /* The rays of the picture, one a pixel. */
-struct picture_map { const float *theta, *phi; double azimuth; uint32_t width; const struct kd_sky_rays *rays; const struct kd_rim *rim; };
+struct picture_map {
+    const float *theta, *phi;
+    double azimuth;
+    uint32_t width;
+    const struct kd_sky_rays *rays;
+    const struct kd_rim *rim;
+};
 
 static bool is_rims(const struct picture_map *m, uint32_t x, uint32_t y)
 {
@@ -182,13 +208,21 @@ static bool exact(const void *of, double x, double y, struct kd_vec *out)
     return true;
 }
 
-static enum kd_status find(struct list *list, const struct kd_layer *theta, const struct kd_layer *phi, struct kd_error *error)
+static enum kd_status find(struct list *list, const struct kd_layer *theta, const struct kd_layer *phi,
+                           struct kd_error *error)
 {
     const struct kd_scene *scene = list->picture->scene;
     const struct kd_frame *frame = list->picture->frame;
     struct kd_rim rim;
-    const struct picture_map rays = { theta->data, phi->data, scene->camera.azimuth_deg * (M_PI / 180), frame->width, &list->rays, &rim };
-    const struct kd_sky_map map = { .width = frame->width, .height = frame->height, .coarse = COARSE, .most = list->most, .of = &rays, .row = row_of, .exact = exact };
+    const struct picture_map rays = { theta->data,  phi->data,   scene->camera.azimuth_deg * (M_PI / 180),
+                                      frame->width, &list->rays, &rim };
+    const struct kd_sky_map map = { .width = frame->width,
+                                    .height = frame->height,
+                                    .coarse = COARSE,
+                                    .most = list->most,
+                                    .of = &rays,
+                                    .row = row_of,
+                                    .exact = exact };
     enum kd_status status;
     kd_rim_of(scene, &rim);
     KD_TRY(kd_rim_images(scene, &rim, list->places, list->most, list->n_stars, add, list, error));
@@ -244,8 +278,8 @@ static enum kd_status write_list(const struct list *list, struct kd_buffer *out)
     return kd_json_finish_line(&json);
 }
 
-static enum kd_status encode(const struct kd_picture *picture, enum kd_effort effort, void **memory, struct kd_buffer *out,
-                             struct kd_error *error)
+static enum kd_status encode(const struct kd_picture *picture, enum kd_effort effort, void **memory,
+                             struct kd_buffer *out, struct kd_error *error)
 {
     const struct kd_frame *frame = picture->frame;
     const struct kd_layer *theta = kd_frame_layer(frame, "sky_theta"), *phi = kd_frame_layer(frame, "sky_phi");
@@ -268,5 +302,10 @@ done:
 }
 
 const struct kd_format kd_format_stars = {
-    .name = "stars", .media_type = "application/vnd.kerrd.stars+json", .magic = "", .carries = KD_CARRIES_LAYERS, .draws = draws, .encode = encode,
+    .name = "stars",
+    .media_type = "application/vnd.kerrd.stars+json",
+    .magic = "",
+    .carries = KD_CARRIES_LAYERS,
+    .draws = draws,
+    .encode = encode,
 };

@@ -9,17 +9,21 @@
 #define DEGREE (M_PI / 180)
 #define MICROARCSECOND (1 / 3.6e9) /* degrees */
 
-/* A place x pixels right of the middle and y above it has alpha - centre_alpha = step (cos x + sin y) and beta - centre_beta = step (cos y - sin x), the cosine and
- * the sine being those of the camera's clockwise roll. The pixel of reference is where alpha and beta are 0. */
+/* A place x pixels right of the middle and y above it has alpha - centre_alpha = step (cos x + sin y) and beta -
+ * centre_beta = step (cos y - sin x), the cosine and the sine being those of the camera's clockwise roll. The pixel
+ * of reference is where alpha and beta are 0. */
 static struct kd_wcs plane(const struct kd_scene *scene)
 {
     const struct kd_camera *c = &scene->camera;
-    double step = kd_camera_pixel(scene), angle = step * kd_scale_microarcseconds(scene->spacetime.mass_msun, scene->spacetime.distance_pc) * MICROARCSECOND;
+    double step = kd_camera_pixel(scene),
+           angle = step * kd_scale_microarcseconds(scene->spacetime.mass_msun, scene->spacetime.distance_pc) *
+                   MICROARCSECOND;
     double cr = kd_cos_deg(c->roll_deg), sr = kd_sin_deg(c->roll_deg);
     double x = 0.5 * (scene->image.width + 1) - (cr * c->centre_alpha - sr * c->centre_beta) / step;
     double y = 0.5 * (scene->image.height + 1) - (sr * c->centre_alpha + cr * c->centre_beta) / step;
     return (struct kd_wcs) {
-        .known = true, .far = true,
+        .known = true,
+        .far = true,
         .at = { { "RA---SIN", "deg", x, 0, -angle }, { "DEC--SIN", "deg", y, 0, angle } },
         .impact = { { "ALPHA", "", x, 0, step }, { "BETA", "", y, 0, step } },
         .turn = { { cr, sr }, { -sr, cr } },
@@ -38,17 +42,22 @@ static struct kd_wcs in_tile(struct kd_wcs wcs, const struct kd_scene *scene)
 
 struct kd_wcs kd_wcs_of(const struct kd_scene *scene)
 {
-    static const char *const types[][2] = { [KD_SIGHT_PINHOLE] = { "CLON-TAN", "CLAT-TAN" }, [KD_SIGHT_SPHERE] = { "CLON-CAR", "CLAT-CAR" },
+    static const char *const types[][2] = { [KD_SIGHT_PINHOLE] = { "CLON-TAN", "CLAT-TAN" },
+                                            [KD_SIGHT_SPHERE] = { "CLON-CAR", "CLAT-CAR" },
                                             [KD_SIGHT_DOME] = { "CLON-ARC", "CLAT-ARC" } };
     const double width = scene->image.width, height = scene->image.height;
     const uint32_t sight = kd_camera_sight(scene);
-    if (scene->camera.projection == KD_PROJECTION_RING || scene->camera.stereo == KD_STEREO_PAIR) /* two pictures have two */
+    if (scene->camera.projection == KD_PROJECTION_RING ||
+        scene->camera.stereo == KD_STEREO_PAIR) /* two pictures have two */
         return (struct kd_wcs) { 0 };
     if (sight == KD_SIGHT_PLANE)
         return in_tile(plane(scene), scene);
-    double step = sight == KD_SIGHT_SPHERE ? 360 / width : sight == KD_SIGHT_DOME ? 180 / fmin(width, height) : kd_camera_pixel(scene) / DEGREE;
+    double step = sight == KD_SIGHT_SPHERE ? 360 / width
+                  : sight == KD_SIGHT_DOME ? 180 / fmin(width, height)
+                                           : kd_camera_pixel(scene) / DEGREE;
     const struct kd_wcs whole = {
-        .known = true, .turn = { { 1, 0 }, { 0, 1 } },
+        .known = true,
+        .turn = { { 1, 0 }, { 0, 1 } },
         .at = { { types[sight][0], "deg", 0.5 * (width + 1), 0, step },
                 { types[sight][1], "deg", 0.5 * (height + 1), 0, sight == KD_SIGHT_SPHERE ? 180 / height : step } },
     };

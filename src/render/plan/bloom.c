@@ -13,8 +13,9 @@ static uint64_t reserve(struct kd_bloom *bloom, uint64_t n)
     return at;
 }
 
-/* Blocks of pixels are seven tenths as wide as cells at most: what gives evenly then arrives evenly, to 1e-3, and what a point of light
- * gives is displaced by a third of a cell at most. Kernels take 1, 2 or a multiple of 4 pixels. */
+/* Blocks of pixels are seven tenths as wide as cells at most: what gives evenly then arrives evenly, to 1e-3, and
+ * what a point of light gives is displaced by a third of a cell at most. Kernels take 1, 2 or a multiple of 4
+ * pixels. */
 static uint32_t block_of(double pixels_a_cell)
 {
     const double most = 0.715 * pixels_a_cell;
@@ -47,6 +48,7 @@ struct kd_bloom kd_bloom_of(uint32_t width, uint32_t height, double strength)
     bloom.blocks_y = (height + bloom.block_y - 1) / bloom.block_y;
     bloom.blocks = reserve(&bloom, kd_bloom_blocks(&bloom));
     bloom.share = 1.0 / bloom.levels;
-    bloom.strength *= (double)bloom.levels / KD_BLOOM_LEVELS; /* light that stays within a pixel or so stays where it is */
+    bloom.strength *=
+        (double)bloom.levels / KD_BLOOM_LEVELS; /* light that stays within a pixel or so stays where it is */
     return bloom;
 }

@@ -11,9 +11,12 @@
 static const char *const fates[] = { "sky", "hole", "?" };
 
 #define PI 3.14159265358979323846
-#define LIGHT_(number, called, what, value) [number] = { .name = #called, .of = KD_OF_LIGHT, .needs = what, SHOWN_##called },
-#define CROSSING_(number, called, what, value, met) [number] = { .name = #called, .of = KD_OF_CROSSING, .needs = KD_LENS_W | (what), SHOWN_##called },
-#define RAY_(number, called, what, value) [number] = { .name = #called, .of = KD_OF_RAY, .needs = what, SHOWN_##called },
+#define LIGHT_(number, called, what, value) \
+    [number] = { .name = #called, .of = KD_OF_LIGHT, .needs = what, SHOWN_##called },
+#define CROSSING_(number, called, what, value, met) \
+    [number] = { .name = #called, .of = KD_OF_CROSSING, .needs = KD_LENS_W | (what), SHOWN_##called },
+#define RAY_(number, called, what, value) \
+    [number] = { .name = #called, .of = KD_OF_RAY, .needs = what, SHOWN_##called },
 
 /* Unit, and how a PNG shows it. */
 #define SHOWN_intensity .unit = "", .map = KD_MAP_HEAT, .scale = { 0, NAN, false }
@@ -39,8 +42,7 @@ static const char *const fates[] = { "sky", "hole", "?" };
 #define SHOWN_sky_footprint .unit = "rad", .map = KD_MAP_SEQUENTIAL, .scale = { NAN, NAN, true }
 
 const struct kd_layer_kind kd_layer_kinds[KD_LAYER_COUNT] = {
-    [KD_LAYER_rgb] = { .name = "rgb", .unit = "", .of = KD_OF_PICTURE },
-    KD_LAYERS(LIGHT_, CROSSING_, RAY_)
+    [KD_LAYER_rgb] = { .name = "rgb", .unit = "", .of = KD_OF_PICTURE }, KD_LAYERS(LIGHT_, CROSSING_, RAY_)
 };
 
 size_t kd_layers_of(const struct kd_scene *scene, struct kd_plan_layer out[KD_WORDS_MOST], bool *rgb)
@@ -65,7 +67,8 @@ uint32_t kd_layers_needs(const struct kd_scene *scene)
     for (size_t n = kd_layers_of(scene, layers, &rgb); n; n--) {
         if (kd_layer_is_polarized(layers[n - 1].kind) && scene->polarization.model == KD_POLARIZATION_TRANSFER)
             continue; /* of the march, and of no crossing */
-        needs |= kd_layer_kinds[layers[n - 1].kind].needs | (layers[n - 1].kind == KD_LAYER_emission_angle && ring ? KD_LENS_SLOPE : 0);
+        needs |= kd_layer_kinds[layers[n - 1].kind].needs |
+                 (layers[n - 1].kind == KD_LAYER_emission_angle && ring ? KD_LENS_SLOPE : 0);
     }
     return needs;
 }
@@ -75,27 +78,48 @@ static enum kd_status check_one(const struct kd_scene *scene, struct kd_plan_lay
     char name[KD_LAYER_NAME];
     kd_layer_name(layer, name);
     if (layer.order >= scene->accuracy.orders)
-        return kd_error_field(error, "/image/layers", "image.layers holds %s, allowed are image orders below accuracy.orders, %d", name,
+        return kd_error_field(error, "/image/layers",
+                              "image.layers holds %s, allowed are image orders below accuracy.orders, %d", name,
                               scene->accuracy.orders);
-    if ((kd_emit_along(scene) || kd_emit_met(scene)) && kd_layer_kinds[layer.kind].of == KD_OF_LIGHT && layer.order >= 0)
-        return kd_error_field(error, "/image/layers", "image.layers holds %s, allowed where there are volumes or bodies is %.*s: their light is between the crossings",
+    if ((kd_emit_along(scene) || kd_emit_met(scene)) && kd_layer_kinds[layer.kind].of == KD_OF_LIGHT &&
+        layer.order >= 0)
+        return kd_error_field(error, "/image/layers",
+                              "image.layers holds %s, allowed where there are volumes or bodies is %.*s: their light "
+                              "is between the crossings",
                               name, (int)strlen(kd_layer_kinds[layer.kind].name), name);
     if (kd_layer_is_polarized(layer.kind) && scene->polarization.model == KD_POLARIZATION_NONE)
-        return kd_error_field(error, "/image/layers", "image.layers holds %s with polarization.model \"none\", where no light is polarised: allowed are the other words of it", name);
+        return kd_error_field(error, "/image/layers",
+                              "image.layers holds %s with polarization.model \"none\", where no light is polarised: "
+                              "allowed are the other words of it",
+                              name);
     if (layer.kind == KD_LAYER_stokes_v && scene->polarization.model != KD_POLARIZATION_TRANSFER)
-        return kd_error_field(error, "/image/layers", "image.layers holds stokes_v, allowed with polarization.model \"transfer\": other light is not polarised circularly");
+        return kd_error_field(error, "/image/layers",
+                              "image.layers holds stokes_v, allowed with polarization.model \"transfer\": other light "
+                              "is not polarised circularly");
     if (kd_layer_is_polarized(layer.kind) && scene->camera.projection == KD_PROJECTION_RING)
-        return kd_error_field(error, "/image/layers", "image.layers holds %s with camera.projection \"ring\", where a picture has no up: allowed are the others", name);
-    if ((layer.kind == KD_LAYER_brightness_temperature || layer.kind == KD_LAYER_specific_intensity) && !kd_scene_is_radio_alone(scene))
-        return kd_error_field(error, "/image/layers", "image.layers holds %s, allowed where nothing but a volume at a radio frequency shines: volume.model \"gold\", \"riaf\" or \"torus\", "
-                              "disk.model and sky.model \"none\", no jets, spots or bodies", name);
+        return kd_error_field(
+            error, "/image/layers",
+            "image.layers holds %s with camera.projection \"ring\", where a picture has no up: allowed are the others",
+            name);
+    if ((layer.kind == KD_LAYER_brightness_temperature || layer.kind == KD_LAYER_specific_intensity) &&
+        !kd_scene_is_radio_alone(scene))
+        return kd_error_field(error, "/image/layers",
+                              "image.layers holds %s, allowed where nothing but a volume at a radio frequency shines: "
+                              "volume.model \"gold\", \"riaf\" or \"torus\", "
+                              "disk.model and sky.model \"none\", no jets, spots or bodies",
+                              name);
     if (scene->disk.height > 0 && scene->disk.model != KD_DISK_NONE && kd_layer_kinds[layer.kind].of == KD_OF_CROSSING)
-        return kd_error_field(error, "/image/layers", "image.layers holds %s, which is of the place where a thin disk is crossed, with disk.height %.9g: allowed is 0", name,
-                              scene->disk.height);
+        return kd_error_field(error, "/image/layers",
+                              "image.layers holds %s, which is of the place where a thin disk is crossed, with "
+                              "disk.height %.9g: allowed is 0",
+                              name, scene->disk.height);
     if (kd_emit_along(scene) && layer.kind == KD_LAYER_optical_depth)
-        return kd_error_field(error, "/image/layers", "image.layers holds %s, which is that of one crossing, allowed where there are no volumes", name);
+        return kd_error_field(
+            error, "/image/layers",
+            "image.layers holds %s, which is that of one crossing, allowed where there are no volumes", name);
     if (layer.kind == KD_LAYER_temperature && scene->disk.model == KD_DISK_NONE && !kd_emit_met(scene))
-        return kd_error_field(error, "/image/layers", "image.layers holds %s with disk.model \"none\", where nothing has a temperature", name);
+        return kd_error_field(error, "/image/layers",
+                              "image.layers holds %s with disk.model \"none\", where nothing has a temperature", name);
     return KD_OK;
 }
 
@@ -104,12 +128,15 @@ static enum kd_status check_scale(const struct kd_scene *scene, struct kd_plan_l
     double low = scene->image.layer_min, high = scene->image.layer_max;
     bool one_above_zero = kd_layer_kinds[layer.kind].scale.logarithmic;
     if (isfinite(low) && isfinite(high) && low >= high)
-        return kd_error_field(error, "/image/layer_min", "image.layer_min is %.9g, allowed is less than image.layer_max, %.9g", low, high);
+        return kd_error_field(error, "/image/layer_min",
+                              "image.layer_min is %.9g, allowed is less than image.layer_max, %.9g", low, high);
     if (one_above_zero && isfinite(low) && low <= 0)
-        return kd_error_field(error, "/image/layer_min", "image.layer_min is %.9g, allowed is more than 0: %s is shown on a logarithmic scale",
+        return kd_error_field(error, "/image/layer_min",
+                              "image.layer_min is %.9g, allowed is more than 0: %s is shown on a logarithmic scale",
                               low, kd_layer_kinds[layer.kind].name);
     if (one_above_zero && isfinite(high) && high <= 0)
-        return kd_error_field(error, "/image/layer_max", "image.layer_max is %.9g, allowed is more than 0: %s is shown on a logarithmic scale",
+        return kd_error_field(error, "/image/layer_max",
+                              "image.layer_max is %.9g, allowed is more than 0: %s is shown on a logarithmic scale",
                               high, kd_layer_kinds[layer.kind].name);
     return KD_OK;
 }

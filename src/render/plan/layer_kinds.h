@@ -1,6 +1,7 @@
-/* A frame may have these layers besides the picture: this is the table of shaders/shared/layers.h on the C side, with units, colours and words. To
- * add one: its line there, its row in layer_kinds.c, its word in the row image.layers of the field table, its section in docs/layers.md. Constant
- * data and pure functions of valid scenes, any thread. */
+/* A frame may have these layers besides the picture: this is the table of shaders/shared/layers.h on the C side,
+ * with units, colours and words. To add one: its line there, its row in layer_kinds.c, its word in the row
+ * image.layers of the field table, its section in docs/layers.md. Constant data and pure functions of valid scenes,
+ * any thread. */
 #ifndef KD_RENDER_PLAN_LAYER_KINDS_H
 #define KD_RENDER_PLAN_LAYER_KINDS_H
 
@@ -15,17 +16,17 @@
 #define KD_LAYER_ONE_(...) +1
 enum kd_layer_number {
     KD_LAYER_rgb,
-    KD_LAYERS(KD_LAYER_NUMBER_, KD_LAYER_NUMBER_, KD_LAYER_NUMBER_)
-    KD_LAYER_COUNT = 1 KD_LAYERS(KD_LAYER_ONE_, KD_LAYER_ONE_, KD_LAYER_ONE_)
+    KD_LAYERS(KD_LAYER_NUMBER_, KD_LAYER_NUMBER_, KD_LAYER_NUMBER_) KD_LAYER_COUNT =
+        1 KD_LAYERS(KD_LAYER_ONE_, KD_LAYER_ONE_, KD_LAYER_ONE_)
 };
 
 struct kd_layer_kind {
     const char *name;
-    const char *unit;   /* "": a pure number */
+    const char *unit; /* "": a pure number */
     enum kd_layer_of { KD_OF_PICTURE, KD_OF_LIGHT, KD_OF_CROSSING, KD_OF_RAY } of;
-    uint32_t needs;     /* KD_LENS_...: what the lens map must hold for it */
+    uint32_t needs; /* KD_LENS_...: what the lens map must hold for it */
     enum kd_colour_map map;
-    struct kd_map_scale scale; /* an end that is NAN: the least or the largest value of the picture */
+    struct kd_map_scale scale;  /* an end that is NAN: the least or the largest value of the picture */
     const char *const *classes; /* of CATEGORICAL: what its values 0, 1, ... are called; NULL: numbers */
     uint32_t n_classes;         /* 0: as many as the largest value says */
 };
@@ -33,7 +34,8 @@ extern const struct kd_layer_kind kd_layer_kinds[KD_LAYER_COUNT];
 /* Says whether it is of the polarisation of light. */
 static inline bool kd_layer_is_polarized(int kind)
 {
-    return kind == KD_LAYER_stokes_q || kind == KD_LAYER_stokes_u || kind == KD_LAYER_evpa || kind == KD_LAYER_polarization_fraction || kind == KD_LAYER_stokes_v;
+    return kind == KD_LAYER_stokes_q || kind == KD_LAYER_stokes_u || kind == KD_LAYER_evpa ||
+           kind == KD_LAYER_polarization_fraction || kind == KD_LAYER_stokes_v;
 }
 
 /* One that a plan has. order: its image order, -1: that of the first crossing on the disk. */
@@ -43,8 +45,8 @@ struct kd_plan_layer { int16_t kind, order; };
 size_t kd_layers_of(const struct kd_scene *scene, struct kd_plan_layer out[KD_WORDS_MOST], bool *rgb);
 /* What the lens map must hold for all of them: KD_LENS_... */
 uint32_t kd_layers_needs(const struct kd_scene *scene);
-/* KD_EINVAL at a field for what cannot be: a layer of the disk's where there is none, of a place that the projection does not know, of
- * an order that is not followed; ends of a scale that are none. */
+/* KD_EINVAL at a field for what cannot be: a layer of the disk's where there is none, of a place that the projection
+ * does not know, of an order that is not followed; ends of a scale that are none. */
 enum kd_status kd_layers_check(const struct kd_scene *scene, struct kd_error *error);
 
 /* "g" or "g_1". */

@@ -7,14 +7,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Writes what a camera sees of a hole, as far as the lens map depends on it: the tile, and all of the camera but its azimuth, which adds a constant to all azimuths and
- * is added where light is made. */
+/* Writes what a camera sees of a hole, as far as the lens map depends on it: the tile, and all of the camera but its
+ * azimuth, which adds a constant to all azimuths and is added where light is made. */
 static enum kd_status write_view(const struct kd_scene *scene, struct kd_buffer *text)
 {
     const struct kd_section *camera = kd_section_find("camera");
     enum kd_status status;
     const struct kd_window window = kd_scene_window(scene);
-    KD_TRY(kd_buffer_printf(text, "%u x %u at %u %u, a %a", window.width, window.height, window.left, window.top, scene->spacetime.spin));
+    KD_TRY(kd_buffer_printf(text, "%u x %u at %u %u, a %a", window.width, window.height, window.left, window.top,
+                            scene->spacetime.spin));
     for (size_t i = camera->first; i < camera->first + camera->count; i++)
         if (strcmp(kd_fields[i].name, "azimuth_deg"))
             KD_TRY(kd_buffer_printf(text, ", %s %a", kd_fields[i].name, kd_field_get(scene, &kd_fields[i], 0)));
@@ -22,15 +23,17 @@ done:
     return status;
 }
 
-/* The key is a hash of what the lens map depends on: the hole, the camera, the rays, how they are followed, and the quantities that it holds. */
+/* The key is a hash of what the lens map depends on: the hole, the camera, the rays, how they are followed, and the
+ * quantities that it holds. */
 enum kd_status kd_plan_lens_key(struct kd_plan *plan, const struct kd_scene *scene)
 {
     struct kd_buffer text = { 0 };
     const struct kd_setting *by = &plan->setting;
     enum kd_status status;
-    KD_TRY(kd_buffer_printf(&text, "lens %u %u, rays %d x %d x %d, %d times and %u at the curve, by %d %d %u %d, ", plan->quantities, plan->orders,
-                            scene->image.width, scene->image.height, (int)plan->side, scene->image.critical_factor, plan->critical, (int)by->engine,
-                            (int)by->precision, by->steps, (int)plan->path));
+    KD_TRY(kd_buffer_printf(&text, "lens %u %u, rays %d x %d x %d, %d times and %u at the curve, by %d %d %u %d, ",
+                            plan->quantities, plan->orders, scene->image.width, scene->image.height, (int)plan->side,
+                            scene->image.critical_factor, plan->critical, (int)by->engine, (int)by->precision,
+                            by->steps, (int)plan->path));
     KD_TRY(write_view(scene, &text));
     kd_sha256(text.data, text.size, plan->lens_key);
 done:
@@ -44,9 +47,10 @@ enum kd_status kd_plan_lens_group(const struct kd_scene *scene, uint64_t *out)
     const struct kd_section *accuracy = kd_section_find("accuracy");
     char hash[65];
     enum kd_status status;
-    const bool marches = kd_emit_along(scene) || kd_emit_met(scene); /* of which pixels at the curve have rays, whatever the map holds */
-    KD_TRY(kd_buffer_printf(&text, "%u, %d x %d x %d, %d %d, ", kd_needs_of(scene).quantities, scene->image.width, scene->image.height, (int)kd_scene_side(scene),
-                            scene->image.critical_factor, marches));
+    const bool marches =
+        kd_emit_along(scene) || kd_emit_met(scene); /* of which pixels at the curve have rays, whatever the map holds */
+    KD_TRY(kd_buffer_printf(&text, "%u, %d x %d x %d, %d %d, ", kd_needs_of(scene).quantities, scene->image.width,
+                            scene->image.height, (int)kd_scene_side(scene), scene->image.critical_factor, marches));
     for (size_t i = accuracy->first; i < accuracy->first + accuracy->count; i++)
         KD_TRY(kd_buffer_printf(&text, "%a ", kd_field_get(scene, &kd_fields[i], 0)));
     KD_TRY(write_view(scene, &text));

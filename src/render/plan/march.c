@@ -12,7 +12,10 @@ enum { LEAST = 2, BALANCED = 4, MOST = 64, SKETCH = 2 };
 #define UNSEEN 0.05        /* octaves: what is less than this has no part in light to 1e-4 */
 #define SKETCH_UNSEEN 0.15 /* and those of which a ray's footprint leaves little anyway */
 
-static bool is_stirred(const struct kd_scene *scene) { return kd_emit_along(scene) && scene->disk.height > 0 && scene->gas.amplitude > 0; }
+static bool is_stirred(const struct kd_scene *scene)
+{
+    return kd_emit_along(scene) && scene->disk.height > 0 && scene->gas.amplitude > 0;
+}
 
 static double error_of(const struct kd_scene *scene)
 {
@@ -21,7 +24,8 @@ static double error_of(const struct kd_scene *scene)
     return isfinite(a->tolerance) ? a->tolerance : (is_stirred(scene) ? stirred : errors)[a->profile];
 }
 
-#define PIXEL 0.36  /* M between rays, over disk.gas.scale, from which on more of the noise is seen the closer they are */
+#define PIXEL \
+    0.36 /* M between rays, over disk.gas.scale, from which on more of the noise is seen the closer they are */
 #define CLOSER 0.08 /* of the exponent, each time that they are half as far apart */
 #define CLOSEST 3   /* so often: then all octaves are seen */
 
@@ -32,9 +36,11 @@ static double closeness(const struct kd_scene *scene)
     return fmin(fmax(log2(PIXEL * scene->gas.scale * side / (kd_camera_pixel(scene) * distance)), 0), CLOSEST);
 }
 
-/* Measured in the preset thick-disk at 320 x 180: nine of ten rays are within 8e-3 of 16 times as many stretches at four quarters, and within 1.6e-3 at eight,
- * 5e-4 at twelve: noise is smooth to the second derivative only. The closer rays are the finer is the noise that they see, much finer than stretches, and the error falls
- * more slowly: at nine quarters it is 8e-4 at 320 x 180, 1.4e-3 at 640 x 360 and 2e-3 at 1280 x 720, and at three 1.3e-2, 1.5e-2 and 1.8e-2. */
+/* Measured in the preset thick-disk at 320 x 180: nine of ten rays are within 8e-3 of 16 times as many stretches at
+ * four quarters, and within 1.6e-3 at eight, 5e-4 at twelve: noise is smooth to the second derivative only. The
+ * closer rays are the finer is the noise that they see, much finer than stretches, and the error falls more slowly:
+ * at nine quarters it is 8e-4 at 320 x 180, 1.4e-3 at 640 x 360 and 2e-3 at 1280 x 720, and at three 1.3e-2, 1.5e-2
+ * and 1.8e-2. */
 static uint32_t fine_of(double error, const struct kd_scene *scene)
 {
     double fine = BALANCED * sqrt(sqrt(1e-4 / error));
@@ -51,11 +57,13 @@ static uint32_t steps_of(double error, const struct kd_setting *rays)
     return mino && rays->steps > least ? rays->steps : least;
 }
 
-/* A ray through matter at a radio frequency takes so many times as long as one through a volume that is the same everywhere: seconds of a core for pictures
- * of two sizes by lavapipe, test 3 of Gold et al., ipole's flow, the torus, and a grid of it of 192 x 96 nodes. */
+/* A ray through matter at a radio frequency takes so many times as long as one through a volume that is the same
+ * everywhere: seconds of a core for pictures of two sizes by lavapipe, test 3 of Gold et al., ipole's flow, the
+ * torus, and a grid of it of 192 x 96 nodes. */
 static double of_matter(const struct kd_scene *scene)
 {
-    static const double of[] = { [KD_VOLUME_NONE] = 1, [KD_VOLUME_UNIFORM] = 1, [KD_VOLUME_GOLD] = 1.7, [KD_VOLUME_RIAF] = 3.7, [KD_VOLUME_TORUS] = 1.8, [KD_VOLUME_GRID] = 6 };
+    static const double of[] = { [KD_VOLUME_NONE] = 1,   [KD_VOLUME_UNIFORM] = 1, [KD_VOLUME_GOLD] = 1.7,
+                                 [KD_VOLUME_RIAF] = 3.7, [KD_VOLUME_TORUS] = 1.8, [KD_VOLUME_GRID] = 6 };
     return of[scene->volume.model];
 }
 
@@ -65,10 +73,12 @@ static double weight_of(const struct kd_scene *scene, uint32_t steps, uint32_t f
     const double bodies = kd_emit_met(scene) ? BODIES * steps / 16 : 0;
     if (!kd_emit_along(scene))
         return bodies;
-    return bodies + (0.25 * steps / 16 + 0.75 * fine / BALANCED) * of_matter(scene) * (is_stirred(scene) ? 1 + 0.25 * scene->gas.octaves : 1);
+    return bodies + (0.25 * steps / 16 + 0.75 * fine / BALANCED) * of_matter(scene) *
+                        (is_stirred(scene) ? 1 + 0.25 * scene->gas.octaves : 1);
 }
 
-/* One pixel in 144, of which what is followed for the error takes a thirtieth of what the picture does; of small pictures more, of large ones less. */
+/* One pixel in 144, of which what is followed for the error takes a thirtieth of what the picture does; of small
+ * pictures more, of large ones less. */
 static void lattice(uint32_t size, uint32_t most, uint32_t *n, uint32_t *every, uint32_t *first)
 {
     *n = (uint32_t)fmin(fmin(fmax(size / 12, 4), most), size);
@@ -91,7 +101,13 @@ struct kd_march kd_march_of(const struct kd_scene *scene, const struct kd_settin
     const uint32_t steps = steps_of(error, rays), fine = fine_of(error, scene);
     const struct kd_window window = kd_scene_window(scene);
     return (struct kd_march) {
-        .steps = steps, .weight = weight_of(scene, steps, fine), .fine = fine, .opaque = 0.1 * error, .unseen = UNSEEN, .sample = kd_emit_along(scene) ? sample_of((int32_t)window.width, (int32_t)window.height) : (struct kd_march_sample) { 0 },
+        .steps = steps,
+        .weight = weight_of(scene, steps, fine),
+        .fine = fine,
+        .opaque = 0.1 * error,
+        .unseen = UNSEEN,
+        .sample = kd_emit_along(scene) ? sample_of((int32_t)window.width, (int32_t)window.height)
+                                       : (struct kd_march_sample) { 0 },
     };
 }
 

@@ -1,4 +1,5 @@
-/* Plans of pictures that are made of parts: of a pair of eyes, of a tile, and of strips where all of a picture does not fit. */
+/* Plans of pictures that are made of parts: of a pair of eyes, of a tile, and of strips where all of a picture does
+ * not fit. */
 #include "render/plan/parts.h"
 
 #include "render/plan/lens_key.h"
@@ -28,17 +29,20 @@ static void add(struct kd_plan *plan, const struct kd_plan *next)
 
 static enum kd_status name_lens(struct kd_plan *plan, const struct kd_scene *scene, struct kd_error *error)
 {
-    return kd_plan_lens_key(plan, scene) ? kd_error_set(error, KD_ENOMEM, "out of memory while hashing the scene") : KD_OK;
+    return kd_plan_lens_key(plan, scene) ? kd_error_set(error, KD_ENOMEM, "out of memory while hashing the scene")
+                                         : KD_OK;
 }
 
-static enum kd_status make_pair(const struct kd_scene *scene, const struct kd_needs *needs, const struct kd_capacity *capacity, struct kd_plan *out,
-                                struct kd_error *error)
+static enum kd_status make_pair(const struct kd_scene *scene, const struct kd_needs *needs,
+                                const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error)
 {
     const struct kd_scene left = kd_scene_eye(scene, -1), right = kd_scene_eye(scene, 1);
     struct kd_plan plan, next;
     enum kd_status status;
     if (needs->light && needs->unseen)
-        KD_TRY(kd_error_field(error, "/camera/stereo", "camera.stereo is \"pair\", allowed is \"none\" where light is measured: there is one flux for each eye"));
+        KD_TRY(kd_error_field(
+            error, "/camera/stereo",
+            "camera.stereo is \"pair\", allowed is \"none\" where light is measured: there is one flux for each eye"));
     KD_TRY(kd_plan_make_for(&left, needs, capacity, &plan, error));
     KD_TRY(kd_plan_make_for(&right, needs, capacity, &next, error));
     add(&plan, &next);
@@ -59,7 +63,8 @@ static struct kd_needs of_tile(const struct kd_needs *needs)
     return own;
 }
 
-static enum kd_status make_tile(const struct kd_scene *scene, const struct kd_needs *needs, const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error)
+static enum kd_status make_tile(const struct kd_scene *scene, const struct kd_needs *needs,
+                                const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error)
 {
     struct kd_window cut;
     const struct kd_scene wide = kd_tile_with_margin(scene, &cut);
@@ -70,7 +75,8 @@ static enum kd_status make_tile(const struct kd_scene *scene, const struct kd_ne
     return status;
 }
 
-/* What of the memory is not for the whole picture on the host, which is there twice: as pixels and as the file that they become. False: there is none. */
+/* What of the memory is not for the whole picture on the host, which is there twice: as pixels and as the file that
+ * they become. False: there is none. */
 static bool rest_of(const struct kd_capacity *c, uint64_t host_bytes, struct kd_capacity *rest)
 {
     const uint64_t whole = 2 * host_bytes;
@@ -83,7 +89,8 @@ static bool rest_of(const struct kd_capacity *c, uint64_t host_bytes, struct kd_
 }
 
 /* All of n strips, the last of which may be lower. */
-static enum kd_status plan_strips(const struct kd_scene *scene, const struct kd_needs *needs, const struct kd_capacity *c, uint32_t n, struct kd_plan *out, struct kd_error *error)
+static enum kd_status plan_strips(const struct kd_scene *scene, const struct kd_needs *needs,
+                                  const struct kd_capacity *c, uint32_t n, struct kd_plan *out, struct kd_error *error)
 {
     struct kd_plan sum, next;
     struct kd_capacity rest;
@@ -121,7 +128,8 @@ static enum kd_status refuse_strips(struct kd_error *error, const struct kd_erro
 }
 
 /* As few strips as fit. What no tile can have is too large, then: `error` stays as it is. */
-static enum kd_status make_strips(const struct kd_scene *scene, const struct kd_needs *needs, const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error)
+static enum kd_status make_strips(const struct kd_scene *scene, const struct kd_needs *needs,
+                                  const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error)
 {
     const struct kd_scene strip = kd_tile_strip(scene, 2, 0);
     const struct kd_needs own = of_tile(needs);
@@ -140,8 +148,10 @@ static enum kd_status make_strips(const struct kd_scene *scene, const struct kd_
     return KD_ETOOBIG;
 }
 
-/* Whether some number of strips may fit: without a list of pixels at the critical curve, and by the first strip, which is as high as any. */
-static enum kd_status check_strips(const struct kd_scene *scene, const struct kd_needs *needs, const struct kd_capacity *capacity, struct kd_error *error)
+/* Whether some number of strips may fit: without a list of pixels at the critical curve, and by the first strip,
+ * which is as high as any. */
+static enum kd_status check_strips(const struct kd_scene *scene, const struct kd_needs *needs,
+                                   const struct kd_capacity *capacity, struct kd_error *error)
 {
     struct kd_scene strip = kd_tile_strip(scene, 2, 0);
     const struct kd_needs own = of_tile(needs);
@@ -177,6 +187,7 @@ enum kd_status kd_plan_check(const struct kd_scene *scene, const struct kd_capac
     if (status)
         return status;
     const struct kd_scene wide = kd_tile_with_margin(&first, NULL);
-    status = kd_scene_has_tile(scene) ? kd_plan_one_fits(&wide, &own, capacity, error) : kd_plan_one_fits(&first, &needs, capacity, error);
+    status = kd_scene_has_tile(scene) ? kd_plan_one_fits(&wide, &own, capacity, error)
+                                      : kd_plan_one_fits(&first, &needs, capacity, error);
     return status == KD_ETOOBIG ? check_strips(&first, &needs, capacity, error) : status;
 }

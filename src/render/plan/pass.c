@@ -34,7 +34,8 @@ static struct kd_pass_cost trace(const struct kd_plan *plan, const struct kd_cap
     }
     if (by->engine == KD_ENGINE_CLOSED)
         return (struct kd_pass_cost) { "", NS_PER_CLOSED / (c->cores ? c->cores : 1), KD_NS_NONE };
-    return (struct kd_pass_cost) { by->engine >= KD_ENGINE_KS_EULER ? "rays_kerr_schild.comp" : "rays.comp", ns_listed(by, c), KD_NS_NONE };
+    return (struct kd_pass_cost) { by->engine >= KD_ENGINE_KS_EULER ? "rays_kerr_schild.comp" : "rays.comp",
+                                   ns_listed(by, c), KD_NS_NONE };
 }
 
 /* A ray that is followed and lit. */
@@ -73,20 +74,28 @@ static struct kd_pass_cost bloom(const struct kd_plan *plan, const struct kd_cap
 static struct kd_pass_cost post(const struct kd_plan *plan, const struct kd_capacity *c)
 {
     const double more = !plan->bloom.levels ? 1 : kd_bloom_together(&plan->bloom, plan->width) ? 2 : 2.7;
-    return (struct kd_pass_cost) { "post.comp", more * c->ns[KD_NS_PIXEL_POST], plan->bloom.levels ? KD_NS_NONE : KD_NS_PIXEL_POST };
+    return (struct kd_pass_cost) { "post.comp", more * c->ns[KD_NS_PIXEL_POST],
+                                   plan->bloom.levels ? KD_NS_NONE : KD_NS_PIXEL_POST };
 }
 
-/* By lavapipe: to rows of cells and back three times post, and for each weight of the two blurs, and of two more sums where cells are large, a
- * seventh of it. */
+/* By lavapipe: to rows of cells and back three times post, and for each weight of the two blurs, and of two more
+ * sums where cells are large, a seventh of it. */
 static struct kd_pass_cost beam(const struct kd_plan *plan, const struct kd_capacity *c)
 {
     const struct kd_beam_grid *b = &plan->beam;
-    const double weights = 2.0 * (2 * b->reach + 1) * b->columns * b->rows + (b->cell > 1 ? 6.0 * b->columns * b->height : 0);
-    return (struct kd_pass_cost) { "beam_gather.comp", (3.2 + 0.15 * weights / ((double)plan->width * plan->height)) * c->ns[KD_NS_PIXEL_POST], KD_NS_NONE };
+    const double weights =
+        2.0 * (2 * b->reach + 1) * b->columns * b->rows + (b->cell > 1 ? 6.0 * b->columns * b->height : 0);
+    return (struct kd_pass_cost) { "beam_gather.comp",
+                                   (3.2 + 0.15 * weights / ((double)plan->width * plan->height)) *
+                                       c->ns[KD_NS_PIXEL_POST],
+                                   KD_NS_NONE };
 }
 
-#define INVOCATIONS(name, n)                                                                                                     \
-    static uint64_t name(const struct kd_plan *plan, const struct kd_scene *scene) { return (void)plan, (void)scene, n; }
+#define INVOCATIONS(name, n) \
+    static uint64_t name(const struct kd_plan *plan, const struct kd_scene *scene) \
+    { \
+        return (void)plan, (void)scene, n; \
+    }
 INVOCATIONS(traced, plan->planes ? kd_plan_rays(plan) : 0)
 INVOCATIONS(footprints, kd_plan_has_footprints(plan) ? kd_plan_rays(plan) : 0)
 INVOCATIONS(audited, plan->audit)
@@ -96,7 +105,7 @@ INVOCATIONS(sampled, plan->march.steps ? plan->march.sample.columns * plan->marc
 INVOCATIONS(starred, plan->points ? plan->rays / (plan->bright ? KD_PLAN_BRIGHT : 1) : 0)
 INVOCATIONS(refined, plan->adaptive ? plan->rays * plan->adaptive / KD_PLAN_CHOSEN + KD_PLAN_SAMPLED : 0)
 INVOCATIONS(pixels, (uint64_t)plan->width * plan->height)
-INVOCATIONS(layered, plan->n_layers * pixels(plan, scene))
+INVOCATIONS(layered, plan->n_layers *pixels(plan, scene))
 INVOCATIONS(added_up, plan->light ? pixels(plan, scene) : 0)
 INVOCATIONS(shown, plan->unseen ? 0 : pixels(plan, scene))
 INVOCATIONS(spread, plan->bloom.levels ? shown(plan, scene) : 0)
@@ -114,7 +123,7 @@ const struct kd_figure kd_figures[KD_FIGURE_COUNT] = { KD_FIGURES(FIGURE) KD_EMI
 #define WHOLE(of, by_figure) .kernel = of, .figure = KD_NS_##by_figure, .share = 1, .whole = true
 #define PART(of, by_figure, part) .kernel = of, .figure = KD_NS_##by_figure, .share = part
 #define BY(function) .by = function
-#define PASS(id, called, n, cost, grows_with, each)                                                                              \
+#define PASS(id, called, n, cost, grows_with, each) \
     [KD_PASS_##id] = { .name = called, .invocations = n, cost, .scale = KD_SCALE_##grows_with, .when = KD_EACH_##each },
 #define KD_P(emitter, id, ...) PASS(OWN_##emitter, #emitter, own_##emitter, WHOLE(#emitter ".comp", id), FIXED, FRAME)
 const struct kd_pass kd_passes[KD_PASS_COUNT] = { KD_PASSES(PASS) };
@@ -132,5 +141,6 @@ struct kd_pass_cost kd_pass_cost(const struct kd_pass *pass, const struct kd_pla
 {
     if (pass->by)
         return pass->by(plan, c);
-    return (struct kd_pass_cost) { pass->kernel, pass->share * c->ns[pass->figure], pass->whole ? pass->figure : KD_NS_NONE };
+    return (struct kd_pass_cost) { pass->kernel, pass->share * c->ns[pass->figure],
+                                   pass->whole ? pass->figure : KD_NS_NONE };
 }

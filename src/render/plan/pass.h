@@ -1,9 +1,11 @@
-/* These are the passes of a frame and what they cost, each written once. Plan, capacity, what frames teach, the device's JSON, what is kept of
- * it from start to start, and sessions fold over these two lists. Constant data and pure functions, any thread.
+/* These are the passes of a frame and what they cost, each written once. Plan, capacity, what frames teach, the
+ * device's JSON, what is kept of it from start to start, and sessions fold over these two lists. Constant data and
+ * pure functions, any thread.
  *
- * To add a pass: its line here, in pass.c how many invocations a plan has of it, its file in src/render/frame/, and its call in
- * frame.c, where it goes by kd_passes[KD_PASS_...].name. A pass that an emitter has of its own stands in the emitter's files alone
- * (KD_PASS_name of shaders/shared/emitters.h, render/emit/own.h), and in its place among the others here. */
+ * To add a pass: its line here, in pass.c how many invocations a plan has of it, its file in src/render/frame/, and
+ * its call in frame.c, where it goes by kd_passes[KD_PASS_...].name. A pass that an emitter has of its own stands in
+ * the emitter's files alone (KD_PASS_name of shaders/shared/emitters.h, render/emit/own.h), and in its place among
+ * the others here. */
 #ifndef KD_RENDER_PLAN_PASS_H
 #define KD_RENDER_PLAN_PASS_H
 
@@ -17,48 +19,51 @@ struct kd_capacity;
 struct kd_plan;
 struct kd_scene;
 
-/* Figures: nanoseconds an item, which frames measure. F(id, word, guess): the word is that of GET /v1/device and of what is kept; the
- * guess is lavapipe's, until something has been measured. */
-#define KD_FIGURES(F)                                                                                                            \
-    F(RAY_RADIUS, "ray_radius", 30)           /* a ray of a lens map of radii alone, in closed form */                           \
-    F(RAY_FULL, "ray_full", 150)              /* of any other that a kernel traces */                                            \
-    F(SAMPLE_TRANSFER, "sample_transfer", 20) /* a ray's light */                                                                \
-    F(PIXEL_POST, "pixel_post", 30)                                                                                              \
-    F(RAY_MARCH, "ray_march", 4000)           /* the light of a ray through volumes */
+/* Figures: nanoseconds an item, which frames measure. F(id, word, guess): the word is that of GET /v1/device and of
+ * what is kept; the guess is lavapipe's, until something has been measured. */
+#define KD_FIGURES(F) \
+    F(RAY_RADIUS, "ray_radius", 30)           /* a ray of a lens map of radii alone, in closed form */ \
+    F(RAY_FULL, "ray_full", 150)              /* of any other that a kernel traces */ \
+    F(SAMPLE_TRANSFER, "sample_transfer", 20) /* a ray's light */ \
+    F(PIXEL_POST, "pixel_post", 30) \
+    F(RAY_MARCH, "ray_march", 4000) /* the light of a ray through volumes */
 
 #define KD_FIGURE_ID_(id, word, guess) KD_NS_##id,
 #define KD_P(emitter, id, word, guess) KD_NS_##id,
 enum kd_figure_id { KD_FIGURES(KD_FIGURE_ID_) KD_EMIT_PASSES KD_FIGURE_COUNT, KD_NS_NONE = KD_FIGURE_COUNT };
 #undef KD_P
-extern const struct kd_figure { const char *word; double guess; } kd_figures[KD_FIGURE_COUNT];
+extern const struct kd_figure {
+    const char *word;
+    double guess;
+} kd_figures[KD_FIGURE_COUNT];
 
 /* Passes, in the order in which a plan names them. P(id, name, invocations, cost, scale, when):
  *
  *   name         in Server-Timing and in plans
  *   invocations  a function of pass.c: how many a plan has, 0: it has not this pass
- *   cost         WHOLE(kernel, figure): an invocation takes what the figure says, and its time is what the figure is learned from;
- *                PART(kernel, figure, share): it takes a share of it;
- *                BY(function): a function of pass.c says all that
+ *   cost         WHOLE(kernel, figure): an invocation takes what the figure says, and its time is what the figure
+ *                is learned from; PART(kernel, figure, share): it takes a share of it; BY(function): a function of
+ *                pass.c says all that
  *   scale        its time grows with the RAYS or the PIXELS, or is FIXED whatever the picture's size
  *   when         it runs for each FRAME, or only for one whose lens MAP is made
  *
  * A kernel is a file under shaders/comp, "" for a copy and for the CPU. */
-#define KD_PASSES(P)                                                                                                             \
-    P(TRACE, "trace", traced, BY(trace), RAYS, MAP)                                                                              \
-    P(FOOTPRINT, "footprint", footprints, PART("footprint.comp", RAY_FULL, 0.5), RAYS, MAP)                                      \
-    P(AUDIT, "audit", audited, BY(audit), FIXED, MAP)                                                                            \
-    KD_EMIT_PASSES                                                                                                               \
-    P(STARS, "stars", starred, PART("star_tiles.comp", SAMPLE_TRANSFER, 1.5), RAYS, FRAME)                                        \
-    P(TRANSFER, "transfer", lit, WHOLE("transfer.comp", SAMPLE_TRANSFER), RAYS, FRAME)                                           \
-    P(MARCH, "march", marched, BY(march), RAYS, FRAME)                                                                          \
-    P(MARCH_ERROR, "march_error", sampled, BY(march_error), RAYS, FRAME)                                                        \
-    P(REFINE, "refine", refined, BY(refine), RAYS, FRAME)                                                                        \
-    P(LAYERS, "layers", layered, PART("layers.comp", SAMPLE_TRANSFER, 0.5), PIXELS, FRAME)                                       \
-    P(LIGHT, "light", added_up, PART("photometry.comp", PIXEL_POST, 1.5), PIXELS, FRAME)                                         \
-    P(BEAM, "beam", beamed, BY(beam), PIXELS, FRAME)                                                                             \
-    P(EXPOSE, "expose", exposed, PART("expose.comp", PIXEL_POST, 0.25), PIXELS, FRAME)                                           \
-    P(BLOOM, "bloom", spread, BY(bloom), PIXELS, FRAME)                                                                          \
-    P(POST, "post", shown, BY(post), PIXELS, FRAME)                                                                              \
+#define KD_PASSES(P) \
+    P(TRACE, "trace", traced, BY(trace), RAYS, MAP) \
+    P(FOOTPRINT, "footprint", footprints, PART("footprint.comp", RAY_FULL, 0.5), RAYS, MAP) \
+    P(AUDIT, "audit", audited, BY(audit), FIXED, MAP) \
+    KD_EMIT_PASSES \
+    P(STARS, "stars", starred, PART("star_tiles.comp", SAMPLE_TRANSFER, 1.5), RAYS, FRAME) \
+    P(TRANSFER, "transfer", lit, WHOLE("transfer.comp", SAMPLE_TRANSFER), RAYS, FRAME) \
+    P(MARCH, "march", marched, BY(march), RAYS, FRAME) \
+    P(MARCH_ERROR, "march_error", sampled, BY(march_error), RAYS, FRAME) \
+    P(REFINE, "refine", refined, BY(refine), RAYS, FRAME) \
+    P(LAYERS, "layers", layered, PART("layers.comp", SAMPLE_TRANSFER, 0.5), PIXELS, FRAME) \
+    P(LIGHT, "light", added_up, PART("photometry.comp", PIXEL_POST, 1.5), PIXELS, FRAME) \
+    P(BEAM, "beam", beamed, BY(beam), PIXELS, FRAME) \
+    P(EXPOSE, "expose", exposed, PART("expose.comp", PIXEL_POST, 0.25), PIXELS, FRAME) \
+    P(BLOOM, "bloom", spread, BY(bloom), PIXELS, FRAME) \
+    P(POST, "post", shown, BY(post), PIXELS, FRAME) \
     P(READBACK, "readback", shown, PART("", PIXEL_POST, 0.1), PIXELS, FRAME)
 
 #define KD_PASS_ID_(id, ...) KD_PASS_##id,
@@ -76,7 +81,8 @@ struct kd_pass_cost {
 struct kd_pass {
     const char *name;
     uint64_t (*invocations)(const struct kd_plan *plan, const struct kd_scene *scene);
-    struct kd_pass_cost (*by)(const struct kd_plan *plan, const struct kd_capacity *capacity); /* NULL: as the next ones say */
+    struct kd_pass_cost (*by)(const struct kd_plan *plan,
+                              const struct kd_capacity *capacity); /* NULL: as the next ones say */
     const char *kernel;
     enum kd_figure_id figure;
     double share;
@@ -89,6 +95,7 @@ extern const struct kd_pass kd_passes[KD_PASS_COUNT];
 /* Finds a pass by its name; NULL: there is none. */
 const struct kd_pass *kd_pass_find(const char *name);
 /* Estimates what an invocation takes on a device, in a plan whose path, setting and quantities are known. */
-struct kd_pass_cost kd_pass_cost(const struct kd_pass *pass, const struct kd_plan *plan, const struct kd_capacity *capacity);
+struct kd_pass_cost kd_pass_cost(const struct kd_pass *pass, const struct kd_plan *plan,
+                                 const struct kd_capacity *capacity);
 
 #endif

@@ -47,8 +47,11 @@ static struct kd_light centred(const struct kd_camera_exact *c, double side, dou
         return (struct kd_light) { .x = NAN, .y = NAN };
     if (c->w0 == 0)
         return (struct kd_light) { .flux = s->solid * area, .x = k0 / w, .y = k1 / w };
-    double k2 = c->c0z * w + c->cxz * x + c->cyz * y, degrees = 180 / M_PI; /* (k_r, k_theta, k_phi): the hole is at -k_r */
-    return (struct kd_light) { .flux = s->solid * area, .x = degrees * atan2(k2, -k0), .y = degrees * atan2(-k1, hypot(k0, k2)) };
+    double k2 = c->c0z * w + c->cxz * x + c->cyz * y,
+           degrees = 180 / M_PI; /* (k_r, k_theta, k_phi): the hole is at -k_r */
+    return (struct kd_light) { .flux = s->solid * area,
+                               .x = degrees * atan2(k2, -k0),
+                               .y = degrees * atan2(-k1, hypot(k0, k2)) };
 }
 
 static struct kd_light light_of(const struct kd_camera_exact *c, double side, double area, const struct sums *s)
@@ -60,14 +63,21 @@ static struct kd_light light_of(const struct kd_camera_exact *c, double side, do
     return light;
 }
 
-double kd_light_fraction(const struct kd_light *light) { return light->flux > 0 ? hypot(light->q, light->u) / light->flux : NAN; }
-double kd_light_evpa(const struct kd_light *light) { return light->q != 0 || light->u != 0 ? 0.5 * atan2(light->u, light->q) : NAN; }
+double kd_light_fraction(const struct kd_light *light)
+{
+    return light->flux > 0 ? hypot(light->q, light->u) / light->flux : NAN;
+}
+double kd_light_evpa(const struct kd_light *light)
+{
+    return light->q != 0 || light->u != 0 ? 0.5 * atan2(light->u, light->q) : NAN;
+}
 
 struct kd_light_report kd_light_of(const struct kd_scene *scene, const struct kd_plan *plan, const float *sums)
 {
     const uint32_t each = kd_light_sums(plan);
     const size_t n = kd_light_bytes(plan) / (4 * each);
-    const bool plane = plan->traits[KD_EMITTER_polarization] & KD_TRAIT_PRESENT, volume = plan->traits[KD_EMITTER_stokes] & KD_TRAIT_PRESENT;
+    const bool plane = plan->traits[KD_EMITTER_polarization] & KD_TRAIT_PRESENT,
+               volume = plan->traits[KD_EMITTER_stokes] & KD_TRAIT_PRESENT;
     const struct kd_camera_exact camera = kd_camera_exact(scene);
     double side = kd_scene_side(scene), pixel = kd_camera_pixel(scene), area = pixel * pixel;
     struct sums all = { 0 }, spots = { 0 };
@@ -81,6 +91,10 @@ struct kd_light_report kd_light_of(const struct kd_scene *scene, const struct kd
         }
     }
     return (struct kd_light_report) {
-        .measured = true, .polarized = plane || volume, .circular = volume, .all = light_of(&camera, side, area, &all), .spots = light_of(&camera, side, area, &spots),
+        .measured = true,
+        .polarized = plane || volume,
+        .circular = volume,
+        .all = light_of(&camera, side, area, &all),
+        .spots = light_of(&camera, side, area, &spots),
     };
 }

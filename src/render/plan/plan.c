@@ -18,7 +18,11 @@
 _Static_assert(KD_PLAN_EMITTERS >= KD_EMITTER_COUNT, "all of them");
 
 /* These approximations are no emitter's. */
-#define WHEN(name, condition) static bool name(const struct kd_plan *plan, const struct kd_scene *scene) { return (void)plan, (void)scene, condition; }
+#define WHEN(name, condition) \
+    static bool name(const struct kd_plan *plan, const struct kd_scene *scene) \
+    { \
+        return (void)plan, (void)scene, condition; \
+    }
 WHEN(crossings, kd_emit_at_crossings(scene))
 WHEN(volumes, kd_emit_along(scene))
 WHEN(sketched, plan->march.sketched)
@@ -32,7 +36,8 @@ WHEN(bloom, plan->bloom.levels && !plan->numbers && !kd_plan_is_map(plan))
 WHEN(beam, plan->beam.cell && !plan->numbers)
 WHEN(near_beam, plan->beam.cell && !plan->numbers && isfinite(scene->camera.r))
 WHEN(near_flux, kd_scene_is_radio_alone(scene) && isfinite(scene->camera.r))
-WHEN(heat, scene->style.palette == KD_PALETTE_HEAT && !kd_scene_is_radio_alone(scene) && !plan->numbers && !kd_plan_is_map(plan))
+WHEN(heat, scene->style.palette == KD_PALETTE_HEAT && !kd_scene_is_radio_alone(scene) && !plan->numbers &&
+               !kd_plan_is_map(plan))
 WHEN(normalised, scene->volume.normalise_to_jy > 0 && !plan->held)
 WHEN(held, plan->held)
 WHEN(maps, plan->n_layers > 0)
@@ -50,31 +55,61 @@ static const struct sentence {
     bool (*in_force)(const struct kd_plan *plan, const struct kd_scene *scene);
 } sentences[] = {
     { "disk: image orders beyond accuracy.orders are left out", crossings },
-    { "volumes: light in 32 bits by three places a stretch, as many stretches as grain, depth and the ray ask for; what accuracy asks for is a target: some 5e-5 are left in any case; "
-      "what is left is measured on a sample of rays, followed twice as closely", volumes },
-    { "volumes: a sketch while the view changes: light to some 5 %, as measured in it, and turbulence without the octaves of which a pixel leaves less than a seventh of the first: another 7 %, which is not", sketched },
-    { "sky: while the view changes images of stars that would brighten their pixel by less than sky.brightness are left out, "
-      "and those next to the critical curve, in pixels whose rays stand for more than 0.15 rad of the sky; the others are up to a fifth of a ray off", bright },
+    { "volumes: light in 32 bits by three places a stretch, as many stretches as grain, depth and the ray ask for; "
+      "what accuracy asks for is a target: some 5e-5 are left in any case; "
+      "what is left is measured on a sample of rays, followed twice as closely",
+      volumes },
+    { "volumes: a sketch while the view changes: light to some 5 %, as measured in it, and turbulence without the "
+      "octaves of which a pixel leaves less than a seventh of the first: another 7 %, which is not",
+      sketched },
+    { "sky: while the view changes images of stars that would brighten their pixel by less than sky.brightness are "
+      "left out, "
+      "and those next to the critical curve, in pixels whose rays stand for more than 0.15 rad of the sky; the others "
+      "are up to a fifth of a ray off",
+      bright },
     { "colour: black bodies outside the sRGB gamut are moved to its edge at equal luminance", crossings },
-    { "image: few rays for the pixels that the critical curve passes; a photon ring thinner than they are shows as dots", few_rays },
-    { "image: 16 rays for pixels that differ from the middle of their neighbours by twice image.pixel_error, one for the others; where the lens map is smooth they are interpolated in it; what is left is measured on a sample", adapted },
-    { "image: one ray a pixel, in maps, the ring projection and light curves, where image.samples is \"auto\"", not_adapted },
+    { "image: few rays for the pixels that the critical curve passes; a photon ring thinner than they are shows as "
+      "dots",
+      few_rays },
+    { "image: 16 rays for pixels that differ from the middle of their neighbours by twice image.pixel_error, one for "
+      "the others; where the lens map is smooth they are interpolated in it; what is left is measured on a sample",
+      adapted },
+    { "image: one ray a pixel, in maps, the ring projection and light curves, where image.samples is \"auto\"",
+      not_adapted },
     { "post: a film-like tone curve; pixel values are not proportional to radiance", film },
-    { "post: a neutral tone curve; light above 0.8 of white is compressed, and pixel values are not proportional to radiance", neutral },
-    { "post: a lens's glare; part of the bright light is spread round its place, its sum is kept, and what would leave the picture stays "
-      "at its edge", bloom },
-    { "post: a Gaussian beam stands for a telescope: no gaps between stations, no noise, no reconstruction; nothing comes from beyond the picture's edge", beam },
-    { "post: a near observer's beam has the width at the hole's distance that it has from spacetime.distance_pc", near_beam },
-    { "flux: that of a near camera is its picture's, by the square of its distance from the hole over spacetime.distance_pc; where matter lies round the camera no telescope has such a flux", near_flux },
-    { "post: false colours; brightness is of the model's band and no brightness temperature at a radio frequency", heat },
+    { "post: a neutral tone curve; light above 0.8 of white is compressed, and pixel values are not proportional to "
+      "radiance",
+      neutral },
+    { "post: a lens's glare; part of the bright light is spread round its place, its sum is kept, and what would leave "
+      "the picture stays "
+      "at its edge",
+      bloom },
+    { "post: a Gaussian beam stands for a telescope: no gaps between stations, no noise, no reconstruction; nothing "
+      "comes from beyond the picture's edge",
+      beam },
+    { "post: a near observer's beam has the width at the hole's distance that it has from spacetime.distance_pc",
+      near_beam },
+    { "flux: that of a near camera is its picture's, by the square of its distance from the hole over "
+      "spacetime.distance_pc; where matter lies round the camera no telescope has such a flux",
+      near_flux },
+    { "post: false colours; brightness is of the model's band and no brightness temperature at a radio frequency",
+      heat },
     { "sky: images of stars are cut at the edges of the bands that a picture of this size is made in", cut },
-    { "volume: the density is that at which a picture of 128 pixels has the flux volume.normalise_to_jy, found by smaller pictures that the estimated time leaves out; answers tell the factor as density_scale", normalised },
-    { "volume: while the view is dragged the density is the last that was found for this matter, from whichever side, and the flux is not volume.normalise_to_jy; it is when the view rests", held },
+    { "volume: the density is that at which a picture of 128 pixels has the flux volume.normalise_to_jy, found by "
+      "smaller pictures that the estimated time leaves out; answers tell the factor as density_scale",
+      normalised },
+    { "volume: while the view is dragged the density is the last that was found for this matter, from whichever side, "
+      "and the flux is not volume.normalise_to_jy; it is when the view rests",
+      held },
     { "layers: maps of places and angles are those of one ray a pixel, and no means over it", maps },
     { "layers: a picture of a map has false colours; FITS, EXR, NPZ and NPY have its numbers", coloured },
-    { "projection: distances to the critical curve on a logarithmic scale; no eye sees it so, and areas are not to scale", projected },
+    { "projection: distances to the critical curve on a logarithmic scale; no eye sees it so, and areas are not to "
+      "scale",
+      projected },
     { "projection: angles as distances, over half the sky or all of it; areas are not to scale", rounded },
-    { "camera: each eye of a pair is an observer of its own, of the same kind, beside the middle by the first order of camera.eye_distance in the local frame, at the same time; their axes are parallel as in flat space", paired },
+    { "camera: each eye of a pair is an observer of its own, of the same kind, beside the middle by the first order of "
+      "camera.eye_distance in the local frame, at the same time; their axes are parallel as in flat space",
+      paired },
     { "arithmetic: 32-bit; rays closer than about 1e-5 to the critical curve may be given the wrong fate", single },
     { "arithmetic: 64-bit rays; the radii of their crossings are kept in 32 bits", twice },
     { "rays: followed in Kerr-Schild coordinates for comparison; docs/accuracy.md says how much that costs", compared },
@@ -128,10 +163,12 @@ static enum kd_status too_fine(double tolerance, const struct kd_capacity *c, st
     double best = INFINITY;
     for (uint32_t i = 0; i < c->accuracy->n; i++)
         best = fmin(best, kd_accuracy_holds(&c->accuracy->rows[i]));
-    return kd_error_field(error, "/accuracy/tolerance",
-                          "accuracy.tolerance is %.3g: a picture keeps radii in 32 bits and holds %.3g and above; lists of rays "
-                          "(POST /v1/rays, kerrd rays) hold %.3g%s", tolerance, KEPT, 1.01 * best,
-                          c->accuracy_measured ? " on this device" : ", by the table of llvmpipe that stands in for this device's");
+    return kd_error_field(
+        error, "/accuracy/tolerance",
+        "accuracy.tolerance is %.3g: a picture keeps radii in 32 bits and holds %.3g and above; lists of rays "
+        "(POST /v1/rays, kerrd rays) hold %.3g%s",
+        tolerance, KEPT, 1.01 * best,
+        c->accuracy_measured ? " on this device" : ", by the table of llvmpipe that stands in for this device's");
 }
 
 static double ergosphere(const struct kd_scene *scene)
@@ -139,8 +176,8 @@ static double ergosphere(const struct kd_scene *scene)
     return kd_kerr_ergosphere(scene->spacetime.spin, kd_cos_deg(scene->camera.inclination_deg));
 }
 
-/* Says whether E is positive for each ray of the camera, as the device's engines take it to be where rays are listed. The closed
- * form needs no more than L/E and Q/E^2. */
+/* Says whether E is positive for each ray of the camera, as the device's engines take it to be where rays are
+ * listed. The closed form needs no more than L/E and Q/E^2. */
 static bool outside(const struct kd_scene *scene) { return scene->camera.r > ergosphere(scene); }
 
 static enum kd_status may_list(const struct kd_scene *scene, const struct kd_setting *by, struct kd_error *error)
@@ -148,14 +185,16 @@ static enum kd_status may_list(const struct kd_scene *scene, const struct kd_set
     if (outside(scene) || by->engine == KD_ENGINE_CLOSED)
         return KD_OK;
     return kd_error_field(error, "/accuracy/engine",
-                          "accuracy.engine is \"%s\" in %s, allowed inside the ergosphere, camera.r %.9g, are \"auto\", \"closed\" and the Mino "
-                          "engines in f32; or move the camera out of %.9g M", kd_engine_name(by->engine), kd_precision_name(by->precision),
-                          scene->camera.r, ergosphere(scene));
+                          "accuracy.engine is \"%s\" in %s, allowed inside the ergosphere, camera.r %.9g, are "
+                          "\"auto\", \"closed\" and the Mino "
+                          "engines in f32; or move the camera out of %.9g M",
+                          kd_engine_name(by->engine), kd_precision_name(by->precision), scene->camera.r,
+                          ergosphere(scene));
 }
 
-/* Rays that pass the critical curve at 1e-10 are not told apart in 32 bits, nor by few steps. Unless an engine or steps are named,
- * the closed form: it needs no device, and holds each tolerance that a picture may ask for. The table's rows are judged by other
- * rays. */
+/* Rays that pass the critical curve at 1e-10 are not told apart in 32 bits, nor by few steps. Unless an engine or
+ * steps are named, the closed form: it needs no device, and holds each tolerance that a picture may ask for. The
+ * table's rows are judged by other rays. */
 static enum kd_status ring(struct kd_wish *wish, struct kd_error *error)
 {
     if (wish->precision == KD_PRECISION_F32)
@@ -170,23 +209,39 @@ static enum kd_status ring(struct kd_wish *wish, struct kd_error *error)
     return KD_OK;
 }
 
-/* The least radius from which the closed form in f32 follows rays: outside all orbits of light, where none that sets out outwards comes back. */
-static double beyond_orbits(const struct kd_scene *scene) { return 1.05 * kd_kerr_photon_orbit(-fabs(scene->spacetime.spin)); }
+/* The least radius from which the closed form in f32 follows rays: outside all orbits of light, where none that sets
+ * out outwards comes back. */
+static double beyond_orbits(const struct kd_scene *scene)
+{
+    return 1.05 * kd_kerr_photon_orbit(-fabs(scene->spacetime.spin));
+}
 
-static bool within_horizon(const struct kd_scene *scene) { return scene->camera.r <= kd_kerr_horizon(scene->spacetime.spin); }
+static bool within_horizon(const struct kd_scene *scene)
+{
+    return scene->camera.r <= kd_kerr_horizon(scene->spacetime.spin);
+}
 
-/* Within the horizon light is followed by lens_map.comp alone. The steps are those of a half turn, which takes the longer the nearer the middle the
- * observer is: w'' = 3K w^2 is quicker there by sqrt(6w) than where they were chosen, at 1/2. */
-static enum kd_status from_within(struct kd_plan *plan, const struct kd_scene *scene, const struct kd_wish *wish, struct kd_error *error)
+/* Within the horizon light is followed by lens_map.comp alone. The steps are those of a half turn, which takes the
+ * longer the nearer the middle the observer is: w'' = 3K w^2 is quicker there by sqrt(6w) than where they were
+ * chosen, at 1/2. */
+static enum kd_status from_within(struct kd_plan *plan, const struct kd_scene *scene, const struct kd_wish *wish,
+                                  struct kd_error *error)
 {
     struct kd_setting *by = &plan->setting;
     if (kd_emit_slow_along(scene))
-        return kd_error_field(error, "/disk/slow_light", "disk.slow_light is true, allowed within the horizon, camera.r %.9g, is false: no far clock tells when light "
-                              "of the gas arrives there", scene->camera.r);
+        return kd_error_field(error, "/disk/slow_light",
+                              "disk.slow_light is true, allowed within the horizon, camera.r %.9g, is false: no far "
+                              "clock tells when light "
+                              "of the gas arrives there",
+                              scene->camera.r);
     if (plan->path != KD_LENS_MAP)
-        return kd_error_field(error, "/accuracy/engine", "accuracy.engine is \"%s\" in %s, allowed within the horizon, camera.r %.9g, are the Mino engines in "
-                              "f32, and no delay of light", kd_engine_name(by->engine), kd_precision_name(by->precision), scene->camera.r);
-    for (double quicker = (1 + 6 / scene->camera.r) / 4; quicker > 1.2 && !wish->steps && by->steps < 1024; quicker /= 4)
+        return kd_error_field(
+            error, "/accuracy/engine",
+            "accuracy.engine is \"%s\" in %s, allowed within the horizon, camera.r %.9g, are the Mino engines in "
+            "f32, and no delay of light",
+            kd_engine_name(by->engine), kd_precision_name(by->precision), scene->camera.r);
+    for (double quicker = (1 + 6 / scene->camera.r) / 4; quicker > 1.2 && !wish->steps && by->steps < 1024;
+         quicker /= 4)
         by->steps *= 2;
     return KD_OK;
 }
@@ -197,7 +252,8 @@ static enum kd_status choose(struct kd_plan *plan, const struct kd_scene *scene,
 {
     struct kd_wish wish = kd_wish_of(scene);
     struct kd_setting *by = &plan->setting;
-    bool closed_form = scene->camera.r > beyond_orbits(scene) && !kd_plan_holds(plan, KD_LENS_DELAY); /* lens_closed.comp can do it */
+    bool closed_form =
+        scene->camera.r > beyond_orbits(scene) && !kd_plan_holds(plan, KD_LENS_DELAY); /* lens_closed.comp can do it */
     bool closed32 = wish.engine == KD_ENGINE_CLOSED && wish.precision == KD_PRECISION_F32;
     if (wish.tolerance < KEPT)
         return too_fine(wish.tolerance, c, error);
@@ -209,12 +265,16 @@ static enum kd_status choose(struct kd_plan *plan, const struct kd_scene *scene,
     if (isfinite(scene->accuracy.tolerance) && isinf(wish.tolerance))
         by->holds = KEPT;
     if (plan->ring && by->precision == KD_PRECISION_F32)
-        return kd_error_field(error, "/accuracy/tolerance",
-                              "accuracy.tolerance is %.3g: the ring projection needs f64, which this device has not; allowed is "
-                              "\"profile\"", wish.tolerance);
+        return kd_error_field(
+            error, "/accuracy/tolerance",
+            "accuracy.tolerance is %.3g: the ring projection needs f64, which this device has not; allowed is "
+            "\"profile\"",
+            wish.tolerance);
     if (closed32 && !closed_form)
-        return kd_error_field(error, "/accuracy/precision", "the closed form in f32 is for an observer beyond %.9g M, outside the orbits of "
-                              "light, and knows no delay of light: allowed is f64", beyond_orbits(scene));
+        return kd_error_field(error, "/accuracy/precision",
+                              "the closed form in f32 is for an observer beyond %.9g M, outside the orbits of "
+                              "light, and knows no delay of light: allowed is f64",
+                              beyond_orbits(scene));
     if (closed_form && by->precision == KD_PRECISION_F32 && (closed32 || wish.engine < 0) && !wish.steps) {
         plan->path = KD_LENS_CLOSED;
         by->engine = KD_ENGINE_CLOSED;
@@ -225,25 +285,29 @@ static enum kd_status choose(struct kd_plan *plan, const struct kd_scene *scene,
         by->engine = KD_ENGINE_CLOSED;
         by->steps = 0;
     }
-    bool map = (by->engine == KD_ENGINE_MINO_RKN4 || by->engine == KD_ENGINE_MINO_RKN6) && by->precision == KD_PRECISION_F32 &&
+    bool map = (by->engine == KD_ENGINE_MINO_RKN4 || by->engine == KD_ENGINE_MINO_RKN6) &&
+               by->precision == KD_PRECISION_F32 &&
                !kd_plan_holds(plan, KD_LENS_DELAY); /* which only listed rays know */
     plan->path = map ? KD_LENS_MAP : KD_LENS_LISTED;
     plan->ingoing = scene->camera.observer == KD_OBSERVER_INFALL && isfinite(scene->camera.r);
     if (within_horizon(scene))
         return from_within(plan, scene, &wish, error);
     if (kd_plan_holds(plan, KD_LENS_DELAY) && !outside(scene) && !scene->disk.slow_light)
-        return kd_error_field(error, "/image/layers", "image.layers holds delay, which is not known inside the ergosphere, camera.r %.9g",
+        return kd_error_field(error, "/image/layers",
+                              "image.layers holds delay, which is not known inside the ergosphere, camera.r %.9g",
                               scene->camera.r);
     if (kd_plan_holds(plan, KD_LENS_DELAY) && !outside(scene))
         return kd_error_field(error, "/disk/slow_light",
-                              "disk.slow_light is true, allowed inside the ergosphere, camera.r %.9g, is false", scene->camera.r);
+                              "disk.slow_light is true, allowed inside the ergosphere, camera.r %.9g, is false",
+                              scene->camera.r);
     return map ? KD_OK : may_list(scene, by, error);
 }
 
 /* Counts what is kept of polarised light behind the radiance of a pixel. */
 static uint32_t stokes_words(const struct kd_plan *plan)
 {
-    const bool plane = plan->traits[KD_EMITTER_polarization] & KD_TRAIT_PRESENT, volume = plan->traits[KD_EMITTER_stokes] & KD_TRAIT_PRESENT;
+    const bool plane = plan->traits[KD_EMITTER_polarization] & KD_TRAIT_PRESENT,
+               volume = plan->traits[KD_EMITTER_stokes] & KD_TRAIT_PRESENT;
     bool kept = plan->light && (plane || volume);
     for (size_t i = 0; i < plan->n_layers; i++)
         kept |= kd_plan_gathers(plan, plan->layers[i].kind);
@@ -259,8 +323,8 @@ bool kd_plan_is_spread(const struct kd_plan *plan)
 }
 
 /* Plans all but what depends on the pixels at the critical curve. */
-static enum kd_status outline(const struct kd_scene *scene, const struct kd_needs *needs, const struct kd_capacity *capacity,
-                              struct kd_plan *out, struct kd_error *error)
+static enum kd_status outline(const struct kd_scene *scene, const struct kd_needs *needs,
+                              const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error)
 {
     struct kd_plan plan = { 0 };
     plan.width = kd_scene_window(scene).width;
@@ -287,7 +351,8 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
     plan.ends = kd_emit_at_ends(scene) && kd_plan_holds(&plan, KD_LENS_SKY);
     plan.n_layers = kd_layers_of(scene, plan.layers, &plan.picture);
     plan.n_layers = needs->unseen ? 0 : plan.n_layers;
-    if (plan.bright && !plan.n_layers && !kd_plan_is_spread(&plan)) /* bright images do with the differences that they are sought by */
+    if (plan.bright && !plan.n_layers &&
+        !kd_plan_is_spread(&plan)) /* bright images do with the differences that they are sought by */
         plan.quantities &= ~(uint32_t)KD_LENS_SKY_FOOTPRINT;
     plan.radiance = needs->radiance && plan.picture && !needs->unseen;
     if (!needs->unseen && !kd_plan_is_map(&plan))
@@ -295,18 +360,23 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
     plan.quantities |= plan.orders ? KD_LENS_W | (plan.ring ? KD_LENS_ALPHA : 0) : 0;
     if (plan.light && !kd_scene_is_flat(scene))
         return kd_error_field(error, "/camera/projection",
-                              "camera.projection is \"ring\", \"equirectangular\" or \"fulldome\", allowed are \"plane\" and \"pinhole\" where light is "
+                              "camera.projection is \"ring\", \"equirectangular\" or \"fulldome\", allowed are "
+                              "\"plane\" and \"pinhole\" where light is "
                               "measured: areas of the others are not to scale");
     enum kd_status status;
     if (plan.ring && (kd_emit_along(scene) || kd_emit_met(scene)))
-        return kd_error_field(error, "/camera/projection", "camera.projection is \"ring\", whose rays are listed, where light is followed through volumes and to bodies: "
+        return kd_error_field(error, "/camera/projection",
+                              "camera.projection is \"ring\", whose rays are listed, where light is followed through "
+                              "volumes and to bodies: "
                               "allowed are the others");
     KD_TRY(kd_layers_check(scene, error));
     KD_TRY(kd_plan_beam_fits(&plan, capacity, error));
     KD_TRY(choose(&plan, scene, capacity, error));
     if (kd_emit_along(scene) && scene->accuracy.tolerance < KD_MARCH_HOLDS)
-        KD_TRY(kd_error_field(error, "/accuracy/tolerance", "accuracy.tolerance is %.3g: light through volumes is added up in 32 bits and holds %.3g and above",
-                              scene->accuracy.tolerance, KD_MARCH_HOLDS));
+        KD_TRY(kd_error_field(
+            error, "/accuracy/tolerance",
+            "accuracy.tolerance is %.3g: light through volumes is added up in 32 bits and holds %.3g and above",
+            scene->accuracy.tolerance, KD_MARCH_HOLDS));
     plan.meets = kd_emit_met(scene);
     if (kd_emit_along(scene) || plan.meets)
         plan.march = kd_march_of(scene, &plan.setting);
@@ -323,7 +393,8 @@ done:
     return status;
 }
 
-enum kd_status kd_plan_one(const struct kd_scene *scene, const struct kd_needs *needs, const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error)
+enum kd_status kd_plan_one(const struct kd_scene *scene, const struct kd_needs *needs,
+                           const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error)
 {
     struct kd_plan plan;
     enum kd_status status;
@@ -331,7 +402,9 @@ enum kd_status kd_plan_one(const struct kd_scene *scene, const struct kd_needs *
     KD_TRY(kd_plan_critical(&plan, scene, capacity, error));
     if (plan.critical)
         KD_TRY(kd_plan_bands(&plan, scene, capacity, error));
-    plan.audit = plan.cacheable && plan.orders && !within_horizon(scene) ? KD_AUDIT_RAYS : 0; /* which the closed form judges by, outside */
+    plan.audit = plan.cacheable && plan.orders && !within_horizon(scene)
+                     ? KD_AUDIT_RAYS
+                     : 0; /* which the closed form judges by, outside */
     passes(&plan, scene, capacity);
     kd_plan_say(&plan, scene);
     if (kd_plan_lens_key(&plan, scene))
@@ -356,7 +429,8 @@ enum kd_status kd_plan_make(const struct kd_scene *scene, const struct kd_capaci
     return kd_plan_make_for(scene, &needs, capacity, out, error);
 }
 
-enum kd_status kd_plan_one_fits(const struct kd_scene *scene, const struct kd_needs *needs, const struct kd_capacity *capacity, struct kd_error *error)
+enum kd_status kd_plan_one_fits(const struct kd_scene *scene, const struct kd_needs *needs,
+                                const struct kd_capacity *capacity, struct kd_error *error)
 {
     struct kd_plan plan;
     return outline(scene, needs, capacity, &plan, error);

@@ -8,11 +8,14 @@
 static const char introduction[] =
     "# What is approximated\n"
     "\n"
-    "A plan lists the sentences that are in force in its scene, and every picture carries them (`kerrd plan`, `Kerrd-Approximations`). These are\n"
-    "all of them. This page is generated from the emitters (`src/render/emit/emitter.h`) and `src/render/plan/plan.c`; do not edit it.\n"
+    "A plan lists the sentences that are in force in its scene, and every picture carries them (`kerrd plan`, "
+    "`Kerrd-Approximations`). These are\n"
+    "all of them. This page is generated from the emitters (`src/render/emit/emitter.h`) and `src/render/plan/plan.c`; "
+    "do not edit it.\n"
     "The chapters on the [physics](physics/README.md) say what stands behind them.\n"
     "\n"
-    "Not modelled, and so not in the list of any picture: the motion of gas by its own forces, magnetic fields that are carried along by gas, light that is scattered on its way.\n";
+    "Not modelled, and so not in the list of any picture: the motion of gas by its own forces, magnetic fields that "
+    "are carried along by gas, light that is scattered on its way.\n";
 
 static const char present[] = "in each scene that has it", sometimes[] = "in some scenes";
 
@@ -26,7 +29,8 @@ static enum kd_status add_emitter(struct kd_buffer *page, const struct kd_emitte
     enum kd_status status;
     KD_TRY(add_table(page, emitter->name));
     for (size_t i = 0; i < emitter->n_sentences; i++)
-        KD_TRY(kd_buffer_printf(page, "| %s | %s |\n", emitter->sentences[i].text, emitter->sentences[i].in_force ? sometimes : present));
+        KD_TRY(kd_buffer_printf(page, "| %s | %s |\n", emitter->sentences[i].text,
+                                emitter->sentences[i].in_force ? sometimes : present));
     if (emitter->kind)
         KD_TRY(kd_buffer_printf(page, "\nThe sentences of the %s hold as well.\n", emitter->kind->name));
 done:

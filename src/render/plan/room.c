@@ -8,8 +8,8 @@
 #include "render/view/layout.h"
 #include "render/view/rim_grid.h"
 
-/* The limits are the device's, with what Vulkan 1.2 guarantees (maxComputeWorkGroupCount, maxMemoryAllocationSize) where the
- * capacity names none. */
+/* The limits are the device's, with what Vulkan 1.2 guarantees (maxComputeWorkGroupCount, maxMemoryAllocationSize)
+ * where the capacity names none. */
 static uint64_t groups_x(const struct kd_capacity *c) { return c->max_groups_x ? c->max_groups_x : 65535; }
 static uint64_t groups_y(const struct kd_capacity *c) { return c->max_groups_y ? c->max_groups_y : 65535; }
 static uint64_t buffer_bytes(const struct kd_capacity *c)
@@ -20,9 +20,9 @@ static uint64_t buffer_bytes(const struct kd_capacity *c)
 
 static uint64_t least(uint64_t a, uint64_t b) { return a < b ? a : b; }
 
-/* Counts the rows of pixels that each pass can take in one dispatch: trace has a row of groups for each row of rays; the others go
- * through the pixels of a band in one line, light 64 and post 4 to an invocation. expose, with a few hundred groups, is far from
- * it. */
+/* Counts the rows of pixels that each pass can take in one dispatch: trace has a row of groups for each row of rays;
+ * the others go through the pixels of a band in one line, light 64 and post 4 to an invocation. expose, with a few
+ * hundred groups, is far from it. */
 static uint64_t rows_of_groups(const struct kd_plan *plan, const struct kd_capacity *c)
 {
     uint64_t rows = groups_y(c) / plan->side, in_line = groups_x(c) * KD_GROUP_SIZE;
@@ -30,10 +30,12 @@ static uint64_t rows_of_groups(const struct kd_plan *plan, const struct kd_capac
 }
 
 /* Checks that all of it fits. On the host a picture is there twice, as pixels and as the file that they become. */
-static enum kd_status fits(struct kd_plan *plan, uint64_t fixed, uint64_t one_band, const struct kd_capacity *c, struct kd_error *error)
+static enum kd_status fits(struct kd_plan *plan, uint64_t fixed, uint64_t one_band, const struct kd_capacity *c,
+                           struct kd_error *error)
 {
     const char *where = "device", *by = c->memory_by ? c->memory_by : "the device";
-    uint64_t host = 2 * plan->host_bytes + plan->making_bytes, bytes = c->host_memory ? fixed + host : fixed, most = c->memory_bytes;
+    uint64_t host = 2 * plan->host_bytes + plan->making_bytes, bytes = c->host_memory ? fixed + host : fixed,
+             most = c->memory_bytes;
     plan->cacheable = bytes + plan->lens_bytes <= most;
     plan->device_bytes = fixed + (plan->cacheable ? plan->lens_bytes : one_band);
     bytes += plan->device_bytes - fixed;
@@ -45,9 +47,11 @@ static enum kd_status fits(struct kd_plan *plan, uint64_t fixed, uint64_t one_ba
     }
     if (bytes <= most)
         return KD_OK;
-    return kd_error_set(error, KD_ETOOBIG,
-                        "the picture needs %.2f GiB of %s memory, %.2f GiB are allowed (by %s): lower image.width, image.height or "
-                        "image.samples", (double)bytes / (1 << 30), where, (double)most / (1 << 30), by);
+    return kd_error_set(
+        error, KD_ETOOBIG,
+        "the picture needs %.2f GiB of %s memory, %.2f GiB are allowed (by %s): lower image.width, image.height or "
+        "image.samples",
+        (double)bytes / (1 << 30), where, (double)most / (1 << 30), by);
 }
 
 /* Counts the bytes of a beam, which goes through rows of cells and grids of them. */
@@ -60,17 +64,23 @@ static uint64_t beam_bytes(const struct kd_plan *plan)
 
 enum kd_status kd_plan_beam_fits(const struct kd_plan *plan, const struct kd_capacity *c, struct kd_error *error)
 {
-    const uint64_t lines = kd_beam_lines_bytes(&plan->beam), grids = kd_beam_grids_bytes(&plan->beam), bytes = lines > grids ? lines : grids;
+    const uint64_t lines = kd_beam_lines_bytes(&plan->beam), grids = kd_beam_grids_bytes(&plan->beam),
+                   bytes = lines > grids ? lines : grids;
     if (!plan->beam.cell || bytes <= buffer_bytes(c))
         return KD_OK;
-    return kd_error_set(error, KD_ETOOBIG, "a beam as narrow as style.beam_uas is in pixels needs %llu bytes at once, this device binds %llu: lower image.width and "
-                        "image.height, or raise style.beam_uas", (unsigned long long)bytes, (unsigned long long)buffer_bytes(c));
+    return kd_error_set(error, KD_ETOOBIG,
+                        "a beam as narrow as style.beam_uas is in pixels needs %llu bytes at once, this device binds "
+                        "%llu: lower image.width and "
+                        "image.height, or raise style.beam_uas",
+                        (unsigned long long)bytes, (unsigned long long)buffer_bytes(c));
 }
 
-enum kd_status kd_plan_bands(struct kd_plan *plan, const struct kd_scene *scene, const struct kd_capacity *c, struct kd_error *error)
+enum kd_status kd_plan_bands(struct kd_plan *plan, const struct kd_scene *scene, const struct kd_capacity *c,
+                             struct kd_error *error)
 {
     uint64_t row_lens = 4ull * plan->planes * plan->width * plan->side * plan->side;
-    uint64_t row_light = kd_plan_pixel_bytes(plan) * plan->width, row_out = plan->unseen ? 0 : (scene->image.bit_depth == 16 ? 6ull : 3ull) * plan->width;
+    uint64_t row_light = kd_plan_pixel_bytes(plan) * plan->width,
+             row_out = plan->unseen ? 0 : (scene->image.bit_depth == 16 ? 6ull : 3ull) * plan->width;
     uint64_t row_shown = plan->adaptive ? 6ull * plan->width : row_out; /* pixels are chosen by 16 bits */
     uint64_t row_layers = 4ull * plan->n_layers * plan->width;
     uint64_t widest = row_lens > row_light ? row_lens : row_light;
@@ -79,32 +89,39 @@ enum kd_status kd_plan_bands(struct kd_plan *plan, const struct kd_scene *scene,
     widest = row_points > widest ? row_points : widest;
     uint64_t rows = (buffer_bytes(c) - 64 - 256 * plan->n_layers) / widest, fit = rows_of_groups(plan, c);
     if (rows < 1)
-        return kd_error_set(error, KD_ETOOBIG, "one row of the picture needs %llu bytes, this device binds %llu at once",
+        return kd_error_set(error, KD_ETOOBIG,
+                            "one row of the picture needs %llu bytes, this device binds %llu at once",
                             (unsigned long long)widest, (unsigned long long)buffer_bytes(c));
     if (fit < 1 || (uint64_t)plan->width * plan->side > groups_x(c) * KD_GROUP_SIZE)
-        return kd_error_set(error, KD_ETOOBIG, "one row of the picture has %llu rays, this device dispatches %llu workgroups of %d",
-                            (unsigned long long)plan->width * plan->side, (unsigned long long)groups_x(c), KD_GROUP_SIZE);
+        return kd_error_set(
+            error, KD_ETOOBIG, "one row of the picture has %llu rays, this device dispatches %llu workgroups of %d",
+            (unsigned long long)plan->width * plan->side, (unsigned long long)groups_x(c), KD_GROUP_SIZE);
     rows = least(rows, fit);
     plan->band_rows = (uint32_t)(rows < plan->height ? rows : plan->height);
     plan->bands = (plan->height + plan->band_rows - 1) / plan->band_rows;
     uint64_t at_curve = kd_plan_critical_parts(plan) * kd_plan_critical_bytes(plan);
     plan->lens_bytes = row_lens * plan->height + at_curve;
     plan->making_bytes = kd_emit_making_bytes(scene);
-    plan->host_bytes = (row_out + row_layers + (plan->adaptive ? 12ull * plan->width : 0) + (plan->radiance ? 12ull * plan->width : 0)) * plan->height;
-    uint64_t fixed = plan->listed_bytes + kd_emit_device_bytes(scene) + row_light * plan->height + 2 * (row_shown * plan->band_rows + 64) + (1 << 20) +
-                     plan->bloom.bytes + beam_bytes(plan) + (plan->light ? 2 * kd_light_bytes(plan) : 0) +
-                     row_points * plan->height + (plan->points ? kd_plan_pair_bytes() + kd_plan_star_ray_bytes(plan) + kd_rim_bytes_most() : 0) +
+    plan->host_bytes = (row_out + row_layers + (plan->adaptive ? 12ull * plan->width : 0) +
+                        (plan->radiance ? 12ull * plan->width : 0)) *
+                       plan->height;
+    uint64_t fixed = plan->listed_bytes + kd_emit_device_bytes(scene) + row_light * plan->height +
+                     2 * (row_shown * plan->band_rows + 64) + (1 << 20) + plan->bloom.bytes + beam_bytes(plan) +
+                     (plan->light ? 2 * kd_light_bytes(plan) : 0) + row_points * plan->height +
+                     (plan->points ? kd_plan_pair_bytes() + kd_plan_star_ray_bytes(plan) + kd_rim_bytes_most() : 0) +
                      plan->n_layers * kd_plan_layer_bytes(plan) * plan->bands + kd_plan_readback_bytes(plan);
     uint64_t one_band = row_lens * plan->band_rows + at_curve;
     return fits(plan, fixed, one_band, c, error);
 }
 
-enum kd_status kd_plan_critical(struct kd_plan *plan, const struct kd_scene *scene, const struct kd_capacity *c, struct kd_error *error)
+enum kd_status kd_plan_critical(struct kd_plan *plan, const struct kd_scene *scene, const struct kd_capacity *c,
+                                struct kd_error *error)
 {
     struct kd_critical_pixels list;
     const uint64_t side = least(plan->side * (uint64_t)scene->image.critical_factor, KD_CRITICAL_SIDE);
     const uint64_t dense = least(KD_PLAN_ADAPTIVE_SIDE * (uint64_t)scene->image.critical_factor, KD_CRITICAL_SIDE);
-    if (plan->ring || side <= plan->side || !(plan->orders > 1 || plan->ends || plan->march.steps)) /* the direct image is nowhere thin */
+    if (plan->ring || side <= plan->side ||
+        !(plan->orders > 1 || plan->ends || plan->march.steps)) /* the direct image is nowhere thin */
         return KD_OK;
     enum kd_status status = kd_critical_kept(scene, &list, error);
     uint64_t n = list.n, most = (buffer_bytes(c) - 64) / (4 * (plan->planes * side * side + 2));
@@ -127,7 +144,8 @@ void kd_plan_adapt(struct kd_plan *plan, const struct kd_scene *scene, const str
     if (!kd_scene_adapts(scene) || plan->ring || plan->unseen || !plan->picture || !plan->planes)
         return;
     plan->adaptive = KD_PLAN_ADAPTIVE_SIDE * KD_PLAN_ADAPTIVE_SIDE;
-    plan->listed_bytes = least(least(4ull * plan->rays * (plan->planes * plan->adaptive + 2), KD_PLAN_LISTED_BYTES), buffer_bytes(c) - 64);
+    plan->listed_bytes = least(least(4ull * plan->rays * (plan->planes * plan->adaptive + 2), KD_PLAN_LISTED_BYTES),
+                               buffer_bytes(c) - 64);
     if (!kd_plan_listed_most(plan, KD_CRITICAL_SIDE * KD_CRITICAL_SIDE)) /* not one pixel */
         plan->listed_bytes = 4ull * (plan->planes * KD_CRITICAL_SIDE * KD_CRITICAL_SIDE + 2);
 }

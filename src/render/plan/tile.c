@@ -6,8 +6,9 @@
 
 #include <math.h>
 
-/* In pixels: a footprint is a difference of rays two apart. Points of light are sought in tiles of KD_STAR_TILE rays, which lie where they lie in the whole picture, by
- * rays up to three beyond them, and light two pixels round their images. */
+/* In pixels: a footprint is a difference of rays two apart. Points of light are sought in tiles of KD_STAR_TILE
+ * rays, which lie where they lie in the whole picture, by rays up to three beyond them, and light two pixels round
+ * their images. */
 #define MARGIN 4u
 #define MARGIN_OF_POINTS (KD_STAR_TILE + 7u)
 
@@ -15,21 +16,34 @@ static enum kd_status picture(const struct kd_scene *scene, bool map, struct kd_
 {
     const struct kd_style *style = &scene->style;
     if (map && (isinf(scene->image.layer_min) || isinf(scene->image.layer_max)))
-        return kd_error_field(error, isinf(scene->image.layer_min) ? "/image/layer_min" : "/image/layer_max", "image.layer_%s is \"auto\", allowed in a tile are numbers: its own "
-                              "would not be those of the whole picture", isinf(scene->image.layer_min) ? "min" : "max");
+        return kd_error_field(error, isinf(scene->image.layer_min) ? "/image/layer_min" : "/image/layer_max",
+                              "image.layer_%s is \"auto\", allowed in a tile are numbers: its own "
+                              "would not be those of the whole picture",
+                              isinf(scene->image.layer_min) ? "min" : "max");
     if (map && scene->image.legend)
-        return kd_error_field(error, "/image/legend", "image.legend is true, allowed in a tile is false: the bar stands in a corner of the whole picture");
+        return kd_error_field(
+            error, "/image/legend",
+            "image.legend is true, allowed in a tile is false: the bar stands in a corner of the whole picture");
     if (map)
         return KD_OK;
     if (isinf(style->exposure))
-        return kd_error_field(error, "/style/exposure", "style.exposure is \"auto\", allowed in a tile is a number: its own would not be that of the whole picture; a small picture of "
+        return kd_error_field(error, "/style/exposure",
+                              "style.exposure is \"auto\", allowed in a tile is a number: its own would not be that of "
+                              "the whole picture; a small picture of "
                               "the same scene tells one");
     if (style->bloom > 0)
-        return kd_error_field(error, "/style/bloom", "style.bloom is %.9g, allowed in a tile is 0: a lens spreads light over the whole picture", style->bloom);
+        return kd_error_field(
+            error, "/style/bloom",
+            "style.bloom is %.9g, allowed in a tile is 0: a lens spreads light over the whole picture", style->bloom);
     if (style->beam_uas > 0)
-        return kd_error_field(error, "/style/beam_uas", "style.beam_uas is %.9g, allowed in a tile is 0: a beam spreads light over the whole picture", style->beam_uas);
+        return kd_error_field(
+            error, "/style/beam_uas",
+            "style.beam_uas is %.9g, allowed in a tile is 0: a beam spreads light over the whole picture",
+            style->beam_uas);
     if (style->colour_bar)
-        return kd_error_field(error, "/style/colour_bar", "style.colour_bar is true, allowed in a tile is false: the bar stands in a corner of the whole picture");
+        return kd_error_field(
+            error, "/style/colour_bar",
+            "style.colour_bar is true, allowed in a tile is false: the bar stands in a corner of the whole picture");
     return KD_OK;
 }
 
@@ -40,11 +54,17 @@ enum kd_status kd_tile_check(const struct kd_scene *scene, const struct kd_needs
     if (scene->camera.stereo != KD_STEREO_NONE)
         return kd_error_field(error, "/camera/stereo", "camera.stereo is \"pair\", allowed in a tile is \"none\"");
     if (scene->camera.projection == KD_PROJECTION_RING)
-        return kd_error_field(error, "/camera/projection", "camera.projection is \"ring\", allowed in a tile are the others");
+        return kd_error_field(error, "/camera/projection",
+                              "camera.projection is \"ring\", allowed in a tile are the others");
     if (kd_scene_adapts(scene))
-        return kd_error_field(error, "/image/samples", "image.samples is \"auto\", allowed in a tile are 1 to 8: rays are chosen by what the whole picture shows");
+        return kd_error_field(
+            error, "/image/samples",
+            "image.samples is \"auto\", allowed in a tile are 1 to 8: rays are chosen by what the whole picture shows");
     if (needs->unseen)
-        return kd_error_field(error, "/image/tile/width", "image.tile.width is %d, allowed is 0 where light is measured: it is that of the whole picture", scene->tile.width);
+        return kd_error_field(
+            error, "/image/tile/width",
+            "image.tile.width is %d, allowed is 0 where light is measured: it is that of the whole picture",
+            scene->tile.width);
     const size_t n = kd_layers_of(scene, layers, &shown);
     return needs->radiance ? KD_OK : picture(scene, n == 1 && !shown, error);
 }
@@ -62,7 +82,8 @@ struct kd_scene kd_tile_with_margin(const struct kd_scene *scene, struct kd_wind
     const struct kd_window t = kd_scene_window(scene);
     const bool points = kd_emit_points(scene);
     const uint32_t margin = points ? MARGIN_OF_POINTS : MARGIN, by = points ? KD_STAR_TILE : 1;
-    const struct range x = widen(t.left, t.left + t.width, scene->image.width, margin, by), y = widen(t.top, t.top + t.height, scene->image.height, margin, by);
+    const struct range x = widen(t.left, t.left + t.width, scene->image.width, margin, by),
+                       y = widen(t.top, t.top + t.height, scene->image.height, margin, by);
     if (cut)
         *cut = (struct kd_window) { t.left - x.from, t.top - y.from, t.width, t.height };
     return kd_scene_tile(scene, (struct kd_window) { x.from, y.from, x.to - x.from, y.to - y.from });

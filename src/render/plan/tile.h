@@ -1,6 +1,7 @@
-/* A tile of a picture (image.tile) is the same to the byte as there. It is made with a margin of the pixels round it, as far as the picture has them, since light at its
- * edges depends on rays beyond them, and cut out of that. What is made of all pixels at once no tile can have: exposure "auto", what a lens or a beam spreads, rays
- * chosen by what the picture shows. Pure; any thread. */
+/* A tile of a picture (image.tile) is the same to the byte as there. It is made with a margin of the pixels round
+ * it, as far as the picture has them, since light at its edges depends on rays beyond them, and cut out of that.
+ * What is made of all pixels at once no tile can have: exposure "auto", what a lens or a beam spreads, rays chosen
+ * by what the picture shows. Pure; any thread. */
 #ifndef KD_RENDER_PLAN_TILE_H
 #define KD_RENDER_PLAN_TILE_H
 

@@ -75,7 +75,8 @@ static enum kd_status json_accuracy(const struct kd_rays_answer *answer, struct 
     const struct kd_rays_params *p = &answer->params;
     enum kd_status status;
     KD_TRY(kd_buffer_printf(out, "{\"engine\":\"%s\",\"precision\":\"%s\",\"steps\":%u,\"rays\":%zu,\"undecided\":%zu",
-                            kd_engine_name(p->engine), kd_precision_name(p->precision), p->steps, answer->n, answer->undecided));
+                            kd_engine_name(p->engine), kd_precision_name(p->precision), p->steps, answer->n,
+                            answer->undecided));
     if (p->tolerance > 0) {
         KD_TRY(add_number(out, ",\"tolerance\":", p->tolerance));
         KD_TRY(kd_buffer_printf(out, ",\"followed_again\":%zu,\"beyond\":%zu", answer->followed_again, answer->beyond));
@@ -93,18 +94,22 @@ const char *kd_rays_approximation(const struct kd_rays_params *params, size_t in
 {
     const char *const all[] = {
         "rays are null geodesics in vacuum: no plasma, no scattering, no absorption at a crossing",
-        "g is that of gas on circular equatorial orbits outside the ISCO and, inside it, of gas that falls with the energy "
+        "g is that of gas on circular equatorial orbits outside the ISCO and, inside it, of gas that falls with the "
+        "energy "
         "and angular momentum of the ISCO; neither feels pressure",
-        isinf(params->r) ? NULL
-                         : "g is relative to infinity: an observer at a finite radius multiplies by its own nu/E_infinity",
+        isinf(params->r)
+            ? NULL
+            : "g is relative to infinity: an observer at a finite radius multiplies by its own nu/E_infinity",
         params->precision == KD_PRECISION_F32 && !(params->tolerance > 0)
             ? "rays in 32-bit arithmetic; within about 1e-5 of the critical curve the fate may be wrong"
             : NULL,
-        params->engine >= KD_ENGINE_KS_EULER ? "the engine takes rays from infinity up at 1000 M, where their constants put them exactly, and "
-                                               "takes the momentum they leave with for their direction of escape, good to 1e-6 rad"
-                                             : NULL,
+        params->engine >= KD_ENGINE_KS_EULER
+            ? "the engine takes rays from infinity up at 1000 M, where their constants put them exactly, and "
+              "takes the momentum they leave with for their direction of escape, good to 1e-6 rad"
+            : NULL,
         params->tolerance > 0 && params->engine != KD_ENGINE_CLOSED
-            ? "rays beyond the tolerance by their own error were followed again in double precision, at last in closed form; what is still beyond "
+            ? "rays beyond the tolerance by their own error were followed again in double precision, at last in closed "
+              "form; what is still beyond "
               "it says so by its error"
             : NULL,
     };
@@ -137,9 +142,15 @@ static enum kd_status npy_head(const struct kd_rays_answer *answer, struct kd_bu
 {
     uint32_t orders = answer->params.orders;
     const struct kd_npy array = {
-        .fields = { { "fate", KD_NPY_U1, 0 }, { "n_crossings", KD_NPY_U1, 0 }, { "error", KD_NPY_F8, 0 },
-                    { "sky_theta", KD_NPY_F8, 0 }, { "sky_phi", KD_NPY_F8, 0 }, { "r", KD_NPY_F8, orders },
-                    { "phi", KD_NPY_F8, orders }, { "delay", KD_NPY_F8, orders }, { "g", KD_NPY_F8, orders } },
+        .fields = { { "fate", KD_NPY_U1, 0 },
+                    { "n_crossings", KD_NPY_U1, 0 },
+                    { "error", KD_NPY_F8, 0 },
+                    { "sky_theta", KD_NPY_F8, 0 },
+                    { "sky_phi", KD_NPY_F8, 0 },
+                    { "r", KD_NPY_F8, orders },
+                    { "phi", KD_NPY_F8, orders },
+                    { "delay", KD_NPY_F8, orders },
+                    { "g", KD_NPY_F8, orders } },
         .n_fields = 9,
         .shape = { answer->n },
         .n_dimensions = 1,
@@ -176,10 +187,7 @@ enum kd_status kd_rays_stream_init(struct kd_rays_stream *stream, const struct k
     return KD_OK;
 }
 
-void kd_rays_stream_finish(struct kd_rays_stream *stream)
-{
-    kd_buffer_finish(&stream->head);
-}
+void kd_rays_stream_finish(struct kd_rays_stream *stream) { kd_buffer_finish(&stream->head); }
 
 size_t kd_rays_stream_size(const struct kd_rays_stream *stream)
 {

@@ -1,13 +1,15 @@
-/* An answer holds what kd_rays_trace found and is written as JSON, NPY or CSV, as a stream of bytes that is made while it is read. A
- * million rays in JSON are half a gigabyte; nobody holds it. Any thread, one at a time.
+/* An answer holds what kd_rays_trace found and is written as JSON, NPY or CSV, as a stream of bytes that is made
+ * while it is read. A million rays in JSON are half a gigabyte; nobody holds it. Any thread, one at a time.
  *
- * JSON  {"spin", "observer", "orders", "accuracy": {engine, precision, steps, rays, undecided, tolerance, followed_again, beyond, holds, worst_error, median_error},
- *       "approximations": [...], "rays": [{"fate", "crossings": [{order, r, phi, delay, g}], "sky": {theta, phi}, "error"}]}
+ * JSON  {"spin", "observer", "orders", "accuracy": {engine, precision, steps, rays, undecided, tolerance,
+ * followed_again, beyond, holds, worst_error, median_error},
+ *       "approximations": [...], "rays": [{"fate", "crossings": [{order, r, phi, delay, g}], "sky": {theta, phi},
+ *         "error"}]}
  *       A number that does not exist is left out, a sky too for a ray that does not escape.
  * NPY   records, in the order of the rays: fate (u1: 0 captured, 1 escaped, 2 undecided), n_crossings (u1), error,
  *       sky_theta, sky_phi (f8), r, phi, delay, g (f8, one a wanted order); NaN where there is none.
- * CSV   one line a ray: alpha, beta, then as NPY, the wanted orders as r0, phi0, delay0, g0, r1, ...; empty where there is
- *       none. */
+ * CSV   one line a ray: alpha, beta, then as NPY, the wanted orders as r0, phi0, delay0, g0, r1, ...; empty where
+ *       there is none. */
 #ifndef KD_RENDER_RAYS_ANSWER_H
 #define KD_RENDER_RAYS_ANSWER_H
 
@@ -23,7 +25,8 @@ struct kd_rays_answer {
     struct kd_ray_crossing *crossings;
     struct kd_ray_end *ends;
     size_t undecided; /* these by kd_rays_answer_summarise */
-    /* With a tolerance: rays that were followed again for it; those, the undecided among them, that are not within it after all. */
+    /* With a tolerance: rays that were followed again for it; those, the undecided among them, that are not within
+     * it after all. */
     size_t followed_again, beyond;
     double worst_error, median_error; /* over the rays that have one; NaN if none has */
 };

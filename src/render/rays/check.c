@@ -35,7 +35,8 @@ static enum kd_status check_accuracy(const struct kd_rays_params *p, struct kd_e
         return kd_error_field(error, "/accuracy/precision",
                               "the closed engine works in double precision: allowed is \"f64\", or another engine");
     if (closed && p->steps)
-        return kd_error_field(error, "/accuracy/steps", "the closed engine takes no steps: allowed is 0, or another engine");
+        return kd_error_field(error, "/accuracy/steps",
+                              "the closed engine takes no steps: allowed is 0, or another engine");
     if (p->steps % 4 || p->steps > kd_engine_most_steps(p->engine))
         return kd_engine_steps_error(p->engine, p->steps, error);
     return KD_OK;
@@ -51,8 +52,7 @@ static enum kd_status check_number(double value, size_t ray, int component, stru
                           component ? "beta" : "alpha", ray, value);
 }
 
-enum kd_status kd_rays_check(const struct kd_rays_params *p, const double *alpha_beta, size_t n,
-                             struct kd_error *error)
+enum kd_status kd_rays_check(const struct kd_rays_params *p, const double *alpha_beta, size_t n, struct kd_error *error)
 {
     enum kd_status status;
     KD_TRY(check_observer(p, error));
@@ -73,8 +73,10 @@ enum kd_status kd_rays_check(const struct kd_rays_params *p, const double *alpha
             continue;
         char pointer[32];
         snprintf(pointer, sizeof pointer, "/rays/%zu", i);
-        KD_TRY(kd_error_field(error, pointer, "no light with the constants of ray %zu, alpha = %.9g and beta = %.9g, "
-                              "reaches an observer at r = %.9g", i, alpha, beta, r));
+        KD_TRY(kd_error_field(error, pointer,
+                              "no light with the constants of ray %zu, alpha = %.9g and beta = %.9g, "
+                              "reaches an observer at r = %.9g",
+                              i, alpha, beta, r));
     }
 done:
     return status;

@@ -44,9 +44,9 @@ static void trace_one(const struct kd_rays_params *p, const double *alpha_beta, 
     const struct kd_null_path path = errors ? kd_null_trace(&ray) : kd_null_trace_fast(&ray);
     bool sound = path.status == KD_NULL_OK || path.status == KD_NULL_IN_PLANE;
     *end = (struct kd_ray_end) {
-        .fate = !sound                            ? KD_RAY_UNDECIDED
+        .fate = !sound                         ? KD_RAY_UNDECIDED
                 : path.fate == KD_NULL_ESCAPED ? KD_RAY_ESCAPED
-                                                  : KD_RAY_CAPTURED,
+                                               : KD_RAY_CAPTURED,
         .n_crossings = (uint32_t)path.crossings,
         .theta = NAN,
         .phi = NAN,
@@ -128,9 +128,10 @@ enum kd_status kd_rays_closed(const struct kd_rays_params *params, const struct 
     return atomic_load(&share.stop) ? kd_error_set(error, KD_ECANCELLED, "the rays were cancelled") : KD_OK;
 }
 
-/* The closed form says which way the photon moves inside the ISCO; a ray that set out inwards and falls in has never turned. */
-static bool leaves_outwards(const struct kd_rays_params *p, const double *alpha_beta, bool outward, const struct kd_ray_end *end,
-                            uint32_t crossing)
+/* The closed form says which way the photon moves inside the ISCO; a ray that set out inwards and falls in has never
+ * turned. */
+static bool leaves_outwards(const struct kd_rays_params *p, const double *alpha_beta, bool outward,
+                            const struct kd_ray_end *end, uint32_t crossing)
 {
     if (end->fate == KD_RAY_CAPTURED && !outward)
         return true;
@@ -152,8 +153,8 @@ void kd_rays_redshift(const struct kd_rays_params *params, const double *alpha_b
 }
 
 /* w'^2 = W^2 - D K w^2, as in shaders/ray/radial_step.glsl, which keeps its digits next to the horizon. */
-double kd_rays_slope(const struct kd_rays_params *p, const double *alpha_beta, bool outward, const struct kd_ray_end *end,
-                     uint32_t k, double r)
+double kd_rays_slope(const struct kd_rays_params *p, const double *alpha_beta, bool outward,
+                     const struct kd_ray_end *end, uint32_t k, double r)
 {
     double a = p->spin, s = kd_sin_deg(p->inclination_deg), c = kd_cos_deg(p->inclination_deg), w2 = 1 / (r * r);
     double alpha = alpha_beta[0], beta = alpha_beta[1], j = -alpha * s - a, all = 1 - a * j * w2;

@@ -13,25 +13,26 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Rays a slice, after which others may have their turn: few at first, then as many as take TARGET_MS. From the fastest engine to
- * Tao's with its most steps, from a GPU to one core, a ray's cost varies by a factor of a million. A slice is handed over in parts
- * of CHUNK rays at most, of which the device follows one while the host unpacks the one before. */
+/* Rays a slice, after which others may have their turn: few at first, then as many as take TARGET_MS. From the
+ * fastest engine to Tao's with its most steps, from a GPU to one core, a ray's cost varies by a factor of a million.
+ * A slice is handed over in parts of CHUNK rays at most, of which the device follows one while the host unpacks the
+ * one before. */
 #define LEAST 32u
 #define MOST (1u << 20)
 #define CHUNK 65536u
 #define TARGET_MS 40.0
-#define HEADER 7u    /* numbers in front of the list in rays.comp, four in rays_kerr_schild.comp */
+#define HEADER 7u /* numbers in front of the list in rays.comp, four in rays_kerr_schild.comp */
 
 struct work {
     struct kd_renderer *r;
     const struct kd_rays_params *params;
-    bool wide;         /* double precision */
-    bool kerr_schild;  /* the engine's coordinates */
+    bool wide;        /* double precision */
+    bool kerr_schild; /* the engine's coordinates */
     uint32_t per_ray;
-    double least;      /* radius: the next above the horizon's */
+    double least;                                                    /* radius: the next above the horizon's */
     struct set { struct kd_vk_buffer *rays, *ends, *host; } sets[2]; /* parts take turns at them */
-    struct kd_vk_buffer *told; /* NULL, or room for the records of trace.glsl */
-    uint32_t steps;            /* of a half period */
+    struct kd_vk_buffer *told;                                       /* NULL, or room for the records of trace.glsl */
+    uint32_t steps;                                                  /* of a half period */
     const struct kd_vk_pipeline *pipeline;
     struct kd_error *error;
 };
@@ -44,14 +45,15 @@ static void put(const struct work *w, void *at, size_t i, double value)
         ((float *)at)[i] = (float)value;
 }
 
-/* Makes alpha and beta as the device is given them. The ratio of two tiny ones is kept to rounding, since the azimuth depends
- * on it. */
+/* Makes alpha and beta as the device is given them. The ratio of two tiny ones is kept to rounding, since the
+ * azimuth depends on it. */
 static void label(const struct work *w, const double *alpha_beta, double out[2])
 {
     double larger = fmax(fabs(alpha_beta[0]), fabs(alpha_beta[1])), least = 1e8 * KD_LEAST_FLOAT;
     bool small = !w->wide && larger > 0 && larger < least;
     for (int k = 0; k < 2; k++) {
-        out[k] = small ? alpha_beta[k] / larger * least : alpha_beta[k]; /* a quotient first: 1/larger may be infinite */
+        out[k] =
+            small ? alpha_beta[k] / larger * least : alpha_beta[k]; /* a quotient first: 1/larger may be infinite */
         if (!w->wide)
             out[k] = kd_lifted(out[k]);
     }
@@ -62,11 +64,12 @@ static double get(const struct work *w, const void *at, size_t i)
     return w->wide ? ((const double *)at)[i] : (double)((const float *)at)[i];
 }
 
-/* Where a Cartesian ray from infinity starts: far positions cost digits of b, and Tao's method phase. A nearer start would be more
- * exact still, but by leaving the work to Mino time (start.c): at 100 M single precision loses a sixth of what it does here. */
+/* Where a Cartesian ray from infinity starts: far positions cost digits of b, and Tao's method phase. A nearer start
+ * would be more exact still, but by leaving the work to Mino time (start.c): at 100 M single precision loses a sixth
+ * of what it does here. */
 #define FAR 1e3
-/* The radius at which a ray counts as escaped: its momentum has come to its limit within M b/r^2. Single precision knows the
- * direction no better further out, where the copies of Tao's method part. */
+/* The radius at which a ray counts as escaped: its momentum has come to its limit within M b/r^2. Single precision
+ * knows the direction no better further out, where the copies of Tao's method part. */
 static double escape(const struct work *w) { return w->wide && w->params->engine != KD_ENGINE_KS_TAO6 ? 1e7 : 1e4; }
 
 static void upload_states(const struct work *w, const struct set *set, const struct kd_ray_labels *rays)
@@ -74,7 +77,10 @@ static void upload_states(const struct work *w, const struct set *set, const str
     const struct kd_rays_params *p = w->params;
     void *at = kd_vk_buffer_map(set->rays);
     const size_t per_start = sizeof(struct kd_rays_origin) / sizeof(double);
-    union { struct kd_rays_origin origin; double numbers[sizeof(struct kd_rays_origin) / sizeof(double)]; } start;
+    union {
+        struct kd_rays_origin origin;
+        double numbers[sizeof(struct kd_rays_origin) / sizeof(double)];
+    } start;
     double u = kd_cos_deg(p->inclination_deg), s = kd_sin_deg(p->inclination_deg);
     put(w, at, 0, p->spin);
     put(w, at, 1, kd_kerr_horizon(p->spin));
@@ -82,8 +88,7 @@ static void upload_states(const struct work *w, const struct set *set, const str
     for (size_t i = 0; i < rays->n; i++) {
         double at_eye[2];
         label(w, rays->alpha_beta + 2 * i, at_eye);
-        kd_rays_start(p->spin, p->r, u, s, at_eye[0], at_eye[1],
-                      rays->outward && rays->outward[i], FAR, &start.origin);
+        kd_rays_start(p->spin, p->r, u, s, at_eye[0], at_eye[1], rays->outward && rays->outward[i], FAR, &start.origin);
         for (size_t k = 0; k < per_start; k++)
             put(w, at, 4 + per_start * i + k, start.numbers[k]);
     }
@@ -95,7 +100,12 @@ static void upload(const struct work *w, const struct set *set, const struct kd_
     void *at = kd_vk_buffer_map(set->rays);
     double u = kd_cos_deg(p->inclination_deg), s = kd_sin_deg(p->inclination_deg), r_plus = kd_kerr_horizon(p->spin);
     const double header[HEADER] = {
-        p->spin, u, s, 1 / r_plus, sqrt((1 - p->spin) * (1 + p->spin)), isinf(p->r) ? 0 : 1 / p->r,
+        p->spin,
+        u,
+        s,
+        1 / r_plus,
+        sqrt((1 - p->spin) * (1 + p->spin)),
+        isinf(p->r) ? 0 : 1 / p->r,
         w->wide ? DBL_EPSILON / 2 : FLT_EPSILON / 2,
     };
     for (size_t i = 0; i < HEADER; i++)
@@ -110,32 +120,38 @@ static void upload(const struct work *w, const struct set *set, const struct kd_
 }
 
 /* Hand over a part. */
-static enum kd_status send(const struct work *w, const struct set *set, const struct kd_ray_labels *rays, uint64_t *ticket)
+static enum kd_status send(const struct work *w, const struct set *set, const struct kd_ray_labels *rays,
+                           uint64_t *ticket)
 {
     struct kd_vk *vk = w->r->vk;
     const uint32_t n = (uint32_t)rays->n, push[] = { 0, n };
     const struct kd_vk_dispatch d = {
-        "rays", w->pipeline, { { set->rays, 0, 0, false }, { set->ends, 0, 0, true }, { w->told, 0, 0, true } }, push,
+        "rays",
+        w->pipeline,
+        { { set->rays, 0, 0, false }, { set->ends, 0, 0, true }, { w->told, 0, 0, true } },
+        push,
         { (n + KD_GROUP_SIZE - 1) / KD_GROUP_SIZE },
     };
     (w->kerr_schild ? upload_states : upload)(w, set, rays);
     enum kd_status status;
     KD_TRY(kd_vk_dispatch(vk, &d, w->error));
-    KD_TRY(kd_vk_copy(vk, "readback", set->host, 0, set->ends, 0, (uint64_t)n * w->per_ray * (w->wide ? 8 : 4), w->error));
+    KD_TRY(
+        kd_vk_copy(vk, "readback", set->host, 0, set->ends, 0, (uint64_t)n * w->per_ray * (w->wide ? 8 : 4), w->error));
     KD_TRY(kd_vk_submit(vk, ticket, w->error));
 done:
     return status;
 }
 
 /* Unpacks one ray's numbers into its records. */
-static void unpack(const struct work *w, const void *from, size_t i, struct kd_ray_crossing *crossings, struct kd_ray_end *end)
+static void unpack(const struct work *w, const void *from, size_t i, struct kd_ray_crossing *crossings,
+                   struct kd_ray_end *end)
 {
     const struct kd_rays_params *p = w->params;
     size_t at = i * w->per_ray;
-    *end = (struct kd_ray_end){ .theta = NAN, .phi = NAN, .error = get(w, from, at + 3 * p->orders + 3) };
+    *end = (struct kd_ray_end) { .theta = NAN, .phi = NAN, .error = get(w, from, at + 3 * p->orders + 3) };
     for (uint32_t n = 0; n < p->orders; n++, at += 3) {
         double x = get(w, from, at);
-        crossings[n] = (struct kd_ray_crossing){ NAN, NAN, NAN, NAN };
+        crossings[n] = (struct kd_ray_crossing) { NAN, NAN, NAN, NAN };
         if (!(x > 0))
             continue;
         crossings[n].r = fmax(1 / x, w->least); /* outside the horizon, of which a float knows only the neighbourhood */
@@ -147,7 +163,9 @@ static void unpack(const struct work *w, const void *from, size_t i, struct kd_r
     if (w->kerr_schild)
         end->error = NAN;
     double fate = get(w, from, at + 2);
-    end->fate = fate == KD_FATE_ESCAPED ? KD_RAY_ESCAPED : fate == KD_FATE_CAPTURED ? KD_RAY_CAPTURED : KD_RAY_UNDECIDED;
+    end->fate = fate == KD_FATE_ESCAPED    ? KD_RAY_ESCAPED
+                : fate == KD_FATE_CAPTURED ? KD_RAY_CAPTURED
+                                           : KD_RAY_UNDECIDED;
     if (end->fate == KD_RAY_ESCAPED) {
         end->theta = acos(fmax(-1, fmin(1, get(w, from, at))));
         end->phi = get(w, from, at + 1);
@@ -194,7 +212,8 @@ static enum kd_status hold_set(struct work *w, int k, uint64_t room)
     enum kd_status status;
     KD_TRY(hold(r, &r->rays[k][0], (HEADER + per_start * room) * number, KD_VK_UPLOAD, "rays", &set->rays, w->error));
     KD_TRY(hold(r, &r->rays[k][1], room * w->per_ray * number, KD_VK_DEVICE, "ray ends", &set->ends, w->error));
-    KD_TRY(hold(r, &r->rays[k][2], room * w->per_ray * number, KD_VK_READBACK, "ray ends on the host", &set->host, w->error));
+    KD_TRY(hold(r, &r->rays[k][2], room * w->per_ray * number, KD_VK_READBACK, "ray ends on the host", &set->host,
+                w->error));
 done:
     return status;
 }
@@ -207,13 +226,15 @@ static enum kd_status prepare(struct work *w, size_t n)
     const struct kd_spec_rays spec = { .ORDERS = p->orders, .STEPS = w->steps, .METHOD = method };
     enum kd_kernel kernel = w->kerr_schild ? (w->told ? KD_KERNEL_RAYS_KS_TRACE_F32 : KD_KERNEL_RAYS_KS_F32)
                                            : (w->told ? KD_KERNEL_RAYS_TRACE_F32 : KD_KERNEL_RAYS_F32);
-    enum kd_status status = kd_kernels_get(&w->r->kernels, w->r->vk, kernel + w->wide, &spec.ORDERS, sizeof spec / 4, &w->pipeline, w->error);
+    enum kd_status status = kd_kernels_get(&w->r->kernels, w->r->vk, kernel + w->wide, &spec.ORDERS, sizeof spec / 4,
+                                           &w->pipeline, w->error);
     for (int k = 0; k < (n > CHUNK ? 2 : 1) && !status; k++)
         status = hold_set(w, k, n < CHUNK ? n : CHUNK);
     return status;
 }
 
-/* Traces one slice. Nothing is under way when it returns, unless it failed: what is called between slices may use the device. */
+/* Traces one slice. Nothing is under way when it returns, unless it failed: what is called between slices may use
+ * the device. */
 static enum kd_status trace_slice(struct work *w, const struct kd_ray_labels *rays, struct kd_ray_crossing *crossings,
                                   struct kd_ray_end *ends)
 {
@@ -232,12 +253,13 @@ static enum kd_status trace_slice(struct work *w, const struct kd_ray_labels *ra
     return status;
 }
 
-/* The size of the next slice, after one of m rays that took so long. least_ms: what the smallest slices took. Where one ray
- * alone is slower than TARGET_MS, more of them take a GPU no longer: slices double while that holds, and reach half as long
- * again. */
+/* The size of the next slice, after one of m rays that took so long. least_ms: what the smallest slices took. Where
+ * one ray alone is slower than TARGET_MS, more of them take a GPU no longer: slices double while that holds, and
+ * reach half as long again. */
 static uint32_t next_size(uint32_t m, double ms, double least_ms)
 {
-    double grow = fmax(TARGET_MS / fmax(ms, 1e-3), ms <= 1.25 * least_ms ? 2 : 1.5 * least_ms / ms), n = m * fmin(8, grow);
+    double grow = fmax(TARGET_MS / fmax(ms, 1e-3), ms <= 1.25 * least_ms ? 2 : 1.5 * least_ms / ms),
+           n = m * fmin(8, grow);
     return n < LEAST ? LEAST : n > MOST ? MOST : (uint32_t)n;
 }
 
@@ -246,7 +268,8 @@ static uint32_t first_size(const struct work *w)
 {
     const struct kd_rays_params *p = w->params;
     const struct kd_rays_pace *pace = &w->r->rays_pace;
-    bool same = pace->engine == p->engine && pace->precision == p->precision && pace->steps == w->steps && pace->orders == p->orders;
+    bool same = pace->engine == p->engine && pace->precision == p->precision && pace->steps == w->steps &&
+                pace->orders == p->orders;
     return same && pace->size / 2 > LEAST ? pace->size / 2 : LEAST;
 }
 
@@ -281,19 +304,26 @@ static enum kd_status trace(struct work *w, const struct kd_ray_labels *rays, st
     return KD_OK;
 }
 
-static enum kd_status device(struct kd_renderer *renderer, const struct kd_rays_params *params, const struct kd_ray_labels *rays,
-                             struct kd_ray_crossing *crossings, struct kd_ray_end *ends, kd_progress_fn progress, void *user,
-                             struct kd_vk_buffer *told, struct kd_error *error)
+static enum kd_status device(struct kd_renderer *renderer, const struct kd_rays_params *params,
+                             const struct kd_ray_labels *rays, struct kd_ray_crossing *crossings,
+                             struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_vk_buffer *told,
+                             struct kd_error *error)
 {
     struct kd_vk *vk = renderer->vk;
     struct work w = {
-        .r = renderer, .params = params, .wide = params->precision == KD_PRECISION_F64,
-        .kerr_schild = params->engine >= KD_ENGINE_KS_EULER, .per_ray = 3 * params->orders + 4,
-        .least = nextafter(kd_kerr_horizon(params->spin), INFINITY), .told = told, .error = error,
+        .r = renderer,
+        .params = params,
+        .wide = params->precision == KD_PRECISION_F64,
+        .kerr_schild = params->engine >= KD_ENGINE_KS_EULER,
+        .per_ray = 3 * params->orders + 4,
+        .least = nextafter(kd_kerr_horizon(params->spin), INFINITY),
+        .told = told,
+        .error = error,
         .steps = params->steps ? params->steps : kd_engine_steps(params->engine, params->precision),
     };
     if (w.wide && !kd_vk_info(vk)->float64)
-        return kd_error_set(error, KD_EDEVICE, "%s has no double precision; use f32 or the closed engine", kd_vk_info(vk)->name);
+        return kd_error_set(error, KD_EDEVICE, "%s has no double precision; use f32 or the closed engine",
+                            kd_vk_info(vk)->name);
     enum kd_status status = trace(&w, rays, crossings, ends, progress, user);
     if (!status)
         return KD_OK;
@@ -310,9 +340,9 @@ enum kd_status kd_rays_device(struct kd_renderer *renderer, const struct kd_rays
     return device(renderer, params, rays, crossings, ends, progress, user, NULL, error);
 }
 
-enum kd_status kd_rays_device_told(struct kd_renderer *renderer, const struct kd_rays_params *params, const struct kd_ray_labels *ray,
-                                   struct kd_ray_crossing *crossings, struct kd_ray_end *end, double *told, size_t numbers,
-                                   struct kd_error *error)
+enum kd_status kd_rays_device_told(struct kd_renderer *renderer, const struct kd_rays_params *params,
+                                   const struct kd_ray_labels *ray, struct kd_ray_crossing *crossings,
+                                   struct kd_ray_end *end, double *told, size_t numbers, struct kd_error *error)
 {
     bool wide = params->precision == KD_PRECISION_F64;
     uint64_t size = (uint64_t)numbers * (wide ? 8 : 4);

@@ -4,14 +4,15 @@
 
 #include "render/rays/rays.h"
 
-/* kd_rays_trace for any engine but KD_ENGINE_CLOSED, params checked; g is left NaN, and the Kerr-Schild engines' errors. */
+/* kd_rays_trace for any engine but KD_ENGINE_CLOSED, params checked; g is left NaN, and the Kerr-Schild engines'
+ * errors. */
 enum kd_status kd_rays_device(struct kd_renderer *renderer, const struct kd_rays_params *params,
                               const struct kd_ray_labels *rays, struct kd_ray_crossing *crossings,
                               struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_error *error);
 
 /* One ray, and the records that trace.glsl describes, as doubles: room for `numbers` of them. */
-enum kd_status kd_rays_device_told(struct kd_renderer *renderer, const struct kd_rays_params *params, const struct kd_ray_labels *ray,
-                                   struct kd_ray_crossing *crossings, struct kd_ray_end *end, double *told, size_t numbers,
-                                   struct kd_error *error);
+enum kd_status kd_rays_device_told(struct kd_renderer *renderer, const struct kd_rays_params *params,
+                                   const struct kd_ray_labels *ray, struct kd_ray_crossing *crossings,
+                                   struct kd_ray_end *end, double *told, size_t numbers, struct kd_error *error);
 
 #endif

@@ -1,5 +1,6 @@
-/* Fields of a request for rays, a row each: how they are read, what is refused, the parameters of a query and the schema follow from these rows. Private to src/render/rays but
- * for its tests. Constant data and pure functions, any thread. */
+/* Fields of a request for rays, a row each: how they are read, what is refused, the parameters of a query and the
+ * schema follow from these rows. Private to src/render/rays but for its tests. Constant data and pure functions, any
+ * thread. */
 #ifndef KD_RENDER_RAYS_FIELDS_H
 #define KD_RENDER_RAYS_FIELDS_H
 
@@ -18,7 +19,7 @@ struct kd_rays_field {
     const char *word;       /* that stands for INFINITY; NULL: none */
     const char *allowed;    /* in a sentence; NULL: the words of the scene's field of this name */
     const char *help;
-    size_t offset;          /* in struct kd_rays_request: double, uint32_t or int */
+    size_t offset; /* in struct kd_rays_request: double, uint32_t or int */
 };
 
 enum { KD_RAYS_FIELDS = 9 };

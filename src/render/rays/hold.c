@@ -6,8 +6,8 @@
 #include <string.h>
 
 #define SLICE ((size_t)16384) /* rays that are followed again together: a tenth of a second */
-/* The least number of rays for which the device is asked once more: the closed form follows fewer of them in less time than a
- * kernel takes to be compiled. */
+/* The least number of rays for which the device is asked once more: the closed form follows fewer of them in less
+ * time than a kernel takes to be compiled. */
 #define WORTH_A_KERNEL 8192
 #define MORE_STEPS 4 /* times as many: order 6 then loses 4096 times less */
 
@@ -29,8 +29,10 @@ static void finish(struct batch *b)
 
 static enum kd_status init(struct batch *b, size_t n, uint32_t orders, struct kd_error *error)
 {
-    *b = (struct batch) { .which = malloc(n * sizeof *b->which), .alpha_beta = malloc(2 * n * sizeof *b->alpha_beta),
-                          .crossings = malloc(n * orders * sizeof *b->crossings), .ends = malloc(n * sizeof *b->ends) };
+    *b = (struct batch) { .which = malloc(n * sizeof *b->which),
+                          .alpha_beta = malloc(2 * n * sizeof *b->alpha_beta),
+                          .crossings = malloc(n * orders * sizeof *b->crossings),
+                          .ends = malloc(n * sizeof *b->ends) };
     if (b->which && b->alpha_beta && b->crossings && b->ends)
         return KD_OK;
     finish(b);
@@ -38,7 +40,8 @@ static enum kd_status init(struct batch *b, size_t n, uint32_t orders, struct kd
 }
 
 /* Gathers, from *at on, as many rays as fit; *at moves on. */
-static void gather(struct batch *b, const double *alpha_beta, const struct kd_ray_end *ends, size_t n, double tolerance, size_t *at)
+static void gather(struct batch *b, const double *alpha_beta, const struct kd_ray_end *ends, size_t n, double tolerance,
+                   size_t *at)
 {
     for (b->n = 0; *at < n && b->n < SLICE; ++*at) {
         if (kd_rays_held(&ends[*at], tolerance))
@@ -62,9 +65,9 @@ static void adopt(const struct batch *b, uint32_t orders, struct kd_ray_crossing
     }
 }
 
-static enum kd_status follow(struct kd_renderer *renderer, const struct kd_rays_params *finer, double tolerance, const double *alpha_beta,
-                             size_t n, struct kd_ray_crossing *crossings, struct kd_ray_end *ends, kd_progress_fn progress, void *user,
-                             struct kd_error *error)
+static enum kd_status follow(struct kd_renderer *renderer, const struct kd_rays_params *finer, double tolerance,
+                             const double *alpha_beta, size_t n, struct kd_ray_crossing *crossings,
+                             struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_error *error)
 {
     struct batch b;
     enum kd_status status = init(&b, n < SLICE ? n : SLICE, finer->orders, error);
@@ -92,12 +95,14 @@ static size_t beyond(const struct kd_ray_end *ends, size_t n, double tolerance)
 }
 
 /* Finds a finer setting of the device; false: there is none. */
-static bool finer_on_device(const struct kd_renderer *renderer, const struct kd_rays_params *params, struct kd_rays_params *out)
+static bool finer_on_device(const struct kd_renderer *renderer, const struct kd_rays_params *params,
+                            struct kd_rays_params *out)
 {
     enum { FINEST = 128 }; /* beyond them rounding takes over */
     uint32_t steps = params->steps ? params->steps : kd_engine_steps(params->engine, params->precision);
     bool mino = params->engine == KD_ENGINE_MINO_RKN6;
-    if (!kd_vk_info(renderer->vk)->float64 || (mino && params->precision == KD_PRECISION_F64 && MORE_STEPS * steps > FINEST))
+    if (!kd_vk_info(renderer->vk)->float64 ||
+        (mino && params->precision == KD_PRECISION_F64 && MORE_STEPS * steps > FINEST))
         return false;
     out->engine = KD_ENGINE_MINO_RKN6;
     out->precision = KD_PRECISION_F64;
@@ -106,9 +111,9 @@ static bool finer_on_device(const struct kd_renderer *renderer, const struct kd_
     return true;
 }
 
-enum kd_status kd_rays_hold(struct kd_renderer *renderer, const struct kd_rays_params *params, const double *alpha_beta, size_t n,
-                            struct kd_ray_crossing *crossings, struct kd_ray_end *ends, kd_progress_fn progress, void *user,
-                            struct kd_error *error)
+enum kd_status kd_rays_hold(struct kd_renderer *renderer, const struct kd_rays_params *params, const double *alpha_beta,
+                            size_t n, struct kd_ray_crossing *crossings, struct kd_ray_end *ends,
+                            kd_progress_fn progress, void *user, struct kd_error *error)
 {
     struct kd_rays_params finer = *params;
     enum kd_status status = KD_OK;

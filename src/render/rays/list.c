@@ -29,10 +29,7 @@ enum kd_status kd_rays_list_add(struct kd_rays_list *list, double alpha, double 
     return KD_OK;
 }
 
-static size_t skip_blanks(const char *text, size_t at)
-{
-    return at + strspn(text + at, " \t\n\r");
-}
+static size_t skip_blanks(const char *text, size_t at) { return at + strspn(text + at, " \t\n\r"); }
 
 static size_t skip_string(const char *text, size_t at, size_t length)
 {
@@ -74,8 +71,8 @@ struct reader {
 static enum kd_status not_json(struct reader *r, const char *what)
 {
     struct kd_text_place place = kd_text_place_of(r->text, r->at);
-    return kd_error_set(r->error, KD_EINVAL, "the document is not valid JSON: %s at byte %zu, line %zu, column %zu", what, r->at,
-                        place.line, place.column);
+    return kd_error_set(r->error, KD_EINVAL, "the document is not valid JSON: %s at byte %zu, line %zu, column %zu",
+                        what, r->at, place.line, place.column);
 }
 
 static bool take(struct reader *r, char c)

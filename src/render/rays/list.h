@@ -17,8 +17,8 @@ enum kd_status kd_rays_list_add(struct kd_rays_list *list, double alpha, double 
 /* Where the value of the first member "rays" of the outermost object starts, if that is an array. */
 bool kd_rays_list_find(const char *text, size_t length, size_t *start);
 
-/* Append the array that begins at text[*at], and move *at behind it. text[length] is NUL. KD_EINVAL with a pointer where a
- * ray is not two finite numbers, without one where the text is not JSON. */
+/* Append the array that begins at text[*at], and move *at behind it. text[length] is NUL. KD_EINVAL with a pointer
+ * where a ray is not two finite numbers, without one where the text is not JSON. */
 enum kd_status kd_rays_list_read(struct kd_rays_list *list, const char *text, size_t length, size_t *at,
                                  struct kd_error *error);
 

@@ -12,7 +12,9 @@
 
 const char *kd_ray_fate_name(enum kd_ray_fate fate)
 {
-    static const char *const names[] = { [KD_RAY_CAPTURED] = "captured", [KD_RAY_ESCAPED] = "escaped", [KD_RAY_UNDECIDED] = "undecided" };
+    static const char *const names[] = { [KD_RAY_CAPTURED] = "captured",
+                                         [KD_RAY_ESCAPED] = "escaped",
+                                         [KD_RAY_UNDECIDED] = "undecided" };
     return names[fate];
 }
 
@@ -30,8 +32,8 @@ static double angle(const struct kd_ray_end *a, const struct kd_ray_end *b)
 }
 
 /* How far a ray is from its truth, which has an error of its own. */
-static double error_of(const struct kd_ray_crossing *found, const struct kd_ray_end *end, const struct kd_ray_crossing *truth,
-                       const struct kd_ray_end *true_end)
+static double error_of(const struct kd_ray_crossing *found, const struct kd_ray_end *end,
+                       const struct kd_ray_crossing *truth, const struct kd_ray_end *true_end)
 {
     bool other = end->fate != true_end->fate || end->n_crossings != true_end->n_crossings;
     double worst = other;
@@ -39,13 +41,14 @@ static double error_of(const struct kd_ray_crossing *found, const struct kd_ray_
         return end->fate == KD_RAY_ESCAPED ? angle(end, true_end) + true_end->error : NAN;
     for (uint32_t k = 0; k < end->n_crossings && k < true_end->n_crossings; k++)
         worst = fmax(worst, fabs(found[k].r / truth[k].r - 1));
-    return worst + (1 + worst) * (fmax(true_end->error, 0) + 2 * DBL_EPSILON); /* fmax passes over NaN: a captured ray without crossings */
+    return worst + (1 + worst) * (fmax(true_end->error, 0) +
+                                  2 * DBL_EPSILON); /* fmax passes over NaN: a captured ray without crossings */
 }
 
 #define SLICE ((size_t)16384) /* rays: a tenth of a second */
 
-/* The Kerr-Schild engines have no estimate of their own. They are there to be compared, and so they are: with the closed form,
- * which takes less time than they do. */
+/* The Kerr-Schild engines have no estimate of their own. They are there to be compared, and so they are: with the
+ * closed form, which takes less time than they do. */
 static enum kd_status compare(const struct kd_rays_params *params, const double *alpha_beta, size_t n,
                               const struct kd_ray_crossing *crossings, struct kd_ray_end *ends, kd_progress_fn progress,
                               void *user, struct kd_error *error)
@@ -84,7 +87,8 @@ static enum kd_status trace_on_device(struct kd_renderer *renderer, const struct
     if (!renderer)
         return kd_error_field(error, "/accuracy/engine", "engine %s needs a device", kd_engine_name(params->engine));
     enum kd_status status;
-    KD_TRY(kd_rays_device(renderer, params, &(struct kd_ray_labels) { alpha_beta, NULL, n }, crossings, ends, progress, user, error));
+    KD_TRY(kd_rays_device(renderer, params, &(struct kd_ray_labels) { alpha_beta, NULL, n }, crossings, ends, progress,
+                          user, error));
     kd_rays_redshift(params, alpha_beta, n, crossings, ends);
     if (params->engine >= KD_ENGINE_KS_EULER)
         KD_TRY(compare(params, alpha_beta, n, crossings, ends, progress, user, error));
@@ -94,8 +98,8 @@ done:
     return status;
 }
 
-/* One rule for all engines: a ray without a crossing that does not escape tells no number, so there is none to be wrong, unless
- * a crossing may be missing. */
+/* One rule for all engines: a ray without a crossing that does not escape tells no number, so there is none to be
+ * wrong, unless a crossing may be missing. */
 static void drop_idle_errors(struct kd_ray_end *ends, size_t n)
 {
     for (size_t i = 0; i < n; i++)
@@ -111,7 +115,8 @@ enum kd_status kd_rays_trace(struct kd_renderer *renderer, const struct kd_rays_
     if (status)
         return status;
     if (params->engine == KD_ENGINE_CLOSED)
-        status = kd_rays_closed(params, &(struct kd_ray_labels) { alpha_beta, NULL, n }, true, crossings, ends, progress, user, error);
+        status = kd_rays_closed(params, &(struct kd_ray_labels) { alpha_beta, NULL, n }, true, crossings, ends,
+                                progress, user, error);
     else
         status = trace_on_device(renderer, params, alpha_beta, n, crossings, ends, progress, user, error);
     if (!status)

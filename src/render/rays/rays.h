@@ -1,11 +1,11 @@
 /* This finds the end points of arbitrary rays, by any engine: what POST /v1/rays and `kerrd rays` answer with.
  *
  * A ray is a pair (alpha, beta) in M, labels of the constants of motion (Bardeen 1973): lambda = L/E = -alpha sin i,
- * eta = Q/E^2 = (alpha^2 - a^2) cos^2 i + beta^2, the sign of the arriving photon's p^theta that of beta. It is traced back
- * from an observer at r (INFINITY, or finite: then inwards). Crossings of the equatorial plane are counted from the eye;
- * azimuths are Boyer-Lindquist, source minus observer; delay is t_observed - t_emitted, for an observer at infinity less
- * r_o + 2 ln r_o. g = E_infinity / (-p.u) of gas on circular orbits outside the ISCO, plunging from it inside (Cunningham
- * 1975); a finite observer multiplies by its own nu/E_infinity. */
+ * eta = Q/E^2 = (alpha^2 - a^2) cos^2 i + beta^2, the sign of the arriving photon's p^theta that of beta. It is
+ * traced back from an observer at r (INFINITY, or finite: then inwards). Crossings of the equatorial plane are
+ * counted from the eye; azimuths are Boyer-Lindquist, source minus observer; delay is t_observed - t_emitted, for an
+ * observer at infinity less r_o + 2 ln r_o. g = E_infinity / (-p.u) of gas on circular orbits outside the ISCO,
+ * plunging from it inside (Cunningham 1975); a finite observer multiplies by its own nu/E_infinity. */
 #ifndef KD_RENDER_RAYS_RAYS_H
 #define KD_RENDER_RAYS_RAYS_H
 
@@ -20,15 +20,15 @@
 #define KD_RAYS_MAX_ORDERS 16
 
 struct kd_rays_params {
-    double spin;             /* |a| < 1 */
-    double r;                /* of the observer, INFINITY or outside the horizon */
-    double inclination_deg;  /* 0 to 180 */
-    uint32_t orders;         /* crossings wanted, 1 to KD_RAYS_MAX_ORDERS */
+    double spin;            /* |a| < 1 */
+    double r;               /* of the observer, INFINITY or outside the horizon */
+    double inclination_deg; /* 0 to 180 */
+    uint32_t orders;        /* crossings wanted, 1 to KD_RAYS_MAX_ORDERS */
     enum kd_engine engine;
     enum kd_precision precision; /* closed: F64 only */
-    uint32_t steps;          /* a half period, a multiple of 4; 0: the engine's default; closed: 0 */
-    double tolerance;        /* > 0: rays whose own error is beyond it are followed again, finer; 0: none */
-    double holds;            /* what the table says that the setting holds, for the answer; 0: no tolerance was asked for */
+    uint32_t steps;              /* a half period, a multiple of 4; 0: the engine's default; closed: 0 */
+    double tolerance;            /* > 0: rays whose own error is beyond it are followed again, finer; 0: none */
+    double holds; /* what the table says that the setting holds, for the answer; 0: no tolerance was asked for */
 };
 
 /* Rays by their labels. A list from outside starts inwards; those of a picture from a finite radius may not. */
@@ -45,25 +45,26 @@ struct kd_ray_crossing { double r, phi, delay, g; };
 
 struct kd_ray_end {
     enum kd_ray_fate fate;
-    uint32_t n_crossings;    /* how many of the wanted orders exist outside the horizon */
-    double theta, phi;       /* direction of escape, if it escapes: polar angle and azimuth, source minus observer */
+    uint32_t n_crossings; /* how many of the wanted orders exist outside the horizon */
+    double theta, phi;    /* direction of escape, if it escapes: polar angle and azimuth, source minus observer */
     /* Estimated relative error of the worst crossing radius; of the direction, in radians, if there is no crossing. It
      * bounds the true one for 999 of 1000 rays at least. NaN for a ray that gives neither, by every engine. 1 or more:
      * there may be another number of crossings, one next to the horizon or very far out (Mino engines, closed form), or
      * there is another number or fate than the closed form's (Kerr-Schild engines). */
     double error;
-    bool again;              /* followed again by a finer setting, for the tolerance */
+    bool again; /* followed again by a finer setting, for the tolerance */
 };
 
 /* Whether two ends are equal bit for bit, but for what lies between the members. */
 bool kd_ray_ends_equal(const struct kd_ray_end *a, const struct kd_ray_end *b);
 
-/* Trace n rays. With a tolerance each that is not within it by its own error, or undecided, is followed again by more steps in double
- * precision, then in closed form: what is beyond it after that no double holds. alpha_beta: 2 n numbers. crossings: n * orders records, those of one ray together; unused ones are NaN. ends: n.
- * renderer may be NULL for KD_ENGINE_CLOSED, which any thread may call; other engines belong to the render thread.
- * KD_EINVAL with a pointer such as "/observer/r" or "/rays/17/0" for bad input; KD_EDEVICE if this device lacks the precision. */
-enum kd_status kd_rays_trace(struct kd_renderer *renderer, const struct kd_rays_params *params, const double *alpha_beta,
-                             size_t n, struct kd_ray_crossing *crossings, struct kd_ray_end *ends,
-                             kd_progress_fn progress, void *user, struct kd_error *error);
+/* Trace n rays. With a tolerance each that is not within it by its own error, or undecided, is followed again by
+ * more steps in double precision, then in closed form: what is beyond it after that no double holds. alpha_beta: 2 n
+ * numbers. crossings: n * orders records, those of one ray together; unused ones are NaN. ends: n. renderer may be
+ * NULL for KD_ENGINE_CLOSED, which any thread may call; other engines belong to the render thread. KD_EINVAL with a
+ * pointer such as "/observer/r" or "/rays/17/0" for bad input; KD_EDEVICE if this device lacks the precision. */
+enum kd_status kd_rays_trace(struct kd_renderer *renderer, const struct kd_rays_params *params,
+                             const double *alpha_beta, size_t n, struct kd_ray_crossing *crossings,
+                             struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_error *error);
 
 #endif

@@ -69,8 +69,8 @@ static bool store(struct kd_rays_request *request, const struct kd_rays_field *f
     return false;
 }
 
-static enum kd_status put(struct kd_rays_request *request, const struct kd_rays_field *field, const struct kd_value *value,
-                          struct kd_error *error)
+static enum kd_status put(struct kd_rays_request *request, const struct kd_rays_field *field,
+                          const struct kd_value *value, struct kd_error *error)
 {
     char given[KD_VALUE_SIZE], words[KD_ALLOWED_SIZE];
     if (store(request, field, value))
@@ -92,14 +92,17 @@ enum kd_status kd_rays_request_set(struct kd_rays_request *request, const char *
         return put(request, field, &value, error);
     char pointer[sizeof error->pointer] = "", shown[60], known[160] = "";
     for (size_t i = 0; i < KD_RAYS_FIELDS; i++)
-        snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", !i ? "" : i + 1 < KD_RAYS_FIELDS ? ", " : " and ", kd_rays_fields[i].name);
+        snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s",
+                 !i                       ? ""
+                 : i + 1 < KD_RAYS_FIELDS ? ", "
+                                          : " and ",
+                 kd_rays_fields[i].name);
     kd_text_pointer(pointer, sizeof pointer, name);
     kd_text_clip(shown, sizeof shown, name);
     return kd_error_field(error, pointer, "there is no parameter %s; known are %s", shown, known);
 }
 
-enum kd_status kd_rays_request_add(struct kd_rays_request *request, double alpha, double beta,
-                                   struct kd_error *error)
+enum kd_status kd_rays_request_add(struct kd_rays_request *request, double alpha, double beta, struct kd_error *error)
 {
     struct kd_rays_list list = { request->alpha_beta, request->n, request->n };
     enum kd_status status = kd_rays_list_add(&list, alpha, beta, error);
@@ -202,7 +205,8 @@ done:
 }
 
 /* rest: the document `text`, `cut` bytes of it taken out at `where`. It is NUL-terminated. */
-static enum kd_status read_rest(struct document *d, const char *text, const char *rest, size_t length, size_t where, size_t cut)
+static enum kd_status read_rest(struct document *d, const char *text, const char *rest, size_t length, size_t where,
+                                size_t cut)
 {
     const char *end = rest;
     struct kd_number_locale locale = kd_number_locale_enter();
@@ -212,18 +216,22 @@ static enum kd_status read_rest(struct document *d, const char *text, const char
     kd_number_locale_leave(locale);
     if (starved)
         return kd_error_set(d->error, KD_ENOMEM, "out of memory for a document of %zu bytes", length);
-    size_t at = (size_t)(end - rest), after = at + strspn(end, " \t\n\r"), bad = root ? after : at < length ? at : length;
+    size_t at = (size_t)(end - rest), after = at + strspn(end, " \t\n\r"),
+           bad = root          ? after
+                 : at < length ? at
+                               : length;
     bad += bad > where ? cut : 0;
     struct kd_text_place place = { 0 };
     if (!root || after < length)
         place = kd_text_place_of(text, bad);
     enum kd_status status = KD_OK;
     if (!root && at >= length)
-        status = kd_error_set(d->error, KD_EINVAL, "the document is not valid JSON: it ends too early, after %zu bytes, in line %zu",
-                              bad, place.line);
+        status = kd_error_set(d->error, KD_EINVAL,
+                              "the document is not valid JSON: it ends too early, after %zu bytes, in line %zu", bad,
+                              place.line);
     else if (!root)
-        status = kd_error_set(d->error, KD_EINVAL, "the document is not valid JSON near byte %zu, line %zu, column %zu", bad,
-                              place.line, place.column);
+        status = kd_error_set(d->error, KD_EINVAL, "the document is not valid JSON near byte %zu, line %zu, column %zu",
+                              bad, place.line, place.column);
     else if (after < length)
         status = kd_error_set(d->error, KD_EINVAL, "text follows the document at byte %zu, line %zu, column %zu", bad,
                               place.line, place.column);
@@ -278,10 +286,7 @@ enum kd_status kd_rays_request_json(struct kd_rays_request *request, const char 
     return status;
 }
 
-bool kd_rays_request_is_npy(const void *data, size_t size)
-{
-    return size >= 6 && !memcmp(data, "\x93NUMPY", 6);
-}
+bool kd_rays_request_is_npy(const void *data, size_t size) { return size >= 6 && !memcmp(data, "\x93NUMPY", 6); }
 
 /* Reads the header, which must be that of pairs of doubles. */
 static enum kd_status read_pairs(const void *data, size_t size, struct kd_npy *array, struct kd_error *error)
@@ -294,7 +299,8 @@ static enum kd_status read_pairs(const void *data, size_t size, struct kd_npy *a
     if (array->n_dimensions != 2 || array->shape[1] != 2)
         return kd_error_set(error, KD_EINVAL, "the shape of the array is not (n, 2)");
     if (array->shape[0] > KD_RAYS_MAX)
-        return kd_error_set(error, KD_EINVAL, "there are %llu rays, allowed are 1 to %d", (unsigned long long)array->shape[0], KD_RAYS_MAX);
+        return kd_error_set(error, KD_EINVAL, "there are %llu rays, allowed are 1 to %d",
+                            (unsigned long long)array->shape[0], KD_RAYS_MAX);
     return KD_OK;
 }
 

@@ -1,7 +1,8 @@
 /* This reads what is asked of kd_rays_trace from outside: a JSON document, an NPY array, fields by name. Any thread.
  *
  *     {"spin": 0.9, "observer": {"r": "infinity", "inclination_deg": 60}, "rays": [[-5, 0], [2.5, 1e-3]],
- *      "orders": 3, "accuracy": {"profile": "high" | "tolerance": 1e-8 | "engine": "closed", "precision": "f64", "steps": 0}}
+ *      "orders": 3, "accuracy": {"profile": "high" | "tolerance": 1e-8 | "engine": "closed", "precision": "f64",
+ *        "steps": 0}}
  *
  * Only "rays" is required. An NPY array has the shape (n, 2) and 8-byte floats; the rest then comes by name. */
 #ifndef KD_RENDER_RAYS_REQUEST_H
@@ -23,8 +24,8 @@ void kd_rays_request_init(struct kd_rays_request *request);
 void kd_rays_request_finish(struct kd_rays_request *request);
 
 /* Merge a document into a request without rays. text[length] must be NUL. Types are checked here, ranges by
- * kd_rays_request_check. KD_EINVAL without a pointer: this is no JSON document. Time is linear in length, memory 32 bytes a
- * ray besides the text. */
+ * kd_rays_request_check. KD_EINVAL without a pointer: this is no JSON document. Time is linear in length, memory 32
+ * bytes a ray besides the text. */
 enum kd_status kd_rays_request_json(struct kd_rays_request *request, const char *text, size_t length,
                                     struct kd_error *error);
 /* Rays from an NPY file; pointer "/rays" where the array is not what it should be. */
@@ -32,14 +33,14 @@ enum kd_status kd_rays_request_npy(struct kd_rays_request *request, const void *
                                    struct kd_error *error);
 bool kd_rays_request_is_npy(const void *data, size_t size);
 
-/* One field by the last part of its name: spin, r, inclination_deg, orders, profile, tolerance, engine, precision, steps. */
+/* One field by the last part of its name: spin, r, inclination_deg, orders, profile, tolerance, engine, precision,
+ * steps. */
 enum kd_status kd_rays_request_set(struct kd_rays_request *request, const char *name, const char *text,
                                    struct kd_error *error);
-enum kd_status kd_rays_request_add(struct kd_rays_request *request, double alpha, double beta,
-                                   struct kd_error *error);
+enum kd_status kd_rays_request_add(struct kd_rays_request *request, double alpha, double beta, struct kd_error *error);
 
-/* Once all has been read: engine, precision and steps from the wish (render/accuracy/engine.h). capacity may be NULL where the wish needs no
- * device. */
+/* Once all has been read: engine, precision and steps from the wish (render/accuracy/engine.h). capacity may be NULL
+ * where the wish needs no device. */
 enum kd_status kd_rays_request_settle(struct kd_rays_request *request, const struct kd_capacity *capacity,
                                       struct kd_error *error);
 

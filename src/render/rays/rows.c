@@ -8,9 +8,7 @@
 /* 16 orders of `,{"order":15,"r":,"phi":,"delay":,"g":}` with four numbers, and some 150 bytes more. */
 _Static_assert(KD_RAYS_ROW_MAX >= KD_RAYS_MAX_ORDERS * (40 + 4 * KD_DECIMAL_SIZE) + 300, "a row may not fit");
 
-struct row {
-    char *at;
-};
+struct row { char *at; };
 
 static void text(struct row *row, const char *s)
 {
@@ -19,10 +17,7 @@ static void text(struct row *row, const char *s)
     row->at += n;
 }
 
-static void number(struct row *row, double value)
-{
-    row->at += kd_decimal_print(row->at, value);
-}
+static void number(struct row *row, double value) { row->at += kd_decimal_print(row->at, value); }
 
 /* "name":value, if there is a value; a comma before it unless it is the first of its object. */
 static void member(struct row *row, const char *name, double value)

@@ -113,7 +113,10 @@ const char *kd_rays_field_name(size_t index, const char **help)
 void kd_rays_field_schema(struct kd_json *json, size_t index) { add_field(json, "schema", &kd_rays_fields[index]); }
 
 static const char *engine(size_t i) { return i < KD_ENGINE_COUNT ? kd_engine_name((enum kd_engine)i) : NULL; }
-static const char *precision(size_t i) { return i <= KD_PRECISION_F64 ? kd_precision_name((enum kd_precision)i) : NULL; }
+static const char *precision(size_t i)
+{
+    return i <= KD_PRECISION_F64 ? kd_precision_name((enum kd_precision)i) : NULL;
+}
 static const char *fate(size_t i) { return i <= KD_RAY_UNDECIDED ? kd_ray_fate_name((enum kd_ray_fate)i) : NULL; }
 
 /* The observer comes back as it was asked for, all of it. */
@@ -132,20 +135,36 @@ static void add_observer(struct kd_json *json)
 void kd_rays_answer_schemas(struct kd_json *json)
 {
     static const struct kd_schema_member accuracy[] = {
-        { "engine", NULL, false, engine }, { "precision", NULL, false, precision }, { "steps", KD_SCHEMA_COUNT }, { "rays", KD_SCHEMA_COUNT }, { "undecided", KD_SCHEMA_COUNT },
-        { "tolerance", KD_SCHEMA_NUMBER, true }, { "followed_again", KD_SCHEMA_COUNT, true }, { "beyond", KD_SCHEMA_COUNT, true }, { "holds", KD_SCHEMA_NUMBER, true },
-        { "worst_error", KD_SCHEMA_NUMBER, true }, { "median_error", KD_SCHEMA_NUMBER, true },
+        { "engine", NULL, false, engine },
+        { "precision", NULL, false, precision },
+        { "steps", KD_SCHEMA_COUNT },
+        { "rays", KD_SCHEMA_COUNT },
+        { "undecided", KD_SCHEMA_COUNT },
+        { "tolerance", KD_SCHEMA_NUMBER, true },
+        { "followed_again", KD_SCHEMA_COUNT, true },
+        { "beyond", KD_SCHEMA_COUNT, true },
+        { "holds", KD_SCHEMA_NUMBER, true },
+        { "worst_error", KD_SCHEMA_NUMBER, true },
+        { "median_error", KD_SCHEMA_NUMBER, true },
     };
     static const struct kd_schema_member crossing[] = {
-        { "order", KD_SCHEMA_COUNT }, { "r", KD_SCHEMA_NUMBER, true }, { "phi", KD_SCHEMA_NUMBER, true }, { "delay", KD_SCHEMA_NUMBER, true }, { "g", KD_SCHEMA_NUMBER, true },
+        { "order", KD_SCHEMA_COUNT },        { "r", KD_SCHEMA_NUMBER, true }, { "phi", KD_SCHEMA_NUMBER, true },
+        { "delay", KD_SCHEMA_NUMBER, true }, { "g", KD_SCHEMA_NUMBER, true },
     };
     static const struct kd_schema_member sky[] = { { "theta", KD_SCHEMA_NUMBER }, { "phi", KD_SCHEMA_NUMBER, true } };
     static const struct kd_schema_member ray[] = {
-        { "fate", NULL, false, fate }, { "crossings", KD_SCHEMA_LIST(KD_SCHEMA_REF("RayCrossing")) }, { "sky", KD_SCHEMA_REF("RaySky"), true }, { "error", KD_SCHEMA_NUMBER, true },
+        { "fate", NULL, false, fate },
+        { "crossings", KD_SCHEMA_LIST(KD_SCHEMA_REF("RayCrossing")) },
+        { "sky", KD_SCHEMA_REF("RaySky"), true },
+        { "error", KD_SCHEMA_NUMBER, true },
     };
     static const struct kd_schema_member answer[] = {
-        { "spin", KD_SCHEMA_NUMBER }, { "observer", KD_SCHEMA_REF("RaysObserver") }, { "orders", KD_SCHEMA_COUNT }, { "accuracy", KD_SCHEMA_REF("RaysAccuracy") },
-        { "approximations", KD_SCHEMA_LIST(KD_SCHEMA_TEXT) }, { "rays", KD_SCHEMA_LIST(KD_SCHEMA_REF("Ray")) },
+        { "spin", KD_SCHEMA_NUMBER },
+        { "observer", KD_SCHEMA_REF("RaysObserver") },
+        { "orders", KD_SCHEMA_COUNT },
+        { "accuracy", KD_SCHEMA_REF("RaysAccuracy") },
+        { "approximations", KD_SCHEMA_LIST(KD_SCHEMA_TEXT) },
+        { "rays", KD_SCHEMA_LIST(KD_SCHEMA_REF("Ray")) },
     };
     add_observer(json);
     KD_SCHEMA_STRICT(json, "RaysAccuracy", accuracy);

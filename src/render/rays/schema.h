@@ -8,7 +8,8 @@
 
 /* A request as JSON: the member `name`. */
 void kd_rays_request_schema(struct kd_json *json, const char *name);
-/* A field that stands by itself, as beside an array of rays: the member "schema". NULL behind the last; else its name, and *help. */
+/* A field that stands by itself, as beside an array of rays: the member "schema". NULL behind the last; else its
+ * name, and *help. */
 const char *kd_rays_field_name(size_t index, const char **help);
 void kd_rays_field_schema(struct kd_json *json, size_t index);
 

@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-/* The ray in Mino time: n = (sin theta cos psi, sin theta sin psi, cos theta) and w = 1/r in y, their derivatives in v, and what
- * the Boyer-Lindquist azimuth has more than psi. The equations are those of shaders/ray/escape.glsl. */
+/* The ray in Mino time: n = (sin theta cos psi, sin theta sin psi, cos theta) and w = 1/r in y, their derivatives in
+ * v, and what the Boyer-Lindquist azimuth has more than psi. The equations are those of shaders/ray/escape.glsl. */
 struct motion { double a, l, q, k; };
 struct point { double y[4], v[4], chi; };
 
@@ -21,7 +21,8 @@ static double drag(const struct motion *m, double w)
     return m->a * w * (2 - m->a * m->l * w) / (1 + w * (m->a * m->a * w - 2));
 }
 
-/* Nystroem's method of order 4, as in nystroem.glsl; the drag by Simpson's rule, the middle from the cubic through both ends. */
+/* Nystroem's method of order 4, as in nystroem.glsl; the drag by Simpson's rule, the middle from the cubic through
+ * both ends. */
 static struct point step(const struct motion *m, const struct point *p, double h)
 {
     double k1[4], k2[4], k3[4], y[4];
@@ -52,8 +53,8 @@ static double share(const struct point *p, const struct point *q, double h)
     return s;
 }
 
-/* Follows a ray from infinity to Mino time t, which is at most an eighth of the reciprocal impact parameter: less than a half
- * turn. */
+/* Follows a ray from infinity to Mino time t, which is at most an eighth of the reciprocal impact parameter: less
+ * than a half turn. */
 static struct point approach(const struct motion *m, struct point p, double t, struct kd_rays_origin *out)
 {
     enum { STEPS = 32 }; /* each turns by a 256th of a radian at most: good to 1e-13 */
@@ -77,8 +78,9 @@ static double twist(double a, double r)
     return a / (2 * root) * log1p(2 * root / (r - 1 - root));
 }
 
-/* To Cartesian coordinates: x + iy = (r + ia)(n_x + i n_y), z = r n_z, n turned to the Kerr-Schild azimuth. The momentum is p_r dr +
- * n'.dn: n' has the components p_theta and L/sin(theta) along the unit vectors of the sphere, and knows no axis. */
+/* To Cartesian coordinates: x + iy = (r + ia)(n_x + i n_y), z = r n_z, n turned to the Kerr-Schild azimuth. The
+ * momentum is p_r dr + n'.dn: n' has the components p_theta and L/sin(theta) along the unit vectors of the sphere,
+ * and knows no axis. */
 static void cartesian(const struct motion *m, const struct point *p, bool outward, struct kd_rays_origin *out)
 {
     double a = m->a, r = 1 / p->y[3], q = r * r + a * a, turn = p->chi - twist(a, r), c = cos(turn), s = sin(turn);

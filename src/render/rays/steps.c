@@ -66,13 +66,15 @@ static void kerr_schild(double a, double momentum, const struct record *record, 
     s->x = x[0], s->y = x[1], s->z = x[2], s->p_x = p[0], s->p_y = p[1], s->p_z = p[2];
     s->r = r, s->w = 1 / r, s->u = x[2] / r;
     s->phi = azimuth(x[1], x[0], drag(a, r) - atan2(a, r));
-    s->res_null = p[0] * p[0] + p[1] * p[1] + p[2] * p[2] - 1 - 2 * r * r2 / (r2 * r2 + a * a * x[2] * x[2]) * (1 + lp) * (1 + lp);
+    s->res_null = p[0] * p[0] + p[1] * p[1] + p[2] * p[2] - 1 -
+                  2 * r * r2 / (r2 * r2 + a * a * x[2] * x[2]) * (1 + lp) * (1 + lp);
     s->res_l = x[0] * p[1] - x[1] * p[0] - momentum;
 }
 
 static bool is_kerr_schild(const struct kd_rays_params *p) { return p->engine >= KD_ENGINE_KS_EULER; }
 
-/* Fills in the stages and numbers of the records, which are in the order of the path, and the crossings from the end points. */
+/* Fills in the stages and numbers of the records, which are in the order of the path, and the crossings from the end
+ * points. */
 static void tell(struct kd_rays_steps *out, const struct constants *c, const struct record *records)
 {
     double time = 0, crossed = 0, momentum = 0; /* crossed: when the last crossing was */
@@ -119,17 +121,24 @@ static enum kd_status compare(struct kd_renderer *renderer, struct kd_rays_steps
 }
 
 /* Room for twice the records of the longest ray, whatever the method. */
-static size_t room(const struct kd_rays_params *p) { return KD_TRACE_HEADER + KD_TRACE_RECORD * (size_t)(64 * p->steps + 64); }
-
-enum kd_status kd_rays_steps(struct kd_renderer *renderer, const struct kd_rays_params *params, const struct kd_ray_labels *ray, struct kd_rays_steps *out,
-                             struct kd_error *error)
+static size_t room(const struct kd_rays_params *p)
 {
-    *out = (struct kd_rays_steps) { .params = *params, .alpha = ray->alpha_beta[0], .beta = ray->alpha_beta[1], .outward = ray->outward && *ray->outward };
+    return KD_TRACE_HEADER + KD_TRACE_RECORD * (size_t)(64 * p->steps + 64);
+}
+
+enum kd_status kd_rays_steps(struct kd_renderer *renderer, const struct kd_rays_params *params,
+                             const struct kd_ray_labels *ray, struct kd_rays_steps *out, struct kd_error *error)
+{
+    *out = (struct kd_rays_steps) { .params = *params,
+                                    .alpha = ray->alpha_beta[0],
+                                    .beta = ray->alpha_beta[1],
+                                    .outward = ray->outward && *ray->outward };
     double *numbers = NULL;
     enum kd_status status;
     KD_TRY(kd_rays_check(params, ray->alpha_beta, 1, error));
     if (params->engine == KD_ENGINE_CLOSED)
-        return kd_error_field(error, "/accuracy/engine", "the closed form takes no steps: choose an engine of the device");
+        return kd_error_field(error, "/accuracy/engine",
+                              "the closed form takes no steps: choose an engine of the device");
     out->params.steps = params->steps ? params->steps : kd_engine_steps(params->engine, params->precision);
     size_t most = room(&out->params);
     if (!(numbers = calloc(most, sizeof *numbers)))

@@ -1,5 +1,5 @@
-/* This tells one ray step by step, as the device takes them: the kernels of device.c are compiled with KD_TRACE, and write what they have after each
- * step. For `kerrd rays --trace` and for a pixel. Render thread. */
+/* This tells one ray step by step, as the device takes them: the kernels of device.c are compiled with KD_TRACE, and
+ * write what they have after each step. For `kerrd rays --trace` and for a pixel. Render thread. */
 #ifndef KD_RENDER_RAYS_STEPS_H
 #define KD_RENDER_RAYS_STEPS_H
 
@@ -14,29 +14,29 @@ enum kd_rays_stage {
     KD_STAGE_END,      /* after the last crossing, to infinity or the horizon */
 };
 
-/* Numbers that a stage or an engine does not have are NaN. Azimuths as in render/rays/rays.h, in an END or START stage within half a
- * turn either way. Residuals are those of the device's own numbers and constants, in double precision: what they are not 0 by is
- * what steps and rounding have lost. */
+/* Numbers that a stage or an engine does not have are NaN. Azimuths as in render/rays/rays.h, in an END or START
+ * stage within half a turn either way. Residuals are those of the device's own numbers and constants, in double
+ * precision: what they are not 0 by is what steps and rounding have lost. */
 struct kd_rays_step {
     enum kd_rays_stage stage;
-    unsigned order, number; /* of the crossing ahead; of the step */
-    double time;            /* Mino time since the observer; the Kerr-Schild engines' s, with d(lambda) = r ds */
-    double r, phi, delay;   /* delay: of a crossing */
-    double w, dw, u, du, n_x, n_y;   /* Mino: M/r, cos(theta), their rates, the direction in the plane; u = n_z */
-    double x, y, z, p_x, p_y, p_z;   /* Kerr-Schild: position and momentum of the mirrored ray */
-    double res_w;     /* w'^2 - R(w) */
-    double res_u;     /* u'^2 - U(u) */
-    double res_n;     /* n.n - 1 */
-    double res_dn;    /* n'.n' - (Q + L^2 + a^2 u^2) */
-    double res_l;     /* (n x n')_z - L; x p_y - y p_x - L */
-    double res_null;  /* p.p - 1 - f (1 + l.p)^2 */
+    unsigned order, number;        /* of the crossing ahead; of the step */
+    double time;                   /* Mino time since the observer; the Kerr-Schild engines' s, with d(lambda) = r ds */
+    double r, phi, delay;          /* delay: of a crossing */
+    double w, dw, u, du, n_x, n_y; /* Mino: M/r, cos(theta), their rates, the direction in the plane; u = n_z */
+    double x, y, z, p_x, p_y, p_z; /* Kerr-Schild: position and momentum of the mirrored ray */
+    double res_w;                  /* w'^2 - R(w) */
+    double res_u;                  /* u'^2 - U(u) */
+    double res_n;                  /* n.n - 1 */
+    double res_dn;                 /* n'.n' - (Q + L^2 + a^2 u^2) */
+    double res_l;                  /* (n x n')_z - L; x p_y - y p_x - L */
+    double res_null;               /* p.p - 1 - f (1 + l.p)^2 */
 };
 
 struct kd_rays_steps {
     struct kd_rays_params params; /* steps and the rest as they were in force */
     double alpha, beta;
-    bool outward;   /* it starts away from the hole */
-    size_t n, lost; /* records; further ones that had no room */
+    bool outward;               /* it starts away from the hole */
+    size_t n, lost;             /* records; further ones that had no room */
     struct kd_rays_step *steps; /* malloc'd */
     struct kd_ray_crossing crossings[KD_RAYS_MAX_ORDERS];
     struct kd_ray_end end;
@@ -44,8 +44,8 @@ struct kd_rays_steps {
 };
 
 /* The steps of one ray; params as for kd_rays_trace, an engine that takes steps. Finish *out in any case. */
-enum kd_status kd_rays_steps(struct kd_renderer *renderer, const struct kd_rays_params *params, const struct kd_ray_labels *ray, struct kd_rays_steps *out,
-                             struct kd_error *error);
+enum kd_status kd_rays_steps(struct kd_renderer *renderer, const struct kd_rays_params *params,
+                             const struct kd_ray_labels *ray, struct kd_rays_steps *out, struct kd_error *error);
 static inline void kd_rays_steps_finish(struct kd_rays_steps *steps)
 {
     free(steps->steps);

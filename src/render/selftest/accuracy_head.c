@@ -35,7 +35,8 @@ static void processor(char *out, size_t size)
         fclose(file);
 }
 
-void kd_accuracy_head(struct kd_renderer *renderer, const struct kd_accuracy_params *params, struct kd_accuracy_table *out)
+void kd_accuracy_head(struct kd_renderer *renderer, const struct kd_accuracy_params *params,
+                      struct kd_accuracy_table *out)
 {
     const struct kd_vk_info *info = kd_vk_info(renderer->vk);
     char name[128];
@@ -44,7 +45,8 @@ void kd_accuracy_head(struct kd_renderer *renderer, const struct kd_accuracy_par
     struct tm utc;
     processor(name, sizeof name);
     uname(&system);
-    snprintf(out->machine, sizeof out->machine, "%s, %u cores, %.30s %.60s", name, kd_cores(), system.sysname, system.machine);
+    snprintf(out->machine, sizeof out->machine, "%s, %u cores, %.30s %.60s", name, kd_cores(), system.sysname,
+             system.machine);
     snprintf(out->device, sizeof out->device, "%s", kd_renderer_device_name(renderer));
     snprintf(out->version, sizeof out->version, "%s", KD_VERSION);
     snprintf(out->command, sizeof out->command, "%s", params->command ? params->command : "");

@@ -21,11 +21,8 @@ static const struct span {
     enum kd_engine engine;
     uint32_t first, last;
 } spans[] = {
-    { KD_ENGINE_MINO_RKN4, 8, 256 },
-    { KD_ENGINE_MINO_RKN6, 4, 128 },
-    { KD_ENGINE_KS_RK4, 16, 256 },
-    { KD_ENGINE_KS_EULER, 64, 1024 },
-    { KD_ENGINE_KS_TAO6, 32, 256 },
+    { KD_ENGINE_MINO_RKN4, 8, 256 },  { KD_ENGINE_MINO_RKN6, 4, 128 }, { KD_ENGINE_KS_RK4, 16, 256 },
+    { KD_ENGINE_KS_EULER, 64, 1024 }, { KD_ENGINE_KS_TAO6, 32, 256 },
 };
 
 /* One view of a set, and where its rays end. */
@@ -59,19 +56,25 @@ static double seconds_of(clockid_t clock)
 static struct kd_rays_params params_of(const struct kd_accuracy_row *row, const struct kd_accuracy_view *view)
 {
     return (struct kd_rays_params) {
-        .spin = view->spin, .r = INFINITY, .inclination_deg = view->inclination_deg, .orders = ORDERS,
-        .engine = row->engine, .precision = row->precision, .steps = row->steps,
+        .spin = view->spin,
+        .r = INFINITY,
+        .inclination_deg = view->inclination_deg,
+        .orders = ORDERS,
+        .engine = row->engine,
+        .precision = row->precision,
+        .steps = row->steps,
     };
 }
 
 /* One ray in closed form, which has nothing in common with the engines but the constants of motion. */
-static void end_in_closed_form(const struct kd_null_ray *ray, double s, struct kd_ray_crossing *crossings, struct kd_ray_end *end)
+static void end_in_closed_form(const struct kd_null_ray *ray, double s, struct kd_ray_crossing *crossings,
+                               struct kd_ray_end *end)
 {
     struct kd_null_path path = kd_null_trace(ray);
     *end = (struct kd_ray_end) { .n_crossings = (uint32_t)path.crossings };
-    end->fate = path.status == KD_NULL_CRITICAL       ? KD_RAY_UNDECIDED
-                : path.fate == KD_NULL_ESCAPED ? KD_RAY_ESCAPED
-                                               : KD_RAY_CAPTURED;
+    end->fate = path.status == KD_NULL_CRITICAL ? KD_RAY_UNDECIDED
+                : path.fate == KD_NULL_ESCAPED  ? KD_RAY_ESCAPED
+                                                : KD_RAY_CAPTURED;
     for (int k = 0; k < path.crossings; k++) {
         double r = path.crossing[k].r;
         bool sure = isfinite(path.crossing[k].error_r);
@@ -81,12 +84,15 @@ static void end_in_closed_form(const struct kd_null_ray *ray, double s, struct k
 }
 
 /* Finds where rays end, as far as can be known. *s: the time of one core. */
-static void reference_of(const struct kd_accuracy_view *view, const double *rays, size_t n, struct kd_ray_crossing *crossings,
-                         struct kd_ray_end *ends, double *s)
+static void reference_of(const struct kd_accuracy_view *view, const double *rays, size_t n,
+                         struct kd_ray_crossing *crossings, struct kd_ray_end *ends, double *s)
 {
     double sine = kd_sin_deg(view->inclination_deg), begun = seconds_of(CLOCK_THREAD_CPUTIME_ID);
-    struct kd_null_ray ray = { .spin = view->spin, .radius = INFINITY, .cos_theta = kd_cos_deg(view->inclination_deg),
-                               .sin_theta = sine, .orders = ORDERS };
+    struct kd_null_ray ray = { .spin = view->spin,
+                               .radius = INFINITY,
+                               .cos_theta = kd_cos_deg(view->inclination_deg),
+                               .sin_theta = sine,
+                               .orders = ORDERS };
     for (size_t k = 0; k < n; k++) {
         ray.alpha = rays[2 * k];
         ray.beta = rays[2 * k + 1];
@@ -128,9 +134,11 @@ static int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Seconds a ray: the best of some runs, as other work on the machine only ever slows. Each takes as many rays, the list over and
- * over, as its share of the time allows; a list is cut where it alone takes longer. *s comes as the seconds of the list. */
-static enum kd_status time_view(struct bench *b, const struct kd_accuracy_row *row, const struct truth *t, double share, double *s)
+/* Seconds a ray: the best of some runs, as other work on the machine only ever slows. Each takes as many rays, the
+ * list over and over, as its share of the time allows; a list is cut where it alone takes longer. *s comes as the
+ * seconds of the list. */
+static enum kd_status time_view(struct bench *b, const struct kd_accuracy_row *row, const struct truth *t, double share,
+                                double *s)
 {
     double wanted = b->table->seconds * share, spent = *s, best = fmax(*s / (double)t->n, 1e-12), run;
     size_t filled = 0, least = b->table->quick ? RAYS_QUICK : RAYS / 4;
@@ -163,8 +171,8 @@ static double error_of(double value, double truth, int quantity)
 }
 
 /* Adds the errors of one view, after those that counts says are there. */
-static void judge(struct bench *b, const struct kd_accuracy_row *row, const struct truth *t, struct kd_accuracy_entry *e,
-                  size_t counts[KD_ACCURACY_QUANTITIES])
+static void judge(struct bench *b, const struct kd_accuracy_row *row, const struct truth *t,
+                  struct kd_accuracy_entry *e, size_t counts[KD_ACCURACY_QUANTITIES])
 {
     double inner = kd_kerr_isco(t->view.spin); /* phi and t of Boyer and Lindquist diverge at the horizon */
     bool delays = row->engine == KD_ENGINE_MINO_RKN4 || row->engine == KD_ENGINE_MINO_RKN6;

@@ -17,6 +17,7 @@ enum kd_status kd_accuracy_measure(struct kd_renderer *renderer, const struct kd
                                    struct kd_error *error);
 
 /* Version, date, machine and device of a table about to be measured. */
-void kd_accuracy_head(struct kd_renderer *renderer, const struct kd_accuracy_params *params, struct kd_accuracy_table *out);
+void kd_accuracy_head(struct kd_renderer *renderer, const struct kd_accuracy_params *params,
+                      struct kd_accuracy_table *out);
 
 #endif

@@ -14,7 +14,8 @@ static bool judge(void *user, const struct kd_selftest_row *row)
     struct kd_verdict *s = user;
     s->checks++;
     if (!row->ok && !s->failed++)
-        snprintf(s->worst, sizeof s->worst, "%s, by %s: error %.2g, allowed %.2g", row->what, row->by, row->error, row->bound);
+        snprintf(s->worst, sizeof s->worst, "%s, by %s: error %.2g, allowed %.2g", row->what, row->by, row->error,
+                 row->bound);
     return true;
 }
 
@@ -25,8 +26,8 @@ static void restore(struct kd_renderer *r, const struct kd_capacity *capacity)
     pthread_mutex_unlock(&r->lock);
 }
 
-/* What a ray and a pixel cost here, instead of what devices of this type are guessed to cost: the least of some small pictures, since
- * a driver may make a kernel when it first runs, and a busy machine adds to any of them. */
+/* What a ray and a pixel cost here, instead of what devices of this type are guessed to cost: the least of some
+ * small pictures, since a driver may make a kernel when it first runs, and a busy machine adds to any of them. */
 static enum kd_status measure(struct kd_renderer *r, struct kd_error *error)
 {
     enum kd_status status = KD_OK;
@@ -60,10 +61,13 @@ static void tell(const struct kd_renderer *r, enum kd_status status, const struc
     if (status)
         kd_log(KD_LOG_ERROR, "the self-test of %s could not be made: %s", r->name, why->message);
     else if (s->failed)
-        kd_log(KD_LOG_ERROR, "%u of %u checks of the self-test FAILED on %s: what it computes may be wrong (%s); `kerrd doctor "
-               "--selftest` shows all of them", s->failed, s->checks, r->name, s->worst);
+        kd_log(KD_LOG_ERROR,
+               "%u of %u checks of the self-test FAILED on %s: what it computes may be wrong (%s); `kerrd doctor "
+               "--selftest` shows all of them",
+               s->failed, s->checks, r->name, s->worst);
     else
-        kd_log(KD_LOG_INFO, "the self-test passed on %s, its first start here: %u checks in %.1f s", r->name, s->checks, s->seconds);
+        kd_log(KD_LOG_INFO, "the self-test passed on %s, its first start here: %u checks in %.1f s", r->name, s->checks,
+               s->seconds);
 }
 
 enum kd_status kd_first_start(struct kd_renderer *r, struct kd_error *error)

@@ -13,8 +13,8 @@
 /* The curve of IEC 61966-2-1 the other way round. */
 static double decode(double v) { return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4); }
 
-/* A scene whose one pixel is that ray's, exposed so that the luminance comes out as 0.2: the deepest red of the gamut then
- * is 0.94. */
+/* A scene whose one pixel is that ray's, exposed so that the luminance comes out as 0.2: the deepest red of the
+ * gamut then is 0.94. */
 static struct kd_scene pixel_scene(const struct kd_selftest_ray *ray, double brightness)
 {
     struct kd_scene scene;
@@ -55,8 +55,8 @@ done:
 }
 
 /* g^4 F/F_max. A file's 16 bits round a luminance of 0.2 to 0.9 (1/2)/65535 of it, 3.4e-5; the tables between whose
- * entries T is interpolated are good to 1e-6, T^4 to four times that; roundoff comes with the gain of r, once for F and four
- * times that of g. */
+ * entries T is interpolated are good to 1e-6, T^4 to four times that; roundoff comes with the gain of r, once for F
+ * and four times that of g. */
 static enum kd_status brightness(const struct kd_selftest *test)
 {
     struct kd_selftest_row row;
@@ -78,7 +78,8 @@ static enum kd_status brightness(const struct kd_selftest *test)
 }
 
 /* Greys through the post kernel alone, four of each since an invocation makes four pixels; words[6 i] starts grey i. */
-static enum kd_status encode(const struct kd_selftest *test, bool film, struct kd_vk_buffer *radiance, struct kd_vk_buffer *words)
+static enum kd_status encode(const struct kd_selftest *test, bool film, struct kd_vk_buffer *radiance,
+                             struct kd_vk_buffer *words)
 {
     struct kd_renderer *r = test->renderer;
     const struct kd_vk_pipeline *post;
@@ -91,8 +92,7 @@ static enum kd_status encode(const struct kd_selftest *test, bool film, struct k
     enum kd_status status;
     KD_TRY(kd_kernels_get(&r->kernels, r->vk, kernel, (uint32_t[]) { film, true }, 2, &post, test->error));
     const struct kd_vk_dispatch d = {
-        "post", post, { { radiance, 0, 0, false }, { words, 0, 0, true } }, &push,
-        { kd_post_groups(pixels) },
+        "post", post, { { radiance, 0, 0, false }, { words, 0, 0, true } }, &push, { kd_post_groups(pixels) },
     };
     KD_TRY(kd_vk_dispatch(r->vk, &d, test->error));
     KD_TRY(kd_vk_submit(r->vk, NULL, test->error));
@@ -101,9 +101,11 @@ done:
     return status;
 }
 
-/* The errors count in steps of 1/65535: half a step of rounding, and what the kernel's polynomial for the power (5.4e-7) and Vulkan's
- * square roots (three units in the last place) may be wrong by, together a fifteenth of a step. */
-static enum kd_status greys(const struct kd_selftest *test, bool film, struct kd_vk_buffer *radiance, struct kd_vk_buffer *words)
+/* The errors count in steps of 1/65535: half a step of rounding, and what the kernel's polynomial for the power
+ * (5.4e-7) and Vulkan's square roots (three units in the last place) may be wrong by, together a fifteenth of a
+ * step. */
+static enum kd_status greys(const struct kd_selftest *test, bool film, struct kd_vk_buffer *radiance,
+                            struct kd_vk_buffer *words)
 {
     struct kd_selftest_row row;
     kd_selftest_begin(&row, film ? "S. Hill 2016, in 38 digits" : "IEC 61966-2-1", "post f32",

@@ -1,4 +1,5 @@
-/* This part of the self-test judges the kernels of the lens map by known rays, each the one ray of a picture of one pixel. */
+/* This part of the self-test judges the kernels of the lens map by known rays, each the one ray of a picture of one
+ * pixel. */
 #include "render/selftest/parts.h"
 
 #include "interface.h"
@@ -10,8 +11,8 @@
 #define STEPS 16
 #define PLANES (2 * ORDERS + 3)
 
-/* The bounds are those of rays.c: roundoff, and what 16 steps of order 6 lose. The camera adds the operations from pixel to
- * ray; the azimuth comes from a series that is good to 1e-7 a half turn (polar_azimuth.glsl). */
+/* The bounds are those of rays.c: roundoff, and what 16 steps of order 6 lose. The camera adds the operations from
+ * pixel to ray; the azimuth comes from a series that is good to 1e-7 a half turn (polar_azimuth.glsl). */
 static double unit_of(void) { return KD_SELFTEST_OPERATIONS * (double)(FLT_EPSILON / 2) + 1e-3 * pow(M_PI / STEPS, 6); }
 
 static double turn(double x) { return remainder(x, 2 * M_PI); }
@@ -118,8 +119,8 @@ done:
     return status;
 }
 
-/* The reference has Boyer-Lindquist azimuths, the map those past an observer who falls by ingoing ones: more by the integral of a/Delta from r to
- * infinity. */
+/* The reference has Boyer-Lindquist azimuths, the map those past an observer who falls by ingoing ones: more by the
+ * integral of a/Delta from r to infinity. */
 static struct kd_selftest_ray by_own_azimuth(const struct kd_selftest_camera *camera)
 {
     struct kd_selftest_ray ray = camera->ray;

@@ -1,5 +1,5 @@
-/* These parts of the self-test judge radii of circular orbits, orbits that are not circles, and the flux of the disk, in double precision on the
- * CPU. */
+/* These parts of the self-test judge radii of circular orbits, orbits that are not circles, and the flux of the
+ * disk, in double precision on the CPU. */
 #include "render/selftest/parts.h"
 
 #include "physics/disk.h"
@@ -14,7 +14,8 @@
 static enum kd_status radius(const struct kd_selftest *test, const char *what, double (*of)(double), size_t at)
 {
     struct kd_selftest_row row;
-    kd_selftest_begin(&row, "Bardeen, Press & Teukolsky 1972; from the metric, 50 digits", "closed f64", "%s (relative)", what);
+    kd_selftest_begin(&row, "Bardeen, Press & Teukolsky 1972; from the metric, 50 digits", "closed f64",
+                      "%s (relative)", what);
     for (size_t i = 0; i < test->reference->n_orbits; i++) {
         const struct kd_selftest_orbit *o = &test->reference->orbits[i];
         double known = *(const double *)((const char *)o + at);
@@ -23,7 +24,8 @@ static enum kd_status radius(const struct kd_selftest *test, const char *what, d
     return kd_selftest_end(test, &row);
 }
 
-static enum kd_status shape(const struct kd_selftest *test, double spin, double p, double e, double x, struct kd_orbit_bound *out)
+static enum kd_status shape(const struct kd_selftest *test, double spin, double p, double e, double x,
+                            struct kd_orbit_bound *out)
 {
     struct kd_orbit orbit;
     enum kd_status status = kd_orbit_from_shape(spin, p, e, x, &orbit, test->error);
@@ -40,7 +42,8 @@ static enum kd_status bound_orbits(const struct kd_selftest *test)
     static const char source[] = "Carter's equations by quadrature, 40 digits";
     struct kd_selftest_row constants, frequencies;
     kd_selftest_begin(&constants, source, "closed f64", "bound orbits: E, L, Q (relative, to 1 + their size)");
-    kd_selftest_begin(&frequencies, source, "closed f64", "bound orbits: r, theta, phi, t, tau per Mino time (relative)");
+    kd_selftest_begin(&frequencies, source, "closed f64",
+                      "bound orbits: r, theta, phi, t, tau per Mino time (relative)");
     for (size_t i = 0; i < test->reference->n_bounds; i++) {
         const struct kd_selftest_bound *b = &test->reference->bounds[i];
         struct kd_orbit_bound found;
@@ -50,8 +53,8 @@ static enum kd_status bound_orbits(const struct kd_selftest *test)
         const struct kd_orbit_frequencies f = kd_orbit_frequencies_of(&found);
         const double pairs[][2] = {
             { found.orbit.energy, b->energy }, { found.orbit.momentum, b->momentum }, { found.orbit.carter, b->carter },
-            { f.mino_r, b->mino_r }, { f.mino_theta, b->mino_theta }, { f.mino_phi, b->mino_phi }, { f.mino_t, b->mino_t },
-            { f.mino_proper, b->mino_proper },
+            { f.mino_r, b->mino_r },           { f.mino_theta, b->mino_theta },       { f.mino_phi, b->mino_phi },
+            { f.mino_t, b->mino_t },           { f.mino_proper, b->mino_proper },
         };
         for (int k = 0; k < 8; k++)
             if (k < 3)
@@ -63,8 +66,8 @@ static enum kd_status bound_orbits(const struct kd_selftest *test)
     return status ? status : kd_selftest_end(test, &frequencies);
 }
 
-/* Mercury: semi-major axis 57.90908e9 m, e = 0.20563, 87.9693 days, and the sun's GM/c^2 = 1476.625 m. The published advance has
- * four digits. */
+/* Mercury: semi-major axis 57.90908e9 m, e = 0.20563, 87.9693 days, and the sun's GM/c^2 = 1476.625 m. The published
+ * advance has four digits. */
 static enum kd_status mercury(const struct kd_selftest *test)
 {
     struct kd_selftest_row row;
@@ -94,7 +97,11 @@ static enum kd_status flux(const struct kd_selftest *test)
 
 enum kd_status kd_selftest_orbits(const struct kd_selftest *test)
 {
-    static const struct { const char *what; double (*of)(double); size_t at; } list[] = {
+    static const struct {
+        const char *what;
+        double (*of)(double);
+        size_t at;
+    } list[] = {
         { "horizon", kd_kerr_horizon, offsetof(struct kd_selftest_orbit, horizon) },
         { "photon orbit", kd_kerr_photon_orbit, offsetof(struct kd_selftest_orbit, photon) },
         { "marginally bound orbit", kd_kerr_marginally_bound, offsetof(struct kd_selftest_orbit, bound) },

@@ -1,4 +1,5 @@
-/* This part of the self-test judges listed rays by every engine: end points, deflections, and on which side of the critical curve a ray falls in. */
+/* This part of the self-test judges listed rays by every engine: end points, deflections, and on which side of the
+ * critical curve a ray falls in. */
 #include "render/selftest/parts.h"
 
 #include "render/device/internal.h"
@@ -24,9 +25,9 @@ static const struct engine engines[] = {
 };
 enum { ENGINES = sizeof engines / sizeof *engines };
 
-/* What one unit of change may be: a number is the outcome of some tens of operations, each wrong by up to the unit roundoff;
- * and the steps of a method of order 6 lose (pi/steps)^6 a half turn times its error constant. The constant is what was
- * measured for these rays with a margin of about ten. */
+/* What one unit of change may be: a number is the outcome of some tens of operations, each wrong by up to the unit
+ * roundoff; and the steps of a method of order 6 lose (pi/steps)^6 a half turn times its error constant. The
+ * constant is what was measured for these rays with a margin of about ten. */
 static double unit_of(const struct engine *e)
 {
     double roundoff = e->precision == KD_PRECISION_F32 ? FLT_EPSILON / 2 : DBL_EPSILON / 2;
@@ -34,7 +35,10 @@ static double unit_of(const struct engine *e)
 }
 
 /* After the last crossing the drag is integrated by Simpson's rule, of order 4. */
-static double end_unit_of(const struct engine *e) { return unit_of(e) + (e->steps ? 2e-5 * pow(M_PI / e->steps, 4) : 0); }
+static double end_unit_of(const struct engine *e)
+{
+    return unit_of(e) + (e->steps ? 2e-5 * pow(M_PI / e->steps, 4) : 0);
+}
 
 static void name_of(const struct engine *e, char out[32])
 {
@@ -46,24 +50,31 @@ static enum kd_status trace(const struct kd_selftest *test, const struct engine 
                             const double *list, size_t n, struct kd_ray_crossing *crossings, struct kd_ray_end *ends)
 {
     const struct kd_rays_params params = {
-        .spin = ray->spin, .r = ray->radius, .inclination_deg = ray->inclination_deg, .orders = ORDERS,
-        .engine = e->engine, .precision = e->precision, .steps = e->steps,
+        .spin = ray->spin,
+        .r = ray->radius,
+        .inclination_deg = ray->inclination_deg,
+        .orders = ORDERS,
+        .engine = e->engine,
+        .precision = e->precision,
+        .steps = e->steps,
     };
     return kd_rays_trace(test->renderer, &params, list, n, crossings, ends, NULL, NULL, test->error);
 }
 
 enum { R, PHI, DELAY, G, SKY, QUANTITIES };
-static const char *const quantities[QUANTITIES] = { "r (relative)", "phi (rad)", "delay (M)", "g (relative)", "direction (rad)" };
+static const char *const quantities[QUANTITIES] = { "r (relative)", "phi (rad)", "delay (M)", "g (relative)",
+                                                    "direction (rad)" };
 
 static double turn(double x) { return remainder(x, 2 * M_PI); }
 
-/* Errors against known numbers, each bound a unit of change times the size of what is summed and the gain. phi is summed from
- * half turns, the delay from terms as large as the radius, and near the hole of about 10 M. */
+/* Errors against known numbers, each bound a unit of change times the size of what is summed and the gain. phi is
+ * summed from half turns, the delay from terms as large as the radius, and near the hole of about 10 M. */
 static void judge(const struct kd_selftest_ray *ray, const struct engine *e, const struct kd_ray_crossing *crossings,
                   const struct kd_ray_end *end, struct kd_selftest_row rows[QUANTITIES])
 {
     double unit = unit_of(e);
-    bool right = end->fate == (ray->captured ? KD_RAY_CAPTURED : KD_RAY_ESCAPED) && end->n_crossings == (uint32_t)ray->n_crossings;
+    bool right = end->fate == (ray->captured ? KD_RAY_CAPTURED : KD_RAY_ESCAPED) &&
+                 end->n_crossings == (uint32_t)ray->n_crossings;
     if (!right)
         kd_selftest_compare(&rows[R], INFINITY, unit);
     for (int n = 0; n < ray->n_crossings && right; n++) {
@@ -95,8 +106,8 @@ static double differing(const struct copies *c)
     return sum;
 }
 
-static enum kd_status ray_set(const struct kd_selftest *test, const struct engine *e, size_t first, size_t n, struct copies *c,
-                              struct kd_selftest_row *same)
+static enum kd_status ray_set(const struct kd_selftest *test, const struct engine *e, size_t first, size_t n,
+                              struct copies *c, struct kd_selftest_row *same)
 {
     struct kd_selftest_row rows[QUANTITIES];
     char by[32];
@@ -168,10 +179,11 @@ static enum kd_status deflection(const struct kd_selftest *test, const struct en
 
 #define NEAREST 60 /* a quarter of a power of ten each */
 
-/* Rays at 1 +- 10^(-k/4) of the distance of a point of the critical curve: the furthest that falls in and should not, or the
- * other way round. Rays just inside and outside part by e^pi each half turn, and an error of the constants, of E^2 = 1 and of
- * each step shifts the curve: as much as a unit of change of b. */
-static enum kd_status critical(const struct kd_selftest *test, const struct engine *e, const struct kd_selftest_critical *p)
+/* Rays at 1 +- 10^(-k/4) of the distance of a point of the critical curve: the furthest that falls in and should
+ * not, or the other way round. Rays just inside and outside part by e^pi each half turn, and an error of the
+ * constants, of E^2 = 1 and of each step shifts the curve: as much as a unit of change of b. */
+static enum kd_status critical(const struct kd_selftest *test, const struct engine *e,
+                               const struct kd_selftest_critical *p)
 {
     const struct kd_selftest_ray ray = { .spin = p->spin, .radius = INFINITY, .inclination_deg = p->inclination_deg };
     double list[4 * NEAREST];

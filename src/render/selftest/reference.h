@@ -1,8 +1,9 @@
-/* The self-test judges a device by these numbers. The numbers are in reference.c, made by tests/oracle/selftest_reference.py:
- * from the metric, by quadrature, by Taylor series in 38 digits; no formula of src/ or shaders/ is in them.
+/* The self-test judges a device by these numbers. The numbers are in reference.c, made by
+ * tests/oracle/selftest_reference.py: from the metric, by quadrature, by Taylor series in 38 digits; no formula of
+ * src/ or shaders/ is in them.
  *
- * A gain is the sum of |x df/dx| over the spin, the inclination, the radius and the two coordinates of a ray, of r and g in
- * terms of their logarithms: how much a relative change of what is given changes the answer. */
+ * A gain is the sum of |x df/dx| over the spin, the inclination, the radius and the two coordinates of a ray, of r
+ * and g in terms of their logarithms: how much a relative change of what is given changes the answer. */
 #ifndef KD_RENDER_SELFTEST_REFERENCE_H
 #define KD_RENDER_SELFTEST_REFERENCE_H
 
@@ -32,13 +33,19 @@ struct kd_selftest_camera {
 };
 
 /* The azimuth that a ray in the equatorial plane sweeps from infinity to infinity; b = lambda. */
-struct kd_selftest_deflection { const char *name; double spin, b, phi, gain; };
+struct kd_selftest_deflection {
+    const char *name;
+    double spin, b, phi, gain;
+};
 
 /* A point of the critical curve: rays nearer to the origin are captured. */
-struct kd_selftest_critical { const char *name; double spin, inclination_deg, alpha, beta; };
+struct kd_selftest_critical {
+    const char *name;
+    double spin, inclination_deg, alpha, beta;
+};
 
-/* An orbit between p/(1+e) and p/(1-e) that leaves the plane by the angle whose cosine is x: constants of motion, and how
- * fast it goes through its radial and polar cycles, azimuth, time and proper time in Mino time. */
+/* An orbit between p/(1+e) and p/(1-e) that leaves the plane by the angle whose cosine is x: constants of motion,
+ * and how fast it goes through its radial and polar cycles, azimuth, time and proper time in Mino time. */
 struct kd_selftest_bound {
     double spin, p, e, x, energy, momentum, carter, mino_r, mino_theta, mino_phi, mino_t, mino_proper;
 };
@@ -46,7 +53,10 @@ struct kd_selftest_bound {
 struct kd_selftest_flux { double spin, r, flux; };
 
 /* Brightness g^4 F / F_max where ray number `ray` first meets the disk. */
-struct kd_selftest_pixel { int ray; double brightness; };
+struct kd_selftest_pixel {
+    int ray;
+    double brightness;
+};
 
 /* A grey: linear, encoded as sRGB, and by way of the film-like curve. */
 struct kd_selftest_grey { double linear, srgb, film[3]; };

@@ -46,7 +46,8 @@ static double differing(const struct kd_frame *a, const struct kd_frame *b)
 }
 
 /* One row a submission: what the renderer takes a very slow device for. */
-static enum kd_status draw_by_rows(const struct kd_selftest *test, const struct kd_capacity *capacity, struct kd_frame *out)
+static enum kd_status draw_by_rows(const struct kd_selftest *test, const struct kd_capacity *capacity,
+                                   struct kd_frame *out)
 {
     struct kd_renderer *r = test->renderer;
     pthread_mutex_lock(&r->lock);

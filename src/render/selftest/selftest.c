@@ -36,8 +36,8 @@ enum kd_status kd_selftest_end(const struct kd_selftest *test, struct kd_selftes
     return KD_OK;
 }
 
-enum kd_status kd_selftest_run(struct kd_renderer *renderer, const struct kd_selftest_reference *reference, kd_selftest_fn row,
-                               void *user, struct kd_error *error)
+enum kd_status kd_selftest_run(struct kd_renderer *renderer, const struct kd_selftest_reference *reference,
+                               kd_selftest_fn row, void *user, struct kd_error *error)
 {
     const struct kd_selftest test = { renderer, reference, row, user, error };
     enum kd_status status;

@@ -13,8 +13,9 @@ struct kd_vec kd_sky_direction(double longitude, double latitude)
 
 struct kd_vec kd_rotate(const struct kd_rotation *by, struct kd_vec v)
 {
-    const double(*m)[3] = by->m;
-    return (struct kd_vec) { m[0][0] * v.x + m[0][1] * v.y + m[0][2] * v.z, m[1][0] * v.x + m[1][1] * v.y + m[1][2] * v.z,
+    const double (*m)[3] = by->m;
+    return (struct kd_vec) { m[0][0] * v.x + m[0][1] * v.y + m[0][2] * v.z,
+                             m[1][0] * v.x + m[1][1] * v.y + m[1][2] * v.z,
                              m[2][0] * v.x + m[2][1] * v.y + m[2][2] * v.z };
 }
 
@@ -51,8 +52,12 @@ static struct axes axes(struct kd_vec forward, struct kd_vec pole)
 /* What lies along the axes of `from` comes to lie along those of `to`. */
 static struct kd_rotation between(struct axes from, struct axes to)
 {
-    const double f[3][3] = { { from.forward.x, from.forward.y, from.forward.z }, { from.up.x, from.up.y, from.up.z }, { from.right.x, from.right.y, from.right.z } };
-    const double t[3][3] = { { to.forward.x, to.forward.y, to.forward.z }, { to.up.x, to.up.y, to.up.z }, { to.right.x, to.right.y, to.right.z } };
+    const double f[3][3] = { { from.forward.x, from.forward.y, from.forward.z },
+                             { from.up.x, from.up.y, from.up.z },
+                             { from.right.x, from.right.y, from.right.z } };
+    const double t[3][3] = { { to.forward.x, to.forward.y, to.forward.z },
+                             { to.up.x, to.up.y, to.up.z },
+                             { to.right.x, to.right.y, to.right.z } };
     struct kd_rotation o = { 0 };
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
@@ -76,7 +81,8 @@ static struct kd_rotation about_y(double degrees)
 struct kd_rotation kd_rotation_galactic(void)
 {
     /* The galactic pole to z, then the equatorial pole to its longitude. */
-    const struct kd_rotation turned = about_z(180 - 192.85948), tilted = about_y(90 - 27.12825), both = kd_rotation_then(&turned, &tilted);
+    const struct kd_rotation turned = about_z(180 - 192.85948), tilted = about_y(90 - 27.12825),
+                             both = kd_rotation_then(&turned, &tilted);
     const struct kd_rotation last = about_z(122.93192);
     return kd_rotation_then(&both, &last);
 }
@@ -92,7 +98,10 @@ static struct kd_rotation oriented(const struct kd_scene *scene)
     case KD_SKY_GALACTIC: return (struct kd_rotation) { { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } };
     case KD_SKY_EQUATORIAL: return galactic;
     case KD_SKY_SGRA: to = axes(kd_sky_direction(359.94423 * DEGREE, -0.04616 * DEGREE), pole); break;
-    default: to = axes(kd_rotate(&galactic, kd_sky_direction(187.70593 * DEGREE, 12.39112 * DEGREE)), kd_rotate(&galactic, pole)); break;
+    default:
+        to = axes(kd_rotate(&galactic, kd_sky_direction(187.70593 * DEGREE, 12.39112 * DEGREE)),
+                  kd_rotate(&galactic, pole));
+        break;
     }
     /* Behind the hole, right of it, above it, as the unturned camera has them (render/view/camera.c). */
     const struct axes from = { { -s, 0, -c }, { -c, 0, s }, { 0, 1, 0 } };
@@ -101,7 +110,8 @@ static struct kd_rotation oriented(const struct kd_scene *scene)
 
 struct kd_rotation kd_sky_rotation(const struct kd_scene *scene)
 {
-    const struct kd_rotation turned = about_z(scene->sky.turn_deg + scene->camera.azimuth_deg), tilted = about_y(scene->sky.tilt_deg);
+    const struct kd_rotation turned = about_z(scene->sky.turn_deg + scene->camera.azimuth_deg),
+                             tilted = about_y(scene->sky.tilt_deg);
     const struct kd_rotation both = kd_rotation_then(&turned, &tilted), sky = oriented(scene);
     return kd_rotation_then(&both, &sky);
 }

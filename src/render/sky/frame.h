@@ -1,5 +1,6 @@
-/* This says which way a sky is turned. Rotations between three frames: that of the hole, z along its spin, x towards azimuth 0; equatorial, J2000, x
- * towards the equinox; galactic, x towards l = 0. All are right-handed. Double precision; pure, any thread. */
+/* This says which way a sky is turned. Rotations between three frames: that of the hole, z along its spin, x towards
+ * azimuth 0; equatorial, J2000, x towards the equinox; galactic, x towards l = 0. All are right-handed. Double
+ * precision; pure, any thread. */
 #ifndef KD_RENDER_SKY_FRAME_H
 #define KD_RENDER_SKY_FRAME_H
 
@@ -12,12 +13,12 @@ struct kd_vec kd_sky_direction(double longitude, double latitude); /* radians */
 struct kd_vec kd_rotate(const struct kd_rotation *by, struct kd_vec v);
 struct kd_rotation kd_rotation_then(const struct kd_rotation *first, const struct kd_rotation *then);
 
-/* From equatorial to galactic: the pole at RA 192.85948, Dec 27.12825 degrees, the equatorial pole at l = 122.93192 (J2000 by ESA, The
- * Hipparcos Catalogue, vol. 1, 1.5.3). */
+/* From equatorial to galactic: the pole at RA 192.85948, Dec 27.12825 degrees, the equatorial pole at l = 122.93192
+ * (J2000 by ESA, The Hipparcos Catalogue, vol. 1, 1.5.3). */
 struct kd_rotation kd_rotation_galactic(void);
 
-/* From directions in which rays escape, their azimuth less the observer's, to galactic ones: by sky.orientation, sky.tilt_deg and
- * sky.turn_deg, and the azimuth of the camera. */
+/* From directions in which rays escape, their azimuth less the observer's, to galactic ones: by sky.orientation,
+ * sky.tilt_deg and sky.turn_deg, and the azimuth of the camera. */
 struct kd_rotation kd_sky_rotation(const struct kd_scene *scene);
 
 #endif

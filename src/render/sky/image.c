@@ -18,7 +18,10 @@ static void linearise(float *curve, uint32_t samples)
     }
 }
 
-static uint32_t sample(const struct kd_png *png, size_t at) { return png->bit_depth == 16 ? ((const uint16_t *)png->pixels)[at] : ((const uint8_t *)png->pixels)[at]; }
+static uint32_t sample(const struct kd_png *png, size_t at)
+{
+    return png->bit_depth == 16 ? ((const uint16_t *)png->pixels)[at] : ((const uint8_t *)png->pixels)[at];
+}
 
 /* A target's texel covers [from, end) of the source, of which whole number k has this part. */
 static double part(double from, double end, uint32_t k) { return fmin(end, k + 1.0) - fmax(from, k); }
@@ -42,7 +45,8 @@ static void narrow_row(const struct kd_png *png, const float *curve, uint32_t y,
 }
 
 /* line, sum: room for a row of the target each. */
-static void average(const struct kd_png *png, const float *curve, const struct kd_sky_picture *out, double *line, double *sum)
+static void average(const struct kd_png *png, const float *curve, const struct kd_sky_picture *out, double *line,
+                    double *sum)
 {
     const double ratio = png->height / (double)out->height;
     const size_t n = (size_t)3 * out->width;
@@ -97,7 +101,8 @@ static void take_credit(const struct kd_png *png, char credit[KD_SKY_CREDIT])
         kd_text_clip(credit, KD_SKY_CREDIT, text);
 }
 
-enum kd_status kd_sky_image(const void *data, size_t size, struct kd_sky_picture *out, char credit[KD_SKY_CREDIT], struct kd_error *error)
+enum kd_status kd_sky_image(const void *data, size_t size, struct kd_sky_picture *out, char credit[KD_SKY_CREDIT],
+                            struct kd_error *error)
 {
     struct kd_png_about about;
     struct kd_png png = { 0 };
@@ -106,7 +111,9 @@ enum kd_status kd_sky_image(const void *data, size_t size, struct kd_sky_picture
     *out = (struct kd_sky_picture) { 0 };
     KD_TRY(kd_png_look(data, size, &about, &why)); /* its size, before memory is taken for it */
     if (!kd_asset_is_panorama(about.width, about.height))
-        KD_TRY(kd_error_set(&why, KD_EINVAL, "a picture of %u x %u pixels; allowed is one of the whole sky, twice as wide as it is high, of %d to %d rows",
+        KD_TRY(kd_error_set(&why, KD_EINVAL,
+                            "a picture of %u x %u pixels; allowed is one of the whole sky, twice as wide as it is "
+                            "high, of %d to %d rows",
                             about.width, about.height, KD_PANORAMA_LEAST, KD_PANORAMA_MOST));
     KD_TRY(kd_png_decode(data, size, &png, &why));
     KD_TRY(convert(&png, out, &why));

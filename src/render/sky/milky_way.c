@@ -1,8 +1,9 @@
 /* This makes up a Milky Way: a smooth band and a bulge, star clouds, and dust in front of them, by noise of a seed.
  *
- * The profiles are fits by eye to photographs; the dust takes 1.35 times as much of blue light as of green, and 0.72 times of red (J. Cardelli,
- * G. Clayton & J. Mathis 1989, ApJ 345, 245). The band is as bright as that of the sky: some 21 magnitudes a square arcsecond where it is
- * brightest, a tenth of that at 30 degrees from it (C. Leinert et al. 1998, A&AS 127, 1, section 10). No place in it is a place in the sky. */
+ * The profiles are fits by eye to photographs; the dust takes 1.35 times as much of blue light as of green, and 0.72
+ * times of red (J. Cardelli, G. Clayton & J. Mathis 1989, ApJ 345, 245). The band is as bright as that of the sky:
+ * some 21 magnitudes a square arcsecond where it is brightest, a tenth of that at 30 degrees from it (C. Leinert et
+ * al. 1998, A&AS 127, 1, section 10). No place in it is a place in the sky. */
 #include "render/sky/panorama.h"
 
 #include "base/random.h"
@@ -29,22 +30,30 @@ static float noise(const struct clouds *c, const float p[3])
 {
     const int x = (int)p[0], y = (int)p[1], z = (int)p[2];
     const float u = eased(p[0] - (float)x), v = eased(p[1] - (float)y), w = eased(p[2] - (float)z);
-    const float low = mix(mix(at(c, x, y, z), at(c, x + 1, y, z), u), mix(at(c, x, y + 1, z), at(c, x + 1, y + 1, z), u), v);
-    const float high = mix(mix(at(c, x, y, z + 1), at(c, x + 1, y, z + 1), u), mix(at(c, x, y + 1, z + 1), at(c, x + 1, y + 1, z + 1), u), v);
+    const float low =
+        mix(mix(at(c, x, y, z), at(c, x + 1, y, z), u), mix(at(c, x, y + 1, z), at(c, x + 1, y + 1, z), u), v);
+    const float high = mix(mix(at(c, x, y, z + 1), at(c, x + 1, y, z + 1), u),
+                           mix(at(c, x, y + 1, z + 1), at(c, x + 1, y + 1, z + 1), u), v);
     return mix(low, high, w);
 }
 
 /* Filaments are where noise passes through 0. */
 static float ridge(float value) { return 0.5f - 2 * fabsf(value); }
 
-/* Octaves from `first` to before `end`, each turned against the one before so that the lattice is not seen. cells: of octave 0. */
-struct octaves { float cells, falls; int first, end; bool ridged; };
+/* Octaves from `first` to before `end`, each turned against the one before so that the lattice is not seen. cells:
+ * of octave 0. */
+struct octaves {
+    float cells, falls;
+    int first, end;
+    bool ridged;
+};
 
 static float octaves(const struct clouds *c, const float n[3], const struct octaves *which)
 {
     float sum = 0, loud = 1, p[3] = { which->cells * n[0], which->cells * n[1], which->cells * n[2] };
     for (int o = 0; o < which->end; o++) {
-        const float shifted[3] = { p[0] + 4096.5f, p[1] + 4096.5f, p[2] + 4096.5f }, value = o < which->first ? 0 : noise(c, shifted);
+        const float shifted[3] = { p[0] + 4096.5f, p[1] + 4096.5f, p[2] + 4096.5f },
+                    value = o < which->first ? 0 : noise(c, shifted);
         const float x = p[0], y = p[1], z = p[2];
         sum += o < which->first ? 0 : loud * (which->ridged ? ridge(value) : value);
         loud *= which->falls;
@@ -62,28 +71,38 @@ struct across { float b, cos, sin, near, far, contrast, halo; };
 static struct along along_of(float l)
 {
     const float deg = l / DEGREE;
-    return (struct along) { deg, cosf(l), sinf(l), expf(-deg * deg / (2 * 62 * 62)), 0.45f + 0.55f * expf(-deg * deg / (2 * 75 * 75)) };
+    return (struct along) { deg, cosf(l), sinf(l), expf(-deg * deg / (2 * 62 * 62)),
+                            0.45f + 0.55f * expf(-deg * deg / (2 * 75 * 75)) };
 }
 
 /* The contrast is that of star clouds: far from the plane there are none. */
 static struct across across_of(float b)
 {
     const float deg = b / DEGREE, above = fabsf(deg);
-    return (struct across) { deg, cosf(b), sinf(b), expf(-above / 4.2f), expf(-above / 11), 1.1f * expf(-above / 22), 0.018f * expf(-above / 26) };
+    return (struct across) { deg,
+                             cosf(b),
+                             sinf(b),
+                             expf(-above / 4.2f),
+                             expf(-above / 11),
+                             1.1f * expf(-above / 22),
+                             0.018f * expf(-above / 26) };
 }
 
-/* Noise of few cells changes little from texel to texel: it is made for every STEP-th column and row, with at least five of these a cell, and interpolated.
- * FIRST, SECOND: of the filaments' octaves, before their ridges. */
+/* Noise of few cells changes little from texel to texel: it is made for every STEP-th column and row, with at least
+ * five of these a cell, and interpolated. FIRST, SECOND: of the filaments' octaves, before their ridges. */
 enum { STEP = 4, FEW = 2, NODES = KD_MILKY_WAY_WIDTH / STEP };
 enum smooth { CLOUDS, BENT, WARP_X, WARP_Y, PATCHES, FIRST, SECOND, SMOOTH };
 #define DUSTY 32.0f /* degrees from the plane: beyond there is none */
 #define FALLS 0.66f /* of the filaments */
 static const struct octaves few_clouds = { 7, 0.62f, 0, FEW, false }, more_clouds = { 7, 0.62f, FEW, 5, false };
-static const struct octaves filaments[] = { { 5, 1, 0, 1, false }, { 5, 1, 1, FEW, false }, { 5, FALLS, FEW, 6, true } };
+static const struct octaves filaments[] = { { 5, 1, 0, 1, false },
+                                            { 5, 1, 1, FEW, false },
+                                            { 5, FALLS, FEW, 6, true } };
 
 static void smooth_at(const struct clouds *c, const float n[3], bool dusty, float out[SMOOTH])
 {
-    static const struct octaves bends = { 2.3f, 0.5f, 0, 2, false }, warps = { 9, 0.55f, 0, 3, false }, patches = { 3.1f, 0.6f, 0, 3, false };
+    static const struct octaves bends = { 2.3f, 0.5f, 0, 2, false }, warps = { 9, 0.55f, 0, 3, false },
+                                patches = { 3.1f, 0.6f, 0, 3, false };
     out[CLOUDS] = octaves(c, n, &few_clouds);
     if (!dusty)
         return;
@@ -97,12 +116,16 @@ static void smooth_at(const struct clouds *c, const float n[3], bool dusty, floa
 }
 
 /* What a direction has before dust: the band, reddish towards the middle. */
-static void starlight(const struct clouds *c, const float n[3], const float smooth[SMOOTH], const struct along *l, const struct across *b, float rgb[3])
+static void starlight(const struct clouds *c, const float n[3], const float smooth[SMOOTH], const struct along *l,
+                      const struct across *b, float rgb[3])
 {
     static const float band[] = { 0.97f, 1.0f, 1.06f }, old[] = { 1.22f, 0.97f, 0.68f };
     const float bulge2 = l->l * l->l / (15 * 15) + b->b * b->b / (7.5f * 7.5f);
     const float thin = (0.16f + 0.62f * l->inwards) * (0.75f * b->near + 0.25f * b->far);
-    const float star_clouds = b->contrast > 0.1f ? expf(b->contrast * (smooth[CLOUDS] + octaves(c, n, &more_clouds)) - 0.17f * b->contrast * b->contrast) : 1;
+    const float star_clouds =
+        b->contrast > 0.1f
+            ? expf(b->contrast * (smooth[CLOUDS] + octaves(c, n, &more_clouds)) - 0.17f * b->contrast * b->contrast)
+            : 1;
     const float bulge = bulge2 < 40 ? 1.25f * expf(-powf(bulge2, 0.75f)) : 0; /* 1e-7 there */
     for (int k = 0; k < 3; k++)
         rgb[k] = band[k] * (thin * star_clouds + b->halo) + old[k] * bulge * (0.6f + 0.4f * star_clouds);
@@ -119,28 +142,34 @@ static float dust(const struct clouds *c, const float n[3], const float smooth[S
     return l->inner * (lane + spurs) * expf(fminf(1.55f * threads + 1.1f * smooth[PATCHES], 2.2f));
 }
 
-static void look(const struct clouds *c, const float smooth[SMOOTH], const struct along *l, const struct across *b, float rgb[3])
+static void look(const struct clouds *c, const float smooth[SMOOTH], const struct along *l, const struct across *b,
+                 float rgb[3])
 {
     static const float reddening[] = { 0.72f, 1, 1.35f };
     const float n[3] = { b->cos * l->cos, b->cos * l->sin, b->sin };
     starlight(c, n, smooth, l, b, rgb);
     const float depth = 1.5f * dust(c, n, smooth, l, b->b);
-    for (int k = 0; depth > 0 && k < 3; k++) /* dust is at most 32 degrees from the plane */
+    for (int k = 0; depth > 0 && k < 3; k++)                   /* dust is at most 32 degrees from the plane */
         rgb[k] *= 0.06f + 0.94f * expf(-reddening[k] * depth); /* some stars are in front */
 }
 
-static struct across row_at(uint32_t y) { return across_of((float)M_PI * (0.5f - ((float)y + 0.5f) / KD_MILKY_WAY_HEIGHT)); }
+static struct across row_at(uint32_t y)
+{
+    return across_of((float)M_PI * (0.5f - ((float)y + 0.5f) / KD_MILKY_WAY_HEIGHT));
+}
 
 /* The nodes of a row; the last one is the first again. */
 static void make_nodes(const struct clouds *c, const struct along *columns, uint32_t y, float nodes[NODES + 1][SMOOTH])
 {
     const struct across b = row_at(y);
     for (uint32_t i = 0; i < NODES; i++)
-        smooth_at(c, (float[]) { b.cos * columns[STEP * i].cos, b.cos * columns[STEP * i].sin, b.sin }, fabsf(b.b) < DUSTY + 1, nodes[i]);
+        smooth_at(c, (float[]) { b.cos * columns[STEP * i].cos, b.cos * columns[STEP * i].sin, b.sin },
+                  fabsf(b.b) < DUSTY + 1, nodes[i]);
     memcpy(nodes[NODES], nodes[0], sizeof nodes[0]);
 }
 
-static void paint_row(const struct clouds *c, const struct along *columns, uint32_t y, float (*const nodes[2])[SMOOTH], float *texels)
+static void paint_row(const struct clouds *c, const struct along *columns, uint32_t y, float (*const nodes[2])[SMOOTH],
+                      float *texels)
 {
     const struct across row = row_at(y);
     const int many = fabsf(row.b) > DUSTY ? 1 : SMOOTH;
@@ -176,7 +205,9 @@ static enum kd_status init(struct painter *p, int32_t seed, struct kd_error *err
 {
     const size_t n = (size_t)SIDE * SIDE * SIDE;
     struct kd_random random = { ((uint64_t)(uint32_t)seed << 32) + 1 };
-    *p = (struct painter) { { malloc(n * sizeof(float)) }, malloc(KD_MILKY_WAY_WIDTH * sizeof *p->columns), calloc(2 * (NODES + 1), sizeof *p->nodes) };
+    *p = (struct painter) { { malloc(n * sizeof(float)) },
+                            malloc(KD_MILKY_WAY_WIDTH * sizeof *p->columns),
+                            calloc(2 * (NODES + 1), sizeof *p->nodes) };
     if (!p->clouds.lattice || !p->columns || !p->nodes) {
         finish(p);
         return kd_error_set(error, KD_ENOMEM, "out of memory for the Milky Way");
@@ -206,8 +237,10 @@ static void paint(const struct painter *p, const struct kd_sky_picture *out)
 enum kd_status kd_milky_way(int32_t seed, struct kd_sky_picture *out, struct kd_error *error)
 {
     struct painter p;
-    *out = (struct kd_sky_picture) { KD_MILKY_WAY_WIDTH, KD_MILKY_WAY_HEIGHT, malloc(12ull * KD_MILKY_WAY_WIDTH * KD_MILKY_WAY_HEIGHT) };
-    enum kd_status status = out->texels ? init(&p, seed, error) : kd_error_set(error, KD_ENOMEM, "out of memory for the Milky Way");
+    *out = (struct kd_sky_picture) { KD_MILKY_WAY_WIDTH, KD_MILKY_WAY_HEIGHT,
+                                     malloc(12ull * KD_MILKY_WAY_WIDTH * KD_MILKY_WAY_HEIGHT) };
+    enum kd_status status =
+        out->texels ? init(&p, seed, error) : kd_error_set(error, KD_ENOMEM, "out of memory for the Milky Way");
     if (status) {
         kd_sky_picture_finish(out);
         return status;

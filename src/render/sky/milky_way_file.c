@@ -11,8 +11,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Stands before the words. The last letter of the mark is another one when mips are made otherwise: what a texel shows is compared, they are not. */
-struct head { char mark[8]; uint64_t hash; int32_t seed; uint32_t columns, rows, n; };
+/* Stands before the words. The last letter of the mark is another one when mips are made otherwise: what a texel
+ * shows is compared, they are not. */
+struct head {
+    char mark[8];
+    uint64_t hash;
+    int32_t seed;
+    uint32_t columns, rows, n;
+};
 static const char mark[8] = "kdmway1";
 
 static size_t words_of(void) { return kd_panorama_words(KD_MILKY_WAY_WIDTH, KD_MILKY_WAY_HEIGHT); }
@@ -28,7 +34,11 @@ static uint64_t hash_of(const uint32_t *words, size_t n)
 
 static struct head head_of(int32_t seed, const uint32_t *words)
 {
-    struct head head = { .hash = hash_of(words, words_of()), .seed = seed, .columns = KD_MILKY_WAY_WIDTH, .rows = KD_MILKY_WAY_HEIGHT, .n = (uint32_t)words_of() };
+    struct head head = { .hash = hash_of(words, words_of()),
+                         .seed = seed,
+                         .columns = KD_MILKY_WAY_WIDTH,
+                         .rows = KD_MILKY_WAY_HEIGHT,
+                         .n = (uint32_t)words_of() };
     memcpy(head.mark, mark, sizeof mark);
     return head;
 }
@@ -36,12 +46,15 @@ static struct head head_of(int32_t seed, const uint32_t *words)
 /* Another version of this program, or of its mathematics library, may make another one. */
 static bool is_ours(int32_t seed, const uint32_t *words)
 {
-    static const uint32_t rows[] = { 5, 301, 422, 483, 512, 561, 702, 1022 }; /* of the poles, of clouds, of dust, of nodes and between them */
+    static const uint32_t rows[] = {
+        5, 301, 422, 483, 512, 561, 702, 1022
+    }; /* of the poles, of clouds, of dust, of nodes and between them */
     enum { N = sizeof rows / sizeof *rows };
     float *texels = malloc(sizeof(float) * 3 * N * KD_MILKY_WAY_WIDTH);
     bool same = texels && !kd_milky_way_rows(seed, rows, N, texels, NULL);
     for (size_t i = 0; same && i < (size_t)N * KD_MILKY_WAY_WIDTH; i++)
-        same = kd_panorama_pack(&texels[3 * i]) == words[(size_t)rows[i / KD_MILKY_WAY_WIDTH] * KD_MILKY_WAY_WIDTH + i % KD_MILKY_WAY_WIDTH];
+        same = kd_panorama_pack(&texels[3 * i]) ==
+               words[(size_t)rows[i / KD_MILKY_WAY_WIDTH] * KD_MILKY_WAY_WIDTH + i % KD_MILKY_WAY_WIDTH];
     free(texels);
     return same;
 }

@@ -63,7 +63,8 @@ static void halve(struct kd_sky_picture *p)
     for (uint32_t y = 0; y < height; y++)
         for (uint32_t x = 0; x < width; x++)
             for (int c = 0; c < 3; c++) {
-                const float *a = &p->texels[3 * ((size_t)2 * y * p->width + 2 * x) + (size_t)c], *b = a + 3 * (size_t)p->width;
+                const float *a = &p->texels[3 * ((size_t)2 * y * p->width + 2 * x) + (size_t)c],
+                            *b = a + 3 * (size_t)p->width;
                 p->texels[3 * ((size_t)y * width + x) + (size_t)c] = 0.25f * (a[0] + a[3] + b[0] + b[3]);
             }
     p->width = width;

@@ -1,9 +1,10 @@
-/* A panorama is the light that is spread over a sky, as a picture of it in galactic coordinates: equirectangular, l = 0 in its middle, l growing to
- * the left, the galactic pole at the top. Linear light; 1 is KD_SKY_UNIT_MAG magnitudes a square arcsecond. Pure; any thread.
+/* A panorama is the light that is spread over a sky, as a picture of it in galactic coordinates: equirectangular, l
+ * = 0 in its middle, l growing to the left, the galactic pole at the top. Linear light; 1 is KD_SKY_UNIT_MAG
+ * magnitudes a square arcsecond. Pure; any thread.
  *
- * Kept as mips: level k has 1/4^k of the texels, each the mean of four of the level before, down to two rows. Texels are words of a shared
- * exponent (Khronos, EXT_texture_shared_exponent): nine bits a channel. Sides are powers of two, so that level k begins at
- * (4 - 4^(1 - k))/3 of level 0. */
+ * Kept as mips: level k has 1/4^k of the texels, each the mean of four of the level before, down to two rows. Texels
+ * are words of a shared exponent (Khronos, EXT_texture_shared_exponent): nine bits a channel. Sides are powers of
+ * two, so that level k begins at (4 - 4^(1 - k))/3 of level 0. */
 #ifndef KD_RENDER_SKY_PANORAMA_H
 #define KD_RENDER_SKY_PANORAMA_H
 
@@ -17,8 +18,8 @@
 struct kd_sky_picture {
     uint32_t width, height;
     float *texels;
-    /* Texels of a row are narrower towards the poles. Each level is averaged along rows over 1/cos(latitude) of them: it is as coarse there as
-     * at the equator, and the poles are no stars of many rays. */
+    /* Texels of a row are narrower towards the poles. Each level is averaged along rows over 1/cos(latitude) of
+     * them: it is as coarse there as at the equator, and the poles are no stars of many rays. */
     bool even;
 };
 void kd_sky_picture_finish(struct kd_sky_picture *picture);

@@ -14,7 +14,7 @@ struct rim_map {
     const struct kd_rim *rim;
     const struct kd_rim_grid *grid;
     struct kd_sky_rays rays;
-    const float *sky; /* of rim_sky.h */
+    const float *sky;     /* of rim_sky.h */
     double width, height; /* of the picture, in rays of its camera */
     uint32_t column, row, columns, rows;
     enum kd_status (*found)(void *user, const struct kd_star_image *image);
@@ -31,7 +31,10 @@ static void row_of(const void *of, uint32_t y, struct kd_vec *out)
 }
 
 /* A place among a map's rays by its turn and its logarithm. */
-static double turn_at(const struct rim_map *m, double column) { return m->grid->u + (m->column + column) * m->grid->du; }
+static double turn_at(const struct rim_map *m, double column)
+{
+    return m->grid->u + (m->column + column) * m->grid->du;
+}
 static double log_at(const struct rim_map *m, double row) { return m->grid->l - (m->row + row) * m->grid->dl; }
 
 static void look_at(const struct rim_map *m, double column, double row, double look[3])
@@ -66,13 +69,16 @@ static bool change_at(const struct rim_map *m, double column, double row, struct
 {
     const double h = 1e-3;
     double x[4], y[4];
-    if (!seen(m, column - h, row, &x[0], &y[0]) || !seen(m, column + h, row, &x[1], &y[1]) || !seen(m, column, row - h, &x[2], &y[2]) || !seen(m, column, row + h, &x[3], &y[3]))
+    if (!seen(m, column - h, row, &x[0], &y[0]) || !seen(m, column + h, row, &x[1], &y[1]) ||
+        !seen(m, column, row - h, &x[2], &y[2]) || !seen(m, column, row + h, &x[3], &y[3]))
         return false;
-    *o = (struct change) { (x[1] - x[0]) / (2 * h), (y[1] - y[0]) / (2 * h), (x[3] - x[2]) / (2 * h), (y[3] - y[2]) / (2 * h) };
+    *o = (struct change) { (x[1] - x[0]) / (2 * h), (y[1] - y[0]) / (2 * h), (x[3] - x[2]) / (2 * h),
+                           (y[3] - y[2]) / (2 * h) };
     return true;
 }
 
-/* The same by the points of the curve that the grid's table has: a fifth of the time, and as good as a guess must be. */
+/* The same by the points of the curve that the grid's table has: a fifth of the time, and as good as a guess must
+ * be. */
 static double pixels(const void *of, double column, double row)
 {
     const struct rim_map *m = of;
@@ -81,7 +87,8 @@ static double pixels(const void *of, double column, double row)
     const float *at = m->sky + m->grid->table + KD_RIM_TABLE + 4 * k;
     double x[3], y[3];
     for (int i = 0; i < 3; i++) {
-        const double along = part + (i == 1 ? h : 0), out = 1 + off * (i == 2 ? 1 - h * m->grid->dl : 1), place[] = { out * (at[0] + along * at[2]), out * (at[1] + along * at[3]) };
+        const double along = part + (i == 1 ? h : 0), out = 1 + off * (i == 2 ? 1 - h * m->grid->dl : 1),
+                     place[] = { out * (at[0] + along * at[2]), out * (at[1] + along * at[3]) };
         double look[3];
         kd_rim_look(m->rim, place, look);
         if (!kd_camera_seen(&m->rays.camera, look, &x[i], &y[i]))
@@ -95,7 +102,8 @@ static void cubic(double t, double w[4], double by[4])
 {
     const double a = t + 1, b = t, c = t - 1, d = t - 2;
     w[0] = b * c * d / -6, w[1] = a * c * d / 2, w[2] = a * b * d / -2, w[3] = a * b * c / 6;
-    by[0] = (b * c + b * d + c * d) / -6, by[1] = (a * c + a * d + c * d) / 2, by[2] = (a * b + a * d + b * d) / -2, by[3] = (a * b + a * c + b * c) / 6;
+    by[0] = (b * c + b * d + c * d) / -6, by[1] = (a * c + a * d + c * d) / 2, by[2] = (a * b + a * d + b * d) / -2,
+    by[3] = (a * b + a * c + b * c) / 6;
 }
 
 /* The ray before a place, with one before it and two after it on the grid. False: there is no such. */
@@ -141,8 +149,9 @@ static bool wanted(const void *of, double column, double row)
     const struct rim_map *m = of;
     const double u = turn_at(m, column), l = log_at(m, row), du = SLACK * m->grid->du, dl = SLACK * m->grid->dl;
     double x, y;
-    return u > m->grid->low_u - du && u < m->grid->high_u + du && l > m->grid->low_l - dl && l < m->grid->high_l + dl && seen(m, column, row, &x, &y) &&
-           x > -BESIDE && y > -BESIDE && x < m->width + BESIDE && y < m->height + BESIDE;
+    return u > m->grid->low_u - du && u < m->grid->high_u + du && l > m->grid->low_l - dl && l < m->grid->high_l + dl &&
+           seen(m, column, row, &x, &y) && x > -BESIDE && y > -BESIDE && x < m->width + BESIDE &&
+           y < m->height + BESIDE;
 }
 
 /* From the rim's columns and rows to the picture's. */
@@ -152,7 +161,8 @@ static enum kd_status hand_on(void *user, const struct kd_star_image *image)
     struct kd_star_image o = *image;
     struct change by;
     const double u = turn_at(m, image->x), l = log_at(m, image->y);
-    if (!is_from(u, m->grid->low_u) || is_from(u, m->grid->high_u) || !is_from(l, m->grid->low_l) || is_from(l, m->grid->high_l))
+    if (!is_from(u, m->grid->low_u) || is_from(u, m->grid->high_u) || !is_from(l, m->grid->low_l) ||
+        is_from(l, m->grid->high_l))
         return KD_OK; /* another grid has it */
     if (!seen(m, image->x, image->y, &o.x, &o.y) || !change_at(m, image->x, image->y, &by))
         return KD_OK;
@@ -164,8 +174,14 @@ static enum kd_status hand_on(void *user, const struct kd_star_image *image)
     return m->found(m->user, &o);
 }
 
-static uint32_t rays_before(double at, double from, double by) { return isfinite(at) ? (uint32_t)((at - from) / by) - 1 : KD_RIM_HALO - 1; }
-static uint32_t rays_until(double at, double from, double by, uint32_t all) { return isfinite(at) ? (uint32_t)ceil((at - from) / by) + 2 : all - KD_RIM_HALO + 1; }
+static uint32_t rays_before(double at, double from, double by)
+{
+    return isfinite(at) ? (uint32_t)((at - from) / by) - 1 : KD_RIM_HALO - 1;
+}
+static uint32_t rays_until(double at, double from, double by, uint32_t all)
+{
+    return isfinite(at) ? (uint32_t)ceil((at - from) / by) + 2 : all - KD_RIM_HALO + 1;
+}
 
 static enum kd_status in_grid(struct rim_map *m, const struct kd_vec *stars, const double *most, size_t n)
 {
@@ -175,13 +191,24 @@ static enum kd_status in_grid(struct rim_map *m, const struct kd_vec *stars, con
     m->row = rays_before(g->high_l, g->l, -g->dl);
     m->rows = rays_until(g->low_l, g->l, -g->dl, g->rows) - m->row;
     const struct kd_sky_map map = {
-        .width = m->columns, .height = m->rows, .coarse = KD_RIM_COARSE, .most = most, .pixels = pixels, .of = m, .row = row_of, .exact = exact, .between = between, .wanted = wanted,
+        .width = m->columns,
+        .height = m->rows,
+        .coarse = KD_RIM_COARSE,
+        .most = most,
+        .pixels = pixels,
+        .of = m,
+        .row = row_of,
+        .exact = exact,
+        .between = between,
+        .wanted = wanted,
     };
     return kd_star_images(&map, stars, n, hand_on, m);
 }
 
-enum kd_status kd_rim_images(const struct kd_scene *scene, const struct kd_rim *rim, const struct kd_vec *stars, const double *most, size_t n,
-                             enum kd_status (*found)(void *user, const struct kd_star_image *image), void *user, struct kd_error *error)
+enum kd_status kd_rim_images(const struct kd_scene *scene, const struct kd_rim *rim, const struct kd_vec *stars,
+                             const double *most, size_t n,
+                             enum kd_status (*found)(void *user, const struct kd_star_image *image), void *user,
+                             struct kd_error *error)
 {
     struct kd_rim_grids *grids = malloc(sizeof *grids);
     float *sky = NULL;
@@ -192,7 +219,13 @@ enum kd_status kd_rim_images(const struct kd_scene *scene, const struct kd_rim *
     sky = malloc(grids->numbers * sizeof *sky);
     if (!sky)
         KD_TRY(KD_ENOMEM);
-    struct rim_map m = { .rim = rim, .rays = kd_sky_rays_of(scene), .sky = sky, .width = kd_scene_side(scene) * scene->image.width, .height = kd_scene_side(scene) * scene->image.height, .found = found, .user = user };
+    struct rim_map m = { .rim = rim,
+                         .rays = kd_sky_rays_of(scene),
+                         .sky = sky,
+                         .width = kd_scene_side(scene) * scene->image.width,
+                         .height = kd_scene_side(scene) * scene->image.height,
+                         .found = found,
+                         .user = user };
     KD_TRY(kd_rim_sky(scene, rim, grids, sky, error));
     for (uint32_t i = 0; i < grids->n; i++) {
         m.grid = &grids->of[i];

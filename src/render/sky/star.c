@@ -14,7 +14,8 @@ double kd_star_kelvin(double colour) { return 4600 * (1 / (0.92 * colour + 1.7) 
 
 static struct kd_star star(struct kd_vec n, double magnitude, double colour)
 {
-    return (struct kd_star) { (float)n.x, (float)n.y, (float)n.z, (float)kd_star_flux(magnitude), (float)kd_star_kelvin(colour) };
+    return (struct kd_star) { (float)n.x, (float)n.y, (float)n.z, (float)kd_star_flux(magnitude),
+                              (float)kd_star_kelvin(colour) };
 }
 
 static void catalogue(const struct kd_scene *scene, struct kd_stars *out)
@@ -28,15 +29,19 @@ static void catalogue(const struct kd_scene *scene, struct kd_stars *out)
     }
 }
 
-/* The catalogue's counts grow by this from magnitude to magnitude until it is no longer complete, and reach 4 995 at V = 6. */
+/* The catalogue's counts grow by this from magnitude to magnitude until it is no longer complete, and reach 4 995 at
+ * V = 6. */
 static double magnitude_of_rank(double rank) { return 6 + log10(rank / 4995) / 0.49; }
 
-/* Half of the bright stars, and a third of the faint ones, lie anywhere; the others in a layer about the plane, more towards the middle. */
+/* Half of the bright stars, and a third of the faint ones, lie anywhere; the others in a layer about the plane, more
+ * towards the middle. */
 static struct kd_vec made_up_place(struct kd_random *random, double magnitude)
 {
-    double spread = fmin(fmax(0.6 - 0.035 * magnitude, 0.3), 0.7), l = 2 * M_PI * kd_random(random), z = 2 * kd_random(random) - 1;
+    double spread = fmin(fmax(0.6 - 0.035 * magnitude, 0.3), 0.7), l = 2 * M_PI * kd_random(random),
+           z = 2 * kd_random(random) - 1;
     bool anywhere = kd_random(random) < spread;
-    double far = -log(1 - kd_random(random)), above = kd_random(random) < 0.5 ? -1 : 1, towards = kd_random(random), side = kd_random(random);
+    double far = -log(1 - kd_random(random)), above = kd_random(random) < 0.5 ? -1 : 1, towards = kd_random(random),
+           side = kd_random(random);
     if (anywhere)
         return kd_sky_direction(l, asin(z));
     if (towards < 0.3)
@@ -66,7 +71,9 @@ static void made_up(const struct kd_scene *scene, struct kd_stars *out)
 
 size_t kd_stars_most(const struct kd_scene *scene)
 {
-    return scene->sky.model == KD_SKY_CATALOGUE ? KD_STARS_CATALOGUE : scene->sky.model == KD_SKY_STARS ? KD_STARS_MADE_UP : 0;
+    return scene->sky.model == KD_SKY_CATALOGUE ? KD_STARS_CATALOGUE
+           : scene->sky.model == KD_SKY_STARS   ? KD_STARS_MADE_UP
+                                                : 0;
 }
 
 enum kd_status kd_stars_make(const struct kd_scene *scene, struct kd_stars *out, struct kd_error *error)

@@ -1,8 +1,9 @@
 /* The stars of a sky are points: those of the Hipparcos catalogue, or as many that are made up. Pure; any thread.
  *
- * Directions are galactic, J2000: x towards l = 0, b = 0, z towards the galactic pole. The flux of a star is in units of the light that a
- * steradian of surface brightness KD_SKY_UNIT_MAG sends: F = 10^(-0.4 (V - 21)) square arcseconds. What is spread over the sky and what is
- * a point thus keep their true ratio, in the V band; sky.brightness multiplies both. */
+ * Directions are galactic, J2000: x towards l = 0, b = 0, z towards the galactic pole. The flux of a star is in
+ * units of the light that a steradian of surface brightness KD_SKY_UNIT_MAG sends: F = 10^(-0.4 (V - 21)) square
+ * arcseconds. What is spread over the sky and what is a point thus keep their true ratio, in the V band;
+ * sky.brightness multiplies both. */
 #ifndef KD_RENDER_SKY_STAR_H
 #define KD_RENDER_SKY_STAR_H
 
@@ -24,7 +25,8 @@ struct kd_stars {
     struct kd_star *at; /* the brightest first */
     size_t n;
 };
-/* Makes the stars of sky.model that are at least as bright as sky.limit_mag; none of other models. KD_ENOMEM. Some 30 ms. */
+/* Makes the stars of sky.model that are at least as bright as sky.limit_mag; none of other models. KD_ENOMEM. Some
+ * 30 ms. */
 enum kd_status kd_stars_make(const struct kd_scene *scene, struct kd_stars *out, struct kd_error *error);
 void kd_stars_finish(struct kd_stars *stars);
 /* At most so many. */

@@ -5,21 +5,29 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define SAME 1e-3    /* in rays: two roots of one star nearer than this are one, unless only one is mirrored */
-#define FOLDED 0.2   /* rad: cells no larger than this are looked through for folds */
-#define REACH 0.5    /* of a cell's size: stars so near to a corner or the middle of one where the map folds are looked for */
-#define BESIDE 0.35  /* in rays: so far from where the map folds, on both sides, they are looked for */
-#define MARGIN 3.0   /* an image may be so much brighter than triangles tell, but for folds */
+#define SAME 1e-3  /* in rays: two roots of one star nearer than this are one, unless only one is mirrored */
+#define FOLDED 0.2 /* rad: cells no larger than this are looked through for folds */
+#define REACH \
+    0.5 /* of a cell's size: stars so near to a corner or the middle of one where the map folds are looked for */
+#define BESIDE 0.35 /* in rays: so far from where the map folds, on both sides, they are looked for */
+#define MARGIN 3.0  /* an image may be so much brighter than triangles tell, but for folds */
 
-struct listed { struct kd_vec n; size_t star; };
-struct told { double x, y; bool mirrored; size_t before; /* of this star, 1 more; 0: none */ };
+struct listed {
+    struct kd_vec n;
+    size_t star;
+};
+struct told {
+    double x, y;
+    bool mirrored;
+    size_t before; /* of this star, 1 more; 0: none */
+};
 
 struct search {
     const struct kd_sky_map *map;
     struct listed *stars; /* by z, upwards */
     size_t n;
     size_t *near, n_near; /* of these, those that may be in the cell at hand, and bright enough */
-    size_t *last;      /* that was told of each star, 1 more */
+    size_t *last;         /* that was told of each star, 1 more */
     struct told *told;
     size_t n_told, room;
     enum kd_status (*found)(void *user, const struct kd_star_image *image);
@@ -47,9 +55,12 @@ static size_t first_from(const struct search *s, double z)
 }
 
 /* Tells an image, but for one that was told before. */
-static enum kd_status tell(struct search *s, const struct listed *star, double x, double y, const struct kd_sky_tangent *t)
+static enum kd_status tell(struct search *s, const struct listed *star, double x, double y,
+                           const struct kd_sky_tangent *t)
 {
-    struct kd_star_image image = { .star = star->star, .x = x, .y = y, .solid_angle = fabs(t->area), .mirrored = t->area < 0 };
+    struct kd_star_image image = {
+        .star = star->star, .x = x, .y = y, .solid_angle = fabs(t->area), .mirrored = t->area < 0
+    };
     for (size_t i = s->last[image.star]; i; i = s->told[i - 1].before) {
         const struct told *o = &s->told[i - 1];
         if (o->mirrored == image.mirrored && fabs(o->x - x) < SAME && fabs(o->y - y) < SAME)
@@ -65,24 +76,34 @@ static enum kd_status tell(struct search *s, const struct listed *star, double x
     }
     s->told[s->n_told++] = (struct told) { x, y, image.mirrored, s->last[image.star] };
     s->last[image.star] = s->n_told;
-    kd_sky_steps_to(t, (struct kd_vec) { star->n.y, -star->n.x, 0 }, &image.x_by_azimuth, &image.y_by_azimuth); /* the sky goes the other way */
+    kd_sky_steps_to(t, (struct kd_vec) { star->n.y, -star->n.x, 0 }, &image.x_by_azimuth,
+                    &image.y_by_azimuth); /* the sky goes the other way */
     return s->found(s->user, &image);
 }
 
-/* Corners of a triangle in turn clockwise, as the picture is seen; the first has the right angle, the second lies along `across`, the third
- * along `down`, +1 or -1. A star s is w0 a + w1 b + w2 c with all w above 0 (Cramer's rule), and two triangles of a pixel's area have twice
- * the solid angle of one: the volume of a, b, c. */
-struct corner { double x, y; struct kd_vec n; };
+/* Corners of a triangle in turn clockwise, as the picture is seen; the first has the right angle, the second lies
+ * along `across`, the third along `down`, +1 or -1. A star s is w0 a + w1 b + w2 c with all w above 0 (Cramer's
+ * rule), and two triangles of a pixel's area have twice the solid angle of one: the volume of a, b, c. */
+struct corner {
+    double x, y;
+    struct kd_vec n;
+};
 
 static struct kd_sky_tangent tangent_of(const struct corner *a, const struct corner *b, const struct corner *c)
 {
-    struct kd_sky_tangent t = { a->n, kd_vec_times(b->x - a->x, kd_vec_less(b->n, a->n)), kd_vec_times(c->y - a->y, kd_vec_less(c->n, a->n)), 0 };
+    struct kd_sky_tangent t = { a->n, kd_vec_times(b->x - a->x, kd_vec_less(b->n, a->n)),
+                                kd_vec_times(c->y - a->y, kd_vec_less(c->n, a->n)), 0 };
     t.area = kd_vec_volume(t.n, t.across, t.down);
     return t;
 }
 
 /* Four rays, in turn clockwise; the stars that may be in it; whether the map folds there. */
-struct cell { struct corner c[4]; double side[4], across, size, pixels; bool folds; double area, beside[2][2]; /* if it does: how large it is where it is largest, and places on both sides */ };
+struct cell {
+    struct corner c[4];
+    double side[4], across, size, pixels;
+    bool folds;
+    double area, beside[2][2]; /* if it does: how large it is where it is largest, and places on both sides */
+};
 
 /* Whether a star may be bright enough where the map takes a cell to so much of the sky. */
 static bool is_seen(const struct search *s, const struct cell *cell, const struct listed *star, double area)
@@ -94,14 +115,16 @@ static enum kd_status triangle(struct search *s, const struct cell *cell, int fi
 {
     const struct corner *a = &cell->c[first], *b = &cell->c[second], *c = &cell->c[third];
     const struct kd_vec p = a->n, q = b->n, r = c->n;
-    const double all = kd_vec_volume(p, q, r), size = cell->side[first] + cell->side[third] + cell->across; /* a NAN: a ray does not escape */
+    const double all = kd_vec_volume(p, q, r),
+                 size = cell->side[first] + cell->side[third] + cell->across; /* a NAN: a ray does not escape */
     enum kd_status status = KD_OK;
     if (!isfinite(size) || fmax(cell->across, fmax(cell->side[first], cell->side[third])) > s->map->coarse || all == 0)
         return KD_OK;
     for (size_t k = 0; k < s->n_near; k++) {
         const struct listed *star = &s->stars[s->near[k]];
         const struct kd_vec n = star->n;
-        const double w0 = kd_vec_volume(n, q, r) / all, w1 = kd_vec_volume(p, n, r) / all, w2 = kd_vec_volume(p, q, n) / all, sum = w0 + w1 + w2;
+        const double w0 = kd_vec_volume(n, q, r) / all, w1 = kd_vec_volume(p, n, r) / all,
+                     w2 = kd_vec_volume(p, q, n) / all, sum = w0 + w1 + w2;
         if (w0 < 0 || w1 < 0 || w2 < 0 || kd_vec_dot(n, p) <= 0)
             continue;
         if (!is_seen(s, cell, star, all))
@@ -150,7 +173,8 @@ done:
 /* Rays of four rows, of which the cells are between the middle two; NULL: there is none. */
 struct rows { const struct kd_vec *of[4]; };
 
-/* The difference of the rays on both sides of one, over two steps; where one of them is none, twice that to the other. */
+/* The difference of the rays on both sides of one, over two steps; where one of them is none, twice that to the
+ * other. */
 static struct kd_vec difference(struct kd_vec middle, const struct kd_vec *before, const struct kd_vec *after)
 {
     const bool has_before = before && isfinite(before->x), has_after = after && isfinite(after->x);
@@ -164,15 +188,19 @@ static double area_at(const struct kd_sky_map *map, const struct rows *rows, int
     const uint32_t width = map->width;
     const struct kd_vec *line = rows->of[row], *above = rows->of[row - 1], *below = rows->of[row + 1];
     const struct kd_vec *before = x ? &line[x - 1] : NULL, *after = x + 1 < width ? &line[x + 1] : NULL;
-    return kd_vec_volume(line[x], difference(line[x], before, after), difference(line[x], above ? above + x : NULL, below ? below + x : NULL));
+    return kd_vec_volume(line[x], difference(line[x], before, after),
+                         difference(line[x], above ? above + x : NULL, below ? below + x : NULL));
 }
 
-/* Where the map folds, the area goes through 0: by the areas about the corners, as a plane through them has it, within a cell or next to it. */
+/* Where the map folds, the area goes through 0: by the areas about the corners, as a plane through them has it,
+ * within a cell or next to it. */
 static void find_fold(const struct kd_sky_map *map, const struct rows *rows, uint32_t x, struct cell *cell)
 {
     const uint32_t next = x + 1;
-    const double a = area_at(map, rows, 1, x), b = area_at(map, rows, 1, next), c = area_at(map, rows, 2, x), d = area_at(map, rows, 2, next);
-    const double mean = 0.25 * (a + b + c + d), gx = 0.5 * (b + d - a - c), gy = 0.5 * (c + d - a - b), slope = hypot(gx, gy), off = -mean / slope;
+    const double a = area_at(map, rows, 1, x), b = area_at(map, rows, 1, next), c = area_at(map, rows, 2, x),
+                 d = area_at(map, rows, 2, next);
+    const double mean = 0.25 * (a + b + c + d), gx = 0.5 * (b + d - a - c), gy = 0.5 * (c + d - a - b),
+                 slope = hypot(gx, gy), off = -mean / slope;
     cell->folds = fabs(off) < KD_STAR_ROOT_NEAR; /* not if any of it is a NAN */
     cell->area = 0.25 * fmax(fmax(fabs(a), fabs(b)), fmax(fabs(c), fabs(d)));
     for (int k = 0; k < 2; k++) {
@@ -182,11 +210,13 @@ static void find_fold(const struct kd_sky_map *map, const struct rows *rows, uin
     }
 }
 
-/* Stars that may be in a cell, or near to one of its corners, and bright enough in the smaller one of its triangles. A ray that does not escape leaves one triangle. */
+/* Stars that may be in a cell, or near to one of its corners, and bright enough in the smaller one of its triangles.
+ * A ray that does not escape leaves one triangle. */
 static void find_near(struct search *s, struct cell *cell, size_t first, double high)
 {
     const struct kd_vec *a = &cell->c[0].n, *b = &cell->c[1].n, *c = &cell->c[2].n, *d = &cell->c[3].n;
-    const struct kd_vec *end = isfinite(a->x) && isfinite(c->x) ? c : d, *start = end == c ? a : b, middle = { 0.5 * (start->x + end->x), 0.5 * (start->y + end->y), 0.5 * (start->z + end->z) };
+    const struct kd_vec *end = isfinite(a->x) && isfinite(c->x) ? c : d, *start = end == c ? a : b,
+                        middle = { 0.5 * (start->x + end->x), 0.5 * (start->y + end->y), 0.5 * (start->z + end->z) };
     const double area = fmin(fabs(kd_vec_volume(*a, *b, *d)), fabs(kd_vec_volume(*c, *d, *b)));
     double far = 0;
     for (int i = 0; i < 4; i++)
@@ -233,7 +263,10 @@ static enum kd_status between(struct search *s, uint32_t y, const struct rows *r
     enum kd_status status = KD_OK;
     for (uint32_t x = 0; x + 1 < s->map->width; x++) {
         const uint32_t next = x + 1;
-        struct cell cell = { .c = { { x, y, upper[x] }, { x + 1.0, y, upper[next] }, { x + 1.0, y + 1.0, lower[next] }, { x, y + 1.0, lower[x] } } };
+        struct cell cell = { .c = { { x, y, upper[x] },
+                                    { x + 1.0, y, upper[next] },
+                                    { x + 1.0, y + 1.0, lower[next] },
+                                    { x, y + 1.0, lower[x] } } };
         if (!measure(s, rows, x, &cell))
             continue;
         KD_TRY(triangle(s, &cell, 0, 1, 3));
@@ -251,7 +284,13 @@ enum kd_status kd_star_images(const struct kd_sky_map *map, const struct kd_vec 
     enum { ROWS = 4 };
     const size_t width = map->width;
     struct kd_vec *rays = malloc(ROWS * (width + 1) * sizeof *rays);
-    struct search s = { .map = map, .stars = malloc((n + 1) * sizeof *s.stars), .n = n, .near = malloc((n + 1) * sizeof *s.near), .last = calloc(n + 1, sizeof *s.last), .found = found, .user = user };
+    struct search s = { .map = map,
+                        .stars = malloc((n + 1) * sizeof *s.stars),
+                        .n = n,
+                        .near = malloc((n + 1) * sizeof *s.near),
+                        .last = calloc(n + 1, sizeof *s.last),
+                        .found = found,
+                        .user = user };
     enum kd_status status = s.stars && s.near && s.last && rays ? KD_OK : KD_ENOMEM;
     if (!status) {
         for (size_t i = 0; i < n; i++)

@@ -1,4 +1,5 @@
-/* Names of the bright stars of the catalogue: all down to V = 4.5 that have any (data/hipparcos.names, scripts/pack-stars). Pure; any thread. */
+/* Names of the bright stars of the catalogue: all down to V = 4.5 that have any (data/hipparcos.names,
+ * scripts/pack-stars). Pure; any thread. */
 #ifndef KD_RENDER_SKY_STAR_NAMES_H
 #define KD_RENDER_SKY_STAR_NAMES_H
 
@@ -15,7 +16,8 @@ struct kd_star_name {
     char designation[KD_STAR_NAME]; /* but then this: "α Lyr", of J. Bayer or J. Flamsteed */
 };
 
-/* Reads the next one, the brightest first. *text: NULL to begin with; NULL again behind the last one, when nothing was read. */
+/* Reads the next one, the brightest first. *text: NULL to begin with; NULL again behind the last one, when nothing
+ * was read. */
 void kd_star_name_next(const char **text, struct kd_star_name *out);
 
 #endif

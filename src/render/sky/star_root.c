@@ -1,11 +1,12 @@
 #include "render/sky/star_root.h"
 
-#define NUDGE 1e-3      /* in rays: of differences for the derivative */
-#define EXACT 1e-7      /* in rays: the next step would be 1e-10 */
-#define BETWEEN 1e-4    /* in rays: so near the map between rays is followed, which is no better */
-#define STEADY 0.02     /* in rays: after a shorter step, */
-#define SHRINKS 0.1     /* and one shorter than the last by this, the derivative is kept: the next one shrinks as much */
-#define DOUBTFUL 1e-3   /* rad: a star that comes so near in the map between rays, next to where the map folds, may have an image */
+#define NUDGE 1e-3   /* in rays: of differences for the derivative */
+#define EXACT 1e-7   /* in rays: the next step would be 1e-10 */
+#define BETWEEN 1e-4 /* in rays: so near the map between rays is followed, which is no better */
+#define STEADY 0.02  /* in rays: after a shorter step, */
+#define SHRINKS 0.1  /* and one shorter than the last by this, the derivative is kept: the next one shrinks as much */
+#define DOUBTFUL \
+    1e-3 /* rad: a star that comes so near in the map between rays, next to where the map folds, may have an image */
 #define STEPS 30
 
 void kd_sky_steps_to(const struct kd_sky_tangent *from, struct kd_vec star, double *dx, double *dy)
@@ -14,7 +15,8 @@ void kd_sky_steps_to(const struct kd_sky_tangent *from, struct kd_vec star, doub
     *dy = kd_vec_volume(from->n, from->across, star) / from->area;
 }
 
-/* The derivative by differences, from the ray at a place to others on one side of it, or where `both` between those on both. */
+/* The derivative by differences, from the ray at a place to others on one side of it, or where `both` between those
+ * on both. */
 static bool set_slopes(const struct kd_sky_map *map, double x, double y, bool both, struct kd_sky_tangent *out)
 {
     struct kd_vec across, down, left = out->n, up = out->n;
@@ -38,8 +40,8 @@ static double step(const struct kd_sky_tangent *at, struct kd_vec star, double *
     return far;
 }
 
-/* By the map between its rays. NONE: no image is near. Where the map folds, that and the true one may disagree about a pair of images that is about to merge: such a place is told as
- * one to look at. */
+/* By the map between its rays. NONE: no image is near. Where the map folds, that and the true one may disagree about
+ * a pair of images that is about to merge: such a place is told as one to look at. */
 static enum kd_star_root root_between(const struct kd_sky_map *map, struct kd_vec star, double *x, double *y)
 {
     const double x0 = *x, y0 = *y;
@@ -64,7 +66,8 @@ static enum kd_star_root root_between(const struct kd_sky_map *map, struct kd_ve
     return nearest < DOUBTFUL ? KD_STAR_ROOT_FOUND : KD_STAR_ROOT_NONE;
 }
 
-enum kd_star_root kd_star_root(const struct kd_sky_map *map, struct kd_vec star, double *x, double *y, struct kd_sky_tangent *at)
+enum kd_star_root kd_star_root(const struct kd_sky_map *map, struct kd_vec star, double *x, double *y,
+                               struct kd_sky_tangent *at)
 {
     if (map->between && root_between(map, star, x, y) == KD_STAR_ROOT_NONE)
         return KD_STAR_ROOT_NONE;
@@ -85,7 +88,8 @@ enum kd_star_root kd_star_root(const struct kd_sky_map *map, struct kd_vec star,
         if (!isfinite(far))
             return KD_STAR_ROOT_NONE;
         if (far < EXACT)
-            return kd_vec_dot(star, at->n) > 0 && set_slopes(map, *x, *y, true, at) ? KD_STAR_ROOT_FOUND : KD_STAR_ROOT_NONE;
+            return kd_vec_dot(star, at->n) > 0 && set_slopes(map, *x, *y, true, at) ? KD_STAR_ROOT_FOUND
+                                                                                    : KD_STAR_ROOT_NONE;
     }
     return KD_STAR_ROOT_NONE;
 }

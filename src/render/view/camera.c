@@ -9,7 +9,7 @@
 struct vec { double x, y, z; };
 static struct vec mix(double a, struct vec p, double b, struct vec q)
 {
-    return (struct vec){ a * p.x + b * q.x, a * p.y + b * q.y, a * p.z + b * q.z };
+    return (struct vec) { a * p.x + b * q.x, a * p.y + b * q.y, a * p.z + b * q.z };
 }
 
 static void set_directions(struct kd_camera_exact *o, struct vec c0, struct vec cx, struct vec cy)
@@ -24,12 +24,12 @@ static void set_directions(struct kd_camera_exact *o, struct vec c0, struct vec 
 static void plane(struct kd_camera_exact *o, const struct kd_camera *c, double step)
 {
     double cr = kd_cos_deg(c->roll_deg), sr = kd_sin_deg(c->roll_deg);
-    set_directions(o, (struct vec){ c->centre_alpha, c->centre_beta, 0 }, (struct vec){ step * cr, -step * sr, 0 },
-                   (struct vec){ step * sr, step * cr, 0 });
+    set_directions(o, (struct vec) { c->centre_alpha, c->centre_beta, 0 }, (struct vec) { step * cr, -step * sr, 0 },
+                   (struct vec) { step * sr, step * cr, 0 });
 }
 
-/* Look directions in the local frame (e_r, e_theta, e_phi), of any camera that is near. Unturned, it looks along -e_r, with +e_phi to
- * the right and -e_theta up. */
+/* Look directions in the local frame (e_r, e_theta, e_phi), of any camera that is near. Unturned, it looks along
+ * -e_r, with +e_phi to the right and -e_theta up. */
 static void near(struct kd_camera_exact *o, const struct kd_camera *c, double step)
 {
     const struct vec inwards = { -1, 0, 0 }, right = { 0, 0, 1 }, up = { 0, -1, 0 };
@@ -58,7 +58,8 @@ static void frame(struct kd_camera_exact *o, const struct kd_scene *scene, const
     o->e_t = f.t.energy, o->e_r = f.r.energy, o->e_theta = f.theta.energy, o->e_phi = f.phi.energy;
     o->l_t = f.t.momentum, o->l_r = f.r.momentum, o->l_theta = f.theta.momentum, o->l_phi = f.phi.momentum;
     o->p_t = f.t.polar, o->p_r = f.r.polar, o->p_theta = f.theta.polar, o->p_phi = f.phi.polar;
-    o->dw_t = f.t.radial / r2, o->dw_r = f.r.radial / r2, o->dw_theta = f.theta.radial / r2, o->dw_phi = f.phi.radial / r2;
+    o->dw_t = f.t.radial / r2, o->dw_r = f.r.radial / r2, o->dw_theta = f.theta.radial / r2,
+    o->dw_phi = f.phi.radial / r2;
     o->w0 = 1 / at->r;
     o->twist = kd_camera_twist(scene);
 }
@@ -81,7 +82,8 @@ static void turns(struct kd_camera_exact *o, double width, double height)
 
 double kd_camera_ahead(uint32_t sight, double turn_x, double turn_y, double *x, double *y)
 {
-    const double to_right = 0.5 * M_PI * turn_x * *x, upwards = 0.5 * M_PI * turn_y * *y, off = hypot(to_right, upwards);
+    const double to_right = 0.5 * M_PI * turn_x * *x, upwards = 0.5 * M_PI * turn_y * *y,
+                 off = hypot(to_right, upwards);
     switch (sight) {
     case KD_SIGHT_SPHERE:
         *x = cos(upwards) * sin(to_right);
@@ -146,7 +148,8 @@ struct kd_camera_block kd_camera_block(const struct kd_scene *scene)
 static struct vec direction(const struct kd_camera_exact *c, double px, double py)
 {
     double x = px - c->middle_x, y = c->middle_y - py, ahead = kd_camera_ahead(c->sight, c->turn_x, c->turn_y, &x, &y);
-    return (struct vec) { ahead * c->c0x + x * c->cxx + y * c->cyx, ahead * c->c0y + x * c->cxy + y * c->cyy, ahead * c->c0z + x * c->cxz + y * c->cyz };
+    return (struct vec) { ahead * c->c0x + x * c->cxx + y * c->cyx, ahead * c->c0y + x * c->cxy + y * c->cyy,
+                          ahead * c->c0z + x * c->cxz + y * c->cyz };
 }
 
 void kd_camera_look(const struct kd_camera_exact *c, double x, double y, double out[3])
@@ -205,7 +208,8 @@ void kd_camera_label(const struct kd_camera_exact *c, uint32_t px, uint32_t py, 
 
 void kd_camera_label_towards(const struct kd_camera_exact *c, const double k[3], struct kd_camera_label *out)
 {
-    double n = 1 / sqrt(k[0] * k[0] + k[1] * k[1] + k[2] * k[2]), m_r = -k[0] * n, m_theta = -k[1] * n, m_phi = -k[2] * n;
+    double n = 1 / sqrt(k[0] * k[0] + k[1] * k[1] + k[2] * k[2]), m_r = -k[0] * n, m_theta = -k[1] * n,
+           m_phi = -k[2] * n;
     kd_camera_label_of(c->e_t + c->e_r * m_r + c->e_theta * m_theta + c->e_phi * m_phi,
                        c->l_t + c->l_r * m_r + c->l_theta * m_theta + c->l_phi * m_phi,
                        c->p_t - (c->p_r * k[0] + c->p_theta * k[1] + c->p_phi * k[2]) * n,

@@ -31,7 +31,8 @@ struct spot {
 
 static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/* Where a direction is seen by a camera whose steps are angles: (to the right, upwards) of unit vectors, and what is ahead. */
+/* Where a direction is seen by a camera whose steps are angles: (to the right, upwards) of unit vectors, and what is
+ * ahead. */
 static struct spot turned(const struct kd_camera_exact *c, double right, double up, double ahead)
 {
     const double quarter = 0.5 * M_PI, aside = hypot(right, up), off = atan2(aside, ahead) / (quarter * c->turn_x);
@@ -66,7 +67,8 @@ static struct spot project(const struct work *w, double along, double half)
         for (int i = 0; i < 3; i++)
             d[i] /= depth;
     }
-    return (struct spot) { c->middle_x + dot(d, right) / dot(right, right), c->middle_y - dot(d, up) / dot(up, up), true };
+    return (struct spot) { c->middle_x + dot(d, right) / dot(right, right), c->middle_y - dot(d, up) / dot(up, up),
+                           true };
 }
 
 static double clamp(double x, double least, double most) { return fmin(fmax(x, least), most); }
@@ -87,8 +89,10 @@ static void mark_pixel(struct work *w, uint32_t x, uint32_t y)
 static void mark(struct work *w, struct spot a, struct spot b)
 {
     const double near = KD_CRITICAL_NEAR;
-    double top = clamp(ceil(fmin(a.y, b.y) - near), 0, w->height), bottom = clamp(floor(fmax(a.y, b.y) + near), -1, w->height - 1.0);
-    double left = clamp(ceil(fmin(a.x, b.x) - near), 0, w->width), right = clamp(floor(fmax(a.x, b.x) + near), -1, w->width - 1.0);
+    double top = clamp(ceil(fmin(a.y, b.y) - near), 0, w->height),
+           bottom = clamp(floor(fmax(a.y, b.y) + near), -1, w->height - 1.0);
+    double left = clamp(ceil(fmin(a.x, b.x) - near), 0, w->width),
+           right = clamp(floor(fmax(a.x, b.x) + near), -1, w->width - 1.0);
     double dx = b.x - a.x, dy = b.y - a.y, length2 = dx * dx + dy * dy;
     for (double y = top; y <= bottom; y++)
         for (double x = left; x <= right; x++) {
@@ -107,7 +111,8 @@ static bool meets(const struct work *w, struct spot a, struct spot b)
            fmin(a.y, b.y) - room <= w->height;
 }
 
-/* The curve from one place to another in pieces that are straight, and short: what mark looks at is their bounding boxes. */
+/* The curve from one place to another in pieces that are straight, and short: what mark looks at is their bounding
+ * boxes. */
 static void draw(struct work *w, double half, double from, struct spot a, double to, struct spot b, int depth)
 {
     if (a.seen && b.seen && depth > 0 && !meets(w, a, b))
@@ -117,8 +122,8 @@ static void draw(struct work *w, double half, double from, struct spot a, double
     bool whole = a.seen && m.seen && b.seen;
     if (depth == DEEPEST && whole && hypot(b.x - a.x, b.y - a.y) > 0.5 * w->whole)
         return; /* from one edge of a sphere to the other, or past what lies behind a dome */
-    if (whole && (depth == DEEPEST || (fabs(m.x - 0.5 * (a.x + b.x)) < straight && fabs(m.y - 0.5 * (a.y + b.y)) < straight &&
-                                       hypot(b.x - a.x, b.y - a.y) < 24))) {
+    if (whole && (depth == DEEPEST || (fabs(m.x - 0.5 * (a.x + b.x)) < straight &&
+                                       fabs(m.y - 0.5 * (a.y + b.y)) < straight && hypot(b.x - a.x, b.y - a.y) < 24))) {
         mark(w, a, m);
         mark(w, m, b);
     } else if (depth < DEEPEST && (a.seen || m.seen || b.seen || depth < 4)) {
@@ -127,7 +132,8 @@ static void draw(struct work *w, double half, double from, struct spot a, double
     }
 }
 
-static void list_row(const struct work *w, const uint32_t *columns, uint32_t n, uint32_t y, struct kd_critical_pixels *out)
+static void list_row(const struct work *w, const uint32_t *columns, uint32_t n, uint32_t y,
+                     struct kd_critical_pixels *out)
 {
     for (uint32_t i = 0; i < n; i++) {
         const struct tile *tile = w->tiles[(size_t)(y / TILE) * w->across + columns[i]];
@@ -173,29 +179,39 @@ static enum kd_status mark_and_list(struct work *w, struct kd_critical_pixels *o
         free(w->tiles[i]);
     free(w->tiles);
     free(columns);
-    return good ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for the pixels at the critical curve of %u x %u", w->width, w->height);
+    return good ? KD_OK
+                : kd_error_set(error, KD_ENOMEM, "out of memory for the pixels at the critical curve of %u x %u",
+                               w->width, w->height);
 }
 
 static _Atomic uint64_t made;
 
 uint64_t kd_critical_pixels_made(void) { return atomic_load(&made); }
 
-enum kd_status kd_critical_pixels_of(const struct kd_scene *scene, struct kd_critical_pixels *out, struct kd_error *error)
+enum kd_status kd_critical_pixels_of(const struct kd_scene *scene, struct kd_critical_pixels *out,
+                                     struct kd_error *error)
 {
     const struct kd_scene camera = kd_critical_camera(scene, 1);
     const struct kd_window window = kd_scene_window(scene);
     struct work w = {
-        .camera = kd_camera_exact(&camera), .width = window.width, .height = window.height, .whole = (uint32_t)scene->image.width,
+        .camera = kd_camera_exact(&camera),
+        .width = window.width,
+        .height = window.height,
+        .whole = (uint32_t)scene->image.width,
     };
     const struct kd_critical_observer observer = {
-        .spin = scene->spacetime.spin, .radius = scene->camera.r, .cos_theta = w.camera.u, .sin_theta = w.camera.s,
+        .spin = scene->spacetime.spin,
+        .radius = scene->camera.r,
+        .cos_theta = w.camera.u,
+        .sin_theta = w.camera.s,
         .motion = kd_scene_observer(scene),
     };
     atomic_fetch_add(&made, 1);
     *out = (struct kd_critical_pixels) { 0 };
     w.curve = kd_critical_of(&observer);
     if (w.curve.status) /* not of a valid scene */
-        return kd_error_set(error, KD_EINVAL, "no critical curve for spin %.16g, camera.r %.16g", observer.spin, observer.radius);
+        return kd_error_set(error, KD_EINVAL, "no critical curve for spin %.16g, camera.r %.16g", observer.spin,
+                            observer.radius);
     w.across = (w.width + TILE - 1) / TILE;
     w.down = (w.height + TILE - 1) / TILE;
     return mark_and_list(&w, out, error);
@@ -241,7 +257,10 @@ static uint32_t apart(uint32_t rays, uint32_t generator)
 
 static uint32_t common(uint32_t a, uint32_t b) { return b ? common(b, a % b) : a; }
 
-struct kd_critical_lattice kd_critical_grid(uint32_t side) { return (struct kd_critical_lattice) { .rays = side * side, .shift = side }; }
+struct kd_critical_lattice kd_critical_grid(uint32_t side)
+{
+    return (struct kd_critical_lattice) { .rays = side * side, .shift = side };
+}
 
 /* The shortest vector of the lattice that is no multiple of (bx, by); of any, where that is 0. */
 static void shortest(const struct kd_critical_lattice *l, int32_t bx, int32_t by, int32_t *x, int32_t *y)

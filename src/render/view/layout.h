@@ -1,4 +1,5 @@
-/* This is the C side of what shaders/shared lists: structs of interface.h, specialisation constants of spec.h, planes of lens.h. */
+/* This is the C side of what shaders/shared lists: structs of interface.h, specialisation constants of spec.h,
+ * planes of lens.h. */
 #ifndef KD_RENDER_VIEW_LAYOUT_H
 #define KD_RENDER_VIEW_LAYOUT_H
 
@@ -11,11 +12,15 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* What is told from 0 on the device must stay so as a float, for whether a ray lies in the plane or on the axis depends on it; and
- * where denormal numbers count as zeros, so must its quotients and products with what else there is. An observer may be 2.5e-16 from
- * the plane: beside that a label of 1e-20 would move the node by 1e-5, this one moves it by 1e-7; a third of it, times 2.5e-16, would be denormal. */
+/* What is told from 0 on the device must stay so as a float, for whether a ray lies in the plane or on the axis
+ * depends on it; and where denormal numbers count as zeros, so must its quotients and products with what else there
+ * is. An observer may be 2.5e-16 from the plane: beside that a label of 1e-20 would move the node by 1e-5, this one
+ * moves it by 1e-7; a third of it, times 2.5e-16, would be denormal. */
 #define KD_LEAST_FLOAT 1e-22
-static inline double kd_lifted(double x) { return x != 0 && fabs(x) < KD_LEAST_FLOAT ? copysign(KD_LEAST_FLOAT, x) : x; }
+static inline double kd_lifted(double x)
+{
+    return x != 0 && fabs(x) < KD_LEAST_FLOAT ? copysign(KD_LEAST_FLOAT, x) : x;
+}
 
 #define F(name) float name;
 #define U(name) uint32_t name;
@@ -36,32 +41,47 @@ struct kd_beam_blur_push { KD_BEAM_BLUR_FIELDS_(F, U) };
 #undef F
 #undef U
 
-/* post.comp takes these: workgroups for so many pixels, bytes of radiance that they read, in blocks of four pixels, and bytes of packed
- * pixels that they write, whole groups of them. */
+/* post.comp takes these: workgroups for so many pixels, bytes of radiance that they read, in blocks of four pixels,
+ * and bytes of packed pixels that they write, whole groups of them. */
 static inline uint32_t kd_post_groups(uint64_t pixels)
 {
     const uint64_t each = KD_GROUP_SIZE * KD_POST_PIXELS;
     return (uint32_t)((pixels + each - 1) / each);
 }
-static inline uint64_t kd_post_radiance_bytes(uint64_t pixels) { return (pixels + KD_POST_PIXELS - 1) / KD_POST_PIXELS * (12 * KD_POST_PIXELS); }
+static inline uint64_t kd_post_radiance_bytes(uint64_t pixels)
+{
+    return (pixels + KD_POST_PIXELS - 1) / KD_POST_PIXELS * (12 * KD_POST_PIXELS);
+}
 static inline uint64_t kd_post_bytes(uint64_t pixels, int bit_depth)
 {
     return (uint64_t)kd_post_groups(pixels) * KD_GROUP_SIZE * KD_POST_PIXELS * (bit_depth == 16 ? 6 : 3);
 }
 
-_Static_assert(sizeof(struct kd_slice) <= 128 && sizeof(struct kd_footprint_push) <= 128 && sizeof(struct kd_particles_push) <= 128 && sizeof(struct kd_light_push) <= 128 &&
-               sizeof(struct kd_post_push) <= 128, "the push constants that every device has");
+_Static_assert(sizeof(struct kd_slice) <= 128 && sizeof(struct kd_footprint_push) <= 128 &&
+                   sizeof(struct kd_particles_push) <= 128 && sizeof(struct kd_light_push) <= 128 &&
+                   sizeof(struct kd_post_push) <= 128,
+               "the push constants that every device has");
 
-/* The cameras of a frame lie in one buffer, each where a binding may begin: of the rays of the grid, of those at the critical curve,
- * of those of pixels that need more, on the grid and there, of those that tell what is left, and of the picture that this may be a tile of. */
-enum { KD_CAMERA_GRID, KD_CAMERA_CRITICAL, KD_CAMERA_DENSE, KD_CAMERA_DENSE_CRITICAL, KD_CAMERA_TRUTH, KD_CAMERA_WHOLE, KD_CAMERAS, KD_CAMERA_BYTES = 256 };
+/* The cameras of a frame lie in one buffer, each where a binding may begin: of the rays of the grid, of those at the
+ * critical curve, of those of pixels that need more, on the grid and there, of those that tell what is left, and of
+ * the picture that this may be a tile of. */
+enum {
+    KD_CAMERA_GRID,
+    KD_CAMERA_CRITICAL,
+    KD_CAMERA_DENSE,
+    KD_CAMERA_DENSE_CRITICAL,
+    KD_CAMERA_TRUTH,
+    KD_CAMERA_WHOLE,
+    KD_CAMERAS,
+    KD_CAMERA_BYTES = 256
+};
 _Static_assert(sizeof(struct kd_camera_block) <= KD_CAMERA_BYTES, "the next camera begins behind this one");
 
 /* Specialisation constants: a member each, at four times its id. */
 #define SPEC_U(id, name, value) uint32_t name;
 #define SPEC_CHECK(of, id, name) _Static_assert(offsetof(struct of, name) == 4 * (id), "a constant's id is its place");
-#define SPEC(of, LIST, CHECK, more)                                                                           \
-    struct of { LIST(SPEC_U, SPEC_U) more };                                                                   \
+#define SPEC(of, LIST, CHECK, more) \
+    struct of { LIST(SPEC_U, SPEC_U) more }; \
     LIST(CHECK, CHECK)
 #define CHECK_CLOSED(id, name, value) SPEC_CHECK(kd_spec_lens_closed, id, name)
 #define CHECK_MAP(id, name, value) SPEC_CHECK(kd_spec_lens_map, id, name)
@@ -82,7 +102,8 @@ SPEC(kd_spec_lens_closed, KD_SPEC_LENS_CLOSED, CHECK_CLOSED, )
 SPEC(kd_spec_lens_map, KD_SPEC_LENS_MAP, CHECK_MAP, )
 SPEC(kd_spec_footprint, KD_SPEC_FOOTPRINT, CHECK_FOOTPRINT, )
 SPEC(kd_spec_between, KD_SPEC_BETWEEN, CHECK_BETWEEN, )
-SPEC(kd_spec_transfer, KD_SPEC_TRANSFER, CHECK_TRANSFER, uint32_t traits[KD_EMITTERS(TRAIT, TRAIT, TRAIT, TRAIT, TRAIT, TRAIT)];)
+SPEC(kd_spec_transfer, KD_SPEC_TRANSFER, CHECK_TRANSFER,
+     uint32_t traits[KD_EMITTERS(TRAIT, TRAIT, TRAIT, TRAIT, TRAIT, TRAIT)];)
 SPEC(kd_spec_rays, KD_SPEC_RAYS, CHECK_RAYS, )
 SPEC(kd_spec_particles, KD_SPEC_PARTICLES, CHECK_PARTICLES, )
 SPEC(kd_spec_stars, KD_SPEC_STARS, CHECK_STARS, )
@@ -92,7 +113,8 @@ SPEC(kd_spec_bloom_gather, KD_SPEC_BLOOM_GATHER, CHECK_GATHER, )
 SPEC(kd_spec_post, KD_SPEC_POST, CHECK_POST, )
 SPEC(kd_spec_beam, KD_SPEC_BEAM, CHECK_BEAM, )
 SPEC(kd_spec_beam_blur, KD_SPEC_BEAM_BLUR, CHECK_BEAM_BLUR, )
-_Static_assert(offsetof(struct kd_spec_transfer, traits) == 4 * KD_SPEC_TRAITS, "the emitters' words are behind the others");
+_Static_assert(offsetof(struct kd_spec_transfer, traits) == 4 * KD_SPEC_TRAITS,
+               "the emitters' words are behind the others");
 #undef SPEC_U
 #undef SPEC_CHECK
 #undef SPEC
@@ -114,8 +136,12 @@ _Static_assert(offsetof(struct kd_spec_transfer, traits) == 4 * KD_SPEC_TRAITS, 
 static inline uint32_t kd_lens_plane(uint32_t quantities, uint32_t orders, uint32_t quantity)
 {
     uint32_t before = quantities & (quantity - 1);
-    return (uint32_t)__builtin_popcount(before & KD_LENS_CROSSINGS) * orders + (uint32_t)__builtin_popcount(before & ~(uint32_t)KD_LENS_CROSSINGS);
+    return (uint32_t)__builtin_popcount(before & KD_LENS_CROSSINGS) * orders +
+           (uint32_t)__builtin_popcount(before & ~(uint32_t)KD_LENS_CROSSINGS);
 }
-static inline uint32_t kd_lens_planes(uint32_t quantities, uint32_t orders) { return kd_lens_plane(quantities, orders, 1u << 31); }
+static inline uint32_t kd_lens_planes(uint32_t quantities, uint32_t orders)
+{
+    return kd_lens_plane(quantities, orders, 1u << 31);
+}
 
 #endif

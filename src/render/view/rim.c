@@ -14,10 +14,13 @@ static void scale(double a[3], double by)
         a[i] *= by;
 }
 
-#define ENDS 3e-4   /* of half the curve: so near to its ends, where digits of `up` are lost, it is a parabola; */
-#define MIDST 1e-9  /* over that: no nearer is a point, for there light stays in an observer's plane, which null_bend.h does not follow */
+#define ENDS 3e-4 /* of half the curve: so near to its ends, where digits of `up` are lost, it is a parabola; */
+#define MIDST \
+    1e-9 /* over that: no nearer is a point, for there light stays in an observer's plane, which null_bend.h does not \
+            follow */
 
-/* A point of the upper half, from 0 to 1; at both ends all components are even functions of how far it is from there, but up and beta, which are odd. */
+/* A point of the upper half, from 0 to 1; at both ends all components are even functions of how far it is from
+ * there, but up and beta, which are odd. */
 static struct kd_critical_point upper(const struct kd_critical *curve, double along)
 {
     const double end = along < 0.5 ? 0 : 1, t = fmax(fabs(along - end) / ENDS, MIDST);
@@ -25,13 +28,15 @@ static struct kd_critical_point upper(const struct kd_critical *curve, double al
         return kd_critical_round(curve, along);
     struct kd_critical_point p = kd_critical_round(curve, fabs(end - ENDS));
     const struct kd_critical_point last = kd_critical_round(curve, end);
-    p.right = last.right + t * t * (p.right - last.right), p.inwards = last.inwards + t * t * (p.inwards - last.inwards), p.alpha = last.alpha + t * t * (p.alpha - last.alpha);
+    p.right = last.right + t * t * (p.right - last.right),
+    p.inwards = last.inwards + t * t * (p.inwards - last.inwards),
+    p.alpha = last.alpha + t * t * (p.alpha - last.alpha);
     p.up *= t, p.beta *= t;
     return p;
 }
 
-/* The direction of a point of the curve in the observer's frame, or alpha and beta. They go round once, without a gap: the place of an orbit goes as a
- * cosine. */
+/* The direction of a point of the curve in the observer's frame, or alpha and beta. They go round once, without a
+ * gap: the place of an orbit goes as a cosine. */
 static void direction(const struct kd_critical *curve, double u, double out[3])
 {
     const double whole = u / KD_RIM_ANGLES, turn = 2 * (whole - floor(whole)), half = turn <= 1 ? 1 : -1;
@@ -48,7 +53,8 @@ static void set_legs(struct kd_rim *o, double d[KD_RIM_ANGLES][3])
     double all = 0;
     for (int k = 0; k < KD_RIM_ANGLES; k++) {
         const double *before = d[(k + KD_RIM_ANGLES - 1) % KD_RIM_ANGLES], *after = d[(k + 1) % KD_RIM_ANGLES];
-        const double step[] = { after[0] - before[0], after[1] - before[1], after[2] - before[2] }, length = sqrt(dot(step, step));
+        const double step[] = { after[0] - before[0], after[1] - before[1], after[2] - before[2] },
+                     length = sqrt(dot(step, step));
         all += length;
         for (int i = 0; i < 3; i++)
             o->ahead[i] += length * d[k][i];
@@ -59,11 +65,13 @@ static void set_legs(struct kd_rim *o, double d[KD_RIM_ANGLES][3])
         return;
     }
     scale(o->ahead, 1 / sqrt(dot(o->ahead, o->ahead)));
-    const double *a = o->ahead, across[] = { 0, 0, 1 }, down[] = { 0, 1, 0 }, *beside = fabs(a[2]) < 0.7 ? across : down;
+    const double *a = o->ahead, across[] = { 0, 0, 1 }, down[] = { 0, 1, 0 },
+                 *beside = fabs(a[2]) < 0.7 ? across : down;
     for (int i = 0; i < 3; i++)
         o->right[i] = beside[i] - dot(beside, a) * a[i];
     scale(o->right, 1 / sqrt(dot(o->right, o->right)));
-    const double up[] = { a[1] * o->right[2] - a[2] * o->right[1], a[2] * o->right[0] - a[0] * o->right[2], a[0] * o->right[1] - a[1] * o->right[0] };
+    const double up[] = { a[1] * o->right[2] - a[2] * o->right[1], a[2] * o->right[0] - a[0] * o->right[2],
+                          a[0] * o->right[1] - a[1] * o->right[0] };
     memcpy(o->up, up, sizeof up);
 }
 
@@ -76,7 +84,8 @@ static bool on_plane(const struct kd_rim *o, const double d[3], double place[2])
     return depth > cos(80 * (M_PI / 180));
 }
 
-/* From one point of the curve to the next: where rays from the middle meet the straight line between them. False: it does not go round the middle. */
+/* From one point of the curve to the next: where rays from the middle meet the straight line between them. False: it
+ * does not go round the middle. */
 static bool set_edges_between(struct kd_rim *o, const double p[2], const double q[2], double turning)
 {
     const double unit = KD_RIM_EDGES / (2 * M_PI), cross = p[0] * q[1] - p[1] * q[0];
@@ -109,8 +118,8 @@ static bool set_edges(struct kd_rim *o, double d[KD_RIM_ANGLES][3], double *leas
     return true;
 }
 
-/* How much less or more the sky goes by, while a ray comes e times nearer to the curve, at the next point of it: that is the more, the slower light leaves its orbit
- * (photon_shell.h). */
+/* How much less or more the sky goes by, while a ray comes e times nearer to the curve, at the next point of it:
+ * that is the more, the slower light leaves its orbit (photon_shell.h). */
 static double winding(const struct kd_critical *curve)
 {
     enum { PLACES = 32 };
@@ -118,7 +127,8 @@ static double winding(const struct kd_critical *curve)
     for (int i = 0; i <= PLACES; i++) {
         const struct kd_critical_point p = kd_critical_round(curve, (double)i / PLACES);
         const struct kd_shell_exponents e = kd_shell_exponents(&p.orbit);
-        const double turned = M_PI / e.gamma, dragged = (e.delta - copysign(M_PI, e.delta)) / e.gamma; /* the latter without the jump of delta */
+        const double turned = M_PI / e.gamma,
+                     dragged = (e.delta - copysign(M_PI, e.delta)) / e.gamma; /* the latter without the jump of delta */
         if (i)
             apart = fmax(apart, (fabs(turned - turn) + fabs(dragged - drag)) * (2.0 * PLACES / KD_RIM_ANGLES));
         turn = turned, drag = dragged;
@@ -141,7 +151,8 @@ static void set_widths(struct kd_rim *o, const struct kd_scene *scene, double ra
 
 bool kd_rim_may_be(const struct kd_scene *scene)
 {
-    return scene->camera.projection != KD_PROJECTION_RING && scene->camera.r >= 1.05 * kd_kerr_photon_orbit(-fabs(scene->spacetime.spin));
+    return scene->camera.projection != KD_PROJECTION_RING &&
+           scene->camera.r >= 1.05 * kd_kerr_photon_orbit(-fabs(scene->spacetime.spin));
 }
 
 void kd_rim_place(const struct kd_rim *rim, double u, double off, double place[2])
@@ -177,7 +188,11 @@ bool kd_rim_of(const struct kd_scene *scene, struct kd_rim *out)
 {
     const struct kd_vantage at = kd_scene_vantage(scene);
     const struct kd_critical_observer observer = {
-        .spin = scene->spacetime.spin, .radius = scene->camera.r, .cos_theta = at.u, .sin_theta = at.s, .motion = kd_scene_observer(scene),
+        .spin = scene->spacetime.spin,
+        .radius = scene->camera.r,
+        .cos_theta = at.u,
+        .sin_theta = at.s,
+        .motion = kd_scene_observer(scene),
     };
     double d[KD_RIM_ANGLES][3], radius;
     *out = (struct kd_rim) { .flat = isinf(scene->camera.r) };
@@ -203,6 +218,7 @@ double kd_rim_off(const struct kd_rim *rim, const double look[3])
     on_plane(rim, look, place);
     const double angle = atan2(place[1], place[0]) * (KD_RIM_EDGES / (2 * M_PI));
     const int i = (int)floor(angle) + KD_RIM_EDGES;
-    const double part = angle - floor(angle), edge = (1 - part) * rim->edge[i % KD_RIM_EDGES] + part * rim->edge[(i + 1) % KD_RIM_EDGES];
+    const double part = angle - floor(angle),
+                 edge = (1 - part) * rim->edge[i % KD_RIM_EDGES] + part * rim->edge[(i + 1) % KD_RIM_EDGES];
     return ahead ? hypot(place[0], place[1]) / edge - 1 : INFINITY;
 }

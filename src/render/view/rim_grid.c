@@ -11,13 +11,17 @@ enum { ROUND = 64, ACROSS = 20 };
 #define OVERHEAD 1000.0 /* rays: what a grid costs by itself */
 #define LONGEST_L 0.5   /* from row to row, at most */
 #define NUDGE 1e-4
-#define SLOW 0.6        /* rad: of a rim's `winds` */
-#define BESIDE 0.2      /* of a cell's size in the picture: so far beyond its corners it may reach */
-#define FEW 6.0         /* rad: of a rim's `winds`; such a one has too many rays in no picture */
-#define SPREAD 4.0      /* pixels: an image out of the picture may light some of it */
+#define SLOW 0.6   /* rad: of a rim's `winds` */
+#define BESIDE 0.2 /* of a cell's size in the picture: so far beyond its corners it may reach */
+#define FEW 6.0    /* rad: of a rim's `winds`; such a one has too many rays in no picture */
+#define SPREAD 4.0 /* pixels: an image out of the picture may light some of it */
 
-/* by_u, by_l: how far the sky goes by; most_u, most_l: there or at a border, half way to a neighbour; shown: what a pixel shows of it, sr. */
-struct cell { double by_u, by_l, most_u, most_l, shown; bool in_picture, wanted; };
+/* by_u, by_l: how far the sky goes by; most_u, most_l: there or at a border, half way to a neighbour; shown: what a
+ * pixel shows of it, sr. */
+struct cell {
+    double by_u, by_l, most_u, most_l, shown;
+    bool in_picture, wanted;
+};
 /* Cells u0 ... u1 - 1, l0 ... l1 - 1. */
 struct part { int u0, u1, l0, l1; };
 
@@ -48,7 +52,8 @@ static bool sample_at(const struct layout *o, double u, double l, struct sample 
 static double solid_angle(const double n[3], const double a[3], const double b[3])
 {
     const double i[] = { a[0] - n[0], a[1] - n[1], a[2] - n[2] }, j[] = { b[0] - n[0], b[1] - n[1], b[2] - n[2] };
-    return fabs(n[0] * (i[1] * j[2] - i[2] * j[1]) + n[1] * (i[2] * j[0] - i[0] * j[2]) + n[2] * (i[0] * j[1] - i[1] * j[0]));
+    return fabs(n[0] * (i[1] * j[2] - i[2] * j[1]) + n[1] * (i[2] * j[0] - i[0] * j[2]) +
+                n[2] * (i[0] * j[1] - i[1] * j[0]));
 }
 
 /* Cells by the ray in their middle, and two next to it. */
@@ -58,7 +63,8 @@ static void measure(struct layout *o, int i, int j, int apart)
     struct sample at, beside, below;
     if (!sample_at(o, u, l, &at) || !sample_at(o, u + NUDGE, l, &beside) || !sample_at(o, u, l - NUDGE, &below))
         return; /* a ray that does not escape: whoever follows it says so */
-    const double area = (beside.place[0] - at.place[0]) * (below.place[1] - at.place[1]) - (beside.place[1] - at.place[1]) * (below.place[0] - at.place[0]);
+    const double area = (beside.place[0] - at.place[0]) * (below.place[1] - at.place[1]) -
+                        (beside.place[1] - at.place[1]) * (below.place[0] - at.place[0]);
     for (int k = 0; k < apart * apart; k++) {
         struct cell *cell = &o->of[i + k / apart][j + k % apart];
         cell->by_u = hypot(beside.turn - at.turn, beside.drag - at.drag) / NUDGE;
@@ -68,7 +74,10 @@ static void measure(struct layout *o, int i, int j, int apart)
 }
 
 /* Corners of cells in the picture. */
-struct corner { double x, y; bool seen; };
+struct corner {
+    double x, y;
+    bool seen;
+};
 
 static void see_corners(const struct layout *o, struct corner corners[ROUND + 1][ACROSS + 1])
 {
@@ -91,7 +100,8 @@ static bool is_in_picture(const struct corner *c[4], double width, double height
     for (int k = 0; k < 4; k++) {
         if (!c[k]->seen)
             continue;
-        left = fmin(left, c[k]->x), right = fmax(right, c[k]->x), top = fmin(top, c[k]->y), bottom = fmax(bottom, c[k]->y);
+        left = fmin(left, c[k]->x), right = fmax(right, c[k]->x), top = fmin(top, c[k]->y),
+        bottom = fmax(bottom, c[k]->y);
         seen++;
     }
     const double more = SPREAD + BESIDE * fmax(right - left, bottom - top);
@@ -126,7 +136,8 @@ static void look_at_cells(struct layout *o, const struct kd_scene *scene)
     see_corners(o, corners);
     for (int i = 0; i < ROUND; i++)
         for (int j = 0; j < ACROSS; j++) {
-            const struct corner *c[] = { &corners[i][j], &corners[i + 1][j], &corners[i][j + 1], &corners[i + 1][j + 1] };
+            const struct corner *c[] = { &corners[i][j], &corners[i + 1][j], &corners[i][j + 1],
+                                         &corners[i + 1][j + 1] };
             o->of[i][j] = (struct cell) { .in_picture = is_in_picture(c, width, height) };
         }
     const int apart = o->rim->winds < SLOW ? 2 : 1; /* every second cell is enough */
@@ -178,8 +189,12 @@ static struct kd_rim_grid grid_of(const struct layout *o, const struct part *p)
             if (o->of[i][j].wanted)
                 by_u = fmax(by_u, o->of[i][j].most_u), by_l = fmax(by_l, o->of[i][j].most_l);
     struct kd_rim_grid g = {
-        .du = fmin(o->step / by_u, 1), .dl = fmin(o->step / by_l, LONGEST_L),
-        .low_u = p->u0 * o->du, .high_u = p->u1 * o->du, .high_l = p->l0 ? o->first - p->l0 * o->dl : INFINITY, .low_l = p->l1 < ACROSS ? o->first - p->l1 * o->dl : -INFINITY,
+        .du = fmin(o->step / by_u, 1),
+        .dl = fmin(o->step / by_l, LONGEST_L),
+        .low_u = p->u0 * o->du,
+        .high_u = p->u1 * o->du,
+        .high_l = p->l0 ? o->first - p->l0 * o->dl : INFINITY,
+        .low_l = p->l1 < ACROSS ? o->first - p->l1 * o->dl : -INFINITY,
     };
     const double columns = ceil((g.high_u - g.low_u + 2 * KD_RIM_SHARED_U) / g.du) + 2 * KD_RIM_HALO + 1;
     const double rows = ceil(((p->l1 - p->l0) * o->dl + 2 * KD_RIM_SHARED_L) / g.dl) + 2 * KD_RIM_HALO + 1;
@@ -237,7 +252,8 @@ static void divide(const struct layout *o, struct part p)
         return;
     }
     const struct kd_rim_grid g = grid_of(o, &p);
-    o->out->rays += kd_rim_grid_rays(&g) <= KD_RIM_GRID_RAYS ? kd_rim_grid_rays(&g) : KD_RIM_RAYS + 1; /* too many, then */
+    o->out->rays +=
+        kd_rim_grid_rays(&g) <= KD_RIM_GRID_RAYS ? kd_rim_grid_rays(&g) : KD_RIM_RAYS + 1; /* too many, then */
     if (o->out->n < KD_RIM_GRIDS)
         o->out->of[o->out->n] = g;
     o->out->n++;
@@ -277,7 +293,11 @@ static bool fits(const struct kd_rim_grids *o) { return o->n <= KD_RIM_GRIDS && 
 
 static void begin(struct layout *o, const struct kd_scene *scene, const struct kd_rim *rim, struct kd_rim_grids *out)
 {
-    *o = (struct layout) { .rim = rim, .rays = kd_sky_rays_of(scene), .first = log(rim->none), .du = (double)KD_RIM_ANGLES / ROUND, .out = out };
+    *o = (struct layout) { .rim = rim,
+                           .rays = kd_sky_rays_of(scene),
+                           .first = log(rim->none),
+                           .du = (double)KD_RIM_ANGLES / ROUND,
+                           .out = out };
     o->dl = (o->first - log(rim->last)) / ACROSS;
     look_at_cells(o, scene);
 }

@@ -6,7 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST = 96, LEAST = 9, ASIDE = 4 }; /* intervals along a side of a grid; lines across it, on which so many are tried */
+enum {
+    MOST = 96,
+    LEAST = 9,
+    ASIDE = 4
+}; /* intervals along a side of a grid; lines across it, on which so many are tried */
 
 /* A ray has four angles: turn, drag, t_theta, t_phi. */
 enum { ANGLES = 4 };
@@ -44,10 +48,17 @@ static double apart(const struct angles *a, const struct angles *b)
 }
 
 /* A side of a grid, from its first ray to its last one, and extrema of a polynomial there. */
-struct side { double from, to; int n; };
+struct side {
+    double from, to;
+    int n;
+};
 
-/* The place of extremum j, and its barycentric weight: J.-P. Berrut & L. N. Trefethen 2004, SIAM Rev. 46, 501, eqs. 4.2, 5.4. */
-static double place_of(const struct side *s, int n, int j) { return 0.5 * (s->from + s->to) + 0.5 * (s->from - s->to) * cos(M_PI * j / n); }
+/* The place of extremum j, and its barycentric weight: J.-P. Berrut & L. N. Trefethen 2004, SIAM Rev. 46, 501, eqs.
+ * 4.2, 5.4. */
+static double place_of(const struct side *s, int n, int j)
+{
+    return 0.5 * (s->from + s->to) + 0.5 * (s->from - s->to) * cos(M_PI * j / n);
+}
 
 static void weights(const struct side *s, int n, double place, double w[MOST + 1])
 {
@@ -68,7 +79,8 @@ static void weights(const struct side *s, int n, double place, double w[MOST + 1
 
 static struct side side_of(const struct kd_rim_grid *g, bool along_u)
 {
-    return along_u ? (struct side) { g->u, g->u + (g->columns - 1) * g->du, 0 } : (struct side) { g->l, g->l - (g->rows - 1) * g->dl, 0 };
+    return along_u ? (struct side) { g->u, g->u + (g->columns - 1) * g->du, 0 }
+                   : (struct side) { g->l, g->l - (g->rows - 1) * g->dl, 0 };
 }
 
 /* The ray at a place of one side, on the line at a place of the other. */
@@ -94,13 +106,15 @@ static int serves(const struct follower *f, const struct side *s, int n, bool al
                 sum.of[q] += w[j] * at[j].of[q];
         if (!follow_on(f, along_u, place, line, &want))
             return -1;
-        if (apart(&sum, &want) > 0.1 * KD_RIM_EXACT) /* between the lines it is more, and images next to a caustic are as exact as this */
+        if (apart(&sum, &want) >
+            0.1 * KD_RIM_EXACT) /* between the lines it is more, and images next to a caustic are as exact as this */
             return 0;
     }
     return 1;
 }
 
-/* How many intervals are enough along one side, by lines at both ends and in the middle of the other; more than MOST: not even that. False: a ray does not escape. */
+/* How many intervals are enough along one side, by lines at both ends and in the middle of the other; more than
+ * MOST: not even that. False: a ray does not escape. */
 static bool enough(const struct follower *f, struct side *s, const struct side *other, bool along_u)
 {
     for (s->n = LEAST; s->n <= MOST; s->n += s->n / 2) {
@@ -136,7 +150,10 @@ static bool follow_sheet(const struct follower *f, const struct kd_rim_grid *g, 
     return true;
 }
 
-static double *column_at(const struct sheet *o, const struct kd_rim_grid *g, int j, int q) { return o->columns + ((size_t)j * ANGLES + (size_t)q) * g->columns; }
+static double *column_at(const struct sheet *o, const struct kd_rim_grid *g, int j, int q)
+{
+    return o->columns + ((size_t)j * ANGLES + (size_t)q) * g->columns;
+}
 
 static void fill_columns(struct sheet *o, const struct kd_rim_grid *g)
 {
@@ -153,7 +170,8 @@ static void fill_columns(struct sheet *o, const struct kd_rim_grid *g)
     }
 }
 
-static void fill_row(const struct follower *f, const struct sheet *o, const struct kd_rim_grid *g, uint32_t row, double *sums, float *out)
+static void fill_row(const struct follower *f, const struct sheet *o, const struct kd_rim_grid *g, uint32_t row,
+                     double *sums, float *out)
 {
     const size_t rays = kd_rim_grid_rays(g), n = g->columns;
     double w[MOST + 1];
@@ -203,12 +221,16 @@ static bool fill_rays(const struct follower *f, const struct kd_rim_grid *g, str
 }
 
 /* Where a grid's part begins or ends, in its own columns or rows; far off where it does not. */
-static float border(double at, double from, double by) { return isfinite(at) ? (float)((at - from) / by) : at > 0 ? -1e6f : 1e6f; }
+static float border(double at, double from, double by)
+{
+    return isfinite(at) ? (float)((at - from) / by) : at > 0 ? -1e6f : 1e6f;
+}
 
 static void fill_table(const struct kd_rim *rim, const struct kd_rim_grid *g, float *out)
 {
-    const float part[] = { border(g->low_u, g->u, g->du), border(g->high_u, g->u, g->du), (float)(g->du / (2 * KD_RIM_SHARED_U)),
-                           border(g->high_l, g->l, -g->dl), border(g->low_l, g->l, -g->dl), (float)(g->dl / (2 * KD_RIM_SHARED_L)) };
+    const float part[] = { border(g->low_u, g->u, g->du),          border(g->high_u, g->u, g->du),
+                           (float)(g->du / (2 * KD_RIM_SHARED_U)), border(g->high_l, g->l, -g->dl),
+                           border(g->low_l, g->l, -g->dl),         (float)(g->dl / (2 * KD_RIM_SHARED_L)) };
     _Static_assert(sizeof part == KD_RIM_TABLE * sizeof *out, "as rim_grid.h says");
     memcpy(out, part, sizeof part);
     for (uint32_t k = 0; k < g->columns; k++) {
@@ -232,7 +254,8 @@ static uint32_t most_columns(const struct kd_rim_grids *grids)
     return most;
 }
 
-enum kd_status kd_rim_sky(const struct kd_scene *scene, const struct kd_rim *rim, const struct kd_rim_grids *grids, float *out, struct kd_error *error)
+enum kd_status kd_rim_sky(const struct kd_scene *scene, const struct kd_rim *rim, const struct kd_rim_grids *grids,
+                          float *out, struct kd_error *error)
 {
     const struct follower f = { rim, kd_sky_rays_of(scene) };
     struct sheet *sheet = malloc(sizeof *sheet);
@@ -246,7 +269,9 @@ enum kd_status kd_rim_sky(const struct kd_scene *scene, const struct kd_rim *rim
     for (uint32_t i = 0; i < grids->n; i++) {
         const struct kd_rim_grid *g = &grids->of[i];
         if (!fill_rays(&f, g, sheet, out + g->first))
-            KD_TRY(kd_error_field(error, "/camera", "camera is where a ray next to the critical curve does not escape: no stars can be sought there"));
+            KD_TRY(kd_error_field(
+                error, "/camera",
+                "camera is where a ray next to the critical curve does not escape: no stars can be sought there"));
         fill_table(rim, g, out + g->table);
     }
 done:

@@ -7,7 +7,10 @@ struct kd_ring kd_ring_of(const struct kd_scene *scene)
     const struct kd_camera *c = &scene->camera;
     const struct kd_camera_exact camera = kd_camera_exact(scene);
     const struct kd_critical_observer observer = {
-        .spin = scene->spacetime.spin, .radius = INFINITY, .cos_theta = camera.u, .sin_theta = camera.s,
+        .spin = scene->spacetime.spin,
+        .radius = INFINITY,
+        .cos_theta = camera.u,
+        .sin_theta = camera.s,
     };
     return (struct kd_ring) {
         .curve = kd_critical_of(&observer),
@@ -36,6 +39,8 @@ struct kd_camera_label kd_ring_label(const struct kd_ring *ring, const struct kd
 {
     double d = kd_ring_distance(ring, y);
     return (struct kd_camera_label) {
-        .alpha = p->alpha + d * (p->alpha - ring->curve.centre), .beta = p->beta + d * p->beta, .energy = 1,
+        .alpha = p->alpha + d * (p->alpha - ring->curve.centre),
+        .beta = p->beta + d * p->beta,
+        .energy = 1,
     };
 }

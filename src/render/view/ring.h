@@ -1,9 +1,11 @@
-/* This is the ring projection: across, the angle round the critical curve; upwards, the distance to it as a signed logarithm. Every image
- * order is then as wide as the first. Double precision; pure, any thread. The scene must be valid and project a ring.
+/* This is the ring projection: across, the angle round the critical curve; upwards, the distance to it as a signed
+ * logarithm. Every image order is then as wide as the first. Double precision; pure, any thread. The scene must be
+ * valid and project a ring.
  *
- * Across, left to right: a turn about the curve's centre, camera.roll_deg in the middle, 0 where alpha > 0 is (physics/critical.h).
- * Upper half: outside the curve, from d = 10^ring_decades_max at the top to 10^ring_decades_min at the middle; lower half: inside,
- * its mirror image; d = rho/rho_c - 1 (physics/lensing.h). Rays go through the middles of their rows and columns. */
+ * Across, left to right: a turn about the curve's centre, camera.roll_deg in the middle, 0 where alpha > 0 is
+ * (physics/critical.h). Upper half: outside the curve, from d = 10^ring_decades_max at the top to
+ * 10^ring_decades_min at the middle; lower half: inside, its mirror image; d = rho/rho_c - 1 (physics/lensing.h).
+ * Rays go through the middles of their rows and columns. */
 #ifndef KD_RENDER_VIEW_RING_H
 #define KD_RENDER_VIEW_RING_H
 

@@ -1,5 +1,5 @@
-/* GET /v1/accuracy answers with the table that `kerrd bench accuracy` keeps for this device, as it is now on disk: the workers read it, as a disk
- * may take its time. */
+/* GET /v1/accuracy answers with the table that `kerrd bench accuracy` keeps for this device, as it is now on disk:
+ * the workers read it, as a disk may take its time. */
 #include "server/http/reply.h"
 #include "server/render/queue.h"
 #include "server/render/task.h"
@@ -11,10 +11,7 @@ struct reading {
     struct kd_buffer json;
 };
 
-static void finish(struct kd_task *task)
-{
-    kd_buffer_finish(&((struct reading *)task)->json);
-}
+static void finish(struct kd_task *task) { kd_buffer_finish(&((struct reading *)task)->json); }
 
 static enum kd_turn_end work(struct kd_task *task, double until_ms)
 {
@@ -32,7 +29,8 @@ static enum MHD_Result deliver(struct kd_request *request)
     if (status == KD_ECANCELLED)
         return MHD_NO; /* nobody listens */
     if (status == KD_EIO || status == KD_EINVAL)
-        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND, .detail = reading->task.error.message });
+        return kd_reply_problem(
+            request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND, .detail = reading->task.error.message });
     return kd_reply_json(request, status, &reading->json, request->route->answer);
 }
 

@@ -12,7 +12,10 @@
 
 #define JSON_TYPE "application/json"
 
-static const char *type_of(const struct kd_asset_about *about) { return about->nodes[0] ? KD_ASSET_GRID_TYPE : KD_ASSET_TYPE; }
+static const char *type_of(const struct kd_asset_about *about)
+{
+    return about->nodes[0] ? KD_ASSET_GRID_TYPE : KD_ASSET_TYPE;
+}
 
 static void write_grid(struct kd_json *json, const struct kd_asset_about *about)
 {
@@ -31,8 +34,8 @@ static void write_picture(struct kd_json *json, const struct kd_asset_about *abo
     kd_json_number(json, "channels", about->channels);
 }
 
-/* {"sha256", "type", of a picture "width", "height", "bit_depth" and "channels", of a grid "nodes" and "spin", "bytes", "created"}, and for who has just put it here the
- * token. */
+/* {"sha256", "type", of a picture "width", "height", "bit_depth" and "channels", of a grid "nodes" and "spin",
+ * "bytes", "created"}, and for who has just put it here the token. */
 static enum kd_status to_json(const struct kd_asset_about *about, bool token, struct kd_buffer *out)
 {
     struct kd_json json = kd_json_begin(out);
@@ -70,8 +73,10 @@ static enum kd_turn_end work(struct kd_task *task, double until_ms)
     const struct kd_buffer *body = &task->request->body;
     struct kd_error error = { 0 };
     (void)until_ms;
-    kd_task_fail(task, kd_asset_store_put(task->request->server->assets, body->data ? body->data : (const uint8_t *)"", body->size,
-                                          task->request->client, &p->put, &error), &error);
+    kd_task_fail(task,
+                 kd_asset_store_put(task->request->server->assets, body->data ? body->data : (const uint8_t *)"",
+                                    body->size, task->request->client, &p->put, &error),
+                 &error);
     return KD_TURN_LAST;
 }
 
@@ -204,8 +209,9 @@ enum MHD_Result kd_handle_asset(struct kd_request *request)
     struct kd_asset_store *store = request->server->assets;
     struct kd_asset *asset = kd_asset_store_find(store, request->rest);
     if (!asset)
-        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND,
-                                                                .detail = "there is no asset of this SHA-256, or no longer" });
+        return kd_reply_problem(request,
+                                &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND,
+                                                       .detail = "there is no asset of this SHA-256, or no longer" });
     if (strcmp(request->method, "DELETE"))
         return send_bytes(request, asset);
     bool may = kd_secret_equal(kd_asset_about(asset)->token, kd_token_of(request));
@@ -213,6 +219,8 @@ enum MHD_Result kd_handle_asset(struct kd_request *request)
         kd_asset_store_remove(store, asset);
     kd_asset_release(store, asset);
     return may ? kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, JSON_TYPE))
-               : kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_FORBIDDEN,
-                                                                  .detail = "deleting an asset takes its token: Authorization: Bearer TOKEN" });
+               : kd_reply_problem(request,
+                                  &(struct kd_problem) {
+                                      .type = KD_PROBLEM_FORBIDDEN,
+                                      .detail = "deleting an asset takes its token: Authorization: Bearer TOKEN" });
 }

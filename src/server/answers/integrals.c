@@ -1,5 +1,5 @@
-/* This answers POST /v1/line and its like: integrals over a thin disk, or over pictures of a scene (integral/run.h). A worker computes them, and has their pictures
- * rendered one after the other. */
+/* This answers POST /v1/line and its like: integrals over a thin disk, or over pictures of a scene (integral/run.h).
+ * A worker computes them, and has their pictures rendered one after the other. */
 #include "integral/run.h"
 #include "server/asset/store.h"
 #include "server/http/negotiate.h"
@@ -14,7 +14,9 @@
 #define NS_A_PRODUCT 1.2 /* of a pixel, or of one image order of it, by a baseline: one core */
 #define BYTES_PER_ROW (KD_INTEGRAL_COLUMNS * (sizeof(double) + 26)) /* with its text */
 
-static const char *const types[] = { [KD_INTEGRAL_JSON] = "application/json", [KD_INTEGRAL_CSV] = "text/csv", [KD_INTEGRAL_NPY] = KD_NPY_TYPE };
+static const char *const types[] = { [KD_INTEGRAL_JSON] = "application/json",
+                                     [KD_INTEGRAL_CSV] = "text/csv",
+                                     [KD_INTEGRAL_NPY] = KD_NPY_TYPE };
 
 struct job {
     struct kd_task task; /* first */
@@ -48,15 +50,19 @@ static enum kd_status plan_pictures(struct job *job, size_t *bytes, struct kd_er
     for (unsigned i = 0; i < sizes && n; i++) {
         struct kd_scene scene = kd_integral_scene(&job->request, i);
         struct kd_plan plan;
-        enum kd_status status = kd_format_plan(kd_integral_picture_format(job->request.what), &scene, &capacity, &plan, error);
+        enum kd_status status =
+            kd_format_plan(kd_integral_picture_format(job->request.what), &scene, &capacity, &plan, error);
         if (status)
             return status;
-        ms += plan.estimate_ms * n / sizes + (double)plan.n_layers * plan.width * plan.height * (double)job->request.u.n * NS_A_PRODUCT * 1e-6;
+        ms += plan.estimate_ms * n / sizes +
+              (double)plan.n_layers * plan.width * plan.height * (double)job->request.u.n * NS_A_PRODUCT * 1e-6;
         *bytes += 4 * (1 + plan.n_layers) * (size_t)plan.width * plan.height;
     }
     if (ms > server->longest_s * 1e3)
-        return kd_error_set(error, KD_ETOOBIG, "%u pictures and what is made of them would take about %.0f s, more than the %u s that an answer may take: fewer pixels, frequencies or baselines, or check \"none\", take less", n,
-                            ms * 1e-3, server->longest_s);
+        return kd_error_set(error, KD_ETOOBIG,
+                            "%u pictures and what is made of them would take about %.0f s, more than the %u s that an "
+                            "answer may take: fewer pixels, frequencies or baselines, or check \"none\", take less",
+                            n, ms * 1e-3, server->longest_s);
     return KD_OK;
 }
 
@@ -65,14 +71,16 @@ static enum kd_status begin(struct job *job, struct kd_error *error)
     struct kd_task *task = &job->task;
     struct kd_buffer *body = &task->request->body;
     size_t bytes = 0;
-    enum kd_status status = kd_integral_request_json(&job->request, body->data ? (const char *)body->data : "", body->size, error);
+    enum kd_status status =
+        kd_integral_request_json(&job->request, body->data ? (const char *)body->data : "", body->size, error);
     job->malformed = status == KD_EINVAL && !*error->pointer;
     kd_task_drop_body(task->request);
     if (status)
         return status;
     KD_TRY(plan_pictures(job, &bytes, error));
     KD_TRY(kd_task_hold(task->request->server, task->turns.client, bytes, &task->held, &task->quota, error));
-    /* Without pictures this is one piece: mostly some hundredths of a second, and 0.3 s for the most that can be asked. */
+    /* Without pictures this is one piece: mostly some hundredths of a second, and 0.3 s for the most that can be
+     * asked. */
     KD_TRY(kd_integral_run_begin(&job->run, &job->request, error));
 done:
     return status;
@@ -92,13 +100,19 @@ static enum kd_status push_picture(struct job *job, struct kd_error *error)
     struct kd_render_queue *renders = request->server->renders;
     struct kd_capacity capacity;
     /* The first asks for a place; the others take its place, so that what is half done is not refused. */
-    enum kd_status status = job->run.picture ? KD_OK : kd_render_queue_admit(renders, request->client, &job->task.quota, error);
+    enum kd_status status =
+        job->run.picture ? KD_OK : kd_render_queue_admit(renders, request->client, &job->task.quota, error);
     if (status)
         return status;
     kd_render_queue_capacity(renders, &capacity);
     job->picture = (struct kd_render_job) {
-        .claim.class = KD_CLASS_PICTURE, .scene = kd_integral_scene(&job->request, job->run.picture), .format = kd_integral_picture_format(job->request.what),
-        .effort = KD_EFFORT_QUICK, .socket = kd_connection_socket(request->connection), .done = rendered, .user = job,
+        .claim.class = KD_CLASS_PICTURE,
+        .scene = kd_integral_scene(&job->request, job->run.picture),
+        .format = kd_integral_picture_format(job->request.what),
+        .effort = KD_EFFORT_QUICK,
+        .socket = kd_connection_socket(request->connection),
+        .done = rendered,
+        .user = job,
     };
     memcpy(job->picture.claim.client, request->client, sizeof job->picture.claim.client);
     KD_TRY(kd_format_plan(job->picture.format, &job->picture.scene, &capacity, &job->picture.plan, error));
@@ -162,14 +176,17 @@ static enum MHD_Result deliver(struct kd_request *request)
     if (task->status)
         return refuse(request, job);
     request->reply_bytes = job->text.size;
-    struct MHD_Response *response = job->format == KD_INTEGRAL_NPY   ? kd_reply_take(&job->text, types[KD_INTEGRAL_NPY])
-                                    : job->format == KD_INTEGRAL_CSV ? kd_reply_text(request, &job->text, "text/csv; charset=utf-8; header=present")
-                                                                     : kd_reply_text(request, &job->text, types[KD_INTEGRAL_JSON]);
+    struct MHD_Response *response = job->format == KD_INTEGRAL_NPY ? kd_reply_take(&job->text, types[KD_INTEGRAL_NPY])
+                                    : job->format == KD_INTEGRAL_CSV
+                                        ? kd_reply_text(request, &job->text, "text/csv; charset=utf-8; header=present")
+                                        : kd_reply_text(request, &job->text, types[KD_INTEGRAL_JSON]);
     if (!response)
         return kd_reply_no_memory(request);
     if (job->format != KD_INTEGRAL_JSON)
-        kd_reply_file(request, KD_ATTACHMENT, "%s.%s", kd_integral_name(job->request.what), job->format == KD_INTEGRAL_CSV ? "csv" : "npy");
-    snprintf(timing, sizeof timing, "queue;dur=%.3f, compute;dur=%.3f", task->begun_ms - task->submitted_ms, task->done_ms - task->begun_ms);
+        kd_reply_file(request, KD_ATTACHMENT, "%s.%s", kd_integral_name(job->request.what),
+                      job->format == KD_INTEGRAL_CSV ? "csv" : "npy");
+    snprintf(timing, sizeof timing, "queue;dur=%.3f, compute;dur=%.3f", task->begun_ms - task->submitted_ms,
+             task->done_ms - task->begun_ms);
     MHD_add_response_header(response, "Server-Timing", timing);
     MHD_add_response_header(response, "Vary", "Accept");
     return kd_reply_send(request, MHD_HTTP_OK, response);
@@ -184,11 +201,13 @@ enum MHD_Result kd_handle_integral(struct kd_request *request)
         return deliver(request);
     size_t format = kd_reply_accepted(request, 3, kd_accept_string, types);
     if (format >= 3)
-        return kd_reply_problem(request,
-                                &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE, .offered = OFFERED, .detail = "integrals are offered as " OFFERED });
+        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE,
+                                                                .offered = OFFERED,
+                                                                .detail = "integrals are offered as " OFFERED });
     if (request->target.n_pairs)
-        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_INVALID_PARAMETERS,
-                                                                .detail = "parameters belong to the document, not to the query" });
+        return kd_reply_problem(
+            request, &(struct kd_problem) { .type = KD_PROBLEM_INVALID_PARAMETERS,
+                                            .detail = "parameters belong to the document, not to the query" });
     struct job *job = kd_task_begin(request, request->server->turns, &KIND, &refused);
     if (!job)
         return refused;

@@ -11,23 +11,27 @@
 
 static enum kd_status add(struct kd_buffer *out, const char *name, const char *type, const char *help, double value)
 {
-    return kd_buffer_printf(out, "# HELP kerrd_%s %s\n# TYPE kerrd_%s %s\nkerrd_%s %.17g\n", name, help, name, type, name, value);
+    return kd_buffer_printf(out, "# HELP kerrd_%s %s\n# TYPE kerrd_%s %s\nkerrd_%s %.17g\n", name, help, name, type,
+                            name, value);
 }
 
 static enum kd_status add_answers(struct kd_buffer *out, struct kd_server *server)
 {
-    enum kd_status status = kd_buffer_printf(out, "# HELP kerrd_answers_total Requests answered, by the first digit of the status.\n"
-                                                  "# TYPE kerrd_answers_total counter\n");
+    enum kd_status status =
+        kd_buffer_printf(out, "# HELP kerrd_answers_total Requests answered, by the first digit of the status.\n"
+                              "# TYPE kerrd_answers_total counter\n");
     for (unsigned i = 1; i < KD_STATUS_CLASSES && !status; i++)
-        status = kd_buffer_printf(out, "kerrd_answers_total{status=\"%uxx\"} %lu\n", i, atomic_load(&server->answers[i]));
+        status =
+            kd_buffer_printf(out, "kerrd_answers_total{status=\"%uxx\"} %lu\n", i, atomic_load(&server->answers[i]));
     return status;
 }
 
 static enum kd_status add_jobs(struct kd_buffer *out, const struct kd_jobs_counts *jobs)
 {
-    return kd_buffer_printf(out, "# HELP kerrd_jobs Jobs that are kept, by state.\n# TYPE kerrd_jobs gauge\n"
-                                 "kerrd_jobs{state=\"waiting\"} %u\nkerrd_jobs{state=\"running\"} %u\n"
-                                 "kerrd_jobs{state=\"done\"} %u\nkerrd_jobs{state=\"failed\"} %u\n",
+    return kd_buffer_printf(out,
+                            "# HELP kerrd_jobs Jobs that are kept, by state.\n# TYPE kerrd_jobs gauge\n"
+                            "kerrd_jobs{state=\"waiting\"} %u\nkerrd_jobs{state=\"running\"} %u\n"
+                            "kerrd_jobs{state=\"done\"} %u\nkerrd_jobs{state=\"failed\"} %u\n",
                             jobs->waiting, jobs->running, jobs->done, jobs->failed);
 }
 
@@ -37,8 +41,8 @@ struct counts {
     struct kd_plays_counts plays;
 };
 
-/* This answers on the thread of the health routes, which waits for nobody: a lock that is held long, while a job is written to a
- * slow disk, leaves the numbers of the last time. */
+/* This answers on the thread of the health routes, which waits for nobody: a lock that is held long, while a job is
+ * written to a slow disk, leaves the numbers of the last time. */
 static struct counts count(struct kd_server *server)
 {
     struct counts now;
@@ -64,23 +68,32 @@ enum MHD_Result kd_handle_metrics(struct kd_request *request)
     unsigned assets;
     uint64_t asset_bytes;
     kd_asset_store_count(s->assets, &assets, &asset_bytes);
-    const struct { const char *name, *type, *help; double value; } rows[] = {
+    const struct {
+        const char *name, *type, *help;
+        double value;
+    } rows[] = {
         { "requests", "gauge", "Requests begun and not yet answered in full.", atomic_load(&s->requests) },
         { "renders_unfinished", "gauge", "Pictures and device work waiting, being rendered or encoded.",
           kd_render_queue_unfinished(s->renders) },
-        { "device_reopened_total", "counter", "Times that the device failed and was opened again.", kd_render_queue_reopened(s->renders) },
-        { "render_backlog_seconds", "gauge", "Estimated time of what waits for the device.", 1e-3 * kd_render_queue_backlog_ms(s->renders) },
+        { "device_reopened_total", "counter", "Times that the device failed and was opened again.",
+          kd_render_queue_reopened(s->renders) },
+        { "render_backlog_seconds", "gauge", "Estimated time of what waits for the device.",
+          1e-3 * kd_render_queue_backlog_ms(s->renders) },
         { "rays_unfinished", "gauge", "Requests for rays under way.", kd_turns_unfinished(s->rays) },
-        { "turns_unfinished", "gauge", "Orbits, long quantities and checks of jobs under way.", kd_turns_unfinished(s->turns) },
+        { "turns_unfinished", "gauge", "Orbits, long quantities and checks of jobs under way.",
+          kd_turns_unfinished(s->turns) },
         { "sessions", "gauge", "Live sessions.", now.sessions.sessions },
         { "session_viewers", "gauge", "Requests and streams that follow sessions.", now.sessions.viewers },
-        { "thumbnails_rendered_total", "counter", "Small pictures of presets rendered, each once.", kd_thumbnails_rendered(s->thumbnails) },
+        { "thumbnails_rendered_total", "counter", "Small pictures of presets rendered, each once.",
+          kd_thumbnails_rendered(s->thumbnails) },
         { "session_frames_total", "counter", "Frames of sessions encoded.", (double)now.sessions.frames },
-        { "session_bytes_total", "counter", "Bytes of these frames, however many took them.", (double)now.sessions.bytes },
+        { "session_bytes_total", "counter", "Bytes of these frames, however many took them.",
+          (double)now.sessions.bytes },
         { "playgrounds", "gauge", "Live playgrounds.", now.plays.plays },
         { "playground_watchers", "gauge", "Requests and streams that follow playgrounds.", now.plays.watchers },
         { "playground_bytes", "gauge", "Memory that they may take.", (double)now.plays.bytes },
-        { "playground_steps_total", "counter", "Sub-steps that they have gone on by themselves.", (double)now.plays.steps },
+        { "playground_steps_total", "counter", "Sub-steps that they have gone on by themselves.",
+          (double)now.plays.steps },
         { "playground_events_total", "counter", "What has happened in them.", (double)now.plays.events },
         { "job_frames_total", "counter", "Frames of jobs finished.", (double)now.jobs.frames },
         { "job_bytes", "gauge", "Bytes of the frames of all jobs on disk.", (double)now.jobs.bytes },

@@ -13,7 +13,7 @@
 #include <string.h>
 
 #define OFFERED "application/json, application/x-ndjson, text/csv, " KD_NPY_TYPE
-#define FULL (1u << 20)      /* bytes of a stream that wait for their client; no more are made until a quarter is left */
+#define FULL (1u << 20) /* bytes of a stream that wait for their client; no more are made until a quarter is left */
 #define BYTES_PER_SAMPLE 220 /* bytes of text, to reckon with */
 #define BYTES_PER_ORBIT 2400
 
@@ -107,7 +107,8 @@ static enum kd_status hold(struct kd_orbits_job *job, struct kd_error *error)
 static enum kd_status read_body(struct kd_orbits_job *job, struct kd_error *error)
 {
     struct kd_buffer *body = &job->owner->body;
-    enum kd_status status = kd_orbit_request_json(&job->request, body->data ? (const char *)body->data : "", body->size, error);
+    enum kd_status status =
+        kd_orbit_request_json(&job->request, body->data ? (const char *)body->data : "", body->size, error);
     job->malformed = status == KD_EINVAL && !*error->pointer;
     kd_task_drop_body(job->owner);
     if (!status)
@@ -326,8 +327,9 @@ enum MHD_Result kd_handle_orbits(struct kd_request *request)
                                                                 .offered = OFFERED,
                                                                 .detail = "orbits are offered as " OFFERED });
     if (request->target.n_pairs)
-        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_INVALID_ORBIT,
-                                                                .detail = "parameters belong to the document, not to the query" });
+        return kd_reply_problem(
+            request, &(struct kd_problem) { .type = KD_PROBLEM_INVALID_ORBIT,
+                                            .detail = "parameters belong to the document, not to the query" });
     if (!kd_task_admit(request, request->server->turns, "orbits", &refused))
         return refused;
     return submit(request, (enum kd_orbit_format)format);

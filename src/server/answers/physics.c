@@ -1,5 +1,5 @@
-/* This answers GET /v1/physics/NAME: quantities by name (quantity/quantity.h). An answer that takes a moment is computed here, others by
- * the workers, in turns. */
+/* This answers GET /v1/physics/NAME: quantities by name (quantity/quantity.h). An answer that takes a moment is
+ * computed here, others by the workers, in turns. */
 #include "base/clock.h"
 #include "server/http/negotiate.h"
 #include "server/http/reply.h"
@@ -15,7 +15,7 @@
 #define JSON_TYPE "application/json"
 #define CSV_TYPE "text/csv"
 #define WAV_TYPE "audio/wav"
-#define MOMENT_MS 2.       /* time of this thread, which serves everybody */
+#define MOMENT_MS 2.        /* time of this thread, which serves everybody */
 #define BYTES_PER_NUMBER 26 /* as text at its longest */
 
 enum form { FORM_JSON, FORM_CSV, FORM_WAV, FORM_NONE };
@@ -91,7 +91,8 @@ static enum kd_status hold(struct job *job, const struct kd_quantity_request *as
     size_t numbers = asked->quantity->n_outputs + asked->quantity->n_parameters;
     size_t bytes = kd_quantity_points(asked) * numbers * (sizeof(double) + BYTES_PER_NUMBER);
     bytes += job->form == FORM_WAV ? KD_SOUND_BYTES : 0;
-    return kd_task_hold(job->task.request->server, job->task.turns.client, bytes, &job->task.held, &job->task.quota, error);
+    return kd_task_hold(job->task.request->server, job->task.turns.client, bytes, &job->task.held, &job->task.quota,
+                        error);
 }
 
 static enum kd_status write_answer(struct job *job, struct kd_error *error)
@@ -99,7 +100,8 @@ static enum kd_status write_answer(struct job *job, struct kd_error *error)
     const struct kd_quantity_answer *answer = &job->run.answer;
     if (job->form == FORM_WAV)
         return kd_quantity_sound(answer, &job->text, error);
-    enum kd_status status = job->form == FORM_CSV ? kd_quantity_csv(answer, &job->text) : kd_quantity_json(answer, &job->text);
+    enum kd_status status =
+        job->form == FORM_CSV ? kd_quantity_csv(answer, &job->text) : kd_quantity_json(answer, &job->text);
     return status ? kd_error_set(error, status, "out of memory for %zu points", answer->points) : KD_OK;
 }
 
@@ -162,7 +164,8 @@ static enum MHD_Result begin(struct kd_request *request, const struct kd_quantit
     struct kd_error error = { 0 };
     enum MHD_Result refused;
     bool here = kd_quantity_cost_ms(asked) <= MOMENT_MS && form != FORM_WAV;
-    struct job *job = here ? kd_task_create(request, workers, &KIND, &refused) : kd_task_begin(request, workers, &KIND, &refused);
+    struct job *job =
+        here ? kd_task_create(request, workers, &KIND, &refused) : kd_task_begin(request, workers, &KIND, &refused);
     if (!job)
         return refused;
     job->form = form;
@@ -187,8 +190,9 @@ enum MHD_Result kd_handle_quantity(struct kd_request *request)
     if (form == FORM_NONE) {
         char detail[80];
         snprintf(detail, sizeof detail, "%s is offered as %s", quantity->name, offered(quantity));
-        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE, .offered = offered(quantity),
-                                                                .detail = detail });
+        return kd_reply_problem(
+            request,
+            &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE, .offered = offered(quantity), .detail = detail });
     }
     return begin(request, &asked, form);
 }

@@ -1,5 +1,5 @@
-/* This answers POST /v1/plan: what rendering a scene takes, or all scenes of a sweep together, whose body is that of a job with axes. The scenes of a sweep
- * are planned by the workers, in turns. */
+/* This answers POST /v1/plan: what rendering a scene takes, or all scenes of a sweep together, whose body is that of
+ * a job with axes. The scenes of a sweep are planned by the workers, in turns. */
 #include "render/output/cost.h"
 #include "scene/scan.h"
 #include "server/asset/store.h"
@@ -37,7 +37,8 @@ static enum kd_turn_end work(struct kd_task *task, double until_ms)
     struct kd_error error = { 0 };
     enum kd_status status;
     if (!s->spec.sweep)
-        KD_TRY(kd_job_spec_parse((const char *)body->data, body->size, &(struct kd_job_base) { .preset = s->preset }, kd_asset_store_assets(server->assets), &s->spec, &error));
+        KD_TRY(kd_job_spec_parse((const char *)body->data, body->size, &(struct kd_job_base) { .preset = s->preset },
+                                 kd_asset_store_assets(server->assets), &s->spec, &error));
     kd_render_queue_capacity(server->renders, &capacity);
     KD_TRY(kd_cost_sweep(&s->cost, s->spec.series, s->spec.sweep, &capacity, until_ms, &error));
     if (s->cost.frames < s->spec.frames)
@@ -62,7 +63,8 @@ static enum MHD_Result deliver(struct kd_request *request)
     struct sweep *s = (struct sweep *)request->task;
     if (s->task.status == KD_ECANCELLED)
         return MHD_NO; /* nobody listens */
-    return s->task.status ? refuse(request, &s->task.error) : kd_reply_json(request, KD_OK, &s->json, request->route->answer);
+    return s->task.status ? refuse(request, &s->task.error)
+                          : kd_reply_json(request, KD_OK, &s->json, request->route->answer);
 }
 
 static const struct kd_task_kind KIND = { "plans of sweeps", sizeof(struct sweep), work, finish };
@@ -88,7 +90,8 @@ static enum MHD_Result plan_scene(struct kd_request *request)
     enum MHD_Result result;
     struct kd_buffer json = { 0 };
     const struct kd_planned *planned = kd_planned_of(request, &result);
-    return planned ? kd_reply_json(request, kd_plan_to_json(&planned->plan, &json), &json, request->route->answer) : result;
+    return planned ? kd_reply_json(request, kd_plan_to_json(&planned->plan, &json), &json, request->route->answer)
+                   : result;
 }
 
 enum MHD_Result kd_handle_plan(struct kd_request *request)

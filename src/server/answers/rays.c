@@ -72,8 +72,8 @@ static void describe(struct MHD_Response *response, const struct kd_rays_job *jo
                      kd_engine_name(answer->params.engine), kd_precision_name(answer->params.precision),
                      answer->params.steps, answer->undecided);
     if (answer->params.tolerance > 0)
-        n += snprintf(accuracy + n, sizeof accuracy - (size_t)n, " tolerance=%.3g followed_again=%zu beyond=%zu", answer->params.tolerance,
-                      answer->followed_again, answer->beyond);
+        n += snprintf(accuracy + n, sizeof accuracy - (size_t)n, " tolerance=%.3g followed_again=%zu beyond=%zu",
+                      answer->params.tolerance, answer->followed_again, answer->beyond);
     if (!isnan(answer->worst_error))
         snprintf(accuracy + n, sizeof accuracy - (size_t)n, " median=%.1e worst=%.1e", answer->median_error,
                  answer->worst_error);
@@ -139,7 +139,8 @@ static enum kd_status read_query(const struct kd_target *target, bool npy, struc
     enum kd_status status;
     KD_TRY(kd_target_distinct(target, error));
     if (target->n_pairs && !npy)
-        KD_TRY(kd_error_field(error, "", "the query may hold parameters beside a body of " KD_NPY_TYPE
+        KD_TRY(kd_error_field(error, "",
+                              "the query may hold parameters beside a body of " KD_NPY_TYPE
                               " only; in JSON they belong to the document"));
     for (size_t i = 0; i < target->n_pairs; i++)
         KD_TRY(kd_rays_request_set(request, target->pairs[i].name, target->pairs[i].value, error));

@@ -8,8 +8,8 @@
 
 #define SLICE 4096 /* rays: some 35 ms of one core */
 
-/* Rays of a turn with the device: few at first, then as many as take TURN_MS. From the fastest engine to the dearest, from a GPU to
- * one core, a ray's cost varies by a factor of a million. */
+/* Rays of a turn with the device: few at first, then as many as take TURN_MS. From the fastest engine to the
+ * dearest, from a GPU to one core, a ray's cost varies by a factor of a million. */
 #define FIRST_TURN 256
 #define TURN_MS 40.0
 
@@ -29,8 +29,8 @@ static enum kd_status read_body(struct kd_rays_job *job, struct kd_error *error)
     kd_render_queue_capacity(server->renders, &capacity);
     KD_TRY(kd_rays_request_settle(request, &capacity, error));
     KD_TRY(kd_rays_request_check(request, error));
-    KD_TRY(kd_task_hold(server, job->task.turns.client, kd_rays_answer_bytes(&request->params, request->n), &job->task.held, &job->task.quota,
-                        error));
+    KD_TRY(kd_task_hold(server, job->task.turns.client, kd_rays_answer_bytes(&request->params, request->n),
+                        &job->task.held, &job->task.quota, error));
     double *alpha_beta = request->alpha_beta;
     request->alpha_beta = NULL;
     KD_TRY(kd_rays_answer_init(&job->answer, &request->params, alpha_beta, request->n, error));
@@ -47,8 +47,8 @@ static enum kd_status trace_on_device(struct kd_render_job *device, struct kd_re
     size_t first = job->traced, left = answer->n - first, n = left < job->turn ? left : job->turn;
     double begun = kd_clock_ms();
     enum kd_status status = kd_rays_trace(renderer, &answer->params, answer->alpha_beta + 2 * first, n,
-                                          answer->crossings + first * answer->params.orders, answer->ends + first, progress,
-                                          progress_user, &device->error);
+                                          answer->crossings + first * answer->params.orders, answer->ends + first,
+                                          progress, progress_user, &device->error);
     job->traced += status ? 0 : n; /* a device that is opened again goes on here */
     job->turn = (size_t)fmax(1, (double)n * fmin(8, TURN_MS / fmax(kd_clock_ms() - begun, 1e-3)));
     device->more = job->traced < answer->n;
@@ -72,11 +72,16 @@ static enum kd_status push_to_device(struct kd_rays_job *job, struct kd_error *e
         return status;
     kd_render_queue_capacity(renders, &capacity);
     job->device = (struct kd_render_job) {
-        .claim.class = KD_CLASS_RAYS, .run = trace_on_device, .socket = kd_connection_socket(job->task.request->connection), .done = device_done, .user = job,
+        .claim.class = KD_CLASS_RAYS,
+        .run = trace_on_device,
+        .socket = kd_connection_socket(job->task.request->connection),
+        .done = device_done,
+        .user = job,
     };
     memcpy(job->device.claim.client, job->task.request->client, sizeof job->device.claim.client);
     job->turn = FIRST_TURN;
-    job->device.plan.estimate_ms = (double)job->answer.n * job->answer.params.orders * capacity.ns[KD_NS_RAY_FULL] * 1e-6;
+    job->device.plan.estimate_ms =
+        (double)job->answer.n * job->answer.params.orders * capacity.ns[KD_NS_RAY_FULL] * 1e-6;
     kd_render_queue_push(renders, &job->device);
     return KD_OK;
 }
@@ -105,8 +110,8 @@ static enum kd_turn_end trace_slice(struct kd_rays_job *job)
         return KD_TURN_LAST;
     size_t n = answer->n - first < SLICE ? answer->n - first : SLICE;
     struct kd_ray_crossing *crossings = answer->crossings + first * answer->params.orders;
-    enum kd_status status = kd_rays_trace(NULL, &answer->params, answer->alpha_beta + 2 * first, n, crossings, answer->ends + first,
-                                          NULL, NULL, &error);
+    enum kd_status status = kd_rays_trace(NULL, &answer->params, answer->alpha_beta + 2 * first, n, crossings,
+                                          answer->ends + first, NULL, NULL, &error);
     kd_task_fail(&job->task, status, &error);
     return status || first + n == answer->n ? KD_TURN_LAST : KD_TURN_MORE;
 }
@@ -141,7 +146,8 @@ static void finish(struct kd_task *task)
 
 struct kd_rays_job *kd_rays_job_begin(struct kd_request *request, enum MHD_Result *refused)
 {
-    static const struct kd_task_kind kind = { "requests for rays", sizeof(struct kd_rays_job), work, finish, .last = last };
+    static const struct kd_task_kind kind = { "requests for rays", sizeof(struct kd_rays_job), work, finish,
+                                              .last = last };
     struct kd_rays_job *job = kd_task_begin(request, request->server->rays, &kind, refused);
     if (job)
         job->task.deadline_ms = INFINITY; /* their number is bounded */

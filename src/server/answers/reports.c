@@ -10,8 +10,7 @@
 enum MHD_Result kd_handle_health(struct kd_request *request)
 {
     static const char alive[] = "{\"status\":\"alive\"}\n";
-    return kd_reply_send(request, MHD_HTTP_OK,
-                         kd_reply_static(alive, sizeof alive - 1, request->route->answer));
+    return kd_reply_send(request, MHD_HTTP_OK, kd_reply_static(alive, sizeof alive - 1, request->route->answer));
 }
 
 enum MHD_Result kd_handle_ready(struct kd_request *request)
@@ -19,15 +18,12 @@ enum MHD_Result kd_handle_ready(struct kd_request *request)
     static const char ready[] = "{\"status\":\"ready\"}\n";
     struct kd_error error;
     if (kd_render_queue_lost(request->server->renders, &error))
-        return kd_reply_problem(
-            request, &(struct kd_problem) { .type = KD_PROBLEM_STOPPING, .detail = error.message });
+        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_STOPPING, .detail = error.message });
     if (atomic_load(&request->server->phase) != KD_SERVING)
-        return kd_reply_problem(request,
-                                &(struct kd_problem) { .type = KD_PROBLEM_STOPPING,
-                                                       .retry_after = 1,
-                                                       .detail = "the server has been asked to stop" });
-    return kd_reply_send(request, MHD_HTTP_OK,
-                         kd_reply_static(ready, sizeof ready - 1, request->route->answer));
+        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_STOPPING,
+                                                                .retry_after = 1,
+                                                                .detail = "the server has been asked to stop" });
+    return kd_reply_send(request, MHD_HTTP_OK, kd_reply_static(ready, sizeof ready - 1, request->route->answer));
 }
 
 enum MHD_Result kd_handle_device(struct kd_request *request)
@@ -41,7 +37,8 @@ enum MHD_Result kd_handle_kept(struct kd_request *request)
 {
     const struct kd_served *document = kd_kept_find(request->server->kept, request->target.path);
     char preset[128];
-    if (!document && request->rest && snprintf(preset, sizeof preset, "/v1/presets/%s", kd_scene_preset_name_now(request->rest)) < (int)sizeof preset)
+    if (!document && request->rest &&
+        snprintf(preset, sizeof preset, "/v1/presets/%s", kd_scene_preset_name_now(request->rest)) < (int)sizeof preset)
         document = kd_kept_find(request->server->kept, preset);
     struct kd_scene scene;
     struct kd_error error = { 0 };

@@ -43,8 +43,8 @@ enum kd_status kd_asset_look(const void *data, size_t size, struct kd_asset_abou
     if (status)
         return status;
     if ((uint64_t)png.width * png.height > KD_ASSET_PIXELS)
-        return kd_error_set(error, KD_EINVAL, "an asset may have %llu pixels, this one has %u x %u", (unsigned long long)KD_ASSET_PIXELS,
-                            png.width, png.height);
+        return kd_error_set(error, KD_EINVAL, "an asset may have %llu pixels, this one has %u x %u",
+                            (unsigned long long)KD_ASSET_PIXELS, png.width, png.height);
     out->width = png.width;
     out->height = png.height;
     out->bit_depth = png.bit_depth;
@@ -61,10 +61,14 @@ enum kd_status kd_asset_folder_open(const char *state, int *out, struct kd_error
     int cause = errno;
     if (parent >= 0)
         close(parent);
-    return *out >= 0 ? KD_OK : kd_error_set(error, KD_EIO, "assets cannot be kept in %.300s: %s", state, strerror(cause));
+    return *out >= 0 ? KD_OK
+                     : kd_error_set(error, KD_EIO, "assets cannot be kept in %.300s: %s", state, strerror(cause));
 }
 
-static void name_of(const char *hash, const char *kind, char out[FILE_NAME]) { snprintf(out, FILE_NAME, "%.64s.%s", hash, kind); }
+static void name_of(const char *hash, const char *kind, char out[FILE_NAME])
+{
+    snprintf(out, FILE_NAME, "%.64s.%s", hash, kind);
+}
 
 /* Reads the hash that a file's name begins with; false: the name is none of ours. */
 static bool hash_of(const char *name, const char *kind, char hash[KD_ASSET_NAME])
@@ -78,10 +82,14 @@ static bool read_record(int folder, const char *hash, struct kd_asset_about *out
     char name[FILE_NAME];
     struct kd_buffer text = { 0 };
     name_of(hash, "json", name);
-    cJSON *o = kd_read_file(folder, name, O_NOFOLLOW, RECORD_MAX, &text) ? cJSON_ParseWithLength((const char *)text.data, text.size) : NULL;
+    cJSON *o = kd_read_file(folder, name, O_NOFOLLOW, RECORD_MAX, &text)
+                   ? cJSON_ParseWithLength((const char *)text.data, text.size)
+                   : NULL;
     const char *token = cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(o, "token"));
-    const cJSON *format = cJSON_GetObjectItemCaseSensitive(o, "format"), *created = cJSON_GetObjectItemCaseSensitive(o, "created");
-    bool good = token && strlen(token) == KD_SECRET_TOKEN - 1 && cJSON_IsNumber(format) && format->valuedouble == 1 && cJSON_IsNumber(created);
+    const cJSON *format = cJSON_GetObjectItemCaseSensitive(o, "format"),
+                *created = cJSON_GetObjectItemCaseSensitive(o, "created");
+    bool good = token && strlen(token) == KD_SECRET_TOKEN - 1 && cJSON_IsNumber(format) && format->valuedouble == 1 &&
+                cJSON_IsNumber(created);
     if (good) {
         snprintf(out->hash, sizeof out->hash, "%s", hash);
         snprintf(out->token, sizeof out->token, "%s", token);
@@ -125,7 +133,8 @@ static bool has_record(int folder, const char *hash)
     return !fstatat(folder, name, &about, AT_SYMLINK_NOFOLLOW);
 }
 
-/* Says whether a server that was killed left the file behind: bytes without their record, or the beginning of a file. */
+/* Says whether a server that was killed left the file behind: bytes without their record, or the beginning of a
+ * file. */
 static bool is_left_over(int folder, const char *name)
 {
     static const char *const kinds[] = { "png", "npz", "json" };
@@ -142,8 +151,10 @@ static bool is_left_over(int folder, const char *name)
     return false;
 }
 
-enum kd_status kd_asset_folder_load(int folder, void (*found)(void *user, const struct kd_asset_about *about, struct kd_buffer *bytes), void *user,
-                                    struct kd_error *error)
+enum kd_status kd_asset_folder_load(int folder,
+                                    void (*found)(void *user, const struct kd_asset_about *about,
+                                                  struct kd_buffer *bytes),
+                                    void *user, struct kd_error *error)
 {
     int fd = openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     DIR *d = fd < 0 ? NULL : fdopendir(fd);
@@ -161,7 +172,8 @@ enum kd_status kd_asset_folder_load(int folder, void (*found)(void *user, const 
             unlinkat(folder, entry->d_name, 0);
         if (!hash_of(entry->d_name, "json", hash))
             continue;
-        const char *why = read_record(folder, hash, &about) ? read_bytes(folder, &about, &bytes) : "its record cannot be read";
+        const char *why =
+            read_record(folder, hash, &about) ? read_bytes(folder, &about, &bytes) : "its record cannot be read";
         if (why)
             kd_log(KD_LOG_WARN, "asset %.4s... is left alone: %s", hash, why);
         else
@@ -192,9 +204,13 @@ enum kd_status kd_asset_folder_write(int folder, const struct kd_asset_about *ab
     enum kd_status status = write_record(about, &text);
     if (status)
         kd_error_set(error, status, "out of memory for the record of an asset");
-    if (!status && (!kd_replace_file_at(folder, bytes, about->data, about->size) || !kd_replace_file_at(folder, record, text.data, text.size))) {
+    if (!status && (!kd_replace_file_at(folder, bytes, about->data, about->size) ||
+                    !kd_replace_file_at(folder, record, text.data, text.size))) {
         int cause = errno;
-        status = kd_error_set(error, cause == ENOSPC || cause == EDQUOT ? KD_EFULL : cause == EMFILE || cause == ENFILE || cause == ENOMEM ? KD_ENOMEM : KD_EIO,
+        status = kd_error_set(error,
+                              cause == ENOSPC || cause == EDQUOT                      ? KD_EFULL
+                              : cause == EMFILE || cause == ENFILE || cause == ENOMEM ? KD_ENOMEM
+                                                                                      : KD_EIO,
                               "the asset cannot be kept: %s", strerror(cause));
         kd_asset_folder_remove(folder, about->hash);
     }

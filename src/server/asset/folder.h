@@ -8,10 +8,12 @@
 /* Opens STATE/assets, which is made if it is not there; *out is its descriptor. Fails with KD_EIO and the path. */
 enum kd_status kd_asset_folder_open(const char *state, int *out, struct kd_error *error);
 
-/* Calls found() for each asset that is whole and that kd_asset_look takes; the bytes are found()'s to keep or free. Files that a
- * killed server left half done are removed. */
-enum kd_status kd_asset_folder_load(int folder, void (*found)(void *user, const struct kd_asset_about *about, struct kd_buffer *bytes), void *user,
-                                    struct kd_error *error);
+/* Calls found() for each asset that is whole and that kd_asset_look takes; the bytes are found()'s to keep or free.
+ * Files that a killed server left half done are removed. */
+enum kd_status kd_asset_folder_load(int folder,
+                                    void (*found)(void *user, const struct kd_asset_about *about,
+                                                  struct kd_buffer *bytes),
+                                    void *user, struct kd_error *error);
 
 /* Writes the bytes, then the record. KD_EFULL: the disk is full. */
 enum kd_status kd_asset_folder_write(int folder, const struct kd_asset_about *about, struct kd_error *error);

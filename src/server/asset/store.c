@@ -125,13 +125,15 @@ static bool take(void *user, const char *hash, struct kd_asset_bytes *out)
 
 static void give_back(void *user, struct kd_asset_bytes *bytes) { kd_asset_release(user, bytes->held); }
 
-enum kd_status kd_asset_store_create(const struct kd_asset_limits *limits, struct kd_asset_store **out, struct kd_error *error)
+enum kd_status kd_asset_store_create(const struct kd_asset_limits *limits, struct kd_asset_store **out,
+                                     struct kd_error *error)
 {
     struct kd_asset_store *store = calloc(1, sizeof *store);
     if (!store)
         return kd_error_set(error, KD_ENOMEM, "out of memory");
     store->limits = *limits;
-    store->assets = (struct kd_assets) { find_for_scene, take, give_back, "null and the SHA-256 of an asset that PUT /v1/assets has taken", store };
+    store->assets = (struct kd_assets) { find_for_scene, take, give_back,
+                                         "null and the SHA-256 of an asset that PUT /v1/assets has taken", store };
     store->folder = -1;
     pthread_mutex_init(&store->lock, NULL);
     *out = store;
@@ -167,7 +169,8 @@ static struct kd_asset *oldest(const struct kd_asset_store *store)
     struct kd_asset *best = NULL;
     double before = kd_clock_ms() - 1e3 * store->limits.keep_s;
     for (struct kd_asset *asset = store->first; asset; asset = asset->next)
-        if (asset->ready && asset->references == 1 && asset->used_ms < before && (!best || asset->used_ms < best->used_ms))
+        if (asset->ready && asset->references == 1 && asset->used_ms < before &&
+            (!best || asset->used_ms < best->used_ms))
             best = asset;
     return best;
 }
@@ -204,7 +207,8 @@ static bool make_room(struct kd_asset_store *store, size_t size)
 }
 
 /* Finds the asset if it is here already, or makes place for a new one. With the lock. */
-static enum kd_status place(struct kd_asset_store *store, struct kd_asset *fresh, struct kd_asset_put *put, struct kd_error *error)
+static enum kd_status place(struct kd_asset_store *store, struct kd_asset *fresh, struct kd_asset_put *put,
+                            struct kd_error *error)
 {
     const struct kd_asset_limits *limits = &store->limits;
     struct kd_asset *there = find(store, fresh->about.hash);
@@ -218,7 +222,8 @@ static enum kd_status place(struct kd_asset_store *store, struct kd_asset *fresh
     }
     put->quota = has_share(store, fresh->about.size, fresh->client);
     if (put->quota)
-        return kd_error_set(error, KD_EBUSY, "as many assets of yours are kept as may of one client: %u, of %llu bytes in all",
+        return kd_error_set(error, KD_EBUSY,
+                            "as many assets of yours are kept as may of one client: %u, of %llu bytes in all",
                             limits->client_most, (unsigned long long)limits->client_bytes);
     put->full = !make_room(store, fresh->about.size);
     if (put->full)
@@ -243,8 +248,8 @@ static enum kd_status settle(struct kd_asset_store *store, struct kd_asset *asse
     return status;
 }
 
-enum kd_status kd_asset_store_put(struct kd_asset_store *store, const void *data, size_t size, const char *client, struct kd_asset_put *put,
-                                  struct kd_error *error)
+enum kd_status kd_asset_store_put(struct kd_asset_store *store, const void *data, size_t size, const char *client,
+                                  struct kd_asset_put *put, struct kd_error *error)
 {
     struct kd_asset_about about = { .created = (double)time(NULL) };
     *put = (struct kd_asset_put) { 0 };

@@ -1,5 +1,6 @@
-/* Assets are bytes that clients put here, for scenes to name by their SHA-256. They are kept in memory, and in a folder too if the server has one:
- * DIRECTORY/assets/HASH.png, or .npz, with HASH.json beside it, each written as a whole, the latter last. Any thread.
+/* Assets are bytes that clients put here, for scenes to name by their SHA-256. They are kept in memory, and in a
+ * folder too if the server has one: DIRECTORY/assets/HASH.png, or .npz, with HASH.json beside it, each written as a
+ * whole, the latter last. Any thread.
  *
  * Errors name no path: clients see them. */
 #ifndef KD_SERVER_ASSET_STORE_H
@@ -14,20 +15,21 @@
 struct kd_asset_store;
 struct kd_asset;
 
-#define KD_ASSET_TYPE "image/png"          /* pictures, */
+#define KD_ASSET_TYPE "image/png"              /* pictures, */
 #define KD_ASSET_GRID_TYPE "application/x-npz" /* and grids of matter (render/emit/matter_grid.h) */
-#define KD_ASSET_BYTES ((size_t)32 << 20) /* of one */
-#define KD_ASSET_PIXELS ((uint64_t)1 << 28) /* of one */
+#define KD_ASSET_BYTES ((size_t)32 << 20)      /* of one */
+#define KD_ASSET_PIXELS ((uint64_t)1 << 28)    /* of one */
 
 struct kd_asset_limits {
-    unsigned most, client_most;       /* assets; of one client */
-    uint64_t bytes, client_bytes;     /* of all; of those of one client */
-    double keep_s;                    /* that one stays though nobody asks for it and others want its room */
+    unsigned most, client_most;   /* assets; of one client */
+    uint64_t bytes, client_bytes; /* of all; of those of one client */
+    double keep_s;                /* that one stays though nobody asks for it and others want its room */
 };
 /* Makes a store without assets. */
-enum kd_status kd_asset_store_create(const struct kd_asset_limits *limits, struct kd_asset_store **out, struct kd_error *error);
-/* Keeps assets in the server's folder from now on, of which this process holds the lock (job/store.h). Those in it are read; what cannot be read
- * is logged and left alone. To be called once, before anything is put here. */
+enum kd_status kd_asset_store_create(const struct kd_asset_limits *limits, struct kd_asset_store **out,
+                                     struct kd_error *error);
+/* Keeps assets in the server's folder from now on, of which this process holds the lock (job/store.h). Those in it
+ * are read; what cannot be read is logged and left alone. To be called once, before anything is put here. */
 enum kd_status kd_asset_store_open(struct kd_asset_store *store, const char *state, struct kd_error *error);
 /* The store as scenes and renderers see it, by hashes alone. */
 const struct kd_assets *kd_asset_store_assets(const struct kd_asset_store *store);
@@ -35,21 +37,22 @@ const struct kd_assets *kd_asset_store_assets(const struct kd_asset_store *store
 void kd_asset_store_close(struct kd_asset_store *store);
 const struct kd_asset_limits *kd_asset_store_limits(const struct kd_asset_store *store);
 
-/* Keeps a copy of the bytes; put->asset: a reference, put->created: they were not here before. KD_EINVAL: they are nothing that is
- * taken; KD_EBUSY: somebody else is writing them, or with put->quota the client has its share; KD_EFULL: the disk is full, or with put->full
- * as many are kept as may. It may write for long. */
+/* Keeps a copy of the bytes; put->asset: a reference, put->created: they were not here before. KD_EINVAL: they are
+ * nothing that is taken; KD_EBUSY: somebody else is writing them, or with put->quota the client has its share;
+ * KD_EFULL: the disk is full, or with put->full as many are kept as may. It may write for long. */
 struct kd_asset_put {
     struct kd_asset *asset;
     bool created, quota, full;
 };
-enum kd_status kd_asset_store_put(struct kd_asset_store *store, const void *data, size_t size, const char *client, struct kd_asset_put *put,
-                                  struct kd_error *error);
+enum kd_status kd_asset_store_put(struct kd_asset_store *store, const void *data, size_t size, const char *client,
+                                  struct kd_asset_put *put, struct kd_error *error);
 /* Finds an asset by its hash: a reference, or NULL. Who asks for an asset keeps it from giving way. */
 struct kd_asset *kd_asset_store_find(struct kd_asset_store *store, const char *hash);
 /* Removes the asset: nobody finds it any more. Its files go at once, its bytes with the last reference. */
 void kd_asset_store_remove(struct kd_asset_store *store, struct kd_asset *asset);
 void kd_asset_release(struct kd_asset_store *store, struct kd_asset *asset);
-/* How many there are, and their bytes. It waits for nobody: an asset that comes or goes just then may be in one of the two alone. */
+/* How many there are, and their bytes. It waits for nobody: an asset that comes or goes just then may be in one of
+ * the two alone. */
 void kd_asset_store_count(const struct kd_asset_store *store, unsigned *assets, uint64_t *bytes);
 
 /* What is known of an asset stays the same as long as it is held. */

@@ -58,7 +58,8 @@ static bool parse_role(const char *text, enum kd_role *out)
 }
 
 /* What is wrong with a line, as a sentence's end without the token; NULL: nothing. */
-static const char *fault_of(const struct kd_access *access, const char *name, const char *role, const char *token, const char *more, struct entry *entry)
+static const char *fault_of(const struct kd_access *access, const char *name, const char *role, const char *token,
+                            const char *more, struct entry *entry)
 {
     if (!role || !token || more)
         return "it must be NAME ROLE TOKEN";
@@ -80,7 +81,8 @@ static const char *fault_of(const struct kd_access *access, const char *name, co
     return NULL;
 }
 
-static enum kd_status add_line(struct kd_access *access, const char *path, unsigned number, char *line, struct kd_error *error)
+static enum kd_status add_line(struct kd_access *access, const char *path, unsigned number, char *line,
+                               struct kd_error *error)
 {
     struct entry entry = { 0 };
     char *rest;
@@ -88,7 +90,8 @@ static enum kd_status add_line(struct kd_access *access, const char *path, unsig
     const char *name = strtok_r(line, BLANK, &rest);
     if (!name)
         return KD_OK;
-    const char *role = strtok_r(NULL, BLANK, &rest), *token = strtok_r(NULL, BLANK, &rest), *more = strtok_r(NULL, BLANK, &rest);
+    const char *role = strtok_r(NULL, BLANK, &rest), *token = strtok_r(NULL, BLANK, &rest),
+               *more = strtok_r(NULL, BLANK, &rest);
     const char *fault = fault_of(access, name, role, token, more, &entry);
     if (fault)
         return kd_error_set(error, KD_EINVAL, "line %u of the token file %.200s: %s", number, path, fault);
@@ -121,8 +124,10 @@ static enum kd_status read_text(const char *path, struct kd_buffer *text, struct
     if (stat(path, &about) || !kd_read_file(AT_FDCWD, path, 0, FILE_MOST, text))
         return kd_error_set(error, KD_EINVAL, "the token file %.200s cannot be read: %s", path, strerror(errno));
     if (about.st_mode & (S_IROTH | S_IWOTH | S_IWGRP))
-        return kd_error_set(error, KD_EINVAL, "the token file %.200s may be read or written by others (mode %03o): chmod 600 keeps it to its owner", path,
-                            (unsigned)about.st_mode & 0777);
+        return kd_error_set(
+            error, KD_EINVAL,
+            "the token file %.200s may be read or written by others (mode %03o): chmod 600 keeps it to its owner", path,
+            (unsigned)about.st_mode & 0777);
     if (memchr(text->data ? text->data : (void *)"", 0, text->size))
         return kd_error_set(error, KD_EINVAL, "the token file %.200s is no text: it holds a zero byte", path);
     return kd_buffer_append(text, "", 1) ? kd_error_set(error, KD_ENOMEM, "out of memory") : KD_OK;
@@ -159,12 +164,16 @@ static struct brought brought_by(struct kd_request *request)
 {
     const char *query = kd_access_query(request);
     const char *own = MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, KD_ACCESS_HEADER);
-    return (struct brought) { .alone = query ? query : own, .bearer = kd_bearer_of(request),
-                              .cookie = kd_cors_foreign(request) ? NULL : MHD_lookup_connection_value(request->mhd, MHD_COOKIE_KIND, KD_ACCESS_COOKIE) };
+    return (struct brought) { .alone = query ? query : own,
+                              .bearer = kd_bearer_of(request),
+                              .cookie =
+                                  kd_cors_foreign(request)
+                                      ? NULL
+                                      : MHD_lookup_connection_value(request->mhd, MHD_COOKIE_KIND, KD_ACCESS_COOKIE) };
 }
 
-/* Whose request it is. A token that the page's address or the header of its own brings decides alone; Authorization may as well hold the token of a
- * session, so what is not ours there leaves it to the cookie. */
+/* Whose request it is. A token that the page's address or the header of its own brings decides alone; Authorization
+ * may as well hold the token of a session, so what is not ours there leaves it to the cookie. */
 static const struct kd_visitor *visitor_of(struct kd_request *request, const struct brought *brought)
 {
     const struct kd_access *access = request->server->access;
@@ -176,17 +185,25 @@ static const struct kd_visitor *visitor_of(struct kd_request *request, const str
 }
 
 /* 32 hexadecimal digits: nobody finds a token of that form by trying. */
-static bool may_be_sessions(const char *bearer) { return strlen(bearer) == 32 && strspn(bearer, "0123456789abcdef") == 32; }
+static bool may_be_sessions(const char *bearer)
+{
+    return strlen(bearer) == 32 && strspn(bearer, "0123456789abcdef") == 32;
+}
 
-/* In how many seconds tokens of this address are looked at again; 0: they are, or none has come. Its client is still its address. */
+/* In how many seconds tokens of this address are looked at again; 0: they are, or none has come. Its client is still
+ * its address. */
 static unsigned guesses_wait_s(const struct kd_request *request, const struct brought *brought)
 {
     struct kd_guesses *guesses = request->server->guesses;
-    const char *const texts[] = { brought->alone, brought->alone ? NULL : brought->bearer, brought->alone ? NULL : brought->cookie };
+    const char *const texts[] = { brought->alone, brought->alone ? NULL : brought->bearer,
+                                  brought->alone ? NULL : brought->cookie };
     uint64_t hash = KD_HASH_BEGIN; /* the same for the same token, whichever way it is brought */
     if (request->visitor) { /* by its cookie, perhaps, beside a try; but a bearer may be a session's token, too */
         const bool tried = brought->bearer && !brought->alone && !request->spent && !may_be_sessions(brought->bearer);
-        const unsigned wait = tried ? kd_guesses_wrong(guesses, request->client, kd_hash(hash, brought->bearer, strlen(brought->bearer) + 1), kd_clock_ms()) : 0;
+        const unsigned wait =
+            tried ? kd_guesses_wrong(guesses, request->client,
+                                     kd_hash(hash, brought->bearer, strlen(brought->bearer) + 1), kd_clock_ms())
+                  : 0;
         return wait ? wait : kd_guesses_right(guesses, request->client, request->visitor, kd_clock_ms());
     }
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
@@ -215,17 +232,26 @@ bool kd_access_check(struct kd_request *request, struct kd_problem *problem)
         return true;
     const struct brought brought = brought_by(request);
     request->visitor = visitor_of(request, &brought);
-    *problem = (struct kd_problem) { .type = KD_PROBLEM_WRONG_TOKENS, .close = request->body_announced, .retry_after = guesses_wait_s(request, &brought),
-                                     .detail = "too many wrong access tokens have come from this address; in a few seconds one is looked at again" };
+    *problem = (struct kd_problem) {
+        .type = KD_PROBLEM_WRONG_TOKENS,
+        .close = request->body_announced,
+        .retry_after = guesses_wait_s(request, &brought),
+        .detail = "too many wrong access tokens have come from this address; in a few seconds one is looked at again"
+    };
     if (problem->retry_after) {
         request->visitor = NULL;
         return false;
     }
-    *problem = (struct kd_problem) { .type = KD_PROBLEM_UNAUTHORIZED, .close = request->body_announced,
-                                     .detail = "this server takes one of its access tokens, as Authorization: Bearer TOKEN or " KD_ACCESS_HEADER ": TOKEN" };
+    *problem = (struct kd_problem) {
+        .type = KD_PROBLEM_UNAUTHORIZED,
+        .close = request->body_announced,
+        .detail =
+            "this server takes one of its access tokens, as Authorization: Bearer TOKEN or " KD_ACCESS_HEADER ": TOKEN"
+    };
     if (!request->visitor)
         return false;
     problem->type = KD_PROBLEM_ROLE;
-    problem->detail = "this changes or keeps something at the server, which takes a token of the role render; yours is of the role view";
+    problem->detail = "this changes or keeps something at the server, which takes a token of the role render; yours is "
+                      "of the role view";
     return !request->route || kd_role_may(request->visitor->role, request->route, kd_route_method(request->method));
 }

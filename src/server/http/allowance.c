@@ -23,7 +23,8 @@ static size_t find(const struct kd_allowance *all, const char *client)
     return i;
 }
 
-/* The place of a client, which is made where it has none: in that of the fullest bucket, since least is forgotten with that. */
+/* The place of a client, which is made where it has none: in that of the fullest bucket, since least is forgotten
+ * with that. */
 static struct kd_allowance_place *place_of(struct kd_allowance *all, const char *client, double now_ms)
 {
     const size_t known = find(all, client);

@@ -1,28 +1,34 @@
-/* An allowance says how much of the device's time each client may use in the long run: a bucket of seconds a client, which fills at a constant rate and
- * holds what comes in a minute. What a client's work takes is taken out of its bucket, which may fall below nothing; then the client has to wait until
- * it has filled again. Pure: the clock is the caller's. One owner at a time. */
+/* An allowance says how much of the device's time each client may use in the long run: a bucket of seconds a client,
+ * which fills at a constant rate and holds what comes in a minute. What a client's work takes is taken out of its
+ * bucket, which may fall below nothing; then the client has to wait until it has filled again. Pure: the clock is
+ * the caller's. One owner at a time. */
 #ifndef KD_SERVER_HTTP_ALLOWANCE_H
 #define KD_SERVER_HTTP_ALLOWANCE_H
 
 #include "server/http/shares.h"
 
-#define KD_ALLOWANCE_CLIENTS 256u /* with a bucket that is not full, told apart at once; one more is given the place of the one that is fullest */
+#define KD_ALLOWANCE_CLIENTS \
+    256u /* with a bucket that is not full, told apart at once; one more is given the place of the one that is fullest \
+          */
 
 struct kd_allowance {
-    unsigned seconds; /* of the device's time that a client may use in a minute; 0: as much as it likes. The rest is 0 to begin with */
+    unsigned seconds; /* of the device's time that a client may use in a minute; 0: as much as it likes. The rest is 0
+                         to begin with */
     struct kd_allowance_place {
         char client[KD_CLIENT];
         double ms, at_ms; /* what the bucket held, and when; as full as may be where at_ms is 0 */
     } places[KD_ALLOWANCE_CLIENTS];
 };
 
-/* What the bucket holds, in ms of the device's time; below 0 it is owed. INFINITY without a limit, and for "": nobody's, as jobs are that go on after a restart. */
+/* What the bucket holds, in ms of the device's time; below 0 it is owed. INFINITY without a limit, and for "":
+ * nobody's, as jobs are that go on after a restart. */
 double kd_allowance_left_ms(const struct kd_allowance *all, const char *client, double now_ms);
 /* Takes what work of a client has used. */
 void kd_allowance_charge(struct kd_allowance *all, const char *client, double ms, double now_ms);
 /* In how many ms there is something in the bucket once so much more has been taken out of it; 0: there is now. */
 double kd_allowance_wait_ms(const struct kd_allowance *all, const char *client, double owed_ms, double now_ms);
-/* Whether work that waits may go on. patient: nobody sits before it, and it leaves half of the bucket to what somebody asks for. */
+/* Whether work that waits may go on. patient: nobody sits before it, and it leaves half of the bucket to what
+ * somebody asks for. */
 bool kd_allowance_may(const struct kd_allowance *all, const char *client, bool patient, double now_ms);
 
 #endif

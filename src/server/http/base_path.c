@@ -39,9 +39,12 @@ enum kd_status kd_base_path_init(struct kd_base_path *base, const char *text, st
         return kd_error_set(error, KD_EINVAL, "the base path is \"%s\": %s; \"/some/prefix\" is one", given, wrong);
     }
     snprintf(base->path, sizeof base->path, "%s", text ? text : "");
-    snprintf(base->unknown, sizeof base->unknown, "there is no such path; %s/openapi.json lists those there are", base->path);
+    snprintf(base->unknown, sizeof base->unknown, "there is no such path; %s/openapi.json lists those there are",
+             base->path);
     snprintf(base->outside, sizeof base->outside,
-             "this server's base path is %s (kerrd serve --base-path): only what is below it is answered, and /healthz, /readyz and /metrics", base->path);
+             "this server's base path is %s (kerrd serve --base-path): only what is below it is answered, and "
+             "/healthz, /readyz and /metrics",
+             base->path);
     return KD_OK;
 }
 

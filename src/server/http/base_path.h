@@ -1,5 +1,5 @@
-/* The base path stands before every path of this server where a proxy has given it a part of a site: "/some/prefix", or "" for none. The routes, and what is
- * told of them, do not contain it. Pure; any thread. */
+/* The base path stands before every path of this server where a proxy has given it a part of a site: "/some/prefix",
+ * or "" for none. The routes, and what is told of them, do not contain it. Pure; any thread. */
 #ifndef KD_SERVER_HTTP_BASE_PATH_H
 #define KD_SERVER_HTTP_BASE_PATH_H
 
@@ -13,10 +13,12 @@ struct kd_base_path {
     char outside[KD_BASE_PATH_MOST + 160], unknown[KD_BASE_PATH_MOST + 100];
 };
 
-/* Takes it from text, NULL for none. KD_EINVAL unless it is segments of letters, digits and -._~@, each behind a slash, none of which is "." or "..". */
+/* Takes it from text, NULL for none. KD_EINVAL unless it is segments of letters, digits and -._~@, each behind a
+ * slash, none of which is "." or "..". */
 enum kd_status kd_base_path_init(struct kd_base_path *base, const char *text, struct kd_error *error);
 
-/* Gives what stands behind the base path: "/v1/render" of "/some/prefix/v1/render", "" of "/some/prefix"; NULL: the path is not below it. */
+/* Gives what stands behind the base path: "/v1/render" of "/some/prefix/v1/render", "" of "/some/prefix"; NULL: the
+ * path is not below it. */
 const char *kd_base_path_behind(const struct kd_base_path *base, const char *path);
 
 #endif

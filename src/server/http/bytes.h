@@ -1,4 +1,5 @@
-/* This counts bytes that are held for requests, in all and by client: bodies that are being received, answers that are not taken yet. Any thread.
+/* This counts bytes that are held for requests, in all and by client: bodies that are being received, answers that
+ * are not taken yet. Any thread.
  *
  * No client has more than its share, which leaves room for others; and some room is kept for small ones. */
 #ifndef KD_SERVER_HTTP_BYTES_H
@@ -14,17 +15,19 @@ struct kd_bytes;
 
 /* NULL: out of memory. */
 struct kd_bytes_params {
-    /* How many clients are told apart at once; there are never more than connections. What further ones have counts as that of one. */
+    /* How many clients are told apart at once; there are never more than connections. What further ones have counts
+     * as that of one. */
     unsigned clients;
     size_t max, share;     /* in all; of one client */
     size_t reserve, small; /* beside max, for what has at most `small` bytes; and as large a share of it */
-    bool lone;             /* a client that has nothing here may have more than a share, and more than max where nobody has anything */
+    bool lone; /* a client that has nothing here may have more than a share, and more than max where nobody has anything
+                */
 };
 struct kd_bytes *kd_bytes_create(const struct kd_bytes_params *params);
 void kd_bytes_destroy(struct kd_bytes *bytes); /* accepts NULL */
 
-/* Takes n more bytes of something that has, or will have, `size` in all. KD_EBUSY, and nothing is counted, where they are too
- * many in all, or with *quota too many of this client. n 0 asks whether any may come. */
+/* Takes n more bytes of something that has, or will have, `size` in all. KD_EBUSY, and nothing is counted, where
+ * they are too many in all, or with *quota too many of this client. n 0 asks whether any may come. */
 enum kd_status kd_bytes_take(struct kd_bytes *bytes, const char *client, size_t n, size_t size, bool *quota);
 /* Counts bytes that are there already, whether they are too many or not. */
 void kd_bytes_add(struct kd_bytes *bytes, const char *client, size_t n);

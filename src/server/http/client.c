@@ -38,10 +38,7 @@ void kd_client_of(struct MHD_Connection *mhd, char out[KD_CLIENT])
     kd_client_at(info ? info->client_addr : NULL, out);
 }
 
-void kd_client_named(const char *name, char out[KD_CLIENT])
-{
-    snprintf(out, KD_CLIENT, "token %s", name);
-}
+void kd_client_named(const char *name, char out[KD_CLIENT]) { snprintf(out, KD_CLIENT, "token %s", name); }
 
 void kd_client_at(const struct sockaddr *address, char out[KD_CLIENT])
 {

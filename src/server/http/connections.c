@@ -15,12 +15,12 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#define IDLE_MS 60e3          /* past libmicrohttpd's idle timeout: only for those that trickle */
-#define CROWDED_MS 2e3        /* to say what it wants, for a connection accepted beyond the limit */
-#define REPLY_MS 30e3         /* to take an answer, and besides ... */
-#define BYTES_PER_MS 32       /* ... the time it takes at 32 kB/s, a poor mobile line */
+#define IDLE_MS 60e3    /* past libmicrohttpd's idle timeout: only for those that trickle */
+#define CROWDED_MS 2e3  /* to say what it wants, for a connection accepted beyond the limit */
+#define REPLY_MS 30e3   /* to take an answer, and besides ... */
+#define BYTES_PER_MS 32 /* ... the time it takes at 32 kB/s, a poor mobile line */
 
-#define STALL_MS 2e3 /* a client that reads takes something in less, over nearly any line */
+#define STALL_MS 2e3  /* a client that reads takes something in less, over nearly any line */
 #define LINGER_MS 2e3 /* round trips and a few MiB; then a client that goes on is reset after all */
 #define LINGER_BYTES ((size_t)16 << 20)
 #define LINGERING 64 /* at once */
@@ -33,8 +33,8 @@ struct kd_connection {
     bool linger, handed_on, health, cut; /* cut: shut down for another */
     size_t discarded;
     enum kd_stage stage;
-    double deadline; /* on kd_clock_ms; 0: none */
-    int unsent;      /* bytes, when it was last looked at */
+    double deadline;   /* on kd_clock_ms; 0: none */
+    int unsent;        /* bytes, when it was last looked at */
     double stalled_ms; /* since then there are as many; 0: it has not been looked at */
 };
 
@@ -109,7 +109,8 @@ struct kd_connection *kd_connections_add(struct kd_connections *all, int socket,
     one->socket = socket;
     snprintf(one->client, sizeof one->client, "%s", client);
     pthread_mutex_lock(&all->lock);
-    struct kd_connection *stale = find(all, socket); /* whose daemon closed it without a word: its number would not be free else */
+    struct kd_connection *stale =
+        find(all, socket); /* whose daemon closed it without a word: its number would not be free else */
     if (stale) {
         unlink_one(all, stale);
         free(stale);
@@ -125,8 +126,8 @@ struct kd_connection *kd_connections_add(struct kd_connections *all, int socket,
     return one;
 }
 
-/* Shuts down the oldest connection to the health routes. A client that asks for health in earnest has sent all at once, and
- * has been answered long ago. */
+/* Shuts down the oldest connection to the health routes. A client that asks for health in earnest has sent all at
+ * once, and has been answered long ago. */
 static void cut_oldest_health(struct kd_connections *all)
 {
     struct kd_connection *oldest = NULL;
@@ -141,7 +142,8 @@ static void cut_oldest_health(struct kd_connections *all)
     shutdown(oldest->socket, SHUT_RDWR);
 }
 
-/* Counts the connections of the client of one, itself among them. handed_on: without those that have not said anything yet. */
+/* Counts the connections of the client of one, itself among them. handed_on: without those that have not said
+ * anything yet. */
 static unsigned of_client(const struct kd_connections *all, const struct kd_connection *one, bool handed_on)
 {
     unsigned n = 0;
@@ -177,10 +179,7 @@ struct kd_connection *kd_connections_find(struct kd_connections *all, int socket
     return one;
 }
 
-bool kd_connection_is_health(const struct kd_connection *one)
-{
-    return one && one->health;
-}
+bool kd_connection_is_health(const struct kd_connection *one) { return one && one->health; }
 
 /* A descriptor of our own keeps the socket when the library closes its one. */
 static bool keep(struct kd_connections *all, struct kd_connection *one)
@@ -215,10 +214,7 @@ void kd_connection_linger(struct kd_connection *one)
         one->linger = true;
 }
 
-int kd_connection_socket(const struct kd_connection *one)
-{
-    return one->socket;
-}
+int kd_connection_socket(const struct kd_connection *one) { return one->socket; }
 
 static double allowance(const struct kd_connections *all, enum kd_stage stage, unsigned long bytes)
 {
@@ -266,10 +262,7 @@ bool kd_connections_crowded(struct kd_connections *all, const struct kd_connecti
 }
 
 /* The daemon takes some more than are served: those are told why they are not. */
-unsigned kd_connections_most(unsigned limit)
-{
-    return limit + limit / 4 + 16;
-}
+unsigned kd_connections_most(unsigned limit) { return limit + limit / 4 + 16; }
 
 bool kd_connections_full(struct kd_connections *all)
 {

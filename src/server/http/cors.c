@@ -9,8 +9,10 @@
 #define MAX_AGE_S "600" /* that a browser remembers an answer to its preflight; Chromium takes up to two hours */
 #define NAME "abcdefghijklmnopqrstuvwxyz0123456789"
 #define EXPOSED \
-    "Allow, Content-Disposition, Content-Encoding, ETag, Kerrd-Accuracy, Kerrd-Approximations, Kerrd-Azimuth, Kerrd-Clock, Kerrd-Count, Kerrd-Fields, Kerrd-Flux, Kerrd-Frame, " \
-    "Kerrd-Generation, Kerrd-Particles, Kerrd-Patched, Kerrd-Quality, Kerrd-Revision, Kerrd-Rows, Kerrd-Scene-Hash, Kerrd-Sentences, Kerrd-Time, Kerrd-Waited, Location, " \
+    "Allow, Content-Disposition, Content-Encoding, ETag, Kerrd-Accuracy, Kerrd-Approximations, Kerrd-Azimuth, " \
+    "Kerrd-Clock, Kerrd-Count, Kerrd-Fields, Kerrd-Flux, Kerrd-Frame, " \
+    "Kerrd-Generation, Kerrd-Particles, Kerrd-Patched, Kerrd-Quality, Kerrd-Revision, Kerrd-Rows, Kerrd-Scene-Hash, " \
+    "Kerrd-Sentences, Kerrd-Time, Kerrd-Waited, Location, " \
     "Preference-Applied, Retry-After, Server-Timing, WWW-Authenticate, X-Request-Id"
 
 struct kd_cors {
@@ -34,10 +36,12 @@ static const char *fault_of(const char *origin)
         port = port[1] == ':' ? port + 1 : NULL;
     const size_t size = port ? (size_t)(port - host) : strlen(host);
     if (!size || strspn(host, NAME "-._[:]") < size)
-        return "an origin is SCHEME://HOST or SCHEME://HOST:PORT, in lower case and without a path or a slash behind it";
+        return "an origin is SCHEME://HOST or SCHEME://HOST:PORT, in lower case and without a path or a slash behind "
+               "it";
     if (port && (!port[1] || strlen(port + 1) > 5 || port[1 + strspn(port + 1, "0123456789")]))
         return "a port is a number, and no slash stands behind it";
-    if (port && ((!strncmp(origin, "http://", 7) && !strcmp(port, ":80")) || (!strncmp(origin, "https://", 8) && !strcmp(port, ":443"))))
+    if (port && ((!strncmp(origin, "http://", 7) && !strcmp(port, ":80")) ||
+                 (!strncmp(origin, "https://", 8) && !strcmp(port, ":443"))))
         return "browsers leave out the port that goes with the scheme, and so must this";
     return NULL;
 }
@@ -88,7 +92,10 @@ void kd_cors_destroy(struct kd_cors *cors)
     free(cors);
 }
 
-static const char *header(const struct kd_request *request, const char *name) { return MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, name); }
+static const char *header(const struct kd_request *request, const char *name)
+{
+    return MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, name);
+}
 
 const char *kd_cors_origin(const struct kd_request *request)
 {
@@ -102,7 +109,8 @@ const char *kd_cors_origin(const struct kd_request *request)
 
 bool kd_cors_foreign(const struct kd_request *request)
 {
-    const char *origin = kd_cors_origin(request), *site = header(request, "Sec-Fetch-Site"), *host = origin ? strstr(origin, "://") : NULL;
+    const char *origin = kd_cors_origin(request), *site = header(request, "Sec-Fetch-Site"),
+               *host = origin ? strstr(origin, "://") : NULL;
     if (!origin || (site && !strcmp(site, "same-origin")))
         return false;
     return !host || !request->header.host || strcmp(host + 3, request->header.host);
@@ -121,14 +129,17 @@ void kd_cors_add(const struct kd_request *request, struct MHD_Response *response
 
 bool kd_cors_is_preflight(const struct kd_request *request)
 {
-    return request->server->cors && !strcmp(request->method, "OPTIONS") && header(request, "Origin") && header(request, "Access-Control-Request-Method");
+    return request->server->cors && !strcmp(request->method, "OPTIONS") && header(request, "Origin") &&
+           header(request, "Access-Control-Request-Method");
 }
 
 static void allowed_headers(const struct kd_route *route, char *out, size_t size)
 {
-    const bool body = route->methods & (KD_POST | KD_PATCH | KD_PUT), kept = route->status[0] == 304 || route->status[1] == 304;
+    const bool body = route->methods & (KD_POST | KD_PATCH | KD_PUT),
+               kept = route->status[0] == 304 || route->status[1] == 304;
     const bool events = route->answer && !strcmp(route->answer, "text/event-stream");
-    snprintf(out, size, "Authorization, X-Request-Id, " KD_ACCESS_HEADER "%s%s%s%s", body ? ", Content-Type" : "", kept ? ", If-None-Match" : "", events ? ", Last-Event-ID" : "",
+    snprintf(out, size, "Authorization, X-Request-Id, " KD_ACCESS_HEADER "%s%s%s%s", body ? ", Content-Type" : "",
+             kept ? ", If-None-Match" : "", events ? ", Last-Event-ID" : "",
              route->methods & KD_PATCH ? ", Prefer" : "");
 }
 
@@ -137,8 +148,11 @@ enum MHD_Result kd_cors_preflight(struct kd_request *request)
     char headers[120];
     struct kd_problem nowhere;
     if (!kd_cors_origin(request))
-        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_CROSS_SITE, .close = request->body_announced,
-                                                                .detail = "the Origin that a browser asks for is none of those that --cors-origin names" });
+        return kd_reply_problem(
+            request, &(struct kd_problem) {
+                         .type = KD_PROBLEM_CROSS_SITE,
+                         .close = request->body_announced,
+                         .detail = "the Origin that a browser asks for is none of those that --cors-origin names" });
     request->route = NULL;
     if (!kd_route_find(request, &nowhere) && !request->route)
         return kd_reply_problem(request, &nowhere);

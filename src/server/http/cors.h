@@ -1,6 +1,8 @@
-/* Pages of other origins may use a server where it lists them: what a browser asks before it lets one, and what answers say to it (the Fetch standard's CORS protocol).
+/* Pages of other origins may use a server where it lists them: what a browser asks before it lets one, and what
+ * answers say to it (the Fetch standard's CORS protocol).
  *
- * A page brings an access token in Authorization or Kerrd-Access. No answer allows credentials, and the page's own cookie is not looked at for it. */
+ * A page brings an access token in Authorization or Kerrd-Access. No answer allows credentials, and the page's own
+ * cookie is not looked at for it. */
 #ifndef KD_SERVER_HTTP_CORS_H
 #define KD_SERVER_HTTP_CORS_H
 
@@ -9,12 +11,14 @@
 
 struct kd_cors;
 
-/* Reads origins as browsers send them, "https://host" or "http://host:port", several of them in a text with commas between; texts is NULL-terminated. "null" stands for pages without
- * an origin, files among them. KD_EINVAL: one of them is none, with what it should be. */
+/* Reads origins as browsers send them, "https://host" or "http://host:port", several of them in a text with commas
+ * between; texts is NULL-terminated. "null" stands for pages without an origin, files among them. KD_EINVAL: one of
+ * them is none, with what it should be. */
 enum kd_status kd_cors_create(const char *const *texts, struct kd_cors **out, struct kd_error *error);
 void kd_cors_destroy(struct kd_cors *cors); /* accepts NULL */
 
-/* The origin of the page that asks, if it is listed; NULL: it is not, or nothing says that a page asks. HTTP threads, as all that follows. */
+/* The origin of the page that asks, if it is listed; NULL: it is not, or nothing says that a page asks. HTTP
+ * threads, as all that follows. */
 const char *kd_cors_origin(const struct kd_request *request);
 /* Whether it is listed, and another one than the server's own: then no cookie is looked at. */
 bool kd_cors_foreign(const struct kd_request *request);

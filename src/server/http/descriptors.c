@@ -9,8 +9,10 @@
 #include <stdbool.h>
 #include <sys/resource.h>
 
-#define MOST 65536u  /* more is not asked for: each costs the kernel memory */
-#define RESERVE 200u /* the device, files of frames under way, those who linger or wait to say what they want, those who ask for health */
+#define MOST 65536u /* more is not asked for: each costs the kernel memory */
+#define RESERVE \
+    200u /* the device, files of frames under way, those who linger or wait to say what they want, those who ask for \
+            health */
 
 /* Whether descriptors are enough for so many connections: a socket each, and a file that it may be sent. */
 static bool fit(unsigned connections, rlim_t limit) { return 2 * kd_connections_most(connections) + RESERVE <= limit; }
@@ -49,7 +51,7 @@ unsigned kd_descriptors_for(unsigned connections)
     while (n > 4 && !fit(n, limit.rlim_cur))
         n--;
     if (n < connections)
-        kd_log(KD_LOG_WARN, "%llu descriptors (ulimit -n) are enough for %u connections, not for %u", (unsigned long long)limit.rlim_cur, n,
-               connections);
+        kd_log(KD_LOG_WARN, "%llu descriptors (ulimit -n) are enough for %u connections, not for %u",
+               (unsigned long long)limit.rlim_cur, n, connections);
     return n;
 }

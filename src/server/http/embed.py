@@ -1,5 +1,7 @@
-"""Files as C arrays, as they are and as gzip: embed.py MINIFIER OUTPUT FILE..., named as seen from the first one's folder.
-MINIFIER is the program esbuild, which shortens scripts and styles, or nothing: they stay as they are written then."""
+"""Files as C arrays, as they are and as gzip: embed.py MINIFIER OUTPUT FILE..., named as seen from the first one's
+folder. MINIFIER is the program esbuild, which shortens scripts and styles, or nothing: they stay as they are written
+then."""
+
 import gzip
 import hashlib
 import pathlib
@@ -7,36 +9,59 @@ import subprocess
 import sys
 import tempfile
 
-TYPES = {'.html': 'text/html; charset=utf-8', '.js': 'text/javascript; charset=utf-8',
-         '.css': 'text/css; charset=utf-8', '.svg': 'image/svg+xml', '': 'text/plain; charset=utf-8'}
+TYPES = {
+    ".html": "text/html; charset=utf-8",
+    ".js": "text/javascript; charset=utf-8",
+    ".css": "text/css; charset=utf-8",
+    ".svg": "image/svg+xml",
+    "": "text/plain; charset=utf-8",
+}
 minifier, output, files = sys.argv[1], pathlib.Path(sys.argv[2]), [pathlib.Path(f) for f in sys.argv[3:]]
 folder = files[0].parent
-lines = ['#include "server/http/served.h"', '']
+lines = ['#include "server/http/served.h"', ""]
 rows = []
 
 
 def shortened(names):
-    """The bytes of these files, each a module by itself still, under the name that it had: who looks at a fault finds the file."""
+    """The bytes of these files, each a module by itself still, under the name that it had: who looks at a fault finds
+    the file."""
     with tempfile.TemporaryDirectory() as out:
-        told = subprocess.run([minifier, *names, '--minify', '--charset=utf8', '--log-level=warning', f'--outdir={out}', f'--outbase={folder}'],
-                              capture_output=True, text=True)
+        told = subprocess.run(
+            [
+                minifier,
+                *names,
+                "--minify",
+                "--charset=utf8",
+                "--log-level=warning",
+                f"--outdir={out}",
+                f"--outbase={folder}",
+            ],
+            capture_output=True,
+            text=True,
+        )
         if told.returncode or told.stderr:
-            sys.exit(f'{minifier}: {told.stderr}')
+            sys.exit(f"{minifier}: {told.stderr}")
         return {name: (pathlib.Path(out) / name.relative_to(folder)).read_bytes() for name in names}
 
 
 def form(name, data):
-    lines.append(f'static const unsigned char {name}[] = {{')
-    lines.extend('    ' + ','.join(str(b) for b in data[k:k + 32]) + ',' for k in range(0, len(data), 32))
-    lines.extend(['};', ''])
+    lines.append(f"static const unsigned char {name}[] = {{")
+    lines.extend("    " + ",".join(str(b) for b in data[k : k + 32]) + "," for k in range(0, len(data), 32))
+    lines.extend(["};", ""])
     return f'{{ "\\"{hashlib.sha256(data).hexdigest()[:32]}\\"", {name}, sizeof {name} }}'
 
 
-short = shortened([f for f in files if f.suffix in ('.js', '.css') and f.parent == folder]) if minifier else {}
+short = shortened([f for f in files if f.suffix in (".js", ".css") and f.parent == folder]) if minifier else {}
 for i, file in enumerate(files):
     data = short.get(file) or file.read_bytes()
-    rows.append(f'    {{ "{file.relative_to(folder).as_posix()}", "{TYPES[file.suffix]}", {form(f"plain_{i}", data)},\n'
-                f'      {form(f"gzip_{i}", gzip.compress(data, 9, mtime=0))} }},')
-lines += ['const struct kd_served kd_page_files[] = {', *rows, '};',
-          'const size_t kd_n_page_files = sizeof kd_page_files / sizeof *kd_page_files;']
-output.write_text('\n'.join(lines) + '\n')
+    rows.append(
+        f'    {{ "{file.relative_to(folder).as_posix()}", "{TYPES[file.suffix]}", {form(f"plain_{i}", data)},\n'
+        f"      {form(f'gzip_{i}', gzip.compress(data, 9, mtime=0))} }},"
+    )
+lines += [
+    "const struct kd_served kd_page_files[] = {",
+    *rows,
+    "};",
+    "const size_t kd_n_page_files = sizeof kd_page_files / sizeof *kd_page_files;",
+]
+output.write_text("\n".join(lines) + "\n")

@@ -18,7 +18,7 @@
 #include <unistd.h>
 
 #define FULL_MS 10 /* between two looks whether a descriptor is free */
-#define BATCH 64 /* events, and connections accepted between two looks at them */
+#define BATCH 64   /* events, and connections accepted between two looks at them */
 
 /* A connection that has not said yet what it wants. Its deadline is that of a header (connections.h). */
 struct guest {
@@ -27,12 +27,13 @@ struct guest {
     int socket;
     struct sockaddr_storage address;
     socklen_t address_size;
-    bool spare; /* it has the descriptor that was kept in reserve: whether the server lives it may ask, and nothing else */
+    bool spare; /* it has the descriptor that was kept in reserve: whether the server lives it may ask, and nothing else
+                 */
 };
 
 struct kd_front {
     struct kd_front_params params;
-    int epoll, stop, reserve; /* reserve: a descriptor to give up where there is no other; -1: it is given up */
+    int epoll, stop, reserve;   /* reserve: a descriptor to give up where there is no other; -1: it is given up */
     struct guest *first, *last; /* the latest first */
     pthread_t thread;
 };
@@ -56,11 +57,14 @@ static void send_away(struct kd_front *front, struct guest *guest)
 static void refuse(struct kd_front *front, struct guest *guest, bool quota)
 {
     if (guest->spare)
-        kd_problem_send_raw(guest->socket, KD_PROBLEM_CROWDED, "this server has no descriptor left for another connection", NULL);
+        kd_problem_send_raw(guest->socket, KD_PROBLEM_CROWDED,
+                            "this server has no descriptor left for another connection", NULL);
     else if (quota)
-        kd_problem_send_raw(guest->socket, KD_PROBLEM_QUOTA, "as many of your connections are open as one client may have", NULL);
+        kd_problem_send_raw(guest->socket, KD_PROBLEM_QUOTA,
+                            "as many of your connections are open as one client may have", NULL);
     else
-        kd_problem_send_raw(guest->socket, KD_PROBLEM_CROWDED, "more connections are open than this server takes", NULL);
+        kd_problem_send_raw(guest->socket, KD_PROBLEM_CROWDED, "more connections are open than this server takes",
+                            NULL);
     kd_connection_linger(guest->connection);
     send_away(front, guest);
 }
@@ -108,7 +112,9 @@ static struct guest *admit(struct kd_front *front, int socket, const struct sock
         close(socket);
         return NULL;
     }
-    *guest = (struct guest) { .next = front->first, .connection = connection, .socket = socket, .address = *address, .address_size = size };
+    *guest = (struct guest) {
+        .next = front->first, .connection = connection, .socket = socket, .address = *address, .address_size = size
+    };
     *(guest->next ? &guest->next->previous : &front->last) = guest;
     front->first = guest;
     return guest;
@@ -124,8 +130,8 @@ static void watch(struct kd_front *front, struct guest *guest)
 
 static int keep_reserve(void) { return open("/dev/null", O_RDONLY | O_CLOEXEC); }
 
-/* Makes room when every descriptor is in use: the guest that has waited longest without a word goes, else the next one has the reserve. Without either there is nothing to do but to
- * wait for somebody to go. */
+/* Makes room when every descriptor is in use: the guest that has waited longest without a word goes, else the next
+ * one has the reserve. Without either there is nothing to do but to wait for somebody to go. */
 static void make_room(struct kd_front *front)
 {
     struct pollfd waiting = { .fd = front->params.listener, .events = POLLIN };
@@ -152,7 +158,8 @@ static bool accept_one(struct kd_front *front)
         return false; /* who waits to be accepted is told of again */
     }
     if (socket < 0)
-        return errno != EAGAIN && errno != EWOULDBLOCK && errno != EINVAL && errno != EBADF; /* one that has gone already */
+        return errno != EAGAIN && errno != EWOULDBLOCK && errno != EINVAL &&
+               errno != EBADF; /* one that has gone already */
     if (front->reserve < 0)
         front->reserve = keep_reserve();
     struct guest *guest = admit(front, socket, &address, size);
@@ -189,7 +196,8 @@ static void *run(void *user)
 
 static enum kd_status start(struct kd_front *front, struct kd_error *error)
 {
-    struct epoll_event listening = { .events = EPOLLIN, .data.ptr = front }, stopping = { .events = EPOLLIN, .data.ptr = &front->stop };
+    struct epoll_event listening = { .events = EPOLLIN, .data.ptr = front },
+                       stopping = { .events = EPOLLIN, .data.ptr = &front->stop };
     front->epoll = epoll_create1(EPOLL_CLOEXEC);
     front->stop = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
     front->reserve = keep_reserve();
@@ -197,8 +205,9 @@ static enum kd_status start(struct kd_front *front, struct kd_error *error)
         epoll_ctl(front->epoll, EPOLL_CTL_ADD, front->params.listener, &listening) ||
         epoll_ctl(front->epoll, EPOLL_CTL_ADD, front->stop, &stopping))
         return kd_error_set(error, KD_EIO, "no descriptor for the listening thread: %s", strerror(errno));
-    return pthread_create(&front->thread, NULL, run, front) ? kd_error_set(error, KD_ENOMEM, "the listening thread could not be started")
-                                                            : KD_OK;
+    return pthread_create(&front->thread, NULL, run, front)
+               ? kd_error_set(error, KD_ENOMEM, "the listening thread could not be started")
+               : KD_OK;
 }
 
 static void finish(struct kd_front *front)

@@ -1,6 +1,7 @@
-/* The listening socket has a thread of its own. It accepts, looks at the first bytes of a connection without taking them, and hands
- * the connection to one of two daemons of libmicrohttpd: that of the health routes, or that of everything else. So neither a busy
- * HTTP thread nor connections at their limit can hold up /healthz, /readyz and /metrics, which stay on the port they share. */
+/* The listening socket has a thread of its own. It accepts, looks at the first bytes of a connection without taking
+ * them, and hands the connection to one of two daemons of libmicrohttpd: that of the health routes, or that of
+ * everything else. So neither a busy HTTP thread nor connections at their limit can hold up /healthz, /readyz and
+ * /metrics, which stay on the port they share. */
 #ifndef KD_SERVER_HTTP_FRONT_H
 #define KD_SERVER_HTTP_FRONT_H
 
@@ -15,7 +16,7 @@ struct kd_front;
 struct kd_front_params {
     int listener; /* non-blocking; the front closes it, also when it cannot be created */
     struct kd_connections *connections;
-    const struct kd_base_path *base; /* outlives the front */
+    const struct kd_base_path *base;    /* outlives the front */
     struct MHD_Daemon *health, *others; /* without listening sockets; they outlive the front */
 };
 

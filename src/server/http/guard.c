@@ -35,8 +35,8 @@ static bool is_token(const char *text, size_t size)
     return size > 0;
 }
 
-static enum MHD_Result look(void *cls, enum MHD_ValueKind kind, const char *key, size_t key_size,
-                            const char *value, size_t value_size)
+static enum MHD_Result look(void *cls, enum MHD_ValueKind kind, const char *key, size_t key_size, const char *value,
+                            size_t value_size)
 {
     struct scan *scan = cls;
     (void)kind;
@@ -90,15 +90,17 @@ static const char *wrong_host(struct kd_header *header)
     char given[80], name[80];
     size_t size = *header->host == '[' ? strcspn(header->host, "]") + 1 : strcspn(header->host, ":");
     kd_text_clip(given, sizeof given, header->host);
-    bool whole = size < sizeof name && size <= strspn(header->host, "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ.-_[:]");
+    bool whole = size < sizeof name &&
+                 size <= strspn(header->host, "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ.-_[:]");
     snprintf(name, sizeof name, "%.*s", whole && size ? (int)size : 4, whole && size ? header->host : "NAME");
     snprintf(header->wrong_host, sizeof header->wrong_host,
-             "the Host is \"%s\", none of the names this server answers to; kerrd serve --host %s adds it", given, name);
+             "the Host is \"%s\", none of the names this server answers to; kerrd serve --host %s adds it", given,
+             name);
     return header->wrong_host;
 }
 
-bool kd_guard_check(struct MHD_Connection *connection, const char *version, const char *const *hosts,
-                    bool hostless, struct kd_header *header, struct kd_problem *problem)
+bool kd_guard_check(struct MHD_Connection *connection, const char *version, const char *const *hosts, bool hostless,
+                    struct kd_header *header, struct kd_problem *problem)
 {
     struct scan scan = { .header = header };
     bool http10 = !strcmp(version, "HTTP/1.0");

@@ -1,6 +1,6 @@
-/* The guard checks what must hold of a request's header before anything of it is believed. libmicrohttpd lets through differing Content-Lengths,
- * Content-Length beside Transfer-Encoding and several Hosts, each of which lets a proxy in front and this server disagree on where a request ends or
- * for whom it is. */
+/* The guard checks what must hold of a request's header before anything of it is believed. libmicrohttpd lets
+ * through differing Content-Lengths, Content-Length beside Transfer-Encoding and several Hosts, each of which lets a
+ * proxy in front and this server disagree on where a request ends or for whom it is. */
 #ifndef KD_SERVER_HTTP_GUARD_H
 #define KD_SERVER_HTTP_GUARD_H
 
@@ -18,7 +18,7 @@ struct kd_header {
 
 /* hosts: NULL-terminated names. hostless: HTTP/1.0 without a Host is let through, as load balancers ask for
  * health. True when sound, with *header filled; else *problem, which closes the connection. HTTP thread. */
-bool kd_guard_check(struct MHD_Connection *connection, const char *version, const char *const *hosts,
-                    bool hostless, struct kd_header *header, struct kd_problem *problem);
+bool kd_guard_check(struct MHD_Connection *connection, const char *version, const char *const *hosts, bool hostless,
+                    struct kd_header *header, struct kd_problem *problem);
 
 #endif

@@ -38,7 +38,8 @@ void kd_guesses_destroy(struct kd_guesses *guesses)
 
 static double tries_now(const struct place *p, double now_ms)
 {
-    return p->at_ms > 0 ? fmin(p->tries + fmax(now_ms - p->at_ms, 0) / (1e3 * KD_GUESSES_EACH_S), KD_GUESSES_MOST) : KD_GUESSES_MOST;
+    return p->at_ms > 0 ? fmin(p->tries + fmax(now_ms - p->at_ms, 0) / (1e3 * KD_GUESSES_EACH_S), KD_GUESSES_MOST)
+                        : KD_GUESSES_MOST;
 }
 
 /* Whether a place is the better one to give to another address. */
@@ -66,7 +67,10 @@ static struct place *place_of(struct kd_guesses *guesses, const char *client, do
     return best;
 }
 
-static unsigned wait_s(const struct place *p) { return p->tries >= 1 ? 0 : 1 + (unsigned)((1 - p->tries) * KD_GUESSES_EACH_S); }
+static unsigned wait_s(const struct place *p)
+{
+    return p->tries >= 1 ? 0 : 1 + (unsigned)((1 - p->tries) * KD_GUESSES_EACH_S);
+}
 
 static bool was_right(const struct place *p, const void *whose)
 {

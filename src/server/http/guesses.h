@@ -1,6 +1,7 @@
-/* Wrong access tokens are counted by the address they come from: so many at once, and one more every few seconds. Beyond that no token is looked at that has not come from there
- * before, right or wrong, so that nothing can be learnt by trying; who was in stays in, so that nobody is shut out by another one behind the same proxy. The same wrong token again, as
- * from a page that is left open, is no new try. Any thread. */
+/* Wrong access tokens are counted by the address they come from: so many at once, and one more every few seconds.
+ * Beyond that no token is looked at that has not come from there before, right or wrong, so that nothing can be
+ * learnt by trying; who was in stays in, so that nobody is shut out by another one behind the same proxy. The same
+ * wrong token again, as from a page that is left open, is no new try. Any thread. */
 #ifndef KD_SERVER_HTTP_GUESSES_H
 #define KD_SERVER_HTTP_GUESSES_H
 
@@ -8,19 +9,22 @@
 
 #include <stdint.h>
 
-#define KD_GUESSES_MOST 20u     /* wrong tokens of an address at once */
-#define KD_GUESSES_EACH_S 3u    /* after which one more is taken */
-#define KD_GUESSES_NAMES 64u    /* that have been right from an address, and stay in: the latest ones */
-#define KD_GUESSES_CLIENTS 256u /* addresses told apart; one more has the place of one that has tried least, and of these the one that was heard of longest ago */
+#define KD_GUESSES_MOST 20u  /* wrong tokens of an address at once */
+#define KD_GUESSES_EACH_S 3u /* after which one more is taken */
+#define KD_GUESSES_NAMES 64u /* that have been right from an address, and stay in: the latest ones */
+#define KD_GUESSES_CLIENTS \
+    256u /* addresses told apart; one more has the place of one that has tried least, and of these the one that was \
+            heard of longest ago */
 
 struct kd_guesses;
 
-struct kd_guesses *kd_guesses_create(void); /* NULL: out of memory */
+struct kd_guesses *kd_guesses_create(void);          /* NULL: out of memory */
 void kd_guesses_destroy(struct kd_guesses *guesses); /* accepts NULL */
 
 /* A right token has come: whose, by an address that stays. 0: it is taken. Else in how many seconds one will be. */
 unsigned kd_guesses_right(struct kd_guesses *guesses, const char *client, const void *whose, double now_ms);
-/* A wrong one has come, of this hash. 0: it is counted, and told so. Else in how many seconds another one will be looked at. */
+/* A wrong one has come, of this hash. 0: it is counted, and told so. Else in how many seconds another one will be
+ * looked at. */
 unsigned kd_guesses_wrong(struct kd_guesses *guesses, const char *client, uint64_t hash, double now_ms);
 
 #endif

@@ -2,9 +2,13 @@
 
 #include <stddef.h>
 
-static const struct { double ms; const char *seconds; } bounds[KD_HISTOGRAM_BOUNDS] = {
-    { 1, "0.001" }, { 2.5, "0.0025" }, { 5, "0.005" }, { 10, "0.01" }, { 25, "0.025" }, { 50, "0.05" }, { 100, "0.1" }, { 250, "0.25" },
-    { 500, "0.5" }, { 1000, "1" }, { 2500, "2.5" }, { 10000, "10" }, { 30000, "30" }, { 120000, "120" }, { 600000, "600" },
+static const struct {
+    double ms;
+    const char *seconds;
+} bounds[KD_HISTOGRAM_BOUNDS] = {
+    { 1, "0.001" },  { 2.5, "0.0025" }, { 5, "0.005" },  { 10, "0.01" },    { 25, "0.025" },
+    { 50, "0.05" },  { 100, "0.1" },    { 250, "0.25" }, { 500, "0.5" },    { 1000, "1" },
+    { 2500, "2.5" }, { 10000, "10" },   { 30000, "30" }, { 120000, "120" }, { 600000, "600" },
 };
 
 void kd_histogram_add(struct kd_histogram *histogram, double ms)
@@ -35,14 +39,16 @@ enum kd_status kd_histogram_head(struct kd_buffer *out, const char *name, const 
 }
 
 /* The count is the sum of what has been read, so that it and the last bucket are the same while others count on. */
-enum kd_status kd_histogram_write(const struct kd_histogram *histogram, struct kd_buffer *out, const char *name, const char *labels)
+enum kd_status kd_histogram_write(const struct kd_histogram *histogram, struct kd_buffer *out, const char *name,
+                                  const char *labels)
 {
     enum kd_status status = KD_OK;
     const double sum = 1e-6 * (double)atomic_load_explicit(&histogram->sum_us, memory_order_relaxed);
     unsigned long long all = 0;
     for (size_t i = 0; i <= KD_HISTOGRAM_BOUNDS; i++) {
         all += count(histogram, i);
-        KD_TRY(kd_buffer_printf(out, "%s_bucket{%s,le=\"%s\"} %llu\n", name, labels, i < KD_HISTOGRAM_BOUNDS ? bounds[i].seconds : "+Inf", all));
+        KD_TRY(kd_buffer_printf(out, "%s_bucket{%s,le=\"%s\"} %llu\n", name, labels,
+                                i < KD_HISTOGRAM_BOUNDS ? bounds[i].seconds : "+Inf", all));
     }
     KD_TRY(kd_buffer_printf(out, "%s_sum{%s} %.6f\n%s_count{%s} %llu\n", name, labels, sum, name, labels, all));
 done:

@@ -14,8 +14,9 @@ static _Thread_local int current = -1;
 
 void kd_library_works_on(int socket) { current = socket; }
 
-/* This is the C library's recv for the whole program, shared libraries included: nothing else tells whose bytes a thread of
- * libmicrohttpd has before it. By its name as a symbol, because headers may make the plain one an inline function. */
+/* This is the C library's recv for the whole program, shared libraries included: nothing else tells whose bytes a
+ * thread of libmicrohttpd has before it. By its name as a symbol, because headers may make the plain one an inline
+ * function. */
 ssize_t kd_recv(int socket, void *data, size_t size, int flags) __asm__("recv");
 ssize_t kd_recv(int socket, void *data, size_t size, int flags)
 {
@@ -28,11 +29,14 @@ static const struct refusal {
     enum kd_problem_type type;
     const char *detail;
 } refusals[] = {
-    { 400, KD_PROBLEM_BAD_REQUEST, "the request line, a header line or the chunks of the body are not as HTTP/1.1 has them" },
-    { 413, KD_PROBLEM_BODY_TOO_LARGE, "the length of the body, or a line between its chunks, is more than this server takes" },
+    { 400, KD_PROBLEM_BAD_REQUEST,
+      "the request line, a header line or the chunks of the body are not as HTTP/1.1 has them" },
+    { 413, KD_PROBLEM_BODY_TOO_LARGE,
+      "the length of the body, or a line between its chunks, is more than this server takes" },
     { 414, KD_PROBLEM_URI_TOO_LONG, "the address is longer than a header may be, 32 KiB" },
     { 431, KD_PROBLEM_HEADER_TOO_LARGE, "the header is larger than 32 KiB" },
-    { 500, KD_PROBLEM_BAD_REQUEST, "a line of the header, or between chunks of the body, is longer than this server takes" },
+    { 500, KD_PROBLEM_BAD_REQUEST,
+      "a line of the header, or between chunks of the body, is longer than this server takes" },
     { 505, KD_PROBLEM_HTTP_VERSION, "the request line names another version of HTTP" },
 };
 

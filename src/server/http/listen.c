@@ -42,7 +42,8 @@ bool kd_listen_reaches_out(const char *address)
     union address where;
     if (!parse(address, 0, &where))
         return false;
-    return where.any.sa_family == AF_INET6 ? !IN6_IS_ADDR_LOOPBACK(&where.v6.sin6_addr) : ntohl(where.v4.sin_addr.s_addr) >> 24 != IN_LOOPBACKNET;
+    return where.any.sa_family == AF_INET6 ? !IN6_IS_ADDR_LOOPBACK(&where.v6.sin6_addr)
+                                           : ntohl(where.v4.sin_addr.s_addr) >> 24 != IN_LOOPBACKNET;
 }
 
 static int bound(int fd, union address *address, socklen_t *size)

@@ -23,7 +23,8 @@ void kd_measures_destroy(struct kd_measures *measures) { free(measures); }
 
 void kd_measures_add(struct kd_measures *measures, const struct kd_route *route, unsigned status, double ms)
 {
-    kd_histogram_add(&measures->histograms[route ? (size_t)(route - kd_routes) : kd_n_routes][status / 100 % CLASSES], ms);
+    kd_histogram_add(&measures->histograms[route ? (size_t)(route - kd_routes) : kd_n_routes][status / 100 % CLASSES],
+                     ms);
 }
 
 const char *kd_measures_route(const struct kd_route *route) { return route ? route->path : "none"; }
@@ -32,7 +33,9 @@ enum kd_status kd_measures_write(const struct kd_measures *measures, struct kd_b
 {
     static const char name[] = "kerrd_request_seconds";
     enum kd_status status;
-    KD_TRY(kd_histogram_head(out, name, "From the first line of a request to the last byte of its answer; a stream lasts as long as it is watched."));
+    KD_TRY(kd_histogram_head(
+        out, name,
+        "From the first line of a request to the last byte of its answer; a stream lasts as long as it is watched."));
     for (size_t i = 0; i < measures->n; i++)
         for (unsigned k = 0; k < CLASSES; k++) {
             const struct kd_histogram *one = &measures->histograms[i][k];
@@ -41,7 +44,8 @@ enum kd_status kd_measures_write(const struct kd_measures *measures, struct kd_b
                 continue;
             if (k)
                 snprintf(class, sizeof class, "%uxx", k);
-            snprintf(labels, sizeof labels, "route=\"%s\",status=\"%s\"", kd_measures_route(i < kd_n_routes ? &kd_routes[i] : NULL), class);
+            snprintf(labels, sizeof labels, "route=\"%s\",status=\"%s\"",
+                     kd_measures_route(i < kd_n_routes ? &kd_routes[i] : NULL), class);
             KD_TRY(kd_histogram_write(one, out, name, labels));
         }
 done:

@@ -1,5 +1,5 @@
-/* How long requests take is counted here, by route and by the first digit of the status: as many series as there are routes, whatever clients ask for.
- * Any thread. */
+/* How long requests take is counted here, by route and by the first digit of the status: as many series as there are
+ * routes, whatever clients ask for. Any thread. */
 #ifndef KD_SERVER_HTTP_MEASURES_H
 #define KD_SERVER_HTTP_MEASURES_H
 
@@ -8,7 +8,7 @@
 
 struct kd_measures;
 
-struct kd_measures *kd_measures_create(void); /* NULL: no memory */
+struct kd_measures *kd_measures_create(void);           /* NULL: no memory */
 void kd_measures_destroy(struct kd_measures *measures); /* accepts NULL */
 
 /* A request has been answered, or cut off before that: status 0. route NULL: its path leads nowhere. */

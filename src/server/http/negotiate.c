@@ -9,10 +9,7 @@ struct span {
     size_t size;
 };
 
-static bool blank(char c)
-{
-    return c == ' ' || c == '\t';
-}
+static bool blank(char c) { return c == ' ' || c == '\t'; }
 
 static struct span trim(struct span s)
 {

@@ -1,12 +1,14 @@
-/* These header values choose an answer: Accept, Accept-Encoding, If-None-Match, Content-Type, Host. Pure; any thread. */
+/* These header values choose an answer: Accept, Accept-Encoding, If-None-Match, Content-Type, Host. Pure; any
+ * thread. */
 #ifndef KD_SERVER_HTTP_NEGOTIATE_H
 #define KD_SERVER_HTTP_NEGOTIATE_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
-/* How much an Accept value (RFC 9110, 12.5.1) wants a type is said by the most specific range that matches it. Malformed entries match
- * nothing; NULL or a blank value admits all. Which of n types, named by type(i, list), it wants most: of several the first; n: none. */
+/* How much an Accept value (RFC 9110, 12.5.1) wants a type is said by the most specific range that matches it.
+ * Malformed entries match nothing; NULL or a blank value admits all. Which of n types, named by type(i, list), it
+ * wants most: of several the first; n: none. */
 size_t kd_accept_best(const char *accept, size_t n, const char *(*type)(size_t i, const void *list), const void *list);
 const char *kd_accept_string(size_t i, const void *list); /* where list is of strings, const char *[] */
 

@@ -17,18 +17,9 @@ static const struct {
 #undef ROW
 };
 
-unsigned kd_problem_status(enum kd_problem_type type)
-{
-    return table[type].status;
-}
-const char *kd_problem_title(enum kd_problem_type type)
-{
-    return table[type].title;
-}
-const char *kd_problem_uri(size_t type)
-{
-    return type < sizeof table / sizeof *table ? table[type].uri : NULL;
-}
+unsigned kd_problem_status(enum kd_problem_type type) { return table[type].status; }
+const char *kd_problem_title(enum kd_problem_type type) { return table[type].title; }
+const char *kd_problem_uri(size_t type) { return type < sizeof table / sizeof *table ? table[type].uri : NULL; }
 
 struct kd_problem kd_problem_from(const struct kd_error *error)
 {
@@ -38,7 +29,9 @@ struct kd_problem kd_problem_from(const struct kd_error *error)
     case KD_ETOOBIG: problem.type = KD_PROBLEM_TOO_LARGE; break;
     case KD_ENOMEM: problem.type = KD_PROBLEM_NO_MEMORY, problem.retry_after = 5; break;
     case KD_EFULL: problem.type = KD_PROBLEM_DISK_FULL, problem.retry_after = 60; break;
-    case KD_EBUSY: problem.type = KD_PROBLEM_QUEUE_FULL, problem.retry_after = error->retry_s ? error->retry_s : 1; break;
+    case KD_EBUSY:
+        problem.type = KD_PROBLEM_QUEUE_FULL, problem.retry_after = error->retry_s ? error->retry_s : 1;
+        break;
     case KD_ECANCELLED: problem.type = KD_PROBLEM_STOPPING, problem.retry_after = 1; break;
     case KD_EABSENT: problem.type = KD_PROBLEM_ABSENT; break;
     case KD_EDEVICE: problem.type = KD_PROBLEM_DEVICE_LOST; break;
@@ -95,12 +88,13 @@ void kd_problem_send_raw(int socket, enum kd_problem_type type, const char *deta
     bool later = type == KD_PROBLEM_CROWDED || type == KD_PROBLEM_QUOTA || type == KD_PROBLEM_NO_MEMORY;
 
     if (!kd_problem_to_json(&problem, &body) &&
-        !kd_buffer_printf(&reply,
-                          "HTTP/1.1 %u Refused\r\nContent-Type: application/problem+json\r\n"
-                          "X-Content-Type-Options: nosniff\r\nCross-Origin-Resource-Policy: same-site\r\nCache-Control: no-store\r\n"
-                          "Connection: close\r\n%s%s%s%sContent-Length: %zu\r\n\r\n%s",
-                          table[type].status, later ? "Retry-After: 1\r\n" : "", named ? KD_REQUEST_ID_HEADER ": " : "", named ? request_id : "",
-                          named ? "\r\n" : "", body.size, (const char *)body.data))
+        !kd_buffer_printf(
+            &reply,
+            "HTTP/1.1 %u Refused\r\nContent-Type: application/problem+json\r\n"
+            "X-Content-Type-Options: nosniff\r\nCross-Origin-Resource-Policy: same-site\r\nCache-Control: no-store\r\n"
+            "Connection: close\r\n%s%s%s%sContent-Length: %zu\r\n\r\n%s",
+            table[type].status, later ? "Retry-After: 1\r\n" : "", named ? KD_REQUEST_ID_HEADER ": " : "",
+            named ? request_id : "", named ? "\r\n" : "", body.size, (const char *)body.data))
         if (send(socket, reply.data, reply.size, MSG_DONTWAIT | MSG_NOSIGNAL) < 0) {
             /* The peer is gone or does not read: it is about to be cut off in any case. */
         }

@@ -9,43 +9,43 @@
 #include <stddef.h>
 
 /* name, HTTP status, word in the type's URI, title */
-#define KD_PROBLEMS(X)                                                                                       \
-    X(BAD_REQUEST, 400, "bad-request", "The request is not sound HTTP")                                      \
-    X(MALFORMED_JSON, 400, "malformed-json", "The body cannot be read as a JSON object")                     \
-    X(UNAUTHORIZED, 401, "unauthorized", "This server takes a token")                                       \
-    X(ROLE, 403, "role", "The role of your token does not allow this")                                      \
-    X(CROSS_SITE, 403, "cross-site", "Pages of other sites may not use this server")                              \
-    X(FORBIDDEN, 403, "forbidden", "This takes a token")                                                     \
-    X(NOT_FOUND, 404, "not-found", "There is nothing under this address")                                    \
-    X(METHOD, 405, "method-not-allowed", "This address does not take this method")                           \
-    X(NOT_ACCEPTABLE, 406, "not-acceptable", "No offered media type is acceptable")                          \
-    X(NOT_READY, 409, "not-ready", "What this asks for is not there yet")                                    \
-    X(CONFLICT, 409, "conflict", "What there is does not allow it now")                                      \
-    X(TIMEOUT, 408, "timeout", "The request took too long to arrive")                                        \
-    X(BODY_TOO_LARGE, 413, "body-too-large", "The body is too large")                                        \
-    X(URI_TOO_LONG, 414, "uri-too-long", "The address is too long")                                          \
-    X(MEDIA_TYPE, 415, "unsupported-media-type", "The body's media type is not taken here")                  \
-    X(MISDIRECTED, 421, "misdirected", "This host name is not served here")                                  \
-    X(INVALID_SCENE, 422, "invalid-scene", "The scene is not valid")                                         \
-    X(INVALID_RAYS, 422, "invalid-rays", "The request for rays is not valid")                                \
-    X(INVALID_PARAMETERS, 422, "invalid-parameters", "A parameter is not valid")                             \
-    X(INVALID_ORBIT, 422, "invalid-orbit", "The request for orbits is not valid")                            \
-    X(INVALID_JOB, 422, "invalid-job", "The request for a job is not valid")                                 \
-    X(INVALID_PLAYGROUND, 422, "invalid-playground", "The request for a playground is not valid")            \
-    X(INVALID_ASSET, 422, "invalid-asset", "The asset is not one that is taken")                             \
-    X(TOO_LARGE, 422, "too-large", "The scene is larger than this server renders")                           \
-    X(QUOTA, 429, "quota", "This client has as much as one may")                                              \
-    X(WRONG_TOKENS, 429, "wrong-tokens", "Too many wrong tokens have come from this address")                 \
-    X(HEADER_TOO_LARGE, 431, "header-too-large", "The header is too large")                                  \
-    X(INTERNAL, 500, "internal", "The server failed")                                                        \
-    X(DEVICE_LOST, 500, "device-lost", "The device failed")                                                  \
-    X(ABSENT, 501, "not-installed", "This server lacks a program that this takes")                          \
-    X(NO_MEMORY, 503, "out-of-memory", "Memory ran out")                                                     \
-    X(QUEUE_FULL, 503, "queue-full", "Too many requests are waiting")                                         \
-    X(CROWDED, 503, "too-many-connections", "Too many connections are open")                                 \
-    X(STOPPING, 503, "stopping", "The server is stopping")                                                   \
-    X(DISK_FULL, 507, "disk-full", "There is no room on the disk")                                            \
-    X(ASSETS_FULL, 507, "assets-full", "There is no room for more assets")                                   \
+#define KD_PROBLEMS(X) \
+    X(BAD_REQUEST, 400, "bad-request", "The request is not sound HTTP") \
+    X(MALFORMED_JSON, 400, "malformed-json", "The body cannot be read as a JSON object") \
+    X(UNAUTHORIZED, 401, "unauthorized", "This server takes a token") \
+    X(ROLE, 403, "role", "The role of your token does not allow this") \
+    X(CROSS_SITE, 403, "cross-site", "Pages of other sites may not use this server") \
+    X(FORBIDDEN, 403, "forbidden", "This takes a token") \
+    X(NOT_FOUND, 404, "not-found", "There is nothing under this address") \
+    X(METHOD, 405, "method-not-allowed", "This address does not take this method") \
+    X(NOT_ACCEPTABLE, 406, "not-acceptable", "No offered media type is acceptable") \
+    X(NOT_READY, 409, "not-ready", "What this asks for is not there yet") \
+    X(CONFLICT, 409, "conflict", "What there is does not allow it now") \
+    X(TIMEOUT, 408, "timeout", "The request took too long to arrive") \
+    X(BODY_TOO_LARGE, 413, "body-too-large", "The body is too large") \
+    X(URI_TOO_LONG, 414, "uri-too-long", "The address is too long") \
+    X(MEDIA_TYPE, 415, "unsupported-media-type", "The body's media type is not taken here") \
+    X(MISDIRECTED, 421, "misdirected", "This host name is not served here") \
+    X(INVALID_SCENE, 422, "invalid-scene", "The scene is not valid") \
+    X(INVALID_RAYS, 422, "invalid-rays", "The request for rays is not valid") \
+    X(INVALID_PARAMETERS, 422, "invalid-parameters", "A parameter is not valid") \
+    X(INVALID_ORBIT, 422, "invalid-orbit", "The request for orbits is not valid") \
+    X(INVALID_JOB, 422, "invalid-job", "The request for a job is not valid") \
+    X(INVALID_PLAYGROUND, 422, "invalid-playground", "The request for a playground is not valid") \
+    X(INVALID_ASSET, 422, "invalid-asset", "The asset is not one that is taken") \
+    X(TOO_LARGE, 422, "too-large", "The scene is larger than this server renders") \
+    X(QUOTA, 429, "quota", "This client has as much as one may") \
+    X(WRONG_TOKENS, 429, "wrong-tokens", "Too many wrong tokens have come from this address") \
+    X(HEADER_TOO_LARGE, 431, "header-too-large", "The header is too large") \
+    X(INTERNAL, 500, "internal", "The server failed") \
+    X(DEVICE_LOST, 500, "device-lost", "The device failed") \
+    X(ABSENT, 501, "not-installed", "This server lacks a program that this takes") \
+    X(NO_MEMORY, 503, "out-of-memory", "Memory ran out") \
+    X(QUEUE_FULL, 503, "queue-full", "Too many requests are waiting") \
+    X(CROWDED, 503, "too-many-connections", "Too many connections are open") \
+    X(STOPPING, 503, "stopping", "The server is stopping") \
+    X(DISK_FULL, 507, "disk-full", "There is no room on the disk") \
+    X(ASSETS_FULL, 507, "assets-full", "There is no room for more assets") \
     X(HTTP_VERSION, 505, "http-version", "Only HTTP/1.1 and HTTP/1.0 are spoken here")
 
 enum kd_problem_type {
@@ -56,20 +56,20 @@ enum kd_problem_type {
 
 struct kd_problem {
     enum kd_problem_type type;
-    const char *detail;   /* one sentence for this occurrence */
-    const char *pointer;  /* RFC 6901, into the scene; NULL or "" for none */
-    const char *offered;  /* 406, 415: the media types that would do */
-    const char *allow;    /* 405: the methods that would do */
+    const char *detail;     /* one sentence for this occurrence */
+    const char *pointer;    /* RFC 6901, into the scene; NULL or "" for none */
+    const char *offered;    /* 406, 415: the media types that would do */
+    const char *allow;      /* 405: the methods that would do */
     const char *request_id; /* NULL or "" for none */
-    unsigned retry_after; /* seconds; 0: no such header */
-    bool close;           /* the rest of what this client sends cannot be trusted or is not wanted */
+    unsigned retry_after;   /* seconds; 0: no such header */
+    bool close;             /* the rest of what this client sends cannot be trusted or is not wanted */
 };
 
 /* How a library status becomes a problem. pointer and detail point into *error. */
 struct kd_problem kd_problem_from(const struct kd_error *error);
 
-/* Completes what kd_problem_from has made where a limit may be what refuses. quota: it is one client's own, 429. With KD_EBUSY it says in how many seconds to
- * try again: as the error knows, else otherwise_s. */
+/* Completes what kd_problem_from has made where a limit may be what refuses. quota: it is one client's own, 429.
+ * With KD_EBUSY it says in how many seconds to try again: as the error knows, else otherwise_s. */
 void kd_problem_limit(struct kd_problem *problem, const struct kd_error *error, bool quota, unsigned otherwise_s);
 
 unsigned kd_problem_status(enum kd_problem_type type);
@@ -80,7 +80,8 @@ const char *kd_problem_uri(size_t type);
 /* The document, application/problem+json. */
 enum kd_status kd_problem_to_json(const struct kd_problem *problem, struct kd_buffer *out);
 
-/* A whole HTTP answer straight to a socket, for where libmicrohttpd can send none. request_id: NULL or "" where there is none yet. Never blocks. */
+/* A whole HTTP answer straight to a socket, for where libmicrohttpd can send none. request_id: NULL or "" where
+ * there is none yet. Never blocks. */
 void kd_problem_send_raw(int socket, enum kd_problem_type type, const char *detail, const char *request_id);
 
 #endif

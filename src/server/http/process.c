@@ -9,9 +9,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-struct process {
-    double cpu_s, start_s, virtual_bytes, resident_bytes; /* NAN: not told */
-};
+struct process { double cpu_s, start_s, virtual_bytes, resident_bytes; /* NAN: not told */ };
 
 /* A file of /proc has no size before it is read, so kd_read_file has no use here. */
 static bool read_text(const char *path, char *out, size_t size)
@@ -37,7 +35,8 @@ static double boot_time_s(void)
     return s;
 }
 
-/* proc(5): behind the name, which may hold anything, come state and numbers; those used here are the 14th, 15th and 22nd to 24th of all. */
+/* proc(5): behind the name, which may hold anything, come state and numbers; those used here are the 14th, 15th and
+ * 22nd to 24th of all. */
 static struct process look(void)
 {
     struct process p = { NAN, NAN, NAN, NAN };
@@ -45,7 +44,9 @@ static struct process look(void)
     const double tick = (double)sysconf(_SC_CLK_TCK), page = (double)sysconf(_SC_PAGESIZE);
     double user, system, start, virtual_bytes, pages;
     const char *behind = read_text("/proc/self/stat", text, sizeof text) ? strrchr(text, ')') : NULL;
-    if (!behind || sscanf(behind + 1, " %*c %*d %*d %*d %*d %*d %*u %*u %*u %*u %*u %lf %lf %*d %*d %*d %*d %*d %*d %lf %lf %lf", &user, &system, &start, &virtual_bytes, &pages) != 5)
+    if (!behind ||
+        sscanf(behind + 1, " %*c %*d %*d %*d %*d %*d %*u %*u %*u %*u %*u %lf %lf %*d %*d %*d %*d %*d %*d %lf %lf %lf",
+               &user, &system, &start, &virtual_bytes, &pages) != 5)
         return p;
     return (struct process) { (user + system) / tick, boot_time_s() + start / tick, virtual_bytes, pages * page };
 }
@@ -59,7 +60,10 @@ static double most_descriptors(void)
 enum kd_status kd_process_write(struct kd_buffer *out)
 {
     const struct process p = look();
-    const struct { const char *name, *type, *help; double value; } rows[] = {
+    const struct {
+        const char *name, *type, *help;
+        double value;
+    } rows[] = {
         { "cpu_seconds_total", "counter", "Processor time, user and system.", p.cpu_s },
         { "open_fds", "gauge", "Open file descriptors.", kd_descriptors_open() },
         { "max_fds", "gauge", "Open file descriptors that are allowed.", most_descriptors() },
@@ -70,7 +74,8 @@ enum kd_status kd_process_write(struct kd_buffer *out)
     enum kd_status status = KD_OK;
     for (size_t i = 0; i < sizeof rows / sizeof *rows && !status; i++)
         if (!isnan(rows[i].value))
-            status = kd_buffer_printf(out, "# HELP process_%s %s\n# TYPE process_%s %s\nprocess_%s %.17g\n", rows[i].name, rows[i].help, rows[i].name, rows[i].type, rows[i].name,
-                                      rows[i].value);
+            status =
+                kd_buffer_printf(out, "# HELP process_%s %s\n# TYPE process_%s %s\nprocess_%s %.17g\n", rows[i].name,
+                                 rows[i].help, rows[i].name, rows[i].type, rows[i].name, rows[i].value);
     return status;
 }

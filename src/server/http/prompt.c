@@ -23,6 +23,8 @@ void kd_prompt_thread(void)
     if (asked || sched_getscheduler(0) != SCHED_OTHER) /* what the whole process was given stays */
         return;
     asked = 1;
-    struct attributes a = { .size = sizeof a, .policy = SCHED_OTHER, .nice = getpriority(PRIO_PROCESS, 0), .runtime = SLICE_NS };
+    struct attributes a = {
+        .size = sizeof a, .policy = SCHED_OTHER, .nice = getpriority(PRIO_PROCESS, 0), .runtime = SLICE_NS
+    };
     syscall(SYS_sched_setattr, 0, &a, 0); /* a nicety: where it is refused, all goes on without */
 }

@@ -12,8 +12,7 @@
 
 struct MHD_Response *kd_reply_take(struct kd_buffer *body, const char *type)
 {
-    struct MHD_Response *response =
-        MHD_create_response_from_buffer(body->size, body->data, MHD_RESPMEM_MUST_FREE);
+    struct MHD_Response *response = MHD_create_response_from_buffer(body->size, body->data, MHD_RESPMEM_MUST_FREE);
     if (!response)
         free(body->data);
     *body = (struct kd_buffer) { 0 };
@@ -28,7 +27,8 @@ enum { PACK_LEAST = 1 << 10, PACK_MOST = 1 << 20 };
 struct MHD_Response *kd_reply_text(struct kd_request *request, struct kd_buffer *body, const char *type)
 {
     struct kd_buffer codings = kd_reply_header_list(request, "Accept-Encoding");
-    bool packed = body->size >= PACK_LEAST && body->size <= PACK_MOST && kd_accepts_coding((const char *)codings.data, "gzip") && kd_gzip(body);
+    bool packed = body->size >= PACK_LEAST && body->size <= PACK_MOST &&
+                  kd_accepts_coding((const char *)codings.data, "gzip") && kd_gzip(body);
     kd_buffer_finish(&codings);
     struct MHD_Response *response = kd_reply_take(body, type);
     if (response)
@@ -79,10 +79,9 @@ static ssize_t nothing(void *cls, uint64_t position, char *to, size_t size)
 
 struct MHD_Response *kd_reply_empty(const char *type)
 {
-    struct MHD_Response *response =
-        MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, 64, nothing, NULL, NULL);
-    /* Else libmicrohttpd announces chunks and sends the last one, "0", which belongs to no body and which a client that keeps the
-     * connection takes for the beginning of the next answer. Without chunks it closes the connection. */
+    struct MHD_Response *response = MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, 64, nothing, NULL, NULL);
+    /* Else libmicrohttpd announces chunks and sends the last one, "0", which belongs to no body and which a client
+     * that keeps the connection takes for the beginning of the next answer. Without chunks it closes the connection. */
     if (response)
         MHD_set_response_options(response, MHD_RF_HTTP_1_0_COMPATIBLE_STRICT, MHD_RO_END);
     if (response && type)
@@ -97,7 +96,8 @@ void kd_reply_file(struct kd_request *request, enum kd_disposition disposition, 
     va_start(arguments, format);
     vsnprintf(name, sizeof name, format, arguments);
     va_end(arguments);
-    snprintf(request->file, sizeof request->file, "%s; filename=\"%s\"", disposition == KD_INLINE ? "inline" : "attachment", name);
+    snprintf(request->file, sizeof request->file, "%s; filename=\"%s\"",
+             disposition == KD_INLINE ? "inline" : "attachment", name);
 }
 
 void kd_reply_location(const struct kd_request *request, struct MHD_Response *response, const char *id)
@@ -111,8 +111,9 @@ void kd_reply_location(const struct kd_request *request, struct MHD_Response *re
 /* Takes no memory of ours. */
 enum MHD_Result kd_reply_bare(struct MHD_Connection *mhd)
 {
-    static const char text[] = "{\"type\":\"urn:kerrd:problem:out-of-memory\",\"title\":\"Memory ran out\",\"status\":503,"
-                               "\"detail\":\"there is no memory, not even to say for what\"}\n";
+    static const char text[] =
+        "{\"type\":\"urn:kerrd:problem:out-of-memory\",\"title\":\"Memory ran out\",\"status\":503,"
+        "\"detail\":\"there is no memory, not even to say for what\"}\n";
     struct MHD_Response *response = kd_reply_static(text, sizeof text - 1, "application/problem+json");
     if (!response)
         return MHD_NO;
@@ -140,7 +141,8 @@ enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struc
     if (type && (status == MHD_HTTP_NO_CONTENT || status == MHD_HTTP_NOT_MODIFIED)) /* no body that it could be of */
         MHD_del_response_header(response, "Content-Type", type);
     MHD_add_response_header(response, "X-Content-Type-Options", "nosniff");
-    MHD_add_response_header(response, "Cross-Origin-Resource-Policy", server->cross_site ? "cross-origin" : "same-site");
+    MHD_add_response_header(response, "Cross-Origin-Resource-Policy",
+                            server->cross_site ? "cross-origin" : "same-site");
     if (!MHD_get_response_header(response, "Cache-Control"))
         MHD_add_response_header(response, "Cache-Control", "no-store");
     if (server->access) /* what a cache keeps is for the same token alone */
@@ -238,7 +240,8 @@ struct kd_buffer kd_reply_header_list(struct kd_request *request, const char *na
     return all.text;
 }
 
-size_t kd_reply_accepted(struct kd_request *request, size_t n, const char *(*type)(size_t i, const void *list), const void *list)
+size_t kd_reply_accepted(struct kd_request *request, size_t n, const char *(*type)(size_t i, const void *list),
+                         const void *list)
 {
     struct kd_buffer accept = kd_reply_header_list(request, "Accept");
     size_t best = kd_accept_best((const char *)accept.data, n, type, list);
@@ -252,7 +255,8 @@ enum kd_status kd_reply_quote(struct kd_buffer *out, const char *text)
     KD_TRY(kd_buffer_printf(out, "%s\"", out->size ? ", " : ""));
     for (; *text; text++) {
         unsigned char c = (unsigned char)*text;
-        KD_TRY(c < 0x20 || c > 0x7e || strchr("\"%\\,", c) ? kd_buffer_printf(out, "%%%02X", c) : kd_buffer_append(out, &c, 1));
+        KD_TRY(c < 0x20 || c > 0x7e || strchr("\"%\\,", c) ? kd_buffer_printf(out, "%%%02X", c)
+                                                           : kd_buffer_append(out, &c, 1));
     }
     KD_TRY(kd_buffer_append(out, "\"", 1));
 done:

@@ -15,26 +15,27 @@ struct MHD_Response *kd_reply_take(struct kd_buffer *body, const char *type);
 struct MHD_Response *kd_reply_text(struct kd_request *request, struct kd_buffer *body, const char *type);
 /* A response with bytes that outlive it; type NULL: there are none. */
 struct MHD_Response *kd_reply_static(const void *data, size_t size, const char *type);
-/* A response with a file that outlives it, as gzip where the client takes that, with its ETag; *same: the client has it, and
- * 304 sends the header alone. */
+/* A response with a file that outlives it, as gzip where the client takes that, with its ETag; *same: the client has
+ * it, and 304 sends the header alone. */
 struct MHD_Response *kd_reply_served(struct kd_request *request, const struct kd_served *file, bool *same);
 /* A response for HEAD and 304, where the length of what a GET would give is not known. Closes the connection. */
 struct MHD_Response *kd_reply_empty(const char *type);
 
-/* The name under which this request's answer is saved. A browser shows what is inline and saves what is an attachment. */
+/* The name under which this request's answer is saved. A browser shows what is inline and saves what is an
+ * attachment. */
 enum kd_disposition { KD_INLINE, KD_ATTACHMENT };
 void kd_reply_file(struct kd_request *request, enum kd_disposition disposition, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* Adds Location: the address of what this request has made. It is relative to the request's own, "sessions/ID" to /v1/sessions, so that it holds whatever a proxy puts before
- * or takes away. NULL is accepted. */
+/* Adds Location: the address of what this request has made. It is relative to the request's own, "sessions/ID" to
+ * /v1/sessions, so that it holds whatever a proxy puts before or takes away. NULL is accepted. */
 void kd_reply_location(const struct kd_request *request, struct MHD_Response *response, const char *id);
 
 /* Queue the response and give up the reference; NULL: kd_reply_no_memory. */
 enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struct MHD_Response *response);
 
-/* Sends 503 where memory ran out for anything else: it takes none of ours. Closes the connection. The first function needs not
- * even a request. */
+/* Sends 503 where memory ran out for anything else: it takes none of ours. Closes the connection. The first function
+ * needs not even a request. */
 enum MHD_Result kd_reply_bare(struct MHD_Connection *mhd);
 enum MHD_Result kd_reply_no_memory(struct kd_request *request);
 enum MHD_Result kd_reply_problem(struct kd_request *request, const struct kd_problem *problem);
@@ -46,9 +47,10 @@ bool kd_reply_only(struct kd_request *request, const char *const *known, enum MH
 /* All values of a request header that is a list, joined by commas; empty when it is absent or memory ran out. */
 struct kd_buffer kd_reply_header_list(struct kd_request *request, const char *name);
 /* kd_accept_best of what the request accepts. */
-size_t kd_reply_accepted(struct kd_request *request, size_t n, const char *(*type)(size_t i, const void *list), const void *list);
-/* Append a sentence to a header that lists them: percent-encoded inside quotes, so that any client can split at the commas
- * between them. */
+size_t kd_reply_accepted(struct kd_request *request, size_t n, const char *(*type)(size_t i, const void *list),
+                         const void *list);
+/* Append a sentence to a header that lists them: percent-encoded inside quotes, so that any client can split at the
+ * commas between them. */
 enum kd_status kd_reply_quote(struct kd_buffer *out, const char *text);
 
 /* A generated document, or the problem of not having generated it. Empties the buffer. */

@@ -1,4 +1,5 @@
-/* A request has an id, by which its line in the log, its answer and what a proxy or a client has written down can be found together. Any thread. */
+/* A request has an id, by which its line in the log, its answer and what a proxy or a client has written down can be
+ * found together. Any thread. */
 #ifndef KD_SERVER_HTTP_REQUEST_ID_H
 #define KD_SERVER_HTTP_REQUEST_ID_H
 
@@ -9,7 +10,8 @@
 
 /* Whether an id that came with a request is taken: 1 to KD_REQUEST_ID_MAX letters, digits and -._+/=. NULL is none. */
 bool kd_request_id_is_sane(const char *given);
-/* The one that came with it, if it is sane, else a new one of 32 hexadecimal digits; "" if there are no random numbers. */
+/* The one that came with it, if it is sane, else a new one of 32 hexadecimal digits; "" if there are no random
+ * numbers. */
 void kd_request_id_choose(const char *given, char out[KD_REQUEST_ID_MAX + 1]);
 
 #endif

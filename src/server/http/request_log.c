@@ -11,8 +11,9 @@
 #include <string.h>
 #include <sys/socket.h>
 
-#define SECRET 16    /* hexadecimal digits in a row: an id or a token, and whoever has it may read or change what it names */
-#define SHOWN 4      /* of them in the log */
+#define SECRET \
+    16          /* hexadecimal digits in a row: an id or a token, and whoever has it may read or change what it names */
+#define SHOWN 4 /* of them in the log */
 
 static void target_for_log(const char *raw, char *out, size_t size)
 {
@@ -31,13 +32,16 @@ static void target_for_log(const char *raw, char *out, size_t size)
     out[n] = 0;
 }
 
-/* Bytes that have been written to the request's connection since it was opened; none: NAN. They may be more than it has taken yet. */
+/* Bytes that have been written to the request's connection since it was opened; none: NAN. They may be more than it
+ * has taken yet. */
 static double bytes_written(const struct kd_request *request)
 {
-    const size_t needed = offsetof(struct tcp_info, tcpi_bytes_retrans) + sizeof((struct tcp_info *)NULL)->tcpi_bytes_retrans;
+    const size_t needed =
+        offsetof(struct tcp_info, tcpi_bytes_retrans) + sizeof((struct tcp_info *)NULL)->tcpi_bytes_retrans;
     struct tcp_info info = { 0 };
     socklen_t size = sizeof info;
-    if (!request->connection || getsockopt(kd_connection_socket(request->connection), IPPROTO_TCP, TCP_INFO, &info, &size) || size < needed)
+    if (!request->connection ||
+        getsockopt(kd_connection_socket(request->connection), IPPROTO_TCP, TCP_INFO, &info, &size) || size < needed)
         return NAN;
     return (double)info.tcpi_bytes_sent - (double)info.tcpi_bytes_retrans + info.tcpi_notsent_bytes;
 }
@@ -74,6 +78,6 @@ void kd_request_log_end(const struct kd_request *request, double ms, bool cut_of
         return;
     }
     target_for_log(request->raw ? request->raw : "", target, sizeof target);
-    kd_log(KD_LOG_INFO, "%s %s %u %.1f ms%s%s%s", request->method ? request->method : "-", target,
-           request->status, ms, request->visitor ? " by " : "", request->visitor ? request->visitor->name : "", cut_off ? " (cut off)" : "");
+    kd_log(KD_LOG_INFO, "%s %s %u %.1f ms%s%s%s", request->method ? request->method : "-", target, request->status, ms,
+           request->visitor ? " by " : "", request->visitor ? request->visitor->name : "", cut_off ? " (cut off)" : "");
 }

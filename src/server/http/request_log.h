@@ -6,8 +6,9 @@
 
 /* Called when the request begins: where its bytes are counted from. */
 void kd_request_log_begin(struct kd_request *request);
-/* As text: method, target, status, time, who. As JSON: id, method, route, status, ms, bytes (those that went to the socket, header and all, where the system counts them),
- * client, visitor, cut_off. What a target names is told by its route: ids of sessions and jobs are capabilities. */
+/* As text: method, target, status, time, who. As JSON: id, method, route, status, ms, bytes (those that went to the
+ * socket, header and all, where the system counts them), client, visitor, cut_off. What a target names is told by
+ * its route: ids of sessions and jobs are capabilities. */
 void kd_request_log_end(const struct kd_request *request, double ms, bool cut_off);
 
 #endif

@@ -26,7 +26,8 @@ static bool matches(const struct kd_route *route, char *path, const char **rest)
 }
 
 const struct kd_method kd_methods[KD_METHODS] = {
-    { "GET", "get", KD_GET }, { "POST", "post", KD_POST }, { "PATCH", "patch", KD_PATCH }, { "DELETE", "delete", KD_DELETE }, { "PUT", "put", KD_PUT },
+    { "GET", "get", KD_GET },          { "POST", "post", KD_POST }, { "PATCH", "patch", KD_PATCH },
+    { "DELETE", "delete", KD_DELETE }, { "PUT", "put", KD_PUT },
 };
 
 unsigned kd_route_method(const char *method)
@@ -45,7 +46,8 @@ const char *kd_route_allow(const struct kd_route *route)
     size_t n = 0;
     for (size_t i = 0; i < KD_METHODS; i++)
         if (route->methods & kd_methods[i].bit)
-            n += (size_t)snprintf(text + n, sizeof text - n, "%s%s%s", n ? ", " : "", kd_methods[i].name, kd_methods[i].bit == KD_GET ? ", HEAD" : "");
+            n += (size_t)snprintf(text + n, sizeof text - n, "%s%s%s", n ? ", " : "", kd_methods[i].name,
+                                  kd_methods[i].bit == KD_GET ? ", HEAD" : "");
     return text;
 }
 
@@ -97,7 +99,8 @@ bool kd_route_is_health(const struct kd_base_path *base, const char *raw)
     return is_health(raw, strcspn(raw, "?")) || (behind && is_health(behind, strcspn(behind, "?")));
 }
 
-/* Whether the bytes begin with the texts, one behind the other (1), do not (0), or end before that is clear (-1). *end is where they would end. */
+/* Whether the bytes begin with the texts, one behind the other (1), do not (0), or end before that is clear (-1).
+ * *end is where they would end. */
 static int begins_with(const char *bytes, size_t n, const char *const texts[3], size_t *end)
 {
     *end = 0;
@@ -119,7 +122,8 @@ enum kd_begins kd_route_begins(const struct kd_base_path *base, const char *byte
     bool unclear = false;
     for (size_t k = 0; k < 2 * 2 * N_HEALTH; k++) {
         size_t end;
-        int path = begins_with(bytes, n, (const char *const[3]) { methods[k % 2], bases[k / 2 % 2], health[k / 4] }, &end);
+        int path =
+            begins_with(bytes, n, (const char *const[3]) { methods[k % 2], bases[k / 2 % 2], health[k / 4] }, &end);
         if (path > 0 && n > end && (bytes[end] == ' ' || bytes[end] == '?'))
             return KD_BEGINS_HEALTH;
         unclear |= path < 0 || (path > 0 && n == end);

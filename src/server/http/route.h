@@ -30,9 +30,9 @@ enum kd_takes {
     KD_TAKES_INTEGRAL, /* what the path names */
     KD_TAKES_JOB,
     KD_TAKES_ASSET,
-    KD_TAKES_STRIKE,    /* in the body, or none */
+    KD_TAKES_STRIKE, /* in the body, or none */
     KD_TAKES_PATH,
-    KD_TAKES_PARTICLES, /* which and what of them, in the query */
+    KD_TAKES_PARTICLES,  /* which and what of them, in the query */
     KD_TAKES_PLAYGROUND, /* a document, or what changes one */
     KD_TAKES_STEP,
     KD_TAKES_TICK,     /* which and how many of its things, in the query */
@@ -58,23 +58,27 @@ struct kd_route {
     bool question;      /* its POST leaves nothing at the server, so that the role view may send it (access.h) */
     bool open;          /* answered without an access token, too */
     unsigned status[2]; /* of an answer that is no problem; { 0 }: 200; DELETE answers 204 */
-    const char *own[2]; /* parameters of the query that are no fields of the scene, beside which they stand; NULL: none */
+    const char
+        *own[2]; /* parameters of the query that are no fields of the scene, beside which they stand; NULL: none */
 };
 
 /* The table: server/routes.c. */
 extern const struct kd_route kd_routes[];
 extern const size_t kd_n_routes;
 
-/* Sets request->route, ->matched, and ->rest, which points into the target's path; takes the base path from that. The base path alone is the page's, too, with an empty path.
- * False with *problem filled (404; 405, where request->route is set too). */
+/* Sets request->route, ->matched, and ->rest, which points into the target's path; takes the base path from that.
+ * The base path alone is the page's, too, with an empty path. False with *problem filled (404; 405, where
+ * request->route is set too). */
 bool kd_route_find(struct kd_request *request, struct kd_problem *problem);
 /* The methods that a route takes, as the Allow header has them; until the next call on this thread. */
 const char *kd_route_allow(const struct kd_route *route);
 /* The bit of a method by its name, KD_GET, ...; 0: no route takes it. */
 unsigned kd_route_method(const char *method);
-/* Whether a raw target is one that is answered whatever else is the matter: /healthz, /readyz, /metrics, with the base path and without it. */
+/* Whether a raw target is one that is answered whatever else is the matter: /healthz, /readyz, /metrics, with the
+ * base path and without it. */
 bool kd_route_is_health(const struct kd_base_path *base, const char *raw);
-/* Says the same of the first n bytes of a connection, which may end too early to tell; KD_BEGINS_BYTES of them tell in any case. */
+/* Says the same of the first n bytes of a connection, which may end too early to tell; KD_BEGINS_BYTES of them tell
+ * in any case. */
 enum kd_begins { KD_BEGINS_UNCLEAR, KD_BEGINS_HEALTH, KD_BEGINS_OTHER };
 #define KD_BEGINS_BYTES (KD_BASE_PATH_MOST + 32)
 enum kd_begins kd_route_begins(const struct kd_base_path *base, const char *bytes, size_t n);
@@ -85,23 +89,23 @@ enum MHD_Result kd_handle_health(struct kd_request *request); /* answers/reports
 enum MHD_Result kd_handle_ready(struct kd_request *request);
 enum MHD_Result kd_handle_metrics(struct kd_request *request); /* answers/metrics.c */
 enum MHD_Result kd_handle_device(struct kd_request *request);
-enum MHD_Result kd_handle_kept(struct kd_request *request); /* what openapi/kept.h has */
+enum MHD_Result kd_handle_kept(struct kd_request *request);   /* what openapi/kept.h has */
 enum MHD_Result kd_handle_plan(struct kd_request *request);   /* answers/plan.c */
 enum MHD_Result kd_handle_render(struct kd_request *request); /* render/renders.c */
 enum MHD_Result kd_handle_pixel(struct kd_request *request);
 enum MHD_Result kd_handle_thumbnail(struct kd_request *request); /* render/thumbnails.c */
-enum MHD_Result kd_handle_rays(struct kd_request *request); /* answers/rays.c */
-enum MHD_Result kd_handle_orbits(struct kd_request *request); /* answers/orbits.c */
-enum MHD_Result kd_handle_integral(struct kd_request *request); /* answers/integrals.c */
-enum MHD_Result kd_handle_accuracy(struct kd_request *request); /* answers/accuracy.c */
-enum MHD_Result kd_handle_assets(struct kd_request *request); /* answers/assets.c */
+enum MHD_Result kd_handle_rays(struct kd_request *request);      /* answers/rays.c */
+enum MHD_Result kd_handle_orbits(struct kd_request *request);    /* answers/orbits.c */
+enum MHD_Result kd_handle_integral(struct kd_request *request);  /* answers/integrals.c */
+enum MHD_Result kd_handle_accuracy(struct kd_request *request);  /* answers/accuracy.c */
+enum MHD_Result kd_handle_assets(struct kd_request *request);    /* answers/assets.c */
 enum MHD_Result kd_handle_asset(struct kd_request *request);
 enum MHD_Result kd_handle_sessions(struct kd_request *request); /* session/routes.c */
 enum MHD_Result kd_handle_session(struct kd_request *request);
 enum MHD_Result kd_handle_session_ringdown(struct kd_request *request);
 enum MHD_Result kd_handle_session_path(struct kd_request *request);
 enum MHD_Result kd_handle_session_particles(struct kd_request *request); /* session/particles.c */
-enum MHD_Result kd_handle_session_frame(struct kd_request *request); /* session/live.c */
+enum MHD_Result kd_handle_session_frame(struct kd_request *request);     /* session/live.c */
 enum MHD_Result kd_handle_session_picture(struct kd_request *request);
 enum MHD_Result kd_handle_session_frames(struct kd_request *request);
 enum MHD_Result kd_handle_session_events(struct kd_request *request);
@@ -116,11 +120,11 @@ enum MHD_Result kd_handle_play_frames(struct kd_request *request);
 enum MHD_Result kd_handle_play_bodies(struct kd_request *request); /* playground/data.c */
 enum MHD_Result kd_handle_play_debris(struct kd_request *request);
 enum MHD_Result kd_handle_play_events(struct kd_request *request); /* playground/events.c */
-enum MHD_Result kd_handle_jobs(struct kd_request *request); /* job/routes.c */
+enum MHD_Result kd_handle_jobs(struct kd_request *request);        /* job/routes.c */
 enum MHD_Result kd_handle_job(struct kd_request *request);
 enum MHD_Result kd_handle_job_events(struct kd_request *request);
-enum MHD_Result kd_handle_job_result(struct kd_request *request); /* job/result.c */
+enum MHD_Result kd_handle_job_result(struct kd_request *request);  /* job/result.c */
 enum MHD_Result kd_handle_job_preview(struct kd_request *request); /* job/result.c */
-enum MHD_Result kd_handle_quantity(struct kd_request *request); /* answers/physics.c */
+enum MHD_Result kd_handle_quantity(struct kd_request *request);    /* answers/physics.c */
 
 #endif

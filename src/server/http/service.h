@@ -1,8 +1,9 @@
 /* The parts of the HTTP service share this. Private to src/server.
  *
- * Threads: the front (front.h) accepts connections; one thread of libmicrohttpd runs the handlers of the health routes, another
- * every other handler ("the HTTP thread"); the render queue has its render threads and
- * encoders, those who take turns (turns.h) their workers; the keeper (keeper.h) watches deadlines, vanished clients and the way down. */
+ * Threads: the front (front.h) accepts connections; one thread of libmicrohttpd runs the handlers of the health
+ * routes, another every other handler ("the HTTP thread"); the render queue has its render threads and encoders,
+ * those who take turns (turns.h) their workers; the keeper (keeper.h) watches deadlines, vanished clients and the
+ * way down. */
 #ifndef KD_SERVER_HTTP_SERVICE_H
 #define KD_SERVER_HTTP_SERVICE_H
 
@@ -18,24 +19,27 @@
 #include <stdatomic.h>
 #include <stdbool.h>
 
-#define KD_BODY_MAX KD_SCENE_JSON_MAX      /* bytes of one request; of those for rays and orbits: KD_RAYS_BODY_MAX, KD_ORBIT_BODY_MAX */
-#define KD_BODIES_MAX ((size_t)192 << 20)  /* bytes of all requests being received */
-#define KD_BODIES_SHARE ((size_t)96 << 20) /* bytes of those of one client, which leaves room for the largest one of another */
+#define KD_BODY_MAX \
+    KD_SCENE_JSON_MAX /* bytes of one request; of those for rays and orbits: KD_RAYS_BODY_MAX, KD_ORBIT_BODY_MAX */
+#define KD_BODIES_MAX ((size_t)192 << 20) /* bytes of all requests being received */
+#define KD_BODIES_SHARE \
+    ((size_t)96 << 20) /* bytes of those of one client, which leaves room for the largest one of another */
 #define KD_BODIES_SMALL ((size_t)16 << 20) /* bytes beside all these, for bodies of up to KD_BODY_MAX */
-#define KD_REPLIES_MAX (512u << 20) /* bytes of answers that clients have not taken yet; a single answer may exceed it */
+#define KD_REPLIES_MAX \
+    (512u << 20) /* bytes of answers that clients have not taken yet; a single answer may exceed it */
 #define KD_REPLIES_RESERVE ((size_t)64 << 20) /* bytes beside these, ... */
 #define KD_REPLIES_SMALL ((size_t)4 << 20)    /* ... for answers of up to so many */
-#define KD_HEADER_POOL (32u << 10)         /* a connection's memory for header and read buffer */
-#define KD_IDLE_S 30u                      /* a kept-alive connection without traffic */
-#define KD_SESSION_IDLE_MS 60000u          /* a session that nobody watches */
-#define KD_PLAYS_BYTES ((size_t)1 << 30) /* of memory, that all playgrounds may take */
-#define KD_JOBS_KEPT 64u                   /* jobs in all, finished ones too */
-#define KD_JOB_LONGEST_S (24 * 3600.0)     /* estimated, of all frames of a job */
-#define KD_JOB_KEEP_S (24 * 3600.0)        /* a finished job */
-#define KD_JOB_BYTES ((uint64_t)16 << 30)  /* on disk, of all jobs */
-#define KD_ASSETS 64u                      /* at once, */
+#define KD_HEADER_POOL (32u << 10)            /* a connection's memory for header and read buffer */
+#define KD_IDLE_S 30u                         /* a kept-alive connection without traffic */
+#define KD_SESSION_IDLE_MS 60000u             /* a session that nobody watches */
+#define KD_PLAYS_BYTES ((size_t)1 << 30)      /* of memory, that all playgrounds may take */
+#define KD_JOBS_KEPT 64u                      /* jobs in all, finished ones too */
+#define KD_JOB_LONGEST_S (24 * 3600.0)        /* estimated, of all frames of a job */
+#define KD_JOB_KEEP_S (24 * 3600.0)           /* a finished job */
+#define KD_JOB_BYTES ((uint64_t)16 << 30)     /* on disk, of all jobs */
+#define KD_ASSETS 64u                         /* at once, */
 #define KD_ASSETS_BYTES ((uint64_t)256 << 20) /* of so many bytes */
-#define KD_ASSET_KEEP_S (24 * 3600.0)      /* one that nobody asks for, if others want its room */
+#define KD_ASSET_KEEP_S (24 * 3600.0)         /* one that nobody asks for, if others want its room */
 
 #define KD_STATUS_CLASSES 6
 
@@ -82,20 +86,20 @@ struct kd_server {
     char etag_tail[20]; /* what besides the scene a picture depends on: version, device */
 
     _Atomic int phase;
-    _Atomic unsigned requests; /* begun and not yet answered in full */
+    _Atomic unsigned requests;         /* begun and not yet answered in full */
     struct kd_bytes *bodies, *replies; /* being received; not yet taken by their clients */
-    struct kd_access *access; /* who may use it; NULL: everybody may do everything */
-    struct kd_guesses *guesses; /* beside it: wrong tokens by address */
-    struct kd_cors *cors; /* pages of these origins may; NULL: of none but its own */
-    bool cross_site; /* pages of other sites may make it work, which they cannot read */
-    struct kd_measures *measures; /* how long they took */
+    struct kd_access *access;          /* who may use it; NULL: everybody may do everything */
+    struct kd_guesses *guesses;        /* beside it: wrong tokens by address */
+    struct kd_cors *cors;              /* pages of these origins may; NULL: of none but its own */
+    bool cross_site;                   /* pages of other sites may make it work, which they cannot read */
+    struct kd_measures *measures;      /* how long they took */
     _Atomic unsigned long answers[KD_STATUS_CLASSES]; /* by the first digit of their status; 0: cut off before one */
 
     int stop_fd; /* eventfd that wakes the keeper */
     pthread_t keeper;
     bool keeper_runs;
-    _Atomic bool abandon; /* destroy without stop: do not wait */
-    pthread_mutex_t lock; /* for what follows */
+    _Atomic bool abandon;                      /* destroy without stop: do not wait */
+    pthread_mutex_t lock;                      /* for what follows */
     struct kd_sessions_counts sessions_counts; /* as last known */
     struct kd_jobs_counts jobs_counts;
     struct kd_plays_counts plays_counts;

@@ -22,8 +22,8 @@ static unsigned hash(const char *name)
     return h;
 }
 
-/* Finds the client's own place; else that of a client that has nothing here, the one whose payments are longest forgotten;
- * else, where there are too many clients, a place that it shares with others. */
+/* Finds the client's own place; else that of a client that has nothing here, the one whose payments are longest
+ * forgotten; else, where there are too many clients, a place that it shares with others. */
 static struct kd_share_client *place_of(struct kd_shares *shares, const char *name)
 {
     struct kd_share_client *free = NULL;
@@ -73,7 +73,8 @@ void kd_shares_remove(struct kd_shares *shares, struct kd_claim *claim)
 /* What counts as paid by a client that may have fallen behind the one that was served last. */
 static double standing(double paid, double now) { return fmax(paid, now - CREDIT_MS); }
 
-static struct kd_claim *next_of_flow(const struct kd_share_flow *flow, bool (*may)(const struct kd_claim *, void *), void *user)
+static struct kd_claim *next_of_flow(const struct kd_share_flow *flow, bool (*may)(const struct kd_claim *, void *),
+                                     void *user)
 {
     struct kd_claim *best = NULL;
     for (struct kd_claim *c = flow->first; c; c = c->next)
@@ -82,7 +83,8 @@ static struct kd_claim *next_of_flow(const struct kd_share_flow *flow, bool (*ma
     return best;
 }
 
-static struct kd_claim *next_of_client(const struct kd_share_client *client, bool (*may)(const struct kd_claim *, void *), void *user)
+static struct kd_claim *next_of_client(const struct kd_share_client *client,
+                                       bool (*may)(const struct kd_claim *, void *), void *user)
 {
     struct kd_claim *best = NULL, *found;
     double least = INFINITY;
@@ -96,7 +98,8 @@ static struct kd_claim *next_of_client(const struct kd_share_client *client, boo
     return best;
 }
 
-struct kd_claim *kd_shares_next(struct kd_shares *shares, bool (*may)(const struct kd_claim *claim, void *user), void *user)
+struct kd_claim *kd_shares_next(struct kd_shares *shares, bool (*may)(const struct kd_claim *claim, void *user),
+                                void *user)
 {
     struct kd_claim *best = NULL, *found;
     double least = INFINITY;

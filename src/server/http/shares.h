@@ -1,13 +1,16 @@
-/* This says who has the device next, by fair shares of its time. Pure: no clock, no thread, no allocation. One owner at a time.
+/* This says who has the device next, by fair shares of its time. Pure: no clock, no thread, no allocation. One owner
+ * at a time.
  *
- * The device's time is shared among clients, and each client's part among its classes of work by their weights. Both by start-time
- * fair queueing (Goyal, Vin & Cheng 1996): who is served pays with the time it took, divided by its weight; who has paid least is
- * next; and who was away is as if it had paid as much as the one that is being served, so that nobody saves time up and nobody is
- * made to wait for having been the only one. So a client with little to do waits for the slice that is under way, and for no more
- * than its share of the others, however much another one wants.
+ * The device's time is shared among clients, and each client's part among its classes of work by their weights. Both
+ * by start-time fair queueing (Goyal, Vin & Cheng 1996): who is served pays with the time it took, divided by its
+ * weight; who has paid least is next; and who was away is as if it had paid as much as the one that is being served,
+ * so that nobody saves time up and nobody is made to wait for having been the only one. So a client with little to
+ * do waits for the slice that is under way, and for no more than its share of the others, however much another one
+ * wants.
  *
- * Among the works of one class and one client that one is next which would end first if each had the same part of the time (Friedman &
- * Henderson 2003): short work goes first, and yet the longest ends no later than it would if all went on side by side.
+ * Among the works of one class and one client that one is next which would end first if each had the same part of
+ * the time (Friedman & Henderson 2003): short work goes first, and yet the longest ends no later than it would if
+ * all went on side by side.
  *
  *     kd_shares_add(&shares, &work->claim);
  *     while ((claim = kd_shares_next(&shares, may, user))) {
@@ -23,14 +26,14 @@
 #define KD_CLIENT 48         /* room for the name of a client */
 #define KD_SHARE_CLIENTS 64u /* told apart at once; more of them share places */
 
-/* The classes of work with their weights inside a client: two living sessions leave a picture of the same client a third, and
- * a job beside both has a thirteenth. */
+/* The classes of work with their weights inside a client: two living sessions leave a picture of the same client a
+ * third, and a job beside both has a thirteenth. */
 #define KD_CLASSES(X) X(LIVE, 8) X(PICTURE, 4) X(RAYS, 4) X(REFINEMENT, 2) X(JOB, 1)
 enum kd_class {
 #define KD_CLASS_ENUM(name, weight) KD_CLASS_##name,
     KD_CLASSES(KD_CLASS_ENUM)
 #undef KD_CLASS_ENUM
-    KD_N_CLASSES
+        KD_N_CLASSES
 };
 
 /* A work that waits, or is being served; embedded in its struct. */
@@ -46,7 +49,7 @@ struct kd_claim {
 };
 
 struct kd_share_flow { /* the works of one class of one client */
-    double paid, now; /* now: what each of its works would have had, if they had gone on side by side */
+    double paid, now;  /* now: what each of its works would have had, if they had gone on side by side */
     unsigned claims;
     struct kd_claim *first; /* in the order in which they came */
 };
@@ -64,9 +67,10 @@ struct kd_shares { /* all 0 to begin with */
 void kd_shares_add(struct kd_shares *shares, struct kd_claim *claim);
 void kd_shares_remove(struct kd_shares *shares, struct kd_claim *claim);
 
-/* Finds the next to be served among those that `may`; NULL: there is none. It is only looked up: another call says the same,
- * until something is added, removed or charged. */
-struct kd_claim *kd_shares_next(struct kd_shares *shares, bool (*may)(const struct kd_claim *claim, void *user), void *user);
+/* Finds the next to be served among those that `may`; NULL: there is none. It is only looked up: another call says
+ * the same, until something is added, removed or charged. */
+struct kd_claim *kd_shares_next(struct kd_shares *shares, bool (*may)(const struct kd_claim *claim, void *user),
+                                void *user);
 
 /* Says that a claim has been served for so long. */
 void kd_shares_charge(struct kd_shares *shares, struct kd_claim *claim, double ms);

@@ -25,8 +25,7 @@ static enum kd_status decode(char *text, bool plus, struct kd_error *error)
         if (c == '%') {
             int high = hex(from[1]), low = high < 0 ? -1 : hex(from[2]);
             if (low < 0)
-                return kd_error_set(error, KD_EINVAL,
-                                    "the request target holds a %% without two hexadecimal digits");
+                return kd_error_set(error, KD_EINVAL, "the request target holds a %% without two hexadecimal digits");
             c = high << 4 | low;
             from += 2;
         } else if (c == '+' && plus) {

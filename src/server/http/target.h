@@ -13,9 +13,7 @@
 struct kd_target {
     char *text; /* owns what the pointers below point into */
     char *path; /* behind the base path, once the route is found */
-    struct kd_target_pair {
-        const char *name, *value;
-    } pairs[KD_TARGET_PAIRS];
+    struct kd_target_pair { const char *name, *value; } pairs[KD_TARGET_PAIRS];
     size_t n_pairs;
 };
 
@@ -27,13 +25,15 @@ void kd_target_finish(struct kd_target *target);
 
 /* Checks that the query gives no parameter twice; else KD_EINVAL. */
 enum kd_status kd_target_distinct(const struct kd_target *target, struct kd_error *error);
-/* Checks that as well, and that each parameter is among the known, which end with a NULL, or is the token; else KD_EINVAL. */
+/* Checks that as well, and that each parameter is among the known, which end with a NULL, or is the token; else
+ * KD_EINVAL. */
 enum kd_status kd_target_only(const struct kd_target *target, const char *const *known, struct kd_error *error);
 /* A parameter of the query, NULL: it is not given. */
 const char *kd_target_value(const struct kd_target *target, const char *name);
 /* Reads a number of decimal digits alone; false: it is not so, or above most. */
 bool kd_target_number(const char *text, uint64_t most, uint64_t *out);
 /* A parameter as such a number, or what holds without it; false: it is not one, or above most. */
-bool kd_target_whole(const struct kd_target *target, const char *name, uint64_t otherwise, uint64_t most, uint64_t *out);
+bool kd_target_whole(const struct kd_target *target, const char *name, uint64_t otherwise, uint64_t most,
+                     uint64_t *out);
 
 #endif

@@ -90,7 +90,8 @@ static double unpark_due(struct kd_turns *turns)
 
 static void sleep_until(struct kd_turns *turns, double ms)
 {
-    struct timespec t = { .tv_sec = (time_t)(fmin(ms, 1e15) * 1e-3), .tv_nsec = (long)(fmod(fmin(ms, 1e15), 1e3) * 1e6) };
+    struct timespec t = { .tv_sec = (time_t)(fmin(ms, 1e15) * 1e-3),
+                          .tv_nsec = (long)(fmod(fmin(ms, 1e15), 1e3) * 1e6) };
     if (isinf(ms))
         pthread_cond_wait(&turns->changed, &turns->lock);
     else
@@ -210,7 +211,9 @@ enum kd_status kd_turns_admit(struct kd_turns *turns, const char *client, bool *
     *quota = n < turns->limit && own >= turns->share;
     if (n >= turns->limit)
         return kd_error_set(error, KD_EBUSY, "%u such requests are under way, as many as may", n);
-    return *quota ? kd_error_set(error, KD_EBUSY, "%u such requests of yours are under way, as many as one client may have", own) : KD_OK;
+    return *quota ? kd_error_set(error, KD_EBUSY,
+                                 "%u such requests of yours are under way, as many as one client may have", own)
+                  : KD_OK;
 }
 
 void kd_turns_push(struct kd_turns *turns, struct kd_turns_job *job)
@@ -251,7 +254,4 @@ void kd_turns_cancel(struct kd_turns *turns)
     pthread_mutex_unlock(&turns->lock);
 }
 
-bool kd_turns_cancelled(struct kd_turns *turns)
-{
-    return atomic_load(&turns->cancel);
-}
+bool kd_turns_cancelled(struct kd_turns *turns) { return atomic_load(&turns->cancel); }

@@ -1,7 +1,8 @@
 /* A film of a playground is made by turns: while one frame is drawn, the workers move the bodies on to the next.
  *
- * What a frame shows depends on those before it. So a frame that is to be drawn once more, and a film that goes on after a restart, begin anew from the request: the motion is the same
- * to the bit. One film is made at a time: others wait until it is done, so that as little memory and as few turns are taken as one needs. */
+ * What a frame shows depends on those before it. So a frame that is to be drawn once more, and a film that goes on
+ * after a restart, begin anew from the request: the motion is the same to the bit. One film is made at a time:
+ * others wait until it is done, so that as little memory and as few turns are taken as one needs. */
 #include "server/job/internal.h"
 
 #include "base/clock.h"
@@ -93,7 +94,9 @@ static enum kd_turn_end turn(struct kd_turns_job *turns)
         status = kd_playground_show_named(film->p, &crowd, &error);
     film->spent_ms += kd_clock_ms() - begun;
     if (goes && !status && !there && film->spent_ms > 1e3 * all->params.longest_job_s)
-        status = kd_error_set(&error, KD_ETOOBIG, "its bodies have moved for %.0f s, as long as a job may take, up to frame %u", all->params.longest_job_s, film->at);
+        status = kd_error_set(&error, KD_ETOOBIG,
+                              "its bodies have moved for %.0f s, as long as a job may take, up to frame %u",
+                              all->params.longest_job_s, film->at);
     if (goes && !status && !there)
         return KD_TURN_MORE;
     pthread_mutex_lock(&all->lock);

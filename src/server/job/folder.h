@@ -1,6 +1,7 @@
 /* This names a job's files, and removes these and no others, through no link. Private to store.c.
  *
- * A folder of jobs holds one folder a job, named by its id, and `lock`. While a job is being written its folder is called ID.new. */
+ * A folder of jobs holds one folder a job, named by its id, and `lock`. While a job is being written its folder is
+ * called ID.new. */
 #ifndef KD_SERVER_JOB_FOLDER_H
 #define KD_SERVER_JOB_FOLDER_H
 
@@ -18,8 +19,8 @@ void kd_job_folder_frame(unsigned frame, char name[20]); /* "000000.png" */
 /* A descriptor; -1 with errno, ELOOP or ENOTDIR where it is no folder. */
 int kd_job_folder_open(int jobs, const char *name);
 
-/* Removes at most so many of a job's files, job.json last: it says whose the rest is; then the folder, unless it holds what is not
- * a job's. True when there is nothing left that may be removed. */
+/* Removes at most so many of a job's files, job.json last: it says whose the rest is; then the folder, unless it
+ * holds what is not a job's. True when there is nothing left that may be removed. */
 bool kd_job_folder_remove(int jobs, const char *name, unsigned most);
 
 /* Removes all jobs in a folder, and then its lock. */

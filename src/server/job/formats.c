@@ -17,7 +17,8 @@ static bool of_series(const struct kd_series *series, size_t i, struct kd_job_fo
     if (series->row_bytes)
         *out = (struct kd_job_format) { series->tables[i].name, series->tables[i].media_type };
     else
-        *out = i < wholes ? (struct kd_job_format) { series->wholes[i]->name, series->wholes[i]->media_type } : others[i - wholes];
+        *out = i < wholes ? (struct kd_job_format) { series->wholes[i]->name, series->wholes[i]->media_type }
+                          : others[i - wholes];
     return true;
 }
 

@@ -31,9 +31,13 @@ static void seen(void *user, const struct kd_frame *frame, uint32_t rows)
     snprintf(text, sizeof text, "%u/%u", rows, frame->height);
     const struct kd_png_text rows_text = { "kerrd:rows", text };
     const struct kd_png_params params = {
-        .width = frame->width, .height = frame->height, .bit_depth = kd_frame_bit_depth(frame), .compression = 1,
+        .width = frame->width,
+        .height = frame->height,
+        .bit_depth = kd_frame_bit_depth(frame),
+        .compression = 1,
         .pixels = kd_frame_pixels(frame),
-        .text = &rows_text, .n_text = 1,
+        .text = &rows_text,
+        .n_text = 1,
     };
     if (kd_png_encode(&params, &png, &error)) /* out of memory: there is none this time */
         kd_buffer_finish(&png);
@@ -58,7 +62,8 @@ bool kd_job_glimpse(struct kd_job *job, struct kd_buffer *png, struct kd_job_sig
     struct kd_job_glance *g = &job->glance;
     g->until_ms = kd_clock_ms() + WANTED_MS;
     *out = (struct kd_job_sight) { .frame = g->frame, .rows = g->rows, .height = g->height };
-    bool there = g->png.size && !job->have[g->frame] && kd_job_is_active(job) && !kd_buffer_append(png, g->png.data, g->png.size);
+    bool there = g->png.size && !job->have[g->frame] && kd_job_is_active(job) &&
+                 !kd_buffer_append(png, g->png.data, g->png.size);
     for (unsigned i = job->frames; !there && i-- > 0;)
         if (job->have[i]) {
             *out = (struct kd_job_sight) { .frame = i, .finished = true };

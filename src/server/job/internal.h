@@ -30,8 +30,8 @@ struct kd_job_film {
     double spent_ms;         /* on moving it */
     /* The lock's, always. */
     bool moving;
-    unsigned to;             /* the frame that it is on its way to, or has come to; */
-    struct kd_crowd *crowd;  /* what that shows, held; NULL: it is not there yet */
+    unsigned to;            /* the frame that it is on its way to, or has come to; */
+    struct kd_crowd *crowd; /* what that shows, held; NULL: it is not there yet */
 };
 
 /* The one exposure of frames that have one, as it is measured before the first of them (job/exposure.h). */
@@ -66,7 +66,7 @@ struct kd_job {
     unsigned finished_here;
     unsigned encoding; /* frames that are drawn, and not yet in their files */
     uint64_t bytes;
-    unsigned revision; /* of what its status says */
+    unsigned revision;      /* of what its status says */
     char client[KD_CLIENT]; /* "": nobody knows any more */
     bool listed;
     struct kd_job_glance glance;
@@ -94,10 +94,14 @@ struct kd_jobs {
 double kd_job_now_s(void); /* since 1970 */
 
 /* Whether a job is being rendered, or waits for it. */
-static inline bool kd_job_is_active(const struct kd_job *job) { return job->listed && job->record.state == KD_JOB_ACTIVE; }
-/* Writes a job's record, under the lock as well: a few times a job, some milliseconds each. KD_EFULL, KD_ENOMEM, KD_EIO. */
+static inline bool kd_job_is_active(const struct kd_job *job)
+{
+    return job->listed && job->record.state == KD_JOB_ACTIVE;
+}
+/* Writes a job's record, under the lock as well: a few times a job, some milliseconds each. KD_EFULL, KD_ENOMEM,
+ * KD_EIO. */
 enum kd_status kd_job_keep(struct kd_job *job, struct kd_error *error);
-void kd_job_write(struct kd_job *job); /* likewise, where the next writing will do as well: what fails is logged */
+void kd_job_write(struct kd_job *job);  /* likewise, where the next writing will do as well: what fails is logged */
 void kd_job_strike(struct kd_job *job); /* counts, once a server, that work on it may be what ends the server */
 void kd_job_end(struct kd_job *job, enum kd_job_state state, const char *why);
 /* Makes a job wait, each time for longer, because something has run out that may be there again later. */
@@ -109,7 +113,8 @@ void kd_job_wake(struct kd_job *job, double now); /* those whose wait is over */
 /* A job of a spec, which it empties; not on the list yet. NULL: out of memory. Unlocked. */
 struct kd_job *kd_job_make(struct kd_jobs *all, struct kd_job_spec *spec);
 void kd_job_append(struct kd_jobs *all, struct kd_job *job); /* to the list, as the youngest */
-/* resume.c, for kd_job_store_load: goes on with a job that the store knows; user: the jobs. Before any other thread has them. */
+/* resume.c, for kd_job_store_load: goes on with a job that the store knows; user: the jobs. Before any other thread
+ * has them. */
 void kd_job_resume(void *user, const struct kd_job_record *known, struct kd_buffer *request);
 
 /* Remove files of jobs that are gone, at most so many. Unlocked, on one thread. */
@@ -122,7 +127,8 @@ struct kd_job *kd_job_of_frame(const void *render, unsigned *number);
 extern const struct kd_glance kd_job_glance;
 /* A frame, or what it shows, has failed: for good, or until there is memory and room on the disk again. */
 void kd_job_give_up(struct kd_job *job, const struct kd_error *error);
-/* film.c: what a frame of a film shows, the job's; NULL: it is on its way, or another film is, and kd_jobs_pump is called when it is there. KD_ENOMEM. */
+/* film.c: what a frame of a film shows, the job's; NULL: it is on its way, or another film is, and kd_jobs_pump is
+ * called when it is there. KD_ENOMEM. */
 enum kd_status kd_job_film_at(struct kd_job *job, unsigned frame, struct kd_crowd **out, struct kd_error *error);
 /* Frees what is there of it, but for what a worker has, and lets another film be made. */
 void kd_job_film_drop(struct kd_job *job);

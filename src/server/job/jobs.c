@@ -197,7 +197,8 @@ void kd_jobs_destroy(struct kd_jobs *all)
 }
 
 /* Whether there is room for one more, if need be in the place of the oldest finished one, *out. Locked. */
-static enum kd_status admit(struct kd_jobs *all, const char *client, bool *quota, struct kd_job **out, struct kd_error *error)
+static enum kd_status admit(struct kd_jobs *all, const char *client, bool *quota, struct kd_job **out,
+                            struct kd_error *error)
 {
     unsigned unfinished = 0, kept = 0, own = 0;
     *out = NULL;
@@ -222,7 +223,8 @@ static enum kd_status admit(struct kd_jobs *all, const char *client, bool *quota
     return KD_OK;
 }
 
-static enum kd_status enter(struct kd_jobs *all, struct kd_job *job, const char *text, size_t length, bool *quota, struct kd_error *error)
+static enum kd_status enter(struct kd_jobs *all, struct kd_job *job, const char *text, size_t length, bool *quota,
+                            struct kd_error *error)
 {
     struct kd_job *oldest;
     pthread_mutex_lock(&all->lock);
@@ -243,15 +245,16 @@ done:
     return status;
 }
 
-enum kd_status kd_jobs_open(struct kd_jobs *all, struct kd_job_draft *draft, const char *text, size_t length, const char *client,
-                            bool *quota, struct kd_job **out, struct kd_error *error)
+enum kd_status kd_jobs_open(struct kd_jobs *all, struct kd_job_draft *draft, const char *text, size_t length,
+                            const char *client, bool *quota, struct kd_job **out, struct kd_error *error)
 {
     enum kd_status status;
     *quota = kd_render_queue_afford(all->params.renders, client, error) != KD_OK;
     if (*quota)
         return KD_EBUSY;
     struct kd_job *job = kd_job_make(all, &draft->spec);
-    if (!job || !kd_secret_make(job->record.id, sizeof job->record.id) || !kd_secret_make(job->record.token, sizeof job->record.token)) {
+    if (!job || !kd_secret_make(job->record.id, sizeof job->record.id) ||
+        !kd_secret_make(job->record.token, sizeof job->record.token)) {
         status = kd_error_set(error, KD_ENOMEM, "no memory, or no random numbers, for a job");
     } else {
         job->order = draft->cost.order;
@@ -325,7 +328,10 @@ static bool is_next(const struct kd_job *job)
 }
 
 /* Frames that are drawn, those that are still being encoded and the drawn part of one among them. Called locked. */
-static double drawn(const struct kd_job *job) { return fmin(job->finished + job->encoding + job->fraction, job->frames); }
+static double drawn(const struct kd_job *job)
+{
+    return fmin(job->finished + job->encoding + job->fraction, job->frames);
+}
 
 /* Estimates what is left of a job; NAN: it cannot be said. Called locked. */
 static double remaining_s(const struct kd_job *job)
@@ -353,9 +359,18 @@ void kd_job_status(struct kd_job *job, struct kd_job_status *out)
 {
     struct kd_jobs *all = job->all;
     pthread_mutex_lock(&all->lock);
-    *out = (struct kd_job_status) { .state = job->record.state, .deleted = !job->listed, .series = job->series, .frames = job->frames,
-                                    .finished = job->finished, .created = job->record.created, .ended = job->record.ended,
-                                    .bytes = job->bytes, .remaining_s = remaining_s(job), .traced = job->record.traced, .sweep = job->spec.sweep, .exposure = job->record.exposure };
+    *out = (struct kd_job_status) { .state = job->record.state,
+                                    .deleted = !job->listed,
+                                    .series = job->series,
+                                    .frames = job->frames,
+                                    .finished = job->finished,
+                                    .created = job->record.created,
+                                    .ended = job->record.ended,
+                                    .bytes = job->bytes,
+                                    .remaining_s = remaining_s(job),
+                                    .traced = job->record.traced,
+                                    .sweep = job->spec.sweep,
+                                    .exposure = job->record.exposure };
     out->fraction = !job->frames ? 0 : (kd_job_is_active(job) ? drawn(job) : job->finished) / job->frames;
     for (const struct kd_job *other = all->first; other && other != job && kd_job_is_active(job); other = other->link)
         out->place += kd_job_is_active(other);

@@ -1,8 +1,8 @@
 /* Jobs are pictures that take longer than anybody wants to hold a connection for, and sequences of them.
  *
- * The oldest unfinished job renders, a frame at a time and with the least share of the device; its frames go to files. Nothing
- * depends on who asked: jobs end when they are done, fail or are deleted, and go on after a restart if the server has a state folder.
- * Any thread; the functions on watchers belong to the HTTP thread. */
+ * The oldest unfinished job renders, a frame at a time and with the least share of the device; its frames go to
+ * files. Nothing depends on who asked: jobs end when they are done, fail or are deleted, and go on after a restart
+ * if the server has a state folder. Any thread; the functions on watchers belong to the HTTP thread. */
 #ifndef KD_SERVER_JOB_JOBS_H
 #define KD_SERVER_JOB_JOBS_H
 
@@ -17,20 +17,21 @@
 struct kd_jobs;
 struct kd_job;
 
-#define KD_JOB_ATTEMPTS 3 /* ends of the server without a frame after which a job waits before it is tried again: it may be the cause */
+#define KD_JOB_ATTEMPTS \
+    3 /* ends of the server without a frame after which a job waits before it is tried again: it may be the cause */
 #define KD_JOB_WAIT_MS 30e3 /* then, and twice as long after each further one, ... */
 #define KD_JOB_WAIT_MAX_MS 3600e3
 
 struct kd_jobs_params {
     struct kd_render_queue *renders;
-    struct kd_turns *turns;     /* whose workers move the bodies of films */
-    const char *state;          /* a folder, NULL: jobs end with the server */
-    unsigned limit, kept;       /* unfinished jobs; those and finished ones */
-    unsigned client_limit;      /* unfinished jobs of one address; 0: as many as any */
-    unsigned longest_s;         /* a frame may take, by its plan */
-    double longest_job_s;       /* all frames of a job */
-    uint64_t bytes;             /* of the frames of all jobs */
-    double keep_s;              /* that a finished job stays */
+    struct kd_turns *turns; /* whose workers move the bodies of films */
+    const char *state;      /* a folder, NULL: jobs end with the server */
+    unsigned limit, kept;   /* unfinished jobs; those and finished ones */
+    unsigned client_limit;  /* unfinished jobs of one address; 0: as many as any */
+    unsigned longest_s;     /* a frame may take, by its plan */
+    double longest_job_s;   /* all frames of a job */
+    uint64_t bytes;         /* of the frames of all jobs */
+    double keep_s;          /* that a finished job stays */
 };
 /* Creates the jobs, with a state folder those that it holds. params->state need not live on. */
 enum kd_status kd_jobs_create(const struct kd_jobs_params *params, struct kd_jobs **out, struct kd_error *error);
@@ -39,20 +40,23 @@ void kd_jobs_begin(struct kd_jobs *all);
 /* Called after kd_jobs_close, and when the render queue has finished. Accepts NULL. */
 void kd_jobs_destroy(struct kd_jobs *all);
 
-/* A job that is asked for: what kd_job_spec_parse makes of the request, and how far its frames have been looked at. One thread at a
- * time. */
+/* A job that is asked for: what kd_job_spec_parse makes of the request, and how far its frames have been looked at.
+ * One thread at a time. */
 struct kd_job_draft {
     struct kd_job_spec spec;
     struct kd_cost cost; /* of the frames that have been looked at: cost.frames of spec.frames */
-    char preset[32];  /* as the spec was parsed with */
+    char preset[32];     /* as the spec was parsed with */
 };
 void kd_job_draft_finish(struct kd_job_draft *draft);
-/* Checks further frames until it is time, at least one, and makes their order when all are. KD_EINVAL and KD_ETOOBIG with a pointer into the request. */
-enum kd_status kd_jobs_check(const struct kd_jobs *all, struct kd_job_draft *draft, double until_ms, struct kd_error *error);
+/* Checks further frames until it is time, at least one, and makes their order when all are. KD_EINVAL and KD_ETOOBIG
+ * with a pointer into the request. */
+enum kd_status kd_jobs_check(const struct kd_jobs *all, struct kd_job_draft *draft, double until_ms,
+                             struct kd_error *error);
 /* Makes a job, of which the caller holds a reference, from a checked draft, which it empties. text: the
- * request; client: its address. KD_EBUSY: there are as many jobs as there may be, or with *quota as many of this client. */
-enum kd_status kd_jobs_open(struct kd_jobs *all, struct kd_job_draft *draft, const char *text, size_t length, const char *client,
-                            bool *quota, struct kd_job **out, struct kd_error *error);
+ * request; client: its address. KD_EBUSY: there are as many jobs as there may be, or with *quota as many of this
+ * client. */
+enum kd_status kd_jobs_open(struct kd_jobs *all, struct kd_job_draft *draft, const char *text, size_t length,
+                            const char *client, bool *quota, struct kd_job **out, struct kd_error *error);
 struct kd_job *kd_jobs_find(struct kd_jobs *all, const char *id); /* a reference, or NULL */
 void kd_job_release(struct kd_job *job);
 double kd_jobs_remaining_s(struct kd_jobs *all); /* until there is room for one more, estimated */
@@ -83,8 +87,8 @@ bool kd_jobs_counts(struct kd_jobs *all, struct kd_jobs_counts *out);
 
 /* Opens a finished frame as kd_job_store_get does. */
 int kd_job_frame(struct kd_job *job, unsigned frame, uint64_t *size);
-/* Gives what there is to see of a job of pictures, and asks for more of it to come: the frame under way as `png`, drawn down
- * to some row, else the last frame that is finished. False: nothing yet. */
+/* Gives what there is to see of a job of pictures, and asks for more of it to come: the frame under way as `png`,
+ * drawn down to some row, else the last frame that is finished. False: nothing yet. */
 struct kd_job_sight {
     unsigned frame;
     bool finished;         /* it is in its file: kd_job_frame */
@@ -98,7 +102,7 @@ void kd_job_delete(struct kd_job *job);
 struct kd_job_watcher {
     struct kd_job *job; /* a reference */
     struct MHD_Connection *mhd;
-    bool by_frame;      /* waits for the frame `next`, else for any change */
+    bool by_frame; /* waits for the frame `next`, else for any change */
     unsigned next, revision;
     double deadline_ms; /* on kd_clock_ms, of waiting; INFINITY: none */
     bool waiting;       /* suspended */
@@ -116,8 +120,8 @@ enum kd_job_news kd_job_await(struct kd_job_watcher *watcher);
 
 /* Wake who waits; delete what has been kept long enough. One thread, ten times a second. */
 void kd_jobs_sweep(struct kd_jobs *all);
-/* Stops taking jobs and beginning frames. The running frame is dropped, and rendered again after a restart; all watchers are
- * told that it is over. */
+/* Stops taking jobs and beginning frames. The running frame is dropped, and rendered again after a restart; all
+ * watchers are told that it is over. */
 void kd_jobs_close(struct kd_jobs *all);
 
 #endif

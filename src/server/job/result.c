@@ -1,4 +1,5 @@
-/* This answers GET /v1/jobs/{id}/result: a frame as a file, or the frames as they come; all of them as one file: whole.c, a table of their rows: table.c. */
+/* This answers GET /v1/jobs/{id}/result: a frame as a file, or the frames as they come; all of them as one file:
+ * whole.c, a table of their rows: table.c. */
 #include "server/job/formats.h"
 #include "server/job/routes.h"
 #include "server/job/table.h"
@@ -19,7 +20,7 @@
 /* A stream of the frames from watcher.next on, each after 16 bytes of its own. */
 struct frames {
     struct kd_job_watcher watcher; /* first */
-    int fd; /* of the frame under way, -1: none */
+    int fd;                        /* of the frame under way, -1: none */
     uint64_t left;
     struct kd_buffer out; /* made and not yet taken, from `at` on */
     size_t at;
@@ -105,11 +106,14 @@ static enum MHD_Result send_frames(struct kd_request *request, struct kd_job *jo
     struct frames *f = request->head ? NULL : calloc(1, sizeof *f);
     if (!f) {
         kd_job_release(job);
-        return request->head ? kd_reply_send(request, MHD_HTTP_OK, kd_reply_empty(type))
-                             : kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
+        return request->head
+                   ? kd_reply_send(request, MHD_HTTP_OK, kd_reply_empty(type))
+                   : kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
     }
     f->fd = -1;
-    f->watcher = (struct kd_job_watcher) { .job = job, .mhd = request->mhd, .by_frame = true, .next = from, .deadline_ms = INFINITY };
+    f->watcher = (struct kd_job_watcher) {
+        .job = job, .mhd = request->mhd, .by_frame = true, .next = from, .deadline_ms = INFINITY
+    };
     kd_job_watch(&f->watcher);
     return kd_job_stream(request, type, produce, f, release);
 }
@@ -118,14 +122,16 @@ enum MHD_Result kd_job_not_ready(struct kd_request *request, struct kd_job *job,
 {
     char detail[600];
     if (status->state == KD_JOB_FAILED)
-        snprintf(detail, sizeof detail, "the job has failed with %u of %u frames: %.400s", status->finished, status->frames, status->error);
+        snprintf(detail, sizeof detail, "the job has failed with %u of %u frames: %.400s", status->finished,
+                 status->frames, status->error);
     else
         snprintf(detail, sizeof detail, "%u of %u frames are finished", status->finished, status->frames);
     kd_job_release(job);
     return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_READY, .detail = detail });
 }
 
-static enum MHD_Result send_frame(struct kd_request *request, struct kd_job *job, unsigned frame, const struct kd_job_status *status)
+static enum MHD_Result send_frame(struct kd_request *request, struct kd_job *job, unsigned frame,
+                                  const struct kd_job_status *status)
 {
     uint64_t size;
     int fd = kd_job_frame(job, frame, &size);
@@ -164,7 +170,8 @@ enum MHD_Result kd_handle_job_preview(struct kd_request *request)
         return refused;
     kd_job_status(job, &status);
     if (!(status.series->frame->carries & KD_CARRIES_PICTURE)) {
-        snprintf(detail, sizeof detail, "the frames of this job are %s: there is nothing to look at", status.series->each);
+        snprintf(detail, sizeof detail, "the frames of this job are %s: there is nothing to look at",
+                 status.series->each);
         return kd_job_bad(request, job, detail);
     }
     if (!kd_job_glimpse(job, &png, &sight))
@@ -195,14 +202,20 @@ static enum MHD_Result unknown_format(struct kd_request *request, struct kd_job 
 {
     char detail[200] = "format is ";
     for (size_t i = 0; series->wholes[i]; i++)
-        snprintf(detail + strlen(detail), sizeof detail - strlen(detail), "%s%s", !i ? "" : series->wholes[i + 1] ? ", " : " or ", series->wholes[i]->name);
-    snprintf(detail + strlen(detail), sizeof detail - strlen(detail), ", which hold%s all, or %s or %s, both with frame=NUMBER if wanted", series->wholes[1] ? "" : "s",
+        snprintf(detail + strlen(detail), sizeof detail - strlen(detail), "%s%s",
+                 !i                      ? ""
+                 : series->wholes[i + 1] ? ", "
+                                         : " or ",
+                 series->wholes[i]->name);
+    snprintf(detail + strlen(detail), sizeof detail - strlen(detail),
+             ", which hold%s all, or %s or %s, both with frame=NUMBER if wanted", series->wholes[1] ? "" : "s",
              series->frame->name, kd_job_as_stream.name);
     return kd_job_bad(request, job, detail);
 }
 
 /* The frames of a job that are files: one of them, or all in something that holds them. */
-static enum MHD_Result files_of(struct kd_request *request, struct kd_job *job, const struct kd_job_status *status, const char *format)
+static enum MHD_Result files_of(struct kd_request *request, struct kd_job *job, const struct kd_job_status *status,
+                                const char *format)
 {
     const struct kd_series *series = status->series;
     const bool one_of_them = kd_target_value(&request->target, "frame");
@@ -212,15 +225,18 @@ static enum MHD_Result files_of(struct kd_request *request, struct kd_job *job, 
     const struct kd_gather_format *whole = one_of_them ? NULL : whole_named(series, format);
     if (!kd_target_whole(&request->target, "frame", 0, status->frames ? status->frames - 1 : 0, &frame))
         return kd_job_bad(request, job, "frame is the number of a frame of this job, from 0 on");
-    if (!kd_target_whole(&request->target, "rate", KD_FILM_RATE, KD_FILM_RATE_MAX, &rate) || !rate || (kd_target_value(&request->target, "rate") && !(whole && whole->waits)))
-        return kd_job_bad(request, job, "rate is a whole number of frames a second, from 1 to 120, of format=mp4 or webm");
+    if (!kd_target_whole(&request->target, "rate", KD_FILM_RATE, KD_FILM_RATE_MAX, &rate) || !rate ||
+        (kd_target_value(&request->target, "rate") && !(whole && whole->waits)))
+        return kd_job_bad(request, job,
+                          "rate is a whole number of frames a second, from 1 to 120, of format=mp4 or webm");
     if (whole && status->state != KD_JOB_DONE)
         return kd_job_not_ready(request, job, status);
     if (whole)
         return kd_job_send_whole(request, job, status, whole, (unsigned)rate);
     if (!strcmp(format, series->frame->name))
         return send_frame(request, job, (unsigned)frame, status);
-    return strcmp(format, kd_job_as_stream.name) ? unknown_format(request, job, series) : send_frames(request, job, (unsigned)frame);
+    return strcmp(format, kd_job_as_stream.name) ? unknown_format(request, job, series)
+                                                 : send_frames(request, job, (unsigned)frame);
 }
 
 enum MHD_Result kd_handle_job_result(struct kd_request *request)

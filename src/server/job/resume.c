@@ -16,14 +16,16 @@ static bool stands_at(int fd, uint64_t at, const char *text)
     return n <= sizeof found && pread(fd, found, n, (off_t)at) == (ssize_t)n && !memcmp(found, text, n);
 }
 
-/* Says whether a frame has the size, the beginning and the end that its format gives it. It was written whole: a file system that was not stopped in order may have cut it off. */
+/* Says whether a frame has the size, the beginning and the end that its format gives it. It was written whole: a
+ * file system that was not stopped in order may have cut it off. */
 static bool is_whole(int fd, uint64_t size, const struct kd_series *series)
 {
     const struct kd_format *format = series->frame;
     const size_t end = format->end ? strlen(format->end) : 0;
     if (series->row_bytes)
         return size == series->row_bytes;
-    return size > 0 && size >= end && stands_at(fd, 0, format->magic) && (!end || stands_at(fd, size - end, format->end));
+    return size > 0 && size >= end && stands_at(fd, 0, format->magic) &&
+           (!end || stands_at(fd, size - end, format->end));
 }
 
 /* Frames that are damaged are as those that are missing. */
@@ -48,25 +50,30 @@ static void reopen(struct kd_job *job)
 {
     if (job->record.state != KD_JOB_DONE || job->finished == job->frames)
         return;
-    kd_log(KD_LOG_WARN, "job %.4s... was done, and has %u of %u frames: the others are made again", job->record.id, job->finished, job->frames);
+    kd_log(KD_LOG_WARN, "job %.4s... was done, and has %u of %u frames: the others are made again", job->record.id,
+           job->finished, job->frames);
     job->record.state = KD_JOB_ACTIVE;
     job->record.ended = 0;
 }
 
-/* A clock that has been put back makes no job younger than now; one that has been put forward leaves an hour to fetch what is done. */
+/* A clock that has been put back makes no job younger than now; one that has been put forward leaves an hour to
+ * fetch what is done. */
 static double age_ms(const struct kd_jobs *all, const struct kd_job_record *record)
 {
     double s = kd_job_now_s() - record->ended, most = fmax(all->params.keep_s - 3600, 0);
     return 1e3 * fmin(fmax(s, 0), most);
 }
 
-/* Makes a job wait that may be what has ended the servers; others go first (kd_job_store_load). It is never given up for that. */
+/* Makes a job wait that may be what has ended the servers; others go first (kd_job_store_load). It is never given up
+ * for that. */
 static void wait_after_strikes(struct kd_job *job)
 {
     unsigned n = job->record.attempts;
     if (n < KD_JOB_ATTEMPTS)
         return;
-    job->due_ms = kd_clock_ms() + fmin(ldexp(KD_JOB_WAIT_MS, (int)(n - KD_JOB_ATTEMPTS > 20 ? 20 : n - KD_JOB_ATTEMPTS)), KD_JOB_WAIT_MAX_MS);
+    job->due_ms =
+        kd_clock_ms() +
+        fmin(ldexp(KD_JOB_WAIT_MS, (int)(n - KD_JOB_ATTEMPTS > 20 ? 20 : n - KD_JOB_ATTEMPTS)), KD_JOB_WAIT_MAX_MS);
     snprintf(job->delayed, sizeof job->delayed, "the server has ended %u times before another frame was there", n);
     kd_log(KD_LOG_WARN, "job %.4s... waits: %s", job->record.id, job->delayed);
 }
@@ -78,7 +85,8 @@ void kd_job_resume(void *user, const struct kd_job_record *known, struct kd_buff
     struct kd_job_spec spec = { 0 };
     struct kd_error error = { 0 };
     char why[sizeof error.message] = "";
-    enum kd_status status = kd_job_spec_parse((const char *)request->data, request->size, &(struct kd_job_base) { .preset = known->preset }, NULL, &spec, &error);
+    enum kd_status status = kd_job_spec_parse((const char *)request->data, request->size,
+                                              &(struct kd_job_base) { .preset = known->preset }, NULL, &spec, &error);
     kd_buffer_finish(request);
     if (status == KD_ENOMEM) {
         kd_log(KD_LOG_ERROR, "no memory for job %.4s..., which waits for the next start", known->id);
@@ -105,7 +113,8 @@ void kd_job_resume(void *user, const struct kd_job_record *known, struct kd_buff
     if (!*why)
         reopen(job);
     job->spec.exposure = known->exposure;
-    if (!isnan(known->exposure) || job->finished) /* frames without one that was measured are of a version that gave each its own */
+    if (!isnan(known->exposure) ||
+        job->finished) /* frames without one that was measured are of a version that gave each its own */
         job->exposure.n = 0;
     job->unordered = job->record.state == KD_JOB_ACTIVE && job->spec.sweep;
     kd_job_append(all, job);

@@ -21,8 +21,9 @@ struct kd_job *kd_job_of(struct kd_request *request, enum MHD_Result *refused)
 {
     struct kd_job *job = kd_jobs_find(request->server->jobs, request->rest);
     if (!job)
-        *refused = kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND,
-                                                                    .detail = "there is no such job, or it has been deleted" });
+        *refused = kd_reply_problem(request,
+                                    &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND,
+                                                           .detail = "there is no such job, or it has been deleted" });
     return job;
 }
 
@@ -33,7 +34,11 @@ const char *kd_job_state_word(size_t i) { return i < sizeof states / sizeof *sta
 
 static const char *state_word(const struct kd_job_status *s)
 {
-    return states[s->deleted ? DELETED : s->state == KD_JOB_DONE ? DONE : s->state == KD_JOB_FAILED ? FAILED : s->place || *s->delayed ? WAITING : RUNNING];
+    return states[s->deleted                  ? DELETED
+                  : s->state == KD_JOB_DONE   ? DONE
+                  : s->state == KD_JOB_FAILED ? FAILED
+                  : s->place || *s->delayed   ? WAITING
+                                              : RUNNING];
 }
 
 /* "axes": {"spacetime.spin": 3, ...} */
@@ -126,7 +131,8 @@ static enum kd_turn_end work(struct kd_task *task, double until_ms)
     struct kd_error error = { 0 };
     enum kd_status status;
     if (!d->read)
-        KD_TRY(kd_job_spec_parse(text, body->size, &(struct kd_job_base) { .preset = d->draft.preset }, assets, &d->draft.spec, &error));
+        KD_TRY(kd_job_spec_parse(text, body->size, &(struct kd_job_base) { .preset = d->draft.preset }, assets,
+                                 &d->draft.spec, &error));
     d->read = true;
     KD_TRY(kd_jobs_check(jobs, &d->draft, until_ms, &error));
     if (d->draft.cost.frames < d->draft.spec.frames)
@@ -176,8 +182,9 @@ enum MHD_Result kd_handle_job(struct kd_request *request)
     if (strcmp(request->method, "DELETE")) {
         result = answer(request, job, false);
     } else if (!kd_secret_equal(kd_job_token(job), kd_token_of(request))) {
-        result = kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_FORBIDDEN,
-                                                                  .detail = "deleting a job takes its token: Authorization: Bearer TOKEN" });
+        result = kd_reply_problem(
+            request, &(struct kd_problem) { .type = KD_PROBLEM_FORBIDDEN,
+                                            .detail = "deleting a job takes its token: Authorization: Bearer TOKEN" });
     } else {
         kd_job_delete(job);
         result = kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, JSON_TYPE));
@@ -201,7 +208,8 @@ static enum kd_status write_event(struct events *e)
     e->over = s.deleted || s.state != KD_JOB_ACTIVE;
     enum kd_status status = to_json(e->watcher.job, &s, false, &json);
     if (!status)
-        status = kd_buffer_printf(&e->text, "event: %s\ndata: %s\n\n", e->over ? "end" : "progress", (const char *)json.data);
+        status = kd_buffer_printf(&e->text, "event: %s\ndata: %s\n\n", e->over ? "end" : "progress",
+                                  (const char *)json.data);
     kd_buffer_finish(&json);
     return status;
 }
@@ -215,7 +223,9 @@ static enum kd_status next_event(struct events *e, ssize_t *instead)
     }
     switch (kd_job_await(&e->watcher)) {
     case KD_JOB_NEWS: return write_event(e);
-    case KD_JOB_OVER: *instead = MHD_CONTENT_READER_END_OF_STREAM; return KD_OK; /* the server stops; the job may go on later */
+    case KD_JOB_OVER:
+        *instead = MHD_CONTENT_READER_END_OF_STREAM;
+        return KD_OK; /* the server stops; the job may go on later */
     case KD_JOB_LATER: *instead = 0; return KD_OK;
     case KD_JOB_LATE: /* a sign of life, which also finds out who has left without a word */
         e->watcher.deadline_ms = kd_clock_ms() + HEARTBEAT_MS;
@@ -242,10 +252,11 @@ static void release_events(void *cls)
     free(e);
 }
 
-enum MHD_Result kd_job_stream(struct kd_request *request, const char *type, MHD_ContentReaderCallback produce, void *cls,
-                              MHD_ContentReaderFreeCallback release)
+enum MHD_Result kd_job_stream(struct kd_request *request, const char *type, MHD_ContentReaderCallback produce,
+                              void *cls, MHD_ContentReaderFreeCallback release)
 {
-    struct MHD_Response *response = MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, 64 << 10, produce, cls, release);
+    struct MHD_Response *response =
+        MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, 64 << 10, produce, cls, release);
     if (!response) {
         release(cls);
         return kd_reply_no_memory(request);
@@ -267,11 +278,13 @@ enum MHD_Result kd_handle_job_events(struct kd_request *request)
     struct events *e = request->head ? NULL : calloc(1, sizeof *e);
     if (!e) {
         kd_job_release(job);
-        return request->head ? kd_reply_send(request, MHD_HTTP_OK, kd_reply_empty(request->route->answer))
-                             : kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
+        return request->head
+                   ? kd_reply_send(request, MHD_HTTP_OK, kd_reply_empty(request->route->answer))
+                   : kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
     }
-    e->watcher = (struct kd_job_watcher) { .job = job, .mhd = request->mhd, .revision = UINT_MAX,
-                                           .deadline_ms = kd_clock_ms() + HEARTBEAT_MS };
+    e->watcher = (struct kd_job_watcher) {
+        .job = job, .mhd = request->mhd, .revision = UINT_MAX, .deadline_ms = kd_clock_ms() + HEARTBEAT_MS
+    };
     kd_job_watch(&e->watcher);
     return kd_job_stream(request, request->route->answer, produce_events, e, release_events);
 }

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define BEHIND_MAX 2      /* frames rendered and not yet in their files: one is rendered while one is encoded */
+#define BEHIND_MAX 2 /* frames rendered and not yet in their files: one is rendered while one is encoded */
 struct kd_job_render {
     struct kd_render_job render; /* first: the queue's pointer is ours */
     struct kd_job *job;
@@ -32,7 +32,10 @@ void kd_job_give_up(struct kd_job *job, const struct kd_error *error)
         kd_job_end(job, KD_JOB_FAILED, error->message);
 }
 
-static unsigned at_place(const struct kd_job *job, unsigned place) { return job->order.frames ? job->order.frames[place] : place; }
+static unsigned at_place(const struct kd_job *job, unsigned place)
+{
+    return job->order.frames ? job->order.frames[place] : place;
+}
 
 void kd_job_strike(struct kd_job *job)
 {
@@ -63,9 +66,11 @@ static bool begin(struct kd_job *job)
         return false;
     struct kd_job_render *frame = calloc(1, sizeof *frame);
     kd_render_queue_capacity(all->params.renders, &capacity);
-    status = !frame ? kd_error_set(&error, KD_ENOMEM, "out of memory for a frame")
-             : measures ? kd_job_exposure_plan(&job->spec, number, &capacity, &frame->render.scene, &frame->render.plan, &error)
-                        : kd_job_frame_plan(&job->spec, number, crowd, 0, all->params.longest_s, &capacity, &frame->render.scene, &frame->render.plan, &error);
+    status = !frame     ? kd_error_set(&error, KD_ENOMEM, "out of memory for a frame")
+             : measures ? kd_job_exposure_plan(&job->spec, number, &capacity, &frame->render.scene, &frame->render.plan,
+                                               &error)
+                        : kd_job_frame_plan(&job->spec, number, crowd, 0, all->params.longest_s, &capacity,
+                                            &frame->render.scene, &frame->render.plan, &error);
     if (status) {
         kd_job_give_up(job, &error);
         free(frame);
@@ -118,7 +123,8 @@ void kd_jobs_pump(struct kd_jobs *all)
         return;
     double now = kd_clock_ms();
     for (struct kd_job *job = all->first; job; job = job->link)
-        if (kd_job_is_active(job) && !job->unordered && now >= job->due_ms && kd_render_queue_may_push(all->params.renders, job->client) && begin(job))
+        if (kd_job_is_active(job) && !job->unordered && now >= job->due_ms &&
+            kd_render_queue_may_push(all->params.renders, job->client) && begin(job))
             return;
 }
 
@@ -133,7 +139,8 @@ void kd_jobs_drop_frame(struct kd_jobs *all, const struct kd_job *job)
 /* Counts the lens map of a frame. Of a sweep that is kept, now and then, for who asks after a restart. */
 static void count_map(struct kd_job *job, const struct kd_render_job *render)
 {
-    const unsigned traced = render->status ? 0 : (!render->frame.lens_reused && render->plan.planes) + render->frame.others_traced;
+    const unsigned traced =
+        render->status ? 0 : (!render->frame.lens_reused && render->plan.planes) + render->frame.others_traced;
     if (!traced)
         return;
     job->record.traced += traced;
@@ -181,8 +188,8 @@ static void progress(struct kd_render_job *render, double fraction)
     pthread_mutex_unlock(&frame->job->all->lock);
 }
 
-/* What the small picture says; after the last of them all frames have their exposure, once that is kept: a restart that found frames and no exposure would give those that are missing
- * another one. Locked. */
+/* What the small picture says; after the last of them all frames have their exposure, once that is kept: a restart
+ * that found frames and no exposure would give those that are missing another one. Locked. */
 static void measured(struct kd_job *job, double stops)
 {
     struct kd_job_exposure *exposure = &job->exposure;
@@ -240,7 +247,9 @@ static void done(struct kd_render_job *render)
         count_map(job, render);
     if (!status && !frame->measures)
         finished(job, frame->number, render->file.size);
-    else if (status && status != KD_ECANCELLED && !(status == KD_EDEVICE && kd_render_queue_lost(all->params.renders, NULL)) && kd_job_is_active(job)) { /* those two go on after a restart */
+    else if (status && status != KD_ECANCELLED &&
+             !(status == KD_EDEVICE && kd_render_queue_lost(all->params.renders, NULL)) &&
+             kd_job_is_active(job)) { /* those two go on after a restart */
         job->next = frame->place < job->next ? frame->place : job->next;
         kd_job_give_up(job, &render->error);
     }
@@ -264,18 +273,24 @@ static enum kd_status afford(const struct kd_jobs *all, const struct kd_job_draf
 {
     const struct kd_cost *cost = &draft->cost;
     const unsigned frames = draft->spec.frames;
-    const double not_spent = cost->frames < frames ? cost->trace_ms : cost->shared_ms; /* until all are known, every lens map may be shared */
+    const double not_spent = cost->frames < frames
+                                 ? cost->trace_ms
+                                 : cost->shared_ms; /* until all are known, every lens map may be shared */
     const double s = 1e-3 * (cost->ms - not_spent), bytes = (double)all->params.bytes;
     if (s > all->params.longest_job_s)
-        return kd_error_set(error, KD_ETOOBIG, "%s%u frames would take about %.3g s, more than the %.0f s a job may take",
+        return kd_error_set(error, KD_ETOOBIG,
+                            "%s%u frames would take about %.3g s, more than the %.0f s a job may take",
                             cost->frames < frames ? "some of the " : "the ", frames, s, all->params.longest_job_s);
     if (cost->file_bytes > bytes)
-        return kd_error_set(error, KD_ETOOBIG, "%u of %u frames would be %.4g GB, more than the %.4g GB that this server keeps of all jobs", cost->frames, frames,
-                            1e-9 * cost->file_bytes, 1e-9 * bytes);
+        return kd_error_set(
+            error, KD_ETOOBIG,
+            "%u of %u frames would be %.4g GB, more than the %.4g GB that this server keeps of all jobs", cost->frames,
+            frames, 1e-9 * cost->file_bytes, 1e-9 * bytes);
     return KD_OK;
 }
 
-enum kd_status kd_jobs_check(const struct kd_jobs *all, struct kd_job_draft *draft, double until_ms, struct kd_error *error)
+enum kd_status kd_jobs_check(const struct kd_jobs *all, struct kd_job_draft *draft, double until_ms,
+                             struct kd_error *error)
 {
     const struct kd_job_spec *spec = &draft->spec;
     struct kd_cost *cost = &draft->cost;
@@ -285,7 +300,8 @@ enum kd_status kd_jobs_check(const struct kd_jobs *all, struct kd_job_draft *dra
     enum kd_status status;
     kd_render_queue_capacity(all->params.renders, &capacity);
     do {
-        KD_TRY(kd_job_frame_plan(spec, cost->frames, spec->first, cost->frames * spec->every, all->params.longest_s, &capacity, &scene, &plan, error));
+        KD_TRY(kd_job_frame_plan(spec, cost->frames, spec->first, cost->frames * spec->every, all->params.longest_s,
+                                 &capacity, &scene, &plan, error));
         KD_TRY(kd_cost_add(cost, spec->series, spec->sweep, &scene, &plan, error));
         if (cost->frames < spec->frames)
             KD_TRY(afford(all, draft, error));

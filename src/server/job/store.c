@@ -20,7 +20,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#define RECORD_MAX ((size_t)64 << 10)  /* bytes of job.json: ours have some 500 */
+#define RECORD_MAX ((size_t)64 << 10) /* bytes of job.json: ours have some 500 */
 #define TEMPORARY "kerrd-jobs-"
 
 struct kd_job_store {
@@ -30,8 +30,8 @@ struct kd_job_store {
 
 static const char *const states[] = { [KD_JOB_ACTIVE] = "active", [KD_JOB_DONE] = "done", [KD_JOB_FAILED] = "failed" };
 
-/* Makes an error for a client, without a path, which the log has. Failures that may go away by themselves are KD_EFULL and
- * KD_ENOMEM, not KD_EIO. */
+/* Makes an error for a client, without a path, which the log has. Failures that may go away by themselves are
+ * KD_EFULL and KD_ENOMEM, not KD_EIO. */
 static enum kd_status failed(struct kd_error *error, const char *what)
 {
     int cause = errno;
@@ -125,7 +125,8 @@ static enum kd_status open_temporary(struct kd_job_store *store, struct kd_error
     return KD_OK;
 }
 
-/* Two servers that went on with the same jobs would do everything twice. The path may go through links; what is in the folder not. */
+/* Two servers that went on with the same jobs would do everything twice. The path may go through links; what is in
+ * the folder not. */
 static enum kd_status open_state(struct kd_job_store *store, const char *state, struct kd_error *error)
 {
     if (mkdir(state, 0700) && errno != EEXIST)
@@ -236,8 +237,9 @@ static const struct kd_series *series_of(const cJSON *o)
 
 static bool read_record(const cJSON *o, const char *id, struct kd_job_record *out)
 {
-    *out = (struct kd_job_record) { .created = number(o, "created"), .ended = number(o, "ended"),
-                                     .exposure = cJSON_HasObjectItem(o, "exposure") ? number(o, "exposure") : NAN };
+    *out = (struct kd_job_record) { .created = number(o, "created"),
+                                    .ended = number(o, "ended"),
+                                    .exposure = cJSON_HasObjectItem(o, "exposure") ? number(o, "exposure") : NAN };
     if (number(o, "format") != 1 || !copy_text(o, "id", out->id, sizeof out->id) || strcmp(out->id, id) ||
         !copy_text(o, "token", out->token, sizeof out->token) || strlen(out->token) != KD_SECRET_TOKEN - 1 ||
         !copy_text(o, "error", out->error, sizeof out->error) || !read_state(o, &out->state))
@@ -265,8 +267,9 @@ static bool parse_record(const struct kd_buffer *text, const char *id, struct kd
     cJSON *o = cJSON_ParseWithLength((const char *)text->data, text->size);
     bool good = o && read_record(o, id, out);
     if (!good)
-        *why = o && number(o, "format") > 0 && (number(o, "format") != 1 || !series_of(o)) ? "its job.json is of another version of kerrd"
-                                                                       : "its job.json is damaged";
+        *why = o && number(o, "format") > 0 && (number(o, "format") != 1 || !series_of(o))
+                   ? "its job.json is of another version of kerrd"
+                   : "its job.json is damaged";
     cJSON_Delete(o);
     return good;
 }
@@ -326,7 +329,8 @@ static int by_age(const void *a, const void *b)
     return x->created < y->created ? -1 : x->created > y->created;
 }
 
-static enum kd_status find_all(struct kd_job_store *store, DIR *d, struct found **all, size_t *n, struct kd_error *error)
+static enum kd_status find_all(struct kd_job_store *store, DIR *d, struct found **all, size_t *n,
+                               struct kd_error *error)
 {
     struct found one;
     for (struct dirent *entry; (entry = readdir(d));) {
@@ -344,8 +348,9 @@ static enum kd_status find_all(struct kd_job_store *store, DIR *d, struct found 
 }
 
 enum kd_status kd_job_store_load(struct kd_job_store *store,
-                                 void (*found)(void *user, const struct kd_job_record *record, struct kd_buffer *request), void *user,
-                                 struct kd_error *error)
+                                 void (*found)(void *user, const struct kd_job_record *record,
+                                               struct kd_buffer *request),
+                                 void *user, struct kd_error *error)
 {
     struct found *all = NULL;
     size_t n = 0;
@@ -395,14 +400,16 @@ static enum kd_status record_json(const struct kd_job_record *record, struct kd_
 static enum kd_status write_record(int folder, const struct kd_job_record *record, struct kd_error *error)
 {
     struct kd_buffer text = { 0 };
-    enum kd_status status = record_json(record, &text) ? kd_error_set(error, KD_ENOMEM, "out of memory for a job") : KD_OK;
+    enum kd_status status =
+        record_json(record, &text) ? kd_error_set(error, KD_ENOMEM, "out of memory for a job") : KD_OK;
     if (!status && !kd_replace_file_at(folder, "job.json", text.data, text.size))
         status = failed(error, "the job cannot be kept");
     kd_buffer_finish(&text);
     return status;
 }
 
-enum kd_status kd_job_store_update(struct kd_job_store *store, const struct kd_job_record *record, struct kd_error *error)
+enum kd_status kd_job_store_update(struct kd_job_store *store, const struct kd_job_record *record,
+                                   struct kd_error *error)
 {
     int folder = kd_job_folder_open(store->folder, record->id);
     if (folder < 0)
@@ -413,8 +420,8 @@ enum kd_status kd_job_store_update(struct kd_job_store *store, const struct kd_j
 }
 
 /* Under another name until both documents are there: a job is accepted or has never been. */
-enum kd_status kd_job_store_create(struct kd_job_store *store, const struct kd_job_record *record, const void *request, size_t size,
-                                   struct kd_error *error)
+enum kd_status kd_job_store_create(struct kd_job_store *store, const struct kd_job_record *record, const void *request,
+                                   size_t size, struct kd_error *error)
 {
     char name[KD_JOB_NAME];
     snprintf(name, sizeof name, "%s.new", record->id);
@@ -437,7 +444,8 @@ done:
     return status;
 }
 
-enum kd_status kd_job_store_request(const struct kd_job_store *store, const char *id, struct kd_buffer *out, struct kd_error *error)
+enum kd_status kd_job_store_request(const struct kd_job_store *store, const char *id, struct kd_buffer *out,
+                                    struct kd_error *error)
 {
     int folder = kd_job_folder_open(store->folder, id);
     bool good = folder >= 0 && kd_read_file(folder, "request.json", O_NOFOLLOW, KD_JOB_FILM_MAX, out);

@@ -1,6 +1,7 @@
-/* Jobs are kept on disk. DIRECTORY/ID/ holds request.json as it came, job.json, and what has become of the frames, 000000.png and so on, pictures or
- * not. Each file is written as a whole; a folder with a job.json of ours and without a request is what is left of a job that has been deleted. What
- * else is in the folder, and what cannot be read, is left alone; no link is followed. Any thread, but one a job.
+/* Jobs are kept on disk. DIRECTORY/ID/ holds request.json as it came, job.json, and what has become of the frames,
+ * 000000.png and so on, pictures or not. Each file is written as a whole; a folder with a job.json of ours and
+ * without a request is what is left of a job that has been deleted. What else is in the folder, and what cannot be
+ * read, is left alone; no link is followed. Any thread, but one a job.
  *
  * Errors name no path: clients see them. KD_EFULL and KD_ENOMEM (descriptors too) may be over in a while. */
 #ifndef KD_SERVER_JOB_STORE_H
@@ -19,36 +20,41 @@ struct kd_job_record {
     char id[KD_SECRET_ID], token[KD_SECRET_TOKEN];
     enum kd_job_state state;
     double created, ended; /* seconds since 1970; ended: 0 until then */
-    unsigned attempts;     /* times a server has gone on with it since its latest frame and ended otherwise than by being told to */
-    double exposure;       /* of all frames, as it was measured; NAN: it was not, or not yet */
-    unsigned traced;       /* lens maps, so far */
-    unsigned frames;       /* that the request asks for; 0 in records of versions that did not say */
+    unsigned attempts; /* times a server has gone on with it since its latest frame and ended otherwise than by being
+                          told to */
+    double exposure;   /* of all frames, as it was measured; NAN: it was not, or not yet */
+    unsigned traced;   /* lens maps, so far */
+    unsigned frames;   /* that the request asks for; 0 in records of versions that did not say */
     const struct kd_series *series; /* that they make */
-    char preset[32];       /* that its scenes are merged over; "": none */
-    char error[480];       /* of a failed job */
+    char preset[32];                /* that its scenes are merged over; "": none */
+    char error[480];                /* of a failed job */
 };
 
 struct kd_job_store;
 
-/* state: NULL for a new folder in TMPDIR that goes with the store; else a folder that nobody else uses, made if it is not there:
- * KD_EIO says what is wrong with it, with its path. */
+/* state: NULL for a new folder in TMPDIR that goes with the store; else a folder that nobody else uses, made if it
+ * is not there: KD_EIO says what is wrong with it, with its path. */
 enum kd_status kd_job_store_open(const char *state, struct kd_job_store **out, struct kd_error *error);
 void kd_job_store_close(struct kd_job_store *store); /* accepts NULL */
 /* Removes the folders in TMPDIR of servers that were killed. */
 void kd_job_store_tidy(void);
 
-/* Each job that the store holds, those without attempts first, then oldest first; what cannot be read is logged. The request is the callback's to keep or free. */
+/* Each job that the store holds, those without attempts first, then oldest first; what cannot be read is logged. The
+ * request is the callback's to keep or free. */
 enum kd_status kd_job_store_load(struct kd_job_store *store,
-                                 void (*found)(void *user, const struct kd_job_record *record, struct kd_buffer *request), void *user,
-                                 struct kd_error *error);
+                                 void (*found)(void *user, const struct kd_job_record *record,
+                                               struct kd_buffer *request),
+                                 void *user, struct kd_error *error);
 
-enum kd_status kd_job_store_create(struct kd_job_store *store, const struct kd_job_record *record, const void *request, size_t size,
-                                   struct kd_error *error);
+enum kd_status kd_job_store_create(struct kd_job_store *store, const struct kd_job_record *record, const void *request,
+                                   size_t size, struct kd_error *error);
 /* Reads its request. KD_EIO, KD_ENOMEM. */
-enum kd_status kd_job_store_request(const struct kd_job_store *store, const char *id, struct kd_buffer *out, struct kd_error *error);
-enum kd_status kd_job_store_update(struct kd_job_store *store, const struct kd_job_record *record, struct kd_error *error);
-/* Makes a job unknown after a restart; kd_job_store_remove then removes its files, at most so many, and says whether all are
- * gone. */
+enum kd_status kd_job_store_request(const struct kd_job_store *store, const char *id, struct kd_buffer *out,
+                                    struct kd_error *error);
+enum kd_status kd_job_store_update(struct kd_job_store *store, const struct kd_job_record *record,
+                                   struct kd_error *error);
+/* Makes a job unknown after a restart; kd_job_store_remove then removes its files, at most so many, and says whether
+ * all are gone. */
 void kd_job_store_forget(struct kd_job_store *store, const char *id);
 bool kd_job_store_remove(struct kd_job_store *store, const char *id, unsigned most);
 

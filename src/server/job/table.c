@@ -66,7 +66,8 @@ static enum MHD_Result answer(struct kd_request *request)
         return MHD_NO; /* nobody listens */
     kd_job_status(t->job, &status);
     if (t->task.status && status.deleted)
-        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND, .detail = "the job has been deleted" });
+        return kd_reply_problem(
+            request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND, .detail = "the job has been deleted" });
     if (t->task.status)
         return kd_reply_error(request, &t->task.error);
     if (t->format->file)
@@ -93,7 +94,10 @@ static enum MHD_Result write_table(struct kd_request *request, struct kd_job *jo
     return kd_task_submit(&t->task);
 }
 
-static const char *type_of(size_t i, const void *tables) { return ((const struct kd_table_format *)tables)[i].media_type; }
+static const char *type_of(size_t i, const void *tables)
+{
+    return ((const struct kd_table_format *)tables)[i].media_type;
+}
 
 /* What Accept would rather have, the first if it does not care; NULL: none. */
 static const struct kd_table_format *accepted(struct kd_request *request, const struct kd_series *series)
@@ -106,7 +110,10 @@ static const struct kd_table_format *accepted(struct kd_request *request, const 
 static const char *list_tables(const struct kd_series *series, bool types, char *out, size_t size)
 {
     for (size_t i = 0, n = 0; i < series->n_tables && n < size; i++)
-        n += (size_t)snprintf(out + n, size - n, "%s%s", !i ? "" : types ? ", " : " or ",
+        n += (size_t)snprintf(out + n, size - n, "%s%s",
+                              !i      ? ""
+                              : types ? ", "
+                                      : " or ",
                               types ? series->tables[i].media_type : series->tables[i].name);
     return out;
 }
@@ -117,10 +124,12 @@ static enum MHD_Result not_acceptable(struct kd_request *request, struct kd_job 
     kd_job_release(job);
     list_tables(series, true, offered, sizeof offered);
     snprintf(detail, sizeof detail, "%ss are offered as %s", series->noun, offered);
-    return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE, .offered = offered, .detail = detail });
+    return kd_reply_problem(
+        request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE, .offered = offered, .detail = detail });
 }
 
-enum MHD_Result kd_job_send_table(struct kd_request *request, struct kd_job *job, const struct kd_job_status *status, const char *format)
+enum MHD_Result kd_job_send_table(struct kd_request *request, struct kd_job *job, const struct kd_job_status *status,
+                                  const char *format)
 {
     const struct kd_series *series = status->series;
     const struct kd_table_format *table = format ? kd_series_table(series, format) : accepted(request, series);
@@ -128,13 +137,14 @@ enum MHD_Result kd_job_send_table(struct kd_request *request, struct kd_job *job
     if (!format && !table)
         return not_acceptable(request, job, series);
     if (!table) {
-        snprintf(detail, sizeof detail, "format is %s: the frames of this job are %s", list_tables(series, false, names, sizeof names),
-                 series->each);
+        snprintf(detail, sizeof detail, "format is %s: the frames of this job are %s",
+                 list_tables(series, false, names, sizeof names), series->each);
         return kd_job_bad(request, job, detail);
     }
     if (kd_target_value(&request->target, "frame")) {
         snprintf(detail, sizeof detail, "frame goes with pictures; a %s comes whole", series->noun);
         return kd_job_bad(request, job, detail);
     }
-    return status->state == KD_JOB_DONE ? write_table(request, job, status, table) : kd_job_not_ready(request, job, status);
+    return status->state == KD_JOB_DONE ? write_table(request, job, status, table)
+                                        : kd_job_not_ready(request, job, status);
 }

@@ -63,7 +63,8 @@ void kd_job_wake(struct kd_job *job, double now)
         }
 }
 
-/* Finished jobs that nobody reads and that have been kept long enough, off the list: their references are the caller's. Locked. */
+/* Finished jobs that nobody reads and that have been kept long enough, off the list: their references are the
+ * caller's. Locked. */
 static struct kd_job *take_old(struct kd_jobs *all)
 {
     double now = kd_clock_ms();
@@ -92,7 +93,8 @@ static void put_in_order(struct kd_jobs *all)
         return;
     enum kd_status status = kd_sweep_order_go_on(&job->order, job->spec.sweep, kd_clock_ms() + ORDER_MS);
     if (status) {
-        kd_log(KD_LOG_WARN, "no memory to put the frames of job %.4s... in order: they share fewer lens maps", job->record.id);
+        kd_log(KD_LOG_WARN, "no memory to put the frames of job %.4s... in order: they share fewer lens maps",
+               job->record.id);
         kd_sweep_order_finish(&job->order);
     }
     pthread_mutex_lock(&all->lock);

@@ -10,8 +10,8 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Cubes and films that may be under way at once: workers make much of each first, and what it holds meanwhile, of a cube some 400 bytes a scene, counts
- * as bytes that are kept for answers. */
+/* Cubes and films that may be under way at once: workers make much of each first, and what it holds meanwhile, of a
+ * cube some 400 bytes a scene, counts as bytes that are kept for answers. */
 enum { CUBES = 8, CUBES_OF_ONE = 3 };
 
 struct kd_job_whole {
@@ -59,8 +59,12 @@ static bool admit(struct kd_request *request, size_t held, enum MHD_Result *refu
     bool quota = own >= CUBES_OF_ONE;
     if (all < CUBES && !quota && !kd_bytes_take(request->server->replies, request->client, held, held, &quota))
         return true;
-    const struct kd_problem problem = { .type = quota ? KD_PROBLEM_QUOTA : KD_PROBLEM_QUEUE_FULL, .retry_after = 2,
-                                        .detail = quota ? "as many of your cubes and films are being fetched as one client may have" : "as many cubes and films are being fetched as may" };
+    const struct kd_problem problem = {
+        .type = quota ? KD_PROBLEM_QUOTA : KD_PROBLEM_QUEUE_FULL,
+        .retry_after = 2,
+        .detail = quota ? "as many of your cubes and films are being fetched as one client may have"
+                        : "as many cubes and films are being fetched as may"
+    };
     *refused = kd_reply_problem(request, &problem);
     return false;
 }
@@ -126,7 +130,7 @@ static ssize_t produce(void *cls, uint64_t position, char *to, size_t size)
 
 /* What is looked through before its first byte. */
 struct looked {
-    struct kd_task task; /* first */
+    struct kd_task task;        /* first */
     struct kd_job_whole *whole; /* NULL: the answer has it */
     const struct kd_gather_format *format;
 };
@@ -174,7 +178,8 @@ static enum MHD_Result answer(struct kd_request *request)
         return MHD_NO; /* nobody listens */
     kd_job_status(w->job, &status);
     if (l->task.status && status.deleted)
-        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND, .detail = "the job has been deleted" });
+        return kd_reply_problem(
+            request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND, .detail = "the job has been deleted" });
     if (l->task.status) {
         kd_log(KD_LOG_ERROR, "job %.4s...: %s", kd_job_id(w->job), l->task.error.message);
         return kd_reply_error(request, &l->task.error);
@@ -184,7 +189,8 @@ static enum MHD_Result answer(struct kd_request *request)
 }
 
 /* Takes *w over. */
-static enum MHD_Result look_through(struct kd_request *request, struct kd_job_whole *w, const struct kd_gather_format *format)
+static enum MHD_Result look_through(struct kd_request *request, struct kd_job_whole *w,
+                                    const struct kd_gather_format *format)
 {
     static const struct kd_task_kind kind = { "cubes", sizeof(struct looked), work, finish, .answer = answer };
     enum MHD_Result refused;
@@ -198,11 +204,17 @@ static enum MHD_Result look_through(struct kd_request *request, struct kd_job_wh
     return kd_task_submit(&l->task);
 }
 
-enum MHD_Result kd_job_send_whole(struct kd_request *request, struct kd_job *job, const struct kd_job_status *status, const struct kd_gather_format *format, unsigned rate)
+enum MHD_Result kd_job_send_whole(struct kd_request *request, struct kd_job *job, const struct kd_job_status *status,
+                                  const struct kd_gather_format *format, unsigned rate)
 {
     struct kd_error error = { 0 };
     enum MHD_Result refused;
-    struct kd_gather_source source = { .sweep = status->sweep, .frame = status->series->frame, .n = status->frames, .rate = rate, .size = size_of, .read = read_frame };
+    struct kd_gather_source source = { .sweep = status->sweep,
+                                       .frame = status->series->frame,
+                                       .n = status->frames,
+                                       .rate = rate,
+                                       .size = size_of,
+                                       .read = read_frame };
     const size_t held = format->holds && !request->head ? format->holds(&source) : 0;
     if (held && !admit(request, held, &refused)) {
         kd_job_release(job);
@@ -214,8 +226,9 @@ enum MHD_Result kd_job_send_whole(struct kd_request *request, struct kd_job *job
             kd_bytes_give(request->server->replies, request->client, held);
         kd_reply_file(request, KD_ATTACHMENT, "kerrd-%s.%s", kd_job_id(job), format->name);
         kd_job_release(job);
-        return request->head ? kd_reply_send(request, MHD_HTTP_OK, kd_reply_empty(format->media_type))
-                             : kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
+        return request->head
+                   ? kd_reply_send(request, MHD_HTTP_OK, kd_reply_empty(format->media_type))
+                   : kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
     }
     source.user = w;
     *w = (struct kd_job_whole) { .job = job, .server = request->server, .fd = -1, .source = source };

@@ -6,11 +6,16 @@
 void kd_openapi_access_schemes(struct kd_json *json)
 {
     kd_schema_text(json, "securitySchemes",
-        "{\"token\":{\"type\":\"http\",\"scheme\":\"bearer\",\"description\":\"the token that came with the session, playground, job or asset\"},"
-        "\"tokenQuery\":{\"type\":\"apiKey\",\"in\":\"query\",\"name\":\"token\",\"description\":\"the same, where Authorization holds an access token\"},"
-        "\"access\":{\"type\":\"http\",\"scheme\":\"bearer\",\"description\":\"an access token of the server's token file, where it has one\"},"
-        "\"accessHeader\":{\"type\":\"apiKey\",\"in\":\"header\",\"name\":\"" KD_ACCESS_HEADER "\",\"description\":\"the same, where Authorization holds another token\"},"
-        "\"accessCookie\":{\"type\":\"apiKey\",\"in\":\"cookie\",\"name\":\"" KD_ACCESS_COOKIE "\",\"description\":\"the same, of a browser that opened the page with ?access=TOKEN\"}}");
+                   "{\"token\":{\"type\":\"http\",\"scheme\":\"bearer\",\"description\":\"the token that came with the "
+                   "session, playground, job or asset\"},"
+                   "\"tokenQuery\":{\"type\":\"apiKey\",\"in\":\"query\",\"name\":\"token\",\"description\":\"the "
+                   "same, where Authorization holds an access token\"},"
+                   "\"access\":{\"type\":\"http\",\"scheme\":\"bearer\",\"description\":\"an access token of the "
+                   "server's token file, where it has one\"},"
+                   "\"accessHeader\":{\"type\":\"apiKey\",\"in\":\"header\",\"name\":\"" KD_ACCESS_HEADER
+                   "\",\"description\":\"the same, where Authorization holds another token\"},"
+                   "\"accessCookie\":{\"type\":\"apiKey\",\"in\":\"cookie\",\"name\":\"" KD_ACCESS_COOKIE
+                   "\",\"description\":\"the same, of a browser that opened the page with ?access=TOKEN\"}}");
 }
 
 /* Ways to say who asks, with the role that it takes: OpenAPI has names of roles in the place of scopes. */
@@ -23,12 +28,16 @@ void kd_openapi_access_default(struct kd_json *json, bool closed)
 
 bool kd_openapi_is_owners(const struct kd_route *route, unsigned method)
 {
-    return method == KD_PATCH || method == KD_DELETE || route->takes == KD_TAKES_STRIKE || route->takes == KD_TAKES_PATH || route->takes == KD_TAKES_STEP;
+    return method == KD_PATCH || method == KD_DELETE || route->takes == KD_TAKES_STRIKE ||
+           route->takes == KD_TAKES_PATH || route->takes == KD_TAKES_STEP;
 }
 
 void kd_openapi_access_operation(struct kd_json *json, const struct kd_route *route, unsigned method, bool closed)
 {
-#define BOTH "{\"token\":[],\"accessHeader\":[\"render\"]},{\"token\":[],\"accessCookie\":[\"render\"]},{\"tokenQuery\":[],\"access\":[\"render\"]},{\"tokenQuery\":[],\"accessHeader\":[\"render\"]},{\"tokenQuery\":[],\"accessCookie\":[\"render\"]}]"
+#define BOTH \
+    "{\"token\":[],\"accessHeader\":[\"render\"]},{\"token\":[],\"accessCookie\":[\"render\"]},{\"tokenQuery\":[]," \
+    "\"access\":[\"render\"]},{\"tokenQuery\":[],\"accessHeader\":[\"render\"]},{\"tokenQuery\":[],\"accessCookie\":[" \
+    "\"render\"]}]"
     if (kd_openapi_is_owners(route, method))
         kd_schema_text(json, "security", closed ? "[" BOTH : "[{\"token\":[]},{\"tokenQuery\":[]}," BOTH);
     else if (route->open)

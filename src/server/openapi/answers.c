@@ -5,9 +5,17 @@
 
 #include <string.h>
 
-static const struct { const char *path; unsigned methods; const char *schema; } answers[] = {
-    { "/healthz", KD_GET, "{\"type\":\"object\",\"additionalProperties\":false,\"required\":[\"status\"],\"properties\":{\"status\":{\"const\":\"alive\"}}}" },
-    { "/readyz", KD_GET, "{\"type\":\"object\",\"additionalProperties\":false,\"required\":[\"status\"],\"properties\":{\"status\":{\"const\":\"ready\"}}}" },
+static const struct {
+    const char *path;
+    unsigned methods;
+    const char *schema;
+} answers[] = {
+    { "/healthz", KD_GET,
+      "{\"type\":\"object\",\"additionalProperties\":false,\"required\":[\"status\"],\"properties\":{\"status\":{"
+      "\"const\":\"alive\"}}}" },
+    { "/readyz", KD_GET,
+      "{\"type\":\"object\",\"additionalProperties\":false,\"required\":[\"status\"],\"properties\":{\"status\":{"
+      "\"const\":\"ready\"}}}" },
     { "/v1/device", KD_GET, KD_SCHEMA_REF("Device") },
     { "/v1/accuracy", KD_GET, KD_SCHEMA_REF("AccuracyTable") },
     { "/v1/presets", KD_GET, KD_SCHEMA_REF("Presets") },

@@ -17,17 +17,32 @@ static const char *type(size_t i)
 void kd_openapi_asset_schema(struct kd_json *json)
 {
     static const struct kd_openapi_member asset[] = {
-        { "sha256", HASH }, { "token", "{\"type\":\"string\",\"description\":\"deletes it\"}", true }, { "type", NULL, false, type },
-        { "width", KD_SCHEMA_COUNT, true }, { "height", KD_SCHEMA_COUNT, true }, { "bit_depth", KD_SCHEMA_COUNT, true }, { "channels", KD_SCHEMA_COUNT, true },
-        { "bytes", KD_SCHEMA_COUNT }, { "created", "{\"type\":\"number\",\"description\":\"seconds since 1970\"}" },
-        { "nodes", "{\"type\":\"array\",\"items\":" KD_SCHEMA_COUNT ",\"minItems\":3,\"maxItems\":3,\"description\":\"in r, theta and phi\"}", true },
+        { "sha256", HASH },
+        { "token", "{\"type\":\"string\",\"description\":\"deletes it\"}", true },
+        { "type", NULL, false, type },
+        { "width", KD_SCHEMA_COUNT, true },
+        { "height", KD_SCHEMA_COUNT, true },
+        { "bit_depth", KD_SCHEMA_COUNT, true },
+        { "channels", KD_SCHEMA_COUNT, true },
+        { "bytes", KD_SCHEMA_COUNT },
+        { "created", "{\"type\":\"number\",\"description\":\"seconds since 1970\"}" },
+        { "nodes",
+          "{\"type\":\"array\",\"items\":" KD_SCHEMA_COUNT
+          ",\"minItems\":3,\"maxItems\":3,\"description\":\"in r, theta and phi\"}",
+          true },
         { "spin", "{\"type\":\"number\",\"description\":\"of the hole that it is made for\"}", true },
     };
     static const struct kd_openapi_member limits[] = {
-        { "assets", KD_SCHEMA_COUNT }, { "bytes", KD_SCHEMA_COUNT }, { "asset_bytes", KD_SCHEMA_COUNT }, { "asset_pixels", KD_SCHEMA_COUNT },
+        { "assets", KD_SCHEMA_COUNT },
+        { "bytes", KD_SCHEMA_COUNT },
+        { "asset_bytes", KD_SCHEMA_COUNT },
+        { "asset_pixels", KD_SCHEMA_COUNT },
     };
     static const struct kd_openapi_member assets[] = {
-        { "assets", KD_SCHEMA_COUNT }, { "bytes", KD_SCHEMA_COUNT }, { "limits", KD_SCHEMA_REF("AssetLimits") }, { "types", KD_SCHEMA_LIST(KD_SCHEMA_TEXT) },
+        { "assets", KD_SCHEMA_COUNT },
+        { "bytes", KD_SCHEMA_COUNT },
+        { "limits", KD_SCHEMA_REF("AssetLimits") },
+        { "types", KD_SCHEMA_LIST(KD_SCHEMA_TEXT) },
     };
     KD_OPENAPI_STRICT(json, "Asset", asset);
     KD_OPENAPI_STRICT(json, "AssetLimits", limits);

@@ -1,4 +1,5 @@
-/* Fields of a scene by their dotted paths, as openapi.json has them: parameters of a query, and names of a sweep's axes. */
+/* Fields of a scene by their dotted paths, as openapi.json has them: parameters of a query, and names of a sweep's
+ * axes. */
 #ifndef KD_SERVER_OPENAPI_FIELDS_H
 #define KD_SERVER_OPENAPI_FIELDS_H
 

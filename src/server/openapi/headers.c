@@ -11,16 +11,22 @@
 #define TEXT KD_SCHEMA_TEXT
 
 /* required: every answer has it where it is named. */
-static const struct { const char *name, *schema, *help; bool required; } headers[] = {
-    { "Location", "{\"type\":\"string\",\"format\":\"uri-reference\"}", "where it is, relative to the address that was asked", true },
+static const struct {
+    const char *name, *schema, *help;
+    bool required;
+} headers[] = {
+    { "Location", "{\"type\":\"string\",\"format\":\"uri-reference\"}",
+      "where it is, relative to the address that was asked", true },
     { "ETag", TEXT, "for If-None-Match", true },
     { "Content-Disposition", TEXT, "the name of a file", false },
     { "Server-Timing", TEXT, "ms in the queue, of each pass, of encoding", false },
     { "Preference-Applied", TEXT, "return=minimal, where Prefer asked for it", false },
     { "Set-Cookie", TEXT, "the cookie of an access token, where the address had one", false },
-    { "Kerrd-Scene-Hash", "{\"type\":\"string\",\"pattern\":\"^[0-9a-f]{64}$\"}", "SHA-256 of the canonical scene", true },
+    { "Kerrd-Scene-Hash", "{\"type\":\"string\",\"pattern\":\"^[0-9a-f]{64}$\"}", "SHA-256 of the canonical scene",
+      true },
     { "Kerrd-Accuracy", TEXT, "what traced it, and its measured error", false },
-    { "Kerrd-Approximations", TEXT, "sentences in quotes, percent-encoded: what is modelled rather than computed", false },
+    { "Kerrd-Approximations", TEXT, "sentences in quotes, percent-encoded: what is modelled rather than computed",
+      false },
     { "Kerrd-Clock", TEXT, "an observer's own time, of one that falls", false },
     { "Kerrd-Flux", TEXT, "of a picture at a radio frequency", false },
     { "Kerrd-Frame", COUNT, "the number of the frame", false },
@@ -39,18 +45,31 @@ static const struct { const char *name, *schema, *help; bool required; } headers
     { "Retry-After", COUNT, "seconds, after which another try may go better", false },
     { "WWW-Authenticate", "{\"const\":\"Bearer\"}", "how to say who asks", true },
     { "Allow", TEXT, "the methods that would do", true },
-    { KD_REQUEST_ID_HEADER, TEXT, "by which the log knows the request: what it said as " KD_REQUEST_ID_HEADER ", if that is 1 to 64 letters, digits and -._+/=, else a new one", false },
-    { "Access-Control-Allow-Origin", TEXT, "the Origin of a request, where kerrd serve --cors-origin names it; a preflight (OPTIONS) of such a one is answered 204 on each path", false },
-    { "Access-Control-Expose-Headers", TEXT, "beside it: the headers of answers that scripts of that origin may read", false },
+    { KD_REQUEST_ID_HEADER, TEXT,
+      "by which the log knows the request: what it said as " KD_REQUEST_ID_HEADER
+      ", if that is 1 to 64 letters, digits and -._+/=, else a new one",
+      false },
+    { "Access-Control-Allow-Origin", TEXT,
+      "the Origin of a request, where kerrd serve --cors-origin names it; a preflight (OPTIONS) of such a one is "
+      "answered 204 on each path",
+      false },
+    { "Access-Control-Expose-Headers", TEXT, "beside it: the headers of answers that scripts of that origin may read",
+      false },
 };
 
 #define EVERY KD_REQUEST_ID_HEADER " Access-Control-Allow-Origin Access-Control-Expose-Headers"
-#define FRAME "Kerrd-Frame Kerrd-Revision Kerrd-Time Kerrd-Azimuth Kerrd-Accuracy Kerrd-Clock Kerrd-Flux Kerrd-Sentences Kerrd-Approximations Kerrd-Quality Server-Timing Kerrd-Waited Kerrd-Patched"
+#define FRAME \
+    "Kerrd-Frame Kerrd-Revision Kerrd-Time Kerrd-Azimuth Kerrd-Accuracy Kerrd-Clock Kerrd-Flux Kerrd-Sentences " \
+    "Kerrd-Approximations Kerrd-Quality Server-Timing Kerrd-Waited Kerrd-Patched"
 #define SAME "Kerrd-Scene-Hash Kerrd-Approximations Kerrd-Clock"
 #define PICTURE SAME " Content-Disposition"
 
 /* Names with blanks between them; methods 0: any. */
-static const struct { const char *path; unsigned methods, status; const char *names; } told[] = {
+static const struct {
+    const char *path;
+    unsigned methods, status;
+    const char *names;
+} told[] = {
     { "/", 0, 303, "Location Set-Cookie" },
     { "/v1/render", 0, 200, PICTURE " Kerrd-Accuracy Kerrd-Flux Server-Timing" },
     { "/v1/render", 0, 304, SAME },
@@ -68,10 +87,14 @@ static const struct { const char *path; unsigned methods, status; const char *na
     { "/v1/sessions/{id}", KD_GET, 200, "Server-Timing" },
     { "/v1/sessions/{id}/ringdown", 0, 200, "Server-Timing" },
     { "/v1/sessions/{id}/path", KD_POST, 200, "Server-Timing" },
-    { "/v1/sessions/{id}/frame.png", 0, 200, FRAME }, { "/v1/sessions/{id}/frame.png", 0, 204, "Kerrd-Waited" },
-    { "/v1/sessions/{id}/frame", 0, 200, FRAME }, { "/v1/sessions/{id}/frame", 0, 204, "Kerrd-Waited Kerrd-Patched" },
-    { "/v1/sessions/{id}/particles", 0, 200, "Kerrd-Fields Kerrd-Count Kerrd-Particles Kerrd-Time Server-Timing Content-Disposition" },
-    { "/v1/playground/{id}/frame.png", 0, 200, FRAME }, { "/v1/playground/{id}/frame.png", 0, 204, "Kerrd-Waited" },
+    { "/v1/sessions/{id}/frame.png", 0, 200, FRAME },
+    { "/v1/sessions/{id}/frame.png", 0, 204, "Kerrd-Waited" },
+    { "/v1/sessions/{id}/frame", 0, 200, FRAME },
+    { "/v1/sessions/{id}/frame", 0, 204, "Kerrd-Waited Kerrd-Patched" },
+    { "/v1/sessions/{id}/particles", 0, 200,
+      "Kerrd-Fields Kerrd-Count Kerrd-Particles Kerrd-Time Server-Timing Content-Disposition" },
+    { "/v1/playground/{id}/frame.png", 0, 200, FRAME },
+    { "/v1/playground/{id}/frame.png", 0, 204, "Kerrd-Waited" },
     { "/v1/playground/{id}/bodies", 0, 200, "Kerrd-Generation Kerrd-Time" },
     { "/v1/playground/{id}/debris", 0, 200, "Kerrd-Generation Kerrd-Time" },
     { "/v1/playground/{id}/snapshot", 0, 200, "Content-Disposition" },
@@ -83,9 +106,18 @@ static const struct { const char *path; unsigned methods, status; const char *na
     { "/v1/jobs/{id}/result", 0, 200, "Content-Disposition" },
 };
 
-static bool is_kept(const struct kd_route *route, unsigned method) { return method != KD_DELETE && (route->status[0] == 304 || route->status[1] == 304); }
-static bool tells_events(const struct kd_route *route, unsigned method) { return (void)method, route->answer && !strcmp(route->answer, "text/event-stream"); }
-static bool may_say_little(const struct kd_route *route, unsigned method) { return method == KD_PATCH && !strcmp(route->path, "/v1/sessions/{id}"); }
+static bool is_kept(const struct kd_route *route, unsigned method)
+{
+    return method != KD_DELETE && (route->status[0] == 304 || route->status[1] == 304);
+}
+static bool tells_events(const struct kd_route *route, unsigned method)
+{
+    return (void)method, route->answer && !strcmp(route->answer, "text/event-stream");
+}
+static bool may_say_little(const struct kd_route *route, unsigned method)
+{
+    return method == KD_PATCH && !strcmp(route->path, "/v1/sessions/{id}");
+}
 
 /* Headers of requests that say more than what HTTP itself says of them. */
 static const struct {
@@ -93,7 +125,9 @@ static const struct {
     bool (*of)(const struct kd_route *route, unsigned method);
 } asked[] = {
     { "If-None-Match", "ETag of what the client has: where it is the same the answer is 304", is_kept },
-    { "Last-Event-ID", "id of the last event that the client has, behind which the stream goes on; what is no number counts as none", tells_events },
+    { "Last-Event-ID",
+      "id of the last event that the client has, behind which the stream goes on; what is no number counts as none",
+      tells_events },
     { "Prefer", "return=minimal (RFC 7240): the answer is the revision alone", may_say_little },
 };
 
@@ -136,7 +170,8 @@ static void refer_all(struct kd_json *json, const char *names)
 static const char *names_of(const struct kd_route *route, unsigned method, unsigned status)
 {
     for (size_t i = 0; i < sizeof told / sizeof *told; i++)
-        if (told[i].status == status && (!told[i].methods || told[i].methods & method) && !strcmp(told[i].path, route->path))
+        if (told[i].status == status && (!told[i].methods || told[i].methods & method) &&
+            !strcmp(told[i].path, route->path))
             return told[i].names;
     return NULL;
 }
@@ -144,7 +179,8 @@ static const char *names_of(const struct kd_route *route, unsigned method, unsig
 void kd_openapi_headers(struct kd_json *json, const struct kd_route *route, unsigned method, unsigned status)
 {
     const char *names = names_of(route, method, status);
-    const bool made = status == 201 || status == 202, kept = status == 304 || (status == 200 && route->status[1] == 304);
+    const bool made = status == 201 || status == 202,
+               kept = status == 304 || (status == 200 && route->status[1] == 304);
     kd_json_object(json, "headers");
     refer_all(json, EVERY);
     if (made)
@@ -158,7 +194,10 @@ void kd_openapi_headers(struct kd_json *json, const struct kd_route *route, unsi
 
 void kd_openapi_problem_headers(struct kd_json *json, unsigned status)
 {
-    const char *names = status == 401 ? "WWW-Authenticate" : status == 405 ? "Allow" : status == 409 || status == 429 || status == 503 || status == 507 ? "Retry-After" : NULL;
+    const char *names = status == 401                                                      ? "WWW-Authenticate"
+                        : status == 405                                                    ? "Allow"
+                        : status == 409 || status == 429 || status == 503 || status == 507 ? "Retry-After"
+                                                                                           : NULL;
     kd_json_object(json, "headers");
     refer_all(json, EVERY);
     if (names)

@@ -1,4 +1,5 @@
-/* This says in openapi.json which headers answers have, but for those that HTTP, caches and browsers have of any answer. */
+/* This says in openapi.json which headers answers have, but for those that HTTP, caches and browsers have of any
+ * answer. */
 #ifndef KD_SERVER_OPENAPI_HEADERS_H
 #define KD_SERVER_OPENAPI_HEADERS_H
 
@@ -12,7 +13,8 @@ void kd_openapi_problem_headers(struct kd_json *json, unsigned status);
 /* The member "headers" of the components, which both refer to. */
 void kd_openapi_header_components(struct kd_json *json);
 
-/* Parameters of the operation that stand in the header of a request: into its list of parameters, which is there if there are any. */
+/* Parameters of the operation that stand in the header of a request: into its list of parameters, which is there if
+ * there are any. */
 bool kd_openapi_is_asked_by_header(const struct kd_route *route, unsigned method);
 void kd_openapi_asked_headers(struct kd_json *json, const struct kd_route *route, unsigned method);
 

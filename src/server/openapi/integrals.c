@@ -6,18 +6,21 @@
 #include <stdio.h>
 
 /* By integral; the spectrum of a disk and that of a volume are one request. */
-static const char *const requests[KD_INTEGRALS] = { "LineRequest", "TransferFunctionRequest", "SpectrumRequest", NULL, "VisibilityRequest" };
+static const char *const requests[KD_INTEGRALS] = { "LineRequest", "TransferFunctionRequest", "SpectrumRequest", NULL,
+                                                    "VisibilityRequest" };
 
 void kd_openapi_integral_body(struct kd_json *json, const char *path)
 {
     char schema[80];
-    int n = snprintf(schema, sizeof schema, "{\"$ref\":\"#/components/schemas/%s\"}", requests[kd_integral_of_route(path)]);
+    int n =
+        snprintf(schema, sizeof schema, "{\"$ref\":\"#/components/schemas/%s\"}", requests[kd_integral_of_route(path)]);
     kd_openapi_body(json, schema, (size_t)n, NULL);
 }
 
 void kd_openapi_integral_schemas(struct kd_json *json)
 {
-    static const char *const names[KD_INTEGRALS] = { "LineProfile", "TransferFunction", "DiskSpectrum", "VolumeSpectrum", "Visibilities" };
+    static const char *const names[KD_INTEGRALS] = { "LineProfile", "TransferFunction", "DiskSpectrum",
+                                                     "VolumeSpectrum", "Visibilities" };
     for (int i = 0; i < KD_INTEGRALS; i++) {
         if (requests[i])
             kd_integral_request_schema(json, requests[i], (enum kd_integral)i);

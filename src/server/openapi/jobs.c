@@ -17,39 +17,66 @@
 /* What a job makes of its frames: a list of names. */
 #define OUTPUT "\"output\":{\"enum\":[%s]}"
 /* What is of pictures does not go with an output of numbers: a list of names. */
-#define PICTURES_ALONE "\"not\":{\"anyOf\":[{\"required\":[\"exposure\"]},{\"required\":[\"motion_blur\"]}],\"required\":[\"output\"],\"properties\":{\"output\":{\"enum\":[%s]}}},"
+#define PICTURES_ALONE \
+    "\"not\":{\"anyOf\":[{\"required\":[\"exposure\"]},{\"required\":[\"motion_blur\"]}],\"required\":[\"output\"]," \
+    "\"properties\":{\"output\":{\"enum\":[%s]}}},"
 /* What leads from keyframe to keyframe takes some. */
-#define TAKES_KEYFRAMES "\"if\":{\"not\":{\"required\":[\"keyframes\"]}},\"then\":{\"not\":{\"anyOf\":[{\"required\":[\"frames\"]},{\"required\":[\"interpolation\"]}," \
-    "{\"required\":[\"distances\"]},{\"required\":[\"angles\"]},{\"required\":[\"ease\"]},{\"required\":[\"look_at\"]},{\"required\":[\"motion_blur\"]}]}},"
+#define TAKES_KEYFRAMES \
+    "\"if\":{\"not\":{\"required\":[\"keyframes\"]}},\"then\":{\"not\":{\"anyOf\":[{\"required\":[\"frames\"]},{" \
+    "\"required\":[\"interpolation\"]}," \
+    "{\"required\":[\"distances\"]},{\"required\":[\"angles\"]},{\"required\":[\"ease\"]},{\"required\":[\"look_at\"]" \
+    "},{\"required\":[\"motion_blur\"]}]}},"
 
 /* Whether pictures whose exposure is "auto" have the same one. */
 #define EXPOSURE(words) "\"exposure\":{\"enum\":[" words "]}"
 #define ANY_EXPOSURE EXPOSURE("\"one\",\"each\"")
 
 /* Fields with their values; a field has its own schema in Scene. */
-static const char axes[] = "{\"type\":\"object\",\"minProperties\":1,\"maxProperties\":8,\"propertyNames\":{\"allOf\":[" KD_SCHEMA_REF("FieldPath") "],\"not\":{\"const\":\"version\"}},\"additionalProperties\":{\"anyOf\":[{\"type\":\"array\",\"minItems\":1," \
-    "\"maxItems\":100000,\"items\":{\"anyOf\":[{\"type\":\"number\"},{\"type\":\"string\"},{\"type\":\"boolean\"},{\"type\":\"array\",\"items\":{\"type\":\"string\"}}]}},{\"type\":\"string\",\"pattern\":\"^" KD_OPENAPI_DECIMAL ":" KD_OPENAPI_DECIMAL "(:" KD_OPENAPI_DECIMAL "|/([1-9][0-9]{0,5}))$\",\"description\":\"START:STOP:STEP or START:STOP/HOW MANY\"}]}}";
+static const char axes[] =
+    "{\"type\":\"object\",\"minProperties\":1,\"maxProperties\":8,\"propertyNames\":{\"allOf\":[" KD_SCHEMA_REF(
+        "FieldPath") "],\"not\":{\"const\":\"version\"}},\"additionalProperties\":{\"anyOf\":[{\"type\":\"array\","
+                     "\"minItems\":1,"
+                     "\"maxItems\":100000,\"items\":{\"anyOf\":[{\"type\":\"number\"},{\"type\":\"string\"},{\"type\":"
+                     "\"boolean\"},{\"type\":\"array\",\"items\":{\"type\":\"string\"}}]}},{\"type\":\"string\","
+                     "\"pattern\":\"^" KD_OPENAPI_DECIMAL ":" KD_OPENAPI_DECIMAL "(:" KD_OPENAPI_DECIMAL
+                     "|/([1-9][0-9]{0,5}))$\",\"description\":\"START:STOP:STEP or START:STOP/HOW MANY\"}]}}";
 
-/* Ways to ask for a job: each is a format that takes the outputs of numbers and those that there are. A scene with axes. */
-static const char sweep[] = OBJECT PICTURES_ALONE "\"required\":[\"axes\"],\"properties\":{\"scene\":" KD_OPENAPI_SCENE ",\"axes\":" KD_SCHEMA_REF("SweepAxes") "," EXPOSURE("\"each\"") "," OUTPUT "}}";
+/* Ways to ask for a job: each is a format that takes the outputs of numbers and those that there are. A scene with
+ * axes. */
+static const char sweep[] =
+    OBJECT PICTURES_ALONE "\"required\":[\"axes\"],\"properties\":{\"scene\":" KD_OPENAPI_SCENE
+                          ",\"axes\":" KD_SCHEMA_REF("SweepAxes") "," EXPOSURE("\"each\"") "," OUTPUT "}}";
 
 /* A film of a playground. */
-static const char film[] = OBJECT PICTURES_ALONE "\"required\":[\"playground\",\"every\"],\"anyOf\":[{\"required\":[\"frames\"]},{\"required\":[\"keyframes\"]}],\"properties\":{\"playground\":{\"allOf\":[" \
-    KD_SCHEMA_REF("Playground") ",{\"not\":{\"anyOf\":[{\"required\":[\"rate\"]},{\"required\":[\"paused\"]},{\"required\":[\"scene\"]}]}}],\"description\":\"a document of a playground, or a " \
-    "snapshot, as POST /v1/playground takes them, without rate, paused and scene\"},\"every\":{\"type\":\"number\",\"exclusiveMinimum\":0,\"maximum\":1e12," \
-    "\"description\":\"M from a frame to the next\"},\"scene\":" KD_OPENAPI_SCENE ","
-    KD_OPENAPI_TIMELINE("frame", FRAME) ",\"frames\":{\"type\":\"integer\",\"minimum\":1,\"maximum\":10000}," EXPOSURE("\"each\"") "," OUTPUT "}}";
+static const char film[] = OBJECT PICTURES_ALONE
+    "\"required\":[\"playground\",\"every\"],\"anyOf\":[{\"required\":[\"frames\"]},{\"required\":[\"keyframes\"]}],"
+    "\"properties\":{\"playground\":{\"allOf\":[" KD_SCHEMA_REF(
+        "Playground") ",{\"not\":{\"anyOf\":[{\"required\":[\"rate\"]},{\"required\":[\"paused\"]},{\"required\":["
+                      "\"scene\"]}]}}],\"description\":\"a document of a playground, or a "
+                      "snapshot, as POST /v1/playground takes them, without rate, paused and "
+                      "scene\"},\"every\":{\"type\":\"number\",\"exclusiveMinimum\":0,\"maximum\":1e12,"
+                      "\"description\":\"M from a frame to the next\"},\"scene\":" KD_OPENAPI_SCENE
+                      "," KD_OPENAPI_TIMELINE("frame", FRAME) ",\"frames\":{\"type\":\"integer\",\"minimum\":1,"
+                                                              "\"maximum\":10000}," EXPOSURE("\"each\"") "," OUTPUT
+                                                                                                         "}}";
 
-#define BLUR "\"motion_blur\":" OBJECT "\"required\":[\"samples\"],\"properties\":{\"samples\":{\"type\":\"integer\",\"minimum\":1,\"maximum\":64},\"shutter\":" \
-    "{\"type\":\"number\",\"exclusiveMinimum\":0,\"maximum\":1,\"default\":0.5,\"description\":\"the part of a frame's time in which the shutter is open\"}}}"
+#define BLUR \
+    "\"motion_blur\":" OBJECT "\"required\":[\"samples\"],\"properties\":{\"samples\":{\"type\":\"integer\"," \
+    "\"minimum\":1,\"maximum\":64},\"shutter\":" \
+    "{\"type\":\"number\",\"exclusiveMinimum\":0,\"maximum\":1,\"default\":0.5,\"description\":\"the part of a " \
+    "frame's time in which the shutter is open\"}}}"
 
-static const char sequence[] = OBJECT PICTURES_ALONE TAKES_KEYFRAMES "\"required\":[\"scene\"],\"properties\":{\"scene\":" KD_OPENAPI_SCENE ","
-    KD_OPENAPI_TIMELINE("frame", FRAME) ",\"frames\":{\"type\":\"integer\",\"minimum\":1,\"maximum\":10000}," BLUR "," ANY_EXPOSURE "," OUTPUT "}}";
+static const char sequence[] = OBJECT PICTURES_ALONE TAKES_KEYFRAMES
+    "\"required\":[\"scene\"],\"properties\":{\"scene\":" KD_OPENAPI_SCENE
+    "," KD_OPENAPI_TIMELINE("frame", FRAME) ",\"frames\":{\"type\":\"integer\",\"minimum\":1,\"maximum\":10000}," BLUR
+                                            "," ANY_EXPOSURE "," OUTPUT "}}";
 
-static const char list[] = OBJECT PICTURES_ALONE "\"required\":[\"scenes\"],\"properties\":{\"scenes\":{\"type\":\"array\",\"minItems\":1,\"maxItems\":10000,\"items\":" KD_OPENAPI_SCENE "},"
-    ANY_EXPOSURE "," OUTPUT "}}";
+static const char list[] =
+    OBJECT PICTURES_ALONE "\"required\":[\"scenes\"],\"properties\":{\"scenes\":{\"type\":\"array\",\"minItems\":1,"
+                          "\"maxItems\":10000,\"items\":" KD_OPENAPI_SCENE "}," ANY_EXPOSURE "," OUTPUT "}}";
 
-_Static_assert(KD_JOB_FRAMES_MAX == 10000 && KD_SWEEP_AXES == 8 && KD_SWEEP_MOST == 100000 && KD_BLUR_SAMPLES == 64, "openapi.json says so");
+_Static_assert(KD_JOB_FRAMES_MAX == 10000 && KD_SWEEP_AXES == 8 && KD_SWEEP_MOST == 100000 && KD_BLUR_SAMPLES == 64,
+               "openapi.json says so");
 
 typedef bool is_series(const struct kd_series *one);
 static bool any(const struct kd_series *one) { return (void)one, true; }
@@ -114,11 +141,23 @@ static const char *series(size_t i) { return i < kd_n_series ? kd_series_all[i]-
 void kd_openapi_job_schema(struct kd_json *json)
 {
     static const struct kd_openapi_member job[] = {
-        { "id", KD_SCHEMA_TEXT, false }, { "token", KD_SCHEMA_TEXT, true },
-        { "state", NULL, false, kd_job_state_word }, { "output", NULL, false, series }, { "place", COUNT, false },
-        { "frames", COUNT, false }, { "finished", COUNT, false }, { "fraction", KD_SCHEMA_NUMBER, false }, { "remaining_s", KD_SCHEMA_NUMBER_OR_NULL, false },
-        { "bytes", COUNT, false }, { "lens_maps_traced", COUNT, false }, { "exposure", KD_SCHEMA_NUMBER, true }, { "axes", "{\"type\":\"object\",\"additionalProperties\":" COUNT "}", true },
-        { "created", KD_SCHEMA_NUMBER, false }, { "ended", KD_SCHEMA_NUMBER_OR_NULL, false }, { "delayed", KD_SCHEMA_TEXT, true }, { "error", KD_SCHEMA_TEXT, true },
+        { "id", KD_SCHEMA_TEXT, false },
+        { "token", KD_SCHEMA_TEXT, true },
+        { "state", NULL, false, kd_job_state_word },
+        { "output", NULL, false, series },
+        { "place", COUNT, false },
+        { "frames", COUNT, false },
+        { "finished", COUNT, false },
+        { "fraction", KD_SCHEMA_NUMBER, false },
+        { "remaining_s", KD_SCHEMA_NUMBER_OR_NULL, false },
+        { "bytes", COUNT, false },
+        { "lens_maps_traced", COUNT, false },
+        { "exposure", KD_SCHEMA_NUMBER, true },
+        { "axes", "{\"type\":\"object\",\"additionalProperties\":" COUNT "}", true },
+        { "created", KD_SCHEMA_NUMBER, false },
+        { "ended", KD_SCHEMA_NUMBER_OR_NULL, false },
+        { "delayed", KD_SCHEMA_TEXT, true },
+        { "error", KD_SCHEMA_TEXT, true },
     };
     kd_schema_text(json, "SweepAxes", axes);
     KD_OPENAPI_TOLD(json, "Job", "created and ended are seconds since 1970", job);

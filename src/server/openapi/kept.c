@@ -42,7 +42,10 @@ static enum kd_status presets_json(struct kd_buffer *out)
     return kd_json_finish_line(&json);
 }
 
-static const struct { const char *path, *type; enum kd_status (*make)(struct kd_buffer *out); } makers[] = {
+static const struct {
+    const char *path, *type;
+    enum kd_status (*make)(struct kd_buffer *out);
+} makers[] = {
     { "/openapi.json", "application/json", NULL /* kd_openapi_json, which takes more */ },
     { "/v1/schema", "application/schema+json", kd_scene_schema },
     { "/v1/presets", "application/json", presets_json },
@@ -75,7 +78,8 @@ static enum kd_status make(struct document *d, size_t i, const char *base_path, 
     struct kd_error error;
     if (i < N_MAKERS) {
         snprintf(d->path, sizeof d->path, "%s", makers[i].path);
-        enum kd_status status = makers[i].make ? makers[i].make(&d->plain) : kd_openapi_json(base_path, closed, &d->plain);
+        enum kd_status status =
+            makers[i].make ? makers[i].make(&d->plain) : kd_openapi_json(base_path, closed, &d->plain);
         return status ? status : finish(d, makers[i].type);
     }
     const char *name = kd_scene_preset_name(i - N_MAKERS);

@@ -1,5 +1,5 @@
-/* These documents stay the same as long as the program runs: they are made once, at the start, plain and as gzip, each with an ETag. Read-only
- * afterwards: any thread. */
+/* These documents stay the same as long as the program runs: they are made once, at the start, plain and as gzip,
+ * each with an ETag. Read-only afterwards: any thread. */
 #ifndef KD_SERVER_OPENAPI_KEPT_H
 #define KD_SERVER_OPENAPI_KEPT_H
 

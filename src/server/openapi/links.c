@@ -32,7 +32,9 @@ void kd_openapi_links(struct kd_json *json, const struct kd_route *route, unsign
         return;
     kd_json_object(json, "links");
     for (size_t i = 0; i < kd_n_routes; i++)
-        for (size_t k = 0; k < KD_METHODS && !strncmp(kd_routes[i].path, route->path, n) && !strncmp(kd_routes[i].path + n, "/{", 2); k++)
+        for (size_t k = 0;
+             k < KD_METHODS && !strncmp(kd_routes[i].path, route->path, n) && !strncmp(kd_routes[i].path + n, "/{", 2);
+             k++)
             if (kd_routes[i].methods & kd_methods[k].bit)
                 add_link(json, &kd_routes[i], &kd_methods[k]);
     kd_json_end(json);

@@ -1,4 +1,5 @@
-/* This says in openapi.json what can be asked of what has been made: links from the answer that makes it to the operations under its address. */
+/* This says in openapi.json what can be asked of what has been made: links from the answer that makes it to the
+ * operations under its address. */
 #ifndef KD_SERVER_OPENAPI_LINKS_H
 #define KD_SERVER_OPENAPI_LINKS_H
 

@@ -111,11 +111,17 @@ static void add_path_parameter(struct kd_json *json, const char *path)
 
 #define WHOLE "{\"type\":\"integer\",\"minimum\":0,\"maximum\":999999999999999999}" /* what kd_target_number reads */
 #define PART "{\"type\":\"number\",\"minimum\":" KD_SCHEMA_DIGITS(KD_LEAST_MIN) ",\"maximum\":1}"
-#define PACE_MS "{\"type\":\"number\",\"minimum\":" KD_SCHEMA_DIGITS(KD_PATIENCE_MS_MIN) ",\"maximum\":" KD_SCHEMA_DIGITS(KD_PATIENCE_MS_MAX) "}"
-#define ORDER "order", "{\"type\":\"integer\",\"minimum\":1,\"maximum\":" KD_SCHEMA_DIGITS(KD_ORDER_MAX) "}", \
-    "of patches that are under way at once the one with the highest number counts: one that comes after a higher one changes nothing"
+#define PACE_MS \
+    "{\"type\":\"number\",\"minimum\":" KD_SCHEMA_DIGITS(KD_PATIENCE_MS_MIN) ",\"maximum\":" KD_SCHEMA_DIGITS( \
+        KD_PATIENCE_MS_MAX) "}"
+#define ORDER \
+    "order", "{\"type\":\"integer\",\"minimum\":1,\"maximum\":" KD_SCHEMA_DIGITS(KD_ORDER_MAX) "}", \
+        "of patches that are under way at once the one with the highest number counts: one that comes after a higher " \
+        "one changes nothing"
 #define LEAST "least", PART, "the least part of image.width that a frame has while the scene changes; 0.25 without it"
-#define PATIENCE "patience_ms", PACE_MS, "frames are narrower than that all the same where they were measured to take longer than this"
+#define PATIENCE \
+    "patience_ms", PACE_MS, \
+        "frames are narrower than that all the same where they were measured to take longer than this"
 #define MOMENT "{\"type\":\"integer\",\"minimum\":0,\"maximum\":" KD_SCHEMA_DIGITS(KD_WAIT_MS_MAX) "}"
 
 /* Parameters that the query may hold besides fields of a scene; schema NULL: one of the formats of jobs. */
@@ -124,31 +130,45 @@ static const struct {
     unsigned methods; /* that take it; 0: all of the route's */
     bool required;
 } queries[] = {
-    { "/v1/sessions", LEAST }, { "/v1/sessions", PATIENCE },
-    { "/v1/sessions/{id}", LEAST, KD_PATCH }, { "/v1/sessions/{id}", PATIENCE, KD_PATCH },
+    { "/v1/sessions", LEAST },
+    { "/v1/sessions", PATIENCE },
+    { "/v1/sessions/{id}", LEAST, KD_PATCH },
+    { "/v1/sessions/{id}", PATIENCE, KD_PATCH },
     { "/v1/sessions/{id}/frame.png", "after", WHOLE, "number of the last frame that the client has; 0 without it" },
     { "/v1/sessions/{id}/frame.png", "wait_ms", MOMENT, "how long to wait for a newer one" },
-    { "/v1/sessions/{id}", ORDER, KD_PATCH }, { "/v1/sessions/{id}/frame", ORDER, KD_PATCH },
+    { "/v1/sessions/{id}", ORDER, KD_PATCH },
+    { "/v1/sessions/{id}/frame", ORDER, KD_PATCH },
     { "/v1/sessions/{id}/frame", "after", WHOLE, "number of the last frame that the client has; 0 without it" },
     { "/v1/sessions/{id}/frame", "wait_ms", MOMENT, "how long to wait for a newer one" },
-    { "/v1/sessions/{id}/frame", "lossy", "{\"type\":\"integer\",\"minimum\":1,\"maximum\":" KD_SCHEMA_DIGITS(KD_LOSSY_MAX) "}",
+    { "/v1/sessions/{id}/frame", "lossy",
+      "{\"type\":\"integer\",\"minimum\":1,\"maximum\":" KD_SCHEMA_DIGITS(KD_LOSSY_MAX) "}",
       "takes frames that are not the last as JPEG of this quality; without it all are PNG" },
-    { "/v1/sessions/{id}/frame", "sentences", "{\"type\":\"integer\",\"minimum\":0,\"maximum\":" KD_SCHEMA_DIGITS(KD_SENTENCES_MAX) "}",
-      "Kerrd-Sentences of a frame that the client has: where the newer one has the same approximations, they are left out" },
+    { "/v1/sessions/{id}/frame", "sentences",
+      "{\"type\":\"integer\",\"minimum\":0,\"maximum\":" KD_SCHEMA_DIGITS(KD_SENTENCES_MAX) "}",
+      "Kerrd-Sentences of a frame that the client has: where the newer one has the same approximations, they are left "
+      "out" },
     { "/v1/playground/{id}/frame.png", "after", WHOLE, "number of the last frame that the client has; 0 without it" },
     { "/v1/playground/{id}/frame.png", "wait_ms", MOMENT, "how long to wait for a newer one" },
-    { "/v1/playground/{id}/bodies", "after", WHOLE, "generation that the client has; without it the answer comes at once" },
+    { "/v1/playground/{id}/bodies", "after", WHOLE,
+      "generation that the client has; without it the answer comes at once" },
     { "/v1/playground/{id}/bodies", "wait_ms", MOMENT, "how long to wait for a newer one" },
-    { "/v1/playground/{id}/debris", "after", WHOLE, "generation that the client has; without it the answer comes at once" },
+    { "/v1/playground/{id}/debris", "after", WHOLE,
+      "generation that the client has; without it the answer comes at once" },
     { "/v1/playground/{id}/debris", "wait_ms", MOMENT, "how long to wait for a newer one" },
-    { "/v1/playground/{id}/debris", "at_most", "{\"type\":\"integer\",\"minimum\":1,\"maximum\":1000000}", "pieces: where there are more, every k-th is given; 20000 without it" },
-    { "/v1/playground/{id}/events", "since", WHOLE, "number of the event behind which to begin, as Last-Event-ID says it; without it, all that are kept" },
-    { "/v1/pixel", "at", "{\"type\":\"string\",\"pattern\":\"^" KD_OPENAPI_DECIMAL "," KD_OPENAPI_DECIMAL "$\"}", "the pixel: a place X,Y in the picture, in pixels from its upper left corner", 0, true },
+    { "/v1/playground/{id}/debris", "at_most", "{\"type\":\"integer\",\"minimum\":1,\"maximum\":1000000}",
+      "pieces: where there are more, every k-th is given; 20000 without it" },
+    { "/v1/playground/{id}/events", "since", WHOLE,
+      "number of the event behind which to begin, as Last-Event-ID says it; without it, all that are kept" },
+    { "/v1/pixel", "at", "{\"type\":\"string\",\"pattern\":\"^" KD_OPENAPI_DECIMAL "," KD_OPENAPI_DECIMAL "$\"}",
+      "the pixel: a place X,Y in the picture, in pixels from its upper left corner", 0, true },
     { "/v1/pixel", "trace", "{\"const\":\"steps\"}", "tells the engine's own steps along the middle ray, too" },
     { "/v1/jobs/{id}/result", "format", NULL,
-      "json and csv are those of a light curve; fits and npz without a frame the cube of a sweep; the others of pictures, and of files of numbers; mp4 and webm of pictures alone, by the program ffmpeg" },
-    { "/v1/jobs/{id}/result", "frame", WHOLE, "which, by itself: with format=png, fits, npz, npy or exr; with format=stream from which on" },
-    { "/v1/jobs/{id}/result", "rate", "{\"type\":\"integer\",\"minimum\":1,\"maximum\":120}", "frames a second, with format=mp4 or webm; 24 without it" },
+      "json and csv are those of a light curve; fits and npz without a frame the cube of a sweep; the others of "
+      "pictures, and of files of numbers; mp4 and webm of pictures alone, by the program ffmpeg" },
+    { "/v1/jobs/{id}/result", "frame", WHOLE,
+      "which, by itself: with format=png, fits, npz, npy or exr; with format=stream from which on" },
+    { "/v1/jobs/{id}/result", "rate", "{\"type\":\"integer\",\"minimum\":1,\"maximum\":120}",
+      "frames a second, with format=mp4 or webm; 24 without it" },
 };
 
 _Static_assert(KD_PLAYGROUND_DEBRIS_MAX == 1000000 && KD_PLAY_DEBRIS == 20000, "the row of at_most says so");
@@ -192,8 +212,10 @@ static void add_query(struct kd_json *json, const struct kd_route *route, unsign
 
 static bool has_parameters(const struct kd_route *route, unsigned method)
 {
-    return kd_openapi_is_asked_by_header(route, method) || strchr(route->path, '{') || (route->takes == KD_TAKES_SCENE && !(route->methods & KD_PATCH)) || route->takes == KD_TAKES_JOB ||
-           route->takes == KD_TAKES_PLAN || route->takes == KD_TAKES_RAYS || route->takes == KD_TAKES_PARTICLES || has_query(route);
+    return kd_openapi_is_asked_by_header(route, method) || strchr(route->path, '{') ||
+           (route->takes == KD_TAKES_SCENE && !(route->methods & KD_PATCH)) || route->takes == KD_TAKES_JOB ||
+           route->takes == KD_TAKES_PLAN || route->takes == KD_TAKES_RAYS || route->takes == KD_TAKES_PARTICLES ||
+           has_query(route);
 }
 
 static void add_parameters(struct kd_json *json, const struct kd_route *route, unsigned method, const cJSON *schema)
@@ -259,7 +281,8 @@ static void add_body(struct kd_json *json, const struct kd_route *route, unsigne
     }
 }
 
-static void add_operation(struct kd_json *json, const char *name, const struct kd_route *route, unsigned method, const struct subject *subject)
+static void add_operation(struct kd_json *json, const char *name, const struct kd_route *route, unsigned method,
+                          const struct subject *subject)
 {
     char id[80];
     kd_openapi_operation_id(id, sizeof id, name, route->path);
@@ -306,7 +329,8 @@ static void add_path(struct kd_json *json, const struct kd_route *route, const s
     kd_json_end(json);
 }
 
-static enum kd_status document(const struct subject *subject, const struct kd_buffer *schema_text, struct kd_buffer *out)
+static enum kd_status document(const struct subject *subject, const struct kd_buffer *schema_text,
+                               struct kd_buffer *out)
 {
     struct kd_json json = kd_json_begin(out);
     kd_json_object(&json, NULL);

@@ -44,7 +44,8 @@ static void add_schema(struct kd_json *json, const struct kd_parameter *p)
         add_words(json, p->words);
     } else {
         kd_json_array(json, "anyOf");
-        if (p->word) /* first: generators of clients take the first type that a default fits, and "infinity" reads as a number */
+        if (p->word) /* first: generators of clients take the first type that a default fits, and "infinity" reads as a
+                        number */
             kd_schema_word(json, NULL, p->word);
         add_number(json, p);
         kd_json_object(json, NULL);
@@ -82,7 +83,8 @@ static void add_parameters(struct kd_json *json, const struct kd_quantity *quant
         add_schema(json, p);
         kd_json_end(json);
     }
-    begin_parameter(json, "digits", "significant digits of the numbers in lists, in CSV of all; 17: all that there are", "");
+    begin_parameter(json, "digits", "significant digits of the numbers in lists, in CSV of all; 17: all that there are",
+                    "");
     kd_json_raw(json, "schema", DIGITS, strlen(DIGITS));
     kd_json_end(json);
     begin_parameter(json, "format", "instead of Accept", "");

@@ -8,7 +8,8 @@
 #include <string.h>
 
 /* docs/playground.md says what each is. */
-#define UNITS "lengths and times in M, masses and energies in those of the hole, speeds in c; a rate in M a second of the clock"
+#define UNITS \
+    "lengths and times in M, masses and energies in those of the hole, speeds in c; a rate in M a second of the clock"
 #define BODIES(schema) "{\"type\":\"array\",\"maxItems\":4096,\"items\":{\"$ref\":\"#/components/schemas/" schema "\"}}"
 
 static void add_words(struct kd_json *json, const char *words)
@@ -22,7 +23,10 @@ static void add_words(struct kd_json *json, const char *words)
 
 static void add_row(struct kd_json *json, const struct kd_playground_setting *row)
 {
-    static const char *const types[] = { [KD_SETTING_REAL] = "number", [KD_SETTING_WHOLE] = "integer", [KD_SETTING_TRUTH] = "boolean", [KD_SETTING_WORD] = "string" };
+    static const char *const types[] = { [KD_SETTING_REAL] = "number",
+                                         [KD_SETTING_WHOLE] = "integer",
+                                         [KD_SETTING_TRUTH] = "boolean",
+                                         [KD_SETTING_WORD] = "string" };
     kd_json_object(json, row->name);
     kd_json_string(json, "type", types[row->kind]);
     if (row->kind == KD_SETTING_WORD)
@@ -56,7 +60,10 @@ static void add_vector(struct kd_json *json, const char *name, double most, cons
     kd_json_end(json);
 }
 
-static void add_raw(struct kd_json *json, const char *name, const char *schema) { kd_json_raw(json, name, schema, strlen(schema)); }
+static void add_raw(struct kd_json *json, const char *name, const char *schema)
+{
+    kd_json_raw(json, name, schema, strlen(schema));
+}
 
 /* A body; id: one that is there already, which says which. */
 static void add_body(struct kd_json *json, const char *name, bool id)
@@ -103,12 +110,15 @@ static void add_properties(struct kd_json *json, bool patch)
     if (patch) {
         add_raw(json, "add", BODIES("PlaygroundBody"));
         add_raw(json, "change", BODIES("PlaygroundBodyChange"));
-        add_raw(json, "remove", "{\"type\":\"array\",\"maxItems\":4096,\"items\":{\"type\":\"integer\",\"minimum\":1}}");
+        add_raw(json, "remove",
+                "{\"type\":\"array\",\"maxItems\":4096,\"items\":{\"type\":\"integer\",\"minimum\":1}}");
         return;
     }
     add_preset(json);
     add_raw(json, "bodies", BODIES("PlaygroundBody"));
-    add_raw(json, "state", "{\"type\":\"object\",\"additionalProperties\":true,\"description\":\"of a snapshot: all that the motion depends on besides. To be given back as it came: it differs between versions\"}");
+    add_raw(json, "state",
+            "{\"type\":\"object\",\"additionalProperties\":true,\"description\":\"of a snapshot: all that the motion "
+            "depends on besides. To be given back as it came: it differs between versions\"}");
 }
 
 static void add_document(struct kd_json *json, const char *name, bool patch)
@@ -120,14 +130,19 @@ static void add_document(struct kd_json *json, const char *name, bool patch)
     add_properties(json, patch);
     kd_json_end(json);
     if (!patch)
-        add_raw(json, "dependentSchemas", "{\"state\":{\"required\":[\"bodies\"],\"not\":{\"required\":[\"preset\"]}}}");
+        add_raw(json, "dependentSchemas",
+                "{\"state\":{\"required\":[\"bodies\"],\"not\":{\"required\":[\"preset\"]}}}");
     kd_json_end(json);
 }
 
-static const char *const kinds[] = { [KD_SETTING_REAL] = KD_SCHEMA_NUMBER, [KD_SETTING_WHOLE] = KD_SCHEMA_COUNT, [KD_SETTING_TRUTH] = KD_SCHEMA_TRUTH, [KD_SETTING_WORD] = KD_SCHEMA_TEXT };
+static const char *const kinds[] = { [KD_SETTING_REAL] = KD_SCHEMA_NUMBER,
+                                     [KD_SETTING_WHOLE] = KD_SCHEMA_COUNT,
+                                     [KD_SETTING_TRUTH] = KD_SCHEMA_TRUTH,
+                                     [KD_SETTING_WORD] = KD_SCHEMA_TEXT };
 
 /* Members by the rows of a table, after those that are there. */
-static size_t add_members(struct kd_openapi_member *to, size_t n, const struct kd_playground_setting *rows, size_t n_rows)
+static size_t add_members(struct kd_openapi_member *to, size_t n, const struct kd_playground_setting *rows,
+                          size_t n_rows)
 {
     for (size_t i = 0; i < n_rows; i++)
         to[n++] = (struct kd_openapi_member) { rows[i].name, kinds[rows[i].kind], false };
@@ -137,43 +152,79 @@ static size_t add_members(struct kd_openapi_member *to, size_t n, const struct k
 /* A body as it stands: what has merged or flown away may have more than a document may give it. */
 static void add_body_state(struct kd_json *json)
 {
-    struct kd_openapi_member members[16] = { { "id", "{\"type\":\"integer\",\"minimum\":1}", false }, { "name", KD_SCHEMA_TEXT, false },
-                                             { "position", KD_SCHEMA_VECTOR, false }, { "velocity", KD_SCHEMA_VECTOR, false } };
-    kd_schema_told(json, "PlaygroundBodyState", UNITS, members, add_members(members, 4, kd_playground_body_fields, kd_playground_n_body_fields));
+    struct kd_openapi_member members[16] = { { "id", "{\"type\":\"integer\",\"minimum\":1}", false },
+                                             { "name", KD_SCHEMA_TEXT, false },
+                                             { "position", KD_SCHEMA_VECTOR, false },
+                                             { "velocity", KD_SCHEMA_VECTOR, false } };
+    kd_schema_told(json, "PlaygroundBodyState", UNITS, members,
+                   add_members(members, 4, kd_playground_body_fields, kd_playground_n_body_fields));
 }
 
 static void add_settings_state(struct kd_json *json)
 {
     struct kd_openapi_member members[40];
-    kd_openapi_strict(json, "PlaygroundSettings", members, add_members(members, 0, kd_playground_settings, kd_playground_n_settings));
+    kd_openapi_strict(json, "PlaygroundSettings", members,
+                      add_members(members, 0, kd_playground_settings, kd_playground_n_settings));
 }
 
 static void add_state(struct kd_json *json)
 {
     static const struct kd_openapi_member totals[] = {
-        { "mass", KD_SCHEMA_NUMBER, false }, { "energy", KD_SCHEMA_NUMBER_OR_NULL, false }, { "momentum", KD_SCHEMA_VECTOR, false }, { "angular_momentum", KD_SCHEMA_VECTOR, false },
-        { "separation", KD_SCHEMA_NUMBER_OR_NULL, false }, { "wave_frequency", KD_SCHEMA_NUMBER_OR_NULL, false },
+        { "mass", KD_SCHEMA_NUMBER, false },
+        { "energy", KD_SCHEMA_NUMBER_OR_NULL, false },
+        { "momentum", KD_SCHEMA_VECTOR, false },
+        { "angular_momentum", KD_SCHEMA_VECTOR, false },
+        { "separation", KD_SCHEMA_NUMBER_OR_NULL, false },
+        { "wave_frequency", KD_SCHEMA_NUMBER_OR_NULL, false },
     };
     static const struct kd_openapi_member spent[] = {
-        { "captured_mass", KD_SCHEMA_NUMBER, false }, { "captured_energy", KD_SCHEMA_NUMBER, false }, { "captured_angular_momentum", KD_SCHEMA_VECTOR, false },
-        { "merged_energy", KD_SCHEMA_NUMBER, false }, { "capped_energy", KD_SCHEMA_NUMBER, false }, { "radiated_energy", KD_SCHEMA_NUMBER, false },
-        { "torn_mass", KD_SCHEMA_NUMBER, false }, { "torn_energy", KD_SCHEMA_NUMBER, false },
+        { "captured_mass", KD_SCHEMA_NUMBER, false },
+        { "captured_energy", KD_SCHEMA_NUMBER, false },
+        { "captured_angular_momentum", KD_SCHEMA_VECTOR, false },
+        { "merged_energy", KD_SCHEMA_NUMBER, false },
+        { "capped_energy", KD_SCHEMA_NUMBER, false },
+        { "radiated_energy", KD_SCHEMA_NUMBER, false },
+        { "torn_mass", KD_SCHEMA_NUMBER, false },
+        { "torn_energy", KD_SCHEMA_NUMBER, false },
     };
     static const struct kd_openapi_member source[] = {
-        { "number", KD_SCHEMA_COUNT, false }, { "name", KD_SCHEMA_TEXT, false }, { "t", KD_SCHEMA_NUMBER, false }, { "piece_mass", KD_SCHEMA_NUMBER, false },
-        { "energy_spread", KD_SCHEMA_NUMBER, false }, { "pieces", KD_SCHEMA_COUNT, false }, { "back", KD_SCHEMA_COUNT, false }, { "captured", KD_SCHEMA_COUNT, false },
+        { "number", KD_SCHEMA_COUNT, false },
+        { "name", KD_SCHEMA_TEXT, false },
+        { "t", KD_SCHEMA_NUMBER, false },
+        { "piece_mass", KD_SCHEMA_NUMBER, false },
+        { "energy_spread", KD_SCHEMA_NUMBER, false },
+        { "pieces", KD_SCHEMA_COUNT, false },
+        { "back", KD_SCHEMA_COUNT, false },
+        { "captured", KD_SCHEMA_COUNT, false },
         { "lost", KD_SCHEMA_COUNT, false },
     };
     static const struct kd_openapi_member debris[] = {
-        { "t", KD_SCHEMA_NUMBER, false }, { "pieces", KD_SCHEMA_COUNT, false }, { "sources", KD_SCHEMA_LIST(KD_SCHEMA_REF("PlaygroundSource")), false },
+        { "t", KD_SCHEMA_NUMBER, false },
+        { "pieces", KD_SCHEMA_COUNT, false },
+        { "sources", KD_SCHEMA_LIST(KD_SCHEMA_REF("PlaygroundSource")), false },
     };
     static const struct kd_openapi_member state[] = {
-        { "id", KD_SCHEMA_TEXT, false }, { "token", KD_SCHEMA_TEXT, true }, { "rate", KD_SCHEMA_NUMBER, false }, { "rate_reached", KD_SCHEMA_NUMBER_OR_NULL, false },
-        { "paused", KD_SCHEMA_TRUTH, false }, { "slowed", KD_SCHEMA_TRUTH, false }, { "resting", KD_SCHEMA_TRUTH, false }, { "watchers", KD_SCHEMA_COUNT, false },
-        { "generation", KD_SCHEMA_COUNT, false }, { "asked", KD_SCHEMA_NUMBER, true }, { "done", KD_SCHEMA_NUMBER, true }, { "added", KD_SCHEMA_LIST(KD_SCHEMA_COUNT), true },
-        { "t", KD_SCHEMA_NUMBER, false }, { "steps", KD_SCHEMA_COUNT, false }, { "settings", KD_SCHEMA_REF("PlaygroundSettings"), false },
-        { "bodies", BODIES("PlaygroundBodyState"), false }, { "totals", KD_SCHEMA_REF("PlaygroundTotals"), false }, { "spent", KD_SCHEMA_REF("PlaygroundSpent"), false },
-        { "debris", KD_SCHEMA_REF("PlaygroundDebris"), false }, { "events", KD_SCHEMA_COUNT, false }, { "approximations", KD_SCHEMA_LIST(KD_SCHEMA_TEXT), false },
+        { "id", KD_SCHEMA_TEXT, false },
+        { "token", KD_SCHEMA_TEXT, true },
+        { "rate", KD_SCHEMA_NUMBER, false },
+        { "rate_reached", KD_SCHEMA_NUMBER_OR_NULL, false },
+        { "paused", KD_SCHEMA_TRUTH, false },
+        { "slowed", KD_SCHEMA_TRUTH, false },
+        { "resting", KD_SCHEMA_TRUTH, false },
+        { "watchers", KD_SCHEMA_COUNT, false },
+        { "generation", KD_SCHEMA_COUNT, false },
+        { "asked", KD_SCHEMA_NUMBER, true },
+        { "done", KD_SCHEMA_NUMBER, true },
+        { "added", KD_SCHEMA_LIST(KD_SCHEMA_COUNT), true },
+        { "t", KD_SCHEMA_NUMBER, false },
+        { "steps", KD_SCHEMA_COUNT, false },
+        { "settings", KD_SCHEMA_REF("PlaygroundSettings"), false },
+        { "bodies", BODIES("PlaygroundBodyState"), false },
+        { "totals", KD_SCHEMA_REF("PlaygroundTotals"), false },
+        { "spent", KD_SCHEMA_REF("PlaygroundSpent"), false },
+        { "debris", KD_SCHEMA_REF("PlaygroundDebris"), false },
+        { "events", KD_SCHEMA_COUNT, false },
+        { "approximations", KD_SCHEMA_LIST(KD_SCHEMA_TEXT), false },
         { "scene", KD_SCHEMA_REF("Scene"), false },
     };
     KD_OPENAPI_TOLD(json, "PlaygroundTotals", UNITS, totals);
@@ -186,17 +237,25 @@ static void add_state(struct kd_json *json)
 static void add_catalogue(struct kd_json *json)
 {
     static const struct kd_openapi_member preset[] = {
-        { "name", KD_SCHEMA_TEXT, false }, { "title", KD_SCHEMA_TEXT, false }, { "rate", KD_SCHEMA_NUMBER, false }, { "centre", KD_SCHEMA_VECTOR, false },
+        { "name", KD_SCHEMA_TEXT, false },    { "title", KD_SCHEMA_TEXT, false },
+        { "rate", KD_SCHEMA_NUMBER, false },  { "centre", KD_SCHEMA_VECTOR, false },
         { "reach", KD_SCHEMA_NUMBER, false },
     };
     static const struct kd_openapi_member row[] = {
-        { "name", KD_SCHEMA_TEXT, false }, { "type", "{\"enum\":[\"number\",\"integer\",\"boolean\",\"string\"]}", false },
-        { "default", "{\"type\":[\"number\",\"boolean\",\"string\"]}", false }, { "least", KD_SCHEMA_NUMBER, true }, { "most", KD_SCHEMA_NUMBER, true },
-        { "words", KD_SCHEMA_LIST(KD_SCHEMA_TEXT), true }, { "fixed", KD_SCHEMA_TRUTH, true }, { "help", KD_SCHEMA_TEXT, false },
+        { "name", KD_SCHEMA_TEXT, false },
+        { "type", "{\"enum\":[\"number\",\"integer\",\"boolean\",\"string\"]}", false },
+        { "default", "{\"type\":[\"number\",\"boolean\",\"string\"]}", false },
+        { "least", KD_SCHEMA_NUMBER, true },
+        { "most", KD_SCHEMA_NUMBER, true },
+        { "words", KD_SCHEMA_LIST(KD_SCHEMA_TEXT), true },
+        { "fixed", KD_SCHEMA_TRUTH, true },
+        { "help", KD_SCHEMA_TEXT, false },
     };
     static const struct kd_openapi_member catalogue[] = {
-        { "presets", KD_SCHEMA_LIST(KD_SCHEMA_REF("PlaygroundPresetTold")), false }, { "settings", KD_SCHEMA_LIST(KD_SCHEMA_REF("PlaygroundRow")), false },
-        { "pace", KD_SCHEMA_LIST(KD_SCHEMA_REF("PlaygroundRow")), false }, { "body", KD_SCHEMA_LIST(KD_SCHEMA_REF("PlaygroundRow")), false },
+        { "presets", KD_SCHEMA_LIST(KD_SCHEMA_REF("PlaygroundPresetTold")), false },
+        { "settings", KD_SCHEMA_LIST(KD_SCHEMA_REF("PlaygroundRow")), false },
+        { "pace", KD_SCHEMA_LIST(KD_SCHEMA_REF("PlaygroundRow")), false },
+        { "body", KD_SCHEMA_LIST(KD_SCHEMA_REF("PlaygroundRow")), false },
     };
     KD_OPENAPI_STRICT(json, "PlaygroundPresetTold", preset);
     KD_OPENAPI_STRICT(json, "PlaygroundRow", row);
@@ -208,7 +267,8 @@ static void add_series(struct kd_json *json)
     static const struct kd_openapi_member series[] = { { "columns", KD_SCHEMA_REF("PlaygroundColumns"), false } };
     struct kd_openapi_member columns[KD_SERIES_N];
     for (int i = 0; i < KD_SERIES_N; i++)
-        columns[i] = (struct kd_openapi_member) { kd_series_column(i), KD_SCHEMA_LIST(KD_SCHEMA_NUMBER_OR_NULL), false };
+        columns[i] =
+            (struct kd_openapi_member) { kd_series_column(i), KD_SCHEMA_LIST(KD_SCHEMA_NUMBER_OR_NULL), false };
     kd_schema_told(json, "PlaygroundColumns", UNITS, columns, KD_SERIES_N);
     KD_OPENAPI_STRICT(json, "PlaygroundSeries", series);
 }
@@ -217,11 +277,20 @@ static void add_series(struct kd_json *json)
 static void add_happened(struct kd_json *json)
 {
     static const struct kd_openapi_member happened[] = {
-        { "number", KD_SCHEMA_COUNT, false }, { "t", KD_SCHEMA_NUMBER, false },
-        { "kind", "{\"enum\":[\"merger\",\"shedding\",\"disruption\",\"capture\",\"inspiral\",\"escape\"]}", false }, { "body", KD_SCHEMA_COUNT, false },
-        { "name", KD_SCHEMA_TEXT, false }, { "mass", KD_SCHEMA_NUMBER, false }, { "other", KD_SCHEMA_COUNT, true }, { "other_name", KD_SCHEMA_TEXT, true },
-        { "other_mass", KD_SCHEMA_NUMBER, true }, { "mass_left", KD_SCHEMA_NUMBER, true }, { "r", KD_SCHEMA_NUMBER, false }, { "energy", KD_SCHEMA_NUMBER_OR_NULL, false },
-        { "tidal_radius", KD_SCHEMA_NUMBER, true }, { "energy_spread", KD_SCHEMA_NUMBER, true },
+        { "number", KD_SCHEMA_COUNT, false },
+        { "t", KD_SCHEMA_NUMBER, false },
+        { "kind", "{\"enum\":[\"merger\",\"shedding\",\"disruption\",\"capture\",\"inspiral\",\"escape\"]}", false },
+        { "body", KD_SCHEMA_COUNT, false },
+        { "name", KD_SCHEMA_TEXT, false },
+        { "mass", KD_SCHEMA_NUMBER, false },
+        { "other", KD_SCHEMA_COUNT, true },
+        { "other_name", KD_SCHEMA_TEXT, true },
+        { "other_mass", KD_SCHEMA_NUMBER, true },
+        { "mass_left", KD_SCHEMA_NUMBER, true },
+        { "r", KD_SCHEMA_NUMBER, false },
+        { "energy", KD_SCHEMA_NUMBER_OR_NULL, false },
+        { "tidal_radius", KD_SCHEMA_NUMBER, true },
+        { "energy_spread", KD_SCHEMA_NUMBER, true },
     };
     KD_OPENAPI_TOLD(json, "PlaygroundHappened", UNITS, happened);
 }
@@ -229,9 +298,17 @@ static void add_happened(struct kd_json *json)
 static void add_tick(struct kd_json *json)
 {
     struct kd_openapi_member members[12 + KD_SERIES_N] = {
-        { "generation", KD_SCHEMA_COUNT, false }, { "rate", KD_SCHEMA_NUMBER, false }, { "rate_reached", KD_SCHEMA_NUMBER_OR_NULL, false }, { "paused", KD_SCHEMA_TRUTH, false },
-        { "slowed", KD_SCHEMA_TRUTH, false }, { "resting", KD_SCHEMA_TRUTH, false }, { "watchers", KD_SCHEMA_COUNT, false }, { "debris_lost", KD_SCHEMA_COUNT, false },
-        { "fallback_rate", KD_SCHEMA_NUMBER_OR_NULL, false }, { "event", KD_SCHEMA_COUNT, false }, { "angular_momentum", KD_SCHEMA_VECTOR, false },
+        { "generation", KD_SCHEMA_COUNT, false },
+        { "rate", KD_SCHEMA_NUMBER, false },
+        { "rate_reached", KD_SCHEMA_NUMBER_OR_NULL, false },
+        { "paused", KD_SCHEMA_TRUTH, false },
+        { "slowed", KD_SCHEMA_TRUTH, false },
+        { "resting", KD_SCHEMA_TRUTH, false },
+        { "watchers", KD_SCHEMA_COUNT, false },
+        { "debris_lost", KD_SCHEMA_COUNT, false },
+        { "fallback_rate", KD_SCHEMA_NUMBER_OR_NULL, false },
+        { "event", KD_SCHEMA_COUNT, false },
+        { "angular_momentum", KD_SCHEMA_VECTOR, false },
     };
     size_t n = 11;
     for (int i = 0; i < KD_SERIES_N; i++)
@@ -242,7 +319,8 @@ static void add_tick(struct kd_json *json)
 
 void kd_openapi_playground_schemas(struct kd_json *json)
 {
-    _Static_assert(KD_PLAYGROUND_BODIES_MAX == 4096 && KD_PLAYGROUND_NAME == 32, "BODIES and the length of a name say so");
+    _Static_assert(KD_PLAYGROUND_BODIES_MAX == 4096 && KD_PLAYGROUND_NAME == 32,
+                   "BODIES and the length of a name say so");
     add_body(json, "PlaygroundBody", false);
     add_body(json, "PlaygroundBodyChange", true);
     add_document(json, "Playground", false);
@@ -258,7 +336,8 @@ void kd_openapi_playground_schemas(struct kd_json *json)
 
 void kd_openapi_playground_body(struct kd_json *json, bool patch, const char *other)
 {
-    static const char made[] = "{\"$ref\":\"#/components/schemas/Playground\"}", changed[] = "{\"$ref\":\"#/components/schemas/PlaygroundChange\"}";
+    static const char made[] = "{\"$ref\":\"#/components/schemas/Playground\"}",
+                      changed[] = "{\"$ref\":\"#/components/schemas/PlaygroundChange\"}";
     kd_openapi_body_begin(json);
     kd_openapi_media(json, "application/json", patch ? changed : made, patch ? sizeof changed - 1 : sizeof made - 1);
     if (patch)
@@ -268,7 +347,9 @@ void kd_openapi_playground_body(struct kd_json *json, bool patch, const char *ot
 
 void kd_openapi_step_body(struct kd_json *json)
 {
-    static const char schema[] = "{\"type\":\"object\",\"additionalProperties\":false,\"required\":[\"by\"],\"properties\":{\"by\":{\"type\":\"number\","
-                                 "\"exclusiveMinimum\":0,\"maximum\":" KD_SCHEMA_DIGITS(KD_PLAYGROUND_TIME) ",\"description\":\"M\"}}}";
+    static const char schema[] =
+        "{\"type\":\"object\",\"additionalProperties\":false,\"required\":[\"by\"],\"properties\":{\"by\":{\"type\":"
+        "\"number\","
+        "\"exclusiveMinimum\":0,\"maximum\":" KD_SCHEMA_DIGITS(KD_PLAYGROUND_TIME) ",\"description\":\"M\"}}}";
     kd_openapi_body(json, schema, sizeof schema - 1, NULL);
 }

@@ -9,9 +9,15 @@
 #include <string.h>
 
 static bool always(const struct kd_route *route, unsigned method) { return (void)route, (void)method, true; }
-static bool never(const struct kd_route *route, unsigned method) { return (void)route, (void)method, false; } /* 405 is of no operation: it says that there is none */
+static bool never(const struct kd_route *route, unsigned method)
+{
+    return (void)route, (void)method, false;
+} /* 405 is of no operation: it says that there is none */
 static bool closed(const struct kd_route *route, unsigned method) { return (void)method, !route->open; }
-static bool has_body(const struct kd_route *route, unsigned method) { return (void)route, method == KD_POST || method == KD_PATCH || method == KD_PUT; }
+static bool has_body(const struct kd_route *route, unsigned method)
+{
+    return (void)route, method == KD_POST || method == KD_PATCH || method == KD_PUT;
+}
 
 static bool is_one_of(const struct kd_route *route, const char *const *paths)
 {
@@ -38,8 +44,9 @@ static bool negotiates(const struct kd_route *route, unsigned method)
 {
     static const char *const by_hand[] = { "/v1/playground/{id}/series", "/v1/playground/{id}/fallback", NULL };
     (void)method;
-    return route->gives != KD_GIVES_ITS_ANSWER || route->takes == KD_TAKES_RAYS || route->takes == KD_TAKES_ORBITS || route->takes == KD_TAKES_INTEGRAL ||
-           route->takes == KD_TAKES_QUANTITY || route->takes == KD_TAKES_TICK || is_one_of(route, by_hand);
+    return route->gives != KD_GIVES_ITS_ANSWER || route->takes == KD_TAKES_RAYS || route->takes == KD_TAKES_ORBITS ||
+           route->takes == KD_TAKES_INTEGRAL || route->takes == KD_TAKES_QUANTITY || route->takes == KD_TAKES_TICK ||
+           is_one_of(route, by_hand);
 }
 
 static bool may_come_too_early(const struct kd_route *route, unsigned method)
@@ -52,23 +59,52 @@ static bool may_come_too_early(const struct kd_route *route, unsigned method)
 static bool checks_what_it_is_given(const struct kd_route *route, unsigned method)
 {
     static const char *const strict[] = {
-        "/v1/presets/{name}/thumbnail.png", "/v1/sessions/{id}/frame.png", "/v1/playground/{id}/frame.png", "/v1/playground/{id}/events", "/v1/jobs/{id}/preview.png", "/v1/jobs/{id}/result", NULL,
+        "/v1/presets/{name}/thumbnail.png",
+        "/v1/sessions/{id}/frame.png",
+        "/v1/playground/{id}/frame.png",
+        "/v1/playground/{id}/events",
+        "/v1/jobs/{id}/preview.png",
+        "/v1/jobs/{id}/result",
+        NULL,
     };
     if (method == KD_DELETE)
         return !strcmp(route->path, "/v1/sessions/{id}"); /* its query holds a token and nothing else */
     return has_body(route, method) || route->takes != KD_TAKES_NOTHING || is_one_of(route, strict);
 }
 
-static bool makes_films(const struct kd_route *route, unsigned method) { return (void)method, route->gives == KD_GIVES_RESULT; }
-static bool keeps_files(const struct kd_route *route, unsigned method) { return (method == KD_POST && route->takes == KD_TAKES_JOB) || (method == KD_PUT && route->takes == KD_TAKES_ASSET); }
+static bool makes_films(const struct kd_route *route, unsigned method)
+{
+    return (void)method, route->gives == KD_GIVES_RESULT;
+}
+static bool keeps_files(const struct kd_route *route, unsigned method)
+{
+    return (method == KD_POST && route->takes == KD_TAKES_JOB) || (method == KD_PUT && route->takes == KD_TAKES_ASSET);
+}
 
 static const struct {
     unsigned status;
     bool (*of)(const struct kd_route *route, unsigned method);
 } rows[] = {
-    { 400, always }, { 401, closed }, { 403, forbids }, { 404, is_found_by_name }, { 405, never }, { 406, negotiates }, { 408, always }, { 409, may_come_too_early }, { 413, always },
-    { 414, always }, { 415, has_body }, { 421, always }, { 422, checks_what_it_is_given }, { 429, always }, { 431, always }, { 500, closed }, { 501, makes_films }, { 503, always },
-    { 505, always }, { 507, keeps_files },
+    { 400, always },
+    { 401, closed },
+    { 403, forbids },
+    { 404, is_found_by_name },
+    { 405, never },
+    { 406, negotiates },
+    { 408, always },
+    { 409, may_come_too_early },
+    { 413, always },
+    { 414, always },
+    { 415, has_body },
+    { 421, always },
+    { 422, checks_what_it_is_given },
+    { 429, always },
+    { 431, always },
+    { 500, closed },
+    { 501, makes_films },
+    { 503, always },
+    { 505, always },
+    { 507, keeps_files },
 };
 
 void kd_openapi_problems(struct kd_json *json, const struct kd_route *route, unsigned method)
@@ -89,7 +125,8 @@ static void describe(struct kd_json *json, unsigned status)
     char text[500] = "";
     for (size_t i = 0, n = 0; kd_problem_uri(i) && n < sizeof text; i++)
         if (kd_problem_status((enum kd_problem_type)i) == status)
-            n += (size_t)snprintf(text + n, sizeof text - n, "%s%s", n ? "; " : "", kd_problem_title((enum kd_problem_type)i));
+            n += (size_t)snprintf(text + n, sizeof text - n, "%s%s", n ? "; " : "",
+                                  kd_problem_title((enum kd_problem_type)i));
     kd_json_string(json, "description", text);
 }
 
@@ -117,7 +154,10 @@ void kd_openapi_problem_responses(struct kd_json *json)
 void kd_openapi_problem_schema(struct kd_json *json)
 {
     static const struct kd_openapi_member problem[] = {
-        { "type", NULL, false, kd_problem_uri }, { "title", KD_SCHEMA_TEXT }, { "status", "{\"type\":\"integer\",\"minimum\":400,\"maximum\":599}" }, { "detail", KD_SCHEMA_TEXT },
+        { "type", NULL, false, kd_problem_uri },
+        { "title", KD_SCHEMA_TEXT },
+        { "status", "{\"type\":\"integer\",\"minimum\":400,\"maximum\":599}" },
+        { "detail", KD_SCHEMA_TEXT },
         { "pointer", "{\"type\":\"string\",\"description\":\"into the request (RFC 6901)\"}", true },
         { "offered", "{\"type\":\"string\",\"description\":\"media types that would do\"}", true },
         { "request_id", "{\"type\":\"string\",\"description\":\"as in the header X-Request-Id\"}", true },

@@ -16,7 +16,8 @@
 #include <stdio.h>
 #include <string.h>
 
-static void begin_response(struct kd_json *json, const struct kd_route *route, unsigned method, unsigned status, const char *description)
+static void begin_response(struct kd_json *json, const struct kd_route *route, unsigned method, unsigned status,
+                           const char *description)
 {
     char number[12];
     snprintf(number, sizeof number, "%u", status);
@@ -86,7 +87,12 @@ void kd_openapi_responses(struct kd_json *json, const struct kd_route *route, un
 {
     kd_json_object(json, "responses");
     const bool makes = method == KD_POST && route->status[1] == 201;
-    begin_response(json, route, method, method == KD_DELETE ? 204 : makes ? 201 : route->status[0] ? route->status[0] : 200, route->summary);
+    begin_response(json, route, method,
+                   method == KD_DELETE ? 204
+                   : makes             ? 201
+                   : route->status[0]  ? route->status[0]
+                                       : 200,
+                   route->summary);
     if (method != KD_DELETE)
         add_answer(json, route, method);
     kd_json_end(json);

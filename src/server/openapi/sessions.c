@@ -12,23 +12,36 @@
 void kd_openapi_session_schemas(struct kd_json *json)
 {
     static const struct kd_openapi_member emitter[] = {
-        { "name", KD_SCHEMA_TEXT, false }, { "title", KD_SCHEMA_TEXT, false }, { "at", KD_SCHEMA_TEXT, false }, { "apart", KD_SCHEMA_TRUTH, false },
-        { "sentence", KD_SCHEMA_TEXT, true },
+        { "name", KD_SCHEMA_TEXT, false },   { "title", KD_SCHEMA_TEXT, false },   { "at", KD_SCHEMA_TEXT, false },
+        { "apart", KD_SCHEMA_TRUTH, false }, { "sentence", KD_SCHEMA_TEXT, true },
     };
-    static const struct kd_openapi_member path[] = { { "at", KD_SCHEMA_NUMBER, false }, { "end", KD_SCHEMA_NUMBER, false } };
-    static const struct kd_openapi_member progress[] = { { "fraction", KD_SCHEMA_NUMBER, false }, { "remaining_s", KD_SCHEMA_NUMBER_OR_NULL, false } };
+    static const struct kd_openapi_member path[] = { { "at", KD_SCHEMA_NUMBER, false },
+                                                     { "end", KD_SCHEMA_NUMBER, false } };
+    static const struct kd_openapi_member progress[] = { { "fraction", KD_SCHEMA_NUMBER, false },
+                                                         { "remaining_s", KD_SCHEMA_NUMBER_OR_NULL, false } };
     static const struct kd_openapi_member clock[] = {
-        { "proper_time_to_horizon", KD_SCHEMA_NUMBER_OR_NULL, false }, { "proper_time_to_end", KD_SCHEMA_NUMBER, false },
-        { "proper_time_to_horizon_s", KD_SCHEMA_NUMBER_OR_NULL, false }, { "proper_time_to_end_s", KD_SCHEMA_NUMBER, false },
+        { "proper_time_to_horizon", KD_SCHEMA_NUMBER_OR_NULL, false },
+        { "proper_time_to_end", KD_SCHEMA_NUMBER, false },
+        { "proper_time_to_horizon_s", KD_SCHEMA_NUMBER_OR_NULL, false },
+        { "proper_time_to_end_s", KD_SCHEMA_NUMBER, false },
     };
     static const struct kd_openapi_member session[] = {
-        { "id", KD_SCHEMA_TEXT, false }, { "token", KD_SCHEMA_TEXT, true }, { "revision", KD_SCHEMA_COUNT, false }, { "frame", KD_SCHEMA_COUNT, false },
-        { "viewers", KD_SCHEMA_COUNT, false }, { "scene", KD_SCHEMA_REF("Scene"), false },
+        { "id", KD_SCHEMA_TEXT, false },
+        { "token", KD_SCHEMA_TEXT, true },
+        { "revision", KD_SCHEMA_COUNT, false },
+        { "frame", KD_SCHEMA_COUNT, false },
+        { "viewers", KD_SCHEMA_COUNT, false },
+        { "scene", KD_SCHEMA_REF("Scene"), false },
         { "varies", KD_SCHEMA_LIST(KD_SCHEMA_REF("SessionVaries")), false },
-        { "emitters", KD_SCHEMA_LIST(KD_SCHEMA_REF("EmitterTold")), false }, { "path", KD_SCHEMA_REF("SessionPath"), true },
-        { "rendering", KD_SCHEMA_REF("SessionRendering"), true }, { "refining", KD_SCHEMA_REF("SessionRefining"), true }, { "clock", KD_SCHEMA_REF("FallClock"), true }, { "order", KD_SCHEMA_COUNT, true },
+        { "emitters", KD_SCHEMA_LIST(KD_SCHEMA_REF("EmitterTold")), false },
+        { "path", KD_SCHEMA_REF("SessionPath"), true },
+        { "rendering", KD_SCHEMA_REF("SessionRendering"), true },
+        { "refining", KD_SCHEMA_REF("SessionRefining"), true },
+        { "clock", KD_SCHEMA_REF("FallClock"), true },
+        { "order", KD_SCHEMA_COUNT, true },
     };
-    static const struct kd_openapi_member patched[] = { { "revision", KD_SCHEMA_COUNT, false }, { "order", KD_SCHEMA_COUNT, true } };
+    static const struct kd_openapi_member patched[] = { { "revision", KD_SCHEMA_COUNT, false },
+                                                        { "order", KD_SCHEMA_COUNT, true } };
     kd_schema_enum(json, "SessionVaries", kd_session_varies_word);
     KD_OPENAPI_STRICT(json, "EmitterTold", emitter);
     KD_OPENAPI_TOLD(json, "SessionPath", "times in seconds", path);
@@ -66,7 +79,9 @@ static void begin(struct kd_json *json, const char *name, const char *help)
 
 void kd_openapi_particles_parameters(struct kd_json *json)
 {
-    static const struct { const char *name, *help, *schema; } known[] = {
+    static const struct {
+        const char *name, *help, *schema;
+    } known[] = {
         { "first", "number of the first particle; 0 without it", "{\"type\":\"integer\",\"minimum\":0}" },
         { "stride", "from one to the next; 1 without it", "{\"type\":\"integer\",\"minimum\":1}" },
         { "count", "how many; without it, as many as there are", "{\"type\":\"integer\",\"minimum\":1}" },

@@ -1,4 +1,5 @@
-/* This gives the bodies and the debris of a play, packed: at once, or as soon as they are newer than those that a client has. */
+/* This gives the bodies and the debris of a play, packed: at once, or as soon as they are newer than those that a
+ * client has. */
 #include "base/clock.h"
 #include "image/npy.h"
 #include "server/http/negotiate.h"
@@ -33,17 +34,21 @@ static void put_words(uint8_t *to, const uint32_t *words, size_t n)
         to[i] = (uint8_t)(words[i / 4] >> 8 * (i % 4));
 }
 
-static enum kd_status add_head(const struct kd_play_tick *tick, size_t n, uint32_t stride, size_t all, struct kd_buffer *out)
+static enum kd_status add_head(const struct kd_play_tick *tick, size_t n, uint32_t stride, size_t all,
+                               struct kd_buffer *out)
 {
     uint64_t t;
     uint8_t bytes[4 * KD_PLAY_HEAD_WORDS];
     memcpy(&t, &tick->t, sizeof t);
-    put_words(bytes, (const uint32_t[KD_PLAY_HEAD_WORDS]) { (uint32_t)n, stride, (uint32_t)tick->generation, (uint32_t)all, (uint32_t)t, (uint32_t)(t >> 32) },
+    put_words(bytes,
+              (const uint32_t[KD_PLAY_HEAD_WORDS]) { (uint32_t)n, stride, (uint32_t)tick->generation, (uint32_t)all,
+                                                     (uint32_t)t, (uint32_t)(t >> 32) },
               KD_PLAY_HEAD_WORDS);
     return kd_buffer_append(out, bytes, sizeof bytes);
 }
 
-static enum kd_status add_npy_head(const char *const *names, size_t n_names, const char *whole, size_t n, struct kd_buffer *out)
+static enum kd_status add_npy_head(const char *const *names, size_t n_names, const char *whole, size_t n,
+                                   struct kd_buffer *out)
 {
     struct kd_npy array = { .n_fields = n_names, .shape = { n }, .n_dimensions = 1 };
     for (size_t i = 0; i < n_names; i++) {
@@ -55,7 +60,8 @@ static enum kd_status add_npy_head(const char *const *names, size_t n_names, con
 
 static enum kd_status pack_bodies(const struct kd_play_tick *tick, bool npy, struct kd_buffer *out)
 {
-    static const char *const names[KD_PLAY_BODY_WORDS] = { "id", "x", "y", "z", "vx", "vy", "vz", "mass", "radius", "temperature_k" };
+    static const char *const names[KD_PLAY_BODY_WORDS] = { "id", "x",  "y",    "z",      "vx",
+                                                           "vy", "vz", "mass", "radius", "temperature_k" };
     enum kd_status status = npy ? add_npy_head(names, KD_PLAY_BODY_WORDS, "id", tick->n_bodies, out)
                                 : add_head(tick, tick->n_bodies, KD_PLAY_BODY_WORDS, tick->n_bodies, out);
     return status ? status : kd_buffer_append(out, tick->bodies.data, tick->bodies.size);
@@ -65,10 +71,12 @@ static enum kd_status pack_bodies(const struct kd_play_tick *tick, bool npy, str
 static enum kd_status pack_debris(const struct kd_play_tick *tick, uint32_t most, bool npy, struct kd_buffer *out)
 {
     static const char *const names[KD_PLAY_DEBRIS_WORDS] = { "x", "y", "z", "stage_and_source" };
-    const size_t every = tick->n_debris > most ? (tick->n_debris + most - 1) / most : 1, n = (tick->n_debris + every - 1) / every;
+    const size_t every = tick->n_debris > most ? (tick->n_debris + most - 1) / most : 1,
+                 n = (tick->n_debris + every - 1) / every;
     const size_t row = 4 * KD_PLAY_DEBRIS_WORDS;
     enum kd_status status;
-    KD_TRY(npy ? add_npy_head(names, KD_PLAY_DEBRIS_WORDS, "stage_and_source", n, out) : add_head(tick, n, KD_PLAY_DEBRIS_WORDS, tick->all_debris, out));
+    KD_TRY(npy ? add_npy_head(names, KD_PLAY_DEBRIS_WORDS, "stage_and_source", n, out)
+               : add_head(tick, n, KD_PLAY_DEBRIS_WORDS, tick->all_debris, out));
     if (every == 1)
         KD_TRY(kd_buffer_append(out, tick->debris.data, tick->debris.size));
     for (size_t i = 0; every > 1 && i < n; i++)
@@ -82,7 +90,8 @@ static enum MHD_Result send_tick(struct kd_request *request, const struct wait *
     struct kd_buffer out = { 0 };
     char number[24];
     const uint32_t debris = wait->watcher.debris;
-    const enum kd_status status = debris ? pack_debris(tick, debris, wait->npy, &out) : pack_bodies(tick, wait->npy, &out);
+    const enum kd_status status =
+        debris ? pack_debris(tick, debris, wait->npy, &out) : pack_bodies(tick, wait->npy, &out);
     if (status) {
         kd_play_tick_release(tick);
         kd_buffer_finish(&out);
@@ -128,18 +137,22 @@ static enum MHD_Result begin(struct kd_request *request, bool debris)
     static const char *const types[] = { PACKED_TYPE, KD_NPY_TYPE };
     uint64_t after, wait_ms, most = 0;
     enum MHD_Result refused;
-    if (!kd_reply_only(request, (const char *const[]) { "after", "wait_ms", debris ? "at_most" : NULL, NULL }, &refused))
+    if (!kd_reply_only(request, (const char *const[]) { "after", "wait_ms", debris ? "at_most" : NULL, NULL },
+                       &refused))
         return refused;
     if (!kd_target_whole(&request->target, "after", 0, UINT64_MAX, &after))
         return bad_number(request, "after is a generation, Kerrd-Generation of what you have");
     if (!kd_target_whole(&request->target, "wait_ms", KD_WAIT_MS, KD_WAIT_MS_MAX, &wait_ms))
         return bad_number(request, "wait_ms is a whole number of milliseconds, 0 to 60000");
-    if (debris && (!kd_target_whole(&request->target, "at_most", KD_PLAY_DEBRIS, KD_PLAYGROUND_DEBRIS_MAX, &most) || !most))
+    if (debris &&
+        (!kd_target_whole(&request->target, "at_most", KD_PLAY_DEBRIS, KD_PLAYGROUND_DEBRIS_MAX, &most) || !most))
         return bad_number(request, "at_most is a whole number of pieces, 1 to 1000000");
     const size_t type = kd_reply_accepted(request, 2, kd_accept_string, types);
     if (type == 2)
-        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE, .offered = PACKED_TYPE ", " KD_NPY_TYPE,
-                                                                .detail = "places are given as one of the types that are offered" });
+        return kd_reply_problem(
+            request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE,
+                                            .offered = PACKED_TYPE ", " KD_NPY_TYPE,
+                                            .detail = "places are given as one of the types that are offered" });
     struct kd_play *play = kd_play_of(request, &refused);
     if (!play)
         return refused;
@@ -149,12 +162,21 @@ static enum MHD_Result begin(struct kd_request *request, bool debris)
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
     }
     wait->npy = type == 1;
-    wait->watcher = (struct kd_play_watcher) { .play = play, .mhd = request->mhd, .socket = kd_connection_socket(request->connection),
-                                               .debris = (uint32_t)most, .deadline_ms = kd_clock_ms() + (double)wait_ms };
+    wait->watcher = (struct kd_play_watcher) { .play = play,
+                                               .mhd = request->mhd,
+                                               .socket = kd_connection_socket(request->connection),
+                                               .debris = (uint32_t)most,
+                                               .deadline_ms = kd_clock_ms() + (double)wait_ms };
     request->watcher = &wait->watcher;
     kd_play_watch(request->watcher, kd_target_value(&request->target, "after") ? &after : NULL);
     return look(request);
 }
 
-enum MHD_Result kd_handle_play_bodies(struct kd_request *request) { return request->watcher ? look(request) : begin(request, false); }
-enum MHD_Result kd_handle_play_debris(struct kd_request *request) { return request->watcher ? look(request) : begin(request, true); }
+enum MHD_Result kd_handle_play_bodies(struct kd_request *request)
+{
+    return request->watcher ? look(request) : begin(request, false);
+}
+enum MHD_Result kd_handle_play_debris(struct kd_request *request)
+{
+    return request->watcher ? look(request) : begin(request, true);
+}

@@ -13,10 +13,12 @@
 #define STEP_MOST KD_PLAYGROUND_TIME
 
 static const struct kd_playground_setting pace_rows[] = {
-    { "rate", KD_SETTING_REAL, offsetof(struct kd_play_pace, rate), USUAL_RATE, 0, KD_PLAY_RATE_MAX, 0, NULL, "M a second of the clock" },
+    { "rate", KD_SETTING_REAL, offsetof(struct kd_play_pace, rate), USUAL_RATE, 0, KD_PLAY_RATE_MAX, 0, NULL,
+      "M a second of the clock" },
     { "paused", KD_SETTING_TRUTH, offsetof(struct kd_play_pace, paused), 0, 0, 1, 0, NULL, "whether it stands" },
 };
-static const struct kd_playground_setting step_row = { "by", KD_SETTING_REAL, 0, 0, 0, STEP_MOST, 0, NULL, "M to go on by" };
+static const struct kd_playground_setting step_row = { "by", KD_SETTING_REAL, 0, 0, 0, STEP_MOST, 0,
+                                                       NULL, "M to go on by" };
 
 enum kd_status kd_play_read_pace(cJSON *tree, struct kd_play_pace *pace, struct kd_error *error)
 {
@@ -35,7 +37,8 @@ enum kd_status kd_play_read_pace(cJSON *tree, struct kd_play_pace *pace, struct 
     return status;
 }
 
-enum kd_status kd_play_read_scene(const cJSON *item, const struct kd_playground *p, const struct kd_assets *assets, struct kd_scene *scene, struct kd_error *error)
+enum kd_status kd_play_read_scene(const cJSON *item, const struct kd_playground *p, const struct kd_assets *assets,
+                                  struct kd_scene *scene, struct kd_error *error)
 {
     enum kd_status status;
     if (!item)
@@ -87,8 +90,8 @@ static void add_added(struct kd_json *json, const struct kd_playground *p, uint3
     kd_json_end(json);
 }
 
-enum kd_status kd_play_to_json(const struct kd_play *play, const struct kd_play_state *state, struct kd_playground *p, const struct kd_play_told *told,
-                               struct kd_buffer *out)
+enum kd_status kd_play_to_json(const struct kd_play *play, const struct kd_play_state *state, struct kd_playground *p,
+                               const struct kd_play_told *told, struct kd_buffer *out)
 {
     struct kd_json json = kd_json_begin(out);
     kd_json_object(&json, NULL);
@@ -135,7 +138,10 @@ enum kd_status kd_play_series_json(const struct kd_playground_series *series, st
 
 static void add_rows(struct kd_json *json, const char *name, const struct kd_playground_setting *rows, size_t n)
 {
-    static const char *const kinds[] = { [KD_SETTING_REAL] = "number", [KD_SETTING_WHOLE] = "integer", [KD_SETTING_TRUTH] = "boolean", [KD_SETTING_WORD] = "string" };
+    static const char *const kinds[] = { [KD_SETTING_REAL] = "number",
+                                         [KD_SETTING_WHOLE] = "integer",
+                                         [KD_SETTING_TRUTH] = "boolean",
+                                         [KD_SETTING_WORD] = "string" };
     kd_json_array(json, name);
     for (size_t i = 0; i < n; i++) {
         const struct kd_playground_setting *row = &rows[i];

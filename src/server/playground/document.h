@@ -9,21 +9,23 @@
 
 /* Takes "rate" and "paused" out of the tree; what is not given stays. KD_EINVAL with a pointer. */
 enum kd_status kd_play_read_pace(cJSON *tree, struct kd_play_pace *pace, struct kd_error *error);
-/* Merges "scene" over *scene, if it is there (NULL: it is not), and looks whether the playground may be shown in it. KD_EINVAL with a pointer. */
-enum kd_status kd_play_read_scene(const cJSON *item, const struct kd_playground *p, const struct kd_assets *assets, struct kd_scene *scene, struct kd_error *error);
+/* Merges "scene" over *scene, if it is there (NULL: it is not), and looks whether the playground may be shown in it.
+ * KD_EINVAL with a pointer. */
+enum kd_status kd_play_read_scene(const cJSON *item, const struct kd_playground *p, const struct kd_assets *assets,
+                                  struct kd_scene *scene, struct kd_error *error);
 /* The rate of the preset that the tree names, or what is usual. */
 double kd_play_usual_rate(const cJSON *tree);
 /* {"by": M} of a step. */
 enum kd_status kd_play_read_step(const char *text, size_t length, double *by, struct kd_error *error);
 
 struct kd_play_told {
-    const struct kd_scene *scene; /* of its picture */
-    bool token;            /* who has just opened it is told */
-    uint32_t before;       /* ids above it are "added"; UINT32_MAX: none is told */
+    const struct kd_scene *scene;                  /* of its picture */
+    bool token;                                    /* who has just opened it is told */
+    uint32_t before;                               /* ids above it are "added"; UINT32_MAX: none is told */
     const struct kd_playground_progress *progress; /* of a step; NULL: it is none */
 };
-enum kd_status kd_play_to_json(const struct kd_play *play, const struct kd_play_state *state, struct kd_playground *p, const struct kd_play_told *told,
-                               struct kd_buffer *out);
+enum kd_status kd_play_to_json(const struct kd_play *play, const struct kd_play_state *state, struct kd_playground *p,
+                               const struct kd_play_told *told, struct kd_buffer *out);
 /* {"columns": {name: [...]}} */
 enum kd_status kd_play_series_json(const struct kd_playground_series *series, struct kd_buffer *out);
 /* {"presets", "settings", "body"}: what may be asked for. */

@@ -16,8 +16,8 @@
 
 struct stream {
     struct kd_play_watcher watcher; /* first */
-    struct kd_buffer text; /* on its way, */
-    size_t at;             /* as far as this */
+    struct kd_buffer text;          /* on its way, */
+    size_t at;                      /* as far as this */
     bool over;
 };
 
@@ -32,7 +32,8 @@ static size_t take(struct stream *s, char *to, size_t size)
 
 static enum kd_status add_tick(struct stream *s, struct kd_play_tick *tick)
 {
-    enum kd_status status = kd_buffer_printf(&s->text, "event: tick\ndata: %.*s\n\n", (int)tick->event.size, (const char *)tick->event.data);
+    enum kd_status status = kd_buffer_printf(&s->text, "event: tick\ndata: %.*s\n\n", (int)tick->event.size,
+                                             (const char *)tick->event.data);
     kd_play_tick_release(tick);
     return status;
 }
@@ -43,8 +44,8 @@ static enum kd_status add_event(struct stream *s, uint64_t before, const struct 
     const uint64_t now = s->watcher.event, lost = event->number ? now - 1 : now;
     enum kd_status status = KD_OK;
     if (lost > before)
-        KD_TRY(kd_buffer_printf(&s->text, "event: lost\nid: %llu\ndata: {\"from\":%llu,\"to\":%llu}\n\n", (unsigned long long)lost,
-                                (unsigned long long)before + 1, (unsigned long long)lost));
+        KD_TRY(kd_buffer_printf(&s->text, "event: lost\nid: %llu\ndata: {\"from\":%llu,\"to\":%llu}\n\n",
+                                (unsigned long long)lost, (unsigned long long)before + 1, (unsigned long long)lost));
     if (!event->number)
         return status;
     KD_TRY(kd_buffer_printf(&s->text, "event: happened\nid: %llu\ndata: ", (unsigned long long)event->number));
@@ -121,18 +122,24 @@ enum MHD_Result kd_handle_play_events(struct kd_request *request)
     if (!kd_reply_only(request, (const char *const[]) { "since", NULL }, &refused))
         return refused;
     if (!begins_at(request, &since))
-        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_INVALID_PARAMETERS, .detail = "since is the number of an event" });
+        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_INVALID_PARAMETERS,
+                                                                .detail = "since is the number of an event" });
     struct kd_play *play = kd_play_of(request, &refused);
     if (!play)
         return refused;
     struct stream *s = request->connection && !request->head ? calloc(1, sizeof *s) : NULL;
     if (!s) {
         kd_play_release(play);
-        return request->head ? kd_reply_send(request, MHD_HTTP_OK, kd_reply_empty(TYPE))
-                             : kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
+        return request->head
+                   ? kd_reply_send(request, MHD_HTTP_OK, kd_reply_empty(TYPE))
+                   : kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
     }
     const int socket = kd_connection_socket(request->connection), unsent = UNSENT_BYTES;
-    s->watcher = (struct kd_play_watcher) { .play = play, .mhd = request->mhd, .socket = socket, .stream = true, .event = since,
+    s->watcher = (struct kd_play_watcher) { .play = play,
+                                            .mhd = request->mhd,
+                                            .socket = socket,
+                                            .stream = true,
+                                            .event = since,
                                             .deadline_ms = kd_clock_ms() + HEARTBEAT_MS };
     kd_play_watch(&s->watcher, NULL);
     struct MHD_Response *response = MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, 64 << 10, produce, s, release);
@@ -144,6 +151,7 @@ enum MHD_Result kd_handle_play_events(struct kd_request *request)
     MHD_add_response_header(response, "Content-Type", TYPE);
     MHD_add_response_header(response, "X-Accel-Buffering", "no"); /* for proxies that would rather collect */
     const enum MHD_Result result = kd_reply_send(request, MHD_HTTP_OK, response);
-    kd_connections_stage(request->server->connections, request->connection, KD_STAGE_WORK, 0); /* it may take as long as it likes */
+    kd_connections_stage(request->server->connections, request->connection, KD_STAGE_WORK,
+                         0); /* it may take as long as it likes */
     return result;
 }

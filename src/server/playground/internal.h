@@ -20,12 +20,13 @@ struct kd_play {
     bool listed, stepping;
     const char *why; /* it has ended */
     struct kd_play_pace pace;
-    bool anew; /* its clock begins anew */
-    double used_ms; /* when it was asked for or watched last */
+    bool anew;                 /* its clock begins anew */
+    double used_ms;            /* when it was asked for or watched last */
     double reached, slowed_ms; /* slowed_ms: when time was let go last */
     uint64_t generation;
     struct kd_play_tick *tick; /* the newest; NULL: none yet */
-    uint32_t debris; double debris_ms; /* the most pieces that anybody wants, and when that was said last */
+    uint32_t debris;
+    double debris_ms; /* the most pieces that anybody wants, and when that was said last */
     struct kd_playground_events log;
     uint64_t log_begin; /* what a snapshot has told elsewhere */
     struct kd_play_watcher *watchers;
@@ -62,7 +63,9 @@ void kd_play_wake(struct kd_play *play, double now);        /* those for whom th
 bool kd_play_awaited(const struct kd_play *play);           /* whether anybody waits for a tick. watch.c */
 
 bool kd_play_looked_at(const struct kd_play *play); /* somebody waits for frames. picture.c */
-struct kd_session *kd_play_shown(const struct kd_play *play, double now); /* the picture, if somebody may look at it: a reference, or NULL. picture.c */
+struct kd_session *kd_play_shown(
+    const struct kd_play *play,
+    double now);                         /* the picture, if somebody may look at it: a reference, or NULL. picture.c */
 void kd_play_hide(struct kd_play *play); /* ends the picture. picture.c */
 unsigned kd_play_viewers(const struct kd_play *play); /* who look at it. picture.c */
 

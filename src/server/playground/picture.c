@@ -1,12 +1,15 @@
-/* A play is shown by a session (server/session), which is opened when somebody asks for the first frame, and given a crowd of what there is to see whenever that has
- * changed and somebody looks (run.c). Locks are taken in the order work, all->lock, the sessions' lock. */
+/* A play is shown by a session (server/session), which is opened when somebody asks for the first frame, and given a
+ * crowd of what there is to see whenever that has changed and somebody looks (run.c). Locks are taken in the order
+ * work, all->lock, the sessions' lock. */
 #include "base/clock.h"
 #include "playground/show.h"
 #include "server/playground/internal.h"
 #include "server/render/queue.h"
 
 /* Memory of what a picture shows: up to three crowds at once, on the way, shown and being made. */
-#define CROWD_BYTES (3 * ((size_t)KD_SHOW_NODES * KD_CROWD_NODE * sizeof(float) + KD_PLAYGROUND_BODIES_MAX * sizeof(struct kd_seen_body)))
+#define CROWD_BYTES \
+    (3 * \
+     ((size_t)KD_SHOW_NODES * KD_CROWD_NODE * sizeof(float) + KD_PLAYGROUND_BODIES_MAX * sizeof(struct kd_seen_body)))
 #define ASKED_MS 1000. /* for which who asked for a frame may be on the way back for another */
 
 /* These run with the lock. */
@@ -36,7 +39,8 @@ void kd_play_hide(struct kd_play *play)
 static enum kd_status take_bytes(struct kd_play *play, bool *quota, struct kd_error *error)
 {
     if (kd_bytes_take(play->all->bytes, play->turns.client, CROWD_BYTES, CROWD_BYTES, quota))
-        return kd_error_set(error, KD_EBUSY, "a picture of a playground takes %zu MiB, more than is left %s", CROWD_BYTES >> 20, *quota ? "of your share" : "on this server");
+        return kd_error_set(error, KD_EBUSY, "a picture of a playground takes %zu MiB, more than is left %s",
+                            CROWD_BYTES >> 20, *quota ? "of your share" : "on this server");
     play->crowd_bytes = CROWD_BYTES;
     return KD_OK;
 }
@@ -81,7 +85,8 @@ static enum kd_status open_picture(struct kd_play *play, bool *quota, struct kd_
     kd_play_scene(play, &scene);
     kd_render_queue_capacity(play->all->params.renders, &capacity);
     KD_TRY(kd_plan_make(&scene, &capacity, &plan, error));
-    KD_TRY(kd_sessions_open(play->all->params.sessions, &scene, &plan, play->turns.client, true, NULL, quota, out, error));
+    KD_TRY(
+        kd_sessions_open(play->all->params.sessions, &scene, &plan, play->turns.client, true, NULL, quota, out, error));
 done:
     return status;
 }

@@ -21,7 +21,8 @@ enum kd_status kd_plays_create(const struct kd_plays_params *params, struct kd_p
     all->params = *params;
     pthread_mutex_init(&all->lock, NULL);
     enum kd_status status;
-    all->bytes = kd_bytes_create(&(struct kd_bytes_params) { .clients = params->limit, .max = params->bytes, .share = params->client_bytes });
+    all->bytes = kd_bytes_create(
+        &(struct kd_bytes_params) { .clients = params->limit, .max = params->bytes, .share = params->client_bytes });
     if (!all->bytes)
         KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory"));
     KD_TRY(kd_turns_create(params->limit, params->client_limit, &all->turns, error));
@@ -134,12 +135,14 @@ static enum kd_status admit(struct kd_plays *all, const char *client, size_t byt
     if (all->closed || all->count >= all->params.limit)
         return kd_error_set(error, KD_EBUSY, "%u playgrounds are open, as many as may", all->count);
     if (kd_bytes_take(all->bytes, client, bytes, bytes, quota))
-        return kd_error_set(error, KD_EBUSY, "this playground's debris takes %zu MiB, more than is left %s", bytes >> 20, *quota ? "of your share" : "on this server");
+        return kd_error_set(error, KD_EBUSY, "this playground's debris takes %zu MiB, more than is left %s",
+                            bytes >> 20, *quota ? "of your share" : "on this server");
     return KD_OK;
 }
 
-enum kd_status kd_plays_open(struct kd_plays *all, struct kd_playground **p, const struct kd_play_pace *pace, const struct kd_scene *scene, const char *client,
-                             bool *quota, struct kd_play **out, struct kd_error *error)
+enum kd_status kd_plays_open(struct kd_plays *all, struct kd_playground **p, const struct kd_play_pace *pace,
+                             const struct kd_scene *scene, const char *client, bool *quota, struct kd_play **out,
+                             struct kd_error *error)
 {
     const size_t bytes = BYTES((*p)->debris.capacity);
     struct kd_play *play = make(all, pace, client);
@@ -236,8 +239,10 @@ enum kd_status kd_play_room(struct kd_play *play, uint32_t capacity, bool *quota
     enum kd_status status = KD_OK;
     *quota = false;
     pthread_mutex_lock(&all->lock);
-    if (bytes > play->bytes && kd_bytes_take(all->bytes, play->turns.client, bytes - play->bytes, bytes - play->bytes, quota))
-        status = kd_error_field(error, "/debris_capacity", "so many pieces take %zu MiB, more than is left %s", bytes >> 20, *quota ? "of your share" : "on this server");
+    if (bytes > play->bytes &&
+        kd_bytes_take(all->bytes, play->turns.client, bytes - play->bytes, bytes - play->bytes, quota))
+        status = kd_error_field(error, "/debris_capacity", "so many pieces take %zu MiB, more than is left %s",
+                                bytes >> 20, *quota ? "of your share" : "on this server");
     else if (bytes < play->bytes)
         kd_bytes_give(all->bytes, play->turns.client, play->bytes - bytes);
     if (!status)
@@ -253,8 +258,13 @@ struct kd_play_state kd_play_state(struct kd_play *play)
     const double now = kd_clock_ms();
     pthread_mutex_lock(&play->all->lock);
     const bool resting = !kd_play_awake(play, now);
-    const struct kd_play_state state = { .pace = play->pace, .reached = play->reached, .slowed = play->slowed_ms > 0 && now - play->slowed_ms < SLOWED_MS,
-                                         .resting = resting, .stepping = play->stepping, .over = !play->listed, .watchers = watchers_of(play),
+    const struct kd_play_state state = { .pace = play->pace,
+                                         .reached = play->reached,
+                                         .slowed = play->slowed_ms > 0 && now - play->slowed_ms < SLOWED_MS,
+                                         .resting = resting,
+                                         .stepping = play->stepping,
+                                         .over = !play->listed,
+                                         .watchers = watchers_of(play),
                                          .generation = play->generation };
     pthread_mutex_unlock(&play->all->lock);
     return state;
@@ -302,7 +312,9 @@ bool kd_plays_counts(struct kd_plays *all, struct kd_plays_counts *out)
 {
     if (!kd_clock_lock(&all->lock, COUNTS_MS))
         return false;
-    *out = (struct kd_plays_counts) { .plays = all->count, .bytes = kd_bytes_held(all->bytes), .steps = all->steps, .events = all->events };
+    *out = (struct kd_plays_counts) {
+        .plays = all->count, .bytes = kd_bytes_held(all->bytes), .steps = all->steps, .events = all->events
+    };
     for (const struct kd_play *play = all->first; play; play = play->next)
         out->watchers += watchers_of(play);
     pthread_mutex_unlock(&all->lock);

@@ -1,11 +1,13 @@
-/* A play is a playground that lives on the server: it goes on by itself, at so many M a second, and its owner changes it meanwhile.
+/* A play is a playground that lives on the server: it goes on by itself, at so many M a second, and its owner
+ * changes it meanwhile.
  *
- * It goes on while somebody watches or asks, and rests KD_PLAY_REST_MS after the last one; when nobody has come for params.idle_ms it ends. Each play has one
- * job that takes turns with those of the others (http/turns.h), of some 10 ms: a sub-step is not divided, and takes tens of milliseconds where there are
- * 4096 bodies or a million pieces of debris. What a second asks for and does not get is let go: simulated time slows, which is told.
+ * It goes on while somebody watches or asks, and rests KD_PLAY_REST_MS after the last one; when nobody has come for
+ * params.idle_ms it ends. Each play has one job that takes turns with those of the others (http/turns.h), of some 10
+ * ms: a sub-step is not divided, and takes tens of milliseconds where there are 4096 bodies or a million pieces of
+ * debris. What a second asks for and does not get is let go: simulated time slows, which is told.
  *
- * A playground belongs to one thread at a time: whoever holds the play's `work`, a worker always. The HTTP thread reads what the workers have published, a tick.
- * Any thread; the functions on watchers belong to the HTTP thread. */
+ * A playground belongs to one thread at a time: whoever holds the play's `work`, a worker always. The HTTP thread
+ * reads what the workers have published, a tick. Any thread; the functions on watchers belong to the HTTP thread. */
 #ifndef KD_SERVER_PLAYGROUND_PLAYS_H
 #define KD_SERVER_PLAYGROUND_PLAYS_H
 
@@ -17,7 +19,7 @@
 #include <stdatomic.h>
 
 #define KD_PLAY_REST_MS 5000.
-#define KD_PLAY_RATE_MAX 1e9 /* M a second */
+#define KD_PLAY_RATE_MAX 1e9  /* M a second */
 #define KD_PLAY_DEBRIS 20000u /* pieces that are sent where nothing is said */
 
 struct kd_plays;
@@ -28,7 +30,7 @@ struct kd_session;
 struct kd_sessions;
 
 struct kd_plays_params {
-    struct kd_sessions *sessions;    /* in which their pictures are */
+    struct kd_sessions *sessions; /* in which their pictures are */
     struct kd_render_queue *renders;
     unsigned limit, client_limit; /* at once; of one client */
     unsigned idle_ms;
@@ -44,10 +46,11 @@ struct kd_play_pace {
     bool paused;
 };
 
-/* Opens a play, which owns *p from then on and sets it to NULL. The caller holds a reference. KD_EBUSY: there are as many as may be, or as many bytes; *quota: of
- * this client. */
-enum kd_status kd_plays_open(struct kd_plays *all, struct kd_playground **p, const struct kd_play_pace *pace, const struct kd_scene *scene, const char *client,
-                             bool *quota, struct kd_play **out, struct kd_error *error);
+/* Opens a play, which owns *p from then on and sets it to NULL. The caller holds a reference. KD_EBUSY: there are as
+ * many as may be, or as many bytes; *quota: of this client. */
+enum kd_status kd_plays_open(struct kd_plays *all, struct kd_playground **p, const struct kd_play_pace *pace,
+                             const struct kd_scene *scene, const char *client, bool *quota, struct kd_play **out,
+                             struct kd_error *error);
 /* The play of this id: a reference, or NULL. It counts as asked for. */
 struct kd_play *kd_plays_find(struct kd_plays *all, const char *id);
 void kd_play_release(struct kd_play *play); /* accepts NULL */
@@ -57,14 +60,17 @@ bool kd_play_owned(const struct kd_play *play, const char *token); /* in constan
 /* Ends the play, and tells all who watch why: a word. */
 void kd_play_end(struct kd_play *play, const char *why);
 
-/* Takes the playground, which is the caller's until it is given back, itself or another one in its place: workers only, and for a moment. */
+/* Takes the playground, which is the caller's until it is given back, itself or another one in its place: workers
+ * only, and for a moment. */
 struct kd_playground *kd_play_take(struct kd_play *play);
 void kd_play_give(struct kd_play *play, struct kd_playground *p);
-/* In between: what has happened in it is told; it has changed, or gone on; how many sub-steps it may be moved on between two looks at the clock. */
+/* In between: what has happened in it is told; it has changed, or gone on; how many sub-steps it may be moved on
+ * between two looks at the clock. */
 void kd_play_log(struct kd_play *play, const struct kd_playground *p);
 void kd_play_moved(struct kd_play *play);
 uint32_t kd_play_pieces(const struct kd_playground *p);
-/* Counts the bytes that a capacity of debris takes instead of the present one. KD_EBUSY, and nothing has changed, where they are too many. */
+/* Counts the bytes that a capacity of debris takes instead of the present one. KD_EBUSY, and nothing has changed,
+ * where they are too many. */
 enum kd_status kd_play_room(struct kd_play *play, uint32_t capacity, bool *quota, struct kd_error *error);
 
 struct kd_play_state {
@@ -78,13 +84,15 @@ struct kd_play_state kd_play_state(struct kd_play *play);
 void kd_play_set_pace(struct kd_play *play, const struct kd_play_pace *pace);
 /* Fails where a frame of the scene would take too long, or cannot be made. */
 enum kd_status kd_plays_takes(struct kd_plays *all, const struct kd_scene *scene, struct kd_error *error);
-/* The scene of its picture, which a session shows (server/session) as soon as somebody asks for frames, together with the bodies and the debris as they are. */
+/* The scene of its picture, which a session shows (server/session) as soon as somebody asks for frames, together
+ * with the bodies and the debris as they are. */
 void kd_play_scene(struct kd_play *play, struct kd_scene *out);
 /* Resolved and valid. */
 enum kd_status kd_play_set_scene(struct kd_play *play, const struct kd_scene *scene, struct kd_error *error);
 /* The session: a reference. KD_EBUSY: there are as many as may be; *quota: of this client. The HTTP thread. */
 enum kd_status kd_play_picture(struct kd_play *play, bool *quota, struct kd_session **out, struct kd_error *error);
-/* Whether the play may be stepped by hand from now on, which it may while it is paused and nobody else does: then nothing else changes it until kd_play_stepped. */
+/* Whether the play may be stepped by hand from now on, which it may while it is paused and nobody else does: then
+ * nothing else changes it until kd_play_stepped. */
 bool kd_play_step(struct kd_play *play);
 void kd_play_stepped(struct kd_play *play);
 
@@ -126,9 +134,11 @@ enum kd_play_news {
     KD_PLAY_LATE,  /* the deadline has passed, which the caller may set anew */
     KD_PLAY_LATER, /* the connection has been suspended, and is resumed for one of these */
 };
-enum kd_play_news kd_play_await(struct kd_play_watcher *watcher, struct kd_play_tick **tick, struct kd_playground_event *event, const char **why);
+enum kd_play_news kd_play_await(struct kd_play_watcher *watcher, struct kd_play_tick **tick,
+                                struct kd_playground_event *event, const char **why);
 
-/* Looks after deadlines, clients that have gone and plays that nobody watches. One thread calls it, ten times a second. */
+/* Looks after deadlines, clients that have gone and plays that nobody watches. One thread calls it, ten times a
+ * second. */
 void kd_plays_sweep(struct kd_plays *all);
 /* Takes no more plays, and ends all. */
 void kd_plays_close(struct kd_plays *all);

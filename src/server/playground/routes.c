@@ -1,4 +1,5 @@
-/* These routes open, tell, change, step and end a play, and give its files. All that needs the playground itself is a task of the workers. */
+/* These routes open, tell, change, step and end a play, and give its files. All that needs the playground itself is
+ * a task of the workers. */
 #include "server/playground/routes.h"
 
 #include "base/clock.h"
@@ -34,13 +35,16 @@ struct kd_play *kd_play_of(struct kd_request *request, enum MHD_Result *refused)
 {
     struct kd_play *play = kd_plays_find(request->server->plays, request->rest);
     if (!play)
-        *refused = kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND, .detail = "there is no such playground, or it has ended" });
+        *refused = kd_reply_problem(request,
+                                    &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND,
+                                                           .detail = "there is no such playground, or it has ended" });
     return play;
 }
 
 enum MHD_Result kd_play_ended(struct kd_request *request)
 {
-    return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND, .detail = "the playground has ended" });
+    return kd_reply_problem(
+        request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND, .detail = "the playground has ended" });
 }
 
 static void finish(struct kd_task *task)
@@ -56,16 +60,22 @@ static void finish(struct kd_task *task)
 
 /* These run on a worker. */
 
-static const char *body_of(const struct kd_task *task) { return task->request->body.data ? (const char *)task->request->body.data : ""; }
+static const char *body_of(const struct kd_task *task)
+{
+    return task->request->body.data ? (const char *)task->request->body.data : "";
+}
 
-static enum kd_status tell(struct play_task *t, struct kd_playground *p, const struct kd_play_told *what, struct kd_error *error)
+static enum kd_status tell(struct play_task *t, struct kd_playground *p, const struct kd_play_told *what,
+                           struct kd_error *error)
 {
     const struct kd_play_state state = kd_play_state(t->play);
     struct kd_play_told told = *what;
     struct kd_scene scene;
     kd_play_scene(t->play, &scene);
     told.scene = &scene;
-    return kd_play_to_json(t->play, &state, p, &told, &t->out) ? kd_error_set(error, KD_ENOMEM, "out of memory for the answer") : KD_OK;
+    return kd_play_to_json(t->play, &state, p, &told, &t->out)
+               ? kd_error_set(error, KD_ENOMEM, "out of memory for the answer")
+               : KD_OK;
 }
 
 static enum kd_status open_play(struct play_task *t, struct kd_error *error)
@@ -98,12 +108,15 @@ done:
 }
 
 /* Counts the debris that the patch makes room for. */
-static enum kd_status make_room(struct play_task *t, const struct kd_playground *p, const cJSON *tree, struct kd_error *error)
+static enum kd_status make_room(struct play_task *t, const struct kd_playground *p, const cJSON *tree,
+                                struct kd_error *error)
 {
     const cJSON *capacity = cJSON_GetObjectItemCaseSensitive(tree, "debris_capacity");
     if (!cJSON_IsNumber(capacity) || !(capacity->valuedouble >= 0 && capacity->valuedouble <= KD_PLAYGROUND_DEBRIS_MAX))
         return KD_OK; /* the reader of settings refuses it */
-    return capacity->valuedouble > p->params.debris_capacity ? kd_play_room(t->play, (uint32_t)capacity->valuedouble, &t->task.quota, error) : KD_OK;
+    return capacity->valuedouble > p->params.debris_capacity
+               ? kd_play_room(t->play, (uint32_t)capacity->valuedouble, &t->task.quota, error)
+               : KD_OK;
 }
 
 static enum kd_status change_taken(struct play_task *t, struct kd_playground **p, cJSON *tree, struct kd_error *error)
@@ -135,7 +148,8 @@ static enum kd_status change_taken(struct play_task *t, struct kd_playground **p
         status = status ? status : kd_playground_patch_tree(p, tree, error);
         if (status && look)
             kd_play_set_scene(t->play, &old, &(struct kd_error) { 0 });
-        kd_play_room(t->play, (*p)->params.debris_capacity, &quota, &(struct kd_error) { 0 }); /* as it has come out: what is too much is given back */
+        kd_play_room(t->play, (*p)->params.debris_capacity, &quota,
+                     &(struct kd_error) { 0 }); /* as it has come out: what is too much is given back */
         KD_TRY(status);
         kd_play_moved(t->play);
     }
@@ -200,7 +214,9 @@ static enum kd_status write_file(struct play_task *t, struct kd_error *error)
     switch (t->what) {
     case SNAPSHOT: status = kd_playground_write(p, true, &t->out); break;
     case SERIES:
-        status = npy ? kd_series_npy(&p->series, &t->out) : strcmp(t->type, CSV_TYPE) ? kd_play_series_json(&p->series, &t->out) : kd_series_csv(&p->series, &t->out);
+        status = npy                         ? kd_series_npy(&p->series, &t->out)
+                 : strcmp(t->type, CSV_TYPE) ? kd_play_series_json(&p->series, &t->out)
+                                             : kd_series_csv(&p->series, &t->out);
         break;
     case FALLBACK: status = npy ? kd_debris_npy(&p->debris, &t->out) : kd_debris_csv(&p->debris, &t->out); break;
     default: status = tell(t, p, &(struct kd_play_told) { .before = UINT32_MAX }, error);
@@ -222,7 +238,10 @@ static enum kd_turn_end work(struct kd_task *task, double until_ms)
     }
     kd_task_fail(task, error.status, &error);
     if (!error.status)
-        kd_task_fail(task, kd_task_hold(task->request->server, task->turns.client, t->out.size, &task->held, &task->quota, &error), &error);
+        kd_task_fail(
+            task,
+            kd_task_hold(task->request->server, task->turns.client, t->out.size, &task->held, &task->quota, &error),
+            &error);
     return end;
 }
 
@@ -279,7 +298,10 @@ static enum MHD_Result begin(struct kd_request *request, struct kd_play *play, e
 
 static enum MHD_Result forbid(struct kd_request *request)
 {
-    return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_FORBIDDEN, .detail = "changing a playground takes its token: Authorization: Bearer TOKEN" });
+    return kd_reply_problem(
+        request,
+        &(struct kd_problem) { .type = KD_PROBLEM_FORBIDDEN,
+                               .detail = "changing a playground takes its token: Authorization: Bearer TOKEN" });
 }
 
 enum MHD_Result kd_handle_plays(struct kd_request *request)
@@ -328,7 +350,10 @@ enum MHD_Result kd_handle_play(struct kd_request *request)
     return reads ? begin_reading(request, STATE, JSON_TYPE) : begin_owned(request, CHANGE);
 }
 
-enum MHD_Result kd_handle_play_step(struct kd_request *request) { return request->task ? deliver(request) : begin_owned(request, STEP); }
+enum MHD_Result kd_handle_play_step(struct kd_request *request)
+{
+    return request->task ? deliver(request) : begin_owned(request, STEP);
+}
 
 enum MHD_Result kd_handle_play_snapshot(struct kd_request *request)
 {
@@ -341,8 +366,11 @@ static enum MHD_Result table(struct kd_request *request, enum what what, const c
         return deliver(request);
     const size_t i = kd_reply_accepted(request, n, kd_accept_string, types);
     if (i == n)
-        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE, .offered = n == 3 ? CSV_TYPE ", " KD_NPY_TYPE ", " JSON_TYPE : CSV_TYPE ", " KD_NPY_TYPE,
-                                                                .detail = "a table is given as one of the types that are offered" });
+        return kd_reply_problem(
+            request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE,
+                                            .offered = n == 3 ? CSV_TYPE ", " KD_NPY_TYPE ", " JSON_TYPE
+                                                              : CSV_TYPE ", " KD_NPY_TYPE,
+                                            .detail = "a table is given as one of the types that are offered" });
     return begin_reading(request, what, types[i]);
 }
 

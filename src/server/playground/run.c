@@ -1,7 +1,8 @@
 /* A play goes on in turns.
  *
- * Its goal goes on with the clock, at the rate that is asked, and the bodies follow in sub-steps until they are past it. They may be behind by LAG_S of the rate, which a
- * crowded machine makes up for later; what is more is let go. A beat, a thirtieth of a second, has room for as many sub-steps as the setting `budget` says. */
+ * Its goal goes on with the clock, at the rate that is asked, and the bodies follow in sub-steps until they are past
+ * it. They may be behind by LAG_S of the rate, which a crowded machine makes up for later; what is more is let go. A
+ * beat, a thirtieth of a second, has room for as many sub-steps as the setting `budget` says. */
 #include "base/clock.h"
 #include "playground/show.h"
 #include "server/playground/internal.h"
@@ -9,8 +10,8 @@
 #include <math.h>
 
 #define TURN_MS 10.
-#define TICK_MS 33.  /* from one tick to the next */
-#define LEAST_MS 8.  /* from one turn to the next */
+#define TICK_MS 33. /* from one tick to the next */
+#define LEAST_MS 8. /* from one turn to the next */
 #define MOST_MS 100.
 #define LAG_S 0.1
 #define BEATS 30.    /* a second */
@@ -22,7 +23,7 @@
 struct order {
     bool over, goes, anew, awaited;
     double rate;
-    uint32_t debris; /* pieces that somebody wants */
+    uint32_t debris;          /* pieces that somebody wants */
     struct kd_session *shown; /* a picture of it that somebody looks at, a reference; NULL: none */
 };
 
@@ -39,9 +40,14 @@ static uint32_t wanted_debris(const struct kd_play *play, double now)
 static struct order look(struct kd_play *play, double now)
 {
     pthread_mutex_lock(&play->all->lock);
-    const struct order order = { .over = !play->listed, .anew = play->anew, .rate = play->pace.rate, .awaited = kd_play_awaited(play),
-                                 .goes = !play->pace.paused && !play->stepping && play->pace.rate > 0 && kd_play_awake(play, now),
-                                 .debris = wanted_debris(play, now), .shown = kd_play_shown(play, now) };
+    const struct order order = { .over = !play->listed,
+                                 .anew = play->anew,
+                                 .rate = play->pace.rate,
+                                 .awaited = kd_play_awaited(play),
+                                 .goes = !play->pace.paused && !play->stepping && play->pace.rate > 0 &&
+                                         kd_play_awake(play, now),
+                                 .debris = wanted_debris(play, now),
+                                 .shown = kd_play_shown(play, now) };
     play->anew = false;
     if (play->unshown)
         play->shown = 0;
@@ -108,7 +114,7 @@ static bool advance(struct kd_play *play, double rate, double now)
     play->goal += rate * seconds;
     play->allowance = fmin(play->allowance + p->params.budget * seconds * BEATS, p->params.budget);
     follow(play, now + TURN_MS);
-    const bool spent = play->allowance < 1, slowed = play->goal - p->t > (spent ? 0 : rate * LAG_S);
+    const bool spent = play->allowance<1, slowed = play->goal - p->t>(spent ? 0 : rate * LAG_S);
     if (slowed)
         play->goal = p->t + (spent ? 0 : rate * LAG_S);
     const double end = kd_clock_ms();
@@ -126,14 +132,19 @@ static bool advance(struct kd_play *play, double rate, double now)
     return play->goal > p->t;
 }
 
-static bool has_debris(const struct kd_play_tick *tick, uint32_t wanted) { return !wanted || (tick->has_debris && tick->most >= wanted); }
+static bool has_debris(const struct kd_play_tick *tick, uint32_t wanted)
+{
+    return !wanted || (tick->has_debris && tick->most >= wanted);
+}
 
-/* Publishes how it stands, if anybody waits for it. Returns when that is to be done instead, at the latest; 0: it is done. */
+/* Publishes how it stands, if anybody waits for it. Returns when that is to be done instead, at the latest; 0: it is
+ * done. */
 static double publish(struct kd_play *play, const struct order *order, double now)
 {
     const struct kd_play_state state = kd_play_state(play);
     pthread_mutex_lock(&play->all->lock);
-    const bool fresh = play->tick && play->tick->generation == state.generation && has_debris(play->tick, order->debris);
+    const bool fresh =
+        play->tick && play->tick->generation == state.generation && has_debris(play->tick, order->debris);
     const bool first = !play->tick;
     pthread_mutex_unlock(&play->all->lock);
     if (fresh || (!order->awaited && !first))
@@ -193,7 +204,8 @@ enum kd_turn_end kd_play_turn(struct kd_turns_job *job)
     else
         behind = advance(play, order.rate, now);
     now = kd_clock_ms();
-    const double ahead = play->p->t - play->goal, next = order.goes ? now + fmin(fmax(1e3 * ahead / order.rate, LEAST_MS), MOST_MS) : 0;
+    const double ahead = play->p->t - play->goal,
+                 next = order.goes ? now + fmin(fmax(1e3 * ahead / order.rate, LEAST_MS), MOST_MS) : 0;
     job->due_ms = sooner(publish(play, &order, now), sooner(show(play, &order, now), next));
     pthread_mutex_unlock(&play->work);
     if (order.shown)

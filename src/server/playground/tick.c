@@ -44,8 +44,10 @@ static enum kd_status pack_bodies(struct kd_play_tick *tick, const struct kd_pla
         return KD_ENOMEM;
     for (size_t i = 0; i < p->n; i++) {
         const struct kd_playground_body *body = &p->bodies[i];
-        const double row[KD_PLAY_BODY_WORDS] = { 0, body->x[0], body->x[1], body->x[2], body->v[0], body->v[1], body->v[2],
-                                                 body->mass, body->radius, body->temperature_k };
+        const double row[KD_PLAY_BODY_WORDS] = {
+            0,          body->x[0], body->x[1], body->x[2],   body->v[0],
+            body->v[1], body->v[2], body->mass, body->radius, body->temperature_k
+        };
         uint8_t *to = tick->bodies.data + i * KD_PLAY_BODY_WORDS * 4;
         put_word(to, body->id);
         for (int k = 1; k < KD_PLAY_BODY_WORDS; k++)

@@ -25,7 +25,8 @@ static enum kd_play_news news(const struct kd_play_watcher *w, double now)
         return KD_PLAY_OVER;
     if (has_tick(w))
         return KD_PLAY_TICK;
-    const bool comes = !w->stream && play->generation >= w->least; /* it is being made, and at once, whatever the deadline */
+    const bool comes =
+        !w->stream && play->generation >= w->least; /* it is being made, and at once, whatever the deadline */
     return now > w->deadline_ms && !comes ? KD_PLAY_LATE : KD_PLAY_LATER;
 }
 
@@ -50,7 +51,8 @@ bool kd_play_awaited(const struct kd_play *play)
     return false;
 }
 
-/* The event behind the last one that was taken; those that are no longer kept are passed over, and *event says how far. */
+/* The event behind the last one that was taken; those that are no longer kept are passed over, and *event says how
+ * far. */
 static void take_event(struct kd_play_watcher *w, struct kd_playground_event *event)
 {
     const struct kd_playground_event *found = NULL;
@@ -100,7 +102,8 @@ void kd_play_unwatch(struct kd_play_watcher *w)
     w->play = NULL;
 }
 
-enum kd_play_news kd_play_await(struct kd_play_watcher *w, struct kd_play_tick **tick, struct kd_playground_event *event, const char **why)
+enum kd_play_news kd_play_await(struct kd_play_watcher *w, struct kd_play_tick **tick,
+                                struct kd_playground_event *event, const char **why)
 {
     struct kd_play *play = w->play;
     const double now = kd_clock_ms();

@@ -1,13 +1,17 @@
-/* What /metrics tells of the device: which it is, what is held of its memory, whether it is lost; and what the queue in front of it has measured. */
+/* What /metrics tells of the device: which it is, what is held of its memory, whether it is lost; and what the queue
+ * in front of it has measured. */
 #include "server/render/internal.h"
 
-/* A label's value: a backslash, a quote and a line feed are escaped; what is no text is not there (vk/physical.c takes names as drivers give them). */
+/* A label's value: a backslash, a quote and a line feed are escaped; what is no text is not there (vk/physical.c
+ * takes names as drivers give them). */
 static enum kd_status add_label(struct kd_buffer *out, const char *name, const char *value)
 {
     enum kd_status status;
     KD_TRY(kd_buffer_printf(out, "%s=\"", name));
     for (; *value; value++)
-        KD_TRY(*value == '"' || *value == '\\' ? kd_buffer_printf(out, "\\%c", *value) : kd_buffer_printf(out, "%c", *value >= ' ' && *value <= '~' ? *value : '?'));
+        KD_TRY(*value == '"' || *value == '\\'
+                   ? kd_buffer_printf(out, "\\%c", *value)
+                   : kd_buffer_printf(out, "%c", *value >= ' ' && *value <= '~' ? *value : '?'));
     KD_TRY(kd_buffer_append(out, "\"", 1));
 done:
     return status;
@@ -16,7 +20,8 @@ done:
 static enum kd_status add_build(struct kd_buffer *out, const struct kd_renderer *renderer)
 {
     enum kd_status status;
-    KD_TRY(kd_buffer_printf(out, "# HELP kerrd_build_info 1; its labels say which program this is, and what it renders on.\n# TYPE kerrd_build_info gauge\nkerrd_build_info{"));
+    KD_TRY(kd_buffer_printf(out, "# HELP kerrd_build_info 1; its labels say which program this is, and what it renders "
+                                 "on.\n# TYPE kerrd_build_info gauge\nkerrd_build_info{"));
     KD_TRY(add_label(out, "version", KD_VERSION));
     KD_TRY(kd_buffer_append(out, ",", 1));
     KD_TRY(add_label(out, "device", kd_renderer_device(renderer)));
@@ -31,9 +36,14 @@ enum kd_status kd_render_queue_metrics(struct kd_render_queue *queue, struct kd_
 {
     enum kd_status status;
     KD_TRY(add_build(out, queue->renderer));
-    KD_TRY(kd_buffer_printf(out, "# HELP kerrd_device_memory_bytes Held of the device's memory by buffers, after the latest picture.\n# TYPE kerrd_device_memory_bytes gauge\n"
-                                 "kerrd_device_memory_bytes %llu\n", (unsigned long long)kd_renderer_held(queue->renderer)));
-    KD_TRY(kd_buffer_printf(out, "# HELP kerrd_device_lost 1: the device is lost, and the server ends.\n# TYPE kerrd_device_lost gauge\nkerrd_device_lost %d\n",
+    KD_TRY(kd_buffer_printf(out,
+                            "# HELP kerrd_device_memory_bytes Held of the device's memory by buffers, after the latest "
+                            "picture.\n# TYPE kerrd_device_memory_bytes gauge\n"
+                            "kerrd_device_memory_bytes %llu\n",
+                            (unsigned long long)kd_renderer_held(queue->renderer)));
+    KD_TRY(kd_buffer_printf(out,
+                            "# HELP kerrd_device_lost 1: the device is lost, and the server ends.\n# TYPE "
+                            "kerrd_device_lost gauge\nkerrd_device_lost %d\n",
                             kd_render_queue_lost(queue, NULL)));
     KD_TRY(kd_render_measures_write(&queue->measures, out));
 done:

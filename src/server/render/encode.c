@@ -2,7 +2,6 @@
 #include "base/clock.h"
 #include "server/render/internal.h"
 
-
 /* What one encoder at most does at a time: nobody else shall wait for it. */
 static bool is_long(const struct kd_render_job *job)
 {
@@ -27,7 +26,8 @@ static struct kd_render_job *take_next(struct kd_render_queue *queue)
 static void encode(struct kd_render_queue *queue, struct kd_render_job *job, struct kd_encoder *encoder)
 {
     double start = kd_clock_ms();
-    const struct kd_picture picture = { &job->frame, &job->scene, &job->plan, kd_render_queue_device_name(queue), job->number, job->lossy };
+    const struct kd_picture picture = { &job->frame, &job->scene, &job->plan, kd_render_queue_device_name(queue),
+                                        job->number, job->lossy };
     job->status = kd_encode(job->format, &picture, job->effort, encoder, &job->file, &job->error);
     job->encode_ms = kd_clock_ms() - start;
     kd_render_measures_encoded(&queue->measures, job->encode_ms);

@@ -11,15 +11,13 @@
 
 #define KD_LONG_FRAME ((size_t)16 << 20) /* bytes: takes an encoder some tenths of a second */
 
-struct kd_render_list {
-    struct kd_render_job *first, **end;
-};
+struct kd_render_list { struct kd_render_job *first, **end; };
 
 /* A thread that renders one long picture at a time. */
 struct kd_lane {
     struct kd_render_queue *queue;
     struct kd_render_job *job; /* NULL: it is free */
-    uint64_t bytes;            /* of the device's memory that count as the job's, by its plan; 0: they are not worth counting */
+    uint64_t bytes; /* of the device's memory that count as the job's, by its plan; 0: they are not worth counting */
     pthread_t thread;
 };
 
@@ -38,7 +36,7 @@ struct kd_render_queue {
     struct kd_render_list jobs;   /* all that want the device, in the order in which they came */
     struct kd_render_job *holder; /* who has the device; NULL: nobody */
     struct kd_lane lanes[KD_ASIDES];
-    unsigned n_lanes; /* whose threads run */
+    unsigned n_lanes;    /* whose threads run */
     uint64_t lane_bytes; /* of all of them */
 
     struct kd_render_list encoding;
@@ -87,7 +85,8 @@ void kd_render_stand_in_line(struct kd_render_job *job);
 void kd_render_failed(struct kd_render_queue *queue, const struct kd_error *error); /* the device has. Unlocked */
 /* After its turn: whether the job begins once more. If so its outcome is taken back. */
 bool kd_render_once_more(struct kd_render_queue *queue, struct kd_render_job *job);
-/* Opens a device that has failed again, once nobody is inside; else, or if it has not, does nothing. Unlocks meanwhile. */
+/* Opens a device that has failed again, once nobody is inside; else, or if it has not, does nothing. Unlocks
+ * meanwhile. */
 void kd_render_reopen(struct kd_render_queue *queue);
 /* It wants the device no more. Locked. */
 void kd_render_take_out(struct kd_render_queue *queue, struct kd_render_job *job);
@@ -98,7 +97,8 @@ void kd_render_finish(struct kd_render_queue *queue, struct kd_render_job *job);
 void kd_render_next(struct kd_render_queue *queue);
 /* Unlocked, by who has the device. */
 enum kd_status kd_render_describe_device(struct kd_render_queue *queue);
-/* Threads: of short works, with the queue as argument; of long ones, with a lane. They end when the queue is closing and empty. */
+/* Threads: of short works, with the queue as argument; of long ones, with a lane. They end when the queue is closing
+ * and empty. */
 void *kd_render_short_main(void *queue);
 void *kd_render_lane_main(void *lane);
 

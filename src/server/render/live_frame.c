@@ -13,14 +13,18 @@
 #include <string.h>
 
 /* How many times as many rays as others the pixels at the critical curve have along each side. */
-static unsigned critical_side(const struct kd_plan *plan) { return plan->critical ? (unsigned)lround(sqrt(plan->critical)) / plan->side : 1; }
+static unsigned critical_side(const struct kd_plan *plan)
+{
+    return plan->critical ? (unsigned)lround(sqrt(plan->critical)) / plan->side : 1;
+}
 
 static void describe_quality(struct kd_live_frame *frame, const struct kd_render_job *job)
 {
     const struct kd_plan *p = &job->plan;
-    snprintf(frame->quality, sizeof frame->quality, "width=%u height=%u samples=%u critical=%u orders=%u engine=%s precision=%s steps=%u sketch=%d bright=%d",
-             p->width, p->height, p->side, critical_side(p), p->orders, kd_engine_name(p->setting.engine), kd_precision_name(p->setting.precision),
-             p->setting.steps, p->march.sketched, p->bright);
+    snprintf(frame->quality, sizeof frame->quality,
+             "width=%u height=%u samples=%u critical=%u orders=%u engine=%s precision=%s steps=%u sketch=%d bright=%d",
+             p->width, p->height, p->side, critical_side(p), p->orders, kd_engine_name(p->setting.engine),
+             kd_precision_name(p->setting.precision), p->setting.steps, p->march.sketched, p->bright);
 }
 
 static void describe_timing(struct kd_live_frame *frame, const struct kd_render_job *job)
@@ -149,7 +153,8 @@ static void add_orbits(struct kd_json *json, const struct kd_scene *scene)
     kd_json_end(json);
 }
 
-static enum kd_status describe_event(struct kd_live_frame *frame, const struct kd_render_job *job, const struct kd_live_note *note)
+static enum kd_status describe_event(struct kd_live_frame *frame, const struct kd_render_job *job,
+                                     const struct kd_live_note *note)
 {
     struct kd_json whole = kd_json_begin(&frame->event), *json = &whole;
     struct kd_fall_clock clock;

@@ -1,5 +1,6 @@
-/* A live frame is one frame of a session, encoded, and what is said of it; all who watch share it, and the last frees it. It is constant once made, but for
- * its files: one that is not the last of its scene may be asked for in other kinds, and has its pixels for that. */
+/* A live frame is one frame of a session, encoded, and what is said of it; all who watch share it, and the last
+ * frees it. It is constant once made, but for its files: one that is not the last of its scene may be asked for in
+ * other kinds, and has its pixels for that. */
 #ifndef KD_SERVER_RENDER_LIVE_FRAME_H
 #define KD_SERVER_RENDER_LIVE_FRAME_H
 
@@ -21,18 +22,18 @@ struct kd_live_file {
 
 struct kd_live_frame {
     _Atomic unsigned references;
-    uint64_t number;   /* of the session's frames, growing, not without gaps */
-    unsigned revision; /* of the scene that it shows */
-    double time;       /* of the scene as it shows it, M */
-    double azimuth_deg; /* likewise of its camera */
-    bool final;         /* nothing finer will follow for this revision; */
-    bool last;          /* nor any other: it is exact, and nothing else */
+    uint64_t number;                          /* of the session's frames, growing, not without gaps */
+    unsigned revision;                        /* of the scene that it shows */
+    double time;                              /* of the scene as it shows it, M */
+    double azimuth_deg;                       /* likewise of its camera */
+    bool final;                               /* nothing finer will follow for this revision; */
+    bool last;                                /* nor any other: it is exact, and nothing else */
     struct kd_live_file files[KD_LIVE_FILES]; /* those that are there stay as they are; */
-    unsigned n_files;        /* more may come, under the lock of the sessions */
-    struct kd_frame picture; /* of one that is not the last: its pixels */
-    struct kd_buffer approximations; /* as the header has them, */
-    uint32_t sentences;              /* and their hash: who knows them is not told again */
-    struct kd_buffer event;          /* the data of its event: JSON in one line */
+    unsigned n_files;                         /* more may come, under the lock of the sessions */
+    struct kd_frame picture;                  /* of one that is not the last: its pixels */
+    struct kd_buffer approximations;          /* as the header has them, */
+    uint32_t sentences;                       /* and their hash: who knows them is not told again */
+    struct kd_buffer event;                   /* the data of its event: JSON in one line */
     char accuracy[KD_ACCURACY_TEXT], timing[400], quality[160], clock[KD_CLOCK_TEXT], flux[KD_FLUX_TEXT];
 };
 
@@ -41,7 +42,7 @@ struct kd_live_note {
     uint64_t number;
     unsigned revision;
     bool final, last; /* nothing finer will follow for this revision; nor any other */
-    double fps; /* of late */
+    double fps;       /* of late */
 };
 
 /* Takes the job's file over, and its picture where that keeps its layers. NULL: out of memory. One reference. */

@@ -24,11 +24,18 @@ void kd_render_measures_frame(struct kd_render_measures *measures, const struct 
         kd_histogram_add(&measures->passes[place_of(frame->timings[i].name)], frame->timings[i].ms);
 }
 
-void kd_render_measures_encoded(struct kd_render_measures *measures, double ms) { kd_histogram_add(&measures->passes[place_of("encode")], ms); }
+void kd_render_measures_encoded(struct kd_render_measures *measures, double ms)
+{
+    kd_histogram_add(&measures->passes[place_of("encode")], ms);
+}
 
-void kd_render_measures_waited(struct kd_render_measures *measures, enum kd_class class, double ms) { kd_histogram_add(&measures->waits[class], ms); }
+void kd_render_measures_waited(struct kd_render_measures *measures, enum kd_class class, double ms)
+{
+    kd_histogram_add(&measures->waits[class], ms);
+}
 
-static enum kd_status write_all(struct kd_buffer *out, const char *name, const char *label, const struct kd_histogram *all, size_t n, const char *(*word)(size_t i))
+static enum kd_status write_all(struct kd_buffer *out, const char *name, const char *label,
+                                const struct kd_histogram *all, size_t n, const char *(*word)(size_t i))
 {
     enum kd_status status = KD_OK;
     for (size_t i = 0; i < n && !status; i++) {
@@ -42,7 +49,11 @@ static enum kd_status write_all(struct kd_buffer *out, const char *name, const c
 
 static const char *class_name(size_t i)
 {
-    static const char *const words[] = { [KD_CLASS_LIVE] = "live", [KD_CLASS_PICTURE] = "picture", [KD_CLASS_RAYS] = "rays", [KD_CLASS_REFINEMENT] = "refinement", [KD_CLASS_JOB] = "job" };
+    static const char *const words[] = { [KD_CLASS_LIVE] = "live",
+                                         [KD_CLASS_PICTURE] = "picture",
+                                         [KD_CLASS_RAYS] = "rays",
+                                         [KD_CLASS_REFINEMENT] = "refinement",
+                                         [KD_CLASS_JOB] = "job" };
     _Static_assert(sizeof words / sizeof *words == KD_N_CLASSES, "a word for each class");
     return words[i];
 }
@@ -51,9 +62,14 @@ enum kd_status kd_render_measures_write(const struct kd_render_measures *measure
 {
     static const char passes[] = "kerrd_pass_seconds", waits[] = "kerrd_queue_wait_seconds";
     enum kd_status status;
-    KD_TRY(kd_histogram_head(out, passes, "What a pass took of a picture that was rendered, as Server-Timing has it; encode: a picture into its file."));
+    KD_TRY(kd_histogram_head(
+        out, passes,
+        "What a pass took of a picture that was rendered, as Server-Timing has it; encode: a picture into its file."));
     KD_TRY(write_all(out, passes, "pass", measures->passes, KD_MEASURED_PASSES, name_of));
-    KD_TRY(kd_histogram_head(out, waits, "For how long a work that wanted the device waited, before it began and between its slices: while others had it, and all but pictures and rays also until their client had time left."));
+    KD_TRY(
+        kd_histogram_head(out, waits,
+                          "For how long a work that wanted the device waited, before it began and between its slices: "
+                          "while others had it, and all but pictures and rays also until their client had time left."));
     KD_TRY(write_all(out, waits, "class", measures->waits, KD_N_CLASSES, class_name));
 done:
     return status;

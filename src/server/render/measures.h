@@ -1,4 +1,5 @@
-/* How long the device's works wait and how long the passes of pictures take is counted here, for /metrics. Any thread. */
+/* How long the device's works wait and how long the passes of pictures take is counted here, for /metrics. Any
+ * thread. */
 #ifndef KD_SERVER_RENDER_MEASURES_H
 #define KD_SERVER_RENDER_MEASURES_H
 
@@ -6,7 +7,8 @@
 #include "server/http/histogram.h"
 #include "server/http/shares.h"
 
-/* What frames report beside the passes of render/plan/pass.h, what comes after the device, and whatever has another name. */
+/* What frames report beside the passes of render/plan/pass.h, what comes after the device, and whatever has another
+ * name. */
 #define KD_MEASURED_ALSO(M) M("upload") M("fill") M("total") M("encode") M("other")
 #define KD_MEASURED_ONE(name) +1
 enum { KD_MEASURED_PASSES = KD_PASS_COUNT KD_MEASURED_ALSO(KD_MEASURED_ONE) };
@@ -15,7 +17,8 @@ struct kd_render_measures { /* all 0 to begin with */
     struct kd_histogram passes[KD_MEASURED_PASSES], waits[KD_N_CLASSES];
 };
 
-/* A picture has been rendered, an encoding done, and a work is over that has waited so long while others had the device. */
+/* A picture has been rendered, an encoding done, and a work is over that has waited so long while others had the
+ * device. */
 void kd_render_measures_frame(struct kd_render_measures *measures, const struct kd_frame *frame);
 void kd_render_measures_encoded(struct kd_render_measures *measures, double ms);
 void kd_render_measures_waited(struct kd_render_measures *measures, enum kd_class class, double ms);

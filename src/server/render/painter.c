@@ -20,8 +20,8 @@
 #include <time.h>
 #include <unistd.h>
 
-#define NICE 10              /* a tenth of the weight of what is live */
-#define IDLE_S 10            /* after which its device is closed */
+#define NICE 10   /* a tenth of the weight of what is live */
+#define IDLE_S 10 /* after which its device is closed */
 #define FILE_MAX_BYTES ((size_t)1 << 20)
 
 struct kd_painter {
@@ -40,7 +40,11 @@ struct kd_painter {
 };
 
 /* Stands before the picture in its file. */
-struct head { char magic[8]; uint64_t bytes, hash; char mark[128]; };
+struct head {
+    char magic[8];
+    uint64_t bytes, hash;
+    char mark[128];
+};
 static const char magic[8] = "kdsmall";
 
 static struct head head_of(const struct kd_painting *work, const uint8_t *png, size_t bytes)
@@ -77,8 +81,8 @@ static void keep(const struct kd_painter *painter, const struct kd_painting *wor
     char *path = path_of(painter, work);
     struct kd_buffer file = { 0 };
     const struct head head = head_of(work, work->png.data, work->png.size);
-    if (path && !kd_buffer_append(&file, &head, sizeof head) && !kd_buffer_append(&file, work->png.data, work->png.size) &&
-        !kd_replace_file(path, file.data, file.size))
+    if (path && !kd_buffer_append(&file, &head, sizeof head) &&
+        !kd_buffer_append(&file, work->png.data, work->png.size) && !kd_replace_file(path, file.data, file.size))
         kd_log(KD_LOG_DEBUG, "cannot write %s: %s", path, strerror(errno));
     kd_buffer_finish(&file);
     free(path);
@@ -141,7 +145,8 @@ static enum kd_status paint(struct kd_painter *painter, struct kd_painting *work
 {
     enum kd_status status = paint_once(painter, work);
     if (status == KD_EDEVICE && !atomic_load(&painter->hangs)) {
-        kd_log(KD_LOG_WARN, "the device that paints small pictures has failed and is opened again: %s", work->error.message);
+        kd_log(KD_LOG_WARN, "the device that paints small pictures has failed and is opened again: %s",
+               work->error.message);
         status = paint_once(painter, work);
     }
     return status;
@@ -167,7 +172,8 @@ static struct kd_painting *await(struct kd_painter *painter)
     clock_gettime(CLOCK_MONOTONIC, &until);
     until.tv_sec += IDLE_S;
     for (int late = 0; !painter->first && !painter->ending && !late;)
-        late = painter->renderer ? pthread_cond_timedwait(&painter->changed, &painter->lock, &until) : pthread_cond_wait(&painter->changed, &painter->lock);
+        late = painter->renderer ? pthread_cond_timedwait(&painter->changed, &painter->lock, &until)
+                                 : pthread_cond_wait(&painter->changed, &painter->lock);
     struct kd_painting *work = painter->first;
     if (work && !(painter->first = work->next))
         painter->end = &painter->first;
@@ -178,7 +184,9 @@ static void *painter_main(void *user)
 {
     struct kd_painter *painter = user;
     const pid_t self = (pid_t)syscall(SYS_gettid);
-    setpriority(PRIO_PROCESS, (id_t)self, getpriority(PRIO_PROCESS, (id_t)self) + NICE); /* threads that it starts, the driver's, have it from it */
+    setpriority(PRIO_PROCESS, (id_t)self,
+                getpriority(PRIO_PROCESS, (id_t)self) +
+                    NICE); /* threads that it starts, the driver's, have it from it */
     pthread_mutex_lock(&painter->lock);
     for (;;) {
         struct kd_painting *work = await(painter);
@@ -194,8 +202,8 @@ static void *painter_main(void *user)
     }
 }
 
-enum kd_status kd_painter_create(const struct kd_renderer_params *params, const char *device_name, char *kept_at, struct kd_painter **out,
-                                 struct kd_error *error)
+enum kd_status kd_painter_create(const struct kd_renderer_params *params, const char *device_name, char *kept_at,
+                                 struct kd_painter **out, struct kd_error *error)
 {
     struct kd_painter *painter = calloc(1, sizeof *painter);
     if (!painter) {
@@ -234,7 +242,10 @@ void kd_painter_paint(struct kd_painter *painter, struct kd_painting *painting)
     pthread_mutex_unlock(&painter->lock);
 }
 
-bool kd_painter_hangs(struct kd_painter *painter) { return atomic_load(&painter->hangs) || kd_pulse_missing_s(&painter->pulse, painter->params.deadline_ms) > 0; }
+bool kd_painter_hangs(struct kd_painter *painter)
+{
+    return atomic_load(&painter->hangs) || kd_pulse_missing_s(&painter->pulse, painter->params.deadline_ms) > 0;
+}
 
 void kd_painter_cancel(struct kd_painter *painter) { atomic_store(&painter->cancelled, true); }
 

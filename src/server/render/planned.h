@@ -1,5 +1,5 @@
-/* This makes the plan of the scene that a request asks for. What takes more than a moment, a large body or a picture of many pixels, is done by the
- * workers: the HTTP thread serves everybody. HTTP thread. */
+/* This makes the plan of the scene that a request asks for. What takes more than a moment, a large body or a picture
+ * of many pixels, is done by the workers: the HTTP thread serves everybody. HTTP thread. */
 #ifndef KD_SERVER_RENDER_PLANNED_H
 #define KD_SERVER_RENDER_PLANNED_H
 
@@ -8,14 +8,15 @@
 #include "scene/scene.h"
 
 struct kd_planned {
-    struct kd_task task; /* first */
+    struct kd_task task;   /* first */
     struct kd_scene scene; /* as asked, */
     struct kd_scene drawn; /* and as the plan is for: kd_format_plan */
     struct kd_plan plan;
     struct kd_problem problem; /* its texts in the task's error */
 };
 
-/* NULL: *result is the handler's, which either has refused or is called again when the workers are done. Owned by the request. */
+/* NULL: *result is the handler's, which either has refused or is called again when the workers are done. Owned by
+ * the request. */
 struct kd_planned *kd_planned_of(struct kd_request *request, enum MHD_Result *result);
 
 #endif

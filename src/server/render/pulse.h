@@ -1,5 +1,6 @@
-/* A pulse tells a thread that works from one that hangs in a call which does not return: it beats whenever the work has come on, and somebody else looks
- * how long ago that was. Any thread beats; one looks, several times a second. A time in which nobody looked, as that of a process that was stopped or of a machine that slept, counts as one
+/* A pulse tells a thread that works from one that hangs in a call which does not return: it beats whenever the work
+ * has come on, and somebody else looks how long ago that was. Any thread beats; one looks, several times a second. A
+ * time in which nobody looked, as that of a process that was stopped or of a machine that slept, counts as one
  * deadline of a submission at most. */
 #ifndef KD_SERVER_RENDER_PULSE_H
 #define KD_SERVER_RENDER_PULSE_H
@@ -10,7 +11,8 @@
 #include <stdint.h>
 
 #define KD_DEADLINE_MS 60000u /* of a submission, where none is given (vk/vk.h) */
-#define KD_PULSE_DEADLINES 9  /* without a beat, and a thread counts as hanging: what a submission may take on a busy machine, and one more */
+#define KD_PULSE_DEADLINES \
+    9 /* without a beat, and a thread counts as hanging: what a submission may take on a busy machine, and one more */
 
 struct kd_pulse {
     _Atomic int64_t beat_ms;                /* 0: it rests */
@@ -23,7 +25,8 @@ static inline void kd_pulse_rest(struct kd_pulse *pulse) { atomic_store(&pulse->
 /* Seconds since the last beat, once they are too many by the deadline of submissions (0: KD_DEADLINE_MS); else 0. */
 static inline double kd_pulse_missing_s(struct kd_pulse *pulse, uint32_t deadline_ms)
 {
-    const int64_t beat = atomic_load(&pulse->beat_ms), now = (int64_t)kd_clock_ms(), deadline = deadline_ms ? deadline_ms : KD_DEADLINE_MS;
+    const int64_t beat = atomic_load(&pulse->beat_ms), now = (int64_t)kd_clock_ms(),
+                  deadline = deadline_ms ? deadline_ms : KD_DEADLINE_MS;
     const int64_t since = now - pulse->looked_ms;
     pulse->missing_ms = beat && beat == pulse->seen_ms ? pulse->missing_ms + (since < deadline ? since : deadline) : 0;
     pulse->seen_ms = beat;

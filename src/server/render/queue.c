@@ -91,8 +91,9 @@ static void sky_made(void *user)
     pthread_mutex_unlock(&queue->lock);
 }
 
-enum kd_status kd_render_queue_create(const struct kd_renderer_params *params, unsigned limit, unsigned client_limit, unsigned client_s, unsigned reopenings,
-                                      struct kd_render_queue **out, struct kd_error *error)
+enum kd_status kd_render_queue_create(const struct kd_renderer_params *params, unsigned limit, unsigned client_limit,
+                                      unsigned client_s, unsigned reopenings, struct kd_render_queue **out,
+                                      struct kd_error *error)
 {
     struct kd_render_queue *queue = calloc(1, sizeof *queue);
     if (!queue)
@@ -152,7 +153,10 @@ const char *kd_render_queue_device_name(const struct kd_render_queue *queue)
     return kd_renderer_device_name(queue->renderer);
 }
 
-char *kd_render_queue_cache_file(const struct kd_render_queue *queue, const char *suffix) { return kd_renderer_cache_file(queue->renderer, suffix); }
+char *kd_render_queue_cache_file(const struct kd_render_queue *queue, const char *suffix)
+{
+    return kd_renderer_cache_file(queue->renderer, suffix);
+}
 
 enum kd_status kd_render_queue_device_json(struct kd_render_queue *queue, struct kd_buffer *out)
 {
@@ -204,13 +208,17 @@ enum kd_status kd_render_queue_afford(struct kd_render_queue *queue, const char 
     if (!(wait_ms > 0))
         return KD_OK;
     const unsigned s = wait_ms < 1e6 * 1e3 ? (unsigned)ceil(wait_ms * 1e-3) : 1000000;
-    kd_error_set(error, KD_EBUSY, "what you have asked for takes as much of the device's time as one client may use, %u s a minute; in %u s more is taken", queue->allowance.seconds, s);
+    kd_error_set(error, KD_EBUSY,
+                 "what you have asked for takes as much of the device's time as one client may use, %u s a minute; in "
+                 "%u s more is taken",
+                 queue->allowance.seconds, s);
     if (error)
         error->retry_s = s;
     return KD_EBUSY;
 }
 
-enum kd_status kd_render_queue_admit(struct kd_render_queue *queue, const char *client, bool *quota, struct kd_error *error)
+enum kd_status kd_render_queue_admit(struct kd_render_queue *queue, const char *client, bool *quota,
+                                     struct kd_error *error)
 {
     unsigned n = 0, own = 0;
     *quota = false;
@@ -234,8 +242,8 @@ enum kd_status kd_render_queue_admit(struct kd_render_queue *queue, const char *
     return kd_error_set(error, KD_EBUSY, "%u of your renders are waiting, as many as one client may have", own);
 }
 
-/* Whether it goes on in slices. A job's picture always does: nobody waits for it. One of a moving view never does: its governor knows
- * better than its plan what it takes, since the lens map may be there already. */
+/* Whether it goes on in slices. A job's picture always does: nobody waits for it. One of a moving view never does:
+ * its governor knows better than its plan what it takes, since the lens map may be there already. */
 static bool wants_lane(const struct kd_render_job *job)
 {
     switch (job->claim.class) {

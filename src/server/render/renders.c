@@ -1,4 +1,5 @@
-/* This answers /v1/render from the scene to the picture, and /v1/pixel, which is a picture of which one pixel is told. */
+/* This answers /v1/render from the scene to the picture, and /v1/pixel, which is a picture of which one pixel is
+ * told. */
 #include "render/explain/explain.h"
 #include "render/output/notes.h"
 #include "server/http/negotiate.h"
@@ -11,7 +12,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *type_of(size_t i, const void *formats) { return ((const struct kd_format *const *)formats)[i]->media_type; }
+static const char *type_of(size_t i, const void *formats)
+{
+    return ((const struct kd_format *const *)formats)[i]->media_type;
+}
 
 /* The format that Accept would rather have; NULL: none. */
 static const struct kd_format *accepted(struct kd_request *request)
@@ -28,10 +32,11 @@ static enum MHD_Result refuse(struct kd_request *request)
         status = kd_buffer_printf(&offered, "%s%s", i ? ", " : "", kd_formats[i]->media_type);
     if (!status)
         status = kd_buffer_printf(&detail, "pictures are offered as %s only", (const char *)offered.data);
-    enum MHD_Result result = status ? kd_reply_no_memory(request)
-                                    : kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE,
-                                                                                       .offered = (const char *)offered.data,
-                                                                                       .detail = (const char *)detail.data });
+    enum MHD_Result result =
+        status ? kd_reply_no_memory(request)
+               : kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE,
+                                                                  .offered = (const char *)offered.data,
+                                                                  .detail = (const char *)detail.data });
     kd_buffer_finish(&offered);
     kd_buffer_finish(&detail);
     return result;
@@ -125,8 +130,8 @@ static struct MHD_Response *picture_response(struct kd_request *request)
         return NULL;
     *picture = (struct picture) { .server = request->server, .data = file->data, .size = file->size };
     memcpy(picture->client, request->client, sizeof picture->client);
-    struct MHD_Response *response = MHD_create_response_from_buffer_with_free_callback_cls(
-        file->size, file->data, release_picture, picture);
+    struct MHD_Response *response =
+        MHD_create_response_from_buffer_with_free_callback_cls(file->size, file->data, release_picture, picture);
     if (!response) {
         free(picture);
         return NULL;
@@ -174,8 +179,7 @@ static bool admitted(struct kd_request *request, const struct kd_plan *plan, str
     struct kd_server *server = request->server;
 
     if (plan->estimate_ms > server->longest_s * 1e3) {
-        kd_error_set(error, KD_ETOOBIG,
-                     "this picture would take about %.0f s, more than the %u s a render may take",
+        kd_error_set(error, KD_ETOOBIG, "this picture would take about %.0f s, more than the %u s a render may take",
                      plan->estimate_ms * 1e-3, server->longest_s);
         *problem = kd_problem_from(error);
         return false;
@@ -191,8 +195,9 @@ static bool admitted(struct kd_request *request, const struct kd_plan *plan, str
     KD_TRY(kd_render_queue_admit(server->renders, request->client, &quota, error));
     /* How many bytes it will have is known when it has been encoded: fewer than its pixels. */
     if (kd_bytes_take(server->replies, request->client, 0, plan->host_bytes, &quota))
-        KD_TRY(kd_error_set(error, KD_EBUSY, quota ? "as many bytes of pictures wait for you to take them as may for one client"
-                                                   : "too many pictures wait for their clients to take them"));
+        KD_TRY(kd_error_set(error, KD_EBUSY,
+                            quota ? "as many bytes of pictures wait for you to take them as may for one client"
+                                  : "too many pictures wait for their clients to take them"));
 done:
     if (!status)
         return true;
@@ -201,14 +206,12 @@ done:
     return false;
 }
 
-static enum MHD_Result submit(struct kd_request *request, const struct kd_scene *scene,
-                              const struct kd_plan *plan)
+static enum MHD_Result submit(struct kd_request *request, const struct kd_scene *scene, const struct kd_plan *plan)
 {
     struct kd_render_job *job = calloc(1, sizeof *job);
     if (!job || !request->connection) {
         free(job);
-        return kd_reply_problem(request,
-                                &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
+        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
     }
     job->claim.class = KD_CLASS_PICTURE;
     memcpy(job->claim.client, request->client, sizeof job->claim.client);
@@ -234,7 +237,8 @@ static enum kd_status tag(struct kd_request *request, const struct kd_scene *sce
     const char *name = request->format == kd_formats[0] ? "" : request->format->name;
     enum kd_status status = kd_scene_hash(scene, hash);
     if (!status)
-        snprintf(request->etag, sizeof request->etag, "\"%s-%s%s%s%s\"", hash, request->server->etag_tail, *name ? "-" : "", name, at);
+        snprintf(request->etag, sizeof request->etag, "\"%s-%s%s%s%s\"", hash, request->server->etag_tail,
+                 *name ? "-" : "", name, at);
     return status;
 }
 
@@ -266,12 +270,12 @@ enum MHD_Result kd_handle_render(struct kd_request *request)
     if (request->format == &kd_format_pixel && name_pixel(request, &planned->plan, &error))
         return kd_reply_error(request, &error);
     if (tag(request, scene, plan))
-        return kd_reply_problem(request,
-                                &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
+        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
     if (client_has(request))
         return kd_reply_send(request, MHD_HTTP_NOT_MODIFIED, describe(request, kd_reply_empty(NULL), scene, plan));
     if (request->head)
-        return kd_reply_send(request, MHD_HTTP_OK, describe(request, kd_reply_empty(request->format->media_type), scene, plan));
+        return kd_reply_send(request, MHD_HTTP_OK,
+                             describe(request, kd_reply_empty(request->format->media_type), scene, plan));
     if (!admitted(request, plan, &problem, &error))
         return kd_reply_problem(request, &problem);
     return submit(request, &planned->drawn, plan);

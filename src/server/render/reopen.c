@@ -4,8 +4,8 @@
 
 #include <time.h>
 
-#define TRIES 4            /* a driver that resets its device needs a moment: */
-#define TRY_MS 100.0       /* the first is at once, the next after this, then after twice as long */
+#define TRIES 4      /* a driver that resets its device needs a moment: */
+#define TRY_MS 100.0 /* the first is at once, the next after this, then after twice as long */
 
 /* Locked. */
 static void lose(struct kd_render_queue *queue, const struct kd_error *error)
@@ -116,7 +116,8 @@ void kd_render_reopen(struct kd_render_queue *queue)
     }
     if (!may_reopen(queue)) {
         struct kd_error often;
-        kd_error_set(&often, KD_EDEVICE, "%.300s (opened again %u times in %.0f s, as often as it may be)", queue->failure.message, queue->reopenings, KD_REOPENINGS_S);
+        kd_error_set(&often, KD_EDEVICE, "%.300s (opened again %u times in %.0f s, as often as it may be)",
+                     queue->failure.message, queue->reopenings, KD_REOPENINGS_S);
         lose(queue, &often);
         return;
     }

@@ -24,9 +24,13 @@ static void pointer_of(const char *name, char *out, size_t size)
 }
 
 /* The route's own parameters are no fields. */
-static bool is_own(const char *name, const char *const own[2]) { return (own[0] && !strcmp(name, own[0])) || (own[1] && !strcmp(name, own[1])); }
+static bool is_own(const char *name, const char *const own[2])
+{
+    return (own[0] && !strcmp(name, own[0])) || (own[1] && !strcmp(name, own[1]));
+}
 
-enum kd_status kd_scene_query_check(const struct kd_target *target, bool fields, const char *const own[2], struct kd_error *error)
+enum kd_status kd_scene_query_check(const struct kd_target *target, bool fields, const char *const own[2],
+                                    struct kd_error *error)
 {
     char pointer[sizeof error->pointer];
     for (size_t i = 0; i < target->n_pairs; i++) {
@@ -36,14 +40,16 @@ enum kd_status kd_scene_query_check(const struct kd_target *target, bool fields,
             if (fields ? kd_scene_same_path(target->pairs[k].name, name) : !strcmp(target->pairs[k].name, name))
                 return kd_error_field(error, pointer, "the query gives %.100s twice", name);
         if (!fields && strcmp(name, "preset") && !is_own(name, own))
-            return kd_error_field(error, pointer, "the query of a POST may hold preset%s%s%s%s, not %.100s", own[1] ? ", " : own[0] ? " and " : "",
+            return kd_error_field(error, pointer, "the query of a POST may hold preset%s%s%s%s, not %.100s",
+                                  own[1]   ? ", "
+                                  : own[0] ? " and "
+                                           : "",
                                   own[0] ? own[0] : "", own[1] ? " and " : "", own[1] ? own[1] : "", name);
     }
     return KD_OK;
 }
 
-static enum kd_status apply_preset(const struct kd_target *target, struct kd_scene *scene,
-                                   struct kd_error *error)
+static enum kd_status apply_preset(const struct kd_target *target, struct kd_scene *scene, struct kd_error *error)
 {
     for (size_t i = 0; i < target->n_pairs; i++) {
         if (strcmp(target->pairs[i].name, "preset"))
@@ -63,7 +69,8 @@ static enum kd_status apply_fields(const struct kd_target *target, const char *c
     char pointer[sizeof error->pointer];
     for (size_t i = 0; i < 2 * target->n_pairs; i++) {
         const struct kd_target_pair *pair = &target->pairs[i % target->n_pairs];
-        if (!strcmp(pair->name, "preset") || is_own(pair->name, own) || !strcmp(pair->name, "style.name") != (i < target->n_pairs))
+        if (!strcmp(pair->name, "preset") || is_own(pair->name, own) ||
+            !strcmp(pair->name, "style.name") != (i < target->n_pairs))
             continue;
         enum kd_status status = kd_scene_set(scene, pair->name, pair->value, error);
         if (status == KD_EINVAL && !*error->pointer) {
@@ -87,7 +94,8 @@ bool kd_scene_of_request(const struct kd_request *request, struct kd_scene *scen
     KD_TRY(kd_scene_query_check(&request->target, !post, own, error));
     KD_TRY(apply_preset(&request->target, scene, error));
     if (post) {
-        status = kd_scene_from_json(scene, request->body.data ? (const char *)request->body.data : "", request->body.size, error);
+        status = kd_scene_from_json(scene, request->body.data ? (const char *)request->body.data : "",
+                                    request->body.size, error);
         malformed = status == KD_EINVAL && !*error->pointer; /* what has no place in the document */
         KD_TRY(status);
     } else {

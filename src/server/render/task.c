@@ -8,7 +8,8 @@
 
 #define TURN_MS 10.
 
-enum kd_status kd_task_over(struct kd_server *server, struct kd_turns *queue, bool gone, double deadline_ms, struct kd_error *error)
+enum kd_status kd_task_over(struct kd_server *server, struct kd_turns *queue, bool gone, double deadline_ms,
+                            struct kd_error *error)
 {
     if (gone || kd_turns_cancelled(queue))
         return kd_error_set(error, KD_ECANCELLED, "the client has gone, or the server stops");
@@ -49,14 +50,18 @@ static void done(struct kd_turns_job *turns)
     MHD_resume_connection(task->request->mhd);
 }
 
-void *kd_task_create(struct kd_request *request, struct kd_turns *queue, const struct kd_task_kind *kind, enum MHD_Result *refused)
+void *kd_task_create(struct kd_request *request, struct kd_turns *queue, const struct kd_task_kind *kind,
+                     enum MHD_Result *refused)
 {
     struct kd_task *task = calloc(1, kind->size);
     if (!task) {
         *refused = kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
         return NULL;
     }
-    *task = (struct kd_task) { .turns = { .turn = take_turn, .done = done }, .kind = kind, .queue = queue, .request = request,
+    *task = (struct kd_task) { .turns = { .turn = take_turn, .done = done },
+                               .kind = kind,
+                               .queue = queue,
+                               .request = request,
                                .submitted_ms = kd_clock_ms() };
     snprintf(task->turns.client, sizeof task->turns.client, "%s", request->client);
     task->deadline_ms = task->submitted_ms + 1e3 * request->server->longest_s;
@@ -64,7 +69,8 @@ void *kd_task_create(struct kd_request *request, struct kd_turns *queue, const s
     return task;
 }
 
-void *kd_task_begin(struct kd_request *request, struct kd_turns *queue, const struct kd_task_kind *kind, enum MHD_Result *refused)
+void *kd_task_begin(struct kd_request *request, struct kd_turns *queue, const struct kd_task_kind *kind,
+                    enum MHD_Result *refused)
 {
     return kd_task_admit(request, queue, kind->what, refused) ? kd_task_create(request, queue, kind, refused) : NULL;
 }
@@ -87,8 +93,8 @@ bool kd_task_admit(struct kd_request *request, struct kd_turns *queue, const cha
     char stopping[80];
     snprintf(stopping, sizeof stopping, "the server is stopping and takes no new %s", what);
     if (atomic_load(&request->server->phase) >= KD_REFUSING)
-        *refused = kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_STOPPING, .retry_after = 1,
-                                                                    .detail = stopping });
+        *refused = kd_reply_problem(
+            request, &(struct kd_problem) { .type = KD_PROBLEM_STOPPING, .retry_after = 1, .detail = stopping });
     else if (!request->connection)
         *refused = kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
     else if (kd_turns_admit(queue, request->client, &quota, &error)) {
@@ -109,11 +115,13 @@ enum MHD_Result kd_task_submit(struct kd_task *task)
     return MHD_YES;
 }
 
-enum kd_status kd_task_hold(struct kd_server *server, const char *client, size_t bytes, size_t *held, bool *quota, struct kd_error *error)
+enum kd_status kd_task_hold(struct kd_server *server, const char *client, size_t bytes, size_t *held, bool *quota,
+                            struct kd_error *error)
 {
     if (kd_bytes_take(server->replies, client, bytes, bytes, quota))
-        return kd_error_set(error, KD_EBUSY, *quota ? "as many bytes of answers wait for you to take them as may for one client"
-                                                    : "too many answers wait for their clients to take them");
+        return kd_error_set(error, KD_EBUSY,
+                            *quota ? "as many bytes of answers wait for you to take them as may for one client"
+                                   : "too many answers wait for their clients to take them");
     *held = bytes;
     return KD_OK;
 }

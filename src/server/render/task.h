@@ -1,5 +1,6 @@
-/* A task is a request that workers answer by turns (http/turns.h): it is suspended meanwhile, and given up when its client has left, the server
- * stops at once or its time is over. Owned by its request and freed with it; whoever makes one embeds it.
+/* A task is a request that workers answer by turns (http/turns.h): it is suspended meanwhile, and given up when its
+ * client has left, the server stops at once or its time is over. Owned by its request and freed with it; whoever
+ * makes one embeds it.
  *
  *     static const struct kd_task_kind KIND = { "quantities", sizeof(struct mine), work, finish };
  *     struct mine *mine = kd_task_begin(request, queue, &KIND, &refused);
@@ -16,9 +17,10 @@ struct kd_task_kind {
     const char *what; /* in the plural: "the server ... takes no new <what>" */
     size_t size;      /* of what embeds the task as its first member */
     enum kd_turn_end (*work)(struct kd_task *task, double until_ms); /* a piece, on a worker */
-    void (*finish)(struct kd_task *task);                        /* frees what its members hold; may be NULL */
-    void (*last)(struct kd_task *task);                          /* may be NULL; on a worker, after the last piece */
-    enum MHD_Result (*answer)(struct kd_request *request);       /* for a handler that has tasks of several kinds: NULL without; on the HTTP thread */
+    void (*finish)(struct kd_task *task);                            /* frees what its members hold; may be NULL */
+    void (*last)(struct kd_task *task);                    /* may be NULL; on a worker, after the last piece */
+    enum MHD_Result (*answer)(struct kd_request *request); /* for a handler that has tasks of several kinds: NULL
+                                                              without; on the HTTP thread */
 };
 
 struct kd_task {
@@ -26,17 +28,20 @@ struct kd_task {
     const struct kd_task_kind *kind;
     struct kd_turns *queue;
     struct kd_request *request;
-    size_t held;                                                 /* of kd_task_hold, given back with the task */
-    bool quota;                                                  /* KD_EBUSY because its client has its share */
+    size_t held; /* of kd_task_hold, given back with the task */
+    bool quota;  /* KD_EBUSY because its client has its share */
     double submitted_ms, begun_ms, done_ms, deadline_ms;
     _Atomic enum kd_status status; /* KD_ECANCELLED: nobody listens */
     struct kd_error error;
 };
 
-/* One that the queue admits; NULL: the client has been told why not, *refused. What follows the task is zero. HTTP thread. */
-void *kd_task_begin(struct kd_request *request, struct kd_turns *queue, const struct kd_task_kind *kind, enum MHD_Result *refused);
+/* One that the queue admits; NULL: the client has been told why not, *refused. What follows the task is zero. HTTP
+ * thread. */
+void *kd_task_begin(struct kd_request *request, struct kd_turns *queue, const struct kd_task_kind *kind,
+                    enum MHD_Result *refused);
 /* One that need not be admitted, unless it turns out to be long: kd_task_admit. HTTP thread. */
-void *kd_task_create(struct kd_request *request, struct kd_turns *queue, const struct kd_task_kind *kind, enum MHD_Result *refused);
+void *kd_task_create(struct kd_request *request, struct kd_turns *queue, const struct kd_task_kind *kind,
+                     enum MHD_Result *refused);
 void kd_task_destroy(struct kd_task *task); /* accepts NULL */
 
 /* The first one counts; status KD_OK does not. Any thread. */
@@ -50,9 +55,10 @@ enum MHD_Result kd_task_submit(struct kd_task *task);
 /* Why one must end now whose client may have gone, and which may go on until then; KD_OK: it need not. Any thread. */
 enum kd_status kd_task_over(struct kd_server *server, struct kd_turns *queue, bool gone, double deadline_ms,
                             struct kd_error *error);
-/* Count bytes of an answer as held, to be given back to server->replies by whoever holds them; KD_EBUSY: too many are, with *quota
- * of this client. Any thread. */
-enum kd_status kd_task_hold(struct kd_server *server, const char *client, size_t bytes, size_t *held, bool *quota, struct kd_error *error);
+/* Count bytes of an answer as held, to be given back to server->replies by whoever holds them; KD_EBUSY: too many
+ * are, with *quota of this client. Any thread. */
+enum kd_status kd_task_hold(struct kd_server *server, const char *client, size_t bytes, size_t *held, bool *quota,
+                            struct kd_error *error);
 /* The body is not needed any more. While the request is suspended it is nobody else's. */
 void kd_task_drop_body(struct kd_request *request);
 

@@ -16,8 +16,8 @@
 struct thumbnail {
     struct kd_painting painting; /* first; its png is never changed again once it is there */
     char etag[120];
-    struct kd_error error; /* of the latest try */
-    bool there, busy; /* busy: the painter has it, and nobody else looks at it */
+    struct kd_error error;      /* of the latest try */
+    bool there, busy;           /* busy: the painter has it, and nobody else looks at it */
     struct kd_request *waiting; /* suspended, the newest first */
     struct kd_thumbnails *of;
 };
@@ -52,7 +52,8 @@ done:
     return status;
 }
 
-enum kd_status kd_thumbnails_create(struct kd_server *server, const struct kd_renderer_params *renderer, struct kd_thumbnails **out, struct kd_error *error)
+enum kd_status kd_thumbnails_create(struct kd_server *server, const struct kd_renderer_params *renderer,
+                                    struct kd_thumbnails **out, struct kd_error *error)
 {
     struct kd_thumbnails *s = calloc(1, sizeof *s);
     enum kd_status status = s && (s->all = calloc(kd_scene_preset_count(), sizeof *s->all)) ? KD_OK : KD_ENOMEM;
@@ -67,8 +68,8 @@ enum kd_status kd_thumbnails_create(struct kd_server *server, const struct kd_re
     if (status)
         kd_error_set(error, KD_ENOMEM, "out of memory for the small pictures of presets");
     else
-        status = kd_painter_create(renderer, kd_render_queue_device_name(server->renders), kd_render_queue_cache_file(server->renders, ".preset-"),
-                                   &s->painter, error);
+        status = kd_painter_create(renderer, kd_render_queue_device_name(server->renders),
+                                   kd_render_queue_cache_file(server->renders, ".preset-"), &s->painter, error);
     if (!status)
         return *out = s, KD_OK;
     kd_thumbnails_destroy(s);
@@ -151,7 +152,8 @@ static struct thumbnail *find(struct kd_thumbnails *s, const char *name)
     return NULL;
 }
 
-static enum MHD_Result answer(struct kd_request *request, const struct thumbnail *t, unsigned status, struct MHD_Response *response)
+static enum MHD_Result answer(struct kd_request *request, const struct thumbnail *t, unsigned status,
+                              struct MHD_Response *response)
 {
     if (response) {
         MHD_add_response_header(response, "ETag", t->etag);
@@ -163,8 +165,10 @@ static enum MHD_Result answer(struct kd_request *request, const struct thumbnail
 static enum MHD_Result refuse(struct kd_request *request, const struct kd_error *error)
 {
     if (error->status == KD_ECANCELLED || atomic_load(&request->server->phase) >= KD_REFUSING)
-        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_STOPPING, .retry_after = 1,
-                                                                .detail = "the server is stopping and paints no more small pictures" });
+        return kd_reply_problem(
+            request, &(struct kd_problem) { .type = KD_PROBLEM_STOPPING,
+                                            .retry_after = 1,
+                                            .detail = "the server is stopping and paints no more small pictures" });
     return kd_reply_error(request, error);
 }
 
@@ -172,7 +176,9 @@ static enum MHD_Result refuse(struct kd_request *request, const struct kd_error 
 static enum MHD_Result give(struct kd_request *request, struct kd_thumbnails *s, struct thumbnail *t)
 {
     pthread_mutex_lock(&s->lock);
-    const bool there = t->there, waits = !there && !request->waited && atomic_load(&request->server->phase) < KD_REFUSING, begin = waits && !t->busy;
+    const bool there = t->there,
+               waits = !there && !request->waited && atomic_load(&request->server->phase) < KD_REFUSING,
+               begin = waits && !t->busy;
     const struct kd_error error = t->error;
     if (waits) {
         request->waited = true;
@@ -189,7 +195,9 @@ static enum MHD_Result give(struct kd_request *request, struct kd_thumbnails *s,
     pthread_mutex_unlock(&s->lock);
     if (waits)
         return MHD_YES;
-    return there ? answer(request, t, MHD_HTTP_OK, kd_reply_static(t->painting.png.data, t->painting.png.size, "image/png")) : refuse(request, &error);
+    return there ? answer(request, t, MHD_HTTP_OK,
+                          kd_reply_static(t->painting.png.data, t->painting.png.size, "image/png"))
+                 : refuse(request, &error);
 }
 
 enum MHD_Result kd_handle_thumbnail(struct kd_request *request)
@@ -200,7 +208,8 @@ enum MHD_Result kd_handle_thumbnail(struct kd_request *request)
         struct kd_scene scene;
         struct kd_error error = { 0 };
         kd_scene_preset(&scene, request->rest, &error); /* it says which there are */
-        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND, .detail = error.message });
+        return kd_reply_problem(request,
+                                &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND, .detail = error.message });
     }
     enum MHD_Result refused;
     if (!kd_reply_only(request, (const char *const[]) { NULL }, &refused))
@@ -210,6 +219,7 @@ enum MHD_Result kd_handle_thumbnail(struct kd_request *request)
     kd_buffer_finish(&known);
     kd_reply_file(request, KD_INLINE, "kerrd-%s.png", request->rest);
     if (same || request->head)
-        return answer(request, t, same ? MHD_HTTP_NOT_MODIFIED : MHD_HTTP_OK, kd_reply_empty(same ? NULL : "image/png"));
+        return answer(request, t, same ? MHD_HTTP_NOT_MODIFIED : MHD_HTTP_OK,
+                      kd_reply_empty(same ? NULL : "image/png"));
     return give(request, s, t);
 }

@@ -1,6 +1,6 @@
-/* A small picture of each preset is kept here, for a page that shows which there are. Each is painted when somebody first asks for it (painter.h), and
- * kept in memory as long as the program runs, and in its file for later ones. Whoever asks meanwhile waits, however many they are; what they wait for is
- * painted once. */
+/* A small picture of each preset is kept here, for a page that shows which there are. Each is painted when somebody
+ * first asks for it (painter.h), and kept in memory as long as the program runs, and in its file for later ones.
+ * Whoever asks meanwhile waits, however many they are; what they wait for is painted once. */
 #ifndef KD_SERVER_RENDER_THUMBNAILS_H
 #define KD_SERVER_RENDER_THUMBNAILS_H
 
@@ -13,8 +13,10 @@ enum { KD_THUMBNAIL_WIDTH = 192, KD_THUMBNAIL_HEIGHT = 120 };
 struct kd_thumbnails;
 
 /* The server outlives them, and its queue and its etag_tail are there. renderer: as of the queue's device. */
-enum kd_status kd_thumbnails_create(struct kd_server *server, const struct kd_renderer_params *renderer, struct kd_thumbnails **out, struct kd_error *error);
-/* On the way down, once the server refuses what is new: nothing more is painted, and who waits is told so at once. Any thread. */
+enum kd_status kd_thumbnails_create(struct kd_server *server, const struct kd_renderer_params *renderer,
+                                    struct kd_thumbnails **out, struct kd_error *error);
+/* On the way down, once the server refuses what is new: nothing more is painted, and who waits is told so at once.
+ * Any thread. */
 void kd_thumbnails_cancel(struct kd_thumbnails *thumbnails);
 /* As kd_painter_hangs. Any thread. */
 bool kd_thumbnails_hang(struct kd_thumbnails *thumbnails);

@@ -4,9 +4,9 @@
 
 #define FRAME_BYTES ((size_t)256 << 20) /* rendered and not yet encoded; one frame may exceed it, and ... */
 #define SHORT_BYTES ((size_t)64 << 20)  /* ... so much more may be of frames that are encoded soon */
-#define BRIEF_MS 3000.0                 /* what has a lane for so long frees it soon: for such the last lanes are kept, */
-#define BRIEF_LANES 2                   /* so many; and as many a client may have of them */
-#define LARGE 32                        /* parts of the memory: what is smaller is not worth counting */
+#define BRIEF_MS 3000.0 /* what has a lane for so long frees it soon: for such the last lanes are kept, */
+#define BRIEF_LANES 2   /* so many; and as many a client may have of them */
+#define LARGE 32        /* parts of the memory: what is smaller is not worth counting */
 
 /* The fields below are of the queue, and it is locked, where nothing else is said. */
 
@@ -17,17 +17,20 @@ static bool is_large(const struct kd_render_queue *queue, const struct kd_render
     return job->plan.device_bytes > c.memory_bytes / LARGE;
 }
 
-/* Beside the large pictures that are under way. One that needs nearly all of the memory has it when no other large one has any. */
+/* Beside the large pictures that are under way. One that needs nearly all of the memory has it when no other large
+ * one has any. */
 static bool fits(const struct kd_render_queue *queue, const struct kd_render_job *job)
 {
     struct kd_capacity c;
     kd_renderer_capacity(queue->renderer, &c);
-    return !queue->lane_bytes || !is_large(queue, job) || queue->lane_bytes + job->plan.device_bytes <= c.memory_bytes / 4 * 3;
+    return !queue->lane_bytes || !is_large(queue, job) ||
+           queue->lane_bytes + job->plan.device_bytes <= c.memory_bytes / 4 * 3;
 }
 
 static bool is_brief(const struct kd_render_job *job) { return job->plan.estimate_ms <= BRIEF_MS; }
 
-/* The lane that a long picture may begin in. No client has more than one of a class, but for those that are brief. NULL: none yet. */
+/* The lane that a long picture may begin in. No client has more than one of a class, but for those that are brief.
+ * NULL: none yet. */
 static struct kd_lane *lane_for(struct kd_render_queue *queue, const struct kd_render_job *job)
 {
     struct kd_lane *found = NULL;
@@ -53,12 +56,15 @@ static bool frame_fits(const struct kd_render_queue *queue, const struct kd_rend
     return !bytes || queue->frame_bytes <= FRAME_BYTES + (bytes > KD_LONG_FRAME ? 0 : SHORT_BYTES);
 }
 
-/* What a client waits for was affordable when it came, and frames of jobs when they were pushed (kd_render_queue_may_push). All else begins when its client can afford it; who has to
- * wait is looked at again by kd_render_queue_sweep, ten times a second. What has begun has a lane and memory that others wait for: it goes on, and the next one waits. */
+/* What a client waits for was affordable when it came, and frames of jobs when they were pushed
+ * (kd_render_queue_may_push). All else begins when its client can afford it; who has to wait is looked at again by
+ * kd_render_queue_sweep, ten times a second. What has begun has a lane and memory that others wait for: it goes on,
+ * and the next one waits. */
 static bool may_be_paid(const struct kd_render_queue *queue, const struct kd_claim *claim)
 {
     const struct kd_render_job *job = (const struct kd_render_job *)claim;
-    return kd_render_is_awaited(job) || claim->class == KD_CLASS_JOB || kd_render_has_begun(job) || kd_allowance_may(&queue->allowance, claim->client, false, kd_clock_ms());
+    return kd_render_is_awaited(job) || claim->class == KD_CLASS_JOB || kd_render_has_begun(job) ||
+           kd_allowance_may(&queue->allowance, claim->client, false, kd_clock_ms());
 }
 
 bool kd_render_queue_may_push(struct kd_render_queue *queue, const char *client)
@@ -78,11 +84,12 @@ static bool may_have_it(const struct kd_claim *claim, void *user)
     if (!queue->lost && !may_be_paid(queue, claim))
         return false;
     return kd_render_has_begun(job) || queue->lost ||
-           (!(job->sky && kd_renderer_sky_begin(queue->renderer, &job->scene)) && frame_fits(queue, job) && (job->stage != KD_RENDER_WAITS_FOR_LANE || lane_for(queue, job)));
+           (!(job->sky && kd_renderer_sky_begin(queue->renderer, &job->scene)) && frame_fits(queue, job) &&
+            (job->stage != KD_RENDER_WAITS_FOR_LANE || lane_for(queue, job)));
 }
 
-/* One that only has to be told that it is over: that takes no time, and others may wait for it. A long one that has not begun needs
- * no lane for that. */
+/* One that only has to be told that it is over: that takes no time, and others may wait for it. A long one that has
+ * not begun needs no lane for that. */
 static struct kd_render_job *first_dropped(const struct kd_render_queue *queue)
 {
     struct kd_render_job *job = queue->jobs.first;
@@ -173,7 +180,8 @@ static bool go_on(void *user, double fraction)
     return !kd_render_unwanted(job->queue, job);
 }
 
-/* Only who has the device may ask the renderer, and what it says of its speed changes as it measures itself. Unlocked. */
+/* Only who has the device may ask the renderer, and what it says of its speed changes as it measures itself.
+ * Unlocked. */
 enum kd_status kd_render_describe_device(struct kd_render_queue *queue)
 {
     struct kd_buffer json = { 0 }, old = { 0 };
@@ -203,10 +211,13 @@ static void render(struct kd_render_queue *queue, struct kd_render_job *job)
     if (job->run)
         job->status = job->run(job, queue->renderer, go_on, job);
     else if (job->blur.samples)
-        job->status = kd_render_blurred(&(struct kd_blurred) { queue->renderer, &job->blur, &job->scene, &job->plan, aside, aside ? between_slices : go_on, job->glance, job },
-                                        &job->frame, &job->error);
+        job->status =
+            kd_render_blurred(&(struct kd_blurred) { queue->renderer, &job->blur, &job->scene, &job->plan, aside,
+                                                     aside ? between_slices : go_on, job->glance, job },
+                              &job->frame, &job->error);
     else if (aside)
-        job->status = kd_render_aside(queue->renderer, &job->scene, &job->plan, between_slices, job->glance, job, &job->frame, &job->error);
+        job->status = kd_render_aside(queue->renderer, &job->scene, &job->plan, between_slices, job->glance, job,
+                                      &job->frame, &job->error);
     else
         job->status = kd_render(queue->renderer, &job->scene, &job->plan, go_on, job, &job->frame, &job->error);
     if (job->status == KD_EDEVICE)
@@ -242,7 +253,8 @@ static void take_turn(struct kd_render_queue *queue, struct kd_render_job *job)
     queue->inside--;
     charge(queue, job);
     queue->holder = NULL;
-    const bool again = kd_render_once_more(queue, job), more = again || (!job->status && job->more), encode = !more && !job->status && !job->run;
+    const bool again = kd_render_once_more(queue, job), more = again || (!job->status && job->more),
+               encode = !more && !job->status && !job->run;
     if (!again)
         job->repeated = false; /* it has come on */
     if (more)

@@ -41,10 +41,7 @@ void kd_budget_end(struct kd_budget_entry *e, double now, double ms)
         e->costs[e->n_costs++ % KD_BUDGET_FRAMES] = ms;
 }
 
-static unsigned known(unsigned n)
-{
-    return n < KD_BUDGET_FRAMES ? n : KD_BUDGET_FRAMES;
-}
+static unsigned known(unsigned n) { return n < KD_BUDGET_FRAMES ? n : KD_BUDGET_FRAMES; }
 
 double kd_budget_demand(const struct kd_budget_entry *e, double now)
 {
@@ -75,7 +72,8 @@ static void look(struct kd_budget *budget, double now)
     }
 }
 
-/* An entry competes at one of two levels: with the demand of another client, or with that of another session of its own client. */
+/* An entry competes at one of two levels: with the demand of another client, or with that of another session of its
+ * own client. */
 static double rival(const struct kd_budget_entry *entry, const struct kd_budget_entry *other, bool clients)
 {
     if (clients)
@@ -83,9 +81,9 @@ static double rival(const struct kd_budget_entry *entry, const struct kd_budget_
     return other != entry && same_client(entry, other) ? other->demand : 0;
 }
 
-/* Finds the level up to which all are served: the level and what each rival has of it add up to the whole. The search begins as if
- * all rivals wanted as much. From round to round the level only rises, as those that want less are left out, so that there are no
- * more rounds than rivals. */
+/* Finds the level up to which all are served: the level and what each rival has of it add up to the whole. The
+ * search begins as if all rivals wanted as much. From round to round the level only rises, as those that want less
+ * are left out, so that there are no more rounds than rivals. */
 static double fill(const struct kd_budget *budget, const struct kd_budget_entry *entry, bool clients, double whole)
 {
     for (double level = 0, next;; level = next) {

@@ -1,9 +1,11 @@
-/* A frame is encoded in the kinds that are asked for and in no other: the first by the renderer's own encoder, others when somebody waits for them. */
+/* A frame is encoded in the kinds that are asked for and in no other: the first by the renderer's own encoder,
+ * others when somebody waits for them. */
 #include "server/session/internal.h"
 
 #include <stdlib.h>
 
-#define PIXELS_MS 1000.0 /* after which those of the latest frame go: whoever then wants it in another kind gets the next one */
+#define PIXELS_MS \
+    1000.0 /* after which those of the latest frame go: whoever then wants it in another kind gets the next one */
 
 struct added {
     struct kd_render_job job; /* first: the queue's pointer is ours */
@@ -40,7 +42,8 @@ static const struct kd_live_file *file_of(const struct kd_live_frame *frame, uns
         if (lossy && file->lossy && (!near || abs((int)(file->lossy - lossy)) < abs((int)(near->lossy - lossy))))
             near = file;
     }
-    /* The last place is for what is exact; where all others are taken the nearest quality has to do, which the answer names. */
+    /* The last place is for what is exact; where all others are taken the nearest quality has to do, which the
+     * answer names. */
     unsigned lossy_ones = 0;
     for (unsigned i = 0; i < frame->n_files; i++)
         lossy_ones += frame->files[i].lossy > 0;
@@ -58,7 +61,8 @@ void kd_session_forget_pixels(struct kd_session *s, double now)
         kd_frame_finish(&s->latest->picture);
 }
 
-/* A newer frame has come meanwhile. Who waited for this one in this kind has it all the same: where that takes longer than a frame nobody would ever have one. */
+/* A newer frame has come meanwhile. Who waited for this one in this kind has it all the same: where that takes
+ * longer than a frame nobody would ever have one. */
 static void hand_out(struct kd_session *s, struct kd_live_frame *frame, unsigned lossy)
 {
     for (struct kd_viewer *v = s->viewers; v; v = v->next)
@@ -103,7 +107,9 @@ static void add(struct kd_session *s, unsigned lossy)
     }
     added->session = s;
     added->frame = kd_live_frame_share(s->latest);
-    added->job = (struct kd_render_job) { .claim.class = KD_CLASS_LIVE, .socket = -1, .effort = KD_EFFORT_LIVE, .keeps = true, .done = done };
+    added->job = (struct kd_render_job) {
+        .claim.class = KD_CLASS_LIVE, .socket = -1, .effort = KD_EFFORT_LIVE, .keeps = true, .done = done
+    };
     added->job.frame = s->latest->picture; /* whose pixels stay the frame's */
     added->job.plan.host_bytes = (uint64_t)3 * added->job.frame.width * added->job.frame.height;
     set_kind(&added->job, lossy);

@@ -14,12 +14,13 @@
 #include <sys/socket.h>
 
 #define BINARY_TYPE "application/x-kerrd-frames"
-#define HEARTBEAT_MS 15000.0 /* of an event stream */
+#define HEARTBEAT_MS 15000.0    /* of an event stream */
 #define UNSENT_BYTES (64 << 10) /* in the kernel: more would be frames grown old */
 
 static enum MHD_Result ended(struct kd_request *request)
 {
-    return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND, .detail = "the session has ended" });
+    return kd_reply_problem(request,
+                            &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND, .detail = "the session has ended" });
 }
 
 #define NO_SENTENCES UINT64_MAX
@@ -47,17 +48,20 @@ static void describe(struct MHD_Response *response, const struct kd_live_frame *
 }
 
 /* What is said of the frame in this kind. */
-static void describe_file(struct MHD_Response *response, const struct kd_live_frame *frame, const struct kd_live_file *file)
+static void describe_file(struct MHD_Response *response, const struct kd_live_frame *frame,
+                          const struct kd_live_file *file)
 {
     char text[sizeof frame->timing + 40];
-    snprintf(text, sizeof text, file->lossy ? "%s final=%d lossy=%u" : "%s final=%d", frame->quality, frame->final && !file->lossy, file->lossy);
+    snprintf(text, sizeof text, file->lossy ? "%s final=%d lossy=%u" : "%s final=%d", frame->quality,
+             frame->final && !file->lossy, file->lossy);
     MHD_add_response_header(response, "Kerrd-Quality", text);
     snprintf(text, sizeof text, "%s, encode;dur=%.3f", frame->timing, file->encode_ms);
     MHD_add_response_header(response, "Server-Timing", text);
     MHD_add_response_header(response, "Content-Type", file->format->media_type);
 }
 
-/* What has become of the request: how long it waited here, so that who asked knows how long its way is; and what it changed. */
+/* What has become of the request: how long it waited here, so that who asked knows how long its way is; and what it
+ * changed. */
 static void tell_request(struct MHD_Response *response, const struct kd_viewer *viewer)
 {
     char number[24];
@@ -72,10 +76,12 @@ static void tell_request(struct MHD_Response *response, const struct kd_viewer *
 
 static void release_frame(void *cls) { kd_live_frame_release(cls); }
 
-static enum MHD_Result send_frame(struct kd_request *request, const struct kd_viewer *viewer, struct kd_live_frame *frame)
+static enum MHD_Result send_frame(struct kd_request *request, const struct kd_viewer *viewer,
+                                  struct kd_live_frame *frame)
 {
     const struct kd_live_file *file = viewer->file;
-    struct MHD_Response *response = MHD_create_response_from_buffer_with_free_callback_cls(file->bytes.size, file->bytes.data, release_frame, frame);
+    struct MHD_Response *response = MHD_create_response_from_buffer_with_free_callback_cls(
+        file->bytes.size, file->bytes.data, release_frame, frame);
     if (!response) {
         kd_live_frame_release(frame);
         return kd_reply_no_memory(request);
@@ -121,12 +127,18 @@ enum MHD_Result kd_live_newest(struct kd_request *request, kd_session_find_fn *f
     const bool patches = kinds && !strcmp(request->method, "PATCH");
     if (request->viewer)
         return look(request);
-    if (!kd_reply_only(request, (const char *const[]) { "after", "wait_ms", kinds ? "lossy" : NULL, kinds ? "sentences" : NULL, patches ? "order" : NULL, NULL }, &refused))
+    if (!kd_reply_only(request,
+                       (const char *const[]) { "after", "wait_ms", kinds ? "lossy" : NULL, kinds ? "sentences" : NULL,
+                                               patches ? "order" : NULL, NULL },
+                       &refused))
         return refused;
-    if (kinds && kd_target_value(&request->target, "lossy") && (!kd_target_whole(&request->target, "lossy", 0, KD_LOSSY_MAX, &lossy) || !lossy))
-        return bad_number(request, "lossy is a whole number, 1 to 100: the quality of frames that are not the last; without it they are exact");
+    if (kinds && kd_target_value(&request->target, "lossy") &&
+        (!kd_target_whole(&request->target, "lossy", 0, KD_LOSSY_MAX, &lossy) || !lossy))
+        return bad_number(request, "lossy is a whole number, 1 to 100: the quality of frames that are not the last; "
+                                   "without it they are exact");
     if (!kd_target_whole(&request->target, "sentences", NO_SENTENCES, KD_SENTENCES_MAX, &sentences))
-        return bad_number(request, "sentences is Kerrd-Sentences of a frame that you have: one with the same approximations is sent without them");
+        return bad_number(request, "sentences is Kerrd-Sentences of a frame that you have: one with the same "
+                                   "approximations is sent without them");
     if (!kd_target_whole(&request->target, "after", 0, UINT64_MAX, &after))
         return bad_number(request, "after is the number of a frame, Kerrd-Frame of one that you have");
     if (!kd_target_whole(&request->target, "wait_ms", KD_WAIT_MS, KD_WAIT_MS_MAX, &wait))
@@ -145,8 +157,16 @@ enum MHD_Result kd_live_newest(struct kd_request *request, kd_session_find_fn *f
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
     }
     const double now = kd_clock_ms();
-    *viewer = (struct kd_viewer) { .session = session, .mhd = request->mhd, .socket = kd_connection_socket(request->connection),
-                                   .seen = after, .begun_ms = now, .deadline_ms = now + (double)wait, .late = !wait, .lossy = (unsigned)lossy, .sentences = sentences, .patched = state.revision };
+    *viewer = (struct kd_viewer) { .session = session,
+                                   .mhd = request->mhd,
+                                   .socket = kd_connection_socket(request->connection),
+                                   .seen = after,
+                                   .begun_ms = now,
+                                   .deadline_ms = now + (double)wait,
+                                   .late = !wait,
+                                   .lossy = (unsigned)lossy,
+                                   .sentences = sentences,
+                                   .patched = state.revision };
     request->viewer = viewer;
     kd_viewer_attach(viewer);
     return look(request);
@@ -167,11 +187,17 @@ struct stream {
     enum { MULTIPART, BINARY, EVENTS } form;
     struct kd_live_frame *frame; /* whose bytes are on their way */
     char before[64], next[96];
-    struct part { const char *data; size_t size; } parts[3];
+    struct part {
+        const char *data;
+        size_t size;
+    } parts[3];
     size_t part, at;
 };
 
-static void set_part(struct stream *s, size_t i, const void *data, size_t size) { s->parts[i] = (struct part) { data, size }; }
+static void set_part(struct stream *s, size_t i, const void *data, size_t size)
+{
+    s->parts[i] = (struct part) { data, size };
+}
 
 static void put_le32(char *out, uint32_t value)
 {
@@ -199,7 +225,8 @@ static void frame_parts(struct stream *s, struct kd_live_frame *frame)
         return;
     case EVENTS:
         set_part(s, 0, s->before,
-                 (size_t)snprintf(s->before, sizeof s->before, "event: frame\nid: %llu\ndata: ", (unsigned long long)frame->number));
+                 (size_t)snprintf(s->before, sizeof s->before,
+                                  "event: frame\nid: %llu\ndata: ", (unsigned long long)frame->number));
         set_part(s, 1, frame->event.data, frame->event.size);
         set_part(s, 2, "\n\n", 2);
         return;
@@ -259,7 +286,8 @@ static void release_stream(void *cls)
 static enum MHD_Result start_stream(struct kd_request *request, struct stream *s, const char *type)
 {
     int socket = kd_connection_socket(request->connection), unsent = UNSENT_BYTES;
-    struct MHD_Response *response = MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, 64 << 10, produce, s, release_stream);
+    struct MHD_Response *response =
+        MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, 64 << 10, produce, s, release_stream);
     if (!response) {
         release_stream(s);
         return kd_reply_no_memory(request);
@@ -273,7 +301,8 @@ static enum MHD_Result start_stream(struct kd_request *request, struct stream *s
     return result;
 }
 
-/* An EventSource that lost its connection says which frame it had last. A number that no frame has had counts as none. */
+/* An EventSource that lost its connection says which frame it had last. A number that no frame has had counts as
+ * none. */
 static uint64_t last_event(struct kd_request *request, struct kd_session *session)
 {
     const char *id = MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, "Last-Event-ID");
@@ -295,16 +324,20 @@ static enum MHD_Result open_stream(struct kd_request *request, kd_session_find_f
     if (!s || request->head) {
         kd_session_release(session);
         free(s);
-        return request->head ? kd_reply_send(request, MHD_HTTP_OK, kd_reply_empty(type))
-                             : kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
+        return request->head
+                   ? kd_reply_send(request, MHD_HTTP_OK, kd_reply_empty(type))
+                   : kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
     }
     s->form = form;
-    s->viewer = (struct kd_viewer) { .session = session, .mhd = request->mhd, .socket = kd_connection_socket(request->connection),
-                                     .any = form == EVENTS, .seen = form == EVENTS ? last_event(request, session) : 0,
+    s->viewer = (struct kd_viewer) { .session = session,
+                                     .mhd = request->mhd,
+                                     .socket = kd_connection_socket(request->connection),
+                                     .any = form == EVENTS,
+                                     .seen = form == EVENTS ? last_event(request, session) : 0,
                                      .deadline_ms = form == EVENTS ? kd_clock_ms() + HEARTBEAT_MS : INFINITY };
     s->part = form == MULTIPART ? 0 : 3;
-    /* A browser shows a part when the head of the next one has come. So that head follows each frame at once, and the first head
-     * comes alone. */
+    /* A browser shows a part when the head of the next one has come. So that head follows each frame at once, and
+     * the first head comes alone. */
     snprintf(s->next, sizeof s->next, "\r\n--kerrd\r\nContent-Type: %s\r\n\r\n", kd_format_live()->media_type);
     if (form == MULTIPART)
         set_part(s, 0, s->next + 2, strlen(s->next + 2));
@@ -317,10 +350,20 @@ enum MHD_Result kd_live_frames(struct kd_request *request, kd_session_find_fn *f
     struct kd_buffer accept = kd_reply_header_list(request, "Accept");
     bool binary = accept.data && strstr((const char *)accept.data, BINARY_TYPE);
     kd_buffer_finish(&accept);
-    return binary ? open_stream(request, find, BINARY, BINARY_TYPE) : open_stream(request, find, MULTIPART, "multipart/x-mixed-replace; boundary=kerrd");
+    return binary ? open_stream(request, find, BINARY, BINARY_TYPE)
+                  : open_stream(request, find, MULTIPART, "multipart/x-mixed-replace; boundary=kerrd");
 }
 
-enum MHD_Result kd_handle_session_frame(struct kd_request *request) { return kd_live_newest(request, kd_session_of, false); }
-enum MHD_Result kd_handle_session_picture(struct kd_request *request) { return kd_live_newest(request, kd_session_of, true); }
+enum MHD_Result kd_handle_session_frame(struct kd_request *request)
+{
+    return kd_live_newest(request, kd_session_of, false);
+}
+enum MHD_Result kd_handle_session_picture(struct kd_request *request)
+{
+    return kd_live_newest(request, kd_session_of, true);
+}
 enum MHD_Result kd_handle_session_frames(struct kd_request *request) { return kd_live_frames(request, kd_session_of); }
-enum MHD_Result kd_handle_session_events(struct kd_request *request) { return open_stream(request, kd_session_of, EVENTS, "text/event-stream"); }
+enum MHD_Result kd_handle_session_events(struct kd_request *request)
+{
+    return open_stream(request, kd_session_of, EVENTS, "text/event-stream");
+}

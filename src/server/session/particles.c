@@ -1,5 +1,5 @@
-/* GET /v1/sessions/ID/particles says where the particles of a session are, as numbers. They are listed a slice at a time, between which others have
- * the device. */
+/* GET /v1/sessions/ID/particles says where the particles of a session are, as numbers. They are listed a slice at a
+ * time, between which others have the device. */
 #include "scene/number.h"
 #include "base/clock.h"
 #include "server/http/reply.h"
@@ -42,7 +42,8 @@ static size_t slice_of(const struct kd_particles_job *job)
 }
 
 /* Lists one slice, on the thread that has the device. */
-static enum kd_status list_slice(struct kd_render_job *device, struct kd_renderer *renderer, kd_progress_fn progress, void *user)
+static enum kd_status list_slice(struct kd_render_job *device, struct kd_renderer *renderer, kd_progress_fn progress,
+                                 void *user)
 {
     struct kd_particles_job *job = (struct kd_particles_job *)device;
     float *to = (float *)job->rows.data + job->done * job->list.n_columns;
@@ -137,19 +138,24 @@ static enum MHD_Result submit(struct kd_request *request)
     struct kd_capacity capacity;
     bool quota;
     if (atomic_load(&server->phase) >= KD_REFUSING)
-        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_STOPPING, .retry_after = 1,
-                                                                .detail = "the server is stopping and begins nothing long" });
+        return kd_reply_problem(request,
+                                &(struct kd_problem) { .type = KD_PROBLEM_STOPPING,
+                                                       .retry_after = 1,
+                                                       .detail = "the server is stopping and begins nothing long" });
     if (kd_render_queue_admit(server->renders, request->client, &quota, &error) || allocate(job, &quota, &error))
         return refuse(request, &error, quota);
     kd_render_queue_capacity(server->renders, &capacity);
     job->begun_ms = kd_clock_ms();
     job->device = (struct kd_render_job) {
-        .claim.class = KD_CLASS_RAYS, .run = list_slice, .socket = kd_connection_socket(request->connection), .done = done,
+        .claim.class = KD_CLASS_RAYS,
+        .run = list_slice,
+        .socket = kd_connection_socket(request->connection),
+        .done = done,
     };
     memcpy(job->device.claim.client, request->client, sizeof request->client);
     job->device.plan.estimate_ms = (double)job->list.n * capacity.ns[KD_NS_PARTICLE] * 1e-6;
-    /* The request is suspended first, as the job may be done before push returns. A suspended request and its socket outlive the
-     * job. */
+    /* The request is suspended first, as the job may be done before push returns. A suspended request and its socket
+     * outlive the job. */
     MHD_suspend_connection(request->mhd);
     kd_render_queue_push(server->renders, &job->device);
     return MHD_YES;
@@ -173,8 +179,9 @@ enum MHD_Result kd_handle_session_particles(struct kd_request *request)
     request->particles = job;
     job->request = request;
     if (kd_particle_list_init(&job->list, &state.scene, &error))
-        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_CONFLICT, .pointer = error.pointer,
-                                                                .detail = error.message });
+        return kd_reply_problem(
+            request,
+            &(struct kd_problem) { .type = KD_PROBLEM_CONFLICT, .pointer = error.pointer, .detail = error.message });
     if (read_query(&request->target, &job->list, &error))
         return refuse(request, &error, false);
     if (!request->head)

@@ -1,4 +1,5 @@
-/* These routes are POST and DELETE of a session's path. A path is read, and looked along, by the workers in turns: that takes milliseconds. */
+/* These routes are POST and DELETE of a session's path. A path is read, and looked along, by the workers in turns:
+ * that takes milliseconds. */
 #include "base/clock.h"
 #include "scene/members.h"
 #include "scene/tree.h"
@@ -16,7 +17,7 @@
 #define PATH_LOOKS 30 /* of up to a quarter of a millisecond */
 
 struct path_task {
-    struct kd_task task; /* first */
+    struct kd_task task;  /* first */
     struct kd_scene from; /* the scene as it was when the path was asked for */
     struct kd_timeline path;
     bool read;
@@ -29,8 +30,10 @@ static void finish(struct kd_task *task)
     kd_timeline_finish(&p->path);
 }
 
-/* {"keyframes": [{"at": seconds, "scene", "proper_time", "ease", "look_at"}, ...], "interpolation", "distances", "angles", "ease", "look_at"}, from the scene as it is. */
-static enum kd_status read_path(const struct kd_request *request, const struct kd_scene *now, struct kd_timeline *out, struct kd_error *error)
+/* {"keyframes": [{"at": seconds, "scene", "proper_time", "ease", "look_at"}, ...], "interpolation", "distances",
+ * "angles", "ease", "look_at"}, from the scene as it is. */
+static enum kd_status read_path(const struct kd_request *request, const struct kd_scene *now, struct kd_timeline *out,
+                                struct kd_error *error)
 {
     static const struct kd_timeline_form by_second = { "at", KD_SESSION_PATH_S, false };
     struct kd_timeline_items items = { 0 };
@@ -39,12 +42,15 @@ static enum kd_status read_path(const struct kd_request *request, const struct k
     const struct kd_member members[] = { KD_TIMELINE_MEMBERS(items) };
     cJSON *root = NULL;
     enum kd_status status;
-    KD_TRY(kd_tree_parse(body->data ? (const char *)body->data : "", body->size, KD_BODY_MAX, PATH_VALUES, &root, error));
+    KD_TRY(
+        kd_tree_parse(body->data ? (const char *)body->data : "", body->size, KD_BODY_MAX, PATH_VALUES, &root, error));
     if (!cJSON_IsObject(root))
         KD_TRY(kd_error_set(error, KD_EINVAL, "the body is no JSON object"));
     KD_TRY(kd_members_read(root, "", members, sizeof members / sizeof *members, error));
     if (!items.keyframes)
-        KD_TRY(kd_error_field(error, "/keyframes", "keyframes is missing: say what changes, as in \"keyframes\": [{\"at\": 10, \"scene\": {\"time\": 100}}]"));
+        KD_TRY(kd_error_field(
+            error, "/keyframes",
+            "keyframes is missing: say what changes, as in \"keyframes\": [{\"at\": 10, \"scene\": {\"time\": 100}}]"));
     KD_TRY(kd_timeline_read(&items, &by_second, assets, now, out, error));
     if (!(kd_timeline_end(out) > 0))
         KD_TRY(kd_error_field(error, "/keyframes", "the last keyframe is at 0 s, allowed is later"));
@@ -62,10 +68,13 @@ static enum kd_status check_motion(const struct kd_timeline *path, struct kd_err
         fallen |= path->keys[i].proper_time > 0;
         rates |= m->time_rate != 0 || m->azimuth_rate_deg != 0;
         if (memcmp(m, &path->keys[0].scene.motion, sizeof *m))
-            return kd_error_field(error, "/keyframes", "keyframe %zu changes motion, which stays what it is along a path", i);
+            return kd_error_field(error, "/keyframes",
+                                  "keyframe %zu changes motion, which stays what it is along a path", i);
     }
     if (fallen && rates)
-        return kd_error_field(error, "/keyframes", "proper_time is given, allowed with motion.time_rate and motion.azimuth_rate_deg 0 alone: time and azimuth go on "
+        return kd_error_field(error, "/keyframes",
+                              "proper_time is given, allowed with motion.time_rate and motion.azimuth_rate_deg 0 "
+                              "alone: time and azimuth go on "
                               "as they do on the observer's way");
     return KD_OK;
 }

@@ -26,16 +26,25 @@ struct kd_session *kd_session_of(struct kd_request *request, enum MHD_Result *re
 {
     struct kd_session *session = kd_sessions_find(request->server->sessions, request->rest);
     if (!session)
-        *refused = kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND,
-                                                                    .detail = "there is no such session, or it has ended" });
+        *refused =
+            kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND,
+                                                             .detail = "there is no such session, or it has ended" });
     return session;
 }
 
-static const struct { unsigned bit; const char *word; } varying[] = {
-    { KD_MOVES_WITH_TIME, "moves_with_time" }, { KD_DIMS_WITH_TIME, "dims_with_time" }, { KD_MOVES_WITH_AZIMUTH, "moves_with_azimuth" },
+static const struct {
+    unsigned bit;
+    const char *word;
+} varying[] = {
+    { KD_MOVES_WITH_TIME, "moves_with_time" },
+    { KD_DIMS_WITH_TIME, "dims_with_time" },
+    { KD_MOVES_WITH_AZIMUTH, "moves_with_azimuth" },
 };
 
-const char *kd_session_varies_word(size_t index) { return index < sizeof varying / sizeof *varying ? varying[index].word : NULL; }
+const char *kd_session_varies_word(size_t index)
+{
+    return index < sizeof varying / sizeof *varying ? varying[index].word : NULL;
+}
 
 /* ["moves_with_time", ...]: what the scene would show of another time or azimuth. */
 static enum kd_status add_varies(const struct kd_scene *scene, struct kd_buffer *out)
@@ -52,9 +61,11 @@ done:
     return status;
 }
 
-/* {"id", "revision", "frame", "viewers", ["order",] "scene", "varies", "emitters"}, on a path "path", while a picture is made "rendering", or "refining" for a finer one, of one who falls "clock", and for who has just made it the
- * token. */
-static enum kd_status to_json(const struct kd_session *session, const struct kd_session_state *state, bool token, struct kd_buffer *out)
+/* {"id", "revision", "frame", "viewers", ["order",] "scene", "varies", "emitters"}, on a path "path", while a
+ * picture is made "rendering", or "refining" for a finer one, of one who falls "clock", and for who has just made it
+ * the token. */
+static enum kd_status to_json(const struct kd_session *session, const struct kd_session_state *state, bool token,
+                              struct kd_buffer *out)
 {
     struct kd_fall_clock clock;
     enum kd_status status;
@@ -92,7 +103,8 @@ done:
     return status;
 }
 
-enum MHD_Result kd_session_answer(struct kd_request *request, const struct kd_session *session, const struct kd_session_state *state)
+enum MHD_Result kd_session_answer(struct kd_request *request, const struct kd_session *session,
+                                  const struct kd_session_state *state)
 {
     struct kd_buffer json = { 0 };
     const struct kd_task *task = request->task;
@@ -101,13 +113,15 @@ enum MHD_Result kd_session_answer(struct kd_request *request, const struct kd_se
     if (status || !task)
         return kd_reply_json(request, status, &json, JSON_TYPE);
     struct MHD_Response *response = kd_reply_text(request, &json, JSON_TYPE);
-    snprintf(timing, sizeof timing, "queue;dur=%.3f, look;dur=%.3f", task->begun_ms - task->submitted_ms, task->done_ms - task->begun_ms);
+    snprintf(timing, sizeof timing, "queue;dur=%.3f, look;dur=%.3f", task->begun_ms - task->submitted_ms,
+             task->done_ms - task->begun_ms);
     if (response)
         MHD_add_response_header(response, "Server-Timing", timing);
     return kd_reply_send(request, MHD_HTTP_OK, response);
 }
 
-static enum MHD_Result answer_created(struct kd_request *request, const struct kd_session *session, const struct kd_session_state *state)
+static enum MHD_Result answer_created(struct kd_request *request, const struct kd_session *session,
+                                      const struct kd_session_state *state)
 {
     struct kd_buffer json = { 0 };
     enum kd_status status = to_json(session, state, true, &json);
@@ -119,7 +133,8 @@ static enum MHD_Result answer_created(struct kd_request *request, const struct k
 }
 
 /* A number of the query in these bounds; *value stays where the query does not say it. */
-static enum kd_status read_number(const struct kd_request *request, const char *name, double low, double high, double *value, struct kd_error *error)
+static enum kd_status read_number(const struct kd_request *request, const char *name, double low, double high,
+                                  double *value, struct kd_error *error)
 {
     const char *text = kd_target_value(&request->target, name);
     const size_t n = text ? strlen(text) : 0;
@@ -134,8 +149,10 @@ static enum kd_status read_number(const struct kd_request *request, const char *
     return KD_OK;
 }
 
-/* The query may say how much of the asked width a frame has at least while the scene changes, and how long one may take for that. *said: it does. */
-static enum kd_status read_pace(const struct kd_request *request, struct kd_session_pace *pace, bool *said, struct kd_error *error)
+/* The query may say how much of the asked width a frame has at least while the scene changes, and how long one may
+ * take for that. *said: it does. */
+static enum kd_status read_pace(const struct kd_request *request, struct kd_session_pace *pace, bool *said,
+                                struct kd_error *error)
 {
     enum kd_status status;
     *said = kd_target_value(&request->target, "least");
@@ -143,7 +160,8 @@ static enum kd_status read_pace(const struct kd_request *request, struct kd_sess
     KD_TRY(read_number(request, "least", KD_LEAST_MIN, 1, &pace->least, error));
     KD_TRY(read_number(request, "patience_ms", KD_PATIENCE_MS_MIN, KD_PATIENCE_MS_MAX, &pace->patience_ms, error));
     if (!*said && isfinite(pace->patience_ms))
-        KD_TRY(kd_error_field(error, "/patience_ms", "patience_ms stands without least, whose width it is the patience for"));
+        KD_TRY(kd_error_field(error, "/patience_ms",
+                              "patience_ms stands without least, whose width it is the patience for"));
 done:
     return status;
 }
@@ -167,9 +185,12 @@ enum MHD_Result kd_handle_sessions(struct kd_request *request)
     if (kd_sessions_takes(server->sessions, &planned->plan, &error))
         return kd_reply_error(request, &error);
     if (atomic_load(&server->phase) >= KD_REFUSING)
-        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_STOPPING, .retry_after = 1,
-                                                                .detail = "the server is stopping and takes no new sessions" });
-    if (kd_sessions_open(server->sessions, &planned->scene, &planned->plan, request->client, false, &pace, &quota, &session, &error)) {
+        return kd_reply_problem(request,
+                                &(struct kd_problem) { .type = KD_PROBLEM_STOPPING,
+                                                       .retry_after = 1,
+                                                       .detail = "the server is stopping and takes no new sessions" });
+    if (kd_sessions_open(server->sessions, &planned->scene, &planned->plan, request->client, false, &pace, &quota,
+                         &session, &error)) {
         problem = kd_problem_from(&error);
         problem.retry_after = 10;
         kd_problem_limit(&problem, &error, quota, 10);
@@ -197,7 +218,8 @@ static enum kd_status read_order(const struct kd_request *request, uint64_t *ord
     const char *text = kd_target_value(&request->target, "order");
     *order = 0;
     if (text && (!kd_target_whole(&request->target, "order", 0, KD_ORDER_MAX, order) || !*order))
-        return kd_error_field(error, "/order", "order is %.20s, allowed is a whole number from 1 to 2^53, higher with each patch", text);
+        return kd_error_field(error, "/order",
+                              "order is %.20s, allowed is a whole number from 1 to 2^53, higher with each patch", text);
     return KD_OK;
 }
 
@@ -232,14 +254,16 @@ static enum MHD_Result patch(struct kd_request *request, struct kd_session *sess
     struct kd_session_pace pace;
     uint64_t order;
     bool said;
-    if (read_pace(request, &pace, &said, &error) || read_order(request, &order, &error) || kd_session_patch(session, text, length, order, &state, &error))
+    if (read_pace(request, &pace, &said, &error) || read_order(request, &order, &error) ||
+        kd_session_patch(session, text, length, order, &state, &error))
         return refuse_patch(request, &error);
     if (said)
         kd_session_keep(session, &pace);
     return prefers_little(request) ? answer_little(request, &state) : kd_session_answer(request, session, &state);
 }
 
-bool kd_session_change(struct kd_request *request, struct kd_session *session, struct kd_session_state *state, enum MHD_Result *refused)
+bool kd_session_change(struct kd_request *request, struct kd_session *session, struct kd_session_state *state,
+                       enum MHD_Result *refused)
 {
     struct kd_error error = { 0 };
     uint64_t order;
@@ -248,7 +272,8 @@ bool kd_session_change(struct kd_request *request, struct kd_session *session, s
         return false;
     }
     const char *text = request->body.data ? (const char *)request->body.data : "";
-    if (!read_order(request, &order, &error) && !kd_session_patch(session, text, request->body.size, order, state, &error))
+    if (!read_order(request, &order, &error) &&
+        !kd_session_patch(session, text, request->body.size, order, state, &error))
         return true;
     *refused = refuse_patch(request, &error);
     return false;
@@ -256,8 +281,9 @@ bool kd_session_change(struct kd_request *request, struct kd_session *session, s
 
 enum MHD_Result kd_session_forbid(struct kd_request *request)
 {
-    return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_FORBIDDEN,
-                                                            .detail = "changing a session takes its token: Authorization: Bearer TOKEN" });
+    return kd_reply_problem(
+        request, &(struct kd_problem) { .type = KD_PROBLEM_FORBIDDEN,
+                                        .detail = "changing a session takes its token: Authorization: Bearer TOKEN" });
 }
 
 static enum MHD_Result change(struct kd_request *request, struct kd_session *session)
@@ -337,10 +363,13 @@ static enum MHD_Result strike(struct kd_request *request, struct kd_session *ses
     if (rate > 0)
         return patch(request, session, text, strlen(text));
     kd_number_format(time, rate);
-    snprintf(detail, sizeof detail, "motion.time_rate is %s, allowed for a hole to be struck is more than 0 M per second: what "
-             "rings, rings as time goes on", time);
-    return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_CONFLICT, .pointer = "/motion/time_rate",
-                                                            .detail = detail });
+    snprintf(detail, sizeof detail,
+             "motion.time_rate is %s, allowed for a hole to be struck is more than 0 M per second: what "
+             "rings, rings as time goes on",
+             time);
+    return kd_reply_problem(
+        request,
+        &(struct kd_problem) { .type = KD_PROBLEM_CONFLICT, .pointer = "/motion/time_rate", .detail = detail });
 }
 
 enum MHD_Result kd_handle_session_ringdown(struct kd_request *request)

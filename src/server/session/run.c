@@ -8,9 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define EXPOSURE_MS 2000.0  /* in which 63 % of a change of brightness is followed */
-#define SURE 0.02           /* of a picture, from which on it is said how long the rest takes */
-#define ENCODING_MAX 2      /* frames of a session behind the renderer: one is traced while one is encoded */
+#define EXPOSURE_MS 2000.0 /* in which 63 % of a change of brightness is followed */
+#define SURE 0.02          /* of a picture, from which on it is said how long the rest takes */
+#define ENCODING_MAX 2     /* frames of a session behind the renderer: one is traced while one is encoded */
 
 struct kd_session_frame {
     struct kd_render_job job; /* first: the queue's pointer is ours */
@@ -20,8 +20,8 @@ struct kd_session_frame {
     double begun_ms;
     struct kd_turn turn;
     struct kd_crowd *crowd; /* that its scene shows: held */
-    double fraction; /* that is done */
-    bool rendered, last; /* last: nothing finer follows, nor any other */
+    double fraction;        /* that is done */
+    bool rendered, last;    /* last: nothing finer follows, nor any other */
 };
 
 /* These functions run with the lock where nothing else is said. */
@@ -37,8 +37,8 @@ static void fail(struct kd_session *s, const struct kd_error *error)
     kd_session_wake(s);
 }
 
-/* Auto exposure follows slowly where only time goes on. It goes by the few brightest pixels, which are now these particles and now
- * those: the picture would flicker with them. */
+/* Auto exposure follows slowly where only time goes on. It goes by the few brightest pixels, which are now these
+ * particles and now those: the picture would flicker with them. */
 static void follow_exposure(const struct kd_session *s, double now, struct kd_plan *plan)
 {
     plan->exposure_from = s->exposure;
@@ -46,8 +46,8 @@ static void follow_exposure(const struct kd_session *s, double now, struct kd_pl
 }
 
 /* Makes the frame that the queue is to render. NULL: *error says why not. */
-static struct kd_session_frame *make_frame(struct kd_session *s, const struct kd_scene *scene, const struct kd_turn *turn,
-                                           double now, struct kd_error *error)
+static struct kd_session_frame *make_frame(struct kd_session *s, const struct kd_scene *scene,
+                                           const struct kd_turn *turn, double now, struct kd_error *error)
 {
     struct kd_session_frame *live = calloc(1, sizeof *live);
     struct kd_capacity capacity;
@@ -59,8 +59,13 @@ static struct kd_session_frame *make_frame(struct kd_session *s, const struct kd
     live->turn = *turn;
     live->begun_ms = now;
     live->job = (struct kd_render_job) {
-        .claim.class = turn->refining ? KD_CLASS_REFINEMENT : KD_CLASS_LIVE, .socket = -1,
-        .format = kd_format_live(), .effort = KD_EFFORT_LIVE, .progress = progress, .rendered = rendered, .done = done,
+        .claim.class = turn->refining ? KD_CLASS_REFINEMENT : KD_CLASS_LIVE,
+        .socket = -1,
+        .format = kd_format_live(),
+        .effort = KD_EFFORT_LIVE,
+        .progress = progress,
+        .rendered = rendered,
+        .done = done,
     };
     memcpy(live->job.claim.client, s->demand.client, sizeof s->demand.client);
     kd_quality_apply(&turn->quality, scene, &live->job.scene);
@@ -79,14 +84,16 @@ static struct kd_session_frame *make_frame(struct kd_session *s, const struct kd
         return NULL;
     }
     live->job.plan.audit /= turn->audit;
-    if (!turn->refining && s->exposed_revision == s->revision && (kd_emit_moves(scene) || s->crowd || kd_session_on_its_way(s, now)))
+    if (!turn->refining && s->exposed_revision == s->revision &&
+        (kd_emit_moves(scene) || s->crowd || kd_session_on_its_way(s, now)))
         follow_exposure(s, now, &live->job.plan);
     return live;
 }
 
 void kd_session_pump(struct kd_session *s)
 {
-    if (!s->listed || s->failed || s->rendering || s->encoding >= ENCODING_MAX || !kd_session_awaited(s) || (s->crowded && !s->crowd))
+    if (!s->listed || s->failed || s->rendering || s->encoding >= ENCODING_MAX || !kd_session_awaited(s) ||
+        (s->crowded && !s->crowd))
         return;
     double now = kd_clock_ms();
     struct kd_scene scene;
@@ -139,12 +146,15 @@ static void add_cost(struct kd_frame_cost *cost, const char *pass, double ms)
 {
     const struct kd_pass *known = kd_pass_find(pass);
     if (known)
-        *(known->scale == KD_SCALE_RAYS ? &cost->rays_ms : known->scale == KD_SCALE_PIXELS ? &cost->pixels_ms : &cost->fixed_ms) += ms;
+        *(known->scale == KD_SCALE_RAYS     ? &cost->rays_ms
+          : known->scale == KD_SCALE_PIXELS ? &cost->pixels_ms
+                                            : &cost->fixed_ms) += ms;
     else if (!strcmp(pass, "total"))
         cost->total_ms = ms;
 }
 
-/* The cost leaves encoding out: that overlaps with the next frame, and takes a tenth of the time or less (bench/live.py). */
+/* The cost leaves encoding out: that overlaps with the next frame, and takes a tenth of the time or less
+ * (bench/live.py). */
 static struct kd_frame_cost cost_of(const struct kd_render_job *job)
 {
     const struct kd_frame *frame = &job->frame;
@@ -162,7 +172,8 @@ static void share_device(struct kd_session *s, double now)
 void kd_session_expect(struct kd_session *s, const struct kd_plan *plan)
 {
     share_device(s, kd_clock_ms());
-    struct kd_frame_cost traced = { .total_ms = plan->estimate_ms }, reused = { .total_ms = plan->estimate_ms, .lens_reused = true };
+    struct kd_frame_cost traced = { .total_ms = plan->estimate_ms },
+                         reused = { .total_ms = plan->estimate_ms, .lens_reused = true };
     for (size_t i = 0; i < plan->n_passes; i++) {
         const struct kd_plan_pass *pass = &plan->passes[i];
         add_cost(&traced, pass->name, pass->estimate_ms);
@@ -191,7 +202,8 @@ struct kd_session_progress kd_session_progress_of(const struct kd_session *s, do
     if (!live)
         return (struct kd_session_progress) { .fraction = NAN, .left_s = NAN };
     return (struct kd_session_progress) {
-        .refines = live->turn.refining, .fraction = live->fraction,
+        .refines = live->turn.refining,
+        .fraction = live->fraction,
         .left_s = live->fraction > SURE ? 1e-3 * (now - live->begun_ms) * (1 - live->fraction) / live->fraction : NAN,
     };
 }
@@ -230,7 +242,8 @@ static void publish(struct kd_session *s, struct kd_session_frame *live)
     else
         s->interval_ms = 0;
     s->shown_ms = now;
-    const struct kd_live_note note = { live->number, live->revision, live->turn.quality.final, live->last, s->interval_ms > 0 ? 1e3 / s->interval_ms : 0 };
+    const struct kd_live_note note = { live->number, live->revision, live->turn.quality.final, live->last,
+                                       s->interval_ms > 0 ? 1e3 / s->interval_ms : 0 };
     struct kd_live_frame *frame = kd_live_frame_make(&live->job, &note);
     if (!frame)
         return; /* the next one may have more luck */
@@ -259,7 +272,9 @@ static void done(struct kd_render_job *job)
     job->error.status = job->status;
     if (!job->status)
         publish(s, live);
-    else if (job->status != KD_ECANCELLED && (job->status != KD_EDEVICE || kd_render_queue_lost(all->params.renders, NULL))) /* one that is opened again may show the next */
+    else if (job->status != KD_ECANCELLED &&
+             (job->status != KD_EDEVICE ||
+              kd_render_queue_lost(all->params.renders, NULL))) /* one that is opened again may show the next */
         fail(s, &job->error);
     kd_session_pump(s);
     kd_session_let_go(s);

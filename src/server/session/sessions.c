@@ -1,7 +1,6 @@
 #include "base/clock.h"
 #include "server/session/internal.h"
 
-
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,7 +10,8 @@
 
 #define TARGET_MS 33.0 /* of a frame while the scene changes */
 
-enum kd_status kd_sessions_create(const struct kd_sessions_params *params, struct kd_sessions **out, struct kd_error *error)
+enum kd_status kd_sessions_create(const struct kd_sessions_params *params, struct kd_sessions **out,
+                                  struct kd_error *error)
 {
     struct kd_sessions *all = calloc(1, sizeof *all);
     if (!all)
@@ -52,7 +52,10 @@ void kd_session_unlist(struct kd_session *s)
 
 static double seconds_of(const struct kd_session *s, double now) { return fmax(1e-3 * (now - s->since_ms), 0); }
 
-bool kd_session_on_its_way(const struct kd_session *s, double now) { return seconds_of(s, now) < kd_timeline_end(&s->path); }
+bool kd_session_on_its_way(const struct kd_session *s, double now)
+{
+    return seconds_of(s, now) < kd_timeline_end(&s->path);
+}
 
 enum kd_status kd_session_scene(const struct kd_session *s, double now, struct kd_scene *out, struct kd_error *error)
 {
@@ -79,17 +82,23 @@ static struct kd_scene scene_now(const struct kd_session *s, double now)
 enum kd_status kd_sessions_takes(const struct kd_sessions *all, const struct kd_plan *plan, struct kd_error *error)
 {
     if (plan->n_layers + plan->picture > 1)
-        return kd_error_field(error, "/image/layers", "image.layers holds %zu, allowed in a session, which shows a picture, is one",
+        return kd_error_field(error, "/image/layers",
+                              "image.layers holds %zu, allowed in a session, which shows a picture, is one",
                               plan->n_layers + plan->picture);
     if (plan->cut.width)
-        return kd_error_field(error, "/image/tile/width", "image.tile.width is %u, allowed is 0 in a session, which shows whole pictures of any size", plan->cut.width);
+        return kd_error_field(
+            error, "/image/tile/width",
+            "image.tile.width is %u, allowed is 0 in a session, which shows whole pictures of any size",
+            plan->cut.width);
     if (plan->estimate_ms <= all->params.longest_s * 1e3)
         return KD_OK;
-    return kd_error_set(error, KD_ETOOBIG, "a frame of this scene would take about %.0f s, more than the %u s a render may take",
+    return kd_error_set(error, KD_ETOOBIG,
+                        "a frame of this scene would take about %.0f s, more than the %u s a render may take",
                         plan->estimate_ms * 1e-3, all->params.longest_s);
 }
 
-static enum kd_status make_plan(struct kd_sessions *all, const struct kd_scene *scene, struct kd_plan *plan, struct kd_error *error)
+static enum kd_status make_plan(struct kd_sessions *all, const struct kd_scene *scene, struct kd_plan *plan,
+                                struct kd_error *error)
 {
     struct kd_capacity capacity;
     kd_render_queue_capacity(all->params.renders, &capacity);
@@ -97,8 +106,9 @@ static enum kd_status make_plan(struct kd_sessions *all, const struct kd_scene *
     return status ? status : kd_sessions_takes(all, plan, error);
 }
 
-enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *scene, const struct kd_plan *plan, const char *client,
-                                bool crowded, const struct kd_session_pace *pace, bool *quota, struct kd_session **out, struct kd_error *error)
+enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *scene, const struct kd_plan *plan,
+                                const char *client, bool crowded, const struct kd_session_pace *pace, bool *quota,
+                                struct kd_session **out, struct kd_error *error)
 {
     *quota = kd_render_queue_afford(all->params.renders, client, error) != KD_OK;
     if (*quota)
@@ -174,10 +184,7 @@ void kd_session_release(struct kd_session *s)
 const char *kd_session_id(const struct kd_session *s) { return s->id; }
 const char *kd_session_token(const struct kd_session *s) { return s->token; }
 
-bool kd_session_owned(const struct kd_session *s, const char *token)
-{
-    return kd_secret_equal(s->token, token);
-}
+bool kd_session_owned(const struct kd_session *s, const char *token) { return kd_secret_equal(s->token, token); }
 
 static unsigned viewers_of(const struct kd_session *s) /* locked */
 {
@@ -190,8 +197,13 @@ static unsigned viewers_of(const struct kd_session *s) /* locked */
 static void state(const struct kd_session *s, struct kd_session_state *out) /* locked */
 {
     const double now = kd_clock_ms(), end = kd_timeline_end(&s->path);
-    *out = (struct kd_session_state) { .scene = scene_now(s, now), .revision = s->revision, .viewers = viewers_of(s),
-                                       .frame = s->latest ? s->latest->number : 0, .order = s->order, .path_at = fmin(seconds_of(s, now), end), .path_end = end };
+    *out = (struct kd_session_state) { .scene = scene_now(s, now),
+                                       .revision = s->revision,
+                                       .viewers = viewers_of(s),
+                                       .frame = s->latest ? s->latest->number : 0,
+                                       .order = s->order,
+                                       .path_at = fmin(seconds_of(s, now), end),
+                                       .path_end = end };
     out->progress = kd_session_progress_of(s, now);
 }
 
@@ -216,8 +228,8 @@ static void change(struct kd_session *s, double now, const struct kd_scene *scen
     kd_session_pump(s);
 }
 
-enum kd_status kd_session_patch(struct kd_session *s, const char *text, size_t length, uint64_t order, struct kd_session_state *out,
-                                struct kd_error *error)
+enum kd_status kd_session_patch(struct kd_session *s, const char *text, size_t length, uint64_t order,
+                                struct kd_session_state *out, struct kd_error *error)
 {
     struct kd_plan plan;
     double now = kd_clock_ms();
@@ -317,7 +329,8 @@ struct kd_session *kd_session_share(struct kd_session *s)
     return s;
 }
 
-enum kd_status kd_session_follow(struct kd_session *s, struct kd_timeline *path, struct kd_session_state *out, struct kd_error *error)
+enum kd_status kd_session_follow(struct kd_session *s, struct kd_timeline *path, struct kd_session_state *out,
+                                 struct kd_error *error)
 {
     struct kd_plan plan;
     enum kd_status status;

@@ -1,8 +1,8 @@
 /* A live session is a scene that its owner changes, the newest frame of it, and those who watch.
  *
- * A session is rendered only while somebody waits for a newer frame, and only if a newer one would differ: the scene has
- * changed, goes on by itself, or a finer picture of it is still to come. One frame is traced while the one before is
- * encoded; all who watch share it. Any thread; the functions on viewers belong to the HTTP thread. */
+ * A session is rendered only while somebody waits for a newer frame, and only if a newer one would differ: the scene
+ * has changed, goes on by itself, or a finer picture of it is still to come. One frame is traced while the one
+ * before is encoded; all who watch share it. Any thread; the functions on viewers belong to the HTTP thread. */
 #ifndef KD_SERVER_SESSION_SESSIONS_H
 #define KD_SERVER_SESSION_SESSIONS_H
 
@@ -19,40 +19,44 @@ struct kd_session;
 
 struct kd_sessions_params {
     struct kd_render_queue *renders;
-    unsigned limit;   /* sessions at once, */
-    unsigned client_limit; /* and those of one client */
-    unsigned idle_ms; /* without anybody watching or asking, after which a session ends */
-    unsigned longest_s; /* a frame as asked may take, by its plan */
+    unsigned limit;                 /* sessions at once, */
+    unsigned client_limit;          /* and those of one client */
+    unsigned idle_ms;               /* without anybody watching or asking, after which a session ends */
+    unsigned longest_s;             /* a frame as asked may take, by its plan */
     const struct kd_assets *assets; /* that scenes may name */
 };
-enum kd_status kd_sessions_create(const struct kd_sessions_params *params, struct kd_sessions **out, struct kd_error *error);
-/* To be called after kd_sessions_close, and when the render queue has finished: nothing may be under way. Accepts NULL. */
+enum kd_status kd_sessions_create(const struct kd_sessions_params *params, struct kd_sessions **out,
+                                  struct kd_error *error);
+/* To be called after kd_sessions_close, and when the render queue has finished: nothing may be under way. Accepts
+ * NULL. */
 void kd_sessions_destroy(struct kd_sessions *all);
 
 /* Fails with KD_ETOOBIG where a frame of the plan would take too long. */
 enum kd_status kd_sessions_takes(const struct kd_sessions *all, const struct kd_plan *plan, struct kd_error *error);
 
-/* While it moves, frames of a session keep this part of the asked width, unless they take longer than patience_ms: kd_governor_least. */
-struct kd_session_pace {
-    double least, patience_ms;
-};
+/* While it moves, frames of a session keep this part of the asked width, unless they take longer than patience_ms:
+ * kd_governor_least. */
+struct kd_session_pace { double least, patience_ms; };
 #define KD_SESSION_PACE_DEFAULT { 0.25, INFINITY }
 
-/* Opens a session of a valid scene with its plan; its frames are counted in the client's share. The caller holds a reference. crowded: it shows a crowd
- * besides its scene, and nothing before kd_session_show. pace: as kd_session_keep; NULL: the default.
- * KD_EBUSY: there are as many sessions as may be, or with *quota as many of this client. */
-enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *scene, const struct kd_plan *plan, const char *client,
-                                bool crowded, const struct kd_session_pace *pace, bool *quota, struct kd_session **out, struct kd_error *error);
-/* Shows this crowd from now on, at its time after the scene's; takes over the reference. The revision stays what it is. */
+/* Opens a session of a valid scene with its plan; its frames are counted in the client's share. The caller holds a
+ * reference. crowded: it shows a crowd besides its scene, and nothing before kd_session_show. pace: as
+ * kd_session_keep; NULL: the default. KD_EBUSY: there are as many sessions as may be, or with *quota as many of this
+ * client. */
+enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *scene, const struct kd_plan *plan,
+                                const char *client, bool crowded, const struct kd_session_pace *pace, bool *quota,
+                                struct kd_session **out, struct kd_error *error);
+/* Shows this crowd from now on, at its time after the scene's; takes over the reference. The revision stays what it
+ * is. */
 void kd_session_show(struct kd_session *session, struct kd_crowd *crowd);
 /* Its frames keep to this from now on. */
 void kd_session_keep(struct kd_session *session, const struct kd_session_pace *pace);
 /* Puts a scene in the place of the present one, resolved and valid. */
 enum kd_status kd_session_put(struct kd_session *session, const struct kd_scene *scene, struct kd_error *error);
-bool kd_session_watched(struct kd_session *session); /* somebody waits, or reads a stream */
+bool kd_session_watched(struct kd_session *session);     /* somebody waits, or reads a stream */
 unsigned kd_session_viewers(struct kd_session *session); /* how many do */
-bool kd_session_hungry(struct kd_session *session);  /* a frame has taken the crowd that was shown last */
-bool kd_session_over(struct kd_session *session);    /* or failed: it shows nothing more */
+bool kd_session_hungry(struct kd_session *session);      /* a frame has taken the crowd that was shown last */
+bool kd_session_over(struct kd_session *session);        /* or failed: it shows nothing more */
 /* The frames of a session that has shown none are numbered behind those of the other. */
 void kd_session_go_on_from(struct kd_session *session, struct kd_session *other);
 struct kd_session *kd_session_share(struct kd_session *session); /* another reference */
@@ -70,23 +74,27 @@ bool kd_session_owned(const struct kd_session *session, const char *token); /* i
 struct kd_session_state {
     struct kd_scene scene;
     unsigned revision, viewers;
-    uint64_t frame; /* the newest one's number, 0: none yet */
-    uint64_t order; /* of the latest patch that had one, 0: none had */
+    uint64_t frame;           /* the newest one's number, 0: none yet */
+    uint64_t order;           /* of the latest patch that had one, 0: none had */
     double path_at, path_end; /* seconds along its path; both 0: it has none */
     struct kd_session_progress {
-        bool refines;            /* the picture that is being made is a finer one of what rests, else the first one of the scene as it is */
-        double fraction, left_s; /* the part of it that is done, and how long the rest takes, estimated; NAN: none is being made, or not known yet */
+        bool refines; /* the picture that is being made is a finer one of what rests, else the first one of the scene as
+                         it is */
+        double fraction, left_s; /* the part of it that is done, and how long the rest takes, estimated; NAN: none is
+                                    being made, or not known yet */
     } progress;
 };
 void kd_session_state(struct kd_session *session, struct kd_session_state *out);
-/* Merges a patch (RFC 7396) into the scene. On failure nothing changes. order: of patches that are under way at once the one with the highest number counts;
- * one with a lower number than a patch before it had comes too late, changes nothing, and is no failure. 0: it has none, and counts. */
-enum kd_status kd_session_patch(struct kd_session *session, const char *text, size_t length, uint64_t order, struct kd_session_state *out,
-                                struct kd_error *error);
+/* Merges a patch (RFC 7396) into the scene. On failure nothing changes. order: of patches that are under way at once
+ * the one with the highest number counts; one with a lower number than a patch before it had comes too late, changes
+ * nothing, and is no failure. 0: it has none, and counts. */
+enum kd_status kd_session_patch(struct kd_session *session, const char *text, size_t length, uint64_t order,
+                                struct kd_session_state *out, struct kd_error *error);
 #define KD_SESSION_PATH_S 3600 /* a path may take so long */
-/* Lets the session go along a path from now on, which somebody has looked along (path.c), and takes it over. A patch ends it where it is then, and so does
- * kd_session_stop. */
-enum kd_status kd_session_follow(struct kd_session *session, struct kd_timeline *path, struct kd_session_state *out, struct kd_error *error);
+/* Lets the session go along a path from now on, which somebody has looked along (path.c), and takes it over. A patch
+ * ends it where it is then, and so does kd_session_stop. */
+enum kd_status kd_session_follow(struct kd_session *session, struct kd_timeline *path, struct kd_session_state *out,
+                                 struct kd_error *error);
 enum kd_status kd_session_stop(struct kd_session *session, struct kd_error *error);
 /* Ends the session, and tells all who watch. */
 void kd_session_end(struct kd_session *session);
@@ -96,16 +104,18 @@ struct kd_viewer {
     struct kd_session *session; /* a reference */
     struct MHD_Connection *mhd;
     int socket;
-    uint64_t seen;       /* number of the newest frame taken */
-    bool any;            /* it reads what is said of frames: their files are nothing to it */
-    unsigned lossy;      /* the quality at which it takes frames that are not the last, 1 to 100; 0: it takes what is exact alone */
+    uint64_t seen;  /* number of the newest frame taken */
+    bool any;       /* it reads what is said of frames: their files are nothing to it */
+    unsigned lossy; /* the quality at which it takes frames that are not the last, 1 to 100; 0: it takes what is exact
+                       alone */
     const struct kd_live_file *file; /* of the frame taken, as it is for this viewer; the frame's */
-    struct kd_live_frame *owed; /* one that was ready in its kind when it was the latest no more; held */
-    unsigned patched;    /* the revision that the request itself made; 0: none */
-    uint64_t sentences;  /* the hash of the approximations that it has, so that a frame with the same ones does without; more than 32 bits: none */
+    struct kd_live_frame *owed;      /* one that was ready in its kind when it was the latest no more; held */
+    unsigned patched;                /* the revision that the request itself made; 0: none */
+    uint64_t sentences; /* the hash of the approximations that it has, so that a frame with the same ones does without;
+                           more than 32 bits: none */
     double begun_ms, deadline_ms; /* on kd_clock_ms: when it came; of waiting, INFINITY: none */
-    bool waiting;        /* suspended */
-    bool late, gone;     /* woken because the deadline has passed; because the client has hung up */
+    bool waiting;                 /* suspended */
+    bool late, gone;              /* woken because the deadline has passed; because the client has hung up */
     struct kd_viewer *previous, *next;
 };
 /* Takes over the reference in viewer->session. */
@@ -121,7 +131,8 @@ enum kd_viewer_news {
 /* After KD_VIEWER_LATER the viewer is the session's until the connection is resumed. error may be NULL. */
 enum kd_viewer_news kd_viewer_next(struct kd_viewer *viewer, struct kd_live_frame **frame, struct kd_error *error);
 
-/* Looks after deadlines, clients that have gone, idle sessions and refinement that is due. One thread calls it, ten times a second. */
+/* Looks after deadlines, clients that have gone, idle sessions and refinement that is due. One thread calls it, ten
+ * times a second. */
 void kd_sessions_sweep(struct kd_sessions *all);
 /* Takes no more sessions, and tells all viewers that it is over. What is being rendered finishes. */
 void kd_sessions_close(struct kd_sessions *all);
@@ -134,16 +145,18 @@ struct kd_particles_job;
 /* Finds the session that the path names: a reference, or NULL after a refusal. routes.c */
 struct kd_session *kd_session_of(struct kd_request *request, enum MHD_Result *refused);
 /* Answers with the state, and what a task of the request took; refuses who has not its token. routes.c */
-enum MHD_Result kd_session_answer(struct kd_request *request, const struct kd_session *session, const struct kd_session_state *state);
+enum MHD_Result kd_session_answer(struct kd_request *request, const struct kd_session *session,
+                                  const struct kd_session_state *state);
 enum MHD_Result kd_session_forbid(struct kd_request *request);
 void kd_particles_job_destroy(struct kd_particles_job *job); /* particles.c; accepts NULL */
 void kd_live_abandon(struct kd_request *request);            /* live.c: nobody waits for a frame any more */
-/* Answer with the newest frame, and with all of them, of the session that `find` gives, as kd_session_of does. kinds: it may be asked for in a kind that is not
- * exact, and the request may be a patch: routes.c. */
+/* Answer with the newest frame, and with all of them, of the session that `find` gives, as kd_session_of does.
+ * kinds: it may be asked for in a kind that is not exact, and the request may be a patch: routes.c. */
 typedef struct kd_session *kd_session_find_fn(struct kd_request *request, enum MHD_Result *refused);
 enum MHD_Result kd_live_newest(struct kd_request *request, kd_session_find_fn *find, bool kinds);
 /* Patches the session as the request says; false: *refused is the answer. routes.c */
-bool kd_session_change(struct kd_request *request, struct kd_session *session, struct kd_session_state *state, enum MHD_Result *refused);
+bool kd_session_change(struct kd_request *request, struct kd_session *session, struct kd_session_state *state,
+                       enum MHD_Result *refused);
 enum MHD_Result kd_live_frames(struct kd_request *request, kd_session_find_fn *find);
 
 #endif

@@ -21,7 +21,8 @@ static void wake(struct kd_viewer *viewer)
 void kd_session_wake(struct kd_session *s)
 {
     for (struct kd_viewer *v = s->viewers; v; v = v->next)
-        if (!s->listed || s->failed || v->owed || (s->latest && s->latest->number > v->seen && (v->any || kd_session_file(v, s->latest))))
+        if (!s->listed || s->failed || v->owed ||
+            (s->latest && s->latest->number > v->seen && (v->any || kd_session_file(v, s->latest))))
             wake(v);
 }
 
@@ -123,7 +124,8 @@ static void sweep_deadlines(struct kd_session *s, double now) /* locked */
         }
 }
 
-/* Asks about all waiting sockets in one call: hundreds of idle viewers cost nothing that can be measured. With the lock. */
+/* Asks about all waiting sockets in one call: hundreds of idle viewers cost nothing that can be measured. With the
+ * lock. */
 static void sweep_gone(struct kd_sessions *all)
 {
     size_t n = 0, i = 0;

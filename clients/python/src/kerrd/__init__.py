@@ -11,7 +11,23 @@ from .result import Sweep
 from . import scene
 from .scene import *
 
-__all__ = ["AsyncClient", "AsyncJob", "AsyncSession", "Client", "Frame", "Job", "JobFailed", "KerrdError", "NoBinary", "Problem", "Session", "Sweep", "local", "sweep", "widget"]
+__all__ = [
+    "AsyncClient",
+    "AsyncJob",
+    "AsyncSession",
+    "Client",
+    "Frame",
+    "Job",
+    "JobFailed",
+    "KerrdError",
+    "NoBinary",
+    "Problem",
+    "Session",
+    "Sweep",
+    "local",
+    "sweep",
+    "widget",
+]
 __all__ += scene.__all__
 
 
@@ -29,6 +45,8 @@ def widget(scene: Any = None, client: Any = None, **more: Any) -> Any:
     except ModuleNotFoundError as missing:
         if (missing.name or "").split(".")[0] not in ("anywidget", "traitlets", "ipywidgets"):
             raise
-        raise ImportError("kerrd.widget needs the package anywidget, which is not installed: pip install 'kerrd[jupyter]'") from missing
+        raise ImportError(
+            "kerrd.widget needs the package anywidget, which is not installed: pip install 'kerrd[jupyter]'"
+        ) from missing
 
     return Widget(scene, client, **more)

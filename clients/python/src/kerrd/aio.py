@@ -26,19 +26,36 @@ FRAME_WAIT_MS = 25_000
 class AsyncClient:
     """A server by its address, such as "http://127.0.0.1:8080/", spoken to by one event loop.
 
-    patience: seconds for which a busy server (429, 503, 507) is asked again, as often as it says, before the refusal is raised. timeout: seconds
-    without a byte. access: an access token, of a server that has a token file. trust_env: whether proxies and certificates are those that the environment names. Requests that are refused raise Problem.
+    patience: seconds for which a busy server (429, 503, 507) is asked again, as often as it says, before the refusal is
+    raised. timeout: seconds without a byte. access: an access token, of a server that has a token file. trust_env:
+    whether proxies and certificates are those that the environment names. Requests that are refused raise Problem.
     """
 
-    def __init__(self, url: str, *, timeout: float = 600, patience: float = 60, headers: Mapping[str, str] | None = None, access: str | None = None, trust_env: bool = True) -> None:
+    def __init__(
+        self,
+        url: str,
+        *,
+        timeout: float = 600,
+        patience: float = 60,
+        headers: Mapping[str, str] | None = None,
+        access: str | None = None,
+        trust_env: bool = True,
+    ) -> None:
         self.url = url.rstrip("/") + "/"
         self.patience = patience
-        self._http = httpx.AsyncClient(base_url=self.url.rstrip("/"), timeout=httpx.Timeout(timeout, connect=10), headers={**(headers or {}), **calls.admitted(access)}, trust_env=trust_env)
+        self._http = httpx.AsyncClient(
+            base_url=self.url.rstrip("/"),
+            timeout=httpx.Timeout(timeout, connect=10),
+            headers={**(headers or {}), **calls.admitted(access)},
+            trust_env=trust_env,
+        )
 
     async def __aenter__(self) -> AsyncClient:
         return self
 
-    async def __aexit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+    async def __aexit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
         await self.close()
 
     async def close(self) -> None:
@@ -47,14 +64,18 @@ class AsyncClient:
     async def _run(self, call: Call[T]) -> T:
         until = monotonic() + self.patience
         while True:
-            got = await self._http.request(call.method, call.path, params=dict(call.params), headers=dict(call.headers), content=call.body)
+            got = await self._http.request(
+                call.method, call.path, params=dict(call.params), headers=dict(call.headers), content=call.body
+            )
             answer = Answer(got.status_code, got.headers, got.content)
             wait = calls.retry_after(answer)
             if wait is None or monotonic() + wait > until:
                 return call.read(calls.checked(answer))
             await asyncio.sleep(wait)
 
-    async def render(self, scene: SceneLike = None, *, preset: str | None = None, layers: Sequence[str] = (), **changes: Any) -> Frame:
+    async def render(
+        self, scene: SceneLike = None, *, preset: str | None = None, layers: Sequence[str] = (), **changes: Any
+    ) -> Frame:
         """A picture; layers: the numbers that come with it, by a second request for which the lens map is kept."""
         document = scene_of(scene, changes)
         frame = await self._run(calls.render(document, preset))
@@ -62,30 +83,50 @@ class AsyncClient:
             frame.layers.update(await self._run(calls.layers(document, preset, layers)))
         return frame
 
-    async def layers(self, scene: SceneLike = None, names: Sequence[str] = ("rgb",), *, preset: str | None = None, **changes: Any) -> dict[str, NDArray[np.float32]]:
+    async def layers(
+        self, scene: SceneLike = None, names: Sequence[str] = ("rgb",), *, preset: str | None = None, **changes: Any
+    ) -> dict[str, NDArray[np.float32]]:
         """Numbers alone: float32 of shape (height, width), "rgb" (height, width, 3) as linear light."""
         return await self._run(calls.layers(scene_of(scene, changes), preset, names))
 
-    async def stitched(self, scene: SceneLike = None, *, tile: int = 2048, preset: str | None = None, **changes: Any) -> NDArray[np.uint8]:
-        """A picture of any size as it is shown, uint8 of shape (height, width, 3), of tiles of tile x tile pixels: the same as in one, without a seam.
+    async def stitched(
+        self, scene: SceneLike = None, *, tile: int = 2048, preset: str | None = None, **changes: Any
+    ) -> NDArray[np.uint8]:
+        """A picture of any size as it is shown, uint8 of shape (height, width, 3), of tiles of tile x tile pixels: the
+        same as in one, without a seam.
 
-        A tile cannot have exposure "auto", samples "auto", bloom or a beam: docs/scene.md. On many machines: kerrd.dask.stitched.
+        A tile cannot have exposure "auto", samples "auto", bloom or a beam: docs/scene.md. On many machines:
+        kerrd.dask.stitched.
         """
         document = scene_of(scene, changes)
         width, height = await self._size(document, preset)
         whole = np.empty((height, width, 3), np.uint8)
         for left, top, across, down in windows(width, height, tile):
-            whole[top : top + down, left : left + across] = (await self._run(calls.render(tile_of(document, (left, top, across, down)), preset))).array
+            whole[top : top + down, left : left + across] = (
+                await self._run(calls.render(tile_of(document, (left, top, across, down)), preset))
+            ).array
         return whole
 
-    async def stitched_layers(self, scene: SceneLike = None, names: Sequence[str] = ("rgb",), *, tile: int = 2048, preset: str | None = None, **changes: Any) -> dict[str, NDArray[np.float32]]:
+    async def stitched_layers(
+        self,
+        scene: SceneLike = None,
+        names: Sequence[str] = ("rgb",),
+        *,
+        tile: int = 2048,
+        preset: str | None = None,
+        **changes: Any,
+    ) -> dict[str, NDArray[np.float32]]:
         """The numbers of a picture of any size, as layers() has them, of tiles."""
         document = scene_of(scene, changes)
         width, height = await self._size(document, preset)
         whole: dict[str, NDArray[np.float32]] = {}
         for left, top, across, down in windows(width, height, tile):
-            for name, part in (await self._run(calls.layers(tile_of(document, (left, top, across, down)), preset, names))).items():
-                whole.setdefault(name, np.empty((height, width, *part.shape[2:]), np.float32))[top : top + down, left : left + across] = part
+            for name, part in (
+                await self._run(calls.layers(tile_of(document, (left, top, across, down)), preset, names))
+            ).items():
+                whole.setdefault(name, np.empty((height, width, *part.shape[2:]), np.float32))[
+                    top : top + down, left : left + across
+                ] = part
         return whole
 
     async def _size(self, document: Mapping[str, Any], preset: str | None) -> tuple[int, int]:
@@ -98,19 +139,24 @@ class AsyncClient:
         """What it would take: passes, rays, bytes, estimate_ms, approximations; nothing is rendered."""
         return await self._run(calls.plan(scene_of(scene, changes), preset))
 
-    async def pixel(self, x: float, y: float, scene: SceneLike = None, *, preset: str | None = None, **changes: Any) -> dict[str, Any]:
+    async def pixel(
+        self, x: float, y: float, scene: SceneLike = None, *, preset: str | None = None, **changes: Any
+    ) -> dict[str, Any]:
         """Where the light of a pixel comes from; x to the right, y downwards, from 0."""
         return await self._run(calls.pixel(scene_of(scene, changes), preset, x, y))
 
     async def rays(self, pairs: ArrayLike, **settings: Any) -> NDArray[Any]:
-        """End points of rays, pairs of alpha and beta in M of shape (n, 2); settings: spin, r, inclination_deg, orders, profile, tolerance, engine.
+        """End points of rays, pairs of alpha and beta in M of shape (n, 2); settings: spin, r, inclination_deg, orders,
+        profile, tolerance, engine.
 
-        A record each: fate (0 captured, 1 escaped, 2 undecided), n_crossings, error (relative), sky_theta, sky_phi, and r, phi, delay, g of shape (orders,).
+        A record each: fate (0 captured, 1 escaped, 2 undecided), n_crossings, error (relative), sky_theta, sky_phi, and
+        r, phi, delay, g of shape (orders,).
         """
         return await self._run(calls.rays(pairs, settings))
 
     async def orbits(self, orbit: Mapping[str, Any] | None = None, **settings: Any) -> dict[str, Any]:
-        """The path of a body: orbit={"p": 6, "e": 0.5}, spin=0.9, samples=1000; `series` holds its columns as arrays."""
+        """The path of a body: orbit={"p": 6, "e": 0.5}, spin=0.9, samples=1000; `series` holds its columns as
+        arrays."""
         return await self._run(calls.orbits({**({"orbit": dict(orbit)} if orbit is not None else {}), **settings}))
 
     async def physics(self, name: str, **parameters: Any) -> dict[str, Any]:
@@ -149,32 +195,70 @@ class AsyncClient:
         return told
 
     async def put_asset(self, data: bytes, kind: str = "image/png") -> str:
-        """Keeps a picture, or a grid of matter (kind "application/x-npz"), at the server; returns the hash that scenes name."""
+        """Keeps a picture, or a grid of matter (kind "application/x-npz"), at the server; returns the hash that scenes
+        name."""
         return str((await self._run(calls.put_asset(data, kind)))["sha256"])
 
-    async def session(self, scene: SceneLike = None, *, preset: str | None = None, least: float | None = None, quality: int | None = None, **changes: Any) -> AsyncSession:
-        """A live view: iterate over its frames. quality: of JPEG while something moves, 1 to 100; None: PNG always. least: see docs/live.md."""
+    async def session(
+        self,
+        scene: SceneLike = None,
+        *,
+        preset: str | None = None,
+        least: float | None = None,
+        quality: int | None = None,
+        **changes: Any,
+    ) -> AsyncSession:
+        """A live view: iterate over its frames. quality: of JPEG while something moves, 1 to 100; None: PNG always.
+        least: see docs/live.md."""
         return AsyncSession(self, await self._run(calls.open_session(scene_of(scene, changes), preset, least)), quality)
 
     async def job(self, document: Mapping[str, Any], *, preset: str | None = None) -> AsyncJob:
-        """A job by its document (docs/jobs.md): {"scene": …, "keyframes": …}, {"scenes": […]}, {"scene": …, "axes": …}."""
+        """A job by its document (docs/jobs.md): {"scene": …, "keyframes": …}, {"scenes": […]}, {"scene": …, "axes":
+        …}."""
         return AsyncJob(self, await self._run(calls.open_job(scene_of(document, {}), preset)))
 
-    async def light_curve(self, scene: SceneLike = None, *, times: tuple[float, float], frames: int, preset: str | None = None, progress: bool = False, **changes: Any) -> dict[str, NDArray[np.float64]]:
-        """Flux and centroid from times[0] to times[1] M at so many moments: columns as arrays, `t` and `flux` among them."""
+    async def light_curve(
+        self,
+        scene: SceneLike = None,
+        *,
+        times: tuple[float, float],
+        frames: int,
+        preset: str | None = None,
+        progress: bool = False,
+        **changes: Any,
+    ) -> dict[str, NDArray[np.float64]]:
+        """Flux and centroid from times[0] to times[1] M at so many moments: columns as arrays, `t` and `flux` among
+        them."""
         if frames < 2:
             raise ValueError(f"frames is {frames}, allowed is 2 and above: the first and the last moment")
-        document = {"output": "light-curve", "scene": scene_of(scene, {**changes, "time": times[0]}), "keyframes": [{"frame": frames - 1, "scene": {"time": times[1]}}]}
+        document = {
+            "output": "light-curve",
+            "scene": scene_of(scene, {**changes, "time": times[0]}),
+            "keyframes": [{"frame": frames - 1, "scene": {"time": times[1]}}],
+        }
         async with await self.job(document, preset=preset) as job:
             return calls.read_curve(await (await job.wait(progress=progress)).result())
 
-    async def sweep(self, scene: SceneLike = None, axes: Mapping[str, Any] | None = None, *, layers: Sequence[str] = ("rgb",), preset: str | None = None, progress: bool = False, **changes: Any) -> Sweep:
-        """A scene of every combination of the values of some fields: axes={"spacetime.spin": [0, 0.9], "camera.inclination_deg": "10:80:15"}."""
+    async def sweep(
+        self,
+        scene: SceneLike = None,
+        axes: Mapping[str, Any] | None = None,
+        *,
+        layers: Sequence[str] = ("rgb",),
+        preset: str | None = None,
+        progress: bool = False,
+        **changes: Any,
+    ) -> Sweep:
+        """A scene of every combination of the values of some fields: axes={"spacetime.spin": [0, 0.9],
+        "camera.inclination_deg": "10:80:15"}."""
         document = scene_of(scene, changes)
         if isinstance(layers, str):
             raise TypeError(f"layers is {layers!r}, allowed is a list, as in [{layers!r}]")
         document["image"] = {**(document.get("image") or {}), "layers": list(layers)}
-        values = {path: value if isinstance(value, str) else np.asarray(value).tolist() for path, value in (axes or {}).items()}
+        values = {
+            path: value if isinstance(value, str) else np.asarray(value).tolist()
+            for path, value in (axes or {}).items()
+        }
         async with await self.job({"output": "cube", "scene": document, "axes": values}, preset=preset) as job:
             return Sweep.of(calls.read_cube(await (await job.wait(progress=progress)).result("npz")), list(values))
 
@@ -204,7 +288,9 @@ class AsyncSession:
     async def __aenter__(self) -> AsyncSession:
         return self
 
-    async def __aexit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+    async def __aexit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
         await self.close()
 
     async def close(self) -> None:
@@ -225,7 +311,8 @@ class AsyncSession:
         return self.scene
 
     async def frame(self, wait: float = FRAME_WAIT_MS / 1000) -> Frame | None:
-        """The next frame that has not been seen; None if there is none within so many seconds, as when the scene rests."""
+        """The next frame that has not been seen; None if there is none within so many seconds, as when the scene
+        rests."""
         frame = await self.client._run(calls.next_frame(self.id, self._seen, self.quality, int(1000 * wait)))
         if frame is not None:
             self._seen = frame.number
@@ -234,7 +321,8 @@ class AsyncSession:
         return frame
 
     async def __aiter__(self) -> AsyncIterator[Frame]:
-        """Frames as they come, up to the finest one of a scene that rests, if that has not been seen yet; where something moves, without end."""
+        """Frames as they come, up to the finest one of a scene that rests, if that has not been seen yet; where
+        something moves, without end."""
         while self.moves or self._final < self.revision:
             frame = await self.frame(self.frame_wait)
             if frame is not None:
@@ -259,7 +347,9 @@ class AsyncJob:
     async def __aenter__(self) -> AsyncJob:
         return self
 
-    async def __aexit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+    async def __aexit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
         await self.close()
 
     async def close(self) -> None:
@@ -279,5 +369,6 @@ class AsyncJob:
                 await asyncio.sleep(every)
 
     async def result(self, kind: str | None = None, frame: int | None = None) -> bytes:
-        """The file: a PNG, a ZIP, a film ("mp4", "webm"), a cube ("npz", "fits"), a table; of one frame with `frame`."""
+        """The file: a PNG, a ZIP, a film ("mp4", "webm"), a cube ("npz", "fits"), a table; of one frame with
+        `frame`."""
         return await self.client._run(calls.result(self.id, kind, frame))

@@ -1,4 +1,5 @@
-"""What is asked of a server, and how its answers are read; no connection is made here. Client and AsyncClient send these."""
+"""What is asked of a server, and how its answers are read; no connection is made here. Client and AsyncClient send
+these."""
 
 from __future__ import annotations
 
@@ -73,7 +74,11 @@ def _arrays(node: Any) -> Any:
     """Lists of numbers as float64 arrays, null as NaN; all else as it is."""
     if isinstance(node, dict):
         return {name: _arrays(part) for name, part in node.items()}
-    if isinstance(node, list) and node and all(part is None or (isinstance(part, (int, float)) and not isinstance(part, bool)) for part in node):
+    if (
+        isinstance(node, list)
+        and node
+        and all(part is None or (isinstance(part, (int, float)) and not isinstance(part, bool)) for part in node)
+    ):
         return np.array([np.nan if part is None else part for part in node], dtype=np.float64)
     if isinstance(node, list):
         return [_arrays(part) for part in node]
@@ -91,7 +96,10 @@ def _quantity(answer: Answer) -> dict[str, Any]:
     shape = told.get("shape")
     if shape is not None:
         told["shape"] = tuple(int(n) for n in shape)
-        told["values"] = {name: value.reshape(told["shape"]) if isinstance(value, np.ndarray) else value for name, value in told["values"].items()}
+        told["values"] = {
+            name: value.reshape(told["shape"]) if isinstance(value, np.ndarray) else value
+            for name, value in told["values"].items()
+        }
     return told
 
 
@@ -101,7 +109,9 @@ def _orbit(answer: Answer) -> dict[str, Any]:
     for one in told.get("orbits", [told]):
         series = one.get("series")
         if isinstance(series, dict) and "rows" in series:
-            rows = np.array([[np.nan if x is None else x for x in row] for row in series["rows"]], dtype=np.float64).reshape(-1, len(series["columns"]))
+            rows = np.array(
+                [[np.nan if x is None else x for x in row] for row in series["rows"]], dtype=np.float64
+            ).reshape(-1, len(series["columns"]))
             one["series"] = {name: rows[:, k] for k, name in enumerate(series["columns"])}
     return told
 
@@ -124,8 +134,16 @@ def _npy(answer: Answer) -> NDArray[Any]:
     return out
 
 
-def post(path: str, document: Any, read: Callable[[Answer], T], *, accept: str | None = None, params: Mapping[str, str] | None = None, token: str | None = None,
-         method: str = "POST") -> Call[T]:
+def post(
+    path: str,
+    document: Any,
+    read: Callable[[Answer], T],
+    *,
+    accept: str | None = None,
+    params: Mapping[str, str] | None = None,
+    token: str | None = None,
+    method: str = "POST",
+) -> Call[T]:
     headers = {"Content-Type": JSON, **({"Accept": accept} if accept else {}), **bearer(token)}
     return Call(method, path, read, params or {}, headers, json.dumps(plain(document), allow_nan=False).encode())
 
@@ -181,7 +199,13 @@ def integral(name: str, document: Document) -> Call[dict[str, Any]]:
 
 
 def physics(name: str, parameters: Mapping[str, Any]) -> Call[dict[str, Any]]:
-    return Call("GET", f"/v1/physics/{name}", _quantity, {key: str(value) for key, value in parameters.items() if value is not None}, {"Accept": JSON})
+    return Call(
+        "GET",
+        f"/v1/physics/{name}",
+        _quantity,
+        {key: str(value) for key, value in parameters.items() if value is not None},
+        {"Accept": JSON},
+    )
 
 
 def get(path: str) -> Call[Any]:
@@ -193,7 +217,9 @@ def put_asset(data: bytes, kind: str) -> Call[dict[str, Any]]:
 
 
 def open_session(scene: Document, preset: str | None, least: float | None) -> Call[dict[str, Any]]:
-    return post("/v1/sessions", scene, _json, params={**over(preset), **({"least": str(least)} if least is not None else {})})
+    return post(
+        "/v1/sessions", scene, _json, params={**over(preset), **({"least": str(least)} if least is not None else {})}
+    )
 
 
 def session(name: str) -> Call[dict[str, Any]]:
@@ -229,8 +255,15 @@ def result(name: str, kind: str | None, frame: int | None = None) -> Call[bytes]
 def read_curve(body: bytes) -> dict[str, NDArray[np.float64]]:
     """A light curve's columns by name, NaN where a row has none."""
     rows = json.loads(body)["frames"]
-    names = list(dict.fromkeys(name for row in rows for name, value in row.items() if isinstance(value, (int, float)) or value is None))
-    return {name: np.array([np.nan if row.get(name) is None else row[name] for row in rows], dtype=np.float64) for name in names}
+    names = list(
+        dict.fromkeys(
+            name for row in rows for name, value in row.items() if isinstance(value, (int, float)) or value is None
+        )
+    )
+    return {
+        name: np.array([np.nan if row.get(name) is None else row[name] for row in rows], dtype=np.float64)
+        for name in names
+    }
 
 
 def read_cube(body: bytes) -> dict[str, NDArray[Any]]:

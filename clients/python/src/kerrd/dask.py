@@ -1,7 +1,8 @@
 """Scenes rendered by the workers of a Dask cluster, each of which has a server of its own.
 
-Who does what: Dask's scheduler hands out scenes, gives those of a worker that died to the others, and shows how far it is on its dashboard; a worker plugin starts a
-server beside each worker, and again where it has died. Needs the package distributed (pip install kerrd[dask]).
+Who does what: Dask's scheduler hands out scenes, gives those of a worker that died to the others, and shows how far it
+is on its dashboard; a worker plugin starts a server beside each worker, and again where it has died. Needs the package
+distributed (pip install kerrd[dask]).
 """
 
 from __future__ import annotations
@@ -31,8 +32,10 @@ from .errors import KerrdError, Problem
 from .film import film as film
 from .local import local
 
+
 class Servers(WorkerPlugin):
-    """A server for each worker, started with the first scene that it gets: binary, device, args and env as for kerrd.local. A cluster has one plugin for the same options."""
+    """A server for each worker, started with the first scene that it gets: binary, device, args and env as for
+    kerrd.local. A cluster has one plugin for the same options."""
 
     idempotent = True
 
@@ -58,7 +61,8 @@ class Servers(WorkerPlugin):
         return {"options": self.options, "name": self.name}
 
     def hole(self, *, other_than: local | None = None) -> local:
-        """The worker's server; a new one where the last has died. other_than: one whose connection broke, which is about to be dead or is not."""
+        """The worker's server; a new one where the last has died. other_than: one whose connection broke, which is
+        about to be dead or is not."""
         with self._lock:
             if self._hole is not None and self._hole is other_than:
                 try:
@@ -73,8 +77,15 @@ class Servers(WorkerPlugin):
             return self._hole
 
 
-def _render_all(plugin_name: str, documents: Sequence[Document], preset: str | None, layers: Sequence[str], paths: Sequence[str | None]) -> list[Any]:
-    """A task: some scenes one after the other. A refusal ends it, and is its last element: no other worker would do better."""
+def _render_all(
+    plugin_name: str,
+    documents: Sequence[Document],
+    preset: str | None,
+    layers: Sequence[str],
+    paths: Sequence[str | None],
+) -> list[Any]:
+    """A task: some scenes one after the other. A refusal ends it, and is its last element: no other worker would do
+    better."""
     got: list[Any] = []
     try:
         for document, path in zip(documents, paths):
@@ -85,7 +96,8 @@ def _render_all(plugin_name: str, documents: Sequence[Document], preset: str | N
 
 
 def _render(plugin_name: str, document: Document, preset: str | None, layers: Sequence[str], to: str | None) -> Any:
-    """On a worker: a picture's bytes or the numbers of its layers; with `to` they go into that file, whose name is returned. A server that dies meanwhile is started anew, once."""
+    """On a worker: a picture's bytes or the numbers of its layers; with `to` they go into that file, whose name is
+    returned. A server that dies meanwhile is started anew, once."""
     if to is not None and os.path.exists(to):  # by the worker that died with this task
         return to
     plugin = cast(Servers, get_worker().plugins[plugin_name])
@@ -106,7 +118,9 @@ def _render(plugin_name: str, document: Document, preset: str | None, layers: Se
     return to
 
 
-def _ask(hole: local, document: Document, preset: str | None, layers: Sequence[str]) -> bytes | dict[str, NDArray[np.float32]]:
+def _ask(
+    hole: local, document: Document, preset: str | None, layers: Sequence[str]
+) -> bytes | dict[str, NDArray[np.float32]]:
     return hole.layers(document, layers, preset=preset) if layers else hole.render(document, preset=preset).png
 
 
@@ -119,15 +133,28 @@ def scenes_of(scene: SceneLike, axes: Mapping[str, Iterable[Any]]) -> list[Docum
     return [scene_of(scene, dict(zip(axes, values))) for values in itertools.product(*axes.values())]
 
 
-def sweep(scenes: Iterable[SceneLike], client: Cluster | None = None, *, preset: str | None = None, layers: Sequence[str] = (), folder: str | os.PathLike[str] | None = None,
-          zarr: str | os.PathLike[str] | None = None, retries: int = 3, batch: int | None = None, **options: Any) -> Any:
+def sweep(
+    scenes: Iterable[SceneLike],
+    client: Cluster | None = None,
+    *,
+    preset: str | None = None,
+    layers: Sequence[str] = (),
+    folder: str | os.PathLike[str] | None = None,
+    zarr: str | os.PathLike[str] | None = None,
+    retries: int = 3,
+    batch: int | None = None,
+    **options: Any,
+) -> Any:
     """Renders scenes on a cluster, in order of their places in the list.
 
-    Returns PNG bytes for each; with `layers` a dict of float32 arrays for each. folder: the files 000000.png (or .npz) … there instead, a folder that all workers share; returns
-    their paths. What is there already is kept, so that a sweep that broke off goes on; of what scene it is stands in sweep.json there, and a file of another scene is an error.
-    zarr: a store that all workers share instead, an array (scenes, height, width[, 3]) a layer; returns its group; needs the package zarr, and scenes of one size. batch: scenes a
-    task, which Dask hands out; None: some thirty tasks a thread, of at most 16 scenes each. client: a distributed.Client, else the current one. options: of the workers' servers
-    (Servers). A scene that is refused raises kerrd.Problem; what a worker that died had not finished is done by others, and by the same one again at most `retries` times.
+    Returns PNG bytes for each; with `layers` a dict of float32 arrays for each. folder: the files 000000.png (or .npz)
+    … there instead, a folder that all workers share; returns their paths. What is there already is kept, so that a
+    sweep that broke off goes on; of what scene it is stands in sweep.json there, and a file of another scene is an
+    error. zarr: a store that all workers share instead, an array (scenes, height, width[, 3]) a layer; returns its
+    group; needs the package zarr, and scenes of one size. batch: scenes a task, which Dask hands out; None: some thirty
+    tasks a thread, of at most 16 scenes each. client: a distributed.Client, else the current one. options: of the
+    workers' servers (Servers). A scene that is refused raises kerrd.Problem; what a worker that died had not finished
+    is done by others, and by the same one again at most `retries` times.
     """
     if isinstance(layers, str):
         raise TypeError(f"layers is {layers!r}, allowed is a list, as in [{layers!r}]")
@@ -147,8 +174,16 @@ def sweep(scenes: Iterable[SceneLike], client: Cluster | None = None, *, preset:
     missing = [k for k, path in enumerate(paths) if path is None or not os.path.exists(path)]
     parts = _parts(cluster, missing, batch)
     n = len(parts)
-    futures = cluster.map(_render_all, [servers.name] * n, [[documents[k] for k in part] for part in parts], [preset] * n, [tuple(layers)] * n, [[paths[k] for k in part] for part in parts],
-                          retries=retries, pure=False)
+    futures = cluster.map(
+        _render_all,
+        [servers.name] * n,
+        [[documents[k] for k in part] for part in parts],
+        [preset] * n,
+        [tuple(layers)] * n,
+        [[paths[k] for k in part] for part in parts],
+        retries=retries,
+        pure=False,
+    )
     got = _refused(_gather(cluster, futures))
     if folder is None:
         return got
@@ -170,12 +205,17 @@ def _files(folder: Path, documents: Sequence[Document], preset: str | None, laye
     """Their names, after a look at what is there: sweep.json has the hash of what each file shows."""
     folder.mkdir(parents=True, exist_ok=True)
     names = [f"{k:06}.{'npz' if layers else 'png'}" for k in range(len(documents))]
-    wanted = {name: hashlib.sha256(json.dumps([document, preset, list(layers)], sort_keys=True).encode()).hexdigest() for name, document in zip(names, documents)}
+    wanted = {
+        name: hashlib.sha256(json.dumps([document, preset, list(layers)], sort_keys=True).encode()).hexdigest()
+        for name, document in zip(names, documents)
+    }
     record = folder / "sweep.json"
     known = json.loads(record.read_text()) if record.exists() else {}
     for name, of in wanted.items():
         if (folder / name).exists() and known.get(name) != of:
-            raise KerrdError(f"{folder / name} shows another scene than this sweep's, or nobody knows which: give an empty folder, or remove it")
+            raise KerrdError(
+                f"{folder / name} shows another scene than this sweep's, or nobody knows which: give an empty folder, or remove it"
+            )
     part = folder / f"sweep.json.{os.getpid()}.part"
     part.write_text(json.dumps({**known, **wanted}, indent=0))
     os.replace(part, record)
@@ -189,10 +229,21 @@ def _parts(cluster: Cluster, places: Sequence[int], batch: int | None) -> list[S
     return [places[k : k + size] for k in range(0, len(places), size)]
 
 
-def stitched(scene: SceneLike, client: Cluster | None = None, *, tile: int = 2048, preset: str | None = None, layers: Sequence[str] = (), retries: int = 3, **options: Any) -> Any:
-    """One picture of any size by all workers, of tiles of tile x tile pixels: uint8 of shape (height, width, 3), or with `layers` a dict of float32 arrays.
+def stitched(
+    scene: SceneLike,
+    client: Cluster | None = None,
+    *,
+    tile: int = 2048,
+    preset: str | None = None,
+    layers: Sequence[str] = (),
+    retries: int = 3,
+    **options: Any,
+) -> Any:
+    """One picture of any size by all workers, of tiles of tile x tile pixels: uint8 of shape (height, width, 3), or
+    with `layers` a dict of float32 arrays.
 
-    scene: with image.width and image.height; docs/scene.md says what a tile cannot have. The other arguments are those of sweep().
+    scene: with image.width and image.height; docs/scene.md says what a tile cannot have. The other arguments are those
+    of sweep().
     """
     document = scene_of(scene, {})
     image = document.get("image") or {}
@@ -200,16 +251,33 @@ def stitched(scene: SceneLike, client: Cluster | None = None, *, tile: int = 204
         raise ValueError("image.width and image.height are missing: a picture of tiles says its size")
     width, height = int(image["width"]), int(image["height"])
     places = windows(width, height, tile)
-    parts = sweep([tile_of(document, window) for window in places], client, preset=preset, layers=layers, retries=retries, batch=1, **options)
+    parts = sweep(
+        [tile_of(document, window) for window in places],
+        client,
+        preset=preset,
+        layers=layers,
+        retries=retries,
+        batch=1,
+        **options,
+    )
     whole: dict[str, NDArray[Any]] = {}
     for (left, top, across, down), part in zip(places, parts):
         named = part if layers else {"picture": np.asarray(Image.open(io.BytesIO(part)).convert("RGB"), dtype=np.uint8)}
         for name, array in named.items():
-            whole.setdefault(name, np.empty((height, width, *array.shape[2:]), array.dtype))[top : top + down, left : left + across] = array
+            whole.setdefault(name, np.empty((height, width, *array.shape[2:]), array.dtype))[
+                top : top + down, left : left + across
+            ] = array
     return whole if layers else whole["picture"]
 
 
-def _place(plugin_name: str, places: Sequence[int], documents: Sequence[Document], preset: str | None, layers: Sequence[str], store: str) -> list[Problem]:
+def _place(
+    plugin_name: str,
+    places: Sequence[int],
+    documents: Sequence[Document],
+    preset: str | None,
+    layers: Sequence[str],
+    store: str,
+) -> list[Problem]:
     """A task: the numbers of some scenes into their places of the store. A refusal ends it."""
     import zarr
 
@@ -223,18 +291,48 @@ def _place(plugin_name: str, places: Sequence[int], documents: Sequence[Document
     return []
 
 
-def _into_zarr(cluster: Cluster, plugin_name: str, documents: list[Document], preset: str | None, layers: Sequence[str], store: str | os.PathLike[str], retries: int,
-               batch: int | None) -> Any:
+def _into_zarr(
+    cluster: Cluster,
+    plugin_name: str,
+    documents: list[Document],
+    preset: str | None,
+    layers: Sequence[str],
+    store: str | os.PathLike[str],
+    retries: int,
+    batch: int | None,
+) -> Any:
     import zarr
 
     path = os.fspath(store) if "://" in os.fspath(store) else str(Path(store).resolve())
-    [first] = _refused([cluster.submit(_render_all, plugin_name, documents[:1], preset, tuple(layers), [None], retries=retries, pure=False).result()])
+    [first] = _refused(
+        [
+            cluster.submit(
+                _render_all, plugin_name, documents[:1], preset, tuple(layers), [None], retries=retries, pure=False
+            ).result()
+        ]
+    )
     group = zarr.open_group(path, mode="w-")
     for name, array in first.items():
-        group.create_array(name, shape=(len(documents), *array.shape), chunks=(1, *array.shape), dtype=array.dtype, fill_value=np.nan)
+        group.create_array(
+            name, shape=(len(documents), *array.shape), chunks=(1, *array.shape), dtype=array.dtype, fill_value=np.nan
+        )
         cast(Any, group[name])[0] = array
     parts = _parts(cluster, range(1, len(documents)), batch)
     n = len(parts)
-    _refused(_gather(cluster, cluster.map(_place, [plugin_name] * n, parts, [[documents[k] for k in part] for part in parts], [preset] * n, [tuple(layers)] * n, [path] * n,
-                                          retries=retries, pure=False)))
+    _refused(
+        _gather(
+            cluster,
+            cluster.map(
+                _place,
+                [plugin_name] * n,
+                parts,
+                [[documents[k] for k in part] for part in parts],
+                [preset] * n,
+                [tuple(layers)] * n,
+                [path] * n,
+                retries=retries,
+                pure=False,
+            ),
+        )
+    )
     return zarr.open_group(path, mode="r")

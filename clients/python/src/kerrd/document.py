@@ -18,7 +18,8 @@ T = TypeVar("T")
 
 
 def plain(value: Any) -> Any:
-    """Dataclasses, tuples and numpy's arrays and scalars as what JSON has; what is None of a dataclass is left to the server."""
+    """Dataclasses, tuples and numpy's arrays and scalars as what JSON has; what is None of a dataclass is left to the
+    server."""
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
         fields = {field.name: getattr(value, field.name) for field in dataclasses.fields(value)}
         return {name: plain(part) for name, part in fields.items() if part is not None}
@@ -57,7 +58,10 @@ def _place(here: Any, name: str, path: str) -> Any:
     if not isinstance(here, list):
         return name
     if not name.isdigit() or int(name) >= len(here):
-        raise KeyError(f"{path}: {name} is no place in a list of {len(here)}, allowed are " + (f"0 to {len(here) - 1}" if here else "none"))
+        raise KeyError(
+            f"{path}: {name} is no place in a list of {len(here)}, allowed are "
+            + (f"0 to {len(here) - 1}" if here else "none")
+        )
     return int(name)
 
 
@@ -68,12 +72,19 @@ def windows(width: int, height: int, side: int) -> list[Window]:
     """Left, top, width and height of tiles of at most side x side pixels that cover a picture, row by row."""
     if side < 1:
         raise ValueError(f"tile is {side}, allowed is 1 pixel and above")
-    return [(left, top, min(side, width - left), min(side, height - top)) for top in range(0, height, side) for left in range(0, width, side)]
+    return [
+        (left, top, min(side, width - left), min(side, height - top))
+        for top in range(0, height, side)
+        for left in range(0, width, side)
+    ]
 
 
 def tile_of(document: Document, window: Window) -> Document:
     """The scene of which that part of the picture is made."""
-    return {**document, "image": {**document.get("image", {}), "tile": dict(zip(("left", "top", "width", "height"), window))}}
+    return {
+        **document,
+        "image": {**document.get("image", {}), "tile": dict(zip(("left", "top", "width", "height"), window))},
+    }
 
 
 def scene_of(scene: SceneLike, changes: Mapping[str, Any]) -> Document:
@@ -93,15 +104,26 @@ def scene_of(scene: SceneLike, changes: Mapping[str, Any]) -> Document:
 
 
 def patch_of(scene: Document, changes: Mapping[str, Any]) -> Document:
-    """The merge patch that makes changes to a whole scene, given as for scene_of. A list goes as a whole, for a merge patch knows no places in it."""
-    lists = [parts[0] for parts in (name.replace("__", ".").split(".") for name in changes) if parts[1:2] and parts[1].isdigit()]
+    """The merge patch that makes changes to a whole scene, given as for scene_of. A list goes as a whole, for a merge
+    patch knows no places in it."""
+    lists = [
+        parts[0]
+        for parts in (name.replace("__", ".").split(".") for name in changes)
+        if parts[1:2] and parts[1].isdigit()
+    ]
     return scene_of({name: copy.deepcopy(scene.get(name, [])) for name in lists}, changes)
 
 
 def dataclass_of(document: Mapping[str, Any], kind: type[T]) -> T:
     """A document as dataclasses; what they have no field for, such as `version`, is left out."""
     types = typing.get_type_hints(kind)
-    return kind(**{field.name: _typed(document[field.name], types[field.name]) for field in dataclasses.fields(kind) if field.name in document})  # type: ignore[arg-type]
+    return kind(
+        **{
+            field.name: _typed(document[field.name], types[field.name])
+            for field in dataclasses.fields(kind)
+            if field.name in document
+        }
+    )  # type: ignore[arg-type]
 
 
 def _typed(value: Any, hint: Any) -> Any:

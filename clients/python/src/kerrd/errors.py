@@ -17,9 +17,9 @@ class NoBinary(KerrdError):
 class Problem(KerrdError):
     """A request that the server refused or failed (RFC 9457).
 
-    status: the HTTP status. pointer: the field of the document, as "/image/width", or None. detail: the sentence that names field,
-    value and what is allowed. allowed: the part of it that says what is allowed, or None. type, title: as in the document.
-    retry_after: seconds after which the server would be asked again, or None.
+    status: the HTTP status. pointer: the field of the document, as "/image/width", or None. detail: the sentence that
+    names field, value and what is allowed. allowed: the part of it that says what is allowed, or None. type, title: as
+    in the document. retry_after: seconds after which the server would be asked again, or None.
     """
 
     def __init__(self, status: int, document: dict[str, Any], retry_after: float | None = None) -> None:

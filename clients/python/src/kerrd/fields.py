@@ -1,4 +1,5 @@
-"""Fields of the scene by name, of the server's schema: what each takes, and what a slider needs to know of it. No connection is made here."""
+"""Fields of the scene by name, of the server's schema: what each takes, and what a slider needs to know of it. No
+connection is made here."""
 
 from __future__ import annotations
 
@@ -22,8 +23,9 @@ UNITS = re.compile(r"_(deg|k|uas|pc|msun|edd|m|jy|ghz|cm3)$")
 class Field:
     """A field of the scene.
 
-    kind: "number", "integer", "choice", "switch", or "other" of what has no control: a file, a list of words. low, high: what the server takes;
-    span: the part of it that is of use. word: what stands there instead of a number ("infinity"), and first: the number to begin with then.
+    kind: "number", "integer", "choice", "switch", or "other" of what has no control: a file, a list of words. low,
+    high: what the server takes; span: the part of it that is of use. word: what stands there instead of a number
+    ("infinity"), and first: the number to begin with then.
     """
 
     path: str
@@ -49,7 +51,8 @@ class Field:
         return name if section in ("spacetime", "camera", "style", "time") else f"{section}: {name}"
 
     def positions(self) -> list[float]:
-        """The numbers that a slider stops at, ends included: round ones, by factors where the range is one of magnitudes; not more than some MOST_POSITIONS."""
+        """The numbers that a slider stops at, ends included: round ones, by factors where the range is one of
+        magnitudes; not more than some MOST_POSITIONS."""
         low, high = self.span
         if self.kind == "integer" and high - low <= MOST_POSITIONS:
             return [float(n) for n in range(math.ceil(low), math.floor(high) + 1)]
@@ -57,9 +60,17 @@ class Field:
         if self.unit != "degrees" and low > 0 and high / low > DECADES:
             inner = _factors(low, high)
         elif self.unit != "degrees" and low == 0 and self.kind == "number" and high > DECADES * self._usual():
-            inner = [0.0, *_factors(self._usual() / 100, high)]  # 0 is "off": from there to a hundredth of what is usual in one step
+            inner = [
+                0.0,
+                *_factors(self._usual() / 100, high),
+            ]  # 0 is "off": from there to a hundredth of what is usual in one step
         else:
-            step = next(size * 10.0**power for power in range(-12, 13) for size in (1, 2, 5) if (high - low) / (size * 10.0**power) <= MOST_POSITIONS)
+            step = next(
+                size * 10.0**power
+                for power in range(-12, 13)
+                for size in (1, 2, 5)
+                if (high - low) / (size * 10.0**power) <= MOST_POSITIONS
+            )
             inner = [round(n * step, 12) for n in range(math.ceil(low / step), math.floor(high / step) + 1)]
         if self.kind == "integer":
             inner = [float(round(x)) for x in inner]
@@ -70,19 +81,37 @@ class Field:
 
     def control(self) -> dict[str, Any]:
         """What draws a control needs, as JSON has it."""
-        told: dict[str, Any] = {"path": self.path, "kind": self.kind, "label": self.label, "help": self.help, "unit": self.unit}
+        told: dict[str, Any] = {
+            "path": self.path,
+            "kind": self.kind,
+            "label": self.label,
+            "help": self.help,
+            "unit": self.unit,
+        }
         if self.kind in ("number", "integer"):
             first = self.span[0] if self.first is None else self.first
-            return {**told, "low": self.low, "high": self.high, "positions": self.positions(), "word": self.word, "first": first}
+            return {
+                **told,
+                "low": self.low,
+                "high": self.high,
+                "positions": self.positions(),
+                "word": self.word,
+                "first": first,
+            }
         return {**told, "choices": list(self.choices)}
 
 
 class Fields:
-    """The fields that a schema (/v1/schema) lists, by path ("disk.outer", "spots.0.r") or by its last part where one field alone is called that ("spin")."""
+    """The fields that a schema (/v1/schema) lists, by path ("disk.outer", "spots.0.r") or by its last part where one
+    field alone is called that ("spin")."""
 
     def __init__(self, schema: Mapping[str, Any]) -> None:
-        self.paths = {path: spec for path, spec in _leaves(schema, "") if not path.startswith("image.tile.")}  # a session shows whole pictures
-        self.folders = {name for name, spec in schema["properties"].items() if not spec.get("deprecated") and name not in self.paths}
+        self.paths = {
+            path: spec for path, spec in _leaves(schema, "") if not path.startswith("image.tile.")
+        }  # a session shows whole pictures
+        self.folders = {
+            name for name, spec in schema["properties"].items() if not spec.get("deprecated") and name not in self.paths
+        }
 
     def path(self, name: str) -> str:
         """The whole path of a field, or the name of a section; KerrdError naming the fields that it may mean."""
@@ -108,10 +137,14 @@ class Fields:
         path = self.path(name)
         spec = self.paths.get(re.sub(r"\.\d+(?=\.)", ".*", path))
         if spec is None:
-            raise KerrdError(f"{name} is a section: a control is of one of its fields, such as {next(p for p in self.paths if p.startswith(path + '.'))}")
+            raise KerrdError(
+                f"{name} is a section: a control is of one of its fields, such as {next(p for p in self.paths if p.startswith(path + '.'))}"
+            )
         field = _field(path, spec)
         if field.kind == "other":
-            raise KerrdError(f"{path} is no number, choice or switch, and has no control; set(**{{{path!r}: …}}) sets it")
+            raise KerrdError(
+                f"{path} is no number, choice or switch, and has no control; set(**{{{path!r}: …}}) sets it"
+            )
         return field
 
 
@@ -129,7 +162,12 @@ def _leaves(node: Mapping[str, Any], before: str) -> Iterator[tuple[str, Mapping
 
 def _field(path: str, spec: Mapping[str, Any]) -> Field:
     parts: Sequence[Mapping[str, Any]] = spec.get("anyOf", (spec,))
-    told = {"path": path, "help": spec.get("description", ""), "unit": spec.get("x-unit", ""), "default": spec.get("default")}
+    told = {
+        "path": path,
+        "help": spec.get("description", ""),
+        "unit": spec.get("x-unit", ""),
+        "default": spec.get("default"),
+    }
     if "enum" in spec:
         return Field(kind="choice", choices=tuple(spec["enum"]), **told)
     if spec.get("type") == "boolean":
@@ -140,7 +178,9 @@ def _field(path: str, spec: Mapping[str, Any]) -> Field:
     low, high = ranges[0]["minimum"], ranges[0]["maximum"]
     start, end = spec.get("x-span", (low, high))
     word = next((part["const"] for part in parts if "const" in part), None)
-    return Field(kind=ranges[0]["type"], low=low, high=high, span=(start, end), word=word, first=spec.get("x-first"), **told)
+    return Field(
+        kind=ranges[0]["type"], low=low, high=high, span=(start, end), word=word, first=spec.get("x-first"), **told
+    )
 
 
 def _factors(low: float, high: float) -> list[float]:

@@ -1,4 +1,5 @@
-"""Films whose frames are rendered by the workers of a Dask cluster: each calls `kerrd film --only FIRST:LAST`, and the last task makes the film of what is there."""
+"""Films whose frames are rendered by the workers of a Dask cluster: each calls `kerrd film --only FIRST:LAST`, and the
+last task makes the film of what is there."""
 
 from __future__ import annotations
 
@@ -26,7 +27,12 @@ def _run(arguments: Sequence[str], request: bytes, binary: str | None) -> dict[s
     with_worker = [setpriv, "--pdeathsig", "TERM", "--"] if (setpriv := shutil.which("setpriv")) else []
     until = time.monotonic() + LOCK_WAIT_S
     while True:
-        done = subprocess.run([*with_worker, find_binary(binary), "film", "-", "--stats", *arguments], input=request, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        done = subprocess.run(
+            [*with_worker, find_binary(binary), "film", "-", "--stats", *arguments],
+            input=request,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+        )
         said = done.stderr.decode(errors="replace").strip()
         if not done.returncode:
             stats: dict[str, Any] = json.loads(said.splitlines()[-1])
@@ -36,13 +42,25 @@ def _run(arguments: Sequence[str], request: bytes, binary: str | None) -> dict[s
         time.sleep(0.5)
 
 
-def film(document: Mapping[str, Any], output: str | os.PathLike[str], client: Cluster | None = None, *, state: str | os.PathLike[str], rate: int | None = None, options: Sequence[str] = (),
-         batch: int = 4, retries: int = 3, binary: str | None = None) -> str:
+def film(
+    document: Mapping[str, Any],
+    output: str | os.PathLike[str],
+    client: Cluster | None = None,
+    *,
+    state: str | os.PathLike[str],
+    rate: int | None = None,
+    options: Sequence[str] = (),
+    batch: int = 4,
+    retries: int = 3,
+    binary: str | None = None,
+) -> str:
     """Makes a film (docs/films.md) by all workers; returns the path of the file.
 
-    document: the request, as for `kerrd film`. output: the file, .mp4, .webm or .zip. state: a folder that all workers share, where frames are kept; a film that broke off goes on
-    there. options: further ones of `kerrd film`, as ("--samples", "8"). batch: frames a task. binary: the program on the workers (find_binary); their devices must be of one kind,
-    or their frames are refused. The workers' processes end with them; frames that were not finished are rendered by others.
+    document: the request, as for `kerrd film`. output: the file, .mp4, .webm or .zip. state: a folder that all workers
+    share, where frames are kept; a film that broke off goes on there. options: further ones of `kerrd film`, as
+    ("--samples", "8"). batch: frames a task. binary: the program on the workers (find_binary); their devices must be of
+    one kind, or their frames are refused. The workers' processes end with them; frames that were not finished are
+    rendered by others.
     """
     if batch < 1:
         raise ValueError(f"batch is {batch}, allowed is 1 frame and above")
@@ -50,11 +68,29 @@ def film(document: Mapping[str, Any], output: str | os.PathLike[str], client: Cl
     request = json.dumps(plain(document), allow_nan=False).encode()
     folder = str(Path(state).resolve())
     common = ["--state", folder, *options]
-    first = cluster.submit(_run, [*common, "--only", "0:0"], request, binary, retries=retries, pure=False).result()  # which measures the exposure of all, too
+    first = cluster.submit(
+        _run, [*common, "--only", "0:0"], request, binary, retries=retries, pure=False
+    ).result()  # which measures the exposure of all, too
     frames = int(first["frames"])
     ranges = [(k, min(k + batch, frames) - 1) for k in range(1, frames, batch)]
     n = len(ranges)
-    cluster.gather(cluster.map(_run, [[*common, "--only", f"{a}:{b}"] for a, b in ranges], [request] * n, [binary] * n, retries=retries, pure=False))  # type: ignore[no-untyped-call]
+    cluster.gather(
+        cluster.map(
+            _run,
+            [[*common, "--only", f"{a}:{b}"] for a, b in ranges],
+            [request] * n,
+            [binary] * n,
+            retries=retries,
+            pure=False,
+        )
+    )  # type: ignore[no-untyped-call]
     to = str(Path(output).resolve())
-    cluster.submit(_run, [*common, "-o", to, *(["--rate", str(rate)] if rate is not None else [])], request, binary, retries=retries, pure=False).result()
+    cluster.submit(
+        _run,
+        [*common, "-o", to, *(["--rate", str(rate)] if rate is not None else [])],
+        request,
+        binary,
+        retries=retries,
+        pure=False,
+    ).result()
     return to

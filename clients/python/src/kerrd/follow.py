@@ -1,4 +1,5 @@
-"""A scene that is watched and changed at once: a session at a server, with a thread that tells it changes and one that fetches frames. It knows nothing of Jupyter."""
+"""A scene that is watched and changed at once: a session at a server, with a thread that tells it changes and one that
+fetches frames. It knows nothing of Jupyter."""
 
 from __future__ import annotations
 
@@ -39,15 +40,24 @@ def _end(session: Session) -> None:
 
 
 class Follower:
-    """Keeps a session, and opens another with the same scene where it has ended; frames are fetched only while somebody watches or waits.
+    """Keeps a session, and opens another with the same scene where it has ended; frames are fetched only while somebody
+    watches or waits.
 
-    took(scene): the scene has become this. show(frame, serial): a viewer is to see it, and calls shown(serial) then; no more than MOST_UNSHOWN are on their way, and
-    of those that come meanwhile the newest alone is kept. complain(text): something is wrong, or with "" no longer. All three are called on any thread, `took` on one
-    at a time.
-    The constructor raises what a server says of a scene that it does not take.
+    took(scene): the scene has become this. show(frame, serial): a viewer is to see it, and calls shown(serial) then; no
+    more than MOST_UNSHOWN are on their way, and of those that come meanwhile the newest alone is kept. complain(text):
+    something is wrong, or with "" no longer. All three are called on any thread, `took` on one at a time. The
+    constructor raises what a server says of a scene that it does not take.
     """
 
-    def __init__(self, client: Client, scene: SceneLike, changes: Mapping[str, Any], *, preset: str | None = None, quality: int | None = None) -> None:
+    def __init__(
+        self,
+        client: Client,
+        scene: SceneLike,
+        changes: Mapping[str, Any],
+        *,
+        preset: str | None = None,
+        quality: int | None = None,
+    ) -> None:
         self.client = client
         self.quality = quality
         self.took: Callable[[Document], None] = lambda scene: None
@@ -70,7 +80,10 @@ class Follower:
         self._faults = {"change": "", "frame": ""}
         self._failures = 0
         self._closed = False
-        self._threads = [threading.Thread(target=work, name=f"kerrd-{work.__name__.strip('_')}", daemon=True) for work in (self._tell, self._fetch)]
+        self._threads = [
+            threading.Thread(target=work, name=f"kerrd-{work.__name__.strip('_')}", daemon=True)
+            for work in (self._tell, self._fetch)
+        ]
 
     def start(self) -> None:
         atexit.register(self.close)
@@ -95,11 +108,13 @@ class Follower:
         self._attempt(lambda: self._patch(patch(self.scene)))
 
     def replace(self, scene: Callable[[Document], Document]) -> None:
-        """Puts another scene in the place of this one, which it is made of; raises what the server says. By a new session: no patch says "as if nothing had been set"."""
+        """Puts another scene in the place of this one, which it is made of; raises what the server says. By a new
+        session: no patch says "as if nothing had been set"."""
         self._attempt(lambda: self._exchange(scene(self.scene)))
 
     def later(self, changes: Mapping[str, Any], answer: Callable[[], None]) -> None:
-        """Changes fields soon, by dotted path; of several values for one that wait the last one counts. answer(): they have been taken, or refused."""
+        """Changes fields soon, by dotted path; of several values for one that wait the last one counts. answer(): they
+        have been taken, or refused."""
         with self._state:
             self._waiting.update(changes)
             self._answers.append(answer)
@@ -127,7 +142,8 @@ class Follower:
         self._send()
 
     def deaf(self) -> None:
-        """Who calls this holds up the thread that hears viewers: the oldest frame that was sent counts as shown when it is DEAF_S old, so that a loop in a cell is seen."""
+        """Who calls this holds up the thread that hears viewers: the oldest frame that was sent counts as shown when it
+        is DEAF_S old, so that a loop in a cell is seen."""
         with self._state:
             if self._unshown and monotonic() - self._unshown[0][1] > DEAF_S:
                 del self._unshown[0]
@@ -135,10 +151,17 @@ class Follower:
         self._send()
 
     def frame(self, *, final: bool, timeout: float) -> Frame:
-        """The newest frame of the scene as it is now, or with `final` its finest, which is the newest where time goes on. KerrdError: it cannot be had."""
+        """The newest frame of the scene as it is now, or with `final` its finest, which is the newest where time goes
+        on. KerrdError: it cannot be had."""
+
         def there() -> bool:
             session, frame = self._session, self._frame
-            return frame is not None and self._of is session and frame.revision >= session.revision and (frame.final or session.moves or not final)
+            return (
+                frame is not None
+                and self._of is session
+                and frame.revision >= session.revision
+                and (frame.final or session.moves or not final)
+            )
 
         with self._state:
             failures = self._failures
@@ -150,7 +173,11 @@ class Follower:
                 self._waiters -= 1
             if there() and self._frame is not None:
                 return self._frame
-            raise KerrdError(("this view is closed" if self._closed else "") or self._faults["frame"] or f"no picture came within {timeout:g} s")
+            raise KerrdError(
+                ("this view is closed" if self._closed else "")
+                or self._faults["frame"]
+                or f"no picture came within {timeout:g} s"
+            )
 
     def _attempt(self, work: Callable[[], None]) -> None:
         with self._patching:
@@ -261,13 +288,20 @@ class Follower:
                 self.took(self.scene)
 
     def _send(self) -> None:
-        """Sends the newest frame, if a viewer has not been sent it and has shown enough of those before. One thread at a time, so that none overtakes another."""
+        """Sends the newest frame, if a viewer has not been sent it and has shown enough of those before. One thread at
+        a time, so that none overtakes another."""
         with self._sending:
             self._send_newest()
 
     def _send_newest(self) -> None:
         with self._state:
-            if self._closed or not self._unsent or not self._views or len(self._unshown) >= MOST_UNSHOWN or self._frame is None:
+            if (
+                self._closed
+                or not self._unsent
+                or not self._views
+                or len(self._unshown) >= MOST_UNSHOWN
+                or self._frame is None
+            ):
                 return
             self._unsent = False
             self._unshown.append((self._serial, monotonic()))

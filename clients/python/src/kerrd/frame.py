@@ -42,9 +42,9 @@ def passes(header: str | None) -> dict[str, float]:
 class Frame:
     """A picture, and what came with it.
 
-    data: the file's bytes; kind: its media type. layers: numbers by name as float32 of shape (height, width), rgb (height, width, 3);
-    those that were asked for. accuracy: Kerrd-Accuracy as numbers. timing: milliseconds a pass. quality, number and revision: of a
-    session's frame alone.
+    data: the file's bytes; kind: its media type. layers: numbers by name as float32 of shape (height, width), rgb
+    (height, width, 3); those that were asked for. accuracy: Kerrd-Accuracy as numbers. timing: milliseconds a pass.
+    quality, number and revision: of a session's frame alone.
     """
 
     data: bytes

@@ -1,6 +1,7 @@
 """The live hole in a cell of a notebook: kerrd.widget(…). Needs the package anywidget (pip install kerrd[jupyter]).
 
-Pictures come from a session of the server to the kernel (follow.py) and over its comm to widget.js: the browser need not reach the server.
+Pictures come from a session of the server to the kernel (follow.py) and over its comm to widget.js: the browser need
+not reach the server.
 """
 
 from __future__ import annotations
@@ -53,7 +54,8 @@ class _Taken:
 
 
 class _SceneTrait(traitlets.TraitType[Any, Any]):
-    """A kerrd.Scene with every field; what is read is a copy. What is set goes to the server first, and is not set if that refuses it."""
+    """A kerrd.Scene with every field; what is read is a copy. What is set goes to the server first, and is not set if
+    that refuses it."""
 
     def validate(self, obj: Any, value: Any) -> Scene:
         return value.scene if isinstance(value, _Taken) else obj._replaced(value)
@@ -65,8 +67,9 @@ class _SceneTrait(traitlets.TraitType[Any, Any]):
 class Widget(anywidget.AnyWidget):
     """A hole to turn and change, in a notebook's cell.
 
-    scene: a kerrd.Scene, always the current one; a trait: observe it, or set it as a whole (a mapping or dataclasses, in which what is not named goes to its default, but
-    for the picture's size). Observers run on a thread of the widget where the browser has changed it. error: what is wrong, or "".
+    scene: a kerrd.Scene, always the current one; a trait: observe it, or set it as a whole (a mapping or dataclasses,
+    in which what is not named goes to its default, but for the picture's size). Observers run on a thread of the widget
+    where the browser has changed it. error: what is wrong, or "".
     """
 
     _esm = Path(__file__).with_name("widget.js")
@@ -75,10 +78,20 @@ class Widget(anywidget.AnyWidget):
     error = traitlets.Unicode("").tag(sync=True)
     _controls: Any = traitlets.List().tag(sync=True)
 
-    def __init__(self, scene: SceneLike = None, client: Client | str | None = None, controls: Sequence[str] = USUAL, *, preset: str | None = None, quality: int | None = 80,
-                 **changes: Any) -> None:
+    def __init__(
+        self,
+        scene: SceneLike = None,
+        client: Client | str | None = None,
+        controls: Sequence[str] = USUAL,
+        *,
+        preset: str | None = None,
+        quality: int | None = 80,
+        **changes: Any,
+    ) -> None:
         if client is not None and not isinstance(client, (Client, str)):
-            raise KerrdError(f"client is a {type(client).__name__}; allowed are a kerrd.Client, kerrd.local() and the address of a server")
+            raise KerrdError(
+                f"client is a {type(client).__name__}; allowed are a kerrd.Client, kerrd.local() and the address of a server"
+            )
         hole = Client(client) if isinstance(client, str) else client or own_server()
         self._fields = Fields(hole.schema())
         wanted = [self._fields.control(name) for name in ([controls] if isinstance(controls, str) else controls)]
@@ -104,11 +117,14 @@ class Widget(anywidget.AnyWidget):
         """A picture whose size nobody has said is no wider than WIDTH."""
         image = self._follower.scene["image"]
         if not {"width", "height"} & document.get("image", {}).keys() and image["width"] > WIDTH:
-            self._follower.change(lambda scene: {"image": {"width": WIDTH, "height": round(image["height"] * WIDTH / image["width"])}})
+            self._follower.change(
+                lambda scene: {"image": {"width": WIDTH, "height": round(image["height"] * WIDTH / image["width"])}}
+            )
 
     def set(self, **changes: Any) -> None:
-        """Changes the scene: set(spin=0.9, camera={"inclination_deg": 60}, disk__outer=30). A field is named by its path, or by the last part where one alone is called that.
-        Problem, or KerrdError for a name that a scene does not have: the scene stays as it was."""
+        """Changes the scene: set(spin=0.9, camera={"inclination_deg": 60}, disk__outer=30). A field is named by its
+        path, or by the last part where one alone is called that. Problem, or KerrdError for a name that a scene does
+        not have: the scene stays as it was."""
         named = self._fields.document(changes)
         self._follower.change(lambda scene: patch_of(scene, named))
         self._follower.deaf()
@@ -140,7 +156,10 @@ class Widget(anywidget.AnyWidget):
         document = scene_of(scene, {})
 
         def sized(now: Document) -> Document:
-            return {**document, "image": {**{name: now["image"][name] for name in ("width", "height")}, **document.get("image", {})}}
+            return {
+                **document,
+                "image": {**{name: now["image"][name] for name in ("width", "height")}, **document.get("image", {})},
+            }
 
         self._follower.replace(sized)
         self._follower.deaf()
@@ -156,7 +175,10 @@ class Widget(anywidget.AnyWidget):
         """A word of widget.js."""
         kind = message.get("kind")
         if kind == "change":
-            self._follower.later(message["values"], lambda: self.send({"kind": "took", "view": message["view"], "scene": self._follower.scene}))
+            self._follower.later(
+                message["values"],
+                lambda: self.send({"kind": "took", "view": message["view"], "scene": self._follower.scene}),
+            )
         elif kind == "shown":
             self._follower.shown(int(message["serial"]))
         elif kind == "watch":

@@ -29,13 +29,16 @@ def _build(tree: Path) -> None:
     """One process at a time; what it says goes on to standard error, for it takes minutes."""
     with open(tree / "scripts/setup", "rb") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
-        if not (tree / "build/kerrd").exists() and subprocess.run([tree / "scripts/setup", "--program"], stdout=sys.stderr).returncode:
+        if (
+            not (tree / "build/kerrd").exists()
+            and subprocess.run([tree / "scripts/setup", "--program"], stdout=sys.stderr).returncode
+        ):
             raise NoBinary(f"{tree}/scripts/setup --program failed; what is wrong stands on standard error")
 
 
 def find_binary(binary: str | os.PathLike[str] | None = None, *, build: bool = False) -> str:
-    """The program: as given, $KERRD, the PATH, or the build in the source tree that this package was installed from with -e. build: whether that is made if it is not there yet, by
-    scripts/setup, which may install packages."""
+    """The program: as given, $KERRD, the PATH, or the build in the source tree that this package was installed from
+    with -e. build: whether that is made if it is not there yet, by scripts/setup, which may install packages."""
     for said in (binary, os.environ.get("KERRD")):
         if said:
             found = shutil.which(os.fspath(said))
@@ -47,7 +50,9 @@ def find_binary(binary: str | os.PathLike[str] | None = None, *, build: bool = F
         return on_path
     tree = _checkout()
     if tree is None:
-        raise NoBinary("there is no kerrd: give binary=, set $KERRD, put it on the PATH, or install this package from its source tree with pip install -e")
+        raise NoBinary(
+            "there is no kerrd: give binary=, set $KERRD, put it on the PATH, or install this package from its source tree with pip install -e"
+        )
     made = tree / "build/kerrd"
     if not made.exists() and build:
         _build(tree)
@@ -57,29 +62,60 @@ def find_binary(binary: str | os.PathLike[str] | None = None, *, build: bool = F
 
 
 class local(Client):
-    """A client of a server that it starts, on a port of the loopback that is free, and stops: with kerrd.local() as hole.
+    """A client of a server that it starts, on a port of the loopback that is free, and stops: with kerrd.local() as
+    hole.
 
-    binary, build: the program (find_binary). device: auto, an index of `kerrd doctor`, or part of a name. args: further options of `kerrd serve`. env: over the environment.
+    binary, build: the program (find_binary). device: auto, an index of `kerrd doctor`, or part of a name. args: further
+    options of `kerrd serve`. env: over the environment.
     """
 
-    def __init__(self, *, binary: str | os.PathLike[str] | None = None, build: bool = False, device: str | None = None, args: Sequence[str] = (), env: dict[str, str] | None = None,
-                 timeout: float = 600, patience: float = 60) -> None:
-        command = [find_binary(binary, build=build), "serve", "--port", "0", "--until-eof", *(["--device", device] if device else []), *args]
-        # Not in this process's group: an interrupt of a cell, or of a script, is for Python alone, and a kernel that ends lets its atexit functions run.
-        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, env={**os.environ, **(env or {})}, text=True, start_new_session=True)
+    def __init__(
+        self,
+        *,
+        binary: str | os.PathLike[str] | None = None,
+        build: bool = False,
+        device: str | None = None,
+        args: Sequence[str] = (),
+        env: dict[str, str] | None = None,
+        timeout: float = 600,
+        patience: float = 60,
+    ) -> None:
+        command = [
+            find_binary(binary, build=build),
+            "serve",
+            "--port",
+            "0",
+            "--until-eof",
+            *(["--device", device] if device else []),
+            *args,
+        ]
+        # Not in this process's group: an interrupt of a cell, or of a script, is for Python alone, and a kernel that
+        # ends lets its atexit functions run.
+        self.process = subprocess.Popen(
+            command,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            env={**os.environ, **(env or {})},
+            text=True,
+            start_new_session=True,
+        )
         assert self.process.stdout is not None
         line = self.process.stdout.readline()
         found = re.search(r"listening on (http://\S+)", line)
         if found is None:
             self._stop()
-            raise KerrdError(f"{' '.join(command)} did not start (exit code {self.process.returncode}): {line.strip() or 'what is wrong stands on its standard error'}")
+            raise KerrdError(
+                f"{' '.join(command)} did not start (exit code {self.process.returncode}): {line.strip() or 'what is wrong stands on its standard error'}"
+            )
         atexit.register(self._stop)
         super().__init__(found[1], timeout=timeout, patience=patience, trust_env=False)
 
     def __enter__(self) -> local:
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
         self.close()
 
     def close(self) -> None:

@@ -1,5 +1,6 @@
-// The live hole in a cell of a notebook; its other half is jupyter.py. Pictures come over the kernel's comm, and each is acknowledged when it is shown. Of changes one
-// is on its way at a time: those that a hand makes meanwhile wait, and of one field the last counts. Hands move the camera as they do on the page (clients/web/view.js).
+// The live hole in a cell of a notebook; its other half is jupyter.py. Pictures come over the kernel's comm, and each
+// is acknowledged when it is shown. Of changes one is on its way at a time: those that a hand makes meanwhile wait, and
+// of one field the last counts. Hands move the camera as they do on the page (clients/web/view.js).
 const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
 const turn = x => x - 360 * Math.round(x / 360);
 const round = (x, digits) => Number(x.toFixed(digits));
@@ -9,7 +10,8 @@ const presence_ms = 30_000; // from one word to the kernel that this view is the
 
 function el(name, attributes = {}, ...children) {
   const node = document.createElement(name);
-  for (const [key, value] of Object.entries(attributes)) if (value != null && value !== false) node.setAttribute(key, value);
+  for (const [key, value] of Object.entries(attributes))
+    if (value != null && value !== false) node.setAttribute(key, value);
   node.append(...children.filter(child => child != null));
   return node;
 }
@@ -61,12 +63,17 @@ function hands(stage, scene) {
   const pointers = new Map();
   let begin = null;
   const get = name => scene.get('camera.' + name),
-    put = values => scene.change(Object.fromEntries(Object.entries(values).map(([name, value]) => ['camera.' + name, value]))),
+    put = values =>
+      scene.change(Object.fromEntries(Object.entries(values).map(([name, value]) => ['camera.' + name, value]))),
     wide = () => ['equirectangular', 'fulldome'].includes(get('projection'));
-  const looks = () => get('r') !== 'infinity' && get('projection') !== 'ring' && (get('r') <= near_r || get('observer') === 'infall' || wide());
+  const looks = () =>
+    get('r') !== 'infinity' &&
+    get('projection') !== 'ring' &&
+    (get('r') <= near_r || get('observer') === 'infall' || wide());
 
   function reach() {
-    if (get('projection') === 'ring') return { name: 'ring_decades_min', low: -13, high: Math.min(get('ring_decades_max') - 0.5, -1) };
+    if (get('projection') === 'ring')
+      return { name: 'ring_decades_min', low: -13, high: Math.min(get('ring_decades_max') - 0.5, -1) };
     if (get('r') === 'infinity') return { name: 'field_m', low: 0.5, high: 1e4 };
     if (looks() && !wide()) return { name: 'fov_deg', low: 2, high: 150 };
     return { name: 'r', low: Math.min(2.1, get('r')), high: 1e5 };
@@ -75,11 +82,22 @@ function hands(stage, scene) {
     const { name, low, high } = reach();
     put({ [name]: round(clamp((from ?? get(name)) * factor, low, high), 3) });
   }
-  const now = () => ({ azimuth: get('azimuth_deg'), tilt: get('inclination_deg'), yaw: get('yaw_deg'), pitch: get('pitch_deg'), reach: get(reach().name) });
+  const now = () => ({
+    azimuth: get('azimuth_deg'),
+    tilt: get('inclination_deg'),
+    yaw: get('yaw_deg'),
+    pitch: get('pitch_deg'),
+    reach: get(reach().name),
+  });
 
   function step(right_deg, up_deg, from = now()) {
-    if (looks()) put({ yaw_deg: round(turn(from.yaw + right_deg), 2), pitch_deg: round(clamp(from.pitch + up_deg, -90, 90), 2) });
-    else put({ azimuth_deg: round(turn(from.azimuth + right_deg), 2), inclination_deg: round(clamp(from.tilt - up_deg, 0, 180), 2) });
+    if (looks())
+      put({ yaw_deg: round(turn(from.yaw + right_deg), 2), pitch_deg: round(clamp(from.pitch + up_deg, -90, 90), 2) });
+    else
+      put({
+        azimuth_deg: round(turn(from.azimuth + right_deg), 2),
+        inclination_deg: round(clamp(from.tilt - up_deg, 0, 180), 2),
+      });
   }
 
   // What lies under the pointer comes along.
@@ -116,7 +134,8 @@ function hands(stage, scene) {
     if (two && begin.gap) zoom(begin.gap / Math.max(gap(one, two), 1), begin.reach);
     else drag(one.x - begin.x, one.y - begin.y);
   });
-  for (const end of ['pointerup', 'pointercancel']) stage.addEventListener(end, event => pointers.delete(event.pointerId) && note());
+  for (const end of ['pointerup', 'pointercancel'])
+    stage.addEventListener(end, event => pointers.delete(event.pointerId) && note());
   stage.addEventListener(
     'wheel',
     event => {
@@ -128,8 +147,14 @@ function hands(stage, scene) {
     { passive: false },
   );
   const keys = {
-    ArrowUp: by => step(0, by), ArrowDown: by => step(0, -by), ArrowLeft: by => step(-by, 0), ArrowRight: by => step(by, 0),
-    '+': () => zoom(1 / 1.1), '=': () => zoom(1 / 1.1), '-': () => zoom(1.1), _: () => zoom(1.1),
+    ArrowUp: by => step(0, by),
+    ArrowDown: by => step(0, -by),
+    ArrowLeft: by => step(-by, 0),
+    ArrowRight: by => step(by, 0),
+    '+': () => zoom(1 / 1.1),
+    '=': () => zoom(1 / 1.1),
+    '-': () => zoom(1.1),
+    _: () => zoom(1.1),
   };
   stage.addEventListener('keydown', event => {
     if (event.ctrlKey || event.metaKey || event.altKey || !keys[event.key]) return;
@@ -163,24 +188,46 @@ function numberControl({ path, positions, low, high, unit, word, first, kind }, 
     if (check) check.checked = value === word;
     if (!typing) box.value = number ? Number(value.toPrecision(8)) : '';
     if (!number) return;
-    slider.value = positions.reduce((best, here, k) => (distance(here, value) < distance(positions[best], value) ? k : best), 0);
+    slider.value = positions.reduce(
+      (best, here, k) => (distance(here, value) < distance(positions[best], value) ? k : best),
+      0,
+    );
     slider.setAttribute('aria-valuetext', `${box.value} ${unit}`);
   }
-  return { nodes: [slider, box, el('span', { class: 'kerrd-unit' }, unit), check && el('label', { class: 'kerrd-word' }, check, word)], show };
+  return {
+    nodes: [
+      slider,
+      box,
+      el('span', { class: 'kerrd-unit' }, unit),
+      check && el('label', { class: 'kerrd-word' }, check, word),
+    ],
+    show,
+  };
 }
 
 function choiceControl({ path, choices, kind }, scene, about) {
   const yes = kind === 'switch',
-    node = yes ? el('input', { type: 'checkbox', ...about }) : el('select', about, ...choices.map(choice => el('option', { value: choice }, choice)));
+    node = yes
+      ? el('input', { type: 'checkbox', ...about })
+      : el('select', about, ...choices.map(choice => el('option', { value: choice }, choice)));
   node.addEventListener('change', () => scene.change({ [path]: yes ? node.checked : node.value }));
   return { nodes: [node], show: value => (yes ? (node.checked = value) : (node.value = value)) };
 }
 
 function controlsOf(model, scene) {
   return model.get('_controls').map(field => {
-    const about = { 'aria-label': field.unit ? `${field.label} (${field.unit})` : field.label, 'aria-description': field.help, 'data-path': field.path };
+    const about = {
+      'aria-label': field.unit ? `${field.label} (${field.unit})` : field.label,
+      'aria-description': field.help,
+      'data-path': field.path,
+    };
     const control = (field.positions ? numberControl : choiceControl)(field, scene, about);
-    const row = el('div', { class: 'kerrd-row', title: field.help }, el('span', { class: 'kerrd-label', 'aria-hidden': 'true' }, field.label), ...control.nodes);
+    const row = el(
+      'div',
+      { class: 'kerrd-row', title: field.help },
+      el('span', { class: 'kerrd-label', 'aria-hidden': 'true' }, field.label),
+      ...control.nodes,
+    );
     return { row, show: () => control.show(scene.get(field.path)) };
   });
 }
@@ -188,10 +235,24 @@ function controlsOf(model, scene) {
 function render({ model, el: cell }) {
   const id = Math.random().toString(36).slice(2),
     picture = el('img', { alt: '', draggable: 'false' }),
-    hint = el('p', { class: 'kerrd-hint', id: 'kerrd-hint-' + id }, 'Drag to turn; once it is chosen, the wheel or + and − zoom, arrows turn (with Shift more).'),
+    hint = el(
+      'p',
+      { class: 'kerrd-hint', id: 'kerrd-hint-' + id },
+      'Drag to turn; once it is chosen, the wheel or + and − zoom, arrows turn (with Shift more).',
+    ),
     fault = el('p', { class: 'kerrd-error', role: 'alert' }),
     // Lumino, which JupyterLab reads keys by, leaves alone what asks for it.
-    stage = el('div', { class: 'kerrd-stage', tabindex: 0, role: 'application', 'aria-describedby': hint.id, 'data-lm-suppress-shortcuts': 'true' }, picture);
+    stage = el(
+      'div',
+      {
+        class: 'kerrd-stage',
+        tabindex: 0,
+        role: 'application',
+        'aria-describedby': hint.id,
+        'data-lm-suppress-shortcuts': 'true',
+      },
+      picture,
+    );
   let controls = [];
 
   function show() {
@@ -200,7 +261,10 @@ function render({ model, el: cell }) {
       angles = `inclination ${scene.get('camera.inclination_deg')}°, azimuth ${scene.get('camera.azimuth_deg')}°`;
     stage.style.width = wide * scene.get('image.width') + 'px';
     stage.style.aspectRatio = `${wide * scene.get('image.width')} / ${scene.get('image.height')}`;
-    stage.setAttribute('aria-label', `Black hole of spin ${scene.get('spacetime.spin')} M, seen from ${angles}${place}`);
+    stage.setAttribute(
+      'aria-label',
+      `Black hole of spin ${scene.get('spacetime.spin')} M, seen from ${angles}${place}`,
+    );
     for (const control of controls) control.show();
   }
   const scene = state(model, id, show);
@@ -224,7 +288,11 @@ function render({ model, el: cell }) {
   }
 
   controls = controlsOf(model, scene);
-  const panel = el('div', { class: 'kerrd-controls', 'data-lm-suppress-shortcuts': 'true' }, ...controls.map(({ row }) => row));
+  const panel = el(
+    'div',
+    { class: 'kerrd-controls', 'data-lm-suppress-shortcuts': 'true' },
+    ...controls.map(({ row }) => row),
+  );
   cell.append(el('div', { class: 'kerrd' }, stage, fault, hint, panel));
   hands(stage, scene);
   model.on('change:scene', scene.told);
