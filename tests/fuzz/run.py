@@ -2,7 +2,9 @@
 """Runs programs of libFuzzer side by side, each over its own corpus, and ends all of them at the first failure.
 scripts/fuzz calls it; its arguments are that script's.
 
-    run.py BUILD SECONDS JOBS RESULT TARGET...     RESULT: FILE.json, or nothing
+    run.py BUILD LIMIT SEED JOBS RESULT TARGET...  LIMIT: libFuzzer's option, -max_total_time=S or -runs=N; SEED: 0 for
+                                                   a new one each time; RESULT: FILE.json, or nothing
+    run.py --replay BUILD                          each input that has failed, once more: exit 1 if one still does
 
 An input that takes longer than 25 s, or a gigabyte and a half of memory, fails as well. Exit 1: a target has failed;
 what it said and how to see it again is printed.
@@ -33,8 +35,26 @@ OPTIONS = [
 ]
 
 
+def sanitized():
+    return os.environ | {
+        "ASAN_OPTIONS": "detect_leaks=1:allocator_may_return_null=1:handle_abort=1",
+        "UBSAN_OPTIONS": "print_stacktrace=1:halt_on_error=1",
+    }
+
+
+def replay(build):
+    """Exit code: 1 if an input in BUILD/crash still fails."""
+    found = 0
+    for path in sorted(path for path in (build / "crash").glob("*-*") if path.suffix != ".log"):
+        program = build / "tests/fuzz" / f"fuzz_{path.name.partition('-')[0]}"
+        code = subprocess.run([program, *OPTIONS[:3], path], stdin=subprocess.DEVNULL, env=sanitized()).returncode
+        print(f"{path}: {'fails again' if code else 'passes'}", flush=True)
+        found |= bool(code)
+    return int(found)
+
+
 class Target:
-    def __init__(self, build, name, seconds, longest):
+    def __init__(self, build, name, limit, seed, longest):
         self.name, self.corpus = name, build / "corpus" / name
         self.corpus.mkdir(parents=True, exist_ok=True)
         (build / "crash").mkdir(exist_ok=True)
@@ -45,21 +65,18 @@ class Target:
         command = [
             self.program,
             *OPTIONS,
-            f"-max_total_time={seconds}",
+            limit,
+            f"-seed={seed}",
             f"-max_len={longest}",
             f"-artifact_prefix={build}/crash/{name}-",
             *([f"-dict={dictionary}"] if dictionary.exists() else []),
             self.corpus,
             *(folder for folder in seeds if folder.is_dir()),
         ]
-        environment = os.environ | {
-            "ASAN_OPTIONS": "detect_leaks=1:allocator_may_return_null=1:handle_abort=1",
-            "UBSAN_OPTIONS": "print_stacktrace=1:halt_on_error=1",
-        }
         self.begun = time.monotonic()
         with self.log.open("wb") as log:
             self.process = subprocess.Popen(
-                command, stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT, env=environment
+                command, stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT, env=sanitized()
             )
 
     def measured(self):
@@ -107,7 +124,7 @@ def processor():
     return names[0] if names else platform.machine()
 
 
-def write(path, rows, seconds, jobs):
+def write(path, rows, limit, jobs):
     """Adds this run to what the file has: inputs and seconds of a target add up, coverage is the latest."""
     path = pathlib.Path(path)
     known = (
@@ -120,7 +137,7 @@ def write(path, rows, seconds, jobs):
     rows = [known[name] for name in sorted(known)]
     about = {
         "date": datetime.date.today().isoformat(),
-        "command": f"scripts/fuzz --seconds {seconds} --jobs {jobs} --result {path}",
+        "command": f"scripts/fuzz {limit} --jobs {jobs} --result {path}",
         "revision": revision(),
         "machine": f"{processor()}, {os.cpu_count()} cores",
         "inputs": sum(row["inputs"] for row in rows),
@@ -144,13 +161,21 @@ def write(path, rows, seconds, jobs):
 
 
 def main():
-    build, seconds, jobs, result = pathlib.Path(sys.argv[1]), int(sys.argv[2]), int(sys.argv[3]), sys.argv[4]
-    waiting, running, rows, failed, begun = collections.deque(sys.argv[5:]), [], [], None, time.monotonic()
+    if sys.argv[1] == "--replay":
+        return replay(pathlib.Path(sys.argv[2]))
+    build, limit, seed, jobs, result = (
+        pathlib.Path(sys.argv[1]),
+        sys.argv[2],
+        sys.argv[3],
+        int(sys.argv[4]),
+        sys.argv[5],
+    )
+    waiting, running, rows, failed, begun = collections.deque(sys.argv[6:]), [], [], None, time.monotonic()
     try:
         while (waiting or running) and not failed:
             while waiting and len(running) < jobs:
                 name = waiting.popleft()
-                running.append(Target(build, name, seconds, longest_of(name)))
+                running.append(Target(build, name, limit, seed, longest_of(name)))
             time.sleep(0.1)
             for target in [target for target in running if target.process.poll() is not None]:
                 running.remove(target)
@@ -169,7 +194,8 @@ def main():
             rows.append(target.measured())
     print(f"{sum(row['inputs'] for row in rows)} inputs in {time.monotonic() - begun:.0f} s")
     if result:
-        write(result, rows, seconds, jobs)
+        words = limit.replace("-max_total_time=", "--seconds ").replace("-runs=", "--runs ")
+        write(result, rows, words, jobs)
     if failed:
         said, found = failed.failure()
         print(f"\n{said}\n\nscripts/fuzz: {failed.name} has failed; all that it said: {failed.log}", file=sys.stderr)
