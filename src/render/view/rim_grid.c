@@ -1,5 +1,6 @@
 #include "render/view/rim_grid.h"
 
+#include "base/parallel.h"
 #include "render/view/sky_ray.h"
 
 #include <math.h>
@@ -129,6 +130,20 @@ static bool is_near_picture(const struct layout *o, int i, int j, int apart)
     return false;
 }
 
+struct columns_of {
+    struct layout *layout;
+    int apart; /* cells that one measurement stands for, along a side */
+};
+
+static void measure_column(void *user, size_t item)
+{
+    const struct columns_of *c = user;
+    const int i = (int)item * c->apart;
+    for (int j = 0; j < ACROSS; j += c->apart)
+        if (is_near_picture(c->layout, i, j, c->apart))
+            measure(c->layout, i, j, c->apart);
+}
+
 static void look_at_cells(struct layout *o, const struct kd_scene *scene)
 {
     struct corner corners[ROUND + 1][ACROSS + 1];
@@ -140,11 +155,8 @@ static void look_at_cells(struct layout *o, const struct kd_scene *scene)
                                          &corners[i + 1][j + 1] };
             o->of[i][j] = (struct cell) { .in_picture = is_in_picture(c, width, height) };
         }
-    const int apart = o->rim->winds < SLOW ? 2 : 1; /* every second cell is enough */
-    for (int i = 0; i < ROUND; i += apart)
-        for (int j = 0; j < ACROSS; j += apart)
-            if (is_near_picture(o, i, j, apart))
-                measure(o, i, j, apart);
+    struct columns_of columns = { o, o->rim->winds < SLOW ? 2 : 1 }; /* every second cell is enough */
+    kd_parallel((size_t)(ROUND / columns.apart), measure_column, &columns);
     for (int k = 0; k < ROUND * ACROSS; k++)
         set_most(o, k / ACROSS, k % ACROSS);
 }

@@ -1,16 +1,19 @@
 #include "render/view/rim_sky.h"
 
+#include "base/parallel.h"
 #include "render/view/sky_ray.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum {
+    LEAST = 9, /* intervals along a side of a grid */
     MOST = 96,
-    LEAST = 9,
-    ASIDE = 4
-}; /* intervals along a side of a grid; lines across it, on which so many are tried */
+    ASIDE = 4, /* lines across it, on which a number of intervals is tried */
+    SHARED = 4 /* grids, up to which the threads share each grid; of more, each thread takes whole ones */
+};
 
 /* A ray has four angles: turn, drag, t_theta, t_phi. */
 enum { ANGLES = 4 };
@@ -19,7 +22,18 @@ struct angles { double of[ANGLES]; };
 struct follower {
     const struct kd_rim *rim;
     struct kd_sky_rays rays;
+    bool alone; /* its grid is filled by one thread, since others fill theirs */
 };
+
+static void run_each(const struct follower *f, size_t n, void (*each)(void *user, size_t item), void *user)
+{
+    if (!f->alone) {
+        kd_parallel(n, each, user);
+        return;
+    }
+    for (size_t item = 0; item < n; item++)
+        each(user, item);
+}
 
 static bool follow(const struct follower *f, double u, double l, struct angles *out)
 {
@@ -113,16 +127,31 @@ static int serves(const struct follower *f, const struct side *s, int n, bool al
     return 1;
 }
 
-/* How many intervals are enough along one side, by lines at both ends and in the middle of the other; more than
- * MOST: not even that. False: a ray does not escape. */
+/* One try of a number of intervals on lines across a side. */
+struct trial {
+    const struct follower *f;
+    const struct side *side, *other;
+    bool along_u;
+    int serves[ASIDE];
+};
+
+static void try_line(void *user, size_t k)
+{
+    struct trial *t = user;
+    const double line = t->other->to + (t->other->from - t->other->to) * (double)k / (ASIDE - 1);
+    t->serves[k] = serves(t->f, t->side, t->side->n, t->along_u, line);
+}
+
+/* How many intervals are enough along one side, by lines at both ends and between them of the other; more than MOST:
+ * not even that. False: a ray does not escape. */
 static bool enough(const struct follower *f, struct side *s, const struct side *other, bool along_u)
 {
+    struct trial trial = { .f = f, .side = s, .other = other, .along_u = along_u };
     for (s->n = LEAST; s->n <= MOST; s->n += s->n / 2) {
         int least = 1;
-        for (int k = 0; k < ASIDE && least > 0; k++) {
-            const int is = serves(f, s, s->n, along_u, other->to + (other->from - other->to) * k / (ASIDE - 1));
-            least = is < least ? is : least;
-        }
+        run_each(f, ASIDE, try_line, &trial);
+        for (int k = 0; k < ASIDE && least > 0; k++)
+            least = trial.serves[k];
         if (least)
             return least > 0;
     }
@@ -130,94 +159,114 @@ static bool enough(const struct follower *f, struct side *s, const struct side *
 }
 
 struct sheet {
+    const struct follower *f;
+    const struct kd_rim_grid *grid;
     struct side u, l;
     struct angles at[MOST + 1][MOST + 1]; /* rows of l */
     double *columns;                      /* by row and angle, of all columns */
+    float *out;
+    _Atomic bool escapes; /* every ray of it */
 };
 
-static bool follow_sheet(const struct follower *f, const struct kd_rim_grid *g, struct sheet *o)
+static void follow_line(void *user, size_t j)
 {
-    o->u = side_of(g, true);
-    o->l = side_of(g, false);
-    if (!enough(f, &o->u, &o->l, true) || !enough(f, &o->l, &o->u, false))
+    struct sheet *o = user;
+    for (int i = 0; i <= o->u.n; i++)
+        if (!follow(o->f, place_of(&o->u, o->u.n, i), place_of(&o->l, o->l.n, (int)j), &o->at[j][i]))
+            atomic_store(&o->escapes, false);
+}
+
+static bool follow_sheet(struct sheet *o)
+{
+    o->u = side_of(o->grid, true);
+    o->l = side_of(o->grid, false);
+    if (!enough(o->f, &o->u, &o->l, true) || !enough(o->f, &o->l, &o->u, false))
         return false;
-    if (o->u.n > MOST || o->l.n > MOST)
-        return true;
-    for (int j = 0; j <= o->l.n; j++)
-        for (int i = 0; i <= o->u.n; i++)
-            if (!follow(f, place_of(&o->u, o->u.n, i), place_of(&o->l, o->l.n, j), &o->at[j][i]))
-                return false;
-    return true;
+    if (o->u.n <= MOST && o->l.n <= MOST)
+        run_each(o->f, (size_t)o->l.n + 1, follow_line, o);
+    return atomic_load(&o->escapes);
 }
 
-static double *column_at(const struct sheet *o, const struct kd_rim_grid *g, int j, int q)
+static double *column_at(const struct sheet *o, int j, int q)
 {
-    return o->columns + ((size_t)j * ANGLES + (size_t)q) * g->columns;
+    return o->columns + ((size_t)j * ANGLES + (size_t)q) * o->grid->columns;
 }
 
-static void fill_columns(struct sheet *o, const struct kd_rim_grid *g)
+static void fill_columns(struct sheet *o)
 {
     double w[MOST + 1];
-    for (uint32_t k = 0; k < g->columns; k++) {
-        weights(&o->u, o->u.n, g->u + k * g->du, w);
+    for (uint32_t k = 0; k < o->grid->columns; k++) {
+        weights(&o->u, o->u.n, o->grid->u + k * o->grid->du, w);
         for (int j = 0; j <= o->l.n; j++)
             for (int q = 0; q < ANGLES; q++) {
                 double sum = 0;
                 for (int i = 0; i <= o->u.n; i++)
                     sum += w[i] * o->at[j][i].of[q];
-                column_at(o, g, j, q)[k] = sum;
+                column_at(o, j, q)[k] = sum;
             }
     }
 }
 
-static void fill_row(const struct follower *f, const struct sheet *o, const struct kd_rim_grid *g, uint32_t row,
-                     double *sums, float *out)
+enum { STRIP = 64 }; /* columns whose sums fit on the stack */
+
+static void fill_strip(const struct sheet *o, uint32_t row, const double *w, size_t first, size_t n)
 {
-    const size_t rays = kd_rim_grid_rays(g), n = g->columns;
-    double w[MOST + 1];
-    weights(&o->l, o->l.n, g->l - row * g->dl, w);
-    memset(sums, 0, ANGLES * n * sizeof *sums);
+    const size_t rays = kd_rim_grid_rays(o->grid), at = row * (size_t)o->grid->columns + first;
+    double sums[ANGLES][STRIP] = { { 0 } };
     for (int j = 0; j <= o->l.n; j++)
         for (int q = 0; q < ANGLES; q++) {
-            const double *from = column_at(o, g, j, q);
+            const double *from = column_at(o, j, q) + first;
             for (size_t k = 0; k < n; k++)
-                sums[(size_t)q * n + k] += w[j] * from[k];
+                sums[q][k] += w[j] * from[k];
         }
     for (size_t k = 0; k < n; k++) {
-        const struct angles a = { { sums[k], sums[n + k], sums[2 * n + k], sums[3 * n + k] } };
+        const struct angles a = { { sums[0][k], sums[1][k], sums[2][k], sums[3][k] } };
         double d[3];
-        direction(f, &a, d);
+        direction(o->f, &a, d);
         for (size_t i = 0; i < 3; i++)
-            out[i * rays + row * n + k] = (float)d[i];
+            o->out[i * rays + at + k] = (float)d[i];
     }
 }
 
-/* Where no polynomial of MOST intervals is good enough: 10 us a ray. */
-static bool follow_each(const struct follower *f, const struct kd_rim_grid *g, float *out)
+static void fill_row(void *user, size_t row)
 {
-    const uint32_t rays = kd_rim_grid_rays(g);
-    for (uint32_t k = 0; k < rays; k++) {
+    const struct sheet *o = user;
+    double w[MOST + 1];
+    weights(&o->l, o->l.n, o->grid->l - (double)row * o->grid->dl, w);
+    for (size_t first = 0; first < o->grid->columns; first += STRIP) {
+        const size_t left = o->grid->columns - first;
+        fill_strip(o, (uint32_t)row, w, first, left < STRIP ? left : STRIP);
+    }
+}
+
+/* A row of rays each of which is followed: where no polynomial of MOST intervals is good enough; 10 us a ray. */
+static void follow_row(void *user, size_t row)
+{
+    struct sheet *o = user;
+    const struct kd_rim_grid *g = o->grid;
+    const size_t rays = kd_rim_grid_rays(g);
+    for (size_t k = 0; k < g->columns; k++) {
         struct angles a;
         double d[3];
-        if (!follow(f, g->u + k % g->columns * g->du, g->l - k / g->columns * g->dl, &a))
-            return false;
-        direction(f, &a, d);
+        if (!follow(o->f, g->u + (double)k * g->du, g->l - (double)row * g->dl, &a)) {
+            atomic_store(&o->escapes, false);
+            return;
+        }
+        direction(o->f, &a, d);
         for (size_t i = 0; i < 3; i++)
-            out[i * rays + k] = (float)d[i];
+            o->out[i * rays + row * g->columns + k] = (float)d[i];
     }
-    return true;
 }
 
-static bool fill_rays(const struct follower *f, const struct kd_rim_grid *g, struct sheet *sheet, float *out)
+static bool fill_rays(struct sheet *o)
 {
-    if (!follow_sheet(f, g, sheet))
+    if (!follow_sheet(o))
         return false;
-    if (sheet->u.n > MOST || sheet->l.n > MOST)
-        return follow_each(f, g, out);
-    fill_columns(sheet, g);
-    for (uint32_t row = 0; row < g->rows; row++)
-        fill_row(f, sheet, g, row, sheet->columns + (size_t)(MOST + 1) * ANGLES * g->columns, out);
-    return true;
+    const bool each = o->u.n > MOST || o->l.n > MOST;
+    if (!each)
+        fill_columns(o);
+    run_each(o->f, o->grid->rows, each ? follow_row : fill_row, o);
+    return atomic_load(&o->escapes);
 }
 
 /* Where a grid's part begins or ends, in its own columns or rows; far off where it does not. */
@@ -246,43 +295,61 @@ static void fill_table(const struct kd_rim *rim, const struct kd_rim_grid *g, fl
     }
 }
 
-static uint32_t most_columns(const struct kd_rim_grids *grids)
+/* What the threads that fill the grids share. */
+struct fill {
+    struct follower f;
+    const struct kd_rim_grids *grids;
+    float *out;
+    _Atomic int status; /* of the first grid that failed: KD_ENOMEM or KD_EINVAL */
+};
+
+static void fill_grid(void *user, size_t i)
 {
-    uint32_t most = 0;
-    for (uint32_t i = 0; i < grids->n; i++)
-        most = grids->of[i].columns > most ? grids->of[i].columns : most;
-    return most;
+    struct fill *fill = user;
+    const struct kd_rim_grid *g = &fill->grids->of[i];
+    struct sheet *sheet = malloc(sizeof *sheet);
+    double *columns = malloc(sizeof *columns * (MOST + 1) * ANGLES * g->columns);
+    int none = KD_OK;
+    if (!sheet || !columns)
+        atomic_compare_exchange_strong(&fill->status, &none, KD_ENOMEM);
+    else {
+        sheet->f = &fill->f;
+        sheet->grid = g;
+        sheet->columns = columns;
+        sheet->out = fill->out + g->first;
+        atomic_init(&sheet->escapes, true);
+        if (!fill_rays(sheet))
+            atomic_compare_exchange_strong(&fill->status, &none, KD_EINVAL);
+        fill_table(fill->f.rim, g, fill->out + g->table);
+    }
+    free(columns);
+    free(sheet);
 }
 
 enum kd_status kd_rim_sky(const struct kd_scene *scene, const struct kd_rim *rim, const struct kd_rim_grids *grids,
                           float *out, struct kd_error *error)
 {
-    const struct follower f = { rim, kd_sky_rays_of(scene) };
-    struct sheet *sheet = malloc(sizeof *sheet);
-    double *columns = malloc(sizeof *columns * (MOST + 2) * ANGLES * (most_columns(grids) + 1));
-    enum kd_status status = KD_OK;
-    if (!sheet || !columns)
-        KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory for rays next to the critical curve"));
-    sheet->columns = columns;
+    const bool many = grids->n > SHARED; /* threads take whole grids; else they take rows of one */
+    struct fill fill = { .f = { rim, kd_sky_rays_of(scene), many }, .grids = grids, .out = out, .status = KD_OK };
     memset(out, 0, grids->numbers * sizeof *out);
     memcpy(out, rim->edge, sizeof rim->edge);
-    for (uint32_t i = 0; i < grids->n; i++) {
-        const struct kd_rim_grid *g = &grids->of[i];
-        if (!fill_rays(&f, g, sheet, out + g->first))
-            KD_TRY(kd_error_field(
-                error, "/camera",
-                "camera is where a ray next to the critical curve does not escape: no stars can be sought there"));
-        fill_table(rim, g, out + g->table);
+    if (many)
+        kd_parallel(grids->n, fill_grid, &fill);
+    for (size_t i = 0; !many && i < grids->n; i++)
+        fill_grid(&fill, i);
+    switch (atomic_load(&fill.status)) {
+    case KD_OK: return KD_OK;
+    case KD_ENOMEM: return kd_error_set(error, KD_ENOMEM, "out of memory for rays next to the critical curve");
+    default:
+        return kd_error_field(
+            error, "/camera",
+            "camera is where a ray next to the critical curve does not escape: no stars can be sought there");
     }
-done:
-    free(columns);
-    free(sheet);
-    return status;
 }
 
 bool kd_rim_sky_at(const struct kd_scene *scene, const struct kd_rim *rim, double u, double off, double out[3])
 {
-    const struct follower f = { rim, kd_sky_rays_of(scene) };
+    const struct follower f = { rim, kd_sky_rays_of(scene), true };
     struct angles a;
     if (!follow(&f, u, log(off), &a))
         return false;
