@@ -15,7 +15,6 @@ import matplotlib
 
 matplotlib.use("svg")
 import matplotlib.pyplot as plt
-
 from physics_plots import BLUE, GREEN, RED, save
 
 SCENE = {

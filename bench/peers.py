@@ -8,7 +8,6 @@ import json
 import math
 import os
 import re
-import subprocess
 import tempfile
 
 import measure
@@ -26,10 +25,11 @@ PAIRS = [
 
 def find_kerrz():
     try:
+        from importlib.metadata import version
+
         import kerrz_cli
         import kerrz_lib.bindings as library
         import numpy
-        from importlib.metadata import version
     except ImportError as e:
         measure.skip(f"kerrz is not installed ({e}): pip install kerrz==0.4.1 'kerrz[py]'")
     return str(kerrz_cli.KERRZ_PATH), library, numpy, version("kerrz")

@@ -28,9 +28,8 @@ import live
 import measure
 
 try:
-    import simpy
-
     import queueing
+    import simpy
 except ImportError:
     measure.skip("simpy is missing: pip install simpy")
 

@@ -118,7 +118,7 @@ async function watch(scene) {
         ),
       );
     any = true;
-    const { complain, drawOverlays } = await parts;
+    const { complain } = await parts;
     fall?.then(({ shown }) => shown(frame));
     stars?.then(named => named?.shown(frame));
     stage.dataset.samples = frame.samples;

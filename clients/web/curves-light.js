@@ -16,7 +16,7 @@ export const light = [
       const { r } = await outside(16, 81)(p),
         hill = l => ({ spin: p.spin, l, r }),
         [along, against] = await Promise.all(
-          (p.spin == 0 ? [1] : [1, -1]).map(l => physics('potential', { ...hill(l), ...drawn })),
+          (Number(p.spin) === 0 ? [1] : [1, -1]).map(l => physics('potential', { ...hill(l), ...drawn })),
         ); // without spin both are one
       return {
         r: along.parameters.r,

@@ -40,7 +40,7 @@ function panel(hole) {
     stack,
     words,
   );
-  let shown = []; // addresses of what the pictures are made of
+  const shown = []; // addresses of what the pictures are made of
 
   function query(look, more) {
     const size = Math.min(2 * Math.round((stack.clientWidth * Math.min(devicePixelRatio || 1, 2)) / 2), most_px) || 360;

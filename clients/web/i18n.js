@@ -126,9 +126,8 @@ function labelOf(path) {
 const inside =
   /\b(?:spacetime|camera|disk|sky|image|style|accuracy|motion|spots|bodies|volume|jets|polarization)(?:\.[a-z_]+)+/g;
 export const readable = help =>
-  help &&
   help
-    .replace(/ \(docs\/[^)]*\)/g, '')
+    ?.replace(/ \(docs\/[^)]*\)/g, '')
     .replace(/docs\/[\w./-]+\w/g, t('the documentation', 'la documentazione'))
     .replace(inside, path => t(`“${labelOf(path)}”`, `«${labelOf(path)}»`));
 

@@ -5,6 +5,7 @@ of log r, theta and phi (a code's own grid is interpolated to such first), and o
 
 import json
 import sys
+
 import numpy as np
 
 dump = np.load(sys.argv[1])

@@ -3,6 +3,7 @@
 
 import json
 import sys
+
 import numpy as np
 
 shape = [int(n) for n in sys.argv[2:]] or [192, 96]

@@ -163,7 +163,7 @@ class Grid(Case):
         """Beside the model riaf outside the ISCO: components of the field in r and theta, and what the motion makes of
         them."""
         self.layers = "intensity,stokes_q,stokes_u,stokes_v"
-        a, k, mp, me, c, kb = 0.5, 6.0, 1.67262192369e-24, 9.1093837015e-28, 2.99792458e10, 1.380649e-16
+        a, mp, c = 0.5, 1.67262192369e-24, 2.99792458e10
         r, theta = numpy.geomspace(5, 25, 128)[:, None], ((numpy.arange(96) + 0.5) * numpy.pi / 96)[None, :]
         s2, sigma, delta = numpy.sin(theta) ** 2, r**2 + a**2 * numpy.cos(theta) ** 2, r**2 - 2 * r + a**2
         g = [-(1 - 2 * r / sigma), -2 * a * r * s2 / sigma, (r**2 + a**2 + 2 * a**2 * r * s2 / sigma) * s2]

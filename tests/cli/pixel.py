@@ -5,7 +5,7 @@ import math
 import re
 import struct
 
-from support import Case, SMALL, main
+from support import SMALL, Case, main
 
 PIXEL = ["pixel", "--preset", "smooth", *SMALL, "--set", "sky.model=grid", "--set", "image.critical_factor=1"]
 

@@ -109,7 +109,8 @@ class Pictures(Case):
                 file.write(data)
             return hashlib.sha256(data).hexdigest()
 
-        one, other = sky("one.png", 64, 32), sky("other.png", 64, 30)
+        one = sky("one.png", 64, 32)
+        sky("other.png", 64, 30)
         named = *SMALL, "--set", "sky.model=image", "--set", "sky.image=orion"
         self.good("render", *named, "--asset", "orion=" + self.path("one.png"), "-o", self.path("a.png"))
         self.assertEqual(json.loads(text(self.read("a.png"))[b"kerrd:scene"])["sky"]["image"], one)

@@ -13,7 +13,6 @@ import sys
 import threading
 import urllib.parse
 
-import requests
 import schemathesis
 from requests.adapters import HTTPAdapter
 from schemathesis.core.failures import Failure

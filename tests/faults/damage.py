@@ -14,10 +14,9 @@ import shutil
 import subprocess
 import unittest.mock
 
-import faults
-
 import assets
 import daemon
+import faults
 import state
 from job_case import SCENE
 

@@ -15,11 +15,10 @@ import subprocess
 import tempfile
 import unittest
 
-import faults
-import sweep
-
 import daemon
 import damage
+import faults
+import sweep
 
 SCENE = {"image": {"width": 32, "height": 18}}
 DRAW = ["--set", "image.width=32", "--set", "image.height=18"]

@@ -8,10 +8,9 @@ import collections
 import errno
 import os
 
-import faults
-
 import assets
 import daemon
+import faults
 import state
 from job_case import SCENE
 

@@ -5,13 +5,11 @@ ends.py FAULTS SERVER"""
 
 import http.client
 import json
-import os
 import resource
 import time
 
-import faults
-
 import daemon
+import faults
 import state
 from job_case import SCENE
 

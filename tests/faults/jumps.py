@@ -5,9 +5,8 @@ jumps.py FAULTS SERVER"""
 
 import time
 
-import faults
-
 import daemon
+import faults
 import state
 from job_case import SCENE
 

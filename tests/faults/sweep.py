@@ -6,8 +6,8 @@ import http.client
 import json
 import unittest
 
-import faults  # first: it knows where daemon is
 import daemon
+import faults  # first: it knows where daemon is
 
 PROBLEM = {"type", "title", "status", "detail"}
 

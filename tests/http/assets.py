@@ -10,7 +10,6 @@ import struct
 import tempfile
 import threading
 import time
-import unittest
 import zipfile
 import zlib
 

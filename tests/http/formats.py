@@ -1,7 +1,6 @@
 """Pictures in the format that Accept would rather have: of a server whose table of formats has one more, "fake"."""
 
 import json
-import unittest
 
 import daemon
 

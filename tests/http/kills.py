@@ -11,7 +11,6 @@ import random
 import signal
 import threading
 import time
-import unittest
 
 import daemon
 import state

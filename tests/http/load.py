@@ -4,7 +4,6 @@ import concurrent.futures
 import json
 import os
 import time
-import unittest
 
 import daemon
 

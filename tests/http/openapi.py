@@ -7,7 +7,6 @@ import socket
 import subprocess
 import sys
 import tempfile
-import unittest
 import urllib.parse
 import warnings
 

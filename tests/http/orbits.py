@@ -227,7 +227,7 @@ class Orbits(daemon.Case):
 
     def test_clients_that_leave(self):
         def leave(document, after):
-            with self.stream(document) as s:
+            with self.stream(document):
                 time.sleep(after)
 
         threads = [threading.Thread(target=leave, args=(LONG, 0.03 * i)) for i in range(4)]

@@ -2,7 +2,6 @@
 pyramid of Barry and Goldman, the metric and the aberration of special relativity."""
 
 from math import asin, atan2, cos, degrees, hypot, isclose, radians, sin, sqrt
-import unittest
 
 import daemon
 from job_case import IMAGE, Case, scene_of

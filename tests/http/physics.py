@@ -9,7 +9,6 @@ import re
 import struct
 import threading
 import time
-import unittest
 import wave
 
 import daemon
@@ -558,12 +557,12 @@ class Integrals(daemon.Case):
         self.assertAlmostEqual(told["values"]["nyquist_gl"], math.pi / (2 * pixel), delta=1e-3)
         columns = told["columns"]
         self.assertEqual(columns["order"], [-1, 0, 1] * 9)
-        for u, v, order, re, im, amplitude, error in zip(
+        for u, v, order, real, imaginary, amplitude, error in zip(
             *(columns[name] for name in ("u_gl", "v_gl", "order", "re", "im", "amplitude", "error"))
         ):
             want = rows(32, pixel * u) * rows(18, pixel * v) * (0.5 if order == 1 else 1)
-            self.assertAlmostEqual(re, want, delta=1e-5)
-            self.assertAlmostEqual(im, 0, delta=1e-9)
+            self.assertAlmostEqual(real, want, delta=1e-5)
+            self.assertAlmostEqual(imaginary, 0, delta=1e-9)
             self.assertAlmostEqual(amplitude, abs(want), delta=1e-5)
             finer = rows(48, pixel * u / 1.5) * rows(27, pixel * v / 1.5) * (0.5 if order == 1 else 1)
             self.assertAlmostEqual(error, 1.8 * abs(want - finer), delta=2e-5)

@@ -8,7 +8,6 @@ import math
 import re
 import struct
 import time
-import unittest
 
 import daemon
 

@@ -2,7 +2,6 @@
 
 import re
 import struct
-import unittest
 import urllib.parse
 
 import daemon

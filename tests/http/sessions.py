@@ -10,7 +10,6 @@ import socket
 import struct
 import threading
 import time
-import unittest
 
 import daemon
 
@@ -922,7 +921,6 @@ class Sessions(daemon.Owned):
             (event["simulation"], event["orbits"], event["isco"]["r"]), ({"time_rate": 0, "particles": 0}, [], 6)
         )
         self.assertAlmostEqual(event["isco"]["period"], 12 * math.pi * math.sqrt(6), places=11)
-        turn = 2 * math.pi * (4**1.5 + 0.5)
         spots = {
             "spot1": {"brightness": 0},
             "spot2": {"brightness": 1, "r": 9, "phase_deg": 100},

@@ -3,10 +3,8 @@
 import http.client
 import json
 import re
-import socket
 import threading
 import time
-import unittest
 
 import daemon
 

@@ -11,7 +11,7 @@ quadrature in the latitude, is that to reach the source radius, by quadrature in
 from the curve down to 1e-14 need no care: the working precision is 60 digits.
 """
 
-from mpmath import mp, mpf, sqrt, quad, findroot, polyroots, asinh, sinh, cos, sin, pi, inf, diff, atan2
+from mpmath import asinh, cos, diff, findroot, inf, mp, mpf, pi, polyroots, quad, sin, sinh, sqrt
 
 mp.dps = 60
 

@@ -8,9 +8,8 @@ largest root of g^-1 p p = 0 at p_r = 0, and the angle twice the integral from t
 to 40 digits. The critical b is where that root is double, by bisection on the radius.
 """
 
-from mpmath import mp, mpf, pi, polyroots, quad, sqrt
-
 from kerr_reference import c, metric
+from mpmath import mp, mpf, pi, polyroots, quad, sqrt
 
 mp.dps = 50
 SPINS = [0.0, 0.5, -0.5, 0.9, -0.9, 0.99, 0.9999, -0.9999]

@@ -11,9 +11,8 @@ Their closed form 15n is nowhere used. Peak: where this flux has no slope, by bi
 G and the mass of the sun in grams instead of their product.
 """
 
-from mpmath import findroot, mp, mpf, pi, quad
-
 from kerr_reference import c, metric, orbit, orbits
+from mpmath import findroot, mp, mpf, pi, quad
 
 mp.dps = 30
 SPINS = [-0.998, -0.5, 0.0, 1e-9, 0.5, 0.9, 0.998, 0.9999]

@@ -9,9 +9,8 @@ inverted numerically; its extrema where its derivative (by differences in 60 dig
 the cone of light from the metric at any polar angle.
 """
 
-from mpmath import diff, matrix, mp, mpf, sqrt
-
 from kerr_reference import SPINS, c, curvature, metric, orbit, orbits
+from mpmath import diff, matrix, mp, mpf, sqrt
 
 mp.dps = 60
 

@@ -18,7 +18,8 @@ radial first integral is checked after each step. The elliptic integrals are qua
 
 import sys
 from multiprocessing import Pool
-from mpmath import mp, mpf, sqrt, log, atan2, pi, cos, inf, quad, findroot, polyval, asinh
+
+from mpmath import asinh, atan2, cos, findroot, inf, log, mp, mpf, pi, polyval, quad, sqrt
 
 mp.dps = 38
 ORDER = 38

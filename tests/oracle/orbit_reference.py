@@ -7,7 +7,7 @@ frequencies, places   Carter's equations by quadrature in Darwin's phases r = p/
     orbit_reference.py > orbit_reference.h
 """
 
-from mpmath import mp, mpf, sqrt, quad, findroot, polyroots, cos, sin, pi, linspace
+from mpmath import cos, findroot, linspace, mp, mpf, pi, polyroots, quad, sin, sqrt
 
 mp.dps = 40
 

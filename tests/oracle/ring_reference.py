@@ -13,9 +13,8 @@ cos phi/sin psi0 and g = sqrt(1 - 3/r)/(1 + r^(-3/2) alpha sin i).
 Embedding: dz and dl integrated from the metric of Boyer & Lindquist, by quadrature in sqrt(r - r+).
 """
 
-from mpmath import acos, cos, diff, mp, mpf, pi, polyroots, quad, sin, sqrt
-
 from kerr_reference import c
+from mpmath import acos, cos, diff, mp, mpf, pi, polyroots, quad, sin, sqrt
 
 mp.dps = 30
 

@@ -13,12 +13,12 @@ ray is given by: x = alpha, beta, spin, inclination, radius; by differences in 3
 
 import sys
 from multiprocessing import Pool
-from mpmath import mp, mpf, sqrt, cos, sin, pi, inf, quad, findroot, log, acos, asin
 
 import disk_reference
 import kerr_reference
 import null_reference
 import orbit_reference
+from mpmath import acos, cos, findroot, inf, log, mp, mpf, pi, quad, sin, sqrt
 from null_reference import INF
 
 mp.dps = 38

@@ -7,6 +7,7 @@ dS/ds = j - K S has S(1) = exp(-K) S(0) + (the integral of exp(-K s) ds) j: both
 what is small."""
 
 import random
+
 import mpmath as mp
 
 mp.mp.dps = 60

@@ -6,7 +6,7 @@ first: what follows is the motion of these very numbers.
     whirl_reference.py > whirl_reference.h
 """
 
-from mpmath import mp, mpf, sqrt, quad, findroot, polyroots, im
+from mpmath import findroot, im, mp, mpf, polyroots, quad, sqrt
 
 mp.dps = 30
 

@@ -126,7 +126,7 @@ class Lab:
             except OSError:
                 if time.monotonic() > until or self.process.poll() is not None:
                     self.stop()
-                    raise RuntimeError(pathlib.Path(folder, "log").read_text()[-2000:])
+                    raise RuntimeError(pathlib.Path(folder, "log").read_text()[-2000:]) from None
                 time.sleep(0.2)
 
     def ask(self, path, method="GET"):

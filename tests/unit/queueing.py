@@ -6,7 +6,6 @@ queueing.py BENCH
 """
 
 import math
-import pathlib
 import random
 import statistics
 import sys
@@ -15,9 +14,8 @@ import unittest
 BENCH = sys.argv.pop()
 sys.path.insert(0, BENCH)
 try:
-    import simpy
-
     import queueing
+    import simpy
 except ImportError as missing:
     print(f"skipped: {missing}; scripts/setup --browser installs it")
     sys.exit(77)

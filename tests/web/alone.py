@@ -1,7 +1,7 @@
 """The picture alone, in all of the window: alone.py KERRD FOLDER (browser.py)."""
 
-from browser import AT_REST, FINE, Browser, main
 import daemon
+from browser import AT_REST, FINE, Browser, main
 
 
 class Alone(Browser):

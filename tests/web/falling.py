@@ -3,8 +3,8 @@
 import json
 import math
 
-from browser import AT_REST, SMOOTH, Browser, main, value
 import daemon
+from browser import AT_REST, SMOOTH, Browser, main, value
 
 SKY = SMOOTH + "&lang=en&disk.model=none&sky.model=catalogue&sky.milky_way=0&spacetime.spin=0&camera.fov_deg=90"
 

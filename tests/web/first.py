@@ -3,8 +3,8 @@
 import json
 import re
 
-from browser import AT_REST, PATIENCE_MS, Browser, main
 import daemon
+from browser import AT_REST, PATIENCE_MS, Browser, main
 
 
 class First(Browser):

@@ -5,8 +5,8 @@ import math
 import pathlib
 import time
 
-from browser import AT_REST, FINE, SMOOTH, Browser, main, value
 import daemon
+from browser import AT_REST, FINE, SMOOTH, Browser, main, value
 
 
 class Living(Browser):
@@ -90,10 +90,10 @@ class Living(Browser):
         there = lambda: (page.is_visible("#play"), page.is_visible('[data-path="time"]'))
         self.assertEqual(there(), (False, False))
         self.open_groups(page)
-        for value, seen in (("1", (True, True)), ("0", (False, False))):
-            page.fill('[data-path="disk.gas.amplitude"] input[type=number]', value)
+        for amplitude, seen in (("1", (True, True)), ("0", (False, False))):
+            page.fill('[data-path="disk.gas.amplitude"] input[type=number]', amplitude)
             page.keyboard.press("Enter")
-            self.assertTrue(daemon.eventually(lambda: there() == seen), value)
+            self.assertTrue(daemon.eventually(lambda: there() == seen), amplitude)
         page.select_option('[data-path="sky.model"] select', "grid")
         page.fill('[data-path="motion.azimuth_rate_deg"] input[type=number]', "5")
         page.keyboard.press("Enter")

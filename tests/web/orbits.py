@@ -1,7 +1,7 @@
 """The view of orbits: orbits.py KERRD FOLDER (browser.py)."""
 
-from browser import READY, SMOOTH, Browser, main, value
 import daemon
+from browser import READY, SMOOTH, Browser, main, value
 
 
 class Orbits(Browser):

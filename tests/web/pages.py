@@ -4,9 +4,8 @@ import json
 import pathlib
 import re
 
-from browser import AT_REST, FINE, READY, VIEWS, Browser, main, rows
 import daemon
-
+from browser import AT_REST, FINE, READY, VIEWS, Browser, main, rows
 
 # Controls that stick out of the page, and buttons that lie over one another.
 CROWDED = """() => {

@@ -2,9 +2,8 @@
 
 import re
 
-from browser import AT_REST, Browser, main, rows
 import daemon
-
+from browser import AT_REST, Browser, main, rows
 
 GROUPS = ("look", "gas", "hole", "camera", "more")
 SIZES = ((390, 844), (1024, 700), (1440, 900))

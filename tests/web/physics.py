@@ -3,8 +3,8 @@
 import pathlib
 import re
 
-from browser import AT_REST, READY, SMOOTH, Browser, main
 import daemon
+from browser import AT_REST, READY, SMOOTH, Browser, main
 
 
 class Physics(Browser):

@@ -5,8 +5,8 @@ import math
 import struct
 import subprocess
 
-from browser import KERRD, Browser, main, value
 import daemon
+from browser import KERRD, Browser, main, value
 
 THERE = "#play-plane[data-bodies]"
 ARROW_PX = 90  # of the speed of a circle, clients/web/hands.js

@@ -5,8 +5,8 @@ import pathlib
 import struct
 import zipfile
 
-from browser import AT_REST, FINE, SMOOTH, Browser, main
 import daemon
+from browser import FINE, SMOOTH, Browser, main
 
 
 def chunks(png):

@@ -4,8 +4,8 @@ import itertools
 import json
 import re
 
-from browser import AT_REST, FINE, READY, Browser, main
 import daemon
+from browser import AT_REST, FINE, READY, Browser, main
 
 
 class Sessions(Browser):

@@ -2,13 +2,13 @@
 
 from typing import Any
 
+from . import scene
 from .aio import AsyncClient, AsyncJob, AsyncSession
 from .client import Client, Job, Session
 from .errors import JobFailed, KerrdError, NoBinary, Problem
 from .frame import Frame
 from .local import local
 from .result import Sweep
-from . import scene
 from .scene import *
 
 __all__ = [
