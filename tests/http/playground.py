@@ -360,7 +360,9 @@ class Playground(daemon.Owned):
         self.assertEqual(float(series[-1].split(",")[names.index("debris")]), n)
         columns = self.get(play, "/series", Accept="application/json").json()["columns"]
         self.assertEqual(len(columns["t"]), len(series) - 1)
-        self.assertEqual(self.get(play, "/fallback").body.decode().splitlines()[0], "source,t,width,pieces,rate,line")
+        self.assertEqual(
+            self.get(play, "/fallback").body.decode().splitlines()[0], "source,t,width,pieces,rate,line,whole"
+        )
         tick = next(data for event, _, data in self.events(play) if event == "tick")
         self.assertEqual(
             (tick["debris"], tick["bodies"], tick["t"], len(tick["angular_momentum"])), (n, 0, there["t"], 3)
