@@ -90,7 +90,8 @@ export function course(root) {
   }
 
   async function fallback(address) {
-    const list = table(await (await ask(address)).text()).filter(row => row.rate > 0),
+    // a bin that is cut counts too little
+    const list = table(await (await ask(address)).text()).filter(row => row.rate > 0 && row.whole),
       newest = Math.max(...list.map(row => row.source)),
       shown = list.filter(row => row.source === newest);
     charts.fallback.hidden = !shown.length;

@@ -100,6 +100,8 @@ export const sentences = {
   "Bodies pull one another by Newton's law, softened, and at once.":
     'I corpi si attraggono con la legge di Newton, ammorbidita e istantanea.',
   'Speeds are held at c.': 'Le velocità sono fermate a c.',
+  'Bodies pulled one another to more than c: holding them at it took momentum.':
+    'I corpi si sono attratti oltre c: fermarli a c ha tolto quantità di moto.',
   "Gravitational waves take what Peters' formula says: leading order, whose power is 4 % too high at r = 10 M for a = 0 and 27 % at a = 0.9, below 1 % only near 300 M.":
     'Le onde gravitazionali tolgono quanto dice la formula di Peters: il primo ordine, la cui potenza è troppo alta del 4 % a r = 10 M per a = 0 e del 27 % ad a = 0,9, e scende sotto l’1 % solo verso 300 M.',
   'The loss to waves, exaggerated, was held back at a tenth of the pull.':

@@ -33,7 +33,7 @@ struct arguments {
     const char *sets[SETS_MAX];
     size_t n_sets;
     double time;
-    bool list;
+    bool list, bounded; /* bounded: --set budget, which is else that of a server */
     struct kd_pictures_asked pictures;
 };
 
@@ -102,6 +102,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
         if (a->n_sets == SETS_MAX || !strchr(text, '='))
             argp_error(state, "--set takes SETTING=VALUE, at most %d times", SETS_MAX);
         a->sets[a->n_sets++] = text;
+        a->bounded = a->bounded || !strncmp(text, "budget=", 7);
         return 0;
     case KEY_TIME:
         a->time = strtod(text, &end);
@@ -163,7 +164,8 @@ static bool ends(const char *text, const char *end)
  * line says which are lost. */
 struct story {
     struct kd_buffer text;
-    uint64_t told, lost; /* number of the last event that it has; how many are missing */
+    uint64_t told, lost;      /* number of the last event that it has; how many are missing */
+    struct kd_error short_of; /* why less time has gone by than was asked for; status KD_OK: it has */
 };
 
 static enum kd_status add_lost(struct story *story, uint64_t to)
@@ -202,11 +204,15 @@ enum what { SERIES, FALLBACK, SNAPSHOT };
 static enum kd_status write_one(struct kd_playground *p, enum what what, const char *path, struct kd_error *error)
 {
     struct kd_buffer out = { 0 };
+    double now[KD_SERIES_N];
     enum kd_status status = KD_OK;
     if (!path)
         return KD_OK;
     switch (what) {
-    case SERIES: status = ends(path, ".npy") ? kd_series_npy(&p->series, &out) : kd_series_csv(&p->series, &out); break;
+    case SERIES:
+        kd_playground_series_row(p, now);
+        status = (ends(path, ".npy") ? kd_series_npy : kd_series_csv)(&p->series, now, &out);
+        break;
     case FALLBACK: status = kd_debris_csv(&p->debris, &out); break;
     case SNAPSHOT: status = kd_playground_write(p, true, &out);
     }
@@ -218,28 +224,46 @@ static enum kd_status write_one(struct kd_playground *p, enum what what, const c
     return status;
 }
 
-/* Goes on to the time t, or as far as the budget of sub-steps leads. */
-static enum kd_status go_on(struct kd_playground *p, double t, struct story *story, struct kd_error *error)
+/* Why time stands before t; the first reason is told when all is written. */
+static void tell_short(const struct kd_playground *p, double t, struct kd_error *short_of)
 {
-    const double begin = p->t;
+    if (short_of->status)
+        return;
+    if (!(p->t < KD_PLAYGROUND_TIME))
+        kd_error_set(short_of, KD_EIO, "time ends at %g M: it stands at %.9g M of the %.9g M asked for",
+                     KD_PLAYGROUND_TIME, p->t, t);
+    else
+        kd_error_set(short_of, KD_EIO,
+                     "time stands at %.9g M of the %.9g M asked for: the budget of %u sub-steps is "
+                     "spent (--set budget=N is the most; without it there is none)",
+                     p->t, t, p->params.budget);
+}
+
+/* Goes on to the time t. The budget of sub-steps keeps a server's advances short: here it counts only as an option. */
+static enum kd_status go_on(const struct arguments *a, struct kd_playground *p, double t, struct story *story,
+                            struct kd_error *error)
+{
+    const uint32_t budget = p->params.budget;
     struct kd_playground_run run;
-    bool more = t > p->t;
-    if (!more)
-        return KD_OK;
-    kd_playground_begin(p, t - p->t, &run);
+    enum kd_status status = KD_OK;
+    bool more = p->t < t;
+    if (!a->bounded)
+        p->params.budget = UINT32_MAX;
     while (more) {
-        more = kd_playground_go_on(p, &run, 1);
-        if (p->events.last > story->told && go_on_telling(story, p))
-            return kd_error_set(error, KD_ENOMEM, "out of memory for what has happened");
+        const double begin = p->t;
+        kd_playground_begin(p, t - p->t, &run);
+        do {
+            more = kd_playground_go_on(p, &run, 1);
+            if (p->events.last > story->told && go_on_telling(story, p))
+                KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory for what has happened"));
+        } while (more);
+        more = !a->bounded && p->t < t && p->t > begin && p->t < KD_PLAYGROUND_TIME;
     }
-    const struct kd_playground_progress progress = kd_playground_progress(p, &run);
-    if (progress.ended)
-        fprintf(stderr, "kerrd: time ends at %g M, after %.9g M of %.9g M\n", KD_PLAYGROUND_TIME, progress.done,
-                t - begin);
-    else if (progress.slowed)
-        fprintf(stderr, "kerrd: the budget of %u sub-steps was spent after %.9g M of %.9g M\n", p->params.budget,
-                progress.done, t - begin);
-    return KD_OK;
+done:
+    p->params.budget = budget;
+    if (p->t < t)
+        tell_short(p, t, &story->short_of);
+    return status;
 }
 
 static enum kd_status film(struct arguments *a, struct kd_playground *p, struct story *story, struct kd_error *error)
@@ -250,10 +274,10 @@ static enum kd_status film(struct arguments *a, struct kd_playground *p, struct 
     enum kd_status status = KD_OK;
     KD_TRY(kd_pictures_begin(&a->pictures, preset ? preset->scene : NULL, p, &pictures, error));
     for (unsigned k = 0; every > 0 && k <= a->time / every * (1 + 1e-12); k++) {
-        KD_TRY(go_on(p, begin + k * every, story, error));
+        KD_TRY(go_on(a, p, begin + k * every, story, error));
         KD_TRY(kd_pictures_take(&pictures, p, error));
     }
-    KD_TRY(go_on(p, end, story, error));
+    KD_TRY(go_on(a, p, end, story, error));
     if (!(every > 0))
         KD_TRY(kd_pictures_take(&pictures, p, error));
 done:
@@ -269,18 +293,27 @@ static enum kd_status work(struct arguments *a, struct kd_error *error)
     KD_TRY(kd_pictures_check(&a->pictures, error));
     KD_TRY(load(a, &p, error));
     story.told = p->events.last; /* what a snapshot has told is not told again */
+    kd_playground_series_begin(p, a->time);
     if (a->pictures.path)
         KD_TRY(film(a, p, &story, error));
     else
-        KD_TRY(go_on(p, p->t + a->time, &story, error));
+        KD_TRY(go_on(a, p, p->t + a->time, &story, error));
     if (story.lost)
         fprintf(stderr, "kerrd: %llu events are lost: of one sub-step %d are kept\n", (unsigned long long)story.lost,
                 KD_PLAYGROUND_EVENTS);
+    if (kd_playground_lost_momentum(p))
+        fprintf(stderr,
+                "kerrd: bodies smaller than 2 (m1 + m2) pulled one another to more than c: speeds were held at c, "
+                "which took momentum (state.spent.capped_momentum)\n");
     KD_TRY(write_one(p, SERIES, a->series, error));
     KD_TRY(write_one(p, FALLBACK, a->fallback, error));
     if (a->events)
         KD_TRY(kd_file_write(a->events, &story.text, error));
     KD_TRY(write_one(p, SNAPSHOT, a->output ? a->output : a->pictures.path ? NULL : "-", error));
+    if (story.short_of.status) {
+        status = story.short_of.status;
+        *error = story.short_of;
+    }
 done:
     kd_buffer_finish(&story.text);
     kd_playground_destroy(p);

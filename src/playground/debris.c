@@ -255,17 +255,28 @@ struct kd_debris_rate kd_debris_rate(const struct kd_debris_source *source, int 
     };
 }
 
+/* A bin is cut by the present, by the first piece that came back, or where pieces were given up: the first and the
+ * last one of a source's bins count over a part of their width alone. */
+static bool is_whole(const struct kd_playground_debris *debris, const struct kd_debris_source *source, int bin)
+{
+    const double age = debris->t - source->t;
+    bool first = true;
+    for (int i = 0; i < bin; i++)
+        first = first && !source->back[i];
+    return !first && age >= pow(10, (bin + 1.) / KD_DEBRIS_PER_DECADE) && bin + 1 < KD_DEBRIS_BINS;
+}
+
 enum kd_status kd_debris_csv(const struct kd_playground_debris *debris, struct kd_buffer *out)
 {
     enum kd_status status;
-    KD_TRY(kd_buffer_printf(out, "source,t,width,pieces,rate,line\n"));
+    KD_TRY(kd_buffer_printf(out, "source,t,width,pieces,rate,line,whole\n"));
     for (int i = 0; i < KD_DEBRIS_SOURCES; i++) {
         const struct kd_debris_source *source = &debris->sources[i];
         for (int bin = 0; source->number && bin < KD_DEBRIS_BINS; bin++) {
             const struct kd_debris_rate rate = kd_debris_rate(source, bin);
             if (rate.pieces)
-                KD_TRY(kd_buffer_printf(out, "%u,%.9g,%.9g,%u,%.9g,%.9g\n", source->number, rate.t, rate.width,
-                                        rate.pieces, rate.rate, rate.line));
+                KD_TRY(kd_buffer_printf(out, "%u,%.9g,%.9g,%u,%.9g,%.9g,%d\n", source->number, rate.t, rate.width,
+                                        rate.pieces, rate.rate, rate.line, is_whole(debris, source, bin)));
         }
     }
 done:
@@ -274,7 +285,7 @@ done:
 
 enum kd_status kd_debris_npy(const struct kd_playground_debris *debris, struct kd_buffer *out)
 {
-    static const char *const names[] = { "source", "t", "width", "pieces", "rate", "line" };
+    static const char *const names[] = { "source", "t", "width", "pieces", "rate", "line", "whole" };
     struct kd_npy array = { .n_fields = sizeof names / sizeof *names, .n_dimensions = 1 };
     struct kd_buffer rows = { 0 };
     enum kd_status status;
@@ -288,9 +299,10 @@ enum kd_status kd_debris_npy(const struct kd_playground_debris *debris, struct k
             const struct kd_debris_rate rate = kd_debris_rate(source, bin);
             if (!rate.pieces)
                 continue;
-            KD_TRY(kd_buffer_append(
-                &rows, (const double[]) { source->number, rate.t, rate.width, rate.pieces, rate.rate, rate.line },
-                6 * sizeof(double)));
+            const double row[] = {
+                source->number, rate.t, rate.width, rate.pieces, rate.rate, rate.line, is_whole(debris, source, bin)
+            };
+            KD_TRY(kd_buffer_append(&rows, row, sizeof row));
             array.shape[0]++;
         }
     }

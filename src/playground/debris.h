@@ -88,7 +88,8 @@ struct kd_debris_rate {
     uint32_t pieces;
 };
 struct kd_debris_rate kd_debris_rate(const struct kd_debris_source *source, int bin);
-/* The same of all sources as text/csv: source,t,width,pieces,rate,line. KD_ENOMEM. */
+/* The same of all sources as text/csv: source,t,width,pieces,rate,line,whole. whole is 0 where a bin is cut: the
+ * first one in which pieces came back, and the one that is not over. KD_ENOMEM. */
 enum kd_status kd_debris_csv(const struct kd_playground_debris *debris, struct kd_buffer *out);
 /* As an NPY array of records with these fields. KD_ENOMEM. */
 enum kd_status kd_debris_npy(const struct kd_playground_debris *debris, struct kd_buffer *out);

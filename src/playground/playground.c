@@ -211,6 +211,12 @@ enum kd_status kd_playground_set(struct kd_playground *p, const struct kd_playgr
     return KD_OK;
 }
 
+bool kd_playground_lost_momentum(const struct kd_playground *p)
+{
+    const double *lost = p->spent.capped_momentum;
+    return lost[0] != 0 || lost[1] != 0 || lost[2] != 0;
+}
+
 void kd_playground_approximations(const struct kd_playground *p, struct kd_json *json, const char *name)
 {
     const struct kd_playground_params *s = &p->params;
@@ -229,6 +235,8 @@ void kd_playground_approximations(const struct kd_playground *p, struct kd_json 
         kd_json_string(json, NULL, "The hole stands still, and bodies that it takes do not make it heavier.");
         kd_json_string(json, NULL, "Bodies pull one another by Newton's law, softened, and at once.");
         kd_json_string(json, NULL, "Speeds are held at c.");
+        if (kd_playground_lost_momentum(p))
+            kd_json_string(json, NULL, "Bodies pulled one another to more than c: holding them at it took momentum.");
         if (s->waves)
             kd_json_string(json, NULL,
                            "Gravitational waves take what Peters' formula says: leading order, whose power is 4 % too "

@@ -45,8 +45,9 @@ struct kd_playground_spent {
     double captured_mass, captured_energy, captured_momentum[3]; /* angular momentum */
     double merged;                                               /* energy: heat of mergers */
     double capped;                                               /* energy: speeds held at c */
-    double radiated;                                             /* energy: gravitational waves */
-    double torn_mass, torn_energy;                               /* became debris */
+    double capped_momentum[3];     /* where the pull of other bodies had brought them above it */
+    double radiated;               /* energy: gravitational waves */
+    double torn_mass, torn_energy; /* became debris */
     double
         given; /* energy of what was added, removed or changed from outside, and of restarts of the mutual potential */
 };
@@ -75,6 +76,7 @@ struct kd_playground {
                           when all have */
     bool forced;       /* `mutual` is that of the bodies as they are */
     double margin;     /* that it was made with */
+    double last_row[KD_SERIES_N]; /* a row of the series, before the step under way */
 };
 
 enum kd_status kd_playground_create(const struct kd_playground_params *params, struct kd_playground **out,
@@ -121,6 +123,10 @@ bool kd_playground_go_on(struct kd_playground *p, struct kd_playground_run *run,
 struct kd_playground_progress kd_playground_progress(const struct kd_playground *p,
                                                      const struct kd_playground_run *run);
 
+/* Whether bodies' pull on one another has brought speeds above c: what was taken from them there is momentum that no
+ * other body has got. Bodies that touch below 2 (m1 + m2) of each other fall that fast from rest. */
+bool kd_playground_lost_momentum(const struct kd_playground *p);
+
 /* Sums over the bodies as they are now. */
 struct kd_playground_totals {
     double mass, kinetic, potential, mutual; /* the last two: in the hole's field, and of the pairs */
@@ -133,6 +139,8 @@ struct kd_playground_totals kd_playground_totals(struct kd_playground *p);
 
 /* What a row of `series` would hold now. */
 void kd_playground_series_row(struct kd_playground *p, double row[KD_SERIES_N]);
+/* Begins the series anew, here: over the next `span` M, or with 0 open (series.h), as it is where nobody begins it. */
+void kd_playground_series_begin(struct kd_playground *p, double span);
 
 /* The sentences that are in force, as an array of strings. */
 void kd_playground_approximations(const struct kd_playground *p, struct kd_json *json, const char *name);

@@ -1,10 +1,12 @@
-/* A playground's numbers over time are kept as rows: every `interval` M one, and when there are KD_SERIES_ROWS every
- * second one is left out and the interval doubled, so that they span all of it. One thread at a time. */
+/* A playground's numbers over time, as rows: row k is at `begin` + k `interval`, linear between the sub-steps beside
+ * it. When a series is full, every second row is dropped and the interval doubled, so that rows span all of the
+ * time; whoever knows the span beforehand says it, and has its last row at its end. One thread at a time. */
 #ifndef KD_PLAYGROUND_SERIES_H
 #define KD_PLAYGROUND_SERIES_H
 
 #include "base/buffer.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 
 enum { KD_SERIES_ROWS = 4096 };
@@ -32,17 +34,28 @@ enum { KD_SERIES_COLUMNS(KD_SERIES_COLUMN_) KD_SERIES_N };
 #undef KD_SERIES_COLUMN_
 
 struct kd_playground_series {
-    double interval; /* M; 0: nothing is recorded yet, the first row sets it */
-    double next;     /* time of the next row */
-    size_t n;
+    double begin, interval; /* M */
+    double span;            /* M; 0: open, rows are added for ever */
+    size_t n;               /* rows; 0: it has not begun */
     double rows[KD_SERIES_ROWS][KD_SERIES_N];
 };
 
-void kd_series_add(struct kd_playground_series *series, const double row[KD_SERIES_N]);
+/* Begins with the row `now`. span > 0: there are KD_SERIES_ROWS rows over so many M, and none later; 0: it is open,
+ * and `interval` > 0 is the first. */
+void kd_series_begin(struct kd_playground_series *series, const double now[KD_SERIES_N], double span, double interval);
+double kd_series_next(const struct kd_playground_series *series); /* time of the next row; INFINITY: there is none */
+/* Adds the rows that lie between two sub-steps, `before` excluded. */
+void kd_series_add(struct kd_playground_series *series, const double before[KD_SERIES_N],
+                   const double now[KD_SERIES_N]);
+/* Whether the row `now`, of the present, comes after the rows: files end with it. */
+bool kd_series_lacks(const struct kd_playground_series *series, const double now[KD_SERIES_N]);
 const char *kd_series_column(int i);
 
-/* All rows as text/csv with a line of names, or as an NPY array of records. KD_ENOMEM. */
-enum kd_status kd_series_csv(const struct kd_playground_series *series, struct kd_buffer *out);
-enum kd_status kd_series_npy(const struct kd_playground_series *series, struct kd_buffer *out);
+/* All rows, and `now` where it comes after them: as text/csv with a line of names, or as an NPY array of records; at
+ * most KD_SERIES_ROWS. KD_ENOMEM. */
+enum kd_status kd_series_csv(const struct kd_playground_series *series, const double now[KD_SERIES_N],
+                             struct kd_buffer *out);
+enum kd_status kd_series_npy(const struct kd_playground_series *series, const double now[KD_SERIES_N],
+                             struct kd_buffer *out);
 
 #endif

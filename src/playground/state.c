@@ -107,6 +107,7 @@ enum kd_status kd_state_write(const struct kd_playground *p, struct kd_json *jso
     kd_json_object(json, "spent");
     write_numbers(&p->spent, spent, N(spent), json);
     write_array(p->spent.captured_momentum, 3, json, "captured_momentum");
+    write_array(p->spent.capped_momentum, 3, json, "capped_momentum");
     kd_json_end(json);
     kd_json_array(json, "bodies");
     for (size_t i = 0; i < p->n; i++) {
@@ -278,6 +279,9 @@ enum kd_status kd_state_read(struct kd_playground *p, const cJSON *state, struct
     KD_TRY(read_numbers(&p->spent, spent, N(spent), gone, "/state/spent", error));
     KD_TRY(kd_playground_numbers(p->spent.captured_momentum, 3, MOST,
                                  cJSON_GetObjectItemCaseSensitive(gone, "captured_momentum"), "/state/spent", error));
+    const cJSON *capped = cJSON_GetObjectItemCaseSensitive(gone, "capped_momentum");
+    if (capped) /* older versions have none */
+        KD_TRY(kd_playground_numbers(p->spent.capped_momentum, 3, MOST, capped, "/state/spent", error));
     if (!cJSON_IsArray(bodies) || (size_t)cJSON_GetArraySize(bodies) != p->n || p->rate < 0)
         KD_TRY(bad("/state", "bodies", "are not as many as the bodies", error));
     for (const cJSON *one = bodies->child; one; one = one->next)

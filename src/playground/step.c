@@ -33,8 +33,9 @@ static double demanded(const struct kd_playground *p)
     return rate;
 }
 
-/* Speeds are held at 1. */
-static void hold(struct kd_playground *p, struct kd_playground_body *body)
+/* Speeds are held at 1. `others`: other bodies pull it more than the hole does. What the hole's pull brings above c
+ * changes no balance of momentum, as the hole has none. */
+static void hold(struct kd_playground *p, struct kd_playground_body *body, bool others)
 {
     const double v = kd_playground_radius(body->v);
     if (!(v > 1))
@@ -42,6 +43,8 @@ static void hold(struct kd_playground *p, struct kd_playground_body *body)
     for (int k = 0; k < 3; k++)
         body->v[k] /= v;
     p->spent.capped += 0.5 * body->mass * (v * v - 1);
+    for (int k = 0; others && k < 3; k++)
+        p->spent.capped_momentum[k] += body->mass * (v - 1) * body->v[k];
 }
 
 /* Adds a loss to a velocity, and books it. */
@@ -96,8 +99,10 @@ static void kick(struct kd_playground *p, double time)
     }
     if (p->params.waves)
         radiate(p, time);
-    for (size_t i = 0; i < p->n; i++)
-        hold(p, &p->bodies[i]);
+    for (size_t i = 0; i < p->n; i++) {
+        const double r = kd_playground_radius(p->bodies[i].x), hole = r * kd_playground_pull(r);
+        hold(p, &p->bodies[i], m->ax[i] * m->ax[i] + m->ay[i] * m->ay[i] + m->az[i] * m->az[i] > hole * hole);
+    }
 }
 
 /* Bodies that have come past the capture radius in this drift are pulled by the hole no more: they are taken after
@@ -187,16 +192,29 @@ void kd_playground_series_row(struct kd_playground *p, double row[KD_SERIES_N])
     memcpy(row, now_row, sizeof now_row);
 }
 
+void kd_playground_series_begin(struct kd_playground *p, double span)
+{
+    double row[KD_SERIES_N];
+    kd_playground_settle(p);
+    kd_playground_series_row(p, row);
+    kd_series_begin(&p->series, row, span, p->params.h_max);
+}
+
+/* The row before a step of at most `longest`, if the step may lead past the next row of the series. */
+static void record_before(struct kd_playground *p, double longest)
+{
+    p->last_row[KD_SERIES_t] = NAN;
+    if (kd_series_next(&p->series) <= p->t + longest)
+        kd_playground_series_row(p, p->last_row);
+}
+
 static void record(struct kd_playground *p)
 {
-    struct kd_playground_series *series = &p->series;
-    double row[KD_SERIES_N];
-    if (series->n && p->t < series->next)
+    double now[KD_SERIES_N];
+    if (p->t < kd_series_next(&p->series))
         return;
-    if (!series->n)
-        series->interval = p->params.h_max;
-    kd_playground_series_row(p, row);
-    kd_series_add(series, row);
+    kd_playground_series_row(p, now);
+    kd_series_add(&p->series, p->last_row, now);
 }
 
 /* Debris is where it is at debris.t, which follows t every h_max, or oftener where a piece is near the hole. */
@@ -216,6 +234,7 @@ static void advance_debris(struct kd_playground *p)
  * cannot tell so little. */
 static bool go(struct kd_playground *p)
 {
+    record_before(p, p->params.h_max); /* a step is no longer */
     if (p->n) {
         const double h = step(p);
         if (!(h > 0))
@@ -243,6 +262,8 @@ void kd_playground_begin(struct kd_playground *p, double time, struct kd_playgro
         .begin = p->t, .end = p->t + time, .stride = p->params.h_max, .first = p->steps, .left = p->params.budget
     };
     kd_playground_settle(p);
+    if (!p->series.n)
+        kd_playground_series_begin(p, 0);
     if (p->params.gravity != KD_GRAVITY_KERR || !(p->aim > run->end))
         return;
     for (size_t i = 0; i < p->n; i++) /* the stride under way would lead farther than this run is to go */
@@ -282,6 +303,7 @@ static void follow_on(struct kd_playground *p, struct kd_playground_run *run)
     run->left -= piece - left;
     if (run->stuck || p->approached < p->n)
         return;
+    record_before(p, p->aim - p->t);
     arrive(p);
     record(p);
 }

@@ -57,6 +57,7 @@ static void spent(const struct kd_playground_spent *s, struct kd_json *json)
     vector(s->captured_momentum, json, "captured_angular_momentum");
     kd_json_number(json, "merged_energy", s->merged);
     kd_json_number(json, "capped_energy", s->capped);
+    vector(s->capped_momentum, json, "capped_momentum");
     kd_json_number(json, "radiated_energy", s->radiated);
     kd_json_number(json, "torn_mass", s->torn_mass);
     kd_json_number(json, "torn_energy", s->torn_energy);

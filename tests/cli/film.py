@@ -377,6 +377,8 @@ class Pictures(Case):
         support.run(
             "playground",
             self.path("p.json"),
+            "--set",
+            "budget=40",
             "--time",
             "600",
             "--every",

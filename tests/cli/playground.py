@@ -122,11 +122,97 @@ class Playground(Case):
         self.assertEqual(numbers, list(range(1, len(numbers) + 1)))
         self.assertNotIn(b"lost", done.stderr)
 
-    def test_the_budget_is_told(self):
+    def series(self, path):
+        with open(path) as file:
+            return [{name: float(text or "nan") for name, text in row.items()} for row in csv.DictReader(file)]
+
+    def test_the_documented_chirp(self):
+        """It comes to its end; its series is even from the begin to the time asked for."""
+        path = self.path("chirp.csv")
+        done = run("playground", "--preset", "emri", "--time", "20000", "--series", path, "-o", "-")
+        self.assertEqual((done.returncode, done.stderr), (0, b""))
+        self.assertGreaterEqual(json.loads(done.stdout)["state"]["t"], 20000)
+        rows = self.series(path)
+        self.assertEqual((len(rows), rows[0]["t"], rows[-1]["t"]), (4096, 0, 20000))
+        for k, row in enumerate(rows):
+            self.assertAlmostEqual(row["t"], 20000 * k / 4095, delta=1e-9 * 20000)
+        falling = [row for row in rows if row["bodies"]]
+        self.assertGreater(len(falling), 100)
+        self.assertLess(len(falling), 4096)
+        self.assertTrue(all(math.isnan(row["separation"]) for row in rows[len(falling) :]))
+
+    def test_rows_between_sub_steps(self):
+        """A circle at 20 M is one between its sub-steps, too: h+ is 4 m v^2 cos(2 phi), as of a short step."""
+        path, document = self.path("circle.csv"), self.path("circle.json")
+        speed = math.sqrt(20) / 18
+        with open(document, "w") as file:
+            json.dump({"bodies": [{"mass": 1e-3, "position": [20, 0, 0], "velocity": [0, speed, 0]}]}, file)
+        self.good("playground", document, "--time", "1000", "--series", path)
+        for row in self.series(path):
+            phi = speed / 20 * row["t"]
+            self.assertAlmostEqual(row["separation"], 20, delta=2e-3)
+            self.assertAlmostEqual(row["h_plus"], -4e-3 * speed**2 * math.cos(2 * phi), delta=2e-3 * 4e-3 * speed**2)
+
+    def test_a_series_that_stops_has_its_last_row(self):
+        path = self.path("a.csv")
+        done = run("playground", "-p", "system", "--set", "budget=50", "--time", "1000", "--series", path)
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(self.series(path)[-1]["t"], json.loads(done.stdout)["state"]["t"])
+
+    def test_a_budget_that_is_spent_fails(self):
         done = run("playground", "-p", "system", "--set", "budget=5", "--time", "1000")
-        self.assertEqual(done.returncode, 0)
-        self.assertIn(b"the budget of 5 sub-steps was spent after", done.stderr)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn(b"of the 1000 M asked for: the budget of 5 sub-steps is spent", done.stderr)
         self.assertLess(json.loads(done.stdout)["state"]["t"], 20)
+        done = run("playground", "--time", "2e12", "--set", "h_max=1e6")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn(b"time ends at 1e+12 M", done.stderr)
+
+    def test_momentum_that_is_lost_at_c_is_told(self):
+        """Bodies smaller than 2 (m1 + m2) pull each other to more than c, and are held at it."""
+        document = self.path("small.json")
+        for radius, told in (1.0, False), (0.2, True):
+            with open(document, "w") as file:
+                json.dump(
+                    {
+                        "tides": False,
+                        "bodies": [
+                            {"mass": 0.3, "radius": radius, "position": [1e5, 0, 0]},
+                            {"mass": 0.1, "radius": radius, "position": [1e5, 6, 0]},
+                        ],
+                    },
+                    file,
+                )
+            done = run("playground", document, "--time", "60")
+            end = json.loads(done.stdout)
+            self.assertEqual((done.returncode, len(end["bodies"])), (0, 1))
+            body, capped = end["bodies"][0], end["state"]["spent"]["capped_momentum"]
+            self.assertEqual(b"speeds were held at c" in done.stderr, told, done.stderr)
+            self.assertEqual(any(capped), told)
+            for axis in 1, 2:  # the hole pulls along x
+                self.assertAlmostEqual(body["mass"] * body["velocity"][axis] + capped[axis], 0, delta=1e-12)
+
+    def test_bins_of_fallback_that_are_cut_are_marked(self):
+        path = self.path("fallback.csv")
+        self.good(
+            "playground",
+            "-p",
+            "white-dwarf",
+            "--set",
+            "debris_per_body=500",
+            "--set",
+            "h_max=500",
+            "--time",
+            "60000",
+            "--fallback",
+            path,
+            "-o",
+            "/dev/null",
+        )
+        with open(path) as file:
+            bins = list(csv.DictReader(file))
+        self.assertGreater(len(bins), 4)
+        self.assertEqual([row["whole"] for row in bins], ["0", *["1"] * (len(bins) - 2), "0"])
 
 
 main()

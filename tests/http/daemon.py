@@ -97,6 +97,11 @@ class Daemon:
         lines = self.get("/metrics").body.decode().splitlines()
         return {name: float(value) for name, value in (line.rsplit(" ", 1) for line in lines if line[0] != "#")}
 
+    def reaches(self, gauge, least):
+        """Waits until /metrics says so: how a test knows that the server has what it was sent."""
+        if not eventually(lambda: self.metrics()["kerrd_" + gauge] >= least):
+            raise AssertionError(f"kerrd_{gauge} does not reach {least}")
+
     def open_files(self):
         return len(os.listdir(f"/proc/{self.process.pid}/fd"))
 

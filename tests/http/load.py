@@ -27,10 +27,10 @@ class Queue(daemon.Case):
         return int(answer.header("Retry-After"))
 
     def test_full_queue(self):
-        held = [begin(self.daemon, 1000)]
-        time.sleep(0.2)
+        held = [begin(self.daemon, 5000)]
+        self.daemon.reaches("renders_unfinished", 1)
         held += [begin(self.daemon, ms) for ms in (10, 10)]
-        time.sleep(0.2)
+        self.daemon.reaches("renders_unfinished", 3)
         self.assertGreaterEqual(self.refused(), 1)
         self.assertEqual(self.daemon.get("/readyz").status, 200)
         self.assertEqual(self.daemon.post("/v1/plan", "{}").status, 200)
@@ -48,7 +48,7 @@ class Queue(daemon.Case):
                 f"GET /v1/render?preset=smooth&image.width={side}&image.height={side}&image.samples=2&time=100000 HTTP/1.1\r\n"
                 "Host: localhost\r\n\r\n".encode()
             )
-            time.sleep(0.2)
+            self.daemon.reaches("renders_unfinished", len(held))
         seconds = self.refused()
         self.assertGreaterEqual(seconds, 11)
         self.assertLessEqual(seconds, 16)
@@ -58,9 +58,9 @@ class Queue(daemon.Case):
 
     def test_vanished_clients_free_their_places(self):
         running = begin(self.daemon, 100000)
-        time.sleep(0.1)
+        self.daemon.reaches("renders_unfinished", 1)
         waiting = [begin(self.daemon, 100000) for _ in range(2)]
-        time.sleep(0.2)
+        self.daemon.reaches("renders_unfinished", 3)
         self.assertIsNotNone(self.refused())
         for s in waiting:
             s.close()
@@ -147,7 +147,7 @@ class Connections(daemon.Case):
 
     def test_one_too_many_is_told_so(self):
         held = [self.daemon.connect() for _ in range(20)]
-        time.sleep(0.1)
+        self.assertTrue(daemon.eventually(lambda: self.daemon.get("/v1/device").status == 503))
         answer = self.daemon.get("/v1/device")
         self.assertProblem(answer, 503, "too-many-connections")
         self.assertTrue(answer.header("Retry-After"))

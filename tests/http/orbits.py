@@ -242,7 +242,7 @@ class Orbits(daemon.Case):
                 % len(body)
                 + body
             )
-            time.sleep(0.3)
+            self.daemon.reaches("turns_unfinished", 1)
         self.assertTrue(daemon.eventually(lambda: all(self.post(GENERIC).status == 200 for _ in range(4))))
 
 
@@ -267,7 +267,7 @@ class Way(daemon.Case):
             target=lambda: found.append(other.post(ORBITS, {**LONG, "duration": {"periods": 10000}}))
         )
         thread.start()
-        time.sleep(0.3)
+        other.reaches("turns_unfinished", 1)
         self.assertEqual(other.stop(), 0)
         thread.join()
         self.assertEqual(found[0].status, 200)

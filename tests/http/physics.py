@@ -396,7 +396,7 @@ class Long(daemon.Case):
                 other = daemon.Daemon("--drain-ms", 10)
                 with other.connect() as s:
                     s.sendall(b"GET /v1/physics/%s HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n" % target.encode())
-                    time.sleep(0.3)
+                    other.reaches("turns_unfinished", 1)
                 start = time.monotonic()
                 self.assertEqual(other.stop(), 0)
                 self.assertLess(time.monotonic() - start, 3)
@@ -405,7 +405,7 @@ class Long(daemon.Case):
         with contextlib.ExitStack() as streams:
             for _ in range(8):
                 streams.enter_context(self.begin(LONG[0]))
-            time.sleep(0.5)  # they are all in; whoever asks sooner may take a place
+            self.daemon.reaches("turns_unfinished", 8)
             self.assertProblem(self.daemon.get(SHORT), 503, "queue-full")
             self.seconds(KERR)  # it takes but a moment
         self.assertTrue(daemon.eventually(lambda: self.daemon.get(SHORT).status == 200))
@@ -420,7 +420,7 @@ class Long(daemon.Case):
         other, found = daemon.Daemon("--drain-ms", 10), []
         thread = threading.Thread(target=lambda: found.append(other.get("/v1/physics/redshift?r=6:60:500&phi_deg=0")))
         thread.start()
-        time.sleep(0.2)
+        other.reaches("turns_unfinished", 1)
         self.assertEqual(other.stop(), 0)
         thread.join()
         self.assertEqual((found[0].status, len(found[0].json()["values"]["g"])), (200, 500))

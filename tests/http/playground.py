@@ -303,7 +303,7 @@ class Playground(daemon.Owned):
         self.assertGreater(time.monotonic() - began, 0.25)
         with concurrent.futures.ThreadPoolExecutor(2) as pool:
             waiting = [pool.submit(self.get, play, f"/bodies?after={generation}&wait_ms=20000") for _ in range(2)]
-            time.sleep(0.2)
+            self.daemon.reaches("playground_watchers", 2)
             self.patch(play, {"change": [{"id": 1, "position": [40, 0, 0]}]})
             for one in waiting:
                 self.assertEqual(bodies(one.result())[1][0], 40)
@@ -360,7 +360,9 @@ class Playground(daemon.Owned):
         self.assertEqual(float(series[-1].split(",")[names.index("debris")]), n)
         columns = self.get(play, "/series", Accept="application/json").json()["columns"]
         self.assertEqual(len(columns["t"]), len(series) - 1)
-        self.assertEqual(self.get(play, "/fallback").body.decode().splitlines()[0], "source,t,width,pieces,rate,line")
+        self.assertEqual(
+            self.get(play, "/fallback").body.decode().splitlines()[0], "source,t,width,pieces,rate,line,whole"
+        )
         tick = next(data for event, _, data in self.events(play) if event == "tick")
         self.assertEqual(
             (tick["debris"], tick["bodies"], tick["t"], len(tick["angular_momentum"])), (n, 0, there["t"], 3)
@@ -549,7 +551,7 @@ class Playground(daemon.Owned):
         with concurrent.futures.ThreadPoolExecutor(1) as pool:
             self.patch(play, {"paused": True})
             waiting = pool.submit(self.frame, play, 10**9)
-            time.sleep(0.3)
+            self.daemon.reaches("session_viewers", 1)
             self.delete(play)
             self.assertProblem(waiting.result(), 404, "not-found")
         self.assertEqual(self.daemon.metrics()["kerrd_sessions"], 0)

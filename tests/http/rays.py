@@ -408,7 +408,7 @@ class Device(daemon.Case):
                 b"POST /v1/rays HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
                 b"Content-Length: %d\r\n\r\n" % len(body) + body
             )
-            time.sleep(0.3)
+            self.daemon.reaches("rays_unfinished", 1)
         begun = time.monotonic()
         self.assertEqual(self.daemon.get("/v1/render?" + daemon.SMALL).status, 200)
         self.assertLess(time.monotonic() - begun, 5)
@@ -603,7 +603,7 @@ class Load(daemon.Case):
     def test_one_too_many(self):
         slow = {"rays": some_rays(60000), "accuracy": {"engine": "mino-rkn6", "steps": 12}}  # a minute each
         held = [send(self.daemon, slow) for _ in range(3)]
-        time.sleep(1)
+        self.daemon.reaches("rays_unfinished", 3)
         answer = self.daemon.post(RAYS, {"rays": [[1, 2]]})
         self.assertProblem(answer, 503, "queue-full")
         self.assertGreaterEqual(int(answer.header("Retry-After")), 1)

@@ -1181,7 +1181,7 @@ class Idle(daemon.Case):
                 target=lambda: waiting.append(server.get(f"/v1/sessions/{session['id']}/frame.png?after=99999"))
             )
             thread.start()
-            time.sleep(0.3)
+            server.reaches("session_viewers", 2)
             begun = time.monotonic()
             server.terminate()
             self.assertEqual(server.wait(10), 0)

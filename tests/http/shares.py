@@ -39,7 +39,7 @@ class Device(Case):
     def test_a_long_picture_holds_nobody(self):
         """Small ones wait for a few of its slices of 10 ms, and not for the 4 s that it takes."""
         long = self.begin(LONG % 4000)
-        time.sleep(0.3)
+        self.daemon.reaches("renders_unfinished", 1)
         for source in ("127.0.0.1", "127.0.0.2"):
             answer = self.ask(source, "GET", RENDER + "&time=20")
             self.assertEqual(answer.status, 200)
@@ -50,7 +50,7 @@ class Device(Case):
 
     def test_long_pictures_of_two_clients_go_on_side_by_side(self):
         first = self.begin(LONG % 60000)
-        time.sleep(0.3)
+        self.daemon.reaches("renders_unfinished", 1)
         self.assertEqual(self.ask("127.0.0.2", "GET", LONG % 100).status, 200)
         first.setblocking(False)
         self.assertRaises(BlockingIOError, first.recv, 1)
@@ -102,10 +102,10 @@ class Device(Case):
                 )
 
     def test_waiting_renders_of_one_client(self):
-        held = [self.begin(RENDER + "&time=1500")]
-        time.sleep(0.2)
+        held = [self.begin(RENDER + "&time=5000")]
+        self.daemon.reaches("renders_unfinished", 1)
         held += [self.begin(RENDER + "&time=1") for _ in range(8)]
-        time.sleep(0.2)
+        self.daemon.reaches("renders_unfinished", 9)
         problem = self.ask("127.0.0.1", "GET", RENDER)
         self.assertIn("8 of your renders", self.assertProblem(problem, 429, "quota")["detail"])
         self.assertTrue(problem.header("Retry-After"))
@@ -156,7 +156,7 @@ class Allowance(Case):
 
     def test_what_is_accepted_counts_by_its_estimate(self):
         self.begin(LONG % 60000, "127.0.0.3")
-        time.sleep(0.3)
+        self.daemon.reaches("renders_unfinished", 1)
         self.assertGreater(self.refused("127.0.0.3", "GET", RENDER), 60 * 4)
 
     def test_a_job_waits_and_leaves_a_half(self):

@@ -19,17 +19,18 @@ def in_background(function, *arguments):
 
 class Stop(unittest.TestCase):
     def test_sequence(self):
-        server = daemon.Daemon("--drain-ms", 600, "--queue", 4)
-        running = in_background(server.get, RENDER + "&time=2000")
-        time.sleep(0.1)
+        server = daemon.Daemon("--drain-ms", 1000, "--queue", 4)
+        running = in_background(server.get, RENDER + "&time=6000")
+        server.reaches("renders_unfinished", 1)
         queued = in_background(server.get, RENDER + "&time=100")
-        time.sleep(0.1)
+        server.reaches("renders_unfinished", 2)
         self.assertEqual(server.get("/readyz").status, 200)
         server.terminate()
-        self.assertTrue(daemon.eventually(lambda: server.get("/readyz").status == 503, 0.5))
+        self.assertTrue(daemon.eventually(lambda: server.get("/readyz").status == 503, 0.9))
         self.assertEqual(server.get("/healthz").status, 200)
         late = in_background(server.get, RENDER + "&time=1")  # still accepted while balancers notice
-        time.sleep(0.8)
+        server.reaches("renders_unfinished", 3)
+        time.sleep(1.2)  # the drain is over, and the first one under way
         refused = server.get(RENDER)
         self.assertEqual(refused.status, 503)
         self.assertEqual(refused.json()["type"], "urn:kerrd:problem:stopping")
@@ -54,10 +55,10 @@ class Stop(unittest.TestCase):
     def test_lost_device(self):
         server = daemon.Daemon("--drain-ms", 60000)
         behind = None
-        ahead = in_background(server.get, RENDER + "&time=500")
-        time.sleep(0.1)
+        ahead = in_background(server.get, RENDER + "&time=4000")
+        server.reaches("renders_unfinished", 1)
         lost = in_background(server.get, RENDER + "&time=-1")
-        time.sleep(0.1)
+        server.reaches("renders_unfinished", 2)
         behind = in_background(server.get, RENDER + "&time=100")
         self.assertEqual(ahead().status, 200)
         for answer in (lost(), behind()):

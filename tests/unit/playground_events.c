@@ -81,6 +81,33 @@ static void a_body_spirals_into_the_hole_as_peters_says(void **state)
     spiral_in(0.3, 3e4);
 }
 
+/* Near the hole the power is Peters', (32/5) m^2 (1 + m)/r^5 of a circle, and the pace is his times (r - 2)^3/(r^2
+ * (r - 6)). */
+static void near_the_hole_it_is_his_power_and_another_pace(void **state)
+{
+    (void)state;
+    struct kd_playground_params params = playground_quiet();
+    const double m = 1e-4, r0 = 20, r1 = 12, amplification = 20, strength = amplification * m * (1 + m);
+    params.waves = true;
+    params.amplification = amplification;
+    struct kd_playground *p = playground_make(params);
+    playground_put(
+        p, (struct kd_playground_body) { .mass = m, .x = { r0, 0, 0 }, .v = { 0, kd_playground_circular(r0), 0 } });
+    playground_advance(p, 50);
+    assert_true(fabs(p->spent.radiated / (p->t * 6.4 * m * strength / pow(r0, 5)) - 1) < 5e-3);
+    double r = r0, expected = 0;
+    for (double x = r0 - 0.005; x > r1; x -= 0.01) /* dt/dr by his pace, 64/5 m (1 + m)/r^3, and the factor */
+        expected += 0.01 * pow(x, 3) / (12.8 * strength) * x * x * (x - 6) / pow(x - 2, 3);
+    while (r > r1 && p->t < 2 * expected) {
+        playground_advance(p, expected / 1000);
+        const double e = kd_playground_totals(p).energy / m;
+        r = 2 + (-0.5 - sqrt(0.25 + 4 * e)) / (2 * e);
+    }
+    print_message("from 20 to 12 M %.6g M, expected %.6g M, %.3f %%\n", p->t, expected, 100 * (p->t / expected - 1));
+    assert_true(fabs(p->t / expected - 1) < 5e-3);
+    kd_playground_destroy(p);
+}
+
 /* An eccentric pair: Peters' e(a), eq. 5.11. */
 static void an_eccentric_pair_grows_round_as_peters_says(void **state)
 {
@@ -403,11 +430,39 @@ static void the_least_stars(void **state)
     }
 }
 
+/* Of an open series, however long it gets: rows at equal distances from the begin, and the present behind them in
+ * files. */
+static void series_of_no_end_are_even(void **state)
+{
+    (void)state;
+    struct kd_playground *p = playground_read("{\"preset\":\"emri\",\"h_max\":0.1,\"budget\":100000000}");
+    for (int k = 0; k < 40; k++) {
+        playground_advance(p, 40);
+        const struct kd_playground_series *s = &p->series;
+        double now[KD_SERIES_N];
+        kd_playground_series_row(p, now);
+        assert_true(s->n < KD_SERIES_ROWS && kd_series_next(s) > p->t && kd_series_next(s) < p->t + 2 * s->interval);
+        assert_true(k < 20 || s->n >= KD_SERIES_ROWS / 2);
+        for (size_t i = 0; i < s->n; i++)
+            assert_true(fabs(s->rows[i][KD_SERIES_t] - (double)i * s->interval) < 1e-9);
+        struct kd_buffer csv = { 0 };
+        assert_int_equal(kd_series_csv(s, now, &csv), KD_OK);
+        size_t lines = 0;
+        for (size_t i = 0; i < csv.size; i++)
+            lines += csv.data[i] == '\n';
+        assert_true(lines == s->n + 2 || (lines == s->n + 1 && s->rows[s->n - 1][KD_SERIES_t] == p->t));
+        kd_buffer_finish(&csv);
+    }
+    kd_playground_destroy(p);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pairs_spiral_in_as_peters_says),
         cmocka_unit_test(a_body_spirals_into_the_hole_as_peters_says),
+        cmocka_unit_test(near_the_hole_it_is_his_power_and_another_pace),
+        cmocka_unit_test(series_of_no_end_are_even),
         cmocka_unit_test(an_eccentric_pair_grows_round_as_peters_says),
         cmocka_unit_test(mergers_keep_mass_and_momentum),
         cmocka_unit_test(debris_comes_back_as_the_fifth_third_power),

@@ -215,8 +215,6 @@ class Playground(Browser):
                 "debris_per_body=2000",
                 "--set",
                 "h_max=10000",
-                "--set",
-                "budget=1000000",
                 "--time",
                 "1e6",
                 "-o",

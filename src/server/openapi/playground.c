@@ -183,6 +183,7 @@ static void add_state(struct kd_json *json)
         { "captured_angular_momentum", KD_SCHEMA_VECTOR, false },
         { "merged_energy", KD_SCHEMA_NUMBER, false },
         { "capped_energy", KD_SCHEMA_NUMBER, false },
+        { "capped_momentum", KD_SCHEMA_VECTOR, false },
         { "radiated_energy", KD_SCHEMA_NUMBER, false },
         { "torn_mass", KD_SCHEMA_NUMBER, false },
         { "torn_energy", KD_SCHEMA_NUMBER, false },

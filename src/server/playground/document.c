@@ -120,7 +120,8 @@ enum kd_status kd_play_to_json(const struct kd_play *play, const struct kd_play_
     return kd_json_finish_line(&json) || status ? KD_ENOMEM : KD_OK;
 }
 
-enum kd_status kd_play_series_json(const struct kd_playground_series *series, struct kd_buffer *out)
+enum kd_status kd_play_series_json(const struct kd_playground_series *series, const double now[KD_SERIES_N],
+                                   struct kd_buffer *out)
 {
     struct kd_json json = kd_json_begin(out);
     kd_json_object(&json, NULL);
@@ -129,6 +130,8 @@ enum kd_status kd_play_series_json(const struct kd_playground_series *series, st
         kd_json_array(&json, kd_series_column(i));
         for (size_t k = 0; k < series->n; k++)
             kd_json_number(&json, NULL, series->rows[k][i]);
+        if (kd_series_lacks(series, now))
+            kd_json_number(&json, NULL, now[i]);
         kd_json_end(&json);
     }
     kd_json_end(&json);

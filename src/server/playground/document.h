@@ -27,7 +27,8 @@ struct kd_play_told {
 enum kd_status kd_play_to_json(const struct kd_play *play, const struct kd_play_state *state, struct kd_playground *p,
                                const struct kd_play_told *told, struct kd_buffer *out);
 /* {"columns": {name: [...]}} */
-enum kd_status kd_play_series_json(const struct kd_playground_series *series, struct kd_buffer *out);
+enum kd_status kd_play_series_json(const struct kd_playground_series *series, const double now[KD_SERIES_N],
+                                   struct kd_buffer *out);
 /* {"presets", "settings", "body"}: what may be asked for. */
 enum kd_status kd_play_catalogue_json(struct kd_buffer *out);
 

@@ -210,13 +210,15 @@ static enum kd_status write_file(struct play_task *t, struct kd_error *error)
 {
     struct kd_playground *p = kd_play_take(t->play);
     const bool npy = !strcmp(t->type, KD_NPY_TYPE);
+    double now[KD_SERIES_N];
     enum kd_status status = KD_OK;
     switch (t->what) {
     case SNAPSHOT: status = kd_playground_write(p, true, &t->out); break;
     case SERIES:
-        status = npy                         ? kd_series_npy(&p->series, &t->out)
-                 : strcmp(t->type, CSV_TYPE) ? kd_play_series_json(&p->series, &t->out)
-                                             : kd_series_csv(&p->series, &t->out);
+        kd_playground_series_row(p, now);
+        status = npy                         ? kd_series_npy(&p->series, now, &t->out)
+                 : strcmp(t->type, CSV_TYPE) ? kd_play_series_json(&p->series, now, &t->out)
+                                             : kd_series_csv(&p->series, now, &t->out);
         break;
     case FALLBACK: status = npy ? kd_debris_npy(&p->debris, &t->out) : kd_debris_csv(&p->debris, &t->out); break;
     default: status = tell(t, p, &(struct kd_play_told) { .before = UINT32_MAX }, error);
