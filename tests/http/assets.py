@@ -258,7 +258,7 @@ class Assets(Case):
             data[:-18] + b"\1\0" + data[-16:]
         )  # a directory on another disk: members would be sought from the front, inflating what is passed over
         self.assertIn(
-            "header is missing",
+            "its directory lies on several disks",
             self.assertProblem(self.put(elsewhere, "application/x-npz"), 422, "invalid-asset")["detail"],
         )
         self.assertEqual(self.delete(asset).status, 204)
