@@ -198,7 +198,7 @@ enum kd_status kd_asset_folder_write(int folder, const struct kd_asset_about *ab
                     !kd_replace_file_at(folder, record, text.data, text.size))) {
         int cause = errno;
         status = kd_error_set(error,
-                              cause == ENOSPC || cause == EDQUOT                      ? KD_EFULL
+                              cause == ENOSPC || cause == EDQUOT || cause == EFBIG    ? KD_EFULL
                               : cause == EMFILE || cause == ENFILE || cause == ENOMEM ? KD_ENOMEM
                                                                                       : KD_EIO,
                               "the asset cannot be kept: %s", strerror(cause));
