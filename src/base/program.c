@@ -1,5 +1,7 @@
 #include "base/program.h"
 
+#include "base/utf8.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -10,6 +12,7 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #define PIPE_BYTES (1 << 20) /* what fits is what is written between two looks */
@@ -51,6 +54,7 @@ static int spawn(const char *const argv[], int in, int told, int out, pid_t *pid
     sigemptyset(&none);
     sigemptyset(&usual);
     sigaddset(&usual, SIGPIPE);
+    sigaddset(&usual, SIGXFSZ);
     posix_spawnattr_setsigmask(&how, &none);
     posix_spawnattr_setsigdefault(&how, &usual);
     posix_spawnattr_setflags(&how, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF |
@@ -128,37 +132,111 @@ size_t kd_program_write(struct kd_program *program, const void *data, size_t siz
 
 void kd_program_hang_up(struct kd_program *program) { shut(&program->in); }
 
-/* The end of what it says is kept: there is the reason. True: it has closed its standard error, as it does when it
- * ends. */
-static bool listen_to(struct kd_program *p)
+/* The beginning of what it says is kept: there is the reason. Closes the pipe where nobody has its other end any
+ * more. */
+static void listen_to(struct kd_program *p)
 {
     char part[256];
     ssize_t n;
-    while ((n = read(p->told, part, sizeof part)) > 0) {
-        size_t room = sizeof p->said - 1, keep = (size_t)n < room ? (size_t)n : room,
-               old = p->n_said < room - keep ? p->n_said : room - keep;
-        memmove(p->said, p->said + p->n_said - old, old);
-        memcpy(p->said + old, part + (size_t)n - keep, keep);
-        p->n_said = old + keep;
+    while (p->told >= 0 && (n = read(p->told, part, sizeof part)) > 0) {
+        const size_t room = sizeof p->said - 1 - p->n_said, keep = (size_t)n < room ? (size_t)n : room;
+        memcpy(p->said + p->n_said, part, keep);
+        p->n_said += keep;
         p->said[p->n_said] = 0;
     }
-    return n == 0;
+    if (p->told >= 0 && n == 0)
+        shut(&p->told);
+}
+
+/* Its group has its number: while it has not been waited for, nobody else gets that. */
+static void end_group(const struct kd_program *p)
+{
+    kill(-p->pid, SIGKILL);
+    kill(p->pid, SIGKILL); /* before it has a group of its own */
 }
 
 bool kd_program_over(struct kd_program *p, int *code)
 {
+    siginfo_t about = { 0 };
     int status;
-    if (p->told >= 0 && listen_to(p))
-        shut(&p->told);
-    if (p->told >= 0)
+    listen_to(p);
+    if (!waitid(P_PID, (id_t)p->pid, &about, WEXITED | WNOHANG | WNOWAIT) && !about.si_pid)
         return false;
-    pid_t done = waitpid(p->pid, &status, WNOHANG);
-    if (!done)
-        return false;
+    listen_to(p);
+    end_group(p);
+    pid_t done = waitpid(p->pid, &status, 0);
     *code = done == p->pid && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     p->pid = 0;
+    shut(&p->told);
     shut(&p->in);
     return true;
+}
+
+/* Milliseconds of a processor that it has used, without its children. */
+static double used_ms(const struct kd_program *p)
+{
+    clockid_t clock;
+    struct timespec t;
+    return p->pid > 0 && !clock_getcpuclockid(p->pid, &clock) && !clock_gettime(clock, &t)
+               ? 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec
+               : 0;
+}
+
+double kd_program_idle_ms(struct kd_program *p, bool moved, double now_ms)
+{
+    const double used = used_ms(p), passed = now_ms - p->looked_ms;
+    if (moved || used > p->used_ms || !(p->looked_ms > 0))
+        p->idle_ms = 0;
+    else
+        p->idle_ms += passed < 1e3 ? passed : 1e3;
+    p->used_ms = used;
+    p->looked_ms = now_ms;
+    return p->idle_ms;
+}
+
+static bool begins_path(const char *at)
+{
+    const char *const ways[] = { "./", "../", "~/" };
+    for (size_t i = 0; i < sizeof ways / sizeof *ways; i++)
+        if (!strncmp(at, ways[i], strlen(ways[i])))
+            return true;
+    return *at == '/' && at[1] > ' ';
+}
+
+/* Behind a control character, or a whole escape sequence (ECMA-48, 5.4). */
+static const char *skip_control(const char *at)
+{
+    if (at[0] != '\x1b' || at[1] != '[')
+        return at + 1;
+    at += 2;
+    return at + strcspn(at, "@ABCDEFGHIJKLMNOPQRSTUVWXYZ[\\]^_`abcdefghijklmnopqrstuvwxyz{|}~\n") + (*at != 0);
+}
+
+void kd_program_reason(const struct kd_program *p, char out[300])
+{
+    static const char before[] = " \t'\"([{<=,;:", after[] = " \t\r\n'\")]}>,;";
+    const char *at = p->said + strspn(p->said, "\r\n \t");
+    char last = ' ';
+    size_t n = 0;
+    while (*at && *at != '\n' && *at != '\r' && n < 300 - 5) {
+        if ((unsigned char)*at < ' ' || *at == 0x7f)
+            at = skip_control(at);
+        else if (!strncmp(at, " @ 0x", 5)) /* where in its memory something lies */
+            at += 5 + strspn(at + 5, "0123456789abcdefABCDEF");
+        else if (strchr(before, last) && begins_path(at)) {
+            at += strcspn(at, after);
+            memcpy(out + n, "FILE", 4);
+            n += 4;
+            if (at[-1] == ':')
+                out[n++] = ':';
+            last = 'E';
+        } else
+            out[n++] = last = *at++;
+    }
+    while (n && out[n - 1] == ' ')
+        n--;
+    out[n] = 0;
+    kd_utf8_mend(out);
 }
 
 void kd_program_end(struct kd_program *p)
@@ -166,7 +244,7 @@ void kd_program_end(struct kd_program *p)
     shut(&p->in);
     shut(&p->told);
     if (p->pid > 0) {
-        kill(p->pid, SIGKILL);
+        end_group(p);
         while (waitpid(p->pid, NULL, 0) < 0 && errno == EINTR)
             ;
     }

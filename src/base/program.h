@@ -19,7 +19,8 @@ struct kd_program {
     pid_t pid;    /* 0: it was not started, or is over */
     int in, told; /* ends of pipes: its standard input, and its standard error; -1: closed */
     size_t n_said;
-    char said[400]; /* the last that it said on its standard error, ends with 0 */
+    char said[1000];                    /* the first that it said on its standard error, ends with 0 */
+    double idle_ms, looked_ms, used_ms; /* of kd_program_idle_ms */
 };
 #define KD_PROGRAM_NONE { .in = -1, .told = -1 }
 
@@ -33,8 +34,16 @@ enum kd_status kd_program_start(const char *const argv[], int out, uint64_t most
 /* How many of these bytes it has taken; 0: none now, or none any more, as kd_program_over will say. */
 size_t kd_program_write(struct kd_program *program, const void *data, size_t size);
 void kd_program_hang_up(struct kd_program *program);
-/* Whether it has ended, and what with: its exit code, or -1 where a signal ended it. Reads what it says, too. */
+/* Whether it has ended, and what with: its exit code, or -1 where a signal ended it. Reads what it says, too.
+ * Programs that it has started end with it. */
 bool kd_program_over(struct kd_program *program, int *code);
+/* How long it has done nothing, now being now_ms: it has used no time of a processor, and the caller has seen none
+ * of its work (moved). It is asked again and again; time between two questions counts for a second at most, as a
+ * machine may have been held. */
+double kd_program_idle_ms(struct kd_program *program, bool moved, double now_ms);
+/* The first line that it said, fit to be shown: without control characters, and without paths and addresses of this
+ * machine. "": it said nothing. */
+void kd_program_reason(const struct kd_program *program, char out[300]);
 void kd_program_end(struct kd_program *program); /* one that was never started too */
 
 #endif

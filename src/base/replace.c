@@ -49,11 +49,11 @@ static bool write_all(int fd, const void *data, size_t size)
 /* An empty file beside the name. */
 static int open_temporary(int folder, const char *name, char out[NAME_MAX + 1])
 {
-    unsigned char random[KD_TEMPORARY_TAIL - 1];
+    unsigned char random[KD_TEMPORARY_TAIL - (sizeof KD_TEMPORARY_MARK - 1)];
     for (int attempt = 0; attempt < 100; attempt++) {
         if (getrandom(random, sizeof random, 0) != (ssize_t)sizeof random)
             return -1;
-        int n = snprintf(out, NAME_MAX + 1, "%s.", name);
+        int n = snprintf(out, NAME_MAX + 1, "%s" KD_TEMPORARY_MARK, name);
         if (n < 0 || (size_t)n + sizeof random > NAME_MAX) {
             errno = ENAMETOOLONG;
             return -1;
@@ -70,9 +70,9 @@ static int open_temporary(int folder, const char *name, char out[NAME_MAX + 1])
 
 bool kd_replace_is_temporary(const char *other, const char *name)
 {
-    size_t n = strlen(name);
-    return !strncmp(other, name, n) && other[n] == '.' && strlen(other + n) == KD_TEMPORARY_TAIL &&
-           strspn(other + n + 1, letters) == KD_TEMPORARY_TAIL - 1;
+    const size_t n = strlen(name), mark = sizeof KD_TEMPORARY_MARK - 1;
+    return !strncmp(other, name, n) && !strncmp(other + n, KD_TEMPORARY_MARK, mark) &&
+           strlen(other + n) == KD_TEMPORARY_TAIL && strspn(other + n + mark, letters) == KD_TEMPORARY_TAIL - mark;
 }
 
 bool kd_replace_file_at(int folder, const char *name, const void *data, size_t size)

@@ -5,7 +5,10 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-enum { KD_TEMPORARY_TAIL = 7 }; /* characters at the end of the temporary name: a dot and six letters or digits */
+/* While a file is written it is called NAME.kerrd-XXXXXX, with six letters or digits: nobody calls a file of their
+ * own so, as they may NAME.backup. */
+#define KD_TEMPORARY_MARK ".kerrd-"
+enum { KD_TEMPORARY_TAIL = sizeof KD_TEMPORARY_MARK - 1 + 6 };
 
 /* Writes beside the name and renames: readers see the old file or the new one, even after a power cut. folder: a
  * descriptor of the folder. False, with errno, if it cannot be; the old file then stays. */

@@ -1,5 +1,5 @@
-/* This makes ZIP files in memory, by libarchive: stored or deflated, without times, so that the same members are the
- * same bytes. One thread a file. */
+/* Writes ZIP files (PKWARE APPNOTE 6.3.10) in memory: members stored or deflated, without times, so that the same
+ * members give the same bytes. Reading: unzip.h. One thread a file. */
 #ifndef KD_IMAGE_ZIP_H
 #define KD_IMAGE_ZIP_H
 
@@ -11,21 +11,15 @@
 
 struct kd_zip;
 
-/* Its bytes are appended to *out, which must stay. KD_ENOMEM. */
+/* Appends to *out, which must stay. deflated: kd_zip_add packs members that become smaller. KD_ENOMEM. */
 enum kd_status kd_zip_create(struct kd_buffer *out, bool deflated, struct kd_zip **zip);
-/* KD_ENOMEM. A member by pieces: their sizes add up to `size`. Between any two of these calls the caller may take
- * bytes off *out. */
+/* Begins a stored member whose pieces add up to `size` bytes. Between any two of these calls the caller may take
+ * bytes off *out. KD_ENOMEM. */
 enum kd_status kd_zip_begin(struct kd_zip *zip, const char *name, uint64_t size);
 enum kd_status kd_zip_append(struct kd_zip *zip, const void *data, size_t size);
-/* KD_ENOMEM. A whole one. */
+/* Adds a whole member. KD_ENOMEM. */
 enum kd_status kd_zip_add(struct kd_zip *zip, const char *name, const void *data, size_t size);
-enum kd_status kd_zip_close(struct kd_zip *zip); /* the last bytes; KD_ENOMEM */
-void kd_zip_destroy(struct kd_zip *zip);
-
-/* Appends a member of a ZIP file to *out, of at most `most` bytes; it must be among the first 1024. KD_EINVAL: no
- * such member, too long, damaged, or not a whole ZIP file. */
-enum kd_status kd_zip_find(const void *data, size_t size, const char *name, size_t most, struct kd_buffer *out);
-/* Says whether there is one of this name, whole or damaged. */
-bool kd_zip_has(const void *data, size_t size, const char *name);
+enum kd_status kd_zip_close(struct kd_zip *zip); /* Writes the directory. KD_ENOMEM. */
+void kd_zip_destroy(struct kd_zip *zip);         /* Accepts NULL. */
 
 #endif

@@ -1,13 +1,11 @@
 #include "quantity/sound.h"
 
 #include <math.h>
-#include <sndfile.h>
 #include <stdio.h>
 #include <string.h>
 
 #define RATE 48000
 #define SAMPLES_MIN (RATE / 4) /* what is shorter, some players leave out */
-#define BLOCK 4096
 
 static size_t parameter(const struct kd_quantity *quantity, const char *name)
 {
@@ -87,46 +85,51 @@ static enum kd_status short_enough(const struct kd_quantity_answer *answer, stru
         stretch, fades, four_digits(fmax(1, KD_SOUND_DAMPING_S * stretch / fades), false), KD_SOUND_DAMPING_S);
 }
 
-/* A file in memory. */
-struct memory {
-    struct kd_buffer *out;
-    size_t at;
-};
-
-static sf_count_t length(void *user) { return (sf_count_t)((struct memory *)user)->out->size; }
-
-static sf_count_t tell(void *user) { return (sf_count_t)((struct memory *)user)->at; }
-
-static sf_count_t seek(sf_count_t offset, int whence, void *user)
+static enum kd_status put(struct kd_buffer *out, uint64_t value, int bytes)
 {
-    struct memory *m = user;
-    sf_count_t from = whence == SEEK_SET ? 0 : whence == SEEK_CUR ? tell(m) : length(m);
-    if (from + offset < 0 || from + offset > length(m))
-        return -1;
-    m->at = (size_t)(from + offset);
-    return tell(m);
+    uint8_t little[8];
+    for (int i = 0; i < bytes; i++)
+        little[i] = (uint8_t)(value >> 8 * i);
+    return kd_buffer_append(out, little, (size_t)bytes);
 }
 
-static sf_count_t put(const void *data, sf_count_t size, void *user)
+/* The 44 bytes before the samples: one channel of 16 bits (IBM and Microsoft, Multimedia Programming Interface 1.0,
+ * 1991). */
+static enum kd_status put_header(struct kd_buffer *out, size_t samples, size_t behind)
 {
-    struct memory *m = user;
-    size_t n = (size_t)size, over = m->out->size - m->at < n ? m->out->size - m->at : n;
-    if (over)
-        memcpy(m->out->data + m->at, data, over);
-    if (n > over && kd_buffer_append(m->out, (const char *)data + over, n - over))
-        return 0;
-    m->at += n;
-    return size;
+    enum kd_status status;
+    KD_TRY(kd_buffer_append(out, "RIFF", 4));
+    KD_TRY(put(out, 36 + 2 * samples + behind, 4));
+    KD_TRY(kd_buffer_append(out, "WAVEfmt ", 8));
+    KD_TRY(put(out, 16, 4));
+    KD_TRY(put(out, 1, 2)); /* PCM */
+    KD_TRY(put(out, 1, 2));
+    KD_TRY(put(out, RATE, 4));
+    KD_TRY(put(out, 2 * RATE, 4));
+    KD_TRY(put(out, 2, 2));
+    KD_TRY(put(out, 16, 2));
+    KD_TRY(kd_buffer_append(out, "data", 4));
+    KD_TRY(put(out, 2 * samples, 4));
+done:
+    return status;
 }
 
-static sf_count_t get(void *data, sf_count_t size, void *user)
+/* A chunk of a text, with its NUL, and one more where its length is odd. */
+static enum kd_status put_text(struct kd_buffer *out, const char *kind, const char *text)
 {
-    (void)data, (void)size, (void)user;
-    return 0; /* it is written alone */
+    const size_t n = strlen(text) + 1;
+    enum kd_status status;
+    KD_TRY(kd_buffer_append(out, kind, 4));
+    KD_TRY(put(out, n, 4));
+    KD_TRY(kd_buffer_append(out, text, n));
+    if (n % 2)
+        KD_TRY(put(out, 0, 1));
+done:
+    return status;
 }
 
-/* Writes what the sound is into the file, where players show it. */
-static void describe(SNDFILE *file, const struct kd_quantity_answer *answer)
+/* Writes what the sound is into the list of texts that players show. */
+static enum kd_status describe(const struct kd_quantity_answer *answer, struct kd_buffer *out)
 {
     const struct kd_quantity *quantity = answer->request.quantity;
     char text[700];
@@ -144,42 +147,47 @@ static void describe(SNDFILE *file, const struct kd_quantity_answer *answer)
                               output(answer, "sound_damping_s"), parameter_of(answer, "stretch"));
     for (size_t i = 0; quantity->approximations[i] && n < sizeof text; i++)
         n += (size_t)snprintf(text + n, sizeof text - n, "; %s", quantity->approximations[i]);
-    sf_set_string(file, SF_STR_TITLE, quantity->summary);
-    sf_set_string(file, SF_STR_COMMENT, text);
+    struct kd_buffer list = { 0 };
+    enum kd_status status;
+    KD_TRY(put_text(&list, "INAM", quantity->summary));
+    KD_TRY(put_text(&list, "ICMT", text));
+    KD_TRY(kd_buffer_append(out, "LIST", 4));
+    KD_TRY(put(out, 4 + list.size, 4));
+    KD_TRY(kd_buffer_append(out, "INFO", 4));
+    KD_TRY(kd_buffer_append(out, list.data, list.size));
+done:
+    kd_buffer_finish(&list);
+    return status;
 }
 
-static bool write_samples(SNDFILE *file, double hz, double damping_s)
+static size_t samples_of(double damping_s) { return (size_t)fmax(SAMPLES_MIN, ceil(16 * M_LN2 * damping_s * RATE)); }
+
+static enum kd_status put_samples(struct kd_buffer *out, size_t n, double hz, double damping_s)
 {
-    size_t n = (size_t)fmax(SAMPLES_MIN, ceil(16 * M_LN2 * damping_s * RATE));
-    double block[BLOCK];
-    for (size_t i = 0; i < n; i += BLOCK) {
-        size_t count = n - i < BLOCK ? n - i : BLOCK;
-        for (size_t k = 0; k < count; k++) {
-            double t = (double)(i + k) / RATE;
-            block[k] = exp(-t / damping_s) * cos(2 * M_PI * hz * t);
-        }
-        if (sf_write_double(file, block, (sf_count_t)count) != (sf_count_t)count)
-            return false;
+    enum kd_status status = KD_OK;
+    for (size_t i = 0; i < n; i++) {
+        const double t = (double)i / RATE;
+        KD_TRY(put(out, (uint16_t)(int16_t)lrint(INT16_MAX * exp(-t / damping_s) * cos(2 * M_PI * hz * t)), 2));
     }
-    return true;
+done:
+    return status;
 }
 
 enum kd_status kd_quantity_sound(const struct kd_quantity_answer *answer, struct kd_buffer *out, struct kd_error *error)
 {
-    SF_VIRTUAL_IO io = { .get_filelen = length, .seek = seek, .read = get, .write = put, .tell = tell };
-    SF_INFO info = { .samplerate = RATE, .channels = 1, .format = SF_FORMAT_WAV | SF_FORMAT_PCM_16 };
-    struct memory memory = { .out = out };
+    struct kd_buffer texts = { 0 };
     enum kd_status status = audible(answer, error);
     if (!status)
         status = short_enough(answer, error);
     if (status)
         return status;
-    SNDFILE *file = sf_open_virtual(&io, SFM_WRITE, &info, &memory);
-    if (!file)
-        return kd_error_set(error, KD_ENOMEM, "the sound could not be begun: %s", sf_strerror(NULL));
-    describe(file, answer);
-    bool written = write_samples(file, output(answer, "sound_hz"), output(answer, "sound_damping_s"));
-    if (sf_close(file) || !written)
-        return kd_error_set(error, KD_ENOMEM, "out of memory for the sound");
-    return KD_OK;
+    const double damping_s = output(answer, "sound_damping_s");
+    const size_t n = samples_of(damping_s);
+    KD_TRY(describe(answer, &texts));
+    KD_TRY(put_header(out, n, texts.size));
+    KD_TRY(put_samples(out, n, output(answer, "sound_hz"), damping_s));
+    KD_TRY(kd_buffer_append(out, texts.data, texts.size));
+done:
+    kd_buffer_finish(&texts);
+    return status ? kd_error_set(error, KD_ENOMEM, "out of memory for the sound") : KD_OK;
 }

@@ -11,6 +11,11 @@ void kd_sha256(const void *data, size_t size, char out[65])
     sha256_init(&context);
     sha256_update(&context, size, data);
     sha256_digest(&context, sizeof digest, digest);
-    for (size_t i = 0; i < sizeof digest; i++)
+    kd_sha256_text(digest, out);
+}
+
+void kd_sha256_text(const uint8_t digest[32], char out[65])
+{
+    for (size_t i = 0; i < SHA256_DIGEST_SIZE; i++)
         snprintf(out + 2 * i, 3, "%02x", digest[i]);
 }

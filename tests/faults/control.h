@@ -36,7 +36,8 @@ struct kd_faults {
     _Atomic int64_t files_errno; /* with which */
     _Atomic int64_t files_count; /* operations counted since the start */
     _Atomic int64_t files_failed;
-    _Atomic int64_t files_slow;     /* files are not opened for reading before it is 0 again */
+    _Atomic int64_t files_slow; /* 1: files are not opened for reading before it is 0 again; 2: nothing is written down
+                                   or removed (fsync, unlink) */
     _Atomic int64_t files_waiting;  /* for that */
     _Atomic int64_t wall_s;         /* how far the clock on the wall is put forward */
     _Atomic int64_t steady_ms;      /* and the one that nobody sets, */

@@ -7,6 +7,7 @@ KD_WHOLE=1 disk.py FAULTS SERVER      all of them"""
 import collections
 import errno
 import os
+import threading
 
 import assets
 import daemon
@@ -341,6 +342,60 @@ class Scarce(Case):
                     self.assertProblem(server.get(path), 500, "internal")["detail"],
                     "file of (frame|scene) 3 cannot be read",
                 )
+        self.assertEqual(server.stop(), 0)
+
+    def put_by_another(self, server, data):
+        with server.connect(source="127.0.0.2") as s:
+            s.sendall(
+                f"PUT /v1/assets HTTP/1.1\r\nHost: localhost\r\nContent-Type: image/png\r\nConnection: close\r\nContent-Length: {len(data)}\r\n\r\n".encode()
+                + data
+            )
+            return daemon.read_answer(s)
+
+    def test_a_disk_that_is_slow_to_write(self):
+        """While what is put, deleted, accepted, or evicted waits for the disk, others are told of assets and jobs all
+        the same."""
+        server = self.start("--assets", 3, "--client-share", 100, "--asset-keep-s", 1, by=self.faults.start)
+        put = lambda seed: server.request("PUT", "/v1/assets", assets.png(seed=seed), {"Content-Type": "image/png"})
+        remove = lambda path, token: server.request("DELETE", path, headers={"Authorization": "Bearer " + token})
+        kept, gone = [put(seed).json() for seed in range(2)]
+        here, leaves = self.job(server).json(), self.job(server).json()
+        for job in (here, leaves):
+            self.until(job, "done", server)
+        third = put(2).json()
+        old = f"/v1/assets/{third['sha256']}"
+        ways = {
+            "DELETE of an asset": (lambda: remove(f"/v1/assets/{gone['sha256']}", gone["token"]), 204),
+            "PUT of an asset": (lambda: put(3), 201),
+            "PUT of an asset in the place of another": (lambda: self.put_by_another(server, assets.png(seed=4)), 201),
+            "DELETE of a job": (lambda: remove(self.at(leaves), leaves["token"]), 204),
+            "POST of a job": (lambda: self.job(server), 202),
+        }
+        for name, (ask, status) in ways.items():
+            with self.subTest(name):
+                if "place" in name:
+                    threading.Event().wait(1.2)  # what nobody has asked for in a second gives way
+                    self.assertEqual(server.get(f"/v1/assets/{kept['sha256']}").status, 200)
+                answers = []
+                self.faults.set("files_slow", 2)
+                waiting = threading.Thread(target=lambda: answers.append(ask()), daemon=True)
+                waiting.start()
+                try:
+                    self.assertTrue(daemon.eventually(lambda: self.faults.files_waiting > 0, 30))
+                    for path in (
+                        f"/v1/assets/{kept['sha256']}",
+                        "/v1/assets",
+                        self.at(here),
+                        self.at(here, "/result"),
+                        "/v1/device",
+                    ):
+                        self.assertEqual(server.request("GET", path, timeout=10).status, 200, path)
+                    self.assertEqual(answers, [], "it is answered before it is on the disk")
+                finally:
+                    self.faults.set("files_slow", 0)
+                    waiting.join(60)
+                self.assertEqual([answer.status for answer in answers], [status])
+        self.assertEqual(server.get(old).status, 404)
         self.assertEqual(server.stop(), 0)
 
 

@@ -34,13 +34,19 @@ static bool is_file(int fd)
     return !fstat(fd, &about) && S_ISREG(about.st_mode);
 }
 
-static void wait_for_disk(int flags)
+static void wait_while_slow(int64_t kind)
 {
-    const bool waits = (flags & O_ACCMODE) == O_RDONLY && !(flags & O_DIRECTORY) && atomic_load(&kd_faults->files_slow);
+    const bool waits = atomic_load(&kd_faults->files_slow) == kind;
     atomic_fetch_add(&kd_faults->files_waiting, waits);
     while (waits && atomic_load(&kd_faults->files_slow))
         nanosleep(&(struct timespec) { .tv_nsec = 1000000 }, NULL);
     atomic_fetch_sub(&kd_faults->files_waiting, waits);
+}
+
+static void wait_for_disk(int flags)
+{
+    if ((flags & O_ACCMODE) == O_RDONLY && !(flags & O_DIRECTORY))
+        wait_while_slow(1);
 }
 
 static int open_at(int folder, const char *path, int flags, unsigned mode, const void *caller)
@@ -159,7 +165,10 @@ ssize_t pread64(int fd, void *data, size_t size, off64_t at)
 
 int fsync(int fd)
 {
+    uint64_t where;
     KD_FAULT_REAL(int, "fsync", int);
+    if (kd_fault_ours(HERE, &where))
+        wait_while_slow(2);
     return fails(KD_FAULT_SYNC, HERE) ? -1 : real(fd);
 }
 
@@ -192,4 +201,13 @@ int close(int fd)
     if (late)
         errno = cause;
     return late ? -1 : result;
+}
+
+int unlinkat(int folder, const char *path, int flags)
+{
+    uint64_t where;
+    KD_FAULT_REAL(int, "unlinkat", int, const char *, int);
+    if (kd_fault_ours(HERE, &where))
+        wait_while_slow(2);
+    return real(folder, path, flags);
 }

@@ -2,8 +2,8 @@
  * sky, or a grid of matter.
  *
  * Sums that a random change would break are made good first: those of a PNG's chunks. What begins with "grid"
- * becomes an NPZ file: records of a number of the list of names, two bytes of length and an array's bytes, or for a
- * header its text alone. */
+ * becomes an NPZ file: records of a byte, two bytes of length and an array's bytes, or for a header its text alone.
+ * The byte is a number of the list of names and, that many times, a way of `ways`. */
 #include "fuzz.h"
 
 #include "image/npy.h"
@@ -20,34 +20,64 @@
 static const char *const names[] = { "header",      "r",           "theta",       "phi",       "density",
                                      "temperature", "u_con_r",     "u_con_theta", "u_cov_phi", "u_con_t",
                                      "b_con_r",     "b_con_theta", "b_cov_phi" };
-enum { NAMES = sizeof names / sizeof *names };
+enum { NAMES = sizeof names / sizeof *names, MEMBERS = 64 };
 
-static void add(struct kd_zip *zip, const char *name, const uint8_t *data, size_t size)
+/* How a member is put into the file, or what is wrong with it there. */
+enum way { STORED, DEFLATED, LONG, METHOD, CHECKSUM, ENCRYPTED, SIZE, PLACE, WAYS };
+
+static void add(struct kd_zip *zip, const char *name, enum way way, const uint8_t *data, size_t size)
 {
     struct kd_buffer bytes = { 0 };
     char file[40];
+    static const uint8_t zeros[4096];
     const struct kd_npy text = {
         .fields = { { "", KD_NPY_U1, 0 } }, .n_fields = 1, .shape = { size }, .n_dimensions = 1
     };
     snprintf(file, sizeof file, "%s.npy", name);
     CHECK(!(size && *data == '{' && kd_npy_write_header(&text, &bytes)) && !kd_buffer_append(&bytes, data, size),
           "out of memory");
-    CHECK(!kd_zip_add(zip, file, bytes.data ? (void *)bytes.data : "", bytes.size), "a member cannot be added");
+    for (int i = 0; way == LONG && i < 4200; i++) /* 17 MB, beyond every limit */
+        CHECK(!kd_buffer_append(&bytes, zeros, sizeof zeros), "out of memory");
+    const void *at = bytes.data ? (void *)bytes.data : "";
+    if (way == STORED)
+        CHECK(!kd_zip_begin(zip, file, bytes.size) && !kd_zip_append(zip, at, bytes.size), "a member cannot be added");
+    else
+        CHECK(!kd_zip_add(zip, file, at, bytes.size), "a member cannot be added");
     kd_buffer_finish(&bytes);
+}
+
+/* Spoils entries of the directory, in the fields of APPNOTE 4.3.12. */
+static void spoil(struct kd_buffer *file, const enum way *ways, const uint8_t *values, size_t n)
+{
+    static const int fields[WAYS] = { [METHOD] = 10, [CHECKSUM] = 16, [ENCRYPTED] = 8, [SIZE] = 24, [PLACE] = 42 };
+    size_t at = 0;
+    memcpy(&at, file->data + file->size - 6, 4); /* little-endian, as this machine */
+    for (size_t i = 0; i < n; i++) {
+        uint8_t *entry = file->data + at;
+        if (fields[ways[i]])
+            entry[fields[ways[i]]] ^= values[i] | 1;
+        at += 46 + (size_t)entry[28] + (size_t)entry[30];
+    }
 }
 
 static void make_grid(const uint8_t *data, size_t size, struct kd_buffer *out)
 {
     struct kd_zip *zip;
-    CHECK(!kd_zip_create(out, false, &zip), "a ZIP file cannot be begun");
-    while (size >= 3) {
+    enum way ways[MEMBERS];
+    uint8_t values[MEMBERS];
+    size_t members = 0;
+    CHECK(!kd_zip_create(out, true, &zip), "a ZIP file cannot be begun");
+    while (size >= 3 && members < MEMBERS) {
         const size_t length = data[1] | (size_t)data[2] << 8, n = length < size - 3 ? length : size - 3;
-        add(zip, names[data[0] % NAMES], data + 3, n);
+        ways[members] = (enum way)(data[0] / NAMES % WAYS);
+        values[members] = (uint8_t)(data[1] + (n ? data[3] : 0));
+        add(zip, names[data[0] % NAMES], ways[members++], data + 3, n);
         data += 3 + n;
         size -= 3 + n;
     }
     CHECK(!kd_zip_close(zip), "a ZIP file cannot be ended");
     kd_zip_destroy(zip);
+    spoil(out, ways, values, members);
 }
 
 static void check_grid(const void *data, size_t size, const struct kd_asset_about *about, enum kd_status looked)

@@ -1,6 +1,9 @@
-/* This gives every file of some folders to a target, once each, in the order of their names: kd_fuzz_replay TARGET
- * FOLDER... It says how many they were, and fails where there are none. */
+/* This gives every file of some folders to a target, in the order of their names, and once more: kd_fuzz_replay
+ * TARGET FOLDER... It says how many they were, and fails where there are none, or where one holds memory after its
+ * second time that it did not hold after its first. */
 #include "fuzz.h"
+
+#include "../held.h"
 
 #include <dirent.h>
 
@@ -26,6 +29,10 @@ static unsigned run_file(int (*run)(const uint8_t *, size_t), const char *path)
     fclose(file);
     fprintf(stderr, "%s\n", path); /* the last one, where it ends here */
     run(bytes.data, bytes.size);
+    const size_t before = kd_held();
+    run(bytes.data, bytes.size);
+    const size_t after = kd_held();
+    CHECK(after <= before, "%s: holds %zu bytes more than before", path, after - before);
     kd_buffer_finish(&bytes);
     return 1;
 }
@@ -49,6 +56,7 @@ static unsigned run_folder(int (*run)(const uint8_t *, size_t), const char *fold
 int main(int argc, char **argv)
 {
     unsigned n = 0;
+    kd_held_begin(argv);
     for (size_t i = 0; argc > 1 && i < sizeof targets / sizeof *targets; i++)
         for (int k = 2; k < argc && !strcmp(targets[i].name, argv[1]); k++)
             n += run_folder(targets[i].run, argv[k]);

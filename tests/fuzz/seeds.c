@@ -321,6 +321,13 @@ static void write_grid(void)
     kd_zip_destroy(zip);
     put("assets", "grid.npz", "", file.data, file.size);
     put("assets", "grid", "grid", records.data, records.size);
+    for (uint8_t way = 1; way < 8; way++) { /* of assets.c: r in each of them */
+        const size_t at = (size_t)(3 + sizeof header - 1);
+        char name[16];
+        records.data[at] = (uint8_t)(1 + 13 * way);
+        snprintf(name, sizeof name, "grid-%d", way);
+        put("assets", name, "grid", records.data, records.size);
+    }
     put("files", "members", "1", file.data, file.size);
     put("pictures", "grid.npz", "", file.data, file.size);
     kd_buffer_finish(&file);

@@ -258,7 +258,7 @@ class Assets(Case):
             data[:-18] + b"\1\0" + data[-16:]
         )  # a directory on another disk: members would be sought from the front, inflating what is passed over
         self.assertIn(
-            "header is missing",
+            "its directory lies on several disks",
             self.assertProblem(self.put(elsewhere, "application/x-npz"), 422, "invalid-asset")["detail"],
         )
         self.assertEqual(self.delete(asset).status, 204)
@@ -424,9 +424,16 @@ class State(Case):
         os.remove(path(4, "json"))  # killed between the two files
         os.remove(path(5, "png"))
         os.symlink(path(6, "png"), path(5, "png"))
-        left = path(6, "png") + ".aB3dE6"
+        left = path(6, "png") + ".kerrd-aB3dE6"
         others = [
-            os.path.join(self.assets, n) for n in ("notes.txt", "0" * 63 + ".png", "0" * 64 + ".gif", "x" * 64 + ".png")
+            os.path.join(self.assets, n)
+            for n in (
+                "notes.txt",
+                os.path.basename(path(6, "png")) + ".backup",
+                "0" * 63 + ".png",
+                "0" * 64 + ".gif",
+                "x" * 64 + ".png",
+            )
         ]
         for name in (left, *others):
             with open(name, "wb") as f:

@@ -16,7 +16,12 @@ from job_case import SCENE, Case, scene_of
 REAL = os.environ.get("FFMPEG") == "real"
 # Its arguments, a line each, and an empty line; then what it reads. The last argument is where it writes.
 KEEPS = 'import sys, pathlib\nout = open(sys.argv[-1], "wb")\nout.write("\\n".join(sys.argv[1:]).encode() + b"\\n\\n" + sys.stdin.buffer.read())\n'
-FAILS = 'import sys\nsys.stdin.buffer.read(9)\nsys.exit("first line\\nUnknown encoder libx264")\n'
+FAILS = 'import sys\nsys.stdin.buffer.read(9)\nsys.exit("\\x1b[31m/secret/place: Unknown encoder libx264\\x07\\nsecond line")\n'
+# Its child has its standard error, and stays when it has failed.
+LEAVES = (
+    'import os, pathlib, subprocess, sys\nsys.stdin.buffer.read(9)\nchild = subprocess.Popen(["sleep", "600"], stdin=subprocess.DEVNULL)\n'
+    'pathlib.Path(os.environ["KERRD_TEST_PID"]).write_text(str(child.pid))\nsys.exit("no luck")\n'
+)
 HANGS = 'import os, pathlib, time\npathlib.Path(os.environ["KERRD_TEST_PID"]).write_text(str(os.getpid()))\ntime.sleep(600)\n'
 
 
@@ -59,7 +64,12 @@ class Films(Case):
         return server, client, int(pid.read_text())
 
     def gone(self, number):
-        self.assertTrue(daemon.eventually(lambda: not pathlib.Path(f"/proc/{number}").exists()))
+        """Or dead, until its new parent has looked."""
+        self.assertTrue(
+            daemon.eventually(
+                lambda: not (stat := pathlib.Path(f"/proc/{number}/stat")).exists() or ") Z " in stat.read_text()
+            )
+        )
 
 
 class Given(Films):
@@ -106,7 +116,7 @@ class Given(Films):
     def test_one_that_fails(self):
         server, job, answer = self.film_of(FAILS, {"scenes": [SCENE] * 3})
         self.assertProblem(answer, 500, "internal")
-        self.assertRegex(answer.json()["detail"], r"^ffmpeg failed at frame \d: Unknown encoder libx264$")
+        self.assertRegex(answer.json()["detail"], r"^ffmpeg failed at frame \d: FILE: Unknown encoder libx264$")
         sizes = {"scenes": [SCENE, {**SCENE, "image": {"width": 64, "height": 36}}]}
         other = self.make(sizes, server=server)
         self.until(other, "done", server)
@@ -115,6 +125,13 @@ class Given(Films):
         self.assertProblem(problem, 422)
         self.assertIn("frame 1 is 64 x 36 pixels and frame 0 32 x 18", problem.json()["detail"])
         self.assertTrue(daemon.eventually(lambda: server.open_files() <= files))
+        self.ended(server)
+
+    def test_a_child_that_it_leaves_behind(self):
+        server, job, answer = self.film_of(LEAVES, {"scenes": [SCENE] * 3})
+        self.assertProblem(answer, 500, "internal")
+        self.assertRegex(answer.json()["detail"], r"^ffmpeg failed at frame \d: no luck$")
+        self.gone(int((self.folder / "pid").read_text()))
         self.ended(server)
 
     def test_a_server_that_stops_ends_it(self):

@@ -18,6 +18,7 @@ import tempfile
 import threading
 import time
 import unittest
+import unittest.mock
 import zipfile
 import zlib
 
@@ -46,6 +47,31 @@ class Sites(unittest.TestCase):
             self.addCleanup(server.process.kill)
             answer = server.get("/v1/device", Sec_Fetch_Site="cross-site")
             self.assertEqual((answer.status, answer.header("Cross-Origin-Resource-Policy")), (status, policy))
+            self.assertEqual(server.stop(), 0)
+
+
+class Limits(unittest.TestCase):
+    def test_a_limit_of_file_size_is_an_answer(self):
+        """ulimit -f: what is too long for it is refused, and the server goes on."""
+        import assets
+
+        command = list(daemon.COMMAND)
+        with (
+            tempfile.TemporaryDirectory() as state,
+            unittest.mock.patch.object(daemon, "COMMAND", ["sh", "-c", 'ulimit -f 64 && exec "$@"', "sh", *command]),
+        ):
+            server = daemon.Daemon("--state", state)
+            self.addCleanup(server.process.kill)
+            for n, status in ((200, 507), (20, 201)):
+                answer = server.request("PUT", "/v1/assets", assets.png(n, n), {"Content-Type": "image/png"})
+                self.assertEqual(answer.status, status, answer.body)
+            job = server.post("/v1/jobs", {"scene": {"image": {"width": 320, "height": 180}}, "output": "fits"}).json()
+            self.assertTrue(
+                daemon.eventually(
+                    lambda: "File too large" in server.get(f"/v1/jobs/{job['id']}").json().get("delayed", "")
+                )
+            )
+            self.assertEqual(server.get("/healthz").status, 200)
             self.assertEqual(server.stop(), 0)
 
 

@@ -56,6 +56,35 @@ class Case(job_case.Case):
             return [z.read(n) for n in z.namelist()]
 
 
+class Leftovers(Case):
+    def test_what_a_kill_has_left_half_written(self):
+        """It goes at the next start, and what somebody else has put there stays: also with the job's end."""
+        server = self.start()
+        job = self.make({"scenes": [SCENE] * 2}, server=server)
+        self.until(job, "done", server)
+        server.process.kill()
+        server.wait()
+        ours = ("000001.png.kerrd-bczkzP", "job.json.kerrd-aB3dE6", "request.json.kerrd-000000")
+        theirs = (
+            "000001.png.backup",
+            "job.json.backup",
+            "notes.kerrd-bczkzP",
+            "000001.png.kerrd-bczkzP.txt",
+            "000001.png~",
+        )
+        for name in (*ours, *theirs):
+            self.write(job, name, "something")
+        server = self.start()
+        names = os.listdir(os.path.join(self.jobs, job["id"]))
+        self.assertEqual(sorted(names), sorted([*theirs, "000000.png", "000001.png", "job.json", "request.json"]))
+        self.assertEqual(len(self.frames_of(job, server)), 2)
+        self.assertEqual(self.delete(job, server).status, 204)
+        self.assertTrue(
+            daemon.eventually(lambda: sorted(os.listdir(os.path.join(self.jobs, job["id"]))) == sorted(theirs))
+        )
+        self.assertEqual(server.stop(), 0)
+
+
 class Stops(Case):
     def test_a_clean_stop_is_no_strike(self):
         server = self.start()

@@ -3,6 +3,7 @@
  * them. */
 #include "image/exr.h"
 #include "image/fits.h"
+#include "image/unzip.h"
 #include "image/zip.h"
 
 #include <setjmp.h>
@@ -11,6 +12,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include <cmocka.h>
 
@@ -136,15 +138,133 @@ static void zip_members(void **state)
             kd_zip_destroy(zip);
         }
         assert_true(file.size == again.size && !memcmp(file.data, again.data, file.size));
-        OK(kd_zip_find(file.data, file.size, "a.npy", 1000, &got));
+        struct kd_unzip zip;
+        struct kd_error error;
+        OK(kd_unzip_open(file.data, file.size, &zip, &error));
+        const struct kd_unzip_member *member = kd_unzip_find(&zip, "a.npy");
+        OK(kd_unzip_take(&zip, member, 1000, &got, &error));
         assert_true(got.size == sizeof pixels && !memcmp(got.data, pixels, sizeof pixels));
-        assert_int_equal(kd_zip_find(file.data, file.size, "a.npy", sizeof pixels - 1, &got), KD_EINVAL);
-        assert_int_equal(kd_zip_find(file.data, file.size, "c", 1000, &got), KD_EINVAL);
-        assert_int_equal(kd_zip_find(file.data, 60, "notes.json", 1000, &got), KD_EINVAL);
         kd_buffer_finish(&got);
+        assert_int_equal(kd_unzip_take(&zip, member, sizeof pixels - 1, &got, &error), KD_EINVAL);
+        assert_null(got.data);
+        OK(kd_unzip_take(&zip, kd_unzip_find(&zip, "b"), 0, &got, &error));
+        assert_int_equal(got.size, 0);
+        kd_buffer_finish(&got);
+        assert_null(kd_unzip_find(&zip, "c"));
+        kd_unzip_finish(&zip);
         kd_buffer_finish(&again);
         kd_buffer_finish(&file);
     }
+}
+
+/* A file that is cut anywhere, and one with any byte changed, is refused or read: a sanitizer sees a byte too far,
+ * and what is read is what was written unless it is refused. */
+static void damaged_zip(void **state)
+{
+    (void)state;
+    struct kd_buffer file = { 0 };
+    struct kd_zip *writer;
+    OK(kd_zip_create(&file, true, &writer));
+    OK(kd_zip_add(writer, "a", pixels, sizeof pixels));
+    OK(kd_zip_begin(writer, "b", 3));
+    OK(kd_zip_append(writer, "xy", 2));
+    OK(kd_zip_append(writer, "z", 1));
+    OK(kd_zip_close(writer));
+    kd_zip_destroy(writer);
+    for (size_t i = 0; i < 9 * file.size; i++) {
+        const size_t size = i < file.size ? i : file.size;
+        uint8_t *bytes = malloc(size + 1);
+        struct kd_unzip zip;
+        struct kd_error error;
+        memcpy(bytes, file.data, size);
+        if (i >= file.size)
+            bytes[i % file.size] ^= (uint8_t)(1 << (i / file.size - 1));
+        bytes = realloc(bytes, size ? size : 1);
+        if (!kd_unzip_open(bytes, size, &zip, &error))
+            for (size_t k = 0; k < zip.n; k++) {
+                struct kd_buffer got = { 0 };
+                const bool taken = !kd_unzip_take(&zip, &zip.members[k], 1000, &got, &error);
+                const void *was = k ? (const void *)"xyz" : pixels;
+                assert_true(!taken || (got.size == (k ? 3 : sizeof pixels) && !memcmp(got.data, was, got.size)));
+                assert_true(taken || !got.data);
+                kd_buffer_finish(&got);
+            }
+        kd_unzip_finish(&zip);
+        free(bytes);
+    }
+    kd_buffer_finish(&file);
+}
+
+/* A directory of 700 000 entries is refused by the count in its end record, whichever of the two that is: going
+ * through it would take seconds. */
+static void too_many_members(void **state)
+{
+    (void)state;
+    enum { MANY = 700000, ENTRY = 46 };
+    const size_t size = (size_t)MANY * ENTRY;
+    uint8_t *bytes = calloc(1, size + 98), *end = bytes + size;
+    struct timespec begun, done;
+    for (size_t i = 0; i < MANY; i++)
+        memcpy(bytes + i * ENTRY, "PK\1\2", 4);
+    memcpy(end, "PK\6\6", 4); /* APPNOTE 4.3.14 */
+    const uint64_t counts[] = { MANY, MANY, size, 0 }, at = size;
+    memcpy(end + 24, counts, sizeof counts);
+    memcpy(end + 56, "PK\6\7", 4);
+    memcpy(end + 64, &at, 8);
+    memcpy(end + 76, "PK\5\6", 4);
+    for (int liar = 0; liar < 2; liar++) {
+        struct kd_unzip zip;
+        struct kd_error error;
+        const uint16_t said = liar ? 3 : 0xffff; /* a liar has more than it says */
+        const uint32_t bytes_said = liar ? (uint32_t)size : 0xffffffff;
+        memcpy(end + 84, &said, 2);
+        memcpy(end + 86, &said, 2);
+        memcpy(end + 88, &bytes_said, 4);
+        clock_gettime(CLOCK_THREAD_CPUTIME_ID, &begun);
+        assert_int_equal(kd_unzip_open(bytes, size + 98, &zip, &error), KD_EINVAL);
+        clock_gettime(CLOCK_THREAD_CPUTIME_ID, &done);
+        assert_non_null(strstr(error.message,
+                               liar ? "has not as many entries as it says" : "at most 1024 members, and has 700000"));
+        assert_true((double)(done.tv_sec - begun.tv_sec) + 1e-9 * (double)(done.tv_nsec - begun.tv_nsec) < 0.5);
+        assert_null(zip.members);
+    }
+    free(bytes);
+}
+
+/* What the writer says of members beyond 4 GiB is read back: sizes stand in the fields of ZIP64. The bytes
+ * themselves are taken off, as for a film. */
+static void long_members(void **state)
+{
+    (void)state;
+    enum { PIECE = 64 << 20 };
+    const uint64_t size = (4ull << 30) + 3;
+    struct kd_buffer file = { 0 };
+    struct kd_zip *writer;
+    uint8_t *piece = calloc(1, PIECE);
+    uint64_t taken = 0; /* off the buffer */
+    OK(kd_zip_create(&file, false, &writer));
+    OK(kd_zip_begin(writer, "long", size));
+    for (uint64_t left = size, n; left; left -= n) {
+        n = left < PIECE ? left : PIECE;
+        OK(kd_zip_append(writer, piece, (size_t)n));
+        taken += file.size;
+        file.size = 0;
+    }
+    free(piece);
+    OK(kd_zip_add(writer, "short", "x", 1));
+    OK(kd_zip_close(writer));
+    kd_zip_destroy(writer);
+    const uint8_t *entry = memmem(file.data, file.size, "PK\1\2", 4),
+                  *second = memmem(entry + 4, file.size - (size_t)(entry + 4 - file.data), "PK\1\2", 4);
+    uint64_t told;
+    memcpy(&told, entry + 46 + 4 + 4, 8);
+    assert_true(told == size && !memcmp(entry + 24, "\xff\xff\xff\xff", 4));
+    memcpy(&told, second + 46 + 5 + 4, 8);
+    assert_true(told == taken);
+    const uint8_t *locator = memmem(file.data, file.size, "PK\6\7", 4);
+    memcpy(&told, locator + 8, 8);
+    assert_true(told + 56 + 20 + 22 == taken + file.size);
+    kd_buffer_finish(&file);
 }
 
 static void exr_texts(void **state)
@@ -174,8 +294,9 @@ static void exr_texts(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(texts_of_any_length),     cmocka_unit_test(checksums),   cmocka_unit_test(numbers),
-        cmocka_unit_test(first_row_is_the_lowest), cmocka_unit_test(zip_members), cmocka_unit_test(exr_texts),
+        cmocka_unit_test(texts_of_any_length),     cmocka_unit_test(checksums),    cmocka_unit_test(numbers),
+        cmocka_unit_test(first_row_is_the_lowest), cmocka_unit_test(zip_members),  cmocka_unit_test(damaged_zip),
+        cmocka_unit_test(too_many_members),        cmocka_unit_test(long_members), cmocka_unit_test(exr_texts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -61,9 +61,11 @@ static void test_there_and_back(void **state)
     assert_int_equal(out.size, sizeof data);
     assert_memory_equal(out.data, data, sizeof data);
     kd_buffer_finish(&out);
-    assert_true(kd_replace_is_temporary("data.aB3xyZ", "data"));
-    assert_false(kd_replace_is_temporary("data.aB3xy", "data") || kd_replace_is_temporary("data.aB3xy.", "data") ||
-                 kd_replace_is_temporary("dat.aB3xyZ", "data") || kd_replace_is_temporary("data", "data"));
+    assert_true(kd_replace_is_temporary("data.kerrd-aB3xyZ", "data"));
+    assert_false(kd_replace_is_temporary("data.kerrd-aB3xy", "data") ||
+                 kd_replace_is_temporary("data.kerrd-aB3xy.", "data") ||
+                 kd_replace_is_temporary("dat.kerrd-aB3xyZ", "data") || kd_replace_is_temporary("data", "data") ||
+                 kd_replace_is_temporary("data.backup", "data"));
 }
 
 static int begin(void **state)

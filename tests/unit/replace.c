@@ -116,25 +116,27 @@ static void test_leftovers(void **state)
         int64_t age_s;
         bool stays;
     } files[] = {
-        { "cache.abcdef", 7200, false }, { "cache.Zz09Aa", 86400, false }, { "cache.ghijkl", 60, true },
-        { "cache.abcde", 7200, true },   { "cache.abcdefg", 7200, true },  { "cache.abc-ef", 7200, true },
-        { "cache-abcdef", 7200, true },  { "other.abcdef", 7200, true },   { "cache.", 7200, true },
-        { "xcache.abcdef", 7200, true },
+        { "cache.kerrd-abcdef", 7200, false }, { "cache.kerrd-Zz09Aa", 86400, false },
+        { "cache.kerrd-ghijkl", 60, true },    { "cache.kerrd-abcde", 7200, true },
+        { "cache.kerrd-abcdefg", 7200, true }, { "cache.kerrd-abc-ef", 7200, true },
+        { "cache-kerrd-abcdef", 7200, true },  { "other.kerrd-abcdef", 7200, true },
+        { "cache.kerrd-", 7200, true },        { "xcache.kerrd-abcdef", 7200, true },
+        { "cache.backup", 7200, true },
     };
     for (size_t i = 0; i < sizeof files / sizeof *files; i++)
         make(files[i].name, files[i].age_s);
-    assert_int_equal(mkdir(path_of("cache.folder"), 0700), 0);
+    assert_int_equal(mkdir(path_of("cache.kerrd-folder"), 0700), 0);
     make("victim", 7200);
-    assert_int_equal(symlink("victim", path_of("cache.linked")), 0);
-    age("cache.folder", 7200);
-    age("cache.linked", 7200);
+    assert_int_equal(symlink("victim", path_of("cache.kerrd-linked")), 0);
+    age("cache.kerrd-folder", 7200);
+    age("cache.kerrd-linked", 7200);
     assert_true(kd_replace_file(path_of("cache"), "new", 3));
     expect("cache", "new");
     for (size_t i = 0; i < sizeof files / sizeof *files; i++)
         if (there(files[i].name) != files[i].stays)
             fail_msg("%s, %d s old, should %s", files[i].name, (int)files[i].age_s, files[i].stays ? "stay" : "go");
-    assert_true(there("cache.folder") && there("cache.linked") && there("victim"));
-    assert_int_equal(rmdir(path_of("cache.folder")), 0);
+    assert_true(there("cache.kerrd-folder") && there("cache.kerrd-linked") && there("victim"));
+    assert_int_equal(rmdir(path_of("cache.kerrd-folder")), 0);
 }
 
 static int finish(void **state)

@@ -1,10 +1,10 @@
 #include "render/emit/matter_grid.h"
 
-#include "base/json.h"
+#include "base/clock.h"
 #include "image/npy.h"
-#include "image/zip.h"
 #include "physics/constants.h"
 #include "physics/kerr.h"
+#include "render/emit/matter_array.h"
 
 #include <cjson/cJSON.h>
 #include <math.h>
@@ -37,89 +37,16 @@ static const struct {
 enum { DENSITY, TEMPERATURE, VELOCITY, FIELD = 5 };
 _Static_assert(sizeof kinds / sizeof *kinds == KD_MATTER_FLOATS, "a float for each");
 
-struct reader {
-    const void *data;
-    size_t size;
-    struct kd_matter_grid *grid;
+struct kd_matter_reader {
+    struct kd_unzip zip;
+    struct kd_matter_grid grid;
     double *r, *theta;
-    struct kd_error *error;
-};
-
-/* An array of doubles, whatever it was. */
-struct array {
-    double *at;
-    uint64_t shape[4];
-    size_t n, dimensions;
+    bool look;                    /* the numbers are checked, and not made ready for a renderer */
+    struct kd_matter_array array; /* that is under way, */
+    size_t kind, done;            /* which of them it is, and its numbers that are done */
 };
 
 bool kd_matter_grid_is(const void *data, size_t size) { return size > 4 && !memcmp(data, "PK\3\4", 4); }
-
-/* A ZIP file ends with the record of its directory, of 22 bytes without a comment: libarchive reads what has lost
- * that, too. */
-static bool is_whole(const void *data, size_t size)
-{
-    return size >= 22 && !memcmp((const uint8_t *)data + size - 22, "PK\5\6", 4);
-}
-
-static enum kd_status refuse(struct reader *r, const char *name, const char *what)
-{
-    return kd_error_set(r->error, KD_EINVAL, "a grid of matter is an NPZ file of arrays: %s %s", name, what);
-}
-
-static enum kd_status no_memory(struct reader *r)
-{
-    return kd_error_set(r->error, KD_ENOMEM, "out of memory for a grid of matter");
-}
-
-static enum kd_status member(struct reader *r, const char *name, size_t most, struct kd_buffer *out)
-{
-    char file[40], what[100];
-    snprintf(file, sizeof file, "%s.npy", name);
-    snprintf(what, sizeof what, "is missing, damaged or longer than %zu bytes", most);
-    enum kd_status status = kd_zip_find(r->data, r->size, file, most, out);
-    return status == KD_ENOMEM ? no_memory(r) : status ? refuse(r, name, what) : KD_OK;
-}
-
-static bool has(const struct reader *r, const char *name)
-{
-    char file[40];
-    snprintf(file, sizeof file, "%s.npy", name);
-    return kd_zip_has(r->data, r->size, file);
-}
-
-/* Takes an array of at most so many numbers. */
-static enum kd_status take(struct reader *r, const char *name, size_t most, struct array *out)
-{
-    struct kd_buffer bytes = { 0 };
-    struct kd_npy npy;
-    struct kd_error why = { 0 };
-    *out = (struct array) { 0 };
-    enum kd_status status = member(r, name, 8 * most + KD_NPY_HEADER_MAX + 12, &bytes);
-    if (status)
-        return status;
-    if (kd_npy_read(bytes.data, bytes.size, &npy, &why))
-        status = refuse(r, name, why.message);
-    else if (npy.n_fields != 1 || npy.fields[0].name[0] || npy.fields[0].type > KD_NPY_F4 || !npy.items ||
-             npy.items > most)
-        status = refuse(r, name, "has no plain numbers <f8 or <f4, or has none, or too many of them");
-    else if (!(out->at = malloc(npy.items * sizeof *out->at)))
-        status = no_memory(r);
-    for (size_t i = 0; !status && i < npy.items; i++) {
-        const uint8_t *p = bytes.data + npy.header_size + i * npy.item_size;
-        float single;
-        if (npy.fields[0].type == KD_NPY_F8)
-            memcpy(&out->at[i], p, 8);
-        else {
-            memcpy(&single, p, 4);
-            out->at[i] = single;
-        }
-    }
-    out->n = npy.items;
-    out->dimensions = npy.n_dimensions;
-    memcpy(out->shape, npy.shape, sizeof out->shape);
-    kd_buffer_finish(&bytes);
-    return status;
-}
 
 static const char *text_of(const cJSON *header, const char *name)
 {
@@ -127,7 +54,7 @@ static const char *text_of(const cJSON *header, const char *name)
     return text ? text : "";
 }
 
-static enum kd_status check_units(struct reader *r, const cJSON *units)
+static enum kd_status check_units(const cJSON *units, struct kd_error *error)
 {
     static const char *const others[][2] = { { "r", "M" }, { "theta", "rad" } };
     char name[60], what[200];
@@ -139,37 +66,38 @@ static enum kd_status check_units(struct reader *r, const cJSON *units)
         snprintf(name, sizeof name, "header.units.%s", of);
         snprintf(what, sizeof what, "%s%.60s%s, allowed is \"%s\"", *is ? "is \"" : "is missing", is, *is ? "\"" : "",
                  unit);
-        return refuse(r, name, what);
+        return kd_matter_refuse(name, what, error);
     }
     return KD_OK;
 }
 
-static enum kd_status check_header(struct reader *r, const cJSON *header)
+static enum kd_status check_header(struct kd_matter_grid *grid, const cJSON *header, struct kd_error *error)
 {
     const cJSON *spin = cJSON_GetObjectItemCaseSensitive(header, "spin"),
                 *version = cJSON_GetObjectItemCaseSensitive(header, "version");
     const char *azimuth = text_of(header, "azimuth");
     if (strcmp(text_of(header, "format"), "kerrd-grid") || !cJSON_IsNumber(version) || version->valuedouble != 1)
-        return refuse(r, "header", "has not the format \"kerrd-grid\" of version 1");
+        return kd_matter_refuse("header", "has not the format \"kerrd-grid\" of version 1", error);
     if (!cJSON_IsNumber(spin) || !(fabs(spin->valuedouble) <= 1))
-        return refuse(r, "header.spin", "is no number from -1 to 1");
-    r->grid->spin = spin->valuedouble;
-    r->grid->ingoing = !strcmp(azimuth, "kerr-schild");
-    if (!r->grid->ingoing && strcmp(azimuth, "boyer-lindquist"))
-        return refuse(r, "header.azimuth", "is neither \"boyer-lindquist\" nor \"kerr-schild\"");
-    return check_units(r, cJSON_GetObjectItemCaseSensitive(header, "units"));
+        return kd_matter_refuse("header.spin", "is no number from -1 to 1", error);
+    grid->spin = spin->valuedouble;
+    grid->ingoing = !strcmp(azimuth, "kerr-schild");
+    if (!grid->ingoing && strcmp(azimuth, "boyer-lindquist"))
+        return kd_matter_refuse("header.azimuth", "is neither \"boyer-lindquist\" nor \"kerr-schild\"", error);
+    return check_units(cJSON_GetObjectItemCaseSensitive(header, "units"), error);
 }
 
-static enum kd_status take_header(struct reader *r)
+static enum kd_status take_header(struct kd_matter_reader *r, struct kd_error *error)
 {
     struct kd_buffer bytes = { 0 }, text = { 0 };
     struct kd_error why = { 0 };
-    enum kd_status status = member(r, "header", HEADER_MOST, &bytes);
+    enum kd_status status = kd_matter_member(&r->zip, "header", HEADER_MOST, &bytes, error);
     if (!status && (status = kd_npy_read_text(bytes.data, bytes.size, &text, &why)))
-        status = status == KD_ENOMEM ? no_memory(r) : refuse(r, "header", why.message);
+        status = status == KD_ENOMEM ? kd_matter_no_memory(error) : kd_matter_refuse("header", why.message, error);
     cJSON *header = status ? NULL : cJSON_ParseWithLength(text.data ? (const char *)text.data : "", text.size);
     if (!status)
-        status = cJSON_IsObject(header) ? check_header(r, header) : refuse(r, "header", "is no JSON object");
+        status = cJSON_IsObject(header) ? check_header(&r->grid, header, error)
+                                        : kd_matter_refuse("header", "is no JSON object", error);
     cJSON_Delete(header);
     kd_buffer_finish(&bytes);
     kd_buffer_finish(&text);
@@ -177,89 +105,105 @@ static enum kd_status take_header(struct reader *r)
 }
 
 /* Checks that places grow in even steps, by their logarithm where they are to. */
-static enum kd_status check_even(struct reader *r, const char *name, const struct array *a, bool logarithmic,
-                                 double least, double most)
+static enum kd_status check_even(const char *name, const struct kd_matter_array *a, bool logarithmic, double least,
+                                 double most, struct kd_error *error)
 {
     char what[200];
-    const double first = logarithmic ? log(a->at[0]) : a->at[0],
-                 last = logarithmic ? log(a->at[a->n - 1]) : a->at[a->n - 1],
+    const double begin = kd_matter_array_at(a, 0), end = kd_matter_array_at(a, a->n - 1);
+    const double first = logarithmic ? log(begin) : begin, last = logarithmic ? log(end) : end,
                  step = (last - first) / (double)(a->n - 1);
     if (a->dimensions != 1 || a->n < 2)
-        return refuse(r, name, "is no list of 2 numbers or more");
+        return kd_matter_refuse(name, "is no list of 2 numbers or more", error);
     for (size_t i = 0; i < a->n; i++) {
-        const double at = logarithmic ? log(a->at[i]) : a->at[i], want = first + step * (double)i;
-        if (a->at[i] >= least && a->at[i] <= most && fabs(at - want) <= EVEN * step)
+        const double value = kd_matter_array_at(a, i), at = logarithmic ? log(value) : value,
+                     want = first + step * (double)i;
+        if (value >= least && value <= most && fabs(at - want) <= EVEN * step)
             continue;
         snprintf(what, sizeof what, "%zu is %.9g, allowed are numbers from %.4g to %.4g in even steps%s, here %.9g", i,
-                 a->at[i], least, most, logarithmic ? " of their logarithm" : "", logarithmic ? exp(want) : want);
-        return refuse(r, name, what);
+                 value, least, most, logarithmic ? " of their logarithm" : "", logarithmic ? exp(want) : want);
+        return kd_matter_refuse(name, what, error);
     }
-    return step > 0 ? KD_OK : refuse(r, name, "does not grow");
+    return step > 0 ? KD_OK : kd_matter_refuse(name, "does not grow", error);
 }
 
-static enum kd_status take_round(struct reader *r)
+static enum kd_status take_round(struct kd_matter_reader *r, struct kd_error *error)
 {
-    struct kd_matter_grid *g = r->grid;
-    struct array a = { 0 };
+    struct kd_matter_grid *g = &r->grid;
+    struct kd_matter_array a = { 0 };
     enum kd_status status;
     g->layers = 1;
     g->turn = 2 * M_PI;
-    if (!has(r, "phi"))
+    if (!kd_matter_has(&r->zip, "phi"))
         return KD_OK;
-    KD_TRY(take(r, "phi", KD_MATTER_SIDE, &a));
-    KD_TRY(check_even(r, "phi", &a, false, -4 * M_PI, 4 * M_PI));
-    const double turn = (a.at[a.n - 1] - a.at[0]) / (double)(a.n - 1) * (double)a.n, parts = rint(2 * M_PI / turn);
+    KD_TRY(kd_matter_array_take(&r->zip, "phi", KD_MATTER_SIDE, &a, error));
+    KD_TRY(check_even("phi", &a, false, -4 * M_PI, 4 * M_PI, error));
+    const double begin = kd_matter_array_at(&a, 0), end = kd_matter_array_at(&a, a.n - 1);
+    const double turn = (end - begin) / (double)(a.n - 1) * (double)a.n, parts = rint(2 * M_PI / turn);
     if (!(parts >= 1 && parts <= PARTS && fabs(turn * parts / (2 * M_PI) - 1) < EVEN))
-        KD_TRY(refuse(r, "phi",
-                      "does not go round once, nor a whole part of that, down to a 64th: its last is a step before the "
-                      "first again"));
+        KD_TRY(kd_matter_refuse("phi",
+                                "does not go round once, nor a whole part of that, down to a 64th: its last is a step "
+                                "before the first again",
+                                error));
     g->layers = (uint32_t)a.n;
-    g->phi = a.at[0];
+    g->phi = begin;
     g->turn = 2 * M_PI / parts;
 done:
-    free(a.at);
+    kd_matter_array_finish(&a);
     return status;
 }
 
-static enum kd_status take_places(struct reader *r)
+/* Takes radii or angles, and the first and the last of them. */
+static enum kd_status take_line(struct kd_matter_reader *r, const char *name, bool logarithmic, double least,
+                                double most, double **at, uint32_t *n, double edges[2], struct kd_error *error)
 {
-    struct kd_matter_grid *g = r->grid;
-    struct array radii = { 0 }, angles = { 0 };
+    struct kd_matter_array a = { 0 };
     enum kd_status status;
-    KD_TRY(take(r, "r", KD_MATTER_SIDE, &radii));
-    KD_TRY(check_even(r, "r", &radii, true, 0.1, 1e6));
-    KD_TRY(take(r, "theta", KD_MATTER_SIDE, &angles));
-    KD_TRY(check_even(r, "theta", &angles, false, 0, M_PI + 1e-6));
-    g->rows = (uint32_t)radii.n;
-    g->columns = (uint32_t)angles.n;
-    g->r[0] = radii.at[0], g->r[1] = radii.at[radii.n - 1];
-    g->theta[0] = angles.at[0], g->theta[1] = angles.at[angles.n - 1];
-    const double step = (g->theta[1] - g->theta[0]) / (double)(angles.n - 1);
+    KD_TRY(kd_matter_array_take(&r->zip, name, KD_MATTER_SIDE, &a, error));
+    KD_TRY(check_even(name, &a, logarithmic, least, most, error));
+    *at = malloc(a.n * sizeof **at);
+    if (!*at)
+        KD_TRY(kd_matter_no_memory(error));
+    for (size_t i = 0; i < a.n; i++)
+        (*at)[i] = kd_matter_array_at(&a, i);
+    *n = (uint32_t)a.n;
+    edges[0] = (*at)[0];
+    edges[1] = (*at)[a.n - 1];
+done:
+    kd_matter_array_finish(&a);
+    return status;
+}
+
+static enum kd_status take_places(struct kd_matter_reader *r, struct kd_error *error)
+{
+    struct kd_matter_grid *g = &r->grid;
+    enum kd_status status;
+    KD_TRY(take_line(r, "r", true, 0.1, 1e6, &r->r, &g->rows, g->r, error));
+    KD_TRY(take_line(r, "theta", false, 0, M_PI + 1e-6, &r->theta, &g->columns, g->theta, error));
+    const double step = (g->theta[1] - g->theta[0]) / (double)(g->columns - 1);
     if (g->theta[0] > 1.001 * step || g->theta[1] < M_PI - 1.001 * step)
-        KD_TRY(refuse(r, "theta",
-                      "does not go from pole to pole: its first is more than a step from 0, or its last from pi"));
-    KD_TRY(take_round(r));
+        KD_TRY(kd_matter_refuse(
+            "theta", "does not go from pole to pole: its first is more than a step from 0, or its last from pi",
+            error));
+    KD_TRY(take_round(r, error));
     if ((uint64_t)g->rows * g->columns * g->layers > KD_MATTER_NODES) {
         char what[120];
-        snprintf(what, sizeof what, "x theta x phi is %u x %u x %u nodes, allowed are %d in all", g->rows, g->columns,
-                 g->layers, KD_MATTER_NODES);
-        KD_TRY(refuse(r, "r", what));
+        snprintf(what, sizeof what, "x theta x phi is %u x %u x %u nodes: it must be at most %d in all", g->rows,
+                 g->columns, g->layers, KD_MATTER_NODES);
+        KD_TRY(kd_matter_refuse("r", what, error));
     }
     if ((g->rows - 1) / log(g->r[1] / g->r[0]) > FINEST)
-        KD_TRY(refuse(r, "r", "has more than 1024 rows where r grows by a factor of e"));
+        KD_TRY(kd_matter_refuse("r", "has more than 1024 rows where r grows by a factor of e", error));
     if (g->columns < 3)
-        KD_TRY(refuse(r, "theta", "has fewer than 3 numbers: there must be one off the axis"));
+        KD_TRY(kd_matter_refuse("theta", "has fewer than 3 numbers: there must be one off the axis", error));
 done:
-    r->r = radii.at;
-    r->theta = angles.at;
     return status;
 }
 
 static size_t nodes_of(const struct kd_matter_grid *g) { return (size_t)g->rows * g->columns * g->layers; }
 
-static enum kd_status check_shape(struct reader *r, const char *name, const struct array *a)
+static enum kd_status check_shape(const struct kd_matter_grid *g, const char *name, const struct kd_matter_array *a,
+                                  struct kd_error *error)
 {
-    const struct kd_matter_grid *g = r->grid;
     const bool flat = a->dimensions == 2 && g->layers == 1, round = a->dimensions == 3 && a->shape[2] == g->layers;
     char what[200];
     if ((flat || round) && a->shape[0] == g->rows && a->shape[1] == g->columns)
@@ -267,12 +211,12 @@ static enum kd_status check_shape(struct reader *r, const char *name, const stru
     snprintf(what, sizeof what, "has %zu numbers in %zu dimensions, allowed is the shape (%u, %u%s%.0u) of r, theta%s",
              a->n, a->dimensions, g->rows, g->columns, g->layers > 1 ? ", " : "", g->layers > 1 ? g->layers : 0,
              g->layers > 1 ? " and phi" : "");
-    return refuse(r, name, what);
+    return kd_matter_refuse(name, what, error);
 }
 
-static enum kd_status refuse_number(struct reader *r, const char *name, size_t i, double value, const char *allowed)
+static enum kd_status refuse_number(const struct kd_matter_grid *g, const char *name, size_t i, double value,
+                                    const char *allowed, struct kd_error *error)
 {
-    const struct kd_matter_grid *g = r->grid;
     char at[80], what[200];
     const size_t layer = i % g->layers, column = i / g->layers % g->columns, row = i / g->layers / g->columns;
     if (g->layers > 1)
@@ -280,66 +224,48 @@ static enum kd_status refuse_number(struct reader *r, const char *name, size_t i
     else
         snprintf(at, sizeof at, "%s[%zu, %zu]", name, row, column);
     snprintf(what, sizeof what, "is %.9g, allowed %s", value, allowed);
-    return refuse(r, at, what);
+    return kd_matter_refuse(at, what, error);
 }
 
-/* Puts an array into its places of the nodes, as numbers that vary little with r. */
-static enum kd_status take_kind(struct reader *r, size_t kind)
+/* Puts a number into its place of a node, as one that varies little with r. */
+static enum kd_status take_number(struct kd_matter_reader *r, size_t i, struct kd_error *error)
 {
-    struct kd_matter_grid *g = r->grid;
-    struct array a = { 0 };
+    struct kd_matter_grid *g = &r->grid;
+    const size_t kind = r->kind;
+    const int scale = kinds[kind].scale;
+    const double radius = r->r[i / g->layers / g->columns], read = kd_matter_array_at(&r->array, i);
+    const double value = read * (scale > 0 ? radius : scale < 0 ? 1 / radius : 1);
     char allowed[80];
-    enum kd_status status;
-    KD_TRY(take(r, kinds[kind].name, KD_MATTER_NODES, &a));
-    KD_TRY(check_shape(r, kinds[kind].name, &a));
-    for (size_t i = 0; i < a.n; i++) {
-        const double radius = r->r[i / g->layers / g->columns], value = a.at[i] * (kinds[kind].scale > 0   ? radius
-                                                                                   : kinds[kind].scale < 0 ? 1 / radius
-                                                                                                           : 1);
-        if (!(value >= kinds[kind].least && value <= kinds[kind].most)) {
-            snprintf(allowed, sizeof allowed, "are %.4g to %.4g %s%s", kinds[kind].least, kinds[kind].most,
-                     kinds[kind].unit,
-                     kinds[kind].scale > 0   ? " over r"
-                     : kinds[kind].scale < 0 ? " times r"
-                                             : "");
-            KD_TRY(refuse_number(r, kinds[kind].name, i, a.at[i], allowed));
-        }
+    if (value >= kinds[kind].least && value <= kinds[kind].most) {
         g->nodes[KD_MATTER_FLOATS * i + kind] = (float)value;
+        return KD_OK;
     }
-done:
-    free(a.at);
-    return status;
+    snprintf(allowed, sizeof allowed, "are %.4g to %.4g %s%s", kinds[kind].least, kinds[kind].most, kinds[kind].unit,
+             scale > 0   ? " over r"
+             : scale < 0 ? " times r"
+                         : "");
+    return refuse_number(g, kinds[kind].name, i, read, allowed, error);
 }
 
 /* -lapse^2 (u^t)^2 + U^2 = -1 past observers of zero angular momentum (Bardeen, Press & Teukolsky 1972), outside the
  * horizon. */
-static enum kd_status check_velocity(struct reader *r)
+static enum kd_status check_velocity(struct kd_matter_reader *r, size_t i, struct kd_error *error)
 {
-    const struct kd_matter_grid *g = r->grid;
-    const double a = g->spin, edge = 1.001 * kd_kerr_horizon(a);
-    struct array t = { 0 };
-    enum kd_status status = KD_OK;
-    if (!has(r, "u_con_t"))
+    const struct kd_matter_grid *g = &r->grid;
+    const double a = g->spin, edge = 1.001 * kd_kerr_horizon(a), t = kd_matter_array_at(&r->array, i);
+    const double radius = r->r[i / g->layers / g->columns], theta = r->theta[i / g->layers % g->columns],
+                 s2 = sin(theta) * sin(theta), r2 = radius * radius;
+    const double sigma = r2 + a * a * (1 - s2), delta = r2 - 2 * radius + a * a,
+                 area = (r2 + a * a) * (r2 + a * a) - a * a * delta * s2;
+    const float *n = g->nodes + KD_MATTER_FLOATS * i;
+    const double out = n[VELOCITY], down = n[VELOCITY + 1] / radius, round = n[VELOCITY + 2] * radius;
+    const double norm = out * out * sigma / delta + down * down * sigma + round * round * sigma / (area * s2) -
+                        t * t * sigma * delta / area;
+    if (!(radius > edge && s2 > AXIS) || fabs(norm + 1) <= UNIT)
         return KD_OK;
-    KD_TRY(take(r, "u_con_t", KD_MATTER_NODES, &t));
-    KD_TRY(check_shape(r, "u_con_t", &t));
-    for (size_t i = 0; i < t.n; i++) {
-        const double radius = r->r[i / g->layers / g->columns], theta = r->theta[i / g->layers % g->columns],
-                     s2 = sin(theta) * sin(theta), r2 = radius * radius;
-        const double sigma = r2 + a * a * (1 - s2), delta = r2 - 2 * radius + a * a,
-                     area = (r2 + a * a) * (r2 + a * a) - a * a * delta * s2;
-        const float *n = g->nodes + KD_MATTER_FLOATS * i;
-        const double out = n[VELOCITY], down = n[VELOCITY + 1] / radius, round = n[VELOCITY + 2] * radius;
-        const double norm = out * out * sigma / delta + down * down * sigma + round * round * sigma / (area * s2) -
-                            t.at[i] * t.at[i] * sigma * delta / area;
-        if (radius > edge && s2 > AXIS && !(fabs(norm + 1) <= UNIT))
-            KD_TRY(refuse_number(
-                r, "the velocity's u.u at u_con_t", i, norm,
-                "is -1 within a hundredth: it is timelike, of unit length, and in the components that are told"));
-    }
-done:
-    free(t.at);
-    return status;
+    return refuse_number(
+        g, "the velocity's u.u at u_con_t", i, norm,
+        "is -1 within a hundredth: it is timelike, of unit length, and in the components that are told", error);
 }
 
 /* The temperature of an empty node is none: it is the mean of its neighbours' that are not empty, so that what is
@@ -404,44 +330,142 @@ static void to_logarithms(struct kd_matter_grid *g)
     }
 }
 
-enum kd_status kd_matter_grid_read(const void *data, size_t size, struct kd_matter_grid *out, struct kd_error *error)
+enum kd_status kd_matter_reader_open(const void *data, size_t size, bool look, struct kd_matter_reader **out,
+                                     struct kd_error *error)
 {
-    struct reader r = { data, size, out, .error = error };
+    struct kd_matter_reader *r = calloc(1, sizeof *r);
+    struct kd_error why = { 0 };
     enum kd_status status;
-    *out = (struct kd_matter_grid) { 0 };
-    if (!is_whole(data, size))
-        KD_TRY(refuse(&r, "the file", "ends before its directory does, or bytes follow that"));
-    KD_TRY(take_header(&r));
-    KD_TRY(take_places(&r));
-    out->nodes = malloc(nodes_of(out) * KD_MATTER_FLOATS * sizeof *out->nodes);
-    if (!out->nodes)
-        KD_TRY(no_memory(&r));
-    for (size_t i = 0; i < KD_MATTER_FLOATS; i++)
-        KD_TRY(take_kind(&r, i));
-    KD_TRY(check_velocity(&r));
-    over_sine(out, r.theta);
-    to_logarithms(out);
+    *out = NULL;
+    if (!r)
+        return kd_matter_no_memory(error);
+    r->look = look;
+    if ((status = kd_unzip_open(data, size, &r->zip, &why)))
+        KD_TRY(status == KD_EINVAL
+                   ? kd_error_set(error, KD_EINVAL, "a grid of matter is an NPZ file of arrays: %s", why.message)
+                   : kd_matter_no_memory(error));
+    KD_TRY(take_header(r, error));
+    KD_TRY(take_places(r, error));
 done:
     if (status)
-        kd_matter_grid_finish(out);
-    free(r.r);
-    free(r.theta);
+        kd_matter_reader_close(r);
+    else
+        *out = r;
+    return status;
+}
+
+size_t kd_matter_reader_bytes(const struct kd_matter_reader *r)
+{
+    return nodes_of(&r->grid) * (KD_MATTER_FLOATS * sizeof *r->grid.nodes + sizeof(double));
+}
+
+const struct kd_matter_grid *kd_matter_reader_grid(const struct kd_matter_reader *r) { return &r->grid; }
+
+/* Unpacks the next array; false: u_con_t, the last, is not there. */
+static bool begin_array(struct kd_matter_reader *r, enum kd_status *status, struct kd_error *error)
+{
+    const char *name = r->kind < KD_MATTER_FLOATS ? kinds[r->kind].name : "u_con_t";
+    if (r->kind == KD_MATTER_FLOATS && !kd_matter_has(&r->zip, name))
+        return false;
+    *status = kd_matter_array_take(&r->zip, name, nodes_of(&r->grid), &r->array, error);
+    if (!*status)
+        *status = check_shape(&r->grid, name, &r->array, error);
+    r->done = 0;
+    return true;
+}
+
+/* Goes on with the array that is under way, a stretch at a time. */
+static enum kd_status take_numbers(struct kd_matter_reader *r, double until_ms, struct kd_error *error)
+{
+    enum { STRETCH = 16384 }; /* some 0.3 ms */
+    enum kd_status status = KD_OK;
+    do
+        for (size_t n = 0; n < STRETCH && r->done < r->array.n; n++, r->done++)
+            KD_TRY((r->kind < KD_MATTER_FLOATS ? take_number : check_velocity)(r, r->done, error));
+    while (r->done < r->array.n && kd_clock_ms() < until_ms);
+done:
+    return status;
+}
+
+enum kd_status kd_matter_reader_go_on(struct kd_matter_reader *r, double until_ms, bool *over, struct kd_error *error)
+{
+    enum kd_status status = KD_OK;
+    *over = false;
+    if (!r->grid.nodes && !(r->grid.nodes = malloc(nodes_of(&r->grid) * KD_MATTER_FLOATS * sizeof *r->grid.nodes)))
+        return kd_matter_no_memory(error);
+    for (bool more = true; more && r->kind <= KD_MATTER_FLOATS; more = kd_clock_ms() < until_ms) {
+        if (!r->array.n && !begin_array(r, &status, error)) {
+            r->kind++;
+            break;
+        }
+        KD_TRY(status);
+        KD_TRY(take_numbers(r, until_ms, error));
+        if (r->done == r->array.n) {
+            kd_matter_array_finish(&r->array);
+            r->kind++;
+        }
+    }
+    *over = r->kind > KD_MATTER_FLOATS;
+    if (*over && !r->look) {
+        over_sine(&r->grid, r->theta);
+        to_logarithms(&r->grid);
+    }
+done:
+    return status;
+}
+
+void kd_matter_reader_close(struct kd_matter_reader *r)
+{
+    if (!r)
+        return;
+    kd_matter_array_finish(&r->array);
+    kd_matter_grid_finish(&r->grid);
+    kd_unzip_finish(&r->zip);
+    free(r->r);
+    free(r->theta);
+    free(r);
+}
+
+static enum kd_status read_all(const void *data, size_t size, bool look, struct kd_matter_reader **out,
+                               struct kd_error *error)
+{
+    bool over = false;
+    enum kd_status status = kd_matter_reader_open(data, size, look, out, error);
+    while (!status && !over)
+        status = kd_matter_reader_go_on(*out, INFINITY, &over, error);
+    return status;
+}
+
+enum kd_status kd_matter_grid_read(const void *data, size_t size, struct kd_matter_grid *out, struct kd_error *error)
+{
+    struct kd_matter_reader *r;
+    enum kd_status status = read_all(data, size, false, &r, error);
+    *out = (struct kd_matter_grid) { 0 };
+    if (!status) {
+        *out = r->grid;
+        r->grid.nodes = NULL;
+    }
+    kd_matter_reader_close(r);
     return status;
 }
 
 enum kd_status kd_matter_grid_look(const void *data, size_t size, uint32_t nodes[3], double *spin,
                                    struct kd_error *error)
 {
-    struct kd_matter_grid grid;
-    enum kd_status status = kd_matter_grid_read(data, size, &grid, error);
-    if (status)
-        return status;
-    nodes[0] = grid.rows;
-    nodes[1] = grid.columns;
-    nodes[2] = grid.layers;
-    *spin = grid.spin;
-    kd_matter_grid_finish(&grid);
-    return KD_OK;
+    struct kd_matter_reader *r;
+    enum kd_status status = read_all(data, size, true, &r, error);
+    if (!status)
+        kd_matter_grid_told(&r->grid, nodes, spin);
+    kd_matter_reader_close(r);
+    return status;
+}
+
+void kd_matter_grid_told(const struct kd_matter_grid *grid, uint32_t nodes[3], double *spin)
+{
+    nodes[0] = grid->rows;
+    nodes[1] = grid->columns;
+    nodes[2] = grid->layers;
+    *spin = grid->spin;
 }
 
 enum kd_status kd_matter_grid_none(double spin, struct kd_matter_grid *out, struct kd_error *error)

@@ -47,7 +47,23 @@ enum kd_status kd_matter_grid_read(const void *data, size_t size, struct kd_matt
 /* The same, of which only the number of nodes in r, theta and phi and the spin are kept. */
 enum kd_status kd_matter_grid_look(const void *data, size_t size, uint32_t nodes[3], double *spin,
                                    struct kd_error *error);
+void kd_matter_grid_told(const struct kd_matter_grid *grid, uint32_t nodes[3], double *spin);
 void kd_matter_grid_finish(struct kd_matter_grid *grid);
+
+/* The same by pieces of some milliseconds, none of which unpacks more than one array. The file's bytes must stay
+ * meanwhile. One thread at a time. */
+struct kd_matter_reader;
+/* Reads the header and the places of the nodes. look: the numbers are checked, and what comes is no grid to be
+ * rendered. */
+enum kd_status kd_matter_reader_open(const void *data, size_t size, bool look, struct kd_matter_reader **out,
+                                     struct kd_error *error);
+/* Bytes that the rest takes until the reader is closed: nodes, and the longest array that is unpacked. */
+size_t kd_matter_reader_bytes(const struct kd_matter_reader *reader);
+const struct kd_matter_grid *kd_matter_reader_grid(const struct kd_matter_reader *reader);
+/* Goes on until that time of kd_clock_ms, with one array at least begun. */
+enum kd_status kd_matter_reader_go_on(struct kd_matter_reader *reader, double until_ms, bool *over,
+                                      struct kd_error *error);
+void kd_matter_reader_close(struct kd_matter_reader *reader); /* accepts NULL */
 /* Makes a grid of no matter at all, as of a scene that names none. */
 enum kd_status kd_matter_grid_none(double spin, struct kd_matter_grid *out, struct kd_error *error);
 

@@ -1,6 +1,7 @@
 /* The program ffmpeg encodes the pictures of all frames as a film: H.264 in an MP4 file, or VP9 in a WebM file. It
  * writes a file without a name, since the index of an MP4 belongs before its pictures, and what is in it is given
  * when it is done. */
+#include "base/clock.h"
 #include "base/program.h"
 #include "image/png.h"
 #include "render/output/gather.h"
@@ -10,11 +11,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #define PICTURE_MAX (32u << 20) /* bytes of one frame's file: of 4K twice over */
 #define MORE (1u << 20)         /* bytes that a film may have beyond those of its pictures: its head */
 #define SCENE_MAX 100000        /* bytes of its text: an argument of a program may be 128 KiB */
+#define IDLE_MS 30e3            /* after which a program that does nothing is given up */
 #define HEAD 24                 /* bytes of a PNG file until its width and height have been told */
 
 struct film {
@@ -29,6 +32,7 @@ struct film {
     unsigned next;
     uint8_t size[8]; /* of frame 0: width and height as a PNG file has them */
     uint64_t given;  /* bytes of the film */
+    off_t written;   /* that its file had at the last look */
 };
 
 /* Quality that is not told from the pictures by eye: a black sky shows bands before anything else. */
@@ -184,15 +188,26 @@ done:
     return status;
 }
 
+/* Whether its file has grown since the last look. */
+static bool has_written(struct film *f)
+{
+    struct stat about;
+    const off_t before = f->written;
+    f->written = fstat(f->fd, &about) ? before : about.st_size;
+    return f->written > before;
+}
+
 /* Hands over as much as ffmpeg takes now, and finds out whether it has ended. */
 static enum kd_status feed(struct film *f, struct kd_error *error)
 {
     enum kd_status status = KD_OK;
+    bool moved = has_written(f);
     int code;
     while (f->next < f->source->n && !status) {
         size_t left = f->picture.size - f->at,
                taken = kd_program_write(&f->program, (const char *)f->picture.data + f->at, left);
         f->at += taken;
+        moved = moved || taken;
         if (taken < left)
             break;
         if (++f->next < f->source->n)
@@ -200,20 +215,20 @@ static enum kd_status feed(struct film *f, struct kd_error *error)
         else
             kd_program_hang_up(&f->program);
     }
-    if (status || !kd_program_over(&f->program, &code))
+    if (status)
         return status;
+    if (!kd_program_over(&f->program, &code))
+        return kd_program_idle_ms(&f->program, moved, kd_clock_ms()) < IDLE_MS
+                   ? KD_OK
+                   : kd_error_set(error, KD_EIO, "ffmpeg has done nothing for %.0f s, at frame %u of %u",
+                                  1e-3 * IDLE_MS, f->next, f->source->n);
     f->done = true;
     if (!code && f->next == f->source->n)
         return KD_OK;
-    size_t end = f->program.n_said;
-    while (end && strchr("\n\r ", f->program.said[end - 1]))
-        f->program.said[--end] = 0;
-    const char *line = strrchr(f->program.said, '\n');
+    char reason[300];
+    kd_program_reason(&f->program, reason);
     return kd_error_set(error, strstr(f->program.said, "No space left") ? KD_EFULL : KD_EIO,
-                        "ffmpeg failed at frame %u: %.300s", f->next,
-                        !*f->program.said ? "it did not say why"
-                        : line            ? line + 1
-                                          : f->program.said);
+                        "ffmpeg failed at frame %u: %s", f->next, *reason ? reason : "it did not say why");
 }
 
 static enum kd_status give(struct film *f, struct kd_buffer *out, bool *over, struct kd_error *error)

@@ -5,6 +5,7 @@
 
 #include "base/json.h"
 #include "image/npy.h"
+#include "image/unzip.h"
 #include "image/zip.h"
 #include "render/output/notes.h"
 #include "render/output/numbers.h"
@@ -93,8 +94,13 @@ done:
 static enum kd_status scene_in(const void *data, size_t size, struct kd_scene *out, struct kd_error *error)
 {
     struct kd_buffer text = { 0 };
-    enum kd_status status = kd_zip_find(data, size, "notes.json", 2 * KD_SCENE_JSON_MAX, &text);
-    cJSON *notes = status ? NULL : cJSON_ParseWithLength((const char *)text.data, text.size);
+    struct kd_unzip zip;
+    enum kd_status status = kd_unzip_open(data, size, &zip, NULL);
+    const struct kd_unzip_member *member = status ? NULL : kd_unzip_find(&zip, "notes.json");
+    if (member)
+        status = kd_unzip_take(&zip, member, 2 * KD_SCENE_JSON_MAX, &text, NULL);
+    kd_unzip_finish(&zip);
+    cJSON *notes = !text.size ? NULL : cJSON_ParseWithLength((const char *)text.data, text.size);
     cJSON *scene = cJSON_GetObjectItemCaseSensitive(notes, "scene");
     char *printed = scene ? cJSON_PrintUnformatted(scene) : NULL;
     if (status == KD_ENOMEM)

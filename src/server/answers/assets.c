@@ -1,3 +1,4 @@
+#include "base/clock.h"
 #include "base/json.h"
 #include "server/asset/store.h"
 #include "server/http/negotiate.h"
@@ -57,27 +58,35 @@ struct putting {
     struct kd_asset_put put;
 };
 
+/* On the HTTP thread, which waits for no disk. */
 static void finish(struct kd_task *task)
 {
     struct putting *p = (struct putting *)task;
-    struct kd_asset_store *store = task->request->server->assets;
+    const struct kd_server *server = task->request->server;
+    kd_asset_put_finish(&p->put);
     if (p->put.created && task->request->status != MHD_HTTP_CREATED) /* nobody has been told of it */
-        kd_asset_store_remove(store, p->put.asset);
+        kd_asset_store_remove_later(server->assets, p->put.asset, server->turns);
     if (p->put.asset)
-        kd_asset_release(store, p->put.asset);
+        kd_asset_release(server->assets, p->put.asset);
 }
 
 static enum kd_turn_end work(struct kd_task *task, double until_ms)
 {
+    enum { AGAIN_MS = 10 };
     struct putting *p = (struct putting *)task;
     const struct kd_buffer *body = &task->request->body;
+    enum kd_asset_progress how = KD_ASSET_MORE;
     struct kd_error error = { 0 };
-    (void)until_ms;
-    kd_task_fail(task,
-                 kd_asset_store_put(task->request->server->assets, body->data ? body->data : (const uint8_t *)"",
-                                    body->size, task->request->client, &p->put, &error),
-                 &error);
-    return KD_TURN_LAST;
+    enum kd_status status = KD_OK;
+    if (!p->put.own)
+        status =
+            kd_asset_put_begin(&p->put, task->request->server->assets, body->data ? body->data : (const uint8_t *)"",
+                               body->size, task->request->client, &error);
+    if (!status)
+        status = kd_asset_put_go_on(&p->put, until_ms, &how, &error);
+    kd_task_fail(task, status, &error);
+    task->turns.due_ms = kd_clock_ms() + AGAIN_MS;
+    return status || how == KD_ASSET_OVER ? KD_TURN_LAST : how == KD_ASSET_WAIT ? KD_TURN_PARK : KD_TURN_MORE;
 }
 
 static enum MHD_Result refuse(struct kd_request *request, const struct putting *p)
@@ -204,23 +213,78 @@ static enum MHD_Result send_bytes(struct kd_request *request, struct kd_asset *a
     return kd_reply_send(request, same ? MHD_HTTP_NOT_MODIFIED : MHD_HTTP_OK, response);
 }
 
+/* A request that removes one, on a worker: the files are gone when it is answered. */
+struct removing {
+    struct kd_task task; /* first */
+    struct kd_asset *asset;
+    bool was;
+};
+
+static enum kd_turn_end remove_work(struct kd_task *task, double until_ms)
+{
+    struct removing *r = (struct removing *)task;
+    (void)until_ms;
+    r->was = kd_asset_store_remove(task->request->server->assets, r->asset);
+    return KD_TURN_LAST;
+}
+
+static void remove_finish(struct kd_task *task)
+{
+    struct removing *r = (struct removing *)task;
+    if (r->asset)
+        kd_asset_release(task->request->server->assets, r->asset);
+}
+
+static const struct kd_task_kind REMOVAL = { "assets", sizeof(struct removing), remove_work, remove_finish };
+
+static enum MHD_Result refuse_unknown(struct kd_request *request)
+{
+    return kd_reply_problem(request,
+                            &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND,
+                                                   .detail = "there is no asset of this SHA-256, or no longer" });
+}
+
+static enum MHD_Result deliver_removal(struct kd_request *request)
+{
+    const struct removing *r = (const struct removing *)request->task;
+    if (r->task.status == KD_ECANCELLED)
+        return MHD_NO; /* nobody listens */
+    if (r->task.status) {
+        struct kd_problem problem = kd_problem_from(&r->task.error);
+        return kd_reply_problem(request, &problem);
+    }
+    return r->was ? kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, JSON_TYPE))
+                  : refuse_unknown(request);
+}
+
+/* Takes the reference over. */
+static enum MHD_Result begin_removal(struct kd_request *request, struct kd_asset *asset)
+{
+    enum MHD_Result refused = MHD_NO;
+    struct removing *r =
+        request->connection ? kd_task_create(request, request->server->turns, &REMOVAL, &refused) : NULL;
+    if (r) {
+        r->asset = asset;
+        return kd_task_submit(&r->task);
+    }
+    kd_asset_release(request->server->assets, asset);
+    return request->connection ? refused : kd_reply_no_memory(request);
+}
+
 enum MHD_Result kd_handle_asset(struct kd_request *request)
 {
     struct kd_asset_store *store = request->server->assets;
+    if (request->task)
+        return deliver_removal(request);
     struct kd_asset *asset = kd_asset_store_find(store, request->rest);
     if (!asset)
-        return kd_reply_problem(request,
-                                &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND,
-                                                       .detail = "there is no asset of this SHA-256, or no longer" });
+        return refuse_unknown(request);
     if (strcmp(request->method, "DELETE"))
         return send_bytes(request, asset);
-    bool may = kd_secret_equal(kd_asset_about(asset)->token, kd_token_of(request));
-    if (may)
-        kd_asset_store_remove(store, asset);
+    if (kd_secret_equal(kd_asset_about(asset)->token, kd_token_of(request)))
+        return begin_removal(request, asset);
     kd_asset_release(store, asset);
-    return may ? kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, JSON_TYPE))
-               : kd_reply_problem(request,
-                                  &(struct kd_problem) {
-                                      .type = KD_PROBLEM_FORBIDDEN,
-                                      .detail = "deleting an asset takes its token: Authorization: Bearer TOKEN" });
+    return kd_reply_problem(
+        request, &(struct kd_problem) { .type = KD_PROBLEM_FORBIDDEN,
+                                        .detail = "deleting an asset takes its token: Authorization: Bearer TOKEN" });
 }

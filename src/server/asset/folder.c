@@ -13,7 +13,6 @@
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
-#include <pthread.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -22,23 +21,14 @@
 #define RECORD_MAX ((size_t)4 << 10)
 #define FILE_NAME (KD_ASSET_NAME + 8)
 
-/* Checks one at a time: that takes some 120 MB, however small the file is. */
-static enum kd_status look_at_grid(const void *data, size_t size, struct kd_asset_about *out, struct kd_error *error)
-{
-    static pthread_mutex_t one = PTHREAD_MUTEX_INITIALIZER;
-    pthread_mutex_lock(&one);
-    enum kd_status status = kd_matter_grid_look(data, size, out->nodes, &out->spin, error);
-    pthread_mutex_unlock(&one);
-    return status;
-}
-
 enum kd_status kd_asset_look(const void *data, size_t size, struct kd_asset_about *out, struct kd_error *error)
 {
     struct kd_png_about png;
     if (size > KD_ASSET_BYTES)
-        return kd_error_set(error, KD_EINVAL, "an asset may have %zu bytes, this one has %zu", KD_ASSET_BYTES, size);
+        return kd_error_set(error, KD_EINVAL, "an asset must have at most %zu bytes, this one has %zu", KD_ASSET_BYTES,
+                            size);
     if (kd_matter_grid_is(data, size))
-        return look_at_grid(data, size, out, error);
+        return kd_matter_grid_look(data, size, out->nodes, &out->spin, error);
     enum kd_status status = kd_png_look(data, size, &png, error);
     if (status)
         return status;
@@ -208,7 +198,7 @@ enum kd_status kd_asset_folder_write(int folder, const struct kd_asset_about *ab
                     !kd_replace_file_at(folder, record, text.data, text.size))) {
         int cause = errno;
         status = kd_error_set(error,
-                              cause == ENOSPC || cause == EDQUOT                      ? KD_EFULL
+                              cause == ENOSPC || cause == EDQUOT || cause == EFBIG    ? KD_EFULL
                               : cause == EMFILE || cause == ENFILE || cause == ENOMEM ? KD_ENOMEM
                                                                                       : KD_EIO,
                               "the asset cannot be kept: %s", strerror(cause));

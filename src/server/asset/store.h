@@ -9,6 +9,7 @@
 #include "scene/asset.h"
 #include "server/http/secret.h"
 #include "server/http/shares.h"
+#include "server/http/turns.h"
 
 #include <stdint.h>
 
@@ -21,9 +22,10 @@ struct kd_asset;
 #define KD_ASSET_PIXELS ((uint64_t)1 << 28)    /* of one */
 
 struct kd_asset_limits {
-    unsigned most, client_most;   /* assets; of one client */
-    uint64_t bytes, client_bytes; /* of all; of those of one client */
-    double keep_s;                /* that one stays though nobody asks for it and others want its room */
+    unsigned most, client_most; /* assets; of one client */
+    uint64_t bytes,
+        client_bytes; /* of all, what grids unpack while they are checked among them; of those of one client */
+    double keep_s;    /* that one stays though nobody asks for it and others want its room */
 };
 /* Makes a store without assets. */
 enum kd_status kd_asset_store_create(const struct kd_asset_limits *limits, struct kd_asset_store **out,
@@ -37,19 +39,37 @@ const struct kd_assets *kd_asset_store_assets(const struct kd_asset_store *store
 void kd_asset_store_close(struct kd_asset_store *store);
 const struct kd_asset_limits *kd_asset_store_limits(const struct kd_asset_store *store);
 
-/* Keeps a copy of the bytes; put->asset: a reference, put->created: they were not here before. KD_EINVAL: they are
- * nothing that is taken; KD_EBUSY: somebody else is writing them, or with put->quota the client has its share;
- * KD_EFULL: the disk is full, or with put->full as many are kept as may. It may write for long. */
+/* Keeps a copy of bytes that a client puts here, by pieces: put.c. Workers' turns, one at a time.
+ *
+ *     kd_asset_put_begin(&put, store, data, size, client)      data must stay
+ *     status = kd_asset_put_go_on(&put, until_ms, &how, &error)  again until it is over or fails
+ *     kd_asset_put_finish(&put)                                at any time
+ *
+ * put.asset: a reference, which is the caller's; put.created: its bytes were not here before. KD_EINVAL: they are
+ * nothing that is taken; KD_EBUSY with put.quota: the client has its share; KD_EFULL: the disk is full, or with
+ * put.full as much is kept as may be. */
 struct kd_asset_put {
     struct kd_asset *asset;
     bool created, quota, full;
+    struct kd_asset_putting *own; /* while it is under way */
 };
-enum kd_status kd_asset_store_put(struct kd_asset_store *store, const void *data, size_t size, const char *client,
-                                  struct kd_asset_put *put, struct kd_error *error);
+enum kd_asset_progress {
+    KD_ASSET_MORE, /* there is another piece */
+    KD_ASSET_WAIT, /* not before somebody else is through: ask again a little later */
+    KD_ASSET_OVER,
+};
+enum kd_status kd_asset_put_begin(struct kd_asset_put *put, struct kd_asset_store *store, const void *data, size_t size,
+                                  const char *client, struct kd_error *error);
+enum kd_status kd_asset_put_go_on(struct kd_asset_put *put, double until_ms, enum kd_asset_progress *how,
+                                  struct kd_error *error);
+void kd_asset_put_finish(struct kd_asset_put *put);
 /* Finds an asset by its hash: a reference, or NULL. Who asks for an asset keeps it from giving way. */
 struct kd_asset *kd_asset_store_find(struct kd_asset_store *store, const char *hash);
-/* Removes the asset: nobody finds it any more. Its files go at once, its bytes with the last reference. */
-void kd_asset_store_remove(struct kd_asset_store *store, struct kd_asset *asset);
+/* Removes the asset: nobody finds it any more, and its files are gone when this returns, which takes as long as the
+ * disk does: for workers. Its bytes go with the last reference. False: somebody else has removed it. */
+bool kd_asset_store_remove(struct kd_asset_store *store, struct kd_asset *asset);
+/* The same on a worker, for who must not wait. */
+void kd_asset_store_remove_later(struct kd_asset_store *store, struct kd_asset *asset, struct kd_turns *workers);
 void kd_asset_release(struct kd_asset_store *store, struct kd_asset *asset);
 /* How many there are, and their bytes. It waits for nobody: an asset that comes or goes just then may be in one of
  * the two alone. */

@@ -47,6 +47,8 @@ static bool is_ours(const char *name)
     return !name[10] || kd_replace_is_temporary(name, frame);
 }
 
+static bool is_temporary(const char *name) { return is_ours(name) && strstr(name, KD_TEMPORARY_MARK); }
+
 static DIR *list(int folder)
 {
     int fd = openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -78,6 +80,16 @@ bool kd_job_folder_remove(int jobs, const char *name, unsigned most)
     if (folder >= 0)
         close(folder);
     return all;
+}
+
+void kd_job_folder_tidy(int folder)
+{
+    DIR *d = list(folder);
+    for (struct dirent *entry; d && (entry = readdir(d));)
+        if (is_temporary(entry->d_name))
+            unlinkat(folder, entry->d_name, 0);
+    if (d)
+        closedir(d);
 }
 
 void kd_job_folder_empty(int jobs)

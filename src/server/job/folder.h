@@ -23,6 +23,9 @@ int kd_job_folder_open(int jobs, const char *name);
  * holds what is not a job's. True when there is nothing left that may be removed. */
 bool kd_job_folder_remove(int jobs, const char *name, unsigned most);
 
+/* Removes what a server that was killed has left half written of a job's files; nothing else, whatever its name
+ * begins with. */
+void kd_job_folder_tidy(int folder);
 /* Removes all jobs in a folder, and then its lock. */
 void kd_job_folder_empty(int jobs);
 

@@ -69,6 +69,11 @@ struct kd_job {
     unsigned revision;      /* of what its status says */
     char client[KD_CLIENT]; /* "": nobody knows any more */
     bool listed;
+    bool creating;  /* its files are still being made: no frame of it is begun */
+    bool unwritten; /* its record has changed since it was last written, */
+    bool keeping;   /* and no frame is begun before it is written */
+    bool measured;  /* the exposure in it is what keeps the frames waiting */
+    bool forgotten; /* its request is off the disk */
     struct kd_job_glance glance;
     struct kd_job_watcher *watchers;
     struct kd_job *link;
@@ -77,10 +82,14 @@ struct kd_job {
 struct kd_jobs {
     struct kd_jobs_params params;
     struct kd_job_store *store;
-    bool temporary; /* the store is opened when there is something to keep */
-    pthread_mutex_t lock;
-    struct kd_job *first; /* oldest first */
-    struct kd_job *gone;  /* whose files are to be removed */
+    bool temporary;          /* the store is opened when there is something to keep */
+    pthread_mutex_t opening; /* held while that is done */
+    pthread_mutex_t
+        lock; /* for what follows; never held while a file is written or removed: the HTTP thread takes it */
+    struct kd_turns_job writer; /* of records (records.c) */
+    bool writes, begun;         /* it is under way; other threads have the jobs */
+    struct kd_job *first;       /* oldest first */
+    struct kd_job *gone;        /* whose files are to be removed */
     struct kd_job_render *rendering;
     struct kd_job *filming; /* whose bodies are moved; NULL: no film's */
     unsigned behind;
@@ -98,15 +107,19 @@ static inline bool kd_job_is_active(const struct kd_job *job)
 {
     return job->listed && job->record.state == KD_JOB_ACTIVE;
 }
-/* Writes a job's record, under the lock as well: a few times a job, some milliseconds each. KD_EFULL, KD_ENOMEM,
- * KD_EIO. */
-enum kd_status kd_job_keep(struct kd_job *job, struct kd_error *error);
-void kd_job_write(struct kd_job *job);  /* likewise, where the next writing will do as well: what fails is logged */
+/* records.c: lets a worker write a job's record; what fails is logged. */
+void kd_job_write(struct kd_job *job);
+void kd_jobs_begin_writing(struct kd_jobs *all); /* if there is anything to write */
+/* Likewise, and no frame of it is begun before that. */
+void kd_job_keep(struct kd_job *job);
+/* Writes what is left to be written. When nobody else has the jobs any more. */
+void kd_jobs_write_all(struct kd_jobs *all);
 void kd_job_strike(struct kd_job *job); /* counts, once a server, that work on it may be what ends the server */
 void kd_job_end(struct kd_job *job, enum kd_job_state state, const char *why);
 /* Makes a job wait, each time for longer, because something has run out that may be there again later. */
 void kd_job_delay(struct kd_job *job, const char *why);
-/* Takes the job off the list, whose reference is then the caller's; its files go with the last one. */
+/* Takes the job off the list, whose reference is then the caller's; its files go with the last one, the request
+ * first (kd_jobs_bury). */
 void kd_job_unlist(struct kd_job *job);
 void kd_job_wake(struct kd_job *job, double now); /* those whose wait is over */
 

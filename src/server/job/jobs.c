@@ -19,18 +19,6 @@ double kd_job_now_s(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-enum kd_status kd_job_keep(struct kd_job *job, struct kd_error *error)
-{
-    return job->listed ? kd_job_store_update(job->all->store, &job->record, error) : KD_OK;
-}
-
-void kd_job_write(struct kd_job *job)
-{
-    struct kd_error error;
-    if (kd_job_keep(job, &error))
-        kd_log(KD_LOG_ERROR, "job %.4s...: %s", job->record.id, error.message);
-}
-
 /* Gives every job a new revision, since their places have changed. */
 static void move_up(struct kd_jobs *all)
 {
@@ -90,6 +78,10 @@ void kd_jobs_bury(struct kd_jobs *all, unsigned files)
     pthread_mutex_lock(&all->lock);
     struct kd_job *job = all->gone;
     pthread_mutex_unlock(&all->lock);
+    if (job && !job->forgotten) {
+        kd_job_store_forget(all->store, job->record.id);
+        job->forgotten = true;
+    }
     if (!job || !kd_job_store_remove(all->store, job->record.id, files))
         return;
     pthread_mutex_lock(&all->lock);
@@ -120,7 +112,6 @@ void kd_job_unlist(struct kd_job *job)
     job->listed = false;
     job->revision++;
     move_up(job->all);
-    kd_job_store_forget(job->all->store, job->record.id);
     kd_jobs_drop_frame(job->all, job);
     kd_job_film_drop(job);
     kd_job_wake(job, kd_clock_ms());
@@ -160,6 +151,7 @@ enum kd_status kd_jobs_create(const struct kd_jobs_params *params, struct kd_job
     all->params.state = NULL;
     all->temporary = !params->state;
     pthread_mutex_init(&all->lock, NULL);
+    pthread_mutex_init(&all->opening, NULL);
     if (all->temporary)
         kd_job_store_tidy();
     enum kd_status status = all->temporary ? KD_OK : kd_job_store_open(params->state, &all->store, error);
@@ -176,6 +168,8 @@ enum kd_status kd_jobs_create(const struct kd_jobs_params *params, struct kd_job
 void kd_jobs_begin(struct kd_jobs *all)
 {
     pthread_mutex_lock(&all->lock);
+    all->begun = true;
+    kd_jobs_begin_writing(all);
     kd_jobs_pump(all);
     pthread_mutex_unlock(&all->lock);
 }
@@ -184,6 +178,7 @@ void kd_jobs_destroy(struct kd_jobs *all)
 {
     if (!all)
         return;
+    kd_jobs_write_all(all);
     while (all->first) {
         struct kd_job *job = all->first;
         all->first = job->link;
@@ -193,22 +188,21 @@ void kd_jobs_destroy(struct kd_jobs *all)
         kd_jobs_bury(all, UINT_MAX);
     kd_job_store_close(all->store);
     pthread_mutex_destroy(&all->lock);
+    pthread_mutex_destroy(&all->opening);
     free(all);
 }
 
-/* Whether there is room for one more, if need be in the place of the oldest finished one, *out. Locked. */
-static enum kd_status admit(struct kd_jobs *all, const char *client, bool *quota, struct kd_job **out,
-                            struct kd_error *error)
+/* Whether there is room for one more, if need be in the place of a finished one. Locked. */
+static enum kd_status admit(struct kd_jobs *all, const char *client, bool *quota, struct kd_error *error)
 {
     unsigned unfinished = 0, kept = 0, own = 0;
-    *out = NULL;
+    bool gives_way = false;
     *quota = false;
     for (struct kd_job *job = all->first; job; job = job->link) {
         kept++;
         unfinished += kd_job_is_active(job);
         own += kd_job_is_active(job) && *client && !strcmp(job->client, client);
-        if (!kd_job_is_active(job) && job->references == 1 && !*out)
-            *out = job;
+        gives_way = gives_way || (!kd_job_is_active(job) && job->references == 1);
     }
     if (all->closed || unfinished >= all->params.limit)
         return kd_error_set(error, KD_EBUSY, "%u jobs are unfinished, as many as may", unfinished);
@@ -216,31 +210,78 @@ static enum kd_status admit(struct kd_jobs *all, const char *client, bool *quota
         *quota = true;
         return kd_error_set(error, KD_EBUSY, "%u of your jobs are unfinished, as many as one client may have", own);
     }
-    if (kept >= all->params.kept && !*out)
+    if (kept >= all->params.kept && !gives_way)
         return kd_error_set(error, KD_EBUSY, "%u jobs are kept, as many as may, and all are being read", kept);
-    if (kept < all->params.kept)
-        *out = NULL;
     return KD_OK;
 }
 
+/* Opens the temporary store with the first job. Unlocked. */
+static enum kd_status open_store(struct kd_jobs *all, struct kd_error *error)
+{
+    struct kd_job_store *store = NULL;
+    pthread_mutex_lock(&all->opening);
+    enum kd_status status = all->store ? KD_OK : kd_job_store_open(NULL, &store, error);
+    if (store) {
+        pthread_mutex_lock(&all->lock);
+        all->store = store;
+        pthread_mutex_unlock(&all->lock);
+    }
+    pthread_mutex_unlock(&all->opening);
+    return status;
+}
+
+/* Takes a job that could not be created off the list again. Locked. */
+static void take_back(struct kd_job *job)
+{
+    struct kd_job **link = &job->all->first;
+    while (*link != job)
+        link = &(*link)->link;
+    *link = job->link;
+    move_up(job->all);
+}
+
+/* Where more are kept than may be, the oldest finished one that nobody reads goes. Locked. */
+static void make_room(struct kd_jobs *all)
+{
+    unsigned kept = 0;
+    struct kd_job *oldest = NULL;
+    for (struct kd_job *job = all->first; job; job = job->link) {
+        kept++;
+        if (!kd_job_is_active(job) && job->references == 1 && !oldest)
+            oldest = job;
+    }
+    if (kept <= all->params.kept || !oldest)
+        return;
+    kd_job_unlist(oldest);
+    let_go(oldest);
+}
+
+/* The job has its place before it has its files, so that no lock is held while these are made. */
 static enum kd_status enter(struct kd_jobs *all, struct kd_job *job, const char *text, size_t length, bool *quota,
                             struct kd_error *error)
 {
-    struct kd_job *oldest;
+    enum kd_status status = open_store(all, error);
+    if (status)
+        return status;
     pthread_mutex_lock(&all->lock);
-    enum kd_status status;
-    KD_TRY(admit(all, job->client, quota, &oldest, error));
-    if (!all->store)
-        KD_TRY(kd_job_store_open(NULL, &all->store, error));
-    KD_TRY(kd_job_store_create(all->store, &job->record, text, length, error));
-    if (oldest) {
-        kd_job_unlist(oldest);
-        let_go(oldest);
+    status = admit(all, job->client, quota, error);
+    if (!status) {
+        job->creating = true;
+        kd_job_append(all, job);
     }
-    kd_job_append(all, job);
-    job->references++;
-    kd_jobs_pump(all);
-done:
+    pthread_mutex_unlock(&all->lock);
+    if (status)
+        return status;
+    status = kd_job_store_create(all->store, &job->record, text, length, error);
+    pthread_mutex_lock(&all->lock);
+    job->creating = false;
+    if (status)
+        take_back(job);
+    else {
+        make_room(all);
+        job->references++;
+        kd_jobs_pump(all);
+    }
     pthread_mutex_unlock(&all->lock);
     return status;
 }
@@ -280,7 +321,7 @@ struct kd_job *kd_jobs_find(struct kd_jobs *all, const char *id)
 {
     pthread_mutex_lock(&all->lock);
     struct kd_job *job = all->first;
-    while (job && strcmp(job->record.id, id))
+    while (job && (job->creating || strcmp(job->record.id, id)))
         job = job->link;
     if (job)
         job->references++;
@@ -307,7 +348,7 @@ int kd_job_frame(struct kd_job *job, unsigned frame, uint64_t *size)
     return there ? kd_job_store_get(job->all->store, job->record.id, frame, size) : -1;
 }
 
-void kd_job_delete(struct kd_job *job)
+void kd_job_drop(struct kd_job *job)
 {
     struct kd_jobs *all = job->all;
     pthread_mutex_lock(&all->lock);
@@ -317,6 +358,15 @@ void kd_job_delete(struct kd_job *job)
         kd_jobs_pump(all);
     }
     pthread_mutex_unlock(&all->lock);
+}
+
+void kd_job_delete(struct kd_job *job)
+{
+    kd_job_drop(job);
+    kd_job_store_forget(job->all->store, job->record.id);
+    pthread_mutex_lock(&job->all->lock);
+    job->forgotten = true;
+    pthread_mutex_unlock(&job->all->lock);
 }
 
 static bool is_next(const struct kd_job *job)

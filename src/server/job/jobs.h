@@ -95,8 +95,11 @@ struct kd_job_sight {
     uint32_t rows, height; /* of a frame under way: rows drawn, and all rows */
 };
 bool kd_job_glimpse(struct kd_job *job, struct kd_buffer *png, struct kd_job_sight *out);
-/* Deletes a job: it is found no more, and its files go with the last reference. */
+/* Deletes a job: it is found no more, nor after a restart, and its files go with the last reference. It takes as
+ * long as the disk does: for workers. */
 void kd_job_delete(struct kd_job *job);
+/* The same for who must not wait: until its files go, a restart may find it. */
+void kd_job_drop(struct kd_job *job);
 
 /* A stream that follows a job. */
 struct kd_job_watcher {

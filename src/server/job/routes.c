@@ -152,7 +152,7 @@ static enum MHD_Result deliver(struct kd_request *request)
         return refuse(request, &d->task.error, d->task.quota);
     enum MHD_Result result = answer(request, d->job, true);
     if (request->status != MHD_HTTP_ACCEPTED) /* nobody has been told of it */
-        kd_job_delete(d->job);
+        kd_job_drop(d->job);
     return result;
 }
 
@@ -173,9 +173,59 @@ enum MHD_Result kd_handle_jobs(struct kd_request *request)
     return kd_task_submit(&d->task);
 }
 
+/* A request that deletes one, on a worker: it is off the disk when it is answered. */
+struct removing {
+    struct kd_task task; /* first */
+    struct kd_job *job;  /* a reference */
+};
+
+static enum kd_turn_end remove_work(struct kd_task *task, double until_ms)
+{
+    (void)until_ms;
+    kd_job_delete(((struct removing *)task)->job);
+    return KD_TURN_LAST;
+}
+
+static void remove_finish(struct kd_task *task)
+{
+    struct removing *r = (struct removing *)task;
+    if (r->job)
+        kd_job_release(r->job);
+}
+
+static const struct kd_task_kind REMOVAL = { "jobs", sizeof(struct removing), remove_work, remove_finish };
+
+static enum MHD_Result deliver_removal(struct kd_request *request)
+{
+    const struct kd_task *task = request->task;
+    if (task->status == KD_ECANCELLED)
+        return MHD_NO; /* nobody listens */
+    if (task->status) {
+        struct kd_problem problem = kd_problem_from(&task->error);
+        return kd_reply_problem(request, &problem);
+    }
+    return kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, JSON_TYPE));
+}
+
+/* Takes the reference over. */
+static enum MHD_Result begin_removal(struct kd_request *request, struct kd_job *job)
+{
+    enum MHD_Result refused = MHD_NO;
+    struct removing *r =
+        request->connection ? kd_task_create(request, request->server->turns, &REMOVAL, &refused) : NULL;
+    if (r) {
+        r->job = job;
+        return kd_task_submit(&r->task);
+    }
+    kd_job_release(job);
+    return request->connection ? refused : kd_reply_no_memory(request);
+}
+
 enum MHD_Result kd_handle_job(struct kd_request *request)
 {
     enum MHD_Result result;
+    if (request->task)
+        return deliver_removal(request);
     struct kd_job *job = kd_job_of(request, &result);
     if (!job)
         return result;
@@ -185,10 +235,8 @@ enum MHD_Result kd_handle_job(struct kd_request *request)
         result = kd_reply_problem(
             request, &(struct kd_problem) { .type = KD_PROBLEM_FORBIDDEN,
                                             .detail = "deleting a job takes its token: Authorization: Bearer TOKEN" });
-    } else {
-        kd_job_delete(job);
-        result = kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, JSON_TYPE));
-    }
+    } else
+        return begin_removal(request, job);
     kd_job_release(job);
     return result;
 }

@@ -43,7 +43,7 @@ void kd_job_strike(struct kd_job *job)
         return;
     job->begun_here = job->struck = true;
     job->record.attempts++;
-    kd_job_write(job);
+    kd_job_keep(job);
 }
 
 /* Hands over the next frame of a job. False: there was none. */
@@ -57,6 +57,9 @@ static bool begin(struct kd_job *job)
         job->next++;
     if (job->next == job->frames)
         return false;
+    kd_job_strike(job);
+    if (job->keeping) /* the strike is on the disk before what it is for begins */
+        return true;
     const unsigned number = measures ? job->exposure.frames[job->exposure.done] : at_place(job, job->next);
     struct kd_crowd *crowd = NULL;
     enum kd_status status = job->spec.every > 0 ? kd_job_film_at(job, number, &crowd, &error) : KD_OK;
@@ -79,7 +82,6 @@ static bool begin(struct kd_job *job)
     *job->delayed = 0;
     if (!(job->began_ms > 0))
         job->began_ms = kd_clock_ms();
-    kd_job_strike(job);
     frame->render.claim.class = KD_CLASS_JOB;
     memcpy(frame->render.claim.client, job->client, sizeof job->client);
     frame->render.format = job->series->frame;
@@ -123,7 +125,7 @@ void kd_jobs_pump(struct kd_jobs *all)
         return;
     double now = kd_clock_ms();
     for (struct kd_job *job = all->first; job; job = job->link)
-        if (kd_job_is_active(job) && !job->unordered && now >= job->due_ms &&
+        if (kd_job_is_active(job) && !job->unordered && !job->creating && now >= job->due_ms &&
             kd_render_queue_may_push(all->params.renders, job->client) && begin(job))
             return;
 }
@@ -188,24 +190,17 @@ static void progress(struct kd_render_job *render, double fraction)
     pthread_mutex_unlock(&frame->job->all->lock);
 }
 
-/* What the small picture says; after the last of them all frames have their exposure, once that is kept: a restart
- * that found frames and no exposure would give those that are missing another one. Locked. */
+/* What the small picture says; after the last of them all frames have their exposure, once that is kept (records.c).
+ * Locked. */
 static void measured(struct kd_job *job, double stops)
 {
     struct kd_job_exposure *exposure = &job->exposure;
-    struct kd_error error;
     exposure->stops[exposure->done++] = stops;
     if (exposure->done < exposure->n)
         return;
     job->record.exposure = kd_job_exposure_of(exposure->stops, exposure->n);
-    if (kd_job_keep(job, &error)) {
-        job->record.exposure = NAN;
-        exposure->done = 0;
-        kd_job_delay(job, error.message);
-        return;
-    }
-    job->spec.exposure = job->record.exposure;
-    job->revision++;
+    job->measured = true;
+    kd_job_keep(job);
 }
 
 static void rendered(struct kd_render_job *render)

@@ -35,7 +35,8 @@ static const char *const states[] = { [KD_JOB_ACTIVE] = "active", [KD_JOB_DONE] 
 static enum kd_status failed(struct kd_error *error, const char *what)
 {
     int cause = errno;
-    bool full = cause == ENOSPC || cause == EDQUOT, scarce = cause == EMFILE || cause == ENFILE || cause == ENOMEM;
+    bool full = cause == ENOSPC || cause == EDQUOT || cause == EFBIG,
+         scarce = cause == EMFILE || cause == ENFILE || cause == ENOMEM;
     return kd_error_set(error, full ? KD_EFULL : scarce ? KD_ENOMEM : KD_EIO, "%s: %s", what, strerror(cause));
 }
 
@@ -311,6 +312,8 @@ static bool load(struct kd_job_store *store, const char *name, struct found *out
         why = strerror(errno);
     else
         fate = look(folder, name, out, &why);
+    if (fate == KEPT)
+        kd_job_folder_tidy(folder);
     if (folder >= 0)
         close(folder);
     if (fate == GONE)

@@ -1,0 +1,33 @@
+/* Arrays of a grid's file, as they lie there: plain numbers, <f8 or <f4, in C order. Pure, any thread. */
+#ifndef KD_RENDER_EMIT_MATTER_ARRAY_H
+#define KD_RENDER_EMIT_MATTER_ARRAY_H
+
+#include "base/buffer.h"
+#include "base/error.h"
+#include "image/unzip.h"
+
+#include <stdbool.h>
+
+/* All zero: none. */
+struct kd_matter_array {
+    struct kd_buffer file;
+    const uint8_t *numbers; /* in the file, not aligned */
+    bool single;            /* <f4 */
+    size_t n, dimensions;
+    uint64_t shape[4];
+};
+
+/* KD_EINVAL, with a sentence that names the array; KD_ENOMEM. */
+enum kd_status kd_matter_refuse(const char *name, const char *what, struct kd_error *error);
+enum kd_status kd_matter_no_memory(struct kd_error *error);
+bool kd_matter_has(const struct kd_unzip *zip, const char *name);
+/* Unpacks the member NAME.npy of at most `most` bytes into *out, which is empty. */
+enum kd_status kd_matter_member(const struct kd_unzip *zip, const char *name, size_t most, struct kd_buffer *out,
+                                struct kd_error *error);
+/* Takes an array of at most so many numbers; *out is none before, and where this fails. */
+enum kd_status kd_matter_array_take(const struct kd_unzip *zip, const char *name, size_t most,
+                                    struct kd_matter_array *out, struct kd_error *error);
+double kd_matter_array_at(const struct kd_matter_array *array, size_t i);
+void kd_matter_array_finish(struct kd_matter_array *array);
+
+#endif

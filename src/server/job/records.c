@@ -1,0 +1,100 @@
+/* Records of jobs are written by a worker, a record each turn: whoever changes one holds the lock, and waits for no
+ * disk. */
+#include "server/job/internal.h"
+
+#include "base/log.h"
+
+#include <math.h>
+#include <stddef.h>
+
+/* What was waiting for the record goes on. Locked. */
+static void written(struct kd_job *job, enum kd_status status, const struct kd_error *error)
+{
+    if (status && job->listed)
+        kd_log(KD_LOG_ERROR, "job %.4s...: %s", job->record.id, error->message);
+    job->keeping = job->unwritten && job->keeping;
+    if (job->keeping || !job->measured)
+        return;
+    job->measured = false;
+    if (!status) {
+        job->spec.exposure = job->record.exposure;
+        job->revision++;
+        return;
+    }
+    job->record.exposure =
+        NAN; /* a restart that found frames and no exposure would give those that are missing another one */
+    job->exposure.done = 0;
+    if (kd_job_is_active(job))
+        kd_job_delay(job, error->message);
+}
+
+/* Locked. */
+static struct kd_job *first_unwritten(const struct kd_jobs *all)
+{
+    struct kd_job *job = all->first;
+    while (job && (!job->unwritten || job->creating))
+        job = job->link;
+    return job;
+}
+
+static enum kd_turn_end turn(struct kd_turns_job *writer)
+{
+    struct kd_jobs *all = (struct kd_jobs *)((char *)writer - offsetof(struct kd_jobs, writer));
+    struct kd_error error = { 0 };
+    pthread_mutex_lock(&all->lock);
+    struct kd_job *job = first_unwritten(all);
+    const struct kd_job_record record = job ? job->record : (struct kd_job_record) { 0 };
+    if (job) {
+        job->unwritten = false;
+        job->references++;
+    }
+    pthread_mutex_unlock(&all->lock);
+    if (!job)
+        return KD_TURN_LAST;
+    enum kd_status status = kd_job_store_update(all->store, &record, &error);
+    pthread_mutex_lock(&all->lock);
+    written(job, status, &error);
+    kd_jobs_pump(all);
+    pthread_mutex_unlock(&all->lock);
+    kd_job_release(job);
+    return KD_TURN_MORE;
+}
+
+/* The queue is through with the writer, which may begin anew. */
+static void done(struct kd_turns_job *writer)
+{
+    struct kd_jobs *all = (struct kd_jobs *)((char *)writer - offsetof(struct kd_jobs, writer));
+    pthread_mutex_lock(&all->lock);
+    all->writes = false;
+    kd_jobs_begin_writing(all);
+    pthread_mutex_unlock(&all->lock);
+}
+
+void kd_jobs_begin_writing(struct kd_jobs *all)
+{
+    if (all->writes || !all->begun || !first_unwritten(all))
+        return;
+    all->writes = true;
+    all->writer = (struct kd_turns_job) { .turn = turn, .done = done };
+    kd_turns_push(all->params.turns, &all->writer);
+}
+
+void kd_job_write(struct kd_job *job)
+{
+    job->unwritten = true;
+    kd_jobs_begin_writing(job->all);
+}
+
+void kd_job_keep(struct kd_job *job)
+{
+    job->keeping = true;
+    kd_job_write(job);
+}
+
+void kd_jobs_write_all(struct kd_jobs *all)
+{
+    struct kd_error error;
+    for (struct kd_job *job = all->first; job; job = job->link)
+        if (job->unwritten && kd_job_store_update(all->store, &job->record, &error))
+            kd_log(KD_LOG_ERROR, "job %.4s...: %s", job->record.id, error.message);
+}

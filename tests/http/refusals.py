@@ -1,0 +1,196 @@
+"""Refusals give back all memory that they took: every route with bodies and queries that it does not take, and assets
+that are damaged or beyond each limit.
+
+    refusals.py SERVER              each kind a few times
+    REPEATS=200 refusals.py SERVER  the long run"""
+
+import io
+import json
+import os
+import re
+import struct
+import unittest
+import zipfile
+import zlib
+
+import assets
+import daemon
+import memory
+
+REPEATS = int(os.environ.get("REPEATS", "2"))
+WARM = 2  # what is made once, and heaps that find their size
+NPZ = "application/x-npz"
+MEMBERS = (
+    "header",
+    "r",
+    "theta",
+    "density",
+    "temperature",
+    "u_con_r",
+    "u_con_theta",
+    "u_cov_phi",
+    "b_con_r",
+    "b_con_theta",
+    "b_cov_phi",
+)
+
+
+def members_of(data):
+    with zipfile.ZipFile(io.BytesIO(data)) as archive:
+        return {name[:-4]: archive.read(name) for name in archive.namelist()}
+
+
+def packed(members, method=zipfile.ZIP_STORED):
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, "w", method) as archive:
+        for name, data in members.items():
+            archive.writestr(zipfile.ZipInfo(name + ".npy"), data, compress_type=method)
+    return out.getvalue()
+
+
+def set_entry(data, name, at, value):
+    """A field of a member's entry in the directory."""
+    entry = data.index(b"PK\1\2")
+    while data[entry + 46 : entry + 46 + len(name)] != name:
+        entry = data.index(b"PK\1\2", entry + 4)
+    return data[: entry + at] + value + data[entry + at + len(value) :]
+
+
+def with_entries(data, n):
+    """A grid whose directory has more entries, all of them of its first member."""
+    end = data.rindex(b"PK\5\6")
+    begin = struct.unpack("<I", data[end + 16 : end + 20])[0]
+    first = data[begin : data.index(b"PK\1\2", begin + 4)]
+    first = first[:46] + first[46:].replace(b"header", b"behind")
+    all_of = n + len(MEMBERS)
+    directory = first * n + data[begin:end]
+    if all_of < 0xFFFF:
+        return (
+            data[:begin]
+            + directory
+            + struct.pack("<4s4HIIH", b"PK\5\6", 0, 0, all_of, all_of, len(directory), begin, 0)
+        )
+    long_end = begin + len(directory)
+    return (
+        data[:begin]
+        + directory
+        + struct.pack("<4sQHHIIQQQQ", b"PK\6\6", 44, 45, 45, 0, 0, all_of, all_of, len(directory), begin)
+        + struct.pack("<4sIQI", b"PK\6\7", 0, long_end, 1)
+        + struct.pack("<4s4HIIH", b"PK\5\6", 0, 0, 0xFFFF, 0xFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0)
+    )
+
+
+def grids():
+    """Grids that are refused, by name: each member missing, damaged, of another shape, and longer than it may be."""
+    good = assets.grid(0.5)
+    members = members_of(good)
+    zeros = lambda n: assets.npy("<f8", (n,), bytes(8 * n))
+    for name in MEMBERS:
+        yield f"{name} is missing", packed({k: v for k, v in members.items() if k != name})
+        yield f"{name} is cut", packed({**members, name: members[name][:-1]})
+        yield f"{name} is no array", packed({**members, name: b"\0" * 200})
+        yield f"{name} is of text", packed({**members, name: assets.npy("<U4", (2,), bytes(32))})
+        yield f"{name} has a wrong checksum", set_entry(good, name.encode(), 16, b"\1\2\3\4")
+        yield f"{name} is encrypted", set_entry(good, name.encode(), 8, b"\1\0")
+        yield f"{name} lies elsewhere", set_entry(good, name.encode(), 42, b"\0\0\0\x7f")
+        yield (
+            f"{name} is longer than the file",
+            set_entry(set_entry(good, name.encode(), 20, b"\0\0\0\1"), name.encode(), 24, b"\0\0\0\1"),
+        )
+        yield f"{name} is of method 9", set_entry(good, name.encode(), 10, b"\x09\0")
+        yield f"{name} has a number too many", packed({**members, name: zeros(10)})
+    for name in MEMBERS[1:]:
+        yield f"{name} is beyond its limit", packed({**members, name: zeros((17 << 20) // 8)}, zipfile.ZIP_DEFLATED)
+        yield f"{name} unfolds to its limit", packed({**members, name: zeros(1 << 21)}, zipfile.ZIP_DEFLATED)
+    deflated = packed(members, zipfile.ZIP_DEFLATED)
+    for name in ("header", "density"):
+        at = deflated.index(name.encode() + b".npy") + len(name) + 4
+        yield f"{name} is damaged where it is packed", deflated[: at + 9] + b"\xff\xff\xff" + deflated[at + 12 :]
+    for method in (zipfile.ZIP_BZIP2, zipfile.ZIP_LZMA):
+        yield f"packed by method {method}", packed(members, method)
+    yield "more members than are taken", with_entries(good, 1100)
+    yield "more members than 16 bits count", with_entries(good, 70000)
+    yield "no directory", good[:-40]
+    yield "bytes behind", good + b"x"
+    yield "a spin of 2", assets.grid(2)
+
+
+def pictures():
+    good = assets.png(64, 64)
+    for n in (0, 8, 20, 40, 3000, len(good) - 12, len(good) - 1):
+        yield f"a picture of {n} bytes", good[:n]
+    yield "a picture with a tail", good + b"PK\3\4"
+    for kind in (b"IHDR", b"IDAT", b"IEND"):
+        yield f"a picture without {kind.decode()}", good.replace(kind, kind[:-1] + b"?")
+    many = assets.png(16, 16, before=assets.chunk(b"tEXt", b"Key\0" + b"x" * 60000) * 40)
+    yield "a picture of many texts, cut", many[:-20]
+    yield "a picture of many texts, damaged", many[:-30] + bytes(30)
+    yield "too many pixels", assets.png(30000, 9000, colour=0, pixels=bytes(30000 * 9000))
+
+
+def routes(document):
+    """Requests that each operation of the document refuses."""
+    known = dict(name="nobody", id="0123456789abcdef", sha256="0" * 64)
+    bad = {
+        "broken": b'{"a":',
+        "not an object": b"[1]",
+        "of an unknown member": b'{"nothing_of_this_name":{"a":[1,2,3]}}',
+        "deep": b"[" * 5000,
+        "of a wrong type": b'{"scene":3,"camera":3,"bodies":3,"preset":3}',
+        "binary": bytes(range(256)) * 16,
+        "long": b'{"a":"' + b"x" * 60000 + b'"}',
+    }
+    for path, operations in document["paths"].items():
+        target = re.sub(r"\{(\w+)\}", lambda match: known[match[1]], path)
+        for method in operations:
+            if method not in ("get", "post", "put", "patch", "delete"):
+                continue
+            yield (
+                f"{method} {path} with an unknown parameter",
+                (method.upper(), target + "?nothing_of_this_name=1", None, {}),
+            )
+            if method in ("post", "put", "patch"):
+                kind = next(iter(operations[method].get("requestBody", {}).get("content", {"application/json": 0})))
+                for name, body in bad.items():
+                    yield f"{method} {path}, {name}", (method.upper(), target, body, {"Content-Type": kind})
+                yield f"{method} {path} of another type", (method.upper(), target, b"{}", {"Content-Type": "text/html"})
+            yield f"{method} {path} without a host", (method.upper(), target, None, {"Host": "a b"})
+        yield f"TRACE {path}", ("TRACE", target, None, {})
+
+
+class Refusals(daemon.Case):
+    @classmethod
+    def setUpClass(cls):
+        cls.daemon = daemon.Daemon("--drain-ms", 10, env=memory.ENVIRONMENT)
+
+    def hold(self, kinds, least):
+        """Each kind is refused, and holds no more memory after the last time than after the first."""
+        told, refused, grown = memory.is_told(self.daemon), 0, []
+        for name, request in kinds:
+            status = [self.daemon.request(*request).status for _ in range(WARM)][0]
+            if not 400 <= status < 500:
+                continue  # one that this route takes
+            refused += 1
+            self.daemon.get("/v1/assets")  # the last request is over when the next one is answered
+            before = memory.held(self.daemon)
+            for _ in range(REPEATS):
+                self.assertEqual(self.daemon.request(*request).status, status, name)
+            if told and not memory.comes_back(self.daemon, before):
+                grown.append(f"{name}: {memory.held(self.daemon) - before >> 10} KiB after {REPEATS} times")
+        print(f"{refused} kinds of refusals, {REPEATS} times each", flush=True)
+        self.assertEqual(grown, [])
+        self.assertGreaterEqual(refused, least)
+
+    def test_assets(self):
+        def put(data, kind):
+            return "PUT", assets.ASSETS, data, {"Content-Type": kind}
+
+        self.hold(((name, put(data, NPZ)) for name, data in grids()), 100)
+        self.hold(((name, put(data, "image/png")) for name, data in pictures()), 10)
+
+    def test_routes(self):
+        self.hold(routes(self.daemon.get("/openapi.json").json()), 200)
+
+
+if __name__ == "__main__":
+    daemon.main()

@@ -1,0 +1,134 @@
+/* Programs that are run for us: how they end, with whom, what they say, and that they do nothing. */
+#include "base/program.h"
+
+#include <fcntl.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+static struct kd_program start(const char *script)
+{
+    struct kd_program p;
+    struct kd_error error;
+    int out = open("/dev/null", O_WRONLY);
+    assert_int_equal(kd_program_start((const char *const[]) { "sh", "-c", script, NULL }, out, 1 << 20, &p, &error),
+                     KD_OK);
+    close(out);
+    return p;
+}
+
+static void doze(void) { nanosleep(&(struct timespec) { .tv_nsec = 1000000 }, NULL); }
+
+/* The process whose number is the last word of what it said ends: it is gone, or waits for its new parent to look. */
+static void expect_gone(const struct kd_program *p)
+{
+    char path[64], state = 0;
+    const char *number = strrchr(p->said, ' ');
+    assert_non_null(number);
+    snprintf(path, sizeof path, "/proc/%ld/stat", strtol(number, NULL, 10));
+    for (FILE *stat = NULL; state != 'Z' && (stat = fopen(path, "r")); doze()) {
+        assert_int_equal(fscanf(stat, "%*d %*s %c", &state), 1);
+        fclose(stat);
+    }
+}
+
+static int end_of(struct kd_program *p)
+{
+    int code;
+    while (!kd_program_over(p, &code))
+        doze();
+    return code;
+}
+
+/* A child of it has its standard error and sleeps: that neither holds us nor lives on. */
+static void test_a_child_that_stays(void **state)
+{
+    (void)state;
+    struct kd_program p = start("sleep 600 & echo oops $! >&2; exit 3");
+    char reason[300];
+    assert_int_equal(end_of(&p), 3);
+    kd_program_reason(&p, reason);
+    assert_memory_equal(reason, "oops ", 5);
+    expect_gone(&p);
+    assert_true(p.told < 0 && p.in < 0 && !p.pid);
+}
+
+static void test_its_group_ends_with_it(void **state)
+{
+    (void)state;
+    struct kd_program p = start("sleep 600 & echo ready $! >&2; wait");
+    int code;
+    while (!p.n_said)
+        assert_false(kd_program_over(&p, &code));
+    kd_program_end(&p);
+    expect_gone(&p);
+}
+
+/* Time passes in the numbers alone. */
+static void test_one_that_does_nothing(void **state)
+{
+    (void)state;
+    struct kd_program p = start("read line; while :; do :; done");
+    double now = 1e6, before = -1;
+    for (int still = 0; still < 5; doze()) { /* until it waits for its line */
+        still = p.used_ms == before ? still + 1 : 0;
+        before = p.used_ms;
+        kd_program_idle_ms(&p, false, now);
+    }
+    assert_true(kd_program_idle_ms(&p, true, now) == 0);
+    for (int i = 1; i <= 40; i++)
+        assert_true(kd_program_idle_ms(&p, false, now += 500) == 500 * i);
+    assert_true(kd_program_idle_ms(&p, false, now += 3600e3) == 21e3); /* the machine was held */
+    assert_true(kd_program_idle_ms(&p, true, now += 500) == 0);
+    kd_program_idle_ms(&p, false, now += 500);
+    assert_int_equal(kd_program_write(&p, "go\n", 3), 3);
+    while (kd_program_idle_ms(&p, false, now) > 0) /* it uses a processor */
+        doze();
+    kd_program_end(&p);
+}
+
+static void test_what_is_told(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *said, *told;
+    } lines[] = {
+        { "", "" },
+        { "\n first line\nUnknown encoder", "first line" },
+        { "/tmp/kerrd-film-abc: No space left on device\n", "FILE: No space left on device" },
+        { "cannot open '/home/me/a b', nor ./x or ../y (~/z)\r\n", "cannot open 'FILE b', nor FILE or FILE (FILE)" },
+        { "\x1b[31m[libx264 @ 0x5581aabb]\x1b[0m broken\x07 at 30/1 and/or 1 / 2",
+          "[libx264] broken at 30/1 and/or 1 / 2" },
+        { "file:/etc/passwd says \xff\xc3", "file:FILE says ??" },
+    };
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        struct kd_program p = KD_PROGRAM_NONE;
+        char reason[300];
+        snprintf(p.said, sizeof p.said, "%s", lines[i].said);
+        kd_program_reason(&p, reason);
+        assert_string_equal(reason, lines[i].told);
+    }
+    struct kd_program p = KD_PROGRAM_NONE;
+    char reason[300];
+    memset(p.said, 'x', sizeof p.said - 1);
+    kd_program_reason(&p, reason);
+    assert_true(strlen(reason) < sizeof reason && strlen(reason) > 250);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_a_child_that_stays),
+        cmocka_unit_test(test_its_group_ends_with_it),
+        cmocka_unit_test(test_one_that_does_nothing),
+        cmocka_unit_test(test_what_is_told),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
