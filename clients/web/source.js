@@ -243,9 +243,17 @@ export function openSource(scene, size, shown, failed, rests) {
     for (const old of from.cameras.keys()) if (old < revision) from.cameras.delete(old);
     const now = performance.now();
     if (quality.final !== 1) stirred_ms = now;
+<<<<<<< /tmp/tmpjadq12gg/c
     // a slow server's last three, too
     recent = scene.goesOn() ? [...recent.filter((time, i) => time > now - 2000 || i >= recent.length - 2), now] : [];
     const picture = await answer.blob();
+||||||| /tmp/tmpjadq12gg/b
+    recent = scene.goesOn() ? [...recent.filter((time, i) => time > now - 2000 || i >= recent.length - 2), now] : []; // a slow server's last three, too
+    const picture = await answer.blob();
+=======
+    recent = scene.goesOn() ? [...recent.filter((time, i) => time > now - 2000 || i >= recent.length - 2), now] : []; // a slow server's last three, too
+    const [picture, left] = await Promise.all([answer.blob(), approximations(from, get)]);
+>>>>>>> /tmp/tmpjadq12gg/t
     line.read(quality.lossy, performance.now() - now);
     await shown({
       picture,
@@ -259,7 +267,7 @@ export function openSource(scene, size, shown, failed, rests) {
       pace: recent.length > 2 && (1e3 * (recent.length - 1)) / (now - recent[0]),
       accuracy: figures(get('Kerrd-Accuracy')),
       flux: figures(get('Kerrd-Flux')), // of a radio frequency
-      approximations: approximations(from, get),
+      approximations: left,
       passes: passes(get('Server-Timing')),
       clock,
       azimuth,

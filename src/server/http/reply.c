@@ -249,18 +249,9 @@ size_t kd_reply_accepted(struct kd_request *request, size_t n, const char *(*typ
     return best;
 }
 
-enum kd_status kd_reply_quote(struct kd_buffer *out, const char *text)
+enum kd_status kd_reply_item(struct kd_buffer *out, const char *name)
 {
-    enum kd_status status;
-    KD_TRY(kd_buffer_printf(out, "%s\"", out->size ? ", " : ""));
-    for (; *text; text++) {
-        unsigned char c = (unsigned char)*text;
-        KD_TRY(c < 0x20 || c > 0x7e || strchr("\"%\\,", c) ? kd_buffer_printf(out, "%%%02X", c)
-                                                           : kd_buffer_append(out, &c, 1));
-    }
-    KD_TRY(kd_buffer_append(out, "\"", 1));
-done:
-    return status;
+    return kd_buffer_printf(out, "%s%s", out->size ? ", " : "", name);
 }
 
 const char *kd_bearer_of(struct kd_request *request)

@@ -49,9 +49,8 @@ struct kd_buffer kd_reply_header_list(struct kd_request *request, const char *na
 /* kd_accept_best of what the request accepts. */
 size_t kd_reply_accepted(struct kd_request *request, size_t n, const char *(*type)(size_t i, const void *list),
                          const void *list);
-/* Append a sentence to a header that lists them: percent-encoded inside quotes, so that any client can split at the
- * commas between them. */
-enum kd_status kd_reply_quote(struct kd_buffer *out, const char *text);
+/* Append a name to a header that is a List of Tokens (RFC 9651). */
+enum kd_status kd_reply_item(struct kd_buffer *out, const char *name);
 
 /* A generated document, or the problem of not having generated it. Empties the buffer. */
 enum MHD_Result kd_reply_json(struct kd_request *request, enum kd_status status, struct kd_buffer *json,
