@@ -182,7 +182,6 @@ static enum MHD_Result send_bytes(struct kd_request *request, struct kd_asset *a
 {
     const struct kd_asset_about *about = kd_asset_about(asset);
     struct kd_buffer known = kd_reply_header_list(request, "If-None-Match");
-    snprintf(request->etag, sizeof request->etag, "\"%s\"", about->hash);
     bool same = kd_etag_listed((const char *)known.data, request->etag);
     kd_buffer_finish(&known);
     struct sending *s = malloc(sizeof *s);
@@ -212,12 +211,16 @@ enum MHD_Result kd_handle_asset(struct kd_request *request)
         return kd_reply_problem(request,
                                 &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND,
                                                        .detail = "there is no asset of this SHA-256, or no longer" });
+    snprintf(request->etag, sizeof request->etag, "\"%s\"", kd_asset_about(asset)->hash);
     if (strcmp(request->method, "DELETE"))
         return send_bytes(request, asset);
     bool may = kd_secret_equal(kd_asset_about(asset)->token, kd_token_of(request));
-    if (may)
+    const bool same = kd_reply_matches(request, request->etag);
+    if (may && same)
         kd_asset_store_remove(store, asset);
     kd_asset_release(store, asset);
+    if (may && !same)
+        return kd_reply_unmatched(request);
     return may ? kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, JSON_TYPE))
                : kd_reply_problem(request,
                                   &(struct kd_problem) {

@@ -132,11 +132,36 @@ enum MHD_Result kd_reply_no_memory(struct kd_request *request)
     return kd_reply_bare(request->mhd);
 }
 
+bool kd_reply_matches(struct kd_request *request, const char *etag)
+{
+    struct kd_buffer tags = kd_reply_header_list(request, "If-Match");
+    bool yes = !tags.data || kd_etag_matches((const char *)tags.data, etag);
+    kd_buffer_finish(&tags);
+    return yes;
+}
+
+enum MHD_Result kd_reply_unmatched(struct kd_request *request)
+{
+    return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_PRECONDITION,
+                                                            .detail = "nothing here has an ETag that If-Match names" });
+}
+
+static bool only_asks(const struct kd_request *request)
+{
+    return request->head || !strcmp(request->method, "GET") || (request->route && request->route->question);
+}
+
 enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struct MHD_Response *response)
 {
     struct kd_server *server = request->server;
     if (!response)
         return kd_reply_no_memory(request);
+    if ((status / 100 == 2 || status == MHD_HTTP_NOT_MODIFIED) && only_asks(request) &&
+        !kd_reply_matches(request, MHD_get_response_header(response, "ETag"))) {
+        MHD_destroy_response(response);
+        *request->file = 0;
+        return kd_reply_unmatched(request);
+    }
     const char *type = MHD_get_response_header(response, "Content-Type");
     if (type && (status == MHD_HTTP_NO_CONTENT || status == MHD_HTTP_NOT_MODIFIED)) /* no body that it could be of */
         MHD_del_response_header(response, "Content-Type", type);
@@ -185,6 +210,14 @@ enum MHD_Result kd_reply_problem(struct kd_request *request, const struct kd_pro
     }
     request->close |= problem->close;
     return kd_reply_send(request, kd_problem_status(problem->type), response);
+}
+
+enum MHD_Result kd_reply_options(struct kd_request *request, const char *allow)
+{
+    struct MHD_Response *response = kd_reply_static("", 0, NULL);
+    if (response)
+        MHD_add_response_header(response, "Allow", allow);
+    return kd_reply_send(request, MHD_HTTP_NO_CONTENT, response);
 }
 
 enum MHD_Result kd_reply_error(struct kd_request *request, const struct kd_error *error)

@@ -39,6 +39,12 @@ enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struc
 enum MHD_Result kd_reply_bare(struct MHD_Connection *mhd);
 enum MHD_Result kd_reply_no_memory(struct kd_request *request);
 enum MHD_Result kd_reply_problem(struct kd_request *request, const struct kd_problem *problem);
+/* Whether the request's If-Match, if it has one, holds for what has this ETag; NULL: it has none (RFC 9110 13.1.1).
+ * What changes something asks before it does; answers of all else are checked when they are sent. */
+bool kd_reply_matches(struct kd_request *request, const char *etag);
+enum MHD_Result kd_reply_unmatched(struct kd_request *request);
+/* Answers OPTIONS: 204, with these methods as Allow. */
+enum MHD_Result kd_reply_options(struct kd_request *request, const char *allow);
 /* Sends what kd_problem_from makes of the error. */
 enum MHD_Result kd_reply_error(struct kd_request *request, const struct kd_error *error);
 /* Whether kd_target_only holds; if not *refused is the answer. */

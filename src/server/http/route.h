@@ -70,8 +70,11 @@ extern const size_t kd_n_routes;
  * The base path alone is the page's, too, with an empty path. False with *problem filled (404; 405, where
  * request->route is set too). */
 bool kd_route_find(struct kd_request *request, struct kd_problem *problem);
-/* The methods that a route takes, as the Allow header has them; until the next call on this thread. */
+/* The methods that a route takes, with OPTIONS, which each does, as the Allow header has them; until the next call
+ * on this thread. NULL: those of all routes. */
 const char *kd_route_allow(const struct kd_route *route);
+/* The same without OPTIONS, for preflights. */
+const char *kd_route_methods(const struct kd_route *route);
 /* The bit of a method by its name, KD_GET, ...; 0: no route takes it. */
 unsigned kd_route_method(const char *method);
 /* Whether a raw target is one that is answered whatever else is the matter: /healthz, /readyz, /metrics, with the
