@@ -294,7 +294,8 @@ static bool choose(struct kd_request *request, enum MHD_Result *result)
         };
     else if (!body_fault(request, text, &problem))
         return true;
-    *result = kd_reply_problem(request, &problem);
+    *result =
+        kd_sign_in_wanted(request, &problem) ? kd_sign_in_page(request, &problem) : kd_reply_problem(request, &problem);
     return false;
 }
 

@@ -202,7 +202,7 @@ class Proxies:
             )
 
     def test_the_page(self):
-        """With stars, jets and a spot, in a browser: it is let in by its link, and shows a live view and what is
+        """With stars, jets and a spot, in a browser: it is asked for its token, and shows a live view and what is
         approximated in it."""
         api = daemon.needed("playwright.sync_api")
         with api.sync_playwright() as playwright:
@@ -210,9 +210,13 @@ class Proxies:
                 executable_path=shutil.which("chromium"), args=["--no-sandbox", "--disable-gpu"]
             )
             page = browser.new_page(viewport={"width": 640, "height": 400}, ignore_https_errors=True)
-            page.goto(
-                f"https://localhost:{self.port}/?access={TOKEN}#lang=en&pace=fast&preset=jet&spots.0.brightness=1"
-            )
+            page.goto(f"https://localhost:{self.port}/")
+            page.get_by_label("Access token").fill(TOKEN)
+            page.get_by_role("button").click()
+            page.wait_for_selector("#stage")
+            self.assertNotIn("access", page.url)
+            page.goto("about:blank")
+            page.goto(f"https://localhost:{self.port}/#lang=en&pace=fast&preset=jet&spots.0.brightness=1")
             page.wait_for_selector("#stage[data-final]", timeout=240_000)
             page.wait_for_function("document.querySelectorAll('#approximations li').length > 15", timeout=240_000)
             texts = page.locator("#approximations li").all_text_contents()

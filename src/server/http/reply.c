@@ -197,8 +197,12 @@ enum MHD_Result kd_reply_problem(struct kd_request *request, const struct kd_pro
         return kd_reply_no_memory(request);
     }
     struct MHD_Response *response = kd_reply_take(&body, "application/problem+json");
-    if (!response)
-        return kd_reply_no_memory(request);
+    return response ? kd_reply_refuse(request, problem, response) : kd_reply_no_memory(request);
+}
+
+enum MHD_Result kd_reply_refuse(struct kd_request *request, const struct kd_problem *problem,
+                                struct MHD_Response *response)
+{
     if (problem->allow)
         MHD_add_response_header(response, "Allow", problem->allow);
     if (kd_problem_status(problem->type) == MHD_HTTP_UNAUTHORIZED)

@@ -4,6 +4,7 @@
 #ifndef KD_SERVER_HTTP_REPLY_H
 #define KD_SERVER_HTTP_REPLY_H
 
+#include "server/http/negotiate.h"
 #include "server/http/served.h"
 #include "server/http/problem.h"
 #include "server/http/request.h"
@@ -39,6 +40,9 @@ enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struc
 enum MHD_Result kd_reply_bare(struct MHD_Connection *mhd);
 enum MHD_Result kd_reply_no_memory(struct kd_request *request);
 enum MHD_Result kd_reply_problem(struct kd_request *request, const struct kd_problem *problem);
+/* Sends the problem's status and headers with a body of one's own. */
+enum MHD_Result kd_reply_refuse(struct kd_request *request, const struct kd_problem *problem,
+                                struct MHD_Response *response);
 /* Whether the request's If-Match, if it has one, holds for what has this ETag; NULL: it has none (RFC 9110 13.1.1).
  * What changes something asks before it does; answers of all else are checked when they are sent. */
 bool kd_reply_matches(struct kd_request *request, const char *etag);

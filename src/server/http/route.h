@@ -86,6 +86,11 @@ enum kd_begins { KD_BEGINS_UNCLEAR, KD_BEGINS_HEALTH, KD_BEGINS_OTHER };
 #define KD_BEGINS_BYTES (KD_BASE_PATH_MOST + 32)
 enum kd_begins kd_route_begins(const struct kd_base_path *base, const char *bytes, size_t n);
 
+/* Whether a browser that is refused wants a page that asks for its access token, and that page: answers/sign_in.c */
+struct kd_problem;
+bool kd_sign_in_wanted(struct kd_request *request, const struct kd_problem *problem);
+enum MHD_Result kd_sign_in_page(struct kd_request *request, const struct kd_problem *problem);
+
 /* handlers, by file */
 enum MHD_Result kd_handle_page(struct kd_request *request);   /* answers/pages.c */
 enum MHD_Result kd_handle_health(struct kd_request *request); /* answers/reports.c */
