@@ -1,4 +1,5 @@
 // What the header of a picture says.
+import { getJson } from './server.js';
 
 // "width=640 height=360 ..." as numbers.
 export const figures = header =>
@@ -12,14 +13,25 @@ export const figures = header =>
       }),
   );
 
-const sentences = header => [...(header ?? '').matchAll(/"([^"]*)"/g)].map(m => decodeURIComponent(m[1]));
+// The sentence of each approximation by its name: asked for once, and again where that failed.
+let known = null;
+export function sentences() {
+  known ??= getJson('v1/approximations')
+    .then(({ approximations }) => new Map(approximations.map(({ name, sentence }) => [name, sentence])))
+    .catch(() => ((known = null), new Map()));
+  return known;
+}
 
-// What a picture leaves out. The server sends it where it is not what the request said is known: the session keeps it
-// by its number.
-export function approximations(session, get) {
+const names = header => (header ?? '').split(', ').filter(Boolean);
+
+// What a picture leaves out. The server sends its names where they are not what the request said is known: the session
+// keeps them by their number.
+export async function approximations(session, get) {
   session.told = get('Kerrd-Sentences');
-  if (!session.sentences.has(session.told)) session.sentences.set(session.told, sentences(get('Kerrd-Approximations')));
-  return session.sentences.get(session.told);
+  if (!session.sentences.has(session.told)) session.sentences.set(session.told, names(get('Kerrd-Approximations')));
+  const here = session.sentences.get(session.told),
+    all = await sentences();
+  return here.map(name => all.get(name) ?? name);
 }
 
 export const passes = header =>

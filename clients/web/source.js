@@ -245,7 +245,7 @@ export function openSource(scene, size, shown, failed, rests) {
     if (quality.final !== 1) stirred_ms = now;
     // a slow server's last three, too
     recent = scene.goesOn() ? [...recent.filter((time, i) => time > now - 2000 || i >= recent.length - 2), now] : [];
-    const picture = await answer.blob();
+    const [picture, left] = await Promise.all([answer.blob(), approximations(from, get)]);
     line.read(quality.lossy, performance.now() - now);
     await shown({
       picture,
@@ -259,7 +259,7 @@ export function openSource(scene, size, shown, failed, rests) {
       pace: recent.length > 2 && (1e3 * (recent.length - 1)) / (now - recent[0]),
       accuracy: figures(get('Kerrd-Accuracy')),
       flux: figures(get('Kerrd-Flux')), // of a radio frequency
-      approximations: approximations(from, get),
+      approximations: left,
       passes: passes(get('Server-Timing')),
       clock,
       azimuth,

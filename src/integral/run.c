@@ -150,7 +150,8 @@ enum kd_status kd_integral_run_take(struct kd_integral_run *run, struct kd_buffe
 {
     if (!run->picture) {
         run->answer.n_told = plan->n_approximations;
-        memcpy(run->answer.told, plan->approximations, plan->n_approximations * sizeof *plan->approximations);
+        for (size_t i = 0; i < plan->n_approximations; i++)
+            run->answer.told[i] = plan->approximations[i].text;
     }
     return run->answer.request->what == KD_INTEGRAL_VOLUME ? take_flux(run, file, scene, error)
                                                            : begin_map(run, file, scene, error);

@@ -1,5 +1,6 @@
 #include "scene/scan.h"
 
+#include "scene/mistake.h"
 #include "scene/number.h"
 #include "base/utf8.h"
 #include "scene/text.h"
@@ -19,12 +20,17 @@ struct scan {
     const char *text;
     size_t length, at, values, most;
     int depth;
+    char before; /* the last character of syntax, 'v' for a value's end; 0: none yet */
     struct kd_error *error;
 };
 
 static enum kd_status fail(struct scan *s, size_t at, const char *what)
 {
+    const char *mistake = kd_json_mistake(s->text, s->length, at, s->before);
     struct kd_text_place place = kd_text_place_of(s->text, at);
+    if (mistake)
+        return kd_error_set(s->error, KD_EINVAL, "the document is not valid JSON at byte %zu, line %zu, column %zu: %s",
+                            at, place.line, place.column, mistake);
     return kd_error_set(s->error, KD_EINVAL, "the document is not valid JSON: %s at byte %zu, line %zu, column %zu",
                         what, at, place.line, place.column);
 }
@@ -118,8 +124,12 @@ static enum kd_status mark(struct scan *s, char c)
         if (++s->depth > DEPTH_MAX)
             return fail(s, s->at, "nested deeper than 32 levels");
     } else if (c == '}' || c == ']') {
+        if (s->before == ',' || s->before == ':')
+            return fail(s, s->at, "a bracket where a value is missing");
         s->depth--; /* cJSON finds those that do not match */
     } else if (c == ',') {
+        if (s->before && strchr(",{[:", s->before))
+            return fail(s, s->at, "a comma where a value is missing");
         if (++s->values >= s->most)
             return too_many(s);
     } else if (c && !strchr(": \t\n\r", c)) {
@@ -129,6 +139,10 @@ static enum kd_status mark(struct scan *s, char c)
     } else if (!c) {
         return fail(s, s->at, "NUL");
     }
+    if (strchr("{[,:", c))
+        s->before = c;
+    else if (c == '}' || c == ']')
+        s->before = 'v';
     s->at++;
     return KD_OK;
 }
@@ -137,16 +151,28 @@ static enum kd_status scan(const char *text, size_t start, size_t end, size_t mo
 {
     struct scan s = { .text = text, .length = end, .at = start, .most = most, .error = error };
     enum kd_status status = KD_OK;
+    const char *encoding = start ? NULL : kd_json_encoding(text, end);
+    if (encoding)
+        return kd_error_set(error, KD_EINVAL, "the document is not valid JSON: it is %s, and JSON is UTF-8", encoding);
     while (!status && s.at < end) {
         char c = text[s.at];
-        bool letter = (c | 32) >= 'a' && (c | 32) <= 'z';
+        bool letter = (c | 32) >= 'a' && (c | 32) <= 'z',
+             value = letter || c == '"' || c == '-' || (c >= '0' && c <= '9');
+        if (value && s.before == 'v')
+            return fail(&s, s.at,
+                        s.depth > 0 || start
+                            ? "a value right behind another, without the comma or the colon between them"
+                            : "text behind the document");
         status = c == '"'                             ? string(&s)
                  : c == '-' || (c >= '0' && c <= '9') ? number(&s)
                  : letter                             ? word(&s)
                                                       : mark(&s, c);
+        s.before = value ? 'v' : s.before;
     }
     return status;
 }
+
+size_t kd_scan_mark(const char *text, size_t length) { return length >= 3 && !memcmp(text, "\xef\xbb\xbf", 3) ? 3 : 0; }
 
 enum kd_status kd_scan_json(const char *text, size_t length, size_t most, struct kd_error *error)
 {

@@ -11,8 +11,11 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Looks at a whole document. most: how many values it may hold, each of which costs cJSON some 64 bytes. KD_SCAN_FEW
- * is far more than a scene has fields: a document with more is wrong, and cheap to refuse. */
+/* Bytes of the byte order mark at the begin of a text, which readers ignore (RFC 8259, 8.1): 3 or 0. */
+size_t kd_scan_mark(const char *text, size_t length);
+
+/* Looks at a whole document, without such a mark. most: how many values it may hold, each of which costs cJSON some
+ * 64 bytes. KD_SCAN_FEW is far more than a scene has fields: a document with more is wrong, and cheap to refuse. */
 enum { KD_SCAN_FEW = 4096 };
 enum kd_status kd_scan_json(const char *text, size_t length, size_t most, struct kd_error *error);
 

@@ -89,6 +89,10 @@ void *kd_request_open(void *cls, const char *uri, struct MHD_Connection *mhd)
         request->connection); /* its next request may be anything, and is for the other daemon */
     kd_client_of(mhd, request->client);
     request->raw = strdup(uri);
+    if (request->raw && kd_target_origin(request->raw, &request->authority)) {
+        free(request->raw);
+        request->raw = NULL;
+    }
     hide_pairs(uri);
     request->start_ms = kd_clock_ms();
     atomic_fetch_add(&server->requests, 1);
@@ -123,6 +127,7 @@ void kd_request_close(void *cls, struct MHD_Connection *mhd, void **state, enum 
     kd_buffer_finish(&request->body);
     kd_target_finish(&request->target);
     free(request->raw);
+    free(request->authority);
     free(request);
     *state = NULL;
     atomic_fetch_sub(&server->requests, 1);
@@ -236,7 +241,16 @@ static bool find_route(struct kd_request *request, struct kd_problem *problem)
     return found;
 }
 
-/* True when the request may go on; else *result is that of having refused it. */
+static bool is_options(const struct kd_request *request) { return !strcmp(request->method, "OPTIONS"); }
+
+/* OPTIONS of the server as a whole: of "*", or of an address without a path (RFC 9112 3.2.4). */
+static bool asks_of_all(const struct kd_request *request)
+{
+    return is_options(request) && !request->body_announced &&
+           (!strcmp(request->raw, "*") || (request->authority && !strcmp(request->raw, "/")));
+}
+
+/* True when the request may go on; else *result is that of having answered it. */
 static bool choose(struct kd_request *request, enum MHD_Result *result)
 {
     struct kd_problem problem;
@@ -256,9 +270,22 @@ static bool choose(struct kd_request *request, enum MHD_Result *result)
     else if (kd_cors_is_preflight(request)) { /* without a token: browsers send none */
         *result = kd_cors_preflight(request);
         return false;
-    } else if (!find_route(request, &problem))
+    } else if (asks_of_all(request)) {
+        *result = kd_reply_options(request, kd_route_allow(NULL));
+        return false;
+    } else if (*request->raw != '/') {
+        problem = (struct kd_problem) { .type = KD_PROBLEM_BAD_REQUEST,
+                                        .detail = "the request target is neither a path nor an address" };
+    } else if (!find_route(request, &problem)) {
+        const bool options = is_options(request) && problem.type == KD_PROBLEM_METHOD;
+        if (options && !request->body_announced) {
+            *result = kd_reply_options(request, problem.allow);
+            return false;
+        }
+        if (options)
+            problem = (struct kd_problem) { .type = KD_PROBLEM_BAD_REQUEST, .detail = "this method takes no body" };
         request->route = NULL;
-    else if (is_foreign(request))
+    } else if (is_foreign(request))
         problem = (struct kd_problem) {
             .type = KD_PROBLEM_CROSS_SITE,
             .close = request->body_announced,
@@ -267,7 +294,8 @@ static bool choose(struct kd_request *request, enum MHD_Result *result)
         };
     else if (!body_fault(request, text, &problem))
         return true;
-    *result = kd_reply_problem(request, &problem);
+    *result =
+        kd_sign_in_wanted(request, &problem) ? kd_sign_in_page(request, &problem) : kd_reply_problem(request, &problem);
     return false;
 }
 
@@ -283,8 +311,8 @@ static enum MHD_Result begin(struct kd_request *request, const char *version)
     if (!request->raw) {
         return kd_reply_no_memory(request);
     }
-    if (!kd_guard_check(request->mhd, version, server->hosts, kd_route_is_health(&server->base, request->raw),
-                        &request->header, &problem)) {
+    if (!kd_guard_check(request->mhd, version, request->authority, server->hosts,
+                        kd_route_is_health(&server->base, request->raw), &request->header, &problem)) {
         kd_connection_linger(request->connection);
         return kd_reply_problem(request, &problem);
     }

@@ -23,6 +23,9 @@ const struct kd_route kd_routes[] = {
       .status = { 200, 304 } },
     { "/v1/schema", KD_GET, kd_handle_kept, "application/schema+json", "JSON Schema of a scene",
       .status = { 200, 304 } },
+    { "/v1/approximations", KD_GET, kd_handle_kept, JSON,
+      "Names of all approximations, as Kerrd-Approximations lists them, and the sentence of each",
+      .status = { 200, 304 } },
     { "/v1/plan", KD_POST, kd_handle_plan, JSON,
       "What a scene requires: passes, rays, bytes, estimated time, approximations; or, with axes, what all scenes of a "
       "sweep take together",

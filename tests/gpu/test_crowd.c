@@ -272,7 +272,7 @@ static void test_dark(void **state)
         OK(kd_plan_make(&scene, &c, &plan, &error));
         bool told = false;
         for (size_t i = 0; i < plan.n_approximations; i++)
-            told |= strstr(plan.approximations[i], "they have no radius") != NULL;
+            told |= strstr(plan.approximations[i].text, "they have no radius") != NULL;
         assert_true(told == (k == 2));
         kd_crowd_release(crowd);
     }

@@ -310,7 +310,7 @@ static void test_refused(void **state)
 static bool says_noise(const struct kd_plan *plan)
 {
     for (size_t i = 0; i < plan->n_approximations; i++)
-        if (strstr(plan->approximations[i], "it is noise"))
+        if (strstr(plan->approximations[i].text, "it is noise"))
             return true;
     return false;
 }

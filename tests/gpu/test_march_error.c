@@ -224,7 +224,7 @@ static void test_sketch(void **state)
     OK(kd_plan_make_for(&scene, &needs, &c, &plan, &error));
     bool said = false;
     for (size_t i = 0; i < plan.n_approximations; i++)
-        said |= !strncmp(plan.approximations[i], "volumes: a sketch", 17);
+        said |= !strncmp(plan.approximations[i].text, "volumes: a sketch", 17);
     assert_true(said && plan.march.sketched && !usual.march.sketched &&
                 plan.n_approximations == usual.n_approximations + 1);
     assert_true(plan.march.fine < usual.march.fine && plan.march.weight < 0.8 * usual.march.weight);

@@ -229,7 +229,7 @@ static void test_said(void **state)
     assert_string_equal(on.lens_key, off.lens_key);
     size_t said = 0;
     for (size_t i = 0; i < on.n_approximations; i++)
-        said += !strncmp(on.approximations[i], "ringdown: ", 10);
+        said += !strncmp(on.approximations[i].text, "ringdown: ", 10);
     assert_int_equal(said, 1);
 }
 

@@ -334,6 +334,55 @@ class Browser(Access):
                 self.assertProblem(answer, 401, "unauthorized")
                 self.assertIsNone(answer.header("Set-Cookie"))
 
+    def test_any_of_several_cookies_lets_in(self):
+        for cookies in (
+            f"kerrd_access=old-0123456789abcdef; kerrd_access={VIEW}",
+            f"kerrd_access=; kerrd_access=x; a=b; kerrd_access={VIEW}",
+            f"kerrd_access={VIEW}; kerrd_access=x",
+        ):
+            self.assertEqual(
+                self.ask("GET", "/some/prefix/v1/device", headers={"Cookie": cookies}).status, 200, cookies
+            )
+        many = "".join(f"kerrd_access=x{i}; " for i in range(40))
+        self.assertProblem(
+            self.ask("GET", "/some/prefix/v1/device", headers={"Cookie": many + f"kerrd_access={VIEW}"}),
+            401,
+            "unauthorized",
+        )
+
+    def test_a_browser_without_a_token_is_asked_for_it(self):
+        browser = {"Accept": "text/html,application/xhtml+xml,application/xml;q=0.9,image/avif,*/*;q=0.8"}
+        for path, action in (("/some/prefix/", "."), ("/some/prefix", "prefix/"), ("/some/prefix/?access=wrong", ".")):
+            answer = self.ask("GET", path, headers=browser)
+            text = answer.body.decode()
+            self.assertEqual(
+                (answer.status, answer.header("Content-Type"), answer.header("WWW-Authenticate")),
+                (401, "text/html; charset=utf-8", "Bearer"),
+            )
+            self.assertIn(f'<form action="{action}">', text)
+            self.assertEqual("does not know this token" in text, "wrong" in path)
+            self.assertNotIn("<script", text)
+            self.assertIn("default-src 'none'", answer.header("Content-Security-Policy"))
+        for languages, tag in (
+            ("it-IT,it;q=0.9,en;q=0.8", "it"),
+            ("fr, it;q=0.5", "it"),
+            ("en-GB,it;q=0.9", "en"),
+            ("fr", "en"),
+            ("ita", "en"),
+        ):
+            self.assertIn(
+                f'<html lang="{tag}">'.encode(),
+                self.ask("GET", "/some/prefix/", headers={**browser, "Accept-Language": languages}).body,
+                languages,
+            )
+        for path, headers in (
+            ("/some/prefix/", {}),
+            ("/some/prefix/", {"Accept": "*/*"}),
+            ("/some/prefix/v1/device", browser),
+            ("/some/prefix/no/such", browser),
+        ):
+            self.assertProblem(self.ask("GET", path, headers=headers), 401, "unauthorized")
+
 
 class Log(daemon.unittest.TestCase):
     def test_it_tells_who_and_no_token(self):

@@ -281,7 +281,7 @@ class Assets(Case):
         ):
             answer = self.daemon.request(method, target)
             self.assertProblem(answer, 405, "method-not-allowed")
-            self.assertEqual(answer.header("Allow"), allow)
+            self.assertEqual(answer.header("Allow"), allow + ", OPTIONS")
         for name in ("0" * 64, "x", "..", "%2e%2e%2fjobs", "F" * 64, "0" * 63):
             self.assertProblem(self.daemon.get(f"{ASSETS}/{name}"), 404, "not-found")
         self.assertProblem(self.daemon.get(ASSETS + "?name=sky"), 422, "invalid-parameters")

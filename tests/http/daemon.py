@@ -16,6 +16,7 @@ import unittest
 import urllib.parse
 
 COMMAND = []  # the server's command line, from ours; set by main()
+HEADER_BYTES = 3000  # of any answer: proxies take 4096 by default, their own lines included
 SMALL = "image.width=64&image.height=36"
 
 
@@ -24,6 +25,9 @@ class Answer:
 
     def __init__(self, status, headers, body, target=""):
         self.status, self.headers, self.body, self.target = status, headers, body, target
+        size = sum(len(name) + len(value) + 4 for name, value in headers)
+        if size > HEADER_BYTES:
+            raise AssertionError(f"{target}: a header of {size} bytes, which is more than {HEADER_BYTES}: {headers}")
 
     def header(self, name):
         found = [v for k, v in self.headers if k.lower() == name.lower()]

@@ -33,6 +33,48 @@ class Scenes(daemon.Case):
             with self.subTest(body[:30]):
                 self.assertProblem(self.daemon.post(RENDER, body), 400, "malformed-json")
 
+    def test_a_mark_of_utf_8_is_ignored(self):
+        for target, document in (
+            (RENDER, '{"image":{"width":64,"height":36}}'),
+            ("/v1/plan", "{}"),
+            ("/v1/rays", '{"rays":[[1,2]]}'),
+            ("/v1/orbits", '{"orbit":{"p":9,"e":0.5}}'),
+            ("/v1/line", "{}"),
+            ("/v1/sessions", "{}"),
+            ("/v1/playground", '{"preset":"system"}'),
+            ("/v1/jobs", '{"scene":{}}'),
+        ):
+            with self.subTest(target):
+                self.assertLess(self.daemon.post(target, b"\xef\xbb\xbf" + document.encode()).status, 300)
+
+    def test_mistakes_of_who_writes_json_by_hand(self):
+        """Each is named with its line and column; of lists of rays, which have a reader of their own, too."""
+        for value, words in (
+            (".5", "JSON has 0.5 for .5"),
+            ("NaN", "NaN, which JSON has not"),
+            ("None", "null"),
+            ("True", "true"),
+            ("'1'", "double quotes"),
+            ("-Infinity", 'the string "infinity"'),
+            ("// one", "a comment"),
+        ):
+            for target, before, after in (
+                (RENDER, '{"camera":\n {"r": ', "}}"),
+                ("/v1/rays", '{"rays": [\n[1, 2],  [1,', "]]}"),
+            ):
+                with self.subTest((target, value)):
+                    problem = self.assertProblem(
+                        self.daemon.post(target, before + value + after), 400, "malformed-json"
+                    )
+                    self.assertIn(words, problem["detail"])
+                    self.assertIn(f"line 2, column {len(before.split(chr(10))[1]) + 1}:", problem["detail"])
+        problem = self.assertProblem(self.daemon.post(RENDER, '{"camera": {"r": 10,\n }}'), 400, "malformed-json")
+        self.assertIn("line 2, column 2: a bracket behind a comma", problem["detail"])
+        self.assertIn(
+            "it is UTF-16",
+            self.assertProblem(self.daemon.post(RENDER, "{}".encode("utf-16")), 400, "malformed-json")["detail"],
+        )
+
     def test_not_a_scene(self):
         far = {"camera": {"r": "infinity", "projection": "pinhole"}}
         ergosphere = {"spacetime": {"spin": 0.9}, "camera": {"r": 1.5, "inclination_deg": 90, "observer": "static"}}

@@ -34,6 +34,8 @@ class Guard(daemon.Case):
             b"127.0.0.1:65535",
             b"[::1]",
             b"[::1]:8080",
+            b"localhost.",
+            b"LocalHost.:80",
             b"holes.example",
             b"Holes.Example:443",
         ):
@@ -52,14 +54,22 @@ class Guard(daemon.Case):
             b"127.0.0.1.",
             b"::1",
             b"localhost, localhost",
+            b"localhost..",
         ):
             with self.subTest(host):
                 answer = self.daemon.raw(get(b"Host: " + host))
                 if host != b"localhost:":  # an empty port is the default one (RFC 3986, 3.2.3)
-                    self.assertProblem(answer, 421, "misdirected")
-        self.assertProblem(self.daemon.raw(get(b"Host: localhost", b"Host: localhost")), 421, "misdirected")
-        self.assertProblem(self.daemon.raw(get(b"Host: localhost", b"Host: evil")), 421, "misdirected")
-        self.assertRefused(self.daemon.raw(get()), 421, "misdirected")
+                    name = host in (
+                        b"evil.example",
+                        b"localhost.evil.example",
+                        b"localhost:123456",
+                        b"127.0.0.1.",
+                        b"localhost..",
+                    )
+                    self.assertProblem(answer, *((421, "misdirected") if name else (400, "bad-request")))
+        self.assertProblem(self.daemon.raw(get(b"Host: localhost", b"Host: localhost")), 400, "bad-request")
+        self.assertProblem(self.daemon.raw(get(b"Host: localhost", b"Host: evil")), 400, "bad-request")
+        self.assertProblem(self.daemon.raw(get()), 400, "bad-request")
 
     def test_bodies_of_uncertain_length(self):
         for framing, rest in (

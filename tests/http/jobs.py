@@ -632,7 +632,7 @@ class Jobs(Case):
         self.assertProblem(self.daemon.get("/v1/jobs"), 405)
         refused = self.daemon.request("PATCH", self.at(job), "{}")
         self.assertProblem(refused, 405)
-        self.assertEqual(refused.header("Allow"), "GET, HEAD, DELETE")
+        self.assertEqual(refused.header("Allow"), "GET, HEAD, DELETE, OPTIONS")
 
     def test_others_are_answered_while_frames_are_checked(self):
         late = {

@@ -77,7 +77,7 @@ class Kinds(daemon.Owned):
         session = self.make(MOVING)
         first = self.get(session, "lossy=75")
         number = first.header("Kerrd-Sentences")
-        self.assertIn("celestial grid", first.header("Kerrd-Approximations"))
+        self.assertIn("sky.grid", first.header("Kerrd-Approximations"))
         again, exact = (self.get(session, f"{kind}sentences={number}") for kind in ("lossy=75&", ""))
         for frame in (again, exact):
             self.assertEqual((frame.header("Kerrd-Approximations"), frame.header("Kerrd-Sentences")), (None, number))
@@ -90,7 +90,7 @@ class Kinds(daemon.Owned):
         while other.header("Kerrd-Revision") != "2":
             other = self.get(session, f"lossy=75&sentences={number}&after={other.header('Kerrd-Frame')}")
         self.assertNotEqual(other.header("Kerrd-Sentences"), number)
-        self.assertNotIn("celestial grid", other.header("Kerrd-Approximations"))
+        self.assertNotIn("sky.grid", other.header("Kerrd-Approximations"))
         for wrong in ("", "-1", "x", "4294967296"):
             self.assertEqual(self.get(session, "sentences=" + wrong).status, 422, wrong)
         self.assertEqual(self.daemon.get(self.at(session, f"/frame.png?sentences={number}")).status, 422)

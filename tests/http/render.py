@@ -32,7 +32,8 @@ class Render(daemon.Case):
 
     def test_approximations_are_those_of_the_plan(self):
         sent = self.daemon.get(RENDER).header("Kerrd-Approximations")
-        told = [urllib.parse.unquote(item.strip('"')) for item in sent.split(", ")]
+        known = {one["name"]: one["sentence"] for one in self.daemon.get("/v1/approximations").json()["approximations"]}
+        told = [known[name] for name in sent.split(", ")]
         plan = self.daemon.post("/v1/plan", {"image": {"width": 64, "height": 36}}).json()
         self.assertEqual(told, plan["approximations"])
 

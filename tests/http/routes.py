@@ -331,8 +331,6 @@ class Routes(daemon.Case):
             "/v1/render/",
             "/healthz/",
             "/..%2f",
-            "http://127.0.0.1/healthz",
-            "*",
         ):
             with self.subTest(path):
                 self.assertProblem(
@@ -345,7 +343,6 @@ class Routes(daemon.Case):
             ("GET", "/v1/plan", "POST"),
             ("DELETE", "/v1/render", "GET, HEAD, POST"),
             ("PUT", "/", "GET, HEAD"),
-            ("OPTIONS", "/v1/plan", "POST"),
             ("PUT", "/v1/sessions/0123456789abcdef/frame", "GET, HEAD, PATCH"),
             ("GET", "/v1/sessions/0123456789abcdef/path", "POST, DELETE"),
             ("PUT", "/v1/jobs/0123456789abcdef", "GET, HEAD, DELETE"),
@@ -355,11 +352,11 @@ class Routes(daemon.Case):
             with self.subTest(method + path):
                 answer = self.daemon.request(method, path, "{}")
                 self.assertProblem(answer, 405, "method-not-allowed")
-                self.assertEqual(answer.header("Allow"), allow)
+                self.assertEqual(answer.header("Allow"), allow + ", OPTIONS")
 
     def test_http_1_0_health_without_host(self):
         self.assertEqual(self.daemon.raw(b"GET /readyz HTTP/1.0\r\n\r\n").status, 200)
-        self.assertProblem(self.daemon.raw(b"GET /v1/device HTTP/1.0\r\n\r\n"), 421, "misdirected")
+        self.assertProblem(self.daemon.raw(b"GET /v1/device HTTP/1.0\r\n\r\n"), 400, "bad-request")
 
     def test_keep_alive(self):
         with self.daemon.connect() as s:

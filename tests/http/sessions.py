@@ -394,7 +394,7 @@ class Sessions(daemon.Owned):
         session = self.open()
         refused = self.assertProblem(self.daemon.post(self.at(session), {}), 405)
         self.assertTrue(refused)
-        self.assertEqual(self.daemon.get("/v1/sessions").header("Allow"), "POST")
+        self.assertEqual(self.daemon.get("/v1/sessions").header("Allow"), "POST, OPTIONS")
         for query in (
             "after=x",
             "after=-1",

@@ -14,6 +14,7 @@ import time
 import unittest
 
 import daemon
+from headers import RICHEST
 
 EXAMPLES = pathlib.Path(__file__).resolve().parents[2] / "docs/examples/tls"
 TOKEN = "render-0123456789abc"
@@ -183,6 +184,46 @@ class Proxies:
             if not got:
                 return False
         return False
+
+    def test_the_richest_scene(self):
+        """Its answers' headers go through the buffers that a proxy has by default: as a picture and as live frames."""
+        status, headers, body = self.ask("POST", "/v1/render", RICHEST["gas"], Authorization=f"Bearer {TOKEN}")
+        self.assertEqual((status, body[:4]), (200, b"\x89PNG"), body[:300])
+        status, _, body = self.ask("POST", "/v1/sessions", RICHEST["gas"], Kerrd_Access=TOKEN)
+        self.assertEqual(status, 201, body)
+        session = json.loads(body)
+        for kind in "frame?lossy=50", "frame.png?after=0":
+            status, headers, body = self.ask(
+                "GET", f"/v1/sessions/{session['id']}/{kind}", Authorization=f"Bearer {TOKEN}"
+            )
+            self.assertEqual(status, 200, body[:300])
+            self.assertGreater(
+                len({name.lower(): value for name, value in headers.items()}["kerrd-approximations"].split(", ")), 30
+            )
+
+    def test_the_page(self):
+        """With stars, jets and a spot, in a browser: it is asked for its token, and shows a live view and what is
+        approximated in it."""
+        api = daemon.needed("playwright.sync_api")
+        with api.sync_playwright() as playwright:
+            browser = playwright.chromium.launch(
+                executable_path=shutil.which("chromium"), args=["--no-sandbox", "--disable-gpu"]
+            )
+            page = browser.new_page(viewport={"width": 640, "height": 400}, ignore_https_errors=True)
+            page.goto(f"https://localhost:{self.port}/")
+            page.get_by_label("Access token").fill(TOKEN)
+            page.get_by_role("button").click()
+            page.wait_for_selector("#stage")
+            self.assertNotIn("access", page.url)
+            page.goto("about:blank")
+            page.goto(f"https://localhost:{self.port}/#lang=en&pace=fast&preset=jet&spots.0.brightness=1")
+            page.wait_for_selector("#stage[data-final]", timeout=240_000)
+            page.wait_for_function("document.querySelectorAll('#approximations li').length > 15", timeout=240_000)
+            texts = page.locator("#approximations li").all_text_contents()
+            browser.close()
+        self.assertTrue(
+            [text for text in texts if "Gaussians" in text] and [text for text in texts if "cones" in text], texts
+        )
 
     def test_the_cookie_is_secure(self):
         status, headers, _ = self.ask("GET", f"/?access={TOKEN}")

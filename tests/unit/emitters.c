@@ -3,6 +3,7 @@
 #include "render/emit/motion.h"
 #include "render/emit/told.h"
 #include "render/plan/plan.h"
+#include "render/rays/answer.h"
 #include "scene/table.h"
 
 #include <setjmp.h>
@@ -35,14 +36,41 @@ static void sentences_have_room(void **state)
     assert_true(kd_emit_sentence_count() > 20);
 }
 
+/* A header has them with commas between them, and proxies take no more than 4096 bytes of all headers. */
+enum { ALL_NAMES = 2000 };
+static void check_name(const char *name, char all[ALL_NAMES])
+{
+    char listed[40];
+    assert_int_equal(name[strspn(name, "abcdefghijklmnopqrstuvwxyz0123456789-.")], 0);
+    assert_in_range(snprintf(listed, sizeof listed, ",%s,", name), 6, 24);
+    if (strstr(all, listed))
+        fail_msg("two approximations have the name %s", name);
+    strcat(all, listed + 1);
+    assert_true(strlen(all) < ALL_NAMES - sizeof listed);
+}
+
+static void names_are_short_and_differ(void **state)
+{
+    (void)state;
+    char all[ALL_NAMES] = ",";
+    struct kd_approximation one;
+    for (int i = 0; i < KD_EMITTER_COUNT; i++)
+        for (size_t k = 0; k < kd_emitters[i]->n_sentences; k++)
+            check_name(kd_emitters[i]->sentences[k].name, all);
+    for (size_t i = 0; i < kd_plan_sentence_count(); i++)
+        check_name(kd_plan_sentence(i).name, all);
+    for (size_t i = 0; kd_rays_approximation(NULL, i, &one); i++)
+        check_name(one.name, all);
+}
+
 struct said {
     size_t n;
     const char *text[64];
 };
-static void take(void *user, const char *text)
+static void take(void *user, struct kd_approximation approximation)
 {
     struct said *said = user;
-    said->text[said->n++] = text;
+    said->text[said->n++] = approximation.text;
 }
 static bool says(const struct kd_scene *scene, const char *start)
 {
@@ -391,6 +419,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(all_are_there),
         cmocka_unit_test(sentences_have_room),
+        cmocka_unit_test(names_are_short_and_differ),
         cmocka_unit_test(what_is_off_says_and_needs_nothing),
         cmocka_unit_test(numbers_follow_the_scene),
         cmocka_unit_test(numbers_follow_each_field),

@@ -263,30 +263,40 @@ WHEN(bolometric, scene->disk.band == KD_BAND_BOLOMETRIC)
 WHEN(unseen, unseen_of(scene))
 
 static const struct kd_sentence sentences[] = {
-    { "bodies: opaque spheres in their own frames; space is flat, and light straight, within the scale of one: no "
+    { "bodies.flat",
+      "bodies: opaque spheres in their own frames; space is flat, and light straight, within the scale of one: no "
       "tides, no own gravity, no shadows",
       NULL },
-    { "bodies: no light of the disk falls on them", dark },
-    { "bodies: they throw back light of a smooth disk that nothing hides, straight from 16 rings of 24 places, evenly "
+    { "bodies.unlit", "bodies: no light of the disk falls on them", dark },
+    { "bodies.lit",
+      "bodies: they throw back light of a smooth disk that nothing hides, straight from 16 rings of 24 places, evenly "
       "to all sides; three moments of its direction are kept",
       lit_ones },
-    { "bodies: one whose radius is more than a tenth of its distance from the hole is drawn in the flat space of its "
+    { "bodies.large",
+      "bodies: one whose radius is more than a tenth of its distance from the hole is drawn in the flat space of its "
       "centre, where a body has another shape",
       large },
-    { "bodies: they shine as black bodies of one temperature, with a chosen linear law of limb darkening", NULL },
-    { "bodies: fast light: shown where they are at one coordinate time, whatever the light's delay", NULL },
-    { "bodies: those that fall or have a velocity of their own stay where they are put: it shifts their light and no "
+    { "bodies.black-body",
+      "bodies: they shine as black bodies of one temperature, with a chosen linear law of limb darkening", NULL },
+    { "bodies.fast", "bodies: fast light: shown where they are at one coordinate time, whatever the light's delay",
+      NULL },
+    { "bodies.still",
+      "bodies: those that fall or have a velocity of their own stay where they are put: it shifts their light and no "
       "more",
       stands },
-    { "bodies: those of a playground are where they are at its time, and move past an observer of zero angular "
+    { "bodies.playground",
+      "bodies: those of a playground are where they are at its time, and move past an observer of zero angular "
       "momentum",
       shown },
-    { "bodies: those of a playground move in a potential: its r stands for Boyer and Lindquist's, its velocity for "
+    { "bodies.potential",
+      "bodies: those of a playground move in a potential: its r stands for Boyer and Lindquist's, its velocity for "
       "gamma v",
       by_potential },
-    { "bodies: some of a playground are not shown: they have no radius, or are at the horizon", unseen },
-    { "bodies: brightness is bolometric (g^4), colour is that of the visible part of the spectrum", bolometric },
-    { "bodies: one that is smaller than a pixel may lie between its rays", NULL },
+    { "bodies.not-shown", "bodies: some of a playground are not shown: they have no radius, or are at the horizon",
+      unseen },
+    { "bodies.bolometric", "bodies: brightness is bolometric (g^4), colour is that of the visible part of the spectrum",
+      bolometric },
+    { "bodies.small", "bodies: one that is smaller than a pixel may lie between its rays", NULL },
 };
 
 const struct kd_emitter kd_emit_bodies = {

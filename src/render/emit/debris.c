@@ -108,21 +108,27 @@ WHEN(by_potential, scene->crowd.at->approximate)
 WHEN(bolometric, scene->disk.band == KD_BAND_BOLOMETRIC)
 
 static const struct kd_sentence sentences[] = {
-    { "debris: put on the plane of the disk at its r and azimuth, as a density of its pieces on a grid: streams are as "
+    { "debris.plane",
+      "debris: put on the plane of the disk at its r and azimuth, as a density of its pieces on a grid: streams are as "
       "wide as a cell at least",
       NULL },
-    { "debris: it moves off that plane, by more than a fiftieth of r in the mean: its height is not shown", thick },
-    { "debris: a black body of one chosen temperature; its optical depth is a chosen number times its column, at any "
+    { "debris.no-height",
+      "debris: it moves off that plane, by more than a fiftieth of r in the mean: its height is not shown", thick },
+    { "debris.black-body",
+      "debris: a black body of one chosen temperature; its optical depth is a chosen number times its column, at any "
       "angle",
       NULL },
-    { "debris: the mean velocity of a place shifts its light, without that across the plane; no heat of shocks, no "
+    { "debris.mean",
+      "debris: the mean velocity of a place shifts its light, without that across the plane; no heat of shocks, no "
       "spread of velocities",
       NULL },
-    { "debris: fast light: shown where it is at one coordinate time, whatever the light's delay", NULL },
-    { "debris: it moves in a potential: its r stands for Boyer and Lindquist's, its velocity for gamma v",
+    { "debris.fast", "debris: fast light: shown where it is at one coordinate time, whatever the light's delay", NULL },
+    { "debris.potential",
+      "debris: it moves in a potential: its r stands for Boyer and Lindquist's, its velocity for gamma v",
       by_potential },
-    { "debris: some pieces are beyond the grid, and not shown", hidden },
-    { "debris: brightness is bolometric (g^4), colour is that of the visible part of the spectrum", bolometric },
+    { "debris.not-shown", "debris: some pieces are beyond the grid, and not shown", hidden },
+    { "debris.bolometric", "debris: brightness is bolometric (g^4), colour is that of the visible part of the spectrum",
+      bolometric },
 };
 
 const struct kd_emitter kd_emit_debris = {

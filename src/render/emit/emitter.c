@@ -112,13 +112,13 @@ uint64_t kd_emit_invocations(const struct kd_scene *scene, enum kd_emitter_numbe
 }
 
 void kd_emit_sentences(const struct kd_scene *scene, const struct kd_setting *rays,
-                       void (*take)(void *user, const char *text), void *user)
+                       void (*take)(void *user, struct kd_approximation approximation), void *user)
 {
     for (int i = 0; i < KD_EMITTER_COUNT; i++)
         for (const struct kd_emitter *e = kd_emit_has(scene, kd_emitters[i]) ? kd_emitters[i] : NULL; e; e = e->kind)
             for (size_t k = 0; k < e->n_sentences; k++)
                 if (!e->sentences[k].in_force || e->sentences[k].in_force(scene, rays))
-                    take(user, e->sentences[k].text);
+                    take(user, (struct kd_approximation) { e->sentences[k].name, e->sentences[k].text });
 }
 
 size_t kd_emit_sentence_count(void)

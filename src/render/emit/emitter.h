@@ -9,6 +9,7 @@
 
 #include "lens.h"
 #include "render/accuracy/engine.h"
+#include "render/emit/approximation.h"
 #include "render/emit/emission.h"
 #include "render/emit/motion.h"
 #include "render/emit/own.h"
@@ -18,10 +19,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* This is an approximation, and whether it is in force in a scene that has the emitter, followed by these rays;
- * NULL: always. */
+/* An approximation (approximation.h), and whether it is in force in a scene that has the emitter, followed by these
+ * rays; NULL: always. */
 struct kd_sentence {
-    const char *text;
+    const char *name, *text;
     bool (*in_force)(const struct kd_scene *scene, const struct kd_setting *rays);
 };
 
@@ -102,9 +103,9 @@ uint64_t kd_emit_device_bytes(const struct kd_scene *scene);
 uint64_t kd_emit_making_bytes(const struct kd_scene *scene);
 /* Invocations of an emitter's own pass there; 0: it has none, or the scene has not the emitter. */
 uint64_t kd_emit_invocations(const struct kd_scene *scene, enum kd_emitter_number number);
-/* Call take(user, text) for each approximation that is in force. */
+/* Call take(user, approximation) for each that is in force. */
 void kd_emit_sentences(const struct kd_scene *scene, const struct kd_setting *rays,
-                       void (*take)(void *user, const char *text), void *user);
+                       void (*take)(void *user, struct kd_approximation approximation), void *user);
 size_t kd_emit_sentence_count(void); /* there are, in force or not */
 
 /* The state holds numbers and tables, and the scenes that they are of: {0} before the first use. Thread of the

@@ -130,19 +130,23 @@ WHEN(deep, scene->disk.emission_opacity > 0 && scene->disk.height == 0)
 WHEN(fast, stirs(scene) && !scene->disk.slow_light)
 
 static const struct kd_sentence sentences[] = {
-    { "gas: turbulence is procedural noise, no solution of magnetohydrodynamics; it multiplies the flux, and with it "
+    { "gas.turbulence",
+      "gas: turbulence is procedural noise, no solution of magnetohydrodynamics; it multiplies the flux, and with it "
       "temperature and "
       "colour, and the optical depth where that is in force",
       turbulent },
-    { "gas: the pattern turns on rigid rings, each with the angular velocity of its middle, which pass into each "
+    { "gas.rings",
+      "gas: the pattern turns on rigid rings, each with the angular velocity of its middle, which pass into each "
       "other; it drifts, and does "
       "not shear",
       turbulent },
-    { "gas: an octave finer than what a ray stands for on the disk fades to its mean: in time the light varies by a "
+    { "gas.octaves",
+      "gas: an octave finer than what a ray stands for on the disk fades to its mean: in time the light varies by a "
       "tenth less than that of 64 rays a pixel, at most",
       turbulent },
-    { "gas: fast light: shown at one coordinate time, whatever the light's delay", fast },
-    { "gas: the optical depth of the disk is as its flux, a chosen number at the brightest radius, and grey; each "
+    { "gas.fast", "gas: fast light: shown at one coordinate time, whatever the light's delay", fast },
+    { "gas.depth",
+      "gas: the optical depth of the disk is as its flux, a chosen number at the brightest radius, and grey; each "
       "crossing absorbs by its "
       "depth over the cosine of the angle of emission",
       deep },

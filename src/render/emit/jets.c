@@ -50,7 +50,8 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
 }
 
 static const struct kd_sentence sentences[] = {
-    { "jets: stylised, cones of optically thin light along the spin axis that flies outwards along the radius at one "
+    { "jets.drawn",
+      "jets: stylised, cones of optically thin light along the spin axis that flies outwards along the radius at one "
       "speed, past observers of zero angular "
       "momentum; no magnetic field, no synchrotron spectrum: brightness goes as g^(2 + index), colour is that of a "
       "chosen temperature and is not shifted",

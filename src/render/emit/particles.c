@@ -341,12 +341,15 @@ static bool slow(const struct kd_scene *scene, const struct kd_setting *rays)
 }
 
 static const struct kd_sentence sentences[] = {
-    { "particles: brightness is that of the smooth disk times their number over the mean; opacity stays as it is",
+    { "particles.count",
+      "particles: brightness is that of the smooth disk times their number over the mean; opacity stays as it is",
       NULL },
-    { "particles: epicycles to first order about circular orbits, a chosen number a radius; no pressure, no collisions",
+    { "particles.epicycles",
+      "particles: epicycles to first order about circular orbits, a chosen number a radius; no pressure, no collisions",
       NULL },
-    { "particles: fast light: the whole disk is shown at one coordinate time, whatever the light's delay", fast },
-    { "particles: over the delay of light they go round on their guiding circles", slow },
+    { "particles.fast",
+      "particles: fast light: the whole disk is shown at one coordinate time, whatever the light's delay", fast },
+    { "particles.slow", "particles: over the delay of light they go round on their guiding circles", slow },
 };
 
 const struct kd_emitter kd_emit_particles = {

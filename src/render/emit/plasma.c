@@ -233,23 +233,30 @@ static bool is_beside(const struct kd_scene *scene, const struct kd_setting *ray
 }
 
 static const struct kd_sentence sentences[] = {
-    { "volume: light of one frequency, without scattering; brightness 1 is a brightness temperature of 1e10 K", NULL },
-    { "volume: all polarisations of light are absorbed alike: none is told", is_unpolarised },
-    { "volume: the analytic model of Gold et al. 2020, made up to compare programs; it ends at its edges", is_gold },
-    { "volume: electrons and magnetic field by power laws of r that solve no equation of motion; they end at their "
+    { "plasma.frequency",
+      "volume: light of one frequency, without scattering; brightness 1 is a brightness temperature of 1e10 K", NULL },
+    { "plasma.unpolarised", "volume: all polarisations of light are absorbed alike: none is told", is_unpolarised },
+    { "plasma.gold",
+      "volume: the analytic model of Gold et al. 2020, made up to compare programs; it ends at its edges", is_gold },
+    { "plasma.powers",
+      "volume: electrons and magnetic field by power laws of r that solve no equation of motion; they end at their "
       "edges, and 7 scale heights from the plane",
       is_powers },
-    { "volume: the torus of Fishbone & Moncrief 1976, in equilibrium without its magnetic field, which is put in by "
+    { "plasma.torus",
+      "volume: the torus of Fishbone & Moncrief 1976, in equilibrium without its magnetic field, which is put in by "
       "its pressure alone; ions and electrons have temperatures of one ratio",
       is_torus },
-    { "volume: matter between the nodes of a grid by way of its neighbours, density and temperature by their "
+    { "plasma.grid",
+      "volume: matter between the nodes of a grid by way of its neighbours, density and temperature by their "
       "logarithms; it stands still, as it was at one time, while light passes",
       is_from_grid },
-    { "volume: no file of a grid is named: there is no matter", is_missing },
-    { "volume: synchrotron light by the fits of Pandya et al. 2016, good to a few percent where they hold; electrons "
+    { "plasma.no-grid", "volume: no file of a grid is named: there is no matter", is_missing },
+    { "plasma.pandya",
+      "volume: synchrotron light by the fits of Pandya et al. 2016, good to a few percent where they hold; electrons "
       "move in all directions alike",
       is_hot },
-    { "volume: light at a radio frequency beside light of other kinds, whose brightness 1 is another one; the picture "
+    { "plasma.no-flux",
+      "volume: light at a radio frequency beside light of other kinds, whose brightness 1 is another one; the picture "
       "has no flux",
       is_beside },
 };

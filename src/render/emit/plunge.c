@@ -67,7 +67,8 @@ static void reach(const struct kd_scene *scene, double radii[2])
 }
 
 static const struct kd_sentence sentences[] = {
-    { "particles: inside the ISCO gas falls freely on its E and L; grey, of one chosen temperature, of an optical "
+    { "plunge.free",
+      "particles: inside the ISCO gas falls freely on its E and L; grey, of one chosen temperature, of an optical "
       "depth that is "
       "its surface density over the disk's at the ISCO; no stress, no heating",
       NULL },

@@ -62,16 +62,19 @@ static bool beside(const struct kd_scene *scene, const struct kd_setting *rays)
 }
 
 static const struct kd_sentence sentences[] = {
-    { "polarization: of all light from the plane alike, by the field in the frame of the gas; nothing on its way "
+    { "polarization.plane",
+      "polarization: of all light from the plane alike, by the field in the frame of the gas; nothing on its way "
       "changes it: no Faraday rotation",
       NULL },
-    { "polarization: synchrotron: direction and fraction alone are those of the field; brightness and colour are the "
+    { "polarization.field",
+      "polarization: synchrotron: direction and fraction alone are those of the field; brightness and colour are the "
       "disk's, whatever the angle to the field",
       by_field },
-    { "polarization: scattering: the fraction is that of a deep, plane atmosphere of electrons (Chandrasekhar 1960); "
+    { "polarization.scatter",
+      "polarization: scattering: the fraction is that of a deep, plane atmosphere of electrons (Chandrasekhar 1960); "
       "its limb darkening, and light that returns to the disk, are left out",
       by_electrons },
-    { "polarization: light of volumes, bodies and the sky is unpolarised", beside },
+    { "polarization.none", "polarization: light of volumes, bodies and the sky is unpolarised", beside },
 };
 
 const struct kd_emitter kd_emit_polarization = {

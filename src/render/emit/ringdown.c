@@ -36,10 +36,12 @@ static bool along(const struct kd_scene *scene, const struct kd_setting *rays)
 }
 
 static const struct kd_sentence sentences[] = {
-    { "ringdown: an illustration: a struck hole's metric rings; here only the light of orders 1 and up does, all of it "
+    { "ringdown.drawn",
+      "ringdown: an illustration: a struck hole's metric rings; here only the light of orders 1 and up does, all of it "
       "at the picture's time",
       NULL },
-    { "ringdown: light of volumes has the order of the crossing of the plane that is nearest on its ray, from where "
+    { "ringdown.order",
+      "ringdown: light of volumes has the order of the crossing of the plane that is nearest on its ray, from where "
       "cos(theta) turns before it to where it turns behind it",
       along },
 };

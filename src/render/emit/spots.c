@@ -74,12 +74,15 @@ WHEN(without_shift, scene->disk.model == KD_DISK_NONE && (!scene->disk.doppler |
 WHEN(fast, !scene->disk.slow_light)
 
 static const struct kd_sentence sentences[] = {
-    { "spots: drawn Gaussians in r and phi that go round with their centre's orbit and do not shear; they shine in "
+    { "spots.drawn",
+      "spots: drawn Gaussians in r and phi that go round with their centre's orbit and do not shear; they shine in "
       "the equatorial plane, outside the ISCO alone, as a power law with the g of the gas at each place",
       NULL },
-    { "spots: their brightness and colour are chosen, not computed; they absorb nothing", NULL },
-    { "spots: the Doppler shift or the gravitational redshift of the gas is switched off", without_shift },
-    { "spots: fast light: shown where they are at one coordinate time, whatever the light's delay", fast },
+    { "spots.chosen", "spots: their brightness and colour are chosen, not computed; they absorb nothing", NULL },
+    { "spots.no-shift", "spots: the Doppler shift or the gravitational redshift of the gas is switched off",
+      without_shift },
+    { "spots.fast", "spots: fast light: shown where they are at one coordinate time, whatever the light's delay",
+      fast },
 };
 
 const struct kd_emitter kd_emit_spots = {

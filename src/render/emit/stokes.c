@@ -85,25 +85,32 @@ static bool is_disordered(const struct kd_scene *scene, const struct kd_setting 
 }
 
 static const struct kd_sentence sentences[] = {
-    { "polarization: Stokes I, Q, U and V of the volume together, in coefficients that are the same over each short "
+    { "stokes.slabs",
+      "polarization: Stokes I, Q, U and V of the volume together, in coefficients that are the same over each short "
       "stretch; I is not that of unpolarised transfer",
       NULL },
-    { "polarization: thermal synchrotron light by the fits of Pandya et al. 2016 and Dexter 2016 (V); where the field "
+    { "stokes.thermal",
+      "polarization: thermal synchrotron light by the fits of Pandya et al. 2016 and Dexter 2016 (V); where the field "
       "lies along the ray, and where electrons are not hot, V is held to what leaves 99 % of I polarised",
       is_thermal },
-    { "polarization: synchrotron light of a power law by the fits of Pandya et al. 2016, held to 99 % of I", is_power },
-    { "polarization: synchrotron light of a kappa distribution by the fits of Pandya et al. 2016, V for electrons that "
+    { "stokes.power",
+      "polarization: synchrotron light of a power law by the fits of Pandya et al. 2016, held to 99 % of I", is_power },
+    { "stokes.kappa",
+      "polarization: synchrotron light of a kappa distribution by the fits of Pandya et al. 2016, V for electrons that "
       "are hot; held to 99 % of I",
       is_kappa },
-    { "polarization: Faraday rotation and conversion of those electrons alone (Shcherbakov 2008, Dexter 2016; Jones & "
+    { "stokes.faraday",
+      "polarization: Faraday rotation and conversion of those electrons alone (Shcherbakov 2008, Dexter 2016; Jones & "
       "O'Dell 1977): none is cold",
       turns_others },
-    { "polarization: Faraday rotation and conversion of a kappa distribution alone by the fits of Marszewski et al. "
+    { "stokes.faraday-kappa",
+      "polarization: Faraday rotation and conversion of a kappa distribution alone by the fits of Marszewski et al. "
       "2021, made for frequencies above 100 gyrofrequencies and a tenth of (kappa w)^2 of them times sin(theta); in "
       "between kappa 3.5, 4, 4.5 and 5, by the way to each",
       turns_kappa },
-    { "polarization: Faraday rotation and conversion are left out", turns_not },
-    { "polarization: disorder of the field makes linear polarisation less where it is made, where it is absorbed and "
+    { "stokes.no-faraday", "polarization: Faraday rotation and conversion are left out", turns_not },
+    { "stokes.disorder",
+      "polarization: disorder of the field makes linear polarisation less where it is made, where it is absorbed and "
       "where it is converted; Faraday rotation is that of a field in order",
       is_disordered },
 };

@@ -68,18 +68,22 @@ static bool by_profile(const struct kd_scene *scene, const struct kd_setting *ra
 }
 
 static const struct kd_sentence sentences[] = {
-    { "thick disk: a chosen height, Gaussian, with the thin disk's temperature, flux and optical depth at each "
+    { "thick.height",
+      "thick disk: a chosen height, Gaussian, with the thin disk's temperature, flux and optical depth at each "
       "distance from the axis; no torus in equilibrium, and it "
       "ends at 4.5 heights",
       NULL },
-    { "thick disk: its gas goes round with the angular velocity of the circular orbit in the plane at its distance "
+    { "thick.rotation",
+      "thick disk: its gas goes round with the angular velocity of the circular orbit in the plane at its distance "
       "from the axis, at whatever height",
       NULL },
-    { "thick disk: the sum of emission and absorption along each ray, without scattering; what it emits is that of a "
+    { "thick.black-body",
+      "thick disk: the sum of emission and absorption along each ray, without scattering; what it emits is that of a "
       "black body of the thin disk's temperature, from top to "
       "bottom",
       NULL },
-    { "thick disk: light through its turbulence is found to 2e-2, 1e-2, 1e-3, 1e-4 or 5e-5 by accuracy.profile, from "
+    { "thick.tolerance",
+      "thick disk: light through its turbulence is found to 2e-2, 1e-2, 1e-3, 1e-4 or 5e-5 by accuracy.profile, from "
       "draft to reference: coarser than through smooth volumes",
       by_profile },
 };

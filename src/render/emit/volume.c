@@ -41,11 +41,13 @@ static bool unshifted(const struct kd_scene *scene, const struct kd_setting *ray
 }
 
 static const struct kd_sentence sentences[] = {
-    { "volume: made up, the same everywhere between its edges, at rest for observers of zero angular momentum; it ends "
+    { "volume.made-up",
+      "volume: made up, the same everywhere between its edges, at rest for observers of zero angular momentum; it ends "
       "a hundredth outside the horizon; "
       "grey, its colour that of a chosen temperature, and its light bolometric, whatever disk.band says",
       NULL },
-    { "volume: the frequency shift of its matter is switched off, and lengths are those of the observer's affine "
+    { "volume.no-shift",
+      "volume: the frequency shift of its matter is switched off, and lengths are those of the observer's affine "
       "parameter",
       unshifted },
 };

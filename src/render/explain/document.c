@@ -388,7 +388,7 @@ static enum kd_status write(const struct kd_picture *picture, const struct kd_ex
     const enum kd_status status = put_each(&json, picture, x->pixel, error);
     kd_json_array(&json, "approximations");
     for (size_t i = 0; i < picture->plan->n_approximations; i++)
-        kd_json_string(&json, NULL, picture->plan->approximations[i]);
+        kd_json_string(&json, NULL, picture->plan->approximations[i].text);
     kd_json_end(&json);
     kd_json_end(&json);
     const enum kd_status written = kd_json_finish_line(&json);

@@ -23,7 +23,7 @@ static enum kd_status put_notes(struct kd_buffer *cards, const struct kd_picture
     for (size_t i = 0; i < picture->plan->n_approximations; i++) {
         char key[32];
         snprintf(key, sizeof key, "KDAPPR%zu", i + 1);
-        KD_TRY(kd_fits_text(cards, key, picture->plan->approximations[i], NULL));
+        KD_TRY(kd_fits_text(cards, key, picture->plan->approximations[i].text, NULL));
     }
     if (*picture->frame->credit)
         KD_TRY(kd_fits_text(cards, "KDCREDIT", picture->frame->credit, NULL));

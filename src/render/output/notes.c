@@ -59,7 +59,7 @@ static enum kd_status join_approximations(const struct kd_plan *plan, struct kd_
 {
     enum kd_status status = kd_buffer_append(out, "", 0); /* a plan without any still gives a string */
     for (size_t i = 0; i < plan->n_approximations && !status; i++)
-        status = kd_buffer_printf(out, "%s%s", i ? "\n" : "", plan->approximations[i]);
+        status = kd_buffer_printf(out, "%s%s", i ? "\n" : "", plan->approximations[i].text);
     return status;
 }
 

@@ -48,7 +48,7 @@ static enum kd_status put_notes(struct kd_zip *zip, const struct kd_picture *pic
     kd_json_string(&json, "accuracy", notes->accuracy);
     kd_json_array(&json, "approximations");
     for (size_t i = 0; i < picture->plan->n_approximations; i++)
-        kd_json_string(&json, NULL, picture->plan->approximations[i]);
+        kd_json_string(&json, NULL, picture->plan->approximations[i].text);
     kd_json_end(&json);
     kd_json_object(&json, "units");
     for (size_t i = 0; i < numbers->n; i++)

@@ -79,7 +79,7 @@ enum kd_status kd_plan_to_json(const struct kd_plan *plan, struct kd_buffer *out
     kd_json_string(json, "estimate_basis", plan->measured ? "measured" : "guess");
     kd_json_array(json, "approximations");
     for (size_t i = 0; i < plan->n_approximations; i++)
-        kd_json_string(json, NULL, plan->approximations[i]);
+        kd_json_string(json, NULL, plan->approximations[i].text);
     kd_json_end(json);
     kd_json_end(json);
     return kd_json_finish(json);

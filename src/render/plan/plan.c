@@ -51,79 +51,103 @@ WHEN(paired, plan->eyes == 2 && scene->camera.stereo)
 WHEN(compared, plan->setting.engine >= KD_ENGINE_KS_EULER)
 
 static const struct sentence {
-    const char *text;
+    const char *name, *text;
     bool (*in_force)(const struct kd_plan *plan, const struct kd_scene *scene);
 } sentences[] = {
-    { "disk: image orders beyond accuracy.orders are left out", crossings },
-    { "volumes: light in 32 bits by three places a stretch, as many stretches as grain, depth and the ray ask for; "
+    { "disk.orders", "disk: image orders beyond accuracy.orders are left out", crossings },
+    { "volumes.march",
+      "volumes: light in 32 bits by three places a stretch, as many stretches as grain, depth and the ray ask for; "
       "what accuracy asks for is a target: some 5e-5 are left in any case; "
       "what is left is measured on a sample of rays, followed twice as closely",
       volumes },
-    { "volumes: a sketch while the view changes: light to some 5 %, as measured in it, and turbulence without the "
+    { "volumes.sketch",
+      "volumes: a sketch while the view changes: light to some 5 %, as measured in it, and turbulence without the "
       "octaves of which a pixel leaves less than a seventh of the first: another 7 %, which is not",
       sketched },
-    { "sky: while the view changes images of stars that would brighten their pixel by less than sky.brightness are "
+    { "sky.sketch",
+      "sky: while the view changes images of stars that would brighten their pixel by less than sky.brightness are "
       "left out, "
       "and those next to the critical curve, in pixels whose rays stand for more than 0.15 rad of the sky; the others "
       "are up to a fifth of a ray off",
       bright },
-    { "colour: black bodies outside the sRGB gamut are moved to its edge at equal luminance", crossings },
-    { "image: few rays for the pixels that the critical curve passes; a photon ring thinner than they are shows as "
+    { "colour.gamut", "colour: black bodies outside the sRGB gamut are moved to its edge at equal luminance",
+      crossings },
+    { "image.few-rays",
+      "image: few rays for the pixels that the critical curve passes; a photon ring thinner than they are shows as "
       "dots",
       few_rays },
-    { "image: 16 rays for pixels that differ from the middle of their neighbours by twice image.pixel_error, one for "
+    { "image.adaptive",
+      "image: 16 rays for pixels that differ from the middle of their neighbours by twice image.pixel_error, one for "
       "the others; where the lens map is smooth they are interpolated in it; what is left is measured on a sample",
       adapted },
-    { "image: one ray a pixel, in maps, the ring projection and light curves, where image.samples is \"auto\"",
+    { "image.one-ray",
+      "image: one ray a pixel, in maps, the ring projection and light curves, where image.samples is \"auto\"",
       not_adapted },
-    { "post: a film-like tone curve; pixel values are not proportional to radiance", film },
-    { "post: a neutral tone curve; light above 0.8 of white is compressed, and pixel values are not proportional to "
+    { "post.film", "post: a film-like tone curve; pixel values are not proportional to radiance", film },
+    { "post.neutral",
+      "post: a neutral tone curve; light above 0.8 of white is compressed, and pixel values are not proportional to "
       "radiance",
       neutral },
-    { "post: a lens's glare; part of the bright light is spread round its place, its sum is kept, and what would leave "
+    { "post.bloom",
+      "post: a lens's glare; part of the bright light is spread round its place, its sum is kept, and what would leave "
       "the picture stays "
       "at its edge",
       bloom },
-    { "post: a Gaussian beam stands for a telescope: no gaps between stations, no noise, no reconstruction; nothing "
+    { "post.beam",
+      "post: a Gaussian beam stands for a telescope: no gaps between stations, no noise, no reconstruction; nothing "
       "comes from beyond the picture's edge",
       beam },
-    { "post: a near observer's beam has the width at the hole's distance that it has from spacetime.distance_pc",
+    { "post.near-beam",
+      "post: a near observer's beam has the width at the hole's distance that it has from spacetime.distance_pc",
       near_beam },
-    { "flux: that of a near camera is its picture's, by the square of its distance from the hole over "
+    { "flux.near",
+      "flux: that of a near camera is its picture's, by the square of its distance from the hole over "
       "spacetime.distance_pc; where matter lies round the camera no telescope has such a flux",
       near_flux },
-    { "post: false colours; brightness is of the model's band and no brightness temperature at a radio frequency",
+    { "post.heat",
+      "post: false colours; brightness is of the model's band and no brightness temperature at a radio frequency",
       heat },
-    { "sky: images of stars are cut at the edges of the bands that a picture of this size is made in", cut },
-    { "volume: the density is that at which a picture of 128 pixels has the flux volume.normalise_to_jy, found by "
+    { "sky.cut", "sky: images of stars are cut at the edges of the bands that a picture of this size is made in", cut },
+    { "volume.normalised",
+      "volume: the density is that at which a picture of 128 pixels has the flux volume.normalise_to_jy, found by "
       "smaller pictures that the estimated time leaves out; answers tell the factor as density_scale",
       normalised },
-    { "volume: while the view is dragged the density is the last that was found for this matter, from whichever side, "
+    { "volume.held",
+      "volume: while the view is dragged the density is the last that was found for this matter, from whichever side, "
       "and the flux is not volume.normalise_to_jy; it is when the view rests",
       held },
-    { "layers: maps of places and angles are those of one ray a pixel, and no means over it", maps },
-    { "layers: a picture of a map has false colours; FITS, EXR, NPZ and NPY have its numbers", coloured },
-    { "projection: distances to the critical curve on a logarithmic scale; no eye sees it so, and areas are not to "
+    { "layers.one-ray", "layers: maps of places and angles are those of one ray a pixel, and no means over it", maps },
+    { "layers.false-colour", "layers: a picture of a map has false colours; FITS, EXR, NPZ and NPY have its numbers",
+      coloured },
+    { "projection.ring",
+      "projection: distances to the critical curve on a logarithmic scale; no eye sees it so, and areas are not to "
       "scale",
       projected },
-    { "projection: angles as distances, over half the sky or all of it; areas are not to scale", rounded },
-    { "camera: each eye of a pair is an observer of its own, of the same kind, beside the middle by the first order of "
+    { "projection.angles", "projection: angles as distances, over half the sky or all of it; areas are not to scale",
+      rounded },
+    { "camera.stereo",
+      "camera: each eye of a pair is an observer of its own, of the same kind, beside the middle by the first order of "
       "camera.eye_distance in the local frame, at the same time; their axes are parallel as in flat space",
       paired },
-    { "arithmetic: 32-bit; rays closer than about 1e-5 to the critical curve may be given the wrong fate", single },
-    { "arithmetic: 64-bit rays; the radii of their crossings are kept in 32 bits", twice },
-    { "rays: followed in Kerr-Schild coordinates for comparison; docs/accuracy.md says how much that costs", compared },
+    { "arithmetic.f32",
+      "arithmetic: 32-bit; rays closer than about 1e-5 to the critical curve may be given the wrong fate", single },
+    { "arithmetic.f64", "arithmetic: 64-bit rays; the radii of their crossings are kept in 32 bits", twice },
+    { "rays.kerr-schild",
+      "rays: followed in Kerr-Schild coordinates for comparison; docs/accuracy.md says how much that costs", compared },
 };
 enum { SENTENCES = sizeof sentences / sizeof *sentences };
 
 size_t kd_plan_sentence_count(void) { return SENTENCES; }
-const char *kd_plan_sentence(size_t index) { return sentences[index].text; }
+struct kd_approximation kd_plan_sentence(size_t index)
+{
+    return (struct kd_approximation) { sentences[index].name, sentences[index].text };
+}
 
-static void say(void *user, const char *sentence)
+static void say(void *user, struct kd_approximation approximation)
 {
     struct kd_plan *plan = user;
     if (plan->n_approximations < KD_PLAN_MAX_APPROXIMATIONS) /* there are fewer: tests/unit/emitters.c */
-        plan->approximations[plan->n_approximations++] = sentence;
+        plan->approximations[plan->n_approximations++] = approximation;
 }
 
 void kd_plan_say(struct kd_plan *plan, const struct kd_scene *scene)
@@ -132,7 +156,7 @@ void kd_plan_say(struct kd_plan *plan, const struct kd_scene *scene)
     kd_emit_sentences(scene, &plan->setting, say, plan);
     for (int i = 0; i < SENTENCES; i++)
         if (sentences[i].in_force(plan, scene))
-            say(plan, sentences[i].text);
+            say(plan, kd_plan_sentence((size_t)i));
 }
 
 static void passes(struct kd_plan *plan, const struct kd_scene *scene, const struct kd_capacity *c)

@@ -5,6 +5,7 @@
 
 #include "base/buffer.h"
 #include "base/error.h"
+#include "render/emit/approximation.h"
 #include "render/accuracy/engine.h"
 #include "render/plan/beam.h"
 #include "render/plan/bloom.h"
@@ -118,8 +119,8 @@ struct kd_plan {
         double shutter;
     } blur; /* nor this: its light is the mean of so many pictures (frame/blur.h), within that part of a frame's time;
                0: it is its own */
-    bool measured, accuracy_measured;                       /* as in the capacity */
-    const char *approximations[KD_PLAN_MAX_APPROXIMATIONS]; /* sentences, static strings */
+    bool measured, accuracy_measured; /* as in the capacity */
+    struct kd_approximation approximations[KD_PLAN_MAX_APPROXIMATIONS];
     size_t n_approximations;
     char lens_key[65]; /* hash of what the lens map depends on */
 };
@@ -290,9 +291,9 @@ struct kd_needs kd_needs_of(const struct kd_scene *scene);
 enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_needs *needs,
                                 const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error);
 
-/* These are the sentences of plans that are no emitter's. */
+/* These are the approximations of plans that are no emitter's. */
 size_t kd_plan_sentence_count(void);
-const char *kd_plan_sentence(size_t index);
+struct kd_approximation kd_plan_sentence(size_t index);
 
 /* Writes the plan as the JSON of POST /v1/plan. */
 enum kd_status kd_plan_to_json(const struct kd_plan *plan, struct kd_buffer *out);

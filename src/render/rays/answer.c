@@ -90,39 +90,50 @@ done:
     return status;
 }
 
-const char *kd_rays_approximation(const struct kd_rays_params *params, size_t index)
+#define WHEN(name, condition) \
+    static bool name(const struct kd_rays_params *params) { return condition; }
+WHEN(is_near, !isinf(params->r))
+WHEN(is_single, params->precision == KD_PRECISION_F32 && !(params->tolerance > 0))
+WHEN(is_compared, params->engine >= KD_ENGINE_KS_EULER)
+WHEN(is_held, params->tolerance > 0 && params->engine != KD_ENGINE_CLOSED)
+
+static const struct {
+    struct kd_approximation is;
+    bool (*in_force)(const struct kd_rays_params *params); /* NULL: always */
+} approximations[] = {
+    { { "rays.vacuum", "rays are null geodesics in vacuum: no plasma, no scattering, no absorption at a crossing" },
+      NULL },
+    { { "rays.gas", "g is that of gas on circular equatorial orbits outside the ISCO and, inside it, of gas that falls "
+                    "with the energy "
+                    "and angular momentum of the ISCO; neither feels pressure" },
+      NULL },
+    { { "rays.infinity",
+        "g is relative to infinity: an observer at a finite radius multiplies by its own nu/E_infinity" },
+      is_near },
+    { { "rays.f32", "rays in 32-bit arithmetic; within about 1e-5 of the critical curve the fate may be wrong" },
+      is_single },
+    { { "rays.from-1000",
+        "the engine takes rays from infinity up at 1000 M, where their constants put them exactly, and "
+        "takes the momentum they leave with for their direction of escape, good to 1e-6 rad" },
+      is_compared },
+    { { "rays.again",
+        "rays beyond the tolerance by their own error were followed again in double precision, at last in closed form; "
+        "what is still beyond it says so by its error" },
+      is_held },
+};
+
+bool kd_rays_approximation(const struct kd_rays_params *params, size_t index, struct kd_approximation *out)
 {
-    const char *const all[] = {
-        "rays are null geodesics in vacuum: no plasma, no scattering, no absorption at a crossing",
-        "g is that of gas on circular equatorial orbits outside the ISCO and, inside it, of gas that falls with the "
-        "energy "
-        "and angular momentum of the ISCO; neither feels pressure",
-        isinf(params->r)
-            ? NULL
-            : "g is relative to infinity: an observer at a finite radius multiplies by its own nu/E_infinity",
-        params->precision == KD_PRECISION_F32 && !(params->tolerance > 0)
-            ? "rays in 32-bit arithmetic; within about 1e-5 of the critical curve the fate may be wrong"
-            : NULL,
-        params->engine >= KD_ENGINE_KS_EULER
-            ? "the engine takes rays from infinity up at 1000 M, where their constants put them exactly, and "
-              "takes the momentum they leave with for their direction of escape, good to 1e-6 rad"
-            : NULL,
-        params->tolerance > 0 && params->engine != KD_ENGINE_CLOSED
-            ? "rays beyond the tolerance by their own error were followed again in double precision, at last in closed "
-              "form; what is still beyond "
-              "it says so by its error"
-            : NULL,
-    };
-    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
-        if (all[i] && !index--)
-            return all[i];
-    return NULL;
+    for (size_t i = 0; i < sizeof approximations / sizeof *approximations; i++)
+        if ((!params || !approximations[i].in_force || approximations[i].in_force(params)) && !index--)
+            return *out = approximations[i].is, true;
+    return false;
 }
 
 static enum kd_status json_head(const struct kd_rays_answer *answer, struct kd_buffer *out)
 {
     const struct kd_rays_params *p = &answer->params;
-    const char *sentence;
+    struct kd_approximation one;
     enum kd_status status;
     KD_TRY(add_number(out, "{\"spin\":", p->spin));
     KD_TRY(isinf(p->r) ? kd_buffer_printf(out, ",\"observer\":{\"r\":\"infinity\"")
@@ -131,8 +142,8 @@ static enum kd_status json_head(const struct kd_rays_answer *answer, struct kd_b
     KD_TRY(kd_buffer_printf(out, "},\"orders\":%u,\"accuracy\":", p->orders));
     KD_TRY(json_accuracy(answer, out));
     KD_TRY(kd_buffer_printf(out, ",\"approximations\":["));
-    for (size_t i = 0; (sentence = kd_rays_approximation(p, i)); i++)
-        KD_TRY(kd_buffer_printf(out, "%s\"%s\"", i ? "," : "", sentence));
+    for (size_t i = 0; kd_rays_approximation(p, i, &one); i++)
+        KD_TRY(kd_buffer_printf(out, "%s\"%s\"", i ? "," : "", one.text));
     KD_TRY(kd_buffer_printf(out, "],\"rays\":["));
 done:
     return status;

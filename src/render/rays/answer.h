@@ -14,6 +14,7 @@
 #define KD_RENDER_RAYS_ANSWER_H
 
 #include "base/buffer.h"
+#include "render/emit/approximation.h"
 #include "render/rays/rays.h"
 
 enum kd_rays_format { KD_RAYS_JSON, KD_RAYS_NPY, KD_RAYS_CSV };
@@ -40,8 +41,8 @@ size_t kd_rays_answer_bytes(const struct kd_rays_params *params, size_t n);
 
 enum kd_status kd_rays_answer_summarise(struct kd_rays_answer *answer, struct kd_error *error);
 
-/* Sentences, in order; NULL after the last. */
-const char *kd_rays_approximation(const struct kd_rays_params *params, size_t index);
+/* Approximations in force, in order: false after the last. params NULL: all there are. */
+bool kd_rays_approximation(const struct kd_rays_params *params, size_t index, struct kd_approximation *out);
 
 enum { KD_RAYS_ROW_MAX = 4096 };
 

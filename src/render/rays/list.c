@@ -1,6 +1,7 @@
 #include "render/rays/list.h"
 
 #include "render/rays/rays.h"
+#include "scene/mistake.h"
 #include "scene/number.h"
 #include "scene/text.h"
 
@@ -71,6 +72,13 @@ struct reader {
 static enum kd_status not_json(struct reader *r, const char *what)
 {
     struct kd_text_place place = kd_text_place_of(r->text, r->at);
+    size_t before = r->at;
+    while (before && strchr(" \t\r\n", r->text[before - 1]))
+        before--;
+    const char *mistake = kd_json_mistake(r->text, r->length, r->at, before ? r->text[before - 1] : 0);
+    if (mistake)
+        return kd_error_set(r->error, KD_EINVAL, "the document is not valid JSON at byte %zu, line %zu, column %zu: %s",
+                            r->at, place.line, place.column, mistake);
     return kd_error_set(r->error, KD_EINVAL, "the document is not valid JSON: %s at byte %zu, line %zu, column %zu",
                         what, r->at, place.line, place.column);
 }

@@ -269,10 +269,13 @@ enum kd_status kd_rays_request_json(struct kd_rays_request *request, const char 
 {
     struct document document = { .request = request, .error = error };
     struct kd_rays_list list = { 0 };
-    size_t start = length, end = length;
+    size_t start, end;
     enum kd_status status = KD_OK;
     if (length > KD_RAYS_BODY_MAX)
         return kd_error_set(error, KD_EINVAL, "the document has %zu bytes, allowed are %zu", length, KD_RAYS_BODY_MAX);
+    const size_t mark = kd_scan_mark(text, length);
+    text += mark;
+    start = end = length -= mark;
     if (kd_rays_list_find(text, length, &start)) {
         end = start;
         status = kd_rays_list_read(&list, text, length, &end, error);

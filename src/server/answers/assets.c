@@ -191,7 +191,6 @@ static enum MHD_Result send_bytes(struct kd_request *request, struct kd_asset *a
 {
     const struct kd_asset_about *about = kd_asset_about(asset);
     struct kd_buffer known = kd_reply_header_list(request, "If-None-Match");
-    snprintf(request->etag, sizeof request->etag, "\"%s\"", about->hash);
     bool same = kd_etag_listed((const char *)known.data, request->etag);
     kd_buffer_finish(&known);
     struct sending *s = malloc(sizeof *s);
@@ -279,11 +278,15 @@ enum MHD_Result kd_handle_asset(struct kd_request *request)
     struct kd_asset *asset = kd_asset_store_find(store, request->rest);
     if (!asset)
         return refuse_unknown(request);
+    snprintf(request->etag, sizeof request->etag, "\"%s\"", kd_asset_about(asset)->hash);
     if (strcmp(request->method, "DELETE"))
         return send_bytes(request, asset);
-    if (kd_secret_equal(kd_asset_about(asset)->token, kd_token_of(request)))
+    const bool may = kd_secret_equal(kd_asset_about(asset)->token, kd_token_of(request));
+    if (may && kd_reply_matches(request, request->etag))
         return begin_removal(request, asset);
     kd_asset_release(store, asset);
+    if (may)
+        return kd_reply_unmatched(request);
     return kd_reply_problem(
         request, &(struct kd_problem) { .type = KD_PROBLEM_FORBIDDEN,
                                         .detail = "deleting an asset takes its token: Authorization: Bearer TOKEN" });

@@ -63,7 +63,7 @@ static void describe(struct MHD_Response *response, const struct kd_rays_job *jo
 {
     struct kd_buffer text = { 0 };
     char timing[120], accuracy[240];
-    const char *sentence;
+    struct kd_approximation one;
     snprintf(timing, sizeof timing, "queue;dur=%.3f, read;dur=%.3f, trace;dur=%.3f",
              job->task.begun_ms - job->task.submitted_ms, job->read_ms, job->trace_ms);
     MHD_add_response_header(response, "Server-Timing", timing);
@@ -79,8 +79,8 @@ static void describe(struct MHD_Response *response, const struct kd_rays_job *jo
                  answer->worst_error);
     MHD_add_response_header(response, "Kerrd-Accuracy", accuracy);
     enum kd_status status = KD_OK;
-    for (size_t i = 0; !status && (sentence = kd_rays_approximation(&answer->params, i)); i++)
-        status = kd_reply_quote(&text, sentence);
+    for (size_t i = 0; !status && kd_rays_approximation(&answer->params, i, &one); i++)
+        status = kd_reply_item(&text, one.name);
     if (!status)
         MHD_add_response_header(response, "Kerrd-Approximations", (const char *)text.data);
     kd_buffer_finish(&text);

@@ -155,21 +155,34 @@ void kd_access_free(struct kd_access *access)
     free(access);
 }
 
+/* Cookies of the name that are looked at. A browser sends several where paths lie in one another, or an old one is
+ * left; many would be many tries at once. */
+enum { COOKIES = 4 };
+
 /* What a request brings as its token. */
 struct brought {
-    const char *alone, *bearer, *cookie; /* one that decides alone; else what there is; each may be NULL */
+    const char *alone, *bearer;   /* one that decides alone; else what there is; each may be NULL */
+    const char *cookies[COOKIES]; /* and these, up to a NULL */
+    size_t n_cookies;
 };
+
+static enum MHD_Result add_cookie(void *cls, enum MHD_ValueKind kind, const char *key, const char *value)
+{
+    struct brought *brought = cls;
+    (void)kind;
+    if (value && !strcmp(key, KD_ACCESS_COOKIE) && brought->n_cookies < COOKIES)
+        brought->cookies[brought->n_cookies++] = value;
+    return MHD_YES;
+}
 
 static struct brought brought_by(struct kd_request *request)
 {
     const char *query = kd_access_query(request);
     const char *own = MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, KD_ACCESS_HEADER);
-    return (struct brought) { .alone = query ? query : own,
-                              .bearer = kd_bearer_of(request),
-                              .cookie =
-                                  kd_cors_foreign(request)
-                                      ? NULL
-                                      : MHD_lookup_connection_value(request->mhd, MHD_COOKIE_KIND, KD_ACCESS_COOKIE) };
+    struct brought brought = { .alone = query ? query : own, .bearer = kd_bearer_of(request) };
+    if (!kd_cors_foreign(request))
+        MHD_get_connection_values(request->mhd, MHD_COOKIE_KIND, add_cookie, &brought);
+    return brought;
 }
 
 /* Whose request it is. A token that the page's address or the header of its own brings decides alone; Authorization
@@ -181,7 +194,9 @@ static const struct kd_visitor *visitor_of(struct kd_request *request, const str
         return kd_access_find(access, brought->alone);
     const struct kd_visitor *visitor = brought->bearer ? kd_access_find(access, brought->bearer) : NULL;
     request->spent = visitor;
-    return visitor || !brought->cookie ? visitor : kd_access_find(access, brought->cookie);
+    for (size_t i = 0; !visitor && i < brought->n_cookies; i++)
+        visitor = kd_access_find(access, brought->cookies[i]);
+    return visitor;
 }
 
 /* 32 hexadecimal digits: nobody finds a token of that form by trying. */
@@ -195,8 +210,7 @@ static bool may_be_sessions(const char *bearer)
 static unsigned guesses_wait_s(const struct kd_request *request, const struct brought *brought)
 {
     struct kd_guesses *guesses = request->server->guesses;
-    const char *const texts[] = { brought->alone, brought->alone ? NULL : brought->bearer,
-                                  brought->alone ? NULL : brought->cookie };
+    const char *const texts[] = { brought->alone, brought->alone ? NULL : brought->bearer };
     uint64_t hash = KD_HASH_BEGIN; /* the same for the same token, whichever way it is brought */
     if (request->visitor) { /* by its cookie, perhaps, beside a try; but a bearer may be a session's token, too */
         const bool tried = brought->bearer && !brought->alone && !request->spent && !may_be_sessions(brought->bearer);
@@ -208,6 +222,8 @@ static unsigned guesses_wait_s(const struct kd_request *request, const struct br
     }
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
         hash = texts[i] ? kd_hash(hash, texts[i], strlen(texts[i]) + 1) : hash;
+    for (size_t i = 0; !brought->alone && i < brought->n_cookies; i++)
+        hash = kd_hash(hash, brought->cookies[i], strlen(brought->cookies[i]) + 1);
     return hash == KD_HASH_BEGIN ? 0 : kd_guesses_wrong(guesses, request->client, hash, kd_clock_ms());
 }
 

@@ -160,7 +160,7 @@ enum MHD_Result kd_cors_preflight(struct kd_request *request)
     if (!response)
         return kd_reply_no_memory(request);
     allowed_headers(request->route, headers, sizeof headers);
-    MHD_add_response_header(response, "Access-Control-Allow-Methods", kd_route_allow(request->route));
+    MHD_add_response_header(response, "Access-Control-Allow-Methods", kd_route_methods(request->route));
     MHD_add_response_header(response, "Access-Control-Allow-Headers", headers);
     MHD_add_response_header(response, "Access-Control-Max-Age", MAX_AGE_S);
     if (header(request, "Access-Control-Request-Private-Network"))

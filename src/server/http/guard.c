@@ -35,6 +35,16 @@ static bool is_token(const char *text, size_t size)
     return size > 0;
 }
 
+/* A longer one is no name of ours. */
+static void keep_host(struct kd_header *header, const char *value)
+{
+    size_t n = strlen(value);
+    while (n && (value[n - 1] == ' ' || value[n - 1] == '\t'))
+        n--;
+    snprintf(header->host_text, sizeof header->host_text, "%.*s",
+             (int)(n < sizeof header->host_text ? n : sizeof header->host_text - 1), value);
+}
+
 static enum MHD_Result look(void *cls, enum MHD_ValueKind kind, const char *key, size_t key_size, const char *value,
                             size_t value_size)
 {
@@ -47,7 +57,7 @@ static enum MHD_Result look(void *cls, enum MHD_ValueKind kind, const char *key,
     else if (strlen(value) != value_size || strpbrk(value, "\r\n"))
         scan->fault = "a header field's value holds a control character";
     else if (!strcasecmp(key, "Host"))
-        scan->hosts++, scan->header->host = value;
+        scan->hosts++, keep_host(scan->header, value);
     else if (!strcasecmp(key, "Content-Type"))
         scan->types++, scan->header->content_type = value;
     else if (!strcasecmp(key, "Transfer-Encoding")) {
@@ -99,8 +109,8 @@ static const char *wrong_host(struct kd_header *header)
     return header->wrong_host;
 }
 
-bool kd_guard_check(struct MHD_Connection *connection, const char *version, const char *const *hosts, bool hostless,
-                    struct kd_header *header, struct kd_problem *problem)
+bool kd_guard_check(struct MHD_Connection *connection, const char *version, const char *authority,
+                    const char *const *hosts, bool hostless, struct kd_header *header, struct kd_problem *problem)
 {
     struct scan scan = { .header = header };
     bool http10 = !strcmp(version, "HTTP/1.0");
@@ -114,10 +124,14 @@ bool kd_guard_check(struct MHD_Connection *connection, const char *version, cons
         return refuse(problem, KD_PROBLEM_BAD_REQUEST, fault);
     header->has_length = scan.lengths;
     header->chunked = scan.encodings;
-    if (!scan.hosts && http10 && hostless)
+    if (!scan.hosts && http10 && hostless && !authority)
         return true;
     if (scan.hosts != 1)
-        return refuse(problem, KD_PROBLEM_MISDIRECTED, "exactly one Host is required");
+        return refuse(problem, KD_PROBLEM_BAD_REQUEST, "exactly one Host is required");
+    header->host = authority ? authority : header->host_text;
+    if (!kd_host_is_sound(header->host))
+        return refuse(problem, KD_PROBLEM_BAD_REQUEST,
+                      authority ? "the host in the request target is none" : "Host is no host");
     if (!kd_host_listed(header->host, hosts))
         return refuse(problem, KD_PROBLEM_MISDIRECTED, wrong_host(header));
     return true;

@@ -11,14 +11,16 @@
 
 struct kd_header {
     char wrong_host[280]; /* what is wrong with it, for the answer */
+    char host_text[280];  /* Host without the blanks behind it */
     const char *host, *content_type;
     uint64_t content_length;
     bool has_length, chunked;
 };
 
-/* hosts: NULL-terminated names. hostless: HTTP/1.0 without a Host is let through, as load balancers ask for
- * health. True when sound, with *header filled; else *problem, which closes the connection. HTTP thread. */
-bool kd_guard_check(struct MHD_Connection *connection, const char *version, const char *const *hosts, bool hostless,
-                    struct kd_header *header, struct kd_problem *problem);
+/* authority: the host of a target in absolute form, which counts in the place of Host (RFC 9112 3.2.2); NULL: the
+ * target has none. hosts: NULL-terminated names. hostless: HTTP/1.0 without a Host is let through, as load balancers
+ * ask for health. True when sound, with *header filled; else *problem, which closes the connection. HTTP thread. */
+bool kd_guard_check(struct MHD_Connection *connection, const char *version, const char *authority,
+                    const char *const *hosts, bool hostless, struct kd_header *header, struct kd_problem *problem);
 
 #endif

@@ -1,6 +1,7 @@
 #include "server/http/negotiate.h"
 
 #include <stddef.h>
+#include <ctype.h>
 #include <string.h>
 #include <strings.h>
 
@@ -163,6 +164,30 @@ bool kd_etag_listed(const char *if_none_match, const char *etag)
     return false;
 }
 
+bool kd_etag_matches(const char *if_match, const char *etag)
+{
+    while (if_match) {
+        struct span tag = take(&if_match, ',');
+        if (equals(tag, "*") || (etag && tag.size == strlen(etag) && !memcmp(tag.at, etag, tag.size)))
+            return true;
+    }
+    return false;
+}
+
+bool kd_host_is_sound(const char *host)
+{
+    const bool literal = *host == '[';
+    const char *end =
+        literal ? strchr(host, ']')
+                : host + strspn(host, "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ-._~!$&'()*+,;=%");
+    if (!end || end == host)
+        return false;
+    if (literal && strspn(host + 1, "0123456789abcdefABCDEF:.") != (size_t)(end - host - 1))
+        return false;
+    end += literal;
+    return !*end || (*end == ':' && !end[1 + strspn(end + 1, "0123456789")]);
+}
+
 bool kd_media_type_is(const char *content_type, const char *type)
 {
     return content_type && equals(take(&content_type, ';'), type);
@@ -176,8 +201,11 @@ bool kd_host_listed(const char *host, const char *const *names)
     const char *port = host + size;
     if (*port && (*port != ':' || strlen(port) > 6 || port[1 + strspn(port + 1, "0123456789")]))
         return false;
+    const size_t plain =
+        size - (size > 1 && host[size - 1] == '.' &&
+                !isdigit((unsigned char)host[size - 2])); /* "localhost." is the same name (RFC 1034, 3.1) */
     for (; *names; names++)
-        if (equals((struct span) { host, size }, *names))
+        if (equals((struct span) { host, size }, *names) || equals((struct span) { host, plain }, *names))
             return true;
     return false;
 }

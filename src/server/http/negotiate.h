@@ -18,10 +18,17 @@ bool kd_accepts_coding(const char *accept_encoding, const char *coding);
 /* Whether an If-None-Match value names the entity tag (with its quotes), compared weakly, or is "*". */
 bool kd_etag_listed(const char *if_none_match, const char *etag);
 
+/* Whether an If-Match value names the entity tag, compared strongly, or is "*". etag NULL: there is none to be
+ * named. */
+bool kd_etag_matches(const char *if_match, const char *etag);
+
 /* Whether a Content-Type value is this media type, whatever its parameters. */
 bool kd_media_type_is(const char *content_type, const char *type);
 
-/* Whether a Host value, without its port, is one of the NULL-terminated names. IPv6 literals in brackets. */
+/* Whether a Host value is a host and perhaps a port at all (RFC 3986 3.2.2), and not empty. */
+bool kd_host_is_sound(const char *host);
+/* Whether a Host value, without its port and a dot behind its last letter, is one of the NULL-terminated names. IPv6
+ * literals in brackets. */
 bool kd_host_listed(const char *host, const char *const *names);
 
 #endif

@@ -22,6 +22,7 @@
     X(NOT_READY, 409, "not-ready", "What this asks for is not there yet") \
     X(CONFLICT, 409, "conflict", "What there is does not allow it now") \
     X(TIMEOUT, 408, "timeout", "The request took too long to arrive") \
+    X(PRECONDITION, 412, "precondition-failed", "What there is is not what If-Match names") \
     X(BODY_TOO_LARGE, 413, "body-too-large", "The body is too large") \
     X(URI_TOO_LONG, 414, "uri-too-long", "The address is too long") \
     X(MEDIA_TYPE, 415, "unsupported-media-type", "The body's media type is not taken here") \

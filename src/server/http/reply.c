@@ -132,11 +132,36 @@ enum MHD_Result kd_reply_no_memory(struct kd_request *request)
     return kd_reply_bare(request->mhd);
 }
 
+bool kd_reply_matches(struct kd_request *request, const char *etag)
+{
+    struct kd_buffer tags = kd_reply_header_list(request, "If-Match");
+    bool yes = !tags.data || kd_etag_matches((const char *)tags.data, etag);
+    kd_buffer_finish(&tags);
+    return yes;
+}
+
+enum MHD_Result kd_reply_unmatched(struct kd_request *request)
+{
+    return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_PRECONDITION,
+                                                            .detail = "nothing here has an ETag that If-Match names" });
+}
+
+static bool only_asks(const struct kd_request *request)
+{
+    return request->head || !strcmp(request->method, "GET") || (request->route && request->route->question);
+}
+
 enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struct MHD_Response *response)
 {
     struct kd_server *server = request->server;
     if (!response)
         return kd_reply_no_memory(request);
+    if ((status / 100 == 2 || status == MHD_HTTP_NOT_MODIFIED) && only_asks(request) &&
+        !kd_reply_matches(request, MHD_get_response_header(response, "ETag"))) {
+        MHD_destroy_response(response);
+        *request->file = 0;
+        return kd_reply_unmatched(request);
+    }
     const char *type = MHD_get_response_header(response, "Content-Type");
     if (type && (status == MHD_HTTP_NO_CONTENT || status == MHD_HTTP_NOT_MODIFIED)) /* no body that it could be of */
         MHD_del_response_header(response, "Content-Type", type);
@@ -172,8 +197,12 @@ enum MHD_Result kd_reply_problem(struct kd_request *request, const struct kd_pro
         return kd_reply_no_memory(request);
     }
     struct MHD_Response *response = kd_reply_take(&body, "application/problem+json");
-    if (!response)
-        return kd_reply_no_memory(request);
+    return response ? kd_reply_refuse(request, problem, response) : kd_reply_no_memory(request);
+}
+
+enum MHD_Result kd_reply_refuse(struct kd_request *request, const struct kd_problem *problem,
+                                struct MHD_Response *response)
+{
     if (problem->allow)
         MHD_add_response_header(response, "Allow", problem->allow);
     if (kd_problem_status(problem->type) == MHD_HTTP_UNAUTHORIZED)
@@ -185,6 +214,14 @@ enum MHD_Result kd_reply_problem(struct kd_request *request, const struct kd_pro
     }
     request->close |= problem->close;
     return kd_reply_send(request, kd_problem_status(problem->type), response);
+}
+
+enum MHD_Result kd_reply_options(struct kd_request *request, const char *allow)
+{
+    struct MHD_Response *response = kd_reply_static("", 0, NULL);
+    if (response)
+        MHD_add_response_header(response, "Allow", allow);
+    return kd_reply_send(request, MHD_HTTP_NO_CONTENT, response);
 }
 
 enum MHD_Result kd_reply_error(struct kd_request *request, const struct kd_error *error)
@@ -249,18 +286,9 @@ size_t kd_reply_accepted(struct kd_request *request, size_t n, const char *(*typ
     return best;
 }
 
-enum kd_status kd_reply_quote(struct kd_buffer *out, const char *text)
+enum kd_status kd_reply_item(struct kd_buffer *out, const char *name)
 {
-    enum kd_status status;
-    KD_TRY(kd_buffer_printf(out, "%s\"", out->size ? ", " : ""));
-    for (; *text; text++) {
-        unsigned char c = (unsigned char)*text;
-        KD_TRY(c < 0x20 || c > 0x7e || strchr("\"%\\,", c) ? kd_buffer_printf(out, "%%%02X", c)
-                                                           : kd_buffer_append(out, &c, 1));
-    }
-    KD_TRY(kd_buffer_append(out, "\"", 1));
-done:
-    return status;
+    return kd_buffer_printf(out, "%s%s", out->size ? ", " : "", name);
 }
 
 const char *kd_bearer_of(struct kd_request *request)

@@ -4,6 +4,7 @@
 #ifndef KD_SERVER_HTTP_REPLY_H
 #define KD_SERVER_HTTP_REPLY_H
 
+#include "server/http/negotiate.h"
 #include "server/http/served.h"
 #include "server/http/problem.h"
 #include "server/http/request.h"
@@ -39,6 +40,15 @@ enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struc
 enum MHD_Result kd_reply_bare(struct MHD_Connection *mhd);
 enum MHD_Result kd_reply_no_memory(struct kd_request *request);
 enum MHD_Result kd_reply_problem(struct kd_request *request, const struct kd_problem *problem);
+/* Sends the problem's status and headers with a body of one's own. */
+enum MHD_Result kd_reply_refuse(struct kd_request *request, const struct kd_problem *problem,
+                                struct MHD_Response *response);
+/* Whether the request's If-Match, if it has one, holds for what has this ETag; NULL: it has none (RFC 9110 13.1.1).
+ * What changes something asks before it does; answers of all else are checked when they are sent. */
+bool kd_reply_matches(struct kd_request *request, const char *etag);
+enum MHD_Result kd_reply_unmatched(struct kd_request *request);
+/* Answers OPTIONS: 204, with these methods as Allow. */
+enum MHD_Result kd_reply_options(struct kd_request *request, const char *allow);
 /* Sends what kd_problem_from makes of the error. */
 enum MHD_Result kd_reply_error(struct kd_request *request, const struct kd_error *error);
 /* Whether kd_target_only holds; if not *refused is the answer. */
@@ -49,9 +59,8 @@ struct kd_buffer kd_reply_header_list(struct kd_request *request, const char *na
 /* kd_accept_best of what the request accepts. */
 size_t kd_reply_accepted(struct kd_request *request, size_t n, const char *(*type)(size_t i, const void *list),
                          const void *list);
-/* Append a sentence to a header that lists them: percent-encoded inside quotes, so that any client can split at the
- * commas between them. */
-enum kd_status kd_reply_quote(struct kd_buffer *out, const char *text);
+/* Append a name to a header that is a List of Tokens (RFC 9651). */
+enum kd_status kd_reply_item(struct kd_buffer *out, const char *name);
 
 /* A generated document, or the problem of not having generated it. Empties the buffer. */
 enum MHD_Result kd_reply_json(struct kd_request *request, enum kd_status status, struct kd_buffer *json,

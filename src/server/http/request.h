@@ -19,7 +19,8 @@ struct kd_request {
     struct kd_connection *connection;
     char client[KD_CLIENT];         /* who it is from */
     char id[KD_REQUEST_ID_MAX + 1]; /* once its header is there */
-    char *raw;                      /* the target as received */
+    char *raw;                      /* the target as received; of one in absolute form what stands behind its host */
+    char *authority;                /* that host; NULL: the target is in another form */
     struct kd_target target;
     struct kd_header header;
     const struct kd_route *route;

@@ -40,14 +40,21 @@ unsigned kd_route_method(const char *method)
     return 0;
 }
 
-const char *kd_route_allow(const struct kd_route *route)
+const char *kd_route_methods(const struct kd_route *route)
 {
     static _Thread_local char text[48];
     size_t n = 0;
     for (size_t i = 0; i < KD_METHODS; i++)
-        if (route->methods & kd_methods[i].bit)
+        if (!route || route->methods & kd_methods[i].bit)
             n += (size_t)snprintf(text + n, sizeof text - n, "%s%s%s", n ? ", " : "", kd_methods[i].name,
                                   kd_methods[i].bit == KD_GET ? ", HEAD" : "");
+    return text;
+}
+
+const char *kd_route_allow(const struct kd_route *route)
+{
+    static _Thread_local char text[64];
+    snprintf(text, sizeof text, "%s, OPTIONS", kd_route_methods(route));
     return text;
 }
 

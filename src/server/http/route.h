@@ -70,8 +70,11 @@ extern const size_t kd_n_routes;
  * The base path alone is the page's, too, with an empty path. False with *problem filled (404; 405, where
  * request->route is set too). */
 bool kd_route_find(struct kd_request *request, struct kd_problem *problem);
-/* The methods that a route takes, as the Allow header has them; until the next call on this thread. */
+/* The methods that a route takes, with OPTIONS, which each does, as the Allow header has them; until the next call
+ * on this thread. NULL: those of all routes. */
 const char *kd_route_allow(const struct kd_route *route);
+/* The same without OPTIONS, for preflights. */
+const char *kd_route_methods(const struct kd_route *route);
 /* The bit of a method by its name, KD_GET, ...; 0: no route takes it. */
 unsigned kd_route_method(const char *method);
 /* Whether a raw target is one that is answered whatever else is the matter: /healthz, /readyz, /metrics, with the
@@ -82,6 +85,11 @@ bool kd_route_is_health(const struct kd_base_path *base, const char *raw);
 enum kd_begins { KD_BEGINS_UNCLEAR, KD_BEGINS_HEALTH, KD_BEGINS_OTHER };
 #define KD_BEGINS_BYTES (KD_BASE_PATH_MOST + 32)
 enum kd_begins kd_route_begins(const struct kd_base_path *base, const char *bytes, size_t n);
+
+/* Whether a browser that is refused wants a page that asks for its access token, and that page: answers/sign_in.c */
+struct kd_problem;
+bool kd_sign_in_wanted(struct kd_request *request, const struct kd_problem *problem);
+enum MHD_Result kd_sign_in_page(struct kd_request *request, const struct kd_problem *problem);
 
 /* handlers, by file */
 enum MHD_Result kd_handle_page(struct kd_request *request);   /* answers/pages.c */

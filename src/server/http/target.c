@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 static int hex(char c)
 {
@@ -81,6 +82,22 @@ enum kd_status kd_target_parse(struct kd_target *target, const char *raw, struct
         query = next;
     }
     return status;
+}
+
+enum kd_status kd_target_origin(char *raw, char **authority)
+{
+    const size_t scheme = !strncasecmp(raw, "http://", 7) ? 7 : !strncasecmp(raw, "https://", 8) ? 8 : 0;
+    if (!scheme)
+        return KD_OK;
+    const size_t host = strcspn(raw + scheme, "/?");
+    *authority = strndup(raw + scheme, host);
+    if (!*authority)
+        return KD_ENOMEM;
+    const char *rest = raw + scheme + host;
+    const bool root = *rest != '/';
+    *raw = '/';
+    memmove(raw + root, rest, strlen(rest) + 1);
+    return KD_OK;
 }
 
 void kd_target_finish(struct kd_target *target)

@@ -23,6 +23,10 @@ struct kd_target {
 enum kd_status kd_target_parse(struct kd_target *target, const char *raw, struct kd_error *error);
 void kd_target_finish(struct kd_target *target);
 
+/* Takes a target in absolute form apart (RFC 9112 3.2.2): "http://HOST:PORT/v1/presets" becomes "/v1/presets", and
+ * its host *authority, for the caller to free. Targets in other forms stay as they are. KD_ENOMEM alone. */
+enum kd_status kd_target_origin(char *raw, char **authority);
+
 /* Checks that the query gives no parameter twice; else KD_EINVAL. */
 enum kd_status kd_target_distinct(const struct kd_target *target, struct kd_error *error);
 /* Checks that as well, and that each parameter is among the known, which end with a NULL, or is the token; else

@@ -235,6 +235,8 @@ enum MHD_Result kd_handle_job(struct kd_request *request)
         result = kd_reply_problem(
             request, &(struct kd_problem) { .type = KD_PROBLEM_FORBIDDEN,
                                             .detail = "deleting a job takes its token: Authorization: Bearer TOKEN" });
+    } else if (!kd_reply_matches(request, NULL)) {
+        result = kd_reply_unmatched(request);
     } else
         return begin_removal(request, job);
     kd_job_release(job);

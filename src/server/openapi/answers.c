@@ -19,6 +19,7 @@ static const struct {
     { "/v1/device", KD_GET, KD_SCHEMA_REF("Device") },
     { "/v1/accuracy", KD_GET, KD_SCHEMA_REF("AccuracyTable") },
     { "/v1/presets", KD_GET, KD_SCHEMA_REF("Presets") },
+    { "/v1/approximations", KD_GET, KD_SCHEMA_REF("Approximations") },
     { "/v1/presets/{name}", KD_GET, KD_SCHEMA_REF("Scene") },
     { "/v1/physics", KD_GET, KD_SCHEMA_REF("Quantities") },
     { "/v1/plan", KD_POST, "{\"oneOf\":[" KD_SCHEMA_REF("Plan") "," KD_SCHEMA_REF("SweepPlan") "]}" },

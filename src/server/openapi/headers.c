@@ -25,7 +25,9 @@ static const struct {
     { "Kerrd-Scene-Hash", "{\"type\":\"string\",\"pattern\":\"^[0-9a-f]{64}$\"}", "SHA-256 of the canonical scene",
       true },
     { "Kerrd-Accuracy", TEXT, "what traced it, and its measured error", false },
-    { "Kerrd-Approximations", TEXT, "sentences in quotes, percent-encoded: what is modelled rather than computed",
+    { "Kerrd-Approximations", TEXT,
+      "names, with commas between them, of what is modelled rather than computed: /v1/approximations has the sentence "
+      "of each",
       false },
     { "Kerrd-Clock", TEXT, "an observer's own time, of one that falls", false },
     { "Kerrd-Flux", TEXT, "of a picture at a radio frequency", false },

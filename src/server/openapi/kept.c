@@ -5,6 +5,7 @@
 #include "base/json.h"
 #include "image/gzip.h"
 #include "quantity/quantity.h"
+#include "render/explain/approximations.h"
 #include "scene/label.h"
 #include "scene/scene.h"
 #include "server/openapi/openapi.h"
@@ -50,6 +51,7 @@ static const struct {
     { "/v1/schema", "application/schema+json", kd_scene_schema },
     { "/v1/presets", "application/json", presets_json },
     { "/v1/physics", "application/json", kd_quantity_list_json },
+    { "/v1/approximations", "application/json", kd_approximations_json },
 };
 #define N_MAKERS (sizeof makers / sizeof *makers)
 

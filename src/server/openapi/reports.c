@@ -81,6 +81,14 @@ static void add_lists(struct kd_json *json)
     };
     static const struct kd_openapi_member quantities[] = { { "quantities",
                                                              KD_SCHEMA_LIST(KD_SCHEMA_REF("QuantityTold")), false } };
+    static const struct kd_openapi_member approximation[] = { { "name", KD_SCHEMA_TEXT, false },
+                                                              { "of", KD_SCHEMA_TEXT, false },
+                                                              { "sentence", KD_SCHEMA_TEXT, false } };
+    static const struct kd_openapi_member approximations[] = {
+        { "approximations", KD_SCHEMA_LIST(KD_SCHEMA_REF("Approximation")), false }
+    };
+    KD_OPENAPI_STRICT(json, "Approximation", approximation);
+    KD_OPENAPI_STRICT(json, "Approximations", approximations);
     KD_OPENAPI_STRICT(json, "PresetTold", preset);
     KD_OPENAPI_STRICT(json, "Presets", presets);
     KD_OPENAPI_STRICT(json, "QuantityParameter", parameter);

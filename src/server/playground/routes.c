@@ -334,6 +334,10 @@ static enum MHD_Result begin_owned(struct kd_request *request, enum what what)
         kd_play_release(play);
         return forbid(request);
     }
+    if (!kd_reply_matches(request, NULL)) {
+        kd_play_release(play);
+        return kd_reply_unmatched(request);
+    }
     return !strcmp(request->method, "DELETE") ? end(request, play) : begin(request, play, what, JSON_TYPE);
 }
 

@@ -55,7 +55,7 @@ static void add_approximations(struct MHD_Response *response, const struct kd_pl
     struct kd_buffer list = { 0 };
     enum kd_status status = KD_OK;
     for (size_t i = 0; i < plan->n_approximations; i++)
-        KD_TRY(kd_reply_quote(&list, plan->approximations[i]));
+        KD_TRY(kd_reply_item(&list, plan->approximations[i].name));
     if (list.data)
         MHD_add_response_header(response, "Kerrd-Approximations", (const char *)list.data);
 done:

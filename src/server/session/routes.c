@@ -271,6 +271,10 @@ bool kd_session_change(struct kd_request *request, struct kd_session *session, s
         *refused = kd_session_forbid(request);
         return false;
     }
+    if (!kd_reply_matches(request, NULL)) {
+        *refused = kd_reply_unmatched(request);
+        return false;
+    }
     const char *text = request->body.data ? (const char *)request->body.data : "";
     if (!read_order(request, &order, &error) &&
         !kd_session_patch(session, text, request->body.size, order, state, &error))
@@ -290,6 +294,8 @@ static enum MHD_Result change(struct kd_request *request, struct kd_session *ses
 {
     if (!kd_session_owned(session, kd_token_of(request)))
         return kd_session_forbid(request);
+    if (!kd_reply_matches(request, NULL))
+        return kd_reply_unmatched(request);
     if (!strcmp(request->method, "PATCH"))
         return patch(request, session, request->body.data ? (const char *)request->body.data : "", request->body.size);
     kd_session_end(session);

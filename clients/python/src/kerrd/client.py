@@ -43,6 +43,7 @@ class Client:
     ) -> None:
         self.url = url.rstrip("/") + "/"
         self.patience = patience
+        self._sentences: dict[str, str] = {}
         self._http = httpx.Client(
             base_url=self.url.rstrip("/"),
             timeout=httpx.Timeout(timeout, connect=10),
@@ -73,12 +74,20 @@ class Client:
                 return call.read(calls.checked(answer))
             time.sleep(wait)
 
+    def approximations(self) -> dict[str, str]:
+        """The sentence of each name that Kerrd-Approximations may have; asked for once."""
+        if not self._sentences:
+            told = self._run(calls.get("/v1/approximations"))
+            self._sentences = {one["name"]: one["sentence"] for one in told["approximations"]}
+        return self._sentences
+
     def render(
         self, scene: SceneLike = None, *, preset: str | None = None, layers: Sequence[str] = (), **changes: Any
     ) -> Frame:
         """A picture; layers: the numbers that come with it, by a second request for which the lens map is kept."""
         document = scene_of(scene, changes)
         frame = self._run(calls.render(document, preset))
+        frame.sentences.update(self.approximations())
         if layers:
             frame.layers.update(self._run(calls.layers(document, preset, layers)))
         return frame
@@ -315,6 +324,7 @@ class Session:
         rests."""
         frame = self.client._run(calls.next_frame(self.id, self._seen, self.quality, int(1000 * wait)))
         if frame is not None:
+            frame.sentences.update(self.client.approximations())
             self._seen = frame.number
             if frame.final:
                 self._final = frame.revision

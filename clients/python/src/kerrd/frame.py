@@ -9,16 +9,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
-from urllib.parse import unquote
 
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
 
-def sentences(header: str | None) -> list[str]:
-    """Kerrd-Approximations as a list."""
-    return [unquote(part) for part in re.findall(r'"([^"]*)"', header or "")]
+def items(header: str | None) -> list[str]:
+    """A header that is a list of names, such as Kerrd-Approximations."""
+    return [name for name in map(str.strip, (header or "").split(",")) if name]
 
 
 def figures(header: str | None) -> dict[str, float | str]:
@@ -51,6 +50,8 @@ class Frame:
     kind: str
     headers: Mapping[str, str]
     layers: dict[str, NDArray[np.float32]] = field(default_factory=dict)
+    # of approximations by name, of all that the server knows
+    sentences: dict[str, str] = field(default_factory=dict, repr=False)
 
     @property
     def png(self) -> bytes:
@@ -85,7 +86,8 @@ class Frame:
 
     @property
     def approximations(self) -> list[str]:
-        return sentences(self.headers.get("kerrd-approximations"))
+        """What it leaves out or chooses, in sentences."""
+        return [self.sentences[name] for name in items(self.headers.get("kerrd-approximations"))]
 
     @property
     def timing(self) -> dict[str, float]:

@@ -1,12 +1,12 @@
 /* This program prints docs/approximations.md. */
-#include "render/plan/reference.h"
+#include "render/explain/approximations.h"
 
 #include <stdio.h>
 
 int main(void)
 {
     struct kd_buffer page = { 0 };
-    enum kd_status status = kd_plan_reference(&page);
+    enum kd_status status = kd_approximations_page(&page);
     int failed = status || fwrite(page.data, 1, page.size, stdout) != page.size || fflush(stdout);
     kd_buffer_finish(&page);
     return failed ? 1 : 0;

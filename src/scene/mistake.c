@@ -1,0 +1,89 @@
+#include "scene/mistake.h"
+
+#include <ctype.h>
+#include <stdbool.h>
+#include <string.h>
+#include <strings.h>
+
+static const struct {
+    const char *word, *says;
+} words[] = {
+    { "nan", "NaN, which JSON has not: leave the member out" },
+    { "infinity", "Infinity, which JSON has not: where a field takes it, it is the string \"infinity\"" },
+    { "-infinity", "Infinity, which JSON has not: where a field takes it, it is the string \"infinity\"" },
+    { "inf", "inf, which JSON has not: where a field takes it, it is the string \"infinity\"" },
+    { "-inf", "inf, which JSON has not: where a field takes it, it is the string \"infinity\"" },
+    { "none", "None, which JSON has as null" },
+    { "undefined", "undefined, which JSON has as null" },
+    { "nil", "nil, which JSON has as null" },
+    { "true", "a word in capitals, which JSON has as true" },
+    { "false", "a word in capitals, which JSON has as false" },
+    { "null", "a word in capitals, which JSON has as null" },
+};
+
+/* The length of the word, or of the sign and the word, at a place. */
+static size_t span(const char *text, size_t length)
+{
+    size_t n = length && *text == '-';
+    while (n < length && (isalnum((unsigned char)text[n]) || text[n] == '_' || text[n] == '$' || text[n] == '.'))
+        n++;
+    return n;
+}
+
+static const char *about_word(const char *text, size_t length, char before)
+{
+    const size_t n = span(text, length);
+    size_t next = n;
+    while (next < length && text[next] && strchr(" \t\r\n", text[next]))
+        next++;
+    if (n && next < length && text[next] == ':' && (before == '{' || before == ','))
+        return "a name without double quotes, which it needs";
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (n == strlen(words[i].word) && !strncasecmp(text, words[i].word, n))
+            return words[i].says;
+    return NULL;
+}
+
+static bool is_quote(const char *text, size_t length) /* U+2018 to U+201F */
+{
+    return length > 2 && !memcmp(text, "\xe2\x80", 2) && (unsigned char)text[2] >= 0x98 &&
+           (unsigned char)text[2] <= 0x9f;
+}
+
+const char *kd_json_mistake(const char *text, size_t length, size_t at, char before)
+{
+    const char *here = text + at;
+    const size_t left = length - at;
+    if (!left)
+        return NULL;
+    if (*here == '}' || *here == ']')
+        return before == ','   ? "a bracket behind a comma: JSON has no comma behind the last value"
+               : before == ':' ? "no value behind a colon"
+                               : NULL;
+    if (*here == ',')
+        return before == ',' || before == '{' || before == '[' || before == ':' ? "a comma without a value before it"
+                                                                                : NULL;
+    if (*here == '\'')
+        return "a single quote: JSON has double quotes round strings and names";
+    if (is_quote(here, left))
+        return "a typographic quote: JSON has plain double quotes (\") round strings and names";
+    if (*here == '#' || (*here == '/' && left > 1 && (here[1] == '/' || here[1] == '*')))
+        return "a comment, which JSON has not";
+    if (*here == '.')
+        return "a point without a digit before it: JSON has 0.5 for .5";
+    if (*here == '+')
+        return "a plus, which JSON has not before numbers";
+    if (*here == '=')
+        return "an equals sign: JSON has a colon between name and value";
+    return about_word(here, left, before);
+}
+
+const char *kd_json_encoding(const char *text, size_t length)
+{
+    if (length >= 4 && (!memcmp(text, "\xff\xfe\0\0", 4) || !memcmp(text, "\0\0\xfe\xff", 4) ||
+                        (!text[1] && !text[2] && (!text[0] || !text[3]))))
+        return "UTF-32";
+    if (length >= 2 && (!memcmp(text, "\xff\xfe", 2) || !memcmp(text, "\xfe\xff", 2) || (!text[0] != !text[1])))
+        return "UTF-16";
+    return NULL;
+}

@@ -1,0 +1,87 @@
+/* The page that a browser gets which comes without an access token, or with a wrong one: it asks for it. It needs no
+ * script, and its form leads where the page takes a token by its address. Italian or English, as Accept-Language has
+ * it. */
+#include "server/http/reply.h"
+
+#include <string.h>
+#include <strings.h>
+
+#define HTML "text/html; charset=utf-8"
+
+static const struct {
+    const char *tag, *title, *asks, *wrong, *later, *label, *button;
+} words[] = {
+    { "en", "kerrd: access token", "This server takes an access token. Whoever runs it gives it to you.",
+      "The server does not know this token.",
+      "Too many wrong tokens have come from your address: in a few seconds one is looked at again.", "Access token",
+      "Go in" },
+    { "it", "kerrd: token d’accesso", "Questo server chiede un token d’accesso. Lo dà chi lo gestisce.",
+      "Il server non conosce questo token.",
+      "Dal tuo indirizzo sono arrivati troppi token sbagliati: tra qualche secondo ne sarà guardato un altro.",
+      "Token d’accesso", "Entra" },
+};
+enum { LANGUAGES = sizeof words / sizeof *words };
+
+/* Browsers name the language that their user would rather have first. */
+static size_t language(struct kd_request *request)
+{
+    struct kd_buffer list = kd_reply_header_list(request, "Accept-Language");
+    size_t found = LANGUAGES;
+    for (const char *at = (const char *)list.data; at && found == LANGUAGES; at = strchr(at, ',')) {
+        at += strspn(at, ", ");
+        for (size_t i = 0; i < LANGUAGES && found == LANGUAGES; i++)
+            found = !strncasecmp(at, words[i].tag, 2) && !strchr("abcdefghijklmnopqrstuvwxyz", at[2] | 32) ? i : found;
+    }
+    kd_buffer_finish(&list);
+    return found % LANGUAGES;
+}
+
+bool kd_sign_in_wanted(struct kd_request *request, const struct kd_problem *problem)
+{
+    static const char *const types[] = { "application/problem+json", "text/html" };
+    return (problem->type == KD_PROBLEM_UNAUTHORIZED || problem->type == KD_PROBLEM_WRONG_TOKENS) && request->matched &&
+           !strcmp(request->matched->path, "/") && !request->body_announced &&
+           kd_reply_accepted(request, 2, kd_accept_string, types) == 1;
+}
+
+static enum kd_status write_page(struct kd_request *request, const struct kd_problem *problem, struct kd_buffer *page)
+{
+    const size_t i = language(request);
+    const char *base = strrchr(request->server->base.path,
+                               '/'); /* of an address without the slash at its end: the form goes to the one with it */
+    const bool bare = base && !*request->target.path, tried = kd_target_value(&request->target, KD_ACCESS_QUERY);
+    const char *says = problem->type == KD_PROBLEM_WRONG_TOKENS ? words[i].later : tried ? words[i].wrong : "";
+    return kd_buffer_printf(
+        page,
+        "<!doctype html>\n<html lang=\"%s\">\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
+        "content=\"width=device-width\">\n<title>%s</title>\n"
+        "<style>:root{color-scheme:light dark;font:1.1rem/1.5 system-ui,sans-serif}main{max-width:24rem;margin:15vh "
+        "auto 0;padding:0 1rem}"
+        "label,input,button{display:block;box-sizing:border-box;width:100%%;margin:.4rem "
+        "0}input,button{font:inherit;padding:.5rem}</style>\n"
+        "<main>\n<h1>kerrd</h1>\n<p id=\"why\">%s</p>\n<p role=\"alert\">%s</p>\n<form action=\"%s%s\">\n<label "
+        "for=\"access\">%s</label>\n"
+        "<input id=\"access\" name=\"" KD_ACCESS_QUERY
+        "\" type=\"password\" autocomplete=\"current-password\" aria-describedby=\"why\" required autofocus>\n"
+        "<button>%s</button>\n</form>\n</main>\n</html>\n",
+        words[i].tag, words[i].title, words[i].asks, says, bare ? base + 1 : ".", bare ? "/" : "", words[i].label,
+        words[i].button);
+}
+
+enum MHD_Result kd_sign_in_page(struct kd_request *request, const struct kd_problem *problem)
+{
+    struct kd_buffer page = { 0 };
+    if (write_page(request, problem, &page)) {
+        kd_buffer_finish(&page);
+        return kd_reply_no_memory(request);
+    }
+    struct MHD_Response *response = kd_reply_take(&page, HTML);
+    if (!response)
+        return kd_reply_no_memory(request);
+    MHD_add_response_header(
+        response, "Content-Security-Policy",
+        "default-src 'none'; style-src 'unsafe-inline'; form-action 'self'; base-uri 'none'; frame-ancestors 'none'");
+    MHD_add_response_header(response, "Referrer-Policy", "no-referrer");
+    MHD_add_response_header(response, "Vary", "Accept, Accept-Language");
+    return kd_reply_refuse(request, problem, response);
+}

@@ -1,0 +1,107 @@
+"""The header of an answer fits into the buffers of proxies, whatever the scene shows: nginx takes 4096 bytes by
+default. daemon.py holds the answers of all tests to the bound; here is what shows as much as a scene can."""
+
+import unittest
+
+import daemon
+
+ORIGIN = "https://" + "a" * 63 + ".example.org:8443"
+ALL = {
+    "image": {"width": 32, "height": 18, "critical_factor": 1},
+    "sky": {"model": "catalogue", "milky_way": 1},
+    "spots": [{"r": 8, "brightness": 1}],
+    "bodies": [{"r": 12, "radius": 1}],
+    "jets": {"brightness": 0.2},
+    "style": {"bloom": 0.3, "tone_map": "neutral"},
+    "camera": {"r": 40, "projection": "equirectangular"},
+}
+# Each has all that can be at once beside what it is named by; together they have every emitter.
+RICHEST = {
+    "gas": {
+        **ALL,
+        "disk": {
+            "model": "shakura-sunyaev",
+            "opacity": 0,
+            "doppler": False,
+            "redshift": False,
+            "gas": {"amplitude": 0.5},
+        },
+        "volume": {"model": "torus"},
+        "polarization": {"model": "scattering"},
+        "style": {**ALL["style"], "palette": "heat", "ringdown": 0.5},
+    },
+    "thick": {
+        **ALL,
+        "disk": {"height": 0.1, "gas": {"amplitude": 0.5}},
+        "volume": {"model": "uniform", "redshift": False},
+        "style": {**ALL["style"], "ringdown": 0.5},
+    },
+    "particles": {
+        **ALL,
+        "disk": {"model": "particles", "particles": 1000},
+        "volume": {"model": "uniform"},
+        "polarization": {"model": "synchrotron"},
+    },
+    "stokes": {
+        "image": ALL["image"],
+        "volume": {"model": "riaf", "electrons": "kappa", "normalise_to_jy": 1},
+        "polarization": {"model": "transfer"},
+        "disk": {"model": "none"},
+        "sky": {"model": "none"},
+    },
+}
+
+
+class Richest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.daemon = daemon.Daemon("--cors-origin", ORIGIN)
+        cls.known = {one["name"]: one for one in cls.daemon.get("/v1/approximations").json()["approximations"]}
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.daemon.stop()
+
+    def test_every_emitter_is_in_one_of_them(self):
+        of = set()
+        for name, scene in RICHEST.items():
+            answer = self.daemon.post("/v1/plan", scene)
+            self.assertEqual(answer.status, 200, (name, answer.body))
+            of |= {one["of"] for one in self.known.values() if one["sentence"] in answer.json()["approximations"]}
+        self.assertEqual(
+            {one["of"] for one in self.known.values()} - of,
+            {"lists of rays", "debris"},
+            "debris is of playgrounds alone",
+        )
+
+    def test_a_picture_and_a_live_frame(self):
+        """Their headers are counted by daemon.py."""
+        picture = self.daemon.post("/v1/render", RICHEST["gas"], Origin=ORIGIN)
+        session = self.daemon.post("/v1/sessions", RICHEST["gas"]).json()
+        frame = self.daemon.get(f"/v1/sessions/{session['id']}/frame?lossy=50", Origin=ORIGIN)
+        for answer in picture, frame:
+            self.assertEqual(
+                (answer.status, answer.header("Access-Control-Allow-Origin")), (200, ORIGIN), answer.body[:300]
+            )
+            names = answer.header("Kerrd-Approximations").split(", ")
+            self.assertGreaterEqual(len(names), 40)
+            self.assertLessEqual(set(names), set(self.known))
+
+    def test_the_longest_that_a_request_can_make_it(self):
+        """What comes back of a request's own words is bounded, or it is refused."""
+        long = "x" * 6000
+        for target in (
+            "/?access=" + long,
+            "/?access=wrong&scene=" + long,
+            "/v1/presets/" + long,
+            "/v1/jobs/" + long,
+            "/" + long,
+            "/v1/render?" + long + "=1",
+            "/v1/plan/" + long,
+        ):
+            self.daemon.get(target, X_Request_Id="y" * 64, Origin=ORIGIN)
+
+
+if __name__ == "__main__":
+    daemon.need_device()
+    daemon.main()
