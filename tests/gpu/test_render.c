@@ -374,6 +374,48 @@ static void test_asides(void **state)
     kd_renderer_destroy(o.r);
 }
 
+/* A lens map that another store has made is enough for all that a frame does: rays that refine it need more buffers
+ * than the map. */
+static void test_a_map_that_is_handed_over(void **state)
+{
+    (void)state;
+    const struct kd_capacity c = capacity();
+    struct kd_scene scene = small_scene();
+    struct kd_plan plan;
+    struct kd_frame here, aside, again;
+    struct kd_renderer *fresh;
+    scene.image.samples = 0; /* auto */
+    OK(kd_plan_make(&scene, &c, &plan, &error));
+    assert_true(plan.adaptive);
+    OK(kd_renderer_create(&(struct kd_renderer_params) { .device = "auto", .passing = true }, &fresh, &error));
+    OK(kd_render(fresh, &scene, &plan, NULL, NULL, &here, &error));
+    OK(kd_render_aside(fresh, &scene, &plan, NULL, NULL, NULL, &aside, &error));
+    assert_true(aside.lens_reused && aside.accuracy.followed > 0);
+    kd_store_hand_over(&fresh->asides[0].store, &fresh->store, &plan);
+    OK(kd_render(fresh, &scene, &plan, NULL, NULL, &again, &error));
+    assert_true(again.lens_reused);
+    kd_frame_finish(&again);
+    assert_same(&here, &aside);
+    kd_renderer_destroy(fresh);
+}
+
+/* A defect of the program, here a buffer that is too small, is told as one, and the store begins anew. */
+static void test_a_defect_does_not_stay(void **state)
+{
+    (void)state;
+    const struct kd_capacity c = capacity();
+    struct kd_scene scene = small_scene();
+    struct kd_plan plan;
+    struct kd_frame before, after;
+    OK(kd_plan_make(&scene, &c, &plan, &error));
+    OK(kd_render(renderer, &scene, &plan, NULL, NULL, &before, &error));
+    kd_vk_buffer_destroy(renderer->vk, renderer->store.transfer);
+    OK(kd_vk_buffer_create(renderer->vk, 256, KD_VK_DEVICE, "too small", &renderer->store.transfer, &error));
+    FAILS(KD_EINTERNAL, "binding", kd_render(renderer, &scene, &plan, NULL, NULL, &after, &error));
+    OK(kd_render(renderer, &scene, &plan, NULL, NULL, &after, &error));
+    assert_same(&before, &after);
+}
+
 /* Particles that are deposited for another picture between the slices are not those of this one. */
 static void test_asides_with_particles(void **state)
 {
@@ -503,12 +545,20 @@ int main(void)
     if (status)
         return status;
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_reuse),    cmocka_unit_test(test_the_curve_is_followed_once),
-        cmocka_unit_test(test_bands),    cmocka_unit_test(test_slices),
-        cmocka_unit_test(test_sizes),    cmocka_unit_test(test_extremes),
-        cmocka_unit_test(test_progress), cmocka_unit_test(test_glances),
-        cmocka_unit_test(test_asides),   cmocka_unit_test(test_asides_with_particles),
-        cmocka_unit_test(test_too_big),  cmocka_unit_test(test_audit),
+        cmocka_unit_test(test_reuse),
+        cmocka_unit_test(test_the_curve_is_followed_once),
+        cmocka_unit_test(test_bands),
+        cmocka_unit_test(test_slices),
+        cmocka_unit_test(test_sizes),
+        cmocka_unit_test(test_extremes),
+        cmocka_unit_test(test_progress),
+        cmocka_unit_test(test_glances),
+        cmocka_unit_test(test_asides),
+        cmocka_unit_test(test_a_map_that_is_handed_over),
+        cmocka_unit_test(test_a_defect_does_not_stay),
+        cmocka_unit_test(test_asides_with_particles),
+        cmocka_unit_test(test_too_big),
+        cmocka_unit_test(test_audit),
         cmocka_unit_test(test_plan),
     };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));

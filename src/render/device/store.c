@@ -115,8 +115,16 @@ static enum kd_status make_star_light(struct kd_store *store, const struct kd_pl
     return bands_init(light, store->vk, plan->bands, kd_plan_star_bytes(plan), "light of stars", error);
 }
 
-enum kd_status kd_store_lens_map(struct kd_store *store, const struct kd_plan *plan, struct kd_lens_map **out,
-                                 bool *reused, struct kd_error *error)
+/* *buffer (NULL: none yet) is made once, and stays. */
+static enum kd_status once(struct kd_vk *vk, struct kd_vk_buffer **buffer, uint64_t size, enum kd_vk_memory memory,
+                           const char *name, struct kd_error *error)
+{
+    return *buffer ? KD_OK : kd_vk_buffer_create(vk, size, memory, name, buffer, error);
+}
+
+/* kd_store_lens_map, but for what rays need beside their map. */
+static enum kd_status find_or_make(struct kd_store *store, const struct kd_plan *plan, struct kd_lens_map **out,
+                                   bool *reused, struct kd_error *error)
 {
     struct kd_lens_map *oldest = &store->maps[0];
     uint64_t bytes = lens_band_bytes(plan);
@@ -146,10 +154,16 @@ enum kd_status kd_store_lens_map(struct kd_store *store, const struct kd_plan *p
     if (!plan->points)
         bands_finish(&oldest->star_light, store->vk);
     KD_TRY(make_star_light(store, plan, oldest, error));
-    if (!store->undecided)
-        KD_TRY(kd_vk_buffer_create(store->vk, 16, KD_VK_DEVICE, "undecided rays", &store->undecided, error));
 done:
     return status;
+}
+
+enum kd_status kd_store_lens_map(struct kd_store *store, const struct kd_plan *plan, struct kd_lens_map **out,
+                                 bool *reused, struct kd_error *error)
+{
+    /* A map that is found may have come from another store, and rays are followed beside it (refine.c). */
+    enum kd_status status = once(store->vk, &store->undecided, 16, KD_VK_DEVICE, "undecided rays", error);
+    return status ? status : find_or_make(store, plan, out, reused, error);
 }
 
 void kd_store_commit(struct kd_store *store, struct kd_lens_map *map, const struct kd_plan *plan)
@@ -182,13 +196,6 @@ enum kd_status kd_store_at_least(struct kd_vk *vk, struct kd_vk_buffer **buffer,
     kd_vk_buffer_destroy(vk, *buffer);
     *buffer = NULL;
     return kd_vk_buffer_create(vk, size, memory, name, buffer, error);
-}
-
-/* *buffer (NULL: none yet) is made once, and stays. */
-static enum kd_status once(struct kd_vk *vk, struct kd_vk_buffer **buffer, uint64_t size, enum kd_vk_memory memory,
-                           const char *name, struct kd_error *error)
-{
-    return *buffer ? KD_OK : kd_vk_buffer_create(vk, size, memory, name, buffer, error);
 }
 
 /* What all pictures need, whatever their size. */

@@ -3,6 +3,7 @@
 
 #include "render/lens/audit.h"
 #include "base/clock.h"
+#include "base/log.h"
 #include "render/device/prepare.h"
 #include "render/frame/lens.h"
 
@@ -151,6 +152,15 @@ done:
     return status;
 }
 
+/* After a defect of the program, which may have left anything in them: the next frame makes all that it needs. The
+ * device is idle. */
+static void begin_anew(struct kd_frame_job *job)
+{
+    kd_log(KD_LOG_ERROR, "a defect of kerrd: %s", job->error ? job->error->message : "no word of what it is");
+    kd_store_empty(job->store);
+    kd_prepared_finish(job->prepared, job->r->vk);
+}
+
 static enum kd_status render(struct kd_frame_job *job, struct kd_frame *out)
 {
     struct kd_frame frame = { .width = job->plan->width, .height = job->plan->height };
@@ -172,6 +182,8 @@ done:
     if (status != KD_EDEVICE)
         kd_vk_wait(job->r->vk, 0, NULL);
     kd_vk_buffer_destroy(job->r->vk, job->marched);
+    if (status == KD_EINTERNAL)
+        begin_anew(job);
     kd_frame_finish(&frame);
     return status;
 }
