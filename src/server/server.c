@@ -202,6 +202,7 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
 
     server->port = params->port;
     server->drain_ms = params->drain_ms == UINT_MAX ? 0 : or_default(params->drain_ms, 1000);
+    server->drain_s = or_default(params->drain_s, 600);
     server->longest_s = or_default(params->longest_s, 600);
     server->stop_fd = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
     server->connections =

@@ -147,7 +147,7 @@ static enum MHD_Result deliver(struct kd_request *request)
 {
     struct kd_render_job *job = request->job;
     if (job->status == KD_ECANCELLED)
-        return MHD_NO; /* nobody listens */
+        return kd_reply_cancelled(request);
     if (job->status) {
         job->error.status = job->status;
         return kd_reply_error(request, &job->error);
