@@ -36,6 +36,7 @@ struct kd_server_params {
     unsigned drain_ms;      /* how long it goes on serving after a stop request, with /readyz failing; default 1000 */
     unsigned
         drain_s; /* how long after a stop request accepted work may take; what is left then is cancelled. Default 600 */
+    unsigned rest_ms;     /* without anything to do before memory is given back; default 60 000 */
     unsigned connections; /* connections at once; one more is answered 503, but on the health routes; default 512 */
     unsigned header_ms;   /* a request's header must be complete by then; default 10 000 */
     unsigned body_ms;     /* and its body so long after that; default 30 000 */

@@ -5,6 +5,7 @@
 
 #include "render/device/internal.h"
 
+#include "render/device/rest.h"
 #include "render_support.h"
 
 #include <math.h>
@@ -399,6 +400,60 @@ static void test_a_map_that_is_handed_over(void **state)
     kd_renderer_destroy(fresh);
 }
 
+static struct kd_frame rendered_by(struct kd_renderer *r, const struct kd_scene *scene)
+{
+    const struct kd_capacity c = capacity();
+    struct kd_plan plan;
+    struct kd_frame frame;
+    OK(kd_plan_make(scene, &c, &plan, &error));
+    OK(kd_render(r, scene, &plan, NULL, NULL, &frame, &error));
+    return frame;
+}
+
+/* Memory is given back when there is nothing to do. What is rendered afterwards is the same, and the latest view
+ * finds its lens map, unless too much is left that has no name: then the device is opened again. */
+static void test_rest(void **state)
+{
+    (void)state;
+    enum { VIEWS = 6, BLOCKS = 128 << 20 };
+    struct kd_scene scene = small_scene();
+    struct kd_renderer *fresh;
+    uint64_t kept[KD_N_KEPT_KINDS], sum = 0;
+    OK(kd_renderer_create(&(struct kd_renderer_params) { .device = "auto", .passing = true }, &fresh, &error));
+    scene.image.samples = 2;
+    scene.image.width = 1280;
+    scene.image.height = 720;
+    for (int i = 0; i < VIEWS; i++) {
+        scene.camera.inclination_deg = 33 + i;
+        struct kd_frame frame = rendered_by(fresh, &scene);
+        kd_frame_finish(&frame);
+    }
+    const uint64_t held = kd_renderer_held(fresh);
+    scene = small_scene();
+    scene.camera.inclination_deg = 41;
+    for (int often = 0; often < 2; often++) {
+        struct kd_frame before = rendered_by(fresh, &scene), after;
+        if (often)
+            fresh->opened_bytes = 0; /* as if all of this process, and a lot more, had come since */
+        OK(kd_renderer_rest(fresh, &error));
+        kd_renderer_kept(fresh, kept);
+        sum = 0;
+        for (int i = 0; i < KD_N_KEPT_KINDS; i++)
+            sum += kept[i];
+        print_message("%.0f MiB were held on the device, %.0f are, %.0f are kept in all, %.0f of them without a name\n",
+                      (double)held / 0x1p20, (double)kd_renderer_held(fresh) / 0x1p20, (double)sum / 0x1p20,
+                      (double)kept[KD_KEPT_OTHER] / 0x1p20);
+        assert_true(kd_renderer_held(fresh) < held &&
+                    kd_renderer_held(fresh) <= BLOCKS); /* each of the map's buffers may keep one */
+        if (!often)
+            assert_in_range(kept[KD_KEPT_LENS_MAPS], 1, KD_REST_MAPS_BYTES);
+        after = rendered_by(fresh, &scene);
+        assert_int_equal(after.lens_reused, kept[KD_KEPT_LENS_MAPS] > 0);
+        assert_same(&before, &after);
+    }
+    kd_renderer_destroy(fresh);
+}
+
 /* A defect of the program, here a buffer that is too small, is told as one, and the store begins anew. */
 static void test_a_defect_does_not_stay(void **state)
 {
@@ -556,6 +611,7 @@ int main(void)
         cmocka_unit_test(test_asides),
         cmocka_unit_test(test_a_map_that_is_handed_over),
         cmocka_unit_test(test_a_defect_does_not_stay),
+        cmocka_unit_test(test_rest),
         cmocka_unit_test(test_asides_with_particles),
         cmocka_unit_test(test_too_big),
         cmocka_unit_test(test_audit),

@@ -322,12 +322,18 @@ void kd_store_give_up(struct kd_store *store)
         forget_stars(&store->maps[i]);
 }
 
-uint64_t kd_store_bytes(const struct kd_store *store)
+uint64_t kd_store_map_bytes(const struct kd_store *store)
 {
-    uint64_t sum = bytes_of_bands(&store->radiance) + bytes_of_bands(&store->layers) + bytes_of(store->words) +
-                   bytes_of(store->readback) + bytes_of(store->transfer);
+    uint64_t sum = 0;
     for (int i = 0; i < KD_LENS_MAPS_KEPT; i++)
         sum += bytes_of_map(&store->maps[i]);
+    return sum;
+}
+
+uint64_t kd_store_bytes(const struct kd_store *store)
+{
+    uint64_t sum = kd_store_map_bytes(store) + bytes_of_bands(&store->radiance) + bytes_of_bands(&store->layers);
+    sum += bytes_of(store->words) + bytes_of(store->readback) + bytes_of(store->transfer) + bytes_of(store->staging);
     sum += bytes_of_bands(&store->beamed) + bytes_of(store->beam_lines) + bytes_of(store->beam_grids) +
            bytes_of(store->palette);
     sum += bytes_of(store->star_pairs) + bytes_of(store->star_rays);
@@ -341,10 +347,40 @@ void kd_store_empty(struct kd_store *store)
     *store = (struct kd_store) { .vk = store->vk, .memory_bytes = store->memory_bytes };
 }
 
+/* Those that were used last, as far as they fit. */
+static void keep_maps(struct kd_store *store, uint64_t bytes)
+{
+    for (;;) {
+        struct kd_lens_map *oldest = NULL;
+        for (struct kd_lens_map *m = store->maps; m < store->maps + KD_LENS_MAPS_KEPT; m++)
+            oldest = m->bands.count && (!oldest || m->used < oldest->used) ? m : oldest;
+        if (!oldest || kd_store_map_bytes(store) <= bytes)
+            return;
+        map_finish(oldest, store->vk);
+    }
+}
+
+static void finish_frame(struct kd_store *store);
+
+void kd_store_rest(struct kd_store *store, uint64_t bytes)
+{
+    struct kd_store rested = { .vk = store->vk, .memory_bytes = store->memory_bytes, .clock = store->clock };
+    keep_maps(store, bytes);
+    finish_frame(store);
+    memcpy(rested.maps, store->maps, sizeof rested.maps);
+    *store = rested;
+}
+
 void kd_store_finish(struct kd_store *store)
 {
     for (int i = 0; i < KD_LENS_MAPS_KEPT; i++)
         map_finish(&store->maps[i], store->vk);
+    finish_frame(store);
+}
+
+/* All but the lens maps. */
+static void finish_frame(struct kd_store *store)
+{
     bands_finish(&store->radiance, store->vk);
     bands_finish(&store->layers, store->vk);
     bands_finish(&store->beamed, store->vk);

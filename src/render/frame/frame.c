@@ -8,6 +8,7 @@
 #include "render/frame/lens.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 /* Buffers for all of it, and what the kernels of light read. */
 static enum kd_status make_ready(struct kd_frame_job *j, const struct kd_capacity *c, bool *reused)
@@ -95,13 +96,34 @@ static void report_accuracy(struct kd_frame_job *j)
     j->frame->accuracy.volume_error_worst = own.volume_error_worst;
 }
 
+static const struct kd_plan_pass *pass_of(const struct kd_plan *plan, enum kd_pass_id id)
+{
+    for (size_t i = 0; i < plan->n_passes; i++)
+        if (!strcmp(plan->passes[i].name, kd_passes[id].name))
+            return &plan->passes[i];
+    return NULL;
+}
+
+/* As many rows as are traced and lit in the time that refining is planned to take. */
+static double rows_of_refining(const struct kd_frame_job *j, double rows)
+{
+    const struct kd_plan_pass *refine = pass_of(j->plan, KD_PASS_REFINE), *trace = pass_of(j->plan, KD_PASS_TRACE);
+    const struct kd_plan_pass *light = pass_of(j->plan, kd_plan_light_pass(j->plan));
+    const double ms = (trace ? trace->estimate_ms : 0) + (light ? light->estimate_ms : 0);
+    return refine && ms > 0 ? rows * refine->estimate_ms / ms : 0;
+}
+
 /* Pixels are chosen at the exposure that the picture would have now. */
 static enum kd_status refine(struct kd_frame_job *j)
 {
+    const struct kd_plan_pass *pass = pass_of(j->plan, KD_PASS_REFINE);
     enum kd_status status;
     KD_TRY(kd_frame_beam(j));
     KD_TRY(kd_frame_expose(j));
+    j->refine_rays = pass ? (double)pass->invocations : 0;
     KD_TRY(kd_frame_refine(j));
+    KD_TRY(kd_frame_report(j, j->refine_rows)); /* fewer rays than were planned have done */
+    j->refine_rays = j->refine_rows = 0;
 done:
     return status;
 }
@@ -116,7 +138,8 @@ static enum kd_status run(struct kd_frame_job *j)
     KD_TRY(make_kernels(j));
     KD_TRY(make_ready(j, &c, &reused));
     j->frame->lens_reused = reused;
-    j->weight = (double)j->plan->height * (!reused + 1 + !j->plan->unseen);
+    j->refine_rows = j->plan->adaptive ? rows_of_refining(j, j->plan->height * (!reused + 1.0)) : 0;
+    j->weight = (double)j->plan->height * (!reused + 1 + !j->plan->unseen) + j->refine_rows;
     KD_TRY(kd_prepare(j->r, j->prepared, j->scene, j->plan, &c, j->error));
     KD_TRY(kd_frame_light(j, reused));
     if (j->plan->adaptive)
@@ -198,5 +221,6 @@ enum kd_status kd_frame_run(struct kd_frame_job *job, struct kd_frame *out)
         return status;
     kd_frame_collect_timings(job, out, kd_clock_ms() - start - job->away_ms);
     kd_frame_learn(job, out);
+    kd_renderer_count(job->r);
     return KD_OK;
 }
