@@ -19,8 +19,10 @@ Fails, with exit code 1, where after a warm-up of a quarter of the time resident
 24 MiB), descriptors by more than 4 or threads by more than 2, each by the straight line through what was measured;
 where the device's memory is by more than a block of 64 MiB more in the last third than in the first; where an answer
 was not one of those; where a job that was taken did not end as it should, or ended twice, or its result is not whole to
-the last checksum; where anything half is left in the folder of what is kept. Writes
-bench/results/DATE-DEVICE-soak.{json,md}.
+the last checksum; where anything half is left in the folder of what is kept; where, without kills and faults, more than
+a minute after the last client more memory is resident than at the start and what /metrics names as kept
+(kerrd_kept_bytes), which may be 256 MiB, or the first picture then takes more of the processors than the first of all.
+Writes bench/results/DATE-DEVICE-soak.{json,md}.
 """
 
 import collections
@@ -106,19 +108,32 @@ class Server:
             }
         return None
 
-    def device_mib(self):
-        """What the server says that it holds of the device's memory; None where it does not answer."""
+    def processor_s(self):
+        fields = pathlib.Path(f"/proc/{self.process.pid}/stat").read_text().rsplit(")", 1)[1].split()
+        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")  # in user mode and in the kernel
+
+    def metrics(self):
+        """None where it does not answer."""
         connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=10)
         try:
             connection.request("GET", "/metrics")
-            found = re.search(
-                r"^kerrd_device_memory_bytes(?:{[^}]*})? (\S+)$", connection.getresponse().read().decode(), re.M
-            )
-            return float(found[1]) / 2**20 if found else None
+            return connection.getresponse().read().decode()
         except GONE:
             return None
         finally:
             connection.close()
+
+    def device_mib(self):
+        """What the server says that it holds of the device's memory; None where it does not answer."""
+        found = re.search(r"^kerrd_device_memory_bytes(?:{[^}]*})? (\S+)$", self.metrics() or "", re.M)
+        return float(found[1]) / 2**20 if found else None
+
+    def kept_mib(self):
+        """The ledger: kind -> MiB."""
+        return {
+            kind: round(float(value) / 2**20, 1)
+            for kind, value in re.findall(r'^kerrd_kept_bytes{kind="(\w+)"} (\S+)$', self.metrics() or "", re.M)
+        }
 
 
 def is_png(data):
@@ -397,6 +412,42 @@ def finish(world):
             time.sleep(0.2)
 
 
+FIRST_VIEW = {"image": {"width": 640, "height": 360}}
+KEPT_MIB = 256  # that may be kept when nobody asks for anything
+RESTS_S = 75  # by when memory that is not kept has been given back
+
+
+def first_view_s(world):
+    """Seconds of the server's processors, which do not depend on what else the machine does."""
+    begun = world.server.processor_s()
+    Client(world, 0).ask("POST", "/v1/render", FIRST_VIEW)
+    return round(world.server.processor_s() - begun, 2)
+
+
+def rest(world, start):
+    """What a server holds that has had nothing to do for more than a minute, what it names of that, and how long the
+    next picture takes."""
+    time.sleep(RESTS_S)
+    kept, now = world.server.kept_mib(), world.server.sample()
+    return {
+        "start_mib": start["rss_mib"],
+        "rest_mib": now["rss_mib"],
+        "kept_mib": kept,
+        "first_view_s": start["first_view_s"],
+        "next_view_s": first_view_s(world),
+    }
+
+
+def faults_of_rest(rested):
+    kept = sum(rested["kept_mib"].values())
+    if not rested["kept_mib"] or kept > KEPT_MIB:
+        yield f"{kept:.0f} MiB are kept, {rested['kept_mib']}"
+    if rested["rest_mib"] > rested["start_mib"] + kept:
+        yield f"{rested['rest_mib']:.0f} MiB are resident at rest, {rested['start_mib']:.0f} were at the start, and {kept:.0f} are kept"
+    if rested["next_view_s"] > 1.25 * rested["first_view_s"] + 0.2:
+        yield f"the next first view takes {rested['next_view_s']} s of the processors, the first one took {rested['first_view_s']}"
+
+
 def is_file_whole(path):
     try:
         return (
@@ -512,6 +563,7 @@ def main():
             )
         world = World(server, a.seed, a.kills, 1 / a.pace)
         device = json.loads(Client(world, 0).ask("GET", "/v1/device")[1])
+        start = {**server.sample(), "first_view_s": first_view_s(world)}
         clients = [Client(world, k) for k in range(a.clients)]
         for client in clients:
             client.start()
@@ -520,6 +572,7 @@ def main():
         for client in clients:
             client.join(300)
         finish(world)
+        rested = rest(world, start) if not a.kills and not a.faults and not tsan else None
         lost = [job for job, how in world.jobs.items() if how is None]
         code = server.stop()
         left = list(left_over(state, world.jobs))
@@ -538,6 +591,8 @@ def main():
         *[f"job {job}: {how}" for job, how in broken.items()],
     ]
     faults += left
+    if rested:
+        faults += faults_of_rest(rested)
     if growth:
         mean = sum(s["rss_mib"] for s in late) / len(late)
         allowed = {"rss_mib": max(24, 0.1 * mean), "device_mib": BLOCK_MIB, "descriptors": 4, "threads": 2}
@@ -558,6 +613,7 @@ def main():
         "injected": dict(harm.counts) if harm else {},
         "jobs": dict(collections.Counter(world.jobs.values())),
         "growth": growth,
+        "rest": rested,
         "samples": samples[:: max(len(samples) // 200, 1)],
         "faults": faults,
     }
@@ -576,6 +632,16 @@ def main():
                 ],
             )
             + "\n"
+        )
+    if rested:
+        ledger = [
+            ["resident at the start", f"{rested['start_mib']:.0f}"],
+            ["a minute after the last client", f"{rested['rest_mib']:.0f}"],
+            *[[f"of that kept: {kind}", f"{mib:.0f}"] for kind, mib in rested["kept_mib"].items()],
+        ]
+        text += (
+            measure.table(["memory", "MiB"], ledger)
+            + f"\nOf the processors the first view took {rested['first_view_s']} s, the next one after the rest {rested['next_view_s']} s.\n\n"
         )
     text += measure.table(["what", "how often"], [[name, str(n)] for name, n in sorted(world.counts.items())])
     if harm:

@@ -21,3 +21,10 @@ void kd_allocator_for_long(void)
     mallopt(M_TRIM_THRESHOLD, 2 * LARGE);
 #endif
 }
+
+void kd_allocator_trim(void)
+{
+#ifdef __GLIBC__
+    malloc_trim(0);
+#endif
+}

@@ -10,5 +10,8 @@
  * GiB. Nothing where the environment (MALLOC_ARENA_MAX, MALLOC_MMAP_THRESHOLD_, GLIBC_TUNABLES) says otherwise, or
  * the library is another one. At the start, before there are threads. */
 void kd_allocator_for_long(void);
+/* Gives free memory of all heaps back to the kernel: tens of milliseconds, for when there is nothing to do. Any
+ * thread. */
+void kd_allocator_trim(void);
 
 #endif

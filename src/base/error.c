@@ -66,6 +66,7 @@ const char *kd_status_name(enum kd_status status)
     case KD_EDEVICE: return "device failed";
     case KD_EBUSY: return "busy";
     case KD_EABSENT: return "not installed";
+    case KD_EINTERNAL: return "internal error";
     case KD_ECANCELLED: return "cancelled";
     }
     return "unknown status";

@@ -18,6 +18,7 @@ enum kd_status {
     KD_EDEVICE,    /* no usable device, or the device failed or missed its deadline */
     KD_EBUSY,      /* the queue is full                                             */
     KD_EABSENT,    /* a program that this takes is not installed                    */
+    KD_EINTERNAL,  /* a defect of kerrd itself: never the fault of whoever asked     */
     KD_ECANCELLED, /* the caller's progress callback asked to stop                  */
 };
 

@@ -144,6 +144,7 @@ static enum kd_status serve(const struct kd_settings *settings, struct kd_error 
         .client_jobs = kd_settings_number(settings, KD_SERVE_CLIENT_JOBS),
         .client_share = kd_settings_number(settings, KD_SERVE_CLIENT_SHARE),
         .client_device_s = kd_settings_number(settings, KD_SERVE_CLIENT_DEVICE_S),
+        .drain_s = kd_settings_number(settings, KD_SERVE_DRAIN),
         .cross_site = kd_settings_switch(settings, KD_SERVE_CROSS_SITE),
         .state = kd_settings_text(settings, KD_SERVE_STATE),
         .token_file = kd_settings_text(settings, KD_SERVE_TOKEN_FILE),
@@ -183,13 +184,13 @@ const struct argp *kd_cli_serve_argp(void)
     static const struct argp argp = {
         .options = table,
         .parser = parse,
-        .doc =
-            "Serve pictures over HTTP.\v"
-            "SIGTERM, SIGINT or SIGHUP: /readyz fails at once, running and queued renders finish, then the exit code "
-            "is 0. It is 3 when the device was lost for good, or hangs: start it again.\n"
-            "Each option may also stand in the environment, as KERRD_CLIENT_SHARE=50 for --client-share, and in the "
-            "file that --config names, as "
-            "{\"client-share\": 50}. A flag counts before the environment, and that before the file.",
+        .doc = "Serve pictures over HTTP.\v"
+               "SIGTERM, SIGINT or SIGHUP: /readyz fails at once, running and queued renders finish, at most for "
+               "--drain-seconds, "
+               "then the exit code is 0. It is 3 when the device was lost for good, or hangs: start it again.\n"
+               "Each option may also stand in the environment, as KERRD_CLIENT_SHARE=50 for --client-share, and in the "
+               "file that --config names, as "
+               "{\"client-share\": 50}. A flag counts before the environment, and that before the file.",
     };
     return &argp;
 }

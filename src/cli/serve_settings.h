@@ -38,6 +38,8 @@
     S(STATE, "state", 'S', "DIR", TEXT, 0, 0, NULL, ANYWHERE, \
       "keep jobs and their frames, and assets, there, so that they survive a restart") \
     S(MEMORY, "memory", 'M', "SIZE", BYTES, 0, 0, NULL, ANYWHERE, KD_CLI_MEMORY_DOC) \
+    S(DRAIN, "drain-seconds", 'g', "S", NUMBER, 1, 86400, "600", ANYWHERE, \
+      "after SIGTERM let what was accepted take so long, then end the rest with an answer that says so (default 600)") \
     S(UNTIL_EOF, "until-eof", 'E', "yes|no", SWITCH, 0, 0, "no", ANYWHERE, \
       "stop when standard input ends, as it does when the program that holds its other end is gone") \
     S(DEVICE, "device", 'd', "DEVICE", TEXT, 0, 0, "auto", ANYWHERE, KD_CLI_DEVICE_DOC) \

@@ -48,6 +48,41 @@ static bool cut_short(struct kd_server *server)
     return atomic_load(&server->abandon) || hangs(server) || kd_render_queue_lost(server->renders, NULL);
 }
 
+/* Requests that are computed for; each may be of several works. */
+static unsigned unfinished(struct kd_server *server)
+{
+    return kd_render_queue_unfinished(server->renders) + kd_turns_unfinished(server->rays) +
+           kd_turns_unfinished(server->turns) + kd_plays_unfinished(server->plays);
+}
+
+static void refuse(struct kd_server *server, double *since)
+{
+    const unsigned n = unfinished(server);
+    if (n && !cut_short(server))
+        kd_log(KD_LOG_WARN,
+               "stopping: %u accepted works are unfinished, about %.0f s of the device by their estimates; "
+               "what is left after %u s is ended (--drain-seconds)",
+               n, kd_render_queue_backlog_ms(server->renders) * 1e-3, server->drain_s);
+    enter(server, KD_REFUSING, since);
+}
+
+static void cancel_all(struct kd_server *server)
+{
+    kd_render_queue_cancel(server->renders);
+    kd_turns_cancel(server->rays);
+    kd_turns_cancel(server->turns);
+}
+
+/* The time that accepted work may take is over. */
+static void end_the_rest(struct kd_server *server)
+{
+    if (!atomic_load(&server->ended))
+        kd_log(KD_LOG_WARN, "stopping: %u works are not done after %u s and are ended", unfinished(server),
+               server->drain_s);
+    atomic_store(&server->ended, true);
+    cancel_all(server);
+}
+
 /* One look; *since is when the present phase began. True when all is done. */
 static bool step_down(struct kd_server *server, double *since)
 {
@@ -56,25 +91,23 @@ static bool step_down(struct kd_server *server, double *since)
     switch (atomic_load(&server->phase)) {
     case KD_SERVING:
         if (cut_short(server))
-            enter(server, KD_REFUSING, since);
+            refuse(server, since);
         *since = kd_clock_ms();
         return false;
     case KD_DRAINING:
         if (age >= server->drain_ms || cut_short(server))
-            enter(server, KD_REFUSING, since);
+            refuse(server, since);
         return false;
     case KD_REFUSING:
         kd_sessions_close(server->sessions);
         kd_plays_close(server->plays);
         kd_jobs_close(server->jobs);
         kd_thumbnails_cancel(server->thumbnails);
-        if (atomic_load(&server->abandon)) {
-            kd_render_queue_cancel(server->renders);
-            kd_turns_cancel(server->rays);
-            kd_turns_cancel(server->turns);
-        }
-        if (kd_render_queue_unfinished(server->renders) || kd_turns_unfinished(server->rays) ||
-            kd_turns_unfinished(server->turns) || kd_plays_unfinished(server->plays))
+        if (atomic_load(&server->abandon))
+            cancel_all(server);
+        else if (age + server->drain_ms >= 1e3 * server->drain_s && unfinished(server))
+            end_the_rest(server);
+        if (unfinished(server))
             return hangs(server) && age >= LAST_ANSWERS_MS;
         stop_listening(server);
         enter(server, KD_CLOSING, since);

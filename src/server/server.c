@@ -202,6 +202,7 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
 
     server->port = params->port;
     server->drain_ms = params->drain_ms == UINT_MAX ? 0 : or_default(params->drain_ms, 1000);
+    server->drain_s = or_default(params->drain_s, 600);
     server->longest_s = or_default(params->longest_s, 600);
     server->stop_fd = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
     server->connections =
@@ -231,6 +232,8 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
     const unsigned tasks = or_default(params->queue, 16);
     KD_TRY(make_assets(server, params, error));
     KD_TRY(start_renders(server, params, tasks, error));
+    if (params->rest_ms)
+        kd_render_queue_rest_after(server->renders, params->rest_ms);
     set_etag_tail(server);
     const struct kd_renderer_params renderer = renderer_params(server, params);
     KD_TRY(kd_thumbnails_create(server, &renderer, &server->thumbnails, error));

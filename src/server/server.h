@@ -34,11 +34,14 @@ struct kd_server_params {
     const char *token_file; /* who may use it, and how (http/access.h); NULL: everybody may do everything */
     const char *state;      /* a folder in which jobs and assets survive a restart; NULL: none */
     unsigned drain_ms;      /* how long it goes on serving after a stop request, with /readyz failing; default 1000 */
-    unsigned connections;   /* connections at once; one more is answered 503, but on the health routes; default 512 */
-    unsigned header_ms;     /* a request's header must be complete by then; default 10 000 */
-    unsigned body_ms;       /* and its body so long after that; default 30 000 */
-    unsigned longest_s;     /* a render estimated to take longer than this is refused with 422; default 600 */
-    unsigned reopenings;    /* of a device that fails, within ten minutes; default 3, UINT_MAX: none */
+    unsigned
+        drain_s; /* how long after a stop request accepted work may take; what is left then is cancelled. Default 600 */
+    unsigned rest_ms;     /* without anything to do before memory is given back; default 60 000 */
+    unsigned connections; /* connections at once; one more is answered 503, but on the health routes; default 512 */
+    unsigned header_ms;   /* a request's header must be complete by then; default 10 000 */
+    unsigned body_ms;     /* and its body so long after that; default 30 000 */
+    unsigned longest_s;   /* a render estimated to take longer than this is refused with 422; default 600 */
+    unsigned reopenings;  /* of a device that fails, within ten minutes; default 3, UINT_MAX: none */
     struct kd_renderer_params renderer;
 };
 

@@ -45,7 +45,7 @@ enum kd_status kd_vk_buffer_create(struct kd_vk *vk, uint64_t size, enum kd_vk_m
     if (!name)
         name = "unnamed";
     if (!size)
-        return kd_error_set(error, KD_EINVAL, "buffer '%s' has no bytes", name);
+        return kd_error_set(error, KD_EINTERNAL, "buffer '%s' has no bytes", name);
     /* The size is checked before vkCreateBuffer, which need not cope with any size. */
     if (size > vk->physical.info.max_allocation_bytes)
         return kd_error_set(error, KD_ENOMEM, "buffer '%s' of %.2f MiB: the device allocates at most %.2f MiB at once",

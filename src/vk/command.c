@@ -37,11 +37,11 @@ static enum kd_status check_kind(const struct kd_vk *vk, const char *pass, uint3
     uint64_t size = size_of(binding, kind), most = most_of(vk, kind);
     uint32_t texel = kd_vk_kind_info(kind)->texel_bytes;
     if (binding->write && kind != KD_VK_STORAGE)
-        return kd_error_set(error, KD_EINVAL, "%s: binding %u, '%s', is written, but is no storage buffer", pass, index,
-                            binding->buffer->name);
+        return kd_error_set(error, KD_EINTERNAL, "%s: binding %u, '%s', is written, but is no storage buffer", pass,
+                            index, binding->buffer->name);
     if (!size || (binding->size && size != binding->size))
-        return kd_error_set(error, KD_EINVAL, "%s: binding %u, '%s', must span whole texels of %u bytes", pass, index,
-                            binding->buffer->name, texel);
+        return kd_error_set(error, KD_EINTERNAL, "%s: binding %u, '%s', must span whole texels of %u bytes", pass,
+                            index, binding->buffer->name, texel);
     if (size > most)
         return kd_error_set(error, KD_ETOOBIG,
                             "%s: binding %u spans %" PRIu64 " bytes of '%s', this device binds at most %" PRIu64, pass,
@@ -53,10 +53,10 @@ static enum kd_status check_binding(const struct kd_vk *vk, const char *pass, ui
                                     const struct kd_vk_binding *binding, enum kd_vk_kind kind, struct kd_error *error)
 {
     if (!binding->buffer)
-        return kd_error_set(error, KD_EINVAL, "%s: binding %u has no buffer", pass, index);
+        return kd_error_set(error, KD_EINTERNAL, "%s: binding %u has no buffer", pass, index);
     if (binding->offset % KD_VK_ALIGNMENT || binding->offset >= binding->buffer->size ||
         !inside(binding->buffer, binding->offset, binding->size))
-        return kd_error_set(error, KD_EINVAL,
+        return kd_error_set(error, KD_EINTERNAL,
                             "%s: binding %u, bytes %" PRIu64 "+%" PRIu64 " of '%s' (%" PRIu64
                             " bytes), must lie inside it and begin at a multiple of %u",
                             pass, index, binding->offset, binding->size, binding->buffer->name, binding->buffer->size,
@@ -69,13 +69,13 @@ static enum kd_status check_dispatch(const struct kd_vk *vk, const struct kd_vk_
 {
     enum kd_status status = KD_OK;
     if (!dispatch->pipeline)
-        return kd_error_set(error, KD_EINVAL, "%s: a dispatch without a pipeline", pass);
+        return kd_error_set(error, KD_EINTERNAL, "%s: a dispatch without a pipeline", pass);
     for (int i = 0; i < 3; i++)
         if (dispatch->groups[i] > vk->physical.properties.limits.maxComputeWorkGroupCount[i])
             return kd_error_set(error, KD_ETOOBIG, "%s: %u groups along axis %d, this device takes at most %u", pass,
                                 dispatch->groups[i], i, vk->physical.properties.limits.maxComputeWorkGroupCount[i]);
     if (dispatch->pipeline->push_bytes && !dispatch->push)
-        return kd_error_set(error, KD_EINVAL, "%s: no push constants were given", pass);
+        return kd_error_set(error, KD_EINTERNAL, "%s: no push constants were given", pass);
     for (uint32_t i = 0; i < dispatch->pipeline->n_buffers && !status; i++)
         status = check_binding(vk, pass, i, &dispatch->bindings[i], dispatch->pipeline->kinds[i], error);
     return status;
@@ -168,12 +168,12 @@ enum kd_status kd_vk_copy(struct kd_vk *vk, const char *pass, struct kd_vk_buffe
     if (!pass)
         pass = "copy";
     if (!inside(to, to_offset, size) || !inside(from, from_offset, size))
-        return kd_error_set(error, KD_EINVAL,
+        return kd_error_set(error, KD_EINTERNAL,
                             "%s: %" PRIu64 " bytes from %" PRIu64 " of '%s' (%" PRIu64 ") to %" PRIu64
                             " of '%s' (%" PRIu64 ") reach outside",
                             pass, size, from_offset, from->name, from->size, to_offset, to->name, to->size);
     if (to == from && to_offset < from_offset + size && from_offset < to_offset + size)
-        return kd_error_set(error, KD_EINVAL, "%s: the two ranges of '%s' overlap", pass, to->name);
+        return kd_error_set(error, KD_EINTERNAL, "%s: the two ranges of '%s' overlap", pass, to->name);
     if (!size)
         return kd_vk_alive(vk, error);
     enum kd_status status = kd_vk_submit_slot(vk, &slot, error);
@@ -196,7 +196,7 @@ enum kd_status kd_vk_fill(struct kd_vk *vk, const char *pass, struct kd_vk_buffe
 {
     struct kd_vk_slot *slot;
     if (!inside(buffer, offset, size) || offset % 4 || size % 4)
-        return kd_error_set(error, KD_EINVAL,
+        return kd_error_set(error, KD_EINTERNAL,
                             "fill: bytes %" PRIu64 "+%" PRIu64 " of '%s' (%" PRIu64
                             " bytes) must lie inside it, in multiples of 4",
                             offset, size, buffer->name, buffer->size);

@@ -143,7 +143,7 @@ enum kd_status kd_vk_wait(struct kd_vk *vk, uint64_t ticket, struct kd_error *er
     if (status)
         return status;
     if (ticket > vk->submitted)
-        return kd_error_set(error, KD_EINVAL, "there is no submission %" PRIu64 ", the last was %" PRIu64, ticket,
+        return kd_error_set(error, KD_EINTERNAL, "there is no submission %" PRIu64 ", the last was %" PRIu64, ticket,
                             vk->submitted);
     if (!ticket)
         ticket = vk->submitted;

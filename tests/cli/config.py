@@ -36,6 +36,7 @@ GOOD = {
     "cors-origin": ("https://a.example,https://b.example", ["https://a.example", "https://b.example"]),
     "device-timeout": ("30", 30),
     "device-reopenings": ("0", 0),
+    "drain-seconds": ("30", 30),
 }
 BAD = {
     "port": ("65536", [65536, -1, 1.5, "9", True, None, 1e300]),
@@ -55,6 +56,7 @@ BAD = {
     "client-device-seconds": ("61", [0, 61]),
     "device-timeout": ("0", [0]),
     "device-reopenings": ("-1", ["3"]),
+    "drain-seconds": ("0", [0, "9"]),
     "state": (None, [False]),
 }
 

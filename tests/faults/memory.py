@@ -14,11 +14,11 @@ RING = {"spin": 0.5, "rays": [[5.0, 1.0], [2.0, -3.0]]}
 
 
 class Memory(sweep.Case):
-    def owned(self, kind):
+    def owned(self, kind, body=None):
         """Make one and end it; the answer to making it."""
 
         def ask():
-            answer = self.post(kind, {"scene": IMAGE} if kind == "/v1/jobs" else IMAGE)()
+            answer = self.post(kind, body or ({"scene": IMAGE} if kind == "/v1/jobs" else IMAGE))()
             self.faults.mend()
             if answer.status in (201, 202):
                 self.end_one(kind, answer.json())
@@ -78,6 +78,23 @@ class Memory(sweep.Case):
     def test_render(self):
         self.sweep(self.get("/v1/render?" + daemon.SMALL), 200, "GET /v1/render")
         self.sweep(self.post("/v1/render", IMAGE), 200, "POST /v1/render")
+
+    def test_a_pixel(self):
+        self.sweep(self.post("/v1/pixel?at=5,5", IMAGE), 200, "POST /v1/pixel")
+
+    def test_films_and_sweeps(self):
+        film = {
+            "scene": {**IMAGE, "style": {"exposure": 1}},
+            "keyframes": [{"frame": 3, "scene": {"camera": {"azimuth_deg": 60}}}],
+            "motion_blur": {"samples": 2, "shutter": 0.5},
+        }
+        grid = {"scene": IMAGE, "axes": {"camera.inclination_deg": [50, 60]}}
+        for name, body in (("of a film", film), ("of a sweep", grid)):
+            with self.subTest(name):
+                self.sweep(self.owned("/v1/jobs", body), 202, "POST /v1/jobs " + name)
+
+    def test_a_playground(self):
+        self.sweep(self.owned("/v1/playground", {"preset": "binary"}), 201, "POST /v1/playground")
 
     def test_rays_and_orbits(self):
         self.sweep(self.post("/v1/rays", RING), 200, "POST /v1/rays")

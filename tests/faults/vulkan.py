@@ -10,7 +10,7 @@ vulkan_first.py has the tests of the suite.
                    of the faults; of calls that name objects every eighth
     --whole NAME   a scenario for which --rotate does not count; may be repeated
     --minutes N    as many of the faults as that takes, drawn by chance
-    --only NAME    a scenario: start, render, session, job, rays, reopen, incoherent; may be repeated
+    --only NAME    a scenario: start, render, session, job, rays, mixed, reopen, incoherent; may be repeated
     --workers N    servers at once (default 2)
     --keep FILE    what was tried is noted there, a line each: the next run with this file goes on from it, and its
                    table has what both have found
@@ -270,6 +270,45 @@ def rays(server):
     ).body
 
 
+# Pictures of one view in several ways, which hand each other's lens maps on, and of others.
+REFINED = {"image": {**IMAGE, "samples": "auto"}, "disk": {"gas": {"amplitude": 0}}}
+SKY = {"image": IMAGE, "sky": {"model": "stars"}, "style": {"bloom": 0.3}, "camera": {"inclination_deg": 77}}
+
+
+def picture(server, scene):
+    return wanted(server.request("POST", "/v1/render", json.dumps(scene), timeout=PATIENCE_S)).body
+
+
+def job_of(server, scene):
+    return finish_job(
+        server,
+        wanted(server.request("POST", "/v1/jobs", json.dumps({"scenes": [scene]}), timeout=PATIENCE_S), (202,)).json(),
+    )
+
+
+def pixel(server):
+    told = wanted(server.request("POST", "/v1/pixel?at=20,12", json.dumps(REFINED), timeout=PATIENCE_S)).json()
+    return json.dumps({name: value for name, value in told.items() if name != "timings"}, sort_keys=True).encode()
+
+
+MIXED = {
+    "a picture": lambda server: picture(server, SCENE),
+    "a refined one": lambda server: picture(server, REFINED),
+    "a sky": lambda server: picture(server, SKY),
+    "a refined job": lambda server: job_of(server, REFINED),
+    "a session": session,
+    "rays": rays,
+    "a pixel": pixel,
+}
+
+
+def mixed(server):
+    """Two kinds of requests at a time; what each gave, in the order of the list."""
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        under_way = [pool.submit(kind, server) for kind in MIXED.values()]
+    return b"".join(one.result() for one in under_way)
+
+
 # at_start: the fault is in the start. loses: the device is lost besides. only: of these entry points.
 Scenario = collections.namedtuple(
     "Scenario", "run at_start loses incoherent only", defaults=(False, False, False, NAMES)
@@ -294,6 +333,7 @@ SCENARIOS = {
     "session": Scenario(session),
     "job": Scenario(job),
     "rays": Scenario(rays),
+    "mixed": Scenario(mixed),
     "reopen": Scenario(render, loses=True, only=OPENING),
     "incoherent": Scenario(render, incoherent=True, only=("FlushMappedMemoryRanges", "InvalidateMappedMemoryRanges")),
 }

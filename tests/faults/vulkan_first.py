@@ -10,18 +10,23 @@ import time
 import unittest
 
 from vulkan import (
+    DEVICE,
     ENTRIES,
     EXIT_DEVICE,
     HOST,
     LOST,
+    MIXED,
     PATIENCE_S,
     RENDER,
     Faults,
+    Refused,
     Server,
     begin_job,
     daemon,
     finish_job,
     job,
+    job_of,
+    picture,
     rays,
     reopened,
     session,
@@ -112,6 +117,30 @@ class Vulkan(Case):
                 wanted(server.get(RENDER + f"&camera.azimuth_deg={time.monotonic() % 300}"))
                 self.assertEqual(tuple(one.result() for one in under_way), calm)
         self.assertEqual(reopened(server), 2)
+        self.assertEqual(server.stop(), 0, server.said())
+
+    def test_each_kind_is_as_before_after_faults_under_mixed_load(self):
+        """Device memory that is short for one call, in the middle of two kinds of requests: nobody is told that it was
+        his fault, and afterwards each kind is as it was."""
+        server = self.start()
+        before = {name: kind(server) for name, kind in MIXED.items()}
+        reached = 0
+        for name, n in (("CreateBuffer", 0), ("CreateBuffer", 7), ("BindBufferMemory", 3), ("QueueSubmit", 2)):
+            # which takes buffers of its own
+            view = {
+                "image": {"width": 64 + 16 * n, "height": 36, "samples": "auto"},
+                "camera": {"inclination_deg": 50 + n},
+            }
+            self.faults.arm(name, n, DEVICE)
+            with concurrent.futures.ThreadPoolExecutor(2) as pool:
+                for one in [pool.submit(ask, server, view) for ask in (picture, job_of, picture)]:
+                    with contextlib.suppress(Refused):  # any other answer that is no success is Broken
+                        one.result()
+            reached += self.faults.get("injected")
+            self.faults.disarm()
+            for kind, ask in MIXED.items():
+                self.assertEqual(ask(server), before[kind], f"{kind}, after {name} {n}")
+        self.assertGreater(reached, 1)
         self.assertEqual(server.stop(), 0, server.said())
 
     def test_often(self):

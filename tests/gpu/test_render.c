@@ -5,6 +5,7 @@
 
 #include "render/device/internal.h"
 
+#include "render/device/rest.h"
 #include "render_support.h"
 
 #include <math.h>
@@ -374,6 +375,102 @@ static void test_asides(void **state)
     kd_renderer_destroy(o.r);
 }
 
+/* A lens map that another store has made is enough for all that a frame does: rays that refine it need more buffers
+ * than the map. */
+static void test_a_map_that_is_handed_over(void **state)
+{
+    (void)state;
+    const struct kd_capacity c = capacity();
+    struct kd_scene scene = small_scene();
+    struct kd_plan plan;
+    struct kd_frame here, aside, again;
+    struct kd_renderer *fresh;
+    scene.image.samples = 0; /* auto */
+    OK(kd_plan_make(&scene, &c, &plan, &error));
+    assert_true(plan.adaptive);
+    OK(kd_renderer_create(&(struct kd_renderer_params) { .device = "auto", .passing = true }, &fresh, &error));
+    OK(kd_render(fresh, &scene, &plan, NULL, NULL, &here, &error));
+    OK(kd_render_aside(fresh, &scene, &plan, NULL, NULL, NULL, &aside, &error));
+    assert_true(aside.lens_reused && aside.accuracy.followed > 0);
+    kd_store_hand_over(&fresh->asides[0].store, &fresh->store, &plan);
+    OK(kd_render(fresh, &scene, &plan, NULL, NULL, &again, &error));
+    assert_true(again.lens_reused);
+    kd_frame_finish(&again);
+    assert_same(&here, &aside);
+    kd_renderer_destroy(fresh);
+}
+
+static struct kd_frame rendered_by(struct kd_renderer *r, const struct kd_scene *scene)
+{
+    const struct kd_capacity c = capacity();
+    struct kd_plan plan;
+    struct kd_frame frame;
+    OK(kd_plan_make(scene, &c, &plan, &error));
+    OK(kd_render(r, scene, &plan, NULL, NULL, &frame, &error));
+    return frame;
+}
+
+/* Memory is given back when there is nothing to do. What is rendered afterwards is the same, and the latest view
+ * finds its lens map, unless too much is left that has no name: then the device is opened again. */
+static void test_rest(void **state)
+{
+    (void)state;
+    enum { VIEWS = 6, BLOCKS = 128 << 20 };
+    struct kd_scene scene = small_scene();
+    struct kd_renderer *fresh;
+    uint64_t kept[KD_N_KEPT_KINDS], sum = 0;
+    OK(kd_renderer_create(&(struct kd_renderer_params) { .device = "auto", .passing = true }, &fresh, &error));
+    scene.image.samples = 2;
+    scene.image.width = 1280;
+    scene.image.height = 720;
+    for (int i = 0; i < VIEWS; i++) {
+        scene.camera.inclination_deg = 33 + i;
+        struct kd_frame frame = rendered_by(fresh, &scene);
+        kd_frame_finish(&frame);
+    }
+    const uint64_t held = kd_renderer_held(fresh);
+    scene = small_scene();
+    scene.camera.inclination_deg = 41;
+    for (int often = 0; often < 2; often++) {
+        struct kd_frame before = rendered_by(fresh, &scene), after;
+        if (often)
+            fresh->opened_bytes = 0; /* as if all of this process, and a lot more, had come since */
+        OK(kd_renderer_rest(fresh, &error));
+        kd_renderer_kept(fresh, kept);
+        sum = 0;
+        for (int i = 0; i < KD_N_KEPT_KINDS; i++)
+            sum += kept[i];
+        print_message("%.0f MiB were held on the device, %.0f are, %.0f are kept in all, %.0f of them without a name\n",
+                      (double)held / 0x1p20, (double)kd_renderer_held(fresh) / 0x1p20, (double)sum / 0x1p20,
+                      (double)kept[KD_KEPT_OTHER] / 0x1p20);
+        assert_true(kd_renderer_held(fresh) < held &&
+                    kd_renderer_held(fresh) <= BLOCKS); /* each of the map's buffers may keep one */
+        if (!often)
+            assert_in_range(kept[KD_KEPT_LENS_MAPS], 1, KD_REST_MAPS_BYTES);
+        after = rendered_by(fresh, &scene);
+        assert_int_equal(after.lens_reused, kept[KD_KEPT_LENS_MAPS] > 0);
+        assert_same(&before, &after);
+    }
+    kd_renderer_destroy(fresh);
+}
+
+/* A defect of the program, here a buffer that is too small, is told as one, and the store begins anew. */
+static void test_a_defect_does_not_stay(void **state)
+{
+    (void)state;
+    const struct kd_capacity c = capacity();
+    struct kd_scene scene = small_scene();
+    struct kd_plan plan;
+    struct kd_frame before, after;
+    OK(kd_plan_make(&scene, &c, &plan, &error));
+    OK(kd_render(renderer, &scene, &plan, NULL, NULL, &before, &error));
+    kd_vk_buffer_destroy(renderer->vk, renderer->store.transfer);
+    OK(kd_vk_buffer_create(renderer->vk, 256, KD_VK_DEVICE, "too small", &renderer->store.transfer, &error));
+    FAILS(KD_EINTERNAL, "binding", kd_render(renderer, &scene, &plan, NULL, NULL, &after, &error));
+    OK(kd_render(renderer, &scene, &plan, NULL, NULL, &after, &error));
+    assert_same(&before, &after);
+}
+
 /* Particles that are deposited for another picture between the slices are not those of this one. */
 static void test_asides_with_particles(void **state)
 {
@@ -503,12 +600,21 @@ int main(void)
     if (status)
         return status;
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_reuse),    cmocka_unit_test(test_the_curve_is_followed_once),
-        cmocka_unit_test(test_bands),    cmocka_unit_test(test_slices),
-        cmocka_unit_test(test_sizes),    cmocka_unit_test(test_extremes),
-        cmocka_unit_test(test_progress), cmocka_unit_test(test_glances),
-        cmocka_unit_test(test_asides),   cmocka_unit_test(test_asides_with_particles),
-        cmocka_unit_test(test_too_big),  cmocka_unit_test(test_audit),
+        cmocka_unit_test(test_reuse),
+        cmocka_unit_test(test_the_curve_is_followed_once),
+        cmocka_unit_test(test_bands),
+        cmocka_unit_test(test_slices),
+        cmocka_unit_test(test_sizes),
+        cmocka_unit_test(test_extremes),
+        cmocka_unit_test(test_progress),
+        cmocka_unit_test(test_glances),
+        cmocka_unit_test(test_asides),
+        cmocka_unit_test(test_a_map_that_is_handed_over),
+        cmocka_unit_test(test_a_defect_does_not_stay),
+        cmocka_unit_test(test_rest),
+        cmocka_unit_test(test_asides_with_particles),
+        cmocka_unit_test(test_too_big),
+        cmocka_unit_test(test_audit),
         cmocka_unit_test(test_plan),
     };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));

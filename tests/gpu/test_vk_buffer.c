@@ -48,7 +48,7 @@ static void oversized(void **state)
     struct kd_vk *vk = *state;
     struct kd_vk_buffer *none, *part[64];
     size_t n = 0;
-    FAILS(KD_EINVAL, "no bytes", kd_vk_buffer_create(vk, 0, KD_VK_DEVICE, "empty", &none, &error));
+    FAILS(KD_EINTERNAL, "no bytes", kd_vk_buffer_create(vk, 0, KD_VK_DEVICE, "empty", &none, &error));
     FAILS(KD_ENOMEM, "'huge'", kd_vk_buffer_create(vk, UINT64_MAX, KD_VK_DEVICE, "huge", &none, &error));
     FAILS(KD_ENOMEM, "MiB", kd_vk_buffer_create(vk, UINT64_C(1) << 50, KD_VK_READBACK, "huge", &none, &error));
     assert_null(none);

@@ -171,22 +171,22 @@ static void refused(void **state)
     struct kd_vk_dispatch bad;
     for (int k = 0; k < 3; k++) {
         bad = good, bad.bindings[k].write = true;
-        FAILS(KD_EINVAL, "is no storage buffer", kd_vk_dispatch(vk, &bad, &error));
+        FAILS(KD_EINTERNAL, "is no storage buffer", kd_vk_dispatch(vk, &bad, &error));
     }
     bad = good, bad.bindings[1].size = 7;
-    FAILS(KD_EINVAL, "whole texels of 4 bytes", kd_vk_dispatch(vk, &bad, &error));
+    FAILS(KD_EINTERNAL, "whole texels of 4 bytes", kd_vk_dispatch(vk, &bad, &error));
     bad = good, bad.bindings[5].size = 12;
-    FAILS(KD_EINVAL, "whole texels of 8 bytes", kd_vk_dispatch(vk, &bad, &error));
+    FAILS(KD_EINTERNAL, "whole texels of 8 bytes", kd_vk_dispatch(vk, &bad, &error));
     bad = good, bad.bindings[2].size = 40;
-    FAILS(KD_EINVAL, "whole texels of 16 bytes", kd_vk_dispatch(vk, &bad, &error));
+    FAILS(KD_EINTERNAL, "whole texels of 16 bytes", kd_vk_dispatch(vk, &bad, &error));
     bad = good, bad.bindings[2].offset = 16;
-    FAILS(KD_EINVAL, "multiple of 256", kd_vk_dispatch(vk, &bad, &error));
+    FAILS(KD_EINTERNAL, "multiple of 256", kd_vk_dispatch(vk, &bad, &error));
     struct kd_vk_buffer *crumb = make_buffer(vk, 3, KD_VK_DEVICE, "crumb");
     bad = good, bad.bindings[2].buffer = crumb;
-    FAILS(KD_EINVAL, "whole texels of 16 bytes", kd_vk_dispatch(vk, &bad, &error)); /* there is not one */
+    FAILS(KD_EINTERNAL, "whole texels of 16 bytes", kd_vk_dispatch(vk, &bad, &error)); /* there is not one */
     struct kd_vk_pipeline_params params = KINDS_PARAMS;
     params.kinds[1] = (enum kd_vk_kind)6;
-    FAILS(KD_EINVAL, "binding 1 is of kind 6", kd_vk_pipeline_create(vk, &params, &none, &error));
+    FAILS(KD_EINTERNAL, "binding 1 is of kind 6", kd_vk_pipeline_create(vk, &params, &none, &error));
     kd_vk_buffer_destroy(vk, crumb);
     drop(vk, &set);
     kd_vk_pipeline_destroy(vk, pipeline);

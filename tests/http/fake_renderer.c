@@ -10,6 +10,7 @@
  * rendered meanwhile; it fails after a minute without them. */
 #include "base/clock.h"
 #include "render/device/accuracy_store.h"
+#include "render/device/rest.h"
 #include "render/rays/device.h"
 #include "render/frame/frame.h"
 #include "render/frame/tell.h"
@@ -119,6 +120,24 @@ const char *kd_renderer_driver(const struct kd_renderer *renderer)
 {
     (void)renderer;
     return "a \"driver\" \\ of no device";
+}
+
+/* Each rest is told as one byte more of kernels. */
+static _Atomic unsigned rests;
+
+enum kd_status kd_renderer_rest(struct kd_renderer *renderer, struct kd_error *error)
+{
+    (void)renderer, (void)error;
+    atomic_fetch_add(&rests, 1);
+    return KD_OK;
+}
+
+void kd_renderer_kept(const struct kd_renderer *renderer, uint64_t out[KD_N_KEPT_KINDS])
+{
+    (void)renderer;
+    for (size_t i = 0; i < KD_N_KEPT_KINDS; i++)
+        out[i] = 0;
+    out[KD_KEPT_KERNELS] = atomic_load(&rests);
 }
 
 uint64_t kd_renderer_held(const struct kd_renderer *renderer)
@@ -246,8 +265,15 @@ enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *sc
                             .told = tell(plan),
                             .exposure = isinf(scene->style.exposure) ? kd_plan_exposure(plan, renderer->bright ? -1 : 1)
                                                                      : scene->style.exposure };
-    if (kd_frame_add_layer(out, "rgb", 3, scene->image.bit_depth > 8 ? KD_LAYER_U16 : KD_LAYER_U8, error))
+    if (plan->told.on &&
+        (!out->told || !out->told->each || (plan->told.steps && (!out->told->steps || !out->told->steps->steps)))) {
+        kd_frame_finish(out);
+        return kd_error_set(error, KD_ENOMEM, "out of memory for what is told of a pixel");
+    }
+    if (kd_frame_add_layer(out, "rgb", 3, scene->image.bit_depth > 8 ? KD_LAYER_U16 : KD_LAYER_U8, error)) {
+        kd_frame_finish(out);
         return KD_ENOMEM;
+    }
     size_t size = (size_t)plan->width * plan->height * kd_layer_pixel_bytes(&out->layers[0]);
     renderer->bright = !renderer->bright;
     uint32_t noise = 1;

@@ -38,6 +38,8 @@ static int set(struct kd_server_params *params, const char *hosts[2], const char
         { "--assets-kib", &params->assets_kib },
         { "--asset-keep-s", &params->asset_keep_s },
         { "--drain-ms", &params->drain_ms },
+        { "--drain-s", &params->drain_s },
+        { "--rest-ms", &params->rest_ms },
         { "--header-ms", &params->header_ms },
         { "--body-ms", &params->body_ms },
         { "--connections", &params->connections },

@@ -329,6 +329,21 @@ class Jobs(Case):
         last = [s["remaining_s"] for s in seen if s["finished"] == 3 and s["remaining_s"] is not None]
         self.assertTrue(last and all(0 <= s < 3 for s in last), last)
 
+    def test_what_is_left_is_measured(self):
+        """Of a frame that takes a thousand times what its plan says, too: the fake renderer's does."""
+        begun, seen = time.monotonic(), []
+        job = self.make({"scene": {**SCENE, "time": 2000}})
+        while not seen or seen[-1][0]["state"] in ("waiting", "running"):
+            seen.append((self.status(job), time.monotonic() - begun))
+            time.sleep(0.05)
+        told = [
+            (s["remaining_s"], passed * (1 - s["fraction"]) / s["fraction"])
+            for s, passed in seen
+            if 0.1 < s["fraction"] < 0.9
+        ]
+        self.assertGreater(len(told), 3)
+        self.assertTrue(all(0.5 * left < said < 1.5 * left for said, left in told), told)
+
     def test_events(self):
         job = self.make({"scenes": [{**SCENE, "time": 200}] * 3})
         with self.stream(job, "/events") as s:

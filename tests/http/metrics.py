@@ -162,6 +162,20 @@ class Metrics(daemon.Case):
         self.assertEqual(value["kerrd_device_memory_bytes"], 12345678)
         self.assertEqual(value["kerrd_device_lost"], 0)
 
+    def test_what_is_kept_after_a_rest(self):
+        """Once after each time that something was asked for; the fake renderer counts that as bytes of kernels."""
+        server = daemon.Daemon("--rest-ms", 200)
+        self.addCleanup(server.stop)
+
+        def rests():
+            kept = {sample.labels["kind"]: sample.value for sample in families(server)["kerrd_kept_bytes"].samples}
+            self.assertEqual(set(kept), {"lens_maps", "buffers", "kernels", "panoramas", "other"})
+            return kept["kernels"]
+
+        self.assertTrue(daemon.eventually(lambda: rests() == 1))
+        self.assertEqual(server.get("/v1/render?" + daemon.SMALL).status, 200)
+        self.assertTrue(daemon.eventually(lambda: rests() == 2))
+
     @daemon.unittest.skipUnless(PROMTOOL, "promtool is not here; scripts/setup --monitoring installs it")
     def test_promtool_takes_them(self):
         done = subprocess.run(

@@ -1,6 +1,7 @@
 """SIGTERM under load, a lost device, and starts that fail."""
 
 import subprocess
+import tempfile
 import threading
 import time
 import unittest
@@ -38,6 +39,36 @@ class Stop(unittest.TestCase):
         self.assertEqual(server.get("/healthz").status, 200)
         self.assertEqual([a().status for a in (running, queued, late)], [200, 200, 200])
         self.assertEqual(server.wait(10), 0)
+
+    def test_the_rest_is_ended(self):
+        """What takes longer than a server waits has an answer, each kind of work, and the log says how long it
+        waits."""
+        with tempfile.TemporaryFile("w+") as log:
+            server = daemon.Daemon("--drain-ms", 50, "--drain-s", 1, stderr=log)
+            rays = {
+                "spin": 0.9,
+                "accuracy": {"engine": "mino-rkn6", "steps": 12},
+                "rays": [[4 + 0.001 * i, 5] for i in range(40000)],
+            }
+            asked = [
+                in_background(server.get, RENDER + "&time=60000"),
+                in_background(server.get, RENDER + "&time=50000&image.samples=2"),
+                in_background(server.post, "/v1/rays", rays),
+            ]
+            self.assertTrue(daemon.eventually(lambda: server.metrics()["kerrd_renders_unfinished"] == 3))
+            begun = time.monotonic()
+            server.terminate()
+            for answer in asked:
+                told = answer()
+                self.assertEqual((told.status, told.json()["type"]), (503, "urn:kerrd:problem:stopping"))
+                self.assertTrue(told.header("Retry-After"))
+                self.assertIn("before this was done", told.json()["detail"])
+            self.assertEqual(server.wait(30), 0)
+            self.assertGreater(time.monotonic() - begun, 0.9)
+            log.seek(0)
+            said = log.read()
+        self.assertRegex(said, r"stopping: \d accepted works are unfinished.* after 1 s is ended \(--drain-seconds\)")
+        self.assertIn("are not done after 1 s and are ended", said)
 
     def test_idle(self):
         server = daemon.Daemon("--drain-ms", 100)

@@ -112,15 +112,44 @@ static void shares_are_by_client(void **state)
 static void classes_of_a_client(void **state)
 {
     (void)state;
-    static const double weight[KD_N_CLASSES] = { 8, 4, 4, 2, 1 };
+    static const double weight[KD_N_CLASSES] = { 64, 8, 4, 4, 2, 0.5, 0.5 };
     static struct bench b;
     memset(&b, 0, sizeof b);
     struct work *w[KD_N_CLASSES];
     for (unsigned i = 0; i < KD_N_CLASSES; i++)
         w[i] = come(&b, "one", i, 1e9);
-    run(&b, 190000);
+    run(&b, 830000);
     for (unsigned i = 0; i < KD_N_CLASSES; i++)
         assert_true(fabs(w[i]->served - 10000 * weight[i]) <= 8 * SLICE);
+}
+
+/* Who points at a pixel has it after the slice that is under way, whatever else the same client has asked for. */
+static void a_pixel_is_next(void **state)
+{
+    (void)state;
+    static struct bench b;
+    memset(&b, 0, sizeof b);
+    come(&b, "one", KD_CLASS_PICTURE, 1e9);
+    come(&b, "one", KD_CLASS_JOB, 1e9);
+    come(&b, "one", KD_CLASS_LIVE, 1e9);
+    for (int i = 0; i < 20; i++) {
+        run(&b, b.now + 700);
+        struct work *pixel = come(&b, "one", KD_CLASS_PIXEL, 80);
+        assert_ptr_equal(turn(&b), pixel);
+        assert_false(pixel->here);
+    }
+}
+
+/* A film that a client has asked for has four fifths of the time beside a view of the same client that goes on by
+ * itself. */
+static void a_film_beside_an_idle_view(void **state)
+{
+    (void)state;
+    static struct bench b;
+    memset(&b, 0, sizeof b);
+    struct work *film = come(&b, "one", KD_CLASS_JOB, 1e9), *view = come(&b, "one", KD_CLASS_IDLE, 1e9);
+    run(&b, 100000);
+    assert_true(film->served >= 79000 && view->served >= 19000);
 }
 
 /* Two living sessions that want all there is: a picture of the same client has its turn, and they go on. */
@@ -249,6 +278,8 @@ int main(void)
         cmocka_unit_test(a_small_one_beside_any_load),
         cmocka_unit_test(shares_are_by_client),
         cmocka_unit_test(classes_of_a_client),
+        cmocka_unit_test(a_pixel_is_next),
+        cmocka_unit_test(a_film_beside_an_idle_view),
         cmocka_unit_test(a_picture_beside_living_sessions),
         cmocka_unit_test(short_first),
         cmocka_unit_test(no_savings_and_no_debts),

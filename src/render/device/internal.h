@@ -9,6 +9,7 @@
 #include "render/device/panoramas.h"
 #include "render/device/prepare.h"
 #include "render/device/renderer.h"
+#include "render/device/rest.h"
 #include "render/device/skies.h"
 #include "render/device/store.h"
 #include "render/emit/emitter.h"
@@ -54,7 +55,9 @@ struct kd_renderer {
     pthread_mutex_t lock;        /* guards capacity and memory */
     struct kd_capacity capacity; /* but for what the host leaves, which kd_renderer_capacity sees to */
     struct kd_memory_watch memory;
-    _Atomic uint64_t held;              /* bytes of device buffers, as of the last frame */
+    _Atomic uint64_t held; /* bytes of device buffers, as of the last frame */
+    _Atomic uint64_t kept_bytes[KD_N_KEPT_KINDS];
+    uint64_t opened_bytes;              /* resident when the device had been opened */
     struct kd_accuracy_table *accuracy; /* of this device, as on disk when the renderer was made; NULL: none */
     struct kd_verdict verdict;
     struct kd_capacity kept; /* as it is in the file */

@@ -445,6 +445,30 @@ bool kd_kernels_cells_as_texels(const struct kd_vk *vk, const struct kd_bloom *b
     return !bloom->levels || kd_bloom_most(bloom) <= kd_vk_info(vk)->max_texels;
 }
 
+void kd_kernels_rest(struct kd_kernels *kernels, struct kd_vk *vk, size_t n)
+{
+    for (;;) {
+        struct kd_kernel_entry *oldest = NULL;
+        size_t there = 0;
+        for (struct kd_kernel_entry *e = kernels->entries; e < kernels->entries + KD_KERNELS_KEPT; e++) {
+            there += e->pipeline != NULL;
+            oldest = e->pipeline && (!oldest || e->used < oldest->used) ? e : oldest;
+        }
+        if (there <= n)
+            return;
+        kd_vk_pipeline_destroy(vk, oldest->pipeline);
+        *oldest = (struct kd_kernel_entry) { 0 };
+    }
+}
+
+uint64_t kd_kernels_spirv_bytes(const struct kd_kernels *kernels)
+{
+    uint64_t sum = 0;
+    for (const struct kd_kernel_entry *e = kernels->entries; e < kernels->entries + KD_KERNELS_KEPT; e++)
+        sum += e->pipeline ? e->source->spirv_bytes : 0;
+    return sum;
+}
+
 void kd_kernels_finish(struct kd_kernels *kernels, struct kd_vk *vk)
 {
     for (size_t i = 0; i < KD_KERNELS_KEPT; i++)

@@ -113,6 +113,9 @@ static inline enum kd_kernel kd_kernel_post(bool texels, bool bloom, bool heat)
                     : KD_KERNEL_POST) +
            (texels ? 1 : 0);
 }
+/* Keeps the n that were used last. */
+void kd_kernels_rest(struct kd_kernels *kernels, struct kd_vk *vk, size_t n);
+uint64_t kd_kernels_spirv_bytes(const struct kd_kernels *kernels); /* of those that are kept */
 void kd_kernels_finish(struct kd_kernels *kernels, struct kd_vk *vk);
 
 #endif

@@ -281,6 +281,35 @@ void kd_panoramas_stop(struct kd_panoramas *all)
     pthread_mutex_unlock(&all->lock);
 }
 
+void kd_panoramas_rest(struct kd_panoramas *all, unsigned n)
+{
+    pthread_mutex_lock(&all->lock);
+    while (!all->runs && !all->n_asked) {
+        struct kd_panorama *oldest = NULL;
+        unsigned there = 0;
+        for (struct kd_panorama *p = all->at; p < all->at + KD_PANORAMAS; p++) {
+            there += p->words != NULL;
+            oldest = p->words && (!oldest || p->used < oldest->used) ? p : oldest;
+        }
+        if (there <= n)
+            break;
+        free(oldest->words);
+        *oldest = (struct kd_panorama) { 0 };
+        all->given = all->given == oldest ? NULL : all->given;
+    }
+    pthread_mutex_unlock(&all->lock);
+}
+
+uint64_t kd_panoramas_bytes(struct kd_panoramas *all)
+{
+    uint64_t sum = 0;
+    pthread_mutex_lock(&all->lock);
+    for (const struct kd_panorama *p = all->at; p < all->at + KD_PANORAMAS; p++)
+        sum += p->words ? sizeof *p->words * kd_panorama_words(p->columns, p->rows) : 0;
+    pthread_mutex_unlock(&all->lock);
+    return sum;
+}
+
 void kd_panoramas_finish(struct kd_panoramas *all)
 {
     kd_panoramas_stop(all);

@@ -67,6 +67,9 @@ enum kd_status kd_panorama_of(struct kd_panoramas *panoramas, const struct kd_sc
 /* Waits for the one that is being made, and forgets those that are asked for: nobody is called any more, unless
  * another is begun. */
 void kd_panoramas_stop(struct kd_panoramas *panoramas);
+/* Gives up all but the n that were asked for last, unless one is being made. Render thread only: nobody uses one. */
+void kd_panoramas_rest(struct kd_panoramas *panoramas, unsigned n);
+uint64_t kd_panoramas_bytes(struct kd_panoramas *panoramas); /* of their pixels. Any thread */
 void kd_panoramas_finish(struct kd_panoramas *panoramas);
 
 #endif

@@ -145,6 +145,7 @@ enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struc
         kd_renderer_destroy(r);
         return status;
     }
+    kd_renderer_begin_count(r);
     *out = r;
     return KD_OK;
 }

@@ -115,8 +115,16 @@ static enum kd_status make_star_light(struct kd_store *store, const struct kd_pl
     return bands_init(light, store->vk, plan->bands, kd_plan_star_bytes(plan), "light of stars", error);
 }
 
-enum kd_status kd_store_lens_map(struct kd_store *store, const struct kd_plan *plan, struct kd_lens_map **out,
-                                 bool *reused, struct kd_error *error)
+/* *buffer (NULL: none yet) is made once, and stays. */
+static enum kd_status once(struct kd_vk *vk, struct kd_vk_buffer **buffer, uint64_t size, enum kd_vk_memory memory,
+                           const char *name, struct kd_error *error)
+{
+    return *buffer ? KD_OK : kd_vk_buffer_create(vk, size, memory, name, buffer, error);
+}
+
+/* kd_store_lens_map, but for what rays need beside their map. */
+static enum kd_status find_or_make(struct kd_store *store, const struct kd_plan *plan, struct kd_lens_map **out,
+                                   bool *reused, struct kd_error *error)
 {
     struct kd_lens_map *oldest = &store->maps[0];
     uint64_t bytes = lens_band_bytes(plan);
@@ -146,10 +154,16 @@ enum kd_status kd_store_lens_map(struct kd_store *store, const struct kd_plan *p
     if (!plan->points)
         bands_finish(&oldest->star_light, store->vk);
     KD_TRY(make_star_light(store, plan, oldest, error));
-    if (!store->undecided)
-        KD_TRY(kd_vk_buffer_create(store->vk, 16, KD_VK_DEVICE, "undecided rays", &store->undecided, error));
 done:
     return status;
+}
+
+enum kd_status kd_store_lens_map(struct kd_store *store, const struct kd_plan *plan, struct kd_lens_map **out,
+                                 bool *reused, struct kd_error *error)
+{
+    /* A map that is found may have come from another store, and rays are followed beside it (refine.c). */
+    enum kd_status status = once(store->vk, &store->undecided, 16, KD_VK_DEVICE, "undecided rays", error);
+    return status ? status : find_or_make(store, plan, out, reused, error);
 }
 
 void kd_store_commit(struct kd_store *store, struct kd_lens_map *map, const struct kd_plan *plan)
@@ -182,13 +196,6 @@ enum kd_status kd_store_at_least(struct kd_vk *vk, struct kd_vk_buffer **buffer,
     kd_vk_buffer_destroy(vk, *buffer);
     *buffer = NULL;
     return kd_vk_buffer_create(vk, size, memory, name, buffer, error);
-}
-
-/* *buffer (NULL: none yet) is made once, and stays. */
-static enum kd_status once(struct kd_vk *vk, struct kd_vk_buffer **buffer, uint64_t size, enum kd_vk_memory memory,
-                           const char *name, struct kd_error *error)
-{
-    return *buffer ? KD_OK : kd_vk_buffer_create(vk, size, memory, name, buffer, error);
 }
 
 /* What all pictures need, whatever their size. */
@@ -315,12 +322,18 @@ void kd_store_give_up(struct kd_store *store)
         forget_stars(&store->maps[i]);
 }
 
-uint64_t kd_store_bytes(const struct kd_store *store)
+uint64_t kd_store_map_bytes(const struct kd_store *store)
 {
-    uint64_t sum = bytes_of_bands(&store->radiance) + bytes_of_bands(&store->layers) + bytes_of(store->words) +
-                   bytes_of(store->readback) + bytes_of(store->transfer);
+    uint64_t sum = 0;
     for (int i = 0; i < KD_LENS_MAPS_KEPT; i++)
         sum += bytes_of_map(&store->maps[i]);
+    return sum;
+}
+
+uint64_t kd_store_bytes(const struct kd_store *store)
+{
+    uint64_t sum = kd_store_map_bytes(store) + bytes_of_bands(&store->radiance) + bytes_of_bands(&store->layers);
+    sum += bytes_of(store->words) + bytes_of(store->readback) + bytes_of(store->transfer) + bytes_of(store->staging);
     sum += bytes_of_bands(&store->beamed) + bytes_of(store->beam_lines) + bytes_of(store->beam_grids) +
            bytes_of(store->palette);
     sum += bytes_of(store->star_pairs) + bytes_of(store->star_rays);
@@ -334,10 +347,40 @@ void kd_store_empty(struct kd_store *store)
     *store = (struct kd_store) { .vk = store->vk, .memory_bytes = store->memory_bytes };
 }
 
+/* Those that were used last, as far as they fit. */
+static void keep_maps(struct kd_store *store, uint64_t bytes)
+{
+    for (;;) {
+        struct kd_lens_map *oldest = NULL;
+        for (struct kd_lens_map *m = store->maps; m < store->maps + KD_LENS_MAPS_KEPT; m++)
+            oldest = m->bands.count && (!oldest || m->used < oldest->used) ? m : oldest;
+        if (!oldest || kd_store_map_bytes(store) <= bytes)
+            return;
+        map_finish(oldest, store->vk);
+    }
+}
+
+static void finish_frame(struct kd_store *store);
+
+void kd_store_rest(struct kd_store *store, uint64_t bytes)
+{
+    struct kd_store rested = { .vk = store->vk, .memory_bytes = store->memory_bytes, .clock = store->clock };
+    keep_maps(store, bytes);
+    finish_frame(store);
+    memcpy(rested.maps, store->maps, sizeof rested.maps);
+    *store = rested;
+}
+
 void kd_store_finish(struct kd_store *store)
 {
     for (int i = 0; i < KD_LENS_MAPS_KEPT; i++)
         map_finish(&store->maps[i], store->vk);
+    finish_frame(store);
+}
+
+/* All but the lens maps. */
+static void finish_frame(struct kd_store *store)
+{
     bands_finish(&store->radiance, store->vk);
     bands_finish(&store->layers, store->vk);
     bands_finish(&store->beamed, store->vk);

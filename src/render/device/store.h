@@ -99,6 +99,10 @@ enum kd_status kd_store_send_cameras(struct kd_store *store, const struct kd_cam
 void kd_store_give_up(struct kd_store *store);
 /* Counts the bytes that it holds of the device's memory, about. */
 uint64_t kd_store_bytes(const struct kd_store *store);
+/* Of that, what its lens maps take. */
+uint64_t kd_store_map_bytes(const struct kd_store *store);
+/* Keeps the latest lens maps, up to so many bytes, and nothing else. */
+void kd_store_rest(struct kd_store *store, uint64_t bytes);
 /* Says whether kd_store_lens_map would find the plan's lens map. */
 bool kd_store_has(const struct kd_store *store, const struct kd_plan *plan);
 /* The plan's lens map, if `from` has it, becomes one of `to`. */

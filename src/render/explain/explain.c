@@ -151,7 +151,7 @@ enum kd_status kd_explain(const struct kd_picture *picture, struct kd_explained 
     enum kd_status status;
     *x = (struct kd_explained) { 0 };
     if (!picture->frame->told)
-        return kd_error_set(error, KD_EINVAL, "the frame tells of no pixel");
+        return kd_error_set(error, KD_EINTERNAL, "the frame tells of no pixel");
     KD_TRY(explain(picture, &picture->frame->told->middle, x, error));
     KD_TRY(kd_ray_path_draw(&x->motion, &x->frame, x->crossings, x->end.n_crossings, &x->path, error));
 done:

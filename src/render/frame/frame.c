@@ -3,10 +3,12 @@
 
 #include "render/lens/audit.h"
 #include "base/clock.h"
+#include "base/log.h"
 #include "render/device/prepare.h"
 #include "render/frame/lens.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 /* Buffers for all of it, and what the kernels of light read. */
 static enum kd_status make_ready(struct kd_frame_job *j, const struct kd_capacity *c, bool *reused)
@@ -94,13 +96,34 @@ static void report_accuracy(struct kd_frame_job *j)
     j->frame->accuracy.volume_error_worst = own.volume_error_worst;
 }
 
+static const struct kd_plan_pass *pass_of(const struct kd_plan *plan, enum kd_pass_id id)
+{
+    for (size_t i = 0; i < plan->n_passes; i++)
+        if (!strcmp(plan->passes[i].name, kd_passes[id].name))
+            return &plan->passes[i];
+    return NULL;
+}
+
+/* As many rows as are traced and lit in the time that refining is planned to take. */
+static double rows_of_refining(const struct kd_frame_job *j, double rows)
+{
+    const struct kd_plan_pass *refine = pass_of(j->plan, KD_PASS_REFINE), *trace = pass_of(j->plan, KD_PASS_TRACE);
+    const struct kd_plan_pass *light = pass_of(j->plan, kd_plan_light_pass(j->plan));
+    const double ms = (trace ? trace->estimate_ms : 0) + (light ? light->estimate_ms : 0);
+    return refine && ms > 0 ? rows * refine->estimate_ms / ms : 0;
+}
+
 /* Pixels are chosen at the exposure that the picture would have now. */
 static enum kd_status refine(struct kd_frame_job *j)
 {
+    const struct kd_plan_pass *pass = pass_of(j->plan, KD_PASS_REFINE);
     enum kd_status status;
     KD_TRY(kd_frame_beam(j));
     KD_TRY(kd_frame_expose(j));
+    j->refine_rays = pass ? (double)pass->invocations : 0;
     KD_TRY(kd_frame_refine(j));
+    KD_TRY(kd_frame_report(j, j->refine_rows)); /* fewer rays than were planned have done */
+    j->refine_rays = j->refine_rows = 0;
 done:
     return status;
 }
@@ -115,7 +138,8 @@ static enum kd_status run(struct kd_frame_job *j)
     KD_TRY(make_kernels(j));
     KD_TRY(make_ready(j, &c, &reused));
     j->frame->lens_reused = reused;
-    j->weight = (double)j->plan->height * (!reused + 1 + !j->plan->unseen);
+    j->refine_rows = j->plan->adaptive ? rows_of_refining(j, j->plan->height * (!reused + 1.0)) : 0;
+    j->weight = (double)j->plan->height * (!reused + 1 + !j->plan->unseen) + j->refine_rows;
     KD_TRY(kd_prepare(j->r, j->prepared, j->scene, j->plan, &c, j->error));
     KD_TRY(kd_frame_light(j, reused));
     if (j->plan->adaptive)
@@ -151,6 +175,15 @@ done:
     return status;
 }
 
+/* After a defect of the program, which may have left anything in them: the next frame makes all that it needs. The
+ * device is idle. */
+static void begin_anew(struct kd_frame_job *job)
+{
+    kd_log(KD_LOG_ERROR, "a defect of kerrd: %s", job->error ? job->error->message : "no word of what it is");
+    kd_store_empty(job->store);
+    kd_prepared_finish(job->prepared, job->r->vk);
+}
+
 static enum kd_status render(struct kd_frame_job *job, struct kd_frame *out)
 {
     struct kd_frame frame = { .width = job->plan->width, .height = job->plan->height };
@@ -172,6 +205,8 @@ done:
     if (status != KD_EDEVICE)
         kd_vk_wait(job->r->vk, 0, NULL);
     kd_vk_buffer_destroy(job->r->vk, job->marched);
+    if (status == KD_EINTERNAL)
+        begin_anew(job);
     kd_frame_finish(&frame);
     return status;
 }
@@ -186,5 +221,6 @@ enum kd_status kd_frame_run(struct kd_frame_job *job, struct kd_frame *out)
         return status;
     kd_frame_collect_timings(job, out, kd_clock_ms() - start - job->away_ms);
     kd_frame_learn(job, out);
+    kd_renderer_count(job->r);
     return KD_OK;
 }

@@ -28,12 +28,14 @@ struct kd_frame_job {
     kd_progress_fn progress;
     const struct kd_glance *glance;
     void *user;
-    double done, weight;       /* rows so far, of all passes */
-    uint32_t lit;              /* rows of pixels from the top whose light is there */
-    bool looking;              /* they are being looked at */
-    uint8_t *kinds;            /* of each pixel, KD_REFINED_...; NULL unless image.samples is "auto" */
-    bool teaches;              /* what passes cost, */
-    struct kd_waiting waiting; /* but for the time that its threads waited for a core */
+    double done, weight;             /* rows so far, of all passes */
+    double refine_rows, refine_rays; /* what refining counts for among them, what is left of that; and rays that it is
+                                        expected to follow */
+    uint32_t lit;                    /* rows of pixels from the top whose light is there */
+    bool looking;                    /* they are being looked at */
+    uint8_t *kinds;                  /* of each pixel, KD_REFINED_...; NULL unless image.samples is "auto" */
+    bool teaches;                    /* what passes cost, */
+    struct kd_waiting waiting;       /* but for the time that its threads waited for a core */
     struct kd_frame *frame;
     struct kd_error *error;
 };

@@ -4,6 +4,8 @@
 
 #include "render/lens/listed.h"
 
+#include <math.h>
+
 static const char *pass_of(const struct kd_frame_part *part, enum kd_pass_id id)
 {
     return part->list->pass ? part->list->pass : kd_passes[id].name;
@@ -38,6 +40,15 @@ void kd_frame_part_in_band(const struct kd_frame_job *j, const struct kd_frame_p
     *to = b < first ? 0 : b - first < part->n ? b - first : part->n;
 }
 
+/* For how many rows rays count that refine the picture: rays at the critical curve come before, and count for none. */
+static double refined_rows(struct kd_frame_job *j, uint64_t rays)
+{
+    const double rows = j->refine_rays > 0 ? fmin(j->refine_rows, j->refine_rows * (double)rays / j->refine_rays) : 0;
+    j->refine_rows -= rows;
+    j->refine_rays -= j->refine_rays > 0 ? fmin((double)rays, j->refine_rays) : 0;
+    return rows;
+}
+
 /* Run the kernel that makes something over pixels `from` to `to` of a part in slices: rays are an invocation each,
  * else pixels are. base: the dispatch but for its pipeline and size. */
 static enum kd_status run_part(struct kd_frame_job *j, const struct kd_frame_part *part, uint64_t from, uint64_t to,
@@ -60,7 +71,7 @@ static enum kd_status run_part(struct kd_frame_job *j, const struct kd_frame_par
              push.ray++)
             KD_TRY(kd_vk_dispatch(j->r->vk, &d, j->error));
         KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error));
-        KD_TRY(kd_frame_report(j, 0));
+        KD_TRY(kd_frame_report(j, rays ? refined_rows(j, push.rows * part->list->lattice.rays) : 0));
     }
 done:
     return status;

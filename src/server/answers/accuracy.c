@@ -27,7 +27,7 @@ static enum MHD_Result deliver(struct kd_request *request)
     struct reading *reading = (struct reading *)request->task;
     enum kd_status status = reading->task.status;
     if (status == KD_ECANCELLED)
-        return MHD_NO; /* nobody listens */
+        return kd_reply_cancelled(request);
     if (status == KD_EIO || status == KD_EINVAL)
         return kd_reply_problem(
             request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND, .detail = reading->task.error.message });

@@ -106,7 +106,7 @@ static enum MHD_Result deliver(struct kd_request *request)
     const struct putting *p = (const struct putting *)request->task;
     struct kd_buffer json = { 0 };
     if (p->task.status == KD_ECANCELLED)
-        return MHD_NO; /* nobody listens */
+        return kd_reply_cancelled(request);
     if (p->task.status)
         return refuse(request, p);
     const struct kd_asset_about *about = kd_asset_about(p->put.asset);

@@ -264,7 +264,7 @@ static enum MHD_Result deliver(struct kd_request *request)
     enum kd_status status = job->out.size && job->format == KD_ORBIT_NDJSON ? KD_OK : job->status;
     pthread_mutex_unlock(&job->lock);
     if (status == KD_ECANCELLED)
-        return MHD_NO; /* nobody listens */
+        return kd_reply_cancelled(request);
     if (status)
         return refuse(request, &job->error, job->malformed, job->quota);
     if (job->format == KD_ORBIT_NDJSON) {

@@ -129,7 +129,7 @@ static enum MHD_Result deliver(struct kd_request *request)
     const struct kd_task *task = request->task;
     char timing[80];
     if (task->status == KD_ECANCELLED)
-        return MHD_NO; /* nobody listens */
+        return kd_reply_cancelled(request);
     if (task->status)
         return refuse(request, &task->error);
     request->reply_bytes = job->text.size;

@@ -62,7 +62,7 @@ static enum MHD_Result deliver(struct kd_request *request)
 {
     struct sweep *s = (struct sweep *)request->task;
     if (s->task.status == KD_ECANCELLED)
-        return MHD_NO; /* nobody listens */
+        return kd_reply_cancelled(request);
     return s->task.status ? refuse(request, &s->task.error)
                           : kd_reply_json(request, KD_OK, &s->json, request->route->answer);
 }

@@ -108,7 +108,7 @@ static enum MHD_Result deliver(struct kd_request *request)
 {
     struct kd_rays_job *job = (struct kd_rays_job *)request->task;
     if (job->task.status == KD_ECANCELLED)
-        return MHD_NO; /* nobody listens */
+        return kd_reply_cancelled(request);
     if (job->task.status)
         return refuse(request, &job->task.error, job->malformed, job->task.quota);
     enum kd_rays_format format = (enum kd_rays_format)choose_format(request);

@@ -36,6 +36,7 @@ struct kd_problem kd_problem_from(const struct kd_error *error)
     case KD_EABSENT: problem.type = KD_PROBLEM_ABSENT; break;
     case KD_EDEVICE: problem.type = KD_PROBLEM_DEVICE_LOST; break;
     case KD_OK:
+    case KD_EINTERNAL:
     case KD_EIO: problem.type = KD_PROBLEM_INTERNAL; break;
     }
     return problem;

@@ -230,6 +230,17 @@ enum MHD_Result kd_reply_error(struct kd_request *request, const struct kd_error
     return kd_reply_problem(request, &problem);
 }
 
+enum MHD_Result kd_reply_cancelled(struct kd_request *request)
+{
+    if (!atomic_load(&request->server->ended))
+        return MHD_NO; /* nobody listens */
+    return kd_reply_problem(request,
+                            &(struct kd_problem) { .type = KD_PROBLEM_STOPPING,
+                                                   .retry_after = 1,
+                                                   .detail = "the server has stopped before this was done: ask again "
+                                                             "when it is back, or another one" });
+}
+
 bool kd_reply_only(struct kd_request *request, const char *const *known, enum MHD_Result *refused)
 {
     struct kd_error error = { 0 };

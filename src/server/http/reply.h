@@ -51,6 +51,9 @@ enum MHD_Result kd_reply_unmatched(struct kd_request *request);
 enum MHD_Result kd_reply_options(struct kd_request *request, const char *allow);
 /* Sends what kd_problem_from makes of the error. */
 enum MHD_Result kd_reply_error(struct kd_request *request, const struct kd_error *error);
+/* Of work that was cancelled (KD_ECANCELLED): 503 where the way down has ended it; else its client has gone, and
+ * nothing is sent. */
+enum MHD_Result kd_reply_cancelled(struct kd_request *request);
 /* Whether kd_target_only holds; if not *refused is the answer. */
 bool kd_reply_only(struct kd_request *request, const char *const *known, enum MHD_Result *refused);
 

@@ -71,7 +71,7 @@ struct kd_server {
     struct kd_base_path base;
     const char **hosts; /* accepted Host names, NULL-terminated; each malloc'd */
     char **own;         /* kd_names_own, where it listens on every address; else NULL */
-    unsigned drain_ms, longest_s;
+    unsigned drain_ms, drain_s, longest_s;
     struct kd_connections *connections;
     struct kd_render_queue *renders;
     struct kd_turns *rays;  /* requests for them */
@@ -98,8 +98,9 @@ struct kd_server {
     int stop_fd; /* eventfd that wakes the keeper */
     pthread_t keeper;
     bool keeper_runs;
-    _Atomic bool abandon;                      /* destroy without stop: do not wait */
-    pthread_mutex_t lock;                      /* for what follows */
+    _Atomic bool abandon; /* destroy without stop: do not wait */
+    _Atomic bool ended;   /* drain_s after a stop request: what was left is cancelled, and its clients are told so */
+    pthread_mutex_t lock; /* for what follows */
     struct kd_sessions_counts sessions_counts; /* as last known */
     struct kd_jobs_counts jobs_counts;
     struct kd_plays_counts plays_counts;

@@ -26,9 +26,10 @@
 #define KD_CLIENT 48         /* room for the name of a client */
 #define KD_SHARE_CLIENTS 64u /* told apart at once; more of them share places */
 
-/* The classes of work with their weights inside a client: two living sessions leave a picture of the same client a
- * third, and a job beside both has a thirteenth. */
-#define KD_CLASSES(X) X(LIVE, 8) X(PICTURE, 4) X(RAYS, 4) X(REFINEMENT, 2) X(JOB, 1)
+/* The classes of work with their weights inside a client. A pixel that is told is next as soon as it comes: somebody
+ * points at it. A view that is moved by hand leaves a job a fifth; of one that goes on by itself (idle) or is
+ * refined the job, which was asked for, has four fifths. */
+#define KD_CLASSES(X) X(PIXEL, 64) X(LIVE, 8) X(PICTURE, 4) X(RAYS, 4) X(JOB, 2) X(REFINEMENT, 0.5) X(IDLE, 0.5)
 enum kd_class {
 #define KD_CLASS_ENUM(name, weight) KD_CLASS_##name,
     KD_CLASSES(KD_CLASS_ENUM)

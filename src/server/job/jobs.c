@@ -383,14 +383,19 @@ static double drawn(const struct kd_job *job)
     return fmin(job->finished + job->encoding + job->fraction, job->frames);
 }
 
+#define SURE 0.02 /* frames, of which time tells more than a plan */
+
 /* Estimates what is left of a job; NAN: it cannot be said. Called locked. */
 static double remaining_s(const struct kd_job *job)
 {
     double left = job->frames - drawn(job);
     if (!kd_job_is_active(job) || *job->delayed || job->unordered || !(job->began_ms > 0 || is_next(job)))
         return NAN;
-    double frame_ms = job->finished_here ? (kd_clock_ms() - job->began_ms) / (job->finished_here + job->fraction)
-                                         : job->estimate_ms / job->frames;
+    const double planned_ms = job->estimate_ms / job->frames, done = job->finished_here + job->encoding + job->fraction;
+    const double passed_ms = job->began_ms > 0 ? kd_clock_ms() - job->began_ms : 0;
+    /* What is left takes as long as what is done has taken, waiting for others included; before that as the plan
+     * says, and at least as long as has passed. */
+    const double frame_ms = done > SURE ? passed_ms / done : fmax(planned_ms, passed_ms);
     return frame_ms > 0 ? 1e-3 * fmax(left, 0) * frame_ms : NAN;
 }
 

@@ -147,7 +147,7 @@ static enum MHD_Result deliver(struct kd_request *request)
 {
     const struct draft *d = (const struct draft *)request->task;
     if (d->task.status == KD_ECANCELLED)
-        return MHD_NO; /* nobody listens */
+        return kd_reply_cancelled(request);
     if (d->task.status)
         return refuse(request, &d->task.error, d->task.quota);
     enum MHD_Result result = answer(request, d->job, true);

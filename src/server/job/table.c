@@ -63,7 +63,7 @@ static enum MHD_Result answer(struct kd_request *request)
     struct table *t = (struct table *)request->task;
     struct kd_job_status status;
     if (t->task.status == KD_ECANCELLED)
-        return MHD_NO; /* nobody listens */
+        return kd_reply_cancelled(request);
     kd_job_status(t->job, &status);
     if (t->task.status && status.deleted)
         return kd_reply_problem(

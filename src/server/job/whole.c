@@ -175,7 +175,7 @@ static enum MHD_Result answer(struct kd_request *request)
     struct kd_job_whole *w = l->whole;
     struct kd_job_status status;
     if (l->task.status == KD_ECANCELLED)
-        return MHD_NO; /* nobody listens */
+        return kd_reply_cancelled(request);
     kd_job_status(w->job, &status);
     if (l->task.status && status.deleted)
         return kd_reply_problem(

@@ -267,7 +267,7 @@ static enum MHD_Result deliver(struct kd_request *request)
 {
     struct play_task *t = (struct play_task *)request->task;
     if (t->task.status == KD_ECANCELLED)
-        return MHD_NO; /* nobody listens */
+        return kd_reply_cancelled(request);
     if (t->task.status)
         return refuse(request, t);
     if (!t->out.size)

@@ -1,5 +1,6 @@
 /* What /metrics tells of the device: which it is, what is held of its memory, whether it is lost; and what the queue
  * in front of it has measured. */
+#include "render/device/rest.h"
 #include "server/render/internal.h"
 
 /* A label's value: a backslash, a quote and a line feed are escaped; what is no text is not there (vk/physical.c
@@ -32,6 +33,18 @@ done:
     return status;
 }
 
+static enum kd_status add_kept(struct kd_buffer *out, const struct kd_renderer *renderer)
+{
+    uint64_t bytes[KD_N_KEPT_KINDS];
+    enum kd_status status = kd_buffer_printf(
+        out, "# HELP kerrd_kept_bytes Kept for what may be asked for next, by kind.\n# TYPE kerrd_kept_bytes gauge\n");
+    kd_renderer_kept(renderer, bytes);
+    for (size_t i = 0; kd_kept_word(i) && !status; i++)
+        status = kd_buffer_printf(out, "kerrd_kept_bytes{kind=\"%s\"} %llu\n", kd_kept_word(i),
+                                  (unsigned long long)bytes[i]);
+    return status;
+}
+
 enum kd_status kd_render_queue_metrics(struct kd_render_queue *queue, struct kd_buffer *out)
 {
     enum kd_status status;
@@ -41,6 +54,7 @@ enum kd_status kd_render_queue_metrics(struct kd_render_queue *queue, struct kd_
                             "picture.\n# TYPE kerrd_device_memory_bytes gauge\n"
                             "kerrd_device_memory_bytes %llu\n",
                             (unsigned long long)kd_renderer_held(queue->renderer)));
+    KD_TRY(add_kept(out, queue->renderer));
     KD_TRY(kd_buffer_printf(out,
                             "# HELP kerrd_device_lost 1: the device is lost, and the server ends.\n# TYPE "
                             "kerrd_device_lost gauge\nkerrd_device_lost %d\n",

@@ -55,6 +55,9 @@ struct kd_render_queue {
     struct kd_pulse pulse;         /* of whoever has the device */
     _Atomic bool cancel;
     struct kd_render_measures measures;
+    struct kd_render_job rest; /* gives back what is not needed, once nothing has been asked for for rest_ms */
+    double rest_ms, worked_ms; /* worked_ms: when something was asked for, or done, last */
+    bool rested;               /* since then */
 
     pthread_t render_thread, encoders[KD_ENCODERS];
     unsigned n_encoders;
@@ -74,12 +77,16 @@ static inline bool kd_render_has_begun(const struct kd_render_job *job) { return
 /* Whether a client waits for it who may have to be told that it is too much. */
 static inline bool kd_render_is_awaited(const struct kd_render_job *job)
 {
-    return job->claim.class == KD_CLASS_PICTURE || job->claim.class == KD_CLASS_RAYS;
+    return job->claim.class == KD_CLASS_PICTURE || job->claim.class == KD_CLASS_PIXEL ||
+           job->claim.class == KD_CLASS_RAYS;
 }
 
 bool kd_render_unwanted(struct kd_render_queue *queue, struct kd_render_job *job);
 /* As for a job that has not begun: how it waits. */
 void kd_render_stand_in_line(struct kd_render_job *job);
+
+/* rest.c: has the renderer give back what it does not need, once there is nothing to do. Locked; unlocks meanwhile. */
+void kd_render_rest_if_idle(struct kd_render_queue *queue);
 
 /* reopen.c, locked, but for the first. */
 void kd_render_failed(struct kd_render_queue *queue, const struct kd_error *error); /* the device has. Unlocked */

@@ -49,11 +49,11 @@ static enum kd_status write_all(struct kd_buffer *out, const char *name, const c
 
 static const char *class_name(size_t i)
 {
-    static const char *const words[] = { [KD_CLASS_LIVE] = "live",
-                                         [KD_CLASS_PICTURE] = "picture",
-                                         [KD_CLASS_RAYS] = "rays",
-                                         [KD_CLASS_REFINEMENT] = "refinement",
-                                         [KD_CLASS_JOB] = "job" };
+    static const char *const words[] = {
+        [KD_CLASS_PIXEL] = "pixel", [KD_CLASS_LIVE] = "live", [KD_CLASS_PICTURE] = "picture",
+        [KD_CLASS_RAYS] = "rays",   [KD_CLASS_JOB] = "job",   [KD_CLASS_REFINEMENT] = "refinement",
+        [KD_CLASS_IDLE] = "idle",
+    };
     _Static_assert(sizeof words / sizeof *words == KD_N_CLASSES, "a word for each class");
     return words[i];
 }

@@ -1,5 +1,6 @@
 #include "server/render/painter.h"
 
+#include "base/allocator.h"
 #include "base/clock.h"
 #include "base/hash.h"
 #include "base/log.h"
@@ -113,6 +114,7 @@ static void close_device(struct kd_painter *painter)
     if (!atomic_load(&painter->hangs))
         kd_renderer_destroy(painter->renderer);
     painter->renderer = NULL;
+    kd_allocator_trim();
 }
 
 static enum kd_status paint_once(struct kd_painter *painter, struct kd_painting *work)

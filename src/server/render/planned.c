@@ -59,7 +59,7 @@ static struct kd_planned *outcome(struct kd_request *request, struct kd_planned 
 {
     if (!p->task.status)
         return p;
-    *result = p->task.status == KD_ECANCELLED ? MHD_NO : kd_reply_problem(request, &p->problem);
+    *result = p->task.status == KD_ECANCELLED ? kd_reply_cancelled(request) : kd_reply_problem(request, &p->problem);
     return NULL;
 }
 

@@ -8,6 +8,8 @@
 #include <string.h>
 #include <stdlib.h>
 
+#define REST_MS 60e3 /* without anything to do before memory is given back */
+
 void kd_render_list_append(struct kd_render_list *list, struct kd_render_job *job)
 {
     job->next = NULL;
@@ -105,6 +107,8 @@ enum kd_status kd_render_queue_create(const struct kd_renderer_params *params, u
     queue->client_limit = client_limit;
     queue->allowance.seconds = client_s;
     queue->reopenings = reopenings == KD_REOPENINGS_NONE ? 0 : reopenings ? reopenings : KD_REOPENINGS;
+    queue->rest_ms = REST_MS;
+    queue->worked_ms = kd_clock_ms();
     queue->jobs.end = &queue->jobs.first;
     queue->encoding.end = &queue->encoding.first;
     pthread_mutex_init(&queue->lock, NULL);
@@ -248,7 +252,8 @@ static bool wants_lane(const struct kd_render_job *job)
 {
     switch (job->claim.class) {
     case KD_CLASS_JOB: return !job->run;
-    case KD_CLASS_LIVE: return false;
+    case KD_CLASS_LIVE:
+    case KD_CLASS_IDLE: return false;
     default: return !job->run && job->plan.estimate_ms > KD_MOMENT_MS;
     }
 }
@@ -269,6 +274,8 @@ void kd_render_queue_push(struct kd_render_queue *queue, struct kd_render_job *j
     kd_render_list_append(&queue->jobs, job);
     kd_shares_add(&queue->shares, &job->claim);
     queue->unfinished++;
+    queue->worked_ms = job->submitted_ms;
+    queue->rested = job == &queue->rest;
     kd_render_next(queue);
     pthread_mutex_unlock(&queue->lock);
 }
@@ -307,6 +314,7 @@ void kd_render_queue_sweep(struct kd_render_queue *queue)
         kd_render_list_append(&gone, job);
     }
     kd_render_next(queue);
+    kd_render_rest_if_idle(queue);
     pthread_mutex_unlock(&queue->lock);
     while (gone.first) {
         struct kd_render_job *job = kd_render_list_take(&gone, &gone.first);

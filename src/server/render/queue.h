@@ -99,6 +99,9 @@ enum kd_status kd_render_queue_create(const struct kd_renderer_params *params, u
 /* Cancels what is left and calls its done(). A lost device is left as it is. Accepts NULL. */
 void kd_render_queue_destroy(struct kd_render_queue *queue);
 
+/* How long nothing must have been asked for before memory is given back (render/device/rest.h); a minute unless this
+ * says otherwise. Any thread. */
+void kd_render_queue_rest_after(struct kd_render_queue *queue, unsigned ms);
 /* Any thread. */
 void kd_render_queue_capacity(struct kd_render_queue *queue, struct kd_capacity *out);
 const char *kd_render_queue_device_name(const struct kd_render_queue *queue);

@@ -147,7 +147,7 @@ static enum MHD_Result deliver(struct kd_request *request)
 {
     struct kd_render_job *job = request->job;
     if (job->status == KD_ECANCELLED)
-        return MHD_NO; /* nobody listens */
+        return kd_reply_cancelled(request);
     if (job->status) {
         job->error.status = job->status;
         return kd_reply_error(request, &job->error);
@@ -213,7 +213,7 @@ static enum MHD_Result submit(struct kd_request *request, const struct kd_scene 
         free(job);
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
     }
-    job->claim.class = KD_CLASS_PICTURE;
+    job->claim.class = request->format == &kd_format_pixel ? KD_CLASS_PIXEL : KD_CLASS_PICTURE;
     memcpy(job->claim.client, request->client, sizeof job->claim.client);
     job->scene = *scene;
     job->plan = *plan;

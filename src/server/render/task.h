@@ -31,7 +31,7 @@ struct kd_task {
     size_t held; /* of kd_task_hold, given back with the task */
     bool quota;  /* KD_EBUSY because its client has its share */
     double submitted_ms, begun_ms, done_ms, deadline_ms;
-    _Atomic enum kd_status status; /* KD_ECANCELLED: nobody listens */
+    _Atomic enum kd_status status; /* KD_ECANCELLED: kd_reply_cancelled */
     struct kd_error error;
 };
 

@@ -252,6 +252,7 @@ static void take_turn(struct kd_render_queue *queue, struct kd_render_job *job)
     job->inside = false;
     queue->inside--;
     charge(queue, job);
+    queue->worked_ms = job->turn_ms;
     queue->holder = NULL;
     const bool again = kd_render_once_more(queue, job), more = again || (!job->status && job->more),
                encode = !more && !job->status && !job->run;

@@ -27,6 +27,7 @@ struct kd_session {
     struct kd_governor governor;
     struct kd_budget_entry demand; /* entered while it is listed */
     unsigned revision;             /* of the scene */
+    double patched_ms;             /* when somebody changed it last, or made it */
     uint64_t order;                /* of the latest patch that had one */
     uint64_t begun;                /* frames */
     bool moved;                    /* the scene of the latest one went on by itself, */

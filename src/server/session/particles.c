@@ -89,7 +89,7 @@ static enum MHD_Result deliver(struct kd_request *request)
     struct kd_particles_job *job = request->particles;
     char timing[80];
     if (job->device.status == KD_ECANCELLED)
-        return MHD_NO; /* nobody listens */
+        return kd_reply_cancelled(request);
     if (job->device.status) {
         job->device.error.status = job->device.status;
         return refuse(request, &job->device.error, false);

@@ -146,7 +146,7 @@ static enum MHD_Result follow(struct kd_request *request, struct kd_session *ses
     struct kd_session_state state;
     struct kd_error error = { 0 };
     if (p->task.status == KD_ECANCELLED)
-        return MHD_NO; /* nobody listens */
+        return kd_reply_cancelled(request);
     if (p->task.status)
         return refuse(request, &p->task.error);
     if (kd_session_follow(session, &p->path, &state, &error))

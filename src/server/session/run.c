@@ -9,6 +9,7 @@
 #include <string.h>
 
 #define EXPOSURE_MS 2000.0 /* in which 63 % of a change of brightness is followed */
+#define IDLE_MS 5e3        /* after the latest change by hand: what else its client has asked for goes before it */
 #define SURE 0.02          /* of a picture, from which on it is said how long the rest takes */
 #define ENCODING_MAX 2     /* frames of a session behind the renderer: one is traced while one is encoded */
 
@@ -59,7 +60,9 @@ static struct kd_session_frame *make_frame(struct kd_session *s, const struct kd
     live->turn = *turn;
     live->begun_ms = now;
     live->job = (struct kd_render_job) {
-        .claim.class = turn->refining ? KD_CLASS_REFINEMENT : KD_CLASS_LIVE,
+        .claim.class = turn->refining                  ? KD_CLASS_REFINEMENT
+                       : now - s->patched_ms > IDLE_MS ? KD_CLASS_IDLE
+                                                       : KD_CLASS_LIVE,
         .socket = -1,
         .format = kd_format_live(),
         .effort = KD_EFFORT_LIVE,

@@ -124,7 +124,7 @@ enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *
     snprintf(s->demand.client, sizeof s->demand.client, "%s", client);
     s->scene = *scene;
     s->revision = 1;
-    s->since_ms = s->used_ms = kd_clock_ms();
+    s->since_ms = s->used_ms = s->patched_ms = kd_clock_ms();
     memcpy(s->lens_key, plan->lens_key, sizeof s->lens_key);
     kd_governor_init(&s->governor, kd_governor_params(.target_ms = TARGET_MS));
     if (pace)
@@ -220,6 +220,7 @@ static void change(struct kd_session *s, double now, const struct kd_scene *scen
     s->scene = *scene;
     s->since_ms = now;
     s->revision++;
+    s->patched_ms = now;
     s->failed = KD_OK;
     kd_governor_changed(&s->governor, now, scene, strcmp(s->lens_key, plan->lens_key) != 0);
     kd_session_expect(s, plan);

@@ -1,0 +1,49 @@
+/* What a renderer keeps when it has nothing to do, in bytes by kind, and how it gives back the rest. */
+#ifndef KD_RENDER_DEVICE_REST_H
+#define KD_RENDER_DEVICE_REST_H
+
+#include "render/device/renderer.h"
+
+/* X(kind, its word in /metrics) */
+#define KD_KEPT_KINDS(X) \
+    X(LENS_MAPS, "lens_maps") X(BUFFERS, "buffers") X(KERNELS, "kernels") X(PANORAMAS, "panoramas") X(OTHER, "other")
+enum kd_kept_kind {
+#define KD_KEPT_ENUM(kind, word) KD_KEPT_##kind,
+    KD_KEPT_KINDS(KD_KEPT_ENUM)
+#undef KD_KEPT_ENUM
+        KD_N_KEPT_KINDS
+};
+
+/* Bounds of what stays after kd_renderer_rest. Device memory is held in blocks of 64 MiB (vk/memory.c): one map may
+ * keep two of them. */
+#define KD_REST_MAPS_BYTES (64ull << 20) /* the latest lens map, or none if it is larger */
+#define KD_REST_KERNELS 16u              /* the latest ones: as many as one view and its refinement take */
+#define KD_REST_PANORAMAS 1u             /* the latest one, up to 45 MB */
+/* What all kinds together may be at rest. Beyond it the device is closed and opened again: lavapipe keeps something
+ * of each kernel that it has ever compiled (an LLVM context is never emptied) until then. */
+#define KD_REST_BYTES (256ull << 20)
+#define KD_REST_SOON_BYTES \
+    (768ull << 20) /* beyond this a moment without work is taken for a rest (server/render/rest.c) */
+
+/* NULL behind the last. */
+static inline const char *kd_kept_word(size_t kind)
+{
+#define KD_KEPT_WORD(kind, word) word,
+    static const char *const words[] = { KD_KEPT_KINDS(KD_KEPT_WORD) };
+#undef KD_KEPT_WORD
+    return kind < KD_N_KEPT_KINDS ? words[kind] : NULL;
+}
+/* As after the latest frame or rest. Lens maps and buffers are of the device; kernels are estimated by the size of
+ * their code; other: what is resident beyond the other kinds and what was when the device had been opened, as the
+ * driver's memory, and what is being rendered, encoded or sent. Any thread. */
+void kd_renderer_kept(const struct kd_renderer *renderer, uint64_t out[KD_N_KEPT_KINDS]);
+/* Counts it anew. Render thread only. */
+void kd_renderer_count(struct kd_renderer *renderer);
+/* Gives back everything but what the bounds above name, and the host's free memory to the kernel. Pictures come out
+ * the same afterwards; those of the latest view as soon, unless the device had to be opened again (KD_REST_BYTES).
+ * Errors as kd_renderer_reopen. Render thread only, while nothing is rendered, here or aside. */
+enum kd_status kd_renderer_rest(struct kd_renderer *renderer, struct kd_error *error);
+/* The process has just the device: what is resident now is no kind of what is kept. */
+void kd_renderer_begin_count(struct kd_renderer *renderer);
+
+#endif
