@@ -36,10 +36,9 @@ enum kd_status kd_pictures_check(const struct kd_pictures_asked *asked, struct k
                                                : NULL;
     if (!asked->path)
         return idle ? kd_error_set(error, KD_EINVAL, "for --picture FILE, which is missing: %s", idle) : KD_OK;
-    if (!kd_format_of_path(asked->path))
+    if (!asked->format)
         return kd_error_set(error, KD_EINVAL,
-                            "--picture is \"%s\", allowed is a name that ends in .png, .fits, .exr, .npz or .npy",
-                            asked->path);
+                            "--picture is \"%s\": the name must end in .png, .fits, .exr, .npz or .npy", asked->path);
     if (asked->every > 0 && !number_in(asked->path, &length))
         return kd_error_set(error, KD_EINVAL,
                             "--picture is \"%s\", allowed with --every is a name with one %%d in it, as film/%%05d.png",
@@ -65,7 +64,7 @@ enum kd_status kd_pictures_begin(struct kd_pictures_asked *asked, const char *vi
 {
     enum kd_status status;
     *out = (struct kd_pictures) { .asked = asked };
-    out->format = kd_format_of_path(asked->path);
+    out->format = asked->format;
     KD_TRY(load(asked, view, p, &out->scene, error));
     KD_TRY(kd_playground_may_show(p, &out->scene, error));
     out->assets = kd_asset_options_assets(&asked->scene.assets);

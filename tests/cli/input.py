@@ -156,6 +156,76 @@ class Usage(Case):
         self.bad(2, "excludes --preset", "scene", "--from", "a.png", "--preset", "m87")
 
 
+class Names(Case):
+    """The end of a file's name is its format, or an error: nobody takes one for another."""
+
+    def test_a_name_that_ends_as_another_format_does(self):
+        table, tabled = ["a.h5", "a.csv.gz", "a.fit", "a.txt", "a.xlsx", "a.png"], ["--output"]
+        for command, options, names in (
+            (
+                ["render"],
+                ["-o", "--output"],
+                [
+                    "a.h5",
+                    "a.exr.gz",
+                    "a.fits.gz",
+                    "a.fts.gz",
+                    "a.csv",
+                    "a.pfm",
+                    "a.jpg",
+                    "a.JPEG",
+                    "a.hdf5",
+                    "d.png/a.tiff",
+                ],
+            ),
+            (["sweep", "-x", "time=0,1"], tabled, ["a.png", "a.fits.gz", "a.h5", "a", "a.tmp"]),
+            (["film", "-"], tabled, ["a.gif", "a.mov", "a.avi", "a.mp4.gz", "a"]),
+            (["light-curve"], tabled, table),
+            (["rays", "--ray", "1,2"], tabled, table),
+            (["line"], tabled, table),
+            (["transfer-function"], tabled, table),
+            (["spectrum"], tabled, table),
+            (["visibility"], tabled, table),
+            (["orbit", "--case", "isco"], tabled, table),
+            (["physics", "kerr"], tabled, table),
+            (["rays", "--trace", "--ray", "1,2"], tabled, ["a.npy", "a.md"]),
+            (["pixel", "--at", "1,1"], tabled, ["a.csv", "a.png"]),
+            (["particles"], tabled, ["a.npz", "a.csv", "a.npy.gz"]),
+            (["bench", "accuracy"], tabled, ["a.csv", "a.md"]),
+            (["bench", "accuracy"], ["--markdown"], ["a.json"]),
+            (["playground"], tabled, ["a.csv", "a.png"]),
+            (["playground"], ["--series"], ["a.json", "a.h5"]),
+            (["playground"], ["--fallback"], ["a.npy"]),
+            (["playground"], ["--events"], ["a.json"]),
+            (["playground"], ["--picture"], ["a.jpg", "a.mp4", "a"]),
+        ):
+            for option in options:
+                for name in names:
+                    self.bad(
+                        2,
+                        f'is "{self.path(name)}": the name must end in .',
+                        *command,
+                        option,
+                        self.path(name),
+                        stdin=b"{}",
+                    )
+        self.assertEqual(os.listdir(self.folder), [])
+
+    def test_the_same_format_by_another_name(self):
+        self.good("physics", "kerr", "-o", self.path("a.csv"))
+        self.good("physics", "kerr", "-o", self.path("a.CSV"))
+        self.assertEqual(self.read("a.CSV"), self.read("a.csv"))
+        self.good("orbit", "--case", "isco", "-o", self.path("a.ndjson"))
+        self.good("orbit", "--case", "isco", "-o", self.path("a.jsonl"))
+        self.assertEqual(self.read("a.jsonl"), self.read("a.ndjson"))
+        self.good("physics", "kerr", "--format", "csv", "-o", self.path("a.dat"))
+        self.assertEqual(self.read("a.dat"), self.read("a.csv"))
+        said = self.good("physics", "kerr")
+        for name in "a", "a.tmp", "v1.5", "tmp.AbCdEfGhIj":
+            self.good("physics", "kerr", "-o", self.path(name))
+            self.assertEqual(self.read(name), said)
+
+
 class Files(Case):
     def test_no_such_thing(self):
         self.bad(2, "No such file", "scene", self.path("absent.json"))
