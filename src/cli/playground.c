@@ -276,12 +276,24 @@ done:
     return status;
 }
 
+/* Whether all files can be written is known before bodies move for minutes. */
+static enum kd_status check_files(const struct arguments *a, struct kd_error *error)
+{
+    const char *const files[] = { a->output, a->series, a->fallback, a->events };
+    enum kd_status status = KD_OK;
+    for (size_t i = 0; i < sizeof files / sizeof *files && !status; i++)
+        if (files[i] && strcmp(files[i], "-"))
+            status = kd_file_check(files[i], error);
+    return status;
+}
+
 static enum kd_status work(struct arguments *a, struct kd_error *error)
 {
     struct kd_playground *p = NULL;
     struct story story = { 0 };
     enum kd_status status;
     KD_TRY(kd_pictures_check(&a->pictures, error));
+    KD_TRY(check_files(a, error));
     KD_TRY(load(a, &p, error));
     story.told = p->events.last; /* what a snapshot has told is not told again */
     if (a->pictures.path)

@@ -148,8 +148,17 @@ static enum kd_status scan(const char *text, size_t start, size_t end, size_t mo
     return status;
 }
 
+/* A document begins with { or white space, and of these each is one byte in UTF-8. Two bytes with a NUL are UTF-16,
+ * with a byte order mark before them or none. */
+static bool is_utf16(const char *text, size_t length)
+{
+    return length >= 2 && (!memcmp(text, "\xff\xfe", 2) || !memcmp(text, "\xfe\xff", 2) || (!text[0] != !text[1]));
+}
+
 enum kd_status kd_scan_json(const char *text, size_t length, size_t most, struct kd_error *error)
 {
+    if (is_utf16(text, length))
+        return kd_error_set(error, KD_EINVAL, "the document is not valid JSON: it is UTF-16, and must be UTF-8");
     return scan(text, 0, length, most, error);
 }
 
