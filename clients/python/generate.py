@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Writes what is made of something else: src/kerrd/scene.py, the scene as dataclasses, of the schema that kerrd serves,
-and src/kerrd/client.py of src/kerrd/aio.py, by unasync.
+and src/kerrd/client.py of src/kerrd/aio.py, by unasync; src/kerrd/answers.py, what methods answer, of its
+/openapi.json.
 
     generate.py KERRD            KERRD: the program
     generate.py --check KERRD    exit 1 naming what is not what would be written
@@ -92,17 +93,20 @@ def write(name, node, out):
     )
 
 
-def scene(kerrd):
-    """The text of scene.py. The schema is served, not printed: a server for a moment."""
+def served(kerrd):
+    """The schema of scenes, and the document of the API: they are served, not printed, by a server for a moment."""
     server = subprocess.Popen([kerrd, "serve", "--port", "0"], stdout=subprocess.PIPE, text=True)
     try:
         address = server.stdout.readline().split()[-1]
-        with urllib.request.urlopen(address + "v1/schema") as answer:
-            schema = json.load(answer)
+        return [json.load(urllib.request.urlopen(address + path)) for path in ("v1/schema", "openapi.json")]
     finally:
         server.terminate()
         server.wait()
         server.stdout.close()
+
+
+def scene(schema):
+    """The text of scene.py."""
     out = []
     write("Scene", schema, out)
     names = sorted(re.search(r"class (\w+)", text)[1] for text in out)
@@ -113,6 +117,112 @@ def scene(kerrd):
         + f"__all__ = {json.dumps(names)}\n\n\n"
         + "\n\n".join(out)
     )
+
+
+TOLD = (
+    "Plan",
+    "Pixel",
+    "OrbitPath",
+    "OrbitPaths",
+    "LineProfile",
+    "TransferFunction",
+    "DiskSpectrum",
+    "VolumeSpectrum",
+    "Visibilities",
+    "PresetTold",
+    "Device",
+    "Session",
+    "Job",
+    "Asset",
+)
+COLUMNS = {"OrbitSeries": "Columns"}  # what the client makes something else of
+
+
+class Answers:
+    """TypedDicts of answers, of the schemas in /openapi.json: each after those that it is made of."""
+
+    def __init__(self, schemas):
+        self.schemas, self.out, self.done = schemas, [], set()
+
+    def type_of(self, node, name):
+        """What stands for a schema; name: of the class that an object in place becomes."""
+        if "$ref" in node:
+            known = node["$ref"].rsplit("/", 1)[-1]
+            if known == "Scene":
+                return "dict[str, Any]"
+            named = self.schemas[known]
+            return COLUMNS.get(known) or (
+                self.write(known, named) if "properties" in named else self.type_of(named, known)
+            )
+        parts = node.get("oneOf") or node.get("anyOf")
+        if parts:
+            return " | ".join(dict.fromkeys(self.type_of(part, f"{name}{k}") for k, part in enumerate(parts)))
+        if "const" in node or "enum" in node:
+            return f"Literal[{', '.join(map(repr, node.get('enum', [node.get('const')])))}]"
+        kind = node.get("type")
+        if isinstance(kind, list):
+            return " | ".join(dict.fromkeys(self.type_of({**node, "type": each}, name) for each in kind))
+        if kind == "array":
+            return f"list[{self.type_of(node['items'], name)}]" if "items" in node else "list[Any]"
+        if kind == "object" and node.get("properties"):
+            return self.write(name, node)
+        if kind == "object":
+            more = node.get("additionalProperties")
+            return f"dict[str, {self.type_of(more, name)}]" if isinstance(more, dict) else "dict[str, Any]"
+        return {"number": "float", "integer": "int", "boolean": "bool", "string": "str", "null": "None"}.get(
+            kind, "Any"
+        )
+
+    def write(self, name, node):
+        if name not in self.done:
+            self.done.add(name)
+            needed = node.get("required", ())
+            rows = []
+            for key, part in node["properties"].items():
+                inner = name + class_of(key)
+                kind = "Columns" if key == "columns" and "properties" in part else self.type_of(part, inner)
+                rows.append((key, kind if key in needed else f"NotRequired[{kind}]"))
+            if any(keyword.iskeyword(key) for key, _ in rows):
+                self.out.append(
+                    f"{name} = TypedDict({name!r}, {{\n"
+                    + "\n".join(f"    {key!r}: {kind!r}," for key, kind in rows)
+                    + "\n})\n"
+                )
+            else:
+                self.out.append(
+                    f"class {name}(TypedDict):\n" + "\n".join(f"    {key}: {kind}" for key, kind in rows) + "\n"
+                )
+        return name
+
+
+def answers(openapi):
+    """The text of answers.py."""
+    written = Answers(openapi["components"]["schemas"])
+    for name in TOLD:
+        written.write(name, written.schemas[name])
+    return (
+        '"""What methods answer, as mappings whose keys are typed; written by generate.py from the server\'s /openapi.json."""\n\n'
+        "# This file is generated: change src/server/openapi, then run clients/python/generate.py.\n\nfrom __future__ import annotations\n\n"
+        "from typing import TYPE_CHECKING, Any, Literal, TypeAlias, TypedDict\n\nimport numpy as np\nfrom numpy.typing import NDArray\n\n"
+        "if TYPE_CHECKING:\n    from typing_extensions import NotRequired  # typing has it since Python 3.11\n\n"
+        "Columns: TypeAlias = dict[str, NDArray[np.float64]]\n\n\n" + "\n\n".join(written.out) + QUANTITY
+    )
+
+
+QUANTITY = '''
+
+class Quantity(TypedDict):
+    """A parameter that is a range, and each value that it changes, is an array in the shape of the ranges."""
+
+    quantity: str
+    parameters: dict[str, str | float | NDArray[np.float64]]
+    ranges: NotRequired[list[str]]
+    shape: NotRequired[tuple[int, ...]]
+    values: dict[str, Any]
+    units: dict[str, str]
+    sources: list[str]
+    approximations: list[str]
+'''
 
 
 BLOCKING = {"AsyncClient": "Client", "AsyncSession": "Session", "AsyncJob": "Job", "aclose": "close", "asyncio": "time"}
@@ -135,7 +245,8 @@ def client():
 def main():
     check = sys.argv[1] == "--check"
     wrong = False
-    for name, text in (("scene.py", scene(sys.argv[-1])), ("client.py", client())):
+    schema, openapi = served(sys.argv[-1])
+    for name, text in (("scene.py", scene(schema)), ("answers.py", answers(openapi)), ("client.py", client())):
         if not check:
             (PACKAGE / name).write_text(text)
         elif (PACKAGE / name).read_text() != text:

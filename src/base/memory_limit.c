@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 
 /* One version of control groups: where its files say what. */
 struct version {
@@ -143,6 +144,22 @@ static void least_of_groups(const char *root, const struct version *version, str
     }
 }
 
+static uint64_t left_of(int resource, const char *used_by)
+{
+    struct rlimit limit;
+    uint64_t used;
+    if (getrlimit(resource, &limit) || limit.rlim_cur == RLIM_INFINITY ||
+        !number_in("", "/proc/self/status", used_by, &used))
+        return UINT64_MAX;
+    return used < limit.rlim_cur ? limit.rlim_cur - used : 0;
+}
+
+uint64_t kd_address_space_left(void)
+{
+    const uint64_t space = left_of(RLIMIT_AS, "VmSize"), data = left_of(RLIMIT_DATA, "VmData");
+    return space < data ? space : data;
+}
+
 bool kd_memory_limit_read(const char *root, struct kd_memory_limit *out)
 {
     struct kd_memory_limit least = { .by = "the memory that is available" };
@@ -151,6 +168,9 @@ bool kd_memory_limit_read(const char *root, struct kd_memory_limit *out)
         return false;
     for (size_t i = 0; i < sizeof versions / sizeof *versions; i++)
         least_of_groups(root, &versions[i], &least);
+    const uint64_t space = kd_address_space_left();
+    if (space < least.left)
+        least = (struct kd_memory_limit) { .left = space, .by = "the limit of this process's memory (ulimit)" };
     number_in(root, "/proc/self/status", "RssAnon", &own);
     number_in(root, "/proc/self/status", "RssShmem", &shared);
     *out = (struct kd_memory_limit) { least.left, own + shared, least.by };

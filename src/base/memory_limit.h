@@ -17,6 +17,10 @@ struct kd_memory_limit {
         *by; /* what sets it, for a sentence: "the memory that is available", "the memory.max of a control group" */
 };
 
+/* Returns the bytes that the limits of the address space (RLIMIT_AS, `ulimit -v`) and of data (RLIMIT_DATA, `ulimit
+ * -d`) leave; UINT64_MAX: neither is set, or what is used cannot be read. */
+uint64_t kd_address_space_left(void);
+
 /* False if not even MemAvailable can be read: out of descriptors, no /proc. root comes before each path: "" but in
  * tests. */
 bool kd_memory_limit_read(const char *root, struct kd_memory_limit *out);

@@ -14,19 +14,21 @@ static int least(int a, int b, int c)
 int kd_slip_distance(const char *given, const char *known)
 {
     size_t na = strnlen(given, NAME_MAX_BYTES + 1), nb = strnlen(known, NAME_MAX_BYTES + 1);
-    int row[NAME_MAX_BYTES + 1];
+    int row[NAME_MAX_BYTES + 1] = { 0 }, before[NAME_MAX_BYTES + 1] = { 0 }, two_before[NAME_MAX_BYTES + 1];
     if (na > NAME_MAX_BYTES || nb > NAME_MAX_BYTES)
         return KD_SLIP_FAR;
     for (size_t j = 0; j <= nb; j++)
         row[j] = (int)j;
     for (size_t i = 1; i <= na; i++) {
-        int diagonal = row[0];
+        memcpy(two_before, before, sizeof before);
+        memcpy(before, row, sizeof row);
         row[0] = (int)i;
         for (size_t j = 1; j <= nb; j++) {
             int differs = tolower((unsigned char)given[i - 1]) != known[j - 1];
-            int here = least(row[j] + 1, row[j - 1] + 1, diagonal + differs);
-            diagonal = row[j];
-            row[j] = here;
+            row[j] = least(before[j] + 1, row[j - 1] + 1, before[j - 1] + differs);
+            if (i > 1 && j > 1 && tolower((unsigned char)given[i - 1]) == known[j - 2] &&
+                tolower((unsigned char)given[i - 2]) == known[j - 1])
+                row[j] = least(row[j], two_before[j - 2] + 1, row[j]);
         }
     }
     return row[nb];

@@ -4,7 +4,8 @@
 
 enum { KD_SLIP_FAR = 1000 };
 
-/* Edit distance (Levenshtein) to a name of ours, all lower case; KD_SLIP_FAR for names longer than any of ours. */
+/* Edit distance (Damerau and Levenshtein: two neighbours that have changed places are one edit) to a name of ours,
+ * all lower case; KD_SLIP_FAR for names longer than any of ours. */
 int kd_slip_distance(const char *given, const char *known);
 
 /* The same, and KD_SLIP_FAR unless near enough to be a slip: one edit in three letters, or the name without its

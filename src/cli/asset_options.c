@@ -36,12 +36,36 @@ enum kd_status kd_asset_options_add(struct kd_asset_options *options, const char
     return KD_OK;
 }
 
+/* What else people take for a grid or a picture, by how it begins. */
+static const struct {
+    const char *begin;
+    size_t size;
+    const char *kind;
+} others[] = {
+    { "\x93NUMPY", 6, "an NPY file, which holds one array: numpy.savez writes NPZ" },
+    { "\x89HDF\r\n\x1a\n", 8, "an HDF5 file" },
+    { "SIMPLE  =", 9, "a FITS file" },
+    { "\xff\xd8\xff", 3, "a JPEG" },
+    { "CDF", 3, "a NetCDF file" },
+    { "\x76\x2f\x31\x01", 4, "an OpenEXR file" },
+    { "II*\0", 4, "a TIFF" },
+    { "MM\0*", 4, "a TIFF" },
+    { "#?RADIANCE", 10, "a file of Radiance" },
+    { "RIFF", 4, "a WebP or another RIFF file" },
+    { "GIF8", 4, "a GIF" },
+};
+
 /* What the bytes are: a grid of matter, or a picture. */
 static enum kd_status look(const void *data, size_t size, struct kd_asset_found *out, struct kd_error *error)
 {
     struct kd_png_about about;
     if (kd_matter_grid_is(data, size))
         return kd_matter_grid_look(data, size, out->nodes, &out->spin, error);
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        if (size >= others[i].size && !memcmp(data, others[i].begin, others[i].size))
+            return kd_error_set(error, KD_EINVAL,
+                                "this is %s; an asset must be a PNG picture, or a grid of matter as NPZ",
+                                others[i].kind);
     enum kd_status status = kd_png_look(data, size, &about, error);
     if (!status) {
         out->width = about.width;

@@ -1,5 +1,6 @@
 /* kerrd bench measures what this device can do. */
 #include "cli/cli.h"
+#include "cli/ending.h"
 #include "cli/file.h"
 #include "cli/progress.h"
 #include "render/selftest/accuracy_measure.h"
@@ -39,8 +40,14 @@ static error_t parse(int key, char *text, struct argp_state *state)
     struct arguments *arguments = state->input;
     switch (key) {
     case ARGP_KEY_INIT: state->child_inputs[0] = &arguments->device; return 0;
-    case 'o': arguments->json = text; return 0;
-    case KEY_MARKDOWN: arguments->markdown = text; return 0;
+    case 'o':
+        arguments->json = text;
+        kd_cli_ending(state, "--output", text, KD_ENDINGS("json"));
+        return 0;
+    case KEY_MARKDOWN:
+        arguments->markdown = text;
+        kd_cli_ending(state, "--markdown", text, KD_ENDINGS("md"));
+        return 0;
     case KEY_QUICK: arguments->params.quick = true; return 0;
     case KEY_SECONDS: arguments->params.seconds = seconds_of(state, text); return 0;
     case ARGP_KEY_ARG:

@@ -1,7 +1,16 @@
 #include "cli/draw.h"
 
 #include "cli/cli.h"
+#include "cli/ending.h"
 #include "cli/progress.h"
+
+const struct kd_format *kd_cli_picture_format(const struct argp_state *state, const char *option, const char *path)
+{
+#define NAME(name) #name,
+    static const char *const names[] = { KD_FORMATS(NAME) NULL };
+#undef NAME
+    return kd_format_named(kd_cli_ending(state, option, path, names));
+}
 
 enum kd_status kd_cli_draw(struct kd_renderer *renderer, const struct kd_format *format, struct kd_scene *scene,
                            struct kd_plan *plan, struct kd_frame *frame, double *ms, struct kd_error *error)

@@ -1,6 +1,7 @@
 /* kerrd film renders all frames of a job's request, and makes a film of them. */
 #include "base/program.h"
 #include "cli/cli.h"
+#include "cli/ending.h"
 #include "cli/file.h"
 #include "cli/film_state.h"
 #include "cli/frames.h"
@@ -22,6 +23,7 @@ enum { KEY_RATE = 256, KEY_STATE, KEY_SAMPLES, KEY_SHUTTER, KEY_ONLY };
 struct arguments {
     struct kd_scene_options scene; /* its document: that of the film */
     const char *device, *output, *state;
+    const struct kd_gather_format *kind; /* of the output; NULL: none is wanted */
     unsigned rate, samples, first, last; /* frames that are wanted */
     bool only;
     double shutter;
@@ -52,13 +54,13 @@ static const struct argp_option table[] = {
 
 static const struct kd_gather_format *const kinds[] = { &kd_gather_mp4, &kd_gather_webm, &kd_gather_zip };
 
-static const struct kd_gather_format *kind_of(const char *path)
+static const struct kd_gather_format *kind_of(const char *path, const struct argp_state *state)
 {
-    const char *dot = strrchr(path, '.');
-    for (size_t i = 0; dot && i < sizeof kinds / sizeof *kinds; i++)
-        if (!strcmp(kinds[i]->name, dot + 1))
-            return kinds[i];
-    return NULL;
+    const char *name = kd_cli_ending_required(state, "--output", path, KD_ENDINGS("mp4", "webm", "zip"));
+    size_t i = 0;
+    while (strcmp(kinds[i]->name, name))
+        i++;
+    return kinds[i];
 }
 
 /* "3:17", both frames included. */
@@ -101,13 +103,12 @@ static error_t parse(int key, char *text, struct argp_state *state)
             argp_error(state, "--state is missing: where should the frames of --only go?");
         else if (!arguments->only && !arguments->output)
             argp_error(state, "-o FILE is missing: where should the film go?");
-        else if (!arguments->only && !kind_of(arguments->output))
-            argp_error(state, "output is \"%s\", allowed is a name that ends in .mp4, .webm or .zip",
-                       arguments->output);
         else if (!arguments->scene.document)
             argp_error(state, "KEYFRAMES.json is missing: which frames? As in {\"scene\": {}, \"keyframes\": "
                               "[{\"frame\": 47, \"scene\": {\"camera\": {\"azimuth_deg\": 90}}}]}");
-        else if (arguments->rate && !arguments->only && !kind_of(arguments->output)->waits)
+        if (!arguments->only)
+            arguments->kind = kind_of(arguments->output, state);
+        if (arguments->rate && arguments->kind && !arguments->kind->waits)
             argp_error(state, "--rate is of .mp4 and .webm: pictures in a .zip have none");
         return 0;
     }
@@ -441,7 +442,7 @@ int kd_cli_film(int argc, char **argv)
     struct work work = { .arguments = &arguments, .frames = KD_FRAMES_NONE };
     struct kd_error error = { 0 };
     argp_parse(kd_cli_film_argp(), argc, argv, 0, NULL, &arguments);
-    work.kind = arguments.only ? NULL : kind_of(arguments.output);
+    work.kind = arguments.kind;
     const enum kd_status status = run(&work, &error);
     kd_encoder_finish(&work.encoder);
     kd_playground_destroy(work.bodies);

@@ -1,5 +1,6 @@
 /* kerrd light-curve tells how bright a scene is and where its light comes from, as time goes on. */
 #include "cli/cli.h"
+#include "cli/ending.h"
 #include "cli/file.h"
 #include "cli/progress.h"
 #include "cli/scene_options.h"
@@ -43,6 +44,13 @@ static error_t parse(int key, char *text, struct argp_state *state)
         arguments->format = kd_series_table(&kd_light_curve, text);
         if (!arguments->format)
             argp_error(state, "--format %s: json or csv", text);
+        return 0;
+    case ARGP_KEY_END:
+        if (!arguments->format)
+            arguments->format = kd_series_table(
+                &kd_light_curve, kd_cli_ending(state, "--output", arguments->output, KD_ENDINGS("json", "csv")));
+        if (!arguments->format)
+            arguments->format = &kd_light_curve.tables[0];
         return 0;
     }
     return ARGP_ERR_UNKNOWN;
@@ -109,13 +117,7 @@ static enum kd_status measure(struct work *w, const struct kd_scene *first, doub
 static enum kd_status save(const struct work *w, const struct arguments *arguments, struct kd_error *error)
 {
     struct kd_buffer text = { 0 };
-    const char *dot = strrchr(arguments->output, '.');
-    const struct kd_table_format *format = arguments->format ? arguments->format
-                                           : dot             ? kd_series_table(&kd_light_curve, dot + 1)
-                                                             : NULL;
-    if (!format)
-        format = &kd_light_curve.tables[0];
-    enum kd_status status = format->write(w->rows, w->frames, NULL, &text);
+    enum kd_status status = arguments->format->write(w->rows, w->frames, NULL, &text);
     if (status)
         kd_error_set(error, status, "out of memory for %u rows", w->frames);
     else

@@ -1,5 +1,6 @@
 /* kerrd orbit follows timelike geodesics. */
 #include "cli/cli.h"
+#include "cli/ending.h"
 #include "cli/file.h"
 #include "cli/progress.h"
 #include "orbit/feed.h"
@@ -74,14 +75,19 @@ static error_t parse(int key, char *text, struct argp_state *state)
             argp_error(state, "%s: one file at a time, and %s was given already", text, arguments->input);
         arguments->input = text;
         return 0;
+    case ARGP_KEY_END:
+        if (!arguments->format)
+            arguments->format = arguments->output ? kd_cli_ending(state, "--output", arguments->output,
+                                                                  KD_ENDINGS("json", "ndjson", "csv", "npy"))
+                                                  : "";
+        return 0;
     }
     return ARGP_ERR_UNKNOWN;
 }
 
 static enum kd_orbit_format format_of(const struct arguments *arguments)
 {
-    const char *dot = arguments->output ? strrchr(arguments->output, '.') : NULL;
-    const char *format = arguments->format ? arguments->format : dot ? dot + 1 : "";
+    const char *format = arguments->format;
     return !strcmp(format, "npy")      ? KD_ORBIT_NPY
            : !strcmp(format, "csv")    ? KD_ORBIT_CSV
            : !strcmp(format, "ndjson") ? KD_ORBIT_NDJSON

@@ -1,5 +1,6 @@
 /* kerrd particles lists where the particles of a scene are, as an array for NumPy. */
 #include "cli/cli.h"
+#include "cli/ending.h"
 #include "cli/file.h"
 #include "cli/scene_options.h"
 #include "image/npy.h"
@@ -44,6 +45,8 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case ARGP_KEY_END:
         if (!arguments->output)
             argp_error(state, "-o FILE.npy is missing");
+        else
+            kd_cli_ending(state, "--output", arguments->output, KD_ENDINGS("npy"));
         return 0;
     }
     return ARGP_ERR_UNKNOWN;

@@ -1,6 +1,7 @@
 /* kerrd physics gives quantities by name. */
 #include "base/slip.h"
 #include "cli/cli.h"
+#include "cli/ending.h"
 #include "cli/file.h"
 #include "quantity/sound.h"
 
@@ -32,6 +33,12 @@ static error_t parse(int key, char *text, struct argp_state *state)
         arguments->format = text;
         return 0;
     case ARGP_KEY_ARG: argp_error(state, "%s: parameters are options, as in --%s VALUE", text, "spin"); return 0;
+    case ARGP_KEY_END:
+        if (!arguments->format)
+            arguments->format = arguments->output ? kd_cli_ending(state, "--output", arguments->output,
+                                                                  KD_ENDINGS("json", "csv", "wav"))
+                                                  : "";
+        return 0;
     }
     return ARGP_ERR_UNKNOWN;
 }
@@ -75,8 +82,7 @@ static enum kd_status answer_text(const struct arguments *arguments, struct kd_b
 {
     struct kd_quantity_request request;
     struct kd_quantity_answer answer;
-    const char *dot = arguments->output ? strrchr(arguments->output, '.') : NULL;
-    const char *format = arguments->format ? arguments->format : dot ? dot + 1 : "";
+    const char *format = arguments->format;
     enum kd_status status;
     kd_quantity_request_init(&request, arguments->quantity);
     for (size_t i = 0; i < arguments->quantity->n_parameters; i++)

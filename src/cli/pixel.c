@@ -1,5 +1,6 @@
 /* kerrd pixel explains what one pixel of a picture shows. */
 #include "cli/cli.h"
+#include "cli/ending.h"
 #include "cli/file.h"
 #include "cli/progress.h"
 #include "cli/scene_options.h"
@@ -26,11 +27,7 @@ static const struct argp_option table[] = {
     { 0 },
 };
 
-static bool wants_json(const struct arguments *arguments)
-{
-    const char *dot = arguments->output ? strrchr(arguments->output, '.') : NULL;
-    return arguments->format ? !strcmp(arguments->format, "json") : dot && !strcmp(dot, ".json");
-}
+static bool wants_json(const struct arguments *arguments) { return !strcmp(arguments->format, "json"); }
 
 static error_t parse(int key, char *text, struct argp_state *state)
 {
@@ -52,6 +49,10 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case ARGP_KEY_END:
         if (!arguments->at)
             argp_error(state, "--at X,Y is missing: which pixel?");
+        if (!arguments->format)
+            arguments->format = arguments->output
+                                    ? kd_cli_ending(state, "--output", arguments->output, KD_ENDINGS("text", "json"))
+                                    : "";
         if (arguments->trace && !wants_json(arguments))
             argp_error(state, "--trace goes with JSON: --format json, or a name that ends in .json");
         return 0;

@@ -1,6 +1,8 @@
 /* kerrd playground lets bodies move round the hole for a while, and writes where they are then and what has
  * happened. */
 #include "cli/cli.h"
+#include "cli/draw.h"
+#include "cli/ending.h"
 #include "cli/file.h"
 #include "cli/playground_pictures.h"
 #include "cli/progress.h"
@@ -30,6 +32,7 @@ enum {
 
 struct arguments {
     const char *document, *preset, *output, *series, *fallback, *events;
+    const char *series_format;
     const char *sets[SETS_MAX];
     size_t n_sets;
     double time;
@@ -65,6 +68,21 @@ static const struct argp_option table[] = {
     KD_CLI_MEMORY,
     { 0 },
 };
+
+/* What each file is, its name says or does not deny. */
+static void check_names(struct arguments *a, const struct argp_state *state)
+{
+    if (a->output)
+        kd_cli_ending(state, "--output", a->output, KD_ENDINGS("json"));
+    if (a->series)
+        a->series_format = kd_cli_ending(state, "--series", a->series, KD_ENDINGS("csv", "npy"));
+    if (a->fallback)
+        kd_cli_ending(state, "--fallback", a->fallback, KD_ENDINGS("csv"));
+    if (a->events)
+        kd_cli_ending(state, "--events", a->events, KD_ENDINGS("ndjson"));
+    if (a->pictures.path)
+        a->pictures.format = kd_cli_picture_format(state, "--picture", a->pictures.path);
+}
 
 static error_t parse(int key, char *text, struct argp_state *state)
 {
@@ -117,6 +135,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case ARGP_KEY_END:
         if (a->document && a->preset)
             argp_error(state, "a document names its preset itself");
+        check_names(a, state);
         return 0;
     }
     return ARGP_ERR_UNKNOWN;
@@ -153,11 +172,6 @@ static enum kd_status load(const struct arguments *a, struct kd_playground **p, 
 done:
     kd_buffer_finish(&text);
     return status;
-}
-
-static bool ends(const char *text, const char *end)
-{
-    return strlen(text) >= strlen(end) && !strcmp(text + strlen(text) - strlen(end), end);
 }
 
 /* What has happened since the begin, a line each. More than KD_PLAYGROUND_EVENTS in one sub-step are not kept: a
@@ -199,7 +213,7 @@ done:
     return status;
 }
 
-enum what { SERIES, FALLBACK, SNAPSHOT };
+enum what { SERIES_CSV, SERIES_NPY, FALLBACK, SNAPSHOT };
 
 static enum kd_status write_one(struct kd_playground *p, enum what what, const char *path, struct kd_error *error)
 {
@@ -209,9 +223,10 @@ static enum kd_status write_one(struct kd_playground *p, enum what what, const c
     if (!path)
         return KD_OK;
     switch (what) {
-    case SERIES:
+    case SERIES_CSV:
+    case SERIES_NPY:
         kd_playground_series_row(p, now);
-        status = (ends(path, ".npy") ? kd_series_npy : kd_series_csv)(&p->series, now, &out);
+        status = (what == SERIES_NPY ? kd_series_npy : kd_series_csv)(&p->series, now, &out);
         break;
     case FALLBACK: status = kd_debris_csv(&p->debris, &out); break;
     case SNAPSHOT: status = kd_playground_write(p, true, &out);
@@ -285,12 +300,24 @@ done:
     return status;
 }
 
+/* Whether all files can be written is known before bodies move for minutes. */
+static enum kd_status check_files(const struct arguments *a, struct kd_error *error)
+{
+    const char *const files[] = { a->output, a->series, a->fallback, a->events };
+    enum kd_status status = KD_OK;
+    for (size_t i = 0; i < sizeof files / sizeof *files && !status; i++)
+        if (files[i] && strcmp(files[i], "-"))
+            status = kd_file_check(files[i], error);
+    return status;
+}
+
 static enum kd_status work(struct arguments *a, struct kd_error *error)
 {
     struct kd_playground *p = NULL;
     struct story story = { 0 };
     enum kd_status status;
     KD_TRY(kd_pictures_check(&a->pictures, error));
+    KD_TRY(check_files(a, error));
     KD_TRY(load(a, &p, error));
     story.told = p->events.last; /* what a snapshot has told is not told again */
     kd_playground_series_begin(p, a->time);
@@ -305,7 +332,7 @@ static enum kd_status work(struct arguments *a, struct kd_error *error)
         fprintf(stderr,
                 "kerrd: bodies smaller than 2 (m1 + m2) pulled one another to more than c: speeds were held at c, "
                 "which took momentum (state.spent.capped_momentum)\n");
-    KD_TRY(write_one(p, SERIES, a->series, error));
+    KD_TRY(write_one(p, a->series && !strcmp(a->series_format, "npy") ? SERIES_NPY : SERIES_CSV, a->series, error));
     KD_TRY(write_one(p, FALLBACK, a->fallback, error));
     if (a->events)
         KD_TRY(kd_file_write(a->events, &story.text, error));

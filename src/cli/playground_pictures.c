@@ -36,10 +36,9 @@ enum kd_status kd_pictures_check(const struct kd_pictures_asked *asked, struct k
                                                : NULL;
     if (!asked->path)
         return idle ? kd_error_set(error, KD_EINVAL, "for --picture FILE, which is missing: %s", idle) : KD_OK;
-    if (!kd_format_of_path(asked->path))
+    if (!asked->format)
         return kd_error_set(error, KD_EINVAL,
-                            "--picture is \"%s\", allowed is a name that ends in .png, .fits, .exr, .npz or .npy",
-                            asked->path);
+                            "--picture is \"%s\": the name must end in .png, .fits, .exr, .npz or .npy", asked->path);
     if (asked->every > 0 && !number_in(asked->path, &length))
         return kd_error_set(error, KD_EINVAL,
                             "--picture is \"%s\", allowed with --every is a name with one %%d in it, as film/%%05d.png",
@@ -60,22 +59,6 @@ static enum kd_status load(struct kd_pictures_asked *asked, const char *view, co
     return status ? status : kd_scene_options_merge(&asked->scene, out, error);
 }
 
-enum kd_status kd_pictures_begin(struct kd_pictures_asked *asked, const char *view, const struct kd_playground *p,
-                                 struct kd_pictures *out, struct kd_error *error)
-{
-    enum kd_status status;
-    *out = (struct kd_pictures) { .asked = asked };
-    out->format = kd_format_of_path(asked->path);
-    KD_TRY(load(asked, view, p, &out->scene, error));
-    KD_TRY(kd_playground_may_show(p, &out->scene, error));
-    out->assets = kd_asset_options_assets(&asked->scene.assets);
-    KD_TRY(kd_renderer_create(
-        &(struct kd_renderer_params) { .device = asked->device, .memory_bytes = asked->memory, .assets = &out->assets },
-        &out->renderer, error));
-done:
-    return status;
-}
-
 /* The name of the next one. */
 static void name_of(const struct kd_pictures *p, char out[4096])
 {
@@ -87,6 +70,25 @@ static void name_of(const struct kd_pictures *p, char out[4096])
     }
     const int width = atoi(at + 1); /* behind a 0 or not: numbers in names are filled up with zeros */
     snprintf(out, 4096, "%.*s%0*u%s", (int)(at - p->asked->path), p->asked->path, width, p->made, at + length);
+}
+
+enum kd_status kd_pictures_begin(struct kd_pictures_asked *asked, const char *view, const struct kd_playground *p,
+                                 struct kd_pictures *out, struct kd_error *error)
+{
+    char first[4096];
+    enum kd_status status;
+    *out = (struct kd_pictures) { .asked = asked };
+    out->format = asked->format;
+    name_of(out, first);
+    KD_TRY(kd_file_check(first, error));
+    KD_TRY(load(asked, view, p, &out->scene, error));
+    KD_TRY(kd_playground_may_show(p, &out->scene, error));
+    out->assets = kd_asset_options_assets(&asked->scene.assets);
+    KD_TRY(kd_renderer_create(
+        &(struct kd_renderer_params) { .device = asked->device, .memory_bytes = asked->memory, .assets = &out->assets },
+        &out->renderer, error));
+done:
+    return status;
 }
 
 static enum kd_status render(struct kd_pictures *p, struct kd_scene *scene, struct kd_buffer *file,

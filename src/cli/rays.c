@@ -1,5 +1,6 @@
 /* kerrd rays gives the end points of listed rays. */
 #include "cli/cli.h"
+#include "cli/ending.h"
 #include "cli/file.h"
 #include "cli/progress.h"
 #include "cli/trace.h"
@@ -73,19 +74,16 @@ static void add_ray(struct arguments *arguments, const char *text, struct argp_s
         argp_failure(state, KD_EXIT_FAILURE, ENOMEM, "--ray");
 }
 
-static const char *format_name(const struct arguments *arguments)
+/* Takes the format from the output's name where none is given. Refuses text for anything but steps, and arrays for
+ * steps. */
+static void settle_format(struct arguments *arguments, const struct argp_state *state)
 {
-    const char *dot = arguments->output ? strrchr(arguments->output, '.') : NULL;
-    return arguments->format ? arguments->format : dot ? dot + 1 : "";
-}
-
-/* Refuses text for anything but steps, and arrays for steps. */
-static void check_format(const struct arguments *arguments, const struct argp_state *state)
-{
-    const char *format = format_name(arguments);
-    if (arguments->trace && !strcmp(format, "npy"))
+    const char *const *known = arguments->trace ? KD_ENDINGS("text", "json", "csv") : KD_ENDINGS("json", "npy", "csv");
+    if (!arguments->format)
+        arguments->format = arguments->output ? kd_cli_ending(state, "--output", arguments->output, known) : "";
+    if (arguments->trace && !strcmp(arguments->format, "npy"))
         argp_error(state, "--trace writes text, json or csv, not npy");
-    if (!arguments->trace && !strcmp(format, "text"))
+    if (!arguments->trace && !strcmp(arguments->format, "text"))
         argp_error(state, "--format text: only --trace writes it");
 }
 
@@ -119,7 +117,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case ARGP_KEY_END:
         if (!arguments->input && !arguments->more.n)
             argp_error(state, "there are no rays: name a file, or give --ray ALPHA,BETA");
-        check_format(arguments, state);
+        settle_format(arguments, state);
         if (arguments->trace && !arguments->input && !arguments->fields[KEY_ENGINE - KEY_SPIN])
             arguments->fields[KEY_ENGINE - KEY_SPIN] = "mino-rkn6";
         return 0;
@@ -129,7 +127,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
 
 static enum kd_rays_format format_of(const struct arguments *arguments)
 {
-    const char *format = format_name(arguments);
+    const char *format = arguments->format;
     return !strcmp(format, "npy") ? KD_RAYS_NPY : !strcmp(format, "csv") ? KD_RAYS_CSV : KD_RAYS_JSON;
 }
 
@@ -226,7 +224,7 @@ done:
 
 static enum kd_status tell(const struct arguments *arguments, const struct kd_told_steps *trace, struct kd_error *error)
 {
-    const char *format = format_name(arguments), *path = arguments->output;
+    const char *format = arguments->format, *path = arguments->output;
     struct kd_buffer text = { 0 };
     enum kd_status status = !strcmp(format, "json")  ? kd_trace_json(trace, &text)
                             : !strcmp(format, "csv") ? kd_trace_csv(trace, &text)

@@ -7,11 +7,9 @@
 #include "cli/stats.h"
 #include "render/output/format.h"
 
-#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 struct arguments {
     struct kd_scene_options scene;
@@ -29,37 +27,6 @@ static const struct argp_option table[] = {
     { 0 },
 };
 
-/* "PNG or NPY", "PNG, NPY or FITS" */
-static void name_formats(char *out, size_t size)
-{
-    *out = 0;
-    for (size_t i = 0, n = 0; i < kd_n_formats && n < size; i++) {
-        n += (size_t)snprintf(out + n, size - n, "%s", !i ? "" : i + 1 < kd_n_formats ? ", " : " or ");
-        for (const char *p = kd_formats[i]->name; *p && n + 1 < size; p++)
-            out[n++] = (char)toupper((unsigned char)*p);
-        out[n < size ? n : size - 1] = 0;
-    }
-}
-
-/* Finds the format by the output's name; the first of all for a name that says nothing. The name of another kind of
- * picture is refused. */
-static const struct kd_format *format_of(const char *path, const struct argp_state *state)
-{
-    static const char *const others[] = { ".jpg",  ".jpeg", ".gif", ".webp", ".tif",
-                                          ".tiff", ".bmp",  ".hdr", ".pdf",  ".svg" };
-    const struct kd_format *format = kd_format_of_path(path);
-    const char *dot = strrchr(path, '.');
-    char known[80];
-    if (format)
-        return format;
-    name_formats(known, sizeof known);
-    for (size_t i = 0; dot && i < sizeof others / sizeof *others; i++)
-        if (!strcasecmp(dot, others[i]))
-            argp_error(state, "output is \"%s\", allowed is a %s file: a name that does not end in %s", path, known,
-                       others[i]);
-    return kd_formats[0];
-}
-
 static error_t parse(int key, char *text, struct argp_state *state)
 {
     struct arguments *arguments = state->input;
@@ -75,7 +42,9 @@ static error_t parse(int key, char *text, struct argp_state *state)
         if (!arguments->output)
             argp_error(state, "-o FILE is missing: where should the picture go?");
         else
-            arguments->format = format_of(arguments->output, state);
+            arguments->format = kd_cli_picture_format(state, "--output", arguments->output);
+        if (arguments->output && !arguments->format)
+            arguments->format = kd_formats[0];
         return 0;
     }
     return ARGP_ERR_UNKNOWN;

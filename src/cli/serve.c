@@ -20,13 +20,15 @@
 
 #define ROW(id, name, letter, argument, kind, least, most, initial, where, doc) \
     { name, argument, KD_SETTING_##kind, least, most, initial, KD_SETTING_##where, doc },
-const struct kd_cli_setting kd_serve_settings[KD_SERVE_COUNT] = { KD_SERVE_SETTINGS(ROW) };
+const struct kd_cli_setting kd_serve_settings[KD_SERVE_COUNT] = { KD_SERVE_SETTINGS(ROW, KD_SERVE_NOTHING) };
 
 /* A switch may say yes or no, so that a flag can take back what a file says. */
 #define OPTION(id, name, letter, argument, kind, least, most, initial, where, doc) \
     { name, letter, argument, KD_SETTING_##kind == KD_SETTING_SWITCH && argument ? OPTION_ARG_OPTIONAL : 0, doc, 0 },
+#define HEADING(text) { NULL, 0, NULL, 0, text, 0 },
 static const struct argp_option table[] = {
-    KD_SERVE_SETTINGS(OPTION) { NULL, 'h', NULL, OPTION_HIDDEN, NULL, 0 }, /* as --help, which argp itself gives -? */
+    KD_SERVE_SETTINGS(OPTION, HEADING) { NULL, 'h', NULL, OPTION_HIDDEN, NULL,
+                                         0 }, /* as --help, which argp itself gives -? */
     { 0 },
 };
 
@@ -39,17 +41,18 @@ static error_t parse(int key, char *text, struct argp_state *state)
         argp_state_help(state, stdout, ARGP_HELP_STD_HELP);
     if (key == ARGP_KEY_ARG)
         argp_error(state, "%s: it takes no argument", text);
-    for (size_t i = 0; i < KD_SERVE_COUNT; i++) {
-        if (table[i].key != key)
-            continue;
-        const char *value = text ? text : "yes";
-        if (!kd_setting_takes(&kd_serve_settings[i], value, allowed))
-            argp_error(state, "--%s %s: %s", table[i].name, value, allowed);
-        if (kd_settings_give(settings, i, KD_BY_FLAG, value, &error))
-            argp_failure(state, KD_EXIT_FAILURE, ENOMEM, "--%s", table[i].name);
-        return 0;
-    }
-    return ARGP_ERR_UNKNOWN;
+    size_t i = 0; /* of the setting: headings are none */
+    const struct argp_option *option = table;
+    while (i < KD_SERVE_COUNT && option->key != key)
+        i += (option++)->key != 0;
+    if (i == KD_SERVE_COUNT)
+        return ARGP_ERR_UNKNOWN;
+    const char *value = text ? text : "yes";
+    if (!kd_setting_takes(&kd_serve_settings[i], value, allowed))
+        argp_error(state, "--%s %s: %s", option->name, value, allowed);
+    if (kd_settings_give(settings, i, KD_BY_FLAG, value, &error))
+        argp_failure(state, KD_EXIT_FAILURE, ENOMEM, "--%s", option->name);
+    return 0;
 }
 
 static struct kd_server *running; /* for the signal handler, which can be given nothing */

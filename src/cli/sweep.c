@@ -1,5 +1,6 @@
 /* kerrd sweep renders a scene for all values of some fields, into one file. */
 #include "cli/cli.h"
+#include "cli/ending.h"
 #include "cli/file.h"
 #include "cli/frames.h"
 #include "cli/progress.h"
@@ -18,6 +19,7 @@
 struct arguments {
     struct kd_scene_options scene;
     const char *device, *output, **axes;
+    const struct kind *kind; /* of the output */
     size_t n_axes;
     uint64_t memory;
     bool stats;
@@ -37,25 +39,24 @@ static const struct argp_option table[] = {
 
 /* By the end of its name: what the scenes become, and what all of them do. */
 struct kind {
-    const char *end;
+    const char *name; /* of the format */
     const struct kd_format *frame;
     const struct kd_gather_format *whole; /* NULL: a table */
 };
 
-static const struct kind *kind_of(const char *path)
+static const struct kind *kind_of(const char *path, const struct argp_state *state)
 {
-    static struct kind kinds[] = { { ".fits", &kd_format_fits, &kd_gather_fits },
-                                   { ".npz", &kd_format_fits, &kd_gather_npz },
-                                   { ".zip", &kd_format_png, &kd_gather_zip },
-                                   { ".csv", NULL, NULL },
-                                   { ".json", NULL, NULL } };
-    const char *dot = strrchr(path, '.');
-    for (size_t i = 0; dot && i < sizeof kinds / sizeof *kinds; i++)
-        if (!strcmp(kinds[i].end, dot)) {
-            kinds[i].frame = kinds[i].whole ? kinds[i].frame : kd_light_curve.frame;
-            return &kinds[i];
-        }
-    return NULL;
+    static struct kind kinds[] = { { "fits", &kd_format_fits, &kd_gather_fits },
+                                   { "npz", &kd_format_fits, &kd_gather_npz },
+                                   { "zip", &kd_format_png, &kd_gather_zip },
+                                   { "csv", NULL, NULL },
+                                   { "json", NULL, NULL } };
+    const char *name = kd_cli_ending_required(state, "--output", path, KD_ENDINGS("fits", "npz", "zip", "csv", "json"));
+    size_t i = 0;
+    while (strcmp(kinds[i].name, name))
+        i++;
+    kinds[i].frame = kinds[i].whole ? kinds[i].frame : kd_light_curve.frame;
+    return &kinds[i];
 }
 
 static error_t parse(int key, char *text, struct argp_state *state)
@@ -76,9 +77,8 @@ static error_t parse(int key, char *text, struct argp_state *state)
                        "--axis is missing: which field takes which values? As in --axis spacetime.spin=0,0.5,0.9");
         else if (!arguments->output)
             argp_error(state, "-o FILE is missing: where should the sweep go?");
-        else if (!kind_of(arguments->output))
-            argp_error(state, "output is \"%s\", allowed is a name that ends in .fits, .npz, .zip, .csv or .json",
-                       arguments->output);
+        else
+            arguments->kind = kind_of(arguments->output, state);
         return 0;
     }
     return ARGP_ERR_UNKNOWN;
@@ -179,7 +179,7 @@ static enum kd_status save_whole(struct work *w, const char *path, struct kd_err
 
 static enum kd_status save_table(struct work *w, const char *path, struct kd_error *error)
 {
-    const struct kd_table_format *format = kd_series_table(&kd_light_curve, w->kind->end + 1);
+    const struct kd_table_format *format = kd_series_table(&kd_light_curve, w->kind->name);
     const size_t row = kd_light_curve.row_bytes;
     char *rows = malloc(w->sweep->scenes * row);
     struct kd_buffer text = { 0 };
@@ -229,7 +229,7 @@ static enum kd_status run(struct arguments *arguments, struct kd_error *error)
 {
     struct kd_scene scene;
     struct kd_sweep *sweep = NULL;
-    struct work work = { .kind = kind_of(arguments->output), .frames = KD_FRAMES_NONE };
+    struct work work = { .kind = arguments->kind, .frames = KD_FRAMES_NONE };
     enum kd_status status;
     arguments->scene.assets.later = true;
     KD_TRY(kd_scene_options_load(&arguments->scene, &scene, error));

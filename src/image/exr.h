@@ -10,7 +10,7 @@
 #include <stdint.h>
 
 struct kd_exr_channel {
-    char name[40];     /* "R", "temperature": each once */
+    char name[40];     /* "R", "kerrd.g": each once */
     const float *data; /* rows from the top */
     size_t step;       /* numbers from a pixel to the next */
 };

@@ -73,10 +73,12 @@ class Files(support.Case):
         channels = OpenEXR.File(self.files["exr"], separate_channels=True).channels()
         self.assertEqual([unit.header["EXTNAME"] for unit in units], LAYERS)
         self.assertEqual(set(apart), {*LAYERS, "notes.json"})
-        self.assertEqual(set(channels), {*LAYERS, "R", "G", "B"} - {"rgb"})
+        self.assertEqual(set(channels), {"R", "G", "B"} | {"kerrd." + name for name in LAYERS if name != "rgb"})
         for name, unit in zip(LAYERS, units):
             rows = unit.data[..., ::-1, :]  # the lowest row comes first
-            other = numpy.dstack([channels[c].pixels for c in "RGB"]) if name == "rgb" else channels[name].pixels
+            other = (
+                numpy.dstack([channels[c].pixels for c in "RGB"]) if name == "rgb" else channels["kerrd." + name].pixels
+            )
             for found in (apart[name], numpy.moveaxis(rows, 0, -1) if name == "rgb" else rows, other):
                 self.assertTrue(numpy.array_equal(bits(found), bits(whole[name])), name)
         self.assertTrue(numpy.isnan(whole["r"]).any() and numpy.nanmin(whole["r"]) > 1 and whole["intensity"].max() > 0)
@@ -105,6 +107,29 @@ class Files(support.Case):
         ):
             self.write("cut." + end, self.read("a." + end)[:head])
             self.bad(2, words, "render", "--from", self.path("cut." + end), "-o", self.path("d.png"))
+
+    def test_red_green_and_blue_come_first_in_an_exr_file(self):
+        """OpenImageIO orders channels without case, those without a layer first: what it shows of a file is the first
+        three."""
+        path = self.shot("a.exr", layers=["r", "g", "rgb"])
+        names = OpenEXR.File(path, separate_channels=True).channels()
+        order = {"r": 0, "g": 1, "b": 2}
+        seen = sorted(
+            names, key=lambda name: (name.lower().rpartition(".")[0], order.get(name.lower().rpartition(".")[2], 3))
+        )
+        self.assertEqual(seen, ["R", "G", "B", "kerrd.r", "kerrd.g"])
+        self.assertEqual(len({name.lower() for name in names}), len(names))
+
+    def test_an_exr_file_whose_channels_have_no_layer(self):
+        """As kerrd wrote them until November 2026."""
+        old = os.path.join(os.path.dirname(os.path.abspath(__file__)), "names_without_layer.exr")
+        self.assertEqual(set(OpenEXR.File(old, separate_channels=True).channels()), {"R", "G", "B", "r", "g"})
+        self.good("render", "--from", old, "-o", self.path("new.exr"))
+        before, now = (OpenEXR.File(path, separate_channels=True) for path in (old, self.path("new.exr")))
+        for name in before.channels():
+            numbers = now.channels()[name if name in "RGB" else "kerrd." + name].pixels
+            self.assertTrue(numpy.allclose(numbers, before.channels()[name].pixels, rtol=1e-4, equal_nan=True), name)
+        self.assertEqual(now.header()["kerrd:scene"], before.header()["kerrd:scene"])
 
     def test_what_a_file_tells(self):
         header = self.opened(self.files["fits"])[0].header

@@ -2,6 +2,7 @@
 
 import json
 import os
+import resource
 import signal
 import struct
 import zlib
@@ -33,6 +34,8 @@ class Usage(Case):
     def test_slips(self):
         self.bad(2, "did you mean render?", "rendr")
         self.bad(2, "did you mean render?", "RENDER")
+        self.bad(2, "did you mean serve?", "sevre")
+        self.bad(2, "did you mean gargantua?", "scene", "--preset", "gragantua")
         self.bad(2, "did you mean gargantua?", "scene", "--preset", "gargantau")
         self.bad(2, "did you mean redshift?", "physics", "redshft")
         self.bad(2, "did you mean camera.inclination_deg?", "scene", "--set", "camera.inclination=60")
@@ -71,6 +74,12 @@ class Usage(Case):
             )
         self.bad(2, "--asset sky: no field of the scene names it", "scene", "--asset", "sky=" + picture)
         self.bad(2, "not a PNG file", "scene", "--asset", "sky=" + self.write("b.png", "text"))
+        for begin, words in (
+            (b"\x93NUMPY\x01\0", "an NPY file, which holds one array"),
+            (b"\x89HDF\r\n\x1a\n", "an HDF5 file"),
+            (b"SIMPLE  =                    T", "a FITS file"),
+        ):
+            self.bad(2, words, "scene", "--asset", "g=" + self.write("b.npz", begin + bytes(200)))
         self.bad(2, "No such file", "scene", "--asset", "sky=" + self.path("none.png"))
         self.bad(2, "this name is given twice", "scene", "--asset", "sky=a", "--asset", "sky=b")
         for text in "sky", "sky=", "=a.png", "2=a.png", "a/b=a.png", "a" * 64 + "=a.png":
@@ -156,6 +165,76 @@ class Usage(Case):
         self.bad(2, "excludes --preset", "scene", "--from", "a.png", "--preset", "m87")
 
 
+class Names(Case):
+    """The end of a file's name is its format, or an error: nobody takes one for another."""
+
+    def test_a_name_that_ends_as_another_format_does(self):
+        table, tabled = ["a.h5", "a.csv.gz", "a.fit", "a.txt", "a.xlsx", "a.png"], ["--output"]
+        for command, options, names in (
+            (
+                ["render"],
+                ["-o", "--output"],
+                [
+                    "a.h5",
+                    "a.exr.gz",
+                    "a.fits.gz",
+                    "a.fts.gz",
+                    "a.csv",
+                    "a.pfm",
+                    "a.jpg",
+                    "a.JPEG",
+                    "a.hdf5",
+                    "d.png/a.tiff",
+                ],
+            ),
+            (["sweep", "-x", "time=0,1"], tabled, ["a.png", "a.fits.gz", "a.h5", "a", "a.tmp"]),
+            (["film", "-"], tabled, ["a.gif", "a.mov", "a.avi", "a.mp4.gz", "a"]),
+            (["light-curve"], tabled, table),
+            (["rays", "--ray", "1,2"], tabled, table),
+            (["line"], tabled, table),
+            (["transfer-function"], tabled, table),
+            (["spectrum"], tabled, table),
+            (["visibility"], tabled, table),
+            (["orbit", "--case", "isco"], tabled, table),
+            (["physics", "kerr"], tabled, table),
+            (["rays", "--trace", "--ray", "1,2"], tabled, ["a.npy", "a.md"]),
+            (["pixel", "--at", "1,1"], tabled, ["a.csv", "a.png"]),
+            (["particles"], tabled, ["a.npz", "a.csv", "a.npy.gz"]),
+            (["bench", "accuracy"], tabled, ["a.csv", "a.md"]),
+            (["bench", "accuracy"], ["--markdown"], ["a.json"]),
+            (["playground"], tabled, ["a.csv", "a.png"]),
+            (["playground"], ["--series"], ["a.json", "a.h5"]),
+            (["playground"], ["--fallback"], ["a.npy"]),
+            (["playground"], ["--events"], ["a.json"]),
+            (["playground"], ["--picture"], ["a.jpg", "a.mp4", "a"]),
+        ):
+            for option in options:
+                for name in names:
+                    self.bad(
+                        2,
+                        f'is "{self.path(name)}": the name must end in .',
+                        *command,
+                        option,
+                        self.path(name),
+                        stdin=b"{}",
+                    )
+        self.assertEqual(os.listdir(self.folder), [])
+
+    def test_the_same_format_by_another_name(self):
+        self.good("physics", "kerr", "-o", self.path("a.csv"))
+        self.good("physics", "kerr", "-o", self.path("a.CSV"))
+        self.assertEqual(self.read("a.CSV"), self.read("a.csv"))
+        self.good("orbit", "--case", "isco", "-o", self.path("a.ndjson"))
+        self.good("orbit", "--case", "isco", "-o", self.path("a.jsonl"))
+        self.assertEqual(self.read("a.jsonl"), self.read("a.ndjson"))
+        self.good("physics", "kerr", "--format", "csv", "-o", self.path("a.dat"))
+        self.assertEqual(self.read("a.dat"), self.read("a.csv"))
+        said = self.good("physics", "kerr")
+        for name in "a", "a.tmp", "v1.5", "tmp.AbCdEfGhIj":
+            self.good("physics", "kerr", "-o", self.path(name))
+            self.assertEqual(self.read(name), said)
+
+
 class Files(Case):
     def test_no_such_thing(self):
         self.bad(2, "No such file", "scene", self.path("absent.json"))
@@ -182,6 +261,63 @@ class Files(Case):
         self.bad(2, "scene.json:", "scene", self.write("scene.json", "{"))
         self.bad(2, "standard input:", "scene", "-", stdin=b"{")
         self.bad(2, "more than 1048576 bytes", "scene", "-", stdin=b" " * (1 << 20) + b"{}")
+
+    def test_utf16(self):
+        for order in "utf-16", "utf-16-le", "utf-16-be":
+            self.bad(
+                2,
+                "it is UTF-16, and JSON is UTF-8",
+                "scene",
+                self.write("a.json", '{"camera": {"r": 50}}'.encode(order)),
+            )
+
+    def test_specific_intensity_of_a_grid(self):
+        self.bad(
+            2, 'volume.model "gold", "riaf", "torus" or "grid"', "plan", "--set", "image.layers=specific_intensity"
+        )
+
+    def test_limits_of_the_process(self):
+        """A driver that has too little address space ends the process without a word; a file that grows past its limit
+        is no half file."""
+
+        def space():
+            resource.setrlimit(resource.RLIMIT_AS, (700 << 20, 700 << 20))
+
+        def size():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
+
+        self.bad(1, "(ulimit -v, ulimit -d) leaves", "render", "-o", self.path("a.png"), preexec_fn=space)
+        done = run("doctor", preexec_fn=space)
+        self.assertEqual((done.returncode, done.stderr.decode().count("ulimit -v")), (1, 1), done.stderr)
+        self.assertIn(b"verdict: not usable", done.stdout)
+        self.bad(
+            1, "File too large", "physics", "kerr", "--spin", "0:0.9:1000", "-o", self.path("a.csv"), preexec_fn=size
+        )
+        self.assertEqual([name for name in os.listdir(self.folder) if name not in ("a.json",)], [])
+
+    def test_help_of_serve_by_purpose(self):
+        lines = self.good("serve", "--help").decode().splitlines()
+        headings = [
+            line.strip() for line in lines if line.startswith(" ") and line.rstrip().endswith(":") and "--" not in line
+        ]
+        self.assertEqual(
+            headings,
+            [
+                "Where it listens:",
+                "Who may use it:",
+                "How much at once, and for whom:",
+                "What it keeps, and how it ends:",
+                "The device:",
+                "Log and configuration:",
+            ],
+        )
+        place = {
+            word: k
+            for k, line in enumerate(lines)
+            for word in ("--listen", "--token-file", "--queue", "--state", "--device=", "--log-level")
+            if word in line
+        }
+        self.assertEqual(list(place), sorted(place, key=place.get))
 
     def test_not_pictures(self):
         self.bad(2, "not a PNG file", "scene", "--from", self.write("a.png", "{}"))

@@ -26,7 +26,9 @@ class Pictures(Case):
 
     def test_pictures_that_cannot_be(self):
         self.bad(2, "one %d in it", "playground", "-p", "emri", "--every", "1", "--picture", self.path("a.png"))
-        self.bad(2, "allowed is a name that ends in", "playground", "-p", "emri", "--picture", self.path("a.gif"))
+        self.bad(1, "cannot write", "playground", "-p", "emri", "--time", "1e9", "--picture", self.path("none/a.png"))
+        self.bad(1, "cannot write", "playground", "-p", "emri", "--time", "1e9", "--series", self.path("none/a.csv"))
+        self.bad(2, "the name must end in", "playground", "-p", "emri", "--picture", self.path("a.gif"))
         self.bad(2, "--picture FILE, which is missing", "playground", "-p", "emri", "--every", "1")
         self.bad(
             2,

@@ -360,7 +360,7 @@ class Sweep(support.Case):
         for words, *arguments in (
             ("--axis is missing", *out),
             ("-o FILE is missing", "-x", "time=0,1"),
-            ("allowed is a name that ends in", "-x", "time=0,1", "-o", "a.png"),
+            ("the name must end in", "-x", "time=0,1", "-o", "a.png"),
             ("spacetime.spin is 2, allowed", "-x", "spacetime.spin=0,2", *out),
             ("no cube has pictures of several sizes", "-x", "image.width=32,64", *out),
             (

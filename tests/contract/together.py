@@ -69,7 +69,7 @@ SCENE = (
     'image.layers holds %s with polarization.model "none", where no light is polarised: allowed are the other words of it',
     'image.layers holds stokes_v, allowed with polarization.model "transfer": other light is not polarised circularly',
     'image.layers holds %s with camera.projection "ring", where a picture has no up: allowed are the others',
-    'image.layers holds %s, allowed where nothing but a volume at a radio frequency shines: volume.model "gold", "riaf" or "torus", disk.model and sky.model "none", no jets, spots or bodies',
+    'image.layers holds %s, allowed where nothing but a volume at a radio frequency shines: volume.model "gold", "riaf", "torus" or "grid", disk.model and sky.model "none", no jets, spots or bodies',
     "image.layers holds %s, which is of the place where a thin disk is crossed, with disk.height %.9g: allowed is 0",
     "image.layers holds %s, which is that of one crossing, allowed where there are no volumes",
     'image.layers holds %s with disk.model "none", where nothing has a temperature',

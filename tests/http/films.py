@@ -87,6 +87,10 @@ class Given(Films):
             self.assertEqual((after("-framerate"), given[-1], after("-color_range")), (str(rate), "/dev/fd/3", "tv"))
             self.assertIn(codec, given)
             self.assertEqual({after("-" + n) for n in ("colorspace", "color_primaries", "color_trc")}, {"bt709"})
+            self.assertTrue(
+                after("-vf").endswith("setparams=range=tv:color_primaries=bt709:color_trc=bt709:colorspace=bt709"),
+                after("-vf"),
+            )
             pictures = server.get(self.at(job, "/result?format=stream")).body
             alone = []
             while pictures:

@@ -1,14 +1,18 @@
 """The Python client against the real server, whose answers are read here by other means. client.py KERRD FOLDER"""
 
 import asyncio
+import contextlib
 import http.client
+import importlib.util
 import http.server
 import io
 import json
 import os
 import pathlib
 import pickle
+import re
 import signal
+import socket
 import subprocess
 import sys
 import tempfile
@@ -103,6 +107,18 @@ class Said(Case):
                 lambda: self.hole.render({"image": {"width": 3}}, **{"image.width.x": 1}),
             ),
             ("tile is 0", ValueError, lambda: self.hole.stitched({"image": SIZE}, tile=0)),
+            ("size is '640': it must be two whole numbers", ValueError, lambda: self.hole.render(size="640")),
+            (r"size is .640, -3.", ValueError, lambda: self.hole.render(size=(640, -3))),
+            (
+                "camera.inclination_deg is nan: it must be a finite number",
+                ValueError,
+                lambda: self.hole.render(camera__inclination_deg=float("nan")),
+            ),
+            (
+                "spots.0.r is inf: it must be a finite number",
+                ValueError,
+                lambda: self.hole.render({"spots": [{"r": np.inf}]}),
+            ),
         ):
             with self.assertRaisesRegex(wrong, words):
                 call()
@@ -117,6 +133,16 @@ class Said(Case):
         env.pop("no_proxy", None)
         done = subprocess.run([sys.executable, "-c", code, KERRD], env=env, capture_output=True, text=True, timeout=60)
         self.assertEqual((done.stdout, done.stderr), ("True\n", ""))
+
+    def test_a_tile_names_all_that_it_cannot_have(self):
+        with self.assertRaises(kerrd.Problem) as caught:
+            self.hole.stitched({"image": {**SIZE, "samples": "auto"}}, tile=16)
+        for field in "style.exposure", "style.bloom", "image.samples":
+            self.assertIn(field, caught.exception.detail)
+        whole = self.hole.stitched({"image": SIZE, "style": {"exposure": 0, "bloom": 0}}, tile=32)
+        self.assertTrue(
+            np.array_equal(whole, self.hole.render({"image": SIZE, "style": {"exposure": 0, "bloom": 0}}).array)
+        )
 
     def test_a_view_that_nothing_moves_in_ends(self):
         with self.hole.session(
@@ -167,6 +193,7 @@ class Blocking(Case):
             ),
             self.hole.render(image=SIZE, camera__inclination_deg=70, spots=({"r": np.int64(9)},)),
         ]
+        ways.append(self.hole.render({"camera": {"inclination_deg": 70}, "spots": [{"r": 9}]}, size="48x27"))
         self.assertEqual({way.headers["kerrd-scene-hash"] for way in ways}, {ways[0].headers["kerrd-scene-hash"]})
         self.assertNotEqual(self.hole.render(preset="gargantua", size=(48, 27)).etag, ways[0].etag)
         with self.assertRaisesRegex(KeyError, "spots.1.r"):
@@ -265,6 +292,171 @@ class Blocking(Case):
         self.assertEqual(raw(self.hole.url, "GET", f"/v1/jobs/{name}")[0], 404)
 
 
+class Saved(Case):
+    """A file keeps its scene, and its name is not that of another format."""
+
+    def scene_in(self, path):
+        return json.loads(
+            subprocess.run([KERRD, "scene", "--from", path], capture_output=True, check=True, timeout=60).stdout
+        )
+
+    def through_a_buffer(self, frame):
+        def save(path):
+            file = io.BytesIO()
+            frame.image.save(file, "PNG")
+            pathlib.Path(path).write_bytes(file.getvalue())
+
+        return save
+
+    def test_each_way_of_saving_keeps_the_scene(self):
+        frame = self.hole.render({"image": SIZE}, camera__inclination_deg=61)
+        with (
+            tempfile.TemporaryDirectory() as folder,
+            self.hole.session({"image": SIZE}, camera__inclination_deg=61) as live,
+        ):
+            shown = list(live)[-1]
+            for name, save in (
+                ("frame", frame.save),
+                ("image", frame.image.save),
+                ("path", lambda path: frame.image.save(pathlib.Path(path))),
+                ("buffer", self.through_a_buffer(frame)),
+                ("live", shown.save),
+                ("live-image", shown.image.save),
+                ("live-png", lambda path: pathlib.Path(path).write_bytes(shown.png)),
+            ):
+                with self.subTest(name):
+                    save(f"{folder}/{name}.png")
+                    self.assertEqual(self.scene_in(f"{folder}/{name}.png"), frame.scene)
+                    self.assertTrue(
+                        np.array_equal(
+                            np.asarray(Image.open(f"{folder}/{name}.png")),
+                            np.asarray(frame.image if "live" not in name else shown.image),
+                        )
+                    )
+            again = Image.open(f"{folder}/image.png").text
+            self.assertEqual(again, frame.image.text, "version, device, accuracy and approximations too")
+
+    def test_a_name_of_another_format(self):
+        frame = self.hole.render({"image": SIZE})
+        with tempfile.TemporaryDirectory() as folder:
+            for name in ("a.fits", "a.jpg", "a.npz", "a.png.gz", "a.h5"):
+                with self.assertRaisesRegex(kerrd.KerrdError, f"{name}: the name must end in .png"):
+                    frame.save(f"{folder}/{name}")
+            for name in ("a.PNG", "hole", "v1.5"):
+                frame.save(f"{folder}/{name}")
+            frame.image.save(f"{folder}/a.jpg")
+            self.assertEqual(sorted(os.listdir(folder)), ["a.PNG", "a.jpg", "hole", "v1.5"])
+            self.assertEqual(pathlib.Path(folder, "a.jpg").read_bytes()[:3], b"\xff\xd8\xff")
+
+    def test_a_live_frame_tells_what_it_shows(self):
+        with self.hole.session({"image": SIZE, "disk": {"outer": 15}}, quality=80) as live:
+            self.assertEqual(live.frame().scene, live.scene)
+            live.patch(motion={"time_rate": 20}, camera__inclination_deg=50)
+            frame = next(
+                frame for frame in live if frame.revision == live.revision and float(frame.headers["kerrd-time"]) > 0
+            )
+            self.assertEqual(
+                (frame.scene["time"], frame.scene["camera"]["inclination_deg"]),
+                (float(frame.headers["kerrd-time"]), 50),
+            )
+            with kerrd.Client(self.hole.url, trust_env=False) as other:  # another hand at the same session
+                other._run(kerrd.calls.patch(live.id, live.token, {"camera": {"inclination_deg": 40}}))
+            self.assertEqual(
+                next(frame for frame in live if frame.revision == 3).scene["camera"]["inclination_deg"], 40
+            )
+
+    def test_in_one_line(self):
+        frame = self.hole.render({"image": SIZE}, layers=["g"])
+        self.assertEqual(repr(frame), f"<kerrd.Frame image/png, 48x27, {len(frame.data)} bytes, layers g>")
+        with self.hole.job({"scene": {"image": SIZE}}) as job, self.hole.session({"image": SIZE}) as live:
+            for one, words in (
+                (job, f"<kerrd.Job {job.id} at {self.hole.url}>"),
+                (live, f"<kerrd.Session {live.id} at {self.hole.url}, revision 1>"),
+                (self.hole, f"<kerrd.local {self.hole.url}, process {self.hole.process.pid}>"),
+                (kerrd.Client("http://a.b/"), "<kerrd.Client http://a.b/>"),
+            ):
+                self.assertEqual(repr(one), words)
+                self.assertNotIn(job.token, repr(one))
+
+    @unittest.skipUnless(importlib.util.find_spec("xarray"), "xarray is not installed")
+    def test_a_sweep_as_a_netcdf_file(self):
+        import xarray
+
+        axes = {"spacetime.spin": [0, 0.9], "disk.model": ["novikov-thorne", "none"], "time": [0, 10, 20]}
+        sweep = self.hole.sweep({"image": SIZE}, axes, layers=["r", "rgb"])
+        with tempfile.TemporaryDirectory() as folder:
+            sweep.to_xarray().to_netcdf(f"{folder}/a.nc")
+            with xarray.open_dataset(f"{folder}/a.nc") as read:
+                self.assertEqual(read.r.dims, ("spacetime_spin", "disk_model", "time", "y", "x"))
+                self.assertTrue(np.array_equal(read.r.values, sweep["r"], equal_nan=True))
+                self.assertEqual(read.spacetime_spin.values.tolist(), [0, 0.9])
+                self.assertEqual(
+                    (read.disk_model.values.tolist(), read.time.values.tolist()), (axes["disk.model"], axes["time"])
+                )
+                self.assertEqual(
+                    (read.r.units, read.rgb.units, read.time.units, read.spacetime_spin.long_name),
+                    ("M", "1", "M", "spacetime.spin"),
+                )
+                self.assertEqual(read.scene_hash.values[1, 0, 2], sweep.hashes[1, 0, 2].decode())
+                notes = json.loads(read.kerrd)
+        self.assertEqual(notes["scene"]["image"]["width"], 48)
+        self.assertEqual(notes, sweep.notes)
+
+    def test_packages_that_are_missing(self):
+        for missing, code in (
+            ("xarray", "kerrd.Sweep({}, {}, None).to_xarray()"),
+            ("distributed", "import kerrd.dask"),
+            ("distributed", "kerrd.sweep([])"),
+        ):
+            command = f"import sys; sys.path.insert(0, {str(FOLDER / 'src')!r}); sys.modules[{missing!r}] = None; import kerrd; {code}"
+            done = subprocess.run([sys.executable, "-c", command], capture_output=True, text=True, timeout=100)
+            self.assertRegex(
+                done.stderr.splitlines()[-1],
+                rf"^ImportError: .* needs the package {missing}, which is not installed: pip install ",
+                code,
+            )
+
+
+class Typed(Case):
+    """Answers have the keys that their types name."""
+
+    def held(self, answer, kind):
+        needed = {
+            name
+            for name, hint in kind.__annotations__.items()
+            if not getattr(hint, "__forward_arg__", str(hint)).startswith("NotRequired[")
+        }
+        self.assertEqual((set(answer) - set(kind.__annotations__), needed - set(answer)), (set(), set()), kind.__name__)
+
+    def test_keys(self):
+        told = kerrd.answers
+        self.held(self.hole.plan(image=SIZE), told.Plan)
+        self.held(self.hole.plan(image=SIZE)["passes"][0], told.PlanPass)
+        self.held(self.hole.pixel(3, 4, image=SIZE), told.Pixel)
+        self.held(self.hole.orbits({"p": 8, "e": 0.5}, samples=9), told.OrbitPath)
+        self.held(self.hole.physics("kerr", spin="0:0.9:3", r="6:10:2"), told.Quantity)
+        self.held(self.hole.physics("kerr"), told.Quantity)
+        self.held(self.hole.line(bins=20), told.LineProfile)
+        self.held(self.hole.spectrum(), told.DiskSpectrum)
+        self.held(self.hole.presets()[0], told.PresetTold)
+        self.held(self.hole.device(), told.Device)
+        with self.hole.job({"scene": {"image": SIZE}}) as job:
+            self.held(job.status(), told.Job)
+
+    def test_arrays_are_ranges(self):
+        spins = np.linspace(0, 0.9, 5)
+        kerr = self.hole.physics("kerr", spin=spins, r=[6, 8, 10])
+        np.testing.assert_allclose(kerr["parameters"]["spin"], spins, rtol=1e-15)
+        self.assertEqual(kerr["values"]["isco"].shape, (5, 3))
+        np.testing.assert_array_equal(
+            kerr["values"]["isco"], self.hole.physics("kerr", spin="0:0.9:5", r="6:10:3")["values"]["isco"]
+        )
+        self.assertEqual(self.hole.physics("kerr", spin=np.float64(0.5))["parameters"]["spin"], 0.5)
+        for wrong in ([0, 0.5, 0.9], [0.5], np.zeros((2, 2)), [0, np.nan]):
+            with self.assertRaisesRegex(ValueError, "spin must be a number, .* evenly spaced"):
+                self.hole.physics("kerr", spin=wrong)
+
+
 class Async(Case):
     def test_the_same_by_asyncio(self):
         async def all_of_it():
@@ -302,6 +494,124 @@ class Busy(http.server.BaseHTTPRequestHandler):
 
     def log_message(self, *_):
         pass
+
+
+class Stranger(http.server.BaseHTTPRequestHandler):
+    """Another program: a page for each path, or that there is none."""
+
+    def answer(self):
+        self.rfile.read(int(self.headers.get("Content-Length", 0)))
+        body = b"<html>It works!</html>"
+        self.send_response(404 if "presets" in self.path else 200)
+        self.send_header("Content-Type", "text/html")
+        self.send_header("Content-Length", str(len(body)))
+        self.end_headers()
+        self.wfile.write(body)
+
+    do_GET = do_POST = answer
+
+    def log_message(self, *_):
+        pass
+
+
+class Absent(unittest.TestCase):
+    """One sentence for who is not there."""
+
+    def test_a_server_that_is_off(self):
+        with contextlib.closing(socket.socket()) as free:
+            free.bind(("127.0.0.1", 0))
+            url = f"http://127.0.0.1:{free.getsockname()[1]}/"
+        with (
+            kerrd.Client(url, trust_env=False) as client,
+            self.assertRaisesRegex(
+                kerrd.Unreachable, f"^the server at {url} does not answer: .*[Cc]onnection refused$"
+            ) as caught,
+        ):
+            client.presets()
+        self.assertIsInstance(caught.exception, httpx.TransportError)
+        self.assertEqual(str(pickle.loads(pickle.dumps(caught.exception))), str(caught.exception))
+        with (
+            kerrd.Client("127.0.0.1:8080", trust_env=False) as client,
+            self.assertRaisesRegex(kerrd.Unreachable, "http"),
+        ):
+            client.presets()
+
+    def test_a_server_that_is_no_kerrd(self):
+        server = http.server.HTTPServer(("127.0.0.1", 0), Stranger)
+        self.addCleanup(server.server_close)
+        self.addCleanup(server.shutdown)
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        url = f"http://127.0.0.1:{server.server_port}/"
+        with kerrd.Client(url, trust_env=False) as client:
+            for call in (client.presets, client.device, client.render, client.layers, lambda: client.rays([[1, 2]])):
+                with self.assertRaisesRegex(
+                    kerrd.NoKerrd, f"^there is no kerrd at {url}: it answers .*text/html"
+                ) as caught:
+                    call()
+                self.assertNotIn("\n", str(caught.exception))
+
+
+class Documented(unittest.TestCase):
+    """The Python of README and docs/python.md, as it stands."""
+
+    def test_it_runs(self):
+        root = FOLDER.resolve().parents[1]
+        blocks = re.findall(r"^```python\n(.*?)^```$", (root / "docs/python.md").read_text(), re.M | re.S)
+        blocks += re.findall(r"^    python -c '(.*)'$", (root / "README.md").read_text(), re.M)
+        blocks += re.findall(r"^```python\n(.*?)^```$", (FOLDER / "README.md").read_text(), re.M | re.S)
+        run = [block for block in blocks if "tcp://scheduler" not in block]  # a cluster: tests/python/cluster.py
+        self.assertEqual((len(blocks), len(run)), (6, 5))
+        with tempfile.TemporaryDirectory() as folder:
+            for block in run:
+                env = {
+                    **os.environ,
+                    "KERRD": os.path.abspath(KERRD),
+                    "PYTHONPATH": os.pathsep.join([str(FOLDER.resolve() / "src"), os.environ.get("PYTHONPATH", "")]),
+                }
+                done = subprocess.run(
+                    [sys.executable, "-c", block], cwd=folder, env=env, capture_output=True, text=True, timeout=200
+                )
+                self.assertEqual((done.returncode, done.stderr), (0, ""), block)
+                self.assertNotRegex(done.stdout, r"\bnan\b")
+                if "hole.png" in block:
+                    self.assertEqual(
+                        json.loads(
+                            subprocess.run(
+                                [KERRD, "scene", "--from", f"{folder}/hole.png"], capture_output=True, check=True
+                            ).stdout
+                        )["version"],
+                        1,
+                    )
+                    os.remove(f"{folder}/hole.png")
+
+
+class Elsewhere(unittest.TestCase):
+    def test_where_there_is_no_posix(self):
+        """A client on Windows, by a platform that lacks what Windows lacks; the libraries are there before."""
+        code = f"""
+import sys, asyncio, subprocess, httpx, numpy, PIL.Image, PIL.PngImagePlugin, atexit, shutil
+sys.path.insert(0, {str(FOLDER / "src")!r})
+httpx.get(sys.argv[1], trust_env=False)  # loads what it needs, as it would on Windows
+for name in ("fcntl", "pwd", "grp", "termios", "resource", "posix"):
+    sys.modules[name] = None
+sys.platform = "win32"
+import kerrd
+with kerrd.Client(sys.argv[1], trust_env=False) as client:
+    print(client.render(size=(48, 27)).image.size)
+try:
+    import pathlib, kerrd.local as _
+    sys.modules["kerrd.local"]._build(pathlib.Path(sys.argv[2]))
+except kerrd.NoBinary as none:
+    print(none)
+"""
+        with kerrd.local(binary=KERRD) as hole:
+            done = subprocess.run(
+                [sys.executable, "-c", code, hole.url, str(FOLDER)], capture_output=True, text=True, timeout=100
+            )
+        self.assertEqual(done.stderr, "")
+        size, words = done.stdout.splitlines()
+        self.assertEqual(size, "(48, 27)")
+        self.assertIn("kerrd runs on Linux", words)
 
 
 class Patience(unittest.TestCase):
@@ -422,4 +732,4 @@ print(len(hole.presets()))
 
 if __name__ == "__main__":
     signal.alarm(280)
-    unittest.main(argv=sys.argv[:1], verbosity=2)
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=2)

@@ -22,18 +22,6 @@ static void found_by_name(void **state)
         assert_null(kd_format_named(none[i]));
 }
 
-static void found_by_path(void **state)
-{
-    (void)state;
-    const char *const png[] = { "a.png", "A.PNG", "/b/c.fake/d.Png", ".png", "a.fake.png" };
-    const char *const none[] = { "", "-", "png", "a.", "a.png.bak", "/b.png/c", "a.pngs", "/dev/null" };
-    for (size_t i = 0; i < sizeof png / sizeof *png; i++)
-        assert_ptr_equal(kd_format_of_path(png[i]), &kd_format_png);
-    for (size_t i = 0; i < sizeof none / sizeof *none; i++)
-        assert_null(kd_format_of_path(none[i]));
-    assert_ptr_equal(kd_format_of_path("x/y.fake"), &fake_format);
-}
-
 static void found_by_bytes(void **state)
 {
     (void)state;
@@ -168,7 +156,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(found_by_name),
-        cmocka_unit_test(found_by_path),
         cmocka_unit_test(found_by_bytes),
         cmocka_unit_test(memory_is_kept_and_forgotten),
         cmocka_unit_test(a_scene_comes_back_from_any_format),

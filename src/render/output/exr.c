@@ -1,5 +1,6 @@
-/* This writes a frame's layers as an OpenEXR file: kd_format_exr. "rgb" is the channels R, G and B, any other word a
- * channel of its name, 32-bit numbers all; attributes tell what the text of a PNG tells, and units. */
+/* This writes a frame's layers as an OpenEXR file: kd_format_exr. "rgb" is the channels R, G and B. Any other word
+ * is a channel of the EXR layer "kerrd", such as kerrd.g: OpenImageIO orders names without case and takes a bare g
+ * for green. All are 32-bit numbers. Attributes tell what the text of a PNG tells, and units. */
 #include "render/output/format.h"
 
 #include "image/exr.h"
@@ -16,8 +17,10 @@ static size_t channels_of(const struct kd_numbers *numbers, struct kd_exr_channe
         const struct kd_layer *layer = numbers->at[i].layer;
         for (uint32_t c = 0; c < layer->channels; c++) {
             out[n] = (struct kd_exr_channel) { .data = (const float *)layer->data + c, .step = layer->channels };
-            snprintf(out[n++].name, sizeof out->name, "%.*s", layer->channels > 1 ? 1 : (int)sizeof out->name - 1,
-                     layer->channels > 1 ? &"RGB"[c] : numbers->at[i].name);
+            if (layer->channels > 1)
+                snprintf(out[n++].name, sizeof out->name, "%c", "RGB"[c]);
+            else
+                snprintf(out[n++].name, sizeof out->name, "kerrd.%s", numbers->at[i].name);
         }
     }
     return n;

@@ -123,13 +123,15 @@ static uint64_t bytes_of(const struct kd_gather_source *source)
 }
 
 /* The scene of frame 0, as the picture has it, goes into the film. Colours: of the picture sRGB, which players show
- * alike where BT.709 is named; the conversion to Y'CbCr is BT.709's, in the range of video. Two pixels share a
- * colour, so odd sides are filled up. */
+ * alike where BT.709 is named; the conversion to Y'CbCr is BT.709's, in the range of video. Since ffmpeg 7 an
+ * encoder takes the tags of its frames, and of a PNG they are sRGB's, whatever its options say: so the filter
+ * setparams sets them as well. Two pixels share a colour, so odd sides are filled up. */
 static enum kd_status begin(struct film *f, struct kd_error *error)
 {
     static const char filter[] = "pad=ceil(iw/2)*2:ceil(ih/"
                                  "2)*2,scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int+"
-                                 "full_chroma_inp,format=yuv420p";
+                                 "full_chroma_inp,format=yuv420p,"
+                                 "setparams=range=tv:color_primaries=bt709:color_trc=bt709:colorspace=bt709";
     struct kd_buffer comment = { 0 };
     struct kd_png shown = { 0 };
     char rate[16], titled[80];

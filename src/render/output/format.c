@@ -1,21 +1,11 @@
 #include "render/output/format.h"
 
 #include <string.h>
-#include <strings.h>
 
 const struct kd_format *kd_format_named(const char *name)
 {
     for (size_t i = 0; i < kd_n_formats; i++)
         if (!strcmp(kd_formats[i]->name, name))
-            return kd_formats[i];
-    return NULL;
-}
-
-const struct kd_format *kd_format_of_path(const char *path)
-{
-    const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
-    for (size_t i = 0; dot && i < kd_n_formats; i++)
-        if (!strcasecmp(kd_formats[i]->name, dot + 1))
             return kd_formats[i];
     return NULL;
 }

@@ -1,5 +1,5 @@
 /* A format is what a frame can become: bytes of a media type. One table, from which renders, jobs, sessions and the
- * command line pick: by the name of a format, by what a client accepts, by the end of a file's name. Any thread.
+ * command line pick: by the name of a format, by what a client accepts. Any thread.
  *
  * A format is one C file that defines kd_format_NAME, and its name in KD_FORMATS. */
 #ifndef KD_RENDER_OUTPUT_FORMAT_H
@@ -33,7 +33,7 @@ enum {
 };
 
 struct kd_format {
-    const char *name;       /* "png": of `format=`, and behind the last dot of a file's name; lower case */
+    const char *name;       /* "png": of `format=`, and the end of a file's name; lower case */
     const char *media_type; /* "image/png" */
     const char *magic;      /* with which every file begins; "": none has a beginning of its own */
     const char *end;        /* with which every file ends; NULL: none has an end of its own */
@@ -64,7 +64,6 @@ extern const struct kd_format *const kd_formats[];
 extern const size_t kd_n_formats;
 
 const struct kd_format *kd_format_named(const char *name);                 /* NULL: there is none */
-const struct kd_format *kd_format_of_path(const char *path);               /* by its end, in either case; NULL: none */
 const struct kd_format *kd_format_of_bytes(const void *data, size_t size); /* by its beginning; NULL: none */
 const struct kd_format *kd_format_live(void);                              /* what live views are made of */
 

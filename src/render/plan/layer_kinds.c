@@ -105,7 +105,7 @@ static enum kd_status check_one(const struct kd_scene *scene, struct kd_plan_lay
         !kd_scene_is_radio_alone(scene))
         return kd_error_field(error, "/image/layers",
                               "image.layers holds %s, allowed where nothing but a volume at a radio frequency shines: "
-                              "volume.model \"gold\", \"riaf\" or \"torus\", "
+                              "volume.model \"gold\", \"riaf\", \"torus\" or \"grid\", "
                               "disk.model and sky.model \"none\", no jets, spots or bodies",
                               name);
     if (scene->disk.height > 0 && scene->disk.model != KD_DISK_NONE && kd_layer_kinds[layer.kind].of == KD_OF_CROSSING)

@@ -5,7 +5,7 @@ from typing import Any
 from . import scene
 from .aio import AsyncClient, AsyncJob, AsyncSession
 from .client import Client, Job, Session
-from .errors import JobFailed, KerrdError, NoBinary, Problem
+from .errors import JobFailed, KerrdError, NoBinary, NoKerrd, Problem, Unreachable
 from .frame import Frame
 from .local import local
 from .result import Sweep
@@ -21,9 +21,11 @@ __all__ = [
     "JobFailed",
     "KerrdError",
     "NoBinary",
+    "NoKerrd",
     "Problem",
     "Session",
     "Sweep",
+    "Unreachable",
     "local",
     "sweep",
     "widget",
@@ -33,7 +35,7 @@ __all__ += scene.__all__
 
 def sweep(scenes: Any, client: Any = None, **more: Any) -> Any:
     """Scenes on a Dask cluster: kerrd.dask.sweep, which needs the package distributed."""
-    from .dask import sweep as on_cluster
+    from .dask import sweep as on_cluster  # which says so where it is not installed
 
     return on_cluster(scenes, client, **more)
 

@@ -3,8 +3,11 @@ these."""
 
 from __future__ import annotations
 
+import copy
+import dataclasses
 import io
 import json
+import zipfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -13,8 +16,9 @@ from typing import Any, Generic, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .document import Document, plain
-from .errors import JobFailed, Problem
+from . import answers
+from .document import Document, finite, plain
+from .errors import JobFailed, NoKerrd, Problem
 from .frame import Frame
 
 T = TypeVar("T")
@@ -51,15 +55,27 @@ def retry_after(answer: Answer) -> float | None:
     return float(said) if answer.status in (429, 503, 507) and said.replace(".", "", 1).isdigit() else None
 
 
-def checked(answer: Answer) -> Answer:
-    """The answer, or its problem document as an exception."""
+def checked(answer: Answer, url: str) -> Answer:
+    """The answer, or its problem document as an exception. NoKerrd: whoever answers at this address is another
+    program."""
     if 200 <= answer.status < 300:
         return answer
     try:
         document = json.loads(answer.body)
     except ValueError:
-        document = {"title": "No problem document", "detail": answer.body[:200].decode(errors="replace")}
-    raise Problem(answer.status, document if isinstance(document, dict) else {}, retry_after(answer))
+        document = None
+    if not isinstance(document, dict) or "title" not in document:
+        raise NoKerrd(url, f"it answers {answer.status} with {answer.headers.get('content-type') or 'no document'}")
+    raise Problem(answer.status, document, retry_after(answer))
+
+
+def understood(call: Call[T], answer: Answer, url: str) -> T:
+    """What the call makes of an answer."""
+    try:
+        return call.read(answer)
+    except (ValueError, KeyError, TypeError, OSError, zipfile.BadZipFile) as error:
+        kind = answer.headers.get("content-type") or "bytes without a type"
+        raise NoKerrd(url, f"it answers {call.method} {call.path} with {kind} that cannot be read") from error
 
 
 def _json(answer: Answer) -> Any:
@@ -90,7 +106,7 @@ def _table(answer: Answer) -> dict[str, Any]:
     return out
 
 
-def _quantity(answer: Answer) -> dict[str, Any]:
+def _quantity(answer: Answer) -> Any:
     """Values of several ranges in their shape."""
     told = _table(answer)
     shape = told.get("shape")
@@ -103,7 +119,7 @@ def _quantity(answer: Answer) -> dict[str, Any]:
     return told
 
 
-def _orbit(answer: Answer) -> dict[str, Any]:
+def _orbit(answer: Answer) -> Any:
     """`series` as columns by name."""
     told: dict[str, Any] = _json(answer)
     for one in told.get("orbits", [told]):
@@ -117,7 +133,21 @@ def _orbit(answer: Answer) -> dict[str, Any]:
 
 
 def _frame(answer: Answer) -> Frame:
+    if not answer.headers.get("content-type", "").startswith("image/"):
+        raise ValueError("no picture")
     return Frame(answer.body, answer.headers.get("content-type", ""), answer.headers)
+
+
+def shown(frame: Frame, scenes: Mapping[int, Document]) -> Frame:
+    """A session's frame with the scene that it shows: that of its revision, at the frame's own time and azimuth."""
+    if frame.revision not in scenes:
+        return frame
+    document: Document = copy.deepcopy(scenes[frame.revision])
+    if "kerrd-time" in frame.headers:
+        document["time"] = float(frame.headers["kerrd-time"])
+    if "kerrd-azimuth" in frame.headers:
+        document.setdefault("camera", {})["azimuth_deg"] = float(frame.headers["kerrd-azimuth"])
+    return dataclasses.replace(frame, shows=document)
 
 
 def _frame_or_none(answer: Answer) -> Frame | None:
@@ -145,7 +175,9 @@ def post(
     method: str = "POST",
 ) -> Call[T]:
     headers = {"Content-Type": JSON, **({"Accept": accept} if accept else {}), **bearer(token)}
-    return Call(method, path, read, params or {}, headers, json.dumps(plain(document), allow_nan=False).encode())
+    return Call(
+        method, path, read, params or {}, headers, json.dumps(finite(plain(document)), allow_nan=False).encode()
+    )
 
 
 def bearer(token: str | None) -> dict[str, str]:
@@ -172,11 +204,45 @@ def layers(scene: Document, preset: str | None, names: Sequence[str]) -> Call[di
     return post("/v1/render", document, _npz, accept=NPZ, params=over(preset))
 
 
-def plan(document: Document, preset: str | None) -> Call[dict[str, Any]]:
+TILED: Document = {
+    "/style/exposure": 0,
+    "/style/bloom": 0,
+    "/style/beam_uas": 0,
+    "/style/colour_bar": False,
+    "/image/samples": 1,
+    "/image/legend": False,
+    "/image/layer_min": 0,
+    "/image/layer_max": 1,
+}  # by pointer: what a tile can have of each field of which it cannot have everything
+
+
+def of_a_tile(problem: Problem, document: Document) -> Document | None:
+    """The document with the field that was refused as a tile can have it; None: it was refused for another reason."""
+    if problem.pointer not in TILED:
+        return None
+    _, section, field = problem.pointer.split("/")
+    if document.get(section, {}).get(field) == TILED[problem.pointer]:
+        return None
+    return {**document, section: {**document.get(section, {}), field: TILED[problem.pointer]}}
+
+
+def together(problems: Sequence[Problem]) -> Problem:
+    """One refusal for several; its pointer is that of the first."""
+    first = problems[0]
+    document = {
+        "type": first.type,
+        "title": first.title,
+        "pointer": first.pointer,
+        "detail": "; ".join(problem.detail for problem in problems),
+    }
+    return Problem(first.status, document, first.retry_after)
+
+
+def plan(document: Document, preset: str | None) -> Call[answers.Plan]:
     return post("/v1/plan", document, _json, params=over(preset))
 
 
-def pixel(scene: Document, preset: str | None, x: float, y: float) -> Call[dict[str, Any]]:
+def pixel(scene: Document, preset: str | None, x: float, y: float) -> Call[answers.Pixel]:
     return post("/v1/pixel", scene, _json, params={**over(preset), "at": f"{float(x)!r},{float(y)!r}"})
 
 
@@ -190,29 +256,43 @@ def rays(pairs: ArrayLike, settings: Mapping[str, Any]) -> Call[NDArray[Any]]:
     return Call("POST", "/v1/rays", _npy, params, {"Content-Type": NPY, "Accept": NPY}, body.getvalue())
 
 
-def orbits(document: Document) -> Call[dict[str, Any]]:
+def orbits(document: Document) -> Call[answers.OrbitPath]:
     return post("/v1/orbits", document, _orbit, accept=JSON)
 
 
-def integral(name: str, document: Document) -> Call[dict[str, Any]]:
+def integral(name: str, document: Document) -> Call[Any]:
     return post(f"/v1/{name}", document, _table, accept=JSON)
 
 
-def physics(name: str, parameters: Mapping[str, Any]) -> Call[dict[str, Any]]:
-    return Call(
-        "GET",
-        f"/v1/physics/{name}",
-        _quantity,
-        {key: str(value) for key, value in parameters.items() if value is not None},
-        {"Accept": JSON},
-    )
+def physics(name: str, parameters: Mapping[str, Any]) -> Call[answers.Quantity]:
+    params = {key: _ranged(key, value) for key, value in parameters.items() if value is not None}
+    return Call("GET", f"/v1/physics/{name}", _quantity, params, {"Accept": JSON})
+
+
+def _ranged(name: str, value: Any) -> str:
+    """A parameter as a query has it: an array as first:last:count, which numpy.linspace makes."""
+    if isinstance(value, str) or np.ndim(value) == 0:
+        return str(value)
+    listed = np.asarray(value, dtype=np.float64)
+    even = listed.ndim == 1 and listed.size > 1 and np.isfinite(listed).all()
+    if not even or not np.allclose(
+        listed, np.linspace(listed[0], listed[-1], listed.size), rtol=0, atol=1e-12 * np.abs(listed).max()
+    ):
+        raise ValueError(
+            f'{name} must be a number, a word, a range as in "0:0.9:5", or an array of two and more evenly spaced numbers, as of numpy.linspace'
+        )
+    return f"{float(listed[0])!r}:{float(listed[-1])!r}:{listed.size}"
 
 
 def get(path: str) -> Call[Any]:
     return Call("GET", path, _json)
 
 
-def put_asset(data: bytes, kind: str) -> Call[dict[str, Any]]:
+def presets() -> Call[list[answers.PresetTold]]:
+    return Call("GET", "/v1/presets", lambda answer: _json(answer)["presets"])
+
+
+def put_asset(data: bytes, kind: str) -> Call[answers.Asset]:
     return Call("PUT", "/v1/assets", _json, {}, {"Content-Type": kind}, data)
 
 
@@ -243,7 +323,7 @@ def open_job(document: Document, preset: str | None) -> Call[dict[str, Any]]:
     return post("/v1/jobs", document, _json, params=over(preset))
 
 
-def job(name: str) -> Call[dict[str, Any]]:
+def job(name: str) -> Call[answers.Job]:
     return Call("GET", f"/v1/jobs/{name}", _json)
 
 
@@ -266,10 +346,12 @@ def read_curve(body: bytes) -> dict[str, NDArray[np.float64]]:
     }
 
 
-def read_cube(body: bytes) -> dict[str, NDArray[Any]]:
-    """The arrays of a sweep's NPZ file by name, its axes among them."""
+def read_cube(body: bytes) -> tuple[dict[str, NDArray[Any]], dict[str, Any]]:
+    """The arrays of a sweep's NPZ file by name, its axes among them, and its notes.json: scene, axes, units,
+    approximations."""
     with np.load(io.BytesIO(body), allow_pickle=False) as file:
-        return {name: file[name] for name in file.files if not name.endswith(".json")}
+        notes: dict[str, Any] = json.loads(file["notes.json"])
+        return {name: file[name] for name in file.files if not name.endswith(".json")}, notes
 
 
 def finished(status: Mapping[str, Any]) -> bool:

@@ -12,10 +12,10 @@ import httpx
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import calls
+from . import answers, calls
 from .calls import Answer, Call
-from .document import SceneLike, scene_of, tile_of, windows
-from .errors import Problem
+from .document import Document, Open, SceneLike, scene_of, tile_of, windows
+from .errors import Problem, Unreachable
 from .frame import Frame
 from .result import Sweep
 
@@ -51,6 +51,9 @@ class Client:
             trust_env=trust_env,
         )
 
+    def __repr__(self) -> str:
+        return f"<kerrd.{type(self).__name__} {self.url}>"
+
     def __enter__(self) -> Client:
         return self
 
@@ -65,13 +68,16 @@ class Client:
     def _run(self, call: Call[T]) -> T:
         until = monotonic() + self.patience
         while True:
-            got = self._http.request(
-                call.method, call.path, params=dict(call.params), headers=dict(call.headers), content=call.body
-            )
+            try:
+                got = self._http.request(
+                    call.method, call.path, params=dict(call.params), headers=dict(call.headers), content=call.body
+                )
+            except httpx.TransportError as error:
+                raise Unreachable(self.url, str(error) or type(error).__name__) from error
             answer = Answer(got.status_code, got.headers, got.content)
             wait = calls.retry_after(answer)
             if wait is None or monotonic() + wait > until:
-                return call.read(calls.checked(answer))
+                return calls.understood(call, calls.checked(answer, self.url), self.url)
             time.sleep(wait)
 
     def approximations(self) -> dict[str, str]:
@@ -82,7 +88,12 @@ class Client:
         return self._sentences
 
     def render(
-        self, scene: SceneLike = None, *, preset: str | None = None, layers: Sequence[str] = (), **changes: Any
+        self,
+        scene: SceneLike = None,
+        *,
+        preset: str | Open | None = None,
+        layers: Sequence[str] | Open = (),
+        **changes: Any,
     ) -> Frame:
         """A picture; layers: the numbers that come with it, by a second request for which the lens map is kept."""
         document = scene_of(scene, changes)
@@ -93,13 +104,18 @@ class Client:
         return frame
 
     def layers(
-        self, scene: SceneLike = None, names: Sequence[str] = ("rgb",), *, preset: str | None = None, **changes: Any
+        self,
+        scene: SceneLike = None,
+        names: Sequence[str] | Open = ("rgb",),
+        *,
+        preset: str | Open | None = None,
+        **changes: Any,
     ) -> dict[str, NDArray[np.float32]]:
         """Numbers alone: float32 of shape (height, width), "rgb" (height, width, 3) as linear light."""
         return self._run(calls.layers(scene_of(scene, changes), preset, names))
 
     def stitched(
-        self, scene: SceneLike = None, *, tile: int = 2048, preset: str | None = None, **changes: Any
+        self, scene: SceneLike = None, *, tile: int | Open = 2048, preset: str | Open | None = None, **changes: Any
     ) -> NDArray[np.uint8]:
         """A picture of any size as it is shown, uint8 of shape (height, width, 3), of tiles of tile x tile pixels: the
         same as in one, without a seam.
@@ -109,8 +125,10 @@ class Client:
         """
         document = scene_of(scene, changes)
         width, height = self._size(document, preset)
+        places = windows(width, height, tile)
+        self._may_be_tiled(tile_of(document, places[0]), preset)
         whole = np.empty((height, width, 3), np.uint8)
-        for left, top, across, down in windows(width, height, tile):
+        for left, top, across, down in places:
             whole[top : top + down, left : left + across] = (
                 self._run(calls.render(tile_of(document, (left, top, across, down)), preset))
             ).array
@@ -119,10 +137,10 @@ class Client:
     def stitched_layers(
         self,
         scene: SceneLike = None,
-        names: Sequence[str] = ("rgb",),
+        names: Sequence[str] | Open = ("rgb",),
         *,
-        tile: int = 2048,
-        preset: str | None = None,
+        tile: int | Open = 2048,
+        preset: str | Open | None = None,
         **changes: Any,
     ) -> dict[str, NDArray[np.float32]]:
         """The numbers of a picture of any size, as layers() has them, of tiles."""
@@ -138,19 +156,37 @@ class Client:
                 ] = part
         return whole
 
+    def _may_be_tiled(self, document: Document, preset: str | None) -> None:
+        """Problem that names all that a tile of this scene cannot have, not the first of it alone."""
+        refused: list[Problem] = []
+        while True:
+            try:
+                self._run(calls.plan(document, preset))
+                break
+            except Problem as problem:
+                instead = calls.of_a_tile(problem, document) if problem.status == 422 else None
+                if instead is None and not refused:
+                    raise
+                if instead is None:
+                    break
+                refused.append(problem)
+                document = instead
+        if refused:
+            raise calls.together(refused)
+
     def _size(self, document: Mapping[str, Any], preset: str | None) -> tuple[int, int]:
         image = document.get("image") or {}
         if not ("width" in image and "height" in image):
             image = self._run(calls.plan(dict(document), preset))
         return int(image["width"]), int(image["height"])
 
-    def plan(self, scene: SceneLike = None, *, preset: str | None = None, **changes: Any) -> dict[str, Any]:
+    def plan(self, scene: SceneLike = None, *, preset: str | Open | None = None, **changes: Any) -> answers.Plan:
         """What it would take: passes, rays, bytes, estimate_ms, approximations; nothing is rendered."""
         return self._run(calls.plan(scene_of(scene, changes), preset))
 
     def pixel(
-        self, x: float, y: float, scene: SceneLike = None, *, preset: str | None = None, **changes: Any
-    ) -> dict[str, Any]:
+        self, x: float, y: float, scene: SceneLike = None, *, preset: str | Open | None = None, **changes: Any
+    ) -> answers.Pixel:
         """Where the light of a pixel comes from; x to the right, y downwards, from 0."""
         return self._run(calls.pixel(scene_of(scene, changes), preset, x, y))
 
@@ -163,40 +199,43 @@ class Client:
         """
         return self._run(calls.rays(pairs, settings))
 
-    def orbits(self, orbit: Mapping[str, Any] | None = None, **settings: Any) -> dict[str, Any]:
-        """The path of a body: orbit={"p": 6, "e": 0.5}, spin=0.9, samples=1000; `series` holds its columns as
-        arrays."""
+    def orbits(self, orbit: Mapping[str, Any] | None = None, **settings: Any) -> answers.OrbitPath:
+        """The path of a body: orbit={"p": 6, "e": 0.5}, spin=0.9, samples=1000; `series` holds its columns as arrays.
+        Of several, orbits=[…], the answer is an answers.OrbitPaths."""
         return self._run(calls.orbits({**({"orbit": dict(orbit)} if orbit is not None else {}), **settings}))
 
-    def physics(self, name: str, **parameters: Any) -> dict[str, Any]:
+    def physics(self, name: str, **parameters: Any) -> answers.Quantity:
         """A quantity: physics("kerr", spin="0:0.998:100"); values of ranges are arrays in the shape of the ranges."""
         return self._run(calls.physics(name, parameters))
 
-    def line(self, **settings: Any) -> dict[str, Any]:
+    def line(self, **settings: Any) -> answers.LineProfile:
         """The profile of a line from a thin disk; `columns` are arrays."""
-        return self._run(calls.integral("line", settings))
-
-    def transfer_function(self, **settings: Any) -> dict[str, Any]:
-        return self._run(calls.integral("transfer-function", settings))
-
-    def spectrum(self, **settings: Any) -> dict[str, Any]:
-        return self._run(calls.integral("spectrum", settings))
-
-    def visibility(self, **settings: Any) -> dict[str, Any]:
-        return self._run(calls.integral("visibility", settings))
-
-    def presets(self) -> list[dict[str, Any]]:
-        """name, label and title of each."""
-        told: list[dict[str, Any]] = (self._run(calls.get("/v1/presets")))["presets"]
+        told: answers.LineProfile = self._run(calls.integral("line", settings))
         return told
+
+    def transfer_function(self, **settings: Any) -> answers.TransferFunction:
+        told: answers.TransferFunction = self._run(calls.integral("transfer-function", settings))
+        return told
+
+    def spectrum(self, **settings: Any) -> answers.DiskSpectrum | answers.VolumeSpectrum:
+        told: answers.DiskSpectrum | answers.VolumeSpectrum = self._run(calls.integral("spectrum", settings))
+        return told
+
+    def visibility(self, **settings: Any) -> answers.Visibilities:
+        told: answers.Visibilities = self._run(calls.integral("visibility", settings))
+        return told
+
+    def presets(self) -> list[answers.PresetTold]:
+        """name, label and title of each."""
+        return self._run(calls.presets())
 
     def preset(self, name: str) -> dict[str, Any]:
         """A preset's whole scene."""
         told: dict[str, Any] = self._run(calls.get(f"/v1/presets/{name}"))
         return told
 
-    def device(self) -> dict[str, Any]:
-        told: dict[str, Any] = self._run(calls.get("/v1/device"))
+    def device(self) -> answers.Device:
+        told: answers.Device = self._run(calls.get("/v1/device"))
         return told
 
     def schema(self) -> dict[str, Any]:
@@ -212,9 +251,9 @@ class Client:
         self,
         scene: SceneLike = None,
         *,
-        preset: str | None = None,
-        least: float | None = None,
-        quality: int | None = None,
+        preset: str | Open | None = None,
+        least: float | Open | None = None,
+        quality: int | Open | None = None,
         **changes: Any,
     ) -> Session:
         """A live view: iterate over its frames. quality: of JPEG while something moves, 1 to 100; None: PNG always.
@@ -230,10 +269,10 @@ class Client:
         self,
         scene: SceneLike = None,
         *,
-        times: tuple[float, float],
-        frames: int,
-        preset: str | None = None,
-        progress: bool = False,
+        times: tuple[float, float] | Open,
+        frames: int | Open,
+        preset: str | Open | None = None,
+        progress: bool | Open = False,
         **changes: Any,
     ) -> dict[str, NDArray[np.float64]]:
         """Flux and centroid from times[0] to times[1] M at so many moments: columns as arrays, `t` and `flux` among
@@ -251,11 +290,11 @@ class Client:
     def sweep(
         self,
         scene: SceneLike = None,
-        axes: Mapping[str, Any] | None = None,
+        axes: Mapping[str, Any] | Open | None = None,
         *,
-        layers: Sequence[str] = ("rgb",),
-        preset: str | None = None,
-        progress: bool = False,
+        layers: Sequence[str] | Open = ("rgb",),
+        preset: str | Open | None = None,
+        progress: bool | Open = False,
         **changes: Any,
     ) -> Sweep:
         """A scene of every combination of the values of some fields: axes={"spacetime.spin": [0, 0.9],
@@ -269,7 +308,7 @@ class Client:
             for path, value in (axes or {}).items()
         }
         with self.job({"output": "cube", "scene": document, "axes": values}, preset=preset) as job:
-            return Sweep.of(calls.read_cube((job.wait(progress=progress)).result("npz")), list(values))
+            return Sweep.of(*calls.read_cube((job.wait(progress=progress)).result("npz")), list(values))
 
 
 def _close(client: Client, kind: str, name: str, token: str) -> None:
@@ -289,10 +328,14 @@ class Session:
         self.token: str = opened["token"]
         self.scene: dict[str, Any] = opened["scene"]
         self.revision: int = opened["revision"]
+        self._scenes = {self.revision: self.scene}  # by revision: those that frames may still show
         self.quality = quality
         self.frame_wait = FRAME_WAIT_MS / 1000  # seconds that an iteration waits for a frame before it asks again
         self._seen = 0
         self._final = 0  # the revision whose finest frame has been seen
+
+    def __repr__(self) -> str:
+        return f"<kerrd.{type(self).__name__} {self.id} at {self.client.url}, revision {self.revision}>"
 
     def __enter__(self) -> Session:
         return self
@@ -308,27 +351,37 @@ class Session:
     def patch(self, change: SceneLike = None, **changes: Any) -> int:
         """Changes the scene; returns its revision, which frames of it carry."""
         told = self.client._run(calls.patch(self.id, self.token, scene_of(change, changes)))
-        self.scene = told["scene"]
-        self.revision = told["revision"]
+        self._take(told)
         return self.revision
 
     def refresh(self) -> dict[str, Any]:
         """Asks for the scene as it is now, which goes on by itself while `motion` is in it, and returns it."""
         told = self.client._run(calls.session(self.id))
+        self._take(told)
+        return self.scene
+
+    def _take(self, told: Mapping[str, Any]) -> None:
+        if told["revision"] < self.revision:
+            return  # an answer that a later one has overtaken
         self.scene = told["scene"]
         self.revision = told["revision"]
-        return self.scene
+        self._scenes[self.revision] = self.scene
 
     def frame(self, wait: float = FRAME_WAIT_MS / 1000) -> Frame | None:
         """The next frame that has not been seen; None if there is none within so many seconds, as when the scene
         rests."""
         frame = self.client._run(calls.next_frame(self.id, self._seen, self.quality, int(1000 * wait)))
-        if frame is not None:
-            frame.sentences.update(self.client.approximations())
-            self._seen = frame.number
-            if frame.final:
-                self._final = frame.revision
-        return frame
+        if frame is None:
+            return None
+        frame.sentences.update(self.client.approximations())
+        self._seen = frame.number
+        for old in [revision for revision in self._scenes if revision < frame.revision]:
+            del self._scenes[old]
+        if frame.final:
+            self._final = frame.revision
+        if frame.revision > self.revision or self.scene.get("motion", {}).get("proper_time_rate"):
+            self.refresh()  # somebody else has changed it, or its observer has fallen on
+        return calls.shown(frame, self._scenes)
 
     def __iter__(self) -> Iterator[Frame]:
         """Frames as they come, up to the finest one of a scene that rests, if that has not been seen yet; where
@@ -354,6 +407,9 @@ class Job:
         self.id: str = opened["id"]
         self.token: str = opened["token"]
 
+    def __repr__(self) -> str:
+        return f"<kerrd.{type(self).__name__} {self.id} at {self.client.url}>"
+
     def __enter__(self) -> Job:
         return self
 
@@ -365,7 +421,7 @@ class Job:
     def close(self) -> None:
         _close(self.client, "jobs", self.id, self.token)
 
-    def status(self) -> dict[str, Any]:
+    def status(self) -> answers.Job:
         return self.client._run(calls.job(self.id))
 
     def wait(self, *, progress: bool = False, every: float = 0.1) -> Job:

@@ -21,14 +21,22 @@ from typing import Any, cast
 
 import httpx
 import numpy as np
-from distributed import Client as Cluster
-from distributed import Worker, get_client, get_worker
-from distributed.diagnostics.plugin import WorkerPlugin
 from numpy.typing import NDArray
 from PIL import Image
 
+try:
+    from distributed import Client as Cluster
+    from distributed import Worker, get_client, get_worker
+    from distributed.diagnostics.plugin import WorkerPlugin
+except ModuleNotFoundError as missing:
+    if (missing.name or "").split(".")[0] not in ("distributed", "dask"):
+        raise
+    raise ImportError(
+        "kerrd.dask needs the package distributed, which is not installed: pip install 'kerrd[dask]'"
+    ) from missing
+
 from .document import Document, SceneLike, scene_of, tile_of, windows
-from .errors import KerrdError, Problem
+from .errors import KerrdError, Problem, Unreachable
 from .film import film as film
 from .local import local
 
@@ -104,7 +112,9 @@ def _render(plugin_name: str, document: Document, preset: str | None, layers: Se
     hole = plugin.hole()
     try:
         got = _ask(hole, document, preset, layers)
-    except (httpx.ConnectError, httpx.ReadError, httpx.WriteError, httpx.RemoteProtocolError):
+    except Unreachable as broken:
+        if isinstance(broken.__cause__, httpx.TimeoutException):
+            raise
         got = _ask(plugin.hole(other_than=hole), document, preset, layers)
     if to is None:
         return got
@@ -279,9 +289,7 @@ def _place(
     store: str,
 ) -> list[Problem]:
     """A task: the numbers of some scenes into their places of the store. A refusal ends it."""
-    import zarr
-
-    group = zarr.open_group(store, mode="r+")
+    group = _zarr().open_group(store, mode="r+")
     try:
         for k, document in zip(places, documents):
             for name, array in _render(plugin_name, document, preset, layers, None).items():
@@ -289,6 +297,16 @@ def _place(
     except Problem as problem:
         return [problem]
     return []
+
+
+def _zarr() -> Any:
+    try:
+        import zarr
+    except ModuleNotFoundError as missing:
+        raise ImportError(
+            "zarr= needs the package zarr, which is not installed: pip install 'kerrd[dask]'"
+        ) from missing
+    return zarr
 
 
 def _into_zarr(
@@ -301,8 +319,7 @@ def _into_zarr(
     retries: int,
     batch: int | None,
 ) -> Any:
-    import zarr
-
+    zarr = _zarr()
     path = os.fspath(store) if "://" in os.fspath(store) else str(Path(store).resolve())
     [first] = _refused(
         [

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import copy
 import dataclasses
+import math
+import re
 import typing
 from collections.abc import Mapping, Sequence
 from typing import Any, TypeAlias, TypeVar
@@ -14,6 +16,7 @@ from .scene import Scene
 
 Document: TypeAlias = dict[str, Any]
 SceneLike: TypeAlias = Scene | Mapping[str, Any] | None
+Open: TypeAlias = Any  # beside the type of a keyword next to **changes: else no type checker takes **{"camera.r": 60}
 T = TypeVar("T")
 
 
@@ -28,6 +31,15 @@ def plain(value: Any) -> Any:
     if isinstance(value, Sequence) and not isinstance(value, str):
         return [plain(part) for part in value]
     return value.tolist() if isinstance(value, (np.ndarray, np.generic)) else value
+
+
+def finite(value: Any, path: str = "") -> Any:
+    """The same document; ValueError that names the field of a number that JSON does not have: NaN, infinity."""
+    for name, part in value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ():
+        finite(part, f"{path}.{name}" if path else str(name))
+    if isinstance(value, float) and not math.isfinite(value):
+        raise ValueError(f"{path or 'the document'} is {value}: it must be a finite number")
+    return value
 
 
 def _merge(document: Document, change: Mapping[str, Any]) -> Document:
@@ -65,6 +77,18 @@ def _place(here: Any, name: str, path: str) -> Any:
     return int(name)
 
 
+def _size(value: Any) -> tuple[int, int]:
+    """Width and height, in pixels."""
+    parts = value.split("x") if isinstance(value, str) else value
+    if (
+        not isinstance(parts, Sequence)
+        or len(parts) != 2
+        or not all(re.fullmatch(r"[0-9]+", str(part)) for part in parts)
+    ):
+        raise ValueError(f'size is {value!r}: it must be two whole numbers of pixels, as in (640, 360) or "640x360"')
+    return int(parts[0]), int(parts[1])
+
+
 Window: TypeAlias = tuple[int, int, int, int]
 
 
@@ -89,12 +113,12 @@ def tile_of(document: Document, window: Window) -> Document:
 
 def scene_of(scene: SceneLike, changes: Mapping[str, Any]) -> Document:
     """The document of a scene with changes over it: camera={"inclination_deg": 60}, camera__inclination_deg=60, or
-    **{"camera.inclination_deg": 60}; size=(640, 360) is image.width and image.height."""
+    **{"camera.inclination_deg": 60}; size=(640, 360), or "640x360", is image.width and image.height."""
     document: Document = plain(scene) if scene is not None else {}
     for name, value in changes.items():
         new = plain(value)
         if name == "size":
-            width, height = new
+            width, height = _size(new)
             document["image"] = {**(document.get("image") or {}), "width": width, "height": height}
         elif "__" in name or "." in name:
             _at(document, name.replace("__", "."), new)

@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from typing import Any
 
+import httpx
+
 
 class KerrdError(Exception):
     """Anything that this package raises of its own."""
@@ -12,6 +14,28 @@ class KerrdError(Exception):
 
 class NoBinary(KerrdError):
     """There is no program `kerrd` here, and it could not be built."""
+
+
+class Unreachable(KerrdError, httpx.TransportError):
+    """No server answers at the address, or the connection broke. Nothing is sent twice."""
+
+    def __init__(self, url: str, reason: str) -> None:
+        self._made_of = (url, reason)
+        super().__init__(f"the server at {url} does not answer: {reason.rstrip('.')}")
+
+    def __reduce__(self) -> tuple[type[Unreachable], tuple[str, str]]:
+        return Unreachable, self._made_of
+
+
+class NoKerrd(KerrdError):
+    """Whoever answers at the address is no kerrd, or a proxy that has none behind it."""
+
+    def __init__(self, url: str, reason: str) -> None:
+        self._made_of = (url, reason)
+        super().__init__(f"there is no kerrd at {url}: {reason}")
+
+    def __reduce__(self) -> tuple[type[NoKerrd], tuple[str, str]]:
+        return NoKerrd, self._made_of
 
 
 class Problem(KerrdError):

@@ -23,12 +23,10 @@ AGAIN_S = 2.0  # from one attempt to reach a server that is gone to the next
 REFRESH_S = 0.2  # from one look at a scene that goes on by itself to the next
 
 
-def sentence(error: BaseException, url: str) -> str:
+def sentence(error: BaseException) -> str:
     """What is told of a failure."""
     if isinstance(error, Problem):
         return error.detail or str(error)
-    if isinstance(error, httpx.TransportError):
-        return f"the server at {url} does not answer ({str(error).rstrip('.') or type(error).__name__})"
     return str(error.args[0]) if isinstance(error, KeyError) else str(error)
 
 
@@ -186,7 +184,7 @@ class Follower:
                 self.scene = self._session.scene
                 self.took(self.scene)
             except Exception as error:
-                self._fault("change", sentence(error, self.client.url))
+                self._fault("change", sentence(error))
                 raise
             self._fault("change", "")
             with self._state:
@@ -262,7 +260,7 @@ class Follower:
                 if self._closed:
                     return
                 revision = session.revision
-                self._fault("frame", sentence(error, self.client.url))
+                self._fault("frame", sentence(error))
                 with self._state:
                     self._state.wait_for(lambda: self._closed or session.revision != revision, AGAIN_S)
 

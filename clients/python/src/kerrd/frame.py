@@ -4,15 +4,24 @@ from __future__ import annotations
 
 import io
 import json
+import os
 import re
+import struct
+import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import IO, Any
 
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
+from PIL.PngImagePlugin import PngImageFile, PngInfo
+
+from .errors import KerrdError
+from .names import checked
+
+HEADER = 33  # bytes of a PNG that come first: its signature and IHDR
 
 
 def items(header: str | None) -> list[str]:
@@ -37,13 +46,42 @@ def passes(header: str | None) -> dict[str, float]:
     return {name: float(ms) for name, ms in re.findall(r"(\w+)(?:;desc=\"[^\"]*\")?;dur=([\d.]+)", header or "")}
 
 
-@dataclass(frozen=True)
+def _with_text(png: bytes, name: str, text: str) -> bytes:
+    """The PNG with one more text, as a chunk iTXt (PNG 1.2, 4.2.3)."""
+    body = b"iTXt" + name.encode("latin-1") + b"\0\0\0\0\0" + text.encode()
+    return png[:HEADER] + struct.pack(">I", len(body) - 4) + body + struct.pack(">I", zlib.crc32(body)) + png[HEADER:]
+
+
+class Picture(PngImageFile):
+    """A PNG whose texts, the scene among them, stay with it where Pillow saves it as a PNG again."""
+
+    def __init__(self, data: bytes) -> None:
+        super().__init__(io.BytesIO(data))
+        self.load()
+
+    def save(
+        self,
+        fp: str | bytes | os.PathLike[str] | os.PathLike[bytes] | IO[bytes],
+        format: str | None = None,
+        **params: Any,
+    ) -> None:
+        path = os.fspath(fp) if isinstance(fp, (str, bytes, os.PathLike)) else getattr(fp, "name", "")
+        ending = os.path.splitext(os.fsdecode(path) if isinstance(path, (str, bytes)) else "")[1].lower()
+        if "pnginfo" not in params and (format or Image.registered_extensions().get(ending, "")).upper() == "PNG":
+            params["pnginfo"] = PngInfo()
+            for name, text in self.text.items():
+                params["pnginfo"].add_itxt(name, str(text))
+        super().save(fp, format, **params)
+
+
+@dataclass(frozen=True, repr=False)
 class Frame:
     """A picture, and what came with it.
 
     data: the file's bytes; kind: its media type. layers: numbers by name as float32 of shape (height, width), rgb
-    (height, width, 3); those that were asked for. accuracy: Kerrd-Accuracy as numbers. timing: milliseconds a pass.
-    quality, number and revision: of a session's frame alone.
+    (height, width, 3); those that were asked for. shows: the scene, where it came beside the picture and not in it, as
+    a session's does. accuracy: Kerrd-Accuracy as numbers. timing: milliseconds a pass. quality, number and revision: of
+    a session's frame alone.
     """
 
     data: bytes
@@ -52,16 +90,27 @@ class Frame:
     layers: dict[str, NDArray[np.float32]] = field(default_factory=dict)
     # of approximations by name, of all that the server knows
     sentences: dict[str, str] = field(default_factory=dict, repr=False)
+    shows: Mapping[str, Any] | None = None
+
+    def __repr__(self) -> str:
+        width, height = Image.open(io.BytesIO(self.data)).size
+        told = [f"{self.kind}", f"{width}x{height}", f"{len(self.data)} bytes"]
+        told += [f"layers {', '.join(self.layers)}"] if self.layers else []
+        told += [f"frame {self.number}"] if self.number else []
+        return f"<kerrd.Frame {', '.join(told)}>"
 
     @property
     def png(self) -> bytes:
         """The PNG's bytes, which carry the scene: kerrd renders it again by `kerrd render --from`."""
         if self.kind != "image/png":
             raise ValueError(f"this picture came as {self.kind}; only the last one of a scene that rests is a PNG")
-        return self.data
+        return self.data if self.shows is None else _with_text(self.data, "kerrd:scene", json.dumps(self.shows))
 
     @cached_property
     def image(self) -> Image.Image:
+        """The picture for Pillow; a PNG that image.save() writes carries its scene."""
+        if self.kind == "image/png":
+            return Picture(self.png)
         image = Image.open(io.BytesIO(self.data))
         image.load()
         return image
@@ -74,6 +123,8 @@ class Frame:
     @cached_property
     def scene(self) -> dict[str, Any]:
         """The whole scene, every field named, as the picture carries it."""
+        if self.shows is not None:
+            return dict(self.shows)
         text = getattr(self.image, "text", {}).get("kerrd:scene")
         if text is None:
             raise ValueError(f"a picture of the type {self.kind} carries no scene")
@@ -114,12 +165,18 @@ class Frame:
         """Whether nothing finer of this scene will come."""
         return not self.quality or self.quality.get("final") == 1
 
-    def save(self, path: str) -> None:
-        with open(path, "wb") as file:
-            file.write(self.data)
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the file as it came, a PNG with its scene. Other kinds of pictures: `image`, by Pillow; numbers:
+        `kerrd render`."""
+        kinds = {"image/png": ("png",), "image/jpeg": ("jpg", "jpeg")}
+        if self.kind not in kinds:
+            raise KerrdError(f"a picture of the type {self.kind} cannot be saved by its name")
+        name = checked(path, *kinds[self.kind])
+        with open(name, "wb") as file:
+            file.write(self.png if self.kind == "image/png" else self.data)
 
     def _repr_png_(self) -> bytes | None:
-        return self.data if self.kind == "image/png" else None
+        return self.png if self.kind == "image/png" else None
 
     def _repr_jpeg_(self) -> bytes | None:
         return self.data if self.kind == "image/jpeg" else None

@@ -17,12 +17,13 @@ import anywidget
 import traitlets
 
 from .client import Client
-from .document import Document, SceneLike, dataclass_of, patch_of, scene_of
+from .document import Document, Open, SceneLike, dataclass_of, patch_of, scene_of
 from .errors import KerrdError
 from .fields import Fields
 from .follow import Follower
 from .frame import Frame
 from .local import local
+from .names import checked
 from .scene import Scene
 
 USUAL = ("spacetime.spin", "camera.inclination_deg", "disk.outer", "style.exposure")
@@ -81,11 +82,11 @@ class Widget(anywidget.AnyWidget):
     def __init__(
         self,
         scene: SceneLike = None,
-        client: Client | str | None = None,
-        controls: Sequence[str] = USUAL,
+        client: Client | str | Open | None = None,
+        controls: Sequence[str] | Open = USUAL,
         *,
-        preset: str | None = None,
-        quality: int | None = 80,
+        preset: str | Open | None = None,
+        quality: int | Open | None = 80,
         **changes: Any,
     ) -> None:
         if client is not None and not isinstance(client, (Client, str)):
@@ -142,8 +143,7 @@ class Widget(anywidget.AnyWidget):
 
     def save(self, path: str) -> None:
         """Writes the picture as a PNG that carries its scene: `kerrd render --from` makes it again."""
-        if Path(path).suffix.lower() != ".png":
-            raise KerrdError(f"{path} is no name of a PNG: allowed is one that ends in .png")
+        checked(path, "png")
         self._follower.client.render(self._follower.scene).save(path)
 
     def close(self) -> None:

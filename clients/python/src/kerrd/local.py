@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import atexit
-import fcntl
 import os
 import re
 import shutil
@@ -27,6 +26,12 @@ def _checkout() -> Path | None:
 
 def _build(tree: Path) -> None:
     """One process at a time; what it says goes on to standard error, for it takes minutes."""
+    try:
+        import fcntl
+    except ImportError as missing:  # where there is no POSIX, kerrd itself cannot be built either
+        raise NoBinary(
+            f"{tree} cannot be built on this system: kerrd runs on Linux; kerrd.Client(url) speaks to a server elsewhere"
+        ) from missing
     with open(tree / "scripts/setup", "rb") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         if (
@@ -109,6 +114,9 @@ class local(Client):
             )
         atexit.register(self._stop)
         super().__init__(found[1], timeout=timeout, patience=patience, trust_env=False)
+
+    def __repr__(self) -> str:
+        return f"<kerrd.local {self.url}, process {self.process.pid}{'' if self.process.poll() is None else ', ended'}>"
 
     def __enter__(self) -> local:
         return self
