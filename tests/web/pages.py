@@ -218,6 +218,20 @@ class Pages(Browser):
                 "and all of it is seen",
             )
 
+    def test_four_times_the_size(self):
+        """A window of 1280 × 1024 at 400 %: the hole is seen, and what can be pressed lies within the picture or beside
+        it."""
+        page = self.open("lang=it", viewport={"width": 320, "height": 256}, device_scale_factor=4)
+        covered, beyond = page.evaluate("""() => {
+            const stage = document.getElementById('stage'), box = stage.getBoundingClientRect();
+            stage.scrollIntoView({ block: 'center' });
+            const { x, y, width, height } = stage.getBoundingClientRect(), at = [-0.25, -0.12, 0, 0.12, 0.25];
+            return [at.flatMap(u => at.map(v => document.elementFromPoint(x + (0.5 + u * height / width) * width, y + (0.5 + v) * height)).filter(node => node !== stage).map(node => node.id)),
+                [...stage.querySelectorAll(':is(.buttons, .offers) button')].filter(node => node.offsetParent).map(node => node.getBoundingClientRect()).filter(b => b.top < y || b.bottom > y + height || b.left < x || b.right > x + width).length];
+        }""")
+        self.shot(page, "four-times")
+        self.assertEqual((covered, beyond), ([], 0))
+
     def test_low(self):
         page = self.open(viewport={"width": 1100, "height": 420})
         self.open_groups(page)

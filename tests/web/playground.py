@@ -341,7 +341,16 @@ class Playground(Browser):
             self.assertIn(page.inner_text("#play-words"), told)
 
     def test_as_light_shows_it(self):
-        page = self.open_play("lang=en&play.preset=disruption&play.paused=1&play.show=both")
+        context, held = self.context(viewport={"width": 1200, "height": 900}), []
+        context.route("**/frame.png*", lambda route: held.append(route) if held is not None else route.continue_())
+        page = self.page(context)
+        page.goto(self.base + "#lang=en&view=playground&play.preset=disruption&play.paused=1&play.show=both")
+        self.assertTrue(daemon.eventually(lambda: page.evaluate("0") or held))
+        self.assertEqual(page.inner_text("#play-lensed"), "The server computes the first picture …")
+        page.wait_for_selector(THERE)
+        waiting, held = held, None
+        for route in waiting:
+            route.continue_()
         page.wait_for_selector("#play-lensed img[src]")
         lit = page.evaluate("""() => {
             const image = document.querySelector('#play-lensed img'), { naturalWidth: w, naturalHeight: h } = image, c = new OffscreenCanvas(w, h).getContext('2d');
