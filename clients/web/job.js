@@ -134,6 +134,9 @@ export function jobOf({ key, starts, cancel, bar, told, fault, words, take, seen
   };
 }
 
+// Of a file: what it shows, if that has a name, and its size in pixels.
+export const fileName = (names, width, height) => ['kerrd', ...names.filter(Boolean), `${width}x${height}`].join('-');
+
 // Puts a file into a link, and clicks it.
 export function offer(link, blob, name) {
   URL.revokeObjectURL(link.href);

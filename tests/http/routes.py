@@ -21,6 +21,7 @@ GETS = {
     "/web/vendor/uplot/uPlot.iife.min.js": "text/javascript; charset=utf-8",
     "/web/vendor/uplot/LICENSE": "text/plain; charset=utf-8",
     "/web/style.css": "text/css; charset=utf-8",
+    "/web/stills/first.jpg": "image/jpeg",
     "/web/icon.svg": "image/svg+xml",
     "/healthz": "application/json",
     "/readyz": "application/json",

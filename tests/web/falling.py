@@ -86,6 +86,17 @@ class Falling(Browser):
         self.assertTrue(page.is_checked('[data-path="camera.r"] input[type=checkbox]'), "it is far again")
         self.assertEqual(page.input_value('[data-path="sky.model"] select'), "none")
 
+    def test_what_is_on_its_way_is_said(self):
+        page, held = self.open(), []
+        page.route("**/frame?*", lambda route: held.append(route) if held is not None else route.continue_())
+        page.click("#fall-in")
+        self.there(page, "computes the first picture of the fall", "#fall-where")
+        self.assertTrue(daemon.eventually(lambda: page.evaluate("0") or held))
+        waiting, held = held, None
+        for route in waiting:
+            route.continue_()
+        self.there(page, "Falling freely", "#fall-where")
+
     def test_the_disk_at_the_horizon(self):
         """Light at the edge of the disk has b = 27^(1/2) M; rain, of velocity v = (2/r)^(1/2) past flat slices, sees it
         at an angle from straight ahead with r sin = b (1 - v cos): 42.1 degrees at r = 2. Starlight comes from there at

@@ -279,6 +279,30 @@ class Pages(Browser):
         page.go_back()
         page.wait_for_selector("html[lang=en] body[data-view=physics]")
 
+    def test_rounds_of_views_leave_no_listeners(self):
+        page = self.open("lang=en&pause=1")
+        devtools = page.context.new_cdp_session(page)
+        devtools.send("Performance.enable")
+
+        def listeners():
+            devtools.send("HeapProfiler.collectGarbage")
+            return next(
+                m["value"]
+                for m in devtools.send("Performance.getMetrics")["metrics"]
+                if m["name"] == "JSEventListeners"
+            )
+
+        def round_():
+            for view in ("orbits", "scale", "lensing"):
+                page.click(f"nav [data-view={view}]")
+                page.wait_for_selector(READY[view], state="attached")
+            self.quiet(page)
+            return listeners()
+
+        round_()
+        counts = [round_() for _ in range(4)]
+        self.assertLessEqual(counts[-1] - counts[0], 3, counts)
+
     def test_axe(self):
         try:
             from axe_playwright_python.sync_playwright import Axe

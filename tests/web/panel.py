@@ -177,7 +177,10 @@ class Panel(Browser):
             "a map counts crossings as far as there",
         )
         page.select_option('[data-path="image.layers"] select', "rgb")
-        self.assertFalse(seen("disk.outer"), "no disk")
+        disk = lambda: page.evaluate(
+            '() => [...document.querySelectorAll("[data-path^=disk]")].filter(node => node.offsetParent).map(node => node.dataset.path)'
+        )
+        self.assertTrue(daemon.eventually(lambda: disk() == ["disk.model"]), disk())
         self.assertFalse(seen("image.pixel_error"))
         page.check('[data-path="image.samples"] input[type=checkbox]')
         self.assertTrue(seen("image.pixel_error"))

@@ -268,7 +268,7 @@ class Saving(Browser):
         self.assertTrue(daemon.eventually(lambda: page.evaluate('document.getElementById("save-bar").value') > 0))
         with page.expect_download(timeout=240000) as download:
             page.reload()
-        self.assertEqual(download.value.suggested_filename, "kerrd-2400x1350.png")
+        self.assertEqual(download.value.suggested_filename, "kerrd-default-2400x1350.png")
         self.assertEqual(len(self.jobs()), 1)
 
     def film(self, page):
