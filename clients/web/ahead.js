@@ -13,6 +13,7 @@ const patience_ms = 250; // with the first picture, which has the machine to its
 const stage = byId('stage');
 const plain =
   first_view && !document.hidden && link.entries('').every(([key]) => ['lang', 'pace'].includes(key)) && fits(stage);
+if (plain) stage.dataset.still = true; // until its first picture
 let left = null, // the session, until somebody takes it
   shown = null; // its first picture
 

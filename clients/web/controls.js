@@ -34,6 +34,7 @@ function numberRow(field, scene, id, hint) {
     give(whole ? Math.round(value) : value);
   });
   if (!whole) stepByArrows(box, range, give);
+  if (!short) stepByArrows(slider, range, give, box);
   box.addEventListener('change', () => {
     if (!box.validity.valid) box.reportValidity();
     else if (box.value !== '') give(box.valueAsNumber);

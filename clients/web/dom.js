@@ -19,12 +19,17 @@ export const byId = id => document.getElementById(id);
 
 export const still = matchMedia('(prefers-reduced-motion: reduce)');
 
-const looks = ['visibilitychange', 'viewchange'];
+// Waits until somebody looks elsewhere. The listener that is not called goes, too.
+const looksElsewhere = () =>
+  new Promise(resolve => {
+    const heard = new AbortController();
+    for (const event of ['visibilitychange', 'viewchange'])
+      document.addEventListener(event, () => (heard.abort(), resolve()), { signal: heard.signal });
+  });
 
 // Waits until somebody looks at a view.
 export async function seen(view) {
-  while (document.hidden || document.body.dataset.view !== view)
-    await new Promise(resolve => looks.forEach(event => document.addEventListener(event, resolve, { once: true })));
+  while (document.hidden || document.body.dataset.view !== view) await looksElsewhere();
 }
 
 // Runs a task that may take a while: one at a time, and of those asked for meanwhile only the newest.

@@ -58,6 +58,7 @@ export function buildFall(scene) {
     r = 0, // where it is
     given = 0, // the radius that the scene was given
     rate = 0, // the pace that it was given
+    waits = false, // for the first picture of it
     seen = 0, // when the last picture of it came, by performance.now()
     gap = 0; // seconds between its pictures: the longest of late
 
@@ -98,7 +99,9 @@ export function buildFall(scene) {
 
   function show(clock) {
     const span = name => `${number(clock[name], 3)} M = ${duration(clock[name + '_s'])}`,
-      now = phase(clock);
+      now = waits
+        ? t('The server computes the first picture of the fall …', 'Il server calcola la prima immagine della caduta …')
+        : phase(clock);
     if (where.textContent !== now) where.textContent = now;
     byId('fall-r').textContent = `${number(r, 3)} M`;
     byId('fall-horizon').textContent =
@@ -189,6 +192,7 @@ export function buildFall(scene) {
     start.hidden = true;
     play.focus();
     scene.hold(still.matches);
+    waits = true;
     show(way);
   });
 
@@ -216,6 +220,7 @@ export function buildFall(scene) {
       if (scene.held && Math.abs(clock.r / scene.begun('camera.r') - 1) > 1e-3) return; // from before it was put there
       ({ r, proper_time_to_end: left } = clock);
       given = scene.begun('camera.r'); // the server moves it, too
+      waits = false;
       show(clock);
       if (scene.held) return;
       const now = performance.now();

@@ -37,6 +37,8 @@ export function buildFit(scene) {
     held = { path, base: get(path), value: wide(path, get(path)) };
     return { ...values, [path]: held.value };
   };
+  // As it was before: what fitted() gave then.
+  scene.refit = fitted => (held = fitted && { ...fitted });
   // What the scene itself says, where the window has made it wider.
   scene.fitted = () => (held && scene.get(held.path) === held.value ? held : null);
 

@@ -53,11 +53,10 @@ export function buildForm(root, prefix, specs, changed) {
       changed();
     }
     input.addEventListener('change', tell);
-    if (!spec.choices && !spec.step)
-      stepByArrows(input, { minimum: spec.min, maximum: spec.max, unit: spec.unit, default: spec.value }, value => {
-        input.value = value;
-        tell();
-      });
+    const range = { minimum: spec.min, maximum: spec.max, unit: spec.unit, default: spec.value, step: spec.step };
+    const give = value => ((input.value = value), tell());
+    if (slide) stepByArrows(slide.node, range, give, input);
+    else if (!spec.choices) stepByArrows(input, range, give);
     inputs.set(spec.name, { input, spec, key, follow: () => slide?.follow?.() });
     root.append(
       el(

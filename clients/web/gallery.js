@@ -1,15 +1,9 @@
-// The presets are a strip of small pictures, each with a name and a sentence. Pictures are the server's, asked for one
-// at a time once a card is seen: one that the server has not painted yet takes it seconds.
+// The presets are a strip of small pictures, each with a name and a sentence.
 import { first_view } from './ahead.js';
-import { byId, el, seen } from './dom.js';
+import { byId, el } from './dom.js';
 import captions from './captions.js';
 import { label, t } from './i18n.js';
 import { swipe } from './swipe.js';
-
-const calm_ms = 1500; // after the first picture
-const again_ms = 10000;
-const tries = 3;
-const pause = ms => new Promise(resolve => setTimeout(resolve, ms));
 
 // One that has no caption here has its title.
 export const caption = (name, title) => (captions[name] ? t(...captions[name]) : title);
@@ -18,7 +12,6 @@ const order = name => (name === first_view ? -1 : name === 'smooth' ? 1 : 0);
 
 export function buildGallery(scene, select, presets) {
   const strip = byId('gallery'),
-    wanted = new Set(), // images
     cards = [...presets]
       .sort((a, b) => order(a.name) - order(b.name))
       .map(({ name, label: text, title }) => {
@@ -72,30 +65,14 @@ export function buildGallery(scene, select, presets) {
   });
   strip.addEventListener('focusin', event => reach(event.target.closest('button')));
 
-  // What is no longer seen need not come; what did not come is asked for again.
-  async function load() {
-    await pause(calm_ms);
-    for (let failed = 0; ; ) {
-      await seen('lensing');
-      const [image] = wanted;
-      if (!image) return (loading = false);
-      image.src = `v1/presets/${image.parentNode.dataset.preset}/thumbnail.png`;
-      const came = await image.decode().then(
-        () => true,
-        () => false,
-      );
-      failed = came ? 0 : failed + 1;
-      if (came || failed === tries) wanted.delete(image), eyes.unobserve(image.parentNode), (failed = 0);
-      if (!came) image.removeAttribute('src');
-      if (!came) await pause(again_ms);
-    }
-  }
-
-  let loading = false;
+  // Pictures are part of the program (scripts/stills), and come once their card is in sight.
   const eyes = new IntersectionObserver(
     entries => {
-      for (const { target, isIntersecting } of entries) wanted[isIntersecting ? 'add' : 'delete'](target.firstChild);
-      if (wanted.size && !loading) (loading = true), load();
+      for (const { target, isIntersecting } of entries) {
+        if (!isIntersecting) continue;
+        target.firstChild.src = `web/stills/${target.dataset.preset}.jpg`;
+        eyes.unobserve(target);
+      }
     },
     { root: strip },
   );

@@ -6,10 +6,11 @@ const together_ms = 400; // changes that follow each other sooner are one, as th
 const most = 200;
 
 export function buildHistory(scene) {
-  // Undo takes back neither time nor what the server moves.
+  // text: the scene without time and what the server moves, which undo does not take back; but where it takes back what
+  // began a motion, or ended one, time is again that of then, and what was moved is where it began. fitted: of fit.js.
   function whole() {
     const { time, ...document } = scene.document({}, true);
-    return JSON.stringify(document);
+    return { text: JSON.stringify(document), time: scene.get('time'), fitted: scene.fitted() };
   }
 
   const past = [],
@@ -26,7 +27,7 @@ export function buildHistory(scene) {
     clearTimeout(timer);
     timer = 0;
     const changed = whole();
-    if (changed === now) return;
+    if (changed.text === now.text) return void (now = changed);
     past.push(now);
     past.splice(0, past.length - most);
     future.length = 0;
@@ -38,10 +39,13 @@ export function buildHistory(scene) {
     note();
     if (!from.length) return;
     to.push(now);
-    const [old, next] = [now, (now = from.pop())].map(JSON.parse),
+    const goal = from.pop(),
+      [old, next] = [now, goal].map(({ text }) => JSON.parse(text)),
       at = (document, path) => valueAt(document, path) ?? null,
       paths = [...scene.fields.keys()].filter(path => JSON.stringify(at(old, path)) !== JSON.stringify(at(next, path)));
-    scene.change(Object.fromEntries(paths.map(path => [path, at(next, path)])));
+    const moved = paths.some(path => path.startsWith('motion.')) ? { ...scene.origins(), time: goal.time } : {};
+    scene.refit(goal.fitted);
+    scene.change({ ...moved, ...Object.fromEntries(paths.map(path => [path, at(next, path)])) });
     now = whole();
     show();
   }
@@ -52,6 +56,7 @@ export function buildHistory(scene) {
   });
   // What the server has changed, and where a camera has drifted to, is where the next change begins.
   scene.addEventListener('settle', () => timer || (now = whole()));
+  scene.addEventListener('tick', () => timer || (now.time = scene.get('time')));
   buttons[0].addEventListener('click', () => go(past, future));
   buttons[1].addEventListener('click', () => go(future, past));
   document.addEventListener('keydown', event => {

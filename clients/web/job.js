@@ -1,6 +1,7 @@
 // A job of the server's, followed from this page while it goes on: how far it is is told, and it can be cancelled. It
 // outlives a reload of the page.
 import { duration, number, t, tell } from './i18n.js';
+import { remaining } from './remaining.js';
 import { ask, getJson, passes, postJson } from './server.js';
 
 const poll_ms = 300;
@@ -34,7 +35,8 @@ export const remembered = key => Boolean(memory(key).read()?.id);
 // begin(request, about), resume() }: request() gives a document of POST /v1/jobs; about is kept with the job.
 export function jobOf({ key, starts, cancel, bar, told, fault, words, take, seen = () => {}, free = () => true }) {
   const kept = memory(key);
-  let job = null;
+  let job = null,
+    left = remaining();
 
   // The focus goes to the button that is left; how far it has come is not for reading aloud.
   function show(status) {
@@ -46,14 +48,13 @@ export function jobOf({ key, starts, cancel, bar, told, fault, words, take, seen
     told.setAttribute('aria-live', busy ? 'off' : 'polite');
     if (!status) return;
     bar.value = status.fraction;
-    const left =
-      status.remaining_s == null
-        ? ''
-        : t(`, ${duration(status.remaining_s)} to go`, `, mancano ${duration(status.remaining_s)}`);
+    const seconds = left(status.state === 'running' && !status.place ? status.fraction : null),
+      rest = seconds == null ? '' : duration(Number(seconds.toPrecision(2)));
     if (status.delayed) tell(told, status.delayed);
     else if (status.place) told.textContent = words.before(status.place);
     else if (status.fraction === 1) told.textContent = words.written;
-    else told.textContent = `${number(100 * status.fraction, 2)} %${left}`;
+    else
+      told.textContent = `${number(100 * status.fraction, 2)} %` + (rest && t(`, ${rest} to go`, `, mancano ${rest}`));
   }
 
   function end(sentence, wrong) {
@@ -78,6 +79,7 @@ export function jobOf({ key, starts, cancel, bar, told, fault, words, take, seen
 
   async function follow() {
     const now = job;
+    left = remaining();
     while (job === now) {
       try {
         const status = await getJson('v1/jobs/' + now.id);
@@ -131,6 +133,9 @@ export function jobOf({ key, starts, cancel, bar, told, fault, words, take, seen
     },
   };
 }
+
+// Of a file: what it shows, if that has a name, and its size in pixels.
+export const fileName = (names, width, height) => ['kerrd', ...names.filter(Boolean), `${width}x${height}`].join('-');
 
 // Puts a file into a link, and clicks it.
 export function offer(link, blob, name) {

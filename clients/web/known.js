@@ -4,9 +4,15 @@
 export const left_out = ['image.width', 'image.height']; // the window's
 export const beside_time = ['time', 'motion.time_rate']; // stand beside what starts and stops it
 
-// Fields that change nothing without what another section or number brings.
+// Fields that change nothing without what another section or number brings. What shines beside a disk may take colours
+// and inner edge from its fields.
 const has_disk = scene => scene.get('disk.model') !== 'none',
-  is_map = scene => scene.get('image.layers') !== 'rgb';
+  is_map = scene => scene.get('image.layers') !== 'rgb',
+  uses_disk = scene =>
+    has_disk(scene) ||
+    is_map(scene) ||
+    scene.get('camera.projection') === 'ring' ||
+    scene.emitters.some(({ name }) => name !== 'sky');
 const only_with = {
   'disk.flare': scene => has_disk(scene) && scene.get('disk.height') > 0,
   'style.ringdown_time': scene => scene.get('style.ringdown') > 0,
@@ -65,6 +71,7 @@ export function meansSomething(scene, path) {
     home = path.slice(0, Math.max(0, dot)),
     key = scene.switches.get(home);
   if (only_with[path] && !only_with[path](scene)) return false;
+  if (path.startsWith('disk.') && path !== 'disk.model' && !uses_disk(scene)) return false;
   if (field.varies) return field.varies.some(word => scene.varies.includes(word));
   if (key && key !== path && scene.get(key) === off(scene.fields.get(key))) return false;
   if (

@@ -20,6 +20,9 @@ export function lensed(box, running) {
     frame = 0,
     camera = null;
   const words = el('p', { class: 'help', role: 'status' });
+  const begin = () =>
+    (words.textContent = t('The server computes the first picture …', 'Il server calcola la prima immagine …'));
+  begin();
   box.append(picture, words);
 
   const send = latest(async patch => {
@@ -69,7 +72,7 @@ export function lensed(box, running) {
     at_work = false;
   }
   for (const event of ['visibilitychange', 'viewchange']) document.addEventListener(event, () => wanted && pull());
-  running.addEventListener('begun', () => ((frame = 0), (camera = null), fit()));
+  running.addEventListener('begun', () => ((frame = 0), (camera = null), begin(), fit()));
 
   // Dragged, or by arrow keys, the camera goes round the hole.
   let from = null;

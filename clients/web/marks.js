@@ -1,6 +1,8 @@
 // Marks on the plane of the playground: the hole's circles, what is aimed at, and the scale.
 import { t } from './i18n.js';
 
+const margin = 4; // of names to the picture's edge
+
 function ring(c, plane, r) {
   const [x, y] = plane.project([0, 0, 0]);
   c.beginPath();
@@ -65,8 +67,13 @@ export function aim(c, plane, colours) {
       c.moveTo(tx, ty), c.lineTo(tx - 9 * Math.cos(angle + side), ty - 9 * Math.sin(angle + side));
   c.stroke();
   c.lineWidth = 1;
-  c.textAlign = tx < x ? 'right' : 'left';
-  c.fillText(text, tx + (tx < x ? -8 : 8), ty + (ty < y ? -4 : 14));
+  // On the side to which it points, but where all of it is in the picture.
+  const [w, h] = plane.size,
+    wide = c.measureText(text).width,
+    left = Math.min(Math.max(tx < x ? tx - 8 - wide : tx + 8, margin), w - margin - wide),
+    low = Math.min(Math.max(ty + (ty < y ? -4 : 14), margin + 10), h - margin);
+  c.textAlign = 'left';
+  c.fillText(text, left, low);
 }
 
 // How long a round number of M is.

@@ -2,12 +2,14 @@
 // point by the ray that leads there.
 import { number, t } from './i18n.js';
 import * as link from './link.js';
-import { settled } from './orbit-ask.js';
+import { follow, settled } from './orbit-ask.js';
 import { requested, specs } from './orbit-fields.js';
-import { postJson } from './server.js';
+import { lines } from './server.js';
 
-const periods = 3; // of many the first
-const samples = 600;
+const apart = (5 * Math.PI) / 180; // between neighbouring points, as the hole sees them
+const margin = 1.1; // the largest angle is that of a path with other samples
+const most = 20000; // samples that the server takes
+const patience_ms = 5000;
 const torn = 0.25; // of the window’s width: points that are further apart belong to two arcs
 const frames = ['static', 'zamo', 'keplerian', 'retrograde', 'infall'];
 // what was asked of late: the same place of the camera asks for it at each picture at rest
@@ -26,27 +28,89 @@ function observer(scene) {
   };
 }
 
-async function seen(scene) {
+// The largest angle between neighbouring places, from the hole. An azimuth would jump where the path passes the axis.
+function widest(column) {
+  const places = ['x', 'y', 'z'].map(column),
+    unit = i => places.map(axis => axis[i] / Math.hypot(...places.map(other => other[i])));
+  let angle = 0;
+  for (let i = 1; i < places[0].length; i++) {
+    const [one, other] = [unit(i - 1), unit(i)];
+    angle = Math.max(angle, 2 * Math.asin(Math.min(Math.hypot(...one.map((x, k) => x - other[k])) / 2, 1)));
+  }
+  return angle;
+}
+
+// The same orbit with points that are close enough, over as many periods as one answer holds: { asked, all }, all:
+// periods that were wanted. A circle in the plane is one turn.
+async function sampled(asked) {
+  const { duration } = asked,
+    path = await follow({ ...asked, samples: 400, digits: 7 }),
+    again = path.circular && path.turning_points.theta_min_deg === 90,
+    all = duration ? (again ? 1 : duration.periods) : 1,
+    needed = (margin * path.column('x').length * widest(path.column)) / apart / (duration?.periods ?? 1), // a period
+    periods = Math.min(all, Math.max(Math.floor(most / needed), 1));
+  return {
+    asked: {
+      ...asked,
+      ...(duration ? { duration: { ...duration, periods } } : {}),
+      samples: Math.min(Math.ceil(needed * periods) + 1, most),
+    },
+    all,
+  };
+}
+
+// Images of its points, as many as are found in time.
+async function images(asked, signal) {
+  const enough = new AbortController(),
+    answer = { rows: [] };
+  signal.addEventListener('abort', () => enough.abort());
+  let timer = 0;
+  try {
+    for await (const { head, columns, rows, problem } of lines('v1/orbits', asked, enough.signal)) {
+      timer ||= setTimeout(() => enough.abort(), patience_ms);
+      if (problem) throw new Error(problem.detail);
+      Object.assign(answer, head, columns && { columns });
+      answer.rows.push(...(rows ?? []));
+    }
+  } catch (error) {
+    if (signal.aborted || !enough.signal.aborted) throw error;
+  } finally {
+    clearTimeout(timer);
+  }
+  return answer;
+}
+
+async function seen(scene, signal) {
   const chosen = Object.fromEntries(specs.map(({ name, value }) => [name, link.get('orbit.' + name) ?? value])),
     spin = scene.get('spacetime.spin'),
-    asked = {
-      ...requested({ ...chosen, periods: Math.min(chosen.periods, periods) }),
-      spin,
-      samples,
-      digits: 8,
-      seen: observer(scene),
-    },
-    key = JSON.stringify(asked);
+    wanted = { ...requested(chosen), spin },
+    view = observer(scene),
+    key = JSON.stringify([wanted, view]);
   if (key === last.key) return last.answer;
-  const answer = await postJson('v1/orbits', (await settled(asked)).asked);
+  const { asked, all } = await sampled((await settled(wanted)).asked);
+  signal.throwIfAborted();
+  const answer = { ...(await images({ ...asked, digits: 8, seen: view }, signal)), asked, all };
   last = { key, answer };
   return answer;
 }
 
-// look, path: of overlay.js
-export async function orbit(scene, look, path, width) {
-  const { series, spin, shape } = await seen(scene),
-    column = name => series.rows.map(row => row[series.columns.indexOf(name)]),
+// How much of the path was found in time.
+function share({ rows, asked, all, fate }) {
+  const part = Math.min(rows.length / asked.samples, 1),
+    periods = part * (asked.duration?.periods ?? 1);
+  if (periods >= all) return '';
+  const much =
+    fate === 'bound'
+      ? t(`${number(periods, 2)} of ${number(all)} periods`, `${number(periods, 2)} di ${number(all)} periodi`)
+      : `${number(100 * part, 2)} %`;
+  return t(`${much}, as many as were found within 5 s`, `${much}, quanti se ne sono trovati in 5 s`);
+}
+
+// look, path: of overlay.js; signal: ends it, for the camera has moved on
+export async function orbit(scene, look, path, width, signal) {
+  const answer = await seen(scene, signal),
+    { rows, columns, spin, shape } = answer,
+    column = name => rows.map(row => row[columns.indexOf(name)]),
     [alpha, beta, right, up, inwards, off] = ['alpha', 'beta', 'right', 'up', 'inwards', 'off'].map(column),
     far = scene.get('camera.r') === 'infinity';
   const points = alpha.map((_, i) =>
@@ -58,7 +122,8 @@ export async function orbit(scene, look, path, width) {
         : [point],
     ),
     lost = off.filter(miss => miss == null).length,
-    worst = Math.max(0, ...off.map(miss => miss ?? 0)),
+    worst = off.reduce((most, miss) => Math.max(most, miss ?? 0), 0),
+    part = share(answer),
     name = shape
       ? `p = ${number(shape.p)} M, e = ${number(shape.e)}, ${number(shape.inclination_deg)}°, a = ${number(spin)} M`
       : `a = ${number(spin)} M`;
@@ -67,10 +132,18 @@ export async function orbit(scene, look, path, width) {
     tags: [t('orbit', 'orbita')],
     words: [
       t(
-        `${name}: its direct image; each of ${off.length} points within ${number(worst, 1)} M of its ray`,
-        `${name}: la sua immagine diretta; ciascuno dei ${off.length} punti entro ${number(worst, 1)} M dal suo raggio di luce`,
+        `${name}: its direct image; each of ${off.length} points within ${number(worst, 1)} M of its ray, and at most 5° of its way from the next`,
+        `${name}: la sua immagine diretta; ciascuno dei ${off.length} punti entro ${number(worst, 1)} M dal suo raggio di luce, e a 5° al più dal prossimo`,
       ),
-      ...(lost ? [t(`${lost} next to the horizon have none`, `${lost} accanto all’orizzonte non ne hanno`)] : []),
+      ...(part ? [part] : []),
+      ...(lost
+        ? [
+            t(
+              `${lost} next to the horizon have none, and the line breaks there`,
+              `${lost} accanto all’orizzonte non ne hanno, e lì la linea s’interrompe`,
+            ),
+          ]
+        : []),
     ].join('; '),
   };
 }

@@ -212,8 +212,8 @@ async function names(scene) {
 }
 
 const measured = async (scene, look) => (await import('./measured.js')).ring(scene, look, path);
-const orbit = async (scene, look, stage) =>
-  (await import('./orbit-lensed.js')).orbit(scene, look, path, stage.clientWidth);
+const orbit = async (scene, look, stage, signal) =>
+  (await import('./orbit-lensed.js')).orbit(scene, look, path, stage.clientWidth, signal);
 const curved = async (scene, look) => (await import('./flamm.js')).flamm(scene, look, path);
 async function polarization(scene, look, stage) {
   return (await import('./ticks.js')).ticks(scene, stage.clientWidth, stage.clientHeight);
@@ -228,16 +228,26 @@ const overlays = [
   ['polarization', polarization, 'Polarisation, by ticks', 'Polarizzazione, con trattini'],
   ['names', names, 'Names of the brightest stars', 'Nomi delle stelle più brillanti'],
   ['ring', measured, 'Ring as the EHT measured it', 'Anello misurato dall’EHT'],
-  ['orbit', orbit, 'Orbit of the Orbits view, lensed', 'Orbita della vista Orbite, deviata dalla lente'],
   ['flamm', curved, 'Curved space (Flamm) and its twist', 'Spazio curvo (Flamm) e sua torsione'],
+  ['orbit', orbit, 'Orbit of the Orbits view, lensed', 'Orbita della vista Orbite, deviata dalla lente'],
 ];
+
+const slow = ['orbit']; // takes seconds: the others are there before it
 
 export function buildOverlays(root, stage, scene) {
   const chosen = new Set((link.get('over') ?? '').split(',').filter(Boolean)),
     layer = byId('overlay'),
     notes = new Map();
+  let leave = new AbortController(); // of what the camera has left
+
+  function lay(groups, width, height) {
+    layer.setAttribute('viewBox', `0 0 ${width} ${height}`);
+    layer.replaceChildren(...groups.map(({ node }) => node));
+    nameLines(groups, width, height);
+  }
 
   const draw = latest(async () => {
+    const { signal } = (leave = new AbortController());
     const { clientWidth: width, clientHeight: height } = stage,
       look = camera(scene, width, height),
       groups = [];
@@ -248,7 +258,11 @@ export function buildOverlays(root, stage, scene) {
       try {
         if (scene.get('camera.projection') === 'ring' || scene.get('camera.stereo') === 'pair')
           throw new Error(t('not in this projection', 'non in questa proiezione'));
-        const { lines, labels = [], tags = [], words } = await make(scene, look, stage);
+        if (slow.includes(name))
+          lay(groups, width, height),
+            layer.classList.remove('late'),
+            tell(notes.get(name), t('computing …', 'si calcola …'));
+        const { lines, labels = [], tags = [], words } = await make(scene, look, stage, signal);
         groups.push({
           tags,
           node: svg(
@@ -260,6 +274,7 @@ export function buildOverlays(root, stage, scene) {
         });
         notes.get(name).textContent = words;
       } catch (error) {
+        if (signal.aborted) return;
         tell(notes.get(name), refusals[error.pointer] ?? error.message);
       }
     }
@@ -275,9 +290,7 @@ export function buildOverlays(root, stage, scene) {
         ),
       });
     }
-    layer.setAttribute('viewBox', `0 0 ${width} ${height}`);
-    layer.replaceChildren(...groups.map(({ node }) => node));
-    nameLines(groups, width, height);
+    lay(groups, width, height);
     layer.classList.remove('late');
   });
 
@@ -301,6 +314,7 @@ export function buildOverlays(root, stage, scene) {
       onchange: () => {
         box.checked ? chosen.add(name) : chosen.delete(name);
         asked.set(name, null); // it is the user's choice now
+        leave.abort();
         link.set('over', [...chosen].filter(one => !asked.get(one)).join(','));
         draw();
       },
@@ -325,7 +339,8 @@ export function buildOverlays(root, stage, scene) {
     if (spin != null && spin !== scene.get('spacetime.spin')) scene.change({ 'spacetime.spin': spin });
   });
   // until the picture has come to rest
-  for (const event of ['change', 'move']) scene.addEventListener(event, () => layer.classList.add('late'));
+  for (const event of ['change', 'move'])
+    scene.addEventListener(event, () => (leave.abort(), layer.classList.add('late')));
   // of another place
   scene.addEventListener('tick', () => scene.get('motion.proper_time_rate') && layer.replaceChildren());
   // Axes belong to a coarse picture, too.

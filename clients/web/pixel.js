@@ -1,5 +1,6 @@
 // "What is this light?": where the light of one pixel comes from, in words, with its ray bending past the hole beside
-// it. A tap asks, a pointer at rest asks again, arrow keys move the cross.
+// it. A tap asks, and so do arrow keys, which move the cross. Opened by its button or key the card follows the pointer,
+// and asks where that rests, until one of the two pins it.
 import { byId, el, latest } from './dom.js';
 import { number, said, t, tell } from './i18n.js';
 import { buildInset } from './inset.js';
@@ -274,6 +275,6 @@ export function buildPixel(stage, scene, size) {
   return {
     look,
     close,
-    toggle: () => (at ? close() : look({ x: stage.clientWidth / 2, y: stage.clientHeight / 2 }, true)),
+    toggle: () => (at ? close() : look({ x: stage.clientWidth / 2, y: stage.clientHeight / 2 }, false)),
   };
 }

@@ -2,7 +2,8 @@
 // look like is shown as they come; then the server has them encoded, or gives them as they are, numbered.
 import { el, latest } from './dom.js';
 import { duration, t, tell } from './i18n.js';
-import { jobOf, offer } from './job.js';
+import { fileName, jobOf, offer } from './job.js';
+import * as link from './link.js';
 import { ask, getJson, postJson } from './server.js';
 import { samples } from './source.js';
 
@@ -24,9 +25,10 @@ const choose = (id, label, options) =>
 const button = (id, text, attributes) => el('button', { type: 'button', id, ...attributes }, text);
 
 // kinds: [{ name, text, lacks(): why it would show nothing, request(n, width, height): a document of a job, plan(n,
-// width, height): one of /v1/plan }]; size(): of what is seen, in pixels; key: of the tab's memory, and of ids. Returns
-// renew(), to be called when what would be filmed has changed.
-export function buildFilms(box, { key, kinds, size }) {
+// width, height): one of /v1/plan }]; size(): of what is seen, in pixels; key: of the tab's memory, and of ids; preset:
+// what a link calls the preset's name, by which files are named. Returns renew(), to be called when what would be
+// filmed has changed.
+export function buildFilms(box, { key, kinds, size, preset }) {
   const starts = kinds.map(({ name, text }) =>
       button(`${key}-${name}`, text, { 'aria-describedby': `${key}-${name}-takes` }),
     ),
@@ -161,7 +163,7 @@ export function buildFilms(box, { key, kinds, size }) {
       got.hidden = preview.hidden = true;
       shown = -1;
       job.begin(() => kinds[i].request(n, width, height), {
-        name: `kerrd-${kinds[i].name}-${width}x${height}`,
+        name: fileName([link.get(preset), kinds[i].name], width, height),
         form: form.value,
         rate: n / seconds,
       });
@@ -262,7 +264,7 @@ export function recordScene(box, scene, size) {
       ...glide(scene, 'spacetime.spin', () => [0, 0.998]),
     },
   ];
-  const renew = buildFilms(box, { key: 'film', kinds, size });
+  const renew = buildFilms(box, { key: 'film', kinds, size, preset: 'preset' });
   for (const event of ['change', 'settle']) scene.addEventListener(event, renew);
   box.closest('details').addEventListener('toggle', renew);
 }
@@ -284,6 +286,6 @@ export function recordPlay(box, running, size) {
       };
     },
   };
-  const renew = buildFilms(box, { key: 'play-film', kinds: [kind], size });
+  const renew = buildFilms(box, { key: 'play-film', kinds: [kind], size, preset: 'play.preset' });
   running.addEventListener('state', renew);
 }

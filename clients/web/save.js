@@ -2,7 +2,8 @@
 // shows.
 import { byId } from './dom.js';
 import { t } from './i18n.js';
-import { jobOf, offer, remembered } from './job.js';
+import { fileName, jobOf, offer, remembered } from './job.js';
+import * as link from './link.js';
 import { samples } from './source.js';
 import { ask } from './server.js';
 
@@ -74,7 +75,7 @@ export function buildSave(scene, size, changed) {
     const over = picked(scene, size);
     got.hidden = true;
     job.begin(() => ({ scene: scene.document(over) }), {
-      name: `kerrd-${over['image.width']}x${over['image.height']}.png`,
+      name: fileName([link.get('preset')], over['image.width'], over['image.height']) + '.png',
     });
   });
   for (const control of [sizes, byId('save-width'), byId('save-height')]) control.addEventListener('change', showSize);

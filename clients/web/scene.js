@@ -49,6 +49,9 @@ function sections([path, spec]) {
   ];
 }
 
+// As a link has it: nobody sees the seventh digit.
+export const linkedTime = time => Number(time?.toPrecision(6)) || null;
+
 // What stands there in a document; undefined where nothing does.
 export const valueAt = (document, path) => path.split('.').reduce((inside, name) => inside?.[name], document);
 
@@ -174,7 +177,7 @@ export class Scene extends EventTarget {
     if (styled) value ??= this.fields.get(path).default;
     if (value == null || (value === this.fields.get(path).default && !styled)) this.#values.delete(path);
     else this.#values.set(path, value);
-    link.set(path, this.#values.get(path));
+    link.set(path, path === 'time' ? linkedTime(this.#values.get(path)) : this.#values.get(path));
   }
 
   get(path) {
@@ -185,6 +188,9 @@ export class Scene extends EventTarget {
 
   // Where the server began to move it from.
   begun = path => this.#values.get(path) ?? this.fields.get(path).default;
+
+  // Of all that the server moves, by path.
+  origins = () => Object.fromEntries([...this.#moved.keys()].map(path => [path, this.begun(path)]));
 
   // What was moved stays where it is seen.
   land() {
@@ -299,7 +305,7 @@ export class Scene extends EventTarget {
     this.#now = time;
     if (performance.now() > this.#linked + link_ms) {
       this.#linked = performance.now();
-      link.set('time', Math.ceil(time * 100) / 100 || null);
+      link.set('time', linkedTime(time));
       for (const [path, value] of this.#moved) link.set(path, value);
     }
     this.dispatchEvent(new Event('tick'));

@@ -17,6 +17,7 @@ export const passes = error => !(error instanceof Problem) || error.status >= 50
 
 export async function ask(url, options) {
   const answer = await fetch(url, options).catch(() => {
+    options?.signal?.throwIfAborted();
     throw new Error(t('The server does not answer', 'Il server non risponde'));
   });
   if (!answer.ok) throw new Problem(await answer.json().catch(() => ({})), answer.status);
@@ -40,6 +41,24 @@ export const postJson = async (url, body) =>
       body: JSON.stringify(body),
     })
   ).json();
+
+// The lines of a streamed answer, each as a document, as they come.
+export async function* lines(url, body, signal) {
+  const { body: stream } = await ask(url, {
+    method: 'POST',
+    headers: { 'Content-Type': 'application/json', Accept: 'application/x-ndjson' },
+    body: JSON.stringify(body),
+    signal,
+  });
+  let rest = '';
+  for (const reader = stream.pipeThrough(new TextDecoderStream()).getReader(); ; ) {
+    const { value, done } = await reader.read();
+    const whole = (rest + (value ?? '')).split('\n');
+    rest = whole.pop();
+    for (const line of whole) yield JSON.parse(line);
+    if (done) return;
+  }
+}
 
 // Numbers of /v1/physics are asked for once: most of what is drawn asks again for what it had.
 const kept = new Map();

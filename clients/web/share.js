@@ -3,6 +3,7 @@ import { byId, paced } from './dom.js';
 import { t } from './i18n.js';
 import * as link from './link.js';
 import { buildSave, picked } from './save.js';
+import { linkedTime } from './scene.js';
 
 const shell = text => `'${text.replaceAll("'", `'\\''`)}'`;
 
@@ -33,7 +34,7 @@ export function share(scene, size) {
 
   byId('copy-scene').addEventListener('click', () => (show(), copy(box.value, box)));
   byId('copy-link').addEventListener('click', () => {
-    link.set('time', scene.get('time') || null);
+    link.set('time', linkedTime(scene.get('time')));
     link.flush();
     copy(location.href);
   });

@@ -27,24 +27,34 @@ export function scale(range) {
   };
 }
 
+const power = x => 10 ** Math.floor(Math.log10(x));
+
 // One step of an arrow key: about a hundredth of the range, or a tenth of the leading digit where it goes by factors.
+// Where such a range begins at 0, ten steps lead from there to about the usual value; below a tenth of that a step is a
+// unit of the leading digit.
 function step(range, value) {
-  const size = spread(range)
-    ? Math.abs(value) || (Number(range.default) || 1) / 10
-    : (range.maximum - range.minimum) / 10;
-  return 10 ** (Math.floor(Math.log10(size)) - 1);
+  const size = Math.abs(value);
+  if (!spread(range)) return power(range.maximum - range.minimum) / 100;
+  // of 0 there may be a button, which puts it on
+  if (range.minimum > 0) return size ? power(size) / 10 : (range.button?.value ?? range.minimum);
+  const usual = power(Number(range.default) || 1) / 10;
+  return size === 0 ? usual : size < usual ? power(size) : Math.max(power(size) / 10, usual);
 }
 
+const across = { ArrowRight: 1, ArrowLeft: -1 };
 const steps = { ArrowUp: 1, ArrowDown: -1 };
 
-// In a box whose numbers have no step of their own a browser goes by ones, from 0.9 to 1.9.
-export function stepByArrows(box, range, give) {
-  box.addEventListener('keydown', event => {
-    if (!(event.key in steps) || event.ctrlKey || event.metaKey || event.altKey || box.value === '') return;
+// In a box whose numbers have no step of their own a browser goes by ones, from 0.9 to 1.9; and a slider by a
+// thousandth of its length, which is less than a number may change by, or too little to be seen. range.step: of numbers
+// that have a step. node: the box, or the slider beside it.
+export function stepByArrows(node, range, give, box = node) {
+  const way = node.type === 'range' ? { ...steps, ...across } : steps;
+  node.addEventListener('keydown', event => {
+    const now = box.valueAsNumber;
+    if (!(event.key in way) || event.ctrlKey || event.metaKey || event.altKey || Number.isNaN(now)) return;
     event.preventDefault();
-    const value = box.valueAsNumber,
-      one = step(range, value),
-      next = Number((Math.round(value / one + steps[event.key]) * one).toPrecision(12));
-    give(clamp(next, Math.min(range.minimum, value), Math.max(range.maximum, value)));
+    const one = range.step ?? (range.type === 'integer' ? Math.max(step(range, now), 1) : step(range, now)),
+      next = Number((Math.round(now / one + way[event.key]) * one).toPrecision(12));
+    give(clamp(next, Math.min(range.minimum, now), Math.max(range.maximum, now)));
   });
 }

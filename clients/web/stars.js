@@ -6,7 +6,7 @@ import { ask } from './server.js';
 
 const near_px = 16;
 const rest_ms = 250; // that a camera has been still
-const hidden = 0.02; // through which part of a disk a star shows
+const hidden = 0.3; // less than this part of a star’s light, through gas that shines itself, nobody sees
 const stale_px = 6; // places go on by so much before a new list is asked for,
 const again_ms = 1500; // and no sooner: it is a picture's work on the device that makes these
 

@@ -146,6 +146,17 @@ export function buildTour(stage, scene) {
     before = null;
     stage.focus();
   }
-  box.addEventListener('keydown', event => event.key === 'Escape' && end());
+  // Wherever the focus is; but first Esc closes what lies over the tour.
+  document.addEventListener(
+    'keydown',
+    event =>
+      event.key === 'Escape' &&
+      before &&
+      byId('pixel').hidden &&
+      !document.body.dataset.full &&
+      !document.querySelector('dialog[open]') &&
+      end(),
+    { capture: true },
+  );
   return begin;
 }

@@ -19,7 +19,7 @@ const struct kd_orbit_field kd_orbit_settings[] = {
 #define AT(member) offsetof(struct kd_orbit_params, member)
     { "", "spin", REAL, AT(spin), -1, 1, 0, ANY, 0, KD_OPEN, .help = "of the hole, a/M" },
     { "", "samples", WHOLE, AT(samples), 0, KD_ORBIT_SAMPLES_MAX, 0, ANY, 0, .bound = KD_BOUND_NOT_ONE,
-      .help = "of the path, both ends counted; 0 for none; of an orbit that is seen at most 1000" },
+      .help = "of the path, both ends counted; 0 for none; of an orbit that is seen at most 20000" },
     { "", "digits", WHOLE, AT(digits), 1, KD_DECIMAL_DIGITS, 0, ANY, 0,
       .help = "significant digits of the series as text" },
     { "", "steps", WHOLE, AT(steps), 0, 100000000, 0, ANY, 0,

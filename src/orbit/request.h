@@ -27,7 +27,8 @@
 #define KD_ORBITS_MAX 10000u
 #define KD_ORBIT_BODY_MAX ((size_t)4 << 20) /* bytes of a document */
 #define KD_ORBIT_SAMPLES_MAX 200000u        /* of one orbit; of all together where there are many */
-#define KD_ORBIT_SEEN_MAX 1000u             /* samples of one that is seen: each takes some 2 ms */
+#define KD_ORBIT_SEEN_MAX \
+    20000u /* samples of one that is seen: each takes some 2 ms; a stream ends when its client has enough */
 #define KD_ORBIT_ROUNDING_MAX 1e-3
 #define KD_ORBIT_STEPS_MAX 1000000000. /* of one orbit: five minutes */
 

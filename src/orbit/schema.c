@@ -178,9 +178,9 @@ void kd_orbit_request_schema(struct kd_json *json, const char *name)
                    "\"type\":\"object\",\"required\":[\"observer_inclination_deg\"]}}}]}}");
     kd_schema_text(json, "else",
                    "{\"required\":[\"orbit\"],\"not\":{\"required\":[\"samples\",\"seen\"],\"properties\":{\"samples\":"
-                   "{\"type\":\"number\",\"exclusiveMinimum\":1000},"
+                   "{\"type\":\"number\",\"exclusiveMinimum\":20000},"
                    "\"seen\":{\"type\":\"object\",\"required\":[\"observer_inclination_deg\"]}}}}");
-    _Static_assert(KD_ORBIT_SEEN_MAX == 1000, "the schema says so");
+    _Static_assert(KD_ORBIT_SEEN_MAX == 20000, "the schema says so");
     kd_json_object(json, "properties");
     add_members(json, &rows, "");
     add_sections(json, &rows);

@@ -6,6 +6,8 @@ const struct kd_route kd_routes[] = {
     { "/", KD_GET, kd_handle_page, "text/html; charset=utf-8",
       "The page: a live view, its controls and what is computed", .status = { 200, 304 } },
     { "/web/{name}", KD_GET, kd_handle_page, "*/*", "What the page loads", .status = { 200, 304 } },
+    { "/web/stills/{name}", KD_GET, kd_handle_page, "*/*", "small pictures of presets, and of its first view",
+      .status = { 200, 304 } },
     { "/web/vendor/uplot/{name}", KD_GET, kd_handle_page, "*/*", "uPlot, which draws its plots",
       .status = { 200, 304 } },
     { "/healthz", KD_GET, kd_handle_health, JSON, "200 while the process lives", .open = true },

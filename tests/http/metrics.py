@@ -78,6 +78,7 @@ class Metrics(daemon.Case):
             "none",
             "/",
             "/web/{name}",
+            "/web/stills/{name}",
             "/web/vendor/uplot/{name}",
         }
         self.assertLessEqual({s.labels["route"] for s in one.samples}, routes)

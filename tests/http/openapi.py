@@ -163,10 +163,10 @@ class OpenApi(daemon.Case):
                         {"seen": {"observer_r": 30}},
                         {"seen": {"observer_azimuth_deg": 5}},
                         {"seen": {"observer": "zamo"}},
-                        {"seen": {"observer_inclination_deg": 60}, "samples": 1001},
+                        {"seen": {"observer_inclination_deg": 60}, "samples": 20001},
                         {"duration": {"or_end": True}},
                         {"duration": {"time": 9, "or_end": True}},
-                        {"seen": {}, "duration": {"periods": 1, "or_end": True}, "samples": 1001},
+                        {"seen": {}, "duration": {"periods": 1, "or_end": True}, "samples": 20001},
                     )
                 ),
             ),

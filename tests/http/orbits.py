@@ -118,7 +118,7 @@ class Orbits(daemon.Case):
             ({"observer_inclination_deg": 90, "observer_r": 1.9}, GENERIC, "/seen/observer_r"),
             ({**from_above, "observer": "me"}, GENERIC, "/seen/observer"),
             (from_above, {"orbits": [{"case": "isco"}]}, "/seen"),
-            (from_above, {**GENERIC, "samples": 1001}, "/samples"),
+            (from_above, {**GENERIC, "samples": 20001}, "/samples"),
         ]:
             problem = self.assertProblem(self.post({**document, "seen": seen}), 422)
             self.assertEqual(problem.get("pointer", ""), pointer, problem)

@@ -21,6 +21,7 @@ GETS = {
     "/web/vendor/uplot/uPlot.iife.min.js": "text/javascript; charset=utf-8",
     "/web/vendor/uplot/LICENSE": "text/plain; charset=utf-8",
     "/web/style.css": "text/css; charset=utf-8",
+    "/web/stills/first.jpg": "image/jpeg",
     "/web/icon.svg": "image/svg+xml",
     "/healthz": "application/json",
     "/readyz": "application/json",
@@ -82,6 +83,11 @@ class Routes(daemon.Case):
             self.assertIsNone(self.daemon.get("/web/" + name).header("Content-Security-Policy"), name)
 
     def test_page_compressed_and_kept(self):
+        self.assertEqual(
+            self.daemon.get("/web/icon.svg").header("Cache-Control"),
+            "private, max-age=86400",
+            "browsers ask for it when the address changes",
+        )
         plain = self.daemon.get("/web/app.js")
         for accept in ("gzip", "br;q=1, gzip;q=0.5", "*", "GZIP, deflate"):
             packed = self.daemon.get("/web/app.js", Accept_Encoding=accept)

@@ -74,6 +74,7 @@ class Scripts(unittest.TestCase):
             ["package", "--bare"],
             ["container", "run"],
             ["version", "1.0"],
+            ["stills", "--every"],
             ["fuzz", "scen"],
             ["fuzz", "--seconds", "0"],
             ["fuzz", "--result", "a.txt"],

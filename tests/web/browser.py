@@ -205,11 +205,10 @@ class Browser(unittest.TestCase):
         page.mouse.up()
         page.wait_for_selector(AT_REST)
 
-    def there(self, page, words, selector):
-        """Waits for words that come after what brings them."""
-        self.assertTrue(
-            daemon.eventually(lambda: words in page.inner_text(selector)), f"{words!r} in {page.inner_text(selector)!r}"
-        )
+    def there(self, page, words, selector, text=False):
+        """Waits for words that come after what brings them; text: also where they are in what is folded up."""
+        read = page.text_content if text else page.inner_text
+        self.assertTrue(daemon.eventually(lambda: words in read(selector)), f"{words!r} in {read(selector)!r}")
 
     def linked(self, page, *parts):
         """The address follows a moment after what is done."""

@@ -105,6 +105,24 @@ class First(Browser):
         usual = self.daemon.get("/v1/presets/gas-stars").json()["camera"]["field_m"]
         self.assertGreater(posts[0][1]["camera"]["field_m"], usual)
 
+    def test_a_still_is_there_before_the_server_has_made_it(self):
+        context, held = self.context(viewport={"width": 390, "height": 700}), []
+        page = self.page(context)
+        page.route("**/frame?*", lambda route: held.append(route) if held is not None else route.continue_())
+        page.goto(self.base + "#lang=en")
+        ground = lambda: page.evaluate('getComputedStyle(document.getElementById("stage")).backgroundImage')
+        self.assertTrue(daemon.eventually(lambda: page.evaluate("0") or held))
+        self.assertIn("stills/first.jpg", ground())
+        wide = page.evaluate(
+            'async () => { const image = new Image(); image.src = "web/stills/first.jpg"; await image.decode(); return image.naturalWidth; }'
+        )
+        self.assertEqual(wide, 640)
+        self.shot(page, "first-still")
+        waiting, held = held, None
+        for route in waiting:
+            route.continue_()
+        self.assertTrue(daemon.eventually(lambda: ground() == "none"))
+
     def test_it_is_a_preset_that_moves(self):
         page = self.opened("living-disk", "lang=en")
         self.assertTrue(daemon.eventually(lambda: page.inner_text("#clock") and self.clock(page) > 1))
@@ -205,11 +223,13 @@ class First(Browser):
                 lambda: page.input_value("#preset") == name and card(name).get_attribute("aria-pressed") == "true"
             )
         )
-        self.assertTrue(
-            daemon.eventually(lambda: came("smooth") == 192, 500),
-            "it is painted with a tenth of the weight of all else",
-        )
+        self.assertTrue(daemon.eventually(lambda: came("smooth") == 192))
+        self.assertFalse([r.url for r in self.requests if "thumbnail" in r.url], "the program has them with it")
         self.assertFalse(card("m87").locator("img").get_attribute("src"), "what is not in sight is not asked for")
+        lost = page.evaluate("""async () => { const { presets } = await (await fetch('v1/presets')).json(), lost = [];
+            for (const { name } of presets) { const answer = await fetch(`web/stills/${name}.jpg`); if (!answer.ok) lost.push(name); await answer.blob(); }
+            return lost; }""")
+        self.assertEqual(lost, [])
         words = page.evaluate("""async () => { const { presets } = await (await fetch('v1/presets')).json(), it = await import('./web/it.js'), captions = (await import('./web/captions.js')).default;
             return presets.filter(({ name }) => !it.labels[name] || captions[name]?.length !== 2).map(({ name }) => name); }""")
         self.assertEqual(words, [], "presets without a caption, or without Italian")

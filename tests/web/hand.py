@@ -59,6 +59,21 @@ class Hand(Browser):
         page.keyboard.press("ArrowRight")
         self.assertTrue(daemon.eventually(lambda: self.field(page, "camera.azimuth_deg") != camera))
 
+    def test_the_card_follows_the_pointer_until_it_is_pinned(self):
+        page = self.open(FACE_ON)  # so wide that the card leaves room beside it
+        self.card(page, lambda: page.click("#ask"))
+        box = page.locator("#stage").bounding_box()
+        cross = lambda: page.evaluate('(({ style }) => [style.left, style.top])(document.getElementById("cross"))')
+        at = lambda u, v: (box["x"] + u * box["width"], box["y"] + v * box["height"])
+        name = self.card(page, lambda: page.mouse.move(*at(0.8, 0.5)))
+        self.assertTrue(name.startswith("Thin disk, at r = "), name)
+        followed = cross()
+        self.assertEqual(followed[0][:2], "80")
+        self.card(page, lambda: page.mouse.click(*at(0.7, 0.5)))
+        self.assertEqual(cross()[0][:2], "70")
+        page.mouse.move(*at(0.9, 0.4))
+        self.assertEqual(cross()[0][:2], "70", "pinned")
+
     def test_of_nothing(self):
         page = self.open(FACE_ON, viewport=SIZE)
         page.focus("#stage")
@@ -97,6 +112,11 @@ class Hand(Browser):
                 page.evaluate('([x, y]) => Boolean(document.elementFromPoint(x, y).closest("#stage"))', [x, y]),
                 "the card does not lie over it",
             )
+        self.assertRegex(
+            page.evaluate('getComputedStyle(document.getElementById("pixel")).backgroundColor'),
+            r"^rgb\(",
+            "what it lies over is not seen through it",
+        )
         self.shot(page, "pixel-telephone", full_page=True)
         self.assertEqual(page.evaluate("document.documentElement.scrollWidth"), 390)
 
@@ -202,6 +222,25 @@ class Hand(Browser):
             "a box of numbers takes back its own",
         )
 
+    def test_undo_leaves_nothing_in_the_address(self):
+        """Not the time that a preset let go on, nor where it turned the camera to, nor the width that fits the
+        window."""
+        state = lambda: sorted(page.evaluate("location.hash").removeprefix("#").split("&"))
+        for preset, has, height in (
+            ("jet", "time=", 640),
+            ("milky-way", "camera.azimuth_deg=", 640),
+            ("gargantua", "preset=gargantua", 420),
+        ):
+            page = self.open("lang=en", "#stage[data-final]", viewport={"width": 1000, "height": height})
+            page.wait_for_selector(f"#preset option[value={preset}]", state="attached")
+            self.linked(page, "preset=default")
+            before = state()
+            page.select_option("#preset", preset)
+            self.linked(page, has)
+            page.wait_for_selector("#undo:enabled")
+            page.click("#undo")
+            self.assertTrue(daemon.eventually(lambda: state() == before), (state(), before))
+
     def test_keys_are_told_and_a_double_click_starts_again(self):
         page = self.open("lang=it&camera.inclination_deg=70")
         page.focus("#stage")
@@ -224,6 +263,14 @@ class Hand(Browser):
         self.assertIn("computed live", page.inner_text("#welcome"))
         page.click("#tour-begin")
         self.assertFalse(page.is_visible("#welcome"))
+        page.focus("#stage")
+        page.keyboard.press("i")
+        page.wait_for_selector("#pixel:not([hidden])")
+        page.keyboard.press("Escape")
+        self.assertEqual((page.is_visible("#pixel"), page.is_visible("#tour")), (False, True))
+        page.keyboard.press("Escape")
+        self.assertFalse(page.is_visible("#tour"), "wherever the focus is")
+        page.click("#tour-begin")
         seen = []
         for i in range(5):
             page.wait_for_selector(f'#tour .help:has-text("{i + 1} of 5")')

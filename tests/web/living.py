@@ -55,6 +55,14 @@ class Living(Browser):
         self.assertTrue(daemon.eventually(lambda: page.inner_text("#clock").startswith("t = −")))
         self.shot(page, "living-disk")
 
+    def test_a_link_tells_time_in_six_digits(self):
+        page = self.open("lang=en&time=123.456789&motion.time_rate=10&disk.model=particles", "#stage[data-final]")
+        told = lambda: page.evaluate("(location.hash.match(/[&#]time=([\\d.]+)/) ?? [])[1]")
+        self.assertTrue(daemon.eventually(lambda: told() not in (None, "123.456789", "123.457")), "it goes on")
+        page.evaluate('() => document.getElementById("copy-link").click()')
+        self.assertTrue(daemon.eventually(lambda: page.text_content("#copied")))
+        self.assertLessEqual(len(told().replace(".", "")), 6, told())
+
     def test_other_particles_and_a_spot(self):
         page = self.open(SMOOTH + "&lang=en&camera.inclination_deg=60")
         self.assertFalse(page.is_visible("#play"))

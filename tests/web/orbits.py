@@ -241,13 +241,42 @@ class Orbits(Browser):
         self.assertTrue(daemon.eventually(lambda: "immagine diretta" in page.text_content("#over-orbit-words")))
         self.shot(page, "orbit-lensed-inclined")
 
+    def test_a_whirl_is_no_chords(self):
+        """Seen from the axis neighbouring points stand a few degrees apart round the hole, and no line crosses its
+        shadow."""
+        page = self.open(
+            f"lang=en&{SMOOTH}&spacetime.spin=0.9&camera.inclination_deg=1&camera.field_m=40&over=orbit&orbit.orbit=zoom-whirl",
+            "#stage",
+        )
+        self.there(page, "computing", "#over-orbit-words", text=True)
+        page.wait_for_selector("#overlay .over-orbit path[d^=M]", state="attached")
+        words = page.text_content("#over-orbit-words")
+        self.assertRegex(
+            words, r"within .* M of its ray, and at most 5° .* of 12 periods, as many as were found within 5 s"
+        )
+        turns, nearest, widest = page.evaluate("""() => {
+            const { clientWidth: width, clientHeight: height } = document.getElementById('stage'), all = [];
+            for (const line of document.querySelector('#overlay .over-orbit path').getAttribute('d').split('M').slice(1))
+                all.push(line.split('L').map(point => point.split(' ')).map(([x, y]) => [(x - width / 2) * 40 / width, (y - height / 2) * 40 / width]));
+            let turned = 0, nearest = Infinity, widest = 0;
+            for (const line of all) for (let i = 1; i < line.length; i++) {
+                const [[a, b], [c, d]] = [line[i - 1], line[i]], angle = Math.abs(Math.atan2(a * d - b * c, a * c + b * d));
+                turned += angle / 2 / Math.PI, widest = Math.max(widest, angle * 180 / Math.PI), nearest = Math.min(nearest, Math.hypot((a + c) / 2, (b + d) / 2));
+            }
+            return [turned, nearest, widest];
+        }""")
+        self.assertGreater(turns, 1)
+        self.assertLess(widest, 6)
+        self.assertGreater(nearest, 1.5, "of the orbit’s own image")
+        self.shot(page, "orbit-whirl")
+
     def apart(self, page):
         """How far the points of the orbit are from the first line of the orders, in pixels, at worst."""
         return page.evaluate("""() => {
             const points = node => [...node.getAttribute('d').matchAll(/[ML]([-\\d.]+) ([-\\d.]+)/g)].map(([, x, y]) => [Number(x), Number(y)]),
                 orbit = points(document.querySelector('#overlay .over-orbit path')), line = points(document.querySelector('#overlay .over-orders path'));
             const to = ([x, y], [a, b], [c, d]) => { const l = (c - a) ** 2 + (d - b) ** 2, s = l ? Math.min(Math.max(((x - a) * (c - a) + (y - b) * (d - b)) / l, 0), 1) : 0; return Math.hypot(x - a - s * (c - a), y - b - s * (d - b)); };
-            return orbit.length > 100 ? Math.max(...orbit.map(p => Math.min(...line.slice(1).map((q, i) => to(p, line[i], q))))) : NaN;
+            return orbit.length > 70 ? Math.max(...orbit.map(p => Math.min(...line.slice(1).map((q, i) => to(p, line[i], q))))) : NaN;
         }""")
 
     def test_p_goes_by_factors(self):
@@ -258,6 +287,15 @@ class Orbits(Browser):
             slider.dispatchEvent(new Event('input'));
         }""")
         self.assertAlmostEqual(float(page.input_value("#in-orbit-p")), 200**0.5, delta=0.1)
+        slider = (
+            page.locator("#in-orbit-p")
+            .locator('xpath=ancestor::*[contains(@class, "pair")]')
+            .locator("input[type=range]")
+        )
+        before = float(page.input_value("#in-orbit-p"))
+        for key, value in (("ArrowRight", 0.1), ("ArrowUp", 0.2), ("ArrowLeft", 0.1)):
+            slider.press(key)
+            self.assertAlmostEqual(float(page.input_value("#in-orbit-p")), before + value, delta=1e-9, msg=key)
 
     def test_reduced_motion(self):
         page = self.open("lang=en&view=orbits", "#orbit-picture .body[cx]", reduced_motion="reduce")

@@ -218,6 +218,20 @@ class Pages(Browser):
                 "and all of it is seen",
             )
 
+    def test_four_times_the_size(self):
+        """A window of 1280 × 1024 at 400 %: the hole is seen, and what can be pressed lies within the picture or beside
+        it."""
+        page = self.open("lang=it", viewport={"width": 320, "height": 256}, device_scale_factor=4)
+        covered, beyond = page.evaluate("""() => {
+            const stage = document.getElementById('stage'), box = stage.getBoundingClientRect();
+            stage.scrollIntoView({ block: 'center' });
+            const { x, y, width, height } = stage.getBoundingClientRect(), at = [-0.25, -0.12, 0, 0.12, 0.25];
+            return [at.flatMap(u => at.map(v => document.elementFromPoint(x + (0.5 + u * height / width) * width, y + (0.5 + v) * height)).filter(node => node !== stage).map(node => node.id)),
+                [...stage.querySelectorAll(':is(.buttons, .offers) button')].filter(node => node.offsetParent).map(node => node.getBoundingClientRect()).filter(b => b.top < y || b.bottom > y + height || b.left < x || b.right > x + width).length];
+        }""")
+        self.shot(page, "four-times")
+        self.assertEqual((covered, beyond), ([], 0))
+
     def test_low(self):
         page = self.open(viewport={"width": 1100, "height": 420})
         self.open_groups(page)
@@ -264,6 +278,30 @@ class Pages(Browser):
         self.assertTrue(daemon.eventually(lambda: self.field(page, "spacetime.spin") == "0.5"))
         page.go_back()
         page.wait_for_selector("html[lang=en] body[data-view=physics]")
+
+    def test_rounds_of_views_leave_no_listeners(self):
+        page = self.open("lang=en&pause=1")
+        devtools = page.context.new_cdp_session(page)
+        devtools.send("Performance.enable")
+
+        def listeners():
+            devtools.send("HeapProfiler.collectGarbage")
+            return next(
+                m["value"]
+                for m in devtools.send("Performance.getMetrics")["metrics"]
+                if m["name"] == "JSEventListeners"
+            )
+
+        def round_():
+            for view in ("orbits", "scale", "lensing"):
+                page.click(f"nav [data-view={view}]")
+                page.wait_for_selector(READY[view], state="attached")
+            self.quiet(page)
+            return listeners()
+
+        round_()
+        counts = [round_() for _ in range(4)]
+        self.assertLessEqual(counts[-1] - counts[0], 3, counts)
 
     def test_axe(self):
         try:

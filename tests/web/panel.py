@@ -25,6 +25,19 @@ class Panel(Browser):
                 self.assertEqual((kind, least, most), wanted[path][0], path)
         self.assertIn(["camera.r", "number", 0.01, 1e7, "infinity"], told)
 
+    def test_ten_keys_lead_from_nothing_to_the_usual_value(self):
+        page = self.open("lang=en&bodies.0.radius=2&bodies.0.brightness=0")
+        self.open_groups(page)
+        box = page.locator('[data-path="bodies.0.brightness"] input[type=number]')
+        for node, up, down in (
+            (page.locator('[data-path="bodies.0.brightness"] input[type=range]'), "ArrowRight", "ArrowLeft"),
+            (box, "ArrowUp", "ArrowDown"),
+        ):
+            for key, goal in ((up, "1"), (down, "0")):
+                for _ in range(10):
+                    node.press(key)
+                self.assertEqual(box.input_value(), goal, key)
+
     def test_each_field_stands_in_its_group(self):
         """In front where the field table says so, else behind a summary; what starts and stops time has its fields
         beside it."""
@@ -164,7 +177,10 @@ class Panel(Browser):
             "a map counts crossings as far as there",
         )
         page.select_option('[data-path="image.layers"] select', "rgb")
-        self.assertFalse(seen("disk.outer"), "no disk")
+        disk = lambda: page.evaluate(
+            '() => [...document.querySelectorAll("[data-path^=disk]")].filter(node => node.offsetParent).map(node => node.dataset.path)'
+        )
+        self.assertTrue(daemon.eventually(lambda: disk() == ["disk.model"]), disk())
         self.assertFalse(seen("image.pixel_error"))
         page.check('[data-path="image.samples"] input[type=checkbox]')
         self.assertTrue(seen("image.pixel_error"))

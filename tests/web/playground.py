@@ -109,6 +109,33 @@ class Playground(Browser):
         share = min(max(sum((q - x) * d for q, x, d in zip(p, a, along)) / (sum(d * d for d in along) or 1), 0), 1)
         return math.dist(p, [x + share * d for x, d in zip(a, along)])
 
+    def test_the_label_of_a_throw_stays_in_the_picture(self):
+        page = self.open_play()
+        self.pause(page)
+        page.evaluate("""() => {
+            const draw = CanvasRenderingContext2D.prototype.fillText;
+            window.told = [];
+            CanvasRenderingContext2D.prototype.fillText = function (text, x, y) {
+                const wide = this.measureText(text).width, from = { left: 0, center: wide / 2, right: wide }[this.textAlign] ?? 0;
+                if (this.canvas.id === 'play-plane' && / c/.test(text)) window.told.push({ left: x - from, right: x - from + wide, low: y });
+                draw.call(this, text, x, y);
+            };
+        }""")
+        box = page.locator("#play-stage").bounding_box()
+        for start, end in (((-80, 100), (-3, 60)), ((80, -60), (3, -3))):
+            at = lambda place: tuple(
+                box[o] + (d if d > 0 else box[size] + d) for o, size, d in zip("xy", ("width", "height"), place)
+            )
+            page.evaluate("() => { told = []; }")
+            self.pull(page, at(start), at(end))
+            self.assertTrue(daemon.eventually(lambda: page.evaluate("told.length")))
+            last = page.evaluate("told.at(-1)")
+            self.assertTrue(
+                0 <= last["left"] and last["right"] <= box["width"] and 8 <= last["low"] <= box["height"], (last, box)
+            )
+            page.keyboard.press("Escape")
+            page.mouse.up()
+
     def test_a_body_is_thrown_anew_changed_and_removed(self):
         page = self.open_play(
             "lang=en&play.preset=emri&play.paused=1"
@@ -339,7 +366,16 @@ class Playground(Browser):
             self.assertIn(page.inner_text("#play-words"), told)
 
     def test_as_light_shows_it(self):
-        page = self.open_play("lang=en&play.preset=disruption&play.paused=1&play.show=both")
+        context, held = self.context(viewport={"width": 1200, "height": 900}), []
+        context.route("**/frame.png*", lambda route: held.append(route) if held is not None else route.continue_())
+        page = self.page(context)
+        page.goto(self.base + "#lang=en&view=playground&play.preset=disruption&play.paused=1&play.show=both")
+        self.assertTrue(daemon.eventually(lambda: page.evaluate("0") or held))
+        self.assertEqual(page.inner_text("#play-lensed"), "The server computes the first picture …")
+        page.wait_for_selector(THERE)
+        waiting, held = held, None
+        for route in waiting:
+            route.continue_()
         page.wait_for_selector("#play-lensed img[src]")
         lit = page.evaluate("""() => {
             const image = document.querySelector('#play-lensed img'), { naturalWidth: w, naturalHeight: h } = image, c = new OffscreenCanvas(w, h).getContext('2d');

@@ -1,6 +1,6 @@
-"""Files as C arrays, as they are and as gzip: embed.py MINIFIER OUTPUT FILE..., named as seen from the first one's
-folder. MINIFIER is the program esbuild, which shortens scripts and styles, or nothing: they stay as they are written
-then."""
+"""Files as C arrays, as they are and, but for pictures, as gzip: embed.py MINIFIER OUTPUT FILE..., named as seen from
+the first one's folder. MINIFIER is the program esbuild, which shortens scripts and styles, or nothing: they stay as
+they are written then."""
 
 import gzip
 import hashlib
@@ -14,6 +14,7 @@ TYPES = {
     ".js": "text/javascript; charset=utf-8",
     ".css": "text/css; charset=utf-8",
     ".svg": "image/svg+xml",
+    ".jpg": "image/jpeg",
     "": "text/plain; charset=utf-8",
 }
 minifier, output, files = sys.argv[1], pathlib.Path(sys.argv[2]), [pathlib.Path(f) for f in sys.argv[3:]]
@@ -54,9 +55,10 @@ def form(name, data):
 short = shortened([f for f in files if f.suffix in (".js", ".css") and f.parent == folder]) if minifier else {}
 for i, file in enumerate(files):
     data = short.get(file) or file.read_bytes()
+    packed = "{ 0 }" if file.suffix == ".jpg" else form(f"gzip_{i}", gzip.compress(data, 9, mtime=0))
     rows.append(
         f'    {{ "{file.relative_to(folder).as_posix()}", "{TYPES[file.suffix]}", {form(f"plain_{i}", data)},\n'
-        f"      {form(f'gzip_{i}', gzip.compress(data, 9, mtime=0))} }},"
+        f"      {packed} }},"
     )
 lines += [
     "const struct kd_served kd_page_files[] = {",

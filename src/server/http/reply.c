@@ -67,7 +67,9 @@ struct MHD_Response *kd_reply_served(struct kd_request *request, const struct kd
         MHD_add_response_header(response, "Content-Encoding", "gzip");
     MHD_add_response_header(response, "ETag", form->etag);
     MHD_add_response_header(response, "Vary", "Accept-Encoding");
-    MHD_add_response_header(response, "Cache-Control", "no-cache");
+    /* A browser may ask for a page's icon whenever its address changes. */
+    MHD_add_response_header(response, "Cache-Control",
+                            strncmp(file->type, "image/", strlen("image/")) ? "no-cache" : "private, max-age=86400");
     return response;
 }
 

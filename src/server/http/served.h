@@ -11,7 +11,7 @@ struct kd_served {
         const char *etag; /* of the bytes, with its quotes */
         const unsigned char *data;
         size_t size;
-    } plain, gzip;
+    } plain, gzip; /* gzip of nothing: it would be no shorter */
 };
 extern const struct kd_served kd_page_files[];
 extern const size_t kd_n_page_files;
