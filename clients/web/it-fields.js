@@ -263,6 +263,10 @@ export const fields = {
     'Faraday',
     'Gli elettroni ruotano la direzione della luce che passa (rotazione di Faraday), e fanno circolare della lineare e viceversa',
   ],
+  'polarization.rotation': [
+    'Rotazione di Faraday',
+    'Formula della rotazione di Faraday per elettroni termici: di Shcherbakov 2008, o di Dexter 2016 secondo Huang e Shcherbakov 2011',
+  ],
   'polarization.order': ['Ordine', 'Parte di quella polarizzazione che il disordine dentro un pixel lascia'],
   jets: ['Getti'],
   'jets.brightness': [

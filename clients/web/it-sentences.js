@@ -141,6 +141,8 @@ export const sentences = {
     'polarizzazione: rotazione e conversione di Faraday della sola distribuzione kappa secondo Marszewski et al. 2021, per frequenze sopra 100 girofrequenze e sopra un decimo di (kappa w)^2 di esse per sin(theta); fra kappa 3,5, 4, 4,5 e 5 in proporzione',
   "polarization: Faraday rotation and conversion of those electrons alone (Shcherbakov 2008, Dexter 2016; Jones & O'Dell 1977): none is cold":
     'polarizzazione: rotazione e conversione di Faraday di quei soli elettroni (Shcherbakov 2008, Dexter 2016; Jones & O’Dell 1977): nessuno è freddo',
+  'polarization: Faraday rotation and conversion of those electrons alone (Dexter 2016; rotation below a Theta of 1/2 by Shcherbakov 2008): none is cold':
+    'polarizzazione: rotazione e conversione di Faraday di quei soli elettroni (Dexter 2016; rotazione sotto Theta 1/2 secondo Shcherbakov 2008): nessuno è freddo',
   'polarization: Faraday rotation and conversion are left out':
     'polarizzazione: rotazione e conversione di Faraday sono tralasciate',
   'polarization: disorder of the field makes linear polarisation less where it is made, where it is absorbed and where it is converted; Faraday rotation is that of a field in order':

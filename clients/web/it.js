@@ -105,6 +105,8 @@ export const values = {
   scattering: 'diffusione da elettroni',
   transfer: 'trasporto con Stokes',
   toroidal: 'toroidale',
+  shcherbakov: 'Shcherbakov 2008',
+  dexter: 'Dexter 2016',
   radial: 'radiale',
   vertical: 'verticale',
   aces: 'ACES',

@@ -5,6 +5,8 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "shared/interface.h"
+#include "shared/spec.h"
+KD_SPEC_BLOOM_GRID(KD_SPEC_U_, KD_SPEC_B_)
 #include "shared/bloom.glsl"
 
 layout(local_size_x = KD_GROUP_SIZE) in;
@@ -30,7 +32,7 @@ void main()
     if (n >= across * int(push.cells_y))
         return;
     int x = 2 * (n % across) - 1, y = 2 * (n / across) - 1;
-    int x0 = bloom_mirror(x, columns), x3 = bloom_mirror(x + 3, columns);
+    int x0 = bloom_column(x, columns, AROUND), x3 = bloom_column(x + 3, columns, AROUND);
     vec3 sum = vec3(0);
     for (int k = 0; k < 4; k++) {
         int row = columns * bloom_mirror(y + k, rows);

@@ -1,7 +1,7 @@
 /* This kernel spreads the light of blocks of pixels as a quadratic B-spline on the finest grid. A block gives to its
  * own cell and to the eight round it, by where in its cell its middle is, so that what is spread moves and widens
- * evenly with it. What it would give to cells beyond the edge comes back to those inside. An invocation makes two
- * cells each way, which share what they read. */
+ * evenly with it. What it would give to cells beyond the edge comes back to those inside, or is given to those at
+ * the other edge. An invocation makes two cells each way, which share what they read. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -34,10 +34,18 @@ struct kd_tap {
 
 /* The blocks whose middles are at most 1.5 cells from the middles of cell i and the next one are among these and
  * those that follow. */
-int first_tap(kd_bloom_axis axis, int i)
+int first_tap(kd_bloom_axis axis, int i, bool around)
 {
     float step_ = float(axis.cells * axis.block) / float(axis.pixels);
-    return int(ceil((float(i) - 1) / step_ - 0.5));
+    return int(ceil((float(i) - 1) / step_ - 0.5)) -
+           (around && RAGGED ? 1 : 0); /* before the left edge lies the narrow block of the right one */
+}
+
+/* What a block gives: which, and how far its middle is from that of cell i, in cells. */
+kd_tap tap_of(kd_bloom_axis axis, int within, float at)
+{
+    float scale = float(axis.cells) / float(axis.pixels);
+    return kd_tap(clamp(within, 0, int(axis.blocks) - 1), scale * bloom_weight(at), scale * bloom_weight(at - 1));
 }
 
 /* Block k, which may be a mirror image beyond an edge. The last block may be narrower than the others: its middle
@@ -51,7 +59,18 @@ kd_tap tap(kd_bloom_axis axis, int i, int k)
         float narrow = 0.5 * scale * float(axis.blocks * axis.block - axis.pixels);
         at -= behind < -1 ? 0.0 : behind == -1 ? narrow : behind == 0 ? 3 * narrow : 4 * narrow;
     }
-    return kd_tap(clamp(within, 0, count - 1), scale * bloom_weight(at), scale * bloom_weight(at - 1));
+    return tap_of(axis, within, at);
+}
+
+/* Block k of a picture that goes all round; k beyond an edge is one of the other side. */
+kd_tap tap_around(kd_bloom_axis axis, int i, int k)
+{
+    int count = int(axis.blocks), within = bloom_column(k, count, true),
+        turns = k < 0 ? (k + 1) / count - 1 : k / count;
+    float scale = float(axis.cells) / float(axis.pixels),
+          narrow = within == count - 1 ? 0.5 * float(axis.blocks * axis.block - axis.pixels) : 0.0;
+    float middle = (float(within) + 0.5) * float(axis.block) - narrow + float(turns * int(axis.pixels));
+    return tap_of(axis, within, scale * middle - (float(i) + 0.5));
 }
 
 void main()
@@ -62,10 +81,13 @@ void main()
     int x = 2 * int(place.x), y = 2 * int(place.y);
     if (y >= int(push.cells_y))
         return;
-    int first_x = first_tap(across, x), first_y = first_tap(along, y);
+    int first_x = first_tap(across, x, AROUND), first_y = first_tap(along, y, false);
     kd_tap taps[KD_BLOOM_TAPS];
     for (int i = 0; i < int(TAPS_X); i++)
-        taps[i] = tap(across, x, first_x + i);
+        if (AROUND)
+            taps[i] = tap_around(across, x, first_x + i);
+        else
+            taps[i] = tap(across, x, first_x + i);
     vec3 upper_left = vec3(0), upper_right = vec3(0), lower_left = vec3(0), lower_right = vec3(0);
     for (int j = 0; j < int(TAPS_Y); j++) {
         kd_tap row = tap(along, y, first_y + j);

@@ -9,6 +9,8 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "shared/interface.h"
+#include "shared/spec.h"
+KD_SPEC_BLOOM_GRID(KD_SPEC_U_, KD_SPEC_B_)
 #include "shared/bloom.glsl"
 
 layout(local_size_x = KD_GROUP_SIZE) in;
@@ -55,11 +57,13 @@ void main()
     int x = 2 * int(place.x), y = 2 * int(place.y);
     if (y >= rows)
         return;
-    ivec4 at = ivec4(bloom_mirror(x - 1, across), x, bloom_mirror(x + 1, across), bloom_mirror(x + 2, across));
+    ivec4 at = ivec4(bloom_column(x - 1, across, AROUND), x, bloom_column(x + 1, across, AROUND),
+                     bloom_column(x + 2, across, AROUND));
     pair a = smoothed(across * bloom_mirror(y - 1, rows), at), b = smoothed(across * y, at);
     pair c = smoothed(across * bloom_mirror(y + 1, rows), at), d = smoothed(across * bloom_mirror(y + 2, rows), at);
     int half_x = across / 2, half_y = rows / 2;
-    ivec3 near = ivec3(bloom_mirror(x / 2 - 1, half_x), bloom_mirror(x / 2, half_x), bloom_mirror(x / 2 + 1, half_x));
+    ivec3 near = ivec3(bloom_column(x / 2 - 1, half_x, AROUND), bloom_column(x / 2, half_x, AROUND),
+                       bloom_column(x / 2 + 1, half_x, AROUND));
     pair e = finer(half_x * bloom_mirror(y / 2 - 1, half_y), near),
          f = finer(half_x * bloom_mirror(y / 2, half_y), near);
     pair g = finer(half_x * bloom_mirror(y / 2 + 1, half_y), near);

@@ -133,7 +133,7 @@ vec3 arriving(place at)
 {
     float u = (at.x + 0.5) * push.scale_x, v = (at.y + 0.5) * push.scale_y;
     int across = int(push.cells_x), x = int(u), y = int(v);
-    int x0 = bloom_mirror(x - 1, across), x2 = bloom_mirror(x + 1, across);
+    int x0 = bloom_column(x - 1, across, AROUND), x2 = bloom_column(x + 1, across, AROUND);
     vec3 a = bloom_spline(u - float(x) - 0.5), b = bloom_spline(v - float(y) - 0.5), sum = vec3(0);
     for (int k = 0; k < 3; k++) {
         int row = across * bloom_mirror(y + k - 1, int(push.cells_y));
@@ -145,7 +145,7 @@ vec3 arriving(place at)
 /* A column of three cells, by the weights of its rows. */
 vec3 column(ivec3 rows, int x, vec3 b)
 {
-    int at = bloom_mirror(x, int(push.cells_x));
+    int at = bloom_column(x, int(push.cells_x), AROUND);
     return b.x * cell(rows.x + at) + b.y * cell(rows.y + at) + b.z * cell(rows.z + at);
 }
 

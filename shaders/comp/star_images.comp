@@ -27,6 +27,7 @@ layout(set = 0, binding = 4) readonly buffer Stars { float stars[]; };
 #define KD_CAMERA_ONLY
 #include "ray/camera.glsl"
 #include "ray/rim.glsl"
+#include "ray/around.glsl"
 #define KD_STAR_LIGHT_BINDING 6
 #include "ray/star_light.glsl"
 
@@ -48,9 +49,9 @@ struct kd_neighbour {
 
 kd_neighbour neighbour(kd_chart c, uint at, uint x, uint y, int dx, int dy)
 {
-    int px = int(x) + dx, py = int(y) + dy;
-    bool inside = px >= 0 && px < int(push.width) && py >= 0 && py < int(push.rows);
-    uint there = inside ? uint(py) * push.width + uint(px) : at;
+    ivec2 place = kd_around_neighbour(ivec2(x, y) + ivec2(dx, dy));
+    bool inside = place.x >= 0;
+    uint there = inside ? uint(place.y) * push.width + uint(place.x) : at;
     vec3 n = kd_sky_from(there);
     n -= c.n; /* so that what is near has all its digits */
     return kd_neighbour(vec2(dot(c.e1, n), dot(c.e2, n)), inside && kd_sky_escapes(there));

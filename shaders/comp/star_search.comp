@@ -23,28 +23,20 @@ KD_SPEC_STARS(KD_SPEC_U_, KD_SPEC_B_)
 #define KD_CAMERA_ONLY
 #include "ray/camera.glsl"
 #include "ray/rim.glsl"
+#include "ray/around.glsl"
 
 #define KD_STAR_ROOM 0.8
 #define KD_STAR_MARGIN 0.0025 /* e */
 
 /* To a neighbour, along an axis of the picture; 0 if neither escapes. */
-vec3 slope(vec3 n, uint at, uint after_, uint before_, bool has_after, bool has_before)
+vec3 slope(vec3 n, uint at, uint x, uint y, ivec2 axis)
 {
-    bool after = has_after && kd_sky_escapes(after_), before = has_before && kd_sky_escapes(before_);
+    ivec2 next = kd_around_neighbour(ivec2(x, y) + axis), last = kd_around_neighbour(ivec2(x, y) - axis);
+    uint after_ = next.x < 0 ? at : uint(next.y) * push.width + uint(next.x),
+         before_ = last.x < 0 ? at : uint(last.y) * push.width + uint(last.x);
+    bool after = next.x >= 0 && kd_sky_escapes(after_), before = last.x >= 0 && kd_sky_escapes(before_);
     vec3 other = kd_sky_from(after ? after_ : before ? before_ : at);
     return after ? other - n : n - other;
-}
-
-vec3 across(vec3 n, uint at, uint x)
-{
-    bool first = x == 0u, last = x + 1u == push.width;
-    return slope(n, at, last ? at : at + 1u, first ? at : at - 1u, !last, !first);
-}
-
-vec3 down(vec3 n, uint at, uint y)
-{
-    bool first = y == 0u, last = y + 1u == push.rows;
-    return slope(n, at, last ? at : at + push.width, first ? at : at - push.width, !last, !first);
 }
 
 /* Whether others have all images there: the rim, or another of its grids. */
@@ -58,7 +50,7 @@ bool is_left_out(uint x, uint y)
 void search(uint at)
 {
     uint y = at / push.width, x = at - y * push.width;
-    vec3 own = kd_sky_from(at), i = across(own, at, x), j = down(own, at, y);
+    vec3 own = kd_sky_from(at), i = slope(own, at, x, y, ivec2(1, 0)), j = slope(own, at, x, y, ivec2(0, 1));
     vec3 n = kd_sky_galactic(own), a = kd_sky_galactic(i), b = kd_sky_galactic(j);
     float aa = dot(a, a), bb = dot(b, b), ab = dot(a, b), more = KD_STAR_MARGIN * (aa + bb);
     float det = (aa + more) * (bb + more) - ab * ab, unit = 1.0 / max(det, 1e-30);

@@ -26,6 +26,7 @@ KD_SPEC_STARS(KD_SPEC_U_, KD_SPEC_B_)
 #define KD_CAMERA_ONLY
 #include "ray/camera.glsl"
 #include "ray/rim.glsl"
+#include "ray/around.glsl"
 layout(set = 0, binding = 10) readonly buffer Stars_ { float star_numbers[]; };
 #define KD_STAR_LIGHT_BINDING 9
 #include "ray/star_light.glsl"

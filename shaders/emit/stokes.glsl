@@ -4,8 +4,9 @@
  *
  *   thermal     j_I and j_Q are those of A. Pandya et al. 2016 (ApJ 822, 34, equation 31); j_V/j_I and rho_Q those
  *               of J. Dexter 2016 (MNRAS 462, 115, A1 to A3, B4 to B13); rho_V of R. V. Shcherbakov 2008 (ApJ 688,
- *               695, equation 33), with Bessel functions by M. Abramowitz & I. A. Stegun 1964, 9.8.1 to 9.8.8;
- *               absorption by Kirchhoff's law
+ *               695, equation 33), or of L. Huang & R. V. Shcherbakov 2011 (MNRAS 416, 2574) as Dexter 2016 has it
+ *               (B14, B15), with Bessel functions by M. Abramowitz & I. A. Stegun 1964, 9.8.1 to 9.8.8; absorption
+ *               by Kirchhoff's law
  *   kappa       Pandya et al. 2016, equations 35 to 44; rho_Q and rho_V of A. Marszewski, B. S. Prather, A. V.
  *               Joshi, A. Pandya & C. F. Gammie 2021 (ApJ 921, 17), which are for kappa 3.5, 4, 4.5 and 5: between
  *               them, the mean of its neighbours by the way to each
@@ -31,7 +32,8 @@
 /* clang-format on */
 #define KD_TABLES_stokes(T)
 #define KD_TRAIT_STOKES_FARADAY 2u
-#define KD_TRAITS_stokes(T) T(STOKES_FARADAY)
+#define KD_TRAIT_STOKES_DEXTER 4u /* rho_V of thermal electrons as Dexter 2016 has it */
+#define KD_TRAITS_stokes(T) T(STOKES_FARADAY) T(STOKES_DEXTER)
 #define KD_BUFFERS_stokes(B)
 #define KD_PASS_stokes(P)
 #endif
@@ -50,8 +52,8 @@ vec2 kd_stokes_right = vec2(0.0);
 vec3 kd_stokes_seen = vec3(0.0);
 kd_jones kd_stokes_front = kd_jones(vec2(1.0, 0.0), vec3(0.0), vec3(0.0));
 
-/* K0/K2 and K1/K2 of 1/Theta. */
-vec2 kd_stokes_bessel(float log2_heat)
+/* K0/K2 and K1/K2 of 1/Theta, and 1/K2 where that is below 2, else 0. */
+vec3 kd_stokes_bessel(float log2_heat)
 {
     float x = exp2(clamp(-log2_heat, -40.0, 40.0)), y = min(0.25 * x * x, 1.0), t = y * 0.28444444,
           z = 2.0 / max(x, 2.0), l = log(0.5 * min(x, 2.0));
@@ -72,7 +74,8 @@ vec2 kd_stokes_bessel(float log2_heat)
     float p1 =
         1.25331414 +
         z * (0.23498619 + z * (-0.03655620 + z * (0.01504268 + z * (-0.00780353 + z * (0.00325614 - z * 0.00068245)))));
-    return x < 2.0 ? vec2(4.0 * y * k0, x * k1) / (4.0 * y * k0 + 2.0 * k1) : vec2(p0, p1) / (p0 + z * p1);
+    return x < 2.0 ? vec3(4.0 * y * k0, x * k1, 4.0 * y) / (4.0 * y * k0 + 2.0 * k1)
+                   : vec3(p0, p1, 0.0) / (p0 + z * p1);
 }
 
 /* Dexter 2016, B8 and B13: what rho_Q has at higher temperatures over the high-frequency limit. */
@@ -83,6 +86,21 @@ float kd_stokes_converts(float log2_x)
           tail = 0.011 * exp(-x / 47.2);
     return 2.011 * exp(-pow(x, 1.035) / 4.7) - kd_cos_sin(0.5 * min(x, 200.0)).c * exp(-pow(x, 1.2) / 2.73) - tail +
            step_ * (tail - 369.7 * pow(far, -8.0 / 3.0));
+}
+
+/* rho_V of thermal electrons over 2 n e^2 nu_c cos(theta)/(m_e c nu^2):
+ *
+ *   Shcherbakov 2008   K0/K2 (1 - 0.11 ln(1 + 0.035 X))
+ *   Dexter 2016        (K0 - 0.43793091 ln(1 + 0.00185777 X^1.50316886))/K2
+ *
+ * The latter is a fit for hot electrons. For Theta below 1/2, where both are nearly K0/K2, the former is taken.
+ * k: of kd_stokes_bessel. */
+float kd_stokes_rotates(vec3 k, float log2_x)
+{
+    float x = exp2(clamp(log2_x, -60.0, 60.0));
+    if ((TRAITS_stokes & KD_TRAIT_STOKES_DEXTER) != 0u && k.z > 0.0)
+        return k.x - 0.43793091 * log(1.0 + 0.00185777 * exp2(1.50316886 * clamp(log2_x, -60.0, 60.0))) * k.z;
+    return k.x * max(1.0 - 0.11 * log(1.0 + 0.035 * x), 0.0);
 }
 
 /* Q and V of light and of absorption over I, and rho_Q and rho_V, log2 and sign. */
@@ -107,12 +125,11 @@ kd_polarises kd_stokes_thermal(kd_electrons e, float frequency)
     p.light = kd_stokes_held(vec2(q * q, (4.0 / 3.0) * cotangent * exp2(-clamp(e.heat, -40.0, 40.0)) * v));
     p.depth = p.light;
     float xf = e.heat + 0.5 * (0.5 + 9.96578428 + slant + turn - frequency), f = kd_stokes_converts(xf);
-    vec2 k = kd_stokes_bessel(e.heat);
-    float weaker = max(1.0 - 0.11 * log(1.0 + 0.035 * exp2(clamp(xf, -60.0, 100.0))), 0.0),
-          heat = 6.0 * exp2(min(e.heat, 100.0));
+    vec3 k = kd_stokes_bessel(e.heat);
+    float rotates = kd_stokes_rotates(k, xf), heat = 6.0 * exp2(min(e.heat, 100.0));
     p.turns = vec2(2.0 * turn - 3.0 * frequency + 2.0 * slant + log2(max(abs(f) * (k.y + heat), 1e-37)),
-                   1.0 + turn - 2.0 * frequency + log2(max(k.x * weaker * abs(e.cosine), 1e-37)));
-    p.signs = vec2(sign(f), sign(e.cosine));
+                   1.0 + turn - 2.0 * frequency + log2(max(abs(rotates) * abs(e.cosine), 1e-37)));
+    p.signs = vec2(sign(f), sign(e.cosine) * (rotates < 0.0 ? -1.0 : 1.0));
     return p;
 }
 

@@ -1,6 +1,6 @@
 /* The light of a star's image is spread over the pixels next to it as a quadratic B-spline, of standard deviation
  * half a pixel, over 3 x 3: the weights add up to 1, and their centre is the place. It is added up in 64-bit fixed
- * point, so that the sum does not depend on the order. Binding KD_STAR_LIGHT_BINDING. */
+ * point, so that the sum does not depend on the order. Binding KD_STAR_LIGHT_BINDING. Needs around.glsl. */
 #ifndef KD_STAR_LIGHT_GLSL
 #define KD_STAR_LIGHT_GLSL
 
@@ -19,17 +19,33 @@ void kd_star_add(uint o, float light)
 /* Those of the pixel before, at and after a place that is d from the middle one. */
 vec3 kd_star_weights(float d) { return vec3(0.5 * (0.5 - d) * (0.5 - d), 0.75 - d * d, 0.5 * (0.5 + d) * (0.5 + d)); }
 
-/* In pixels of the picture. */
+/* The solid angle of a pixel of a picture of all directions, by its row, over that at the equator. */
+float kd_star_level(float row, float rows) { return abs(sin(KD_PI * (row + 0.5) / rows)); }
+
+/* In pixels of the picture. Light is the mean radiance of a pixel at the place itself. Next to the poles of a
+ * picture of all directions pixels of the next rows have other solid angles: what all get together is what one there
+ * had. */
 void kd_star_spread(vec2 place, vec3 light)
 {
     vec2 middle = floor(place + 0.5);
     vec3 wx = kd_star_weights(place.x - middle.x), wy = kd_star_weights(place.y - middle.y);
     int pixels_x = int(emission.frame.pixels_x), pixels_y = int(push.pixels_y);
+    ivec2 size = ivec2(0);
+    if (SIGHT == KD_SIGHT_SPHERE) {
+        size = kd_around_size(SIDE);
+        float rows = float(size.y),
+              all = dot(wy, vec3(kd_star_level(middle.y - 1.0, rows), kd_star_level(middle.y, rows),
+                                 kd_star_level(middle.y + 1.0, rows)));
+        light *= kd_star_level(place.y, rows) / all;
+    }
     for (int k = 0; k < 9; k++) {
-        int r = k / 3, c = k - 3 * r, px = int(middle.x) + c - 1 + int(push.aside),
-            py = int(middle.y) + r - 1 + int(push.up);
-        if (px >= 0 && px < pixels_x && py >= 0 && py < pixels_y) {
-            uint o = KD_STAR_LIGHT * uint(py * pixels_x + px);
+        int r = k / 3, c = k - 3 * r;
+        ivec2 at = ivec2(middle) + ivec2(c, r) - 1;
+        if (SIGHT == KD_SIGHT_SPHERE)
+            at = kd_around(at, size);
+        at += ivec2(push.aside, push.up);
+        if (at.x >= 0 && at.x < pixels_x && at.y >= 0 && at.y < pixels_y) {
+            uint o = KD_STAR_LIGHT * uint(at.y * pixels_x + at.x);
             vec3 part = min((r == 0   ? wy.x
                              : r == 1 ? wy.y
                                       : wy.z) *

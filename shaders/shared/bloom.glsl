@@ -1,7 +1,8 @@
 /* This finds the light that a lens spreads to a point of the picture; bloom_*.comp and post.comp share it.
  *
  * Spread light is on a grid of cells that covers the picture exactly, a vec4 a cell, rows from the top. Beyond the
- * edge the grid is its own mirror image: what would leave the picture stays at its edge. */
+ * edge the grid is its own mirror image: what would leave the picture stays at its edge. A picture that goes all
+ * round has its other edge beyond the left and the right one. */
 #ifndef KD_BLOOM_GLSL
 #define KD_BLOOM_GLSL
 
@@ -43,5 +44,8 @@ uvec2 bloom_place(uint n, uint across)
 
 /* Index of a cell in the mirror image of n cells, for i from -1 to n. */
 int bloom_mirror(int i, int n) { return clamp(i, 0, n - 1); }
+
+/* The same of a column, for i from -2n on; around: of a picture that goes all round. */
+int bloom_column(int i, int n, bool around) { return around ? (i + 2 * n) % n : bloom_mirror(i, n); }
 
 #endif

@@ -65,12 +65,15 @@
  * rows in the bands before. TAPS_X, TAPS_Y: blocks along an axis that two cells may see; RAGGED: the last one is
  * narrower than the others. */
 #define KD_SPEC_BLOOM_BRIGHT(U, B) U(0, BLOCK_X, 2) U(1, BLOCK_Y, 2) B(2, BEGUN, false)
-#define KD_SPEC_BLOOM_GATHER(U, B) U(0, TAPS_X, 7) U(1, TAPS_Y, 7) B(2, RAGGED, false)
+#define KD_SPEC_BLOOM_GATHER(U, B) U(0, TAPS_X, 7) U(1, TAPS_Y, 7) B(2, RAGGED, false) B(3, AROUND, false)
+/* AROUND: the picture goes all round, from its right edge on to its left one. */
+#define KD_SPEC_BLOOM_GRID(U, B) B(0, AROUND, false)
 
 /* ACES: the film-like curve; WIDE: 16 bits a channel; NEUTRAL: the curve that keeps colours; without either light is
  * clipped. TOGETHER: the four pixels of an invocation lie beside one another, within two cells of what a lens
  * spreads. */
-#define KD_SPEC_POST(U, B) B(0, ACES, true) B(1, WIDE, false) B(2, NEUTRAL, false) B(3, TOGETHER, false)
+#define KD_SPEC_POST(U, B) \
+    B(0, ACES, true) B(1, WIDE, false) B(2, NEUTRAL, false) B(3, TOGETHER, false) B(4, AROUND, false)
 
 /* beam_gather.comp and beam_spread.comp are told whether cells are larger than pixels. */
 #define KD_SPEC_BEAM(U, B) B(0, COARSE, true)

@@ -321,7 +321,11 @@
          "part of that polarisation which disorder within a pixel leaves") \
     BOOL(polarization, faraday, PHYSICS, REST, true, \
          "electrons turn the direction of light that passes (Faraday rotation), and make linear of circular " \
-         "polarisation and back (model: transfer)")
+         "polarisation and back (model: transfer)") \
+    ENUM(polarization, rotation, PHYSICS, REST, KD_ROTATION_SHCHERBAKOV, \
+         "fit of the Faraday rotation by thermal electrons: of Shcherbakov 2008, or of Dexter 2016, as Huang and " \
+         "Shcherbakov 2011 have it (model: transfer)", \
+         "shcherbakov|dexter")
 
 #define KD_SKY_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     ENUM(sky, model, MODEL, FRONT, KD_SKY_NONE, \
@@ -599,6 +603,7 @@
     WITH("polarization.order", "model", KD_POLARIZATION_SCATTERING) \
     WITH("polarization.order", "model", KD_POLARIZATION_TRANSFER) \
     WITH("polarization.faraday", "model", KD_POLARIZATION_TRANSFER) \
+    WITH("polarization.rotation", "model", KD_POLARIZATION_TRANSFER) \
     SWITCH("sky.model") \
     SPAN("sky.brightness", 1e-4, 1) FIRST("sky.brightness", 0.01) \
     WITH("sky.grid_deg", "model", KD_SKY_GRID) \
@@ -647,6 +652,7 @@ enum kd_polarization_model {
     KD_POLARIZATION_SCATTERING,
     KD_POLARIZATION_TRANSFER
 };
+enum kd_polarization_rotation { KD_ROTATION_SHCHERBAKOV, KD_ROTATION_DEXTER };
 enum kd_polarization_field { KD_FIELD_TOROIDAL, KD_FIELD_RADIAL, KD_FIELD_VERTICAL };
 enum kd_volume_field { KD_VOLUME_TOROIDAL, KD_VOLUME_VERTICAL, KD_VOLUME_RADIAL };
 enum kd_volume_flow { KD_VOLUME_ORBITS, KD_VOLUME_REST };

@@ -4,6 +4,8 @@
 
 #include <math.h>
 
+static bool all_round; /* the pictures are those of all directions */
+
 /* Light to pixels of 16 bits, proportional to it. rows: of a band, 0: as many as there are. */
 static void show(int width, int height, double bloom, int rows, uint16_t *out)
 {
@@ -18,6 +20,10 @@ static void show(int width, int height, double bloom, int rows, uint16_t *out)
     scene.style.exposure = 0;
     scene.style.dither = false;
     scene.style.bloom = bloom;
+    if (all_round) {
+        scene.camera.r = 100;
+        scene.camera.projection = KD_PROJECTION_EQUIRECTANGULAR;
+    }
     kd_renderer_capacity(renderer, &c);
     OK(kd_plan_make(&scene, &c, &plan, &error));
     if (rows) {
@@ -281,6 +287,55 @@ static void any_size(void **state)
     assert_true(worst < 0.02);
 }
 
+/* In a picture of all directions light is spread over the seam as elsewhere: the same picture half a turn on is the
+ * same. */
+static void over_the_seam(void **state)
+{
+    (void)state;
+    static const struct {
+        int width, height, most;
+    } sizes[] = {
+        { 384, 192, 2 }, { 640, 320, 2 }, { 638, 360, 100 }, { 250, 300, 100 }
+    }; /* half a turn is no whole number of coarse cells of the latter */
+    for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
+        const int w = sizes[s].width, h = sizes[s].height;
+        int worst = 0, differ = 0;
+        make_light(w, h);
+        show(w, h, 1, 0, pixels);
+        all_round = true;
+        for (int half = 0; half < 2; half++) {
+            make_light(w, h);
+            for (int y = 0; y < h && half; y++)
+                for (int i = 0; i < 3 * w / 2; i++) {
+                    float *a = &light[3 * w * y + i], *b = a + 3 * (w / 2), was = *a;
+                    *a = *b, *b = was;
+                }
+            uint16_t *out = half ? others : pixels;
+            memcpy(others, pixels, sizeof pixels);
+            show(w, h, 1, 0, out);
+            for (int i = 0; i < 3 * w * h && !half; i++) /* beside the one with edges */
+                differ = abs(pixels[i] - others[i]) > differ ? abs(pixels[i] - others[i]) : differ;
+        }
+        all_round = false;
+        for (int i = 0; i < 3 * w * h; i++) {
+            const int x = i / 3 % w, at = i + (x < w / 2 ? 3 : -3) * (w / 2), off = abs(pixels[i] - others[at]);
+            worst = off > worst ? off : worst;
+        }
+        printf("%d x %d: half a turn on pixels are off by %d of 65535 at most; with edges by %d\n", w, h, worst,
+               differ);
+        assert_true(worst <= sizes[s].most && differ > 1000);
+    }
+}
+
+/* Of all that is spread nothing is lost all round, where bands end and cells are read as texels or not. */
+static void all_round_too(void **state)
+{
+    all_round = true;
+    energy(state);
+    bands_and_readers(state);
+    all_round = false;
+}
+
 int main(void)
 {
     int skip = open_renderer();
@@ -294,6 +349,8 @@ int main(void)
         cmocka_unit_test(bands_and_readers),
         cmocka_unit_test(others_unharmed),
         cmocka_unit_test(any_size),
+        cmocka_unit_test(over_the_seam),
+        cmocka_unit_test(all_round_too),
     };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -134,10 +134,12 @@ static void take(void *user, const struct ks_carried *at)
     *p = (struct place) { .step = at->step };
     if (n < 1e-12)
         return;
-    const struct coefficients o = v->electrons == KD_VOLUME_POWER_LAW
-                                      ? power_law(v->electrons_index, v->gamma_min, v->gamma_max, n, turn, s, c, nu)
-                                  : v->electrons == KD_VOLUME_KAPPA ? kappa_law(v->kappa, n, theta, turn, s, c, nu)
-                                                                    : thermal(n, theta, turn, s, c, nu);
+    struct coefficients o = v->electrons == KD_VOLUME_POWER_LAW
+                                ? power_law(v->electrons_index, v->gamma_min, v->gamma_max, n, turn, s, c, nu)
+                            : v->electrons == KD_VOLUME_KAPPA ? kappa_law(v->kappa, n, theta, turn, s, c, nu)
+                                                              : thermal(n, theta, turn, s, c, nu);
+    if (to->scene->polarization.rotation == KD_ROTATION_DEXTER)
+        o.rho[1] = rotation_of_dexter(n, theta, turn, s, c, nu);
     const double q = cos(2 * angle), w = sin(2 * angle), light = cm / (seen * seen), depth = cm * seen;
     const double j[4] = { o.j[0], o.j[1] * q, o.j[1] * w, o.j[2] }, t[4] = { o.a[0], o.a[1] * q, o.a[1] * w, o.a[2] };
     const double rho[3] = { o.rho[0] * q, o.rho[0] * w, o.rho[1] };
@@ -202,6 +204,9 @@ static const struct view {
     { "{\"camera\":{\"field_m\":20},\"volume\":{\"inner\":2.5,\"outer\":20}}", 1e-3 },
     { "{\"spacetime\":{\"spin\":-0.5},\"camera\":{\"inclination_deg\":110,\"field_m\":24},\"volume\":{\"inner\":2.2,"
       "\"outer\":18,\"height\":0.3,\"field\":\"radial\",\"flow\":\"rest\",\"frequency_ghz\":100}}",
+      1e-3 },
+    { "{\"spacetime\":{\"spin\":0.6},\"camera\":{\"inclination_deg\":40,\"field_m\":20},\"polarization\":{\"rotation\":"
+      "\"dexter\"},\"volume\":{\"inner\":2.5,\"outer\":15,\"field\":\"vertical\",\"frequency_ghz\":100}}",
       1e-3 },
     { "{\"spacetime\":{\"spin\":0.3},\"camera\":{\"inclination_deg\":35,\"field_m\":22},\"volume\":{\"inner\":2.5,"
       "\"outer\":20,\"height\":0,\"field\":\"vertical\",\"flow\":\"rest\","

@@ -14,6 +14,8 @@ static const struct {
     { "spots", "{\"spots\":[{\"brightness\":4}]}" },
     { "pinhole", "{\"camera\":{\"r\":20,\"fov_deg\":70},\"bodies\":[{\"radius\":2}]}" },
     { "sphere", "{\"camera\":{\"r\":20,\"projection\":\"equirectangular\"},\"sky\":{\"model\":\"grid\"}}" },
+    { "stars all round",
+      "{\"camera\":{\"r\":20,\"projection\":\"equirectangular\"},\"sky\":{\"model\":\"catalogue\"}}" },
     { "falling", "{\"camera\":{\"r\":2.5,\"observer\":\"infall\",\"fov_deg\":90}}" },
     { "listed rays", "{\"disk\":{\"slow_light\":true}}" },
     { "volume", "{\"disk\":{\"model\":\"none\"},\"volume\":{\"model\":\"uniform\"}}" },

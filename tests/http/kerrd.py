@@ -742,6 +742,38 @@ class Kerrd(unittest.TestCase):
             judged += 1
         self.assertGreater(judged, 20)
 
+    def test_named_stars_are_as_bright_as_they_are_where_space_is_flat(self):
+        """Whatever the projection does at its edges, at its poles and on its seam: from far off nothing is magnified,
+        and of all directions each star is listed once."""
+        ask, sky = (
+            "application/vnd.kerrd.stars+json",
+            {"model": "catalogue", "limit_mag": 2.2, "orientation": "equatorial", "brightness": 1},
+        )
+        for camera, width, height in (
+            ({"projection": "equirectangular", "inclination_deg": 90, "yaw_deg": 33}, 512, 256),
+            ({"projection": "equirectangular", "inclination_deg": 60, "pitch_deg": 70}, 256, 128),
+            ({"fov_deg": 150, "inclination_deg": 80, "yaw_deg": 120}, 640, 360),
+            ({"projection": "fulldome", "inclination_deg": 40, "yaw_deg": 90}, 256, 256),
+        ):
+            answer = self.daemon.post(
+                "/v1/render",
+                {
+                    "camera": {"r": 1e6, **camera},
+                    "disk": {"model": "none"},
+                    "sky": sky,
+                    "image": {"width": width, "height": height},
+                },
+                Accept=ask,
+            )
+            self.assertEqual(answer.status, 200, answer.body)
+            stars = answer.json()["images"]
+            for star in stars:
+                self.assertAlmostEqual(star["magnification"], 1, delta=1e-3, msg=(camera, star))
+                self.assertAlmostEqual(star["seen_magnitude"], star["magnitude"], delta=2e-3, msg=(camera, star))
+            if camera.get("projection") == "equirectangular":
+                told = [star["designation"] for star in stars]
+                self.assertEqual((len(told), len(set(told))), (65, 65), (camera, "named stars down to V = 2.2"))
+
     def test_named_stars_next_to_the_critical_curve_and_while_the_picture_turns(self):
         """Images that have gone round are listed where the picture has their light; a list tells where each star will
         be when the azimuth has gone on."""

@@ -55,6 +55,15 @@ static inline struct coefficients thermal(double n, double theta, double turn, d
     return o;
 }
 
+/* rho_V of L. Huang & R. V. Shcherbakov 2011, as Dexter 2016 has it: B14 and B15. */
+static inline double rotation_of_dexter(double n, double theta, double turn, double s, double c, double nu)
+{
+    const double omega = 2 * M_PI * turn, plasma = 4 * M_PI * n * E2 / ME, w = 2 * M_PI * nu,
+                 f = theta * sqrt(sqrt(2) * s * 1000 * turn / nu);
+    return w / C * plasma * omega / pow(w, 3) *
+           (bessel(0, 1 / theta) - 0.43793091 * log(1 + 0.00185777 * pow(f, 1.50316886))) / bessel(2, 1 / theta) * c;
+}
+
 static inline struct coefficients power_law(double p, double least, double most, double n, double turn, double s,
                                             double c, double nu)
 {

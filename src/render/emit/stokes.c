@@ -8,9 +8,12 @@
 
 static bool present(const struct kd_scene *scene) { return scene->polarization.model == KD_POLARIZATION_TRANSFER; }
 
+static bool has_dexters(const struct kd_scene *scene) { return scene->polarization.rotation == KD_ROTATION_DEXTER; }
+
 static uint32_t traits(const struct kd_scene *scene)
 {
-    return scene->polarization.faraday ? KD_TRAIT_STOKES_FARADAY : 0;
+    return (scene->polarization.faraday ? KD_TRAIT_STOKES_FARADAY : 0) |
+           (has_dexters(scene) ? KD_TRAIT_STOKES_DEXTER : 0);
 }
 
 #define KAPPA_FIRST 3.5 /* of Marszewski et al. 2021, who have one for each half up to 5 */
@@ -75,9 +78,13 @@ static bool turns_kappa(const struct kd_scene *scene, const struct kd_setting *r
 {
     return turns(scene, rays) && is_kappa(scene, rays);
 }
+static bool turns_dexters(const struct kd_scene *scene, const struct kd_setting *rays)
+{
+    return turns(scene, rays) && is_thermal(scene, rays) && has_dexters(scene);
+}
 static bool turns_others(const struct kd_scene *scene, const struct kd_setting *rays)
 {
-    return turns(scene, rays) && !is_kappa(scene, rays);
+    return turns(scene, rays) && !is_kappa(scene, rays) && !turns_dexters(scene, rays);
 }
 static bool is_disordered(const struct kd_scene *scene, const struct kd_setting *rays)
 {
@@ -103,6 +110,10 @@ static const struct kd_sentence sentences[] = {
       "polarization: Faraday rotation and conversion of those electrons alone (Shcherbakov 2008, Dexter 2016; Jones & "
       "O'Dell 1977): none is cold",
       turns_others },
+    { "stokes.faraday-dexter",
+      "polarization: Faraday rotation and conversion of those electrons alone (Dexter 2016; rotation below a Theta of "
+      "1/2 by Shcherbakov 2008): none is cold",
+      turns_dexters },
     { "stokes.faraday-kappa",
       "polarization: Faraday rotation and conversion of a kappa distribution alone by the fits of Marszewski et al. "
       "2021, made for frequencies above 100 gyrofrequencies and a tenth of (kappa w)^2 of them times sin(theta); in "

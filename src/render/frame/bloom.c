@@ -66,9 +66,9 @@ done:
 
 /* Blocks along an axis that two cells may see: of four cells, and where the last one is narrow of those that stand
  * closer there. */
-static uint32_t taps(uint32_t pixels, uint32_t cells, uint32_t block)
+static uint32_t taps(uint32_t pixels, uint32_t cells, uint32_t block, bool around)
 {
-    return 4 * pixels / (cells * block) + (pixels % block ? 3 : 1);
+    return 4 * pixels / (cells * block) + (pixels % block ? 3 : 1) + (around ? 1 : 0);
 }
 
 /* Blocks as cells of the finest grid. */
@@ -87,9 +87,10 @@ static enum kd_status gather(struct kd_frame_job *j)
         .block_y = b->block_y,
     };
     const struct kd_spec_bloom_gather spec = {
-        .TAPS_X = taps(p->width, b->columns, b->block_x),
-        .TAPS_Y = taps(p->height, b->rows, b->block_y),
+        .TAPS_X = taps(p->width, b->columns, b->block_x, b->around),
+        .TAPS_Y = taps(p->height, b->rows, b->block_y, false),
         .RAGGED = p->width % b->block_x || p->height % b->block_y,
+        .AROUND = b->around,
     };
     const struct kd_vk_pipeline *pipeline;
     const enum kd_kernel kernel = KD_KERNEL_BLOOM_GATHER + (kd_kernels_cells_as_texels(j->r->vk, b) ? 1 : 0);
@@ -118,7 +119,9 @@ static enum kd_status make(struct kd_frame_job *j, enum kd_kernel kernel, uint32
     const uint32_t side = kernel == KD_KERNEL_BLOOM_UP ? 2 : 1; /* cells along it of an invocation */
     const uint64_t invocations = (uint64_t)((push.columns + side - 1) / side) * ((push.rows + side - 1) / side);
     kernel += kd_kernels_cells_as_texels(j->r->vk, b) ? 1 : 0;
-    enum kd_status status = kd_kernels_get(&j->r->kernels, j->r->vk, kernel, NULL, 0, &pipeline, j->error);
+    const struct kd_spec_bloom_grid spec = { .AROUND = b->around };
+    enum kd_status status =
+        kd_kernels_get(&j->r->kernels, j->r->vk, kernel, &spec.AROUND, sizeof spec / 4, &pipeline, j->error);
     const struct kd_vk_dispatch d = { kd_passes[KD_PASS_BLOOM].name,
                                       pipeline,
                                       { bindings[0], bindings[1], bindings[2] },

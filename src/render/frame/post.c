@@ -67,6 +67,7 @@ static enum kd_status post_as(struct kd_frame_job *j, const struct look *look)
         .NEUTRAL = scene->style.tone_map == KD_TONE_NEUTRAL,
         .WIDE = look->wide,
         .TOGETHER = kd_bloom_together(bloom, j->plan->width),
+        .AROUND = bloom->around,
     };
     const bool heat = !look->bare && scene->style.palette == KD_PALETTE_HEAT;
     const struct kd_vk_binding cells = { s->bloom, bloom->sums[0], 16ull * kd_bloom_cells(bloom, 0), false };

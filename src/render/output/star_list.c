@@ -93,18 +93,25 @@ static void name_stars(struct list *list)
     }
 }
 
-/* Solid angle of a pixel, by the directions of its corners' neighbours. NAN at infinity, where parallel rays have
- * none. */
-static double pixel_angle(const struct kd_camera_exact *camera, double x, double y)
+/* The solid angle of the square of four rays in the picture, by the stencil by which that of the sky is known: the
+ * projection then drops out of their ratio. NAN at infinity, where parallel rays have none. */
+static double pixel_angle(const struct kd_camera_exact *camera, const struct kd_star_stencil *by)
 {
-    double a[3], b[3], c[3];
+    const double h = 1e-3, x0 = by->x, y0 = by->y;
+    const bool there = by->across == 0;
+    double n[3], a[3], b[3], from_a[3], from_b[3];
     if (camera->sight == KD_SIGHT_PLANE)
         return NAN;
-    kd_camera_direction(camera, x - 0.5, y - 0.5, a);
-    kd_camera_direction(camera, x + 0.5, y - 0.5, b);
-    kd_camera_direction(camera, x - 0.5, y + 0.5, c);
-    return fabs(a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
-                a[2] * (b[0] * c[1] - b[1] * c[0]));
+    kd_camera_direction(camera, x0, y0, n);
+    kd_camera_direction(camera, there ? x0 + h : x0 + by->across, y0, a);
+    kd_camera_direction(camera, x0, there ? y0 + h : y0 + by->down, b);
+    kd_camera_direction(camera, there ? x0 - h : x0, y0, from_a);
+    kd_camera_direction(camera, x0, there ? y0 - h : y0, from_b);
+    for (int i = 0; i < 3; i++)
+        a[i] -= from_a[i], b[i] -= from_b[i];
+    const double area = fabs(n[0] * (a[1] * b[2] - a[2] * b[1]) + n[1] * (a[2] * b[0] - a[0] * b[2]) +
+                             n[2] * (a[0] * b[1] - a[1] * b[0]));
+    return there ? area / (4 * h * h) : area;
 }
 
 /* The part of light from behind that the disk lets through there, at all crossings of the nearest ray. */
@@ -131,16 +138,31 @@ static bool is_there(const struct list *list, const struct kd_star_image *image)
     return false;
 }
 
+/* Takes a place of the map to one of the picture; false: it is outside. The map of a picture of all directions has one
+ * column and two rows more (find()): an image beyond a pole is in the picture at its other place. */
+static bool place_of(const struct list *list, struct kd_star_image *image)
+{
+    const double width = list->picture->frame->width, height = list->picture->frame->height, edge = 0.5;
+    if (list->rays.camera.sight == KD_SIGHT_SPHERE)
+        image->x -= image->x >= width - edge ? width : 0;
+    return image->x >= -edge && image->x < width - edge && image->y >= -edge && image->y < height - edge;
+}
+
 /* Adds an image, but for those that pictures leave out. */
 static enum kd_status add(void *user, const struct kd_star_image *found)
 {
     struct list *list = user;
-    const uint32_t width = list->picture->frame->width, height = list->picture->frame->height;
+    const uint32_t width = list->picture->frame->width;
     const double flux = kd_star_flux(kd_catalogue_star(list->names[found->star].place).magnitude), edge = 0.5;
-    if (!(found->x >= -edge && found->x < width - edge && found->y >= -edge && found->y < height - edge) ||
-        found->solid_angle > list->most[found->star] || is_there(list, found))
+    const double magnification = pixel_angle(&list->rays.camera, &found->by) / found->solid_angle;
+    struct kd_star_image at = *found;
+    if (!place_of(list, &at))
         return KD_OK;
-    const uint32_t x = (uint32_t)(found->x + edge), y = (uint32_t)(found->y + edge);
+    const double shown = pixel_angle(&list->rays.camera, &(struct kd_star_stencil) { .x = at.x, .y = at.y });
+    at.solid_angle = isnan(magnification) ? at.solid_angle : shown / magnification; /* at the place itself */
+    if (at.solid_angle > list->most[at.star] || is_there(list, &at))
+        return KD_OK;
+    const uint32_t x = (uint32_t)(at.x + edge), y = (uint32_t)(at.y + edge);
     struct kd_camera_label label;
     if (list->n == list->room) {
         size_t room = list->room ? 2 * list->room : 256;
@@ -152,13 +174,13 @@ static enum kd_status add(void *user, const struct kd_star_image *found)
     }
     kd_camera_label(&list->rays.camera, x, y, &label);
     struct image image = {
-        .at = *found,
-        .magnification = pixel_angle(&list->rays.camera, found->x, found->y) / found->solid_angle,
+        .at = at,
+        .magnification = magnification,
         .g = 1 / label.energy,
         .through = through(list->picture, (size_t)y * width + x),
     };
     const double g2 = image.g * image.g;
-    image.light = flux * g2 * g2 * image.through / found->solid_angle;
+    image.light = flux * g2 * g2 * image.through / at.solid_angle;
     list->images[list->n++] = image;
     return KD_OK;
 }
@@ -169,30 +191,37 @@ static int brighter(const void *a, const void *b)
     return (p < q) - (p > q);
 }
 
-/* The rays of the picture, one a pixel. */
+/* The rays of the picture, one a pixel. around: of all directions; then the first column comes once more behind the
+ * last, and a row beyond each pole, which is the one beside it half a turn on. An odd number of columns has no such
+ * rows. */
 struct picture_map {
     const float *theta, *phi;
     double azimuth;
-    uint32_t width;
+    uint32_t width, height;
+    bool around;
     const struct kd_sky_rays *rays;
     const struct kd_rim *rim;
 };
 
-static bool is_rims(const struct picture_map *m, uint32_t x, uint32_t y)
+static bool is_rims(const struct picture_map *m, double x, double y)
 {
     double look[3];
     kd_camera_look(&m->rays->camera, x, y, look);
     return m->rim->there && kd_rim_off(m->rim, look) < INNER * m->rim->full;
 }
 
-static void row_of(const void *of, uint32_t y, struct kd_vec *out)
+static void row_of(const void *of, uint32_t row, struct kd_vec *out)
 {
     const struct picture_map *m = of;
-    for (uint32_t x = 0; x < m->width; x++) {
-        const size_t o = (size_t)y * m->width + x;
+    const bool beyond = m->around && (row == 0 || row == m->height + 1);
+    const uint32_t y = !m->around || row == 0 ? row : row == m->height + 1 ? m->height - 1 : row - 1;
+    const uint32_t turned = beyond ? m->width / 2 : 0;
+    for (uint32_t x = 0; x < m->width + m->around; x++) {
+        const uint32_t column = (x + turned) % m->width;
+        const size_t o = (size_t)y * m->width + column;
         const double theta = m->theta[o], phi = m->phi[o] - m->azimuth;
         out[x] = (struct kd_vec) { sin(theta) * cos(phi), sin(theta) * sin(phi), cos(theta) };
-        if (is_rims(m, x, y))
+        if (is_rims(m, column, y) || (beyond && m->width % 2))
             out[x].x = out[x].y = out[x].z = NAN;
     }
 }
@@ -201,11 +230,20 @@ static bool exact(const void *of, double x, double y, struct kd_vec *out)
 {
     const struct picture_map *m = of;
     double look[3], n[3];
-    kd_camera_look(&m->rays->camera, x, y, look);
+    kd_camera_look(&m->rays->camera, x, y - m->around, look);
     if (!kd_sky_ray(m->rays, look, n))
         return false;
     *out = (struct kd_vec) { n[0], n[1], n[2] };
     return true;
+}
+
+/* From the map's rows to the picture's. */
+static enum kd_status add_around(void *user, const struct kd_star_image *found)
+{
+    struct kd_star_image image = *found;
+    image.y -= 1;
+    image.by.y -= 1;
+    return add(user, &image);
 }
 
 static enum kd_status find(struct list *list, const struct kd_layer *theta, const struct kd_layer *phi,
@@ -213,21 +251,26 @@ static enum kd_status find(struct list *list, const struct kd_layer *theta, cons
 {
     const struct kd_scene *scene = list->picture->scene;
     const struct kd_frame *frame = list->picture->frame;
+    const bool around = list->rays.camera.sight == KD_SIGHT_SPHERE;
     struct kd_rim rim;
-    const struct picture_map rays = { theta->data,  phi->data,   scene->camera.azimuth_deg * (M_PI / 180),
-                                      frame->width, &list->rays, &rim };
-    const struct kd_sky_map map = { .width = frame->width,
-                                    .height = frame->height,
-                                    .coarse = COARSE,
-                                    .most = list->most,
-                                    .of = &rays,
-                                    .row = row_of,
-                                    .exact = exact };
+    const struct picture_map rays = {
+        theta->data, phi->data, scene->camera.azimuth_deg * (M_PI / 180), frame->width, frame->height, around,
+        &list->rays, &rim,
+    };
+    const struct kd_sky_map map = {
+        .width = frame->width + around,
+        .height = frame->height + (around ? 2 : 0),
+        .coarse = COARSE,
+        .most = list->most,
+        .of = &rays,
+        .row = row_of,
+        .exact = exact,
+    };
     enum kd_status status;
     kd_rim_of(scene, &rim);
     KD_TRY(kd_rim_images(scene, &rim, list->places, list->most, list->n_stars, add, list, error));
     list->n_rim = list->n;
-    KD_TRY(kd_star_images(&map, list->places, list->n_stars, add, list));
+    KD_TRY(kd_star_images(&map, list->places, list->n_stars, around ? add_around : add, list));
     if (list->n)
         qsort(list->images, list->n, sizeof *list->images, brighter);
 done:

@@ -22,9 +22,9 @@ static uint32_t block_of(double pixels_a_cell)
     return most >= 4 ? 4 * (uint32_t)(most / 4) : most >= 2 ? 2 : 1;
 }
 
-struct kd_bloom kd_bloom_of(uint32_t width, uint32_t height, double strength)
+struct kd_bloom kd_bloom_of(uint32_t width, uint32_t height, double strength, bool around)
 {
-    struct kd_bloom bloom = { .strength = strength };
+    struct kd_bloom bloom = { .strength = strength, .around = around };
     const double side = fmax(height, width / 4.0);
     if (strength <= 0)
         return bloom;

@@ -18,6 +18,7 @@
 struct kd_bloom {
     uint32_t columns, rows;      /* of the finest grid, multiples of 2^(levels - 1) */
     uint32_t levels;             /* grids; 0: nothing is spread */
+    bool around;                 /* the picture goes all round: beyond its left and right edges is the other one */
     double strength;             /* of light over white, the share that is spread */
     double share;                /* of that, by each grid: as much in each octave of the angle */
     uint32_t block_x, block_y;   /* pixels along the sides of the blocks whose light is added up first */
@@ -27,8 +28,9 @@ struct kd_bloom {
     uint64_t light[KD_BLOOM_LEVELS], sums[KD_BLOOM_LEVELS], blocks, bytes;
 };
 
-/* Gives that of a picture of so many pixels. strength: style.bloom, 0: none. */
-struct kd_bloom kd_bloom_of(uint32_t width, uint32_t height, double strength);
+/* Gives that of a picture of so many pixels. strength: style.bloom, 0: none. around: it is one of all directions,
+ * not a part of it. */
+struct kd_bloom kd_bloom_of(uint32_t width, uint32_t height, double strength, bool around);
 
 static inline uint32_t kd_bloom_cells(const struct kd_bloom *bloom, uint32_t level)
 {

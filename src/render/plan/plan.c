@@ -7,6 +7,7 @@
 #include "physics/angle.h"
 #include "physics/kerr.h"
 #include "render/accuracy/table.h"
+#include "render/view/camera.h"
 #include "render/view/layout.h"
 #include "render/plan/lens_key.h"
 #include "render/plan/parts.h"
@@ -356,7 +357,8 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
     plan.side = (uint32_t)kd_scene_side(scene);
     plan.rays = (uint64_t)plan.width * plan.height * plan.side * plan.side;
     if (!needs->unseen)
-        plan.bloom = kd_bloom_of(plan.width, plan.height, scene->style.bloom);
+        plan.bloom =
+            kd_bloom_of(plan.width, plan.height, scene->style.bloom, kd_camera_sight(scene) == KD_SIGHT_SPHERE);
     plan.light = needs->light;
     plan.unseen = needs->unseen;
     plan.numbers = needs->radiance;

@@ -77,13 +77,23 @@ static struct range widen(uint32_t from, uint32_t to, int32_t all, uint32_t marg
     return (struct range) { from > margin ? (from - margin) / by * by : 0, end < (uint32_t)all ? end : (uint32_t)all };
 }
 
+/* A picture of all directions goes on beyond its edges at the other one (shaders/ray/around.glsl), and so does the
+ * light of points. */
+static bool needs_all_round(const struct kd_scene *scene, const struct range *x, const struct range *y)
+{
+    return scene->camera.projection == KD_PROJECTION_EQUIRECTANGULAR &&
+           (!x->from || !y->from || x->to == (uint32_t)scene->image.width || y->to == (uint32_t)scene->image.height);
+}
+
 struct kd_scene kd_tile_with_margin(const struct kd_scene *scene, struct kd_window *cut)
 {
     const struct kd_window t = kd_scene_window(scene);
     const bool points = kd_emit_points(scene);
     const uint32_t margin = points ? MARGIN_OF_POINTS : MARGIN, by = points ? KD_STAR_TILE : 1;
-    const struct range x = widen(t.left, t.left + t.width, scene->image.width, margin, by),
-                       y = widen(t.top, t.top + t.height, scene->image.height, margin, by);
+    const struct range y = widen(t.top, t.top + t.height, scene->image.height, margin, by);
+    struct range x = widen(t.left, t.left + t.width, scene->image.width, margin, by);
+    if (points && needs_all_round(scene, &x, &y))
+        x = (struct range) { 0, (uint32_t)scene->image.width };
     if (cut)
         *cut = (struct kd_window) { t.left - x.from, t.top - y.from, t.width, t.height };
     return kd_scene_tile(scene, (struct kd_window) { x.from, y.from, x.to - x.from, y.to - y.from });

@@ -168,6 +168,7 @@ static enum kd_status hand_on(void *user, const struct kd_star_image *image)
         return KD_OK;
     const double area = by.xc * by.yr - by.yc * by.xr;
     o.solid_angle /= fabs(area);
+    o.by = (struct kd_star_stencil) { .x = o.x, .y = o.y };
     o.mirrored ^= area < 0;
     o.x_by_azimuth = by.xc * image->x_by_azimuth + by.xr * image->y_by_azimuth;
     o.y_by_azimuth = by.yc * image->x_by_azimuth + by.yr * image->y_by_azimuth;

@@ -56,10 +56,10 @@ static size_t first_from(const struct search *s, double z)
 
 /* Tells an image, but for one that was told before. */
 static enum kd_status tell(struct search *s, const struct listed *star, double x, double y,
-                           const struct kd_sky_tangent *t)
+                           const struct kd_sky_tangent *t, struct kd_star_stencil by)
 {
     struct kd_star_image image = {
-        .star = star->star, .x = x, .y = y, .solid_angle = fabs(t->area), .mirrored = t->area < 0
+        .star = star->star, .x = x, .y = y, .solid_angle = fabs(t->area), .by = by, .mirrored = t->area < 0
     };
     for (size_t i = s->last[image.star]; i; i = s->told[i - 1].before) {
         const struct told *o = &s->told[i - 1];
@@ -134,10 +134,10 @@ static enum kd_status triangle(struct search *s, const struct cell *cell, int fi
         struct kd_sky_tangent t = { 0 };
         const enum kd_star_root root = kd_star_root(s->map, n, &x, &y, &t);
         if (root == KD_STAR_ROOT_FOUND) {
-            KD_TRY(tell(s, star, x, y, &t));
+            KD_TRY(tell(s, star, x, y, &t, (struct kd_star_stencil) { .x = x, .y = y }));
         } else if (root == KD_STAR_ROOT_UNKNOWN || (root == KD_STAR_ROOT_NONE && !cell->folds)) {
             t = tangent_of(a, b, c);
-            KD_TRY(tell(s, star, fx, fy, &t));
+            KD_TRY(tell(s, star, fx, fy, &t, (struct kd_star_stencil) { a->x, a->y, b->x - a->x, c->y - a->y }));
         }
     }
 done:
@@ -163,7 +163,7 @@ static enum kd_status fold(struct search *s, const struct cell *cell)
             double x = cell->beside[k][0], y = cell->beside[k][1];
             struct kd_sky_tangent t;
             if (kd_star_root(s->map, star->n, &x, &y, &t) == KD_STAR_ROOT_FOUND)
-                KD_TRY(tell(s, star, x, y, &t));
+                KD_TRY(tell(s, star, x, y, &t, (struct kd_star_stencil) { .x = x, .y = y }));
         }
     }
 done:

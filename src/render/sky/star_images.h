@@ -40,10 +40,14 @@ struct kd_sky_map {
                    double y); /* whether an image about there need be told, to 0.01 rays; NULL: all */
 };
 
+/* A place and steps from there, by which a solid angle is taken. Steps of 0: it is the derivative at the place. */
+struct kd_star_stencil { double x, y, across, down; };
+
 struct kd_star_image {
     size_t star;        /* of the list, */
     double x, y;        /* and its place among the rays, */
     double solid_angle; /* the solid angle of the sky, sr, that the map takes the square of four rays to there, */
+    struct kd_star_stencil by; /* as this has it, */
     double x_by_azimuth,
         y_by_azimuth; /* and how the place goes by while the observer goes round the hole, per radian */
     bool mirrored;    /* left and right are exchanged */

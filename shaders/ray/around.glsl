@@ -1,0 +1,31 @@
+/* A picture of all directions (KD_SIGHT_SPHERE) has no edges: it goes on at the other side beyond the left and right
+ * ones, and half a turn further on beyond the upper and lower ones. Needs camera.glsl. */
+#ifndef KD_AROUND_GLSL
+#define KD_AROUND_GLSL
+
+/* Columns and rows of rays of the whole picture, of which each has `side` a pixel along its sides. */
+ivec2 kd_around_size(uint side) { return ivec2(vec2(4.0, 2.0) / (vec2(cam.turn_x, cam.turn_y) * float(side)) + 0.5); }
+
+/* The place in a picture of that size that one up to a whole picture beyond its edges is. With an odd number of
+ * columns it is half a column off beyond a pole. */
+ivec2 kd_around(ivec2 at, ivec2 size)
+{
+    bool over = at.y < 0 || at.y >= size.y;
+    at.y = at.y < 0 ? -1 - at.y : over ? 2 * size.y - 1 - at.y : at.y;
+    at.x += over ? size.x / 2 : 0;
+    at.x += at.x < 0 ? size.x : at.x >= size.x ? -size.x : 0;
+    return at;
+}
+
+/* A neighbour of the map's ray (x, y), on the map of the picture's rays at hand; (-1, -1): it is not there. */
+ivec2 kd_around_neighbour(ivec2 at)
+{
+    if (SIGHT == KD_SIGHT_SPHERE && !AT_RIM) {
+        ivec2 first = ivec2(push.column0, push.row0);
+        at = kd_around(at + first, kd_around_size(1u)) - first;
+    }
+    bool inside = at.x >= 0 && at.x < int(push.width) && at.y >= 0 && at.y < int(push.rows);
+    return inside ? at : ivec2(-1);
+}
+
+#endif
