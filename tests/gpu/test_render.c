@@ -391,6 +391,8 @@ static void test_a_map_that_is_handed_over(void **state)
     OK(kd_renderer_create(&(struct kd_renderer_params) { .device = "auto", .passing = true }, &fresh, &error));
     OK(kd_render(fresh, &scene, &plan, NULL, NULL, &here, &error));
     OK(kd_render_aside(fresh, &scene, &plan, NULL, NULL, NULL, &aside, &error));
+    assert_true(timing_of(&here, "kernels") > 0 &&
+                isnan(timing_of(&aside, "kernels"))); /* the first one had to make them */
     assert_true(aside.lens_reused && aside.accuracy.followed > 0);
     kd_store_hand_over(&fresh->asides[0].store, &fresh->store, &plan);
     OK(kd_render(fresh, &scene, &plan, NULL, NULL, &again, &error));

@@ -7,10 +7,6 @@
 #include <stdio.h>
 #include <unistd.h>
 
-/* Bytes that the host holds of a kernel for each byte of its SPIR-V: what lavapipe (Mesa 22.3) took for those of the
- * presets, code and intermediate forms. */
-#define KERNEL_BYTES 12u
-
 static uint64_t resident_bytes(void)
 {
     unsigned long size, resident = 0;
@@ -47,7 +43,7 @@ void kd_renderer_count(struct kd_renderer *r)
     atomic_store(&r->held, held);
     atomic_store(&r->kept_bytes[KD_KEPT_LENS_MAPS], maps);
     atomic_store(&r->kept_bytes[KD_KEPT_BUFFERS], held > maps ? held - maps : 0);
-    atomic_store(&r->kept_bytes[KD_KEPT_KERNELS], KERNEL_BYTES * kd_kernels_spirv_bytes(&r->kernels));
+    atomic_store(&r->kept_bytes[KD_KEPT_KERNELS], kd_kernels_spirv_bytes(&r->kernels));
     atomic_store(&r->kept_bytes[KD_KEPT_PANORAMAS], kd_panoramas_bytes(&r->panoramas));
     atomic_store(&r->kept_bytes[KD_KEPT_OTHER], 0);
     const uint64_t named = r->opened_bytes + sum_of(r), resident = resident_bytes();

@@ -33,9 +33,9 @@ static inline const char *kd_kept_word(size_t kind)
 #undef KD_KEPT_WORD
     return kind < KD_N_KEPT_KINDS ? words[kind] : NULL;
 }
-/* As after the latest frame or rest. Lens maps and buffers are of the device; kernels are estimated by the size of
- * their code; other: what is resident beyond the other kinds and what was when the device had been opened, as the
- * driver's memory, and what is being rendered, encoded or sent. Any thread. */
+/* As after the latest frame or rest. Lens maps and buffers are of the device; kernels are counted by their SPIR-V;
+ * other: what is resident beyond the other kinds and what was when the device had been opened, as what the driver
+ * has made of kernels, and what is being rendered, encoded or sent. Any thread. */
 void kd_renderer_kept(const struct kd_renderer *renderer, uint64_t out[KD_N_KEPT_KINDS]);
 /* Counts it anew. Render thread only. */
 void kd_renderer_count(struct kd_renderer *renderer);

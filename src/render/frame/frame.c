@@ -64,8 +64,11 @@ static enum kd_status make_kernels(struct kd_frame_job *j)
     }
     if (j->plan->points)
         KD_TRY(kd_frame_star_kernels(j));
-done:
+done:;
+    const double begun = kd_clock_ms();
+    const bool any = j->r->kernels.n_wishes > 0;
     kd_kernels_make(&j->r->kernels, j->r->vk);
+    j->kernels_ms = any ? kd_clock_ms() - begun : 0;
     return status;
 }
 

@@ -27,8 +27,8 @@ struct kd_frame {
     struct kd_light_report light;
     double density_scale; /* what the density was multiplied by (volume.normalise_to_jy); 1: by nothing */
     struct kd_told *told; /* of the pixel that the plan names (frame/tell.h); NULL: of none */
-    struct kd_timing
-        timings[KD_FRAME_MAX_TIMINGS]; /* by the names of plan/pass.h, "upload", "fill", those that ran; "total" */
+    struct kd_timing timings[KD_FRAME_MAX_TIMINGS]; /* by the names of plan/pass.h, "upload", "fill", those that ran;
+                                                       "kernels" where some had to be made; "total" */
     size_t n_timings;
 };
 void kd_frame_finish(struct kd_frame *frame);

@@ -25,6 +25,8 @@ struct kd_frame_job {
     bool stars_kept;             /* and whether it is there already */
     uint64_t undecided;          /* listed rays that an engine gave up */
     double listed_ms, audit_ms;  /* the host's time for them, and for the audit */
+    double
+        kernels_ms; /* and for making kernels that were not there, as the driver makes them before they are run first */
     kd_progress_fn progress;
     const struct kd_glance *glance;
     void *user;

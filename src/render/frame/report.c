@@ -59,8 +59,8 @@ enum kd_status kd_frame_report(struct kd_frame_job *j, double rows)
     return part && j->glance->wanted(j->user) ? glance(j) : KD_OK;
 }
 
-_Static_assert(KD_FRAME_MAX_TIMINGS >= KD_VK_MAX_PASSES + 3,
-               "those of the device; listed rays and audit on the host; the total");
+_Static_assert(KD_FRAME_MAX_TIMINGS >= KD_VK_MAX_PASSES + 4,
+               "those of the device; kernels, listed rays and audit on the host; the total");
 _Static_assert(KD_VK_MAX_PASSES >= KD_PASS_COUNT + 4, "all passes, copies, fills, what is of no pass");
 
 static void add_timing(struct kd_frame *frame, const char *name, double ms)
@@ -73,6 +73,8 @@ static void add_timing(struct kd_frame *frame, const char *name, double ms)
 void kd_frame_collect_timings(struct kd_frame_job *j, struct kd_frame *frame, double total_ms)
 {
     keep_times(j);
+    if (j->kernels_ms > 0)
+        add_timing(frame, "kernels", j->kernels_ms);
     if (j->listed_ms > 0)
         add_timing(frame, kd_passes[KD_PASS_TRACE].name, j->listed_ms);
     if (j->audit_ms > 0)

@@ -9,7 +9,7 @@
 
 /* What frames report beside the passes of render/plan/pass.h, what comes after the device, and whatever has another
  * name. */
-#define KD_MEASURED_ALSO(M) M("upload") M("fill") M("total") M("encode") M("other")
+#define KD_MEASURED_ALSO(M) M("kernels") M("upload") M("fill") M("total") M("encode") M("other")
 #define KD_MEASURED_ONE(name) +1
 enum { KD_MEASURED_PASSES = KD_PASS_COUNT KD_MEASURED_ALSO(KD_MEASURED_ONE) };
 
