@@ -241,6 +241,13 @@ static bool find_route(struct kd_request *request, struct kd_problem *problem)
     return found;
 }
 
+/* What has no name yet when it is asked for: what has one is found first, and then compared with If-Match. */
+static bool makes_something(const struct kd_request *request)
+{
+    return !request->route->question && !strchr(request->route->path, '{') &&
+           (!strcmp(request->method, "POST") || !strcmp(request->method, "PUT"));
+}
+
 static bool is_options(const struct kd_request *request) { return !strcmp(request->method, "OPTIONS"); }
 
 /* OPTIONS of the server as a whole: of "*", or of an address without a path (RFC 9112 3.2.4). */
@@ -292,6 +299,10 @@ static bool choose(struct kd_request *request, enum MHD_Result *result)
             .detail = "the browser says that a page of another site has asked for this (Sec-Fetch-Site: cross-site), "
                       "which this server takes from those that --cors-origin names, or with --allow-cross-site"
         };
+    else if (makes_something(request) && !kd_reply_matches(request, NULL))
+        problem = (struct kd_problem) { .type = KD_PROBLEM_PRECONDITION,
+                                        .close = request->body_announced,
+                                        .detail = "nothing here has an ETag that If-Match names" };
     else if (!body_fault(request, text, &problem))
         return true;
     *result =

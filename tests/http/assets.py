@@ -247,6 +247,14 @@ class Assets(Case):
         )
         self.delete(picture)
         self.assertIn(
+            "its bytes are those of a ZIP",
+            self.assertProblem(self.put(grid(0.25), "image/png"), 422, "invalid-asset")["detail"],
+        )
+        self.assertIn(
+            "its bytes are those of a PNG",
+            self.assertProblem(self.put(png(8, 4), "application/x-npz"), 422, "invalid-asset")["detail"],
+        )
+        self.assertIn(
             "header.spin is no number",
             self.assertProblem(self.put(grid(2), "application/x-npz"), 422, "invalid-asset")["detail"],
         )

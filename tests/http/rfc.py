@@ -312,6 +312,12 @@ class Rows(daemon.Case):
         self.assertStatus(
             self.ask(f"DELETE /v1/sessions/{session['id']}?token={session['token']}", HOST, 'If-Match: "x"'), 412
         )
+        self.assertStatus(
+            self.ask(f"DELETE /v1/sessions/{session['id']}/path?token={session['token']}", HOST, 'If-Match: "x"'), 412
+        )
+        self.assertStatus(
+            self.ask("POST /v1/sessions", HOST, JSON, 'If-Match: "x"', "Content-Length: 2", body="{}"), 412
+        )
         self.assertStatus(self.get(target=f"/v1/sessions/{session['id']}"), 200)
         self.assertStatus(
             self.ask(f"DELETE /v1/sessions/{session['id']}?token={session['token']}", HOST, "If-Match: *"), 204

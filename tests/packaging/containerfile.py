@@ -49,6 +49,39 @@ class Containerfile(unittest.TestCase):
             {name: last[-1] for name, last in users.items() if last}, {"server": "10001", "worker": "10001"}
         )
 
+    def test_of_itself_it_serves_nobody_else(self):
+        """What opens it stands in the command that a person gives, and in the documented one."""
+        commands = re.findall(r"^CMD (.*)$", TEXT, re.M)
+        self.assertEqual(commands[0], '["serve"]')
+        documented = re.findall(
+            r"^    (?:podman|docker) run .* kerrd\b(.*)$", (SOURCE / "docs/containers.md").read_text(), re.M
+        )
+        self.assertGreater(len(documented), 3)
+        self.assertEqual(set(documented), {" serve --listen 0.0.0.0 --insecure"})
+
+    def test_the_worker_has_its_packages_by_version(self):
+        self.assertIn("--constraint /client/worker-versions.txt", TEXT)
+        lines = [
+            line
+            for line in (SOURCE / "packaging/worker-versions.txt").read_text().splitlines()
+            if not line.startswith("#")
+        ]
+        names = {re.fullmatch(r"([A-Za-z0-9_.-]+)==[0-9]\S*", line)[1].lower() for line in lines}
+        self.assertLessEqual({"distributed", "dask", "zarr", "numpy", "httpx", "pillow"}, names)
+
+    def test_no_address_is_invalid(self):
+        """Of those that people may write to: no domain that is kept for examples (RFC 2606)."""
+        for name in (
+            "packaging/debian/control",
+            "packaging/debian/changelog",
+            "packaging/debian/copyright",
+            "clients/python/pyproject.toml",
+            "meson.build",
+            "SECURITY.md",
+        ):
+            for address in re.findall(r"[\w.+-]+@[\w.-]+", (SOURCE / name).read_text()):
+                self.assertNotRegex(address, r"\.(invalid|example|test|localhost)$|@example\.", name)
+
     @unittest.skipUnless(
         re.search(r"VERSION_CODENAME=bookworm", pathlib.Path("/etc/os-release").read_text()),
         "libraries have the names of Debian 12 there",

@@ -122,11 +122,29 @@ static enum MHD_Result deliver(struct kd_request *request)
 
 static const struct kd_task_kind KIND = { "assets", sizeof(struct putting), work, finish };
 
+/* What the bytes are said to be, where they begin as the other kind does; NULL: they do not. What begins as neither
+ * is refused when it is read. */
+static const char *wrong_type(const struct kd_request *request)
+{
+    static const char png[] = "\x89PNG", zip[] = "PK";
+    const bool grid = kd_media_type_is(request->header.content_type, KD_ASSET_GRID_TYPE);
+    const char *other = grid ? png : zip;
+    const struct kd_buffer *body = &request->body;
+    return body->size < strlen(other) || memcmp(body->data, other, strlen(other)) ? NULL
+           : grid ? "the asset is said to be " KD_ASSET_GRID_TYPE
+                    " by its Content-Type, and its bytes are those of a PNG"
+                  : "the asset is said to be " KD_ASSET_TYPE
+                    " by its Content-Type, and its bytes are those of a ZIP, as an NPZ is";
+}
+
 static enum MHD_Result put(struct kd_request *request)
 {
     enum MHD_Result refused;
     if (request->task)
         return deliver(request);
+    const char *fault = wrong_type(request);
+    if (fault)
+        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_INVALID_ASSET, .detail = fault });
     struct putting *p = kd_task_begin(request, request->server->turns, &KIND, &refused);
     return p ? kd_task_submit(&p->task) : refused;
 }

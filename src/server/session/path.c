@@ -170,6 +170,8 @@ enum MHD_Result kd_handle_session_path(struct kd_request *request)
         return result;
     if (!kd_session_owned(session, kd_token_of(request)))
         result = kd_session_forbid(request);
+    else if (!kd_reply_matches(request, NULL))
+        result = kd_reply_unmatched(request);
     else if (!strcmp(request->method, "DELETE"))
         result = stop(request, session);
     else

@@ -384,7 +384,9 @@ enum MHD_Result kd_handle_session_ringdown(struct kd_request *request)
     struct kd_session *session = kd_session_of(request, &result);
     if (!session)
         return result;
-    result = kd_session_owned(session, kd_token_of(request)) ? strike(request, session) : kd_session_forbid(request);
+    result = !kd_session_owned(session, kd_token_of(request)) ? kd_session_forbid(request)
+             : kd_reply_matches(request, NULL)                ? strike(request, session)
+                                                              : kd_reply_unmatched(request);
     kd_session_release(session);
     return result;
 }
