@@ -40,6 +40,7 @@ LEFT_OUT = {
 BEGUN = {
     "kerrd playground --preset disruption --time 3200": "161 pictures of a torn star",
     "kerrd playground torn.json --set h_max=10000": "two million M",
+    "kerrd bench accuracy": "every engine is measured; tests/cli/bench.py does",
     "kerrd render -p riaf": "a volume that is marched, at its own size",
     "kerrd sweep -p riaf": "three of them",
     "kerrd render -p torus": "another",
