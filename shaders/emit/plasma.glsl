@@ -353,11 +353,12 @@ kd_radiates kd_plasma_gives(kd_plasma m)
     return kd_synchrotron_thermal(m.electrons, m.frequency);
 }
 
-/* From logarithms. What is deeper than 2^40 a length shows its own light alone, and so both are made less by the
- * same factor. */
+/* From logarithms. What is deeper than 2^24 a length shows its own light alone, and so both are made less by the
+ * same factor: light of such matter is right up to 6e28 K. Light of thin matter is up to 2^99 a length, beyond what
+ * layers of it hold (src/render/frame/layers.c). */
 kd_medium kd_plasma_medium(float light, float depth, float grain)
 {
-    float over = max(depth - 40.0, 0.0);
+    float over = max(depth - 24.0, 0.0);
     light -= over;
     depth -= over;
     return kd_medium(vec3(light > -126.0 ? exp2(min(light, 99.0)) : 0.0), depth > -126.0 ? exp2(depth) : 0.0, grain);

@@ -34,8 +34,13 @@ float kd_layer_depth(kd_sample s)
     return beam.through > 0.0 ? -log(beam.through) : uintBitsToFloat(KD_INFINITE_BITS);
 }
 
-/* A footprint; a ray without neighbours has none. */
-float kd_layer_size(float footprint) { return footprint < KD_FOOTPRINT_EDGE ? footprint : KD_NOTHING; }
+/* A footprint. A ray without neighbours has none, nor has one whose neighbours 32 bits do not tell apart from it
+ * (comp/footprint.comp). */
+#define KD_FOOTPRINT_LEAST 1e-6 /* of r, and radians */
+float kd_layer_size(float footprint, float least)
+{
+    return footprint < KD_FOOTPRINT_EDGE && footprint >= least ? footprint : KD_NOTHING;
+}
 
 kd_sample sample_at(uint n, float w, uint at, kd_ray ray)
 {

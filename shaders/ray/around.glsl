@@ -1,13 +1,13 @@
-/* A picture of all directions (KD_SIGHT_SPHERE) has no edges: it goes on at the other side beyond the left and right
- * ones, and half a turn further on beyond the upper and lower ones. Needs camera.glsl. */
+/* A picture of all directions (KD_SIGHT_SPHERE) has no edges. Beyond its left and right edges it goes on at the
+ * other one, and beyond the upper and lower edges half a turn further on. Needs camera.glsl. */
 #ifndef KD_AROUND_GLSL
 #define KD_AROUND_GLSL
 
-/* Columns and rows of rays of the whole picture, of which each has `side` a pixel along its sides. */
+/* Columns and rows of the whole picture: side 1: in rays; SIDE: in pixels. */
 ivec2 kd_around_size(uint side) { return ivec2(vec2(4.0, 2.0) / (vec2(cam.turn_x, cam.turn_y) * float(side)) + 0.5); }
 
-/* The place in a picture of that size that one up to a whole picture beyond its edges is. With an odd number of
- * columns it is half a column off beyond a pole. */
+/* Takes a place up to a whole picture beyond the edges into the picture. With an odd number of columns it is half a
+ * column off beyond a pole. */
 ivec2 kd_around(ivec2 at, ivec2 size)
 {
     bool over = at.y < 0 || at.y >= size.y;
@@ -17,7 +17,7 @@ ivec2 kd_around(ivec2 at, ivec2 size)
     return at;
 }
 
-/* A neighbour of the map's ray (x, y), on the map of the picture's rays at hand; (-1, -1): it is not there. */
+/* Takes a place beside a ray of the map at hand to one on it; (-1, -1): the map does not have it. */
 ivec2 kd_around_neighbour(ivec2 at)
 {
     if (SIGHT == KD_SIGHT_SPHERE && !AT_RIM) {

@@ -22,9 +22,9 @@ vec3 kd_star_weights(float d) { return vec3(0.5 * (0.5 - d) * (0.5 - d), 0.75 - 
 /* The solid angle of a pixel of a picture of all directions, by its row, over that at the equator. */
 float kd_star_level(float row, float rows) { return abs(sin(KD_PI * (row + 0.5) / rows)); }
 
-/* In pixels of the picture. Light is the mean radiance of a pixel at the place itself. Next to the poles of a
- * picture of all directions pixels of the next rows have other solid angles: what all get together is what one there
- * had. */
+/* place: in pixels of the picture. light: the mean radiance of a pixel whose middle is there. Next to the poles of a
+ * picture of all directions neighbouring rows have other solid angles: their light adds up to what that pixel would
+ * have. */
 void kd_star_spread(vec2 place, vec3 light)
 {
     vec2 middle = floor(place + 0.5);
@@ -33,10 +33,10 @@ void kd_star_spread(vec2 place, vec3 light)
     ivec2 size = ivec2(0);
     if (SIGHT == KD_SIGHT_SPHERE) {
         size = kd_around_size(SIDE);
-        float rows = float(size.y),
-              all = dot(wy, vec3(kd_star_level(middle.y - 1.0, rows), kd_star_level(middle.y, rows),
-                                 kd_star_level(middle.y + 1.0, rows)));
-        light *= kd_star_level(place.y, rows) / all;
+        float rows = float(size.y);
+        vec3 levels = vec3(kd_star_level(middle.y - 1.0, rows), kd_star_level(middle.y, rows),
+                           kd_star_level(middle.y + 1.0, rows));
+        light *= kd_star_level(place.y, rows) / dot(wy, levels);
     }
     for (int k = 0; k < 9; k++) {
         int r = k / 3, c = k - 3 * r;

@@ -28,9 +28,10 @@
     RAY(10, sky_phi, KD_LENS_SKY, \
         fate == KD_FATE_ESCAPED ? kd_layer_turned(end.phi + emission.frame.azimuth) : KD_NOTHING) \
     RAY(11, fate, KD_LENS_SKY, fate) \
-    CROSSING(12, footprint, KD_LENS_PHI | KD_LENS_FOOTPRINT, kd_layer_size(s.footprint), KD_NOTHING) \
+    CROSSING(12, footprint, KD_LENS_PHI | KD_LENS_FOOTPRINT, kd_layer_size(s.footprint, KD_FOOTPRINT_LEAST / s.w), \
+             KD_NOTHING) \
     RAY(13, sky_footprint, KD_LENS_SKY | KD_LENS_SKY_FOOTPRINT, \
-        fate == KD_FATE_ESCAPED ? kd_layer_size(end.footprint) : KD_NOTHING) \
+        fate == KD_FATE_ESCAPED ? kd_layer_size(end.footprint, KD_FOOTPRINT_LEAST) : KD_NOTHING) \
     CROSSING(14, optical_depth, 0, kd_layer_depth(s), uintBitsToFloat(KD_INFINITE_BITS)) \
     LIGHT(15, stokes_q, KD_LENS_SLOPE, light.y) \
     LIGHT(16, stokes_u, KD_LENS_SLOPE, light.z) \

@@ -487,6 +487,83 @@ static void test_ends_beyond(void **state)
 
 /* Whatever layer, whatever numbers it holds: a picture with a legend comes of it, from a hole that does not turn as
  * well. */
+static const float *numbers_of(const struct kd_frame *frame, const char *name)
+{
+    const struct kd_layer *layer = kd_frame_layer(frame, name);
+    assert_non_null(layer);
+    return layer->data;
+}
+
+/* Rays so near to one another that 32 bits do not tell them apart have no footprint, rather than one of 0; others
+ * have one. */
+static void test_tiny_fields(void **state)
+{
+    (void)state;
+    static const struct {
+        double fov_deg, yaw_deg;
+        const char *layer;
+        bool there;
+    } views[] = {
+        { 1e-6, 0.12, "footprint", false },
+        { 1e-6, 60, "sky_footprint", false },
+        { 0.1, 0.12, "footprint", true },
+        { 0.1, 60, "sky_footprint", true },
+    };
+    for (size_t v = 0; v < sizeof views / sizeof *views; v++) {
+        struct kd_scene scene = scene_of(0.7, 60, 4000, views[v].layer);
+        scene.camera.fov_deg = views[v].fov_deg;
+        scene.camera.yaw_deg = views[v].yaw_deg;
+        struct kd_frame frame = frame_of(&scene);
+        const float *is = numbers_of(&frame, views[v].layer);
+        int there = 0; /* not all of a picture is disk */
+        for (int i = 0; i < PIXELS; i++) {
+            there += is[i] > 0;
+            if (views[v].there ? is[i] <= 0 : !isnan(is[i]))
+                fail_msg("%s over %g degrees: %g in pixel %d", views[v].layer, views[v].fov_deg, is[i], i);
+        }
+        assert_true(!views[v].there || there > PIXELS / 2);
+        kd_frame_finish(&frame);
+    }
+}
+
+/* Light that 32 bits do not hold is refused by name; what they hold is finite, and as many times brighter as the
+ * matter is. */
+static void test_too_bright(void **state)
+{
+    (void)state;
+    static const char *const layers[] = { "brightness_temperature", "specific_intensity", "intensity" };
+    static const double emissions[] = { 3e-18, 3e-6, 1e30 };
+    for (size_t k = 0; k < 3; k++) {
+        double first = 0;
+        for (size_t e = 0; e < 3; e++) {
+            struct kd_scene scene;
+            struct kd_frame frame = { 0 };
+            struct kd_error why = { 0 };
+            OK(kd_scene_preset(&scene, "gold-1", &error));
+            scene.image.width = scene.image.height = 12;
+            scene.volume.gold_emission = emissions[e];
+            OK(kd_scene_set(&scene, "image.layers", layers[k], &error));
+            const struct kd_plan plan = plan_of(&scene, 0);
+            const enum kd_status status = kd_render(renderer, &scene, &plan, NULL, NULL, &frame, &why);
+            const bool too_bright = e == 2 && k < 2; /* light itself is cut off at 1e30 */
+            if (too_bright != (status == KD_EINVAL) || (status && !too_bright))
+                fail_msg("%s of %g: status %d", layers[k], emissions[e], (int)status);
+            if (too_bright) {
+                assert_string_equal(why.pointer, "/image/layers");
+                assert_non_null(strstr(why.message, layers[k]));
+                continue;
+            }
+            double sum = 0;
+            for (int i = 0; i < 144; i++)
+                sum += numbers_of(&frame, layers[k])[i];
+            first = e ? first : sum / emissions[0];
+            if (!isfinite(sum) || (e < 2 && fabs(sum / emissions[e] / first - 1) > 1e-5))
+                fail_msg("%s of %g: %g", layers[k], emissions[e], sum);
+            kd_frame_finish(&frame);
+        }
+    }
+}
+
 static void test_each_is_a_picture(void **state)
 {
     (void)state;
@@ -524,8 +601,10 @@ static void test_each_is_a_picture(void **state)
         }
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
+    if (argc > 1)
+        cmocka_set_test_filter(argv[1]);
     int status = open_renderer();
     if (status)
         return status;
@@ -534,7 +613,8 @@ int main(void)
         cmocka_unit_test(test_light),        cmocka_unit_test(test_temperature),
         cmocka_unit_test(test_plunge),       cmocka_unit_test(test_bands),
         cmocka_unit_test(test_false_colour), cmocka_unit_test(test_picture_beside),
-        cmocka_unit_test(test_ends_beyond),  cmocka_unit_test(test_each_is_a_picture),
+        cmocka_unit_test(test_ends_beyond),  cmocka_unit_test(test_tiny_fields),
+        cmocka_unit_test(test_too_bright),   cmocka_unit_test(test_each_is_a_picture),
     };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -132,10 +132,34 @@ static enum kd_status show(struct kd_frame_job *j)
     return KD_OK;
 }
 
+/* Light is finite: a layer of it that is infinite has overflowed. It is refused, for no number of 32 bits is right
+ * there. */
+static enum kd_status check_light(struct kd_frame_job *j)
+{
+    const struct kd_plan *p = j->plan;
+    const size_t all = (size_t)p->width * j->lit;
+    for (size_t i = 0; i < p->n_layers; i++) {
+        const struct kd_layer *layer = &j->frame->layers[1 + i + (p->radiance ? 1 : 0)];
+        const struct kd_layer_kind *kind = &kd_layer_kinds[p->layers[i].kind];
+        size_t n = 0;
+        for (size_t k = 0; k < all && kind->of == KD_OF_LIGHT; k++)
+            n += isinf(((const float *)layer->data)[k]) != 0;
+        if (n)
+            return kd_error_field(j->error, "/image/layers",
+                                  "image.layers asks for %s, which is beyond 3.4e38%s%s in %zu of %zu pixels: more "
+                                  "than its numbers of 32 bits hold. "
+                                  "The matter must be dimmer: a smaller density, temperature or emissivity of `volume`",
+                                  layer->name, *kind->unit ? " " : "", kind->unit, n, all);
+    }
+    return KD_OK;
+}
+
 enum kd_status kd_frame_layers(struct kd_frame_job *j)
 {
     enum kd_status status = kd_frame_gather(j);
     if (!status && (j->plan->n_layers || j->plan->radiance))
         status = read_all(j);
+    if (!status)
+        status = check_light(j);
     return !status && kd_plan_is_map(j->plan) ? show(j) : status;
 }
