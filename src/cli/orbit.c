@@ -3,8 +3,9 @@
 #include "cli/ending.h"
 #include "cli/file.h"
 #include "cli/progress.h"
-#include "orbit/feed.h"
 #include "base/cores.h"
+#include "orbit/feed.h"
+#include "physics/observer.h"
 
 #include <pthread.h>
 #include <stdlib.h>
@@ -26,7 +27,7 @@ static const struct {
     { "carter", "Q", "Carter's constant, 0 (the default) in the equatorial plane" },
     { "theta_deg", "T", "an orbit by position and velocity: polar angle" },
     { "phi_deg", "F", "azimuth" },
-    { "frame", "zamo|static", "whose velocity it is (zamo)" },
+    { "frame", KD_OBSERVER_FRAME_WORDS, "whose velocity it is (zamo)" },
     { "v_r", "V", "components of the velocity, in units of that of light" },
     { "v_theta", "V", NULL },
     { "v_phi", "V", NULL },
@@ -46,7 +47,7 @@ static const struct {
     { "observer_inclination_deg", "I", "where each sample is seen, by whom: inclination," },
     { "observer_r", "R|infinity", "radius (infinity)," },
     { "observer_azimuth_deg", "F", "azimuth (0)" },
-    { "observer", "static|zamo|keplerian|retrograde|infall", "and state of motion (static)" },
+    { "observer", KD_OBSERVER_FRAME_WORDS, "and state of motion (static)" },
     { "mass_msun", "M", "mass of the hole: frequencies in Hz, advance per century" },
 };
 #define N_FIELDS (sizeof fields / sizeof *fields)

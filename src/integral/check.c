@@ -1,5 +1,6 @@
 /* Rules that tie fields of a request together, and what follows from fields that are not given. */
 #include "integral/internal.h"
+#include "integral/request.h"
 
 #include "physics/constants.h"
 #include "physics/disk.h"

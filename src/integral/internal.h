@@ -2,7 +2,8 @@
 #ifndef KD_INTEGRAL_INTERNAL_H
 #define KD_INTEGRAL_INTERNAL_H
 
-#include "integral/request.h"
+#include "base/error.h"
+#include "integral/asked.h"
 
 #include <cjson/cJSON.h>
 

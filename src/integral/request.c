@@ -1,4 +1,5 @@
 #include "integral/internal.h"
+#include "integral/request.h"
 
 #include "base/slip.h"
 #include "scene/number.h"

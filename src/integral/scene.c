@@ -1,6 +1,7 @@
 /* Requests for integrals over pictures have a scene: "preset" and "scene", and fields that say which pictures are
  * made of it. */
 #include "integral/internal.h"
+#include "integral/request.h"
 #include "integral/pictures.h"
 
 #include "physics/angle.h"

@@ -1,6 +1,7 @@
 #include "orbit/cases.h"
 
 #include "physics/kerr.h"
+#include "physics/orbit.h"
 
 #include <math.h>
 

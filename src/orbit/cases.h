@@ -2,7 +2,7 @@
 #ifndef KD_ORBIT_CASES_H
 #define KD_ORBIT_CASES_H
 
-#include "orbit/request.h"
+#include "orbit/asked.h"
 
 const char *kd_orbit_case_name(enum kd_orbit_case which);
 

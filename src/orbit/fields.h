@@ -2,7 +2,8 @@
 #ifndef KD_ORBIT_FIELDS_H
 #define KD_ORBIT_FIELDS_H
 
-#include "orbit/request.h"
+#include "base/error.h"
+#include "orbit/asked.h"
 #include "scene/value.h"
 
 enum kd_orbit_kind { KD_FIELD_IS_REAL, KD_FIELD_IS_WHOLE, KD_FIELD_IS_TRUTH, KD_FIELD_IS_WORD };

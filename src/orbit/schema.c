@@ -2,6 +2,7 @@
 
 #include "base/schema.h"
 #include "orbit/fields.h"
+#include "orbit/request.h"
 
 #include <stdio.h>
 #include <string.h>

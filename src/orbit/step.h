@@ -2,7 +2,7 @@
 #ifndef KD_ORBIT_STEP_H
 #define KD_ORBIT_STEP_H
 
-#include "orbit/run.h"
+#include "orbit/run_state.h"
 
 /* The fastest phase of the motion per Mino time, roughly: to choose a first step by. */
 double kd_orbit_pace(const struct kd_orbit *orbit);

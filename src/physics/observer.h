@@ -14,7 +14,7 @@
 /* X(NAME, word, what it is, where it exists, edge(a, cos(theta)) of that, what the edge is called, why not inside):
  * it exists at larger radii than its edge. The last one has a velocity of its own choice, and is none to measure
  * others' velocities by. */
-#define KD_OBSERVERS(X) \
+#define KD_OBSERVERS_OF_NO_NUMBERS(X) \
     X(STATIC, static, "at rest with respect to infinity", "outside the ergosphere, r > 1 + sqrt(1 - a^2 cos^2 i)", \
       kd_kerr_ergosphere(a, u), "the ergosphere", "nothing is at rest") \
     X(ZAMO, zamo, "with zero angular momentum", "outside the horizon", kd_kerr_horizon(a), "the horizon", \
@@ -27,7 +27,9 @@
       "the orbit of light", "nothing goes round freely") \
     X(INFALL, infall, "in free fall, by default from rest at infinity", \
       "outside the inner horizon, r > 1 - sqrt(1 - a^2)", kd_kerr_inner_horizon(a), "the inner horizon", \
-      "the model ends") \
+      "the model ends")
+#define KD_OBSERVERS(X) \
+    KD_OBSERVERS_OF_NO_NUMBERS(X) \
     X(VELOCITY, velocity, "with any velocity past the one of zero angular momentum", "outside the horizon", \
       kd_kerr_horizon(a), "the horizon", "everything falls")
 
@@ -39,10 +41,18 @@ enum { KD_OBSERVER_FRAMES = KD_OBSERVER_VELOCITY }; /* those before it need no n
  * where each exists. */
 #define KD_OBSERVER_WORD_(NAME, word, ...) "|" #word
 #define KD_OBSERVER_WORDS (&(KD_OBSERVERS(KD_OBSERVER_WORD_))[1])
+#define KD_OBSERVER_FRAME_WORDS (&(KD_OBSERVERS_OF_NO_NUMBERS(KD_OBSERVER_WORD_))[1])
 #define KD_OBSERVER_IS_(NAME, word, what, ...) "; " #word ": " what
 #define KD_OBSERVER_HELP KD_OBSERVERS(KD_OBSERVER_IS_)
 #define KD_OBSERVER_WHERE_(NAME, word, what, where, ...) "; \"" #word "\": " where
 #define KD_OBSERVER_PLACES KD_OBSERVERS(KD_OBSERVER_WHERE_)
+
+/* In which sense one on a circular orbit goes round: 1 with the disk, -1 against it; 0: it is on none. */
+static inline int kd_observer_sense(enum kd_observer observer)
+{
+    return (observer == KD_OBSERVER_KEPLERIAN) - (observer == KD_OBSERVER_RETROGRADE);
+}
+#define KD_OBSERVER_CIRCULAR "keplerian and retrograde" /* their words */
 
 /* How an observer moves. All but the first member are numbers of one kind of observer; the others read none of them. */
 struct kd_observer_motion {

@@ -12,10 +12,8 @@ bool kd_worldline_is_known(const struct kd_observer_motion *m, const struct kd_v
     switch (m->observer) {
     case KD_OBSERVER_STATIC:
     case KD_OBSERVER_ZAMO: return true;
-    case KD_OBSERVER_KEPLERIAN:
-    case KD_OBSERVER_RETROGRADE: return at->u == 0;
     case KD_OBSERVER_INFALL: return kd_infall_is_level(m, at);
-    default: return false;
+    default: return kd_observer_sense(m->observer) && at->u == 0;
     }
 }
 
@@ -23,8 +21,8 @@ bool kd_worldline_is_known(const struct kd_observer_motion *m, const struct kd_v
  * u^t = 1/lapse. */
 static void pace(const struct kd_observer_motion *m, const struct kd_vantage *at, double *time, double *azimuth)
 {
-    double sense = m->observer == KD_OBSERVER_RETROGRADE ? -1 : 1;
-    if (m->observer == KD_OBSERVER_KEPLERIAN || m->observer == KD_OBSERVER_RETROGRADE) {
+    const int sense = kd_observer_sense(m->observer);
+    if (sense) {
         *time = kd_kerr_ut(sense * at->spin, at->r);
         *azimuth = sense * kd_kerr_omega(sense * at->spin, at->r) * *time;
         return;

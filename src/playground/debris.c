@@ -255,8 +255,8 @@ struct kd_debris_rate kd_debris_rate(const struct kd_debris_source *source, int 
     };
 }
 
-/* A bin is cut by the present, by the first piece that came back, or where pieces were given up: the first and the
- * last one of a source's bins count over a part of their width alone. */
+/* A bin is cut by the present, or by the first piece that came back: such a one counts over a part of its width alone.
+ * The last bin of all has no end. */
 static bool is_whole(const struct kd_playground_debris *debris, const struct kd_debris_source *source, int bin)
 {
     const double age = debris->t - source->t;

@@ -180,8 +180,8 @@
     REAL(bodies, phase_deg, MODEL, FRONT, 0.0, -360.0, 360.0, "degrees", \
          "azimuth of the centre at time 0; 0 is that of the observer's camera.azimuth_deg 0") \
     ENUM(bodies, motion, MODEL, REST, KD_OBSERVER_KEPLERIAN, \
-         "state of motion, which shifts its light; static, zamo, keplerian and retrograde take it round with time, " \
-         "the last two in the disk's plane alone" KD_OBSERVER_HELP, \
+         "state of motion, which shifts its light; static, zamo, " KD_OBSERVER_CIRCULAR \
+         " take it round with time, the last two in the disk's plane alone" KD_OBSERVER_HELP, \
          KD_OBSERVER_WORDS) \
     REAL(bodies, velocity_r, MODEL, REST, 0.0, -1.0, 1.0, "c", \
          "velocity outwards, past one of zero angular momentum (motion: velocity)") \

@@ -392,7 +392,7 @@ static enum kd_status body(const struct kd_scene *scene, size_t index, struct kd
     const struct kd_vantage at = kd_body_vantage(scene, b);
     const double least = BODIES_CLEAR * kd_kerr_horizon(scene->spacetime.spin),
                  v[] = { b->velocity_r, b->velocity_theta, b->velocity_phi };
-    const bool circular = b->motion == KD_OBSERVER_KEPLERIAN || b->motion == KD_OBSERVER_RETROGRADE;
+    const bool circular = kd_observer_sense(b->motion) != 0;
     const struct kd_observer_row *row = &kd_observers[b->motion];
     char allowed[160];
     double most;
@@ -580,8 +580,8 @@ const struct kd_rule kd_rules[] = {
       "at most 2^60 times in between.",
       jets },
     { "`spots.N.r` is not inside the ISCO of the spin, unless the spot's brightness is 0.", spots },
-    { "`bodies.N.r` is at least a twentieth outside the horizon, and where `bodies.N.motion` exists; keplerian and "
-      "retrograde orbits have `bodies.N.inclination_deg` 90; "
+    { "`bodies.N.r` is at least a twentieth outside the horizon, and where `bodies.N.motion` "
+      "exists; " KD_OBSERVER_CIRCULAR " orbits have `bodies.N.inclination_deg` 90; "
       "`bodies.N.velocity_*` are a speed of at most 0.999, and 0 unless the motion is \"velocity\"; unless the body's "
       "radius is 0.",
       bodies },

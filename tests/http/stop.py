@@ -99,9 +99,8 @@ class Stop(unittest.TestCase):
 
     def test_a_device_that_is_opened_again(self):
         server = daemon.Daemon("--device", "mends", "--drain-ms", 10)
-        beside = in_background(
-            server.get, RENDER + "&time=1000&image.samples=2"
-        )  # in slices: what is half done begins once more
+        # 6 s, in slices: what is half done begins once more
+        beside = in_background(server.get, RENDER + "&time=200&image.samples=2")
         self.assertTrue(daemon.eventually(lambda: server.metrics()["kerrd_renders_unfinished"]))
         session = server.post("/v1/sessions", {"image": {"width": 64, "height": 36}, "time": 5}).json()
         job = server.post(

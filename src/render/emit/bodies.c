@@ -21,12 +21,10 @@ static double motion_of(const struct kd_body *body, const struct kd_vantage *at,
     kd_tetrad_components(&frame, &own.t, x);
     for (int i = 0; i < 3; i++)
         velocity[i] = x[i + 1] / x[0];
-    switch ((enum kd_observer)body->motion) {
-    case KD_OBSERVER_KEPLERIAN: return kd_kerr_omega(at->spin, at->r);
-    case KD_OBSERVER_RETROGRADE: return -kd_kerr_omega(-at->spin, at->r);
-    case KD_OBSERVER_ZAMO: return kd_kerr_dragging(at->spin, at->r, at->u);
-    default: return 0;
-    }
+    const int sense = kd_observer_sense(motion.observer);
+    if (sense)
+        return sense * kd_kerr_omega(sense * at->spin, at->r);
+    return motion.observer == KD_OBSERVER_ZAMO ? kd_kerr_dragging(at->spin, at->r, at->u) : 0;
 }
 
 static double omega_of(const struct kd_scene *scene, const struct kd_body *body)

@@ -16,6 +16,7 @@ struct kd_picture {
     const char *device; /* as kd_renderer_device_name */
     unsigned number;    /* in a series, from 0 on */
     unsigned lossy;     /* the quality of a format that loses some, 1 to 100 */
+    const char *hash;   /* of the scene, as kd_scene_hash has it; NULL or "": whoever writes it makes it */
 };
 
 enum kd_effort {

@@ -1,6 +1,7 @@
 #include "render/output/notes.h"
 
 #include "scene/crowd.h"
+#include "scene/sha256.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -63,14 +64,21 @@ static enum kd_status join_approximations(const struct kd_plan *plan, struct kd_
     return status;
 }
 
-/* The canonical scene; of a picture that shows a playground it is no scene that can be read again, and says of what
- * state it was made. */
-static enum kd_status put_scene(const struct kd_scene *scene, struct kd_buffer *out)
+/* The canonical scene, and its hash; of a picture that shows a playground it is no scene that can be read again, and
+ * says of what state it was made. */
+static enum kd_status put_scene(const struct kd_picture *picture, struct kd_notes *notes)
 {
-    const struct kd_crowd *crowd = scene->crowd.at;
-    enum kd_status status = kd_scene_to_json(scene, out);
-    if (status || !crowd)
+    const struct kd_crowd *crowd = picture->scene->crowd.at;
+    struct kd_buffer *out = &notes->scene;
+    enum kd_status status = kd_scene_to_json(picture->scene, out);
+    if (status)
         return status;
+    if (picture->hash && *picture->hash)
+        snprintf(notes->hash, sizeof notes->hash, "%s", picture->hash);
+    else
+        kd_sha256(out->data, out->size, notes->hash);
+    if (!crowd)
+        return KD_OK;
     out->size--; /* the last brace */
     return kd_buffer_printf(out, ",\"" PLAYGROUND "\":{\"t\":%.17g,\"bodies\":%zu,\"debris\":%u,\"snapshot\":\"%s\"}}",
                             crowd->time, crowd->n, crowd->debris.pieces, crowd->snapshot);
@@ -86,8 +94,7 @@ enum kd_status kd_notes_of(const struct kd_picture *picture, struct kd_notes *ou
         snprintf(out->blur, sizeof out->blur, "samples=%u shutter=%.9g", picture->plan->blur.samples,
                  picture->plan->blur.shutter);
     enum kd_status status;
-    KD_TRY(put_scene(picture->scene, &out->scene));
-    KD_TRY(kd_scene_hash(picture->scene, out->hash));
+    KD_TRY(put_scene(picture, out));
     KD_TRY(join_approximations(picture->plan, &out->approximations));
 done:
     return status

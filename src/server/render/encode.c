@@ -27,7 +27,7 @@ static void encode(struct kd_render_queue *queue, struct kd_render_job *job, str
 {
     double start = kd_clock_ms();
     const struct kd_picture picture = { &job->frame, &job->scene, &job->plan, kd_render_queue_device_name(queue),
-                                        job->number, job->lossy };
+                                        job->number, job->lossy,  job->hash };
     job->status = kd_encode(job->format, &picture, job->effort, encoder, &job->file, &job->error);
     job->encode_ms = kd_clock_ms() - start;
     kd_render_measures_encoded(&queue->measures, job->encode_ms);

@@ -11,6 +11,7 @@ struct kd_planned {
     struct kd_task task;   /* first */
     struct kd_scene scene; /* as asked, */
     struct kd_scene drawn; /* and as the plan is for: kd_format_plan */
+    char hash[65];         /* of `scene`, once an answer is tagged by it */
     struct kd_plan plan;
     struct kd_problem problem; /* its texts in the task's error */
 };

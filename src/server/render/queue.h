@@ -57,6 +57,7 @@ struct kd_render_job {
     enum kd_effort effort;
     struct kd_blur blur;    /* samples 0, as it begins: there is none */
     unsigned number, lossy; /* as in struct kd_picture */
+    char hash[65];          /* likewise */
     bool keeps;             /* the frame's layers, once it has been encoded */
     /* NULL: a picture is rendered and encoded. Else this is called instead, with the device; if it sets `more` it is
      * called again at the next turn, and so on. */

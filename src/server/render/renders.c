@@ -206,7 +206,7 @@ done:
     return false;
 }
 
-static enum MHD_Result submit(struct kd_request *request, const struct kd_scene *scene, const struct kd_plan *plan)
+static enum MHD_Result submit(struct kd_request *request, const struct kd_planned *planned)
 {
     struct kd_render_job *job = calloc(1, sizeof *job);
     if (!job || !request->connection) {
@@ -215,8 +215,10 @@ static enum MHD_Result submit(struct kd_request *request, const struct kd_scene 
     }
     job->claim.class = request->format == &kd_format_pixel ? KD_CLASS_PIXEL : KD_CLASS_PICTURE;
     memcpy(job->claim.client, request->client, sizeof job->claim.client);
-    job->scene = *scene;
-    job->plan = *plan;
+    job->scene = planned->drawn;
+    job->plan = planned->plan;
+    if (!memcmp(&planned->scene, &planned->drawn, sizeof planned->drawn))
+        memcpy(job->hash, planned->hash, sizeof job->hash);
     job->format = request->format;
     job->effort = KD_EFFORT_QUICK;
     job->socket = kd_connection_socket(request->connection);
@@ -229,15 +231,16 @@ static enum MHD_Result submit(struct kd_request *request, const struct kd_scene 
     return MHD_YES;
 }
 
-static enum kd_status tag(struct kd_request *request, const struct kd_scene *scene, const struct kd_plan *plan)
+static enum kd_status tag(struct kd_request *request, struct kd_planned *planned)
 {
-    char hash[65], at[36] = "";
+    const struct kd_plan *plan = &planned->plan;
+    char at[36] = "";
     if (plan->told.on)
         snprintf(at, sizeof at, "-%u-%u%s", plan->told.x, plan->told.y, plan->told.steps ? "-steps" : "");
     const char *name = request->format == kd_formats[0] ? "" : request->format->name;
-    enum kd_status status = kd_scene_hash(scene, hash);
+    enum kd_status status = kd_scene_hash(&planned->scene, planned->hash);
     if (!status)
-        snprintf(request->etag, sizeof request->etag, "\"%s-%s%s%s%s\"", hash, request->server->etag_tail,
+        snprintf(request->etag, sizeof request->etag, "\"%s-%s%s%s%s\"", planned->hash, request->server->etag_tail,
                  *name ? "-" : "", name, at);
     return status;
 }
@@ -269,7 +272,7 @@ enum MHD_Result kd_handle_render(struct kd_request *request)
     const struct kd_plan *plan = &planned->plan;
     if (request->format == &kd_format_pixel && name_pixel(request, &planned->plan, &error))
         return kd_reply_error(request, &error);
-    if (tag(request, scene, plan))
+    if (tag(request, planned))
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
     if (client_has(request))
         return kd_reply_send(request, MHD_HTTP_NOT_MODIFIED, describe(request, kd_reply_empty(NULL), scene, plan));
@@ -278,7 +281,7 @@ enum MHD_Result kd_handle_render(struct kd_request *request)
                              describe(request, kd_reply_empty(request->format->media_type), scene, plan));
     if (!admitted(request, plan, &problem, &error))
         return kd_reply_problem(request, &problem);
-    return submit(request, &planned->drawn, plan);
+    return submit(request, planned);
 }
 
 enum MHD_Result kd_handle_pixel(struct kd_request *request)
