@@ -62,8 +62,7 @@ class Leftovers(Case):
         server = self.start()
         job = self.make({"scenes": [SCENE] * 2}, server=server)
         self.until(job, "done", server)
-        server.process.kill()
-        server.wait()
+        self.assertEqual(server.stop(), 0)
         ours = ("000001.png.kerrd-bczkzP", "job.json.kerrd-aB3dE6", "request.json.kerrd-000000")
         theirs = (
             "000001.png.backup",
