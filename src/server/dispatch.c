@@ -5,6 +5,7 @@
 #include "playground/json.h"
 #include "render/rays/request.h"
 #include "base/clock.h"
+#include "base/watch.h"
 #include "server/http/cors.h"
 #include "server/http/library.h"
 #include "server/http/measures.h"
@@ -46,6 +47,7 @@ void kd_request_connection(void *cls, struct MHD_Connection *mhd, void **socket_
     struct kd_server *server = cls;
     if (what == MHD_CONNECTION_NOTIFY_STARTED) {
         int socket = socket_of(mhd);
+        kd_watch_answers();
         kd_library_works_on(socket);
         *socket_context = kd_connections_find(server->connections, socket);
         if (kd_connection_is_health(*socket_context))

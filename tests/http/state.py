@@ -62,8 +62,7 @@ class Leftovers(Case):
         server = self.start()
         job = self.make({"scenes": [SCENE] * 2}, server=server)
         self.until(job, "done", server)
-        server.process.kill()
-        server.wait()
+        self.assertEqual(server.stop(), 0)
         ours = ("000001.png.kerrd-bczkzP", "job.json.kerrd-aB3dE6", "request.json.kerrd-000000")
         theirs = (
             "000001.png.backup",
@@ -242,7 +241,7 @@ class Foreign(Case):
         self.until(job, "done", server)
         for name in ("mine.txt", "000000.png.bak", "0000001.png", "job.json.orig"):
             self.write(job, name, "x")
-        self.write(job, "000001.png.aB3dEf", "what a kill has left")
+        self.write(job, "000001.png.kerrd-aB3dEf", "what a kill has left")
         self.assertEqual(self.delete(job, server).status, 204)
         left = ["0000001.png", "000000.png.bak", "job.json.orig", "mine.txt"]
         self.assertTrue(
@@ -252,7 +251,7 @@ class Foreign(Case):
 
     def test_what_was_never_accepted_goes(self):
         os.makedirs(os.path.join(self.jobs, "0123456789abcdef.new"))
-        for name in ("job.json.AAAAAA", "job.json", "request.json.123456"):
+        for name in ("job.json.kerrd-AAAAAA", "job.json", "request.json.kerrd-123456"):
             self.write({"id": "0123456789abcdef.new"}, name, "{")
         server = self.start()
         self.assertEqual(os.listdir(self.jobs), ["lock"])

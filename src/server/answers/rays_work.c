@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SLICE 4096 /* rays: some 35 ms of one core */
+#define SLICE 2048 /* rays: some 18 to 25 ms of one core */
 
 /* Rays of a turn with the device: few at first, then as many as take TURN_MS. From the fastest engine to the
  * dearest, from a GPU to one core, a ray's cost varies by a factor of a million. */

@@ -1,6 +1,7 @@
 #include "server/http/turns.h"
 #include "base/clock.h"
 #include "base/cores.h"
+#include "base/watch.h"
 
 #include <math.h>
 #include <pthread.h>
@@ -125,7 +126,9 @@ static void give_turn(struct kd_turns *turns, struct kd_turns_job *job)
     if (job->shared)
         append(turns, job); /* for whoever is free */
     pthread_mutex_unlock(&turns->lock);
+    kd_watch_turn_begins();
     enum kd_turn_end turn = job->turn(job);
+    kd_watch_turn_ends();
     pthread_mutex_lock(&turns->lock);
     job->workers--;
     if (turn == KD_TURN_LAST)
