@@ -147,7 +147,11 @@ enum kd_status kd_store_lens_map(struct kd_store *store, const struct kd_plan *p
         bands_finish(&oldest->star_light, store->vk);
     KD_TRY(make_star_light(store, plan, oldest, error));
     if (!store->undecided)
-        KD_TRY(kd_vk_buffer_create(store->vk, 16, KD_VK_DEVICE, "undecided rays", &store->undecided, error));
+        KD_TRY(kd_vk_buffer_create(store->vk, 4 * (1 + KD_GIVEN_MOST), KD_VK_DEVICE, "undecided rays",
+                                   &store->undecided, error));
+    if (!store->undecided_host)
+        KD_TRY(kd_vk_buffer_create(store->vk, 4, KD_VK_READBACK, "undecided rays on the host", &store->undecided_host,
+                                   error));
 done:
     return status;
 }
@@ -359,5 +363,6 @@ void kd_store_finish(struct kd_store *store)
     kd_vk_buffer_destroy(store->vk, store->star_pairs);
     kd_vk_buffer_destroy(store->vk, store->star_rays);
     kd_vk_buffer_destroy(store->vk, store->undecided);
+    kd_vk_buffer_destroy(store->vk, store->undecided_host);
     kd_vk_buffer_destroy(store->vk, store->listed);
 }

@@ -110,7 +110,8 @@ static const struct sentence {
     { "camera: each eye of a pair is an observer of its own, of the same kind, beside the middle by the first order of "
       "camera.eye_distance in the local frame, at the same time; their axes are parallel as in flat space",
       paired },
-    { "arithmetic: 32-bit; rays closer than about 1e-5 to the critical curve may be given the wrong fate", single },
+    { "arithmetic: 32-bit; rays whose fate, or number of crossings, that cannot tell are followed again in 64 bits",
+      single },
     { "arithmetic: 64-bit rays; the radii of their crossings are kept in 32 bits", twice },
     { "rays: followed in Kerr-Schild coordinates for comparison; docs/accuracy.md says how much that costs", compared },
 };
