@@ -249,8 +249,8 @@ export const sentences = {
     'immagine: un raggio per pixel, nelle mappe, nella proiezione ad anello e nelle curve di luce, dove image.samples è "auto"',
   'projection: angles as distances, over half the sky or all of it; areas are not to scale':
     'proiezione: angoli come distanze, su metà del cielo o su tutto; le aree non sono in scala',
-  'arithmetic: 32-bit; rays closer than about 1e-5 to the critical curve may be given the wrong fate':
-    'aritmetica: a 32 bit; ai raggi più vicini di circa 10⁻⁵ alla curva critica può toccare la sorte sbagliata',
+  'arithmetic: 32-bit; rays whose fate, or number of crossings, that cannot tell are followed again in 64 bits':
+    'aritmetica: 32 bit; i raggi di cui questi non sanno dire la sorte, o il numero di attraversamenti, sono seguiti di nuovo in 64 bit',
   'arithmetic: 64-bit rays; the radii of their crossings are kept in 32 bits':
     'aritmetica: raggi a 64 bit; le distanze r dei loro attraversamenti sono conservate a 32 bit',
   'rays: followed in Kerr-Schild coordinates for comparison; docs/accuracy.md says how much that costs':

@@ -24,7 +24,7 @@ const bool PHI = (QUANTITIES & KD_LENS_PHI) != 0u, SKY = (QUANTITIES & KD_LENS_F
 layout(local_size_x = KD_GROUP_SIZE) in;
 
 layout(set = 0, binding = 0) buffer LensMap { float lens[]; };
-layout(set = 0, binding = 1) buffer Given { uint undecided; }; /* rays given up on their way to the sky */
+#include "ray/open.glsl"
 #define KD_CAMERA_BINDING 2
 #include "ray/camera.glsl"
 #include "ray/place.glsl"
@@ -87,9 +87,9 @@ void keep(uint at, uint n, bool any, kd_leg leg, kd_drag_terms drag)
         lens[at + kd_plane(KD_LENS_SLOPE) * slice.stride] = any ? leg.next.dw : 0.0;
 }
 
-/* Keep where the ray ends. nodes, z: of the leg that it does not finish; before: time from the last crossing to the
- * start, if it is the start that the leg begins with. */
-void keep_end(uint at, kd_geodesic m, kd_ray ray, kd_arcs a, kd_azimuth azimuth, kd_drag_terms drag, kd_leg leg,
+/* Keep where the ray ends, and say whether that is told. nodes, z: of the leg that it does not finish; before: time
+ * from the last crossing to the start, if it is the start that the leg begins with. */
+bool keep_end(uint at, kd_geodesic m, kd_ray ray, kd_arcs a, kd_azimuth azimuth, kd_drag_terms drag, kd_leg leg,
               kd_arc middle, float leg_z, float before, bool decided)
 {
     kd_state far_away;
@@ -115,8 +115,7 @@ void keep_end(uint at, kd_geodesic m, kd_ray ray, kd_arcs a, kd_azimuth azimuth,
     lens[at + kd_plane(KD_LENS_SKY_U) * slice.stride] = escapes ? end.u : 0.0;
     lens[at + kd_plane(KD_LENS_SKY_PHI) * slice.stride] = escapes ? -phi : 0.0;
     lens[at + kd_plane(KD_LENS_FATE) * slice.stride] = fate;
-    if (fate == KD_FATE_UNDECIDED)
-        atomicAdd(undecided, 1);
+    return fate != KD_FATE_UNDECIDED;
 }
 
 void main()
@@ -159,6 +158,11 @@ void main()
     leg.alive = known && leg.next.w > 0.0 && leg.next.w < edge && goes_on(leg, drag.falls, limit);
     leg.side = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;
     leg.crossed = leg.alive;
+    const float far = a.scale * ray.size_e * inversesqrt(max(ray.l * ray.l + ray.p * ray.p, ray.e * ray.e));
+    const float off = kd_open_within(barrier, EPSILON);
+    bool open =
+        !kd_is_decided(barrier, start, EPSILON) || (polar.crosses && kd_crossing_is_open(leg.next.w, far, edge, off));
+    open = open || !kd_is_finite(leg.next.w + leg.drag);
     keep(at, 0, leg.alive && polar.crosses, leg, drag);
     uint n = 1;
     for (; n < ORDERS + (SKY ? MORE : 0); n++) {
@@ -173,8 +177,11 @@ void main()
         leg.tau += polar.half_;
         leg.psi += azimuth.half_;
         leg.alive = leg.next.w > 0.0 && leg.next.w < edge && goes_on(leg, drag.falls, limit);
-        if (n < ORDERS)
+        if (n < ORDERS) {
             keep(at, n, leg.alive && polar.crosses, leg, drag);
+            open = open || (polar.crosses && kd_crossing_is_open(leg.next.w, far, edge, off)) ||
+                   !kd_is_finite(leg.next.w + leg.drag);
+        }
     }
     for (; n < ORDERS; n++)
         keep(at, n, false, leg, drag);
@@ -186,6 +193,7 @@ void main()
             z = z1;
             before = polar.half_ - polar.first;
         }
-        keep_end(at, m, ray, a, azimuth, drag, leg, middle, z, before, kd_is_decided(barrier, start, EPSILON));
+        open = !keep_end(at, m, ray, a, azimuth, drag, leg, middle, z, before, !open);
     }
+    kd_leave_open(open, at);
 }

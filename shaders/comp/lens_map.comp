@@ -24,7 +24,7 @@ const bool PHI = (QUANTITIES & KD_LENS_PHI) != 0u, SKY = (QUANTITIES & KD_LENS_F
 layout(local_size_x = KD_GROUP_SIZE) in;
 
 layout(set = 0, binding = 0) buffer LensMap { float lens[]; };
-layout(set = 0, binding = 1) buffer Given { uint undecided; }; /* rays given up on their way to the sky */
+#include "ray/open.glsl"
 #define KD_CAMERA_BINDING 2
 #include "ray/camera.glsl"
 #include "ray/place.glsl"
@@ -83,15 +83,14 @@ void main()
     kd_state y;
     y.w = ray.w;
     y.dw = ray.dw;
-    kd_barrier barrier;
-    bool dark = INGOING && !kd_from_outside(m, ray.e, cam.spin, cam.horizon);
-    if (PHI || SKY)
-        barrier = kd_barrier_of(m, ray, cam.spin, cam.u, cam.horizon, cam.root, EPSILON);
+    bool dark = INGOING && !kd_from_outside(m, ray.w, ray.e, cam.spin, cam.horizon);
+    kd_barrier barrier = kd_barrier_of(m, ray, cam.spin, cam.u, cam.horizon, cam.root, EPSILON);
     kd_state start = y;
     float way = 0.0, fallen = 0.0;
     bool returns = false;
+    if (INGOING)
+        barrier = kd_barrier_beside(m, barrier, y, ray.size_e, cam.horizon);
     if (INGOING && (PHI || SKY)) {
-        barrier = kd_barrier_beside(m, barrier, y, ray.e, cam.horizon);
         returns = !kd_flies_out(barrier, y);
         way = returns && y.dw > 0.0 ? 1.0 : -1.0;
         fallen = way > 0.0 ? -2.0 * cam.twist : 0.0;
@@ -99,6 +98,9 @@ void main()
     kd_path last = kd_path_start(ray, cam.u, cam.s);
     float above = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;
     bool alive = polar.crosses && !dark;
+    const float off = kd_open_within(barrier, EPSILON);
+    bool open = !dark && !kd_is_decided(barrier, start, EPSILON);
+    const float far = ray.size_e * inversesqrt(max(ray.l * ray.l + ray.p * ray.p, ray.e * ray.e));
     const float deepest = INGOING ? max(2.0, 1.1 * cam.w0) : 2.0;
     float h = polar.first * (1.0 / float(STEPS));
     for (uint n = 0; n < (PHI ? 2 : 1) * ORDERS + (SLOPE ? ORDERS : 0);
@@ -154,6 +156,7 @@ void main()
             sum += turn.any ? drag - turn.drag : 0.0;
             fallen -= turn.any ? 2.0 * kd_drag_fall(turn.w, cam.spin, cam.root) : 0.0;
         }
+        open = open || kd_crossing_is_open(y.w, far, cam.horizon, off) || !kd_is_finite(y.w + sum);
         alive = low >= 0.0 && high < cam.horizon && y.w > 0.0;
         if (alive) {
             chi += sum * h * (2.0 / 45.0);
@@ -176,13 +179,13 @@ void main()
         kd_escape end = kd_path_escape(m, ray, last);
         if (dark)
             end.fate = KD_FATE_CAPTURED;
-        else if (!kd_is_decided(barrier, start, EPSILON) ||
-                 kd_flies_out(barrier, start) != (end.fate == KD_FATE_ESCAPED))
+        else if (open || kd_flies_out(barrier, start) != (end.fate == KD_FATE_ESCAPED) ||
+                 !kd_is_finite(end.u + end.phi))
             end.fate = KD_FATE_UNDECIDED;
         lens[at + kd_plane(KD_LENS_SKY_U) * slice.stride] = end.u;
         lens[at + kd_plane(KD_LENS_SKY_PHI) * slice.stride] = -end.phi;
         lens[at + kd_plane(KD_LENS_FATE) * slice.stride] = end.fate;
-        if (end.fate == KD_FATE_UNDECIDED)
-            atomicAdd(undecided, 1);
+        open = end.fate == KD_FATE_UNDECIDED;
     }
+    kd_leave_open(open, at);
 }

@@ -114,6 +114,9 @@ void main()
     ray.l = -cam.list[3 * i];
     ray.p = cam.list[3 * i + 1];
     ray.w = cam.w0;
+    ray.size_e = 1.0;
+    ray.size_l = abs(ray.l);
+    ray.size_p = abs(ray.p);
     kd_geodesic m = kd_geodesic_of(ray, cam.spin, cam.u, cam.s);
     ray.dw = cam.list[3 * i + 2] * sqrt(max(kd_fall_squared(m, ray.w, 1.0, cam.spin, cam.root), 0.0));
     kd_polar polar = kd_polar_of(m, ray, cam.u, cam.s);

@@ -210,7 +210,7 @@ kd_march_drag kd_march_drag_of(kd_geodesic m, kd_ray ray)
         y.w = ray.w;
         y.dw = ray.dw;
         kd_barrier b = kd_barrier_beside(m, kd_barrier_of(m, ray, cam.spin, cam.u, cam.horizon, cam.root, 6e-8), y,
-                                         ray.e, cam.horizon);
+                                         ray.size_e, cam.horizon);
         drag.returns = !kd_flies_out(b, y);
         drag.way = drag.returns && y.dw > 0.0 ? 1.0 : -1.0;
         drag.fallen = drag.way > 0.0 ? -2.0 * cam.twist : 0.0;
@@ -504,7 +504,7 @@ kd_march_way kd_march_begin(kd_ray ray, float left)
     y.crossed = 0u;
     y.steps = 0u;
     y.drag = kd_march_drag_of(y.m, ray);
-    y.goes = kd_march_meets(y.m, ray) && !(INGOING && !kd_from_outside(y.m, ray.e, cam.spin, cam.horizon));
+    y.goes = kd_march_meets(y.m, ray) && !(INGOING && !kd_from_outside(y.m, ray.w, ray.e, cam.spin, cam.horizon));
     y.lost = false;
     return y;
 }

@@ -127,7 +127,7 @@ kd_met kd_meet(uvec2 place)
     vec4 all = vec4(emission.bodies.x, emission.bodies.y, emission.bodies.z, emission.bodies.reach);
     float out_ = emission.bodies.least, out2 = out_ * out_;
     bool goes = (ray.w >= out_ || ray.e * ray.e + out2 * (m.a2 + out_ * (2.0 * m.k - out_ * m.d)) > 0.0) &&
-                !(INGOING && !kd_from_outside(m, ray.e, cam.spin, cam.horizon)),
+                !(INGOING && !kd_from_outside(m, ray.w, ray.e, cam.spin, cam.horizon)),
          first = true;
     uint crossed = 0u, node = 0u, taken = 0u,
          top = emission.bodies.leaves > 1u ? 2u : 1u; /* below the ball round all of them */

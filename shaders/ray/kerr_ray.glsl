@@ -10,8 +10,9 @@
 #define KD_KERR_RAY_GLSL
 
 struct kd_ray {
-    float e, l, p; /* E, L / sin(theta_o), p_theta of the arriving photon         */
-    float w, dw;   /* M/r of the observer, and dw/dtau there along the traced path */
+    float e, l, p;                /* E, L / sin(theta_o), p_theta of the arriving photon         */
+    float w, dw;                  /* M/r of the observer, and dw/dtau there along the traced path */
+    float size_e, size_l, size_p; /* of the terms that e, l and p are sums of: by so many roundoffs they may be off */
 };
 
 /* A ray is its constants of motion and the coefficients of R(w) and U(u). */
@@ -34,6 +35,10 @@ kd_geodesic kd_geodesic_of(kd_ray ray, float a, float u, float s)
     m.d = a * a * m.q;
     return m;
 }
+
+/* A factor that A, K and Q are taken times where they are squared, and divided by after: 1, but where a float does
+ * not hold their squares, as those of a fast observer far away are. A power of two: no digit changes. */
+float kd_squared_by(kd_geodesic m) { return max(abs(m.a2), abs(m.k)) > 1e15 ? 8.6736174e-19 : 1.0; }
 
 /* This is Delta/r^2 = 1 - 2w + a^2 w^2 from root = sqrt(1 - a^2): 1 - w is exact near the horizon of a fast hole,
  * and the two factors keep their digits where the horizons all but meet. Precise: multiplied out, as a driver may,

@@ -25,11 +25,12 @@ struct kd_polar {
 kd_polar kd_polar_of(kd_geodesic m, kd_ray ray, float u, float s)
 {
     kd_polar o;
-    float root = sqrt(max(m.a2 * m.a2 + 4.0 * m.energy2 * m.q, 0.0));
+    float by = kd_squared_by(m), a2 = by * m.a2,
+          root = sqrt(max(a2 * a2 + 4.0 * (by * m.energy2) * (by * m.q), 0.0)) / by;
     o.s = root;
     o.crosses = u == 0.0 ? ray.p != 0.0 : m.q > 0.0; /* from the plane Q = p^2, which may be too small for a float */
     /* This is (s - A)/2, without cancellation for either sign of A. */
-    float b = m.a2 < 0.0 ? 0.5 * (root - m.a2) : 2.0 * m.energy2 * m.q / (root + m.a2);
+    float b = m.a2 < 0.0 ? 0.5 * (root - m.a2) : 2.0 * m.energy2 * (m.q / (root + m.a2));
     o.b = max(b, 1e-30);
 
     /* By symmetry let the observer be above the plane, and one in it start upwards. */

@@ -60,11 +60,12 @@ float kd_drag_ingoing(kd_geodesic m, kd_state y, float e, float a, float root, f
     return a * ((along ? m.k * w2 : sum) / (along ? sum : kd_horizons(y.w, root)) - e);
 }
 
-/* Says whether light that crosses the horizon here comes from outside: W > 0 there. That of the other side of the
- * hole's past is dark. */
-bool kd_from_outside(kd_geodesic m, float e, float a, float horizon)
+/* Says whether the light of an observer at w comes from outside. Only an observer at or within the horizon sees any
+ * that does not: it crosses the horizon with W < 0, out of the other side of the hole's past, and is dark. W means
+ * nothing at a horizon that a ray does not cross. */
+bool kd_from_outside(kd_geodesic m, float w, float e, float a, float horizon)
 {
-    return e + a * (a * e - m.momentum) * horizon * horizon > 0.0;
+    return w < horizon || e + a * (a * e - m.momentum) * horizon * horizon > 0.0;
 }
 
 /* This is the integral from 0 to w of dw / D = 1/(2 root) log(1 + x), x = 2 root w / (1 - r+ w); by its series where
@@ -97,28 +98,31 @@ struct kd_barrier {
 kd_barrier kd_barrier_of(kd_geodesic m, kd_ray ray, float a, float u, float horizon, float root, float epsilon)
 {
     kd_barrier o;
-    float disc = sqrt(max(9.0 * m.k * m.k + 8.0 * m.d * m.a2, 0.0));
+    float by = kd_squared_by(m), k = by * m.k, disc = sqrt(max(9.0 * k * k + 8.0 * (by * m.d) * (by * m.a2), 0.0)) / by;
     float w = m.a2 < 0.0 ? -2.0 * m.a2 / (3.0 * m.k + disc) : 2.0;
     o.open = w > 1.01 * horizon;
     o.w = min(w, horizon);
     float w2 = o.w * o.w, ae = a * ray.e, d = max(kd_delta(o.w, root), 0.0);
-    precise float fall = ray.e + a * (ae - m.momentum) * w2,
-                  size = abs(ray.e) + abs(a) * (abs(ae) + abs(m.momentum)) * w2;
-    float all = abs(ae) + abs(m.momentum), size_k = m.q + 2.0 * u * u * m.energy2 + all * all;
+    precise float fall = ray.e + a * (ae - m.momentum) * w2;
     precise float r = fall * fall - d * m.k * w2; /* rounded as `noise` counts it */
+    float size_ae = abs(a) * ray.size_e, size_j = size_ae + sqrt(max(1.0 - u * u, 0.0)) * ray.size_l,
+          size = ray.size_e + abs(a) * size_j * w2;
+    float size_k = abs(ray.p) * ray.size_p + u * u * (abs(ray.l) * ray.size_l + abs(ae) * size_ae) +
+                   (abs(ae) + abs(m.momentum)) * size_j;
+    float size_k2 = ray.size_p * ray.size_p + u * u * ray.size_l * ray.size_l + size_j * size_j;
     o.r = r;
-    o.noise = 16.0 * abs(fall) * size + 16.0 * d * size_k * w2 + 64.0 * epsilon * size * size;
+    o.noise = 16.0 * (abs(fall) * size + d * size_k * w2) + 64.0 * epsilon * (size * size + d * size_k2 * w2);
     return o;
 }
 
 /* The same from a place beside it, for an observer next to the orbits of light: R is w'^2 there, and between the two
  * places it changes by x^2 (A + 6Kw - 6Dw^2 + x (2K - 4Dw) - x^2 D), x being the way, since R' vanishes at the
  * barrier. Of w' next to 0 its square has more digits than R. */
-kd_barrier kd_barrier_beside(kd_geodesic m, kd_barrier b, kd_state y, float e, float horizon)
+kd_barrier kd_barrier_beside(kd_geodesic m, kd_barrier b, kd_state y, float size_e, float horizon)
 {
     float x = y.w - b.w, c2 = m.a2 + 6.0 * b.w * (m.k - m.d * b.w),
           hump = x * x * (c2 + x * (2.0 * m.k - 4.0 * m.d * b.w - x * m.d));
-    float noise = 16.0 * (abs(y.dw) * (abs(e) + sqrt(m.k) * y.w) + abs(x * c2) * b.w + abs(hump));
+    float noise = 16.0 * (abs(y.dw) * (size_e + sqrt(m.k) * y.w) + abs(x * c2) * b.w + abs(hump));
     if (b.w < horizon && noise < b.noise) {
         b.r = y.dw * y.dw - hump;
         b.noise = noise;
@@ -146,7 +150,7 @@ bool kd_is_decided(kd_barrier b, kd_state y, float epsilon)
 {
     float noise = epsilon * b.noise;
     bool ahead = y.dw < 0.0 ? y.w > b.w : y.w < b.w;
-    return b.open || abs(b.r) > noise || (!ahead && y.dw * y.dw > noise);
+    return (!b.open && abs(b.r) > noise) || ((b.open || !ahead) && y.dw * y.dw > noise);
 }
 
 #endif

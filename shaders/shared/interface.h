@@ -228,6 +228,9 @@
 #define KD_HISTOGRAM_BINS 512
 #define KD_HISTOGRAM_FIRST 696 /* (127 - 40) * 8 */
 
+/* Rays that a kernel leaves open are counted, and so many are listed (src/render/frame/settle.c). */
+#define KD_GIVEN_MOST 131072
+
 /* The fate plane has these values. */
 #define KD_FATE_ESCAPED 0.0
 #define KD_FATE_CAPTURED 1.0

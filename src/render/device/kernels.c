@@ -44,6 +44,7 @@
 #include "rays_kerr_schild_f64_trace.spv.h"
 #include "rays_kerr_schild_trace.spv.h"
 #include "rays_trace.spv.h"
+#include "settle.spv.h"
 #include "star_images.spv.h"
 #include "star_search.spv.h"
 #include "star_search_texels.spv.h"
@@ -96,6 +97,7 @@ static const struct kd_vk_pipeline_params sources[] = {
                                      sizeof(struct kd_footprint_push),
                                      { [1] = KD_VK_TEXELS_R } },
     [KD_KERNEL_BETWEEN] = { "between", kd_spv_between, sizeof kd_spv_between, 2, sizeof(struct kd_between_push) },
+    [KD_KERNEL_SETTLE] = { "settle", kd_spv_settle, sizeof kd_spv_settle, 2, 12 },
     [KD_KERNEL_RAYS_F32] = { "rays", kd_spv_rays, sizeof kd_spv_rays, 2, 8 },
     [KD_KERNEL_RAYS_F64] = { "rays f64", kd_spv_rays_f64, sizeof kd_spv_rays_f64, 2, 8 },
     [KD_KERNEL_RAYS_KS_F32] = { "rays Kerr-Schild", kd_spv_rays_kerr_schild, sizeof kd_spv_rays_kerr_schild, 2, 8 },

@@ -11,6 +11,7 @@ enum kd_kernel {
     KD_KERNEL_FOOTPRINT,
     KD_KERNEL_FOOTPRINT_TEXELS, /* the same, reading the lens map as texels */
     KD_KERNEL_BETWEEN,
+    KD_KERNEL_SETTLE,
     KD_KERNEL_RAYS_F32,
     KD_KERNEL_RAYS_F64,
     KD_KERNEL_RAYS_KS_F32,

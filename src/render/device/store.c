@@ -162,7 +162,10 @@ enum kd_status kd_store_lens_map(struct kd_store *store, const struct kd_plan *p
                                  bool *reused, struct kd_error *error)
 {
     /* A map that is found may have come from another store, and rays are followed beside it (refine.c). */
-    enum kd_status status = once(store->vk, &store->undecided, 16, KD_VK_DEVICE, "undecided rays", error);
+    enum kd_status status =
+        once(store->vk, &store->undecided, 4 * (1 + KD_GIVEN_MOST), KD_VK_DEVICE, "undecided rays", error);
+    if (!status)
+        status = once(store->vk, &store->undecided_host, 4, KD_VK_READBACK, "undecided rays on the host", error);
     return status ? status : find_or_make(store, plan, out, reused, error);
 }
 
@@ -402,5 +405,6 @@ static void finish_frame(struct kd_store *store)
     kd_vk_buffer_destroy(store->vk, store->star_pairs);
     kd_vk_buffer_destroy(store->vk, store->star_rays);
     kd_vk_buffer_destroy(store->vk, store->undecided);
+    kd_vk_buffer_destroy(store->vk, store->undecided_host);
     kd_vk_buffer_destroy(store->vk, store->listed);
 }

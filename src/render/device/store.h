@@ -74,7 +74,9 @@ struct kd_store {
     struct kd_vk_buffer *star_pairs; /* rays, and stars that they may see; NULL: no frame had points of light */
     struct kd_vk_buffer *star_rays;  /* rays whose stars are sought one by one */
     struct kd_vk_buffer *listed;     /* lens map of listed pixels, part by part: nothing is kept in it */
-    struct kd_vk_buffer *undecided;  /* rays that lens_map.comp gave up: a counter */
+    struct kd_vk_buffer
+        *undecided; /* rays that the kernels leave open: a counter, then the places of KD_GIVEN_MOST of them; and */
+    struct kd_vk_buffer *undecided_host; /* the counter on the host */
 };
 
 /* The lens map of the plan: *reused says that it is complete. Otherwise its buffers are there to be written, and

@@ -80,7 +80,7 @@ static enum kd_status judge_map(struct kd_frame_job *j)
     KD_TRY(kd_audit(j->r, j->scene, j->plan, j->lens, &j->lens->accuracy, j->error));
     if (j->plan->audit)
         j->audit_ms = kd_clock_ms() - start;
-    KD_TRY(kd_frame_undecided(j, &j->lens->accuracy.undecided));
+    j->lens->accuracy.undecided = j->undecided;
     kd_store_commit(j->store, j->lens, j->plan);
 done:
     return status;

@@ -23,7 +23,7 @@ struct kd_frame_job {
     struct kd_lens_map *lens;
     struct kd_star_key star_key; /* what the light of stars is made of in this frame, */
     bool stars_kept;             /* and whether it is there already */
-    uint64_t undecided;          /* listed rays that an engine gave up */
+    uint64_t undecided;          /* rays of the lens map that are given up */
     double listed_ms, audit_ms;  /* the host's time for them, and for the audit */
     double
         kernels_ms; /* and for making kernels that were not there, as the driver makes them before they are run first */
@@ -131,8 +131,6 @@ enum kd_status kd_frame_trace_rim(struct kd_frame_job *job);
 /* Layers of light that the march has brought, of what it left in the radiance (kd_plan_gathers): as far as there is
  * light. Recorded, not submitted. */
 enum kd_status kd_frame_gather(struct kd_frame_job *job);
-/* Rays of the whole map that were given up. */
-enum kd_status kd_frame_undecided(struct kd_frame_job *job, uint64_t *out);
 
 /* Tells the light of the plan's pixel, if it lies in this band, whose lens map must be there; and, when all light
  * is, what became of it. */

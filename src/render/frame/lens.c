@@ -9,6 +9,7 @@
 #include "base/clock.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define SLICE_MS 40.0 /* of device time a submission: short enough for progress, fairness and a driver's watchdog */
@@ -333,14 +334,50 @@ done:
     return status;
 }
 
+/* Settles the rays of a band that were left open; of the rows round them footprints are made anew, and light, if
+ * they are lit. */
+static enum kd_status settle_band(struct kd_frame_job *j, uint32_t band, bool lit)
+{
+    const struct kd_plan *p = j->plan;
+    const uint32_t first = kd_frame_band_first(j, band), rows = kd_frame_band_rows(j, band),
+                   reach = kd_plan_has_footprints(p) ? 2 : 0;
+    struct kd_open_rays open;
+    bool *touched = calloc(rows, sizeof *touched);
+    enum kd_status status = touched ? kd_frame_settle(j, NULL, band, &open)
+                                    : kd_error_set(j->error, KD_ENOMEM, "out of memory for %u rows", rows);
+    if (status) {
+        free(touched);
+        return status;
+    }
+    for (uint32_t i = 0; i < open.n; i++) {
+        const uint32_t row = open.places[i] / (p->width * p->side) / p->side, from = row > reach ? row - reach : 0;
+        for (uint32_t y = from; y < rows && y <= row + reach; y++)
+            touched[y] = true;
+    }
+    for (uint32_t y = 0, end; y < rows && open.n; y = end + 1) {
+        for (end = y; end < rows && touched[end];)
+            end++;
+        const struct slice s = { band, first + y, end - y };
+        if (s.count)
+            KD_TRY(footprint_slice(j, &s));
+        if (s.count && lit)
+            KD_TRY(light_slice(j, &s));
+    }
+    KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error));
+done:
+    kd_open_rays_finish(&open);
+    free(touched);
+    return status;
+}
+
 /* Lights a band slice by slice, so that what is done of a long picture can be looked at. ns: of a ray. */
 static enum kd_status light_band(struct kd_frame_job *j, uint32_t band, bool needed, double ns)
 {
     const struct kd_plan *p = j->plan;
     uint32_t first = kd_frame_band_first(j, band), rows = kd_frame_band_rows(j, band);
     uint32_t step = kd_frame_slice(ns * p->width * p->side * p->side, rows);
-    enum kd_status status = KD_OK;
-    for (uint32_t row = 0; row < rows; row += step) {
+    enum kd_status status = needed ? kd_frame_forget_open(j, NULL) : KD_OK;
+    for (uint32_t row = 0; row < rows && !status; row += step) {
         const struct slice s = { band, first + row, rows - row < step ? rows - row : step };
         const struct slice whole = needed ? complete(j, &s) : s;
         if (needed)
@@ -349,6 +386,8 @@ static enum kd_status light_band(struct kd_frame_job *j, uint32_t band, bool nee
         j->lit = whole.first + whole.count;
         KD_TRY(kd_frame_report(j, needed ? 2 * whole.count : whole.count));
     }
+    if (needed && !status)
+        KD_TRY(settle_band(j, band, true));
 done:
     return status;
 }
@@ -372,25 +411,21 @@ static enum kd_status light_at_curve(struct kd_frame_job *j, bool needed)
     return status ? status : kd_frame_light_list(j, &list, needed);
 }
 
-static enum kd_status forget_undecided(struct kd_frame_job *j)
-{
-    return j->plan->path != KD_LENS_LISTED ? kd_vk_fill(j->r->vk, "trace", j->store->undecided, 0, 16, 0, j->error)
-                                           : KD_OK;
-}
-
 /* The map of a band alone. */
 static enum kd_status map_band(struct kd_frame_job *j, uint32_t band, double ns)
 {
     const struct kd_plan *p = j->plan;
     uint32_t first = kd_frame_band_first(j, band), rows = kd_frame_band_rows(j, band);
     uint32_t step = kd_frame_slice(ns * p->width * p->side * p->side, rows);
-    enum kd_status status = KD_OK;
-    for (uint32_t row = 0; row < rows; row += step) {
+    enum kd_status status = kd_frame_forget_open(j, NULL);
+    for (uint32_t row = 0; row < rows && !status; row += step) {
         const struct slice s = { band, first + row, rows - row < step ? rows - row : step }, whole = complete(j, &s);
         KD_TRY(map_slice(j, &s, &whole));
         KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error));
         KD_TRY(kd_frame_report(j, s.count));
     }
+    if (!status)
+        KD_TRY(settle_band(j, band, false));
 done:
     return status;
 }
@@ -423,28 +458,9 @@ enum kd_status kd_frame_light(struct kd_frame_job *j, bool reused)
     const struct kd_plan *p = j->plan;
     bool needed = !reused && p->planes;
     enum kd_status status = KD_OK;
-    if (needed)
-        KD_TRY(forget_undecided(j));
     KD_TRY(light_bands(j, needed, kd_plan_light_ns(p, &c)));
     if (p->critical)
         KD_TRY(light_at_curve(j, !reused));
-done:
-    return status;
-}
-
-/* Counts the rays of the whole map that were given up. */
-enum kd_status kd_frame_undecided(struct kd_frame_job *j, uint64_t *out)
-{
-    struct kd_store *s = j->store;
-    struct kd_vk *vk = j->r->vk;
-    *out = j->undecided;
-    if (j->plan->path == KD_LENS_LISTED || !kd_plan_holds(j->plan, KD_LENS_SKY))
-        return KD_OK;
-    enum kd_status status;
-    KD_TRY(kd_vk_copy(vk, "readback", s->counts, 0, s->undecided, 0, 16, j->error));
-    KD_TRY(kd_vk_submit(vk, NULL, j->error));
-    KD_TRY(kd_vk_wait(vk, 0, j->error));
-    *out = *(const uint32_t *)kd_vk_buffer_map(s->counts);
 done:
     return status;
 }
@@ -487,8 +503,8 @@ enum kd_status kd_render_lens(struct kd_renderer *renderer, const struct kd_scen
     KD_TRY(kd_vk_buffer_create(renderer->vk, 4ull * plan->width * plan->side * plan->side * plan->band_rows,
                                KD_VK_READBACK, "lens map on the host", &host, error));
     KD_TRY(kd_frame_send_cameras(&job));
-    KD_TRY(forget_undecided(&job));
     for (uint32_t band = 0; band < plan->bands; band++) {
+        KD_TRY(kd_frame_forget_open(&job, NULL));
         uint32_t rows = kd_frame_band_rows(&job, band);
         uint32_t step = kd_frame_slice(plan->trace_ns * plan->width * plan->side * plan->side, rows);
         for (uint32_t done = 0; done < rows && !status; done += step) {
@@ -498,6 +514,8 @@ enum kd_status kd_render_lens(struct kd_renderer *renderer, const struct kd_scen
             KD_TRY(map_slice(&job, &s, &whole));
             KD_TRY(kd_vk_submit(renderer->vk, NULL, error));
         }
+        KD_TRY(status);
+        KD_TRY(settle_band(&job, band, false));
         KD_TRY(read_band(&job, band, host, planes));
     }
 done:

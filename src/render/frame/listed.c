@@ -116,6 +116,22 @@ done:
     return status;
 }
 
+/* Traces a part by the kernel, and settles what that leaves open. */
+static enum kd_status trace_and_settle(struct kd_frame_job *j, const struct kd_frame_part *part)
+{
+    struct kd_vk_dispatch d = kd_frame_trace(j, NULL, part->lens, part->list->camera);
+    struct kd_open_rays open;
+    enum kd_status status;
+    d.pass = pass_of(part, KD_PASS_TRACE);
+    KD_TRY(kd_frame_forget_open(j, part));
+    KD_TRY(run_part(j, part, 0, part->n, &d, KD_MAKES_RAYS, j->plan->trace_ns));
+    KD_TRY(kd_frame_settle(j, part, 0, &open));
+    kd_open_rays_finish(&open);
+    KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error));
+done:
+    return status;
+}
+
 /* Footprints of a part that is traced, in slices. */
 static enum kd_status footprint_part(struct kd_frame_job *j, const struct kd_frame_part *part)
 {
@@ -147,9 +163,7 @@ static enum kd_status trace_part(struct kd_frame_job *j, const struct kd_frame_p
         return kd_frame_between(j, part);
     if (j->plan->path == KD_LENS_LISTED)
         return list_part(j, part);
-    struct kd_vk_dispatch d = kd_frame_trace(j, NULL, part->lens, part->list->camera);
-    d.pass = pass_of(part, KD_PASS_TRACE);
-    return run_part(j, part, 0, part->n, &d, KD_MAKES_RAYS, j->plan->trace_ns);
+    return trace_and_settle(j, part);
 }
 
 /* A pixel's light is written anew, for the picture or a layer of light. */

@@ -5,8 +5,9 @@
 #include "render/plan/plan.h"
 #include "render/view/camera.h"
 
-/* Makes the labels of the ray at (x, y), in rays from the upper left one, as those of the plan's map are made: by
- * the kernels in single precision, of lists and rings in double. */
+/* Makes the labels of the ray at (x, y), in rays from the upper left one, in double: single precision, in which the
+ * kernels make them, moves a ray by some 1e-7 of the picture, and at a turning point, or next to the critical curve,
+ * into another one. */
 void kd_lens_label(const struct kd_scene *scene, const struct kd_plan *plan, uint32_t x, uint32_t y,
                    struct kd_camera_label *out);
 

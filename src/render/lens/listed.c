@@ -3,6 +3,7 @@
 #include "render/view/layout.h"
 
 #include "physics/kerr.h"
+#include "physics/null_course.h"
 #include "render/view/camera.h"
 #include "render/view/critical_pixels.h"
 #include "render/rays/closed.h"
@@ -18,6 +19,7 @@ struct work {
     double twist; /* of the observer's azimuth */
     double *alpha_beta, *energy;
     bool *outward;
+    bool *inwards; /* of each crossing: which way the ray goes there, traced back; NULL: the closed form tells */
     struct kd_ray_crossing *crossings;
     struct kd_ray_end *ends;
 };
@@ -27,6 +29,7 @@ static void finish(struct work *w)
     free(w->alpha_beta);
     free(w->energy);
     free(w->outward);
+    free(w->inwards);
     free(w->crossings);
     free(w->ends);
 }
@@ -103,9 +106,11 @@ static void fill_slopes(const struct work *w, const struct kd_scene *scene, uint
     for (size_t i = 0; i < w->n; i++) {
         const struct kd_ray_end *end = &w->ends[i];
         double r = w->crossings[i * w->plan->orders + order].r;
-        to[i] = order < end->n_crossings ? (float)(fabs(w->energy[i]) * kd_rays_slope(&params, w->alpha_beta + 2 * i,
-                                                                                      w->outward[i], end, order, r))
-                                         : 0;
+        const double slope =
+            order < end->n_crossings
+                ? fabs(w->energy[i]) * kd_rays_slope(&params, w->alpha_beta + 2 * i, w->outward[i], end, order, r)
+                : 0;
+        to[i] = (float)(!w->inwards ? slope : w->inwards[i * w->plan->orders + order] ? fabs(slope) : -fabs(slope));
     }
 }
 
@@ -227,6 +232,84 @@ enum kd_status kd_lens_listed(struct kd_renderer *renderer, const struct kd_scen
     KD_TRY(kd_lens_trace(renderer, scene, plan, &plan->setting, &labels, w.crossings, w.ends, error));
     KD_TRY(upload(renderer, scene, &w, rows, error));
     for (size_t i = 0; i < w.n; i++)
+        *undecided += w.ends[i].fate == KD_RAY_UNDECIDED;
+done:
+    finish(&w);
+    return status;
+}
+
+#define NEAR 1e-4 /* of the horizon's radius: crossings nearer to it from outside are as good as on it */
+enum { PLACES = 2048 };
+
+static void follow_within(struct work *w, const struct kd_scene *scene, size_t i, struct kd_null_place *places)
+{
+    const struct kd_vantage at = kd_scene_vantage(scene);
+    const double horizon = kd_kerr_horizon(at.spin);
+    const uint32_t orders = w->plan->orders ? w->plan->orders : 1;
+    const bool reversed = w->energy[i] < 0;
+    const struct kd_null_ray ray = {
+        .spin = at.spin,
+        .radius = at.r,
+        .cos_theta = at.u,
+        .sin_theta = at.s,
+        .alpha = w->alpha_beta[2 * i],
+        .beta = w->alpha_beta[2 * i + 1],
+        .outward = w->outward[i],
+        .orders = (int)orders,
+    };
+    const struct kd_null_course course =
+        kd_null_course_ingoing(&ray, reversed, INFINITY, NEAR * horizon, places, PLACES);
+    struct kd_ray_end *end = &w->ends[i];
+    *end = (struct kd_ray_end) { .fate = course.end == KD_COURSE_ESCAPED    ? KD_RAY_ESCAPED
+                                         : course.end == KD_COURSE_CAPTURED ? KD_RAY_CAPTURED
+                                                                            : KD_RAY_UNDECIDED };
+    for (size_t k = 0; k + 1 < course.n; k++) {
+        const struct kd_null_place *p = &places[k];
+        if (p->crossing < 0 || (uint32_t)p->crossing >= orders || p->r <= horizon)
+            continue;
+        const double twist = kd_kerr_twist(at.spin, p->r);
+        w->crossings[i * orders + (uint32_t)p->crossing] =
+            (struct kd_ray_crossing) { .r = p->r, .phi = p->phi + (reversed ? -twist : twist), .delay = p->delay };
+        w->inwards[i * orders + (uint32_t)p->crossing] = places[k + 1].r < p->r;
+        end->n_crossings = (uint32_t)p->crossing + 1;
+    }
+    if (end->fate == KD_RAY_ESCAPED) {
+        end->theta = acos(places[course.n - 1].u);
+        end->phi = places[course.n - 1].phi;
+    }
+}
+
+/* By the steps of physics/null_course.h in ingoing coordinates: of an observer within the horizon, where closed
+ * forms end. */
+static enum kd_status trace_within(struct work *w, const struct kd_scene *scene, struct kd_error *error)
+{
+    const size_t orders = w->plan->orders ? w->plan->orders : 1;
+    struct kd_null_place *places = malloc(PLACES * sizeof *places);
+    w->inwards = calloc(w->n * orders, sizeof *w->inwards);
+    for (size_t i = 0; places && w->inwards && i < w->n; i++)
+        follow_within(w, scene, i, places);
+    free(places);
+    return places && w->inwards ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for %zu rays", w->n);
+}
+
+enum kd_status kd_lens_again(const struct kd_scene *scene, const struct kd_plan *plan,
+                             const struct kd_camera_label *labels, size_t n, float *planes, uint64_t *undecided,
+                             struct kd_error *error)
+{
+    const struct kd_setting closed = { .engine = KD_ENGINE_CLOSED, .precision = KD_PRECISION_F64 };
+    struct work w;
+    enum kd_status status = init(&w, scene, plan, n, error);
+    if (status)
+        return status;
+    for (size_t i = 0; i < n; i++)
+        keep(&w, i, &labels[i]);
+    const struct kd_ray_labels rays = { w.alpha_beta, w.outward, n };
+    if (scene->camera.r > kd_kerr_horizon(scene->spacetime.spin))
+        KD_TRY(kd_lens_trace(NULL, scene, plan, &closed, &rays, w.crossings, w.ends, error));
+    else
+        KD_TRY(trace_within(&w, scene, error));
+    fill(&w, scene, planes);
+    for (size_t i = 0; i < n; i++)
         *undecided += w.ends[i].fate == KD_RAY_UNDECIDED;
 done:
     finish(&w);

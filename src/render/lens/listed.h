@@ -21,6 +21,14 @@ struct kd_lens_rows {
 enum kd_status kd_lens_listed(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
                               const struct kd_lens_rows *rows, uint64_t *undecided, struct kd_error *error);
 
+struct kd_camera_label;
+/* Fills plan->planes planes of n numbers each, but for footprints, with rays that are followed in double on the
+ * host: in closed form, and of an observer within the horizon by steps. *undecided grows by those that are on the
+ * critical curve to the last digit. */
+enum kd_status kd_lens_again(const struct kd_scene *scene, const struct kd_plan *plan,
+                             const struct kd_camera_label *labels, size_t n, float *planes, uint64_t *undecided,
+                             struct kd_error *error);
+
 /* The rays of a plan by any engine, as kd_rays_device and kd_rays_closed; no g, no errors. */
 enum kd_status kd_lens_trace(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
                              const struct kd_setting *by, const struct kd_ray_labels *rays,

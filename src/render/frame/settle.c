@@ -1,0 +1,137 @@
+/* This settles rays that the kernels leave open: whose end, or number of crossings, single precision cannot tell.
+ * They are few, are followed again in closed form, in double on the host, and take their places in the lens map
+ * before anything reads it, or what has read it is made anew. */
+#include "render/frame/lens.h"
+
+#include "render/lens/listed.h"
+#include "render/view/camera.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const char *pass_of(const struct kd_frame_part *part)
+{
+    return part && part->list->pass ? part->list->pass : kd_passes[KD_PASS_TRACE].name;
+}
+
+enum kd_status kd_frame_forget_open(struct kd_frame_job *j, const struct kd_frame_part *part)
+{
+    return j->plan->path != KD_LENS_LISTED ? kd_vk_fill(j->r->vk, pass_of(part), j->store->undecided, 0, 4, 0, j->error)
+                                           : KD_OK;
+}
+
+/* Reads so many words of what the kernels left, from the first on. */
+static enum kd_status read_words(struct kd_frame_job *j, struct kd_vk_buffer *host, uint64_t words)
+{
+    enum kd_status status;
+    KD_TRY(kd_vk_copy(j->r->vk, "readback", host, 0, j->store->undecided, 0, 4 * words, j->error));
+    KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error));
+    KD_TRY(kd_vk_wait(j->r->vk, 0, j->error));
+done:
+    return status;
+}
+
+/* Follows them, and sends them to their places. words: those places, before the planes. */
+static enum kd_status follow(struct kd_frame_job *j, const struct kd_open_rays *open, const char *pass,
+                             struct kd_vk_buffer *host, struct kd_vk_buffer *device)
+{
+    const struct kd_plan *p = j->plan;
+    uint32_t *words = kd_vk_buffer_map(host);
+    const uint32_t push[3] = { open->n, p->planes, open->stride };
+    struct kd_vk_dispatch d = {
+        pass, NULL, { { open->lens, 0, 0, true }, { device, 0, 0, false } }, push, { kd_frame_groups(open->n) }
+    };
+    enum kd_status status;
+    memcpy(words, open->places, 4ull * open->n);
+    KD_TRY(kd_lens_again(j->scene, p, open->labels, open->n, (float *)words + open->n, &j->undecided, j->error));
+    KD_TRY(kd_vk_copy(j->r->vk, "upload", device, 0, host, 0, 4ull * open->n * (1 + p->planes), j->error));
+    KD_TRY(kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_SETTLE, NULL, 0, &d.pipeline, j->error));
+    KD_TRY(kd_vk_dispatch(j->r->vk, &d, j->error));
+done:
+    return status;
+}
+
+static enum kd_status send(struct kd_frame_job *j, const struct kd_open_rays *open, const char *pass)
+{
+    const uint64_t bytes = 4ull * open->n * (1 + j->plan->planes);
+    struct kd_vk_buffer *host = NULL, *device = NULL;
+    enum kd_status status;
+    KD_TRY(kd_vk_buffer_create(j->r->vk, bytes, KD_VK_UPLOAD, "rays that were settled", &host, j->error));
+    KD_TRY(
+        kd_vk_buffer_create(j->r->vk, bytes, KD_VK_DEVICE, "rays that were settled, on the device", &device, j->error));
+    memset(kd_vk_buffer_map(host), 0, bytes); /* footprints, which are made anew */
+    KD_TRY(follow(j, open, pass, host, device));
+done:
+    kd_vk_buffer_destroy(j->r->vk, host);
+    kd_vk_buffer_destroy(j->r->vk, device);
+    return status;
+}
+
+/* The labels of those whose places are known. */
+static void label(const struct kd_frame_job *j, struct kd_open_rays *open, const struct kd_frame_part *part,
+                  uint32_t band)
+{
+    const struct kd_critical_lattice *l = part ? &part->list->lattice : NULL;
+    const struct kd_scene camera = part ? kd_critical_camera(j->scene, kd_critical_steps(l)) : *j->scene;
+    const struct kd_camera_exact exact = kd_camera_exact(&camera);
+    const uint32_t width = part ? l->rays : j->plan->width * j->plan->side,
+                   row0 = part ? 0 : kd_frame_band_first(j, band) * j->plan->side;
+    for (uint32_t i = 0; i < open->n; i++) {
+        struct kd_pixel at = { open->places[i] % width, row0 + open->places[i] / width };
+        if (part)
+            at = kd_critical_place(l, part->list->pixels->pixels[part->first + at.y], at.x);
+        kd_camera_label(&exact, at.x, at.y, &open->labels[i]);
+    }
+}
+
+static enum kd_status settle(struct kd_frame_job *j, struct kd_open_rays *open, const struct kd_frame_part *part,
+                             uint32_t band, uint32_t found)
+{
+    struct kd_vk_buffer *host = NULL;
+    enum kd_status status;
+    KD_TRY(
+        kd_vk_buffer_create(j->r->vk, 4ull * (1 + open->n), KD_VK_READBACK, "open rays on the host", &host, j->error));
+    KD_TRY(read_words(j, host, 1 + open->n));
+    open->places = malloc(open->n * sizeof *open->places);
+    open->labels = malloc(open->n * sizeof *open->labels);
+    if (!open->places || !open->labels)
+        KD_TRY(kd_error_set(j->error, KD_ENOMEM, "out of memory for %u rays", open->n));
+    memcpy(open->places, (const uint32_t *)kd_vk_buffer_map(host) + 1, open->n * sizeof *open->places);
+    label(j, open, part, band);
+    j->undecided += found - open->n;
+    KD_TRY(send(j, open, pass_of(part)));
+done:
+    kd_vk_buffer_destroy(j->r->vk, host);
+    return status;
+}
+
+void kd_open_rays_finish(struct kd_open_rays *open)
+{
+    free(open->places);
+    free(open->labels);
+    *open = (struct kd_open_rays) { 0 };
+}
+
+enum kd_status kd_frame_settle(struct kd_frame_job *j, const struct kd_frame_part *part, uint32_t band,
+                               struct kd_open_rays *open)
+{
+    const struct kd_plan *p = j->plan;
+    *open = (struct kd_open_rays) {
+        .lens = part ? part->lens : kd_frame_band_lens(j, band),
+        .stride = part ? part->push.stride : p->width * p->side * p->band_rows * p->side,
+    };
+    if (p->path == KD_LENS_LISTED || !p->planes)
+        return KD_OK;
+    enum kd_status status;
+    KD_TRY(read_words(j, j->store->undecided_host, 1));
+    const uint32_t found = *(const uint32_t *)kd_vk_buffer_map(j->store->undecided_host);
+    if (!found)
+        return KD_OK;
+    open->n = found < KD_GIVEN_MOST ? found : KD_GIVEN_MOST;
+    KD_TRY(settle(j, open, part, band, found));
+    KD_TRY(kd_frame_forget_open(j, part));
+done:
+    if (status)
+        kd_open_rays_finish(open);
+    return status;
+}
