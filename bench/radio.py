@@ -33,7 +33,8 @@ SCENES = {  # arguments of `kerrd render`; whether light is polarised
     "riaf, kappa electrons, polarised": (["-p", "riaf", *KAPPA, *TRANSFER], True),
     "torus, polarised": (["-p", "torus", *TRANSFER], True),
 }
-# Rays/s and core, measured: unpolarised, gold-1 by Dormand and Prince in Kerr-Schild coordinates; polarised, ipole's riaf.
+# Rays/s and core, measured: unpolarised, gold-1 by Dormand and Prince in Kerr-Schild coordinates; polarised, ipole's
+# riaf.
 BLACKLIGHT, IPOLE = 3000, 89
 
 

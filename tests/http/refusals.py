@@ -5,13 +5,10 @@ that are damaged or beyond each limit.
     REPEATS=200 refusals.py SERVER  the long run"""
 
 import io
-import json
 import os
 import re
 import struct
-import unittest
 import zipfile
-import zlib
 
 import assets
 import daemon

@@ -2,7 +2,6 @@
 
 import re
 import struct
-import urllib.parse
 
 import daemon
 

@@ -157,9 +157,9 @@ class Rows(daemon.Case):
         session = self.daemon.post("/v1/sessions", {"image": {"width": 64, "height": 36}}).json()
         got = self.ask(f"DELETE /v1/sessions/{session['id']}?token={session['token']}", HOST)
         self.assertStatus(got, 204)
-        for got in got, self.ask("OPTIONS *", HOST):
-            self.assertEqual(self.field(got, "Transfer-Encoding") + self.field(got, "Content-Length"), [], got)
-            self.assertEqual(got.partition("\r\n\r\n")[2], "")
+        for each in got, self.ask("OPTIONS *", HOST):
+            self.assertEqual(self.field(each, "Transfer-Encoding") + self.field(each, "Content-Length"), [], each)
+            self.assertEqual(each.partition("\r\n\r\n")[2], "")
 
     def one_framing(self):
         rays = self.ask("POST /v1/rays", HOST, JSON, "Content-Length: 16", body='{"rays":[[1,2]]}')

@@ -3,8 +3,8 @@
 import asyncio
 import contextlib
 import http.client
-import importlib.util
 import http.server
+import importlib.util
 import io
 import json
 import os

@@ -293,9 +293,9 @@ class Orbits(Browser):
             .locator("input[type=range]")
         )
         before = float(page.input_value("#in-orbit-p"))
-        for key, value in (("ArrowRight", 0.1), ("ArrowUp", 0.2), ("ArrowLeft", 0.1)):
+        for key, more in (("ArrowRight", 0.1), ("ArrowUp", 0.2), ("ArrowLeft", 0.1)):
             slider.press(key)
-            self.assertAlmostEqual(float(page.input_value("#in-orbit-p")), before + value, delta=1e-9, msg=key)
+            self.assertAlmostEqual(float(page.input_value("#in-orbit-p")), before + more, delta=1e-9, msg=key)
 
     def test_reduced_motion(self):
         page = self.open("lang=en&view=orbits", "#orbit-picture .body[cx]", reduced_motion="reduce")

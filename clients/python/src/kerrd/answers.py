@@ -16,24 +16,7 @@ Columns: TypeAlias = dict[str, NDArray[np.float64]]
 
 
 class PlanPass(TypedDict):
-    name: Literal[
-        "trace",
-        "footprint",
-        "audit",
-        "particles",
-        "stars",
-        "transfer",
-        "march",
-        "march_error",
-        "refine",
-        "layers",
-        "light",
-        "beam",
-        "expose",
-        "bloom",
-        "post",
-        "readback",
-    ]
+    name: Literal['trace', 'footprint', 'audit', 'particles', 'stars', 'transfer', 'march', 'march_error', 'refine', 'layers', 'light', 'beam', 'expose', 'bloom', 'post', 'readback']
     kernel: NotRequired[str]
     invocations: int
     estimate_ms: float
@@ -49,11 +32,11 @@ class PlanConstants(TypedDict):
 
 
 class PlanAccuracy(TypedDict):
-    engine: Literal["closed", "mino-rkn4", "mino-rkn6", "ks-euler", "ks-rk4", "ks-tao6"]
-    precision: Literal["f32", "f64"]
+    engine: Literal['closed', 'mino-rkn4', 'mino-rkn6', 'ks-euler', 'ks-rk4', 'ks-tao6']
+    precision: Literal['f32', 'f64']
     steps: int
     holds: NotRequired[float]
-    table: Literal["measured", "built-in"]
+    table: Literal['measured', 'built-in']
 
 
 class PlanBytes(TypedDict):
@@ -78,27 +61,24 @@ class Plan(TypedDict):
     lens_map_cacheable: bool
     lens_map_key: str
     estimate_ms: float
-    estimate_basis: Literal["measured", "guess"]
+    estimate_basis: Literal['measured', 'guess']
     approximations: list[str]
 
 
-RayConstants = TypedDict(
-    "RayConstants",
-    {
-        "alpha": "float",
-        "beta": "float",
-        "lambda": "float",
-        "eta": "float",
-        "E": "float",
-        "L": "float",
-        "Q": "float",
-        "outward": "bool",
-    },
-)
+RayConstants = TypedDict('RayConstants', {
+    'alpha': 'float',
+    'beta': 'float',
+    'lambda': 'float',
+    'eta': 'float',
+    'E': 'float',
+    'L': 'float',
+    'Q': 'float',
+    'outward': 'bool',
+})
 
 
 class RayRadial(TypedDict):
-    case: Literal["I", "II", "III", "IV"]
+    case: Literal['I', 'II', 'III', 'IV']
     real_roots: int
     roots: list[list[float]]
     horizon_r: float
@@ -106,7 +86,7 @@ class RayRadial(TypedDict):
 
 
 class RayPolar(TypedDict):
-    case: Literal["ordinary", "vortical", "fixed"]
+    case: Literal['ordinary', 'vortical', 'fixed']
     roots: list[float]
     theta: list[float]
 
@@ -118,23 +98,7 @@ class PixelPictured(TypedDict):
 
 
 class PixelGlow(TypedDict):
-    name: Literal[
-        "disk",
-        "particles",
-        "plunge",
-        "spots",
-        "ringdown",
-        "sky",
-        "gas",
-        "volume",
-        "jets",
-        "thick",
-        "bodies",
-        "debris",
-        "polarization",
-        "plasma",
-        "stokes",
-    ]
+    name: Literal['disk', 'particles', 'plunge', 'spots', 'ringdown', 'sky', 'gas', 'volume', 'jets', 'thick', 'bodies', 'debris', 'polarization', 'plasma', 'stokes']
     light: list[float]
     seen: list[float]
     luminance: float
@@ -162,23 +126,7 @@ class PixelCrossing(TypedDict):
 
 
 class PixelVolume(TypedDict):
-    name: Literal[
-        "disk",
-        "particles",
-        "plunge",
-        "spots",
-        "ringdown",
-        "sky",
-        "gas",
-        "volume",
-        "jets",
-        "thick",
-        "bodies",
-        "debris",
-        "polarization",
-        "plasma",
-        "stokes",
-    ]
+    name: Literal['disk', 'particles', 'plunge', 'spots', 'ringdown', 'sky', 'gas', 'volume', 'jets', 'thick', 'bodies', 'debris', 'polarization', 'plasma', 'stokes']
     seen: list[float]
     luminance_seen: float
     optical_depth: float | None
@@ -210,23 +158,7 @@ class PixelAlong(TypedDict):
 
 
 class PixelMet(TypedDict):
-    name: Literal[
-        "disk",
-        "particles",
-        "plunge",
-        "spots",
-        "ringdown",
-        "sky",
-        "gas",
-        "volume",
-        "jets",
-        "thick",
-        "bodies",
-        "debris",
-        "polarization",
-        "plasma",
-        "stokes",
-    ]
+    name: Literal['disk', 'particles', 'plunge', 'spots', 'ringdown', 'sky', 'gas', 'volume', 'jets', 'thick', 'bodies', 'debris', 'polarization', 'plasma', 'stokes']
     index: int
     order: int
     r: float
@@ -242,7 +174,7 @@ class PixelMet(TypedDict):
 
 
 class PixelEnd(TypedDict):
-    fate: Literal["captured", "escaped", "undecided"]
+    fate: Literal['captured', 'escaped', 'undecided']
     why: str
     through: float
     optical_depth: float | None
@@ -269,7 +201,7 @@ class PixelColour(TypedDict):
 class PixelPath(TypedDict):
     steps: int
     least_r: float
-    coordinates: Literal["ingoing", "Boyer-Lindquist"]
+    coordinates: Literal['ingoing', 'Boyer-Lindquist']
     whole: bool
     columns: list[str]
     points: list[list[float | None]]
@@ -277,10 +209,10 @@ class PixelPath(TypedDict):
 
 class PixelTrace(TypedDict):
     none: NotRequired[str]
-    engine: NotRequired[Literal["closed", "mino-rkn4", "mino-rkn6", "ks-euler", "ks-rk4", "ks-tao6"]]
-    precision: NotRequired[Literal["f32", "f64"]]
+    engine: NotRequired[Literal['closed', 'mino-rkn4', 'mino-rkn6', 'ks-euler', 'ks-rk4', 'ks-tao6']]
+    precision: NotRequired[Literal['f32', 'f64']]
     steps_a_half_period: NotRequired[int]
-    fate: NotRequired[Literal["captured", "escaped", "undecided"]]
+    fate: NotRequired[Literal['captured', 'escaped', 'undecided']]
     crossings: NotRequired[int]
     not_shown: NotRequired[int]
     same_without_trace: NotRequired[bool]
@@ -289,8 +221,8 @@ class PixelTrace(TypedDict):
 
 
 class PixelAccuracy(TypedDict):
-    engine: Literal["closed", "mino-rkn4", "mino-rkn6", "ks-euler", "ks-rk4", "ks-tao6"]
-    precision: Literal["f32", "f64"]
+    engine: Literal['closed', 'mino-rkn4', 'mino-rkn6', 'ks-euler', 'ks-rk4', 'ks-tao6']
+    precision: Literal['f32', 'f64']
     steps: int
     closed_form: float | None
     picture: float | None
@@ -330,7 +262,7 @@ class Pixel(TypedDict):
     polarization: NotRequired[PixelPolarization]
     lost: int
     pixel: list[float]
-    eye: NotRequired[Literal["left", "right"]]
+    eye: NotRequired[Literal['left', 'right']]
     rays: int
     colour: PixelColour
     path: PixelPath
@@ -407,8 +339,8 @@ class OrbitDifference(TypedDict):
 
 
 class OrbitResult(TypedDict):
-    method: Literal["yoshida6", "rkn6", "closed"]
-    end: Literal["duration", "horizon", "r_max"]
+    method: Literal['yoshida6', 'rkn6', 'closed']
+    end: Literal['duration', 'horizon', 'r_max']
     mino_end: float | None
     steps: NotRequired[int]
     mino_step: NotRequired[float | None]
@@ -422,7 +354,7 @@ class OrbitResult(TypedDict):
 
 class OrbitPath(TypedDict):
     spin: float
-    fate: Literal["bound", "plunge", "escape"]
+    fate: Literal['bound', 'plunge', 'escape']
     circular: bool
     constants: OrbitConstants
     turning_points: OrbitTurningPoints
@@ -465,7 +397,7 @@ class LineProfileValues(TypedDict):
 
 
 class LineProfile(TypedDict):
-    integral: Literal["line"]
+    integral: Literal['line']
     parameters: LineProfileParameters
     values: LineProfileValues
     columns: Columns
@@ -488,7 +420,7 @@ class TransferFunctionValues(TypedDict):
 
 
 class TransferFunction(TypedDict):
-    integral: Literal["transfer-function"]
+    integral: Literal['transfer-function']
     parameters: TransferFunctionParameters
     values: TransferFunctionValues
     columns: Columns
@@ -520,7 +452,7 @@ class DiskSpectrumValues(TypedDict):
 
 
 class DiskSpectrum(TypedDict):
-    integral: Literal["spectrum"]
+    integral: Literal['spectrum']
     parameters: DiskSpectrumParameters
     values: DiskSpectrumValues
     columns: Columns
@@ -544,7 +476,7 @@ class VolumeSpectrumValues(TypedDict):
 
 
 class VolumeSpectrum(TypedDict):
-    integral: Literal["spectrum"]
+    integral: Literal['spectrum']
     parameters: VolumeSpectrumParameters
     values: VolumeSpectrumValues
     columns: Columns
@@ -574,7 +506,7 @@ class VisibilitiesValues(TypedDict):
 
 
 class Visibilities(TypedDict):
-    integral: Literal["visibility"]
+    integral: Literal['visibility']
     parameters: VisibilitiesParameters
     values: VisibilitiesValues
     columns: Columns
@@ -591,7 +523,7 @@ class PresetTold(TypedDict):
 
 
 class DeviceSelftest(TypedDict):
-    result: Literal["passed", "failed", "not run"]
+    result: Literal['passed', 'failed', 'not run']
     checks: NotRequired[int]
     failed: NotRequired[int]
     seconds: NotRequired[float]
@@ -610,7 +542,7 @@ class DeviceLimits(TypedDict):
 
 
 class DeviceFigures(TypedDict):
-    basis: Literal["measured", "guess"]
+    basis: Literal['measured', 'guess']
     ray_radius: float
     ray_full: float
     sample_transfer: float
@@ -622,13 +554,13 @@ class DeviceFigures(TypedDict):
 class Device(TypedDict):
     kerrd: str
     name: str
-    type: Literal["other device", "CPU", "virtual GPU", "integrated GPU", "discrete GPU"]
+    type: Literal['other device', 'CPU', 'virtual GPU', 'integrated GPU', 'discrete GPU']
     driver: str
     driver_info: str
     vulkan: str
     index: int
     choice: str
-    precision: list[Literal["f32", "f64"]]
+    precision: list[Literal['f32', 'f64']]
     float64_hardware: bool
     timestamps: bool
     selftest: DeviceSelftest
@@ -673,7 +605,7 @@ class Session(TypedDict):
     frame: int
     viewers: int
     scene: dict[str, Any]
-    varies: list[Literal["moves_with_time", "dims_with_time", "moves_with_azimuth"]]
+    varies: list[Literal['moves_with_time', 'dims_with_time', 'moves_with_azimuth']]
     emitters: list[EmitterTold]
     path: NotRequired[SessionPath]
     rendering: NotRequired[SessionRendering]
@@ -685,8 +617,8 @@ class Session(TypedDict):
 class Job(TypedDict):
     id: str
     token: NotRequired[str]
-    state: Literal["waiting", "running", "done", "failed", "deleted"]
-    output: Literal["pictures", "layers", "npy", "npz", "fits", "exr", "cube", "light-curve"]
+    state: Literal['waiting', 'running', 'done', 'failed', 'deleted']
+    output: Literal['pictures', 'layers', 'npy', 'npz', 'fits', 'exr', 'cube', 'light-curve']
     place: int
     frames: int
     finished: int
@@ -705,7 +637,7 @@ class Job(TypedDict):
 class Asset(TypedDict):
     sha256: str
     token: NotRequired[str]
-    type: Literal["image/png", "application/x-npz"]
+    type: Literal['image/png', 'application/x-npz']
     width: NotRequired[int]
     height: NotRequired[int]
     bit_depth: NotRequired[int]
