@@ -11,6 +11,7 @@ import measure
 
 sys.path[:0] = [str(measure.ROOT / "tests" / "faults"), str(measure.ROOT / "tests" / "http")]
 import faults  # noqa: E402
+
 import vulkan  # noqa: E402
 
 CHANGES = faults.CREATE | faults.WRITE | faults.RENAME | faults.SYNC

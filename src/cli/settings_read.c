@@ -22,7 +22,7 @@
 
 /* Variables that are no options of the server: what Vulkan does is for developers, and the scripts beside the
  * sources have one of their own. */
-static const char *const others[] = { "KERRD_VALIDATE", "KERRD_WERROR" };
+static const char *const others[] = { "KERRD_VALIDATE", "KERRD_WATCH", "KERRD_WERROR" };
 
 void kd_setting_variable(const struct kd_cli_setting *setting, char out[KD_SETTING_VARIABLE])
 {

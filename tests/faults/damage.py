@@ -14,9 +14,10 @@ import shutil
 import subprocess
 import unittest.mock
 
+import faults
+
 import assets
 import daemon
-import faults
 import state
 from job_case import SCENE
 

@@ -15,9 +15,10 @@ import subprocess
 import tempfile
 import unittest
 
+import faults
+
 import daemon
 import damage
-import faults
 import sweep
 
 SCENE = {"image": {"width": 32, "height": 18}}

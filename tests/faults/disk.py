@@ -9,9 +9,10 @@ import errno
 import os
 import threading
 
+import faults
+
 import assets
 import daemon
-import faults
 import state
 from job_case import SCENE
 

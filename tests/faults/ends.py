@@ -8,8 +8,9 @@ import json
 import resource
 import time
 
-import daemon
 import faults
+
+import daemon
 import state
 from job_case import SCENE
 

@@ -5,8 +5,9 @@ jumps.py FAULTS SERVER"""
 
 import time
 
-import daemon
 import faults
+
+import daemon
 import state
 from job_case import SCENE
 

@@ -4,9 +4,10 @@ the whole document, nothing leaks, the server lives and answers the same request
     memory.py FAULTS SERVER                 some allocations of each request
     KD_WHOLE=1 memory.py FAULTS SERVER      all of them"""
 
+import faults
+
 import assets
 import daemon
-import faults
 import sweep
 
 IMAGE = {"image": {"width": 32, "height": 18}}

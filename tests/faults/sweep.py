@@ -6,8 +6,9 @@ import http.client
 import json
 import unittest
 
-import daemon
 import faults  # first: it knows where daemon is
+
+import daemon
 
 PROBLEM = {"type", "title", "status", "detail"}
 

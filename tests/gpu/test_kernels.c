@@ -56,7 +56,7 @@ static void what_cannot_be_made_is_told_later(void **state)
         OK(kd_kernels_get_of(&renderer->kernels, renderer->vk, &broken, &i, 1, &out, &error));
     kd_kernels_make(&renderer->kernels, renderer->vk);
     assert_int_equal(made(), before);
-    assert_int_equal(kd_kernels_get_of(&renderer->kernels, renderer->vk, &broken, NULL, 0, &out, &why), KD_EINVAL);
+    assert_int_equal(kd_kernels_get_of(&renderer->kernels, renderer->vk, &broken, NULL, 0, &out, &why), KD_EINTERNAL);
     assert_non_null(strstr(why.message, "broken"));
 }
 

@@ -1,7 +1,8 @@
 """The picture alone, in all of the window: alone.py KERRD FOLDER (browser.py)."""
 
-import daemon
 from browser import AT_REST, FINE, Browser, main
+
+import daemon
 
 
 class Alone(Browser):

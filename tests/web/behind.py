@@ -18,6 +18,7 @@ import urllib.parse
 PROXY = sys.argv.pop(3)
 
 import browser  # noqa: E402
+
 import daemon  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]

@@ -3,8 +3,9 @@
 import json
 import math
 
-import daemon
 from browser import AT_REST, SMOOTH, Browser, main, value
+
+import daemon
 
 SKY = SMOOTH + "&lang=en&disk.model=none&sky.model=catalogue&sky.milky_way=0&spacetime.spin=0&camera.fov_deg=90"
 

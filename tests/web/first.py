@@ -3,8 +3,9 @@
 import json
 import re
 
-import daemon
 from browser import AT_REST, PATIENCE_MS, Browser, main
+
+import daemon
 
 
 class First(Browser):

@@ -2,8 +2,9 @@
 
 import math
 
-import daemon
 from browser import AT_REST, SMOOTH, Browser, main, value
+
+import daemon
 
 FACE_ON = (
     SMOOTH + "&lang=en&spacetime.spin=0&camera.r=infinity&camera.field_m=40&camera.inclination_deg=0&sky.model=none"

@@ -6,8 +6,9 @@ import pathlib
 import re
 import subprocess
 
-import daemon
 from browser import AT_REST, FINE, KERRD, READY, SMOOTH, VIEWS, Browser, main, paths, rows, value
+
+import daemon
 
 # bytes of all that a visit to every view loads, as sent, without pictures and what a playground tells as it goes
 BUDGET = 300_000

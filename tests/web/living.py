@@ -5,8 +5,9 @@ import math
 import pathlib
 import time
 
-import daemon
 from browser import AT_REST, FINE, SMOOTH, Browser, main, value
+
+import daemon
 
 
 class Living(Browser):

@@ -1,7 +1,8 @@
 """The view of orbits: orbits.py KERRD FOLDER (browser.py)."""
 
-import daemon
 from browser import READY, SMOOTH, Browser, main, value
+
+import daemon
 
 
 class Orbits(Browser):

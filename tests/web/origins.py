@@ -9,6 +9,7 @@ import threading
 import unittest
 
 import browser
+
 import daemon
 
 TOKEN = "render-0123456789abcdef"

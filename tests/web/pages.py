@@ -4,8 +4,9 @@ import json
 import pathlib
 import re
 
-import daemon
 from browser import AT_REST, FINE, READY, VIEWS, Browser, main, rows
+
+import daemon
 
 # Controls that stick out of the page, and buttons that lie over one another.
 CROWDED = """() => {

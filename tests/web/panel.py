@@ -2,8 +2,9 @@
 
 import re
 
-import daemon
 from browser import AT_REST, Browser, main, rows
+
+import daemon
 
 GROUPS = ("look", "gas", "hole", "camera", "more")
 SIZES = ((390, 844), (1024, 700), (1440, 900))

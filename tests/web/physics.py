@@ -3,8 +3,9 @@
 import pathlib
 import re
 
-import daemon
 from browser import AT_REST, READY, SMOOTH, Browser, main
+
+import daemon
 
 
 class Physics(Browser):

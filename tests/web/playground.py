@@ -5,8 +5,9 @@ import math
 import struct
 import subprocess
 
-import daemon
 from browser import KERRD, Browser, main, value
+
+import daemon
 
 THERE = "#play-plane[data-bodies]"
 ARROW_PX = 90  # of the speed of a circle, clients/web/hands.js

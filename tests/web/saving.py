@@ -5,8 +5,9 @@ import pathlib
 import struct
 import zipfile
 
-import daemon
 from browser import FINE, SMOOTH, Browser, main
+
+import daemon
 
 
 def chunks(png):

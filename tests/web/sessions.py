@@ -4,8 +4,9 @@ import itertools
 import json
 import re
 
-import daemon
 from browser import AT_REST, FINE, READY, Browser, main
+
+import daemon
 
 
 class Sessions(Browser):

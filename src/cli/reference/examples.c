@@ -61,6 +61,7 @@ const size_t kd_n_examples = sizeof kd_examples / sizeof *kd_examples;
 const struct kd_variable kd_variables[] = {
     { "KERRD_DEVICE", NULL, "the Vulkan device, where --device names none; as that takes it" },
     { "KERRD_VALIDATE", NULL, "1: use Vulkan's validation layer and report what it finds, for developers" },
+    { "KERRD_WATCH", NULL, "tell: a build that watches the server's threads reports what breaks a rule and goes on" },
     { "XDG_CACHE_HOME", NULL,
       "the folder in which kerrd/ keeps compiled kernels, and what has been measured of a device; ~/.cache where it is "
       "not set" },
