@@ -222,8 +222,22 @@ class Pictures(Case):
         )
 
     def test_no_picture_under_a_false_name(self):
-        self.bad(2, "the name must end in .png, .npy, .npz, .fits, .exr or .stars", "render", *SMALL, "-o", self.path("a.JPG"))
-        self.bad(2, "the name must end in .png, .npy, .npz, .fits, .exr or .stars", "render", *SMALL, "-o", self.path("a.hdr"))
+        self.bad(
+            2,
+            "the name must end in .png, .npy, .npz, .fits, .exr or .stars",
+            "render",
+            *SMALL,
+            "-o",
+            self.path("a.JPG"),
+        )
+        self.bad(
+            2,
+            "the name must end in .png, .npy, .npz, .fits, .exr or .stars",
+            "render",
+            *SMALL,
+            "-o",
+            self.path("a.hdr"),
+        )
         self.assertEqual(os.listdir(self.folder), [])
 
     def test_damaged_pictures(self):

@@ -39,7 +39,8 @@ static bool planned(const struct kd_plan *plan, const char *name)
         if (!strcmp(plan->passes[i].name, name))
             return true;
     /* "rays": the device's share of a "trace" by listed rays; "kernels": made because they were not there */
-    return !strcmp(name, "kernels") || !strcmp(name, "upload") || !strcmp(name, "fill") || !strcmp(name, "rays") || !strcmp(name, "total");
+    return !strcmp(name, "kernels") || !strcmp(name, "upload") || !strcmp(name, "fill") || !strcmp(name, "rays") ||
+           !strcmp(name, "total");
 }
 
 static void test_names(void **state)

@@ -318,7 +318,24 @@ class Routes(daemon.Case):
             self.assertEqual(ask("DELETE", here, headers=owner).status, 204)
         self.assertEqual(
             set(paths["/v1/sessions/{id}"]["delete"]["responses"]),
-            {"204", "400", "401", "403", "404", "408", "412", "413", "414", "421", "422", "429", "431", "500", "503", "505"},
+            {
+                "204",
+                "400",
+                "401",
+                "403",
+                "404",
+                "408",
+                "412",
+                "413",
+                "414",
+                "421",
+                "422",
+                "429",
+                "431",
+                "500",
+                "503",
+                "505",
+            },
         )
         tag = ask("GET", "/v1/render?" + daemon.SMALL).header("ETag")
         self.assertEqual(ask("GET", "/v1/render?" + daemon.SMALL, headers={"If-None-Match": tag}).status, 304)
