@@ -20,6 +20,7 @@ const pass_names = {
   bloom: ['glare', 'alone'],
   post: ['tone and colour', 'toni e colore'],
   readback: ['read back', 'rilettura'],
+  kernels: ['kernels compiled', 'compilazione dei kernel'],
   audit: ['error measured', 'misura dell’errore'],
   encode: ['PNG or JPEG', 'PNG o JPEG'],
   total: ['together', 'in tutto'],
