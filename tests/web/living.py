@@ -223,8 +223,13 @@ class Living(Browser):
         )
         loop.locator("summary").click()
         loop.locator("tbody tr >> nth=3").wait_for()
-        rows = [[value(cell) for cell in row.split("\t")[1:]] for row in loop.locator("tbody tr").all_inner_texts()]
-        self.assertTrue(any(math.hypot(q, u) > 1 for q, u, *_ in rows), rows)
+
+        def turned():
+            """Whether a row that is whole, for the table is written anew meanwhile, tells of much polarised light."""
+            rows = [row.split("\t")[1:3] for row in loop.locator("tbody tr").all_inner_texts()]
+            return any(len(row) == 2 and math.hypot(*map(value, row)) > 1 for row in rows)
+
+        self.assertTrue(daemon.eventually(turned))
         page.click("#play")
         page.wait_for_timeout(500)  # the last frame is drawn
         # The line through the dot: half the angle that the dot is seen under, from upwards to the left
