@@ -55,7 +55,7 @@ class Falling(Browser):
         )
         page.wait_for_selector(AT_REST)
         r = self.camera_r(page)
-        self.assertEqual(self.told(page, "where"), "Falling freely")
+        self.assertTrue(daemon.eventually(lambda: self.told(page, "where") == "Falling freely"))
         end, seconds = self.told(page, "end").split(" = ")
         self.assertAlmostEqual(value(end.split()[0]) / (math.sqrt(2) / 3 * r**1.5), 1, delta=0.006)
         self.assertAlmostEqual(
@@ -117,7 +117,7 @@ class Falling(Browser):
         least, most = (value(word) for word in self.told(page, "sky")[2:].split(" to "))
         self.assertAlmostEqual(least, 1 / (1 + speed), delta=1e-3)  # from behind
         self.assertAlmostEqual(most, 1 / (1 - speed * math.cos(half)), delta=0.02)  # next to the disk
-        self.assertEqual(self.told(page, "where"), "Falling freely")
+        self.assertTrue(daemon.eventually(lambda: self.told(page, "where") == "Falling freely"))
         page.focus("#fall-at")
         page.keyboard.press("ArrowRight")
         self.assertTrue(daemon.eventually(lambda: self.told(page, "where") == "Within the horizon"))
