@@ -137,7 +137,7 @@ void kd_program_hang_up(struct kd_program *program) { shut(&program->in); }
 static void listen_to(struct kd_program *p)
 {
     char part[256];
-    ssize_t n;
+    ssize_t n = 0;
     while (p->told >= 0 && (n = read(p->told, part, sizeof part)) > 0) {
         const size_t room = sizeof p->said - 1 - p->n_said, keep = (size_t)n < room ? (size_t)n : room;
         memcpy(p->said + p->n_said, part, keep);
