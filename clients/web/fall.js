@@ -192,7 +192,7 @@ export function buildFall(scene) {
     start.hidden = true;
     play.focus();
     scene.hold(still.matches);
-    waits = true;
+    waits = !scene.held; // one that stands may be the picture that is there
     show(way);
   });
 

@@ -571,7 +571,9 @@ class Documented(unittest.TestCase):
                 done = subprocess.run(
                     [sys.executable, "-c", block], cwd=folder, env=env, capture_output=True, text=True, timeout=200
                 )
-                self.assertEqual((done.returncode, done.stderr), (0, ""), block)
+                # A server that still had work says how long it waits, which is no complaint.
+                said = [line for line in done.stderr.splitlines() if not line.startswith("kerrd: warning: stopping:")]
+                self.assertEqual((done.returncode, said), (0, []), block)
                 self.assertNotRegex(done.stdout, r"\bnan\b")
                 if "hole.png" in block:
                     self.assertEqual(
