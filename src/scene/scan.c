@@ -172,7 +172,13 @@ static enum kd_status scan(const char *text, size_t start, size_t end, size_t mo
     return status;
 }
 
-size_t kd_scan_mark(const char *text, size_t length) { return length >= 3 && !memcmp(text, "\xef\xbb\xbf", 3) ? 3 : 0; }
+void kd_scan_skip_mark(const char **text, size_t *length)
+{
+    if (*length < 3 || memcmp(*text, "\xef\xbb\xbf", 3))
+        return;
+    *text += 3;
+    *length -= 3;
+}
 
 enum kd_status kd_scan_json(const char *text, size_t length, size_t most, struct kd_error *error)
 {

@@ -11,8 +11,9 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Bytes of the byte order mark at the begin of a text, which readers ignore (RFC 8259, 8.1): 3 or 0. */
-size_t kd_scan_mark(const char *text, size_t length);
+/* Moves the beginning of a text behind its byte order mark, which readers ignore (RFC 8259, 8.1). A text of no bytes
+ * may be NULL. */
+void kd_scan_skip_mark(const char **text, size_t *length);
 
 /* Looks at a whole document, without such a mark. most: how many values it may hold, each of which costs cJSON some
  * 64 bytes. KD_SCAN_FEW is far more than a scene has fields: a document with more is wrong, and cheap to refuse. */

@@ -58,9 +58,7 @@ enum kd_status kd_tree_parse(const char *text, size_t length, size_t most, size_
 {
     if (length > most)
         return kd_error_set(error, KD_EINVAL, "the document has %zu bytes, allowed are %zu", length, most);
-    const size_t mark = kd_scan_mark(text, length);
-    text += mark;
-    length -= mark;
+    kd_scan_skip_mark(&text, &length);
     enum kd_status status = kd_scan_json(text, length, values, error);
     if (status)
         return status;

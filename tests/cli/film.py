@@ -407,7 +407,7 @@ class Pictures(Case):
         folder = self.path("kept")
         there = self.killed("b.zip", LONG, folder, 3)
         self.assertLess(there, 60)
-        pathlib.Path(folder, "000005.png.aBcDeF").write_bytes(b"half")
+        pathlib.Path(folder, "000005.png.kerrd-aBcDeF").write_bytes(b"half")
         before = {n: os.stat(os.path.join(folder, n)).st_mtime_ns for n in os.listdir(folder) if n.endswith(".png")}
         self.write("request.json", json.dumps(LONG))
         done = support.run("film", self.path("request.json"), "-o", self.path("b.zip"), "--state", folder, "-t")

@@ -309,7 +309,7 @@ class Grid(Case):
             ({"phi": numpy.arange(4) * numpy.pi / 2}, "allowed is the shape (6, 4, 4) of r, theta and phi"),
             (
                 {"r": numpy.geomspace(2, 20, 4096), "theta": (numpy.arange(1024) + 0.5) * numpy.pi / 1024},
-                "is 4096 x 1024 x 1 nodes, allowed are 2097152 in all",
+                "is 4096 x 1024 x 1 nodes: it must be at most 2097152 in all",
             ),
         )
         for i, (changes, words) in enumerate(files):

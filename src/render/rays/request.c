@@ -273,9 +273,8 @@ enum kd_status kd_rays_request_json(struct kd_rays_request *request, const char 
     enum kd_status status = KD_OK;
     if (length > KD_RAYS_BODY_MAX)
         return kd_error_set(error, KD_EINVAL, "the document has %zu bytes, allowed are %zu", length, KD_RAYS_BODY_MAX);
-    const size_t mark = kd_scan_mark(text, length);
-    text += mark;
-    start = end = length -= mark;
+    kd_scan_skip_mark(&text, &length);
+    start = end = length;
     if (kd_rays_list_find(text, length, &start)) {
         end = start;
         status = kd_rays_list_read(&list, text, length, &end, error);
